@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+# Build types, sanitizers and coverage: flags that must be the same for every target of one build tree.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug or Sanitize" FORCE)
+endif()
+
+# -g1 keeps function names and lines for backtraces of a release at a fraction of the size of -g.
+set(CMAKE_C_FLAGS_RELEASE "-O2 -g1 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1 -DNDEBUG")
+set(CMAKE_C_FLAGS_DEBUG "-O0 -g3")
+set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g3")
+# Assertions stay on under the sanitizers: they find the same class of error earlier.
+set(CMAKE_C_FLAGS_SANITIZE "-O1 -g -fno-omit-frame-pointer")
+set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g -fno-omit-frame-pointer")
+
+set(NC_SANITIZE "" CACHE STRING "Sanitizers for the whole tree, as in -fsanitize= (address,undefined or thread)")
+option(NC_COVERAGE "Instrument for gcov" OFF)
+option(NC_WERROR "Warnings are errors" ON)
+
+if(NC_SANITIZE)
+  add_compile_options(-fsanitize=${NC_SANITIZE} -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${NC_SANITIZE})
+endif()
+if(NC_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "NC_FUZZ needs clang: use the preset `fuzz` (scripts/fuzz does)")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+if(NC_COVERAGE)
+  add_compile_options(--coverage -fprofile-update=atomic)
+  add_link_options(--coverage)
+endif()
+# No fast-math anywhere, and no contraction to fused multiply-add: a trace has the same bytes on every machine.
+add_compile_options(-ffp-contract=off)

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+# How the rooms around libnc (hal, runtime, tools, tests, bench) make their targets.
+
+# nc_host_options(TARGET): ordinary hosted C++20 with the project's warnings.
+function(nc_host_options target)
+  set_target_properties(${target} PROPERTIES CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF
+                        C_STANDARD 11 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic)
+  if(NC_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+# nc_link_rooms(TARGET VISIBILITY ROOM...): link those of the named room libraries that exist.
+function(nc_link_rooms target visibility)
+  foreach(room IN LISTS ARGN)
+    if(TARGET ${room})
+      target_link_libraries(${target} ${visibility} ${room})
+    endif()
+  endforeach()
+endfunction()
+
+# nc_program(NAME MAIN LIBS...): an installed executable from one file, when that file is there.
+function(nc_program name main)
+  if(NOT EXISTS ${main})
+    return()
+  endif()
+  add_executable(${name} ${main})
+  nc_host_options(${name})
+  nc_link_rooms(${name} PRIVATE ${ARGN})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
+# nc_use_eigen(TARGET): for tests and benches that include private headers of libnc.
+function(nc_use_eigen target)
+  find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+  get_target_property(eigen_include Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+  target_include_directories(${target} SYSTEM PRIVATE ${eigen_include})
+endfunction()

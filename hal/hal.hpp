@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hardware layer as the runtime sees it: one small interface, one folder per bus behind it (sim now).
+//
+// The scan calls read() first and write() last, once per cycle. Both are NC_RT: no allocation, no lock, no system call;
+// a slow bus keeps a thread of its own and exchanges with it through memory.
+#pragma once
+
+#include <string>
+
+#include "hal/points.hpp"
+#include "nc/run.h"
+
+namespace nc::hal {
+
+// What the machine tells one part system.
+struct SystemFeedback {
+  bool actual_valid = false;       // `actual` is measured
+  nc_axes actual{};                // machine position, mm or deg
+  std::uint32_t following_fault = 0;  // bit per axis: following error beyond its limit
+  std::uint32_t drive_fault = 0;      // bit per axis: the drive reports a fault
+  std::uint32_t skip = 0;          // skip signals, bit n = signal n+1
+  double spindle_rev_per_s = 0;    // actual speed, signed
+  bool fin = false;                // completion of M, S, T or B (level, FIN1 style handshake)
+};
+
+struct Feedback {
+  SystemFeedback system[NC_MAX_SYSTEMS];
+  bool lost = false;  // the bus does not answer: positions and points are old
+};
+
+// What the control tells the machine.
+struct SystemCommand {
+  bool enable = false;        // drives on
+  nc_axes position{};         // commanded machine position of this cycle
+  nc_axes velocity{};         // mm/s or deg/s
+  std::uint8_t strobe = 0;    // bit 0 M, 1 S, 2 T, 3 B
+  std::uint32_t m = 0, t = 0, b = 0;
+  double s = 0;
+  std::uint64_t serial = 0;   // item in execution
+  nc_source source{};         // and where it stands
+  bool running = false;       // a program is in execution
+};
+
+struct Command {
+  SystemCommand system[NC_MAX_SYSTEMS];
+};
+
+class Hal {
+ public:
+  virtual ~Hal() = default;
+  // Before the first scan, in an ordinary thread. False with a sentence in *error when the machine cannot be reached.
+  virtual bool start(const PointImage& initial, std::string* error) = 0;
+  // Head of the scan: fills the feedback and the *input* points of the image. NC_RT.
+  virtual void read(Feedback* feedback, PointImage* image) noexcept = 0;
+  // End of the scan: takes the set-points and the *output* points of the image. NC_RT.
+  virtual void write(const Command& command, const PointImage& image) noexcept = 0;
+  // After the last scan (also after a failed start): outputs to their safe values, drives off.
+  virtual void stop() noexcept = 0;
+};
+
+}  // namespace nc::hal

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// The simulated machine. See sim_machine.hpp for the model.
+#include "hal/sim/sim_machine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nc::hal {
+namespace {
+
+constexpr std::size_t kRecordedChanges = 4096;
+constexpr std::uint8_t kStrobeM = 1, kStrobeS = 2, kStrobeT = 4;
+
+}  // namespace
+
+SimSolid::SimSolid() {
+  for (unsigned a = 0; a < NC_MAX_AXES; ++a) {
+    min[a] = -std::numeric_limits<double>::infinity();
+    max[a] = std::numeric_limits<double>::infinity();
+  }
+}
+
+SimMachine::SimMachine(const SimConfig& config, const PointTable& table)
+    : config_(config), table_(table), script_(config.script), changes_(kRecordedChanges) {
+  for (unsigned s = 0; s < config_.system_count; ++s) {
+    System& system = system_[s];
+    system.command = system.actual = config_.start[s];
+    for (unsigned a = 0; a < config_.axis_count[s]; ++a) {
+      const double lag = config_.axis[s][a].lag_s;
+      system.follow[a] = lag > 0 ? 1.0 - std::exp(-config_.cycle_s / lag) : 1.0;
+    }
+  }
+}
+
+bool SimMachine::start(const PointImage& initial, std::string* error) {
+  (void)error;  // a simulated machine is always there
+  input_ = initial;
+  output_ = initial;
+  script_.restart();
+  stopped_ = false;
+  return true;
+}
+
+void SimMachine::stop() noexcept {
+  for (unsigned s = 0; s < config_.system_count; ++s) {
+    system_[s].direction = 0;
+    system_[s].fin = system_[s].busy = false;
+  }
+  for (unsigned p = 0; p < table_.size(); ++p)
+    if (table_.at(p).direction == PointDirection::kOutput) output_.value[p] = table_.at(p).initial;
+  stopped_ = true;
+}
+
+void SimMachine::fail_drive(unsigned system, unsigned axis, bool fault) {
+  const std::uint32_t bit = 1u << axis;
+  system_[system].drive_fault = fault ? system_[system].drive_fault | bit : system_[system].drive_fault & ~bit;
+}
+
+void SimMachine::block_axis(unsigned system, unsigned axis, bool blocked) {
+  const std::uint32_t bit = 1u << axis;
+  system_[system].blocked = blocked ? system_[system].blocked | bit : system_[system].blocked & ~bit;
+}
+
+void SimMachine::read(Feedback* feedback, PointImage* image) noexcept {
+  feedback->lost = lost_;
+  if (lost_) return;  // everything else stays as it was: old
+  for (unsigned s = 0; s < config_.system_count; ++s) {
+    const System& system = system_[s];
+    SystemFeedback& out = feedback->system[s];
+    out.actual_valid = true;
+    out.actual = system.actual;
+    out.following_fault = system.following_fault;
+    out.drive_fault = system.drive_fault;
+    out.skip = skip_signals(s);
+    out.spindle_rev_per_s = system.rpm / 60.0;
+    out.fin = system.fin;
+  }
+  for (unsigned p = 0; p < table_.size(); ++p)
+    if (table_.at(p).direction == PointDirection::kInput) image->value[p] = input_.value[p];
+}
+
+void SimMachine::write(const Command& command, const PointImage& image) noexcept {
+  ++scan_;
+  if (lost_) return;
+  for (unsigned s = 0; s < config_.system_count; ++s) {
+    move_axes(s, command.system[s]);
+    handshake(&system_[s], command.system[s]);
+    turn_spindle(&system_[s]);
+  }
+  const SystemCommand& first = command.system[0];
+  script_.step(scan_, first.source, (first.strobe & kStrobeM) != 0, first.m, &input_);
+  record_outputs(image);
+}
+
+void SimMachine::move_axes(unsigned index, const SystemCommand& command) noexcept {
+  System& system = system_[index];
+  for (unsigned a = 0; a < config_.axis_count[index]; ++a) {
+    const std::uint32_t bit = 1u << a;
+    system.command.v[a] = command.position.v[a];
+    if (!command.enable) {  // drives off: the axis stays, the command of a disabled drive is not followed
+      system.following_fault &= ~bit;
+      continue;
+    }
+    if ((system.blocked & bit) == 0)
+      system.actual.v[a] += (system.command.v[a] - system.actual.v[a]) * system.follow[a];
+    const double limit = config_.axis[index][a].following_error_limit;
+    if (limit > 0 && std::abs(system.command.v[a] - system.actual.v[a]) > limit)
+      system.following_fault |= bit;
+    else
+      system.following_fault &= ~bit;
+  }
+}
+
+void SimMachine::turn_spindle(System* system) noexcept {
+  const double target = system->direction * std::min(system->s_rpm, config_.spindle_max_rpm);
+  const double step = config_.spindle_ramp_rpm_per_s * config_.cycle_s;
+  system->rpm += std::clamp(target - system->rpm, -step, step);
+}
+
+// Starts the function of a new strobe; returns the time until FIN.
+double SimMachine::begin_function(System* system, const SystemCommand& command) noexcept {
+  double time = config_.m_time_s;
+  if (command.strobe & kStrobeS) system->s_rpm = std::abs(command.s);
+  if (command.strobe & kStrobeT) {
+    system->selected = command.t;
+    time = std::max(time, config_.tool_select_s);
+  }
+  if (command.strobe & kStrobeM) {
+    if (command.m == 3) system->direction = 1;
+    if (command.m == 4) system->direction = -1;
+    if (command.m == 5 || command.m == 2 || command.m == 30) system->direction = 0;
+    if (command.m == 6) {
+      system->tool = system->selected;
+      time = std::max(time, config_.tool_change_s);
+    }
+  }
+  // A spindle function is complete when the speed is reached.
+  const double target = system->direction * std::min(system->s_rpm, config_.spindle_max_rpm);
+  return std::max(time, std::abs(target - system->rpm) / config_.spindle_ramp_rpm_per_s);
+}
+
+// FIN1 style: strobe on -> function -> FIN on -> strobe off -> FIN off. A strobe that drops early (reset) ends it at once.
+void SimMachine::handshake(System* system, const SystemCommand& command) noexcept {
+  const bool strobe = command.strobe != 0;
+  const bool changed = strobe && (command.strobe != system->strobe || command.serial != system->serial);
+  if (!strobe) {
+    system->busy = system->fin = false;
+  } else if (!system->busy && !system->fin) {
+    if (changed || system->strobe == 0) {
+      system->remaining_s = begin_function(system, command);
+      system->busy = true;
+    }
+  } else if (system->busy) {
+    system->remaining_s -= config_.cycle_s;
+    if (system->remaining_s <= 0 && !fin_held_) {
+      system->busy = false;
+      system->fin = true;
+    }
+  }
+  system->strobe = command.strobe;
+  system->serial = command.serial;
+}
+
+std::uint32_t SimMachine::skip_signals(unsigned index) const noexcept {
+  std::uint32_t signals = 0;
+  for (const SimSolid& solid : config_.solids) {
+    if (solid.system != index) continue;
+    bool inside = true;
+    for (unsigned a = 0; a < config_.axis_count[index] && inside; ++a)
+      inside = system_[index].actual.v[a] >= solid.min[a] && system_[index].actual.v[a] <= solid.max[a];
+    if (inside) signals |= 1u << (solid.signal - 1);
+  }
+  return signals;
+}
+
+void SimMachine::record_outputs(const PointImage& image) noexcept {
+  for (unsigned p = 0; p < table_.size(); ++p) {
+    if (table_.at(p).direction != PointDirection::kOutput || image.value[p] == output_.value[p]) continue;
+    output_.value[p] = image.value[p];
+    if (change_count_ < changes_.size())
+      changes_[change_count_++] = SimOutputChange{scan_, p, image.value[p]};
+    else
+      ++lost_changes_;
+  }
+}
+
+}  // namespace nc::hal

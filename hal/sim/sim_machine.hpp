@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The simulated machine: a plant that behaves like one, on the clock of the scan (one read/write pair = one cycle), so
+// that it is the same under real and virtual time.
+//
+//  * axes: first-order servo. A position loop with gain Kv = 1/lag follows a ramp with the constant error v * lag:
+//      actual += (command - actual) * (1 - exp(-cycle/lag)).  Beyond following_error_limit the axis faults.
+//  * spindle: speed follows the commanded S with a fixed ramp, direction by M03/M04, stop by M05 (and M00/M01/M02/M30).
+//  * M, S, T, B: FIN comes after the time of the function (tool change, spindle ramp, m_time) and drops with the strobe.
+//  * skip: signal n is on while the actual point is inside one of its solids.
+//  * points: inputs are what the script says (else their initial value); outputs are recorded.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hal/hal.hpp"
+#include "hal/sim/input_script.hpp"
+
+namespace nc::hal {
+
+// A box in machine coordinates; an axis without limits is unbounded.
+struct SimSolid {
+  unsigned system = 0;  // index of the part system
+  unsigned signal = 1;  // skip signal 1..8
+  double min[NC_MAX_AXES];
+  double max[NC_MAX_AXES];
+  SimSolid();
+};
+
+struct SimAxis {
+  double lag_s = 0.0;               // 0 = actual is the command of the cycle before
+  double following_error_limit = 0; // mm or deg; 0 = never faults
+};
+
+struct SimConfig {
+  double cycle_s = 0.001;
+  unsigned system_count = 1;
+  unsigned axis_count[NC_MAX_SYSTEMS] = {3, 0, 0, 0};
+  SimAxis axis[NC_MAX_SYSTEMS][NC_MAX_AXES];
+  nc_axes start[NC_MAX_SYSTEMS] = {};
+  double spindle_ramp_rpm_per_s = 3000.0;
+  double spindle_max_rpm = 12000.0;
+  double tool_change_s = 1.0;   // M06
+  double tool_select_s = 0.02;  // T
+  double m_time_s = 0.01;       // every other M, S and B
+  std::vector<SimSolid> solids;
+  std::vector<InputChange> script;
+};
+
+// One recorded change of an output point.
+struct SimOutputChange {
+  std::uint64_t scan;
+  unsigned point;
+  std::uint32_t value;
+};
+
+class SimMachine final : public Hal {
+ public:
+  SimMachine(const SimConfig& config, const PointTable& table);
+
+  bool start(const PointImage& initial, std::string* error) override;
+  void read(Feedback* feedback, PointImage* image) noexcept override;
+  void write(const Command& command, const PointImage& image) noexcept override;
+  void stop() noexcept override;
+
+  // For tests and the terminal. Same thread as the scan, or after it has stopped.
+  const nc_axes& actual(unsigned system) const { return system_[system].actual; }
+  double spindle_rpm(unsigned system) const { return system_[system].rpm; }
+  unsigned tool(unsigned system) const { return system_[system].tool; }
+  std::uint64_t scans() const { return scan_; }
+  bool stopped() const { return stopped_; }
+  const PointImage& outputs() const { return output_; }
+  // Changes of output points in order, as far as the fixed record reaches; `lost_changes()` counts the rest.
+  std::size_t change_count() const { return change_count_; }
+  const SimOutputChange& change(std::size_t i) const { return changes_[i]; }
+  std::uint64_t lost_changes() const { return lost_changes_; }
+
+  // Faults that tests inject; they act from the next read().
+  void fail_bus(bool lost) { lost_ = lost; }
+  void fail_drive(unsigned system, unsigned axis, bool fault);
+  void block_axis(unsigned system, unsigned axis, bool blocked);  // the axis does not follow: following error
+  void hold_fin(bool held) { fin_held_ = held; }                  // FIN never comes
+  void set_input(unsigned point, std::uint32_t value) { input_.value[point] = value; }
+
+ private:
+  struct System {
+    nc_axes command{}, actual{};
+    double follow[NC_MAX_AXES] = {};  // 1 - exp(-cycle/lag)
+    std::uint32_t following_fault = 0, drive_fault = 0, blocked = 0;
+    double rpm = 0, s_rpm = 0;
+    int direction = 0;   // spindle: +1 M03, -1 M04, 0 stopped
+    unsigned tool = 0, selected = 0;
+    bool busy = false, fin = false;
+    double remaining_s = 0;
+    std::uint8_t strobe = 0;
+    std::uint64_t serial = 0;
+  };
+
+  void move_axes(unsigned index, const SystemCommand& command) noexcept;
+  void turn_spindle(System* system) noexcept;
+  void handshake(System* system, const SystemCommand& command) noexcept;
+  double begin_function(System* system, const SystemCommand& command) noexcept;
+  std::uint32_t skip_signals(unsigned index) const noexcept;
+  void record_outputs(const PointImage& image) noexcept;
+
+  SimConfig config_;
+  const PointTable& table_;
+  InputScript script_;
+  System system_[NC_MAX_SYSTEMS];
+  PointImage input_, output_;
+  std::vector<SimOutputChange> changes_;  // fixed size
+  std::size_t change_count_ = 0;
+  std::uint64_t lost_changes_ = 0;
+  std::uint64_t scan_ = 0;
+  bool lost_ = false, fin_held_ = false, stopped_ = true;
+};
+
+}  // namespace nc::hal

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file control.h
+ * Create and configure a control, give it programs, set its tables.
+ *
+ * Threads: unless a function says otherwise it belongs to the *feeder* thread (one thread, the one that calls nc_feed() or
+ * nc_pull()). Only functions marked NC_RT belong to the scan thread. Two different controls never share anything.
+ * Ownership: everything lives in the memory given to nc_create(); pointers returned are valid as long as the control.
+ */
+#ifndef NC_CONTROL_H
+#define NC_CONTROL_H
+
+#include "nc/item.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** One axis. Zero means "no limit" for the limits, so a control that only traces needs a name and nothing else. */
+typedef struct nc_axis_config {
+  char name;               /**< address letter, A B C U V W X Y Z */
+  bool rotary;             /**< degrees instead of mm */
+  double rapid;            /**< rapid traverse rate, mm/s or deg/s; 0 = max_velocity */
+  double max_velocity;     /**< mm/s or deg/s, also the cutting feed clamp of the axis */
+  double max_acceleration; /**< mm/s^2 or deg/s^2 */
+  double max_jerk;         /**< mm/s^3 or deg/s^3 */
+  double in_position;      /**< in-position width, mm or deg */
+  bool soft_limited;       /**< the two limits below hold */
+  double soft_min, soft_max; /**< stored stroke limits, machine coordinates */
+  double reference[4];     /**< 1st to 4th reference position, machine coordinates */
+} nc_axis_config;
+
+/** One part system. */
+typedef struct nc_system_config {
+  uint8_t axis_count;
+  nc_axis_config axis[NC_MAX_AXES];
+} nc_system_config;
+
+/** What a control is. Fill with nc_config_init(), then change what differs. */
+typedef struct nc_config {
+  uint32_t struct_size;    /**< sizeof(nc_config), set by nc_config_init() */
+  uint8_t dialect;         /**< nc_dialect */
+  uint8_t system_count;    /**< 1..NC_MAX_SYSTEMS */
+  nc_system_config system[NC_MAX_SYSTEMS];
+  double cycle_s;          /**< servo cycle, s; default 0.001 */
+  uint32_t look_ahead;     /**< records in the ring between feeder and scan, power of two 64..65536; default 1024 */
+  uint32_t programs;       /**< entries of the program store; default 256 */
+  uint32_t tool_offsets;   /**< sets; default 200 */
+  uint32_t work_offsets;   /**< G54.1 P1..Pn; default 96 */
+  uint32_t variable_sets;  /**< common variables by option, 100 200 300 600 (M700 13.4); default 600 */
+  uint32_t window_bytes;   /**< text window per part system; default 65536 */
+  double max_feed_override; /**< largest value of nc_inputs::feed_override, default 2.0 */
+} nc_config;
+
+/** Set every field to its default: M700, one part system with X Y Z without limits. */
+NC_API void nc_config_init(nc_config* config);
+
+/** Bytes that nc_create() needs for this configuration; 0 when the configuration is not valid. */
+NC_API size_t nc_memory_required(const nc_config* config);
+
+/**
+ * Build a control in caller-owned memory (aligned to 64 bytes; nothing else is ever allocated).
+ * @return the control, or NULL with *status saying why. There is nothing to destroy: when it is no longer used, reuse the memory.
+ */
+NC_API nc_control* nc_create(const nc_config* config, void* memory, size_t size, nc_status* status);
+
+/* ---- parameters, tables, variables ------------------------------------------------------------------------------ */
+
+/**
+ * Set a control parameter by the manual's number or name.
+ * @param key  "1078", "1267/bit0", "UNIT*10", DGSHAPE "interpretation", ...; a number that the dialect has but that changes nothing
+ *             here is accepted and kept; any other key is NC_E_NOT_FOUND.
+ * @param axis axis name for a per-axis parameter, or 0 for all axes.
+ * @param text value as text: a number, or a word of the manual ("B" for #1003).
+ */
+NC_API nc_status nc_parameter_set(nc_control*, unsigned system, const char* key, char axis, const char* text);
+
+/** Value of a numeric parameter (0 when never set). */
+NC_API nc_status nc_parameter_get(const nc_control*, unsigned system, const char* key, char axis, double* value);
+
+/** Work offset tables. `index` 0 = external, 1..6 = G54..G59, 100+n = G54.1 Pn. mm/deg. */
+NC_API nc_status nc_work_offset_set(nc_control*, unsigned system, unsigned index, unsigned axis, double value);
+NC_API nc_status nc_work_offset_get(const nc_control*, unsigned system, unsigned index, unsigned axis, double* value);
+
+/** Tool offset columns (M700 12.1). In memory type I all columns but NC_TOOL_LENGTH are unused. */
+typedef enum nc_tool_column { NC_TOOL_LENGTH = 0, NC_TOOL_LENGTH_WEAR = 1, NC_TOOL_RADIUS = 2, NC_TOOL_RADIUS_WEAR = 3 } nc_tool_column;
+NC_API nc_status nc_tool_offset_set(nc_control*, unsigned number, nc_tool_column column, double value);
+NC_API nc_status nc_tool_offset_get(const nc_control*, unsigned number, nc_tool_column column, double* value);
+
+/** Variables by number, as `#number` in a program of part system `system` would read them. A vacant variable gives *vacant = true. */
+NC_API nc_status nc_variable_set(nc_control*, unsigned system, uint32_t number, double value, bool vacant);
+NC_API nc_status nc_variable_get(const nc_control*, unsigned system, uint32_t number, double* value, bool* vacant);
+
+/** First common variable with number >= `from` that is not vacant. NC_E_NOT_FOUND when there is none. */
+NC_API nc_status nc_common_next(const nc_control*, unsigned system, uint32_t from, uint32_t* number, double* value);
+
+/* ---- programs --------------------------------------------------------------------------------------------------- */
+
+/**
+ * Reads up to `size` bytes of a text at byte `offset` into `buffer`.
+ * @return bytes read; 0 at the end; negative on failure (becomes an alarm on the block that needed it).
+ */
+typedef long (*nc_read_at)(void* user, uint64_t offset, char* buffer, size_t size);
+
+/**
+ * Enter a text into the program store. The text must stay unchanged while a program runs; it is read in windows, never whole.
+ * @param name file name without folder; "O1000", "1000", "1000.nc" make it program 1000 even when the text has no O line. Copied.
+ * @param file receives its index (nc_source::file). An entry of the same name is replaced.
+ */
+NC_API nc_status nc_program_add(nc_control*, const char* name, nc_read_at read, void* user, uint64_t size, unsigned* file);
+
+/** The same for a text in memory, which the caller keeps. */
+NC_API nc_status nc_program_add_text(nc_control*, const char* name, const char* text, size_t length, unsigned* file);
+
+/**
+ * Asked when a sub program is not in the store: the host may add it with nc_program_add() from inside this call.
+ * @param name "O1000" or the name between < >. @return true when it has been added.
+ */
+typedef bool (*nc_program_missing)(void* user, nc_control*, const char* name);
+NC_API void nc_program_on_missing(nc_control*, nc_program_missing callback, void* user);
+
+/** Select the main program of a part system and go to its first block. */
+NC_API nc_status nc_program_select(nc_control*, unsigned system, unsigned file);
+
+/** Give the blocks of an MDI program (copied; at most 1024 bytes) and select it. */
+NC_API nc_status nc_mdi_load(nc_control*, unsigned system, const char* text, size_t length);
+
+/* ---- state ------------------------------------------------------------------------------------------------------ */
+
+/** Put the machine at this place (machine coordinates) while nothing runs; all axes count as referenced. */
+NC_API nc_status nc_position_set(nc_control*, unsigned system, const nc_axes* machine);
+
+/** Macro interface outputs as the interpreter holds them (#1132..#1135), for sinks; the machine's own image is in nc_outputs. */
+NC_API uint32_t nc_interface_output(const nc_control*, unsigned system, unsigned word);
+
+/** Switches that decide before a block is read. `optional_skip` bit n = switch n (1..9), bit 1 is the plain '/'. */
+NC_API void nc_switches_set(nc_control*, unsigned system, uint32_t optional_skip, uint32_t mirror_axes);
+
+/** The alarm that stopped a part system. NC_E_NOT_FOUND when there is none. Copies. */
+NC_API nc_status nc_alarm_get(const nc_control*, unsigned system, nc_alarm* alarm);
+
+/** Modal snapshot of a mark. Snapshots stay readable for at least `look_ahead` marks. */
+NC_API nc_status nc_modal_get(const nc_control*, unsigned system, uint32_t id, nc_modal* modal);
+
+/** Active G codes of a snapshot as text, "G01 G17 G54.1": for sinks that print. @return number of codes. */
+NC_API unsigned nc_modal_codes(const nc_control*, const nc_modal* modal, char (*codes)[8], unsigned capacity);
+
+/** Text of a message action. */
+NC_API nc_status nc_text_get(const nc_control*, unsigned system, uint32_t id, nc_text* text);
+
+/** One row of a dialect's function table, for documentation and HMIs. */
+typedef struct nc_function {
+  char code[8];         /**< "G02.1", "M98" */
+  uint8_t group;        /**< modal group, 0 = one-shot */
+  bool supported;       /**< false: raises `alarm` when used */
+  char alarm[16];
+  const char* name;     /**< short English name */
+  const char* section;  /**< of the manual */
+} nc_function;
+/** Row `index` of the table of a dialect; NC_E_NOT_FOUND behind the last. Needs no control. */
+NC_API nc_status nc_function_get(nc_dialect dialect, unsigned index, nc_function* row);
+
+/** One row of a dialect's alarm table. */
+NC_API nc_status nc_alarm_row(nc_dialect dialect, unsigned index, char code[16], const char** message);
+
+/** Version of the library, "0.1.0". */
+NC_API const char* nc_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

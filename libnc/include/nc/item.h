@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file item.h
+ * The item stream as a sink sees it: everything that a program causes, in execution order, each with a serial.
+ *
+ * `trace`, `time`, `plot`, the runtime and a vendor's own loop are sinks of this one stream. Offline sinks pull items with
+ * nc_pull(); online the control pulls them itself in nc_feed() and executes them in nc_cycle(), which reports every serial
+ * it reaches with nc_event_poll(). Both see the same serials and the same end points.
+ */
+#ifndef NC_ITEM_H
+#define NC_ITEM_H
+
+#include "nc/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Kinds of item. */
+typedef enum nc_item_kind {
+  NC_ITEM_MOVE = 0,   /**< motion with non-zero length */
+  NC_ITEM_ACTION = 1, /**< something the world sees at this point and not earlier */
+  NC_ITEM_GATE = 2,   /**< wait here until a condition holds */
+  NC_ITEM_SYNC = 3,   /**< the interpreter needs a value that exists only when all before has happened: answer it */
+  NC_ITEM_MARK = 4,   /**< a block has ended */
+  NC_ITEM_ALARM = 5,  /**< the program stops here */
+  NC_ITEM_END = 6     /**< the last item */
+} nc_item_kind;
+
+/** What a move is called in a trace. */
+typedef enum nc_move_kind {
+  NC_MOVE_RAPID = 0,
+  NC_MOVE_LINE = 1,
+  NC_MOVE_ARC = 2,
+  NC_MOVE_HELIX = 3,
+  NC_MOVE_SKIP = 4,  /**< G31: a line that ends where the skip signal comes */
+  NC_MOVE_THREAD = 5,
+  NC_MOVE_TAP = 6
+} nc_move_kind;
+
+/** Plane of a circular move. */
+typedef enum nc_plane { NC_PLANE_XY = 0, NC_PLANE_ZX = 1, NC_PLANE_YZ = 2, NC_PLANE_NONE = 3 } nc_plane;
+
+/** Kinds of action. */
+typedef enum nc_action_kind {
+  NC_ACTION_M = 0,       /**< auxiliary function; `value` the number */
+  NC_ACTION_S = 1,       /**< spindle; `value` r/min (m/min in G96) */
+  NC_ACTION_T = 2,       /**< tool */
+  NC_ACTION_B = 3,       /**< second auxiliary function; `letter` its address */
+  NC_ACTION_OUTPUT = 4,  /**< macro interface output: word `index` (0..3), bits `mask` become `bits` (M700 13.5.5) */
+  NC_ACTION_MESSAGE = 5, /**< #3006, DPRNT: `text`, `index` = port (0 operator message) */
+  NC_ACTION_CONTROL = 6  /**< #3003/#3004: `index` the variable, `value` */
+} nc_action_kind;
+
+/** Kinds of gate. */
+typedef enum nc_gate_kind {
+  NC_GATE_FIN = 0,            /**< the M, S, T or B action just before is complete */
+  NC_GATE_DWELL_SECONDS = 1,  /**< `value` seconds */
+  NC_GATE_DWELL_TURNS = 2,    /**< `value` spindle revolutions */
+  NC_GATE_IN_POSITION = 3,    /**< all axes are in position */
+  NC_GATE_STOP = 4,           /**< program stop M00: cycle start continues */
+  NC_GATE_OPTIONAL_STOP = 5   /**< M01: as M00 while the switch is on, else nothing */
+} nc_gate_kind;
+
+/** What a sync waits for; bits of nc_item::sync.what. */
+typedef enum nc_sync_what {
+  NC_SYNC_POSITION = 1, /**< machine, workpiece or skip position */
+  NC_SYNC_INPUT = 2,    /**< macro interface inputs */
+  NC_SYNC_CLOCK = 4,    /**< date, time, integrated time */
+  NC_SYNC_SKIP = 8,     /**< a G31 move has ended: where? */
+  NC_SYNC_MODAL = 16,   /**< modal state in execution (#4200s) */
+  NC_SYNC_STOPPED = 32  /**< nothing but that everything before has happened */
+} nc_sync_what;
+
+/** A text that goes with an item; NUL-terminated, cut at NC_MAX_TEXT - 1 bytes. */
+typedef struct nc_text {
+  char s[NC_MAX_TEXT];
+} nc_text;
+
+/** Payload of a move. `work` and `center` are in the active workpiece coordinates, without tool compensation;
+ *  everything named `machine` has every compensation in it. */
+typedef struct nc_move {
+  nc_axes work;             /**< programmed end point */
+  nc_axes machine_start;    /**< where the axes start */
+  nc_axes machine;          /**< where the axes end up */
+  double center[2];         /**< circular: programmed centre on the plane's first and second axis */
+  double machine_center[2]; /**< circular: centre of the machine path */
+  double radius;            /**< circular: of the machine path at its start */
+  double sweep_deg;         /**< circular: signed angle of the machine path about the plane normal, ccw positive */
+  double feed_mm_min;       /**< what the block asks for; 0 for rapid */
+  double feed_mm_rev;       /**< synchronous feed; 0 when the feed is per minute */
+  double length;            /**< path length, mm (deg when only rotary axes move) */
+  uint32_t turns;           /**< circular: full extra turns */
+  uint8_t kind;             /**< nc_move_kind */
+  uint8_t plane;            /**< nc_plane; NC_PLANE_NONE unless circular */
+  uint8_t plane_axis[2];    /**< circular: axis indices of the plane's first and second axis */
+  bool ccw;                 /**< circular: direction really travelled */
+  bool exact_stop;          /**< comes to rest at its end */
+  uint8_t skip_mask;        /**< skip: which signals end the move, bit n = signal n+1 */
+} nc_move;
+
+/** Payload of an action. */
+typedef struct nc_action {
+  double value;
+  uint32_t mask, bits; /**< NC_ACTION_OUTPUT */
+  uint32_t index;
+  uint32_t text;       /**< NC_ACTION_MESSAGE: id for nc_text_get() */
+  uint8_t kind;        /**< nc_action_kind */
+  char letter;         /**< address as programmed */
+} nc_action;
+
+/** Payload of a gate. */
+typedef struct nc_gate {
+  double value;
+  uint8_t kind; /**< nc_gate_kind */
+  bool announce; /**< G04 as programmed or made by a cycle: an event in a trace */
+} nc_gate;
+
+/** The modal state that a block leaves behind. */
+typedef struct nc_modal {
+  int16_t code[NC_GROUPS]; /**< active G code of each group, times 10 (G54.1 = 541, G00 = 0); -1 = group not used */
+  double feed, spindle;
+  uint32_t tool, d, h, m, n, o, b;
+} nc_modal;
+
+/** Payload of a mark: the end of a block. */
+typedef struct nc_mark {
+  nc_axes work;   /**< position at the end of the block, active workpiece coordinates */
+  uint32_t modal; /**< id of the modal snapshot, see nc_modal_get() */
+  bool stop;      /**< single block may stop here */
+  bool report;    /**< a whole block has ended (false: a place inside a cycle where single block may stop) */
+} nc_mark;
+
+/** Payload of an alarm. */
+typedef struct nc_alarm {
+  char code[16];    /**< as the manual prints it, without blanks: "P33", "F_82112" */
+  char message[64]; /**< the manual's short text */
+  nc_text detail;   /**< what in this block caused it, for the person at the machine */
+  int8_t axis;      /**< axis index, -1 = none */
+  nc_source source;
+} nc_alarm;
+
+/** One item of the stream, as sinks get it. */
+typedef struct nc_item {
+  uint64_t serial;  /**< strictly increasing, without gaps within a run */
+  nc_source source;
+  uint8_t kind;     /**< nc_item_kind */
+  union {
+    nc_move move;
+    nc_action action;
+    nc_gate gate;
+    struct {
+      uint32_t what; /**< nc_sync_what bits */
+    } sync;
+    nc_mark mark;
+    struct {
+      bool ok;          /**< ended by M02/M30 (or the end that the dialect allows) */
+      nc_axes work;
+      uint32_t modal;
+    } end;
+  } u;
+} nc_item;
+
+/** Answer to a sync: the world at the moment when everything before it had happened. */
+typedef struct nc_world {
+  nc_axes machine;          /**< where the axes really are */
+  nc_axes skip_machine;     /**< where the skip signal came (meaningful when `skipped`) */
+  uint32_t input[NC_WORDS]; /**< macro interface inputs, words of #1032..#1035 */
+  bool skipped;             /**< the last G31 ended by its signal */
+  int64_t clock_ms;         /**< wall clock, ms since 1970-01-01 local time (#3011, #3012) */
+  double power_on_ms;       /**< #3001 */
+  double run_ms;            /**< #3002 */
+} nc_world;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

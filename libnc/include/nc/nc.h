@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file nc.h
+ * libnc: NC program text in, one set of axis positions per servo cycle out. This header is the whole public API.
+ *
+ * C11, no dependencies, no operating system. See examples/embed.c for a program that runs a part in 20 lines.
+ */
+#ifndef NC_NC_H
+#define NC_NC_H
+#include "nc/control.h"
+#include "nc/run.h"
+#endif

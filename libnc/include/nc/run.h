@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file run.h
+ * Run a program: offline by pulling its items, or online by feeding and cycling a machine.
+ *
+ *   offline:  nc_program_select -> nc_pull until NC_ENDED/NC_ALARMED, answering syncs with nc_answer
+ *   online :  feeder thread: nc_feed() again and again        scan thread: nc_cycle() once per servo cycle
+ *
+ * The two threads share nothing but single-producer single-consumer rings and one versioned plan inside the control.
+ */
+#ifndef NC_RUN_H
+#define NC_RUN_H
+
+#include "nc/control.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- offline ------------------------------------------------------------------------------------------------------ */
+
+/**
+ * Next item of a part system.
+ * @param budget blocks that may be read before the call gives up with NC_BUDGET (an endless GOTO makes no items).
+ * @return NC_OK with *item; NC_WAITING while a sync is not answered; NC_BUDGET; NC_ENDED after the end item; NC_ALARMED after the alarm and end items.
+ */
+NC_API nc_status nc_pull(nc_control*, unsigned system, uint32_t budget, nc_item* item);
+
+/** Answer the open sync of a part system. After NC_SYNC_SKIP the interpreter continues from world->machine. */
+NC_API nc_status nc_answer(nc_control*, unsigned system, const nc_world* world);
+
+/**
+ * Give up what was read beyond `serial` (which must be a mark not older than the look-ahead) and read it again from there:
+ * switches, offsets and variables changed since then act from the next block. `serial` 0 = from the start of the program.
+ */
+NC_API nc_status nc_rewind(nc_control*, unsigned system, uint64_t serial);
+
+/** Stop the program: modal state as after reset (M700 3.7 "reset 2"), program at its head. Not while online motion runs. */
+NC_API nc_status nc_reset(nc_control*, unsigned system);
+
+/* ---- online: feeder ----------------------------------------------------------------------------------------------- */
+
+/**
+ * Read, compensate, plan and commit ahead of the machine.
+ * @param budget blocks that may be read in this call.
+ * @return NC_OK when something was committed, NC_WAITING when nothing can be done until the scan goes on, NC_BUDGET, NC_ENDED
+ *         when the program is committed to its end, NC_ALARMED.
+ */
+NC_API nc_status nc_feed(nc_control*, uint32_t budget);
+
+/** What the scan has reached, in order. */
+typedef struct nc_event {
+  uint64_t serial;
+  nc_source source;
+  uint8_t kind;    /**< nc_item_kind of the item that has been executed to its end */
+  nc_axes machine; /**< commanded position at that moment */
+} nc_event;
+
+/** Next executed item. Events are kept for at least `look_ahead` items; when they are not fetched the oldest are dropped and counted. */
+NC_API nc_status nc_event_poll(nc_control*, unsigned system, nc_event* event, uint64_t* dropped);
+
+/* ---- online: scan ------------------------------------------------------------------------------------------------- */
+
+/** Manual motion of one axis. */
+typedef enum nc_manual_kind {
+  NC_MANUAL_NONE = 0,
+  NC_MANUAL_JOG = 1,      /**< `velocity` as long as it is commanded */
+  NC_MANUAL_STEP = 2,     /**< `distance` once per rising edge */
+  NC_MANUAL_HANDLE = 3,   /**< `distance` is added in this cycle */
+  NC_MANUAL_REFERENCE = 4 /**< go to the first reference position */
+} nc_manual_kind;
+
+typedef struct nc_manual {
+  uint8_t kind;    /**< nc_manual_kind */
+  double velocity; /**< mm/s or deg/s, signed */
+  double distance; /**< mm or deg, signed */
+} nc_manual;
+
+/** What the scan gives to one part system in one cycle. */
+typedef struct nc_inputs {
+  bool cycle_start;      /**< rising edge starts or continues */
+  bool feed_hold;        /**< level: decelerate on the path and stay */
+  bool reset;            /**< rising edge: stop on the path, give the program up */
+  bool single_block;     /**< level: stop at the end of each block */
+  bool optional_stop;    /**< level: M01 stops */
+  bool fin;              /**< completion of the M, S, T or B in wait (level, with handshake) */
+  bool interlock;        /**< level: no axis may start; motion decelerates to rest */
+  bool alarm;            /**< level: stop motion, no start until reset (a drive, the PLC) */
+  uint32_t skip;         /**< skip signals, bit n = signal n+1 */
+  uint32_t input[NC_WORDS]; /**< macro interface inputs */
+  double feed_override;  /**< 0..max_feed_override, 1 = 100 % */
+  double rapid_override; /**< 0..1 */
+  double spindle_rev_per_s; /**< actual speed, for dwell in revolutions */
+  bool actual_valid;     /**< `actual` holds measured positions; otherwise commanded = actual */
+  nc_axes actual;        /**< measured machine position */
+  nc_manual manual[NC_MAX_AXES]; /**< acts while no program runs */
+  int64_t clock_ms;      /**< wall clock (see nc_world) */
+} nc_inputs;
+
+/** Run state of a part system. */
+typedef enum nc_run_state {
+  NC_STATE_IDLE = 0,    /**< no program started, or ended, or reset */
+  NC_STATE_RUNNING = 1,
+  NC_STATE_HOLD = 2,    /**< feed hold: at rest on the path, or on the way there */
+  NC_STATE_STOPPED = 3, /**< block stop: single block, M00, M01; cycle start continues */
+  NC_STATE_ALARM = 4,
+  NC_STATE_MANUAL = 5
+} nc_run_state;
+
+/** Why nothing moves though a program runs; what an operator asks first. */
+typedef enum nc_stop_cause {
+  NC_CAUSE_NONE = 0,
+  NC_CAUSE_FIN = 1,         /**< waits for FIN of M/S/T/B */
+  NC_CAUSE_DWELL = 2,
+  NC_CAUSE_IN_POSITION = 3,
+  NC_CAUSE_PROGRAM_STOP = 4,
+  NC_CAUSE_SINGLE_BLOCK = 5,
+  NC_CAUSE_FEED_HOLD = 6,
+  NC_CAUSE_INTERLOCK = 7,
+  NC_CAUSE_OVERRIDE_ZERO = 8,
+  NC_CAUSE_STARVED = 9,     /**< the feeder has not committed anything further */
+  NC_CAUSE_ALARM = 10
+} nc_stop_cause;
+
+/** What one part system gives out in one cycle. */
+typedef struct nc_outputs {
+  nc_axes command;          /**< commanded machine position for this cycle */
+  nc_axes velocity;         /**< mm/s or deg/s, average over the cycle */
+  uint32_t output[NC_WORDS]; /**< macro interface outputs, words of #1132..#1135 */
+  uint8_t state;            /**< nc_run_state */
+  uint8_t cause;            /**< nc_stop_cause */
+  /* M, S, T, B: the codes stay until the next one; `strobe` bit 0 M, 1 S, 2 T, 3 B is on until FIN. */
+  uint8_t strobe;
+  uint32_t m, t, b;
+  double s;
+  bool rapid;               /**< a rapid move is in execution */
+  bool distance_zero;       /**< no axis is commanded to move */
+  bool message;             /**< rising edge: `message_text` has a new operator message */
+  uint32_t message_text;    /**< id for nc_text_get() */
+  double feed_mm_min;       /**< actual path speed */
+  double feed_command_mm_min; /**< of the move in execution, without override */
+  uint64_t serial;          /**< item in execution: "the block in execution" */
+  nc_source source;
+  uint32_t modal;           /**< snapshot of the last finished block */
+  nc_axes work;             /**< command in the workpiece coordinates of the block in execution */
+  nc_axes distance_to_go;
+  double path_length;       /**< mm travelled since cycle start */
+  double run_s;             /**< seconds in state RUNNING since cycle start */
+  uint64_t blocks;          /**< blocks finished since cycle start */
+} nc_outputs;
+
+/** One servo cycle of every part system. `in` and `out` have `system_count` entries. Scan thread. */
+NC_API void nc_cycle(nc_control*, const nc_inputs* in, nc_outputs* out) NC_RT;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file types.h
+ * Plain types shared by the whole public API of libnc.
+ *
+ * Units: lengths mm, angles degrees, time seconds, feeds mm/min (deg/min when only rotary axes move) as programmed,
+ * velocities inside motion limits mm/s. Axis arrays always have NC_MAX_AXES entries in the order of the configuration;
+ * entries behind `axis_count` are 0.
+ */
+#ifndef NC_TYPES_H
+#define NC_TYPES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32)
+#define NC_API
+#else
+#define NC_API __attribute__((visibility("default")))
+#endif
+
+/** Marks a function that the scan thread calls: no allocation, no lock, no system call, bounded work. */
+#define NC_RT
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define NC_MAX_AXES 8       /**< axes of one part system */
+#define NC_MAX_SYSTEMS 4    /**< part systems of one control */
+#define NC_GROUPS 22        /**< modal groups, numbered as in the manual (index 0 unused) */
+#define NC_WORDS 4          /**< 32-bit words of the macro interface, each direction: #1032-#1035, #1132-#1135 */
+#define NC_MAX_TEXT 128     /**< bytes of a text carried by an item, with its terminating NUL */
+
+/** A control: opaque, lives wholly in the memory the caller gave to nc_create(). */
+typedef struct nc_control nc_control;
+
+/** Position of each axis of one part system, mm or deg. */
+typedef struct nc_axes {
+  double v[NC_MAX_AXES];
+} nc_axes;
+
+/** Result of a call. Values below zero are errors of the caller; nothing has changed then. */
+typedef enum nc_status {
+  NC_OK = 0,
+  NC_WAITING = 1,      /**< nothing to do until the machine gets somewhere (a sync is open, the ring is full) */
+  NC_BUDGET = 2,       /**< the budget of this call is used up; call again */
+  NC_ENDED = 3,        /**< the program has ended (M02/M30) */
+  NC_ALARMED = 4,      /**< the program stopped on an alarm; see nc_alarm_get() */
+  NC_E_ARGUMENT = -1,  /**< an argument is out of range */
+  NC_E_MEMORY = -2,    /**< the memory given is too small, or a table is full */
+  NC_E_STATE = -3,     /**< not possible now (a program is running, ...) */
+  NC_E_NOT_FOUND = -4, /**< no such program, parameter, axis, variable */
+  NC_E_READ = -5       /**< a read-at callback failed */
+} nc_status;
+
+/** The controller family whose manual decides. */
+typedef enum nc_dialect {
+  NC_DIALECT_M700 = 0,    /**< Mitsubishi CNC 700 series, machining centre */
+  NC_DIALECT_DGSHAPE = 1, /**< DGSHAPE NC code (JIS), modelling machines */
+  NC_DIALECT_COUNT = 2
+} nc_dialect;
+
+/** Where an item comes from. */
+typedef struct nc_source {
+  uint32_t line;    /**< 1-based line of the file on which the block stands; 0 = none (manual motion, start) */
+  uint32_t program; /**< O number of the program it stands in; 0 for a main program without one */
+  uint8_t system;   /**< part system, 1... */
+  uint8_t depth;    /**< 0 main program, +1 for each call */
+  uint16_t file;    /**< index of the text in the program store (several O numbers may stand in one text) */
+} nc_source;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

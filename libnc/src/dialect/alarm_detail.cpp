@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// One sentence for the person at the machine: what in this block is wrong and, where it helps, what to do.
+// The same for all families; the code and the short text beside it are the manual's.
+//
+// A sentence is a template: {word} is the offending word with its value ("X12.5", "G54.1"), {axis} the axis
+// ("axis X"), {value} the value alone. A fault that does not carry what the first sentence of its row needs
+// takes the second. A fault whose letter is G or M names the code that is in trouble and its value is that
+// code's number, so it says nothing about {value}.
+#include <cmath>
+
+#include "dialect/alarms.hpp"
+#include "dialect/function_table.hpp"
+#include "dialect/text.hpp"
+
+namespace nc {
+namespace {
+
+using C = Condition;
+
+struct Sentence {
+  Condition condition;
+  const char* full;
+  const char* plain;           ///< needs no word and no value; nullptr = `full` does not either
+  const char* code = nullptr;  ///< instead of `full` when the letter is G or M
+};
+
+constexpr Sentence kSentences[] = {
+    // words and blocks
+    {C::illegal_address, "The word {word} is not possible in this block.",
+     "A word of the block is not possible in it."},
+    {C::format_error,
+     "The word {word} is not written correctly, or does not fit the other words of the block.",
+     "The block is not written correctly: a number, a letter or a sign is missing or stands in the wrong "
+     "place."},
+    {C::value_range, "The value of {word} is outside its range.",
+     "A value in the block is outside its range."},
+    {C::illegal_character, "The character {word} has no meaning here.",
+     "The block holds a character that is not part of the code."},
+    {C::block_too_long, "The block holds more words or characters than the control can take. Split it.",
+     nullptr},
+    {C::number_zero, "The number of {word} must be larger than 0.",
+     "An O or N number must be larger than 0."},
+    {C::program_end, "The text of the program ends without M02, M30 or M99.", nullptr},
+    {C::no_start_mark, "The first block of a program must be '%' alone.", nullptr},
+    {C::illegal_axis, "{word}: there is no such axis, or it cannot take part in this block.",
+     "The block names an axis that does not exist or cannot take part in it."},
+    {C::too_many_axes, "The block moves more axes than the control can move together.", nullptr},
+    {C::index_increment, "{word} is not a multiple of the axis's indexing increment.",
+     "{axis} can only go to multiples of its indexing increment."},
+    {C::parity, "The block was read with a parity error. Load the program again.", nullptr},
+    // G and M codes
+    {C::illegal_g, "{word} is not a G code of this control.", "There is no such G code on this control."},
+    {C::no_function, "{word} is known to the control, but the function is not fitted.",
+     "This function is not fitted."},
+    {C::must_stand_alone, "{word} must stand alone in its block.", "This must stand alone in its block."},
+    {C::words_missing, "The block needs the word {word}.", "The block needs a word that is not there.",
+     "{word} needs a word that is not there."},
+    // motion
+    {C::no_feed, "No feed rate is in force. Program F before or in this block.", nullptr},
+    {C::arc_deviation, "Start and end of the arc are not on one circle: the radii differ by {value} mm.",
+     "Start and end of the arc are not on one circle about its centre."},
+    {C::arc_center, "No circle of radius {value} mm goes through the start and the end of the arc.",
+     "No circle of this radius goes through the start and the end of the arc."},
+    {C::helix_option, "The arc moves {axis} too, and helical interpolation is not fitted.", nullptr},
+    {C::plane_mismatch, "{word} does not fit the plane that is selected.",
+     "The words of the arc do not belong to the plane that is selected."},
+    {C::plane_in_compensation,
+     "The plane cannot be changed while tool radius compensation is on. Cancel it with G40 first.", nullptr},
+    {C::arc_in_compensation_start,
+     "Tool radius compensation can only start and end on a straight move (G00 or G01).", nullptr},
+    {C::no_offset_number, "There is no offset number {value}.", "No offset number was given (D or H)."},
+    {C::cycle_in_compensation,
+     "Fixed cycles and tool radius compensation exclude each other. Cancel with G80 or G40 first.", nullptr},
+    {C::skip_in_compensation,
+     "Skip is not possible while tool radius compensation is on. Cancel it with G40 first.", nullptr},
+    {C::skip_feed_zero, "The feed rate of the skip is 0. Program F in this block or set the skip feed rate.",
+     nullptr},
+    {C::no_reference, "{axis} has not been to its reference position.", nullptr},
+    {C::soft_limit, "{axis} would go to {value}, beyond its stroke limit.",
+     "{axis} would go beyond its stroke limit."},
+    {C::spindle_not_turning, "The cycle needs a turning spindle. Program S and M03 before it.", nullptr},
+    {C::cycle_wrong_plane, "Fixed cycles and tool-diameter offset work in the XY plane only. Program G17.",
+     nullptr},
+    {C::not_in_compensation,
+     "{word} is not possible while tool radius compensation is on. Cancel it with G40 first.",
+     "This is not possible while tool radius compensation is on. Cancel it with G40 first."},
+    {C::code_in_incremental, "{word} is not possible with G91. Program G90 first.",
+     "This is not possible with G91. Program G90 first."},
+    {C::tool_pair, "M06 and T must stand together in one block.", nullptr},
+    {C::comp_no_intersection,
+     "The compensated paths of two blocks do not meet. Use a smaller tool or a larger inner radius.",
+     nullptr},
+    {C::comp_interference, "The tool would cut into the contour. Use a smaller tool or change the contour.",
+     nullptr},
+    {C::corner_option, "Corner chamfering and rounding (,C ,R) are not fitted.", nullptr},
+    {C::geometric_option, "Lines given by their angle (,A) are not fitted.", nullptr},
+    {C::second_aux, "The word {word} is not the address of the second auxiliary function.",
+     "The address of the second auxiliary function is another one."},
+    // offsets
+    {C::g10_l, "G10 does not know L{value}.", "G10 does not know this L."},
+    {C::g10_p, "G10: there is no data set P{value}.",
+     "G10: the number P of the data set is missing or wrong."},
+    {C::local_in_extended,
+     "G52 is not possible while an extended workpiece coordinate system (G54.1) is selected.", nullptr},
+    // programs and macros
+    {C::program_missing, "The program O{value} is not in the memory.",
+     "The program called is not in the memory."},
+    {C::sequence_missing, "There is no block N{value} in this program.",
+     "The block number to go to is not in this program."},
+    {C::nesting, "Sub programs call each other more deeply than the control can follow.", nullptr},
+    {C::macro_nesting, "Macros call each other more deeply than the control can follow.", nullptr},
+    {C::no_macro, "User macros are not fitted.", nullptr},
+    {C::macro_and_words, "A macro statement and ordinary words cannot stand in one block.", nullptr},
+    {C::macro_argument, "The macro call has more sets of I J K arguments than a macro can take.", nullptr},
+    {C::cancel_without_call, "G67 has no G66 to cancel.", nullptr},
+    {C::user_alarm, "The program has raised alarm {value} itself (#3000).",
+     "The program has raised an alarm itself (#3000)."},
+    {C::bracket_nesting, "Brackets [ ] are nested too deeply.", nullptr},
+    {C::bracket_pair, "The block has not as many [ as ].", nullptr},
+    {C::calculation, "The formula has no result, for example a root or a logarithm of a negative number.",
+     nullptr},
+    {C::division_by_zero, "The formula divides by zero.", nullptr},
+    {C::if_statement, "The IF statement is not written correctly: IF [condition] GOTO number.", nullptr},
+    {C::while_statement,
+     "The WHILE statement is not written correctly: WHILE [condition] DO number ... END number.", nullptr},
+    {C::name_statement, "The SETVN statement is not written correctly.", nullptr},
+    {C::loop_nesting, "WHILE or DO loops are nested too deeply.", nullptr},
+    {C::loop_pair, "DO{value} and END{value} do not match.", "A DO has no END, or an END has no DO."},
+    {C::address_missing, "The call needs the word {word}.", "The call needs a word that is not there."},
+    {C::variable_number, "There is no variable #{value}.", "There is no variable with this number."},
+    {C::no_equals, "A variable is named without '=' and a value.", nullptr},
+    {C::variable_use, "Variable #{value} cannot be used here.", "This variable cannot be used here."},
+    {C::variable_name, "The name of the variable is not correct.", nullptr},
+    {C::call_in_cycle, "A macro cannot be called by {word} during a fixed cycle.",
+     "A macro cannot be called by a code during a fixed cycle."},
+    {C::read_failed, "The program could not be read any further.", nullptr},
+    {C::internal,
+     "The control has met a state that should not exist. Please report the program that led to it.", nullptr},
+};
+
+constexpr bool names_word_or_value(const char* sentence) {
+  for (; *sentence != 0; ++sentence) {
+    if (*sentence == '{' && sentence[1] != 'a') return true;
+  }
+  return false;
+}
+
+constexpr bool every_row_has_a_sentence_for_a_bare_fault() {
+  for (const Sentence& row : kSentences) {
+    if (names_word_or_value(row.plain != nullptr ? row.plain : row.full)) return false;
+  }
+  return true;
+}
+static_assert(every_row_has_a_sentence_for_a_bare_fault());
+
+bool about_code(const Fault& fault) {
+  return fault.letter == 'G' || fault.letter == 'M';
+}
+
+// Bytes outside printable ASCII are not shown: they may be half of a character.
+bool has_letter(const Fault& fault) {
+  return fault.letter > ' ' && fault.letter <= '~';
+}
+
+// The offending word: "G54.1", "X12.5", "P" when it has no value; a sign in quotes.
+void put_word(TextWriter& out, const Fault& fault) {
+  char code[12];
+  if (about_code(fault) && fault.has_value && fault.value >= 0 && fault.value < 1e6) {
+    if (fault.letter == 'G') {
+      // no_function carries the code of a table row, times 10; every other fault the number as programmed.
+      const double tenfold = fault.condition == C::no_function ? fault.value : fault.value * 10;
+      g_code_text(static_cast<int>(std::lround(tenfold)), code, sizeof code);
+    } else {
+      m_code_text(static_cast<unsigned>(std::lround(fault.value)), code, sizeof code);
+    }
+    out.put(code);
+    return;
+  }
+  const bool is_address = fault.letter >= 'A' && fault.letter <= 'Z';
+  if (!is_address) out.put('\'');
+  out.put(fault.letter);
+  if (!is_address) out.put('\'');
+  if (is_address && fault.has_value) out.put_number(fault.value);
+}
+
+// Whether the fault carries all that a sentence names. The axis has a word of its own when it is not known,
+// so it never decides.
+bool complete(const char* sentence, const Fault& fault) {
+  for (; *sentence != 0; ++sentence) {
+    if (*sentence != '{') continue;
+    if (sentence[1] == 'w' && !has_letter(fault)) return false;
+    if (sentence[1] == 'v' && (!fault.has_value || about_code(fault))) return false;
+  }
+  return true;
+}
+
+const char* choose(const Fault& fault) {
+  for (const Sentence& row : kSentences) {
+    if (row.condition != fault.condition) continue;
+    const char* sentence = row.code != nullptr && about_code(fault) ? row.code : row.full;
+    return row.plain == nullptr || complete(sentence, fault) ? sentence : row.plain;
+  }
+  return "";
+}
+
+}  // namespace
+
+void alarm_detail(const Fault& fault, const char* axis_name, char* text, size_t size) {
+  TextWriter out(text, size);
+  const bool axis_known = axis_name != nullptr && axis_name[0] != 0;
+  for (const char* at = choose(fault); *at != 0; ++at) {
+    if (*at != '{') {
+      out.put(*at);
+      continue;
+    }
+    switch (at[1]) {
+      case 'w':
+        put_word(out, fault);
+        break;
+      case 'v':
+        out.put_number(fault.value);
+        break;
+      default:  // {axis}; a sentence may begin with it
+        out.put(out.used() == 0 ? (axis_known ? "Axis" : "An axis")
+                                : (axis_known ? "axis" : "axis of this name"));
+        if (axis_known) out.put(' ').put(axis_name);
+        break;
+    }
+    while (*at != '}') ++at;
+  }
+}
+
+}  // namespace nc

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be wrong with a program, named by condition. Each dialect's table turns a condition into the code and the short text of
+// its manual (dialect/<family>/alarms.cpp); the sentence for the person at the machine is made here, the same for all.
+#pragma once
+
+#include "nc/control.h"
+#include "stream/stream.hpp"
+
+namespace nc {
+
+enum class Condition : uint16_t {
+  none,
+  // words and blocks
+  illegal_address, format_error, value_range, illegal_character, block_too_long, number_zero, program_end, no_start_mark,
+  illegal_axis, too_many_axes, index_increment, parity,
+  // G and M codes
+  illegal_g, no_function, must_stand_alone, words_missing,
+  // motion
+  no_feed, arc_deviation, arc_center, helix_option, plane_mismatch, plane_in_compensation, arc_in_compensation_start,
+  no_offset_number, cycle_in_compensation, skip_in_compensation, skip_feed_zero, no_reference, soft_limit, spindle_not_turning,
+  cycle_wrong_plane, not_in_compensation, code_in_incremental, tool_pair,
+  comp_no_intersection, comp_interference, corner_option, geometric_option, second_aux,
+  // offsets
+  g10_l, g10_p, local_in_extended,
+  // programs and macros
+  program_missing, sequence_missing, nesting, macro_nesting, no_macro, macro_and_words, macro_argument, cancel_without_call,
+  user_alarm, bracket_nesting, bracket_pair, calculation, division_by_zero, if_statement, while_statement, name_statement,
+  loop_nesting, loop_pair, address_missing, variable_number, no_equals, variable_use, variable_name, call_in_cycle,
+  read_failed, internal,
+  count_
+};
+
+/// One row of a family's alarm table.
+struct AlarmRow {
+  Condition condition;
+  const char* code;      ///< as printed, without blanks
+  const char* message;   ///< the manual's short text
+};
+
+/// Sentence for the operator: what in this block caused it. Writes a NUL-terminated text.
+void alarm_detail(const Fault& fault, const char* axis_name, char* text, size_t size);
+
+}  // namespace nc

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of the dgshape family; dgshape.cpp puts them together. The sizes stand here so that a row lost
+// or added by accident does not compile.
+#pragma once
+
+#include "dialect/dialect.hpp"
+
+namespace nc::dgshape {
+
+inline constexpr unsigned kFunctionRows = 39;
+inline constexpr unsigned kMiscRows = 6;
+inline constexpr unsigned kAlarmRows = 29;
+inline constexpr unsigned kConditionRows = static_cast<unsigned>(Condition::count_) - 1;
+
+extern const FunctionRow kFunctions[kFunctionRows];
+extern const MiscRow kMisc[kMiscRows];
+extern const AlarmText kAlarms[kAlarmRows];
+extern const AlarmRow kConditions[kConditionRows];
+extern const LexRules kLex;
+
+}  // namespace nc::dgshape

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The families there are, and looking things up in their tables.
+#include "dialect/dialect.hpp"
+
+#include <cmath>
+
+#include "dialect/dgshape/dgshape.hpp"
+#include "dialect/m700/m700.hpp"
+
+namespace nc {
+namespace {
+
+bool same(const char* a, const char* b) {
+  while (*a != 0 && *a == *b) {
+    ++a;
+    ++b;
+  }
+  return *a == *b;
+}
+
+// Row with this code of a table sorted by code.
+template <class Row>
+const Row* find(const Table<Row>& table, int code) {
+  const Row* first = table.begin();
+  unsigned size = table.size;
+  while (size > 0) {
+    const unsigned half = size / 2;
+    if (static_cast<int>(first[half].code) < code) {
+      first += half + 1;
+      size -= half + 1;
+    } else {
+      size = half;
+    }
+  }
+  return first != table.end() && static_cast<int>(first->code) == code ? first : nullptr;
+}
+
+const char* message_of(const Dialect& dialect, const char* code) {
+  for (const AlarmText& alarm : dialect.alarms) {
+    if (same(alarm.code, code)) return alarm.message;
+  }
+  return "";
+}
+
+// Code that the row of a missing G or M code names, nullptr = the fault is about something else.
+const char* missing_code(const Dialect& dialect, const Fault& fault) {
+  if (fault.condition != Condition::no_function || !fault.has_value || fault.value < 0 || fault.value > 1e9)
+    return nullptr;
+  const int code = static_cast<int>(std::lround(fault.value));
+  if (fault.letter == 'G') {
+    const FunctionRow* row = find_function(dialect, code);
+    return row != nullptr ? row->missing : nullptr;
+  }
+  if (fault.letter == 'M') {
+    const MiscRow* row = find_misc(dialect, static_cast<unsigned>(code));
+    return row != nullptr ? row->missing : nullptr;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+const Dialect& dialect(nc_dialect id) {
+  switch (id) {
+    case NC_DIALECT_DGSHAPE:
+      return dgshape::kDialect;
+    case NC_DIALECT_M700:
+    case NC_DIALECT_COUNT:
+      break;
+  }
+  return m700::kDialect;
+}
+
+const FunctionRow* find_function(const Dialect& dialect, int code) {
+  return find(dialect.functions, code);
+}
+
+const MiscRow* find_misc(const Dialect& dialect, unsigned code) {
+  return code > 0xffff ? nullptr : find(dialect.misc, static_cast<int>(code));
+}
+
+AlarmText alarm_text(const Dialect& dialect, const Fault& fault) {
+  if (const char* code = missing_code(dialect, fault); code != nullptr)
+    return {code, message_of(dialect, code)};
+  for (const AlarmRow& row : dialect.conditions) {
+    if (row.condition != fault.condition || row.code == nullptr) continue;
+    return {row.code, row.message != nullptr ? row.message : message_of(dialect, row.code)};
+  }
+  // A condition without a row is a mistake of ours; tests/dialect finds it.
+  return {"NC-INTERNAL", message_of(dialect, "NC-INTERNAL")};
+}
+
+}  // namespace nc

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a controller family is: tables. One folder per family (dialect/m700, dialect/dgshape) holds its word formats, its G and M codes,
+// its alarms; this header says what such a table looks like. To add a family, add a folder and one line in dialect.cpp.
+#pragma once
+
+#include "dialect/alarms.hpp"
+#include "program/block.hpp"
+
+namespace nc {
+
+/// What a G code does: functions shared by all families, implemented in interpret/. A family's table binds its codes to them.
+enum class Function : uint8_t {
+  missing,            ///< in the manual, not built: raises the row's alarm when used
+  rapid, linear, arc_cw, arc_ccw,
+  dwell, data_input,
+  exact_stop_once,    ///< G09
+  plane_xy, plane_zx, plane_yz,
+  inch, metric,
+  reference_return, skip, machine_move,
+  comp_off, comp_left, comp_right,
+  length_plus, length_minus, length_off,
+  work_system,        ///< G54..G59; which one is code10 / 10 - 54
+  extended_system,    ///< G54.1 P
+  local_system,       ///< G52
+  coordinate_set,     ///< G92
+  coordinate_preset,  ///< G92.1
+  cycle_off, cycle_drill, cycle_spot, cycle_peck, cycle_step, cycle_bore_feed, cycle_bore_dwell,   ///< G80 G81 G82 G83 G73 G85 G89
+  absolute, incremental,
+  feed_per_minute,
+  return_initial, return_r,
+  exact_stop_mode, cutting_mode,   ///< G61 G64
+  macro_call,         ///< G65
+  modal_off           ///< the cancel code of a function that is not built: the state it asks for is the only one there is
+};
+
+struct FunctionRow {
+  int16_t code;          ///< times 10: G54.1 = 541
+  uint8_t group;         ///< modal group as the manual numbers it, 0 = one-shot
+  Function function;
+  const char* missing;   ///< alarm code raised when function == missing ("P90"); nullptr otherwise
+  const char* name;      ///< short English name, our words
+  const char* section;   ///< of the manual
+};
+
+/// What an M code is to the control itself; every other M is output.
+enum class MiscFunction : uint8_t { output, program_stop, optional_stop, program_end, call_sub, return_sub, missing };
+struct MiscRow {
+  uint16_t code;
+  MiscFunction function;
+  const char* missing;
+  const char* name;
+  const char* section;
+};
+
+/// Every code of the manual's alarm list, with its short text.
+struct AlarmText {
+  const char* code;
+  const char* message;
+};
+
+/// A parameter the manual names: how its key is written. Digits are always accepted (M700); words only when they are here.
+struct ParameterName {
+  const char* key;
+  double value;          ///< default
+  const char* words;     ///< accepted words in the order of their values, "|"-separated ("conventional|calculator"), nullptr = number
+};
+
+template <class T>
+struct Table {
+  const T* row = nullptr;
+  unsigned size = 0;
+  const T* begin() const { return row; }
+  const T* end() const { return row + size; }
+};
+
+struct Dialect {
+  nc_dialect id;
+  const char* name;                  ///< "m700"
+  const LexRules* lex;
+  Table<FunctionRow> functions;      ///< sorted by code
+  Table<MiscRow> misc;               ///< sorted by code
+  Table<AlarmRow> conditions;        ///< condition -> code, one row for each condition of Condition
+  Table<AlarmText> alarms;           ///< the manual's whole list
+  Table<ParameterName> parameters;   ///< named ones
+  int16_t initial[NC_GROUPS];        ///< active code of each group at power on, times 10; -1 = the group does not exist
+  // rules that differ by family and belong to no single function
+  bool percent_required;             ///< DGSHAPE 2: the first block must be '%'
+  bool end_code_required;            ///< M700 P36: text must not end without M02/M30
+  unsigned call_depth;               ///< levels of sub programs
+};
+
+const Dialect& dialect(nc_dialect id);
+
+/// Row of a G code (times 10), nullptr = the manual does not list it (Condition::illegal_g).
+const FunctionRow* find_function(const Dialect& dialect, int code);
+const MiscRow* find_misc(const Dialect& dialect, unsigned code);
+
+/// Code and message of a fault. Condition::no_function with letter 'G' or 'M' and the code (G: times 10) as value takes the row's own alarm.
+AlarmText alarm_text(const Dialect& dialect, const Fault& fault);
+
+}  // namespace nc

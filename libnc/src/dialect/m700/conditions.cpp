@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// M700: which alarm of appendix 1 a condition is. The message comes from the alarm list (alarms.cpp).
+// Conditions that this family cannot meet carry the nearest code all the same, so that no path ends without
+// an alarm; each says why it is the nearest.
+#include "dialect/m700/tables.hpp"
+
+namespace nc::m700 {
+
+using C = Condition;
+
+const AlarmRow kConditions[kConditionRows] = {
+    // words and blocks
+    {C::illegal_address, "P32", nullptr},
+    {C::format_error, "P33", nullptr},
+    {C::value_range, "P35", nullptr},
+    {C::illegal_character, "P32", nullptr},  // 3.1: a code outside the tape code table
+    {C::block_too_long, "P33", nullptr},     // 3.2 gives no length of a block: it is a matter of its format
+    {C::number_zero, "P37", nullptr},
+    {C::program_end, "P36", nullptr},
+    {C::no_start_mark, "P33", nullptr},  // does not occur: no start mark is asked for
+    {C::illegal_axis, "P11", nullptr},
+    {C::too_many_axes, "P10", nullptr},
+    {C::index_increment, "P20", nullptr},  // 2.3
+    {C::parity, "P30", nullptr},           // 3.6
+    // G and M codes
+    {C::illegal_g, "P34", nullptr},
+    {C::no_function, "P39", nullptr},       // a code's own row may say something more telling
+    {C::must_stand_alone, "P33", nullptr},  // 13.18: "not independent"
+    {C::words_missing, "P33", nullptr},
+    // motion
+    {C::no_feed, "P62", nullptr},
+    {C::arc_deviation, "P70", nullptr},  // 6.4
+    {C::arc_center, "P71", nullptr},     // 6.5
+    {C::helix_option, "P72", nullptr},   // 6.6
+    {C::plane_mismatch, "P113", nullptr},
+    {C::plane_in_compensation, "P112", nullptr},
+    {C::arc_in_compensation_start, "P151", nullptr},  // 12.4.1
+    {C::no_offset_number, "P170", nullptr},
+    {C::cycle_in_compensation, "P155", nullptr},
+    {C::skip_in_compensation, "P608", nullptr},
+    {C::skip_feed_zero, "P603", nullptr},
+    {C::no_reference, "P430", nullptr},
+    {C::soft_limit, "M01-0007", nullptr},
+    {C::spindle_not_turning, "P132",
+     nullptr},  // does not occur: cycles run without a spindle; "spindle speed S=0"
+    {C::cycle_wrong_plane, "P113", nullptr},  // does not occur: cycles work in every plane (13.1.1)
+    {C::not_in_compensation, "P155",
+     nullptr},  // does not occur: what is forbidden in compensation has codes of its own
+    {C::code_in_incremental, "P33", nullptr},  // does not occur: G53 takes G91 (14.4)
+    {C::tool_pair, "P33", nullptr},            // does not occur: M06 is output like any other M
+    {C::comp_no_intersection, "P152", nullptr},
+    {C::comp_interference, "P153", nullptr},
+    {C::corner_option, "P380", nullptr},     // 13.7
+    {C::geometric_option, "P390", nullptr},  // 13.8, 13.9
+    {C::second_aux, "P130", nullptr},        // 9.2
+    // offsets
+    {C::g10_l, "P172", nullptr},
+    {C::g10_p, "P173", nullptr},  // appendix 1; 12.7 prints P170 for the same thing
+    {C::local_in_extended, "P438", nullptr},
+    // programs and macros
+    {C::program_missing, "P232", nullptr},
+    {C::sequence_missing, "P231", nullptr},
+    {C::nesting, "P230", nullptr},
+    {C::macro_nesting, "P273", nullptr},
+    {C::no_macro, "P270", nullptr},
+    {C::macro_and_words, "P272", nullptr},
+    {C::macro_argument, "P275", nullptr},
+    {C::cancel_without_call, "P276", nullptr},
+    {C::user_alarm, "P277", nullptr},
+    {C::bracket_nesting, "P280", nullptr},
+    {C::bracket_pair, "P281", nullptr},
+    {C::calculation, "P282", nullptr},
+    {C::division_by_zero, "P283", nullptr},
+    {C::if_statement, "P290", nullptr},
+    {C::while_statement, "P291", nullptr},
+    {C::name_statement, "P292", nullptr},
+    {C::loop_nesting, "P293", nullptr},
+    {C::loop_pair, "P294", nullptr},
+    {C::address_missing, "P296", nullptr},
+    {C::variable_number, "P241", nullptr},
+    {C::no_equals, "P242", nullptr},
+    {C::variable_use, "P243", nullptr},
+    {C::variable_name, "P300", nullptr},
+    {C::call_in_cycle, "P310", nullptr},
+    {C::read_failed, "P461", nullptr},
+    {C::internal, "NC-INTERNAL", nullptr},
+};
+
+}  // namespace nc::m700

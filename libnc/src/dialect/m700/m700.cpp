@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The m700 family put together, its state at power on and its parameters that are not plain numbers.
+#include "dialect/m700/m700.hpp"
+
+#include "dialect/m700/tables.hpp"
+
+namespace nc::m700 {
+namespace {
+
+// Every parameter has a number; this one is only named (2.2).
+const ParameterName kParameters[] = {
+    {"UNIT*10", 1, nullptr},
+};
+
+}  // namespace
+
+const Dialect kDialect = {
+    .id = NC_DIALECT_M700,
+    .name = "m700",
+    .lex = &kLex,
+    .functions = {kFunctionTable.row, kFunctionRows},
+    .misc = {kMisc, kMiscRows},
+    .conditions = {kConditions, kConditionRows},
+    .alarms = {kAlarms, kAlarmRows},
+    .parameters = {kParameters, sizeof kParameters / sizeof kParameters[0]},
+    // 3.7: the codes marked as initial, and of those that a parameter chooses G01 G17 G21 G90 G94 G97. Groups
+    // 0 and 20 hold no modal.
+    .initial = {-1,  10,  170, 900, 230, 940, 210, 400, 490, 800, 980,
+                500, 540, 640, 670, 401, 690, 970, 150, 501, -1,  131},
+    .percent_required = false,
+    .end_code_required = true,  // P36
+    .call_depth = 8,            // 13.3.1
+};
+
+}  // namespace nc::m700

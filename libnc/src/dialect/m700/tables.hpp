@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of the m700 family; m700.cpp puts them together. The sizes stand here so that a row lost or
+// added by accident does not compile: a definition with another number of rows conflicts with its
+// declaration.
+#pragma once
+
+#include "dialect/dialect.hpp"
+
+namespace nc::m700 {
+
+inline constexpr unsigned kFunctionRows = 285;
+inline constexpr unsigned kMiscRows = 9;
+inline constexpr unsigned kAlarmRows = 187;
+inline constexpr unsigned kConditionRows = static_cast<unsigned>(Condition::count_) - 1;
+
+struct FunctionTable {
+  FunctionRow row[kFunctionRows];
+};
+extern const FunctionTable kFunctionTable;
+extern const MiscRow kMisc[kMiscRows];
+extern const AlarmText kAlarms[kAlarmRows];
+extern const AlarmRow kConditions[kConditionRows];
+extern const LexRules kLex;
+
+}  // namespace nc::m700

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writing text into a fixed buffer: always NUL-terminated, cut where the buffer ends, numbers without a
+// locale.
+#pragma once
+
+#include <cstddef>
+
+namespace nc {
+
+class TextWriter {
+ public:
+  TextWriter(char* text, size_t size) : text_(text), size_(size) {
+    if (size_ > 0) text_[0] = 0;
+  }
+
+  TextWriter& put(char c) {
+    if (used_ + 1 < size_) {
+      text_[used_++] = c;
+      text_[used_] = 0;
+    }
+    return *this;
+  }
+  TextWriter& put(const char* s) {
+    for (; *s != 0; ++s) put(*s);
+    return *this;
+  }
+  /// At least `digits` digits, filled with zeros.
+  TextWriter& put_integer(unsigned long long value, unsigned digits = 1) {
+    char reversed[24];
+    unsigned n = 0;
+    do {
+      reversed[n++] = static_cast<char>('0' + value % 10);
+      value /= 10;
+    } while (value != 0 || n < digits);
+    while (n > 0) put(reversed[--n]);
+    return *this;
+  }
+  /// Up to four decimals, trailing zeros left out: "12.5", "-0.0001", "100".
+  TextWriter& put_number(double value) {
+    if (!(value == value)) return put("not a number");
+    if (value < 0) {
+      put('-');
+      value = -value;
+    }
+    if (value >= 1e14) return put("very large");
+    const unsigned long long scaled = static_cast<unsigned long long>(value * 10000 + 0.5);
+    put_integer(scaled / 10000);
+    unsigned fraction = static_cast<unsigned>(scaled % 10000);
+    if (fraction == 0) return *this;
+    put('.');
+    for (unsigned place = 1000; fraction != 0; place /= 10) {
+      put(static_cast<char>('0' + fraction / place));
+      fraction %= place;
+    }
+    return *this;
+  }
+  size_t used() const { return used_; }
+
+ private:
+  char* text_;
+  size_t size_;
+  size_t used_ = 0;
+};
+
+}  // namespace nc

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coordinate systems and offset tables of one part system.
+//
+// The composition, written down once (M700 14.2, 14.5, 14.10, 14.11; DGSHAPE G54-G59, G92):
+//
+//     zero(k)  = E + O(k) + S + L(k)        E external offset, O offset of work system k, S common shift made by G92,
+//                                           L local system (G52) held by system k
+//     machine  = work + zero(k) + T         T tool length compensation *as applied* to each axis
+//
+// T is applied to an axis when that axis is next commanded (M700 12.2), so it is part of the position's state, not of the tables.
+//
+// All numbers live in one flat table, so that one journal key undoes any of them.
+#pragma once
+
+#include "base/arena.hpp"
+#include "stream/stream.hpp"
+
+namespace nc {
+
+/// Columns of the tool table, as in nc_tool_column.
+inline constexpr unsigned kToolColumns = 4;
+
+struct FramesConfig {
+  unsigned extended_systems = 96;   ///< G54.1 P1..
+  unsigned tool_offsets = 200;
+};
+
+class Frames {
+ public:
+  void create(const FramesConfig& config, Arena& arena);
+
+  unsigned extended_systems() const { return config_.extended_systems; }
+  unsigned tool_offsets() const { return config_.tool_offsets; }
+
+  // Keys of the flat table. System numbers: 0..5 = G54..G59, 6.. = G54.1 P1...
+  static constexpr unsigned external_key(unsigned axis) { return axis; }
+  static constexpr unsigned shift_key(unsigned axis) { return kMaxAxes + axis; }
+  static constexpr unsigned midpoint_key(unsigned axis) { return 2 * kMaxAxes + axis; }      ///< of the last G28
+  static constexpr unsigned midpoint_set_key(unsigned axis) { return 3 * kMaxAxes + axis; }  ///< 1 = it has been given (DGSHAPE G28)
+  static constexpr unsigned skip_key(unsigned axis) { return 4 * kMaxAxes + axis; }          ///< #5061...
+  static constexpr unsigned output_key(unsigned word) { return 5 * kMaxAxes + word; }        ///< macro interface outputs as read ahead
+  static constexpr unsigned local_key(unsigned system, unsigned axis) { return 6 * kMaxAxes + system * kMaxAxes + axis; }
+  static constexpr unsigned work_key(unsigned system, unsigned axis) { return 12 * kMaxAxes + system * kMaxAxes + axis; }
+  unsigned tool_key(unsigned number, unsigned column) const {
+    return work_key(6 + config_.extended_systems, 0) + (number - 1) * kToolColumns + column;
+  }
+  unsigned size() const { return tool_key(config_.tool_offsets + 1, 0); }
+
+  double get(unsigned key) const { return table_[key]; }
+  void set(unsigned key, double value) { table_[key] = value; }
+
+  /// zero(k).
+  AxisVec zero(unsigned system) const;
+  double zero(unsigned system, unsigned axis) const;
+
+ private:
+  FramesConfig config_;
+  double* table_ = nullptr;
+};
+
+}  // namespace nc

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The feeder's side of the executor. Records are written into the ring, planned, and become visible to the scan only with the plan
+// that covers them, so the scan never sees geometry that it could not stop on.
+#include "interpolate/executor.hpp"
+
+#include "interpolate/executor_state.hpp"
+
+namespace nc {
+
+void Executor::create(const ExecutorConfig& config, Arena& arena) {
+  ExecutorState* const state = arena.make<ExecutorState>();
+  Record* const ring = arena.make<Record>(config.capacity);
+  MotionLimits limits;
+  limits.axis_count = config.axis_count;
+  for (unsigned i = 0; i < kMaxAxes; ++i) limits.axis[i] = config.limits[i];
+  limits.cycle_s = config.cycle_s;
+  limits.max_feed_override = config.max_feed_override;
+  // While measuring there is no state: the parts are laid out from throw-away ones of the same size.
+  Planner measured_planner;
+  EventRing measured_events;
+  (state != nullptr ? state->planner : measured_planner).create(limits, ring, config.capacity, arena);
+  (state != nullptr ? state->shared.events : measured_events).create(config.capacity * 2, arena);
+  state_ = state;
+  if (state == nullptr) return;
+  state->config = config;
+  state->ring = ring;
+  state->mask = config.capacity - 1;
+  state->scan.create(config, ring, &state->planner, &state->shared);
+}
+
+Planner::Inputs ExecutorState::scan_said() {
+  Planner::Inputs in;
+  in.tail = shared.tail.load(std::memory_order_acquire);
+  in.ordinal = shared.ordinal.load(std::memory_order_relaxed);
+  const ScanStatus& status = shared.status.read();
+  in.feed_override = status.feed_override;
+  in.single_block = status.single_block;
+  return in;
+}
+
+unsigned Executor::room() const {
+  return state_->config.capacity - (state_->head - state_->shared.tail.load(std::memory_order_acquire));
+}
+
+void Executor::push(const Record& record) {
+  ExecutorState& e = *state_;
+  e.ring[e.head & e.mask] = record;
+  e.planner.commit(e.head++);
+}
+
+void Executor::plan() { state_->planner.replan(state_->scan_said()); }
+
+bool Executor::sync_reached(Serial serial, nc_world* world) const {
+  const ScanWorld& reached = state_->shared.world.read();
+  if (serial == 0 || reached.serial != serial) return false;
+  *world = reached.world;
+  return true;
+}
+
+bool Executor::drained() const { return state_->shared.tail.load(std::memory_order_acquire) == state_->head; }
+
+uint32_t Executor::epoch() const { return state_->shared.epoch.load(std::memory_order_acquire); }
+
+bool Executor::truncate(Serial* last) {
+  ExecutorState& e = *state_;
+  ScanShared& shared = e.shared;
+  *last = 0;
+  if (!e.truncate_open) {
+    shared.truncate_request.store(++e.truncate_request, std::memory_order_release);
+    e.truncate_open = true;
+    return false;
+  }
+  const uint32_t answer = shared.truncate_answer.load(std::memory_order_acquire);
+  if (answer >> 1 != (e.truncate_request & 0x7fffffffu)) return false;
+  e.truncate_open = false;
+  if (!(answer & 1)) return false;
+  // The scan is at rest and waits for the release: the ring from its tail on is the feeder's alone.
+  const Planner::Inputs in = e.scan_said();
+  uint32_t end = in.tail;
+  bool complete = shared.block_begun.load(std::memory_order_relaxed) == 0;
+  while (!complete && end != e.head) {
+    const Record& r = e.ring[end++ & e.mask];
+    if (r.kind == ItemKind::mark && r.mark.report) {
+      *last = r.serial;
+      complete = true;
+    }
+  }
+  if (complete) {
+    e.planner.truncate(end, in);
+    e.head = end;
+  }
+  shared.truncate_release.store(e.truncate_request, std::memory_order_release);
+  return complete;
+}
+
+bool Executor::poll_event(nc_event* event, uint64_t* dropped) { return state_->shared.events.pop(event, dropped); }
+
+AxisVec Executor::commanded() const { return state_->shared.status.read().command; }
+
+void Executor::set_position(const AxisVec& machine) { state_->scan.set_position(machine); }
+
+void Executor::cycle(const nc_inputs& in, nc_outputs& out) { state_->scan.cycle(in, out); }
+
+}  // namespace nc

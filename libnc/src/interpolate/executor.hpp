@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The executor of one part system: the ring of committed records, the plan over it, and the scan that walks along it.
+// Feeder side and scan side are two threads; what they share is in here and nowhere else.
+#pragma once
+
+#include "base/arena.hpp"
+#include "interpolate/record.hpp"
+#include "nc/run.h"
+
+namespace nc {
+
+struct ExecutorConfig {
+  unsigned axis_count = 3;
+  uint32_t rotary = 0;            ///< bit i: axis i is rotary
+  AxisLimits limits[kMaxAxes];
+  AxisVec soft_min, soft_max;     ///< for manual motion; commits are checked before they come here
+  uint32_t soft_limited = 0;      ///< bit i: axis i has soft limits
+  AxisVec reference;              ///< first reference position
+  double cycle_s = 0.001;
+  double max_feed_override = 2.0;
+  uint32_t capacity = 1024;       ///< records in the ring, power of two
+};
+
+class ExecutorState;              ///< all members; defined in interpolate/executor_state.hpp
+
+/// Handle with the state in arena memory.
+class Executor {
+ public:
+  /// Lays the executor out in `arena`. With a measuring arena only counts.
+  void create(const ExecutorConfig& config, Arena& arena);
+
+  // ---- feeder thread ----------------------------------------------------------------------------------------------
+  /// Records that may be pushed now.
+  unsigned room() const;
+  /// Commits one record: computes its speed limits, and makes it visible to the scan after the next plan().
+  void push(const Record& record);
+  /// Recomputes the time law over everything committed (always ending at rest at its end) for the override the scan last saw,
+  /// and swaps it in. Cheap when nothing changed. Call after pushing, and once per feeder period.
+  void plan();
+  /// The scan has reached the sync `serial`, is at rest and in position: copies the world and returns true.
+  bool sync_reached(Serial serial, nc_world* world) const;
+  /// The scan has executed everything that was pushed and is at rest.
+  bool drained() const;
+  /// The scan gave the program up (reset, alarm): increments each time. Until acknowledge_epoch(e) it throws away what is pushed with an older epoch.
+  uint32_t epoch() const;
+  /// At rest in a block stop or hold: give up every committed record behind the block in execution. On success *last is the mark
+  /// that will still be executed (0: none was left). Returns false when the scan has not agreed yet (call again), or moves.
+  bool truncate(Serial* last);
+  /// Next executed record for the host.
+  bool poll_event(nc_event* event, uint64_t* dropped);
+  /// Commanded machine position as of the last scan (consistent snapshot).
+  AxisVec commanded() const;
+  /// Set position; only while idle, before the scan runs.
+  void set_position(const AxisVec& machine);
+
+  // ---- scan thread --------------------------------------------------------------------------------------------------
+  void cycle(const nc_inputs& in, nc_outputs& out) NC_RT;
+
+ private:
+  ExecutorState* state_ = nullptr;
+};
+
+}  // namespace nc

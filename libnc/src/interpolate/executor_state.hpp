@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// All members of an executor: the ring, the planner (feeder's), the scan, and what crosses between them.
+#pragma once
+
+#include "interpolate/scan.hpp"
+
+namespace nc {
+
+class ExecutorState {
+ public:
+  ExecutorConfig config;
+  Record* ring = nullptr;
+  uint32_t mask = 0;
+  // feeder's
+  alignas(64) uint32_t head = 0;       ///< ring index behind the last record pushed
+  uint32_t truncate_request = 0;
+  bool truncate_open = false;          ///< a request is waiting for its answer
+  alignas(64) Planner planner;
+  alignas(64) ScanShared shared;
+  alignas(64) Scan scan;
+
+  Planner::Inputs scan_said();
+};
+
+}  // namespace nc

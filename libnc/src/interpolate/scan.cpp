@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+// One servo cycle of one part system: states and the walk along the records. Order of a cycle: plan, edges, handshake, states,
+// records (path motion), manual motion, shape, outputs, publish.
+#include "interpolate/scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nc {
+namespace {
+
+/// Records executed in one cycle at most. At speed the planner keeps it below (kSegmentsPerCycle + 1) * (kRecordsBetween + 1).
+constexpr unsigned kRecordsPerCycle = 256;
+
+nc_axes to_nc(const AxisVec& a) {
+  nc_axes out;
+  for (unsigned i = 0; i < kMaxAxes; ++i) out.v[i] = a[i];
+  return out;
+}
+
+}  // namespace
+
+void Scan::create(const ExecutorConfig& config, const Record* ring, Planner* planner, ScanShared* shared) {
+  config_ = config;
+  ring_ = ring;
+  mask_ = config.capacity - 1;
+  planner_ = planner;
+  shared_ = shared;
+  ManualConfig m;
+  m.axis_count = config.axis_count;
+  for (unsigned i = 0; i < kMaxAxes; ++i) m.limits[i] = config.limits[i];
+  m.soft_min = config.soft_min;
+  m.soft_max = config.soft_max;
+  m.soft_limited = config.soft_limited;
+  m.reference = config.reference;
+  m.cycle_s = config.cycle_s;
+  manual_.create(m);
+}
+
+void Scan::set_position(const AxisVec& machine) {
+  wanted_ = command_ = last_command_ = target_ = machine;
+  shape_.reset(machine);
+  ScanStatus status;
+  status.command = machine;
+  shared_->status.write(status);
+}
+
+void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
+  ++power_cycles_;
+  time_ = config_.cycle_s;
+  latest_ = nullptr;
+  if (state_ != NC_STATE_STOPPED) cause_ = NC_CAUSE_NONE;
+  answer_truncate();
+  plan_ = &planner_->newest();
+  handshake(in);
+  messages();
+  states(in);
+  if (!frozen_) run(in);
+  manual(in);
+  last_command_ = command_;
+  command_ = shape_.filter(wanted_);
+  if (state_ == NC_STATE_RUNNING) {
+    ++run_cycles_;
+    ++start_cycles_;
+  }
+  outputs(in, out);
+  publish(in);
+}
+
+/// The feeder wants to give up records that are committed: agree only at rest in a stop, and touch none until it is done.
+void Scan::answer_truncate() {
+  if (frozen_) {
+    if (shared_->truncate_release.load(std::memory_order_acquire) != answered_) return;
+    frozen_ = false;
+  }
+  const uint32_t request = shared_->truncate_request.load(std::memory_order_acquire);
+  if (request == answered_) return;
+  answered_ = request;
+  frozen_ = at_rest() && !manual_.active() && !reset_ &&
+            (state_ == NC_STATE_STOPPED || state_ == NC_STATE_HOLD || state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM);
+  shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
+  shared_->truncate_answer.store(request * 2 + (frozen_ ? 1 : 0), std::memory_order_release);
+}
+
+/// FIN completes the strobes that are on, whatever the program does meanwhile. A FIN that was on before the strobe does not count
+/// until it has been off once.
+void Scan::handshake(const nc_inputs& in) {
+  fin_ = in.fin;
+  if (!fin_) fin_low_ = true;
+  if (strobe_ != 0 && fin_ && fin_low_) {
+    strobe_ = 0;
+    fin_low_ = false;
+  }
+}
+
+/// Operator messages, one at a time, each with a rising edge of its own.
+void Scan::messages() {
+  if (message_) {
+    message_ = false;
+  } else if (!messages_.empty()) {
+    message_ = true;
+    message_text_ = messages_.front();
+    messages_.pop();
+  }
+}
+
+void Scan::states(const nc_inputs& in) {
+  if (in.cycle_start && !last_start_) start_ = true;
+  last_start_ = in.cycle_start;
+  if (in.reset && !last_reset_) reset_ = true;
+  last_reset_ = in.reset;
+  interlock_ = in.interlock;
+  if (in.alarm) alarmed_ = true;
+
+  const bool still = at_rest() && !manual_.active();
+  if (reset_) {
+    start_ = false;
+    if (!still || frozen_) return;
+    give_up();
+    reset_ = false;
+    alarmed_ = in.alarm;
+    state_ = NC_STATE_IDLE;
+  }
+  if (alarmed_) {
+    start_ = false;
+    if (state_ != NC_STATE_ALARM && still && !frozen_) {
+      give_up();
+      state_ = NC_STATE_ALARM;
+    }
+    return;
+  }
+  if (in.feed_hold && !(disable_ & 1) && state_ == NC_STATE_RUNNING) {  // M700 13.5.10: #3004 bit 0
+    hold_ = true;
+    state_ = NC_STATE_HOLD;
+  }
+  if (start_ && !frozen_) {
+    start_ = false;
+    if (still || state_ == NC_STATE_HOLD) start(in);
+  }
+}
+
+void Scan::start(const nc_inputs& in) {
+  if (in.feed_hold && !(disable_ & 1)) return;
+  switch (state_) {
+    case NC_STATE_IDLE:
+      path_length_ = 0;
+      start_cycles_ = 0;
+      blocks_ = 0;
+      [[fallthrough]];
+    case NC_STATE_STOPPED:
+    case NC_STATE_HOLD:
+      state_ = NC_STATE_RUNNING;
+      hold_ = false;
+      cause_ = NC_CAUSE_NONE;
+      break;
+    default: break;
+  }
+}
+
+/// At rest: everything that is committed, and whatever comes with the same epoch, is void. Macro outputs and codes stay.
+void Scan::give_up() {
+  ++epoch_;
+  law_ = {};
+  moving_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = false;
+  strobe_ = 0;  // a FIN that comes now is late and completes nothing
+  suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
+  messages_.clear();
+}
+
+/// Throws records of an older epoch away.
+void Scan::drop_old() {
+  for (unsigned n = 0; n < kRecordsPerCycle && tail_ != plan_->end && current().epoch != epoch_; ++n) leave(current(), false);
+}
+
+void Scan::run(const nc_inputs& in) {
+  drop_old();
+  if (state_ == NC_STATE_ALARM && tail_ != plan_->end && current().epoch == epoch_ && current().kind == ItemKind::end) {
+    leave(current(), true);  // the end item that follows an alarm
+  }
+  if (state_ != NC_STATE_RUNNING && at_rest()) return;
+  for (unsigned n = 0; n < kRecordsPerCycle; ++n) {
+    if (braking() && at_rest()) break;
+    if (tail_ == plan_->end) {
+      cause_ = NC_CAUSE_STARVED;
+      break;
+    }
+    const Record& r = current();
+    if (r.epoch != epoch_) {
+      leave(r, false);
+      continue;
+    }
+    serial_ = r.serial;
+    source_ = r.source;
+    if (execute(r, in) == Done::no) break;
+    leave(r, true);
+    if (state_ != NC_STATE_RUNNING && at_rest()) break;
+  }
+}
+
+/// Goes on to the next record; the host is told when this one has been executed.
+void Scan::leave(const Record& r, bool executed) {
+  if (executed) {
+    nc_event event{};
+    event.serial = r.serial;
+    event.source = r.source;
+    event.kind = static_cast<uint8_t>(r.kind);
+    event.machine = to_nc(wanted_);
+    shared_->events.push(event);
+  }
+  if (r.kind == ItemKind::move && r.segment.curve.length > 0) ++ordinal_;
+  ++tail_;
+}
+
+/// Jog, step, handle and reference return, while no program moves.
+void Scan::manual(const nc_inputs& in) {
+  const bool allowed = at_rest() && !alarmed_ && !reset_ && !frozen_ && (state_ == NC_STATE_IDLE || state_ == NC_STATE_STOPPED);
+  if (!allowed && !manual_.active()) {
+    manual_.idle(in.manual);
+    return;
+  }
+  manual_.cycle(in.manual, !allowed || in.interlock || in.feed_hold, &wanted_);
+}
+
+void Scan::publish(const nc_inputs& in) {
+  ScanStatus status;
+  status.command = command_;
+  status.feed_override = feed_override(in);
+  status.single_block = in.single_block && !(suppress_ & 1);
+  shared_->status.write(status);
+  shared_->ordinal.store(ordinal_, std::memory_order_relaxed);
+  shared_->epoch.store(epoch_, std::memory_order_release);
+  shared_->tail.store(tail_, std::memory_order_release);
+}
+
+/// Override in force, #3004 bit 1 included.
+double Scan::feed_override(const nc_inputs& in) const {
+  if (disable_ & 2) return 1;
+  return std::min(config_.max_feed_override, std::max(0.0, in.feed_override));
+}
+
+void Scan::outputs(const nc_inputs&, nc_outputs& out) {
+  const double per_s = 1 / config_.cycle_s;
+  out = {};
+  out.distance_zero = true;
+  if (latest_ != nullptr) {
+    to_work_ = latest_->to_work;
+    work_sign_ = latest_->work_sign;
+    target_ = latest_->curve.end;
+  }
+  for (unsigned i = 0; i < config_.axis_count; ++i) {
+    out.command.v[i] = command_[i];
+    out.velocity.v[i] = (command_[i] - last_command_[i]) * per_s;
+    if (command_[i] != last_command_[i]) out.distance_zero = false;
+    out.work.v[i] = work_sign_[i] * command_[i] + to_work_[i];
+    out.distance_to_go.v[i] = moving_ ? target_[i] - command_[i] : 0;
+  }
+  for (unsigned i = 0; i < NC_WORDS; ++i) out.output[i] = output_[i];
+  out.state = static_cast<uint8_t>(alarmed_ ? NC_STATE_ALARM : manual_.active() ? NC_STATE_MANUAL : state_);
+  out.cause = static_cast<uint8_t>(alarmed_ ? NC_CAUSE_ALARM
+                                   : state_ == NC_STATE_HOLD ? NC_CAUSE_FEED_HOLD
+                                   : interlock_ && state_ == NC_STATE_RUNNING ? NC_CAUSE_INTERLOCK
+                                                                              : cause_);
+  out.strobe = strobe_;
+  out.m = m_;
+  out.t = t_;
+  out.b = b_;
+  out.s = s_;
+  out.message = message_;
+  out.message_text = message_text_;
+  if (moving_) {
+    const Segment& s = current().segment;
+    out.rapid = s.rapid;
+    out.feed_command_mm_min = s.feed_mm_s * 60;
+  }
+  out.feed_mm_min = law_.v * 60;
+  out.serial = serial_;
+  out.source = source_;
+  out.modal = modal_;
+  out.path_length = path_length_;
+  out.run_s = static_cast<double>(start_cycles_) * config_.cycle_s;
+  out.blocks = blocks_;
+}
+
+}  // namespace nc

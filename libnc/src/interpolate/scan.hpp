@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scan side of the executor: walks along committed records, one servo cycle at a time. Everything in here belongs to the scan
+// thread; `ScanShared` is what crosses to the feeder.
+#pragma once
+
+#include <atomic>
+
+#include "base/fixed.hpp"
+#include "interpolate/event_ring.hpp"
+#include "interpolate/exchange.hpp"
+#include "interpolate/executor.hpp"
+#include "interpolate/law.hpp"
+#include "manual/manual.hpp"
+#include "motion/planner.hpp"
+#include "shape/shape.hpp"
+
+namespace nc {
+
+/// What the scan says in every cycle.
+struct ScanStatus {
+  AxisVec command;
+  double feed_override = 1;
+  bool single_block = false;
+};
+
+/// The world at the last sync.
+struct ScanWorld {
+  Serial serial = 0;
+  nc_world world{};
+};
+
+/// Truncation: the feeder asks, the scan answers once; while it has agreed it executes nothing until it is released.
+/// The answer is request * 2 + 1 when it agrees, request * 2 when it does not.
+struct ScanShared {
+  alignas(64) std::atomic<uint32_t> tail{0};     ///< ring index of the record in execution
+  std::atomic<uint32_t> ordinal{0};              ///< of the segment in execution or the next one
+  std::atomic<uint32_t> epoch{0};
+  std::atomic<uint32_t> truncate_answer{0};
+  std::atomic<uint32_t> block_begun{0};          ///< some of the block in execution has been executed (valid with the answer)
+  alignas(64) std::atomic<uint32_t> truncate_request{0};
+  std::atomic<uint32_t> truncate_release{0};
+  Latest<ScanStatus> status;
+  Latest<ScanWorld> world;
+  EventRing events;
+};
+
+class Scan {
+ public:
+  void create(const ExecutorConfig& config, const Record* ring, Planner* planner, ScanShared* shared);
+  void set_position(const AxisVec& machine);
+  void cycle(const nc_inputs& in, nc_outputs& out) NC_RT;
+
+ private:
+  enum class Done : uint8_t { yes, no };  ///< of a record: go on with the next one, or stay here
+
+  // scan.cpp: states
+  void handshake(const nc_inputs& in) NC_RT;
+  void messages() NC_RT;
+  void states(const nc_inputs& in) NC_RT;
+  void start(const nc_inputs& in) NC_RT;
+  void drop_old() NC_RT;
+  void give_up() NC_RT;
+  void answer_truncate() NC_RT;
+  void run(const nc_inputs& in) NC_RT;
+  void manual(const nc_inputs& in) NC_RT;
+  void outputs(const nc_inputs& in, nc_outputs& out) NC_RT;
+  void publish(const nc_inputs& in) NC_RT;
+
+  // scan_records.cpp: what each kind of record does
+  Done execute(const Record& record, const nc_inputs& in) NC_RT;
+  Done move(const Record& record, const nc_inputs& in) NC_RT;
+  bool begin_move(const Record& record, const nc_inputs& in) NC_RT;
+  void end_move(const Record& record) NC_RT;
+  double speed_cap(const Segment& segment, const nc_inputs& in) NC_RT;
+  double feed_override(const nc_inputs& in) const NC_RT;
+  Done action(const Action& action) NC_RT;
+  Done strobe(const Action& action) NC_RT;
+  Done gate(const Gate& gate, const nc_inputs& in) NC_RT;
+  Done dwell(double rate, double amount) NC_RT;
+  Done sync(const Record& record, const nc_inputs& in) NC_RT;
+  Done wait(nc_stop_cause cause) NC_RT;
+  void mark(const Mark& mark, const nc_inputs& in) NC_RT;
+  void alarm() NC_RT;
+  void leave(const Record& record, bool executed) NC_RT;
+  bool in_position(const nc_inputs& in) const NC_RT;
+
+
+  const Record& current() const { return ring_[tail_ & mask_]; }
+  bool at_rest() const { return law_.v == 0; }
+  bool braking() const { return hold_ || reset_ || alarmed_ || interlock_; }
+
+  // ---- set once
+  ExecutorConfig config_;
+  const Record* ring_ = nullptr;
+  uint32_t mask_ = 0;
+  Planner* planner_ = nullptr;
+  ScanShared* shared_ = nullptr;
+
+  // ---- place in the ring
+  const Plan* plan_ = nullptr;   ///< of this cycle
+  uint32_t tail_ = 0, ordinal_ = 0, epoch_ = 0;
+  bool frozen_ = false;          ///< the feeder is truncating
+  uint32_t answered_ = 0;        ///< truncate request that has its answer
+  bool block_begun_ = false;
+
+  // ---- motion
+  LawState law_;                 ///< on the segment in execution; v carries over to the next one
+  bool moving_ = false;          ///< the current record is a segment that has begun
+  double time_ = 0;              ///< what is left of this cycle, s
+  AxisVec wanted_;               ///< interpolated position
+  AxisVec command_, last_command_;
+  const Segment* latest_ = nullptr; ///< segment that was executed last in this cycle
+  AxisVec to_work_, work_sign_{{1, 1, 1, 1, 1, 1, 1, 1}};  ///< of the segment executed last
+  AxisVec target_;               ///< end of the segment in execution
+  Shape shape_;
+  Manual manual_;
+
+  // ---- state
+  nc_run_state state_ = NC_STATE_IDLE;
+  nc_stop_cause cause_ = NC_CAUSE_NONE;
+  bool hold_ = false, reset_ = false, alarmed_ = false, interlock_ = false;
+  bool last_start_ = false, last_reset_ = false;
+  bool start_ = false;           ///< cycle start was pressed and not yet acted upon
+
+  // ---- handshake of M S T B
+  uint8_t strobe_ = 0;
+  bool fin_ = false;             ///< level in this cycle
+  bool fin_low_ = true;          ///< was low since a strobe rose
+  uint32_t m_ = 0, t_ = 0, b_ = 0;
+  double s_ = 0;
+  uint32_t suppress_ = 0;        ///< #3003
+  uint32_t disable_ = 0;         ///< #3004
+
+  // ---- gates
+  bool gate_begun_ = false;
+  double gate_left_ = 0;
+
+  // ---- skip
+  bool skipped_ = false;         ///< the last skip move ended by its signal
+  bool skip_braking_ = false;    ///< on the way to rest after the signal
+  AxisVec skip_position_;
+
+  // ---- outside
+  uint32_t output_[NC_WORDS] = {};
+  FixedQueue<uint32_t, 32> messages_;
+  bool message_ = false;
+  uint32_t message_text_ = 0;
+  Serial serial_ = 0;
+  nc_source source_{};
+  ModalId modal_ = 0;
+  double path_length_ = 0;
+  uint64_t run_cycles_ = 0, start_cycles_ = 0, power_cycles_ = 0, blocks_ = 0;
+};
+
+}  // namespace nc

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the scan does with each kind of record.
+#include <algorithm>
+#include <cmath>
+
+#include "interpolate/scan.hpp"
+
+namespace nc {
+namespace {
+
+/// A segment that does not start where the machine stands is never begun: the axes would jump.
+constexpr double kSamePlace = 1e-6;  ///< mm or deg
+
+uint32_t code_number(double value) { return value >= 0 && value < 4294967296.0 ? static_cast<uint32_t>(value) : 0; }
+
+}  // namespace
+
+Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
+  Done done = Done::yes;
+  switch (r.kind) {
+    case ItemKind::move: done = move(r, in); break;
+    case ItemKind::action: done = action(r.action); break;
+    case ItemKind::gate: done = gate(r.gate, in); break;
+    case ItemKind::sync: done = sync(r, in); break;
+    case ItemKind::mark: mark(r.mark, in); return Done::yes;
+    case ItemKind::alarm: alarm(); break;
+    case ItemKind::end:
+      modal_ = r.end.modal;
+      block_begun_ = false;
+      state_ = NC_STATE_IDLE;
+      return Done::yes;
+  }
+  if (done == Done::yes) block_begun_ = true;
+  return done;
+}
+
+Scan::Done Scan::wait(nc_stop_cause cause) {
+  cause_ = cause;
+  time_ = 0;
+  return Done::no;
+}
+
+/// The alarm that stops the program: the interpreter has it in words.
+void Scan::alarm() {
+  alarmed_ = true;
+  state_ = NC_STATE_ALARM;
+}
+
+// ---- moves --------------------------------------------------------------------------------------------------------------
+
+/// False when the move cannot be begun: it would jump.
+bool Scan::begin_move(const Record& r, const nc_inputs&) {
+  const Segment& s = r.segment;
+  if (at_rest()) {
+    for (unsigned i = 0; i < config_.axis_count; ++i) {
+      if (std::fabs(s.curve.start[i] - wanted_[i]) > kSamePlace) return false;
+    }
+  }
+  law_.s = 0;
+  moving_ = true;
+  block_begun_ = true;
+  skip_braking_ = false;
+  if (s.skip) skipped_ = false;
+  return true;
+}
+
+void Scan::end_move(const Record& r) {
+  law_.s = 0;
+  moving_ = skip_braking_ = false;
+  latest_ = &r.segment;
+  if (r.segment.skip && !skipped_) skip_position_ = wanted_;
+}
+
+/// Path speed that is wanted now; 0 brakes.
+double Scan::speed_cap(const Segment& s, const nc_inputs& in) {
+  if (braking() || skip_braking_) return 0;
+  double cap = s.speed_limit;
+  if (s.rapid) {
+    cap *= std::min(1.0, std::max(0.0, in.rapid_override));
+  } else {
+    const double override_now = feed_override(in);
+    const double feed = s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(in.spindle_rev_per_s) : s.feed_mm_s;
+    // M700 15.2: a skip move goes at 100 %, but for an override of 0.
+    cap = std::min(cap, s.skip && override_now > 0 ? feed : feed * override_now);
+  }
+  if (cap <= 0 && at_rest()) cause_ = NC_CAUSE_OVERRIDE_ZERO;
+  return cap;
+}
+
+Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
+  const Segment& s = r.segment;
+  if (!(s.curve.length > 0)) return Done::yes;
+  const bool begins = !moving_;
+  if (begins && !begin_move(r, in)) {
+    alarmed_ = true;
+    return Done::no;
+  }
+  latest_ = &s;
+  if (s.skip && !skipped_ && (in.skip & s.skip_mask)) {
+    // The signal was sampled with the position that the axes had when this cycle began.
+    skipped_ = skip_braking_ = true;
+    skip_position_ = wanted_;
+    if (in.actual_valid) {
+      for (unsigned i = 0; i < config_.axis_count; ++i) skip_position_[i] = in.actual.v[i];
+    }
+    if (begins) {  // M700 15.2: on already at the start, no movement
+      end_move(r);
+      return Done::yes;
+    }
+  }
+  const double from = law_.s;
+  const LawGoal goal{s.curve.length, plan_->exit2(ordinal_), speed_cap(s, in), s.acceleration};
+  time_ = advance(law_, goal, time_);
+  path_length_ += law_.s - from;
+  if (law_.s >= s.curve.length) {
+    wanted_ = s.curve.end;
+    end_move(r);
+    return Done::yes;
+  }
+  wanted_ = curve_position(s.curve, law_.s, config_.axis_count);
+  if (skip_braking_ && at_rest()) {
+    end_move(r);
+    return Done::yes;
+  }
+  return Done::no;
+}
+
+// ---- actions ------------------------------------------------------------------------------------------------------------
+
+Scan::Done Scan::action(const Action& a) {
+  switch (a.kind) {
+    case NC_ACTION_OUTPUT:  // M700 13.5.5: the bits of one word, in the image that the outputs carry
+      if (a.index < NC_WORDS) output_[a.index] = (output_[a.index] & ~a.mask) | (a.bits & a.mask);
+      return Done::yes;
+    case NC_ACTION_MESSAGE:
+      if (a.index != 0) return Done::yes;  // DPRNT: the host writes it when it sees the event
+      return messages_.push(a.text) ? Done::yes : wait(NC_CAUSE_NONE);
+    case NC_ACTION_CONTROL:
+      if (a.index == 3003) suppress_ = code_number(a.value);
+      if (a.index == 3004) disable_ = code_number(a.value);
+      return Done::yes;
+    default: return strobe(a);
+  }
+}
+
+/// M, S, T, B: code and strobe. A strobe rises only when FIN is off and the last one of its kind is complete; on the fly (no gate
+/// follows) it cannot wait.
+Scan::Done Scan::strobe(const Action& a) {
+  const uint8_t bit = static_cast<uint8_t>(1u << a.kind);
+  const bool awaited = !(suppress_ & 2);  // M700 13.5.9: #3003 bit 1
+  if (awaited && at_rest() && (fin_ || (strobe_ & bit))) return wait(NC_CAUSE_FIN);
+  switch (a.kind) {
+    case NC_ACTION_M: m_ = code_number(a.value); break;
+    case NC_ACTION_S: s_ = a.value; break;
+    case NC_ACTION_T: t_ = code_number(a.value); break;
+    default: b_ = code_number(a.value); break;
+  }
+  strobe_ = static_cast<uint8_t>(strobe_ | bit);
+  fin_low_ = !fin_;
+  return Done::yes;
+}
+
+// ---- gates --------------------------------------------------------------------------------------------------------------
+
+bool Scan::in_position(const nc_inputs& in) const {
+  if (!shape_.settled(wanted_)) return false;
+  if (!in.actual_valid) return true;
+  for (unsigned i = 0; i < config_.axis_count; ++i) {
+    const double width = config_.limits[i].in_position;
+    if (width > 0 && std::fabs(in.actual.v[i] - wanted_[i]) > width) return false;
+  }
+  return true;
+}
+
+Scan::Done Scan::dwell(double rate, double amount) {
+  if (!gate_begun_) {
+    gate_begun_ = true;
+    gate_left_ = amount;
+  }
+  if (gate_left_ > rate * time_) {
+    gate_left_ -= rate * time_;
+    return wait(NC_CAUSE_DWELL);
+  }
+  if (gate_left_ > 0) time_ -= gate_left_ / rate;  // the rest of the cycle is the next record's
+  gate_begun_ = false;
+  return Done::yes;
+}
+
+Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
+  switch (g.kind) {
+    case NC_GATE_FIN: return strobe_ != 0 && !(suppress_ & 2) ? wait(NC_CAUSE_FIN) : Done::yes;
+    case NC_GATE_DWELL_SECONDS: return dwell(1.0, g.value);
+    case NC_GATE_DWELL_TURNS: return dwell(std::fabs(in.spindle_rev_per_s), g.value);
+    case NC_GATE_IN_POSITION: return in_position(in) ? Done::yes : wait(NC_CAUSE_IN_POSITION);
+    case NC_GATE_OPTIONAL_STOP:
+      if (!in.optional_stop) return Done::yes;
+      [[fallthrough]];
+    case NC_GATE_STOP:
+      state_ = NC_STATE_STOPPED;
+      cause_ = NC_CAUSE_PROGRAM_STOP;
+      return Done::yes;
+  }
+  return Done::yes;
+}
+
+Scan::Done Scan::sync(const Record& r, const nc_inputs& in) {
+  if (!in_position(in)) return wait(NC_CAUSE_IN_POSITION);
+  ScanWorld w;
+  w.serial = r.serial;
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    w.world.machine.v[i] = wanted_[i];
+    w.world.skip_machine.v[i] = skip_position_[i];
+  }
+  for (unsigned i = 0; i < NC_WORDS; ++i) w.world.input[i] = in.input[i];
+  w.world.skipped = skipped_;
+  w.world.clock_ms = in.clock_ms;
+  w.world.power_on_ms = static_cast<double>(power_cycles_) * config_.cycle_s * 1e3;
+  w.world.run_ms = static_cast<double>(run_cycles_) * config_.cycle_s * 1e3;
+  shared_->world.write(w);
+  return Done::yes;
+}
+
+/// The end of a block, or a place inside a cycle where single block may stop.
+void Scan::mark(const Mark& m, const nc_inputs& in) {
+  modal_ = m.modal;
+  if (m.report) {
+    ++blocks_;
+    block_begun_ = false;
+  }
+  if (m.stop && in.single_block && !(suppress_ & 1) && at_rest() && state_ == NC_STATE_RUNNING) {
+    state_ = NC_STATE_STOPPED;
+    cause_ = NC_CAUSE_SINGLE_BLOCK;
+  }
+}
+
+}  // namespace nc

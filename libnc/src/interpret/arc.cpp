@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Circles from the words of a block (M700 6.4-6.6, DGSHAPE G02/G03).
+#include <cmath>
+#include <numbers>
+
+#include "interpret/interpreter.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSamePoint = 1e-9;   // mm: far below every command unit
+
+/// Centre of an arc of radius |radius| through start and end: on the perpendicular bisector of the chord, at distance
+/// sqrt(r^2 - (L/2)^2) from its middle; radius > 0 takes the shorter arc, radius < 0 the longer one (M700 6.5).
+Condition center_from_radius(const double start[2], const double end[2], double radius, bool ccw, double tolerance, double center[2]) {
+  const double dh = end[0] - start[0], dv = end[1] - start[1];
+  const double half = std::hypot(dh, dv) / 2;
+  const double r = std::fabs(radius);
+  if (half - r > tolerance) return Condition::arc_center;  // M700 6.5: L/2 - r > #1084 is P71
+  const double height = std::sqrt(std::fmax(0.0, r * r - half * half));
+  // Left of the chord for a short ccw arc; the side changes with the direction and with the sign of R.
+  const double side = (ccw == (radius > 0)) ? 1.0 : -1.0;
+  center[0] = (start[0] + end[0]) / 2 - side * height * dv / (2 * half);
+  center[1] = (start[1] + end[1]) / 2 + side * height * dh / (2 * half);
+  return Condition::none;
+}
+
+}  // namespace
+
+Condition make_circle(const double start[2], const double end[2], const ArcWords& words, bool ccw, double tolerance, Circle* circle,
+                      bool* no_motion) {
+  *no_motion = false;
+  const bool closed = std::fabs(end[0] - start[0]) < kSamePoint && std::fabs(end[1] - start[1]) < kSamePoint;
+  Circle c;
+  if (words.has_radius) {
+    if (closed || words.radius == 0) {  // M700 6.5: a circle that is finished already
+      *no_motion = closed;
+      return closed ? Condition::none : Condition::arc_center;
+    }
+    const Condition bad = center_from_radius(start, end, words.radius, ccw, tolerance, c.center);
+    if (bad != Condition::none) return bad;
+  } else {
+    c.center[0] = start[0] + words.center[0];
+    c.center[1] = start[1] + words.center[1];
+  }
+  c.radius_start = std::hypot(start[0] - c.center[0], start[1] - c.center[1]);
+  c.radius_end = std::hypot(end[0] - c.center[0], end[1] - c.center[1]);
+  if (c.radius_start < kSamePoint && c.radius_end < kSamePoint) {
+    *no_motion = true;
+    return Condition::none;
+  }
+  // M700 6.4: greater than the tolerance is P70; the guard keeps 5.0 - 4.9 from being more than 0.1.
+  if (std::fabs(c.radius_end - c.radius_start) > tolerance + 1e-9) return Condition::arc_deviation;
+  c.angle_start = std::atan2(start[1] - c.center[1], start[0] - c.center[0]);
+  double sweep = 0;
+  if (!closed) {
+    sweep = std::atan2(end[1] - c.center[1], end[0] - c.center[0]) - c.angle_start;
+    if (ccw && sweep <= 0) sweep += 2 * kPi;
+    if (!ccw && sweep >= 0) sweep -= 2 * kPi;
+  } else {
+    sweep = ccw ? 2 * kPi : -2 * kPi;  // M700 6.4: end equal to the start is a full circle
+  }
+  c.sweep = sweep + (ccw ? 2 : -2) * kPi * words.turns;
+  *circle = c;
+  return Condition::none;
+}
+
+}  // namespace nc

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words -> values: expressions, the G and M codes of the block, units and decimal point rules.
+#include "interpret/block_words.hpp"
+
+#include <cmath>
+
+#include "interpret/interpreter.hpp"
+
+namespace nc {
+namespace {
+
+constexpr uint32_t bit(char letter) { return 1u << (letter - 'A'); }
+
+/// A G or M number that came out of an expression may carry representation noise.
+bool near_integer(double value, double* integer) {
+  *integer = std::nearbyint(value);
+  return std::fabs(value - *integer) < 1e-6;
+}
+
+/// Files a G code under what it is.
+Did take_g(Interpreter& in, double value) {
+  double code = 0;
+  if (!near_integer(value * 10, &code) || code < 0 || code > 9999) return in.raise(Condition::illegal_g, 'G', value);
+  const FunctionRow* row = find_function(*in.dialect, static_cast<int>(code));
+  if (row == nullptr) return in.raise(Condition::illegal_g, 'G', value);
+  if (row->function == Function::missing) return in.raise(Condition::no_function, 'G', code);
+  BlockWords& w = in.words;
+  if (!w.g.push_back(row)) return in.raise(Condition::format_error, 'G', value);
+  switch (row->function) {
+    case Function::exact_stop_once: w.exact_stop = true; return Did::done;
+    case Function::modal_off:
+      // M700 13.5.1: G67 without a modal call in force.
+      if (code == 670) return in.raise(Condition::cancel_without_call, 'G', value);
+      return Did::done;
+    default: break;
+  }
+  if (row->group == kGroupOneShot) {
+    w.one_shot = row;
+    w.one_shot_code = static_cast<int16_t>(code);
+  } else if (row->group == kGroupMotion) {
+    w.motion = row;
+  } else if (row->group == kGroupCycle) {
+    w.cycle = row;
+  }
+  return Did::done;
+}
+
+Did take_m(Interpreter& in, double value) {
+  uint32_t code = 0;
+  if (!whole_number(value, &code)) return in.raise(Condition::value_range, 'M', value);
+  const MiscRow* row = find_misc(*in.dialect, code);
+  if (row != nullptr && row->function == MiscFunction::missing) return in.raise(Condition::no_function, 'M', code);
+  if (!in.words.m.push_back(code)) return in.raise(Condition::format_error, 'M', value);
+  return Did::done;
+}
+
+}  // namespace
+
+bool whole_number(double raw, uint32_t* number) {
+  const double whole = std::floor(raw + 1e-9);
+  if (!(whole >= 0) || whole > 4294967295.0) return false;
+  *number = static_cast<uint32_t>(whole);
+  return true;
+}
+
+bool BlockWords::pointed(char letter) const { return (flags[letter - 'A'] & (kWordPoint | kWordExpression)) != 0; }
+
+Did gather_words(Interpreter& in) {
+  BlockWords& w = in.words;
+  w.present = w.comma = w.no_value = w.axes = w.incremental = 0;
+  w.g.clear();
+  w.m.clear();
+  w.one_shot = w.motion = w.cycle = nullptr;
+  w.one_shot_code = 0;
+  w.exact_stop = false;
+  for (unsigned i = 0; i < in.block->words.size(); ++i) {
+    const Word& word = in.block->words[i];
+    double value = word.value;
+    if ((word.flags & kWordExpression) != 0) {
+      Value v;
+      const Eval eval = evaluate(*in.block, word.code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, &v, &in.fault,
+                                 &in.sync_needed);
+      if (eval == Eval::fault) return Did::fault;
+      if (eval == Eval::need_sync) return Did::sync;
+      if (v.vacant) continue;  // M700 13.5.4: a word with only a vacant variable is ignored
+      value = v.number;
+    }
+    if ((word.flags & kWordComma) != 0) return in.raise(word.letter == 'A' ? Condition::geometric_option : Condition::corner_option, word.letter);
+    if ((word.flags & kWordCount) != 0) return in.raise(Condition::format_error, word.letter, word.index);
+    if (word.letter == 'G') {
+      const Did did = take_g(in, value);
+      if (did != Did::done) return did;
+      if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::macro_call) return Did::done;  // the rest are arguments
+      continue;
+    }
+    if (word.letter == 'M') {
+      const Did did = take_m(in, value);
+      if (did != Did::done) return did;
+      continue;
+    }
+    const unsigned at = static_cast<unsigned>(word.letter - 'A');
+    if ((word.flags & kWordNoValue) != 0) {
+      // M700 14.10: "G28 XYZ" means zeros; any other address needs a number.
+      if (in.axis_of[at] < 0) return in.raise(Condition::format_error, word.letter);
+      value = 0;
+    }
+    w.present |= 1u << at;
+    w.raw[at] = value;
+    w.flags[at] = word.flags;
+  }
+  return Did::done;
+}
+
+// ---- units -----------------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// raw * unit, computed as a division by the whole number 1/unit where that is exact: 12345 * 0.001 is 12.345 and nothing else.
+double scaled(double raw, double unit) {
+  if (unit >= 1) return raw * unit;
+  return raw / std::nearbyint(1 / unit);
+}
+
+bool inch(const Interpreter& in) { return in.state.modal.code[kGroupUnit] == 200; }
+
+/// DGSHAPE 3: which words the calculator type reads as whole units.
+bool dgshape_whole_units(const Interpreter& in, bool feed) {
+  if (!in.settings.calculator) return false;
+  switch (in.settings.calculator_words) {
+    case 0: return false;
+    case 1: return true;
+    case 2: return feed;
+    default: return !feed;
+  }
+}
+
+}  // namespace
+
+double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotary, bool setting_unit) {
+  const bool pointed = (flags & (kWordPoint | kWordExpression)) != 0;
+  const bool in_inch = inch(in) && !rotary;
+  const Settings& s = in.settings;
+  double value = raw;
+  if (!pointed) {
+    if (in.dialect->id == NC_DIALECT_DGSHAPE) {
+      if (!dgshape_whole_units(in, false)) value = scaled(raw, in_inch ? 0.0001 : 0.001);
+    } else if (!s.decimal_type_2) {  // M700 5.3, type I: the least command unit; tenfold 2.2
+      const double unit = setting_unit ? (rotary ? s.setting_unit_deg : in_inch ? s.setting_unit_inch : s.setting_unit_mm)
+                                       : (rotary ? s.command_unit_deg : in_inch ? s.command_unit_inch : s.command_unit_mm);
+      value = scaled(raw * s.tenfold, unit);
+    }
+  }
+  return in_inch ? value * 25.4 : value;
+}
+
+double length_of(const Interpreter& in, char letter, bool setting_unit) {
+  const unsigned at = static_cast<unsigned>(letter - 'A');
+  return length_value(in, in.words.raw[at], in.words.flags[at], false, setting_unit);
+}
+
+double feed_value(const Interpreter& in, double raw, uint8_t flags) {
+  // M700 7.2: F1 = 1.000 in both decimal point types. DGSHAPE 3: 0.001 mm/min (0.0001 inch/min) unless the calculator type reads F.
+  if (in.dialect->id != NC_DIALECT_DGSHAPE || (flags & (kWordPoint | kWordExpression)) != 0 || dgshape_whole_units(in, true)) return raw;
+  return scaled(raw, inch(in) ? 0.0001 : 0.001);
+}
+
+Did resolve_axes(Interpreter& in) {
+  BlockWords& w = in.words;
+  bool incremental = in.block_starts_incremental;
+  // M700 5.1: each axis word goes by the G90/G91 before it in the block; the last one stays modal. Families without that rule have
+  // at most one of them in a block, so that the order of words does not matter: the code counts for the whole block.
+  const bool per_word = in.distance_by_word;
+  if (!per_word) incremental = in.state.modal.code[kGroupDistance] == 910;
+  for (unsigned i = 0; i < in.block->words.size(); ++i) {
+    const Word& word = in.block->words[i];
+    if (word.letter == 'G' && per_word && (word.flags & kWordExpression) == 0) {
+      if (word.value == 90) incremental = false;
+      if (word.value == 91) incremental = true;
+      continue;
+    }
+    const unsigned at = static_cast<unsigned>(word.letter - 'A');
+    const int axis = in.axis_of[at];
+    if (axis < 0 || (w.present & (1u << at)) == 0) continue;
+    const uint32_t axis_bit = 1u << axis;
+    w.axes |= axis_bit;
+    w.incremental = incremental ? w.incremental | axis_bit : w.incremental & ~axis_bit;
+    w.axis[static_cast<unsigned>(axis)] = length_value(in, w.raw[at], w.flags[at], (in.rotary & axis_bit) != 0, false);
+  }
+  return Did::done;
+}
+
+}  // namespace nc

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words of one block with their values: expressions evaluated, units applied where they do not depend on the rest of the block.
+#pragma once
+
+#include "dialect/dialect.hpp"
+
+namespace nc {
+
+struct Interpreter;
+enum class Did : uint8_t;
+
+struct BlockWords {
+  uint32_t present = 0;            ///< bit (letter - 'A'): the address stands in the block, with a value
+  uint32_t comma = 0;              ///< ",R" ... present
+  uint32_t no_value = 0;           ///< letter without a value ("G28 XYZ")
+  double raw[26];                  ///< as programmed; the last one counts; undefined where not present
+  uint8_t flags[26];               ///< WordFlag of it
+  uint32_t axes = 0;               ///< bit i: axis i is commanded
+  uint32_t incremental = 0;        ///< bit i: by G91
+  AxisVec axis;                    ///< its value in mm or deg
+  FixedVector<const FunctionRow*, 16> g; ///< G codes in order
+  FixedVector<uint32_t, 16> m;     ///< M codes in order
+  const FunctionRow* one_shot = nullptr; ///< the one-shot function that takes the words, or null
+  int16_t one_shot_code = 0;
+  const FunctionRow* motion = nullptr;   ///< group 1 code of this block, or null
+  const FunctionRow* cycle = nullptr;    ///< group 9 code of this block, or null
+  bool exact_stop = false;         ///< G09
+  bool inhibits_cycle = false;
+
+  bool has(char letter) const { return (present >> (letter - 'A')) & 1; }
+  double get(char letter) const { return raw[letter - 'A']; }
+  bool pointed(char letter) const;
+};
+
+/// Evaluates every word, finds the G and M codes and what they are. Changes nothing but in.words.
+Did gather_words(Interpreter& in);
+
+/// Applies the block's unit and distance modes to the axis words (call when the modal codes of the block are in force).
+Did resolve_axes(Interpreter& in);
+
+/// Value of a length word (I J K R Q and the like) in mm; axis = -1 a length, else rotary or linear like the axis.
+double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotary, bool setting_unit);
+double length_of(const Interpreter& in, char letter, bool setting_unit = true);
+/// F as programmed -> the number that is kept modal.
+double feed_value(const Interpreter& in, double raw, uint8_t flags);
+/// A word that must be a whole number; fraction is dropped (M700 5.3). False when it is negative or too large.
+bool whole_number(double raw, uint32_t* number);
+
+}  // namespace nc

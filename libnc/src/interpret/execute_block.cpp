@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// The order in which the words of one block act (M700 App.2, docs/architecture.md "One block"):
+//
+//   1. modes that say how words are read: G90/G91, G20/G21, planes, feed mode, return level
+//   2. F; coordinate systems; radius and length compensation
+//   3. S, T, second auxiliary function, M codes
+//   4. the one-shot function, or the fixed cycle, or the motion of group 1
+//   5. M00 M01 M02 M30 M98 M99
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+bool is_arc(int16_t code) { return code == 20 || code == 30; }
+
+/// M700 App.2: these take the block; codes of groups 7 and 8 beside them are ignored (G49 beside a reference return is not).
+bool ignores_compensation(const FunctionRow* one_shot, Function modal) {
+  if (one_shot == nullptr) return false;
+  switch (one_shot->function) {
+    case Function::dwell:
+    case Function::data_input:
+    case Function::local_system:
+    case Function::machine_move: return true;
+    case Function::reference_return: return modal != Function::length_off;
+    default: return false;
+  }
+}
+
+bool ignores_cycle(const FunctionRow* one_shot) {
+  if (one_shot == nullptr) return false;
+  switch (one_shot->function) {
+    case Function::dwell:
+    case Function::data_input:
+    case Function::local_system:
+    case Function::coordinate_set: return true;
+    default: return false;
+  }
+}
+
+Did select_plane(Interpreter& in, int16_t code) {
+  const bool changes = in.state.modal.code[kGroupPlane] != code;
+  if (in.dialect->id == NC_DIALECT_DGSHAPE) {
+    // DGSHAPE G40-G42, G80: XY plane only.
+    if (code != 170 && in.state.comp.side != 0) return in.raise(Condition::plane_in_compensation, 'G', code / 10.0);
+    if (code != 170 && in.state.cycle.kind != CycleKind::none) return in.raise(Condition::cycle_wrong_plane, 'G', code / 10.0);
+  } else if (changes && (in.state.comp.side != 0 || in.state.moves_since_comp_off == 0)) {
+    return in.raise(Condition::plane_in_compensation, 'G', code / 10.0);  // M700 App.1 P112, also right after G40
+  }
+  in.state.modal.code[kGroupPlane] = code;
+  return Did::done;
+}
+
+/// 1: modes that other words are read by.
+Did apply_reading_modes(Interpreter& in) {
+  in.block_starts_incremental = in.state.modal.code[kGroupDistance] == 910;
+  in.distance_by_word = false;
+  for (const FunctionRow* row : in.words.g) {
+    switch (row->function) {
+      case Function::absolute:
+      case Function::incremental:
+        in.state.modal.code[kGroupDistance] = row->code;
+        in.distance_by_word = in.dialect->id == NC_DIALECT_M700;
+        break;
+      case Function::plane_xy:
+      case Function::plane_zx:
+      case Function::plane_yz: {
+        const Did did = select_plane(in, row->code);
+        if (did != Did::done) return did;
+        break;
+      }
+      case Function::inch:
+      case Function::metric:
+      case Function::feed_per_minute:
+      case Function::return_initial:
+      case Function::return_r:
+      case Function::exact_stop_mode:
+      case Function::cutting_mode:
+      case Function::rapid:
+      case Function::linear:
+      case Function::arc_cw:
+      case Function::arc_ccw:
+      case Function::modal_off:
+        if (row->group != kGroupOneShot) in.state.modal.code[row->group] = row->code;
+        break;
+      default: break;
+    }
+  }
+  return Did::done;
+}
+
+/// 2: coordinate systems and compensation.
+Did apply_systems(Interpreter& in) {
+  for (const FunctionRow* row : in.words.g) {
+    Did did = Did::done;
+    switch (row->function) {
+      case Function::work_system:
+      case Function::extended_system: did = select_work_system(in, *row); break;
+      default: break;
+    }
+    if (did != Did::done) return did;
+  }
+  const FunctionRow* one_shot = in.words.one_shot;
+  const FunctionRow* radius = nullptr;
+  const FunctionRow* length = nullptr;
+  for (const FunctionRow* row : in.words.g) {  // the last code of a group counts (M700 3.7, DGSHAPE 1)
+    if (row->group == kGroupCompensation && row->function != Function::modal_off && !ignores_compensation(one_shot, row->function)) radius = row;
+    if (row->group == kGroupLength && !ignores_compensation(one_shot, row->function)) length = row;
+  }
+  if (radius != nullptr) {
+    in.state.modal.code[kGroupCompensation] = radius->code;
+    const Did did = set_compensation(in, radius->function);
+    if (did != Did::done) return did;
+  } else if (in.words.has('D')) {
+    const Did did = change_radius(in);
+    if (did != Did::done) return did;
+  }
+  if (length != nullptr) {
+    in.state.modal.code[kGroupLength] = length->code;
+    const Did did = set_length(in, length->function);
+    if (did != Did::done) return did;
+  }
+  return Did::done;
+}
+
+/// 4: what moves.
+Did execute_motion(Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (w.motion != nullptr) {
+    cancel_cycle(in);  // M700 13.1.1 (4): G00-G03 cancel the cycle, and win over a cycle code in the same block
+  } else if (w.cycle != nullptr && !ignores_cycle(w.one_shot)) {
+    return do_cycle(in);
+  }
+  if (w.one_shot != nullptr) return execute_one_shot(in);
+  if (in.state.cycle.kind != CycleKind::none) return do_cycle(in);
+  return move_by_words(in);
+}
+
+Did finish(Interpreter& in, Did did) {
+  if (did != Did::done) return did;
+  in.state.comp.has_vector = false;
+  in.state.comp.cancel_vector = false;
+  return auxiliary_after(in);
+}
+
+}  // namespace
+
+Did execute_words(Interpreter& in) {
+  Did did = gather_words(in);
+  if (did != Did::done) return did;
+  BlockWords& w = in.words;
+  const bool macro_call = w.one_shot != nullptr && w.one_shot->function == Function::macro_call;
+  did = apply_reading_modes(in);
+  if (did != Did::done) return did;
+  if (macro_call) return call_macro(in);
+  did = check_company(in);
+  if (did != Did::done) return did;
+  did = resolve_axes(in);
+  if (did != Did::done) return did;
+  // The F of a skip block is its own and never modal (M700 15.2).
+  const bool own_feed = w.one_shot != nullptr && w.one_shot->function == Function::skip;
+  if (w.has('F') && !own_feed) in.state.modal.feed = feed_value(in, w.get('F'), w.flags['F' - 'A']);
+  did = apply_systems(in);
+  if (did != Did::done) return did;
+  if (is_arc(in.state.modal.code[kGroupMotion]) && w.axes != 0 && w.one_shot == nullptr && w.cycle == nullptr) {
+    // M700 App.2: an arc and G43/G44 in one block.
+    for (const FunctionRow* row : w.g)
+      if (row->function == Function::length_plus || row->function == Function::length_minus)
+        return in.raise(Condition::arc_deviation, 'G', row->code / 10.0);
+  }
+  did = auxiliary_before(in);
+  if (did != Did::done) return did;
+  return finish(in, execute_motion(in));
+}
+
+Did continue_block(Interpreter& in) {
+  const Step step = in.next_step;
+  Did did = Did::done;
+  if (step == Step::cycle) did = continue_cycle(in);
+  if (step == Step::skip_answered) did = skip_answered(in);
+  if (did == Did::later) return did;
+  if (did == Did::done) in.next_step = Step::none;
+  return finish(in, did);
+}
+
+}  // namespace nc

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the program goes on: GOTO, WHILE, sub programs, macro calls, the ends of texts (M700 13.3, 13.5.1, 13.5.7).
+#include <cmath>
+
+#include "interpret/interpreter.hpp"
+
+namespace nc {
+namespace {
+
+constexpr uint32_t kMaxLoopNumber = 127;   // M700 13.5.7: DO 1..127
+constexpr unsigned kLoopDepth = 27;
+constexpr unsigned kMacroDepth = 4;        // M700 13.5.2
+constexpr uint64_t kWholeText = ~uint64_t{0};
+
+CallFrame& top(Interpreter& in) { return in.state.frame[in.state.depth]; }
+
+Did evaluate_here(Interpreter& in, uint16_t code, Value* value) {
+  const Eval eval = evaluate(*in.block, code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, value, &in.fault, &in.sync_needed);
+  if (eval == Eval::fault) return Did::fault;
+  return eval == Eval::need_sync ? Did::sync : Did::done;
+}
+
+/// M700 13.5.7, 13.12: from the next block to the end of the program, then from its head.
+bool find_from_here(Interpreter& in, const CallFrame& frame, uint32_t n, uint64_t* offset, uint32_t* line) {
+  bool again = false;
+  *offset = frame.offset;
+  *line = frame.line;
+  if (in.reader.find_sequence(frame.program.file, n, offset, line, 0, kWholeText, &again)) return true;
+  *offset = frame.program.offset;
+  *line = frame.program.line;
+  return in.reader.find_sequence(frame.program.file, n, offset, line, frame.offset, kWholeText, &again);
+}
+
+/// Forgets loops that a jump to `offset` leaves. A loop's end is known once its END has been executed or looked for.
+void leave_loops(Interpreter& in, uint64_t offset) {
+  State& s = in.state;
+  while (s.loop_count > top(in).loop_base) {
+    Loop& loop = s.loop[s.loop_count - 1];
+    if (loop.end == 0) {
+      uint64_t end = loop.body;
+      uint32_t line = loop.line;
+      if (!in.reader.find_loop_end(top(in).program.file, loop.number, &end, &line)) break;
+      loop.end = end;
+    }
+    if (offset >= loop.offset && offset < loop.end) break;
+    --s.loop_count;
+  }
+}
+
+Did jump_to_sequence(Interpreter& in, double number) {
+  uint32_t n = 0;
+  uint64_t offset = 0;
+  uint32_t line = 0;
+  if (!whole_number(number, &n) || !find_from_here(in, top(in), n, &offset, &line)) return in.raise(Condition::sequence_missing, 'N', number);
+  leave_loops(in, offset);
+  top(in).offset = offset;
+  top(in).line = line;
+  return Did::done;
+}
+
+Did begin_loop(Interpreter& in, const Statement& statement, bool condition) {
+  State& s = in.state;
+  CallFrame& frame = top(in);
+  if (statement.number < 1 || statement.number > kMaxLoopNumber) return in.raise(Condition::while_statement, 'D', statement.number);
+  const uint64_t here = in.block->begin;
+  const bool again = s.loop_count > frame.loop_base && s.loop[s.loop_count - 1].offset == here;
+  if (!condition) {
+    uint64_t end = again && s.loop[s.loop_count - 1].end != 0 ? s.loop[s.loop_count - 1].end : 0;
+    uint32_t line = again ? s.loop[s.loop_count - 1].end_line : 0;
+    if (end == 0) {
+      end = in.block->next;
+      line = in.block->next_line;
+      if (!in.reader.find_loop_end(frame.program.file, statement.number, &end, &line)) return in.raise(Condition::loop_pair, 'D', statement.number);
+    }
+    if (again) --s.loop_count;
+    frame.offset = end;
+    frame.line = line;
+    return Did::done;
+  }
+  if (again) return Did::done;
+  for (unsigned i = frame.loop_base; i < s.loop_count; ++i)  // an active m may not be used again in the nest
+    if (s.loop[i].number == statement.number) return in.raise(Condition::loop_pair, 'D', statement.number);
+  if (unsigned{s.loop_count} - frame.loop_base >= kLoopDepth || s.loop_count >= kMaxLoops) return in.raise(Condition::loop_nesting, 'D', statement.number);
+  s.loop[s.loop_count++] = Loop{here, in.block->next, 0, in.block->line, 0, statement.number};
+  return Did::done;
+}
+
+Did end_loop(Interpreter& in, const Statement& statement) {
+  State& s = in.state;
+  CallFrame& frame = top(in);
+  if (s.loop_count == frame.loop_base || s.loop[s.loop_count - 1].number != statement.number)
+    return in.raise(Condition::loop_pair, 'E', statement.number);
+  Loop& loop = s.loop[s.loop_count - 1];
+  loop.end = in.block->next;
+  loop.end_line = in.block->next_line;
+  frame.offset = loop.offset;
+  frame.line = loop.line;
+  return Did::done;
+}
+
+Did assign(Interpreter& in, const Statement& statement) {
+  Value number, value;
+  Did did = evaluate_here(in, statement.target, &number);
+  if (did != Did::done) return did;
+  did = evaluate_here(in, statement.value, &value);
+  if (did != Did::done) return did;
+  uint32_t n = 0;
+  if (!variable_number(number, &n)) return in.raise(Condition::variable_number, '#', number.or_zero());
+  if (n == 0) return in.raise(Condition::variable_use, '#', 0);  // M700 13.5.4: #0 never on the left
+  if (in.variables.set(n, in.macro_level(), value, in.state.seq + 1)) return Did::done;
+  return write_system_variable(in, n, value, statement);
+}
+
+/// P (or <name>) of M98 and G65.
+Did find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program) {
+  if (in.block->name_length > 0) {
+    if (in.block->name_length > 32) return in.raise(Condition::program_missing, '<');  // M700 13.3.1: at most 32 characters
+    *program = in.reader.find_program(in.block->text.begin() + in.block->name, in.block->name_length);
+    return program->valid() ? Did::done : in.raise(Condition::program_missing, '<');
+  }
+  if (!has_p) {
+    if (!own_allowed) return in.raise(Condition::address_missing, 'P');
+    *program = top(in).program;
+    return Did::done;
+  }
+  uint32_t number = 0;
+  if (!whole_number(p, &number) || number == 0 || number > 99999999) return in.raise(Condition::program_missing, 'P', p);
+  *program = in.reader.find_program(number, top(in).program.file);
+  if (!program->valid()) return in.raise(Condition::program_missing, 'P', number);
+  program->number = number;
+  return Did::done;
+}
+
+/// L of a call: 1 when it is not there.
+Did repetitions(Interpreter& in, bool has_l, double l, uint32_t* count) {
+  *count = 1;
+  if (has_l && (!whole_number(l, count) || *count > 9999)) return in.raise(Condition::value_range, 'L', l);
+  return Did::done;
+}
+
+Did enter(Interpreter& in, const ProgramRef& program, CallKind kind, uint32_t passes, uint64_t offset, uint32_t line) {
+  State& s = in.state;
+  if (s.depth + 1u > in.dialect->call_depth || s.depth + 1u >= kMaxFrames) return in.raise(Condition::nesting, 'P', program.number);
+  const uint8_t level = top(in).macro_level;
+  top(in).call_line = in.source.line;
+  ++s.depth;
+  CallFrame& frame = top(in);
+  frame = CallFrame{};
+  frame.program = program;
+  frame.offset = frame.begin = offset;
+  frame.line = frame.begin_line = line;
+  frame.repeats = passes - 1;
+  frame.kind = kind;
+  frame.macro_level = static_cast<uint8_t>(kind == CallKind::macro ? level + 1 : level);
+  frame.loop_base = s.loop_count;
+  frame.started = offset != program.offset;
+  return Did::later;  // the mark of the calling block comes after the return
+}
+
+// ---- macro arguments (M700 13.5.1) ---------------------------------------------------------------------------------------
+
+/// Designation I: local variable of a letter, 0 = no argument address. I J K: see below.
+constexpr uint8_t kArgument[26] = {/*A*/ 1, /*B*/ 2, /*C*/ 3, /*D*/ 7, /*E*/ 8, /*F*/ 9, /*G*/ 0, /*H*/ 11, /*I*/ 4, /*J*/ 5, /*K*/ 6, /*L*/ 0, /*M*/ 13,
+                                   /*N*/ 0, /*O*/ 0, /*P*/ 0, /*Q*/ 17, /*R*/ 18, /*S*/ 19, /*T*/ 20, /*U*/ 21, /*V*/ 22, /*W*/ 23, /*X*/ 24, /*Y*/ 25, /*Z*/ 26};
+
+struct MacroCall {
+  bool has_p = false, has_l = false;
+  double p = 0, l = 0;
+  Value argument[kLocals];
+};
+
+/// Designation II: I J K up to ten times, #(3k+1) #(3k+2) #(3k+3); a letter that does not come after the one before it in the
+/// alphabet begins the next group. The first group is what designation I says of I J K.
+struct GroupCounter {
+  unsigned group = 1;
+  char last = 0;
+  /// Variable number, 0 = more than ten groups.
+  unsigned variable(char letter) {
+    if (last != 0 && letter <= last) ++group;
+    last = letter;
+    return group > 10 ? 0 : 3 * group + 1 + static_cast<unsigned>(letter - 'I');
+  }
+};
+
+Did gather_arguments(Interpreter& in, MacroCall& call) {
+  GroupCounter groups;
+  bool behind_g65 = false;
+  for (unsigned i = 0; i < in.block->words.size(); ++i) {
+    const Word& word = in.block->words[i];
+    if (word.letter == 'G') {
+      behind_g65 = behind_g65 || word.value == 65;
+      continue;
+    }
+    Value value = Value::of(word.value);
+    if ((word.flags & kWordExpression) != 0) {
+      const Did did = evaluate_here(in, word.code, &value);
+      if (did != Did::done) return did;
+    }
+    if ((word.flags & (kWordNoValue | kWordComma | kWordCount)) != 0) return in.raise(Condition::format_error, word.letter);
+    if (word.letter == 'P' || word.letter == 'L') {
+      (word.letter == 'P' ? call.has_p : call.has_l) = !value.vacant;
+      (word.letter == 'P' ? call.p : call.l) = value.or_zero();
+      continue;
+    }
+    unsigned variable = kArgument[word.letter - 'A'];
+    if (word.letter >= 'I' && word.letter <= 'K') {
+      variable = groups.variable(word.letter);
+      if (variable == 0) return in.raise(Condition::macro_argument, word.letter);
+    }
+    if (variable == 0) return in.raise(Condition::illegal_address, word.letter);
+    call.argument[variable - 1] = value;
+  }
+  return Did::done;
+}
+
+}  // namespace
+
+Did execute_statement(Interpreter& in, const Statement& statement) {
+  switch (statement.kind) {
+    case StatementKind::assign: return assign(in, statement);
+    case StatementKind::if_goto:
+    case StatementKind::while_do: {
+      Value condition;
+      const Did did = evaluate_here(in, statement.value, &condition);
+      if (did != Did::done) return did;
+      const bool holds = condition.or_zero() != 0;
+      if (statement.kind == StatementKind::while_do) return begin_loop(in, statement, holds);
+      if (!holds) return Did::done;
+      [[fallthrough]];
+    }
+    case StatementKind::go_to: {
+      Value target;
+      const Did did = evaluate_here(in, statement.target, &target);
+      return did == Did::done ? jump_to_sequence(in, target.or_zero()) : did;
+    }
+    case StatementKind::do_loop: return begin_loop(in, statement, true);
+    case StatementKind::end_loop: return end_loop(in, statement);
+    case StatementKind::if_then: return in.raise(Condition::if_statement);  // an option of later models, off
+    case StatementKind::set_name: return in.raise(Condition::no_function, 'V');
+    case StatementKind::open_port:
+    case StatementKind::close_port:
+    case StatementKind::print_decimal:
+    case StatementKind::print_binary: return in.raise(Condition::no_function, 'O');
+  }
+  return in.raise(Condition::internal);
+}
+
+Did call_sub(Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (w.has('I') || w.has('J') || w.has('K')) return in.raise(Condition::no_function, 'M', 98);  // figure rotation, M700 13.3.3
+  ProgramRef program;
+  Did did = find_called(in, w.has('P'), w.has('P') ? w.get('P') : 0, true, &program);
+  if (did != Did::done) return did;
+  uint32_t passes = 1;
+  did = repetitions(in, w.has('L'), w.has('L') ? w.get('L') : 1, &passes);
+  if (did != Did::done || passes == 0) return did;
+  uint64_t offset = program.offset;
+  uint32_t line = program.line;
+  if (w.has('H')) {
+    uint32_t n = 0;
+    bool again = false;
+    if (!whole_number(w.get('H'), &n) || !in.reader.find_sequence(program.file, n, &offset, &line, 0, kWholeText, &again))
+      return in.raise(Condition::sequence_missing, 'H', w.get('H'));
+  }
+  return enter(in, program, CallKind::sub, passes, offset, line);
+}
+
+Did call_macro(Interpreter& in) {
+  MacroCall call;
+  Did did = gather_arguments(in, call);
+  if (did != Did::done) return did;
+  ProgramRef program;
+  did = find_called(in, call.has_p, call.p, false, &program);
+  if (did != Did::done) return did;
+  uint32_t passes = 1;
+  did = repetitions(in, call.has_l, call.l, &passes);
+  if (did != Did::done || passes == 0) return did;
+  const unsigned level = in.macro_level() + 1u;
+  if (level > kMacroDepth) return in.raise(Condition::macro_nesting, 'P', program.number);
+  did = enter(in, program, CallKind::macro, passes, program.offset, program.line);
+  if (did == Did::later) in.variables.enter(level, call.argument, in.state.seq + 1);
+  return did;
+}
+
+Did return_sub(Interpreter& in) {
+  State& s = in.state;
+  const BlockWords& w = in.words;
+  if (s.depth == 0) {  // M700 13.3.1: M99 in the main program goes to its head
+    CallFrame& frame = top(in);
+    if (w.has('P')) return jump_to_sequence(in, w.get('P'));
+    s.loop_count = 0;
+    frame.offset = frame.program.offset;
+    frame.line = frame.program.line;
+    frame.started = false;
+    return Did::done;
+  }
+  CallFrame& frame = top(in);
+  s.loop_count = frame.loop_base;
+  if (frame.repeats > 0) {
+    --frame.repeats;
+    frame.offset = frame.begin;
+    frame.line = frame.begin_line;
+    frame.started = frame.begin != frame.program.offset;
+    in.finish_block(false);
+    return Did::later;
+  }
+  if (w.has('P')) {
+    uint32_t n = 0;
+    uint64_t offset = 0;
+    uint32_t line = 0;
+    CallFrame& caller = s.frame[s.depth - 1];
+    if (!whole_number(w.get('P'), &n) || !find_from_here(in, caller, n, &offset, &line)) return in.raise(Condition::sequence_missing, 'P', w.get('P'));
+    --s.depth;
+    leave_loops(in, offset);
+    caller.offset = offset;
+    caller.line = line;
+  } else {
+    --s.depth;
+  }
+  s.owes_mark = true;
+  in.finish_block(false);
+  return Did::later;
+}
+
+Did text_ended(Interpreter& in) {
+  // M700 App.1 P36: '%' (or the end of the text, or the next O number) was read without M02, M30 or M99.
+  if (in.dialect->end_code_required || in.state.depth > 0) return in.raise(Condition::program_end);
+  in.state.end_seen = true;
+  Item& end = in.emit(ItemKind::end);
+  end.end.ok = true;
+  end.end.work = in.position();
+  end.end.modal = in.modals.intern(in.state.modal);
+  in.ended = true;
+  return Did::later;
+}
+
+}  // namespace nc

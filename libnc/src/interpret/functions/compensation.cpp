@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// G40-G42 and G43/G44/G49: what the words ask for. The geometry of radius compensation is offset/.
+#include <cmath>
+#include <initializer_list>
+
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+/// Amount of compensation number n for length (H) or radius (D). M700 12.1: type I has one amount for both.
+double amount(const Interpreter& in, uint32_t n, bool radius) {
+  if (n == 0) return 0;
+  const Frames& f = in.frames;
+  if (!in.settings.tool_memory_2) {
+    const double value = f.get(f.tool_key(n, NC_TOOL_LENGTH));
+    return radius && in.settings.diameter_offsets ? value / 2 : value;
+  }
+  const unsigned shape = radius ? NC_TOOL_RADIUS : NC_TOOL_LENGTH;
+  const double value = f.get(f.tool_key(n, shape)) + f.get(f.tool_key(n, shape + 1));
+  return radius && in.settings.diameter_offsets ? value / 2 : value;  // M700 12.4.9: wear is halved too
+}
+
+Did offset_number(Interpreter& in, char letter, uint32_t* number) {
+  if (!whole_number(in.words.get(letter), number) || *number > in.frames.tool_offsets())
+    return in.raise(Condition::no_offset_number, letter, in.words.get(letter));
+  return Did::done;
+}
+
+/// Letters of the compensation vector on the plane (h, v).
+void plane_of(const Interpreter& in, Compensation& comp, char letters[2]) {
+  const int x = in.axis_of['X' - 'A'], y = in.axis_of['Y' - 'A'], z = in.axis_of['Z' - 'A'];
+  int h = x, v = y;
+  letters[0] = 'I';
+  letters[1] = 'J';
+  if (in.state.modal.code[kGroupPlane] == 180) {
+    h = z, v = x;
+    letters[0] = 'K';
+    letters[1] = 'I';
+  } else if (in.state.modal.code[kGroupPlane] == 190) {
+    h = y, v = z;
+    letters[0] = 'J';
+    letters[1] = 'K';
+  }
+  comp.axis[0] = static_cast<uint8_t>(h < 0 ? 0 : h);
+  comp.axis[1] = static_cast<uint8_t>(v < 0 ? 0 : v);
+}
+
+bool take_vector(const Interpreter& in, const char letters[2], double vector[2]) {
+  bool any = false;
+  for (unsigned i = 0; i < 2; ++i) {
+    vector[i] = in.words.has(letters[i]) ? length_of(in, letters[i]) : 0;
+    any = any || in.words.has(letters[i]);
+  }
+  return any && (vector[0] != 0 || vector[1] != 0);
+}
+
+}  // namespace
+
+Did set_compensation(Interpreter& in, Function function) {
+  State& state = in.state;
+  Compensation& comp = state.comp;
+  const int16_t motion = state.modal.code[kGroupMotion];
+  const bool arc = motion == 20 || motion == 30;
+  char letters[2];
+  if (function == Function::comp_off) {
+    if (comp.side == 0) return Did::done;
+    if (arc && in.words.axes != 0) return in.raise(Condition::arc_in_compensation_start, 'G', 40);  // M700 12.4.1: cancel must not be circular
+    plane_of(in, comp, letters);
+    comp.cancel_vector = in.dialect->id == NC_DIALECT_M700 && take_vector(in, letters, comp.vector);
+    comp.side = 0;
+    state.moves_since_comp_off = 0;
+    return Did::done;
+  }
+  if (arc) return in.raise(Condition::arc_in_compensation_start, 'G', function == Function::comp_left ? 41 : 42);
+  if (state.cycle.kind != CycleKind::none && in.words.motion == nullptr) return in.raise(Condition::cycle_in_compensation, 'G', 41);
+  if (in.dialect->id == NC_DIALECT_DGSHAPE && state.modal.code[kGroupPlane] != 170) return in.raise(Condition::plane_mismatch, 'G', 41);
+  if (in.words.has('D')) {
+    const Did did = offset_number(in, 'D', &state.modal.d);
+    if (did != Did::done) return did;
+  } else if (state.modal.d == 0) {
+    return in.raise(Condition::no_offset_number, 'D');
+  }
+  plane_of(in, comp, letters);
+  comp.type_b = in.settings.comp_type_b;
+  comp.radius = amount(in, state.modal.d, true);
+  comp.side = state.modal.d == 0 ? int8_t{0} : function == Function::comp_left ? int8_t{1} : int8_t{-1};
+  comp.has_vector = in.dialect->id == NC_DIALECT_M700 && take_vector(in, letters, comp.vector);
+  return Did::done;
+}
+
+Did change_radius(Interpreter& in) {
+  const Did did = offset_number(in, 'D', &in.state.modal.d);
+  if (did != Did::done) return did;
+  const int16_t code = in.state.modal.code[kGroupCompensation];
+  if (code != 410 && code != 420) return Did::done;
+  // M700 12.4.5: the amount changes with the block; D00 cancels (12.4.1).
+  in.state.comp.radius = amount(in, in.state.modal.d, true);
+  in.state.comp.side = in.state.modal.d == 0 ? int8_t{0} : code == 410 ? int8_t{1} : int8_t{-1};
+  return Did::done;
+}
+
+Did set_length(Interpreter& in, Function function) {
+  State& state = in.state;
+  const bool m700 = in.dialect->id == NC_DIALECT_M700;
+  if (function == Function::length_off) {
+    state.length_value = 0;
+  } else {
+    if (in.words.has('H')) {
+      const Did did = offset_number(in, 'H', &state.modal.h);
+      if (did != Did::done) return did;
+    }
+    // M700 12.2: the axis named in the block, Z before Y before X; Z with #1080 and when none is named.
+    const int z = in.axis_of['Z' - 'A'];
+    int axis = z;
+    if (m700 && !in.settings.drilling_axis_z) {
+      for (const char letter : {'X', 'Y', 'Z'}) {
+        const int candidate = in.axis_of[letter - 'A'];
+        if (candidate >= 0 && ((in.words.axes >> candidate) & 1) != 0) axis = candidate;
+      }
+    }
+    if (axis < 0) return in.raise(Condition::illegal_axis, 'Z');
+    state.length_axis = static_cast<uint8_t>(axis);
+    const double value = amount(in, state.modal.h, false);
+    state.length_value = function == Function::length_minus ? -value : value;
+  }
+  if (m700) return Did::done;
+  // DGSHAPE G43: without a Z word the block itself moves Z by the offset.
+  const uint32_t axis_bit = 1u << state.length_axis;
+  if ((in.words.axes & axis_bit) == 0 && in.words.one_shot == nullptr) {
+    LinearStyle style;
+    style.kind = state.modal.code[kGroupMotion] == 0 || state.modal.feed <= 0 ? NC_MOVE_RAPID : NC_MOVE_LINE;
+    style.feed_mm_min = feed_mm_min(in);
+    move_linear(in, in.position(), axis_bit, style);
+  }
+  return Did::done;
+}
+
+}  // namespace nc

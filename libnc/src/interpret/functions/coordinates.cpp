@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Work coordinate systems G54-G59, G54.1; local system G52; coordinate system setting G92, preset G92.1.
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+
+Did select_work_system(Interpreter& in, const FunctionRow& row) {
+  State& state = in.state;
+  if (in.dialect->id == NC_DIALECT_DGSHAPE && state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', row.code / 10.0);
+  if (row.function == Function::work_system) {
+    state.work_system = static_cast<uint8_t>(row.code / 10 - 54);
+    state.modal.extended = 0;
+  } else {
+    uint32_t p = 0;
+    if (!in.words.has('P')) return in.raise(Condition::format_error, 'P');
+    if (!whole_number(in.words.get('P'), &p) || p == 0) return in.raise(Condition::value_range, 'P', in.words.get('P'));
+    // M700 14.10 (13): a system that the option does not reach.
+    if (p > in.frames.extended_systems()) return in.raise(Condition::no_function, 'P', p);
+    state.work_system = static_cast<uint8_t>(5 + p);
+    state.modal.extended = static_cast<uint16_t>(p);
+  }
+  state.modal.code[kGroupWork] = row.code;
+  return Did::done;
+}
+
+Did do_local_system(Interpreter& in) {
+  if (in.state.work_system >= 6) return in.raise(Condition::local_in_extended, 'G', 52);
+  const BlockWords& w = in.words;
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((w.axes >> i) & 1) == 0) continue;
+    // M700 14.11: G90 replaces (measured from the workpiece zero), G91 adds to the present local zero.
+    const unsigned key = Frames::local_key(in.state.work_system, i);
+    in.set_table(key, (((w.incremental >> i) & 1) != 0 ? in.frames.get(key) : 0.0) + w.axis[i]);
+  }
+  return Did::done;
+}
+
+Did do_coordinate_set(Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (in.dialect->id == NC_DIALECT_DGSHAPE && in.state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', 92);
+  if (w.has('Q')) return in.raise(Condition::no_function, 'Q', w.get('Q'));  // spindle clamp, M700 10.4
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((w.axes >> i) & 1) == 0) continue;
+    // M700 14.5: the reading of the axis, compensation included, becomes the value; the shift is common to all systems.
+    const double shift = in.frames.get(Frames::shift_key(i)) + in.state.machine[i] - in.frames.zero(in.state.work_system, i) - w.axis[i];
+    in.set_table(Frames::shift_key(i), shift);
+  }
+  return Did::done;
+}
+
+Did do_coordinate_preset(Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (!in.settings.preset_allowed) return in.raise(Condition::illegal_g, 'G', 92.1);  // M700 14.12: list 1 only with #1267 bit 0
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((w.axes >> i) & 1) == 0) continue;
+    if (w.axis[i] != 0) return in.raise(Condition::value_range, in.system->axis[i].name, w.axis[i]);
+  }
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((w.axes >> i) & 1) == 0) continue;
+    in.set_table(Frames::shift_key(i), 0);
+    if (in.state.work_system < 6) in.set_table(Frames::local_key(in.state.work_system, i), 0);
+  }
+  return Did::done;
+}
+
+}  // namespace nc

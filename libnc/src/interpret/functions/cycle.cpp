@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fixed cycles: the words of a block -> hole data -> holes (M700 13.1.1, DGSHAPE G80-G89). The moves of one hole are cycle/drilling.cpp.
+#include <cmath>
+#include <initializer_list>
+
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+CycleKind kind_of(Function function) {
+  switch (function) {
+    case Function::cycle_drill: return CycleKind::drill;
+    case Function::cycle_spot: return CycleKind::spot;
+    case Function::cycle_peck: return CycleKind::peck;
+    case Function::cycle_step: return CycleKind::step;
+    case Function::cycle_bore_feed: return CycleKind::bore_feed;
+    case Function::cycle_bore_dwell: return CycleKind::bore_dwell;
+    default: return CycleKind::none;
+  }
+}
+
+/// Drilling axis: the axis normal to the plane (M700 13.1.1 "Plane and drilling axis"; DGSHAPE: Z).
+int drilling_axis(const Interpreter& in) {
+  const int16_t plane = in.state.modal.code[kGroupPlane];
+  char letter = 'Z';
+  if (!in.settings.drilling_axis_z && plane == 180) letter = 'Y';
+  if (!in.settings.drilling_axis_z && plane == 190) letter = 'X';
+  return in.axis_of[letter - 'A'];
+}
+
+Did select_cycle(Interpreter& in, const FunctionRow& row) {
+  State& state = in.state;
+  const bool dgshape = in.dialect->id == NC_DIALECT_DGSHAPE;
+  if (row.function == Function::cycle_off) {
+    cancel_cycle(in);
+    state.modal.code[kGroupCycle] = row.code;
+    return Did::done;
+  }
+  if (state.comp.side != 0) return in.raise(Condition::cycle_in_compensation, 'G', row.code / 10.0);
+  if (dgshape && state.modal.code[kGroupPlane] != 170) return in.raise(Condition::cycle_wrong_plane, 'G', row.code / 10.0);
+  const int axis = drilling_axis(in);
+  if (axis < 0) return in.raise(Condition::illegal_axis, 'Z');
+  if (state.cycle.kind == CycleKind::none) {
+    state.cycle = CycleState{};
+    state.cycle.drill_axis = static_cast<uint8_t>(axis);
+    state.cycle.initial = in.position()[static_cast<unsigned>(axis)];
+  }
+  state.cycle.kind = kind_of(row.function);
+  state.modal.code[kGroupCycle] = row.code;
+  return Did::done;
+}
+
+/// Hole data of the block (modal). M700 13.1.1: without an axis word or R they are ignored.
+Did take_hole_data(Interpreter& in) {
+  const BlockWords& w = in.words;
+  CycleState& c = in.state.cycle;
+  const bool dgshape = in.dialect->id == NC_DIALECT_DGSHAPE;
+  const uint32_t drill_bit = 1u << c.drill_axis;
+  if ((w.axes & drill_bit) != 0) {
+    c.has_z = true;
+    c.z = w.axis[c.drill_axis];
+    c.z_incremental = (w.incremental & drill_bit) != 0;
+  }
+  if (w.has('R')) {
+    c.has_r = true;
+    c.r = length_of(in, 'R', false);
+    c.r_incremental = in.state.modal.code[kGroupDistance] == 910;
+  }
+  if (w.has('Q')) c.q = std::fabs(length_of(in, 'Q'));
+  if (w.has('P')) {
+    const double ms = dgshape ? w.get('P') : std::trunc(w.get('P'));  // decimals are ignored
+    if (!(ms >= 0) || ms > 99999999) return in.raise(Condition::value_range, 'P', w.get('P'));
+    c.dwell_s = ms / 1000;
+  }
+  return Did::done;
+}
+
+/// Levels of this hole from the hole data (M700 13.1.1 "Absolute/incremental").
+void resolve_hole(Interpreter& in) {
+  const CycleState& c = in.state.cycle;
+  Hole& h = in.hole;
+  h.kind = c.kind;
+  h.initial = c.initial;
+  if (!c.has_r) {
+    h.r = c.initial;  // DGSHAPE: omitted R = initial level
+  } else if (c.r_incremental) {
+    // M700: the sign of R is ignored in G91 and taken from Z. DGSHAPE: the distance from the initial level as it stands.
+    const bool m700 = in.dialect->id == NC_DIALECT_M700;
+    h.r = c.initial + (m700 && c.z_incremental && c.has_z ? std::copysign(c.r, c.z) : c.r);
+  } else {
+    h.r = c.r;
+  }
+  h.bottom = !c.has_z ? h.r : c.z_incremental ? h.r + c.z : c.z;
+  h.return_to = in.state.modal.code[kGroupReturn] == 990 ? h.r : c.initial;
+  h.q = c.q;
+  h.dwell_s = c.dwell_s;
+  if (in.dialect->id == NC_DIALECT_DGSHAPE) {
+    h.clearance = 1;  // DGSHAPE G83: d = 1 mm, fixed
+  } else {
+    h.clearance = c.kind == CycleKind::step ? in.settings.peck_clearance_73 : in.settings.peck_clearance_83;
+  }
+}
+
+/// The move to the hole: axes outside the plane first (M700 13.1.1 (6)), then the plane, both rapid.
+void position_over_hole(Interpreter& in) {
+  const uint32_t drill_bit = 1u << in.state.cycle.drill_axis;
+  const int x = in.axis_of['X' - 'A'], y = in.axis_of['Y' - 'A'], z = in.axis_of['Z' - 'A'];
+  uint32_t geometric = 0;
+  for (const int axis : {x, y, z})
+    if (axis >= 0) geometric |= 1u << axis;
+  AxisVec target = in.position();
+  const uint32_t axes = in.hole_axes & ~drill_bit;
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((axes >> i) & 1) == 0) continue;
+    target[i] = ((in.words.incremental >> i) & 1) != 0 ? target[i] + in.hole_increment[i] : in.hole_increment[i];
+  }
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  move_linear(in, target, axes & ~geometric, style);
+  move_linear(in, target, axes & geometric, style);
+}
+
+void emit_stop_point(Interpreter& in) {
+  Item& item = in.emit(ItemKind::mark);
+  item.block_end = false;
+  item.mark.work = in.position();
+  item.mark.modal = in.modals.intern(in.state.modal);
+  item.mark.stop = (in.state.control_3003 & 1) == 0;
+  item.mark.report = false;
+}
+
+void emit_cycle_move(Interpreter& in, const CycleStep& step) {
+  AxisVec target = in.position();
+  target[in.state.cycle.drill_axis] = step.to;
+  LinearStyle style;
+  style.kind = step.kind == CycleStep::Kind::rapid ? NC_MOVE_RAPID : NC_MOVE_LINE;
+  style.feed_mm_min = feed_mm_min(in);
+  style.exact_stop = true;  // every level of a hole is reached
+  move_linear(in, target, 1u << in.state.cycle.drill_axis, style);
+}
+
+Did begin_hole(Interpreter& in) {
+  position_over_hole(in);
+  emit_stop_point(in);
+  resolve_hole(in);
+  in.progress = HoleProgress{};
+  in.next_step = Step::cycle;
+  return Did::later;
+}
+
+/// Number of holes of this block: M700 L (default 1, 0 = data only), DGSHAPE K.
+Did hole_count(Interpreter& in, uint32_t* count) {
+  const char letter = in.dialect->id == NC_DIALECT_DGSHAPE ? 'K' : 'L';
+  *count = 1;
+  if (!in.words.has(letter)) return Did::done;
+  if (!whole_number(in.words.get(letter), count) || *count > 9999) return in.raise(Condition::value_range, letter, in.words.get(letter));
+  return Did::done;
+}
+
+}  // namespace
+
+void cancel_cycle(Interpreter& in) {
+  if (in.state.cycle.kind == CycleKind::none) return;
+  in.state.cycle = CycleState{};
+  in.state.modal.code[kGroupCycle] = 800;
+}
+
+Did do_cycle(Interpreter& in) {
+  const BlockWords& w = in.words;
+  const bool dgshape = in.dialect->id == NC_DIALECT_DGSHAPE;
+  if (w.cycle != nullptr) {
+    const Did did = select_cycle(in, *w.cycle);
+    if (did != Did::done) return did;
+    if (in.state.cycle.kind == CycleKind::none) return move_by_words(in);  // G80 with axis words: they go by group 1
+  }
+  if (w.axes == 0 && !w.has('R')) return Did::done;  // M700 13.1.1 (2)
+  Did did = take_hole_data(in);
+  if (did != Did::done) return did;
+  uint32_t count = 1;
+  did = hole_count(in, &count);
+  if (did != Did::done) return did;
+  const CycleState& c = in.state.cycle;
+  if (count == 0 || (dgshape && !c.has_z)) return Did::done;  // data only; DGSHAPE: Z omitted = no drilling
+  if (dgshape && (w.axes & in.rotary) != 0) return in.raise(Condition::illegal_axis, 'A');
+  if (dgshape && !in.state.spindle_on) return in.raise(Condition::spindle_not_turning, 'G', in.state.modal.code[kGroupCycle] / 10.0);
+  if (in.state.modal.feed <= 0) return in.raise(Condition::no_feed, 'F');
+  if ((c.kind == CycleKind::peck || c.kind == CycleKind::step) && !(c.q > 0)) return in.raise(Condition::words_missing, 'Q');
+  in.holes_left = count;
+  in.hole_axes = w.axes;
+  in.hole_increment = w.axis;
+  return begin_hole(in);
+}
+
+Did continue_cycle(Interpreter& in) {
+  while (in.queue_has_room()) {
+    const CycleStep step = next_step(in.hole, in.progress);
+    switch (step.kind) {
+      case CycleStep::Kind::rapid:
+      case CycleStep::Kind::feed: emit_cycle_move(in, step); break;
+      case CycleStep::Kind::stop_point: emit_stop_point(in); break;
+      case CycleStep::Kind::dwell: {
+        Gate& gate = in.emit(ItemKind::gate).gate;
+        gate.kind = NC_GATE_DWELL_SECONDS;
+        gate.announce = true;
+        gate.value = step.seconds;
+        break;
+      }
+      case CycleStep::Kind::done:
+        if (--in.holes_left == 0) return Did::done;
+        emit_stop_point(in);  // single block also stops at the end of each hole but the last, where the block itself ends
+        return begin_hole(in);
+    }
+  }
+  return Did::later;
+}
+
+}  // namespace nc

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// G10: offsets by program (M700 12.7, 14.10 (6); DGSHAPE G10).
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+/// Work offsets of one table row; `key(axis)`.
+template <class Key>
+void write_axes(Interpreter& in, bool accumulate, Key key) {
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((in.words.axes >> i) & 1) == 0) continue;
+    const bool add = accumulate && ((in.words.incremental >> i) & 1) != 0;
+    in.set_table(key(i), (add ? in.frames.get(key(i)) : 0.0) + in.words.axis[i]);
+  }
+}
+
+Did work_offset(Interpreter& in, uint32_t l, bool accumulate) {
+  const BlockWords& w = in.words;
+  const bool extended_active = in.state.work_system >= 6;
+  uint32_t p = 0;
+  if (w.has('P')) {
+    const uint32_t last = l == 20 ? in.frames.extended_systems() : 6;
+    if (!whole_number(w.get('P'), &p) || p > last || (l == 20 && p == 0)) return in.raise(Condition::value_range, 'P', w.get('P'));
+  } else if ((l == 20) != extended_active) {
+    return in.raise(Condition::format_error, 'P');  // M700 14.10 (6): without P only for the kind that is selected
+  }
+  unsigned system = in.state.work_system;
+  if (w.has('P')) system = l == 20 ? 5 + p : p - 1;
+  if (w.has('P') && l == 2 && p == 0) {
+    write_axes(in, accumulate, [](unsigned axis) { return Frames::external_key(axis); });
+  } else {
+    write_axes(in, accumulate, [system](unsigned axis) { return Frames::work_key(system, axis); });
+  }
+  return Did::done;
+}
+
+Did tool_offset(Interpreter& in, unsigned column, bool accumulate) {
+  const BlockWords& w = in.words;
+  uint32_t number = 0;
+  if (!w.has('P') || !w.has('R')) return in.raise(Condition::format_error, w.has('P') ? 'R' : 'P');
+  if (!whole_number(w.get('P'), &number) || number == 0 || number > in.frames.tool_offsets())
+    return in.raise(Condition::g10_p, 'P', w.get('P'));
+  const unsigned key = in.frames.tool_key(number, column);
+  const bool add = accumulate && in.state.modal.code[kGroupDistance] == 910;
+  const double amount = (add ? in.frames.get(key) : 0.0) + length_of(in, 'R');
+  // M700 12.1: the range of an offset.
+  if (amount > 99999.999999 || amount < -99999.999999) return in.raise(Condition::value_range, 'R', w.get('R'));
+  in.set_table(key, amount);
+  return Did::done;
+}
+
+Did dgshape_data_input(Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (in.state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', 10);
+  uint32_t l = 0;
+  if (!w.has('L')) return tool_offset(in, NC_TOOL_LENGTH, false);  // G10 P R: tool-diameter offset n
+  if (!whole_number(w.get('L'), &l) || l != 2) return in.raise(Condition::g10_l, 'L', w.get('L'));
+  if (!w.has('P')) return in.raise(Condition::format_error, 'P');
+  return work_offset(in, 2, false);  // absolute, G90/G91 make no difference
+}
+
+}  // namespace
+
+Did do_data_input(Interpreter& in) {
+  if (in.dialect->id == NC_DIALECT_DGSHAPE) return dgshape_data_input(in);
+  const BlockWords& w = in.words;
+  uint32_t l = 2;  // no L is judged as L2
+  if (w.has('L') && !whole_number(w.get('L'), &l)) return in.raise(Condition::g10_l, 'L', w.get('L'));
+  switch (l) {
+    case 2:
+    case 20: return work_offset(in, l, true);
+    case 10: return tool_offset(in, NC_TOOL_LENGTH, true);
+    case 11:
+    case 12:
+    case 13:
+      // Length wear, radius, radius wear exist in tool memory type II only (M700 12.7).
+      if (!in.settings.tool_memory_2) return in.raise(Condition::g10_l, 'L', l);
+      return tool_offset(in, l - 10, true);
+    case 3:
+    case 14:
+    case 50:
+    case 70: return in.raise(Condition::no_function, 'L', l);  // tool life, current limit, parameters: not built
+    default: return in.raise(Condition::g10_l, 'L', l);
+  }
+}
+
+}  // namespace nc

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// G04.
+#include <cmath>
+
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+/// M700 8.1, table of X and P against #1078 and #8112.
+double m700_seconds(const Interpreter& in, char letter) {
+  const BlockWords& w = in.words;
+  const double raw = w.get(letter);
+  const bool pointed = w.pointed(letter);
+  if (letter == 'P' && !in.settings.dwell_p_decimal) return std::trunc(raw) / 1000;  // always whole ms
+  if (pointed) return raw;
+  return in.settings.decimal_type_2 ? raw : raw / 1000;
+}
+
+/// DGSHAPE G04: P is always ms; X with a point seconds, else ms, or seconds where the calculator type reads X.
+double dgshape_seconds(const Interpreter& in, char letter) {
+  const double raw = in.words.get(letter);
+  if (letter == 'P') return raw / 1000;
+  const bool whole = in.settings.calculator && (in.settings.calculator_words == 1 || in.settings.calculator_words == 3);
+  return in.words.pointed('X') || whole ? raw : raw / 1000;
+}
+
+}  // namespace
+
+Did do_dwell(Interpreter& in) {
+  const BlockWords& w = in.words;
+  const char letter = w.has('X') ? 'X' : 'P';
+  if (!w.has(letter)) return in.raise(Condition::words_missing, 'G', 4);
+  const bool m700 = in.dialect->id == NC_DIALECT_M700;
+  const double seconds = m700 ? m700_seconds(in, letter) : dgshape_seconds(in, letter);
+  const double longest = m700 ? 99999.999 : 3600;  // M700 8.1; DGSHAPE G04
+  if (!(seconds >= 0) || seconds > longest) return in.raise(Condition::value_range, letter, w.get(letter));
+  Gate& gate = in.emit(ItemKind::gate).gate;
+  gate.kind = NC_GATE_DWELL_SECONDS;
+  gate.announce = true;
+  gate.value = seconds;
+  return Did::done;
+}
+
+}  // namespace nc

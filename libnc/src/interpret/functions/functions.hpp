@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the functions do: one handler for each one-shot Function of dialect.hpp. To add a function: a Function, a row in the dialect's
+// table, a handler here and its line in one_shot.cpp.
+#pragma once
+
+#include "interpret/interpreter.hpp"
+
+namespace nc {
+
+/// The one-shot function of the block (in.words.one_shot). done, fault, or later.
+Did execute_one_shot(Interpreter& in);
+
+Did do_dwell(Interpreter& in);              // dwell.cpp
+Did do_data_input(Interpreter& in);         // data_input.cpp
+Did do_reference_return(Interpreter& in);   // reference.cpp
+Did do_machine_move(Interpreter& in);       // reference.cpp
+Did do_skip(Interpreter& in);               // skip.cpp
+Did skip_answered(Interpreter& in);         // skip.cpp
+Did do_local_system(Interpreter& in);       // coordinates.cpp
+Did do_coordinate_set(Interpreter& in);     // coordinates.cpp
+Did do_coordinate_preset(Interpreter& in);  // coordinates.cpp
+
+/// Modal functions with more to them than their code.
+Did select_work_system(Interpreter& in, const FunctionRow& row);   // coordinates.cpp
+Did set_compensation(Interpreter& in, Function function);          // compensation.cpp
+Did change_radius(Interpreter& in);                                // compensation.cpp: a D word in the mode
+Did set_length(Interpreter& in, Function function);                // compensation.cpp
+
+/// Fixed cycles (cycle.cpp): the block's cycle code and words; the holes go on in continue_cycle.
+Did do_cycle(Interpreter& in);
+Did continue_cycle(Interpreter& in);
+void cancel_cycle(Interpreter& in);
+
+/// M S T B (auxiliary.cpp). before: everything that goes out before the motion; after: stops, ends, calls.
+Did auxiliary_before(Interpreter& in);
+Did auxiliary_after(Interpreter& in);
+/// Rules about what may share a block (DGSHAPE 2, M700 App.2).
+Did check_company(Interpreter& in);
+
+}  // namespace nc

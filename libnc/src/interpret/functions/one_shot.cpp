@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of one-shot functions.
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+struct Handler {
+  Function function;
+  Did (*run)(Interpreter& in);
+};
+
+constexpr Handler kHandlers[] = {
+    {Function::dwell, do_dwell},
+    {Function::data_input, do_data_input},
+    {Function::reference_return, do_reference_return},
+    {Function::machine_move, do_machine_move},
+    {Function::skip, do_skip},
+    {Function::local_system, do_local_system},
+    {Function::coordinate_set, do_coordinate_set},
+    {Function::coordinate_preset, do_coordinate_preset},
+};
+
+}  // namespace
+
+Did execute_one_shot(Interpreter& in) {
+  for (const Handler& handler : kHandlers)
+    if (handler.function == in.words.one_shot->function) return handler.run(in);
+  return in.raise(Condition::internal, 'G', in.words.one_shot_code / 10.0);
+}
+
+}  // namespace nc

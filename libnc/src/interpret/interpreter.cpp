@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loop: next block, jobs over several calls, checkpoints, rewind, reset.
+#include "interpret/interpreter.hpp"
+
+#include <cstddef>
+#include <cstring>
+
+namespace nc {
+namespace {
+
+unsigned power_of_two_above(unsigned n) {
+  unsigned p = 1;
+  while (p < n) p *= 2;
+  return p;
+}
+
+/// Copies a state without the levels and loops that are not in use.
+void copy_state(State& to, const State& from) {
+  const size_t head = offsetof(State, frame) + (from.depth + 1u) * sizeof(CallFrame);
+  std::memcpy(static_cast<void*>(&to), static_cast<const void*>(&from), head);
+  if (from.loop_count > 0) std::memcpy(to.loop, from.loop, from.loop_count * sizeof(Loop));
+}
+
+void undo_table(void* self, uint32_t key, double old) { static_cast<Interpreter*>(self)->frames.set(key, old); }
+
+}  // namespace
+
+void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_store, CommonVariables* common_variables, Arena& arena) {
+  dialect = config.dialect;
+  system = config.system;
+  system_number = config.system_number;
+  axis_count = config.system->axis_count;
+  for (int8_t& a : axis_of) a = -1;
+  for (unsigned i = 0; i < axis_count; ++i) {
+    axis_of[config.system->axis[i].name - 'A'] = static_cast<int8_t>(i);
+    if (config.system->axis[i].rotary) rotary |= 1u << i;
+  }
+  store = program_store;
+  common = common_variables;
+  const unsigned under_way = power_of_two_above(2 * config.look_ahead + 256);
+  parameters.create(512, arena);
+  frames.create(config.frames, arena);
+  variables.create(common, 4096, arena);
+  reader.create(store, dialect->lex, config.window_bytes, config.look_ahead < 256 ? 16 : 64, arena);
+  transforms.create(under_way, arena);
+  modals.create(under_way, arena);
+  texts.create(64, arena);
+  queue_ = arena.make<Item>(kQueue);
+  const unsigned checkpoints = power_of_two_above(config.look_ahead + 64);
+  checkpoints_ = arena.make<Checkpoint>(checkpoints);
+  checkpoint_mask_ = checkpoints - 1;
+  if (checkpoints_ != nullptr) {
+    refresh_settings();
+    reset();
+    ended = true;  // nothing is selected yet
+  }
+}
+
+AxisVec Interpreter::position() const {
+  const AxisVec z = zero();
+  AxisVec p;
+  for (unsigned i = 0; i < axis_count; ++i) p[i] = state.machine[i] - z[i] - state.applied[i];
+  return p;
+}
+
+void Interpreter::set_table(unsigned key, double value) {
+  variables.note(state.seq + 1, Variables::kForeignKey + key, frames.get(key));
+  frames.set(key, value);
+}
+
+Item& Interpreter::emit(ItemKind kind) {
+  Item& item = queue_[(head_ + queued_) % kQueue];
+  ++queued_;
+  item.kind = kind;
+  item.block_end = kind == ItemKind::mark;
+  item.source = source;
+  if (kind != ItemKind::mark) world_fresh = false;
+  switch (kind) {
+    case ItemKind::move: item.move = Move{}; break;
+    case ItemKind::action: item.action = Action{}; break;
+    case ItemKind::gate: item.gate = Gate{}; break;
+    case ItemKind::sync: item.sync = Sync{}; break;
+    case ItemKind::mark: item.mark = Mark{}; break;
+    case ItemKind::alarm: item.alarm = Fault{}; break;
+    case ItemKind::end: item.end = End{}; break;
+  }
+  return item;
+}
+
+// ---- program selection, reset, rewind ----------------------------------------------------------------------------------
+
+nc_status Interpreter::select(const ProgramRef& program) {
+  main_program = program;
+  reset();
+  return NC_OK;
+}
+
+/// M700 3.7 "reset 2": modal state to its initial values; positions, offsets and G92 shifts stay (M700 9.1).
+void Interpreter::reset() {
+  const AxisVec machine = state.machine;
+  state = State{};
+  state.machine = machine;
+  for (unsigned i = 0; i < NC_GROUPS; ++i) state.modal.code[i] = dialect->initial[i];
+  if (settings.start_inch) state.modal.code[kGroupUnit] = 200;
+  state.frame[0].program = main_program;
+  state.frame[0].offset = state.frame[0].begin = main_program.offset;
+  state.frame[0].line = state.frame[0].begin_line = main_program.line;
+  variables.clear_locals(1);
+  head_ = queued_ = 0;
+  waiting_ = false;
+  next_step = Step::none;
+  statement = 0;
+  ended = !main_program.valid();
+  alarmed = false;
+  world_fresh = false;
+  alarm_fault = Fault{};
+  oldest_checkpoint_ = 0;
+  save_checkpoint();
+}
+
+void Interpreter::set_machine(const AxisVec& machine) {
+  state.machine = machine;
+  oldest_checkpoint_ = state.seq;
+  save_checkpoint();
+}
+
+void Interpreter::save_checkpoint() {
+  Checkpoint& c = checkpoints_[state.seq & checkpoint_mask_];
+  c.seq = state.seq;
+  copy_state(c.state, state);
+  if (state.seq - oldest_checkpoint_ > checkpoint_mask_) oldest_checkpoint_ = state.seq - checkpoint_mask_;
+}
+
+bool Interpreter::rewind(BlockSeq seq) {
+  if (seq > state.seq || seq < oldest_checkpoint_) return false;
+  const Checkpoint& c = checkpoints_[seq & checkpoint_mask_];
+  if (c.seq != seq || !variables.rewind(seq, this, undo_table)) return false;
+  copy_state(state, c.state);
+  head_ = queued_ = 0;
+  waiting_ = false;
+  next_step = Step::none;
+  statement = 0;
+  ended = state.end_seen;
+  alarmed = false;
+  world_fresh = false;
+  return true;
+}
+
+void Interpreter::answer(const nc_world& answered) {
+  world = answered;
+  waiting_ = false;
+  if ((waiting_for_ & NC_SYNC_SKIP) == 0) world_fresh = true;
+}
+
+// ---- blocks ------------------------------------------------------------------------------------------------------------
+
+nc_status Interpreter::step(uint32_t& budget) {
+  while (queued_ == 0) {
+    if (waiting_) return NC_WAITING;
+    if (ended) return alarmed ? NC_ALARMED : NC_ENDED;
+    if (budget == 0) return NC_BUDGET;
+    --budget;
+    const nc_status status = run_block(budget);
+    if (status != NC_OK) return status;
+  }
+  return NC_OK;
+}
+
+bool Interpreter::skipped(const Block& b) const { return b.skip != 0 && ((optional_skip >> b.skip) & 1) != 0; }
+
+nc_status Interpreter::run_block(uint32_t& budget) {
+  (void)budget;
+  if (next_step != Step::none) return settle(continue_block(*this));
+  CallFrame& frame = state.frame[state.depth];
+  source.system = system_number;
+  source.depth = state.depth;
+  source.file = frame.program.file;
+  source.program = frame.program.number;
+  if (state.owes_mark) {  // the block of the call ends with the return
+    state.owes_mark = false;
+    source.line = frame.call_line;
+    finish_block(true);
+    return NC_OK;
+  }
+  block = reader.read(frame.program.file, frame.offset, frame.line);
+  if (block == nullptr) {
+    source.line = frame.line;
+    return settle(raise(Condition::read_failed));
+  }
+  source.line = block->end_of_text ? last_line : block->line;
+  if (!block->end_of_text) last_line = block->line;
+  if (skipped(*block)) {
+    frame.offset = block->next;
+    frame.line = block->next_line;
+    return NC_OK;
+  }
+  if (block->percent || block->end_of_text || (block->has_o && frame.started)) {
+    if (block->percent && !frame.started) {  // the start mark
+      state.percent_seen = true;
+      frame.offset = block->next;
+      frame.line = block->next_line;
+      return NC_OK;
+    }
+    const Did did = text_ended(*this);
+    if (did == Did::later) return NC_OK;
+    return settle(did);
+  }
+  if (dialect->percent_required && state.depth == 0 && !state.percent_seen) return settle(raise(Condition::no_start_mark));
+  if (block->has_o) {
+    frame.program.number = source.program = block->o;
+    state.modal.o = block->o;
+  }
+  if (block->has_n) state.modal.n = block->n;
+  if (block->has_fault) {
+    fault = block->fault;
+    return settle(Did::fault);
+  }
+  if (!block->empty || block->has_n || block->has_o) frame.started = true;
+  const uint64_t begin = block->begin;
+  const uint32_t line = block->line;
+  const uint8_t depth = state.depth;
+  frame.offset = block->next;
+  frame.line = block->next_line;
+  if (block->empty) {
+    if (block->has_n || block->has_o) finish_block(false);
+    return NC_OK;
+  }
+  const Did did = block->statements.empty() ? execute_words(*this) : execute_statements();
+  if (did == Did::sync && next_step == Step::none) {  // read this block again when the answer is there
+    state.frame[depth].offset = begin;
+    state.frame[depth].line = line;
+  }
+  return settle(did);
+}
+
+Did Interpreter::execute_statements() {
+  while (statement < block->statements.size()) {
+    const Did did = execute_statement(*this, block->statements[statement]);
+    if (did == Did::sync) return did;
+    if (did != Did::done) {
+      statement = 0;
+      return did;
+    }
+    ++statement;
+  }
+  statement = 0;
+  return Did::done;
+}
+
+/// What the result of a block makes of the stream.
+nc_status Interpreter::settle(Did did) {
+  switch (did) {
+    case Did::done: {
+      next_step = Step::none;
+      // Macro statements are worked off together with the executable block before them unless #8101 is on (M700 13.5.9).
+      const bool macro = block != nullptr && !block->statements.empty();
+      finish_block(!macro || settings.macro_single);
+      return NC_OK;
+    }
+    case Did::later: return NC_OK;
+    case Did::sync: {
+      Item& item = emit(ItemKind::sync);
+      item.sync.what = sync_needed;
+      waiting_for_ = sync_needed;
+      waiting_ = true;
+      return NC_OK;
+    }
+    case Did::fault: break;
+  }
+  // Nothing of the block that alarms has happened: take back what it has put into the stream, unless parts of it have gone already.
+  if (next_step == Step::none) queued_ = 0;
+  next_step = Step::none;
+  statement = 0;
+  alarm_fault = fault;
+  alarm_source = source;
+  emit(ItemKind::alarm).alarm = fault;
+  Item& end = emit(ItemKind::end);
+  end.end.ok = false;
+  end.end.work = position();
+  end.end.modal = modals.intern(state.modal);
+  ended = alarmed = true;
+  return NC_OK;
+}
+
+void Interpreter::finish_block(bool stop) {
+  ++state.seq;
+  if (state.control_3003 & 1) stop = false;  // M700 10.5: single block suppressed
+  Item& item = emit(ItemKind::mark);
+  item.mark.work = position();
+  item.mark.modal = modals.intern(state.modal);
+  item.mark.seq = state.seq;
+  item.mark.stop = stop;
+  item.mark.report = true;
+  finished_modal = state.modal;
+  world_fresh = false;
+  if (state.end_seen) {
+    Item& end = emit(ItemKind::end);
+    end.end.ok = true;
+    end.end.work = item.mark.work;
+    end.end.modal = item.mark.modal;
+    ended = true;
+  }
+  save_checkpoint();
+}
+
+}  // namespace nc

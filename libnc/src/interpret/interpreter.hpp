@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// The interpreter of one part system: reads a block, works out what it means, puts items into the stream.
+//
+//   interpreter.cpp       the loop: next block, jobs that go over several calls, checkpoints, rewind, reset
+//   block_words.cpp       words -> values: expressions, units, decimal point rules of the dialect
+//   execute_block.cpp     the order in which the words of one block act
+//   functions/*.cpp       what the one-shot and modal functions do, one handler per Function (functions.hpp is the table)
+//   motion.cpp, arc.cpp   moves
+//   flow.cpp              GOTO, WHILE, M98/M99, G65, the ends of programs
+//   system_variables.cpp  #1000 and up
+#pragma once
+
+#include <cstring>
+
+#include "frame/frames.hpp"
+#include "frame/transform.hpp"
+#include "interpret/block_words.hpp"
+#include "interpret/parameters.hpp"
+#include "interpret/state.hpp"
+#include "macro/variables.hpp"
+#include "nc/run.h"
+
+namespace nc {
+
+/// Result of executing something.
+enum class Did : uint8_t {
+  done,
+  fault,   ///< Interpreter::fault says what
+  sync,    ///< Interpreter::sync_needed says what is missing; do the same again when it is there
+  later    ///< the block goes on at the next call (a cycle, an answer)
+};
+
+/// A text under way to the operator.
+struct Message {
+  nc_text text{};
+  bool operator==(const Message& other) const { return std::strcmp(text.s, other.text.s) == 0; }
+};
+
+struct InterpreterConfig {
+  const Dialect* dialect = nullptr;
+  const nc_system_config* system = nullptr;
+  uint8_t system_number = 1;
+  uint32_t look_ahead = 1024;
+  uint32_t window_bytes = 65536;
+  FramesConfig frames;
+};
+
+struct Interpreter {
+  void create(const InterpreterConfig& config, ProgramStore* store, CommonVariables* common, Arena& arena);
+
+  // ---- the stream ---------------------------------------------------------------------------------------------------
+  /// Front of the items made and not yet taken, nullptr = none.
+  Item* front() { return queued_ == 0 ? nullptr : &queue_[head_ % kQueue]; }
+  void pop() {
+    ++head_;
+    --queued_;
+  }
+  /// Makes more items: NC_OK (look at front()), NC_WAITING (a sync is open), NC_BUDGET, NC_ENDED, NC_ALARMED.
+  nc_status step(uint32_t& budget);
+  void answer(const nc_world& world);
+
+  // ---- programs -----------------------------------------------------------------------------------------------------
+  nc_status select(const ProgramRef& program);
+  /// To the head of the selected program; modal state as after reset 2 (M700 3.7).
+  void reset();
+  /// Back to right behind the block `seq`; false when it is too old.
+  bool rewind(BlockSeq seq);
+  /// Forget checkpoints; go on from here (position of the machine).
+  void set_machine(const AxisVec& machine);
+  void refresh_settings() { settings = parameters.settings(*dialect); }
+
+  // ---- for the functions (interpret/ only) --------------------------------------------------------------------------
+  const Dialect* dialect = nullptr;
+  const nc_system_config* system = nullptr;
+  uint8_t system_number = 1;
+  unsigned axis_count = 3;
+  uint32_t rotary = 0;             ///< bit i: axis i is rotary
+  int8_t axis_of[26];              ///< axis index by letter, -1 = none
+
+  State state;
+  Settings settings;
+  Parameters parameters;
+  Frames frames;
+  Variables variables;
+  CommonVariables* common = nullptr;
+  ProgramStore* store = nullptr;
+  BlockReader reader;
+  InternPool<Transform> transforms;
+  InternPool<ModalState> modals;
+  InternPool<Message> texts;
+  ProgramRef main_program;
+  uint32_t optional_skip = 0;      ///< switches, bit n = /n
+
+  Fault fault;
+  uint32_t sync_needed = 0;
+  nc_world world{};
+  bool world_fresh = false;        ///< `world` is the answer to a sync and nothing has been emitted since
+  bool ended = false, alarmed = false;
+  Fault alarm_fault;
+  nc_source alarm_source{};
+  ModalState finished_modal;       ///< as the last finished block left it: the block in execution, at a sync (#4201...)
+  uint32_t last_line = 1;          ///< of the last block read
+  uint32_t user_alarm_text = 0;    ///< text of the last #3000
+
+  // the block in hand
+  const Block* block = nullptr;
+  nc_source source{};
+  BlockWords words;
+  unsigned statement = 0;          ///< next macro statement of the block
+  Step next_step = Step::none;
+  Hole hole;
+  HoleProgress progress;
+  uint32_t holes_left = 0;
+  AxisVec hole_increment;
+  uint32_t hole_axes = 0;
+  bool motion_done = false;
+  bool block_starts_incremental = false; ///< G91 was modal before this block
+  bool distance_by_word = false;         ///< an axis word goes by the G90/G91 before it in the block (M700 5.1)
+
+  Item& emit(ItemKind kind);
+  bool queue_has_room() const { return queued_ < kQueue - kReserve; }
+  Did raise(Condition condition, char letter = 0) {
+    fault = Fault{};
+    fault.condition = condition;
+    fault.letter = letter;
+    return Did::fault;
+  }
+  Did raise(Condition condition, char letter, double value) {
+    raise(condition, letter);
+    fault.has_value = true;
+    fault.value = value;
+    return Did::fault;
+  }
+  Did need(uint32_t what) {
+    sync_needed = what;
+    return Did::sync;
+  }
+
+  /// The block of `source` has ended: its mark (and the end, after M02/M30), and the checkpoint to rewind to.
+  void finish_block(bool stop);
+  unsigned macro_level() const { return state.frame[state.depth].macro_level; }
+
+  /// Active zero and the position in it.
+  AxisVec zero() const { return frames.zero(state.work_system); }
+  AxisVec position() const;
+  /// Journalled write to the frames' table.
+  void set_table(unsigned key, double value);
+
+ private:
+  static constexpr unsigned kQueue = 64;    ///< items a block may make before the stages take them
+  static constexpr unsigned kReserve = 24;  ///< one step of a job never makes more than this
+  struct Checkpoint {
+    BlockSeq seq;
+    State state;
+  };
+
+  nc_status run_block(uint32_t& budget);
+  nc_status settle(Did did);
+  void save_checkpoint();
+  Did execute_statements();
+  bool skipped(const Block& b) const;
+
+  Item* queue_ = nullptr;
+  unsigned head_ = 0, queued_ = 0;
+  bool waiting_ = false;
+  uint32_t waiting_for_ = 0;
+  Checkpoint* checkpoints_ = nullptr;
+  uint32_t checkpoint_mask_ = 0;
+  BlockSeq oldest_checkpoint_ = 0;
+};
+
+/// interpret/execute_block.cpp: a block of words.
+Did execute_words(Interpreter& in);
+/// Goes on with a block that said Did::later.
+Did continue_block(Interpreter& in);
+
+/// interpret/flow.cpp
+Did execute_statement(Interpreter& in, const Statement& statement);
+Did call_sub(Interpreter& in);          ///< M98
+Did return_sub(Interpreter& in);        ///< M99
+Did call_macro(Interpreter& in);        ///< G65
+Did text_ended(Interpreter& in);        ///< the end of the text, or '%'
+
+/// interpret/system_variables.cpp
+Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault* fault, uint32_t* sync);
+Did write_system_variable(Interpreter& in, uint32_t number, Value value, const Statement& statement);
+/// Reader over everything, for evaluate().
+VariableReader variable_reader(Interpreter& in);
+
+/// interpret/motion.cpp
+struct LinearStyle {
+  nc_move_kind kind = NC_MOVE_LINE;
+  double feed_mm_min = 0;
+  bool exact_stop = false;
+  bool transparent = false;   ///< radius compensation vectors are away for this move
+  uint8_t skip_mask = 0;
+};
+/// A straight move to `target` in the active coordinates; `commanded` = axes named in the block (tool length is applied to them).
+void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
+/// A straight rapid to machine coordinates without any compensation on the `commanded` axes (G53, second leg of G28).
+void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded);
+Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw);
+/// The motion that the words of the block ask for by the modal group 1.
+Did move_by_words(Interpreter& in);
+/// F in force as mm/min, 0 = none.
+double feed_mm_min(const Interpreter& in);
+/// The end point that the words ask for.
+AxisVec target_of_words(const Interpreter& in);
+
+/// interpret/arc.cpp
+struct ArcWords {
+  bool has_radius = false;
+  double radius = 0;
+  double center[2] = {0, 0};   ///< increments from the start, plane axes
+  uint32_t turns = 0;
+};
+/// Circle through start and end on the plane axes; Condition::none when it exists.
+Condition make_circle(const double start[2], const double end[2], const ArcWords& words, bool ccw, double tolerance, Circle* circle,
+                      bool* no_motion);
+
+}  // namespace nc

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "interpret/parameters.hpp"
+
+#include <cstring>
+
+namespace nc {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool same_word(const char* word, size_t length, const char* text) {
+  for (size_t i = 0; i < length; ++i)
+    if (text[i] == 0 || lower(word[i]) != lower(text[i])) return false;
+  return text[length] == 0;
+}
+
+/// Decimal number with sign and point; false when the text is anything else.
+bool parse_number(const char* text, double* value) {
+  bool negative = false;
+  if (*text == '-' || *text == '+') negative = *text++ == '-';
+  double number = 0, scale = 1;
+  bool any = false, point = false;
+  for (; *text != 0; ++text) {
+    if (*text == '.' && !point) {
+      point = true;
+    } else if (is_digit(*text)) {
+      any = true;
+      if (point) scale *= 10;
+      number = number * 10 + (*text - '0');
+    } else {
+      return false;
+    }
+  }
+  *value = (negative ? -number : number) / scale;
+  return any;
+}
+
+/// Index of `text` in "a|b|c", -1 when it is none of them.
+int word_index(const char* words, const char* text) {
+  int index = 0;
+  for (const char* at = words;; ++index) {
+    const char* bar = std::strchr(at, '|');
+    const size_t length = bar != nullptr ? static_cast<size_t>(bar - at) : std::strlen(at);
+    if (same_word(at, length, text)) return index;
+    if (bar == nullptr) return -1;
+    at = bar + 1;
+  }
+}
+
+/// "1267" or "1267/bit0": the number keys of the M700.
+bool is_number_key(const char* key) {
+  unsigned digits = 0;
+  while (is_digit(*key)) ++key, ++digits;
+  if (digits == 0 || digits > 6) return false;
+  if (*key == 0) return true;
+  if (std::strncmp(key, "/bit", 4) != 0) return false;
+  key += 4;
+  if (!is_digit(*key)) return false;
+  while (is_digit(*key)) ++key;
+  return *key == 0;
+}
+
+}  // namespace
+
+void Parameters::create(unsigned capacity, Arena& arena) {
+  entries_ = arena.make<Entry>(capacity);
+  capacity_ = capacity;
+}
+
+Parameters::Entry* Parameters::find(const char* key, int axis) const {
+  for (unsigned i = 0; i < count_; ++i)
+    if (entries_[i].axis == axis && std::strcmp(entries_[i].key, key) == 0) return &entries_[i];
+  return nullptr;
+}
+
+nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, const char* text) {
+  if (key == nullptr || text == nullptr || std::strlen(key) >= sizeof(Entry::key)) return NC_E_NOT_FOUND;
+  double value = 0;
+  const ParameterName* named = nullptr;
+  for (const ParameterName& row : dialect.parameters)
+    if (std::strcmp(row.key, key) == 0) named = &row;
+  if (named != nullptr && named->words != nullptr) {
+    const int index = word_index(named->words, text);
+    if (index < 0) return NC_E_ARGUMENT;
+    value = index;
+  } else if (named != nullptr || (dialect.id == NC_DIALECT_M700 && is_number_key(key))) {
+    // #1003 takes the letters of 2.1; any letter is stored by its code.
+    if (!parse_number(text, &value)) {
+      if (text[0] == 0 || text[1] != 0) return NC_E_ARGUMENT;
+      value = static_cast<unsigned char>(text[0]);
+    }
+  } else {
+    return NC_E_NOT_FOUND;
+  }
+  Entry* entry = find(key, axis);
+  if (entry == nullptr) {
+    if (count_ == capacity_) return NC_E_MEMORY;
+    entry = &entries_[count_++];
+    std::strcpy(entry->key, key);
+    entry->axis = static_cast<int8_t>(axis);
+  }
+  entry->value = value;
+  return NC_OK;
+}
+
+bool Parameters::get(const char* key, int axis, double* value) const {
+  const Entry* entry = find(key, axis);
+  if (entry == nullptr && axis >= 0) entry = find(key, -1);
+  if (entry != nullptr) {
+    *value = entry->value;
+    return true;
+  }
+  // A bit of a parameter that was set as a whole.
+  const char* slash = std::strchr(key, '/');
+  if (slash == nullptr) return false;
+  char whole[24] = {};
+  std::memcpy(whole, key, static_cast<size_t>(slash - key));
+  double bits = 0, bit = 0;
+  if (!get(whole, axis, &bits) || !parse_number(slash + 4, &bit)) return false;
+  *value = static_cast<double>((static_cast<uint64_t>(bits) >> static_cast<unsigned>(bit)) & 1);
+  return true;
+}
+
+Settings Parameters::settings(const Dialect& dialect) const {
+  Settings s;
+  auto number = [this](const char* key, double fallback, int axis = -1) {
+    double value = fallback;
+    get(key, axis, &value);
+    return value;
+  };
+  auto flag = [&number](const char* key) { return number(key, 0) != 0; };
+  if (dialect.id == NC_DIALECT_DGSHAPE) {
+    s.calculator = number("interpretation", 0) != 0;
+    s.calculator_words = static_cast<uint8_t>(number("calculator_words", s.calculator ? 1 : 0));
+    s.comp_type_b = number("startup", 0) != 0;
+    s.arc_tolerance = 0.01;  // the manual gives none; docs/decisions.md
+    return s;
+  }
+  // M700 2.1: #1003 B C D E, each ten times finer.
+  double finer = 1;
+  const int letter = static_cast<int>(number("1003", 'B'));
+  for (int i = 'B'; i < letter && i < 'E'; ++i) finer *= 10;
+  s.setting_unit_mm = 0.001 / finer;
+  s.setting_unit_inch = 0.0001 / finer;
+  s.setting_unit_deg = 0.001 / finer;
+  const double cunit = number("1015", 0);
+  s.command_unit_mm = cunit > 0 ? cunit * 0.0001 : s.setting_unit_mm;
+  s.command_unit_inch = cunit > 0 ? cunit * 0.00001 : s.setting_unit_inch;
+  s.command_unit_deg = cunit > 0 ? cunit * 0.0001 : s.setting_unit_deg;
+  s.decimal_type_2 = flag("1078");
+  s.tenfold = number("UNIT*10", 1);
+  if (s.tenfold == 0) s.tenfold = 1;
+  s.dwell_p_decimal = flag("8112");
+  s.arc_tolerance = number("1084", s.arc_tolerance);
+  s.drilling_axis_z = flag("1080");
+  s.tool_memory_2 = number("1037", 1) == 2;
+  s.diameter_offsets = flag("8117");
+  s.comp_type_b = flag("1229/bit2");
+  s.skip_feed = number("1174", 0);
+  s.peck_clearance_83 = number("8013", 0);
+  s.peck_clearance_73 = number("8012", 0);
+  s.macro_single = flag("8101");
+  s.asin_0_360 = flag("1273/bit0");
+  s.run_time_hours = flag("1273/bit1");
+  s.start_inch = flag("1152");
+  for (unsigned i = 0; i < kMaxAxes; ++i) s.index_increment[i] = number("2106", 0, static_cast<int>(i));
+  return s;
+}
+
+}  // namespace nc

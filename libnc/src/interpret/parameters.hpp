@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Control parameters: a small store by key, and the typed values that the interpreter works with.
+#pragma once
+
+#include "base/arena.hpp"
+#include "dialect/dialect.hpp"
+
+namespace nc {
+
+/// Parameters as the interpreter uses them. Names say what they do; the manual's number stands beside each.
+struct Settings {
+  double command_unit_mm = 0.001;     ///< #1015 cunit (0: #1003 iunit): an undotted position word, metric
+  double command_unit_inch = 0.0001;  ///< the same in inch
+  double command_unit_deg = 0.001;
+  double setting_unit_mm = 0.001;     ///< #1003 iunit: undotted I J K R
+  double setting_unit_inch = 0.0001;
+  double setting_unit_deg = 0.001;
+  bool decimal_type_2 = false;        ///< #1078
+  double tenfold = 1;                 ///< "UNIT*10"
+  bool dwell_p_decimal = false;       ///< #8112
+  double arc_tolerance = 0.1;         ///< #1084 RadErr, mm
+  bool drilling_axis_z = false;       ///< #1080
+  bool tool_memory_2 = false;         ///< #1037 = 2
+  bool diameter_offsets = false;      ///< #8117
+  bool comp_type_b = false;           ///< #1229 bit 2
+  double skip_feed = 0;               ///< #1174, mm/min
+  double peck_clearance_83 = 0;       ///< #8013, mm
+  double peck_clearance_73 = 0;       ///< #8012, mm
+  bool macro_single = false;          ///< #8101
+  bool asin_0_360 = false;            ///< #1273 bit 0
+  bool start_absolute = true;
+  bool start_inch = false;            ///< #1152
+  double index_increment[kMaxAxes] = {};  ///< #2106, deg, 0 = not checked
+  bool run_time_hours = false;        ///< #1273 bit 1
+  bool preset_allowed = true;         ///< #1267 bit 0: G92.1 in list 1
+  // DGSHAPE settings
+  bool calculator = false;
+  uint8_t calculator_words = 0;       ///< 0 none, 1 all, 2 F, 3 IJKRXYZA
+};
+
+class Parameters {
+ public:
+  void create(unsigned capacity, Arena& arena);
+  nc_status set(const Dialect& dialect, const char* key, int axis, const char* text);
+  /// Value of "1229/bit2", "1084", a name; false = never set.
+  bool get(const char* key, int axis, double* value) const;
+  /// Typed view; call after changes.
+  Settings settings(const Dialect& dialect) const;
+
+ private:
+  struct Entry {
+    char key[24];
+    int8_t axis;   ///< -1 = all axes
+    double value;
+  };
+  Entry* find(const char* key, int axis) const;
+  Entry* entries_ = nullptr;
+  unsigned capacity_ = 0, count_ = 0;
+};
+
+}  // namespace nc

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole state of the interpreter of one part system, as one copyable value. What is not in here is either a table that is
+// journalled (frame/frames.hpp, macro/variables.hpp) or fixed while a program runs (parameters, programs).
+#pragma once
+
+#include "cycle/drilling.hpp"
+#include "modal/modal_state.hpp"
+#include "program/store.hpp"
+#include "stream/stream.hpp"
+
+namespace nc {
+
+inline constexpr unsigned kMaxFrames = 9;     ///< main program and eight levels (M700 13.3.1)
+inline constexpr unsigned kMaxLoops = 108;    ///< DO-END: 27 in each program (M700 13.5.7), four macro levels deep at most
+
+enum class CallKind : uint8_t { main, sub, macro };
+
+/// One level of the call stack.
+struct CallFrame {
+  ProgramRef program;
+  uint64_t offset = 0;        ///< next block
+  uint64_t begin = 0;         ///< first block of a pass (H word), where a repetition starts again
+  uint32_t line = 1, begin_line = 1;
+  uint32_t call_line = 0;     ///< of the block that made the level above this one: its mark comes after the return
+  uint32_t repeats = 0;       ///< passes still to come after this one
+  CallKind kind = CallKind::main;
+  uint8_t macro_level = 0;
+  uint8_t loop_base = 0;      ///< loops of this level start here
+  bool started = false;       ///< a block of this program has been executed: a further O line is another program
+};
+
+/// An open DO.
+struct Loop {
+  uint64_t offset = 0;        ///< of its WHILE/DO block
+  uint64_t body = 0;          ///< of the block behind that
+  uint64_t end = 0;           ///< of the block behind its END; 0 = not known yet
+  uint32_t line = 0;
+  uint32_t end_line = 0;
+  uint32_t number = 0;
+};
+
+/// What a block still has to do after its first items; always Step::none at a mark that reports.
+enum class Step : uint8_t { none, cycle, skip_answered, after_motion };
+
+struct State {
+  BlockSeq seq = 0;           ///< blocks executed
+  AxisVec machine;            ///< end of the last move, machine coordinates, without radius compensation
+  AxisVec applied;            ///< tool length as applied to each axis
+  ModalState modal;
+  Compensation comp;          ///< tool radius compensation in force
+  double length_value = 0;    ///< tool length compensation in force ...
+  uint8_t length_axis = 2;    ///< ... on this axis
+  uint8_t work_system = 0;    ///< 0..5 G54..G59, 6.. G54.1 P1..
+  bool spindle_on = false;
+  bool end_seen = false;
+  bool percent_seen = false;  ///< the start mark of the main program has been read
+  uint32_t moves_since_comp_off = 1; ///< M700 P112: a plane change right after G40 needs a move in between
+  uint8_t control_3003 = 0, control_3004 = 0;
+  double clock_base[2] = {0, 0};  ///< what #3001, #3002 read 0 at, ms
+  CycleState cycle;
+  bool owes_mark = false;     ///< the block that called a program has ended with the return and still needs its mark
+  uint8_t depth = 0;
+  uint8_t loop_count = 0;
+  // Only the first depth + 1 frames and loop_count loops are meaningful, and only these are copied into checkpoints.
+  CallFrame frame[kMaxFrames];
+  Loop loop[kMaxLoops];
+};
+
+}  // namespace nc

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The expression compiler: text -> short stack code in the block that it stands in. Private to the lexer and expression.hpp.
+//
+//   formula   = [sign] operand { operator [sign] operand }       + - OR XOR  below  * / MOD AND  below functions (M700 13.5.6)
+//   operand   = number | variable | '[' formula ']' | function '[' formula ']' | '[' '#' NAME ']'
+//   variable  = '#' digits | '#' variable | '#' '[' formula ']'                                  (M700 13.4 (1))
+//   condition = '[' formula (EQ NE GT LT GE LE) formula ']'                                      (M700 13.5.7)
+#pragma once
+
+#include "macro/expression.hpp"
+#include "program/scan.hpp"
+
+namespace nc {
+
+/// Instructions of the stack machine; operands follow the byte.
+enum class Op : uint8_t {
+  end,
+  constant,        ///< u8: push Block::constants[u8]
+  small,           ///< i16: push
+  variable,        ///< u24: push the value of this variable
+  load,            ///< number -> value of that variable
+  name,            ///< u16 u8: push the number of the variable with this name, a range of Block::text
+  negate,          ///< vacant becomes 0
+  negate_word,     ///< vacant stays vacant: X-#1 is ignored like X#1 (M700 13.5.4)
+  add, subtract, bit_or, bit_xor, multiply, divide, modulo, bit_and,
+  sin, cos, tan, asin, acos, atan, sqrt, abs, bin, bcd, round, fix, fup, ln, exp,
+  equal, not_equal, greater, less, greater_equal, less_equal
+};
+
+/// Numbers of a stack that no expression of five brackets can exceed: two waiting operands per level, the one at work, and one to spare.
+inline constexpr unsigned kMaxBrackets = 5;  // M700 13.4 (Note 2)
+inline constexpr unsigned kStackDepth = 2 * (kMaxBrackets + 1) + 4;
+
+/// True when a function name and '[' stand here: XSIN[30].
+bool starts_function(Cursor at);
+
+class ExpressionCompiler {
+ public:
+  ExpressionCompiler(Block& block, Cursor* at) : block_(block), at_(*at) {}
+
+  /// A formula; stops at the first character that cannot go on with it.
+  bool expression(uint16_t* code) { return start(code) && sum(0, false) && emit(Op::end); }
+  /// The same without brackets around it: only the four operators, and a sign that belongs to the word.
+  bool word_value(uint16_t* code);
+  /// '[' formula comparison formula ']'
+  bool condition(uint16_t* code);
+  /// Formula, or formula comparison formula, with or without brackets around it.
+  bool expression_or_condition(uint16_t* code);
+  /// '#' ..., or [#NAME]: code that gives the number of the variable and not its value.
+  bool variable_number(uint16_t* code);
+
+  const Fault& fault() const { return fault_; }
+
+ private:
+  bool start(uint16_t* code);
+  bool sum(unsigned depth, bool comparison_allowed);
+  bool product(unsigned depth, bool comparison_allowed);
+  bool signed_operand(unsigned depth, bool comparison_allowed);
+  bool operand(unsigned depth, bool comparison_allowed, bool negative);
+  bool bracket(unsigned depth, bool comparison_allowed);
+  bool comparison(unsigned depth, bool* found);
+  bool variable(unsigned depth, bool value_wanted);
+  bool name();
+  bool number(bool negative);
+  bool constant(double value);
+  bool variable_code(uint32_t number);
+  bool emit(Op op) { return byte(static_cast<uint8_t>(op)); }
+  bool byte(unsigned value);
+  bool fail(Condition condition);
+  bool fail(Condition condition, double value);
+
+  Block& block_;
+  Cursor& at_;
+  Fault fault_;
+  bool word_ = false;       ///< unbracketed in a word
+  bool compared_ = false;   ///< a comparison has been compiled
+};
+
+}  // namespace nc

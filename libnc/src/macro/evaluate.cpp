@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// The evaluator: a stack machine over the code of macro/compile.hpp, and the arithmetic of M700 13.5.6.
+#include <cmath>
+#include <cstdint>
+
+#include "dialect/alarms.hpp"
+#include "macro/compile.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;
+
+/// Relative difference that a control with some ten digits (M700 13.5.6, table of accuracy) does not see.
+constexpr double kNoise = 1e-9;
+constexpr double kLargestNoise = 1e-4;  ///< cap, so that large numbers keep their visible fractions
+
+double noise(double x) {
+  const double scale = std::fabs(x) > 1 ? std::fabs(x) : 1;
+  const double width = kNoise * scale;
+  return width < kLargestNoise ? width : kLargestNoise;
+}
+
+double fix(double x) {  // towards 0; 2.9999999999 is 3
+  const double whole = std::floor(std::fabs(x) + noise(x));
+  return x < 0 ? 0 - whole : whole;
+}
+
+double fup(double x) {  // away from 0; 3.0000000001 is 3
+  const double whole = std::ceil(std::fabs(x) - noise(x));
+  return x < 0 ? 0 - whole : whole;
+}
+
+double round_half_away(double x) {
+  const double whole = std::floor(std::fabs(x) + 0.5 + noise(x));
+  return x < 0 ? 0 - whole : whole;
+}
+
+/// sin and cos of degrees, exact at multiples of 30 where the value is 0, +-1/2 or +-1: reduced to [-45, 45] degrees first.
+void sine_cosine(double degrees, double* sine, double* cosine) {
+  double r = std::fmod(degrees, 360.0);
+  const double quarter = std::nearbyint(r / 90.0);
+  r -= quarter * 90.0;
+  const double s = std::fabs(r) == 30.0 ? std::copysign(0.5, r) : std::sin(r * kDegree);
+  const double c = std::cos(r * kDegree);
+  switch (static_cast<int>(quarter) & 3) {
+    case 0: *sine = s, *cosine = c; break;
+    case 1: *sine = c, *cosine = -s; break;
+    case 2: *sine = -s, *cosine = -c; break;
+    default: *sine = -c, *cosine = s; break;
+  }
+  *sine += 0.0;  // no -0
+  *cosine += 0.0;
+}
+
+/// Angle in degrees. A result that is a whole number of degrees but for the last bits is that number: ACOS[0.5] is 60.
+double to_degrees(double radians) {
+  const double degrees = radians / kDegree;
+  const double whole = std::nearbyint(degrees);
+  return std::fabs(degrees - whole) <= 1e-13 * std::fabs(whole) ? whole : degrees;
+}
+
+/// A 32-bit pattern, unsigned or two's complement. False when the value is none.
+bool to_bits(double x, int64_t* bits) {
+  const double whole = fix(x);
+  if (!(whole >= INT32_MIN && whole <= UINT32_MAX)) return false;
+  *bits = static_cast<int64_t>(whole);
+  return true;
+}
+
+double from_bits(int64_t bits) {
+  if (bits < INT32_MIN || bits > UINT32_MAX) bits = static_cast<int64_t>(static_cast<uint32_t>(bits));
+  return static_cast<double>(bits);
+}
+
+/// BIN: decimal digits packed four bits each -> number. BIN[100] = 64.
+bool bcd_to_binary(double x, double* result) {
+  int64_t bits = 0;
+  if (!to_bits(x, &bits) || bits < 0) return false;
+  uint32_t value = 0, weight = 1;
+  for (; bits != 0; bits >>= 4, weight *= 10) {
+    const uint32_t digit = static_cast<uint32_t>(bits & 15);
+    if (digit > 9) return false;
+    value += digit * weight;
+  }
+  *result = value;
+  return true;
+}
+
+/// BCD: number -> decimal digits packed four bits each. BCD[100] = 256.
+bool binary_to_bcd(double x, double* result) {
+  constexpr int64_t kMost = 99999999;  // eight digits fill 32 bits
+  int64_t number = 0;
+  if (!to_bits(x, &number) || number < 0 || number > kMost) return false;
+  uint32_t value = 0;
+  for (unsigned shift = 0; number != 0; number /= 10, shift += 4) value |= static_cast<uint32_t>(number % 10) << shift;
+  *result = value;
+  return true;
+}
+
+/// x is 1 but for the noise of a calculation: taken as 1, so that ASIN[1] found by calculation is not an error.
+double clip_to_one(double x) { return std::fabs(x) > 1 && std::fabs(x) - 1 < kNoise ? std::copysign(1.0, x) : x; }
+
+/// none = *result is good.
+Condition function(Op op, double x, const EvalOptions& options, double* result) {
+  double sine = 0, cosine = 0;
+  switch (op) {
+    case Op::sin: sine_cosine(x, result, &cosine); return Condition::none;
+    case Op::cos: sine_cosine(x, &sine, result); return Condition::none;
+    case Op::tan:  // M700 13.5.6: sin/cos used for tan
+      sine_cosine(x, &sine, &cosine);
+      if (cosine == 0) return Condition::division_by_zero;
+      *result = std::fabs(std::fmod(x, 90.0)) == 45.0 ? std::copysign(1.0, sine * cosine) : sine / cosine;
+      return Condition::none;
+    case Op::asin:
+      x = clip_to_one(x);
+      if (!(std::fabs(x) <= 1)) return Condition::calculation;
+      *result = to_degrees(std::asin(x));
+      if (options.asin_0_360 && *result < 0) *result += 360;  // M700 #1273 bit 0
+      return Condition::none;
+    case Op::acos:
+      x = clip_to_one(x);
+      if (!(std::fabs(x) <= 1)) return Condition::calculation;
+      *result = to_degrees(std::acos(x));
+      return Condition::none;
+    case Op::atan: *result = to_degrees(std::atan(x)); return Condition::none;
+    case Op::sqrt:
+      if (x < 0) return Condition::calculation;
+      *result = std::sqrt(x);
+      return Condition::none;
+    case Op::abs: *result = std::fabs(x); return Condition::none;
+    case Op::bin: return bcd_to_binary(x, result) ? Condition::none : Condition::calculation;
+    case Op::bcd: return binary_to_bcd(x, result) ? Condition::none : Condition::calculation;
+    case Op::round: *result = round_half_away(x); return Condition::none;
+    case Op::fix: *result = fix(x); return Condition::none;
+    case Op::fup: *result = fup(x); return Condition::none;
+    case Op::ln:
+      if (!(x > 0)) return Condition::calculation;
+      *result = std::log(x);
+      return Condition::none;
+    case Op::exp: *result = std::exp(x); return Condition::none;
+    default: return Condition::internal;
+  }
+}
+
+/// Remainder with the sign of the dividend; a remainder that is the divisor but for noise is 0.
+double modulo(double a, double b) {
+  const double r = std::fmod(a, b);
+  return std::fabs(b) - std::fabs(r) <= 1e-12 * std::fabs(a) ? 0.0 : r;
+}
+
+Condition binary(Op op, double a, double b, double* result) {
+  int64_t m = 0, n = 0;
+  switch (op) {
+    case Op::add: *result = a + b; return Condition::none;
+    case Op::subtract: *result = a - b; return Condition::none;
+    case Op::multiply: *result = a * b; return Condition::none;
+    case Op::divide:
+      if (b == 0) return Condition::division_by_zero;
+      *result = a / b;
+      return Condition::none;
+    case Op::modulo:
+      if (b == 0) return Condition::division_by_zero;
+      *result = modulo(a, b);
+      return Condition::none;
+    default: break;
+  }
+  if (!to_bits(a, &m) || !to_bits(b, &n)) return Condition::calculation;
+  *result = from_bits(op == Op::bit_or ? m | n : op == Op::bit_xor ? m ^ n : m & n);
+  return Condition::none;
+}
+
+/// M700 13.5.4 (3): vacant and 0 differ for EQ and NE only.
+bool compare(Op op, const Value& a, const Value& b) {
+  const double x = a.or_zero(), y = b.or_zero();
+  switch (op) {
+    case Op::equal: return a.vacant == b.vacant && x == y;
+    case Op::not_equal: return a.vacant != b.vacant || x != y;
+    case Op::greater: return x > y;
+    case Op::less: return x < y;
+    case Op::greater_equal: return x >= y;
+    default: return x <= y;
+  }
+}
+
+Eval fail(Fault* fault, Condition condition, double value) {
+  *fault = Fault{};
+  fault->condition = condition;
+  fault->has_value = true;
+  fault->value = value;
+  return Eval::fault;
+}
+
+}  // namespace
+
+bool variable_number(const Value& value, uint32_t* number) {
+  const double x = value.or_zero();
+  if (!(x > -kNoise && x < UINT32_MAX)) return false;
+  *number = static_cast<uint32_t>(std::floor(x + 0.5 + kNoise));
+  return true;
+}
+
+Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, const EvalOptions& options, Value* value,
+              Fault* fault, uint32_t* sync) {
+  Value stack[kStackDepth];
+  unsigned top = 0;  // number of values on the stack
+  const uint8_t* p = block.code.begin() + code;
+  for (;;) {
+    const Op op = static_cast<Op>(*p++);
+    switch (op) {
+      case Op::end: *value = stack[0]; return Eval::ok;
+      case Op::constant: stack[top++] = Value::of(block.constants[*p++]); break;
+      case Op::small:
+        stack[top++] = Value::of(static_cast<int16_t>(static_cast<uint16_t>(p[0] | p[1] << 8)));
+        p += 2;
+        break;
+      case Op::variable: {
+        const uint32_t number = static_cast<uint32_t>(p[0] | p[1] << 8 | p[2] << 16);
+        p += 3;
+        const Eval got = reader.read(reader.self, number, &stack[top++], fault, sync);
+        if (got != Eval::ok) return got;
+        break;
+      }
+      case Op::load: {
+        uint32_t number = 0;
+        Value& v = stack[top - 1];
+        if (!variable_number(v, &number)) return fail(fault, Condition::variable_number, v.or_zero());
+        const Eval got = reader.read(reader.self, number, &v, fault, sync);
+        if (got != Eval::ok) return got;
+        break;
+      }
+      case Op::name: {
+        const unsigned begin = static_cast<unsigned>(p[0] | p[1] << 8), length = p[2];
+        p += 3;
+        uint32_t number = 0;
+        if (reader.find_name == nullptr || !reader.find_name(reader.self, block.text.begin() + begin, length, &number)) {
+          *fault = Fault{};
+          fault->condition = Condition::variable_name;
+          return Eval::fault;
+        }
+        stack[top++] = Value::of(number);
+        break;
+      }
+      case Op::negate: stack[top - 1] = Value::of(0 - stack[top - 1].or_zero()); break;
+      case Op::negate_word:
+        if (!stack[top - 1].vacant) stack[top - 1].number = -stack[top - 1].number;
+        break;
+      case Op::equal:
+      case Op::not_equal:
+      case Op::greater:
+      case Op::less:
+      case Op::greater_equal:
+      case Op::less_equal:
+        --top;
+        stack[top - 1] = Value::of(compare(op, stack[top - 1], stack[top]) ? 1 : 0);
+        break;
+      default: {
+        const bool two = op <= Op::bit_and;
+        if (two) --top;
+        const double x = stack[top - 1].or_zero();
+        double result = 0;
+        const Condition wrong =
+            two ? binary(op, x, stack[top].or_zero(), &result) : function(op, x, options, &result);
+        if (wrong != Condition::none) return fail(fault, wrong, two ? stack[top].or_zero() : x);
+        if (!std::isfinite(result)) return fail(fault, Condition::calculation, x);
+        stack[top - 1] = Value::of(result);
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace nc

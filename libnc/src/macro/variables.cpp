@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "macro/variables.hpp"
+
+#include <limits>
+
+namespace nc {
+namespace {
+
+/// Vacant in storage: a NaN. No calculation stores one, the evaluator refuses results that are not finite.
+constexpr double kVacant = std::numeric_limits<double>::quiet_NaN();
+
+bool is_vacant(double stored) { return stored != stored; }
+Value from_storage(double stored) { return is_vacant(stored) ? Value{} : Value::of(stored); }
+double to_storage(const Value& value) { return value.vacant ? kVacant : value.number; }
+
+void fill_vacant(double* slots, size_t count) {
+  if (slots == nullptr) return;  // measuring, or out of memory: the arena says so
+  for (size_t i = 0; i < count; ++i) slots[i] = kVacant;
+}
+
+// Journal keys of local variables: beside the numbers of common variables, below kForeignKey.
+constexpr uint32_t kLocalKey = 0x20000000;
+constexpr uint32_t local_key(unsigned level, unsigned number) { return kLocalKey | level << 8 | number; }
+
+}  // namespace
+
+// ---- common variables ----------------------------------------------------------------------------------------------
+
+void CommonVariables::create(const CommonRanges& ranges, Arena& arena) {
+  ranges_ = ranges;
+  for (unsigned i = 0; i < 3; ++i) {
+    slot_[i] = nullptr;
+    if (ranges.last[i] < ranges.first[i]) continue;
+    const size_t count = ranges.last[i] - ranges.first[i] + 1;
+    slot_[i] = arena.make<double>(count);
+    fill_vacant(slot_[i], count);
+  }
+}
+
+bool CommonVariables::exists(uint32_t number) const {
+  for (unsigned i = 0; i < 3; ++i) {
+    if (number >= ranges_.first[i] && number <= ranges_.last[i]) return true;
+  }
+  return false;
+}
+
+Value CommonVariables::get(uint32_t number) const {
+  for (unsigned i = 0; i < 3; ++i) {
+    if (number >= ranges_.first[i] && number <= ranges_.last[i]) return from_storage(slot_[i][number - ranges_.first[i]]);
+  }
+  return {};
+}
+
+void CommonVariables::set(uint32_t number, Value value) {
+  for (unsigned i = 0; i < 3; ++i) {
+    if (number < ranges_.first[i] || number > ranges_.last[i]) continue;
+    slot_[i][number - ranges_.first[i]] = to_storage(value);
+    return;
+  }
+}
+
+bool CommonVariables::next(uint32_t from, uint32_t* number, double* value) const {
+  bool found = false;
+  for (unsigned i = 0; i < 3; ++i) {
+    const uint32_t first = from > ranges_.first[i] ? from : ranges_.first[i];
+    for (uint32_t n = first; n <= ranges_.last[i] && !(found && n >= *number); ++n) {
+      const double stored = slot_[i][n - ranges_.first[i]];
+      if (is_vacant(stored)) continue;
+      *number = n;
+      *value = stored;
+      found = true;
+      break;
+    }
+  }
+  return found;
+}
+
+// ---- journal -------------------------------------------------------------------------------------------------------
+
+void Journal::create(unsigned capacity, Arena& arena) {
+  ring_ = arena.make<Entry>(capacity);
+  mask_ = capacity - 1;
+  clear();
+}
+
+void Journal::note(BlockSeq seq, uint32_t key, Value old) {
+  if (head_ - tail_ > mask_) lost_ = ring_[tail_++ & mask_].seq;
+  ring_[head_++ & mask_] = Entry{seq, old.number, key, old.vacant};
+}
+
+BlockSeq Journal::oldest() const { return lost_ + 1; }
+
+void Journal::clear() {
+  head_ = tail_ = 0;
+  lost_ = 0;
+}
+
+// ---- variables of a part system ------------------------------------------------------------------------------------
+
+void Variables::create(CommonVariables* common, unsigned journal_capacity, Arena& arena) {
+  common_ = common;
+  journal_.create(journal_capacity, arena);
+  local_ = reinterpret_cast<double(*)[kLocals]>(arena.make<double>(size_t{kLocalLevels} * kLocals));
+  if (local_ != nullptr) fill_vacant(local_[0], size_t{kLocalLevels} * kLocals);
+}
+
+bool Variables::get(uint32_t number, unsigned level, Value* value) const {
+  if (number - 1 < kLocals) {
+    *value = from_storage(local_[level][number - 1]);
+    return true;
+  }
+  if (!common_->exists(number)) return false;
+  *value = common_->get(number);
+  return true;
+}
+
+bool Variables::set(uint32_t number, unsigned level, Value value, BlockSeq seq) {
+  if (number - 1 < kLocals) {
+    double& slot = local_[level][number - 1];
+    journal_.note(seq, local_key(level, number - 1), from_storage(slot));
+    slot = to_storage(value);
+    return true;
+  }
+  if (!common_->exists(number)) return false;
+  journal_.note(seq, number, common_->get(number));
+  common_->set(number, value);
+  return true;
+}
+
+void Variables::enter(unsigned level, const Value* arguments, BlockSeq seq) {
+  for (unsigned i = 0; i < kLocals; ++i) {
+    double& slot = local_[level][i];
+    if (is_vacant(slot) && arguments[i].vacant) continue;
+    journal_.note(seq, local_key(level, i), from_storage(slot));
+    slot = to_storage(arguments[i]);
+  }
+}
+
+void Variables::clear_locals(BlockSeq seq) {
+  static constexpr Value kNoArguments[kLocals] = {};
+  for (unsigned level = 0; level < kLocalLevels; ++level) enter(level, kNoArguments, seq);
+}
+
+void Variables::note(BlockSeq seq, uint32_t key, double old) { journal_.note(seq, key, Value::of(old)); }
+
+bool Variables::rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uint32_t key, double old)) {
+  if (seq + 1 < journal_.oldest()) return false;
+  journal_.rewind(seq, [&](uint32_t key, Value old) {
+    if (key >= kForeignKey) {
+      if (foreign != nullptr) foreign(self, key, old.number);
+    } else if ((key & kLocalKey) != 0) {
+      local_[key >> 8 & 0xff][key & 0xff] = to_storage(old);
+    } else {
+      common_->set(key, old);
+    }
+  });
+  return true;
+}
+
+}  // namespace nc

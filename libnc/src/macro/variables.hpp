@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Local and common variables and the journal that can undo what was written while reading ahead.
+#pragma once
+
+#include "base/arena.hpp"
+#include "macro/expression.hpp"
+
+namespace nc {
+
+inline constexpr unsigned kLocals = 33;       ///< #1..#33
+inline constexpr unsigned kLocalLevels = 5;   ///< main program and four macro levels (M700 13.5.2)
+
+/// Which common variables exist (M700 13.4).
+struct CommonRanges {
+  uint32_t first[3] = {100, 500, 900000};
+  uint32_t last[3] = {199, 999, 899999};      ///< the third range is empty unless it is set (option: 907399)
+};
+
+/// Common variables of a control, shared by its part systems. Storage for 100..199, 500..999 and, where it is configured, 900000..907399.
+class CommonVariables {
+ public:
+  void create(const CommonRanges& ranges, Arena& arena);
+  bool exists(uint32_t number) const;
+  Value get(uint32_t number) const;          ///< number must exist
+  void set(uint32_t number, Value value);
+  /// First number >= from that is not vacant; false = none.
+  bool next(uint32_t from, uint32_t* number, double* value) const;
+
+ private:
+  CommonRanges ranges_;
+  double* slot_[3] = {};
+};
+
+/// Old values by the block that overwrote them; bounded: the oldest entries go first, and with them the ability to rewind that far.
+class Journal {
+ public:
+  void create(unsigned capacity, Arena& arena);  ///< capacity: power of two
+  void note(BlockSeq seq, uint32_t key, Value old);
+  BlockSeq oldest() const;                       ///< rewinding to seq >= oldest() - 1 is possible
+  /// Takes entries newer than `seq` back, newest first, through `undo`.
+  template <class Undo>
+  void rewind(BlockSeq seq, Undo&& undo);
+  void clear();
+
+ private:
+  struct Entry {
+    BlockSeq seq;
+    double number;
+    uint32_t key;
+    bool vacant;
+  };
+  Entry* ring_ = nullptr;
+  uint32_t mask_ = 0;
+  uint64_t head_ = 0, tail_ = 0;
+  BlockSeq lost_ = 0;
+};
+
+/// Variables of one part system.
+class Variables {
+ public:
+  void create(CommonVariables* common, unsigned journal_capacity, Arena& arena);
+
+  /// Local or common variable; false when the number is neither (system variables are interpret/system_variables.hpp).
+  bool get(uint32_t number, unsigned level, Value* value) const;
+  bool set(uint32_t number, unsigned level, Value value, BlockSeq seq);
+
+  /// Locals of `level` become `arguments` (33 values).
+  void enter(unsigned level, const Value* arguments, BlockSeq seq);
+  void clear_locals(BlockSeq seq);
+
+  /// Journal key for something that is not a variable (offset tables, outputs): the owner undoes it in rewind().
+  void note(BlockSeq seq, uint32_t key, double old);
+  static constexpr uint32_t kForeignKey = 0x40000000;  ///< keys from here on belong to the caller
+
+  /// Undo every write made by blocks after `seq`; false when the journal does not reach back that far.
+  /// foreign(self, key, old) is called for foreign keys.
+  bool rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uint32_t key, double old));
+
+ private:
+  CommonVariables* common_ = nullptr;
+  Journal journal_;
+  double (*local_)[kLocals] = nullptr;
+};
+
+template <class Undo>
+void Journal::rewind(BlockSeq seq, Undo&& undo) {
+  while (head_ != tail_ && ring_[(head_ - 1) & mask_].seq > seq) {
+    --head_;
+    const Entry& e = ring_[head_ & mask_];
+    undo(e.key, Value{e.number, e.vacant});
+  }
+}
+
+}  // namespace nc

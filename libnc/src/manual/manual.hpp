@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Manual motion of the axes of one part system: jog, step, handle and reference return. Each axis is a trapezoid of its own that
+// can always stop at its soft limit.
+#pragma once
+
+#include "interpolate/record.hpp"
+#include "nc/run.h"
+
+namespace nc {
+
+struct ManualConfig {
+  unsigned axis_count = 3;
+  AxisLimits limits[kMaxAxes];
+  AxisVec soft_min, soft_max;
+  uint32_t soft_limited = 0;
+  AxisVec reference;
+  double cycle_s = 0.001;
+};
+
+class Manual {
+ public:
+  void create(const ManualConfig& config) { config_ = config; }
+  /// One cycle. `position` is moved; `stop` brakes every axis to rest and gives targets up. Call it only while no program moves.
+  void cycle(const nc_manual* wish, bool stop, AxisVec* position) NC_RT;
+  /// A cycle in which no manual motion is possible: only remembers what is commanded, so that an edge stays an edge.
+  void idle(const nc_manual* wish) NC_RT;
+  /// Some axis moves or has a target before it.
+  bool active() const NC_RT { return active_ != 0; }
+
+ private:
+  struct Axis {
+    double velocity = 0;       ///< signed, mm/s or deg/s
+    double target = 0;         ///< where it goes
+    double cap = 0;            ///< speed of this motion
+    uint8_t kind = NC_MANUAL_NONE;  ///< kind commanded in the last cycle
+    bool going = false;        ///< has a target; otherwise it is braking
+  };
+  void wish(unsigned axis, const nc_manual& wish, double position) NC_RT;
+  double move(unsigned axis, double position) NC_RT;
+  double top_speed(unsigned axis) const NC_RT;
+  double acceleration(unsigned axis) const NC_RT;
+  double within(unsigned axis, double target, double position) const NC_RT;
+
+  ManualConfig config_;
+  Axis axis_[kMaxAxes];
+  uint32_t active_ = 0;
+};
+
+}  // namespace nc

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Speed and acceleration limits of segments and joints. The derivation is in docs/motion.md, "Corners without smoothing".
+#include "motion/limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nc {
+namespace {
+
+constexpr double kHalfPi = 1.57079632679489661923;
+
+/// Largest |sin| over the angles from `from` through `sweep`.
+double largest_sine(double from, double sweep) {
+  const double low = std::min(from, from + sweep), high = std::max(from, from + sweep);
+  const double n = std::ceil((low - kHalfPi) / (2 * kHalfPi));
+  if (kHalfPi + n * 2 * kHalfPi <= high) return 1.0;
+  return std::max(std::fabs(std::sin(low)), std::fabs(std::sin(high)));
+}
+
+/// Tangents and curvature of an arc; `most` of the two plane axes is the worst case over its sweep.
+void shape_arc(const Segment& s, const MotionLimits& limits, SegmentShape& g) {
+  const Curve& c = s.curve;
+  const Circle& k = c.circle;
+  g.entry = curve_evaluate(c, 0, limits.axis_count).d1;
+  g.exit = curve_evaluate(c, c.length, limits.axis_count).d1;
+  const double dr = std::fabs(k.radius_end - k.radius_start), turn = std::fabs(k.sweep);
+  const double r_min = std::min(k.radius_start, k.radius_end), r_max = std::max(k.radius_start, k.radius_end);
+  // |dP/du| is smallest where the radius is, so the share of the other axes (constant by u) is largest there.
+  const double slowest = std::sqrt(dr * dr + c.linear2 + turn * turn * r_min * r_min);
+  const double fastest = std::sqrt(dr * dr + c.linear2 + turn * turn * r_max * r_max);
+  for (unsigned i = 0; i < limits.axis_count; ++i) g.most[i] = slowest > 0 ? std::fabs(c.delta[i]) / slowest : 0;
+  g.in_plane = fastest > 0 ? std::sqrt(dr * dr + turn * turn * r_max * r_max) / fastest : 0;
+  const double radial = slowest > 0 ? dr / slowest : 0;
+  g.most[c.h] = std::min(1.0, g.in_plane * largest_sine(k.angle_start, k.sweep) + radial);
+  g.most[c.v] = std::min(1.0, g.in_plane * largest_sine(k.angle_start + kHalfPi, k.sweep) + radial);
+  // In the plane the curvature of R(t) is (R^2 + 2 R'^2) / (R^2 + R'^2)^1.5, falling with R; along the helix it acts with in_plane^2.
+  const double slope = turn > 0 ? dr / turn : 0;
+  const double q = r_min * r_min + slope * slope;
+  const double plane_curvature = q > 0 ? (q + slope * slope) / (q * std::sqrt(q)) : 0;
+  g.curvature = plane_curvature * g.in_plane * g.in_plane;
+  if (dr > 1e-8 * r_max) g.curvature *= 1.02;  // the change of in_plane along a spiral with a lead
+}
+
+/// Acceleration limit of the plane: the weaker of its two axes.
+double plane_acceleration(const Curve& c, const MotionLimits& limits) {
+  const double h = limits.axis[c.h].acceleration, v = limits.axis[c.v].acceleration;
+  const double ah = h > 0 ? h : kUnlimitedAcceleration, av = v > 0 ? v : kUnlimitedAcceleration;
+  return std::min(ah, av);
+}
+
+double highest_feed(const Segment& s, const MotionLimits& limits) {
+  if (s.rapid || s.feed_mm_rev > 0 || !(s.feed_mm_s > 0)) return HUGE_VAL;
+  return s.skip ? s.feed_mm_s : s.feed_mm_s * limits.max_feed_override;
+}
+
+/// Speed that keeps the per-axis velocity limits and the bound on segments per cycle.
+double velocity_limit(const Segment& s, const SegmentShape& g, const MotionLimits& limits) {
+  double v = kSegmentsPerCycle * s.curve.length / limits.cycle_s;
+  for (unsigned i = 0; i < limits.axis_count; ++i) {
+    const AxisLimits& a = limits.axis[i];
+    const double axis = s.rapid && a.rapid > 0 ? a.rapid : a.velocity;
+    if (axis > 0 && g.most[i] * v > axis) v = axis / g.most[i];
+  }
+  return v;
+}
+
+/// Path acceleration at which `keep` of some axis' limit is reached, centripetal acceleration at speed v included.
+double path_acceleration(const Segment& s, const SegmentShape& g, double keep, double v, const MotionLimits& limits) {
+  const Curve& c = s.curve;
+  double a = kUnlimitedAcceleration;
+  for (unsigned i = 0; i < limits.axis_count; ++i) {
+    const double axis = limits.axis[i].acceleration;
+    if (axis <= 0 || (c.circular && (i == c.h || i == c.v))) continue;
+    if (g.most[i] * a > keep * axis) a = keep * axis / g.most[i];
+  }
+  if (c.circular && g.in_plane > 0) {
+    const double whole = keep * plane_acceleration(c, limits), centripetal = v * v * g.curvature;
+    const double rest = std::sqrt(std::max(0.0, whole * whole - centripetal * centripetal));
+    if (g.in_plane * a > rest) a = rest / g.in_plane;
+  }
+  return a;
+}
+
+/// Speed at which centripetal acceleration takes kArcShare of `keep`.
+double arc_speed(const Segment& s, const SegmentShape& g, double keep, const MotionLimits& limits) {
+  if (!s.curve.circular || g.curvature <= 0) return HUGE_VAL;
+  return std::sqrt(kArcShare * keep * plane_acceleration(s.curve, limits) / g.curvature);
+}
+
+}  // namespace
+
+SegmentShape shape_of(const Segment& s, const MotionLimits& limits) {
+  SegmentShape g;
+  const Curve& c = s.curve;
+  if (c.length > 0) {
+    if (c.circular) {
+      shape_arc(s, limits, g);
+    } else {
+      const double per_mm = 1 / c.length;
+      for (unsigned i = 0; i < limits.axis_count; ++i) {
+        g.entry[i] = g.exit[i] = c.delta[i] * per_mm;
+        g.most[i] = std::fabs(g.entry[i]);
+      }
+    }
+  }
+  const double v = std::min(velocity_limit(s, g, limits), arc_speed(s, g, 1.0, limits));
+  g.reach = std::min(v, highest_feed(s, limits));
+  g.bare = path_acceleration(s, g, 1.0, g.reach, limits);
+  return g;
+}
+
+Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb, const MotionLimits& limits) {
+  // Largest change of direction, in units of each axis' acceleration: s^2/mm.
+  double change = 0;
+  for (unsigned i = 0; i < limits.axis_count; ++i) {
+    const double limit = limits.axis[i].acceleration;
+    if (limit > 0) change = std::max(change, std::fabs(sb.entry[i] - sa.exit[i]) / limit);
+  }
+  const double dt = limits.cycle_s;
+  const double reach = std::min(sa.reach, sb.reach);
+  const double shortest = std::min(a.curve.length, b.curve.length);
+  Joint joint;
+  joint.share = reach * (reach * dt / shortest + 1) * change / dt;
+  joint.speed2 = reach * reach;
+  if (joint.share <= kCornerShare) return joint;
+  // v (v dt/L + 1) change = share dt, solved for v without cancellation.
+  joint.share = kCornerShare;
+  const double p = dt / shortest, q = kCornerShare * dt / change;
+  const double v = 2 * q / (1 + std::sqrt(1 + 4 * p * q));
+  joint.speed2 = v * v;
+  // A corner that is passed slower than one cycle of braking is not worth passing: rest, so that its point is hit exactly.
+  if (v <= std::min(sa.bare, sb.bare) * dt) joint = {};
+  return joint;
+}
+
+double reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape, const MotionLimits& limits) {
+  if (joint.speed2 <= 0) return 0;
+  // Behind a short neighbour lie other corners that fall into the same cycle.
+  return neighbour.curve.length < shape.reach * limits.cycle_s ? kCornerShare : joint.share;
+}
+
+void set_segment_limits(Segment& s, const SegmentShape& g, double share, const MotionLimits& limits) {
+  const double keep = 1 - share;
+  s.speed_limit = std::min(velocity_limit(s, g, limits), arc_speed(s, g, keep, limits));
+  s.acceleration = path_acceleration(s, g, keep, std::min(s.speed_limit, highest_feed(s, limits)), limits);
+}
+
+}  // namespace nc

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the axis limits mean for one segment and for the joint between two: speeds and path accelerations that no axis limit is
+// broken by, whatever the override does. docs/motion.md derives every formula in here.
+#pragma once
+
+#include "interpolate/record.hpp"
+
+namespace nc {
+
+/// A scan crosses at most this many segments in one cycle: path speed <= kSegmentsPerCycle * length / cycle.
+inline constexpr unsigned kSegmentsPerCycle = 16;
+/// At most this many other records lie between two segments that are passed at speed; where there are more the path comes to rest.
+inline constexpr unsigned kRecordsBetween = 8;
+/// Largest share of an axis' acceleration that the velocity steps at corners may take.
+inline constexpr double kCornerShare = 0.5;
+/// Largest share that centripetal acceleration may take on an arc; the rest (in quadrature) is left for speeding up and braking.
+inline constexpr double kArcShare = 0.9;
+/// Path acceleration where no axis is limited, mm/s^2.
+inline constexpr double kUnlimitedAcceleration = 1e9;
+
+struct MotionLimits {
+  unsigned axis_count = 3;
+  AxisLimits axis[kMaxAxes];
+  double cycle_s = 0.001;
+  double max_feed_override = 2.0;
+};
+
+/// What joints and limits need to know of a segment's geometry.
+struct SegmentShape {
+  AxisVec entry, exit;   ///< unit tangents d1 at the start and at the end
+  AxisVec most;          ///< largest |d1| of each axis over the segment
+  double curvature = 0;  ///< largest |d2| in the plane of an arc, 1/mm
+  double in_plane = 0;   ///< largest |d1| in the plane of an arc
+  double reach = 0;      ///< no speed on this segment is ever higher, mm/s
+  double bare = 0;       ///< path acceleration without any reserve for corners, mm/s^2
+};
+
+/// Geometry and the highest speed of a segment.
+SegmentShape shape_of(const Segment& segment, const MotionLimits& limits);
+
+/// How the path passes from one segment to the next.
+struct Joint {
+  double speed2 = 0;  ///< (mm/s)^2; 0 = at rest
+  double share = 0;   ///< of every axis' acceleration, what the velocity step takes at that speed
+};
+
+/// The joint from a to b where nothing asks for rest.
+Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb, const MotionLimits& limits);
+
+/// Share of the axes' acceleration to reserve on a segment for what happens at (and shortly behind) one of its ends.
+double reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape, const MotionLimits& limits);
+
+/// Fills speed_limit and acceleration of a segment of which `share` is reserved for corner steps.
+void set_segment_limits(Segment& segment, const SegmentShape& shape, double share, const MotionLimits& limits);
+
+}  // namespace nc

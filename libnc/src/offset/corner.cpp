@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The geometry of a joint; the derivation stands in the header.
+#include "offset/corner.hpp"
+
+#include <cmath>
+
+namespace nc {
+namespace {
+
+constexpr double kSmallTurn = 1e-6;       // rad: below it two tangents count as one direction
+constexpr double kRightAngle = 1e-6;      // 90 degrees belongs to the obtuse corners (M700 12.4.1)
+constexpr double kNoLength_mm = 1e-9;
+// "Extremely large" (M700 12.4.2, G40 I J K) has no number in the manual: chosen as ten times the amount, a turn of 168.5 degrees.
+constexpr double kExtremelyLarge = 10;
+
+Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) { return {p[axis[0]], p[axis[1]]}; }
+
+// Perpendicular, lengthened, lengthened, perpendicular. The form of the manual's figure is lost: each offset line is lengthened by
+// the amount and the ends are linked, as is usual.
+Joint lengthened_joint(const Leg& before, double offset_before, const Leg& behind, double offset_behind) {
+  Joint joint;
+  joint.n = 4;
+  joint.lengthened = true;
+  joint.v[0] = perpendicular(before, offset_before);
+  joint.v[1] = joint.v[0] + std::abs(offset_before) * before.u;
+  joint.v[3] = perpendicular(behind, offset_behind);
+  joint.v[2] = joint.v[3] - std::abs(offset_behind) * behind.u;
+  return joint;
+}
+
+Joint two_perpendiculars(const Leg& before, double offset_before, const Leg& behind, double offset_behind) {
+  Joint joint;
+  joint.v[0] = perpendicular(before, offset_before);
+  joint.v[1] = perpendicular(behind, offset_behind);
+  joint.n = norm(joint.v[1] - joint.v[0]) > kNoLength_mm ? 2 : 1;
+  return joint;
+}
+
+// M700 12.4.2 "Changing the compensation direction": the intersection of the two offset curves; where there is none, both
+// perpendiculars. An intersection that lies far off, or cuts more off a block than there is, counts as none.
+Joint joint_of_side_change(const Leg& before, double offset_before, double length_before, const Leg& behind,
+                           double offset_behind, double length_behind) {
+  Vec2 w;
+  const bool meets = offset_exists(before, offset_before) && offset_exists(behind, offset_behind) &&
+                     intersection(before, offset_before, behind, offset_behind, &w) &&
+                     norm(w) <= kExtremelyLarge * std::abs(offset_before) && -dot(w, before.u) <= length_before &&
+                     dot(w, behind.u) <= length_behind;
+  return meets ? Joint::single(w) : two_perpendiculars(before, offset_before, behind, offset_behind);
+}
+
+}  // namespace
+
+Joint Joint::single(Vec2 w) {
+  Joint joint;
+  joint.v[0] = w;
+  joint.n = 1;
+  return joint;
+}
+
+bool make_legs(const Move& move, Leg* begin, Leg* end) {
+  const uint8_t* axis = move.comp.axis;
+  const Vec2 start = in_plane(move.start, axis), finish = in_plane(move.end, axis);
+  if (move.circular) {
+    if (move.plane_axis[0] != axis[0] || move.plane_axis[1] != axis[1]) return false;
+    const Vec2 center{move.circle.center[0], move.circle.center[1]};
+    const double turning = move.circle.sweep < 0 ? -1 : 1;
+    const double r0 = norm(start - center), r1 = norm(finish - center);
+    if (move.circle.sweep == 0 || r0 < kNoLength_mm || r1 < kNoLength_mm) return false;
+    *begin = {(turning / r0) * left_of(start - center), turning / r0};
+    *end = {(turning / r1) * left_of(finish - center), turning / r1};
+    return true;
+  }
+  if (!(norm(finish - start) > kNoLength_mm)) return false;
+  *begin = *end = {unit(finish - start), 0};
+  return true;
+}
+
+Turn classify(Vec2 u_before, Vec2 u_behind, double offset) {
+  const double c = cross(u_before, u_behind), d = dot(u_before, u_behind);
+  if (std::abs(c) < kSmallTurn) return d > 0 ? Turn::straight : Turn::acute;  // straight back: round the end
+  if ((c > 0) == (offset > 0)) return Turn::inner;  // the path turns towards the tool
+  return d > -kRightAngle ? Turn::obtuse : Turn::acute;
+}
+
+bool intersection(const Leg& before, double offset_before, const Leg& behind, double offset_behind, Vec2* w) {
+  const double c = cross(before.u, behind.u), d = dot(before.u, behind.u);
+  const double oa = offset_before, ob = offset_behind, ka = before.curvature, kb = behind.curvature;
+  if (std::abs(c) < kSmallTurn) {
+    if (d < 0 || oa != ob) return false;
+    *w = oa * (left_of(before.u) - (c / (1 + d)) * before.u);  // the lines' formula; the error is of the order of c squared
+    return true;
+  }
+  // With p = q - oa^2: w = w0 + p w1 solves both linear equations, |w|^2 = p + oa^2 gives p.
+  Vec2 w0;
+  if (oa == ob) {
+    const double half_turn = d > 0 ? c / (1 + d) : (1 - d) / c;  // tan(turn / 2), without cancellation
+    w0 = oa * (left_of(before.u) - half_turn * before.u);
+  } else {
+    w0 = (1 / c) * (oa * behind.u - (ob + kb / 2 * (oa * oa - ob * ob)) * before.u);
+  }
+  const Vec2 w1 = (0.5 / c) * (ka * behind.u - kb * before.u);
+  const double a2 = dot(w1, w1), a1 = 2 * dot(w0, w1) - 1, a0 = dot(w0, w0) - oa * oa;
+  double discriminant = a1 * a1 - 4 * a2 * a0;
+  if (discriminant < 0) {
+    if (discriminant < -1e-12 * (a1 * a1 + 4 * a2 * std::abs(a0))) return false;
+    discriminant = 0;  // the curves touch
+  }
+  const double root = std::sqrt(discriminant);
+  const double p = a1 < 0 ? 2 * a0 / (root - a1) : (-a1 - root) / (2 * a2);
+  *w = w0 + p * w1;
+  return std::isfinite(w->h) && std::isfinite(w->v);
+}
+
+bool joint_in_mode(const Leg& before, double offset_before, double length_before, const Leg& behind,
+                   double offset_behind, double length_behind, Joint* joint) {
+  if (offset_before == 0) {
+    *joint = Joint::single({});
+    return true;
+  }
+  if (offset_before * offset_behind < 0) {
+    *joint = joint_of_side_change(before, offset_before, length_before, behind, offset_behind, length_behind);
+    return true;
+  }
+  // The vectors at the end of a block have the amount of that block (M700 12.4.5 (2)).
+  const double o = offset_before;
+  const Turn turn = classify(before.u, behind.u, o);
+  Vec2 w;
+  const bool curves = offset_exists(before, o) && offset_exists(behind, o);
+  if (turn != Turn::acute && curves && intersection(before, o, behind, o, &w)) {
+    *joint = Joint::single(w);
+    return true;
+  }
+  if (turn == Turn::inner) return false;
+  *joint = lengthened_joint(before, o, behind, o);
+  return true;
+}
+
+Joint joint_at_start(const Leg& before, const Leg& behind, double offset, bool type_b) {
+  const Turn turn = classify(before.u, behind.u, offset);
+  Vec2 w;
+  if (!type_b || turn == Turn::inner || turn == Turn::straight) return Joint::single(perpendicular(behind, offset));
+  if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return Joint::single(w);
+  return lengthened_joint(before, offset, behind, offset);
+}
+
+Joint joint_at_cancel(const Leg& before, const Leg& behind, double offset, bool type_b) {
+  const Turn turn = classify(before.u, behind.u, offset);
+  Vec2 w;
+  if (!type_b || turn == Turn::inner || turn == Turn::straight) return Joint::single(perpendicular(before, offset));
+  if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return Joint::single(w);
+  return lengthened_joint(before, offset, behind, offset);
+}
+
+Joint joint_at_cancel_vector(const Leg& before, Vec2 direction, double offset) {
+  const Leg hypothetical{unit(direction), 0};
+  Vec2 w;
+  if (norm(direction) > 0 && intersection(before, offset, hypothetical, offset, &w) &&
+      norm(w) <= kExtremelyLarge * std::abs(offset)) {
+    return Joint::single(w);
+  }
+  return Joint::single(perpendicular(before, offset));
+}
+
+Joint joint_corner_arc(const Leg& before, const Leg& behind, double offset) {
+  Joint joint = two_perpendiculars(before, offset, behind, offset);
+  joint.corner_arc = joint.n == 2;
+  return joint;
+}
+
+Vec2 commanded_vector(const Compensation& comp) {
+  const Vec2 direction = unit({comp.vector[0], comp.vector[1]});
+  if (comp.hold_vector) return comp.radius * direction;  // M700 12.4.2, G38 I J: along the words
+  return signed_offset(comp) * left_of(direction);       // M700 12.4.3, G41/G42 I J: at right angles
+}
+
+}  // namespace nc

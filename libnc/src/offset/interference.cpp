@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interference check and avoidance (M700 12.4.8).
+#include "offset/interference.hpp"
+
+#include <cmath>
+
+namespace nc {
+namespace {
+
+// Blocks between two joints that are compared: five blocks are read ahead, an interference behind the fourth moving block is not
+// found (M700 12.4.8 "When interference check cannot be executed").
+constexpr unsigned kMaxSpan = 2;
+constexpr double kBackwards_mm = 1e-6;
+
+// Do the vectors a, standing at the origin, and b, standing at d, cross? Touching ends do not.
+bool vectors_cross(Vec2 a, Vec2 b, Vec2 d) {
+  const double c = cross(a, b);
+  if (std::abs(c) <= 1e-12 * norm(a) * norm(b)) return false;
+  const double s = cross(d, b) / c, t = cross(d, a) / c;
+  const double near_end = 1e-9;
+  return s > near_end && s < 1 - near_end && t > near_end && t < 1 - near_end;
+}
+
+// An offset curve: a line through `point` along `u`, or a circle about `center`.
+struct OffsetCurve {
+  bool circle;
+  Vec2 point, u, center;
+  double radius;
+};
+
+OffsetCurve curve_of(const Leg& leg, Vec2 joint, double offset) {
+  OffsetCurve curve{};
+  curve.circle = leg.curvature != 0;
+  curve.u = leg.u;
+  curve.point = joint + perpendicular(leg, offset);
+  if (curve.circle) {
+    curve.center = joint + (1 / leg.curvature) * left_of(leg.u);
+    curve.radius = std::abs(1 / leg.curvature - offset);
+  }
+  return curve;
+}
+
+unsigned line_circle(const OffsetCurve& line, const OffsetCurve& circle, Vec2 hit[2]) {
+  const Vec2 to_center = circle.center - line.point;
+  const double foot = dot(to_center, line.u), away = cross(line.u, to_center);
+  const double h2 = circle.radius * circle.radius - away * away;
+  if (h2 < 0) return 0;
+  const double h = std::sqrt(h2);
+  hit[0] = line.point + (foot - h) * line.u;
+  hit[1] = line.point + (foot + h) * line.u;
+  return 2;
+}
+
+unsigned circle_circle(const OffsetCurve& a, const OffsetCurve& b, Vec2 hit[2]) {
+  const Vec2 d = b.center - a.center;
+  const double distance = norm(d);
+  if (distance < 1e-9) return 0;
+  const double x = (a.radius * a.radius - b.radius * b.radius + distance * distance) / (2 * distance);
+  const double h2 = a.radius * a.radius - x * x;
+  if (h2 < 0) return 0;
+  const Vec2 e = (1 / distance) * d;
+  const double h = std::sqrt(h2);
+  hit[0] = a.center + x * e + h * left_of(e);
+  hit[1] = a.center + x * e - h * left_of(e);
+  return 2;
+}
+
+unsigned curves_meet(const OffsetCurve& a, const OffsetCurve& b, Vec2 hit[2]) {
+  if (a.circle && b.circle) return circle_circle(a, b, hit);
+  if (a.circle) return line_circle(b, a, hit);
+  if (b.circle) return line_circle(a, b, hit);
+  const double c = cross(a.u, b.u);
+  if (std::abs(c) < 1e-9) return 0;  // parallel walls
+  hit[0] = a.point + (cross(b.point - a.point, b.u) / c) * a.u;
+  return 1;
+}
+
+// From the joint of section i to that of section j, programmed.
+Vec2 joint_distance(const Chain& chain, unsigned i, unsigned j) {
+  Vec2 d;
+  for (unsigned k = i + 1; k <= j; ++k) d = d + chain[k].delta;
+  return d;
+}
+
+Vec2 start_vector(const Chain& chain, unsigned i, Vec2 first_vector) {
+  return i == 0 ? first_vector : chain[i - 1].joint.v[chain[i - 1].joint.n - 1];
+}
+
+// Would a line run backwards between these two vectors? (12.4.8 alarm (2)(a)(ii), (c))
+bool runs_backwards(const Section& section, Vec2 from, Vec2 to) {
+  if (section.begin.curvature != 0) return false;
+  return dot(section.delta + to - from, section.begin.u) < -kBackwards_mm;
+}
+
+// Joins section `i` directly to section `j`; the ones between are left out. False: no avoidance vector can be made.
+bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
+  Section& before = (*chain)[i];
+  const Section& behind = (*chain)[j];
+  if (before.start || before.vanished || behind.vanished || behind.cancel) return false;
+  if (!offset_exists(before.end, before.offset) || !offset_exists(behind.begin, behind.offset)) return false;
+  const Vec2 d = joint_distance(*chain, i, j - 1);
+  const OffsetCurve a = curve_of(before.end, {}, before.offset), b = curve_of(behind.begin, d, behind.offset);
+  Vec2 hit[2];
+  const unsigned hits = curves_meet(a, b, hit);
+  if (hits == 0) return false;
+  const Vec2 middle = 0.5 * d;
+  const Vec2 x = hits == 2 && norm(hit[1] - middle) < norm(hit[0] - middle) ? hit[1] : hit[0];
+  if (runs_backwards(before, start_vector(*chain, i, first_vector), x)) return false;
+  const Vec2 leave = behind.jointed ? behind.joint.v[0] : perpendicular(behind.end, behind.offset);
+  if (runs_backwards(behind, x - d, leave)) return false;
+  before.joint = Joint::single(x);
+  for (unsigned k = i + 1; k < j; ++k) {
+    (*chain)[k].joint = Joint::single(x - joint_distance(*chain, i, k));
+    (*chain)[k].jointed = true;
+    (*chain)[k].dead = true;
+    (*chain)[k].vanished = false;
+  }
+  return true;
+}
+
+// Erases the vectors from `keep_before` on at the end of section i and up to `last_erased` at the end of section j.
+void erase_vectors(Joint* before, unsigned keep_before, Joint* behind, unsigned last_erased) {
+  before->n = static_cast<uint8_t>(keep_before);
+  unsigned n = 0;
+  for (unsigned k = last_erased + 1; k < behind->n; ++k) behind->v[n++] = behind->v[k];
+  behind->n = static_cast<uint8_t>(n);
+  before->lengthened = behind->lengthened = before->corner_arc = behind->corner_arc = false;
+}
+
+struct Crossing {
+  bool found = false;
+  unsigned before = 0, behind = 0;
+};
+
+// From the outermost vectors inwards: (1)-(4)', (2)-(3)', (3)-(2)', (4)-(1)'.
+Crossing find_crossing(const Joint& before, const Joint& behind, Vec2 d) {
+  const unsigned steps = before.n > behind.n ? before.n : behind.n;
+  for (unsigned k = 0; k < steps; ++k) {
+    const unsigned i = k < before.n ? k : before.n - 1u;
+    const unsigned j = k < behind.n ? behind.n - 1u - k : 0u;
+    if (vectors_cross(before.v[i], behind.v[j], d)) return {true, i, j};
+  }
+  return {};
+}
+
+// Checks the joint of section i against that of j. `live` is i, or where i is left out already the section that has taken its place.
+Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may_wait, Vec2 first_vector, unsigned* at) {
+  Section& before = (*chain)[i];
+  Section& behind = (*chain)[j];
+  const Crossing crossing = find_crossing(before.joint, behind.joint, joint_distance(*chain, i, j));
+  if (!crossing.found) return Finding::none;
+  *at = live;
+  const Vec2 a = before.joint.v[crossing.before], b = behind.joint.v[crossing.behind];
+  const Joint whole_before = before.joint;
+  const Joint whole_behind = behind.joint;
+  erase_vectors(&before.joint, crossing.before, &behind.joint, crossing.behind);
+  if (before.joint.n > 0 && behind.joint.n > 0 && j == i + 1) {  // what remains is the path
+    if (!runs_backwards(behind, before.joint.v[before.joint.n - 1], behind.joint.v[0])) return Finding::none;
+    *at = j;
+    return Finding::alarm;
+  }
+  const bool one_sided = behind.joint.n > 0 && whole_behind.n > 1;
+  before.joint = whole_before;
+  behind.joint = whole_behind;
+  if (!before.avoid) return Finding::alarm;  // 12.4.8 alarm (1)
+  // Avoidance: with valid vectors left on one side only it is an alarm (2)(a), with vectors at more than 90 degrees (2)(b).
+  if (one_sided || dot(a, b) < 0) return Finding::alarm;
+  const unsigned farthest = live + 1 + kMaxSpan;
+  for (unsigned target = j + 1; target <= farthest && target < chain->size(); ++target) {
+    if (go_round(chain, live, target, first_vector)) return Finding::none;
+  }
+  return may_wait && chain->size() <= farthest ? Finding::none : Finding::alarm;
+}
+
+bool may_be_erased(const Section& section) {
+  return section.check && section.jointed && !section.commanded && !section.vanished && section.joint.n > 0;
+}
+
+// An arc that has no offset circle at all can only be left out.
+Finding leave_out_vanished(Chain* chain, unsigned last_call, Vec2 first_vector, unsigned* at) {
+  for (unsigned i = 1; i < chain->size(); ++i) {
+    if (!(*chain)[i].vanished) continue;
+    *at = i;
+    bool done = false;
+    for (unsigned target = i + 1; target <= i + kMaxSpan && target < chain->size() && !done; ++target) {
+      done = go_round(chain, i - 1, target, first_vector);
+    }
+    if (!done && (i < last_call || chain->size() > i + kMaxSpan || (*chain)[chain->size() - 1].cancel)) return Finding::alarm;
+  }
+  return Finding::none;
+}
+
+}  // namespace
+
+Finding check_interference(Chain* chain, unsigned last_call, Vec2 first_vector, unsigned* at) {
+  if (leave_out_vanished(chain, last_call, first_vector, at) == Finding::alarm) return Finding::alarm;
+  for (unsigned j = 1; j < chain->size(); ++j) {
+    if (!may_be_erased((*chain)[j]) || (*chain)[j].dead) continue;
+    for (unsigned span = 1; span <= kMaxSpan && span <= j; ++span) {
+      const unsigned i = j - span;
+      if (span > 1 && (*chain)[i + 1].dead) continue;  // seen from the section left out already
+      unsigned live = i;
+      while (live > 0 && (*chain)[live].dead) --live;
+      if (!may_be_erased((*chain)[i]) || !may_be_erased((*chain)[live]) || (*chain)[live].dead) continue;
+      const bool may_wait = live >= last_call;
+      if (check_pair(chain, live, i, j, may_wait, first_vector, at) == Finding::alarm) return Finding::alarm;
+      if ((*chain)[j].dead) break;
+    }
+  }
+  return Finding::none;
+}
+
+}  // namespace nc

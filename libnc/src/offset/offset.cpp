@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stage of tool radius compensation, first half: what it holds back, how the joints are decided and when it lets go.
+// The second half, from vectors to geometry, is outlet.cpp.
+#include "offset/offset.hpp"
+
+#include <cmath>
+#include <type_traits>
+
+#include "dialect/alarms.hpp"
+
+namespace nc {
+
+static_assert(std::is_trivially_copyable_v<OffsetStage>);
+
+namespace {
+
+bool same_plane(const Compensation& a, const Compensation& b) {
+  return a.axis[0] == b.axis[0] && a.axis[1] == b.axis[1];
+}
+
+Vec2 plane_delta(const Move& move) {
+  const uint8_t h = move.comp.axis[0], v = move.comp.axis[1];
+  return {move.end[h] - move.start[h], move.end[v] - move.start[v]};
+}
+
+bool without_length(const Move& move) { return !move.circular && move.start == move.end; }
+
+// The amount of `amount_of` on the side that `side_of` has.
+double offset_on_side(const Compensation& amount_of, const Compensation& side_of) {
+  const double amount = signed_offset(amount_of), side = signed_offset(side_of);
+  return side == 0 ? amount : std::copysign(amount, side);
+}
+
+bool vanishes(const Leg& begin, const Leg& end, double offset) {
+  return !offset_exists(begin, offset) || !offset_exists(end, offset);
+}
+
+// How much of a block there is for a change of side to cut off: the length of a line, the radius of an arc.
+double reach(const Leg& leg, Vec2 delta) { return leg.curvature == 0 ? norm(delta) : std::abs(1 / leg.curvature); }
+
+}  // namespace
+
+bool OffsetStage::can_push() const { return !held_.full(); }
+
+void OffsetStage::push(const Item& item) {
+  if (failed_ || held_.full()) return;
+  Held held;
+  held.item = item;
+  if (item.kind == ItemKind::move) {
+    intake_move(&held);
+  } else {
+    if (inhibits_read_ahead(item)) close();
+    if (!failed_) held_.push(held);
+  }
+  if (!failed_ && item.block_end) count_block_end();
+  if (failed_) return;
+  if (item.kind == ItemKind::mark) {
+    Held& mark = held_at(next_index() - 1);
+    mark.mode = mode_;
+    mark.idle_blocks = idle_blocks_;
+  }
+  settle();
+  // No room to wait any longer. Counted without what only waits to be fetched: the caller's pace never changes the geometry.
+  if (next_index() - released_ == kHeld) close();
+}
+
+void OffsetStage::reset() {
+  held_.clear();
+  chain_.clear();
+  first_ = released_ = blocks_ = 0;
+  mode_ = Mode::off;
+  idle_blocks_ = connecting_ = 0;
+  moved_ = failed_ = lead_done_ = false;
+  comp_ = out_comp_ = Compensation{};
+  tail_ = chain_start_ = vector_ = direction_ = Vec2{};
+  axis_[0] = 0;
+  axis_[1] = 1;
+  programmed_ = compensated_ = AxisVec{};
+  resume_ = OffsetResume{};
+}
+
+OffsetResume OffsetStage::resume_point() const { return resume_; }
+
+void OffsetStage::restore(const OffsetResume& resume) {
+  reset();
+  resume_ = resume;
+  programmed_ = resume.programmed;
+  compensated_ = resume.compensated;
+  direction_ = {resume.direction[0], resume.direction[1]};
+  for (unsigned i = 0; i < 2; ++i) axis_[i] = resume_.comp.axis[i] = resume.comp.axis[i] % kMaxAxes;
+  comp_ = out_comp_ = resume_.comp;
+  if (!resume.active) return;
+  idle_blocks_ = resume.idle_blocks;
+  mode_ = resume.pending ? Mode::pending : Mode::on;
+  vector_ = {compensated_[axis_[0]] - programmed_[axis_[0]], compensated_[axis_[1]] - programmed_[axis_[1]]};
+  tail_ = vector_;
+}
+
+bool OffsetStage::idle() const { return held_.empty() && mode_ == Mode::off && vector_ == Vec2{} && !failed_; }
+
+void OffsetStage::count_block_end() {
+  ++blocks_;
+  if (moved_) {
+    moved_ = false;
+    return;
+  }
+  if (idle_blocks_ < kIdleLimit) ++idle_blocks_;
+  if (idle_blocks_ == kIdleLimit && mode_ != Mode::off) close();
+}
+
+// Nothing more is waited for: four blocks without movement, a pre-read inhibit, or no room (M700 12.4.2). The last block ends
+// perpendicular; a start block gets no vector at all, and a command without a block behind it none either.
+void OffsetStage::close() {
+  if (mode_ == Mode::pending) mode_ = Mode::on;
+  if (Section* last = open()) {
+    if (last->vanished) return fail(last->index, Condition::comp_interference, held_at(last->index).item.source);
+    last->joint = Joint::single(last->start ? Vec2{} : perpendicular(last->end, last->offset));
+    last->jointed = last->commanded = true;
+    tail_ = last->joint.v[0];
+  }
+  if (check_joints(chain_.size())) release(chain_.size());
+}
+
+// ---- moves ----
+
+void OffsetStage::intake_move(Held* held) {
+  Move& move = held->item.move;
+  for (uint8_t& axis : move.comp.axis) axis %= kMaxAxes;
+  if (mode_ == Mode::off && move.comp.side == 0) {
+    if (without_length(move)) held->role = Role::command;
+    held_.push(*held);
+    return;
+  }
+  if (move.comp.side == 0) {  // a cancel stays in the plane of what it cancels
+    move.comp.axis[0] = comp_.axis[0];
+    move.comp.axis[1] = comp_.axis[1];
+  }
+  if (mode_ == Mode::on && !same_plane(move.comp, comp_)) {  // P112 keeps programs from it; the path stays in one piece
+    close();
+    if (failed_) return;
+    held->has_lead = true;
+    tail_ = {};
+  }
+  if (move.comp.side != 0) comp_ = move.comp;
+  Leg begin, end;
+  const bool moves = make_legs(move, &begin, &end);
+  if (move.comp.side == 0 && (!moves || mode_ == Mode::pending)) return intake_uncompensated(held);
+  const bool starts = mode_ == Mode::off;
+  if (starts) {
+    mode_ = Mode::pending;
+    idle_blocks_ = 0;
+    moved_ = true;  // the block of the command itself is not one of the blocks without movement
+  }
+  if (!moves) return without_length(move) ? intake_command(held) : intake_carried(held);
+  if (mode_ == Mode::pending && !starts && !move.comp.transparent) {
+    // M700 12.4.2 (1): the vector of a command without movement is perpendicular at the start of the next moving block.
+    held->has_lead = true;
+    held->lead = tail_ = perpendicular(begin, signed_offset(move.comp));
+    mode_ = Mode::on;
+  }
+  moved_ = true;
+  idle_blocks_ = 0;
+  intake_section(held, begin, end);
+}
+
+// Moves off the plane only: the vector goes along. A move with its vectors taken away loses them all the same.
+void OffsetStage::intake_carried(Held* held) {
+  held->role = Role::carried;
+  if (held->item.move.comp.transparent && mode_ == Mode::on) {
+    close();
+    if (failed_) return;
+    held->role = Role::section;
+    held->joint = Joint::single({});
+    tail_ = {};
+  }
+  held_.push(*held);
+}
+
+// G40 where nothing moves in the plane, or before anything was compensated.
+void OffsetStage::intake_uncompensated(Held* held) {
+  const Move& move = held->item.move;
+  if (mode_ == Mode::pending) {
+    mode_ = Mode::off;
+    if (without_length(move)) held->role = Role::command;
+  } else {
+    held->role = without_length(move) ? Role::command : Role::carried;
+    Section* last = open();
+    if (without_length(move) && move.comp.cancel_vector && last && !last->start && !last->vanished) {
+      last->joint = joint_at_cancel_vector(last->end, {move.comp.vector[0], move.comp.vector[1]}, last->offset);
+      last->jointed = last->commanded = true;
+      held_at(last->index).trim = true;
+      tail_ = last->joint.v[0];
+    }
+  }
+  held_.push(*held);
+}
+
+// A command that does not move: its vector, if it gives one, holds from here on (M700 12.4.3 (4)).
+void OffsetStage::intake_command(Held* held) {
+  const Compensation& comp = held->item.move.comp;
+  held->role = Role::command;
+  Section* last = open();
+  if (comp.corner_arc && comp.has_vector) {  // DGSHAPE G39: from the normal of the block before to the normal of the direction
+    close();
+    if (failed_) return;
+    held->has_lead = held->lead_arc = true;
+    held->lead = tail_ = signed_offset(comp) * left_of(unit({comp.vector[0], comp.vector[1]}));
+  } else if (comp.corner_arc) {
+    if (last) held_at(last->index).item.move.comp.corner_arc = true;
+  } else if (comp.has_vector) {
+    mode_ = Mode::on;
+    tail_ = commanded_vector(comp);
+    if (last && !last->vanished) {
+      last->joint = Joint::single(tail_);
+      last->jointed = last->commanded = true;
+    } else {
+      held->has_lead = true;
+      held->lead = tail_;
+    }
+  }
+  held_.push(*held);
+}
+
+void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
+  const Move& move = held->item.move;
+  const Compensation& comp = move.comp;
+  held->role = Role::section;
+  Section section;
+  section.index = next_index();
+  section.block = blocks_;
+  section.begin = begin;
+  section.end = end;
+  section.delta = plane_delta(move);
+  section.offset = signed_offset(comp);
+  section.start = mode_ == Mode::pending && !comp.transparent;
+  section.cancel = comp.side == 0 || comp.transparent;
+  section.check = comp.check;
+  section.avoid = comp.avoid;
+  section.vanished = !section.cancel && !section.start && vanishes(begin, end, section.offset);
+  if (section.start) mode_ = Mode::on;
+  join(section, held);
+  if (failed_) return;
+  if (chain_.empty()) chain_start_ = tail_;
+  if (section.cancel) {
+    section.joint = Joint::single({});
+    section.jointed = true;
+  } else if (comp.has_vector) {
+    section.joint = Joint::single(commanded_vector(comp));
+    section.jointed = true;
+  } else if (comp.hold_vector) {  // M700 12.4.2 G38: the vector of the end before
+    section.joint = Joint::single(tail_);
+    section.jointed = true;
+  }
+  section.commanded = section.jointed;
+  if (section.jointed) tail_ = section.joint.v[0];
+  if (comp.side == 0) mode_ = Mode::off;
+  chain_.push_back(section);
+  held_.push(*held);
+  check_joints(0);
+}
+
+// ---- joints ----
+
+// Decides the joint between the block that is open and `behind`.
+void OffsetStage::join(const Section& behind, Held* held_behind) {
+  const nc_source& source_behind = held_behind->item.source;
+  Section* last = open();
+  if (behind.vanished) {  // M700 12.4.8: only the avoidance can leave such an arc out, once the block behind it is known
+    const bool avoidable = last && !last->vanished && !last->start && last->check && last->avoid;
+    if (!avoidable) {
+      if (last) close();
+      if (!failed_) fail(behind.index, Condition::comp_interference, source_behind);
+      return;
+    }
+  }
+  if (!last) return;
+  Held& held_last = held_at(last->index);
+  const Compensation& comp_behind = held_behind->item.move.comp;
+  if (last->vanished || behind.vanished) {  // provisional, replaced by the avoidance
+    last->joint = Joint::single(perpendicular(last->end, last->offset));
+    last->jointed = true;
+    tail_ = last->joint.v[0];
+    return;
+  }
+  bool found = true;
+  last->joint = find_joint(*last, held_last.item.move.comp, behind, comp_behind, &found);
+  last->jointed = true;
+  if (!found) return fail(last->index, Condition::comp_no_intersection, held_last.item.source);
+  const bool changes_side = !behind.cancel && last->offset * behind.offset < 0;
+  if (changes_side || comp_behind.cancel_vector) held_last.trim = held_behind->trim = true;
+  last->merge_first = last->end.curvature == 0 && !last->start;
+  last->merge_last = behind.begin.curvature == 0 && !behind.cancel && !comp_behind.hold_vector;
+  tail_ = last->joint.v[last->joint.n - 1];
+}
+
+Joint OffsetStage::find_joint(const Section& before, const Compensation& comp_before, const Section& behind,
+                              const Compensation& comp_behind, bool* found) const {
+  const bool cancels = comp_behind.side == 0;
+  const double offset_behind = cancels ? before.offset : offset_on_side(comp_before, comp_behind);
+  if (before.start) return joint_at_start(before.end, behind.begin, offset_behind, comp_before.type_b);
+  if (cancels && comp_behind.cancel_vector) {
+    return joint_at_cancel_vector(before.end, {comp_behind.vector[0], comp_behind.vector[1]}, before.offset);
+  }
+  if (cancels) return joint_at_cancel(before.end, behind.begin, before.offset, comp_before.type_b);
+  if (comp_before.corner_arc && offset_behind == before.offset) {
+    return joint_corner_arc(before.end, behind.begin, before.offset);
+  }
+  Joint joint;
+  *found = joint_in_mode(before.end, before.offset, reach(before.end, before.delta), behind.begin, offset_behind,
+                         reach(behind.begin, behind.delta), &joint);
+  return joint;
+}
+
+// Interference check of what is held; sections below `last_call` are about to be released. False: the program stops.
+bool OffsetStage::check_joints(unsigned last_call) {
+  if (chain_.size() < 2) return true;
+  unsigned at = 0;
+  if (check_interference(&chain_, last_call, chain_start_, &at) == Finding::alarm) {
+    fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
+    return false;
+  }
+  const Joint& joint = chain_[chain_.size() - (open() ? 2 : 1)].joint;
+  tail_ = joint.v[joint.n - 1];
+  return true;
+}
+
+// ---- letting go ----
+
+bool OffsetStage::may_release(unsigned section) const {
+  const Section& s = chain_[section];
+  if (!s.jointed || s.vanished) return false;
+  if (section + 1 < chain_.size() && chain_[section + 1].vanished) return false;
+  return !s.check || chain_.size() - section >= kChain || blocks_ - s.block >= kLookAheadBlocks;
+}
+
+void OffsetStage::settle() {
+  unsigned n = 0;
+  if (mode_ == Mode::off) {
+    n = chain_.size();
+  } else {
+    while (n < chain_.size() && may_release(n)) ++n;
+  }
+  if (n > 0 && chain_[0].check && !check_joints(n)) return;
+  release(n);
+}
+
+// The first `sections` of the chain have their joints for good.
+void OffsetStage::release(unsigned sections) {
+  for (unsigned i = 0; i < sections; ++i) {
+    Section& section = chain_[i];
+    Joint joint = section.joint;
+    if (joint.lengthened && section.merge_last) --joint.n;
+    if (joint.lengthened && section.merge_first) {
+      --joint.n;
+      for (unsigned k = 0; k < joint.n; ++k) joint.v[k] = joint.v[k + 1];
+    }
+    held_at(section.index).joint = joint;
+    held_at(section.index).dead = section.dead;
+    chain_start_ = joint.v[joint.n - 1];
+  }
+  for (unsigned i = sections; i < chain_.size(); ++i) chain_[i - sections] = chain_[i];
+  chain_.resize(chain_.size() - sections);
+  released_ = chain_.empty() ? next_index() : chain_[0].index;
+}
+
+// The program stops before the move `index`: an alarm takes its place, and what was read behind it is forgotten.
+void OffsetStage::fail(uint32_t index, Condition condition, const nc_source& source) {
+  unsigned before = 0;
+  while (before < chain_.size() && static_cast<int32_t>(chain_[before].index - index) < 0) ++before;
+  release(before);
+  chain_.clear();
+  Held alarm;
+  alarm.item.kind = ItemKind::alarm;
+  alarm.item.source = source;
+  alarm.item.alarm = Fault{};
+  alarm.item.alarm.condition = condition;
+  if (index == next_index()) {
+    held_.push(alarm);
+  } else {
+    held_at(index) = alarm;
+    for (uint32_t i = index + 1; i != next_index(); ++i) {
+      held_at(i) = Held();
+      held_at(i).item.kind = ItemKind::move;
+      held_at(i).item.move = Move();
+      held_at(i).role = Role::command;
+    }
+  }
+  failed_ = true;
+  released_ = next_index();
+}
+
+}  // namespace nc

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stage of tool radius compensation, second half: items whose joints are decided leave it, moves with the geometry of the tool
+// centre. Only straight displacements along the vectors are added to what was programmed.
+#include <cmath>
+
+#include "offset/offset.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kNoLength_mm = 1e-9;
+constexpr double kSamePoint_mm = 1e-8;
+constexpr double kPi = 3.14159265358979323846;
+
+AxisVec shifted(const AxisVec& p, const uint8_t axis[2], Vec2 w) {
+  AxisVec q = p;
+  q[axis[0]] += w.h;
+  q[axis[1]] += w.v;
+  return q;
+}
+
+// Rounding is not a gap: where two ends are the same point they are made the same number.
+AxisVec joined(const AxisVec& start, const AxisVec& last_end) {
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    if (!(std::abs(start[i] - last_end[i]) <= kSamePoint_mm)) return start;
+  }
+  return last_end;
+}
+
+bool has_length(const Move& move) {
+  if (move.circular && std::abs(move.circle.sweep) * move.circle.radius_start > kNoLength_mm) return true;
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    if (std::abs(move.end[i] - move.start[i]) > kNoLength_mm) return true;
+  }
+  return false;
+}
+
+double turned_by(Vec2 from, Vec2 to) { return std::atan2(cross(from, to), dot(from, to)); }
+
+// The centre stays; radii and angles follow the vectors at both ends. Vectors that are not along the radius (I J K, a changed amount)
+// make a spiral. M700 12.4.2 "Arc exceeding 360 degrees": with `trim` only what is beyond the full circle is travelled.
+void shift_circle(Circle* circle, Vec2 start, Vec2 end, Vec2 w_start, Vec2 w_end, bool trim) {
+  if (w_start == Vec2{} && w_end == Vec2{}) return;
+  const Vec2 center{circle->center[0], circle->center[1]};
+  const Vec2 from = start + w_start - center, to = end + w_end - center;
+  const double sweep = circle->sweep + turned_by(end - center, to) - turned_by(start - center, from);
+  circle->radius_start = norm(from);
+  circle->radius_end = norm(to);
+  circle->angle_start = std::atan2(from.v, from.h);
+  const double full = 2 * kPi;
+  const bool exceeds = trim && std::abs(circle->sweep) <= full + 1e-9 && std::abs(sweep) > full + 1e-9;
+  circle->sweep = exceeds ? sweep - std::copysign(full, sweep) : sweep;
+}
+
+Plane plane_of(const Move& like) {
+  if (like.circular) return like.plane;
+  const unsigned h = like.comp.axis[0], v = like.comp.axis[1];
+  if (h == 0 && v == 1) return Plane::xy;
+  if (h == 2 && v == 0) return Plane::zx;
+  return h == 1 && v == 2 ? Plane::yz : Plane::none;
+}
+
+// A straight displacement in the plane, in the manner of the block `like` that it belongs to (M700 7.5 (4): at its feed).
+void make_straight(const Item& like, const AxisVec& programmed, const AxisVec& start, const AxisVec& end, Item* out) {
+  *out = like;
+  out->block_end = false;
+  Move& move = out->move;
+  move.kind = like.move.kind == NC_MOVE_RAPID ? NC_MOVE_RAPID : NC_MOVE_LINE;
+  move.circular = false;
+  move.connecting = true;
+  move.skip_mask = 0;
+  move.turns = 0;
+  move.plane = Plane::none;
+  move.start = start;
+  move.end = end;
+  move.work = programmed;
+  move.circle = Circle{};
+}
+
+// Makes the displacement an arc about the programmed point (G39). Half a turn goes round the outside.
+void bend(const AxisVec& programmed, Vec2 from, Vec2 to, Plane plane, Item* out) {
+  Move& move = out->move;
+  const uint8_t* axis = move.comp.axis;
+  double sweep = turned_by(from, to);
+  if (kPi - std::abs(sweep) < 1e-6) sweep = signed_offset(move.comp) > 0 ? -std::abs(sweep) : std::abs(sweep);
+  move.kind = NC_MOVE_ARC;
+  move.circular = true;
+  move.plane = plane;
+  for (unsigned i = 0; i < 2; ++i) {
+    move.plane_axis[i] = axis[i];
+    move.work_center[i] = move.circle.center[i] = programmed[axis[i]];
+  }
+  move.circle.radius_start = norm(from);
+  move.circle.radius_end = norm(to);
+  move.circle.angle_start = std::atan2(from.v, from.h);
+  move.circle.sweep = sweep;
+}
+
+bool bendable(Vec2 from, Vec2 to) {
+  return norm(from) > kNoLength_mm && std::abs(norm(from) - norm(to)) < 1e-6 && norm(to - from) > kNoLength_mm;
+}
+
+}  // namespace
+
+bool OffsetStage::pop(Item& out) {
+  while (first_ != released_) {
+    Held& held = held_.front();
+    if (held.item.kind == ItemKind::move) {
+      if (pop_move(&held, out)) return true;
+      continue;
+    }
+    out = held.item;
+    if (held.item.kind == ItemKind::mark) note_mark(held);
+    drop_front();
+    return true;
+  }
+  return false;
+}
+
+// One step with the move in front. False: nothing came out of it.
+bool OffsetStage::pop_move(Held* held, Item& out) {
+  if (held->has_lead && !lead_done_) {
+    lead_done_ = true;
+    if (pop_lead(*held, out)) return true;
+  }
+  switch (held->role) {
+    case Role::pass:
+      out = held->item;
+      vector_ = {};
+      note_move(held->item.move, held->item.move.end);
+      drop_front();
+      return true;
+    case Role::command:
+      out_comp_ = held->item.move.comp;
+      drop_front();
+      return false;
+    case Role::carried: {
+      const bool any = pop_shifted(*held, vector_, out);
+      drop_front();
+      return any;
+    }
+    case Role::section: break;
+  }
+  if (connecting_ == 0) {
+    axis_[0] = held->item.move.comp.axis[0];
+    axis_[1] = held->item.move.comp.axis[1];
+    const bool any = pop_shifted(*held, held->joint.v[0], out);
+    if (held->joint.n > 1) {
+      connecting_ = 1;
+    } else {
+      drop_front();
+    }
+    return any;
+  }
+  pop_connecting(*held, out);
+  if (++connecting_ == held->joint.n) drop_front();
+  return has_length(out.move);
+}
+
+// The move itself, from the vector in force to `end_vector`.
+bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
+  const Move programmed = held.item.move;
+  out = held.item;
+  Move& move = out.move;
+  move.start = joined(shifted(programmed.start, axis_, vector_), compensated_);
+  move.end = shifted(programmed.end, axis_, end_vector);
+  if (held.dead && move.circular) {  // only axes off the plane still move
+    move.circular = false;
+    move.kind = NC_MOVE_LINE;
+    move.plane = Plane::none;
+  }
+  if (move.circular && move.plane_axis[0] == axis_[0] && move.plane_axis[1] == axis_[1]) {
+    const Vec2 start{programmed.start[axis_[0]], programmed.start[axis_[1]]};
+    const Vec2 end{programmed.end[axis_[0]], programmed.end[axis_[1]]};
+    shift_circle(&move.circle, start, end, vector_, end_vector, held.trim);
+  } else if (move.circular) {  // an arc in another plane goes along as a whole
+    for (unsigned i = 0; i < 2; ++i) {
+      if (move.plane_axis[i] == axis_[0]) move.circle.center[i] += vector_.h;
+      if (move.plane_axis[i] == axis_[1]) move.circle.center[i] += vector_.v;
+    }
+  }
+  vector_ = end_vector;
+  if (!has_length(move)) {
+    note_move(programmed, compensated_);
+    return false;
+  }
+  note_move(programmed, move.end);
+  return true;
+}
+
+// The displacement before a move: the perpendicular vector of a start without movement, a vector commanded without movement.
+bool OffsetStage::pop_lead(const Held& held, Item& out) {
+  const Move& move = held.item.move;
+  const AxisVec start = joined(shifted(move.start, axis_, vector_), compensated_);
+  const Vec2 from = vector_;
+  axis_[0] = move.comp.axis[0];
+  axis_[1] = move.comp.axis[1];
+  vector_ = held.lead;
+  const AxisVec end = shifted(move.start, axis_, vector_);
+  make_straight(held.item, move.start, start, end, &out);
+  if (held.lead_arc && bendable(from, vector_)) bend(move.start, from, vector_, plane_of(move), &out);
+  if (!has_length(out.move)) return false;
+  compensated_ = end;
+  return true;
+}
+
+// From one vector of a joint to the next (M700 12.4.2 "Corner movement").
+void OffsetStage::pop_connecting(const Held& held, Item& out) {
+  const Move& move = held.item.move;
+  const Vec2 from = held.joint.v[connecting_ - 1], to = held.joint.v[connecting_];
+  make_straight(held.item, move.work, compensated_, shifted(move.end, axis_, to), &out);
+  if (held.joint.corner_arc && bendable(from, to)) bend(move.end, from, to, plane_of(move), &out);
+  vector_ = to;
+  if (has_length(out.move)) compensated_ = out.move.end;
+}
+
+void OffsetStage::drop_front() {
+  held_.pop();
+  ++first_;
+  lead_done_ = false;
+  connecting_ = 0;
+}
+
+void OffsetStage::note_move(const Move& programmed, const AxisVec& compensated_end) {
+  programmed_ = programmed.end;
+  compensated_ = compensated_end;
+  out_comp_ = programmed.comp;
+  Leg begin, end;
+  if (make_legs(programmed, &begin, &end)) direction_ = end.u;
+}
+
+void OffsetStage::note_mark(const Held& held) {
+  resume_.active = held.mode != Mode::off;
+  resume_.pending = held.mode == Mode::pending;
+  resume_.idle_blocks = held.idle_blocks;
+  resume_.comp = out_comp_;
+  resume_.programmed = programmed_;
+  resume_.compensated = compensated_;
+  resume_.direction[0] = direction_.h;
+  resume_.direction[1] = direction_.v;
+}
+
+}  // namespace nc

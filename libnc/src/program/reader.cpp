@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading blocks: window, lexer, cache of compiled blocks.
+//
+// A block is cached from its second reading on. A program that runs straight through is lexed into one block that stays in the
+// first-level cache of the processor; a loop or a subprogram is lexed twice and then taken as it is.
+#include <cstring>
+
+#include "dialect/alarms.hpp"
+#include "program/lexer.hpp"
+#include "program/scan.hpp"
+#include "program/store.hpp"
+
+namespace nc {
+namespace {
+
+/// Text of one block that is longer than the window, made short: blanks and comments left out, but for a comment that may be a
+/// message. Columns are kept beside it.
+class Condenser {
+ public:
+  Condenser(char* buffer, size_t capacity, const LexRules& rules) : rules_(rules), out_(buffer), capacity_(capacity) {}
+
+  /// Takes one character of the source. False when the block ended in front of it (*consumed = false) or with it.
+  bool take(char c, bool* consumed) {
+    *consumed = true;
+    if (source_column_ < UINT8_MAX) ++source_column_;
+    if (state_ == State::percent) return c != '\n';
+    if (state_ == State::comment) {
+      if (c == '\n') return put(c), false;
+      if (c == ')') {
+        if (comment_kept_) put(c);
+        state_ = State::words;
+      } else if (comment_kept_ && comment_length_ < kKeptComment) {
+        ++comment_length_;
+        put(c);
+      }
+      return true;
+    }
+    return take_outside(c, consumed);
+  }
+
+  size_t size() const { return size_; }
+  bool overflowed() const { return overflowed_; }
+  const uint8_t* columns() const { return columns_; }
+
+ private:
+  enum class State : uint8_t { words, comment, name, percent };
+  static constexpr unsigned kKeptComment = 127;
+
+  bool take_outside(char c, bool* consumed) {
+    if (c == '\n' || (c == ';' && rules_.semicolon_ends)) return put(c), false;
+    if (c == '%') {
+      if (significant_) {
+        *consumed = false;
+        return put(c), false;
+      }
+      state_ = State::percent;
+      return put(c), true;
+    }
+    if (c == '(') {
+      state_ = State::comment;
+      comment_kept_ = assigned_;
+      comment_length_ = 0;
+      if (!comment_kept_) return true;
+      if (comment_at_ != kNone) size_ = comment_at_;  // of several comments in a row the last one counts
+      comment_at_ = size_;
+      return put(c), true;
+    }
+    if (state_ == State::name) {
+      if (c == '>') state_ = State::words;
+      return put(c), true;
+    }
+    if (is_blank(c)) return true;
+    significant_ = true;
+    comment_at_ = kNone;
+    if (c == '=') assigned_ = true;
+    if (c == '<' && rules_.angle_names) state_ = State::name;
+    return put(c), true;
+  }
+
+  void put(char c) {
+    if (size_ == capacity_) {
+      overflowed_ = true;
+      return;
+    }
+    if (size_ < 256) columns_[size_] = source_column_;
+    out_[size_++] = c;
+  }
+
+  static constexpr size_t kNone = SIZE_MAX;
+  const LexRules& rules_;
+  char* const out_;
+  const size_t capacity_;
+  size_t size_ = 0;
+  size_t comment_at_ = kNone;  ///< where the comment begins that nothing significant has followed yet
+  State state_ = State::words;
+  unsigned comment_length_ = 0;
+  bool significant_ = false, assigned_ = false, comment_kept_ = false, overflowed_ = false;
+  uint8_t source_column_ = 0;
+  uint8_t columns_[256] = {};
+};
+
+unsigned power_of_two_below(unsigned n) {
+  unsigned power = 1;
+  while (power <= n / 2) power *= 2;
+  return n == 0 ? 0 : power;
+}
+
+}  // namespace
+
+void BlockReader::create(ProgramStore* store, const LexRules* rules, unsigned window_bytes, unsigned cached_blocks,
+                         Arena& arena) {
+  store_ = store;
+  rules_ = rules;
+  window_.create(window_bytes, arena);
+  slots_ = power_of_two_below(cached_blocks);
+  first_time_ = arena.make<Block>();
+  cache_ = arena.make<Block>(slots_);
+  tags_ = arena.make<Tag>(slots_);
+  indexes_ = arena.make<Index>(kIndexes);
+}
+
+size_t BlockReader::slot(uint32_t generation, uint64_t offset) const {
+  const uint64_t mixed = (offset + generation) * 0x9e3779b97f4a7c15u;  // 2^64 / golden ratio: spreads neighbours
+  return static_cast<size_t>(mixed >> 32) & (slots_ - 1);
+}
+
+const Block* BlockReader::read(unsigned file, uint64_t offset, uint32_t line) {
+  const TextEntry* entry = store_->entry(file);
+  if (entry == nullptr) return nullptr;
+  if (slots_ != 0) {
+    const size_t at = slot(entry->generation, offset);
+    if (tags_[at].generation == entry->generation && tags_[at].offset == offset) {
+      Block& block = cache_[at];
+      if (block.line != line) {
+        block.next_line += line - block.line;
+        block.line = line;
+      }
+      return &block;
+    }
+  }
+  return miss(*entry, file, offset, line);
+}
+
+const Block* BlockReader::miss(const TextEntry& entry, unsigned file, uint64_t offset, uint32_t line) {
+  Seen& seen_so_far = seen(entry.generation);
+  Block* block = first_time_;
+  Tag* tag = nullptr;
+  if (offset >= seen_so_far.end) {
+    seen_so_far.end = offset + 1;
+  } else if (slots_ != 0) {
+    const size_t at = slot(entry.generation, offset);
+    block = &cache_[at];
+    tag = &tags_[at];
+    tag->generation = 0;
+  }
+  bool newline = false;
+  if (!compile(entry, offset, *block, &newline)) return nullptr;
+  block->file = static_cast<uint16_t>(file);
+  block->line = line;
+  block->next_line = newline ? line + 1 : line;
+  if (tag != nullptr) *tag = Tag{offset, entry.generation};
+  return block;
+}
+
+BlockReader::Seen& BlockReader::seen(uint32_t generation) {
+  if (seen_[seen_used_].generation == generation) return seen_[seen_used_];
+  for (unsigned i = 0; i < kSeen; ++i) {
+    if (seen_[i].generation != generation) continue;
+    seen_used_ = i;
+    return seen_[i];
+  }
+  seen_used_ = (seen_used_ + 1) % kSeen;
+  seen_[seen_used_] = Seen{0, generation};
+  return seen_[seen_used_];
+}
+
+bool BlockReader::compile(const TextEntry& entry, uint64_t offset, Block& block, bool* newline) {
+  if (!window_.seek(entry, offset)) return false;
+  if (window_.size() == 0) {
+    block.clear();
+    block.begin = block.next = offset;
+    block.end_of_text = true;
+    return true;
+  }
+  LexResult result = lex_block(window_.text(), window_.size(), *rules_, nullptr, block);
+  if (result.ran_out && !window_.last()) {
+    if (!window_.at_front()) {
+      if (!window_.advance(entry)) return false;
+      result = lex_block(window_.text(), window_.size(), *rules_, nullptr, block);
+    }
+    if (result.ran_out && !window_.last()) return compile_long(entry, offset, block, newline);
+  }
+  block.begin = offset;
+  block.next = offset + result.used;
+  *newline = result.newline;
+  return true;
+}
+
+bool BlockReader::compile_long(const TextEntry& entry, uint64_t offset, Block& block, bool* newline) {
+  char chunk[512];
+  char* const buffer = window_.take_buffer();
+  Condenser condenser(buffer, window_.capacity(), *rules_);
+  uint64_t at = offset;
+  *newline = false;
+  for (bool open = true; open;) {
+    const long got = TextWindow::read(entry, at, chunk, sizeof chunk);
+    if (got < 0) return false;
+    if (got == 0) break;
+    for (long i = 0; i < got && open; ++i) {
+      bool consumed = true;
+      open = condenser.take(chunk[i], &consumed);
+      if (consumed) ++at;
+      *newline = !open && chunk[i] == '\n';
+    }
+  }
+  lex_block(buffer, condenser.size(), *rules_, condenser.columns(), block);
+  if (condenser.overflowed() && !block.has_fault) {
+    block.has_fault = true;
+    block.fault = Fault{};
+    block.fault.condition = Condition::block_too_long;
+  }
+  block.begin = offset;
+  block.next = at;
+  return true;
+}
+
+void BlockReader::forget(unsigned file) {
+  const TextEntry* entry = store_->entry(file);
+  if (entry == nullptr) return;
+  for (unsigned i = 0; i < slots_; ++i) {
+    if (tags_[i].generation == entry->generation) tags_[i].generation = 0;
+  }
+  for (unsigned i = 0; i < kIndexes; ++i) {
+    if (indexes_[i].generation == entry->generation) indexes_[i].generation = 0;
+  }
+  seen(entry->generation).end = 0;
+  window_.forget();
+}
+
+}  // namespace nc

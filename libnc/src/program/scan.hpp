@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moving over the characters of one block: what is skipped everywhere, where the block ends, numbers, keywords.
+// Shared by the lexer (program/lexer.cpp) and the expression compiler (macro/compile.cpp).
+#pragma once
+
+#include <bit>
+#include <cstring>
+
+#include "program/number.hpp"
+
+namespace nc {
+
+inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
+inline bool is_letter(char c) { return static_cast<unsigned char>((c | 0x20) - 'a') < 26; }
+inline char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; }
+
+/// Eight characters looked at together: how many of them, from the first on, are digits, and what number these make.
+/// Loops over digits mispredict once per number; this does not branch.
+class EightCharacters {
+ public:
+  static constexpr bool kUsable = std::endian::native == std::endian::little;
+
+  explicit EightCharacters(const char* p) {
+    std::memcpy(&x_, p, sizeof x_);
+    x_ ^= 0x3030303030303030u;  // digits become 0..9
+    // Bit 7 of every byte above 9. A carry out of a byte can only spoil those behind the first such byte.
+    const uint64_t others = ((x_ + 0x7676767676767676u) | x_) & 0x8080808080808080u;
+    count_ = others != 0 ? static_cast<unsigned>(std::countr_zero(others)) >> 3 : 8;
+  }
+  unsigned digits() const { return count_; }
+  /// Value of the digits; not for eight of them. Neighbours are joined: to 2, 4 and 8 decimals.
+  uint64_t value() const {
+    uint64_t v = (x_ << (56 - 8 * count_)) << 8;
+    v = (v * 10 + (v >> 8)) & 0x00ff00ff00ff00ffu;
+    v = (v * 100 + (v >> 16)) & 0x0000ffff0000ffffu;
+    return (v * 10000 + (v >> 32)) & 0xffffffffu;
+  }
+
+ private:
+  uint64_t x_;
+  unsigned count_;
+};
+
+/// A place in a block and the rules that hold there.
+struct Cursor {
+  const char* p = nullptr;
+  const char* end = nullptr;
+  bool semicolon_ends = false;
+  const char* comment = nullptr;  ///< text of the last comment passed over
+  const char* comment_end = nullptr;
+
+  /// Behind blanks and comments. An unclosed comment ends with its line (M700 3.1, 3.2).
+  void skip() {
+    while (p != end) {
+      if (is_blank(*p)) {
+        ++p;
+      } else if (*p == '(') {
+        skip_comment();
+      } else {
+        return;
+      }
+    }
+  }
+  void skip_comment() {
+    comment = ++p;
+    while (p != end && *p != ')' && *p != '\n') ++p;
+    comment_end = p;
+    if (p != end && *p == ')') ++p;
+  }
+  /// At the end of the block: line end, ';' of those that have it, '%', end of the text.
+  bool at_end() const {
+    return p == end || *p == '\n' || *p == '%' || (*p == ';' && semicolon_ends);
+  }
+  /// The character here after blanks and comments, capital; 0 = end of block.
+  char peek() {
+    skip();
+    return at_end() ? '\0' : upper(*p);
+  }
+  /// Passes over `c` when it is next.
+  bool accept(char c) {
+    if (peek() != c || at_end()) return false;
+    ++p;
+    return true;
+  }
+  /// Passes over a keyword when it is next; blanks inside it are allowed as everywhere.
+  bool accept(const char* word) {
+    const Cursor before = *this;
+    for (; *word != '\0'; ++word) {
+      if (!accept(*word)) {
+        *this = before;
+        return false;
+      }
+    }
+    return true;
+  }
+  /// Unsigned decimal number, blanks and comments allowed between its characters.
+  Decimal number() {
+    constexpr uint32_t kMantissaDigits = 19;
+    Decimal d;
+    uint64_t mantissa = 0;
+    uint32_t significant = 0, dropped = 0;  // digits in `mantissa`; fraction digits beyond them
+    uint32_t taken_fraction = 0;
+    for (char c = peek(); is_digit(c) || (c == '.' && !d.point); c = peek()) {
+      ++p;
+      if (c == '.') {
+        d.point = true;
+        continue;
+      }
+      ++d.digits;
+      if (d.point) ++d.fraction_digits;
+      if (significant != 0 || c != '0') {
+        if (!d.point) ++d.integer_digits;
+        if (significant == kMantissaDigits) {
+          ++dropped;
+          continue;
+        }
+        ++significant;
+        mantissa = mantissa * 10 + static_cast<uint64_t>(c - '0');
+      }
+      if (d.point) ++taken_fraction;
+      if (!d.point) d.integer = mantissa;
+    }
+    if (d.integer_digits > kMantissaDigits) {
+      d.integer = kPowersOfTen[kMantissaDigits];
+      d.value = static_cast<double>(d.integer);  // whoever asks refuses it: integer_digits says so
+    } else {
+      d.value = scale_decimal(mantissa, taken_fraction);
+    }
+    return d;
+  }
+};
+
+}  // namespace nc

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looking for programs, sequence numbers and the ends of loops in a text. Only the heads of blocks are looked at: blanks, skip sign,
+// O, N; the rest of a block is passed over as fast as its end can be told.
+#include <cstring>
+#include <initializer_list>
+
+#include "program/scan.hpp"
+#include "program/store.hpp"
+
+namespace nc {
+namespace {
+
+/// Characters at which passing over a block has to look closer.
+struct StopCharacter {
+  bool is[256] = {};
+  constexpr StopCharacter() {
+    for (char c : {'\n', ';', '%', '('}) is[static_cast<unsigned char>(c)] = true;
+  }
+};
+constexpr StopCharacter kStop;
+
+/// What stands at the head of a block.
+struct Head {
+  uint64_t offset = 0;
+  uint32_t line = 1;
+  uint64_t o = 0, n = 0;   ///< 0 = none
+  bool percent = false;
+  bool blank = true;       ///< nothing but blanks and comments
+};
+
+/// Goes from block to block of a text through a window of its reader.
+class HeadScanner {
+ public:
+  HeadScanner(TextWindow& window, const TextEntry& entry, const LexRules& rules, uint64_t offset, uint32_t line)
+      : window_(window), entry_(entry), rules_(rules), next_(offset), line_(line) {}
+
+  /// The next block. False at the end of the text, or when reading failed.
+  bool next(Head* head) {
+    *head = Head{};
+    head->offset = offset();
+    head->line = line_;
+    int c = significant();
+    if (c < 0) return false;
+    if (c == '/') {
+      head->blank = false;
+      take();
+      c = significant();
+      if (rules_.skip_numbers && c > 0 && is_digit(static_cast<char>(c))) {
+        take();
+        c = significant();
+      }
+    }
+    if (c == 'O') head->o = number(&c);
+    if (c == 'N') head->n = number(&c);
+    head->blank = head->blank && head->o == 0 && head->n == 0 && ends(c);
+    head->percent = c == '%' && head->blank;
+    pass_over(head->percent);
+    return true;
+  }
+
+  uint64_t offset() const { return next_ - static_cast<uint64_t>(end_ - p_); }
+  uint32_t line() const { return line_; }
+  bool failed() const { return failed_; }
+
+ private:
+  bool more() {
+    if (!window_.seek(entry_, next_)) {
+      failed_ = true;
+      return false;
+    }
+    p_ = window_.text();
+    end_ = p_ + window_.size();
+    next_ += window_.size();
+    return p_ != end_;
+  }
+  int look() { return p_ != end_ || more() ? static_cast<unsigned char>(*p_) : -1; }
+  void take() { ++p_; }
+
+  bool ends(int c) const { return c < 0 || c == '\n' || c == '%' || (c == ';' && rules_.semicolon_ends); }
+
+  /// The character behind blanks and comments, capital.
+  int significant() {
+    for (;;) {
+      const int c = look();
+      if (c < 0) return c;
+      const char ch = static_cast<char>(c);
+      if (is_blank(ch)) {
+        take();
+      } else if (ch == '(') {
+        take();
+        pass_comment();
+      } else {
+        return upper(ch) & 0xff;
+      }
+    }
+  }
+
+  /// Number behind a letter, decimals left out; 0 = none. *c becomes the character behind it.
+  uint64_t number(int* c) {
+    constexpr uint64_t kSaturated = UINT32_MAX + uint64_t{1};
+    uint64_t n = 0;
+    take();
+    bool point = false;
+    for (*c = significant(); *c > 0 && (is_digit(static_cast<char>(*c)) || (*c == '.' && !point)); *c = significant()) {
+      if (*c == '.') point = true;
+      if (!point && n < kSaturated) n = n * 10 + static_cast<uint64_t>(*c - '0');
+      take();
+    }
+    return n;
+  }
+
+  void pass_comment() {
+    for (int c = look(); c >= 0 && c != '\n'; c = look()) {
+      take();
+      if (c == ')') return;
+    }
+  }
+
+  /// Over the rest of the block and its end.
+  void pass_over(bool whole_line) {
+    for (;;) {
+      while (p_ != end_ && !kStop.is[static_cast<unsigned char>(*p_)]) ++p_;
+      if (p_ == end_) {
+        if (!more()) return;
+        continue;
+      }
+      const char c = *p_;
+      if (c == '\n') {
+        take();
+        ++line_;
+        return;
+      }
+      if (whole_line) {
+        take();
+      } else if (c == '(') {
+        take();
+        pass_comment();
+      } else if (c == '%') {
+        return;
+      } else {
+        take();
+        if (rules_.semicolon_ends) return;
+      }
+    }
+  }
+
+  TextWindow& window_;
+  const TextEntry& entry_;
+  const LexRules& rules_;
+  const char* p_ = nullptr;
+  const char* end_ = nullptr;
+  uint64_t next_;   ///< offset of end_
+  uint32_t line_;
+  bool failed_ = false;
+};
+
+}  // namespace
+
+BlockReader::Index& BlockReader::index(const TextEntry& entry) {
+  for (unsigned i = 0; i < kIndexes; ++i) {
+    if (indexes_[i].generation == entry.generation) {
+      index_used_ = i;
+      return indexes_[i];
+    }
+  }
+  index_used_ = (index_used_ + 1) % kIndexes;
+  Index& fresh = indexes_[index_used_];
+  fresh.generation = entry.generation;
+  fresh.scanned = 0;
+  fresh.scanned_line = 1;
+  fresh.count = 0;
+  fresh.complete = false;
+  return fresh;
+}
+
+ProgramRef BlockReader::find_o_line(uint32_t number, unsigned file) {
+  const TextEntry* entry = store_->entry(file);
+  if (entry == nullptr) return {};
+  Index& known = index(*entry);
+  for (unsigned i = 0; i < known.count; ++i) {
+    if (known.at[i].number == number) return known.at[i];
+  }
+  if (known.complete) return {};
+  HeadScanner scanner(window_, *entry, *rules_, known.scanned, known.scanned_line);
+  ProgramRef found;
+  for (Head head; !found.valid() && scanner.next(&head);) {
+    if (head.o == 0 || head.o > UINT32_MAX) continue;
+    ProgramRef ref;
+    ref.file = static_cast<uint16_t>(file);
+    ref.number = static_cast<uint32_t>(head.o);
+    ref.offset = head.offset;
+    ref.line = head.line;
+    if (ref.number == number) found = ref;
+    if (known.count == kIndexed) continue;
+    known.at[known.count++] = ref;
+    known.scanned = scanner.offset();
+    known.scanned_line = scanner.line();
+  }
+  known.complete = !found.valid() && !scanner.failed() && known.count < kIndexed;
+  return found;
+}
+
+ProgramRef BlockReader::find_program(uint32_t number, unsigned own_file) {
+  if (number == 0) return {};
+  int file = store_->find_number(number);
+  if (file < 0) {
+    const ProgramRef own = find_o_line(number, own_file);
+    if (own.valid()) return own;
+    char name[16] = "O";
+    unsigned length = 1;
+    char digits[10];
+    unsigned count = 0;
+    for (uint32_t n = number; n != 0; n /= 10) digits[count++] = static_cast<char>('0' + n % 10);
+    while (count != 0) name[length++] = digits[--count];
+    if (!store_->ask_host(name)) return {};
+    file = store_->find_number(number);
+    if (file < 0) return {};
+  }
+  ProgramRef ref;
+  ref.file = static_cast<uint16_t>(file);
+  ref.number = number;
+  return ref;
+}
+
+ProgramRef BlockReader::find_program(const char* name, size_t length) {
+  int file = store_->find_name(name, length);
+  if (file < 0) {
+    char text[sizeof TextEntry{}.name];
+    if (length >= sizeof text) return {};
+    std::memcpy(text, name, length);
+    text[length] = '\0';
+    if (!store_->ask_host(text)) return {};
+    file = store_->find_name(name, length);
+    if (file < 0) return {};
+  }
+  ProgramRef ref;
+  ref.file = static_cast<uint16_t>(file);
+  ref.number = store_->entry(static_cast<unsigned>(file))->number;
+  return ref;
+}
+
+bool BlockReader::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t limit, uint64_t budget,
+                                bool* again, bool from_head) {
+  *again = false;
+  const TextEntry* entry = store_->entry(file);
+  if (entry == nullptr || n == 0) return false;
+  const uint64_t start = *offset;
+  HeadScanner scanner(window_, *entry, *rules_, start, *line);
+  bool at_head = from_head;  // nothing but what may stand before a program has been seen
+  bool o_seen = false;
+  for (Head head;;) {
+    if (budget != 0 && scanner.offset() - start >= budget) {
+      *offset = scanner.offset();
+      *line = scanner.line();
+      *again = true;
+      return false;
+    }
+    if (!scanner.next(&head) || (limit != 0 && head.offset >= limit)) return false;
+    if (head.blank && !head.percent) continue;
+    if (head.percent) {
+      if (at_head && start == 0 && !o_seen) continue;  // the start mark
+      return false;
+    }
+    if (head.o != 0) {
+      if (!at_head || o_seen) return false;  // the next program
+      o_seen = true;
+    } else {
+      at_head = false;
+    }
+    if (head.n == n) {
+      *offset = head.offset;
+      *line = head.line;
+      return true;
+    }
+  }
+}
+
+bool BlockReader::find_loop_end(unsigned file, uint32_t m, uint64_t* offset, uint32_t* line) {
+  constexpr unsigned kMaxLoops = 27;  // M700 13.5.7 (3)
+  FixedVector<uint32_t, kMaxLoops> open;
+  for (uint64_t at = *offset; ;) {
+    const Block* block = read(file, at, *line);
+    if (block == nullptr || block->end_of_text || block->percent || block->has_o) return false;
+    for (const Statement& s : block->statements) {
+      if (s.kind == StatementKind::while_do || s.kind == StatementKind::do_loop) {
+        if (!open.push_back(s.number)) return false;
+      } else if (s.kind == StatementKind::end_loop) {
+        if (open.empty()) {
+          if (s.number != m) return false;
+          *offset = block->next;
+          *line = block->next_line;
+          return true;
+        }
+        if (open.back() != s.number) return false;  // loops that overlap: M700 P294
+        open.pop_back();
+      }
+    }
+    at = block->next;
+    *line = block->next_line;
+  }
+}
+
+}  // namespace nc

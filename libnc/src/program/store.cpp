@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/store.hpp"
+
+#include <cstring>
+
+#include "program/scan.hpp"
+
+namespace nc {
+namespace {
+
+constexpr uint32_t kLargestProgram = 99999999;  // M700 3.5: 8 digits
+
+const char* without_folder(const char* name) {
+  const char* base = name;
+  for (const char* p = name; *p != '\0'; ++p) {
+    if (*p == '/' || *p == '\\') base = p + 1;
+  }
+  return base;
+}
+
+/// Length without the ending: "1000.nc" 4. A name that begins with its only point has none.
+size_t stem_length(const char* name, size_t length) {
+  for (size_t i = length; i-- > 1;) {
+    if (name[i] == '.') return i;
+  }
+  return length;
+}
+
+/// "O1000", "o0100.nc", "1000.nc" -> the number; 0 = none. Without the O leading zeros make it a name: the file "0100" is
+/// reached as <0100> only (M700 13.3.1).
+uint32_t number_of_name(const char* name) {
+  const size_t length = stem_length(name, std::strlen(name));
+  const bool letter = upper(name[0]) == 'O';
+  size_t i = letter ? 1 : 0;
+  if (i == length || (!letter && name[i] == '0')) return 0;
+  uint64_t number = 0;
+  for (; i < length; ++i) {
+    if (!is_digit(name[i])) return 0;
+    number = number * 10 + static_cast<uint64_t>(name[i] - '0');
+    if (number > kLargestProgram) return 0;
+  }
+  return static_cast<uint32_t>(number);
+}
+
+bool same_name(const char* a, size_t a_length, const char* b, size_t b_length) {
+  if (a_length != b_length) return false;
+  for (size_t i = 0; i < a_length; ++i) {
+    if (upper(a[i]) != upper(b[i])) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void ProgramStore::create(unsigned capacity, Arena& arena) {
+  entries_ = arena.make<TextEntry>(capacity);
+  capacity_ = capacity;
+  count_ = 0;
+}
+
+nc_status ProgramStore::add(const TextEntry& entry, const char* name, unsigned* file) {
+  if (name == nullptr || (entry.read == nullptr && entry.memory == nullptr && entry.size != 0)) return NC_E_ARGUMENT;
+  const char* base = without_folder(name);
+  const size_t length = std::strlen(base);
+  if (length == 0 || length >= sizeof entry.name) return NC_E_ARGUMENT;
+  unsigned at = 0;
+  while (at < count_ && !same_name(entries_[at].name, std::strlen(entries_[at].name), base, length)) ++at;
+  if (at == capacity_ || at >= UINT16_MAX) return NC_E_MEMORY;
+  if (at == count_) ++count_;
+  TextEntry& place = entries_[at];
+  place = entry;
+  std::memcpy(place.name, base, length + 1);
+  if (place.number == 0) place.number = number_of_name(base);
+  place.generation = ++generation_;
+  if (file != nullptr) *file = at;
+  return NC_OK;
+}
+
+void ProgramStore::on_missing(nc_program_missing callback, void* user, nc_control* control) {
+  missing_ = callback;
+  missing_user_ = user;
+  control_ = control;
+}
+
+const TextEntry* ProgramStore::entry(unsigned file) const { return file < count_ ? &entries_[file] : nullptr; }
+
+int ProgramStore::find_name(const char* name, size_t length) const {
+  for (size_t i = length; i-- > 0;) {
+    if (name[i] != '/' && name[i] != '\\') continue;
+    name += i + 1;
+    length -= i + 1;
+    break;
+  }
+  for (unsigned i = 0; i < count_; ++i) {
+    if (same_name(entries_[i].name, std::strlen(entries_[i].name), name, length)) return static_cast<int>(i);
+  }
+  // One of the two may lack the ending; two different endings are two different files.
+  const size_t stem = stem_length(name, length);
+  for (unsigned i = 0; i < count_; ++i) {
+    const size_t entry_length = std::strlen(entries_[i].name);
+    const size_t entry_stem = stem_length(entries_[i].name, entry_length);
+    if (stem != length && entry_stem != entry_length) continue;
+    if (same_name(entries_[i].name, entry_stem, name, stem)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+int ProgramStore::find_number(uint32_t number) const {
+  if (number == 0) return -1;
+  for (unsigned i = 0; i < count_; ++i) {
+    if (entries_[i].number == number) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+bool ProgramStore::ask_host(const char* name) {
+  if (missing_ == nullptr) return false;
+  const uint32_t before = generation_;
+  return missing_(missing_user_, control_, name) && generation_ != before;
+}
+
+}  // namespace nc

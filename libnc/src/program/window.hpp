@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// A window on a text: a text in memory is seen where it lies, any other through one buffer that moves along with the reader.
+#pragma once
+
+#include "base/arena.hpp"
+#include "nc/control.h"
+
+namespace nc {
+
+/// A text of the program store.
+struct TextEntry {
+  char name[64] = {};
+  uint32_t number = 0;         ///< from the name, 0 = none
+  nc_read_at read = nullptr;   ///< null: `memory`
+  void* user = nullptr;
+  const char* memory = nullptr;
+  uint64_t size = 0;
+  uint32_t generation = 0;     ///< changes when the entry is replaced: compiled blocks of the old text are not used again
+};
+
+class TextWindow {
+ public:
+  void create(unsigned bytes, Arena& arena);
+
+  /// Makes text()[0] the byte at `offset`; at the end of the text size() is 0. False: the read callback failed.
+  bool seek(const TextEntry& entry, uint64_t offset) {
+    if (entry.generation == generation_ && offset >= begin_ && offset - begin_ < length_) [[likely]] {
+      at_ = static_cast<size_t>(offset - begin_);
+      return true;
+    }
+    return load(entry, offset);
+  }
+  const char* text() const { return base_ + at_; }
+  size_t size() const { return length_ - at_; }
+  /// The text ends with the window.
+  bool last() const { return last_; }
+  /// Nothing in front of the cursor: more text behind it needs a larger buffer.
+  bool at_front() const { return at_ == 0; }
+  /// Moves the window so that it begins at the cursor, and reads on behind. False: the read callback failed.
+  bool advance(const TextEntry& entry);
+  void forget() { generation_ = 0, length_ = at_ = 0; }
+
+  /// The buffer for other use; what was seen through the window is gone.
+  char* take_buffer() {
+    forget();
+    return buffer_;
+  }
+  size_t capacity() const { return capacity_; }
+
+  /// Reads at most `size` bytes past the window. Bytes read, 0 at the end, negative on failure.
+  static long read(const TextEntry& entry, uint64_t offset, char* buffer, size_t size);
+
+ private:
+  bool load(const TextEntry& entry, uint64_t offset);
+  bool fill(const TextEntry& entry);
+
+  char* buffer_ = nullptr;
+  size_t capacity_ = 0;
+  const char* base_ = nullptr;
+  uint64_t begin_ = 0;      ///< offset of base_[0]
+  size_t length_ = 0, at_ = 0;
+  uint32_t generation_ = 0; ///< of the entry; 0 = none
+  bool last_ = false;
+};
+
+}  // namespace nc

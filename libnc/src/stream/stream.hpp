@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// THE STREAM: the contract between the stages of libnc. Read this header first; everything else fills it.
+//
+//   text -> block -> [interpret] -> ITEMS -> [contour] -> [offset] -> [commit] -> ring -> [motion plan] -> [interpolate] -> set-points
+//
+// Everything that a program causes is an Item in one ordered stream. There are seven kinds:
+//
+//   move    a curve in the *compensation frame* (active workpiece coordinates, after scaling and rotation, before tool radius
+//           compensation) and the id of the Transform that leads from there to machine coordinates
+//   action  something the world sees at this point and not when the text is read: M S T B, a macro output, a message
+//   gate    wait here: FIN, dwell, in-position, program stop
+//   sync    the interpreter cannot go on without a value that exists only when everything before this has happened
+//   mark    a block has ended; carries the modal snapshot and whether single block may stop here
+//   alarm   the program stops here
+//   end     the last item
+//
+// What the stages do with them
+//   interpret  makes items, one block at a time. After a sync it makes nothing until it is answered.
+//   contour    (corners between blocks; a pass-through as yet) may hold moves back.
+//   offset     replaces the geometry of moves by their compensated geometry and may insert moves. It holds items back while it
+//              looks ahead, never reorders them, and closes its contour perpendicular when it meets an item for which
+//              `inhibits_read_ahead` is true, because nothing beyond such an item can be waited for.
+//   commit     gives every item its serial, applies the transform, checks the stroke limits, and hands it to the sink: nc_pull()
+//              offline, the ring of the executor online. From here on an item never changes.
+//
+// Serials are given at commit: strictly increasing, without gaps, so an offline sink and the machine name the same item by the
+// same number. "The block in execution" is the serial that the interpolator has reached.
+//
+// Reading ahead is a bet that can be lost. The interpreter's state is one copyable value (interpret/state.hpp). Each mark stores
+// a checkpoint of it; writes to variables are journalled under the block that made them (stream/journal.hpp).
+// rewind(mark) restores the checkpoint and undoes the journal; resync(positions) goes on from where the machine really is.
+// Nothing beyond a sync has ever been read when it is answered, so checkpoints never reach across one.
+#pragma once
+
+#include <cstdint>
+
+#include "nc/item.h"
+
+namespace nc {
+
+inline constexpr unsigned kMaxAxes = NC_MAX_AXES;
+
+/// One value per axis of a part system, mm or degrees, in configuration order.
+struct AxisVec {
+  double v[kMaxAxes] = {};
+  double& operator[](unsigned i) { return v[i]; }
+  double operator[](unsigned i) const { return v[i]; }
+  bool operator==(const AxisVec&) const = default;
+};
+
+using Serial = uint64_t;      ///< of an item, given at commit; 0 = none
+using BlockSeq = uint64_t;    ///< counts the blocks that the interpreter has executed; journal and checkpoints go by it
+using TransformId = uint32_t; ///< of a frame/transform.hpp Transform in the pool of the part system
+using ModalId = uint32_t;     ///< of an interned modal snapshot
+
+enum class ItemKind : uint8_t { move, action, gate, sync, mark, alarm, end };
+
+/// What an alarm is about. Each dialect's table gives it the code and the text of its manual (dialect/alarms.hpp).
+/// Names are the condition, not a family's number.
+enum class Condition : uint16_t;
+
+/// An alarm on its way: data, turned into words by the dialect when someone reads it.
+struct Fault {
+  Condition condition{};
+  int8_t axis = -1;    ///< axis index or -1
+  char letter = 0;     ///< address that caused it, 0 = none
+  bool has_value = false;
+  double value = 0;    ///< its value, or the number of a variable, a program, ...
+};
+
+/// How tool radius compensation acts on a move. side 0 = the move is not compensated.
+struct Compensation {
+  int8_t side = 0;         ///< +1 left of the direction of travel (G41), -1 right (G42); 0 off
+  bool transparent = false;///< vectors are taken away for this move and come back (G28, G53, G33): M700 12.4.2
+  bool has_vector = false; ///< G41/G42/G38 with I J K: `vector` is the direction given, no intersection is computed
+  bool hold_vector = false;///< G38: keep the vector of the end before
+  bool corner_arc = false; ///< G39
+  bool type_b = false;     ///< start and cancel type B (M700 #1229 bit 2, DGSHAPE startup)
+  bool cancel_vector = false; ///< G40 with I J K: `vector` is the hypothetical direction
+  bool check = false;      ///< interference check on (M700 12.4.8: #8103 OFF); false: paths may cross
+  bool avoid = false;      ///< with `check`: go round instead of the alarm (M700 #8102 ON)
+  uint8_t axis[2] = {0, 1};///< plane: first (h) and second (v) axis, right-handed
+  double radius = 0;       ///< mm, signed as in the table
+  double vector[2] = {0, 0};
+};
+
+/// Geometry of a move on the plane (h, v) = plane_axis; all other axes go linearly along.
+struct Circle {
+  double center[2] = {0, 0};
+  double radius_start = 0, radius_end = 0; ///< differ by at most the arc tolerance (M700 #1084)
+  double angle_start = 0;                  ///< rad, atan2(v, h) of start - center
+  double sweep = 0;                        ///< rad, counter-clockwise positive, full extra turns included
+};
+
+enum class Plane : uint8_t { xy = NC_PLANE_XY, zx = NC_PLANE_ZX, yz = NC_PLANE_YZ, none = NC_PLANE_NONE };
+
+struct Move {
+  nc_move_kind kind = NC_MOVE_LINE;
+  bool circular = false;
+  bool exact_stop = false;       ///< at rest at its end: rapid, G09/G61, and what the dialect says
+  bool connecting = false;       ///< inserted by a stage (corner of a compensated contour), not programmed
+  uint8_t skip_mask = 0;
+  Plane plane = Plane::none;     ///< circular only
+  uint8_t plane_axis[2] = {0, 1};///< circular only
+  TransformId transform = 0;
+  AxisVec start, end;            ///< compensation frame; after the offset stage: of the compensated path
+  AxisVec work;                  ///< programmed end point, same frame, never changed by the offset stage
+  double work_center[2] = {0, 0};///< circular: programmed centre, never changed
+  Circle circle;                 ///< circular only
+  double feed_mm_min = 0;        ///< 0 = rapid
+  double feed_mm_rev = 0;
+  uint32_t turns = 0;            ///< full extra turns (already in circle.sweep)
+  Compensation comp;
+};
+
+struct Action {
+  nc_action_kind kind = NC_ACTION_M;
+  char letter = 0;
+  double value = 0;
+  uint32_t mask = 0, bits = 0, index = 0, text = 0;
+};
+
+struct Gate {
+  nc_gate_kind kind = NC_GATE_FIN;
+  bool announce = false;
+  double value = 0;
+};
+
+struct Sync {
+  uint32_t what = 0;  ///< nc_sync_what bits
+};
+
+struct Mark {
+  AxisVec work;                  ///< programmed position at the end of the block, active workpiece coordinates
+  ModalId modal = 0;
+  BlockSeq seq = 0;              ///< its checkpoint
+  TransformId transform = 0;     ///< in force at the end of the block
+  bool stop = true, report = true;
+};
+
+struct End {
+  AxisVec work;
+  ModalId modal = 0;
+  bool ok = false;
+};
+
+struct Item {
+  ItemKind kind = ItemKind::mark;
+  nc_source source{};
+  /// For the offset stage: a block without movement in the plane, an M00, ... counts as one block of look-ahead (M700 12.4.2).
+  bool block_end = false;
+  union {
+    Move move;
+    Action action;
+    Gate gate;
+    Sync sync;
+    Mark mark;
+    Fault alarm;
+    End end;
+  };
+  Item() : mark() {}
+};
+
+/// True when the stages behind must not wait for anything that comes after this item (M700 9.1 "pre-read inhibit").
+inline bool inhibits_read_ahead(const Item& item) {
+  switch (item.kind) {
+    case ItemKind::sync:
+    case ItemKind::alarm:
+    case ItemKind::end: return true;
+    case ItemKind::gate: return item.gate.kind == NC_GATE_STOP || item.gate.kind == NC_GATE_OPTIONAL_STOP;
+    default: return false;
+  }
+}
+
+}  // namespace nc

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Alarms of the runtime. Those of a program come from libnc with the manual's own codes; what the machine around the
+// program does wrong has codes of ours, R and a number, in this table.
+#pragma once
+
+#include <cstdint>
+
+#include "nc/item.h"
+
+namespace nc::rt {
+
+enum class AlarmId : std::uint8_t {
+  kScanOverrun,
+  kFollowingError,
+  kDriveFault,
+  kSoftLimit,
+  kHalLost,
+  kProgram,  // an alarm of libnc; code and text come from there
+  kCount
+};
+
+struct AlarmRow {
+  AlarmId id;
+  const char* code;
+  const char* text;
+};
+
+// Every alarm stops motion and holds the machine until reset, when its cause is gone.
+inline constexpr AlarmRow kAlarmTable[] = {
+    {AlarmId::kScanOverrun, "R10", "Scan overrun: the cycle was missed too often"},
+    {AlarmId::kFollowingError, "R11", "Following error beyond its limit"},
+    {AlarmId::kDriveFault, "R12", "Drive fault"},
+    {AlarmId::kSoftLimit, "R13", "Commanded position outside the soft limits"},
+    {AlarmId::kHalLost, "R14", "No connection to the machine"},
+    {AlarmId::kProgram, "", "Program alarm"},
+};
+
+constexpr const AlarmRow& alarm_row(AlarmId id) {
+  for (const AlarmRow& row : kAlarmTable)
+    if (row.id == id) return row;
+  return kAlarmTable[0];
+}
+
+// One active alarm, as the scan raises it.
+struct ActiveAlarm {
+  AlarmId id = AlarmId::kCount;
+  std::int8_t axis = -1;      // index in its part system, -1 = none
+  std::uint8_t system = 0;    // index of the part system
+  std::uint64_t scan = 0;     // when it came
+  nc_source source{};         // block in execution at that moment
+};
+
+inline constexpr unsigned kMaxActiveAlarms = 16;
+
+struct AlarmList {
+  unsigned count = 0;
+  ActiveAlarm alarm[kMaxActiveAlarms];
+};
+
+}  // namespace nc::rt

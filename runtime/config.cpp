@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Machine configuration: defaults, reading of the file, its sections in order. See config.hpp.
+#include "runtime/config.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "runtime/config_sections.hpp"
+
+namespace nc::rt {
+
+std::string ConfigError::text() const {
+  std::string result = file;
+  if (line != 0) result += ":" + std::to_string(line);
+  if (!key.empty()) result += ": " + key;
+  return result + ": " + message;
+}
+
+MacroMap::MacroMap() {
+  for (unsigned w = 0; w < NC_WORDS; ++w) {
+    input_bit[w].fill(-1);
+    output_bit[w].fill(-1);
+  }
+  input_word.fill(-1);
+  output_word.fill(-1);
+}
+
+Config::Config() {
+  nc_config_init(&nc);
+  nc.system_count = 1;
+  for (nc_system_config& system : nc.system) system.axis_count = 0;
+}
+
+std::string Config::programs_folder() const {
+  const std::filesystem::path folder(programs);
+  if (folder.is_absolute()) return folder.string();
+  return (std::filesystem::path(file).parent_path() / folder).lexically_normal().string();
+}
+
+std::vector<ConfigError> parse_config(std::string_view text, const std::string& file, Config* config) {
+  ErrorList errors(file);
+  Config read;
+  read.file = file;
+  toml::table root;
+  try {
+    root = toml::parse(text, std::string_view(file));
+  } catch (const toml::parse_error& error) {
+    errors.add(static_cast<unsigned>(error.source().begin.line), "", "syntax: " + std::string(error.description()));
+    return errors.take();
+  }
+  TableReader reader(root, "", &errors);
+  read_machine(&reader, &read);
+  read_scheduling(&reader, &read);
+  read_axes(&reader, &read);
+  read_parameters(&reader, &read);
+  read_work_offsets(&reader, &read);
+  read_tool_offsets(&reader, &read);
+  read_points(&reader, &read);
+  read_macro_interface(&reader, &read);
+  read_sim(&reader, &read);
+  reader.finish();
+  if (errors.empty() && nc_memory_required(&read.nc) == 0)
+    errors.add(0, "", "the control refuses this combination of axes and sizes");
+  std::vector<ConfigError> found = errors.take();
+  if (found.empty()) *config = std::move(read);
+  return found;
+}
+
+std::vector<ConfigError> load_config(const std::string& path, Config* config) {
+  std::error_code ignored;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(path, ignored))
+    return {{path, 0, "", std::string("cannot be read: ") + (errno != 0 ? std::strerror(errno) : "not a file")}};
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return parse_config(text.str(), path, config);
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// The machine configuration: a TOML file as plain data, and everything that can be wrong with it.
+//
+// Units: mm, degrees, seconds in the file's names where they are not mm or mm/s; see etc/machine.toml, which explains
+// every key. Parsing has no side effects. Every error names file, line and key; all are reported, not only the first
+// (a syntax error ends the file: nothing behind it can be trusted).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/points.hpp"
+#include "hal/sim/sim_machine.hpp"
+#include "nc/control.h"
+
+namespace nc::rt {
+
+struct ConfigError {
+  std::string file;
+  unsigned line = 0;  // 1-based; 0 = the file as a whole
+  std::string key;    // path: axis[1].soft_limits
+  std::string message;
+
+  std::string text() const;  // "machine.toml:12: axis[1].rapid: must be ..."
+};
+
+// What happens when a scan ends behind its slot.
+enum class OverrunReaction : std::uint8_t { kCount, kFeedHold, kAlarm };
+
+// Where a value stands, for errors that are found later (the control refuses a parameter).
+struct ConfigPlace {
+  unsigned line = 0;
+  std::string key;
+};
+
+struct ParameterSetting {
+  std::string key;  // manual's number or name
+  char axis = 0;    // 0 = all axes
+  unsigned system = 0;  // part system of the axis; without an axis the setting holds for all
+  std::string text;
+  ConfigPlace place;
+};
+
+struct WorkOffsetSetting {
+  unsigned index = 0;  // as nc_work_offset_set()
+  unsigned system = 0;
+  unsigned axis = 0;
+  double value = 0;
+  ConfigPlace place;
+};
+
+struct ToolOffsetSetting {
+  unsigned number = 0;
+  std::array<double, 4> column = {};  // by nc_tool_column
+  std::array<bool, 4> given = {};
+  ConfigPlace place;
+};
+
+// Macro interface: which point a bit or a word stands for; -1 = none.
+struct MacroMap {
+  std::array<std::array<int, 32>, NC_WORDS> input_bit, output_bit;
+  std::array<int, NC_WORDS> input_word, output_word;
+  MacroMap();
+};
+
+struct SchedulingConfig {
+  bool fifo = true;         // SCHED_FIFO, else SCHED_OTHER
+  int priority = 80;        // of the scan thread
+  int cpu = -1;             // core of the scan thread; -1 = any
+  bool lock_memory = true;  // mlockall
+  unsigned feeder_us = 1000;
+  OverrunReaction overrun = OverrunReaction::kAlarm;
+  unsigned overrun_limit = 10;  // the reaction comes when so many slots were missed since the last reset
+};
+
+struct Config {
+  std::string file;    // name of the file, for messages
+  std::string name = "machine";
+  std::string programs = ".";  // folder of programs, relative to the file's folder unless absolute
+  unsigned cycle_us = 1000;
+  nc_config nc;                // everything that libnc is created with
+  SchedulingConfig scheduling;
+  std::array<nc_axes, NC_MAX_SYSTEMS> start = {};  // where the axes stand at start-up
+  std::vector<ParameterSetting> parameters;
+  std::vector<WorkOffsetSetting> work_offsets;
+  std::vector<ToolOffsetSetting> tool_offsets;
+  hal::PointTable points;
+  MacroMap macro;
+  hal::SimConfig sim;
+
+  Config();
+  // Folder of programs as a path that can be opened.
+  std::string programs_folder() const;
+};
+
+// Parse a text. `file` is used in messages only. Returns the errors; empty = *config is valid.
+std::vector<ConfigError> parse_config(std::string_view text, const std::string& file, Config* config);
+
+// Read and parse a file.
+std::vector<ConfigError> load_config(const std::string& path, Config* config);
+
+// Parameters, offsets and start position into a control. What the control refuses is an error with its place in the file.
+std::vector<ConfigError> apply_config(const Config& config, nc_control* control);
+
+}  // namespace nc::rt

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configuration sections [[point]], [macro_interface], [sim].
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "runtime/config_sections.hpp"
+
+namespace nc::rt {
+namespace {
+
+constexpr double kMaxSeconds = 3600;
+
+bool valid_point_name(std::string_view name) {
+  if (name.empty() || name.size() > 64) return false;
+  return std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ||
+           c == '-';
+  });
+}
+
+// One number of the macro interface. M700 13.5.5.
+struct InterfaceNumber {
+  bool output = false;
+  bool word = false;     // #1032..#1035, #1132..#1135
+  unsigned bank = 0;     // word 0..3
+  unsigned bit = 0;
+};
+
+std::optional<InterfaceNumber> interface_number(std::string_view key) {
+  if (key.empty() || key[0] != '#') return {};
+  key.remove_prefix(1);
+  unsigned n = 0;
+  const auto result = std::from_chars(key.data(), key.data() + key.size(), n);
+  if (result.ec != std::errc{} || result.ptr != key.data() + key.size()) return {};
+  struct Row {
+    unsigned first, last;
+    bool output, word;
+    unsigned bank;
+  };
+  static constexpr Row kRows[] = {
+      {1000, 1031, false, false, 0}, {1032, 1035, false, true, 0}, {1200, 1295, false, false, 1},
+      {1100, 1131, true, false, 0},  {1132, 1135, true, true, 0},  {1300, 1395, true, false, 1},
+  };
+  for (const Row& row : kRows) {
+    if (n < row.first || n > row.last) continue;
+    const unsigned offset = n - row.first;
+    if (row.word) return InterfaceNumber{row.output, true, offset, 0};
+    return InterfaceNumber{row.output, false, row.bank + offset / 32, offset % 32};
+  }
+  return {};
+}
+
+// Place of a number in the map.
+int* slot(MacroMap* map, const InterfaceNumber& number) {
+  if (number.word) return &(number.output ? map->output_word : map->input_word)[number.bank];
+  return &(number.output ? map->output_bit : map->input_bit)[number.bank][number.bit];
+}
+
+// A word and its bits are one image: only one of them may be mapped.
+bool overlaps(const MacroMap& map, const InterfaceNumber& number) {
+  const auto& words = number.output ? map.output_word : map.input_word;
+  const auto& bits = (number.output ? map.output_bit : map.input_bit)[number.bank];
+  if (!number.word) return words[number.bank] >= 0;
+  return std::any_of(bits.begin(), bits.end(), [](int point) { return point >= 0; });
+}
+
+void map_number(TableReader* reader, const std::string& key, Config* config, std::vector<std::string>* mapped_by) {
+  std::string name;
+  if (!reader->string(key, &name)) return;
+  const auto number = interface_number(key);
+  if (!number) {
+    reader->error(key,
+                  "is not a number of the macro interface (#1000-#1035, #1100-#1135, #1200-#1295, #1300-#1395)");
+    return;
+  }
+  const int index = config->points.find(name);
+  if (index < 0) {
+    reader->error(key, "no point is named \"" + name + "\"");
+    return;
+  }
+  const hal::Point& point = config->points.at(static_cast<unsigned>(index));
+  const bool point_is_output = point.direction == hal::PointDirection::kOutput;
+  if (point_is_output != number->output) {
+    reader->error(key, number->output ? "is an output of the control, but point \"" + name + "\" is an input"
+                                      : "is an input of the control, but point \"" + name + "\" is an output");
+    return;
+  }
+  if ((point.type == hal::PointType::kWord) != number->word) {
+    reader->error(key, number->word ? "is a 32-bit word, but point \"" + name + "\" is a bit"
+                                    : "is one bit, but point \"" + name + "\" is a word");
+    return;
+  }
+  std::string& owner = (*mapped_by)[static_cast<std::size_t>(index)];
+  if (!owner.empty()) {
+    reader->error(key, "point \"" + name + "\" is mapped twice (also by " + owner + ")");
+    return;
+  }
+  if (overlaps(config->macro, *number)) {
+    reader->error(key, "a word and a bit of the same word are both mapped");
+    return;
+  }
+  int* place = slot(&config->macro, *number);
+  if (*place >= 0) {  // "#1000" and "#01000"
+    reader->error(key, "is mapped twice");
+    return;
+  }
+  *place = index;
+  owner = key;
+}
+
+void read_solid(TableReader* reader, Config* config) {
+  hal::SimSolid solid;
+  unsigned system = 1;
+  reader->integer("system", &system, 1, config->nc.system_count);
+  solid.system = system - 1;
+  reader->integer("signal", &solid.signal, 1, 8);
+  const nc_system_config& axes = config->nc.system[solid.system];
+  bool any = false;
+  for (unsigned a = 0; a < axes.axis_count; ++a) {
+    const std::string name(1, axes.axis[a].name);
+    std::vector<double> range;
+    if (!reader->numbers(name, &range, 2, 2)) continue;
+    any = true;
+    solid.min[a] = range[0];
+    solid.max[a] = range[1];
+    if (range[0] > range[1]) reader->error(name, "the first number must not be above the second");
+  }
+  if (!any) reader->errors()->add(reader->line(), reader->path(), "needs at least one axis with [min, max]");
+  config->sim.solids.push_back(solid);
+}
+
+}  // namespace
+
+void read_points(TableReader* root, Config* config) {
+  root->tables("point", [&](TableReader& reader, std::size_t) {
+    hal::Point point;
+    unsigned word = 0;
+    for (const char* key : {"name", "direction"}) reader.require(key);
+    const bool named = reader.string("name", &point.name);
+    if (reader.choice("type", {"bit", "word"}, &word))
+      point.type = word == 0 ? hal::PointType::kBit : hal::PointType::kWord;
+    if (reader.choice("direction", {"input", "output"}, &word))
+      point.direction = word == 0 ? hal::PointDirection::kInput : hal::PointDirection::kOutput;
+    const std::int64_t top = point.type == hal::PointType::kBit ? 1 : 0xFFFFFFFFll;
+    reader.integer("initial", &point.initial, 0, top);
+    if (!named) return;
+    if (!valid_point_name(point.name))
+      reader.error("name", "must be 1 to 64 letters, digits, '_', '-' or '.'");
+    else if (config->points.find(point.name) >= 0)
+      reader.error("name", "point \"" + point.name + "\" is already there");
+    else if (!config->points.add(point))
+      reader.error("name", "there are more than " + std::to_string(hal::kMaxPoints) + " points");
+  });
+}
+
+void read_macro_interface(TableReader* root, Config* config) {
+  root->table("macro_interface", [&](TableReader& reader) {
+    std::vector<std::string> mapped_by(config->points.size());
+    reader.each([&](const std::string& key, const toml::node&) { map_number(&reader, key, config, &mapped_by); });
+  });
+}
+
+void read_sim(TableReader* root, Config* config) {
+  root->table("sim", [&](TableReader& reader) {
+    hal::SimConfig& sim = config->sim;
+    reader.number("spindle_ramp_rpm_per_s", &sim.spindle_ramp_rpm_per_s, 1, 1e9);
+    reader.number("spindle_max_rpm", &sim.spindle_max_rpm, 0, 1e6);
+    reader.number("tool_change_s", &sim.tool_change_s, 0, kMaxSeconds);
+    reader.number("tool_select_s", &sim.tool_select_s, 0, kMaxSeconds);
+    reader.number("m_time_s", &sim.m_time_s, 0, kMaxSeconds);
+    reader.tables("solid", [&](TableReader& solid, std::size_t) { read_solid(&solid, config); });
+    std::vector<std::pair<std::string, unsigned>> statements;
+    reader.strings("script", &statements);
+    for (const auto& [text, line] : statements) {
+      hal::InputChange change;
+      std::string error;
+      if (hal::parse_input_change(text, config->points, &change, &error))
+        sim.script.push_back(change);
+      else
+        reader.errors()->add(line, reader.path("script"), "\"" + text + "\": " + error);
+    }
+  });
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configuration sections [machine], [scheduling], [[axis]], and the names of axes that the others use.
+#include <algorithm>
+#include <bit>
+#include <string_view>
+
+#include "runtime/config_sections.hpp"
+
+namespace nc::rt {
+namespace {
+
+constexpr double kMaxLength = 1e6;  // mm or deg; anything beyond is a slip of the keyboard
+constexpr double kMaxRate = 1e9;
+constexpr std::string_view kAxisLetters = "XYZABCUVW";
+
+struct AxisEntry {
+  nc_axis_config axis{};
+  unsigned system = 1;
+  double start = 0;
+  hal::SimAxis sim;
+};
+
+void read_limits(TableReader* reader, AxisEntry* entry) {
+  nc_axis_config& axis = entry->axis;
+  for (const char* key : {"max_velocity", "max_acceleration"}) reader->require(key);
+  reader->number("max_velocity", &axis.max_velocity, 1e-3, kMaxRate);
+  reader->number("max_acceleration", &axis.max_acceleration, 1e-3, kMaxRate);
+  reader->number("max_jerk", &axis.max_jerk, 0, kMaxRate);
+  axis.rapid = axis.max_velocity;
+  if (reader->number("rapid", &axis.rapid, 1e-3, kMaxRate) && axis.rapid > axis.max_velocity)
+    reader->error("rapid", "must not be above max_velocity (" + number_text(axis.max_velocity) + ")");
+  reader->number("in_position", &axis.in_position, 1e-6, kMaxLength);
+  std::vector<double> numbers;
+  if (reader->numbers("soft_limits", &numbers, 2, 2)) {
+    axis.soft_limited = true;
+    axis.soft_min = numbers[0];
+    axis.soft_max = numbers[1];
+    if (numbers[0] >= numbers[1]) reader->error("soft_limits", "the first number must be below the second");
+  }
+  if (reader->numbers("reference", &numbers, 1, 4)) std::copy(numbers.begin(), numbers.end(), axis.reference);
+  if (reader->number("start", &entry->start, -kMaxLength, kMaxLength) && axis.soft_limited &&
+      (entry->start < axis.soft_min || entry->start > axis.soft_max))
+    reader->error("start", "must be inside soft_limits");
+}
+
+// The letter; 0 when the key is missing or wrong (reported).
+char read_axis_name(TableReader* reader) {
+  std::string name;
+  reader->require("name");
+  if (!reader->string("name", &name)) return 0;
+  if (name.size() == 1 && kAxisLetters.find(name[0]) != std::string_view::npos) return name[0];
+  reader->error("name", "must be one letter of " + std::string(kAxisLetters) + ", not \"" + name + "\"");
+  return 0;
+}
+
+void read_axis(TableReader* reader, Config* config) {
+  AxisEntry entry;
+  entry.axis.in_position = 0.01;
+  entry.axis.name = read_axis_name(reader);
+  reader->integer("system", &entry.system, 1, NC_MAX_SYSTEMS);
+  reader->boolean("rotary", &entry.axis.rotary);
+  read_limits(reader, &entry);
+  double lag_ms = 5.0;
+  reader->number("servo_lag_ms", &lag_ms, 0, 1000);
+  entry.sim.lag_s = lag_ms / 1000.0;
+  reader->number("following_error_limit", &entry.sim.following_error_limit, 0, kMaxLength);
+  if (entry.axis.name == 0) return;
+
+  const unsigned s = entry.system - 1;
+  nc_system_config& system = config->nc.system[s];
+  const auto* end = system.axis + system.axis_count;
+  if (std::any_of(static_cast<const nc_axis_config*>(system.axis), end,
+                  [&](const nc_axis_config& a) { return a.name == entry.axis.name; })) {
+    reader->error("name", std::string("axis ") + entry.axis.name + " is already there in part system " +
+                              std::to_string(entry.system));
+    return;
+  }
+  if (system.axis_count == NC_MAX_AXES) {
+    reader->error("name", "a part system has at most " + std::to_string(NC_MAX_AXES) + " axes");
+    return;
+  }
+  const unsigned a = system.axis_count++;
+  system.axis[a] = entry.axis;
+  config->start[s].v[a] = entry.start;
+  config->sim.axis[s][a] = entry.sim;
+  config->nc.system_count = static_cast<std::uint8_t>(std::max<unsigned>(config->nc.system_count, entry.system));
+}
+
+}  // namespace
+
+void read_machine(TableReader* root, Config* config) {
+  root->require("machine");
+  root->table("machine", [&](TableReader& reader) {
+    nc_config& nc = config->nc;
+    unsigned word = 0;
+    reader.string("name", &config->name);
+    if (reader.choice("dialect", {"m700", "dgshape"}, &word)) nc.dialect = static_cast<std::uint8_t>(word);
+    reader.choice("hal", {"sim"}, &word);
+    reader.string("programs", &config->programs);
+    reader.integer("cycle_us", &config->cycle_us, 100, 100000);
+    nc.cycle_s = config->cycle_us * 1e-6;
+    if (reader.integer("look_ahead", &nc.look_ahead, 64, 65536) && !std::has_single_bit(nc.look_ahead))
+      reader.error("look_ahead", "must be a power of two");
+    reader.integer("program_entries", &nc.programs, 1, 4096);
+    reader.integer("tool_offset_sets", &nc.tool_offsets, 1, 999);
+    reader.integer("work_offset_sets", &nc.work_offsets, 1, 300);
+    if (reader.integer("variable_sets", &nc.variable_sets, 100, 600) && nc.variable_sets != 100 &&
+        nc.variable_sets != 200 && nc.variable_sets != 300 && nc.variable_sets != 600)
+      reader.error("variable_sets", "must be 100, 200, 300 or 600");  // M700 13.4
+    reader.integer("window_bytes", &nc.window_bytes, 4096, 1 << 24);
+    reader.number("max_feed_override", &nc.max_feed_override, 1.0, 3.0);
+  });
+}
+
+void read_scheduling(TableReader* root, Config* config) {
+  root->table("scheduling", [&](TableReader& reader) {
+    SchedulingConfig& scheduling = config->scheduling;
+    unsigned word = 0;
+    if (reader.choice("policy", {"fifo", "other"}, &word)) scheduling.fifo = word == 0;
+    reader.integer("priority", &scheduling.priority, 1, 98);
+    reader.integer("cpu", &scheduling.cpu, -1, 1023);
+    reader.boolean("lock_memory", &scheduling.lock_memory);
+    reader.integer("feeder_us", &scheduling.feeder_us, 100, 100000);
+    if (reader.choice("overrun", {"count", "feed_hold", "alarm"}, &word))
+      scheduling.overrun = static_cast<OverrunReaction>(word);
+    reader.integer("overrun_limit", &scheduling.overrun_limit, 1, 1000000);
+  });
+}
+
+void read_axes(TableReader* root, Config* config) {
+  root->require("axis");
+  root->tables("axis", [&](TableReader& reader, std::size_t) { read_axis(&reader, config); });
+  for (unsigned s = 0; s < config->nc.system_count; ++s) {
+    if (config->nc.system[s].axis_count == 0 && root->find("axis") != nullptr)
+      root->error("axis", "part system " + std::to_string(s + 1) + " has no axis");
+    config->sim.axis_count[s] = config->nc.system[s].axis_count;
+    config->sim.start[s] = config->start[s];
+  }
+  config->sim.system_count = config->nc.system_count;
+  config->sim.cycle_s = config->nc.cycle_s;
+}
+
+bool find_axis(const Config& config, std::string_view name, unsigned* system, unsigned* axis) {
+  if (name.empty() || name.size() > 2) return false;
+  unsigned s = 0;
+  if (name.size() == 2) {
+    if (name[1] < '1' || name[1] > '0' + NC_MAX_SYSTEMS) return false;
+    s = static_cast<unsigned>(name[1] - '1');
+  }
+  if (s >= config.nc.system_count) return false;
+  for (unsigned a = 0; a < config.nc.system[s].axis_count; ++a) {
+    if (config.nc.system[s].axis[a].name != name[0]) continue;
+    *system = s;
+    *axis = a;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configuration sections [parameters], [work_offsets], [tool_offsets].
+#include <charconv>
+#include <optional>
+
+#include "runtime/config_sections.hpp"
+
+namespace nc::rt {
+namespace {
+
+constexpr double kMaxOffset = 1e6;
+constexpr std::string_view kColumns[] = {"length", "length_wear", "radius", "radius_wear"};
+
+// Whole text as a number from min to max.
+std::optional<unsigned> parse_number(std::string_view text, unsigned min, unsigned max) {
+  unsigned value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || value < min || value > max) return {};
+  return value;
+}
+
+// A parameter's value as the text that nc_parameter_set() takes.
+std::optional<std::string> value_text(const toml::node& node) {
+  double number = 0;
+  if (node_number(node, &number)) return number_text(number);
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* flag = node.as_boolean()) return std::string(flag->get() ? "1" : "0");
+  return {};
+}
+
+// EXT 0, G54..G59 1..6, G54.1P<n> 100+n; as nc_work_offset_set().
+std::optional<unsigned> work_offset_index(std::string_view name, unsigned sets) {
+  if (name == "EXT") return 0;
+  if (name.size() == 3 && name.substr(0, 2) == "G5" && name[2] >= '4' && name[2] <= '9')
+    return static_cast<unsigned>(name[2] - '3');
+  constexpr std::string_view kExtended = "G54.1P";
+  if (name.substr(0, kExtended.size()) != kExtended) return {};
+  const auto number = parse_number(name.substr(kExtended.size()), 1, sets);
+  return number ? std::optional<unsigned>(100 + *number) : std::nullopt;
+}
+
+std::string no_axis(std::string_view name) { return "no axis \"" + std::string(name) + "\" is configured"; }
+
+}  // namespace
+
+void read_parameters(TableReader* root, Config* config) {
+  root->table("parameters", [&](TableReader& reader) {
+    reader.each([&](const std::string& key, const toml::node& node) {
+      if (const toml::table* by_axis = node.as_table()) {
+        for (const auto& [axis_name, value] : *by_axis) {
+          unsigned system = 0, axis = 0;
+          const auto text = value_text(value);
+          const ConfigPlace place{line_of(value), reader.path(key) + "." + std::string(axis_name.str())};
+          if (!find_axis(*config, axis_name.str(), &system, &axis))
+            reader.errors()->add(place.line, place.key, no_axis(axis_name.str()));
+          else if (!text)
+            reader.errors()->add(place.line, place.key, std::string("must be a number or a word, not ") + type_name(value));
+          else
+            config->parameters.push_back({key, axis_name.str()[0], system, *text, place});
+        }
+        return;
+      }
+      const auto text = value_text(node);
+      if (!text)
+        reader.error(key, std::string("must be a finite number, a word, or a table by axis, not ") + type_name(node));
+      else
+        config->parameters.push_back({key, 0, 0, *text, {line_of(node), reader.path(key)}});
+    });
+  });
+}
+
+void read_work_offsets(TableReader* root, Config* config) {
+  root->table("work_offsets", [&](TableReader& reader) {
+    reader.each([&](const std::string& name, const toml::node& node) {
+      const auto index = work_offset_index(name, config->nc.work_offsets);
+      if (!index) {
+        reader.error(name, "must be EXT, G54 to G59, or \"G54.1P1\" to \"G54.1P" +
+                               std::to_string(config->nc.work_offsets) + "\"");
+        return;
+      }
+      const toml::table* table = node.as_table();
+      if (table == nullptr) {
+        reader.error(name, std::string("must be a table by axis, not ") + type_name(node));
+        return;
+      }
+      TableReader by_axis(*table, reader.path(name), reader.errors());
+      by_axis.each([&](const std::string& axis_name, const toml::node& value) {
+        WorkOffsetSetting setting;
+        setting.index = *index;
+        setting.place = {line_of(value), by_axis.path(axis_name)};
+        if (!find_axis(*config, axis_name, &setting.system, &setting.axis))
+          by_axis.error(axis_name, no_axis(axis_name));
+        else if (by_axis.number(axis_name, &setting.value, -kMaxOffset, kMaxOffset))
+          config->work_offsets.push_back(setting);
+      });
+    });
+  });
+}
+
+void read_tool_offsets(TableReader* root, Config* config) {
+  root->table("tool_offsets", [&](TableReader& reader) {
+    reader.each([&](const std::string& name, const toml::node& node) {
+      const auto number = parse_number(name, 1, config->nc.tool_offsets);
+      if (!number) {
+        reader.error(name, "must be an offset number from 1 to " + std::to_string(config->nc.tool_offsets));
+        return;
+      }
+      ToolOffsetSetting setting;
+      setting.number = *number;
+      setting.place = {line_of(node), reader.path(name)};
+      for (const ToolOffsetSetting& other : config->tool_offsets)
+        if (other.number == *number) reader.error(name, "offset " + std::to_string(*number) + " is already there");
+      if (const toml::table* table = node.as_table()) {
+        TableReader columns(*table, reader.path(name), reader.errors());
+        for (unsigned c = 0; c < 4; ++c)
+          setting.given[c] = columns.number(kColumns[c], &setting.column[c], -kMaxOffset, kMaxOffset);
+        columns.finish();
+      } else {
+        setting.given[NC_TOOL_LENGTH] =
+            reader.number(name, &setting.column[NC_TOOL_LENGTH], -kMaxOffset, kMaxOffset);
+      }
+      config->tool_offsets.push_back(setting);
+    });
+  });
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Progress and summary of ncrtd. See console.hpp.
+#include "runtime/console.hpp"
+
+#include <algorithm>
+#include <cstdarg>
+#include <fstream>
+#include <vector>
+
+namespace nc::rt {
+namespace {
+
+constexpr std::uint64_t kCountedBytes = 64u << 20;
+constexpr std::size_t kBlock = 1u << 16;
+
+__attribute__((format(printf, 2, 3))) void append(std::string* text, const char* format, ...) {
+  char buffer[256];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(buffer, sizeof buffer, format, arguments);
+  va_end(arguments);
+  *text += buffer;
+}
+
+double us(std::uint64_t ns) { return static_cast<double>(ns) / 1000.0; }
+
+void append_histogram(std::string* text, const char* name, const Histogram& histogram) {
+  append(text, "  %-16s p50 %8.1f us   p99 %8.1f us   p99.9 %8.1f us   max %8.1f us\n", name,
+         us(histogram.percentile_ns(0.5)), us(histogram.percentile_ns(0.99)), us(histogram.percentile_ns(0.999)),
+         us(histogram.max_ns()));
+}
+
+}  // namespace
+
+std::uint64_t estimate_lines(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  if (!stream) return 0;
+  const std::streamoff end = stream.tellg();
+  if (end <= 0) return 0;
+  const auto size = static_cast<std::uint64_t>(end);
+  const std::uint64_t wanted = size <= kCountedBytes ? size : 1u << 20;
+  stream.seekg(0);
+  std::vector<char> block(kBlock);
+  std::uint64_t lines = 0, read = 0;
+  while (read < wanted && stream.read(block.data(), static_cast<std::streamsize>(block.size())).gcount() > 0) {
+    const std::streamsize got = stream.gcount();
+    lines += static_cast<std::uint64_t>(std::count(block.begin(), block.begin() + got, '\n'));
+    read += static_cast<std::uint64_t>(got);
+  }
+  if (read == 0) return 0;
+  return std::max<std::uint64_t>(1, lines * size / read);
+}
+
+unsigned percent_done(std::uint32_t main_line, std::uint64_t lines) {
+  if (lines == 0) return 0;
+  return static_cast<unsigned>(std::min<std::uint64_t>(100, std::uint64_t{main_line} * 100 / lines));
+}
+
+std::string state_text(const nc_outputs& outputs) {
+  switch (outputs.state) {
+    case NC_STATE_IDLE: return "idle";
+    case NC_STATE_HOLD: return "feed hold";
+    case NC_STATE_ALARM: return "alarm";
+    case NC_STATE_MANUAL: return "manual";
+    default: break;
+  }
+  switch (outputs.cause) {
+    case NC_CAUSE_FIN: {
+      std::string text = "waits for FIN of";
+      if (outputs.strobe & 1) append(&text, " M%02u", outputs.m);
+      if (outputs.strobe & 2) append(&text, " S%.0f", outputs.s);
+      if (outputs.strobe & 4) append(&text, " T%u", outputs.t);
+      if (outputs.strobe & 8) append(&text, " B%u", outputs.b);
+      return outputs.strobe == 0 ? "waits for FIN" : text;
+    }
+    case NC_CAUSE_DWELL: return "dwell";
+    case NC_CAUSE_IN_POSITION: return "in-position check";
+    case NC_CAUSE_PROGRAM_STOP: return "program stop";
+    case NC_CAUSE_SINGLE_BLOCK: return "block stop";
+    case NC_CAUSE_INTERLOCK: return "interlock";
+    case NC_CAUSE_OVERRIDE_ZERO: return "override 0 %";
+    case NC_CAUSE_STARVED: return "waits for blocks";
+    default: return outputs.state == NC_STATE_STOPPED ? "stopped" : outputs.rapid ? "rapid" : "running";
+  }
+}
+
+std::string progress_line(const Runtime& runtime, std::uint64_t lines) {
+  const Snapshot snapshot = runtime.snapshot();
+  const FeederInfo info = runtime.info();
+  const SystemSnapshot& system = snapshot.system[0];
+  const nc_system_config& axes = runtime.config().nc.system[0];
+  const nc_source& source = system.nc.source;
+  std::string text;
+  append(&text, "%3u %%  ", percent_done(std::max(info.main_line, source.depth == 0 ? source.line : 0), lines));
+  if (source.depth == 0)
+    append(&text, "line %-5u", source.line);
+  else
+    append(&text, "O%u:%-4u", source.program, source.line);
+  for (unsigned a = 0; a < axes.axis_count; ++a) append(&text, " %c%9.3f", axes.axis[a].name, system.nc.work.v[a]);
+  append(&text, "  F%-6.0f S%-6.0f T%-3u ", system.nc.feed_mm_min, system.spindle_rpm, system.nc.t);
+  text += state_text(system.nc);
+  if (snapshot.alarmed()) text += "  " + runtime.alarm_text(snapshot.alarms.alarm[0]);
+  return text;
+}
+
+std::string summary_text(const Runtime& runtime, const nc_outputs& last_run) {
+  const ScanStatistics& statistics = runtime.statistics();
+  std::string text;
+  append(&text, "cycle time   %.3f s\n", last_run.run_s);
+  append(&text, "path length  %.3f mm\n", last_run.path_length);
+  append(&text, "blocks       %llu\n", static_cast<unsigned long long>(last_run.blocks));
+  append(&text, "scans        %llu of %u us, %llu overruns, %llu slots missed\n",
+         static_cast<unsigned long long>(statistics.execution.count()), runtime.config().cycle_us,
+         static_cast<unsigned long long>(statistics.overruns.load()),
+         static_cast<unsigned long long>(statistics.missed_slots.load()));
+  append_histogram(&text, "execution time", statistics.execution);
+  append_histogram(&text, "wake-up jitter", statistics.jitter);
+  return text;
+}
+
+void Progress::show(const Runtime& runtime) {
+  const std::string line = progress_line(runtime, lines_);
+  if (terminal_) {
+    std::fprintf(out_, "\r\033[K%.200s", line.c_str());
+    std::fflush(out_);
+    live_ = true;
+    return;
+  }
+  const Snapshot snapshot = runtime.snapshot();
+  const int tenth = std::atoi(line.c_str()) / 10;
+  const std::string state = snapshot.system[0].nc.state == NC_STATE_RUNNING ? "" : state_text(snapshot.system[0].nc);
+  if (tenth == last_tenth_ && state == last_state_) return;
+  last_tenth_ = tenth;
+  last_state_ = state;
+  std::fprintf(out_, "%s\n", line.c_str());
+  std::fflush(out_);
+}
+
+void Progress::finish() {
+  if (!live_) return;
+  std::fputc('\n', out_);
+  live_ = false;
+}
+
+void Progress::note(const std::string& text) {
+  finish();
+  std::fprintf(out_, "%s\n", text.c_str());
+  std::fflush(out_);
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What ncrtd shows on a terminal: one live line (or plain lines where there is no terminal) and the summary at the end.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "runtime/runtime.hpp"
+
+namespace nc::rt {
+
+// Lines of a program, for the percentage: counted in small files, estimated from the first megabyte in large ones.
+// 0 = cannot be read.
+std::uint64_t estimate_lines(const std::string& path);
+
+// Share of the program that is done, 0..100, by the line of the main program.
+unsigned percent_done(std::uint32_t main_line, std::uint64_t lines);
+
+// "  43 % line 27  X -12.345 Y 3.000 Z -5.000  F4800 S8000 T2  running"
+std::string progress_line(const Runtime& runtime, std::uint64_t lines);
+
+// The state in words, with the reason when nothing moves.
+std::string state_text(const nc_outputs& outputs);
+
+// Cycle time, path length, blocks, scan statistics.
+std::string summary_text(const Runtime& runtime, const nc_outputs& last_run);
+
+// Live progress. On a terminal the line is rewritten in place; elsewhere a line appears at each tenth and at each change
+// of state.
+class Progress {
+ public:
+  Progress(std::FILE* out, bool terminal, std::uint64_t lines) : out_(out), terminal_(terminal), lines_(lines) {}
+  void show(const Runtime& runtime);
+  void finish();  // leaves the live line
+  void note(const std::string& text);
+
+ private:
+  std::FILE* out_;
+  bool terminal_;
+  std::uint64_t lines_;
+  bool live_ = false;
+  int last_tenth_ = -1;
+  std::string last_state_;
+};
+
+}  // namespace nc::rt

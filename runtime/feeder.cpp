@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// The feeder. See feeder.hpp.
+#include "runtime/feeder.hpp"
+
+#include <algorithm>
+
+namespace nc::rt {
+namespace {
+
+// One period reads at most this many blocks, so that a reset of an endless GOTO is seen between two of them.
+constexpr std::uint32_t kBlocksPerCall = 256;
+constexpr unsigned kCallsPerStep = 8;
+
+}  // namespace
+
+Feeder::Feeder(unsigned systems, NcPort* nc, Scan* scan) : systems_(systems), nc_(nc), scan_(scan) {}
+
+FeederInfo Feeder::info() const {
+  const std::lock_guard lock(mutex_);
+  return info_;
+}
+
+void Feeder::set_mdi_text(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  mdi_text_ = text;
+}
+
+void Feeder::step() {
+  seen_ = scan_->snapshot();
+  take_events();
+  complete_reset();
+  rewind_ended();
+  Command command;
+  while (commands_.pop(&command)) (void)answers_.push({command.ticket, apply(command)});
+  feed();
+  PositionSample sample;
+  while (scan_->poll_position(&sample))
+    if (path_sink_ != nullptr) path_sink_->moved(sample);
+  take_messages();
+  take_alarm();
+  bool ready = false;
+  for (unsigned s = 0; s < systems_; ++s) ready |= system_[s].selected;
+  scan_->set_program_ready(ready);
+  const std::lock_guard lock(mutex_);
+  info_.program_ready = ready;
+}
+
+Answer Feeder::apply(const Command& command) {
+  if (command.system >= systems_) return Answer::kAxisUnknown;
+  if (command.kind == CommandKind::kSwitches) {
+    nc_->switches(command.system, command.number);
+    return Answer::kDone;
+  }
+  if (seen_.resetting || scan_->reset_waits()) return Answer::kResetting;
+  if (seen_.program_active()) return Answer::kNotWhileRunning;
+  if (seen_.alarmed()) return Answer::kAlarmActive;
+  if (command.kind == CommandKind::kSelectProgram) return select(command.system, command.number);
+  if (command.kind == CommandKind::kLoadMdi) return load_mdi(command.system);
+  return Answer::kOutOfRange;
+}
+
+Answer Feeder::select(unsigned system, std::uint32_t file) {
+  if (seen_.mode != Mode::kAuto) return Answer::kNotInThisMode;
+  if (nc_->select(system, file) < 0) return Answer::kRefusedByControl;
+  system_[system] = {true, false, file, false, false};
+  const std::lock_guard lock(mutex_);
+  info_.main_line = 0;
+  info_.ended = false;
+  return Answer::kDone;
+}
+
+Answer Feeder::load_mdi(unsigned system) {
+  if (seen_.mode != Mode::kMdi) return Answer::kNotInThisMode;
+  std::string text;
+  {
+    const std::lock_guard lock(mutex_);
+    text = mdi_text_;
+    info_.main_line = 0;
+    info_.ended = false;
+  }
+  if (nc_->load_mdi(system, text.data(), text.size()) < 0) return Answer::kRefusedByControl;
+  system_[system] = {true, true, 0, false, false};
+  return Answer::kDone;
+}
+
+// The scan is at rest after a reset: the interpreter goes back to the program's head. A reset gives MDI blocks up.
+void Feeder::complete_reset() {
+  if (!scan_->reset_waits()) return;
+  for (unsigned s = 0; s < systems_; ++s) {
+    if (nc_->reset(s) == NC_E_STATE) return;  // not yet: the next step tries again
+    if (system_[s].mdi) system_[s] = {};
+    system_[s].ended = system_[s].alarmed = false;
+  }
+  take_events();  // what was executed before the reset belongs before it
+  scan_->reset_finished();
+  const std::lock_guard lock(mutex_);
+  info_.alarm = false;
+  info_.main_line = 0;
+}
+
+// M02 and M30 rewind: a program that ended is at its head again and may be started. MDI blocks run once.
+void Feeder::rewind_ended() {
+  for (unsigned s = 0; s < systems_; ++s) {
+    System& system = system_[s];
+    if (!system.ended || seen_.system[s].nc.state != NC_STATE_IDLE || scan_->reset_waits()) continue;
+    system.ended = system.alarmed = false;
+    if (system.mdi)
+      system = {};
+    else if (system.selected && nc_->select(s, system.file) < 0)
+      system = {};
+  }
+}
+
+void Feeder::feed() {
+  bool any = false;
+  for (unsigned s = 0; s < systems_; ++s) any |= system_[s].selected;
+  if (!any || scan_->reset_waits()) return;
+  for (unsigned i = 0; i < kCallsPerStep; ++i)
+    if (nc_->feed(kBlocksPerCall) != NC_OK) return;
+}
+
+void Feeder::take_events() {
+  std::uint64_t count = 0, dropped = 0;
+  for (unsigned s = 0; s < systems_; ++s) {
+    nc_event event;
+    std::uint64_t lost = 0;
+    while (nc_->poll_event(s, &event, &lost) == NC_OK) {
+      ++count;
+      dropped = std::max(dropped, lost);
+      if (sink_ != nullptr) sink_->executed(s, event);
+      if (event.kind == NC_ITEM_ALARM) system_[s].alarmed = true;
+      if (event.kind == NC_ITEM_END) system_[s].ended = true;
+      if (s != 0) continue;
+      const std::lock_guard lock(mutex_);
+      if (event.kind == NC_ITEM_MARK && event.source.depth == 0) info_.main_line = event.source.line;
+      if (event.kind == NC_ITEM_END) {
+        info_.ended = true;
+        info_.ended_ok = !system_[s].alarmed;
+        ++info_.runs;
+      }
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  info_.events += count;
+  info_.dropped = std::max(info_.dropped, dropped);
+}
+
+void Feeder::take_messages() {
+  Scan::Message message{};
+  while (scan_->poll_message(&message)) {
+    nc_text text;
+    if (nc_->text(message.system, message.text, &text) != NC_OK) continue;
+    const std::lock_guard lock(mutex_);
+    info_.last_message = text.s;
+    ++info_.messages;
+  }
+}
+
+// Details of a program alarm, once the machine has come to it.
+void Feeder::take_alarm() {
+  for (unsigned s = 0; s < systems_; ++s) {
+    if (seen_.system[s].nc.state != NC_STATE_ALARM) continue;
+    nc_alarm alarm;
+    if (nc_->alarm(s, &alarm) != NC_OK) continue;
+    const std::lock_guard lock(mutex_);
+    info_.alarm = true;
+    info_.program_alarm = alarm;
+    return;
+  }
+}
+
+}  // namespace nc::rt

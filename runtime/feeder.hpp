@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The feeder: reads ahead of the machine, takes what the machine has executed, completes resets, selects programs.
+// It belongs to one ordinary thread (or, on virtual time, to the same thread as the scan, in turns); it may allocate.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "runtime/command.hpp"
+#include "runtime/scan.hpp"
+
+namespace nc::rt {
+
+// What was executed, in order: the runtime's side of the item stream.
+class EventSink {
+ public:
+  virtual ~EventSink() = default;
+  virtual void executed(unsigned system, const nc_event& event) = 0;  // feeder thread
+};
+
+// The executed path, one sample per scan.
+class PathSink {
+ public:
+  virtual ~PathSink() = default;
+  virtual void moved(const PositionSample& sample) = 0;  // feeder thread
+};
+
+// What the feeder knows and readers want.
+struct FeederInfo {
+  bool program_ready = false;     // selected, at its head or running
+  bool ended = false;             // the last run came to its end (M02, M30)
+  bool ended_ok = false;
+  std::uint64_t runs = 0;         // runs that ended
+  std::uint64_t events = 0;       // items executed
+  std::uint64_t dropped = 0;      // events that were not fetched in time
+  std::uint32_t main_line = 0;    // line of the main program that was finished last
+  bool alarm = false;             // program_alarm holds
+  nc_alarm program_alarm{};
+  std::uint64_t messages = 0;     // so far
+  std::string last_message;
+};
+
+class Feeder {
+ public:
+  Feeder(unsigned systems, NcPort* nc, Scan* scan);
+
+  // One period: commands, a reset that waits, feeding, events.
+  void step();
+
+  // ---- operator's thread (the same as Scan::post) ----
+  bool post(const Command& command) { return commands_.push(command); }
+  bool poll_answer(CommandAnswer* answer) { return answers_.pop(answer); }
+  void set_mdi_text(const std::string& text);  // before kLoadMdi
+
+  // ---- any thread ----
+  FeederInfo info() const;
+
+  // Before the threads start.
+  void set_sink(EventSink* sink) { sink_ = sink; }
+  void set_path_sink(PathSink* sink) {
+    path_sink_ = sink;
+    scan_->record_positions();
+  }
+
+ private:
+  Answer apply(const Command& command);
+  Answer select(unsigned system, std::uint32_t file);
+  Answer load_mdi(unsigned system);
+  void complete_reset();
+  void feed();
+  void take_events();
+  void take_messages();
+  void take_alarm();
+  void rewind_ended();
+
+  const unsigned systems_;
+  NcPort* nc_;
+  Scan* scan_;
+  EventSink* sink_ = nullptr;
+  PathSink* path_sink_ = nullptr;
+
+  struct System {
+    bool selected = false, mdi = false;
+    std::uint32_t file = 0;
+    bool ended = false;    // the end item has been executed
+    bool alarmed = false;  // behind an alarm item
+  };
+  System system_[NC_MAX_SYSTEMS];
+  Snapshot seen_;  // of this step
+
+  SpscQueue<Command, 64> commands_;
+  SpscQueue<CommandAnswer, 128> answers_;
+  mutable std::mutex mutex_;  // guards info_ and mdi_text_; never taken by the scan
+  FeederInfo info_;
+  std::string mdi_text_;
+};
+
+}  // namespace nc::rt

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Macro interface image. M700 13.5.5:
+//   in   #1000..#1031 = bits of #1032    #1200..#1231 = #1033    #1232..#1263 = #1034    #1264..#1295 = #1035
+//   out  #1100..#1131 = bits of #1132    #1300..#1331 = #1133    #1332..#1363 = #1134    #1364..#1395 = #1135
+#include "runtime/macro_interface.hpp"
+
+namespace nc::rt {
+namespace {
+
+constexpr std::uint8_t kWholeWord = 255;
+
+}  // namespace
+
+MacroInterface::MacroInterface(const MacroMap& map) {
+  for (unsigned w = 0; w < NC_WORDS; ++w) {
+    const auto word = static_cast<std::uint8_t>(w);
+    if (map.input_word[w] >= 0) inputs_.push_back({word, kWholeWord, static_cast<std::uint16_t>(map.input_word[w])});
+    if (map.output_word[w] >= 0) outputs_.push_back({word, kWholeWord, static_cast<std::uint16_t>(map.output_word[w])});
+    for (unsigned b = 0; b < 32; ++b) {
+      const auto bit = static_cast<std::uint8_t>(b);
+      if (map.input_bit[w][b] >= 0) inputs_.push_back({word, bit, static_cast<std::uint16_t>(map.input_bit[w][b])});
+      if (map.output_bit[w][b] >= 0) outputs_.push_back({word, bit, static_cast<std::uint16_t>(map.output_bit[w][b])});
+    }
+  }
+}
+
+void MacroInterface::gather(const hal::PointImage& points, std::uint32_t input[NC_WORDS]) const noexcept {
+  for (unsigned w = 0; w < NC_WORDS; ++w) input[w] = 0;
+  for (const Entry& entry : inputs_) {
+    const std::uint32_t value = points.value[entry.point];
+    input[entry.word] |= entry.bit == kWholeWord ? value : (value & 1u) << entry.bit;
+  }
+}
+
+void MacroInterface::distribute(unsigned system, const std::uint32_t output[NC_WORDS],
+                                hal::PointImage* points) noexcept {
+  std::uint32_t changed[NC_WORDS];
+  std::uint32_t any = 0;
+  for (unsigned w = 0; w < NC_WORDS; ++w) {
+    changed[w] = output[w] ^ last_[system][w];
+    last_[system][w] = output[w];
+    image_[w] = (image_[w] & ~changed[w]) | (output[w] & changed[w]);
+    any |= changed[w];
+  }
+  if (any == 0) return;
+  for (const Entry& entry : outputs_) {
+    if (entry.bit == kWholeWord) {
+      if (changed[entry.word] != 0) points->value[entry.point] = image_[entry.word];
+    } else if ((changed[entry.word] >> entry.bit & 1u) != 0) {
+      points->value[entry.point] = image_[entry.word] >> entry.bit & 1u;
+    }
+  }
+}
+
+}  // namespace nc::rt

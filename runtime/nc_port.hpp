@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The NC as the scan and the feeder see it. One implementation is libnc; tests put a recorder in its place to prove the
+// order of a scan.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "nc/nc.h"
+
+namespace nc::rt {
+
+class NcPort {
+ public:
+  virtual ~NcPort() = default;
+  virtual void cycle(const nc_inputs* in, nc_outputs* out) noexcept = 0;  // scan thread, NC_RT
+  // Feeder thread.
+  virtual nc_status feed(std::uint32_t budget) = 0;
+  virtual nc_status poll_event(unsigned system, nc_event* event, std::uint64_t* dropped) = 0;
+  virtual nc_status select(unsigned system, unsigned file) = 0;
+  virtual nc_status load_mdi(unsigned system, const char* text, std::size_t length) = 0;
+  virtual nc_status reset(unsigned system) = 0;
+  virtual void switches(unsigned system, std::uint32_t optional_skip) = 0;
+  virtual nc_status alarm(unsigned system, nc_alarm* alarm) = 0;
+  virtual nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) = 0;
+  virtual nc_status text(unsigned system, std::uint32_t id, nc_text* text) = 0;
+};
+
+// libnc behind the port; `system` counts from 0.
+class LibNc final : public NcPort {
+ public:
+  explicit LibNc(nc_control* control) : control_(control) {}
+  void cycle(const nc_inputs* in, nc_outputs* out) noexcept override { nc_cycle(control_, in, out); }
+  nc_status feed(std::uint32_t budget) override { return nc_feed(control_, budget); }
+  nc_status poll_event(unsigned system, nc_event* event, std::uint64_t* dropped) override;
+  nc_status select(unsigned system, unsigned file) override;
+  nc_status load_mdi(unsigned system, const char* text, std::size_t length) override;
+  nc_status reset(unsigned system) override;
+  void switches(unsigned system, std::uint32_t optional_skip) override;
+  nc_status alarm(unsigned system, nc_alarm* alarm) override;
+  nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) override;
+  nc_status text(unsigned system, std::uint32_t id, nc_text* text) override;
+
+ private:
+  nc_control* control_;
+};
+
+}  // namespace nc::rt

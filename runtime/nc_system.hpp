@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the runtime's part system index (0...) is named towards the C API.
+#pragma once
+
+namespace nc::rt {
+
+// Calls of the API count part systems from 0, as the arrays of nc_cycle() do; only nc_source::system counts from 1.
+constexpr unsigned api_system(unsigned index) { return index; }
+
+}  // namespace nc::rt

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scan: see scan.hpp for its order.
+#include "runtime/scan.hpp"
+
+#include <ctime>
+
+#include "runtime/rt_scope.hpp"
+
+namespace nc::rt {
+namespace {
+
+// A reset is held for some scans, so that its edge is seen whatever the state.
+constexpr unsigned kResetMinScans = 2;
+
+// Time for the execution histogram; clock_gettime() of the monotonic clock does not enter the kernel.
+std::int64_t processor_ns() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return t.tv_sec * 1'000'000'000LL + t.tv_nsec;
+}
+
+}  // namespace
+
+Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder, NcPort* nc)
+    : config_(config),
+      clock_(clock),
+      hal_(hal),
+      ladder_(ladder),
+      nc_(nc),
+      systems_(config.nc.system_count),
+      period_ns_(static_cast<std::int64_t>(config.cycle_us) * 1000),
+      macro_(config.macro) {
+  for (unsigned p = 0; p < config.points.size(); ++p) points_.value[p] = config.points.at(p).initial;
+  for (unsigned s = 0; s < systems_; ++s) {
+    last_command_[s] = config.start[s];
+    out_[s].command = config.start[s];
+    out_[s].distance_zero = true;
+    feedback_.system[s].actual = config.start[s];
+  }
+}
+
+void Scan::begin() noexcept { next_ns_ = clock_->now_ns() + period_ns_; }
+
+void Scan::loop_step() noexcept {
+  clock_->sleep_until(next_ns_);
+  statistics_.jitter.record(clock_->now_ns() - next_ns_);
+  const std::int64_t started = processor_ns();
+  run_once();
+  statistics_.execution.record(processor_ns() - started);
+  // A scan that ends behind its slot is an overrun. Late by less than a period: the next one runs at once. Later: the
+  // missed slots are skipped. The NC's time advances one cycle per scan, so no set-point jumps.
+  const std::int64_t late = clock_->now_ns() - (next_ns_ + period_ns_);
+  next_ns_ += period_ns_;
+  if (late < 0) return;
+  const std::int64_t missed = late / period_ns_;
+  next_ns_ += missed * period_ns_;
+  statistics_.overruns.fetch_add(1, std::memory_order_relaxed);
+  statistics_.missed_slots.fetch_add(static_cast<std::uint64_t>(missed), std::memory_order_relaxed);
+  missed_since_reset_ += static_cast<std::uint64_t>(missed);
+}
+
+void Scan::run_once() noexcept {
+  const RtScope scope;
+  ++scan_;
+  scan_time_ns_ = clock_->now_ns();
+  read_inputs();
+  LadderImage image{&config_.points, &points_, &feedback_, out_, in_, systems_};
+  ladder_->scan(&image);
+  for (unsigned s = 0; s < systems_; ++s) {  // what the ladder left in the points is what the program reads
+    macro_.gather(points_, interface_input_);
+    for (unsigned w = 0; w < NC_WORDS; ++w) in_[s].input[w] = interface_input_[w];
+  }
+  for (unsigned s = 0; s < systems_; ++s) last_command_[s] = out_[s].command;
+  nc_->cycle(in_, out_);
+  write_outputs();
+  follow_requests();
+  publish();
+}
+
+// ---- 1 inputs ----
+
+void Scan::read_inputs() noexcept {
+  hal_->read(&feedback_, &points_);
+  take_commands();
+  watch_machine();
+  watch_overruns();
+  build_nc_inputs();
+}
+
+void Scan::take_commands() noexcept {
+  Command command;
+  while (commands_.pop(&command)) {
+    const Answer answer = apply(command);
+    // The ring of answers is larger than the ring of commands; an operator who never looks loses answers, not commands.
+    (void)answers_.push({command.ticket, answer});
+  }
+}
+
+Answer Scan::apply(const Command& command) noexcept {
+  switch (command.kind) {
+    case CommandKind::kSetMode:
+      if (command.number > static_cast<std::uint32_t>(Mode::kManual)) return Answer::kOutOfRange;
+      if (static_cast<Mode>(command.number) == mode_) return Answer::kDone;
+      if (program_active() || !at_rest()) return Answer::kNotWhileRunning;
+      mode_ = static_cast<Mode>(command.number);
+      return Answer::kDone;
+    case CommandKind::kCycleStart: return start_cycle();
+    case CommandKind::kFeedHold:
+      if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
+      hold_request_ = program_active();
+      return Answer::kDone;
+    case CommandKind::kReset:
+      if (reset_phase_ == ResetPhase::kNone) {
+        reset_phase_ = ResetPhase::kStopping;
+        reset_scans_ = 0;
+      }
+      return Answer::kDone;
+    case CommandKind::kFeedOverride:
+      if (!(command.value >= 0 && command.value <= config_.nc.max_feed_override)) return Answer::kOutOfRange;
+      feed_override_ = command.value;
+      return Answer::kDone;
+    case CommandKind::kRapidOverride:
+      if (!(command.value >= 0 && command.value <= 1)) return Answer::kOutOfRange;
+      rapid_override_ = command.value;
+      return Answer::kDone;
+    case CommandKind::kSingleBlock: single_block_ = command.number != 0; return Answer::kDone;
+    case CommandKind::kOptionalStop: optional_stop_ = command.number != 0; return Answer::kDone;
+    case CommandKind::kJog:
+    case CommandKind::kStep:
+    case CommandKind::kReference: return manual(command);
+    case CommandKind::kSelectProgram:
+    case CommandKind::kLoadMdi:
+    case CommandKind::kSwitches: break;  // the feeder's
+  }
+  return Answer::kOutOfRange;
+}
+
+Answer Scan::start_cycle() noexcept {
+  if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
+  if (reset_phase_ != ResetPhase::kNone) return Answer::kResetting;
+  if (alarms_.count != 0) return Answer::kAlarmActive;
+  for (unsigned s = 0; s < systems_; ++s)
+    if (out_[s].state == NC_STATE_RUNNING) return Answer::kAlreadyRunning;
+  if (!program_active() && !program_ready_.load(std::memory_order_acquire)) return Answer::kNoProgram;
+  start_pulse_ = true;
+  hold_request_ = false;
+  return Answer::kDone;
+}
+
+Answer Scan::manual(const Command& command) noexcept {
+  if (mode_ != Mode::kManual) return Answer::kNotInThisMode;
+  if (reset_phase_ != ResetPhase::kNone) return Answer::kResetting;
+  if (command.system >= systems_ || command.axis >= config_.nc.system[command.system].axis_count)
+    return Answer::kAxisUnknown;
+  const nc_axis_config& axis = config_.nc.system[command.system].axis[command.axis];
+  Jog& jog = jog_[command.system][command.axis];
+  if (command.kind == CommandKind::kJog) {
+    if (!(command.value >= -axis.max_velocity && command.value <= axis.max_velocity)) return Answer::kOutOfRange;
+    if (alarms_.count != 0 && command.value != 0) return Answer::kAlarmActive;
+    jog = command.value == 0 ? Jog{} : Jog{NC_MANUAL_JOG, command.value, kJogDeadManScans};
+    return Answer::kDone;
+  }
+  if (alarms_.count != 0) return Answer::kAlarmActive;
+  if (!at_rest()) return Answer::kNotWhileRunning;
+  if (command.kind == CommandKind::kStep) {
+    if (!(command.value >= -1e6 && command.value <= 1e6)) return Answer::kOutOfRange;
+    jog = {NC_MANUAL_STEP, command.value, 2};  // the distance is taken at the rising edge
+  } else {
+    jog = {NC_MANUAL_REFERENCE, 0, ~0u};  // until the axis is there or reset
+  }
+  return Answer::kDone;
+}
+
+void Scan::build_nc_inputs() noexcept {
+  const bool stop = alarms_.count != 0;
+  const std::int64_t local_ms = clock_->local_ms();
+  for (unsigned s = 0; s < systems_; ++s) {
+    nc_inputs& in = in_[s];
+    const hal::SystemFeedback& machine = feedback_.system[s];
+    in.cycle_start = start_pulse_;
+    in.feed_hold = hold_request_;
+    in.reset = reset_phase_ == ResetPhase::kStopping;
+    in.single_block = single_block_;
+    in.optional_stop = optional_stop_;
+    in.fin = machine.fin;
+    in.interlock = false;
+    // A program alarm is libnc's own state; the level is for what the machine does wrong.
+    in.alarm = false;
+    for (unsigned i = 0; i < alarms_.count; ++i) in.alarm |= alarms_.alarm[i].id != AlarmId::kProgram;
+    in.skip = machine.skip;
+    in.feed_override = feed_override_;
+    in.rapid_override = rapid_override_;
+    in.spindle_rev_per_s = machine.spindle_rev_per_s;
+    in.actual_valid = machine.actual_valid;
+    in.actual = machine.actual;
+    in.clock_ms = local_ms;
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
+      Jog& jog = jog_[s][a];
+      if (stop || mode_ != Mode::kManual || reset_phase_ != ResetPhase::kNone) jog = {};
+      in.manual[a].kind = jog.kind;
+      in.manual[a].velocity = jog.kind == NC_MANUAL_JOG ? jog.value : 0;
+      in.manual[a].distance = jog.kind == NC_MANUAL_STEP ? jog.value : 0;
+      if (jog.remaining == ~0u) {
+        const bool there = std::abs(out_[s].command.v[a] - config_.nc.system[s].axis[a].reference[0]) < 1e-9;
+        if (there) jog = {};
+      } else if (jog.remaining > 0 && --jog.remaining == 0) {
+        jog = {};
+      }
+    }
+  }
+  start_pulse_ = false;
+}
+
+// ---- 4 outputs ----
+
+void Scan::write_outputs() noexcept {
+  watch_soft_limits();
+  bool enable = true;
+  for (unsigned i = 0; i < alarms_.count; ++i)
+    if (alarms_.alarm[i].id == AlarmId::kDriveFault || alarms_.alarm[i].id == AlarmId::kHalLost) enable = false;
+  for (unsigned s = 0; s < systems_; ++s) {
+    const nc_outputs& out = out_[s];
+    macro_.distribute(s, out.output, &points_);
+    machine_.system[s] = {enable, out.command, out.velocity, out.strobe, out.m,     out.t,
+                          out.b,  out.s,       out.serial,   out.source, out.state == NC_STATE_RUNNING};
+    if (out.message && !message_seen_[s]) (void)messages_.push({s, out.message_text});  // full: the oldest stay
+    message_seen_[s] = out.message;
+    if (recording_) record_position(s);
+  }
+  hal_->write(machine_, points_);
+}
+
+// For drawings: what the feeder does not fetch in four seconds is lost, the machine does not wait for it.
+void Scan::record_position(unsigned system) noexcept {
+  const nc_outputs& out = out_[system];
+  if (out.distance_zero && scan_ > 1) return;
+  (void)positions_.push({static_cast<std::uint8_t>(system), out.rapid, out.command});
+}
+
+// What was asked for and has happened now: a hold is released when the path is at rest, a reset goes to the feeder.
+void Scan::follow_requests() noexcept {
+  bool running = false;
+  for (unsigned s = 0; s < systems_; ++s) {
+    running |= out_[s].state == NC_STATE_RUNNING;
+    if (out_[s].state == NC_STATE_ALARM) raise(AlarmId::kProgram, s, -1);
+  }
+  if (!running) hold_request_ = false;
+  if (reset_phase_ == ResetPhase::kStopping) {
+    ++reset_scans_;
+    if (reset_scans_ >= kResetMinScans && !program_active() && at_rest()) {
+      reset_phase_ = ResetPhase::kFeeder;
+      reset_rest_.fetch_add(1, std::memory_order_release);
+    }
+  } else if (reset_phase_ == ResetPhase::kFeeder &&
+             reset_done_.load(std::memory_order_acquire) == reset_rest_.load(std::memory_order_relaxed)) {
+    reset_phase_ = ResetPhase::kNone;
+    acknowledge_alarms();
+  }
+}
+
+// ---- 5 snapshot ----
+
+void Scan::publish() noexcept {
+  Snapshot& out = building_;
+  out.scan = scan_;
+  out.time_ns = scan_time_ns_;
+  out.mode = mode_;
+  out.system_count = systems_;
+  for (unsigned s = 0; s < systems_; ++s) {
+    out.system[s].nc = out_[s];
+    out.system[s].actual = feedback_.system[s].actual;
+    out.system[s].spindle_rpm = feedback_.system[s].spindle_rev_per_s * 60.0;
+  }
+  out.feed_override = feed_override_;
+  out.rapid_override = rapid_override_;
+  out.single_block = single_block_;
+  out.optional_stop = optional_stop_;
+  out.resetting = reset_phase_ != ResetPhase::kNone;
+  out.alarms = alarms_;
+  out.overruns = statistics_.overruns.load(std::memory_order_relaxed);
+  out.missed_slots = statistics_.missed_slots.load(std::memory_order_relaxed);
+  for (unsigned w = 0; w < NC_WORDS; ++w) {
+    out.interface_input[w] = interface_input_[w];
+    out.interface_output[w] = macro_.output()[w];
+  }
+  snapshot_.store(out);
+}
+
+}  // namespace nc::rt

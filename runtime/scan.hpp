@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// One scan, and the loop of scans on absolute deadlines.
+//
+// The order of a scan is a contract, and a test holds it:
+//
+//   1 inputs    HAL read: positions, FIN, skip, input points; operator commands; macro interface inputs
+//   2 ladder    sees this scan's inputs and the NC's outputs of the scan before; has the last word on what the NC gets
+//   3 NC        nc_cycle(): one set of positions
+//   4 outputs   macro interface outputs into the points; HAL write
+//   5 snapshot  one consistent copy for readers
+//
+// run_once() is NC_RT: no allocation, no lock, no system call, bounded work. Everything it exchanges with other threads
+// goes through single-producer queues, atomics and one sequence lock.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "hal/hal.hpp"
+#include "runtime/alarms.hpp"
+#include "runtime/clock.hpp"
+#include "runtime/command.hpp"
+#include "runtime/config.hpp"
+#include "runtime/histogram.hpp"
+#include "runtime/ladder_hook.hpp"
+#include "runtime/macro_interface.hpp"
+#include "runtime/nc_port.hpp"
+#include "runtime/seqlock.hpp"
+#include "runtime/snapshot.hpp"
+#include "runtime/spsc.hpp"
+
+namespace nc::rt {
+
+// Figures of the loop. Execution: from the wake-up to the end of the scan's body, always on the processor's clock.
+// Jitter: from the deadline to the wake-up, on the scan's clock.
+struct ScanStatistics {
+  Histogram execution, jitter;
+  std::atomic<std::uint64_t> overruns{0};      // scans that ended behind their slot
+  std::atomic<std::uint64_t> missed_slots{0};  // slots without a scan; the path's time stands still in them
+};
+
+// Where the machine was sent in one scan, for whoever wants the executed path.
+struct PositionSample {
+  std::uint8_t system = 0;
+  bool rapid = false;
+  nc_axes command{};
+};
+
+class Scan {
+ public:
+  Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder, NcPort* nc);
+
+  // ---- scan thread ----
+  // First deadline = now + one cycle.
+  void begin() noexcept;
+  // Sleeps to the next deadline, runs one scan, accounts for it.
+  void loop_step() noexcept;
+  // The body alone. NC_RT.
+  void run_once() noexcept;
+
+  // ---- one operator's thread ----
+  bool post(const Command& command) noexcept { return commands_.push(command); }
+  bool poll_answer(CommandAnswer* answer) noexcept { return answers_.pop(answer); }
+
+  // ---- any thread ----
+  Snapshot snapshot() const { return snapshot_.load(); }
+  const ScanStatistics& statistics() const { return statistics_; }
+
+  // ---- feeder thread ----
+  void set_program_ready(bool ready) noexcept { program_ready_.store(ready, std::memory_order_release); }
+  // A reset came to rest: the feeder resets the interpreter and says so.
+  bool reset_waits() const noexcept {
+    return reset_rest_.load(std::memory_order_acquire) != reset_done_.load(std::memory_order_relaxed);
+  }
+  void reset_finished() noexcept {
+    reset_done_.store(reset_rest_.load(std::memory_order_relaxed), std::memory_order_release);
+  }
+  struct Message {
+    unsigned system;
+    std::uint32_t text;
+  };
+  bool poll_message(Message* message) noexcept { return messages_.pop(message); }
+  // Positions are recorded from now on, one per scan in which an axis moves. Before the threads start.
+  void record_positions() { recording_ = true; }
+  bool poll_position(PositionSample* sample) noexcept { return positions_.pop(sample); }
+
+ private:
+  enum class ResetPhase : std::uint8_t { kNone, kStopping, kFeeder };
+  struct Jog {
+    std::uint8_t kind = NC_MANUAL_NONE;
+    double value = 0;
+    unsigned remaining = 0;  // scans that it still acts
+  };
+
+  void read_inputs() noexcept;
+  void take_commands() noexcept;
+  Answer apply(const Command& command) noexcept;
+  Answer start_cycle() noexcept;
+  Answer manual(const Command& command) noexcept;
+  void build_nc_inputs() noexcept;
+  void write_outputs() noexcept;
+  void watch_machine() noexcept;
+  void watch_soft_limits() noexcept;
+  void watch_overruns() noexcept;
+  void follow_requests() noexcept;
+  void record_position(unsigned system) noexcept;
+  void publish() noexcept;
+
+  void raise(AlarmId id, unsigned system, int axis) noexcept;
+  void acknowledge_alarms() noexcept;
+  bool program_active() const noexcept;
+  bool at_rest() const noexcept;
+
+  const Config& config_;
+  Clock* clock_;
+  hal::Hal* hal_;
+  LadderHook* ladder_;
+  NcPort* nc_;
+  const unsigned systems_;
+  const std::int64_t period_ns_;
+  std::int64_t next_ns_ = 0;
+
+  hal::Feedback feedback_{};
+  hal::PointImage points_{};
+  MacroInterface macro_;
+  nc_inputs in_[NC_MAX_SYSTEMS] = {};
+  nc_outputs out_[NC_MAX_SYSTEMS] = {};
+  nc_axes last_command_[NC_MAX_SYSTEMS] = {};
+  std::uint32_t interface_input_[NC_WORDS] = {};
+  hal::Command machine_{};
+
+  Mode mode_ = Mode::kAuto;
+  double feed_override_ = 1, rapid_override_ = 1;
+  bool single_block_ = false, optional_stop_ = false;
+  bool start_pulse_ = false, hold_request_ = false;
+  Jog jog_[NC_MAX_SYSTEMS][NC_MAX_AXES];
+  bool message_seen_[NC_MAX_SYSTEMS] = {};
+  ResetPhase reset_phase_ = ResetPhase::kNone;
+  unsigned reset_scans_ = 0;
+  AlarmList alarms_;
+  std::uint64_t scan_ = 0;
+  std::int64_t scan_time_ns_ = 0;
+  std::uint64_t missed_since_reset_ = 0;
+
+  SpscQueue<Command, 64> commands_;
+  SpscQueue<CommandAnswer, 128> answers_;
+  SpscQueue<Message, 64> messages_;
+  bool recording_ = false;
+  SpscQueue<PositionSample, 4096> positions_;
+  std::atomic<bool> program_ready_{false};
+  std::atomic<std::uint32_t> reset_rest_{0}, reset_done_{0};
+  SeqLock<Snapshot> snapshot_;
+  Snapshot building_;
+  ScanStatistics statistics_;
+};
+
+}  // namespace nc::rt

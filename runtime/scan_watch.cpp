@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the scan watches: the machine's faults, the soft limits as a last line behind the program's own check, overruns;
+// and the list of alarms that follows.
+#include <cmath>
+
+#include "runtime/scan.hpp"
+
+namespace nc::rt {
+namespace {
+
+constexpr double kSoftLimitSlack = 1e-6;  // mm or deg: rounding of a position that stands on its limit
+
+}  // namespace
+
+bool Scan::program_active() const noexcept {
+  for (unsigned s = 0; s < systems_; ++s) {
+    const std::uint8_t state = out_[s].state;
+    if (state == NC_STATE_RUNNING || state == NC_STATE_HOLD || state == NC_STATE_STOPPED) return true;
+  }
+  return false;
+}
+
+bool Scan::at_rest() const noexcept {
+  for (unsigned s = 0; s < systems_; ++s)
+    if (!out_[s].distance_zero) return false;
+  return true;
+}
+
+void Scan::watch_machine() noexcept {
+  if (feedback_.lost) {
+    raise(AlarmId::kHalLost, 0, -1);
+    return;
+  }
+  for (unsigned s = 0; s < systems_; ++s) {
+    const hal::SystemFeedback& machine = feedback_.system[s];
+    if ((machine.following_fault | machine.drive_fault) == 0) continue;
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
+      if ((machine.drive_fault >> a & 1u) != 0) raise(AlarmId::kDriveFault, s, static_cast<int>(a));
+      if ((machine.following_fault >> a & 1u) != 0) raise(AlarmId::kFollowingError, s, static_cast<int>(a));
+    }
+  }
+}
+
+// libnc refuses a block that leaves the soft limits before it moves. This is the check behind it, on what is really sent:
+// an alarm when a command is outside and goes further out. Coming back is always allowed.
+void Scan::watch_soft_limits() noexcept {
+  for (unsigned s = 0; s < systems_; ++s) {
+    const nc_system_config& system = config_.nc.system[s];
+    for (unsigned a = 0; a < system.axis_count; ++a) {
+      const nc_axis_config& axis = system.axis[a];
+      if (!axis.soft_limited) continue;
+      const double now = out_[s].command.v[a], before = last_command_[s].v[a];
+      const bool above = now > axis.soft_max + kSoftLimitSlack && now > before;
+      const bool below = now < axis.soft_min - kSoftLimitSlack && now < before;
+      if (above || below) raise(AlarmId::kSoftLimit, s, static_cast<int>(a));
+    }
+  }
+}
+
+void Scan::watch_overruns() noexcept {
+  if (missed_since_reset_ < config_.scheduling.overrun_limit) return;
+  switch (config_.scheduling.overrun) {
+    case OverrunReaction::kCount: break;
+    case OverrunReaction::kFeedHold: hold_request_ |= program_active(); break;
+    case OverrunReaction::kAlarm: raise(AlarmId::kScanOverrun, 0, -1); break;
+  }
+  missed_since_reset_ = 0;
+}
+
+// Each cause stands in the list once; the list is long enough for all of them on all axes that can fail together in
+// practice, and what does not fit is behind sixteen others that stop the machine already.
+void Scan::raise(AlarmId id, unsigned system, int axis) noexcept {
+  for (unsigned i = 0; i < alarms_.count; ++i) {
+    const ActiveAlarm& other = alarms_.alarm[i];
+    if (other.id == id && other.system == system && other.axis == axis) return;
+  }
+  if (alarms_.count == kMaxActiveAlarms) return;
+  ActiveAlarm& alarm = alarms_.alarm[alarms_.count++];
+  alarm.id = id;
+  alarm.axis = static_cast<std::int8_t>(axis);
+  alarm.system = static_cast<std::uint8_t>(system);
+  alarm.scan = scan_;
+  alarm.source = out_[system].source;
+}
+
+// After a reset: an alarm whose cause is still there comes back in the next scan.
+void Scan::acknowledge_alarms() noexcept {
+  alarms_.count = 0;
+  missed_since_reset_ = 0;
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sequence lock: one writer that never waits, any number of readers that repeat when they were overtaken.
+//
+// The value is kept as an array of relaxed atomic words between two fences, so that there is no data race in the sense of
+// the language (H.-J. Boehm, "Can seqlocks get along with programming language memory models?", 2012).
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+namespace nc::rt {
+
+template <class T>
+class SeqLock {
+  static_assert(std::is_trivially_copyable_v<T>);
+  static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
+
+ public:
+  SeqLock() { store(T{}); }
+
+  void store(const T& value) noexcept {
+    const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
+    sequence_.store(sequence + 1, std::memory_order_relaxed);
+    std::atomic_thread_fence(std::memory_order_release);
+    const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
+    for (std::size_t i = 0; i < kWords; ++i) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + 8 * i, i + 1 < kWords ? 8 : sizeof(T) - 8 * i);
+      words_[i].store(word, std::memory_order_relaxed);
+    }
+    sequence_.store(sequence + 2, std::memory_order_release);
+  }
+
+  T load() const noexcept {
+    for (;;) {
+      const std::uint64_t before = sequence_.load(std::memory_order_acquire);
+      if ((before & 1) != 0) continue;
+      std::array<std::uint64_t, kWords> words;
+      for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_relaxed);
+      std::atomic_thread_fence(std::memory_order_acquire);
+      if (sequence_.load(std::memory_order_relaxed) != before) continue;
+      T value;
+      std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
+      return value;
+    }
+  }
+
+ private:
+  std::atomic<std::uint64_t> sequence_{0};
+  std::array<std::atomic<std::uint64_t>, kWords> words_{};
+};
+
+}  // namespace nc::rt

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What readers see of the runtime: one consistent copy per scan, through a sequence lock.
+#pragma once
+
+#include <cstdint>
+
+#include "nc/run.h"
+#include "runtime/alarms.hpp"
+#include "runtime/command.hpp"
+
+namespace nc::rt {
+
+struct SystemSnapshot {
+  nc_outputs nc{};          // commanded side, from libnc
+  nc_axes actual{};         // measured
+  double spindle_rpm = 0;   // measured
+};
+
+struct Snapshot {
+  std::uint64_t scan = 0;   // number of the scan, from 1
+  std::int64_t time_ns = 0; // clock at its start
+  Mode mode = Mode::kAuto;
+  unsigned system_count = 1;
+  SystemSnapshot system[NC_MAX_SYSTEMS];
+  double feed_override = 1, rapid_override = 1;
+  bool single_block = false, optional_stop = false;
+  bool resetting = false;
+  AlarmList alarms;
+  std::uint64_t overruns = 0;      // scans that ended behind their slot
+  std::uint64_t missed_slots = 0;  // slots without a scan
+  std::uint32_t interface_input[NC_WORDS] = {};
+  std::uint32_t interface_output[NC_WORDS] = {};
+
+  bool alarmed() const { return alarms.count != 0; }
+  // A program is in execution or interrupted.
+  bool program_active() const {
+    for (unsigned s = 0; s < system_count; ++s) {
+      const auto state = system[s].nc.state;
+      if (state == NC_STATE_RUNNING || state == NC_STATE_HOLD || state == NC_STATE_STOPPED) return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace nc::rt

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+// TOML table reader. See toml_reader.hpp.
+#include "runtime/toml_reader.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace nc::rt {
+
+std::vector<ConfigError> ErrorList::take() {
+  std::stable_sort(errors_.begin(), errors_.end(),
+                   [](const ConfigError& a, const ConfigError& b) { return a.line < b.line; });
+  return std::move(errors_);
+}
+
+const char* type_name(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table: return "a table";
+    case toml::node_type::array: return "an array";
+    case toml::node_type::string: return "a string";
+    case toml::node_type::integer: return "an integer";
+    case toml::node_type::floating_point: return "a number";
+    case toml::node_type::boolean: return "a boolean";
+    case toml::node_type::date:
+    case toml::node_type::time:
+    case toml::node_type::date_time: return "a date or time";
+    case toml::node_type::none: break;
+  }
+  return "nothing";
+}
+
+bool node_number(const toml::node& node, double* value) {
+  if (const auto* integer = node.as_integer()) {
+    *value = static_cast<double>(integer->get());
+    return true;
+  }
+  if (const auto* real = node.as_floating_point()) {
+    if (!std::isfinite(real->get())) return false;
+    *value = real->get();
+    return true;
+  }
+  return false;
+}
+
+std::string number_text(double value) {
+  char buffer[40];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return std::string(buffer, result.ptr);
+}
+
+const toml::node* TableReader::find(std::string_view key) {
+  asked_.emplace_back(key);
+  return table_.get(key);
+}
+
+std::string TableReader::path(std::string_view key) const {
+  const bool plain = !key.empty() && key.find_first_of(". \"#/*") == std::string_view::npos;
+  const std::string shown = plain ? std::string(key) : "\"" + std::string(key) + "\"";
+  return path_.empty() ? shown : path_ + "." + shown;
+}
+
+unsigned TableReader::line(std::string_view key) const {
+  const toml::node* node = table_.get(key);
+  return node != nullptr ? line_of(*node) : line();
+}
+
+void TableReader::error(std::string_view key, std::string message) {
+  errors_->add(line(key), path(key), std::move(message));
+}
+
+void TableReader::wrong_type(std::string_view key, const toml::node& node, const char* wanted) {
+  error(key, std::string("must be ") + wanted + ", not " + type_name(node));
+}
+
+bool TableReader::number(std::string_view key, double* value, double min, double max) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return false;
+  double read = 0;
+  if (!node_number(*node, &read)) {
+    wrong_type(key, *node, "a finite number");
+    return false;
+  }
+  if (read < min || read > max) {
+    error(key, "must be from " + number_text(min) + " to " + number_text(max) + ", not " + number_text(read));
+    return false;
+  }
+  *value = read;
+  return true;
+}
+
+bool TableReader::integer64(std::string_view key, std::int64_t* value, std::int64_t min, std::int64_t max) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return false;
+  const auto* integer = node->as_integer();
+  if (integer == nullptr) {
+    wrong_type(key, *node, "an integer");
+    return false;
+  }
+  if (integer->get() < min || integer->get() > max) {
+    error(key, "must be from " + std::to_string(min) + " to " + std::to_string(max) + ", not " +
+                   std::to_string(integer->get()));
+    return false;
+  }
+  *value = integer->get();
+  return true;
+}
+
+bool TableReader::boolean(std::string_view key, bool* value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return false;
+  const auto* read = node->as_boolean();
+  if (read == nullptr) {
+    wrong_type(key, *node, "true or false");
+    return false;
+  }
+  *value = read->get();
+  return true;
+}
+
+bool TableReader::string(std::string_view key, std::string* value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return false;
+  const auto* read = node->as_string();
+  if (read == nullptr) {
+    wrong_type(key, *node, "a string");
+    return false;
+  }
+  *value = read->get();
+  return true;
+}
+
+bool TableReader::choice(std::string_view key, std::initializer_list<std::string_view> words, unsigned* index) {
+  std::string word;
+  if (!string(key, &word)) return false;
+  unsigned i = 0;
+  std::string list;
+  for (const std::string_view candidate : words) {
+    if (candidate == word) {
+      *index = i;
+      return true;
+    }
+    list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + ("\"" + std::string(candidate) + "\"");
+    ++i;
+  }
+  error(key, "must be " + list + ", not \"" + word + "\"");
+  return false;
+}
+
+bool TableReader::numbers(std::string_view key, std::vector<double>* values, std::size_t min_size,
+                          std::size_t max_size) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return false;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) {
+    wrong_type(key, *node, "an array of numbers");
+    return false;
+  }
+  if (array->size() < min_size || array->size() > max_size) {
+    error(key, "must have " +
+                   (min_size == max_size ? std::to_string(min_size)
+                                         : std::to_string(min_size) + " to " + std::to_string(max_size)) +
+                   " numbers, not " + std::to_string(array->size()));
+    return false;
+  }
+  std::vector<double> read;
+  for (const toml::node& element : *array) {
+    double number = 0;
+    if (!node_number(element, &number)) {
+      errors_->add(line_of(element), path(key), std::string("must hold finite numbers, not ") + type_name(element));
+      return false;
+    }
+    read.push_back(number);
+  }
+  *values = std::move(read);
+  return true;
+}
+
+bool TableReader::strings(std::string_view key, std::vector<std::pair<std::string, unsigned>>* values_and_lines) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return false;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) {
+    wrong_type(key, *node, "an array of strings");
+    return false;
+  }
+  for (const toml::node& element : *array) {
+    if (const auto* text = element.as_string())
+      values_and_lines->emplace_back(text->get(), line_of(element));
+    else
+      errors_->add(line_of(element), path(key), std::string("must hold strings, not ") + type_name(element));
+  }
+  return true;
+}
+
+bool TableReader::table(std::string_view key, const std::function<void(TableReader&)>& read) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return false;
+  const toml::table* sub = node->as_table();
+  if (sub == nullptr) {
+    wrong_type(key, *node, "a table");
+    return false;
+  }
+  TableReader reader(*sub, path(key), errors_);
+  read(reader);
+  reader.finish();
+  return true;
+}
+
+void TableReader::tables(std::string_view key, const std::function<void(TableReader&, std::size_t)>& read) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) {
+    wrong_type(key, *node, "an array of tables ([[...]])");
+    return;
+  }
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string place = path(key) + "[" + std::to_string(i + 1) + "]";
+    const toml::table* sub = array->get(i)->as_table();
+    if (sub == nullptr) {
+      errors_->add(line_of(*array->get(i)), place, std::string("must be a table, not ") + type_name(*array->get(i)));
+      continue;
+    }
+    TableReader reader(*sub, place, errors_);
+    read(reader, i);
+    reader.finish();
+  }
+}
+
+void TableReader::each(const std::function<void(const std::string& key, const toml::node&)>& read) {
+  for (const auto& [key, node] : table_) {
+    asked_.emplace_back(key.str());
+    read(std::string(key.str()), node);
+  }
+}
+
+void TableReader::require(std::string_view key) {
+  if (table_.get(key) == nullptr) errors_->add(line(), path(key), "is missing");
+}
+
+void TableReader::finish() {
+  for (const auto& [key, node] : table_) {
+    if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end()) continue;
+    std::string known;
+    std::vector<std::string> names = asked_;
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+    errors_->add(static_cast<unsigned>(key.source().begin.line), path(key.str()),
+                 "unknown key" + (known.empty() ? std::string() : " (known here: " + known + ")"));
+  }
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads typed values out of a TOML table and collects what is wrong: unknown keys, wrong types, values out of range.
+// Only config*.cpp include this.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/config.hpp"
+
+namespace nc::rt {
+
+// Errors of one file.
+class ErrorList {
+ public:
+  explicit ErrorList(std::string file) : file_(std::move(file)) {}
+  void add(unsigned line, std::string key, std::string message) {
+    errors_.push_back({file_, line, std::move(key), std::move(message)});
+  }
+  std::vector<ConfigError> take();  // sorted by line
+  bool empty() const { return errors_.empty(); }
+
+ private:
+  std::string file_;
+  std::vector<ConfigError> errors_;
+};
+
+inline unsigned line_of(const toml::node& node) { return static_cast<unsigned>(node.source().begin.line); }
+const char* type_name(const toml::node& node);
+
+// One table. Every key is asked for by name; finish() reports the keys that nobody asked for.
+class TableReader {
+ public:
+  TableReader(const toml::table& table, std::string path, ErrorList* errors)
+      : table_(table), path_(std::move(path)), errors_(errors) {}
+
+  // The value when the key is there, of the right type and in range; otherwise the target keeps its default.
+  bool number(std::string_view key, double* value, double min, double max);
+  template <class T>
+  bool integer(std::string_view key, T* value, std::int64_t min, std::int64_t max) {
+    std::int64_t read = 0;
+    if (!integer64(key, &read, min, max)) return false;
+    *value = static_cast<T>(read);
+    return true;
+  }
+  bool boolean(std::string_view key, bool* value);
+  bool string(std::string_view key, std::string* value);
+  // One word of a list; *index is its place.
+  bool choice(std::string_view key, std::initializer_list<std::string_view> words, unsigned* index);
+  // An array of numbers with a length from min_size to max_size.
+  bool numbers(std::string_view key, std::vector<double>* values, std::size_t min_size, std::size_t max_size);
+  bool strings(std::string_view key, std::vector<std::pair<std::string, unsigned>>* values_and_lines);
+
+  // Sub-structures: `read` is called with a reader for the table (each table of the array).
+  bool table(std::string_view key, const std::function<void(TableReader&)>& read);
+  void tables(std::string_view key, const std::function<void(TableReader&, std::size_t)>& read);
+  // Every key of this table, for tables whose keys are data.
+  void each(const std::function<void(const std::string& key, const toml::node&)>& read);
+
+  void require(std::string_view key);
+  void finish();
+
+  const toml::node* find(std::string_view key);
+  std::string path(std::string_view key) const;
+  const std::string& path() const { return path_; }
+  unsigned line() const { return line_of(table_); }
+  unsigned line(std::string_view key) const;
+  void error(std::string_view key, std::string message);
+  ErrorList* errors() { return errors_; }
+
+ private:
+  bool integer64(std::string_view key, std::int64_t* value, std::int64_t min, std::int64_t max);
+  void wrong_type(std::string_view key, const toml::node& node, const char* wanted);
+
+  const toml::table& table_;
+  std::string path_;
+  ErrorList* errors_;
+  std::vector<std::string> asked_;
+};
+
+// A finite number of a node (integer or float).
+bool node_number(const toml::node& node, double* value);
+// Shortest text that reads back as the same number.
+std::string number_text(double value);
+
+}  // namespace nc::rt

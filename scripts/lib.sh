@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+# Shared by ./run, ./test, .ci/run and the scripts beside this file: packages and quiet builds. Sourced, not run.
+
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+if [ "$(id -u)" -eq 0 ]; then as_root=(); else as_root=(sudo); fi
+jobs=$(nproc 2>/dev/null || echo 2)
+installed_something=no
+
+say() { printf '%s\n' "$*"; }
+die() { printf '%s\n' "$*" >&2; exit 1; }
+
+# packages_in FILE...: the package names, without comments and blank lines.
+packages_in() { sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$@"; }
+
+# ensure_packages FILE...: install those Debian packages of the lists that are missing, and say which.
+ensure_packages() {
+  local package missing=()
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    say "This is not a Debian system; needed are the equivalents of: $(packages_in "$@" | tr '\n' ' ')"
+    return 0
+  fi
+  while read -r package; do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+  done < <(packages_in "$@")
+  [ ${#missing[@]} -gt 0 ] || return 0
+  say "Installing missing Debian packages: ${missing[*]}"
+  if [ ${#as_root[@]} -gt 0 ] && ! command -v sudo >/dev/null; then
+    die "Neither root nor sudo. Run as root: apt-get install --no-install-recommends ${missing[*]}"
+  fi
+  mkdir -p "$top/build"
+  local log=$top/build/apt.log apt=(env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600)
+  if ! { "${as_root[@]}" "${apt[@]}" update && \
+         "${as_root[@]}" "${apt[@]}" install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1 </dev/null; then
+    tail -n 25 "$log" >&2
+    die "apt-get could not install them (whole log: $log)"
+  fi
+  installed_something=yes
+}
+
+# build_preset PRESET [-DVAR=VALUE...] [-- TARGET...]: configure where needed, and build, quietly. The build tool itself
+# configures again when a CMake file changes or a source file comes or goes.
+build_preset() {
+  local preset=$1 log=$top/build/$1.log defines=() targets=()
+  shift
+  while [ $# -gt 0 ] && [ "$1" != -- ]; do defines+=("$1"); shift; done
+  [ $# -eq 0 ] || { shift; [ $# -eq 0 ] || targets=(--target "$@"); }
+  mkdir -p "$top/build"
+  : >"$log"
+  if [ ${#defines[@]} -gt 0 ] || [ $installed_something = yes ] || [ ! -f "$top/build/$preset/build.ninja" ]; then
+    (cd "$top" && cmake --preset "$preset" "${defines[@]}") >>"$log" 2>&1 || { build_failed "$log"; return 1; }
+  fi
+  [ -e "$top/build/$preset/.ninja_log" ] || say "Building preset $preset (log: build/$preset.log) ..."
+  (cd "$top" && cmake --build --preset "$preset" -j "$jobs" "${targets[@]}") >>"$log" 2>&1 || { build_failed "$log"; return 1; }
+}
+
+# build_failed LOG: the errors first, then the end of the log.
+build_failed() {
+  { grep -nE 'error:|CMake Error|undefined reference' "$1" | head -n 20; say "--- end of $1"; tail -n 25 "$1"; say "The build failed."; } >&2
+}

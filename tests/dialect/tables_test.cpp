@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of every family hold together: sorted, unique, complete, and each alarm they name is in the
+// family's alarm list.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "dialect/dialect.hpp"
+#include "dialect/function_table.hpp"
+
+namespace nc {
+namespace {
+
+class Tables : public ::testing::TestWithParam<nc_dialect> {
+ protected:
+  const Dialect& family() const { return dialect(GetParam()); }
+  std::set<std::string> alarm_codes() const {
+    std::set<std::string> codes;
+    for (const AlarmText& alarm : family().alarms) codes.insert(alarm.code);
+    return codes;
+  }
+};
+
+std::string g_text(int code) {
+  char text[8];
+  g_code_text(code, text, sizeof text);
+  return text;
+}
+
+TEST_P(Tables, BelongsToItsNumber) {
+  EXPECT_EQ(family().id, GetParam());
+}
+
+TEST_P(Tables, FunctionsAreSortedAndUnique) {
+  ASSERT_GT(family().functions.size, 0u);
+  for (unsigned i = 1; i < family().functions.size; ++i) {
+    EXPECT_LT(family().functions.row[i - 1].code, family().functions.row[i].code) << "row " << i;
+  }
+}
+
+TEST_P(Tables, MiscIsSortedAndUnique) {
+  ASSERT_GT(family().misc.size, 0u);
+  for (unsigned i = 1; i < family().misc.size; ++i)
+    EXPECT_LT(family().misc.row[i - 1].code, family().misc.row[i].code) << "row " << i;
+}
+
+TEST_P(Tables, EveryRowIsFoundByItsCodeAndNoOtherIs) {
+  std::set<int> listed;
+  for (const FunctionRow& row : family().functions) {
+    EXPECT_EQ(find_function(family(), row.code), &row) << g_text(row.code);
+    listed.insert(row.code);
+  }
+  for (int code = -20; code < 4000; ++code) {
+    if (listed.count(code) == 0) {
+      EXPECT_EQ(find_function(family(), code), nullptr) << code;
+    }
+  }
+  std::set<unsigned> misc;
+  for (const MiscRow& row : family().misc) {
+    EXPECT_EQ(find_misc(family(), row.code), &row) << "M" << row.code;
+    misc.insert(row.code);
+  }
+  for (unsigned code : {3u, 4u, 97u, 199u, 65535u, 65536u + 30u, 99999999u}) {
+    if (misc.count(code) == 0) {
+      EXPECT_EQ(find_misc(family(), code), nullptr) << "M" << code;
+    }
+  }
+}
+
+TEST_P(Tables, RowsAreFilledIn) {
+  for (const FunctionRow& row : family().functions) {
+    const std::string code = g_text(row.code);
+    EXPECT_LT(row.group, NC_GROUPS) << code;
+    ASSERT_NE(row.name, nullptr) << code;
+    EXPECT_NE(row.name[0], 0) << code;
+    ASSERT_NE(row.section, nullptr) << code;
+    EXPECT_NE(row.section[0], 0) << code;
+    EXPECT_EQ(row.function == Function::missing, row.missing != nullptr)
+        << code << ": a missing function names its alarm, no other does";
+  }
+  for (const MiscRow& row : family().misc) {
+    EXPECT_EQ(row.function == MiscFunction::missing, row.missing != nullptr) << "M" << row.code;
+    EXPECT_NE(row.name, nullptr) << "M" << row.code;
+    EXPECT_NE(row.section, nullptr) << "M" << row.code;
+  }
+}
+
+TEST_P(Tables, EveryConditionHasOneRow) {
+  for (unsigned i = 1; i < static_cast<unsigned>(Condition::count_); ++i) {
+    unsigned rows = 0;
+    for (const AlarmRow& row : family().conditions) {
+      if (row.condition == static_cast<Condition>(i)) ++rows;
+    }
+    EXPECT_EQ(rows, 1u) << "Condition number " << i << " (in the order of dialect/alarms.hpp) of "
+                        << family().name;
+  }
+}
+
+TEST_P(Tables, AlarmCodesAreUniqueShortAndHaveATextWithoutMarkup) {
+  std::set<std::string> seen;
+  for (const AlarmText& alarm : family().alarms) {
+    const std::string code = alarm.code, message = alarm.message;
+    EXPECT_TRUE(seen.insert(code).second) << code;
+    EXPECT_LT(code.size(), sizeof nc_alarm::code) << code;
+    EXPECT_LT(message.size(), sizeof nc_alarm::message) << code;
+    EXPECT_EQ(code.find(' '), std::string::npos) << code << ": codes are printed without blanks";
+    EXPECT_FALSE(message.empty()) << code;
+    EXPECT_NE(message, "-") << code;
+  }
+}
+
+TEST_P(Tables, EveryAlarmNamedIsInTheList) {
+  const std::set<std::string> codes = alarm_codes();
+  for (const FunctionRow& row : family().functions) {
+    if (row.missing != nullptr) {
+      EXPECT_EQ(codes.count(row.missing), 1u) << g_text(row.code) << " names " << row.missing;
+    }
+  }
+  for (const MiscRow& row : family().misc) {
+    if (row.missing != nullptr) {
+      EXPECT_EQ(codes.count(row.missing), 1u) << "M" << row.code << " names " << row.missing;
+    }
+  }
+  for (const AlarmRow& row : family().conditions) {
+    ASSERT_NE(row.code, nullptr);
+    EXPECT_EQ(codes.count(row.code), 1u) << row.code;
+  }
+}
+
+TEST_P(Tables, InitialCodesBelongToTheirGroups) {
+  std::set<unsigned> groups;
+  for (const FunctionRow& row : family().functions) groups.insert(row.group);
+  EXPECT_EQ(family().initial[0], -1);
+  for (unsigned group = 1; group < NC_GROUPS; ++group) {
+    const int code = family().initial[group];
+    EXPECT_EQ(code >= 0, groups.count(group) == 1) << "group " << group;
+    if (code < 0) continue;
+    const FunctionRow* row = find_function(family(), code);
+    ASSERT_NE(row, nullptr) << g_text(code);
+    EXPECT_EQ(row->group, group) << g_text(code);
+    EXPECT_NE(row->function, Function::missing) << g_text(code) << " is on at power on, so it must exist";
+  }
+}
+
+TEST_P(Tables, AlarmTextsOfEveryConditionAreThere) {
+  for (unsigned i = 1; i < static_cast<unsigned>(Condition::count_); ++i) {
+    Fault fault;
+    fault.condition = static_cast<Condition>(i);
+    const AlarmText text = alarm_text(family(), fault);
+    EXPECT_NE(text.code[0], 0) << i;
+    EXPECT_NE(text.message[0], 0) << i;
+    if (fault.condition != Condition::internal) {
+      EXPECT_STRNE(text.code, "NC-INTERNAL") << i;
+    }
+  }
+}
+
+TEST_P(Tables, MissingFunctionRaisesTheAlarmOfItsOwnRow) {
+  for (const FunctionRow& row : family().functions) {
+    if (row.function != Function::missing) continue;
+    const Fault fault{Condition::no_function, -1, 'G', true, static_cast<double>(row.code)};
+    EXPECT_STREQ(alarm_text(family(), fault).code, row.missing) << g_text(row.code);
+  }
+  for (const MiscRow& row : family().misc) {
+    if (row.function != MiscFunction::missing) continue;
+    const Fault fault{Condition::no_function, -1, 'M', true, static_cast<double>(row.code)};
+    EXPECT_STREQ(alarm_text(family(), fault).code, row.missing) << "M" << row.code;
+  }
+}
+
+TEST_P(Tables, FaultWithoutARowOfItsOwnFallsBackToTheCondition) {
+  const char* general = nullptr;
+  for (const AlarmRow& row : family().conditions) {
+    if (row.condition == Condition::no_function) general = row.code;
+  }
+  ASSERT_NE(general, nullptr);
+  for (const double value : {-1.0, 10.0, 39990.0, 1e300}) {
+    const Fault fault{Condition::no_function, -1, 'G', true, value};
+    EXPECT_STREQ(alarm_text(family(), fault).code, general) << value;
+  }
+  EXPECT_STREQ(alarm_text(family(), Fault{Condition::no_function, -1, 'X', true, 50.0}).code, general);
+  EXPECT_STREQ(alarm_text(family(), Fault{Condition::no_function, -1, 'G', false, 330.0}).code, general);
+}
+
+TEST_P(Tables, ParametersHaveUniqueKeysAndADefaultAmongTheirWords) {
+  std::set<std::string> seen;
+  for (const ParameterName& row : family().parameters) {
+    EXPECT_TRUE(seen.insert(row.key).second) << row.key;
+    if (row.words == nullptr) continue;
+    const std::string words = row.words;
+    std::set<std::string> unique;
+    size_t count = 0;
+    for (size_t from = 0; from <= words.size(); ++count) {
+      size_t bar = words.find('|', from);
+      if (bar == std::string::npos) bar = words.size();
+      EXPECT_TRUE(unique.insert(words.substr(from, bar - from)).second) << row.key;
+      from = bar + 1;
+    }
+    EXPECT_GE(row.value, 0) << row.key;
+    EXPECT_LT(row.value, static_cast<double>(count)) << row.key;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, Tables, ::testing::Values(NC_DIALECT_M700, NC_DIALECT_DGSHAPE),
+                         [](const auto& name) { return std::string(dialect(name.param).name); });
+
+}  // namespace
+}  // namespace nc

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that is written for a person: code texts, the operator's sentence, and the public functions that
+// show the tables.
+#include "dialect/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "dialect/dialect.hpp"
+#include "dialect/function_table.hpp"
+
+namespace nc {
+namespace {
+
+std::string number(double value) {
+  char text[64];
+  TextWriter(text, sizeof text).put_number(value);
+  return text;
+}
+
+std::string detail(const Fault& fault, const char* axis = nullptr) {
+  char text[NC_MAX_TEXT];
+  alarm_detail(fault, axis, text, sizeof text);
+  return text;
+}
+
+TEST(TextWriter, WritesNumbersWithoutALocale) {
+  EXPECT_EQ(number(0), "0");
+  EXPECT_EQ(number(12.5), "12.5");
+  EXPECT_EQ(number(-0.0001), "-0.0001");
+  EXPECT_EQ(number(100), "100");
+  EXPECT_EQ(number(1.05), "1.05");
+  EXPECT_EQ(number(0.99999), "1");
+  EXPECT_EQ(number(99999999), "99999999");
+  EXPECT_EQ(number(-1234.5678), "-1234.5678");
+  EXPECT_EQ(number(1e300), "very large");
+  EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "very large");
+  EXPECT_EQ(number(std::numeric_limits<double>::quiet_NaN()), "not a number");
+}
+
+TEST(TextWriter, NeverWritesBehindItsBuffer) {
+  for (size_t size = 0; size < 12; ++size) {
+    std::vector<char> text(size + 4, '\x7f');
+    TextWriter(text.data(), size).put("abcdefgh").put_number(-12.25);
+    for (size_t i = size; i < text.size(); ++i) EXPECT_EQ(text[i], '\x7f') << size;
+    if (size > 0) {
+      EXPECT_LT(std::strlen(text.data()), size);
+    }
+  }
+}
+
+TEST(CodeText, IsWrittenAsTheManualsPrintIt) {
+  const auto g = [](int code) {
+    char text[8];
+    g_code_text(code, text, sizeof text);
+    return std::string(text);
+  };
+  EXPECT_EQ(g(0), "G00");
+  EXPECT_EQ(g(21), "G02.1");
+  EXPECT_EQ(g(541), "G54.1");
+  EXPECT_EQ(g(1070), "G107");
+  EXPECT_EQ(g(-1), "");
+  char m[8];
+  m_code_text(3, m, sizeof m);
+  EXPECT_STREQ(m, "M03");
+  m_code_text(198, m, sizeof m);
+  EXPECT_STREQ(m, "M198");
+  m_code_text(99999999, m, sizeof m);  // longer than the buffer: cut, not overrun
+  EXPECT_EQ(std::strlen(m), 7u);
+}
+
+TEST(AlarmDetail, NamesTheWordTheAxisAndTheValue) {
+  EXPECT_EQ(detail({Condition::value_range, -1, 'X', true, 123456.5}),
+            "The value of X123456.5 is outside its range.");
+  EXPECT_EQ(detail({Condition::value_range}), "A value in the block is outside its range.");
+  EXPECT_EQ(detail({Condition::soft_limit, 0, 0, true, 512.25}, "X"),
+            "Axis X would go to 512.25, beyond its stroke limit.");
+  EXPECT_EQ(detail({Condition::soft_limit, 0, 0, false, 0}, "X"), "Axis X would go beyond its stroke limit.");
+  EXPECT_EQ(detail({Condition::soft_limit}), "An axis would go beyond its stroke limit.");
+  EXPECT_EQ(detail({Condition::program_missing, -1, 'P', true, 1000}),
+            "The program O1000 is not in the memory.");
+  EXPECT_EQ(detail({Condition::variable_number, -1, 0, true, 400}), "There is no variable #400.");
+  EXPECT_EQ(detail({Condition::illegal_character, -1, '?', false, 0}),
+            "The character '?' has no meaning here.");
+  EXPECT_EQ(detail({Condition::illegal_character, -1, '\xc3', false, 0}),
+            "The block holds a character that is not part of the code.");
+  EXPECT_EQ(detail({Condition::words_missing, -1, 'Q', false, 0}), "The block needs the word Q.");
+}
+
+TEST(AlarmDetail, WritesCodesAsCodes) {
+  // no_function carries the code of the table row (times 10), every other fault the number as programmed.
+  EXPECT_EQ(detail({Condition::no_function, -1, 'G', true, 23}),
+            "G02.3 is known to the control, but the function is not fitted.");
+  EXPECT_EQ(detail({Condition::no_function, -1, 'M', true, 96}),
+            "M96 is known to the control, but the function is not fitted.");
+  EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 54.2}), "G54.2 is not a G code of this control.");
+  EXPECT_EQ(detail({Condition::words_missing, -1, 'G', true, 4}), "G04 needs a word that is not there.");
+  // The number of a code is not a value that a sentence could mean.
+  EXPECT_EQ(detail({Condition::arc_deviation, -1, 'G', true, 2}),
+            "Start and end of the arc are not on one circle about its centre.");
+  EXPECT_EQ(detail({Condition::arc_deviation, -1, 0, true, 0.25}),
+            "Start and end of the arc are not on one circle: the radii differ by 0.25 mm.");
+  EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 1e9}),
+            "G1000000000 is not a G code of this control.");
+}
+
+TEST(AlarmDetail, EveryConditionHasASentenceHoweverLittleTheFaultCarries) {
+  std::set<std::string> sentences;
+  for (unsigned i = 1; i < static_cast<unsigned>(Condition::count_); ++i) {
+    const auto condition = static_cast<Condition>(i);
+    for (const char letter : {'\0', 'X', 'G', 'M', '#', '\xe4'}) {
+      for (const bool has_value : {false, true}) {
+        for (const char* axis : {static_cast<const char*>(nullptr), "", "X"}) {
+          char text[1024];
+          alarm_detail({condition, -1, letter, has_value, 12.5}, axis, text, sizeof text);
+          const std::string sentence = text;
+          ASSERT_FALSE(sentence.empty())
+              << "Condition number " << i << " (in the order of dialect/alarms.hpp)";
+          EXPECT_LT(sentence.size(), size_t{NC_MAX_TEXT}) << sentence;
+          EXPECT_EQ(sentence.back(), '.') << sentence;
+          EXPECT_EQ(sentence.find_first_of("{}"), std::string::npos) << sentence;
+          EXPECT_TRUE((sentence[0] >= 'A' && sentence[0] <= 'Z') || sentence[0] == '\'') << sentence;
+        }
+      }
+    }
+    sentences.insert(detail({condition}));
+  }
+  EXPECT_EQ(sentences.size(), static_cast<size_t>(Condition::count_) - 1)
+      << "two conditions have the same sentence";
+}
+
+TEST(AlarmDetail, NeverOverrunsASmallBuffer) {
+  for (unsigned i = 0; i <= static_cast<unsigned>(Condition::count_); ++i) {
+    const Fault fault{static_cast<Condition>(i), 1, 'X', true, -99999.9999};
+    for (size_t size = 0; size < 140; ++size) {
+      std::vector<char> text(size + 8, '\x7f');
+      alarm_detail(fault, "X", text.data(), size);
+      for (size_t k = size; k < text.size(); ++k) ASSERT_EQ(text[k], '\x7f') << i << " size " << size;
+      if (size > 0) {
+        ASSERT_LT(std::strlen(text.data()), size);
+      }
+    }
+  }
+}
+
+TEST(PublicTables, ShowEveryRowOnce) {
+  for (int id = 0; id < NC_DIALECT_COUNT; ++id) {
+    const auto family = static_cast<nc_dialect>(id);
+    const Dialect& tables = dialect(family);
+    std::set<std::string> codes;
+    nc_function row;
+    unsigned count = 0;
+    while (nc_function_get(family, count, &row) == NC_OK) {
+      EXPECT_TRUE(codes.insert(row.code).second) << row.code;
+      EXPECT_EQ(row.supported, row.alarm[0] == 0) << row.code;
+      ++count;
+    }
+    EXPECT_EQ(count, tables.functions.size + tables.misc.size);
+    EXPECT_EQ(nc_function_get(family, count, &row), NC_E_NOT_FOUND);
+    EXPECT_EQ(codes.count("G01"), 1u);
+    EXPECT_EQ(codes.count("M30"), 1u);
+
+    char code[16];
+    const char* message = nullptr;
+    unsigned alarms = 0;
+    while (nc_alarm_row(family, alarms, code, &message) == NC_OK) {
+      EXPECT_STREQ(code, tables.alarms.row[alarms].code);
+      EXPECT_STREQ(message, tables.alarms.row[alarms].message);
+      ++alarms;
+    }
+    EXPECT_EQ(alarms, tables.alarms.size);
+    EXPECT_EQ(nc_alarm_row(family, alarms, code, &message), NC_E_NOT_FOUND);
+  }
+}
+
+TEST(PublicTables, SayWhatAMissingFunctionRaises) {
+  nc_function row;
+  for (unsigned i = 0; nc_function_get(NC_DIALECT_M700, i, &row) == NC_OK; ++i) {
+    if (std::string(row.code) == "G33") {
+      EXPECT_FALSE(row.supported);
+      EXPECT_STREQ(row.alarm, "P90");
+      EXPECT_EQ(row.group, 1);
+      EXPECT_STREQ(row.section, "6.7.1");
+      return;
+    }
+  }
+  FAIL() << "no G33";
+}
+
+TEST(PublicTables, RefuseWhatIsNoDialect) {
+  nc_function row;
+  char code[16];
+  const char* message = nullptr;
+  EXPECT_EQ(nc_function_get(NC_DIALECT_COUNT, 0, &row), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_function_get(static_cast<nc_dialect>(-1), 0, &row), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_function_get(NC_DIALECT_M700, 0, nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_alarm_row(NC_DIALECT_COUNT, 0, code, &message), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_alarm_row(NC_DIALECT_M700, 0, nullptr, &message), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_alarm_row(NC_DIALECT_M700, 0, code, nullptr), NC_E_ARGUMENT);
+}
+
+TEST(PublicTables, VersionIsThreeNumbers) {
+  const std::string version = nc_version();
+  EXPECT_EQ(version.find_first_not_of("0123456789."), std::string::npos);
+  EXPECT_EQ(std::count(version.begin(), version.end(), '.'), 2);
+}
+
+}  // namespace
+}  // namespace nc

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// The simulated machine against its model: servo lag, following error, spindle, FIN handshake, solids, points.
+#include "hal/sim/sim_machine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using nc::hal::Command;
+using nc::hal::Feedback;
+using nc::hal::PointDirection;
+using nc::hal::PointImage;
+using nc::hal::PointType;
+using nc::hal::SimConfig;
+using nc::hal::SimMachine;
+
+constexpr double kCycle = 0.001;
+
+// A machine with its image, driven scan by scan.
+struct Bench {
+  explicit Bench(const SimConfig& config) : machine(config, table) {
+    std::string error;
+    EXPECT_TRUE(machine.start(initial(), &error));
+    command.system[0].enable = true;
+  }
+  PointImage initial() {
+    table.add({"door", PointType::kBit, PointDirection::kInput, 1});
+    table.add({"lamp", PointType::kBit, PointDirection::kOutput, 0});
+    PointImage result;
+    result.value[0] = 1;
+    return result;
+  }
+  void scan() {
+    machine.read(&feedback, &image);
+    machine.write(command, image);
+  }
+  // Scans until FIN or the limit; returns the number of scans.
+  unsigned until_fin(unsigned limit) {
+    for (unsigned n = 1; n <= limit; ++n) {
+      scan();
+      machine.read(&feedback, &image);
+      if (feedback.system[0].fin) return n;
+    }
+    return limit + 1;
+  }
+  nc::hal::PointTable table;
+  SimMachine machine;
+  Command command{};
+  Feedback feedback{};
+  PointImage image{};
+};
+
+TEST(SimMachine, ServoFollowsARampWithVelocityTimesLag) {
+  SimConfig config;
+  config.axis[0][0].lag_s = 0.005;
+  Bench bench(config);
+  const double v = 100.0;
+  for (int i = 0; i < 200; ++i) {
+    bench.command.system[0].position.v[0] += v * kCycle;
+    bench.scan();
+  }
+  // Discrete form of e = v * lag: the error left after each update is v*T*(1-k)/k with k = 1-exp(-T/lag).
+  const double k = 1 - std::exp(-kCycle / 0.005);
+  const double error = bench.command.system[0].position.v[0] - bench.machine.actual(0).v[0];
+  EXPECT_NEAR(error, v * kCycle * (1 - k) / k, 1e-9);
+  EXPECT_NEAR(error, v * 0.005, 0.06);
+  for (int i = 0; i < 100; ++i) bench.scan();
+  EXPECT_NEAR(bench.machine.actual(0).v[0], bench.command.system[0].position.v[0], 1e-6);
+}
+
+TEST(SimMachine, WithoutLagActualIsTheCommandOfTheCycleBefore) {
+  Bench bench(SimConfig{});
+  bench.command.system[0].position.v[1] = 3.25;
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_DOUBLE_EQ(bench.feedback.system[0].actual.v[1], 0);
+  bench.scan();
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_DOUBLE_EQ(bench.feedback.system[0].actual.v[1], 3.25);
+}
+
+TEST(SimMachine, AxisThatIsBlockedFaultsAtItsLimit) {
+  SimConfig config;
+  config.axis[0][2].following_error_limit = 2.0;
+  Bench bench(config);
+  bench.machine.block_axis(0, 2, true);
+  bench.command.system[0].position.v[2] = -1.9;
+  bench.scan();
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_EQ(bench.feedback.system[0].following_fault, 0u);
+  bench.command.system[0].position.v[2] = -2.1;
+  bench.scan();
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_EQ(bench.feedback.system[0].following_fault, 4u);
+}
+
+TEST(SimMachine, DisabledDrivesStay) {
+  Bench bench(SimConfig{});
+  bench.command.system[0].enable = false;
+  bench.command.system[0].position.v[0] = 5;
+  bench.scan();
+  EXPECT_DOUBLE_EQ(bench.machine.actual(0).v[0], 0);
+}
+
+TEST(SimMachine, FinComesAfterItsTimeAndDropsWithTheStrobe) {
+  SimConfig config;
+  config.m_time_s = 0.010;
+  Bench bench(config);
+  bench.command.system[0].m = 8;
+  bench.command.system[0].strobe = 1;
+  const unsigned scans = bench.until_fin(100);
+  EXPECT_GE(scans, 10u);
+  EXPECT_LE(scans, 12u);
+  for (int i = 0; i < 5; ++i) bench.scan();
+  EXPECT_TRUE(bench.feedback.system[0].fin) << "FIN stays while the strobe is on";
+  bench.command.system[0].strobe = 0;
+  bench.scan();
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_FALSE(bench.feedback.system[0].fin);
+}
+
+TEST(SimMachine, StrobeThatDropsEarlyLeavesNoFinBehind) {
+  SimConfig config;
+  config.m_time_s = 0.010;
+  Bench bench(config);
+  bench.command.system[0].m = 8;
+  bench.command.system[0].strobe = 1;
+  for (int i = 0; i < 4; ++i) bench.scan();
+  bench.command.system[0].strobe = 0;  // reset
+  for (int i = 0; i < 20; ++i) {
+    bench.scan();
+    EXPECT_FALSE(bench.feedback.system[0].fin);
+  }
+  bench.command.system[0].strobe = 1;
+  EXPECT_GE(bench.until_fin(100), 10u) << "the next function takes its own whole time";
+}
+
+TEST(SimMachine, SpindleRampsAndFinWaitsForTheSpeed) {
+  SimConfig config;
+  config.spindle_ramp_rpm_per_s = 10000;
+  config.m_time_s = 0.001;
+  Bench bench(config);
+  auto& command = bench.command.system[0];
+  command.s = 3000;
+  command.strobe = 2;
+  EXPECT_LE(bench.until_fin(20), 4u) << "a standing spindle has nothing to wait for";
+  command.strobe = 0;
+  bench.scan();
+  command.m = 3;
+  command.strobe = 1;
+  const unsigned scans = bench.until_fin(1000);
+  EXPECT_NEAR(scans, 300u, 3);
+  EXPECT_NEAR(bench.machine.spindle_rpm(0), 3000, 1e-6);
+  command.strobe = 0;
+  bench.scan();
+  command.m = 5;
+  command.strobe = 1;
+  bench.until_fin(1000);
+  EXPECT_NEAR(bench.machine.spindle_rpm(0), 0, 1e-6);
+}
+
+TEST(SimMachine, ToolChangeTakesItsTime) {
+  SimConfig config;
+  config.tool_change_s = 0.5;
+  Bench bench(config);
+  auto& command = bench.command.system[0];
+  command.t = 7;
+  command.strobe = 4;
+  bench.until_fin(1000);
+  EXPECT_EQ(bench.machine.tool(0), 0u) << "T selects, M06 changes";
+  command.strobe = 0;
+  bench.scan();
+  command.m = 6;
+  command.strobe = 1;
+  EXPECT_NEAR(bench.until_fin(1000), 500u, 3);
+  EXPECT_EQ(bench.machine.tool(0), 7u);
+}
+
+TEST(SimMachine, SkipIsOnInsideASolid) {
+  SimConfig config;
+  nc::hal::SimSolid solid;
+  solid.signal = 3;
+  solid.min[0] = 10;
+  solid.max[0] = 20;
+  config.solids.push_back(solid);
+  Bench bench(config);
+  for (const auto& [x, expected] : {std::pair{9.999, 0u}, {10.0, 4u}, {20.0, 4u}, {20.001, 0u}}) {
+    bench.command.system[0].position.v[0] = x;
+    bench.scan();
+    bench.machine.read(&bench.feedback, &bench.image);
+    EXPECT_EQ(bench.feedback.system[0].skip, expected) << x;
+  }
+}
+
+TEST(SimMachine, PointsInputsAreTheMachinesOutputsAreRecorded) {
+  Bench bench(SimConfig{});
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_EQ(bench.image.value[0], 1u);
+  bench.machine.set_input(0, 0);
+  bench.image.value[1] = 1;
+  bench.scan();
+  EXPECT_EQ(bench.image.value[0], 0u);
+  ASSERT_EQ(bench.machine.change_count(), 1u);
+  EXPECT_EQ(bench.machine.change(0).point, 1u);
+  EXPECT_EQ(bench.machine.change(0).value, 1u);
+  bench.machine.stop();
+  EXPECT_EQ(bench.machine.outputs().value[1], 0u) << "safe value after the last scan";
+}
+
+TEST(SimMachine, LostBusKeepsOldValuesAndSaysSo) {
+  Bench bench(SimConfig{});
+  bench.machine.fail_bus(true);
+  bench.machine.set_input(0, 0);
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_TRUE(bench.feedback.lost);
+  EXPECT_EQ(bench.image.value[0], 0u) << "image as it was before: nobody wrote it";
+  bench.machine.fail_bus(false);
+  bench.machine.set_input(0, 1);
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_FALSE(bench.feedback.lost);
+  EXPECT_EQ(bench.image.value[0], 1u);
+}
+
+}  // namespace

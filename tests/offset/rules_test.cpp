@@ -1,0 +1,685 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rule by rule, with the numbers of the manuals' examples: M700 12.4, DGSHAPE G39-G42 and 1-6.
+#include <gtest/gtest.h>
+
+#include "dialect/alarms.hpp"
+#include "path_builder.hpp"
+
+namespace nc::test {
+namespace {
+
+constexpr double kTol = 6e-6;  // the numbers are printed with five decimals
+
+void expect_at(const std::vector<Item>& out, const PathBuilder& path, uint32_t line, double h, double v) {
+  const AxisVec p = at_block(out, path.start(), line);
+  EXPECT_NEAR(p[path.comp.axis[0]], h, kTol) << "block " << line;
+  EXPECT_NEAR(p[path.comp.axis[1]], v, kTol) << "block " << line;
+}
+
+void expect_path(const std::vector<Item>& out, const PathBuilder& path, const std::vector<Point>& points) {
+  const std::vector<Move> moves = moves_of(out);
+  ASSERT_EQ(moves.size(), points.size());
+  AxisVec at = path.start();
+  for (size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(moves[i].start, at) << "move " << i << " does not start where the one before ended";
+    EXPECT_NEAR(moves[i].end[path.comp.axis[0]], points[i].h, kTol) << "move " << i;
+    EXPECT_NEAR(moves[i].end[path.comp.axis[1]], points[i].v, kTol) << "move " << i;
+    at = moves[i].end;
+  }
+}
+
+void expect_alarm(const std::vector<Item>& out, Condition condition) {
+  const Item* alarm = alarm_of(out);
+  ASSERT_NE(alarm, nullptr);
+  EXPECT_EQ(alarm->alarm.condition, condition);
+}
+
+TEST(OffsetOff, EverythingGoesThroughUnchanged) {
+  PathBuilder path;
+  path.line(10, 0).idle().arc(true, 10, 20, 0, 10).off_plane(-3).program_stop().line(0, 0).end();
+  OffsetStage stage;
+  const std::vector<Item> out = run_stage(stage, path.items);
+  ASSERT_EQ(out.size(), path.items.size());
+  for (size_t i = 0; i < out.size(); ++i) {
+    EXPECT_EQ(out[i].kind, path.items[i].kind);
+    if (out[i].kind != ItemKind::move) continue;
+    EXPECT_EQ(out[i].move.end, path.items[i].move.end);
+    EXPECT_EQ(out[i].move.circle.sweep, path.items[i].move.circle.sweep);
+    EXPECT_FALSE(out[i].move.connecting);
+  }
+  EXPECT_TRUE(stage.idle());
+}
+
+// ---- 12.4.1 start, cancel, corners ----
+
+TEST(OffsetStart, TypeBObtuseIsTheIntersection) {
+  PathBuilder path(-40, 0);
+  path.side(1, 8);
+  path.comp.type_b = true;
+  path.line(0, 0).line(40, -60).line(100, -60).cancel().line(100, -20).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 1, 4.28147, 8);
+  expect_at(out, path, 2, 44.28147, -52);
+  expect_at(out, path, 3, 100, -52);
+  expect_at(out, path, 4, 100, -20);
+}
+
+TEST(OffsetStart, TypeAAcuteIsThePerpendicular) {
+  PathBuilder path(-40, 0);
+  path.side(1, 6.5);
+  path.line(0, 0).line(-30, -50).line(30, -90).cancel().line(60, -60).end();
+  expect_path(run_stage(path), path, {{5.5737, -3.34422}, {-21.23753, -48.02962}, {33.60555, -84.59167}, {60, -60}});
+}
+
+TEST(OffsetStart, TypeBAcuteGoesOverBothPerpendiculars) {
+  PathBuilder path(0, 0);
+  path.side(1, 5);
+  path.comp.type_b = true;
+  path.line(50, 0).line(0, -50).line(0, -90).end();  // a turn of 135 degrees to the right, tool on the left
+  const auto moves = moves_of(run_stage(path));
+  ASSERT_GE(moves.size(), 4u);
+  EXPECT_NEAR(moves[0].end[0], 50, kTol);  // perpendicular to the start block, at its end
+  EXPECT_NEAR(moves[0].end[1], 5, kTol);
+  EXPECT_NEAR(moves[1].end[0], 55, kTol);  // lengthened by the amount
+  EXPECT_NEAR(moves[1].end[1], 5, kTol);
+  EXPECT_TRUE(moves[1].connecting);
+  const double q = 5 * std::sqrt(0.5);     // perpendicular to the next block (q, -q), back by the amount: (2q, 0)
+  EXPECT_NEAR(moves[2].end[0], 50 + 2 * q, kTol);
+  EXPECT_NEAR(moves[2].end[1], 0, kTol);
+  EXPECT_TRUE(moves[2].connecting);
+  EXPECT_FALSE(moves[3].connecting);
+}
+
+TEST(OffsetCancel, TypeAAcuteIsThePerpendicular) {
+  PathBuilder path(-20, 30);
+  path.side(1, 9);
+  path.line(0, 0).line(70, 10).cancel().line(20, -45).end();
+  expect_path(run_stage(path), path, {{-1.27279, 8.90955}, {68.72721, 18.90955}, {20, -45}});
+}
+
+TEST(OffsetCancel, TypeBObtuseIsTheIntersection) {
+  PathBuilder path(-20, 0);
+  path.side(1, 5);
+  path.comp.type_b = true;
+  path.line(0, 0).line(50, 0).cancel().line(50, -40).end();
+  expect_path(run_stage(path), path, {{0, 5}, {55, 5}, {50, -40}});
+}
+
+TEST(OffsetArcs, TangentialChainKeepsCentres) {
+  PathBuilder path(-20, 0);
+  path.side(1, 3.5);
+  path.by(20, 10).by(0, 50).arc_by(false, 20, 20, 20, 0).by(30, 0).arc_by(true, 15, 15, 0, 15).by(0, 25);
+  path.arc_by(false, 20, 0, 10, 0).by(0, -30).cancel().by(15, -5).end();
+  const auto out = run_stage(path);
+  expect_path(out, path, {{-3.5, 10}, {-3.5, 60}, {20, 83.5}, {50, 83.5}, {61.5, 95}, {61.5, 120}, {88.5, 120}, {88.5, 90}, {100, 85}});
+  const auto moves = moves_of(out);
+  EXPECT_NEAR(moves[2].circle.radius_start, 23.5, 1e-9);
+  EXPECT_NEAR(moves[2].circle.radius_end, 23.5, 1e-9);
+  EXPECT_NEAR(moves[4].circle.radius_start, 11.5, 1e-9);
+  EXPECT_NEAR(moves[6].circle.radius_end, 13.5, 1e-9);
+  EXPECT_EQ(moves[2].circle.center[0], 20);
+  EXPECT_EQ(moves[2].circle.center[1], 60);
+}
+
+TEST(OffsetArcs, InnerCornerOfTwoArcs) {
+  PathBuilder path(60, 40);
+  path.side(1, 5);
+  path.line(40, 50).line(0, 50).arc(true, -40, -30, 0, -50).arc(true, -80, 50, -40, 30).line(-120, 50).cancel().line(-140, 30).end();
+  expect_path(run_stage(path), path, {{40, 45}, {0, 45}, {-40, -20.61553}, {-80, 45}, {-120, 45}, {-140, 30}});
+}
+
+TEST(OffsetArcs, FullCircleInside) {
+  PathBuilder path(20, -10);
+  path.side(1, 7);
+  path.line(30, 0).arc(true, 30, 0, -30, 0).cancel().line(20, 10).end();
+  const auto out = run_stage(path);
+  expect_path(out, path, {{23, 0}, {23, 0}, {20, 10}});
+  EXPECT_NEAR(moves_of(out)[1].circle.sweep, 2 * std::acos(-1.0), 1e-12);
+  EXPECT_NEAR(moves_of(out)[1].circle.radius_start, 23, 1e-12);
+}
+
+TEST(OffsetArcs, OuterObtuseWithArcIsTheIntersection) {
+  // Line +X, then an arc that starts 45 degrees to the right; tool on the left: y = r meets the circle R + r.
+  const double big = 20, r = 4, q = std::sqrt(0.5);
+  PathBuilder path(-60, 0);
+  path.side(1, r);
+  path.line(-50, 0).line(0, 0).arc(false, -2 * big * q, -2 * big * q, -big * q, -big * q).line(-80, -80).end();
+  const auto moves = moves_of(run_stage(path));
+  ASSERT_GE(moves.size(), 3u);
+  const double away = r + big * q, x = -big * q + std::sqrt((big + r) * (big + r) - away * away);
+  EXPECT_NEAR(moves[1].end[0], x, 1e-9);
+  EXPECT_NEAR(moves[1].end[1], r, 1e-9);
+  EXPECT_NEAR(moves[2].circle.radius_start, big + r, 1e-9);
+}
+
+TEST(OffsetArcs, NoIntersectionOnTheInsideIsAnAlarmBeforeTheBlock) {
+  // M700 12.4.1 (4): two arcs that meet in a notch so that their offsets part.
+  PathBuilder path(60, 40);
+  path.side(1, 12);  // the centres are 80 apart, the offset circles have the radius 38
+  path.line(40, 50).line(0, 50).arc(true, -40, -30, 0, -50).arc(true, -80, 50, -40, 30).line(-120, 50).end();
+  const auto out = run_stage(path);
+  ASSERT_NE(alarm_of(out), nullptr);
+  EXPECT_EQ(out.back().kind, ItemKind::alarm);
+  EXPECT_EQ(out.back().alarm.condition, Condition::comp_no_intersection);
+  EXPECT_EQ(out.back().source.line, 3u);
+  expect_at(out, path, 2, 0, 38);
+}
+
+TEST(OffsetArcs, ArcThatVanishesInsideIsAnAlarm) {
+  PathBuilder path(-20, 0);
+  path.side(1, 12);
+  path.line(0, 0).line(30, 0).arc(true, 40, 10, 0, 10).line(40, 60).end();
+  const auto out = run_stage(path);
+  expect_alarm(out, Condition::comp_interference);
+  EXPECT_EQ(alarm_of(out)->source.line, 3u);
+  expect_at(out, path, 2, 30, 12);
+}
+
+TEST(OffsetCorner, OuterAcuteIsLengthenedAndLinked) {
+  PathBuilder path(-20, 0);
+  path.side(1, 5);
+  path.line(0, 0).line(50, 0).line(0, -50).line(0, -90).end();
+  const auto out = run_stage(path);
+  const auto moves = moves_of(out);
+  const double q = 5 * std::sqrt(0.5);
+  EXPECT_NEAR(moves[1].end[0], 55, kTol);
+  EXPECT_NEAR(moves[1].end[1], 5, kTol);
+  EXPECT_TRUE(moves[2].connecting);
+  EXPECT_NEAR(moves[2].end[0], 50 + 2 * q, kTol);
+  EXPECT_NEAR(moves[2].end[1], 0, kTol);
+  EXPECT_EQ(moves[2].feed_mm_min, 500);
+  EXPECT_EQ(moves[2].work, path.items[2].move.work);  // the connecting move belongs to the block before ...
+  uint32_t marks = 0;
+  for (const Item& item : out) {
+    if (item.kind == ItemKind::mark) ++marks;
+    if (item.kind == ItemKind::move && item.move.connecting) {
+      EXPECT_EQ(marks, 1u);  // ... and comes before its mark
+    }
+  }
+}
+
+TEST(OffsetCorner, ObtuseNinetyDegrees) {
+  PathBuilder path(0, -10);
+  path.side(-1, 2.5);
+  path.kind = NC_MOVE_RAPID;
+  path.line(10, 0);
+  path.kind = NC_MOVE_LINE;
+  path.line(60, 0).line(85, 43.3).line(60, 86.6).cancel().line(60, 120).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 2, 61.443355, -2.5);
+  expect_at(out, path, 3, 87.886773, 43.3);
+  expect_at(out, path, 5, 60, 120);
+}
+
+TEST(OffsetDgshape, SampleProgramOfSection16) {
+  PathBuilder path;
+  path.side(1, 3);
+  path.kind = NC_MOVE_RAPID;
+  path.by(8, 8);
+  path.kind = NC_MOVE_LINE;
+  path.off_plane(-7).by(0, 35).by(45, 0).arc_by(true, 15, -15, 15, 0).by(0, -20).by(-60, 0).off_plane(7);
+  path.kind = NC_MOVE_RAPID;
+  path.cancel().by(-8, -8).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 1, 5, 8);
+  expect_at(out, path, 2, 5, 8);
+  EXPECT_EQ(at_block(out, path.start(), 2)[2], -7);
+  expect_at(out, path, 3, 5, 46);
+  expect_at(out, path, 6, 71, 5);
+  expect_at(out, path, 7, 8, 5);
+  expect_at(out, path, 9, 0, 0);
+}
+
+TEST(OffsetSigns, NegativeAmountChangesTheSide) {
+  PathBuilder path(40, 25);
+  path.side(-1, -6);
+  path.line(30, 0).line(80, 0).line(70, 50).line(0, 40).line(0, 0).line(30, 0).cancel().line(40, 25).end();
+  expect_path(run_stage(path), path,
+              {{30, 6}, {72.68118, 6}, {65.22966, 43.25761}, {6, 34.79623}, {6, 6}, {30, 6}, {40, 25}});
+}
+
+TEST(OffsetPlanes, YzWithNegativeAmount) {
+  PathBuilder path(-90, 40, 1, 2);
+  path.side(1, -5.25);
+  path.by(40, 0).by(0, -50).by(30, -30).by(60, 15).by(20, 45).cancel().by(40, 20).end();
+  expect_path(run_stage(path), path, {{-55.25, 40}, {-55.25, -12.17462}, {-21.61044, -45.81419}, {43.75752, -29.47219}, {64.79751, 17.86777}, {100, 40}});
+}
+
+// ---- 12.4.2 ----
+
+TEST(OffsetG39, PrintedExample) {
+  PathBuilder path;
+  path.side(-1, 5);
+  path.by(20, 20);
+  Compensation corner = path.comp;
+  corner.corner_arc = true;
+  path.one_shot(corner).by(40, 0).one_shot(corner).by(0, 40).one_shot(corner).by(-40, 0).by(0, -40).cancel().by(-20, -20).end();
+  const auto out = run_stage(path);
+  expect_path(out, path, {{20, 15}, {60, 15}, {65, 20}, {65, 60}, {60, 65}, {20, 65}, {15, 60}, {15, 20}, {0, 0}});
+  const auto moves = moves_of(out);
+  for (size_t i : {2u, 4u, 6u}) {
+    EXPECT_TRUE(moves[i].circular);
+    EXPECT_TRUE(moves[i].connecting);
+    EXPECT_GT(moves[i].circle.sweep, 0);
+    EXPECT_NEAR(moves[i].circle.radius_start, 5, 1e-12);
+    EXPECT_EQ(moves[i].plane, Plane::xy);
+  }
+  EXPECT_EQ(moves[2].work_center[0], 60);
+  EXPECT_EQ(moves[2].work_center[1], 20);
+}
+
+TEST(OffsetG39, DgshapeCornerWithoutMovement) {
+  PathBuilder path;
+  path.side(-1, 5);
+  path.by(20, 20).by(40, 0);
+  Compensation corner = path.vector(0, 40);
+  corner.corner_arc = true;
+  path.one_shot(corner).command().by(0, 40).cancel().by(-20, 0).end();
+  const auto out = run_stage(path);
+  expect_path(out, path, {{20, 15}, {60, 15}, {65, 20}, {65, 60}, {40, 60}});
+  expect_at(out, path, 2, 60, 15);
+  expect_at(out, path, 3, 65, 20);
+  EXPECT_TRUE(moves_of(out)[2].circular);
+}
+
+TEST(OffsetG38, HoldKeepsTheVectorOfTheEndBefore) {
+  PathBuilder path(-20, 0);
+  path.side(1, 5);
+  path.line(0, 0).line(50, 0);
+  Compensation hold = path.comp;
+  hold.hold_vector = true;
+  path.one_shot(hold).line(50, -30).cancel().line(80, -30).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 2, 55, 5);
+  expect_at(out, path, 3, 55, -25);
+  expect_at(out, path, 4, 80, -30);
+}
+
+TEST(OffsetG38, VectorAlongTheWords) {
+  PathBuilder path(-30, 30);
+  path.side(1, 10);
+  path.by(30, -30).by(60, 0);
+  Compensation g38 = path.vector(50, 50);
+  g38.hold_vector = true;
+  path.one_shot(g38).by(100, 0).cancel().by(40, 40).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 3, 167.07107, 7.07107);
+  expect_at(out, path, 4, 200, 40);
+}
+
+TEST(OffsetSide, ChangeAtACornerIsTheIntersection) {
+  PathBuilder path(-30, 30);
+  path.side(1, 7);
+  path.line(0, 0).line(60, 0).line(120, 0);
+  path.side(-1, 7);
+  path.line(120, 50).line(170, 50).cancel().line(190, 20).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 1, 0, 7);
+  expect_at(out, path, 2, 60, 7);
+  expect_at(out, path, 3, 127, 7);
+  expect_at(out, path, 4, 127, 43);
+  expect_at(out, path, 5, 170, 43);
+  expect_at(out, path, 6, 190, 20);
+}
+
+TEST(OffsetSide, ChangeStraightOnCrosses) {
+  PathBuilder path(-30, 30);
+  path.side(1, 7);
+  path.line(0, 0).line(60, 0);
+  path.side(-1, 7);
+  path.line(120, 0).line(150, 0).end();
+  expect_path(run_stage(path), path, {{0, 7}, {60, 7}, {60, -7}, {120, -7}, {150, -7}});
+}
+
+TEST(OffsetSide, LinearReturn) {
+  PathBuilder path(-30, 30);
+  path.side(1, 5);
+  path.line(0, 0).line(50, 0).line(100, 0);
+  path.side(-1, 5);
+  path.line(20, 0).cancel().line(10, 40).end();
+  expect_path(run_stage(path), path, {{0, 5}, {50, 5}, {100, 5}, {20, 5}, {10, 40}});
+}
+
+TEST(OffsetTransparent, ReferenceReturnInTheMode) {
+  PathBuilder path(-200, -100);
+  path.side(1, 10);
+  path.by(20, -10).by(60, 30);
+  Compensation g28 = path.comp;
+  g28.transparent = true;
+  path.one_shot(g28).by(50, -40).one_shot(g28).line(0, 0).by(30, -60).by(70, 40).cancel().by(-10, 30).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 1, -184.47214, -101.05573);
+  expect_at(out, path, 2, -118.7493, -68.19431);
+  expect_at(out, path, 3, -70, -120);
+  expect_at(out, path, 4, 0, 0);
+  expect_at(out, path, 5, 34.21679, -46.0729);
+  expect_at(out, path, 6, 95.03861, -11.31757);
+  expect_at(out, path, 7, 90, 10);
+}
+
+TEST(OffsetIdle, OneBlockWithoutMovementIsLookedOver) {
+  PathBuilder path(-50, -50);
+  path.side(1, 8);
+  path.by(50, 50).by(100, 200).idle().by(200, 0).cancel().by(10, 50).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 1, -7.15542, 3.57771);
+  expect_at(out, path, 2, 95.05573, 208);
+  expect_at(out, path, 4, 300, 208);
+  expect_at(out, path, 5, 310, 250);
+}
+
+TEST(OffsetIdle, FourBlocksWithoutMovementEndPerpendicular) {
+  PathBuilder path(-50, -50);
+  path.side(1, 8);
+  path.by(50, 50).by(100, 200).idle().idle().idle().idle().by(100, 0).by(0, 50).cancel().by(-20, 10).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 2, 92.84458, 203.57771);
+  expect_at(out, path, 6, 92.84458, 203.57771);
+  expect_at(out, path, 7, 192, 208);
+  expect_at(out, path, 8, 192, 250);
+  expect_at(out, path, 9, 180, 260);
+}
+
+TEST(OffsetIdle, ProgramStopEndsPerpendicular) {
+  PathBuilder path(-50, -50);
+  path.side(1, 8);
+  path.by(50, 50).by(100, 200).program_stop().by(100, 0).cancel().by(-20, 10).end();
+  expect_at(run_stage(path), path, 2, 92.84458, 203.57771);
+}
+
+TEST(OffsetIdle, CommandAloneIsPerpendicularAtTheNextStart) {
+  PathBuilder path;
+  path.by(30, 60);
+  path.side(1, 9);
+  path.command().by(20, -50).by(50, -20).cancel().by(30, 20).end();
+  const auto moves = moves_of(run_stage(path));
+  const double n = std::hypot(20, 50);
+  ASSERT_GE(moves.size(), 4u);
+  EXPECT_TRUE(moves[1].connecting);
+  EXPECT_NEAR(moves[1].end[0], 30 + 9 * 50 / n, kTol);
+  EXPECT_NEAR(moves[1].end[1], 60 + 9 * 20 / n, kTol);
+  EXPECT_NEAR(moves[2].end[0], 56.92378, kTol);
+  EXPECT_NEAR(moves[2].end[1], 16.92378, kTol);
+}
+
+TEST(OffsetIdle, CommandAndFourBlocksMakeNoVector) {
+  PathBuilder path;
+  path.by(30, 60);
+  path.side(1, 9);
+  path.command().idle().idle().idle().idle().by(20, -50).by(50, -20).cancel().by(30, 20).end();
+  expect_path(run_stage(path), path, {{30, 60}, {56.92378, 16.92378}, {103.34252, -1.64371}, {130, 10}});
+}
+
+TEST(OffsetIdle, StartBlockAndFourBlocksMakeNoVector) {
+  PathBuilder path;
+  path.side(1, 9);
+  path.by(30, 60).idle().idle().idle().idle().by(20, -50).by(50, -20).cancel().by(30, 20).end();
+  expect_path(run_stage(path), path, {{30, 60}, {56.92378, 16.92378}, {103.34252, -1.64371}, {130, 10}});
+}
+
+TEST(OffsetIdle, CancelWithoutMovement) {
+  PathBuilder path(-50, -50);
+  path.side(1, 8);
+  path.by(50, 50).by(100, 200).cancel().command().by(100, 50).by(20, 0).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 2, 92.84458, 203.57771);
+  expect_at(out, path, 4, 200, 250);
+  expect_at(out, path, 5, 220, 250);
+}
+
+TEST(OffsetCancelVector, WrongSignsStillIntersect) {
+  PathBuilder path(-20, 15);
+  path.side(1, 10);
+  path.line(0, 0).line(80, 0).cancel();
+  Compensation cancel = path.vector(30, -40);
+  cancel.has_vector = false;
+  cancel.cancel_vector = true;
+  path.one_shot(cancel).line(120, 60).end();
+  expect_path(run_stage(path), path, {{0, 10}, {85, 10}, {120, 60}});
+}
+
+TEST(OffsetCancelVector, ExtremelyLargeIsThePerpendicular) {
+  PathBuilder path(-20, 15);
+  path.side(1, 10);
+  path.line(0, 0).line(80, 0).cancel();
+  Compensation cancel = path.vector(-40, -0.5);
+  cancel.has_vector = false;
+  cancel.cancel_vector = true;
+  path.one_shot(cancel).line(120, 60).end();
+  expect_path(run_stage(path), path, {{0, 10}, {80, 10}, {120, 60}});
+}
+
+TEST(OffsetCancelVector, AfterAFullCircle) {
+  // M700 12.4.2 (2): G02 J150 inside, then the hypothetical path (-100, 100).
+  PathBuilder path(0, 30);
+  path.side(-1, 10);
+  path.line(50, 0).line(200, 0).arc(false, 200, 0, 0, 150).cancel();
+  Compensation cancel = path.vector(-100, 100);
+  cancel.has_vector = false;
+  cancel.cancel_vector = true;
+  path.one_shot(cancel).line(350, -150).end();
+  const auto moves = moves_of(run_stage(path));
+  Move arc;
+  for (const Move& move : moves)
+    if (move.circular) arc = move;
+  ASSERT_TRUE(arc.circular);
+  const double h = arc.end[0], v = arc.end[1];
+  EXPECT_NEAR(std::hypot(h - 200, v - 150), 140, 1e-9);                    // on the offset circle
+  EXPECT_NEAR(((h - 200) + v) * std::sqrt(0.5), 10, 1e-9);                 // and beside the hypothetical path
+  EXPECT_LT(std::abs(arc.circle.sweep), 2 * std::acos(-1.0) + 1e-9);      // what is beyond 360 degrees only
+}
+
+// ---- 12.4.3 I J K ----
+
+TEST(OffsetVector, StartWithMovement) {
+  PathBuilder path;
+  path.side(1, 12);
+  path.one_shot(path.vector(150, 0)).by(100, 100).idle().idle().idle().idle().by(150, 0).cancel().by(-20, 40).end();
+  expect_path(run_stage(path), path, {{100, 112}, {250, 112}, {230, 140}});
+}
+
+TEST(OffsetVector, StartWithoutMovement) {
+  PathBuilder path;
+  path.side(1, 5);
+  path.one_shot(path.vector(150, 0)).command().by(100, 100).by(150, 0).cancel().by(10, 40).end();
+  const auto out = run_stage(path);
+  const auto moves = moves_of(out);
+  EXPECT_NEAR(moves[0].end[0], 0, kTol);
+  EXPECT_NEAR(moves[0].end[1], 5, kTol);
+  EXPECT_TRUE(moves[0].connecting);
+}
+
+TEST(OffsetVector, InTheModeBeforeAFullCircle) {
+  PathBuilder path(-40, 40);
+  path.kind = NC_MOVE_RAPID;
+  path.side(1, 10);
+  path.by(40, -40).one_shot(path.vector(0, 50)).by(150, 0).arc_by(false, 0, 0, 150, 0).by(-150, 0).cancel().by(0, -50).end();
+  const auto out = run_stage(path);
+  expect_path(out, path, {{0, 10}, {140, 0}, {140.31281, -10}, {0, -10}, {0, -50}});
+  EXPECT_LT(moves_of(out)[2].circle.sweep, -6);
+}
+
+TEST(OffsetVector, WithoutMovementInTheMode) {
+  PathBuilder path;
+  path.side(1, 7.5);
+  path.command().by(100, 100).one_shot(path.vector(50, 0)).command().by(150, 0).cancel().by(-20, 40).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 3, 100, 107.5);
+  expect_at(out, path, 4, 250, 107.5);
+  expect_at(out, path, 5, 230, 140);
+}
+
+TEST(OffsetVector, RightSideAndItsOwnAmount) {
+  PathBuilder path;
+  path.side(1, 6);
+  path.command().by(100, 100);
+  path.side(-1, 9);
+  path.one_shot(path.vector(100, -100)).by(100, 0).by(100, -100).cancel().by(30, -10).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 3, 193.63604, 93.63604);
+  expect_at(out, path, 5, 330, -10);
+}
+
+TEST(OffsetVector, NoInsertedBlockAtAnAcuteCorner) {
+  PathBuilder path;
+  path.side(1, 11);
+  path.by(200, 0).by(-150, 150).one_shot(path.vector(50, 0)).by(300, 0).by(-150, -150).cancel().by(-200, 0).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 1, 192.22183, -7.77817);
+  expect_at(out, path, 3, 350, 161);
+  for (const Item& item : out) {
+    if (item.kind != ItemKind::move || item.source.line != 3) continue;
+    EXPECT_FALSE(item.move.connecting);
+  }
+  expect_at(out, path, 5, 0, 0);
+}
+
+// ---- 12.4.5 to 12.4.7 ----
+
+TEST(OffsetAmount, ChangedInTheModeInnerCorners) {
+  PathBuilder path(-30, 30);
+  path.side(1, 5);
+  path.line(0, 0).line(60, 0);
+  path.side(1, 9);
+  path.line(80, 60).line(20, 80).cancel().line(0, 20).end();
+  expect_path(run_stage(path), path, {{0, 5}, {56.3962, 5}, {68.6158, 54.3079}, {17.15395, 71.46185}, {0, 20}});
+}
+
+TEST(OffsetAmount, ChangedInTheModeOuterCorners) {
+  PathBuilder path(-40, -20, 1, 2);
+  path.side(-1, 8);
+  path.by(40, 20).by(50, 0);
+  path.side(-1, 3);
+  path.by(40, 30).by(10, 60).cancel().by(40, 10).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 1, 0, -8);
+  expect_at(out, path, 2, 52.66667, -8);
+  expect_at(out, path, 3, 92.76158, 28.32118);
+  expect_at(out, path, 4, 102.95918, 89.5068);
+  expect_at(out, path, 5, 140, 100);
+}
+
+TEST(OffsetInfeed, ThreeBlocksAfterTheStart) {
+  PathBuilder path;
+  path.side(1, 30);
+  path.by(500, 500).idle().idle().off_plane(-300).by(0, 100).cancel().by(-50, 0).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 1, 470, 500);
+  expect_at(out, path, 4, 470, 500);
+  EXPECT_EQ(at_block(out, path.start(), 4)[2], -300);
+  expect_at(out, path, 5, 470, 600);
+  expect_at(out, path, 6, 450, 600);
+}
+
+TEST(OffsetInfeed, FourBlocksAfterTheStartMakeNoVector) {
+  PathBuilder path;
+  path.side(1, 30);
+  path.by(500, 500).idle().idle().off_plane(-250).off_plane(-50).by(0, 100).by(-100, 0).cancel().by(0, -50).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 1, 500, 500);
+  expect_at(out, path, 5, 500, 500);
+  expect_at(out, path, 6, 470, 570);
+  expect_at(out, path, 7, 400, 570);
+  expect_at(out, path, 8, 400, 550);
+}
+
+TEST(OffsetInfeed, Helix) {
+  PathBuilder path(20, -10);
+  path.side(1, 7);
+  path.line(30, 0).arc(true, 30, 0, -30, 0, -5).cancel().line(20, 10).end();
+  const auto out = run_stage(path);
+  const auto moves = moves_of(out);
+  EXPECT_EQ(moves[1].kind, NC_MOVE_HELIX);
+  EXPECT_EQ(moves[1].end[2], -5);
+  EXPECT_NEAR(moves[1].end[0], 23, 1e-12);
+}
+
+TEST(OffsetFrames, AShiftedZeroInTheContourKeepsTheVector) {
+  PathBuilder plain(-20, 0), shifted(-20, 0);
+  for (PathBuilder* path : {&plain, &shifted}) {
+    path->side(1, 5);
+    path->by(20, 0).by(50, 0).by(0, -30);
+    if (path == &shifted) path->shift_zero(1000, -400);
+    path->by(40, 0).cancel().by(0, 20).end();
+  }
+  const auto a = moves_of(run_stage(plain)), b = moves_of(run_stage(shifted));
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_NEAR(a[3].end[0] + 1000, b[3].end[0], 1e-9);
+  EXPECT_NEAR(a[3].start[1] - 400, b[3].start[1], 1e-9);
+}
+
+// ---- 12.4.8 ----
+
+PathBuilder v_shape(bool check, bool avoid) {
+  PathBuilder path(0, 50);
+  path.side(1, 20);
+  path.comp.check = check;
+  path.comp.avoid = avoid;
+  path.line(0, 0).line(50, -100).line(70, -100).line(120, 0).cancel().line(120, 50).end();
+  return path;
+}
+
+TEST(OffsetInterference, AlarmBeforeTheBlock) {
+  const auto out = run_stage(v_shape(true, false));
+  expect_alarm(out, Condition::comp_interference);
+  EXPECT_EQ(alarm_of(out)->source.line, 2u);
+}
+
+TEST(OffsetInterference, AvoidanceJoinsTheNeighbours) {
+  const PathBuilder path = v_shape(true, true);
+  expect_path(run_stage(path), path, {{17.88854, 8.94427}, {60, -75.27864}, {102.11146, 8.94427}, {120, 50}});
+}
+
+TEST(OffsetInterference, InvalidCheckRunsBackwards) {
+  const PathBuilder path = v_shape(false, false);
+  expect_path(run_stage(path), path, {{17.88854, 8.94427}, {62.36068, -80}, {57.63932, -80}, {102.11146, 8.94427}, {120, 50}});
+}
+
+TEST(OffsetInterference, EditedProgramPasses) {
+  PathBuilder path(0, 50);
+  path.side(1, 20);
+  path.comp.check = true;
+  path.line(0, 0).line(20, -40).line(70, -100).line(120, 0).cancel().line(120, 50).end();
+  expect_path(run_stage(path), path, {{17.88854, 8.94427}, {36.85045, -28.97954}, {65.78739, -63.70387}, {102.11146, 8.94427}, {120, 50}});
+}
+
+TEST(OffsetInterference, UnsymmetricalGroove) {
+  PathBuilder path(10, 60, 1, 2);
+  path.side(-1, 18);
+  path.comp.check = path.comp.avoid = true;
+  path.by(-10, -60).by(-40, -100).by(-15, 5).by(-35, 95).cancel().by(0, 40).end();
+  const auto out = run_stage(path);
+  EXPECT_EQ(alarm_of(out), nullptr);
+  expect_path(out, path, {{-16.71258, 6.68503}, {-46.15872, -66.93031}, {-73.10982, 6.2227}, {-90, 40}});
+}
+
+TEST(OffsetInterference, TwoShortBlocksAreLeftOut) {
+  PathBuilder path(0, 50);
+  path.side(1, 20);
+  path.comp.check = path.comp.avoid = true;
+  path.line(0, 0).line(50, -100).line(60, -104).line(70, -100).line(120, 0).cancel().line(120, 50).end();
+  const auto out = run_stage(path);
+  EXPECT_EQ(alarm_of(out), nullptr);
+  expect_path(out, path, {{17.88854, 8.94427}, {60, -75.27864}, {102.11146, 8.94427}, {120, 50}});
+}
+
+TEST(OffsetInterference, NarrowGrooveWithParallelWallsIsAnAlarm) {
+  PathBuilder path(0, 50);
+  path.side(1, 20);
+  path.comp.check = path.comp.avoid = true;
+  path.line(0, 0).line(0, -100).line(30, -100).line(30, 0).cancel().line(30, 50).end();
+  expect_alarm(run_stage(path), Condition::comp_interference);
+}
+
+TEST(OffsetInterference, SmallArcIsLeftOutByTheAvoidance) {
+  PathBuilder path(-20, 0);
+  path.side(1, 12);
+  path.comp.check = path.comp.avoid = true;
+  path.line(0, 0).line(30, 0).arc(true, 40, 10, 0, 10).line(40, 60).line(0, 60).cancel().line(0, 90).end();
+  const auto out = run_stage(path);
+  EXPECT_EQ(alarm_of(out), nullptr);
+  expect_path(out, path, {{0, 12}, {28, 12}, {28, 48}, {0, 48}, {0, 90}});
+}
+
+}  // namespace
+}  // namespace nc::test

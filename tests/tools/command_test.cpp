@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// ncsim as a person calls it: exit codes, messages, the same bytes on every run.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace nc::tools {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+  std::vector<Json> events() const {
+    std::vector<Json> list;
+    for (size_t at = 0; at < out.size();) {
+      const size_t end = out.find('\n', at);
+      list.push_back(Json::parse(out.substr(at, end - at)));
+      at = end + 1;
+    }
+    return list;
+  }
+};
+
+class CommandTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    char pattern[] = "/tmp/nc-command-XXXXXX";
+    ASSERT_NE(mkdtemp(pattern), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ + "/" + name, std::ios::binary) << text;
+    return folder_ + "/" + name;
+  }
+  static std::string content(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+  // `line` is everything behind "ncsim ", for the shell; standard output may be redirected in it.
+  Outcome ncsim(const std::string& line) {
+    const std::string command =
+        "cd " + folder_ + " && { " NC_BINARY_DIR "/bin/ncsim " + line + " ; } > out.txt 2> err.txt";
+    const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe,cert-env33-c): a test's own command
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ + "/out.txt"), content(folder_ + "/err.txt")};
+  }
+
+  std::string folder_;
+};
+
+constexpr const char* kPart = "G90 G54 G00 X0 Y0 Z5.\nG01 Z-1. F100.\nX10. Y5. F250.\nG02 X20. Y-5. I0 J-10.\nM30\n";
+
+TEST_F(CommandTest, TraceOfAProgramThatEnds) {
+  file("p.nc", kPart);
+  const Outcome run = ncsim("trace p.nc");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  const auto events = run.events();
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back()["t"], "end");
+  EXPECT_EQ(events.back()["ok"], true);
+  int moves = 0, blocks = 0;
+  for (const Json& e : events) {
+    moves += e["t"] == "move";
+    blocks += e["t"] == "block";
+    for (const char* key : {"t", "sys", "line", "prog", "depth"}) EXPECT_TRUE(e.contains(key)) << e;
+  }
+  EXPECT_EQ(moves, 4);
+  EXPECT_EQ(blocks, 5);
+}
+
+TEST_F(CommandTest, TwoRunsGiveTheSameBytes) {
+  file("p.nc", std::string("#100=#3011\n#101=#3012\n#102=#3001\n") + kPart);
+  const Outcome one = ncsim("trace p.nc"), two = ncsim("trace p.nc");
+  EXPECT_FALSE(one.out.empty());
+  EXPECT_EQ(one.out, two.out);
+}
+
+TEST_F(CommandTest, StandardInputByPipeAndByFile) {
+  file("p.nc", kPart);
+  const Outcome by_path = ncsim("trace p.nc"), by_pipe = ncsim("trace - < <(cat p.nc) || true"),
+                by_file = ncsim("trace - < p.nc"), by_cat = ncsim("trace - <<'X'\n" + std::string(kPart) + "X\n");
+  EXPECT_EQ(by_path.out, by_file.out);
+  EXPECT_EQ(by_path.out, by_cat.out);
+  (void)by_pipe;  // process substitution is not in every sh; the here-document above is a pipe or a file, as the shell likes
+}
+
+TEST_F(CommandTest, AlarmIsExitTwoWithItsLine) {
+  file("p.nc", "G00 X1.\nG01 X2.\nM30\n");  // no F: P62
+  const Outcome trace = ncsim("trace p.nc");
+  EXPECT_EQ(trace.code, 2);
+  const auto events = trace.events();
+  ASSERT_GE(events.size(), 2u);
+  EXPECT_EQ(events[events.size() - 2]["t"], "alarm");
+  EXPECT_EQ(events[events.size() - 2]["code"], "P62");
+  EXPECT_EQ(events[events.size() - 2]["line"], 2);
+  EXPECT_EQ(events.back()["ok"], false);
+  const Outcome check = ncsim("check p.nc");
+  EXPECT_EQ(check.code, 2);
+  EXPECT_EQ(check.out.rfind("p.nc:2: P62 ", 0), 0u) << check.out;
+}
+
+TEST_F(CommandTest, CheckSaysWhatAGoodProgramDoes) {
+  file("p.nc", kPart);
+  const Outcome check = ncsim("check p.nc");
+  EXPECT_EQ(check.code, 0);
+  EXPECT_EQ(check.out.rfind("p.nc: no alarm; 5 blocks, 4 moves, ", 0), 0u) << check.out;
+}
+
+TEST_F(CommandTest, UsageFileAndSetupErrorsAreOneLineAndExitOne) {
+  file("p.nc", kPart);
+  file("bad.json", "{\n\"axez\": 1}");
+  file("param.json", "{\"params\":\n {\"no-such\": 1}}");
+  std::filesystem::create_directory(folder_ + "/dir");
+  const struct {
+    const char* line;
+    const char* says;
+  } cases[] = {{"", "subcommand"},
+               {"trace", "PROGRAM"},
+               {"trace nothing.nc", "nothing.nc: No such file or directory"},
+               {"trace dir", "dir: not a regular file"},
+               {"trace --setup bad.json p.nc", "bad.json:2: axez: no such key"},
+               {"trace --setup param.json p.nc", "param.json:2: params.no-such: the control has no such parameter"},
+               {"trace --setup none.json p.nc", "none.json: cannot be opened"},
+               {"trace --dialect fanuc p.nc", "--dialect fanuc"},
+               {"trace --programs nowhere p.nc", "--programs nowhere: not a folder"},
+               {"check nothing.nc", "nothing.nc"},
+               {"time nothing.nc", "nothing.nc"},
+               {"plot -o none/x p.nc", "none/x.svg"},
+               {"functions --dialect fanuc", "--dialect fanuc"},
+               {"trace --frobnicate p.nc", "frobnicate"}};
+  for (const auto& c : cases) {
+    const Outcome run = ncsim(c.line);
+    EXPECT_EQ(run.code, 1) << c.line;
+    EXPECT_NE(run.err.find(c.says), std::string::npos) << c.line << "\n said: " << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(run.err.rfind("ncsim: ", 0), 0u) << run.err;
+  }
+}
+
+TEST_F(CommandTest, OutputThatCannotBeWrittenIsExitOne) {
+  file("p.nc", kPart);
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const Outcome full = ncsim("trace p.nc > /dev/full");
+  EXPECT_EQ(full.code, 1);
+  EXPECT_EQ(full.err, "ncsim: the trace cannot be written: No space left on device\n");
+  EXPECT_EQ(ncsim("check p.nc > /dev/full").code, 1);
+  std::string longer;
+  for (int i = 0; i < 20'000; ++i) longer += "G01 X" + std::to_string(i % 7) + ". F100.\n";
+  file("long.nc", longer + "M30\n");
+  const Outcome gone = ncsim("trace long.nc | head -c 10 > /dev/null; true");
+  EXPECT_EQ(gone.err, "ncsim: the trace cannot be written: Broken pipe\n");
+}
+
+TEST_F(CommandTest, SubProgramsFromTheSetupTheFileAndTheFolder) {
+  file("main.nc", "M98 P1000\nM98 P2000\nM98 P3000\nM30\nO2000\nG00 X2.\nM99\n");
+  file("o3000.NC", "G00 X3.\nM99\n");
+  std::filesystem::create_directory(folder_ + "/other");
+  file("other/O3000", "G00 X33.\nM99\n");
+  file("s.json", R"({"subprograms": {"1000": "O1000\nG00 X1.\nM99\n%"}})");
+  const auto ends = [](const Outcome& run) {
+    std::vector<double> x;
+    for (const Json& e : run.events())
+      if (e["t"] == "move") x.push_back(e["work"]["X"].get<double>());
+    return x;
+  };
+  const Outcome run = ncsim("trace --setup s.json main.nc");
+  EXPECT_EQ(run.code, 0) << run.out;
+  EXPECT_EQ(ends(run), (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(ends(ncsim("trace --setup s.json --programs other main.nc")), (std::vector<double>{1, 2, 33}));
+  for (const Json& e : run.events())
+    if (e["t"] == "move") EXPECT_EQ(e["depth"], 1);
+}
+
+TEST_F(CommandTest, AnAlarmInASubProgramNamesItsFile) {
+  file("main.nc", "M98 P3000\nM30\n");
+  file("O3000.nc", "G00 X3.\nG01 X4.\nM99\n");
+  const Outcome check = ncsim("check main.nc");
+  EXPECT_EQ(check.code, 2);
+  EXPECT_EQ(check.out.rfind("./O3000.nc:2: P62 ", 0), 0u) << check.out;
+}
+
+TEST_F(CommandTest, SkipEndsAtTheSolid) {
+  file("p.nc", "G91 G31 Z-50. F100.\n#100=#5063\n#101=#5023\nM30\n");
+  file("s.json", R"({"skip": [{"box": {"Z": [-40, -12.5]}}]})");
+  const Outcome run = ncsim("trace --setup s.json p.nc");
+  EXPECT_EQ(run.code, 0) << run.out;
+  const auto events = run.events();
+  for (const Json& e : events)
+    if (e["t"] == "move") EXPECT_EQ(e["machine"]["Z"], -12.5);
+  EXPECT_EQ(events.back()["vars"]["100"], -12.5);
+  EXPECT_EQ(events.back()["vars"]["101"], -12.5);
+}
+
+TEST_F(CommandTest, InputsAndEventsReachTheProgram) {
+  file("p.nc", "#100=#1000\n#101=#1001\nG04 X1.\n#102=#1001\n#103=#1033\nM30\n");
+  file("s.json", R"({"inputs": {"1000": 1}, "events": [{"when": {"line": 4}, "inputs": {"1001": 1}},
+                     {"when": {"seconds": 0.5}, "inputs": {"1203": 1}}]})");
+  const auto vars = ncsim("trace --setup s.json p.nc").events().back()["vars"];
+  EXPECT_EQ(vars["100"], 1);
+  EXPECT_EQ(vars["101"], 0);
+  EXPECT_EQ(vars["102"], 1);
+  EXPECT_EQ(vars["103"], 8);
+}
+
+TEST_F(CommandTest, AnEndlessLoopEndsWithAMessage) {
+  file("p.nc", "N1 GOTO 1\nM30\n");
+  const Outcome run = ncsim("check --max-silent-blocks 100000 p.nc");
+  if (run.code != 2) {  // where a GOTO block is an event of its own the loop is the user's to stop
+    EXPECT_EQ(run.code, 1);
+    EXPECT_NE(run.err.find("endless loop"), std::string::npos) << run.err;
+  }
+}
+
+TEST_F(CommandTest, TimeOfAMoveIsThatOfItsLimits) {
+  file("p.nc", "G00 X500.\nM30\n");
+  file("m.json", R"({"axes": {"X": {"velocity": 100, "acceleration": 1000, "jerk": 1000000}}})");
+  const Outcome run = ncsim("time --config m.json p.nc");
+  EXPECT_EQ(run.code, 0) << run.err;
+  double seconds = 0, length = 0;
+  ASSERT_EQ(std::sscanf(run.out.c_str(), "cycle time %lf s", &seconds), 1) << run.out;
+  const size_t at = run.out.find("path length");
+  ASSERT_NE(at, std::string::npos);
+  ASSERT_EQ(std::sscanf(run.out.c_str() + at, "path length %lf mm", &length), 1);
+  EXPECT_NEAR(length, 500.0, 1e-3);
+  EXPECT_GT(seconds, 5.0);   // 500 mm at 100 mm/s ...
+  EXPECT_LT(seconds, 5.25);  // ... and 0.1 s for the ramps, the end of the program in some cycles
+}
+
+TEST_F(CommandTest, PlotWritesBothFiles) {
+  file("p.nc", kPart);
+  const Outcome run = ncsim("plot -o drawing --view xy p.nc");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(content(folder_ + "/drawing.png").substr(1, 3), "PNG");
+  EXPECT_NE(content(folder_ + "/drawing.svg").find("</svg>"), std::string::npos);
+}
+
+TEST_F(CommandTest, TablesOfFunctionsAndAlarms) {
+  for (const std::string dialect : {"m700", "dgshape"}) {
+    const Outcome plain = ncsim("functions --dialect " + dialect), table = ncsim("functions --markdown --dialect " + dialect);
+    EXPECT_EQ(plain.code, 0);
+    EXPECT_NE(plain.out.find("G01\t"), std::string::npos) << plain.out;
+    EXPECT_NE(table.out.find("| G01 |"), std::string::npos);
+    EXPECT_NE(table.out.find("| --- |"), std::string::npos);
+  }
+  const Outcome alarms = ncsim("alarms");
+  EXPECT_EQ(alarms.code, 0);
+  EXPECT_NE(alarms.out.find("P62\t"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nc::tools

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// Setup files: what is accepted, and that every mistake is named with its key and its line.
+#include "tools/lib/setup.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tools/lib/machine_limits.hpp"
+
+namespace nc::tools {
+namespace {
+
+std::string error_of(const std::string& text) {
+  tools::Setup setup;
+  std::string error;
+  return parse_setup(text, "s.json", &setup, &error) ? "" : error;
+}
+
+tools::Setup good(const std::string& text) {
+  tools::Setup setup;
+  std::string error;
+  EXPECT_TRUE(parse_setup(text, "s.json", &setup, &error)) << error;
+  return setup;
+}
+
+TEST(Setup, EmptyObjectIsTheDefault) {
+  const tools::Setup s = good("{}");
+  ASSERT_EQ(s.axes.size(), 3u);
+  EXPECT_EQ(s.axes[2].name, 'Z');
+  EXPECT_EQ(s.clock_ms, 1767225600000);  // 2026-01-01T00:00:00
+  EXPECT_EQ(s.option_variable_sets, 600u);
+  EXPECT_EQ(s.option_tool_offsets, 200u);
+  EXPECT_EQ(s.option_work_offsets, 96u);
+}
+
+TEST(Setup, EveryPartIsRead) {
+  const tools::Setup s = good(R"({
+    "axes": ["X", "Y", "Z", {"name": "C", "rotary": true}],
+    "params": {"1003": "B", "1267/bit0": 1, "8206": {"X": 5.0, "C": -2}, "UNIT*10": 10},
+    "kinematics": {"type": "combined", "tool": ["C"], "table": ["C"], "center": {"X": 30, "Z": -50}, "sense": "iso",
+                   "program_frame": "work", "interpolation": "single_axis"},
+    "start": {"Z": 5},
+    "work_offsets": {"EXT": {"X": 1}, "G54": {"X": -100.5}, "G59": {}, "G54.1P48": {"C": 2}},
+    "offsets": {"1": 10.0, "2": {"length": 1, "radius_wear": 0.25}},
+    "vars": {"100": 1.5, "500": null},
+    "inputs": {"1001": 1, "1032": 4, "1203": 1, "1295": 1},
+    "skip": [{"signal": 2, "box": {"X": [0, 100], "Z": [-30, 0]}}],
+    "switches": {"optional_skip": [1, 9], "optional_stop": true, "mirror": ["X", "Z"]},
+    "subprograms": {"1000": "O1000\nM99\n%", "PART.NC": "M99"},
+    "events": [{"when": {"line": 5}, "inputs": {"1000": 1}, "signals": {"reset": 1}}, {"when": {"seconds": 1.5}}],
+    "options": {"variable_sets": 100, "tool_offsets": 20, "work_offsets": 300, "macro_extensions": false},
+    "clock": "2024-02-29T23:59:58"
+  })");
+  ASSERT_EQ(s.axes.size(), 4u);
+  EXPECT_TRUE(s.axes[3].rotary);
+  ASSERT_EQ(s.parameters.size(), 5u);
+  EXPECT_EQ(s.parameters[0].text, "B");
+  EXPECT_EQ(s.parameters[1].text, "1");
+  EXPECT_EQ(s.parameters[2].axis, 'X');
+  EXPECT_EQ(s.parameters[3].text, "-2");
+  EXPECT_EQ(s.kinematics->center[2], -50.0);
+  EXPECT_EQ(s.start.v[2], 5.0);
+  ASSERT_EQ(s.work_offsets.size(), 4u);
+  EXPECT_EQ(s.work_offsets[0].index, 0u);
+  EXPECT_EQ(s.work_offsets[1].index, 1u);
+  EXPECT_EQ(s.work_offsets[1].values[0].value, -100.5);
+  EXPECT_EQ(s.work_offsets[2].index, 6u);
+  EXPECT_EQ(s.work_offsets[3].index, 148u);
+  EXPECT_TRUE(s.tool_offsets[0].plain);
+  EXPECT_EQ(s.tool_offsets[1].column[NC_TOOL_RADIUS_WEAR], 0.25);
+  EXPECT_TRUE(s.variables[1].vacant);
+  EXPECT_EQ(s.inputs.bits[0], 6u);  // the bit named beside its word wins
+  EXPECT_EQ(s.inputs.bits[1], 8u);
+  EXPECT_EQ(s.inputs.bits[3], 0x80000000u);
+  EXPECT_EQ(s.skip[0].signal, 2u);
+  EXPECT_FALSE(s.skip[0].bounded[1]);
+  EXPECT_EQ(s.optional_skip, (1u << 1) | (1u << 9));
+  EXPECT_EQ(s.mirror_axes, 5u);
+  EXPECT_EQ(s.subprograms[0].first, "O1000");
+  EXPECT_EQ(s.subprograms[1].first, "PART.NC");
+  EXPECT_EQ(*s.events[0].line, 5u);
+  EXPECT_EQ(*s.events[1].seconds, 1.5);
+  EXPECT_EQ(s.clock_ms, 1709251198000);
+}
+
+TEST(Setup, AxesMayStandBehindWhatNamesThem) {
+  const tools::Setup s = good(R"({"start": {"A": 3}, "axes": ["A"]})");
+  EXPECT_EQ(s.start.v[0], 3.0);
+}
+
+struct Mistake {
+  const char* text;
+  const char* error;
+};
+
+TEST(Setup, MistakesAreNamedWithKeyAndLine) {
+  const Mistake mistakes[] = {
+      {"{\n \"axis\": []}", "s.json:2: axis: no such key"},
+      {"[]", "s.json:1: a setup must be an object, is a list"},
+      {"", "s.json:1: "},
+      {"{\"vars\": {\"100\": 1,\n\n\"101\": }}", "s.json:3: "},
+      {"{\"vars\":{\"1\":1,\n\"1\":2}}", "s.json:2: the key \"1\" stands here twice"},
+      {"{\"axes\": []}", "axes: a part system has 1 to 8 axes"},
+      {"{\"axes\": [\"X\", \"X\"]}", "axes[1]: the axis X stands here twice"},
+      {"{\"axes\": [\"Q\"]}", "axes[0]: an axis is one of"},
+      {"{\"axes\": [{\"name\": \"X\",\n\"rotary\": 1}]}", "s.json:2: axes[0].rotary: must be true or false, is a number"},
+      {"{\"axes\": [{\"rotary\": true}]}", "axes[0]: the key name is missing"},
+      {"{\"axes\": [{\"name\": \"X\", \"rotory\": true}]}", "axes[0].rotory: no such key"},
+      {"{\"axes\": 3}", "axes: must be a list, is a number"},
+      {"{\"params\": {\"1078\": true}}", "params.1078: must be a number, a string or an object by axis"},
+      {"{\"params\": {\"8206\": {\"W\": 1}}}", "params.8206.W: the setup has no axis \"W\""},
+      {"{\"start\": {\"X\": \"1\"}}", "start.X: must be a number, is a string"},
+      {"{\"work_offsets\": {\"G53\": {}}}", "work_offsets.G53: no such key"},
+      {"{\"work_offsets\": {\"G54.1P0\": {}}}", "work_offsets.G54.1P0: no such key"},
+      {"{\"work_offsets\": {\"G54\": 1}}", "work_offsets.G54: must be an object, is a number"},
+      {"{\"offsets\": {\"0\": 1}}", "offsets.0: no such key"},
+      {"{\"offsets\": {\"1\": {\"diameter\": 1}}}", "offsets.1.diameter: no such key"},
+      {"{\"offsets\": {\"1\": null}}", "offsets.1: must be a number or an object"},
+      {"{\"vars\": {\"#100\": 1}}", "vars.#100: no such key"},
+      {"{\"vars\": {\"100\": \"1\"}}", "vars.100: must be a number or null"},
+      {"{\"inputs\": {\"1036\": 1}}", "inputs.1036: no such key"},
+      {"{\"inputs\": {\"1000\": 2}}", "inputs.1000: must be a whole number from 0 to 1"},
+      {"{\"skip\": [{\"signal\": 1}]}", "skip[0]: the key box is missing"},
+      {"{\"skip\": [{\"box\": {}}]}", "skip[0].box: a box without a side"},
+      {"{\"skip\": [{\"box\": {\"X\": [1]}}]}", "skip[0].box.X: must be [low, high]"},
+      {"{\"skip\": [{\"box\": {\"X\": [2, 1]}}]}", "skip[0].box.X: low must be less than high"},
+      {"{\"skip\": [{\"signal\": 9, \"box\": {\"X\": [1, 2]}}]}", "skip[0].signal: must be a whole number from 1 to 8"},
+      {"{\"switches\": {\"optional_skip\": [0]}}", "switches.optional_skip[0]: must be a whole number from 1 to 9"},
+      {"{\"switches\": {\"mirror\": [\"U\"]}}", "switches.mirror[0]: the setup has no axis"},
+      {"{\"switches\": {\"optional_stop\": 1}}", "switches.optional_stop: must be true or false"},
+      {"{\"switches\": {\"door\": true}}", "switches.door: no such key"},
+      {"{\"subprograms\": {\"1000\": 5}}", "subprograms.1000: must be a string"},
+      {"{\"events\": [{}]}", "events[0]: the key when is missing"},
+      {"{\"events\": [{\"when\": {}}]}", "events[0].when: must have one of line and seconds"},
+      {"{\"events\": [{\"when\": {\"line\": 1, \"seconds\": 1}}]}", "events[0].when: must have one of"},
+      {"{\"events\": [{\"when\": {\"line\": 1.5}}]}", "events[0].when.line: must be a whole number"},
+      {"{\"events\": [{\"when\": {\"seconds\": -1}}]}", "events[0].when.seconds: must not be negative"},
+      {"{\"events\": [{\"when\": {\"line\": 1}, \"signals\": {\"start\": 1}}]}", "events[0].signals.start: no such key"},
+      {"{\"options\": {\"variable_sets\": 150}}", "options.variable_sets: must be 100, 200, 300 or 600"},
+      {"{\"options\": {\"tool_offsets\": 0}}", "options.tool_offsets: must be a whole number from 1 to 999"},
+      {"{\"options\": {\"mcaro\": 0}}", "options.mcaro: no such key"},
+      {"{\"clock\": \"2026-02-29T00:00:00\"}", "clock: must be a date and time"},
+      {"{\"clock\": \"2026-01-01T00:00:00Z\"}", "clock: must be a date and time"},
+      {"{\"kinematics\": {}}", "kinematics: the key type is missing"},
+      {"{\"kinematics\": {\"type\": \"delta\"}}", "kinematics.type: must be one of tool_tilt, table_tilt, combined"},
+      {"{\"kinematics\": {\"type\": \"tool_tilt\"}}", "kinematics: the key tool is missing"},
+      {"{\"kinematics\": {\"type\": \"tool_tilt\", \"tool\": [\"C\"]}}", "kinematics.tool[0]: the setup has no axis \"C\""},
+      {"{\"vars\": {\"100\": 1e999}}", "s.json:1: "},
+      {"{\"clock\": \"\xff\"}", "s.json:1: "},
+  };
+  for (const Mistake& m : mistakes) {
+    const std::string error = error_of(m.text);
+    EXPECT_NE(error.find(m.error), std::string::npos) << m.text << "\n gave: " << error;
+    EXPECT_EQ(error.rfind("s.json:", 0), 0u) << error;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << "one line only: " << error;
+  }
+}
+
+TEST(Setup, DeepNestingIsAnErrorNotACrash) {
+  EXPECT_NE(error_of("{\"axes\":" + std::string(100'000, '[')).find("nested too deep"), std::string::npos);
+}
+
+TEST(Setup, MissingFileAndFolder) {
+  tools::Setup setup;
+  std::string error;
+  EXPECT_FALSE(load_setup("/nonexistent/setup.json", &setup, &error));
+  EXPECT_EQ(error, "/nonexistent/setup.json: cannot be opened");
+  EXPECT_FALSE(load_setup("/", &setup, &error));
+}
+
+TEST(Clock, LeapYearsAndEpoch) {
+  EXPECT_EQ(parse_clock("1970-01-01T00:00:00"), 0);
+  EXPECT_EQ(parse_clock("2000-03-01T00:00:00"), 951868800000);
+  EXPECT_EQ(parse_clock("2100-02-29T00:00:00"), std::nullopt);
+  EXPECT_EQ(parse_clock("2026-13-01T00:00:00"), std::nullopt);
+  EXPECT_EQ(parse_clock("2026-12-31T24:00:00"), std::nullopt);
+}
+
+TEST(MachineLimits, ReplaceTheDefaultsOfTheAxesNamed) {
+  nc_config config;
+  nc_config_init(&config);
+  default_machine_limits(&config);
+  std::string error;
+  ASSERT_TRUE(parse_machine_limits(
+      R"({"cycle_s": 0.002, "axes": {"Y": {"velocity": 100, "jerk": 9000, "stroke": [-1, 2]}}})", "m.json", &config, &error))
+      << error;
+  EXPECT_EQ(config.cycle_s, 0.002);
+  EXPECT_EQ(config.system[0].axis[0].max_velocity, 250.0);
+  EXPECT_EQ(config.system[0].axis[1].max_velocity, 100.0);
+  EXPECT_EQ(config.system[0].axis[1].rapid, 100.0);
+  EXPECT_TRUE(config.system[0].axis[1].soft_limited);
+  EXPECT_FALSE(parse_machine_limits(R"({"axes": {"Q": {}}})", "m.json", &config, &error));
+  EXPECT_EQ(error, "m.json:1: axes.Q: the setup has no such axis");
+  EXPECT_FALSE(parse_machine_limits(R"({"axes": {"X": {"jerk": 0}}})", "m.json", &config, &error));
+  EXPECT_EQ(error, "m.json:1: axes.X.jerk: must be greater than 0");
+}
+
+}  // namespace
+}  // namespace nc::tools

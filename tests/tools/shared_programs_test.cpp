@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real programs of other controls through `ncsim trace`: they end, or stop with the right alarm on the right line.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace nc::tools {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Trace {
+  int code = -1;
+  size_t moves = 0, blocks = 0;
+  Json alarm, end;
+};
+
+class SharedPrograms : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::is_directory(programs_)) GTEST_SKIP() << programs_ << " is not here";
+    char pattern[] = "/tmp/nc-shared-XXXXXX";
+    ASSERT_NE(mkdtemp(pattern), nullptr);
+    folder_ = pattern;
+    // Words without a point mean whole units in these programs.
+    std::ofstream(folder_ + "/s.json") << R"({"params": {"1078": 1}})";
+  }
+  void TearDown() override {
+    if (!folder_.empty()) std::filesystem::remove_all(folder_);
+  }
+
+  Trace trace(const std::string& name) {
+    const std::string command = NC_BINARY_DIR "/bin/ncsim trace --setup " + folder_ + "/s.json " + programs_ + "/" +
+                                name + " > " + folder_ + "/out.jsonl";
+    const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe,cert-env33-c)
+    Trace result;
+    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    std::ifstream lines(folder_ + "/out.jsonl");
+    for (std::string line; std::getline(lines, line);) {
+      const Json event = Json::parse(line);
+      result.moves += event["t"] == "move";
+      result.blocks += event["t"] == "block";
+      if (event["t"] == "alarm") result.alarm = event;
+      if (event["t"] == "end") result.end = event;
+    }
+    return result;
+  }
+
+  // First line of a program that holds `what`.
+  unsigned line_of(const std::string& name, const std::string& what) {
+    std::ifstream lines(programs_ + "/" + name);
+    unsigned number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      if (line.find(what) != std::string::npos) return number;
+    }
+    return 0;
+  }
+
+  const std::string programs_ = NC_SHARED_DIR "/programs";
+  std::string folder_;
+};
+
+TEST_F(SharedPrograms, ProgramsThatTheControlHasAllWordsForRunToTheirEnd) {
+  const struct {
+    const char* name;
+    size_t least_moves;
+  } programs[] = {{"flower_mold.nc", 16'000}, {"compass.ngc", 2'900}, {"botomata_bottom.nc", 1'000},
+                  {"arcspiral.ngc", 300},     {"tort.ngc", 100}};
+  for (const auto& p : programs) {
+    const Trace run = trace(p.name);
+    EXPECT_EQ(run.code, 0) << p.name << ": " << run.alarm;
+    ASSERT_TRUE(run.end.is_object()) << p.name;
+    EXPECT_EQ(run.end["ok"], true) << p.name << ": " << run.alarm;
+    EXPECT_GE(run.moves, p.least_moves) << p.name;
+  }
+}
+
+TEST_F(SharedPrograms, NamedParametersAreAnAlarmOnTheirFirstLine) {
+  const Trace run = trace("3D_Chips.ngc");
+  EXPECT_EQ(run.code, 2);
+  ASSERT_TRUE(run.alarm.is_object());
+  EXPECT_EQ(run.alarm["line"], line_of("3D_Chips.ngc", "#<")) << run.alarm;
+  EXPECT_FALSE(run.alarm["detail"].get<std::string>().empty());
+  EXPECT_EQ(run.end["ok"], false);
+}
+
+}  // namespace
+}  // namespace nc::tools

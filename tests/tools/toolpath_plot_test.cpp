@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drawings: valid files with both colours on them, in the right places, whatever the path is.
+#include "tools/lib/toolpath_plot.hpp"
+
+#include <cairo/cairo.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+#include "fake_items.hpp"
+
+namespace nc::tools {
+namespace {
+
+class PlotTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    char pattern[] = "/tmp/nc-plot-XXXXXX";
+    ASSERT_NE(mkdtemp(pattern), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+  static std::string content(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+
+  std::string folder_;
+};
+
+struct Pixels {
+  int count = 0;
+  int left = 1 << 30, right = -1, top = 1 << 30, bottom = -1;
+};
+
+// Pixels of a PNG below the head (where the legend shows every colour) for which `is` holds.
+Pixels pixels(const std::string& file, const std::function<bool(int r, int g, int b)>& is) {
+  cairo_surface_t* image = cairo_image_surface_create_from_png(file.c_str());
+  Pixels found;
+  EXPECT_EQ(cairo_surface_status(image), CAIRO_STATUS_SUCCESS);
+  const unsigned char* data = cairo_image_surface_get_data(image);
+  const int stride = cairo_image_surface_get_stride(image);
+  for (int y = 90; y < cairo_image_surface_get_height(image); ++y)
+    for (int x = 0; x < cairo_image_surface_get_width(image); ++x) {
+      const unsigned char* p = data + y * stride + 4 * x;  // B G R X
+      if (!is(p[2], p[1], p[0])) continue;
+      ++found.count;
+      found.left = std::min(found.left, x);
+      found.right = std::max(found.right, x);
+      found.top = std::min(found.top, y);
+      found.bottom = std::max(found.bottom, y);
+    }
+  cairo_surface_destroy(image);
+  return found;
+}
+
+bool is_feed(int r, int g, int b) { return b > 150 && r < 120 && g < 160 && b > r + 80; }
+bool is_rapid(int r, int g, int b) { return r > 180 && g < 160 && b < 150 && r > b + 80; }
+
+ToolpathPlot square() {
+  ToolpathPlot plot;
+  plot.add_point(true, 0, 0, 10);
+  plot.add_point(true, 100, 0, 10);
+  plot.add_point(false, 100, 0, 0);
+  plot.add_point(false, 100, 60, 0);
+  plot.add_point(false, 0, 60, 0);
+  plot.add_point(true, 0, 0, 10);
+  return plot;
+}
+
+TEST_F(PlotTest, PngHasRapidAndFeedInEveryView) {
+  for (const PlotView view : {PlotView::kIsometric, PlotView::kXY, PlotView::kXZ, PlotView::kYZ}) {
+    ToolpathPlot plot = square();
+    plot.set_view(view);
+    std::string error;
+    ASSERT_TRUE(plot.write_png(path("a.png"), &error)) << error;
+    EXPECT_GT(pixels(path("a.png"), is_feed).count, 300) << static_cast<int>(view);
+    EXPECT_GT(pixels(path("a.png"), is_rapid).count, 100) << static_cast<int>(view);
+  }
+}
+
+TEST_F(PlotTest, SvgIsADrawingWithBothColours) {
+  ToolpathPlot plot = square();
+  plot.set_title("part <1> & more");
+  std::string error;
+  ASSERT_TRUE(plot.write_svg(path("a.svg"), &error)) << error;
+  const std::string svg = content(path("a.svg"));
+  EXPECT_NE(svg.find("<svg"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  EXPECT_NE(svg.find("stroke:rgb(85%,20%,10%)"), std::string::npos) << "rapid";
+  EXPECT_NE(svg.find("stroke:rgb(5%,30%,75%)"), std::string::npos) << "feed";
+  ASSERT_TRUE(plot.write_svg(path("b.svg"), &error));
+  EXPECT_EQ(svg, content(path("b.svg"))) << "the same drawing gives the same bytes";
+}
+
+TEST_F(PlotTest, ThePathIsDrawnToScale) {
+  ToolpathPlot plot;  // 200 x 100 mm in the XY view: twice as wide as high
+  plot.set_view(PlotView::kXY);
+  plot.add_point(true, 0, 0, 0);
+  plot.add_point(false, 200, 0, 0);
+  plot.add_point(false, 200, 100, 0);
+  plot.add_point(false, 0, 100, 0);
+  plot.add_point(false, 0, 0, 0);
+  std::string error;
+  ASSERT_TRUE(plot.write_png(path("a.png"), &error)) << error;
+  const Pixels feed = pixels(path("a.png"), is_feed);
+  EXPECT_NEAR(feed.right - feed.left, 2.0 * (feed.bottom - feed.top), 4.0);
+  EXPECT_GT(feed.right - feed.left, 1000);
+}
+
+TEST_F(PlotTest, ArcsAreRound) {
+  nc_move arc = {};
+  arc.kind = NC_MOVE_ARC;
+  arc.plane = NC_PLANE_XY;
+  arc.plane_axis[1] = 1;
+  arc.machine_start = arc.machine = {{10, 0, 0}};
+  arc.sweep_deg = 360;
+  arc.ccw = true;
+  ToolpathPlot plot;
+  plot.set_view(PlotView::kXY);
+  plot.add_move(arc, xyz());
+  std::string error;
+  ASSERT_TRUE(plot.write_png(path("a.png"), &error)) << error;
+  const Pixels feed = pixels(path("a.png"), is_feed);
+  EXPECT_NEAR(feed.right - feed.left, feed.bottom - feed.top, 4.0);
+  EXPECT_GT(feed.right - feed.left, 600);
+}
+
+TEST_F(PlotTest, HelixOfSeveralTurnsEndsWhereItShould) {
+  nc_move helix = {};
+  helix.kind = NC_MOVE_HELIX;
+  helix.plane = NC_PLANE_ZX;
+  helix.plane_axis[0] = 2;
+  helix.plane_axis[1] = 0;
+  helix.machine_start = {{0, 0, 5}};
+  helix.machine = {{5, 30, 0}};
+  helix.sweep_deg = 90 + 720;
+  helix.turns = 2;
+  ToolpathPlot plot;
+  plot.add_move(helix, xyz());
+  EXPECT_EQ(plot.size(), 1 + 810 / 3u);
+}
+
+TEST_F(PlotTest, NothingAndOnePointStillGiveADrawing) {
+  ToolpathPlot plot;
+  std::string error;
+  EXPECT_TRUE(plot.write_png(path("a.png"), &error)) << error;
+  EXPECT_TRUE(plot.write_svg(path("a.svg"), &error)) << error;
+  plot.add_point(false, 3, 4, 5);
+  plot.set_view(PlotView::kYZ);
+  EXPECT_TRUE(plot.write_png(path("a.png"), &error)) << error;
+}
+
+TEST_F(PlotTest, AMissingFolderIsAnErrorWithItsName) {
+  std::string error;
+  EXPECT_FALSE(square().write_png(path("none/a.png"), &error));
+  EXPECT_NE(error.find("none/a.png"), std::string::npos);
+}
+
+TEST_F(PlotTest, VerticesStayBounded) {
+  ToolpathPlot plot;
+  for (int i = 0; i < 5'000'000; ++i) plot.add_point(i % 100'000 == 0, 0.001 * i, 0, 0);
+  EXPECT_LE(plot.size(), 2'000'001u);
+  EXPECT_GT(plot.size(), 10'000u);
+  ToolpathPlot rapids;
+  for (int i = 0; i < 4'500'000; ++i) rapids.add_point(true, 0.001 * i, i % 2, 0);
+  EXPECT_LE(rapids.size(), 2'000'001u);
+}
+
+}  // namespace
+}  // namespace nc::tools

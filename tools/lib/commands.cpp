@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// The subcommands of ncsim; see commands.hpp.
+#include "tools/lib/commands.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "tools/lib/item_source.hpp"
+#include "tools/lib/machine_limits.hpp"
+#include "tools/lib/number_text.hpp"
+#include "tools/lib/offline_run.hpp"
+#include "tools/lib/output_file.hpp"
+#include "tools/lib/trace_writer.hpp"
+#include "tools/lib/virtual_machine.hpp"
+#include "tools/lib/virtual_world.hpp"
+
+namespace nc::tools {
+namespace {
+
+int complain(std::FILE* err, const std::string& what) {
+  std::fprintf(err, "ncsim: %s\n", what.c_str());
+  return kExitError;
+}
+
+std::string number(double value) {
+  char text[kNumberText];
+  return std::string(text, number_text(value, text));
+}
+
+// "12.3456" with a fixed number of decimals: for summaries, where columns matter more than exactness.
+std::string decimals(double value, int count) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", count, value);
+  return text;
+}
+
+// A text of the program or the alarm table on one line of a terminal: no control characters.
+std::string printable(const char* text) {
+  std::string out = text;
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  return out;
+}
+
+std::string alarm_line(const Session& session, const nc_alarm& alarm) {
+  std::string line = session.file_name(alarm.source) + ":" + std::to_string(alarm.source.line) + ": " + alarm.code;
+  if (alarm.message[0] && std::strcmp(alarm.message, alarm.code) != 0) line += " " + printable(alarm.message);
+  if (alarm.detail.s[0]) line += " - " + printable(alarm.detail.s);
+  return line;
+}
+
+int exit_code(RunResult::How how) {
+  switch (how) {
+    case RunResult::How::kEnded:
+    case RunResult::How::kReset: return kExitEnded;
+    case RunResult::How::kAlarmed: return kExitAlarm;
+    default: return kExitError;
+  }
+}
+
+/** The trace: every event becomes a line. */
+class TraceSink final : public RunSink {
+ public:
+  TraceSink(OutputFile* out, const nc_system_config& system, ItemSource* items)
+      : out_(*out), writer_(out, system), items_(items) {}
+  void move(const nc_source& s, const nc_move& m) override { writer_.move(s, m); }
+  void block(const nc_source& s, const nc_axes& work, const nc_axes& machine) override {
+    writer_.block(s, work, machine);
+  }
+  void aux(const nc_source& s, char code, double value) override { writer_.aux(s, code, value); }
+  void dwell(const nc_source& s, bool turns, double value) override { writer_.dwell(s, turns, value); }
+  void sync(const nc_source& s, uint32_t what) override { writer_.sync(s, what); }
+  void message(const nc_source& s, uint32_t port, const char* text) override { writer_.message(s, port, text); }
+  void alarm(const nc_alarm& alarm) override { writer_.alarm(alarm); }
+  void end(const nc_source& s, bool ok, const nc_axes& work, const nc_axes& machine, uint32_t modal) override {
+    writer_.end(s, ok, work, machine, modal, items_);
+  }
+  bool stop() const override { return out_.failed(); }
+
+ private:
+  OutputFile& out_;
+  TraceWriter writer_;
+  ItemSource* items_;
+};
+
+/** The drawing: moves only. */
+class PlotSink final : public RunSink {
+ public:
+  PlotSink(ToolpathPlot* plot, const nc_system_config& system) : plot_(*plot), system_(system) {}
+  void move(const nc_source&, const nc_move& move) override { plot_.add_move(move, system_); }
+
+ private:
+  ToolpathPlot& plot_;
+  const nc_system_config& system_;
+};
+
+RunResult run_session(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks) {
+  VirtualWorld world(session->setup(), session->config().system[0]);
+  return run_offline(items, &world, sink, session->block_lines(), max_silent_blocks);
+}
+
+bool open_session(Session* session, const SessionOptions& options, std::string* error) {
+  return session->configure(options, error) && session->start(options, error);
+}
+
+// A table as tab-separated lines or as Markdown, whose cells need their bars escaped.
+class Table {
+ public:
+  Table(std::FILE* out, bool markdown) : out_(out), markdown_(markdown) {}
+  void head(const std::vector<std::string>& cells) {
+    row(cells);
+    if (markdown_) row(std::vector<std::string>(cells.size(), "---"));
+  }
+  void row(const std::vector<std::string>& cells) {
+    std::string line = markdown_ ? "| " : "";
+    for (size_t i = 0; i < cells.size(); ++i) {
+      if (i) line += markdown_ ? " | " : "\t";
+      for (char c : cells[i]) line += markdown_ && c == '|' ? std::string("\\|") : std::string(1, c);
+    }
+    std::fprintf(out_, "%s%s\n", line.c_str(), markdown_ ? " |" : "");
+  }
+
+ private:
+  std::FILE* out_;
+  bool markdown_;
+};
+
+int close_output(std::FILE* out, std::FILE* err, int code) {
+  if (std::fflush(out) != 0 || std::ferror(out)) return complain(err, "the output cannot be written");
+  return code;
+}
+
+}  // namespace
+
+int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int out, std::FILE* err) {
+  Session session;
+  std::string error;
+  if (!open_session(&session, options, &error)) return complain(err, error);
+  OutputFile file(out);
+  ControlSource items(session.control());
+  TraceSink sink(&file, session.config().system[0], &items);
+  const RunResult result = run_session(&session, &sink, &items, max_silent_blocks);
+  if (!file.flush()) return complain(err, "the trace cannot be written: " + file.error_text());
+  if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  return exit_code(result.how);
+}
+
+int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std::FILE* out, std::FILE* err) {
+  Session session;
+  std::string error;
+  if (!open_session(&session, options, &error)) return complain(err, error);
+  ControlSource items(session.control());
+  RunSink nothing;
+  const RunResult result = run_session(&session, &nothing, &items, max_silent_blocks);
+  if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  if (result.how == RunResult::How::kAlarmed)
+    std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
+  else
+    std::fprintf(out, "%s: no alarm; %llu blocks, %llu moves, %s mm\n", options.program.c_str(),
+                 static_cast<unsigned long long>(result.blocks), static_cast<unsigned long long>(result.moves),
+                 decimals(result.length, 3).c_str());
+  return close_output(out, err, exit_code(result.how));
+}
+
+int time_command(const SessionOptions& options, const std::string& limits, double limit_s, std::FILE* out,
+                 std::FILE* err) {
+  Session session;
+  std::string error;
+  if (!session.configure(options, &error)) return complain(err, error);
+  default_machine_limits(&session.config());
+  if (!limits.empty() && !load_machine_limits(limits, &session.config(), &error)) return complain(err, error);
+  if (!session.start(options, &error)) return complain(err, error);
+  const MachineResult result = run_machine(session.control(), session.config(), session.setup(), limit_s);
+  if (result.how == MachineResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  if (result.how == MachineResult::How::kAlarmed)
+    std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
+  const uint64_t whole = static_cast<uint64_t>(result.seconds);
+  std::fprintf(out, "cycle time   %s s (%llu:%02llu:%02llu)\n", decimals(result.seconds, 3).c_str(),
+               static_cast<unsigned long long>(whole / 3600), static_cast<unsigned long long>(whole / 60 % 60),
+               static_cast<unsigned long long>(whole % 60));
+  std::fprintf(out, "path length  %s mm\n", decimals(result.path_length, 3).c_str());
+  std::fprintf(out, "blocks       %llu\n", static_cast<unsigned long long>(result.blocks));
+  return close_output(out, err, result.how == MachineResult::How::kAlarmed ? kExitAlarm : kExitEnded);
+}
+
+int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, PlotView view, const std::string& base,
+                 std::FILE* out, std::FILE* err) {
+  Session session;
+  std::string error;
+  if (!open_session(&session, options, &error)) return complain(err, error);
+  ToolpathPlot plot;
+  plot.set_view(view);
+  const size_t slash = options.program.find_last_of('/');
+  plot.set_title(options.program == "-" ? "standard input"
+                                        : options.program.substr(slash == std::string::npos ? 0 : slash + 1));
+  PlotSink sink(&plot, session.config().system[0]);
+  ControlSource items(session.control());
+  const RunResult result = run_session(&session, &sink, &items, max_silent_blocks);
+  if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error)) return complain(err, error);
+  if (result.how == RunResult::How::kAlarmed) std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
+  std::fprintf(out, "%s.svg %s.png: %llu moves, %s mm\n", base.c_str(), base.c_str(),
+               static_cast<unsigned long long>(result.moves), number(std::round(result.length * 1000) / 1000).c_str());
+  return close_output(out, err, exit_code(result.how));
+}
+
+int functions_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err) {
+  const auto id = dialect_from_name(dialect);
+  if (!id) return complain(err, "--dialect " + dialect + ": this version knows m700 and dgshape");
+  Table table(out, markdown);
+  table.head({"code", "function", "group", "section", "supported", "alarm"});
+  nc_function row;
+  for (unsigned i = 0; nc_function_get(*id, i, &row) == NC_OK; ++i)
+    table.row({row.code, row.name ? row.name : "", std::to_string(row.group), row.section ? row.section : "",
+               row.supported ? "yes" : "no", row.supported ? "" : row.alarm});
+  return close_output(out, err, kExitEnded);
+}
+
+int alarms_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err) {
+  const auto id = dialect_from_name(dialect);
+  if (!id) return complain(err, "--dialect " + dialect + ": this version knows m700 and dgshape");
+  Table table(out, markdown);
+  table.head({"code", "message"});
+  char code[16];
+  const char* message = nullptr;
+  for (unsigned i = 0; nc_alarm_row(*id, i, code, &message) == NC_OK; ++i) table.row({code, message ? message : ""});
+  return close_output(out, err, kExitEnded);
+}
+
+}  // namespace nc::tools

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where an offline sink gets its items and the texts that belong to them: a control, or a list in a test.
+#pragma once
+
+#include "nc/nc.h"
+
+namespace nc::tools {
+
+/** The part system that the offline tools run. */
+inline constexpr unsigned kPartSystem = 0;
+
+/** The calls of libnc that offline sinks make; same meaning as the functions of the same name in nc/run.h and nc/control.h. */
+class ItemSource {
+ public:
+  virtual ~ItemSource() = default;
+  virtual nc_status pull(uint32_t budget, nc_item* item) = 0;
+  virtual nc_status answer(const nc_world& world) = 0;
+  virtual nc_status reset() = 0;
+  virtual bool alarm(nc_alarm* alarm) = 0;
+  virtual bool text(uint32_t id, nc_text* text) = 0;
+  /** Codes of a modal snapshot. @return their number. */
+  virtual unsigned modal_codes(uint32_t id, char (*codes)[8], unsigned capacity) = 0;
+  virtual bool next_common(uint32_t from, uint32_t* number, double* value) = 0;
+};
+
+/** Items of one part system of a control. */
+class ControlSource final : public ItemSource {
+ public:
+  explicit ControlSource(nc_control* control) : control_(control) {}
+  nc_status pull(uint32_t budget, nc_item* item) override { return nc_pull(control_, kPartSystem, budget, item); }
+  nc_status answer(const nc_world& world) override { return nc_answer(control_, kPartSystem, &world); }
+  nc_status reset() override { return nc_reset(control_, kPartSystem); }
+  bool alarm(nc_alarm* alarm) override { return nc_alarm_get(control_, kPartSystem, alarm) == NC_OK; }
+  bool text(uint32_t id, nc_text* text) override { return nc_text_get(control_, kPartSystem, id, text) == NC_OK; }
+  unsigned modal_codes(uint32_t id, char (*codes)[8], unsigned capacity) override {
+    nc_modal modal;
+    if (nc_modal_get(control_, kPartSystem, id, &modal) != NC_OK) return 0;
+    return nc_modal_codes(control_, &modal, codes, capacity);
+  }
+  bool next_common(uint32_t from, uint32_t* number, double* value) override {
+    return nc_common_next(control_, kPartSystem, from, number, value) == NC_OK;
+  }
+
+ private:
+  nc_control* control_;
+};
+
+}  // namespace nc::tools

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A JSON text as a small tree that knows on which line each value stands, for error messages that say where.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nc::tools {
+
+/** One JSON value. */
+struct JsonNode {
+  enum class Type { kNull, kBool, kNumber, kString, kArray, kObject };
+
+  Type type = Type::kNull;
+  bool boolean = false;
+  bool integer = false;  // the number was written without point and exponent and fits
+  double number = 0.0;
+  std::string text;
+  std::vector<JsonNode> items;                             // of an array
+  std::vector<std::pair<std::string, JsonNode>> members;   // of an object, in the order of the text
+  uint32_t line = 0;
+
+  /** "an object", "a number", ... */
+  const char* type_name() const;
+};
+
+/**
+ * Parse `text`. Numbers that do not fit a double, keys given twice, more than 32 levels and everything that is not JSON are
+ * errors. @return false with "line N: why" in *error.
+ */
+bool parse_json(const std::string& text, JsonNode* root, std::string* error);
+
+}  // namespace nc::tools

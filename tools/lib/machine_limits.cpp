@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Machine limits; see machine_limits.hpp.
+#include "tools/lib/machine_limits.hpp"
+
+#include <fstream>
+#include <iterator>
+
+#include "tools/lib/json_check.hpp"
+
+namespace nc::tools {
+namespace {
+
+using namespace json;
+
+double positive(const JsonNode& node, const std::string& path) {
+  const double value = number(node, path);
+  if (!(value > 0.0)) fail(node, path, "must be greater than 0");
+  return value;
+}
+
+void read_axis(const JsonNode& node, const std::string& path, nc_axis_config* axis) {
+  check_keys(expect(node, path, Type::kObject), path,
+             {"velocity", "rapid", "acceleration", "jerk", "in_position", "stroke"});
+  if (const JsonNode* v = member(node, "velocity")) axis->max_velocity = axis->rapid = positive(*v, path + ".velocity");
+  if (const JsonNode* v = member(node, "rapid")) axis->rapid = positive(*v, path + ".rapid");
+  if (const JsonNode* v = member(node, "acceleration")) axis->max_acceleration = positive(*v, path + ".acceleration");
+  if (const JsonNode* v = member(node, "jerk")) axis->max_jerk = positive(*v, path + ".jerk");
+  if (const JsonNode* v = member(node, "in_position")) axis->in_position = positive(*v, path + ".in_position");
+  if (const JsonNode* stroke = member(node, "stroke")) {
+    const std::string at = path + ".stroke";
+    if (expect(*stroke, at, Type::kArray).items.size() != 2) fail(*stroke, at, "must be [low, high]");
+    axis->soft_limited = true;
+    axis->soft_min = number(stroke->items[0], item_path(at, 0));
+    axis->soft_max = number(stroke->items[1], item_path(at, 1));
+    if (!(axis->soft_min < axis->soft_max)) fail(*stroke, at, "low must be less than high");
+  }
+}
+
+void read(const JsonNode& root, nc_config* config) {
+  if (root.type != Type::kObject) fail(root, "", std::string("limits must be an object, are ") + root.type_name());
+  check_keys(root, "", {"cycle_s", "axes"});
+  if (const JsonNode* cycle = member(root, "cycle_s")) {
+    config->cycle_s = positive(*cycle, "cycle_s");
+    if (config->cycle_s > 0.1) fail(*cycle, "cycle_s", "must be at most 0.1 s");
+  }
+  const JsonNode* axes = member(root, "axes");
+  if (!axes) return;
+  nc_system_config& system = config->system[0];
+  for (const auto& [name, value] : expect(*axes, "axes", Type::kObject).members) {
+    nc_axis_config* axis = nullptr;
+    for (unsigned i = 0; i < system.axis_count; ++i)
+      if (name.size() == 1 && system.axis[i].name == name[0]) axis = &system.axis[i];
+    if (!axis) fail(value, join("axes", name), "the setup has no such axis");
+    read_axis(value, join("axes", name), axis);
+  }
+}
+
+}  // namespace
+
+void default_machine_limits(nc_config* config) {
+  nc_system_config& system = config->system[0];
+  for (unsigned i = 0; i < system.axis_count; ++i) {
+    nc_axis_config& axis = system.axis[i];
+    axis.rapid = axis.max_velocity = 250.0;
+    axis.max_acceleration = 2000.0;
+    axis.max_jerk = 50000.0;
+    axis.in_position = 0.02;
+  }
+}
+
+bool parse_machine_limits(const std::string& text, const std::string& name, nc_config* config, std::string* error) {
+  JsonNode root;
+  std::string why;
+  if (!parse_json(text, &root, &why)) {
+    *error = name + ":" + why.substr(5);  // "line N: why" -> "NAME:N: why"
+    return false;
+  }
+  try {
+    read(root, config);
+  } catch (const JsonError& problem) {
+    *error = name + ":" + std::to_string(problem.line) + ": " + problem.text;
+    return false;
+  }
+  return true;
+}
+
+bool load_machine_limits(const std::string& path, nc_config* config, std::string* error) {
+  std::string text;
+  if (!json::read_text_file(path, &text, error)) return false;
+  return parse_machine_limits(text, path, config, error);
+}
+
+}  // namespace nc::tools

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loop of an offline run; see offline_run.hpp. Which item becomes which event is written down in docs/trace.md.
+#include "tools/lib/offline_run.hpp"
+
+#include <algorithm>
+
+namespace nc::tools {
+namespace {
+
+constexpr uint32_t kBudget = 4096;  // blocks per pull
+
+class OfflineRun {
+ public:
+  OfflineRun(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines)
+      : items_(*items), world_(*world), sink_(*sink), lines_(lines) {}
+
+  RunResult run(uint64_t max_silent_blocks) {
+    nc_item item;
+    uint64_t silent = 0;
+    for (;;) {
+      const nc_status status = items_.pull(kBudget, &item);
+      if (status == NC_BUDGET) {
+        silent += kBudget;
+        if (max_silent_blocks && silent >= max_silent_blocks)
+          return fail("nothing happens behind line " + std::to_string(last_.line) + " of O" +
+                      std::to_string(last_.program) + ": " + std::to_string(silent) +
+                      " blocks without an event, an endless loop");
+        continue;
+      }
+      if (status == NC_ENDED || status == NC_ALARMED) break;
+      if (status != NC_OK) return fail("the control stopped with status " + std::to_string(status));
+      silent = 0;
+      last_ = item.source;
+      const uint32_t next = world_.waits_for_line() ? lines_.after(ended_line_) : 0;
+      if (world_.on_item(item, next)) return reset();
+      if (!handle(item)) return result_;
+      if (sink_.stop()) {
+        result_.how = RunResult::How::kStopped;
+        return finish();
+      }
+    }
+    if (!ended_) return fail("the control stopped without an end");
+    return finish();
+  }
+
+ private:
+  bool handle(nc_item& item) {
+    switch (item.kind) {
+      case NC_ITEM_MOVE: move(item); break;
+      case NC_ITEM_ACTION: action(item); break;
+      case NC_ITEM_GATE: gate(item); break;
+      case NC_ITEM_SYNC:
+        sink_.sync(item.source, item.u.sync.what);
+        if (items_.answer(world_.answer(item.u.sync.what)) < NC_OK) {
+          fail("the control refused the answer to a sync");
+          return false;
+        }
+        break;
+      case NC_ITEM_MARK: mark(item); break;
+      case NC_ITEM_ALARM:
+        result_.alarm.source = item.source;
+        items_.alarm(&result_.alarm);
+        result_.how = RunResult::How::kAlarmed;
+        sink_.alarm(result_.alarm);
+        break;
+      case NC_ITEM_END: end(item); break;
+      default: fail("an item of an unknown kind"); return false;
+    }
+    return true;
+  }
+
+  void move(nc_item& item) {
+    if (!world_.execute(&item.u.move)) return;
+    work_ = item.u.move.work;
+    ++result_.moves;
+    result_.length += item.u.move.length;
+    sink_.move(item.source, item.u.move);
+  }
+
+  void action(const nc_item& item) {
+    const nc_action& action = item.u.action;
+    switch (action.kind) {
+      case NC_ACTION_M:
+        // M01 with its switch off is no event. // M700 9.1
+        if (action.value == 1.0 && !world_.optional_stop()) return;
+        sink_.aux(item.source, 'M', action.value);
+        return;
+      case NC_ACTION_S:
+        world_.spindle(action.value);
+        sink_.aux(item.source, 'S', action.value);
+        return;
+      case NC_ACTION_T: sink_.aux(item.source, 'T', action.value); return;
+      case NC_ACTION_B: sink_.aux(item.source, action.letter ? action.letter : 'B', action.value); return;
+      case NC_ACTION_MESSAGE: {
+        nc_text text = {};
+        items_.text(action.text, &text);
+        text.s[sizeof text.s - 1] = 0;
+        sink_.message(item.source, action.index, text.s);
+        return;
+      }
+      default: return;  // interface outputs and control flags are no events of a trace
+    }
+  }
+
+  void gate(const nc_item& item) {
+    const nc_gate& gate = item.u.gate;
+    if (gate.kind != NC_GATE_DWELL_SECONDS && gate.kind != NC_GATE_DWELL_TURNS) return;
+    const bool turns = gate.kind == NC_GATE_DWELL_TURNS;
+    world_.dwell(turns, gate.value);
+    if (gate.announce) sink_.dwell(item.source, turns, gate.value);
+  }
+
+  void mark(const nc_item& item) {
+    work_ = item.u.mark.work;
+    modal_ = item.u.mark.modal;
+    if (!item.u.mark.report) return;
+    if (item.source.depth == 0) ended_line_ = item.source.line;
+    ++result_.blocks;
+    sink_.block(item.source, item.u.mark.work, world_.machine());
+  }
+
+  void end(const nc_item& item) {
+    ended_ = true;
+    if (result_.how != RunResult::How::kAlarmed) result_.how = RunResult::How::kEnded;
+    sink_.end(item.source, item.u.end.ok, item.u.end.work, world_.machine(), item.u.end.modal);
+  }
+
+  // `ok` says that no alarm stopped the program, which is so here.
+  RunResult reset() {
+    items_.reset();
+    result_.how = RunResult::How::kReset;
+    sink_.end(last_, true, work_, world_.machine(), modal_);
+    return finish();
+  }
+
+  RunResult fail(std::string why) {
+    result_.how = RunResult::How::kFailed;
+    result_.error = std::move(why);
+    return finish();
+  }
+
+  RunResult finish() {
+    result_.seconds = world_.seconds();
+    return result_;
+  }
+
+  ItemSource& items_;
+  VirtualWorld& world_;
+  RunSink& sink_;
+  const BlockLines& lines_;
+  RunResult result_;
+  nc_source last_ = {};
+  nc_axes work_ = {};
+  uint32_t modal_ = 0, ended_line_ = 0;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+BlockLines::BlockLines(const std::string& text) {
+  uint32_t line = 1;
+  bool comment = false, code = false;
+  for (size_t i = 0; i <= text.size(); ++i) {
+    const char c = i < text.size() ? text[i] : '\n';
+    if (c == '\n') {
+      if (code) lines_.push_back(line);
+      ++line;
+      comment = code = false;
+    } else if (c == '(') {
+      comment = true;
+    } else if (c == ')') {
+      comment = false;
+    } else if (!comment && c != ' ' && c != '\t' && c != '\r' && c != '%' && c != ';') {
+      code = true;
+    }
+  }
+}
+
+uint32_t BlockLines::after(uint32_t line) const {
+  const auto next = std::upper_bound(lines_.begin(), lines_.end(), line);
+  return next == lines_.end() ? 0 : *next;
+}
+
+RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines,
+                      uint64_t max_silent_blocks) {
+  return OfflineRun(items, world, sink, lines).run(max_silent_blocks);
+}
+
+}  // namespace nc::tools

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// One program from its first item to its last, offline: pulls the items, lets the virtual world execute them and tells a sink.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "nc/nc.h"
+#include "tools/lib/item_source.hpp"
+#include "tools/lib/virtual_world.hpp"
+
+namespace nc::tools {
+
+/** What an offline run tells; every function does nothing unless overridden. */
+class RunSink {
+ public:
+  virtual ~RunSink() = default;
+  virtual void move(const nc_source&, const nc_move&) {}
+  virtual void block(const nc_source&, const nc_axes& /*work*/, const nc_axes& /*machine*/) {}
+  virtual void aux(const nc_source&, char /*code*/, double /*value*/) {}
+  virtual void dwell(const nc_source&, bool /*turns*/, double /*value*/) {}
+  virtual void sync(const nc_source&, uint32_t /*what*/) {}
+  virtual void message(const nc_source&, uint32_t /*port*/, const char* /*text*/) {}
+  virtual void alarm(const nc_alarm&) {}
+  virtual void end(const nc_source&, bool /*ok*/, const nc_axes& /*work*/, const nc_axes& /*machine*/,
+                   uint32_t /*modal*/) {}
+  /** True when nothing more is wanted (the output cannot be written). */
+  virtual bool stop() const { return false; }
+};
+
+/** How a run ended. */
+struct RunResult {
+  enum class How { kEnded, kAlarmed, kReset, kStopped, kFailed };
+  How how = How::kFailed;
+  nc_alarm alarm = {};    // kAlarmed
+  std::string error;      // kFailed
+  uint64_t blocks = 0, moves = 0;
+  double length = 0.0;    // mm
+  double seconds = 0.0;   // of the trace's clock
+};
+
+/** Lines of a main program that hold a block: comments, blanks and `%` left out. For events that wait for a line. */
+class BlockLines {
+ public:
+  BlockLines() = default;
+  explicit BlockLines(const std::string& text);
+  /** First block line behind `line`; 0 when there is none. */
+  uint32_t after(uint32_t line) const;
+
+ private:
+  std::vector<uint32_t> lines_;
+};
+
+/**
+ * Run to the end. A stretch of `max_silent_blocks` blocks in which nothing at all happens (GOTO in a circle) is an error; 0 = no
+ * limit.
+ */
+RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines,
+                      uint64_t max_silent_blocks);
+
+}  // namespace nc::tools

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws a ToolpathPlot with cairo: projection, axes with ticks in mm, the path, a legend and a scale bar.
+//
+// Isometric projection from (+X, -Y, +Z): the unit vectors to the right and up on the page are (1, 1, 0)/sqrt 2 and
+// (-1, 1, 2)/sqrt 6, so the three axes are shortened alike (by sqrt(2/3)) and one scale bar holds along each of them.
+#include <cairo-svg.h>
+#include <cairo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "tools/lib/number_text.hpp"
+#include "tools/lib/toolpath_plot.hpp"
+
+#if defined(__SANITIZE_ADDRESS__)
+// fontconfig, which cairo asks for the font, keeps some blocks for the life of the process.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
+#endif
+
+namespace nc::tools {
+namespace {
+
+constexpr double kWidth = 1400, kHeight = 1000;  // px; points in the SVG
+constexpr double kLeft = 90, kRight = 60, kTop = 90, kBottom = 110;
+constexpr double kMinPixels = 0.3;  // vertices nearer than this to the last one drawn are left out
+constexpr int kStrokeChunk = 500;   // cairo's time for one stroke grows faster than its length
+constexpr double kIsoShortening = 0.81649658092772603;  // sqrt(2/3)
+
+struct Color {
+  double r, g, b;
+};
+constexpr Color kRapid{0.85, 0.20, 0.10}, kFeed{0.05, 0.30, 0.75}, kInk{0.15, 0.15, 0.15}, kGrid{0.85, 0.85, 0.85},
+    kStart{0.10, 0.55, 0.20};
+
+void use(cairo_t* c, const Color& color) { cairo_set_source_rgb(c, color.r, color.g, color.b); }
+
+struct Page {
+  double u, v;  // to the right and up, mm
+};
+
+// Tick distance: 1, 2 or 5 times a power of ten, so that there are at most about `count` of them.
+double nice_step(double span, double count) {
+  const double raw = span / count;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= raw * (1.0 - 1e-9)) return factor * power;
+  return 10.0 * power;
+}
+
+std::string mm_text(double value) {
+  char text[kNumberText];
+  return std::string(text, number_text(value, text));
+}
+
+void put_text(cairo_t* c, double x, double y, const std::string& text, double size, double align = 0.0) {
+  cairo_set_font_size(c, size);
+  cairo_text_extents_t extents;
+  cairo_text_extents(c, text.c_str(), &extents);
+  cairo_move_to(c, x - align * extents.x_advance, y);
+  cairo_show_text(c, text.c_str());
+}
+
+}  // namespace
+
+/** One drawing on one cairo context. */
+class PlotPainter {
+ public:
+  PlotPainter(const ToolpathPlot& plot, cairo_t* context) : plot_(plot), c_(context) {}
+
+  void paint() {
+    cairo_set_source_rgb(c_, 1, 1, 1);
+    cairo_paint(c_);
+    cairo_select_font_face(c_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    fit();
+    if (plot_.view_ == PlotView::kIsometric)
+      box();
+    else
+      frame();
+    path(true);
+    path(false);
+    start_mark();
+    head();
+    scale_bar();
+  }
+
+ private:
+  Page project(double x, double y, double z) const {
+    switch (plot_.view_) {
+      case PlotView::kXY: return {x, y};
+      case PlotView::kXZ: return {x, z};
+      case PlotView::kYZ: return {y, z};
+      case PlotView::kIsometric: break;
+    }
+    return {(x + y) / std::sqrt(2.0), (-x + y + 2.0 * z) / std::sqrt(6.0)};
+  }
+  double px(const Page& p) const { return kLeft + offset_x_ + (p.u - low_.u) * scale_; }
+  double py(const Page& p) const { return kHeight - kBottom - offset_y_ - (p.v - low_.v) * scale_; }
+
+  // One scale for both directions, the path in the middle.
+  void fit() {
+    for (int i = 0; i < 3; ++i) {
+      lo_[i] = plot_.low_[i];
+      hi_[i] = plot_.high_[i];
+    }
+    low_ = high_ = project(lo_[0], lo_[1], lo_[2]);
+    for (int corner = 1; corner < 8; ++corner) {
+      const Page p = project(corner & 1 ? hi_[0] : lo_[0], corner & 2 ? hi_[1] : lo_[1], corner & 4 ? hi_[2] : lo_[2]);
+      low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
+      high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
+    }
+    const double span = std::max({high_.u - low_.u, high_.v - low_.v, 1e-3});
+    const double pad = 0.03 * span;
+    low_ = {low_.u - pad, low_.v - pad};
+    high_ = {high_.u + pad, high_.v + pad};
+    const double room_x = kWidth - kLeft - kRight, room_y = kHeight - kTop - kBottom;
+    scale_ = std::min(room_x / (high_.u - low_.u), room_y / (high_.v - low_.v));
+    offset_x_ = (room_x - (high_.u - low_.u) * scale_) / 2;
+    offset_y_ = (room_y - (high_.v - low_.v) * scale_) / 2;
+  }
+
+  // Plane views: a frame, ticks with a light grid, the axes' names.
+  void frame() {
+    const bool yz = plot_.view_ == PlotView::kYZ, xy = plot_.view_ == PlotView::kXY;
+    const double x0 = px(low_), x1 = px(high_), y0 = py(low_), y1 = py(high_);
+    cairo_set_line_width(c_, 0.8);
+    const double step = nice_step(std::max(high_.u - low_.u, high_.v - low_.v), 12);
+    for (double t = std::ceil(low_.u / step) * step; t <= high_.u; t += step) {
+      const double x = px({t, low_.v});
+      line(kGrid, x, y0, x, y1);
+      line(kInk, x, y0, x, y0 + 5);
+      put_text(c_, x, y0 + 20, mm_text(std::round(t / step) * step), 13, 0.5);
+    }
+    for (double t = std::ceil(low_.v / step) * step; t <= high_.v; t += step) {
+      const double y = py({low_.u, t});
+      line(kGrid, x0, y, x1, y);
+      line(kInk, x0 - 5, y, x0, y);
+      put_text(c_, x0 - 9, y + 4, mm_text(std::round(t / step) * step), 13, 1.0);
+    }
+    use(c_, kInk);
+    cairo_rectangle(c_, x0, y1, x1 - x0, y0 - y1);
+    cairo_stroke(c_);
+    put_text(c_, x1, y0 + 40, std::string(yz ? "Y" : "X") + " [mm]", 15, 1.0);
+    put_text(c_, x0 - 9, y1 - 10, std::string(xy ? "Y" : "Z") + " [mm]", 15, 0.5);
+  }
+
+  // Isometric view: the box around the path; ticks along its three front edges.
+  void box() {
+    cairo_set_line_width(c_, 0.8);
+    for (int edge = 0; edge < 12; ++edge) {
+      const int axis = edge / 4, b = (axis + 1) % 3, d = (axis + 2) % 3;
+      double from[3], to[3];
+      from[b] = to[b] = edge & 1 ? hi_[b] : lo_[b];
+      from[d] = to[d] = edge & 2 ? hi_[d] : lo_[d];
+      from[axis] = lo_[axis];
+      to[axis] = hi_[axis];
+      const Page p = project(from[0], from[1], from[2]), q = project(to[0], to[1], to[2]);
+      line(kGrid, px(p), py(p), px(q), py(q));
+    }
+    const double step = nice_step(std::max({hi_[0] - lo_[0], hi_[1] - lo_[1], hi_[2] - lo_[2], 1e-3}), 8);
+    // X along the front edge at the lowest Y, Y along the right edge at the highest X, Z up the left edge.
+    ticks(0, step, lo_[1], lo_[2], -10, 16, 1.0, "X");
+    ticks(1, step, hi_[0], lo_[2], 10, 16, 0.0, "Y");
+    ticks(2, step, lo_[0], lo_[1], -12, 4, 1.0, "Z");
+  }
+
+  // One axis of the box; `first` and `second` fix the two others in the order X, Y, Z.
+  void ticks(int axis, double step, double first, double second, double dx, double dy, double align, const char* name) {
+    const auto at = [&](double t) {
+      double p[3];
+      int other = 0;
+      for (int i = 0; i < 3; ++i) p[i] = i == axis ? t : (other++ == 0 ? first : second);
+      return project(p[0], p[1], p[2]);
+    };
+    line(kInk, px(at(lo_[axis])), py(at(lo_[axis])), px(at(hi_[axis])), py(at(hi_[axis])));
+    for (double t = std::ceil(lo_[axis] / step - 1e-9) * step; t <= hi_[axis] + 1e-9 * step; t += step) {
+      const Page p = at(t);
+      line(kInk, px(p), py(p), px(p) + dx / 2, py(p) + dy / 4);
+      put_text(c_, px(p) + dx, py(p) + dy, mm_text(std::round(t / step) * step), 13, align);
+    }
+    const Page middle = at((lo_[axis] + hi_[axis]) / 2);
+    put_text(c_, px(middle) + 4 * dx, py(middle) + 2.2 * dy, std::string(name) + " [mm]", 15, align);
+  }
+
+  void line(const Color& color, double x0, double y0, double x1, double y1) {
+    use(c_, color);
+    cairo_move_to(c_, x0, y0);
+    cairo_line_to(c_, x1, y1);
+    cairo_stroke(c_);
+  }
+
+  // All pieces of one kind; rapids first and dashed, feed over them.
+  void path(bool rapid) {
+    const double dash[] = {6.0, 4.0};
+    if (rapid) cairo_set_dash(c_, dash, 2, 0);
+    use(c_, rapid ? kRapid : kFeed);
+    cairo_set_line_width(c_, rapid ? 1.0 : 1.2);
+    cairo_set_line_join(c_, CAIRO_LINE_JOIN_ROUND);
+    bool open = false;
+    int pieces = 0;
+    double last_x = 0, last_y = 0;
+    const auto& all = plot_.vertices_;
+    for (size_t i = 1; i < all.size(); ++i) {
+      if (all[i].rapid != rapid) {
+        if (open) cairo_stroke(c_);
+        open = false;
+        continue;
+      }
+      const Page to = project(all[i].x, all[i].y, all[i].z);
+      const double x = px(to), y = py(to);
+      if (!open) {
+        const Page from = project(all[i - 1].x, all[i - 1].y, all[i - 1].z);
+        cairo_move_to(c_, last_x = px(from), last_y = py(from));
+        open = true;
+        pieces = 0;
+      }
+      const bool run_ends = i + 1 == all.size() || all[i + 1].rapid != rapid;
+      if (!run_ends && std::hypot(x - last_x, y - last_y) < kMinPixels) continue;
+      cairo_line_to(c_, x, y);
+      last_x = x;
+      last_y = y;
+      if (++pieces >= kStrokeChunk) {
+        cairo_stroke(c_);
+        cairo_move_to(c_, x, y);
+        pieces = 0;
+      }
+    }
+    if (open) cairo_stroke(c_);
+    cairo_new_path(c_);
+    cairo_set_dash(c_, nullptr, 0, 0);
+  }
+
+  void start_mark() {
+    if (plot_.vertices_.empty()) return;
+    const auto& v = plot_.vertices_.front();
+    const Page p = project(v.x, v.y, v.z);
+    use(c_, kStart);
+    cairo_arc(c_, px(p), py(p), 4.5, 0, 2 * M_PI);
+    cairo_fill(c_);
+  }
+
+  void head() {
+    use(c_, kInk);
+    put_text(c_, kLeft, 40, plot_.title_, 22);
+    static constexpr const char* kViews[] = {"isometric", "XY", "XZ", "YZ"};
+    put_text(c_, kLeft, 62, std::string("view ") + kViews[static_cast<int>(plot_.view_)] + ", machine coordinates, mm", 13);
+    const double x = kWidth - kRight - 130;
+    const double dash[] = {6.0, 4.0};
+    cairo_set_line_width(c_, 2);
+    line(kFeed, x, 30, x + 40, 30);
+    cairo_set_dash(c_, dash, 2, 0);
+    line(kRapid, x, 50, x + 40, 50);
+    cairo_set_dash(c_, nullptr, 0, 0);
+    use(c_, kStart);
+    cairo_arc(c_, x + 20, 68, 4.5, 0, 2 * M_PI);
+    cairo_fill(c_);
+    use(c_, kInk);
+    put_text(c_, x + 50, 35, "feed", 14);
+    put_text(c_, x + 50, 55, "rapid", 14);
+    put_text(c_, x + 50, 73, "start", 14);
+  }
+
+  void scale_bar() {
+    const double unit = scale_ * (plot_.view_ == PlotView::kIsometric ? kIsoShortening : 1.0);
+    const double length_mm = nice_step(220.0 / unit, 1.0) > 300.0 / unit ? nice_step(220.0 / unit, 2.0)
+                                                                         : nice_step(220.0 / unit, 1.0);
+    const double x0 = kLeft, x1 = kLeft + length_mm * unit, y = kHeight - 28;
+    cairo_set_line_width(c_, 2);
+    line(kInk, x0, y, x1, y);
+    line(kInk, x0, y - 5, x0, y + 5);
+    line(kInk, x1, y - 5, x1, y + 5);
+    std::string text = mm_text(length_mm) + " mm";
+    if (plot_.view_ == PlotView::kIsometric) text += " along each axis";
+    put_text(c_, x1 + 12, y + 5, text, 14);
+  }
+
+  const ToolpathPlot& plot_;
+  cairo_t* c_;
+  double lo_[3] = {0, 0, 0}, hi_[3] = {0, 0, 0};
+  Page low_{0, 0}, high_{0, 0};
+  double scale_ = 1, offset_x_ = 0, offset_y_ = 0;
+};
+
+namespace {
+
+cairo_status_t write_stream(void* closure, const unsigned char* data, unsigned length) {
+  return std::fwrite(data, 1, length, static_cast<std::FILE*>(closure)) == length ? CAIRO_STATUS_SUCCESS
+                                                                                  : CAIRO_STATUS_WRITE_ERROR;
+}
+
+bool write_drawing(const ToolpathPlot& plot, const std::string& path, bool svg, std::string* error) {
+  std::FILE* file = std::fopen(path.c_str(), "wbe");
+  if (!file) {
+    if (error) *error = path + ": cannot be created";
+    return false;
+  }
+  cairo_surface_t* surface =
+      svg ? cairo_svg_surface_create_for_stream(write_stream, file, kWidth, kHeight)
+          : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(kWidth), static_cast<int>(kHeight));
+  cairo_t* context = cairo_create(surface);
+  PlotPainter(plot, context).paint();
+  cairo_status_t status = cairo_status(context);
+  cairo_destroy(context);
+  if (status == CAIRO_STATUS_SUCCESS && !svg) status = cairo_surface_write_to_png_stream(surface, write_stream, file);
+  cairo_surface_finish(surface);
+  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
+  cairo_surface_destroy(surface);
+  const bool closed = std::fclose(file) == 0;
+  if (status == CAIRO_STATUS_SUCCESS && closed) return true;
+  if (error) *error = path + ": " + (status == CAIRO_STATUS_SUCCESS ? "write error" : cairo_status_to_string(status));
+  return false;
+}
+
+}  // namespace
+
+bool ToolpathPlot::write_svg(const std::string& path, std::string* error) const {
+  return write_drawing(*this, path, true, error);
+}
+bool ToolpathPlot::write_png(const std::string& path, std::string* error) const {
+  return write_drawing(*this, path, false, error);
+}
+
+}  // namespace nc::tools

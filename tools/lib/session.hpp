@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// A control with a setup and a program, ready to run: what every subcommand of ncsim begins with.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "nc/nc.h"
+#include "tools/lib/offline_run.hpp"
+#include "tools/lib/program_files.hpp"
+#include "tools/lib/setup.hpp"
+
+namespace nc::tools {
+
+/** What the command line says. */
+struct SessionOptions {
+  std::string program;                  // "-" = standard input
+  std::string setup;                    // "" = all defaults
+  std::string dialect = "m700";
+  std::optional<std::string> programs;  // folder of sub programs; default: the program's own
+};
+
+/** m700, dgshape; nothing for another name. */
+std::optional<nc_dialect> dialect_from_name(const std::string& name);
+
+/** Owns the memory of the control and everything it refers to. */
+class Session {
+ public:
+  Session();
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /** Read the setup and prepare a configuration, which the caller may still change. */
+  bool configure(const SessionOptions& options, std::string* error);
+  /** Create the control, carry the setup in, select the program. */
+  bool start(const SessionOptions& options, std::string* error);
+
+  nc_config& config() { return config_; }
+  const Setup& setup() const { return setup_; }
+  nc_control* control() { return control_; }
+  /** Block lines of the main program; empty unless an event of the setup waits for a line. */
+  BlockLines block_lines() const;
+  /** "FILE" of a source, as a person would name it. */
+  std::string file_name(const nc_source& source) const;
+
+ private:
+  struct Release {
+    void operator()(void* memory) const;
+  };
+  bool add_main(const SessionOptions& options, std::string* error);
+  bool add_standard_input(std::string* error);
+
+  Setup setup_;
+  nc_config config_;
+  nc_dialect dialect_ = NC_DIALECT_M700;
+  std::unique_ptr<void, Release> memory_;
+  std::unique_ptr<ProgramFiles> files_;
+  nc_control* control_ = nullptr;
+  std::string text_;       // of standard input when it is no file
+  std::string main_name_;  // for messages
+  unsigned main_file_ = 0;
+};
+
+}  // namespace nc::tools

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lines of a trace (docs/trace.md): one JSON object per line, keys always in the same order, numbers as number_text.hpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "nc/nc.h"
+#include "tools/lib/item_source.hpp"
+#include "tools/lib/output_file.hpp"
+
+namespace nc::tools {
+
+/** Writes trace lines; knows nothing of what a run means. */
+class TraceWriter {
+ public:
+  TraceWriter(OutputFile* out, const nc_system_config& system);
+
+  void move(const nc_source& source, const nc_move& move);
+  void block(const nc_source& source, const nc_axes& work, const nc_axes& machine);
+  void aux(const nc_source& source, char code, double value);
+  void dwell(const nc_source& source, bool turns, double value);
+  void sync(const nc_source& source, uint32_t what);
+  void message(const nc_source& source, uint32_t port, std::string_view text);
+  void alarm(const nc_alarm& alarm);
+  /** The last line; common variables and modal codes are asked of `items`. */
+  void end(const nc_source& source, bool ok, const nc_axes& work, const nc_axes& machine, uint32_t modal,
+           ItemSource* items);
+
+ private:
+  void begin(std::string_view type, const nc_source& source);
+  void finish();
+  void put(std::string_view text);
+  void put_number(double value);
+  void put_integer(uint64_t value);
+  void put_axes(std::string_view key, const nc_axes& axes);
+  void put_pair(std::string_view key, const nc_move& move, const double (&center)[2]);
+  void put_circular(const nc_move& move);
+  void put_string(std::string_view text);
+
+  OutputFile* out_;
+  unsigned axis_count_;
+  char axis_key_[NC_MAX_AXES][6];  // ,"X":
+  char* at_ = nullptr;             // next byte of the line being built
+};
+
+/** `text` as the inside of a JSON string: control characters escaped, bytes that are no UTF-8 as U+0080...U+00FF. */
+std::string json_escaped(std::string_view text);
+
+}  // namespace nc::tools

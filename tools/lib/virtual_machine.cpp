@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The virtual machine of `ncsim time`; see virtual_machine.hpp.
+#include "tools/lib/virtual_machine.hpp"
+
+#include <cmath>
+
+#include "tools/lib/item_source.hpp"
+
+namespace nc::tools {
+namespace {
+
+constexpr uint32_t kFeedBudget = 1024;           // blocks per call
+constexpr uint64_t kMaxSilentFeeds = 16 * 1024;  // 16 M blocks in a row that commit nothing: an endless loop
+constexpr double kPatience = 10.0;               // s; a program that neither runs nor stops for so long hangs
+
+class VirtualMachine {
+ public:
+  VirtualMachine(nc_control* control, const nc_config& config, const Setup& setup)
+      : control_(control), config_(config), setup_(setup), world_(setup, config.system[0]) {
+    out_[kPartSystem].command = setup.start;
+  }
+
+  MachineResult run(double limit_s, const CycleObserver& observe) {
+    nc_outputs& out = out_[kPartSystem];
+    double waiting = 0.0;
+    const uint64_t limit = static_cast<uint64_t>(limit_s / config_.cycle_s);
+    for (uint64_t cycle = 0; cycle < limit; ++cycle) {
+      if (!feed()) return fail("nothing happens any more: an endless loop in the program");
+      inputs(cycle);
+      nc_cycle(control_, in_, out_);
+      result_.cycles = cycle + 1;
+      if (observe) observe(out);
+      if (out.state != NC_STATE_IDLE) started_ = true;
+      if (out.state == NC_STATE_ALARM) return alarmed();
+      if (started_ && out.state == NC_STATE_IDLE) return take(MachineResult::How::kEnded);
+      waiting = started_ && out.state == NC_STATE_RUNNING && out.cause != NC_CAUSE_STARVED ? 0.0
+                                                                                            : waiting + config_.cycle_s;
+      if (waiting > kPatience) return fail("the program does not go on (cause " + std::to_string(out.cause) + ")");
+    }
+    return fail("not at its end after " + std::to_string(static_cast<uint64_t>(limit_s)) + " s of machine time");
+  }
+
+ private:
+  // Reads ahead as far as the ring takes it: on virtual time the feeder is never late.
+  bool feed() {
+    for (uint64_t calls = 0; calls < kMaxSilentFeeds; ++calls) {
+      const nc_status status = nc_feed(control_, kFeedBudget);
+      if (status == NC_OK) calls = 0;
+      if (status != NC_OK && status != NC_BUDGET) return true;
+    }
+    return false;
+  }
+
+  void inputs(uint64_t cycle) {
+    const nc_outputs& last = out_[kPartSystem];
+    nc_inputs& in = in_[kPartSystem];
+    // A rising edge starts and continues; it needs a cycle without it in between.
+    const bool press = !started_ || last.state == NC_STATE_STOPPED || last.state == NC_STATE_HOLD;
+    in.cycle_start = press && !in.cycle_start;
+    in.fin = last.strobe != 0;
+    in.optional_stop = setup_.optional_stop;
+    in.single_block = setup_.single_block;
+    in.skip = world_.signals_at(last.command);
+    in.feed_override = 1.0;
+    in.rapid_override = 1.0;
+    in.spindle_rev_per_s = last.s / 60.0;
+    // Events of the setup: by the block in execution and by the machine's own time.
+    nc_item now = {};
+    now.source = last.source;
+    world_.set_seconds(static_cast<double>(cycle) * config_.cycle_s);
+    in.reset = started_ && world_.on_item(now, 0);
+    for (int w = 0; w < NC_WORDS; ++w) in.input[w] = world_.input(static_cast<unsigned>(w));
+    in.clock_ms = setup_.clock_ms + static_cast<int64_t>(std::floor(static_cast<double>(cycle) * config_.cycle_s * 1000.0));
+  }
+
+  MachineResult take(MachineResult::How how) {
+    const nc_outputs& out = out_[kPartSystem];
+    result_.how = how;
+    result_.seconds = out.run_s;
+    result_.path_length = out.path_length;
+    result_.blocks = out.blocks;
+    return result_;
+  }
+  MachineResult alarmed() {
+    if (nc_alarm_get(control_, kPartSystem, &result_.alarm) != NC_OK) return fail("an alarm without a text");
+    return take(MachineResult::How::kAlarmed);
+  }
+  MachineResult fail(std::string why) {
+    result_.error = std::move(why);
+    return take(MachineResult::How::kFailed);
+  }
+
+  nc_control* control_;
+  const nc_config& config_;
+  const Setup& setup_;
+  VirtualWorld world_;
+  nc_inputs in_[NC_MAX_SYSTEMS] = {};
+  nc_outputs out_[NC_MAX_SYSTEMS] = {};
+  MachineResult result_;
+  bool started_ = false;
+};
+
+}  // namespace
+
+MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, double limit_s,
+                          const CycleObserver& observe) {
+  return VirtualMachine(control, config, setup).run(limit_s, observe);
+}
+
+}  // namespace nc::tools

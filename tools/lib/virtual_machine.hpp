@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The online executor on virtual time: nc_feed() and nc_cycle() with a machine that is always where it is commanded to be,
+// answers FIN in the next cycle and continues every stop at once.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "nc/nc.h"
+#include "tools/lib/virtual_world.hpp"
+
+namespace nc::tools {
+
+/** What a run took. */
+struct MachineResult {
+  enum class How { kEnded, kAlarmed, kFailed };
+  How how = How::kFailed;
+  nc_alarm alarm = {};
+  std::string error;         // kFailed
+  double seconds = 0.0;      // running, from cycle start to the end
+  double path_length = 0.0;  // mm
+  uint64_t blocks = 0, cycles = 0;
+};
+
+/** Called once per servo cycle with what the control gave out. */
+using CycleObserver = std::function<void(const nc_outputs&)>;
+
+/**
+ * Run the selected program of a control made with `config`.
+ * @param limit_s virtual seconds after which the run is given up with an error.
+ */
+MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, double limit_s,
+                          const CycleObserver& observe = {});
+
+}  // namespace nc::tools

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+// ncrtd: the runtime as a program. Runs an NC program (or MDI blocks) on the configured machine.
+//
+//   ncrtd --config FILE check
+//   ncrtd --config FILE run [--fast] [--dialect D] [--plot BASE] [--no-progress] PROGRAM
+//   ncrtd --config FILE mdi [--fast] "G0 X10"
+//
+// Exit status: 0 the program ended, 2 it stopped on an alarm, 1 usage or configuration, 128+n ended by signal n.
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <memory>
+
+#include "runtime/console.hpp"
+#include "runtime/runtime.hpp"
+#include "tools/lib/program_files.hpp"
+#include "tools/lib/toolpath_plot.hpp"
+
+namespace {
+
+using nc::rt::Answer;
+using nc::rt::CommandKind;
+
+constexpr int kExitUsage = 1, kExitAlarm = 2, kExitSignal = 128;
+constexpr auto kPeriod = std::chrono::milliseconds(50);  // of the display
+constexpr unsigned kStepsPerLook = 500;                  // virtual time: scans between two looks
+
+volatile std::sig_atomic_t g_signal = 0;
+extern "C" void on_signal(int number) { g_signal = number; }
+
+struct Options {
+  std::string config, program, mdi, dialect, plot;
+  bool fast = false, no_progress = false;
+};
+
+// The executed path for the plot: a vertex where the direction changes by more than two degrees, or the kind of move.
+class PlotSink final : public nc::rt::PathSink {
+ public:
+  explicit PlotSink(const nc::rt::Config& config) {
+    for (unsigned a = 0; a < config.nc.system[0].axis_count; ++a)
+      for (unsigned k = 0; k < 3; ++k)
+        if (config.nc.system[0].axis[a].name == "XYZ"[k]) index_[k] = static_cast<int>(a);
+  }
+  void moved(const nc::rt::PositionSample& sample) override {
+    if (sample.system != 0) return;
+    Point point;
+    for (unsigned k = 0; k < 3; ++k) point.x[k] = index_[k] < 0 ? 0 : sample.command.v[index_[k]];
+    point.rapid = sample.rapid;
+    if (count_++ == 0) {
+      emit(point);
+    } else {
+      const bool turned = !straight(point) || point.rapid != last_.rapid;
+      if (turned) emit(last_);
+    }
+    last_ = point;
+  }
+  void finish() { emit(last_); }
+  nc::tools::ToolpathPlot plot;
+
+ private:
+  struct Point {
+    double x[3] = {0, 0, 0};
+    bool rapid = false;
+  };
+  // Does `next` go on in the direction in which the path left the last vertex?
+  bool straight(const Point& next) const {
+    double dot = 0, a = 0, b = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      const double u = last_.x[k] - vertex_.x[k], v = next.x[k] - last_.x[k];
+      dot += u * v;
+      a += u * u;
+      b += v * v;
+    }
+    if (a < 1e-12 || b < 1e-12) return true;
+    constexpr double kCos2Deg = 0.99939;
+    return dot > kCos2Deg * std::sqrt(a * b);
+  }
+  void emit(const Point& point) {
+    plot.add_point(point.rapid, point.x[0], point.x[1], point.x[2]);
+    vertex_ = point;
+  }
+  int index_[3] = {-1, -1, -1};
+  Point last_, vertex_;
+  std::uint64_t count_ = 0;
+};
+
+int config_failed(const std::vector<nc::rt::ConfigError>& errors) {
+  for (const nc::rt::ConfigError& error : errors) std::fprintf(stderr, "%s\n", error.text().c_str());
+  return kExitUsage;
+}
+
+int failed(const std::string& text) {
+  std::fprintf(stderr, "ncrtd: %s\n", text.c_str());
+  return kExitUsage;
+}
+
+// One run from cycle start to the end, an alarm or a signal.
+class Run {
+ public:
+  Run(nc::rt::Runtime* runtime, const Options& options, nc::rt::Progress* progress)
+      : runtime_(*runtime), options_(options), progress_(*progress) {}
+
+  int to_end() {
+    if (const Answer answer = runtime_.execute(CommandKind::kCycleStart); answer != Answer::kDone)
+      return failed(std::string("cycle start: ") + nc::rt::answer_text(answer));
+    for (;;) {
+      wait();
+      show();
+      const nc::rt::Snapshot now = runtime_.snapshot();
+      const nc::rt::FeederInfo info = runtime_.info();
+      show_message(info);
+      if (g_signal != 0) return stop_by_signal();
+      if (now.alarmed()) return stop_by_alarm();
+      if (info.runs > 0 && now.system[0].nc.state == NC_STATE_IDLE) return ended(now);
+      if (now.system[0].nc.state == NC_STATE_STOPPED) {
+        progress_.note("stop in line " + std::to_string(now.system[0].nc.source.line) + " (" +
+                       nc::rt::state_text(now.system[0].nc) + "): continued");
+        runtime_.execute(CommandKind::kCycleStart);
+      }
+    }
+  }
+
+ private:
+  // One look's worth of time.
+  void wait() {
+    if (!options_.fast) {
+      usleep(static_cast<useconds_t>(std::chrono::microseconds(kPeriod).count()));
+      return;
+    }
+    const std::uint64_t runs = runtime_.info().runs;
+    for (unsigned i = 0; i < kStepsPerLook && g_signal == 0 && runtime_.info().runs == runs; ++i) runtime_.step();
+    runtime_.step();
+  }
+  void show() {
+    if (!options_.no_progress) progress_.show(runtime_);
+  }
+  void show_message(const nc::rt::FeederInfo& info) {
+    if (info.messages == messages_) return;
+    messages_ = info.messages;
+    progress_.note("message: " + info.last_message);
+  }
+  void rest() {
+    for (unsigned i = 0; i < 400 && !runtime_.snapshot().system[0].nc.distance_zero; ++i) wait();
+  }
+  int ended(const nc::rt::Snapshot& now) {
+    progress_.finish();
+    std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc).c_str());
+    return 0;
+  }
+  int stop_by_signal() {
+    progress_.note("signal: feed hold");
+    runtime_.execute(CommandKind::kFeedHold);
+    rest();
+    runtime_.execute(CommandKind::kReset);
+    wait();
+    return kExitSignal + g_signal;
+  }
+  int stop_by_alarm() {
+    rest();
+    wait();  // the details of a program alarm come from the feeder
+    const nc::rt::Snapshot now = runtime_.snapshot();
+    progress_.finish();
+    for (unsigned i = 0; i < now.alarms.count; ++i)
+      std::fprintf(stderr, "alarm: %s\n", runtime_.alarm_text(now.alarms.alarm[i]).c_str());
+    std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc).c_str());
+    return kExitAlarm;
+  }
+
+  nc::rt::Runtime& runtime_;
+  const Options& options_;
+  nc::rt::Progress& progress_;
+  std::uint64_t messages_ = 0;
+};
+
+// The machine, its control and the program, brought up and taken down.
+int operate(const Options& options, nc::rt::Config* config) {
+  if (options.dialect == "m700") config->nc.dialect = NC_DIALECT_M700;
+  if (options.dialect == "dgshape") config->nc.dialect = NC_DIALECT_DGSHAPE;
+  nc::hal::SimMachine machine(config->sim, config->points);
+  nc::rt::RealClock real;
+  nc::rt::VirtualClock virtual_clock;
+  nc::rt::RuntimeParts parts;
+  parts.clock = options.fast ? static_cast<nc::rt::Clock*>(&virtual_clock) : &real;
+  parts.hal = &machine;
+  std::vector<nc::rt::ConfigError> errors;
+  const auto runtime = nc::rt::Runtime::create(*config, parts, &errors);
+  if (runtime == nullptr) return config_failed(errors);
+
+  nc::tools::ProgramFiles files(config->programs_folder());
+  files.attach(runtime->control());
+  std::string error;
+  unsigned file = 0;
+  if (!options.program.empty() && files.add(runtime->control(), options.program, &file, &error) != NC_OK)
+    return failed(error);
+  PlotSink path(*config);
+  if (!options.plot.empty()) runtime->set_path_sink(&path);
+  nc::rt::Progress progress(stdout, isatty(STDOUT_FILENO) != 0, nc::rt::estimate_lines(options.program));
+
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  if (!(options.fast ? runtime->start_stepping(&error) : runtime->start(&error))) return failed(error);
+  for (const std::string& warning : runtime->warnings()) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  Answer answer = Answer::kDone;
+  if (!options.program.empty()) {
+    answer = runtime->select_program(file);
+  } else {
+    answer = runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(nc::rt::Mode::kMdi));
+    if (answer == Answer::kDone) answer = runtime->load_mdi(options.mdi + "\n");
+  }
+  int result = answer == Answer::kDone ? Run(runtime.get(), options, &progress).to_end()
+                                       : failed(std::string("not started: ") + nc::rt::answer_text(answer));
+  runtime->stop();
+  if (options.plot.empty() || result == kExitUsage) return result;
+  path.finish();
+  path.plot.set_title(options.program);
+  for (const char* ending : {".svg", ".png"}) {
+    const std::string name = options.plot + ending;
+    const bool written = ending[1] == 's' ? path.plot.write_svg(name, &error) : path.plot.write_png(name, &error);
+    if (!written) return failed(error);
+    std::printf("plot         %s\n", name.c_str());
+  }
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  nc::rt::limit_allocator();
+  CLI::App app{"ncrtd: runs NC programs on a machine, or on a simulated one"};
+  Options options;
+  app.add_option("--config", options.config, "machine configuration (TOML)")->required();
+  app.require_subcommand(1);
+  CLI::App* check = app.add_subcommand("check", "read the configuration, report every error, do nothing");
+  CLI::App* run = app.add_subcommand("run", "run a program from cycle start to its end");
+  run->add_option("PROGRAM", options.program, "NC program")->required();
+  run->add_option("--dialect", options.dialect, "instead of the configured one")->check(CLI::IsMember({"m700", "dgshape"}));
+  run->add_option("--plot", options.plot, "write BASE.svg and BASE.png of the executed path")->type_name("BASE");
+  CLI::App* mdi = app.add_subcommand("mdi", "execute blocks");
+  mdi->add_option("BLOCKS", options.mdi, "blocks, separated by line ends")->required();
+  for (CLI::App* sub : {run, mdi}) {
+    sub->add_flag("--fast", options.fast, "virtual time: as fast as the processor");
+    sub->add_flag("--no-progress", options.no_progress, "only the summary");
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kExitUsage;
+  }
+
+  nc::rt::Config config;
+  const std::vector<nc::rt::ConfigError> errors = nc::rt::load_config(options.config, &config);
+  if (!errors.empty()) return config_failed(errors);
+  if (!check->parsed()) return operate(options, &config);
+  nc::hal::SimMachine machine(config.sim, config.points);
+  nc::rt::VirtualClock clock;
+  std::vector<nc::rt::ConfigError> refused;
+  if (nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &refused) == nullptr)
+    return config_failed(refused);
+  std::printf("%s: %s, %u us, %u points: no errors\n", options.config.c_str(), config.name.c_str(), config.cycle_us,
+              config.points.size());
+  return 0;
+}
