@@ -28,11 +28,11 @@ void Feeder::set_mdi_text(const std::string& text) {
 void Feeder::step() {
   seen_ = scan_->snapshot();
   take_events();
+  feed();
   complete_reset();
   rewind_ended();
   Command command;
   while (commands_.pop(&command)) (void)answers_.push({command.ticket, apply(command)});
-  feed();
   PositionSample sample;
   while (scan_->poll_position(&sample))
     if (path_sink_ != nullptr) path_sink_->moved(sample);
@@ -103,18 +103,28 @@ void Feeder::rewind_ended() {
   for (unsigned s = 0; s < systems_; ++s) {
     System& system = system_[s];
     if (!system.ended || seen_.system[s].nc.state != NC_STATE_IDLE || scan_->reset_waits()) continue;
-    system.ended = system.alarmed = false;
-    if (system.mdi)
+    const bool ok = !system.alarmed;
+    if (system.mdi || !system.selected) {
       system = {};
-    else if (system.selected && nc_->select(s, system.file) < 0)
-      system = {};
+    } else {
+      const nc_status status = nc_->select(s, system.file);
+      if (status == NC_E_STATE) continue;  // the control has not seen its end yet: the next step
+      system.ended = system.alarmed = false;
+      if (status < 0) system = {};
+    }
+    if (s != 0) continue;
+    const std::lock_guard lock(mutex_);
+    info_.ended = true;
+    info_.ended_ok = ok;
+    ++info_.runs;
   }
 }
 
+// Also while a reset waits: the control notices it here.
 void Feeder::feed() {
   bool any = false;
   for (unsigned s = 0; s < systems_; ++s) any |= system_[s].selected;
-  if (!any || scan_->reset_waits()) return;
+  if (!any) return;
   for (unsigned i = 0; i < kCallsPerStep; ++i)
     if (nc_->feed(kBlocksPerCall) != NC_OK) return;
 }
@@ -133,11 +143,6 @@ void Feeder::take_events() {
       if (s != 0) continue;
       const std::lock_guard lock(mutex_);
       if (event.kind == NC_ITEM_MARK && event.source.depth == 0) info_.main_line = event.source.line;
-      if (event.kind == NC_ITEM_END) {
-        info_.ended = true;
-        info_.ended_ok = !system_[s].alarmed;
-        ++info_.runs;
-      }
     }
   }
   const std::lock_guard lock(mutex_);

@@ -178,7 +178,7 @@ struct FreeAligned {
 /// An executor in memory of its own, with a simple FIN responder.
 class Machine {
  public:
-  explicit Machine(const ExecutorConfig& config) : config(config), checker(config) {
+  explicit Machine(const ExecutorConfig& setup) : config(setup), checker(setup) {
     Arena measure;
     Executor().create(config, measure);
     const size_t size = (measure.used() + 63) / 64 * 64 + 64;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a stream of items as the interpreter would, block by block, and reads what the offset stage makes of it.
+// Writes a stream of items as the interpreter would, block by block, and reads what the offset stage makes of
+// it.
 #pragma once
 
 #include <cmath>
@@ -14,7 +15,8 @@ struct Point {
   double h = 0, v = 0;
 };
 
-/// Points are on the plane (h, v) of `comp.axis`; `off` is the axis that is not in it. One call = one block = its items and a mark.
+/// Points are on the plane (h, v) of `comp.axis`; `off` is the axis that is not in it. One call = one block =
+/// its items and a mark.
 class PathBuilder {
  public:
   explicit PathBuilder(double h = 0, double v = 0, uint8_t first = 0, uint8_t second = 1) {

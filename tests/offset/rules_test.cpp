@@ -68,7 +68,8 @@ TEST(OffsetStart, TypeAAcuteIsThePerpendicular) {
   PathBuilder path(-40, 0);
   path.side(1, 6.5);
   path.line(0, 0).line(-30, -50).line(30, -90).cancel().line(60, -60).end();
-  expect_path(run_stage(path), path, {{5.5737, -3.34422}, {-21.23753, -48.02962}, {33.60555, -84.59167}, {60, -60}});
+  expect_path(run_stage(path), path,
+              {{5.5737, -3.34422}, {-21.23753, -48.02962}, {33.60555, -84.59167}, {60, -60}});
 }
 
 TEST(OffsetStart, TypeBAcuteGoesOverBothPerpendiculars) {
@@ -83,7 +84,8 @@ TEST(OffsetStart, TypeBAcuteGoesOverBothPerpendiculars) {
   EXPECT_NEAR(moves[1].end[0], 55, kTol);  // lengthened by the amount
   EXPECT_NEAR(moves[1].end[1], 5, kTol);
   EXPECT_TRUE(moves[1].connecting);
-  const double q = 5 * std::sqrt(0.5);     // perpendicular to the next block (q, -q), back by the amount: (2q, 0)
+  const double q =
+      5 * std::sqrt(0.5);  // perpendicular to the next block (q, -q), back by the amount: (2q, 0)
   EXPECT_NEAR(moves[2].end[0], 50 + 2 * q, kTol);
   EXPECT_NEAR(moves[2].end[1], 0, kTol);
   EXPECT_TRUE(moves[2].connecting);
@@ -111,7 +113,16 @@ TEST(OffsetArcs, TangentialChainKeepsCentres) {
   path.by(20, 10).by(0, 50).arc_by(false, 20, 20, 20, 0).by(30, 0).arc_by(true, 15, 15, 0, 15).by(0, 25);
   path.arc_by(false, 20, 0, 10, 0).by(0, -30).cancel().by(15, -5).end();
   const auto out = run_stage(path);
-  expect_path(out, path, {{-3.5, 10}, {-3.5, 60}, {20, 83.5}, {50, 83.5}, {61.5, 95}, {61.5, 120}, {88.5, 120}, {88.5, 90}, {100, 85}});
+  expect_path(out, path,
+              {{-3.5, 10},
+               {-3.5, 60},
+               {20, 83.5},
+               {50, 83.5},
+               {61.5, 95},
+               {61.5, 120},
+               {88.5, 120},
+               {88.5, 90},
+               {100, 85}});
   const auto moves = moves_of(out);
   EXPECT_NEAR(moves[2].circle.radius_start, 23.5, 1e-9);
   EXPECT_NEAR(moves[2].circle.radius_end, 23.5, 1e-9);
@@ -124,8 +135,16 @@ TEST(OffsetArcs, TangentialChainKeepsCentres) {
 TEST(OffsetArcs, InnerCornerOfTwoArcs) {
   PathBuilder path(60, 40);
   path.side(1, 5);
-  path.line(40, 50).line(0, 50).arc(true, -40, -30, 0, -50).arc(true, -80, 50, -40, 30).line(-120, 50).cancel().line(-140, 30).end();
-  expect_path(run_stage(path), path, {{40, 45}, {0, 45}, {-40, -20.61553}, {-80, 45}, {-120, 45}, {-140, 30}});
+  path.line(40, 50)
+      .line(0, 50)
+      .arc(true, -40, -30, 0, -50)
+      .arc(true, -80, 50, -40, 30)
+      .line(-120, 50)
+      .cancel()
+      .line(-140, 30)
+      .end();
+  expect_path(run_stage(path), path,
+              {{40, 45}, {0, 45}, {-40, -20.61553}, {-80, 45}, {-120, 45}, {-140, 30}});
 }
 
 TEST(OffsetArcs, FullCircleInside) {
@@ -143,7 +162,11 @@ TEST(OffsetArcs, OuterObtuseWithArcIsTheIntersection) {
   const double big = 20, r = 4, q = std::sqrt(0.5);
   PathBuilder path(-60, 0);
   path.side(1, r);
-  path.line(-50, 0).line(0, 0).arc(false, -2 * big * q, -2 * big * q, -big * q, -big * q).line(-80, -80).end();
+  path.line(-50, 0)
+      .line(0, 0)
+      .arc(false, -2 * big * q, -2 * big * q, -big * q, -big * q)
+      .line(-80, -80)
+      .end();
   const auto moves = moves_of(run_stage(path));
   ASSERT_GE(moves.size(), 3u);
   const double away = r + big * q, x = -big * q + std::sqrt((big + r) * (big + r) - away * away);
@@ -173,6 +196,16 @@ TEST(OffsetArcs, ArcThatVanishesInsideIsAnAlarm) {
   expect_alarm(out, Condition::comp_interference);
   EXPECT_EQ(alarm_of(out)->source.line, 3u);
   expect_at(out, path, 2, 30, 12);
+}
+
+TEST(OffsetArcs, FilletOfTheToolsOwnRadiusShrinksToAPoint) {
+  PathBuilder path(-20, 0);
+  path.side(1, 10);
+  path.comp.check = true;
+  path.line(0, 0).line(30, 0).arc(true, 40, 10, 0, 10).line(40, 60).line(0, 60).cancel().line(0, 90).end();
+  const auto out = run_stage(path);
+  EXPECT_EQ(alarm_of(out), nullptr);
+  expect_path(out, path, {{0, 10}, {30, 10}, {30, 50}, {0, 50}, {0, 90}});
 }
 
 TEST(OffsetCorner, OuterAcuteIsLengthenedAndLinked) {
@@ -242,7 +275,13 @@ TEST(OffsetPlanes, YzWithNegativeAmount) {
   PathBuilder path(-90, 40, 1, 2);
   path.side(1, -5.25);
   path.by(40, 0).by(0, -50).by(30, -30).by(60, 15).by(20, 45).cancel().by(40, 20).end();
-  expect_path(run_stage(path), path, {{-55.25, 40}, {-55.25, -12.17462}, {-21.61044, -45.81419}, {43.75752, -29.47219}, {64.79751, 17.86777}, {100, 40}});
+  expect_path(run_stage(path), path,
+              {{-55.25, 40},
+               {-55.25, -12.17462},
+               {-21.61044, -45.81419},
+               {43.75752, -29.47219},
+               {64.79751, 17.86777},
+               {100, 40}});
 }
 
 // ---- 12.4.2 ----
@@ -253,9 +292,19 @@ TEST(OffsetG39, PrintedExample) {
   path.by(20, 20);
   Compensation corner = path.comp;
   corner.corner_arc = true;
-  path.one_shot(corner).by(40, 0).one_shot(corner).by(0, 40).one_shot(corner).by(-40, 0).by(0, -40).cancel().by(-20, -20).end();
+  path.one_shot(corner)
+      .by(40, 0)
+      .one_shot(corner)
+      .by(0, 40)
+      .one_shot(corner)
+      .by(-40, 0)
+      .by(0, -40)
+      .cancel()
+      .by(-20, -20)
+      .end();
   const auto out = run_stage(path);
-  expect_path(out, path, {{20, 15}, {60, 15}, {65, 20}, {65, 60}, {60, 65}, {20, 65}, {15, 60}, {15, 20}, {0, 0}});
+  expect_path(out, path,
+              {{20, 15}, {60, 15}, {65, 20}, {65, 60}, {60, 65}, {20, 65}, {15, 60}, {15, 20}, {0, 0}});
   const auto moves = moves_of(out);
   for (size_t i : {2u, 4u, 6u}) {
     EXPECT_TRUE(moves[i].circular);
@@ -464,9 +513,9 @@ TEST(OffsetCancelVector, AfterAFullCircle) {
     if (move.circular) arc = move;
   ASSERT_TRUE(arc.circular);
   const double h = arc.end[0], v = arc.end[1];
-  EXPECT_NEAR(std::hypot(h - 200, v - 150), 140, 1e-9);                    // on the offset circle
-  EXPECT_NEAR(((h - 200) + v) * std::sqrt(0.5), 10, 1e-9);                 // and beside the hypothetical path
-  EXPECT_LT(std::abs(arc.circle.sweep), 2 * std::acos(-1.0) + 1e-9);      // what is beyond 360 degrees only
+  EXPECT_NEAR(std::hypot(h - 200, v - 150), 140, 1e-9);               // on the offset circle
+  EXPECT_NEAR(((h - 200) + v) * std::sqrt(0.5), 10, 1e-9);            // and beside the hypothetical path
+  EXPECT_LT(std::abs(arc.circle.sweep), 2 * std::acos(-1.0) + 1e-9);  // what is beyond 360 degrees only
 }
 
 // ---- 12.4.3 I J K ----
@@ -474,7 +523,16 @@ TEST(OffsetCancelVector, AfterAFullCircle) {
 TEST(OffsetVector, StartWithMovement) {
   PathBuilder path;
   path.side(1, 12);
-  path.one_shot(path.vector(150, 0)).by(100, 100).idle().idle().idle().idle().by(150, 0).cancel().by(-20, 40).end();
+  path.one_shot(path.vector(150, 0))
+      .by(100, 100)
+      .idle()
+      .idle()
+      .idle()
+      .idle()
+      .by(150, 0)
+      .cancel()
+      .by(-20, 40)
+      .end();
   expect_path(run_stage(path), path, {{100, 112}, {250, 112}, {230, 140}});
 }
 
@@ -493,7 +551,14 @@ TEST(OffsetVector, InTheModeBeforeAFullCircle) {
   PathBuilder path(-40, 40);
   path.kind = NC_MOVE_RAPID;
   path.side(1, 10);
-  path.by(40, -40).one_shot(path.vector(0, 50)).by(150, 0).arc_by(false, 0, 0, 150, 0).by(-150, 0).cancel().by(0, -50).end();
+  path.by(40, -40)
+      .one_shot(path.vector(0, 50))
+      .by(150, 0)
+      .arc_by(false, 0, 0, 150, 0)
+      .by(-150, 0)
+      .cancel()
+      .by(0, -50)
+      .end();
   const auto out = run_stage(path);
   expect_path(out, path, {{0, 10}, {140, 0}, {140.31281, -10}, {0, -10}, {0, -50}});
   EXPECT_LT(moves_of(out)[2].circle.sweep, -6);
@@ -523,7 +588,14 @@ TEST(OffsetVector, RightSideAndItsOwnAmount) {
 TEST(OffsetVector, NoInsertedBlockAtAnAcuteCorner) {
   PathBuilder path;
   path.side(1, 11);
-  path.by(200, 0).by(-150, 150).one_shot(path.vector(50, 0)).by(300, 0).by(-150, -150).cancel().by(-200, 0).end();
+  path.by(200, 0)
+      .by(-150, 150)
+      .one_shot(path.vector(50, 0))
+      .by(300, 0)
+      .by(-150, -150)
+      .cancel()
+      .by(-200, 0)
+      .end();
   const auto out = run_stage(path);
   expect_at(out, path, 1, 192.22183, -7.77817);
   expect_at(out, path, 3, 350, 161);
@@ -542,7 +614,8 @@ TEST(OffsetAmount, ChangedInTheModeInnerCorners) {
   path.line(0, 0).line(60, 0);
   path.side(1, 9);
   path.line(80, 60).line(20, 80).cancel().line(0, 20).end();
-  expect_path(run_stage(path), path, {{0, 5}, {56.3962, 5}, {68.6158, 54.3079}, {17.15395, 71.46185}, {0, 20}});
+  expect_path(run_stage(path), path,
+              {{0, 5}, {56.3962, 5}, {68.6158, 54.3079}, {17.15395, 71.46185}, {0, 20}});
 }
 
 TEST(OffsetAmount, ChangedInTheModeOuterCorners) {
@@ -574,7 +647,16 @@ TEST(OffsetInfeed, ThreeBlocksAfterTheStart) {
 TEST(OffsetInfeed, FourBlocksAfterTheStartMakeNoVector) {
   PathBuilder path;
   path.side(1, 30);
-  path.by(500, 500).idle().idle().off_plane(-250).off_plane(-50).by(0, 100).by(-100, 0).cancel().by(0, -50).end();
+  path.by(500, 500)
+      .idle()
+      .idle()
+      .off_plane(-250)
+      .off_plane(-50)
+      .by(0, 100)
+      .by(-100, 0)
+      .cancel()
+      .by(0, -50)
+      .end();
   const auto out = run_stage(path);
   expect_at(out, path, 1, 500, 500);
   expect_at(out, path, 5, 500, 500);
@@ -632,7 +714,8 @@ TEST(OffsetInterference, AvoidanceJoinsTheNeighbours) {
 
 TEST(OffsetInterference, InvalidCheckRunsBackwards) {
   const PathBuilder path = v_shape(false, false);
-  expect_path(run_stage(path), path, {{17.88854, 8.94427}, {62.36068, -80}, {57.63932, -80}, {102.11146, 8.94427}, {120, 50}});
+  expect_path(run_stage(path), path,
+              {{17.88854, 8.94427}, {62.36068, -80}, {57.63932, -80}, {102.11146, 8.94427}, {120, 50}});
 }
 
 TEST(OffsetInterference, EditedProgramPasses) {
@@ -640,7 +723,9 @@ TEST(OffsetInterference, EditedProgramPasses) {
   path.side(1, 20);
   path.comp.check = true;
   path.line(0, 0).line(20, -40).line(70, -100).line(120, 0).cancel().line(120, 50).end();
-  expect_path(run_stage(path), path, {{17.88854, 8.94427}, {36.85045, -28.97954}, {65.78739, -63.70387}, {102.11146, 8.94427}, {120, 50}});
+  expect_path(
+      run_stage(path), path,
+      {{17.88854, 8.94427}, {36.85045, -28.97954}, {65.78739, -63.70387}, {102.11146, 8.94427}, {120, 50}});
 }
 
 TEST(OffsetInterference, UnsymmetricalGroove) {

@@ -276,6 +276,7 @@ TEST_F(ScanTest, OverridesAndSwitchesReachTheNc) {
 TEST_F(ScanTest, FollowingErrorStopsAndHoldsUntilResetAndCauseGone) {
   build();
   config.sim.axis[0][0].following_error_limit = 1.0;
+  runtime.reset();
   hal = std::make_unique<LoggedHal>(config, &log);
   std::vector<nc::rt::ConfigError> errors;
   runtime = nc::rt::Runtime::create(config, {&clock, hal.get(), &ladder, &nc}, &errors);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -89,11 +90,11 @@ TEST_F(CommandTest, TwoRunsGiveTheSameBytes) {
 
 TEST_F(CommandTest, StandardInputByPipeAndByFile) {
   file("p.nc", kPart);
-  const Outcome by_path = ncsim("trace p.nc"), by_pipe = ncsim("trace - < <(cat p.nc) || true"),
-                by_file = ncsim("trace - < p.nc"), by_cat = ncsim("trace - <<'X'\n" + std::string(kPart) + "X\n");
+  const Outcome by_path = ncsim("trace p.nc"), by_file = ncsim("trace - < p.nc");
+  ASSERT_EQ(std::system(("cd " + folder_ + " && cat p.nc | " NC_BINARY_DIR "/bin/ncsim trace - > pipe.txt").c_str()), 0);
+  EXPECT_FALSE(by_path.out.empty());
   EXPECT_EQ(by_path.out, by_file.out);
-  EXPECT_EQ(by_path.out, by_cat.out);
-  (void)by_pipe;  // process substitution is not in every sh; the here-document above is a pipe or a file, as the shell likes
+  EXPECT_EQ(by_path.out, content(folder_ + "/pipe.txt"));
 }
 
 TEST_F(CommandTest, AlarmIsExitTwoWithItsLine) {
@@ -243,7 +244,10 @@ TEST_F(CommandTest, PlotWritesBothFiles) {
   const Outcome run = ncsim("plot -o drawing --view xy p.nc");
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(content(folder_ + "/drawing.png").substr(1, 3), "PNG");
-  EXPECT_NE(content(folder_ + "/drawing.svg").find("</svg>"), std::string::npos);
+  const std::string svg = content(folder_ + "/drawing.svg");
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  EXPECT_EQ(ncsim("plot -o again --view xy p.nc").code, 0);
+  EXPECT_EQ(svg == content(folder_ + "/again.svg"), true) << "two runs give the same bytes";
 }
 
 TEST_F(CommandTest, TablesOfFunctionsAndAlarms) {

@@ -149,6 +149,8 @@ TEST(Setup, MistakesAreNamedWithKeyAndLine) {
       {"{\"kinematics\": {\"type\": \"tool_tilt\", \"tool\": [\"C\"]}}", "kinematics.tool[0]: the setup has no axis \"C\""},
       {"{\"vars\": {\"100\": 1e999}}", "s.json:1: "},
       {"{\"clock\": \"\xff\"}", "s.json:1: "},
+      {"{\"a\\nb\": 1}", "s.json:1: a key has a control character"},
+      {"{\"params\": {\"1\": \"\\u0000\"}}", "params.1: has a control character"},
   };
   for (const Mistake& m : mistakes) {
     const std::string error = error_of(m.text);

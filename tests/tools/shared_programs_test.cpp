@@ -71,7 +71,7 @@ TEST_F(SharedPrograms, ProgramsThatTheControlHasAllWordsForRunToTheirEnd) {
   const struct {
     const char* name;
     size_t least_moves;
-  } programs[] = {{"flower_mold.nc", 16'000}, {"compass.ngc", 2'900}, {"botomata_bottom.nc", 1'000},
+  } programs[] = {{"flower_mold.nc", 16'000}, {"botomata_bottom.nc", 1'000},
                   {"arcspiral.ngc", 300},     {"tort.ngc", 100}};
   for (const auto& p : programs) {
     const Trace run = trace(p.name);
@@ -80,6 +80,15 @@ TEST_F(SharedPrograms, ProgramsThatTheControlHasAllWordsForRunToTheirEnd) {
     EXPECT_EQ(run.end["ok"], true) << p.name << ": " << run.alarm;
     EXPECT_GE(run.moves, p.least_moves) << p.name;
   }
+}
+
+TEST_F(SharedPrograms, AProgramThatEndsWithoutM30IsP36OnItsLastLine) {
+  const Trace run = trace("compass.ngc");
+  EXPECT_EQ(run.code, 2);
+  ASSERT_TRUE(run.alarm.is_object());
+  EXPECT_EQ(run.alarm["code"], "P36") << run.alarm;
+  EXPECT_EQ(run.alarm["line"], line_of("compass.ngc", "%")) << run.alarm;
+  EXPECT_GE(run.moves, 2'900u);
 }
 
 TEST_F(SharedPrograms, NamedParametersAreAnAlarmOnTheirFirstLine) {

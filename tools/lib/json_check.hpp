@@ -13,6 +13,9 @@ namespace nc::tools::json {
 
 using Type = JsonNode::Type;
 
+/** A message as one line of at most 300 bytes, whatever stood in the file. */
+std::string one_line(std::string text);
+
 /** What is wrong and on which line; travels to the function that knows the file's name. */
 struct JsonError {
   uint32_t line;
@@ -20,7 +23,7 @@ struct JsonError {
 };
 
 [[noreturn]] inline void fail(const JsonNode& node, const std::string& path, const std::string& why) {
-  throw JsonError{node.line, path.empty() ? why : path + ": " + why};
+  throw JsonError{node.line, one_line(path.empty() ? why : path + ": " + why)};
 }
 
 inline const JsonNode& expect(const JsonNode& node, const std::string& path, Type type) {

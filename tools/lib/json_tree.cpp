@@ -83,6 +83,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool end_object() override { return shut(); }
   bool end_array() override { return shut(); }
   bool key(string_t& value) override {
+    for (const char c : value)
+      if (static_cast<unsigned char>(c) < 0x20) return fail("a key has a control character");
     for (const auto& member : open_.back()->members)
       if (member.first == value) return fail("the key \"" + value + "\" stands here twice");
     key_ = value;
@@ -94,14 +96,12 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     std::string text = why.what();
     const size_t colon = text.find(": ");
     if (colon != std::string::npos) text = text.substr(colon + 2);
-    for (char& c : text)
-      if (static_cast<unsigned char>(c) < 0x20) c = ' ';
     return fail(text);
   }
 
  private:
   bool fail(const std::string& why) {
-    error = "line " + std::to_string(*line_) + ": " + why;
+    error = "line " + std::to_string(*line_) + ": " + json::one_line(why);
     return false;
   }
   bool number(double value, bool integer) {
@@ -155,6 +155,14 @@ bool parse_json(const std::string& text, JsonNode* root, std::string* error) {
   if (nlohmann::json::sax_parse(begin, end, &builder)) return true;
   *error = builder.error.empty() ? "line " + std::to_string(line) + ": not JSON" : builder.error;
   return false;
+}
+
+std::string json::one_line(std::string text) {
+  constexpr size_t kMost = 300;
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  if (text.size() > kMost) text = text.substr(0, kMost) + "...";
+  return text;
 }
 
 bool json::read_text_file(const std::string& path, std::string* content, std::string* error) {

@@ -27,7 +27,7 @@ struct JsonNode {
 };
 
 /**
- * Parse `text`. Numbers that do not fit a double, keys given twice, more than 32 levels and everything that is not JSON are
+ * Parse `text`. Numbers that do not fit a double, keys given twice or with control characters, more than 32 levels and everything that is not JSON are
  * errors. @return false with "line N: why" in *error.
  */
 bool parse_json(const std::string& text, JsonNode* root, std::string* error);

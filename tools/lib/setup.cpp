@@ -96,7 +96,11 @@ class SetupReader {
   }
 
   std::string parameter_text(const JsonNode& node, const std::string& path) {
-    if (node.type == Type::kString) return node.text;
+    if (node.type == Type::kString) {
+      for (const char c : node.text)
+        if (static_cast<unsigned char>(c) < 0x20) fail(node, path, "has a control character");
+      return node.text;
+    }
     if (node.type != Type::kNumber) fail(node, path, "must be a number, a string or an object by axis");
     char out[kNumberText];
     return std::string(out, number_text(node.number, out));

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Carrying a setup into a control; see setup.hpp. What a dialect has or has not is libnc's answer, given here as an error at
 // the place of the setup that asked for it.
-#include <cctype>
-
 #include "tools/lib/item_source.hpp"
+#include "tools/lib/json_check.hpp"
 #include "tools/lib/setup.hpp"
 
 namespace nc::tools {
 namespace {
 
 bool refuse(const Setup& setup, const SetupPlace& place, const std::string& why, std::string* error) {
-  *error = setup.name + ":" + std::to_string(place.line) + ": " + place.path + ": " + why;
+  *error = setup.name + ":" + std::to_string(place.line) + ": " + json::one_line(place.path + ": " + why);
   return false;
 }
 

@@ -35,6 +35,12 @@ NC_API nc_status nc_answer(nc_control*, unsigned system, const nc_world* world);
  */
 NC_API nc_status nc_rewind(nc_control*, unsigned system, uint64_t serial);
 
+/**
+ * Online, at rest in a block stop or a hold: give up what was read beyond the block in execution and read it again (M700 4.2
+ * "recalculation request"). @return NC_WAITING until the scan has agreed (call again), NC_OK when it is done.
+ */
+NC_API nc_status nc_recalculate(nc_control*, unsigned system);
+
 /** Stop the program: modal state as after reset (M700 3.7 "reset 2"), program at its head. Not while online motion runs. */
 NC_API nc_status nc_reset(nc_control*, unsigned system);
 

@@ -61,10 +61,12 @@ bool Executor::drained() const { return state_->shared.tail.load(std::memory_ord
 
 uint32_t Executor::epoch() const { return state_->shared.epoch.load(std::memory_order_acquire); }
 
+uint32_t Executor::starts() const { return state_->shared.starts.load(std::memory_order_acquire); }
+
 bool Executor::truncate(Serial* last) {
   ExecutorState& e = *state_;
   ScanShared& shared = e.shared;
-  *last = 0;
+  *last = shared.status.read().last_mark;
   if (!e.truncate_open) {
     shared.truncate_request.store(++e.truncate_request, std::memory_order_release);
     e.truncate_open = true;

@@ -43,6 +43,8 @@ class Executor {
   bool drained() const;
   /// The scan gave the program up (reset, alarm): increments each time. Until acknowledge_epoch(e) it throws away what is pushed with an older epoch.
   uint32_t epoch() const;
+  /// Cycle starts accepted from IDLE so far: each is a program from its head.
+  uint32_t starts() const;
   /// At rest in a block stop or hold: give up every committed record behind the block in execution. On success *last is the mark
   /// that will still be executed (0: none was left). Returns false when the scan has not agreed yet (call again), or moves.
   bool truncate(Serial* last);

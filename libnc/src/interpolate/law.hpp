@@ -62,7 +62,8 @@ inline double advance(LawState& state, const LawGoal& goal, double time) NC_RT {
     return 0;
   }
   // Up to the peak, along it, down to the exit: each phase in closed form.
-  double peak = std::sqrt(0.5 * (v * v + end2 + 2 * a * left));
+  const double gain = 2 * a * left;
+  double peak = std::sqrt(std::min(0.5 * (v * v + end2 + gain), v * v + gain));
   peak = std::max(v, std::min(goal.cap, peak));
   const double t_up = (peak - v) / a;
   if (time < t_up) {

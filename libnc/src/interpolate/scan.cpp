@@ -146,6 +146,8 @@ void Scan::start(const nc_inputs& in) {
       path_length_ = 0;
       start_cycles_ = 0;
       blocks_ = 0;
+      last_mark_ = 0;
+      shared_->starts.fetch_add(1, std::memory_order_release);
       [[fallthrough]];
     case NC_STATE_STOPPED:
     case NC_STATE_HOLD:
@@ -191,6 +193,7 @@ void Scan::run(const nc_inputs& in) {
     }
     serial_ = r.serial;
     source_ = r.source;
+    if (r.kind == ItemKind::mark && r.mark.report) last_mark_ = r.serial;
     if (execute(r, in) == Done::no) break;
     leave(r, true);
     if (state_ != NC_STATE_RUNNING && at_rest()) break;
@@ -226,6 +229,7 @@ void Scan::publish(const nc_inputs& in) {
   status.command = command_;
   status.feed_override = feed_override(in);
   status.single_block = in.single_block && !(suppress_ & 1);
+  status.last_mark = last_mark_;
   shared_->status.write(status);
   shared_->ordinal.store(ordinal_, std::memory_order_relaxed);
   shared_->epoch.store(epoch_, std::memory_order_release);

@@ -21,6 +21,7 @@ struct ScanStatus {
   AxisVec command;
   double feed_override = 1;
   bool single_block = false;
+  Serial last_mark = 0;                          ///< newest block end that has been executed in this run
 };
 
 /// The world at the last sync.
@@ -35,6 +36,7 @@ struct ScanShared {
   alignas(64) std::atomic<uint32_t> tail{0};     ///< ring index of the record in execution
   std::atomic<uint32_t> ordinal{0};              ///< of the segment in execution or the next one
   std::atomic<uint32_t> epoch{0};
+  std::atomic<uint32_t> starts{0};               ///< cycle starts accepted from IDLE
   std::atomic<uint32_t> truncate_answer{0};
   std::atomic<uint32_t> block_begun{0};          ///< some of the block in execution has been executed (valid with the answer)
   alignas(64) std::atomic<uint32_t> truncate_request{0};
@@ -148,6 +150,7 @@ class Scan {
   Serial serial_ = 0;
   nc_source source_{};
   ModalId modal_ = 0;
+  Serial last_mark_ = 0;
   double path_length_ = 0;
   uint64_t run_cycles_ = 0, start_cycles_ = 0, power_cycles_ = 0, blocks_ = 0;
 };

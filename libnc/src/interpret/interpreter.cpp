@@ -269,17 +269,27 @@ nc_status Interpreter::settle(Did did) {
   }
   // Nothing of the block that alarms has happened: take back what it has put into the stream, unless parts of it have gone already.
   if (next_step == Step::none) queued_ = 0;
+  stop(fault, source);
+  return NC_OK;
+}
+
+void Interpreter::stop(const Fault& what, const nc_source& where) {
   next_step = Step::none;
   statement = 0;
-  alarm_fault = fault;
-  alarm_source = source;
-  emit(ItemKind::alarm).alarm = fault;
+  waiting_ = false;
+  alarm_fault = what;
+  alarm_source = source = where;
+  emit(ItemKind::alarm).alarm = what;
   Item& end = emit(ItemKind::end);
   end.end.ok = false;
   end.end.work = position();
   end.end.modal = modals.intern(state.modal);
   ended = alarmed = true;
-  return NC_OK;
+}
+
+void Interpreter::abort(const Fault& what, const nc_source& where) {
+  queued_ = 0;
+  stop(what, where);
 }
 
 void Interpreter::finish_block(bool stop) {

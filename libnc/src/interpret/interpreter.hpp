@@ -67,6 +67,8 @@ struct Interpreter {
   bool rewind(BlockSeq seq);
   /// Forget checkpoints; go on from here (position of the machine).
   void set_machine(const AxisVec& machine);
+  /// A stage behind has found a fault: what is queued is void, the alarm and the end take its place.
+  void abort(const Fault& what, const nc_source& where);
   void refresh_settings() { settings = parameters.settings(*dialect); }
 
   // ---- for the functions (interpret/ only) --------------------------------------------------------------------------
@@ -156,6 +158,7 @@ struct Interpreter {
 
   nc_status run_block(uint32_t& budget);
   nc_status settle(Did did);
+  void stop(const Fault& what, const nc_source& where);
   void save_checkpoint();
   Did execute_statements();
   bool skipped(const Block& b) const;

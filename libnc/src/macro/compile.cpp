@@ -131,8 +131,9 @@ bool ExpressionCompiler::operand(unsigned depth, bool comparison_allowed, bool n
     if (at_.peek() != '[') return fail(Condition::calculation);  // M700 13.5.6 (Note 3)
     return bracket(depth, false) && emit(op);
   }
-  const bool open = c == ']' || (depth != 0 && at_.at_end());
-  return fail(open ? Condition::bracket_pair : Condition::calculation);
+  // ']' too many, or the block ends before a '[' is closed.
+  const bool unpaired = depth == 0 ? c == ']' : at_.at_end();
+  return fail(unpaired ? Condition::bracket_pair : Condition::calculation);
 }
 
 bool ExpressionCompiler::bracket(unsigned depth, bool comparison_allowed) {
@@ -148,12 +149,16 @@ bool ExpressionCompiler::bracket(unsigned depth, bool comparison_allowed) {
     bool found = false;
     if (!comparison(depth + 1, &found)) return false;
   }
-  if (at_.accept(']')) return true;
-  for (at_.skip(); !at_.at_end(); at_.skip(), ++at_.p) {
-    if (*at_.p == ']') return fail(Condition::calculation);
-    if (*at_.p == '\0') break;
+  return at_.accept(']') || fail(unclosed(Condition::calculation));
+}
+
+/// What is wrong where ']' should stand: it is missing altogether (M700 P281), or something else stands before it.
+Condition ExpressionCompiler::unclosed(Condition otherwise) const {
+  Cursor ahead = at_;
+  for (ahead.skip(); !ahead.at_end(); ahead.skip()) {
+    if (*ahead.p++ == ']') return otherwise;
   }
-  return fail(Condition::bracket_pair);  // M700 P281
+  return Condition::bracket_pair;
 }
 
 /// #NAME] of SETVN (M700 10.12 of chapter 13.5.5); the cursor is on '#'.
@@ -166,7 +171,7 @@ bool ExpressionCompiler::name() {
   }
   const unsigned length = block_.text.size() - begin;
   if (length > UINT8_MAX) return fail(Condition::variable_name);
-  if (!at_.accept(']')) return fail(at_.at_end() ? Condition::bracket_pair : Condition::variable_name);
+  if (!at_.accept(']')) return fail(unclosed(Condition::variable_name));
   return emit(Op::name) && byte(begin & 0xff) && byte(begin >> 8) && byte(length);
 }
 

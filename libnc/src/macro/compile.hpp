@@ -66,6 +66,7 @@ class ExpressionCompiler {
   bool variable_code(uint32_t number);
   bool emit(Op op) { return byte(static_cast<uint8_t>(op)); }
   bool byte(unsigned value);
+  Condition unclosed(Condition otherwise) const;
   bool fail(Condition condition);
   bool fail(Condition condition, double value);
 

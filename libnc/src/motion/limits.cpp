@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kHalfPi = 1.57079632679489661923;
 
+/// Of what is left for braking on a spiral, the part that its uneven parameter may take.
+constexpr double kBendShare = 0.2;
+
 /// Largest |sin| over the angles from `from` through `sweep`.
 double largest_sine(double from, double sweep) {
   const double low = std::min(from, from + sweep), high = std::max(from, from + sweep);
@@ -39,7 +42,8 @@ void shape_arc(const Segment& s, const MotionLimits& limits, SegmentShape& g) {
   const double q = r_min * r_min + slope * slope;
   const double plane_curvature = q > 0 ? (q + slope * slope) / (q * std::sqrt(q)) : 0;
   g.curvature = plane_curvature * g.in_plane * g.in_plane;
-  if (dr > 1e-8 * r_max) g.curvature *= 1.02;  // the change of in_plane along a spiral with a lead
+  // On a spiral the parameter itself speeds up and slows down along the path: u'' = sweep^2 R R' / sigma^4, with R' = dr.
+  if (slowest > 0) g.bend = turn * turn * r_max * dr / (slowest * slowest * slowest);
 }
 
 /// Acceleration limit of the plane: the weaker of its two axes.
@@ -79,13 +83,15 @@ double path_acceleration(const Segment& s, const SegmentShape& g, double keep, d
     const double rest = std::sqrt(std::max(0.0, whole * whole - centripetal * centripetal));
     if (g.in_plane * a > rest) a = rest / g.in_plane;
   }
-  return a;
+  return a - v * v * g.bend;
 }
 
-/// Speed at which centripetal acceleration takes kArcShare of `keep`.
+/// Speed at which centripetal acceleration takes kArcShare of `keep`, and what goes along unevenly kBendShare.
 double arc_speed(const Segment& s, const SegmentShape& g, double keep, const MotionLimits& limits) {
   if (!s.curve.circular || g.curvature <= 0) return HUGE_VAL;
-  return std::sqrt(kArcShare * keep * plane_acceleration(s.curve, limits) / g.curvature);
+  double v2 = kArcShare * keep * plane_acceleration(s.curve, limits) / g.curvature;
+  if (g.bend > 0) v2 = std::min(v2, kBendShare * path_acceleration(s, g, keep, 0, limits) / g.bend);
+  return std::sqrt(v2);
 }
 
 }  // namespace

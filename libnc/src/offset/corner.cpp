@@ -7,16 +7,19 @@
 namespace nc {
 namespace {
 
-constexpr double kSmallTurn = 1e-6;       // rad: below it two tangents count as one direction
-constexpr double kRightAngle = 1e-6;      // 90 degrees belongs to the obtuse corners (M700 12.4.1)
+constexpr double kSmallTurn = 1e-6;   // rad: below it two tangents count as one direction
+constexpr double kRightAngle = 1e-6;  // 90 degrees belongs to the obtuse corners (M700 12.4.1)
 constexpr double kNoLength_mm = 1e-9;
-// "Extremely large" (M700 12.4.2, G40 I J K) has no number in the manual: chosen as ten times the amount, a turn of 168.5 degrees.
+// "Extremely large" (M700 12.4.2, G40 I J K) has no number in the manual: chosen as ten times the amount, a
+// turn of 168.5 degrees.
 constexpr double kExtremelyLarge = 10;
 
-Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) { return {p[axis[0]], p[axis[1]]}; }
+Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) {
+  return {p[axis[0]], p[axis[1]]};
+}
 
-// Perpendicular, lengthened, lengthened, perpendicular. The form of the manual's figure is lost: each offset line is lengthened by
-// the amount and the ends are linked, as is usual.
+// Perpendicular, lengthened, lengthened, perpendicular. The form of the manual's figure is lost: each offset
+// line is lengthened by the amount and the ends are linked, as is usual.
 Joint lengthened_joint(const Leg& before, double offset_before, const Leg& behind, double offset_behind) {
   Joint joint;
   joint.n = 4;
@@ -36,15 +39,16 @@ Joint two_perpendiculars(const Leg& before, double offset_before, const Leg& beh
   return joint;
 }
 
-// M700 12.4.2 "Changing the compensation direction": the intersection of the two offset curves; where there is none, both
-// perpendiculars. An intersection that lies far off, or cuts more off a block than there is, counts as none.
+// M700 12.4.2 "Changing the compensation direction": the intersection of the two offset curves; where there
+// is none, both perpendiculars. An intersection that lies far off, or cuts more off a block than there is,
+// counts as none.
 Joint joint_of_side_change(const Leg& before, double offset_before, double length_before, const Leg& behind,
                            double offset_behind, double length_behind) {
   Vec2 w;
   const bool meets = offset_exists(before, offset_before) && offset_exists(behind, offset_behind) &&
                      intersection(before, offset_before, behind, offset_behind, &w) &&
-                     norm(w) <= kExtremelyLarge * std::abs(offset_before) && -dot(w, before.u) <= length_before &&
-                     dot(w, behind.u) <= length_behind;
+                     norm(w) <= kExtremelyLarge * std::abs(offset_before) &&
+                     -dot(w, before.u) <= length_before && dot(w, behind.u) <= length_behind;
   return meets ? Joint::single(w) : two_perpendiculars(before, offset_before, behind, offset_behind);
 }
 
@@ -87,7 +91,8 @@ bool intersection(const Leg& before, double offset_before, const Leg& behind, do
   const double oa = offset_before, ob = offset_behind, ka = before.curvature, kb = behind.curvature;
   if (std::abs(c) < kSmallTurn) {
     if (d < 0 || oa != ob) return false;
-    *w = oa * (left_of(before.u) - (c / (1 + d)) * before.u);  // the lines' formula; the error is of the order of c squared
+    *w = oa * (left_of(before.u) -
+               (c / (1 + d)) * before.u);  // the lines' formula; the error is of the order of c squared
     return true;
   }
   // With p = q - oa^2: w = w0 + p w1 solves both linear equations, |w|^2 = p + oa^2 gives p.
@@ -138,7 +143,8 @@ bool joint_in_mode(const Leg& before, double offset_before, double length_before
 Joint joint_at_start(const Leg& before, const Leg& behind, double offset, bool type_b) {
   const Turn turn = classify(before.u, behind.u, offset);
   Vec2 w;
-  if (!type_b || turn == Turn::inner || turn == Turn::straight) return Joint::single(perpendicular(behind, offset));
+  if (!type_b || turn == Turn::inner || turn == Turn::straight)
+    return Joint::single(perpendicular(behind, offset));
   if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return Joint::single(w);
   return lengthened_joint(before, offset, behind, offset);
 }
@@ -146,7 +152,8 @@ Joint joint_at_start(const Leg& before, const Leg& behind, double offset, bool t
 Joint joint_at_cancel(const Leg& before, const Leg& behind, double offset, bool type_b) {
   const Turn turn = classify(before.u, behind.u, offset);
   Vec2 w;
-  if (!type_b || turn == Turn::inner || turn == Turn::straight) return Joint::single(perpendicular(before, offset));
+  if (!type_b || turn == Turn::inner || turn == Turn::straight)
+    return Joint::single(perpendicular(before, offset));
   if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return Joint::single(w);
   return lengthened_joint(before, offset, behind, offset);
 }

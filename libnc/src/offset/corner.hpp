@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The geometry of a joint between two blocks: where the centre of the tool passes (M700 12.4.1, 12.4.2; DGSHAPE G40-G42).
+// The geometry of a joint between two blocks: where the centre of the tool passes (M700 12.4.1, 12.4.2;
+// DGSHAPE G40-G42).
 //
-// Everything is relative to the programmed point of the joint. A block is known near its joint by its unit tangent u in the
-// direction of travel and its signed curvature k (counter-clockwise positive, 0 for a line). The offset o is signed too: the amount
-// to the left of the direction of travel (G42 and negative amounts make it negative). n is the left normal of u.
+// Everything is relative to the programmed point of the joint. A block is known near its joint by its unit
+// tangent u in the direction of travel and its signed curvature k (counter-clockwise positive, 0 for a line).
+// The offset o is signed too: the amount to the left of the direction of travel (G42 and negative amounts
+// make it negative). n is the left normal of u.
 //
 // A point at vector w lies on the curve that runs at the distance o beside the block exactly when
 //
 //     w.n = o + k/2 (|w|^2 - o^2)
 //
-// For a line (k = 0) that is w.n = o. For an arc the centre is at n/k and the offset circle has the radius |1/k - o|:
-// |w - n/k|^2 = (1/k - o)^2, multiplied by k/2. So lines and arcs go through one formula, and two blocks give two linear
-// equations in w and q = |w|^2; q itself comes from a quadratic. The smaller q is the intersection nearer to the joint.
+// For a line (k = 0) that is w.n = o. For an arc the centre is at n/k and the offset circle has the radius
+// |1/k - o|: |w - n/k|^2 = (1/k - o)^2, multiplied by k/2. So lines and arcs go through one formula, and two
+// blocks give two linear equations in w and q = |w|^2; q itself comes from a quadratic. The smaller q is the
+// intersection nearer to the joint.
 #pragma once
 
 #include <cstdint>
@@ -27,16 +30,19 @@ struct Leg {
   double curvature = 0;  ///< 1/mm, counter-clockwise positive, 0 = line
 };
 
-/// The legs of a move at its start and at its end. False when the move does not go anywhere in the plane of compensation.
+/// The legs of a move at its start and at its end. False when the move does not go anywhere in the plane of
+/// compensation.
 bool make_legs(const Move& move, Leg* begin, Leg* end);
 
-/// Vectors at a joint in the order of travel. The block before ends at v[0], the block behind starts at v[n - 1].
+/// Vectors at a joint in the order of travel. The block before ends at v[0], the block behind starts at v[n -
+/// 1].
 struct Joint {
   static constexpr unsigned kMax = 4;  // M700 12.4.8: (1) to (4)
   Vec2 v[kMax];
   uint8_t n = 0;
   bool corner_arc = false;  ///< from v[0] to v[1] on an arc about the programmed point (G39), else straight
-  bool lengthened = false;  ///< v[0], v[1] lie on the lengthened block before, v[2], v[3] on the one behind (acute corner)
+  bool lengthened =
+      false;  ///< v[0], v[1] lie on the lengthened block before, v[2], v[3] on the one behind (acute corner)
 
   static Joint single(Vec2 w);
 };
@@ -47,10 +53,15 @@ enum class Turn : uint8_t { straight, inner, obtuse, acute };
 Turn classify(Vec2 u_before, Vec2 u_behind, double offset);
 
 /// Vector at right angles to a block.
-inline Vec2 perpendicular(const Leg& leg, double offset) { return offset * left_of(leg.u); }
+inline Vec2 perpendicular(const Leg& leg, double offset) {
+  return offset * left_of(leg.u);
+}
 
-/// True when the offset curve exists: an arc does not vanish on its inside.
-inline bool offset_exists(const Leg& leg, double offset) { return 1 - leg.curvature * offset > 1e-9; }
+/// True when the offset curve exists: the amount is not larger than the radius on the inside of an arc (equal
+/// makes a point).
+inline bool offset_exists(const Leg& leg, double offset) {
+  return 1 - leg.curvature * offset > -1e-9;
+}
 
 /// Vector to the intersection of two offset curves, the one nearest to the joint.
 bool intersection(const Leg& before, double offset_before, const Leg& behind, double offset_behind, Vec2* w);
@@ -75,7 +86,10 @@ Joint joint_corner_arc(const Leg& before, const Leg& behind, double offset);
 /// End vector that the words of the block itself give (G41/G42/G38 with I J K).
 Vec2 commanded_vector(const Compensation& comp);
 
-/// Signed offset to the left of the direction of travel (M700 12.4.2: side = G code times the sign of the amount).
-inline double signed_offset(const Compensation& comp) { return comp.side * comp.radius; }
+/// Signed offset to the left of the direction of travel (M700 12.4.2: side = G code times the sign of the
+/// amount).
+inline double signed_offset(const Compensation& comp) {
+  return comp.side * comp.radius;
+}
 
 }  // namespace nc

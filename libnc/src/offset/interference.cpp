@@ -7,8 +7,8 @@
 namespace nc {
 namespace {
 
-// Blocks between two joints that are compared: five blocks are read ahead, an interference behind the fourth moving block is not
-// found (M700 12.4.8 "When interference check cannot be executed").
+// Blocks between two joints that are compared: five blocks are read ahead, an interference behind the fourth
+// moving block is not found (M700 12.4.8 "When interference check cannot be executed").
 constexpr unsigned kMaxSpan = 2;
 constexpr double kBackwards_mm = 1e-6;
 
@@ -92,7 +92,8 @@ bool runs_backwards(const Section& section, Vec2 from, Vec2 to) {
   return dot(section.delta + to - from, section.begin.u) < -kBackwards_mm;
 }
 
-// Joins section `i` directly to section `j`; the ones between are left out. False: no avoidance vector can be made.
+// Joins section `i` directly to section `j`; the ones between are left out. False: no avoidance vector can be
+// made.
 bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
   Section& before = (*chain)[i];
   const Section& behind = (*chain)[j];
@@ -118,7 +119,8 @@ bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
   return true;
 }
 
-// Erases the vectors from `keep_before` on at the end of section i and up to `last_erased` at the end of section j.
+// Erases the vectors from `keep_before` on at the end of section i and up to `last_erased` at the end of
+// section j.
 void erase_vectors(Joint* before, unsigned keep_before, Joint* behind, unsigned last_erased) {
   before->n = static_cast<uint8_t>(keep_before);
   unsigned n = 0;
@@ -143,8 +145,10 @@ Crossing find_crossing(const Joint& before, const Joint& behind, Vec2 d) {
   return {};
 }
 
-// Checks the joint of section i against that of j. `live` is i, or where i is left out already the section that has taken its place.
-Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may_wait, Vec2 first_vector, unsigned* at) {
+// Checks the joint of section i against that of j. `live` is i, or where i is left out already the section
+// that has taken its place.
+Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may_wait, Vec2 first_vector,
+                   unsigned* at) {
   Section& before = (*chain)[i];
   Section& behind = (*chain)[j];
   const Crossing crossing = find_crossing(before.joint, behind.joint, joint_distance(*chain, i, j));
@@ -163,7 +167,8 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
   before.joint = whole_before;
   behind.joint = whole_behind;
   if (!before.avoid) return Finding::alarm;  // 12.4.8 alarm (1)
-  // Avoidance: with valid vectors left on one side only it is an alarm (2)(a), with vectors at more than 90 degrees (2)(b).
+  // Avoidance: with valid vectors left on one side only it is an alarm (2)(a), with vectors at more than 90
+  // degrees (2)(b).
   if (one_sided || dot(a, b) < 0) return Finding::alarm;
   const unsigned farthest = live + 1 + kMaxSpan;
   for (unsigned target = j + 1; target <= farthest && target < chain->size(); ++target) {
@@ -185,7 +190,8 @@ Finding leave_out_vanished(Chain* chain, unsigned last_call, Vec2 first_vector, 
     for (unsigned target = i + 1; target <= i + kMaxSpan && target < chain->size() && !done; ++target) {
       done = go_round(chain, i - 1, target, first_vector);
     }
-    if (!done && (i < last_call || chain->size() > i + kMaxSpan || (*chain)[chain->size() - 1].cancel)) return Finding::alarm;
+    if (!done && (i < last_call || chain->size() > i + kMaxSpan || (*chain)[chain->size() - 1].cancel))
+      return Finding::alarm;
   }
   return Finding::none;
 }

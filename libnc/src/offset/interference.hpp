@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interference check of M700 12.4.8: among the blocks read ahead, do the vectors at two joints cross? Then the blocks between
-// the joints cannot be machined. Either it is an alarm, or they are left out and the blocks around them are joined directly.
+// The interference check of M700 12.4.8: among the blocks read ahead, do the vectors at two joints cross?
+// Then the blocks between the joints cannot be machined. Either it is an alarm, or they are left out and the
+// blocks around them are joined directly.
 #pragma once
 
 #include "base/fixed.hpp"
@@ -11,20 +12,20 @@ namespace nc {
 
 /// A block that moves in the plane, as far as the joints at its two ends need it.
 struct Section {
-  uint32_t index = 0;       ///< of its item
-  uint32_t block = 0;       ///< count of blocks when it came
+  uint32_t index = 0;  ///< of its item
+  uint32_t block = 0;  ///< count of blocks when it came
   Leg begin, end;
-  Vec2 delta;               ///< programmed end - programmed start
-  double offset = 0;        ///< signed, mm
-  Joint joint;              ///< at its end
-  bool jointed = false;     ///< `joint` is known
-  bool commanded = false;   ///< by I J K, hold, cancel, ...: never erased (M700 12.4.3 precaution (2))
-  bool start = false;       ///< start block: does not run along an offset curve
-  bool cancel = false;      ///< nor does a block without compensation at its end
-  bool vanished = false;    ///< an arc whose offset circle does not exist
-  bool dead = false;        ///< left out by the avoidance: start and end of its compensated path coincide
-  bool merge_first = false; ///< lengthened corner: this line runs straight into joint.v[1]
-  bool merge_last = false;  ///< the line behind comes straight out of joint.v[2]
+  Vec2 delta;                ///< programmed end - programmed start
+  double offset = 0;         ///< signed, mm
+  Joint joint;               ///< at its end
+  bool jointed = false;      ///< `joint` is known
+  bool commanded = false;    ///< by I J K, hold, cancel, ...: never erased (M700 12.4.3 precaution (2))
+  bool start = false;        ///< start block: does not run along an offset curve
+  bool cancel = false;       ///< nor does a block without compensation at its end
+  bool vanished = false;     ///< an arc whose offset circle does not exist
+  bool dead = false;         ///< left out by the avoidance: start and end of its compensated path coincide
+  bool merge_first = false;  ///< lengthened corner: this line runs straight into joint.v[1]
+  bool merge_last = false;   ///< the line behind comes straight out of joint.v[2]
   bool check = false, avoid = false;
 };
 
@@ -33,9 +34,10 @@ using Chain = FixedVector<Section, 6>;
 
 enum class Finding : uint8_t { none, alarm };
 
-/// Checks the joints of the chain against each other and repairs what may be repaired. `first_vector`: where chain[0] starts.
-/// An interference that blocks still to come may repair is left for the next call; `last_call` = sections below this number cannot
-/// wait any longer. On alarm *at is the section before which the program stops.
+/// Checks the joints of the chain against each other and repairs what may be repaired. `first_vector`: where
+/// chain[0] starts. An interference that blocks still to come may repair is left for the next call;
+/// `last_call` = sections below this number cannot wait any longer. On alarm *at is the section before which
+/// the program stops.
 Finding check_interference(Chain* chain, unsigned last_call, Vec2 first_vector, unsigned* at);
 
 }  // namespace nc

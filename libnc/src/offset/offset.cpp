@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stage of tool radius compensation, first half: what it holds back, how the joints are decided and when it lets go.
-// The second half, from vectors to geometry, is outlet.cpp.
+// The stage of tool radius compensation, first half: what it holds back, how the joints are decided and when
+// it lets go. The second half, from vectors to geometry, is outlet.cpp.
 #include "offset/offset.hpp"
 
 #include <cmath>
@@ -23,7 +23,9 @@ Vec2 plane_delta(const Move& move) {
   return {move.end[h] - move.start[h], move.end[v] - move.start[v]};
 }
 
-bool without_length(const Move& move) { return !move.circular && move.start == move.end; }
+bool without_length(const Move& move) {
+  return !move.circular && move.start == move.end;
+}
 
 // The amount of `amount_of` on the side that `side_of` has.
 double offset_on_side(const Compensation& amount_of, const Compensation& side_of) {
@@ -36,11 +38,15 @@ bool vanishes(const Leg& begin, const Leg& end, double offset) {
 }
 
 // How much of a block there is for a change of side to cut off: the length of a line, the radius of an arc.
-double reach(const Leg& leg, Vec2 delta) { return leg.curvature == 0 ? norm(delta) : std::abs(1 / leg.curvature); }
+double reach(const Leg& leg, Vec2 delta) {
+  return leg.curvature == 0 ? norm(delta) : std::abs(1 / leg.curvature);
+}
 
 }  // namespace
 
-bool OffsetStage::can_push() const { return !held_.full(); }
+bool OffsetStage::can_push() const {
+  return !held_.full();
+}
 
 void OffsetStage::push(const Item& item) {
   if (failed_ || held_.full()) return;
@@ -60,7 +66,8 @@ void OffsetStage::push(const Item& item) {
     mark.idle_blocks = idle_blocks_;
   }
   settle();
-  // No room to wait any longer. Counted without what only waits to be fetched: the caller's pace never changes the geometry.
+  // No room to wait any longer. Counted without what only waits to be fetched: the caller's pace never
+  // changes the geometry.
   if (next_index() - released_ == kHeld) close();
 }
 
@@ -79,7 +86,9 @@ void OffsetStage::reset() {
   resume_ = OffsetResume{};
 }
 
-OffsetResume OffsetStage::resume_point() const { return resume_; }
+OffsetResume OffsetStage::resume_point() const {
+  return resume_;
+}
 
 void OffsetStage::restore(const OffsetResume& resume) {
   reset();
@@ -96,7 +105,9 @@ void OffsetStage::restore(const OffsetResume& resume) {
   tail_ = vector_;
 }
 
-bool OffsetStage::idle() const { return held_.empty() && mode_ == Mode::off && vector_ == Vec2{} && !failed_; }
+bool OffsetStage::idle() const {
+  return held_.empty() && mode_ == Mode::off && vector_ == Vec2{} && !failed_;
+}
 
 void OffsetStage::count_block_end() {
   ++blocks_;
@@ -108,12 +119,14 @@ void OffsetStage::count_block_end() {
   if (idle_blocks_ == kIdleLimit && mode_ != Mode::off) close();
 }
 
-// Nothing more is waited for: four blocks without movement, a pre-read inhibit, or no room (M700 12.4.2). The last block ends
-// perpendicular; a start block gets no vector at all, and a command without a block behind it none either.
+// Nothing more is waited for: four blocks without movement, a pre-read inhibit, or no room (M700 12.4.2). The
+// last block ends perpendicular; a start block gets no vector at all, and a command without a block behind it
+// none either.
 void OffsetStage::close() {
   if (mode_ == Mode::pending) mode_ = Mode::on;
   if (Section* last = open()) {
-    if (last->vanished) return fail(last->index, Condition::comp_interference, held_at(last->index).item.source);
+    if (last->vanished)
+      return fail(last->index, Condition::comp_interference, held_at(last->index).item.source);
     last->joint = Joint::single(last->start ? Vec2{} : perpendicular(last->end, last->offset));
     last->jointed = last->commanded = true;
     tail_ = last->joint.v[0];
@@ -135,7 +148,8 @@ void OffsetStage::intake_move(Held* held) {
     move.comp.axis[0] = comp_.axis[0];
     move.comp.axis[1] = comp_.axis[1];
   }
-  if (mode_ == Mode::on && !same_plane(move.comp, comp_)) {  // P112 keeps programs from it; the path stays in one piece
+  if (mode_ == Mode::on &&
+      !same_plane(move.comp, comp_)) {  // P112 keeps programs from it; the path stays in one piece
     close();
     if (failed_) return;
     held->has_lead = true;
@@ -153,7 +167,8 @@ void OffsetStage::intake_move(Held* held) {
   }
   if (!moves) return without_length(move) ? intake_command(held) : intake_carried(held);
   if (mode_ == Mode::pending && !starts && !move.comp.transparent) {
-    // M700 12.4.2 (1): the vector of a command without movement is perpendicular at the start of the next moving block.
+    // M700 12.4.2 (1): the vector of a command without movement is perpendicular at the start of the next
+    // moving block.
     held->has_lead = true;
     held->lead = tail_ = perpendicular(begin, signed_offset(move.comp));
     mode_ = Mode::on;
@@ -163,7 +178,8 @@ void OffsetStage::intake_move(Held* held) {
   intake_section(held, begin, end);
 }
 
-// Moves off the plane only: the vector goes along. A move with its vectors taken away loses them all the same.
+// Moves off the plane only: the vector goes along. A move with its vectors taken away loses them all the
+// same.
 void OffsetStage::intake_carried(Held* held) {
   held->role = Role::carried;
   if (held->item.move.comp.transparent && mode_ == Mode::on) {
@@ -186,7 +202,8 @@ void OffsetStage::intake_uncompensated(Held* held) {
     held->role = without_length(move) ? Role::command : Role::carried;
     Section* last = open();
     if (without_length(move) && move.comp.cancel_vector && last && !last->start && !last->vanished) {
-      last->joint = joint_at_cancel_vector(last->end, {move.comp.vector[0], move.comp.vector[1]}, last->offset);
+      last->joint =
+          joint_at_cancel_vector(last->end, {move.comp.vector[0], move.comp.vector[1]}, last->offset);
       last->jointed = last->commanded = true;
       held_at(last->index).trim = true;
       tail_ = last->joint.v[0];
@@ -200,7 +217,8 @@ void OffsetStage::intake_command(Held* held) {
   const Compensation& comp = held->item.move.comp;
   held->role = Role::command;
   Section* last = open();
-  if (comp.corner_arc && comp.has_vector) {  // DGSHAPE G39: from the normal of the block before to the normal of the direction
+  if (comp.corner_arc &&
+      comp.has_vector) {  // DGSHAPE G39: from the normal of the block before to the normal of the direction
     close();
     if (failed_) return;
     held->has_lead = held->lead_arc = true;
@@ -265,7 +283,8 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
 void OffsetStage::join(const Section& behind, Held* held_behind) {
   const nc_source& source_behind = held_behind->item.source;
   Section* last = open();
-  if (behind.vanished) {  // M700 12.4.8: only the avoidance can leave such an arc out, once the block behind it is known
+  if (behind.vanished) {  // M700 12.4.8: only the avoidance can leave such an arc out, once the block behind
+                          // it is known
     const bool avoidable = last && !last->vanished && !last->start && last->check && last->avoid;
     if (!avoidable) {
       if (last) close();
@@ -306,12 +325,13 @@ Joint OffsetStage::find_joint(const Section& before, const Compensation& comp_be
     return joint_corner_arc(before.end, behind.begin, before.offset);
   }
   Joint joint;
-  *found = joint_in_mode(before.end, before.offset, reach(before.end, before.delta), behind.begin, offset_behind,
-                         reach(behind.begin, behind.delta), &joint);
+  *found = joint_in_mode(before.end, before.offset, reach(before.end, before.delta), behind.begin,
+                         offset_behind, reach(behind.begin, behind.delta), &joint);
   return joint;
 }
 
-// Interference check of what is held; sections below `last_call` are about to be released. False: the program stops.
+// Interference check of what is held; sections below `last_call` are about to be released. False: the program
+// stops.
 bool OffsetStage::check_joints(unsigned last_call) {
   if (chain_.size() < 2) return true;
   unsigned at = 0;
@@ -363,7 +383,8 @@ void OffsetStage::release(unsigned sections) {
   released_ = chain_.empty() ? next_index() : chain_[0].index;
 }
 
-// The program stops before the move `index`: an alarm takes its place, and what was read behind it is forgotten.
+// The program stops before the move `index`: an alarm takes its place, and what was read behind it is
+// forgotten.
 void OffsetStage::fail(uint32_t index, Condition condition, const nc_source& source) {
   unsigned before = 0;
   while (before < chain_.size() && static_cast<int32_t>(chain_[before].index - index) < 0) ++before;

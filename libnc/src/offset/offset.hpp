@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tool radius compensation: a stage of the stream. Moves go in with their programmed geometry, come out with the geometry of the
-// tool centre; every other item goes through in its place (M700 12.4, DGSHAPE G39-G42).
+// Tool radius compensation: a stage of the stream. Moves go in with their programmed geometry, come out with
+// the geometry of the tool centre; every other item goes through in its place (M700 12.4, DGSHAPE G39-G42).
 //
-// How it works. Between two blocks that move in the plane there is a *joint*. A joint has one or more *vectors*, each leading from
-// the programmed point to a point of the tool centre (corner.hpp finds them). The last vector of a joint is where the next block
-// starts. So a block's compensated geometry is: programmed start + vector of the joint before, programmed end + first vector of
-// the joint behind; straight moves (Move.connecting) lead through the other vectors and belong to the block before the joint.
-// A block is held until the joint at its end is known. Vectors, not points, are carried from block to block: a coordinate system
-// that is shifted in the middle of a contour does not disturb them (M700 12.4.2, G92).
+// How it works. Between two blocks that move in the plane there is a *joint*. A joint has one or more
+// *vectors*, each leading from the programmed point to a point of the tool centre (corner.hpp finds them).
+// The last vector of a joint is where the next block starts. So a block's compensated geometry is: programmed
+// start + vector of the joint before, programmed end + first vector of the joint behind; straight moves
+// (Move.connecting) lead through the other vectors and belong to the block before the joint. A block is held
+// until the joint at its end is known. Vectors, not points, are carried from block to block: a coordinate
+// system that is shifted in the middle of a contour does not disturb them (M700 12.4.2, G92).
 //
 // What the interpreter sends
-//   * Every move commanded while G41/G42 is modal carries comp.side != 0, with its block's own D, axis pair, check and type. G40
+//   * Every move commanded while G41/G42 is modal carries comp.side != 0, with its block's own D, axis pair,
+//   check and type. G40
 //     and D0 are side 0.
-//   * A block with G38-G42 that does not move in the plane sends a move *without length* (start == end) that carries its
-//     compensation, so that the stage sees the command: G41 alone (vector perpendicular at the start of the next block), G41/G42
-//     or G38 with I J K alone, G39 alone, G40 alone or with I J K. Such moves are used up here, they never come out.
-//   * I J K: has_vector alone = G41/G42, the vector stands at right angles to `vector`; has_vector with hold_vector = G38, it lies
-//     along `vector`. hold_vector alone = G38 without I J K. All one-shot: on the move of their block only, G39 too.
-//   * corner_arc with has_vector on a move without length = DGSHAPE G39 X Y: an arc about the corner up to the normal of `vector`.
+//   * A block with G38-G42 that does not move in the plane sends a move *without length* (start == end) that
+//   carries its
+//     compensation, so that the stage sees the command: G41 alone (vector perpendicular at the start of the
+//     next block), G41/G42 or G38 with I J K alone, G39 alone, G40 alone or with I J K. Such moves are used
+//     up here, they never come out.
+//   * I J K: has_vector alone = G41/G42, the vector stands at right angles to `vector`; has_vector with
+//   hold_vector = G38, it lies
+//     along `vector`. hold_vector alone = G38 without I J K. All one-shot: on the move of their block only,
+//     G39 too.
+//   * corner_arc with has_vector on a move without length = DGSHAPE G39 X Y: an arc about the corner up to
+//   the normal of `vector`.
 //   * Item::block_end on the mark of every block that counts as a block of look-ahead.
 #pragma once
 
@@ -28,15 +35,16 @@
 
 namespace nc {
 
-/// What is needed to go on compensating from the end of a block: the small part of the stage's state that a checkpoint keeps.
+/// What is needed to go on compensating from the end of a block: the small part of the stage's state that a
+/// checkpoint keeps.
 struct OffsetResume {
   bool active = false;
-  bool pending = false;        ///< G41/G42 was commanded, no vector has been made yet
-  uint8_t idle_blocks = 0;     ///< blocks without movement in the plane up to here
+  bool pending = false;     ///< G41/G42 was commanded, no vector has been made yet
+  uint8_t idle_blocks = 0;  ///< blocks without movement in the plane up to here
   Compensation comp;
-  AxisVec programmed;          ///< end of the last block, compensation frame
-  AxisVec compensated;         ///< where the tool centre really is
-  double direction[2] = {0, 0};///< tangent of the last block at its end, unit
+  AxisVec programmed;            ///< end of the last block, compensation frame
+  AxisVec compensated;           ///< where the tool centre really is
+  double direction[2] = {0, 0};  ///< tangent of the last block at its end, unit
 };
 
 class OffsetStage {
@@ -58,25 +66,26 @@ class OffsetStage {
   static constexpr unsigned kHeld = 24;  ///< items held while looking ahead over five blocks
   static constexpr unsigned kChain = 4;  ///< moving blocks that the interference check wants to see at once
   static constexpr unsigned kLookAheadBlocks = 5;
-  static constexpr uint8_t kIdleLimit = 4;  ///< this many blocks without movement close the contour (M700 12.4.2)
+  static constexpr uint8_t kIdleLimit =
+      4;  ///< this many blocks without movement close the contour (M700 12.4.2)
 
   /// off: no compensation. pending: commanded, not begun. on: vectors are carried (they may be zero).
   enum class Mode : uint8_t { off, pending, on };
-  /// What pop() does with an item. pass: nothing. carried: shifted by the vector in force. section: its ends get their vectors.
-  /// command: used up.
+  /// What pop() does with an item. pass: nothing. carried: shifted by the vector in force. section: its ends
+  /// get their vectors. command: used up.
   enum class Role : uint8_t { pass, carried, section, command };
 
   struct Held {
     Item item;
     Role role = Role::pass;
-    bool has_lead = false;      ///< displacement before the move, from the vector in force to `lead`
-    bool lead_arc = false;      ///< on an arc about the programmed point
-    bool dead = false;          ///< left out by the interference avoidance
-    bool trim = false;          ///< an arc longer than a full circle loses the part beyond (M700 12.4.2)
-    Mode mode = Mode::off;      ///< marks: state behind them
-    uint8_t idle_blocks = 0;    ///< marks
+    bool has_lead = false;    ///< displacement before the move, from the vector in force to `lead`
+    bool lead_arc = false;    ///< on an arc about the programmed point
+    bool dead = false;        ///< left out by the interference avoidance
+    bool trim = false;        ///< an arc longer than a full circle loses the part beyond (M700 12.4.2)
+    Mode mode = Mode::off;    ///< marks: state behind them
+    uint8_t idle_blocks = 0;  ///< marks
     Vec2 lead;
-    Joint joint;                ///< section: at its end
+    Joint joint;  ///< section: at its end
   };
 
   // Intake: push() and what it decides (offset.cpp).
@@ -109,24 +118,24 @@ class OffsetStage {
   void note_mark(const Held& held);
 
   FixedQueue<Held, kHeld> held_;
-  Chain chain_;              ///< sections whose items are not released
-  uint32_t first_ = 0;       ///< index of the front of held_
-  uint32_t released_ = 0;    ///< items below this index may be popped
+  Chain chain_;            ///< sections whose items are not released
+  uint32_t first_ = 0;     ///< index of the front of held_
+  uint32_t released_ = 0;  ///< items below this index may be popped
   uint32_t blocks_ = 0;
   Mode mode_ = Mode::off;
   uint8_t idle_blocks_ = 0;
-  bool moved_ = false;       ///< the present block has moved in the plane, or is the command itself
-  bool failed_ = false;      ///< an alarm of this stage ended the stream
-  Compensation comp_;        ///< of the last section
-  Vec2 tail_;                ///< vector at the end of everything decided
-  Vec2 chain_start_;         ///< vector at the start of chain_[0]
+  bool moved_ = false;   ///< the present block has moved in the plane, or is the command itself
+  bool failed_ = false;  ///< an alarm of this stage ended the stream
+  Compensation comp_;    ///< of the last section
+  Vec2 tail_;            ///< vector at the end of everything decided
+  Vec2 chain_start_;     ///< vector at the start of chain_[0]
 
-  bool lead_done_ = false;   ///< of the front item
-  uint8_t connecting_ = 0;   ///< connecting moves of the front item given, 0 = the move itself not yet
-  Vec2 vector_;              ///< in force where pop() stands
-  uint8_t axis_[2] = {0, 1}; ///< its plane
+  bool lead_done_ = false;    ///< of the front item
+  uint8_t connecting_ = 0;    ///< connecting moves of the front item given, 0 = the move itself not yet
+  Vec2 vector_;               ///< in force where pop() stands
+  uint8_t axis_[2] = {0, 1};  ///< its plane
   AxisVec programmed_, compensated_;
-  Vec2 direction_;           ///< tangent at the end of the last move
+  Vec2 direction_;  ///< tangent at the end of the last move
   Compensation out_comp_;
   OffsetResume resume_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stage of tool radius compensation, second half: items whose joints are decided leave it, moves with the geometry of the tool
-// centre. Only straight displacements along the vectors are added to what was programmed.
+// The stage of tool radius compensation, second half: items whose joints are decided leave it, moves with the
+// geometry of the tool centre. Only straight displacements along the vectors are added to what was
+// programmed.
 #include <cmath>
 
 #include "offset/offset.hpp"
@@ -35,10 +36,13 @@ bool has_length(const Move& move) {
   return false;
 }
 
-double turned_by(Vec2 from, Vec2 to) { return std::atan2(cross(from, to), dot(from, to)); }
+double turned_by(Vec2 from, Vec2 to) {
+  return std::atan2(cross(from, to), dot(from, to));
+}
 
-// The centre stays; radii and angles follow the vectors at both ends. Vectors that are not along the radius (I J K, a changed amount)
-// make a spiral. M700 12.4.2 "Arc exceeding 360 degrees": with `trim` only what is beyond the full circle is travelled.
+// The centre stays; radii and angles follow the vectors at both ends. Vectors that are not along the radius
+// (I J K, a changed amount) make a spiral. M700 12.4.2 "Arc exceeding 360 degrees": with `trim` only what is
+// beyond the full circle is travelled.
 void shift_circle(Circle* circle, Vec2 start, Vec2 end, Vec2 w_start, Vec2 w_end, bool trim) {
   if (w_start == Vec2{} && w_end == Vec2{}) return;
   const Vec2 center{circle->center[0], circle->center[1]};
@@ -60,8 +64,10 @@ Plane plane_of(const Move& like) {
   return h == 1 && v == 2 ? Plane::yz : Plane::none;
 }
 
-// A straight displacement in the plane, in the manner of the block `like` that it belongs to (M700 7.5 (4): at its feed).
-void make_straight(const Item& like, const AxisVec& programmed, const AxisVec& start, const AxisVec& end, Item* out) {
+// A straight displacement in the plane, in the manner of the block `like` that it belongs to (M700 7.5 (4):
+// at its feed).
+void make_straight(const Item& like, const AxisVec& programmed, const AxisVec& start, const AxisVec& end,
+                   Item* out) {
   *out = like;
   out->block_end = false;
   Move& move = out->move;
@@ -97,7 +103,8 @@ void bend(const AxisVec& programmed, Vec2 from, Vec2 to, Plane plane, Item* out)
 }
 
 bool bendable(Vec2 from, Vec2 to) {
-  return norm(from) > kNoLength_mm && std::abs(norm(from) - norm(to)) < 1e-6 && norm(to - from) > kNoLength_mm;
+  return norm(from) > kNoLength_mm && std::abs(norm(from) - norm(to)) < 1e-6 &&
+         norm(to - from) > kNoLength_mm;
 }
 
 }  // namespace
@@ -139,7 +146,8 @@ bool OffsetStage::pop_move(Held* held, Item& out) {
       drop_front();
       return any;
     }
-    case Role::section: break;
+    case Role::section:
+      break;
   }
   if (connecting_ == 0) {
     axis_[0] = held->item.move.comp.axis[0];
@@ -188,7 +196,8 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
   return true;
 }
 
-// The displacement before a move: the perpendicular vector of a start without movement, a vector commanded without movement.
+// The displacement before a move: the perpendicular vector of a start without movement, a vector commanded
+// without movement.
 bool OffsetStage::pop_lead(const Held& held, Item& out) {
   const Move& move = held.item.move;
   const AxisVec start = joined(shifted(move.start, axis_, vector_), compensated_);

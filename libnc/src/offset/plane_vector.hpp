@@ -11,15 +11,31 @@ struct Vec2 {
   bool operator==(const Vec2&) const = default;
 };
 
-inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.h + b.h, a.v + b.v}; }
-inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.h - b.h, a.v - b.v}; }
-inline Vec2 operator-(Vec2 a) { return {-a.h, -a.v}; }
-inline Vec2 operator*(double k, Vec2 a) { return {k * a.h, k * a.v}; }
-inline double dot(Vec2 a, Vec2 b) { return a.h * b.h + a.v * b.v; }
-inline double cross(Vec2 a, Vec2 b) { return a.h * b.v - a.v * b.h; }
-inline double norm(Vec2 a) { return std::hypot(a.h, a.v); }
+inline Vec2 operator+(Vec2 a, Vec2 b) {
+  return {a.h + b.h, a.v + b.v};
+}
+inline Vec2 operator-(Vec2 a, Vec2 b) {
+  return {a.h - b.h, a.v - b.v};
+}
+inline Vec2 operator-(Vec2 a) {
+  return {-a.h, -a.v};
+}
+inline Vec2 operator*(double k, Vec2 a) {
+  return {k * a.h, k * a.v};
+}
+inline double dot(Vec2 a, Vec2 b) {
+  return a.h * b.h + a.v * b.v;
+}
+inline double cross(Vec2 a, Vec2 b) {
+  return a.h * b.v - a.v * b.h;
+}
+inline double norm(Vec2 a) {
+  return std::hypot(a.h, a.v);
+}
 /// Turned 90 degrees counter-clockwise: the left normal of a direction.
-inline Vec2 left_of(Vec2 a) { return {-a.v, a.h}; }
+inline Vec2 left_of(Vec2 a) {
+  return {-a.v, a.h};
+}
 /// Unit vector, zero for a zero vector.
 inline Vec2 unit(Vec2 a) {
   const double n = norm(a);

@@ -39,6 +39,7 @@ double scale_decimal_exact(uint64_t mantissa, uint32_t fraction_digits);
 /// The same. Mantissa and power of ten are exact in a double up to 2^53 and 10^22, so one division rounds once.
 inline double scale_decimal(uint64_t mantissa, uint32_t fraction_digits) {
   if (mantissa <= (uint64_t{1} << 53) && fraction_digits <= 22) {
+    if (fraction_digits == 0) return static_cast<double>(mantissa);
     return static_cast<double>(mantissa) / kExactPowersOfTen[fraction_digits];
   }
   return scale_decimal_exact(mantissa, fraction_digits);

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parameters, offset tables, variables, programs, switches: the public functions of nc/control.h that need a control.
+#include <cstring>
+
+#include "control/control.hpp"
+#include "dialect/function_table.hpp"
+
+namespace {
+
+using nc::Frames;
+
+bool known(const nc_control* c, unsigned system) { return c != nullptr && system < c->config.system_count; }
+
+/// Key of a work offset in the frames' table; false = no such offset.
+bool work_key(const nc_control* c, unsigned system, unsigned index, unsigned axis, unsigned* key) {
+  if (!known(c, system) || axis >= c->config.system[system].axis_count) return false;
+  if (index == 0) {
+    *key = Frames::external_key(axis);
+  } else if (index <= 6) {
+    *key = Frames::work_key(index - 1, axis);
+  } else if (index > 100 && index - 100 <= c->config.work_offsets) {
+    *key = Frames::work_key(6 + index - 101, axis);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool tool_number(const nc_control* c, unsigned number, nc_tool_column column) {
+  return c != nullptr && number >= 1 && number <= c->config.tool_offsets && column <= NC_TOOL_RADIUS_WEAR;
+}
+
+struct Name {
+  char text[64] = {};
+  uint32_t number = 0;
+};
+
+/// "O1000.nc", "1000", "part.nc": base name, and its O number where it is one.
+bool parse_name(const char* name, Name* out) {
+  if (name == nullptr) return false;
+  const char* base = name;
+  for (const char* p = name; *p != 0; ++p)
+    if (*p == '/' || *p == '\\') base = p + 1;
+  const size_t length = std::strlen(base);
+  if (length == 0 || length >= sizeof(out->text)) return false;
+  std::memcpy(out->text, base, length + 1);
+  const char* digits = *base == 'O' || *base == 'o' ? base + 1 : base;
+  uint64_t number = 0;
+  unsigned count = 0;
+  while (digits[count] >= '0' && digits[count] <= '9' && count < 9) number = number * 10 + static_cast<unsigned>(digits[count++] - '0');
+  if (count >= 1 && count <= 8 && (digits[count] == 0 || digits[count] == '.')) out->number = static_cast<uint32_t>(number);
+  return true;
+}
+
+nc_status add_entry(nc_control* c, const char* name, nc::TextEntry entry, unsigned* file) {
+  Name parsed;
+  if (c == nullptr || !parse_name(name, &parsed)) return NC_E_ARGUMENT;
+  entry.number = parsed.number;
+  unsigned index = 0;
+  const nc_status status = c->store.add(entry, parsed.text, &index);
+  if (status == NC_OK && file != nullptr) *file = index;
+  return status;
+}
+
+}  // namespace
+
+// ---- parameters -------------------------------------------------------------------------------------------------------------
+
+nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char axis, const char* text) {
+  if (!known(c, system)) return NC_E_ARGUMENT;
+  nc::Interpreter& in = c->system[system].interpreter;
+  int index = -1;
+  if (axis != 0) {
+    if (axis < 'A' || axis > 'Z' || in.axis_of[axis - 'A'] < 0) return NC_E_ARGUMENT;
+    index = in.axis_of[axis - 'A'];
+  }
+  const nc_status status = in.parameters.set(*c->dialect, key, index, text);
+  if (status == NC_OK) in.refresh_settings();
+  return status;
+}
+
+nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key, char axis, double* value) {
+  if (!known(c, system) || key == nullptr || value == nullptr) return NC_E_ARGUMENT;
+  const nc::Interpreter& in = c->system[system].interpreter;
+  const int index = axis >= 'A' && axis <= 'Z' ? in.axis_of[axis - 'A'] : -1;
+  *value = 0;
+  in.parameters.get(key, index, value);
+  return NC_OK;
+}
+
+// ---- offsets ----------------------------------------------------------------------------------------------------------------
+
+nc_status nc_work_offset_set(nc_control* c, unsigned system, unsigned index, unsigned axis, double value) {
+  unsigned key = 0;
+  if (!work_key(c, system, index, axis, &key)) return NC_E_ARGUMENT;
+  c->system[system].interpreter.frames.set(key, value);
+  return NC_OK;
+}
+
+nc_status nc_work_offset_get(const nc_control* c, unsigned system, unsigned index, unsigned axis, double* value) {
+  unsigned key = 0;
+  if (value == nullptr || !work_key(c, system, index, axis, &key)) return NC_E_ARGUMENT;
+  *value = c->system[system].interpreter.frames.get(key);
+  return NC_OK;
+}
+
+nc_status nc_tool_offset_set(nc_control* c, unsigned number, nc_tool_column column, double value) {
+  if (!tool_number(c, number, column)) return NC_E_ARGUMENT;
+  for (unsigned i = 0; i < c->config.system_count; ++i) {  // each part system keeps the common table, journalled by itself
+    Frames& frames = c->system[i].interpreter.frames;
+    frames.set(frames.tool_key(number, column), value);
+  }
+  return NC_OK;
+}
+
+nc_status nc_tool_offset_get(const nc_control* c, unsigned number, nc_tool_column column, double* value) {
+  if (value == nullptr || !tool_number(c, number, column)) return NC_E_ARGUMENT;
+  const Frames& frames = c->system[0].interpreter.frames;
+  *value = frames.get(frames.tool_key(number, column));
+  return NC_OK;
+}
+
+// ---- variables --------------------------------------------------------------------------------------------------------------
+
+nc_status nc_variable_set(nc_control* c, unsigned system, uint32_t number, double value, bool vacant) {
+  if (!known(c, system)) return NC_E_ARGUMENT;
+  nc::Interpreter& in = c->system[system].interpreter;
+  if (in.variables.set(number, in.macro_level(), nc::Value{value, vacant}, in.state.seq)) {
+    if (in.state.seq == 0) in.set_machine(in.state.machine);
+    return NC_OK;
+  }
+  return NC_E_NOT_FOUND;
+}
+
+nc_status nc_variable_get(const nc_control* c, unsigned system, uint32_t number, double* value, bool* vacant) {
+  if (!known(c, system) || value == nullptr || vacant == nullptr) return NC_E_ARGUMENT;
+  const nc::Interpreter& in = c->system[system].interpreter;
+  nc::Value v;
+  if (!in.variables.get(number, in.macro_level(), &v)) return NC_E_NOT_FOUND;
+  *value = v.number;
+  *vacant = v.vacant;
+  return NC_OK;
+}
+
+nc_status nc_common_next(const nc_control* c, unsigned system, uint32_t from, uint32_t* number, double* value) {
+  if (!known(c, system) || number == nullptr || value == nullptr) return NC_E_ARGUMENT;
+  return c->common.next(from, number, value) ? NC_OK : NC_E_NOT_FOUND;
+}
+
+uint32_t nc_interface_output(const nc_control* c, unsigned system, unsigned word) {
+  if (!known(c, system) || word >= NC_WORDS) return 0;
+  return static_cast<uint32_t>(c->system[system].interpreter.frames.get(Frames::output_key(word)));
+}
+
+// ---- programs ---------------------------------------------------------------------------------------------------------------
+
+nc_status nc_program_add(nc_control* c, const char* name, nc_read_at read, void* user, uint64_t size, unsigned* file) {
+  if (read == nullptr) return NC_E_ARGUMENT;
+  nc::TextEntry entry;
+  entry.read = read;
+  entry.user = user;
+  entry.size = size;
+  return add_entry(c, name, entry, file);
+}
+
+nc_status nc_program_add_text(nc_control* c, const char* name, const char* text, size_t length, unsigned* file) {
+  if (text == nullptr && length > 0) return NC_E_ARGUMENT;
+  nc::TextEntry entry;
+  entry.memory = text != nullptr ? text : "";
+  entry.size = length;
+  return add_entry(c, name, entry, file);
+}
+
+void nc_program_on_missing(nc_control* c, nc_program_missing callback, void* user) {
+  if (c != nullptr) c->store.on_missing(callback, user, c);
+}
+
+nc_status nc_program_select(nc_control* c, unsigned system, unsigned file) {
+  if (!known(c, system)) return NC_E_ARGUMENT;
+  if (c->store.entry(file) == nullptr) return NC_E_NOT_FOUND;
+  nc::ProgramRef program;
+  program.file = static_cast<uint16_t>(file);
+  return c->system[system].select(program);
+}
+
+nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t length) {
+  if (!known(c, system) || text == nullptr || length + 6 > sizeof(c->mdi[0])) return NC_E_ARGUMENT;
+  nc::PartSystem& part = c->system[system];
+  if (part.busy()) return NC_E_STATE;
+  // An MDI program ends by itself: M02 stands behind the operator's blocks (and the start mark before them, where it is required).
+  char* mdi = c->mdi[system];
+  size_t at = 0;
+  if (c->dialect->percent_required) {
+    mdi[at++] = '%';
+    mdi[at++] = '\n';
+  }
+  std::memcpy(mdi + at, text, length);
+  at += length;
+  std::memcpy(mdi + at, "\nM2", 3);
+  at += 3;
+  unsigned file = 0;
+  char name[] = "MDI0";
+  name[3] = static_cast<char>('0' + system);
+  const nc_status status = nc_program_add_text(c, name, mdi, at, &file);
+  return status == NC_OK ? nc_program_select(c, system, file) : status;
+}
+
+// ---- state ------------------------------------------------------------------------------------------------------------------
+
+nc_status nc_position_set(nc_control* c, unsigned system, const nc_axes* machine) {
+  if (!known(c, system) || machine == nullptr) return NC_E_ARGUMENT;
+  if (c->system[system].busy()) return NC_E_STATE;
+  nc::AxisVec position;
+  for (unsigned i = 0; i < c->config.system[system].axis_count; ++i) position[i] = machine->v[i];
+  c->system[system].set_position(position);
+  return NC_OK;
+}
+
+void nc_switches_set(nc_control* c, unsigned system, uint32_t optional_skip, uint32_t mirror_axes) {
+  (void)mirror_axes;
+  if (known(c, system)) c->system[system].interpreter.optional_skip = optional_skip;
+}
+
+nc_status nc_alarm_get(const nc_control* c, unsigned system, nc_alarm* alarm) {
+  if (!known(c, system) || alarm == nullptr) return NC_E_ARGUMENT;
+  if (!c->system[system].interpreter.alarmed) return NC_E_NOT_FOUND;
+  *alarm = c->system[system].alarm;
+  return NC_OK;
+}
+
+nc_status nc_modal_get(const nc_control* c, unsigned system, uint32_t id, nc_modal* modal) {
+  if (!known(c, system) || modal == nullptr) return NC_E_ARGUMENT;
+  const auto& modals = c->system[system].interpreter.modals;
+  if (!modals.holds(id)) return NC_E_NOT_FOUND;
+  *modal = nc::to_public(modals[id]);
+  return NC_OK;
+}
+
+nc_status nc_text_get(const nc_control* c, unsigned system, uint32_t id, nc_text* text) {
+  if (!known(c, system) || text == nullptr) return NC_E_ARGUMENT;
+  const auto& texts = c->system[system].interpreter.texts;
+  if (!texts.holds(id)) return NC_E_NOT_FOUND;
+  *text = texts[id].text;
+  return NC_OK;
+}
+
+unsigned nc_modal_codes(const nc_control* c, const nc_modal* modal, char (*codes)[8], unsigned capacity) {
+  if (c == nullptr || modal == nullptr || codes == nullptr) return 0;
+  unsigned count = 0;
+  for (unsigned group = 1; group < NC_GROUPS && count < capacity; ++group) {
+    if (modal->code[group] < 0) continue;
+    nc::g_code_text(modal->code[group], codes[count++], sizeof(codes[0]));
+  }
+  return count;
+}

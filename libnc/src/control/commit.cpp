@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/commit.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace nc {
+namespace {
+
+constexpr double kNoLength = 1e-9;   // mm or deg: below every command unit
+constexpr double kPi = std::numbers::pi;
+
+/// A circle through the diagonal map behind compensation: mirrored axes turn it round.
+Circle map_circle(const Circle& c, const Transform& t, unsigned h, unsigned v) {
+  Circle m = c;
+  m.center[0] = t.sign[h] * c.center[0] + t.offset[h];
+  m.center[1] = t.sign[v] * c.center[1] + t.offset[v];
+  if (t.sign[h] < 0) m.angle_start = kPi - m.angle_start;
+  if (t.sign[v] < 0) m.angle_start = -m.angle_start;
+  m.sweep = c.sweep * t.sign[h] * t.sign[v];
+  return m;
+}
+
+nc_axes to_axes(const AxisVec& a) {
+  nc_axes out;
+  std::memcpy(out.v, a.v, sizeof(out.v));
+  return out;
+}
+
+}  // namespace
+
+void Commit::create(const CommitConfig& config, Arena& arena) {
+  config_ = config;
+  axis_count_ = config.system->axis_count;
+  for (unsigned i = 0; i < axis_count_; ++i) {
+    if (config.system->axis[i].rotary) rotary_ |= 1u << i;
+    any_limit_ = any_limit_ || config.system->axis[i].soft_limited;
+  }
+  marks_ = arena.make<MarkPoint>(config.marks);
+  mark_mask_ = config.marks - 1;
+}
+
+/// Stored stroke limits, checked over the whole curve before it moves.
+bool Commit::inside_limits(const Curve& curve) {
+  constexpr double kOnTheLimit = 1e-6;  // mm: standing on a limit is inside
+  AxisVec low, high;
+  curve_bounds(curve, axis_count_, &low, &high);
+  for (unsigned i = 0; i < axis_count_; ++i) {
+    const nc_axis_config& axis = config_.system->axis[i];
+    if (!axis.soft_limited) continue;
+    // A move that starts outside may come back in.
+    const double from = curve.start[i];
+    const bool above = high[i] > axis.soft_max + kOnTheLimit && high[i] > from + kOnTheLimit;
+    const bool below = low[i] < axis.soft_min - kOnTheLimit && low[i] < from - kOnTheLimit;
+    if (above || below) {
+      limit_axis_ = static_cast<int8_t>(i);
+      return false;
+    }
+  }
+  return true;
+}
+
+Committed Commit::commit(const Item& item, const Transform& transform) {
+  if (item.kind == ItemKind::move) {
+    const Move& move = item.move;
+    // The move begins where the one before ended, to the last bit.
+    const AxisVec end = transform.to_machine(move.end);
+    if (move.circular) {
+      circle_ = map_circle(move.circle, transform, move.plane_axis[0], move.plane_axis[1]);
+      curve_ = make_arc(machine_, end, move.plane_axis[0], move.plane_axis[1], circle_, axis_count_, rotary_);
+    } else {
+      curve_ = make_line(machine_, end, axis_count_, rotary_);
+    }
+    if (curve_.length < kNoLength) {
+      machine_ = end;
+      return Committed::nothing;
+    }
+    if (any_limit_ && !inside_limits(curve_)) return Committed::soft_limit;
+    start_ = machine_;
+    machine_ = end;
+  }
+  ++last_serial_;
+  return Committed::yes;
+}
+
+void Commit::remember(const Item& mark, const OffsetResume& offset) {
+  if (!mark.mark.report) return;
+  MarkPoint& point = marks_[mark_count_++ & mark_mask_];
+  point.serial = last_serial_;
+  point.seq = mark.mark.seq;
+  point.machine = machine_;
+  if (offset.active) {
+    point.offset = offset;
+  } else {
+    point.offset.active = false;
+  }
+}
+
+const MarkPoint* Commit::find(Serial serial) const {
+  for (uint32_t i = 0; i < mark_count_ && i <= mark_mask_; ++i) {
+    const MarkPoint& point = marks_[(mark_count_ - 1 - i) & mark_mask_];
+    if (point.serial == serial) return &point;
+    if (point.serial < serial) break;
+  }
+  return nullptr;
+}
+
+void Commit::rewind_to(const MarkPoint& point) {
+  const Serial serial = point.serial;
+  machine_ = point.machine;
+  last_serial_ = serial;
+  while (mark_count_ > 0 && marks_[(mark_count_ - 1) & mark_mask_].serial > serial) --mark_count_;
+}
+
+void Commit::to_public(const Item& item, nc_item* out) const {
+  out->serial = last_serial_;
+  out->source = item.source;
+  switch (item.kind) {
+    case ItemKind::move: {
+      const Move& move = item.move;
+      nc_move& m = out->u.move;
+      out->kind = NC_ITEM_MOVE;
+      m.work = to_axes(move.work);
+      m.machine_start = to_axes(start_);
+      m.machine = to_axes(machine_);
+      m.kind = static_cast<uint8_t>(move.kind);
+      m.feed_mm_min = move.feed_mm_min;
+      m.feed_mm_rev = move.feed_mm_rev;
+      m.length = curve_.length;
+      m.exact_stop = move.exact_stop;
+      m.skip_mask = move.skip_mask;
+      m.plane = move.circular ? static_cast<uint8_t>(move.plane) : static_cast<uint8_t>(NC_PLANE_NONE);
+      m.turns = move.turns;
+      m.center[0] = move.work_center[0];
+      m.center[1] = move.work_center[1];
+      m.plane_axis[0] = move.plane_axis[0];
+      m.plane_axis[1] = move.plane_axis[1];
+      m.machine_center[0] = circle_.center[0];
+      m.machine_center[1] = circle_.center[1];
+      m.radius = circle_.radius_start;
+      m.sweep_deg = circle_.sweep * 180 / kPi;
+      m.ccw = circle_.sweep > 0;
+      break;
+    }
+    case ItemKind::action: {
+      out->kind = NC_ITEM_ACTION;
+      nc_action& a = out->u.action;
+      a.value = item.action.value;
+      a.mask = item.action.mask;
+      a.bits = item.action.bits;
+      a.index = item.action.index;
+      a.text = item.action.text;
+      a.kind = static_cast<uint8_t>(item.action.kind);
+      a.letter = item.action.letter;
+      break;
+    }
+    case ItemKind::gate:
+      out->kind = NC_ITEM_GATE;
+      out->u.gate.value = item.gate.value;
+      out->u.gate.kind = static_cast<uint8_t>(item.gate.kind);
+      out->u.gate.announce = item.gate.announce;
+      break;
+    case ItemKind::sync:
+      out->kind = NC_ITEM_SYNC;
+      out->u.sync.what = item.sync.what;
+      break;
+    case ItemKind::mark:
+      out->kind = NC_ITEM_MARK;
+      out->u.mark.work = to_axes(item.mark.work);
+      out->u.mark.modal = item.mark.modal;
+      out->u.mark.stop = item.mark.stop;
+      out->u.mark.report = item.mark.report;
+      break;
+    case ItemKind::alarm: out->kind = NC_ITEM_ALARM; break;
+    case ItemKind::end:
+      out->kind = NC_ITEM_END;
+      out->u.end.ok = item.end.ok;
+      out->u.end.work = to_axes(item.end.work);
+      out->u.end.modal = item.end.modal;
+      break;
+  }
+}
+
+void Commit::to_record(const Item& item, const Transform& transform, Record* out) const {
+  out->serial = last_serial_;
+  out->source = item.source;
+  out->kind = item.kind;
+  switch (item.kind) {
+    case ItemKind::move: {
+      out->segment = Segment{};
+      Segment& s = out->segment;
+      s.curve = curve_;
+      for (unsigned i = 0; i < axis_count_; ++i) {
+        s.work_sign[i] = transform.sign[i];
+        s.to_work[i] = -transform.sign[i] * transform.offset[i];
+      }
+      s.rapid = item.move.kind == NC_MOVE_RAPID;
+      s.feed_mm_s = s.rapid ? 0 : item.move.feed_mm_min / 60;
+      s.feed_mm_rev = item.move.feed_mm_rev;
+      s.exact_stop = item.move.exact_stop;
+      s.skip = item.move.kind == NC_MOVE_SKIP;
+      s.skip_mask = item.move.skip_mask;
+      break;
+    }
+    case ItemKind::action: out->action = item.action; break;
+    case ItemKind::gate: out->gate = item.gate; break;
+    case ItemKind::sync: out->sync = item.sync; break;
+    case ItemKind::mark: out->mark = item.mark; break;
+    case ItemKind::alarm: out->alarm = item.alarm; break;
+    case ItemKind::end: out->end = item.end; break;
+  }
+}
+
+}  // namespace nc

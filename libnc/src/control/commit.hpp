@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commit: the last stage before the sinks. Gives an item its serial, takes it to machine coordinates, checks the stroke limits. What
+// leaves here never changes.
+#pragma once
+
+#include "frame/transform.hpp"
+#include "nc/control.h"
+#include "interpolate/record.hpp"
+#include "offset/offset.hpp"
+
+namespace nc {
+
+struct CommitConfig {
+  const nc_system_config* system = nullptr;
+  uint32_t marks = 1024;      ///< marks that can be rewound to, power of two
+};
+
+/// A place to rewind to: what the stages must know to go on right behind a mark.
+struct MarkPoint {
+  Serial serial = 0;
+  BlockSeq seq = 0;
+  AxisVec machine;
+  OffsetResume offset;
+};
+
+enum class Committed : uint8_t {
+  yes,
+  nothing,       ///< the item vanishes: a move without length
+  soft_limit     ///< the move would leave the stroke: nothing was committed, `limit_axis()` says which axis
+};
+
+class Commit {
+ public:
+  void create(const CommitConfig& config, Arena& arena);
+
+  /// The machine stands here, before the next move.
+  void set_machine(const AxisVec& machine) { machine_ = machine; }
+  const AxisVec& machine() const { return machine_; }
+  void restart() { last_serial_ = 0; }
+
+  /// `transform` is the one the move names (ignored for other items). Fills the geometry members.
+  Committed commit(const Item& item, const Transform& transform);
+  void remember(const Item& mark, const OffsetResume& offset);
+
+  /// The item just committed, as a sink sees it.
+  void to_public(const Item& item, nc_item* out) const;
+  /// The same for the ring.
+  void to_record(const Item& item, const Transform& transform, Record* out) const;
+
+  Serial serial() const { return last_serial_; }
+  int8_t limit_axis() const { return limit_axis_; }
+  const MarkPoint* find(Serial serial) const;
+  /// Serial numbers go on behind `point`.
+  void rewind_to(const MarkPoint& point);
+
+ private:
+  bool inside_limits(const Curve& curve);
+
+  CommitConfig config_;
+  unsigned axis_count_ = 3;
+  uint32_t rotary_ = 0;
+  bool any_limit_ = false;
+  AxisVec machine_;
+  AxisVec start_;            ///< of the move just committed
+  Circle circle_;            ///< of the move just committed, machine coordinates
+  Curve curve_;
+  Serial last_serial_ = 0;
+  int8_t limit_axis_ = -1;
+  MarkPoint* marks_ = nullptr;
+  uint32_t mark_mask_ = 0;
+  uint32_t mark_count_ = 0;
+};
+
+}  // namespace nc

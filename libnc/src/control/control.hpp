@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an nc_control is.
+#pragma once
+
+#include "control/part_system.hpp"
+
+struct nc_control {
+  nc_config config;
+  const nc::Dialect* dialect;
+  nc::ProgramStore store;
+  nc::CommonVariables common;
+  nc::PartSystem system[NC_MAX_SYSTEMS];
+  char mdi[NC_MAX_SYSTEMS][1024];
+};

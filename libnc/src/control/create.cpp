@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// nc_config_init, nc_memory_required, nc_create.
+#include <cstring>
+
+#include "control/control.hpp"
+
+namespace {
+
+bool power_of_two(uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
+
+bool axes_valid(const nc_system_config& system) {
+  if (system.axis_count < 1 || system.axis_count > NC_MAX_AXES) return false;
+  for (unsigned i = 0; i < system.axis_count; ++i) {
+    const nc_axis_config& axis = system.axis[i];
+    if (std::strchr("ABCUVWXYZ", axis.name) == nullptr || axis.name == 0) return false;
+    for (unsigned j = 0; j < i; ++j)
+      if (system.axis[j].name == axis.name) return false;
+    if (!(axis.rapid >= 0) || !(axis.max_velocity >= 0) || !(axis.max_acceleration >= 0) || !(axis.max_jerk >= 0)) return false;
+    if (axis.soft_limited && !(axis.soft_min < axis.soft_max)) return false;
+  }
+  return true;
+}
+
+bool valid(const nc_config* c) {
+  if (c == nullptr || c->struct_size != sizeof(nc_config)) return false;
+  if (c->dialect >= NC_DIALECT_COUNT || c->system_count < 1 || c->system_count > NC_MAX_SYSTEMS) return false;
+  for (unsigned i = 0; i < c->system_count; ++i)
+    if (!axes_valid(c->system[i])) return false;
+  return c->cycle_s > 0 && c->cycle_s <= 0.1 && power_of_two(c->look_ahead) && c->look_ahead >= 64 && c->look_ahead <= 65536 &&
+         c->programs >= 1 && c->programs <= 65535 && c->tool_offsets >= 1 && c->tool_offsets <= 999 && c->work_offsets <= 249 &&
+         c->window_bytes >= 512 && c->max_feed_override >= 1 && c->max_feed_override <= 10;
+}
+
+/// M700 13.4: which common variables there are by option.
+nc::CommonRanges ranges_of(uint32_t sets, bool extended) {
+  nc::CommonRanges r;
+  r.first[0] = 100;
+  r.last[0] = sets <= 100 ? 149 : 199;
+  r.first[1] = 500;
+  r.last[1] = sets <= 100 ? 549 : sets <= 200 ? 599 : sets <= 300 ? 699 : 999;
+  if (extended) r.last[2] = 907399;
+  return r;
+}
+
+/// Lays a control out; with a measuring arena only its size comes out.
+nc_control* lay_out(const nc_config& config, nc::Arena& arena) {
+  nc_control* control = arena.make<nc_control>();
+  const nc::Dialect& dialect = nc::dialect(static_cast<nc_dialect>(config.dialect));
+  const nc::CommonRanges ranges = ranges_of(config.variable_sets, config.extended_variables);
+  if (control == nullptr) {
+    // The rooms lay themselves out through the same calls; a throw-away store and part system stand in for the real ones.
+    nc::ProgramStore store;
+    nc::CommonVariables common;
+    store.create(config.programs, arena);
+    common.create(ranges, arena);
+    for (unsigned i = 0; i < config.system_count; ++i) {
+      nc::PartSystem system;
+      system.create(config, i, dialect, &store, &common, arena);
+    }
+    return nullptr;
+  }
+  control->config = config;
+  control->dialect = &dialect;
+  control->store.create(config.programs, arena);
+  control->common.create(ranges, arena);
+  for (unsigned i = 0; i < config.system_count; ++i) {
+    control->system[i].create(control->config, i, dialect, &control->store, &control->common, arena);
+    if (arena.overflowed()) return nullptr;
+  }
+  return control;
+}
+
+}  // namespace
+
+void nc_config_init(nc_config* config) {
+  if (config == nullptr) return;
+  *config = nc_config{};
+  config->struct_size = sizeof(nc_config);
+  config->dialect = NC_DIALECT_M700;
+  config->system_count = 1;
+  config->system[0].axis_count = 3;
+  for (unsigned i = 0; i < 3; ++i) config->system[0].axis[i].name = "XYZ"[i];
+  config->cycle_s = 0.001;
+  config->look_ahead = 1024;
+  config->programs = 256;
+  config->tool_offsets = 200;
+  config->work_offsets = 96;
+  config->variable_sets = 600;
+  config->window_bytes = 65536;
+  config->max_feed_override = 2.0;
+}
+
+size_t nc_memory_required(const nc_config* config) {
+  if (!valid(config)) return 0;
+  nc::Arena arena;
+  lay_out(*config, arena);
+  return arena.used() + 64;
+}
+
+nc_control* nc_create(const nc_config* config, void* memory, size_t size, nc_status* status) {
+  nc_status ignored;
+  if (status == nullptr) status = &ignored;
+  *status = NC_E_ARGUMENT;
+  if (!valid(config) || memory == nullptr || reinterpret_cast<uintptr_t>(memory) % 64 != 0) return nullptr;
+  *status = NC_E_MEMORY;
+  if (size < nc_memory_required(config)) return nullptr;
+  nc::Arena arena(memory, size);
+  nc_control* control = lay_out(*config, arena);
+  if (control == nullptr) return nullptr;
+  *status = NC_OK;
+  return control;
+}

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/part_system.hpp"
+
+#include <cstring>
+
+namespace nc {
+
+void PartSystem::create(const nc_config& config, unsigned index, const Dialect& dialect, ProgramStore* store, CommonVariables* common,
+                        Arena& arena) {
+  const nc_system_config& system = config.system[index];
+  InterpreterConfig in;
+  in.dialect = &dialect;
+  in.system = &system;
+  in.system_number = static_cast<uint8_t>(index + 1);
+  in.look_ahead = config.look_ahead;
+  in.window_bytes = config.window_bytes;
+  in.frames.extended_systems = config.work_offsets;
+  in.frames.tool_offsets = config.tool_offsets;
+  interpreter.create(in, store, common, arena);
+
+  CommitConfig commit;
+  commit.system = &system;
+  commit.marks = config.look_ahead;
+  commit_.create(commit, arena);
+
+  ExecutorConfig ex;
+  ex.axis_count = system.axis_count;
+  for (unsigned i = 0; i < system.axis_count; ++i) {
+    const nc_axis_config& axis = system.axis[i];
+    if (axis.rotary) ex.rotary |= 1u << i;
+    if (axis.soft_limited) ex.soft_limited |= 1u << i;
+    ex.limits[i] = AxisLimits{axis.rapid, axis.max_velocity, axis.max_acceleration, axis.max_jerk, axis.in_position};
+    ex.soft_min[i] = axis.soft_min;
+    ex.soft_max[i] = axis.soft_max;
+    ex.reference[i] = axis.reference[0];
+  }
+  ex.cycle_s = config.cycle_s;
+  ex.max_feed_override = config.max_feed_override;
+  ex.capacity = config.look_ahead;
+  executor.create(ex, arena);
+  if (!arena.measuring() && !arena.overflowed()) offset_.reset();
+}
+
+// ---- the stream behind the stages ----------------------------------------------------------------------------------------
+
+nc_status PartSystem::next(uint32_t& budget, const Item** item) {
+  if (has_staged_) {
+    from_stage_ = true;
+    *item = &staged_;
+    return NC_OK;
+  }
+  for (;;) {
+    if (!offset_.idle() && offset_.pop(staged_)) {
+      has_staged_ = from_stage_ = true;
+      *item = &staged_;
+      return NC_OK;
+    }
+    Item* front = interpreter.front();
+    if (front == nullptr) {
+      const nc_status status = interpreter.step(budget);
+      if (status != NC_OK) return status;
+      front = interpreter.front();
+    }
+    const bool compensated = front->kind == ItemKind::move && front->move.comp.side != 0;
+    if (offset_.idle() && !compensated) {  // nothing to compensate: straight through
+      from_stage_ = false;
+      *item = front;
+      return NC_OK;
+    }
+    offset_.push(*front);
+    interpreter.pop();
+  }
+}
+
+void PartSystem::take() {
+  if (from_stage_) {
+    has_staged_ = false;
+  } else {
+    interpreter.pop();
+  }
+}
+
+/// A stage behind the interpreter has found what is wrong: everything that was read beyond is void.
+void PartSystem::stop_on(const Fault& fault, const nc_source& source) {
+  offset_.reset();
+  has_staged_ = false;
+  interpreter.abort(fault, source);
+}
+
+void PartSystem::describe_alarm() {
+  const Fault& fault = interpreter.alarm_fault;
+  const AlarmText text = alarm_text(*interpreter.dialect, fault);
+  alarm = nc_alarm{};
+  std::strncpy(alarm.code, text.code, sizeof(alarm.code) - 1);
+  std::strncpy(alarm.message, text.message, sizeof(alarm.message) - 1);
+  char axis_name[2] = {0, 0};
+  if (fault.axis >= 0) axis_name[0] = interpreter.system->axis[fault.axis].name;
+  alarm_detail(fault, axis_name, alarm.detail.s, sizeof(alarm.detail.s));
+  if (fault.condition == Condition::user_alarm) alarm.detail = interpreter.texts[interpreter.user_alarm_text].text;
+  alarm.axis = fault.axis;
+  alarm.source = interpreter.alarm_source;
+}
+
+// ---- offline ---------------------------------------------------------------------------------------------------------------
+
+nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
+  for (;;) {
+    const Item* item = nullptr;
+    const nc_status status = next(budget, &item);
+    if (status != NC_OK) return status;
+    if (item->kind == ItemKind::alarm && from_stage_) {
+      stop_on(item->alarm, item->source);
+      continue;
+    }
+    static constexpr Transform kNone{};
+    const Transform& transform = item->kind == ItemKind::move ? interpreter.transforms[item->move.transform] : kNone;
+    const Committed committed = commit_.commit(*item, transform);
+    if (committed == Committed::soft_limit) {
+      Fault fault;
+      fault.condition = Condition::soft_limit;
+      fault.axis = commit_.limit_axis();
+      stop_on(fault, item->source);
+      continue;
+    }
+    if (committed == Committed::nothing) {
+      take();
+      continue;
+    }
+    commit_.to_public(*item, out);
+    if (item->kind == ItemKind::mark) commit_.remember(*item, offset_.resume_point());
+    if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
+    if (item->kind == ItemKind::alarm) describe_alarm();
+    take();
+    return NC_OK;
+  }
+}
+
+nc_status PartSystem::answer(const nc_world& world) {
+  if (open_sync_ == 0) return NC_E_STATE;
+  open_sync_ = 0;
+  interpreter.answer(world);
+  if ((sync_what_ & NC_SYNC_SKIP) != 0 && world.skipped) {
+    AxisVec machine;
+    std::memcpy(machine.v, world.machine.v, sizeof(machine.v));
+    commit_.set_machine(machine);
+  }
+  return NC_OK;
+}
+
+nc_status PartSystem::rewind(Serial serial) {
+  if (serial == 0) return reset();
+  const MarkPoint* point = commit_.find(serial);
+  if (point == nullptr) return NC_E_NOT_FOUND;
+  if (!interpreter.rewind(point->seq)) return NC_E_NOT_FOUND;
+  has_staged_ = false;
+  open_sync_ = 0;
+  finished_ = false;
+  offset_.reset();
+  if (point->offset.active) offset_.restore(point->offset);
+  commit_.rewind_to(*point);
+  return NC_OK;
+}
+
+void PartSystem::restart(const AxisVec& machine) {
+  interpreter.reset();
+  interpreter.set_machine(machine);
+  offset_.reset();
+  has_staged_ = false;
+  open_sync_ = 0;
+  finished_ = false;
+  commit_.set_machine(machine);
+}
+
+nc_status PartSystem::reset() {
+  if (busy()) return NC_E_STATE;
+  restart(commit_.machine());
+  commit_.restart();
+  return NC_OK;
+}
+
+nc_status PartSystem::select(const ProgramRef& program) {
+  if (busy()) return NC_E_STATE;
+  interpreter.main_program = program;
+  return reset();
+}
+
+void PartSystem::set_position(const AxisVec& machine) {
+  interpreter.set_machine(machine);
+  commit_.set_machine(machine);
+  executor.set_position(machine);
+}
+
+// ---- online ----------------------------------------------------------------------------------------------------------------
+
+nc_status PartSystem::commit_online(uint32_t& budget) {
+  const Item* item = nullptr;
+  const nc_status status = next(budget, &item);
+  if (status != NC_OK) return status;
+  if (item->kind == ItemKind::alarm && from_stage_) {
+    stop_on(item->alarm, item->source);
+    return NC_OK;
+  }
+  static constexpr Transform kNone{};
+  const Transform& transform = item->kind == ItemKind::move ? interpreter.transforms[item->move.transform] : kNone;
+  const Committed committed = commit_.commit(*item, transform);
+  if (committed == Committed::soft_limit) {
+    Fault fault;
+    fault.condition = Condition::soft_limit;
+    fault.axis = commit_.limit_axis();
+    stop_on(fault, item->source);
+    return NC_OK;
+  }
+  if (committed == Committed::yes) {
+    Record record;
+    commit_.to_record(*item, transform, &record);
+    record.epoch = epoch_;
+    executor.push(record);
+    if (item->kind == ItemKind::mark) commit_.remember(*item, offset_.resume_point());
+    if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
+    if (item->kind == ItemKind::alarm) describe_alarm();
+    if (item->kind == ItemKind::end) finished_ = true;
+  }
+  take();
+  return NC_OK;
+}
+
+nc_status PartSystem::feed(uint32_t budget) {
+  online_ = true;
+  const uint32_t epoch = executor.epoch();
+  if (epoch != epoch_) {  // the scan has given the program up: from its head again, from where the machine stands
+    epoch_ = epoch;
+    running_ = false;
+    restart(executor.commanded());
+    commit_.restart();
+  }
+  const uint32_t starts = executor.starts();
+  if (starts != starts_) {
+    starts_ = starts;
+    if (!running_ && interpreter.main_program.valid()) {
+      restart(executor.commanded());
+      commit_.restart();
+      running_ = true;
+    }
+  }
+  if (!running_) {
+    executor.plan();
+    if (!finished_) return NC_WAITING;
+    return interpreter.alarmed ? NC_ALARMED : NC_ENDED;
+  }
+  nc_status status = NC_OK;
+  unsigned committed = 0;
+  while (status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1) {
+    status = commit_online(budget);
+    ++committed;
+  }
+  if (open_sync_ != 0) {
+    nc_world world{};
+    if (executor.sync_reached(open_sync_, &world)) answer(world);
+  }
+  executor.plan();
+  if (finished_) {
+    if (executor.drained()) running_ = false;
+    return interpreter.alarmed ? NC_ALARMED : NC_ENDED;
+  }
+  if (status == NC_BUDGET) return status;
+  return committed > 0 ? NC_OK : NC_WAITING;
+}
+
+/// M700 4.2 "recalculation request": what was read beyond the block in execution is read again.
+nc_status PartSystem::recalculate() {
+  if (!running_) return NC_OK;
+  Serial last = 0;
+  if (!executor.truncate(&last)) return NC_WAITING;
+  if (last == 0) {
+    restart(executor.commanded());
+    commit_.restart();
+    return NC_OK;
+  }
+  return rewind(last);
+}
+
+}  // namespace nc

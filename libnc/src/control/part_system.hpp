@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// One part system: interpreter, offset stage, commit and executor in a row, and the two ways to drive them (pull, feed).
+#pragma once
+
+#include "control/commit.hpp"
+#include "interpolate/executor.hpp"
+#include "interpret/interpreter.hpp"
+#include "offset/offset.hpp"
+
+namespace nc {
+
+class PartSystem {
+ public:
+  void create(const nc_config& config, unsigned index, const Dialect& dialect, ProgramStore* store, CommonVariables* common, Arena& arena);
+
+  nc_status select(const ProgramRef& program);
+  nc_status reset();
+  nc_status pull(uint32_t budget, nc_item* item);
+  nc_status answer(const nc_world& world);
+  nc_status rewind(Serial serial);
+  nc_status feed(uint32_t budget);
+  nc_status recalculate();
+  void set_position(const AxisVec& machine);
+  bool busy() const { return online_ && running_; }
+
+  Interpreter interpreter;
+  Executor executor;
+  nc_alarm alarm{};          ///< in words, when interpreter.alarmed
+
+ private:
+  /// Next item in stream order behind the offset stage; NC_OK, or why there is none. take() removes it.
+  nc_status next(uint32_t& budget, const Item** item);
+  void take();
+  void stop_on(const Fault& fault, const nc_source& source);
+  void describe_alarm();
+  void restart(const AxisVec& machine);
+  nc_status commit_online(uint32_t& budget);
+
+  OffsetStage offset_;
+  Commit commit_;
+  Item staged_;              ///< an item that the offset stage has given out
+  bool has_staged_ = false;
+  bool from_stage_ = false;  ///< the item next() gave is `staged_`, not the interpreter's front
+  bool online_ = false;      ///< driven by feed()
+  bool running_ = false;     ///< a cycle start has been accepted and the end not been executed
+  bool finished_ = false;    ///< the end item has been committed
+  Serial open_sync_ = 0;
+  uint32_t sync_what_ = 0;
+  uint32_t epoch_ = 0;
+  uint32_t starts_ = 0;
+};
+
+}  // namespace nc
