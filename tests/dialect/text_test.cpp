@@ -92,6 +92,10 @@ TEST(AlarmDetail, NamesTheWordTheAxisAndTheValue) {
   EXPECT_EQ(detail({Condition::illegal_character, -1, '\xc3', false, 0}),
             "The block holds a character that is not part of the code.");
   EXPECT_EQ(detail({Condition::words_missing, -1, 'Q', false, 0}), "The block needs the word Q.");
+  EXPECT_EQ(detail({Condition::value_range, -1, '#', true, -1}),
+            "The value of the variable is outside its range.");
+  EXPECT_EQ(detail({Condition::no_function, -1, 'L', true, 10}),
+            "The function that L10 asks for is not fitted.");
 }
 
 TEST(AlarmDetail, WritesCodesAsCodes) {
@@ -105,8 +109,8 @@ TEST(AlarmDetail, WritesCodesAsCodes) {
   // The number of a code is not a value that a sentence could mean.
   EXPECT_EQ(detail({Condition::arc_deviation, -1, 'G', true, 2}),
             "Start and end of the arc are not on one circle about its centre.");
-  EXPECT_EQ(detail({Condition::arc_deviation, -1, 0, true, 0.25}),
-            "Start and end of the arc are not on one circle: the radii differ by 0.25 mm.");
+  EXPECT_EQ(detail({Condition::arc_deviation, -1, 'I', true, 0.25}),
+            "Start and end of the arc are not on one circle: the radius at the end would be 0.25 mm.");
   EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 1e9}),
             "G1000000000 is not a G code of this control.");
 }

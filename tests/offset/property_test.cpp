@@ -298,6 +298,17 @@ TEST(OffsetProperty, ResumesAtAnyMark) {
   EXPECT_GT(compared, 10000u);
 }
 
+TEST(OffsetProperty, NothingToResumeOnceCompensationIsOver) {
+  PathBuilder path(-20, 0);
+  path.side(1, 5);
+  path.line(0, 0).line(50, 0).cancel().line(80, 20);
+  path.items.pop_back();  // the caller leads the mark of the cancel block round the idle stage
+  OffsetStage stage;
+  run_stage(stage, path.items);
+  EXPECT_TRUE(stage.idle());
+  EXPECT_FALSE(stage.resume_point().active);
+}
+
 TEST(OffsetProperty, ManyItemsBetweenTwoMovesCloseTheContour) {
   PathBuilder path(-20, 0);
   path.side(1, 5);

@@ -344,6 +344,26 @@ TEST(OffsetG38, HoldKeepsTheVectorOfTheEndBefore) {
   expect_at(out, path, 4, 80, -30);
 }
 
+TEST(OffsetG38, HoldBehindAResume) {
+  PathBuilder path(-20, 0);
+  path.side(1, 5);
+  path.line(0, 0).line(50, 0);
+  const size_t first = path.items.size();
+  Compensation hold = path.comp;
+  hold.hold_vector = true;
+  path.one_shot(hold).line(50, -30).cancel().line(80, -30).end();
+  OffsetStage stage;
+  for (const Item& item : path.items) stage.push(item);
+  Item item;
+  while (stage.pop(item) && !(item.kind == ItemKind::mark && item.source.line == 2)) {
+  }
+  OffsetStage again;
+  again.restore(stage.resume_point());
+  const auto out =
+      run_stage(again, {path.items.begin() + static_cast<std::ptrdiff_t>(first), path.items.end()});
+  expect_at(out, path, 3, 55, -25);
+}
+
 TEST(OffsetG38, VectorAlongTheWords) {
   PathBuilder path(-30, 30);
   path.side(1, 10);
@@ -378,6 +398,15 @@ TEST(OffsetSide, ChangeStraightOnCrosses) {
   path.side(-1, 7);
   path.line(120, 0).line(150, 0).end();
   expect_path(run_stage(path), path, {{0, 7}, {60, 7}, {60, -7}, {120, -7}, {150, -7}});
+}
+
+TEST(OffsetSide, ChangeWithAnotherAmountHasTheAmountOfTheBlockBefore) {
+  PathBuilder path(-30, 30);
+  path.side(1, 7);
+  path.line(0, 0).line(60, 0);
+  path.side(-1, 3);
+  path.line(60, 50).line(100, 50).end();
+  expect_path(run_stage(path), path, {{0, 7}, {67, 7}, {63, 47}, {100, 47}});
 }
 
 TEST(OffsetSide, LinearReturn) {
@@ -427,6 +456,13 @@ TEST(OffsetIdle, FourBlocksWithoutMovementEndPerpendicular) {
   expect_at(out, path, 7, 192, 208);
   expect_at(out, path, 8, 192, 250);
   expect_at(out, path, 9, 180, 260);
+}
+
+TEST(OffsetIdle, ThreeBlocksWithoutMovementAreLookedOver) {
+  PathBuilder path(-50, -50);
+  path.side(1, 8);
+  path.by(50, 50).by(100, 200).idle().idle().idle().by(200, 0).end();
+  expect_at(run_stage(path), path, 2, 95.05573, 208);
 }
 
 TEST(OffsetIdle, ProgramStopEndsPerpendicular) {
@@ -516,6 +552,37 @@ TEST(OffsetCancelVector, AfterAFullCircle) {
   EXPECT_NEAR(std::hypot(h - 200, v - 150), 140, 1e-9);               // on the offset circle
   EXPECT_NEAR(((h - 200) + v) * std::sqrt(0.5), 10, 1e-9);            // and beside the hypothetical path
   EXPECT_LT(std::abs(arc.circle.sweep), 2 * std::acos(-1.0) + 1e-9);  // what is beyond 360 degrees only
+}
+
+// The circle G02 I30 outside, tool on the left, entered along +Y; then a path to the right, so that the arc
+// goes beyond 360 degrees.
+PathBuilder circle_beyond_full_turn() {
+  PathBuilder path(20, -40);
+  path.side(1, 10);
+  path.line(0, -40).line(0, 0).arc(false, 0, 0, 30, 0);
+  return path;
+}
+
+TEST(OffsetFullCircle, CancelVectorLeavesASectionUncut) {
+  PathBuilder path = circle_beyond_full_turn();
+  Compensation cancel = path.vector(1, 0);
+  cancel.has_vector = false;
+  cancel.cancel_vector = true;
+  cancel.side = 0;
+  path.cancel().one_shot(cancel).line(40, 60).end();
+  const auto moves = moves_of(run_stage(path));
+  ASSERT_TRUE(moves[2].circular);
+  const double beyond = std::asin(10.0 / 40.0);  // the offset circle meets y = 10
+  EXPECT_NEAR(moves[2].circle.sweep, -beyond, 1e-9);
+  EXPECT_NEAR(moves[2].end[1], 10, 1e-9);
+}
+
+TEST(OffsetFullCircle, AnOrdinaryCornerIsTravelledInFull) {
+  PathBuilder path = circle_beyond_full_turn();
+  path.line(40, 0).cancel().line(40, 60).end();
+  const auto moves = moves_of(run_stage(path));
+  ASSERT_TRUE(moves[2].circular);
+  EXPECT_NEAR(moves[2].circle.sweep, -2 * std::acos(-1.0) - std::asin(10.0 / 40.0), 1e-9);
 }
 
 // ---- 12.4.3 I J K ----

@@ -103,8 +103,8 @@ inline std::string dump(const Block& b) {
 /// A store with its reader; texts in memory or through a callback that gives few bytes at a time.
 class Texts {
  public:
-  explicit Texts(unsigned window = 65536, unsigned cached = 64, LexRules lex_rules = m700_rules())
-      : rules(lex_rules), memory_(std::make_unique<char[]>(kMemory)), arena_(memory_.get(), kMemory) {
+  explicit Texts(unsigned window = 65536, unsigned cached = 32, LexRules lex_rules = m700_rules())
+      : rules(lex_rules), memory_(std::make_unique_for_overwrite<char[]>(kMemory)), arena_(memory_.get(), kMemory) {
     store.create(16, arena_);
     reader.create(&store, &rules, window, cached, arena_);
   }
@@ -163,7 +163,7 @@ class Texts {
   BlockReader reader;
 
  private:
-  static constexpr size_t kMemory = 4 << 20;
+  static constexpr size_t kMemory = 512 << 10;
   std::unique_ptr<char[]> memory_;
   Arena arena_;
   std::vector<std::unique_ptr<std::string>> kept_;

@@ -50,14 +50,15 @@ constexpr Sentence kSentences[] = {
     {C::parity, "The block was read with a parity error. Load the program again.", nullptr},
     // G and M codes
     {C::illegal_g, "{word} is not a G code of this control.", "There is no such G code on this control."},
-    {C::no_function, "{word} is known to the control, but the function is not fitted.",
-     "This function is not fitted."},
+    {C::no_function, "The function that {word} asks for is not fitted.", "This function is not fitted.",
+     "{word} is known to the control, but the function is not fitted."},
     {C::must_stand_alone, "{word} must stand alone in its block.", "This must stand alone in its block."},
     {C::words_missing, "The block needs the word {word}.", "The block needs a word that is not there.",
      "{word} needs a word that is not there."},
     // motion
     {C::no_feed, "No feed rate is in force. Program F before or in this block.", nullptr},
-    {C::arc_deviation, "Start and end of the arc are not on one circle: the radii differ by {value} mm.",
+    {C::arc_deviation,
+     "Start and end of the arc are not on one circle: the radius at the end would be {value} mm.",
      "Start and end of the arc are not on one circle about its centre."},
     {C::arc_center, "No circle of radius {value} mm goes through the start and the end of the arc.",
      "No circle of this radius goes through the start and the end of the arc."},
@@ -94,6 +95,7 @@ constexpr Sentence kSentences[] = {
      nullptr},
     {C::corner_option, "Corner chamfering and rounding (,C ,R) are not fitted.", nullptr},
     {C::geometric_option, "Lines given by their angle (,A) are not fitted.", nullptr},
+    {C::space_compensation, "Three-dimensional radius compensation (G41/G42 with I, J and K) is not fitted.", nullptr},
     {C::second_aux, "The word {word} is not the address of the second auxiliary function.",
      "The address of the second auxiliary function is another one."},
     // offsets
@@ -174,6 +176,11 @@ void put_word(TextWriter& out, const Fault& fault) {
       m_code_text(static_cast<unsigned>(std::lround(fault.value)), code, sizeof code);
     }
     out.put(code);
+    return;
+  }
+  if (fault.letter == '#' && fault.condition != C::illegal_character) {
+    // The value may be the number of the variable or what was written into it.
+    out.put(out.used() == 0 ? "The variable" : "the variable");
     return;
   }
   const bool is_address = fault.letter >= 'A' && fault.letter <= 'Z';

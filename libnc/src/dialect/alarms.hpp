@@ -19,7 +19,7 @@ enum class Condition : uint16_t {
   no_feed, arc_deviation, arc_center, helix_option, plane_mismatch, plane_in_compensation, arc_in_compensation_start,
   no_offset_number, cycle_in_compensation, skip_in_compensation, skip_feed_zero, no_reference, soft_limit, spindle_not_turning,
   cycle_wrong_plane, not_in_compensation, code_in_incremental, tool_pair,
-  comp_no_intersection, comp_interference, corner_option, geometric_option, second_aux,
+  comp_no_intersection, comp_interference, corner_option, geometric_option, second_aux, space_compensation,
   // offsets
   g10_l, g10_p, local_in_extended,
   // programs and macros

@@ -39,6 +39,7 @@ class Frames {
   static constexpr unsigned midpoint_set_key(unsigned axis) { return 3 * kMaxAxes + axis; }  ///< 1 = it has been given (DGSHAPE G28)
   static constexpr unsigned skip_key(unsigned axis) { return 4 * kMaxAxes + axis; }          ///< #5061...
   static constexpr unsigned output_key(unsigned word) { return 5 * kMaxAxes + word; }        ///< macro interface outputs as read ahead
+  static constexpr unsigned count_key(unsigned which) { return 5 * kMaxAxes + 4 + which; }   ///< #3901, #3902
   static constexpr unsigned local_key(unsigned system, unsigned axis) { return 6 * kMaxAxes + system * kMaxAxes + axis; }
   static constexpr unsigned work_key(unsigned system, unsigned axis) { return 12 * kMaxAxes + system * kMaxAxes + axis; }
   unsigned tool_key(unsigned number, unsigned column) const {
@@ -47,15 +48,26 @@ class Frames {
   unsigned size() const { return tool_key(config_.tool_offsets + 1, 0); }
 
   double get(unsigned key) const { return table_[key]; }
-  void set(unsigned key, double value) { table_[key] = value; }
+  void set(unsigned key, double value) {
+    table_[key] = value;
+    cached_system_ = kNoSystem;
+  }
 
-  /// zero(k).
-  AxisVec zero(unsigned system) const;
-  double zero(unsigned system, unsigned axis) const;
+  /// zero(k). Asked for several times in every block and changed rarely: the last answer is kept.
+  const AxisVec& zero(unsigned system) const {
+    if (system != cached_system_) compute_zero(system);
+    return cached_;
+  }
+  double zero(unsigned system, unsigned axis) const { return zero(system)[axis]; }
 
  private:
+  static constexpr unsigned kNoSystem = ~0u;
+  void compute_zero(unsigned system) const;
+
   FramesConfig config_;
   double* table_ = nullptr;
+  mutable AxisVec cached_;
+  mutable unsigned cached_system_ = kNoSystem;
 };
 
 }  // namespace nc

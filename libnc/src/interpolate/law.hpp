@@ -36,7 +36,9 @@ inline double advance(LawState& state, const LawGoal& goal, double time) NC_RT {
     return time;
   }
   const double reach2 = end2 + 2 * a * left;
-  const bool too_fast_for_exit = v * v > reach2 + 1e-11 * reach2;
+  // Rounding of s (relative to the whole length) and of v is not "too fast": such a state still ends exactly at its exit speed.
+  const double rounding2 = 1e-11 * reach2 + 1e-14 * a * goal.length;
+  const bool too_fast_for_exit = v * v > reach2 + rounding2;
   if (too_fast_for_exit || v > goal.cap) {
     const double at_end2 = v * v - 2 * a * left;
     const double t_end = at_end2 >= 0 ? 2 * left / (v + std::sqrt(at_end2)) : HUGE_VAL;

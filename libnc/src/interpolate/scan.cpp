@@ -181,7 +181,7 @@ void Scan::run(const nc_inputs& in) {
   }
   if (state_ != NC_STATE_RUNNING && at_rest()) return;
   for (unsigned n = 0; n < kRecordsPerCycle; ++n) {
-    if (braking() && at_rest()) break;
+    if (held() && at_rest()) break;
     if (tail_ == plan_->end) {
       cause_ = NC_CAUSE_STARVED;
       break;
@@ -262,8 +262,8 @@ void Scan::outputs(const nc_inputs&, nc_outputs& out) {
   out.state = static_cast<uint8_t>(alarmed_ ? NC_STATE_ALARM : manual_.active() ? NC_STATE_MANUAL : state_);
   out.cause = static_cast<uint8_t>(alarmed_ ? NC_CAUSE_ALARM
                                    : state_ == NC_STATE_HOLD ? NC_CAUSE_FEED_HOLD
-                                   : interlock_ && state_ == NC_STATE_RUNNING ? NC_CAUSE_INTERLOCK
-                                                                              : cause_);
+                                   : interlock_ && moving_ && state_ == NC_STATE_RUNNING ? NC_CAUSE_INTERLOCK
+                                                                                         : cause_);
   out.strobe = strobe_;
   out.m = m_;
   out.t = t_;

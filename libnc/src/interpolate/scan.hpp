@@ -89,7 +89,8 @@ class Scan {
 
   const Record& current() const { return ring_[tail_ & mask_]; }
   bool at_rest() const { return law_.v == 0; }
-  bool braking() const { return hold_ || reset_ || alarmed_ || interlock_; }
+  bool held() const { return hold_ || reset_ || alarmed_; }       ///< nothing is executed at rest
+  bool braking() const { return held() || interlock_; }            ///< no axis may move
 
   // ---- set once
   ExecutorConfig config_;

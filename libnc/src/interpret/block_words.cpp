@@ -85,7 +85,10 @@ Did gather_words(Interpreter& in) {
       if (v.vacant) continue;  // M700 13.5.4: a word with only a vacant variable is ignored
       value = v.number;
     }
-    if ((word.flags & kWordComma) != 0) return in.raise(word.letter == 'A' ? Condition::geometric_option : Condition::corner_option, word.letter);
+    if ((word.flags & kWordComma) != 0) {  // M700 13.7 ,C ,R; 13.8 ,A; in-position widths ,I ,J, device ,D, tap ,S
+      const bool corner = word.letter == 'C' || word.letter == 'R';
+      return in.raise(corner ? Condition::corner_option : word.letter == 'A' ? Condition::geometric_option : Condition::no_function, word.letter, value);
+    }
     if ((word.flags & kWordCount) != 0) return in.raise(Condition::format_error, word.letter, word.index);
     if (word.letter == 'G') {
       const Did did = take_g(in, value);

@@ -57,7 +57,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
 }
 
 AxisVec Interpreter::position() const {
-  const AxisVec z = zero();
+  const AxisVec& z = zero();
   AxisVec p;
   for (unsigned i = 0; i < axis_count; ++i) p[i] = state.machine[i] - z[i] - state.applied[i];
   return p;

@@ -143,7 +143,7 @@ struct Interpreter {
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }
 
   /// Active zero and the position in it.
-  AxisVec zero() const { return frames.zero(state.work_system); }
+  const AxisVec& zero() const { return frames.zero(state.work_system); }
   AxisVec position() const;
   /// Journalled write to the frames' table.
   void set_table(unsigned key, double value);

@@ -25,7 +25,7 @@ void apply_length(Interpreter& in, uint32_t commanded) {
 
 Transform transform_in_force(const Interpreter& in) {
   Transform t;
-  const AxisVec z = in.zero();
+  const AxisVec& z = in.zero();
   for (unsigned i = 0; i < in.axis_count; ++i) t.offset[i] = z[i] + in.state.applied[i];
   return t;
 }

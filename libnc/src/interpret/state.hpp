@@ -57,6 +57,7 @@ struct State {
   uint32_t moves_since_comp_off = 1; ///< M700 P112: a plane change right after G40 needs a move in between
   uint8_t control_3003 = 0, control_3004 = 0;
   double clock_base[2] = {0, 0};  ///< what #3001, #3002 read 0 at, ms
+  int64_t clock_shift_s = 0;      ///< the program's clock (#3011, #3012) against the machine's
   CycleState cycle;
   bool owes_mark = false;     ///< the block that called a program has ended with the return and still needs its mark
   uint8_t depth = 0;

@@ -210,10 +210,50 @@ void civil(int64_t days, int64_t* year, unsigned* month, unsigned* day) {
   *year = static_cast<int64_t>(yoe) + era * 400 + (*month <= 2 ? 1 : 0);
 }
 
+/// Inverse of civil().
+int64_t days_of(int64_t year, unsigned month, unsigned day) {
+  year -= month <= 2 ? 1 : 0;
+  const int64_t era = year / 400;
+  const auto yoe = static_cast<unsigned>(year - era * 400);
+  const unsigned doy = (153 * (month > 2 ? month - 3 : month + 9) + 2) / 5 + day - 1;
+  const unsigned doe = yoe * 365 + yoe / 4 - yoe / 100 + doy;
+  return era * 146097 + static_cast<int64_t>(doe) - 719468;
+}
+
+int64_t clock_seconds(const Interpreter& in) { return in.world.clock_ms / 1000 + in.state.clock_shift_s; }
+
+/// #3011 YYYYMMDD, #3012 HHMMSS (M700 10.18): the program sets its own clock, kept as a shift against the machine's.
+Did write_date(Access& a) {
+  if (!(a.written >= 0) || a.written > 99999999) return a.in.raise(Condition::value_range, '#', a.written);
+  const auto digits = static_cast<uint32_t>(a.written);
+  const unsigned high = digits / 10000, middle = digits / 100 % 100, low = digits % 100;
+  int64_t year = 0;
+  unsigned month = 0, day = 0;
+  if (a.offset == 0) {
+    civil(days_of(high, middle == 0 ? 1 : middle, low == 0 ? 1 : low), &year, &month, &day);
+    if (high < 2000 || high > 2099 || month != middle || day != low) return a.in.raise(Condition::value_range, '#', a.written);
+  } else if (high > 23 || middle > 59 || low > 59) {
+    return a.in.raise(Condition::value_range, '#', a.written);
+  }
+  if (!a.in.world_fresh) return a.in.need(NC_SYNC_CLOCK);
+  const int64_t now = clock_seconds(a.in);
+  const int64_t wanted = a.offset == 0 ? days_of(high, middle, low) * 86400 + now % 86400 : now - now % 86400 + high * 3600 + middle * 60 + low;
+  a.in.state.clock_shift_s += wanted - now;
+  return Did::done;
+}
+
+/// #3901 machinings, #3902 their maximum (M700 10.13).
+Eval read_count(Access& a) { return give(a, a.in.frames.get(Frames::count_key(a.offset))); }
+Did write_count(Access& a) {
+  if (!(a.written >= 0) || a.written > 999999) return a.in.raise(Condition::value_range, '#', a.written);
+  a.in.set_table(Frames::count_key(a.offset), std::trunc(a.written));
+  return Did::done;
+}
+
 Eval read_date(Access& a) {
   if (!world_known(a, NC_SYNC_CLOCK)) return Eval::need_sync;
   a.in.world_fresh = false;
-  const int64_t seconds = a.in.world.clock_ms / 1000;
+  const int64_t seconds = clock_seconds(a.in);
   if (a.offset == 1) return give(a, static_cast<double>(seconds / 3600 % 24 * 10000 + seconds / 60 % 60 * 100 + seconds % 60));
   int64_t year = 0;
   unsigned month = 0, day = 0;
@@ -313,7 +353,8 @@ constexpr Range kRanges[] = {
     {3003, 3004, read_control, write_control},
     {3006, 3006, write_only, write_message},
     {3007, 3007, read_zero, nullptr},   // no mirror is built: no axis is mirrored
-    {3011, 3012, read_date, nullptr},
+    {3011, 3012, read_date, write_date},
+    {3901, 3902, read_count, write_count},
     {4001, 4021, read_group_ahead, nullptr},
     {4101, 4120, read_word_ahead, nullptr},
     {4201, 4221, read_group_now, nullptr},
@@ -340,6 +381,10 @@ const Range* find_range(uint32_t number) {
 
 Eval read_any(void* self, uint32_t number, Value* value, Fault* fault, uint32_t* sync) {
   Interpreter& in = *static_cast<Interpreter*>(self);
+  if (number == 0) {  // M700 13.5.4: always vacant
+    *value = Value{};
+    return Eval::ok;
+  }
   if (in.variables.get(number, in.macro_level(), value)) return Eval::ok;
   return read_system_variable(in, number, value, fault, sync);
 }

@@ -45,36 +45,41 @@ double reach(const Leg& leg, Vec2 delta) {
 }  // namespace
 
 bool OffsetStage::can_push() const {
-  return !held_.full();
+  return count_ < kHeld;
 }
 
 void OffsetStage::push(const Item& item) {
-  if (failed_ || held_.full()) return;
-  Held held;
-  held.item = item;
+  if (failed_ || !can_push()) return;
+  Held& held = new_slot(item);
   if (item.kind == ItemKind::move) {
     intake_move(&held);
   } else {
     if (inhibits_read_ahead(item)) close();
-    if (!failed_) held_.push(held);
+    if (!failed_) ++count_;
   }
   if (!failed_ && item.block_end) count_block_end();
   if (failed_) return;
-  if (item.kind == ItemKind::mark) {
-    Held& mark = held_at(next_index() - 1);
-    mark.mode = mode_;
-    mark.idle_blocks = idle_blocks_;
-  }
+  held.mode = mode_;
+  held.idle_blocks = idle_blocks_;
   settle();
   // No room to wait any longer. Counted without what only waits to be fetched: the caller's pace never
   // changes the geometry.
-  if (next_index() - released_ == kHeld) close();
+  if (next_index() - released_ >= kLookAheadItems) close();
+}
+
+OffsetStage::Held& OffsetStage::new_slot(const Item& item) {
+  Held& held = held_at(next_index());
+  held.item = item;
+  held.role = Role::pass;
+  held.has_lead = held.lead_arc = held.dead = held.trim = false;
+  held.lead = Vec2{};
+  held.joint.n = 0;
+  return held;
 }
 
 void OffsetStage::reset() {
-  held_.clear();
   chain_.clear();
-  first_ = released_ = blocks_ = 0;
+  count_ = first_ = released_ = blocks_ = 0;
   mode_ = Mode::off;
   idle_blocks_ = connecting_ = 0;
   moved_ = failed_ = lead_done_ = false;
@@ -106,7 +111,7 @@ void OffsetStage::restore(const OffsetResume& resume) {
 }
 
 bool OffsetStage::idle() const {
-  return held_.empty() && mode_ == Mode::off && vector_ == Vec2{} && !failed_;
+  return count_ == 0 && mode_ == Mode::off && vector_ == Vec2{} && !failed_;
 }
 
 void OffsetStage::count_block_end() {
@@ -141,7 +146,7 @@ void OffsetStage::intake_move(Held* held) {
   for (uint8_t& axis : move.comp.axis) axis %= kMaxAxes;
   if (mode_ == Mode::off && move.comp.side == 0) {
     if (without_length(move)) held->role = Role::command;
-    held_.push(*held);
+    ++count_;
     return;
   }
   if (move.comp.side == 0) {  // a cancel stays in the plane of what it cancels
@@ -189,7 +194,7 @@ void OffsetStage::intake_carried(Held* held) {
     held->joint = Joint::single({});
     tail_ = {};
   }
-  held_.push(*held);
+  ++count_;
 }
 
 // G40 where nothing moves in the plane, or before anything was compensated.
@@ -209,7 +214,7 @@ void OffsetStage::intake_uncompensated(Held* held) {
       tail_ = last->joint.v[0];
     }
   }
-  held_.push(*held);
+  ++count_;
 }
 
 // A command that does not move: its vector, if it gives one, holds from here on (M700 12.4.3 (4)).
@@ -236,7 +241,7 @@ void OffsetStage::intake_command(Held* held) {
       held->lead = tail_;
     }
   }
-  held_.push(*held);
+  ++count_;
 }
 
 void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
@@ -273,7 +278,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   if (section.jointed) tail_ = section.joint.v[0];
   if (comp.side == 0) mode_ = Mode::off;
   chain_.push_back(section);
-  held_.push(*held);
+  ++count_;
   check_joints(0);
 }
 
@@ -395,10 +400,10 @@ void OffsetStage::fail(uint32_t index, Condition condition, const nc_source& sou
   alarm.item.source = source;
   alarm.item.alarm = Fault{};
   alarm.item.alarm.condition = condition;
+  held_at(index) = alarm;
   if (index == next_index()) {
-    held_.push(alarm);
+    ++count_;
   } else {
-    held_at(index) = alarm;
     for (uint32_t i = index + 1; i != next_index(); ++i) {
       held_at(i) = Held();
       held_at(i).item.kind = ItemKind::move;

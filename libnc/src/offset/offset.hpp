@@ -63,7 +63,9 @@ class OffsetStage {
   bool idle() const;
 
  private:
-  static constexpr unsigned kHeld = 24;  ///< items held while looking ahead over five blocks
+  static constexpr unsigned kHeld =
+      32;  ///< room for items; a power of two, so that the numbers of items may wrap
+  static constexpr unsigned kLookAheadItems = 24;  ///< items held back while looking ahead over five blocks
   static constexpr unsigned kChain = 4;  ///< moving blocks that the interference check wants to see at once
   static constexpr unsigned kLookAheadBlocks = 5;
   static constexpr uint8_t kIdleLimit =
@@ -104,8 +106,9 @@ class OffsetStage {
   bool may_release(unsigned section) const;
   void release(unsigned sections);
   void fail(uint32_t index, Condition condition, const nc_source& source);
-  uint32_t next_index() const { return first_ + held_.size(); }
-  Held& held_at(uint32_t index) { return held_.at(index - first_); }
+  uint32_t next_index() const { return first_ + count_; }
+  Held& held_at(uint32_t index) { return held_[index % kHeld]; }
+  Held& new_slot(const Item& item);
   Section* open() { return chain_.empty() || chain_.back().jointed ? nullptr : &chain_.back(); }
 
   // Outlet: pop() (outlet.cpp).
@@ -117,7 +120,8 @@ class OffsetStage {
   void note_move(const Move& programmed, const AxisVec& compensated_end);
   void note_mark(const Held& held);
 
-  FixedQueue<Held, kHeld> held_;
+  Held held_[kHeld];       ///< item number i lies in held_[i % kHeld]
+  uint32_t count_ = 0;     ///< of items held
   Chain chain_;            ///< sections whose items are not released
   uint32_t first_ = 0;     ///< index of the front of held_
   uint32_t released_ = 0;  ///< items below this index may be popped

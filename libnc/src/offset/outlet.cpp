@@ -111,7 +111,7 @@ bool bendable(Vec2 from, Vec2 to) {
 
 bool OffsetStage::pop(Item& out) {
   while (first_ != released_) {
-    Held& held = held_.front();
+    Held& held = held_at(first_);
     if (held.item.kind == ItemKind::move) {
       if (pop_move(&held, out)) return true;
       continue;
@@ -134,7 +134,7 @@ bool OffsetStage::pop_move(Held* held, Item& out) {
     case Role::pass:
       out = held->item;
       vector_ = {};
-      note_move(held->item.move, held->item.move.end);
+      programmed_ = compensated_ = held->item.move.end;
       drop_front();
       return true;
     case Role::command:
@@ -224,7 +224,7 @@ void OffsetStage::pop_connecting(const Held& held, Item& out) {
 }
 
 void OffsetStage::drop_front() {
-  held_.pop();
+  --count_;
   ++first_;
   lead_done_ = false;
   connecting_ = 0;

@@ -75,35 +75,36 @@ double spiral_parameter(const Curve& c, const Spiral& a, double s) {
   return u;
 }
 
-/// Extremes of one plane axis: C + R(u) cos(t(u) - phase), phase 0 for the first axis, pi/2 for the second.
+/// Extremes of one plane axis, x(u) = C + R(u) cos t(u) with t = t0 + sweep u - phase; phase 0 for the first axis, pi/2 for the
+/// second. They lie where R' cos t = R sweep sin t, that is t - atan(R' / (R sweep)) = n pi. The left side is monotone in u with a
+/// slope between sweep and 2 sweep, so every n has one root and Newton finds it.
 void arc_axis_bounds(const Curve& c, uint8_t axis, double phase, double* low, double* high) {
   const Circle& k = c.circle;
   const double center = k.center[phase > 0 ? 1 : 0];
-  const double dr = k.radius_end - k.radius_start;
-  const auto coordinate = [&](double u) {
-    return center + (k.radius_start + dr * u) * std::cos(k.angle_start + k.sweep * u - phase);
-  };
-  const auto take = [&](double u) {
-    // The extreme of R cos(t): dr cos t = R sweep sin t lies close to sin t = 0; Newton on the derivative, kept in the curve.
-    for (int i = 0; i < 4 && dr != 0; ++i) {
-      const double r = k.radius_start + dr * u, t = k.angle_start + k.sweep * u - phase;
-      const double f = dr * std::cos(t) - r * k.sweep * std::sin(t);
-      const double df = -2 * dr * k.sweep * std::sin(t) - r * k.sweep * k.sweep * std::cos(t);
-      if (df == 0) break;
-      u = std::min(1.0, std::max(0.0, u - f / df));
+  const double dr = k.radius_end - k.radius_start, pi = 2 * kHalfPi;
+  const auto radius = [&](double u) { return k.radius_start + dr * u; };
+  const auto lean = [&](double u) { return dr == 0 ? 0.0 : std::atan(dr / (radius(u) * k.sweep)); };
+  const auto left_side = [&](double u) { return k.angle_start + k.sweep * u - phase - lean(u); };
+  const auto take = [&](double n) {
+    double u = 0.5;
+    for (int i = 0; i < 30; ++i) {
+      const double tangent = std::tan(lean(u)), share = tangent * tangent / (1 + tangent * tangent);
+      const double step = (left_side(u) - n * pi) / (k.sweep * (1 + share));
+      u = std::min(1.0, std::max(0.0, u - step));
+      if (std::fabs(step) < 1e-14) break;
     }
-    const double x = coordinate(u);
+    const double x = center + radius(u) * std::cos(k.angle_start + k.sweep * u - phase);
     *low = std::min(*low, x);
     *high = std::max(*high, x);
   };
   *low = std::min(c.start[axis], c.end[axis]);
   *high = std::max(c.start[axis], c.end[axis]);
   if (k.sweep == 0) return;
-  // Angles n pi inside the sweep. R is monotone, so over many turns the outermost is among the first or the last two.
-  const double from = k.angle_start - phase, to = from + k.sweep;
-  const double first = std::ceil(std::min(from, to) / (2 * kHalfPi)), last = std::floor(std::max(from, to) / (2 * kHalfPi));
-  for (double n = first; n <= last && n <= first + 1; n += 1) take((n * 2 * kHalfPi - from) / k.sweep);
-  for (double n = last; n >= first && n >= last - 1; n -= 1) take((n * 2 * kHalfPi - from) / k.sweep);
+  const double from = left_side(0) / pi, to = left_side(1) / pi;
+  const double first = std::ceil(std::min(from, to)), last = std::floor(std::max(from, to));
+  // R is monotone, so over many turns the outermost on either side is among the first or the last two.
+  for (double n = first; n <= last && n <= first + 1; n += 1) take(n);
+  for (double n = last; n >= first && n >= last - 1; n -= 1) take(n);
 }
 
 }  // namespace

@@ -25,13 +25,13 @@ class Condenser {
     if (source_column_ < UINT8_MAX) ++source_column_;
     if (state_ == State::percent) return c != '\n';
     if (state_ == State::comment) {
-      if (c == '\n') return put(c), false;
+      if (c == '\n') return put_spare(c), false;
       if (c == ')') {
-        if (comment_kept_) put(c);
+        if (comment_kept_) put_spare(c);
         state_ = State::words;
       } else if (comment_kept_ && comment_length_ < kKeptComment) {
         ++comment_length_;
-        put(c);
+        put_spare(c);
       }
       return true;
     }
@@ -47,11 +47,11 @@ class Condenser {
   static constexpr unsigned kKeptComment = 127;
 
   bool take_outside(char c, bool* consumed) {
-    if (c == '\n' || (c == ';' && rules_.semicolon_ends)) return put(c), false;
+    if (c == '\n' || (c == ';' && rules_.semicolon_ends)) return put_spare(c), false;
     if (c == '%') {
       if (significant_) {
         *consumed = false;
-        return put(c), false;
+        return put_spare(c), false;
       }
       state_ = State::percent;
       return put(c), true;
@@ -63,7 +63,7 @@ class Condenser {
       if (!comment_kept_) return true;
       if (comment_at_ != kNone) size_ = comment_at_;  // of several comments in a row the last one counts
       comment_at_ = size_;
-      return put(c), true;
+      return put_spare(c), true;
     }
     if (state_ == State::name) {
       if (c == '>') state_ = State::words;
@@ -78,10 +78,13 @@ class Condenser {
   }
 
   void put(char c) {
-    if (size_ == capacity_) {
-      overflowed_ = true;
-      return;
-    }
+    if (size_ == capacity_) overflowed_ = true;
+    put_spare(c);
+  }
+
+  /// A character that the block can do without: its end, the comment behind a message variable.
+  void put_spare(char c) {
+    if (size_ == capacity_) return;
     if (size_ < 256) columns_[size_] = source_column_;
     out_[size_++] = c;
   }

@@ -83,6 +83,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::corner_option, "NC-ADDRESS", nullptr},     // ",C" ",R" are no words of the family
     {C::geometric_option, "NC-ADDRESS", nullptr},  // nor is ",A"
     {C::second_aux, "NC-ADDRESS", nullptr},        // nor B and C
+    {C::space_compensation, "NC-ADDRESS", nullptr},  // G41/G42 take no I J K
     // offsets
     {C::g10_l, "NC-DATA", nullptr},
     {C::g10_p, "NC-DATA", nullptr},

@@ -53,6 +53,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::corner_option, "P380", nullptr},     // 13.7
     {C::geometric_option, "P390", nullptr},  // 13.8, 13.9
     {C::second_aux, "P130", nullptr},        // 9.2
+    {C::space_compensation, "P150", nullptr},  // 12.5: the option that I J K together ask for
     // offsets
     {C::g10_l, "P172", nullptr},
     {C::g10_p, "P173", nullptr},  // appendix 1; 12.7 prints P170 for the same thing

@@ -81,6 +81,8 @@ Did set_compensation(Interpreter& in, Function function) {
   } else if (state.modal.d == 0) {
     return in.raise(Condition::no_offset_number, 'D');
   }
+  // M700 12.5: I, J and K together start the three-dimensional compensation.
+  if (in.words.has('I') && in.words.has('J') && in.words.has('K')) return in.raise(Condition::space_compensation, 'K');
   plane_of(in, comp, letters);
   comp.type_b = in.settings.comp_type_b;
   comp.radius = amount(in, state.modal.d, true);

@@ -181,14 +181,18 @@ Did do_cycle(Interpreter& in) {
   did = hole_count(in, &count);
   if (did != Did::done) return did;
   const CycleState& c = in.state.cycle;
-  if (count == 0 || (dgshape && !c.has_z)) return Did::done;  // data only; DGSHAPE: Z omitted = no drilling
+  if (count == 0) return Did::done;  // data only
+  in.hole_axes = w.axes;
+  in.hole_increment = w.axis;
+  if (dgshape && !c.has_z) {  // DGSHAPE G81: Z omitted = positioning, no drilling
+    position_over_hole(in);
+    return Did::done;
+  }
   if (dgshape && (w.axes & in.rotary) != 0) return in.raise(Condition::illegal_axis, 'A');
   if (dgshape && !in.state.spindle_on) return in.raise(Condition::spindle_not_turning, 'G', in.state.modal.code[kGroupCycle] / 10.0);
   if (in.state.modal.feed <= 0) return in.raise(Condition::no_feed, 'F');
   if ((c.kind == CycleKind::peck || c.kind == CycleKind::step) && !(c.q > 0)) return in.raise(Condition::words_missing, 'Q');
   in.holes_left = count;
-  in.hole_axes = w.axes;
-  in.hole_increment = w.axis;
   return begin_hole(in);
 }
 
