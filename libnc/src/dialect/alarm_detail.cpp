@@ -95,7 +95,8 @@ constexpr Sentence kSentences[] = {
      nullptr},
     {C::corner_option, "Corner chamfering and rounding (,C ,R) are not fitted.", nullptr},
     {C::geometric_option, "Lines given by their angle (,A) are not fitted.", nullptr},
-    {C::space_compensation, "Three-dimensional radius compensation (G41/G42 with I, J and K) is not fitted.", nullptr},
+    {C::space_compensation, "Three-dimensional radius compensation (G41/G42 with I, J and K) is not fitted.",
+     nullptr},
     {C::second_aux, "The word {word} is not the address of the second auxiliary function.",
      "The address of the second auxiliary function is another one."},
     // offsets

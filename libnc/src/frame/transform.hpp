@@ -3,6 +3,8 @@
 // that was read long ago keeps the offsets that were in force then.
 #pragma once
 
+#include <cstring>
+
 #include "base/arena.hpp"
 #include "stream/stream.hpp"
 
@@ -23,7 +25,7 @@ struct Transform {
     for (unsigned i = 0; i < kMaxAxes; ++i) p[i] = sign[i] * (m[i] - offset[i]);
     return p;
   }
-  bool operator==(const Transform&) const = default;
+  bool operator==(const Transform& other) const { return std::memcmp(this, &other, sizeof(*this)) == 0; }
 };
 
 /// Interns values that change rarely and are named by many items. Ids count up; a value stays readable until `capacity` newer ones

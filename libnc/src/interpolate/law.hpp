@@ -94,6 +94,7 @@ inline double advance(LawState& state, const LawGoal& goal, double time) NC_RT {
     const double rest = t_down - time;  // measured from the end, where the place is exact
     state.s = goal.length - rest * (out + 0.5 * a * rest);
     state.v = out + a * rest;
+    if (state.s >= goal.length) state.v = out;  // nearer to the end than a double can tell: it has arrived
     return 0;
   }
   state.s = goal.length;

@@ -21,7 +21,9 @@ bool near_integer(double value, double* integer) {
 Did take_g(Interpreter& in, double value) {
   double code = 0;
   if (!near_integer(value * 10, &code) || code < 0 || code > 9999) return in.raise(Condition::illegal_g, 'G', value);
-  const FunctionRow* row = find_function(*in.dialect, static_cast<int>(code));
+  const int tenths = static_cast<int>(code);
+  const bool direct = tenths % 10 == 0 && tenths < Interpreter::kDirectCodes * 10;
+  const FunctionRow* row = direct ? in.direct_function[tenths / 10] : find_function(*in.dialect, tenths);
   if (row == nullptr) return in.raise(Condition::illegal_g, 'G', value);
   if (row->function == Function::missing) return in.raise(Condition::no_function, 'G', code);
   BlockWords& w = in.words;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <new>
 
 namespace nc {
 namespace {
@@ -12,13 +13,6 @@ unsigned power_of_two_above(unsigned n) {
   unsigned p = 1;
   while (p < n) p *= 2;
   return p;
-}
-
-/// Copies a state without the levels and loops that are not in use.
-void copy_state(State& to, const State& from) {
-  const size_t head = offsetof(State, frame) + (from.depth + 1u) * sizeof(CallFrame);
-  std::memcpy(static_cast<void*>(&to), static_cast<const void*>(&from), head);
-  if (from.loop_count > 0) std::memcpy(to.loop, from.loop, from.loop_count * sizeof(Loop));
 }
 
 void undo_table(void* self, uint32_t key, double old) { static_cast<Interpreter*>(self)->frames.set(key, old); }
@@ -33,8 +27,10 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   for (int8_t& a : axis_of) a = -1;
   for (unsigned i = 0; i < axis_count; ++i) {
     axis_of[config.system->axis[i].name - 'A'] = static_cast<int8_t>(i);
+    axis_letters |= 1u << (config.system->axis[i].name - 'A');
     if (config.system->axis[i].rotary) rotary |= 1u << i;
   }
+  for (int code = 0; code < kDirectCodes; ++code) direct_function[code] = find_function(*dialect, code * 10);
   store = program_store;
   common = common_variables;
   const unsigned under_way = power_of_two_above(2 * config.look_ahead + 256);
@@ -46,10 +42,8 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   modals.create(under_way, arena);
   texts.create(64, arena);
   queue_ = arena.make<Item>(kQueue);
-  const unsigned checkpoints = power_of_two_above(config.look_ahead + 64);
-  checkpoints_ = arena.make<Checkpoint>(checkpoints);
-  checkpoint_mask_ = checkpoints - 1;
-  if (checkpoints_ != nullptr) {
+  checkpoints_.create(power_of_two_above(config.look_ahead + 64), arena);
+  if (queue_ != nullptr && !arena.overflowed()) {
     refresh_settings();
     reset();
     ended = true;  // nothing is selected yet
@@ -76,13 +70,13 @@ Item& Interpreter::emit(ItemKind kind) {
   item.source = source;
   if (kind != ItemKind::mark) world_fresh = false;
   switch (kind) {
-    case ItemKind::move: item.move = Move{}; break;
-    case ItemKind::action: item.action = Action{}; break;
-    case ItemKind::gate: item.gate = Gate{}; break;
-    case ItemKind::sync: item.sync = Sync{}; break;
-    case ItemKind::mark: item.mark = Mark{}; break;
-    case ItemKind::alarm: item.alarm = Fault{}; break;
-    case ItemKind::end: item.end = End{}; break;
+    case ItemKind::move: new (&item.move) Move(); break;
+    case ItemKind::action: new (&item.action) Action(); break;
+    case ItemKind::gate: new (&item.gate) Gate(); break;
+    case ItemKind::sync: new (&item.sync) Sync(); break;
+    case ItemKind::mark: new (&item.mark) Mark(); break;
+    case ItemKind::alarm: new (&item.alarm) Fault(); break;
+    case ItemKind::end: new (&item.end) End(); break;
   }
   return item;
 }
@@ -114,28 +108,19 @@ void Interpreter::reset() {
   alarmed = false;
   world_fresh = false;
   alarm_fault = Fault{};
-  oldest_checkpoint_ = 0;
-  save_checkpoint();
+  checkpoints_.clear();
+  checkpoints_.save(state);
 }
 
 void Interpreter::set_machine(const AxisVec& machine) {
   state.machine = machine;
-  oldest_checkpoint_ = state.seq;
-  save_checkpoint();
-}
-
-void Interpreter::save_checkpoint() {
-  Checkpoint& c = checkpoints_[state.seq & checkpoint_mask_];
-  c.seq = state.seq;
-  copy_state(c.state, state);
-  if (state.seq - oldest_checkpoint_ > checkpoint_mask_) oldest_checkpoint_ = state.seq - checkpoint_mask_;
+  checkpoints_.clear();
+  checkpoints_.save(state);
 }
 
 bool Interpreter::rewind(BlockSeq seq) {
-  if (seq > state.seq || seq < oldest_checkpoint_) return false;
-  const Checkpoint& c = checkpoints_[seq & checkpoint_mask_];
-  if (c.seq != seq || !variables.rewind(seq, this, undo_table)) return false;
-  copy_state(state, c.state);
+  if (!checkpoints_.holds(seq) || !variables.rewind(seq, this, undo_table)) return false;
+  checkpoints_.restore(seq, &state);
   head_ = queued_ = 0;
   waiting_ = false;
   next_step = Step::none;
@@ -310,7 +295,7 @@ void Interpreter::finish_block(bool stop) {
     end.end.modal = item.mark.modal;
     ended = true;
   }
-  save_checkpoint();
+  checkpoints_.save(state);
 }
 
 }  // namespace nc

@@ -16,6 +16,7 @@
 #include "frame/transform.hpp"
 #include "interpret/block_words.hpp"
 #include "interpret/parameters.hpp"
+#include "interpret/checkpoints.hpp"
 #include "interpret/state.hpp"
 #include "macro/variables.hpp"
 #include "nc/run.h"
@@ -53,7 +54,7 @@ struct Interpreter {
   Item* front() { return queued_ == 0 ? nullptr : &queue_[head_ % kQueue]; }
   void pop() {
     ++head_;
-    --queued_;
+    if (--queued_ == 0) head_ = 0;  // from the front again: a short queue stays in the cache
   }
   /// Makes more items: NC_OK (look at front()), NC_WAITING (a sync is open), NC_BUDGET, NC_ENDED, NC_ALARMED.
   nc_status step(uint32_t& budget);
@@ -78,6 +79,9 @@ struct Interpreter {
   unsigned axis_count = 3;
   uint32_t rotary = 0;             ///< bit i: axis i is rotary
   int8_t axis_of[26];              ///< axis index by letter, -1 = none
+  uint32_t axis_letters = 0;       ///< bit (letter - 'A'): the letter is an axis
+  static constexpr int kDirectCodes = 100;
+  const FunctionRow* direct_function[kDirectCodes];  ///< rows of G00..G99, found once
 
   State state;
   Settings settings;
@@ -151,15 +155,10 @@ struct Interpreter {
  private:
   static constexpr unsigned kQueue = 64;    ///< items a block may make before the stages take them
   static constexpr unsigned kReserve = 24;  ///< one step of a job never makes more than this
-  struct Checkpoint {
-    BlockSeq seq;
-    State state;
-  };
 
   nc_status run_block(uint32_t& budget);
   nc_status settle(Did did);
   void stop(const Fault& what, const nc_source& where);
-  void save_checkpoint();
   Did execute_statements();
   bool skipped(const Block& b) const;
 
@@ -167,9 +166,7 @@ struct Interpreter {
   unsigned head_ = 0, queued_ = 0;
   bool waiting_ = false;
   uint32_t waiting_for_ = 0;
-  Checkpoint* checkpoints_ = nullptr;
-  uint32_t checkpoint_mask_ = 0;
-  BlockSeq oldest_checkpoint_ = 0;
+  Checkpoints checkpoints_;
 };
 
 /// interpret/execute_block.cpp: a block of words.

@@ -88,6 +88,7 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
     // #1003 takes the letters of 2.1; any letter is stored by its code.
     if (!parse_number(text, &value)) {
       if (text[0] == 0 || text[1] != 0) return NC_E_ARGUMENT;
+      if (std::strcmp(key, "1003") == 0 && (text[0] < 'B' || text[0] > 'E')) return NC_E_ARGUMENT;  // M700 2.1
       value = static_cast<unsigned char>(text[0]);
     }
   } else {

@@ -2,6 +2,8 @@
 // The modal state: one active G code per group and the words that stay in force.
 #pragma once
 
+#include <cstring>
+
 #include "nc/item.h"
 
 namespace nc {
@@ -18,12 +20,15 @@ enum Group : uint8_t {
 struct ModalState {
   int16_t code[NC_GROUPS] = {};   ///< active code of each group, times 10; -1 = the dialect has no such group
   uint16_t extended = 0;          ///< n of G54.1 Pn while it is active
+  uint16_t unused_ = 0;           ///< no padding: states are compared as bytes, once in every block
   double feed = 0;                ///< F as programmed (its unit is that of the block that moves: M700 5.2 note 1); 0 = none yet
   double spindle = 0;
   uint32_t tool = 0, d = 0, h = 0, m = 0, n = 0, o = 0, b = 0;
+  uint32_t unused_2_ = 0;
 
-  bool operator==(const ModalState&) const = default;
+  bool operator==(const ModalState& other) const { return std::memcmp(this, &other, sizeof(*this)) == 0; }
 };
+static_assert(sizeof(ModalState) == NC_GROUPS * sizeof(int16_t) + 2 * sizeof(uint16_t) + 2 * sizeof(double) + 8 * sizeof(uint32_t));
 
 inline nc_modal to_public(const ModalState& s) {
   nc_modal m{};

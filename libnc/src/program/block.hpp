@@ -12,7 +12,7 @@ namespace nc {
 struct WordFormat {
   bool known = false;          ///< the address exists (else Condition::illegal_address)
   bool integer = false;        ///< decimals are cut off (M700 5.3: D H L M N O S T)
-  uint8_t integer_digits = 8;  ///< more is Condition::value_range
+  uint8_t integer_digits = 8;  ///< at most 19; more in a word is Condition::value_range
   uint8_t fraction_digits = 8; ///< more is accepted and kept when 8
 };
 

@@ -135,9 +135,7 @@ class Lexer {
     if (c == '#' || c == '[') return fault(rules_.macros ? Condition::variable_use : Condition::illegal_character, letter);
     const Decimal d = at_.number();
     if (d.digits == 0) return fault(Condition::format_error, letter);
-    if (d.integer_digits > format.integer_digits || d.integer > UINT32_MAX) {
-      return fault(Condition::value_range, letter, d.value);
-    }
+    if (d.integer > UINT32_MAX || out_of_range(format, d)) return fault(Condition::value_range, letter, d.value);
     if (d.integer == 0) return fault(Condition::number_zero, letter, 0);  // M700 P37
     *has = true;
     *number = static_cast<uint32_t>(d.integer);
@@ -186,6 +184,11 @@ class Lexer {
   }
 
   static bool keeps_any_fraction(const WordFormat& format) { return format.integer || format.fraction_digits >= 8; }
+
+  static bool out_of_range(const WordFormat& format, const Decimal& d) {
+    return d.integer_digits > format.integer_digits ||
+           (d.fraction_digits > format.fraction_digits && !keeps_any_fraction(format));
+  }
 
   /// A place for a word; nullptr when there must be none. Filled in place: a word put together from bytes and then copied whole
   /// would wait for the store buffer.
@@ -263,10 +266,7 @@ class Lexer {
       return expression_value(word);
     }
     if (next == '=' && may_count) return count_value(format, word, d);
-    if (d.integer_digits > format.integer_digits ||
-        (d.fraction_digits > format.fraction_digits && !keeps_any_fraction(format))) {
-      return fault(Condition::value_range, word->letter, d.value);
-    }
+    if (out_of_range(format, d)) return fault(Condition::value_range, word->letter, d.value);
     if (d.point) word->flags |= kWordPoint;
     word->value = format.integer ? static_cast<double>(d.integer) : d.value;
     if ((word->flags & kWordNegative) != 0) word->value = -word->value;

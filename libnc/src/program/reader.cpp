@@ -117,6 +117,7 @@ void BlockReader::create(ProgramStore* store, const LexRules* rules, unsigned wi
   window_.create(window_bytes, arena);
   slots_ = power_of_two_below(cached_blocks);
   first_time_ = arena.make<Block>();
+  searched_ = arena.make<Block>();
   cache_ = arena.make<Block>(slots_);
   tags_ = arena.make<Tag>(slots_);
   indexes_ = arena.make<Index>(kIndexes);
@@ -130,39 +131,33 @@ size_t BlockReader::slot(uint32_t generation, uint64_t offset) const {
 const Block* BlockReader::read(unsigned file, uint64_t offset, uint32_t line) {
   const TextEntry* entry = store_->entry(file);
   if (entry == nullptr) return nullptr;
-  if (slots_ != 0) {
-    const size_t at = slot(entry->generation, offset);
-    if (tags_[at].generation == entry->generation && tags_[at].offset == offset) {
-      Block& block = cache_[at];
-      if (block.line != line) {
-        block.next_line += line - block.line;
-        block.line = line;
-      }
-      return &block;
-    }
+  const Block* block = cached(*entry, offset, line);
+  return block != nullptr ? block : miss(*entry, file, offset, line);
+}
+
+const Block* BlockReader::cached(const TextEntry& entry, uint64_t offset, uint32_t line) {
+  if (slots_ == 0) return nullptr;
+  const size_t at = slot(entry.generation, offset);
+  if (tags_[at].generation != entry.generation || tags_[at].offset != offset) return nullptr;
+  Block& block = cache_[at];
+  if (block.line != line) {
+    block.next_line += line - block.line;
+    block.line = line;
   }
-  return miss(*entry, file, offset, line);
+  return &block;
 }
 
 const Block* BlockReader::miss(const TextEntry& entry, unsigned file, uint64_t offset, uint32_t line) {
   Seen& seen_so_far = seen(entry.generation);
-  Block* block = first_time_;
-  Tag* tag = nullptr;
-  if (offset >= seen_so_far.end) {
+  if (offset >= seen_so_far.end || slots_ == 0) {
     seen_so_far.end = offset + 1;
-  } else if (slots_ != 0) {
-    const size_t at = slot(entry.generation, offset);
-    block = &cache_[at];
-    tag = &tags_[at];
-    tag->generation = 0;
+    return compile(entry, file, offset, line, *first_time_) ? first_time_ : nullptr;
   }
-  bool newline = false;
-  if (!compile(entry, offset, *block, &newline)) return nullptr;
-  block->file = static_cast<uint16_t>(file);
-  block->line = line;
-  block->next_line = newline ? line + 1 : line;
-  if (tag != nullptr) *tag = Tag{offset, entry.generation};
-  return block;
+  const size_t at = slot(entry.generation, offset);
+  tags_[at].generation = 0;
+  if (!compile(entry, file, offset, line, cache_[at])) return nullptr;
+  tags_[at] = Tag{offset, entry.generation};
+  return &cache_[at];
 }
 
 BlockReader::Seen& BlockReader::seen(uint32_t generation) {
@@ -177,7 +172,16 @@ BlockReader::Seen& BlockReader::seen(uint32_t generation) {
   return seen_[seen_used_];
 }
 
-bool BlockReader::compile(const TextEntry& entry, uint64_t offset, Block& block, bool* newline) {
+bool BlockReader::compile(const TextEntry& entry, unsigned file, uint64_t offset, uint32_t line, Block& block) {
+  bool newline = false;
+  if (!compile_here(entry, offset, block, &newline)) return false;
+  block.file = static_cast<uint16_t>(file);
+  block.line = line;
+  block.next_line = newline ? line + 1 : line;
+  return true;
+}
+
+bool BlockReader::compile_here(const TextEntry& entry, uint64_t offset, Block& block, bool* newline) {
   if (!window_.seek(entry, offset)) return false;
   if (window_.size() == 0) {
     block.clear();

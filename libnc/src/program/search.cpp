@@ -277,9 +277,12 @@ bool BlockReader::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uin
 
 bool BlockReader::find_loop_end(unsigned file, uint32_t m, uint64_t* offset, uint32_t* line) {
   constexpr unsigned kMaxLoops = 27;  // M700 13.5.7 (3)
+  const TextEntry* entry = store_->entry(file);
+  if (entry == nullptr) return false;
   FixedVector<uint32_t, kMaxLoops> open;
-  for (uint64_t at = *offset; ;) {
-    const Block* block = read(file, at, *line);
+  for (uint64_t at = *offset;;) {
+    const Block* block = cached(*entry, at, *line);
+    if (block == nullptr && compile(*entry, file, at, *line, *searched_)) block = searched_;
     if (block == nullptr || block->end_of_text || block->percent || block->has_o) return false;
     for (const Statement& s : block->statements) {
       if (s.kind == StatementKind::while_do || s.kind == StatementKind::do_loop) {

@@ -46,7 +46,7 @@ class BlockReader {
   void create(ProgramStore* store, const LexRules* rules, unsigned window_bytes, unsigned cached_blocks, Arena& arena);
 
   /// The block at `offset` (first character) of `file`, compiled; from the cache when it is there. The reference holds until the next
-  /// call. At the end of the text: a Block with end_of_text. nullptr when the read callback failed.
+  /// call of read(); searching leaves it alone. At the end of the text: a Block with end_of_text. nullptr when the read callback failed.
   const Block* read(unsigned file, uint64_t offset, uint32_t line);
 
   /// Program `number`: an entry of the store by number; else an O line inside `own_file`; else whatever the host adds.
@@ -89,10 +89,11 @@ class BlockReader {
     bool complete = false;
     ProgramRef at[kIndexed];
   };
-  enum class Found : uint8_t { no, yes, failed };
 
+  const Block* cached(const TextEntry& entry, uint64_t offset, uint32_t line);
   const Block* miss(const TextEntry& entry, unsigned file, uint64_t offset, uint32_t line);
-  bool compile(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
+  bool compile(const TextEntry& entry, unsigned file, uint64_t offset, uint32_t line, Block& block);
+  bool compile_here(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
   bool compile_long(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
   Seen& seen(uint32_t generation);
   size_t slot(uint32_t generation, uint64_t offset) const;
@@ -103,6 +104,7 @@ class BlockReader {
   const LexRules* rules_ = nullptr;
   TextWindow window_;
   Block* first_time_ = nullptr;   ///< block that is being read for the first time
+  Block* searched_ = nullptr;     ///< block that a search looks at
   Block* cache_ = nullptr;
   Tag* tags_ = nullptr;
   unsigned slots_ = 0;            ///< power of two, or 0

@@ -80,9 +80,9 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::tool_pair, "NC-TOOL", nullptr},
     {C::comp_no_intersection, "NC-OFFSET-PATH", nullptr},
     {C::comp_interference, "NC-OFFSET-PATH", nullptr},
-    {C::corner_option, "NC-ADDRESS", nullptr},     // ",C" ",R" are no words of the family
-    {C::geometric_option, "NC-ADDRESS", nullptr},  // nor is ",A"
-    {C::second_aux, "NC-ADDRESS", nullptr},        // nor B and C
+    {C::corner_option, "NC-ADDRESS", nullptr},       // ",C" ",R" are no words of the family
+    {C::geometric_option, "NC-ADDRESS", nullptr},    // nor is ",A"
+    {C::second_aux, "NC-ADDRESS", nullptr},          // nor B and C
     {C::space_compensation, "NC-ADDRESS", nullptr},  // G41/G42 take no I J K
     // offsets
     {C::g10_l, "NC-DATA", nullptr},

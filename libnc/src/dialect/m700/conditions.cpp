@@ -50,9 +50,9 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::tool_pair, "P33", nullptr},            // does not occur: M06 is output like any other M
     {C::comp_no_intersection, "P152", nullptr},
     {C::comp_interference, "P153", nullptr},
-    {C::corner_option, "P380", nullptr},     // 13.7
-    {C::geometric_option, "P390", nullptr},  // 13.8, 13.9
-    {C::second_aux, "P130", nullptr},        // 9.2
+    {C::corner_option, "P380", nullptr},       // 13.7
+    {C::geometric_option, "P390", nullptr},    // 13.8, 13.9
+    {C::second_aux, "P130", nullptr},          // 9.2
     {C::space_compensation, "P150", nullptr},  // 12.5: the option that I J K together ask for
     // offsets
     {C::g10_l, "P172", nullptr},

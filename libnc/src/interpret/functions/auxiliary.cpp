@@ -48,6 +48,8 @@ Did spindle_word(Interpreter& in) {
 
 /// Addresses that are neither an axis nor anything else here.
 Did check_axis_letters(Interpreter& in, char second) {
+  constexpr uint32_t kAxisAddresses = 0x7 | (0x3f << ('U' - 'A'));  // A B C, U V W X Y Z
+  if ((in.words.present & kAxisAddresses & ~in.axis_letters) == 0) return Did::done;
   for (const char letter : {'A', 'B', 'C', 'U', 'V', 'W', 'X', 'Y', 'Z'}) {
     if (!in.words.has(letter) || in.axis_of[letter - 'A'] >= 0 || letter == second) continue;
     const bool dwell = letter == 'X' && in.words.one_shot != nullptr && in.words.one_shot->function == Function::dwell;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "interpret/checkpoints.hpp"
+
+#include <cstddef>
+#include <cstring>
+
+namespace nc {
+namespace {
+
+/// Bytes of the state up to and with the frames in use; the loops in use come behind.
+uint32_t head_size(const State& state) { return static_cast<uint32_t>(offsetof(State, frame) + (state.depth + 1u) * sizeof(CallFrame)); }
+uint32_t loops_size(const State& state) { return static_cast<uint32_t>(state.loop_count * sizeof(Loop)); }
+
+constexpr uint32_t kOrdinary = 640;  // main program and one or two levels
+
+}  // namespace
+
+void Checkpoints::create(unsigned count, Arena& arena) {
+  capacity_ = count * kOrdinary;
+  if (capacity_ < 4 * sizeof(State)) capacity_ = 4 * sizeof(State);
+  entries_ = arena.make<Entry>(count);
+  bytes_ = arena.make<char>(capacity_);
+  mask_ = count - 1;
+}
+
+void Checkpoints::clear() { oldest_ = next_ = 0; }
+
+void Checkpoints::save(const State& state) {
+  const BlockSeq seq = state.seq;
+  if (next_ == oldest_ || seq > next_ || seq < oldest_) {
+    oldest_ = next_ = seq;  // nothing to connect to
+  } else {
+    next_ = seq;
+  }
+  const uint32_t head = head_size(state), size = head + loops_size(state);
+  uint32_t begin = next_ > oldest_ ? entry(next_ - 1).end : 0;
+  if (begin + size > capacity_) {
+    // Around: what lies behind the last state up to the end of the ring is given up first.
+    while (oldest_ < next_ && entry(oldest_).begin >= begin) ++oldest_;
+    begin = 0;
+  }
+  // Entries lie in order, so those in the way are the oldest.
+  while (oldest_ < next_ && (next_ - oldest_ > mask_ || (entry(oldest_).begin < begin + size && entry(oldest_).end > begin))) ++oldest_;
+  std::memcpy(bytes_ + begin, static_cast<const void*>(&state), head);
+  std::memcpy(bytes_ + begin + head, state.loop, loops_size(state));
+  entry(seq) = Entry{begin, begin + size};
+  next_ = seq + 1;
+}
+
+void Checkpoints::restore(BlockSeq seq, State* state) {
+  const Entry& e = entry(seq);
+  // The frames in use are known once the fixed part is there.
+  std::memcpy(static_cast<void*>(state), bytes_ + e.begin, offsetof(State, frame));
+  const uint32_t head = head_size(*state);
+  std::memcpy(static_cast<void*>(state), bytes_ + e.begin, head);
+  std::memcpy(state->loop, bytes_ + e.begin + head, loops_size(*state));
+  next_ = seq + 1;
+}
+
+}  // namespace nc

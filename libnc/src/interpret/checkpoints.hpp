@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checkpoints of the interpreter's state, one for each block, in a ring of bytes: a state of a program without open calls and loops is
+// a tenth of the largest one, and what is written once in every block must stay in the cache.
+#pragma once
+
+#include "interpret/state.hpp"
+
+namespace nc {
+
+class Checkpoints {
+ public:
+  /// Room for `count` (power of two) states of ordinary size.
+  void create(unsigned count, Arena& arena);
+
+  /// Keeps `state` as the state behind block state.seq; states of later blocks are forgotten.
+  void save(const State& state);
+  /// The state behind block `seq` is still kept.
+  bool holds(BlockSeq seq) const { return seq >= oldest_ && seq < next_; }
+  /// Restores the state behind block `seq`, which must be kept. Later states are forgotten.
+  void restore(BlockSeq seq, State* state);
+  void clear();
+
+ private:
+  struct Entry {
+    uint32_t begin = 0, end = 0;   ///< bytes in the ring
+  };
+  Entry& entry(BlockSeq seq) const { return entries_[seq & mask_]; }
+
+  Entry* entries_ = nullptr;
+  char* bytes_ = nullptr;
+  uint32_t mask_ = 0;
+  uint32_t capacity_ = 0;
+  BlockSeq oldest_ = 0, next_ = 0;  ///< kept: [oldest_, next_)
+};
+
+}  // namespace nc
