@@ -395,8 +395,6 @@ TEST(Executor, SkipUsesTheMeasuredPosition) {
   m.cycle();
   nc_world w{};
   ASSERT_TRUE(m.until(p, [&] {
-    const double wanted = m.in.actual.v[2];
-    (void)wanted;
     m.in.actual = m.out.command;
     return m.executor.sync_reached(3, &w);
   }));
@@ -650,7 +648,7 @@ TEST(Executor, TruncateGivesUpWhatLiesBehindTheBlockInExecution) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
-TEST(Executor, TruncateAtABlockStopLeavesNothing) {
+TEST(Executor, TruncateAtABlockStopLeavesNothingAndNamesTheMarkExecutedLast) {
   const ExecutorConfig c = standard_config();
   const Program p = ten_lines(c);
   Machine m(c);
@@ -664,7 +662,7 @@ TEST(Executor, TruncateAtABlockStopLeavesNothing) {
   m.start();  // pressed while the feeder is at it: acts afterwards
   EXPECT_EQ(m.out.state, NC_STATE_STOPPED);
   ASSERT_TRUE(m.executor.truncate(&last));
-  EXPECT_EQ(last, 0u);
+  EXPECT_EQ(last, 2u);
   EXPECT_TRUE(m.executor.drained());
   m.cycle();
   EXPECT_EQ(m.out.state, NC_STATE_RUNNING);

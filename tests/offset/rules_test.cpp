@@ -641,6 +641,16 @@ TEST(OffsetVector, WithoutMovementInTheMode) {
   expect_at(out, path, 5, 230, 140);
 }
 
+TEST(OffsetVector, WithMovementOffThePlaneOnly) {
+  PathBuilder path;
+  path.side(1, 7.5);
+  path.command().by(100, 100).one_shot(path.vector(50, 0)).off_plane(-4).by(150, 0).end();
+  const auto out = run_stage(path);
+  expect_at(out, path, 2, 100, 107.5);
+  expect_at(out, path, 3, 100, 107.5);
+  EXPECT_EQ(at_block(out, path.start(), 3)[2], -4);
+}
+
 TEST(OffsetVector, RightSideAndItsOwnAmount) {
   PathBuilder path;
   path.side(1, 6);

@@ -41,12 +41,15 @@ class Executor {
   bool sync_reached(Serial serial, nc_world* world) const;
   /// The scan has executed everything that was pushed and is at rest.
   bool drained() const;
-  /// The scan gave the program up (reset, alarm): increments each time. Until acknowledge_epoch(e) it throws away what is pushed with an older epoch.
+  /// The scan gave the program up (reset, alarm input): increments each time. Records that were made before are thrown away by
+  /// their Record::epoch.
   uint32_t epoch() const;
   /// Cycle starts accepted from IDLE so far: each is a program from its head.
   uint32_t starts() const;
   /// At rest in a block stop or hold: give up every committed record behind the block in execution. On success *last is the mark
-  /// that will still be executed (0: none was left). Returns false when the scan has not agreed yet (call again), or moves.
+  /// of that block, which will still be executed, or where no block has been begun the newest that has been (0: none in this run).
+  /// The first call asks and returns false, a later one finds the answer: false again when the machine moves, when the end of the
+  /// block in execution is not committed yet, or when the scan has not run in between.
   bool truncate(Serial* last);
   /// Next executed record for the host.
   bool poll_event(nc_event* event, uint64_t* dropped);

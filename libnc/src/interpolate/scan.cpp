@@ -167,6 +167,7 @@ void Scan::give_up() {
   strobe_ = 0;  // a FIN that comes now is late and completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
   messages_.clear();
+  shared_->world.write({});
 }
 
 /// Throws records of an older epoch away.

@@ -28,6 +28,7 @@ Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
       modal_ = r.end.modal;
       block_begun_ = false;
       state_ = NC_STATE_IDLE;
+      shared_->world.write({});  // serials begin anew with the next run
       return Done::yes;
   }
   if (done == Done::yes) block_begun_ = true;

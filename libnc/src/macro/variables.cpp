@@ -95,6 +95,15 @@ void Journal::clear() {
   lost_ = 0;
 }
 
+void Journal::replace(uint32_t key, Value value) {
+  for (uint64_t i = tail_; i != head_; ++i) {
+    Entry& e = ring_[i & mask_];
+    if (e.key != key) continue;
+    e.number = value.number;
+    e.vacant = value.vacant;
+  }
+}
+
 // ---- variables of a part system ------------------------------------------------------------------------------------
 
 void Variables::create(CommonVariables* common, unsigned journal_capacity, Arena& arena) {
@@ -124,6 +133,18 @@ bool Variables::set(uint32_t number, unsigned level, Value value, BlockSeq seq) 
   if (!common_->exists(number)) return false;
   journal_.note(seq, number, common_->get(number));
   common_->set(number, value);
+  return true;
+}
+
+bool Variables::set_from_outside(uint32_t number, unsigned level, Value value) {
+  if (number - 1 < kLocals) {
+    local_[level][number - 1] = to_storage(value);
+    journal_.replace(local_key(level, number - 1), value);
+    return true;
+  }
+  if (!common_->exists(number)) return false;
+  common_->set(number, value);
+  journal_.replace(number, value);
   return true;
 }
 

@@ -41,6 +41,8 @@ class Journal {
   template <class Undo>
   void rewind(BlockSeq seq, Undo&& undo);
   void clear();
+  /// Someone outside the program has changed `key`: whatever is taken back from now on, it keeps this value.
+  void replace(uint32_t key, Value value);
 
  private:
   struct Entry {
@@ -70,6 +72,11 @@ class Variables {
 
   /// Journal key for something that is not a variable (offset tables, outputs): the owner undoes it in rewind().
   void note(BlockSeq seq, uint32_t key, double old);
+  /// A write that no block made (the host's): rewind() keeps it. For a foreign key the caller has changed it already.
+  bool set_from_outside(uint32_t number, unsigned level, Value value);
+  void changed_from_outside(uint32_t key, double value) { journal_.replace(key, Value::of(value)); }
+  /// A run begins: its blocks count from 0 again, and nothing from before can be taken back.
+  void forget() { journal_.clear(); }
   static constexpr uint32_t kForeignKey = 0x40000000;  ///< keys from here on belong to the caller
 
   /// Undo every write made by blocks after `seq`; false when the journal does not reach back that far.

@@ -91,8 +91,9 @@ void OffsetStage::reset() {
   resume_ = OffsetResume{};
 }
 
+// Marks that go round an idle stage have nothing to resume.
 OffsetResume OffsetStage::resume_point() const {
-  return resume_;
+  return idle() ? OffsetResume{} : resume_;
 }
 
 void OffsetStage::restore(const OffsetResume& resume) {
@@ -170,7 +171,8 @@ void OffsetStage::intake_move(Held* held) {
     idle_blocks_ = 0;
     moved_ = true;  // the block of the command itself is not one of the blocks without movement
   }
-  if (!moves) return without_length(move) ? intake_command(held) : intake_carried(held);
+  const bool commands = without_length(move) || move.comp.has_vector || move.comp.corner_arc;
+  if (!moves) return commands ? intake_command(held) : intake_carried(held);
   if (mode_ == Mode::pending && !starts && !move.comp.transparent) {
     // M700 12.4.2 (1): the vector of a command without movement is perpendicular at the start of the next
     // moving block.
@@ -217,10 +219,11 @@ void OffsetStage::intake_uncompensated(Held* held) {
   ++count_;
 }
 
-// A command that does not move: its vector, if it gives one, holds from here on (M700 12.4.3 (4)).
+// A command that does not move in the plane: its vector, if it gives one, holds from here on (M700 12.4.3
+// (4)).
 void OffsetStage::intake_command(Held* held) {
   const Compensation& comp = held->item.move.comp;
-  held->role = Role::command;
+  held->role = without_length(held->item.move) ? Role::command : Role::carried;
   Section* last = open();
   if (comp.corner_arc &&
       comp.has_vector) {  // DGSHAPE G39: from the normal of the block before to the normal of the direction

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jog, step, handle and reference return through the executor: limits, soft limits, and when they may act.
+#include <gtest/gtest.h>
+
+#include "interpolate/test_machine.hpp"
+
+namespace nc::test {
+namespace {
+
+ExecutorConfig manual_config() {
+  ExecutorConfig c = standard_config();
+  for (unsigned i = 0; i < 3; ++i) {
+    c.limits[i].rapid = 200;
+    c.soft_min[i] = -100;
+    c.soft_max[i] = 100;
+    c.reference[i] = 10.0 * i;
+  }
+  c.soft_limited = 0b011;
+  return c;
+}
+
+nc_manual jog(double velocity) { return {NC_MANUAL_JOG, velocity, 0}; }
+
+void run(Machine& m, int cycles) {
+  for (int i = 0; i < cycles; ++i) m.cycle();
+}
+
+TEST(Manual, JogRampsUpGoesAndStopsWhenLetGo) {
+  Machine m(manual_config());
+  m.in.manual[0] = jog(-50);
+  run(m, 100);
+  EXPECT_NEAR(m.out.velocity.v[0], -50, 1e-9);
+  EXPECT_EQ(m.out.state, NC_STATE_MANUAL);
+  m.in.manual[0] = {};
+  run(m, 30);
+  EXPECT_TRUE(m.still());
+  EXPECT_EQ(m.out.state, NC_STATE_IDLE);
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+}
+
+TEST(Manual, JogStopsExactlyAtTheSoftLimit) {
+  Machine m(manual_config());
+  m.in.manual[0] = jog(1000);  // faster than the axis: goes at rapid
+  double top = 0, fastest = 0;
+  for (int i = 0; i < 2000; ++i) {
+    m.cycle();
+    top = std::max(top, m.out.command.v[0]);
+    fastest = std::max(fastest, m.out.velocity.v[0]);
+  }
+  EXPECT_EQ(top, 100);
+  EXPECT_EQ(m.out.command.v[0], 100);
+  EXPECT_NEAR(fastest, 200, 1e-6);
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  m.in.manual[0] = jog(-20);  // and back from it
+  run(m, 100);
+  EXPECT_LT(m.out.command.v[0], 99);
+}
+
+TEST(Manual, AxisOutsideItsLimitsMayOnlyComeBack) {
+  Machine m(manual_config());
+  AxisVec outside;
+  outside[1] = 120;
+  m.executor.set_position(outside);
+  m.in.manual[1] = jog(20);
+  run(m, 200);
+  EXPECT_EQ(m.out.command.v[1], 120);
+  m.in.manual[1] = jog(-20);
+  run(m, 200);
+  EXPECT_LT(m.out.command.v[1], 119);
+}
+
+TEST(Manual, StepGoesOncePerEdge) {
+  Machine m(manual_config());
+  m.in.manual[0] = {NC_MANUAL_STEP, 0, 0.1};
+  run(m, 100);
+  EXPECT_EQ(m.out.command.v[0], 0.1);
+  m.in.manual[0] = {};
+  m.cycle();
+  m.in.manual[0] = {NC_MANUAL_STEP, 0, -0.3};
+  m.cycle();
+  m.in.manual[0] = {};
+  run(m, 100);
+  EXPECT_NEAR(m.out.command.v[0], -0.2, 1e-12);
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+}
+
+TEST(Manual, HandleFollowsTheSumOfItsPulses) {
+  Machine m(manual_config());
+  std::mt19937_64 rng(3);
+  double sum = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double d = 0.001 * (static_cast<double>(rng() % 41) - 20);
+    m.in.manual[1] = {NC_MANUAL_HANDLE, 0, d};
+    sum += d;
+    m.cycle();
+  }
+  m.in.manual[1] = {};
+  run(m, 200);
+  EXPECT_NEAR(m.out.command.v[1], sum, 1e-9);
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+}
+
+TEST(Manual, HandleTurnedTooFastIsLimitedAndStopsSoon) {
+  Machine m(manual_config());
+  m.in.manual[2] = {NC_MANUAL_HANDLE, 0, 5};  // 5 m/s
+  run(m, 1000);
+  m.in.manual[2] = {};
+  run(m, 300);
+  EXPECT_TRUE(m.still());
+  EXPECT_LE(m.checker.worst_velocity, 1.001);
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+}
+
+TEST(Manual, ReferenceReturn) {
+  Machine m(manual_config());
+  for (unsigned i = 0; i < 3; ++i) m.in.manual[i] = {NC_MANUAL_REFERENCE, 0, 0};
+  run(m, 1000);
+  for (unsigned i = 0; i < 3; ++i) EXPECT_EQ(m.out.command.v[i], 10.0 * i);
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+}
+
+TEST(Manual, RandomOrdersKeepTheLimits) {
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    std::mt19937_64 rng(seed);
+    const ExecutorConfig c = manual_config();
+    Machine m(c);
+    for (int i = 0; i < 5000; ++i) {
+      for (unsigned a = 0; a < 3; ++a) {
+        if (rng() % 40) continue;
+        nc_manual& w = m.in.manual[a];
+        w.kind = static_cast<uint8_t>(rng() % 5);
+        w.velocity = static_cast<double>(rng() % 601) - 300;
+        w.distance = (static_cast<double>(rng() % 2001) - 1000) * (w.kind == NC_MANUAL_HANDLE ? 1e-4 : 1e-2);
+      }
+      if (rng() % 200 == 0) m.in.interlock = !m.in.interlock;
+      if (rng() % 300 == 0) m.in.reset = !m.in.reset;
+      m.cycle();
+      for (unsigned a = 0; a < 2; ++a) {
+        ASSERT_LE(m.out.command.v[a], 100);
+        ASSERT_GE(m.out.command.v[a], -100);
+      }
+    }
+    ASSERT_TRUE(m.checker.ok()) << "seed " << seed << ": " << m.checker.report();
+  }
+}
+
+TEST(Manual, DoesNothingWhileAProgramRunsAndActsInABlockStop) {
+  const ExecutorConfig c = manual_config();
+  Program p(c);
+  AxisVec a;
+  a[0] = 20;
+  p.line(a, 50);
+  p.mark();
+  p.gate(NC_GATE_STOP);
+  a[0] = 40;
+  p.line(a, 50);
+  p.end();
+  Machine m(c);
+  m.feed(p);
+  m.start();
+  m.in.manual[1] = jog(50);
+  ASSERT_TRUE(m.until(p, [&] { return m.out.cause == NC_CAUSE_PROGRAM_STOP; }));
+  EXPECT_LE(m.out.command.v[1], 0.001);
+  run(m, 100);
+  EXPECT_EQ(m.out.state, NC_STATE_MANUAL);
+  EXPECT_GT(m.out.command.v[1], 3);
+  m.start();  // refused while an axis moves
+  EXPECT_EQ(m.out.state, NC_STATE_MANUAL);
+  m.in.manual[1] = {};
+  run(m, 50);
+  EXPECT_EQ(m.out.state, NC_STATE_STOPPED);
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  // The machine has left the path: going on from here would be a jump.
+  m.start();
+  run(m, 5);
+  EXPECT_EQ(m.out.state, NC_STATE_ALARM);
+  EXPECT_TRUE(m.still());
+}
+
+}  // namespace
+}  // namespace nc::test
