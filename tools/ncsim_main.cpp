@@ -24,7 +24,7 @@ void add_program(CLI::App* command, SessionOptions* options) {
 
 void add_loop_limit(CLI::App* command, uint64_t* limit) {
   command
-      ->add_option("--max-silent-blocks", *limit, "blocks without any event that count as an endless loop, 0 = no limit")
+      ->add_option("--max-silent-blocks", *limit, "blocks that only calculate after which it is an endless loop, 0 = no limit")
       ->capture_default_str();
 }
 

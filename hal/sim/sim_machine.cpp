@@ -118,15 +118,15 @@ void SimMachine::turn_spindle(System* system) noexcept {
   system->rpm += std::clamp(target - system->rpm, -step, step);
 }
 
-// Starts the function of a new strobe; returns the time until FIN.
-double SimMachine::begin_function(System* system, const SystemCommand& command) noexcept {
+// Starts the functions whose strobes are in `strobe`; returns the time until FIN.
+double SimMachine::begin_function(System* system, const SystemCommand& command, std::uint8_t strobe) noexcept {
   double time = config_.m_time_s;
-  if (command.strobe & kStrobeS) system->s_rpm = std::abs(command.s);
-  if (command.strobe & kStrobeT) {
+  if (strobe & kStrobeS) system->s_rpm = std::abs(command.s);
+  if (strobe & kStrobeT) {
     system->selected = command.t;
     time = std::max(time, config_.tool_select_s);
   }
-  if (command.strobe & kStrobeM) {
+  if (strobe & kStrobeM) {
     if (command.m == 3) system->direction = 1;
     if (command.m == 4) system->direction = -1;
     if (command.m == 5 || command.m == 2 || command.m == 30) system->direction = 0;
@@ -140,17 +140,18 @@ double SimMachine::begin_function(System* system, const SystemCommand& command) 
   return std::max(time, std::abs(target - system->rpm) / config_.spindle_ramp_rpm_per_s);
 }
 
-// FIN1 style: strobe on -> function -> FIN on -> strobe off -> FIN off. A strobe that drops early (reset) ends it at once.
+// FIN1 style: strobe on -> function -> FIN on -> strobe off -> FIN off. A strobe that drops early (reset) ends it at once;
+// a strobe that rises while the FIN of the one before is still on makes FIN drop first and is then a function of its own.
 void SimMachine::handshake(System* system, const SystemCommand& command) noexcept {
-  const bool strobe = command.strobe != 0;
-  const bool changed = strobe && (command.strobe != system->strobe || command.serial != system->serial);
-  if (!strobe) {
+  const auto rising = static_cast<std::uint8_t>(command.strobe & ~system->strobe);
+  const bool another = command.strobe != 0 && command.serial != system->serial && system->fin;
+  if (command.strobe == 0) {
     system->busy = system->fin = false;
-  } else if (!system->busy && !system->fin) {
-    if (changed || system->strobe == 0) {
-      system->remaining_s = begin_function(system, command);
-      system->busy = true;
-    }
+  } else if (rising != 0 || another) {
+    const double time = begin_function(system, command, another ? command.strobe : rising);
+    system->remaining_s = system->busy ? std::max(system->remaining_s, time) : time;
+    system->busy = true;
+    system->fin = false;
   } else if (system->busy) {
     system->remaining_s -= config_.cycle_s;
     if (system->remaining_s <= 0 && !fin_held_) {
@@ -159,7 +160,7 @@ void SimMachine::handshake(System* system, const SystemCommand& command) noexcep
     }
   }
   system->strobe = command.strobe;
-  system->serial = command.serial;
+  if (rising != 0 || command.strobe == 0) system->serial = command.serial;
 }
 
 std::uint32_t SimMachine::skip_signals(unsigned index) const noexcept {

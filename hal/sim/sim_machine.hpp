@@ -99,7 +99,7 @@ class SimMachine final : public Hal {
   void move_axes(unsigned index, const SystemCommand& command) noexcept;
   void turn_spindle(System* system) noexcept;
   void handshake(System* system, const SystemCommand& command) noexcept;
-  double begin_function(System* system, const SystemCommand& command) noexcept;
+  double begin_function(System* system, const SystemCommand& command, std::uint8_t strobe) noexcept;
   std::uint32_t skip_signals(unsigned index) const noexcept;
   void record_outputs(const PointImage& image) noexcept;
 

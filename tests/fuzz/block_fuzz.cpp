@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a program text: the reader goes through it to its end, a narrow window finds the same blocks as the whole text, the
-// searches agree with the lexer, all expressions can be run. The first byte chooses dialect and window.
+// Any bytes as a program text: the reader goes through it to its end, a narrow window finds the same blocks
+// as the whole text, the searches agree with the lexer, all expressions can be run. The first byte chooses
+// dialect and window.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -60,7 +61,8 @@ void run_expressions(const nc::Block& block) {
     if (s.text + s.text_length > static_cast<int>(block.text.size())) broken("text of a statement");
     using K = nc::StatementKind;
     const bool target = s.kind == K::assign || s.kind == K::if_goto || s.kind == K::go_to;
-    const bool formula = s.kind == K::assign || s.kind == K::if_goto || s.kind == K::while_do || s.kind == K::if_then;
+    const bool formula =
+        s.kind == K::assign || s.kind == K::if_goto || s.kind == K::while_do || s.kind == K::if_then;
     if (target) nc::evaluate(block, s.target, reader, {}, &value, &fault, &sync);
     if (formula) nc::evaluate(block, s.value, reader, {}, &value, &fault, &sync);
   }
@@ -100,8 +102,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       const nc::Block* a = f.whole.read(0, at, line);
       const nc::Block* b = f.narrow.read(1, at, line);
       if (a == nullptr || b == nullptr) broken("no block");
-      if (a->next != b->next || a->next_line != b->next_line || a->end_of_text != b->end_of_text || a->percent != b->percent ||
-          a->skip != b->skip || a->n != b->n) {
+      if (a->next != b->next || a->next_line != b->next_line || a->end_of_text != b->end_of_text ||
+          a->percent != b->percent || a->skip != b->skip || a->n != b->n) {
         broken("the window shows");
       }
       if (a->end_of_text) break;
@@ -117,7 +119,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     uint32_t x_line = 1, y_line = 1;
     bool again = false;
     const bool found = f.whole.find_sequence(0, n, &x, &x_line, 0, 0, &again);
-    if (found != f.narrow.find_sequence(1, n, &y, &y_line, 0, 0, &again) || x != y || x_line != y_line) broken("find_sequence");
+    if (found != f.narrow.find_sequence(1, n, &y, &y_line, 0, 0, &again) || x != y || x_line != y_line)
+      broken("find_sequence");
     if (f.whole.find_program(n, 0).offset != f.narrow.find_program(n, 1).offset) broken("find_program");
     x = y = 0;
     x_line = y_line = 1;

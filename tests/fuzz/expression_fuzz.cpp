@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a formula: it is refused with a condition, or it compiles and gives a finite number, vacant, or a fault.
+// Any bytes as a formula: it is refused with a condition, or it compiles and gives a finite number, vacant,
+// or a fault.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -51,7 +52,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   nc::Value value;
   uint32_t sync = 0;
   fault = nc::Fault{};
-  const nc::Eval eval = nc::evaluate(block, code, {nullptr, variable, name}, {(data[0] & 2) != 0}, &value, &fault, &sync);
+  const nc::Eval eval =
+      nc::evaluate(block, code, {nullptr, variable, name}, {(data[0] & 2) != 0}, &value, &fault, &sync);
   if (eval == nc::Eval::ok && !std::isfinite(value.number)) broken("not a finite number");
   if (eval == nc::Eval::fault && fault.condition == nc::Condition{}) broken("a fault without a condition");
   if (eval == nc::Eval::need_sync && sync == 0) broken("waits for nothing");

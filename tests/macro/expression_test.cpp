@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers that the manual prints: M700 13.4, 13.5.4, 13.5.6, 13.5.7; and exactness where a user expects it.
+// The numbers that the manual prints: M700 13.4, 13.5.4, 13.5.6, 13.5.7; and exactness where a user expects
+// it.
 #include "macro/expression.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +66,8 @@ Outcome run(const std::string& text) {
 
 double value(const std::string& text, Memory& memory) {
   const Outcome o = run(text, memory);
-  EXPECT_TRUE(o.compiled && o.eval == Eval::ok) << text << " condition " << static_cast<int>(o.fault.condition);
+  EXPECT_TRUE(o.compiled && o.eval == Eval::ok)
+      << text << " condition " << static_cast<int>(o.fault.condition);
   EXPECT_EQ(o.used, text.size()) << text;
   EXPECT_FALSE(o.value.vacant) << text;
   return o.value.number;
@@ -86,10 +88,12 @@ TEST(Expression, PrintedArithmetic) {
   const struct {
     const char* text;
     double result;
-  } rows[] = {{"#1+1000", 2000}, {"#2-50.", 950},     {"#101+#1", 1100},    {"#110-3.", -13},    {"#110+#102", 190}, {"100*100", 10000},
-              {"100.*100", 10000}, {"100/100", 1},    {"100./100.", 1},     {"#110*#101", -1000}, {"#110/#102", -0.05}, {"#19 MOD #20", 3},
-              {"100 OR 14", 110}, {"100 XOR 14", 106}, {"100 AND 15", 4},   {"ABS[-1000]", 1000}, {"ABS[-50-70]", 120}, {"BIN[100]", 64},
-              {"BCD[100]", 256},  {"BIN[4660]", 1234}, {"BCD[1234]", 4660}, {"BIN[BCD[978]]", 978}, {"BCD[9]", 9}};
+  } rows[] = {{"#1+1000", 2000},    {"#2-50.", 950},        {"#101+#1", 1100},    {"#110-3.", -13},
+              {"#110+#102", 190},   {"100*100", 10000},     {"100.*100", 10000},  {"100/100", 1},
+              {"100./100.", 1},     {"#110*#101", -1000},   {"#110/#102", -0.05}, {"#19 MOD #20", 3},
+              {"100 OR 14", 110},   {"100 XOR 14", 106},    {"100 AND 15", 4},    {"ABS[-1000]", 1000},
+              {"ABS[-50-70]", 120}, {"BIN[100]", 64},       {"BCD[100]", 256},    {"BIN[4660]", 1234},
+              {"BCD[1234]", 4660},  {"BIN[BCD[978]]", 978}, {"BCD[9]", 9}};
   for (const auto& row : rows) EXPECT_EQ(value(row.text, m), row.result) << row.text;
 }
 
@@ -135,9 +139,9 @@ TEST(Expression, PrintedRounding) {
 }
 
 TEST(Expression, RoundingDoesNotSeeTheNoiseOfBinaryNumbers) {
-  EXPECT_EQ(value("FIX[0.1*3*10]"), 3);        // 3.0000000000000004
+  EXPECT_EQ(value("FIX[0.1*3*10]"), 3);  // 3.0000000000000004
   EXPECT_EQ(value("FUP[0.1*3*10]"), 3);
-  EXPECT_EQ(value("FIX[4.35*100]"), 435);      // 434.99999999999994
+  EXPECT_EQ(value("FIX[4.35*100]"), 435);  // 434.99999999999994
   EXPECT_EQ(value("FIX[1.1*1.1*100]"), 121);
   EXPECT_EQ(value("FUP[1.1*1.1*100]"), 121);
   EXPECT_EQ(value("FIX[-4.35*100]"), -435);
@@ -161,10 +165,13 @@ TEST(Expression, ExactAngles) {
     EXPECT_FALSE(std::signbit(value("SIN[" + a + "]")) && sine[q] == 0) << a;
     EXPECT_EQ(value("COS[" + a + "]"), sine[(q + 1) % 4]) << a;
   }
-  for (int degrees : {30, 150, 390, -210}) EXPECT_EQ(value("SIN[" + std::to_string(degrees) + "]"), 0.5) << degrees;
-  for (int degrees : {60, -60, 300, 420}) EXPECT_EQ(value("COS[" + std::to_string(degrees) + "]"), 0.5) << degrees;
+  for (int degrees : {30, 150, 390, -210})
+    EXPECT_EQ(value("SIN[" + std::to_string(degrees) + "]"), 0.5) << degrees;
+  for (int degrees : {60, -60, 300, 420})
+    EXPECT_EQ(value("COS[" + std::to_string(degrees) + "]"), 0.5) << degrees;
   for (int degrees : {120, 240}) EXPECT_EQ(value("COS[" + std::to_string(degrees) + "]"), -0.5) << degrees;
-  for (int degrees : {45, 225, -135, 405}) EXPECT_EQ(value("TAN[" + std::to_string(degrees) + "]"), 1) << degrees;
+  for (int degrees : {45, 225, -135, 405})
+    EXPECT_EQ(value("TAN[" + std::to_string(degrees) + "]"), 1) << degrees;
   for (int degrees : {-45, 135, 315}) EXPECT_EQ(value("TAN[" + std::to_string(degrees) + "]"), -1) << degrees;
   EXPECT_EQ(value("TAN[180]"), 0);
   EXPECT_EQ(value("ACOS[0.5]"), 60);
@@ -277,8 +284,9 @@ TEST(Expression, Conditions) {
   const struct {
     const char* text;
     bool when_vacant, when_zero;
-  } rows[] = {{"#101 EQ #0", true, false}, {"#101 NE 0", true, false},  {"#101 GE #0", true, true}, {"#101 GT 0", false, false},
-              {"#101 LE #0", true, true},  {"#101 LT 0", false, false}, {"#101 EQ 0", false, true}, {"#101 NE #0", false, true}};
+  } rows[] = {{"#101 EQ #0", true, false}, {"#101 NE 0", true, false}, {"#101 GE #0", true, true},
+              {"#101 GT 0", false, false}, {"#101 LE #0", true, true}, {"#101 LT 0", false, false},
+              {"#101 EQ 0", false, true},  {"#101 NE #0", false, true}};
   for (const auto& row : rows) {
     EXPECT_EQ(run(row.text, vacant, true).value.number, row.when_vacant) << row.text;
     EXPECT_EQ(run(row.text, zero, true).value.number, row.when_zero) << row.text;
@@ -317,8 +325,9 @@ TEST(Expression, Impossible) {
   EXPECT_EQ(fault("1 MOD 0"), Condition::division_by_zero);
   EXPECT_EQ(fault("TAN[90]"), Condition::division_by_zero);  // sin/cos
   EXPECT_EQ(fault("TAN[-270]"), Condition::division_by_zero);
-  for (const char* text : {"LN[-5]", "LN[0]", "SQRT[-1]", "ASIN[1.1]", "ACOS[-1.1]", "BIN[10]", "BIN[-1]", "BCD[-1]", "BCD[100000000]",
-                           "EXP[1000]", "EXP[500]*EXP[500]", "BIN[5000000000]"}) {
+  for (const char* text :
+       {"LN[-5]", "LN[0]", "SQRT[-1]", "ASIN[1.1]", "ACOS[-1.1]", "BIN[10]", "BIN[-1]", "BCD[-1]",
+        "BCD[100000000]", "EXP[1000]", "EXP[500]*EXP[500]", "BIN[5000000000]"}) {
     EXPECT_EQ(fault(text), Condition::calculation) << text;
   }
   EXPECT_EQ(value("ASIN[1+1/10000000000]"), 90);  // noise
@@ -327,11 +336,14 @@ TEST(Expression, Impossible) {
 }
 
 TEST(Expression, Malformed) {
-  for (const char* text : {"", "+", "-", "*1", "1+", "1+*2", "--5", "1---2", ".", "[]", "SIN", "SIN 30", "SIN[]", "FOO[1]", "1 AND", "[1 2 X]"}) {
+  for (const char* text : {"", "+", "-", "*1", "1+", "1+*2", "--5", "1---2", ".", "[]", "SIN", "SIN 30",
+                           "SIN[]", "FOO[1]", "1 AND", "[1 2 X]"}) {
     EXPECT_EQ(fault(text), Condition::calculation) << text;
   }
-  for (const char* text : {"#--5", "#-#1", "#", "##", "#[#-1]", "#.5"}) EXPECT_EQ(fault(text), Condition::variable_number) << text;
-  for (const char* text : {"[1", "SIN[1", "[", "]", "[1+[2]", "1+]"}) EXPECT_EQ(fault(text), Condition::bracket_pair) << text;
+  for (const char* text : {"#--5", "#-#1", "#", "##", "#[#-1]", "#.5"})
+    EXPECT_EQ(fault(text), Condition::variable_number) << text;
+  for (const char* text : {"[1", "SIN[1", "[", "]", "[1+[2]", "1+]"})
+    EXPECT_EQ(fault(text), Condition::bracket_pair) << text;
   EXPECT_EQ(fault("[[[[[[1]]]]]]"), Condition::bracket_nesting);
   EXPECT_EQ(fault("#[#[#[#[#[#[1]]]]]]"), Condition::bracket_nesting);
   EXPECT_EQ(fault("12345678901234567890"), Condition::value_range);
@@ -342,7 +354,8 @@ TEST(Expression, TheDeepestStack) {
   Memory m{{{1, 1}}};
   const std::string deep = "1+2*[1+2*[1+2*[1+2*[1+2*[#1+2*3]]]]]";
   EXPECT_EQ(value(deep, m), 255);
-  EXPECT_EQ(run("1+2*[1+2*[1+2*[1+2*[1+2*-3]]]] LT 1+2*[1+2*[1+2*[1+2*[1+2*[#1+2*3]]]]]", m, true).value.number, 1);
+  EXPECT_EQ(
+      run("1+2*[1+2*[1+2*[1+2*[1+2*-3]]]] LT 1+2*[1+2*[1+2*[1+2*[1+2*[#1+2*3]]]]]", m, true).value.number, 1);
   EXPECT_EQ(run("[1+2*[1+2*[1+2*[1+2*3]]] LT 1+2*[1+2*[1+2*[1+2*[#1+2*3]]]]]", m, true).value.number, 1);
 }
 

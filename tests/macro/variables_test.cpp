@@ -123,7 +123,8 @@ TEST_F(VariablesTest, ForeignKeysGoBackToTheirOwnerNewestFirst) {
   variables.note(2, Variables::kForeignKey + 8, 2.5);
   variables.note(2, Variables::kForeignKey + 7, 3.5);
   variables.rewind(1, &undone, [](void* self, uint32_t key, double old) {
-    static_cast<std::vector<std::pair<uint32_t, double>>*>(self)->emplace_back(key - Variables::kForeignKey, old);
+    static_cast<std::vector<std::pair<uint32_t, double>>*>(self)->emplace_back(key - Variables::kForeignKey,
+                                                                               old);
   });
   EXPECT_EQ(undone, (std::vector<std::pair<uint32_t, double>>{{7, 3.5}, {8, 2.5}}));
 }
@@ -149,7 +150,8 @@ TEST_F(VariablesTest, RewindEqualsACopy) {
   const auto snapshot = [&] {
     Snapshot s;
     for (uint32_t n : numbers) {
-      for (unsigned level = 0; level < kLocalLevels; ++level) s.emplace_back(get(n, level).vacant, get(n, level).or_zero());
+      for (unsigned level = 0; level < kLocalLevels; ++level)
+        s.emplace_back(get(n, level).vacant, get(n, level).or_zero());
     }
     return s;
   };

@@ -431,7 +431,7 @@ TEST(OffsetProperty, RandomItemsNeverBreakTheStage) {
     Item out;
     unsigned rest = 0;
     while (stage.pop(out)) ++rest;
-    EXPECT_LE(rest, 24u * 5u);  // what was held, each move with its displacement and three connecting moves
+    EXPECT_LE(rest, 32u * 5u);  // what was held, each move with its displacement and three connecting moves
     EXPECT_TRUE(stage.can_push());
     EXPECT_GT(popped + rest, 20u);
   }

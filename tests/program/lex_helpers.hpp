@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of program/ and macro/ have in common: word formats like those of the two dialects, a text as a block, a store.
+// What the tests of program/ and macro/ have in common: word formats like those of the two dialects, a text
+// as a block, a store.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -32,14 +33,16 @@ inline LexRules m700_rules() {
 
 inline LexRules dgshape_rules() {
   LexRules rules;
-  for (char c : {'A', 'D', 'F', 'G', 'H', 'I', 'J', 'K', 'L', 'M', 'N', 'O', 'P', 'Q', 'R', 'S', 'T', 'X', 'Y', 'Z'}) {
+  for (char c :
+       {'A', 'D', 'F', 'G', 'H', 'I', 'J', 'K', 'L', 'M', 'N', 'O', 'P', 'Q', 'R', 'S', 'T', 'X', 'Y', 'Z'}) {
     rules.word[c - 'A'].known = true;
   }
   for (char c : {'D', 'H', 'K', 'N', 'O', 'S', 'T'}) rules.word[c - 'A'].integer = true;
   return rules;
 }
 
-inline std::unique_ptr<Block> lex(const std::string& text, const LexRules& rules = m700_rules(), LexResult* result = nullptr) {
+inline std::unique_ptr<Block> lex(const std::string& text, const LexRules& rules = m700_rules(),
+                                  LexResult* result = nullptr) {
   auto block = std::make_unique<Block>();
   // A copy of exactly this size: a sanitizer sees a byte read beyond it.
   const std::vector<char> exact(text.begin(), text.end());
@@ -60,7 +63,9 @@ inline std::string text_of(const Block& block, unsigned at, unsigned length) {
 /// Everything that lexing produced, as text: two equal strings are two equal blocks.
 inline std::string dump(const Block& b) {
   std::string s;
-  const auto add = [&s](const char* name, long long v) { s += std::string(name) + "=" + std::to_string(v) + " "; };
+  const auto add = [&s](const char* name, long long v) {
+    s += std::string(name) + "=" + std::to_string(v) + " ";
+  };
   add("next", static_cast<long long>(b.next));
   add("line", b.line);
   add("next_line", b.next_line);
@@ -104,7 +109,9 @@ inline std::string dump(const Block& b) {
 class Texts {
  public:
   explicit Texts(unsigned window = 65536, unsigned cached = 32, LexRules lex_rules = m700_rules())
-      : rules(lex_rules), memory_(std::make_unique_for_overwrite<char[]>(kMemory)), arena_(memory_.get(), kMemory) {
+      : rules(lex_rules),
+        memory_(std::make_unique_for_overwrite<char[]>(kMemory)),
+        arena_(memory_.get(), kMemory) {
     store.create(16, arena_);
     reader.create(&store, &rules, window, cached, arena_);
   }

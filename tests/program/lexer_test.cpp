@@ -83,7 +83,8 @@ TEST(Lexer, BlockEnds) {
 }
 
 TEST(Lexer, FaultsDoNotLoseThePlace) {
-  for (const char* text : {"G1 X1 ? Y2 (a;b\n", "G1 X1 ? Y2 (a;b) \n", "#=5 ( \n", "X[1+ ] \n", "N0 X \n", "DPRNT[A(];)B\n", "M98 <A(;>) \n"}) {
+  for (const char* text : {"G1 X1 ? Y2 (a;b\n", "G1 X1 ? Y2 (a;b) \n", "#=5 ( \n", "X[1+ ] \n", "N0 X \n",
+                           "DPRNT[A(];)B\n", "M98 <A(;>) \n"}) {
     LexResult r;
     const auto b = lex(std::string(text) + "G2", m700_rules(), &r);
     EXPECT_TRUE(b->has_fault) << text;
@@ -197,7 +198,8 @@ TEST(Lexer, UnknownLettersAndCharacters) {
   EXPECT_EQ(lex("G1 U1", dgshape_rules())->fault.letter, 'U');
   EXPECT_EQ(fault_of("U", dgshape_rules()), Condition::illegal_address);
   EXPECT_EQ(fault_of("V#", dgshape_rules()), Condition::illegal_address);
-  for (char c : {'!', '"', '$', '&', '\'', ')', ':', '>', '?', '@', '\\', '^', '_', '`', '{', '|', '}', '~', '\x01', '\x7f', '\x80', '\xff', '\0'}) {
+  for (char c : {'!', '"', '$', '&', '\'', ')', ':',    '>',    '?',    '@',    '\\', '^',
+                 '_', '`', '{', '|', '}',  '~', '\x01', '\x7f', '\x80', '\xff', '\0'}) {
     EXPECT_EQ(fault_of(std::string("G1 ") + c + "X1\n"), Condition::illegal_character) << static_cast<int>(c);
     EXPECT_EQ(fault_of(std::string(1, c)), Condition::illegal_character) << static_cast<int>(c);
     EXPECT_NE(fault_of(std::string("G1 X") + c + "\n"), Condition::none) << static_cast<int>(c);
@@ -210,9 +212,11 @@ TEST(Lexer, UnknownLettersAndCharacters) {
 }
 
 TEST(Lexer, MalformedWords) {
-  for (const char* text : {"X-", "X--1", "X+-1", "X.", "X-.", "12", "(a)5", "G1.2.3", "=5", "X1=5", "S1=", "S1.=5", "S-1=5", ",5", ",", "+1"}) {
+  for (const char* text : {"X-", "X--1", "X+-1", "X.", "X-.", "12", "(a)5", "G1.2.3", "=5", "X1=5",
+                           "S1=", "S1.=5", "S-1=5", ",5", ",", "+1"}) {
     const Condition c = fault_of(text);
-    EXPECT_TRUE(c == Condition::format_error || c == Condition::illegal_character) << text << " " << static_cast<int>(c);
+    EXPECT_TRUE(c == Condition::format_error || c == Condition::illegal_character)
+        << text << " " << static_cast<int>(c);
   }
   EXPECT_EQ(fault_of("S256=5"), Condition::value_range);
 }
@@ -250,11 +254,12 @@ TEST(Lexer, TooLong) {
   for (int i = 0; i < 20; ++i) statements += "#1=5";
   EXPECT_EQ(fault_of(statements), Condition::block_too_long);
   EXPECT_EQ(fault_of("DPRNT[" + std::string(300, 'A') + "]"), Condition::block_too_long);
-  EXPECT_EQ(fault_of("#1=1" + [] {
-              std::string s;
-              for (int i = 0; i < 200; ++i) s += "+#100";
-              return s;
-            }()),
+  EXPECT_EQ(fault_of("#1=1" +
+                     [] {
+                       std::string s;
+                       for (int i = 0; i < 200; ++i) s += "+#100";
+                       return s;
+                     }()),
             Condition::block_too_long);
   EXPECT_EQ(fault_of("M98 <" + std::string(300, 'A') + ">"), Condition::block_too_long);
 }
@@ -265,7 +270,8 @@ TEST(Lexer, ColumnsSaturate) {
   EXPECT_EQ(b->words[1].column, 255);
 }
 
-// ---- macro statements ----------------------------------------------------------------------------------------------
+// ---- macro statements
+// ----------------------------------------------------------------------------------------------
 
 TEST(Lexer, WordsWithExpressions) {  // M700 13.4 (3), 5.3
   const auto b = lex("G0 X#1 Y-#2 Z[#1+#3+1000] I#1+10 J123+0 K10-5 A-[1+2] B 2*#1\n");
@@ -291,7 +297,7 @@ TEST(Lexer, Assignments) {
   EXPECT_EQ(lex("##10=100")->statements.size(), 1u);
   EXPECT_EQ(lex("#[#10+1]=1000")->statements.size(), 1u);
   EXPECT_EQ(lex("[#DIST]=25")->statements.size(), 1u);
-  EXPECT_EQ(fault_of("#1"), Condition::no_equals);  // M700 P242
+  EXPECT_EQ(fault_of("#1"), Condition::no_equals);    // M700 P242
   EXPECT_EQ(fault_of("#1 5"), Condition::no_equals);  // #15
   EXPECT_EQ(fault_of("#1=#2#3"), Condition::no_equals);
   EXPECT_EQ(fault_of("#1="), Condition::calculation);
@@ -309,11 +315,13 @@ TEST(Lexer, Assignments) {
 
 TEST(Lexer, Brackets) {  // M700 13.4 (Note 2), P280, P281
   EXPECT_EQ(fault_of("#543=-[[[[[#120]/2+15.]*3-#100]/#520+#125+#128]*#130+#132]"), Condition::none);
-  EXPECT_EQ(fault_of("#543=[[[[[[#120]/2+15.]*3-#100]/#520+#125+#128]*#130+#132]]"), Condition::bracket_nesting);
+  EXPECT_EQ(fault_of("#543=[[[[[[#120]/2+15.]*3-#100]/#520+#125+#128]*#130+#132]]"),
+            Condition::bracket_nesting);
   EXPECT_EQ(fault_of("#1=[SIN[[[[1]]]]]"), Condition::none);
   EXPECT_EQ(fault_of("#1=[[SIN[[[[1]]]]]]"), Condition::bracket_nesting);
-  for (const char* text : {"#102=[#101+[3*4]", "#1=[", "#1=SIN[30", "#1=5]", "#1=]", "X[1", "X1]", "X[#1+[2]", "IF[#1 EQ 1 GOTO5", "GOTO[5",
-                           "DPRNT[X#1[42]", "SETVN500[A", "[#DIST=5", "#[1=5"}) {
+  for (const char* text :
+       {"#102=[#101+[3*4]", "#1=[", "#1=SIN[30", "#1=5]", "#1=]", "X[1", "X1]", "X[#1+[2]",
+        "IF[#1 EQ 1 GOTO5", "GOTO[5", "DPRNT[X#1[42]", "SETVN500[A", "[#DIST=5", "#[1=5"}) {
     EXPECT_EQ(fault_of(text), Condition::bracket_pair) << text;
   }
   EXPECT_EQ(fault_of("#1=[5 X]"), Condition::calculation);
@@ -337,18 +345,21 @@ TEST(Lexer, Control) {  // M700 13.5.7
   b = lex("IF[#1 EQ 1]THEN #2=5");
   ASSERT_EQ(b->statements.size(), 2u);
   EXPECT_EQ(b->statements[0].kind, StatementKind::if_then);
-  for (const char* text : {"IF [#1 EQ 1]", "IF #1 EQ 1 GOTO 5", "IF [#1] GOTO 5", "IF [#1 EQ] GOTO 5", "IF [#1 EQ 1 EQ 2] GOTO 5", "IF [#1 EQ 1] GOTO",
-                           "IF [[#1 EQ 1] AND [#2 EQ 2]] GOTO 5", "IF"}) {
+  for (const char* text :
+       {"IF [#1 EQ 1]", "IF #1 EQ 1 GOTO 5", "IF [#1] GOTO 5", "IF [#1 EQ] GOTO 5",
+        "IF [#1 EQ 1 EQ 2] GOTO 5", "IF [#1 EQ 1] GOTO", "IF [[#1 EQ 1] AND [#2 EQ 2]] GOTO 5", "IF"}) {
     EXPECT_EQ(fault_of(text), Condition::if_statement) << text;
   }
-  for (const char* text : {"WHILE [#1 EQ 1]", "WHILE [#1] DO1", "WHILE [#1 LT 2] DO", "WHILE DO1", "DO0", "DO128", "DO", "END", "END 1.5", "DO#1"}) {
+  for (const char* text : {"WHILE [#1 EQ 1]", "WHILE [#1] DO1", "WHILE [#1 LT 2] DO", "WHILE DO1", "DO0",
+                           "DO128", "DO", "END", "END 1.5", "DO#1"}) {
     EXPECT_EQ(fault_of(text), Condition::while_statement) << text;
   }
   EXPECT_EQ(fault_of("GOTO"), Condition::format_error);
 }
 
 TEST(Lexer, WordsAndStatementsDoNotMix) {  // M700 P272
-  for (const char* text : {"X#1=#3+100", "G1 X1 #1=5", "#1=5 G1 X1", "G1 GOTO 5", "G1 IF[#1 EQ 1]GOTO 5", "#1=2 <A>", "X1 DO1", "G1 POPEN", "G1 [#A]=5"}) {
+  for (const char* text : {"X#1=#3+100", "G1 X1 #1=5", "#1=5 G1 X1", "G1 GOTO 5", "G1 IF[#1 EQ 1]GOTO 5",
+                           "#1=2 <A>", "X1 DO1", "G1 POPEN", "G1 [#A]=5"}) {
     EXPECT_EQ(fault_of(text), Condition::macro_and_words) << text;
   }
   EXPECT_EQ(fault_of("G65 P9010 A#1 B[#2+1] C-#3"), Condition::none);
@@ -384,7 +395,8 @@ TEST(Lexer, OutputStatements) {  // M700 13.5.8
   ASSERT_EQ(names->statements.size(), 1u);
   EXPECT_EQ(names->statements[0].kind, StatementKind::set_name);
   EXPECT_EQ(names->statements[0].number, 500u);
-  EXPECT_EQ(text_of(*names, names->statements[0].text, names->statements[0].text_length), "A234567,DIST,TOOL25");
+  EXPECT_EQ(text_of(*names, names->statements[0].text, names->statements[0].text_length),
+            "A234567,DIST,TOOL25");
   EXPECT_EQ(fault_of("SETVN[A]"), Condition::name_statement);
   EXPECT_EQ(fault_of("SETVN500"), Condition::name_statement);
 }

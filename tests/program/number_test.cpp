@@ -40,16 +40,19 @@ TEST(Number, MillionRandomNumbersEqualStrtod) {
 TEST(Number, ManyFractionDigitsEqualStrtod) {
   std::mt19937_64 random(8);
   for (int i = 0; i < 3000; ++i) {
-    const std::string text = "." + std::string(random() % 340, '0') + random_digits(random, 1 + random() % 19);
+    const std::string text =
+        "." + std::string(random() % 340, '0') + random_digits(random, 1 + random() % 19);
     ASSERT_EQ(scan(text).value, std::strtod(text.c_str(), nullptr)) << text;
   }
 }
 
 TEST(Number, TiesAndPowersOfTwoRoundToEven) {
-  // 2^53 + 1 and its neighbours, the smallest normal and denormal numbers, and a value just below a power of two.
-  for (const char* text : {"9007199254740993", "9007199254740991", "9007199254740992.5", "9007199254740993.001", "18446744073709551",
-                           "1844674407370955161", "4503599627370496.5", "4503599627370497.5", "0.1", "0.30000000000000004",
-                           "1023.999999999999943", ".9999999999999999445", ".9999999999999999444"}) {
+  // 2^53 + 1 and its neighbours, the smallest normal and denormal numbers, and a value just below a power of
+  // two.
+  for (const char* text :
+       {"9007199254740993", "9007199254740991", "9007199254740992.5", "9007199254740993.001",
+        "18446744073709551", "1844674407370955161", "4503599627370496.5", "4503599627370497.5", "0.1",
+        "0.30000000000000004", "1023.999999999999943", ".9999999999999999445", ".9999999999999999444"}) {
     EXPECT_EQ(scan(text).value, std::strtod(text, nullptr)) << text;
   }
   std::string tiny = "." + std::string(307, '0') + "2225073858507201";
@@ -79,10 +82,12 @@ TEST(Number, EightCharactersAtOnceCountAndConvert) {
   std::mt19937_64 random(9);
   for (int i = 0; i < 200000; ++i) {
     char text[9] = {};
-    for (int k = 0; k < 8; ++k) text[k] = random() % 4 != 0 ? static_cast<char>('0' + random() % 10) : static_cast<char>(random());
+    for (int k = 0; k < 8; ++k)
+      text[k] = random() % 4 != 0 ? static_cast<char>('0' + random() % 10) : static_cast<char>(random());
     unsigned digits = 0;
     uint64_t value = 0;
-    for (; digits < 8 && is_digit(text[digits]); ++digits) value = value * 10 + static_cast<uint64_t>(text[digits] - '0');
+    for (; digits < 8 && is_digit(text[digits]); ++digits)
+      value = value * 10 + static_cast<uint64_t>(text[digits] - '0');
     const EightCharacters eight(text);
     ASSERT_EQ(eight.digits(), digits);
     if (digits < 8) {
@@ -91,7 +96,8 @@ TEST(Number, EightCharactersAtOnceCountAndConvert) {
   }
 }
 
-/// The two ways through the lexer (eight characters at a time, one at a time near the end of the text) and every word format.
+/// The two ways through the lexer (eight characters at a time, one at a time near the end of the text) and
+/// every word format.
 TEST(Number, WordsEqualStrtodNearAndFarFromTheEnd) {
   std::mt19937_64 random(10);
   const LexRules rules = m700_rules();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading blocks: the window at every byte offset, blocks longer than the window, the cache of compiled blocks, read failures.
+// Reading blocks: the window at every byte offset, blocks longer than the window, the cache of compiled
+// blocks, read failures.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -52,9 +53,10 @@ TEST(BlockReader, LongBlocksAreReadAcrossWindows) {
   // Comments and blanks of any length do not count; columns, messages and what follows stay as they are.
   const std::string comment = "(" + std::string(5000, ';') + "% anything)";
   const std::string blanks(900, ' ');
-  const std::string text = "G1 X1." + comment + "Y2. " + blanks + "Z3.\n" + comment + "\n" + blanks + "%" + std::string(700, 'x') + "\n" +
-                           "#3006=1 " + comment + "(TAKE FIVE)\n" + "M98 <a b.nc> " + comment + "\n" + "G2 X5" + comment + ";G3 X6" + comment +
-                           "%\n" + "(" + std::string(3000, 'u') + "\nM30\n";
+  const std::string text = "G1 X1." + comment + "Y2. " + blanks + "Z3.\n" + comment + "\n" + blanks + "%" +
+                           std::string(700, 'x') + "\n" + "#3006=1 " + comment + "(TAKE FIVE)\n" +
+                           "M98 <a b.nc> " + comment + "\n" + "G2 X5" + comment + ";G3 X6" + comment + "%\n" +
+                           "(" + std::string(3000, 'u') + "\nM30\n";
   Texts memory;
   const auto expected = memory.all(memory.add_memory("a", text));
   for (unsigned window : {32u, 33u, 64u, 100u, 512u, 513u, 1024u, 4096u, 5200u, 65536u}) {
@@ -116,7 +118,8 @@ TEST(BlockReader, CachedBlocksAreTheSame) {
 }
 
 TEST(BlockReader, CacheIsUsed) {
-  // The host's text changes behind the reader's back: what is cached shows the old text, which is how we know.
+  // The host's text changes behind the reader's back: what is cached shows the old text, which is how we
+  // know.
   Texts t(64, 64);
   const std::string old_text = "X1\nX2\nX3\n";
   const unsigned file = t.add_memory("a", old_text);
@@ -131,7 +134,9 @@ TEST(BlockReader, CacheIsUsed) {
 TEST(BlockReader, ReplacedTextIsReadAfresh) {
   for (const bool callback : {false, true}) {
     Texts t(64, 64);
-    const auto add = [&](const std::string& text) { return callback ? t.add_callback("a", text) : t.add_memory("a", text); };
+    const auto add = [&](const std::string& text) {
+      return callback ? t.add_callback("a", text) : t.add_memory("a", text);
+    };
     const unsigned file = add("X1\nX2\nX3\n");
     t.all(file);
     t.all(file);
@@ -157,7 +162,8 @@ TEST(BlockReader, LineOfACachedBlockFollowsTheCaller) {
 TEST(BlockReader, ManyTextsInTurn) {
   Texts t(64, 16);
   std::vector<unsigned> files;
-  for (int i = 0; i < 12; ++i) files.push_back(t.add_callback("p" + std::to_string(i), "X" + std::to_string(i) + "\nY1\n"));
+  for (int i = 0; i < 12; ++i)
+    files.push_back(t.add_callback("p" + std::to_string(i), "X" + std::to_string(i) + "\nY1\n"));
   for (int round = 0; round < 5; ++round) {
     for (int i = 0; i < 12; ++i) EXPECT_EQ(t.reader.read(files[i], 0, 1)->words[0].value, i);
   }

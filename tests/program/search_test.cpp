@@ -33,7 +33,8 @@ struct Result {
   uint32_t line;
 };
 
-Result search(Texts& t, unsigned file, uint32_t n, uint64_t from, uint32_t line, uint64_t limit = 0, bool head = true) {
+Result search(Texts& t, unsigned file, uint32_t n, uint64_t from, uint32_t line, uint64_t limit = 0,
+              bool head = true) {
   bool again = false;
   Result r{false, from, line};
   r.found = t.reader.find_sequence(file, n, &r.offset, &r.line, limit, 0, &again, head);
@@ -44,7 +45,9 @@ Result search(Texts& t, unsigned file, uint32_t n, uint64_t from, uint32_t line,
 class Search : public testing::TestWithParam<unsigned> {
  protected:
   Search() : t(GetParam() == 0 ? 64 : GetParam()) {}
-  unsigned add(const std::string& text) { return GetParam() == 0 ? t.add_memory("a", text) : t.add_callback("a", text); }
+  unsigned add(const std::string& text) {
+    return GetParam() == 0 ? t.add_memory("a", text) : t.add_callback("a", text);
+  }
   static uint64_t at(const char* what) { return std::string(kPrograms).find(what); }
   Texts t;
 };
@@ -55,7 +58,8 @@ TEST_P(Search, SequenceNumbers) {
     uint32_t n;
     const char* where;
     uint32_t line;
-  } rows[] = {{10, "N10 G1", 3}, {30, " n 3 0", 5}, {40, "N40", 5}, {50, "/N50", 5}, {60, "/3 N60", 6}, {80, "(c)N80", 8}};
+  } rows[] = {{10, "N10 G1", 3}, {30, " n 3 0", 5}, {40, "N40", 5},
+              {50, "/N50", 5},   {60, "/3 N60", 6}, {80, "(c)N80", 8}};
   for (const auto& row : rows) {
     const Result r = search(t, file, row.n, 0, 1);
     EXPECT_TRUE(r.found) << row.n;
@@ -83,6 +87,22 @@ TEST_P(Search, TheNextOneBelowWins) {  // M700 13.5.7 (Note 1)
   EXPECT_FALSE(search(t, file, 80, 0, 1, at("X8;")).found);
   EXPECT_FALSE(search(t, file, 80, 0, 1, at("(c)N80")).found);
   EXPECT_TRUE(search(t, file, 80, 0, 1, at("(c)N80") + 1).found);
+}
+
+TEST(SearchMemory, AJumpIsLookedForOnce) {
+  // The text changes behind the reader's back; only what is remembered does not show it.
+  Texts t;
+  const unsigned file = t.add_memory("a", "G1 X1\nN10 X2\nN11 X3\n");
+  EXPECT_EQ(search(t, file, 10, 0, 1).offset, 6u);
+  EXPECT_FALSE(search(t, file, 17, 0, 1).found);
+  const_cast<char&>(t.store.entry(file)->memory[8]) = '7';  // N17
+  EXPECT_EQ(search(t, file, 10, 0, 1).offset, 6u);
+  EXPECT_FALSE(search(t, file, 17, 0, 1).found);
+  EXPECT_TRUE(search(t, file, 17, 0, 1, 20).found);  // another question
+  EXPECT_FALSE(search(t, file, 10, 0, 1, 20).found);
+  t.reader.forget(file);
+  EXPECT_FALSE(search(t, file, 10, 0, 1).found);
+  EXPECT_EQ(search(t, file, 17, 0, 1).offset, 6u);
 }
 
 TEST_P(Search, EndsOfPrograms) {

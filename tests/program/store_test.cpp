@@ -16,9 +16,18 @@ TEST(ProgramStore, NumbersFromNames) {
   const struct {
     const char* name;
     uint32_t number;
-  } rows[] = {{"O1000", 1000}, {"2000", 2000}, {"3000.nc", 3000},   {"sub/dir/o0400.NC", 400}, {"C:\\parts\\O12345678.txt", 12345678},
-              {"0100", 0},     {"part-1", 0},  {"O123456789", 0}, {"O", 0},                  {"O12a", 0}};
-  for (const auto& row : rows) EXPECT_EQ(t.store.entry(t.add_memory(row.name, "G1\n"))->number, row.number) << row.name;
+  } rows[] = {{"O1000", 1000},
+              {"2000", 2000},
+              {"3000.nc", 3000},
+              {"sub/dir/o0400.NC", 400},
+              {"C:\\parts\\O12345678.txt", 12345678},
+              {"0100", 0},
+              {"part-1", 0},
+              {"O123456789", 0},
+              {"O", 0},
+              {"O12a", 0}};
+  for (const auto& row : rows)
+    EXPECT_EQ(t.store.entry(t.add_memory(row.name, "G1\n"))->number, row.number) << row.name;
   EXPECT_EQ(t.store.find_number(3000), 2);
   EXPECT_EQ(t.store.find_number(100), -1);
   EXPECT_EQ(t.store.find_number(0), -1);

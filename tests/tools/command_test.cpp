@@ -214,11 +214,13 @@ TEST_F(CommandTest, InputsAndEventsReachTheProgram) {
 }
 
 TEST_F(CommandTest, AnEndlessLoopEndsWithAMessage) {
-  file("p.nc", "N1 GOTO 1\nM30\n");
-  const Outcome run = ncsim("check --max-silent-blocks 100000 p.nc");
-  if (run.code != 2) {  // where a GOTO block is an event of its own the loop is the user's to stop
-    EXPECT_EQ(run.code, 1);
-    EXPECT_NE(run.err.find("endless loop"), std::string::npos) << run.err;
+  for (const char* loop : {"N1 GOTO 1\nM30\n", "N1\n#1=1\nGOTO 1\nM30\n", "WHILE [#1000 EQ 0] DO1\nEND1\nM30\n"}) {
+    file("p.nc", loop);
+    for (const char* command : {"check --max-silent-blocks 100000 p.nc", "time p.nc"}) {
+      const Outcome run = ncsim(command);
+      EXPECT_EQ(run.code, 1) << command << "\n" << loop;
+      EXPECT_NE(run.err.find("endless loop"), std::string::npos) << run.err;
+    }
   }
 }
 

@@ -200,6 +200,44 @@ TEST(OfflineRun, AnEndlessLoopIsAnError) {
   EXPECT_NE(result.error.find("endless loop"), std::string::npos);
 }
 
+/** Marks without end, as a loop that only calculates; every `clock_every` blocks it reads the clock. */
+class Calculating final : public ItemSource {
+ public:
+  explicit Calculating(int clock_every, int end_at) : clock_every_(clock_every), end_at_(end_at) {}
+  nc_status pull(uint32_t, nc_item* item) override {
+    *item = {};
+    item->source = {7, 0, 1, 0, 0};
+    item->kind = NC_ITEM_MARK;
+    if (clock_every_ && count_ % clock_every_ == 0) {
+      item->kind = NC_ITEM_SYNC;
+      item->u.sync.what = NC_SYNC_CLOCK;
+    }
+    if (count_ == end_at_) item->kind = NC_ITEM_END;
+    if (count_++ > end_at_) return NC_ENDED;
+    return NC_OK;
+  }
+  nc_status answer(const nc_world&) override { return NC_OK; }
+  nc_status reset() override { return NC_OK; }
+  bool alarm(nc_alarm*) override { return false; }
+  bool text(uint32_t, nc_text*) override { return false; }
+  unsigned modal_codes(uint32_t, char (*)[8], unsigned) override { return 0; }
+  bool next_common(uint32_t, uint32_t*, double*) override { return false; }
+
+ private:
+  int clock_every_, end_at_, count_ = 0;
+};
+
+TEST(OfflineRun, CalculationWithoutEndIsAnErrorButWaitingForTheClockIsNot) {
+  tools::Setup setup;
+  RunSink sink;
+  VirtualWorld one(setup, xyz()), two(setup, xyz());
+  Calculating loop(0, 1 << 30), wait(10, 50'000);
+  const RunResult endless = run_offline(&loop, &one, &sink, {}, 10'000);
+  EXPECT_EQ(endless.how, RunResult::How::kFailed);
+  EXPECT_NE(endless.error.find("line 7: 10000 blocks"), std::string::npos) << endless.error;
+  EXPECT_EQ(run_offline(&wait, &two, &sink, {}, 10'000).how, RunResult::How::kEnded);
+}
+
 TEST(BlockLines, LeavesCommentsBlanksAndPercentOut) {
   const BlockLines lines("%\n(a\n b) \nG1\n\n  \r\nN5;\n; \nM30");
   EXPECT_EQ(lines.after(0), 3u) << "a comment ends with its line";

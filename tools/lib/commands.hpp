@@ -14,7 +14,7 @@ namespace nc::tools {
 inline constexpr int kExitEnded = 0, kExitError = 1, kExitAlarm = 2;
 
 /** Limit of run_offline() unless the user gives another. */
-inline constexpr uint64_t kDefaultSilentBlocks = 20'000'000;
+inline constexpr uint64_t kDefaultSilentBlocks = 1'000'000;
 
 /** `ncsim trace`: JSON Lines to the descriptor `out`. */
 int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int out, std::FILE* err);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "tools/lib/json_check.hpp"
 
@@ -120,7 +121,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
       parent->items.push_back(std::move(node));
       return &parent->items.back();
     }
-    parent->members.emplace_back(std::move(key_), std::move(node));
+    parent->members.push_back({std::move(key_), std::move(node)});
     return &parent->members.back().second;
   }
   bool place(JsonNode&& node) {

@@ -4,10 +4,11 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace nc::tools {
+
+struct JsonMember;
 
 /** One JSON value. */
 struct JsonNode {
@@ -18,12 +19,18 @@ struct JsonNode {
   bool integer = false;  // the number was written without point and exponent and fits
   double number = 0.0;
   std::string text;
-  std::vector<JsonNode> items;                             // of an array
-  std::vector<std::pair<std::string, JsonNode>> members;   // of an object, in the order of the text
+  std::vector<JsonNode> items;      // of an array
+  std::vector<JsonMember> members;  // of an object, in the order of the text
   uint32_t line = 0;
 
   /** "an object", "a number", ... */
   const char* type_name() const;
+};
+
+/** One key of an object with its value. A vector takes a type that is not complete yet; a std::pair of it, it does not. */
+struct JsonMember {
+  std::string first;
+  JsonNode second;
 };
 
 /**

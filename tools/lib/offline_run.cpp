@@ -16,21 +16,15 @@ class OfflineRun {
 
   RunResult run(uint64_t max_silent_blocks) {
     nc_item item;
-    uint64_t silent = 0;
     for (;;) {
       const nc_status status = items_.pull(kBudget, &item);
-      if (status == NC_BUDGET) {
-        silent += kBudget;
-        if (max_silent_blocks && silent >= max_silent_blocks)
-          return fail("nothing happens behind line " + std::to_string(last_.line) + " of O" +
-                      std::to_string(last_.program) + ": " + std::to_string(silent) +
-                      " blocks without an event, an endless loop");
-        continue;
-      }
+      if (status == NC_BUDGET) silent_ += kBudget;
+      if (max_silent_blocks && silent_ >= max_silent_blocks) return endless();
+      if (status == NC_BUDGET) continue;
       if (status == NC_ENDED || status == NC_ALARMED) break;
       if (status != NC_OK) return fail("the control stopped with status " + std::to_string(status));
-      silent = 0;
       last_ = item.source;
+      count_silence(item);
       const uint32_t next = world_.waits_for_line() ? lines_.after(ended_line_) : 0;
       if (world_.on_item(item, next)) return reset();
       if (!handle(item)) return result_;
@@ -44,6 +38,19 @@ class OfflineRun {
   }
 
  private:
+  // What the world sees, or lets time pass, ends a silence; blocks that only calculate and jump do not.
+  void count_silence(const nc_item& item) {
+    if (item.kind == NC_ITEM_MARK)
+      ++silent_;
+    else if (item.kind != NC_ITEM_SYNC || (item.u.sync.what & NC_SYNC_CLOCK))
+      silent_ = 0;
+  }
+
+  RunResult endless() {
+    return fail("line " + std::to_string(last_.line) + (last_.program ? " of O" + std::to_string(last_.program) : "") +
+                ": " + std::to_string(silent_) + " blocks without anything but calculation, an endless loop");
+  }
+
   bool handle(nc_item& item) {
     switch (item.kind) {
       case NC_ITEM_MOVE: move(item); break;
@@ -151,6 +158,7 @@ class OfflineRun {
   RunResult result_;
   nc_source last_ = {};
   nc_axes work_ = {};
+  uint64_t silent_ = 0;  // blocks since something happened
   uint32_t modal_ = 0, ended_line_ = 0;
   bool ended_ = false;
 };

@@ -53,8 +53,8 @@ class BlockLines {
 };
 
 /**
- * Run to the end. A stretch of `max_silent_blocks` blocks in which nothing at all happens (GOTO in a circle) is an error; 0 = no
- * limit.
+ * Run to the end. A stretch of `max_silent_blocks` blocks that only calculate and jump (GOTO in a circle) is an error; 0 = no limit.
+ * Reading the clock is no silence: time passes, so a waiting loop ends.
  */
 RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines,
                       uint64_t max_silent_blocks);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr uint32_t kFeedBudget = 1024;           // blocks per call
 constexpr uint64_t kMaxSilentFeeds = 16 * 1024;  // 16 M blocks in a row that commit nothing: an endless loop
+constexpr uint64_t kMaxSilentBlocks = 1'000'000;  // blocks executed without motion, dwell or FIN
 constexpr double kPatience = 10.0;               // s; a program that neither runs nor stops for so long hangs
 
 class VirtualMachine {
@@ -33,8 +34,11 @@ class VirtualMachine {
       if (out.state != NC_STATE_IDLE) started_ = true;
       if (out.state == NC_STATE_ALARM) return alarmed();
       if (started_ && out.state == NC_STATE_IDLE) return take(MachineResult::How::kEnded);
-      waiting = started_ && out.state == NC_STATE_RUNNING && out.cause != NC_CAUSE_STARVED ? 0.0
-                                                                                            : waiting + config_.cycle_s;
+      const bool goes_on = started_ && out.state == NC_STATE_RUNNING &&
+                           (out.cause != NC_CAUSE_STARVED || out.blocks != blocks_before_);
+      blocks_before_ = out.blocks;
+      waiting = goes_on ? 0.0 : waiting + config_.cycle_s;
+      if (!progresses(out)) return fail("line " + std::to_string(out.source.line) + ": an endless loop of calculation");
       if (waiting > kPatience) return fail("the program does not go on (cause " + std::to_string(out.cause) + ")");
     }
     return fail("not at its end after " + std::to_string(static_cast<uint64_t>(limit_s)) + " s of machine time");
@@ -49,6 +53,15 @@ class VirtualMachine {
       if (status != NC_OK && status != NC_BUDGET) return true;
     }
     return false;
+  }
+
+  // False after too many blocks in which nothing but calculation happened.
+  bool progresses(const nc_outputs& out) {
+    if (out.path_length != progress_length_ || out.strobe != 0 || out.cause == NC_CAUSE_DWELL) {
+      progress_length_ = out.path_length;
+      progress_blocks_ = out.blocks;
+    }
+    return out.blocks - progress_blocks_ < kMaxSilentBlocks;
   }
 
   void inputs(uint64_t cycle) {
@@ -97,6 +110,8 @@ class VirtualMachine {
   nc_inputs in_[NC_MAX_SYSTEMS] = {};
   nc_outputs out_[NC_MAX_SYSTEMS] = {};
   MachineResult result_;
+  double progress_length_ = 0.0;
+  uint64_t progress_blocks_ = 0, blocks_before_ = 0;
   bool started_ = false;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parameters, offset tables, variables, programs, switches: the public functions of nc/control.h that need a control.
+#include <cmath>
 #include <cstring>
 
 #include "control/control.hpp"
@@ -8,6 +9,9 @@
 namespace {
 
 using nc::Frames;
+
+/// Numbers that positions are added up from.
+bool sane(double value) { return std::fabs(value) < 1e9; }
 
 bool known(const nc_control* c, unsigned system) { return c != nullptr && system < c->config.system_count; }
 
@@ -92,8 +96,8 @@ nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key
 
 nc_status nc_work_offset_set(nc_control* c, unsigned system, unsigned index, unsigned axis, double value) {
   unsigned key = 0;
-  if (!work_key(c, system, index, axis, &key)) return NC_E_ARGUMENT;
-  c->system[system].interpreter.frames.set(key, value);
+  if (!sane(value) || !work_key(c, system, index, axis, &key)) return NC_E_ARGUMENT;
+  c->system[system].interpreter.set_table_from_outside(key, value);
   return NC_OK;
 }
 
@@ -105,10 +109,10 @@ nc_status nc_work_offset_get(const nc_control* c, unsigned system, unsigned inde
 }
 
 nc_status nc_tool_offset_set(nc_control* c, unsigned number, nc_tool_column column, double value) {
-  if (!tool_number(c, number, column)) return NC_E_ARGUMENT;
+  if (!sane(value) || !tool_number(c, number, column)) return NC_E_ARGUMENT;
   for (unsigned i = 0; i < c->config.system_count; ++i) {  // each part system keeps the common table, journalled by itself
-    Frames& frames = c->system[i].interpreter.frames;
-    frames.set(frames.tool_key(number, column), value);
+    nc::Interpreter& in = c->system[i].interpreter;
+    in.set_table_from_outside(in.frames.tool_key(number, column), value);
   }
   return NC_OK;
 }
@@ -123,13 +127,9 @@ nc_status nc_tool_offset_get(const nc_control* c, unsigned number, nc_tool_colum
 // ---- variables --------------------------------------------------------------------------------------------------------------
 
 nc_status nc_variable_set(nc_control* c, unsigned system, uint32_t number, double value, bool vacant) {
-  if (!known(c, system)) return NC_E_ARGUMENT;
+  if (!known(c, system) || (!vacant && !std::isfinite(value))) return NC_E_ARGUMENT;
   nc::Interpreter& in = c->system[system].interpreter;
-  if (in.variables.set(number, in.macro_level(), nc::Value{value, vacant}, in.state.seq)) {
-    if (in.state.seq == 0) in.set_machine(in.state.machine);
-    return NC_OK;
-  }
-  return NC_E_NOT_FOUND;
+  return in.variables.set_from_outside(number, in.macro_level(), nc::Value{value, vacant}) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 nc_status nc_variable_get(const nc_control* c, unsigned system, uint32_t number, double* value, bool* vacant) {
@@ -211,7 +211,10 @@ nc_status nc_position_set(nc_control* c, unsigned system, const nc_axes* machine
   if (!known(c, system) || machine == nullptr) return NC_E_ARGUMENT;
   if (c->system[system].busy()) return NC_E_STATE;
   nc::AxisVec position;
-  for (unsigned i = 0; i < c->config.system[system].axis_count; ++i) position[i] = machine->v[i];
+  for (unsigned i = 0; i < c->config.system[system].axis_count; ++i) {
+    if (!sane(machine->v[i])) return NC_E_ARGUMENT;
+    position[i] = machine->v[i];
+  }
   c->system[system].set_position(position);
   return NC_OK;
 }
@@ -223,9 +226,7 @@ void nc_switches_set(nc_control* c, unsigned system, uint32_t optional_skip, uin
 
 nc_status nc_alarm_get(const nc_control* c, unsigned system, nc_alarm* alarm) {
   if (!known(c, system) || alarm == nullptr) return NC_E_ARGUMENT;
-  if (!c->system[system].interpreter.alarmed) return NC_E_NOT_FOUND;
-  *alarm = c->system[system].alarm;
-  return NC_OK;
+  return c->system[system].alarm(alarm) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 nc_status nc_modal_get(const nc_control* c, unsigned system, uint32_t id, nc_modal* modal) {

@@ -70,6 +70,7 @@ Committed Commit::commit(const Item& item, const Transform& transform) {
       circle_ = map_circle(move.circle, transform, move.plane_axis[0], move.plane_axis[1]);
       curve_ = make_arc(machine_, end, move.plane_axis[0], move.plane_axis[1], circle_, axis_count_, rotary_);
     } else {
+      circle_ = Circle{};
       curve_ = make_line(machine_, end, axis_count_, rotary_);
     }
     if (curve_.length < kNoLength) {

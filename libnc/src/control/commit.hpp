@@ -36,7 +36,10 @@ class Commit {
   /// The machine stands here, before the next move.
   void set_machine(const AxisVec& machine) { machine_ = machine; }
   const AxisVec& machine() const { return machine_; }
-  void restart() { last_serial_ = 0; }
+  void restart() {
+    last_serial_ = 0;
+    mark_count_ = 0;
+  }
 
   /// `transform` is the one the move names (ignored for other items). Fills the geometry members.
   Committed commit(const Item& item, const Transform& transform);
@@ -50,6 +53,7 @@ class Commit {
   Serial serial() const { return last_serial_; }
   int8_t limit_axis() const { return limit_axis_; }
   const MarkPoint* find(Serial serial) const;
+  const MarkPoint* newest() const { return mark_count_ == 0 ? nullptr : &marks_[(mark_count_ - 1) & mark_mask_]; }
   /// Serial numbers go on behind `point`.
   void rewind_to(const MarkPoint& point);
 

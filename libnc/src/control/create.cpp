@@ -27,7 +27,7 @@ bool valid(const nc_config* c) {
   for (unsigned i = 0; i < c->system_count; ++i)
     if (!axes_valid(c->system[i])) return false;
   return c->cycle_s > 0 && c->cycle_s <= 0.1 && power_of_two(c->look_ahead) && c->look_ahead >= 64 && c->look_ahead <= 65536 &&
-         c->programs >= 1 && c->programs <= 65535 && c->tool_offsets >= 1 && c->tool_offsets <= 999 && c->work_offsets <= 249 &&
+         c->programs >= 1 && c->programs <= 65535 && c->tool_offsets >= 1 && c->tool_offsets <= 999 && c->work_offsets <= 300 &&
          c->window_bytes >= 512 && c->max_feed_override >= 1 && c->max_feed_override <= 10;
 }
 

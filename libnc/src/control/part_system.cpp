@@ -82,6 +82,10 @@ void PartSystem::take() {
 
 /// A stage behind the interpreter has found what is wrong: everything that was read beyond is void.
 void PartSystem::stop_on(const Fault& fault, const nc_source& source) {
+  const MarkPoint* last = commit_.newest();
+  interpreter.rewind(last != nullptr ? last->seq : 0);
+  // Of the block that stops some moves may have gone; compensated ones do not end where the program says.
+  if (!from_stage_) interpreter.state.machine = commit_.machine();
   offset_.reset();
   has_staged_ = false;
   interpreter.abort(fault, source);
@@ -90,15 +94,16 @@ void PartSystem::stop_on(const Fault& fault, const nc_source& source) {
 void PartSystem::describe_alarm() {
   const Fault& fault = interpreter.alarm_fault;
   const AlarmText text = alarm_text(*interpreter.dialect, fault);
-  alarm = nc_alarm{};
-  std::strncpy(alarm.code, text.code, sizeof(alarm.code) - 1);
-  std::strncpy(alarm.message, text.message, sizeof(alarm.message) - 1);
+  alarm_ = nc_alarm{};
+  alarm_given_ = true;
+  std::strncpy(alarm_.code, text.code, sizeof(alarm_.code) - 1);
+  std::strncpy(alarm_.message, text.message, sizeof(alarm_.message) - 1);
   char axis_name[2] = {0, 0};
   if (fault.axis >= 0) axis_name[0] = interpreter.system->axis[fault.axis].name;
-  alarm_detail(fault, axis_name, alarm.detail.s, sizeof(alarm.detail.s));
-  if (fault.condition == Condition::user_alarm) alarm.detail = interpreter.texts[interpreter.user_alarm_text].text;
-  alarm.axis = fault.axis;
-  alarm.source = interpreter.alarm_source;
+  alarm_detail(fault, axis_name, alarm_.detail.s, sizeof(alarm_.detail.s));
+  if (fault.condition == Condition::user_alarm) alarm_.detail = interpreter.texts[interpreter.user_alarm_text].text;
+  alarm_.axis = fault.axis;
+  alarm_.source = interpreter.alarm_source;
 }
 
 // ---- offline ---------------------------------------------------------------------------------------------------------------
@@ -148,13 +153,14 @@ nc_status PartSystem::answer(const nc_world& world) {
 }
 
 nc_status PartSystem::rewind(Serial serial) {
-  if (serial == 0) return reset();
-  const MarkPoint* point = commit_.find(serial);
-  if (point == nullptr) return NC_E_NOT_FOUND;
-  if (!interpreter.rewind(point->seq)) return NC_E_NOT_FOUND;
+  MarkPoint head;  // of the program: nothing has been read yet
+  const MarkPoint* point = serial == 0 ? &head : commit_.find(serial);
+  if (point == nullptr || !interpreter.rewind(point->seq)) return NC_E_NOT_FOUND;
+  if (serial == 0) head.machine = interpreter.state.machine;
   has_staged_ = false;
   open_sync_ = 0;
   finished_ = false;
+  alarm_given_ = false;
   offset_.reset();
   if (point->offset.active) offset_.restore(point->offset);
   commit_.rewind_to(*point);
@@ -168,6 +174,7 @@ void PartSystem::restart(const AxisVec& machine) {
   has_staged_ = false;
   open_sync_ = 0;
   finished_ = false;
+  alarm_given_ = false;
   commit_.set_machine(machine);
 }
 
@@ -271,12 +278,12 @@ nc_status PartSystem::recalculate() {
   if (!running_) return NC_OK;
   Serial last = 0;
   if (!executor.truncate(&last)) return NC_WAITING;
-  if (last == 0) {
-    restart(executor.commanded());
-    commit_.restart();
-    return NC_OK;
-  }
-  return rewind(last);
+  if (rewind(last) == NC_OK) return NC_OK;
+  // What the machine has not done is given up already, and it cannot be read again: too many writes or calls lie in between.
+  Fault fault;
+  fault.condition = Condition::internal;
+  stop_on(fault, interpreter.source);
+  return NC_OK;
 }
 
 }  // namespace nc

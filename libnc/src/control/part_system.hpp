@@ -22,10 +22,14 @@ class PartSystem {
   nc_status recalculate();
   void set_position(const AxisVec& machine);
   bool busy() const { return online_ && running_; }
+  /// The alarm in words, once its item has been given out; false = none.
+  bool alarm(nc_alarm* out) const {
+    if (alarm_given_) *out = alarm_;
+    return alarm_given_;
+  }
 
   Interpreter interpreter;
   Executor executor;
-  nc_alarm alarm{};          ///< in words, when interpreter.alarmed
 
  private:
   /// Next item in stream order behind the offset stage; NC_OK, or why there is none. take() removes it.
@@ -38,6 +42,8 @@ class PartSystem {
 
   OffsetStage offset_;
   Commit commit_;
+  nc_alarm alarm_{};
+  bool alarm_given_ = false;
   Item staged_;              ///< an item that the offset stage has given out
   bool has_staged_ = false;
   bool from_stage_ = false;  ///< the item next() gave is `staged_`, not the interpreter's front

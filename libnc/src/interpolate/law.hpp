@@ -51,7 +51,7 @@ inline double advance(LawState& state, const LawGoal& goal, double time) NC_RT {
     }
     if (t == t_end) {
       state.s = goal.length;
-      state.v = std::sqrt(std::max(0.0, at_end2));
+      state.v = std::sqrt(std::max(0.0, too_fast_for_exit ? at_end2 : std::min(at_end2, end2)));
       return time - t;
     }
     state.s += t * (v - 0.5 * a * t);

@@ -17,6 +17,8 @@ uint32_t code_number(double value) { return value >= 0 && value < 4294967296.0 ?
 
 Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
   Done done = Done::yes;
+  // The plan rests in front of these: what is left of the speed is rounding.
+  if (r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm || r.kind == ItemKind::end) law_.v = 0;
   switch (r.kind) {
     case ItemKind::move: done = move(r, in); break;
     case ItemKind::action: done = action(r.action); break;

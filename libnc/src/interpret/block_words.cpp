@@ -3,6 +3,7 @@
 #include "interpret/block_words.hpp"
 
 #include <cmath>
+#include <initializer_list>
 
 #include "interpret/interpreter.hpp"
 
@@ -75,6 +76,7 @@ Did gather_words(Interpreter& in) {
   w.one_shot = w.motion = w.cycle = nullptr;
   w.one_shot_code = 0;
   w.exact_stop = false;
+  w.absolute_at = w.incremental_at = 0;
   for (unsigned i = 0; i < in.block->words.size(); ++i) {
     const Word& word = in.block->words[i];
     double value = word.value;
@@ -95,6 +97,8 @@ Did gather_words(Interpreter& in) {
     if (word.letter == 'G') {
       const Did did = take_g(in, value);
       if (did != Did::done) return did;
+      if (w.g.back()->function == Function::absolute) w.absolute_at |= uint64_t{1} << i;
+      if (w.g.back()->function == Function::incremental) w.incremental_at |= uint64_t{1} << i;
       if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::macro_call) return Did::done;  // the rest are arguments
       continue;
     }
@@ -163,11 +167,25 @@ double length_of(const Interpreter& in, char letter, bool setting_unit) {
   return length_value(in, in.words.raw[at], in.words.flags[at], false, setting_unit);
 }
 
-double feed_value(const Interpreter& in, double raw, uint8_t flags) {
+Did feed_of(Interpreter& in, double* feed) {
+  const double raw = in.words.get('F');
   // M700 7.2: F1 = 1.000 in both decimal point types. DGSHAPE 3: 0.001 mm/min (0.0001 inch/min) unless the calculator type reads F.
-  if (in.dialect->id != NC_DIALECT_DGSHAPE || (flags & (kWordPoint | kWordExpression)) != 0 || dgshape_whole_units(in, true)) return raw;
-  return scaled(raw, inch(in) ? 0.0001 : 0.001);
+  const bool whole = in.dialect->id != NC_DIALECT_DGSHAPE || in.words.pointed('F') || dgshape_whole_units(in, true);
+  const double value = whole ? raw : scaled(raw, inch(in) ? 0.0001 : 0.001);
+  if (!(value >= 0) || value > (inch(in) ? 1e6 : 1e7)) return in.raise(Condition::value_range, 'F', raw);  // M700 5.3
+  *feed = value;
+  return Did::done;
 }
+
+namespace {
+
+/// M700 5.3: +-99999.999 mm or deg, +-9999.9999 inch, with more decimals in finer units; DGSHAPE 1-5 "range 1".
+bool in_range(const Interpreter& in, double value, bool rotary) {
+  const double limit = inch(in) && !rotary ? 10000 * 25.4 : 100000;
+  return std::fabs(value) < limit;
+}
+
+}  // namespace
 
 Did resolve_axes(Interpreter& in) {
   BlockWords& w = in.words;
@@ -178,9 +196,9 @@ Did resolve_axes(Interpreter& in) {
   if (!per_word) incremental = in.state.modal.code[kGroupDistance] == 910;
   for (unsigned i = 0; i < in.block->words.size(); ++i) {
     const Word& word = in.block->words[i];
-    if (word.letter == 'G' && per_word && (word.flags & kWordExpression) == 0) {
-      if (word.value == 90) incremental = false;
-      if (word.value == 91) incremental = true;
+    if (word.letter == 'G') {
+      if (per_word && ((w.absolute_at >> i) & 1) != 0) incremental = false;
+      if (per_word && ((w.incremental_at >> i) & 1) != 0) incremental = true;
       continue;
     }
     const unsigned at = static_cast<unsigned>(word.letter - 'A');
@@ -189,8 +207,14 @@ Did resolve_axes(Interpreter& in) {
     const uint32_t axis_bit = 1u << axis;
     w.axes |= axis_bit;
     w.incremental = incremental ? w.incremental | axis_bit : w.incremental & ~axis_bit;
-    w.axis[static_cast<unsigned>(axis)] = length_value(in, w.raw[at], w.flags[at], (in.rotary & axis_bit) != 0, false);
+    const bool turns = (in.rotary & axis_bit) != 0;
+    const bool time = word.letter == 'X' && w.one_shot != nullptr && w.one_shot->function == Function::dwell;  // seconds: a range of its own
+    const double value = length_value(in, w.raw[at], w.flags[at], turns, false);
+    if (!time && !in_range(in, value, turns)) return in.raise(Condition::value_range, word.letter, w.raw[at]);
+    w.axis[static_cast<unsigned>(axis)] = value;
   }
+  for (const char letter : {'I', 'J', 'K', 'Q', 'R'})
+    if (w.has(letter) && !in_range(in, length_of(in, letter), false)) return in.raise(Condition::value_range, letter, w.get(letter));
   return Did::done;
 }
 

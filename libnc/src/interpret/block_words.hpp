@@ -25,7 +25,8 @@ struct BlockWords {
   const FunctionRow* motion = nullptr;   ///< group 1 code of this block, or null
   const FunctionRow* cycle = nullptr;    ///< group 9 code of this block, or null
   bool exact_stop = false;         ///< G09
-  bool inhibits_cycle = false;
+  bool comp_command = false;       ///< G40-G42 that means something here
+  uint64_t absolute_at = 0, incremental_at = 0;  ///< bit i: word i of the block is G90, G91
 
   bool has(char letter) const { return (present >> (letter - 'A')) & 1; }
   double get(char letter) const { return raw[letter - 'A']; }
@@ -41,8 +42,8 @@ Did resolve_axes(Interpreter& in);
 /// Value of a length word (I J K R Q and the like) in mm; axis = -1 a length, else rotary or linear like the axis.
 double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotary, bool setting_unit);
 double length_of(const Interpreter& in, char letter, bool setting_unit = true);
-/// F as programmed -> the number that is kept modal.
-double feed_value(const Interpreter& in, double raw, uint8_t flags);
+/// F of the block -> the number that is kept modal.
+Did feed_of(Interpreter& in, double* feed);
 /// A word that must be a whole number; fraction is dropped (M700 5.3). False when it is negative or too large.
 bool whole_number(double raw, uint32_t* number);
 

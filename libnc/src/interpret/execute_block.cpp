@@ -101,6 +101,7 @@ Did apply_systems(Interpreter& in) {
   }
   const FunctionRow* one_shot = in.words.one_shot;
   const FunctionRow* radius = nullptr;
+  in.words.comp_command = false;
   const FunctionRow* length = nullptr;
   for (const FunctionRow* row : in.words.g) {  // the last code of a group counts (M700 3.7, DGSHAPE 1)
     if (row->group == kGroupCompensation && row->function != Function::modal_off && !ignores_compensation(one_shot, row->function)) radius = row;
@@ -108,7 +109,9 @@ Did apply_systems(Interpreter& in) {
   }
   if (radius != nullptr) {
     in.state.modal.code[kGroupCompensation] = radius->code;
+    const int8_t side = in.state.comp.side;
     const Did did = set_compensation(in, radius->function);
+    in.words.comp_command = side != 0 || in.state.comp.side != 0;
     if (did != Did::done) return did;
   } else if (in.words.has('D')) {
     const Did did = change_radius(in);
@@ -158,7 +161,8 @@ Did execute_words(Interpreter& in) {
   if (did != Did::done) return did;
   // The F of a skip block is its own and never modal (M700 15.2).
   const bool own_feed = w.one_shot != nullptr && w.one_shot->function == Function::skip;
-  if (w.has('F') && !own_feed) in.state.modal.feed = feed_value(in, w.get('F'), w.flags['F' - 'A']);
+  if (w.has('F') && !own_feed) did = feed_of(in, &in.state.modal.feed);
+  if (did != Did::done) return did;
   did = apply_systems(in);
   if (did != Did::done) return did;
   if (is_arc(in.state.modal.code[kGroupMotion]) && w.axes != 0 && w.one_shot == nullptr && w.cycle == nullptr) {
@@ -169,7 +173,10 @@ Did execute_words(Interpreter& in) {
   }
   did = auxiliary_before(in);
   if (did != Did::done) return did;
-  return finish(in, execute_motion(in));
+  const AxisVec before = in.state.machine;
+  did = execute_motion(in);
+  if (did == Did::done && w.comp_command && in.state.machine == before) move_nowhere(in);
+  return finish(in, did);
 }
 
 Did continue_block(Interpreter& in) {

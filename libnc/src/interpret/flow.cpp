@@ -55,6 +55,7 @@ Did jump_to_sequence(Interpreter& in, double number) {
   leave_loops(in, offset);
   top(in).offset = offset;
   top(in).line = line;
+  in.jumped = true;
   return Did::done;
 }
 
@@ -75,6 +76,7 @@ Did begin_loop(Interpreter& in, const Statement& statement, bool condition) {
     if (again) --s.loop_count;
     frame.offset = end;
     frame.line = line;
+    in.jumped = true;
     return Did::done;
   }
   if (again) return Did::done;
@@ -95,6 +97,7 @@ Did end_loop(Interpreter& in, const Statement& statement) {
   loop.end_line = in.block->next_line;
   frame.offset = loop.offset;
   frame.line = loop.line;
+  in.jumped = true;
   return Did::done;
 }
 
@@ -136,6 +139,13 @@ Did repetitions(Interpreter& in, bool has_l, double l, uint32_t* count) {
   *count = 1;
   if (has_l && (!whole_number(l, count) || *count > 9999)) return in.raise(Condition::value_range, 'L', l);
   return Did::done;
+}
+
+/// M98 or M99 with nothing but O N P L H (M700 13.3.1).
+bool only_calls(const Interpreter& in) {
+  for (const Word& word : in.block->words)
+    if (word.letter != 'M' && word.letter != 'P' && word.letter != 'L' && word.letter != 'H') return false;
+  return in.words.m.size() == 1;
 }
 
 Did enter(Interpreter& in, const ProgramRef& program, CallKind kind, uint32_t passes, uint64_t offset, uint32_t line) {
@@ -262,7 +272,12 @@ Did call_sub(Interpreter& in) {
     if (!whole_number(w.get('H'), &n) || !in.reader.find_sequence(program.file, n, &offset, &line, 0, kWholeText, &again))
       return in.raise(Condition::sequence_missing, 'H', w.get('H'));
   }
-  return enter(in, program, CallKind::sub, passes, offset, line);
+  // M700 13.3.1: single block does not stop at a block that only calls; with other words it may, behind what they do.
+  const bool stops = !only_calls(in);
+  if (stops) in.emit_stop_point();
+  did = enter(in, program, CallKind::sub, passes, offset, line);
+  if (did == Did::later) in.keep_call();
+  return did;
 }
 
 Did call_macro(Interpreter& in) {
@@ -278,7 +293,9 @@ Did call_macro(Interpreter& in) {
   const unsigned level = in.macro_level() + 1u;
   if (level > kMacroDepth) return in.raise(Condition::macro_nesting, 'P', program.number);
   did = enter(in, program, CallKind::macro, passes, program.offset, program.line);
-  if (did == Did::later) in.variables.enter(level, call.argument, in.state.seq + 1);
+  if (did != Did::later) return did;
+  in.variables.enter(level, call.argument, in.state.seq + 1);
+  in.keep_call();
   return did;
 }
 
@@ -301,7 +318,7 @@ Did return_sub(Interpreter& in) {
     frame.offset = frame.begin;
     frame.line = frame.begin_line;
     frame.started = frame.begin != frame.program.offset;
-    in.finish_block(false);
+    in.finish_block(!only_calls(in));
     return Did::later;
   }
   if (w.has('P')) {
@@ -317,8 +334,9 @@ Did return_sub(Interpreter& in) {
   } else {
     --s.depth;
   }
+  const bool stops = !only_calls(in);
   s.owes_mark = true;
-  in.finish_block(false);
+  in.finish_block(stops);
   return Did::later;
 }
 

@@ -36,7 +36,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   const unsigned under_way = power_of_two_above(2 * config.look_ahead + 256);
   parameters.create(512, arena);
   frames.create(config.frames, arena);
-  variables.create(common, 4096, arena);
+  variables.create(common, power_of_two_above(4 * config.look_ahead < 4096 ? 4096 : 4 * config.look_ahead), arena);
   reader.create(store, dialect->lex, config.window_bytes, config.look_ahead < 256 ? 16 : 64, arena);
   transforms.create(under_way, arena);
   modals.create(under_way, arena);
@@ -100,6 +100,10 @@ void Interpreter::reset() {
   state.frame[0].offset = state.frame[0].begin = main_program.offset;
   state.frame[0].line = state.frame[0].begin_line = main_program.line;
   variables.clear_locals(1);
+  variables.forget();
+  // DGSHAPE G28: a midpoint is remembered within a program.
+  for (unsigned i = 0; i < axis_count; ++i) frames.set(Frames::midpoint_set_key(i), 0);
+  finished_modal = state.modal;
   head_ = queued_ = 0;
   waiting_ = false;
   next_step = Step::none;
@@ -121,6 +125,7 @@ void Interpreter::set_machine(const AxisVec& machine) {
 bool Interpreter::rewind(BlockSeq seq) {
   if (!checkpoints_.holds(seq) || !variables.rewind(seq, this, undo_table)) return false;
   checkpoints_.restore(seq, &state);
+  finished_modal = state.modal;
   head_ = queued_ = 0;
   waiting_ = false;
   next_step = Step::none;
@@ -164,7 +169,7 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   if (state.owes_mark) {  // the block of the call ends with the return
     state.owes_mark = false;
     source.line = frame.call_line;
-    finish_block(true);
+    finish_block(false);  // M700 13.3.1: where it may stop, it has done so before the call
     return NC_OK;
   }
   block = reader.read(frame.program.file, frame.offset, frame.line);
@@ -220,12 +225,14 @@ nc_status Interpreter::run_block(uint32_t& budget) {
 
 Did Interpreter::execute_statements() {
   while (statement < block->statements.size()) {
+    jumped = false;
     const Did did = execute_statement(*this, block->statements[statement]);
     if (did == Did::sync) return did;
     if (did != Did::done) {
       statement = 0;
       return did;
     }
+    if (jumped) break;
     ++statement;
   }
   statement = 0;
@@ -244,6 +251,7 @@ nc_status Interpreter::settle(Did did) {
     }
     case Did::later: return NC_OK;
     case Did::sync: {
+      if (statement > 0) keep_call();  // the statements before this one are done
       Item& item = emit(ItemKind::sync);
       item.sync.what = sync_needed;
       waiting_for_ = sync_needed;
@@ -252,10 +260,31 @@ nc_status Interpreter::settle(Did did) {
     }
     case Did::fault: break;
   }
-  // Nothing of the block that alarms has happened: take back what it has put into the stream, unless parts of it have gone already.
-  if (next_step == Step::none) queued_ = 0;
+  // Nothing of the block that alarms has happened, unless parts of it have gone already.
+  if (next_step == Step::none) take_block_back();
   stop(fault, source);
   return NC_OK;
+}
+
+/// What the block in hand has put into the stream, and what it has changed.
+void Interpreter::take_block_back() {
+  queued_ = 0;
+  if (!checkpoints_.holds(state.seq) || !variables.rewind(state.seq, this, undo_table)) return;
+  checkpoints_.restore(state.seq, &state);
+}
+
+void Interpreter::keep_call() {
+  ++state.seq;
+  checkpoints_.save(state);
+}
+
+void Interpreter::emit_stop_point() {
+  Item& item = emit(ItemKind::mark);
+  item.block_end = false;
+  item.mark.work = position();
+  item.mark.modal = modals.intern(state.modal);
+  item.mark.stop = (state.control_3003 & 1) == 0;
+  item.mark.report = false;
 }
 
 void Interpreter::stop(const Fault& what, const nc_source& where) {

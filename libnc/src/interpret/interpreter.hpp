@@ -71,6 +71,11 @@ struct Interpreter {
   /// A stage behind has found a fault: what is queued is void, the alarm and the end take its place.
   void abort(const Fault& what, const nc_source& where);
   void refresh_settings() { settings = parameters.settings(*dialect); }
+  /// The host has changed a number of the frames' table: no rewind brings the old one back.
+  void set_table_from_outside(unsigned key, double value) {
+    frames.set(key, value);
+    variables.changed_from_outside(Variables::kForeignKey + key, value);
+  }
 
   // ---- for the functions (interpret/ only) --------------------------------------------------------------------------
   const Dialect* dialect = nullptr;
@@ -113,6 +118,7 @@ struct Interpreter {
   nc_source source{};
   BlockWords words;
   unsigned statement = 0;          ///< next macro statement of the block
+  bool jumped = false;             ///< a statement has sent the program elsewhere: those behind it in the block are not executed
   Step next_step = Step::none;
   Hole hole;
   HoleProgress progress;
@@ -144,6 +150,10 @@ struct Interpreter {
 
   /// The block of `source` has ended: its mark (and the end, after M02/M30), and the checkpoint to rewind to.
   void finish_block(bool stop);
+  /// A place inside a block where single block may stop.
+  void emit_stop_point();
+  /// The block has done its part and the program goes on in the one it calls: what comes there does not undo it.
+  void keep_call();
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }
 
   /// Active zero and the position in it.
@@ -159,6 +169,7 @@ struct Interpreter {
   nc_status run_block(uint32_t& budget);
   nc_status settle(Did did);
   void stop(const Fault& what, const nc_source& where);
+  void take_block_back();
   Did execute_statements();
   bool skipped(const Block& b) const;
 
@@ -200,6 +211,8 @@ void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, con
 /// A straight rapid to machine coordinates without any compensation on the `commanded` axes (G53, second leg of G28).
 void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded);
 Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw);
+/// A compensation command in a block that does not move: a move without length carries it to the offset stage (offset/offset.hpp).
+void move_nowhere(Interpreter& in);
 /// The motion that the words of the block ask for by the modal group 1.
 Did move_by_words(Interpreter& in);
 /// F in force as mm/min, 0 = none.

@@ -97,6 +97,17 @@ void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, con
   move.comp.transparent = style.transparent;
 }
 
+void move_nowhere(Interpreter& in) {
+  const Transform transform = transform_in_force(in);
+  const AxisVec at = transform.from_machine(in.state.machine);
+  const auto moves = in.state.moves_since_comp_off;
+  Move& move = begin_move(in, transform, at, at);
+  in.state.moves_since_comp_off = moves;
+  move.kind = in.state.modal.code[kGroupMotion] == 0 ? NC_MOVE_RAPID : NC_MOVE_LINE;
+  move.exact_stop = move.kind == NC_MOVE_RAPID;
+  move.feed_mm_min = move.kind == NC_MOVE_RAPID ? 0 : feed_mm_min(in);
+}
+
 void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded) {
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded >> i) & 1) != 0) in.state.applied[i] = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "interpret/parameters.hpp"
 
+#include <cmath>
 #include <cstring>
 
 namespace nc {
@@ -33,7 +34,7 @@ bool parse_number(const char* text, double* value) {
     }
   }
   *value = (negative ? -number : number) / scale;
-  return any;
+  return any && std::isfinite(*value);
 }
 
 /// Index of `text` in "a|b|c", -1 when it is none of them.
@@ -48,18 +49,27 @@ int word_index(const char* words, const char* text) {
   }
 }
 
-/// "1267" or "1267/bit0": the number keys of the M700.
-bool is_number_key(const char* key) {
+constexpr int kWhole = -1;   ///< a key without "/bit"
+constexpr int kNoKey = -2;
+
+/// "1267" or "1267/bit0", the number keys of the M700: its bit 0..31, or what stands above. `whole` becomes the number alone.
+int bit_of_key(const char* key, char (&whole)[24]) {
   unsigned digits = 0;
-  while (is_digit(*key)) ++key, ++digits;
-  if (digits == 0 || digits > 6) return false;
-  if (*key == 0) return true;
-  if (std::strncmp(key, "/bit", 4) != 0) return false;
-  key += 4;
-  if (!is_digit(*key)) return false;
-  while (is_digit(*key)) ++key;
-  return *key == 0;
+  while (is_digit(key[digits])) ++digits;
+  if (digits == 0 || digits > 6) return kNoKey;
+  std::memcpy(whole, key, digits);
+  whole[digits] = 0;
+  key += digits;
+  if (*key == 0) return kWhole;
+  if (std::strncmp(key, "/bit", 4) != 0 || !is_digit(key[4])) return kNoKey;
+  int bit = key[4] - '0';
+  if (is_digit(key[5])) bit = bit * 10 + (key[5] - '0');
+  const char* end = key + (is_digit(key[5]) ? 6 : 5);
+  return *end == 0 && bit < 32 ? bit : kNoKey;
 }
+
+/// A parameter as bits; what is no whole number of 32 bits has none set.
+uint32_t bits_of(double value) { return value >= 0 && value <= 4294967295.0 ? static_cast<uint32_t>(value) : 0; }
 
 }  // namespace
 
@@ -77,6 +87,8 @@ Parameters::Entry* Parameters::find(const char* key, int axis) const {
 nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, const char* text) {
   if (key == nullptr || text == nullptr || std::strlen(key) >= sizeof(Entry::key)) return NC_E_NOT_FOUND;
   double value = 0;
+  char whole[24];
+  int bit = kWhole;
   const ParameterName* named = nullptr;
   for (const ParameterName& row : dialect.parameters)
     if (std::strcmp(row.key, key) == 0) named = &row;
@@ -84,15 +96,23 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
     const int index = word_index(named->words, text);
     if (index < 0) return NC_E_ARGUMENT;
     value = index;
-  } else if (named != nullptr || (dialect.id == NC_DIALECT_M700 && is_number_key(key))) {
+  } else if (named == nullptr && (dialect.id != NC_DIALECT_M700 || (bit = bit_of_key(key, whole)) == kNoKey)) {
+    return NC_E_NOT_FOUND;
+  } else {
     // #1003 takes the letters of 2.1; any letter is stored by its code.
     if (!parse_number(text, &value)) {
-      if (text[0] == 0 || text[1] != 0) return NC_E_ARGUMENT;
-      if (std::strcmp(key, "1003") == 0 && (text[0] < 'B' || text[0] > 'E')) return NC_E_ARGUMENT;  // M700 2.1
+      if (text[0] == 0 || text[1] != 0 || bit != kWhole) return NC_E_ARGUMENT;
       value = static_cast<unsigned char>(text[0]);
     }
-  } else {
-    return NC_E_NOT_FOUND;
+    if (std::strcmp(key, "1003") == 0 && (value < 'B' || value > 'E')) return NC_E_ARGUMENT;  // M700 2.1
+  }
+  if (bit != kWhole) {  // one bit of a parameter: the others stay
+    if (value != 0 && value != 1) return NC_E_ARGUMENT;
+    double before = 0;
+    get(whole, axis, &before);
+    const uint32_t mask = uint32_t{1} << bit;
+    value = value != 0 ? bits_of(before) | mask : bits_of(before) & ~mask;
+    key = whole;
   }
   Entry* entry = find(key, axis);
   if (entry == nullptr) {
@@ -106,20 +126,13 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
 }
 
 bool Parameters::get(const char* key, int axis, double* value) const {
-  const Entry* entry = find(key, axis);
-  if (entry == nullptr && axis >= 0) entry = find(key, -1);
-  if (entry != nullptr) {
-    *value = entry->value;
-    return true;
-  }
-  // A bit of a parameter that was set as a whole.
-  const char* slash = std::strchr(key, '/');
-  if (slash == nullptr) return false;
-  char whole[24] = {};
-  std::memcpy(whole, key, static_cast<size_t>(slash - key));
-  double bits = 0, bit = 0;
-  if (!get(whole, axis, &bits) || !parse_number(slash + 4, &bit)) return false;
-  *value = static_cast<double>((static_cast<uint64_t>(bits) >> static_cast<unsigned>(bit)) & 1);
+  char whole[24];
+  const int bit = bit_of_key(key, whole);
+  const char* name = bit >= 0 ? whole : key;
+  const Entry* entry = find(name, axis);
+  if (entry == nullptr && axis >= 0) entry = find(name, -1);
+  if (entry == nullptr) return false;
+  *value = bit >= 0 ? (bits_of(entry->value) >> bit) & 1 : entry->value;
   return true;
 }
 
@@ -158,6 +171,8 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.tool_memory_2 = number("1037", 1) == 2;
   s.diameter_offsets = flag("8117");
   s.comp_type_b = flag("1229/bit2");
+  s.interference_check = !flag("8103");
+  s.interference_avoid = flag("8102");
   s.skip_feed = number("1174", 0);
   s.peck_clearance_83 = number("8013", 0);
   s.peck_clearance_73 = number("8012", 0);

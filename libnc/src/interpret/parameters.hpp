@@ -23,6 +23,8 @@ struct Settings {
   bool tool_memory_2 = false;         ///< #1037 = 2
   bool diameter_offsets = false;      ///< #8117
   bool comp_type_b = false;           ///< #1229 bit 2
+  bool interference_check = false;    ///< #8103 OFF (M700; DGSHAPE checks nothing)
+  bool interference_avoid = false;    ///< #8102 ON
   double skip_feed = 0;               ///< #1174, mm/min
   double peck_clearance_83 = 0;       ///< #8013, mm
   double peck_clearance_73 = 0;       ///< #8012, mm

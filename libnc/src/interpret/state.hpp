@@ -50,7 +50,7 @@ struct State {
   Compensation comp;          ///< tool radius compensation in force
   double length_value = 0;    ///< tool length compensation in force ...
   uint8_t length_axis = 2;    ///< ... on this axis
-  uint8_t work_system = 0;    ///< 0..5 G54..G59, 6.. G54.1 P1..
+  uint16_t work_system = 0;   ///< 0..5 G54..G59, 6.. G54.1 P1..
   bool spindle_on = false;
   bool end_seen = false;
   bool percent_seen = false;  ///< the start mark of the main program has been read

@@ -129,6 +129,7 @@ Eval read_tool(Access& a) {
 Did write_tool(Access& a) {
   uint32_t key = 0;
   if (!tool_key(a, &key)) return a.in.raise(Condition::variable_number, '#', a.number);
+  if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, '#', a.written);
   a.in.set_table(key, a.written);
   return Did::done;
 }
@@ -152,6 +153,7 @@ Eval read_work(Access& a) {
 Did write_work(Access& a) {
   uint32_t key = 0;
   if (!work_key(a, &key)) return a.in.raise(Condition::variable_number, '#', a.number);
+  if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, '#', a.written);
   a.in.set_table(key, a.written);
   return Did::done;
 }
@@ -186,7 +188,6 @@ double counter_unit(const Interpreter& in, unsigned which) { return which == 1 &
 
 Eval read_counter(Access& a) {
   if (!world_known(a, NC_SYNC_CLOCK)) return Eval::need_sync;
-  a.in.world_fresh = false;  // each read of a clock is a read of its own
   return give(a, (counter_ms(a.in, a.offset) - a.in.state.clock_base[a.offset]) / counter_unit(a.in, a.offset));
 }
 Did write_counter(Access& a) {
@@ -252,7 +253,6 @@ Did write_count(Access& a) {
 
 Eval read_date(Access& a) {
   if (!world_known(a, NC_SYNC_CLOCK)) return Eval::need_sync;
-  a.in.world_fresh = false;
   const int64_t seconds = clock_seconds(a.in);
   if (a.offset == 1) return give(a, static_cast<double>(seconds / 3600 % 24 * 10000 + seconds / 60 % 60 * 100 + seconds % 60));
   int64_t year = 0;
@@ -262,7 +262,8 @@ Eval read_date(Access& a) {
 }
 
 Did write_control(Access& a) {
-  const auto bits = static_cast<uint8_t>(static_cast<unsigned>(std::fmax(0, a.written)) & 7);
+  if (!(a.written >= 0) || a.written >= 8) return a.in.raise(Condition::value_range, '#', a.written);
+  const auto bits = static_cast<uint8_t>(a.written);
   (a.number == 3003 ? a.in.state.control_3003 : a.in.state.control_3004) = bits;
   Action& action = a.in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_CONTROL;

@@ -152,7 +152,8 @@ bool ExpressionCompiler::bracket(unsigned depth, bool comparison_allowed) {
   return at_.accept(']') || fail(unclosed(Condition::calculation));
 }
 
-/// What is wrong where ']' should stand: it is missing altogether (M700 P281), or something else stands before it.
+/// What is wrong where ']' should stand: it is missing altogether (M700 P281), or something else stands
+/// before it.
 Condition ExpressionCompiler::unclosed(Condition otherwise) const {
   Cursor ahead = at_;
   for (ahead.skip(); !ahead.at_end(); ahead.skip()) {
@@ -185,7 +186,8 @@ bool ExpressionCompiler::variable_number(uint16_t* code) {
   return name() && emit(Op::end);
 }
 
-/// '#' { '#' } ( digits | '[' formula ']' ). Each further '#' takes the value before it as the number of a variable.
+/// '#' { '#' } ( digits | '[' formula ']' ). Each further '#' takes the value before it as the number of a
+/// variable.
 bool ExpressionCompiler::variable(unsigned depth, bool value_wanted) {
   unsigned hashes = 0;
   for (; at_.accept('#'); ++hashes) {
@@ -251,8 +253,8 @@ bool ExpressionCompiler::fail(Condition condition, double value) {
   return false;
 }
 
-bool compile_expression(Block& block, const char* text, size_t size, size_t* at, bool condition, uint16_t* code,
-                        Fault* fault) {
+bool compile_expression(Block& block, const char* text, size_t size, size_t* at, bool condition,
+                        uint16_t* code, Fault* fault) {
   Cursor cursor;
   cursor.p = text + *at;
   cursor.end = text + size;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The expression compiler: text -> short stack code in the block that it stands in. Private to the lexer and expression.hpp.
+// The expression compiler: text -> short stack code in the block that it stands in. Private to the lexer and
+// expression.hpp.
 //
-//   formula   = [sign] operand { operator [sign] operand }       + - OR XOR  below  * / MOD AND  below functions (M700 13.5.6)
-//   operand   = number | variable | '[' formula ']' | function '[' formula ']' | '[' '#' NAME ']'
-//   variable  = '#' digits | '#' variable | '#' '[' formula ']'                                  (M700 13.4 (1))
-//   condition = '[' formula (EQ NE GT LT GE LE) formula ']'                                      (M700 13.5.7)
+//   formula   = [sign] operand { operator [sign] operand }       + - OR XOR  below  * / MOD AND  below
+//   functions (M700 13.5.6) operand   = number | variable | '[' formula ']' | function '[' formula ']' | '['
+//   '#' NAME ']' variable  = '#' digits | '#' variable | '#' '[' formula ']' (M700 13.4 (1)) condition = '['
+//   formula (EQ NE GT LT GE LE) formula ']'                                      (M700 13.5.7)
 #pragma once
 
 #include "macro/expression.hpp"
@@ -15,19 +16,46 @@ namespace nc {
 /// Instructions of the stack machine; operands follow the byte.
 enum class Op : uint8_t {
   end,
-  constant,        ///< u8: push Block::constants[u8]
-  small,           ///< i16: push
-  variable,        ///< u24: push the value of this variable
-  load,            ///< number -> value of that variable
-  name,            ///< u16 u8: push the number of the variable with this name, a range of Block::text
-  negate,          ///< vacant becomes 0
-  negate_word,     ///< vacant stays vacant: X-#1 is ignored like X#1 (M700 13.5.4)
-  add, subtract, bit_or, bit_xor, multiply, divide, modulo, bit_and,
-  sin, cos, tan, asin, acos, atan, sqrt, abs, bin, bcd, round, fix, fup, ln, exp,
-  equal, not_equal, greater, less, greater_equal, less_equal
+  constant,     ///< u8: push Block::constants[u8]
+  small,        ///< i16: push
+  variable,     ///< u24: push the value of this variable
+  load,         ///< number -> value of that variable
+  name,         ///< u16 u8: push the number of the variable with this name, a range of Block::text
+  negate,       ///< vacant becomes 0
+  negate_word,  ///< vacant stays vacant: X-#1 is ignored like X#1 (M700 13.5.4)
+  add,
+  subtract,
+  bit_or,
+  bit_xor,
+  multiply,
+  divide,
+  modulo,
+  bit_and,
+  sin,
+  cos,
+  tan,
+  asin,
+  acos,
+  atan,
+  sqrt,
+  abs,
+  bin,
+  bcd,
+  round,
+  fix,
+  fup,
+  ln,
+  exp,
+  equal,
+  not_equal,
+  greater,
+  less,
+  greater_equal,
+  less_equal
 };
 
-/// Numbers of a stack that no expression of five brackets can exceed: two waiting operands per level, the one at work, and one to spare.
+/// Numbers of a stack that no expression of five brackets can exceed: two waiting operands per level, the one
+/// at work, and one to spare.
 inline constexpr unsigned kMaxBrackets = 5;  // M700 13.4 (Note 2)
 inline constexpr unsigned kStackDepth = 2 * (kMaxBrackets + 1) + 4;
 
@@ -73,8 +101,8 @@ class ExpressionCompiler {
   Block& block_;
   Cursor& at_;
   Fault fault_;
-  bool word_ = false;       ///< unbracketed in a word
-  bool compared_ = false;   ///< a comparison has been compiled
+  bool word_ = false;      ///< unbracketed in a word
+  bool compared_ = false;  ///< a comparison has been compiled
 };
 
 }  // namespace nc

@@ -37,7 +37,8 @@ double round_half_away(double x) {
   return x < 0 ? 0 - whole : whole;
 }
 
-/// sin and cos of degrees, exact at multiples of 30 where the value is 0, +-1/2 or +-1: reduced to [-45, 45] degrees first.
+/// sin and cos of degrees, exact at multiples of 30 where the value is 0, +-1/2 or +-1: reduced to [-45, 45]
+/// degrees first.
 void sine_cosine(double degrees, double* sine, double* cosine) {
   double r = std::fmod(degrees, 360.0);
   const double quarter = std::nearbyint(r / 90.0);
@@ -45,16 +46,25 @@ void sine_cosine(double degrees, double* sine, double* cosine) {
   const double s = std::fabs(r) == 30.0 ? std::copysign(0.5, r) : std::sin(r * kDegree);
   const double c = std::cos(r * kDegree);
   switch (static_cast<int>(quarter) & 3) {
-    case 0: *sine = s, *cosine = c; break;
-    case 1: *sine = c, *cosine = -s; break;
-    case 2: *sine = -s, *cosine = -c; break;
-    default: *sine = -c, *cosine = s; break;
+    case 0:
+      *sine = s, *cosine = c;
+      break;
+    case 1:
+      *sine = c, *cosine = -s;
+      break;
+    case 2:
+      *sine = -s, *cosine = -c;
+      break;
+    default:
+      *sine = -c, *cosine = s;
+      break;
   }
   *sine += 0.0;  // no -0
   *cosine += 0.0;
 }
 
-/// Angle in degrees. A result that is a whole number of degrees but for the last bits is that number: ACOS[0.5] is 60.
+/// Angle in degrees. A result that is a whole number of degrees but for the last bits is that number:
+/// ACOS[0.5] is 60.
 double to_degrees(double radians) {
   const double degrees = radians / kDegree;
   const double whole = std::nearbyint(degrees);
@@ -94,20 +104,28 @@ bool binary_to_bcd(double x, double* result) {
   int64_t number = 0;
   if (!to_bits(x, &number) || number < 0 || number > kMost) return false;
   uint32_t value = 0;
-  for (unsigned shift = 0; number != 0; number /= 10, shift += 4) value |= static_cast<uint32_t>(number % 10) << shift;
+  for (unsigned shift = 0; number != 0; number /= 10, shift += 4)
+    value |= static_cast<uint32_t>(number % 10) << shift;
   *result = value;
   return true;
 }
 
-/// x is 1 but for the noise of a calculation: taken as 1, so that ASIN[1] found by calculation is not an error.
-double clip_to_one(double x) { return std::fabs(x) > 1 && std::fabs(x) - 1 < kNoise ? std::copysign(1.0, x) : x; }
+/// x is 1 but for the noise of a calculation: taken as 1, so that ASIN[1] found by calculation is not an
+/// error.
+double clip_to_one(double x) {
+  return std::fabs(x) > 1 && std::fabs(x) - 1 < kNoise ? std::copysign(1.0, x) : x;
+}
 
 /// none = *result is good.
 Condition function(Op op, double x, const EvalOptions& options, double* result) {
   double sine = 0, cosine = 0;
   switch (op) {
-    case Op::sin: sine_cosine(x, result, &cosine); return Condition::none;
-    case Op::cos: sine_cosine(x, &sine, result); return Condition::none;
+    case Op::sin:
+      sine_cosine(x, result, &cosine);
+      return Condition::none;
+    case Op::cos:
+      sine_cosine(x, &sine, result);
+      return Condition::none;
     case Op::tan:  // M700 13.5.6: sin/cos used for tan
       sine_cosine(x, &sine, &cosine);
       if (cosine == 0) return Condition::division_by_zero;
@@ -124,23 +142,38 @@ Condition function(Op op, double x, const EvalOptions& options, double* result) 
       if (!(std::fabs(x) <= 1)) return Condition::calculation;
       *result = to_degrees(std::acos(x));
       return Condition::none;
-    case Op::atan: *result = to_degrees(std::atan(x)); return Condition::none;
+    case Op::atan:
+      *result = to_degrees(std::atan(x));
+      return Condition::none;
     case Op::sqrt:
       if (x < 0) return Condition::calculation;
       *result = std::sqrt(x);
       return Condition::none;
-    case Op::abs: *result = std::fabs(x); return Condition::none;
-    case Op::bin: return bcd_to_binary(x, result) ? Condition::none : Condition::calculation;
-    case Op::bcd: return binary_to_bcd(x, result) ? Condition::none : Condition::calculation;
-    case Op::round: *result = round_half_away(x); return Condition::none;
-    case Op::fix: *result = fix(x); return Condition::none;
-    case Op::fup: *result = fup(x); return Condition::none;
+    case Op::abs:
+      *result = std::fabs(x);
+      return Condition::none;
+    case Op::bin:
+      return bcd_to_binary(x, result) ? Condition::none : Condition::calculation;
+    case Op::bcd:
+      return binary_to_bcd(x, result) ? Condition::none : Condition::calculation;
+    case Op::round:
+      *result = round_half_away(x);
+      return Condition::none;
+    case Op::fix:
+      *result = fix(x);
+      return Condition::none;
+    case Op::fup:
+      *result = fup(x);
+      return Condition::none;
     case Op::ln:
       if (!(x > 0)) return Condition::calculation;
       *result = std::log(x);
       return Condition::none;
-    case Op::exp: *result = std::exp(x); return Condition::none;
-    default: return Condition::internal;
+    case Op::exp:
+      *result = std::exp(x);
+      return Condition::none;
+    default:
+      return Condition::internal;
   }
 }
 
@@ -153,9 +186,15 @@ double modulo(double a, double b) {
 Condition binary(Op op, double a, double b, double* result) {
   int64_t m = 0, n = 0;
   switch (op) {
-    case Op::add: *result = a + b; return Condition::none;
-    case Op::subtract: *result = a - b; return Condition::none;
-    case Op::multiply: *result = a * b; return Condition::none;
+    case Op::add:
+      *result = a + b;
+      return Condition::none;
+    case Op::subtract:
+      *result = a - b;
+      return Condition::none;
+    case Op::multiply:
+      *result = a * b;
+      return Condition::none;
     case Op::divide:
       if (b == 0) return Condition::division_by_zero;
       *result = a / b;
@@ -164,7 +203,8 @@ Condition binary(Op op, double a, double b, double* result) {
       if (b == 0) return Condition::division_by_zero;
       *result = modulo(a, b);
       return Condition::none;
-    default: break;
+    default:
+      break;
   }
   if (!to_bits(a, &m) || !to_bits(b, &n)) return Condition::calculation;
   *result = from_bits(op == Op::bit_or ? m | n : op == Op::bit_xor ? m ^ n : m & n);
@@ -175,12 +215,18 @@ Condition binary(Op op, double a, double b, double* result) {
 bool compare(Op op, const Value& a, const Value& b) {
   const double x = a.or_zero(), y = b.or_zero();
   switch (op) {
-    case Op::equal: return a.vacant == b.vacant && x == y;
-    case Op::not_equal: return a.vacant != b.vacant || x != y;
-    case Op::greater: return x > y;
-    case Op::less: return x < y;
-    case Op::greater_equal: return x >= y;
-    default: return x <= y;
+    case Op::equal:
+      return a.vacant == b.vacant && x == y;
+    case Op::not_equal:
+      return a.vacant != b.vacant || x != y;
+    case Op::greater:
+      return x > y;
+    case Op::less:
+      return x < y;
+    case Op::greater_equal:
+      return x >= y;
+    default:
+      return x <= y;
   }
 }
 
@@ -201,16 +247,20 @@ bool variable_number(const Value& value, uint32_t* number) {
   return true;
 }
 
-Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, const EvalOptions& options, Value* value,
-              Fault* fault, uint32_t* sync) {
+Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, const EvalOptions& options,
+              Value* value, Fault* fault, uint32_t* sync) {
   Value stack[kStackDepth];
   unsigned top = 0;  // number of values on the stack
   const uint8_t* p = block.code.begin() + code;
   for (;;) {
     const Op op = static_cast<Op>(*p++);
     switch (op) {
-      case Op::end: *value = stack[0]; return Eval::ok;
-      case Op::constant: stack[top++] = Value::of(block.constants[*p++]); break;
+      case Op::end:
+        *value = stack[0];
+        return Eval::ok;
+      case Op::constant:
+        stack[top++] = Value::of(block.constants[*p++]);
+        break;
       case Op::small:
         stack[top++] = Value::of(static_cast<int16_t>(static_cast<uint16_t>(p[0] | p[1] << 8)));
         p += 2;
@@ -234,7 +284,8 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
         const unsigned begin = static_cast<unsigned>(p[0] | p[1] << 8), length = p[2];
         p += 3;
         uint32_t number = 0;
-        if (reader.find_name == nullptr || !reader.find_name(reader.self, block.text.begin() + begin, length, &number)) {
+        if (reader.find_name == nullptr ||
+            !reader.find_name(reader.self, block.text.begin() + begin, length, &number)) {
           *fault = Fault{};
           fault->condition = Condition::variable_name;
           return Eval::fault;
@@ -242,7 +293,9 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
         stack[top++] = Value::of(number);
         break;
       }
-      case Op::negate: stack[top - 1] = Value::of(0 - stack[top - 1].or_zero()); break;
+      case Op::negate:
+        stack[top - 1] = Value::of(0 - stack[top - 1].or_zero());
+        break;
       case Op::negate_word:
         if (!stack[top - 1].vacant) stack[top - 1].number = -stack[top - 1].number;
         break;

@@ -9,9 +9,15 @@ namespace {
 /// Vacant in storage: a NaN. No calculation stores one, the evaluator refuses results that are not finite.
 constexpr double kVacant = std::numeric_limits<double>::quiet_NaN();
 
-bool is_vacant(double stored) { return stored != stored; }
-Value from_storage(double stored) { return is_vacant(stored) ? Value{} : Value::of(stored); }
-double to_storage(const Value& value) { return value.vacant ? kVacant : value.number; }
+bool is_vacant(double stored) {
+  return stored != stored;
+}
+Value from_storage(double stored) {
+  return is_vacant(stored) ? Value{} : Value::of(stored);
+}
+double to_storage(const Value& value) {
+  return value.vacant ? kVacant : value.number;
+}
 
 void fill_vacant(double* slots, size_t count) {
   if (slots == nullptr) return;  // measuring, or out of memory: the arena says so
@@ -20,11 +26,14 @@ void fill_vacant(double* slots, size_t count) {
 
 // Journal keys of local variables: beside the numbers of common variables, below kForeignKey.
 constexpr uint32_t kLocalKey = 0x20000000;
-constexpr uint32_t local_key(unsigned level, unsigned number) { return kLocalKey | level << 8 | number; }
+constexpr uint32_t local_key(unsigned level, unsigned number) {
+  return kLocalKey | level << 8 | number;
+}
 
 }  // namespace
 
-// ---- common variables ----------------------------------------------------------------------------------------------
+// ---- common variables
+// ----------------------------------------------------------------------------------------------
 
 void CommonVariables::create(const CommonRanges& ranges, Arena& arena) {
   ranges_ = ranges;
@@ -46,7 +55,8 @@ bool CommonVariables::exists(uint32_t number) const {
 
 Value CommonVariables::get(uint32_t number) const {
   for (unsigned i = 0; i < 3; ++i) {
-    if (number >= ranges_.first[i] && number <= ranges_.last[i]) return from_storage(slot_[i][number - ranges_.first[i]]);
+    if (number >= ranges_.first[i] && number <= ranges_.last[i])
+      return from_storage(slot_[i][number - ranges_.first[i]]);
   }
   return {};
 }
@@ -75,7 +85,8 @@ bool CommonVariables::next(uint32_t from, uint32_t* number, double* value) const
   return found;
 }
 
-// ---- journal -------------------------------------------------------------------------------------------------------
+// ---- journal
+// -------------------------------------------------------------------------------------------------------
 
 void Journal::create(unsigned capacity, Arena& arena) {
   ring_ = arena.make<Entry>(capacity);
@@ -88,7 +99,9 @@ void Journal::note(BlockSeq seq, uint32_t key, Value old) {
   ring_[head_++ & mask_] = Entry{seq, old.number, key, old.vacant};
 }
 
-BlockSeq Journal::oldest() const { return lost_ + 1; }
+BlockSeq Journal::oldest() const {
+  return lost_ + 1;
+}
 
 void Journal::clear() {
   head_ = tail_ = 0;
@@ -104,7 +117,8 @@ void Journal::replace(uint32_t key, Value value) {
   }
 }
 
-// ---- variables of a part system ------------------------------------------------------------------------------------
+// ---- variables of a part system
+// ------------------------------------------------------------------------------------
 
 void Variables::create(CommonVariables* common, unsigned journal_capacity, Arena& arena) {
   common_ = common;
@@ -162,7 +176,9 @@ void Variables::clear_locals(BlockSeq seq) {
   for (unsigned level = 0; level < kLocalLevels; ++level) enter(level, kNoArguments, seq);
 }
 
-void Variables::note(BlockSeq seq, uint32_t key, double old) { journal_.note(seq, key, Value::of(old)); }
+void Variables::note(BlockSeq seq, uint32_t key, double old) {
+  journal_.note(seq, key, Value::of(old));
+}
 
 bool Variables::rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uint32_t key, double old)) {
   if (seq + 1 < journal_.oldest()) return false;

@@ -7,21 +7,22 @@
 
 namespace nc {
 
-inline constexpr unsigned kLocals = 33;       ///< #1..#33
-inline constexpr unsigned kLocalLevels = 5;   ///< main program and four macro levels (M700 13.5.2)
+inline constexpr unsigned kLocals = 33;      ///< #1..#33
+inline constexpr unsigned kLocalLevels = 5;  ///< main program and four macro levels (M700 13.5.2)
 
 /// Which common variables exist (M700 13.4).
 struct CommonRanges {
   uint32_t first[3] = {100, 500, 900000};
-  uint32_t last[3] = {199, 999, 899999};      ///< the third range is empty unless it is set (option: 907399)
+  uint32_t last[3] = {199, 999, 899999};  ///< the third range is empty unless it is set (option: 907399)
 };
 
-/// Common variables of a control, shared by its part systems. Storage for 100..199, 500..999 and, where it is configured, 900000..907399.
+/// Common variables of a control, shared by its part systems. Storage for 100..199, 500..999 and, where it is
+/// configured, 900000..907399.
 class CommonVariables {
  public:
   void create(const CommonRanges& ranges, Arena& arena);
   bool exists(uint32_t number) const;
-  Value get(uint32_t number) const;          ///< number must exist
+  Value get(uint32_t number) const;  ///< number must exist
   void set(uint32_t number, Value value);
   /// First number >= from that is not vacant; false = none.
   bool next(uint32_t from, uint32_t* number, double* value) const;
@@ -31,12 +32,13 @@ class CommonVariables {
   double* slot_[3] = {};
 };
 
-/// Old values by the block that overwrote them; bounded: the oldest entries go first, and with them the ability to rewind that far.
+/// Old values by the block that overwrote them; bounded: the oldest entries go first, and with them the
+/// ability to rewind that far.
 class Journal {
  public:
   void create(unsigned capacity, Arena& arena);  ///< capacity: power of two
   void note(BlockSeq seq, uint32_t key, Value old);
-  BlockSeq oldest() const;                       ///< rewinding to seq >= oldest() - 1 is possible
+  BlockSeq oldest() const;  ///< rewinding to seq >= oldest() - 1 is possible
   /// Takes entries newer than `seq` back, newest first, through `undo`.
   template <class Undo>
   void rewind(BlockSeq seq, Undo&& undo);
@@ -62,7 +64,8 @@ class Variables {
  public:
   void create(CommonVariables* common, unsigned journal_capacity, Arena& arena);
 
-  /// Local or common variable; false when the number is neither (system variables are interpret/system_variables.hpp).
+  /// Local or common variable; false when the number is neither (system variables are
+  /// interpret/system_variables.hpp).
   bool get(uint32_t number, unsigned level, Value* value) const;
   bool set(uint32_t number, unsigned level, Value value, BlockSeq seq);
 
@@ -70,9 +73,11 @@ class Variables {
   void enter(unsigned level, const Value* arguments, BlockSeq seq);
   void clear_locals(BlockSeq seq);
 
-  /// Journal key for something that is not a variable (offset tables, outputs): the owner undoes it in rewind().
+  /// Journal key for something that is not a variable (offset tables, outputs): the owner undoes it in
+  /// rewind().
   void note(BlockSeq seq, uint32_t key, double old);
-  /// A write that no block made (the host's): rewind() keeps it. For a foreign key the caller has changed it already.
+  /// A write that no block made (the host's): rewind() keeps it. For a foreign key the caller has changed it
+  /// already.
   bool set_from_outside(uint32_t number, unsigned level, Value value);
   void changed_from_outside(uint32_t key, double value) { journal_.replace(key, Value::of(value)); }
   /// A run begins: its blocks count from 0 again, and nothing from before can be taken back.

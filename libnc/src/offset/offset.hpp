@@ -10,22 +10,20 @@
 // until the joint at its end is known. Vectors, not points, are carried from block to block: a coordinate
 // system that is shifted in the middle of a contour does not disturb them (M700 12.4.2, G92).
 //
-// What the interpreter sends
-//   * Every move commanded while G41/G42 is modal carries comp.side != 0, with its block's own D, axis pair,
-//   check and type. G40
-//     and D0 are side 0.
-//   * A block with G38-G42 that does not move in the plane sends a move *without length* (start == end) that
-//   carries its
-//     compensation, so that the stage sees the command: G41 alone (vector perpendicular at the start of the
-//     next block), G41/G42 or G38 with I J K alone, G39 alone, G40 alone or with I J K. Such moves are used
-//     up here, they never come out.
-//   * I J K: has_vector alone = G41/G42, the vector stands at right angles to `vector`; has_vector with
-//   hold_vector = G38, it lies
-//     along `vector`. hold_vector alone = G38 without I J K. All one-shot: on the move of their block only,
-//     G39 too.
-//   * corner_arc with has_vector on a move without length = DGSHAPE G39 X Y: an arc about the corner up to
-//   the normal of `vector`.
-//   * Item::block_end on the mark of every block that counts as a block of look-ahead.
+// What the interpreter sends:
+//
+// 1. Every move commanded while G41/G42 is modal carries comp.side != 0, with its block's own D, axis pair,
+//    check and type. G40 and D0 are side 0.
+// 2. A block with G38-G42 that does not move at all sends a move *without length* (start == end) that carries
+//    its compensation, so that the stage sees the command: G41 alone (vector perpendicular at the start of
+//    the next block), G41/G42 or G38 with I J K alone, G39 alone, G40 alone or with I J K. Such moves are
+//    used up here, they never come out.
+// 3. I J K: has_vector alone = G41/G42, the vector stands at right angles to `vector`; has_vector with
+//    hold_vector = G38, it lies along `vector`; hold_vector alone = G38 without I J K. All of them, and
+//    corner_arc (G39), stand on the move of their block only.
+// 4. corner_arc with has_vector on a move without length = DGSHAPE G39 X Y: an arc about the corner up to the
+//    normal of `vector`.
+// 5. Item::block_end on the mark of every block that counts as a block of look-ahead.
 #pragma once
 
 #include "base/fixed.hpp"
@@ -63,13 +61,13 @@ class OffsetStage {
   bool idle() const;
 
  private:
-  static constexpr unsigned kHeld =
-      32;  ///< room for items; a power of two, so that the numbers of items may wrap
+  /// Room for items; a power of two, so that the numbers of items may wrap.
+  static constexpr unsigned kHeld = 32;
   static constexpr unsigned kLookAheadItems = 24;  ///< items held back while looking ahead over five blocks
   static constexpr unsigned kChain = 4;  ///< moving blocks that the interference check wants to see at once
   static constexpr unsigned kLookAheadBlocks = 5;
-  static constexpr uint8_t kIdleLimit =
-      4;  ///< this many blocks without movement close the contour (M700 12.4.2)
+  /// This many blocks without movement close the contour (M700 12.4.2).
+  static constexpr uint8_t kIdleLimit = 4;
 
   /// off: no compensation. pending: commanded, not begun. on: vectors are carried (they may be zero).
   enum class Mode : uint8_t { off, pending, on };

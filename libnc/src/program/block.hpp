@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A compiled block: one line of program text, split into words and statements, its expressions as code for the evaluator.
-// Compiling looks at characters only; what a G code means is none of its business.
+// A compiled block: one line of program text, split into words and statements, its expressions as code for
+// the evaluator. Compiling looks at characters only; what a G code means is none of its business.
 #pragma once
 
 #include "base/fixed.hpp"
@@ -10,20 +10,20 @@ namespace nc {
 
 /// What the words of a dialect look like; a table in dialect/<family>/.
 struct WordFormat {
-  bool known = false;          ///< the address exists (else Condition::illegal_address)
-  bool integer = false;        ///< decimals are cut off (M700 5.3: D H L M N O S T)
-  uint8_t integer_digits = 8;  ///< at most 19; more in a word is Condition::value_range
-  uint8_t fraction_digits = 8; ///< more is accepted and kept when 8
+  bool known = false;           ///< the address exists (else Condition::illegal_address)
+  bool integer = false;         ///< decimals are cut off (M700 5.3: D H L M N O S T)
+  uint8_t integer_digits = 8;   ///< at most 19; more in a word is Condition::value_range
+  uint8_t fraction_digits = 8;  ///< more is accepted and kept when 8
 };
 
 struct LexRules {
-  bool macros = false;            ///< '#', '[ ]', statements (IF, WHILE, ...) exist
-  bool semicolon_ends = false;    ///< ';' ends a block (M700), not only the line end
-  bool skip_numbers = false;      ///< "/3": switches 1..9; else only "/"
-  bool slash_only_at_head = true; ///< elsewhere '/' is an error (dgshape) or division (with macros)
-  bool comma_words = false;       ///< ",R" ",C" ",A" ",I" ",J" ",S" ",D"
-  bool angle_names = false;       ///< <FILE.NC> behind M98 G65
-  WordFormat word[26];            ///< by letter - 'A'
+  bool macros = false;             ///< '#', '[ ]', statements (IF, WHILE, ...) exist
+  bool semicolon_ends = false;     ///< ';' ends a block (M700), not only the line end
+  bool skip_numbers = false;       ///< "/3": switches 1..9; else only "/"
+  bool slash_only_at_head = true;  ///< elsewhere '/' is an error (dgshape) or division (with macros)
+  bool comma_words = false;        ///< ",R" ",C" ",A" ",I" ",J" ",S" ",D"
+  bool angle_names = false;        ///< <FILE.NC> behind M98 G65
+  WordFormat word[26];             ///< by letter - 'A'
 };
 
 enum WordFlag : uint8_t {
@@ -39,55 +39,60 @@ struct Word {
   char letter = 0;
   uint8_t flags = 0;
   uint8_t index = 0;
-  uint8_t column = 0;       ///< 1-based, 255 = further right
-  uint16_t code = 0;        ///< start in Block::code
-  double value = 0;         ///< as written, sign included, no unit applied
+  uint8_t column = 0;  ///< 1-based, 255 = further right
+  uint16_t code = 0;   ///< start in Block::code
+  double value = 0;    ///< as written, sign included, no unit applied
 };
 
 enum class StatementKind : uint8_t {
-  assign,      ///< #[target] = value
-  if_goto,     ///< IF [value] GOTO target
-  go_to,       ///< GOTO target
-  while_do,    ///< WHILE [value] DO number
-  do_loop,     ///< DO number
-  end_loop,    ///< END number
-  if_then,     ///< IF [value] THEN: the next statement belongs to it (option, off by default)
-  set_name,    ///< SETVN: text
-  open_port, close_port, print_decimal, print_binary  ///< POPEN PCLOS DPRNT BPRNT: text
+  assign,    ///< #[target] = value
+  if_goto,   ///< IF [value] GOTO target
+  go_to,     ///< GOTO target
+  while_do,  ///< WHILE [value] DO number
+  do_loop,   ///< DO number
+  end_loop,  ///< END number
+  if_then,   ///< IF [value] THEN: the next statement belongs to it (option, off by default)
+  set_name,  ///< SETVN: text
+  open_port,
+  close_port,
+  print_decimal,
+  print_binary  ///< POPEN PCLOS DPRNT BPRNT: text
 };
 
 struct Statement {
   StatementKind kind = StatementKind::assign;
-  uint16_t target = 0;      ///< code giving the variable number / the sequence number
-  uint16_t value = 0;       ///< code giving the value / the condition
-  uint32_t number = 0;      ///< m of DOm, ENDm
-  uint16_t text = 0, text_length = 0;  ///< range of Block::text: comment behind #3000=1(...), body of DPRNT[...]
+  uint16_t target = 0;  ///< code giving the variable number / the sequence number
+  uint16_t value = 0;   ///< code giving the value / the condition
+  uint32_t number = 0;  ///< m of DOm, ENDm
+  uint16_t text = 0,
+           text_length = 0;  ///< range of Block::text: comment behind #3000=1(...), body of DPRNT[...]
 };
 
 /// 0xffff = no code.
 inline constexpr uint16_t kNoCode = 0xffff;
 
 struct Block {
-  uint64_t begin = 0, next = 0;  ///< byte offsets: first character, first character of the next block
+  uint64_t begin = 0, next = 0;      ///< byte offsets: first character, first character of the next block
   uint32_t line = 0, next_line = 0;  ///< 1-based line of the first character, and of `next`
   uint16_t file = 0;
-  bool percent = false;          ///< a '%' block
-  bool end_of_text = false;      ///< nothing was left
-  uint8_t skip = 0;              ///< optional block skip number, 0 = none
+  bool percent = false;      ///< a '%' block
+  bool end_of_text = false;  ///< nothing was left
+  uint8_t skip = 0;          ///< optional block skip number, 0 = none
   bool has_n = false, has_o = false;
   uint32_t n = 0, o = 0;
-  bool empty = true;             ///< no word and no statement (comments do not count)
+  bool empty = true;  ///< no word and no statement (comments do not count)
   bool has_fault = false;
-  Fault fault{};                 ///< first error, raised when the block is executed
-  FixedVector<Word, 48> words;   ///< without O, N and the skip
+  Fault fault{};                ///< first error, raised when the block is executed
+  FixedVector<Word, 48> words;  ///< without O, N and the skip
   FixedVector<Statement, 12> statements;
-  FixedVector<uint8_t, 480> code;     ///< expression code, see macro/expression.hpp
+  FixedVector<uint8_t, 480> code;  ///< expression code, see macro/expression.hpp
   FixedVector<double, 64> constants;
-  FixedVector<char, 256> text;        ///< messages and names, raw
-  uint16_t name = 0, name_length = 0; ///< <...> as a range of `text`
-  uint16_t comment = 0, comment_length = 0; ///< last ( ) as a range of `text` (only kept where it may be a message)
+  FixedVector<char, 256> text;         ///< messages and names, raw
+  uint16_t name = 0, name_length = 0;  ///< <...> as a range of `text`
+  uint16_t comment = 0,
+           comment_length = 0;  ///< last ( ) as a range of `text` (only kept where it may be a message)
 
-  void clear();                  ///< sizes to zero, flags off; arrays are not touched
+  void clear();  ///< sizes to zero, flags off; arrays are not touched
 };
 
 inline void Block::clear() {

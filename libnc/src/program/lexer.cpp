@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lexer. Words of the common form (letter, sign, digits) go through words(), which is the inner loop of the whole product;
-// everything else (expressions, statements, comments inside words, missing values) leaves it for the functions behind it.
+// The lexer. Words of the common form (letter, sign, digits) go through words(), which is the inner loop of
+// the whole product; everything else (expressions, statements, comments inside words, missing values) leaves
+// it for the functions behind it.
 #include "program/lexer.hpp"
 
 #include <cstddef>
@@ -132,10 +133,12 @@ class Lexer {
     if (!format.known) return fault(Condition::illegal_address, letter);
     ++at_.p;
     const char c = at_.peek();
-    if (c == '#' || c == '[') return fault(rules_.macros ? Condition::variable_use : Condition::illegal_character, letter);
+    if (c == '#' || c == '[')
+      return fault(rules_.macros ? Condition::variable_use : Condition::illegal_character, letter);
     const Decimal d = at_.number();
     if (d.digits == 0) return fault(Condition::format_error, letter);
-    if (d.integer > UINT32_MAX || out_of_range(format, d)) return fault(Condition::value_range, letter, d.value);
+    if (d.integer > UINT32_MAX || out_of_range(format, d))
+      return fault(Condition::value_range, letter, d.value);
     if (d.integer == 0) return fault(Condition::number_zero, letter, 0);  // M700 P37
     *has = true;
     *number = static_cast<uint32_t>(d.integer);
@@ -152,7 +155,8 @@ class Lexer {
       const unsigned letter = static_cast<unsigned>(static_cast<unsigned char>(*p) | 0x20u) - 'a';
       if (letter >= 26) break;
       Plain plain;
-      const char* q = end - p >= kPlainReach && EightCharacters::kUsable ? plain.scan_by_eight(p + 1) : nullptr;
+      const char* q =
+          end - p >= kPlainReach && EightCharacters::kUsable ? plain.scan_by_eight(p + 1) : nullptr;
       if (q == nullptr) q = plain.scan(p + 1, end);
       while (q != end && is_blank(*q)) ++q;
       if (!plain.good || (q != end && kContinuesNumber.is[static_cast<unsigned char>(*q)])) {
@@ -183,15 +187,17 @@ class Lexer {
     return p != end;
   }
 
-  static bool keeps_any_fraction(const WordFormat& format) { return format.integer || format.fraction_digits >= 8; }
+  static bool keeps_any_fraction(const WordFormat& format) {
+    return format.integer || format.fraction_digits >= 8;
+  }
 
   static bool out_of_range(const WordFormat& format, const Decimal& d) {
     return d.integer_digits > format.integer_digits ||
            (d.fraction_digits > format.fraction_digits && !keeps_any_fraction(format));
   }
 
-  /// A place for a word; nullptr when there must be none. Filled in place: a word put together from bytes and then copied whole
-  /// would wait for the store buffer.
+  /// A place for a word; nullptr when there must be none. Filled in place: a word put together from bytes and
+  /// then copied whole would wait for the store buffer.
   Word* new_word(char letter) {
     const unsigned count = block_.words.size();
     if (!block_.statements.empty()) {
@@ -275,7 +281,8 @@ class Lexer {
 
   /// S1=500, F1=10: the number before '=' chooses the spindle or the speed.
   bool count_value(const WordFormat& format, Word* word, const Decimal& count) {
-    if ((word->letter != 'S' && word->letter != 'F') || count.point) return fault(Condition::format_error, word->letter);
+    if ((word->letter != 'S' && word->letter != 'F') || count.point)
+      return fault(Condition::format_error, word->letter);
     if (count.integer > UINT8_MAX) return fault(Condition::value_range, word->letter, count.value);
     word->index = static_cast<uint8_t>(count.integer);
     word->flags |= kWordCount;
@@ -284,7 +291,8 @@ class Lexer {
   }
 
   bool expression_value(Word* word) {
-    if (word->letter == 'N' || word->letter == 'O') return fault(Condition::variable_use, word->letter);  // M700 13.4 (3)
+    if (word->letter == 'N' || word->letter == 'O')
+      return fault(Condition::variable_use, word->letter);  // M700 13.4 (3)
     word->flags = static_cast<uint8_t>((word->flags & ~kWordNegative) | kWordExpression);
     ExpressionCompiler compiler(block_, &at_);
     if (!compiler.word_value(&word->code)) return fault(compiler.fault(), word->letter);
@@ -296,7 +304,8 @@ class Lexer {
   bool special() {
     const char c = at_.peek();
     switch (c) {
-      case '\0': return at_.at_end() ? false : fault(Condition::illegal_character);
+      case '\0':
+        return at_.at_end() ? false : fault(Condition::illegal_character);
       case '#':
       case '[':
         if (!rules_.macros) return fault(Condition::illegal_character, c);
@@ -308,14 +317,18 @@ class Lexer {
       case '<':
         if (!rules_.angle_names) return fault(Condition::illegal_character, c);
         return angle_name();
-      case ']': return fault(rules_.macros ? Condition::bracket_pair : Condition::illegal_character, c);
+      case ']':
+        return fault(rules_.macros ? Condition::bracket_pair : Condition::illegal_character, c);
       case '*':
-      case '=': return fault(rules_.macros ? Condition::format_error : Condition::illegal_character, c);
+      case '=':
+        return fault(rules_.macros ? Condition::format_error : Condition::illegal_character, c);
       case '/':
       case '+':
       case '-':
-      case '.': return fault(Condition::format_error, c);
-      default: break;
+      case '.':
+        return fault(Condition::format_error, c);
+      default:
+        break;
     }
     if (is_letter(c)) return true;  // behind a comment
     return fault(is_digit(c) ? Condition::format_error : Condition::illegal_character, c);
@@ -324,7 +337,8 @@ class Lexer {
   bool angle_name() {
     const char* from = ++at_.p;
     while (!at_.at_end() && *at_.p != '>' && *at_.p != '(') ++at_.p;
-    if (at_.at_end() || *at_.p != '>' || at_.p == from || block_.name_length != 0) return fault(Condition::format_error, '<');
+    if (at_.at_end() || *at_.p != '>' || at_.p == from || block_.name_length != 0)
+      return fault(Condition::format_error, '<');
     const char* to = at_.p++;
     if (!block_.statements.empty()) return fault(Condition::macro_and_words, '<');
     if (!keep_text(from, to, &block_.name, &block_.name_length)) return false;
@@ -332,7 +346,8 @@ class Lexer {
     return true;
   }
 
-  // ---- statements --------------------------------------------------------------------------------------------------
+  // ---- statements
+  // --------------------------------------------------------------------------------------------------
 
   bool add_statement(const Statement& statement) {
     if (!block_.words.empty()) return fault(Condition::macro_and_words);  // M700 P272
@@ -369,7 +384,8 @@ class Lexer {
 
   bool expression(uint16_t* code, Condition when_missing) {
     const char c = at_.peek();
-    const bool there = is_digit(c) || c == '.' || c == '#' || c == '[' || c == '-' || c == '+' || is_letter(c);
+    const bool there =
+        is_digit(c) || c == '.' || c == '#' || c == '[' || c == '-' || c == '+' || is_letter(c);
     if (!there) return fault(c == ']' ? Condition::bracket_pair : when_missing, c);
     ExpressionCompiler compiler(block_, &at_);
     if (!compiler.expression(code)) return fault(compiler.fault());
@@ -380,7 +396,8 @@ class Lexer {
     if (at_.peek() != '[') return fault(statement_error);
     ExpressionCompiler compiler(block_, &at_);
     if (!compiler.condition(code)) {
-      return fault(compiler.fault().condition == Condition::calculation ? Fault{statement_error} : compiler.fault());
+      return fault(compiler.fault().condition == Condition::calculation ? Fault{statement_error}
+                                                                        : compiler.fault());
     }
     return true;
   }
@@ -415,7 +432,8 @@ class Lexer {
       case 'B':
         if (at_.accept("BPRNT")) return print_statement(StatementKind::print_binary);
         break;
-      default: break;
+      default:
+        break;
     }
     *was_statement = false;
     return true;
@@ -455,7 +473,8 @@ class Lexer {
 
   bool loop_number(Statement* s) {
     const Decimal d = at_.number();
-    if (d.digits == 0 || d.point || d.integer == 0 || d.integer > kMaxLoopNumber) return fault(Condition::while_statement);
+    if (d.digits == 0 || d.point || d.integer == 0 || d.integer > kMaxLoopNumber)
+      return fault(Condition::while_statement);
     s->number = static_cast<uint32_t>(d.integer);
     return true;
   }
@@ -505,7 +524,8 @@ class Lexer {
     return true;
   }
 
-  // ---- end ---------------------------------------------------------------------------------------------------------
+  // ---- end
+  // ---------------------------------------------------------------------------------------------------------
 
   /// Passes over what is left of the block (after a fault), its end included.
   LexResult finish() {
@@ -562,7 +582,8 @@ class Lexer {
 
 }  // namespace
 
-LexResult lex_block(const char* text, size_t size, const LexRules& rules, const uint8_t* columns, Block& block) {
+LexResult lex_block(const char* text, size_t size, const LexRules& rules, const uint8_t* columns,
+                    Block& block) {
   block.clear();
   return Lexer(text, size, rules, columns, block).run();
 }

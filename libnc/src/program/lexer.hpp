@@ -7,13 +7,16 @@
 namespace nc {
 
 struct LexResult {
-  size_t used = 0;      ///< bytes up to the first character of the next block
-  bool ran_out = false; ///< the text ended before the block did: at the end of a program that is its end, in a window read more
-  bool newline = false; ///< ended by a line end
+  size_t used = 0;       ///< bytes up to the first character of the next block
+  bool ran_out = false;  ///< the text ended before the block did: at the end of a program that is its end, in
+                         ///< a window read more
+  bool newline = false;  ///< ended by a line end
 };
 
-/// Compiles the block at text[0]. `columns`, when given, holds the column of text[i] for i < 256 (the text has been condensed).
-/// Sets everything of `block` but file, begin, next, line, next_line and end_of_text. Never reads beyond text[size - 1].
-LexResult lex_block(const char* text, size_t size, const LexRules& rules, const uint8_t* columns, Block& block);
+/// Compiles the block at text[0]. `columns`, when given, holds the column of text[i] for i < 256 (the text
+/// has been condensed). Sets everything of `block` but file, begin, next, line, next_line and end_of_text.
+/// Never reads beyond text[size - 1].
+LexResult lex_block(const char* text, size_t size, const LexRules& rules, const uint8_t* columns,
+                    Block& block);
 
 }  // namespace nc

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The slow path of decimal conversion: more than 2^53 in the mantissa, or more than 22 fraction digits.
 //
-// An approximation d of m / 10^k is a few units in the last place off at most. Whether a neighbour is nearer is decided exactly:
-// with the midpoint between d and its neighbour written as M * 2^e (M an integer), compare  m  with  M * 2^e * 10^k  in big integers.
+// An approximation d of m / 10^k is a few units in the last place off at most. Whether a neighbour is nearer
+// is decided exactly: with the midpoint between d and its neighbour written as M * 2^e (M an integer),
+// compare  m  with  M * 2^e * 10^k  in big integers.
 #include "program/number.hpp"
 
 #include <cmath>
@@ -109,8 +110,9 @@ double scale_decimal_exact(uint64_t mantissa, uint32_t fraction_digits) {
     if (significand == 0) return d;
     // Midpoint to the neighbour below. Under a power of two the neighbours are half as far apart.
     const bool narrow = significand == (uint64_t{1} << 52) && exponent > -1074;
-    const int below = narrow ? compare_with_midpoint(mantissa, fraction_digits, 4 * significand - 1, exponent - 2)
-                             : compare_with_midpoint(mantissa, fraction_digits, 2 * significand - 1, exponent - 1);
+    const int below =
+        narrow ? compare_with_midpoint(mantissa, fraction_digits, 4 * significand - 1, exponent - 2)
+               : compare_with_midpoint(mantissa, fraction_digits, 2 * significand - 1, exponent - 1);
     if (below < 0 || (below == 0 && (significand & 1) != 0)) {
       d = std::nextafter(d, 0.0);
       continue;

@@ -8,8 +8,9 @@
 namespace nc {
 
 /// 10^0 .. 10^22: the powers of ten that a double holds exactly.
-inline constexpr double kExactPowersOfTen[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+inline constexpr double kExactPowersOfTen[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                 1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 /// 10^0 .. 10^19 as integers.
 inline constexpr uint64_t kPowersOfTen[20] = {1u,
@@ -33,10 +34,12 @@ inline constexpr uint64_t kPowersOfTen[20] = {1u,
                                               1000000000000000000u,
                                               10000000000000000000u};
 
-/// mantissa / 10^fraction_digits, correctly rounded, for any mantissa and any number of digits. Exact big-number comparison.
+/// mantissa / 10^fraction_digits, correctly rounded, for any mantissa and any number of digits. Exact
+/// big-number comparison.
 double scale_decimal_exact(uint64_t mantissa, uint32_t fraction_digits);
 
-/// The same. Mantissa and power of ten are exact in a double up to 2^53 and 10^22, so one division rounds once.
+/// The same. Mantissa and power of ten are exact in a double up to 2^53 and 10^22, so one division rounds
+/// once.
 inline double scale_decimal(uint64_t mantissa, uint32_t fraction_digits) {
   if (mantissa <= (uint64_t{1} << 53) && fraction_digits <= 22) {
     if (fraction_digits == 0) return static_cast<double>(mantissa);
@@ -48,10 +51,10 @@ inline double scale_decimal(uint64_t mantissa, uint32_t fraction_digits) {
 /// An unsigned decimal number met in a text.
 struct Decimal {
   double value = 0;
-  uint64_t integer = 0;        ///< digits before the point, saturated at 10^19
-  uint32_t integer_digits = 0; ///< without leading zeros
-  uint32_t fraction_digits = 0;///< as written
-  uint32_t digits = 0;         ///< all digits as written; 0 = there is no number here
+  uint64_t integer = 0;          ///< digits before the point, saturated at 10^19
+  uint32_t integer_digits = 0;   ///< without leading zeros
+  uint32_t fraction_digits = 0;  ///< as written
+  uint32_t digits = 0;           ///< all digits as written; 0 = there is no number here
   bool point = false;
 };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading blocks: window, lexer, cache of compiled blocks.
 //
-// A block is cached from its second reading on. A program that runs straight through is lexed into one block that stays in the
-// first-level cache of the processor; a loop or a subprogram is lexed twice and then taken as it is.
+// A block is cached from its second reading on. A program that runs straight through is lexed into one block
+// that stays in the first-level cache of the processor; a loop or a subprogram is lexed twice and then taken
+// as it is.
 #include <cstring>
 
 #include "dialect/alarms.hpp"
@@ -13,13 +14,15 @@
 namespace nc {
 namespace {
 
-/// Text of one block that is longer than the window, made short: blanks and comments left out, but for a comment that may be a
-/// message. Columns are kept beside it.
+/// Text of one block that is longer than the window, made short: blanks and comments left out, but for a
+/// comment that may be a message. Columns are kept beside it.
 class Condenser {
  public:
-  Condenser(char* buffer, size_t capacity, const LexRules& rules) : rules_(rules), out_(buffer), capacity_(capacity) {}
+  Condenser(char* buffer, size_t capacity, const LexRules& rules)
+      : rules_(rules), out_(buffer), capacity_(capacity) {}
 
-  /// Takes one character of the source. False when the block ended in front of it (*consumed = false) or with it.
+  /// Takes one character of the source. False when the block ended in front of it (*consumed = false) or with
+  /// it.
   bool take(char c, bool* consumed) {
     *consumed = true;
     if (source_column_ < UINT8_MAX) ++source_column_;
@@ -110,8 +113,8 @@ unsigned power_of_two_below(unsigned n) {
 
 }  // namespace
 
-void BlockReader::create(ProgramStore* store, const LexRules* rules, unsigned window_bytes, unsigned cached_blocks,
-                         Arena& arena) {
+void BlockReader::create(ProgramStore* store, const LexRules* rules, unsigned window_bytes,
+                         unsigned cached_blocks, Arena& arena) {
   store_ = store;
   rules_ = rules;
   window_.create(window_bytes, arena);
@@ -121,11 +124,13 @@ void BlockReader::create(ProgramStore* store, const LexRules* rules, unsigned wi
   cache_ = arena.make<Block>(slots_);
   tags_ = arena.make<Tag>(slots_);
   indexes_ = arena.make<Index>(kIndexes);
+  jumps_ = arena.make<Jump>(kJumps);
 }
 
-size_t BlockReader::slot(uint32_t generation, uint64_t offset) const {
-  const uint64_t mixed = (offset + generation) * 0x9e3779b97f4a7c15u;  // 2^64 / golden ratio: spreads neighbours
-  return static_cast<size_t>(mixed >> 32) & (slots_ - 1);
+size_t BlockReader::hash(uint32_t generation, uint64_t offset) {
+  const uint64_t mixed =
+      (offset + generation) * 0x9e3779b97f4a7c15u;  // 2^64 / golden ratio: spreads neighbours
+  return static_cast<size_t>(mixed >> 32);
 }
 
 const Block* BlockReader::read(unsigned file, uint64_t offset, uint32_t line) {
@@ -137,7 +142,7 @@ const Block* BlockReader::read(unsigned file, uint64_t offset, uint32_t line) {
 
 const Block* BlockReader::cached(const TextEntry& entry, uint64_t offset, uint32_t line) {
   if (slots_ == 0) return nullptr;
-  const size_t at = slot(entry.generation, offset);
+  const size_t at = hash(entry.generation, offset) & (slots_ - 1);
   if (tags_[at].generation != entry.generation || tags_[at].offset != offset) return nullptr;
   Block& block = cache_[at];
   if (block.line != line) {
@@ -153,7 +158,7 @@ const Block* BlockReader::miss(const TextEntry& entry, unsigned file, uint64_t o
     seen_so_far.end = offset + 1;
     return compile(entry, file, offset, line, *first_time_) ? first_time_ : nullptr;
   }
-  const size_t at = slot(entry.generation, offset);
+  const size_t at = hash(entry.generation, offset) & (slots_ - 1);
   tags_[at].generation = 0;
   if (!compile(entry, file, offset, line, cache_[at])) return nullptr;
   tags_[at] = Tag{offset, entry.generation};
@@ -172,7 +177,8 @@ BlockReader::Seen& BlockReader::seen(uint32_t generation) {
   return seen_[seen_used_];
 }
 
-bool BlockReader::compile(const TextEntry& entry, unsigned file, uint64_t offset, uint32_t line, Block& block) {
+bool BlockReader::compile(const TextEntry& entry, unsigned file, uint64_t offset, uint32_t line,
+                          Block& block) {
   bool newline = false;
   if (!compile_here(entry, offset, block, &newline)) return false;
   block.file = static_cast<uint16_t>(file);
@@ -239,6 +245,9 @@ void BlockReader::forget(unsigned file) {
   }
   for (unsigned i = 0; i < kIndexes; ++i) {
     if (indexes_[i].generation == entry->generation) indexes_[i].generation = 0;
+  }
+  for (unsigned i = 0; i < kJumps; ++i) {
+    if (jumps_[i].generation == entry->generation) jumps_[i].generation = 0;
   }
   seen(entry->generation).end = 0;
   window_.forget();

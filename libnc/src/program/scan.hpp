@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moving over the characters of one block: what is skipped everywhere, where the block ends, numbers, keywords.
-// Shared by the lexer (program/lexer.cpp) and the expression compiler (macro/compile.cpp).
+// Moving over the characters of one block: what is skipped everywhere, where the block ends, numbers,
+// keywords. Shared by the lexer (program/lexer.cpp) and the expression compiler (macro/compile.cpp).
 #pragma once
 
 #include <bit>
@@ -10,13 +10,21 @@
 
 namespace nc {
 
-inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
-inline bool is_letter(char c) { return static_cast<unsigned char>((c | 0x20) - 'a') < 26; }
-inline char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; }
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+inline bool is_digit(char c) {
+  return static_cast<unsigned char>(c - '0') < 10;
+}
+inline bool is_letter(char c) {
+  return static_cast<unsigned char>((c | 0x20) - 'a') < 26;
+}
+inline char upper(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+}
 
-/// Eight characters looked at together: how many of them, from the first on, are digits, and what number these make.
-/// Loops over digits mispredict once per number; this does not branch.
+/// Eight characters looked at together: how many of them, from the first on, are digits, and what number
+/// these make. Loops over digits mispredict once per number; this does not branch.
 class EightCharacters {
  public:
   static constexpr bool kUsable = std::endian::native == std::endian::little;
@@ -69,9 +77,7 @@ struct Cursor {
     if (p != end && *p == ')') ++p;
   }
   /// At the end of the block: line end, ';' of those that have it, '%', end of the text.
-  bool at_end() const {
-    return p == end || *p == '\n' || *p == '%' || (*p == ';' && semicolon_ends);
-  }
+  bool at_end() const { return p == end || *p == '\n' || *p == '%' || (*p == ';' && semicolon_ends); }
   /// The character here after blanks and comments, capital; 0 = end of block.
   char peek() {
     skip();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looking for programs, sequence numbers and the ends of loops in a text. Only the heads of blocks are looked at: blanks, skip sign,
-// O, N; the rest of a block is passed over as fast as its end can be told.
+// Looking for programs, sequence numbers and the ends of loops in a text. Only the heads of blocks are looked
+// at: blanks, skip sign, O, N; the rest of a block is passed over as fast as its end can be told.
 #include <cstring>
 #include <initializer_list>
 
@@ -23,15 +23,16 @@ constexpr StopCharacter kStop;
 struct Head {
   uint64_t offset = 0;
   uint32_t line = 1;
-  uint64_t o = 0, n = 0;   ///< 0 = none
+  uint64_t o = 0, n = 0;  ///< 0 = none
   bool percent = false;
-  bool blank = true;       ///< nothing but blanks and comments
+  bool blank = true;  ///< nothing but blanks and comments
 };
 
 /// Goes from block to block of a text through a window of its reader.
 class HeadScanner {
  public:
-  HeadScanner(TextWindow& window, const TextEntry& entry, const LexRules& rules, uint64_t offset, uint32_t line)
+  HeadScanner(TextWindow& window, const TextEntry& entry, const LexRules& rules, uint64_t offset,
+              uint32_t line)
       : window_(window), entry_(entry), rules_(rules), next_(offset), line_(line) {}
 
   /// The next block. False at the end of the text, or when reading failed.
@@ -101,7 +102,8 @@ class HeadScanner {
     uint64_t n = 0;
     take();
     bool point = false;
-    for (*c = significant(); *c > 0 && (is_digit(static_cast<char>(*c)) || (*c == '.' && !point)); *c = significant()) {
+    for (*c = significant(); *c > 0 && (is_digit(static_cast<char>(*c)) || (*c == '.' && !point));
+         *c = significant()) {
       if (*c == '.') point = true;
       if (!point && n < kSaturated) n = n * 10 + static_cast<uint64_t>(*c - '0');
       take();
@@ -149,7 +151,7 @@ class HeadScanner {
   const LexRules& rules_;
   const char* p_ = nullptr;
   const char* end_ = nullptr;
-  uint64_t next_;   ///< offset of end_
+  uint64_t next_;  ///< offset of end_
   uint32_t line_;
   bool failed_ = false;
 };
@@ -239,40 +241,61 @@ ProgramRef BlockReader::find_program(const char* name, size_t length) {
   return ref;
 }
 
-bool BlockReader::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t limit, uint64_t budget,
-                                bool* again, bool from_head) {
+bool BlockReader::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t limit,
+                                uint64_t budget, bool* again, bool from_head) {
   *again = false;
   const TextEntry* entry = store_->entry(file);
   if (entry == nullptr || n == 0) return false;
-  const uint64_t start = *offset;
-  HeadScanner scanner(window_, *entry, *rules_, start, *line);
-  bool at_head = from_head;  // nothing but what may stand before a program has been seen
+  Jump& known = jumps_[(hash(entry->generation, *offset) ^ n) & (kJumps - 1)];
+  const bool remembered = known.generation == entry->generation && known.from == *offset && known.n == n &&
+                          known.limit == limit && known.from_head == from_head;
+  Jump jump = known;
+  if (!remembered) {
+    jump = Jump{*offset, limit, 0, entry->generation, n, 0, from_head, false};
+    bool failed = false;
+    jump = scan_for_sequence(*entry, *line, jump, budget, again, &failed);
+    if (!*again && !failed) known = jump;
+  }
+  if (!jump.found && !*again) return false;
+  *offset = jump.offset;
+  *line = jump.line;
+  return jump.found;
+}
+
+/// `wanted` with what has been found; *again: its offset and line are where to go on.
+BlockReader::Jump BlockReader::scan_for_sequence(const TextEntry& entry, uint32_t line, const Jump& wanted,
+                                                 uint64_t budget, bool* again, bool* failed) {
+  Jump jump = wanted;
+  HeadScanner scanner(window_, entry, *rules_, wanted.from, line);
+  bool at_head = wanted.from_head;  // nothing but what may stand before a program has been seen
   bool o_seen = false;
   for (Head head;;) {
-    if (budget != 0 && scanner.offset() - start >= budget) {
-      *offset = scanner.offset();
-      *line = scanner.line();
+    if (budget != 0 && scanner.offset() - wanted.from >= budget) {
+      jump.offset = scanner.offset();
+      jump.line = scanner.line();
       *again = true;
-      return false;
+      return jump;
     }
-    if (!scanner.next(&head) || (limit != 0 && head.offset >= limit)) return false;
+    if (!scanner.next(&head) || (wanted.limit != 0 && head.offset >= wanted.limit)) break;
     if (head.blank && !head.percent) continue;
     if (head.percent) {
-      if (at_head && start == 0 && !o_seen) continue;  // the start mark
-      return false;
+      if (at_head && wanted.from == 0 && !o_seen) continue;  // the start mark
+      break;
     }
     if (head.o != 0) {
-      if (!at_head || o_seen) return false;  // the next program
+      if (!at_head || o_seen) break;  // the next program
       o_seen = true;
     } else {
       at_head = false;
     }
-    if (head.n == n) {
-      *offset = head.offset;
-      *line = head.line;
-      return true;
-    }
+    if (head.n != wanted.n) continue;
+    jump.found = true;
+    jump.offset = head.offset;
+    jump.line = head.line;
+    break;
   }
+  *failed = scanner.failed();
+  return jump;
 }
 
 bool BlockReader::find_loop_end(unsigned file, uint32_t m, uint64_t* offset, uint32_t* line) {

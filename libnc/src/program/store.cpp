@@ -26,8 +26,8 @@ size_t stem_length(const char* name, size_t length) {
   return length;
 }
 
-/// "O1000", "o0100.nc", "1000.nc" -> the number; 0 = none. Without the O leading zeros make it a name: the file "0100" is
-/// reached as <0100> only (M700 13.3.1).
+/// "O1000", "o0100.nc", "1000.nc" -> the number; 0 = none. Without the O leading zeros make it a name: the
+/// file "0100" is reached as <0100> only (M700 13.3.1).
 uint32_t number_of_name(const char* name) {
   const size_t length = stem_length(name, std::strlen(name));
   const bool letter = upper(name[0]) == 'O';
@@ -59,7 +59,8 @@ void ProgramStore::create(unsigned capacity, Arena& arena) {
 }
 
 nc_status ProgramStore::add(const TextEntry& entry, const char* name, unsigned* file) {
-  if (name == nullptr || (entry.read == nullptr && entry.memory == nullptr && entry.size != 0)) return NC_E_ARGUMENT;
+  if (name == nullptr || (entry.read == nullptr && entry.memory == nullptr && entry.size != 0))
+    return NC_E_ARGUMENT;
   const char* base = without_folder(name);
   const size_t length = std::strlen(base);
   if (length == 0 || length >= sizeof entry.name) return NC_E_ARGUMENT;
@@ -82,7 +83,9 @@ void ProgramStore::on_missing(nc_program_missing callback, void* user, nc_contro
   control_ = control;
 }
 
-const TextEntry* ProgramStore::entry(unsigned file) const { return file < count_ ? &entries_[file] : nullptr; }
+const TextEntry* ProgramStore::entry(unsigned file) const {
+  return file < count_ ? &entries_[file] : nullptr;
+}
 
 int ProgramStore::find_name(const char* name, size_t length) const {
   for (size_t i = length; i-- > 0;) {

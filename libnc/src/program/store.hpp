@@ -11,9 +11,9 @@ namespace nc {
 
 /// A place in a text where a program begins.
 struct ProgramRef {
-  uint16_t file = 0xffff;      ///< 0xffff = none
-  uint32_t number = 0;         ///< O number, 0 = none
-  uint64_t offset = 0;         ///< its first block (the O line itself, or the start of the text)
+  uint16_t file = 0xffff;  ///< 0xffff = none
+  uint32_t number = 0;     ///< O number, 0 = none
+  uint64_t offset = 0;     ///< its first block (the O line itself, or the start of the text)
   uint32_t line = 1;
   bool valid() const { return file != 0xffff; }
 };
@@ -34,7 +34,7 @@ class ProgramStore {
  private:
   TextEntry* entries_ = nullptr;
   unsigned capacity_ = 0, count_ = 0;
-  uint32_t generation_ = 0;   ///< of the newest entry; unique in the store
+  uint32_t generation_ = 0;  ///< of the newest entry; unique in the store
   nc_program_missing missing_ = nullptr;
   void* missing_user_ = nullptr;
   nc_control* control_ = nullptr;
@@ -43,46 +43,59 @@ class ProgramStore {
 /// Reads blocks of the texts of a store for one part system: window, compiled-block cache, searches.
 class BlockReader {
  public:
-  void create(ProgramStore* store, const LexRules* rules, unsigned window_bytes, unsigned cached_blocks, Arena& arena);
+  void create(ProgramStore* store, const LexRules* rules, unsigned window_bytes, unsigned cached_blocks,
+              Arena& arena);
 
-  /// The block at `offset` (first character) of `file`, compiled; from the cache when it is there. The reference holds until the next
-  /// call of read(); searching leaves it alone. At the end of the text: a Block with end_of_text. nullptr when the read callback failed.
+  /// The block at `offset` (first character) of `file`, compiled; from the cache when it is there. The
+  /// reference holds until the next call of read(); searching leaves it alone. At the end of the text: a
+  /// Block with end_of_text. nullptr when the read callback failed.
   const Block* read(unsigned file, uint64_t offset, uint32_t line);
 
-  /// Program `number`: an entry of the store by number; else an O line inside `own_file`; else whatever the host adds.
+  /// Program `number`: an entry of the store by number; else an O line inside `own_file`; else whatever the
+  /// host adds.
   ProgramRef find_program(uint32_t number, unsigned own_file);
   ProgramRef find_program(const char* name, size_t length);
 
-  /// First block with sequence number n in [offset, limit); limit 0 = the end of the program (a '%', the next O line, the end of
-  /// the text). Blocks with a skip sign count (M700 13.5.7). False when there is none. Interruptible: gives up after `budget`
-  /// bytes with *offset at where to go on and *again = true. budget 0 = no limit.
-  /// `from_head`: *offset is where a program begins, so an O line (or, at the start of the text, '%' before it) does not end it.
-  bool find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t limit, uint64_t budget, bool* again,
-                     bool from_head = true);
+  /// First block with sequence number n in [offset, limit); limit 0 = the end of the program (a '%', the next
+  /// O line, the end of the text). Blocks with a skip sign count (M700 13.5.7). False when there is none.
+  /// Interruptible: gives up after `budget` bytes with *offset at where to go on and *again = true. budget 0
+  /// = no limit. `from_head`: *offset is where a program begins, so an O line (or, at the start of the text,
+  /// '%' before it) does not end it.
+  bool find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t limit,
+                     uint64_t budget, bool* again, bool from_head = true);
 
-  /// Start of the block behind the END m that belongs to the DO m whose block ends at *offset (nesting respected); false = none.
+  /// Start of the block behind the END m that belongs to the DO m whose block ends at *offset (nesting
+  /// respected); false = none.
   bool find_loop_end(unsigned file, uint32_t m, uint64_t* offset, uint32_t* line);
 
   /// Same program text, different content: forget compiled blocks of a file.
   void forget(unsigned file);
 
  private:
-  static constexpr unsigned kSeen = 8;        ///< texts whose extent of reading is remembered
-  static constexpr unsigned kIndexes = 2;     ///< texts whose O lines are remembered
-  static constexpr unsigned kIndexed = 64;    ///< O lines of each; those beyond are looked for every time
+  static constexpr unsigned kSeen = 8;     ///< texts whose extent of reading is remembered
+  static constexpr unsigned kIndexes = 2;  ///< texts whose O lines are remembered
+  static constexpr unsigned kJumps = 64;  ///< searches for sequence numbers that are remembered; power of two
+  static constexpr unsigned kIndexed = 64;  ///< O lines of each; those beyond are looked for every time
 
   /// Name of a compiled block: generations are unique in the store.
   struct Tag {
     uint64_t offset = 0;
     uint32_t generation = 0;  ///< 0 = free
   };
-  /// How far a text has been read. Blocks beyond are read for the first time and most likely the last: they are not cached.
+  /// How far a text has been read. Blocks beyond are read for the first time and most likely the last: they
+  /// are not cached.
   struct Seen {
     uint64_t end = 0;
     uint32_t generation = 0;
   };
+  /// A search for a sequence number and what came of it: a GOTO in a loop looks once.
+  struct Jump {
+    uint64_t from = 0, limit = 0, offset = 0;
+    uint32_t generation = 0, n = 0, line = 0;
+    bool from_head = false, found = false;
+  };
   struct Index {
-    uint64_t scanned = 0;     ///< where looking for O lines goes on
+    uint64_t scanned = 0;  ///< where looking for O lines goes on
     uint32_t scanned_line = 1;
     uint32_t generation = 0;
     unsigned count = 0;
@@ -96,21 +109,24 @@ class BlockReader {
   bool compile_here(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
   bool compile_long(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
   Seen& seen(uint32_t generation);
-  size_t slot(uint32_t generation, uint64_t offset) const;
+  static size_t hash(uint32_t generation, uint64_t offset);
   Index& index(const TextEntry& entry);
+  Jump scan_for_sequence(const TextEntry& entry, uint32_t line, const Jump& wanted, uint64_t budget,
+                         bool* again, bool* failed);
   ProgramRef find_o_line(uint32_t number, unsigned file);
 
   ProgramStore* store_ = nullptr;
   const LexRules* rules_ = nullptr;
   TextWindow window_;
-  Block* first_time_ = nullptr;   ///< block that is being read for the first time
-  Block* searched_ = nullptr;     ///< block that a search looks at
+  Block* first_time_ = nullptr;  ///< block that is being read for the first time
+  Block* searched_ = nullptr;    ///< block that a search looks at
   Block* cache_ = nullptr;
   Tag* tags_ = nullptr;
-  unsigned slots_ = 0;            ///< power of two, or 0
+  unsigned slots_ = 0;  ///< power of two, or 0
   Seen seen_[kSeen];
-  unsigned seen_used_ = 0;        ///< entry of seen_ last used
+  unsigned seen_used_ = 0;  ///< entry of seen_ last used
   Index* indexes_ = nullptr;
+  Jump* jumps_ = nullptr;
   unsigned index_used_ = 0;
 };
 

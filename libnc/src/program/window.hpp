@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window on a text: a text in memory is seen where it lies, any other through one buffer that moves along with the reader.
+// A window on a text: a text in memory is seen where it lies, any other through one buffer that moves along
+// with the reader.
 #pragma once
 
 #include "base/arena.hpp"
@@ -10,19 +11,21 @@ namespace nc {
 /// A text of the program store.
 struct TextEntry {
   char name[64] = {};
-  uint32_t number = 0;         ///< from the name, 0 = none
-  nc_read_at read = nullptr;   ///< null: `memory`
+  uint32_t number = 0;        ///< from the name, 0 = none
+  nc_read_at read = nullptr;  ///< null: `memory`
   void* user = nullptr;
   const char* memory = nullptr;
   uint64_t size = 0;
-  uint32_t generation = 0;     ///< changes when the entry is replaced: compiled blocks of the old text are not used again
+  uint32_t generation =
+      0;  ///< changes when the entry is replaced: compiled blocks of the old text are not used again
 };
 
 class TextWindow {
  public:
   void create(unsigned bytes, Arena& arena);
 
-  /// Makes text()[0] the byte at `offset`; at the end of the text size() is 0. False: the read callback failed.
+  /// Makes text()[0] the byte at `offset`; at the end of the text size() is 0. False: the read callback
+  /// failed.
   bool seek(const TextEntry& entry, uint64_t offset) {
     if (entry.generation == generation_ && offset >= begin_ && offset - begin_ < length_) [[likely]] {
       at_ = static_cast<size_t>(offset - begin_);
@@ -57,9 +60,9 @@ class TextWindow {
   char* buffer_ = nullptr;
   size_t capacity_ = 0;
   const char* base_ = nullptr;
-  uint64_t begin_ = 0;      ///< offset of base_[0]
+  uint64_t begin_ = 0;  ///< offset of base_[0]
   size_t length_ = 0, at_ = 0;
-  uint32_t generation_ = 0; ///< of the entry; 0 = none
+  uint32_t generation_ = 0;  ///< of the entry; 0 = none
   bool last_ = false;
 };
 

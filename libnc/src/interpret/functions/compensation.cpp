@@ -85,6 +85,8 @@ Did set_compensation(Interpreter& in, Function function) {
   if (in.words.has('I') && in.words.has('J') && in.words.has('K')) return in.raise(Condition::space_compensation, 'K');
   plane_of(in, comp, letters);
   comp.type_b = in.settings.comp_type_b;
+  comp.check = in.settings.interference_check;
+  comp.avoid = in.settings.interference_avoid;
   comp.radius = amount(in, state.modal.d, true);
   comp.side = state.modal.d == 0 ? int8_t{0} : function == Function::comp_left ? int8_t{1} : int8_t{-1};
   comp.has_vector = in.dialect->id == NC_DIALECT_M700 && take_vector(in, letters, comp.vector);

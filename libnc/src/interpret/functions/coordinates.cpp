@@ -8,7 +8,7 @@ Did select_work_system(Interpreter& in, const FunctionRow& row) {
   State& state = in.state;
   if (in.dialect->id == NC_DIALECT_DGSHAPE && state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', row.code / 10.0);
   if (row.function == Function::work_system) {
-    state.work_system = static_cast<uint8_t>(row.code / 10 - 54);
+    state.work_system = static_cast<uint16_t>(row.code / 10 - 54);
     state.modal.extended = 0;
   } else {
     uint32_t p = 0;
@@ -16,7 +16,7 @@ Did select_work_system(Interpreter& in, const FunctionRow& row) {
     if (!whole_number(in.words.get('P'), &p) || p == 0) return in.raise(Condition::value_range, 'P', in.words.get('P'));
     // M700 14.10 (13): a system that the option does not reach.
     if (p > in.frames.extended_systems()) return in.raise(Condition::no_function, 'P', p);
-    state.work_system = static_cast<uint8_t>(5 + p);
+    state.work_system = static_cast<uint16_t>(5 + p);
     state.modal.extended = static_cast<uint16_t>(p);
   }
   state.modal.code[kGroupWork] = row.code;

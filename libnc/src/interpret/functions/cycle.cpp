@@ -121,15 +121,6 @@ void position_over_hole(Interpreter& in) {
   move_linear(in, target, axes & geometric, style);
 }
 
-void emit_stop_point(Interpreter& in) {
-  Item& item = in.emit(ItemKind::mark);
-  item.block_end = false;
-  item.mark.work = in.position();
-  item.mark.modal = in.modals.intern(in.state.modal);
-  item.mark.stop = (in.state.control_3003 & 1) == 0;
-  item.mark.report = false;
-}
-
 void emit_cycle_move(Interpreter& in, const CycleStep& step) {
   AxisVec target = in.position();
   target[in.state.cycle.drill_axis] = step.to;
@@ -142,7 +133,7 @@ void emit_cycle_move(Interpreter& in, const CycleStep& step) {
 
 Did begin_hole(Interpreter& in) {
   position_over_hole(in);
-  emit_stop_point(in);
+  in.emit_stop_point();
   resolve_hole(in);
   in.progress = HoleProgress{};
   in.next_step = Step::cycle;
@@ -191,7 +182,8 @@ Did do_cycle(Interpreter& in) {
   if (dgshape && (w.axes & in.rotary) != 0) return in.raise(Condition::illegal_axis, 'A');
   if (dgshape && !in.state.spindle_on) return in.raise(Condition::spindle_not_turning, 'G', in.state.modal.code[kGroupCycle] / 10.0);
   if (in.state.modal.feed <= 0) return in.raise(Condition::no_feed, 'F');
-  if ((c.kind == CycleKind::peck || c.kind == CycleKind::step) && !(c.q > 0)) return in.raise(Condition::words_missing, 'Q');
+  // A peck below the finest unit of the control (M700 2.1 E) is none: the hole would never be done.
+  if ((c.kind == CycleKind::peck || c.kind == CycleKind::step) && !(c.q >= 1e-6)) return in.raise(Condition::words_missing, 'Q');
   in.holes_left = count;
   return begin_hole(in);
 }
@@ -202,7 +194,7 @@ Did continue_cycle(Interpreter& in) {
     switch (step.kind) {
       case CycleStep::Kind::rapid:
       case CycleStep::Kind::feed: emit_cycle_move(in, step); break;
-      case CycleStep::Kind::stop_point: emit_stop_point(in); break;
+      case CycleStep::Kind::stop_point: in.emit_stop_point(); break;
       case CycleStep::Kind::dwell: {
         Gate& gate = in.emit(ItemKind::gate).gate;
         gate.kind = NC_GATE_DWELL_SECONDS;
@@ -212,7 +204,7 @@ Did continue_cycle(Interpreter& in) {
       }
       case CycleStep::Kind::done:
         if (--in.holes_left == 0) return Did::done;
-        emit_stop_point(in);  // single block also stops at the end of each hole but the last, where the block itself ends
+        in.emit_stop_point();  // single block also stops at the end of each hole but the last, where the block itself ends
         return begin_hole(in);
     }
   }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // G10: offsets by program (M700 12.7, 14.10 (6); DGSHAPE G10).
+#include <cmath>
+
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -7,12 +9,15 @@ namespace {
 
 /// Work offsets of one table row; `key(axis)`.
 template <class Key>
-void write_axes(Interpreter& in, bool accumulate, Key key) {
+Did write_axes(Interpreter& in, bool accumulate, Key key) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((in.words.axes >> i) & 1) == 0) continue;
     const bool add = accumulate && ((in.words.incremental >> i) & 1) != 0;
-    in.set_table(key(i), (add ? in.frames.get(key(i)) : 0.0) + in.words.axis[i]);
+    const double offset = (add ? in.frames.get(key(i)) : 0.0) + in.words.axis[i];
+    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.system->axis[i].name, in.words.axis[i]);  // M700 14.10 (6)
+    in.set_table(key(i), offset);
   }
+  return Did::done;
 }
 
 Did work_offset(Interpreter& in, uint32_t l, bool accumulate) {
@@ -27,12 +32,8 @@ Did work_offset(Interpreter& in, uint32_t l, bool accumulate) {
   }
   unsigned system = in.state.work_system;
   if (w.has('P')) system = l == 20 ? 5 + p : p - 1;
-  if (w.has('P') && l == 2 && p == 0) {
-    write_axes(in, accumulate, [](unsigned axis) { return Frames::external_key(axis); });
-  } else {
-    write_axes(in, accumulate, [system](unsigned axis) { return Frames::work_key(system, axis); });
-  }
-  return Did::done;
+  if (w.has('P') && l == 2 && p == 0) return write_axes(in, accumulate, [](unsigned axis) { return Frames::external_key(axis); });
+  return write_axes(in, accumulate, [system](unsigned axis) { return Frames::work_key(system, axis); });
 }
 
 Did tool_offset(Interpreter& in, unsigned column, bool accumulate) {
@@ -45,7 +46,7 @@ Did tool_offset(Interpreter& in, unsigned column, bool accumulate) {
   const bool add = accumulate && in.state.modal.code[kGroupDistance] == 910;
   const double amount = (add ? in.frames.get(key) : 0.0) + length_of(in, 'R');
   // M700 12.1: the range of an offset.
-  if (amount > 99999.999999 || amount < -99999.999999) return in.raise(Condition::value_range, 'R', w.get('R'));
+  if (std::fabs(amount) >= kOffsetRange) return in.raise(Condition::value_range, 'R', w.get('R'));
   in.set_table(key, amount);
   return Did::done;
 }

@@ -21,7 +21,12 @@ Did do_skip(Interpreter& in) {
   uint32_t mask = 1;
   if (w.has('P') && (!whole_number(w.get('P'), &mask) || mask < 1 || mask > 255)) return in.raise(Condition::value_range, 'P', w.get('P'));
   const bool inch = in.state.modal.code[kGroupUnit] == 200;
-  const double feed = w.has('F') ? feed_value(in, w.get('F'), w.flags['F' - 'A']) * (inch ? 25.4 : 1.0) : in.settings.skip_feed;
+  double feed = in.settings.skip_feed;
+  if (w.has('F')) {
+    const Did did = feed_of(in, &feed);
+    if (did != Did::done) return did;
+    if (inch) feed *= 25.4;
+  }
   if (!(feed > 0)) return in.raise(Condition::skip_feed_zero, 'F');
   LinearStyle style;
   style.kind = NC_MOVE_SKIP;

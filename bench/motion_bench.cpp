@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// What motion costs: curves per evaluation, planning per segment (limits, joints, backward pass, publication), interpolation per
+// cycle.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "interpolate/executor.hpp"
+
+namespace {
+
+using namespace nc;
+
+struct FreeAligned {
+  void operator()(void* p) const { std::free(p); }
+};
+
+ExecutorConfig config_of(uint32_t capacity, unsigned axes = 3) {
+  ExecutorConfig c;
+  c.axis_count = axes;
+  for (unsigned i = 0; i < axes; ++i) c.limits[i] = {250, 250, 2000, 50000, 0.01};
+  c.capacity = capacity;
+  return c;
+}
+
+struct Machine {
+  explicit Machine(const ExecutorConfig& setup) : config(setup) {
+    Arena measure;
+    Executor().create(config, measure);
+    const size_t size = (measure.used() + 127) / 64 * 64;
+    memory.reset(std::aligned_alloc(64, size));
+    Arena arena(memory.get(), size);
+    executor.create(config, arena);
+    in.feed_override = in.rapid_override = 1;
+  }
+  void cycle() { executor.cycle(in, out); }
+  ExecutorConfig config;
+  std::unique_ptr<void, FreeAligned> memory;
+  Executor executor;
+  nc_inputs in{};
+  nc_outputs out{};
+};
+
+/// A wavy path of straight pieces, as a surface program has, that closes after kPieces.
+constexpr unsigned kPieces = 4096;
+std::vector<Record> surface(double step, double feed) {
+  std::vector<Record> records;
+  AxisVec at;
+  double heading = 0;
+  for (unsigned i = 0; i < kPieces; ++i) {
+    AxisVec end = at;
+    heading = 0.6 * std::sin(i * 0.05);
+    const double way = i < kPieces / 2 ? step : -step;
+    end[0] += way * std::cos(heading);
+    end[1] += way * std::sin(heading);
+    end[2] = 0.2 * std::sin(i * 2 * 3.14159265358979 / kPieces);
+    if (i + 1 == kPieces) end = AxisVec{};
+    Record r;
+    r.kind = ItemKind::move;
+    r.segment = Segment{};
+    r.segment.curve = make_line(at, end, 3, 0);
+    r.segment.feed_mm_s = feed;
+    records.push_back(r);
+    at = end;
+  }
+  return records;
+}
+
+Curve arc_curve(double spiral, bool helix) {
+  Circle k;
+  k.radius_start = 10;
+  k.radius_end = 10 + spiral;
+  k.sweep = 5;
+  AxisVec a, b;
+  a[0] = 10;
+  b[0] = k.radius_end * std::cos(5.0);
+  b[1] = k.radius_end * std::sin(5.0);
+  b[2] = helix ? 7 : 0;
+  return make_arc(a, b, 0, 1, k, 3, 0);
+}
+
+void curve(benchmark::State& state, const Curve& c) {
+  double s = 0;
+  for (auto _ : state) {
+    s += 0.001;
+    if (s > c.length) s = 0;
+    benchmark::DoNotOptimize(curve_position(c, s, 3));
+  }
+}
+void BM_CurveLine(benchmark::State& state) {
+  AxisVec b;
+  b[0] = 50;
+  b[1] = 20;
+  curve(state, make_line({}, b, 3, 0));
+}
+void BM_CurveArc(benchmark::State& state) { curve(state, arc_curve(0, false)); }
+void BM_CurveHelix(benchmark::State& state) { curve(state, arc_curve(0, true)); }
+void BM_CurveSpiral(benchmark::State& state) { curve(state, arc_curve(0.05, true)); }
+void BM_CurveDerivatives(benchmark::State& state) {
+  const Curve c = arc_curve(0, true);
+  double s = 0;
+  for (auto _ : state) {
+    s += 0.001;
+    if (s > c.length) s = 0;
+    benchmark::DoNotOptimize(curve_evaluate(c, s, 3));
+  }
+}
+BENCHMARK(BM_CurveLine);
+BENCHMARK(BM_CurveArc);
+BENCHMARK(BM_CurveHelix);
+BENCHMARK(BM_CurveSpiral);
+BENCHMARK(BM_CurveDerivatives);
+
+/// push() and plan() of a full ring at a time, replanned every `batch` segments. The scan throws the ring away in between, off the
+/// clock. Argument 0: batch, 1: segment length in um (short ones make the backward pass deep).
+void BM_Plan(benchmark::State& state) {
+  const unsigned batch = static_cast<unsigned>(state.range(0));
+  const std::vector<Record> records = surface(static_cast<double>(state.range(1)) * 1e-3, 100);
+  Machine m(config_of(4096));
+  uint64_t pushed = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    m.in.reset = true;  // a new epoch: what is in the ring is void
+    m.cycle();
+    m.in.reset = false;
+    m.cycle();
+    while (!m.executor.drained()) {
+      m.executor.plan();
+      m.cycle();
+    }
+    const uint32_t epoch = m.executor.epoch();
+    std::vector<Record> now = records;
+    for (Record& r : now) r.epoch = epoch;
+    state.ResumeTiming();
+    for (unsigned i = 0; i < kPieces; ++i) {
+      m.executor.push(now[i]);
+      if (i % batch == batch - 1) m.executor.plan();
+    }
+    m.executor.plan();
+    pushed += kPieces;
+  }
+  state.counters["segments/s"] = benchmark::Counter(static_cast<double>(pushed), benchmark::Counter::kIsRate);
+}
+BENCHMARK(BM_Plan)->Args({64, 200})->Args({16, 200})->Args({64, 10})->Args({64, 1})->Args({1, 200});
+
+/// Replanning of a full ring after a change of the override.
+void BM_ReplanOverride(benchmark::State& state) {
+  const std::vector<Record> records = surface(0.05, 100);
+  Machine m(config_of(4096));
+  for (unsigned i = 0; i < kPieces; ++i) m.executor.push(records[i]);
+  for (auto _ : state) {
+    state.PauseTiming();
+    m.in.feed_override = m.in.feed_override > 0.75 ? 0.5 : 1;
+    m.cycle();
+    state.ResumeTiming();
+    m.executor.plan();
+  }
+}
+BENCHMARK(BM_ReplanOverride);
+
+/// One servo cycle on an endless path; feeding is off the clock. Argument: segment length in um.
+void BM_Cycle(benchmark::State& state, bool arcs) {
+  const double step = static_cast<double>(state.range(0)) * 1e-3;
+  Machine m(config_of(8192));
+  std::vector<Record> records = surface(step, 100);
+  if (arcs) {
+    records.clear();
+    AxisVec at;
+    for (int i = 0; i < 64; ++i) {  // helices up and down
+      Circle k;
+      k.center[0] = -10;
+      k.radius_start = k.radius_end = 10;
+      k.sweep = (i & 1 ? -1 : 1) * 6.283185307179586 * step / 60;
+      k.angle_start = i & 1 ? -k.sweep : 0;
+      AxisVec end = at;
+      end[0] = -10 + 10 * std::cos(k.angle_start + k.sweep);
+      end[1] = 10 * std::sin(k.angle_start + k.sweep);
+      end[2] = i & 1 ? 0 : 5;
+      Record r;
+      r.kind = ItemKind::move;
+      r.segment = Segment{};
+      r.segment.curve = make_arc(at, end, 0, 1, k, 3, 0);
+      r.segment.feed_mm_s = 100;
+      records.push_back(r);
+      at = end;
+    }
+  }
+  size_t next = 0;
+  const auto feed = [&] {
+    while (m.executor.room() > 1) {
+      m.executor.push(records[next]);
+      next = (next + 1) % records.size();
+    }
+    m.executor.plan();
+  };
+  feed();
+  m.in.cycle_start = true;
+  m.cycle();
+  uint64_t cycles = 0;
+  while (state.KeepRunningBatch(256)) {
+    state.PauseTiming();
+    feed();
+    state.ResumeTiming();
+    for (int i = 0; i < 256; ++i) m.cycle();
+    cycles += 256;
+  }
+  state.counters["path_mm/s"] = m.out.path_length / (static_cast<double>(cycles) * 1e-3);
+}
+void BM_CycleLines(benchmark::State& state) { BM_Cycle(state, false); }
+void BM_CycleHelices(benchmark::State& state) { BM_Cycle(state, true); }
+BENCHMARK(BM_CycleLines)->Arg(5000)->Arg(200)->Arg(10)->Arg(1);
+BENCHMARK(BM_CycleHelices)->Arg(60000);
+
+}  // namespace

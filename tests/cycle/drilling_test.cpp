@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// Standard fixed cycles (M700 13.1, DGSHAPE G80-G89).
+#include <gtest/gtest.h>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+/// Moves, dwells and places where single block may stop: "line 0 0 -5 F100", "dwell 0.5", "stop", "end" (of a block, with a stop).
+Path steps(const Run& run) {
+  Path all;
+  size_t next_move = 0;
+  const Path moves = run.path();
+  for (const Step& step : run.steps) {
+    if (step.item.kind == NC_ITEM_MOVE) all.push_back(moves[next_move++]);
+    if (step.item.kind == NC_ITEM_GATE && step.item.u.gate.kind == NC_GATE_DWELL_SECONDS) all.push_back("dwell " + brief(step.item.u.gate.value));
+    if (step.item.kind == NC_ITEM_MARK && step.item.u.mark.stop) all.push_back(step.item.u.mark.report ? "end" : "stop");
+  }
+  return all;
+}
+
+Run at_ten(const std::string& text) { return Bench().at(0, 0, 10).run(text); }
+
+TEST(Cycle, DrillG81) {  // M700 13.1.1
+  EXPECT_EQ(at_ten("G81 X5. Y6. Z-8. R2. F100\nG80\nM30").path(),
+            (Path{"rapid 5 6 10", "rapid 5 6 2", "line 5 6 -8 F100", "rapid 5 6 10"}));
+  EXPECT_EQ(at_ten("G99 G81 X5. Z-8. R2. F100\nX7.\nG98 X9.\nG80\nM30").path(),
+            (Path{"rapid 5 0 10", "rapid 5 0 2", "line 5 0 -8 F100", "rapid 5 0 2", "rapid 7 0 2", "line 7 0 -8 F100", "rapid 7 0 2", "rapid 9 0 2",
+                  "line 9 0 -8 F100", "rapid 9 0 10"}));
+}
+
+TEST(Cycle, SpotG82Dwells) {
+  EXPECT_EQ(steps(at_ten("G82 X5. Z-8. R2. P500 F100\nM30")),
+            (Path{"rapid 5 0 10", "stop", "rapid 5 0 2", "stop", "line 5 0 -8 F100", "dwell 0.5", "rapid 5 0 10", "end", "end"}));
+  EXPECT_EQ(at_ten("G82 X5. Z-8. R2. P500.9 F100\nM30").dwells(), std::vector<double>{0.5});  // decimals of P are ignored
+}
+
+TEST(Cycle, PeckG83) {  // M700 13.1.1 with m = #8013
+  Bench bench;
+  bench.param("8013", "0.5").at(0, 0, 10);
+  EXPECT_EQ(bench.run("G83 X5. Z-7. R2. Q4. F100\nM30").path(),
+            (Path{"rapid 5 0 10", "rapid 5 0 2", "line 5 0 -2 F100", "rapid 5 0 2", "rapid 5 0 -1.5", "line 5 0 -6 F100", "rapid 5 0 2",
+                  "rapid 5 0 -5.5", "line 5 0 -7 F100", "rapid 5 0 10"}));
+  // A whole number of pecks ends at the bottom without a further one.
+  EXPECT_EQ(bench.at(0, 0, 10).run("G99 G83 Z-6. R2. Q4. F100\nM30").path(),
+            (Path{"rapid 0 0 2", "line 0 0 -2 F100", "rapid 0 0 2", "rapid 0 0 -1.5", "line 0 0 -6 F100", "rapid 0 0 2"}));
+}
+
+TEST(Cycle, StepG73) {  // M700 13.1.1 with m = #8012
+  Bench bench;
+  bench.param("8012", "1").at(0, 0, 10);
+  EXPECT_EQ(steps(bench.run("G73 Z-7. R2. Q4. P100 F100\nM30")),
+            (Path{"stop", "rapid 0 0 2", "stop", "line 0 0 -2 F100", "dwell 0.1", "rapid 0 0 -1", "line 0 0 -6 F100", "dwell 0.1", "rapid 0 0 -5",
+                  "line 0 0 -7 F100", "dwell 0.1", "rapid 0 0 10", "end", "end"}));
+  EXPECT_EQ(bench.at(0, 0, 10).run("G99 G73 Z-1. R2. Q4. F100\nM30").path(), (Path{"rapid 0 0 2", "line 0 0 -1 F100", "rapid 0 0 2"}));
+}
+
+TEST(Cycle, BoreG85AndG89FeedBack) {
+  EXPECT_EQ(at_ten("G85 Z-8. R2. F100\nM30").path(), (Path{"rapid 0 0 2", "line 0 0 -8 F100", "line 0 0 2 F100", "rapid 0 0 10"}));
+  EXPECT_EQ(at_ten("G99 G85 Z-8. R2. F100\nM30").path(), (Path{"rapid 0 0 2", "line 0 0 -8 F100", "line 0 0 2 F100"}));
+  EXPECT_EQ(steps(at_ten("G89 X1. Z-8. R2. P250 F100\nM30")),
+            (Path{"rapid 1 0 10", "stop", "rapid 1 0 2", "stop", "line 1 0 -8 F100", "dwell 0.25", "line 1 0 2 F100", "rapid 1 0 10", "end", "end"}));
+}
+
+TEST(Cycle, Incremental) {  // M700 13.1.1: R from the initial level, Z from R; the sign of R is ignored
+  EXPECT_EQ(at_ten("G91 G81 X10. Z-8. R-6. F100\nM30").path(), (Path{"rapid 10 0 10", "rapid 10 0 4", "line 10 0 -4 F100", "rapid 10 0 10"}));
+  EXPECT_EQ(at_ten("G91 G81 X10. Z-8. R6. F100\nM30").path(), (Path{"rapid 10 0 10", "rapid 10 0 4", "line 10 0 -4 F100", "rapid 10 0 10"}));
+}
+
+TEST(Cycle, RepetitionsInIncremental) {  // M700 13.1.1 precaution 11
+  const Path path = at_ten("G91 G81 X10. Z-10. R-20. F100 L3\nM30").path();
+  ASSERT_EQ(path.size(), 12u);
+  EXPECT_EQ(path[0], "rapid 10 0 10");
+  EXPECT_EQ(path[4], "rapid 20 0 10");
+  EXPECT_EQ(path[8], "rapid 30 0 10");
+}
+
+TEST(Cycle, RepetitionsInAbsoluteDrillTheSameHole) {
+  EXPECT_EQ(at_ten("G81 X5. Z-8. R2. F100 L2\nM30").path(),
+            (Path{"rapid 5 0 10", "rapid 5 0 2", "line 5 0 -8 F100", "rapid 5 0 10", "rapid 5 0 2", "line 5 0 -8 F100", "rapid 5 0 10"}));
+}
+
+TEST(Cycle, LZeroOnlyRecords) {  // M700 13.1.2 example 1
+  EXPECT_EQ(at_ten("G82 Z-8. R2. P100 F100 L0\nX5.\nM30").path(), (Path{"rapid 5 0 10", "rapid 5 0 2", "line 5 0 -8 F100", "rapid 5 0 10"}));
+}
+
+TEST(Cycle, Example2OfTheReturnLevels) {  // M700 13.1.2 (18630-18677), what each block does
+  Bench bench;
+  bench.at(0, 0, 10);
+  const Run run = bench.run(
+      "G0 X1.\nG81\nM22\nG04 X1.\nG92 X0 Y0\nG28 Z10.\n\nG99 Z-5. R2. F100 L0\nX5. L2\nG98 X7. Y1. Z-6. R3.\nG80\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 10", "rapid 1 0 0",  // the reference return
+                              "rapid 6 0 0", "rapid 6 0 2", "line 6 0 -5 F100", "rapid 6 0 2", "line 6 0 -5 F100", "rapid 6 0 2", "rapid 8 1 2",
+                              "rapid 8 1 3", "line 8 1 -6 F100", "rapid 8 1 10"}));
+  EXPECT_EQ(run.aux(), "M22 M30");
+  EXPECT_EQ(run.dwells(), std::vector<double>{1});
+}
+
+TEST(Cycle, DataWithoutAPositionAreIgnored) {  // M700 13.1.1 (2)
+  EXPECT_EQ(at_ten("G81 Z-8. R2. F100 L0\nP500\nQ2.\nX5.\nM30").path(), (Path{"rapid 5 0 10", "rapid 5 0 2", "line 5 0 -8 F100", "rapid 5 0 10"}));
+}
+
+TEST(Cycle, GroupOneCancels) {  // M700 13.1.1 precaution 4
+  EXPECT_EQ(at_ten("G81 X5. Z-8. R2. F100 L0\nG0 X1.\nX2.\nM30").path(), (Path{"rapid 1 0 10", "rapid 2 0 10"}));
+  EXPECT_EQ(at_ten("G0\nG81 Z-8. R2. F100 L0\nG80 X5.\nX6.\nM30").path(), (Path{"rapid 5 0 10", "rapid 6 0 10"}));
+  EXPECT_EQ(at_ten("G81 Z-8. R2. F100 L0\nG1 X5.\nM30").last_modal().code[9], 800);
+  // Both in one block: the group one code is executed, the cycle is not; R is then the radius of an arc.
+  EXPECT_EQ(at_ten("G1 G81 X5. Z-8. R2. F100\nX6.\nM30").path(), (Path{"line 5 0 -8 F100", "line 6 0 -8 F100"}));
+  EXPECT_EQ(at_ten("G2 G81 X4. R2. F100\nM30").path(), (Path{"cw 4 0 10 c2,0 F100"}));
+}
+
+TEST(Cycle, CancellingForgetsTheData) {
+  const Run run = at_ten("G81 X5. Z-8. R2. F100\nG80\nG81 X6.\nM30");
+  EXPECT_EQ(run.path().size(), 5u);  // R and Z are gone: the second cycle has nothing to drill
+}
+
+TEST(Cycle, PlaneChoosesTheDrillingAxis) {  // M700 13.1.1
+  EXPECT_EQ(Bench().at(0, 10, 0).run("G18 G81 X5. Z6. Y-8. R2. F100\nM30").path(),
+            (Path{"rapid 5 10 6", "rapid 5 2 6", "line 5 -8 6 F100", "rapid 5 10 6"}));
+  EXPECT_EQ(Bench().at(10, 0, 0).run("G19 G81 Y5. Z6. X-8. R2. F100\nM30").path(),
+            (Path{"rapid 10 5 6", "rapid 2 5 6", "line -8 5 6 F100", "rapid 10 5 6"}));
+  EXPECT_EQ(Bench().param("1080", "1").at(0, 0, 10).run("G18 G81 X5. Y6. Z-8. R2. F100\nM30").path(),
+            (Path{"rapid 5 6 10", "rapid 5 6 2", "line 5 6 -8 F100", "rapid 5 6 10"}));
+}
+
+TEST(Cycle, AnotherAxisMovesFirst) {  // M700 13.1.1 precaution 6
+  EXPECT_EQ(Bench(NC_DIALECT_M700, axes("XYZc")).at(0, 0, 10).run("G81 X5. C90. Z-8. R2. F100\nM30").path(),
+            (Path{"rapid 0 0 10 90", "rapid 5 0 10 90", "rapid 5 0 2 90", "line 5 0 -8 90 F100", "rapid 5 0 10 90"}));
+}
+
+TEST(Cycle, MGoesOutAtTheFirstPositioningOnly) {  // M700 13.1.1 precaution 5
+  EXPECT_EQ(at_ten("G91 G81 X10. Z-8. R-6. F100 L3 M8\nM30").aux(), "M8 M30");
+}
+
+TEST(Cycle, WithLengthCompensationAndWorkOffset) {
+  Bench bench;
+  bench.tool(1, 100).work_offset(1, {10, 0, -5}).at(0, 0, 200);
+  EXPECT_EQ(bench.run("G43 H1 G0 Z20.\nG81 X5. Z-8. R2. F100\nM30").path(),
+            (Path{"rapid 0 0 115", "rapid 15 0 115", "rapid 15 0 97", "line 15 0 87 F100", "rapid 15 0 115"}));
+}
+
+TEST(Cycle, UpwardsToo) {  // the bottom may be above R
+  Bench bench;
+  bench.param("8013", "1");
+  EXPECT_EQ(bench.run("G83 Z8. R2. Q4. F100\nM30").path(),
+            (Path{"rapid 0 0 2", "line 0 0 6 F100", "rapid 0 0 2", "rapid 0 0 5", "line 0 0 8 F100", "rapid 0 0 0"}));
+}
+
+TEST(Cycle, LiesAtTheLineOfItsBlock) {
+  const Run run = at_ten("\n\nG81 X5. Z-8. R2. F100\nM30");
+  for (const nc_item& item : run.of(NC_ITEM_MOVE)) EXPECT_EQ(item.source.line, 3u);
+  EXPECT_EQ(run.lines(), (std::vector<unsigned>{3, 4}));
+}
+
+TEST(Cycle, ManyPecksRunInConstantMemory) {
+  Bench bench;
+  bench.param("8013", "0.001").at(0, 0, 10);
+  const Run run = bench.run("G83 Z-10. R0 Q0.01 F100\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.moves().size(), 1u + 1000 * 3 - 1);
+}
+
+TEST(Cycle, Alarms) {
+  EXPECT_EQ(at_ten("G83 Z-8. R2. F100\nM30").alarm, "P33");         // no Q
+  EXPECT_EQ(at_ten("#1=0.0000000001\nG83 Z-8. R2. Q#1 F100\nM30").alarm, "P33");
+  EXPECT_EQ(at_ten("G81 Z-8. R2.\nM30").alarm, "P62");
+  EXPECT_EQ(at_ten("G81 Z-8. R2. F1 L10000\nM30").alarm, "P35");
+  EXPECT_EQ(at_ten("G41 D1 G1 X1. F9\nG81 Z-8. R2.\nM30").alarm, "P155");
+  EXPECT_EQ(at_ten("G81 Z-8. R2. F1 L0\nG41 D1 X5.\nM30").alarm, "P155");
+  for (const char* code : {"G84", "G86", "G87", "G88", "G74", "G75", "G76"})
+    EXPECT_NE(at_ten(std::string(code) + " Z-8. R2. F1\nM30").alarm, "") << code;
+}
+
+TEST(Cycle, TooManyDigitsOfLAreRefused) { EXPECT_EQ(at_ten("G81 Z-8. R2. F1 L99999\nM30").alarm, "P35"); }
+
+// ---- DGSHAPE ---------------------------------------------------------------------------------------------------------------------
+
+Run dgshape_at_ten(const std::string& text) { return Bench(NC_DIALECT_DGSHAPE).at(0, 0, 10).run("%\n" + text); }
+
+TEST(DgshapeCycle, DrillAndReturnLevels) {  // DGSHAPE G81, G98, G99
+  EXPECT_EQ(dgshape_at_ten("M03\nG98G81X5000Z-8000R2000F60000\nG80\nM02").path(),
+            (Path{"rapid 5 0 10", "rapid 5 0 2", "line 5 0 -8 F60", "rapid 5 0 10"}));
+  EXPECT_EQ(dgshape_at_ten("M03\nG99G81X5000Z-8000R2000F60000\nG80\nM02").path().back(), "rapid 5 0 2");
+  // R omitted: the initial level. Z omitted: no drilling.
+  EXPECT_EQ(dgshape_at_ten("M03\nG81X5000Z-8000F60000\nM02").path(), (Path{"rapid 5 0 10", "line 5 0 -8 F60", "rapid 5 0 10"}));
+  EXPECT_EQ(dgshape_at_ten("M03\nG81X5000R2000F60000\nM02").path(), (Path{"rapid 5 0 10"}));
+}
+
+TEST(DgshapeCycle, PeckHasAFixedClearance) {  // DGSHAPE G83: d = 1 mm
+  EXPECT_EQ(dgshape_at_ten("M03\nG83Z-5000R2000Q4000F60000\nM02").path(),
+            (Path{"rapid 0 0 2", "line 0 0 -2 F60", "rapid 0 0 2", "rapid 0 0 -1", "line 0 0 -5 F60", "rapid 0 0 10"}));
+}
+
+TEST(DgshapeCycle, BoreWithFeedAndDwell) {
+  EXPECT_EQ(dgshape_at_ten("M03\nG99G85Z-5000R2000F60000\nM02").path(), (Path{"rapid 0 0 2", "line 0 0 -5 F60", "line 0 0 2 F60"}));
+  EXPECT_EQ(dgshape_at_ten("M03\nG89Z-5000R2000P300F60000\nM02").dwells(), std::vector<double>{0.3});
+}
+
+TEST(DgshapeCycle, RepetitionsByK) {
+  EXPECT_EQ(dgshape_at_ten("M03\nG91G81X5000Z-8000R-2000F60000K2\nM02").path(),
+            (Path{"rapid 5 0 10", "rapid 5 0 8", "line 5 0 0 F60", "rapid 5 0 10", "rapid 10 0 10", "rapid 10 0 8", "line 10 0 0 F60",
+                  "rapid 10 0 10"}));
+  EXPECT_EQ(dgshape_at_ten("M03\nG81X5000Z-8000R2000F60000K0\nM02").path(), Path{});
+}
+
+TEST(DgshapeCycle, Alarms) {  // DGSHAPE 5
+  EXPECT_EQ(dgshape_at_ten("G81Z-8000R2000F60000\nM02").alarm, "NC-SPINDLE");
+  EXPECT_EQ(dgshape_at_ten("M03\nM05\nG81Z-8000R2000F60000\nM02").alarm, "NC-SPINDLE");
+  EXPECT_EQ(dgshape_at_ten("M03\nG18G81Z-8000R2000F60000\nM02").alarm, "NC-PLANE");
+  EXPECT_EQ(dgshape_at_ten("M03\nG81Z-8000R2000F60000K10000\nM02").alarm, "NC-RANGE");
+  EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE, axes("XYZa")).at(0, 0, 10).run("%\nM03\nG81A1000Z-8000R2000F60000\nM02").alarm, "NC-AXIS");
+  EXPECT_EQ(dgshape_at_ten("G86Z-8000\nM02").alarm, "NC-NOT-BUILT");
+  EXPECT_EQ(dgshape_at_ten("G73Z-8000\nM02").alarm, "NC-NO-SUCH-CODE");
+}
+
+}  // namespace
+}  // namespace nc::test

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the words of a block are worth: units, decimal points, distance modes, ranges (M700 2, 3, 5; DGSHAPE 1-5).
+#include <gtest/gtest.h>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+TEST(DecimalPoint, TypeOneTakesTheLeastCommandUnit) {  // M700 5.3
+  EXPECT_EQ(m700("G0 X12345 Y-5 Z12.5\nM30").path(), (Path{"rapid 12.345 -0.005 12.5"}));
+  EXPECT_EQ(Bench().param("1003", "C").run("G0 X12345\nM30").path(), (Path{"rapid 1.2345 0 0"}));
+  EXPECT_EQ(Bench().param("1003", "E").run("G0 X12345\nM30").path(), (Path{"rapid 0.012345 0 0"}));
+  EXPECT_EQ(Bench().param("1015", "100").run("G0 X12345\nM30").path(), (Path{"rapid 123.45 0 0"}));
+  EXPECT_EQ(Bench().param("1015", "10000").run("G0 X12\nM30").path(), (Path{"rapid 12 0 0"}));
+}
+
+TEST(DecimalPoint, TypeTwoTakesWholeUnitsWhateverTheCommandUnitIs) {  // M700 5.3
+  EXPECT_EQ(Bench().param("1078", "1").run("G0 X12345 Y1.5\nM30").path(), (Path{"rapid 12345 1.5 0"}));
+  EXPECT_EQ(Bench().param("1078", "1").param("1015", "100").run("G0 X7\nM30").path(), (Path{"rapid 7 0 0"}));
+}
+
+TEST(DecimalPoint, AnExpressionCountsAsWrittenWithAPoint) {  // M700 5.3, 13.4
+  EXPECT_EQ(m700("#111=123 #112=5.55\nG0 X#111\nX[#111+#112]\nX[#111-#112]\nX[123+0]\nX-#111\nM30").path(),
+            (Path{"rapid 123 0 0", "rapid 128.55 0 0", "rapid 117.45 0 0", "rapid 123 0 0", "rapid -123 0 0"}));
+}
+
+TEST(DecimalPoint, ArcWordsTakeTheSettingUnit) {  // M700 2.1 note 3: I J K R by #1003, positions by #1015
+  EXPECT_EQ(Bench().param("1015", "100").run("G91 G2 X100 Y100 J1000 F500\nM30").path(), (Path{"cw 1 1 0 c0,1 F500"}));
+  EXPECT_EQ(Bench().param("1015", "100").run("G91 G3 X100 Y100 R1000 F500\nM30").path(), (Path{"ccw 1 1 0 c0,1 F500"}));
+}
+
+TEST(DecimalPoint, TenfoldActsOnWordsWithoutAPoint) {  // M700 2.2, the printed example without its damaged blocks
+  const char* program = "N1 G90 G00 X0 Y0\nN2 G91 X-10000 Y-15000\nN3 G01 X-10000 Y-5000 F500\nN4 G03 X-10000 Y-10000 J-10000\nG01 X20.000\nM30";
+  EXPECT_EQ(Bench().param("UNIT*10", "10").run(program).path(),
+            (Path{"rapid -100 -150 0", "line -200 -200 0 F500", "ccw -300 -300 0 c-200,-300 F500", "line -280 -300 0 F500"}));
+  EXPECT_EQ(m700(program).path(), (Path{"rapid -10 -15 0", "line -20 -20 0 F500", "ccw -30 -30 0 c-20,-30 F500", "line -10 -30 0 F500"}));
+  // Decimal point type II ignores it.
+  EXPECT_EQ(Bench().param("UNIT*10", "10").param("1078", "1").run("G0 X5\nM30").path(), (Path{"rapid 5 0 0"}));
+}
+
+TEST(DecimalPoint, FeedIsInWholeUnitsInBothTypes) {  // M700 7.2
+  EXPECT_EQ(m700("G1 X1. F200\nM30").path(), (Path{"line 1 0 0 F200"}));
+  EXPECT_EQ(Bench().param("1078", "1").run("G1 X1 F200.5\nM30").path(), (Path{"line 1 0 0 F200.5"}));
+}
+
+TEST(DecimalPoint, NumbersDropTheirDecimals) {  // M700 5.3: D H L M N O S T
+  EXPECT_EQ(m700("S1000.9 T5.2 M3.7\nM30").aux(), "S1000 T5 M3 M30");
+}
+
+TEST(Inch, LinearAxesOnlyAndFeedToo) {  // M700 5.2
+  EXPECT_EQ(m700("G20 G0 X1. Y2. Z3.\nM30").path(), (Path{"rapid 25.4 50.8 76.2"}));
+  EXPECT_EQ(m700("G20 G0 X100\nM30").path(), (Path{"rapid 0.254 0 0"}));  // printed table: 100 -> 0.254 mm
+  EXPECT_EQ(Bench(NC_DIALECT_M700, axes("XYZc")).run("G20 G0 X1. C90.\nC45000\nM30").path(), (Path{"rapid 25.4 0 0 90", "rapid 25.4 0 0 45"}));
+  EXPECT_EQ(m700("G20 G1 X1. F10\nM30").path(), (Path{"line 25.4 0 0 F254"}));
+}
+
+TEST(Inch, ModalFeedGoesByTheUnitOfTheBlockThatMoves) {  // M700 5.2 note 1
+  EXPECT_EQ(m700("G1 X10. F100\nG20 X1.\nG21 X0\nM30").path(), (Path{"line 10 0 0 F100", "line 25.4 0 0 F2540", "line 0 0 0 F100"}));
+}
+
+TEST(Inch, ArcWords) { EXPECT_EQ(m700("G20 G2 X1. Y1. J1. F10\nM30").path(), (Path{"cw 25.4 25.4 0 c0,25.4 F254"})); }
+
+TEST(Inch, OffsetsKeepTheSettingUnit) {  // M700 5.2: setting units do not change with G20
+  Bench bench;
+  bench.tool(1, 10);
+  EXPECT_EQ(bench.run("G20 G43 H1 G0 Z1.\nM30").path(), (Path{"rapid 0 0 35.4"}));
+}
+
+TEST(Inch, PowerOnUnitIsAParameter) {  // M700 5.2 #1152
+  Bench bench;
+  bench.param("1152", "1");
+  EXPECT_EQ(bench.run("G0 X1.\nM30").path(), (Path{"rapid 25.4 0 0"}));
+}
+
+TEST(Distance, EachWordGoesByTheCodeBeforeIt) {  // M700 5.1, the printed examples N1-N4
+  const Run run = m700("G0 X100. Y100.\nN4 G90 X300. G91 Y100.\nX10.\nM30");
+  EXPECT_EQ(run.path(), (Path{"rapid 100 100 0", "rapid 300 200 0", "rapid 310 200 0"}));
+  EXPECT_EQ(m700("G0 X100. Y100.\nX10. G91 Y100.\nM30").path(), (Path{"rapid 100 100 0", "rapid 10 200 0"}));
+}
+
+TEST(Distance, TheCodeMayBeAnExpression) {
+  EXPECT_EQ(m700("#1=91\nG0 X10.\nG#1 X5.\n#2=90\nG91 X1. G#2 Y7.\nM30").path(), (Path{"rapid 10 0 0", "rapid 15 0 0", "rapid 16 7 0"}));
+}
+
+TEST(Distance, AbsoluteAndIncrementalAreModal) {
+  EXPECT_EQ(m700("G91 G0 X10.\nX10.\nG90 X5.\nM30").path(), (Path{"rapid 10 0 0", "rapid 20 0 0", "rapid 5 0 0"}));
+}
+
+TEST(Range, ValuesThatAreTooLarge) {  // M700 5.3
+  for (const char* block : {"G0 X100000.", "G0 Y-100000.", "G1 X1. F10000001", "G1 X1. F-5", "G2 X1. I100000. F1", "G20 G0 X10000.",
+                            "G0 X[10*999999]", "G0 Z[99999*99999]"}) {
+    const Run run = m700(std::string(block) + "\nM30");
+    EXPECT_EQ(run.alarm, "P35") << block;
+    EXPECT_TRUE(run.moves().empty()) << block;
+  }
+  EXPECT_EQ(m700("G0 X99999.999\nM30").path(), (Path{"rapid 99999.999 0 0"}));
+  EXPECT_EQ(m700("G20 G0 X9999.9999\nM30").path(), (Path{"rapid 253999.99746 0 0"}));
+  EXPECT_EQ(m700("#100=100000\nG0 X#100\nM30").alarm, "P35");
+  EXPECT_EQ(m700("#100=99999999\nG1 X1. F#100\nM30").alarm, "P35");
+}
+
+TEST(Range, UndottedWordsInTypeTwo) {
+  const Run run = Bench().param("1078", "1").run("G0 X123456\nM30");
+  EXPECT_EQ(run.alarm, "P35");
+  EXPECT_EQ(run.alarm_line, 1u);
+}
+
+TEST(Words, VacantVariablesLeaveTheirWordOut) {  // M700 13.5.4
+  EXPECT_EQ(m700("G0 X5.\nX#1 Y1.\nM30").path(), (Path{"rapid 5 0 0", "rapid 5 1 0"}));
+  EXPECT_EQ(m700("G0 X#1 Z#2\nM30").path(), Path{});
+}
+
+TEST(Words, LowerCaseBlanksAndComments) {
+  EXPECT_EQ(m700("g0 x1 0. (to the right) y 2.\nm30").path(), (Path{"rapid 10 2 0"}));
+  EXPECT_EQ(m700("G0 X1.;Y2.;M30;").path(), (Path{"rapid 1 0 0", "rapid 1 2 0"}));  // ';' ends a block
+}
+
+TEST(Words, OfSeveralCodesOfAGroupTheLastCounts) {  // M700 3.7
+  EXPECT_EQ(m700("G1 G0 X1.\nM30").path(), (Path{"rapid 1 0 0"}));
+  EXPECT_EQ(m700("G0 G1 X1. F5\nM30").path(), (Path{"line 1 0 0 F5"}));
+  EXPECT_EQ(m700("G55 G54 G0 X1.\nM30").last_modal().code[12], 540);
+}
+
+TEST(Words, OptionalSkip) {  // M700 3.4
+  const char* program = "/G0 X1.\n/2 G0 Y2.\nG0 Z3.\nM30";
+  EXPECT_EQ(m700(program).path(), (Path{"rapid 1 0 0", "rapid 1 2 0", "rapid 1 2 3"}));
+  Bench plain;
+  nc_switches_set(plain.control(), 0, 1u << 1, 0);
+  EXPECT_EQ(plain.run(program).path(), (Path{"rapid 0 2 0", "rapid 0 2 3"}));
+  Bench second;
+  nc_switches_set(second.control(), 0, 1u << 2, 0);
+  EXPECT_EQ(second.run(program).path(), (Path{"rapid 1 0 0", "rapid 1 0 3"}));
+}
+
+TEST(Words, ADivisionIsNoSkip) { EXPECT_EQ(m700("N20 G1 X25./Y25.\nM30").alarm_line, 1u); }
+
+TEST(Words, IndexingIncrement) {  // M700 2.3
+  auto run = [](const char* block) { return Bench(NC_DIALECT_M700, axes("XYZc")).param("2106", "2", 'C').run(std::string(block) + "\nM30"); };
+  EXPECT_EQ(run("G0 C102.").path(), (Path{"rapid 0 0 0 102"}));
+  EXPECT_EQ(run("G0 C101.").alarm, "P20");
+  EXPECT_EQ(run("G1 C102 F10").alarm, "P20");  // 0.102 deg in type I
+  EXPECT_EQ(run("G0 X1.001").alarm, "");       // linear axes are not checked
+}
+
+TEST(Words, UnknownOnesAreAlarms) {
+  EXPECT_EQ(m700("G0 X1. $\nM30").alarm, "P32");
+  EXPECT_EQ(m700("G0 A1.\nM30").alarm, "P130");   // another second auxiliary address than the one in use
+  EXPECT_EQ(m700("G0 U1.\nM30").alarm, "P11");
+  EXPECT_EQ(m700("G0 X\nM30").path(), Path{});    // an axis without a value is 0 (M700 14.10)
+  EXPECT_EQ(m700("G1 X1. F\nM30").alarm, "P33");
+  EXPECT_EQ(m700("G0 X1. ,C5.\nM30").alarm, "P380");
+  EXPECT_EQ(m700("G0 X1. ,A5.\nM30").alarm, "P390");
+}
+
+TEST(DgshapeWords, ConventionalIsTheLeastUnit) {  // DGSHAPE 1-5
+  EXPECT_EQ(dgshape("G0X1000Y-2000Z1.5\nM02").path(), (Path{"rapid 1 -2 1.5"}));
+  EXPECT_EQ(dgshape("G1X1000.F600.\nM02").path(), (Path{"line 1000 0 0 F600"}));
+  EXPECT_EQ(dgshape("G1X1000F600\nM02").path(), (Path{"line 1 0 0 F0.6"}));
+  EXPECT_EQ(dgshape("G20\nG0X10000\nG1X0F10000\nM02").path(), (Path{"rapid 25.4 0 0", "line 0 0 0 F25.4"}));
+}
+
+TEST(DgshapeWords, CalculatorTypeByClassOfWord) {  // DGSHAPE 1-5
+  auto run = [](const char* words) {
+    Bench bench(NC_DIALECT_DGSHAPE);
+    bench.param("interpretation", "calculator");
+    if (words != nullptr) bench.param("calculator_words", words);
+    return bench.run("%\nG1X10F600\nG2X20R5\nM02").path();
+  };
+  EXPECT_EQ(run(nullptr), (Path{"line 10 0 0 F600", "cw 20 0 0 c15,0 F600"}));
+  EXPECT_EQ(run("all"), (Path{"line 10 0 0 F600", "cw 20 0 0 c15,0 F600"}));
+  EXPECT_EQ(run("F"), (Path{"line 0.01 0 0 F600", "cw 0.02 0 0 c0.015,0 F600"}));
+  EXPECT_EQ(run("IJKRXYZA"), (Path{"line 10 0 0 F0.6", "cw 20 0 0 c15,0 F0.6"}));
+  EXPECT_EQ(run("none"), (Path{"line 0.01 0 0 F0.6", "cw 0.02 0 0 c0.015,0 F0.6"}));
+}
+
+TEST(DgshapeWords, ThereAreNoMacrosAndNoFractionsOfNumbers) {
+  EXPECT_EQ(dgshape("#1=5\nM02").alarm_line, 2u);
+  EXPECT_NE(dgshape("#1=5\nM02").alarm, "");
+  EXPECT_NE(dgshape("S1000.5\nM02").alarm, "");
+  EXPECT_NE(dgshape("G0X[1+2]\nM02").alarm, "");
+  EXPECT_EQ(dgshape("G0X100000.\nM02").alarm, "NC-RANGE");
+}
+
+TEST(DgshapeWords, OfTwoDimensionCodesTheLastOneCountsForTheBlock) {  // DGSHAPE 1 (296)
+  EXPECT_EQ(dgshape("G90G0X1000\nG90X5000G91\nM02").path(), (Path{"rapid 1 0 0", "rapid 6 0 0"}));
+}
+
+}  // namespace
+}  // namespace nc::test

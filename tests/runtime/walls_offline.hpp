@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The test of the walls, offline side: the same program pulled item by item from an identical control, and the comparison.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "walls_machine.hpp"
+
+namespace nc::test {
+
+struct Pulled {
+  std::uint64_t serial = 0;
+  std::uint8_t kind = 0;
+  std::uint32_t line = 0;
+  nc_axes machine{};        // where the axes are when it has been executed
+  bool skip = false;        // a skip move: where it ended is the machine's to say
+  nc_axes start{}, end{};   // of a skip move as programmed
+};
+
+struct Listing {
+  std::vector<Pulled> items;
+  std::string alarm;
+  std::uint32_t alarm_line = 0;
+  bool ended = false;
+  std::uint32_t interface_output[NC_WORDS] = {};
+  std::map<std::uint32_t, double> variables;
+  unsigned skips = 0, syncs = 0;
+};
+
+// Inputs change at the same lines and M codes as on the machine (the same script); a skip ends where the machine says.
+Listing pull_offline(const rt::Config& config, const std::string& text, const Operator& op, const Recording& machine);
+
+// Same items, same serials, same end points within 1e-9, same variables and outputs, no limit broken.
+void expect_same(const Recording& online, const Listing& offline, const rt::Config& config);
+
+}  // namespace nc::test

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// The test of the walls. ncsim's trace and the machine are two sinks of one stream of items, so what the runtime executes on
+// the simulated machine is, serial by serial and end point by end point, what an offline control says: under random override,
+// hold and resume, single block, inputs that change in the middle of a macro, and skips; and in every scan every axis keeps
+// its velocity, its acceleration and its soft limits.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "program_generator.hpp"
+#include "test_config.hpp"
+#include "walls_machine.hpp"
+#include "walls_offline.hpp"
+
+namespace {
+
+using nc::test::Listing;
+using nc::test::Operator;
+using nc::test::Recording;
+
+// Sanitizers are slow: the same test on fewer programs.
+unsigned seeds(unsigned all) {
+  const char* sanitize = std::getenv("NC_SANITIZE");
+  return sanitize != nullptr && sanitize[0] != 0 ? (all + 9) / 10 : all;
+}
+
+nc::rt::Config random_config(const std::vector<std::string>& script, std::uint32_t seed) {
+  std::string text = nc::test::base_toml();
+  text += "script = [";
+  for (const std::string& statement : script) text += "\"" + statement + "\",\n";
+  text += "]\n" + std::string(nc::test::probe_solid_toml());
+  text += "[work_offsets]\nG54 = { X = 3.5, Y = -2.25, Z = 1.125 }\n[tool_offsets]\n1 = 2.5\n2 = 12.0\n";
+  nc::rt::Config config = nc::test::parse_or_fail(text);
+  if (seed % 5 == 4) config.nc.look_ahead = 64;  // the ring is full all the time
+  return config;
+}
+
+Operator random_operator(std::uint32_t seed) {
+  Operator op;
+  op.seed = seed;
+  op.overrides = (seed & 1) != 0;
+  op.holds = (seed & 2) != 0;
+  op.single_block = (seed & 4) != 0;
+  op.optional_stop = (seed & 8) != 0;
+  op.optional_skip = (seed & 16) != 0 ? 2u : (seed & 32) != 0 ? 4u : 0u;  // bit n = switch n
+  return op;
+}
+
+struct Totals {
+  std::uint64_t items = 0, scans = 0, holds = 0, stops = 0, overrides = 0, skips = 0, syncs = 0;
+};
+
+void compare(const nc::rt::Config& config, const std::string& text, const Operator& op, Totals* totals) {
+  const Recording online = nc::test::run_online(config, text, op);
+  const Listing offline = nc::test::pull_offline(config, text, op, online);
+  EXPECT_GT(offline.items.size(), 3u);
+  EXPECT_EQ(offline.alarm, "") << "line " << offline.alarm_line;  // every program here is a good one
+  nc::test::expect_same(online, offline, config);
+  totals->items += online.items.size();
+  totals->scans += online.scans;
+  totals->holds += online.holds;
+  totals->stops += online.block_stops;
+  totals->overrides += online.override_changes;
+  totals->skips += offline.skips;
+  totals->syncs += offline.syncs;
+}
+
+TEST(Walls, RandomProgramsExecuteAsTheyTrace) {
+  Totals totals;
+  const unsigned count = seeds(160);
+  for (std::uint32_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    nc::test::ProgramGenerator generator(seed);
+    const nc::test::GeneratedProgram program = generator.make(12);
+    const nc::rt::Config config = random_config(program.script, seed);
+    compare(config, program.text, random_operator(seed), &totals);
+    if (HasFailure()) {
+      std::ofstream("walls-failed.nc") << program.text;
+      FAIL() << "the program is in walls-failed.nc";
+    }
+  }
+  RecordProperty("items", static_cast<int>(totals.items));
+  RecordProperty("scans", static_cast<int>(totals.scans));
+  std::printf("%u programs: %llu items, %llu scans, %llu holds, %llu block stops, %llu override changes, %llu skips, %llu syncs\n",
+              count, static_cast<unsigned long long>(totals.items), static_cast<unsigned long long>(totals.scans),
+              static_cast<unsigned long long>(totals.holds), static_cast<unsigned long long>(totals.stops),
+              static_cast<unsigned long long>(totals.overrides), static_cast<unsigned long long>(totals.skips),
+              static_cast<unsigned long long>(totals.syncs));
+  // The test would prove nothing if none of this had happened.
+  EXPECT_GT(totals.holds, count / 8);
+  EXPECT_GT(totals.stops, count / 8);
+  EXPECT_GT(totals.overrides, count / 8);
+  EXPECT_GT(totals.skips, count / 8);
+  EXPECT_GT(totals.syncs, count / 8);
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
+  const std::filesystem::path root(NC_SOURCE_DIR);
+  unsigned parts = 0;
+  for (const auto& [part, machine] : {std::pair{"flange.nc", "machine.toml"}, {"keytag.nc", "modelling-machine.toml"}}) {
+    nc::rt::Config config;
+    for (const auto& error : nc::rt::load_config((root / "etc" / machine).string(), &config)) ADD_FAILURE() << error.text();
+    const std::string text = read_file(root / "examples" / "parts" / part);
+    ASSERT_FALSE(text.empty()) << part;
+    ++parts;
+    for (const std::uint32_t seed : {0u, 7u}) {
+      SCOPED_TRACE(std::string(part) + " seed " + std::to_string(seed));
+      Totals totals;
+      compare(config, text, random_operator(seed), &totals);
+      EXPECT_GT(totals.items, 50u);
+    }
+  }
+  EXPECT_EQ(parts, 2u);
+}
+
+TEST(Walls, TheSameRunTwiceIsTheSame) {
+  nc::test::ProgramGenerator generator(77);
+  const nc::test::GeneratedProgram program = generator.make(10);
+  const nc::rt::Config config = random_config(program.script, 77);
+  const Operator op = random_operator(77 | 7);
+  const Recording first = nc::test::run_online(config, program.text, op);
+  const Recording second = nc::test::run_online(config, program.text, op);
+  EXPECT_EQ(first.scans, second.scans);
+  ASSERT_EQ(first.items.size(), second.items.size());
+  for (std::size_t i = 0; i < first.items.size(); ++i)
+    EXPECT_EQ(std::memcmp(&first.items[i].machine, &second.items[i].machine, sizeof(nc_axes)), 0);
+}
+
+}  // namespace
