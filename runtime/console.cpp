@@ -22,6 +22,35 @@ __attribute__((format(printf, 2, 3))) void append(std::string* text, const char*
   *text += buffer;
 }
 
+// Counts lines up to the first M02 or M30 outside of comments, behind which sub programs may stand.
+class EndFinder {
+ public:
+  // True when the end code is complete.
+  bool take(char c) {
+    const bool digit = c >= '0' && c <= '9';
+    if (in_m_ && digit) {
+      number_ = std::min(number_ * 10 + static_cast<unsigned>(c - '0'), 1000000u);
+      digits_ = true;
+      return false;
+    }
+    const bool found = in_m_ && digits_ && (number_ == 2 || number_ == 30);
+    in_m_ = !comment_ && (c == 'M' || c == 'm');
+    number_ = 0;
+    digits_ = false;
+    if (c == '(') comment_ = true;
+    if (c == ')' || c == '\n') comment_ = false;
+    if (found) return true;
+    if (c == '\n') ++line_;
+    return false;
+  }
+  std::uint64_t line() const { return line_; }
+
+ private:
+  std::uint64_t line_ = 1;
+  unsigned number_ = 0;
+  bool comment_ = false, in_m_ = false, digits_ = false;
+};
+
 double us(std::uint64_t ns) { return static_cast<double>(ns) / 1000.0; }
 
 void append_histogram(std::string* text, const char* name, const Histogram& histogram) {
@@ -41,14 +70,18 @@ std::uint64_t estimate_lines(const std::string& path) {
   const std::uint64_t wanted = size <= kCountedBytes ? size : 1u << 20;
   stream.seekg(0);
   std::vector<char> block(kBlock);
-  std::uint64_t lines = 0, read = 0;
-  while (read < wanted && stream.read(block.data(), static_cast<std::streamsize>(block.size())).gcount() > 0) {
+  std::uint64_t read = 0;
+  EndFinder finder;
+  while (read < wanted) {
+    stream.read(block.data(), static_cast<std::streamsize>(block.size()));
     const std::streamsize got = stream.gcount();
-    lines += static_cast<std::uint64_t>(std::count(block.begin(), block.begin() + got, '\n'));
+    if (got <= 0) break;
+    for (std::streamsize i = 0; i < got; ++i)
+      if (finder.take(block[static_cast<std::size_t>(i)])) return finder.line();
     read += static_cast<std::uint64_t>(got);
   }
   if (read == 0) return 0;
-  return std::max<std::uint64_t>(1, lines * size / read);
+  return std::max<std::uint64_t>(1, finder.line() * size / read);
 }
 
 unsigned percent_done(std::uint32_t main_line, std::uint64_t lines) {
@@ -91,7 +124,9 @@ std::string progress_line(const Runtime& runtime, std::uint64_t lines) {
   const nc_system_config& axes = runtime.config().nc.system[0];
   const nc_source& source = system.nc.source;
   std::string text;
-  append(&text, "%3u %%  ", percent_done(std::max(info.main_line, source.depth == 0 ? source.line : 0), lines));
+  const bool over = info.runs > 0 && system.nc.state == NC_STATE_IDLE;
+  append(&text, "%3u %%  ",
+         over ? 100 : percent_done(std::max(info.main_line, source.depth == 0 ? source.line : 0), lines));
   if (source.depth == 0)
     append(&text, "line %-5u", source.line);
   else
@@ -103,12 +138,14 @@ std::string progress_line(const Runtime& runtime, std::uint64_t lines) {
   return text;
 }
 
-std::string summary_text(const Runtime& runtime, const nc_outputs& last_run) {
+std::string summary_text(const Runtime& runtime, const nc_outputs& last_run, std::int64_t since_ns) {
   const ScanStatistics& statistics = runtime.statistics();
   std::string text;
   append(&text, "cycle time   %.3f s\n", last_run.run_s);
   append(&text, "path length  %.3f mm\n", last_run.path_length);
   append(&text, "blocks       %llu\n", static_cast<unsigned long long>(last_run.blocks));
+  if (runtime.first_scan_ns() != 0)
+    append(&text, "start-up     %.1f ms to the first scan\n", static_cast<double>(runtime.first_scan_ns() - since_ns) / 1e6);
   append(&text, "scans        %llu of %u us, %llu overruns, %llu slots missed\n",
          static_cast<unsigned long long>(statistics.execution.count()), runtime.config().cycle_us,
          static_cast<unsigned long long>(statistics.overruns.load()),

@@ -10,8 +10,8 @@
 
 namespace nc::rt {
 
-// Lines of a program, for the percentage: counted in small files, estimated from the first megabyte in large ones.
-// 0 = cannot be read.
+// Lines of a program up to its end code (M02, M30), for the percentage: counted in small files, estimated from the first
+// megabyte in large ones. 0 = cannot be read.
 std::uint64_t estimate_lines(const std::string& path);
 
 // Share of the program that is done, 0..100, by the line of the main program.
@@ -23,8 +23,8 @@ std::string progress_line(const Runtime& runtime, std::uint64_t lines);
 // The state in words, with the reason when nothing moves.
 std::string state_text(const nc_outputs& outputs);
 
-// Cycle time, path length, blocks, scan statistics.
-std::string summary_text(const Runtime& runtime, const nc_outputs& last_run);
+// Cycle time, path length, blocks, scan statistics. `since_ns`: when the process began, on CLOCK_MONOTONIC.
+std::string summary_text(const Runtime& runtime, const nc_outputs& last_run, std::int64_t since_ns);
 
 // Live progress. On a terminal the line is rewritten in place; elsewhere a line appears at each tenth and at each change
 // of state.

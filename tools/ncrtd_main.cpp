@@ -34,6 +34,7 @@ extern "C" void on_signal(int number) { g_signal = number; }
 struct Options {
   std::string config, program, mdi, dialect, plot;
   bool fast = false, no_progress = false;
+  std::int64_t since_ns = nc::rt::RealClock().now_ns();  // start of the process, for the start-up time
 };
 
 // The executed path for the plot: a vertex where the direction changes by more than two degrees, or the kind of move.
@@ -97,6 +98,16 @@ int failed(const std::string& text) {
   return kExitUsage;
 }
 
+// Parameters are numbers of one manual: with another dialect they would mean something else, or nothing.
+void change_dialect(const std::string& name, nc::rt::Config* config) {
+  const std::uint8_t dialect = name == "dgshape" ? NC_DIALECT_DGSHAPE : NC_DIALECT_M700;
+  if (dialect == config->nc.dialect) return;
+  config->nc.dialect = dialect;
+  if (config->parameters.empty()) return;
+  std::fprintf(stderr, "warning: [parameters] of %s are those of another dialect: not used\n", config->file.c_str());
+  config->parameters.clear();
+}
+
 // One run from cycle start to the end, an alarm or a signal.
 class Run {
  public:
@@ -147,7 +158,7 @@ class Run {
   }
   int ended(const nc::rt::Snapshot& now) {
     progress_.finish();
-    std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc).c_str());
+    std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc, options_.since_ns).c_str());
     return 0;
   }
   int stop_by_signal() {
@@ -165,7 +176,7 @@ class Run {
     progress_.finish();
     for (unsigned i = 0; i < now.alarms.count; ++i)
       std::fprintf(stderr, "alarm: %s\n", runtime_.alarm_text(now.alarms.alarm[i]).c_str());
-    std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc).c_str());
+    std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc, options_.since_ns).c_str());
     return kExitAlarm;
   }
 
@@ -177,8 +188,7 @@ class Run {
 
 // The machine, its control and the program, brought up and taken down.
 int operate(const Options& options, nc::rt::Config* config) {
-  if (options.dialect == "m700") config->nc.dialect = NC_DIALECT_M700;
-  if (options.dialect == "dgshape") config->nc.dialect = NC_DIALECT_DGSHAPE;
+  if (!options.dialect.empty()) change_dialect(options.dialect, config);
   nc::hal::SimMachine machine(config->sim, config->points);
   nc::rt::RealClock real;
   nc::rt::VirtualClock virtual_clock;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ncsim: NC programs without a machine. This file is the command line; what the subcommands do is in tools/lib/commands.cpp.
+// ncsim: NC programs without a machine. This file is the command line; what the subcommands do is in
+// tools/lib/commands.cpp.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -24,14 +25,16 @@ void add_program(CLI::App* command, SessionOptions* options) {
 
 void add_loop_limit(CLI::App* command, uint64_t* limit) {
   command
-      ->add_option("--max-silent-blocks", *limit, "blocks that only calculate after which it is an endless loop, 0 = no limit")
+      ->add_option("--max-silent-blocks", *limit,
+                   "blocks that only calculate after which it is an endless loop, 0 = no limit")
       ->capture_default_str();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away is a write error with a message, not a silent death
+  std::signal(SIGPIPE,
+              SIG_IGN);  // a reader that goes away is a write error with a message, not a silent death
   CLI::App app{"ncsim: run NC programs without a machine"};
   app.set_version_flag("--version", std::string("ncsim ") + nc_version());
   app.require_subcommand(1);
@@ -64,7 +67,8 @@ int main(int argc, char** argv) {
   add_loop_limit(plot, &silent);
   plot->add_option("-o,--output", base, "writes OUTPUT.svg and OUTPUT.png (default: toolpath)")
       ->default_str("toolpath");
-  plot->add_option("--view", view, "iso, xy, xz or yz")->transform(CLI::CheckedTransformer(views, CLI::ignore_case));
+  plot->add_option("--view", view, "iso, xy, xz or yz")
+      ->transform(CLI::CheckedTransformer(views, CLI::ignore_case));
 
   bool markdown = false;
   CLI::App* functions = app.add_subcommand("functions", "the G and M codes of a dialect");

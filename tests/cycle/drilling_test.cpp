@@ -8,7 +8,7 @@ namespace nc::test {
 namespace {
 
 /// Moves, dwells and places where single block may stop: "line 0 0 -5 F100", "dwell 0.5", "stop", "end" (of a block, with a stop).
-Path steps(const Run& run) {
+Path steps(const Outcome& run) {
   Path all;
   size_t next_move = 0;
   const Path moves = run.path();
@@ -20,7 +20,7 @@ Path steps(const Run& run) {
   return all;
 }
 
-Run at_ten(const std::string& text) { return Bench().at(0, 0, 10).run(text); }
+Outcome at_ten(const std::string& text) { return Bench().at(0, 0, 10).run(text); }
 
 TEST(Cycle, DrillG81) {  // M700 13.1.1
   EXPECT_EQ(at_ten("G81 X5. Y6. Z-8. R2. F100\nG80\nM30").path(),
@@ -88,7 +88,7 @@ TEST(Cycle, LZeroOnlyRecords) {  // M700 13.1.2 example 1
 TEST(Cycle, Example2OfTheReturnLevels) {  // M700 13.1.2 (18630-18677), what each block does
   Bench bench;
   bench.at(0, 0, 10);
-  const Run run = bench.run(
+  const Outcome run = bench.run(
       "G0 X1.\nG81\nM22\nG04 X1.\nG92 X0 Y0\nG28 Z10.\n\nG99 Z-5. R2. F100 L0\nX5. L2\nG98 X7. Y1. Z-6. R3.\nG80\nM30");
   EXPECT_EQ(run.alarm, "");
   EXPECT_EQ(run.path(), (Path{"rapid 1 0 10", "rapid 1 0 0",  // the reference return
@@ -112,7 +112,7 @@ TEST(Cycle, GroupOneCancels) {  // M700 13.1.1 precaution 4
 }
 
 TEST(Cycle, CancellingForgetsTheData) {
-  const Run run = at_ten("G81 X5. Z-8. R2. F100\nG80\nG81 X6.\nM30");
+  const Outcome run = at_ten("G81 X5. Z-8. R2. F100\nG80\nG81 X6.\nM30");
   EXPECT_EQ(run.path().size(), 5u);  // R and Z are gone: the second cycle has nothing to drill
 }
 
@@ -149,7 +149,7 @@ TEST(Cycle, UpwardsToo) {  // the bottom may be above R
 }
 
 TEST(Cycle, LiesAtTheLineOfItsBlock) {
-  const Run run = at_ten("\n\nG81 X5. Z-8. R2. F100\nM30");
+  const Outcome run = at_ten("\n\nG81 X5. Z-8. R2. F100\nM30");
   for (const nc_item& item : run.of(NC_ITEM_MOVE)) EXPECT_EQ(item.source.line, 3u);
   EXPECT_EQ(run.lines(), (std::vector<unsigned>{3, 4}));
 }
@@ -157,7 +157,7 @@ TEST(Cycle, LiesAtTheLineOfItsBlock) {
 TEST(Cycle, ManyPecksRunInConstantMemory) {
   Bench bench;
   bench.param("8013", "0.001").at(0, 0, 10);
-  const Run run = bench.run("G83 Z-10. R0 Q0.01 F100\nM30");
+  const Outcome run = bench.run("G83 Z-10. R0 Q0.01 F100\nM30");
   EXPECT_EQ(run.alarm, "");
   EXPECT_EQ(run.moves().size(), 1u + 1000 * 3 - 1);
 }
@@ -177,7 +177,7 @@ TEST(Cycle, TooManyDigitsOfLAreRefused) { EXPECT_EQ(at_ten("G81 Z-8. R2. F1 L999
 
 // ---- DGSHAPE ---------------------------------------------------------------------------------------------------------------------
 
-Run dgshape_at_ten(const std::string& text) { return Bench(NC_DIALECT_DGSHAPE).at(0, 0, 10).run("%\n" + text); }
+Outcome dgshape_at_ten(const std::string& text) { return Bench(NC_DIALECT_DGSHAPE).at(0, 0, 10).run("%\n" + text); }
 
 TEST(DgshapeCycle, DrillAndReturnLevels) {  // DGSHAPE G81, G98, G99
   EXPECT_EQ(dgshape_at_ten("M03\nG98G81X5000Z-8000R2000F60000\nG80\nM02").path(),

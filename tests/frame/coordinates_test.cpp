@@ -20,7 +20,7 @@ TEST(WorkSystems, SixOfThemAndTheExternalOffset) {  // M700 14.10
 TEST(WorkSystems, SelectingMovesNothing) {
   Bench bench;
   bench.work_offset(2, {10, 10, 10});
-  const Run run = bench.run("G0 X5.\nG55\n#100=#5001\nG91 X1.\nM30");
+  const Outcome run = bench.run("G0 X5.\nG55\n#100=#5001\nG91 X1.\nM30");
   EXPECT_EQ(run.path(), (Path{"rapid 5 0 0", "rapid 6 0 0"}));
   EXPECT_EQ(run.var(100), -5);
   EXPECT_EQ(run.last_modal().code[12], 550);
@@ -29,7 +29,7 @@ TEST(WorkSystems, SelectingMovesNothing) {
 TEST(WorkSystems, Extended) {  // M700 14.10
   Bench bench;
   bench.work_offset(101, {1, 0, 0}).work_offset(196, {96, 0, 0});
-  const Run run = bench.run("G54.1 P1\nG0 X0\nG54.1 P96 X0\nG54 X0\nM30");
+  const Outcome run = bench.run("G54.1 P1\nG0 X0\nG54.1 P96 X0\nG54 X0\nM30");
   EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "rapid 96 0 0", "rapid 0 0 0"}));
   EXPECT_EQ(bench.run("G54.1 P97\nM30").alarm, "P39");
   EXPECT_EQ(bench.run("G54.1 P0\nM30").alarm, "P35");
@@ -52,7 +52,7 @@ TEST(Setting, G92ShiftsEverySystem) {  // M700 14.5, the figure's numbers
   Bench bench;
   bench.work_offset(1, {-300, -200, 0}).work_offset(2, {-100, 0, 0}).work_offset(101, {50, 0, 0});
   bench.at(-200, -150, 0);
-  const Run run = bench.run("#100=#5001 #101=#5002\nG92 X0 Y0\n#102=#5001 #103=#5002\nG0 X10.\nG55 X0 Y0\nG54.1 P1 X0\nM30");
+  const Outcome run = bench.run("#100=#5001 #101=#5002\nG92 X0 Y0\n#102=#5001 #103=#5002\nG0 X10.\nG55 X0 Y0\nG54.1 P1 X0\nM30");
   EXPECT_EQ(run.var(100), 100);
   EXPECT_EQ(run.var(101), 50);
   EXPECT_EQ(run.var(102), 0);
@@ -83,13 +83,13 @@ TEST(Local, BelongsToItsSystem) {  // M700 14.11 example 3
 }
 
 TEST(Local, NotInAnExtendedSystem) {
-  const Run run = m700("G54.1 P1\nG52 X1.\nM30");
+  const Outcome run = m700("G54.1 P1\nG52 X1.\nM30");
   EXPECT_EQ(run.alarm, "P438");
   EXPECT_EQ(run.alarm_line, 2u);
 }
 
 TEST(Preset, TakesShiftAndLocalAway) {  // M700 14.12, the printed example
-  const Run run = m700("G0 X1. Y1.\nG92 X0 Y0\nX500 Y500\n#100=#5001\nG92.1 X0 Y0\n#101=#5001\nM30");
+  const Outcome run = m700("G0 X1. Y1.\nG92 X0 Y0\nX500 Y500\n#100=#5001\nG92.1 X0 Y0\n#101=#5001\nM30");
   EXPECT_DOUBLE_EQ(run.var(100), 0.5);
   EXPECT_DOUBLE_EQ(run.var(101), 1.5);
   EXPECT_EQ(m700("G52 X5. Y5.\nG92.1 X0\nG0 X0 Y0\nM30").path(), (Path{"rapid 0 5 0"}));
@@ -137,7 +137,7 @@ TEST(DataInput, WithoutPTheSelectedSystem) {
 TEST(DataInput, ActsAtOnceAndMovesNothing) {  // M700 12.7, printed display 0,0 -> 5,5
   Bench bench;
   bench.work_offset(1, {-10, -10, 0}).at(-10, -10, 0);
-  const Run run = bench.run("#100=#5001\nG10 L2 P1 X-15. Y-15.\n#101=#5001\nG0 X0\nM30");
+  const Outcome run = bench.run("#100=#5001\nG10 L2 P1 X-15. Y-15.\n#101=#5001\nG0 X0\nM30");
   EXPECT_EQ(run.var(100), 0);
   EXPECT_EQ(run.var(101), 5);
   EXPECT_EQ(run.path(), (Path{"rapid -15 -10 0"}));

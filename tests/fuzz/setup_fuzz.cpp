@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a setup file: a setup or one line that says what is wrong, never a crash. What parses goes on into a control,
-// which refuses what it does not have.
+// Any bytes as a setup file: a setup or one line that says what is wrong, never a crash. What parses goes on
+// into a control, which refuses what it does not have.
 #include <cstdint>
 #include <cstdlib>
 #include <memory>

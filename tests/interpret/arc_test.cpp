@@ -18,7 +18,7 @@ TEST(Arc, CentreForm) {
 }
 
 TEST(Arc, FullCircle) {  // M700 6.4: end omitted or equal to the start
-  const Run run = m700("G02 J50000 F500\nM30");
+  const Outcome run = m700("G02 J50000 F500\nM30");
   EXPECT_EQ(run.path(), (Path{"cw 0 0 0 c0,50 F500"}));
   EXPECT_DOUBLE_EQ(run.moves()[0].sweep_deg, -360);
   EXPECT_NEAR(run.moves()[0].length, 2 * std::numbers::pi * 50, 1e-9);
@@ -43,13 +43,13 @@ TEST(Arc, RadiusWinsOverCentre) {  // M700 6.5
 }
 
 TEST(Arc, RadiusFormThatIsComplete) {  // M700 6.5: start = end, nothing moves
-  const Run run = m700("G2 R10. F100\nG17 G02 I1. J1. R5.\nM30");
+  const Outcome run = m700("G2 R10. F100\nG17 G02 I1. J1. R5.\nM30");
   EXPECT_EQ(run.path(), Path{});
   EXPECT_EQ(run.alarm, "");
 }
 
 TEST(Arc, RadiusTooSmall) {
-  const Run run = m700("G1 X0 F100\nG2 X20. R9.\nM30");
+  const Outcome run = m700("G1 X0 F100\nG2 X20. R9.\nM30");
   EXPECT_EQ(run.alarm, "P71");  // M700 6.5
   EXPECT_EQ(run.alarm_line, 2u);
   EXPECT_TRUE(run.moves().empty());
@@ -60,7 +60,7 @@ TEST(Arc, RadiusTooSmall) {
 
 TEST(Arc, EndOffTheCircle) {  // M700 6.4, the printed pair
   EXPECT_EQ(m700("G2 X9.899 I5. F100\nM30").alarm, "P70");
-  const Run run = m700("G2 X9.9 I5. F100\nM30");
+  const Outcome run = m700("G2 X9.9 I5. F100\nM30");
   EXPECT_EQ(run.alarm, "");
   EXPECT_EQ(run.path(), (Path{"cw 9.9 0 0 c5,0 F100"}));
   EXPECT_EQ(Bench().param("1084", "0.2").run("G2 X9.85 I5. F100\nM30").alarm, "");
@@ -90,7 +90,7 @@ TEST(Arc, PlaneThatTheAxesDoNotHave) {
 }
 
 TEST(Helix, OtherAxesGoAlong) {  // M700 6.6
-  const Run run = m700("G3 X-10. Y10. I-10. Z5. F100\nM30");
+  const Outcome run = m700("G3 X-10. Y10. I-10. Z5. F100\nM30");
   ASSERT_EQ(run.moves().size(), 1u);
   EXPECT_EQ(run.moves()[0].kind, NC_MOVE_HELIX);
   EXPECT_EQ(run.path(), (Path{"ccw -10 10 5 c-10,0 F100"}));
@@ -113,7 +113,7 @@ TEST(Helix, RotaryAxisGoesAlong) {
 }
 
 TEST(Arc, FeedIsNeeded) {
-  const Run run = m700("G2 X10. I5.\nM30");
+  const Outcome run = m700("G2 X10. I5.\nM30");
   EXPECT_EQ(run.alarm, "P62");
   EXPECT_EQ(run.alarm_line, 1u);
 }
@@ -121,7 +121,7 @@ TEST(Arc, FeedIsNeeded) {
 TEST(Arc, TheCentreMovesWithTheCoordinates) {
   Bench bench;
   bench.work_offset(1, {100, 50, 0});
-  const Run run = bench.run("G0 X0 Y0\nG2 X10. Y10. J10. F100\nM30");
+  const Outcome run = bench.run("G0 X0 Y0\nG2 X10. Y10. J10. F100\nM30");
   EXPECT_EQ(run.path()[1], "cw 110 60 0 c100,60 F100");
   EXPECT_EQ(run.work()[1], "cw 10 10 0 c0,10 F100");
 }

@@ -20,7 +20,7 @@ TEST(Motion, GroupOneIsModal) {
 }
 
 TEST(Motion, NothingIsCommittedForNoLength) {
-  const Run run = m700("G0 X0\nG91 X0 Y0\nG1 X1. F1\nX0\nM30");
+  const Outcome run = m700("G0 X0\nG91 X0 Y0\nG1 X1. F1\nX0\nM30");
   EXPECT_EQ(run.path(), (Path{"line 1 0 0 F1"}));
   EXPECT_EQ(run.lines(), (std::vector<unsigned>{1, 2, 3, 4, 5}));
 }
@@ -57,7 +57,7 @@ TEST(Dwell, TheTableOfTheManual) {  // M700 8.1
     for (unsigned i = 0; i < 4; ++i) {
       Bench bench;
       bench.param("1078", i >= 2 ? "1" : "0").param("8112", i % 2 != 0 ? "1" : "0");
-      const Run run = bench.run(std::string("#100=1000\nG04 ") + row.words + "\nM30");
+      const Outcome run = bench.run(std::string("#100=1000\nG04 ") + row.words + "\nM30");
       ASSERT_EQ(run.dwells().size(), 1u) << row.words;
       EXPECT_DOUBLE_EQ(run.dwells()[0], row.seconds[i]) << row.words << " column " << i;
       EXPECT_EQ(run.path(), Path{});  // X does not move
@@ -88,7 +88,7 @@ TEST(Dwell, Dgshape) {  // DGSHAPE G04
 // ---- skip ----------------------------------------------------------------------------------------------------------------
 
 TEST(Skip, WithoutASignalItEndsAtItsEnd) {  // M700 15.2
-  const Run run = m700("G1 F500\nG31 X10. Z-5. F100\nX0\n#100=#5061 #101=#5062 #102=#5063\nM30");
+  const Outcome run = m700("G1 F500\nG31 X10. Z-5. F100\nX0\n#100=#5061 #101=#5062 #102=#5063\nM30");
   EXPECT_EQ(run.path(), (Path{"skip 10 0 -5 F100", "line 0 0 -5 F500"}));  // F of the block is not modal
   EXPECT_EQ(run.var(100), 10);
   EXPECT_EQ(run.var(101), 0);
@@ -99,14 +99,14 @@ TEST(Skip, TheSignalEndsTheMove) {
   Bench bench;
   bench.work_offset(1, {1, 2, 0});
   bench.skip_at = [](const nc_item&) { return 0.25; };
-  const Run run = bench.run("G31 X41. Z-20. F100\n#100=#5061 #101=#5063\nG91 G1 Z1. F50\nM30");
+  const Outcome run = bench.run("G31 X41. Z-20. F100\n#100=#5061 #101=#5063\nG91 G1 Z1. F50\nM30");
   EXPECT_EQ(run.path(), (Path{"skip 42 0 -20 F100", "line 10.5 0 -4 F50"}));  // goes on from where it ended
   EXPECT_DOUBLE_EQ(run.var(100), 9.5);  // workpiece coordinates
   EXPECT_DOUBLE_EQ(run.var(101), -5);
 }
 
 TEST(Skip, AxesThatAreNotNamedKeepTheirValue) {  // M700 10.11, the printed example 2
-  const Run run = m700("G31 X-10. F100\nG31 Z-5. F100\n#100=#5061 #101=#5063\nM30");
+  const Outcome run = m700("G31 X-10. F100\nG31 Z-5. F100\n#100=#5061 #101=#5063\nM30");
   EXPECT_EQ(run.var(100), -10);
   EXPECT_EQ(run.var(101), -5);
 }
@@ -123,7 +123,7 @@ TEST(Skip, FeedSignalsAndAlarms) {
 }
 
 TEST(Skip, NothingToGoAsksNobody) {
-  const Run run = m700("G31 X0 F100\n#100=#5061\nM30");
+  const Outcome run = m700("G31 X0 F100\n#100=#5061\nM30");
   EXPECT_TRUE(run.of(NC_ITEM_SYNC).empty());
   EXPECT_EQ(run.var(100), 0);
 }
@@ -162,7 +162,7 @@ TEST(ReferenceReturn, KeepsTheGroupOneModal) {
 TEST(ReferenceReturn, CancelsTheLengthCompensationOfItsAxis) {  // M700 12.2, 14.7
   Bench bench(NC_DIALECT_M700, with_reference(0, 0, 100));
   bench.tool(1, 10);
-  const Run run = bench.run("G43 H1 G0 Z5.\nG28 Z20.\nZ5.\nM30");
+  const Outcome run = bench.run("G43 H1 G0 Z5.\nG28 Z20.\nZ5.\nM30");
   EXPECT_EQ(run.path(), (Path{"rapid 0 0 15", "rapid 0 0 30", "rapid 0 0 100", "rapid 0 0 5"}));
   EXPECT_EQ(run.last_modal().code[8], 490);
   // Not when another axis returns.
@@ -187,7 +187,7 @@ TEST(DgshapeReferenceReturn, WhatCannotTakePart) {
 TEST(MachineMove, AbsoluteInMachineCoordinates) {  // M700 14.4
   Bench bench;
   bench.work_offset(1, {10, 20, 30}).tool(1, 5);
-  const Run run = bench.run("G43 H1 G0 Z0\nG1 F9\nG53 Z0 X1.\nX0\nZ0\nM30");
+  const Outcome run = bench.run("G43 H1 G0 Z0\nG1 F9\nG53 Z0 X1.\nX0\nZ0\nM30");
   EXPECT_EQ(run.path(), (Path{"rapid 0 0 35", "rapid 1 0 0", "line 10 0 0 F9", "line 10 0 35 F9"}));
 }
 
@@ -215,7 +215,7 @@ TEST(StrokeLimit, StopsBeforeTheMove) {
     config.system[0].axis[0].soft_max = 50;
   };
   Bench bench(NC_DIALECT_M700, limits);
-  Run run = bench.run("G0 X40.\n#100=1\nG1 X51. F9\n#100=2\nM30");
+  Outcome run = bench.run("G0 X40.\n#100=1\nG1 X51. F9\n#100=2\nM30");
   EXPECT_EQ(run.alarm, "M01-0007");
   EXPECT_EQ(run.alarm_line, 3u);
   EXPECT_EQ(run.path(), (Path{"rapid 40 0 0"}));

@@ -74,7 +74,7 @@ TEST(Inch, PowerOnUnitIsAParameter) {  // M700 5.2 #1152
 }
 
 TEST(Distance, EachWordGoesByTheCodeBeforeIt) {  // M700 5.1, the printed examples N1-N4
-  const Run run = m700("G0 X100. Y100.\nN4 G90 X300. G91 Y100.\nX10.\nM30");
+  const Outcome run = m700("G0 X100. Y100.\nN4 G90 X300. G91 Y100.\nX10.\nM30");
   EXPECT_EQ(run.path(), (Path{"rapid 100 100 0", "rapid 300 200 0", "rapid 310 200 0"}));
   EXPECT_EQ(m700("G0 X100. Y100.\nX10. G91 Y100.\nM30").path(), (Path{"rapid 100 100 0", "rapid 10 200 0"}));
 }
@@ -90,7 +90,7 @@ TEST(Distance, AbsoluteAndIncrementalAreModal) {
 TEST(Range, ValuesThatAreTooLarge) {  // M700 5.3
   for (const char* block : {"G0 X100000.", "G0 Y-100000.", "G1 X1. F10000001", "G1 X1. F-5", "G2 X1. I100000. F1", "G20 G0 X10000.",
                             "G0 X[10*999999]", "G0 Z[99999*99999]"}) {
-    const Run run = m700(std::string(block) + "\nM30");
+    const Outcome run = m700(std::string(block) + "\nM30");
     EXPECT_EQ(run.alarm, "P35") << block;
     EXPECT_TRUE(run.moves().empty()) << block;
   }
@@ -101,7 +101,7 @@ TEST(Range, ValuesThatAreTooLarge) {  // M700 5.3
 }
 
 TEST(Range, UndottedWordsInTypeTwo) {
-  const Run run = Bench().param("1078", "1").run("G0 X123456\nM30");
+  const Outcome run = Bench().param("1078", "1").run("G0 X123456\nM30");
   EXPECT_EQ(run.alarm, "P35");
   EXPECT_EQ(run.alarm_line, 1u);
 }

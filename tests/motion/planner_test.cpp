@@ -87,10 +87,10 @@ TEST(Plan, CornerSpeedIsTheOneDerived) {
   const ExecutorConfig c = standard_config();
   Rig rig(c, c);
   rig.push(corner(c, 10));
-  // v (v dt/L + 1) |sin 10 deg| = 0.5 a dt on Y
+  // v (v dt/L + 1) |sin 10 deg| = 0.75 a dt on Y
   const double v = exit_speed(rig, 0), dt = 0.001, change = std::sin(to_rad(10));
-  EXPECT_NEAR(v * (v * dt / 20 + 1) * change, 0.5 * 2000 * dt, 1e-9);
-  EXPECT_NEAR(v, 5.757, 0.01);
+  EXPECT_NEAR(v * (v * dt / 20 + 1) * change, 0.75 * 2000 * dt, 1e-9);
+  EXPECT_NEAR(v, 8.635, 0.01);
   EXPECT_EQ(exit_speed(rig, 1), 0);
 }
 
@@ -291,7 +291,7 @@ TEST(Checker, SeesASoundPlanAsSound) {
   rig.run();
   EXPECT_EQ(rig.out.state, NC_STATE_IDLE);
   EXPECT_TRUE(rig.checker.ok()) << rig.checker.report();
-  EXPECT_GT(rig.checker.worst_acceleration, 0.4) << "half is kept for the corner";
+  EXPECT_GT(rig.checker.worst_acceleration, 0.4) << "the step falls into two cycles";
 }
 
 TEST(Checker, SeesACornerPassedTooFast) {  // four times its speed

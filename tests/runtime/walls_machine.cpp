@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <random>
+#include <thread>
 
 namespace nc::test {
 namespace {
@@ -20,7 +23,7 @@ class Recorder final : public rt::EventSink {
   void executed(unsigned system, const nc_event& event) override {
     if (system != 0) return;
     recording_->items.push_back({event.serial, event.kind, event.source.line, event.machine});
-    if (event.kind == NC_ITEM_SYNC) recording_->syncs[event.serial] = {event.machine, machine_->skip_position};
+    if (event.kind == NC_ITEM_SYNC) recording_->syncs[event.serial] = {event.machine, machine_->skip_position.load()};
   }
 
  private:
@@ -111,7 +114,7 @@ WatchedMachine::WatchedMachine(const rt::Config& config, Recording* recording)
 void WatchedMachine::read(hal::Feedback* feedback, hal::PointImage* image) noexcept {
   sim.read(feedback, image);
   const std::uint32_t skip = feedback->system[0].skip;
-  if ((skip & ~skip_before_) != 0) skip_position = feedback->system[0].actual;
+  if ((skip & ~skip_before_) != 0) skip_position.store(feedback->system[0].actual);
   skip_before_ = skip;
 }
 
@@ -133,6 +136,9 @@ void WatchedMachine::check(unsigned a, double position) {
   velocity_before_[a] = velocity;
   // Rounding of positions of some hundred mm, divided by the square of the cycle.
   const double noise = 4 * std::abs(position) * 2.3e-16 / (t * t);
+  recording_->velocity_ratio = std::max(recording_->velocity_ratio, std::abs(velocity) / axis.max_velocity);
+  recording_->acceleration_ratio =
+      std::max(recording_->acceleration_ratio, (std::abs(acceleration) - noise) / axis.max_acceleration);
   if (std::abs(velocity) > axis.max_velocity * kSlack) violation(a, "velocity", velocity, axis.max_velocity);
   if (std::abs(acceleration) > axis.max_acceleration * kSlack + noise)
     violation(a, "acceleration", acceleration, axis.max_acceleration);
@@ -152,27 +158,31 @@ Recording run_online(const rt::Config& config, const std::string& text, const Op
   Recording recording;
   WatchedMachine machine(config, &recording);
   Recorder recorder(&recording, &machine);
-  rt::VirtualClock clock;
+  rt::VirtualClock virtual_clock;
+  rt::RealClock real_clock;
+  rt::Clock* const clock = op.threads ? static_cast<rt::Clock*>(&real_clock) : &virtual_clock;
   std::vector<rt::ConfigError> errors;
-  const auto runtime = rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  const auto runtime = rt::Runtime::create(config, {clock, &machine, nullptr, nullptr}, &errors);
   for (const rt::ConfigError& error : errors) ADD_FAILURE() << error.text();
   if (runtime == nullptr) return recording;
   unsigned file = 0;
   EXPECT_EQ(nc_program_add_text(runtime->control(), "main.nc", text.data(), text.size(), &file), NC_OK);
   runtime->set_sink(&recorder);
   std::string error;
-  EXPECT_TRUE(runtime->start_stepping(&error)) << error;
+  EXPECT_TRUE(op.threads ? runtime->start(&error) : runtime->start_stepping(&error)) << error;
+  const auto pass = [&] { op.threads ? std::this_thread::sleep_for(std::chrono::milliseconds(1)) : runtime->step(); };
   runtime->execute(rt::CommandKind::kSwitches, 0, op.optional_skip);
   runtime->execute(rt::CommandKind::kOptionalStop, 0, op.optional_stop ? 1 : 0);
   EXPECT_EQ(runtime->select_program(file), rt::Answer::kDone);
   EXPECT_EQ(runtime->execute(rt::CommandKind::kCycleStart), rt::Answer::kDone);
   Hands hands(runtime.get(), op, &recording);
-  while (runtime->info().runs == 0 && !runtime->snapshot().alarmed() && recording.scans < op.max_scans) {
+  while (runtime->info().runs == 0 && !runtime->snapshot().alarmed() && runtime->snapshot().scan < op.max_scans) {
     hands.act();
-    runtime->step();
+    pass();
   }
   // To rest, and everything that the last scans executed.
-  for (unsigned i = 0; i < 2000 && (i < 20 || !runtime->snapshot().system[0].nc.distance_zero); ++i) runtime->step();
+  for (unsigned i = 0; i < 2000 && (i < 20 || !runtime->snapshot().system[0].nc.distance_zero); ++i) pass();
+  runtime->stop();
   note_end(*runtime, &recording);
   std::uint32_t number = 0;
   double value = 0;

@@ -32,6 +32,7 @@ struct Recording {
   std::vector<Executed> items;
   std::map<std::uint64_t, SkipRecord> syncs;  // by serial
   std::vector<std::string> violations;        // of limits; at most some
+  double velocity_ratio = 0, acceleration_ratio = 0;  // largest value by its limit, of all axes
   std::uint64_t scans = 0, holds = 0, block_stops = 0, override_changes = 0, dropped = 0;
   std::uint32_t interface_output[NC_WORDS] = {};
   std::map<std::uint32_t, double> variables;  // common variables at the end
@@ -46,6 +47,7 @@ struct Operator {
   bool overrides = false, holds = false, single_block = false, optional_stop = false;
   std::uint32_t optional_skip = 0;
   std::uint64_t max_scans = 3'000'000;
+  bool threads = false;  // in real time, with scan and feeder in their threads
 };
 
 // The simulated machine with the limits of the axes watched in every scan.
@@ -58,7 +60,7 @@ class WatchedMachine final : public hal::Hal {
   void stop() noexcept override { sim.stop(); }
 
   hal::SimMachine sim;
-  nc_axes skip_position{};  // measured position at the last rise of the skip signal
+  rt::SeqLock<nc_axes> skip_position;  // measured position at the last rise of the skip signal
 
  private:
   void check(unsigned axis, double position);

@@ -5,7 +5,10 @@
 // its velocity, its acceleration and its soft limits.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -50,6 +53,7 @@ Operator random_operator(std::uint32_t seed) {
 }
 
 struct Totals {
+  double velocity = 0, acceleration = 0;
   std::uint64_t items = 0, scans = 0, holds = 0, stops = 0, overrides = 0, skips = 0, syncs = 0;
 };
 
@@ -59,6 +63,8 @@ void compare(const nc::rt::Config& config, const std::string& text, const Operat
   EXPECT_GT(offline.items.size(), 3u);
   EXPECT_EQ(offline.alarm, "") << "line " << offline.alarm_line;  // every program here is a good one
   nc::test::expect_same(online, offline, config);
+  totals->velocity = std::max(totals->velocity, online.velocity_ratio);
+  totals->acceleration = std::max(totals->acceleration, online.acceleration_ratio);
   totals->items += online.items.size();
   totals->scans += online.scans;
   totals->holds += online.holds;
@@ -82,13 +88,12 @@ TEST(Walls, RandomProgramsExecuteAsTheyTrace) {
       FAIL() << "the program is in walls-failed.nc";
     }
   }
-  RecordProperty("items", static_cast<int>(totals.items));
-  RecordProperty("scans", static_cast<int>(totals.scans));
-  std::printf("%u programs: %llu items, %llu scans, %llu holds, %llu block stops, %llu override changes, %llu skips, %llu syncs\n",
-              count, static_cast<unsigned long long>(totals.items), static_cast<unsigned long long>(totals.scans),
-              static_cast<unsigned long long>(totals.holds), static_cast<unsigned long long>(totals.stops),
-              static_cast<unsigned long long>(totals.overrides), static_cast<unsigned long long>(totals.skips),
-              static_cast<unsigned long long>(totals.syncs));
+  std::ostringstream said;
+  said << count << " programs: " << totals.items << " items, " << totals.scans << " scans, " << totals.holds << " holds, "
+       << totals.stops << " block stops, " << totals.overrides << " override changes, " << totals.skips << " skips, "
+       << totals.syncs << " syncs; largest velocity " << totals.velocity << ", acceleration " << totals.acceleration
+       << " of the limit";
+  std::puts(said.str().c_str());
   // The test would prove nothing if none of this had happened.
   EXPECT_GT(totals.holds, count / 8);
   EXPECT_GT(totals.stops, count / 8);
@@ -121,6 +126,22 @@ TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
     }
   }
   EXPECT_EQ(parts, 2u);
+}
+
+// The same in real time, with the scan and the feeder in their own threads: what is executed does not depend on when.
+TEST(Walls, ThreadsExecuteWhatTheTraceSays) {
+  for (const std::uint32_t seed : {3u, 11u}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    nc::test::ProgramGenerator generator(seed);
+    const nc::test::GeneratedProgram program = generator.make(3);
+    nc::rt::Config config = random_config(program.script, seed);
+    config.scheduling.overrun = nc::rt::OverrunReaction::kCount;
+    Operator op = random_operator(seed);
+    op.overrides = false;  // wall-clock time matters here
+    op.threads = true;
+    Totals totals;
+    compare(config, program.text, op, &totals);
+  }
 }
 
 TEST(Walls, TheSameRunTwiceIsTheSame) {

@@ -23,7 +23,7 @@ inline std::string brief(double value) {
   double rounded = std::nearbyint(value * 1e6) / 1e6;
   if (rounded == 0) rounded = 0;  // no -0
   char text[40];
-  std::snprintf(text, sizeof text, "%.10g", rounded);
+  std::snprintf(text, sizeof text, "%.13g", rounded);
   return text;
 }
 
@@ -37,7 +37,7 @@ struct Step {
 class Bench;
 
 /// What a program did.
-struct Run {
+struct Outcome {
   std::vector<Step> steps;
   nc_status status = NC_OK;      ///< NC_ENDED, NC_ALARMED, or NC_BUDGET: stopped by the test
   std::string alarm;             ///< code, "" = none
@@ -238,7 +238,7 @@ class Bench {
   std::function<void(const nc_item& sync)> on_sync;
 
   /// Selects `text` as the main program and pulls it to its end.
-  Run run(const std::string& text, uint32_t budget = 1000, unsigned max_items = 200000) {
+  Outcome run(const std::string& text, uint32_t budget = 1000, unsigned max_items = 200000) {
     start(text);
     return finish(budget, max_items);
   }
@@ -246,8 +246,8 @@ class Bench {
     const unsigned file = add(name, text);
     check(nc_program_select(control_, 0, file));
   }
-  Run finish(uint32_t budget = 1000, unsigned max_items = 200000) {
-    Run run;
+  Outcome finish(uint32_t budget = 1000, unsigned max_items = 200000) {
+    Outcome run;
     run.axis_count = config_.system[0].axis_count;
     while (run.steps.size() < max_items) {
       Step step;
@@ -342,8 +342,8 @@ inline std::function<void(nc_config&)> axes(const char* names) {
 }
 
 /// One run of one text on a fresh M700 control.
-inline Run m700(const std::string& text) { return Bench().run(text); }
+inline Outcome m700(const std::string& text) { return Bench().run(text); }
 /// One run of one text on a fresh DGSHAPE control; the start mark is put before it.
-inline Run dgshape(const std::string& text) { return Bench(NC_DIALECT_DGSHAPE).run("%\n" + text); }
+inline Outcome dgshape(const std::string& text) { return Bench(NC_DIALECT_DGSHAPE).run("%\n" + text); }
 
 }  // namespace nc::test

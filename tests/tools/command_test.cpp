@@ -53,14 +53,17 @@ class CommandTest : public testing::Test {
   Outcome ncsim(const std::string& line) {
     const std::string command =
         "cd " + folder_ + " && { " NC_BINARY_DIR "/bin/ncsim " + line + " ; } > out.txt 2> err.txt";
-    const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe,cert-env33-c): a test's own command
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ + "/out.txt"), content(folder_ + "/err.txt")};
+    const int status =
+        std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe,cert-env33-c): a test's own command
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ + "/out.txt"),
+            content(folder_ + "/err.txt")};
   }
 
   std::string folder_;
 };
 
-constexpr const char* kPart = "G90 G54 G00 X0 Y0 Z5.\nG01 Z-1. F100.\nX10. Y5. F250.\nG02 X20. Y-5. I0 J-10.\nM30\n";
+constexpr const char* kPart =
+    "G90 G54 G00 X0 Y0 Z5.\nG01 Z-1. F100.\nX10. Y5. F250.\nG02 X20. Y-5. I0 J-10.\nM30\n";
 
 TEST_F(CommandTest, TraceOfAProgramThatEnds) {
   file("p.nc", kPart);
@@ -91,7 +94,9 @@ TEST_F(CommandTest, TwoRunsGiveTheSameBytes) {
 TEST_F(CommandTest, StandardInputByPipeAndByFile) {
   file("p.nc", kPart);
   const Outcome by_path = ncsim("trace p.nc"), by_file = ncsim("trace - < p.nc");
-  ASSERT_EQ(std::system(("cd " + folder_ + " && cat p.nc | " NC_BINARY_DIR "/bin/ncsim trace - > pipe.txt").c_str()), 0);
+  ASSERT_EQ(std::system(
+                ("cd " + folder_ + " && cat p.nc | " NC_BINARY_DIR "/bin/ncsim trace - > pipe.txt").c_str()),
+            0);
   EXPECT_FALSE(by_path.out.empty());
   EXPECT_EQ(by_path.out, by_file.out);
   EXPECT_EQ(by_path.out, content(folder_ + "/pipe.txt"));
@@ -127,20 +132,21 @@ TEST_F(CommandTest, UsageFileAndSetupErrorsAreOneLineAndExitOne) {
   const struct {
     const char* line;
     const char* says;
-  } cases[] = {{"", "subcommand"},
-               {"trace", "PROGRAM"},
-               {"trace nothing.nc", "nothing.nc: No such file or directory"},
-               {"trace dir", "dir: not a regular file"},
-               {"trace --setup bad.json p.nc", "bad.json:2: axez: no such key"},
-               {"trace --setup param.json p.nc", "param.json:2: params.no-such: the control has no such parameter"},
-               {"trace --setup none.json p.nc", "none.json: cannot be opened"},
-               {"trace --dialect fanuc p.nc", "--dialect fanuc"},
-               {"trace --programs nowhere p.nc", "--programs nowhere: not a folder"},
-               {"check nothing.nc", "nothing.nc"},
-               {"time nothing.nc", "nothing.nc"},
-               {"plot -o none/x p.nc", "none/x.svg"},
-               {"functions --dialect fanuc", "--dialect fanuc"},
-               {"trace --frobnicate p.nc", "frobnicate"}};
+  } cases[] = {
+      {"", "subcommand"},
+      {"trace", "PROGRAM"},
+      {"trace nothing.nc", "nothing.nc: No such file or directory"},
+      {"trace dir", "dir: not a regular file"},
+      {"trace --setup bad.json p.nc", "bad.json:2: axez: no such key"},
+      {"trace --setup param.json p.nc", "param.json:2: params.no-such: the control has no such parameter"},
+      {"trace --setup none.json p.nc", "none.json: cannot be opened"},
+      {"trace --dialect fanuc p.nc", "--dialect fanuc"},
+      {"trace --programs nowhere p.nc", "--programs nowhere: not a folder"},
+      {"check nothing.nc", "nothing.nc"},
+      {"time nothing.nc", "nothing.nc"},
+      {"plot -o none/x p.nc", "none/x.svg"},
+      {"functions --dialect fanuc", "--dialect fanuc"},
+      {"trace --frobnicate p.nc", "frobnicate"}};
   for (const auto& c : cases) {
     const Outcome run = ncsim(c.line);
     EXPECT_EQ(run.code, 1) << c.line;
@@ -213,8 +219,22 @@ TEST_F(CommandTest, InputsAndEventsReachTheProgram) {
   EXPECT_EQ(vars["103"], 8);
 }
 
+TEST_F(CommandTest, OptionalStopIsAnEventOnlyWithItsSwitch) {
+  file("p.nc", "M00\nM01\nM30\n");
+  file("s.json", R"({"switches": {"optional_stop": true}})");
+  const auto codes = [](const Outcome& run) {
+    std::vector<double> list;
+    for (const Json& e : run.events())
+      if (e["t"] == "aux") list.push_back(e["value"].get<double>());
+    return list;
+  };
+  EXPECT_EQ(codes(ncsim("trace p.nc")), (std::vector<double>{0, 30}));
+  EXPECT_EQ(codes(ncsim("trace --setup s.json p.nc")), (std::vector<double>{0, 1, 30}));
+}
+
 TEST_F(CommandTest, AnEndlessLoopEndsWithAMessage) {
-  for (const char* loop : {"N1 GOTO 1\nM30\n", "N1\n#1=1\nGOTO 1\nM30\n", "WHILE [#1000 EQ 0] DO1\nEND1\nM30\n"}) {
+  for (const char* loop :
+       {"N1 GOTO 1\nM30\n", "N1\n#1=1\nGOTO 1\nM30\n", "WHILE [#1000 EQ 0] DO1\nEND1\nM30\n"}) {
     file("p.nc", loop);
     for (const char* command : {"check --max-silent-blocks 100000 p.nc", "time p.nc"}) {
       const Outcome run = ncsim(command);
@@ -252,7 +272,8 @@ TEST_F(CommandTest, PlotWritesBothFiles) {
 
 TEST_F(CommandTest, TablesOfFunctionsAndAlarms) {
   for (const std::string dialect : {"m700", "dgshape"}) {
-    const Outcome plain = ncsim("functions --dialect " + dialect), table = ncsim("functions --markdown --dialect " + dialect);
+    const Outcome plain = ncsim("functions --dialect " + dialect),
+                  table = ncsim("functions --markdown --dialect " + dialect);
     EXPECT_EQ(plain.code, 0);
     EXPECT_NE(plain.out.find("G01\t"), std::string::npos) << plain.out;
     EXPECT_NE(table.out.find("| G01 |"), std::string::npos);

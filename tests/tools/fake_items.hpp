@@ -33,7 +33,8 @@ class FakeItems final : public ItemSource {
     items.push_back(item);
     return items.back();
   }
-  nc_item& line(uint32_t at, nc_axes from, nc_axes to, double feed, nc_move_kind kind = NC_MOVE_LINE, uint8_t depth = 0) {
+  nc_item& line(uint32_t at, nc_axes from, nc_axes to, double feed, nc_move_kind kind = NC_MOVE_LINE,
+                uint8_t depth = 0) {
     nc_item& item = add(NC_ITEM_MOVE, at, depth);
     nc_move& m = item.u.move;
     m.kind = static_cast<uint8_t>(kind);

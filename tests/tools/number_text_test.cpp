@@ -47,7 +47,8 @@ TEST(NumberText, LargeAndNotFinite) {
 TEST(NumberText, EveryNineDecimalNumberComesBackAsItself) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 200'000; ++i) {
-    const int64_t scaled = static_cast<int64_t>(random() % 8'000'000'000'000'000ull) - 4'000'000'000'000'000ll;
+    const int64_t scaled =
+        static_cast<int64_t>(random() % 8'000'000'000'000'000ull) - 4'000'000'000'000'000ll;
     const double value = static_cast<double>(scaled) / 1e9;
     const std::string text = fixed(value);
     ASSERT_EQ(std::llround(std::strtod(text.c_str(), nullptr) * 1e9), scaled) << text;
@@ -67,7 +68,8 @@ TEST(ValueText, FifteenDigitsWithoutNoise) {
 TEST(IntegerText, Limits) {
   char out[kNumberText];
   EXPECT_EQ(std::string(out, integer_text(0, out)), "0");
-  EXPECT_EQ(std::string(out, integer_text(std::numeric_limits<uint64_t>::max(), out)), "18446744073709551615");
+  EXPECT_EQ(std::string(out, integer_text(std::numeric_limits<uint64_t>::max(), out)),
+            "18446744073709551615");
 }
 
 }  // namespace

@@ -20,12 +20,16 @@ class Notes final : public RunSink {
   void block(const nc_source& s, const nc_axes&, const nc_axes& machine) override {
     add(s, "block@" + std::to_string(static_cast<int>(machine.v[0])));
   }
-  void aux(const nc_source& s, char code, double value) override { add(s, code + std::to_string(static_cast<int>(value))); }
+  void aux(const nc_source& s, char code, double value) override {
+    add(s, code + std::to_string(static_cast<int>(value)));
+  }
   void dwell(const nc_source& s, bool turns, double value) override {
     add(s, (turns ? "turns" : "dwell") + std::to_string(static_cast<int>(value)));
   }
   void sync(const nc_source& s, uint32_t what) override { add(s, "sync" + std::to_string(what)); }
-  void message(const nc_source& s, uint32_t port, const char* t) override { add(s, t + std::to_string(port)); }
+  void message(const nc_source& s, uint32_t port, const char* t) override {
+    add(s, t + std::to_string(port));
+  }
   void alarm(const nc_alarm& a) override { add(a.source, a.code); }
   void end(const nc_source& s, bool ok, const nc_axes&, const nc_axes& machine, uint32_t) override {
     add(s, (ok ? "ok@" : "bad@") + std::to_string(static_cast<int>(machine.v[0])));
@@ -86,7 +90,8 @@ TEST(OfflineRun, EventsInOrder) {
   run.items.end(5, {{5, 0, 0}});
   run.go();
   EXPECT_EQ(run.notes.text,
-            "1:move5 1:block@5 2:S100 2:T7 2:A3 2:M8 2:hello3 2:block@5 3:dwell2 3:turns4 3:block@5 4:sync2 4:block@5 5:ok@5");
+            "1:move5 1:block@5 2:S100 2:T7 2:A3 2:M8 2:hello3 2:block@5 3:dwell2 3:turns4 3:block@5 4:sync2 "
+            "4:block@5 5:ok@5");
   EXPECT_EQ(run.result.how, RunResult::How::kEnded);
   EXPECT_EQ(run.result.blocks, 4u);
   EXPECT_EQ(run.result.moves, 1u);
@@ -97,7 +102,6 @@ TEST(OfflineRun, EventsInOrder) {
 TEST(OfflineRun, OptionalStopIsAnEventOnlyWithItsSwitch) {
   for (const bool on : {false, true}) {
     Scene run;
-    run.action(1, NC_ACTION_M, 1);
     run.gate(1, NC_GATE_OPTIONAL_STOP, 0, false);
     run.items.end(2, {});
     run.go(on ? R"({"switches": {"optional_stop": true}})" : "{}");

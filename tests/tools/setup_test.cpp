@@ -105,7 +105,8 @@ TEST(Setup, MistakesAreNamedWithKeyAndLine) {
       {"{\"axes\": []}", "axes: a part system has 1 to 8 axes"},
       {"{\"axes\": [\"X\", \"X\"]}", "axes[1]: the axis X stands here twice"},
       {"{\"axes\": [\"Q\"]}", "axes[0]: an axis is one of"},
-      {"{\"axes\": [{\"name\": \"X\",\n\"rotary\": 1}]}", "s.json:2: axes[0].rotary: must be true or false, is a number"},
+      {"{\"axes\": [{\"name\": \"X\",\n\"rotary\": 1}]}",
+       "s.json:2: axes[0].rotary: must be true or false, is a number"},
       {"{\"axes\": [{\"rotary\": true}]}", "axes[0]: the key name is missing"},
       {"{\"axes\": [{\"name\": \"X\", \"rotory\": true}]}", "axes[0].rotory: no such key"},
       {"{\"axes\": 3}", "axes: must be a list, is a number"},
@@ -126,8 +127,10 @@ TEST(Setup, MistakesAreNamedWithKeyAndLine) {
       {"{\"skip\": [{\"box\": {}}]}", "skip[0].box: a box without a side"},
       {"{\"skip\": [{\"box\": {\"X\": [1]}}]}", "skip[0].box.X: must be [low, high]"},
       {"{\"skip\": [{\"box\": {\"X\": [2, 1]}}]}", "skip[0].box.X: low must be less than high"},
-      {"{\"skip\": [{\"signal\": 9, \"box\": {\"X\": [1, 2]}}]}", "skip[0].signal: must be a whole number from 1 to 8"},
-      {"{\"switches\": {\"optional_skip\": [0]}}", "switches.optional_skip[0]: must be a whole number from 1 to 9"},
+      {"{\"skip\": [{\"signal\": 9, \"box\": {\"X\": [1, 2]}}]}",
+       "skip[0].signal: must be a whole number from 1 to 8"},
+      {"{\"switches\": {\"optional_skip\": [0]}}",
+       "switches.optional_skip[0]: must be a whole number from 1 to 9"},
       {"{\"switches\": {\"mirror\": [\"U\"]}}", "switches.mirror[0]: the setup has no axis"},
       {"{\"switches\": {\"optional_stop\": 1}}", "switches.optional_stop: must be true or false"},
       {"{\"switches\": {\"door\": true}}", "switches.door: no such key"},
@@ -137,16 +140,19 @@ TEST(Setup, MistakesAreNamedWithKeyAndLine) {
       {"{\"events\": [{\"when\": {\"line\": 1, \"seconds\": 1}}]}", "events[0].when: must have one of"},
       {"{\"events\": [{\"when\": {\"line\": 1.5}}]}", "events[0].when.line: must be a whole number"},
       {"{\"events\": [{\"when\": {\"seconds\": -1}}]}", "events[0].when.seconds: must not be negative"},
-      {"{\"events\": [{\"when\": {\"line\": 1}, \"signals\": {\"start\": 1}}]}", "events[0].signals.start: no such key"},
+      {"{\"events\": [{\"when\": {\"line\": 1}, \"signals\": {\"start\": 1}}]}",
+       "events[0].signals.start: no such key"},
       {"{\"options\": {\"variable_sets\": 150}}", "options.variable_sets: must be 100, 200, 300 or 600"},
       {"{\"options\": {\"tool_offsets\": 0}}", "options.tool_offsets: must be a whole number from 1 to 999"},
       {"{\"options\": {\"mcaro\": 0}}", "options.mcaro: no such key"},
       {"{\"clock\": \"2026-02-29T00:00:00\"}", "clock: must be a date and time"},
       {"{\"clock\": \"2026-01-01T00:00:00Z\"}", "clock: must be a date and time"},
       {"{\"kinematics\": {}}", "kinematics: the key type is missing"},
-      {"{\"kinematics\": {\"type\": \"delta\"}}", "kinematics.type: must be one of tool_tilt, table_tilt, combined"},
+      {"{\"kinematics\": {\"type\": \"delta\"}}",
+       "kinematics.type: must be one of tool_tilt, table_tilt, combined"},
       {"{\"kinematics\": {\"type\": \"tool_tilt\"}}", "kinematics: the key tool is missing"},
-      {"{\"kinematics\": {\"type\": \"tool_tilt\", \"tool\": [\"C\"]}}", "kinematics.tool[0]: the setup has no axis \"C\""},
+      {"{\"kinematics\": {\"type\": \"tool_tilt\", \"tool\": [\"C\"]}}",
+       "kinematics.tool[0]: the setup has no axis \"C\""},
       {"{\"vars\": {\"100\": 1e999}}", "s.json:1: "},
       {"{\"clock\": \"\xff\"}", "s.json:1: "},
       {"{\"a\\nb\": 1}", "s.json:1: a key has a control character"},
@@ -186,7 +192,8 @@ TEST(MachineLimits, ReplaceTheDefaultsOfTheAxesNamed) {
   default_machine_limits(&config);
   std::string error;
   ASSERT_TRUE(parse_machine_limits(
-      R"({"cycle_s": 0.002, "axes": {"Y": {"velocity": 100, "jerk": 9000, "stroke": [-1, 2]}}})", "m.json", &config, &error))
+      R"({"cycle_s": 0.002, "axes": {"Y": {"velocity": 100, "jerk": 9000, "stroke": [-1, 2]}}})", "m.json",
+      &config, &error))
       << error;
   EXPECT_EQ(config.cycle_s, 0.002);
   EXPECT_EQ(config.system[0].axis[0].max_velocity, 250.0);

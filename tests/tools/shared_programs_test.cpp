@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real programs of other controls through `ncsim trace`: they end, or stop with the right alarm on the right line.
+// Real programs of other controls through `ncsim trace`: they end, or stop with the right alarm on the right
+// line.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -36,8 +37,8 @@ class SharedPrograms : public testing::Test {
   }
 
   Trace trace(const std::string& name) {
-    const std::string command = NC_BINARY_DIR "/bin/ncsim trace --setup " + folder_ + "/s.json " + programs_ + "/" +
-                                name + " > " + folder_ + "/out.jsonl";
+    const std::string command = NC_BINARY_DIR "/bin/ncsim trace --setup " + folder_ + "/s.json " + programs_ +
+                                "/" + name + " > " + folder_ + "/out.jsonl";
     const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe,cert-env33-c)
     Trace result;
     result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -71,8 +72,8 @@ TEST_F(SharedPrograms, ProgramsThatTheControlHasAllWordsForRunToTheirEnd) {
   const struct {
     const char* name;
     size_t least_moves;
-  } programs[] = {{"flower_mold.nc", 16'000}, {"botomata_bottom.nc", 1'000},
-                  {"arcspiral.ngc", 300},     {"tort.ngc", 100}};
+  } programs[] = {
+      {"flower_mold.nc", 16'000}, {"botomata_bottom.nc", 1'000}, {"arcspiral.ngc", 300}, {"tort.ngc", 100}};
   for (const auto& p : programs) {
     const Trace run = trace(p.name);
     EXPECT_EQ(run.code, 0) << p.name << ": " << run.alarm;

@@ -61,8 +61,12 @@ Pixels pixels(const std::string& file, const std::function<bool(int r, int g, in
   return found;
 }
 
-bool is_feed(int r, int g, int b) { return b > 150 && r < 120 && g < 160 && b > r + 80; }
-bool is_rapid(int r, int g, int b) { return r > 180 && g < 160 && b < 150 && r > b + 80; }
+bool is_feed(int r, int g, int b) {
+  return b > 150 && r < 120 && g < 160 && b > r + 80;
+}
+bool is_rapid(int r, int g, int b) {
+  return r > 180 && g < 160 && b < 150 && r > b + 80;
+}
 
 ToolpathPlot square() {
   ToolpathPlot plot;

@@ -37,9 +37,12 @@ TEST(TraceWriter, Moves) {
   EXPECT_EQ(lines([](TraceWriter& w) { w.move(kSource, straight(NC_MOVE_LINE)); }),
             "{\"t\":\"move\",\"sys\":1,\"line\":12,\"prog\":1000,\"depth\":2,\"kind\":\"line\","
             "\"work\":{\"X\":1,\"Y\":-2.5,\"Z\":10},\"machine\":{\"X\":101,\"Y\":0,\"Z\":3},\"feed\":600}\n");
-  EXPECT_EQ(lines([](TraceWriter& w) { w.move({1, 0, 1, 0, 0}, straight(NC_MOVE_RAPID)); }),
-            "{\"t\":\"move\",\"sys\":1,\"line\":1,\"prog\":0,\"depth\":0,\"kind\":\"rapid\","
-            "\"work\":{\"X\":1,\"Y\":-2.5,\"Z\":10},\"machine\":{\"X\":101,\"Y\":0,\"Z\":3},\"feed\":null}\n");
+  EXPECT_EQ(
+      lines([](TraceWriter& w) {
+        w.move({1, 0, 1, 0, 0}, straight(NC_MOVE_RAPID));
+      }),
+      "{\"t\":\"move\",\"sys\":1,\"line\":1,\"prog\":0,\"depth\":0,\"kind\":\"rapid\","
+      "\"work\":{\"X\":1,\"Y\":-2.5,\"Z\":10},\"machine\":{\"X\":101,\"Y\":0,\"Z\":3},\"feed\":null}\n");
   EXPECT_EQ(lines([](TraceWriter& w) {
               nc_move m = straight(NC_MOVE_TAP);
               m.feed_mm_rev = 1.25;
@@ -66,7 +69,8 @@ TEST(TraceWriter, CircularMoves) {
       "{\"t\":\"move\",\"sys\":1,\"line\":12,\"prog\":1000,\"depth\":2,\"kind\":\"helix\","
       "\"work\":{\"X\":1,\"Y\":-2.5,\"Z\":10},\"machine\":{\"X\":101,\"Y\":0,\"Z\":3},\"feed\":600,";
   const std::string rest =
-      "\"dir\":\"ccw\",\"center\":{\"Z\":5,\"X\":6},\"machine_center\":{\"Z\":7,\"X\":-8.5},\"turns\":3,\"radius\":12.5}\n";
+      "\"dir\":\"ccw\",\"center\":{\"Z\":5,\"X\":6},\"machine_center\":{\"Z\":7,\"X\":-8.5},\"turns\":3,"
+      "\"radius\":12.5}\n";
   EXPECT_EQ(lines([&](TraceWriter& w) { w.move(kSource, m); }), start + "\"plane\":\"ZX\"," + rest);
   m.plane = NC_PLANE_NONE;  // an arc in no plane of the axes
   EXPECT_EQ(lines([&](TraceWriter& w) { w.move(kSource, m); }), start + rest);
@@ -74,7 +78,9 @@ TEST(TraceWriter, CircularMoves) {
 
 TEST(TraceWriter, TheOtherEvents) {
   const std::string head = "\"sys\":1,\"line\":12,\"prog\":1000,\"depth\":2,";
-  EXPECT_EQ(lines([](TraceWriter& w) { w.block(kSource, {{1, 2, 3}}, {{4, 5, 6}}); }),
+  EXPECT_EQ(lines([](TraceWriter& w) {
+              w.block(kSource, {{1, 2, 3}}, {{4, 5, 6}});
+            }),
             "{\"t\":\"block\"," + head +
                 "\"work\":{\"X\":1,\"Y\":2,\"Z\":3},\"machine\":{\"X\":4,\"Y\":5,\"Z\":6}}\n");
   EXPECT_EQ(lines([](TraceWriter& w) { w.aux(kSource, 'S', 1500.5); }),
@@ -92,17 +98,21 @@ TEST(TraceWriter, TheOtherEvents) {
   std::snprintf(alarm.message, sizeof alarm.message, "Format error");
   std::snprintf(alarm.detail.s, sizeof alarm.detail.s, "N is not followed by a number");
   alarm.source = kSource;
-  EXPECT_EQ(lines([&](TraceWriter& w) { w.alarm(alarm); }),
-            "{\"t\":\"alarm\"," + head +
-                "\"code\":\"P33\",\"message\":\"Format error\",\"detail\":\"N is not followed by a number\"}\n");
+  EXPECT_EQ(
+      lines([&](TraceWriter& w) { w.alarm(alarm); }),
+      "{\"t\":\"alarm\"," + head +
+          "\"code\":\"P33\",\"message\":\"Format error\",\"detail\":\"N is not followed by a number\"}\n");
 }
 
 TEST(TraceWriter, EndHasVariablesAndModalCodes) {
   FakeItems items;
   items.common = {{100, 1.5}, {101, -0.0}, {999, 1e-12}};
   items.codes = {"G01", "G54.1"};
-  EXPECT_EQ(lines([&](TraceWriter& w) { w.end({9, 0, 1, 0, 0}, true, {{1, 2, 3}}, {{4, 5, 6}}, 0, &items); }),
-            "{\"t\":\"end\",\"sys\":1,\"line\":9,\"prog\":0,\"depth\":0,\"ok\":true,\"work\":{\"X\":1,\"Y\":2,\"Z\":3},"
+  EXPECT_EQ(lines([&](TraceWriter& w) {
+              w.end({9, 0, 1, 0, 0}, true, {{1, 2, 3}}, {{4, 5, 6}}, 0, &items);
+            }),
+            "{\"t\":\"end\",\"sys\":1,\"line\":9,\"prog\":0,\"depth\":0,\"ok\":true,\"work\":{\"X\":1,\"Y\":"
+            "2,\"Z\":3},"
             "\"machine\":{\"X\":4,\"Y\":5,\"Z\":6},\"vars\":{\"100\":1.5,\"101\":0,\"999\":1e-12},"
             "\"modal\":[\"G01\",\"G54.1\"],\"seconds\":null}\n");
 }
@@ -117,11 +127,11 @@ TEST(TraceWriter, ThousandsOfVariablesFit) {
 }
 
 TEST(JsonEscaped, AnyBytesGiveValidJson) {
-  EXPECT_EQ(json_escaped("\xC3\xA4"), "\xC3\xA4");          // ä in UTF-8 stays
-  EXPECT_EQ(json_escaped("\xE4"), "\\u00e4");                // ä in Latin-1
-  EXPECT_EQ(json_escaped("\xC0\xAF"), "\\u00c0\\u00af");     // overlong
+  EXPECT_EQ(json_escaped("\xC3\xA4"), "\xC3\xA4");                   // ä in UTF-8 stays
+  EXPECT_EQ(json_escaped("\xE4"), "\\u00e4");                        // ä in Latin-1
+  EXPECT_EQ(json_escaped("\xC0\xAF"), "\\u00c0\\u00af");             // overlong
   EXPECT_EQ(json_escaped("\xED\xA0\x80"), "\\u00ed\\u00a0\\u0080");  // surrogate
-  EXPECT_EQ(json_escaped("\xE3\x81"), "\\u00e3\\u0081");     // cut off
+  EXPECT_EQ(json_escaped("\xE3\x81"), "\\u00e3\\u0081");             // cut off
   std::string all;
   for (int c = 1; c < 256; ++c) all += static_cast<char>(c);
   EXPECT_NO_THROW({

@@ -92,7 +92,7 @@ TEST(Clock, GoesByLengthOverFeedRapidsDwellsAndReads) {
   const tools::Setup setup = setup_of(R"({"clock": "1970-01-01T00:00:00"})");
   VirtualWorld world(setup, xyz());
   FakeItems items;
-  nc_move line = items.line(1, {{0, 0, 0}}, {{100, 0, 0}}, 600).u.move;   // 10 s
+  nc_move line = items.line(1, {{0, 0, 0}}, {{100, 0, 0}}, 600).u.move;                // 10 s
   nc_move rapid = items.line(1, {{100, 0, 0}}, {{0, 0, 0}}, 0, NC_MOVE_RAPID).u.move;  // 0.6 s
   world.execute(&line);
   world.execute(&rapid);
@@ -153,7 +153,8 @@ TEST(Events, ALineThatCallsBeginsWithItsSubProgram) {
 }
 
 TEST(Events, ResetEndsTheRun) {
-  const tools::Setup setup = setup_of(R"({"events": [{"when": {"line": 1}, "signals": {"feed_hold": 1, "reset": 1}}]})");
+  const tools::Setup setup =
+      setup_of(R"({"events": [{"when": {"line": 1}, "signals": {"feed_hold": 1, "reset": 1}}]})");
   VirtualWorld world(setup, xyz());
   FakeItems items;
   items.mark(1, {});

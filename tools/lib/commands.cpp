@@ -43,7 +43,8 @@ std::string printable(const char* text) {
 }
 
 std::string alarm_line(const Session& session, const nc_alarm& alarm) {
-  std::string line = session.file_name(alarm.source) + ":" + std::to_string(alarm.source.line) + ": " + alarm.code;
+  std::string line =
+      session.file_name(alarm.source) + ":" + std::to_string(alarm.source.line) + ": " + alarm.code;
   if (alarm.message[0] && std::strcmp(alarm.message, alarm.code) != 0) line += " " + printable(alarm.message);
   if (alarm.detail.s[0]) line += " - " + printable(alarm.detail.s);
   return line;
@@ -52,9 +53,12 @@ std::string alarm_line(const Session& session, const nc_alarm& alarm) {
 int exit_code(RunResult::How how) {
   switch (how) {
     case RunResult::How::kEnded:
-    case RunResult::How::kReset: return kExitEnded;
-    case RunResult::How::kAlarmed: return kExitAlarm;
-    default: return kExitError;
+    case RunResult::How::kReset:
+      return kExitEnded;
+    case RunResult::How::kAlarmed:
+      return kExitAlarm;
+    default:
+      return kExitError;
   }
 }
 
@@ -70,9 +74,12 @@ class TraceSink final : public RunSink {
   void aux(const nc_source& s, char code, double value) override { writer_.aux(s, code, value); }
   void dwell(const nc_source& s, bool turns, double value) override { writer_.dwell(s, turns, value); }
   void sync(const nc_source& s, uint32_t what) override { writer_.sync(s, what); }
-  void message(const nc_source& s, uint32_t port, const char* text) override { writer_.message(s, port, text); }
+  void message(const nc_source& s, uint32_t port, const char* text) override {
+    writer_.message(s, port, text);
+  }
   void alarm(const nc_alarm& alarm) override { writer_.alarm(alarm); }
-  void end(const nc_source& s, bool ok, const nc_axes& work, const nc_axes& machine, uint32_t modal) override {
+  void end(const nc_source& s, bool ok, const nc_axes& work, const nc_axes& machine,
+           uint32_t modal) override {
     writer_.end(s, ok, work, machine, modal, items_);
   }
   bool stop() const override { return out_.failed(); }
@@ -157,8 +164,8 @@ int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std
     std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   else
     std::fprintf(out, "%s: no alarm; %llu blocks, %llu moves, %s mm\n", options.program.c_str(),
-                 static_cast<unsigned long long>(result.blocks), static_cast<unsigned long long>(result.moves),
-                 decimals(result.length, 3).c_str());
+                 static_cast<unsigned long long>(result.blocks),
+                 static_cast<unsigned long long>(result.moves), decimals(result.length, 3).c_str());
   return close_output(out, err, exit_code(result.how));
 }
 
@@ -176,15 +183,15 @@ int time_command(const SessionOptions& options, const std::string& limits, doubl
     std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   const uint64_t whole = static_cast<uint64_t>(result.seconds);
   std::fprintf(out, "cycle time   %s s (%llu:%02llu:%02llu)\n", decimals(result.seconds, 3).c_str(),
-               static_cast<unsigned long long>(whole / 3600), static_cast<unsigned long long>(whole / 60 % 60),
-               static_cast<unsigned long long>(whole % 60));
+               static_cast<unsigned long long>(whole / 3600),
+               static_cast<unsigned long long>(whole / 60 % 60), static_cast<unsigned long long>(whole % 60));
   std::fprintf(out, "path length  %s mm\n", decimals(result.path_length, 3).c_str());
   std::fprintf(out, "blocks       %llu\n", static_cast<unsigned long long>(result.blocks));
   return close_output(out, err, result.how == MachineResult::How::kAlarmed ? kExitAlarm : kExitEnded);
 }
 
-int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, PlotView view, const std::string& base,
-                 std::FILE* out, std::FILE* err) {
+int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, PlotView view,
+                 const std::string& base, std::FILE* out, std::FILE* err) {
   Session session;
   std::string error;
   if (!open_session(&session, options, &error)) return complain(err, error);
@@ -197,10 +204,13 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, Plot
   ControlSource items(session.control());
   const RunResult result = run_session(&session, &sink, &items, max_silent_blocks);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
-  if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error)) return complain(err, error);
-  if (result.how == RunResult::How::kAlarmed) std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
+  if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error))
+    return complain(err, error);
+  if (result.how == RunResult::How::kAlarmed)
+    std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   std::fprintf(out, "%s.svg %s.png: %llu moves, %s mm\n", base.c_str(), base.c_str(),
-               static_cast<unsigned long long>(result.moves), number(std::round(result.length * 1000) / 1000).c_str());
+               static_cast<unsigned long long>(result.moves),
+               number(std::round(result.length * 1000) / 1000).c_str());
   return close_output(out, err, exit_code(result.how));
 }
 
@@ -223,7 +233,8 @@ int alarms_command(const std::string& dialect, bool markdown, std::FILE* out, st
   table.head({"code", "message"});
   char code[16];
   const char* message = nullptr;
-  for (unsigned i = 0; nc_alarm_row(*id, i, code, &message) == NC_OK; ++i) table.row({code, message ? message : ""});
+  for (unsigned i = 0; nc_alarm_row(*id, i, code, &message) == NC_OK; ++i)
+    table.row({code, message ? message : ""});
   return close_output(out, err, kExitEnded);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands of ncsim. Each returns the exit code: 0 the program ended, 2 it stopped on an alarm, 1 anything else, with
-// one line on `err` that says what and where.
+// The subcommands of ncsim. Each returns the exit code: 0 the program ended, 2 it stopped on an alarm, 1
+// anything else, with one line on `err` that says what and where.
 #pragma once
 
 #include <cstdio>
@@ -19,16 +19,18 @@ inline constexpr uint64_t kDefaultSilentBlocks = 1'000'000;
 /** `ncsim trace`: JSON Lines to the descriptor `out`. */
 int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int out, std::FILE* err);
 
-/** `ncsim check`: the alarm as FILE:LINE: CODE MESSAGE - DETAIL, or one line with what the program does, to `out`. */
+/** `ncsim check`: the alarm as FILE:LINE: CODE MESSAGE - DETAIL, or one line with what the program does, to
+ * `out`. */
 int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std::FILE* out, std::FILE* err);
 
-/** `ncsim time`: cycle time, path length and blocks of the program on a machine with these limits ("" = defaults). */
+/** `ncsim time`: cycle time, path length and blocks of the program on a machine with these limits ("" =
+ * defaults). */
 int time_command(const SessionOptions& options, const std::string& limits, double limit_s, std::FILE* out,
                  std::FILE* err);
 
 /** `ncsim plot`: BASE.svg and BASE.png. What was reached before an alarm is drawn too. */
-int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, PlotView view, const std::string& base,
-                 std::FILE* out, std::FILE* err);
+int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, PlotView view,
+                 const std::string& base, std::FILE* out, std::FILE* err);
 
 /** `ncsim functions`: the dialect's table, tab-separated or as Markdown. */
 int functions_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err);

@@ -9,7 +9,8 @@ namespace nc::tools {
 /** The part system that the offline tools run. */
 inline constexpr unsigned kPartSystem = 0;
 
-/** The calls of libnc that offline sinks make; same meaning as the functions of the same name in nc/run.h and nc/control.h. */
+/** The calls of libnc that offline sinks make; same meaning as the functions of the same name in nc/run.h and
+ * nc/control.h. */
 class ItemSource {
  public:
   virtual ~ItemSource() = default;
@@ -27,11 +28,15 @@ class ItemSource {
 class ControlSource final : public ItemSource {
  public:
   explicit ControlSource(nc_control* control) : control_(control) {}
-  nc_status pull(uint32_t budget, nc_item* item) override { return nc_pull(control_, kPartSystem, budget, item); }
+  nc_status pull(uint32_t budget, nc_item* item) override {
+    return nc_pull(control_, kPartSystem, budget, item);
+  }
   nc_status answer(const nc_world& world) override { return nc_answer(control_, kPartSystem, &world); }
   nc_status reset() override { return nc_reset(control_, kPartSystem); }
   bool alarm(nc_alarm* alarm) override { return nc_alarm_get(control_, kPartSystem, alarm) == NC_OK; }
-  bool text(uint32_t id, nc_text* text) override { return nc_text_get(control_, kPartSystem, id, text) == NC_OK; }
+  bool text(uint32_t id, nc_text* text) override {
+    return nc_text_get(control_, kPartSystem, id, text) == NC_OK;
+  }
   unsigned modal_codes(uint32_t id, char (*codes)[8], unsigned capacity) override {
     nc_modal modal;
     if (nc_modal_get(control_, kPartSystem, id, &modal) != NC_OK) return 0;

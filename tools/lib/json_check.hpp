@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of a JsonNode against a format: each either gives the value or throws where and why. Used by setup and machine files.
+// Checks of a JsonNode against a format: each either gives the value or throws where and why. Used by setup
+// and machine files.
 #pragma once
 
 #include <cmath>
@@ -33,8 +34,12 @@ inline const JsonNode& expect(const JsonNode& node, const std::string& path, Typ
   fail(node, path, std::string("must be ") + wanted.type_name() + ", is " + node.type_name());
 }
 
-inline double number(const JsonNode& node, const std::string& path) { return expect(node, path, Type::kNumber).number; }
-inline bool boolean(const JsonNode& node, const std::string& path) { return expect(node, path, Type::kBool).boolean; }
+inline double number(const JsonNode& node, const std::string& path) {
+  return expect(node, path, Type::kNumber).number;
+}
+inline bool boolean(const JsonNode& node, const std::string& path) {
+  return expect(node, path, Type::kBool).boolean;
+}
 inline const std::string& text(const JsonNode& node, const std::string& path) {
   return expect(node, path, Type::kString).text;
 }
@@ -46,10 +51,15 @@ inline uint32_t whole(const JsonNode& node, const std::string& path, uint32_t lo
   return static_cast<uint32_t>(value);
 }
 
-inline std::string join(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
-inline std::string item_path(const std::string& path, size_t index) { return path + "[" + std::to_string(index) + "]"; }
+inline std::string join(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+inline std::string item_path(const std::string& path, size_t index) {
+  return path + "[" + std::to_string(index) + "]";
+}
 
-inline void check_keys(const JsonNode& object, const std::string& path, std::initializer_list<const char*> known) {
+inline void check_keys(const JsonNode& object, const std::string& path,
+                       std::initializer_list<const char*> known) {
   for (const auto& [key, value] : object.members) {
     bool found = false;
     for (const char* k : known) found = found || key == k;
@@ -63,7 +73,8 @@ inline const JsonNode* member(const JsonNode& object, const char* key) {
   return nullptr;
 }
 
-inline std::string one_of(const JsonNode& node, const std::string& path, std::initializer_list<const char*> words) {
+inline std::string one_of(const JsonNode& node, const std::string& path,
+                          std::initializer_list<const char*> words) {
   const std::string& value = text(node, path);
   std::string list;
   for (const char* word : words) {

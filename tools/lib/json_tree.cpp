@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON text to a tree with line numbers; see json_tree.hpp. The parsing is nlohmann-json's SAX parser, which reads through
-// an iterator here that counts the line ends it passes: a callback stands on the line of the token just read.
+// JSON text to a tree with line numbers; see json_tree.hpp. The parsing is nlohmann-json's SAX parser, which
+// reads through an iterator here that counts the line ends it passes: a callback stands on the line of the
+// token just read.
 #include "tools/lib/json_tree.hpp"
 
 #include <cmath>
@@ -15,12 +16,18 @@ namespace nc::tools {
 
 const char* JsonNode::type_name() const {
   switch (type) {
-    case Type::kNull: return "null";
-    case Type::kBool: return "true or false";
-    case Type::kNumber: return "a number";
-    case Type::kString: return "a string";
-    case Type::kArray: return "a list";
-    case Type::kObject: return "an object";
+    case Type::kNull:
+      return "null";
+    case Type::kBool:
+      return "true or false";
+    case Type::kNumber:
+      return "a number";
+    case Type::kString:
+      return "a string";
+    case Type::kArray:
+      return "a list";
+    case Type::kObject:
+      return "an object";
   }
   return "";
 }
@@ -93,7 +100,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& why) override {
     if (!error.empty()) return false;
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ...": keep what comes behind the place.
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ...": keep what comes
+    // behind the place.
     std::string text = why.what();
     const size_t colon = text.find(": ");
     if (colon != std::string::npos) text = text.substr(colon + 2);

@@ -27,15 +27,16 @@ struct JsonNode {
   const char* type_name() const;
 };
 
-/** One key of an object with its value. A vector takes a type that is not complete yet; a std::pair of it, it does not. */
+/** One key of an object with its value. A vector takes a type that is not complete yet; a std::pair of it, it
+ * does not. */
 struct JsonMember {
   std::string first;
   JsonNode second;
 };
 
 /**
- * Parse `text`. Numbers that do not fit a double, keys given twice or with control characters, more than 32 levels and everything that is not JSON are
- * errors. @return false with "line N: why" in *error.
+ * Parse `text`. Numbers that do not fit a double, keys given twice or with control characters, more than 32
+ * levels and everything that is not JSON are errors. @return false with "line N: why" in *error.
  */
 bool parse_json(const std::string& text, JsonNode* root, std::string* error);
 

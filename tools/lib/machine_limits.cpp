@@ -21,11 +21,14 @@ double positive(const JsonNode& node, const std::string& path) {
 void read_axis(const JsonNode& node, const std::string& path, nc_axis_config* axis) {
   check_keys(expect(node, path, Type::kObject), path,
              {"velocity", "rapid", "acceleration", "jerk", "in_position", "stroke"});
-  if (const JsonNode* v = member(node, "velocity")) axis->max_velocity = axis->rapid = positive(*v, path + ".velocity");
+  if (const JsonNode* v = member(node, "velocity"))
+    axis->max_velocity = axis->rapid = positive(*v, path + ".velocity");
   if (const JsonNode* v = member(node, "rapid")) axis->rapid = positive(*v, path + ".rapid");
-  if (const JsonNode* v = member(node, "acceleration")) axis->max_acceleration = positive(*v, path + ".acceleration");
+  if (const JsonNode* v = member(node, "acceleration"))
+    axis->max_acceleration = positive(*v, path + ".acceleration");
   if (const JsonNode* v = member(node, "jerk")) axis->max_jerk = positive(*v, path + ".jerk");
-  if (const JsonNode* v = member(node, "in_position")) axis->in_position = positive(*v, path + ".in_position");
+  if (const JsonNode* v = member(node, "in_position"))
+    axis->in_position = positive(*v, path + ".in_position");
   if (const JsonNode* stroke = member(node, "stroke")) {
     const std::string at = path + ".stroke";
     if (expect(*stroke, at, Type::kArray).items.size() != 2) fail(*stroke, at, "must be [low, high]");
@@ -37,7 +40,8 @@ void read_axis(const JsonNode& node, const std::string& path, nc_axis_config* ax
 }
 
 void read(const JsonNode& root, nc_config* config) {
-  if (root.type != Type::kObject) fail(root, "", std::string("limits must be an object, are ") + root.type_name());
+  if (root.type != Type::kObject)
+    fail(root, "", std::string("limits must be an object, are ") + root.type_name());
   check_keys(root, "", {"cycle_s", "axes"});
   if (const JsonNode* cycle = member(root, "cycle_s")) {
     config->cycle_s = positive(*cycle, "cycle_s");
@@ -68,7 +72,8 @@ void default_machine_limits(nc_config* config) {
   }
 }
 
-bool parse_machine_limits(const std::string& text, const std::string& name, nc_config* config, std::string* error) {
+bool parse_machine_limits(const std::string& text, const std::string& name, nc_config* config,
+                          std::string* error) {
   JsonNode root;
   std::string why;
   if (!parse_json(text, &root, &why)) {

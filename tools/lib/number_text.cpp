@@ -10,7 +10,8 @@ namespace nc::tools {
 namespace {
 
 constexpr double kScale = 1e9;
-constexpr double kFixedLimit = 9e6;  // 9e6 * 1e9 = 9e15 < 2^53: the scaled value is an exact integer of a double
+constexpr double kFixedLimit =
+    9e6;  // 9e6 * 1e9 = 9e15 < 2^53: the scaled value is an exact integer of a double
 
 }  // namespace
 
@@ -27,8 +28,8 @@ size_t integer_text(uint64_t value, char* out) {
 
 size_t number_text(double value, char* out) {
   if (!(std::fabs(value) < kFixedLimit)) return value_text(value, out);
-  // One multiplication and one rounding: the result depends on the value alone. The product's own rounding moves a tie
-  // of the tenth decimal at most, never a printed digit of a value with nine decimals.
+  // One multiplication and one rounding: the result depends on the value alone. The product's own rounding
+  // moves a tie of the tenth decimal at most, never a printed digit of a value with nine decimals.
   const int64_t scaled = std::llround(value * kScale);
   char* p = out;
   if (scaled < 0) *p++ = '-';
@@ -59,9 +60,11 @@ size_t value_text(double value, char* out) {
     *out = '0';
     return 1;
   }
-  // Rounded to 15 digits first, then the shortest text of what that is: to_chars with a precision alone would keep noise.
+  // Rounded to 15 digits first, then the shortest text of what that is: to_chars with a precision alone would
+  // keep noise.
   char digits[kNumberText];
-  const auto rounded = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 14);
+  const auto rounded =
+      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 14);
   double clean = value;
   std::from_chars(digits, rounded.ptr, clean);
   const auto shortest = std::to_chars(out, out + kNumberText, clean);

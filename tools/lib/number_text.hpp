@@ -11,13 +11,14 @@ namespace nc::tools {
 inline constexpr size_t kNumberText = 40;
 
 /**
- * A length, angle, feed or time: rounded to 1e-9 (half away from zero), no trailing zeros, no exponent, never "-0".
- * So 9.99999999999 is "10", -1e-12 is "0". Values of 9e6 and more have 15 significant digits, as value_text().
- * Not finite: "null". @return bytes written, no NUL.
+ * A length, angle, feed or time: rounded to 1e-9 (half away from zero), no trailing zeros, no exponent, never
+ * "-0". So 9.99999999999 is "10", -1e-12 is "0". Values of 9e6 and more have 15 significant digits, as
+ * value_text(). Not finite: "null". @return bytes written, no NUL.
  */
 size_t number_text(double value, char* out);
 
-/** A value of any size (variables): at most 15 significant digits, shortest, with an exponent where shorter. */
+/** A value of any size (variables): at most 15 significant digits, shortest, with an exponent where shorter.
+ */
 size_t value_text(double value, char* out);
 
 /** An unsigned integer. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop of an offline run; see offline_run.hpp. Which item becomes which event is written down in docs/trace.md.
+// The loop of an offline run; see offline_run.hpp. Which item becomes which event is written down in
+// docs/trace.md.
 #include "tools/lib/offline_run.hpp"
 
 #include <algorithm>
@@ -47,15 +48,22 @@ class OfflineRun {
   }
 
   RunResult endless() {
-    return fail("line " + std::to_string(last_.line) + (last_.program ? " of O" + std::to_string(last_.program) : "") +
-                ": " + std::to_string(silent_) + " blocks without anything but calculation, an endless loop");
+    return fail("line " + std::to_string(last_.line) +
+                (last_.program ? " of O" + std::to_string(last_.program) : "") + ": " +
+                std::to_string(silent_) + " blocks without anything but calculation, an endless loop");
   }
 
   bool handle(nc_item& item) {
     switch (item.kind) {
-      case NC_ITEM_MOVE: move(item); break;
-      case NC_ITEM_ACTION: action(item); break;
-      case NC_ITEM_GATE: gate(item); break;
+      case NC_ITEM_MOVE:
+        move(item);
+        break;
+      case NC_ITEM_ACTION:
+        action(item);
+        break;
+      case NC_ITEM_GATE:
+        gate(item);
+        break;
       case NC_ITEM_SYNC:
         sink_.sync(item.source, item.u.sync.what);
         if (items_.answer(world_.answer(item.u.sync.what)) < NC_OK) {
@@ -63,15 +71,21 @@ class OfflineRun {
           return false;
         }
         break;
-      case NC_ITEM_MARK: mark(item); break;
+      case NC_ITEM_MARK:
+        mark(item);
+        break;
       case NC_ITEM_ALARM:
         result_.alarm.source = item.source;
         items_.alarm(&result_.alarm);
         result_.how = RunResult::How::kAlarmed;
         sink_.alarm(result_.alarm);
         break;
-      case NC_ITEM_END: end(item); break;
-      default: fail("an item of an unknown kind"); return false;
+      case NC_ITEM_END:
+        end(item);
+        break;
+      default:
+        fail("an item of an unknown kind");
+        return false;
     }
     return true;
   }
@@ -88,16 +102,18 @@ class OfflineRun {
     const nc_action& action = item.u.action;
     switch (action.kind) {
       case NC_ACTION_M:
-        // M01 with its switch off is no event. // M700 9.1
-        if (action.value == 1.0 && !world_.optional_stop()) return;
         sink_.aux(item.source, 'M', action.value);
         return;
       case NC_ACTION_S:
         world_.spindle(action.value);
         sink_.aux(item.source, 'S', action.value);
         return;
-      case NC_ACTION_T: sink_.aux(item.source, 'T', action.value); return;
-      case NC_ACTION_B: sink_.aux(item.source, action.letter ? action.letter : 'B', action.value); return;
+      case NC_ACTION_T:
+        sink_.aux(item.source, 'T', action.value);
+        return;
+      case NC_ACTION_B:
+        sink_.aux(item.source, action.letter ? action.letter : 'B', action.value);
+        return;
       case NC_ACTION_MESSAGE: {
         nc_text text = {};
         items_.text(action.text, &text);
@@ -105,12 +121,16 @@ class OfflineRun {
         sink_.message(item.source, action.index, text.s);
         return;
       }
-      default: return;  // interface outputs and control flags are no events of a trace
+      default:
+        return;  // interface outputs and control flags are no events of a trace
     }
   }
 
   void gate(const nc_item& item) {
     const nc_gate& gate = item.u.gate;
+    // Whether M01 exists at all is decided here, by its switch: it comes as a gate without an action. //
+    // M700 9.1
+    if (gate.kind == NC_GATE_OPTIONAL_STOP && world_.optional_stop()) sink_.aux(item.source, 'M', 1.0);
     if (gate.kind != NC_GATE_DWELL_SECONDS && gate.kind != NC_GATE_DWELL_TURNS) return;
     const bool turns = gate.kind == NC_GATE_DWELL_TURNS;
     world_.dwell(turns, gate.value);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One program from its first item to its last, offline: pulls the items, lets the virtual world execute them and tells a sink.
+// One program from its first item to its last, offline: pulls the items, lets the virtual world execute them
+// and tells a sink.
 #pragma once
 
 #include <cstdint>
@@ -33,14 +34,15 @@ class RunSink {
 struct RunResult {
   enum class How { kEnded, kAlarmed, kReset, kStopped, kFailed };
   How how = How::kFailed;
-  nc_alarm alarm = {};    // kAlarmed
-  std::string error;      // kFailed
+  nc_alarm alarm = {};  // kAlarmed
+  std::string error;    // kFailed
   uint64_t blocks = 0, moves = 0;
-  double length = 0.0;    // mm
-  double seconds = 0.0;   // of the trace's clock
+  double length = 0.0;   // mm
+  double seconds = 0.0;  // of the trace's clock
 };
 
-/** Lines of a main program that hold a block: comments, blanks and `%` left out. For events that wait for a line. */
+/** Lines of a main program that hold a block: comments, blanks and `%` left out. For events that wait for a
+ * line. */
 class BlockLines {
  public:
   BlockLines() = default;
@@ -53,8 +55,8 @@ class BlockLines {
 };
 
 /**
- * Run to the end. A stretch of `max_silent_blocks` blocks that only calculate and jump (GOTO in a circle) is an error; 0 = no limit.
- * Reading the clock is no silence: time passes, so a waiting loop ends.
+ * Run to the end. A stretch of `max_silent_blocks` blocks that only calculate and jump (GOTO in a circle) is
+ * an error; 0 = no limit. Reading the clock is no silence: time passes, so a waiting loop ends.
  */
 RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines,
                       uint64_t max_silent_blocks);

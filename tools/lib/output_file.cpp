@@ -28,6 +28,8 @@ bool OutputFile::flush() {
   return error_ == 0;
 }
 
-std::string OutputFile::error_text() const { return std::generic_category().message(error_); }
+std::string OutputFile::error_text() const {
+  return std::generic_category().message(error_);
+}
 
 }  // namespace nc::tools

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws a ToolpathPlot with cairo: projection, axes with ticks in mm, the path, a legend and a scale bar.
 //
-// Isometric projection from (+X, -Y, +Z): the unit vectors to the right and up on the page are (1, 1, 0)/sqrt 2 and
-// (-1, 1, 2)/sqrt 6, so the three axes are shortened alike (by sqrt(2/3)) and one scale bar holds along each of them.
+// Isometric projection from (+X, -Y, +Z): the unit vectors to the right and up on the page are (1, 1, 0)/sqrt
+// 2 and
+// (-1, 1, 2)/sqrt 6, so the three axes are shortened alike (by sqrt(2/3)) and one scale bar holds along each
+// of them.
 #include <cairo-svg.h>
 #include <cairo.h>
 
@@ -16,7 +18,9 @@
 
 #if defined(__SANITIZE_ADDRESS__)
 // fontconfig, which cairo asks for the font, keeps some blocks for the life of the process.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig";
+}
 #endif
 
 namespace nc::tools {
@@ -31,10 +35,12 @@ constexpr double kIsoShortening = 0.81649658092772603;  // sqrt(2/3)
 struct Color {
   double r, g, b;
 };
-constexpr Color kRapid{0.85, 0.20, 0.10}, kFeed{0.05, 0.30, 0.75}, kInk{0.15, 0.15, 0.15}, kGrid{0.85, 0.85, 0.85},
-    kStart{0.10, 0.55, 0.20};
+constexpr Color kRapid{0.85, 0.20, 0.10}, kFeed{0.05, 0.30, 0.75}, kInk{0.15, 0.15, 0.15},
+    kGrid{0.85, 0.85, 0.85}, kStart{0.10, 0.55, 0.20};
 
-void use(cairo_t* c, const Color& color) { cairo_set_source_rgb(c, color.r, color.g, color.b); }
+void use(cairo_t* c, const Color& color) {
+  cairo_set_source_rgb(c, color.r, color.g, color.b);
+}
 
 struct Page {
   double u, v;  // to the right and up, mm
@@ -88,10 +94,14 @@ class PlotPainter {
  private:
   Page project(double x, double y, double z) const {
     switch (plot_.view_) {
-      case PlotView::kXY: return {x, y};
-      case PlotView::kXZ: return {x, z};
-      case PlotView::kYZ: return {y, z};
-      case PlotView::kIsometric: break;
+      case PlotView::kXY:
+        return {x, y};
+      case PlotView::kXZ:
+        return {x, z};
+      case PlotView::kYZ:
+        return {y, z};
+      case PlotView::kIsometric:
+        break;
     }
     return {(x + y) / std::sqrt(2.0), (-x + y + 2.0 * z) / std::sqrt(6.0)};
   }
@@ -106,7 +116,8 @@ class PlotPainter {
     }
     low_ = high_ = project(lo_[0], lo_[1], lo_[2]);
     for (int corner = 1; corner < 8; ++corner) {
-      const Page p = project(corner & 1 ? hi_[0] : lo_[0], corner & 2 ? hi_[1] : lo_[1], corner & 4 ? hi_[2] : lo_[2]);
+      const Page p =
+          project(corner & 1 ? hi_[0] : lo_[0], corner & 2 ? hi_[1] : lo_[1], corner & 4 ? hi_[2] : lo_[2]);
       low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
       high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
     }
@@ -166,7 +177,8 @@ class PlotPainter {
   }
 
   // One axis of the box; `first` and `second` fix the two others in the order X, Y, Z.
-  void ticks(int axis, double step, double first, double second, double dx, double dy, double align, const char* name) {
+  void ticks(int axis, double step, double first, double second, double dx, double dy, double align,
+             const char* name) {
     const auto at = [&](double t) {
       double p[3];
       int other = 0;
@@ -244,7 +256,8 @@ class PlotPainter {
     use(c_, kInk);
     put_text(c_, kLeft, 40, plot_.title_, 22);
     static constexpr const char* kViews[] = {"isometric", "XY", "XZ", "YZ"};
-    put_text(c_, kLeft, 62, std::string("view ") + kViews[static_cast<int>(plot_.view_)] + ", machine coordinates, mm", 13);
+    put_text(c_, kLeft, 62,
+             std::string("view ") + kViews[static_cast<int>(plot_.view_)] + ", machine coordinates, mm", 13);
     const double x = kWidth - kRight - 130;
     const double dash[] = {6.0, 4.0};
     cairo_set_line_width(c_, 2);
@@ -295,20 +308,22 @@ bool write_drawing(const ToolpathPlot& plot, const std::string& path, bool svg, 
     if (error) *error = path + ": cannot be created";
     return false;
   }
-  cairo_surface_t* surface =
-      svg ? cairo_svg_surface_create_for_stream(write_stream, file, kWidth, kHeight)
-          : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(kWidth), static_cast<int>(kHeight));
+  cairo_surface_t* surface = svg ? cairo_svg_surface_create_for_stream(write_stream, file, kWidth, kHeight)
+                                 : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(kWidth),
+                                                              static_cast<int>(kHeight));
   cairo_t* context = cairo_create(surface);
   PlotPainter(plot, context).paint();
   cairo_status_t status = cairo_status(context);
   cairo_destroy(context);
-  if (status == CAIRO_STATUS_SUCCESS && !svg) status = cairo_surface_write_to_png_stream(surface, write_stream, file);
+  if (status == CAIRO_STATUS_SUCCESS && !svg)
+    status = cairo_surface_write_to_png_stream(surface, write_stream, file);
   cairo_surface_finish(surface);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
   const bool closed = std::fclose(file) == 0;
   if (status == CAIRO_STATUS_SUCCESS && closed) return true;
-  if (error) *error = path + ": " + (status == CAIRO_STATUS_SUCCESS ? "write error" : cairo_status_to_string(status));
+  if (error)
+    *error = path + ": " + (status == CAIRO_STATUS_SUCCESS ? "write error" : cairo_status_to_string(status));
   return false;
 }
 

@@ -31,14 +31,17 @@ struct ProgramFiles::OpenFile {
 
 namespace {
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+char lower(char c) {
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
 
 bool equal_any_case(const std::string& a, const std::string& b) {
   return a.size() == b.size() &&
          std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return lower(x) == lower(y); });
 }
 
-// Number of a name `O<digits>` or `O<digits>.<ending>` in any case. At most 9 digits: no O number has more than 8.
+// Number of a name `O<digits>` or `O<digits>.<ending>` in any case. At most 9 digits: no O number has more
+// than 8.
 std::optional<unsigned long> program_number(const std::string& name) {
   if (name.size() < 2 || lower(name[0]) != 'o') return std::nullopt;
   size_t end = 1;
@@ -58,11 +61,16 @@ std::string base_name(const std::string& path) {
 
 std::string reason(nc_status status) {
   switch (status) {
-    case NC_E_ARGUMENT: return "the name cannot be a program's name";
-    case NC_E_MEMORY: return "the program store is full";
-    case NC_E_STATE: return "a program is running";
-    case NC_E_READ: return "cannot be read";
-    default: return "the program store refused it";
+    case NC_E_ARGUMENT:
+      return "the name cannot be a program's name";
+    case NC_E_MEMORY:
+      return "the program store is full";
+    case NC_E_STATE:
+      return "a program is running";
+    case NC_E_READ:
+      return "cannot be read";
+    default:
+      return "the program store refused it";
   }
 }
 
@@ -71,7 +79,8 @@ std::string reason(nc_status status) {
 ProgramFiles::ProgramFiles(std::string folder) : folder_(std::move(folder)) {}
 ProgramFiles::~ProgramFiles() = default;
 
-nc_status ProgramFiles::add(nc_control* control, const std::string& path, unsigned* file, std::string* error) {
+nc_status ProgramFiles::add(nc_control* control, const std::string& path, unsigned* file,
+                            std::string* error) {
   // Non-blocking open: a FIFO must give an error below, not hang here.
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) {
@@ -108,7 +117,9 @@ nc_status ProgramFiles::add_descriptor(nc_control* control, int descriptor, cons
   return NC_OK;
 }
 
-void ProgramFiles::attach(nc_control* control) { nc_program_on_missing(control, &ProgramFiles::on_missing, this); }
+void ProgramFiles::attach(nc_control* control) {
+  nc_program_on_missing(control, &ProgramFiles::on_missing, this);
+}
 
 std::string ProgramFiles::path_of(unsigned file) const {
   // Backwards: an entry that replaced another of the same name has the same index and stands behind it.
@@ -136,7 +147,8 @@ void ProgramFiles::list_folder() {
   if (folder_.empty()) return;
   DIR* folder = opendir(folder_.c_str());
   if (!folder) return;
-  while (const dirent* entry = readdir(folder)) {  // NOLINT(concurrency-mt-unsafe): the stream is this function's own
+  while (const dirent* entry =
+             readdir(folder)) {  // NOLINT(concurrency-mt-unsafe): the stream is this function's own
     if (entry->d_name[0] != '.') listing_.emplace_back(entry->d_name);
   }
   closedir(folder);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Program files on disk for a control: main programs by path, sub programs found in a folder when they are called.
+// Program files on disk for a control: main programs by path, sub programs found in a folder when they are
+// called.
 //
-// libnc reads a text through a read-at callback in windows of its own; here that callback is pread() on a file kept
-// open, so a program of any size costs one descriptor and no memory. Nothing is mapped: mapped pages count as resident.
+// libnc reads a text through a read-at callback in windows of its own; here that callback is pread() on a
+// file kept open, so a program of any size costs one descriptor and no memory. Nothing is mapped: mapped
+// pages count as resident.
 #pragma once
 
 #include <memory>
@@ -22,7 +24,8 @@ class ProgramFiles {
   ProgramFiles(const ProgramFiles&) = delete;
   ProgramFiles& operator=(const ProgramFiles&) = delete;
 
-  /** Enter the file at `path` into the program store under its name without folder. On failure `error` says why. */
+  /** Enter the file at `path` into the program store under its name without folder. On failure `error` says
+   * why. */
   nc_status add(nc_control* control, const std::string& path, unsigned* file, std::string* error);
 
   /** Enter an open descriptor of a seekable file under `name`; takes the descriptor over, also on failure. */
@@ -36,8 +39,8 @@ class ProgramFiles {
   std::string path_of(unsigned file) const;
 
   /**
-   * File in the folder for "O1000" (the number decides: `o1000.NC`, `O01000` count, with or without an ending) or for the
-   * name between < > (its own spelling first, then any case). "" when there is none.
+   * File in the folder for "O1000" (the number decides: `o1000.NC`, `O01000` count, with or without an
+   * ending) or for the name between < > (its own spelling first, then any case). "" when there is none.
    */
   std::string find(const std::string& name);
 

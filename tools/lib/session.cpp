@@ -11,8 +11,8 @@
 #include <cstring>
 #include <utility>
 
-#include "tools/lib/json_check.hpp"
 #include "tools/lib/item_source.hpp"
+#include "tools/lib/json_check.hpp"
 
 namespace nc::tools {
 namespace {
@@ -28,9 +28,12 @@ std::string folder_of(const std::string& path) {
 
 std::string why_not(nc_status status) {
   switch (status) {
-    case NC_E_MEMORY: return "not enough memory";
-    case NC_E_ARGUMENT: return "the configuration is not valid";
-    default: return "status " + std::to_string(status);
+    case NC_E_MEMORY:
+      return "not enough memory";
+    case NC_E_ARGUMENT:
+      return "the configuration is not valid";
+    default:
+      return "status " + std::to_string(status);
   }
 }
 
@@ -42,10 +45,14 @@ std::optional<nc_dialect> dialect_from_name(const std::string& name) {
   return std::nullopt;
 }
 
-Session::Session() { nc_config_init(&config_); }
+Session::Session() {
+  nc_config_init(&config_);
+}
 Session::~Session() = default;
 
-void Session::Release::operator()(void* memory) const { std::free(memory); }
+void Session::Release::operator()(void* memory) const {
+  std::free(memory);
+}
 
 bool Session::configure(const SessionOptions& options, std::string* error) {
   const auto dialect = dialect_from_name(options.dialect);
@@ -75,8 +82,9 @@ bool Session::start(const SessionOptions& options, std::string* error) {
     return false;
   }
   if (!apply_setup(setup_, dialect_, control_, error)) return false;
-  files_ = std::make_unique<ProgramFiles>(
-      options.programs ? *options.programs : options.program == "-" ? "." : folder_of(options.program));
+  files_ = std::make_unique<ProgramFiles>(options.programs         ? *options.programs
+                                          : options.program == "-" ? "."
+                                                                   : folder_of(options.program));
   if (!add_main(options, error)) return false;
   files_->attach(control_);
   status = nc_program_select(control_, kPartSystem, main_file_);

@@ -15,8 +15,8 @@ namespace nc::tools {
 
 /** What the command line says. */
 struct SessionOptions {
-  std::string program;                  // "-" = standard input
-  std::string setup;                    // "" = all defaults
+  std::string program;  // "-" = standard input
+  std::string setup;    // "" = all defaults
   std::string dialect = "m700";
   std::optional<std::string> programs;  // folder of sub programs; default: the program's own
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading a setup file; see setup.hpp. Every key that is not in the format and every value of a wrong type is an error that
-// names the key's path and its line. Inside this file an error travels as an exception to parse_setup().
+// Reading a setup file; see setup.hpp. Every key that is not in the format and every value of a wrong type is
+// an error that names the key's path and its line. Inside this file an error travels as an exception to
+// parse_setup().
 #include "tools/lib/setup.hpp"
 
 #include <cmath>
@@ -31,7 +32,8 @@ class SetupReader {
   SetupReader(Setup* setup) : s_(*setup) {}
 
   void read(const JsonNode& root) {
-    if (root.type != Type::kObject) fail(root, "", std::string("a setup must be an object, is ") + root.type_name());
+    if (root.type != Type::kObject)
+      fail(root, "", std::string("a setup must be an object, is ") + root.type_name());
     check_keys(root, "",
                {"axes", "params", "kinematics", "start", "work_offsets", "offsets", "vars", "inputs", "skip",
                 "switches", "subprograms", "events", "options", "clock"});
@@ -55,8 +57,12 @@ class SetupReader {
   }
 
  private:
-  const JsonNode& object(const JsonNode& node, const std::string& path) { return expect(node, path, Type::kObject); }
-  const JsonNode& list(const JsonNode& node, const std::string& path) { return expect(node, path, Type::kArray); }
+  const JsonNode& object(const JsonNode& node, const std::string& path) {
+    return expect(node, path, Type::kObject);
+  }
+  const JsonNode& list(const JsonNode& node, const std::string& path) {
+    return expect(node, path, Type::kArray);
+  }
 
   unsigned axis(const JsonNode& node, const std::string& path, const std::string& name) {
     const int index = name.size() == 1 ? s_.axis_index(name[0]) : -1;
@@ -84,12 +90,14 @@ class SetupReader {
       if (item.type == Type::kString) {
         entry.name = axis_letter(item, path);
       } else {
-        if (item.type != Type::kObject) fail(item, path, "must be a letter or an object with name and rotary");
+        if (item.type != Type::kObject)
+          fail(item, path, "must be a letter or an object with name and rotary");
         check_keys(item, path, {"name", "rotary"});
         const JsonNode* name = member(item, "name");
         if (!name) fail(item, path, "the key name is missing");
         entry.name = axis_letter(*name, path + ".name");
-        if (const JsonNode* rotary = member(item, "rotary")) entry.rotary = boolean(*rotary, path + ".rotary");
+        if (const JsonNode* rotary = member(item, "rotary"))
+          entry.rotary = boolean(*rotary, path + ".rotary");
       }
       s_.axes.push_back(entry);
     }
@@ -137,7 +145,8 @@ class SetupReader {
 
   void kinematics(const JsonNode& node) {
     const std::string path = "kinematics";
-    check_keys(object(node, path), path, {"type", "tool", "table", "center", "sense", "program_frame", "interpolation"});
+    check_keys(object(node, path), path,
+               {"type", "tool", "table", "center", "sense", "program_frame", "interpolation"});
     SetupKinematics k;
     const JsonNode* type = member(node, "type");
     if (!type) fail(node, path, "the key type is missing");
@@ -227,7 +236,8 @@ class SetupReader {
     }
   }
 
-  // #1000-#1031 are the bits of #1032, #1200-#1231 of #1033, #1232-#1263 of #1034, #1264-#1295 of #1035. // M700 13.5.5
+  // #1000-#1031 are the bits of #1032, #1200-#1231 of #1033, #1232-#1263 of #1034, #1264-#1295 of #1035. //
+  // M700 13.5.5
   InputChange inputs(const JsonNode& node, const std::string& path) {
     InputChange change;
     for (const auto& [key, value] : object(node, path).members) {
@@ -275,7 +285,8 @@ class SetupReader {
         solid.low[a] = -std::numeric_limits<double>::infinity();
         solid.high[a] = std::numeric_limits<double>::infinity();
       }
-      if (const JsonNode* signal = member(item, "signal")) solid.signal = whole(*signal, path + ".signal", 1, 8);
+      if (const JsonNode* signal = member(item, "signal"))
+        solid.signal = whole(*signal, path + ".signal", 1, 8);
       const JsonNode* box = member(item, "box");
       if (!box) fail(item, path, "the key box is missing");
       if (object(*box, path + ".box").members.empty()) fail(*box, path + ".box", "a box without a side");
@@ -294,7 +305,8 @@ class SetupReader {
 
   void switches(const JsonNode& node) {
     const std::string path = "switches";
-    check_keys(object(node, path), path, {"optional_skip", "optional_stop", "single_block", "dry_run", "mirror"});
+    check_keys(object(node, path), path,
+               {"optional_skip", "optional_stop", "single_block", "dry_run", "mirror"});
     for (const auto& [key, value] : node.members) {
       const std::string key_path = join(path, key);
       if (key == "optional_stop") s_.optional_stop = boolean(value, key_path);
@@ -343,7 +355,8 @@ class SetupReader {
       }
       if (const JsonNode* change = member(item, "inputs")) event.inputs = inputs(*change, path + ".inputs");
       if (const JsonNode* signals = member(item, "signals")) {
-        check_keys(object(*signals, path + ".signals"), path + ".signals", {"macro_interrupt", "feed_hold", "reset"});
+        check_keys(object(*signals, path + ".signals"), path + ".signals",
+                   {"macro_interrupt", "feed_hold", "reset"});
         for (const auto& [name, value] : signals->members)
           event.signals[name] = static_cast<int>(whole(value, path + ".signals." + name, 0, 1));
       }
@@ -360,7 +373,8 @@ class SetupReader {
       if (key == "variable_sets") {
         s_.option_variable_sets = whole(value, key_path, 100, 600);
         const uint32_t n = s_.option_variable_sets;
-        if (n != 100 && n != 200 && n != 300 && n != 600) fail(value, key_path, "must be 100, 200, 300 or 600");
+        if (n != 100 && n != 200 && n != 300 && n != 600)
+          fail(value, key_path, "must be 100, 200, 300 or 600");
       }
       if (key == "tool_offsets") s_.option_tool_offsets = whole(value, key_path, 1, 999);
       if (key == "work_offsets") s_.option_work_offsets = whole(value, key_path, 0, 300);
@@ -384,8 +398,8 @@ class SetupReader {
   Setup& s_;
 };
 
-// Days since 1970-01-01 in the Gregorian calendar: years of 400 repeat after 146,097 days; a year counted from March puts
-// the leap day last.
+// Days since 1970-01-01 in the Gregorian calendar: years of 400 repeat after 146,097 days; a year counted
+// from March puts the leap day last.
 int64_t days_from_date(int64_t year, unsigned month, unsigned day) {
   year -= month <= 2;
   const int64_t era = year / 400;

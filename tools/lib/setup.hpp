@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The setup of an offline run: what the control and its machine are before the first block (docs/trace.md, "Setup").
+// The setup of an offline run: what the control and its machine are before the first block (docs/trace.md,
+// "Setup").
 //
-// Reading and applying are two steps: parse_setup() checks the text against the format without a control, the two apply
-// functions carry it into libnc, which alone knows which parameters and variables a dialect has.
+// Reading and applying are two steps: parse_setup() checks the text against the format without a control, the
+// two apply functions carry it into libnc, which alone knows which parameters and variables a dialect has.
 #pragma once
 
 #include <cstdint>
@@ -76,8 +77,8 @@ struct InputChange {
 
 /** A change from outside. */
 struct SetupEvent {
-  std::optional<uint32_t> line;    // of the main program, when it begins to execute
-  std::optional<double> seconds;   // of the trace's clock since the start
+  std::optional<uint32_t> line;   // of the main program, when it begins to execute
+  std::optional<double> seconds;  // of the trace's clock since the start
   InputChange inputs;
   std::map<std::string, int> signals;
 };
@@ -103,10 +104,10 @@ struct Setup {
   std::vector<SkipSolid> skip;
   uint32_t optional_skip = 0;  // bit n = switch n
   bool optional_stop = false, single_block = false, dry_run = false;
-  uint32_t mirror_axes = 0;    // bit = axis index
+  uint32_t mirror_axes = 0;                                      // bit = axis index
   std::vector<std::pair<std::string, std::string>> subprograms;  // name as the store takes it, text
   std::vector<SetupEvent> events;
-  int64_t clock_ms = 0;        // local time, ms since 1970-01-01
+  int64_t clock_ms = 0;  // local time, ms since 1970-01-01
   uint32_t option_variable_sets = 600, option_tool_offsets = 200, option_work_offsets = 96;
   bool option_extended_variables = false, option_macro_extensions = false;
   SetupPlace extended_variables_place, macro_extensions_place;
@@ -121,7 +122,8 @@ bool parse_setup(const std::string& text, const std::string& name, Setup* setup,
 /** Read and parse a setup file. */
 bool load_setup(const std::string& path, Setup* setup, std::string* error);
 
-/** ms since 1970-01-01 of "2026-01-01T00:00:00" (local time as it stands, no zone); a "Z" or fraction is an error. */
+/** ms since 1970-01-01 of "2026-01-01T00:00:00" (local time as it stands, no zone); a "Z" or fraction is an
+ * error. */
 std::optional<int64_t> parse_clock(const std::string& text);
 
 /** What nc_create() must know: axes and sizes. Call nc_config_init() before. */

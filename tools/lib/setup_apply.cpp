@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Carrying a setup into a control; see setup.hpp. What a dialect has or has not is libnc's answer, given here as an error at
-// the place of the setup that asked for it.
+// Carrying a setup into a control; see setup.hpp. What a dialect has or has not is libnc's answer, given here
+// as an error at the place of the setup that asked for it.
 #include "tools/lib/item_source.hpp"
 #include "tools/lib/json_check.hpp"
 #include "tools/lib/setup.hpp"
@@ -16,10 +16,14 @@ bool refuse(const Setup& setup, const SetupPlace& place, const std::string& why,
 bool apply_parameters(const Setup& setup, nc_control* control, std::string* error) {
   for (const SetupParameter& p : setup.parameters) {
     switch (nc_parameter_set(control, kPartSystem, p.key.c_str(), p.axis, p.text.c_str())) {
-      case NC_OK: break;
-      case NC_E_NOT_FOUND: return refuse(setup, p.place, "the control has no such parameter", error);
-      case NC_E_MEMORY: return refuse(setup, p.place, "too many parameters", error);
-      default: return refuse(setup, p.place, "the parameter does not take the value \"" + p.text + "\"", error);
+      case NC_OK:
+        break;
+      case NC_E_NOT_FOUND:
+        return refuse(setup, p.place, "the control has no such parameter", error);
+      case NC_E_MEMORY:
+        return refuse(setup, p.place, "too many parameters", error);
+      default:
+        return refuse(setup, p.place, "the parameter does not take the value \"" + p.text + "\"", error);
     }
   }
   return true;
@@ -97,8 +101,8 @@ bool apply_setup(const Setup& setup, nc_dialect dialect, nc_control* control, st
   if (!apply_parameters(setup, control, error) ||
       !apply_option(setup, control, setup.option_extended_variables, setup.extended_variables_place,
                     "extended_variables", error) ||
-      !apply_option(setup, control, setup.option_macro_extensions, setup.macro_extensions_place, "macro_extensions",
-                    error) ||
+      !apply_option(setup, control, setup.option_macro_extensions, setup.macro_extensions_place,
+                    "macro_extensions", error) ||
       !apply_tool_offsets(setup, dialect, control, error) || !apply_tables(setup, control, error) ||
       !apply_subprograms(setup, control, error))
     return false;

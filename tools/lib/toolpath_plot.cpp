@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The path of a drawing: from moves to vertices, bounded in number. The drawing itself is in plot_painter.cpp.
+// The path of a drawing: from moves to vertices, bounded in number. The drawing itself is in
+// plot_painter.cpp.
 #include "tools/lib/toolpath_plot.hpp"
 
 #include <algorithm>
@@ -37,7 +38,8 @@ void ToolpathPlot::add_point(bool rapid, double x, double y, double z) {
   if (!vertices_.empty()) {
     Vertex& last = vertices_.back();
     const double step = std::hypot(x - last.x, y - last.y, z - last.z);
-    // The last vertex is replaced only inside a run of feed pieces, so that corners to rapids stay where they are.
+    // The last vertex is replaced only inside a run of feed pieces, so that corners to rapids stay where they
+    // are.
     const size_t n = vertices_.size();
     if (!rapid && step < min_step_ && n >= 2 && !last.rapid && !vertices_[n - 2].rapid) vertices_.pop_back();
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drawing of a tool path: rapid and feed told apart, axes with ticks in mm, a scale bar; as SVG and as PNG.
 //
-// The path is the machine's (all compensation included) on the linear axes X, Y, Z. Arcs and helices are drawn from their
-// geometry in steps of at most 3 degrees. Vertices are thinned when there are more than a drawing can show, so the
-// memory is bounded whatever the program's length.
+// The path is the machine's (all compensation included) on the linear axes X, Y, Z. Arcs and helices are
+// drawn from their geometry in steps of at most 3 degrees. Vertices are thinned when there are more than a
+// drawing can show, so the memory is bounded whatever the program's length.
 #pragma once
 
 #include <cstddef>
@@ -47,7 +47,7 @@ class ToolpathPlot {
   void thin();
 
   std::vector<Vertex> vertices_;
-  double min_step_ = 0.0;                // mm; shorter feed pieces are merged
+  double min_step_ = 0.0;  // mm; shorter feed pieces are merged
   double low_[3] = {0, 0, 0}, high_[3] = {0, 0, 0};
   std::string title_ = "Tool path";
   PlotView view_ = PlotView::kIsometric;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trace lines; see trace_writer.hpp. A line is built in place in the output buffer: the longest has 8 axes twice, two
-// centres and two texts of NC_MAX_TEXT bytes (each byte at most \u00XX), far below OutputFile::kLargest. Only the variables
-// of the end line can be more, so that line is sent on in pieces.
+// Trace lines; see trace_writer.hpp. A line is built in place in the output buffer: the longest has 8 axes
+// twice, two centres and two texts of NC_MAX_TEXT bytes (each byte at most \u00XX), far below
+// OutputFile::kLargest. Only the variables of the end line can be more, so that line is sent on in pieces.
 #include "tools/lib/trace_writer.hpp"
 
 #include <cstring>
@@ -23,15 +23,20 @@ struct SyncName {
   uint32_t bit;
   std::string_view name;
 };
-constexpr SyncName kSyncNames[] = {{NC_SYNC_POSITION, "position"}, {NC_SYNC_INPUT, "input"}, {NC_SYNC_CLOCK, "clock"},
-                                   {NC_SYNC_SKIP, "skip"},         {NC_SYNC_MODAL, "modal"}, {NC_SYNC_STOPPED, "stopped"}};
+constexpr SyncName kSyncNames[] = {{NC_SYNC_POSITION, "position"}, {NC_SYNC_INPUT, "input"},
+                                   {NC_SYNC_CLOCK, "clock"},       {NC_SYNC_SKIP, "skip"},
+                                   {NC_SYNC_MODAL, "modal"},       {NC_SYNC_STOPPED, "stopped"}};
 
-// Length of the well-formed UTF-8 sequence at the start of `s`, 0 when there is none (overlong, surrogate, cut off).
+// Length of the well-formed UTF-8 sequence at the start of `s`, 0 when there is none (overlong, surrogate,
+// cut off).
 size_t utf8_length(std::string_view s) {
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(s[i]); };
   const unsigned char lead = byte(0);
   if (lead < 0x80) return 1;
-  const size_t n = lead >= 0xC2 && lead <= 0xDF ? 2 : (lead & 0xF0) == 0xE0 ? 3 : lead >= 0xF0 && lead <= 0xF4 ? 4 : 0;
+  const size_t n = lead >= 0xC2 && lead <= 0xDF   ? 2
+                   : (lead & 0xF0) == 0xE0        ? 3
+                   : lead >= 0xF0 && lead <= 0xF4 ? 4
+                                                  : 0;
   if (n == 0 || s.size() < n) return 0;
   for (size_t i = 1; i < n; ++i)
     if ((byte(i) & 0xC0) != 0x80) return 0;
@@ -42,7 +47,9 @@ size_t utf8_length(std::string_view s) {
   return n;
 }
 
-bool circular(const nc_move& move) { return move.kind == NC_MOVE_ARC || move.kind == NC_MOVE_HELIX; }
+bool circular(const nc_move& move) {
+  return move.kind == NC_MOVE_ARC || move.kind == NC_MOVE_HELIX;
+}
 
 }  // namespace
 
@@ -69,7 +76,8 @@ std::string json_escaped(std::string_view text) {
   return out;
 }
 
-TraceWriter::TraceWriter(OutputFile* out, const nc_system_config& system) : out_(out), axis_count_(system.axis_count) {
+TraceWriter::TraceWriter(OutputFile* out, const nc_system_config& system)
+    : out_(out), axis_count_(system.axis_count) {
   for (unsigned i = 0; i < axis_count_; ++i) {
     const char key[] = {',', '"', system.axis[i].name, '"', ':', 0};
     std::memcpy(axis_key_[i], key, sizeof key);
@@ -80,8 +88,12 @@ void TraceWriter::put(std::string_view text) {
   std::memcpy(at_, text.data(), text.size());
   at_ += text.size();
 }
-void TraceWriter::put_number(double value) { at_ += number_text(value, at_); }
-void TraceWriter::put_integer(uint64_t value) { at_ += integer_text(value, at_); }
+void TraceWriter::put_number(double value) {
+  at_ += number_text(value, at_);
+}
+void TraceWriter::put_integer(uint64_t value) {
+  at_ += integer_text(value, at_);
+}
 void TraceWriter::put_string(std::string_view text) {
   put("\"");
   put(json_escaped(text));
@@ -217,8 +229,8 @@ void TraceWriter::alarm(const nc_alarm& alarm) {
   finish();
 }
 
-void TraceWriter::end(const nc_source& source, bool ok, const nc_axes& work, const nc_axes& machine, uint32_t modal,
-                      ItemSource* items) {
+void TraceWriter::end(const nc_source& source, bool ok, const nc_axes& work, const nc_axes& machine,
+                      uint32_t modal, ItemSource* items) {
   begin("end", source);
   put(ok ? ",\"ok\":true" : ",\"ok\":false");
   put_axes(",\"work\":{", work);

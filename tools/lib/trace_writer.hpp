@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lines of a trace (docs/trace.md): one JSON object per line, keys always in the same order, numbers as number_text.hpp.
+// The lines of a trace (docs/trace.md): one JSON object per line, keys always in the same order, numbers as
+// number_text.hpp.
 #pragma once
 
 #include <string>
@@ -44,7 +45,8 @@ class TraceWriter {
   char* at_ = nullptr;             // next byte of the line being built
 };
 
-/** `text` as the inside of a JSON string: control characters escaped, bytes that are no UTF-8 as U+0080...U+00FF. */
+/** `text` as the inside of a JSON string: control characters escaped, bytes that are no UTF-8 as
+ * U+0080...U+00FF. */
 std::string json_escaped(std::string_view text);
 
 }  // namespace nc::tools

@@ -9,10 +9,10 @@
 namespace nc::tools {
 namespace {
 
-constexpr uint32_t kFeedBudget = 1024;           // blocks per call
-constexpr uint64_t kMaxSilentFeeds = 16 * 1024;  // 16 M blocks in a row that commit nothing: an endless loop
+constexpr uint32_t kFeedBudget = 1024;            // blocks per call
+constexpr uint64_t kMaxSilentFeeds = 16 * 1024;   // 16 M blocks in a row that commit nothing: an endless loop
 constexpr uint64_t kMaxSilentBlocks = 1'000'000;  // blocks executed without motion, dwell or FIN
-constexpr double kPatience = 10.0;               // s; a program that neither runs nor stops for so long hangs
+constexpr double kPatience = 10.0;  // s; a program that neither runs nor stops for so long hangs
 
 class VirtualMachine {
  public:
@@ -38,10 +38,13 @@ class VirtualMachine {
                            (out.cause != NC_CAUSE_STARVED || out.blocks != blocks_before_);
       blocks_before_ = out.blocks;
       waiting = goes_on ? 0.0 : waiting + config_.cycle_s;
-      if (!progresses(out)) return fail("line " + std::to_string(out.source.line) + ": an endless loop of calculation");
-      if (waiting > kPatience) return fail("the program does not go on (cause " + std::to_string(out.cause) + ")");
+      if (!progresses(out))
+        return fail("line " + std::to_string(out.source.line) + ": an endless loop of calculation");
+      if (waiting > kPatience)
+        return fail("the program does not go on (cause " + std::to_string(out.cause) + ")");
     }
-    return fail("not at its end after " + std::to_string(static_cast<uint64_t>(limit_s)) + " s of machine time");
+    return fail("not at its end after " + std::to_string(static_cast<uint64_t>(limit_s)) +
+                " s of machine time");
   }
 
  private:
@@ -83,7 +86,8 @@ class VirtualMachine {
     world_.set_seconds(static_cast<double>(cycle) * config_.cycle_s);
     in.reset = started_ && world_.on_item(now, 0);
     for (int w = 0; w < NC_WORDS; ++w) in.input[w] = world_.input(static_cast<unsigned>(w));
-    in.clock_ms = setup_.clock_ms + static_cast<int64_t>(std::floor(static_cast<double>(cycle) * config_.cycle_s * 1000.0));
+    in.clock_ms = setup_.clock_ms +
+                  static_cast<int64_t>(std::floor(static_cast<double>(cycle) * config_.cycle_s * 1000.0));
   }
 
   MachineResult take(MachineResult::How how) {

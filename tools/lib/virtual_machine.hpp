@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The online executor on virtual time: nc_feed() and nc_cycle() with a machine that is always where it is commanded to be,
-// answers FIN in the next cycle and continues every stop at once.
+// The online executor on virtual time: nc_feed() and nc_cycle() with a machine that is always where it is
+// commanded to be, answers FIN in the next cycle and continues every stop at once.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The offline machine; see virtual_world.hpp.
 //
-// Where a skip move meets a solid. The path is p(t) = a + t (b - a), 0 <= t <= 1; a box is the product of intervals, so the
-// parameters inside it are the intersection of one interval per axis (the slab method), exact up to rounding. The signal is on
-// in the open inside: a path that starts on a surface and leaves it, or slides along it, does not skip, one that starts on a
-// surface and goes in skips at once. A stay shorter than kTouch counts as rounding, not as inside.
+// Where a skip move meets a solid. The path is p(t) = a + t (b - a), 0 <= t <= 1; a box is the product of
+// intervals, so the parameters inside it are the intersection of one interval per axis (the slab method),
+// exact up to rounding. The signal is on in the open inside: a path that starts on a surface and leaves it,
+// or slides along it, does not skip, one that starts on a surface and goes in skips at once. A stay shorter
+// than kTouch counts as rounding, not as inside.
 #include "tools/lib/virtual_world.hpp"
 
 #include <algorithm>
@@ -14,8 +15,8 @@
 namespace nc::tools {
 namespace {
 
-constexpr double kTouch = 1e-9;             // mm
-constexpr double kRapidMmMin = 10'000.0;    // the trace's clock takes rapids at 10 m/min
+constexpr double kTouch = 1e-9;           // mm
+constexpr double kRapidMmMin = 10'000.0;  // the trace's clock takes rapids at 10 m/min
 constexpr double kClockReadSeconds = 0.001;
 
 }  // namespace
@@ -73,7 +74,8 @@ uint32_t VirtualWorld::signals_at(const nc_axes& machine) const {
 double VirtualWorld::first_entry(const nc_move& move) const {
   double entry = std::numeric_limits<double>::infinity();
   double length = 0.0;
-  for (unsigned a = 0; a < axis_count_; ++a) length = std::hypot(length, move.machine.v[a] - move.machine_start.v[a]);
+  for (unsigned a = 0; a < axis_count_; ++a)
+    length = std::hypot(length, move.machine.v[a] - move.machine_start.v[a]);
   for (const SkipSolid& solid : setup_.skip) {
     if (!(move.skip_mask & (1u << (solid.signal - 1)))) continue;
     double in = 0.0, out = 1.0;
@@ -131,7 +133,8 @@ nc_world VirtualWorld::answer(uint32_t what) {
   world.skip_machine = skip_machine_;
   world.skipped = skipped_;
   for (int w = 0; w < NC_WORDS; ++w) world.input[w] = input_[w];
-  const double ms = std::floor(seconds_ * 1000.0 + 1e-6);  // a whole number of ms must not fall short by rounding
+  const double ms =
+      std::floor(seconds_ * 1000.0 + 1e-6);  // a whole number of ms must not fall short by rounding
   world.clock_ms = setup_.clock_ms + static_cast<int64_t>(ms);
   world.power_on_ms = ms;
   world.run_ms = ms;

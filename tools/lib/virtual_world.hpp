@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The machine behind an offline run: it is where the last move ended, its clock goes by the length of what was done, its
-// inputs and solids are those of the setup. Nothing depends on wall-clock time.
+// The machine behind an offline run: it is where the last move ended, its clock goes by the length of what
+// was done, its inputs and solids are those of the setup. Nothing depends on wall-clock time.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ class VirtualWorld {
 
   /**
    * To be called with every item before anything else is done with it: fires the events that are due.
-   * An event "when line N" fires with the first item of line N of the main program. A line that calls a sub program shows
-   * itself only after the return; then the event fires when the sub program begins, found as the line behind the last one
-   * that has ended (`next_line`, 0 = not known).
+   * An event "when line N" fires with the first item of line N of the main program. A line that calls a sub
+   * program shows itself only after the return; then the event fires when the sub program begins, found as
+   * the line behind the last one that has ended (`next_line`, 0 = not known).
    * @return true when an event commands reset: the run ends here.
    */
   bool on_item(const nc_item& item, uint32_t next_line);
@@ -30,8 +30,9 @@ class VirtualWorld {
   bool waits_for_line() const { return !line_events_.empty(); }
 
   /**
-   * Execute a move: position and clock. A skip move is cut where it first enters a solid whose signal ends it; then
-   * *move is changed to what was really done. @return false when nothing was moved at all (the signal was on at the start).
+   * Execute a move: position and clock. A skip move is cut where it first enters a solid whose signal ends
+   * it; then *move is changed to what was really done. @return false when nothing was moved at all (the
+   * signal was on at the start).
    */
   bool execute(nc_move* move);
 

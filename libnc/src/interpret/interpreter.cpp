@@ -15,7 +15,7 @@ unsigned power_of_two_above(unsigned n) {
   return p;
 }
 
-void undo_table(void* self, uint32_t key, double old) { static_cast<Interpreter*>(self)->frames.set(key, old); }
+void undo_table(void* self, uint32_t key, double old) { static_cast<Interpreter*>(self)->frames.set(key - Variables::kForeignKey, old); }
 
 }  // namespace
 

@@ -12,7 +12,7 @@ inline constexpr unsigned kSegmentsPerCycle = 16;
 /// At most this many other records lie between two segments that are passed at speed; where there are more the path comes to rest.
 inline constexpr unsigned kRecordsBetween = 8;
 /// Largest share of an axis' acceleration that the velocity steps at corners may take.
-inline constexpr double kCornerShare = 0.5;
+inline constexpr double kCornerShare = 0.75;
 /// Largest share that centripetal acceleration may take on an arc; the rest (in quadrature) is left for speeding up and braking.
 inline constexpr double kArcShare = 0.9;
 /// Path acceleration where no axis is limited, mm/s^2.

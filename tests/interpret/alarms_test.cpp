@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bad programs: the alarm of the manual, on the right line, the machine at rest where the block before ended.
+#include <gtest/gtest.h>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+struct Row {
+  const char* code;
+  const char* program;
+  unsigned line;
+};
+
+void PrintTo(const Row& row, std::ostream* out) { *out << row.code << ": " << row.program; }
+
+class M700Alarm : public testing::TestWithParam<Row> {};
+
+TEST_P(M700Alarm, OnItsLineAndNothingMoved) {
+  const Row& row = GetParam();
+  Bench bench(NC_DIALECT_M700, [](nc_config& c) {
+    axes("XYZc")(c);
+    c.system[0].axis[0].soft_limited = true;
+    c.system[0].axis[0].soft_min = -500;
+    c.system[0].axis[0].soft_max = 500;
+  });
+  bench.add("O9", "G67\nM99\n");
+  bench.param("2106", "5", 'C').tool(1, 2);
+  // The first block moves, so that "at rest at the end of the block before" is a place of its own.
+  const Outcome run = bench.run("G0 X7.\nG1 F100\n" + std::string(row.program) + "\nX99.\nM30");
+  EXPECT_EQ(run.alarm, row.code);
+  EXPECT_EQ(run.alarm_line, row.line + 2);
+  EXPECT_EQ(run.status, NC_ALARMED);
+  EXPECT_FALSE(run.ended_ok);
+  EXPECT_FALSE(run.alarm_detail.empty());
+  ASSERT_GE(run.steps.size(), 2u);
+  EXPECT_EQ(run.steps.back().item.kind, NC_ITEM_END);
+  EXPECT_EQ(run.steps[run.steps.size() - 2].item.kind, NC_ITEM_ALARM);
+  for (const nc_item& item : run.of(NC_ITEM_MOVE)) EXPECT_LT(item.source.line, run.alarm_line);
+  const std::vector<nc_move> moves = run.moves();
+  EXPECT_EQ(run.end_work.v[0], moves.back().work.v[0]);
+  // A second look says the same, and the next program runs.
+  Step step;
+  EXPECT_EQ(bench.pull(&step), NC_ALARMED);
+  EXPECT_TRUE(bench.run("M30").ended_ok);
+}
+
+const Row kRows[] = {
+    {"P11", "U5.", 1},
+    {"P20", "C7.", 1},
+    {"P32", "X1. &", 1},
+    {"P33", "X1. Y", 1},
+    {"P33", "G4", 1},
+    {"P34", "G123.4", 1},
+    {"P34", "G14", 1},
+    {"P35", "X123456.", 1},
+    {"P36", "X8.\n%", 2},
+    {"P37", "N0", 1},
+    {"P37", "O0", 1},
+    {"P39", "G27 X1.", 1},
+    {"P39", "G5 P2", 1},
+    {"P62", "F0\nX8.", 2},
+    {"P70", "G2 X20. I3.", 1},
+    {"P71", "G2 X20. R3.", 1},
+    {"P76", "G2.4 X1. Y1.", 1},
+    {"P80", "G7 Y0", 1},
+    {"P90", "G33 Z1. F1.", 1},
+    {"P100", "G7.1 C20.", 1},
+    {"P112", "G41 D1 X20.\nG18 X30.", 2},
+    {"P122", "G62", 1},
+    {"P123", "G61.1", 1},
+    {"P124", "G93", 1},
+    {"P130", "A5", 1},
+    {"P131", "G96 S100", 1},
+    {"P140", "G45 X1. D1", 1},
+    {"P150", "G38 I1.", 1},
+    {"P151", "G2 X9. I1.\nG41 D1 X20. I5.", 2},
+    {"P155", "G41 D1 X20.\nG81 Z-5. R1.", 2},
+    {"P170", "G43 H999 Z1.", 1},
+    {"P170", "G41 X1.", 1},
+    {"P172", "G10 L7 P1 R1.", 1},
+    {"P173", "G10 L10 P999 R1.", 1},
+    {"P180", "G84 Z-5. R1.", 1},
+    {"P220", "G34 X0 Y0 I5. J0 K4", 1},
+    {"P224", "G12 I5. D1", 1},
+    {"P230", "M98 H5\nN5 M98 H5", 2},
+    {"P231", "GOTO 77", 1},
+    {"P232", "M98 P77", 1},
+    {"P241", "#99=1", 1},
+    {"P242", "#100", 1},
+    {"P243", "#1000=1", 1},
+    {"P260", "G68 X0 Y0 R5.", 1},
+    {"P271", "M96 P1", 1},
+    {"P272", "X1. #100=1", 1},
+    {"P275", "G65 P9 I1I1I1I1I1I1I1I1I1I1I1", 1},
+    {"P276", "G67", 1},
+    {"P277", "#3000=1(STOP)", 1},
+    {"P280", "#100=[[[[[[1]]]]]]", 1},
+    {"P281", "#100=[1", 1},
+    {"P282", "#100=SQRT[-1]", 1},
+    {"P282", "#100=LN[0]", 1},
+    {"P283", "#100=1/0", 1},
+    {"P290", "IF[1 EQ 1] THEN 5", 1},
+    {"P291", "WHILE[1 EQ 1] X1.", 1},
+    {"P292", "SETVN500", 1},
+    {"P294", "END1", 1},
+    {"P296", "G65 A1.", 1},
+    {"P350", "G51 X0 Y0 P2.", 1},
+    {"P360", "G51.1 X0", 1},
+    {"P380", "X20. ,C2.", 1},
+    {"P390", "X20. ,A45.", 1},
+    {"P431", "G30 X1.", 1},
+    {"P438", "G54.1 P1\nG52 X1.", 2},
+    {"P480", "G12.1", 1},
+    {"P550", "G6.2 P4", 1},
+    {"P600", "G37 Z-5.", 1},
+    {"P602", "G31.1 X1.", 1},
+    {"P603", "G31 X9.", 1},
+    {"P608", "G41 D1 X20.\nG31 X30. F1", 2},
+    {"P611", "G2.3 X1.", 1},
+    {"P900", "G41.1", 1},
+    {"P930", "G43.1 H1", 1},
+    {"P940", "G43.4 H1", 1},
+    {"M01-0007", "X501.", 1},
+};
+
+std::string row_name(const testing::TestParamInfo<Row>& info) {
+  std::string name = std::to_string(info.index) + "_";
+  for (const char* c = info.param.code; *c != 0; ++c) name += *c == '-' ? '_' : *c;
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Codes, M700Alarm, testing::ValuesIn(kRows), row_name);
+
+TEST(Alarm, InASubProgramNamesItsProgramAndLine) {
+  Bench bench;
+  bench.add("O9", "G0 X1.\n\nG67\nM99\n");
+  bench.run("M98 P9\nM30");
+  nc_alarm alarm{};
+  ASSERT_EQ(nc_alarm_get(bench.control(), 0, &alarm), NC_OK);
+  EXPECT_STREQ(alarm.code, "P276");
+  EXPECT_EQ(alarm.source.program, 9u);
+  EXPECT_EQ(alarm.source.line, 3u);
+  EXPECT_EQ(alarm.source.depth, 1);
+}
+
+TEST(Alarm, IsThereFromItsItemToTheNextStart) {
+  Bench bench;
+  bench.start("G0 X1.\nG67\nM30");
+  nc_alarm alarm{};
+  EXPECT_EQ(nc_alarm_get(bench.control(), 0, &alarm), NC_E_NOT_FOUND);
+  bench.finish();
+  EXPECT_EQ(nc_alarm_get(bench.control(), 0, &alarm), NC_OK);
+  EXPECT_EQ(nc_reset(bench.control(), 0), NC_OK);
+  EXPECT_EQ(nc_alarm_get(bench.control(), 0, &alarm), NC_E_NOT_FOUND);
+}
+
+TEST(Alarm, AFileThatCannotBeRead) {
+  struct Text {
+    std::string s = "G0 X1.\nX2.\nM30\n";
+    static long read(void* user, uint64_t offset, char* buffer, size_t size) {
+      const std::string& s = static_cast<Text*>(user)->s;
+      if (offset > 7) return -1;
+      const size_t n = std::min<size_t>(size, 7);
+      s.copy(buffer, n, offset);
+      return static_cast<long>(n);
+    }
+  } text;
+  Bench bench;
+  unsigned file = 0;
+  ASSERT_EQ(nc_program_add(bench.control(), "broken", &Text::read, &text, text.s.size(), &file), NC_OK);
+  ASSERT_EQ(nc_program_select(bench.control(), 0, file), NC_OK);
+  const Outcome run = bench.finish();
+  EXPECT_EQ(run.alarm, "P461");
+  EXPECT_EQ(run.status, NC_ALARMED);
+}
+
+TEST(Alarm, AFileCutInTheMiddleOfABlock) {
+  const Outcome run = m700("G0 X1.\nX2. Y");
+  EXPECT_EQ(run.alarm, "P36");  // a word without a value is 0, then the text ends
+  EXPECT_EQ(m700("G0 X1.\nM3").alarm, "P36");
+}
+
+struct DgshapeRow {
+  const char* code;
+  const char* program;
+};
+
+TEST(DgshapeAlarm, EveryErrorOfTheManual) {  // DGSHAPE 5
+  const DgshapeRow rows[] = {
+      {"NC-TOOL", "M06"},
+      {"NC-TOOL", "T1"},
+      {"NC-INCREMENTAL", "G91G53X1000"},
+      {"NC-SPINDLE", "G81Z-1000F60000"},
+      {"NC-OFFSET-START", "G2G41D1X20000I10000F60000"},
+      {"NC-OFFSET-START", "G1G41D1X20000F60000\nX40000\nG3G40X60000I10000"},
+      {"NC-OFFSET-CODE", "G1G41D1X20000F60000\nG18X30000"},
+      {"NC-OFFSET-CODE", "G1G41D1X20000F60000\nG10P1R1000"},
+      {"NC-OFFSET-CODE", "G1G41D1X20000F60000\nG55X30000"},
+      {"NC-OFFSET-CODE", "G1G41D1X20000F60000\nG92X0"},
+      {"NC-OFFSET-CODE", "M03\nG1G41D1X20000F60000\nG81Z-1000"},
+      {"NC-OFFSET-CODE", "G1G41D1X20000F60000\nG28X0"},
+      {"NC-PLANE", "G18G41D1X20000F60000"},
+      {"NC-RANGE", "G0X100000."},
+      {"NC-NO-SUCH-CODE", "G44"},
+      {"NC-NO-SUCH-CODE", "G31X1000"},
+      {"NC-NOT-BUILT", "G51X0Y0P2"},
+      {"NC-FEED", "G1X1000"},
+      {"NC-ADDRESS", "B1000"},
+  };
+  for (const DgshapeRow& row : rows) {
+    Bench bench(NC_DIALECT_DGSHAPE);
+    bench.tool(1, 2);
+    EXPECT_EQ(bench.run("%\n" + std::string(row.program) + "\nM02").alarm, row.code) << row.program;
+  }
+}
+
+TEST(Dgshape, SampleProgramOfSection16) {
+  Bench bench(NC_DIALECT_DGSHAPE, [](nc_config& c) { c.system[0].axis[2].reference[0] = 100; });
+  bench.tool(1, 3);
+  // A square of the kind the manual prints: start to (8,8), the tool 3 mm to the left of the contour, back to the start.
+  const Outcome run = bench.run(
+      "%\nO0001\nN1G90G54\nN2G00X0Y0Z20000\nN3G41D1X8000Y8000\nN4G01Z-2000F120000\nN5Y43000F300000\nN6X42000\nN7Y8000\nN8X8000\n"
+      "N9G40G00X0Y0\nN10Z20000\nN11M02\n%");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_TRUE(run.ended_ok);
+  const Path path = run.path();
+  ASSERT_GE(path.size(), 8u);
+  EXPECT_EQ(path[1], "rapid 5 8 20");  // perpendicular to the next block in the plane, though Z comes between
+  EXPECT_EQ(path[2], "line 5 8 -2 F120");
+  EXPECT_EQ(path[3], "line 5 46 -2 F300");
+  EXPECT_EQ(path[4], "line 45 46 -2 F300");
+  EXPECT_EQ(path[path.size() - 2], "rapid 0 0 -2");
+}
+
+}  // namespace
+}  // namespace nc::test

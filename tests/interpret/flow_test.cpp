@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sub programs, macro calls, loops, jumps, the ends of programs (M700 3.1, 3.5, 13.3.1, 13.5.1, 13.5.7).
+#include <gtest/gtest.h>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+// ---- M98, M99 ----------------------------------------------------------------------------------------------------------------
+
+TEST(SubProgram, CallAndReturn) {  // M700 13.3.1
+  Bench bench;
+  bench.add("O100", "G0 X5.\nM99\n");
+  const Outcome run = bench.run("G0 Y1.\nM98 P100\nX0\nM30");
+  EXPECT_EQ(run.path(), (Path{"rapid 0 1 0", "rapid 5 1 0", "rapid 0 1 0"}));
+  EXPECT_EQ(run.lines(), (std::vector<unsigned>{1, 1, 2, 2, 3, 4}));  // the calling block ends behind the return
+  std::vector<unsigned> depths, programs;
+  for (const nc_item& item : run.of(NC_ITEM_MARK)) depths.push_back(item.source.depth), programs.push_back(item.source.program);
+  EXPECT_EQ(depths, (std::vector<unsigned>{0, 1, 1, 0, 0, 0}));
+  EXPECT_EQ(programs, (std::vector<unsigned>{0, 100, 100, 0, 0, 0}));
+}
+
+TEST(SubProgram, RestOfTheBlockComesFirst) {  // M700 13.5.2 (20178)
+  Bench bench;
+  bench.add("O100", "G0 Y5.\nM99\n");
+  EXPECT_EQ(bench.run("G0 X100. M98 P100\nM30").path(), (Path{"rapid 100 0 0", "rapid 100 5 0"}));
+}
+
+TEST(SubProgram, Repetitions) {
+  Bench bench;
+  bench.add("O1", "G91 G0 X1.\nM99\n");
+  EXPECT_EQ(bench.run("M98 P1 L3\nM30").path(), (Path{"rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("M98 P1 L0\nM30").path(), Path{});
+  EXPECT_EQ(bench.at(0, 0, 0).run("M98 P1\nM98 P1\nM30").path().size(), 2u);
+}
+
+TEST(SubProgram, FromASequenceNumber) {  // H
+  Bench bench;
+  bench.add("O1", "G0 X1.\nN20 Y1.\nM99\n");
+  EXPECT_EQ(bench.run("G0\nM98 P1 H20 L2\nM30").path(), (Path{"rapid 0 1 0"}));
+  EXPECT_EQ(bench.run("M98 P1 H21\nM30").alarm, "P231");
+}
+
+TEST(SubProgram, ReturnToASequenceNumber) {  // M99 P
+  Bench bench;
+  bench.add("O1", "G0 X1.\nM99 P60\n");
+  EXPECT_EQ(bench.run("M98 P1\nY9.\nN60 Z1.\nM30").path(), (Path{"rapid 1 0 0", "rapid 1 0 1"}));
+  bench.add("O2", "M99 P61\n");
+  const Outcome run = bench.run("M98 P2\nM30");
+  EXPECT_EQ(run.alarm, "P231");
+  EXPECT_EQ(run.alarm_line, 1u);
+}
+
+TEST(SubProgram, OwnProgramWithoutP) {  // M98 H_ inside one program
+  EXPECT_EQ(m700("G91 G0\nM98 H100 L2\nM30\nN100 X1.\nM99").path(), (Path{"rapid 1 0 0", "rapid 2 0 0"}));
+}
+
+TEST(SubProgram, ModalStateIsCommon) {
+  Bench bench;
+  bench.add("O1", "G91 G1 F7\nM99\n");
+  EXPECT_EQ(bench.run("G0 X1.\nM98 P1\nX1.\nM30").path(), (Path{"rapid 1 0 0", "line 2 0 0 F7"}));
+}
+
+TEST(SubProgram, InTheSameText) {
+  EXPECT_EQ(m700("O1\nM98 P200\nM98 P300\nM30\nO200\nG0 X1.\nM99\nO300\nG0 X2.\nM99\n").path(), (Path{"rapid 1 0 0", "rapid 2 0 0"}));
+}
+
+TEST(SubProgram, ByFileName) {  // M700 13.3.1
+  Bench bench;
+  bench.add("PARTS-12.RAF", "G0 X1.\nM99\n");
+  EXPECT_EQ(bench.run("M98 <parts-12.RAF>\nM30").path(), (Path{"rapid 1 0 0"}));
+  EXPECT_EQ(bench.run("M98 <NOT-HERE>\nM30").alarm, "P232");
+  EXPECT_EQ(bench.run("M98 <ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456>\nM30").alarm, "P232");
+}
+
+TEST(SubProgram, TheHostIsAskedForWhatIsMissing) {
+  Bench bench;
+  struct Host {
+    std::vector<std::string> asked;
+    std::string text = "G0 X7.\nM99\n";
+  } host;
+  nc_program_on_missing(
+      bench.control(),
+      [](void* user, nc_control* control, const char* name) {
+        Host& h = *static_cast<Host*>(user);
+        h.asked.push_back(name);
+        if (h.asked.size() > 1) return false;
+        return nc_program_add_text(control, name, h.text.data(), h.text.size(), nullptr) == NC_OK;
+      },
+      &host);
+  const Outcome run = bench.run("M98 P0100\nM98 P100\nM98 P101\nM30");
+  EXPECT_EQ(host.asked, (std::vector<std::string>{"O100", "O101"}));
+  EXPECT_EQ(run.path(), (Path{"rapid 7 0 0"}));
+  EXPECT_EQ(run.alarm, "P232");
+  EXPECT_EQ(run.alarm_line, 3u);
+}
+
+TEST(SubProgram, EightLevels) {  // M700 13.3.1
+  Bench bench;
+  for (int i = 1; i <= 9; ++i) bench.add("O" + std::to_string(i), "#100=" + std::to_string(i) + "\nM98 P" + std::to_string(i + 1) + "\nM99\n");
+  bench.add("O8", "#100=8\nM99\n");
+  EXPECT_EQ(bench.run("M98 P1\nM30").alarm, "");
+  bench.add("O8", "#100=8\nM98 P9\nM99\n");
+  const Outcome run = bench.run("M98 P1\nM30");
+  EXPECT_EQ(run.alarm, "P230");
+  EXPECT_EQ(run.var(100), 8);
+  EXPECT_EQ(run.alarm_line, 2u);
+}
+
+TEST(SubProgram, Missing) {
+  const Outcome run = m700("G0 X1.\nG0 X2. M98 P77\nM30");
+  EXPECT_EQ(run.alarm, "P232");
+  EXPECT_EQ(run.alarm_line, 2u);
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0"}));  // nothing of the block that alarms has moved
+  EXPECT_EQ(run.end_work.v[0], 1);
+}
+
+TEST(SubProgram, AnAlarmInsideDoesNotUndoTheCall) {
+  Bench bench;
+  bench.add("O1", "G99999.\nM99\n");
+  const Outcome moved = bench.run("G0 X5. M98 P1\nM30");
+  EXPECT_EQ(moved.path(), (Path{"rapid 5 0 0"}));
+  EXPECT_EQ(moved.alarm_line, 1u);
+  EXPECT_EQ(moved.end_work.v[0], 5);
+  EXPECT_EQ(bench.run("G92 X100. M98 P1\nM30").end_work.v[0], 100);
+}
+
+TEST(SubProgram, MainM99GoesToItsHead) {  // M700 13.3.1
+  Bench bench;
+  const Outcome run = bench.run("#100=#100+1\nIF[#100 GE 3]GOTO9\nM99\nN9 M30");
+  EXPECT_EQ(run.var(100), 3);
+  EXPECT_TRUE(run.ended_ok);
+  EXPECT_EQ(m700("GOTO 2\nN1 M30\nN2 M99 P1").ended_ok, true);
+}
+
+TEST(SubProgram, SingleBlockDoesNotStopAtAPureCall) {  // M700 13.3.1
+  Bench bench;
+  bench.add("O1", "G0 X1.\nM99\n");
+  auto stops = [&](const char* text) {
+    std::vector<unsigned> lines;
+    for (const nc_item& item : bench.at(0, 0, 0).run(text).of(NC_ITEM_MARK))
+      if (item.u.mark.stop) lines.push_back(item.source.depth * 10 + item.source.line);
+    return lines;
+  };
+  EXPECT_EQ(stops("M98 P1\nM30"), (std::vector<unsigned>{11, 2}));
+  EXPECT_EQ(stops("G0 Y1. M98 P1\nM30"), (std::vector<unsigned>{1, 11, 2}));  // stops behind the motion, before the call
+  EXPECT_EQ(stops("G65 P1 A1.\nM30"), (std::vector<unsigned>{11, 2}));
+}
+
+// ---- ends -----------------------------------------------------------------------------------------------------------------------
+
+TEST(End, NeedsItsCode) {  // M700 P36
+  EXPECT_EQ(m700("G0 X1.\nX2.").alarm, "P36");
+  EXPECT_EQ(m700("G0 X1.\nX2.").alarm_line, 2u);
+  EXPECT_EQ(m700("G0 X1.\n%\nM30").alarm, "P36");
+  EXPECT_EQ(m700("G0 X1.\n%\nM30").alarm_line, 2u);
+  EXPECT_EQ(m700("O1\nG0 X1.\nO2\nM30").alarm, "P36");
+  EXPECT_EQ(m700("").alarm, "P36");
+  Bench bench;
+  bench.add("O1", "G0 X1.\n");
+  EXPECT_EQ(bench.run("M98 P1\nM30").alarm, "P36");
+  EXPECT_EQ(dgshape("G0X1000\n").alarm, "NC-END");
+}
+
+TEST(End, M02AndM30) {
+  for (const char* text : {"M02", "M30", "M2\nG0 X1.", "%\nO1234 (PART)\nM30\n%"}) {
+    const Outcome run = m700(text);
+    EXPECT_TRUE(run.ended_ok) << text;
+    EXPECT_EQ(run.status, NC_ENDED);
+    EXPECT_EQ(run.path(), Path{});
+    EXPECT_EQ(run.steps.back().item.kind, NC_ITEM_END);
+  }
+  EXPECT_EQ(m700("G0 X5. M30").path(), (Path{"rapid 5 0 0"}));  // with other words in its block
+}
+
+TEST(End, ResetsTheModalStateForTheNextRun) {  // M700 3.7
+  Bench bench;
+  bench.run("G91 G0 G55 G43 H1 X1.\n#1=5\nM30");
+  const Outcome run = bench.run("#100=#4003 #101=#4001 #102=#4012 #103=#4008 #104=#1\nM30");
+  EXPECT_EQ(run.var(100), 90);
+  EXPECT_EQ(run.var(101), 1);
+  EXPECT_EQ(run.var(102), 54);
+  EXPECT_EQ(run.var(103), 49);
+  EXPECT_TRUE(std::isnan(run.var(104)));  // locals are vacant at the start
+}
+
+TEST(Start, PercentAndNumbers) {
+  const Outcome run = m700("%\nO77\nN10 G0 X1.\nN20 M30\n%");
+  EXPECT_EQ(run.of(NC_ITEM_MOVE)[0].source.program, 77u);
+  EXPECT_EQ(run.of(NC_ITEM_MOVE)[0].source.line, 3u);
+  EXPECT_EQ(run.last_modal().n, 20u);
+  EXPECT_EQ(m700("O0\nM30").alarm, "P37");
+  EXPECT_EQ(m700("N0 G0 X1.\nM30").alarm, "P37");
+}
+
+TEST(Start, DgshapeNeedsThePercent) {  // DGSHAPE 2-6
+  Bench bench(NC_DIALECT_DGSHAPE);
+  const Outcome run = bench.run("G0X1000\nM02");
+  EXPECT_EQ(run.alarm, "NC-START");
+  EXPECT_EQ(run.alarm_line, 1u);
+  EXPECT_TRUE(run.moves().empty());
+  EXPECT_TRUE(bench.run("%\nO5\nN1G0X1000\nM30\n").ended_ok);
+}
+
+// ---- GOTO -------------------------------------------------------------------------------------------------------------------------
+
+TEST(Goto, LooksBehindFirstThenFromTheHead) {  // M700 13.5.7: of equal numbers the next one below wins
+  EXPECT_EQ(m700("N5 #100=#100+1\nIF[#100 GT 1]GOTO9\nGOTO5\n#101=1\nN5 #102=1\nGOTO9\nN9 M30").var(102), 1);
+  const Outcome back = m700("N5 #100=#100+1\nIF[#100 GT 2]GOTO9\nGOTO5\nN9 M30");
+  EXPECT_EQ(back.var(100), 3);
+}
+
+TEST(Goto, BySkippedBlocksAndExpressions) {
+  EXPECT_TRUE(m700("#1=7\nGOTO[#1+3]\n#100=1\n/N10 M30").ended_ok);
+  EXPECT_EQ(m700("GOTO 8\nM30").alarm, "P231");
+  const Outcome run = m700("#100=1 GOTO2 #101=5\n#102=1\nN2 M30");  // what stands behind a jump is not reached
+  EXPECT_EQ(run.vars, (std::map<uint32_t, double>{{100, 1}}));
+}
+
+TEST(Goto, StaysInItsProgram) {
+  EXPECT_EQ(m700("O1\nGOTO5\nM30\nO2\nN5 M30").alarm, "P231");
+}
+
+TEST(Goto, AnEndlessOneIsInterruptible) {
+  Bench bench;
+  const Outcome run = bench.run("N1 GOTO1", 50, 5000);
+  EXPECT_EQ(run.status, NC_BUDGET);
+  EXPECT_EQ(nc_reset(bench.control(), 0), NC_OK);
+  EXPECT_TRUE(bench.run("M30").ended_ok);
+}
+
+// ---- loops -------------------------------------------------------------------------------------------------------------------------
+
+TEST(Loop, WhileTestsFirst) {  // M700 13.5.7
+  EXPECT_EQ(m700("#100=0\nWHILE[#100 LT 5]DO1\n#100=#100+1\nEND1\nM30").var(100), 5);
+  EXPECT_TRUE(std::isnan(m700("WHILE[1 EQ 2]DO1\n#100=1\nEND1\nM30").var(100)));
+}
+
+TEST(Loop, DoWithoutWhileIsEndless) {
+  EXPECT_EQ(m700("DO1\n#100=#100+1\nIF[#100 EQ 4]GOTO9\nEND1\nN9 M30").var(100), 4);
+}
+
+TEST(Loop, Nested) {
+  EXPECT_EQ(m700("#1=0\nWHILE[#1 LT 3]DO1\n#2=0\nWHILE[#2 LT 4]DO2\n#100=#100+1\n#2=#2+1\nEND2\n#1=#1+1\nEND1\nM30").var(100), 12);
+}
+
+TEST(Loop, NumbersMayBeUsedAgain) {
+  EXPECT_EQ(m700("#1=0\nWHILE[#1 LT 2]DO1\n#1=#1+1\nEND1\n#1=0\nWHILE[#1 LT 3]DO1\n#1=#1+1 #100=#100+1\nEND1\nM30").var(100), 3);
+}
+
+TEST(Loop, TwentySevenDeep) {  // M700 13.5.7, P293
+  auto nest = [](int n) {
+    std::string text, ends;
+    for (int i = 1; i <= n; ++i) {
+      text += "#" + std::to_string(500 + i) + "=0\nWHILE[#" + std::to_string(500 + i) + " LT 1]DO" + std::to_string(i) + "\n";
+      ends = "#" + std::to_string(500 + i) + "=1\nEND" + std::to_string(i) + "\n" + ends;
+    }
+    return text + "#100=#100+1\n" + ends + "M30";
+  };
+  EXPECT_EQ(m700(nest(27)).var(100), 1);
+  EXPECT_EQ(m700(nest(27)).alarm, "");
+  EXPECT_EQ(m700(nest(28)).alarm, "P293");
+}
+
+TEST(Loop, PairsThatDoNotMatch) {
+  EXPECT_EQ(m700("WHILE[1 EQ 1]DO1\nWHILE[1 EQ 1]DO1\nEND1\nEND1\nM30").alarm, "P294");  // in use already
+  EXPECT_EQ(m700("END1\nM30").alarm, "P294");
+  EXPECT_EQ(m700("DO1\nEND2\nM30").alarm, "P294");
+  EXPECT_EQ(m700("WHILE[1 EQ 0]DO1\nM30").alarm, "P294");
+  EXPECT_EQ(m700("WHILE[1 EQ 1]DO1\nWHILE[1 EQ 0]DO2\nEND1\nEND2\nM30").alarm, "P294");  // overlapping
+  EXPECT_EQ(m700("WHILE[1 EQ 1]DO128\nEND128\nM30").alarm, "P291");
+  EXPECT_EQ(m700("WHILE 1 DO1\nEND1\nM30").alarm, "P291");
+  EXPECT_EQ(m700("IF 1 GOTO2\nM30").alarm, "P290");
+}
+
+TEST(Loop, JumpOutAndInAgain) {
+  const Outcome run = m700(
+      "#1=0\nN1 WHILE[#1 LT 10]DO1\n#1=#1+1\nWHILE[#2 LT 1]DO2\nIF[#1 EQ 3]GOTO5\n#2=1\nEND2\n#2=0\nEND1\nN5 #100=#1\n"
+      "IF[#3 EQ 1]GOTO6\n#3=1\nGOTO1\nN6 M30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(100), 10);
+}
+
+TEST(Loop, CallsInside) {  // numbers start from 1 again in the called program
+  Bench bench;
+  bench.add("O1", "#2=0\nWHILE[#2 LT 2]DO1\n#2=#2+1 #100=#100+1\nEND1\nM99\n");
+  EXPECT_EQ(bench.run("#1=0\nWHILE[#1 LT 3]DO1\nM98 P1\n#1=#1+1\nEND1\nM30").var(100), 6);
+}
+
+TEST(Loop, AReturnLeavesTheLoopsOfItsProgram) {
+  Bench bench;
+  bench.add("O1", "WHILE[1 EQ 1]DO1\nM99\nEND1\n");
+  EXPECT_EQ(bench.run("#1=0\nWHILE[#1 LT 30]DO2\nM98 P1\n#1=#1+1\nEND2\n#100=#1\nM30").var(100), 30);
+}
+
+// ---- G65 ----------------------------------------------------------------------------------------------------------------------------
+
+/// All locals of the called macro as #101..#133.
+Outcome arguments(const std::string& words) {
+  Bench bench;
+  std::string copy;
+  for (int i = 1; i <= 33; ++i) copy += "#" + std::to_string(100 + i) + "=#" + std::to_string(i) + "\n";
+  bench.add("O9000", copy + "M99\n");
+  return bench.run("G65 P9000 " + words + "\nM30");
+}
+
+TEST(Macro, DesignationOne) {  // M700 13.5.1
+  const Outcome run = arguments("A1. B2. C3. D4. E5. F6. H7. I8. J9. K10. M11. Q12. R13. S14. T15. U16. V17. W18. X19. Y20. Z21.");
+  const std::map<int, double> expected = {{1, 1},   {2, 2},   {3, 3},   {7, 4},   {8, 5},   {9, 6},   {11, 7},  {4, 8},   {5, 9},  {6, 10}, {13, 11},
+                                          {17, 12}, {18, 13}, {19, 14}, {20, 15}, {21, 16}, {22, 17}, {23, 18}, {24, 19}, {25, 20}, {26, 21}};
+  for (int i = 1; i <= 33; ++i) {
+    const auto at = expected.find(i);
+    if (at == expected.end()) {
+      EXPECT_TRUE(std::isnan(run.var(100 + i))) << i;
+    } else {
+      EXPECT_EQ(run.var(100 + i), at->second) << i;
+    }
+  }
+}
+
+TEST(Macro, ArgumentsAreNumbersAsTheyStand) {  // no unit: A10 is 10.000
+  const Outcome run = arguments("A10 F100 X-0.5 S1000 D2.5");
+  EXPECT_EQ(run.var(101), 10);
+  EXPECT_EQ(run.var(109), 100);
+  EXPECT_EQ(run.var(124), -0.5);
+  EXPECT_EQ(run.var(119), 1000);
+  EXPECT_EQ(run.var(107), 2.5);
+}
+
+TEST(Macro, DesignationTwo) {  // up to ten groups of I J K
+  const Outcome run = arguments("A1. I2. J3. K4. I5. J6. K7. I8. K9. J10.");
+  EXPECT_EQ(run.var(104), 2);
+  EXPECT_EQ(run.var(105), 3);
+  EXPECT_EQ(run.var(106), 4);
+  EXPECT_EQ(run.var(107), 5);
+  EXPECT_EQ(run.var(108), 6);
+  EXPECT_EQ(run.var(109), 7);
+  EXPECT_EQ(run.var(110), 8);
+  EXPECT_TRUE(std::isnan(run.var(111)));
+  EXPECT_EQ(run.var(112), 9);
+  EXPECT_EQ(run.var(114), 10);
+  EXPECT_EQ(arguments("I1. I2. I3. I4. I5. I6. I7. I8. I9. I10.").var(131), 10);
+  EXPECT_EQ(arguments("I1. I2. I3. I4. I5. I6. I7. I8. I9. I10. I11.").alarm, "P275");
+}
+
+TEST(Macro, MixedTheLaterOneWins) {  // M700 13.5.1, the printed example
+  const Outcome run = arguments("A1.1 B-2.2 D3.3 I4.4 I7.7");
+  EXPECT_EQ(run.var(101), 1.1);
+  EXPECT_EQ(run.var(102), -2.2);
+  EXPECT_EQ(run.var(104), 4.4);
+  EXPECT_EQ(run.var(107), 7.7);
+  EXPECT_TRUE(std::isnan(run.var(105)));
+  EXPECT_EQ(arguments("I4.4 I7.7 D3.3").var(107), 3.3);
+}
+
+TEST(Macro, NothingMovesAndNothingGoesOut) {
+  const Outcome run = arguments("X5. M8. S100. T3. F50.");
+  EXPECT_EQ(run.path(), Path{});
+  EXPECT_EQ(run.aux(), "M30");
+}
+
+TEST(Macro, CodesBeforeItAct) {  // M700 10.9 example: G91 G65
+  Bench bench;
+  bench.add("O300", "#100=#4003\nG#1 X#24 Y#25\nM99\n");
+  const Outcome run = bench.run("G90 G1 X100. F1000\nG91 G65 P300 A1. X100. Y100.\nM30");
+  EXPECT_EQ(run.var(100), 91);
+  EXPECT_EQ(run.path(), (Path{"line 100 0 0 F1000", "line 200 100 0 F1000"}));
+}
+
+TEST(Macro, LevelsHaveLocalsOfTheirOwn) {  // M700 13.5.5
+  Bench bench;
+  bench.add("O1", "#500=#1\n#1=22\nM98 P2\n#502=#1\nG65 P3 A7\n#504=#1\nM99\n");
+  bench.add("O2", "#501=#1\n#1=33\nM99\n");  // M98 does not change the level
+  bench.add("O3", "#503=#1\n#1=99\nM99\n");
+  const Outcome run = bench.run("#1=5\nG65 P1 A11\n#505=#1\nM30");
+  EXPECT_EQ(run.var(500), 11);
+  EXPECT_EQ(run.var(501), 22);
+  EXPECT_EQ(run.var(502), 33);
+  EXPECT_EQ(run.var(503), 7);
+  EXPECT_EQ(run.var(504), 33);
+  EXPECT_EQ(run.var(505), 5);
+}
+
+TEST(Macro, FourLevels) {  // M700 13.5.2, P273
+  Bench bench;
+  for (int i = 1; i <= 5; ++i) bench.add("O" + std::to_string(i), "#100=" + std::to_string(i) + "\nG65 P" + std::to_string(i + 1) + "\nM99\n");
+  bench.add("O4", "#100=4\nM99\n");
+  EXPECT_EQ(bench.run("G65 P1\nM30").alarm, "");
+  bench.add("O4", "#100=4\nG65 P5\nM99\n");
+  EXPECT_EQ(bench.run("G65 P1\nM30").alarm, "P273");
+  EXPECT_EQ(bench.var_now(100), 4);
+}
+
+TEST(Macro, Repetitions) {
+  Bench bench;
+  bench.add("O1", "G91 G0 X#24\nM99\n");
+  EXPECT_EQ(bench.run("G65 P1 L3 X2.\nM30").path(), (Path{"rapid 2 0 0", "rapid 4 0 0", "rapid 6 0 0"}));
+  EXPECT_EQ(bench.run("G65 P1 L0 X2.\nM30").path(), Path{});
+}
+
+TEST(Macro, FrontMillingOfTheManual) {  // M700 13.5.5 (20893-20955)
+  Bench bench;
+  bench.add("O1", "#30=FUP[#2/#5/2]\n#5=#2/#30/2\nM98 H100 L#30\nM99\nN100 G1 X#1 F#9\nY#5\nX-#1\nY#5\nM99\n");
+  const Outcome run = bench.run("G91 G65 P1 A100. B50. J10. F500\nM30");
+  ASSERT_EQ(run.moves().size(), 12u);
+  EXPECT_NEAR(run.moves()[11].machine.v[1], 50, 1e-9);
+  EXPECT_EQ(run.moves()[0].feed_mm_min, 500);
+}
+
+TEST(Macro, Alarms) {
+  EXPECT_EQ(m700("G65 A1.\nM30").alarm, "P296");
+  EXPECT_EQ(m700("G65 P5\nM30").alarm, "P232");
+  EXPECT_EQ(arguments("N5").alarm, "P32");
+  EXPECT_EQ(m700("G67\nM30").alarm, "P276");
+  EXPECT_EQ(m700("G66 P1\nM30").alarm.empty(), false);
+}
+
+TEST(Macro, SeveralStatementsAreDoneFromLeftToRight) {  // M700 13.4
+  EXPECT_EQ(m700("#1=200 #2=#1+200\n#100=#2\nM30").var(100), 400);
+}
+
+TEST(Macro, TheBlockThatAlarmsHasNoEffect) {
+  const Outcome run = m700("#100=1\n#100=2 #101=1/0\nM30");
+  EXPECT_EQ(run.alarm, "P283");
+  EXPECT_EQ(run.alarm_line, 2u);
+  EXPECT_EQ(run.var(100), 1);
+}
+
+TEST(Macro, VariablesByNumber) {  // M700 13.5.4, printed examples
+  EXPECT_EQ(m700("#1=10 #10=20 #20=30\n#100=#[#[#1]]\n#101=##1\nM30").var(100), 30);
+  EXPECT_EQ(m700("#10=5\n#[#10+1]=1000\n#[#10-1]=-1000\n#[#10*3]=100\n#[#10/2]=-100\n#100=#6 #101=#4 #102=#15 #103=#3\nM30").var(103), -100);
+  EXPECT_EQ(m700("#99999=1\nM30").alarm, "P241");
+  EXPECT_EQ(m700("#[-1]=1\nM30").alarm, "P241");
+  EXPECT_EQ(m700("#0=1\nM30").alarm, "P243");
+  EXPECT_EQ(m700("#100 5\nM30").alarm, "P242");
+  EXPECT_EQ(m700("G0 X#1=5\nM30").alarm, "P272");
+}
+
+TEST(Macro, OptionOfCommonVariables) {  // M700 13.4
+  auto alarm = [](uint32_t sets, const char* text) { return Bench(NC_DIALECT_M700, [sets](nc_config& c) { c.variable_sets = sets; }).run(text).alarm; };
+  EXPECT_EQ(alarm(100, "#149=1 #549=1\nM30"), "");
+  EXPECT_EQ(alarm(100, "#150=1\nM30"), "P241");
+  EXPECT_EQ(alarm(200, "#199=1 #599=1\nM30"), "");
+  EXPECT_EQ(alarm(200, "#600=1\nM30"), "P241");
+  EXPECT_EQ(alarm(300, "#700=1\nM30"), "P241");
+  EXPECT_EQ(alarm(600, "#999=1\nM30"), "");
+}
+
+}  // namespace
+}  // namespace nc::test

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: Apache-2.0
+// System variables (M700 13.5.5 and its section 10.x): every range, its direction, its unit, and when it is read.
+#include <gtest/gtest.h>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+std::string text(uint32_t number) { return "#" + std::to_string(number); }
+
+/// Alarm of reading and of writing a variable.
+std::string read_alarm(uint32_t number) { return m700("#100=" + text(number) + "\nM30").alarm; }
+std::string write_alarm(uint32_t number, const char* value = "1") { return m700(text(number) + "=" + value + "\nM30").alarm; }
+
+// ---- macro interface ---------------------------------------------------------------------------------------------------------
+
+struct Bank {
+  uint32_t word, first;
+};
+constexpr Bank kInputs[] = {{1032, 1000}, {1033, 1200}, {1034, 1232}, {1035, 1264}};
+constexpr Bank kOutputs[] = {{1132, 1100}, {1133, 1300}, {1134, 1332}, {1135, 1364}};
+
+TEST(MacroInterface, EveryInputBitAndWord) {
+  for (unsigned w = 0; w < 4; ++w) {
+    for (unsigned bit = 0; bit < 32; ++bit) {
+      Bench bench;
+      bench.input[w] = 1u << bit;
+      const uint32_t number = kInputs[w].first + bit;
+      const uint32_t other = kInputs[w].first + (bit + 1) % 32;
+      const Outcome run = bench.run("#100=" + text(number) + "\n#101=" + text(other) + "\n#102=" + text(kInputs[w].word) + "\n#103=" +
+                                    text(kInputs[(w + 1) % 4].word) + "\nM30");
+      EXPECT_EQ(run.var(100), 1) << number;
+      EXPECT_EQ(run.var(101), 0) << number;
+      EXPECT_EQ(run.var(102), static_cast<double>(1u << bit)) << number;  // unsigned
+      EXPECT_EQ(run.var(103), 0) << number;
+    }
+  }
+}
+
+TEST(MacroInterface, InputsAreReadWhenTheMachineIsThere) {
+  Bench bench;
+  bench.input[0] = 1;
+  bool was_asked = false;
+  bench.on_sync = [&](const nc_item& sync) {
+    EXPECT_NE(sync.u.sync.what & NC_SYNC_INPUT, 0u);
+    was_asked = true;
+  };
+  const Outcome run = bench.run("G0 X1.\n#100=#1000\nM30");
+  EXPECT_TRUE(was_asked);
+  ASSERT_GE(run.steps.size(), 3u);
+  EXPECT_EQ(run.steps[0].item.kind, NC_ITEM_MOVE);
+  EXPECT_EQ(run.steps[1].item.kind, NC_ITEM_MARK);
+  EXPECT_EQ(run.steps[2].item.kind, NC_ITEM_SYNC);
+}
+
+TEST(MacroInterface, InputsAreReadAgainInEveryBlock) {
+  Bench bench;
+  unsigned asked = 0;
+  bench.on_sync = [&](const nc_item&) { bench.input[0] = ++asked >= 5 ? 1 : 0; };
+  EXPECT_TRUE(bench.run("WHILE[#1000 EQ 0]DO1\nEND1\nM30").ended_ok);  // the usual waiting loop
+  EXPECT_EQ(asked, 5u);
+}
+
+TEST(MacroInterface, EveryOutputBitReadsBackAndIsOneOfTheWord) {
+  for (unsigned w = 0; w < 4; ++w) {
+    for (unsigned bit = 0; bit < 32; ++bit) {
+      Bench bench;
+      const uint32_t number = kOutputs[w].first + bit;
+      const Outcome run = bench.run(text(number) + "=1\n#100=" + text(number) + " #101=" + text(kOutputs[w].word) + "\nM30");
+      EXPECT_EQ(run.var(100), 1) << number;
+      EXPECT_EQ(run.var(101), static_cast<double>(1u << bit)) << number;
+      const std::vector<nc_item> actions = run.of(NC_ITEM_ACTION);
+      ASSERT_EQ(actions.size(), 2u);
+      EXPECT_EQ(actions[0].u.action.kind, NC_ACTION_OUTPUT);
+      EXPECT_EQ(actions[0].u.action.index, w);
+      EXPECT_EQ(actions[0].u.action.mask, 1u << bit);
+      EXPECT_EQ(actions[0].u.action.bits, 1u << bit);
+      EXPECT_EQ(nc_interface_output(bench.control(), 0, w), 1u << bit);
+    }
+  }
+}
+
+TEST(MacroInterface, WordsChangeAllBitsAtOnce) {
+  Bench bench;
+  const Outcome run = bench.run("#1132=4294967295\n#1100=0\n#1133=-1\n#1134=5.9\n#100=#1132 #101=#1133 #102=#1334 #103=#1332\nM30");
+  EXPECT_EQ(run.var(100), 4294967294.0);
+  EXPECT_EQ(run.var(101), 4294967295.0);
+  EXPECT_EQ(run.var(102), 1);
+  EXPECT_EQ(run.var(103), 1);
+  EXPECT_EQ(nc_interface_output(bench.control(), 0, 0), 0xfffffffeu);
+  EXPECT_EQ(nc_interface_output(bench.control(), 0, 2), 5u);
+}
+
+TEST(MacroInterface, WhatABitTakes) {  // vacant = 0, any other number than 0 = 1
+  const Outcome run = m700("#1100=1\n#1100=#1\n#1101=0.5\n#1102=-3\n#1103=0\n#100=#1132\nM30");
+  EXPECT_EQ(run.var(100), 0b0110);
+}
+
+TEST(MacroInterface, OutputsOutliveTheProgram) {
+  Bench bench;
+  bench.run("#1105=1\nM30");
+  EXPECT_EQ(bench.run("#100=#1105\nM30").var(100), 1);
+  nc_reset(bench.control(), 0);
+  EXPECT_EQ(nc_interface_output(bench.control(), 0, 0), 32u);
+}
+
+TEST(MacroInterface, AnOutputOfABlockThatAlarmsIsNotSet) {
+  Bench bench;
+  const Outcome run = bench.run("#1100=1 #101=1/0\nM30");
+  EXPECT_EQ(run.alarm, "P283");
+  EXPECT_TRUE(run.of(NC_ITEM_ACTION).empty());
+  EXPECT_EQ(nc_interface_output(bench.control(), 0, 0), 0u);
+}
+
+TEST(MacroInterface, WrongUses) {
+  EXPECT_EQ(write_alarm(1000), "P243");
+  EXPECT_EQ(write_alarm(1032), "P243");
+  EXPECT_EQ(write_alarm(1295), "P243");
+  for (uint32_t gap : {1036u, 1099u, 1136u, 1199u, 1296u, 1299u, 1396u}) EXPECT_EQ(read_alarm(gap), "P241") << gap;
+  EXPECT_EQ(write_alarm(1132, "4294967296"), "P35");
+  EXPECT_EQ(write_alarm(1132, "-2147483649"), "P35");
+}
+
+// ---- offsets -------------------------------------------------------------------------------------------------------------------
+
+TEST(SystemVariables, ToolOffsets) {  // M700 10.1
+  Bench one;
+  one.tool(3, 4.5);
+  const Outcome run = one.run("#100=#2003 #101=#10003\n#2200=7\n#10001=1000\nM30");
+  EXPECT_EQ(run.var(100), 4.5);
+  EXPECT_EQ(run.var(101), 4.5);
+  EXPECT_EQ(one.tool_now(200), 7);
+  EXPECT_EQ(one.tool_now(1), 1000);
+  for (uint32_t n : {2201u, 2401u, 2601u, 11001u, 16001u, 17001u}) EXPECT_EQ(read_alarm(n), "P241") << n;  // memory type I
+  EXPECT_EQ(read_alarm(10201), "P241");
+  Bench two;
+  two.param("1037", "2");
+  two.run("#2001=1 #2201=2 #2401=3 #2601=4\n#10002=5 #11002=6 #16002=7 #17002=8\nM30");
+  const double expected[2][4] = {{1, 2, 3, 4}, {5, 6, 7, 8}};
+  for (unsigned n = 1; n <= 2; ++n)
+    for (unsigned column = 0; column < 4; ++column) EXPECT_EQ(two.tool_now(n, static_cast<nc_tool_column>(column)), expected[n - 1][column]);
+  EXPECT_EQ(write_alarm(2001, "100000"), "P35");
+}
+
+TEST(SystemVariables, WorkOffsets) {  // M700 10.2, both printed examples
+  Bench bench;
+  EXPECT_EQ(bench.run("#5221=-20. #5222=-20.\nG90 G00 G54 X0 Y0\n#5221=-90. #5222=-10.\nX0 Y0\nM30").path(),
+            (Path{"rapid -20 -20 0", "rapid -90 -10 0"}));
+  bench.run("#5201=1 #5203=3 #5241=55 #5323=59\n#7001=101 #7022=102 #8901=196\nM30");
+  EXPECT_EQ(bench.work_offset_now(0, 0), 1);
+  EXPECT_EQ(bench.work_offset_now(0, 2), 3);
+  EXPECT_EQ(bench.work_offset_now(2, 0), 55);
+  EXPECT_EQ(bench.work_offset_now(6, 2), 59);
+  EXPECT_EQ(bench.work_offset_now(101, 0), 101);
+  EXPECT_EQ(bench.work_offset_now(102, 1), 102);
+  EXPECT_EQ(bench.work_offset_now(196, 0), 196);
+  EXPECT_EQ(bench.run("#100=#5221 #101=#8901\nM30").var(101), 196);
+  EXPECT_EQ(read_alarm(5204), "P241");  // there is no fourth axis
+  EXPECT_EQ(write_alarm(5221, "-100000"), "P35");
+}
+
+// ---- alarm, message, control ------------------------------------------------------------------------------------------------------
+
+TEST(SystemVariables, Alarm3000) {  // M700 10.3
+  const Outcome run = m700("G0 X1.\n#3000=70(CALL#PROGRAMMER#TEL#530)\nG0 X2.\nM30");
+  EXPECT_EQ(run.alarm, "P277");
+  EXPECT_EQ(run.alarm_line, 2u);
+  EXPECT_EQ(run.alarm_detail, "CALL#PROGRAMMER#TEL#530");
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0"}));
+  EXPECT_EQ(m700("#3000=10000(X)\nM30").alarm, "P35");
+  EXPECT_EQ(m700("#3000=0(X)\nM30").alarm, "P35");
+  EXPECT_EQ(m700("#3000=5\nM30").alarm, "P277");
+  EXPECT_EQ(read_alarm(3000), "P243");
+}
+
+TEST(SystemVariables, Message3006) {  // M700 10.7
+  const Outcome run = m700("G0 X1.\n#3006=1(TAKE FIVE)\nG0 X2.\nM30");
+  EXPECT_TRUE(run.ended_ok);
+  std::string shown;
+  for (const Step& step : run.steps) shown += step.text;
+  EXPECT_EQ(shown, "TAKE FIVE");
+  EXPECT_EQ(run.of(NC_ITEM_GATE).size(), 1u);
+  EXPECT_EQ(run.of(NC_ITEM_GATE)[0].u.gate.kind, NC_GATE_STOP);
+  EXPECT_EQ(run.of(NC_ITEM_MOVE)[1].source.line, 3u);
+}
+
+TEST(SystemVariables, StopSuppression3003) {  // M700 10.5
+  auto stops = [](const char* program) {
+    std::vector<unsigned> lines;
+    for (const nc_item& item : m700(program).of(NC_ITEM_MARK))
+      if (item.u.mark.stop) lines.push_back(item.source.line);
+    return lines;
+  };
+  EXPECT_EQ(stops("G0 X1.\n#3003=1\nX2.\nX3.\n#3003=0\nX4.\nM30"), (std::vector<unsigned>{1, 6, 7}));
+  EXPECT_EQ(stops("#3003=2\nX2. F1\nM30"), (std::vector<unsigned>{2, 3}));
+  // Bit 1: FIN is not awaited.
+  auto gates = [](const char* program) {
+    unsigned n = 0;
+    for (const nc_item& item : m700(program).of(NC_ITEM_GATE)) n += item.u.gate.kind == NC_GATE_FIN;
+    return n;
+  };
+  EXPECT_EQ(gates("M8\n#3003=2\nM9\n#3003=0\nM5\nM30"), 2u);
+  Bench bench;
+  bench.run("#3003=3 #3004=7\nM30");
+  EXPECT_EQ(bench.run("#100=#3003 #101=#3004\nM30").var(100), 0);  // cleared by reset
+  EXPECT_EQ(write_alarm(3003, "8"), "P35");
+  const std::vector<nc_item> actions = m700("#3004=5\nM30").of(NC_ITEM_ACTION);
+  ASSERT_GE(actions.size(), 1u);
+  EXPECT_EQ(actions[0].u.action.kind, NC_ACTION_CONTROL);
+  EXPECT_EQ(actions[0].u.action.index, 3004u);
+  EXPECT_EQ(actions[0].u.action.value, 5);
+}
+
+TEST(SystemVariables, MirrorState3007) { EXPECT_EQ(m700("#100=#3007\nM30").var(100), 0); }
+
+// ---- clocks -----------------------------------------------------------------------------------------------------------------------
+
+TEST(SystemVariables, RunTimes) {  // M700 10.4
+  EXPECT_TRUE(m700("#3001=0\nWHILE[#3001 LE 100]DO1\nEND1\nM30").ended_ok);  // the printed waiting loop
+  // Two clocks in one block are one look at the clock.
+  const Outcome both = m700("#100=#3001-#3001\n#101=[#3001 GT #3002]\nM30");
+  EXPECT_EQ(both.alarm, "");
+  EXPECT_EQ(both.var(100), 0);
+  EXPECT_EQ(write_alarm(3001, "-1"), "P35");
+  EXPECT_EQ(write_alarm(3002, "244335917227"), "P35");
+  EXPECT_TRUE(Bench().param("1273/bit1", "1").run("#3002=5\n#100=#3002\nM30").ended_ok);  // in hours
+}
+
+TEST(SystemVariables, DateAndTime) {  // M700 10.18
+  Bench bench;
+  bench.clock_ms = 1767225600000 + (13 * 3600 + 14 * 60 + 15) * 1000;  // 2026-01-01 13:14:15
+  const Outcome run = bench.run("#100=#3011 #101=#3012\n#3011=20010214\n#3012=235959\n#102=#3011 #103=#3012\nM30");
+  EXPECT_EQ(run.var(100), 20260101);
+  EXPECT_EQ(run.var(101), 131415);
+  EXPECT_EQ(run.var(102), 20010214);
+  EXPECT_EQ(run.var(103), 235959);
+  for (const char* date : {"20261301", "20260230", "19991231", "21000101", "-5", "20260100"}) EXPECT_EQ(write_alarm(3011, date), "P35") << date;
+  for (const char* time : {"240000", "126000", "120060", "-1"}) EXPECT_EQ(write_alarm(3012, time), "P35") << time;
+}
+
+TEST(SystemVariables, Counters) {  // M700 10.13
+  Bench bench;
+  EXPECT_EQ(bench.run("#3901=#3901+1\n#3902=999999\n#100=#3901 #101=#3902\nM30").var(100), 1);
+  EXPECT_EQ(bench.run("#3901=#3901+1\n#100=#3901\nM30").var(100), 2);
+  EXPECT_EQ(write_alarm(3901, "1000000"), "P35");
+  EXPECT_EQ(write_alarm(3901, "-1"), "P35");
+}
+
+// ---- modal state ---------------------------------------------------------------------------------------------------------------------
+
+TEST(SystemVariables, ModalCodesReadAhead) {  // M700 10.9
+  const Outcome run = m700(
+      "G2 G18 G91 G95\nM30");
+  EXPECT_NE(run.alarm, "");  // G95 is not built: the read ahead stops there
+  const Outcome codes = m700(
+      "G0 G19 G91 G20 G43 H1 G99 G57 G61\n"
+      "#101=#4001 #102=#4002 #103=#4003 #105=#4005 #106=#4006\n#107=#4007 #108=#4008 #109=#4009 #110=#4010 #112=#4012 #113=#4013\n"
+      "#114=#4014 #117=#4017 #119=#4019\nG54.1 P2\n#120=#4012\nM30");
+  EXPECT_EQ(codes.alarm, "");
+  const std::map<uint32_t, double> expected = {{101, 0},  {102, 19}, {103, 91}, {105, 94}, {106, 20}, {107, 40}, {108, 43},    {109, 80},
+                                               {110, 99}, {112, 57}, {113, 61}, {114, 67}, {117, 97}, {119, 50.1}, {120, 54.1}};
+  for (const auto& [number, value] : expected) EXPECT_DOUBLE_EQ(codes.var(number), value) << number;
+}
+
+TEST(SystemVariables, ModalCodesInExecution) {  // M700 10.9: #42xx belongs to the block in execution
+  const Outcome run = m700("G91 G0\nG90\n#100=#4203 #101=#4003\nM30");
+  EXPECT_EQ(run.var(100), 90);
+  EXPECT_EQ(run.var(101), 90);
+  bool waits = false;
+  for (const nc_item& item : run.of(NC_ITEM_SYNC)) waits = waits || (item.u.sync.what & NC_SYNC_MODAL) != 0;
+  EXPECT_TRUE(waits);
+}
+
+TEST(SystemVariables, OtherModals) {  // M700 10.10
+  const Outcome run = m700("O5\nN7 S800 T4 D3 F250 M8 G43 H2\n#107=#4107 #109=#4109 #111=#4111 #113=#4113 #114=#4114\n#115=#4115 #119=#4119 #120=#4120\nM30");
+  EXPECT_EQ(run.var(107), 3);
+  EXPECT_EQ(run.var(109), 250);
+  EXPECT_EQ(run.var(111), 2);
+  EXPECT_EQ(run.var(113), 8);
+  EXPECT_EQ(run.var(114), 7);
+  EXPECT_EQ(run.var(115), 5);
+  EXPECT_EQ(run.var(119), 800);
+  EXPECT_EQ(run.var(120), 4);
+  EXPECT_EQ(m700("F250\nG4 P1\n#100=#4309\nM30").var(100), 250);
+  EXPECT_EQ(write_alarm(4001), "P243");
+  EXPECT_EQ(read_alarm(4101), "P241");
+}
+
+// ---- positions -----------------------------------------------------------------------------------------------------------------------
+
+TEST(SystemVariables, Positions) {  // M700 10.11
+  Bench bench;
+  bench.work_offset(1, {10, 20, 30}).tool(1, 5);
+  const Outcome run = bench.run("G43 H1 G0 X1. Y2. Z3.\n#101=#5001 #103=#5003\n#104=#5021 #106=#5023\n#109=#5043\n#110=#5083 #111=#5081\n#112=#5103\nM30");
+  EXPECT_EQ(run.var(101), 1);
+  EXPECT_EQ(run.var(103), 3);   // end point: without compensation
+  EXPECT_EQ(run.var(104), 11);  // machine
+  EXPECT_EQ(run.var(106), 38);
+  EXPECT_EQ(run.var(109), 8);   // workpiece: with compensation
+  EXPECT_EQ(run.var(110), 5);
+  EXPECT_EQ(run.var(111), 0);
+  EXPECT_EQ(run.var(112), 0);
+  EXPECT_EQ(read_alarm(5004), "P241");
+  EXPECT_EQ(write_alarm(5001), "P243");
+}
+
+TEST(SystemVariables, PositionsInInches) {
+  const Outcome run = Bench(NC_DIALECT_M700, axes("XYZc")).run("G0 X25.4 C90.\nG20\n#100=#5001 #101=#5004\n#102=#5021\nM30");
+  EXPECT_DOUBLE_EQ(run.var(100), 1);
+  EXPECT_EQ(run.var(101), 90);
+  EXPECT_DOUBLE_EQ(run.var(102), 1);
+}
+
+TEST(SystemVariables, TheMachineIsWhereItReallyIs) {
+  Bench bench;
+  bench.skip_at = [](const nc_item&) { return 0.5; };
+  const Outcome run = bench.run("G31 X10. F1\n#100=#5021\nM30");
+  EXPECT_EQ(run.var(100), 5);
+}
+
+TEST(SystemVariables, EveryNumberIsReadableOrAnAlarm) {
+  // No number reads as garbage: what is not in the tables is P241, what cannot be read is P243.
+  for (uint32_t n = 1; n < 20000; n += 7) {
+    const Outcome run = m700("#500=" + text(n) + "\nM30");
+    EXPECT_TRUE(run.alarm.empty() || run.alarm == "P241" || run.alarm == "P243") << n << ' ' << run.alarm;
+  }
+  EXPECT_EQ(read_alarm(60000), "P241");
+  EXPECT_EQ(read_alarm(100000), "P241");
+  EXPECT_EQ(read_alarm(4294967295u), "P241");
+}
+
+}  // namespace
+}  // namespace nc::test

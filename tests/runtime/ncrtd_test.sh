@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# ncrtd as a process: exit states, what it prints, signals, plots.
+set -u
+ncrtd=${NC_BINARY_DIR:?}/bin/ncrtd
+source=${NC_SOURCE_DIR:?}
+[ -x "$ncrtd" ] || { echo "ncrtd is not built: skipped"; exit 77; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+# expect STATUS COMMAND...: runs it, keeps its output in $work/out and $work/err.
+expect() {
+  local wanted=$1; shift
+  "$@" >"$work/out" 2>"$work/err"
+  local got=$?
+  [ "$got" = "$wanted" ] || { fail "exit $got instead of $wanted: $*"; cat "$work/out" "$work/err"; }
+}
+said() { grep -qF -- "$2" "$work/$1" || { fail "no '$2' on $1"; cat "$work/$1"; }; }
+
+machine=$source/etc/machine.toml
+expect 0 "$ncrtd" --config "$machine" check
+said out "no errors"
+expect 0 "$ncrtd" --config "$source/etc/modelling-machine.toml" check
+
+# A whole part on virtual time, with its plots.
+expect 0 "$ncrtd" --config "$machine" run --fast --plot "$work/plot" "$source/examples/parts/flange.nc"
+said out "cycle time"
+said out "execution time"
+head -c 8 "$work/plot.png" 2>/dev/null | grep -q PNG || fail "no PNG"
+grep -q "<svg" "$work/plot.svg" 2>/dev/null || fail "no SVG"
+
+# Virtual time is deterministic: two runs print the same cycle time and path length.
+for n in 1 2; do
+  "$ncrtd" --config "$machine" run --fast --no-progress "$source/examples/parts/flange.nc" | head -3 >"$work/run$n"
+done
+cmp -s "$work/run1" "$work/run2" || fail "two runs differ"
+[ "$(sed -n 's/^cycle time *\([0-9]*\).*/\1/p' "$work/run1")" -lt 60 ] || fail "the shipped part takes a minute or more"
+
+expect 0 "$ncrtd" --config "$source/etc/modelling-machine.toml" run --fast --no-progress "$source/examples/parts/keytag.nc"
+expect 0 "$ncrtd" --config "$machine" mdi --fast --no-progress "G90 G0 X-10."
+expect 2 "$ncrtd" --config "$machine" mdi --fast "G1 X10."
+said err "P62"
+
+# The dialect on the command line.
+printf '%%\nG00X-1.\nM02\n' >"$work/jis.nc"
+expect 0 "$ncrtd" --config "$machine" run --fast --dialect dgshape --no-progress "$work/jis.nc"
+
+# Sub programs in the configured folder; stops are continued; an alarm names its line.
+sed "s#^programs = .*#programs = \"$work\"#" "$machine" >"$work/machine.toml"
+printf 'G91 G0 X1.\nM99\n' >"$work/O77.nc"
+printf 'G90 G0 X0.\nM98 P77 L3\nM00\nM30\n' >"$work/main.nc"
+expect 0 "$ncrtd" --config "$work/machine.toml" run --fast "$work/main.nc"
+said out "stop in line 3"
+printf 'G90 G0 X0.\n\nM98 P78\nM30\n' >"$work/main.nc"
+expect 2 "$ncrtd" --config "$work/machine.toml" run --fast "$work/main.nc"
+said err "P232"
+said err "line 3"
+
+# Usage and configuration.
+expect 1 "$ncrtd"
+expect 1 "$ncrtd" --config "$machine"
+expect 1 "$ncrtd" --config "$machine" run
+expect 1 "$ncrtd" --config "$machine" run --dialect hx x.nc
+expect 1 "$ncrtd" --config "$machine" run --fast "$work/none.nc"
+said err "none.nc"
+expect 1 "$ncrtd" --config "$work/none.toml" check
+said err "none.toml: cannot be read"
+printf '[machine]\nnmae = 3\n[[axis]]\nname = "X"\nmax_velocity = -1\n[parameters]\nnosuch = 1\n' >"$work/bad.toml"
+expect 1 "$ncrtd" --config "$work/bad.toml" check
+said err "bad.toml:2: machine.nmae: unknown key"
+said err "bad.toml:5: axis[1].max_velocity: must be"
+said err "axis[1].max_acceleration: is missing"
+printf '[machine]\n[[axis]]\nname = "X"\nmax_velocity = 1\nmax_acceleration = 1\n[parameters]\nnosuch = 1\n' >"$work/bad.toml"
+expect 1 "$ncrtd" --config "$work/bad.toml" check
+said err "bad.toml:7: parameters.nosuch: the control"
+
+# In real time: two threads, real clock; and a signal is a feed hold, then a clean end.
+printf 'G90 G0 X-290.\nG4 P100\nM30\n' >"$work/short.nc"
+expect 0 "$ncrtd" --config "$machine" run "$work/short.nc"
+said out "wake-up jitter"
+printf 'G91\nN1 G1 X0.5 F60.\nX-0.5\nGOTO 1\n' >"$work/long.nc"
+"$ncrtd" --config "$machine" run --no-progress "$work/long.nc" >"$work/out" 2>"$work/err" &
+child=$!
+sleep 1
+kill -TERM "$child"
+wait "$child"
+status=$?
+[ "$status" = 143 ] || { fail "SIGTERM: exit $status instead of 143"; cat "$work/out" "$work/err"; }
+said out "feed hold"
+
+[ "$failures" = 0 ] && echo "all good"
+exit $((failures > 0))

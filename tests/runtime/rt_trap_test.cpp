@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// NC_RT is a promise: no allocation, no lock, no system call in the body of a scan. This test program replaces malloc and
+// friends and pthread_mutex_lock, and lets the kernel refuse system calls (syscall user dispatch), all under the flag that
+// the scan sets while it is in its body; then it runs whole programs.
+#include <gtest/gtest.h>
+
+#include "runtime/rt_scope.hpp"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+
+TEST(RtTrap, NeedsTheOrdinaryAllocator) { GTEST_SKIP() << "a sanitizer has replaced the allocator"; }
+
+#else
+
+#include <dlfcn.h>
+#include <malloc.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <mutex>
+#include <sstream>
+
+#include "hal/sim/sim_machine.hpp"
+#include "program_generator.hpp"
+#include "runtime/runtime.hpp"
+#include "test_config.hpp"
+
+#ifndef PR_SET_SYSCALL_USER_DISPATCH
+#define PR_SET_SYSCALL_USER_DISPATCH 59
+#define PR_SYS_DISPATCH_OFF 0
+#define PR_SYS_DISPATCH_ON 1
+#endif
+
+namespace {
+
+std::atomic<unsigned> g_allocations{0}, g_locks{0}, g_system_calls{0};
+std::atomic<long> g_last_call{-1};
+
+void count_allocation() {
+  if (nc::rt::t_in_scan != 0) g_allocations.fetch_add(1, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+extern "C" {
+void* __libc_malloc(size_t);
+void __libc_free(void*);
+void* __libc_calloc(size_t, size_t);
+void* __libc_realloc(void*, size_t);
+void* __libc_memalign(size_t, size_t);
+
+void* malloc(size_t size) {
+  count_allocation();
+  return __libc_malloc(size);
+}
+void free(void* memory) {
+  count_allocation();
+  __libc_free(memory);
+}
+void* calloc(size_t count, size_t size) {
+  count_allocation();
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, size_t size) {
+  count_allocation();
+  return __libc_realloc(memory, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+  count_allocation();
+  return __libc_memalign(alignment, size);
+}
+
+int pthread_mutex_lock(pthread_mutex_t* mutex) {
+  using Lock = int (*)(pthread_mutex_t*);
+  static const Lock real = reinterpret_cast<Lock>(dlsym(RTLD_NEXT, "pthread_mutex_lock"));
+  if (nc::rt::t_in_scan != 0) g_locks.fetch_add(1, std::memory_order_relaxed);
+  return real(mutex);
+}
+}
+
+namespace {
+
+// The kernel sends SIGSYS instead of doing the call. It is counted and refused; the flag goes down, because the return
+// from this handler is a system call as well.
+void on_refused_call(int, siginfo_t* info, void* context) {
+  nc::rt::t_in_scan = 0;
+  g_last_call = info->si_syscall;
+  g_system_calls.fetch_add(1, std::memory_order_relaxed);
+#if defined(__x86_64__)
+  static_cast<ucontext_t*>(context)->uc_mcontext.gregs[REG_RAX] = -ENOSYS;
+#else
+  (void)context;
+#endif
+}
+
+// For the calling thread. False where the kernel has no such thing.
+bool refuse_system_calls() {
+  struct sigaction action {};
+  action.sa_sigaction = on_refused_call;
+  action.sa_flags = SA_SIGINFO;
+  sigaction(SIGSYS, &action, nullptr);
+  return prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_ON, 0, 0, &nc::rt::t_in_scan) == 0;
+}
+void allow_system_calls() { prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_OFF, 0, 0, 0); }
+
+void clear_counts() { g_allocations = g_locks = g_system_calls = 0; }
+
+TEST(RtTrap, TheTrapsWork) {
+  clear_counts();
+  std::mutex mutex;
+  {
+    const nc::rt::RtScope scope;
+    void* volatile memory = std::malloc(10);
+    std::free(memory);
+    delete new int(3);
+    const std::lock_guard lock(mutex);
+  }
+  EXPECT_GE(g_allocations.load(), 2u);  // the compiler may leave out new and delete, not the volatile pair
+  EXPECT_EQ(g_locks.load(), 1u);
+  if (!refuse_system_calls()) GTEST_SKIP() << "no syscall user dispatch in this kernel";
+  {
+    const nc::rt::RtScope scope;
+    syscall(SYS_getppid);
+  }
+  allow_system_calls();
+  EXPECT_EQ(g_system_calls.load(), 1u);
+  EXPECT_EQ(g_last_call.load(), SYS_getppid);
+}
+
+std::string flange() {
+  std::ifstream stream(std::string(NC_SOURCE_DIR) + "/examples/parts/flange.nc", std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+void run_to_end(const nc::rt::Config& config, const std::string& text) {
+  nc::hal::SimMachine machine(config.sim, config.points);
+  nc::rt::VirtualClock clock;
+  std::vector<nc::rt::ConfigError> errors;
+  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  ASSERT_NE(runtime, nullptr);
+  unsigned file = 0;
+  ASSERT_EQ(nc_program_add_text(runtime->control(), "main.nc", text.data(), text.size(), &file), NC_OK);
+  std::string error;
+  ASSERT_TRUE(runtime->start_stepping(&error));
+  ASSERT_EQ(runtime->select_program(file), nc::rt::Answer::kDone);
+  ASSERT_EQ(runtime->execute(nc::rt::CommandKind::kCycleStart), nc::rt::Answer::kDone);
+  for (unsigned i = 0; i < 400000 && runtime->info().runs == 0; ++i) {
+    if (i % 1000 == 300) runtime->execute(nc::rt::CommandKind::kFeedHold);
+    if (i % 1000 == 500) runtime->execute(nc::rt::CommandKind::kFeedOverride, (i / 1000 % 20) * 0.1);
+    const auto state = runtime->snapshot().system[0].nc.state;
+    if (i % 100 == 0 && (state == NC_STATE_HOLD || state == NC_STATE_STOPPED))
+      runtime->execute(nc::rt::CommandKind::kCycleStart);
+    runtime->step();
+  }
+  EXPECT_EQ(runtime->info().runs, 1u);
+  EXPECT_TRUE(runtime->info().ended_ok);
+}
+
+void expect_nothing_trapped() {
+  EXPECT_EQ(g_allocations.load(), 0u);
+  EXPECT_EQ(g_locks.load(), 0u);
+  EXPECT_EQ(g_system_calls.load(), 0u) << "system call " << g_last_call.load();
+}
+
+TEST(RtTrap, AWholePartRunsWithoutAllocationLockOrSystemCall) {
+  nc::rt::Config config;
+  ASSERT_TRUE(nc::rt::load_config(std::string(NC_SOURCE_DIR) + "/etc/machine.toml", &config).empty());
+  clear_counts();
+  const bool refusing = refuse_system_calls();
+  run_to_end(config, flange());
+  if (refusing) allow_system_calls();
+  expect_nothing_trapped();
+}
+
+TEST(RtTrap, SoDoRandomProgramsWithMacrosInputsAndSkips) {
+  clear_counts();
+  const bool refusing = refuse_system_calls();
+  for (std::uint32_t seed = 500; seed < 510; ++seed) {
+    nc::test::ProgramGenerator generator(seed);
+    const nc::test::GeneratedProgram program = generator.make(12);
+    std::string text = nc::test::base_toml() + "script = [";
+    for (const std::string& statement : program.script) text += "\"" + statement + "\",";
+    const nc::rt::Config config = nc::test::parse_or_fail(text + "]\n" + nc::test::probe_solid_toml() +
+                                                          "[tool_offsets]\n1 = 2.5\n2 = 12.0\n");
+    run_to_end(config, program.text);
+  }
+  if (refusing) allow_system_calls();
+  expect_nothing_trapped();
+}
+
+// An alarm, a fault of the machine and a reset are scans like any other.
+TEST(RtTrap, SoDoAlarmsAndReset) {
+  nc::rt::Config config = nc::test::parse_or_fail(nc::test::base_toml());
+  nc::hal::SimMachine machine(config.sim, config.points);
+  nc::rt::VirtualClock clock;
+  std::vector<nc::rt::ConfigError> errors;
+  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  ASSERT_NE(runtime, nullptr);
+  const std::string text = "G91\nG1 X50. F1000.\nG1 X50.\nG2 X1. I20.\nM30\n";
+  unsigned file = 0;
+  ASSERT_EQ(nc_program_add_text(runtime->control(), "a.nc", text.data(), text.size(), &file), NC_OK);
+  std::string error;
+  ASSERT_TRUE(runtime->start_stepping(&error));
+  clear_counts();
+  const bool refusing = refuse_system_calls();
+  for (int round = 0; round < 3; ++round) {
+    runtime->select_program(file);
+    runtime->execute(nc::rt::CommandKind::kCycleStart);
+    for (int i = 0; i < 3000; ++i) runtime->step();
+    if (round == 1) machine.fail_drive(0, 0, true);
+    if (round == 2) machine.fail_bus(true);
+    for (int i = 0; i < 5000; ++i) runtime->step();
+    machine.fail_drive(0, 0, false);
+    machine.fail_bus(false);
+    runtime->execute(nc::rt::CommandKind::kReset);
+    for (int i = 0; i < 500; ++i) runtime->step();
+  }
+  if (refusing) allow_system_calls();
+  expect_nothing_trapped();
+}
+
+}  // namespace
+#endif
