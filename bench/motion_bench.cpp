@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What motion costs: curves per evaluation, planning per segment (limits, joints, backward pass, publication), interpolation per
-// cycle.
+// What motion costs: curves per evaluation, planning per segment (limits, joints, backward pass,
+// publication), interpolation per cycle.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -96,9 +96,15 @@ void BM_CurveLine(benchmark::State& state) {
   b[1] = 20;
   curve(state, make_line({}, b, 3, 0));
 }
-void BM_CurveArc(benchmark::State& state) { curve(state, arc_curve(0, false)); }
-void BM_CurveHelix(benchmark::State& state) { curve(state, arc_curve(0, true)); }
-void BM_CurveSpiral(benchmark::State& state) { curve(state, arc_curve(0.05, true)); }
+void BM_CurveArc(benchmark::State& state) {
+  curve(state, arc_curve(0, false));
+}
+void BM_CurveHelix(benchmark::State& state) {
+  curve(state, arc_curve(0, true));
+}
+void BM_CurveSpiral(benchmark::State& state) {
+  curve(state, arc_curve(0.05, true));
+}
 void BM_CurveDerivatives(benchmark::State& state) {
   const Curve c = arc_curve(0, true);
   double s = 0;
@@ -114,8 +120,9 @@ BENCHMARK(BM_CurveHelix);
 BENCHMARK(BM_CurveSpiral);
 BENCHMARK(BM_CurveDerivatives);
 
-/// push() and plan() of a full ring at a time, replanned every `batch` segments. The scan throws the ring away in between, off the
-/// clock. Argument 0: batch, 1: segment length in um (short ones make the backward pass deep).
+/// push() and plan() of a full ring at a time, replanned every `batch` segments. The scan throws the ring
+/// away in between, off the clock. Argument 0: batch, 1: segment length in um (short ones make the backward
+/// pass deep).
 void BM_Plan(benchmark::State& state) {
   const unsigned batch = static_cast<unsigned>(state.range(0));
   const std::vector<Record> records = surface(static_cast<double>(state.range(1)) * 1e-3, 100);
@@ -209,8 +216,12 @@ void BM_Cycle(benchmark::State& state, bool arcs) {
   }
   state.counters["path_mm/s"] = m.out.path_length / (static_cast<double>(cycles) * 1e-3);
 }
-void BM_CycleLines(benchmark::State& state) { BM_Cycle(state, false); }
-void BM_CycleHelices(benchmark::State& state) { BM_Cycle(state, true); }
+void BM_CycleLines(benchmark::State& state) {
+  BM_Cycle(state, false);
+}
+void BM_CycleHelices(benchmark::State& state) {
+  BM_Cycle(state, true);
+}
 BENCHMARK(BM_CycleLines)->Arg(5000)->Arg(200)->Arg(10)->Arg(1);
 BENCHMARK(BM_CycleHelices)->Arg(60000);
 

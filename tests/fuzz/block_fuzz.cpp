@@ -103,8 +103,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       const nc::Block* b = f.narrow.read(1, at, line);
       if (a == nullptr || b == nullptr) broken("no block");
       if (a->next != b->next || a->next_line != b->next_line || a->end_of_text != b->end_of_text ||
-          a->percent != b->percent || a->skip != b->skip || a->n != b->n) {
+          a->percent != b->percent || a->skip != b->skip) {
         broken("the window shows");
+      }
+      // A block that is too long for the window has a fault there.
+      if (!b->has_fault && (a->has_fault || a->n != b->n || a->o != b->o ||
+                            a->words.size() != b->words.size() || a->code.size() != b->code.size())) {
+        broken("the window changes a block");
       }
       if (a->end_of_text) break;
       if (a->next <= at || a->next > text.size) broken("no progress");

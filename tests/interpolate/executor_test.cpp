@@ -2,6 +2,7 @@
 // The executor's states, gates, handshake, syncs, skips, truncation and alarms, one promise per test.
 #include <gtest/gtest.h>
 
+#include "interpolate/random_program.hpp"
 #include "interpolate/test_machine.hpp"
 
 namespace nc::test {
@@ -37,7 +38,8 @@ TEST(Executor, RunsToTheEndAndReportsEverything) {
   EXPECT_EQ(m.out.blocks, 10u);
   EXPECT_NEAR(m.out.path_length, 50, 1e-9);
   EXPECT_TRUE(m.executor.drained());
-  // Trapezoid of one 50 mm line at 50 mm/s and 2000 mm/s^2: 1 s and 25 ms, to the cycle (the joints are collinear).
+  // Trapezoid of one 50 mm line at 50 mm/s and 2000 mm/s^2: 1 s and 25 ms, to the cycle (the joints are
+  // collinear).
   EXPECT_NEAR(m.out.run_s, 1.025, 0.002);
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
@@ -409,7 +411,8 @@ TEST(Executor, SkipSignalOnAtTheStartMeansNoMove) {
   m.in.skip = 2;
   m.start();
   nc_world w{};
-  ASSERT_TRUE(m.until(p, [&] { return m.executor.sync_reached(3, &w); }, 10));
+  ASSERT_TRUE(m.until(
+      p, [&] { return m.executor.sync_reached(3, &w); }, 10));
   EXPECT_TRUE(w.skipped);
   EXPECT_EQ(w.skip_machine.v[2], 0);
   EXPECT_EQ(w.machine.v[2], 0);
@@ -609,7 +612,9 @@ TEST(Executor, ControlVariablesSuppressSingleBlockHoldAndOverride) {
   m.start();
   m.in.single_block = m.in.feed_hold = true;
   m.in.feed_override = 0.1;
-  ASSERT_TRUE(m.until(p, [&] { return m.out.velocity.v[0] > 49; }, 100)) << "neither hold nor override acts";
+  ASSERT_TRUE(m.until(
+      p, [&] { return m.out.velocity.v[0] > 49; }, 100))
+      << "neither hold nor override acts";
   ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_HOLD; }));
   EXPECT_GE(m.out.command.v[0], 10);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The trapezoid is followed exactly: its course does not depend on how time is cut into cycles.
+#include "interpolate/law.hpp"
+
 #include <gtest/gtest.h>
 
 #include <random>
-
-#include "interpolate/law.hpp"
 
 namespace nc {
 namespace {
@@ -12,7 +12,9 @@ namespace {
 /// Near rest a place is known to 1e-14 mm or so, and a speed therefore to sqrt(2 a 1e-14 mm).
 constexpr double kRounding = 2e-5;  ///< mm/s
 
-double uniform(std::mt19937_64& rng, double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); }
+double uniform(std::mt19937_64& rng, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
 
 TEST(Law, RestToRestTakesTheTimeOfATrapezoid) {
   LawState s;
@@ -38,7 +40,9 @@ TEST(Law, DoesNotDependOnHowTimeIsCut) {
     const double a = uniform(rng, 10, 5000), length = uniform(rng, 1e-3, 50), cap = uniform(rng, 1, 300);
     const double exit = rng() % 2 ? uniform(rng, 0, 300) : 0;
     LawState whole;
-    whole.v = std::sqrt(uniform(rng, 0, 1) * (exit * exit + 2 * a * length));  // fast enough for the exit or slower, over the cap or not
+    whole.v =
+        std::sqrt(uniform(rng, 0, 1) *
+                  (exit * exit + 2 * a * length));  // fast enough for the exit or slower, over the cap or not
     const LawGoal goal{length, exit * exit, cap, a};
     const double time = uniform(rng, 0, 0.3);
     LawState parts = whole;
@@ -64,7 +68,8 @@ TEST(Law, DoesNotDependOnHowTimeIsCut) {
 TEST(Law, KeepsCapExitAndAcceleration) {
   std::mt19937_64 rng(2);
   for (int n = 0; n < 2000; ++n) {
-    const double a = uniform(rng, 10, 5000), length = uniform(rng, 1e-3, 20), exit = rng() % 2 ? uniform(rng, 0, 200) : 0;
+    const double a = uniform(rng, 10, 5000), length = uniform(rng, 1e-3, 20),
+                 exit = rng() % 2 ? uniform(rng, 0, 200) : 0;
     LawState s;
     double cap = uniform(rng, 1, 300);
     const double dt = 1e-3;

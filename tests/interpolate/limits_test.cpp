@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The promise of the executor, over random programs: no axis ever exceeds its velocity or acceleration, everything that is pushed
-// is executed in order and ends where it says, and the machine is at rest at the end, whatever the operator and the feeder do.
+// The promise of the executor, over random programs: no axis ever exceeds its velocity or acceleration,
+// everything that is pushed is executed in order and ends where it says, and the machine is at rest at the
+// end, whatever the operator and the feeder do.
 #include <gtest/gtest.h>
 
+#include "interpolate/random_program.hpp"
 #include "interpolate/test_machine.hpp"
 
 namespace nc::test {
 namespace {
 
-double uniform(std::mt19937_64& rng, double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); }
-bool chance(std::mt19937_64& rng, double p) { return uniform(rng, 0, 1) < p; }
+double uniform(std::mt19937_64& rng, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
+bool chance(std::mt19937_64& rng, double p) {
+  return uniform(rng, 0, 1) < p;
+}
 
 struct Disturbance {
   bool overrides = false, holds = false, single_block = false, dribble = false;
@@ -68,9 +74,9 @@ std::string run_seed(uint64_t seed, const Disturbance& d, LimitChecker* worst = 
 }
 
 void run_many(uint64_t first, const Disturbance& d) {
-  // A longer soak on request: NC_SEEDS=10000
-  const char* wish = std::getenv("NC_SEEDS");
-  const uint64_t seeds = wish ? std::strtoull(wish, nullptr, 10) : 60;
+  // A longer soak on request: NC_SEEDS=10000. Under a sanitizer a few are enough to see what it looks for.
+  const char *wish = std::getenv("NC_SEEDS"), *sanitizer = std::getenv("NC_SANITIZE");
+  const uint64_t seeds = wish ? std::strtoull(wish, nullptr, 10) : sanitizer && *sanitizer ? 6 : 40;
   double velocity = 0, acceleration = 0;
   for (uint64_t s = first; s < first + seeds; ++s) {
     LimitChecker worst{standard_config()};
@@ -79,15 +85,25 @@ void run_many(uint64_t first, const Disturbance& d) {
     velocity = std::max(velocity, worst.worst_velocity);
     acceleration = std::max(acceleration, worst.worst_acceleration);
   }
-  std::printf("worst over %llu seeds: velocity %.6f, acceleration %.6f of the limit\n", static_cast<unsigned long long>(seeds), velocity,
-              acceleration);
+  std::printf("worst over %llu seeds: velocity %.6f, acceleration %.6f of the limit\n",
+              static_cast<unsigned long long>(seeds), velocity, acceleration);
 }
 
-TEST(Limits, UndisturbedProgramsKeepThem) { run_many(1, {}); }
-TEST(Limits, RandomOverridesKeepThem) { run_many(100000, {.overrides = true}); }
-TEST(Limits, HoldsAndInterlocksKeepThem) { run_many(200000, {.holds = true}); }
-TEST(Limits, SingleBlockKeepsThem) { run_many(300000, {.single_block = true}); }
-TEST(Limits, LateFeedingKeepsThem) { run_many(400000, {.dribble = true}); }
+TEST(Limits, UndisturbedProgramsKeepThem) {
+  run_many(1, {});
+}
+TEST(Limits, RandomOverridesKeepThem) {
+  run_many(100000, {.overrides = true});
+}
+TEST(Limits, HoldsAndInterlocksKeepThem) {
+  run_many(200000, {.holds = true});
+}
+TEST(Limits, SingleBlockKeepsThem) {
+  run_many(300000, {.single_block = true});
+}
+TEST(Limits, LateFeedingKeepsThem) {
+  run_many(400000, {.dribble = true});
+}
 TEST(Limits, EverythingAtOnceKeepsThem) {
   run_many(500000, {.overrides = true, .holds = true, .single_block = true, .dribble = true});
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An executor with a program before it, driven cycle by cycle, and the checker that measures every axis of every cycle by finite
-// differences of the commanded positions: it knows nothing of the planner's own numbers.
+// An executor with a program before it, driven cycle by cycle, and the checker that measures every axis of
+// every cycle by finite differences of the commanded positions: it knows nothing of the planner's own
+// numbers.
 #pragma once
 
 #include <cmath>
@@ -18,7 +19,9 @@
 
 namespace nc::test {
 
-inline double to_rad(double deg) { return deg * std::numbers::pi / 180; }
+inline double to_rad(double deg) {
+  return deg * std::numbers::pi / 180;
+}
 
 inline ExecutorConfig standard_config(unsigned axes = 3) {
   ExecutorConfig c;
@@ -62,10 +65,10 @@ class Program {
     s.rapid = s.exact_stop = true;
     return s;
   }
-  /// Arc in the plane of axes h and v: starts tangent-angle by centre, sweeps, ends on a radius that differs by `spiral`; the other
-  /// axes go to `others`.
-  Segment& arc(uint8_t h, uint8_t v, double radius, double angle, double sweep, double feed_mm_s, double spiral = 0,
-               const AxisVec* others = nullptr) {
+  /// Arc in the plane of axes h and v: starts tangent-angle by centre, sweeps, ends on a radius that differs
+  /// by `spiral`; the other axes go to `others`.
+  Segment& arc(uint8_t h, uint8_t v, double radius, double angle, double sweep, double feed_mm_s,
+               double spiral = 0, const AxisVec* others = nullptr) {
     Circle k;
     k.angle_start = angle;
     k.sweep = sweep;
@@ -89,7 +92,8 @@ class Program {
     Record& r = add(ItemKind::gate);
     r.gate = {kind, false, value};
   }
-  void action(nc_action_kind kind, double value = 0, uint32_t index = 0, uint32_t mask = 0, uint32_t bits = 0) {
+  void action(nc_action_kind kind, double value = 0, uint32_t index = 0, uint32_t mask = 0,
+              uint32_t bits = 0) {
     Record& r = add(ItemKind::action);
     r.action = Action{};
     r.action.kind = kind;
@@ -156,8 +160,8 @@ class LimitChecker {
   bool ok() const { return worst_velocity <= 1.001 && worst_acceleration <= 1.001; }
   std::string report() const {
     std::ostringstream s;
-    s << "velocity " << worst_velocity << " x limit, acceleration " << worst_acceleration << " x limit in cycle " << worst_cycle
-      << " on axis " << worst_axis;
+    s << "velocity " << worst_velocity << " x limit, acceleration " << worst_acceleration
+      << " x limit in cycle " << worst_cycle << " on axis " << worst_axis;
     return s.str();
   }
   double worst_velocity = 0, worst_acceleration = 0;
@@ -239,7 +243,9 @@ class Machine {
   bool run_to_end(const Program& p, uint64_t limit = 2000000) {
     feed(p);
     start();
-    return until(p, [&] { return out.state == NC_STATE_IDLE && next == p.records.size() && executor.drained(); }, limit);
+    return until(
+        p, [&] { return out.state == NC_STATE_IDLE && next == p.records.size() && executor.drained(); },
+        limit);
   }
 
   ExecutorConfig config;
@@ -256,11 +262,5 @@ class Machine {
  private:
   std::unique_ptr<void, FreeAligned> memory_;
 };
-
-/// A program of everything: lines of all sizes, smooth and sharp corners, arcs, helices, spirals, rapids, stops and actions.
-Program random_program(const ExecutorConfig& config, std::mt19937_64& rng, unsigned blocks, AxisVec start = {});
-
-/// Every record's serial was executed once, in order, and every move ended where it says.
-std::string check_events(const Program& p, const std::vector<nc_event>& events, unsigned axis_count);
 
 }  // namespace nc::test

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeder and scan on two threads, as fast as both can, with everything that crosses between them in use: records, plans, events,
-// syncs, truncation, resets. Under the thread sanitizer this proves that nothing else crosses.
+// Feeder and scan on two threads, as fast as both can, with everything that crosses between them in use:
+// records, plans, events, syncs, truncation, resets. Under the thread sanitizer this proves that nothing else
+// crosses.
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <thread>
 
+#include "interpolate/random_program.hpp"
 #include "interpolate/test_machine.hpp"
 
 namespace nc::test {
 namespace {
 
-/// The scan thread's side: an operator who plays with the switches. Everything shared with the test is atomic.
+/// The scan thread's side: an operator who plays with the switches. Everything shared with the test is
+/// atomic.
 struct Operator {
   std::atomic<bool> stop{false}, calm{false};
   std::atomic<uint32_t> resets{0};
@@ -63,7 +66,8 @@ TEST(Threads, EverythingPushedIsExecutedInOrder) {
     m.feed(p, 1 + static_cast<unsigned>(rng() % 8));
     poll();
     (void)m.executor.commanded();
-    if (m.next > 0 && p.records[m.next - 1].kind == ItemKind::sync) (void)m.executor.sync_reached(p.records[m.next - 1].serial, &world);
+    if (m.next > 0 && p.records[m.next - 1].kind == ItemKind::sync)
+      (void)m.executor.sync_reached(p.records[m.next - 1].serial, &world);
     if (n % 16 == 0) std::this_thread::yield();
   }
   EXPECT_TRUE(m.executor.drained());
@@ -135,7 +139,8 @@ TEST(Threads, ResetsAndTruncationLeaveTheMachineUsable) {
   EXPECT_LE(op.worst.load(), 1.001);
   EXPECT_GE(op.resets.load(), 60u);
   EXPECT_GE(cuts, 12u);
-  std::printf("%u resets, %u truncations, %llu records\n", op.resets.load(), cuts, static_cast<unsigned long long>(serial));
+  std::printf("%u resets, %u truncations, %llu records\n", op.resets.load(), cuts,
+              static_cast<unsigned long long>(serial));
 }
 
 }  // namespace

@@ -19,7 +19,9 @@ ExecutorConfig manual_config() {
   return c;
 }
 
-nc_manual jog(double velocity) { return {NC_MANUAL_JOG, velocity, 0}; }
+nc_manual jog(double velocity) {
+  return {NC_MANUAL_JOG, velocity, 0};
+}
 
 void run(Machine& m, int cycles) {
   for (int i = 0; i < cycles; ++i) m.cycle();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of segments and joints against the geometry itself, and the plan: feasible, at rest at its end, never lower because more
-// has been committed. And the checker that the other tests trust: a broken plan must make it fail.
+// Limits of segments and joints against the geometry itself, and the plan: feasible, at rest at its end,
+// never lower because more has been committed. And the checker that the other tests trust: a broken plan must
+// make it fail.
 #include <gtest/gtest.h>
 
+#include "interpolate/random_program.hpp"
 #include "interpolate/scan.hpp"
 #include "interpolate/test_machine.hpp"
 
@@ -81,7 +83,9 @@ Program corner(const ExecutorConfig& c, double degrees, double length = 20, doub
   return p;
 }
 
-double exit_speed(Rig& rig, uint32_t ordinal) { return std::sqrt(rig.planner->newest().exit2(ordinal)); }
+double exit_speed(Rig& rig, uint32_t ordinal) {
+  return std::sqrt(rig.planner->newest().exit2(ordinal));
+}
 
 TEST(Plan, CornerSpeedIsTheOneDerived) {
   const ExecutorConfig c = standard_config();
@@ -139,7 +143,8 @@ TEST(Plan, ArcSpeedKeepsCentripetalAcceleration) {
 
 TEST(Plan, RestWhereItIsDemanded) {
   const ExecutorConfig c = standard_config();
-  const auto speed_between = [&](const std::function<void(Program&)>& between, bool rapid = false, bool exact = false) {
+  const auto speed_between = [&](const std::function<void(Program&)>& between, bool rapid = false,
+                                 bool exact = false) {
     Program p(c);
     AxisVec a;
     a[0] = 20;
@@ -162,7 +167,8 @@ TEST(Plan, RestWhereItIsDemanded) {
   EXPECT_EQ(speed_between(nothing, false, true), 0);
   EXPECT_NEAR(speed_between([](Program& p) { p.mark(); }), 50, 1e-9);
   EXPECT_NEAR(speed_between([](Program& p) { p.action(NC_ACTION_OUTPUT, 0, 0, 1, 1); }), 50, 1e-9);
-  EXPECT_NEAR(speed_between([](Program& p) { p.action(NC_ACTION_M, 50); }), 50, 1e-9) << "no gate: on the fly";
+  EXPECT_NEAR(speed_between([](Program& p) { p.action(NC_ACTION_M, 50); }), 50, 1e-9)
+      << "no gate: on the fly";
   EXPECT_EQ(speed_between([](Program& p) { p.gate(NC_GATE_FIN); }), 0);
   EXPECT_EQ(speed_between([](Program& p) { p.gate(NC_GATE_DWELL_SECONDS, 0.1); }), 0);
   EXPECT_EQ(speed_between([](Program& p) { p.gate(NC_GATE_OPTIONAL_STOP); }), 0);
@@ -266,15 +272,18 @@ TEST(Limits, SegmentsKeepEveryAxisAtTheirLimits) {
       const double share = static_cast<double>(rng() % 3) * 0.25;
       const SegmentShape shape = shape_of(s, l);
       set_segment_limits(s, shape, share, l);
-      const double feed = s.rapid ? s.speed_limit : std::min(s.speed_limit, s.feed_mm_s * c.max_feed_override);
+      const double feed =
+          s.rapid ? s.speed_limit : std::min(s.speed_limit, s.feed_mm_s * c.max_feed_override);
       for (int i = 0; i <= 200; ++i) {
         const CurvePoint q = curve_evaluate(s.curve, s.curve.length * i / 200.0, c.axis_count);
         for (unsigned a = 0; a < c.axis_count; ++a) {
           const double velocity = s.rapid ? c.limits[a].rapid : c.limits[a].velocity;
           ASSERT_LE(std::fabs(q.d1[a]) * s.speed_limit, velocity * (1 + 1e-9));
           for (const double sign : {-1.0, 1.0}) {
-            const double used = std::fabs(q.d1[a] * s.acceleration * sign + q.d2[a] * feed * feed) / c.limits[a].acceleration;
-            ASSERT_LE(used, (1 - share) * (1 + 1e-9)) << "axis " << a << " of serial " << r.serial << " in program " << n;
+            const double used =
+                std::fabs(q.d1[a] * s.acceleration * sign + q.d2[a] * feed * feed) / c.limits[a].acceleration;
+            ASSERT_LE(used, (1 - share) * (1 + 1e-9))
+                << "axis " << a << " of serial " << r.serial << " in program " << n;
             closest = std::max(closest, used);
           }
         }

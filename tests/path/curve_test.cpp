@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves: end points exact, derivatives against finite differences, length against quadrature, bounds against sampling.
+// Curves: end points exact, derivatives against finite differences, length against quadrature, bounds against
+// sampling.
+#include "path/curve.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
-
-#include "path/curve.hpp"
 
 namespace nc {
 namespace {
@@ -13,7 +14,9 @@ namespace {
 constexpr unsigned kAxes = 5;
 constexpr uint32_t kRotary = 0b11000;  // axes 3 and 4
 
-double uniform(std::mt19937_64& rng, double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); }
+double uniform(std::mt19937_64& rng, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
 
 Curve random_line(std::mt19937_64& rng) {
   AxisVec a, b;
@@ -50,11 +53,16 @@ Curve random_arc(std::mt19937_64& rng, double spiral, bool lead) {
 
 Curve random_curve(std::mt19937_64& rng) {
   switch (rng() % 5) {
-    case 0: return random_line(rng);
-    case 1: return random_arc(rng, 0, false);
-    case 2: return random_arc(rng, 0, true);
-    case 3: return random_arc(rng, uniform(rng, -0.02, 0.02), true);
-    default: return random_arc(rng, uniform(rng, -0.6, 1.5), rng() % 2);
+    case 0:
+      return random_line(rng);
+    case 1:
+      return random_arc(rng, 0, false);
+    case 2:
+      return random_arc(rng, 0, true);
+    case 3:
+      return random_arc(rng, uniform(rng, -0.02, 0.02), true);
+    default:
+      return random_arc(rng, uniform(rng, -0.6, 1.5), rng() % 2);
   }
 }
 
@@ -77,7 +85,8 @@ TEST(Curve, DerivativesMatchFiniteDifferences) {
   for (int n = 0; n < 2000; ++n) {
     const Curve c = random_curve(rng);
     const double s = c.length * uniform(rng, 0.05, 0.95), e = 1e-5 * c.length;
-    const CurvePoint p = curve_evaluate(c, s, kAxes), q = curve_evaluate(c, s + e, kAxes), r = curve_evaluate(c, s - e, kAxes);
+    const CurvePoint p = curve_evaluate(c, s, kAxes), q = curve_evaluate(c, s + e, kAxes),
+                     r = curve_evaluate(c, s - e, kAxes);
     EXPECT_EQ(p.position, curve_position(c, s, kAxes));
     for (unsigned i = 0; i < kAxes; ++i) {
       const double d1 = (q.position[i] - r.position[i]) / (2 * e);
@@ -95,7 +104,8 @@ TEST(Curve, ParameterIsTheLengthOfTheLinearAxes) {
   for (int n = 0; n < 2000; ++n) {
     const Curve c = random_curve(rng);
     bool linear = false;
-    for (unsigned i = 0; i < 3; ++i) linear = linear || c.delta[i] != 0 || c.circular;  // else the rotary ones make it
+    for (unsigned i = 0; i < 3; ++i)
+      linear = linear || c.delta[i] != 0 || c.circular;  // else the rotary ones make it
     const double s = c.length * uniform(rng, 0, 1);
     const CurvePoint p = curve_evaluate(c, s, kAxes);
     double norm = 0;
@@ -109,7 +119,8 @@ TEST(Curve, LengthMatchesChordsRefined) {
   for (int n = 0; n < 300; ++n) {
     const Curve c = random_curve(rng);
     if (!c.circular) continue;
-    // Chords over u, not over s, so that the test does not use what it tests; their sum converges with 1/n^2, extrapolated once.
+    // Chords over u, not over s, so that the test does not use what it tests; their sum converges with 1/n^2,
+    // extrapolated once.
     const auto chords = [&](int count) {
       double sum = 0, last[3] = {};
       for (int i = 0; i <= count; ++i) {

@@ -82,6 +82,14 @@ TEST(BlockReader, TooMuchForTheWindow) {
   EXPECT_EQ(b->words[0].letter, 'M');
 }
 
+TEST(BlockReader, TheCutOfATooLongBlockIsNotTakenForAnotherFault) {
+  Texts t(16);
+  const unsigned file = t.add_callback("a", "N" + std::string(40, '0') + "1\nX1\n");
+  const Block* b = t.reader.read(file, 0, 1);
+  EXPECT_EQ(b->fault.condition, Condition::block_too_long);  // and not the sequence number 0
+  EXPECT_EQ(t.reader.read(file, b->next, 2)->words.size(), 1u);
+}
+
 TEST(BlockReader, RandomTextsAreTheSameThroughEveryWindow) {
   std::mt19937 random(3);
   const char alphabet[] = "GXYZN0123456789.-#[]()=;%/ \n\r,<>IFDOMQ\t+*\x80?O\"";

@@ -128,6 +128,48 @@ TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
   EXPECT_EQ(parts, 2u);
 }
 
+// Real programs of other people, where they are there: executed as they trace, to their end or to the alarm that their
+// dialect has for what it does not know.
+TEST(Walls, SharedProgramsExecuteAsTheyTrace) {
+  const std::filesystem::path folder = std::filesystem::path(NC_SHARED_DIR) / "programs";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
+  const nc::rt::Config config = nc::test::parse_or_fail(R"([machine]
+[[axis]]
+name = "X"
+max_velocity = 250.0
+max_acceleration = 2000.0
+max_jerk = 50000.0
+[[axis]]
+name = "Y"
+max_velocity = 250.0
+max_acceleration = 2000.0
+max_jerk = 50000.0
+[[axis]]
+name = "Z"
+max_velocity = 250.0
+max_acceleration = 2000.0
+max_jerk = 50000.0
+[parameters]
+"1078" = 1
+[sim]
+tool_change_s = 0.1
+)");
+  unsigned programs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string ending = entry.path().extension().string();
+    if ((ending != ".nc" && ending != ".ngc") || (seeds(10) < 10 && entry.file_size() > 20000)) continue;
+    SCOPED_TRACE(entry.path().filename().string());
+    const std::string text = read_file(entry.path());
+    Operator op;
+    op.max_scans = 10'000'000;
+    const Recording online = nc::test::run_online(config, text, op);
+    const Listing offline = nc::test::pull_offline(config, text, op, online);
+    nc::test::expect_same(online, offline, config);
+    ++programs;
+  }
+  EXPECT_GT(programs, 0u);
+}
+
 // The same in real time, with the scan and the feeder in their own threads: what is executed does not depend on when.
 TEST(Walls, ThreadsExecuteWhatTheTraceSays) {
   for (const std::uint32_t seed : {3u, 11u}) {

@@ -31,6 +31,7 @@ inline std::string brief(double value) {
 struct Step {
   nc_item item{};
   nc_modal modal{};     ///< marks and the end
+  nc_axes machine{};    ///< where the machine is behind it
   std::string text;     ///< messages
 };
 
@@ -176,6 +177,8 @@ class Bench {
     nc_config_init(&config_);
     config_.dialect = static_cast<uint8_t>(dialect);
     config_.window_bytes = 4096;
+    config_.look_ahead = 256;
+    config_.programs = 32;
     if (change) change(config_);
     const size_t size = nc_memory_required(&config_);
     memory_.reset(size == 0 ? nullptr : std::aligned_alloc(64, (size + 63) / 64 * 64));
@@ -210,6 +213,13 @@ class Bench {
     kept = std::move(text);
     check(nc_program_add_text(control_, name.c_str(), kept.data(), kept.size(), &file));
     return file;
+  }
+
+  /// Goes back to a mark (or the head of the program, serial 0) where the machine stood at `machine`.
+  nc_status rewind(uint64_t serial, const nc_axes& machine) {
+    const nc_status status = nc_rewind(control_, 0, serial);
+    if (status == NC_OK) machine_ = machine;
+    return status;
   }
 
   double var_now(uint32_t number) {
@@ -276,6 +286,7 @@ class Bench {
     const nc_item& item = step->item;
     if (item.kind == NC_ITEM_MOVE) last_move_ = item, machine_ = item.u.move.machine;
     if (item.kind == NC_ITEM_SYNC) answer(item);
+    step->machine = machine_;
     if (item.kind == NC_ITEM_MARK) nc_modal_get(control_, 0, item.u.mark.modal, &step->modal);
     if (item.kind == NC_ITEM_END) nc_modal_get(control_, 0, item.u.end.modal, &step->modal);
     nc_text text{};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // nc_config_init, nc_memory_required, nc_create.
+#include <cmath>
 #include <cstring>
+#include <initializer_list>
 
 #include "control/control.hpp"
 
@@ -15,7 +17,10 @@ bool axes_valid(const nc_system_config& system) {
     if (std::strchr("ABCUVWXYZ", axis.name) == nullptr || axis.name == 0) return false;
     for (unsigned j = 0; j < i; ++j)
       if (system.axis[j].name == axis.name) return false;
-    if (!(axis.rapid >= 0) || !(axis.max_velocity >= 0) || !(axis.max_acceleration >= 0) || !(axis.max_jerk >= 0)) return false;
+    for (const double limit : {axis.rapid, axis.max_velocity, axis.max_acceleration, axis.max_jerk, axis.in_position})
+      if (!(limit >= 0) || !std::isfinite(limit)) return false;
+    for (const double place : axis.reference)
+      if (!std::isfinite(place)) return false;
     if (axis.soft_limited && !(axis.soft_min < axis.soft_max)) return false;
   }
   return true;

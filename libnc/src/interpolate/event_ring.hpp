@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events from the scan to the host: the scan never waits, the oldest are overwritten and counted when nobody fetches them.
+// Events from the scan to the host: the scan never waits, the oldest are overwritten and counted when nobody
+// fetches them.
 #pragma once
 
 #include <atomic>
@@ -10,8 +11,9 @@
 
 namespace nc {
 
-/// Ring of nc_event in which the writer may overtake the reader. Each event lies there as 32-bit words, stored with release and
-/// loaded with acquire order: a reader that saw a word of a newer event also sees that the head has gone on, and throws its copy away.
+/// Ring of nc_event in which the writer may overtake the reader. Each event lies there as 32-bit words,
+/// stored with release and loaded with acquire order: a reader that saw a word of a newer event also sees
+/// that the head has gone on, and throws its copy away.
 class EventRing {
  public:
   static constexpr unsigned kWords = sizeof(nc_event) / 4;

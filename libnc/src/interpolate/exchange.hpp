@@ -7,9 +7,9 @@
 
 namespace nc {
 
-/// Which of three buffers belongs to the writer, which to the reader, and which lies between them. The writer fills its buffer and
-/// exchanges it with the middle one; the reader takes the middle one when it is new. Neither ever waits. A 32-bit exchange is
-/// lock-free on every core that libnc runs on.
+/// Which of three buffers belongs to the writer, which to the reader, and which lies between them. The writer
+/// fills its buffer and exchanges it with the middle one; the reader takes the middle one when it is new.
+/// Neither ever waits. A 32-bit exchange is lock-free on every core that libnc runs on.
 class TripleIndex {
  public:
   static_assert(std::atomic<uint32_t>::is_always_lock_free);

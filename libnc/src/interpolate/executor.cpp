@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The feeder's side of the executor. Records are written into the ring, planned, and become visible to the scan only with the plan
-// that covers them, so the scan never sees geometry that it could not stop on.
+// The feeder's side of the executor. Records are written into the ring, planned, and become visible to the
+// scan only with the plan that covers them, so the scan never sees geometry that it could not stop on.
 #include "interpolate/executor.hpp"
 
 #include "interpolate/executor_state.hpp"
@@ -48,7 +48,9 @@ void Executor::push(const Record& record) {
   e.planner.commit(e.head++);
 }
 
-void Executor::plan() { state_->planner.replan(state_->scan_said()); }
+void Executor::plan() {
+  state_->planner.replan(state_->scan_said());
+}
 
 bool Executor::sync_reached(Serial serial, nc_world* world) const {
   const ScanWorld& reached = state_->shared.world.read();
@@ -57,11 +59,17 @@ bool Executor::sync_reached(Serial serial, nc_world* world) const {
   return true;
 }
 
-bool Executor::drained() const { return state_->shared.tail.load(std::memory_order_acquire) == state_->head; }
+bool Executor::drained() const {
+  return state_->shared.tail.load(std::memory_order_acquire) == state_->head;
+}
 
-uint32_t Executor::epoch() const { return state_->shared.epoch.load(std::memory_order_acquire); }
+uint32_t Executor::epoch() const {
+  return state_->shared.epoch.load(std::memory_order_acquire);
+}
 
-uint32_t Executor::starts() const { return state_->shared.starts.load(std::memory_order_acquire); }
+uint32_t Executor::starts() const {
+  return state_->shared.starts.load(std::memory_order_acquire);
+}
 
 bool Executor::truncate(Serial* last) {
   ExecutorState& e = *state_;
@@ -95,12 +103,20 @@ bool Executor::truncate(Serial* last) {
   return complete;
 }
 
-bool Executor::poll_event(nc_event* event, uint64_t* dropped) { return state_->shared.events.pop(event, dropped); }
+bool Executor::poll_event(nc_event* event, uint64_t* dropped) {
+  return state_->shared.events.pop(event, dropped);
+}
 
-AxisVec Executor::commanded() const { return state_->shared.status.read().command; }
+AxisVec Executor::commanded() const {
+  return state_->shared.status.read().command;
+}
 
-void Executor::set_position(const AxisVec& machine) { state_->scan.set_position(machine); }
+void Executor::set_position(const AxisVec& machine) {
+  state_->scan.set_position(machine);
+}
 
-void Executor::cycle(const nc_inputs& in, nc_outputs& out) { state_->scan.cycle(in, out); }
+void Executor::cycle(const nc_inputs& in, nc_outputs& out) {
+  state_->scan.cycle(in, out);
+}
 
 }  // namespace nc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The executor of one part system: the ring of committed records, the plan over it, and the scan that walks along it.
-// Feeder side and scan side are two threads; what they share is in here and nowhere else.
+// The executor of one part system: the ring of committed records, the plan over it, and the scan that walks
+// along it. Feeder side and scan side are two threads; what they share is in here and nowhere else.
 #pragma once
 
 #include "base/arena.hpp"
@@ -11,17 +11,17 @@ namespace nc {
 
 struct ExecutorConfig {
   unsigned axis_count = 3;
-  uint32_t rotary = 0;            ///< bit i: axis i is rotary
+  uint32_t rotary = 0;  ///< bit i: axis i is rotary
   AxisLimits limits[kMaxAxes];
-  AxisVec soft_min, soft_max;     ///< for manual motion; commits are checked before they come here
-  uint32_t soft_limited = 0;      ///< bit i: axis i has soft limits
-  AxisVec reference;              ///< first reference position
+  AxisVec soft_min, soft_max;  ///< for manual motion; commits are checked before they come here
+  uint32_t soft_limited = 0;   ///< bit i: axis i has soft limits
+  AxisVec reference;           ///< first reference position
   double cycle_s = 0.001;
   double max_feed_override = 2.0;
-  uint32_t capacity = 1024;       ///< records in the ring, power of two
+  uint32_t capacity = 1024;  ///< records in the ring, power of two
 };
 
-class ExecutorState;              ///< all members; defined in interpolate/executor_state.hpp
+class ExecutorState;  ///< all members; defined in interpolate/executor_state.hpp
 
 /// Handle with the state in arena memory.
 class Executor {
@@ -29,27 +29,30 @@ class Executor {
   /// Lays the executor out in `arena`. With a measuring arena only counts.
   void create(const ExecutorConfig& config, Arena& arena);
 
-  // ---- feeder thread ----------------------------------------------------------------------------------------------
+  // ---- feeder thread
+  // ----------------------------------------------------------------------------------------------
   /// Records that may be pushed now.
   unsigned room() const;
   /// Commits one record: computes its speed limits, and makes it visible to the scan after the next plan().
   void push(const Record& record);
-  /// Recomputes the time law over everything committed (always ending at rest at its end) for the override the scan last saw,
-  /// and swaps it in. Cheap when nothing changed. Call after pushing, and once per feeder period.
+  /// Recomputes the time law over everything committed (always ending at rest at its end) for the override
+  /// the scan last saw, and swaps it in. Cheap when nothing changed. Call after pushing, and once per feeder
+  /// period.
   void plan();
   /// The scan has reached the sync `serial`, is at rest and in position: copies the world and returns true.
   bool sync_reached(Serial serial, nc_world* world) const;
   /// The scan has executed everything that was pushed and is at rest.
   bool drained() const;
-  /// The scan gave the program up (reset, alarm input): increments each time. Records that were made before are thrown away by
-  /// their Record::epoch.
+  /// The scan gave the program up (reset, alarm input): increments each time. Records that were made before
+  /// are thrown away by their Record::epoch.
   uint32_t epoch() const;
   /// Cycle starts accepted from IDLE so far: each is a program from its head.
   uint32_t starts() const;
-  /// At rest in a block stop or hold: give up every committed record behind the block in execution. On success *last is the mark
-  /// of that block, which will still be executed, or where no block has been begun the newest that has been (0: none in this run).
-  /// The first call asks and returns false, a later one finds the answer: false again when the machine moves, when the end of the
-  /// block in execution is not committed yet, or when the scan has not run in between.
+  /// At rest in a block stop or hold: give up every committed record behind the block in execution. On
+  /// success *last is the mark of that block, which will still be executed, or where no block has been begun
+  /// the newest that has been (0: none in this run). The first call asks and returns false, a later one finds
+  /// the answer: false again when the machine moves, when the end of the block in execution is not committed
+  /// yet, or when the scan has not run in between.
   bool truncate(Serial* last);
   /// Next executed record for the host.
   bool poll_event(nc_event* event, uint64_t* dropped);
@@ -58,7 +61,8 @@ class Executor {
   /// Set position; only while idle, before the scan runs.
   void set_position(const AxisVec& machine);
 
-  // ---- scan thread --------------------------------------------------------------------------------------------------
+  // ---- scan thread
+  // --------------------------------------------------------------------------------------------------
   void cycle(const nc_inputs& in, nc_outputs& out) NC_RT;
 
  private:

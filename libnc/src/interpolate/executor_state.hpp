@@ -12,9 +12,9 @@ class ExecutorState {
   Record* ring = nullptr;
   uint32_t mask = 0;
   // feeder's
-  alignas(64) uint32_t head = 0;       ///< ring index behind the last record pushed
+  alignas(64) uint32_t head = 0;  ///< ring index behind the last record pushed
   uint32_t truncate_request = 0;
-  bool truncate_open = false;          ///< a request is waiting for its answer
+  bool truncate_open = false;  ///< a request is waiting for its answer
   alignas(64) Planner planner;
   alignas(64) ScanShared shared;
   alignas(64) Scan scan;

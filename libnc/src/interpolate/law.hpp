@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time law of one axis or one path: constant acceleration, constant speed, constant deceleration, followed exactly and not in
-// steps of a cycle. The path generator and manual motion are both made of it.
+// The time law of one axis or one path: constant acceleration, constant speed, constant deceleration,
+// followed exactly and not in steps of a cycle. The path generator and manual motion are both made of it.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +24,10 @@ struct LawGoal {
   double accel = 1;   ///< mm/s^2, also of braking
 };
 
-/// Goes on for `time` seconds: as fast as cap and exit speed allow; brakes where it is too fast for either. Braking is never harder
-/// than accel, so a state that is too fast for the exit speed passes the end too fast: the exit speeds of a plan are such that this
-/// happens only on the way down to a plan with lower speeds, see docs/motion.md.
+/// Goes on for `time` seconds: as fast as cap and exit speed allow; brakes where it is too fast for either.
+/// Braking is never harder than accel, so a state that is too fast for the exit speed passes the end too
+/// fast: the exit speeds of a plan are such that this happens only on the way down to a plan with lower
+/// speeds, see docs/motion.md.
 /// @return the time that is left when the end is reached (state.s == length exactly), else 0.
 inline double advance(LawState& state, const LawGoal& goal, double time) NC_RT {
   const double a = goal.accel, end2 = std::max(0.0, goal.exit2);
@@ -36,7 +37,8 @@ inline double advance(LawState& state, const LawGoal& goal, double time) NC_RT {
     return time;
   }
   const double reach2 = end2 + 2 * a * left;
-  // Rounding of s (relative to the whole length) and of v is not "too fast": such a state still ends exactly at its exit speed.
+  // Rounding of s (relative to the whole length) and of v is not "too fast": such a state still ends exactly
+  // at its exit speed.
   const double rounding2 = 1e-11 * reach2 + 1e-14 * a * goal.length;
   const bool too_fast_for_exit = v * v > reach2 + rounding2;
   if (too_fast_for_exit || v > goal.cap) {

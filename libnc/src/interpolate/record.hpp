@@ -15,25 +15,26 @@ struct AxisLimits {
 /// Committed geometry and its own speed limits. The plan over it (motion/plan.hpp) may change, this may not.
 struct Segment {
   Curve curve;
-  AxisVec to_work;             ///< what the display adds to machine coordinates to show workpiece coordinates (per axis)
-  AxisVec work_sign;           ///< +1, or -1 where an axis is mirrored: work = sign * machine + to_work
-  double feed_mm_s = 0;        ///< commanded path speed; 0 for rapid
+  AxisVec to_work;  ///< what the display adds to machine coordinates to show workpiece coordinates (per axis)
+  AxisVec work_sign;     ///< +1, or -1 where an axis is mirrored: work = sign * machine + to_work
+  double feed_mm_s = 0;  ///< commanded path speed; 0 for rapid
   double feed_mm_rev = 0;
   bool rapid = false;
   bool exact_stop = false;
-  uint8_t skip_mask = 0;       ///< ends where one of these signals comes
+  uint8_t skip_mask = 0;  ///< ends where one of these signals comes
   bool skip = false;
   // filled by the planner when it is committed
-  double speed_limit = 0;      ///< path speed at which some axis reaches its velocity limit, or the curvature its acceleration limit
-  double acceleration = 0;     ///< path acceleration that no axis limit is broken by
-  uint32_t ordinal = 0;        ///< counts segments; names this one in the plan
+  double speed_limit = 0;  ///< path speed at which some axis reaches its velocity limit, or the curvature its
+                           ///< acceleration limit
+  double acceleration = 0;  ///< path acceleration that no axis limit is broken by
+  uint32_t ordinal = 0;     ///< counts segments; names this one in the plan
 };
 
 struct Record {
   Serial serial = 0;
   nc_source source{};
   ItemKind kind = ItemKind::mark;
-  uint32_t epoch = 0;          ///< records of an epoch before a reset are thrown away by the scan
+  uint32_t epoch = 0;  ///< records of an epoch before a reset are thrown away by the scan
   union {
     Segment segment;
     Action action;

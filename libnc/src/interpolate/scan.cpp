@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One servo cycle of one part system: states and the walk along the records. Order of a cycle: plan, edges, handshake, states,
-// records (path motion), manual motion, shape, outputs, publish.
+// One servo cycle of one part system: states and the walk along the records. Order of a cycle: plan, edges,
+// handshake, states, records (path motion), manual motion, shape, outputs, publish.
 #include "interpolate/scan.hpp"
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 namespace nc {
 namespace {
 
-/// Records executed in one cycle at most. At speed the planner keeps it below (kSegmentsPerCycle + 1) * (kRecordsBetween + 1).
+/// Records executed in one cycle at most. At speed the planner keeps it below (kSegmentsPerCycle + 1) *
+/// (kRecordsBetween + 1).
 constexpr unsigned kRecordsPerCycle = 256;
 
 nc_axes to_nc(const AxisVec& a) {
@@ -67,7 +68,8 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   publish(in);
 }
 
-/// The feeder wants to give up records that are committed: agree only at rest in a stop, and touch none until it is done.
+/// The feeder wants to give up records that are committed: agree only at rest in a stop, and touch none until
+/// it is done.
 void Scan::answer_truncate() {
   if (frozen_) {
     if (shared_->truncate_release.load(std::memory_order_acquire) != answered_) return;
@@ -77,13 +79,14 @@ void Scan::answer_truncate() {
   if (request == answered_) return;
   answered_ = request;
   frozen_ = at_rest() && !manual_.active() && !reset_ &&
-            (state_ == NC_STATE_STOPPED || state_ == NC_STATE_HOLD || state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM);
+            (state_ == NC_STATE_STOPPED || state_ == NC_STATE_HOLD || state_ == NC_STATE_IDLE ||
+             state_ == NC_STATE_ALARM);
   shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
   shared_->truncate_answer.store(request * 2 + (frozen_ ? 1 : 0), std::memory_order_release);
 }
 
-/// FIN completes the strobes that are on, whatever the program does meanwhile. A FIN that was on before the strobe does not count
-/// until it has been off once.
+/// FIN completes the strobes that are on, whatever the program does meanwhile. A FIN that was on before the
+/// strobe does not count until it has been off once.
 void Scan::handshake(const nc_inputs& in) {
   fin_ = in.fin;
   if (!fin_) fin_low_ = true;
@@ -155,16 +158,18 @@ void Scan::start(const nc_inputs& in) {
       hold_ = false;
       cause_ = NC_CAUSE_NONE;
       break;
-    default: break;
+    default:
+      break;
   }
 }
 
-/// At rest: everything that is committed, and whatever comes with the same epoch, is void. Macro outputs and codes stay.
+/// At rest: everything that is committed, and whatever comes with the same epoch, is void. Macro outputs and
+/// codes stay.
 void Scan::give_up() {
   ++epoch_;
   law_ = {};
   moving_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = false;
-  strobe_ = 0;  // a FIN that comes now is late and completes nothing
+  strobe_ = 0;               // a FIN that comes now is late and completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
   messages_.clear();
   shared_->world.write({});
@@ -172,12 +177,14 @@ void Scan::give_up() {
 
 /// Throws records of an older epoch away.
 void Scan::drop_old() {
-  for (unsigned n = 0; n < kRecordsPerCycle && tail_ != plan_->end && current().epoch != epoch_; ++n) leave(current(), false);
+  for (unsigned n = 0; n < kRecordsPerCycle && tail_ != plan_->end && current().epoch != epoch_; ++n)
+    leave(current(), false);
 }
 
 void Scan::run(const nc_inputs& in) {
   drop_old();
-  if (state_ == NC_STATE_ALARM && tail_ != plan_->end && current().epoch == epoch_ && current().kind == ItemKind::end) {
+  if (state_ == NC_STATE_ALARM && tail_ != plan_->end && current().epoch == epoch_ &&
+      current().kind == ItemKind::end) {
     leave(current(), true);  // the end item that follows an alarm
   }
   if (state_ != NC_STATE_RUNNING && at_rest()) return;
@@ -217,7 +224,8 @@ void Scan::leave(const Record& r, bool executed) {
 
 /// Jog, step, handle and reference return, while no program moves.
 void Scan::manual(const nc_inputs& in) {
-  const bool allowed = at_rest() && !alarmed_ && !reset_ && !frozen_ && (state_ == NC_STATE_IDLE || state_ == NC_STATE_STOPPED);
+  const bool allowed = at_rest() && !alarmed_ && !reset_ && !frozen_ &&
+                       (state_ == NC_STATE_IDLE || state_ == NC_STATE_STOPPED);
   if (!allowed && !manual_.active()) {
     manual_.idle(in.manual);
     return;
@@ -261,8 +269,8 @@ void Scan::outputs(const nc_inputs&, nc_outputs& out) {
   }
   for (unsigned i = 0; i < NC_WORDS; ++i) out.output[i] = output_[i];
   out.state = static_cast<uint8_t>(alarmed_ ? NC_STATE_ALARM : manual_.active() ? NC_STATE_MANUAL : state_);
-  out.cause = static_cast<uint8_t>(alarmed_ ? NC_CAUSE_ALARM
-                                   : state_ == NC_STATE_HOLD ? NC_CAUSE_FEED_HOLD
+  out.cause = static_cast<uint8_t>(alarmed_                                              ? NC_CAUSE_ALARM
+                                   : state_ == NC_STATE_HOLD                             ? NC_CAUSE_FEED_HOLD
                                    : interlock_ && moving_ && state_ == NC_STATE_RUNNING ? NC_CAUSE_INTERLOCK
                                                                                          : cause_);
   out.strobe = strobe_;

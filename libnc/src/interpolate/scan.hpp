@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scan side of the executor: walks along committed records, one servo cycle at a time. Everything in here belongs to the scan
-// thread; `ScanShared` is what crosses to the feeder.
+// The scan side of the executor: walks along committed records, one servo cycle at a time. Everything in here
+// belongs to the scan thread; `ScanShared` is what crosses to the feeder.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ struct ScanStatus {
   AxisVec command;
   double feed_override = 1;
   bool single_block = false;
-  Serial last_mark = 0;                          ///< newest block end that has been executed in this run
+  Serial last_mark = 0;  ///< newest block end that has been executed in this run
 };
 
 /// The world at the last sync.
@@ -30,15 +30,16 @@ struct ScanWorld {
   nc_world world{};
 };
 
-/// Truncation: the feeder asks, the scan answers once; while it has agreed it executes nothing until it is released.
-/// The answer is request * 2 + 1 when it agrees, request * 2 when it does not.
+/// Truncation: the feeder asks, the scan answers once; while it has agreed it executes nothing until it is
+/// released. The answer is request * 2 + 1 when it agrees, request * 2 when it does not.
 struct ScanShared {
-  alignas(64) std::atomic<uint32_t> tail{0};     ///< ring index of the record in execution
-  std::atomic<uint32_t> ordinal{0};              ///< of the segment in execution or the next one
+  alignas(64) std::atomic<uint32_t> tail{0};  ///< ring index of the record in execution
+  std::atomic<uint32_t> ordinal{0};           ///< of the segment in execution or the next one
   std::atomic<uint32_t> epoch{0};
-  std::atomic<uint32_t> starts{0};               ///< cycle starts accepted from IDLE
+  std::atomic<uint32_t> starts{0};  ///< cycle starts accepted from IDLE
   std::atomic<uint32_t> truncate_answer{0};
-  std::atomic<uint32_t> block_begun{0};          ///< some of the block in execution has been executed (valid with the answer)
+  std::atomic<uint32_t> block_begun{
+      0};  ///< some of the block in execution has been executed (valid with the answer)
   alignas(64) std::atomic<uint32_t> truncate_request{0};
   std::atomic<uint32_t> truncate_release{0};
   Latest<ScanStatus> status;
@@ -86,11 +87,10 @@ class Scan {
   void leave(const Record& record, bool executed) NC_RT;
   bool in_position(const nc_inputs& in) const NC_RT;
 
-
   const Record& current() const { return ring_[tail_ & mask_]; }
   bool at_rest() const { return law_.v == 0; }
-  bool held() const { return hold_ || reset_ || alarmed_; }       ///< nothing is executed at rest
-  bool braking() const { return held() || interlock_; }            ///< no axis may move
+  bool held() const { return hold_ || reset_ || alarmed_; }  ///< nothing is executed at rest
+  bool braking() const { return held() || interlock_; }      ///< no axis may move
 
   // ---- set once
   ExecutorConfig config_;
@@ -100,21 +100,21 @@ class Scan {
   ScanShared* shared_ = nullptr;
 
   // ---- place in the ring
-  const Plan* plan_ = nullptr;   ///< of this cycle
+  const Plan* plan_ = nullptr;  ///< of this cycle
   uint32_t tail_ = 0, ordinal_ = 0, epoch_ = 0;
-  bool frozen_ = false;          ///< the feeder is truncating
-  uint32_t answered_ = 0;        ///< truncate request that has its answer
+  bool frozen_ = false;    ///< the feeder is truncating
+  uint32_t answered_ = 0;  ///< truncate request that has its answer
   bool block_begun_ = false;
 
   // ---- motion
-  LawState law_;                 ///< on the segment in execution; v carries over to the next one
-  bool moving_ = false;          ///< the current record is a segment that has begun
-  double time_ = 0;              ///< what is left of this cycle, s
-  AxisVec wanted_;               ///< interpolated position
+  LawState law_;         ///< on the segment in execution; v carries over to the next one
+  bool moving_ = false;  ///< the current record is a segment that has begun
+  double time_ = 0;      ///< what is left of this cycle, s
+  AxisVec wanted_;       ///< interpolated position
   AxisVec command_, last_command_;
-  const Segment* latest_ = nullptr; ///< segment that was executed last in this cycle
+  const Segment* latest_ = nullptr;                        ///< segment that was executed last in this cycle
   AxisVec to_work_, work_sign_{{1, 1, 1, 1, 1, 1, 1, 1}};  ///< of the segment executed last
-  AxisVec target_;               ///< end of the segment in execution
+  AxisVec target_;                                         ///< end of the segment in execution
   Shape shape_;
   Manual manual_;
 
@@ -123,24 +123,24 @@ class Scan {
   nc_stop_cause cause_ = NC_CAUSE_NONE;
   bool hold_ = false, reset_ = false, alarmed_ = false, interlock_ = false;
   bool last_start_ = false, last_reset_ = false;
-  bool start_ = false;           ///< cycle start was pressed and not yet acted upon
+  bool start_ = false;  ///< cycle start was pressed and not yet acted upon
 
   // ---- handshake of M S T B
   uint8_t strobe_ = 0;
-  bool fin_ = false;             ///< level in this cycle
-  bool fin_low_ = true;          ///< was low since a strobe rose
+  bool fin_ = false;     ///< level in this cycle
+  bool fin_low_ = true;  ///< was low since a strobe rose
   uint32_t m_ = 0, t_ = 0, b_ = 0;
   double s_ = 0;
-  uint32_t suppress_ = 0;        ///< #3003
-  uint32_t disable_ = 0;         ///< #3004
+  uint32_t suppress_ = 0;  ///< #3003
+  uint32_t disable_ = 0;   ///< #3004
 
   // ---- gates
   bool gate_begun_ = false;
   double gate_left_ = 0;
 
   // ---- skip
-  bool skipped_ = false;         ///< the last skip move ended by its signal
-  bool skip_braking_ = false;    ///< on the way to rest after the signal
+  bool skipped_ = false;       ///< the last skip move ended by its signal
+  bool skip_braking_ = false;  ///< on the way to rest after the signal
   AxisVec skip_position_;
 
   // ---- outside

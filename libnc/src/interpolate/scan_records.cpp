@@ -11,21 +11,37 @@ namespace {
 /// A segment that does not start where the machine stands is never begun: the axes would jump.
 constexpr double kSamePlace = 1e-6;  ///< mm or deg
 
-uint32_t code_number(double value) { return value >= 0 && value < 4294967296.0 ? static_cast<uint32_t>(value) : 0; }
+uint32_t code_number(double value) {
+  return value >= 0 && value < 4294967296.0 ? static_cast<uint32_t>(value) : 0;
+}
 
 }  // namespace
 
 Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
   Done done = Done::yes;
   // The plan rests in front of these: what is left of the speed is rounding.
-  if (r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm || r.kind == ItemKind::end) law_.v = 0;
+  if (r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm ||
+      r.kind == ItemKind::end)
+    law_.v = 0;
   switch (r.kind) {
-    case ItemKind::move: done = move(r, in); break;
-    case ItemKind::action: done = action(r.action); break;
-    case ItemKind::gate: done = gate(r.gate, in); break;
-    case ItemKind::sync: done = sync(r, in); break;
-    case ItemKind::mark: mark(r.mark, in); return Done::yes;
-    case ItemKind::alarm: alarm(); break;
+    case ItemKind::move:
+      done = move(r, in);
+      break;
+    case ItemKind::action:
+      done = action(r.action);
+      break;
+    case ItemKind::gate:
+      done = gate(r.gate, in);
+      break;
+    case ItemKind::sync:
+      done = sync(r, in);
+      break;
+    case ItemKind::mark:
+      mark(r.mark, in);
+      return Done::yes;
+    case ItemKind::alarm:
+      alarm();
+      break;
     case ItemKind::end:
       modal_ = r.end.modal;
       block_begun_ = false;
@@ -49,7 +65,8 @@ void Scan::alarm() {
   state_ = NC_STATE_ALARM;
 }
 
-// ---- moves --------------------------------------------------------------------------------------------------------------
+// ---- moves
+// --------------------------------------------------------------------------------------------------------------
 
 /// False when the move cannot be begun: it would jump.
 bool Scan::begin_move(const Record& r, const nc_inputs&) {
@@ -128,7 +145,8 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
   return Done::no;
 }
 
-// ---- actions ------------------------------------------------------------------------------------------------------------
+// ---- actions
+// ------------------------------------------------------------------------------------------------------------
 
 Scan::Done Scan::action(const Action& a) {
   switch (a.kind) {
@@ -142,28 +160,38 @@ Scan::Done Scan::action(const Action& a) {
       if (a.index == 3003) suppress_ = code_number(a.value);
       if (a.index == 3004) disable_ = code_number(a.value);
       return Done::yes;
-    default: return strobe(a);
+    default:
+      return strobe(a);
   }
 }
 
-/// M, S, T, B: code and strobe. A strobe rises only when FIN is off and the last one of its kind is complete; on the fly (no gate
-/// follows) it cannot wait.
+/// M, S, T, B: code and strobe. A strobe rises only when FIN is off and the last one of its kind is complete;
+/// on the fly (no gate follows) it cannot wait.
 Scan::Done Scan::strobe(const Action& a) {
   const uint8_t bit = static_cast<uint8_t>(1u << a.kind);
   const bool awaited = !(suppress_ & 2);  // M700 13.5.9: #3003 bit 1
   if (awaited && at_rest() && (fin_ || (strobe_ & bit))) return wait(NC_CAUSE_FIN);
   switch (a.kind) {
-    case NC_ACTION_M: m_ = code_number(a.value); break;
-    case NC_ACTION_S: s_ = a.value; break;
-    case NC_ACTION_T: t_ = code_number(a.value); break;
-    default: b_ = code_number(a.value); break;
+    case NC_ACTION_M:
+      m_ = code_number(a.value);
+      break;
+    case NC_ACTION_S:
+      s_ = a.value;
+      break;
+    case NC_ACTION_T:
+      t_ = code_number(a.value);
+      break;
+    default:
+      b_ = code_number(a.value);
+      break;
   }
   strobe_ = static_cast<uint8_t>(strobe_ | bit);
   fin_low_ = !fin_;
   return Done::yes;
 }
 
-// ---- gates --------------------------------------------------------------------------------------------------------------
+// ---- gates
+// --------------------------------------------------------------------------------------------------------------
 
 bool Scan::in_position(const nc_inputs& in) const {
   if (!shape_.settled(wanted_)) return false;
@@ -191,10 +219,14 @@ Scan::Done Scan::dwell(double rate, double amount) {
 
 Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
   switch (g.kind) {
-    case NC_GATE_FIN: return strobe_ != 0 && !(suppress_ & 2) ? wait(NC_CAUSE_FIN) : Done::yes;
-    case NC_GATE_DWELL_SECONDS: return dwell(1.0, g.value);
-    case NC_GATE_DWELL_TURNS: return dwell(std::fabs(in.spindle_rev_per_s), g.value);
-    case NC_GATE_IN_POSITION: return in_position(in) ? Done::yes : wait(NC_CAUSE_IN_POSITION);
+    case NC_GATE_FIN:
+      return strobe_ != 0 && !(suppress_ & 2) ? wait(NC_CAUSE_FIN) : Done::yes;
+    case NC_GATE_DWELL_SECONDS:
+      return dwell(1.0, g.value);
+    case NC_GATE_DWELL_TURNS:
+      return dwell(std::fabs(in.spindle_rev_per_s), g.value);
+    case NC_GATE_IN_POSITION:
+      return in_position(in) ? Done::yes : wait(NC_CAUSE_IN_POSITION);
     case NC_GATE_OPTIONAL_STOP:
       if (!in.optional_stop) return Done::yes;
       [[fallthrough]];

@@ -25,7 +25,7 @@ bool find_from_here(Interpreter& in, const CallFrame& frame, uint32_t n, uint64_
   bool again = false;
   *offset = frame.offset;
   *line = frame.line;
-  if (in.reader.find_sequence(frame.program.file, n, offset, line, 0, kWholeText, &again)) return true;
+  if (in.reader.find_sequence(frame.program.file, n, offset, line, 0, kWholeText, &again, false)) return true;
   *offset = frame.program.offset;
   *line = frame.program.line;
   return in.reader.find_sequence(frame.program.file, n, offset, line, frame.offset, kWholeText, &again);

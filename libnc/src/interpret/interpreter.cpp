@@ -130,9 +130,10 @@ bool Interpreter::rewind(BlockSeq seq) {
   waiting_ = false;
   next_step = Step::none;
   statement = 0;
-  ended = state.end_seen;
+  ended = false;
   alarmed = false;
   world_fresh = false;
+  if (state.end_seen) emit_end();  // it comes behind the mark
   return true;
 }
 
@@ -317,14 +318,16 @@ void Interpreter::finish_block(bool stop) {
   item.mark.report = true;
   finished_modal = state.modal;
   world_fresh = false;
-  if (state.end_seen) {
-    Item& end = emit(ItemKind::end);
-    end.end.ok = true;
-    end.end.work = item.mark.work;
-    end.end.modal = item.mark.modal;
-    ended = true;
-  }
+  if (state.end_seen) emit_end();
   checkpoints_.save(state);
+}
+
+void Interpreter::emit_end() {
+  Item& end = emit(ItemKind::end);
+  end.end.ok = true;
+  end.end.work = position();
+  end.end.modal = modals.intern(state.modal);
+  ended = true;
 }
 
 }  // namespace nc

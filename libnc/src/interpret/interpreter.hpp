@@ -170,6 +170,7 @@ struct Interpreter {
   nc_status settle(Did did);
   void stop(const Fault& what, const nc_source& where);
   void take_block_back();
+  void emit_end();
   Did execute_statements();
   bool skipped(const Block& b) const;
 

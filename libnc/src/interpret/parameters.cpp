@@ -101,7 +101,7 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
   } else {
     // #1003 takes the letters of 2.1; any letter is stored by its code.
     if (!parse_number(text, &value)) {
-      if (text[0] == 0 || text[1] != 0 || bit != kWhole) return NC_E_ARGUMENT;
+      if (lower(text[0]) < 'a' || lower(text[0]) > 'z' || text[1] != 0 || bit != kWhole) return NC_E_ARGUMENT;
       value = static_cast<unsigned char>(text[0]);
     }
     if (std::strcmp(key, "1003") == 0 && (value < 'B' || value > 'E')) return NC_E_ARGUMENT;  // M700 2.1

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kind of manual motion is "go to a target with a top speed": a jog's target is the soft limit (or far away), a step's and a
-// handle's are `distance` further, a reference return's the reference position. Letting go of a jog brakes to rest.
+// Every kind of manual motion is "go to a target with a top speed": a jog's target is the soft limit (or far
+// away), a step's and a handle's are `distance` further, a reference return's the reference position. Letting
+// go of a jog brakes to rest.
 #include "manual/manual.hpp"
 
 #include <algorithm>
@@ -11,9 +12,10 @@
 namespace nc {
 namespace {
 
-constexpr double kFar = 1e7;               ///< mm or deg: a jog without soft limits
-constexpr double kUnlimited = 1e9;         ///< stands for a limit that is not configured
-constexpr double kHandleLag_s = 0.1;       ///< a handle turned faster than the axis can go runs at most this far ahead of it
+constexpr double kFar = 1e7;        ///< mm or deg: a jog without soft limits
+constexpr double kUnlimited = 1e9;  ///< stands for a limit that is not configured
+constexpr double kHandleLag_s =
+    0.1;  ///< a handle turned faster than the axis can go runs at most this far ahead of it
 
 }  // namespace
 

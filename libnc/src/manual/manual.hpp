@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Manual motion of the axes of one part system: jog, step, handle and reference return. Each axis is a trapezoid of its own that
-// can always stop at its soft limit.
+// Manual motion of the axes of one part system: jog, step, handle and reference return. Each axis is a
+// trapezoid of its own that can always stop at its soft limit.
 #pragma once
 
 #include "interpolate/record.hpp"
@@ -20,20 +20,22 @@ struct ManualConfig {
 class Manual {
  public:
   void create(const ManualConfig& config) { config_ = config; }
-  /// One cycle. `position` is moved; `stop` brakes every axis to rest and gives targets up. Call it only while no program moves.
+  /// One cycle. `position` is moved; `stop` brakes every axis to rest and gives targets up. Call it only
+  /// while no program moves.
   void cycle(const nc_manual* wish, bool stop, AxisVec* position) NC_RT;
-  /// A cycle in which no manual motion is possible: only remembers what is commanded, so that an edge stays an edge.
+  /// A cycle in which no manual motion is possible: only remembers what is commanded, so that an edge stays
+  /// an edge.
   void idle(const nc_manual* wish) NC_RT;
   /// Some axis moves or has a target before it.
   bool active() const NC_RT { return active_ != 0; }
 
  private:
   struct Axis {
-    double velocity = 0;       ///< signed, mm/s or deg/s
-    double target = 0;         ///< where it goes
-    double cap = 0;            ///< speed of this motion
+    double velocity = 0;            ///< signed, mm/s or deg/s
+    double target = 0;              ///< where it goes
+    double cap = 0;                 ///< speed of this motion
     uint8_t kind = NC_MANUAL_NONE;  ///< kind commanded in the last cycle
-    bool going = false;        ///< has a target; otherwise it is braking
+    bool going = false;             ///< has a target; otherwise it is braking
   };
   void wish(unsigned axis, const nc_manual& wish, double position) NC_RT;
   double move(unsigned axis, double position) NC_RT;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed and acceleration limits of segments and joints. The derivation is in docs/motion.md, "Corners without smoothing".
+// Speed and acceleration limits of segments and joints. The derivation is in docs/motion.md, "Corners without
+// smoothing".
 #include "motion/limits.hpp"
 
 #include <algorithm>
@@ -32,17 +33,20 @@ void shape_arc(const Segment& s, const MotionLimits& limits, SegmentShape& g) {
   // |dP/du| is smallest where the radius is, so the share of the other axes (constant by u) is largest there.
   const double slowest = std::sqrt(dr * dr + c.linear2 + turn * turn * r_min * r_min);
   const double fastest = std::sqrt(dr * dr + c.linear2 + turn * turn * r_max * r_max);
-  for (unsigned i = 0; i < limits.axis_count; ++i) g.most[i] = slowest > 0 ? std::fabs(c.delta[i]) / slowest : 0;
+  for (unsigned i = 0; i < limits.axis_count; ++i)
+    g.most[i] = slowest > 0 ? std::fabs(c.delta[i]) / slowest : 0;
   g.in_plane = fastest > 0 ? std::sqrt(dr * dr + turn * turn * r_max * r_max) / fastest : 0;
   const double radial = slowest > 0 ? dr / slowest : 0;
   g.most[c.h] = std::min(1.0, g.in_plane * largest_sine(k.angle_start, k.sweep) + radial);
   g.most[c.v] = std::min(1.0, g.in_plane * largest_sine(k.angle_start + kHalfPi, k.sweep) + radial);
-  // In the plane the curvature of R(t) is (R^2 + 2 R'^2) / (R^2 + R'^2)^1.5, falling with R; along the helix it acts with in_plane^2.
+  // In the plane the curvature of R(t) is (R^2 + 2 R'^2) / (R^2 + R'^2)^1.5, falling with R; along the helix
+  // it acts with in_plane^2.
   const double slope = turn > 0 ? dr / turn : 0;
   const double q = r_min * r_min + slope * slope;
   const double plane_curvature = q > 0 ? (q + slope * slope) / (q * std::sqrt(q)) : 0;
   g.curvature = plane_curvature * g.in_plane * g.in_plane;
-  // On a spiral the parameter itself speeds up and slows down along the path: u'' = sweep^2 R R' / sigma^4, with R' = dr.
+  // On a spiral the parameter itself speeds up and slows down along the path: u'' = sweep^2 R R' / sigma^4,
+  // with R' = dr.
   if (slowest > 0) g.bend = turn * turn * r_max * dr / (slowest * slowest * slowest);
 }
 
@@ -69,8 +73,10 @@ double velocity_limit(const Segment& s, const SegmentShape& g, const MotionLimit
   return v;
 }
 
-/// Path acceleration at which `keep` of some axis' limit is reached, centripetal acceleration at speed v included.
-double path_acceleration(const Segment& s, const SegmentShape& g, double keep, double v, const MotionLimits& limits) {
+/// Path acceleration at which `keep` of some axis' limit is reached, centripetal acceleration at speed v
+/// included.
+double path_acceleration(const Segment& s, const SegmentShape& g, double keep, double v,
+                         const MotionLimits& limits) {
   const Curve& c = s.curve;
   double a = kUnlimitedAcceleration;
   for (unsigned i = 0; i < limits.axis_count; ++i) {
@@ -86,7 +92,8 @@ double path_acceleration(const Segment& s, const SegmentShape& g, double keep, d
   return a - v * v * g.bend;
 }
 
-/// Speed at which centripetal acceleration takes kArcShare of `keep`, and what goes along unevenly kBendShare.
+/// Speed at which centripetal acceleration takes kArcShare of `keep`, and what goes along unevenly
+/// kBendShare.
 double arc_speed(const Segment& s, const SegmentShape& g, double keep, const MotionLimits& limits) {
   if (!s.curve.circular || g.curvature <= 0) return HUGE_VAL;
   double v2 = kArcShare * keep * plane_acceleration(s.curve, limits) / g.curvature;
@@ -116,7 +123,8 @@ SegmentShape shape_of(const Segment& s, const MotionLimits& limits) {
   return g;
 }
 
-Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb, const MotionLimits& limits) {
+Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
+                    const MotionLimits& limits) {
   // Largest change of direction, in units of each axis' acceleration: s^2/mm.
   double change = 0;
   for (unsigned i = 0; i < limits.axis_count; ++i) {
@@ -135,12 +143,14 @@ Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, 
   const double p = dt / shortest, q = kCornerShare * dt / change;
   const double v = 2 * q / (1 + std::sqrt(1 + 4 * p * q));
   joint.speed2 = v * v;
-  // A corner that is passed slower than one cycle of braking is not worth passing: rest, so that its point is hit exactly.
+  // A corner that is passed slower than one cycle of braking is not worth passing: rest, so that its point is
+  // hit exactly.
   if (v <= std::min(sa.bare, sb.bare) * dt) joint = {};
   return joint;
 }
 
-double reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape, const MotionLimits& limits) {
+double reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape,
+                       const MotionLimits& limits) {
   if (joint.speed2 <= 0) return 0;
   // Behind a short neighbour lie other corners that fall into the same cycle.
   return neighbour.curve.length < shape.reach * limits.cycle_s ? kCornerShare : joint.share;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the axis limits mean for one segment and for the joint between two: speeds and path accelerations that no axis limit is
-// broken by, whatever the override does. docs/motion.md derives every formula in here.
+// What the axis limits mean for one segment and for the joint between two: speeds and path accelerations that
+// no axis limit is broken by, whatever the override does. docs/motion.md derives every formula in here.
 #pragma once
 
 #include "interpolate/record.hpp"
@@ -9,11 +9,13 @@ namespace nc {
 
 /// A scan crosses at most this many segments in one cycle: path speed <= kSegmentsPerCycle * length / cycle.
 inline constexpr unsigned kSegmentsPerCycle = 16;
-/// At most this many other records lie between two segments that are passed at speed; where there are more the path comes to rest.
+/// At most this many other records lie between two segments that are passed at speed; where there are more
+/// the path comes to rest.
 inline constexpr unsigned kRecordsBetween = 8;
 /// Largest share of an axis' acceleration that the velocity steps at corners may take.
 inline constexpr double kCornerShare = 0.75;
-/// Largest share that centripetal acceleration may take on an arc; the rest (in quadrature) is left for speeding up and braking.
+/// Largest share that centripetal acceleration may take on an arc; the rest (in quadrature) is left for
+/// speeding up and braking.
 inline constexpr double kArcShare = 0.9;
 /// Path acceleration where no axis is limited, mm/s^2.
 inline constexpr double kUnlimitedAcceleration = 1e9;
@@ -46,12 +48,16 @@ struct Joint {
 };
 
 /// The joint from a to b where nothing asks for rest.
-Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb, const MotionLimits& limits);
+Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
+                    const MotionLimits& limits);
 
-/// Share of the axes' acceleration to reserve on a segment for what happens at (and shortly behind) one of its ends.
-double reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape, const MotionLimits& limits);
+/// Share of the axes' acceleration to reserve on a segment for what happens at (and shortly behind) one of
+/// its ends.
+double reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape,
+                       const MotionLimits& limits);
 
 /// Fills speed_limit and acceleration of a segment of which `share` is reserved for corner steps.
-void set_segment_limits(Segment& segment, const SegmentShape& shape, double share, const MotionLimits& limits);
+void set_segment_limits(Segment& segment, const SegmentShape& shape, double share,
+                        const MotionLimits& limits);
 
 }  // namespace nc

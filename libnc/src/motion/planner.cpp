@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The backward pass and what leads to it. See planner.hpp for the rule and docs/motion.md for why it is feasible at every swap.
+// The backward pass and what leads to it. See planner.hpp for the rule and docs/motion.md for why it is
+// feasible at every swap.
 #include "motion/planner.hpp"
 
 #include <algorithm>
@@ -10,12 +11,16 @@ namespace {
 
 constexpr double kSamePlace = 1e-7;  ///< mm or deg: a segment starts where the one before has ended
 
-bool before(uint32_t a, uint32_t b) { return static_cast<int32_t>(a - b) < 0; }
+bool before(uint32_t a, uint32_t b) {
+  return static_cast<int32_t>(a - b) < 0;
+}
 
 /// A record at which nothing may move, whatever lies around it.
 bool demands_rest(const Record& r) {
-  if (r.kind == ItemKind::action) return r.action.kind == NC_ACTION_MESSAGE;  // a text is shown at rest, none is lost
-  return r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm || r.kind == ItemKind::end;
+  if (r.kind == ItemKind::action)
+    return r.action.kind == NC_ACTION_MESSAGE;  // a text is shown at rest, none is lost
+  return r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm ||
+         r.kind == ItemKind::end;
 }
 
 }  // namespace
@@ -39,7 +44,9 @@ bool Planner::must_rest(const Record& from, const Record& to) const {
   return false;
 }
 
-double Planner::cap(const Entry& e) const { return std::min(e.limit, e.constant ? e.feed : e.feed * override_); }
+double Planner::cap(const Entry& e) const {
+  return std::min(e.limit, e.constant ? e.feed : e.feed * override_);
+}
 
 /// Exit speed that the neighbours of a joint allow at the present override.
 void Planner::update_joint(uint32_t ordinal) {
@@ -78,7 +85,8 @@ void Planner::commit_segment(uint32_t index) {
   if (tip_.open) {
     const Segment& from = record(tip_.record).segment;
     Joint joint;
-    if (!must_rest(record(tip_.record), r)) joint = joint_between(from, tip_.shape, r.segment, tip.shape, limits_);
+    if (!must_rest(record(tip_.record), r))
+      joint = joint_between(from, tip_.shape, r.segment, tip.shape, limits_);
     tip.reserve = reserve_towards(joint, from, tip_.shape, limits_);
     close(joint, reserve_towards(joint, r.segment, tip.shape, limits_));
   }

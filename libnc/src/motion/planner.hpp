@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The planner (feeder thread): gives every committed segment its limits and its exit speed, so that the scan can always come to
-// rest at the end of what it has been shown.
+// The planner (feeder thread): gives every committed segment its limits and its exit speed, so that the scan
+// can always come to rest at the end of what it has been shown.
 //
-// Exit speeds come from one backward pass over the segments, in squares of speed, where braking is a straight line:
+// Exit speeds come from one backward pass over the segments, in squares of speed, where braking is a straight
+// line:
 //     exit2[last] = 0,   exit2[k] = min( joint2[k], exit2[k+1] + 2 a[k+1] L[k+1] )
-// joint2[k] is the smallest of: the corner's speed, the speed limits of both neighbours, both feeds times the override; 0 where
-// the path must rest. A pass that starts at new segments ends at the first one whose exit speed it does not change.
+// joint2[k] is the smallest of: the corner's speed, the speed limits of both neighbours, both feeds times the
+// override; 0 where the path must rest. A pass that starts at new segments ends at the first one whose exit
+// speed it does not change.
 //
-// The last segment is held back until the record behind it tells how it ends (docs/motion.md, "Why one segment waits").
+// The last segment is held back until the record behind it tells how it ends (docs/motion.md, "Why one
+// segment waits").
 #pragma once
 
 #include "motion/limits.hpp"
@@ -33,7 +36,8 @@ class Planner {
   /// Brings the plan up to date and publishes it when something has changed.
   void replan(const Inputs& in);
 
-  /// Forget the records from ring index `end` on; the path rests at what is left. The scan is at rest and waits.
+  /// Forget the records from ring index `end` on; the path rests at what is left. The scan is at rest and
+  /// waits.
   void truncate(uint32_t end, const Inputs& in);
 
   const Plan& newest() NC_RT { return exchange_.newest(); }
@@ -41,20 +45,20 @@ class Planner {
  private:
   /// The planner's own view of a segment.
   struct Entry {
-    double corner2 = 0;   ///< exit: what geometry allows
-    double feed = 0;      ///< mm/s at 100 %; HUGE_VAL where no feed holds
-    double limit = 0;     ///< mm/s
-    double gain = 0;      ///< 2 a L
-    double joint2 = 0;    ///< exit: what geometry, limits and feeds at the present override allow
-    bool constant = false;///< feed without override (skip)
-    bool stop_mark = false; ///< a mark at its end lets single block stop
+    double corner2 = 0;      ///< exit: what geometry allows
+    double feed = 0;         ///< mm/s at 100 %; HUGE_VAL where no feed holds
+    double limit = 0;        ///< mm/s
+    double gain = 0;         ///< 2 a L
+    double joint2 = 0;       ///< exit: what geometry, limits and feeds at the present override allow
+    bool constant = false;   ///< feed without override (skip)
+    bool stop_mark = false;  ///< a mark at its end lets single block stop
   };
-  struct Tip {            ///< the segment committed last
+  struct Tip {  ///< the segment committed last
     uint32_t record = 0, ordinal = 0;
     SegmentShape shape;
-    double reserve = 0;   ///< share reserved for its start
-    unsigned between = 0; ///< other records committed behind it
-    bool open = false;    ///< its end is not known: held back
+    double reserve = 0;    ///< share reserved for its start
+    unsigned between = 0;  ///< other records committed behind it
+    bool open = false;     ///< its end is not known: held back
     bool valid = false;
   };
 
@@ -73,11 +77,11 @@ class Planner {
   Entry* entry_ = nullptr;
   double* exit2_ = nullptr;
   uint32_t mask_ = 0;
-  uint32_t head_ = 0;          ///< ring index behind the last committed record
+  uint32_t head_ = 0;  ///< ring index behind the last committed record
   uint32_t next_ordinal_ = 0;
-  uint32_t planned_ = 0;       ///< ordinal behind the last segment that has an exit speed
-  uint32_t shown_ = 0;         ///< ring index that the last published plan ends at
-  uint32_t seen_head_ = 0;     ///< head_ at the last replan()
+  uint32_t planned_ = 0;    ///< ordinal behind the last segment that has an exit speed
+  uint32_t shown_ = 0;      ///< ring index that the last published plan ends at
+  uint32_t seen_head_ = 0;  ///< head_ at the last replan()
   double override_ = 1;
   bool single_block_ = false;
   Tip tip_;

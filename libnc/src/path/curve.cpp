@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Evaluation of lines and circular arcs by path length.
 //
-// An arc is P(u) = C + R(u) (cos t(u), sin t(u)) with u in [0, 1], R(u) = R0 + (R1 - R0) u and t(u) = t0 + sweep u; all other axes
-// go with u linearly. Its speed by u is
-//     sigma(u) = |dP/du| = sqrt(b^2 + (sweep R(u))^2),   b^2 = (R1 - R0)^2 + (linear axes outside the plane)^2
-// and s(u) is its integral. With equal radii sigma is constant and s = L u. Where the radii differ (an end point beside the
-// circle, within the arc tolerance) s(u) is inverted by Newton's method, which converges from any start because s is monotone and
-// convex or concave; a few steps reach the last bit.
+// An arc is P(u) = C + R(u) (cos t(u), sin t(u)) with u in [0, 1], R(u) = R0 + (R1 - R0) u and t(u) = t0 +
+// sweep u; all other axes go with u linearly. Its speed by u is
+//     sigma(u) = |dP/du| = sqrt(b^2 + (sweep R(u))^2),   b^2 = (R1 - R0)^2 + (linear axes outside the
+//     plane)^2
+// and s(u) is its integral. With equal radii sigma is constant and s = L u. Where the radii differ (an end
+// point beside the circle, within the arc tolerance) s(u) is inverted by Newton's method, which converges
+// from any start because s is monotone and convex or concave; a few steps reach the last bit.
 #include "path/curve.hpp"
 
 #include <algorithm>
@@ -19,7 +20,9 @@ constexpr double kHalfPi = 1.57079632679489661923;
 /// Below this relative difference of the radii sigma is constant to 1e-8 and u = s / L.
 constexpr double kEqualRadii = 1e-8;
 
-double squared(double x) { return x * x; }
+double squared(double x) {
+  return x * x;
+}
 
 /// What evaluation needs of an arc beside the curve itself.
 struct Spiral {
@@ -27,7 +30,9 @@ struct Spiral {
   bool uniform;
 };
 
-double sigma_at(const Spiral& a, double u) { return std::sqrt(a.b2 + squared(a.sweep * (a.r0 + a.dr * u))); }
+double sigma_at(const Spiral& a, double u) {
+  return std::sqrt(a.b2 + squared(a.sweep * (a.r0 + a.dr * u)));
+}
 
 /// Integral of sigma from 0 to u.
 double spiral_length(const Spiral& a, double u) {
@@ -41,9 +46,10 @@ double spiral_length(const Spiral& a, double u) {
     return (g(x1) - g(x0)) / slope;
   }
   // Nearly equal radii: the closed form cancels, Gauss-Legendre with 5 points is exact to the last bits.
-  constexpr double kNode[5] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155, 0.95308992296933200};
-  constexpr double kWeight[5] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
-                                 0.11846344252809454};
+  constexpr double kNode[5] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,
+                               0.95308992296933200};
+  constexpr double kWeight[5] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
+                                 0.23931433524968324, 0.11846344252809454};
   double sum = 0;
   for (int i = 0; i < 5; ++i) sum += kWeight[i] * sigma_at(a, u * kNode[i]);
   return sum * u;
@@ -75,9 +81,10 @@ double spiral_parameter(const Curve& c, const Spiral& a, double s) {
   return u;
 }
 
-/// Extremes of one plane axis, x(u) = C + R(u) cos t(u) with t = t0 + sweep u - phase; phase 0 for the first axis, pi/2 for the
-/// second. They lie where R' cos t = R sweep sin t, that is t - atan(R' / (R sweep)) = n pi. The left side is monotone in u with a
-/// slope between sweep and 2 sweep, so every n has one root and Newton finds it.
+/// Extremes of one plane axis, x(u) = C + R(u) cos t(u) with t = t0 + sweep u - phase; phase 0 for the first
+/// axis, pi/2 for the second. They lie where R' cos t = R sweep sin t, that is t - atan(R' / (R sweep)) = n
+/// pi. The left side is monotone in u with a slope between sweep and 2 sweep, so every n has one root and
+/// Newton finds it.
 void arc_axis_bounds(const Curve& c, uint8_t axis, double phase, double* low, double* high) {
   const Circle& k = c.circle;
   const double center = k.center[phase > 0 ? 1 : 0];
@@ -122,8 +129,8 @@ Curve make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, u
   return c;
 }
 
-Curve make_arc(const AxisVec& start, const AxisVec& end, uint8_t h, uint8_t v, const Circle& circle, unsigned axis_count,
-               uint32_t rotary) {
+Curve make_arc(const AxisVec& start, const AxisVec& end, uint8_t h, uint8_t v, const Circle& circle,
+               unsigned axis_count, uint32_t rotary) {
   Curve c;
   c.circular = true;
   c.h = h;
@@ -174,7 +181,8 @@ CurvePoint curve_evaluate(const Curve& c, double s, unsigned axis_count) {
   const Spiral a = spiral_of(c);
   const double at = std::min(c.length, std::max(0.0, s));
   const double u = at >= c.length ? 1.0 : at <= 0 ? 0.0 : spiral_parameter(c, a, at);
-  // Derivatives of u by s: u' = 1/sigma, u'' = -sigma'/sigma^3, u''' = (3 sigma'^2 - sigma sigma'')/sigma^5 (primes of sigma by u).
+  // Derivatives of u by s: u' = 1/sigma, u'' = -sigma'/sigma^3, u''' = (3 sigma'^2 - sigma sigma'')/sigma^5
+  // (primes of sigma by u).
   double u1 = 1 / c.length, u2 = 0, u3 = 0;
   const double r = a.r0 + a.dr * u;
   if (!a.uniform) {

@@ -227,7 +227,7 @@ bool BlockReader::compile_long(const TextEntry& entry, uint64_t offset, Block& b
     }
   }
   lex_block(buffer, condenser.size(), *rules_, condenser.columns(), block);
-  if (condenser.overflowed() && !block.has_fault) {
+  if (condenser.overflowed()) {  // what else seems wrong may come from the cut
     block.has_fault = true;
     block.fault = Fault{};
     block.fault.condition = Condition::block_too_long;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Behind interpolation: filters over the commanded positions, and the answer whether they have settled. A filter that holds
-// positions back (acceleration after interpolation, S filters: M700 7.7, 13.15) goes in here without the interpolator knowing.
+// Behind interpolation: filters over the commanded positions, and the answer whether they have settled. A
+// filter that holds positions back (acceleration after interpolation, S filters: M700 7.7, 13.15) goes in
+// here without the interpolator knowing.
 #pragma once
 
 #include "stream/stream.hpp"

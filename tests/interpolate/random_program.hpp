@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random programs for the property tests.
+// Random programs for the property tests, and the check that a program was executed as it stands.
+#pragma once
+
 #include "interpolate/test_machine.hpp"
 
 namespace nc::test {
-namespace {
+namespace random_program_detail {
 
-double uniform(std::mt19937_64& rng, double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); }
-unsigned pick(std::mt19937_64& rng, unsigned n) { return static_cast<unsigned>(rng() % n); }
-double log_uniform(std::mt19937_64& rng, double low, double high) { return std::exp(uniform(rng, std::log(low), std::log(high))); }
+inline double uniform(std::mt19937_64& rng, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
+inline unsigned pick(std::mt19937_64& rng, unsigned n) {
+  return static_cast<unsigned>(rng() % n);
+}
+inline double log_uniform(std::mt19937_64& rng, double low, double high) {
+  return std::exp(uniform(rng, std::log(low), std::log(high)));
+}
 
 /// A run of short lines that turn a little each time, as a surface program has.
-void polyline(Program& p, std::mt19937_64& rng, double& heading) {
+inline void polyline(Program& p, std::mt19937_64& rng, double& heading) {
   const double step = log_uniform(rng, 0.001, 1.0), turn = uniform(rng, -1, 1) * log_uniform(rng, 0.001, 0.4);
   const double feed = log_uniform(rng, 1, 300), lift = uniform(rng, -0.5, 0.5);
   const bool uneven = pick(rng, 2) == 0;
@@ -27,7 +35,7 @@ void polyline(Program& p, std::mt19937_64& rng, double& heading) {
   }
 }
 
-void one_line(Program& p, std::mt19937_64& rng, unsigned axes, double& heading) {
+inline void one_line(Program& p, std::mt19937_64& rng, unsigned axes, double& heading) {
   heading += pick(rng, 2) ? uniform(rng, -0.3, 0.3) : uniform(rng, -3.2, 3.2);
   AxisVec end = p.at();
   const double l = log_uniform(rng, 0.002, 60);
@@ -40,7 +48,7 @@ void one_line(Program& p, std::mt19937_64& rng, unsigned axes, double& heading) 
 }
 
 /// An arc that leaves along the present heading (tangent), or in any direction.
-void one_arc(Program& p, std::mt19937_64& rng, unsigned axes, double& heading) {
+inline void one_arc(Program& p, std::mt19937_64& rng, unsigned axes, double& heading) {
   const double radius = log_uniform(rng, 0.05, 60);
   double sweep = uniform(rng, 0.05, 7) * (pick(rng, 2) ? 1 : -1);
   if (pick(rng, 4) == 0) heading += uniform(rng, -3, 3);
@@ -60,7 +68,7 @@ void one_arc(Program& p, std::mt19937_64& rng, unsigned axes, double& heading) {
   heading += sweep;
 }
 
-void auxiliary(Program& p, std::mt19937_64& rng) {
+inline void auxiliary(Program& p, std::mt19937_64& rng) {
   switch (pick(rng, 8)) {
     case 0:
       p.action(NC_ACTION_M, 8 + pick(rng, 3));
@@ -76,14 +84,19 @@ void auxiliary(Program& p, std::mt19937_64& rng) {
       p.sync();
       break;
     default:
-      for (unsigned n = 1 + pick(rng, 12); n > 0; --n) p.action(NC_ACTION_OUTPUT, 0, pick(rng, 4), 1u << pick(rng, 32), ~0u);
+      for (unsigned n = 1 + pick(rng, 12); n > 0; --n)
+        p.action(NC_ACTION_OUTPUT, 0, pick(rng, 4), 1u << pick(rng, 32), ~0u);
       break;
   }
 }
 
-}  // namespace
+}  // namespace random_program_detail
 
-Program random_program(const ExecutorConfig& config, std::mt19937_64& rng, unsigned blocks, AxisVec start) {
+/// A program of everything: lines of all sizes, smooth and sharp corners, arcs, helices, spirals, rapids,
+/// stops and actions.
+inline Program random_program(const ExecutorConfig& config, std::mt19937_64& rng, unsigned blocks,
+                              AxisVec start = {}) {
+  using namespace random_program_detail;
   Program p(config, start);
   double heading = uniform(rng, -3, 3);
   for (unsigned n = 0; n < blocks; ++n) {
@@ -109,9 +122,11 @@ Program random_program(const ExecutorConfig& config, std::mt19937_64& rng, unsig
   return p;
 }
 
-std::string check_events(const Program& p, const std::vector<nc_event>& events, unsigned axis_count) {
+/// Every record's serial was executed once, in order, and every move ended where it says.
+inline std::string check_events(const Program& p, const std::vector<nc_event>& events, unsigned axis_count) {
   std::ostringstream s;
-  if (events.size() != p.records.size()) s << events.size() << " events for " << p.records.size() << " records\n";
+  if (events.size() != p.records.size())
+    s << events.size() << " events for " << p.records.size() << " records\n";
   for (size_t i = 0; i < events.size() && i < p.records.size(); ++i) {
     const Record& r = p.records[i];
     if (events[i].serial != r.serial) {
@@ -121,7 +136,8 @@ std::string check_events(const Program& p, const std::vector<nc_event>& events, 
     if (events[i].kind != static_cast<uint8_t>(r.kind)) s << "serial " << r.serial << " has another kind\n";
     if (r.kind != ItemKind::move) continue;
     for (unsigned a = 0; a < axis_count; ++a) {
-      if (events[i].machine.v[a] != r.segment.curve.end[a]) s << "serial " << r.serial << " ended beside its end on axis " << a << "\n";
+      if (events[i].machine.v[a] != r.segment.curve.end[a])
+        s << "serial " << r.serial << " ended beside its end on axis " << a << "\n";
     }
   }
   return s.str();
