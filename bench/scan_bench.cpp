@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Execution time of a scan with three axes and 64 points: inputs, ladder hook, NC, outputs, snapshot, on the simulated
-// machine. The distribution comes from the runtime's own histogram (p50, p99, p99.9, max); wake-up jitter is another
-// figure, see runtime_process.py. Goal: at most 50 us at p99.9.
+// Execution time of a scan with three axes and 64 points: inputs, ladder hook, NC, outputs, snapshot, on the
+// simulated machine. The distribution comes from the runtime's own histogram (p50, p99, p99.9, max); wake-up
+// jitter is another figure, see runtime_process.py. Goal: at most 50 us at p99.9.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -17,7 +17,8 @@ std::string configuration(unsigned points) {
   std::string text = "[machine]\n";
   for (const char* name : {"X", "Y", "Z"})
     text += std::string("[[axis]]\nname = \"") + name +
-            "\"\nmax_velocity = 500.0\nmax_acceleration = 5000.0\nmax_jerk = 100000.0\nsoft_limits = [-1000.0, 1000.0]\n";
+            "\"\nmax_velocity = 500.0\nmax_acceleration = 5000.0\nmax_jerk = 100000.0\nsoft_limits = "
+            "[-1000.0, 1000.0]\n";
   std::string map = "[macro_interface]\n";
   for (unsigned p = 0; p < points; ++p) {
     const bool input = p < points / 2;

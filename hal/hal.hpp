@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The hardware layer as the runtime sees it: one small interface, one folder per bus behind it (sim now).
 //
-// The scan calls read() first and write() last, once per cycle. Both are NC_RT: no allocation, no lock, no system call;
-// a slow bus keeps a thread of its own and exchanges with it through memory.
+// The scan calls read() first and write() last, once per cycle. Both are NC_RT: no allocation, no lock, no
+// system call; a slow bus keeps a thread of its own and exchanges with it through memory.
 #pragma once
 
 #include <string>
@@ -14,13 +14,13 @@ namespace nc::hal {
 
 // What the machine tells one part system.
 struct SystemFeedback {
-  bool actual_valid = false;       // `actual` is measured
-  nc_axes actual{};                // machine position, mm or deg
+  bool actual_valid = false;          // `actual` is measured
+  nc_axes actual{};                   // machine position, mm or deg
   std::uint32_t following_fault = 0;  // bit per axis: following error beyond its limit
   std::uint32_t drive_fault = 0;      // bit per axis: the drive reports a fault
-  std::uint32_t skip = 0;          // skip signals, bit n = signal n+1
-  double spindle_rev_per_s = 0;    // actual speed, signed
-  bool fin = false;                // completion of M, S, T or B (level, FIN1 style handshake)
+  std::uint32_t skip = 0;             // skip signals, bit n = signal n+1
+  double spindle_rev_per_s = 0;       // actual speed, signed
+  bool fin = false;                   // completion of M, S, T or B (level, FIN1 style handshake)
 };
 
 struct Feedback {
@@ -30,15 +30,15 @@ struct Feedback {
 
 // What the control tells the machine.
 struct SystemCommand {
-  bool enable = false;        // drives on
-  nc_axes position{};         // commanded machine position of this cycle
-  nc_axes velocity{};         // mm/s or deg/s
-  std::uint8_t strobe = 0;    // bit 0 M, 1 S, 2 T, 3 B
+  bool enable = false;      // drives on
+  nc_axes position{};       // commanded machine position of this cycle
+  nc_axes velocity{};       // mm/s or deg/s
+  std::uint8_t strobe = 0;  // bit 0 M, 1 S, 2 T, 3 B
   std::uint32_t m = 0, t = 0, b = 0;
   double s = 0;
-  std::uint64_t serial = 0;   // item in execution
-  nc_source source{};         // and where it stands
-  bool running = false;       // a program is in execution
+  std::uint64_t serial = 0;  // item in execution
+  nc_source source{};        // and where it stands
+  bool running = false;      // a program is in execution
 };
 
 struct Command {
@@ -48,7 +48,8 @@ struct Command {
 class Hal {
  public:
   virtual ~Hal() = default;
-  // Before the first scan, in an ordinary thread. False with a sentence in *error when the machine cannot be reached.
+  // Before the first scan, in an ordinary thread. False with a sentence in *error when the machine cannot be
+  // reached.
   virtual bool start(const PointImage& initial, std::string* error) = 0;
   // Head of the scan: fills the feedback and the *input* points of the image. NC_RT.
   virtual void read(Feedback* feedback, PointImage* image) noexcept = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Named I/O points: the list of names (fixed after start-up) and the process image they index.
 //
-// Every signal of the machine has a name. A point is a bit or a 32-bit word and has one direction, seen from the control:
-// an input comes from the machine, an output goes to it. The image is a plain array of 32-bit values, one per point, so
-// that a scan never searches, allocates or locks; a bit point holds 0 or 1.
+// Every signal of the machine has a name. A point is a bit or a 32-bit word and has one direction, seen from
+// the control: an input comes from the machine, an output goes to it. The image is a plain array of 32-bit
+// values, one per point, so that a scan never searches, allocates or locks; a bit point holds 0 or 1.
 #pragma once
 
 #include <cstdint>

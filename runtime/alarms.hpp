@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Alarms of the runtime. Those of a program come from libnc with the manual's own codes; what the machine around the
-// program does wrong has codes of ours, R and a number, in this table.
+// Alarms of the runtime. Those of a program come from libnc with the manual's own codes; what the machine
+// around the program does wrong has codes of ours, R and a number, in this table.
 #pragma once
 
 #include <cstdint>
@@ -44,10 +44,10 @@ constexpr const AlarmRow& alarm_row(AlarmId id) {
 // One active alarm, as the scan raises it.
 struct ActiveAlarm {
   AlarmId id = AlarmId::kCount;
-  std::int8_t axis = -1;      // index in its part system, -1 = none
-  std::uint8_t system = 0;    // index of the part system
-  std::uint64_t scan = 0;     // when it came
-  nc_source source{};         // block in execution at that moment
+  std::int8_t axis = -1;    // index in its part system, -1 = none
+  std::uint8_t system = 0;  // index of the part system
+  std::uint64_t scan = 0;   // when it came
+  nc_source source{};       // block in execution at that moment
 };
 
 inline constexpr unsigned kMaxActiveAlarms = 16;

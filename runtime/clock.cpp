@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real clock: CLOCK_MONOTONIC for deadlines (never set back), CLOCK_REALTIME plus the zone for the program's clock.
+// The real clock: CLOCK_MONOTONIC for deadlines (never set back), CLOCK_REALTIME plus the zone for the
+// program's clock.
 #include "runtime/clock.hpp"
 
 #include <cerrno>

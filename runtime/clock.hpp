@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clock is handed to the scan, so that a test and a machine run the same code: RealClock sleeps on absolute
-// deadlines of CLOCK_MONOTONIC; VirtualClock jumps there, and a run is as fast as the processor and always the same.
+// The clock is handed to the scan, so that a test and a machine run the same code: RealClock sleeps on
+// absolute deadlines of CLOCK_MONOTONIC; VirtualClock jumps there, and a run is as fast as the processor and
+// always the same.
 #pragma once
 
 #include <cstdint>

@@ -10,24 +10,26 @@ enum class Mode : std::uint8_t { kAuto = 0, kMdi = 1, kManual = 2 };
 
 enum class CommandKind : std::uint8_t {
   // for the scan
-  kSetMode,         // number: Mode
+  kSetMode,  // number: Mode
   kCycleStart,
   kFeedHold,
-  kReset,           // also acknowledges alarms whose cause is gone
-  kFeedOverride,    // value: 0..max_feed_override
-  kRapidOverride,   // value: 0..1
-  kSingleBlock,     // number: 0 or 1
-  kOptionalStop,    // number: 0 or 1
-  kJog,             // axis, value: velocity mm/s signed; has to be repeated within kJogDeadManScans, 0 stops
-  kStep,            // axis, value: distance
-  kReference,       // axis: go to the first reference position
+  kReset,          // also acknowledges alarms whose cause is gone
+  kFeedOverride,   // value: 0..max_feed_override
+  kRapidOverride,  // value: 0..1
+  kSingleBlock,    // number: 0 or 1
+  kOptionalStop,   // number: 0 or 1
+  kJog,            // axis, value: velocity mm/s signed; has to be repeated within kJogDeadManScans, 0 stops
+  kStep,           // axis, value: distance
+  kReference,      // axis: go to the first reference position
   // for the feeder
-  kSelectProgram,   // number: file index of the program store; AUTO
-  kLoadMdi,         // the text given to Runtime::load_mdi(); MDI
-  kSwitches,        // number: optional skip switches (bit n = switch n)
+  kSelectProgram,  // number: file index of the program store; AUTO
+  kLoadMdi,        // the text given to Runtime::load_mdi(); MDI
+  kSwitches,       // number: optional skip switches (bit n = switch n)
 };
 
-constexpr bool for_feeder(CommandKind kind) { return kind >= CommandKind::kSelectProgram; }
+constexpr bool for_feeder(CommandKind kind) {
+  return kind >= CommandKind::kSelectProgram;
+}
 
 struct Command {
   CommandKind kind = CommandKind::kReset;
@@ -42,10 +44,10 @@ enum class Answer : std::uint8_t {
   kDone = 0,
   kQueueFull,
   kNotInThisMode,
-  kNotWhileRunning,   // a program is in execution or interrupted: reset first
-  kNoProgram,         // nothing selected
-  kAlarmActive,       // reset first
-  kResetting,         // the reset is still going on
+  kNotWhileRunning,  // a program is in execution or interrupted: reset first
+  kNoProgram,        // nothing selected
+  kAlarmActive,      // reset first
+  kResetting,        // the reset is still going on
   kAlreadyRunning,
   kOutOfRange,
   kAxisUnknown,
@@ -55,18 +57,30 @@ enum class Answer : std::uint8_t {
 
 constexpr const char* answer_text(Answer answer) {
   switch (answer) {
-    case Answer::kDone: return "done";
-    case Answer::kQueueFull: return "too many commands at once";
-    case Answer::kNotInThisMode: return "not in this mode";
-    case Answer::kNotWhileRunning: return "a program is in execution: reset first";
-    case Answer::kNoProgram: return "no program is selected";
-    case Answer::kAlarmActive: return "an alarm is active: reset first";
-    case Answer::kResetting: return "reset in progress";
-    case Answer::kAlreadyRunning: return "already running";
-    case Answer::kOutOfRange: return "value out of range";
-    case Answer::kAxisUnknown: return "no such axis or part system";
-    case Answer::kRefusedByControl: return "refused by the control";
-    case Answer::kNoAnswer: return "the runtime does not answer";
+    case Answer::kDone:
+      return "done";
+    case Answer::kQueueFull:
+      return "too many commands at once";
+    case Answer::kNotInThisMode:
+      return "not in this mode";
+    case Answer::kNotWhileRunning:
+      return "a program is in execution: reset first";
+    case Answer::kNoProgram:
+      return "no program is selected";
+    case Answer::kAlarmActive:
+      return "an alarm is active: reset first";
+    case Answer::kResetting:
+      return "reset in progress";
+    case Answer::kAlreadyRunning:
+      return "already running";
+    case Answer::kOutOfRange:
+      return "value out of range";
+    case Answer::kAxisUnknown:
+      return "no such axis or part system";
+    case Answer::kRefusedByControl:
+      return "refused by the control";
+    case Answer::kNoAnswer:
+      return "the runtime does not answer";
   }
   return "?";
 }

@@ -49,7 +49,8 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   try {
     root = toml::parse(text, std::string_view(file));
   } catch (const toml::parse_error& error) {
-    errors.add(static_cast<unsigned>(error.source().begin.line), "", "syntax: " + std::string(error.description()));
+    errors.add(static_cast<unsigned>(error.source().begin.line), "",
+               "syntax: " + std::string(error.description()));
     return errors.take();
   }
   TableReader reader(root, "", &errors);
@@ -74,7 +75,8 @@ std::vector<ConfigError> load_config(const std::string& path, Config* config) {
   std::error_code ignored;
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path, ignored))
-    return {{path, 0, "", std::string("cannot be read: ") + (errno != 0 ? std::strerror(errno) : "not a file")}};
+    return {
+        {path, 0, "", std::string("cannot be read: ") + (errno != 0 ? std::strerror(errno) : "not a file")}};
   std::ostringstream text;
   text << stream.rdbuf();
   return parse_config(text.str(), path, config);

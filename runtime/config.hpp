@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The machine configuration: a TOML file as plain data, and everything that can be wrong with it.
 //
-// Units: mm, degrees, seconds in the file's names where they are not mm or mm/s; see etc/machine.toml, which explains
-// every key. Parsing has no side effects. Every error names file, line and key; all are reported, not only the first
-// (a syntax error ends the file: nothing behind it can be trusted).
+// Units: mm, degrees, seconds in the file's names where they are not mm or mm/s; see etc/machine.toml, which
+// explains every key. Parsing has no side effects. Every error names file, line and key; all are reported,
+// not only the first (a syntax error ends the file: nothing behind it can be trusted).
 #pragma once
 
 #include <array>
@@ -38,8 +38,8 @@ struct ConfigPlace {
 };
 
 struct ParameterSetting {
-  std::string key;  // manual's number or name
-  char axis = 0;    // 0 = all axes
+  std::string key;      // manual's number or name
+  char axis = 0;        // 0 = all axes
   unsigned system = 0;  // part system of the axis; without an axis the setting holds for all
   std::string text;
   ConfigPlace place;
@@ -78,11 +78,11 @@ struct SchedulingConfig {
 };
 
 struct Config {
-  std::string file;    // name of the file, for messages
+  std::string file;  // name of the file, for messages
   std::string name = "machine";
   std::string programs = ".";  // folder of programs, relative to the file's folder unless absolute
   unsigned cycle_us = 1000;
-  nc_config nc;                // everything that libnc is created with
+  nc_config nc;  // everything that libnc is created with
   SchedulingConfig scheduling;
   std::array<nc_axes, NC_MAX_SYSTEMS> start = {};  // where the axes stand at start-up
   std::vector<ParameterSetting> parameters;
@@ -103,7 +103,8 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
 // Read and parse a file.
 std::vector<ConfigError> load_config(const std::string& path, Config* config);
 
-// Parameters, offsets and start position into a control. What the control refuses is an error with its place in the file.
+// Parameters, offsets and start position into a control. What the control refuses is an error with its place
+// in the file.
 std::vector<ConfigError> apply_config(const Config& config, nc_control* control);
 
 }  // namespace nc::rt

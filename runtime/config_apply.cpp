@@ -8,10 +8,14 @@ namespace {
 
 std::string reason(nc_status status, const char* what) {
   switch (status) {
-    case NC_E_NOT_FOUND: return std::string("the control has no such ") + what;
-    case NC_E_ARGUMENT: return std::string("the control refuses this value for the ") + what;
-    case NC_E_MEMORY: return std::string("no room in the control for the ") + what;
-    default: return std::string("the control refuses the ") + what + " (status " + std::to_string(status) + ")";
+    case NC_E_NOT_FOUND:
+      return std::string("the control has no such ") + what;
+    case NC_E_ARGUMENT:
+      return std::string("the control refuses this value for the ") + what;
+    case NC_E_MEMORY:
+      return std::string("no room in the control for the ") + what;
+    default:
+      return std::string("the control refuses the ") + what + " (status " + std::to_string(status) + ")";
   }
 }
 
@@ -25,8 +29,8 @@ std::vector<ConfigError> apply_config(const Config& config, nc_control* control)
   for (const ParameterSetting& parameter : config.parameters) {
     for (unsigned s = 0; s < config.nc.system_count; ++s) {
       if (parameter.axis != 0 && parameter.system != s) continue;
-      const nc_status status =
-          nc_parameter_set(control, api_system(s), parameter.key.c_str(), parameter.axis, parameter.text.c_str());
+      const nc_status status = nc_parameter_set(control, api_system(s), parameter.key.c_str(), parameter.axis,
+                                                parameter.text.c_str());
       check(status, parameter.place, "parameter");
       if (status < 0) break;  // one message for one line
     }

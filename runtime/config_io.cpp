@@ -14,16 +14,16 @@ constexpr double kMaxSeconds = 3600;
 bool valid_point_name(std::string_view name) {
   if (name.empty() || name.size() > 64) return false;
   return std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ||
-           c == '-';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '.' || c == '-';
   });
 }
 
 // One number of the macro interface. M700 13.5.5.
 struct InterfaceNumber {
   bool output = false;
-  bool word = false;     // #1032..#1035, #1132..#1135
-  unsigned bank = 0;     // word 0..3
+  bool word = false;  // #1032..#1035, #1132..#1135
+  unsigned bank = 0;  // word 0..3
   unsigned bit = 0;
 };
 
@@ -65,13 +65,14 @@ bool overlaps(const MacroMap& map, const InterfaceNumber& number) {
   return std::any_of(bits.begin(), bits.end(), [](int point) { return point >= 0; });
 }
 
-void map_number(TableReader* reader, const std::string& key, Config* config, std::vector<std::string>* mapped_by) {
+void map_number(TableReader* reader, const std::string& key, Config* config,
+                std::vector<std::string>* mapped_by) {
   std::string name;
   if (!reader->string(key, &name)) return;
   const auto number = interface_number(key);
   if (!number) {
-    reader->error(key,
-                  "is not a number of the macro interface (#1000-#1035, #1100-#1135, #1200-#1295, #1300-#1395)");
+    reader->error(
+        key, "is not a number of the macro interface (#1000-#1035, #1100-#1135, #1200-#1295, #1300-#1395)");
     return;
   }
   const int index = config->points.find(name);
@@ -82,8 +83,9 @@ void map_number(TableReader* reader, const std::string& key, Config* config, std
   const hal::Point& point = config->points.at(static_cast<unsigned>(index));
   const bool point_is_output = point.direction == hal::PointDirection::kOutput;
   if (point_is_output != number->output) {
-    reader->error(key, number->output ? "is an output of the control, but point \"" + name + "\" is an input"
-                                      : "is an input of the control, but point \"" + name + "\" is an output");
+    reader->error(key, number->output
+                           ? "is an output of the control, but point \"" + name + "\" is an input"
+                           : "is an input of the control, but point \"" + name + "\" is an output");
     return;
   }
   if ((point.type == hal::PointType::kWord) != number->word) {
@@ -157,7 +159,8 @@ void read_points(TableReader* root, Config* config) {
 void read_macro_interface(TableReader* root, Config* config) {
   root->table("macro_interface", [&](TableReader& reader) {
     std::vector<std::string> mapped_by(config->points.size());
-    reader.each([&](const std::string& key, const toml::node&) { map_number(&reader, key, config, &mapped_by); });
+    reader.each(
+        [&](const std::string& key, const toml::node&) { map_number(&reader, key, config, &mapped_by); });
   });
 }
 

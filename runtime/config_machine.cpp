@@ -83,7 +83,8 @@ void read_axis(TableReader* reader, Config* config) {
   system.axis[a] = entry.axis;
   config->start[s].v[a] = entry.start;
   config->sim.axis[s][a] = entry.sim;
-  config->nc.system_count = static_cast<std::uint8_t>(std::max<unsigned>(config->nc.system_count, entry.system));
+  config->nc.system_count =
+      static_cast<std::uint8_t>(std::max<unsigned>(config->nc.system_count, entry.system));
 }
 
 }  // namespace

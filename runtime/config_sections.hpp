@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sections of the machine configuration, in the order in which they are read (later ones refer to earlier ones).
+// The sections of the machine configuration, in the order in which they are read (later ones refer to earlier
+// ones).
 #pragma once
 
 #include "runtime/toml_reader.hpp"

@@ -15,7 +15,8 @@ constexpr std::string_view kColumns[] = {"length", "length_wear", "radius", "rad
 std::optional<unsigned> parse_number(std::string_view text, unsigned min, unsigned max) {
   unsigned value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || value < min || value > max) return {};
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || value < min || value > max)
+    return {};
   return value;
 }
 
@@ -39,7 +40,9 @@ std::optional<unsigned> work_offset_index(std::string_view name, unsigned sets) 
   return number ? std::optional<unsigned>(100 + *number) : std::nullopt;
 }
 
-std::string no_axis(std::string_view name) { return "no axis \"" + std::string(name) + "\" is configured"; }
+std::string no_axis(std::string_view name) {
+  return "no axis \"" + std::string(name) + "\" is configured";
+}
 
 }  // namespace
 
@@ -54,7 +57,8 @@ void read_parameters(TableReader* root, Config* config) {
           if (!find_axis(*config, axis_name.str(), &system, &axis))
             reader.errors()->add(place.line, place.key, no_axis(axis_name.str()));
           else if (!text)
-            reader.errors()->add(place.line, place.key, std::string("must be a number or a word, not ") + type_name(value));
+            reader.errors()->add(place.line, place.key,
+                                 std::string("must be a number or a word, not ") + type_name(value));
           else
             config->parameters.push_back({key, axis_name.str()[0], system, *text, place});
         }
@@ -62,7 +66,8 @@ void read_parameters(TableReader* root, Config* config) {
       }
       const auto text = value_text(node);
       if (!text)
-        reader.error(key, std::string("must be a finite number, a word, or a table by axis, not ") + type_name(node));
+        reader.error(
+            key, std::string("must be a finite number, a word, or a table by axis, not ") + type_name(node));
       else
         config->parameters.push_back({key, 0, 0, *text, {line_of(node), reader.path(key)}});
     });
@@ -109,7 +114,8 @@ void read_tool_offsets(TableReader* root, Config* config) {
       setting.number = *number;
       setting.place = {line_of(node), reader.path(name)};
       for (const ToolOffsetSetting& other : config->tool_offsets)
-        if (other.number == *number) reader.error(name, "offset " + std::to_string(*number) + " is already there");
+        if (other.number == *number)
+          reader.error(name, "offset " + std::to_string(*number) + " is already there");
       if (const toml::table* table = node.as_table()) {
         TableReader columns(*table, reader.path(name), reader.errors());
         for (unsigned c = 0; c < 4; ++c)

@@ -51,12 +51,14 @@ class EndFinder {
   bool comment_ = false, in_m_ = false, digits_ = false;
 };
 
-double us(std::uint64_t ns) { return static_cast<double>(ns) / 1000.0; }
+double us(std::uint64_t ns) {
+  return static_cast<double>(ns) / 1000.0;
+}
 
 void append_histogram(std::string* text, const char* name, const Histogram& histogram) {
   append(text, "  %-16s p50 %8.1f us   p99 %8.1f us   p99.9 %8.1f us   max %8.1f us\n", name,
-         us(histogram.percentile_ns(0.5)), us(histogram.percentile_ns(0.99)), us(histogram.percentile_ns(0.999)),
-         us(histogram.max_ns()));
+         us(histogram.percentile_ns(0.5)), us(histogram.percentile_ns(0.99)),
+         us(histogram.percentile_ns(0.999)), us(histogram.max_ns()));
 }
 
 }  // namespace
@@ -91,11 +93,16 @@ unsigned percent_done(std::uint32_t main_line, std::uint64_t lines) {
 
 std::string state_text(const nc_outputs& outputs) {
   switch (outputs.state) {
-    case NC_STATE_IDLE: return "idle";
-    case NC_STATE_HOLD: return "feed hold";
-    case NC_STATE_ALARM: return "alarm";
-    case NC_STATE_MANUAL: return "manual";
-    default: break;
+    case NC_STATE_IDLE:
+      return "idle";
+    case NC_STATE_HOLD:
+      return "feed hold";
+    case NC_STATE_ALARM:
+      return "alarm";
+    case NC_STATE_MANUAL:
+      return "manual";
+    default:
+      break;
   }
   switch (outputs.cause) {
     case NC_CAUSE_FIN: {
@@ -106,14 +113,22 @@ std::string state_text(const nc_outputs& outputs) {
       if (outputs.strobe & 8) append(&text, " B%u", outputs.b);
       return outputs.strobe == 0 ? "waits for FIN" : text;
     }
-    case NC_CAUSE_DWELL: return "dwell";
-    case NC_CAUSE_IN_POSITION: return "in-position check";
-    case NC_CAUSE_PROGRAM_STOP: return "program stop";
-    case NC_CAUSE_SINGLE_BLOCK: return "block stop";
-    case NC_CAUSE_INTERLOCK: return "interlock";
-    case NC_CAUSE_OVERRIDE_ZERO: return "override 0 %";
-    case NC_CAUSE_STARVED: return "waits for blocks";
-    default: return outputs.state == NC_STATE_STOPPED ? "stopped" : outputs.rapid ? "rapid" : "running";
+    case NC_CAUSE_DWELL:
+      return "dwell";
+    case NC_CAUSE_IN_POSITION:
+      return "in-position check";
+    case NC_CAUSE_PROGRAM_STOP:
+      return "program stop";
+    case NC_CAUSE_SINGLE_BLOCK:
+      return "block stop";
+    case NC_CAUSE_INTERLOCK:
+      return "interlock";
+    case NC_CAUSE_OVERRIDE_ZERO:
+      return "override 0 %";
+    case NC_CAUSE_STARVED:
+      return "waits for blocks";
+    default:
+      return outputs.state == NC_STATE_STOPPED ? "stopped" : outputs.rapid ? "rapid" : "running";
   }
 }
 
@@ -131,7 +146,8 @@ std::string progress_line(const Runtime& runtime, std::uint64_t lines) {
     append(&text, "line %-5u", source.line);
   else
     append(&text, "O%u:%-4u", source.program, source.line);
-  for (unsigned a = 0; a < axes.axis_count; ++a) append(&text, " %c%9.3f", axes.axis[a].name, system.nc.work.v[a]);
+  for (unsigned a = 0; a < axes.axis_count; ++a)
+    append(&text, " %c%9.3f", axes.axis[a].name, system.nc.work.v[a]);
   append(&text, "  F%-6.0f S%-6.0f T%-3u ", system.nc.feed_mm_min, system.spindle_rpm, system.nc.t);
   text += state_text(system.nc);
   if (snapshot.alarmed()) text += "  " + runtime.alarm_text(snapshot.alarms.alarm[0]);
@@ -145,7 +161,8 @@ std::string summary_text(const Runtime& runtime, const nc_outputs& last_run, std
   append(&text, "path length  %.3f mm\n", last_run.path_length);
   append(&text, "blocks       %llu\n", static_cast<unsigned long long>(last_run.blocks));
   if (runtime.first_scan_ns() != 0)
-    append(&text, "start-up     %.1f ms to the first scan\n", static_cast<double>(runtime.first_scan_ns() - since_ns) / 1e6);
+    append(&text, "start-up     %.1f ms to the first scan\n",
+           static_cast<double>(runtime.first_scan_ns() - since_ns) / 1e6);
   append(&text, "scans        %llu of %u us, %llu overruns, %llu slots missed\n",
          static_cast<unsigned long long>(statistics.execution.count()), runtime.config().cycle_us,
          static_cast<unsigned long long>(statistics.overruns.load()),
@@ -165,7 +182,8 @@ void Progress::show(const Runtime& runtime) {
   }
   const Snapshot snapshot = runtime.snapshot();
   const int tenth = std::atoi(line.c_str()) / 10;
-  const std::string state = snapshot.system[0].nc.state == NC_STATE_RUNNING ? "" : state_text(snapshot.system[0].nc);
+  const std::string state =
+      snapshot.system[0].nc.state == NC_STATE_RUNNING ? "" : state_text(snapshot.system[0].nc);
   if (tenth == last_tenth_ && state == last_state_) return;
   last_tenth_ = tenth;
   last_state_ = state;

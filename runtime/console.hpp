@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ncrtd shows on a terminal: one live line (or plain lines where there is no terminal) and the summary at the end.
+// What ncrtd shows on a terminal: one live line (or plain lines where there is no terminal) and the summary
+// at the end.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@
 
 namespace nc::rt {
 
-// Lines of a program up to its end code (M02, M30), for the percentage: counted in small files, estimated from the first
-// megabyte in large ones. 0 = cannot be read.
+// Lines of a program up to its end code (M02, M30), for the percentage: counted in small files, estimated
+// from the first megabyte in large ones. 0 = cannot be read.
 std::uint64_t estimate_lines(const std::string& path);
 
 // Share of the program that is done, 0..100, by the line of the main program.
@@ -26,11 +27,12 @@ std::string state_text(const nc_outputs& outputs);
 // Cycle time, path length, blocks, scan statistics. `since_ns`: when the process began, on CLOCK_MONOTONIC.
 std::string summary_text(const Runtime& runtime, const nc_outputs& last_run, std::int64_t since_ns);
 
-// Live progress. On a terminal the line is rewritten in place; elsewhere a line appears at each tenth and at each change
-// of state.
+// Live progress. On a terminal the line is rewritten in place; elsewhere a line appears at each tenth and at
+// each change of state.
 class Progress {
  public:
-  Progress(std::FILE* out, bool terminal, std::uint64_t lines) : out_(out), terminal_(terminal), lines_(lines) {}
+  Progress(std::FILE* out, bool terminal, std::uint64_t lines)
+      : out_(out), terminal_(terminal), lines_(lines) {}
   void show(const Runtime& runtime);
   void finish();  // leaves the live line
   void note(const std::string& text);

@@ -83,7 +83,8 @@ Answer Feeder::load_mdi(unsigned system) {
   return Answer::kDone;
 }
 
-// The scan is at rest after a reset: the interpreter goes back to the program's head. A reset gives MDI blocks up.
+// The scan is at rest after a reset: the interpreter goes back to the program's head. A reset gives MDI
+// blocks up.
 void Feeder::complete_reset() {
   if (!scan_->reset_waits()) return;
   for (unsigned s = 0; s < systems_; ++s) {

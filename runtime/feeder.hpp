@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The feeder: reads ahead of the machine, takes what the machine has executed, completes resets, selects programs.
-// It belongs to one ordinary thread (or, on virtual time, to the same thread as the scan, in turns); it may allocate.
+// The feeder: reads ahead of the machine, takes what the machine has executed, completes resets, selects
+// programs. It belongs to one ordinary thread (or, on virtual time, to the same thread as the scan, in
+// turns); it may allocate.
 #pragma once
 
 #include <atomic>
@@ -31,16 +32,16 @@ class PathSink {
 
 // What the feeder knows and readers want.
 struct FeederInfo {
-  bool program_ready = false;     // selected, at its head or running
-  bool ended = false;             // the last run came to its end (M02, M30)
+  bool program_ready = false;  // selected, at its head or running
+  bool ended = false;          // the last run came to its end (M02, M30)
   bool ended_ok = false;
-  std::uint64_t runs = 0;         // runs that ended
-  std::uint64_t events = 0;       // items executed
-  std::uint64_t dropped = 0;      // events that were not fetched in time
-  std::uint32_t main_line = 0;    // line of the main program that was finished last
-  bool alarm = false;             // program_alarm holds
+  std::uint64_t runs = 0;       // runs that ended
+  std::uint64_t events = 0;     // items executed
+  std::uint64_t dropped = 0;    // events that were not fetched in time
+  std::uint32_t main_line = 0;  // line of the main program that was finished last
+  bool alarm = false;           // program_alarm holds
   nc_alarm program_alarm{};
-  std::uint64_t messages = 0;     // so far
+  std::uint64_t messages = 0;  // so far
   std::string last_message;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Histogram of times in a fixed array: every power of two is divided into 32 equal buckets, so that any value is known
-// to about 3 %, from 1 ns to 1000 s, in 8 KB. One writer (the scan); readers may look at any time.
+// Histogram of times in a fixed array: every power of two is divided into 32 equal buckets, so that any value
+// is known to about 3 %, from 1 ns to 1000 s, in 8 KB. One writer (the scan); readers may look at any time.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,8 @@ class Histogram {
     return n == 0 ? 0.0 : static_cast<double>(sum_.load(std::memory_order_relaxed)) / static_cast<double>(n);
   }
 
-  // Smallest value that at least `fraction` of all records do not exceed (upper edge of its bucket, at most the maximum).
+  // Smallest value that at least `fraction` of all records do not exceed (upper edge of its bucket, at most
+  // the maximum).
   std::uint64_t percentile_ns(double fraction) const {
     const std::uint64_t n = count();
     if (n == 0) return 0;
@@ -59,7 +60,8 @@ class Histogram {
   // Values below kSub have a bucket each; above, the top kSubBits+1 bits choose.
   static std::size_t index_of(std::uint64_t value) noexcept {
     if (value < kSub) return static_cast<std::size_t>(value);
-    const unsigned power = static_cast<unsigned>(std::bit_width(value)) - 1 - kSubBits;  // 0 for kSub..2*kSub-1
+    const unsigned power =
+        static_cast<unsigned>(std::bit_width(value)) - 1 - kSubBits;  // 0 for kSub..2*kSub-1
     const std::size_t index = (power + 1) * kSub + static_cast<std::size_t>((value >> power) - kSub);
     return std::min(index, kBuckets - 1);
   }

@@ -14,12 +14,16 @@ constexpr std::uint8_t kWholeWord = 255;
 MacroInterface::MacroInterface(const MacroMap& map) {
   for (unsigned w = 0; w < NC_WORDS; ++w) {
     const auto word = static_cast<std::uint8_t>(w);
-    if (map.input_word[w] >= 0) inputs_.push_back({word, kWholeWord, static_cast<std::uint16_t>(map.input_word[w])});
-    if (map.output_word[w] >= 0) outputs_.push_back({word, kWholeWord, static_cast<std::uint16_t>(map.output_word[w])});
+    if (map.input_word[w] >= 0)
+      inputs_.push_back({word, kWholeWord, static_cast<std::uint16_t>(map.input_word[w])});
+    if (map.output_word[w] >= 0)
+      outputs_.push_back({word, kWholeWord, static_cast<std::uint16_t>(map.output_word[w])});
     for (unsigned b = 0; b < 32; ++b) {
       const auto bit = static_cast<std::uint8_t>(b);
-      if (map.input_bit[w][b] >= 0) inputs_.push_back({word, bit, static_cast<std::uint16_t>(map.input_bit[w][b])});
-      if (map.output_bit[w][b] >= 0) outputs_.push_back({word, bit, static_cast<std::uint16_t>(map.output_bit[w][b])});
+      if (map.input_bit[w][b] >= 0)
+        inputs_.push_back({word, bit, static_cast<std::uint16_t>(map.input_bit[w][b])});
+      if (map.output_bit[w][b] >= 0)
+        outputs_.push_back({word, bit, static_cast<std::uint16_t>(map.output_bit[w][b])});
     }
   }
 }

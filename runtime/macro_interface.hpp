@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The macro interface image: 4 words in (#1032..#1035), 4 words out (#1132..#1135), and the named points they stand for.
+// The macro interface image: 4 words in (#1032..#1035), 4 words out (#1132..#1135), and the named points they
+// stand for.
 //
-// A bit variable is one bit of a word (M700 13.5.5, table in macro_interface.cpp), so bits and words cannot disagree:
-// there is one image. Inputs are gathered from the points before the NC; an output point is written only when the NC
-// changed its bit, so what the machine holds stays over a reset and is not touched by anything but the program.
+// A bit variable is one bit of a word (M700 13.5.5, table in macro_interface.cpp), so bits and words cannot
+// disagree: there is one image. Inputs are gathered from the points before the NC; an output point is written
+// only when the NC changed its bit, so what the machine holds stays over a reset and is not touched by
+// anything but the program.
 #pragma once
 
 #include <cstdint>

@@ -9,15 +9,21 @@ namespace nc::rt {
 nc_status LibNc::poll_event(unsigned system, nc_event* event, std::uint64_t* dropped) {
   return nc_event_poll(control_, api_system(system), event, dropped);
 }
-nc_status LibNc::select(unsigned system, unsigned file) { return nc_program_select(control_, api_system(system), file); }
+nc_status LibNc::select(unsigned system, unsigned file) {
+  return nc_program_select(control_, api_system(system), file);
+}
 nc_status LibNc::load_mdi(unsigned system, const char* text, std::size_t length) {
   return nc_mdi_load(control_, api_system(system), text, length);
 }
-nc_status LibNc::reset(unsigned system) { return nc_reset(control_, api_system(system)); }
+nc_status LibNc::reset(unsigned system) {
+  return nc_reset(control_, api_system(system));
+}
 void LibNc::switches(unsigned system, std::uint32_t optional_skip) {
   nc_switches_set(control_, api_system(system), optional_skip, 0);
 }
-nc_status LibNc::alarm(unsigned system, nc_alarm* alarm) { return nc_alarm_get(control_, api_system(system), alarm); }
+nc_status LibNc::alarm(unsigned system, nc_alarm* alarm) {
+  return nc_alarm_get(control_, api_system(system), alarm);
+}
 nc_status LibNc::modal(unsigned system, std::uint32_t id, nc_modal* modal) {
   return nc_modal_get(control_, api_system(system), id, modal);
 }

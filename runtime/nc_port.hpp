@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The NC as the scan and the feeder see it. One implementation is libnc; tests put a recorder in its place to prove the
-// order of a scan.
+// The NC as the scan and the feeder see it. One implementation is libnc; tests put a recorder in its place to
+// prove the order of a scan.
 #pragma once
 
 #include <cstddef>

@@ -4,7 +4,10 @@
 
 namespace nc::rt {
 
-// Calls of the API count part systems from 0, as the arrays of nc_cycle() do; only nc_source::system counts from 1.
-constexpr unsigned api_system(unsigned index) { return index; }
+// Calls of the API count part systems from 0, as the arrays of nc_cycle() do; only nc_source::system counts
+// from 1.
+constexpr unsigned api_system(unsigned index) {
+  return index;
+}
 
 }  // namespace nc::rt

@@ -77,6 +77,8 @@ void promote_scan_thread(const SchedulingConfig& scheduling, std::vector<std::st
                         "): cycles will be late; allow it with CAP_SYS_NICE or an rtprio limit");
 }
 
-void sharpen_timers() { prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); }
+void sharpen_timers() {
+  prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
+}
 
 }  // namespace nc::rt

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real-time set-up of the process and a thread with a small stack that may run under SCHED_FIFO.
 //
-// What is asked for and not allowed is a warning, never a failure: the same program runs on a desk and on a machine.
+// What is asked for and not allowed is a warning, never a failure: the same program runs on a desk and on a
+// machine.
 #pragma once
 
 #include <pthread.h>
@@ -14,7 +15,8 @@
 
 namespace nc::rt {
 
-// Before any other thread exists: one malloc arena (each further one would be locked into memory), no trimming.
+// Before any other thread exists: one malloc arena (each further one would be locked into memory), no
+// trimming.
 void limit_allocator();
 
 // Locks what is mapped now and later. Call when all memory is there; adds a sentence when it is not allowed.

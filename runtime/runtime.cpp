@@ -15,12 +15,14 @@ namespace nc::rt {
 namespace {
 
 constexpr std::size_t kControlAlignment = 64;
-constexpr unsigned kAnswerSteps = 100;                        // virtual time: scans until an answer must be there
+constexpr unsigned kAnswerSteps = 100;  // virtual time: scans until an answer must be there
 constexpr auto kAnswerTime = std::chrono::milliseconds(500);  // real time
 
 }  // namespace
 
-void Runtime::FreeMemory::operator()(void* memory) const { std::free(memory); }
+void Runtime::FreeMemory::operator()(void* memory) const {
+  std::free(memory);
+}
 
 Runtime::Runtime(const Config& config, const RuntimeParts& parts) : config_(config), parts_(parts) {
   if (parts_.ladder == nullptr) parts_.ladder = &empty_ladder_;
@@ -30,8 +32,10 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
                                          std::vector<ConfigError>* errors) {
   std::unique_ptr<Runtime> runtime(new Runtime(config, parts));
   if (parts.nc == nullptr && !runtime->make_control(errors)) return nullptr;
-  runtime->scan_ = std::make_unique<Scan>(config, parts.clock, parts.hal, runtime->parts_.ladder, runtime->parts_.nc);
-  runtime->feeder_ = std::make_unique<Feeder>(config.nc.system_count, runtime->parts_.nc, runtime->scan_.get());
+  runtime->scan_ =
+      std::make_unique<Scan>(config, parts.clock, parts.hal, runtime->parts_.ladder, runtime->parts_.nc);
+  runtime->feeder_ =
+      std::make_unique<Feeder>(config.nc.system_count, runtime->parts_.nc, runtime->scan_.get());
   return runtime;
 }
 
@@ -46,8 +50,9 @@ bool Runtime::make_control(std::vector<ConfigError>* errors) {
   nc_status status = NC_E_MEMORY;
   if (memory_ != nullptr) control_ = nc_create(&config_.nc, memory_.get(), rounded, &status);
   if (control_ == nullptr) {
-    errors->push_back({config_.file, 0, "", "the control cannot be made (status " + std::to_string(status) + ", " +
-                                                std::to_string(rounded) + " bytes)"});
+    errors->push_back({config_.file, 0, "",
+                       "the control cannot be made (status " + std::to_string(status) + ", " +
+                           std::to_string(rounded) + " bytes)"});
     return false;
   }
   std::vector<ConfigError> refused = apply_config(config_, control_);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The runtime: a control, its machine, the scan and the feeder, and the operator's commands.
 //
-//   real time:     start() makes two threads, the scan (SCHED_FIFO, absolute deadlines) and the feeder; stop() ends them
-//   virtual time:  step() runs the feeder once and the scan once, in the caller's thread, as often as it likes:
+//   real time:     start() makes two threads, the scan (SCHED_FIFO, absolute deadlines) and the feeder;
+//   stop() ends them virtual time:  step() runs the feeder once and the scan once, in the caller's thread, as
+//   often as it likes:
 //                  deterministic, and as fast as the processor
 //
 // Commands come from one thread. Everything else about a Runtime may be read from any thread.
@@ -21,10 +22,10 @@
 namespace nc::rt {
 
 struct RuntimeParts {
-  Clock* clock = nullptr;         // required
-  hal::Hal* hal = nullptr;        // required
-  LadderHook* ladder = nullptr;   // none = an empty one
-  NcPort* nc = nullptr;           // none = libnc, made from the configuration
+  Clock* clock = nullptr;        // required
+  hal::Hal* hal = nullptr;       // required
+  LadderHook* ladder = nullptr;  // none = an empty one
+  NcPort* nc = nullptr;          // none = libnc, made from the configuration
 };
 
 class Runtime {
@@ -37,7 +38,8 @@ class Runtime {
   Runtime(const Runtime&) = delete;
   Runtime& operator=(const Runtime&) = delete;
 
-  // The control, for programs and tables before the start (afterwards it belongs to the feeder). Null with a foreign NcPort.
+  // The control, for programs and tables before the start (afterwards it belongs to the feeder). Null with a
+  // foreign NcPort.
   nc_control* control() { return control_; }
   // Before the start.
   void set_sink(EventSink* sink) { feeder_->set_sink(sink); }

@@ -39,7 +39,9 @@ Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder
   }
 }
 
-void Scan::begin() noexcept { next_ns_ = clock_->now_ns() + period_ns_; }
+void Scan::begin() noexcept {
+  next_ns_ = clock_->now_ns() + period_ns_;
+}
 
 void Scan::loop_step() noexcept {
   clock_->sleep_until(next_ns_);
@@ -47,8 +49,8 @@ void Scan::loop_step() noexcept {
   const std::int64_t started = processor_ns();
   run_once();
   statistics_.execution.record(processor_ns() - started);
-  // A scan that ends behind its slot is an overrun. Late by less than a period: the next one runs at once. Later: the
-  // missed slots are skipped. The NC's time advances one cycle per scan, so no set-point jumps.
+  // A scan that ends behind its slot is an overrun. Late by less than a period: the next one runs at once.
+  // Later: the missed slots are skipped. The NC's time advances one cycle per scan, so no set-point jumps.
   const std::int64_t late = clock_->now_ns() - (next_ns_ + period_ns_);
   next_ns_ += period_ns_;
   if (late < 0) return;
@@ -91,7 +93,8 @@ void Scan::take_commands() noexcept {
   Command command;
   while (commands_.pop(&command)) {
     const Answer answer = apply(command);
-    // The ring of answers is larger than the ring of commands; an operator who never looks loses answers, not commands.
+    // The ring of answers is larger than the ring of commands; an operator who never looks loses answers, not
+    // commands.
     (void)answers_.push({command.ticket, answer});
   }
 }
@@ -104,7 +107,8 @@ Answer Scan::apply(const Command& command) noexcept {
       if (program_active() || !at_rest()) return Answer::kNotWhileRunning;
       mode_ = static_cast<Mode>(command.number);
       return Answer::kDone;
-    case CommandKind::kCycleStart: return start_cycle();
+    case CommandKind::kCycleStart:
+      return start_cycle();
     case CommandKind::kFeedHold:
       if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
       hold_request_ = program_active();
@@ -123,14 +127,20 @@ Answer Scan::apply(const Command& command) noexcept {
       if (!(command.value >= 0 && command.value <= 1)) return Answer::kOutOfRange;
       rapid_override_ = command.value;
       return Answer::kDone;
-    case CommandKind::kSingleBlock: single_block_ = command.number != 0; return Answer::kDone;
-    case CommandKind::kOptionalStop: optional_stop_ = command.number != 0; return Answer::kDone;
+    case CommandKind::kSingleBlock:
+      single_block_ = command.number != 0;
+      return Answer::kDone;
+    case CommandKind::kOptionalStop:
+      optional_stop_ = command.number != 0;
+      return Answer::kDone;
     case CommandKind::kJog:
     case CommandKind::kStep:
-    case CommandKind::kReference: return manual(command);
+    case CommandKind::kReference:
+      return manual(command);
     case CommandKind::kSelectProgram:
     case CommandKind::kLoadMdi:
-    case CommandKind::kSwitches: break;  // the feeder's
+    case CommandKind::kSwitches:
+      break;  // the feeder's
   }
   return Answer::kOutOfRange;
 }
@@ -155,7 +165,8 @@ Answer Scan::manual(const Command& command) noexcept {
   const nc_axis_config& axis = config_.nc.system[command.system].axis[command.axis];
   Jog& jog = jog_[command.system][command.axis];
   if (command.kind == CommandKind::kJog) {
-    if (!(command.value >= -axis.max_velocity && command.value <= axis.max_velocity)) return Answer::kOutOfRange;
+    if (!(command.value >= -axis.max_velocity && command.value <= axis.max_velocity))
+      return Answer::kOutOfRange;
     if (alarms_.count != 0 && command.value != 0) return Answer::kAlarmActive;
     jog = command.value == 0 ? Jog{} : Jog{NC_MANUAL_JOG, command.value, kJogDeadManScans};
     return Answer::kDone;
@@ -217,13 +228,24 @@ void Scan::write_outputs() noexcept {
   watch_soft_limits();
   bool enable = true;
   for (unsigned i = 0; i < alarms_.count; ++i)
-    if (alarms_.alarm[i].id == AlarmId::kDriveFault || alarms_.alarm[i].id == AlarmId::kHalLost) enable = false;
+    if (alarms_.alarm[i].id == AlarmId::kDriveFault || alarms_.alarm[i].id == AlarmId::kHalLost)
+      enable = false;
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
     macro_.distribute(s, out.output, &points_);
-    machine_.system[s] = {enable, out.command, out.velocity, out.strobe, out.m,     out.t,
-                          out.b,  out.s,       out.serial,   out.source, out.state == NC_STATE_RUNNING};
-    if (out.message && !message_seen_[s]) (void)messages_.push({s, out.message_text});  // full: the oldest stay
+    machine_.system[s] = {enable,
+                          out.command,
+                          out.velocity,
+                          out.strobe,
+                          out.m,
+                          out.t,
+                          out.b,
+                          out.s,
+                          out.serial,
+                          out.source,
+                          out.state == NC_STATE_RUNNING};
+    if (out.message && !message_seen_[s])
+      (void)messages_.push({s, out.message_text});  // full: the oldest stay
     message_seen_[s] = out.message;
     if (recording_) record_position(s);
   }
@@ -237,7 +259,8 @@ void Scan::record_position(unsigned system) noexcept {
   (void)positions_.push({static_cast<std::uint8_t>(system), out.rapid, out.command});
 }
 
-// What was asked for and has happened now: a hold is released when the path is at rest, a reset goes to the feeder.
+// What was asked for and has happened now: a hold is released when the path is at rest, a reset goes to the
+// feeder.
 void Scan::follow_requests() noexcept {
   bool running = false;
   for (unsigned s = 0; s < systems_; ++s) {

@@ -4,13 +4,12 @@
 // The order of a scan is a contract, and a test holds it:
 //
 //   1 inputs    HAL read: positions, FIN, skip, input points; operator commands; macro interface inputs
-//   2 ladder    sees this scan's inputs and the NC's outputs of the scan before; has the last word on what the NC gets
-//   3 NC        nc_cycle(): one set of positions
-//   4 outputs   macro interface outputs into the points; HAL write
-//   5 snapshot  one consistent copy for readers
+//   2 ladder    sees this scan's inputs and the NC's outputs of the scan before; has the last word on what
+//   the NC gets 3 NC        nc_cycle(): one set of positions 4 outputs   macro interface outputs into the
+//   points; HAL write 5 snapshot  one consistent copy for readers
 //
-// run_once() is NC_RT: no allocation, no lock, no system call, bounded work. Everything it exchanges with other threads
-// goes through single-producer queues, atomics and one sequence lock.
+// run_once() is NC_RT: no allocation, no lock, no system call, bounded work. Everything it exchanges with
+// other threads goes through single-producer queues, atomics and one sequence lock.
 #pragma once
 
 #include <atomic>
@@ -31,8 +30,8 @@
 
 namespace nc::rt {
 
-// Figures of the loop. Execution: from the wake-up to the end of the scan's body, always on the processor's clock.
-// Jitter: from the deadline to the wake-up, on the scan's clock.
+// Figures of the loop. Execution: from the wake-up to the end of the scan's body, always on the processor's
+// clock. Jitter: from the deadline to the wake-up, on the scan's clock.
 struct ScanStatistics {
   Histogram execution, jitter;
   std::atomic<std::uint64_t> overruns{0};      // scans that ended behind their slot

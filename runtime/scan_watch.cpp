@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the scan watches: the machine's faults, the soft limits as a last line behind the program's own check, overruns;
-// and the list of alarms that follows.
+// What the scan watches: the machine's faults, the soft limits as a last line behind the program's own check,
+// overruns; and the list of alarms that follows.
 #include <cmath>
 
 #include "runtime/scan.hpp"
@@ -41,8 +41,8 @@ void Scan::watch_machine() noexcept {
   }
 }
 
-// libnc refuses a block that leaves the soft limits before it moves. This is the check behind it, on what is really sent:
-// an alarm when a command is outside and goes further out. Coming back is always allowed.
+// libnc refuses a block that leaves the soft limits before it moves. This is the check behind it, on what is
+// really sent: an alarm when a command is outside and goes further out. Coming back is always allowed.
 void Scan::watch_soft_limits() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_system_config& system = config_.nc.system[s];
@@ -60,15 +60,20 @@ void Scan::watch_soft_limits() noexcept {
 void Scan::watch_overruns() noexcept {
   if (missed_since_reset_ < config_.scheduling.overrun_limit) return;
   switch (config_.scheduling.overrun) {
-    case OverrunReaction::kCount: break;
-    case OverrunReaction::kFeedHold: hold_request_ |= program_active(); break;
-    case OverrunReaction::kAlarm: raise(AlarmId::kScanOverrun, 0, -1); break;
+    case OverrunReaction::kCount:
+      break;
+    case OverrunReaction::kFeedHold:
+      hold_request_ |= program_active();
+      break;
+    case OverrunReaction::kAlarm:
+      raise(AlarmId::kScanOverrun, 0, -1);
+      break;
   }
   missed_since_reset_ = 0;
 }
 
-// Each cause stands in the list once; the list is long enough for all of them on all axes that can fail together in
-// practice, and what does not fit is behind sixteen others that stop the machine already.
+// Each cause stands in the list once; the list is long enough for all of them on all axes that can fail
+// together in practice, and what does not fit is behind sixteen others that stop the machine already.
 void Scan::raise(AlarmId id, unsigned system, int axis) noexcept {
   for (unsigned i = 0; i < alarms_.count; ++i) {
     const ActiveAlarm& other = alarms_.alarm[i];

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sequence lock: one writer that never waits, any number of readers that repeat when they were overtaken.
 //
-// The value is kept as an array of relaxed atomic words between two fences, so that there is no data race in the sense of
-// the language (H.-J. Boehm, "Can seqlocks get along with programming language memory models?", 2012).
+// The value is kept as an array of relaxed atomic words between two fences, so that there is no data race in
+// the sense of the language (H.-J. Boehm, "Can seqlocks get along with programming language memory models?",
+// 2012).
 #pragma once
 
 #include <array>

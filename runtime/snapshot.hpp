@@ -11,14 +11,14 @@
 namespace nc::rt {
 
 struct SystemSnapshot {
-  nc_outputs nc{};          // commanded side, from libnc
-  nc_axes actual{};         // measured
-  double spindle_rpm = 0;   // measured
+  nc_outputs nc{};         // commanded side, from libnc
+  nc_axes actual{};        // measured
+  double spindle_rpm = 0;  // measured
 };
 
 struct Snapshot {
-  std::uint64_t scan = 0;   // number of the scan, from 1
-  std::int64_t time_ns = 0; // clock at its start
+  std::uint64_t scan = 0;    // number of the scan, from 1
+  std::int64_t time_ns = 0;  // clock at its start
   Mode mode = Mode::kAuto;
   unsigned system_count = 1;
   SystemSnapshot system[NC_MAX_SYSTEMS];

@@ -16,16 +16,24 @@ std::vector<ConfigError> ErrorList::take() {
 
 const char* type_name(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "an array";
-    case toml::node_type::string: return "a string";
-    case toml::node_type::integer: return "an integer";
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "a boolean";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "a boolean";
     case toml::node_type::date:
     case toml::node_type::time:
-    case toml::node_type::date_time: return "a date or time";
-    case toml::node_type::none: break;
+    case toml::node_type::date_time:
+      return "a date or time";
+    case toml::node_type::none:
+      break;
   }
   return "nothing";
 }
@@ -130,7 +138,8 @@ bool TableReader::string(std::string_view key, std::string* value) {
   return true;
 }
 
-bool TableReader::choice(std::string_view key, std::initializer_list<std::string_view> words, unsigned* index) {
+bool TableReader::choice(std::string_view key, std::initializer_list<std::string_view> words,
+                         unsigned* index) {
   std::string word;
   if (!string(key, &word)) return false;
   unsigned i = 0;
@@ -167,7 +176,8 @@ bool TableReader::numbers(std::string_view key, std::vector<double>* values, std
   for (const toml::node& element : *array) {
     double number = 0;
     if (!node_number(element, &number)) {
-      errors_->add(line_of(element), path(key), std::string("must hold finite numbers, not ") + type_name(element));
+      errors_->add(line_of(element), path(key),
+                   std::string("must hold finite numbers, not ") + type_name(element));
       return false;
     }
     read.push_back(number);
@@ -176,7 +186,8 @@ bool TableReader::numbers(std::string_view key, std::vector<double>* values, std
   return true;
 }
 
-bool TableReader::strings(std::string_view key, std::vector<std::pair<std::string, unsigned>>* values_and_lines) {
+bool TableReader::strings(std::string_view key,
+                          std::vector<std::pair<std::string, unsigned>>* values_and_lines) {
   const toml::node* node = find(key);
   if (node == nullptr) return false;
   const toml::array* array = node->as_array();
@@ -219,7 +230,8 @@ void TableReader::tables(std::string_view key, const std::function<void(TableRea
     const std::string place = path(key) + "[" + std::to_string(i + 1) + "]";
     const toml::table* sub = array->get(i)->as_table();
     if (sub == nullptr) {
-      errors_->add(line_of(*array->get(i)), place, std::string("must be a table, not ") + type_name(*array->get(i)));
+      errors_->add(line_of(*array->get(i)), place,
+                   std::string("must be a table, not ") + type_name(*array->get(i)));
       continue;
     }
     TableReader reader(*sub, place, errors_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads typed values out of a TOML table and collects what is wrong: unknown keys, wrong types, values out of range.
-// Only config*.cpp include this.
+// Reads typed values out of a TOML table and collects what is wrong: unknown keys, wrong types, values out of
+// range. Only config*.cpp include this.
 #pragma once
 
 #include <toml++/toml.h>
@@ -31,7 +31,9 @@ class ErrorList {
   std::vector<ConfigError> errors_;
 };
 
-inline unsigned line_of(const toml::node& node) { return static_cast<unsigned>(node.source().begin.line); }
+inline unsigned line_of(const toml::node& node) {
+  return static_cast<unsigned>(node.source().begin.line);
+}
 const char* type_name(const toml::node& node);
 
 // One table. Every key is asked for by name; finish() reports the keys that nobody asked for.

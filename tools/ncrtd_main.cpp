@@ -5,10 +5,11 @@
 //   ncrtd --config FILE run [--fast] [--dialect D] [--plot BASE] [--no-progress] PROGRAM
 //   ncrtd --config FILE mdi [--fast] "G0 X10"
 //
-// Exit status: 0 the program ended, 2 it stopped on an alarm, 1 usage or configuration, 128+n ended by signal n.
-#include <CLI/CLI.hpp>
+// Exit status: 0 the program ended, 2 it stopped on an alarm, 1 usage or configuration, 128+n ended by signal
+// n.
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -29,7 +30,9 @@ constexpr auto kPeriod = std::chrono::milliseconds(50);  // of the display
 constexpr unsigned kStepsPerLook = 500;                  // virtual time: scans between two looks
 
 volatile std::sig_atomic_t g_signal = 0;
-extern "C" void on_signal(int number) { g_signal = number; }
+extern "C" void on_signal(int number) {
+  g_signal = number;
+}
 
 struct Options {
   std::string config, program, mdi, dialect, plot;
@@ -37,7 +40,8 @@ struct Options {
   std::int64_t since_ns = nc::rt::RealClock().now_ns();  // start of the process, for the start-up time
 };
 
-// The executed path for the plot: a vertex where the direction changes by more than two degrees, or the kind of move.
+// The executed path for the plot: a vertex where the direction changes by more than two degrees, or the kind
+// of move.
 class PlotSink final : public nc::rt::PathSink {
  public:
   explicit PlotSink(const nc::rt::Config& config) {
@@ -104,7 +108,8 @@ void change_dialect(const std::string& name, nc::rt::Config* config) {
   if (dialect == config->nc.dialect) return;
   config->nc.dialect = dialect;
   if (config->parameters.empty()) return;
-  std::fprintf(stderr, "warning: [parameters] of %s are those of another dialect: not used\n", config->file.c_str());
+  std::fprintf(stderr, "warning: [parameters] of %s are those of another dialect: not used\n",
+               config->file.c_str());
   config->parameters.clear();
 }
 
@@ -142,7 +147,8 @@ class Run {
       return;
     }
     const std::uint64_t runs = runtime_.info().runs;
-    for (unsigned i = 0; i < kStepsPerLook && g_signal == 0 && runtime_.info().runs == runs; ++i) runtime_.step();
+    for (unsigned i = 0; i < kStepsPerLook && g_signal == 0 && runtime_.info().runs == runs; ++i)
+      runtime_.step();
     runtime_.step();
   }
   void show() {
@@ -212,7 +218,8 @@ int operate(const Options& options, nc::rt::Config* config) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   if (!(options.fast ? runtime->start_stepping(&error) : runtime->start(&error))) return failed(error);
-  for (const std::string& warning : runtime->warnings()) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  for (const std::string& warning : runtime->warnings())
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
   Answer answer = Answer::kDone;
   if (!options.program.empty()) {
     answer = runtime->select_program(file);
@@ -228,7 +235,8 @@ int operate(const Options& options, nc::rt::Config* config) {
   path.plot.set_title(options.program);
   for (const char* ending : {".svg", ".png"}) {
     const std::string name = options.plot + ending;
-    const bool written = ending[1] == 's' ? path.plot.write_svg(name, &error) : path.plot.write_png(name, &error);
+    const bool written =
+        ending[1] == 's' ? path.plot.write_svg(name, &error) : path.plot.write_png(name, &error);
     if (!written) return failed(error);
     std::printf("plot         %s\n", name.c_str());
   }
@@ -246,8 +254,10 @@ int main(int argc, char** argv) {
   CLI::App* check = app.add_subcommand("check", "read the configuration, report every error, do nothing");
   CLI::App* run = app.add_subcommand("run", "run a program from cycle start to its end");
   run->add_option("PROGRAM", options.program, "NC program")->required();
-  run->add_option("--dialect", options.dialect, "instead of the configured one")->check(CLI::IsMember({"m700", "dgshape"}));
-  run->add_option("--plot", options.plot, "write BASE.svg and BASE.png of the executed path")->type_name("BASE");
+  run->add_option("--dialect", options.dialect, "instead of the configured one")
+      ->check(CLI::IsMember({"m700", "dgshape"}));
+  run->add_option("--plot", options.plot, "write BASE.svg and BASE.png of the executed path")
+      ->type_name("BASE");
   CLI::App* mdi = app.add_subcommand("mdi", "execute blocks");
   mdi->add_option("BLOCKS", options.mdi, "blocks, separated by line ends")->required();
   for (CLI::App* sub : {run, mdi}) {
@@ -269,7 +279,7 @@ int main(int argc, char** argv) {
   std::vector<nc::rt::ConfigError> refused;
   if (nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &refused) == nullptr)
     return config_failed(refused);
-  std::printf("%s: %s, %u us, %u points: no errors\n", options.config.c_str(), config.name.c_str(), config.cycle_us,
-              config.points.size());
+  std::printf("%s: %s, %u us, %u points: no errors\n", options.config.c_str(), config.name.c_str(),
+              config.cycle_us, config.points.size());
   return 0;
 }

@@ -46,10 +46,12 @@ bool fail(std::string* error, std::string text) {
 bool parse_when(Cursor* cursor, InputChange* change, std::string* error) {
   if (cursor->word("at")) {
     change->when = InputChange::When::kScan;
-    if (!cursor->word("scan") || !cursor->number(&change->at)) return fail(error, "'at' needs 'scan' and a number");
+    if (!cursor->word("scan") || !cursor->number(&change->at))
+      return fail(error, "'at' needs 'scan' and a number");
     return true;
   }
-  if (!cursor->word("when")) return fail(error, "a statement begins with 'at scan N', 'when line N' or 'when M N'");
+  if (!cursor->word("when"))
+    return fail(error, "a statement begins with 'at scan N', 'when line N' or 'when M N'");
   if (cursor->word("line"))
     change->when = InputChange::When::kLine;
   else if (cursor->word("M"))
@@ -59,14 +61,16 @@ bool parse_when(Cursor* cursor, InputChange* change, std::string* error) {
   if (!cursor->number(&change->at)) return fail(error, "'when' needs a number");
   cursor->blanks();
   if (cursor->word("#")) {
-    if (!cursor->number(&change->count) || change->count == 0) return fail(error, "'#' needs a number from 1");
+    if (!cursor->number(&change->count) || change->count == 0)
+      return fail(error, "'#' needs a number from 1");
   }
   return true;
 }
 
 }  // namespace
 
-bool parse_input_change(std::string_view text, const PointTable& table, InputChange* change, std::string* error) {
+bool parse_input_change(std::string_view text, const PointTable& table, InputChange* change,
+                        std::string* error) {
   Cursor cursor{text};
   *change = InputChange{};
   if (!parse_when(&cursor, change, error)) return false;
@@ -99,7 +103,8 @@ void InputScript::restart() noexcept {
 
 void InputScript::step(std::uint64_t scan, const nc_source& source, bool m_strobe, std::uint32_t m,
                        PointImage* image) noexcept {
-  // A line "comes" when the block in execution changes to it; inside sub programs the main line has not changed.
+  // A line "comes" when the block in execution changes to it; inside sub programs the main line has not
+  // changed.
   const std::uint32_t line = source.depth == 0 ? source.line : last_line_;
   const bool line_comes = line != last_line_;
   const bool strobe_comes = m_strobe && !last_strobe_;

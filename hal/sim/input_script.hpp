@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Input script of the simulated machine: input points that change at a scan, at a program line or at an M code.
+// Input script of the simulated machine: input points that change at a scan, at a program line or at an M
+// code.
 //
 //   at scan 250: part_present = 1
 //   when line 12: door_closed = 0          the first time line 12 comes into execution
@@ -22,14 +23,15 @@ namespace nc::hal {
 struct InputChange {
   enum class When : std::uint8_t { kScan, kLine, kM };
   When when = When::kScan;
-  std::uint64_t at = 0;      // scan number, line or M number
-  std::uint32_t count = 1;   // n-th time (line and M)
-  unsigned point = 0;        // index in the table
+  std::uint64_t at = 0;     // scan number, line or M number
+  std::uint32_t count = 1;  // n-th time (line and M)
+  unsigned point = 0;       // index in the table
   std::uint32_t value = 0;
 };
 
 // False with a sentence in *error when the statement cannot be read or the point is not an input.
-bool parse_input_change(std::string_view text, const PointTable& table, InputChange* change, std::string* error);
+bool parse_input_change(std::string_view text, const PointTable& table, InputChange* change,
+                        std::string* error);
 
 // Runs the changes. All memory is taken in the constructor; step() is NC_RT.
 class InputScript {
@@ -37,7 +39,8 @@ class InputScript {
   explicit InputScript(std::vector<InputChange> changes);
   void restart() noexcept;
   // `source` = block in execution (line 0 = none), `m_strobe` = the M strobe is on, with the code `m`.
-  void step(std::uint64_t scan, const nc_source& source, bool m_strobe, std::uint32_t m, PointImage* image) noexcept;
+  void step(std::uint64_t scan, const nc_source& source, bool m_strobe, std::uint32_t m,
+            PointImage* image) noexcept;
 
  private:
   std::vector<InputChange> changes_;

@@ -54,7 +54,8 @@ void SimMachine::stop() noexcept {
 
 void SimMachine::fail_drive(unsigned system, unsigned axis, bool fault) {
   const std::uint32_t bit = 1u << axis;
-  system_[system].drive_fault = fault ? system_[system].drive_fault | bit : system_[system].drive_fault & ~bit;
+  system_[system].drive_fault =
+      fault ? system_[system].drive_fault | bit : system_[system].drive_fault & ~bit;
 }
 
 void SimMachine::block_axis(unsigned system, unsigned axis, bool blocked) {
@@ -119,7 +120,8 @@ void SimMachine::turn_spindle(System* system) noexcept {
 }
 
 // Starts the functions whose strobes are in `strobe`; returns the time until FIN.
-double SimMachine::begin_function(System* system, const SystemCommand& command, std::uint8_t strobe) noexcept {
+double SimMachine::begin_function(System* system, const SystemCommand& command,
+                                  std::uint8_t strobe) noexcept {
   double time = config_.m_time_s;
   if (strobe & kStrobeS) system->s_rpm = std::abs(command.s);
   if (strobe & kStrobeT) {
@@ -140,8 +142,9 @@ double SimMachine::begin_function(System* system, const SystemCommand& command, 
   return std::max(time, std::abs(target - system->rpm) / config_.spindle_ramp_rpm_per_s);
 }
 
-// FIN1 style: strobe on -> function -> FIN on -> strobe off -> FIN off. A strobe that drops early (reset) ends it at once;
-// a strobe that rises while the FIN of the one before is still on makes FIN drop first and is then a function of its own.
+// FIN1 style: strobe on -> function -> FIN on -> strobe off -> FIN off. A strobe that drops early (reset)
+// ends it at once; a strobe that rises while the FIN of the one before is still on makes FIN drop first and
+// is then a function of its own.
 void SimMachine::handshake(System* system, const SystemCommand& command) noexcept {
   const auto rising = static_cast<std::uint8_t>(command.strobe & ~system->strobe);
   const bool another = command.strobe != 0 && command.serial != system->serial && system->fin;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated machine: a plant that behaves like one, on the clock of the scan (one read/write pair = one cycle), so
-// that it is the same under real and virtual time.
+// The simulated machine: a plant that behaves like one, on the clock of the scan (one read/write pair = one
+// cycle), so that it is the same under real and virtual time.
 //
-//  * axes: first-order servo. A position loop with gain Kv = 1/lag follows a ramp with the constant error v * lag:
+//  * axes: first-order servo. A position loop with gain Kv = 1/lag follows a ramp with the constant error v *
+//  lag:
 //      actual += (command - actual) * (1 - exp(-cycle/lag)).  Beyond following_error_limit the axis faults.
-//  * spindle: speed follows the commanded S with a fixed ramp, direction by M03/M04, stop by M05 (and M00/M01/M02/M30).
-//  * M, S, T, B: FIN comes after the time of the function (tool change, spindle ramp, m_time) and drops with the strobe.
+//  * spindle: speed follows the commanded S with a fixed ramp, direction by M03/M04, stop by M05 (and
+//  M00/M01/M02/M30).
+//  * M, S, T, B: FIN comes after the time of the function (tool change, spindle ramp, m_time) and drops with
+//  the strobe.
 //  * skip: signal n is on while the actual point is inside one of its solids.
 //  * points: inputs are what the script says (else their initial value); outputs are recorded.
 #pragma once
@@ -28,8 +31,8 @@ struct SimSolid {
 };
 
 struct SimAxis {
-  double lag_s = 0.0;               // 0 = actual is the command of the cycle before
-  double following_error_limit = 0; // mm or deg; 0 = never faults
+  double lag_s = 0.0;                // 0 = actual is the command of the cycle before
+  double following_error_limit = 0;  // mm or deg; 0 = never faults
 };
 
 struct SimConfig {
@@ -88,7 +91,7 @@ class SimMachine final : public Hal {
     double follow[NC_MAX_AXES] = {};  // 1 - exp(-cycle/lag)
     std::uint32_t following_fault = 0, drive_fault = 0, blocked = 0;
     double rpm = 0, s_rpm = 0;
-    int direction = 0;   // spindle: +1 M03, -1 M04, 0 stopped
+    int direction = 0;  // spindle: +1 M03, -1 M04, 0 stopped
     unsigned tool = 0, selected = 0;
     bool busy = false, fin = false;
     double remaining_s = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated machine against its model: servo lag, following error, spindle, FIN handshake, solids, points.
+// The simulated machine against its model: servo lag, following error, spindle, FIN handshake, solids,
+// points.
 #include "hal/sim/sim_machine.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs that are wrong: the alarm of the manual on the right line, everything before it executed, the machine at rest at
-// the end of the last good block, and the next start works. And reset in the middle of anything.
+// Programs that are wrong: the alarm of the manual on the right line, everything before it executed, the
+// machine at rest at the end of the last good block, and the next start works. And reset in the middle of
+// anything.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -27,7 +28,9 @@ struct BadProgram {
   std::uint32_t line;
   double x;  // where X rests
 };
-std::ostream& operator<<(std::ostream& out, const BadProgram& p) { return out << p.name; }
+std::ostream& operator<<(std::ostream& out, const BadProgram& p) {
+  return out << p.name;
+}
 
 class BadPrograms : public testing::TestWithParam<BadProgram> {};
 
@@ -93,7 +96,8 @@ class Drive {
     for (unsigned i = 1; i <= limit; ++i) {
       runtime->step();
       const nc::rt::Snapshot now = runtime->snapshot();
-      if (!now.resetting && now.system[0].nc.state == NC_STATE_IDLE && now.system[0].nc.distance_zero) return i;
+      if (!now.resetting && now.system[0].nc.state == NC_STATE_IDLE && now.system[0].nc.distance_zero)
+        return i;
     }
     return 0;
   }
@@ -101,7 +105,8 @@ class Drive {
     const std::uint64_t runs = runtime->info().runs;
     for (unsigned i = 0; i < limit && runtime->info().runs == runs; ++i) {
       if (runtime->snapshot().alarmed()) return false;
-      if (runtime->snapshot().system[0].nc.state == NC_STATE_STOPPED) runtime->execute(CommandKind::kCycleStart);
+      if (runtime->snapshot().system[0].nc.state == NC_STATE_STOPPED)
+        runtime->execute(CommandKind::kCycleStart);
       runtime->step();
     }
     return runtime->info().runs == runs + 1;
@@ -164,11 +169,13 @@ TEST(BadProgram, AfterTheAlarmResetAndTheNextStartWorks) {
   }
 }
 
-// Reset at any moment: on the path, in a dwell, while a function waits for FIN, at a block stop. The machine comes to rest,
-// forgets the program, and the next start executes it from its head as from a control that stands there.
+// Reset at any moment: on the path, in a dwell, while a function waits for FIN, at a block stop. The machine
+// comes to rest, forgets the program, and the next start executes it from its head as from a control that
+// stands there.
 TEST(Reset, AnywhereThenStartAgain) {
   const char* const text =
-      "G90 G0 X0. Y0. Z0.\nG1 X30. F3000.\nG3 X30. Y20. J10.\nG4 P300\nM50\nT3 M6\n#1100=1\n#500=#1000+1\nM0\n"
+      "G90 G0 X0. Y0. Z0.\nG1 X30. F3000.\nG3 X30. Y20. J10.\nG4 P300\nM50\nT3 "
+      "M6\n#1100=1\n#500=#1000+1\nM0\n"
       "WHILE [#1 LT 5] DO1\nG91 G1 X-2. F900.\n#1=#1+1\nEND1\nG90 G0 X0. Y0.\nM30\n";
   const nc::rt::Config config = nc::test::parse_or_fail(nc::test::base_toml());
   Drive drive(config);
@@ -178,7 +185,8 @@ TEST(Reset, AnywhereThenStartAgain) {
     drive.start(file);
     for (unsigned i = 0; i < at; ++i) {
       drive.runtime->step();
-      if (i % 400 == 399 && drive.out().state == NC_STATE_STOPPED) drive.runtime->execute(CommandKind::kCycleStart);
+      if (i % 400 == 399 && drive.out().state == NC_STATE_STOPPED)
+        drive.runtime->execute(CommandKind::kCycleStart);
     }
     ASSERT_GT(drive.reset(), 0u);
     const nc_outputs rest = drive.out();
@@ -232,7 +240,9 @@ TEST(MacroOutput, IsWrittenWhenTheMachineGetsThere) {
       EXPECT_GE(x, 50 - 1e-6);
       EXPECT_LE(x, 50.1);
     }
-    if (!on) { EXPECT_LE(x, 50.0 + 1e-6); }
+    if (!on) {
+      EXPECT_LE(x, 50.0 + 1e-6);
+    }
     seen |= on;
   }
   EXPECT_TRUE(seen);
@@ -246,7 +256,9 @@ TEST(Manual, JogStaysInsideTheSoftLimitsAndMdiFollows) {
   jog.kind = CommandKind::kJog;
   jog.value = 150.0;
   for (unsigned i = 0; i < 6000; ++i) {
-    if (i % 100 == 0) { EXPECT_EQ(drive.runtime->execute(jog), Answer::kDone); }
+    if (i % 100 == 0) {
+      EXPECT_EQ(drive.runtime->execute(jog), Answer::kDone);
+    }
     drive.runtime->step();
   }
   EXPECT_NEAR(drive.out().command.v[0], 500.0, 1e-6) << "clipped, no alarm";

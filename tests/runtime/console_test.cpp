@@ -3,15 +3,16 @@
 #include "runtime/console.hpp"
 
 #include <gtest/gtest.h>
-
 #include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 
 namespace {
 
 std::uint64_t lines_of(const std::string& text) {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("nc-console-" + std::to_string(getpid()));
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("nc-console-" + std::to_string(getpid()));
   std::ofstream(path, std::ios::binary) << text;
   const std::uint64_t lines = nc::rt::estimate_lines(path.string());
   std::filesystem::remove(path);

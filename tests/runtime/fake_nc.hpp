@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An NC for the tests of the scan: a recorder with the run states of libnc and nothing else. It moves axis 0 by `step` per
-// cycle while it runs and ends after `cycles` of them.
+// An NC for the tests of the scan: a recorder with the run states of libnc and nothing else. It moves axis 0
+// by `step` per cycle while it runs and ends after `cycles` of them.
 #pragma once
 
 #include <string>

@@ -30,7 +30,9 @@ double ProgramGenerator::draw(double from, double to) {
   return std::round(t * 1000.0) / 1000.0;
 }
 
-std::string ProgramGenerator::feed() { return " F" + std::to_string(200 + draw(12000u)) + "."; }
+std::string ProgramGenerator::feed() {
+  return " F" + std::to_string(200 + draw(12000u)) + ".";
+}
 
 void ProgramGenerator::go(double x, double y, double z) {
   x_ = x;
@@ -41,14 +43,18 @@ void ProgramGenerator::go(double x, double y, double z) {
 GeneratedProgram ProgramGenerator::make(unsigned groups) {
   using Group = void (ProgramGenerator::*)();
   static constexpr Group kGroups[] = {
-      &ProgramGenerator::lines,          &ProgramGenerator::lines,       &ProgramGenerator::arcs,
-      &ProgramGenerator::arcs,           &ProgramGenerator::helix,       &ProgramGenerator::radius_arc,
-      &ProgramGenerator::incremental,    &ProgramGenerator::drilling,    &ProgramGenerator::auxiliary,
-      &ProgramGenerator::dwell,          &ProgramGenerator::subprogram,  &ProgramGenerator::polygon_macro,
-      &ProgramGenerator::input_loop,     &ProgramGenerator::input_at_line, &ProgramGenerator::outputs,
-      &ProgramGenerator::probe,          &ProgramGenerator::contour,     &ProgramGenerator::work_system,
-      &ProgramGenerator::tool_length,    &ProgramGenerator::exact_stop,  &ProgramGenerator::stops,
-      &ProgramGenerator::optional_blocks, &ProgramGenerator::goto_loop,
+      &ProgramGenerator::lines,       &ProgramGenerator::lines,
+      &ProgramGenerator::arcs,        &ProgramGenerator::arcs,
+      &ProgramGenerator::helix,       &ProgramGenerator::radius_arc,
+      &ProgramGenerator::incremental, &ProgramGenerator::drilling,
+      &ProgramGenerator::auxiliary,   &ProgramGenerator::dwell,
+      &ProgramGenerator::subprogram,  &ProgramGenerator::polygon_macro,
+      &ProgramGenerator::input_loop,  &ProgramGenerator::input_at_line,
+      &ProgramGenerator::outputs,     &ProgramGenerator::probe,
+      &ProgramGenerator::contour,     &ProgramGenerator::work_system,
+      &ProgramGenerator::tool_length, &ProgramGenerator::exact_stop,
+      &ProgramGenerator::stops,       &ProgramGenerator::optional_blocks,
+      &ProgramGenerator::goto_loop,   &ProgramGenerator::input_macro,
   };
   line("%");
   line("O1");
@@ -71,6 +77,14 @@ GeneratedProgram ProgramGenerator::make(unsigned groups) {
   line("#33=#33+1");
   line("END1");
   line("M99");
+  line("O2200 (STEPS OF A UNTIL INPUT #1000 IS ON)");
+  line("WHILE [#1000 EQ 0] DO1");
+  line("#500=#500+#1");
+  line("G91 G1 X#1 Y[#1/2.] F#9");
+  line("M50");
+  line("END1");
+  line("G90");
+  line("M99");
   line("%");
   return std::move(program_);
 }
@@ -80,9 +94,18 @@ void ProgramGenerator::lines() {
   for (unsigned i = 0; i < count; ++i) {
     const double x = draw(-kBox, kBox), y = draw(-kBox, kBox), z = draw(-kBox, kBox);
     switch (draw(5u)) {
-      case 0: line("G0 X" + number(x) + " Y" + number(y) + " Z" + number(z)); go(x, y, z); break;
-      case 1: line("G1 X" + number(x) + feed()); go(x, y_, z_); break;
-      case 2: line("G1 Y" + number(y) + " Z" + number(z) + feed()); go(x_, y, z); break;
+      case 0:
+        line("G0 X" + number(x) + " Y" + number(y) + " Z" + number(z));
+        go(x, y, z);
+        break;
+      case 1:
+        line("G1 X" + number(x) + feed());
+        go(x, y_, z_);
+        break;
+      case 2:
+        line("G1 Y" + number(y) + " Z" + number(z) + feed());
+        go(x_, y, z);
+        break;
       case 3: {  // a run of short segments
         for (unsigned k = 1; k <= 20; ++k) {
           x_ = std::round((x_ + 0.2) * 1000) / 1000;
@@ -91,7 +114,10 @@ void ProgramGenerator::lines() {
         }
         break;
       }
-      default: line("G1 X" + number(x) + " Y" + number(y) + " Z" + number(z) + feed()); go(x, y, z); break;
+      default:
+        line("G1 X" + number(x) + " Y" + number(y) + " Z" + number(z) + feed());
+        go(x, y, z);
+        break;
     }
   }
 }
@@ -106,12 +132,14 @@ void ProgramGenerator::arcs() {
   static const char kFirst[] = "XZY", kSecond[] = "YXZ", kI[] = "IKJ", kJ[] = "JIK";
   for (unsigned i = 0, n = 1 + draw(3u); i < n; ++i) {
     const double radius = draw(1.0, 30.0), angle = draw(0.0, 360.0) * kPi / 180;
-    const double ci = std::round(radius * std::cos(angle) * 1000) / 1000, cj = std::round(radius * std::sin(angle) * 1000) / 1000;
+    const double ci = std::round(radius * std::cos(angle) * 1000) / 1000,
+                 cj = std::round(radius * std::sin(angle) * 1000) / 1000;
     std::string text = draw(2u) ? "G2" : "G3";
     if (draw(4u) != 0) {  // to the point opposite: exact; otherwise the whole circle
       *first[plane] += 2 * ci;
       *second[plane] += 2 * cj;
-      text += std::string(" ") + kFirst[plane] + number(*first[plane]) + " " + kSecond[plane] + number(*second[plane]);
+      text += std::string(" ") + kFirst[plane] + number(*first[plane]) + " " + kSecond[plane] +
+              number(*second[plane]);
     }
     text += std::string(" ") + kI[plane] + number(ci) + " " + kJ[plane] + number(cj) + feed();
     line(text);
@@ -135,13 +163,15 @@ void ProgramGenerator::helix() {
 void ProgramGenerator::radius_arc() {
   const double chord = draw(2.0, 20.0), radius = draw(chord / 2 + 0.5, 40.0);
   x_ += chord;
-  line(std::string(draw(2u) ? "G2" : "G3") + " X" + number(x_) + " R" + number(draw(3u) ? radius : -radius) + feed());
+  line(std::string(draw(2u) ? "G2" : "G3") + " X" + number(x_) + " R" + number(draw(3u) ? radius : -radius) +
+       feed());
   line("G1 X" + number(x_ = 0));
 }
 
 void ProgramGenerator::incremental() {
   line("G91");
-  for (unsigned i = 0; i < 3; ++i) line("G1 X" + number(draw(-5.0, 5.0)) + " Y" + number(draw(-5.0, 5.0)) + feed());
+  for (unsigned i = 0; i < 3; ++i)
+    line("G1 X" + number(draw(-5.0, 5.0)) + " Y" + number(draw(-5.0, 5.0)) + feed());
   line("G90 G1 X" + number(x_) + " Y" + number(y_));
 }
 
@@ -150,12 +180,13 @@ void ProgramGenerator::drilling() {
   z_ = 20;
   static const char* const kCycles[] = {"G81", "G82", "G83"};
   const unsigned cycle = draw(3u);
-  std::string text = std::string(draw(2u) ? "G98 " : "G99 ") + kCycles[cycle] + " X" + number(draw(-kBox, kBox)) + " Y" +
-                     number(draw(-kBox, kBox)) + " Z-5. R3.";
+  std::string text = std::string(draw(2u) ? "G98 " : "G99 ") + kCycles[cycle] + " X" +
+                     number(draw(-kBox, kBox)) + " Y" + number(draw(-kBox, kBox)) + " Z-5. R3.";
   if (cycle == 1) text += " P20";
   if (cycle == 2) text += " Q2.5";
   line(text + feed());
-  for (unsigned i = 0, n = draw(3u); i < n; ++i) line("X" + number(draw(-kBox, kBox)) + " Y" + number(draw(-kBox, kBox)));
+  for (unsigned i = 0, n = draw(3u); i < n; ++i)
+    line("X" + number(draw(-kBox, kBox)) + " Y" + number(draw(-kBox, kBox)));
   line("G80");
   line("G0 X0. Y0. Z20.");
   go(0, 0, 20);
@@ -163,9 +194,15 @@ void ProgramGenerator::drilling() {
 
 void ProgramGenerator::auxiliary() {
   switch (draw(4u)) {
-    case 0: line("S" + std::to_string(500 + draw(5000u)) + " M3"); break;
-    case 1: line("T" + std::to_string(1 + draw(8u)) + " M6"); break;
-    case 2: line("M8"); break;
+    case 0:
+      line("S" + std::to_string(500 + draw(5000u)) + " M3");
+      break;
+    case 1:
+      line("T" + std::to_string(1 + draw(8u)) + " M6");
+      break;
+    case 2:
+      line("M8");
+      break;
     default:
       x_ = draw(-kBox, kBox);
       line("G1 X" + number(x_) + feed() + " M9");
@@ -173,13 +210,17 @@ void ProgramGenerator::auxiliary() {
   }
 }
 
-void ProgramGenerator::dwell() { line("G4 P" + std::to_string(1 + draw(80u))); }
+void ProgramGenerator::dwell() {
+  line("G4 P" + std::to_string(1 + draw(80u)));
+}
 
-void ProgramGenerator::subprogram() { line("M98 P2000 L" + std::to_string(1 + draw(3u))); }
+void ProgramGenerator::subprogram() {
+  line("M98 P2000 L" + std::to_string(1 + draw(3u)));
+}
 
 void ProgramGenerator::polygon_macro() {
-  line("G65 P2100 A" + std::to_string(3 + draw(9u)) + ". B" + number(draw(2.0, 20.0)) + " C" + number(draw(-20.0, 20.0)) +
-       " D" + number(draw(-20.0, 20.0)) + feed());
+  line("G65 P2100 A" + std::to_string(3 + draw(9u)) + ". B" + number(draw(2.0, 20.0)) + " C" +
+       number(draw(-20.0, 20.0)) + " D" + number(draw(-20.0, 20.0)) + feed());
   line("G0 X" + number(x_) + " Y" + number(y_) + " Z" + number(z_));
 }
 
@@ -194,7 +235,20 @@ void ProgramGenerator::input_loop() {
   line("M50");
   line("END1");
   line("G90 G1 X" + number(x_) + " Y" + number(y_));
-  // Off again for the next loop, at a line that is a move of its own.
+  input_off();
+}
+
+// The same in the middle of a macro.
+void ProgramGenerator::input_macro() {
+  m50_ += 2 + draw(3u);
+  program_.script.push_back("when M 50 #" + std::to_string(m50_) + ": in0 = 1");
+  line("G65 P2200 A" + number(draw(0.1, 0.5)) + feed());
+  line("G1 X" + number(x_) + " Y" + number(y_));
+  input_off();
+}
+
+// The input is off again for the next loop, at a line that is a move of its own.
+void ProgramGenerator::input_off() {
   const double y = y_ > 0 ? y_ - 5 : y_ + 5;
   program_.script.push_back("when line " + std::to_string(lines_ + 1) + ": in0 = 0");
   line("G1 Y" + number(y) + " F3000.");
@@ -204,7 +258,8 @@ void ProgramGenerator::input_loop() {
 // A word that changes while a line is executed is read behind it.
 void ProgramGenerator::input_at_line() {
   const unsigned value = draw(1u << 20);
-  program_.script.push_back("when line " + std::to_string(lines_ + 1) + ": word_in = " + std::to_string(value));
+  program_.script.push_back("when line " + std::to_string(lines_ + 1) +
+                            ": word_in = " + std::to_string(value));
   const double z = z_ > 0 ? z_ - 4 : z_ + 4;
   line("G1 Z" + number(z) + " F2000.");
   z_ = z;
@@ -245,7 +300,8 @@ void ProgramGenerator::contour() {
 }
 
 void ProgramGenerator::work_system() {
-  line("G10 L2 P2 X" + number(draw(-10.0, 10.0)) + " Y" + number(draw(-10.0, 10.0)) + " Z" + number(draw(-10.0, 10.0)));
+  line("G10 L2 P2 X" + number(draw(-10.0, 10.0)) + " Y" + number(draw(-10.0, 10.0)) + " Z" +
+       number(draw(-10.0, 10.0)));
   line("G55 G0 X" + number(draw(-50.0, 50.0)) + " Y" + number(draw(-50.0, 50.0)));
   line("G1 X0. Y0." + feed());
   line("G54 G0 X" + number(x_) + " Y" + number(y_) + " Z" + number(z_));
@@ -262,7 +318,9 @@ void ProgramGenerator::exact_stop() {
   line("G9 G1 X" + number(x_ = draw(-kBox, kBox)) + feed());
 }
 
-void ProgramGenerator::stops() { line(draw(2u) ? "M0" : "M1"); }
+void ProgramGenerator::stops() {
+  line(draw(2u) ? "M0" : "M1");
+}
 
 void ProgramGenerator::optional_blocks() {
   line("/ G1 X" + number(draw(-kBox, kBox)) + " F4000.");

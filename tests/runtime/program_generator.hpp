@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random m700 programs for the test of the walls: lines, arcs, helices, cycles, macros, subprograms, loops over inputs that
-// change under them, skips against a solid, M S T, dwells, offsets, tool radius compensation. Every program is valid, stays
-// inside the soft limits of test_config.hpp and is a function of its seed alone.
+// Random m700 programs for the test of the walls: lines, arcs, helices, cycles, macros, subprograms, loops
+// over inputs that change under them, skips against a solid, M S T, dwells, offsets, tool radius
+// compensation. Every program is valid, stays inside the soft limits of test_config.hpp and is a function of
+// its seed alone.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,9 @@ struct GeneratedProgram {
 };
 
 // The solid that probing moves meet: X from 150 mm on, signal 1 (for the [sim] section).
-inline const char* probe_solid_toml() { return "[[sim.solid]]\nsignal = 1\nX = [150.0, 200.0]\n"; }
+inline const char* probe_solid_toml() {
+  return "[[sim.solid]]\nsignal = 1\nX = [150.0, 200.0]\n";
+}
 
 class ProgramGenerator {
  public:
@@ -43,6 +46,8 @@ class ProgramGenerator {
   void subprogram();
   void polygon_macro();
   void input_loop();
+  void input_macro();
+  void input_off();
   void input_at_line();
   void outputs();
   void probe();
@@ -56,9 +61,9 @@ class ProgramGenerator {
 
   std::mt19937 random_;
   GeneratedProgram program_;
-  unsigned lines_ = 0;         // lines so far
+  unsigned lines_ = 0;            // lines so far
   double x_ = 0, y_ = 0, z_ = 0;  // programmed position, G54, no length offset
-  unsigned m50_ = 0;           // strobes of M50 so far: the script counts them
+  unsigned m50_ = 0;              // strobes of M50 so far: the script counts them
   unsigned next_label_ = 1000;
 };
 

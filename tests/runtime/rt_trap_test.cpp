@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// NC_RT is a promise: no allocation, no lock, no system call in the body of a scan. This test program replaces malloc and
-// friends and pthread_mutex_lock, and lets the kernel refuse system calls (syscall user dispatch), all under the flag that
-// the scan sets while it is in its body; then it runs whole programs.
+// NC_RT is a promise: no allocation, no lock, no system call in the body of a scan. This test program
+// replaces malloc and friends and pthread_mutex_lock, and lets the kernel refuse system calls (syscall user
+// dispatch), all under the flag that the scan sets while it is in its body; then it runs whole programs.
 #include <gtest/gtest.h>
 
 #include "runtime/rt_scope.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 
-TEST(RtTrap, NeedsTheOrdinaryAllocator) { GTEST_SKIP() << "a sanitizer has replaced the allocator"; }
+TEST(RtTrap, NeedsTheOrdinaryAllocator) {
+  GTEST_SKIP() << "a sanitizer has replaced the allocator";
+}
 
 #else
 
@@ -89,8 +91,8 @@ int pthread_mutex_lock(pthread_mutex_t* mutex) {
 
 namespace {
 
-// The kernel sends SIGSYS instead of doing the call. It is counted and refused; the flag goes down, because the return
-// from this handler is a system call as well.
+// The kernel sends SIGSYS instead of doing the call. It is counted and refused; the flag goes down, because
+// the return from this handler is a system call as well.
 void on_refused_call(int, siginfo_t* info, void* context) {
   nc::rt::t_in_scan = 0;
   g_last_call = info->si_syscall;
@@ -110,9 +112,13 @@ bool refuse_system_calls() {
   sigaction(SIGSYS, &action, nullptr);
   return prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_ON, 0, 0, &nc::rt::t_in_scan) == 0;
 }
-void allow_system_calls() { prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_OFF, 0, 0, 0); }
+void allow_system_calls() {
+  prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_OFF, 0, 0, 0);
+}
 
-void clear_counts() { g_allocations = g_locks = g_system_calls = 0; }
+void clear_counts() {
+  g_allocations = g_locks = g_system_calls = 0;
+}
 
 TEST(RtTrap, TheTrapsWork) {
   clear_counts();

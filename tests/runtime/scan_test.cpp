@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/sim/sim_machine.hpp"
 #include "fake_nc.hpp"
+#include "hal/sim/sim_machine.hpp"
 #include "runtime/runtime.hpp"
 #include "test_config.hpp"
 
@@ -21,7 +21,8 @@ using nc::rt::OverrunReaction;
 // The simulated machine with a log in front of it.
 class LoggedHal final : public nc::hal::Hal {
  public:
-  LoggedHal(const nc::rt::Config& config, std::vector<std::string>* log) : sim(config.sim, config.points), log_(log) {}
+  LoggedHal(const nc::rt::Config& config, std::vector<std::string>* log)
+      : sim(config.sim, config.points), log_(log) {}
   bool start(const nc::hal::PointImage& initial, std::string* error) override {
     if (fail_start) *error = "no machine";
     return !fail_start && sim.start(initial, error);
@@ -81,7 +82,9 @@ class ScanTest : public testing::Test {
     ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
     ASSERT_EQ(state(), NC_STATE_RUNNING);
   }
-  Answer set_mode(Mode mode) { return runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(mode)); }
+  Answer set_mode(Mode mode) {
+    return runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(mode));
+  }
   Answer jog(CommandKind kind, unsigned axis, double value) {
     Command command;
     command.kind = kind;
@@ -127,8 +130,8 @@ TEST_F(ScanTest, AnInputReachesLadderAndNcInTheSameScan) {
 TEST_F(ScanTest, WhatTheLadderWritesTheNcGetsAndTheMachineSees) {
   build();
   ladder.on_scan = [](nc::rt::LadderImage* image) {
-    image->points->value[1] = 1;      // in1 -> #1001
-    image->points->value[3] = 1;      // out0
+    image->points->value[1] = 1;  // in1 -> #1001
+    image->points->value[3] = 1;  // out0
     image->nc_in[0].interlock = true;
     image->nc_in[0].feed_override = 0.25;
   };
@@ -353,7 +356,8 @@ TEST_F(ScanTest, OverrunsAreCountedAndMissedSlotsSkipped) {
   EXPECT_EQ(statistics.overruns.load(), 1u);
   EXPECT_EQ(statistics.missed_slots.load(), 4u);
   EXPECT_EQ(runtime->snapshot().scan, scan + 2);
-  EXPECT_DOUBLE_EQ(nc.out.command.v[0], before + 2 * nc.step) << "the path's time stood still in the missed slots";
+  EXPECT_DOUBLE_EQ(nc.out.command.v[0], before + 2 * nc.step)
+      << "the path's time stood still in the missed slots";
   steps(20);
   EXPECT_EQ(statistics.overruns.load(), 1u) << "back on the grid";
   EXPECT_EQ(clock.now_ns() % 1'000'000, 0);

@@ -67,7 +67,8 @@ m_time_s = 0.004
 
 inline rt::Config parse_or_fail(const std::string& text) {
   rt::Config config;
-  for (const rt::ConfigError& error : rt::parse_config(text, "test.toml", &config)) ADD_FAILURE() << error.text();
+  for (const rt::ConfigError& error : rt::parse_config(text, "test.toml", &config))
+    ADD_FAILURE() << error.text();
   return config;
 }
 

@@ -13,8 +13,8 @@
 namespace nc::test {
 namespace {
 
-constexpr double kSlack = 1.001;            // of velocity and acceleration
-constexpr double kPositionSlack = 1e-9;     // of soft limits
+constexpr double kSlack = 1.001;         // of velocity and acceleration
+constexpr double kPositionSlack = 1e-9;  // of soft limits
 constexpr std::size_t kReported = 5;
 
 class Recorder final : public rt::EventSink {
@@ -23,7 +23,8 @@ class Recorder final : public rt::EventSink {
   void executed(unsigned system, const nc_event& event) override {
     if (system != 0) return;
     recording_->items.push_back({event.serial, event.kind, event.source.line, event.machine});
-    if (event.kind == NC_ITEM_SYNC) recording_->syncs[event.serial] = {event.machine, machine_->skip_position.load()};
+    if (event.kind == NC_ITEM_SYNC)
+      recording_->syncs[event.serial] = {event.machine, machine_->skip_position.load()};
   }
 
  private:
@@ -47,10 +48,14 @@ class Hands {
     }
     if (now.state != NC_STATE_RUNNING || draw(60) != 0) return;
     switch (draw(4)) {
-      case 0: return change_feed();
-      case 1: return change_rapid();
-      case 2: return hold();
-      default: return toggle_single_block();
+      case 0:
+        return change_feed();
+      case 1:
+        return change_rapid();
+      case 2:
+        return hold();
+      default:
+        return toggle_single_block();
     }
   }
 
@@ -102,8 +107,10 @@ void note_end(const rt::Runtime& runtime, Recording* recording) {
   for (unsigned w = 0; w < NC_WORDS; ++w) recording->interface_output[w] = snapshot.interface_output[w];
   if (snapshot.alarms.count == 0) return;
   const rt::ActiveAlarm& alarm = snapshot.alarms.alarm[0];
-  recording->alarm = alarm.id == rt::AlarmId::kProgram ? info.program_alarm.code : rt::alarm_row(alarm.id).code;
-  recording->alarm_line = alarm.id == rt::AlarmId::kProgram ? info.program_alarm.source.line : alarm.source.line;
+  recording->alarm =
+      alarm.id == rt::AlarmId::kProgram ? info.program_alarm.code : rt::alarm_row(alarm.id).code;
+  recording->alarm_line =
+      alarm.id == rt::AlarmId::kProgram ? info.program_alarm.source.line : alarm.source.line;
 }
 
 }  // namespace
@@ -126,8 +133,8 @@ void WatchedMachine::write(const hal::Command& command, const hal::PointImage& i
   sim.write(command, image);
 }
 
-// Velocity and acceleration are differences of what is commanded, so they are averages over a cycle: they cannot exceed
-// the limits where the motion keeps them.
+// Velocity and acceleration are differences of what is commanded, so they are averages over a cycle: they
+// cannot exceed the limits where the motion keeps them.
 void WatchedMachine::check(unsigned a, double position) {
   const nc_axis_config& axis = config_.nc.system[0].axis[a];
   const double t = config_.nc.cycle_s;
@@ -150,8 +157,9 @@ void WatchedMachine::check(unsigned a, double position) {
 void WatchedMachine::violation(unsigned axis, const char* what, double value, double limit) {
   if (recording_->violations.size() >= kReported) return;
   recording_->violations.push_back(std::string("scan ") + std::to_string(recording_->scans) + " line " +
-                                   std::to_string(source_.line) + " axis " + config_.nc.system[0].axis[axis].name + " " +
-                                   what + " " + std::to_string(value) + " limit " + std::to_string(limit));
+                                   std::to_string(source_.line) + " axis " +
+                                   config_.nc.system[0].axis[axis].name + " " + what + " " +
+                                   std::to_string(value) + " limit " + std::to_string(limit));
 }
 
 Recording run_online(const rt::Config& config, const std::string& text, const Operator& op) {
@@ -170,15 +178,20 @@ Recording run_online(const rt::Config& config, const std::string& text, const Op
   runtime->set_sink(&recorder);
   std::string error;
   EXPECT_TRUE(op.threads ? runtime->start(&error) : runtime->start_stepping(&error)) << error;
-  const auto pass = [&] { op.threads ? std::this_thread::sleep_for(std::chrono::milliseconds(1)) : runtime->step(); };
+  const auto pass = [&] {
+    op.threads ? std::this_thread::sleep_for(std::chrono::milliseconds(1)) : runtime->step();
+  };
   runtime->execute(rt::CommandKind::kSwitches, 0, op.optional_skip);
   runtime->execute(rt::CommandKind::kOptionalStop, 0, op.optional_stop ? 1 : 0);
   EXPECT_EQ(runtime->select_program(file), rt::Answer::kDone);
   EXPECT_EQ(runtime->execute(rt::CommandKind::kCycleStart), rt::Answer::kDone);
   Hands hands(runtime.get(), op, &recording);
-  while (runtime->info().runs == 0 && !runtime->snapshot().alarmed() && runtime->snapshot().scan < op.max_scans) {
+  const bool busy_hands = op.overrides || op.holds || op.single_block || op.threads;
+  const unsigned passes = busy_hands ? 1 : 32;  // between two looks: looking costs more than a scan
+  for (rt::Snapshot now; runtime->info().runs == 0 && !now.alarmed() && now.scan < op.max_scans;) {
     hands.act();
-    pass();
+    for (unsigned i = 0; i < passes; ++i) pass();
+    now = runtime->snapshot();
   }
   // To rest, and everything that the last scans executed.
   for (unsigned i = 0; i < 2000 && (i < 20 || !runtime->snapshot().system[0].nc.distance_zero); ++i) pass();
@@ -186,7 +199,8 @@ Recording run_online(const rt::Config& config, const std::string& text, const Op
   note_end(*runtime, &recording);
   std::uint32_t number = 0;
   double value = 0;
-  for (std::uint32_t from = 0; nc_common_next(runtime->control(), 0, from, &number, &value) == NC_OK; from = number + 1)
+  for (std::uint32_t from = 0; nc_common_next(runtime->control(), 0, from, &number, &value) == NC_OK;
+       from = number + 1)
     recording.variables[number] = value;
   return recording;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The test of the walls, machine side: one program through the whole runtime on the simulated machine, every scan checked
-// against the limits of the axes, every executed item recorded.
+// The test of the walls, machine side: one program through the whole runtime on the simulated machine, every
+// scan checked against the limits of the axes, every executed item recorded.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ struct SkipRecord {
 
 struct Recording {
   std::vector<Executed> items;
-  std::map<std::uint64_t, SkipRecord> syncs;  // by serial
-  std::vector<std::string> violations;        // of limits; at most some
+  std::map<std::uint64_t, SkipRecord> syncs;          // by serial
+  std::vector<std::string> violations;                // of limits; at most some
   double velocity_ratio = 0, acceleration_ratio = 0;  // largest value by its limit, of all axes
   std::uint64_t scans = 0, holds = 0, block_stops = 0, override_changes = 0, dropped = 0;
   std::uint32_t interface_output[NC_WORDS] = {};
@@ -54,7 +54,9 @@ struct Operator {
 class WatchedMachine final : public hal::Hal {
  public:
   WatchedMachine(const rt::Config& config, Recording* recording);
-  bool start(const hal::PointImage& initial, std::string* error) override { return sim.start(initial, error); }
+  bool start(const hal::PointImage& initial, std::string* error) override {
+    return sim.start(initial, error);
+  }
   void read(hal::Feedback* feedback, hal::PointImage* image) noexcept override;
   void write(const hal::Command& command, const hal::PointImage& image) noexcept override;
   void stop() noexcept override { sim.stop(); }

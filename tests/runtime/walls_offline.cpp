@@ -46,7 +46,8 @@ class World {
     world.clock_ms = rt::VirtualClock::kEpochMs;
     macro_.gather(points_, world.input);
     const auto found = machine_.syncs.find(serial);
-    if (last.skip && found != machine_.syncs.end() && distance(found->second.machine, last.end) > kSamePoint) {
+    if (last.skip && found != machine_.syncs.end() &&
+        distance(found->second.machine, last.end) > kSamePoint) {
       world.skipped = true;
       world.machine = found->second.machine;
       world.skip_machine = found->second.skip_machine;
@@ -65,7 +66,8 @@ class World {
 
 }  // namespace
 
-Listing pull_offline(const rt::Config& config, const std::string& text, const Operator& op, const Recording& machine) {
+Listing pull_offline(const rt::Config& config, const std::string& text, const Operator& op,
+                     const Recording& machine) {
   Listing listing;
   const std::size_t size = (nc_memory_required(&config.nc) + 63) / 64 * 64;
   const std::unique_ptr<void, FreeMemory> memory(std::aligned_alloc(64, size));
@@ -121,7 +123,8 @@ Listing pull_offline(const rt::Config& config, const std::string& text, const Op
 
 namespace {
 
-// A skip move that the signal ended: on the line, inside the solid at most by what braking and servo lag take.
+// A skip move that the signal ended: on the line, inside the solid at most by what braking and servo lag
+// take.
 void expect_on_line(const Executed& done, const Pulled& move) {
   double length2 = 0, along = 0;
   for (unsigned i = 0; i < NC_MAX_AXES; ++i) {
@@ -134,7 +137,8 @@ void expect_on_line(const Executed& done, const Pulled& move) {
   EXPECT_GE(t, -1e-12);
   EXPECT_LE(t, 1 + 1e-12);
   nc_axes foot{};
-  for (unsigned i = 0; i < NC_MAX_AXES; ++i) foot.v[i] = move.start.v[i] + t * (move.end.v[i] - move.start.v[i]);
+  for (unsigned i = 0; i < NC_MAX_AXES; ++i)
+    foot.v[i] = move.start.v[i] + t * (move.end.v[i] - move.start.v[i]);
   EXPECT_LT(distance(foot, done.machine), kSamePoint) << "line " << move.line;
 }
 
@@ -163,7 +167,8 @@ void expect_same(const Recording& online, const Listing& offline, const rt::Conf
     EXPECT_EQ(online.variables, offline.variables);
     EXPECT_TRUE(online.ended_ok);
     // The image on the machine is what the interpreter holds, for the words that are mapped or not alike.
-    for (unsigned w = 0; w < NC_WORDS; ++w) EXPECT_EQ(online.interface_output[w], offline.interface_output[w]) << w;
+    for (unsigned w = 0; w < NC_WORDS; ++w)
+      EXPECT_EQ(online.interface_output[w], offline.interface_output[w]) << w;
   }
   EXPECT_GE(config.nc.system_count, 1);
 }

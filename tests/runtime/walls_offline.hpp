@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The test of the walls, offline side: the same program pulled item by item from an identical control, and the comparison.
+// The test of the walls, offline side: the same program pulled item by item from an identical control, and
+// the comparison.
 #pragma once
 
 #include <string>
@@ -13,9 +14,9 @@ struct Pulled {
   std::uint64_t serial = 0;
   std::uint8_t kind = 0;
   std::uint32_t line = 0;
-  nc_axes machine{};        // where the axes are when it has been executed
-  bool skip = false;        // a skip move: where it ended is the machine's to say
-  nc_axes start{}, end{};   // of a skip move as programmed
+  nc_axes machine{};       // where the axes are when it has been executed
+  bool skip = false;       // a skip move: where it ended is the machine's to say
+  nc_axes start{}, end{};  // of a skip move as programmed
 };
 
 struct Listing {
@@ -28,8 +29,10 @@ struct Listing {
   unsigned skips = 0, syncs = 0;
 };
 
-// Inputs change at the same lines and M codes as on the machine (the same script); a skip ends where the machine says.
-Listing pull_offline(const rt::Config& config, const std::string& text, const Operator& op, const Recording& machine);
+// Inputs change at the same lines and M codes as on the machine (the same script); a skip ends where the
+// machine says.
+Listing pull_offline(const rt::Config& config, const std::string& text, const Operator& op,
+                     const Recording& machine);
 
 // Same items, same serials, same end points within 1e-9, same variables and outputs, no limit broken.
 void expect_same(const Recording& online, const Listing& offline, const rt::Config& config);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The test of the walls. ncsim's trace and the machine are two sinks of one stream of items, so what the runtime executes on
-// the simulated machine is, serial by serial and end point by end point, what an offline control says: under random override,
-// hold and resume, single block, inputs that change in the middle of a macro, and skips; and in every scan every axis keeps
-// its velocity, its acceleration and its soft limits.
+// The test of the walls. ncsim's trace and the machine are two sinks of one stream of items, so what the
+// runtime executes on the simulated machine is, serial by serial and end point by end point, what an offline
+// control says: under random override, hold and resume, single block, inputs that change in the middle of a
+// macro, and skips; and in every scan every axis keeps its velocity, its acceleration and its soft limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,10 +89,10 @@ TEST(Walls, RandomProgramsExecuteAsTheyTrace) {
     }
   }
   std::ostringstream said;
-  said << count << " programs: " << totals.items << " items, " << totals.scans << " scans, " << totals.holds << " holds, "
-       << totals.stops << " block stops, " << totals.overrides << " override changes, " << totals.skips << " skips, "
-       << totals.syncs << " syncs; largest velocity " << totals.velocity << ", acceleration " << totals.acceleration
-       << " of the limit";
+  said << count << " programs: " << totals.items << " items, " << totals.scans << " scans, " << totals.holds
+       << " holds, " << totals.stops << " block stops, " << totals.overrides << " override changes, "
+       << totals.skips << " skips, " << totals.syncs << " syncs; largest velocity " << totals.velocity
+       << ", acceleration " << totals.acceleration << " of the limit";
   std::puts(said.str().c_str());
   // The test would prove nothing if none of this had happened.
   EXPECT_GT(totals.holds, count / 8);
@@ -112,9 +112,11 @@ std::string read_file(const std::filesystem::path& path) {
 TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
   const std::filesystem::path root(NC_SOURCE_DIR);
   unsigned parts = 0;
-  for (const auto& [part, machine] : {std::pair{"flange.nc", "machine.toml"}, {"keytag.nc", "modelling-machine.toml"}}) {
+  for (const auto& [part, machine] :
+       {std::pair{"flange.nc", "machine.toml"}, {"keytag.nc", "modelling-machine.toml"}}) {
     nc::rt::Config config;
-    for (const auto& error : nc::rt::load_config((root / "etc" / machine).string(), &config)) ADD_FAILURE() << error.text();
+    for (const auto& error : nc::rt::load_config((root / "etc" / machine).string(), &config))
+      ADD_FAILURE() << error.text();
     const std::string text = read_file(root / "examples" / "parts" / part);
     ASSERT_FALSE(text.empty()) << part;
     ++parts;
@@ -128,8 +130,8 @@ TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
   EXPECT_EQ(parts, 2u);
 }
 
-// Real programs of other people, where they are there: executed as they trace, to their end or to the alarm that their
-// dialect has for what it does not know.
+// Real programs of other people, where they are there: executed as they trace, to their end or to the alarm
+// that their dialect has for what it does not know.
 TEST(Walls, SharedProgramsExecuteAsTheyTrace) {
   const std::filesystem::path folder = std::filesystem::path(NC_SHARED_DIR) / "programs";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
@@ -170,7 +172,8 @@ tool_change_s = 0.1
   EXPECT_GT(programs, 0u);
 }
 
-// The same in real time, with the scan and the feeder in their own threads: what is executed does not depend on when.
+// The same in real time, with the scan and the feeder in their own threads: what is executed does not depend
+// on when.
 TEST(Walls, ThreadsExecuteWhatTheTraceSays) {
   for (const std::uint32_t seed : {3u, 11u}) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -16,6 +16,11 @@
 #include "tools/lib/number_text.hpp"
 #include "tools/lib/toolpath_plot.hpp"
 
+#if !defined(__SANITIZE_ADDRESS__) && defined(__has_feature)  // how clang says it
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__ 1
+#endif
+#endif
 #if defined(__SANITIZE_ADDRESS__)
 // fontconfig, which cairo asks for the font, keeps some blocks for the life of the process.
 extern "C" const char* __lsan_default_suppressions() {
