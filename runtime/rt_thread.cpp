@@ -14,7 +14,11 @@
 namespace nc::rt {
 namespace {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::size_t kStackBytes = 8 << 20;  // a sanitizer keeps its own data there
+#else
 constexpr std::size_t kStackBytes = 256 * 1024;
+#endif
 constexpr std::size_t kPrefaultBytes = 128 * 1024;
 
 // Touches the stack so that no page of it is missing later.

@@ -25,12 +25,11 @@ class SeqLock {
   void store(const T& value) noexcept {
     const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
     sequence_.store(sequence + 1, std::memory_order_relaxed);
-    std::atomic_thread_fence(std::memory_order_release);
     const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
     for (std::size_t i = 0; i < kWords; ++i) {
       std::uint64_t word = 0;
       std::memcpy(&word, bytes + 8 * i, i + 1 < kWords ? 8 : sizeof(T) - 8 * i);
-      words_[i].store(word, std::memory_order_relaxed);
+      words_[i].store(word, std::memory_order_release);
     }
     sequence_.store(sequence + 2, std::memory_order_release);
   }
@@ -40,8 +39,7 @@ class SeqLock {
       const std::uint64_t before = sequence_.load(std::memory_order_acquire);
       if ((before & 1) != 0) continue;
       std::array<std::uint64_t, kWords> words;
-      for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_relaxed);
-      std::atomic_thread_fence(std::memory_order_acquire);
+      for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
       if (sequence_.load(std::memory_order_relaxed) != before) continue;
       T value;
       std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));

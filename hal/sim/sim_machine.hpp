@@ -107,7 +107,7 @@ class SimMachine final : public Hal {
   void record_outputs(const PointImage& image) noexcept;
 
   SimConfig config_;
-  const PointTable& table_;
+  const PointTable table_;
   InputScript script_;
   System system_[NC_MAX_SYSTEMS];
   PointImage input_, output_;

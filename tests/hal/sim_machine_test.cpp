@@ -21,17 +21,18 @@ constexpr double kCycle = 0.001;
 
 // A machine with its image, driven scan by scan.
 struct Bench {
-  explicit Bench(const SimConfig& config) : machine(config, table) {
+  explicit Bench(const SimConfig& config) : machine(config, table()) {
+    PointImage initial;
+    initial.value[0] = 1;
     std::string error;
-    EXPECT_TRUE(machine.start(initial(), &error));
+    EXPECT_TRUE(machine.start(initial, &error));
     command.system[0].enable = true;
   }
-  PointImage initial() {
-    table.add({"door", PointType::kBit, PointDirection::kInput, 1});
-    table.add({"lamp", PointType::kBit, PointDirection::kOutput, 0});
-    PointImage result;
-    result.value[0] = 1;
-    return result;
+  static nc::hal::PointTable table() {
+    nc::hal::PointTable points;
+    points.add({"door", PointType::kBit, PointDirection::kInput, 1});
+    points.add({"lamp", PointType::kBit, PointDirection::kOutput, 0});
+    return points;
   }
   void scan() {
     machine.read(&feedback, &image);
@@ -46,7 +47,6 @@ struct Bench {
     }
     return limit + 1;
   }
-  nc::hal::PointTable table;
   SimMachine machine;
   Command command{};
   Feedback feedback{};
@@ -135,6 +135,29 @@ TEST(SimMachine, StrobeThatDropsEarlyLeavesNoFinBehind) {
   }
   bench.command.system[0].strobe = 1;
   EXPECT_GE(bench.until_fin(100), 10u) << "the next function takes its own whole time";
+}
+
+TEST(SimMachine, AStrobeThatFollowsAtOnceMakesFinDropAndTakesItsTime) {
+  SimConfig config;
+  config.m_time_s = 0.010;
+  Bench bench(config);
+  auto& command = bench.command.system[0];
+  command.m = 8;
+  command.strobe = 1;
+  command.serial = 5;
+  bench.until_fin(100);
+  command.strobe = 2;  // S behind M, without a scan between
+  command.serial = 7;
+  bench.scan();
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_FALSE(bench.feedback.system[0].fin);
+  EXPECT_GE(bench.until_fin(100), 9u);
+  command.m = 9;  // the same strobe again for another block
+  command.strobe = 2;
+  command.serial = 9;
+  bench.scan();
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_FALSE(bench.feedback.system[0].fin);
 }
 
 TEST(SimMachine, SpindleRampsAndFinWaitsForTheSpeed) {

@@ -674,6 +674,19 @@ TEST(Executor, TruncateAtABlockStopLeavesNothingAndNamesTheMarkExecutedLast) {
   EXPECT_EQ(m.out.cause, NC_CAUSE_STARVED);
 }
 
+TEST(Executor, ATruncationThatNobodyFetchesDoesNotBlockTheMachine) {
+  const ExecutorConfig c = standard_config();
+  const Program p = ten_lines(c);
+  Machine m(c);
+  m.feed(p);
+  Serial last = 0;
+  EXPECT_FALSE(m.executor.truncate(&last));
+  m.start();
+  EXPECT_EQ(m.out.state, NC_STATE_IDLE) << "the scan has agreed and waits";
+  ASSERT_TRUE(m.until(p, [&] { return m.executor.drained() && m.out.state == NC_STATE_IDLE; }));
+  EXPECT_EQ(check_events(p, m.events, 3), "");
+}
+
 TEST(Executor, EventsThatNobodyFetchesAreCountedAndTheNewestStay) {
   ExecutorConfig c = standard_config();
   c.capacity = 64;

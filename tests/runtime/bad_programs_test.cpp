@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(All, BadPrograms, testing::ValuesIn(kBad),
 // A machine that is driven by hand.
 class Drive {
  public:
-  explicit Drive(const nc::rt::Config& config) : config_(config), machine_(config.sim, config.points) {
+  explicit Drive(const nc::rt::Config& config) : config_(config), machine_(config_.sim, config_.points) {
     std::vector<nc::rt::ConfigError> errors;
     runtime = nc::rt::Runtime::create(config_, {&clock_, &machine_, nullptr, nullptr}, &errors);
     EXPECT_NE(runtime, nullptr);
@@ -113,6 +113,7 @@ class Drive {
   }
   nc_outputs out() { return runtime->snapshot().system[0].nc; }
 
+  ~Drive() { runtime.reset(); }  // before the machine that it drives
   std::unique_ptr<nc::rt::Runtime> runtime;
   nc::hal::SimMachine& machine() { return machine_; }
 

@@ -3,6 +3,7 @@
 // by `step` per cycle while it runs and ends after `cycles` of them.
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ class FakeNc final : public rt::NcPort {
   nc_status select_status = NC_OK, reset_status = NC_OK;
   std::uint32_t switches_seen = 0;
   std::string mdi;
-  bool end_event = false, alarm_next = false;
+  bool alarm_next = false;
+  std::atomic<bool> end_event{false};  // from the scan to the feeder
 
   FakeNc() { out.distance_zero = true; }
 
@@ -57,8 +59,7 @@ class FakeNc final : public rt::NcPort {
   nc_status feed(std::uint32_t) override { return NC_WAITING; }
   nc_status poll_event(unsigned, nc_event* event, std::uint64_t* dropped) override {
     *dropped = 0;
-    if (!end_event) return NC_WAITING;
-    end_event = false;
+    if (!end_event.exchange(false)) return NC_WAITING;
     *event = {};
     event->kind = NC_ITEM_END;
     return NC_OK;

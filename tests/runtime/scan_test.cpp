@@ -421,15 +421,15 @@ TEST_F(ScanTest, AFailedStartLeavesTheOutputsSafe) {
 TEST_F(ScanTest, RunsInTwoThreads) {
   build("[scheduling]\noverrun = \"count\"\n");
   runtime.reset();
+  nc.cycles = 20;
   nc::rt::RealClock real;
   std::vector<nc::rt::ConfigError> errors;
   runtime = nc::rt::Runtime::create(config, {&real, hal.get(), nullptr, &nc}, &errors);
   std::string error;
   ASSERT_TRUE(runtime->start(&error)) << error;
   EXPECT_GT(runtime->first_scan_ns(), 0);
-  nc.cycles = 20;
-  ASSERT_EQ(runtime->select_program(0), Answer::kDone);
-  ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+  EXPECT_EQ(runtime->select_program(0), Answer::kDone);
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
   for (int i = 0; i < 5000 && runtime->info().runs == 0; ++i) real.sleep_until(real.now_ns() + 1'000'000);
   EXPECT_EQ(runtime->info().runs, 1u);
   runtime->stop();

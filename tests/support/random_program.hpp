@@ -16,7 +16,8 @@ struct RandomProgram {
 
 class ProgramMaker {
  public:
-  explicit ProgramMaker(uint32_t seed) : random_(seed) {}
+  /// Without `reads_world` nothing depends on inputs, clocks and skip signals.
+  explicit ProgramMaker(uint32_t seed, bool reads_world = true) : random_(seed), reads_world_(reads_world) {}
 
   RandomProgram make() {
     RandomProgram p;
@@ -52,7 +53,9 @@ class ProgramMaker {
   }
 
   void block(int depth) {
-    switch (number(0, 24)) {
+    const int kind = number(0, 24);
+    const bool reads = kind == 16 || kind == 17 || kind == 23;
+    switch (reads && !reads_world_ ? 1 : kind) {
       case 0: text_ += "G0 X" + coordinate() + " Y" + coordinate() + "\n"; break;
       case 1:
       case 2: text_ += "G1 X" + coordinate() + " Z" + coordinate(20) + "\n"; break;
@@ -101,7 +104,7 @@ class ProgramMaker {
     text_ += "Y50.\n";
     if (number(0, 2) == 0) text_ += "G10 L2 P3 X1.\n";
     text_ += "G3 X40. Y70. I-20.\nG1 X10.\n";
-    if (number(0, 2) == 0) text_ += "#100=#1000\n";  // inhibits the read ahead in the middle of a contour
+    if (number(0, 2) == 0 && reads_world_) text_ += "#100=#1000\n";  // inhibits the read ahead in the middle of a contour
     text_ += "Y30.\nX0 Y25.\nG40 X-20. Y-20.\n";
   }
 
@@ -125,6 +128,7 @@ class ProgramMaker {
   }
 
   std::mt19937 random_;
+  bool reads_world_;
   std::string text_;
   int first_sub_ = 1, last_sub_ = 4;
   int loop_ = 0;

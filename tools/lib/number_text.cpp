@@ -38,22 +38,22 @@ size_t number_text(double value, char* out) {
   uint32_t fraction = static_cast<uint32_t>(magnitude % 1'000'000'000u);
   if (fraction) {
     char digits[9];
-    int last = -1;
-    for (int i = 8; i >= 0; --i) {
+    size_t count = 0;  // without the trailing zeros
+    for (size_t i = sizeof digits; i-- > 0;) {
       digits[i] = static_cast<char>('0' + fraction % 10);
-      if (last < 0 && digits[i] != '0') last = i;
+      if (count == 0 && digits[i] != '0') count = i + 1;
       fraction /= 10;
     }
     *p++ = '.';
-    std::memcpy(p, digits, static_cast<size_t>(last + 1));
-    p += last + 1;
+    std::memcpy(p, digits, count);
+    p += count;
   }
   return static_cast<size_t>(p - out);
 }
 
 size_t value_text(double value, char* out) {
   if (!std::isfinite(value)) {
-    std::memcpy(out, "null", 4);
+    std::memcpy(out, "null", 4);  // NOLINT(bugprone-not-null-terminated-result): lengths, not NULs
     return 4;
   }
   if (value == 0.0) {

@@ -12,18 +12,22 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "tools/lib/number_text.hpp"
 #include "tools/lib/toolpath_plot.hpp"
 
-#if !defined(__SANITIZE_ADDRESS__) && defined(__has_feature)  // how clang says it
-#if __has_feature(address_sanitizer)
-#define __SANITIZE_ADDRESS__ 1
-#endif
-#endif
 #if defined(__SANITIZE_ADDRESS__)
+#define NC_ADDRESS_SANITIZER 1
+#elif defined(__has_feature)  // how clang says it
+#if __has_feature(address_sanitizer)
+#define NC_ADDRESS_SANITIZER 1
+#endif
+#endif
+#if defined(NC_ADDRESS_SANITIZER)
 // fontconfig, which cairo asks for the font, keeps some blocks for the life of the process.
-extern "C" const char* __lsan_default_suppressions() {
+extern "C" const char*
+__lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier): the sanitizer's name
   return "leak:libfontconfig";
 }
 #endif
@@ -58,6 +62,16 @@ double nice_step(double span, double count) {
   for (double factor : {1.0, 2.0, 5.0})
     if (factor * power >= raw * (1.0 - 1e-9)) return factor * power;
   return 10.0 * power;
+}
+
+// Multiples of `step` from low to high; counted, because adding a step to a large number may not change it.
+std::vector<double> ticks_between(double low, double high, double step) {
+  constexpr int kMost = 100;
+  std::vector<double> ticks;
+  const double first = std::ceil(low / step - 1e-9);
+  for (int k = 0; k < kMost && (first + k) * step <= high + 1e-9 * step; ++k)
+    ticks.push_back((first + k) * step);
+  return ticks;
 }
 
 std::string mm_text(double value) {
@@ -142,17 +156,17 @@ class PlotPainter {
     const double x0 = px(low_), x1 = px(high_), y0 = py(low_), y1 = py(high_);
     cairo_set_line_width(c_, 0.8);
     const double step = nice_step(std::max(high_.u - low_.u, high_.v - low_.v), 12);
-    for (double t = std::ceil(low_.u / step) * step; t <= high_.u; t += step) {
+    for (const double t : ticks_between(low_.u, high_.u, step)) {
       const double x = px({t, low_.v});
       line(kGrid, x, y0, x, y1);
       line(kInk, x, y0, x, y0 + 5);
-      put_text(c_, x, y0 + 20, mm_text(std::round(t / step) * step), 13, 0.5);
+      put_text(c_, x, y0 + 20, mm_text(t), 13, 0.5);
     }
-    for (double t = std::ceil(low_.v / step) * step; t <= high_.v; t += step) {
+    for (const double t : ticks_between(low_.v, high_.v, step)) {
       const double y = py({low_.u, t});
       line(kGrid, x0, y, x1, y);
       line(kInk, x0 - 5, y, x0, y);
-      put_text(c_, x0 - 9, y + 4, mm_text(std::round(t / step) * step), 13, 1.0);
+      put_text(c_, x0 - 9, y + 4, mm_text(t), 13, 1.0);
     }
     use(c_, kInk);
     cairo_rectangle(c_, x0, y1, x1 - x0, y0 - y1);
@@ -191,10 +205,10 @@ class PlotPainter {
       return project(p[0], p[1], p[2]);
     };
     line(kInk, px(at(lo_[axis])), py(at(lo_[axis])), px(at(hi_[axis])), py(at(hi_[axis])));
-    for (double t = std::ceil(lo_[axis] / step - 1e-9) * step; t <= hi_[axis] + 1e-9 * step; t += step) {
+    for (const double t : ticks_between(lo_[axis], hi_[axis], step)) {
       const Page p = at(t);
       line(kInk, px(p), py(p), px(p) + dx / 2, py(p) + dy / 4);
-      put_text(c_, px(p) + dx, py(p) + dy, mm_text(std::round(t / step) * step), 13, align);
+      put_text(c_, px(p) + dx, py(p) + dy, mm_text(t), 13, align);
     }
     const Page middle = at((lo_[axis] + hi_[axis]) / 2);
     put_text(c_, px(middle) + 4 * dx, py(middle) + 2.2 * dy, std::string(name) + " [mm]", 15, align);

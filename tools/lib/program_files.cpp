@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 namespace nc::tools {
@@ -84,7 +84,7 @@ nc_status ProgramFiles::add(nc_control* control, const std::string& path, unsign
   // Non-blocking open: a FIFO must give an error below, not hang here.
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) {
-    if (error) *error = path + ": " + std::strerror(errno);
+    if (error) *error = path + ": " + std::generic_category().message(errno);
     return NC_E_READ;
   }
   const nc_status status = add_descriptor(control, descriptor, base_name(path), file, error);
@@ -99,7 +99,7 @@ nc_status ProgramFiles::add_descriptor(nc_control* control, int descriptor, cons
   entry->path = name;
   struct stat info = {};
   if (fstat(descriptor, &info) != 0) {
-    if (error) *error = name + ": " + std::strerror(errno);
+    if (error) *error = name + ": " + std::generic_category().message(errno);
     return NC_E_READ;
   }
   if (!S_ISREG(info.st_mode)) {

@@ -8,7 +8,7 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "tools/lib/item_source.hpp"
@@ -121,7 +121,7 @@ bool Session::add_standard_input(std::string* error) {
     const ssize_t n = read(STDIN_FILENO, buffer, sizeof buffer);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) {
-      *error = main_name_ + ": " + std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): one thread
+      *error = main_name_ + ": " + std::generic_category().message(errno);
       return false;
     }
     if (n == 0) break;

@@ -122,7 +122,7 @@ class SetupReader {
         continue;
       }
       for (const auto& [name, entry] : value.members) {
-        const std::string axis_path = path + "." + name;
+        const std::string axis_path = join(path, name);
         const unsigned index = axis(entry, axis_path, name);
         if (entry.type == Type::kObject) fail(entry, axis_path, "must be a number or a string");
         s_.parameters.push_back(
@@ -290,8 +290,9 @@ class SetupReader {
       const JsonNode* box = member(item, "box");
       if (!box) fail(item, path, "the key box is missing");
       if (object(*box, path + ".box").members.empty()) fail(*box, path + ".box", "a box without a side");
+      const std::string box_path = path + ".box";
       for (const auto& [name, range] : box->members) {
-        const std::string range_path = path + ".box." + name;
+        const std::string range_path = join(box_path, name);
         const unsigned a = axis(range, range_path, name);
         if (list(range, range_path).items.size() != 2) fail(range, range_path, "must be [low, high]");
         solid.low[a] = number(range.items[0], item_path(range_path, 0));
@@ -357,8 +358,9 @@ class SetupReader {
       if (const JsonNode* signals = member(item, "signals")) {
         check_keys(object(*signals, path + ".signals"), path + ".signals",
                    {"macro_interrupt", "feed_hold", "reset"});
+        const std::string signals_path = path + ".signals";
         for (const auto& [name, value] : signals->members)
-          event.signals[name] = static_cast<int>(whole(value, path + ".signals." + name, 0, 1));
+          event.signals[name] = static_cast<int>(whole(value, join(signals_path, name), 0, 1));
       }
       s_.events.push_back(event);
     }

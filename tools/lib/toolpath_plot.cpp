@@ -11,6 +11,7 @@ namespace {
 
 constexpr size_t kMaxVertices = 2'000'000;  // 32 MB; a drawing of 2000 x 1500 px shows far fewer
 constexpr double kStepDeg = 3.0;            // an arc of radius r is then at most 0.00034 r off its chord
+constexpr double kFarthest = 1e9;           // mm
 constexpr unsigned kMaxTurnsDrawn = 2000;
 
 // Index of the axis called `name`, or -1.
@@ -34,7 +35,8 @@ bool is_circular(const nc_move& move) {
 }  // namespace
 
 void ToolpathPlot::add_point(bool rapid, double x, double y, double z) {
-  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return;
+  // No drawing shows places farther than 1000 km from zero; this also keeps what is not a number out.
+  if (!(std::fabs(x) < kFarthest && std::fabs(y) < kFarthest && std::fabs(z) < kFarthest)) return;
   if (!vertices_.empty()) {
     Vertex& last = vertices_.back();
     const double step = std::hypot(x - last.x, y - last.y, z - last.z);

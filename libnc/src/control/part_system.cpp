@@ -101,7 +101,8 @@ void PartSystem::describe_alarm() {
   char axis_name[2] = {0, 0};
   if (fault.axis >= 0) axis_name[0] = interpreter.system->axis[fault.axis].name;
   alarm_detail(fault, axis_name, alarm_.detail.s, sizeof(alarm_.detail.s));
-  if (fault.condition == Condition::user_alarm) alarm_.detail = interpreter.texts[interpreter.user_alarm_text].text;
+  const nc_text& own_words = interpreter.texts[interpreter.user_alarm_text].text;
+  if (fault.condition == Condition::user_alarm && own_words.s[0] != 0) alarm_.detail = own_words;
   alarm_.axis = fault.axis;
   alarm_.source = interpreter.alarm_source;
 }

@@ -49,7 +49,17 @@ void Executor::push(const Record& record) {
 }
 
 void Executor::plan() {
+  state_->forget_truncate();
   state_->planner.replan(state_->scan_said());
+}
+
+/// A truncation that was asked for and never fetched must not keep the scan waiting for ever.
+void ExecutorState::forget_truncate() {
+  constexpr unsigned kPatience = 1000;
+  if (!truncate_open || ++truncate_age < kPatience) return;
+  if (shared.truncate_answer.load(std::memory_order_acquire) >> 1 != (truncate_request & 0x7fffffffu)) return;
+  truncate_open = false;
+  shared.truncate_release.store(truncate_request, std::memory_order_release);
 }
 
 bool Executor::sync_reached(Serial serial, nc_world* world) const {
@@ -78,6 +88,7 @@ bool Executor::truncate(Serial* last) {
   if (!e.truncate_open) {
     shared.truncate_request.store(++e.truncate_request, std::memory_order_release);
     e.truncate_open = true;
+    e.truncate_age = 0;
     return false;
   }
   const uint32_t answer = shared.truncate_answer.load(std::memory_order_acquire);

@@ -53,6 +53,8 @@ class Executor {
   /// the newest that has been (0: none in this run). The first call asks and returns false, a later one finds
   /// the answer: false again when the machine moves, when the end of the block in execution is not committed
   /// yet, or when the scan has not run in between.
+  /// A request whose answer is not fetched within 1000 calls of plan() is forgotten, so that the machine can
+  /// be started again.
   bool truncate(Serial* last);
   /// Next executed record for the host.
   bool poll_event(nc_event* event, uint64_t* dropped);

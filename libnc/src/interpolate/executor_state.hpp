@@ -19,7 +19,10 @@ class ExecutorState {
   alignas(64) ScanShared shared;
   alignas(64) Scan scan;
 
+  unsigned truncate_age = 0;  ///< plan() calls since the request
+
   Planner::Inputs scan_said();
+  void forget_truncate();
 };
 
 }  // namespace nc

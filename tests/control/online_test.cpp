@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two ways to drive a control see the same stream: what nc_cycle() executes, under holds, overrides, single block and
+// recalculation requests, is what nc_pull() gave.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/pull.hpp"
+#include "support/random_program.hpp"
+
+namespace nc::test {
+namespace {
+
+constexpr uint32_t kPrograms = 40;
+
+std::function<void(nc_config&)> machine(uint32_t look_ahead) {
+  return [look_ahead](nc_config& c) {
+    c.look_ahead = look_ahead;
+    c.cycle_s = 0.004;
+    for (unsigned i = 0; i < 3; ++i) {
+      c.system[0].axis[i].rapid = 2000;
+      c.system[0].axis[i].max_velocity = 1500;
+      c.system[0].axis[i].max_acceleration = 50000;
+    }
+  };
+}
+
+void set_up(Bench& bench, const RandomProgram& program) {
+  for (unsigned n = 1; n <= 9; ++n) bench.tool(n, 0.2 * n);
+  bench.work_offset(1, {1, 2, 3}).param("8103", "1").param("8013", "0.5").param("8012", "0.3");
+  for (size_t i = 0; i < program.subs.size(); ++i) bench.add("O" + std::to_string(i + 1), program.subs[i]);
+}
+
+struct Executed {
+  std::vector<nc_event> events;
+  std::string left;
+  bool ended = false;
+  unsigned recalculated = 0;
+};
+
+struct Disturbance {
+  bool hold = false, single = false, override_changes = false, slow_fin = false, recalculate = false;
+};
+
+Executed execute(Bench& bench, const std::string& text, const Disturbance& disturb, uint32_t seed) {
+  bench.start(text);
+  nc_control* control = bench.control();
+  nc_inputs in{};
+  nc_outputs out{};
+  in.feed_override = in.rapid_override = 1;
+  in.spindle_rev_per_s = 50;
+  std::mt19937 random(seed);
+  Executed done;
+  unsigned fin_wait = 0;
+  bool asking = false;
+  for (unsigned n = 0; n < 400000 && !done.ended; ++n) {
+    if (random() % 3 != 0 || n < 3) nc_feed(control, 1 + random() % 40);  // the feeder has its own pace
+    if (asking || (disturb.recalculate && out.state == NC_STATE_STOPPED && random() % 3 == 0)) {
+      const nc_status status = nc_recalculate(control, 0);
+      done.recalculated += status == NC_OK;
+      asking = status == NC_WAITING && out.state == NC_STATE_STOPPED;
+    }
+    in.cycle_start = !asking && (n == 2 || (n > 2 && n % 7 == 0));
+    if (disturb.hold) in.feed_hold = random() % 40 < 3;
+    if (disturb.single) in.single_block = (n / 500) % 2 == 0;
+    if (disturb.override_changes && random() % 50 == 0) in.feed_override = 0.2 + static_cast<double>(random() % 18) / 10;
+    fin_wait = out.strobe != 0 ? fin_wait + 1 : 0;
+    in.fin = out.strobe != 0 && (!disturb.slow_fin || fin_wait > 3);
+    nc_cycle(control, &in, &out);
+    nc_event event;
+    uint64_t dropped = 0;
+    while (nc_event_poll(control, 0, &event, &dropped) == NC_OK) {
+      done.events.push_back(event);
+      done.ended = done.ended || event.kind == NC_ITEM_END;
+    }
+    EXPECT_EQ(dropped, 0u);
+  }
+  for (unsigned n = 1; n <= 20; ++n) done.left += brief(bench.tool_now(n)) + " ";
+  uint32_t number = 0;
+  double value = 0;
+  for (; nc_common_next(control, 0, number, &number, &value) == NC_OK; ++number) done.left += std::to_string(number) + "=" + brief(value) + " ";
+  return done;
+}
+
+void compare(const Disturbance& disturb, uint32_t look_ahead) {
+  unsigned recalculated = 0;
+  for (uint32_t seed = 0; seed < kPrograms; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const RandomProgram program = ProgramMaker(seed + 500, false).make();
+    Bench offline(NC_DIALECT_M700, machine(256));
+    set_up(offline, program);
+    const Outcome expected = offline.run(program.main);
+    if (!expected.ended_ok) continue;
+    Bench online(NC_DIALECT_M700, machine(look_ahead));
+    set_up(online, program);
+    const Executed done = execute(online, program.main, disturb, seed);
+    ASSERT_TRUE(done.ended);
+    ASSERT_EQ(done.events.size(), expected.steps.size());
+    for (size_t i = 0; i < done.events.size(); ++i) {
+      const Step& step = expected.steps[i];
+      const nc_event& event = done.events[i];
+      ASSERT_EQ(event.serial, step.item.serial);
+      ASSERT_EQ(event.kind, step.item.kind) << event.serial;
+      ASSERT_EQ(event.source.line, step.item.source.line) << event.serial;
+      for (unsigned axis = 0; axis < 3; ++axis) ASSERT_NEAR(event.machine.v[axis], step.machine.v[axis], 1e-9) << event.serial;
+    }
+    std::string left;
+    for (unsigned n = 1; n <= 20; ++n) left += brief(offline.tool_now(n)) + " ";
+    for (const auto& [number, value] : expected.vars) left += std::to_string(number) + "=" + brief(value) + " ";
+    EXPECT_EQ(done.left, left);
+    recalculated += done.recalculated;
+  }
+  if (disturb.recalculate) {
+    EXPECT_GT(recalculated, kPrograms);
+  }
+}
+
+TEST(Online, ExecutesWhatWasPulled) { compare({}, 256); }
+TEST(Online, ASmallRing) { compare({}, 64); }
+TEST(Online, HoldsAndOverrides) { compare({.hold = true, .override_changes = true}, 64); }
+TEST(Online, SingleBlockAndSlowCompletion) { compare({.single = true, .slow_fin = true}, 128); }
+TEST(Online, RecalculationAtEveryStop) { compare({.single = true, .recalculate = true}, 128); }
+
+TEST(Online, ChangedDataActAfterARecalculation) {  // M700 4.2: from the next block
+  Bench bench(NC_DIALECT_M700, machine(64));
+  bench.start("G0 X1.\nX2.\nX#100\nM30");
+  bench.var(100, 3);
+  nc_control* control = bench.control();
+  nc_inputs in{};
+  nc_outputs out{};
+  in.feed_override = in.rapid_override = 1;
+  in.single_block = true;
+  bool changed = false;
+  double last_x = 0;
+  for (unsigned n = 0; n < 5000; ++n) {
+    nc_feed(control, 50);
+    const bool stopped_behind_first = out.state == NC_STATE_STOPPED && out.blocks == 1;
+    if (stopped_behind_first && !changed) {
+      bench.var(100, 7);
+      changed = nc_recalculate(control, 0) == NC_OK;
+      in.cycle_start = false;
+    } else {
+      in.cycle_start = n % 5 == 0 && (!stopped_behind_first || changed);
+    }
+    in.fin = out.strobe != 0;
+    nc_cycle(control, &in, &out);
+    last_x = out.command.v[0];
+    if (out.state == NC_STATE_IDLE && out.blocks > 0) break;  // another cycle start would run it again
+  }
+  EXPECT_TRUE(changed);
+  EXPECT_NEAR(last_x, 7, 1e-9);
+  EXPECT_EQ(out.state, NC_STATE_IDLE);
+}
+
+TEST(Online, AnAlarmStopsTheMachineWhereTheBlockBeforeEnded) {
+  Bench bench(NC_DIALECT_M700, machine(64));
+  bench.start("G0 X10.\nG1 X20. F6000\nG67\nX30.\nM30");
+  nc_inputs in{};
+  nc_outputs out{};
+  in.feed_override = in.rapid_override = 1;
+  for (unsigned n = 0; n < 3000; ++n) {
+    nc_feed(bench.control(), 50);
+    in.cycle_start = n == 2;
+    nc_cycle(bench.control(), &in, &out);
+  }
+  EXPECT_EQ(out.state, NC_STATE_ALARM);
+  EXPECT_NEAR(out.command.v[0], 20, 1e-9);
+  nc_alarm alarm{};
+  ASSERT_EQ(nc_alarm_get(bench.control(), 0, &alarm), NC_OK);
+  EXPECT_STREQ(alarm.code, "P276");
+  EXPECT_EQ(alarm.source.line, 3u);
+}
+
+}  // namespace
+}  // namespace nc::test

@@ -1,0 +1,327 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Moves of `ncsim trace --dialect m700` against LinuxCNC's interpreter (rs274, Debian linuxcnc-uspace) on generated programs.
+
+The programs use what both families mean the same by: G0 G1 G2 G3 (centre and radius form, helices, several turns), G17-G19, G20 G21,
+G53, G54-G59 with G10 L2, G90 G91, G92, G81 G82 G85 with G98 G99. Two words differ and are written for each: P of an arc counts extra turns
+here and all turns there, P of a dwell is in ms here and in s there. Kinds, end points, arc centres, direction, turns and feed must agree.
+rs274 prints four decimals, so the generated numbers have at most four, and end points and centres are compared to 1e-6; only the
+centres of radius arcs, which are no such numbers, are compared to the last digit printed.
+
+Exit status 77 (skipped) where rs274 is absent.
+"""
+import json
+import math
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+PROGRAMS = 80
+BLOCKS = 60
+EXACT = 1e-6        # mm; numbers that rs274 can print
+PRINTED = 6e-5      # half of its last digit, and a little
+AXES = "XYZ"
+PLANES = {"G17": (0, 1), "G18": (2, 0), "G19": (1, 2)}   # first and second axis
+CENTRE = "IJK"
+
+
+def text(value):
+    return f"{value:.4f}".rstrip("0").rstrip(".") + ("" if "." in f"{value:.4f}".rstrip("0").rstrip(".") else ".")
+
+
+class Maker:
+    """Writes one program in both dialects, and keeps where it is in workpiece coordinates."""
+
+    def __init__(self, seed):
+        self.random = random.Random(seed)
+        self.lines = {"m700": [], "rs274": []}
+        self.at = [0.0, 0.0, 0.0]       # program units
+        self.plane = "G17"
+        self.absolute = True
+        self.unit = 1.0                 # mm per program unit
+        self.offset = {f"G{n}": [0.0] * 3 for n in range(54, 60)}   # mm
+        self.shift = [0.0] * 3
+        self.system = "G54"
+
+    def number(self, reach):
+        return round(self.random.uniform(-reach, reach), 4)
+
+    def put(self, line, rs274=None):
+        self.lines["m700"].append(line)
+        self.lines["rs274"].append(rs274 if rs274 is not None else line)
+
+    def word(self, axis, target):
+        """The word that goes to `target` on an axis in the distance mode in force."""
+        value = target if self.absolute else round(target - self.at[axis], 4)
+        return AXES[axis] + text(value)
+
+    def go(self, target):
+        self.at = list(target)
+
+    def zero(self):
+        return [a + b for a, b in zip(self.offset[self.system], self.shift)]
+
+    def change_zero(self, change):
+        """Carries the position over a change of the coordinate system."""
+        before = self.zero()
+        change()
+        self.at = [a + (b - c) / self.unit for a, b, c in zip(self.at, before, self.zero())]
+
+    # ---- blocks ----
+
+    def straight(self):
+        code = self.random.choice(["G0", "G1", "G1"])
+        target = list(self.at)
+        axes = [a for a in range(3) if self.random.random() < 0.6] or [0]
+        for a in axes:
+            target[a] = round(self.at[a] + self.number(20), 4)
+        feed = f" F{self.random.randint(10, 900)}" if code == "G1" and self.random.random() < 0.3 else ""
+        self.put(code + "".join(" " + self.word(a, target[a]) for a in axes) + feed)
+        self.go(target)
+
+    def arc(self):
+        first, second = PLANES[self.plane]
+        third = 3 - first - second
+        code = self.random.choice(["G2", "G3"])
+        target = list(self.at)
+        words, both = [], [None, None]
+        if self.random.random() < 0.4:      # radius form
+            target[first] = round(self.at[first] + self.number(10) + 0.5, 4)
+            target[second] = round(self.at[second] + self.number(10) + 0.5, 4)
+            half = math.hypot(target[first] - self.at[first], target[second] - self.at[second]) / 2
+            if half < 0.2:
+                return
+            radius = round(half * self.random.uniform(1.05, 3), 4)
+            words = [self.word(first, target[first]), self.word(second, target[second]),
+                     "R" + ("-" if self.random.random() < 0.5 else "") + text(radius)]
+        else:
+            centre = [self.number(10), self.number(10)]
+            if math.hypot(*centre) < 0.5:
+                return
+            radius = math.hypot(*centre)
+            angle = math.atan2(-centre[1], -centre[0])
+            if self.random.random() < 0.8:  # else a full circle
+                angle += self.random.uniform(0.1, 6.1)
+                target[first] = round(self.at[first] + centre[0] + radius * math.cos(angle), 4)
+                target[second] = round(self.at[second] + centre[1] + radius * math.sin(angle), 4)
+                words = [self.word(first, target[first]), self.word(second, target[second])]
+            words += [CENTRE[first] + text(centre[0]), CENTRE[second] + text(centre[1])]
+            turns = self.random.choice([0, 0, 0, 1, 2])
+            if turns:
+                both = [f"P{turns}", f"P{turns + 1}"]
+        if self.random.random() < 0.3:
+            target[third] = round(self.at[third] + self.number(5), 4)
+            words.append(self.word(third, target[third]))
+        line = code + "".join(" " + w for w in words)
+        self.put(line + (" " + both[0] if both[0] else ""), line + (" " + both[1] if both[1] else ""))
+        self.go(target)
+
+    def modes(self):
+        kind = self.random.randrange(6)
+        if kind == 0:
+            self.plane = self.random.choice(list(PLANES))
+            self.put(self.plane)
+        elif kind == 1:
+            self.absolute = not self.absolute
+            self.put("G90" if self.absolute else "G91")
+        elif kind == 2:
+            system = self.random.choice(list(self.offset))
+            self.change_zero(lambda: setattr(self, "system", system))
+            self.put(system)
+        elif kind == 3:
+            n = self.random.randint(1, 6)
+            values = [round(self.number(50), 4) for _ in range(3)]
+            self.put("G90 G10 L2 P%d " % n + " ".join(AXES[a] + text(values[a]) for a in range(3)))
+            self.absolute = True
+            self.change_zero(lambda: self.offset.__setitem__(f"G{53 + n}", [v * self.unit for v in values]))
+        elif kind == 4:
+            axis = self.random.randrange(3)
+            value = self.number(30)
+            self.put(f"G92 {AXES[axis]}{text(value)}")
+            self.change_zero(lambda: self.shift.__setitem__(axis, self.shift[axis] + (self.at[axis] - value) * self.unit))
+        else:
+            axis = self.random.randrange(3)
+            value = self.number(40)
+            self.absolute = True
+            self.put(f"G90 G0 G53 {AXES[axis]}{text(value)}")
+            self.at[axis] = value - self.zero()[axis] / self.unit
+
+    def cycle(self):
+        self.put("G17")
+        self.plane = "G17"
+        level = self.random.choice(["G98", "G99"])
+        code = self.random.choice(["G81", "G82", "G85"])
+        dwell = [" P500", " P0.5"] if code == "G82" else ["", ""]
+        absolute = self.absolute
+        depth, reach = round(self.random.uniform(2, 9), 4), round(self.random.uniform(1, 4), 4)
+        top = self.at[2]
+        r, z = round(top - reach, 4), round(top - reach - depth, 4)
+        x, y = self.number(20), self.number(20)
+        if absolute:
+            words = f"X{text(x)} Y{text(y)} Z{text(z)} R{text(r)}"
+            self.at[0], self.at[1] = x, y
+            count = ""
+        else:
+            words = f"X{text(x)} Y{text(y)} Z{text(-depth)} R{text(-reach)}"
+            repeat = self.random.choice([1, 2, 3])
+            count = f" L{repeat}" if level == "G98" and repeat > 1 else ""
+            times = repeat if count else 1
+            self.at[0], self.at[1] = self.at[0] + times * x, self.at[1] + times * y
+        line = f"{level} {code} {words}{count}"
+        self.put(line + dwell[0] + " F200", line + dwell[1] + " F200")
+        if absolute and self.random.random() < 0.5:
+            x = self.number(20)
+            self.put("X" + text(x), "X" + text(x))
+            self.at[0] = x
+        self.at[2] = top if level == "G98" else (r if absolute else top - reach)
+        self.put("G80")
+
+    def make(self):
+        self.put("G21 G90 G17 G94 G54")
+        if self.random.random() < 0.25:
+            self.put("G20")
+            self.unit = 25.4
+        self.put("G0 X0 Y0 Z0")
+        self.put("G1 F100")
+        for _ in range(BLOCKS):
+            kind = self.random.random()
+            if kind < 0.35:
+                self.straight()
+            elif kind < 0.7:
+                self.arc()
+            elif kind < 0.93:
+                self.modes()
+            else:
+                self.cycle()
+        self.put("M2")
+        return {name: "\n".join(lines) + "\n" for name, lines in self.lines.items()}
+
+
+# ---- the two interpreters: lists of (kind, end, centre or None, turns signed by direction, feed), machine coordinates in mm ----
+
+def ncsim_moves(ncsim, path):
+    done = subprocess.run([ncsim, "trace", "--dialect", "m700", path], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise RuntimeError(f"ncsim: exit {done.returncode}: {done.stdout[-400:]}{done.stderr[-400:]}")
+    moves = []
+    for line in done.stdout.splitlines():
+        event = json.loads(line)
+        if event["t"] != "move":
+            continue
+        end = [event["machine"][a] for a in AXES]
+        centre = turns = None
+        if event["kind"] in ("arc", "helix"):
+            first, second = PLANES[{"XY": "G17", "ZX": "G18", "YZ": "G19"}[event["plane"]]]
+            centre = [event["machine_center"][AXES[first]], event["machine_center"][AXES[second]]]
+            turns = (event["turns"] + 1) * (1 if event["dir"] == "ccw" else -1)
+        moves.append(("arc" if centre else event["kind"], end, centre, turns, event["feed"], event["line"]))
+    return moves
+
+
+def rs274_moves(rs274, path, folder):
+    done = subprocess.run([rs274, "-g", path], capture_output=True, text=True, check=False, cwd=folder, stdin=subprocess.DEVNULL)
+    if done.returncode != 0:
+        raise RuntimeError(f"rs274: exit {done.returncode}: {done.stdout[-400:]}{done.stderr[-400:]}")
+    moves = []
+    offset = {"G5X": [0.0] * 3, "G92": [0.0] * 3}
+    at, unit, plane, feed = [0.0] * 3, 1.0, "XY", 0.0
+    for line in done.stdout.splitlines():
+        call = re.search(r"([A-Z0-9_]+)\((.*)\)", line)
+        if not call:
+            continue
+        name, words = call.group(1), [w.strip() for w in call.group(2).split(",")]
+        if name == "USE_LENGTH_UNITS":
+            unit = 25.4 if "INCH" in words[0] else 1.0
+        elif name == "SELECT_PLANE":
+            plane = words[0][-2:]
+        elif name == "SET_FEED_RATE":
+            feed = float(words[0]) * unit
+        elif name == "SET_G5X_OFFSET":
+            offset["G5X"] = [float(w) * unit for w in words[1:4]]
+        elif name == "SET_G92_OFFSET":
+            offset["G92"] = [float(w) * unit for w in words[0:3]]
+        elif name in ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED"):
+            zero = [a + b for a, b in zip(offset["G5X"], offset["G92"])]
+            values = [float(w) * unit for w in words]
+            centre = turns = None
+            if name == "ARC_FEED":
+                first, second = PLANES[{"XY": "G17", "XZ": "G18", "YZ": "G19"}[plane]]
+                end = [0.0] * 3
+                end[first], end[second], end[3 - first - second] = values[0], values[1], values[5]
+                centre = [values[2] + zero[first], values[3] + zero[second]]
+                turns = int(words[4])
+            else:
+                end = values[0:3]
+            end = [a + b for a, b in zip(end, zero)]
+            kind = "arc" if centre else "rapid" if name == "STRAIGHT_TRAVERSE" else "line"
+            if centre or max(abs(a - b) for a, b in zip(end, at)) > 1e-4:
+                moves.append((kind, end, centre, turns, feed if kind != "rapid" else None, 0))
+            at = end
+    return moves
+
+
+def compare(ours, theirs, tolerance, radius_lines):
+    """The first difference as a sentence, or None."""
+    for i, (a, b) in enumerate(zip(ours, theirs)):
+        where = f"move {i + 1} (line {a[5]})"
+        if a[0] != b[0]:
+            return f"{where}: {a[0]}, rs274 {b[0]}"
+        if max(abs(x - y) for x, y in zip(a[1], b[1])) > tolerance:
+            return f"{where}: ends at {a[1]}, rs274 {b[1]}"
+        if a[2]:
+            allowed = PRINTED * (tolerance / EXACT) if a[5] in radius_lines else tolerance
+            if max(abs(x - y) for x, y in zip(a[2], b[2])) > max(allowed, tolerance):
+                return f"{where}: centre {a[2]}, rs274 {b[2]}"
+            if a[3] != b[3]:
+                return f"{where}: turns {a[3]}, rs274 {b[3]}"
+        if (a[4] is None) != (b[4] is None) or (a[4] is not None and abs(a[4] - b[4]) > 1e-3):
+            return f"{where}: feed {a[4]}, rs274 {b[4]}"
+    if len(ours) != len(theirs):
+        return f"{len(ours)} moves, rs274 {len(theirs)}"
+    return None
+
+
+def main():
+    rs274 = shutil.which("rs274")
+    if rs274 is None:
+        print("skipped: rs274 (Debian package linuxcnc-uspace) is not installed")
+        return 77
+    ncsim = os.path.join(os.environ.get("NC_BINARY_DIR", ""), "bin/ncsim")
+    if not os.access(ncsim, os.X_OK):
+        ncsim = shutil.which("ncsim")
+    if ncsim is None:
+        print("skipped: ncsim is not built")
+        return 77
+    failures = moves = arcs = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in range(PROGRAMS):
+            program = Maker(seed).make()
+            for name, content in program.items():
+                with open(os.path.join(folder, name + ".ngc"), "w", encoding="ascii") as out:
+                    out.write(content)
+            variables = os.path.join(folder, "rs274ngc.var")
+            if os.path.exists(variables):
+                os.remove(variables)    # offsets must not live on from program to program
+            ours = ncsim_moves(ncsim, os.path.join(folder, "m700.ngc"))
+            theirs = rs274_moves(rs274, os.path.join(folder, "rs274.ngc"), folder)
+            lines = program["m700"].splitlines()
+            radius_lines = {i + 1 for i, line in enumerate(lines) if re.match(r"G[23] .*R", line)}
+            # In inch four printed decimals are 0.00254 mm.
+            difference = compare(ours, theirs, EXACT if "G20" not in program["m700"] else EXACT * 25.4, radius_lines)
+            moves += len(ours)
+            arcs += sum(1 for move in ours if move[0] == "arc")
+            if difference:
+                failures += 1
+                print(f"program {seed}: {difference}")
+                if failures == 1:
+                    print("\n".join(f"{i + 1:3} {line}" for i, line in enumerate(lines)))
+    print(f"{PROGRAMS} programs, {moves} moves, {arcs} arcs: {failures} differ")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
