@@ -29,7 +29,8 @@ Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder
       nc_(nc),
       systems_(config.nc.system_count),
       period_ns_(static_cast<std::int64_t>(config.cycle_us) * 1000),
-      macro_(config.macro) {
+      macro_(config.macro),
+      snapshot_(Snapshot::bytes(config.nc.system_count)) {
   for (unsigned p = 0; p < config.points.size(); ++p) points_.value[p] = config.points.at(p).initial;
   for (unsigned s = 0; s < systems_; ++s) {
     last_command_[s] = config.start[s];

@@ -6,6 +6,7 @@
 // 2012).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -20,13 +21,17 @@ class SeqLock {
   static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
 
  public:
-  SeqLock() { store(T{}); }
+  // `bytes`: as much of T, from its beginning, is ever exchanged; the rest stays as T{} is.
+  explicit SeqLock(std::size_t bytes = sizeof(T)) : words_used_(kWords) {
+    store(T{});
+    words_used_ = (bytes + 7) / 8;
+  }
 
   void store(const T& value) noexcept {
     const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
     sequence_.store(sequence + 1, std::memory_order_relaxed);
     const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
-    for (std::size_t i = 0; i < kWords; ++i) {
+    for (std::size_t i = 0; i < words_used_; ++i) {
       std::uint64_t word = 0;
       std::memcpy(&word, bytes + 8 * i, i + 1 < kWords ? 8 : sizeof(T) - 8 * i);
       words_[i].store(word, std::memory_order_release);
@@ -39,15 +44,16 @@ class SeqLock {
       const std::uint64_t before = sequence_.load(std::memory_order_acquire);
       if ((before & 1) != 0) continue;
       std::array<std::uint64_t, kWords> words;
-      for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
+      for (std::size_t i = 0; i < words_used_; ++i) words[i] = words_[i].load(std::memory_order_acquire);
       if (sequence_.load(std::memory_order_relaxed) != before) continue;
-      T value;
-      std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
+      T value{};
+      std::memcpy(static_cast<void*>(&value), words.data(), std::min(sizeof(T), 8 * words_used_));
       return value;
     }
   }
 
  private:
+  std::size_t words_used_;
   std::atomic<std::uint64_t> sequence_{0};
   std::array<std::atomic<std::uint64_t>, kWords> words_{};
 };

@@ -21,7 +21,6 @@ struct Snapshot {
   std::int64_t time_ns = 0;  // clock at its start
   Mode mode = Mode::kAuto;
   unsigned system_count = 1;
-  SystemSnapshot system[NC_MAX_SYSTEMS];
   double feed_override = 1, rapid_override = 1;
   bool single_block = false, optional_stop = false;
   bool resetting = false;
@@ -30,7 +29,12 @@ struct Snapshot {
   std::uint64_t missed_slots = 0;  // slots without a scan
   std::uint32_t interface_input[NC_WORDS] = {};
   std::uint32_t interface_output[NC_WORDS] = {};
+  SystemSnapshot system[NC_MAX_SYSTEMS];  // last: only those that there are, are exchanged
 
+  // What readers and the scan exchange when there are `systems` part systems.
+  static constexpr std::size_t bytes(unsigned systems) {
+    return sizeof(Snapshot) - (NC_MAX_SYSTEMS - systems) * sizeof(SystemSnapshot);
+  }
   bool alarmed() const { return alarms.count != 0; }
   // A program is in execution or interrupted.
   bool program_active() const {

@@ -53,6 +53,19 @@ build_preset() {
   (cd "$top" && cmake --build --preset "$preset" -j "$jobs" "${targets[@]}") >>"$log" 2>&1 || { build_failed "$log"; return 1; }
 }
 
+# run_ctest PRESET ARGS...: the tests of a built preset. A sanitizer's first finding ends its test; leaks count.
+run_ctest() {
+  local preset=$1
+  shift
+  (
+    cd "$top/build/$preset" || exit 1
+    export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1:strict_string_checks=1}
+    export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
+    export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1:second_deadlock_stack=1}
+    exec ctest --output-on-failure --no-tests=error -j2 --output-junit "$top/build/$preset/ctest.xml" "$@"
+  )
+}
+
 # build_failed LOG: the errors first, then the end of the log.
 build_failed() {
   { grep -nE 'error:|CMake Error|undefined reference' "$1" | head -n 20; say "--- end of $1"; tail -n 25 "$1"; say "The build failed."; } >&2

@@ -215,6 +215,7 @@ int operate(const Options& options, nc::rt::Config* config) {
   if (!options.plot.empty()) runtime->set_path_sink(&path);
   nc::rt::Progress progress(stdout, isatty(STDOUT_FILENO) != 0, nc::rt::estimate_lines(options.program));
 
+  std::signal(SIGPIPE, SIG_IGN);  // a reader of the progress that goes away must not stop a machine in motion
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   if (!(options.fast ? runtime->start_stepping(&error) : runtime->start(&error))) return failed(error);

@@ -32,68 +32,63 @@ void add_loop_limit(CLI::App* command, uint64_t* limit) {
 }
 
 int run(int argc, char** argv) {
-              SIG_IGN);  // a reader that goes away is a write error with a message, not a silent death
-              CLI::App app{"ncsim: run NC programs without a machine"};
-              app.set_version_flag("--version", std::string("ncsim ") + nc_version());
-              app.require_subcommand(1);
-              SessionOptions options;
-              uint64_t silent = nc::tools::kDefaultSilentBlocks;
+  CLI::App app{"ncsim: run NC programs without a machine"};
+  app.set_version_flag("--version", std::string("ncsim ") + nc_version());
+  app.require_subcommand(1);
+  SessionOptions options;
+  uint64_t silent = nc::tools::kDefaultSilentBlocks;
 
-              CLI::App* trace = app.add_subcommand("trace", "every event of the program as JSON Lines");
-              add_program(trace, &options);
-              add_loop_limit(trace, &silent);
+  CLI::App* trace = app.add_subcommand("trace", "every event of the program as JSON Lines");
+  add_program(trace, &options);
+  add_loop_limit(trace, &silent);
 
-              CLI::App* check = app.add_subcommand("check", "the alarm that stops the program, if one does");
-              add_program(check, &options);
-              add_loop_limit(check, &silent);
+  CLI::App* check = app.add_subcommand("check", "the alarm that stops the program, if one does");
+  add_program(check, &options);
+  add_loop_limit(check, &silent);
 
-              std::string limits;
-              double limit_s = 30 * 86400.0;
-              CLI::App* time = app.add_subcommand("time", "cycle time on a simulated machine");
-              add_program(time, &options);
-              time->add_option("--config", limits, "limits of the machine, JSON (docs/trace.md)");
-              time->add_option("--max-seconds", limit_s, "machine time after which the run is given up")
-                  ->capture_default_str()
-                  ->check(CLI::PositiveNumber);
+  std::string limits;
+  double limit_s = 30 * 86400.0;
+  CLI::App* time = app.add_subcommand("time", "cycle time on a simulated machine");
+  add_program(time, &options);
+  time->add_option("--config", limits, "limits of the machine, JSON (docs/trace.md)");
+  time->add_option("--max-seconds", limit_s, "machine time after which the run is given up")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
 
-              PlotView view = PlotView::kIsometric;
-              std::string base;
-              const std::map<std::string, PlotView> views = {{"iso", PlotView::kIsometric},
-                                                             {"xy", PlotView::kXY},
-                                                             {"xz", PlotView::kXZ},
-                                                             {"yz", PlotView::kYZ}};
-              CLI::App* plot = app.add_subcommand("plot", "the tool path as SVG and PNG");
-              add_program(plot, &options);
-              add_loop_limit(plot, &silent);
-              plot->add_option("-o,--output", base, "writes OUTPUT.svg and OUTPUT.png (default: toolpath)")
-                  ->default_str("toolpath");
-              plot->add_option("--view", view, "iso, xy, xz or yz")
-                  ->transform(CLI::CheckedTransformer(views, CLI::ignore_case));
+  PlotView view = PlotView::kIsometric;
+  std::string base;
+  const std::map<std::string, PlotView> views = {
+      {"iso", PlotView::kIsometric}, {"xy", PlotView::kXY}, {"xz", PlotView::kXZ}, {"yz", PlotView::kYZ}};
+  CLI::App* plot = app.add_subcommand("plot", "the tool path as SVG and PNG");
+  add_program(plot, &options);
+  add_loop_limit(plot, &silent);
+  plot->add_option("-o,--output", base, "writes OUTPUT.svg and OUTPUT.png (default: toolpath)")
+      ->default_str("toolpath");
+  plot->add_option("--view", view, "iso, xy, xz or yz")
+      ->transform(CLI::CheckedTransformer(views, CLI::ignore_case));
 
-              bool markdown = false;
-              CLI::App* functions = app.add_subcommand("functions", "the G and M codes of a dialect");
-              CLI::App* alarms = app.add_subcommand("alarms", "the alarms of a dialect");
-              for (CLI::App* table : {functions, alarms}) {
-                table->add_option("--dialect", options.dialect, "m700 or dgshape")->capture_default_str();
-                table->add_flag("--markdown", markdown, "as a Markdown table");
-              }
+  bool markdown = false;
+  CLI::App* functions = app.add_subcommand("functions", "the G and M codes of a dialect");
+  CLI::App* alarms = app.add_subcommand("alarms", "the alarms of a dialect");
+  for (CLI::App* table : {functions, alarms}) {
+    table->add_option("--dialect", options.dialect, "m700 or dgshape")->capture_default_str();
+    table->add_flag("--markdown", markdown, "as a Markdown table");
+  }
 
-              try {
-                app.parse(argc, argv);
-              } catch (const CLI::ParseError& error) {
-                if (error.get_exit_code() == 0) return app.exit(error);
-                std::fprintf(stderr, "ncsim: %s (ncsim --help)\n", error.what());
-                return nc::tools::kExitError;
-              }
-              if (trace->parsed()) return nc::tools::trace_command(options, silent, STDOUT_FILENO, stderr);
-              if (check->parsed()) return nc::tools::check_command(options, silent, stdout, stderr);
-              if (time->parsed()) return nc::tools::time_command(options, limits, limit_s, stdout, stderr);
-              if (plot->parsed())
-                return nc::tools::plot_command(options, silent, view, base.empty() ? "toolpath" : base,
-                                               stdout, stderr);
-              if (functions->parsed())
-                return nc::tools::functions_command(options.dialect, markdown, stdout, stderr);
-              return nc::tools::alarms_command(options.dialect, markdown, stdout, stderr);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "ncsim: %s (ncsim --help)\n", error.what());
+    return nc::tools::kExitError;
+  }
+  if (trace->parsed()) return nc::tools::trace_command(options, silent, STDOUT_FILENO, stderr);
+  if (check->parsed()) return nc::tools::check_command(options, silent, stdout, stderr);
+  if (time->parsed()) return nc::tools::time_command(options, limits, limit_s, stdout, stderr);
+  if (plot->parsed())
+    return nc::tools::plot_command(options, silent, view, base.empty() ? "toolpath" : base, stdout, stderr);
+  if (functions->parsed()) return nc::tools::functions_command(options.dialect, markdown, stdout, stderr);
+  return nc::tools::alarms_command(options.dialect, markdown, stdout, stderr);
 }
 
 }  // namespace

@@ -329,6 +329,9 @@ TEST(Misuse, AnswersThatNobodyAskedFor) {
   ASSERT_EQ(nc_pull(bench.control(), 0, 10, &item), NC_OK);
   ASSERT_EQ(item.kind, NC_ITEM_SYNC);
   EXPECT_EQ(nc_pull(bench.control(), 0, 10, &item), NC_WAITING);
+  nc_world nowhere{};
+  nowhere.machine.v[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(nc_answer(bench.control(), 0, &nowhere), NC_E_ARGUMENT);
   EXPECT_EQ(nc_answer(bench.control(), 0, &world), NC_OK);
   EXPECT_EQ(nc_answer(bench.control(), 0, &world), NC_E_STATE);
 }

@@ -142,7 +142,7 @@ TEST(BadProgram, AnEndlessGotoIsInterruptedByReset) {
   Drive drive(nc::test::parse_or_fail(nc::test::base_toml()));
   const unsigned endless = drive.add("a.nc", "G90 G0 X1.\nN1 GOTO 1\nM30\n");
   drive.start(endless);
-  drive.steps(3000);
+  drive.steps(300);
   EXPECT_EQ(drive.out().state, NC_STATE_RUNNING);
   EXPECT_TRUE(drive.out().distance_zero);
   EXPECT_NEAR(drive.out().command.v[0], 1, 1e-9);
@@ -159,7 +159,7 @@ TEST(BadProgram, AfterTheAlarmResetAndTheNextStartWorks) {
     SCOPED_TRACE(bad.name);
     Drive drive(nc::test::parse_or_fail(nc::test::base_toml()));
     drive.start(drive.add("bad.nc", bad.text));
-    drive.steps(3000);
+    drive.steps(600);
     ASSERT_TRUE(drive.runtime->snapshot().alarmed());
     EXPECT_EQ(drive.runtime->execute(CommandKind::kCycleStart), Answer::kAlarmActive);
     ASSERT_GT(drive.reset(), 0u);
@@ -181,7 +181,7 @@ TEST(Reset, AnywhereThenStartAgain) {
   const nc::rt::Config config = nc::test::parse_or_fail(nc::test::base_toml());
   Drive drive(config);
   const unsigned file = drive.add("a.nc", text);
-  for (unsigned at = 3; at < 2300; at += 37) {
+  for (unsigned at = 3; at < 2300; at += 61) {
     SCOPED_TRACE(at);
     drive.start(file);
     for (unsigned i = 0; i < at; ++i) {

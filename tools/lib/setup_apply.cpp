@@ -93,20 +93,20 @@ void apply_setup(const Setup& setup, nc_config* config) {
     system.axis[i].rotary = setup.axes[i].rotary;
   }
   config->variable_sets = setup.option_variable_sets;
+  config->extended_variables = setup.option_extended_variables;
   config->tool_offsets = setup.option_tool_offsets;
   config->work_offsets = setup.option_work_offsets;
 }
 
 bool apply_setup(const Setup& setup, nc_dialect dialect, nc_control* control, std::string* error) {
   if (!apply_parameters(setup, control, error) ||
-      !apply_option(setup, control, setup.option_extended_variables, setup.extended_variables_place,
-                    "extended_variables", error) ||
       !apply_option(setup, control, setup.option_macro_extensions, setup.macro_extensions_place,
                     "macro_extensions", error) ||
       !apply_tool_offsets(setup, dialect, control, error) || !apply_tables(setup, control, error) ||
       !apply_subprograms(setup, control, error))
     return false;
-  nc_switches_set(control, kPartSystem, setup.optional_skip, setup.mirror_axes);
+  if (setup.mirror_axes != 0) return refuse(setup, {"switches.mirror", 1}, "mirror image is not fitted in this version", error);
+  nc_switches_set(control, kPartSystem, setup.optional_skip, 0);
   if (nc_position_set(control, kPartSystem, &setup.start) != NC_OK)
     return refuse(setup, {"start", 1}, "the control does not take this position", error);
   return true;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The public functions of nc/run.h.
+#include <cmath>
+
 #include "control/control.hpp"
 
 namespace {
@@ -13,6 +15,8 @@ nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item
 
 nc_status nc_answer(nc_control* c, unsigned system, const nc_world* world) {
   if (!known(c, system) || world == nullptr) return NC_E_ARGUMENT;
+  for (unsigned i = 0; i < c->config.system[system].axis_count; ++i)
+    if (!std::isfinite(world->machine.v[i]) || (world->skipped && !std::isfinite(world->skip_machine.v[i]))) return NC_E_ARGUMENT;
   return c->system[system].answer(*world);
 }
 

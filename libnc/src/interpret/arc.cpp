@@ -51,6 +51,7 @@ Condition make_circle(const double start[2], const double end[2], const ArcWords
     return Condition::none;
   }
   // M700 6.4: greater than the tolerance is P70; the guard keeps 5.0 - 4.9 from being more than 0.1.
+  *circle = c;
   if (std::fabs(c.radius_end - c.radius_start) > tolerance + 1e-9) return Condition::arc_deviation;
   c.angle_start = std::atan2(start[1] - c.center[1], start[0] - c.center[0]);
   double sweep = 0;

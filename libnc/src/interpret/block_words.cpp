@@ -10,8 +10,6 @@
 namespace nc {
 namespace {
 
-constexpr uint32_t bit(char letter) { return 1u << (letter - 'A'); }
-
 /// A G or M number that came out of an expression may carry representation noise.
 bool near_integer(double value, double* integer) {
   *integer = std::nearbyint(value);

@@ -47,6 +47,18 @@ void leave_loops(Interpreter& in, uint64_t offset) {
   }
 }
 
+/// M700 13.5.7 (12): a WHILE or DO of this program that has no END.
+bool loop_without_end(Interpreter& in, uint32_t* number) {
+  const State& s = in.state;
+  for (unsigned i = top(in).loop_base; i < s.loop_count; ++i) {
+    uint64_t end = s.loop[i].body;
+    uint32_t line = s.loop[i].line;
+    *number = s.loop[i].number;
+    if (s.loop[i].end == 0 && !in.reader.find_loop_end(top(in).program.file, s.loop[i].number, &end, &line)) return true;
+  }
+  return false;
+}
+
 Did jump_to_sequence(Interpreter& in, double number) {
   uint32_t n = 0;
   uint64_t offset = 0;
@@ -299,9 +311,15 @@ Did call_macro(Interpreter& in) {
   return did;
 }
 
+Did check_loops_closed(Interpreter& in) {
+  uint32_t number = 0;
+  return loop_without_end(in, &number) ? in.raise(Condition::loop_pair, 'D', number) : Did::done;
+}
+
 Did return_sub(Interpreter& in) {
   State& s = in.state;
   const BlockWords& w = in.words;
+  if (check_loops_closed(in) != Did::done) return Did::fault;
   if (s.depth == 0) {  // M700 13.3.1: M99 in the main program goes to its head
     CallFrame& frame = top(in);
     if (w.has('P')) return jump_to_sequence(in, w.get('P'));
@@ -318,7 +336,7 @@ Did return_sub(Interpreter& in) {
     frame.offset = frame.begin;
     frame.line = frame.begin_line;
     frame.started = frame.begin != frame.program.offset;
-    in.finish_block(!only_calls(in));
+    in.finish_block(!only_calls(in), !only_calls(in));
     return Did::later;
   }
   if (w.has('P')) {
@@ -336,7 +354,7 @@ Did return_sub(Interpreter& in) {
   }
   const bool stops = !only_calls(in);
   s.owes_mark = true;
-  in.finish_block(stops);
+  in.finish_block(stops, stops);
   return Did::later;
 }
 

@@ -170,7 +170,7 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   if (state.owes_mark) {  // the block of the call ends with the return
     state.owes_mark = false;
     source.line = frame.call_line;
-    finish_block(false);  // M700 13.3.1: where it may stop, it has done so before the call
+    finish_block(false, false);  // M700 13.3.1: where it may stop, it has done so before the call
     return NC_OK;
   }
   block = reader.read(frame.program.file, frame.offset, frame.line);
@@ -213,7 +213,7 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   frame.offset = block->next;
   frame.line = block->next_line;
   if (block->empty) {
-    if (block->has_n || block->has_o) finish_block(false);
+    if (block->has_n || block->has_o) finish_block(false, false);
     return NC_OK;
   }
   const Did did = block->statements.empty() ? execute_words(*this) : execute_statements();
@@ -247,7 +247,7 @@ nc_status Interpreter::settle(Did did) {
       next_step = Step::none;
       // Macro statements are worked off together with the executable block before them unless #8101 is on (M700 13.5.9).
       const bool macro = block != nullptr && !block->statements.empty();
-      finish_block(!macro || settings.macro_single);
+      finish_block(!macro || settings.macro_single, !macro);
       return NC_OK;
     }
     case Did::later: return NC_OK;
@@ -307,10 +307,11 @@ void Interpreter::abort(const Fault& what, const nc_source& where) {
   stop(what, where);
 }
 
-void Interpreter::finish_block(bool stop) {
+void Interpreter::finish_block(bool stop, bool executable) {
   ++state.seq;
   if (state.control_3003 & 1) stop = false;  // M700 10.5: single block suppressed
   Item& item = emit(ItemKind::mark);
+  item.block_end = executable;
   item.mark.work = position();
   item.mark.modal = modals.intern(state.modal);
   item.mark.seq = state.seq;

@@ -149,7 +149,8 @@ struct Interpreter {
   }
 
   /// The block of `source` has ended: its mark (and the end, after M02/M30), and the checkpoint to rewind to.
-  void finish_block(bool stop);
+  /// `executable`: it counts as a block for radius compensation (M700 12.4.2 lists NC blocks; 13.5.9: macro statements are none).
+  void finish_block(bool stop, bool executable);
   /// A place inside a block where single block may stop.
   void emit_stop_point();
   /// The block has done its part and the program goes on in the one it calls: what comes there does not undo it.
@@ -190,6 +191,7 @@ Did continue_block(Interpreter& in);
 Did execute_statement(Interpreter& in, const Statement& statement);
 Did call_sub(Interpreter& in);          ///< M98
 Did return_sub(Interpreter& in);        ///< M99
+Did check_loops_closed(Interpreter& in);  ///< at the end of a program: a DO without END is P294
 Did call_macro(Interpreter& in);        ///< G65
 Did text_ended(Interpreter& in);        ///< the end of the text, or '%'
 

@@ -72,6 +72,18 @@ double feed_mm_min(const Interpreter& in) {
   return in.state.modal.feed * (inch ? 25.4 : 1.0);
 }
 
+namespace {
+
+/// When only rotary axes move F is deg/min; in inch its unit is 10 deg (M700 3.2 note 6).
+double feed_for(const Interpreter& in, const AxisVec& start, const AxisVec& end) {
+  bool linear = false;
+  for (unsigned i = 0; i < in.axis_count; ++i) linear = linear || (((in.rotary >> i) & 1) == 0 && std::fabs(end[i] - start[i]) > kNoMotion);
+  const bool inch = in.state.modal.code[kGroupUnit] == 200;
+  return linear || !inch || in.dialect->id != NC_DIALECT_M700 ? feed_mm_min(in) : in.state.modal.feed * 10;
+}
+
+}  // namespace
+
 AxisVec target_of_words(const Interpreter& in) {
   AxisVec target = in.position();
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -196,7 +208,7 @@ Did move_by_words(Interpreter& in) {
   if (in.state.modal.feed <= 0) return in.raise(Condition::no_feed, 'F');
   if (arc) return move_arc(in, target, w.axes, code == 30);
   LinearStyle style;
-  style.feed_mm_min = feed_mm_min(in);
+  style.feed_mm_min = feed_for(in, in.position(), target);
   style.exact_stop = w.exact_stop || in.state.modal.code[kGroupCutting] == 610;
   move_linear(in, target, w.axes, style);
   return Did::done;

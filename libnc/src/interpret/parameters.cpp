@@ -52,6 +52,17 @@ int word_index(const char* words, const char* text) {
 constexpr int kWhole = -1;   ///< a key without "/bit"
 constexpr int kNoKey = -2;
 
+/// Values that the parameters in use can have; everything else that the manual names is only kept.
+bool in_range(const char* key, double value) {
+  if (std::strcmp(key, "1003") == 0) return value >= 'B' && value <= 'E';  // M700 2.1
+  if (std::strcmp(key, "1015") == 0) return value == 0 || value == 10 || value == 100 || value == 1000 || value == 10000;  // 2.1
+  if (std::strcmp(key, "1078") == 0 || std::strcmp(key, "8112") == 0) return value == 0 || value == 1;  // 5.3, 8.1
+  if (std::strcmp(key, "1037") == 0) return value == 1 || value == 2;    // 12.1
+  if (std::strcmp(key, "1084") == 0) return value >= 0 && value <= 1;    // 6.4
+  if (std::strcmp(key, "2106") == 0) return value >= 0 && value <= 360;  // 2.3
+  return true;
+}
+
 /// "1267" or "1267/bit0", the number keys of the M700: its bit 0..31, or what stands above. `whole` becomes the number alone.
 int bit_of_key(const char* key, char (&whole)[24]) {
   unsigned digits = 0;
@@ -104,7 +115,7 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
       if (lower(text[0]) < 'a' || lower(text[0]) > 'z' || text[1] != 0 || bit != kWhole) return NC_E_ARGUMENT;
       value = static_cast<unsigned char>(text[0]);
     }
-    if (std::strcmp(key, "1003") == 0 && (value < 'B' || value > 'E')) return NC_E_ARGUMENT;  // M700 2.1
+    if (bit == kWhole && !in_range(key, value)) return NC_E_ARGUMENT;
   }
   if (bit != kWhole) {  // one bit of a parameter: the others stay
     if (value != 0 && value != 1) return NC_E_ARGUMENT;
@@ -178,6 +189,7 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.peck_clearance_73 = number("8012", 0);
   s.macro_single = flag("8101");
   s.asin_0_360 = flag("1273/bit0");
+  s.preset_allowed = number("1267/bit0", 1) != 0;
   s.run_time_hours = flag("1273/bit1");
   s.start_inch = flag("1152");
   for (unsigned i = 0; i < kMaxAxes; ++i) s.index_increment[i] = number("2106", 0, static_cast<int>(i));

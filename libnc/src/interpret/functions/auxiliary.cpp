@@ -146,6 +146,7 @@ Did auxiliary_after(Interpreter& in) {
         in.emit(ItemKind::gate).gate.kind = NC_GATE_OPTIONAL_STOP;
         break;
       case MiscFunction::program_end:
+        if (check_loops_closed(in) != Did::done) return Did::fault;
         if (in.state.comp.side != 0) in.state.comp.side = 0;
         in.state.modal.m = m;
         emit_action(in, NC_ACTION_M, 'M', m);

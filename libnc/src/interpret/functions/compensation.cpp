@@ -113,6 +113,8 @@ Did set_length(Interpreter& in, Function function) {
     if (in.words.has('H')) {
       const Did did = offset_number(in, 'H', &state.modal.h);
       if (did != Did::done) return did;
+    } else if (!m700 && state.modal.h == 0) {
+      return in.raise(Condition::no_offset_number, 'H');  // DGSHAPE G43: the format is G43 H n
     }
     // M700 12.2: the axis named in the block, Z before Y before X; Z with #1080 and when none is named.
     const int z = in.axis_of['Z' - 'A'];

@@ -44,7 +44,7 @@ Did select_cycle(Interpreter& in, const FunctionRow& row) {
   if (state.cycle.kind == CycleKind::none) {
     state.cycle = CycleState{};
     state.cycle.drill_axis = static_cast<uint8_t>(axis);
-    state.cycle.initial = in.position()[static_cast<unsigned>(axis)];
+    state.cycle.initial_machine = state.machine[static_cast<unsigned>(axis)];
   }
   state.cycle.kind = kind_of(row.function);
   state.modal.code[kGroupCycle] = row.code;
@@ -81,18 +81,20 @@ void resolve_hole(Interpreter& in) {
   const CycleState& c = in.state.cycle;
   Hole& h = in.hole;
   h.kind = c.kind;
-  h.initial = c.initial;
+  // As a coordinate of now: zero point and tool length may have changed since the cycle was commanded.
+  const double length = c.drill_axis == in.state.length_axis ? in.state.length_value : 0.0;
+  h.initial = c.initial_machine - in.zero()[c.drill_axis] - length;
   if (!c.has_r) {
-    h.r = c.initial;  // DGSHAPE: omitted R = initial level
+    h.r = h.initial;  // DGSHAPE: omitted R = initial level
   } else if (c.r_incremental) {
     // M700: the sign of R is ignored in G91 and taken from Z. DGSHAPE: the distance from the initial level as it stands.
     const bool m700 = in.dialect->id == NC_DIALECT_M700;
-    h.r = c.initial + (m700 && c.z_incremental && c.has_z ? std::copysign(c.r, c.z) : c.r);
+    h.r = h.initial + (m700 && c.z_incremental && c.has_z ? std::copysign(c.r, c.z) : c.r);
   } else {
     h.r = c.r;
   }
   h.bottom = !c.has_z ? h.r : c.z_incremental ? h.r + c.z : c.z;
-  h.return_to = in.state.modal.code[kGroupReturn] == 990 ? h.r : c.initial;
+  h.return_to = in.state.modal.code[kGroupReturn] == 990 ? h.r : h.initial;
   h.q = c.q;
   h.dwell_s = c.dwell_s;
   if (in.dialect->id == NC_DIALECT_DGSHAPE) {

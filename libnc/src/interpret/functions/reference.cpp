@@ -45,8 +45,21 @@ Did do_reference_return(Interpreter& in) {
   return Did::done;
 }
 
+/// M700 14.5 note: `G92 G53 X0 Y0 Z0` takes the G92 shift of the named axes away, without motion.
+Did clear_shift(Interpreter& in) {
+  const BlockWords& w = in.words;
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((w.axes >> i) & 1) == 0) continue;
+    if (w.axis[i] != 0) return in.raise(Condition::value_range, in.system->axis[i].name, w.axis[i]);
+    in.set_table(Frames::shift_key(i), 0);
+  }
+  return Did::done;
+}
+
 Did do_machine_move(Interpreter& in) {
   const BlockWords& w = in.words;
+  for (const FunctionRow* row : w.g)
+    if (row->function == Function::coordinate_set && in.dialect->id == NC_DIALECT_M700) return clear_shift(in);
   bool incremental = w.incremental != 0 || in.state.modal.code[kGroupDistance] == 910;
   if (in.dialect->id == NC_DIALECT_DGSHAPE && incremental) return in.raise(Condition::code_in_incremental, 'G', 53);
   if (w.incremental != 0) {  // M700 14.4: in G91 a plain incremental rapid
