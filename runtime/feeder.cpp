@@ -89,7 +89,6 @@ void Feeder::complete_reset() {
   if (!scan_->reset_waits()) return;
   for (unsigned s = 0; s < systems_; ++s) {
     if (nc_->reset(s) == NC_E_STATE) return;  // not yet: the next step tries again
-    if (scan_->takes_positions_over() && nc_->set_position(s, seen_.system[s].actual) == NC_E_STATE) return;
     if (system_[s].mdi) system_[s] = {};
     system_[s].ended = system_[s].alarmed = false;
   }

@@ -18,9 +18,6 @@ nc_status LibNc::load_mdi(unsigned system, const char* text, std::size_t length)
 nc_status LibNc::reset(unsigned system) {
   return nc_reset(control_, api_system(system));
 }
-nc_status LibNc::set_position(unsigned system, const nc_axes& machine) {
-  return nc_position_set(control_, api_system(system), &machine);
-}
 void LibNc::switches(unsigned system, std::uint32_t optional_skip) {
   nc_switches_set(control_, api_system(system), optional_skip, 0);
 }

@@ -20,8 +20,6 @@ class NcPort {
   virtual nc_status select(unsigned system, unsigned file) = 0;
   virtual nc_status load_mdi(unsigned system, const char* text, std::size_t length) = 0;
   virtual nc_status reset(unsigned system) = 0;
-  // Only while the scan does not call cycle().
-  virtual nc_status set_position(unsigned system, const nc_axes& machine) = 0;
   virtual void switches(unsigned system, std::uint32_t optional_skip) = 0;
   virtual nc_status alarm(unsigned system, nc_alarm* alarm) = 0;
   virtual nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) = 0;
@@ -38,7 +36,6 @@ class LibNc final : public NcPort {
   nc_status select(unsigned system, unsigned file) override;
   nc_status load_mdi(unsigned system, const char* text, std::size_t length) override;
   nc_status reset(unsigned system) override;
-  nc_status set_position(unsigned system, const nc_axes& machine) override;
   void switches(unsigned system, std::uint32_t optional_skip) override;
   nc_status alarm(unsigned system, nc_alarm* alarm) override;
   nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) override;

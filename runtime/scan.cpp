@@ -74,7 +74,7 @@ void Scan::run_once() noexcept {
     for (unsigned w = 0; w < NC_WORDS; ++w) in_[s].input[w] = interface_input_[w];
   }
   for (unsigned s = 0; s < systems_; ++s) last_command_[s] = out_[s].command;
-  if (reset_phase_ != ResetPhase::kFeeder || !drives_were_off_) nc_->cycle(in_, out_);
+  nc_->cycle(in_, out_);
   write_outputs();
   follow_requests();
   publish();
@@ -231,7 +231,6 @@ void Scan::write_outputs() noexcept {
   for (unsigned i = 0; i < alarms_.count; ++i)
     if (alarms_.alarm[i].id == AlarmId::kDriveFault || alarms_.alarm[i].id == AlarmId::kHalLost)
       enable = false;
-  drives_were_off_ |= !enable;
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
     macro_.distribute(s, out.output, &points_);
@@ -274,13 +273,11 @@ void Scan::follow_requests() noexcept {
     ++reset_scans_;
     if (reset_scans_ >= kResetMinScans && !program_active() && at_rest()) {
       reset_phase_ = ResetPhase::kFeeder;
-      take_over_.store(drives_were_off_, std::memory_order_release);
       reset_rest_.fetch_add(1, std::memory_order_release);
     }
   } else if (reset_phase_ == ResetPhase::kFeeder &&
              reset_done_.load(std::memory_order_acquire) == reset_rest_.load(std::memory_order_relaxed)) {
     reset_phase_ = ResetPhase::kNone;
-    drives_were_off_ = false;
     acknowledge_alarms();
   }
 }

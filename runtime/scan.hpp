@@ -71,9 +71,6 @@ class Scan {
   bool reset_waits() const noexcept {
     return reset_rest_.load(std::memory_order_acquire) != reset_done_.load(std::memory_order_relaxed);
   }
-  // The drives were off: while the reset waits the scan leaves the NC alone, and the feeder takes the measured positions
-  // over, so that no axis jumps to where the NC believed it to be.
-  bool takes_positions_over() const noexcept { return take_over_.load(std::memory_order_acquire); }
   void reset_finished() noexcept {
     reset_done_.store(reset_rest_.load(std::memory_order_relaxed), std::memory_order_release);
   }
@@ -135,7 +132,6 @@ class Scan {
   double feed_override_ = 1, rapid_override_ = 1;
   bool single_block_ = false, optional_stop_ = false;
   bool start_pulse_ = false, hold_request_ = false;
-  bool drives_were_off_ = false;  // since the last reset
   Jog jog_[NC_MAX_SYSTEMS][NC_MAX_AXES];
   bool message_seen_[NC_MAX_SYSTEMS] = {};
   ResetPhase reset_phase_ = ResetPhase::kNone;
@@ -152,7 +148,6 @@ class Scan {
   SpscQueue<PositionSample, 4096> positions_;
   std::atomic<bool> program_ready_{false};
   std::atomic<std::uint32_t> reset_rest_{0}, reset_done_{0};
-  std::atomic<bool> take_over_{false};
   SeqLock<Snapshot> snapshot_;
   Snapshot building_;
   ScanStatistics statistics_;

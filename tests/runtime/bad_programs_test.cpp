@@ -4,7 +4,6 @@
 // anything.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstring>
 #include <deque>
 #include <memory>
@@ -225,26 +224,6 @@ TEST(Reset, MacroOutputsSurviveIt) {
   bool vacant = true;
   ASSERT_EQ(nc_variable_get(drive.runtime->control(), 0, 500, &value, &vacant), NC_OK);
   EXPECT_EQ(value, 14711) << "read back";
-}
-
-// A drive that was off has stopped somewhere else than the NC commanded. After the reset the NC stands where the machine is.
-TEST(DriveFault, PositionsAreTakenOverByTheReset) {
-  Drive drive(nc::test::parse_or_fail(nc::test::base_toml()));
-  const unsigned file = drive.add("a.nc", "G90 G1 X100. Y30. F9000.\nG0 X0. Y0.\nM30\n");
-  drive.start(file);
-  drive.steps(400);
-  drive.machine().fail_drive(0, 0, true);
-  drive.steps(300);
-  const double stood = drive.machine().actual(0).v[0];
-  EXPECT_GT(std::abs(drive.out().command.v[0] - stood), 0.5) << "the command went on while it braked";
-  drive.machine().fail_drive(0, 0, false);
-  ASSERT_GT(drive.reset(), 0u);
-  drive.steps(100);
-  EXPECT_NEAR(drive.out().command.v[0], stood, 1e-12);
-  EXPECT_NEAR(drive.machine().actual(0).v[0], stood, 1e-12) << "nothing moved when the drives came on";
-  drive.start(file);
-  EXPECT_TRUE(drive.to_end());
-  EXPECT_NEAR(drive.out().command.v[0], 0, 1e-9);
 }
 
 // M700 13.5.5 and the plan: an output changes when the machine gets there, not when the text is read.

@@ -18,7 +18,7 @@ class FakeNc final : public rt::NcPort {
   nc_outputs out{};
   unsigned cycles_left = 0, cycles = 1000000;
   double step = 0.01;
-  unsigned resets = 0, selects = 0, positions_set = 0;
+  unsigned resets = 0, selects = 0;
   nc_status select_status = NC_OK, reset_status = NC_OK;
   std::uint32_t switches_seen = 0;
   std::string mdi;
@@ -75,11 +75,6 @@ class FakeNc final : public rt::NcPort {
   nc_status reset(unsigned) override {
     ++resets;
     return reset_status;
-  }
-  nc_status set_position(unsigned, const nc_axes& machine) override {
-    out.command = machine;
-    ++positions_set;
-    return NC_OK;
   }
   void switches(unsigned, std::uint32_t optional_skip) override { switches_seen = optional_skip; }
   nc_status alarm(unsigned, nc_alarm*) override { return NC_E_NOT_FOUND; }
