@@ -4,6 +4,7 @@
 // is no number.
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -18,12 +19,15 @@ struct Release {
   void operator()(void* memory) const { std::free(memory); }
 };
 
-void require(bool holds) {
-  if (!holds) std::abort();
+/// Ends the run and says which line of this file did not hold, so that the log alone tells what was found.
+void require(bool holds, int line = __builtin_LINE()) {
+  if (holds) return;
+  std::fprintf(stderr, "ERROR: what program_fuzz.cpp requires in line %d does not hold\n", line);
+  std::abort();
 }
 
-void require_finite(const nc_axes& axes) {
-  for (const double v : axes.v) require(std::isfinite(v));
+void require_finite(const nc_axes& axes, int line = __builtin_LINE()) {
+  for (const double v : axes.v) require(std::isfinite(v), line);
 }
 
 struct Chosen {

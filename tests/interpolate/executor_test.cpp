@@ -176,10 +176,51 @@ TEST(Executor, FinHandshake) {
   m.cycle();
   EXPECT_EQ(m.out.strobe, 0b001);
   EXPECT_EQ(m.out.m, 6u);
+  EXPECT_EQ(m.out.fin_wait, 0b001);
   m.in.fin = true;
+  for (int i = 0; i < 3; ++i) m.cycle();
+  EXPECT_EQ(m.out.strobe, 0);
+  EXPECT_EQ(m.out.fin_wait, 0b001) << "FIN1 completes when it falls";
+  EXPECT_EQ(m.out.state, NC_STATE_RUNNING);
+  m.in.fin = false;
   m.cycle();
+  EXPECT_EQ(m.out.fin_wait, 0);
   EXPECT_EQ(m.out.state, NC_STATE_IDLE);
   EXPECT_EQ(check_events(p, m.events, 3), "");
+}
+
+TEST(Executor, Fin2CompletesWhenItRises) {
+  const ExecutorConfig c = standard_config();
+  Program p(c);
+  p.action(NC_ACTION_M, 8);
+  p.gate(NC_GATE_FIN);
+  p.line(xyz(1), 50);
+  p.action(NC_ACTION_M, 9);
+  p.gate(NC_GATE_FIN);
+  p.end();
+  Machine m(c);
+  m.answer_fin = false;
+  m.feed(p);
+  m.start();
+  EXPECT_EQ(m.out.strobe, 1);
+  m.in.fin2 = true;
+  m.cycle();
+  EXPECT_EQ(m.out.fin_wait, 0);
+  EXPECT_NE(m.out.cause, NC_CAUSE_FIN) << "the program goes on while FIN2 is still on";
+  for (int i = 0; i < 2000 && m.out.m != 9; ++i) {
+    m.feed(p);
+    m.cycle();
+    if (m.out.command.v[0] >= 1) break;
+  }
+  for (int i = 0; i < 5; ++i) m.cycle();
+  EXPECT_EQ(m.out.m, 8u) << "the next strobe waits until it is off";
+  m.in.fin2 = false;
+  m.cycle();
+  EXPECT_EQ(m.out.m, 9u);
+  EXPECT_EQ(m.out.strobe, 1);
+  m.in.fin2 = true;
+  m.cycle();
+  EXPECT_EQ(m.out.state, NC_STATE_IDLE);
 }
 
 TEST(Executor, AFinThatWasOnBeforeTheStrobeDoesNotCount) {
@@ -202,6 +243,8 @@ TEST(Executor, AFinThatWasOnBeforeTheStrobeDoesNotCount) {
   m.cycle();
   EXPECT_EQ(m.out.state, NC_STATE_RUNNING);
   m.in.fin = true;
+  m.cycle();
+  m.in.fin = false;
   m.cycle();
   EXPECT_EQ(m.out.state, NC_STATE_IDLE);
 }

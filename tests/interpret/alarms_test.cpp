@@ -61,6 +61,7 @@ const Row kRows[] = {
     {"P39", "G27 X1.", 1},
     {"P39", "G5 P2", 1},
     {"P62", "F0\nX8.", 2},
+    {"P62", "F0\nG41 D1 I-20.", 2},  // no axis word, but the vector is a movement
     {"P70", "G2 X20. I3.", 1},
     {"P71", "G2 X20. R3.", 1},
     {"P76", "G2.4 X1. Y1.", 1},

@@ -27,6 +27,17 @@ TEST(Motion, NothingIsCommittedForNoLength) {
 
 TEST(Motion, FeedZeroIsNoFeed) { EXPECT_EQ(m700("G1 X1. F0\nM30").alarm, "P62"); }
 
+TEST(Motion, VectorOfCompensationIsAMovementOfItsBlock) {  // M700 12.4.3: it takes the feed of G1, and none in G0
+  const auto run = [](const char* program) { return Bench(NC_DIALECT_M700).tool(1, 2).run(program); };
+  EXPECT_EQ(run("F100\nG41 D1 I-20.\nM30").path(), (Path{"line 0 -2 0 F100"}));
+  EXPECT_EQ(run("G0\nG41 D1 I-20.\nM30").path(), (Path{"rapid 0 -2 0"}));
+  const Outcome no_feed = run("G1 F0\nG41 D1 I-20.\nM30");
+  EXPECT_EQ(no_feed.alarm, "P62");
+  EXPECT_EQ(no_feed.alarm_line, 2u);
+  EXPECT_TRUE(no_feed.path().empty());
+  EXPECT_EQ(run("G1 F0\nG41 D1\nM30").alarm, "");  // without a vector nothing moves
+}
+
 TEST(Motion, ExactStop) {  // M700 7.7, 7.8
   std::vector<bool> stops;
   for (const nc_move& m : m700("G1 X1. F1\nG9 X2.\nX3.\nG61 X4.\nG2 X6. I1.\nG64 X8. I1.\nG0 X9.\nM30").moves()) stops.push_back(m.exact_stop);

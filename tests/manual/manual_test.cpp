@@ -154,8 +154,10 @@ TEST(Manual, DoesNothingWhileAProgramRunsAndActsInABlockStop) {
   p.line(a, 50);
   p.mark();
   p.gate(NC_GATE_STOP);
+  p.mark();
   a[0] = 40;
   p.line(a, 50);
+  p.mark();
   p.end();
   Machine m(c);
   m.feed(p);
@@ -163,6 +165,7 @@ TEST(Manual, DoesNothingWhileAProgramRunsAndActsInABlockStop) {
   m.in.manual[1] = jog(50);
   ASSERT_TRUE(m.until(p, [&] { return m.out.cause == NC_CAUSE_PROGRAM_STOP; }));
   EXPECT_LE(m.out.command.v[1], 0.001);
+  EXPECT_TRUE(m.out.manual_allowed);
   run(m, 100);
   EXPECT_EQ(m.out.state, NC_STATE_MANUAL);
   EXPECT_GT(m.out.command.v[1], 3);
@@ -172,11 +175,79 @@ TEST(Manual, DoesNothingWhileAProgramRunsAndActsInABlockStop) {
   run(m, 50);
   EXPECT_EQ(m.out.state, NC_STATE_STOPPED);
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
-  // The machine has left the path: going on from here would be a jump.
+  // The machine has left the path: going on from here would be a jump. The start waits until what follows has
+  // been read again, and no axis is moved by hand meanwhile.
+  EXPECT_FALSE(m.executor.reread_asked());
   m.start();
+  m.in.manual[0] = jog(50);
   run(m, 5);
-  EXPECT_EQ(m.out.state, NC_STATE_ALARM);
+  EXPECT_EQ(m.out.state, NC_STATE_STOPPED);
   EXPECT_TRUE(m.still());
+  EXPECT_FALSE(m.out.manual_allowed);
+  ASSERT_TRUE(m.executor.reread_asked());
+  EXPECT_EQ(m.executor.give_up_ahead(), 4u) << "the mark of the block that stopped";
+  const AxisVec here = m.executor.commanded();
+  Program rest(c, here);
+  for (size_t i = 0; i < 4; ++i) rest.records.push_back(p.records[i]);
+  a[1] = here[1];
+  rest.line(a, 50);
+  rest.mark();
+  rest.end();
+  m.next = 4;
+  m.executor.reread_done();
+  m.in.manual[0] = {};
+  ASSERT_TRUE(m.until(rest, [&] { return m.out.state == NC_STATE_IDLE; }));
+  EXPECT_EQ(m.out.command.v[0], 40);
+  EXPECT_EQ(m.out.command.v[1], here[1]);
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+}
+
+// Inside of a block the rest of its way begins where the axes stand: no hand moves them from there.
+TEST(Manual, InTheMiddleOfABlockNothingMoves) {
+  const ExecutorConfig c = manual_config();
+  Program p(c);
+  AxisVec a;
+  a[0] = 20;
+  p.line(a, 50);
+  p.gate(NC_GATE_STOP);
+  a[0] = 40;
+  p.line(a, 50);
+  p.mark();
+  p.end();
+  Machine m(c);
+  m.feed(p);
+  m.start();
+  m.in.manual[1] = jog(50);
+  ASSERT_TRUE(m.until(p, [&] { return m.out.cause == NC_CAUSE_PROGRAM_STOP; }));
+  run(m, 100);
+  EXPECT_FALSE(m.out.manual_allowed);
+  EXPECT_EQ(m.out.command.v[1], 0);
+  m.start();
+  ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_IDLE; }));
+  EXPECT_EQ(m.out.command.v[0], 40);
+}
+
+TEST(Manual, WithTheDrivesOffTheCommandFollowsWhatIsMeasured) {
+  const ExecutorConfig c = manual_config();
+  Machine m(c);
+  m.cycle();
+  m.in.actual_valid = true;
+  m.in.actual.v[0] = 7;
+  m.cycle();
+  EXPECT_EQ(m.out.command.v[0], 0);
+  m.in.follow_up = true;
+  m.cycle();
+  EXPECT_EQ(m.out.command.v[0], 7);
+  EXPECT_EQ(m.executor.commanded()[0], 7);
+  EXPECT_TRUE(m.out.distance_zero) << "nothing is commanded to move";
+  m.in.actual_valid = false;
+  m.in.actual.v[0] = 9;
+  m.cycle();
+  EXPECT_EQ(m.out.command.v[0], 7);
+  m.in.actual_valid = true;
+  m.in.alarm = true;
+  m.cycle();
+  EXPECT_EQ(m.out.command.v[0], 9) << "also in an alarm";
 }
 
 }  // namespace

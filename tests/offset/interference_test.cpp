@@ -18,7 +18,7 @@ Section line_section(Vec2 delta, double offset) {
 }
 
 void set_joint(Section* section, std::initializer_list<Vec2> vectors) {
-  section->joint = Joint{};
+  section->joint = ContourJoint{};
   for (Vec2 w : vectors) section->joint.v[section->joint.n++] = w;
   section->jointed = true;
 }

@@ -210,13 +210,18 @@ class Calculating final : public ItemSource {
   explicit Calculating(int clock_every, int end_at) : clock_every_(clock_every), end_at_(end_at) {}
   nc_status pull(uint32_t, nc_item* item) override {
     *item = {};
+    item->serial = static_cast<uint64_t>(count_) + 1;
     item->source = {7, 0, 1, 0, 0};
-    item->kind = NC_ITEM_MARK;
-    if (clock_every_ && count_ % clock_every_ == 0) {
+    if (count_ == end_at_) {  // one payload of the union for each kind
+      item->kind = NC_ITEM_END;
+      item->u.end = {true, {}, 0};
+    } else if (clock_every_ && count_ % clock_every_ == 0) {
       item->kind = NC_ITEM_SYNC;
-      item->u.sync.what = NC_SYNC_CLOCK;
+      item->u.sync = {NC_SYNC_CLOCK};
+    } else {
+      item->kind = NC_ITEM_MARK;
+      item->u.mark = {{}, 0, true, true};
     }
-    if (count_ == end_at_) item->kind = NC_ITEM_END;
     if (count_++ > end_at_) return NC_ENDED;
     return NC_OK;
   }

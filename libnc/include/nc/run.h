@@ -89,7 +89,9 @@ typedef struct nc_inputs {
   bool reset;            /**< rising edge: stop on the path, give the program up */
   bool single_block;     /**< level: stop at the end of each block */
   bool optional_stop;    /**< level: M01 stops */
-  bool fin;              /**< completion of the M, S, T or B in wait (level, with handshake) */
+  /* Completion of the M, S, T or B in wait. One that is on when the strobe rises does not count until it has been off. */
+  bool fin;              /**< FIN1: when it rises the strobes go off, when it falls the program goes on */
+  bool fin2;             /**< FIN2: when it rises the strobes go off and the program goes on */
   bool interlock;        /**< level: no axis may start; motion decelerates to rest */
   bool alarm;            /**< level: stop motion, no start until reset (a drive, the PLC) */
   uint32_t skip;         /**< skip signals, bit n = signal n+1 */
@@ -99,7 +101,8 @@ typedef struct nc_inputs {
   double spindle_rev_per_s; /**< actual speed, for dwell in revolutions */
   bool actual_valid;     /**< `actual` holds measured positions; otherwise commanded = actual */
   nc_axes actual;        /**< measured machine position */
-  nc_manual manual[NC_MAX_AXES]; /**< acts while no program runs */
+  bool follow_up;        /**< level, while drives are off: with no program the commanded position follows `actual` */
+  nc_manual manual[NC_MAX_AXES]; /**< acts while nc_outputs::manual_allowed; a program in a block stop goes on from there */
   int64_t clock_ms;      /**< wall clock (see nc_world) */
 } nc_inputs;
 
@@ -137,10 +140,12 @@ typedef struct nc_outputs {
   uint8_t cause;            /**< nc_stop_cause */
   /* M, S, T, B: the codes stay until the next one; `strobe` bit 0 M, 1 S, 2 T, 3 B is on until FIN. */
   uint8_t strobe;
+  uint8_t fin_wait;         /**< groups (bits as in strobe) whose completion is awaited: on until FIN1 has fallen or FIN2 has risen */
   uint32_t m, t, b;
   double s;
   bool rapid;               /**< a rapid move is in execution */
   bool distance_zero;       /**< no axis is commanded to move */
+  bool manual_allowed;      /**< nc_inputs::manual acts: no program, or one that is stopped between two blocks */
   bool message;             /**< rising edge: `message_text` has a new operator message */
   uint32_t message_text;    /**< id for nc_text_get() */
   double feed_mm_min;       /**< actual path speed */

@@ -71,7 +71,7 @@ Committed Commit::commit(const Item& item, const Transform& transform) {
       curve_ = make_arc(machine_, end, move.plane_axis[0], move.plane_axis[1], circle_, axis_count_, rotary_);
     } else {
       circle_ = Circle{};
-      curve_ = make_line(machine_, end, axis_count_, rotary_);
+      make_line(machine_, end, axis_count_, rotary_, &curve_);
     }
     if (curve_.length < kNoLength) {
       machine_ = end;
@@ -85,14 +85,14 @@ Committed Commit::commit(const Item& item, const Transform& transform) {
   return Committed::yes;
 }
 
-void Commit::remember(const Item& mark, const OffsetResume& offset) {
+void Commit::remember(const Item& mark, const OffsetResume* offset) {
   if (!mark.mark.report) return;
   MarkPoint& point = marks_[mark_count_++ & mark_mask_];
   point.serial = last_serial_;
   point.seq = mark.mark.seq;
   point.machine = machine_;
-  if (offset.active) {
-    point.offset = offset;
+  if (offset != nullptr) {
+    point.offset = *offset;
   } else {
     point.offset.active = false;
   }

@@ -36,6 +36,11 @@ class Commit {
   /// The machine stands here, before the next move.
   void set_machine(const AxisVec& machine) { machine_ = machine; }
   const AxisVec& machine() const { return machine_; }
+  /// The same at the newest mark, and it holds for whoever goes back there.
+  void displace(const AxisVec& machine) {
+    machine_ = machine;
+    if (mark_count_ != 0) marks_[(mark_count_ - 1) & mark_mask_].machine = machine;
+  }
   void restart() {
     last_serial_ = 0;
     mark_count_ = 0;
@@ -43,7 +48,8 @@ class Commit {
 
   /// `transform` is the one the move names (ignored for other items). Fills the geometry members.
   Committed commit(const Item& item, const Transform& transform);
-  void remember(const Item& mark, const OffsetResume& offset);
+  /// `offset`: where the compensation stage is, nullptr while it is idle.
+  void remember(const Item& mark, const OffsetResume* offset);
 
   /// The item just committed, as a sink sees it.
   void to_public(const Item& item, nc_item* out) const;

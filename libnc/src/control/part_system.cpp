@@ -133,7 +133,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
       continue;
     }
     commit_.to_public(*item, out);
-    if (item->kind == ItemKind::mark) commit_.remember(*item, offset_.resume_point());
+    if (item->kind == ItemKind::mark) remember_mark(*item);
     if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
     if (item->kind == ItemKind::alarm) describe_alarm();
     take();
@@ -181,7 +181,7 @@ void PartSystem::restart(const AxisVec& machine) {
 
 nc_status PartSystem::reset() {
   if (busy()) return NC_E_STATE;
-  restart(commit_.machine());
+  restart(online_ ? executor.commanded() : commit_.machine());  // by hand or with its drives off the machine may have moved
   commit_.restart();
   return NC_OK;
 }
@@ -223,7 +223,7 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
     commit_.to_record(*item, transform, &record);
     record.epoch = epoch_;
     executor.push(record);
-    if (item->kind == ItemKind::mark) commit_.remember(*item, offset_.resume_point());
+    if (item->kind == ItemKind::mark) remember_mark(*item);
     if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
     if (item->kind == ItemKind::alarm) describe_alarm();
     if (item->kind == ItemKind::end) finished_ = true;
@@ -255,6 +255,10 @@ nc_status PartSystem::feed(uint32_t budget) {
     if (!finished_) return NC_WAITING;
     return interpreter.alarmed ? NC_ALARMED : NC_ENDED;
   }
+  if (executor.reread_asked()) {
+    if (read_again(executor.give_up_ahead())) displace(executor.commanded());
+    executor.reread_done();
+  }
   nc_status status = NC_OK;
   unsigned committed = 0;
   while (status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1) {
@@ -279,12 +283,31 @@ nc_status PartSystem::recalculate() {
   if (!running_) return NC_OK;
   Serial last = 0;
   if (!executor.truncate(&last)) return NC_WAITING;
-  if (rewind(last) == NC_OK) return NC_OK;
+  read_again(last);
+  return NC_OK;
+}
+
+bool PartSystem::read_again(Serial last) {
+  if (rewind(last) == NC_OK) return true;
   // What the machine has not done is given up already, and it cannot be read again: too many writes or calls lie in between.
   Fault fault;
   fault.condition = Condition::internal;
   stop_on(fault, interpreter.source);
-  return NC_OK;
+  return false;
+}
+
+/// The axes were moved by hand in a block stop ("manual absolute on"): the coordinate systems stay, and what follows starts where the
+/// machine is. An axis that the next block does not name stays there, an incremental word counts from there; under radius
+/// compensation the vector in force is carried along.
+void PartSystem::displace(const AxisVec& machine) {
+  AxisVec programmed = interpreter.state.machine;
+  for (unsigned i = 0; i < interpreter.axis_count; ++i) {
+    const double moved = machine[i] - commit_.machine()[i];
+    if (moved == 0) continue;
+    programmed[i] = offset_.idle() ? machine[i] : programmed[i] + moved;
+  }
+  interpreter.move_to(programmed);
+  commit_.displace(machine);
 }
 
 }  // namespace nc

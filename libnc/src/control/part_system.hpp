@@ -35,10 +35,17 @@ class PartSystem {
   /// Next item in stream order behind the offset stage; NC_OK, or why there is none. take() removes it.
   nc_status next(uint32_t& budget, const Item** item);
   void take();
+  void remember_mark(const Item& mark) {
+    if (offset_.idle()) return commit_.remember(mark, nullptr);
+    const OffsetResume resume = offset_.resume_point();
+    commit_.remember(mark, &resume);
+  }
   void stop_on(const Fault& fault, const nc_source& source);
   void describe_alarm();
   void restart(const AxisVec& machine);
   nc_status commit_online(uint32_t& budget);
+  bool read_again(Serial last);
+  void displace(const AxisVec& machine);
 
   OffsetStage offset_;
   Commit commit_;

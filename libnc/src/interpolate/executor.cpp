@@ -84,7 +84,6 @@ uint32_t Executor::starts() const {
 bool Executor::truncate(Serial* last) {
   ExecutorState& e = *state_;
   ScanShared& shared = e.shared;
-  *last = shared.status.read().last_mark;
   if (!e.truncate_open) {
     shared.truncate_request.store(++e.truncate_request, std::memory_order_release);
     e.truncate_open = true;
@@ -96,9 +95,18 @@ bool Executor::truncate(Serial* last) {
   e.truncate_open = false;
   if (!(answer & 1)) return false;
   // The scan is at rest and waits for the release: the ring from its tail on is the feeder's alone.
+  const bool complete = give_up_behind_block(last);
+  shared.truncate_release.store(e.truncate_request, std::memory_order_release);
+  return complete;
+}
+
+/// False, and nothing is given up, when the end of the block in execution is not committed yet.
+bool Executor::give_up_behind_block(Serial* last) {
+  ExecutorState& e = *state_;
   const Planner::Inputs in = e.scan_said();
+  *last = e.shared.status.read().last_mark;
   uint32_t end = in.tail;
-  bool complete = shared.block_begun.load(std::memory_order_relaxed) == 0;
+  bool complete = e.shared.block_begun.load(std::memory_order_relaxed) == 0;
   while (!complete && end != e.head) {
     const Record& r = e.ring[end++ & e.mask];
     if (r.kind == ItemKind::mark && r.mark.report) {
@@ -110,8 +118,24 @@ bool Executor::truncate(Serial* last) {
     e.planner.truncate(end, in);
     e.head = end;
   }
-  shared.truncate_release.store(e.truncate_request, std::memory_order_release);
   return complete;
+}
+
+bool Executor::reread_asked() const {
+  const ScanShared& shared = state_->shared;
+  return shared.reread_request.load(std::memory_order_acquire) !=
+         shared.reread_done.load(std::memory_order_relaxed);
+}
+
+Serial Executor::give_up_ahead() {
+  Serial last = 0;
+  give_up_behind_block(&last);  // complete: without its end the scan lets no axis be moved by hand
+  return last;
+}
+
+void Executor::reread_done() {
+  ScanShared& shared = state_->shared;
+  shared.reread_done.store(shared.reread_request.load(std::memory_order_relaxed), std::memory_order_release);
 }
 
 bool Executor::poll_event(nc_event* event, uint64_t* dropped) {

@@ -56,6 +56,12 @@ class Executor {
   /// A request whose answer is not fetched within 1000 calls of plan() is forgotten, so that the machine can
   /// be started again.
   bool truncate(Serial* last);
+  /// The axes were moved by hand in a block stop and the program is to go on: the scan waits, and the ring
+  /// from its tail on is the feeder's alone until reread_done().
+  bool reread_asked() const;
+  /// Gives up every committed record behind the block stop; the mark to go on behind, as truncate().
+  Serial give_up_ahead();
+  void reread_done();
   /// Next executed record for the host.
   bool poll_event(nc_event* event, uint64_t* dropped);
   /// Commanded machine position as of the last scan (consistent snapshot).
@@ -68,6 +74,7 @@ class Executor {
   void cycle(const nc_inputs& in, nc_outputs& out) NC_RT;
 
  private:
+  bool give_up_behind_block(Serial* last);
   ExecutorState* state_ = nullptr;
 };
 

@@ -52,6 +52,7 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   latest_ = nullptr;
   if (state_ != NC_STATE_STOPPED) cause_ = NC_CAUSE_NONE;
   answer_truncate();
+  await_reread();
   plan_ = &planner_->newest();
   handshake(in);
   messages();
@@ -60,6 +61,7 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   manual(in);
   last_command_ = command_;
   command_ = shape_.filter(wanted_);
+  follow(in);
   if (state_ == NC_STATE_RUNNING) {
     ++run_cycles_;
     ++start_cycles_;
@@ -85,12 +87,22 @@ void Scan::answer_truncate() {
   shared_->truncate_answer.store(request * 2 + (frozen_ ? 1 : 0), std::memory_order_release);
 }
 
-/// FIN completes the strobes that are on, whatever the program does meanwhile. A FIN that was on before the
+/// The feeder has read again from where the axes are; before the plan of this cycle is taken, because the one
+/// of the cycle before may lead over records that are given up.
+void Scan::await_reread() {
+  if (!rereading_ || shared_->reread_done.load(std::memory_order_acquire) != reread_) return;
+  rereading_ = displaced_ = false;
+}
+
+/// FIN completes the strobes that are on, whatever the program does meanwhile: FIN2 at once, FIN1 takes them
+/// off and the program goes on when it falls. A FIN that was on before the
 /// strobe does not count until it has been off once.
 void Scan::handshake(const nc_inputs& in) {
-  fin_ = in.fin;
+  fin_ = in.fin || in.fin2;
+  if (!in.fin) fin1_groups_ = 0;
   if (!fin_) fin_low_ = true;
   if (strobe_ != 0 && fin_ && fin_low_) {
+    if (in.fin) fin1_groups_ = strobe_;
     strobe_ = 0;
     fin_low_ = false;
   }
@@ -118,7 +130,7 @@ void Scan::states(const nc_inputs& in) {
   const bool still = at_rest() && !manual_.active();
   if (reset_) {
     start_ = false;
-    if (!still || frozen_) return;
+    if (!still || frozen_ || rereading_) return;
     give_up();
     reset_ = false;
     alarmed_ = in.alarm;
@@ -126,7 +138,7 @@ void Scan::states(const nc_inputs& in) {
   }
   if (alarmed_) {
     start_ = false;
-    if (state_ != NC_STATE_ALARM && still && !frozen_) {
+    if (state_ != NC_STATE_ALARM && still && !frozen_ && !rereading_) {
       give_up();
       state_ = NC_STATE_ALARM;
     }
@@ -136,7 +148,13 @@ void Scan::states(const nc_inputs& in) {
     hold_ = true;
     state_ = NC_STATE_HOLD;
   }
-  if (start_ && !frozen_) {
+  if (start_ && !frozen_ && !rereading_) {
+    if (displaced_ && still && state_ == NC_STATE_STOPPED) {  // acts when that is done
+      rereading_ = true;
+      shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
+      shared_->reread_request.store(++reread_, std::memory_order_release);
+      return;
+    }
     start_ = false;
     if (still || state_ == NC_STATE_HOLD) start(in);
   }
@@ -168,7 +186,8 @@ void Scan::start(const nc_inputs& in) {
 void Scan::give_up() {
   ++epoch_;
   law_ = {};
-  moving_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = false;
+  moving_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = displaced_ = false;
+  fin1_groups_ = 0;
   strobe_ = 0;               // a FIN that comes now is late and completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
   messages_.clear();
@@ -222,15 +241,39 @@ void Scan::leave(const Record& r, bool executed) {
   ++tail_;
 }
 
+/// In a block stop: no move of the block in execution is left, so the next one can begin from anywhere.
+bool Scan::between_blocks() const {
+  if (!block_begun_) return true;
+  for (uint32_t at = tail_; at != plan_->end; ++at) {
+    const Record& r = ring_[at & mask_];
+    if (r.kind == ItemKind::mark && r.mark.report) return true;
+    if (r.kind == ItemKind::move || r.kind == ItemKind::sync) return false;
+  }
+  return false;  // its end is not committed yet
+}
+
 /// Jog, step, handle and reference return, while no program moves.
 void Scan::manual(const nc_inputs& in) {
-  const bool allowed = at_rest() && !alarmed_ && !reset_ && !frozen_ &&
-                       (state_ == NC_STATE_IDLE || state_ == NC_STATE_STOPPED);
-  if (!allowed && !manual_.active()) {
+  manual_allowed_ = at_rest() && !alarmed_ && !reset_ && !frozen_ && !rereading_ &&
+                    (state_ == NC_STATE_IDLE || (state_ == NC_STATE_STOPPED && between_blocks()));
+  if (!manual_allowed_ && !manual_.active()) {
     manual_.idle(in.manual);
     return;
   }
-  manual_.cycle(in.manual, !allowed || in.interlock || in.feed_hold, &wanted_);
+  const AxisVec before = wanted_;
+  manual_.cycle(in.manual, !manual_allowed_ || in.interlock || in.feed_hold, &wanted_);
+  for (unsigned i = 0; i < config_.axis_count; ++i)
+    displaced_ |= state_ == NC_STATE_STOPPED && wanted_[i] != before[i];
+}
+
+/// Drives off: the axes are where they are, and the command goes there with them, so that nothing jumps when
+/// the drives come on again.
+void Scan::follow(const nc_inputs& in) {
+  const bool given_up = state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM;
+  if (!in.follow_up || !in.actual_valid || !given_up || !at_rest() || manual_.active() || frozen_) return;
+  for (unsigned i = 0; i < config_.axis_count; ++i) wanted_[i] = in.actual.v[i];
+  command_ = last_command_ = target_ = wanted_;
+  shape_.reset(wanted_);
 }
 
 void Scan::publish(const nc_inputs& in) {
@@ -274,10 +317,12 @@ void Scan::outputs(const nc_inputs&, nc_outputs& out) {
                                    : interlock_ && moving_ && state_ == NC_STATE_RUNNING ? NC_CAUSE_INTERLOCK
                                                                                          : cause_);
   out.strobe = strobe_;
+  out.fin_wait = fin_wait();
   out.m = m_;
   out.t = t_;
   out.b = b_;
   out.s = s_;
+  out.manual_allowed = manual_allowed_;
   out.message = message_;
   out.message_text = message_text_;
   if (moving_) {

@@ -42,6 +42,8 @@ struct ScanShared {
       0};  ///< some of the block in execution has been executed (valid with the answer)
   alignas(64) std::atomic<uint32_t> truncate_request{0};
   std::atomic<uint32_t> truncate_release{0};
+  std::atomic<uint32_t> reread_request{0};  ///< scan: read again from where the axes are; it waits for
+  std::atomic<uint32_t> reread_done{0};     ///< feeder: the request that is done
   Latest<ScanStatus> status;
   Latest<ScanWorld> world;
   EventRing events;
@@ -64,6 +66,9 @@ class Scan {
   void drop_old() NC_RT;
   void give_up() NC_RT;
   void answer_truncate() NC_RT;
+  void await_reread() NC_RT;
+  bool between_blocks() const NC_RT;
+  void follow(const nc_inputs& in) NC_RT;
   void run(const nc_inputs& in) NC_RT;
   void manual(const nc_inputs& in) NC_RT;
   void outputs(const nc_inputs& in, nc_outputs& out) NC_RT;
@@ -105,6 +110,9 @@ class Scan {
   bool frozen_ = false;    ///< the feeder is truncating
   uint32_t answered_ = 0;  ///< truncate request that has its answer
   bool block_begun_ = false;
+  bool displaced_ = false;  ///< moved by hand since the block stop
+  bool rereading_ = false;  ///< the feeder reads again from here; nothing is executed, moved or given up
+  uint32_t reread_ = 0;     ///< requests so far
 
   // ---- motion
   LawState law_;         ///< on the segment in execution; v carries over to the next one
@@ -117,6 +125,7 @@ class Scan {
   AxisVec target_;                                         ///< end of the segment in execution
   Shape shape_;
   Manual manual_;
+  bool manual_allowed_ = false;
 
   // ---- state
   nc_run_state state_ = NC_STATE_IDLE;
@@ -127,7 +136,9 @@ class Scan {
 
   // ---- handshake of M S T B
   uint8_t strobe_ = 0;
-  bool fin_ = false;     ///< level in this cycle
+  uint8_t fin_wait() const { return strobe_ | fin1_groups_; }
+  bool fin_ = false;     ///< level of either in this cycle
+  uint8_t fin1_groups_ = 0;  ///< completed by the FIN1 that is on
   bool fin_low_ = true;  ///< was low since a strobe rose
   uint32_t m_ = 0, t_ = 0, b_ = 0;
   double s_ = 0;

@@ -220,7 +220,7 @@ Scan::Done Scan::dwell(double rate, double amount) {
 Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
   switch (g.kind) {
     case NC_GATE_FIN:
-      return strobe_ != 0 && !(suppress_ & 2) ? wait(NC_CAUSE_FIN) : Done::yes;
+      return fin_wait() != 0 && !(suppress_ & 2) ? wait(NC_CAUSE_FIN) : Done::yes;
     case NC_GATE_DWELL_SECONDS:
       return dwell(1.0, g.value);
     case NC_GATE_DWELL_TURNS:

@@ -67,17 +67,29 @@ bool whole_number(double raw, uint32_t* number) {
 bool BlockWords::pointed(char letter) const { return (flags[letter - 'A'] & (kWordPoint | kWordExpression)) != 0; }
 
 Did gather_words(Interpreter& in) {
+  constexpr uint32_t kCodes = letters("GM");
   BlockWords& w = in.words;
-  w.present = w.comma = w.no_value = w.axes = w.incremental = 0;
+  w.present = w.axes = w.incremental = 0;
   w.g.clear();
   w.m.clear();
   w.one_shot = w.motion = w.cycle = nullptr;
   w.one_shot_code = 0;
   w.exact_stop = false;
   w.absolute_at = w.incremental_at = 0;
-  for (unsigned i = 0; i < in.block->words.size(); ++i) {
-    const Word& word = in.block->words[i];
+  const Word* const words = in.block->words.begin();
+  const unsigned count = in.block->words.size();
+  uint32_t present = 0;
+  for (unsigned i = 0; i < count; ++i) {
+    const Word& word = words[i];
+    const unsigned at = static_cast<unsigned>(word.letter - 'A');
     double value = word.value;
+    // Nearly all words: a number behind a letter that is neither G nor M.
+    if ((word.flags & (kWordExpression | kWordComma | kWordCount | kWordNoValue)) == 0 && ((kCodes >> at) & 1) == 0) {
+      present |= 1u << at;
+      w.raw[at] = value;
+      w.flags[at] = word.flags;
+      continue;
+    }
     if ((word.flags & kWordExpression) != 0) {
       Value v;
       const Eval eval = evaluate(*in.block, word.code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, &v, &in.fault,
@@ -97,7 +109,7 @@ Did gather_words(Interpreter& in) {
       if (did != Did::done) return did;
       if (w.g.back()->function == Function::absolute) w.absolute_at |= uint64_t{1} << i;
       if (w.g.back()->function == Function::incremental) w.incremental_at |= uint64_t{1} << i;
-      if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::macro_call) return Did::done;  // the rest are arguments
+      if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::macro_call) break;  // the rest are arguments
       continue;
     }
     if (word.letter == 'M') {
@@ -105,16 +117,16 @@ Did gather_words(Interpreter& in) {
       if (did != Did::done) return did;
       continue;
     }
-    const unsigned at = static_cast<unsigned>(word.letter - 'A');
     if ((word.flags & kWordNoValue) != 0) {
       // M700 14.10: "G28 XYZ" means zeros; any other address needs a number.
       if (in.axis_of[at] < 0) return in.raise(Condition::format_error, word.letter);
       value = 0;
     }
-    w.present |= 1u << at;
+    present |= 1u << at;
     w.raw[at] = value;
     w.flags[at] = word.flags;
   }
+  w.present = present;
   return Did::done;
 }
 
@@ -192,25 +204,31 @@ Did resolve_axes(Interpreter& in) {
   // at most one of them in a block, so that the order of words does not matter: the code counts for the whole block.
   const bool per_word = in.distance_by_word;
   if (!per_word) incremental = in.state.modal.code[kGroupDistance] == 910;
-  for (unsigned i = 0; i < in.block->words.size(); ++i) {
-    const Word& word = in.block->words[i];
-    if (word.letter == 'G') {
+  const Word* const words = in.block->words.begin();
+  const unsigned count = in.block->words.size();
+  const uint32_t named = w.present & in.axis_letters;
+  uint32_t axes = 0, by_increment = 0;
+  for (unsigned i = 0; i < count; ++i) {
+    const Word& word = words[i];
+    const unsigned at = static_cast<unsigned>(word.letter - 'A');
+    if (((named >> at) & 1) == 0) {
       if (per_word && ((w.absolute_at >> i) & 1) != 0) incremental = false;
       if (per_word && ((w.incremental_at >> i) & 1) != 0) incremental = true;
       continue;
     }
-    const unsigned at = static_cast<unsigned>(word.letter - 'A');
     const int axis = in.axis_of[at];
-    if (axis < 0 || (w.present & (1u << at)) == 0) continue;
     const uint32_t axis_bit = 1u << axis;
-    w.axes |= axis_bit;
-    w.incremental = incremental ? w.incremental | axis_bit : w.incremental & ~axis_bit;
+    axes |= axis_bit;
+    by_increment = incremental ? by_increment | axis_bit : by_increment & ~axis_bit;
     const bool turns = (in.rotary & axis_bit) != 0;
     const bool time = word.letter == 'X' && w.one_shot != nullptr && w.one_shot->function == Function::dwell;  // seconds: a range of its own
     const double value = length_value(in, w.raw[at], w.flags[at], turns, false);
     if (!time && !in_range(in, value, turns)) return in.raise(Condition::value_range, word.letter, w.raw[at]);
     w.axis[static_cast<unsigned>(axis)] = value;
   }
+  w.axes = axes;
+  w.incremental = by_increment;
+  if (!w.any(letters("IJKQR"))) return Did::done;
   for (const char letter : {'I', 'J', 'K', 'Q', 'R'})
     if (w.has(letter) && !in_range(in, length_of(in, letter), false)) return in.raise(Condition::value_range, letter, w.get(letter));
   return Did::done;

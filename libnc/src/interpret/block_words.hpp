@@ -9,10 +9,15 @@ namespace nc {
 struct Interpreter;
 enum class Did : uint8_t;
 
+/// Set of addresses, bit (letter - 'A').
+constexpr uint32_t letters(const char* of) {
+  uint32_t set = 0;
+  for (; *of != 0; ++of) set |= 1u << (*of - 'A');
+  return set;
+}
+
 struct BlockWords {
   uint32_t present = 0;            ///< bit (letter - 'A'): the address stands in the block, with a value
-  uint32_t comma = 0;              ///< ",R" ... present
-  uint32_t no_value = 0;           ///< letter without a value ("G28 XYZ")
   double raw[26];                  ///< as programmed; the last one counts; undefined where not present
   uint8_t flags[26];               ///< WordFlag of it
   uint32_t axes = 0;               ///< bit i: axis i is commanded
@@ -28,6 +33,7 @@ struct BlockWords {
   bool comp_command = false;       ///< G40-G42 that means something here
   uint64_t absolute_at = 0, incremental_at = 0;  ///< bit i: word i of the block is G90, G91
 
+  bool any(uint32_t of) const { return (present & of) != 0; }
   bool has(char letter) const { return (present >> (letter - 'A')) & 1; }
   double get(char letter) const { return raw[letter - 'A']; }
   bool pointed(char letter) const;

@@ -173,9 +173,10 @@ Did execute_words(Interpreter& in) {
   }
   did = auxiliary_before(in);
   if (did != Did::done) return did;
+  if (!w.comp_command) return finish(in, execute_motion(in));
   const AxisVec before = in.state.machine;
   did = execute_motion(in);
-  if (did == Did::done && w.comp_command && in.state.machine == before) move_nowhere(in);
+  if (did == Did::done && in.state.machine == before) move_nowhere(in);
   return finish(in, did);
 }
 

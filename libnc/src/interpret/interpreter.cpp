@@ -52,8 +52,8 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
 
 AxisVec Interpreter::position() const {
   const AxisVec& z = zero();
-  AxisVec p;
-  for (unsigned i = 0; i < axis_count; ++i) p[i] = state.machine[i] - z[i] - state.applied[i];
+  AxisVec p;  // all axes: a count that the compiler knows; those that the machine does not have are zero everywhere
+  for (unsigned i = 0; i < kMaxAxes; ++i) p[i] = state.machine[i] - z[i] - state.applied[i];
   return p;
 }
 
@@ -70,7 +70,7 @@ Item& Interpreter::emit(ItemKind kind) {
   item.source = source;
   if (kind != ItemKind::mark) world_fresh = false;
   switch (kind) {
-    case ItemKind::move: new (&item.move) Move(); break;
+    case ItemKind::move: break;  // emit_move() makes it
     case ItemKind::action: new (&item.action) Action(); break;
     case ItemKind::gate: new (&item.gate) Gate(); break;
     case ItemKind::sync: new (&item.sync) Sync(); break;
@@ -79,6 +79,12 @@ Item& Interpreter::emit(ItemKind kind) {
     case ItemKind::end: new (&item.end) End(); break;
   }
   return item;
+}
+
+Move& Interpreter::emit_move(const AxisVec& start, const AxisVec& end) {
+  Item& item = emit(ItemKind::move);
+  // Made in one go: clearing three positions only to fill them would be felt in every block.
+  return *new (&item.move) Move(start, end, state.comp);
 }
 
 // ---- program selection, reset, rewind ----------------------------------------------------------------------------------

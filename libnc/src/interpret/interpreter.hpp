@@ -68,6 +68,11 @@ struct Interpreter {
   bool rewind(BlockSeq seq);
   /// Forget checkpoints; go on from here (position of the machine).
   void set_machine(const AxisVec& machine);
+  /// The axes have been moved behind the newest block; whoever goes back there finds them so.
+  void move_to(const AxisVec& machine) {
+    state.machine = machine;
+    checkpoints_.save(state);
+  }
   /// A stage behind has found a fault: what is queued is void, the alarm and the end take its place.
   void abort(const Fault& what, const nc_source& where);
   void refresh_settings() { settings = parameters.settings(*dialect); }
@@ -129,7 +134,10 @@ struct Interpreter {
   bool block_starts_incremental = false; ///< G91 was modal before this block
   bool distance_by_word = false;         ///< an axis word goes by the G90/G91 before it in the block (M700 5.1)
 
+  /// A new item at the end of the queue, its payload as constructed; moves come from emit_move().
   Item& emit(ItemKind kind);
+  /// A move with the compensation in force; transform and kind are left to the caller.
+  Move& emit_move(const AxisVec& start, const AxisVec& end);
   bool queue_has_room() const { return queued_ < kQueue - kReserve; }
   Did raise(Condition condition, char letter = 0) {
     fault = Fault{};
@@ -222,6 +230,7 @@ Did move_by_words(Interpreter& in);
 double feed_mm_min(const Interpreter& in);
 /// The end point that the words ask for.
 AxisVec target_of_words(const Interpreter& in);
+AxisVec target_of_words(const Interpreter& in, const AxisVec& position);  ///< with position() at hand
 
 /// interpret/arc.cpp
 struct ArcWords {

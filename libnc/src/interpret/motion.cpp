@@ -26,18 +26,14 @@ void apply_length(Interpreter& in, uint32_t commanded) {
 Transform transform_in_force(const Interpreter& in) {
   Transform t;
   const AxisVec& z = in.zero();
-  for (unsigned i = 0; i < in.axis_count; ++i) t.offset[i] = z[i] + in.state.applied[i];
+  for (unsigned i = 0; i < kMaxAxes; ++i) t.offset[i] = z[i] + in.state.applied[i];
   return t;
 }
 
 /// What every move has in common.
 Move& begin_move(Interpreter& in, const Transform& transform, const AxisVec& start, const AxisVec& target) {
-  Move& move = in.emit(ItemKind::move).move;
+  Move& move = in.emit_move(start, target);
   move.transform = in.transforms.intern(transform);
-  move.start = start;
-  move.end = target;
-  move.work = target;
-  move.comp = in.state.comp;
   in.state.machine = transform.to_machine(target);
   in.state.moves_since_comp_off = 1;
   return move;
@@ -76,16 +72,19 @@ namespace {
 
 /// When only rotary axes move F is deg/min; in inch its unit is 10 deg (M700 3.2 note 6).
 double feed_for(const Interpreter& in, const AxisVec& start, const AxisVec& end) {
-  bool linear = false;
-  for (unsigned i = 0; i < in.axis_count; ++i) linear = linear || (((in.rotary >> i) & 1) == 0 && std::fabs(end[i] - start[i]) > kNoMotion);
   const bool inch = in.state.modal.code[kGroupUnit] == 200;
-  return linear || !inch || in.dialect->id != NC_DIALECT_M700 ? feed_mm_min(in) : in.state.modal.feed * 10;
+  if (!inch || in.rotary == 0 || in.dialect->id != NC_DIALECT_M700) return feed_mm_min(in);
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((in.rotary >> i) & 1) == 0 && std::fabs(end[i] - start[i]) > kNoMotion) return feed_mm_min(in);
+  return in.state.modal.feed * 10;
 }
 
 }  // namespace
 
-AxisVec target_of_words(const Interpreter& in) {
-  AxisVec target = in.position();
+AxisVec target_of_words(const Interpreter& in) { return target_of_words(in, in.position()); }
+
+AxisVec target_of_words(const Interpreter& in, const AxisVec& position) {
+  AxisVec target = position;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((in.words.axes >> i) & 1) == 0) continue;
     target[i] = ((in.words.incremental >> i) & 1) != 0 ? target[i] + in.words.axis[i] : in.words.axis[i];
@@ -190,15 +189,15 @@ Did move_by_words(Interpreter& in) {
   const BlockWords& w = in.words;
   const int16_t code = in.state.modal.code[kGroupMotion];
   const bool arc = code == 20 || code == 30;
-  const bool arc_words = w.has('R') || w.has('I') || w.has('J') || w.has('K');
+  const bool arc_words = w.any(letters("RIJK"));
   if (w.axes == 0 && !(arc && arc_words)) return Did::done;
-  for (unsigned i = 0; i < in.axis_count; ++i) {
+  for (unsigned i = 0; in.rotary != 0 && i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0 || !off_increment(in, i, w.axis[i])) continue;
     in.raise(Condition::index_increment, in.system->axis[i].name, w.axis[i]);
     in.fault.axis = static_cast<int8_t>(i);
     return Did::fault;
   }
-  const AxisVec target = target_of_words(in);
+  const AxisVec position = in.position(), target = target_of_words(in, position);
   if (code == 0) {
     LinearStyle style;
     style.kind = NC_MOVE_RAPID;
@@ -208,7 +207,7 @@ Did move_by_words(Interpreter& in) {
   if (in.state.modal.feed <= 0) return in.raise(Condition::no_feed, 'F');
   if (arc) return move_arc(in, target, w.axes, code == 30);
   LinearStyle style;
-  style.feed_mm_min = feed_for(in, in.position(), target);
+  style.feed_mm_min = feed_for(in, position, target);
   style.exact_stop = w.exact_stop || in.state.modal.code[kGroupCutting] == 610;
   move_linear(in, target, w.axes, style);
   return Did::done;

@@ -20,8 +20,8 @@ Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) {
 
 // Perpendicular, lengthened, lengthened, perpendicular. The form of the manual's figure is lost: each offset
 // line is lengthened by the amount and the ends are linked, as is usual.
-Joint lengthened_joint(const Leg& before, double offset_before, const Leg& behind, double offset_behind) {
-  Joint joint;
+ContourJoint lengthened_joint(const Leg& before, double offset_before, const Leg& behind, double offset_behind) {
+  ContourJoint joint;
   joint.n = 4;
   joint.lengthened = true;
   joint.v[0] = perpendicular(before, offset_before);
@@ -31,8 +31,8 @@ Joint lengthened_joint(const Leg& before, double offset_before, const Leg& behin
   return joint;
 }
 
-Joint two_perpendiculars(const Leg& before, double offset_before, const Leg& behind, double offset_behind) {
-  Joint joint;
+ContourJoint two_perpendiculars(const Leg& before, double offset_before, const Leg& behind, double offset_behind) {
+  ContourJoint joint;
   joint.v[0] = perpendicular(before, offset_before);
   joint.v[1] = perpendicular(behind, offset_behind);
   joint.n = norm(joint.v[1] - joint.v[0]) > kNoLength_mm ? 2 : 1;
@@ -42,20 +42,20 @@ Joint two_perpendiculars(const Leg& before, double offset_before, const Leg& beh
 // M700 12.4.2 "Changing the compensation direction": the intersection of the two offset curves; where there
 // is none, both perpendiculars. An intersection that lies far off, or cuts more off a block than there is,
 // counts as none.
-Joint joint_of_side_change(const Leg& before, double offset_before, double length_before, const Leg& behind,
+ContourJoint joint_of_side_change(const Leg& before, double offset_before, double length_before, const Leg& behind,
                            double offset_behind, double length_behind) {
   Vec2 w;
   const bool meets = offset_exists(before, offset_before) && offset_exists(behind, offset_behind) &&
                      intersection(before, offset_before, behind, offset_behind, &w) &&
                      norm(w) <= kExtremelyLarge * std::abs(offset_before) &&
                      -dot(w, before.u) <= length_before && dot(w, behind.u) <= length_behind;
-  return meets ? Joint::single(w) : two_perpendiculars(before, offset_before, behind, offset_behind);
+  return meets ? ContourJoint::single(w) : two_perpendiculars(before, offset_before, behind, offset_behind);
 }
 
 }  // namespace
 
-Joint Joint::single(Vec2 w) {
-  Joint joint;
+ContourJoint ContourJoint::single(Vec2 w) {
+  ContourJoint joint;
   joint.v[0] = w;
   joint.n = 1;
   return joint;
@@ -117,9 +117,9 @@ bool intersection(const Leg& before, double offset_before, const Leg& behind, do
 }
 
 bool joint_in_mode(const Leg& before, double offset_before, double length_before, const Leg& behind,
-                   double offset_behind, double length_behind, Joint* joint) {
+                   double offset_behind, double length_behind, ContourJoint* joint) {
   if (offset_before == 0) {
-    *joint = Joint::single({});
+    *joint = ContourJoint::single({});
     return true;
   }
   if (offset_before * offset_behind < 0) {
@@ -132,7 +132,7 @@ bool joint_in_mode(const Leg& before, double offset_before, double length_before
   Vec2 w;
   const bool curves = offset_exists(before, o) && offset_exists(behind, o);
   if (turn != Turn::acute && curves && intersection(before, o, behind, o, &w)) {
-    *joint = Joint::single(w);
+    *joint = ContourJoint::single(w);
     return true;
   }
   if (turn == Turn::inner) return false;
@@ -140,36 +140,36 @@ bool joint_in_mode(const Leg& before, double offset_before, double length_before
   return true;
 }
 
-Joint joint_at_start(const Leg& before, const Leg& behind, double offset, bool type_b) {
+ContourJoint joint_at_start(const Leg& before, const Leg& behind, double offset, bool type_b) {
   const Turn turn = classify(before.u, behind.u, offset);
   Vec2 w;
   if (!type_b || turn == Turn::inner || turn == Turn::straight)
-    return Joint::single(perpendicular(behind, offset));
-  if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return Joint::single(w);
+    return ContourJoint::single(perpendicular(behind, offset));
+  if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return ContourJoint::single(w);
   return lengthened_joint(before, offset, behind, offset);
 }
 
-Joint joint_at_cancel(const Leg& before, const Leg& behind, double offset, bool type_b) {
+ContourJoint joint_at_cancel(const Leg& before, const Leg& behind, double offset, bool type_b) {
   const Turn turn = classify(before.u, behind.u, offset);
   Vec2 w;
   if (!type_b || turn == Turn::inner || turn == Turn::straight)
-    return Joint::single(perpendicular(before, offset));
-  if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return Joint::single(w);
+    return ContourJoint::single(perpendicular(before, offset));
+  if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return ContourJoint::single(w);
   return lengthened_joint(before, offset, behind, offset);
 }
 
-Joint joint_at_cancel_vector(const Leg& before, Vec2 direction, double offset) {
+ContourJoint joint_at_cancel_vector(const Leg& before, Vec2 direction, double offset) {
   const Leg hypothetical{unit(direction), 0};
   Vec2 w;
   if (norm(direction) > 0 && intersection(before, offset, hypothetical, offset, &w) &&
       norm(w) <= kExtremelyLarge * std::abs(offset)) {
-    return Joint::single(w);
+    return ContourJoint::single(w);
   }
-  return Joint::single(perpendicular(before, offset));
+  return ContourJoint::single(perpendicular(before, offset));
 }
 
-Joint joint_corner_arc(const Leg& before, const Leg& behind, double offset) {
-  Joint joint = two_perpendiculars(before, offset, behind, offset);
+ContourJoint joint_corner_arc(const Leg& before, const Leg& behind, double offset) {
+  ContourJoint joint = two_perpendiculars(before, offset, behind, offset);
   joint.corner_arc = joint.n == 2;
   return joint;
 }

@@ -36,7 +36,7 @@ bool make_legs(const Move& move, Leg* begin, Leg* end);
 
 /// Vectors at a joint in the order of travel. The block before ends at v[0], the block behind starts at v[n -
 /// 1].
-struct Joint {
+struct ContourJoint {
   static constexpr unsigned kMax = 4;  // M700 12.4.8: (1) to (4)
   Vec2 v[kMax];
   uint8_t n = 0;
@@ -44,7 +44,7 @@ struct Joint {
   bool lengthened =
       false;  ///< v[0], v[1] lie on the lengthened block before, v[2], v[3] on the one behind (acute corner)
 
-  static Joint single(Vec2 w);
+  static ContourJoint single(Vec2 w);
 };
 
 enum class Turn : uint8_t { straight, inner, obtuse, acute };
@@ -69,19 +69,19 @@ bool intersection(const Leg& before, double offset_before, const Leg& behind, do
 /// The joint inside the mode. False: no intersection on the inner side (M700 12.4.1 (4)).
 /// `length_before`, `length_behind` bound how much a change of side may cut off.
 bool joint_in_mode(const Leg& before, double offset_before, double length_before, const Leg& behind,
-                   double offset_behind, double length_behind, Joint* joint);
+                   double offset_behind, double length_behind, ContourJoint* joint);
 
 /// The joint at the end of a start block.
-Joint joint_at_start(const Leg& before, const Leg& behind, double offset, bool type_b);
+ContourJoint joint_at_start(const Leg& before, const Leg& behind, double offset, bool type_b);
 
 /// The joint before a cancel block.
-Joint joint_at_cancel(const Leg& before, const Leg& behind, double offset, bool type_b);
+ContourJoint joint_at_cancel(const Leg& before, const Leg& behind, double offset, bool type_b);
 
 /// The joint before a cancel block with I J K: `direction` is the hypothetical path's.
-Joint joint_at_cancel_vector(const Leg& before, Vec2 direction, double offset);
+ContourJoint joint_at_cancel_vector(const Leg& before, Vec2 direction, double offset);
 
 /// The joint of G39: an arc about the programmed point from one perpendicular to the other.
-Joint joint_corner_arc(const Leg& before, const Leg& behind, double offset);
+ContourJoint joint_corner_arc(const Leg& before, const Leg& behind, double offset);
 
 /// End vector that the words of the block itself give (G41/G42/G38 with I J K).
 Vec2 commanded_vector(const Compensation& comp);

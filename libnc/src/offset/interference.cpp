@@ -109,9 +109,9 @@ bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
   if (runs_backwards(before, start_vector(*chain, i, first_vector), x)) return false;
   const Vec2 leave = behind.jointed ? behind.joint.v[0] : perpendicular(behind.end, behind.offset);
   if (runs_backwards(behind, x - d, leave)) return false;
-  before.joint = Joint::single(x);
+  before.joint = ContourJoint::single(x);
   for (unsigned k = i + 1; k < j; ++k) {
-    (*chain)[k].joint = Joint::single(x - joint_distance(*chain, i, k));
+    (*chain)[k].joint = ContourJoint::single(x - joint_distance(*chain, i, k));
     (*chain)[k].jointed = true;
     (*chain)[k].dead = true;
     (*chain)[k].vanished = false;
@@ -121,7 +121,7 @@ bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
 
 // Erases the vectors from `keep_before` on at the end of section i and up to `last_erased` at the end of
 // section j.
-void erase_vectors(Joint* before, unsigned keep_before, Joint* behind, unsigned last_erased) {
+void erase_vectors(ContourJoint* before, unsigned keep_before, ContourJoint* behind, unsigned last_erased) {
   before->n = static_cast<uint8_t>(keep_before);
   unsigned n = 0;
   for (unsigned k = last_erased + 1; k < behind->n; ++k) behind->v[n++] = behind->v[k];
@@ -135,7 +135,7 @@ struct Crossing {
 };
 
 // From the outermost vectors inwards: (1)-(4)', (2)-(3)', (3)-(2)', (4)-(1)'.
-Crossing find_crossing(const Joint& before, const Joint& behind, Vec2 d) {
+Crossing find_crossing(const ContourJoint& before, const ContourJoint& behind, Vec2 d) {
   const unsigned steps = before.n > behind.n ? before.n : behind.n;
   for (unsigned k = 0; k < steps; ++k) {
     const unsigned i = k < before.n ? k : before.n - 1u;
@@ -155,8 +155,8 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
   if (!crossing.found) return Finding::none;
   *at = live;
   const Vec2 a = before.joint.v[crossing.before], b = behind.joint.v[crossing.behind];
-  const Joint whole_before = before.joint;
-  const Joint whole_behind = behind.joint;
+  const ContourJoint whole_before = before.joint;
+  const ContourJoint whole_behind = behind.joint;
   erase_vectors(&before.joint, crossing.before, &behind.joint, crossing.behind);
   if (before.joint.n > 0 && behind.joint.n > 0 && j == i + 1) {  // what remains is the path
     if (!runs_backwards(behind, before.joint.v[before.joint.n - 1], behind.joint.v[0])) return Finding::none;

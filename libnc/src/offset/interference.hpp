@@ -17,7 +17,7 @@ struct Section {
   Leg begin, end;
   Vec2 delta;                ///< programmed end - programmed start
   double offset = 0;         ///< signed, mm
-  Joint joint;               ///< at its end
+  ContourJoint joint;               ///< at its end
   bool jointed = false;      ///< `joint` is known
   bool commanded = false;    ///< by I J K, hold, cancel, ...: never erased (M700 12.4.3 precaution (2))
   bool start = false;        ///< start block: does not run along an offset curve

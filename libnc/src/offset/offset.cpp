@@ -111,10 +111,6 @@ void OffsetStage::restore(const OffsetResume& resume) {
   tail_ = vector_;
 }
 
-bool OffsetStage::idle() const {
-  return count_ == 0 && mode_ == Mode::off && vector_ == Vec2{} && !failed_;
-}
-
 void OffsetStage::count_block_end() {
   ++blocks_;
   if (moved_) {
@@ -133,7 +129,7 @@ void OffsetStage::close() {
   if (Section* last = open()) {
     if (last->vanished)
       return fail(last->index, Condition::comp_interference, held_at(last->index).item.source);
-    last->joint = Joint::single(last->start ? Vec2{} : perpendicular(last->end, last->offset));
+    last->joint = ContourJoint::single(last->start ? Vec2{} : perpendicular(last->end, last->offset));
     last->jointed = last->commanded = true;
     tail_ = last->joint.v[0];
   }
@@ -193,7 +189,7 @@ void OffsetStage::intake_carried(Held* held) {
     close();
     if (failed_) return;
     held->role = Role::section;
-    held->joint = Joint::single({});
+    held->joint = ContourJoint::single({});
     tail_ = {};
   }
   ++count_;
@@ -237,7 +233,7 @@ void OffsetStage::intake_command(Held* held) {
     mode_ = Mode::on;
     tail_ = commanded_vector(comp);
     if (last && !last->vanished) {
-      last->joint = Joint::single(tail_);
+      last->joint = ContourJoint::single(tail_);
       last->jointed = last->commanded = true;
     } else {
       held->has_lead = true;
@@ -268,13 +264,13 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   if (failed_) return;
   if (chain_.empty()) chain_start_ = tail_;
   if (section.cancel) {
-    section.joint = Joint::single({});
+    section.joint = ContourJoint::single({});
     section.jointed = true;
   } else if (comp.has_vector) {
-    section.joint = Joint::single(commanded_vector(comp));
+    section.joint = ContourJoint::single(commanded_vector(comp));
     section.jointed = true;
   } else if (comp.hold_vector) {  // M700 12.4.2 G38: the vector of the end before
-    section.joint = Joint::single(tail_);
+    section.joint = ContourJoint::single(tail_);
     section.jointed = true;
   }
   section.commanded = section.jointed;
@@ -304,7 +300,7 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
   Held& held_last = held_at(last->index);
   const Compensation& comp_behind = held_behind->item.move.comp;
   if (last->vanished || behind.vanished) {  // provisional, replaced by the avoidance
-    last->joint = Joint::single(perpendicular(last->end, last->offset));
+    last->joint = ContourJoint::single(perpendicular(last->end, last->offset));
     last->jointed = true;
     tail_ = last->joint.v[0];
     return;
@@ -320,7 +316,7 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
   tail_ = last->joint.v[last->joint.n - 1];
 }
 
-Joint OffsetStage::find_joint(const Section& before, const Compensation& comp_before, const Section& behind,
+ContourJoint OffsetStage::find_joint(const Section& before, const Compensation& comp_before, const Section& behind,
                               const Compensation& comp_behind, bool* found) const {
   const bool cancels = comp_behind.side == 0;
   const double offset_behind = cancels ? before.offset : offset_on_side(comp_before, comp_behind);
@@ -332,7 +328,7 @@ Joint OffsetStage::find_joint(const Section& before, const Compensation& comp_be
   if (comp_before.corner_arc && offset_behind == before.offset) {
     return joint_corner_arc(before.end, behind.begin, before.offset);
   }
-  Joint joint;
+  ContourJoint joint;
   *found = joint_in_mode(before.end, before.offset, reach(before.end, before.delta), behind.begin,
                          offset_behind, reach(behind.begin, behind.delta), &joint);
   return joint;
@@ -347,7 +343,7 @@ bool OffsetStage::check_joints(unsigned last_call) {
     fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
     return false;
   }
-  const Joint& joint = chain_[chain_.size() - (open() ? 2 : 1)].joint;
+  const ContourJoint& joint = chain_[chain_.size() - (open() ? 2 : 1)].joint;
   tail_ = joint.v[joint.n - 1];
   return true;
 }
@@ -376,7 +372,7 @@ void OffsetStage::settle() {
 void OffsetStage::release(unsigned sections) {
   for (unsigned i = 0; i < sections; ++i) {
     Section& section = chain_[i];
-    Joint joint = section.joint;
+    ContourJoint joint = section.joint;
     if (joint.lengthened && section.merge_last) --joint.n;
     if (joint.lengthened && section.merge_first) {
       --joint.n;

@@ -58,7 +58,7 @@ class OffsetStage {
   OffsetResume resume_point() const;
   void restore(const OffsetResume& resume);
   /// True when nothing is held and compensation is off: items may bypass the stage.
-  bool idle() const;
+  bool idle() const { return count_ == 0 && mode_ == Mode::off && vector_ == Vec2{} && !failed_; }
 
  private:
   /// Room for items; a power of two, so that the numbers of items may wrap.
@@ -85,7 +85,7 @@ class OffsetStage {
     Mode mode = Mode::off;    ///< marks: state behind them
     uint8_t idle_blocks = 0;  ///< marks
     Vec2 lead;
-    Joint joint;  ///< section: at its end
+    ContourJoint joint;  ///< section: at its end
   };
 
   // Intake: push() and what it decides (offset.cpp).
@@ -95,7 +95,7 @@ class OffsetStage {
   void intake_command(Held* held);
   void intake_section(Held* held, const Leg& begin, const Leg& end);
   void join(const Section& behind, Held* held_behind);
-  Joint find_joint(const Section& before, const Compensation& comp_before, const Section& behind,
+  ContourJoint find_joint(const Section& before, const Compensation& comp_before, const Section& behind,
                    const Compensation& comp_behind, bool* found) const;
   bool check_joints(unsigned last_call);
   void count_block_end();

@@ -116,16 +116,23 @@ void arc_axis_bounds(const Curve& c, uint8_t axis, double phase, double* low, do
 
 }  // namespace
 
+void make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary, Curve* curve) {
+  curve->circular = false;
+  curve->start = start;
+  curve->end = end;
+  double linear = 0, turned = 0;
+  for (unsigned i = 0; i < kMaxAxes; ++i) curve->delta[i] = i < axis_count ? end[i] - start[i] : 0;
+  if (rotary == 0) {
+    for (unsigned i = 0; i < axis_count; ++i) linear += squared(curve->delta[i]);
+  } else {
+    for (unsigned i = 0; i < axis_count; ++i) ((rotary >> i & 1) ? turned : linear) += squared(curve->delta[i]);
+  }
+  curve->length = std::sqrt(linear > 0 ? linear : turned);
+}
+
 Curve make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary) {
   Curve c;
-  c.start = start;
-  c.end = end;
-  double linear = 0, turned = 0;
-  for (unsigned i = 0; i < axis_count; ++i) {
-    c.delta[i] = end[i] - start[i];
-    ((rotary >> i & 1) ? turned : linear) += squared(c.delta[i]);
-  }
-  c.length = std::sqrt(linear > 0 ? linear : turned);
+  make_line(start, end, axis_count, rotary, &c);
   return c;
 }
 

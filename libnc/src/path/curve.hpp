@@ -29,6 +29,8 @@ struct Curve {
 
 /// Makes a line. `axis_count` axes; bit i of `rotary` = axis i is rotary.
 Curve make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary);
+/// The same in place: one is made for every block.
+void make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary, Curve* curve);
 
 /// Makes an arc or helix. `circle` in the frame of start and end.
 Curve make_arc(const AxisVec& start, const AxisVec& end, uint8_t h, uint8_t v, const Circle& circle,

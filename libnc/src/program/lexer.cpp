@@ -18,15 +18,21 @@ namespace {
 constexpr uint32_t kMaxLoopNumber = 127;  // M700 13.5.7
 constexpr unsigned kMaxMessage = 127;     // bytes kept of a comment that may be a message
 
-/// Characters that can go on with a word behind a number: X1 0, X1+2, S1=5.
-struct ContinuesNumber {
-  bool is[256] = {};
-  constexpr ContinuesNumber() {
-    for (char c = '0'; c <= '9'; ++c) is[static_cast<unsigned char>(c)] = true;
-    for (char c : {'.', '+', '-', '*', '/', '='}) is[static_cast<unsigned char>(c)] = true;
+/// What a character behind a number means for its word. `more`: the word goes on, X1 0, X1+2, S1=5.
+enum class Behind : uint8_t { done, blank, more };
+struct BehindNumber {
+  Behind is[256] = {};
+  constexpr BehindNumber() {
+    for (char c = '0'; c <= '9'; ++c) is[static_cast<unsigned char>(c)] = Behind::more;
+    for (char c : {'.', '+', '-', '*', '/', '='}) is[static_cast<unsigned char>(c)] = Behind::more;
+    for (char c : {' ', '\t', '\r'}) is[static_cast<unsigned char>(c)] = Behind::blank;
   }
 };
-constexpr ContinuesNumber kContinuesNumber;
+constexpr BehindNumber kBehindNumber;
+
+Behind behind(const char* p, const char* end) {
+  return p == end ? Behind::done : kBehindNumber.is[static_cast<unsigned char>(*p)];
+}
 
 /// Sign and number of a word of the common form.
 struct Plain {
@@ -149,8 +155,8 @@ class Lexer {
   bool words() {
     const char* p = at_.p;
     const char* const end = at_.end;
+    while (p != end && is_blank(*p)) ++p;
     for (;;) {
-      while (p != end && is_blank(*p)) ++p;
       if (p == end) break;
       const unsigned letter = static_cast<unsigned>(static_cast<unsigned char>(*p) | 0x20u) - 'a';
       if (letter >= 26) break;
@@ -158,11 +164,13 @@ class Lexer {
       const char* q =
           end - p >= kPlainReach && EightCharacters::kUsable ? plain.scan_by_eight(p + 1) : nullptr;
       if (q == nullptr) q = plain.scan(p + 1, end);
-      while (q != end && is_blank(*q)) ++q;
-      if (!plain.good || (q != end && kContinuesNumber.is[static_cast<unsigned char>(*q)])) {
+      Behind next = behind(q, end);
+      while (next == Behind::blank) next = behind(++q, end);
+      if (!plain.good || next == Behind::more) {
         at_.p = p;
         if (!slow_word()) return false;
         p = at_.p;
+        while (p != end && is_blank(*p)) ++p;
         continue;
       }
       const WordFormat& format = rules_.word[letter];

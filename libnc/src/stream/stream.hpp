@@ -96,6 +96,9 @@ struct Circle {
 enum class Plane : uint8_t { xy = NC_PLANE_XY, zx = NC_PLANE_ZX, yz = NC_PLANE_YZ, none = NC_PLANE_NONE };
 
 struct Move {
+  Move() = default;
+  Move(const AxisVec& from, const AxisVec& to, const Compensation& c) : start(from), end(to), work(to), comp(c) {}
+
   nc_move_kind kind = NC_MOVE_LINE;
   bool circular = false;
   bool exact_stop = false;       ///< at rest at its end: rapid, G09/G61, and what the dialect says

@@ -92,6 +92,8 @@ Did check_company(Interpreter& in) {
 
 Did auxiliary_before(Interpreter& in) {
   BlockWords& w = in.words;
+  // Most blocks have none of the addresses that are looked at here.
+  if (w.m.empty() && !w.any(letters("ABCSTUVWXYZ") & ~in.axis_letters)) return Did::done;
   const bool dgshape = in.dialect->id == NC_DIALECT_DGSHAPE;
   const char second = dgshape ? char{0} : second_address(in);
   Did did = check_axis_letters(in, second);
