@@ -20,15 +20,31 @@ function(nc_link_rooms target visibility)
   endforeach()
 endfunction()
 
-# nc_program(NAME MAIN LIBS...): an installed executable from one file, when that file is there.
+# Debian's library folder below any prefix: it is searched below /usr/local too, and every build tree can make the packages.
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_LIBRARY_ARCHITECTURE AND EXISTS /etc/debian_version)
+  option(NC_MULTIARCH_LIBDIR "Install libraries into lib/${CMAKE_LIBRARY_ARCHITECTURE} where it would be lib" ON)
+  if(NC_MULTIARCH_LIBDIR AND CMAKE_INSTALL_LIBDIR STREQUAL "lib")
+    set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE})
+    set(CMAKE_INSTALL_FULL_LIBDIR ${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR})
+  endif()
+endif()
+
+# nc_program(NAME MAIN LIBS...): an installed executable from one file, when that file is there. Every symbol is bound at the start
+# (none is looked up in a scan), and only the libraries that are used are asked for.
 function(nc_program name main)
   if(NOT EXISTS ${main})
     return()
   endif()
   add_executable(${name} ${main})
   nc_host_options(${name})
+  target_link_options(${name} PRIVATE -Wl,--as-needed -Wl,-z,relro -Wl,-z,now)
   nc_link_rooms(${name} PRIVATE ${ARGN})
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  if(name MATCHES "^nc(rtd|dds)$")
+    set(component ncrtd)
+  else()
+    set(component nc_tools)
+  endif()
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component})
 endfunction()
 
 # nc_use_eigen(TARGET): for tests and benches that include private headers of libnc.

@@ -15,6 +15,9 @@ enum class AlarmId : std::uint8_t {
   kDriveFault,
   kSoftLimit,
   kHalLost,
+  kFinTimeout,
+  kLadder,         // plc.alarm.1...; the texts are the configuration's
+  kLadderStopped,
   kProgram,  // an alarm of libnc; code and text come from there
   kCount
 };
@@ -32,6 +35,9 @@ inline constexpr AlarmRow kAlarmTable[] = {
     {AlarmId::kDriveFault, "R12", "Drive fault"},
     {AlarmId::kSoftLimit, "R13", "Commanded position outside the soft limits"},
     {AlarmId::kHalLost, "R14", "No connection to the machine"},
+    {AlarmId::kFinTimeout, "R15", "FIN does not come"},
+    {AlarmId::kLadder, "R16", "Alarm of the ladder"},
+    {AlarmId::kLadderStopped, "R17", "The ladder program has stopped"},
     {AlarmId::kProgram, "", "Program alarm"},
 };
 
@@ -48,6 +54,8 @@ struct ActiveAlarm {
   std::uint8_t system = 0;  // index of the part system
   std::uint64_t scan = 0;   // when it came
   nc_source source{};       // block in execution at that moment
+  std::uint32_t detail = 0; // R15: groups that wait (bit 0 M, 1 S, 2 T, 3 B); R16: number; R17: line
+  std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M
 };
 
 inline constexpr unsigned kMaxActiveAlarms = 16;

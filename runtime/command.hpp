@@ -45,6 +45,7 @@ enum class Answer : std::uint8_t {
   kQueueFull,
   kNotInThisMode,
   kNotWhileRunning,  // a program is in execution or interrupted: reset first
+  kMiddleOfBlock,    // the program stands in the middle of a block: manual motion is possible at its end
   kNoProgram,        // nothing selected
   kAlarmActive,      // reset first
   kResetting,        // the reset is still going on
@@ -65,6 +66,8 @@ constexpr const char* answer_text(Answer answer) {
       return "not in this mode";
     case Answer::kNotWhileRunning:
       return "a program is in execution: reset first";
+    case Answer::kMiddleOfBlock:
+      return "the program stands in the middle of a block: go on to its end (single block), or reset";
     case Answer::kNoProgram:
       return "no program is selected";
     case Answer::kAlarmActive:

@@ -2,6 +2,8 @@
 // Machine configuration: defaults, reading of the file, its sections in order. See config.hpp.
 #include "runtime/config.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -60,9 +62,13 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   read_parameters(&reader, &read);
   read_work_offsets(&reader, &read);
   read_tool_offsets(&reader, &read);
+  read_modbus(&reader, &read);
   read_points(&reader, &read);
+  check_modbus(&reader, read);
   read_macro_interface(&reader, &read);
+  read_ladder(&reader, &read);
   read_sim(&reader, &read);
+  read_share(&reader, &read);
   reader.finish();
   if (errors.empty() && nc_memory_required(&read.nc) == 0)
     errors.add(0, "", "the control refuses this combination of axes and sizes");
@@ -71,10 +77,27 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   return found;
 }
 
+std::vector<ConfigError> check_host(const Config& config) {
+  ErrorList errors(config.file);
+  const long processors = sysconf(_SC_NPROCESSORS_CONF);
+  const SchedulingConfig& scheduling = config.scheduling;
+  if (processors > 0 && scheduling.cpu >= processors)
+    errors.add(scheduling.cpu_place.line, scheduling.cpu_place.key,
+               "this computer has the processors 0 to " + std::to_string(processors - 1) + ", not " +
+                   std::to_string(scheduling.cpu));
+  std::error_code ignored;
+  const std::string folder = config.programs_folder();
+  if (!std::filesystem::is_directory(folder.empty() ? "." : folder, ignored))
+    errors.add(config.programs_place.line, config.programs_place.key,
+               "there is no folder \"" + folder + "\"");
+  return errors.take();
+}
+
 std::vector<ConfigError> load_config(const std::string& path, Config* config) {
   std::error_code ignored;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path, ignored))
+  if (std::filesystem::is_directory(path, ignored)) return {{path, 0, "", "cannot be read: is a folder"}};
+  if (!stream)
     return {
         {path, 0, "", std::string("cannot be read: ") + (errno != 0 ? std::strerror(errno) : "not a file")}};
   std::ostringstream text;

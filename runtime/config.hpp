@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/modbus/map.hpp"
 #include "hal/points.hpp"
 #include "hal/sim/sim_machine.hpp"
 #include "nc/control.h"
@@ -68,6 +69,7 @@ struct MacroMap {
 };
 
 struct SchedulingConfig {
+  ConfigPlace cpu_place;
   bool fifo = true;         // SCHED_FIFO, else SCHED_OTHER
   int priority = 80;        // of the scan thread
   int cpu = -1;             // core of the scan thread; -1 = any
@@ -77,10 +79,33 @@ struct SchedulingConfig {
   unsigned overrun_limit = 10;  // the reaction comes when so many slots were missed since the last reset
 };
 
+// The machine's ladder program.
+struct LadderConfig {
+  std::string program;      // file, relative to the configuration's folder unless absolute; empty = none
+  double fin_timeout_s = 0; // FIN that does not come within this time is an alarm; 0 = wait for ever
+  std::array<std::string, 8> alarm;  // texts of plc.alarm.1 ... .8
+};
+
+// A Modbus link; the n-th is bus n of the points, counted from 1.
+struct ModbusLinkConfig {
+  hal::modbus::LinkConfig link;
+  std::uint8_t unit = 1;  // of points that name none
+  ConfigPlace place;
+};
+
+// The shared-memory segment for readers in other processes (runtime/share/).
+struct ShareConfig {
+  bool enabled = false;
+  std::string name;            // empty = from the machine's name
+  bool commands = false;       // take commands from it
+  bool group = false;          // readers of the same group too (0660)
+};
+
 struct Config {
   std::string file;  // name of the file, for messages
   std::string name = "machine";
   std::string programs = ".";  // folder of programs, relative to the file's folder unless absolute
+  ConfigPlace programs_place;
   unsigned cycle_us = 1000;
   nc_config nc;  // everything that libnc is created with
   SchedulingConfig scheduling;
@@ -90,11 +115,18 @@ struct Config {
   std::vector<ToolOffsetSetting> tool_offsets;
   hal::PointTable points;
   MacroMap macro;
+  std::vector<ModbusLinkConfig> modbus;
+  LadderConfig ladder;
   hal::SimConfig sim;
+  ShareConfig share;
 
   Config();
   // Folder of programs as a path that can be opened.
   std::string programs_folder() const;
+  // What the links are made from, in the order of their buses.
+  std::vector<hal::modbus::LinkConfig> modbus_links() const;
+  // The ladder program in the same way.
+  std::string ladder_file() const;
 };
 
 // Parse a text. `file` is used in messages only. Returns the errors; empty = *config is valid.
@@ -102,6 +134,9 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
 
 // Read and parse a file.
 std::vector<ConfigError> load_config(const std::string& path, Config* config);
+
+// What the file asks of the computer that it is used on: processors, folders.
+std::vector<ConfigError> check_host(const Config& config);
 
 // Parameters, offsets and start position into a control. What the control refuses is an error with its place
 // in the file.

@@ -146,6 +146,7 @@ void read_points(TableReader* root, Config* config) {
       point.direction = word == 0 ? hal::PointDirection::kInput : hal::PointDirection::kOutput;
     const std::int64_t top = point.type == hal::PointType::kBit ? 1 : 0xFFFFFFFFll;
     reader.integer("initial", &point.initial, 0, top);
+    point.bus = read_point_modbus(&reader, point, config);
     if (!named) return;
     if (!valid_point_name(point.name))
       reader.error("name", "must be 1 to 64 letters, digits, '_', '-' or '.'");
@@ -172,6 +173,7 @@ void read_sim(TableReader* root, Config* config) {
     reader.number("tool_change_s", &sim.tool_change_s, 0, kMaxSeconds);
     reader.number("tool_select_s", &sim.tool_select_s, 0, kMaxSeconds);
     reader.number("m_time_s", &sim.m_time_s, 0, kMaxSeconds);
+    read_sim_plant(&reader, config);
     reader.tables("solid", [&](TableReader& solid, std::size_t) { read_solid(&solid, config); });
     std::vector<std::pair<std::string, unsigned>> statements;
     reader.strings("script", &statements);

@@ -23,11 +23,11 @@ struct AxisEntry {
 void read_limits(TableReader* reader, AxisEntry* entry) {
   nc_axis_config& axis = entry->axis;
   for (const char* key : {"max_velocity", "max_acceleration"}) reader->require(key);
-  reader->number("max_velocity", &axis.max_velocity, 1e-3, kMaxRate);
+  const bool limited = reader->number("max_velocity", &axis.max_velocity, 1e-3, kMaxRate);
   reader->number("max_acceleration", &axis.max_acceleration, 1e-3, kMaxRate);
   reader->number("max_jerk", &axis.max_jerk, 0, kMaxRate);
   axis.rapid = axis.max_velocity;
-  if (reader->number("rapid", &axis.rapid, 1e-3, kMaxRate) && axis.rapid > axis.max_velocity)
+  if (reader->number("rapid", &axis.rapid, 1e-3, kMaxRate) && limited && axis.rapid > axis.max_velocity)
     reader->error("rapid", "must not be above max_velocity (" + number_text(axis.max_velocity) + ")");
   reader->number("in_position", &axis.in_position, 1e-6, kMaxLength);
   std::vector<double> numbers;
@@ -98,6 +98,7 @@ void read_machine(TableReader* root, Config* config) {
     if (reader.choice("dialect", {"m700", "dgshape"}, &word)) nc.dialect = static_cast<std::uint8_t>(word);
     reader.choice("hal", {"sim"}, &word);
     reader.string("programs", &config->programs);
+    config->programs_place = {reader.line("programs"), reader.path("programs")};
     reader.integer("cycle_us", &config->cycle_us, 100, 100000);
     nc.cycle_s = config->cycle_us * 1e-6;
     if (reader.integer("look_ahead", &nc.look_ahead, 64, 65536) && !std::has_single_bit(nc.look_ahead))
@@ -120,6 +121,7 @@ void read_scheduling(TableReader* root, Config* config) {
     if (reader.choice("policy", {"fifo", "other"}, &word)) scheduling.fifo = word == 0;
     reader.integer("priority", &scheduling.priority, 1, 98);
     reader.integer("cpu", &scheduling.cpu, -1, 1023);
+    scheduling.cpu_place = {reader.line("cpu"), reader.path("cpu")};
     reader.boolean("lock_memory", &scheduling.lock_memory);
     reader.integer("feeder_us", &scheduling.feeder_us, 100, 100000);
     if (reader.choice("overrun", {"count", "feed_hold", "alarm"}, &word))

@@ -13,9 +13,19 @@ void read_axes(TableReader* root, Config* config);
 void read_parameters(TableReader* root, Config* config);
 void read_work_offsets(TableReader* root, Config* config);
 void read_tool_offsets(TableReader* root, Config* config);
+// [[modbus]]: before the points, which name their links. Adds the points "<link>.ok".
+void read_modbus(TableReader* root, Config* config);
 void read_points(TableReader* root, Config* config);
+// The `modbus` table of a [[point]] that is about to be added; returns its bus, 0 = the machine's own.
+std::uint8_t read_point_modbus(TableReader* point_reader, const hal::Point& point, Config* config);
+// After the points.
+void check_modbus(TableReader* root, const Config& config);
 void read_macro_interface(TableReader* root, Config* config);
+void read_ladder(TableReader* root, Config* config);
 void read_sim(TableReader* root, Config* config);
+void read_share(TableReader* root, Config* config);  // runtime/share/config_share.cpp
+// [sim.spindle] and [sim.tool_changer]; called by read_sim() with the reader of [sim].
+void read_sim_plant(TableReader* sim, Config* config);
 
 // "X" = axis X of part system 1, "X2" = axis X of part system 2. False when there is none.
 bool find_axis(const Config& config, std::string_view name, unsigned* system, unsigned* axis);

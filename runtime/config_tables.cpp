@@ -58,7 +58,7 @@ void read_parameters(TableReader* root, Config* config) {
             reader.errors()->add(place.line, place.key, no_axis(axis_name.str()));
           else if (!text)
             reader.errors()->add(place.line, place.key,
-                                 std::string("must be a number or a word, not ") + type_name(value));
+                                 std::string("must be a number or a word, not ") + shown_type(value));
           else
             config->parameters.push_back({key, axis_name.str()[0], system, *text, place});
         }
@@ -67,7 +67,7 @@ void read_parameters(TableReader* root, Config* config) {
       const auto text = value_text(node);
       if (!text)
         reader.error(
-            key, std::string("must be a finite number, a word, or a table by axis, not ") + type_name(node));
+            key, std::string("must be a finite number, a word, or a table by axis, not ") + shown_type(node));
       else
         config->parameters.push_back({key, 0, 0, *text, {line_of(node), reader.path(key)}});
     });
@@ -85,7 +85,7 @@ void read_work_offsets(TableReader* root, Config* config) {
       }
       const toml::table* table = node.as_table();
       if (table == nullptr) {
-        reader.error(name, std::string("must be a table by axis, not ") + type_name(node));
+        reader.error(name, std::string("must be a table by axis, not ") + shown_type(node));
         return;
       }
       TableReader by_axis(*table, reader.path(name), reader.errors());

@@ -25,6 +25,11 @@ void Feeder::set_mdi_text(const std::string& text) {
   mdi_text_ = text;
 }
 
+void Feeder::set_program_name(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  program_name_ = name;
+}
+
 void Feeder::step() {
   seen_ = scan_->snapshot();
   take_events();
@@ -38,11 +43,14 @@ void Feeder::step() {
     if (path_sink_ != nullptr) path_sink_->moved(sample);
   take_messages();
   take_alarm();
+  take_modal();
   bool ready = false;
   for (unsigned s = 0; s < systems_; ++s) ready |= system_[s].selected;
   scan_->set_program_ready(ready);
   const std::lock_guard lock(mutex_);
   info_.program_ready = ready;
+  for (unsigned s = 0; s < systems_; ++s)
+    info_.selected[s] = {system_[s].selected, system_[s].mdi, system_[s].file};
 }
 
 Answer Feeder::apply(const Command& command) {
@@ -61,6 +69,16 @@ Answer Feeder::apply(const Command& command) {
 
 Answer Feeder::select(unsigned system, std::uint32_t file) {
   if (seen_.mode != Mode::kAuto) return Answer::kNotInThisMode;
+  if (file == kProgramByName) {
+    std::string name;
+    {
+      const std::lock_guard lock(mutex_);
+      name = program_name_;
+    }
+    unsigned loaded = 0;
+    if (!loader_ || !loader_(name, &loaded)) return Answer::kNoProgram;
+    file = loaded;
+  }
   if (nc_->select(system, file) < 0) return Answer::kRefusedByControl;
   system_[system] = {true, false, file, false, false};
   const std::lock_guard lock(mutex_);
@@ -159,6 +177,20 @@ void Feeder::take_messages() {
     const std::lock_guard lock(mutex_);
     info_.last_message = text.s;
     ++info_.messages;
+  }
+}
+
+// The modal state of the last finished block, for displays.
+void Feeder::take_modal() {
+  for (unsigned s = 0; s < systems_; ++s) {
+    const std::uint32_t id = seen_.system[s].nc.modal;
+    if (id == modal_id_[s] && info_.modal_known[s]) continue;  // only this thread writes them
+    nc_modal modal;
+    if (nc_->modal(s, id, &modal) != NC_OK) continue;
+    modal_id_[s] = id;
+    const std::lock_guard lock(mutex_);
+    info_.modal[s] = modal;
+    info_.modal_known[s] = true;
   }
 }
 

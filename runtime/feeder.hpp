@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -43,7 +44,20 @@ struct FeederInfo {
   nc_alarm program_alarm{};
   std::uint64_t messages = 0;  // so far
   std::string last_message;
+  // By part system: what is selected, and the modal state that the last finished block left.
+  struct Selected {
+    bool any = false, mdi = false;
+    std::uint32_t file = 0;
+  };
+  Selected selected[NC_MAX_SYSTEMS];
+  bool modal_known[NC_MAX_SYSTEMS] = {};
+  nc_modal modal[NC_MAX_SYSTEMS] = {};
 };
+
+// Enters the program of this name into the store: feeder thread, while nothing runs.
+using ProgramLoader = std::function<bool(const std::string& name, unsigned* file)>;
+// kSelectProgram with this number selects the program given by name.
+inline constexpr std::uint32_t kProgramByName = ~0u;
 
 class Feeder {
  public:
@@ -56,12 +70,14 @@ class Feeder {
   bool post(const Command& command) { return commands_.push(command); }
   bool poll_answer(CommandAnswer* answer) { return answers_.pop(answer); }
   void set_mdi_text(const std::string& text);  // before kLoadMdi
+  void set_program_name(const std::string& name);  // before kSelectProgram with kProgramByName
 
   // ---- any thread ----
   FeederInfo info() const;
 
   // Before the threads start.
   void set_sink(EventSink* sink) { sink_ = sink; }
+  void set_program_loader(ProgramLoader loader) { loader_ = std::move(loader); }
   void set_path_sink(PathSink* sink) {
     path_sink_ = sink;
     scan_->record_positions();
@@ -76,6 +92,7 @@ class Feeder {
   void take_events();
   void take_messages();
   void take_alarm();
+  void take_modal();
   void rewind_ended();
 
   const unsigned systems_;
@@ -97,7 +114,9 @@ class Feeder {
   SpscQueue<CommandAnswer, 128> answers_;
   mutable std::mutex mutex_;  // guards info_ and mdi_text_; never taken by the scan
   FeederInfo info_;
-  std::string mdi_text_;
+  std::string mdi_text_, program_name_;
+  ProgramLoader loader_;
+  std::uint32_t modal_id_[NC_MAX_SYSTEMS] = {};
 };
 
 }  // namespace nc::rt

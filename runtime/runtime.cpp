@@ -18,6 +18,22 @@ constexpr std::size_t kControlAlignment = 64;
 constexpr unsigned kAnswerSteps = 100;  // virtual time: scans until an answer must be there
 constexpr auto kAnswerTime = std::chrono::milliseconds(500);  // real time
 
+// "M6", "M3 S": the groups that wait; the code of the first of M and T.
+std::string fin_text(std::uint32_t groups, std::uint32_t code) {
+  std::string text;
+  bool coded = false;
+  for (unsigned g = 0; g < 4; ++g) {
+    if ((groups >> g & 1u) == 0) continue;
+    if (!text.empty()) text += ' ';
+    text += "MSTB"[g];
+    if (!coded && (g == 0 || g == 2)) {
+      text += std::to_string(code);
+      coded = true;
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 void Runtime::FreeMemory::operator()(void* memory) const {
@@ -32,6 +48,11 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
                                          std::vector<ConfigError>* errors) {
   std::unique_ptr<Runtime> runtime(new Runtime(config, parts));
   if (parts.nc == nullptr && !runtime->make_control(errors)) return nullptr;
+  if (parts.ladder == nullptr && !config.ladder.program.empty()) {
+    runtime->own_ladder_ = LadderTask::create(config, errors);
+    if (runtime->own_ladder_ == nullptr) return nullptr;
+    runtime->parts_.ladder = runtime->own_ladder_.get();
+  }
   runtime->scan_ =
       std::make_unique<Scan>(config, parts.clock, parts.hal, runtime->parts_.ladder, runtime->parts_.nc);
   runtime->feeder_ =
@@ -180,6 +201,11 @@ bool Runtime::find_answer(std::uint64_t ticket, bool from_feeder, Answer* answer
 }
 
 Answer Runtime::execute(Command command) {
+  const std::lock_guard lock(operator_);
+  return execute_alone(command);
+}
+
+Answer Runtime::execute_alone(Command command) {
   if (!running_ && !stepping_) return Answer::kNoAnswer;
   command.ticket = next_ticket_++;
   const bool feeder = for_feeder(command.kind);
@@ -209,9 +235,23 @@ Answer Runtime::execute(CommandKind kind, double value, std::uint32_t number) {
   return execute(command);
 }
 
-Answer Runtime::load_mdi(const std::string& text) {
+Answer Runtime::load_mdi(const std::string& text, unsigned system) {
+  const std::lock_guard lock(operator_);
   feeder_->set_mdi_text(text);
-  return execute(CommandKind::kLoadMdi);
+  Command command;
+  command.kind = CommandKind::kLoadMdi;
+  command.system = static_cast<std::uint8_t>(system);
+  return execute_alone(command);
+}
+
+Answer Runtime::select_program(unsigned system, const std::string& name) {
+  const std::lock_guard lock(operator_);
+  feeder_->set_program_name(name);
+  Command command;
+  command.kind = CommandKind::kSelectProgram;
+  command.system = static_cast<std::uint8_t>(system);
+  command.number = kProgramByName;
+  return execute_alone(command);
 }
 
 std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
@@ -226,6 +266,13 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   }
   const AlarmRow& row = alarm_row(alarm.id);
   std::string text = std::string(row.code) + " " + row.text;
+  if (alarm.id == AlarmId::kFinTimeout) text += ": " + fin_text(alarm.detail, alarm.code);
+  if (alarm.id == AlarmId::kLadder) {
+    const std::string& own = config_.ladder.alarm[alarm.detail % config_.ladder.alarm.size()];
+    text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);
+  }
+  if (alarm.id == AlarmId::kLadderStopped)
+    text += ": " + config_.ladder.program + ", line " + std::to_string(alarm.detail);
   if (alarm.axis >= 0) text += std::string(", axis ") + config_.nc.system[alarm.system].axis[alarm.axis].name;
   if (alarm.source.line != 0) text += " (line " + std::to_string(alarm.source.line) + ")";
   return text;

@@ -6,16 +6,18 @@
 //   often as it likes:
 //                  deterministic, and as fast as the processor
 //
-// Commands come from one thread. Everything else about a Runtime may be read from any thread.
+// Commands may come from several threads: one waits for the other. Everything else about a Runtime may be read from any thread.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "runtime/feeder.hpp"
+#include "runtime/ladder_task.hpp"
 #include "runtime/rt_thread.hpp"
 #include "runtime/scan.hpp"
 
@@ -24,7 +26,7 @@ namespace nc::rt {
 struct RuntimeParts {
   Clock* clock = nullptr;        // required
   hal::Hal* hal = nullptr;       // required
-  LadderHook* ladder = nullptr;  // none = an empty one
+  LadderHook* ladder = nullptr;  // none = the program of the configuration, or an empty one
   NcPort* nc = nullptr;          // none = libnc, made from the configuration
 };
 
@@ -41,6 +43,8 @@ class Runtime {
   // The control, for programs and tables before the start (afterwards it belongs to the feeder). Null with a
   // foreign NcPort.
   nc_control* control() { return control_; }
+  // The configuration's ladder program; null without one.
+  const LadderTask* ladder() const { return own_ladder_.get(); }
   // Before the start.
   void set_sink(EventSink* sink) { feeder_->set_sink(sink); }
   void set_path_sink(PathSink* sink) { feeder_->set_path_sink(sink); }
@@ -58,12 +62,16 @@ class Runtime {
   bool start_stepping(std::string* error);
   void step();
 
-  // ---- operator (one thread) ----
+  // How programs are found by name. Before the start.
+  void set_program_loader(ProgramLoader loader) { feeder_->set_program_loader(std::move(loader)); }
+
+  // ---- operator ----
   // Hands the command over and waits for the answer (on virtual time by stepping).
   Answer execute(Command command);
   Answer execute(CommandKind kind, double value = 0, std::uint32_t number = 0);
   Answer select_program(unsigned file) { return execute(CommandKind::kSelectProgram, 0, file); }
-  Answer load_mdi(const std::string& text);
+  Answer load_mdi(const std::string& text, unsigned system = 0);
+  Answer select_program(unsigned system, const std::string& name);  // through the program loader
 
   // ---- anyone ----
   Snapshot snapshot() const { return scan_->snapshot(); }
@@ -79,12 +87,14 @@ class Runtime {
   bool bring_up(std::string* error);
   void scan_thread();
   void feeder_thread();
+  Answer execute_alone(Command command);
   bool find_answer(std::uint64_t ticket, bool from_feeder, Answer* answer);
   void wake_feeder();
 
   const Config& config_;
   RuntimeParts parts_;
   LadderHook empty_ladder_;
+  std::unique_ptr<LadderTask> own_ladder_;
   struct FreeMemory {
     void operator()(void* memory) const;
   };
@@ -101,6 +111,7 @@ class Runtime {
   std::vector<std::string> warnings_, thread_warnings_;
   int wake_fd_ = -1;
   bool running_ = false, stepping_ = false;
+  std::mutex operator_;       // one command at a time; never taken by the scan or the feeder
   std::uint64_t next_ticket_ = 1;
 };
 

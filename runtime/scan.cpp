@@ -67,8 +67,7 @@ void Scan::run_once() noexcept {
   ++scan_;
   scan_time_ns_ = clock_->now_ns();
   read_inputs();
-  LadderImage image{&config_.points, &points_, &feedback_, out_, in_, systems_};
-  ladder_->scan(&image);
+  run_ladder();
   for (unsigned s = 0; s < systems_; ++s) {  // what the ladder left in the points is what the program reads
     macro_.gather(points_, interface_input_);
     for (unsigned w = 0; w < NC_WORDS; ++w) in_[s].input[w] = interface_input_[w];
@@ -86,7 +85,9 @@ void Scan::read_inputs() noexcept {
   hal_->read(&feedback_, &points_);
   take_commands();
   watch_machine();
+  watch_standstill();
   watch_overruns();
+  watch_fin();
   build_nc_inputs();
 }
 
@@ -104,10 +105,7 @@ Answer Scan::apply(const Command& command) noexcept {
   switch (command.kind) {
     case CommandKind::kSetMode:
       if (command.number > static_cast<std::uint32_t>(Mode::kManual)) return Answer::kOutOfRange;
-      if (static_cast<Mode>(command.number) == mode_) return Answer::kDone;
-      if (program_active() || !at_rest()) return Answer::kNotWhileRunning;
-      mode_ = static_cast<Mode>(command.number);
-      return Answer::kDone;
+      return set_mode(static_cast<Mode>(command.number));
     case CommandKind::kCycleStart:
       return start_cycle();
     case CommandKind::kFeedHold:
@@ -115,10 +113,7 @@ Answer Scan::apply(const Command& command) noexcept {
       hold_request_ = program_active();
       return Answer::kDone;
     case CommandKind::kReset:
-      if (reset_phase_ == ResetPhase::kNone) {
-        reset_phase_ = ResetPhase::kStopping;
-        reset_scans_ = 0;
-      }
+      request_reset();
       return Answer::kDone;
     case CommandKind::kFeedOverride:
       if (!(command.value >= 0 && command.value <= config_.nc.max_feed_override)) return Answer::kOutOfRange;
@@ -146,6 +141,25 @@ Answer Scan::apply(const Command& command) noexcept {
   return Answer::kOutOfRange;
 }
 
+// A program in a block stop may be interrupted by manual motion; it goes on in the mode in which it was
+// started.
+Answer Scan::set_mode(Mode mode) noexcept {
+  if (mode == mode_) return Answer::kDone;
+  if (!at_rest()) return Answer::kNotWhileRunning;
+  const bool active = program_active();
+  for (unsigned s = 0; s < systems_; ++s) {
+    const std::uint8_t state = out_[s].state;
+    if (state == NC_STATE_RUNNING || state == NC_STATE_MANUAL) return Answer::kNotWhileRunning;
+    if (!active) continue;
+    if (mode == Mode::kManual && (state == NC_STATE_HOLD || state == NC_STATE_STOPPED) &&
+        !out_[s].manual_allowed)
+      return Answer::kMiddleOfBlock;
+    if (mode != Mode::kManual && mode != program_mode_) return Answer::kNotWhileRunning;
+  }
+  mode_ = mode;
+  return Answer::kDone;
+}
+
 Answer Scan::start_cycle() noexcept {
   if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
   if (reset_phase_ != ResetPhase::kNone) return Answer::kResetting;
@@ -153,6 +167,7 @@ Answer Scan::start_cycle() noexcept {
   for (unsigned s = 0; s < systems_; ++s)
     if (out_[s].state == NC_STATE_RUNNING) return Answer::kAlreadyRunning;
   if (!program_active() && !program_ready_.load(std::memory_order_acquire)) return Answer::kNoProgram;
+  if (!program_active()) program_mode_ = mode_;
   start_pulse_ = true;
   hold_request_ = false;
   return Answer::kDone;
@@ -195,6 +210,7 @@ void Scan::build_nc_inputs() noexcept {
     in.single_block = single_block_;
     in.optional_stop = optional_stop_;
     in.fin = machine.fin;
+    in.fin2 = false;
     in.interlock = false;
     // A program alarm is libnc's own state; the level is for what the machine does wrong.
     in.alarm = false;
@@ -205,6 +221,7 @@ void Scan::build_nc_inputs() noexcept {
     in.spindle_rev_per_s = machine.spindle_rev_per_s;
     in.actual_valid = machine.actual_valid;
     in.actual = machine.actual;
+    in.follow_up = drives_off_ && !feedback_.lost;
     in.clock_ms = local_ms;
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       Jog& jog = jog_[s][a];
@@ -226,15 +243,12 @@ void Scan::build_nc_inputs() noexcept {
 // ---- 4 outputs ----
 
 void Scan::write_outputs() noexcept {
-  watch_soft_limits();
-  bool enable = true;
-  for (unsigned i = 0; i < alarms_.count; ++i)
-    if (alarms_.alarm[i].id == AlarmId::kDriveFault || alarms_.alarm[i].id == AlarmId::kHalLost)
-      enable = false;
+  if (!drives_off_) watch_soft_limits();  // the axes may have coasted anywhere
+  drives_off_ |= machine_faulty();
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
     macro_.distribute(s, out.output, &points_);
-    machine_.system[s] = {enable,
+    machine_.system[s] = {!drives_off_,
                           out.command,
                           out.velocity,
                           out.strobe,
@@ -266,19 +280,22 @@ void Scan::follow_requests() noexcept {
   bool running = false;
   for (unsigned s = 0; s < systems_; ++s) {
     running |= out_[s].state == NC_STATE_RUNNING;
-    if (out_[s].state == NC_STATE_ALARM) raise(AlarmId::kProgram, s, -1);
+    // The NC's own alarm, not the one that it was given.
+    const bool alarm = out_[s].state == NC_STATE_ALARM;
+    alarm_was_given_[s] = alarm && (alarm_was_given_[s] || in_[s].alarm);
+    if (alarm && !alarm_was_given_[s] && reset_phase_ == ResetPhase::kNone) raise(AlarmId::kProgram, s, -1);
   }
   if (!running) hold_request_ = false;
   if (reset_phase_ == ResetPhase::kStopping) {
     ++reset_scans_;
-    if (reset_scans_ >= kResetMinScans && !program_active() && at_rest()) {
+    if (reset_scans_ >= kResetMinScans && !program_active() && at_rest() && axes_stand()) {
       reset_phase_ = ResetPhase::kFeeder;
       reset_rest_.fetch_add(1, std::memory_order_release);
     }
   } else if (reset_phase_ == ResetPhase::kFeeder &&
              reset_done_.load(std::memory_order_acquire) == reset_rest_.load(std::memory_order_relaxed)) {
     reset_phase_ = ResetPhase::kNone;
-    acknowledge_alarms();
+    drives_off_ = machine_faulty();
   }
 }
 

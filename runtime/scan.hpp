@@ -5,8 +5,10 @@
 //
 //   1 inputs    HAL read: positions, FIN, skip, input points; operator commands; macro interface inputs
 //   2 ladder    sees this scan's inputs and the NC's outputs of the scan before; has the last word on what
-//   the NC gets 3 NC        nc_cycle(): one set of positions 4 outputs   macro interface outputs into the
-//   points; HAL write 5 snapshot  one consistent copy for readers
+//               the NC gets
+//   3 NC        nc_cycle(): one set of positions
+//   4 outputs   macro interface outputs into the points; HAL write
+//   5 snapshot  one consistent copy for readers
 //
 // run_once() is NC_RT: no allocation, no lock, no system call, bounded work. Everything it exchanges with
 // other threads goes through single-producer queues, atomics and one sequence lock.
@@ -95,8 +97,13 @@ class Scan {
   void take_commands() noexcept;
   Answer apply(const Command& command) noexcept;
   Answer start_cycle() noexcept;
+  Answer set_mode(Mode mode) noexcept;
   Answer manual(const Command& command) noexcept;
   void build_nc_inputs() noexcept;
+  void run_ladder() noexcept;
+  void follow_ladder(const LadderRequests& requests) noexcept;
+  void watch_fin() noexcept;
+  void request_reset() noexcept;
   void write_outputs() noexcept;
   void watch_machine() noexcept;
   void watch_soft_limits() noexcept;
@@ -105,10 +112,13 @@ class Scan {
   void record_position(unsigned system) noexcept;
   void publish() noexcept;
 
-  void raise(AlarmId id, unsigned system, int axis) noexcept;
+  void raise(AlarmId id, unsigned system, int axis, std::uint32_t detail = 0, std::uint32_t code = 0) noexcept;
   void acknowledge_alarms() noexcept;
   bool program_active() const noexcept;
   bool at_rest() const noexcept;
+  bool machine_faulty() const noexcept;
+  bool axes_stand() const noexcept;
+  void watch_standstill() noexcept;
 
   const Config& config_;
   Clock* clock_;
@@ -129,9 +139,18 @@ class Scan {
   hal::Command machine_{};
 
   Mode mode_ = Mode::kAuto;
+  Mode program_mode_ = Mode::kAuto;  // in which the program that is active was started
   double feed_override_ = 1, rapid_override_ = 1;
   bool single_block_ = false, optional_stop_ = false;
+  LadderRequests last_requests_;     // of the scan before
+  unsigned ladder_start_scans_ = 0;  // the ladder's cycle start has been on for
+  std::uint64_t fin_scans_[NC_MAX_SYSTEMS] = {};  // a part system has waited for FIN for
   bool start_pulse_ = false, hold_request_ = false;
+  // From a fault of the machine to the end of the reset; the commanded position follows the measured one.
+  bool drives_off_ = false;
+  nc_axes stood_at_[NC_MAX_SYSTEMS] = {};  // measured
+  unsigned stood_scans_ = 0;
+  bool alarm_was_given_[NC_MAX_SYSTEMS] = {};  // the NC's alarm state comes from an alarm of the runtime
   Jog jog_[NC_MAX_SYSTEMS][NC_MAX_AXES];
   bool message_seen_[NC_MAX_SYSTEMS] = {};
   ResetPhase reset_phase_ = ResetPhase::kNone;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the scan watches: the machine's faults, the soft limits as a last line behind the program's own check,
 // overruns; and the list of alarms that follows.
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/scan.hpp"
@@ -9,6 +10,9 @@ namespace nc::rt {
 namespace {
 
 constexpr double kSoftLimitSlack = 1e-6;  // mm or deg: rounding of a position that stands on its limit
+
+constexpr double kStandstill = 0.005;  // mm or deg: more than an encoder's noise
+constexpr unsigned kStandstillScans = 5;
 
 }  // namespace
 
@@ -24,6 +28,40 @@ bool Scan::at_rest() const noexcept {
   for (unsigned s = 0; s < systems_; ++s)
     if (!out_[s].distance_zero) return false;
   return true;
+}
+
+// While the drives are off the axes coast. They come on again when every axis has stayed in one place for
+// some scans: the command has followed, so what an axis still moves between two scans is all that the drive
+// has to catch up.
+void Scan::watch_standstill() noexcept {
+  if (feedback_.lost) {
+    stood_scans_ = 0;
+    return;
+  }
+  bool stands = drives_off_;
+  for (unsigned s = 0; s < systems_; ++s) {
+    if (!feedback_.system[s].actual_valid) continue;
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
+      stands &= std::abs(feedback_.system[s].actual.v[a] - stood_at_[s].v[a]) <= kStandstill;
+    }
+  }
+  if (stands) {
+    stood_scans_ = std::min(stood_scans_ + 1, kStandstillScans);
+    return;
+  }
+  stood_scans_ = 0;
+  for (unsigned s = 0; s < systems_; ++s) stood_at_[s] = feedback_.system[s].actual;
+}
+
+bool Scan::axes_stand() const noexcept {
+  return !drives_off_ || feedback_.lost || stood_scans_ >= kStandstillScans;
+}
+
+// Faults at which the drives are switched off.
+bool Scan::machine_faulty() const noexcept {
+  for (unsigned i = 0; i < alarms_.count; ++i)
+    if (alarms_.alarm[i].id == AlarmId::kDriveFault || alarms_.alarm[i].id == AlarmId::kHalLost) return true;
+  return false;
 }
 
 void Scan::watch_machine() noexcept {
@@ -72,12 +110,24 @@ void Scan::watch_overruns() noexcept {
   missed_since_reset_ = 0;
 }
 
+// A completion that does not come is named with what it is waited for. Time in a hold does not count.
+void Scan::watch_fin() noexcept {
+  if (config_.ladder.fin_timeout_s <= 0) return;
+  const auto most = static_cast<std::uint64_t>(config_.ladder.fin_timeout_s * 1e9 / static_cast<double>(period_ns_));
+  for (unsigned s = 0; s < systems_; ++s) {
+    const nc_outputs& out = out_[s];
+    const bool waits = out.state == NC_STATE_RUNNING && out.cause == NC_CAUSE_FIN && out.fin_wait != 0;
+    fin_scans_[s] = waits ? fin_scans_[s] + 1 : 0;
+    if (fin_scans_[s] > most) raise(AlarmId::kFinTimeout, s, -1, out.fin_wait, (out.fin_wait & 1) != 0 ? out.m : out.t);
+  }
+}
+
 // Each cause stands in the list once; the list is long enough for all of them on all axes that can fail
 // together in practice, and what does not fit is behind sixteen others that stop the machine already.
-void Scan::raise(AlarmId id, unsigned system, int axis) noexcept {
+void Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, std::uint32_t code) noexcept {
   for (unsigned i = 0; i < alarms_.count; ++i) {
     const ActiveAlarm& other = alarms_.alarm[i];
-    if (other.id == id && other.system == system && other.axis == axis) return;
+    if (other.id == id && other.system == system && other.axis == axis && other.detail == detail) return;
   }
   if (alarms_.count == kMaxActiveAlarms) return;
   ActiveAlarm& alarm = alarms_.alarm[alarms_.count++];
@@ -85,11 +135,13 @@ void Scan::raise(AlarmId id, unsigned system, int axis) noexcept {
   alarm.axis = static_cast<std::int8_t>(axis);
   alarm.system = static_cast<std::uint8_t>(system);
   alarm.scan = scan_;
+  alarm.detail = detail;
+  alarm.code = code;
   alarm.source = out_[system].source;
 }
 
-// After a reset: an alarm whose cause is still there comes back in the next scan.
 void Scan::acknowledge_alarms() noexcept {
+  for (std::uint64_t& scans : fin_scans_) scans = 0;
   alarms_.count = 0;
   missed_since_reset_ = 0;
 }

@@ -77,8 +77,15 @@ void TableReader::error(std::string_view key, std::string message) {
   errors_->add(line(key), path(key), std::move(message));
 }
 
+// "a number" says nothing when the number is the trouble.
+std::string shown_type(const toml::node& node) {
+  const auto* real = node.as_floating_point();
+  if (real == nullptr || std::isfinite(real->get())) return type_name(node);
+  return std::isnan(real->get()) ? "nan" : real->get() < 0 ? "-inf" : "inf";
+}
+
 void TableReader::wrong_type(std::string_view key, const toml::node& node, const char* wanted) {
-  error(key, std::string("must be ") + wanted + ", not " + type_name(node));
+  error(key, std::string("must be ") + wanted + ", not " + shown_type(node));
 }
 
 bool TableReader::number(std::string_view key, double* value, double min, double max) {
@@ -177,7 +184,7 @@ bool TableReader::numbers(std::string_view key, std::vector<double>* values, std
     double number = 0;
     if (!node_number(element, &number)) {
       errors_->add(line_of(element), path(key),
-                   std::string("must hold finite numbers, not ") + type_name(element));
+                   std::string("must hold finite numbers, not ") + shown_type(element));
       return false;
     }
     read.push_back(number);

@@ -35,6 +35,7 @@ inline unsigned line_of(const toml::node& node) {
   return static_cast<unsigned>(node.source().begin.line);
 }
 const char* type_name(const toml::node& node);
+std::string shown_type(const toml::node& node);  // the same, and nan and inf by name
 
 // One table. Every key is asked for by name; finish() reports the keys that nobody asked for.
 class TableReader {

@@ -4,9 +4,13 @@
 //   ncrtd --config FILE check
 //   ncrtd --config FILE run [--fast] [--dialect D] [--plot BASE] [--no-progress] PROGRAM
 //   ncrtd --config FILE mdi [--fast] "G0 X10"
+//   ncrtd --config FILE serve                       up until SIGTERM or SIGINT, for a service manager
+//   run, mdi and serve:  [--share NAME] [--commands]   shared memory for ncdds (serve has it anyway);
+//                                                      takes commands from it
 //
-// Exit status: 0 the program ended, 2 it stopped on an alarm, 1 usage or configuration, 128+n ended by signal
-// n.
+// Exit status: 0 the program ended, 2 it stopped on an alarm, 1 usage, configuration or output that cannot be
+// written, 128+n ended by signal n (130 SIGINT, 143 SIGTERM): the machine is brought to rest and the summary
+// printed. `serve` ends with 0 when the axes stood before the outputs went off, else with 2.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -15,9 +19,14 @@
 #include <csignal>
 #include <memory>
 
+#include "hal/composite.hpp"
+#include "hal/modbus/link.hpp"
 #include "runtime/console.hpp"
 #include "runtime/runtime.hpp"
+#include "runtime/share/service.hpp"
+#include "tools/lib/output_check.hpp"
 #include "tools/lib/program_files.hpp"
+#include "tools/lib/serve.hpp"
 #include "tools/lib/toolpath_plot.hpp"
 
 namespace {
@@ -35,8 +44,8 @@ extern "C" void on_signal(int number) {
 }
 
 struct Options {
-  std::string config, program, mdi, dialect, plot;
-  bool fast = false, no_progress = false;
+  std::string config, program, mdi, dialect, plot, share;
+  bool fast = false, no_progress = false, quiet = false, serve = false, commands = false;
   std::int64_t since_ns = nc::rt::RealClock().now_ns();  // start of the process, for the start-up time
 };
 
@@ -102,6 +111,18 @@ int failed(const std::string& text) {
   return kExitUsage;
 }
 
+// Called in the threads of the links.
+void report_link(const std::string& line) {
+  std::fprintf(stderr, "modbus: %s\n", line.c_str());
+}
+
+// The exit status when everything printed has gone out; a full disk or a closed pipe is no success.
+int written(int status) {
+  if (nc::tools::standard_output_written()) return status;
+  std::fprintf(stderr, "ncrtd: standard output cannot be written\n");
+  return status == 0 ? kExitUsage : status;
+}
+
 // Parameters are numbers of one manual: with another dialect they would mean something else, or nothing.
 void change_dialect(const std::string& name, nc::rt::Config* config) {
   const std::uint8_t dialect = name == "dgshape" ? NC_DIALECT_DGSHAPE : NC_DIALECT_M700;
@@ -131,8 +152,9 @@ class Run {
       if (g_signal != 0) return stop_by_signal();
       if (now.alarmed()) return stop_by_alarm();
       if (info.runs > 0 && now.system[0].nc.state == NC_STATE_IDLE) return ended(now);
-      if (now.system[0].nc.state == NC_STATE_STOPPED) {
-        progress_.note("stop in line " + std::to_string(now.system[0].nc.source.line) + " (" +
+      // Someone who gives commands continues it himself.
+      if (now.system[0].nc.state == NC_STATE_STOPPED && !options_.commands) {
+        note("stop in line " + std::to_string(now.system[0].nc.source.line) + " (" +
                        nc::rt::state_text(now.system[0].nc) + "): continued");
         runtime_.execute(CommandKind::kCycleStart);
       }
@@ -157,10 +179,13 @@ class Run {
   void show_message(const nc::rt::FeederInfo& info) {
     if (info.messages == messages_) return;
     messages_ = info.messages;
-    progress_.note("message: " + info.last_message);
+    note("message: " + info.last_message);
+  }
+  void note(const std::string& text) {
+    if (!options_.quiet) progress_.note(text);
   }
   void rest() {
-    for (unsigned i = 0; i < 400 && !runtime_.snapshot().system[0].nc.distance_zero; ++i) wait();
+    for (unsigned i = 0; i < looks_ && !runtime_.snapshot().system[0].nc.distance_zero; ++i) wait();
   }
   int ended(const nc::rt::Snapshot& now) {
     progress_.finish();
@@ -168,12 +193,18 @@ class Run {
     return 0;
   }
   int stop_by_signal() {
-    progress_.note("signal: feed hold");
+    const int signal = g_signal;
+    note("signal: feed hold");
     runtime_.execute(CommandKind::kFeedHold);
     rest();
+    const nc_outputs stopped = runtime_.snapshot().system[0].nc;
     runtime_.execute(CommandKind::kReset);
-    wait();
-    return kExitSignal + g_signal;
+    for (unsigned i = 0; i < looks_ && runtime_.snapshot().resetting; ++i) wait();
+    progress_.finish();
+    std::printf("interrupted  by %s in line %u, before the end of the program\n",
+                signal == SIGINT ? "SIGINT" : "SIGTERM", stopped.source.line);
+    std::printf("%s", nc::rt::summary_text(runtime_, stopped, options_.since_ns).c_str());
+    return kExitSignal + signal;
   }
   int stop_by_alarm() {
     rest();
@@ -190,27 +221,102 @@ class Run {
   const Options& options_;
   nc::rt::Progress& progress_;
   std::uint64_t messages_ = 0;
+  const unsigned looks_ =
+      options_.fast ? 100000 : 400;  // for the machine to come to rest; a look may be one scan
+};
+
+// The shared memory, where it is asked for, and what it shows of the programs.
+class Sharing final : public nc::rt::EventSink {
+ public:
+  Sharing(const Options& options, const nc::rt::Config& config, nc::hal::Hal* machine)
+      : asked_(config.share.enabled || !options.share.empty()),
+        wanted_(asked_ || options.serve),
+        tap_(machine, config.points.size()) {
+    share_.name = !options.share.empty()        ? options.share
+                  : !config.share.name.empty() ? config.share.name
+                                               : config.name;
+    share_.commands = options.commands;
+    share_.group = config.share.group;
+    share_.virtual_time = options.fast;
+  }
+  nc::hal::Hal* hal(nc::hal::Hal* machine) { return wanted_ ? &tap_ : machine; }
+
+  // Before the start of the runtime.
+  bool prepare(nc::rt::Runtime* runtime, nc::tools::ProgramFiles* files, const std::string& folder,
+               std::string* error) {
+    if (!wanted_) return true;
+    files_ = files;
+    runtime->set_sink(this);
+    runtime->set_program_loader([this, runtime, folder](const std::string& name, unsigned* file) {
+      const std::string path = folder + "/" + name;
+      std::string ignored;  // the client is told that there is no such program
+      if (files_->add(runtime->control(), path, file, &ignored) != NC_OK) return false;
+      programs_.add(*file, path);
+      return true;
+    });
+    service_ = std::make_unique<nc::rt::share::Service>(runtime, &programs_, &tap_, share_);
+    if (service_->create(error)) return true;
+    service_.reset();
+    if (asked_) return false;
+    std::fprintf(stderr, "warning: no shared memory, nothing for ncdds: %s\n", error->c_str());
+    return true;
+  }
+  bool start(std::string* error) { return service_ == nullptr || service_->start(error); }
+  void stop() {
+    if (service_ != nullptr) service_->stop();
+  }
+  nc::rt::share::ProgramTable& programs() { return programs_; }
+
+  // Feeder thread, to which the files belong: a sub program gets its name when its first block is done.
+  void executed(unsigned, const nc_event& event) override {
+    if (event.source.file == last_file_) return;
+    last_file_ = event.source.file;
+    const std::string path = files_->path_of(event.source.file);
+    if (!path.empty()) programs_.add_name(event.source.file, path);
+  }
+
+ private:
+  const bool asked_, wanted_;  // a service shows itself where it can: without being asked, failure is a warning
+  nc::rt::share::PointTap tap_;
+  nc::rt::share::ServiceOptions share_;
+  nc::rt::share::ProgramTable programs_;
+  nc::tools::ProgramFiles* files_ = nullptr;
+  unsigned last_file_ = ~0u;
+  std::unique_ptr<nc::rt::share::Service> service_;
 };
 
 // The machine, its control and the program, brought up and taken down.
 int operate(const Options& options, nc::rt::Config* config) {
+  std::string error;
+  if (!options.plot.empty())
+    for (const char* ending : {".svg", ".png"})
+      if (!nc::tools::can_be_written(options.plot + ending, &error)) return failed(error);
   if (!options.dialect.empty()) change_dialect(options.dialect, config);
   nc::hal::SimMachine machine(config->sim, config->points);
+  const auto links = nc::hal::modbus::make_links(config->modbus_links(), report_link);
+  if (options.fast && !links.empty())
+    report_link("the links run in real time, whatever the speed of the program");
+  std::vector<nc::hal::PointBus*> buses;
+  for (const auto& link : links) buses.push_back(link.get());
+  nc::hal::Composite hal(&machine, buses, config->points);
   nc::rt::RealClock real;
   nc::rt::VirtualClock virtual_clock;
   nc::rt::RuntimeParts parts;
   parts.clock = options.fast ? static_cast<nc::rt::Clock*>(&virtual_clock) : &real;
-  parts.hal = &machine;
+  Sharing sharing(options, *config, &hal);
+  parts.hal = sharing.hal(&hal);
   std::vector<nc::rt::ConfigError> errors;
   const auto runtime = nc::rt::Runtime::create(*config, parts, &errors);
   if (runtime == nullptr) return config_failed(errors);
 
   nc::tools::ProgramFiles files(config->programs_folder());
   files.attach(runtime->control());
-  std::string error;
   unsigned file = 0;
   if (!options.program.empty() && files.add(runtime->control(), options.program, &file, &error) != NC_OK)
     return failed(error);
+  if (!options.program.empty()) sharing.programs().add(file, options.program);
+  sharing.programs().set_mdi(options.mdi);
+  if (!sharing.prepare(runtime.get(), &files, config->programs_folder(), &error)) return failed(error);
   PlotSink path(*config);
   if (!options.plot.empty()) runtime->set_path_sink(&path);
   nc::rt::Progress progress(stdout, isatty(STDOUT_FILENO) != 0, nc::rt::estimate_lines(options.program));
@@ -221,6 +327,15 @@ int operate(const Options& options, nc::rt::Config* config) {
   if (!(options.fast ? runtime->start_stepping(&error) : runtime->start(&error))) return failed(error);
   for (const std::string& warning : runtime->warnings())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  if (!sharing.start(&error)) return failed(error);
+  if (options.serve) {
+    nc::tools::ServeOptions service;
+    service.signal = &g_signal;
+    service.leave = [&sharing] { sharing.stop(); };  // and with it the commands
+    const bool rest = nc::tools::serve(runtime.get(), service);
+    runtime->stop();
+    return rest ? 0 : kExitAlarm;
+  }
   Answer answer = Answer::kDone;
   if (!options.program.empty()) {
     answer = runtime->select_program(file);
@@ -230,6 +345,7 @@ int operate(const Options& options, nc::rt::Config* config) {
   }
   int result = answer == Answer::kDone ? Run(runtime.get(), options, &progress).to_end()
                                        : failed(std::string("not started: ") + nc::rt::answer_text(answer));
+  sharing.stop();
   runtime->stop();
   if (options.plot.empty() || result == kExitUsage) return result;
   path.finish();
@@ -263,18 +379,30 @@ int main(int argc, char** argv) {
   mdi->add_option("BLOCKS", options.mdi, "blocks, separated by line ends")->required();
   for (CLI::App* sub : {run, mdi}) {
     sub->add_flag("--fast", options.fast, "virtual time: as fast as the processor");
-    sub->add_flag("--no-progress", options.no_progress, "only the summary");
+    sub->add_flag("--no-progress", options.no_progress, "no live line");
+    sub->add_flag("--quiet", options.quiet, "only the summary: no messages, no stops");
+  }
+  CLI::App* service = app.add_subcommand("serve", "bring the machine up and stay until SIGTERM or SIGINT");
+  for (CLI::App* sub : {run, mdi, service}) {
+    sub->add_option("--share", options.share, "shared memory of this name, for ncdds");
+    sub->add_flag("--commands", options.commands, "take commands from it");
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kExitUsage;
+    return written(app.exit(error) == 0 ? 0 : kExitUsage);
   }
 
+  options.serve = service->parsed();
   nc::rt::Config config;
-  const std::vector<nc::rt::ConfigError> errors = nc::rt::load_config(options.config, &config);
+  std::vector<nc::rt::ConfigError> errors = nc::rt::load_config(options.config, &config);
+  if (errors.empty()) errors = nc::rt::check_host(config);
   if (!errors.empty()) return config_failed(errors);
-  if (!check->parsed()) return operate(options, &config);
+  options.commands |= config.share.commands && !options.fast;
+  if (options.commands && options.fast) return failed("--commands is for a machine in real time, not for --fast");
+  if (options.commands && options.share.empty() && !options.serve && !config.share.enabled)
+    return failed("--commands needs shared memory: --share NAME, or enabled = true in [share]");
+  if (!check->parsed()) return written(operate(options, &config));
   nc::hal::SimMachine machine(config.sim, config.points);
   nc::rt::VirtualClock clock;
   std::vector<nc::rt::ConfigError> refused;
@@ -282,5 +410,5 @@ int main(int argc, char** argv) {
     return config_failed(refused);
   std::printf("%s: %s, %u us, %u points: no errors\n", options.config.c_str(), config.name.c_str(),
               config.cycle_us, config.points.size());
-  return 0;
+  return written(0);
 }

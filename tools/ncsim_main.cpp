@@ -11,6 +11,7 @@
 #include <string>
 
 #include "tools/lib/commands.hpp"
+#include "tools/lib/output_check.hpp"
 
 namespace {
 
@@ -46,6 +47,14 @@ int run(int argc, char** argv) {
   add_program(check, &options);
   add_loop_limit(check, &silent);
 
+  // CLI::Range lets nan through.
+  const CLI::Validator seconds(
+      [](std::string& text) {
+        double value = 0;
+        const bool number = CLI::detail::lexical_cast(text, value) && value > 0 && value <= 1e9;
+        return number ? std::string() : "must be above 0 and at most 1e9, is " + text;
+      },
+      "SECONDS");
   std::string limits;
   double limit_s = 30 * 86400.0;
   CLI::App* time = app.add_subcommand("time", "cycle time on a simulated machine");
@@ -53,7 +62,7 @@ int run(int argc, char** argv) {
   time->add_option("--config", limits, "limits of the machine, JSON (docs/trace.md)");
   time->add_option("--max-seconds", limit_s, "machine time after which the run is given up")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(seconds);
 
   PlotView view = PlotView::kIsometric;
   std::string base;
@@ -78,7 +87,12 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
+    if (error.get_exit_code() == 0) {
+      const int code = app.exit(error);
+      if (nc::tools::standard_output_written()) return code;
+      std::fprintf(stderr, "ncsim: the output cannot be written\n");
+      return nc::tools::kExitError;
+    }
     std::fprintf(stderr, "ncsim: %s (ncsim --help)\n", error.what());
     return nc::tools::kExitError;
   }

@@ -80,6 +80,8 @@ bool parse_input_change(std::string_view text, const PointTable& table, InputCha
   if (index < 0) return fail(error, "no point is named '" + name + "'");
   if (table.at(static_cast<unsigned>(index)).direction != PointDirection::kInput)
     return fail(error, "point '" + name + "' is an output; a script changes inputs");
+  if (table.at(static_cast<unsigned>(index)).bus != 0)
+    return fail(error, "point '" + name + "' is carried by another bus; a script changes the machine's own");
   change->point = static_cast<unsigned>(index);
   if (!cursor.word("=") || !cursor.number(&change->value)) return fail(error, "'= value' is missing");
   if (table.at(change->point).type == PointType::kBit && change->value > 1)

@@ -22,13 +22,15 @@ SimSolid::SimSolid() {
 }
 
 SimMachine::SimMachine(const SimConfig& config, const PointTable& table)
-    : config_(config), table_(table), script_(config.script), changes_(kRecordedChanges) {
+    : config_(config), table_(table), plant_(config.plant), script_(config.script), changes_(kRecordedChanges) {
   for (unsigned s = 0; s < config_.system_count; ++s) {
     System& system = system_[s];
     system.command = system.actual = config_.start[s];
     for (unsigned a = 0; a < config_.axis_count[s]; ++a) {
       const double lag = config_.axis[s][a].lag_s;
       system.follow[a] = lag > 0 ? 1.0 - std::exp(-config_.cycle_s / lag) : 1.0;
+      const double coast = config_.axis[s][a].coast_s;
+      system.fade[a] = coast > 0 ? std::exp(-config_.cycle_s / coast) : 0.0;
     }
   }
 }
@@ -48,7 +50,9 @@ void SimMachine::stop() noexcept {
     system_[s].fin = system_[s].busy = false;
   }
   for (unsigned p = 0; p < table_.size(); ++p)
-    if (table_.at(p).direction == PointDirection::kOutput) output_.value[p] = table_.at(p).initial;
+    if (table_.at(p).bus == 0 && table_.at(p).direction == PointDirection::kOutput)
+      output_.value[p] = table_.at(p).initial;
+  plant_.stop();
   stopped_ = true;
 }
 
@@ -78,16 +82,25 @@ void SimMachine::read(Feedback* feedback, PointImage* image) noexcept {
     out.fin = system.fin;
   }
   for (unsigned p = 0; p < table_.size(); ++p)
-    if (table_.at(p).direction == PointDirection::kInput) image->value[p] = input_.value[p];
+    if (table_.at(p).bus == 0 && table_.at(p).direction == PointDirection::kInput)
+      image->value[p] = input_.value[p];
 }
 
 void SimMachine::write(const Command& command, const PointImage& image) noexcept {
   ++scan_;
-  if (lost_) return;
+  if (lost_) {
+    for (unsigned s = 0; s < config_.system_count; ++s)
+      for (unsigned a = 0; a < config_.axis_count[s]; ++a) coast(&system_[s], a);
+    return;
+  }
+  plant_.step(config_.cycle_s, image, &input_);
   for (unsigned s = 0; s < config_.system_count; ++s) {
     move_axes(s, command.system[s]);
-    handshake(&system_[s], command.system[s]);
-    turn_spindle(&system_[s]);
+    if (!plant_.present()) handshake(&system_[s], command.system[s]);
+    if (s == 0 && plant_.turns_spindle())
+      system_[s].rpm = plant_.rpm();
+    else
+      turn_spindle(&system_[s]);
   }
   const SystemCommand& first = command.system[0];
   script_.step(scan_, first.source, (first.strobe & kStrobeM) != 0, first.m, &input_);
@@ -99,18 +112,25 @@ void SimMachine::move_axes(unsigned index, const SystemCommand& command) noexcep
   for (unsigned a = 0; a < config_.axis_count[index]; ++a) {
     const std::uint32_t bit = 1u << a;
     system.command.v[a] = command.position.v[a];
-    if (!command.enable) {  // drives off: the axis stays, the command of a disabled drive is not followed
+    if (!command.enable) {  // the command of a disabled drive is not followed
+      coast(&system, a);
       system.following_fault &= ~bit;
       continue;
     }
-    if ((system.blocked & bit) == 0)
-      system.actual.v[a] += (system.command.v[a] - system.actual.v[a]) * system.follow[a];
+    system.step[a] =
+        (system.blocked & bit) != 0 ? 0 : (system.command.v[a] - system.actual.v[a]) * system.follow[a];
+    system.actual.v[a] += system.step[a];
     const double limit = config_.axis[index][a].following_error_limit;
     if (limit > 0 && std::abs(system.command.v[a] - system.actual.v[a]) > limit)
       system.following_fault |= bit;
     else
       system.following_fault &= ~bit;
   }
+}
+
+void SimMachine::coast(System* system, unsigned axis) noexcept {
+  system->step[axis] = (system->blocked >> axis & 1u) != 0 ? 0 : system->step[axis] * system->fade[axis];
+  system->actual.v[axis] += system->step[axis];
 }
 
 void SimMachine::turn_spindle(System* system) noexcept {

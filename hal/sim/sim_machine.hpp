@@ -5,10 +5,11 @@
 //  * axes: first-order servo. A position loop with gain Kv = 1/lag follows a ramp with the constant error v *
 //  lag:
 //      actual += (command - actual) * (1 - exp(-cycle/lag)).  Beyond following_error_limit the axis faults.
+//      Without its drive (switched off, bus lost) it coasts: its speed fades with the time constant coast_s.
 //  * spindle: speed follows the commanded S with a fixed ramp, direction by M03/M04, stop by M05 (and
 //  M00/M01/M02/M30).
 //  * M, S, T, B: FIN comes after the time of the function (tool change, spindle ramp, m_time) and drops with
-//  the strobe.
+//  the strobe. With a plant (sim_plant.hpp) spindle and tools are driven by points, and FIN is the ladder's.
 //  * skip: signal n is on while the actual point is inside one of its solids.
 //  * points: inputs are what the script says (else their initial value); outputs are recorded.
 #pragma once
@@ -18,6 +19,7 @@
 
 #include "hal/hal.hpp"
 #include "hal/sim/input_script.hpp"
+#include "hal/sim/sim_plant.hpp"
 
 namespace nc::hal {
 
@@ -33,6 +35,7 @@ struct SimSolid {
 struct SimAxis {
   double lag_s = 0.0;                // 0 = actual is the command of the cycle before
   double following_error_limit = 0;  // mm or deg; 0 = never faults
+  double coast_s = 0.03;             // 0 = stands at once
 };
 
 struct SimConfig {
@@ -46,6 +49,7 @@ struct SimConfig {
   double tool_change_s = 1.0;   // M06
   double tool_select_s = 0.02;  // T
   double m_time_s = 0.01;       // every other M, S and B
+  SimPlantConfig plant;         // spindle and tool changer driven by points instead of codes
   std::vector<SimSolid> solids;
   std::vector<InputChange> script;
 };
@@ -69,7 +73,10 @@ class SimMachine final : public Hal {
   // For tests and the terminal. Same thread as the scan, or after it has stopped.
   const nc_axes& actual(unsigned system) const { return system_[system].actual; }
   double spindle_rpm(unsigned system) const { return system_[system].rpm; }
-  unsigned tool(unsigned system) const { return system_[system].tool; }
+  unsigned tool(unsigned system) const {
+    return system == 0 && plant_.present() ? plant_.tool() : system_[system].tool;
+  }
+  std::uint32_t input(unsigned point) const { return input_.value[point]; }
   std::uint64_t scans() const { return scan_; }
   bool stopped() const { return stopped_; }
   const PointImage& outputs() const { return output_; }
@@ -89,6 +96,8 @@ class SimMachine final : public Hal {
   struct System {
     nc_axes command{}, actual{};
     double follow[NC_MAX_AXES] = {};  // 1 - exp(-cycle/lag)
+    double fade[NC_MAX_AXES] = {};    // exp(-cycle/coast)
+    double step[NC_MAX_AXES] = {};    // way of the last cycle
     std::uint32_t following_fault = 0, drive_fault = 0, blocked = 0;
     double rpm = 0, s_rpm = 0;
     int direction = 0;  // spindle: +1 M03, -1 M04, 0 stopped
@@ -100,6 +109,7 @@ class SimMachine final : public Hal {
   };
 
   void move_axes(unsigned index, const SystemCommand& command) noexcept;
+  void coast(System* system, unsigned axis) noexcept;
   void turn_spindle(System* system) noexcept;
   void handshake(System* system, const SystemCommand& command) noexcept;
   double begin_function(System* system, const SystemCommand& command, std::uint8_t strobe) noexcept;
@@ -108,6 +118,7 @@ class SimMachine final : public Hal {
 
   SimConfig config_;
   const PointTable table_;
+  SimPlant plant_;
   InputScript script_;
   System system_[NC_MAX_SYSTEMS];
   PointImage input_, output_;

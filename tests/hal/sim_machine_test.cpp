@@ -53,6 +53,30 @@ struct Bench {
   PointImage image{};
 };
 
+// Half of the speed fades away in coast_s * ln 2; a bus that is lost is a drive that is off.
+TEST(SimMachine, WithoutItsDriveAnAxisCoasts) {
+  for (const bool bus : {false, true}) {
+    SCOPED_TRACE(bus);
+    SimConfig config;
+    config.axis[0][0].coast_s = 0.03;
+    Bench bench(config);
+    const double v = 100.0;
+    for (unsigned n = 1; n <= 50; ++n) {
+      bench.command.system[0].position.v[0] = v * kCycle * n;
+      bench.scan();
+    }
+    const double from = bench.machine.actual(0).v[0];
+    bench.command.system[0].enable = bus;
+    bench.machine.fail_bus(bus);
+    bench.command.system[0].position.v[0] = 0;  // not followed
+    bench.scan();
+    const double first = bench.machine.actual(0).v[0] - from;
+    EXPECT_NEAR(first, v * kCycle * std::exp(-kCycle / 0.03), 1e-9);
+    for (unsigned n = 0; n < 1000; ++n) bench.scan();
+    EXPECT_NEAR(bench.machine.actual(0).v[0] - from, first / (1 - std::exp(-kCycle / 0.03)), 1e-9);
+  }
+}
+
 TEST(SimMachine, ServoFollowsARampWithVelocityTimesLag) {
   SimConfig config;
   config.axis[0][0].lag_s = 0.005;

@@ -25,8 +25,8 @@ std::string order(const Outcome& run) {
 }
 
 TEST(Auxiliary, OrderInABlock) {  // S, T, second auxiliary, then M, before the motion
-  EXPECT_EQ(order(m700("G0 M3 X1. B5 T2 S1000\nM30")), "S1000 T2 B5 M3 fin move M30");
-  EXPECT_EQ(order(m700("G1 X1. M8 M9 F1\nM30")), "M8 fin M9 fin move M30");
+  EXPECT_EQ(order(m700("G0 M3 X1. B5 T2 S1000\nM30")), "S1000 T2 B5 M3 fin move M30 fin");
+  EXPECT_EQ(order(m700("G1 X1. M8 M9 F1\nM30")), "M8 fin M9 fin move M30 fin");
 }
 
 TEST(Auxiliary, OfFiveCodesTheLastFourCount) {  // M700 9.1
@@ -47,8 +47,8 @@ TEST(Auxiliary, SecondAddress) {  // M700 9.2: not the name of an axis
 }
 
 TEST(Auxiliary, Stops) {  // M700 9.1
-  EXPECT_EQ(order(m700("G0 X1. M0\nX2.\nM30")), "move M0 stop move M30");
-  EXPECT_EQ(order(m700("G0 X1.\nM1\nX2.\nM30")), "move optional-stop move M30");
+  EXPECT_EQ(order(m700("G0 X1. M0\nX2.\nM30")), "move M0 fin stop move M30 fin");
+  EXPECT_EQ(order(m700("G0 X1.\nM1\nX2.\nM30")), "move optional-stop move M30 fin");
   EXPECT_EQ(m700("M0\nM30").lines(), (std::vector<unsigned>{1, 2}));
 }
 

@@ -180,7 +180,7 @@ TEST(SystemVariables, Message3006) {  // M700 10.7
   std::string shown;
   for (const Step& step : run.steps) shown += step.text;
   EXPECT_EQ(shown, "TAKE FIVE");
-  EXPECT_EQ(run.of(NC_ITEM_GATE).size(), 1u);
+  ASSERT_EQ(run.of(NC_ITEM_GATE).size(), 2u);  // and the completion of M30
   EXPECT_EQ(run.of(NC_ITEM_GATE)[0].u.gate.kind, NC_GATE_STOP);
   EXPECT_EQ(run.of(NC_ITEM_MOVE)[1].source.line, 3u);
 }
@@ -200,7 +200,7 @@ TEST(SystemVariables, StopSuppression3003) {  // M700 10.5
     for (const nc_item& item : m700(program).of(NC_ITEM_GATE)) n += item.u.gate.kind == NC_GATE_FIN;
     return n;
   };
-  EXPECT_EQ(gates("M8\n#3003=2\nM9\n#3003=0\nM5\nM30"), 2u);
+  EXPECT_EQ(gates("M8\n#3003=2\nM9\n#3003=0\nM5\nM30"), 3u);
   Bench bench;
   bench.run("#3003=3 #3004=7\nM30");
   EXPECT_EQ(bench.run("#100=#3003 #101=#3004\nM30").var(100), 0);  // cleared by reset

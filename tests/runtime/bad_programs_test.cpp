@@ -226,6 +226,37 @@ TEST(Reset, MacroOutputsSurviveIt) {
   EXPECT_EQ(value, 14711) << "read back";
 }
 
+// An alarm of the machine whose cause is gone: one reset, with the real NC behind it, and the next start
+// works.
+TEST(Reset, OneIsEnoughAfterAnAlarmOfTheMachine) {
+  for (const bool drive_fault : {true, false}) {
+    SCOPED_TRACE(drive_fault);
+    nc::rt::Config config = nc::test::parse_or_fail(nc::test::base_toml());
+    config.sim.axis[0][0].following_error_limit = 2.0;
+    Drive drive(config);
+    const unsigned file = drive.add("a.nc", "G90 G1 X20. F3000.\nG0 X0.\nM30\n");
+    drive.start(file);
+    drive.steps(100);
+    if (drive_fault)
+      drive.machine().fail_drive(0, 1, true);  // Y stands: it has nowhere to catch up to
+    else
+      drive.machine().block_axis(0, 0, true);
+    drive.steps(300);
+    ASSERT_EQ(drive.runtime->snapshot().alarms.count, 1u);
+    EXPECT_NE(drive.runtime->snapshot().alarms.alarm[0].id, nc::rt::AlarmId::kProgram);
+    ASSERT_EQ(drive.runtime->execute(CommandKind::kReset), Answer::kDone);
+    drive.steps(20);
+    EXPECT_EQ(drive.runtime->snapshot().alarms.count, 1u) << "the cause is still there";
+    drive.machine().fail_drive(0, 1, false);
+    drive.machine().block_axis(0, 0, false);
+    drive.steps(100);
+    ASSERT_GT(drive.reset(), 0u);
+    EXPECT_EQ(drive.runtime->snapshot().alarms.count, 0u);
+    drive.start(file);
+    EXPECT_TRUE(drive.to_end());
+  }
+}
+
 // M700 13.5.5 and the plan: an output changes when the machine gets there, not when the text is read.
 TEST(MacroOutput, IsWrittenWhenTheMachineGetsThere) {
   const nc::rt::Config config = nc::test::parse_or_fail(nc::test::base_toml());

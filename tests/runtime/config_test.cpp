@@ -70,13 +70,27 @@ TEST_P(ConfigErrors, NameFileLineAndKey) {
   EXPECT_TRUE(found) << "wanted " << c.key << ": " << c.message << "\n" << all;
 }
 
+// A link, and a point "p" on it.
+#define NC_LINK "\n[[modbus]]\nname = \"io\"\nhost = \"10.0.0.1\"\n"
+#define NC_POINT(name, type, direction, modbus)                                                        \
+  "[[point]]\nname = \"" name "\"\ntype = \"" type "\"\ndirection = \"" direction "\"\nmodbus = { " modbus \
+  " }\n"
+#define NC_BIT(direction, modbus) NC_LINK NC_POINT("p", "bit", direction, modbus)
+#define NC_WORD(direction, modbus) NC_LINK NC_POINT("p", "word", direction, modbus)
+
 const Case kCases[] = {
     {"unknown_top", nullptr, "\n[spindel]\nx = 1\n", "spindel", "unknown key"},
     {"unknown_key", "name = \"test\"", "nmae = \"test\"", "machine.nmae", "unknown key"},
     {"wrong_type_string", "name = \"test\"", "name = 5", "machine.name", "must be a string, not an integer"},
     {"wrong_type_number", "max_velocity = 200.0", "max_velocity = \"fast\"", "axis[1].max_velocity",
      "finite number"},
-    {"infinite", "max_velocity = 200.0", "max_velocity = inf", "axis[1].max_velocity", "finite number"},
+    {"infinite", "max_velocity = 200.0", "max_velocity = inf", "axis[1].max_velocity",
+     "finite number, not inf"},
+    {"not_a_number", "max_velocity = 200.0", "max_velocity = nan", "axis[1].max_velocity",
+     "finite number, not nan"},
+    {"not_a_number_in_a_list", "soft_limits = [-500.0, 500.0]", "soft_limits = [-500.0, -inf]",
+     "axis[1].soft_limits", "finite numbers, not -inf"},
+    {"too_large", "max_velocity = 200.0", "max_velocity = 1e300", "axis[1].max_velocity", "must be from"},
     {"out_of_range", "max_velocity = 150.0", "max_velocity = -1", "axis[2].max_velocity", "must be from"},
     {"cycle", "name = \"test\"", "cycle_us = 3", "machine.cycle_us", "must be from 100"},
     {"cycle_float", "name = \"test\"", "cycle_us = 1000.5", "machine.cycle_us", "an integer"},
@@ -138,6 +152,102 @@ const Case kCases[] = {
     {"solid_axis", nullptr, "\n[[sim.solid]]\nW = [1, 2]\n", "sim.solid[1].W", "unknown key"},
     {"solid_empty", nullptr, "\n[[sim.solid]]\n", "sim.solid[1]", "at least one axis"},
     {"script", "m_time_s = 0.004", "script = [\n\"when line 1: out0 = 1\"]", "sim.script", "is an output"},
+    // [[modbus]] and the modbus table of a point; the base has 5 points, "<link>.ok" is not one of the file's.
+    {"modbus_name_missing", nullptr, "\n[[modbus]]\nhost = \"h\"\n", "modbus[1].name", "is missing"},
+    {"modbus_host_missing", nullptr, "\n[[modbus]]\nname = \"io\"\n", "modbus[1].host", "is missing"},
+    {"modbus_host", nullptr, "\n[[modbus]]\nname = \"io\"\nhost = \"\"\n", "modbus[1].host", "an address"},
+    {"modbus_name", nullptr, "\n[[modbus]]\nname = \"i o\"\nhost = \"h\"\n", "modbus[1].name", "letters"},
+    {"modbus_twice", nullptr, NC_LINK NC_LINK, "modbus[2].name", "already there"},
+    {"modbus_unused", nullptr, NC_LINK, "modbus[1].name", "no point uses the link \"io\""},
+    {"modbus_ok_taken", "name = \"in1\"", "name = \"io.ok\"\ndirection = \"input\"\n" NC_LINK "[[point]]\nname = \"in1\"",
+     "point[2].name", "already there"},
+    {"modbus_port", nullptr, NC_LINK "port = 65536\n", "modbus[1].port", "from 1 to 65535"},
+    {"modbus_poll", nullptr, NC_LINK "poll_ms = 0\n", "modbus[1].poll_ms", "from 1 to"},
+    {"modbus_timeout", nullptr, NC_LINK "response_timeout_ms = 0\n", "modbus[1].response_timeout_ms", "from 1 to"},
+    {"modbus_byte_timeout", nullptr, NC_LINK "byte_timeout_ms = -1\n", "modbus[1].byte_timeout_ms", "from 1 to"},
+    {"modbus_lost", nullptr, NC_LINK "lost_after = 0\n", "modbus[1].lost_after", "from 1 to"},
+    {"modbus_refresh", nullptr, NC_LINK "refresh_ms = 0\n", "modbus[1].refresh_ms", "from 10 to"},
+    {"modbus_gap", nullptr, NC_LINK "merge_gap = 125\n", "modbus[1].merge_gap", "from 0 to 124"},
+    {"modbus_unit", nullptr, NC_LINK "unit = 248\n", "modbus[1].unit", "0 to 247, or 255"},
+    {"modbus_unknown_key", nullptr, NC_LINK "hosts = 1\n", "modbus[1].hosts", "unknown key"},
+    {"modbus_unknown_link", nullptr, NC_BIT("input", "link = \"oi\", table = \"coil\", address = 0"),
+     "point[6].modbus.link", "no link is named \"oi\""},
+    {"modbus_no_link", nullptr, NC_BIT("input", "table = \"coil\", address = 0"), "point[6].modbus.link", "is missing"},
+    {"modbus_no_table", nullptr, NC_BIT("input", "link = \"io\", address = 0"), "point[6].modbus.table", "is missing"},
+    {"modbus_no_address", nullptr, NC_BIT("input", "link = \"io\", table = \"coil\""), "point[6].modbus.address",
+     "is missing"},
+    {"modbus_table", nullptr, NC_BIT("input", "link = \"io\", table = \"coils\", address = 0"),
+     "point[6].modbus.table", "must be \"coil\""},
+    {"modbus_address_high", nullptr, NC_BIT("input", "link = \"io\", table = \"coil\", address = 65536"),
+     "point[6].modbus.address", "from 0 to 65535"},
+    {"modbus_address_low", nullptr, NC_BIT("input", "link = \"io\", table = \"coil\", address = -1"),
+     "point[6].modbus.address", "from 0 to 65535"},
+    {"modbus_address_end", nullptr,
+     NC_WORD("input", "link = \"io\", table = \"holding\", address = 65535, words = \"ABCD\""),
+     "point[6].modbus.address", "two registers"},
+    {"modbus_point_unit", nullptr, NC_BIT("input", "link = \"io\", table = \"coil\", address = 0, unit = 250"),
+     "point[6].modbus.unit", "0 to 247, or 255"},
+    {"modbus_output_discrete", nullptr, NC_BIT("output", "link = \"io\", table = \"discrete\", address = 0"),
+     "point[6].modbus.table", "can only be read"},
+    {"modbus_output_input", nullptr, NC_WORD("output", "link = \"io\", table = \"input\", address = 0"),
+     "point[6].modbus.table", "can only be read"},
+    {"modbus_word_coil", nullptr, NC_WORD("input", "link = \"io\", table = \"coil\", address = 0"),
+     "point[6].modbus.table", "holds bits"},
+    {"modbus_bit_of_what", nullptr, NC_BIT("input", "link = \"io\", table = \"holding\", address = 0"),
+     "point[6].modbus.bit", "is missing"},
+    {"modbus_bit_range", nullptr, NC_BIT("input", "link = \"io\", table = \"holding\", address = 0, bit = 16"),
+     "point[6].modbus.bit", "from 0 to 15"},
+    {"modbus_bit_of_coil", nullptr, NC_BIT("input", "link = \"io\", table = \"coil\", address = 0, bit = 1"),
+     "point[6].modbus.bit", "no meaning"},
+    {"modbus_bit_of_word", nullptr, NC_WORD("input", "link = \"io\", table = \"holding\", address = 0, bit = 1"),
+     "point[6].modbus.bit", "the point is a word"},
+    {"modbus_order_of_bit", nullptr, NC_BIT("input", "link = \"io\", table = \"coil\", address = 0, words = \"ABCD\""),
+     "point[6].modbus.words", "the point is a bit"},
+    {"modbus_scale_of_bit", nullptr, NC_BIT("input", "link = \"io\", table = \"coil\", address = 0, scale = 2"),
+     "point[6].modbus.scale", "the point is a bit"},
+    {"modbus_order_of_16", nullptr,
+     NC_WORD("input", "link = \"io\", table = \"holding\", address = 0, words = \"BA\""), "point[6].modbus.words",
+     "a value of 16 bits has none"},
+    {"modbus_order_empty", nullptr,
+     NC_WORD("input", "link = \"io\", table = \"holding\", address = 0, words = \"\""), "point[6].modbus.words",
+     "must be \"ABCD\""},
+    {"modbus_float_signed", nullptr,
+     NC_WORD("input", "link = \"io\", table = \"holding\", address = 0, float = true, signed = true"),
+     "point[6].modbus.signed", "no meaning"},
+    {"modbus_scale", nullptr, NC_WORD("input", "link = \"io\", table = \"holding\", address = 0, scale = 0"),
+     "point[6].modbus.scale", "must not be zero"},
+    {"modbus_scale_nan", nullptr, NC_WORD("input", "link = \"io\", table = \"holding\", address = 0, scale = nan"),
+     "point[6].modbus.scale", "not nan"},
+    {"modbus_on_loss", nullptr, NC_BIT("input", "link = \"io\", table = \"coil\", address = 0, on_loss = \"keep\""),
+     "point[6].modbus.on_loss", "must be \"hold\", \"off\" or"},
+    {"modbus_on_loss_bit", nullptr, NC_BIT("input", "link = \"io\", table = \"coil\", address = 0, on_loss = 2"),
+     "point[6].modbus.on_loss", "from 0 to 1"},
+    {"modbus_on_loss_sign", nullptr,
+     NC_WORD("input", "link = \"io\", table = \"input\", address = 0, on_loss = \"-1\""), "point[6].modbus.on_loss",
+     "from 0 to 4294967295"},
+    {"modbus_on_loss_output", nullptr, NC_BIT("output", "link = \"io\", table = \"coil\", address = 0, on_loss = \"off\""),
+     "point[6].modbus.on_loss", "is for inputs"},
+    {"modbus_collision_coil", nullptr,
+     NC_BIT("output", "link = \"io\", table = \"coil\", address = 7")
+         NC_POINT("q", "bit", "output", "link = \"io\", table = \"coil\", address = 7"),
+     "point[7].modbus.address", "point \"p\" writes coil 7"},
+    {"modbus_collision_wide", nullptr,
+     NC_WORD("output", "link = \"io\", table = \"holding\", address = 7, words = \"ABCD\"")
+         NC_POINT("q", "word", "output", "link = \"io\", table = \"holding\", address = 8"),
+     "point[7].modbus.address", "writes holding 7"},
+    {"modbus_collision_bit", nullptr,
+     NC_WORD("output", "link = \"io\", table = \"holding\", address = 7")
+         NC_POINT("q", "bit", "output", "link = \"io\", table = \"holding\", address = 7, bit = 2"),
+     "point[7].modbus.address", "writes holding 7"},
+    {"modbus_collision_same_bit", nullptr,
+     NC_BIT("output", "link = \"io\", table = \"holding\", address = 7, bit = 2")
+         NC_POINT("q", "bit", "output", "link = \"io\", table = \"holding\", address = 7, bit = 2"),
+     "point[7].modbus.address", "writes holding 7"},
+    {"modbus_scripted", "m_time_s = 0.004",
+     "script = [\"at scan 1: p = 1\"]\n" NC_BIT("input", "link = \"io\", table = \"coil\", address = 0"), "sim.script",
+     "carried by another bus"},
+    {"modbus_not_a_table", nullptr, NC_LINK "[[point]]\nname = \"p\"\ndirection = \"input\"\nmodbus = \"io\"\n",
+     "point[6].modbus", "must be a table"},
     {"syntax", "name = \"test\"", "name = \"test", "", "syntax"},
     {"duplicate_key", "name = \"test\"", "name = \"test\"\nname = \"again\"", "", "syntax"},
 };
@@ -257,6 +367,42 @@ TEST(Config, EveryInterfaceNumberHasItsPlace) {
                                     : map.input_bit)[static_cast<unsigned>(word)][static_cast<unsigned>(bit)];
     EXPECT_EQ(point, 0) << number;
   }
+}
+
+// What the file asks of the computer is looked at where it is used, not where it is read.
+TEST(Config, ProcessorAndFolderMustBeThere) {
+  Config config;
+  const std::string text = nc::test::base_toml() + "[scheduling]\ncpu = 999\n";
+  ASSERT_TRUE(nc::rt::parse_config(text, "/tmp/m.toml", &config).empty());
+  std::vector<ConfigError> errors = nc::rt::check_host(config);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].key, "scheduling.cpu");
+  EXPECT_EQ(errors[0].line, line_of(text, text.find("cpu =")));
+  EXPECT_NE(errors[0].message.find("not 999"), std::string::npos);
+
+  ASSERT_TRUE(nc::rt::parse_config("[machine]\nprograms = \"no-such-folder\"\n" +
+                                       nc::test::base_toml().substr(std::string("[machine]\n").size()),
+                                   "/tmp/m.toml", &config)
+                  .empty());
+  errors = nc::rt::check_host(config);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].text(), "/tmp/m.toml:2: machine.programs: there is no folder \"/tmp/no-such-folder\"");
+
+  config.programs = ".";
+  config.scheduling.cpu = 0;
+  EXPECT_TRUE(nc::rt::check_host(config).empty());
+  config.file = "m.toml";  // in the folder from which it is called
+  EXPECT_TRUE(nc::rt::check_host(config).empty());
+}
+
+TEST(Config, AWrongLimitIsOneErrorAndAFolderIsNoFile) {
+  std::string text = nc::test::base_toml();
+  text.replace(text.find("max_velocity = 200.0"), 20, "rapid = 5.0\nmax_velocity = nan");
+  Config config;
+  EXPECT_EQ(nc::rt::parse_config(text, "m.toml", &config).size(), 1u);
+  const std::vector<ConfigError> errors = nc::rt::load_config("/tmp", &config);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].text(), "/tmp: cannot be read: is a folder");
 }
 
 TEST(Config, MissingFileIsAnError) {

@@ -49,6 +49,7 @@ expect 0 "$ncrtd" --config "$machine" run --fast --dialect dgshape --no-progress
 
 # Sub programs in the configured folder; stops are continued; an alarm names its line.
 sed "s#^programs = .*#programs = \"$work\"#" "$machine" >"$work/machine.toml"
+cp "$source/etc/mill.il" "$work/"
 printf 'G91 G0 X1.\nM99\n' >"$work/O77.nc"
 printf 'G90 G0 X0.\nM98 P77 L3\nM00\nM30\n' >"$work/main.nc"
 expect 0 "$ncrtd" --config "$work/machine.toml" run --fast "$work/main.nc"
@@ -89,6 +90,59 @@ wait "$child"
 status=$?
 [ "$status" = 143 ] || { fail "SIGTERM: exit $status instead of 143"; cat "$work/out" "$work/err"; }
 said out "feed hold"
+
+said out "interrupted  by SIGTERM in line"
+said out "cycle time"
+said out "execution time"
+
+# The same on virtual time, with the other signal and a plot of what was executed. (An interactive shell ignores
+# SIGINT for what it puts into the background; python3 gives it back.)
+python3 -c 'import os, signal, sys
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+os.execv(sys.argv[1], sys.argv[1:])' "$ncrtd" --config "$machine" run --fast --no-progress --plot "$work/cut" "$work/long.nc" >"$work/out" 2>"$work/err" &
+child=$!
+sleep 1
+kill -INT "$child"
+wait "$child"
+status=$?
+[ "$status" = 130 ] || { fail "SIGINT: exit $status instead of 130"; cat "$work/out" "$work/err"; }
+said out "interrupted  by SIGINT in line"
+said out "path length"
+grep -q "<svg" "$work/cut.svg" 2>/dev/null || fail "no SVG of the interrupted run"
+
+# Output that cannot be written.
+if [ -w /dev/full ]; then
+  for command in "check" "--help" "run --fast --no-progress $work/short.nc" "run --fast $work/short.nc" "mdi --fast M0"; do
+    # shellcheck disable=SC2086
+    "$ncrtd" --config "$machine" $command >/dev/full 2>"$work/err"
+    status=$?
+    [ "$status" = 1 ] || fail "full output: exit $status instead of 1: $command"
+    said err "standard output cannot be written"
+  done
+fi
+: >"$work/out"
+expect 1 "$ncrtd" --config "$machine" run --fast --plot "$work/none/x" "$work/short.nc"
+said err "none/x.svg: cannot be written"
+[ -s "$work/out" ] && fail "it ran before it looked at the plot"
+
+# What is no program, and what looks different but is one.
+mkdir "$work/folder"
+mkfifo "$work/fifo"
+expect 1 "$ncrtd" --config "$machine" run --fast "$work/folder"
+said err "is a folder, not a program"
+expect 1 timeout 10 "$ncrtd" --config "$machine" run --fast "$work/fifo"
+said err "is a pipe"
+printf '\xef\xbb\xbfG90 G0 X-290.\nM30\n' >"$work/bom.nc"
+expect 0 "$ncrtd" --config "$machine" run --fast "$work/bom.nc"
+
+# What the configuration asks of the computer.
+sed -e "s#^programs = .*#programs = \"$work/nowhere\"#" -e 's#^cpu = .*#cpu = 999#' "$machine" >"$work/host.toml"
+for command in check "run --fast $work/bom.nc"; do
+  # shellcheck disable=SC2086
+  expect 1 "$ncrtd" --config "$work/host.toml" $command
+  said err "machine.programs: there is no folder"
+  said err "scheduling.cpu: this computer has the processors 0 to"
+done
 
 [ "$failures" = 0 ] && echo "all good"
 exit $((failures > 0))

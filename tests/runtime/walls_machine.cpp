@@ -133,6 +133,11 @@ void WatchedMachine::write(const hal::Command& command, const hal::PointImage& i
   sim.write(command, image);
 }
 
+void WatchedMachine::take(const nc_axes& position) noexcept {
+  before_ = position;
+  for (double& velocity : velocity_before_) velocity = 0;
+}
+
 // Velocity and acceleration are differences of what is commanded, so they are averages over a cycle: they
 // cannot exceed the limits where the motion keeps them.
 void WatchedMachine::check(unsigned a, double position) {

@@ -60,6 +60,8 @@ class WatchedMachine final : public hal::Hal {
   void read(hal::Feedback* feedback, hal::PointImage* image) noexcept override;
   void write(const hal::Command& command, const hal::PointImage& image) noexcept override;
   void stop() noexcept override { sim.stop(); }
+  // The axes stand here: the command was not the drives' until now.
+  void take(const nc_axes& position) noexcept;
 
   hal::SimMachine sim;
   rt::SeqLock<nc_axes> skip_position;  // measured position at the last rise of the skip signal

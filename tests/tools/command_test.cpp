@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ncsim as a person calls it: exit codes, messages, the same bytes on every run.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -129,6 +130,7 @@ TEST_F(CommandTest, UsageFileAndSetupErrorsAreOneLineAndExitOne) {
   file("bad.json", "{\n\"axez\": 1}");
   file("param.json", "{\"params\":\n {\"no-such\": 1}}");
   std::filesystem::create_directory(folder_ + "/dir");
+  ASSERT_EQ(mkfifo((folder_ + "/fifo").c_str(), 0600), 0);
   const struct {
     const char* line;
     const char* says;
@@ -136,7 +138,9 @@ TEST_F(CommandTest, UsageFileAndSetupErrorsAreOneLineAndExitOne) {
       {"", "subcommand"},
       {"trace", "PROGRAM"},
       {"trace nothing.nc", "nothing.nc: No such file or directory"},
-      {"trace dir", "dir: not a regular file"},
+      {"trace fifo", "fifo: is a pipe"},
+      {"check --setup dir p.nc", "dir: is a folder"},
+      {"trace dir", "dir: is a folder, not a program"},
       {"trace --setup bad.json p.nc", "bad.json:2: axez: no such key"},
       {"trace --setup param.json p.nc", "param.json:2: params.no-such: the control has no such parameter"},
       {"trace --setup none.json p.nc", "none.json: cannot be opened"},
@@ -257,6 +261,66 @@ TEST_F(CommandTest, TimeOfAMoveIsThatOfItsLimits) {
   EXPECT_NEAR(length, 500.0, 1e-3);
   EXPECT_GT(seconds, 5.0);   // 500 mm at 100 mm/s ...
   EXPECT_LT(seconds, 5.25);  // ... and 0.1 s for the ramps, the end of the program in some cycles
+}
+
+TEST_F(CommandTest, MaxSecondsIsANumberOfSeconds) {
+  file("p.nc", kPart);
+  for (const std::string value : {"nan", "inf", "0", "-1", "1e400", "1e10"}) {
+    const Outcome run = ncsim("time --max-seconds=" + value + " p.nc");
+    EXPECT_EQ(run.code, 1) << value;
+    EXPECT_NE(run.err.find("--max-seconds: must be above 0 and at most 1e9, is " + value), std::string::npos)
+        << run.err;
+  }
+  EXPECT_EQ(ncsim("time --max-seconds 1e9 p.nc").code, 0);
+}
+
+TEST_F(CommandTest, WhatCannotBeWrittenIsAnErrorOfEveryCommand) {
+  file("p.nc", kPart);
+  for (const char* command :
+       {"trace p.nc", "check p.nc", "time p.nc", "plot p.nc", "functions", "alarms", "--help", "--version"}) {
+    const Outcome run = ncsim(std::string(command) + " > /dev/full");
+    EXPECT_EQ(run.code, 1) << command;
+    EXPECT_NE(run.err.find("cannot be written"), std::string::npos) << command << ": " << run.err;
+  }
+}
+
+// Found before the program is read: this one would be an error of its own.
+TEST_F(CommandTest, AnUnwritablePlotIsFoundBeforeTheRun) {
+  for (const char* base : {"none/x", "/dev/null/x"}) {
+    const Outcome run = ncsim(std::string("plot -o ") + base + " no-such-program.nc");
+    EXPECT_EQ(run.code, 1);
+    EXPECT_NE(run.err.find(std::string(base) + ".svg: cannot be written: "), std::string::npos) << run.err;
+  }
+  std::filesystem::create_directory(folder_ + "/y.png");
+  const Outcome run = ncsim("plot -o y no-such-program.nc");
+  EXPECT_NE(run.err.find("y.png: cannot be written: "), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ + "/y.svg")) << "the check leaves nothing behind";
+  file("z.svg", "old");
+  ncsim("plot -o z no-such-program.nc");
+  EXPECT_EQ(content(folder_ + "/z.svg"), "old");
+}
+
+TEST_F(CommandTest, AByteOrderMarkAtTheStartOfAProgramIsNotThere) {
+  const std::string mark = "\xEF\xBB\xBF";
+  file("plain.nc", kPart);
+  file("p.nc", mark + kPart);
+  const std::string plain = ncsim("trace plain.nc").out;
+  EXPECT_EQ(ncsim("trace p.nc").out, plain);
+  EXPECT_EQ(ncsim("trace - < p.nc").out, plain);
+  EXPECT_EQ(ncsim("trace /dev/stdin < p.nc").code, 0);
+  ASSERT_EQ(std::system(
+                ("cd " + folder_ + " && cat p.nc | " NC_BINARY_DIR "/bin/ncsim trace - > pipe.txt").c_str()),
+            0);
+  EXPECT_EQ(content(folder_ + "/pipe.txt"), plain);
+  file("jis.nc", mark + "%\nG00X1.\nM02\n");
+  EXPECT_EQ(ncsim("check --dialect dgshape jis.nc").code, 0);
+  file("sub.nc", "G90 G0 X1.\nM98 P77\nM30\n");
+  file("O77.nc", mark + "G0 X2.\nM99\n");
+  EXPECT_EQ(ncsim("check sub.nc").code, 0);
+  file("short.nc", "\xEF\xBB");  // no mark: the program is what stands there
+  EXPECT_NE(ncsim("check short.nc").code, 0);
+  file("line.json", "{\"events\": [{\"when\": {\"line\": 4}, \"inputs\": {\"1000\": 1}}]}");
+  EXPECT_EQ(ncsim("trace --setup line.json p.nc").out, ncsim("trace --setup line.json plain.nc").out);
 }
 
 TEST_F(CommandTest, PlotWritesBothFiles) {

@@ -203,7 +203,55 @@ TEST(MachineLimits, ReplaceTheDefaultsOfTheAxesNamed) {
   EXPECT_FALSE(parse_machine_limits(R"({"axes": {"Q": {}}})", "m.json", &config, &error));
   EXPECT_EQ(error, "m.json:1: axes.Q: the setup has no such axis");
   EXPECT_FALSE(parse_machine_limits(R"({"axes": {"X": {"jerk": 0}}})", "m.json", &config, &error));
-  EXPECT_EQ(error, "m.json:1: axes.X.jerk: must be greater than 0");
+  EXPECT_EQ(error, "m.json:1: axes.X.jerk: must be from 0.001 to 1e+09, is 0");
+}
+
+// A rate near 0 is a run without end, a cycle of 0 one without progress.
+TEST(MachineLimits, EveryValueHasARangeAndIsNamed) {
+  nc_config config;
+  nc_config_init(&config);
+  for (const std::string key : {"velocity", "rapid", "acceleration", "jerk", "in_position"})
+    for (const std::string value : {"0", "-1", "1e-300", "1e300", "null", "\"1\""}) {
+      std::string error;
+      EXPECT_FALSE(parse_machine_limits("{\"axes\": {\n\"X\": {\"" + key + "\": " + value + "}}}", "m.json",
+                                        &config, &error));
+      EXPECT_EQ(error.rfind("m.json:2: axes.X." + key + ": must be ", 0), 0u) << error;
+      const bool number = value != "null" && value != "\"1\"";
+      if (number) {
+        EXPECT_NE(error.find(", is " + (value == "1e300" ? "1e+300" : value)), std::string::npos) << error;
+      }
+    }
+  for (const std::string value : {"0", "-0.001", "1e-300", "0.2"}) {
+    std::string error;
+    EXPECT_FALSE(parse_machine_limits("{\"cycle_s\": " + value + "}", "m.json", &config, &error));
+    EXPECT_EQ(error, "m.json:1: cycle_s: must be from 1e-05 to 0.1, is " + value);
+  }
+  std::string error;
+  EXPECT_FALSE(parse_machine_limits("{\"cycle_s\": NaN}", "m.json", &config, &error));
+  EXPECT_NE(error.find("m.json:1: "), std::string::npos);
+  EXPECT_FALSE(
+      parse_machine_limits("{\"axes\": {\"X\":\n{\"acceleration\": 1e400}}}", "m.json", &config, &error));
+  EXPECT_EQ(error, "m.json:2: acceleration: the number '1e400' is too large");
+}
+
+TEST(SetupText, AWorkOffsetThatTheControlHasNotIsRefusedEvenWithoutAValue) {
+  nc::tools::Setup setup;
+  std::string error;
+  for (const std::string value : {"{}", "{\"X\": 1}"}) {
+    EXPECT_FALSE(
+        parse_setup("{\"work_offsets\":\n{\"G54.1P999\": " + value + "}}", "s.json", &setup, &error));
+    EXPECT_EQ(error,
+              "s.json:2: work_offsets.G54.1P999: the control has G54.1P1 to G54.1P96 (options.work_offsets)");
+  }
+  EXPECT_FALSE(parse_setup(R"({"options": {"work_offsets": 0}, "work_offsets": {"G54.1P1": {}}})", "s.json",
+                           &setup, &error));
+  EXPECT_NE(error.find("no extended work offsets"), std::string::npos) << error;
+  EXPECT_TRUE(parse_setup(R"({"work_offsets": {"G54.1P120": {"X": 1}, "G59": {}, "EXT": {}},
+                              "options": {"work_offsets": 120}})",
+                          "s.json", &setup, &error))
+      << error;
+  EXPECT_FALSE(parse_setup("{\"start\": {\"X\": 1e400}}", "s.json", &setup, &error));
+  EXPECT_EQ(error, "s.json:1: X: the number '1e400' is too large");
 }
 
 }  // namespace

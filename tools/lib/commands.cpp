@@ -9,6 +9,7 @@
 #include "tools/lib/machine_limits.hpp"
 #include "tools/lib/number_text.hpp"
 #include "tools/lib/offline_run.hpp"
+#include "tools/lib/output_check.hpp"
 #include "tools/lib/output_file.hpp"
 #include "tools/lib/trace_writer.hpp"
 #include "tools/lib/virtual_machine.hpp"
@@ -194,6 +195,8 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, Plot
                  const std::string& base, std::FILE* out, std::FILE* err) {
   Session session;
   std::string error;
+  if (!can_be_written(base + ".svg", &error) || !can_be_written(base + ".png", &error))
+    return complain(err, error);
   if (!open_session(&session, options, &error)) return complain(err, error);
   ToolpathPlot plot;
   plot.set_view(view);

@@ -5,6 +5,7 @@
 #include "tools/lib/json_tree.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -100,6 +101,13 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& why) override {
     if (!error.empty()) return false;
+    if (dynamic_cast<const nlohmann::detail::out_of_range*>(&why) != nullptr) {  // "... parsing '1e400'"
+      const std::string what = why.what();
+      const size_t quote = what.find('\'');
+      const bool value = !open_.empty() && open_.back()->type == JsonNode::Type::kObject && !key_.empty();
+      return fail((value ? key_ + ": " : "") + "the number " +
+                  (quote == std::string::npos ? "" : what.substr(quote) + " ") + "is too large");
+    }
     // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ...": keep what comes
     // behind the place.
     std::string text = why.what();
@@ -176,6 +184,11 @@ std::string json::one_line(std::string text) {
 
 bool json::read_text_file(const std::string& path, std::string* content, std::string* error) {
   constexpr size_t kMaxBytes = size_t{64} << 20;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    *error = path + ": is a folder";
+    return false;
+  }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     *error = path + ": cannot be opened";

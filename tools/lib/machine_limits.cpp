@@ -6,35 +6,51 @@
 #include <iterator>
 
 #include "tools/lib/json_check.hpp"
+#include "tools/lib/number_text.hpp"
 
 namespace nc::tools {
 namespace {
 
 using namespace json;
 
-double positive(const JsonNode& node, const std::string& path) {
+// Rates below make a run that never ends, rates above steps that no double holds beside a position.
+constexpr double kSlowest = 1e-3, kFastest = 1e9;  // mm, deg per second, second squared, cubed
+constexpr double kMinWidth = 1e-6, kMaxLength = 1e6;
+constexpr double kShortestCycle_s = 1e-5, kLongestCycle_s = 0.1;
+
+std::string shown(double value) {
+  char out[kNumberText];
+  return std::string(out, value_text(value, out));
+}
+
+double in_range(const JsonNode& node, const std::string& path, double low, double high) {
   const double value = number(node, path);
-  if (!(value > 0.0)) fail(node, path, "must be greater than 0");
+  if (!(value >= low && value <= high))
+    fail(node, path, "must be from " + shown(low) + " to " + shown(high) + ", is " + shown(value));
   return value;
+}
+
+double rate(const JsonNode& node, const std::string& path) {
+  return in_range(node, path, kSlowest, kFastest);
 }
 
 void read_axis(const JsonNode& node, const std::string& path, nc_axis_config* axis) {
   check_keys(expect(node, path, Type::kObject), path,
              {"velocity", "rapid", "acceleration", "jerk", "in_position", "stroke"});
   if (const JsonNode* v = member(node, "velocity"))
-    axis->max_velocity = axis->rapid = positive(*v, path + ".velocity");
-  if (const JsonNode* v = member(node, "rapid")) axis->rapid = positive(*v, path + ".rapid");
+    axis->max_velocity = axis->rapid = rate(*v, path + ".velocity");
+  if (const JsonNode* v = member(node, "rapid")) axis->rapid = rate(*v, path + ".rapid");
   if (const JsonNode* v = member(node, "acceleration"))
-    axis->max_acceleration = positive(*v, path + ".acceleration");
-  if (const JsonNode* v = member(node, "jerk")) axis->max_jerk = positive(*v, path + ".jerk");
+    axis->max_acceleration = rate(*v, path + ".acceleration");
+  if (const JsonNode* v = member(node, "jerk")) axis->max_jerk = rate(*v, path + ".jerk");
   if (const JsonNode* v = member(node, "in_position"))
-    axis->in_position = positive(*v, path + ".in_position");
+    axis->in_position = in_range(*v, path + ".in_position", kMinWidth, kMaxLength);
   if (const JsonNode* stroke = member(node, "stroke")) {
     const std::string at = path + ".stroke";
     if (expect(*stroke, at, Type::kArray).items.size() != 2) fail(*stroke, at, "must be [low, high]");
     axis->soft_limited = true;
-    axis->soft_min = number(stroke->items[0], item_path(at, 0));
-    axis->soft_max = number(stroke->items[1], item_path(at, 1));
+    axis->soft_min = in_range(stroke->items[0], item_path(at, 0), -kMaxLength, kMaxLength);
+    axis->soft_max = in_range(stroke->items[1], item_path(at, 1), -kMaxLength, kMaxLength);
     if (!(axis->soft_min < axis->soft_max)) fail(*stroke, at, "low must be less than high");
   }
 }
@@ -44,8 +60,7 @@ void read(const JsonNode& root, nc_config* config) {
     fail(root, "", std::string("limits must be an object, are ") + root.type_name());
   check_keys(root, "", {"cycle_s", "axes"});
   if (const JsonNode* cycle = member(root, "cycle_s")) {
-    config->cycle_s = positive(*cycle, "cycle_s");
-    if (config->cycle_s > 0.1) fail(*cycle, "cycle_s", "must be at most 0.1 s");
+    config->cycle_s = in_range(*cycle, "cycle_s", kShortestCycle_s, kLongestCycle_s);
   }
   const JsonNode* axes = member(root, "axes");
   if (!axes) return;

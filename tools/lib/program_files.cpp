@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstring>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -19,6 +20,7 @@ namespace nc::tools {
 struct ProgramFiles::OpenFile {
   int descriptor = -1;
   unsigned index = 0;
+  uint64_t begin = 0;  // of the text, behind a byte order mark
   std::string path;
 
   OpenFile() = default;
@@ -57,6 +59,13 @@ std::optional<unsigned long> program_number(const std::string& name) {
 std::string base_name(const std::string& path) {
   const size_t slash = path.find_last_of('/');
   return slash == std::string::npos ? path : path.substr(slash + 1);
+}
+
+const char* not_a_program(mode_t mode) {
+  if (S_ISDIR(mode)) return "is a folder, not a program";
+  if (S_ISFIFO(mode))
+    return "is a pipe; a program is read in windows: give a file, or ncsim its standard input (-)";
+  return "is not a regular file";
 }
 
 std::string reason(nc_status status) {
@@ -103,11 +112,18 @@ nc_status ProgramFiles::add_descriptor(nc_control* control, int descriptor, cons
     return NC_E_READ;
   }
   if (!S_ISREG(info.st_mode)) {
-    if (error) *error = name + ": not a regular file";
+    if (error) *error = name + ": " + not_a_program(info.st_mode);
     return NC_E_READ;
   }
+  char head[3];
+  const long got = read_at(entry.get(), 0, head, sizeof head);
+  if (got < 0) {
+    if (error) *error = name + ": cannot be read";
+    return NC_E_READ;
+  }
+  entry->begin = mark_length(head, static_cast<size_t>(got));
   const nc_status status = nc_program_add(control, name.c_str(), &ProgramFiles::read_at, entry.get(),
-                                          static_cast<uint64_t>(info.st_size), &entry->index);
+                                          static_cast<uint64_t>(info.st_size) - entry->begin, &entry->index);
   if (status != NC_OK) {
     if (error) *error = name + ": " + reason(status);
     return status;
@@ -115,6 +131,10 @@ nc_status ProgramFiles::add_descriptor(nc_control* control, int descriptor, cons
   if (file) *file = entry->index;
   files_.push_back(std::move(entry));
   return NC_OK;
+}
+
+size_t ProgramFiles::mark_length(const char* text, size_t size) {
+  return size >= 3 && std::memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
 }
 
 void ProgramFiles::attach(nc_control* control) {
@@ -132,7 +152,8 @@ long ProgramFiles::read_at(void* user, uint64_t offset, char* buffer, size_t siz
   const auto* file = static_cast<const OpenFile*>(user);
   size_t got = 0;
   while (got < size) {
-    const ssize_t n = pread(file->descriptor, buffer + got, size - got, static_cast<off_t>(offset + got));
+    const ssize_t n =
+        pread(file->descriptor, buffer + got, size - got, static_cast<off_t>(file->begin + offset + got));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return -1;
     if (n == 0) break;

@@ -35,6 +35,10 @@ class ProgramFiles {
   /** Look into the folder whenever `control` misses a sub program. */
   void attach(nc_control* control);
 
+  /** Bytes at the start of `text` that are no part of a program: a UTF-8 byte order mark, as editors write
+   * it. */
+  static size_t mark_length(const char* text, size_t size);
+
   /** Path of the file that has this index in the program store; "" when it did not come from here. */
   std::string path_of(unsigned file) const;
 

@@ -131,6 +131,7 @@ bool Session::add_standard_input(std::string* error) {
       return false;
     }
   }
+  text_.erase(0, ProgramFiles::mark_length(text_.data(), text_.size()));
   if (nc_program_add_text(control_, "stdin", text_.data(), text_.size(), &main_file_) == NC_OK) return true;
   *error = main_name_ + ": the program store refused it";
   return false;
@@ -144,6 +145,7 @@ BlockLines Session::block_lines() const {
   std::string content, error;
   const std::string path = files_->path_of(main_file_);
   if (!json::read_text_file(path == "stdin" ? "/dev/stdin" : path, &content, &error)) return {};
+  content.erase(0, ProgramFiles::mark_length(content.data(), content.size()));
   return BlockLines(content);
 }
 

@@ -54,6 +54,7 @@ class SetupReader {
       if (key == "options") options(node);
       if (key == "clock") clock(node);
     }
+    check_work_offsets();
   }
 
  private:
@@ -198,8 +199,19 @@ class SetupReader {
       const std::string path = "work_offsets." + key;
       const auto index = work_offset_index(key);
       if (!index) fail(value, path, "no such key: EXT, G54 to G59 or G54.1P1 and on");
-      s_.work_offsets.push_back({*index, axis_values(value, path)});
+      s_.work_offsets.push_back({{path, value.line}, *index, axis_values(value, path)});
     }
+  }
+
+  // Behind the options, which say how many there are.
+  void check_work_offsets() {
+    const uint32_t sets = s_.option_work_offsets;
+    for (const SetupWorkOffset& offset : s_.work_offsets)
+      if (offset.index > 100 + sets)
+        throw JsonError{offset.place.line, one_line(offset.place.path + ": the control has " +
+                                                    (sets == 0 ? std::string("no extended work offsets")
+                                                               : "G54.1P1 to G54.1P" + std::to_string(sets)) +
+                                                    " (options.work_offsets)")};
   }
 
   void tool_offsets(const JsonNode& node) {

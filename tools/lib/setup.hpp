@@ -44,6 +44,7 @@ struct SetupAxisValue {
 };
 
 struct SetupWorkOffset {
+  SetupPlace place;
   unsigned index = 0;  // of nc_work_offset_set
   std::vector<SetupAxisValue> values;
 };

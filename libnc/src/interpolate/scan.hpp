@@ -84,6 +84,7 @@ class Scan {
   Done action(const Action& action) NC_RT;
   Done strobe(const Action& action) NC_RT;
   Done gate(const Gate& gate, const nc_inputs& in) NC_RT;
+  Done optional_stop(const nc_inputs& in) NC_RT;
   Done dwell(double rate, double amount) NC_RT;
   Done sync(const Record& record, const nc_inputs& in) NC_RT;
   Done wait(nc_stop_cause cause) NC_RT;

@@ -217,6 +217,22 @@ Scan::Done Scan::dwell(double rate, double amount) {
   return Done::yes;
 }
 
+/// M700 9.1: M01 is an M code with strobe and completion, and a stop, when its switch is on as it is reached.
+Scan::Done Scan::optional_stop(const nc_inputs& in) {
+  if (!gate_begun_) {
+    if (!in.optional_stop) return Done::yes;
+    Action m01;
+    m01.value = 1;
+    if (strobe(m01) != Done::yes) return Done::no;
+    gate_begun_ = true;
+  }
+  if (fin_wait() != 0 && !(suppress_ & 2)) return wait(NC_CAUSE_FIN);
+  gate_begun_ = false;
+  state_ = NC_STATE_STOPPED;
+  cause_ = NC_CAUSE_PROGRAM_STOP;
+  return Done::yes;
+}
+
 Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
   switch (g.kind) {
     case NC_GATE_FIN:
@@ -228,8 +244,7 @@ Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
     case NC_GATE_IN_POSITION:
       return in_position(in) ? Done::yes : wait(NC_CAUSE_IN_POSITION);
     case NC_GATE_OPTIONAL_STOP:
-      if (!in.optional_stop) return Done::yes;
-      [[fallthrough]];
+      return optional_stop(in);
     case NC_GATE_STOP:
       state_ = NC_STATE_STOPPED;
       cause_ = NC_CAUSE_PROGRAM_STOP;

@@ -141,6 +141,7 @@ Did auxiliary_after(Interpreter& in) {
       case MiscFunction::program_stop:
         in.state.modal.m = m;
         emit_action(in, NC_ACTION_M, 'M', m);
+        emit_fin(in);  // M700 9.1: the stop comes with the completion
         in.emit(ItemKind::gate).gate.kind = NC_GATE_STOP;
         break;
       case MiscFunction::optional_stop:
@@ -152,6 +153,7 @@ Did auxiliary_after(Interpreter& in) {
         if (in.state.comp.side != 0) in.state.comp.side = 0;
         in.state.modal.m = m;
         emit_action(in, NC_ACTION_M, 'M', m);
+        emit_fin(in);
         in.state.end_seen = true;
         return Did::done;
       case MiscFunction::call_sub: return call_sub(in);

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// Conversions. See convert.hpp.
+#include "dds/convert.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "nc/run.h"
+#include "runtime/share/text.hpp"
+
+namespace nc::dds {
+namespace {
+
+// A NUL-terminated text into a bounded string of the IDL.
+template <std::size_t kSize>
+void set(char (&target)[kSize], std::string_view text) {
+  share::Text<kSize> cut;
+  share::set_text(&cut, text);
+  std::memcpy(target, cut.data(), kSize);
+}
+template <std::size_t kSize, std::size_t kFrom>
+void set(char (&target)[kSize], const share::Text<kFrom>& text) {
+  set(target, share::text_of(text));
+}
+
+// A value of the segment as an enumerator; what this IDL does not know becomes `other`.
+template <class Enum>
+Enum as_enum(std::uint32_t value, Enum last, Enum other) {
+  return value <= static_cast<std::uint32_t>(last) ? static_cast<Enum>(value) : other;
+}
+
+double us(std::uint64_t ns) {
+  return static_cast<double>(ns) / 1000.0;
+}
+
+static_assert(static_cast<int>(nc_RUN_MANUAL) == NC_STATE_MANUAL && static_cast<int>(nc_RUN_ALARM) == NC_STATE_ALARM);
+static_assert(static_cast<int>(nc_CAUSE_ALARM) == NC_CAUSE_ALARM && static_cast<int>(nc_CAUSE_FIN) == NC_CAUSE_FIN);
+static_assert(static_cast<int>(nc_CMD_SELECT_PROGRAM) == static_cast<int>(share::RequestKind::kSelectProgram) &&
+              static_cast<int>(nc_CMD_JOG) == static_cast<int>(share::RequestKind::kJog));
+static_assert(static_cast<int>(nc_ACK_FAILED) == static_cast<int>(share::AckState::kFailed));
+static_assert(static_cast<int>(nc_REASON_CLIENT_IN_USE) == static_cast<int>(share::AckReason::kClientInUse));
+
+}  // namespace
+
+void MachineSample::fill(const share::MachineBlock& machine, const char* partition, bool commands) {
+  set(info.machine, partition);
+  set(info.name, machine.machine);
+  set(info.version, machine.version);
+  set(info.dialect, machine.dialect == NC_DIALECT_DGSHAPE ? "dgshape" : "m700");
+  info.part_systems = machine.system_count;
+  info.cycle_us = machine.cycle_us;
+  info.max_feed_override = machine.max_feed_override;
+  info.commands = commands;
+  std::uint32_t count = 0;
+  for (unsigned s = 0; s < machine.system_count; ++s) {
+    for (unsigned a = 0; a < machine.axis_count[s]; ++a) {
+      const share::AxisRow& row = machine.axis[s][a];
+      nc_AxisInfo& axis = axes[count++];
+      axis.part_system = s + 1;
+      set(axis.name, row.name);
+      axis.rotary = row.rotary != 0;
+      axis.soft_limited = row.soft_limited != 0;
+      axis.soft_min = row.soft_min;
+      axis.soft_max = row.soft_max;
+      axis.max_velocity = row.max_velocity;
+    }
+  }
+  info.axes = {NC_MAX_SYSTEMS * NC_MAX_AXES, count, axes, false};
+}
+
+void StatusSample::fill(const share::MachineBlock& machine, const share::StatusBlock& block, unsigned system,
+                        const char* partition) {
+  const share::SystemStatus& from = block.system[system];
+  nc_Status& to = status;
+  to.part_system = system + 1;
+  set(to.machine, partition);
+  to.scan = block.scan;
+  to.time_ns = block.scan_time_ns;
+  to.mode = as_enum(block.mode, nc_MODE_MANUAL, nc_MODE_AUTO);
+  to.run_state = as_enum(from.run_state, nc_RUN_MANUAL, nc_RUN_IDLE);
+  to.stop_cause = as_enum(from.stop_cause, nc_CAUSE_ALARM, nc_CAUSE_OTHER);
+  set(to.state_text, from.state_text);
+  to.resetting = block.resetting != 0;
+  to.single_block = block.single_block != 0;
+  to.optional_stop = block.optional_stop != 0;
+  to.program_ready = block.program_ready != 0;
+  to.rapid = from.rapid != 0;
+  to.alarm = block.alarm_count != 0;
+  to.feed_override = block.feed_override;
+  to.rapid_override = block.rapid_override;
+  set(to.program, from.program);
+  set(to.file, from.file);
+  to.program_number = from.program_number;
+  to.sequence_number = from.sequence_number;
+  to.line = from.line;
+  to.depth = from.depth;
+  set(to.block, from.block);
+  set(to.modal, from.modal);
+  to.main_line = block.main_line;
+  to.program_lines = block.program_lines;
+  to.percent = block.percent;
+  to.feed = from.feed_mm_min;
+  to.feed_command = from.feed_command_mm_min;
+  to.spindle = from.spindle_rpm;
+  to.spindle_command = from.s_commanded;
+  to.m = from.m;
+  to.t = from.t;
+  to.b = from.b;
+  to.strobe = from.strobe;
+  to.blocks = from.blocks;
+  to.path_length = from.path_length;
+  to.run_s = from.run_s;
+  to.runs = block.runs;
+  to.last_run_ok = block.last_run_ok != 0;
+  for (unsigned a = 0; a < from.axis_count; ++a) {
+    set(axes[a].name, machine.axis[system][a].name);
+    axes[a].rotary = machine.axis[system][a].rotary != 0;
+    axes[a].commanded = from.axis[a].commanded;
+    axes[a].actual = from.axis[a].actual;
+    axes[a].work = from.axis[a].work;
+    axes[a].distance_to_go = from.axis[a].distance_to_go;
+    axes[a].velocity = from.axis[a].velocity;
+  }
+  to.axes = {NC_MAX_AXES, from.axis_count, axes, false};
+  std::copy(std::begin(block.interface_input), std::end(block.interface_input), input);
+  std::copy(std::begin(block.interface_output), std::end(block.interface_output), output);
+  to.interface_input = {NC_WORDS, NC_WORDS, input, false};
+  to.interface_output = {NC_WORDS, NC_WORDS, output, false};
+  const share::ScanFigures& figures = block.figures;
+  to.figures = {figures.scans,
+                figures.overruns,
+                figures.missed_slots,
+                us(figures.execution_p50_ns),
+                us(figures.execution_p999_ns),
+                us(figures.execution_max_ns),
+                us(figures.jitter_p50_ns),
+                us(figures.jitter_p999_ns),
+                us(figures.jitter_max_ns)};
+  to.message_count = block.message_count;
+  set(to.message, block.message);
+}
+
+void SignalSample::fill(const share::MachineBlock& machine, const share::PointsBlock& points, const char* partition) {
+  set(image.machine, partition);
+  image.scan = points.scan;
+  const std::uint32_t count = std::min(points.count, machine.point_count);
+  for (std::uint32_t p = 0; p < count; ++p) {
+    set(signals[p].name, machine.point[p].name);
+    signals[p].is_input = machine.point[p].is_input != 0;
+    signals[p].is_word = machine.point[p].is_word != 0;
+    signals[p].value = points.value[p];
+    signals[p].good = points.good[p] != 0;
+  }
+  image.signals = {nc::hal::kMaxPoints, count, signals, false};
+}
+
+nc_Status_v1 core_status(const share::MachineBlock& machine, const share::StatusBlock& block, unsigned system,
+                         const char* partition) {
+  const share::SystemStatus& from = block.system[system];
+  nc_Status_v1 to{};
+  to.part_system = system + 1;
+  set(to.machine, partition);
+  to.scan = block.scan;
+  to.time_ns = block.scan_time_ns;
+  to.mode = block.mode;
+  to.run_state = from.run_state;
+  to.stop_cause = from.stop_cause;
+  set(to.program, from.program);
+  to.program_number = from.program_number;
+  to.line = from.line;
+  to.percent = block.percent;
+  to.feed_override = block.feed_override;
+  to.rapid_override = block.rapid_override;
+  to.feed = from.feed_mm_min;
+  to.spindle = from.spindle_rpm;
+  to.tool = from.t;
+  to.axis_count = from.axis_count;
+  std::string names;
+  for (unsigned a = 0; a < from.axis_count; ++a) {
+    names += share::text_of(machine.axis[system][a].name).substr(0, 1);
+    to.commanded[a] = from.axis[a].commanded;
+    to.actual[a] = from.axis[a].actual;
+    to.work[a] = from.axis[a].work;
+    to.distance_to_go[a] = from.axis[a].distance_to_go;
+  }
+  set(to.axis_names, names);
+  to.alarm_count = block.alarm_count;
+  return to;
+}
+
+nc_Alarm alarm(const share::Entry& entry, std::uint32_t slot, const char* partition) {
+  nc_Alarm to{};
+  to.slot = slot;
+  to.id = entry.sequence;
+  set(to.machine, partition);
+  to.part_system = entry.system + 1;
+  set(to.code, entry.code);
+  set(to.text, entry.text);
+  set(to.axis, entry.axis);
+  to.program_number = entry.program_number;
+  to.line = entry.line;
+  to.raised_ns = entry.raised_ns;
+  return to;
+}
+
+nc_Alarm_v1 core_alarm(const share::Entry& entry, std::uint32_t slot, const char* partition) {
+  nc_Alarm_v1 to{};
+  to.slot = slot;
+  to.id = entry.sequence;
+  set(to.machine, partition);
+  to.part_system = entry.system + 1;
+  set(to.code, entry.code);
+  set(to.text, entry.text);
+  set(to.axis, entry.axis);
+  to.line = entry.line;
+  to.raised_ns = entry.raised_ns;
+  return to;
+}
+
+nc_AlarmHistory history(const share::Entry& entry, const char* partition) {
+  nc_AlarmHistory to{};
+  to.slot = static_cast<std::uint32_t>((entry.sequence - 1) % share::kHistory);
+  to.id = entry.sequence;
+  set(to.machine, partition);
+  to.part_system = entry.system + 1;
+  to.message = entry.is_message != 0;
+  set(to.code, entry.code);
+  set(to.text, entry.text);
+  set(to.axis, entry.axis);
+  to.program_number = entry.program_number;
+  to.line = entry.line;
+  to.raised_ns = entry.raised_ns;
+  to.cleared_ns = entry.cleared_ns;
+  return to;
+}
+
+nc_CommandAck ack(const share::Ack& ack) {
+  nc_CommandAck to{};
+  set(to.client, ack.client);
+  to.seq = ack.sequence;
+  to.kind = as_enum(ack.kind, nc_CMD_SELECT_PROGRAM, nc_CMD_TAKE_CONTROL);
+  to.state = as_enum(ack.state, nc_ACK_FAILED, nc_ACK_REJECTED);
+  to.reason = as_enum(ack.reason, nc_REASON_CLIENT_IN_USE, nc_REASON_REFUSED);
+  to.repeated = ack.repeated != 0;
+  to.time_ns = ack.time_ns;
+  set(to.text, ack.text);
+  return to;
+}
+
+share::Request request(const nc_Command& command, const share::MachineBlock& machine, std::uint64_t writer,
+                       std::int64_t issued_ns) {
+  share::Request to{};
+  share::set_text(&to.client, command.client);
+  to.sequence = command.seq;
+  to.writer = writer;
+  to.issued_ns = issued_ns;
+  to.kind = static_cast<std::uint32_t>(command.kind);
+  // The kinds of the gateway itself cannot be asked for from outside.
+  if (to.kind > static_cast<std::uint32_t>(nc_CMD_SELECT_PROGRAM))
+    to.kind = static_cast<std::uint32_t>(share::RequestKind::kCount);
+  to.lifespan_ms = command.lifespan_ms;
+  to.lease_ms = command.lease_ms;
+  to.expected_mode = command.expected_mode;
+  to.expected_run_state = command.expected_run_state;
+  share::set_text(&to.expected_program, command.expected_program);
+  to.system = command.part_system - 1;  // 0 becomes a number that no part system has
+  to.axis = NC_MAX_AXES;
+  if (to.system < machine.system_count)
+    for (unsigned a = 0; a < machine.axis_count[to.system]; ++a)
+      if (share::text_of(machine.axis[to.system][a].name) == command.axis) to.axis = a;
+  to.number = command.number;
+  to.value = command.value;
+  share::set_text(&to.text, command.text);
+  return to;
+}
+
+}  // namespace nc::dds

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gateway. See gateway.hpp.
+#include "dds/gateway.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <cstring>
+#include <set>
+
+#include "runtime/clock.hpp"
+#include "runtime/share/text.hpp"
+
+namespace nc::dds {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kAttachEveryNs = 100 * kMs;
+constexpr std::int64_t kLookEveryNs = 50 * kMs;  // without a new picture
+constexpr std::int64_t kSignalsNs = 100 * kMs;   // at most so often
+constexpr std::int64_t kSignalsForcedNs = 1000 * kMs;
+constexpr int kTaken = 16;
+
+std::int64_t now() {
+  return nc::rt::RealClock().now_ns();
+}
+
+}  // namespace
+
+Gateway::Gateway(const GatewayOptions& options)
+    : options_(options),
+      partition_(share::share_name(options.share)),
+      period_ns_(static_cast<std::int64_t>(1e9 / options.rate_hz)),
+      history_block_(std::make_unique<share::HistoryBlock>()),
+      points_(std::make_unique<share::PointsBlock>()),
+      last_points_(std::make_unique<share::PointsBlock>()),
+      signal_sample_(std::make_unique<SignalSample>()) {}
+
+Gateway::~Gateway() {
+  stop_ = true;
+  if (commands_.joinable()) commands_.join();
+}
+
+bool Gateway::open(std::string* error) {
+  if (!participant_.open(options_.domain, error)) return false;
+  const double period_s = 1.0 / options_.rate_hz;
+  const struct {
+    dds_entity_t* writer;
+    Topic topic;
+  } writers[] = {{&machine_, Topic::kMachineInfo},     {&status_, Topic::kStatus},
+                 {&alarm_, Topic::kAlarm},             {&history_, Topic::kAlarmHistory},
+                 {&signals_, Topic::kSignalImage},     {&status_core_, Topic::kStatusCore},
+                 {&alarm_core_, Topic::kAlarmCore},    {&ack_, Topic::kCommandAck}};
+  for (const auto& entry : writers) {
+    if (entry.topic == Topic::kCommandAck && !options_.commands) continue;
+    *entry.writer = make_writer(participant_.get(), entry.topic, partition_, period_s, error);
+    if (*entry.writer <= 0) return false;
+  }
+  if (!options_.commands) return true;
+  command_ = make_reader(participant_.get(), Topic::kCommand, partition_, error);
+  if (command_ <= 0) return false;
+  waitset_ = dds_create_waitset(participant_.get());
+  const dds_entity_t condition = dds_create_readcondition(command_, DDS_ANY_STATE);
+  if (waitset_ <= 0 || condition <= 0 || dds_waitset_attach(waitset_, condition, 0) < 0) {
+    *error = "the commands cannot be waited for";
+    return false;
+  }
+  commands_ = std::thread([this] { command_thread(); });
+  return true;
+}
+
+// Each sentence once, until another one is due.
+void Gateway::say(const std::string& text) {
+  if (text == said_) return;
+  said_ = text;
+  std::fprintf(stderr, "ncdds: %s\n", text.c_str());
+}
+
+bool Gateway::write(dds_entity_t writer, const void* sample) {
+  const dds_return_t result = dds_write(writer, sample);
+  // A reader that does not keep up is passed over; it gets the next value.
+  if (result < 0 && result != DDS_RETCODE_TIMEOUT) say(std::string("write: ") + dds_strretcode(result));
+  return result >= 0;
+}
+
+// ---- the segment ----
+
+bool Gateway::attach() {
+  if (now() < next_attach_ns_) return false;
+  next_attach_ns_ = now() + kAttachEveryNs;
+  std::string error;
+  const std::lock_guard lock(segment_mutex_);
+  if (!segment_.open(options_.share, &error) || segment_.owner_gone()) {
+    say("waits: " + (error.empty() ? "the control that made the shared memory is gone" : error));
+    segment_.close();
+    return false;
+  }
+  may_command_ = options_.commands && segment_.claim_commands(&error);
+  if (options_.commands && !may_command_) std::fprintf(stderr, "ncdds: warning: no commands: %s\n", error.c_str());
+  if (may_command_) {
+    share::Request began{};
+    began.kind = static_cast<std::uint32_t>(share::RequestKind::kGatewayBegan);
+    (void)segment_.get()->commands.push(began);
+    share::wake(&segment_.get()->wake_intake);
+  }
+  heart_.restart();
+  written_any_ = false;
+  history_sequence_ = 0;
+  MachineSample machine;
+  machine.fill(segment_.get()->machine, partition_.c_str(), may_command_);
+  write(machine_, &machine.info);
+  say("publishes \"" + std::string(share::text_of(segment_.get()->machine.machine)) + "\" as " + partition_ +
+      " in domain " + std::to_string(options_.domain) + (may_command_ ? ", takes commands" : ""));
+  return true;
+}
+
+// What was published is no longer true: the instances go, so that every subscriber knows.
+void Gateway::detach(const char* why) {
+  say(why);
+  if (written_any_) {
+    const share::MachineBlock& machine = segment_.get()->machine;
+    for (unsigned s = 0; s < machine.system_count; ++s) {
+      StatusSample sample;
+      sample.fill(machine, block_, s, partition_.c_str());
+      const nc_Status_v1 core = core_status(machine, block_, s, partition_.c_str());
+      (void)dds_writedispose(status_, &sample.status);
+      (void)dds_writedispose(status_core_, &core);
+    }
+  }
+  for (const auto& [id, shown] : active_) clear_alarm(shown);
+  active_.clear();
+  for (std::uint64_t id = 1; id <= history_block_->last_sequence && id <= share::kHistory; ++id) {
+    const nc_AlarmHistory old = history(history_block_->entry[id - 1], partition_.c_str());
+    (void)dds_writedispose(history_, &old);  // numbers begin again with the next control
+  }
+  *history_block_ = {};
+  const std::lock_guard lock(segment_mutex_);
+  may_command_ = false;
+  segment_.close();
+}
+
+// One look at the segment. False when it is gone.
+bool Gateway::look() {
+  const std::int64_t at = now();
+  const bool ended =
+      segment_.get()->life.load(std::memory_order_acquire) == static_cast<std::uint32_t>(share::Life::kEnded);
+  const bool beats = heart_.alive(segment_.get()->heartbeat.load(std::memory_order_acquire), at);
+  publish_acks();
+  if (ended || (beats && at >= next_status_ns_)) {
+    publish_status(at);
+    publish_alarms();
+    publish_history();
+    publish_signals(at);
+  }
+  if (ended) {
+    detach("the control has ended");
+    return false;
+  }
+  if (!beats && segment_.owner_gone()) {
+    detach("the control is gone");
+    return false;
+  }
+  if (!beats) say("the control does not answer: its process lives, its heartbeat stands still");
+  return true;
+}
+
+void Gateway::run() {
+  while (!stop_) {
+    if (!segment_.is_open() && !attach()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      continue;
+    }
+    std::atomic<std::uint32_t>* word = &segment_.get()->wake_reader;
+    const std::uint32_t seen = word->load(std::memory_order_acquire);
+    if (!look()) continue;
+    share::wait_for_change(word, seen, kLookEveryNs);
+  }
+  if (commands_.joinable()) commands_.join();
+  // Nothing is disposed: the control goes on, only nobody publishes it.
+  const std::lock_guard lock(segment_mutex_);
+  segment_.close();
+}
+
+// ---- publications ----
+
+void Gateway::publish_status(std::int64_t now_ns) {
+  std::string error;
+  if (!segment_.status(&block_, &error)) {
+    say(error);
+    return;
+  }
+  // A write asserts the liveliness of the topic: there is none for a scan that stands still.
+  if (written_any_ && block_.scan == written_scan_) return;
+  written_any_ = true;
+  written_scan_ = block_.scan;
+  // Half a publication early: pictures come every 10 ms, and the next one would be late.
+  next_status_ns_ = now_ns + period_ns_ - std::min<std::int64_t>(period_ns_ / 2, 5 * kMs);
+  const share::MachineBlock& machine = segment_.get()->machine;
+  for (unsigned s = 0; s < block_.system_count; ++s) {
+    StatusSample sample;
+    sample.fill(machine, block_, s, partition_.c_str());
+    write(status_, &sample.status);
+    const nc_Status_v1 core = core_status(machine, block_, s, partition_.c_str());
+    write(status_core_, &core);
+  }
+}
+
+void Gateway::clear_alarm(const Shown& shown) {
+  const nc_Alarm gone = alarm(shown.entry, shown.slot, partition_.c_str());
+  const nc_Alarm_v1 gone_core = core_alarm(shown.entry, shown.slot, partition_.c_str());
+  (void)dds_writedispose(alarm_, &gone);
+  (void)dds_writedispose(alarm_core_, &gone_core);
+}
+
+void Gateway::publish_alarms() {
+  std::uint32_t used = 0;  // slots
+  for (auto it = active_.begin(); it != active_.end();) {
+    const bool active = std::any_of(block_.alarm.begin(), block_.alarm.begin() + block_.alarm_count,
+                                    [&](const share::Entry& entry) { return entry.sequence == it->first; });
+    if (active) {
+      used |= 1u << it->second.slot;
+      ++it;
+    } else {
+      clear_alarm(it->second);
+      it = active_.erase(it);
+    }
+  }
+  for (unsigned i = 0; i < block_.alarm_count; ++i) {
+    const share::Entry& entry = block_.alarm[i];
+    if (active_.count(entry.sequence) != 0) continue;
+    const auto slot = static_cast<std::uint32_t>(std::countr_one(used));  // there are as many as alarms
+    used |= 1u << slot;
+    active_[entry.sequence] = {entry, slot};
+    const nc_Alarm come = alarm(entry, slot, partition_.c_str());
+    const nc_Alarm_v1 come_core = core_alarm(entry, slot, partition_.c_str());
+    write(alarm_, &come);
+    write(alarm_core_, &come_core);
+  }
+}
+
+void Gateway::publish_history() {
+  std::uint64_t sequence = segment_.get()->history.sequence();
+  if (sequence == history_sequence_ || sequence == 0) return;
+  std::string error;
+  const auto block = std::make_unique<share::HistoryBlock>();
+  if (!segment_.history(block.get(), &sequence, &error)) {
+    say(error);
+    return;
+  }
+  history_sequence_ = sequence;
+  const std::uint64_t filled = std::min<std::uint64_t>(block->last_sequence, share::kHistory);
+  for (std::uint64_t i = 0; i < filled; ++i) {
+    const std::uint64_t place = (block->last_sequence - filled + i) % share::kHistory;
+    const share::Entry &entry = block->entry[place], &before = history_block_->entry[place];
+    if (entry.sequence == before.sequence && entry.cleared_ns == before.cleared_ns) continue;
+    const nc_AlarmHistory sample = history(entry, partition_.c_str());
+    write(history_, &sample);
+  }
+  *history_block_ = *block;
+}
+
+void Gateway::publish_signals(std::int64_t now_ns) {
+  if (now_ns < next_signals_ns_) return;
+  dds_publication_matched_status_t matched{};
+  if (dds_get_publication_matched_status(signals_, &matched) < 0 || matched.current_count == 0) return;
+  next_signals_ns_ = now_ns + kSignalsNs;
+  segment_.get()->points_until.store(now_ns + share::kPointsWantedNs, std::memory_order_relaxed);
+  if (segment_.get()->points.sequence() == 0) return;  // nobody has asked before: they come with the next look
+  std::string error;
+  if (!segment_.points(points_.get(), &error)) {
+    say(error);
+    return;
+  }
+  const bool same = points_->count == last_points_->count && points_->value == last_points_->value &&
+                    points_->good == last_points_->good;
+  if (same && now_ns < forced_signals_ns_) return;
+  forced_signals_ns_ = now_ns + kSignalsForcedNs;
+  *last_points_ = *points_;
+  signal_sample_->fill(segment_.get()->machine, *points_, partition_.c_str());
+  write(signals_, &signal_sample_->image);
+}
+
+// ---- commands ----
+
+void Gateway::publish_acks() {
+  if (!may_command_) return;
+  share::Ack answer;
+  while (segment_.get()->acks.pop(&answer)) {
+    const nc_CommandAck sample = ack(answer);
+    write(ack_, &sample);
+  }
+}
+
+void Gateway::refuse(const share::Request& request, share::AckReason reason, const char* text) {
+  share::Ack answer{};
+  answer.client = request.client;
+  answer.sequence = request.sequence;
+  answer.kind = request.kind;
+  answer.state = static_cast<std::uint32_t>(share::AckState::kRejected);
+  answer.reason = static_cast<std::uint32_t>(reason);
+  answer.time_ns = share::wall_ns();
+  share::set_text(&answer.text, text);
+  const nc_CommandAck sample = ack(answer);
+  write(ack_, &sample);
+}
+
+void Gateway::put(const share::Request& request) {
+  if (!segment_.get()->commands.push(request)) {
+    if (request.kind < static_cast<std::uint32_t>(share::RequestKind::kClientGone))
+      refuse(request, share::AckReason::kOverflow, "too many commands at once");
+    return;
+  }
+  share::wake(&segment_.get()->wake_intake);
+}
+
+void Gateway::take_commands() {
+  void* samples[kTaken] = {};
+  dds_sample_info_t infos[kTaken];
+  const int count = dds_take(command_, samples, infos, kTaken, kTaken);
+  if (count <= 0) return;
+  const std::lock_guard lock(segment_mutex_);
+  std::set<dds_instance_handle_t> left;  // after what they have said
+  for (int i = 0; i < count; ++i) {
+    const dds_sample_info_t& info = infos[i];
+    if (info.instance_state != DDS_IST_ALIVE) left.insert(info.instance_handle);
+    if (info.valid_data) {
+      const auto& command = *static_cast<const nc_Command*>(samples[i]);
+      static const share::MachineBlock kNoMachine{};
+      const bool open = segment_.is_open() && may_command_;
+      const share::Request wanted = request(command, open ? segment_.get()->machine : kNoMachine,
+                                            info.publication_handle, info.source_timestamp);
+      Client& client = clients_[info.instance_handle];
+      client.name = wanted.client;
+      client.writer = info.publication_handle;
+      if (open) put(wanted);
+      else refuse(wanted, share::AckReason::kRefused, "there is no control that takes commands");
+    }
+  }
+  for (const dds_instance_handle_t handle : left) {
+    const auto found = clients_.find(handle);
+    if (found == clients_.end()) continue;
+    share::Request gone{};
+    gone.kind = static_cast<std::uint32_t>(share::RequestKind::kClientGone);
+    gone.client = found->second.name;
+    gone.writer = found->second.writer;
+    clients_.erase(found);
+    if (segment_.is_open() && may_command_) put(gone);
+  }
+  (void)dds_return_loan(command_, samples, count);
+}
+
+void Gateway::command_thread() {
+  while (!stop_) {
+    dds_attach_t triggered[1];
+    if (dds_waitset_wait(waitset_, triggered, 1, DDS_MSECS(100)) > 0) take_commands();
+  }
+}
+
+}  // namespace nc::dds

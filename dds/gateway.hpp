@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gateway: reads the segment of ncrtd, publishes it over DDS, brings commands in. A process of its own, so
+// that nothing from the network can stop the machine; it waits for ncrtd, and finds it again after a restart.
+//
+// Two threads: run() publishes, woken by each new picture in the segment; the command thread is woken by DDS.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "dds/convert.hpp"
+#include "dds/participant.hpp"
+#include "runtime/share/segment.hpp"
+
+namespace nc::dds {
+
+struct GatewayOptions {
+  std::string share;    // name of the segment; also the partition
+  unsigned domain = kDefaultDomain;
+  double rate_hz = kDefaultRateHz;
+  bool commands = false;
+};
+
+class Gateway {
+ public:
+  explicit Gateway(const GatewayOptions& options);
+  ~Gateway();
+  // False with a sentence in *error.
+  bool open(std::string* error);
+  // Until stop().
+  void run();
+  // From a signal handler, too.
+  void stop() { stop_ = true; }
+
+ private:
+  struct Shown {  // an active alarm that is published
+    share::Entry entry{};
+    std::uint32_t slot = 0;
+  };
+  bool attach();
+  void detach(const char* why);
+  bool look();
+  void publish_status(std::int64_t now_ns);
+  void publish_alarms();
+  void clear_alarm(const Shown& shown);
+  void publish_history();
+  void publish_signals(std::int64_t now_ns);
+  void publish_acks();
+  void take_commands();
+  void command_thread();
+  void put(const share::Request& request);
+  void refuse(const share::Request& request, share::AckReason reason, const char* text);
+  bool write(dds_entity_t writer, const void* sample);
+  void say(const std::string& text);
+
+  const GatewayOptions options_;
+  const std::string partition_;
+  const std::int64_t period_ns_;
+  std::atomic<bool> stop_{false};
+
+  Participant participant_;
+  dds_entity_t machine_ = 0, status_ = 0, alarm_ = 0, history_ = 0, signals_ = 0, status_core_ = 0, alarm_core_ = 0;
+  dds_entity_t command_ = 0, ack_ = 0, waitset_ = 0;
+
+  std::mutex segment_mutex_;  // the command thread puts commands in while run() may let the segment go
+  share::SegmentReader segment_;
+  bool may_command_ = false;
+  share::HeartbeatWatch heart_{300'000'000};
+  std::string said_;
+
+  share::StatusBlock block_{};
+  std::uint64_t written_scan_ = 0;
+  bool written_any_ = false;
+  std::int64_t next_status_ns_ = 0, next_signals_ns_ = 0, forced_signals_ns_ = 0, next_attach_ns_ = 0;
+  std::map<std::uint64_t, Shown> active_;  // by number of the occurrence
+  std::uint64_t history_sequence_ = 0;
+  std::unique_ptr<share::HistoryBlock> history_block_;  // as published
+  std::unique_ptr<share::PointsBlock> points_, last_points_;
+  std::unique_ptr<SignalSample> signal_sample_;
+
+  struct Client {
+    share::Text<32> name{};
+    std::uint64_t writer = 0;
+  };
+  std::map<dds_instance_handle_t, Client> clients_;  // command thread
+  std::thread commands_;
+};
+
+}  // namespace nc::dds

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// Subscriber of status and alarms. See monitor.hpp.
+#include "dds/monitor.hpp"
+
+#include <ctime>
+
+#include "runtime/share/text.hpp"
+
+namespace nc::dds {
+namespace {
+
+constexpr int kTaken = 32;
+
+const char* mode_name(nc_Mode mode) {
+  switch (mode) {
+    case nc_MODE_AUTO: return "auto";
+    case nc_MODE_MDI: return "MDI";
+    case nc_MODE_MANUAL: return "manual";
+    default: return "?";
+  }
+}
+
+const char* state_name(nc_RunState state) {
+  switch (state) {
+    case nc_RUN_IDLE: return "idle";
+    case nc_RUN_RUNNING: return "running";
+    case nc_RUN_HOLD: return "hold";
+    case nc_RUN_STOPPED: return "stopped";
+    case nc_RUN_ALARM: return "alarm";
+    case nc_RUN_MANUAL: return "manual";
+    default: return "?";
+  }
+}
+
+const char* cause_name(nc_StopCause cause) {
+  switch (cause) {
+    case nc_CAUSE_NONE: return "none";
+    case nc_CAUSE_FIN: return "FIN";
+    case nc_CAUSE_DWELL: return "dwell";
+    case nc_CAUSE_IN_POSITION: return "in-position";
+    case nc_CAUSE_PROGRAM_STOP: return "program stop";
+    case nc_CAUSE_SINGLE_BLOCK: return "single block";
+    case nc_CAUSE_FEED_HOLD: return "feed hold";
+    case nc_CAUSE_INTERLOCK: return "interlock";
+    case nc_CAUSE_OVERRIDE_ZERO: return "override 0";
+    case nc_CAUSE_STARVED: return "starved";
+    case nc_CAUSE_ALARM: return "alarm";
+    default: return "other";
+  }
+}
+
+StatusView view_of(const nc_Status& s) {
+  StatusView v;
+  v.part_system = s.part_system;
+  v.machine = s.machine;
+  v.scan = s.scan;
+  v.time_ns = s.time_ns;
+  v.mode = mode_name(s.mode);
+  v.run_state = state_name(s.run_state);
+  v.stop_cause = cause_name(s.stop_cause);
+  v.state_text = s.state_text;
+  v.resetting = s.resetting;
+  v.single_block = s.single_block;
+  v.optional_stop = s.optional_stop;
+  v.program_ready = s.program_ready;
+  v.rapid = s.rapid;
+  v.alarm = s.alarm;
+  v.feed_override = s.feed_override;
+  v.rapid_override = s.rapid_override;
+  v.program = s.program;
+  v.file = s.file;
+  v.block = s.block;
+  v.modal = s.modal;
+  v.program_number = s.program_number;
+  v.sequence_number = s.sequence_number;
+  v.line = s.line;
+  v.depth = s.depth;
+  v.main_line = s.main_line;
+  v.program_lines = s.program_lines;
+  v.percent = s.percent;
+  v.feed = s.feed;
+  v.feed_command = s.feed_command;
+  v.spindle = s.spindle;
+  v.spindle_command = s.spindle_command;
+  v.m = s.m;
+  v.t = s.t;
+  v.b = s.b;
+  v.strobe = s.strobe;
+  v.blocks = s.blocks;
+  v.runs = s.runs;
+  v.last_run_ok = s.last_run_ok;
+  v.path_length = s.path_length;
+  v.run_s = s.run_s;
+  for (std::uint32_t a = 0; a < s.axes._length; ++a) {
+    const nc_Axis& axis = s.axes._buffer[a];
+    v.axes.push_back({axis.name, axis.rotary, axis.commanded, axis.actual, axis.work, axis.distance_to_go,
+                      axis.velocity});
+  }
+  v.interface_input.assign(s.interface_input._buffer, s.interface_input._buffer + s.interface_input._length);
+  v.interface_output.assign(s.interface_output._buffer, s.interface_output._buffer + s.interface_output._length);
+  v.scans = s.figures.scans;
+  v.overruns = s.figures.overruns;
+  v.missed_slots = s.figures.missed_slots;
+  v.execution_p50_us = s.figures.execution_p50_us;
+  v.execution_p999_us = s.figures.execution_p999_us;
+  v.execution_max_us = s.figures.execution_max_us;
+  v.jitter_p50_us = s.figures.jitter_p50_us;
+  v.jitter_p999_us = s.figures.jitter_p999_us;
+  v.jitter_max_us = s.figures.jitter_max_us;
+  v.message_count = s.message_count;
+  v.message = s.message;
+  return v;
+}
+
+}  // namespace
+
+bool Monitor::open(std::string* error) {
+  if (!participant_.open(domain_, error)) return false;
+  const std::string partition = machine_.empty() ? "*" : machine_;
+  status_ = make_reader(participant_.get(), Topic::kStatus, partition, error);
+  if (status_ <= 0) return false;
+  alarm_ = make_reader(participant_.get(), Topic::kAlarm, partition, error);
+  if (alarm_ <= 0) return false;
+  waitset_ = dds_create_waitset(participant_.get());
+  for (const dds_entity_t reader : {status_, alarm_}) {
+    const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
+    if (waitset_ > 0 && condition > 0 && dds_waitset_attach(waitset_, condition, 0) >= 0) continue;
+    *error = "the status cannot be waited for";
+    return false;
+  }
+  return true;
+}
+
+bool Monitor::wait(std::int64_t timeout_ns) {
+  dds_attach_t triggered[2];
+  if (dds_waitset_wait(waitset_, triggered, 2, timeout_ns) <= 0) return false;
+  take_status();
+  take_alarms();
+  return true;
+}
+
+void Monitor::take_status() {
+  void* samples[kTaken] = {};
+  dds_sample_info_t infos[kTaken];
+  const int count = dds_take(status_, samples, infos, kTaken, kTaken);
+  for (int i = 0; i < count; ++i) {
+    const auto& status = *static_cast<const nc_Status*>(samples[i]);
+    if (infos[i].valid_data && infos[i].instance_state == DDS_IST_ALIVE) {
+      if (machine_.empty()) machine_ = status.machine;
+      if (machine_ != status.machine) continue;  // several controls are heard: this monitor shows one
+      view_.systems[status.part_system] = view_of(status);
+      view_.alive = heard_ = true;
+      view_.ended = false;
+      latency_ns_ = nc::rt::share::wall_ns() - status.time_ns;
+      ++samples_;
+      ++changes_;
+    } else if (infos[i].valid_data && (machine_.empty() || machine_ == status.machine)) {
+      // Its last value, read after it was taken back: still worth showing.
+      if (heard_ || infos[i].instance_state == DDS_IST_NOT_ALIVE_DISPOSED)
+        view_.systems[status.part_system] = view_of(status);
+    }
+    if (infos[i].instance_state != DDS_IST_ALIVE && heard_) {
+      view_.alive = false;
+      view_.ended |= infos[i].instance_state == DDS_IST_NOT_ALIVE_DISPOSED;
+      ++changes_;
+    }
+  }
+  if (count > 0) (void)dds_return_loan(status_, samples, count);
+}
+
+bool Monitor::gateway_there() const {
+  dds_subscription_matched_status_t matched{};
+  return dds_get_subscription_matched_status(status_, &matched) >= 0 && matched.current_count > 0;
+}
+
+void Monitor::take_alarms() {
+  void* samples[kTaken] = {};
+  dds_sample_info_t infos[kTaken];
+  const int count = dds_take(alarm_, samples, infos, kTaken, kTaken);
+  for (int i = 0; i < count; ++i) {
+    const auto& alarm = *static_cast<const nc_Alarm*>(samples[i]);
+    if (infos[i].instance_state != DDS_IST_ALIVE) {
+      view_.alarms.erase(alarm.slot);  // the key is there also without data
+    } else if (infos[i].valid_data && (machine_.empty() || machine_ == alarm.machine)) {
+      view_.alarms[alarm.slot] = {alarm.id,   alarm.part_system, alarm.code,     alarm.text,
+                                alarm.axis, alarm.line,        alarm.raised_ns};
+    }
+  }
+  if (count > 0) (void)dds_return_loan(alarm_, samples, count);
+}
+
+}  // namespace nc::dds

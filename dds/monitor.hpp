@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// A subscriber of status and alarms: the part of ncmon that knows DDS.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "dds/monitor_view.hpp"
+#include "dds/participant.hpp"
+
+namespace nc::dds {
+
+class Monitor {
+ public:
+  // `machine`: the partition, "" = the first control that is heard.
+  Monitor(unsigned domain, std::string machine) : domain_(domain), machine_(std::move(machine)) {}
+  bool open(std::string* error);
+  // Waits at most `timeout_ns` for news and takes them. True when there were some.
+  bool wait(std::int64_t timeout_ns);
+
+  const MonitorView& view() const { return view_; }
+  bool heard() const { return heard_; }  // a status has come
+  bool ended() const { return view_.ended; }  // ... and was taken back: the control has ended
+  std::uint64_t samples() const { return samples_; }
+  std::uint64_t changes() const { return changes_; }     // of the view: a status came, or none comes any more
+  // A gateway publishes this machine (any machine where none was named), whether or not its control lives.
+  bool gateway_there() const;
+  std::int64_t last_latency_ns() const { return latency_ns_; }  // of the last status: scan to here
+
+ private:
+  void take_status();
+  void take_alarms();
+
+  const unsigned domain_;
+  std::string machine_;
+  Participant participant_;
+  dds_entity_t status_ = 0, alarm_ = 0, waitset_ = 0;
+  MonitorView view_;
+  bool heard_ = false;
+  std::uint64_t samples_ = 0, changes_ = 0;
+  std::int64_t latency_ns_ = 0;
+};
+
+}  // namespace nc::dds

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texts of the monitor. See monitor_view.hpp.
+#include "dds/monitor_view.hpp"
+
+#include <cstdarg>
+#include <cstdio>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+namespace nc::dds {
+namespace {
+
+__attribute__((format(printf, 2, 3))) void append(std::string* text, const char* format, ...) {
+  char buffer[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(buffer, sizeof buffer, format, arguments);
+  va_end(arguments);
+  *text += buffer;
+}
+
+// What comes from the network must not steer the terminal.
+std::string printable(const std::string& text) {
+  std::string clean;
+  for (const char c : text) clean += static_cast<unsigned char>(c) < ' ' || c == 0x7f ? ' ' : c;
+  return clean;
+}
+
+std::string time_text(std::int64_t ns) {
+  const std::time_t seconds = static_cast<std::time_t>(ns / 1'000'000'000);
+  std::tm parts{};
+  localtime_r(&seconds, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%H:%M:%S", &parts);
+  return text;
+}
+
+nlohmann::json axis_json(const AxisView& axis) {
+  return {{"name", axis.name},     {"rotary", axis.rotary},
+          {"commanded", axis.commanded}, {"actual", axis.actual},
+          {"work", axis.work},     {"distance_to_go", axis.distance_to_go},
+          {"velocity", axis.velocity}};
+}
+
+nlohmann::json status_json(const StatusView& s) {
+  nlohmann::json axes = nlohmann::json::array();
+  for (const AxisView& axis : s.axes) axes.push_back(axis_json(axis));
+  return {{"part_system", s.part_system},
+          {"machine", s.machine},
+          {"scan", s.scan},
+          {"time_ns", s.time_ns},
+          {"mode", s.mode},
+          {"run_state", s.run_state},
+          {"stop_cause", s.stop_cause},
+          {"state_text", s.state_text},
+          {"resetting", s.resetting},
+          {"single_block", s.single_block},
+          {"optional_stop", s.optional_stop},
+          {"program_ready", s.program_ready},
+          {"rapid", s.rapid},
+          {"alarm", s.alarm},
+          {"feed_override", s.feed_override},
+          {"rapid_override", s.rapid_override},
+          {"program", s.program},
+          {"file", s.file},
+          {"program_number", s.program_number},
+          {"sequence_number", s.sequence_number},
+          {"line", s.line},
+          {"depth", s.depth},
+          {"block", s.block},
+          {"modal", s.modal},
+          {"main_line", s.main_line},
+          {"program_lines", s.program_lines},
+          {"percent", s.percent},
+          {"feed", s.feed},
+          {"feed_command", s.feed_command},
+          {"spindle", s.spindle},
+          {"spindle_command", s.spindle_command},
+          {"m", s.m},
+          {"t", s.t},
+          {"b", s.b},
+          {"strobe", s.strobe},
+          {"blocks", s.blocks},
+          {"path_length", s.path_length},
+          {"run_s", s.run_s},
+          {"runs", s.runs},
+          {"last_run_ok", s.last_run_ok},
+          {"axes", axes},
+          {"interface_input", s.interface_input},
+          {"interface_output", s.interface_output},
+          {"scans", s.scans},
+          {"overruns", s.overruns},
+          {"missed_slots", s.missed_slots},
+          {"execution_us", {{"p50", s.execution_p50_us}, {"p99.9", s.execution_p999_us}, {"max", s.execution_max_us}}},
+          {"jitter_us", {{"p50", s.jitter_p50_us}, {"p99.9", s.jitter_p999_us}, {"max", s.jitter_max_us}}},
+          {"message_count", s.message_count},
+          {"message", s.message}};
+}
+
+void append_place(std::string* text, const StatusView& s) {
+  append(text, "  Program  %s", printable(s.program.empty() ? "-" : s.program).c_str());
+  if (s.program_number != 0) append(text, "  O%u", s.program_number);
+  if (s.sequence_number != 0) append(text, "  N%u", s.sequence_number);
+  append(text, "  line %u", s.line);
+  if (s.depth != 0) append(text, " of %s (call depth %u)", printable(s.file).c_str(), s.depth);
+  append(text, "  %u %%\n", s.percent);
+  append(text, "  Block    %s\n", printable(s.block).c_str());
+  append(text, "  Modal    %s\n", printable(s.modal).c_str());
+}
+
+void append_system(std::string* text, const StatusView& s) {
+  append(text, "%s  part system %u  %s  %s (%s)%s%s%s\n", printable(s.machine).c_str(), s.part_system, s.mode.c_str(),
+         s.run_state.c_str(), printable(s.state_text).c_str(), s.resetting ? "  RESET" : "",
+         s.single_block ? "  SBK" : "", s.optional_stop ? "  OPT STOP" : "");
+  append_place(text, s);
+  append(text, "  %-6s %12s %12s %12s %12s\n", "", "work", "machine", "actual", "to go");
+  for (const AxisView& axis : s.axes)
+    append(text, "  %-4s %s %12.3f %12.3f %12.3f %12.3f\n", printable(axis.name).c_str(), axis.rotary ? "°" : " ",
+           axis.work, axis.commanded, axis.actual, axis.distance_to_go);
+  append(text, "  F %.0f of %.0f mm/min x %.0f %%   rapid %.0f %%   S %.0f of %.0f 1/min   T%u   M%u%s\n", s.feed,
+         s.feed_command, 100 * s.feed_override, 100 * s.rapid_override, s.spindle, s.spindle_command, s.t, s.m,
+         s.strobe != 0 ? "   waits for FIN" : "");
+  append(text, "  Run      %.1f s   %llu blocks   %.1f mm\n", s.run_s, static_cast<unsigned long long>(s.blocks),
+         s.path_length);
+  append(text, "  Scan     %llu   overruns %llu   slots missed %llu   execution p50 %.1f p99.9 %.1f max %.1f us\n",
+         static_cast<unsigned long long>(s.scans), static_cast<unsigned long long>(s.overruns),
+         static_cast<unsigned long long>(s.missed_slots), s.execution_p50_us, s.execution_p999_us, s.execution_max_us);
+  if (s.message_count != 0) append(text, "  Message  %s\n", printable(s.message).c_str());
+}
+
+}  // namespace
+
+std::string alarm_line(const AlarmView& alarm) {
+  std::string text = alarm.code.empty() ? alarm.text : alarm.code + " " + alarm.text;
+  if (!alarm.axis.empty()) text += ", axis " + alarm.axis;
+  if (alarm.line != 0) append(&text, " (line %u)", alarm.line);
+  return printable(text);
+}
+
+std::string progress_line(const StatusView& s, const std::map<unsigned, AlarmView>& alarms) {
+  std::string text;
+  append(&text, "%3u %%  ", s.percent);
+  if (s.depth == 0) append(&text, "line %-5u", s.line);
+  else append(&text, "O%u:%-4u", s.program_number, s.line);
+  for (const AxisView& axis : s.axes) append(&text, " %s%9.3f", printable(axis.name).c_str(), axis.work);
+  append(&text, "  F%-6.0f S%-6.0f T%-3u ", s.feed, s.spindle, s.t);
+  text += printable(s.state_text);
+  if (!alarms.empty()) text += "  " + alarm_line(alarms.begin()->second);
+  if (!s.block.empty() && alarms.empty()) text += "  " + printable(s.block);
+  return text;
+}
+
+std::string page(const MonitorView& view) {
+  std::string text;
+  for (const auto& [number, status] : view.systems) append_system(&text, status);
+  if (view.ended) text += "  THE CONTROL HAS ENDED: these are its last values\n";
+  else if (!view.alive && !view.systems.empty())
+    text += "  NO STATUS ANY MORE: ncdds is gone, or the scan stands still; these values are old\n";
+  for (const auto& [slot, alarm] : view.alarms)
+    text += "  ALARM    " + time_text(alarm.raised_ns) + "  " + alarm_line(alarm) + "\n";
+  if (view.alarms.empty()) text += "  no alarms\n";
+  return text;
+}
+
+std::string json_line(const MonitorView& view) {
+  nlohmann::json systems = nlohmann::json::array(), alarms = nlohmann::json::array();
+  for (const auto& [number, status] : view.systems) systems.push_back(status_json(status));
+  for (const auto& [slot, alarm] : view.alarms)
+    alarms.push_back({{"id", alarm.id},
+                      {"part_system", alarm.part_system},
+                      {"code", alarm.code},
+                      {"text", alarm.text},
+                      {"axis", alarm.axis},
+                      {"line", alarm.line},
+                      {"raised_ns", alarm.raised_ns}});
+  const nlohmann::json all = {{"alive", view.alive}, {"ended", view.ended}, {"systems", systems}, {"alarms", alarms}};
+  return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace nc::dds

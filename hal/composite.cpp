@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// One machine and its point buses. See composite.hpp.
+#include "hal/composite.hpp"
+
+#include <system_error>
+#include <thread>
+
+namespace nc::hal {
+
+Composite::Composite(Hal* machine, std::vector<PointBus*> buses, const PointTable& table)
+    : machine_(machine), buses_(std::move(buses)) {
+  for (unsigned p = 0; p < table.size(); ++p)
+    if (table.at(p).bus == 0) own_points_.push_back(static_cast<std::uint16_t>(p));
+}
+
+bool Composite::start(const PointImage& initial, std::string* error) {
+  if (!machine_->start(initial, error)) return false;
+  for (PointBus* bus : buses_)
+    if (!bus->start(initial, error)) return false;  // the caller stops what was started
+  return true;
+}
+
+void Composite::read(Feedback* feedback, PointImage* image) noexcept {
+  machine_->read(feedback, image);
+  const std::uint8_t good = feedback->lost ? 0 : 1;
+  for (const std::uint16_t point : own_points_) image->good[point] = good;
+  for (PointBus* bus : buses_) bus->read(image);
+}
+
+void Composite::write(const Command& command, const PointImage& image) noexcept {
+  machine_->write(command, image);
+  for (PointBus* bus : buses_) bus->write(image);
+}
+
+void Composite::stop() noexcept {
+  machine_->stop();
+  std::vector<std::thread> stopping;
+  for (PointBus* bus : buses_) {
+    try {
+      stopping.emplace_back([bus] { bus->stop(); });
+    } catch (const std::system_error&) {  // no thread to be had: one after the other
+      bus->stop();
+    }
+  }
+  for (std::thread& thread : stopping) thread.join();
+}
+
+}  // namespace nc::hal

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// One machine (its axes, and the points of bus 0) and any number of buses that carry points only, as one Hal.
+#pragma once
+
+#include <vector>
+
+#include "hal/hal.hpp"
+#include "hal/point_bus.hpp"
+
+namespace nc::hal {
+
+class Composite final : public Hal {
+ public:
+  // The n-th of `buses` is bus n, counted from 1. All of them must outlive this object.
+  Composite(Hal* machine, std::vector<PointBus*> buses, const PointTable& table);
+
+  bool start(const PointImage& initial, std::string* error) override;
+  void read(Feedback* feedback, PointImage* image) noexcept override;
+  void write(const Command& command, const PointImage& image) noexcept override;
+  // The machine first; then all buses at the same time, because each may wait for a partner.
+  void stop() noexcept override;
+
+ private:
+  Hal* machine_;
+  std::vector<PointBus*> buses_;
+  std::vector<std::uint16_t> own_points_;  // of bus 0
+};
+
+}  // namespace nc::hal

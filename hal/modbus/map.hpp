@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Modbus: what a link is and where its points stand in the partner's tables, as plain data.
+//
+// Addresses are those on the wire: 0 to 65535 in each of the four tables. Manuals that count from 1
+// ("register 40001") mean address 0 of the holding registers. docs/modbus.md.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nc::hal::modbus {
+
+enum class Table : std::uint8_t { kCoil, kDiscrete, kInput, kHolding };
+
+// What a point is made of. kBit: a coil, a discrete input, or one bit of a register.
+enum class Format : std::uint8_t { kBit, kU16, kS16, kU32, kS32, kF32 };
+
+// Order of the four bytes of a 32-bit value in two registers, A the most significant one.
+enum class WordOrder : std::uint8_t { kAbcd, kCdab, kBadc, kDcba };
+
+// What an input shows while nobody knows what the partner says.
+enum class OnLoss : std::uint8_t { kOff, kHold, kValue };
+
+constexpr bool is_bit_table(Table table) {
+  return table == Table::kCoil || table == Table::kDiscrete;
+}
+constexpr bool can_be_written(Table table) {
+  return table == Table::kCoil || table == Table::kHolding;
+}
+constexpr const char* table_name(Table table) {
+  constexpr const char* kNames[] = {"coil", "discrete", "input", "holding"};
+  return kNames[static_cast<unsigned>(table)];
+}
+
+struct PointMap {
+  unsigned point = 0;  // index in the PointTable
+  bool output = false;
+  Table table = Table::kHolding;
+  std::uint8_t unit = 1;
+  std::uint16_t address = 0;
+  Format format = Format::kBit;
+  std::uint8_t bit = 0;  // of a register, for kBit
+  WordOrder order = WordOrder::kAbcd;
+  double scale = 1, offset = 0;  // point = raw * scale + offset
+  OnLoss on_loss = OnLoss::kOff;
+  std::uint32_t loss_value = 0;  // for OnLoss::kValue
+  std::uint32_t initial = 0;     // of the point; the safe value of an output
+
+  unsigned width() const { return format >= Format::kU32 ? 2 : 1; }  // coils or registers
+  unsigned end() const { return address + width(); }
+};
+
+struct LinkConfig {
+  std::string name;
+  std::string host;
+  std::uint16_t port = 502;
+  unsigned poll_ms = 20;               // period of the exchange
+  unsigned response_timeout_ms = 500;  // to connect; from a request to the beginning of its answer
+  unsigned byte_timeout_ms = 500;      // between two pieces of an answer
+  unsigned lost_after = 3;             // errors in a row
+  unsigned refresh_ms = 1000;          // outputs are written again after so long, changed or not
+  unsigned merge_gap = 0;              // so many cells that nobody asked for may be read between two points
+  unsigned backoff_min_ms = 100, backoff_max_ms = 5000;  // pause before the next attempt to connect
+  unsigned ok_point = 0;                                 // the input point "<name>.ok"
+  std::vector<PointMap> points;
+};
+
+}  // namespace nc::hal::modbus

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// The compiler: one pass over the lines, labels at the end.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ladder/names.hpp"
+#include "ladder/rules.hpp"
+
+namespace nc::ladder {
+
+class Compiler {
+ public:
+  Compiler(const std::string& file, const DeviceTable& table, const CompileOptions& options)
+      : file_(file), table_(table), options_(options), names_(table, code_.layout) {
+    code_.layout = make_layout(table, 0, 0);
+  }
+  Compiler(const Compiler&) = delete;
+  Compiler& operator=(const Compiler&) = delete;
+  bool run(std::string_view text);
+  std::vector<Error> take_errors() { return std::move(errors_); }
+  Code take_code() { return std::move(code_); }
+
+ private:
+  // Where a rung stands. A LD behind an output begins a new rung, unless an ANB then joins its block to the
+  // result before: LD X0, OUT Y0, LD X1, OR X2, ANB, OUT Y1.
+  struct Rung {
+    unsigned blocks = 0;  // results not joined yet; 0 = no rung
+    bool used = true;     // an output took the result
+    bool joined = false;  // it was taken or kept: a parallel contact comes too late
+    bool gated = false;   // it contains the master control
+    bool before = false;  // there is a result of the rung before, which ANB may join
+    bool gated_before = false;
+    std::size_t start = 0;   // its first unit
+    unsigned inherited = 0;  // branches (MPS) open when it began
+  };
+  struct Master {
+    std::uint32_t level;
+    std::uint32_t gate;  // bit
+    unsigned line;
+  };
+  struct Loop {
+    unsigned id;
+    std::size_t unit;  // of FOR
+    std::uint32_t slot;
+    unsigned line;
+  };
+  struct Label {
+    std::uint32_t step;
+    unsigned line;
+    std::vector<unsigned> loops;
+    bool sub;  // behind FEND
+  };
+  struct Jump {
+    std::size_t unit;
+    std::uint32_t label;
+    unsigned line;
+    std::vector<unsigned> loops;
+    bool sub, call;
+  };
+  struct Encoded {
+    Mode mode;
+    std::uint32_t value;
+  };
+
+  // compile.cpp
+  void error(std::string message);
+  void error_at(unsigned line, std::string message);
+  void warning(std::string message);
+  std::string source_of(unsigned line) const;
+  void read_line(std::string_view text);
+  bool options_hold();
+  void finish();
+
+  // statements.cpp
+  void statement();
+  bool operand_count(const Rule& rule, std::size_t least, std::size_t most);
+  void act(const Rule& rule, bool pulse);
+  void load(const Rule& rule);
+  void join(const Rule& rule);
+  void block(const Rule& rule);
+  void branch(const Rule& rule);
+  void out(const Rule& rule);
+  void out_timer(const Rule& rule, const Place& place);
+  void out_counter(const Place& place);
+  void set_bit(bool pulse);
+  void reset(bool pulse);
+  void reset_range(bool pulse);
+  void pulse_coil(const Rule& rule);
+  void words(const Rule& rule, bool pulse);
+  void alias();
+
+  // flow.cpp
+  void master(const Rule& rule);
+  void master_end();
+  void label(std::string_view name);
+  void jump(const Rule& rule, bool pulse);
+  void main_end();
+  void text_end();
+  void end_of_text();
+  void loop(const Rule& rule);
+  void loop_end();
+  void resolve_labels();
+  std::vector<unsigned> loop_path() const;
+  bool number_after(char letter, std::string_view word, std::uint32_t limit, std::uint32_t* number);
+
+  // rung state; statements.cpp
+  bool has_result();   // there is something that AND, INV ... can work on
+  bool take_result();  // an output takes it: one block, gated
+  void gate();
+  void close_rung();  // nothing may be open here
+  void note_coil(const Place& place);
+
+  // operands; encode.cpp
+  bool bit_operand(std::string_view word, bool written, Place* place);
+  bool encode(char letter, std::string_view word, Encoded* out);
+  bool encode_constant(const Operand& operand, bool wide, bool written, Encoded* out);
+  bool encode_digits(const Operand& operand, bool wide, bool written, Encoded* out);
+  bool encode_row(const Operand& operand, bool written, Encoded* out);
+  bool encode_words(const Operand& operand, std::uint32_t width, std::string_view word, Encoded* out);
+  std::string other_width(bool wide) const;
+
+  // code
+  std::uint32_t new_edge(std::uint8_t start = kEdgeUnknown);
+  void emit(Op op, std::uint32_t a = 0, unsigned mode = 0);
+  void emit2(std::uint32_t b, std::uint32_t c);
+  void emit_pulse(Op next, bool pulse);
+
+  std::string file_;
+  const DeviceTable& table_;
+  const CompileOptions& options_;
+  Code code_;
+  Names names_;
+  std::vector<Error> errors_;
+  unsigned line_ = 0;
+  std::vector<std::string_view> words_;
+  const Rule* rule_ = nullptr;  // of this line
+  Rung rung_;
+  unsigned branches_ = 0;
+  unsigned branch_line_ = 0;
+  std::vector<Master> masters_;
+  std::vector<Loop> open_loops_;
+  std::uint32_t loops_ = 0;
+  std::map<std::uint32_t, Label> labels_;
+  std::vector<Jump> jumps_;
+  std::map<std::uint32_t, unsigned> coils_;  // bit -> line of its OUT
+  bool main_ended_ = false, ended_ = false;
+  std::uint32_t main_end_ = 0xffffffffu;  // unit of FEND
+};
+
+inline constexpr unsigned kMaxBlocks = 60, kMaxBranches = 32, kMaxLoops = 16;
+inline constexpr std::uint32_t kMaxMasters = 15, kMaxLabel = 4095;
+
+}  // namespace nc::ladder

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ladder: an instruction list in Mitsubishi mnemonics, compiled at load, run once per scan.
+//
+//   DeviceTable table;                     // the signals and points of this machine
+//   Program program;
+//   std::vector<Error> errors;
+//   if (!compile(text, "mill.il", table, {}, &program, &errors)) ...   // errors[i].text()
+//   Engine engine(program);
+//   DeviceImage image = engine.make_image();
+//   for (;;) { inputs into image; engine.scan(&image); outputs out of image; }
+//
+// The language is described in docs/ladder.md.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ladder/devices.hpp"
+
+namespace nc::ladder {
+
+struct Code;  // ladder/code.hpp
+
+// Something wrong with a program, or (Program::warnings) worth a look.
+struct Error {
+  std::string file;
+  unsigned line = 0;        // from 1; 0 = the whole file
+  std::string instruction;  // as written, without comment: "OUT Y99"
+  std::string message;
+  std::string text() const;  // "mill.il:12: OUT Y99: no such device"
+};
+
+inline constexpr std::size_t kMaxTextBytes = 8u << 20;
+inline constexpr unsigned kMaxInstructions = 100000;
+inline constexpr unsigned kMaxErrors = 100;  // then compile() stops looking
+
+struct CompileOptions {
+  double scan_s = 0.001;               // period of scan(), 1 us to 1 s; timers count in it
+  std::uint32_t step_budget = 200000;  // instructions of one scan beyond one pass through the program
+  bool retain_counters = false;        // C among the retained ranges
+  std::uint32_t retain_d_first = 0;    // D devices among the retained ranges
+  std::uint32_t retain_d_count = 0;
+};
+
+// A compiled program. Copies share the code, which never changes.
+class Program {
+ public:
+  Program();
+  unsigned instruction_count() const;
+  const std::vector<Error>& warnings() const;
+  const std::shared_ptr<const Code>& code() const { return code_; }
+
+ private:
+  friend bool compile(std::string_view, const std::string&, const DeviceTable&, const CompileOptions&,
+                      Program*, std::vector<Error>*);
+  std::shared_ptr<const Code> code_;
+};
+
+// True when the program is good; *program is replaced only then. Every error is reported, up to kMaxErrors.
+bool compile(std::string_view text, const std::string& file, const DeviceTable& table,
+             const CompileOptions& options, Program* program, std::vector<Error>* errors);
+
+// Why the engine has stopped. A stopped engine leaves the image as the last instruction left it.
+enum Fault : unsigned {
+  kNoFault = 0,
+  kWatchdog = 1,      // the scan took more instructions than CompileOptions::step_budget allows
+  kCallStack = 2,     // more than kMaxCalls subroutines inside each other
+  kReturnNoCall = 3,  // RET was reached without a CALL
+  kEndInCall = 4,     // END was reached inside a subroutine
+  kImageSize = 5      // the image was not made by make_image() of this program
+};
+inline constexpr unsigned kMaxCalls = 16;
+
+// Places that keep their values over a power cut where the runtime offers that.
+struct RetainedRange {
+  std::string name;  // "L", "ST contact", "ST value", "ST rest", "C contact", "C value", "D"
+  bool words;        // of DeviceImage::word, else of DeviceImage::bit
+  std::uint32_t first;
+  std::uint32_t count;
+};
+
+class Engine {
+ public:
+  explicit Engine(const Program& program);
+
+  // The devices of the table at their indices, those of the program behind them, all 0. Every image is a
+  // machine of its own: edges, timers and counters live in it.
+  DeviceImage make_image() const;
+
+  // One pass through the program. NC_RT. Does nothing once there is a fault.
+  void scan(DeviceImage* image) noexcept;
+
+  // The fault belongs to the thread that scans.
+  unsigned fault() const { return fault_; }
+  unsigned fault_step() const { return fault_step_; }  // place in the compiled code
+  unsigned fault_line() const;                         // line of the source, 0 = none
+  std::string fault_text() const;                      // "mill.il:40: CJ P1: ..."; empty = none
+  void reset_fault() { fault_ = fault_step_ = 0; }
+
+  // A device as the program may name it: of the table, an alias, or an internal one (M0, D10, SM402; T0 is
+  // the contact, TN0 the value). Null when there is none. Not for the scan thread, and one caller at a time.
+  const Device* find(std::string_view name) const;
+
+  std::vector<RetainedRange> retained() const;
+
+ private:
+  std::shared_ptr<const Code> code_;
+  unsigned fault_ = 0, fault_step_ = 0;
+  mutable std::map<std::string, Device, std::less<>> found_;
+};
+
+// The instructions of the language, in the order of the documentation.
+struct InstructionInfo {
+  const char* name;
+  const char* operands;  // "s1 s2 d"; empty = none
+  const char* summary;
+  const char* group;
+  bool pulse;  // there is a form with P behind the name that runs on the rising edge of its condition
+};
+const std::vector<InstructionInfo>& instruction_table();
+
+}  // namespace nc::ladder

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: Apache-2.0
+// One line of the program: contacts, blocks, outputs, words. Program flow is in flow.cpp.
+#include <cctype>
+
+#include "ladder/compiler.hpp"
+
+namespace nc::ladder {
+
+// ---- the state of the rung ----
+
+bool Compiler::has_result() {
+  if (rung_.blocks != 0) return true;
+  error("there is no contact before it: a rung begins with LD");
+  return false;
+}
+
+// Inside MC ... MCR a rung is on only when the master control is: one AND before the first use of the result.
+void Compiler::gate() {
+  if (!masters_.empty() && !rung_.gated) emit(Op::kAnd, masters_.back().gate);
+  rung_.gated = true;
+}
+
+bool Compiler::take_result() {
+  bool good = has_result();
+  if (rung_.blocks > 1) {
+    error(std::to_string(rung_.blocks) + " blocks are not joined: ANB or ORB is missing");
+    rung_.blocks = 1;
+    good = false;
+  }
+  if (rung_.inherited != 0) {
+    error("the branch of MPS in line " + std::to_string(branch_line_) + " has no MPP");
+    rung_.inherited = branches_ = 0;
+    good = false;
+  }
+  gate();
+  rung_.blocks = 1;
+  rung_.used = rung_.joined = true;
+  return good;
+}
+
+void Compiler::close_rung() {
+  if (!rung_.used) error("the result of the rung before it is not used");
+  if (branches_ != 0) {
+    error("the branch of MPS in line " + std::to_string(branch_line_) + " has no MPP");
+    branches_ = 0;
+  }
+  rung_ = Rung{};
+}
+
+void Compiler::note_coil(const Place& place) {
+  const auto [coil, added] = coils_.emplace(place.index, line_);
+  if (!added)
+    warning("the same coil as in line " + std::to_string(coil->second) + ": the last one that runs decides");
+}
+
+// ---- lines ----
+
+void Compiler::statement() {
+  std::string mnemonic(words_[0]);
+  for (char& c : mnemonic) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  bool pulse = false;
+  rule_ = find_rule(mnemonic, &pulse);
+  if (rule_ == nullptr) {
+    std::string_view name = words_[0];
+    if (name.size() > 1 && name.back() == ':') name.remove_suffix(1);
+    std::uint32_t number;
+    if (words_.size() == 1 && name.size() > 1 && name[0] == 'P' &&
+        name.find_first_not_of("0123456789", 1) == std::string_view::npos) {
+      if (number_after('P', name, kMaxLabel, &number)) label(name);
+      return;
+    }
+    error("no such instruction");
+    return;
+  }
+  ++code_.instructions;
+  act(*rule_, pulse);
+}
+
+bool Compiler::operand_count(const Rule& rule, std::size_t least, std::size_t most) {
+  const std::size_t count = words_.size() - 1;
+  if (count >= least && count <= most) return true;
+  const std::string form = rule.info.operands;
+  error(form.empty() ? "takes no operand" : "operands: " + form);
+  return false;
+}
+
+void Compiler::act(const Rule& rule, bool pulse) {
+  switch (rule.action) {
+    case Action::kLoad:
+      return load(rule);
+    case Action::kJoin:
+      return join(rule);
+    case Action::kBlock:
+      return block(rule);
+    case Action::kPushBranch:
+    case Action::kReadBranch:
+    case Action::kPopBranch:
+      return branch(rule);
+    case Action::kInvert:
+    case Action::kEdgeOfResult:
+      if (!operand_count(rule, 0, 0) || !has_result()) return;
+      if (rung_.blocks == 1) gate();
+      emit(rule.op, rule.edge ? new_edge() : 0);
+      rung_.used = false;
+      // What comes out may be on although the master control is off.
+      if (rung_.blocks == 1) rung_.gated = false;
+      return;
+    case Action::kOut:
+      return out(rule);
+    case Action::kSet:
+      return set_bit(pulse);
+    case Action::kReset:
+      return reset(pulse);
+    case Action::kPulseCoil:
+      return pulse_coil(rule);
+    case Action::kMaster:
+      return master(rule);
+    case Action::kMasterEnd:
+      return master_end();
+    case Action::kWords:
+    case Action::kAccumulate:
+      return words(rule, pulse);
+    case Action::kResetRange:
+      return reset_range(pulse);
+    case Action::kJump:
+    case Action::kCall:
+      return jump(rule, pulse);
+    case Action::kReturn:
+      if (!operand_count(rule, 0, 0)) return;
+      close_rung();
+      if (!main_ended_) error("a subroutine stands behind FEND");
+      emit(Op::kRet);
+      return;
+    case Action::kMainEnd:
+      return main_end();
+    case Action::kEnd:
+      return text_end();
+    case Action::kFor:
+      return loop(rule);
+    case Action::kNext:
+      return loop_end();
+    case Action::kAlias:
+      return alias();
+    case Action::kNothing:
+      operand_count(rule, 0, 0);
+      return;
+  }
+}
+
+void Compiler::load(const Rule& rule) {
+  if (rung_.used) {
+    Rung next;
+    next.before = rung_.blocks == 1;
+    next.gated_before = rung_.gated;
+    next.start = code_.units.size();
+    next.inherited = branches_;
+    rung_ = next;
+    rung_.used = false;
+  }
+  const bool first = rung_.blocks == 0;
+  if (rung_.blocks == kMaxBlocks)
+    return error("more than " + std::to_string(kMaxBlocks) + " blocks inside each other");
+  ++rung_.blocks;
+  if (rule.spec[0] != '\0') {
+    Encoded left, right;
+    if (!operand_count(rule, 2, 2) || !encode(rule.spec[0], words_[1], &left) ||
+        !encode(rule.spec[1], words_[2], &right))
+      return;
+    if (!first) emit(Op::kPush);
+    emit(
+        rule.op, left.value,
+        static_cast<unsigned>(left.mode) | static_cast<unsigned>(right.mode) << 2 | rule.extra << kModeExtra);
+    return emit2(right.value, 0);
+  }
+  Place place;
+  if (!operand_count(rule, 1, 1) || !bit_operand(words_[1], false, &place)) return;
+  if (place.family == "SM" && place.number >= kSmClock && place.number < kSmClock + 4) code_.clocks = true;
+  if (!rule.edge) return emit(first ? rule.op : rule.op2, place.index);
+  if (!first) emit(Op::kPush);
+  emit(rule.op, place.index);
+  emit2(new_edge(), 0);
+}
+
+void Compiler::join(const Rule& rule) {
+  const bool good = has_result();
+  if (good && rule.parallel && rung_.joined && rung_.blocks == 1)
+    return error("a parallel contact cannot follow an output or a branch: begin with LD");
+  Place place;
+  Encoded left, right;
+  if (rule.spec[0] != '\0') {
+    if (!operand_count(rule, 2, 2) || !encode(rule.spec[0], words_[1], &left) ||
+        !encode(rule.spec[1], words_[2], &right) || !good)
+      return;
+    emit(
+        rule.op, left.value,
+        static_cast<unsigned>(left.mode) | static_cast<unsigned>(right.mode) << 2 | rule.extra << kModeExtra);
+    emit2(right.value, 0);
+  } else {
+    if (!operand_count(rule, 1, 1) || !bit_operand(words_[1], false, &place) || !good) return;
+    if (place.family == "SM" && place.number >= kSmClock && place.number < kSmClock + 4) code_.clocks = true;
+    emit(rule.op, place.index);
+    if (rule.edge) emit2(new_edge(), 0);
+  }
+  rung_.used = false;
+}
+
+void Compiler::block(const Rule& rule) {
+  if (!operand_count(rule, 0, 0)) return;
+  if (rung_.blocks == 1 && !rule.parallel && rung_.before && !rung_.joined) {
+    if (rung_.start >= code_.units.size()) return;  // its LD was an error
+    // The block goes on from the result of the outputs before it: its first LD has to keep that.
+    Unit& first = code_.units[rung_.start];
+    const Op op = static_cast<Op>(first.head.op);
+    if (op == Op::kLd || op == Op::kLdi) {
+      first.head.op = static_cast<std::uint16_t>(op == Op::kLd ? Op::kPushLd : Op::kPushLdi);
+    } else {
+      Unit push{};
+      push.head = {static_cast<std::uint16_t>(Op::kPush), 0, 0};
+      const auto at = static_cast<std::ptrdiff_t>(rung_.start);
+      code_.units.insert(code_.units.begin() + at, push);
+      code_.lines.insert(code_.lines.begin() + at, line_);
+    }
+    rung_.before = false;
+    rung_.joined = true;
+    rung_.gated = rung_.gated_before;
+    rung_.inherited = 0;
+    return emit(rule.op);
+  }
+  if (rung_.blocks < 2 || rung_.used) return error("there are no two blocks to join");
+  if (rung_.blocks == 2 && rule.parallel && rung_.joined)
+    return error("a parallel block cannot follow an output or a branch: begin with LD");
+  --rung_.blocks;
+  emit(rule.op);
+}
+
+void Compiler::branch(const Rule& rule) {
+  if (!operand_count(rule, 0, 0)) return;
+  if (rule.action == Action::kPushBranch) {
+    if (branches_ == kMaxBranches)
+      return error("more than " + std::to_string(kMaxBranches) + " branches inside each other");
+    if (!take_result()) return;
+    rung_.used = false;
+    branch_line_ = line_;
+    ++branches_;
+    return emit(rule.op);
+  }
+  if (branches_ == 0) return error("there is no MPS for it");
+  if (!rung_.used) error("the result of the branch before it is not used");
+  if (rule.action == Action::kPopBranch) --branches_;
+  rung_ = Rung{};
+  rung_.blocks = 1;
+  rung_.used = false;
+  rung_.joined = rung_.gated = true;
+  emit(rule.op);
+}
+
+void Compiler::out(const Rule& rule) {
+  if (!take_result()) return;
+  if (!operand_count(rule, 1, 2)) return;
+  std::string message;
+  const auto operand = names_.operand(words_[1], &message);
+  if (!operand) return error(message);
+  const Place& place = operand->place;
+  if (operand->form == Operand::Form::kDevice && place.kind == Kind::kTimer) return out_timer(rule, place);
+  if (rule.op != Op::kOut) return error("'" + std::string(words_[1]) + "' is no timer");
+  if (operand->form == Operand::Form::kDevice && place.kind == Kind::kCounter) return out_counter(place);
+  Place bit;
+  if (!bit_operand(words_[1], true, &bit)) return;
+  if (!operand_count(rule, 1, 1)) return;
+  note_coil(bit);
+  emit(Op::kOut, bit.index);
+}
+
+void Compiler::out_timer(const Rule& rule, const Place& place) {
+  Encoded target;
+  if (words_.size() != 3) return error("a timer needs its set value, such as K50 or D10");
+  if (!encode('s', words_[2], &target)) return;
+  if (target.mode == Mode::kConstant && static_cast<std::int32_t>(target.value) < 0)
+    return error("the set value is from K0 to K32767");
+  note_coil(place);
+  emit(place.number < kTimers ? Op::kOutTimer : Op::kOutRetentive, target.value,
+       static_cast<unsigned>(target.mode));
+  emit2(place.number, rule.extra * 1000);
+}
+
+void Compiler::out_counter(const Place& place) {
+  Encoded target;
+  if (words_.size() != 3) return error("a counter needs its set value, such as K50 or D10");
+  if (!encode('s', words_[2], &target)) return;
+  if (target.mode == Mode::kConstant && static_cast<std::int32_t>(target.value) < 0)
+    return error("the set value is from K0 to K32767");
+  note_coil(place);
+  emit(Op::kOutCounter, target.value, static_cast<unsigned>(target.mode));
+  emit2(place.number, 0);
+}
+
+void Compiler::set_bit(bool pulse) {
+  Place place;
+  const bool good = take_result();
+  if (!operand_count(*rule_, 1, 1) || !bit_operand(words_[1], true, &place) || !good) return;
+  emit_pulse(Op::kSet, pulse);
+  emit(Op::kSet, place.index);
+}
+
+void Compiler::reset(bool pulse) {
+  const bool good = take_result();
+  if (!operand_count(*rule_, 1, 1)) return;
+  std::string message;
+  const auto operand = names_.operand(words_[1], &message);
+  if (!operand) return error(message);
+  const Place& place = operand->place;
+  if (operand->form == Operand::Form::kDevice && operand->z == Indirect::kNoZ &&
+      (place.kind == Kind::kTimer || place.kind == Kind::kCounter)) {
+    const Op op = place.kind == Kind::kTimer ? Op::kRstTimer : Op::kRstCounter;
+    emit_pulse(op, pulse);
+    return emit(op, place.number);
+  }
+  if (operand->form == Operand::Form::kDevice && place.type == DeviceType::kBit) {
+    Place bit;
+    if (!bit_operand(words_[1], true, &bit) || !good) return;
+    emit_pulse(Op::kRst, pulse);
+    return emit(Op::kRst, bit.index);
+  }
+  const bool wide = place.type == DeviceType::kWord32 || operand->digits > 4;
+  Encoded word;
+  if (!encode(wide ? 'D' : 'd', words_[1], &word)) return;
+  const Op op = wide ? Op::kRstWord32 : Op::kRstWord;
+  emit_pulse(op, pulse);
+  emit(op, word.value, static_cast<unsigned>(word.mode));
+  emit2(0, 0);
+}
+
+void Compiler::reset_range(bool pulse) {
+  const bool good = take_result();
+  if (!operand_count(*rule_, 2, 2)) return;
+  std::string message;
+  const auto first = names_.device(words_[1], &message);
+  if (!first) return error(message);
+  const auto last = names_.device(words_[2], &message);
+  if (!last) return error(message);
+  if (first->family.empty() || first->family != last->family || last->index < first->index)
+    return error("first and last must be of one kind, M, L, T, ST, C, D or Z, in this order");
+  const std::uint32_t count = last->index - first->index + 1;
+  Op op = Op::kZrstBits;
+  std::uint32_t start = first->index;
+  if (first->kind == Kind::kTimer || first->kind == Kind::kCounter) {
+    op = first->kind == Kind::kTimer ? Op::kZrstTimers : Op::kZrstCounters;
+    start = first->number;
+  } else if (first->type != DeviceType::kBit) {
+    op = Op::kZrstWords;
+  }
+  if (first->family == "SM" || first->family == "SD" || first->kind == Kind::kContact)
+    return error("first and last must be of one kind, M, L, T, ST, C, D or Z, in this order");
+  if (!good) return;
+  emit_pulse(op, pulse);
+  emit(op, start);
+  emit2(count, 0);
+}
+
+void Compiler::pulse_coil(const Rule& rule) {
+  Place place;
+  const bool good = take_result();
+  if (!operand_count(rule, 1, 1) || !bit_operand(words_[1], true, &place) || !good) return;
+  note_coil(place);
+  emit(rule.op, place.index);
+  emit2(new_edge(), 0);
+}
+
+void Compiler::words(const Rule& rule, bool pulse) {
+  const bool good = take_result();
+  const std::string_view spec = rule.spec;
+  const bool accumulate = rule.action == Action::kAccumulate;
+  if (!operand_count(rule, accumulate ? 2 : spec.size(), spec.size())) return;
+  std::vector<std::string_view> given(words_.begin() + 1, words_.end());
+  if (given.size() < spec.size()) given = {given[1], given[0], given[1]};  // - S D: d becomes d - s
+  Encoded encoded[4] = {};
+  unsigned mode = 0;
+  bool fits = true;
+  for (std::size_t i = 0; i < spec.size(); ++i) {
+    // A destination that is read too is reported once, as the destination.
+    if (accumulate && words_.size() == 3 && i == 0) continue;
+    fits = encode(spec[i], given[i], &encoded[i]) && fits;
+    mode |= static_cast<unsigned>(encoded[i].mode) << (2 * i);
+  }
+  if (!fits || !good) return;
+  if (accumulate && words_.size() == 3) {
+    encoded[0] = encoded[2];
+    mode |= static_cast<unsigned>(encoded[0].mode);
+  }
+  emit_pulse(rule.op, pulse);
+  emit(rule.op, encoded[0].value, mode);
+  emit2(encoded[1].value, encoded[2].value);
+  if (units_of(rule.op) == 3) emit2(encoded[3].value, 0);
+}
+
+void Compiler::alias() {
+  if (!operand_count(*rule_, 2, 2)) return;
+  --code_.instructions;
+  std::string message;
+  if (!names_.alias(words_[1], words_[2], &message)) error(message);
+}
+
+}  // namespace nc::ladder

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configuration sections [[modbus]] and the `modbus` table of a [[point]]. docs/modbus.md.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "hal/modbus/codec.hpp"
+#include "runtime/config_sections.hpp"
+
+namespace nc::rt {
+namespace {
+
+using hal::modbus::Format;
+using hal::modbus::LinkConfig;
+using hal::modbus::OnLoss;
+using hal::modbus::PointMap;
+using hal::modbus::Table;
+using hal::modbus::WordOrder;
+
+constexpr std::size_t kMaxLinks = 32;  // a thread and a socket each
+constexpr unsigned kLastAddress = 65535;
+constexpr double kMaxScale = 1e9;
+
+bool valid_link_name(const std::string& name) {
+  return !name.empty() && name.size() <= 32 && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+// libmodbus sends to 0 to 247 and 255.
+bool read_unit(TableReader* reader, std::uint8_t* unit) {
+  unsigned read = 0;
+  if (!reader->integer("unit", &read, 0, 255)) return false;
+  if (read > 247 && read < 255) {
+    reader->error("unit", "must be from 0 to 247, or 255, not " + std::to_string(read));
+    return false;
+  }
+  *unit = static_cast<std::uint8_t>(read);
+  return true;
+}
+
+void read_link(TableReader* reader, Config* config) {
+  ModbusLinkConfig entry;
+  LinkConfig& link = entry.link;
+  entry.place = {reader->line("name"), reader->path("name")};
+  for (const char* key : {"name", "host"}) reader->require(key);
+  const bool named = reader->string("name", &link.name);
+  if (reader->string("host", &link.host) && (link.host.empty() || link.host.size() > 255))
+    reader->error("host", "must be an address or the name of a host");
+  reader->integer("port", &link.port, 1, 65535);
+  read_unit(reader, &entry.unit);
+  reader->integer("poll_ms", &link.poll_ms, 1, 60000);
+  reader->integer("response_timeout_ms", &link.response_timeout_ms, 1, 60000);
+  reader->integer("byte_timeout_ms", &link.byte_timeout_ms, 1, 60000);
+  reader->integer("lost_after", &link.lost_after, 1, 1000);
+  reader->integer("refresh_ms", &link.refresh_ms, 10, 3600000);
+  reader->integer("merge_gap", &link.merge_gap, 0, 124);
+  if (!named) return;
+  if (!valid_link_name(link.name)) {
+    reader->error("name", "must be 1 to 32 letters, digits, '_' or '-'");
+    return;
+  }
+  const auto same = [&](const ModbusLinkConfig& other) { return other.link.name == link.name; };
+  if (std::any_of(config->modbus.begin(), config->modbus.end(), same)) {
+    reader->error("name", "link \"" + link.name + "\" is already there");
+    return;
+  }
+  if (config->modbus.size() == kMaxLinks) {
+    reader->error("name", "there are more than " + std::to_string(kMaxLinks) + " links");
+    return;
+  }
+  hal::Point ok;
+  ok.name = link.name + ".ok";
+  ok.bus = static_cast<std::uint8_t>(config->modbus.size() + 1);
+  link.ok_point = config->points.size();
+  if (!config->points.add(ok)) reader->error("name", "there is no room for the point \"" + ok.name + "\"");
+  config->modbus.push_back(std::move(entry));
+}
+
+// ---- the `modbus` table of a point ----
+
+bool read_table(TableReader* reader, Table* table) {
+  unsigned word = 0;
+  reader->require("table");
+  if (!reader->choice("table", {"coil", "discrete", "input", "holding"}, &word)) return false;
+  *table = static_cast<Table>(word);
+  return true;
+}
+
+std::optional<WordOrder> word_order(std::string_view text) {
+  constexpr std::string_view kOrders[] = {"ABCD", "CDAB", "BADC", "DCBA"};
+  for (unsigned i = 0; i < 4; ++i)
+    if (kOrders[i] == text) return static_cast<WordOrder>(i);
+  return {};
+}
+
+// Keys that have no meaning for this point are errors, not ignored.
+void refuse(TableReader* reader, std::initializer_list<const char*> keys, const std::string& why) {
+  for (const char* key : keys)
+    if (reader->find(key) != nullptr) reader->error(key, why);
+}
+
+void read_bit_format(TableReader* reader, PointMap* map) {
+  map->format = Format::kBit;
+  refuse(reader, {"words", "signed", "float", "scale", "offset"}, "has no meaning: the point is a bit");
+  if (hal::modbus::is_bit_table(map->table)) {
+    refuse(reader, {"bit"}, std::string("has no meaning in table \"") + table_name(map->table) + "\"");
+  } else {
+    reader->require("bit");
+    reader->integer("bit", &map->bit, 0, 15);
+  }
+}
+
+void read_word_format(TableReader* reader, PointMap* map) {
+  bool is_signed = false, is_float = false;
+  refuse(reader, {"bit"}, "has no meaning: the point is a word");
+  if (hal::modbus::is_bit_table(map->table))
+    reader->error("table",
+                  std::string("\"") + table_name(map->table) + "\" holds bits, but the point is a word");
+  reader->boolean("signed", &is_signed);
+  reader->boolean("float", &is_float);
+  std::string order;
+  const bool wide = reader->string("words", &order) || is_float;
+  if (!order.empty() || reader->find("words") != nullptr) {
+    const auto read = word_order(order);
+    if (read)
+      map->order = *read;
+    else if (const auto* node = reader->find("words"); node->is_string())
+      reader->error(
+          "words",
+          "must be \"ABCD\", \"CDAB\", \"BADC\" or \"DCBA\", the order of a 32-bit value; a value of "
+          "16 bits has none and leaves the key out");
+  }
+  if (is_float && reader->find("signed") != nullptr)
+    reader->error("signed", "has no meaning: a float has a sign of its own");
+  map->format = is_float            ? Format::kF32
+                : wide && is_signed ? Format::kS32
+                : wide              ? Format::kU32
+                : is_signed         ? Format::kS16
+                                    : Format::kU16;
+  if (reader->number("scale", &map->scale, -kMaxScale, kMaxScale) && std::abs(map->scale) < 1 / kMaxScale)
+    reader->error("scale", "must not be zero or nearly so");
+  reader->number("offset", &map->offset, -4294967295.0, 4294967295.0);
+}
+
+// hold | off | a number, as a number or a text.
+void read_on_loss(TableReader* reader, PointMap* map) {
+  const toml::node* node = reader->find("on_loss");
+  if (node == nullptr) return;
+  if (map->output) {
+    reader->error(
+        "on_loss",
+        "is for inputs; an output has its safe value in `initial`, and what the device does without "
+        "the link is set in the device");
+    return;
+  }
+  const bool negative = map->format != Format::kBit && point_is_signed(*map);
+  const std::int64_t min = negative ? -2147483648LL : 0;
+  const std::int64_t max = map->format == Format::kBit ? 1 : negative ? 2147483647LL : 4294967295LL;
+  std::int64_t value = 0;
+  bool number = false;
+  if (const auto* integer = node->as_integer()) {
+    value = integer->get();
+    number = true;
+  } else if (const auto* text = node->as_string()) {
+    const std::string& word = text->get();
+    const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
+    number = !word.empty() && read.ec == std::errc{} && read.ptr == word.data() + word.size();
+    if (word == "hold") map->on_loss = OnLoss::kHold;
+    if (word == "hold" || word == "off") return;
+  }
+  if (!number || value < min || value > max) {
+    reader->error("on_loss", "must be \"hold\", \"off\" or a number from " + std::to_string(min) + " to " +
+                                 std::to_string(max));
+    return;
+  }
+  map->on_loss = OnLoss::kValue;
+  map->loss_value = static_cast<std::uint32_t>(value);
+}
+
+// Two outputs may share a register only as different bits of it; and nothing else.
+bool collide(const PointMap& a, const PointMap& b) {
+  if (!a.output || !b.output || a.unit != b.unit || a.table != b.table) return false;
+  if (a.address >= b.end() || b.address >= a.end()) return false;
+  const bool bits = a.format == Format::kBit && b.format == Format::kBit && !is_bit_table(a.table);
+  return !bits || a.bit == b.bit;
+}
+
+void check_collisions(TableReader* reader, const Config& config, const LinkConfig& link,
+                      const PointMap& map) {
+  for (const ModbusLinkConfig& other : config.modbus) {
+    if (other.link.host != link.host || other.link.port != link.port) continue;
+    for (const PointMap& taken : other.link.points) {
+      if (!collide(map, taken)) continue;
+      reader->error("address", "point \"" + config.points.at(taken.point).name + "\" writes " +
+                                   table_name(map.table) + " " + std::to_string(taken.address) + " of unit " +
+                                   std::to_string(taken.unit) + " as well");
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+void read_modbus(TableReader* root, Config* config) {
+  root->tables("modbus", [&](TableReader& reader, std::size_t) { read_link(&reader, config); });
+}
+
+std::uint8_t read_point_modbus(TableReader* point_reader, const hal::Point& point, Config* config) {
+  std::uint8_t bus = 0;
+  point_reader->table("modbus", [&](TableReader& reader) {
+    PointMap map;
+    map.point = config->points.size();
+    map.output = point.direction == hal::PointDirection::kOutput;
+    map.initial = point.initial;
+    for (const char* key : {"link", "address"}) reader.require(key);
+    std::string name;
+    const bool linked = reader.string("link", &name);
+    const auto link = std::find_if(config->modbus.begin(), config->modbus.end(),
+                                   [&](const ModbusLinkConfig& entry) { return entry.link.name == name; });
+    const bool found = linked && link != config->modbus.end();
+    if (linked && !found) reader.error("link", "no link is named \"" + name + "\": see [[modbus]]");
+    if (found) map.unit = link->unit;
+    read_unit(&reader, &map.unit);
+    const bool placed = read_table(&reader, &map.table);
+    if (placed && map.output && !can_be_written(map.table))
+      reader.error("table", std::string("\"") + table_name(map.table) +
+                                "\" can only be read, but the point is an output");
+    if (point.type == hal::PointType::kBit)
+      read_bit_format(&reader, &map);
+    else
+      read_word_format(&reader, &map);
+    const bool addressed = reader.integer("address", &map.address, 0, kLastAddress);
+    if (addressed && map.end() > kLastAddress + 1)
+      reader.error("address", "a 32-bit value needs two registers, the second would be 65536");
+    read_on_loss(&reader, &map);
+    if (!found || !placed || !addressed) return;
+    check_collisions(&reader, *config, link->link, map);
+    link->link.points.push_back(map);
+    bus = static_cast<std::uint8_t>(link - config->modbus.begin() + 1);
+  });
+  return bus;
+}
+
+void check_modbus(TableReader* root, const Config& config) {
+  for (const ModbusLinkConfig& entry : config.modbus)
+    if (entry.link.points.empty())
+      root->errors()->add(entry.place.line, entry.place.key,
+                          "no point uses the link \"" + entry.link.name + "\"");
+}
+
+std::vector<hal::modbus::LinkConfig> Config::modbus_links() const {
+  std::vector<hal::modbus::LinkConfig> links;
+  for (const ModbusLinkConfig& entry : modbus) links.push_back(entry.link);
+  return links;
+}
+
+}  // namespace nc::rt

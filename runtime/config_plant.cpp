@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configuration sections [sim.spindle] and [sim.tool_changer]: which points drive them and which they answer by.
+#include "runtime/config_sections.hpp"
+
+namespace nc::rt {
+namespace {
+
+struct PointKey {
+  const char* key;
+  hal::PointType type;
+  hal::PointDirection direction;
+  bool required;
+  int* index;
+};
+
+void read_point_key(TableReader* reader, const Config& config, const PointKey& wanted) {
+  if (wanted.required) reader->require(wanted.key);
+  std::string name;
+  if (!reader->string(wanted.key, &name)) return;
+  const int index = config.points.find(name);
+  if (index < 0) return reader->error(wanted.key, "no point is named \"" + name + "\"");
+  const hal::Point& point = config.points.at(static_cast<unsigned>(index));
+  if (point.direction != wanted.direction)
+    return reader->error(wanted.key, "point \"" + name + "\" must be an " +
+                                         (wanted.direction == hal::PointDirection::kInput ? "input" : "output"));
+  if (point.type != wanted.type)
+    return reader->error(wanted.key, "point \"" + name + "\" must be a " +
+                                         (wanted.type == hal::PointType::kBit ? "bit" : "word"));
+  if (point.bus != 0) return reader->error(wanted.key, "point \"" + name + "\" belongs to another bus");
+  *wanted.index = index;
+}
+
+constexpr auto kBit = hal::PointType::kBit;
+constexpr auto kWord = hal::PointType::kWord;
+constexpr auto kIn = hal::PointDirection::kInput;
+constexpr auto kOut = hal::PointDirection::kOutput;
+
+}  // namespace
+
+void read_sim_plant(TableReader* sim, Config* config) {
+  hal::SimPlantConfig& plant = config->sim.plant;
+  plant.ramp_rpm_per_s = config->sim.spindle_ramp_rpm_per_s;
+  plant.max_rpm = config->sim.spindle_max_rpm;
+  plant.prepare_s = config->sim.tool_select_s;
+  plant.change_s = config->sim.tool_change_s;
+  const auto needs_ladder = [&](TableReader& reader) {
+    if (config->ladder.program.empty())
+      reader.errors()->add(reader.line(), reader.path(), "needs a ladder program: see [ladder]");
+  };
+  sim->table("spindle", [&](TableReader& reader) {
+    plant.spindle = true;
+    for (const PointKey& key : {PointKey{"forward", kBit, kOut, true, &plant.forward},
+                                {"reverse", kBit, kOut, false, &plant.reverse},
+                                {"speed", kWord, kOut, true, &plant.speed},
+                                {"at_speed", kBit, kIn, false, &plant.at_speed},
+                                {"stopped", kBit, kIn, false, &plant.stopped}})
+      read_point_key(&reader, *config, key);
+    needs_ladder(reader);
+  });
+  sim->table("tool_changer", [&](TableReader& reader) {
+    plant.tool_changer = true;
+    for (const PointKey& key : {PointKey{"prepare", kBit, kOut, true, &plant.prepare},
+                                {"pocket", kWord, kOut, true, &plant.pocket},
+                                {"prepared", kBit, kIn, true, &plant.prepared},
+                                {"change", kBit, kOut, true, &plant.change},
+                                {"changed", kBit, kIn, true, &plant.changed},
+                                {"tool", kWord, kIn, false, &plant.tool}})
+      read_point_key(&reader, *config, key);
+    needs_ladder(reader);
+  });
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rules of the command intake. See intake.hpp.
+#include "runtime/share/intake.hpp"
+
+#include <cmath>
+
+#include "nc/run.h"
+#include "runtime/share/text.hpp"
+
+namespace nc::rt::share {
+namespace {
+
+constexpr double kMaxVelocity = 1e6;  // mm/s; the axis's own limit is the scan's affair
+
+bool is_graphic(std::string_view text) {
+  for (const char c : text)
+    if (c <= ' ' || c > '~') return false;
+  return true;
+}
+
+// NC text: bytes of a program, no control characters but tab and line ends.
+bool is_program_text(std::string_view text) {
+  for (const char c : text)
+    if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\r' && c != '\t') return false;
+  return true;
+}
+
+// A file in the folder of programs: no way out of it, no hidden files.
+bool is_file_name(std::string_view text) {
+  if (text.empty() || text[0] == '.' || text.find('/') != std::string_view::npos) return false;
+  for (const char c : text)
+    if (static_cast<unsigned char>(c) < ' ') return false;
+  return true;
+}
+
+constexpr bool is_from_gateway(RequestKind kind) {
+  return kind == RequestKind::kClientGone || kind == RequestKind::kGatewayBegan;
+}
+
+struct Row {
+  RequestKind kind;
+  CommandKind command;
+  bool takes_time;  // answered `accepted` first
+};
+constexpr Row kRows[] = {
+    {RequestKind::kCycleStart, CommandKind::kCycleStart, true},
+    {RequestKind::kFeedHold, CommandKind::kFeedHold, true},
+    {RequestKind::kReset, CommandKind::kReset, true},
+    {RequestKind::kSetMode, CommandKind::kSetMode, true},
+    {RequestKind::kFeedOverride, CommandKind::kFeedOverride, false},
+    {RequestKind::kRapidOverride, CommandKind::kRapidOverride, false},
+    {RequestKind::kSingleBlock, CommandKind::kSingleBlock, false},
+    {RequestKind::kOptionalStop, CommandKind::kOptionalStop, false},
+    {RequestKind::kJog, CommandKind::kJog, false},
+};
+
+const Row* row_of(RequestKind kind) {
+  for (const Row& row : kRows)
+    if (row.kind == kind) return &row;
+  return nullptr;
+}
+
+Ack make_ack(const Request& request, std::int64_t now_ns) {
+  Ack ack{};
+  set_text(&ack.client, text_of(request.client));
+  ack.sequence = request.sequence;
+  ack.writer = request.writer;
+  ack.kind = request.kind;
+  ack.time_ns = now_ns;
+  return ack;
+}
+
+// Whether the state that an accepted command asks for is there.
+bool reached(const Request& request, const Machine::State& state, std::uint64_t runs_before) {
+  const std::uint8_t run = state.run_state[request.system < NC_MAX_SYSTEMS ? request.system : 0];
+  switch (static_cast<RequestKind>(request.kind)) {
+    case RequestKind::kCycleStart:
+      return run == NC_STATE_RUNNING || run == NC_STATE_STOPPED || state.runs != runs_before;
+    case RequestKind::kFeedHold:
+      return run != NC_STATE_RUNNING;
+    case RequestKind::kReset:
+      return !state.resetting && (run == NC_STATE_IDLE || run == NC_STATE_MANUAL);
+    case RequestKind::kSetMode:
+      return static_cast<std::uint32_t>(state.mode) == request.number;
+    default:
+      return true;
+  }
+}
+
+}  // namespace
+
+const char* reason_text(AckReason reason) {
+  switch (reason) {
+    case AckReason::kNone: return "";
+    case AckReason::kMalformed: return "malformed";
+    case AckReason::kUnknownKind: return "unknown command";
+    case AckReason::kLate: return "late";
+    case AckReason::kOutOfOrder: return "out of order";
+    case AckReason::kNoControl: return "no control";
+    case AckReason::kExpectedState: return "state is another one";
+    case AckReason::kOverflow: return "too many commands at once";
+    case AckReason::kTooManyClients: return "too many clients";
+    case AckReason::kRefused: return "refused";
+    case AckReason::kNotReached: return "not reached in time";
+    case AckReason::kClientInUse: return "client id in use";
+    case AckReason::kCount: break;
+  }
+  return "?";
+}
+
+std::string Intake::controlling() const {
+  return control_ == nullptr ? std::string() : std::string(text_of(control_->name));
+}
+
+// ---- rule 1 ----
+
+Intake::Verdict Intake::check_form(const Request& r, const Machine::State& state) const {
+  const auto bad = [](const char* text) { return Verdict{AckState::kRejected, AckReason::kMalformed, text}; };
+  if (!is_ended(r.expected_program) || !is_ended(r.text)) return bad("a text is too long");
+  if (r.sequence == 0) return bad("sequence numbers begin with 1");
+  if (r.lifespan_ms == 0 || r.lifespan_ms > kMaxLifespanMs) return bad("lifespan must be 1 to 10000 ms");
+  if (r.lease_ms != 0 && (r.lease_ms < kMinLeaseMs || r.lease_ms > kMaxLeaseMs))
+    return bad("lease must be 100 to 60000 ms");
+  if (!std::isfinite(r.value)) return bad("value is not a number");
+  if (r.system >= state.system_count) return bad("no such part system");
+  if (r.expected_mode < kAny || r.expected_mode > static_cast<std::int32_t>(Mode::kManual))
+    return bad("expected mode is unknown");
+  if (r.expected_run_state < kAny || r.expected_run_state > NC_STATE_MANUAL) return bad("expected run state is unknown");
+  const std::string_view text = text_of(r.text);
+  switch (static_cast<RequestKind>(r.kind)) {
+    case RequestKind::kTakeControl:
+    case RequestKind::kReleaseControl:
+    case RequestKind::kCycleStart:
+    case RequestKind::kFeedHold:
+    case RequestKind::kReset:
+      return {};
+    case RequestKind::kSetMode:
+      return r.number <= static_cast<std::uint32_t>(Mode::kManual) ? Verdict{} : bad("no such mode");
+    case RequestKind::kFeedOverride:
+      return r.value >= 0 && r.value <= state.max_feed_override ? Verdict{} : bad("feed override out of range");
+    case RequestKind::kRapidOverride:
+      return r.value >= 0 && r.value <= 1 ? Verdict{} : bad("rapid override must be 0 to 1");
+    case RequestKind::kSingleBlock:
+    case RequestKind::kOptionalStop:
+      return r.number <= 1 ? Verdict{} : bad("must be 0 or 1");
+    case RequestKind::kJog:
+      if (r.axis >= state.axis_count[r.system]) return bad("no such axis");
+      return std::abs(r.value) <= kMaxVelocity ? Verdict{} : bad("velocity out of range");
+    case RequestKind::kMdi:
+      return !text.empty() && is_program_text(text) ? Verdict{} : bad("no blocks, or not a program's text");
+    case RequestKind::kSelectProgram:
+      return is_file_name(text) ? Verdict{} : bad("not the name of a file in the folder of programs");
+    case RequestKind::kClientGone:
+    case RequestKind::kGatewayBegan:
+    case RequestKind::kCount:
+      break;
+  }
+  return {AckState::kRejected, AckReason::kUnknownKind, "unknown kind of command"};
+}
+
+// ---- clients ----
+
+// The client of a command; a new one takes a free place or that of one long silent. Null = none is free.
+Intake::Client* Intake::client_of(const Request& request, std::int64_t now_ns) {
+  Client* place = nullptr;
+  for (Client& client : client_) {
+    if (client.used && text_of(client.name) == text_of(request.client)) return &client;
+    if (!client.used) place = place == nullptr || place->used ? &client : place;
+    else if (&client != control_ && now_ns - client.heard_ns > kForgetNs && place == nullptr) place = &client;
+  }
+  if (place == nullptr) return nullptr;
+  *place = {};
+  place->used = true;
+  set_text(&place->name, text_of(request.client));
+  place->writer = request.writer;
+  place->heard_ns = now_ns;
+  return place;
+}
+
+void Intake::remember(Client* client, const Ack& ack) {
+  client->answered[client->answers++ % kRemembered] = ack;
+}
+
+// Jogs end with the control they were given under.
+void Intake::lose_control() {
+  control_ = nullptr;
+  for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) {
+    for (unsigned a = 0; a < NC_MAX_AXES; ++a) {
+      if (!jogging_[s][a]) continue;
+      Command stop;
+      stop.kind = CommandKind::kJog;
+      stop.system = static_cast<std::uint8_t>(s);
+      stop.axis = static_cast<std::uint8_t>(a);
+      (void)machine_.execute(stop);  // in another mode there is no jog any more
+      jogging_[s][a] = false;
+    }
+  }
+}
+
+// A participant may speak for several clients: the one that is named, or all of them.
+void Intake::gone(const Request& request, bool everyone) {
+  const bool named = is_ended(request.client) && !text_of(request.client).empty();
+  const auto is_meant = [&](const Text<32>& name, std::uint64_t writer) {
+    return everyone || (writer == request.writer && (!named || text_of(name) == text_of(request.client)));
+  };
+  for (Client& client : client_) {
+    if (!client.used || !is_meant(client.name, client.writer)) continue;
+    if (&client == control_) lose_control();
+    client = {};
+  }
+  for (Pending& pending : pending_)  // nobody listens any more
+    if (pending.used && is_meant(pending.request.client, pending.request.writer)) pending.used = false;
+}
+
+// ---- rules 5 to 7 ----
+
+Intake::Verdict Intake::take_control(Client* client, const Request& request, std::int64_t now_ns) {
+  if (control_ != nullptr && control_ != client)
+    return {AckState::kRejected, AckReason::kNoControl, "client " + controlling() + " has control"};
+  control_ = client;
+  lease_ns_ = std::int64_t{request.lease_ms == 0 ? kDefaultLeaseMs : request.lease_ms} * 1'000'000;
+  lease_end_ns_ = now_ns + lease_ns_;
+  return {AckState::kDone, AckReason::kNone, "has control"};
+}
+
+bool Intake::expected(const Request& request, const Machine::State& state, std::string* text) const {
+  if (request.expected_mode != kAny && request.expected_mode != static_cast<std::int32_t>(state.mode)) {
+    *text = "the mode is another one";
+    return false;
+  }
+  if (request.expected_run_state != kAny && request.expected_run_state != state.run_state[request.system]) {
+    *text = "the run state is another one";
+    return false;
+  }
+  const std::string_view program = text_of(request.expected_program);
+  if (program.empty() || program == state.program[request.system]) return true;
+  *text = "the program is another one";
+  return false;
+}
+
+Intake::Verdict Intake::execute(const Request& request) {
+  const auto kind = static_cast<RequestKind>(request.kind);
+  Answer answer = Answer::kOutOfRange;
+  bool takes_time = false;
+  if (kind == RequestKind::kMdi) {
+    answer = machine_.load_mdi(request.system, std::string(text_of(request.text)) + "\n");
+  } else if (kind == RequestKind::kSelectProgram) {
+    answer = machine_.select_program(request.system, std::string(text_of(request.text)));
+  } else if (const Row* row = row_of(kind); row != nullptr) {
+    Command command;
+    command.kind = row->command;
+    command.system = static_cast<std::uint8_t>(request.system);
+    command.axis = static_cast<std::uint8_t>(request.axis);
+    command.number = request.number;
+    command.value = request.value;
+    answer = machine_.execute(command);
+    takes_time = row->takes_time;
+    if (kind == RequestKind::kJog && answer == Answer::kDone)
+      jogging_[request.system][request.axis] = request.value != 0;
+  }
+  if (answer != Answer::kDone) return {AckState::kRejected, AckReason::kRefused, answer_text(answer)};
+  return {takes_time ? AckState::kAccepted : AckState::kDone, AckReason::kNone, ""};
+}
+
+Intake::Verdict Intake::decide(Client* client, const Request& request, const Machine::State& state,
+                               std::int64_t now_ns) {
+  const auto kind = static_cast<RequestKind>(request.kind);
+  const std::int64_t lifespan_ns = std::int64_t{request.lifespan_ms} * 1'000'000;
+  // Compared without a subtraction of what came from outside: that could overflow.
+  if (request.issued_ns < now_ns - lifespan_ns)
+    return {AckState::kRejected, AckReason::kLate, "older than its lifespan"};
+  if (request.issued_ns > now_ns + kClockSkewNs)
+    return {AckState::kRejected, AckReason::kLate, "from the future: the clocks of client and control differ"};
+  if (kind == RequestKind::kTakeControl) return take_control(client, request, now_ns);
+  const bool has_control = control_ == client;
+  if (kind == RequestKind::kReleaseControl) {
+    if (!has_control) return {AckState::kRejected, AckReason::kNoControl, "this client has no control"};
+    lose_control();
+    return {};
+  }
+  if (!has_control && kind != RequestKind::kFeedHold)
+    return {AckState::kRejected, AckReason::kNoControl,
+            control_ == nullptr ? "take control first" : "client " + controlling() + " has control"};
+  if (has_control) lease_end_ns_ = now_ns + lease_ns_;
+  std::string text;
+  if (!expected(request, state, &text)) return {AckState::kRejected, AckReason::kExpectedState, text};
+  Verdict verdict = execute(request);
+  if (verdict.state == AckState::kAccepted && !wait_for(request, now_ns, state.runs)) verdict.state = AckState::kDone;
+  return verdict;
+}
+
+// ---- one command ----
+
+void Intake::take(const Request& request, std::int64_t now_ns, std::vector<Ack>* acks) {
+  const auto kind = static_cast<RequestKind>(request.kind);
+  if (is_from_gateway(kind)) {
+    gone(request, kind == RequestKind::kGatewayBegan);
+    return;
+  }
+  // Without a name there is nobody to answer, and nothing to remember.
+  if (!is_ended(request.client) || text_of(request.client).empty() || !is_graphic(text_of(request.client))) return;
+  Ack ack = make_ack(request, now_ns);
+  const auto answer = [&](const Verdict& verdict) {
+    ack.state = static_cast<std::uint32_t>(verdict.state);
+    ack.reason = static_cast<std::uint32_t>(verdict.reason);
+    set_text(&ack.text, verdict.text);
+    acks->push_back(ack);
+  };
+  Client* client = client_of(request, now_ns);
+  if (client == nullptr) {
+    answer({AckState::kRejected, AckReason::kTooManyClients, "too many clients"});
+    return;
+  }
+  if (client->writer != request.writer) {
+    answer({AckState::kRejected, AckReason::kClientInUse, "this client id belongs to another participant"});
+    return;
+  }
+  client->heard_ns = now_ns;
+  for (unsigned i = 0; i < std::min(client->answers, kRemembered); ++i) {
+    if (client->answered[i].sequence != request.sequence || request.sequence == 0) continue;
+    acks->push_back(client->answered[i]);
+    acks->back().repeated = 1;
+    return;
+  }
+  const Machine::State state = machine_.state();
+  if (Verdict form = check_form(request, state); form.state != AckState::kDone) {
+    // Its number is used up, so that it can be answered again; a number of 0 cannot.
+    if (request.sequence > client->last_sequence) {
+      client->last_sequence = request.sequence;
+      answer(form);
+      remember(client, ack);
+    } else {
+      answer(form);
+    }
+    return;
+  }
+  if (request.sequence <= client->last_sequence) {
+    answer({AckState::kRejected, AckReason::kOutOfOrder,
+            "the last sequence number of this client is " + std::to_string(client->last_sequence)});
+    return;
+  }
+  client->last_sequence = request.sequence;
+  answer(decide(client, request, state, now_ns));
+  remember(client, ack);
+}
+
+// ---- what comes with time ----
+
+// False when the list is full: the command is executed all the same, its answer is `done` at once.
+bool Intake::wait_for(const Request& request, std::int64_t now_ns, std::uint64_t runs) {
+  for (Pending& pending : pending_) {
+    if (pending.used) continue;
+    pending = {true, request, now_ns, runs};
+    return true;
+  }
+  return false;
+}
+
+void Intake::settle(Pending* pending, const Verdict& verdict, std::int64_t now_ns, std::vector<Ack>* acks) {
+  Ack ack = make_ack(pending->request, now_ns);
+  ack.state = static_cast<std::uint32_t>(verdict.state);
+  ack.reason = static_cast<std::uint32_t>(verdict.reason);
+  set_text(&ack.text, verdict.text);
+  acks->push_back(ack);
+  pending->used = false;
+  for (Client& client : client_) {
+    if (!client.used || text_of(client.name) != text_of(ack.client)) continue;
+    for (Ack& answered : client.answered)
+      if (answered.sequence == ack.sequence) answered = ack;  // what a duplicate gets from now on
+  }
+}
+
+void Intake::tick(std::int64_t now_ns, std::vector<Ack>* acks) {
+  if (control_ != nullptr && now_ns > lease_end_ns_) lose_control();
+  bool any = false;
+  for (const Pending& pending : pending_) any |= pending.used;
+  if (!any) return;
+  const Machine::State state = machine_.state();
+  for (Pending& pending : pending_) {
+    if (!pending.used) continue;
+    if (reached(pending.request, state, pending.runs))
+      settle(&pending, {}, now_ns, acks);
+    else if (static_cast<RequestKind>(pending.request.kind) == RequestKind::kCycleStart && state.alarmed)
+      settle(&pending, {AckState::kFailed, AckReason::kRefused, "an alarm came"}, now_ns, acks);
+    else if (now_ns - pending.since_ns > kReachNs)
+      settle(&pending, {AckState::kFailed, AckReason::kNotReached, "not reached in time"}, now_ns, acks);
+  }
+}
+
+}  // namespace nc::rt::share

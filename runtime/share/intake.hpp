@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes commands that came over a network and decides which of them the machine gets.
+//
+// The rules, in this order:
+//   1  well formed: known kind, numbers finite and in range, texts ended and printable       else malformed
+//   2  a (client, sequence) that was answered before gets the same answer; nothing is executed again
+//   3  sequence above the last one of this client                                            else out of order
+//   4  younger than its lifespan                                                             else late
+//   5  from the client that has control; a feed hold and a release are taken from anyone     else no control
+//   6  mode, run state and program are what the client believes                              else expected state
+//   7  the runtime agrees                                                                    else refused
+// Control is a token: one client has it, from its first kTakeControl until it releases it, is gone, or does
+// not send anything for its lease. Whoever loses control loses its jogs: the axes are stopped.
+//
+// An executed command is answered `accepted` and later `done` (or `failed`) when it asks for a state that comes
+// with time (a start, a hold, a reset, a mode), else `done` at once.
+//
+// One thread. Everything is bounded; nothing here knows DDS or shared memory.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/command.hpp"
+#include "runtime/share/layout.hpp"
+
+namespace nc::rt::share {
+
+// What the runtime is to the intake.
+class Machine {
+ public:
+  struct State {
+    Mode mode = Mode::kAuto;
+    bool resetting = false, alarmed = false;
+    unsigned system_count = 1;
+    std::array<unsigned, NC_MAX_SYSTEMS> axis_count{};
+    std::array<std::uint8_t, NC_MAX_SYSTEMS> run_state{};  // nc_run_state
+    std::array<std::string, NC_MAX_SYSTEMS> program;       // file name without folder
+    std::uint64_t runs = 0;                                // programs that came to their end
+    double max_feed_override = 2.0;
+  };
+  virtual ~Machine() = default;
+  virtual State state() = 0;
+  virtual Answer execute(const Command& command) = 0;
+  virtual Answer load_mdi(unsigned system, const std::string& blocks) = 0;
+  virtual Answer select_program(unsigned system, const std::string& file) = 0;
+};
+
+class Intake {
+ public:
+  explicit Intake(Machine* machine) : machine_(*machine) {}
+
+  // One command at time `now_ns` (time of day). Adds its acknowledgement, and those of what ends because of it.
+  void take(const Request& request, std::int64_t now_ns, std::vector<Ack>* acks);
+  // Leases, and accepted commands whose state has come. Call it every few ms.
+  void tick(std::int64_t now_ns, std::vector<Ack>* acks);
+
+  // The client that has control, "" = nobody.
+  std::string controlling() const;
+
+  static constexpr unsigned kClients = 16, kRemembered = 32, kPending = 16;
+  static constexpr std::uint32_t kMaxLifespanMs = 10'000, kMinLeaseMs = 100, kMaxLeaseMs = 60'000;
+  static constexpr std::uint32_t kDefaultLeaseMs = 2'000;
+  // A client that has been silent for this long can be forgotten: nothing of it can still be on its way.
+  static constexpr std::int64_t kForgetNs = 60'000'000'000;
+  static constexpr std::int64_t kClockSkewNs = 500'000'000;    // a command may come from so far in the future
+  static constexpr std::int64_t kReachNs = 10'000'000'000;     // for an accepted command to reach its state
+
+ private:
+  struct Client {
+    bool used = false;
+    Text<32> name{};
+    std::uint64_t writer = 0, last_sequence = 0;
+    std::int64_t heard_ns = 0;
+    std::array<Ack, kRemembered> answered{};  // ring by sequence of arrival
+    unsigned answers = 0;
+  };
+  struct Pending {
+    bool used = false;
+    Request request{};
+    std::int64_t since_ns = 0;
+    std::uint64_t runs = 0;
+  };
+  struct Verdict {
+    AckState state = AckState::kDone;
+    AckReason reason = AckReason::kNone;
+    std::string text;
+  };
+
+  Verdict check_form(const Request& request, const Machine::State& state) const;
+  Verdict decide(Client* client, const Request& request, const Machine::State& state, std::int64_t now_ns);
+  Verdict execute(const Request& request);
+  Verdict take_control(Client* client, const Request& request, std::int64_t now_ns);
+  bool expected(const Request& request, const Machine::State& state, std::string* text) const;
+  Client* client_of(const Request& request, std::int64_t now_ns);
+  void remember(Client* client, const Ack& ack);
+  void lose_control();
+  void gone(const Request& request, bool everyone);
+  void settle(Pending* pending, const Verdict& verdict, std::int64_t now_ns, std::vector<Ack>* acks);
+  bool wait_for(const Request& request, std::int64_t now_ns, std::uint64_t runs);
+
+  Machine& machine_;
+  std::array<Client, kClients> client_;
+  std::array<Pending, kPending> pending_;
+  Client* control_ = nullptr;
+  std::int64_t lease_ns_ = 0, lease_end_ns_ = 0;
+  bool jogging_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};
+};
+
+const char* reason_text(AckReason reason);
+
+}  // namespace nc::rt::share

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shared-memory segment between ncrtd and its readers (the DDS gateway): plain data with a fixed layout.
+//
+//   header | machine | point table        fixed after creation, under a check sum
+//   status | history | points             each under a sequence lock of its own, written by ncrtd
+//   commands | acknowledgements           rings with one producer and one consumer
+//
+// Nothing in here is a pointer, and every text has a terminating NUL inside its array. A change of any struct
+// changes layout_hash(), so that a reader of another build refuses the segment instead of misreading it.
+// Units: mm, degrees, mm/min for feeds, mm/s for velocities, ns since 1970 (CLOCK_REALTIME) for times of day.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/points.hpp"
+#include "nc/types.h"
+#include "runtime/share/shared_block.hpp"
+#include "runtime/share/shared_ring.hpp"
+
+namespace nc::rt::share {
+
+inline constexpr std::uint64_t kMagic = 0x3165'7261'6873'636e;  // "ncshare1" in memory
+inline constexpr std::uint32_t kLayoutVersion = 1;
+inline constexpr unsigned kHistory = 256;  // alarms and messages kept
+inline constexpr unsigned kAlarms = 16;
+inline constexpr unsigned kCommandRing = 64;
+inline constexpr unsigned kAckRing = 256;
+inline constexpr std::size_t kMdiText = 1024;  // with its NUL; nc_mdi_load() takes no more
+
+template <std::size_t kSize>
+using Text = std::array<char, kSize>;
+
+struct AxisStatus {
+  double commanded, actual;  // machine coordinates
+  double work;               // commanded, in the workpiece coordinates of the block in execution
+  double distance_to_go;
+  double velocity;  // mm/s or deg/s
+};
+
+struct SystemStatus {
+  std::uint32_t run_state;   // nc_run_state
+  std::uint32_t stop_cause;  // nc_stop_cause
+  Text<64> state_text;       // the state in words, with the reason when nothing moves
+  std::uint32_t axis_count;
+  std::uint32_t rapid, manual_allowed, strobe;  // strobe: bit 0 M, 1 S, 2 T, 3 B waits for FIN
+  std::uint32_t m, t, b;
+  double s_commanded, spindle_rpm;
+  double feed_mm_min, feed_command_mm_min;
+  Text<192> modal;     // "G01 G17 G90 ...", of the last finished block
+  Text<128> program;   // file of the main program, "" none, "MDI"
+  Text<128> file;      // file of the block in execution
+  Text<128> block;     // text of the block in execution, "" when it is not at hand
+  std::uint32_t program_number;  // O number of the program the block stands in
+  std::uint32_t line, sequence_number, depth;
+  std::uint64_t serial;  // item in execution
+  std::uint64_t blocks;  // finished since cycle start
+  double path_length;    // mm since cycle start
+  double run_s;          // s in execution since cycle start
+  std::array<AxisStatus, NC_MAX_AXES> axis;
+};
+
+// An alarm or a message, in the list of active ones and in the history.
+struct Entry {
+  std::uint64_t sequence;     // from 1; names this occurrence
+  std::int64_t raised_ns;     // time of day
+  std::int64_t cleared_ns;    // 0 = active (a message has no end: cleared_ns = raised_ns)
+  std::uint32_t is_message;
+  std::uint32_t system;       // index
+  std::uint32_t line;         // of the block in execution when it came, 0 = none
+  std::uint32_t program_number;
+  Text<16> code;
+  Text<8> axis;  // "X", "" none
+  Text<256> text;
+};
+
+struct ScanFigures {
+  std::uint64_t scans, overruns, missed_slots;
+  std::uint64_t execution_p50_ns, execution_p999_ns, execution_max_ns;
+  std::uint64_t jitter_p50_ns, jitter_p999_ns, jitter_max_ns;
+};
+
+struct StatusBlock {
+  std::uint64_t scan;          // number of the scan this is a picture of
+  std::int64_t scan_time_ns;   // time of day at its start (virtual time: of publication)
+  std::int64_t published_ns;   // time of day
+  std::uint32_t mode;          // nc::rt::Mode
+  std::uint32_t system_count;
+  std::uint32_t single_block, optional_stop, resetting, program_ready;
+  double feed_override, rapid_override;
+  std::uint64_t runs;          // programs that came to their end
+  std::uint32_t main_line;     // line of the main program that was finished last
+  std::uint32_t program_lines; // of the main program, 0 = not known
+  std::uint32_t percent;       // of the main program
+  std::uint32_t last_run_ok;   // the last run ended without an alarm
+  std::uint32_t interface_input[NC_WORDS], interface_output[NC_WORDS];
+  ScanFigures figures;
+  std::uint64_t message_count;
+  Text<128> message;           // last one
+  std::uint32_t alarm_count, alarms_left_out;
+  std::array<Entry, kAlarms> alarm;
+  std::array<SystemStatus, NC_MAX_SYSTEMS> system;  // system_count of them
+};
+
+// Entry with sequence n stands in entry[(n - 1) % kHistory].
+struct HistoryBlock {
+  std::uint64_t last_sequence;  // 0 = empty
+  std::array<Entry, kHistory> entry;
+};
+
+struct PointsBlock {
+  std::uint64_t scan;
+  std::uint32_t count;
+  std::array<std::uint32_t, hal::kMaxPoints> value;
+  std::array<std::uint8_t, hal::kMaxPoints> good;
+};
+
+struct PointRow {
+  Text<56> name;
+  std::uint32_t is_word, is_input;
+};
+
+struct AxisRow {
+  Text<8> name;
+  std::uint32_t rotary;
+  std::uint32_t soft_limited;
+  double soft_min, soft_max, max_velocity;
+};
+
+// What does not change while ncrtd runs.
+struct MachineBlock {
+  Text<64> machine;  // as configured
+  Text<64> share;    // name of the segment without its prefix; the partition in DDS
+  Text<32> version;  // of libnc
+  std::uint32_t dialect, system_count, cycle_us, point_count;
+  double max_feed_override;
+  std::array<std::uint32_t, NC_MAX_SYSTEMS> axis_count;
+  std::array<std::array<AxisRow, NC_MAX_AXES>, NC_MAX_SYSTEMS> axis;
+  std::array<PointRow, hal::kMaxPoints> point;
+};
+
+// ---- commands ----
+
+enum class RequestKind : std::uint32_t {
+  kTakeControl,  // becomes the one client whose commands act; also renews the lease
+  kReleaseControl,
+  kCycleStart,
+  kFeedHold,
+  kReset,
+  kSetMode,        // number: nc::rt::Mode
+  kFeedOverride,   // value 0..max_feed_override
+  kRapidOverride,  // value 0..1
+  kSingleBlock,    // number 0, 1
+  kOptionalStop,   // number 0, 1
+  kJog,            // system, axis, value: velocity mm/s signed; to be repeated, 0 stops
+  kMdi,            // system, text: blocks
+  kSelectProgram,  // system, text: file name in the folder of programs
+  // from the gateway itself, without acknowledgement
+  kClientGone,    // writer: this participant is dead or has left
+  kGatewayBegan,  // a new gateway: every client of the one before is gone
+  kCount
+};
+
+inline constexpr std::int32_t kAny = -1;
+
+// One command. Everything in it comes from the network: nothing is believed before Intake has looked at it.
+struct Request {
+  Text<32> client;  // printable ASCII
+  std::uint64_t sequence;  // strictly increasing for one client, from 1
+  std::uint64_t writer;    // who wrote it, by the gateway
+  std::int64_t issued_ns;  // time of day at the client
+  std::uint32_t kind;      // RequestKind
+  std::uint32_t lifespan_ms, lease_ms;
+  std::int32_t expected_mode;       // nc::rt::Mode, kAny
+  std::int32_t expected_run_state;  // nc_run_state of `system`, kAny
+  std::uint32_t system, axis;       // indices
+  std::uint32_t number;
+  double value;
+  Text<128> expected_program;  // file name without folder, "" any
+  Text<kMdiText> text;
+};
+
+enum class AckState : std::uint32_t { kAccepted, kDone, kRejected, kFailed, kCount };
+
+enum class AckReason : std::uint32_t {
+  kNone,
+  kMalformed,      // a field out of its range, not a number, not a text
+  kUnknownKind,
+  kLate,           // older than its lifespan
+  kOutOfOrder,     // sequence number not above the last one of this client
+  kNoControl,      // another client has control, or nobody: take it first
+  kExpectedState,  // mode, run state or program is not what the client believed
+  kOverflow,       // too many commands at once
+  kTooManyClients,
+  kRefused,        // by the runtime; the text says why
+  kNotReached,     // accepted, but the state did not come within its time
+  kClientInUse,    // this client id belongs to another participant
+  kCount
+};
+
+struct Ack {
+  Text<32> client;
+  std::uint64_t sequence;
+  std::uint64_t writer;
+  std::uint32_t kind;    // of the command
+  std::uint32_t state;   // AckState
+  std::uint32_t reason;  // AckReason
+  std::uint32_t repeated;  // answer to a duplicate: nothing was executed
+  std::int64_t time_ns;
+  Text<128> text;
+};
+
+// ---- the segment ----
+
+// How long one request for the points holds.
+inline constexpr std::int64_t kPointsWantedNs = 2'000'000'000;
+
+// Fixed part of the header, under the check sum.
+struct Identity {
+  std::uint64_t magic;
+  std::uint32_t layout_version, layout_hash;
+  std::uint64_t size;       // of the segment
+  std::int32_t owner_pid;
+  std::uint32_t commands;   // 1: ncrtd takes commands
+  std::uint64_t owner_start;  // start time of that process in clock ticks since boot: a number is used again
+  std::int64_t created_ns;
+};
+
+enum class Life : std::uint32_t { kMaking = 0, kAlive = 1, kEnded = 2 };
+
+struct Segment {
+  Identity identity;
+  std::uint64_t check;  // of identity and machine
+  std::atomic<std::uint32_t> life;         // Life
+  std::atomic<std::uint32_t> wake_reader;  // futex word: counts publications and acknowledgements
+  std::atomic<std::uint32_t> wake_intake;  // futex word: counts commands
+  std::atomic<std::int32_t> command_pid;   // process that may put commands in, 0 = none
+  std::atomic<std::uint64_t> heartbeat;    // of the publisher
+  std::atomic<std::int64_t> points_until;  // CLOCK_MONOTONIC, ns: until then a reader wants the points
+  std::atomic<std::uint64_t> reserved[7];
+  MachineBlock machine;
+  SharedBlock<StatusBlock> status;
+  SharedBlock<HistoryBlock> history;
+  SharedBlock<PointsBlock> points;
+  SharedRing<Request, kCommandRing> commands;
+  SharedRing<Ack, kAckRing> acks;
+};
+
+// Over the places and sizes of what the segment is made of.
+constexpr std::uint32_t layout_hash() {
+  const std::size_t figures[] = {sizeof(Segment), offsetof(Segment, machine), offsetof(Segment, status),
+                                 offsetof(Segment, history), offsetof(Segment, points), offsetof(Segment, commands),
+                                 offsetof(Segment, acks), sizeof(SystemStatus), sizeof(AxisStatus), sizeof(Entry),
+                                 sizeof(ScanFigures), sizeof(PointRow), sizeof(AxisRow), sizeof(Request), sizeof(Ack),
+                                 static_cast<std::size_t>(RequestKind::kCount), static_cast<std::size_t>(AckReason::kCount),
+                                 kLayoutVersion};
+  std::uint32_t hash = 2166136261u;  // FNV-1a
+  for (const std::size_t figure : figures)
+    for (unsigned byte = 0; byte < 4; ++byte) hash = (hash ^ (figure >> 8 * byte & 0xff)) * 16777619u;
+  return hash;
+}
+
+}  // namespace nc::rt::share

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which file a place in the program store is, for those who show it. Any thread.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace nc::rt::share {
+
+class ProgramTable {
+ public:
+  struct Program {
+    std::string path;
+    std::uint64_t lines = 0;  // up to its end code, 0 = not known
+  };
+
+  // Counts the lines: call it where that time is at hand.
+  void add(unsigned file, const std::string& path);
+  // Without counting.
+  void add_name(unsigned file, const std::string& path) {
+    const std::lock_guard lock(mutex_);
+    if (programs_[file].path != path) programs_[file] = {path, 0};
+  }
+  Program at(unsigned file) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = programs_.find(file);
+    return found == programs_.end() ? Program{} : found->second;
+  }
+  void set_mdi(const std::string& blocks) {
+    const std::lock_guard lock(mutex_);
+    mdi_ = blocks;
+  }
+  std::string mdi() const {
+    const std::lock_guard lock(mutex_);
+    return mdi_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<unsigned, Program> programs_;
+  std::string mdi_;
+};
+
+std::string file_name(const std::string& path);
+
+}  // namespace nc::rt::share

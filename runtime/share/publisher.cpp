@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// From snapshot and feeder to the segment. See publisher.hpp.
+#include "runtime/share/publisher.hpp"
+
+#include <algorithm>
+
+#include "runtime/console.hpp"
+#include "runtime/share/segment.hpp"
+#include "runtime/share/text.hpp"
+
+namespace nc::rt::share {
+namespace {
+
+constexpr unsigned kFiguresEvery = 10;  // pictures; a percentile walks the whole histogram
+
+std::string modal_text(const nc_modal& modal) {
+  char codes[NC_GROUPS][8];
+  // Needs no control of its own: the codes are in the snapshot.
+  std::string text;
+  for (unsigned group = 1; group < NC_GROUPS; ++group) {
+    if (modal.code[group] < 0) continue;
+    const int code = modal.code[group];
+    if (code % 10 == 0) std::snprintf(codes[0], sizeof codes[0], "G%02d", code / 10);
+    else std::snprintf(codes[0], sizeof codes[0], "G%02d.%d", code / 10, code % 10);
+    if (!text.empty()) text += ' ';
+    text += codes[0];
+  }
+  return text;
+}
+
+// "R11 Following error beyond its limit, axis X (line 7)" without its code, axis and line: they have fields of
+// their own.
+std::string without_place(std::string text, const std::string& code, const std::string& axis) {
+  if (text.rfind(code + " ", 0) == 0) text.erase(0, code.size() + 1);
+  if (const std::size_t line = text.rfind(" (line "); line != std::string::npos) text.erase(line);
+  const std::string end = ", axis " + axis;
+  if (!axis.empty() && text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0)
+    text.erase(text.size() - end.size());
+  return text;
+}
+
+}  // namespace
+
+MachineBlock machine_block(const Config& config, const std::string& name) {
+  MachineBlock block{};
+  set_text(&block.machine, config.name);
+  set_text(&block.share, share_name(name));
+  set_text(&block.version, nc_version());
+  block.dialect = config.nc.dialect;
+  block.system_count = config.nc.system_count;
+  block.cycle_us = config.cycle_us;
+  block.max_feed_override = config.nc.max_feed_override;
+  for (unsigned s = 0; s < config.nc.system_count; ++s) {
+    block.axis_count[s] = config.nc.system[s].axis_count;
+    for (unsigned a = 0; a < config.nc.system[s].axis_count; ++a) {
+      const nc_axis_config& axis = config.nc.system[s].axis[a];
+      AxisRow& row = block.axis[s][a];
+      set_text(&row.name, std::string(1, axis.name));
+      row.rotary = axis.rotary;
+      row.soft_limited = axis.soft_limited;
+      row.soft_min = axis.soft_min;
+      row.soft_max = axis.soft_max;
+      row.max_velocity = axis.max_velocity;
+    }
+  }
+  block.point_count = config.points.size();
+  for (unsigned p = 0; p < config.points.size(); ++p) {
+    const hal::Point& point = config.points.at(p);
+    set_text(&block.point[p].name, point.name);
+    block.point[p].is_word = point.type == hal::PointType::kWord;
+    block.point[p].is_input = point.direction == hal::PointDirection::kInput;
+  }
+  return block;
+}
+
+Publisher::Publisher(Runtime* runtime, const ProgramTable* programs, PointTap* tap, Segment* segment,
+                     bool virtual_time)
+    : runtime_(*runtime),
+      config_(runtime->config()),
+      programs_(*programs),
+      tap_(tap),
+      segment_(*segment),
+      virtual_time_(virtual_time) {}
+
+void Publisher::publish() {
+  const Snapshot snapshot = runtime_.snapshot();
+  info_ = runtime_.info();
+  status_.published_ns = wall_ns();
+  status_.scan_time_ns = status_.published_ns;
+  if (!virtual_time_) status_.scan_time_ns -= RealClock().now_ns() - snapshot.time_ns;
+  fill_machine(snapshot, info_);
+  for (unsigned s = 0; s < status_.system_count; ++s) fill_system(s, snapshot, info_);
+  if (pictures_++ % kFiguresEvery == 0) fill_figures();
+  status_.figures.scans = snapshot.scan;
+  status_.figures.overruns = snapshot.overruns;
+  status_.figures.missed_slots = snapshot.missed_slots;
+  fill_alarms(snapshot, info_);
+  if (tap_ != nullptr && segment_.points_until.load(std::memory_order_relaxed) > RealClock().now_ns())
+    fill_points(snapshot);
+  segment_.status.store(status_);
+  segment_.heartbeat.fetch_add(1, std::memory_order_release);
+  if (segment_.life.load(std::memory_order_relaxed) == static_cast<std::uint32_t>(Life::kMaking))
+    segment_.life.store(static_cast<std::uint32_t>(Life::kAlive), std::memory_order_release);
+  wake(&segment_.wake_reader);
+}
+
+void Publisher::fill_machine(const Snapshot& snapshot, const FeederInfo& info) {
+  status_.scan = snapshot.scan;
+  status_.mode = static_cast<std::uint32_t>(snapshot.mode);
+  status_.system_count = config_.nc.system_count;
+  status_.single_block = snapshot.single_block;
+  status_.optional_stop = snapshot.optional_stop;
+  status_.resetting = snapshot.resetting;
+  status_.program_ready = info.program_ready;
+  status_.feed_override = snapshot.feed_override;
+  status_.rapid_override = snapshot.rapid_override;
+  status_.runs = info.runs;
+  status_.last_run_ok = info.ended_ok;
+  const FeederInfo::Selected& selected = info.selected[0];
+  const std::uint64_t lines = selected.any && !selected.mdi ? programs_.at(selected.file).lines : 0;
+  const nc_outputs& nc = snapshot.system[0].nc;
+  status_.main_line = std::max(info.main_line, nc.source.depth == 0 ? nc.source.line : 0);
+  status_.program_lines = static_cast<std::uint32_t>(std::min<std::uint64_t>(lines, UINT32_MAX));
+  const bool over = info.runs > 0 && nc.state == NC_STATE_IDLE;
+  status_.percent = over ? 100 : percent_done(status_.main_line, lines);
+  std::copy(std::begin(snapshot.interface_input), std::end(snapshot.interface_input), status_.interface_input);
+  std::copy(std::begin(snapshot.interface_output), std::end(snapshot.interface_output), status_.interface_output);
+}
+
+void Publisher::fill_system(unsigned index, const Snapshot& snapshot, const FeederInfo& info) {
+  const SystemSnapshot& system = snapshot.system[index];
+  const nc_outputs& nc = system.nc;
+  SystemStatus& out = status_.system[index];
+  out.run_state = nc.state;
+  out.stop_cause = nc.cause;
+  set_text(&out.state_text, state_text(nc));
+  out.axis_count = config_.nc.system[index].axis_count;
+  out.rapid = nc.rapid;
+  out.manual_allowed = nc.manual_allowed;
+  out.strobe = nc.strobe;
+  out.m = nc.m;
+  out.t = nc.t;
+  out.b = nc.b;
+  out.s_commanded = nc.s;
+  out.spindle_rpm = system.spindle_rpm;
+  out.feed_mm_min = nc.feed_mm_min;
+  out.feed_command_mm_min = nc.feed_command_mm_min;
+  out.serial = nc.serial;
+  out.blocks = nc.blocks;
+  out.path_length = nc.path_length;
+  out.run_s = nc.run_s;
+  set_text(&out.modal, info.modal_known[index] ? modal_text(info.modal[index]) : std::string());
+  for (unsigned a = 0; a < out.axis_count; ++a)
+    out.axis[a] = {nc.command.v[a], system.actual.v[a], nc.work.v[a], nc.distance_to_go.v[a], nc.velocity.v[a]};
+  fill_block(index, nc, info, &out);
+}
+
+// Program, line and text of the block in execution.
+void Publisher::fill_block(unsigned index, const nc_outputs& nc, const FeederInfo& info, SystemStatus* out) {
+  const FeederInfo::Selected& selected = info.selected[index];
+  out->program_number = nc.source.program;
+  out->line = nc.source.line;
+  out->depth = nc.source.depth;
+  std::string program, file, block;
+  if (selected.any && selected.mdi) {
+    program = file = "MDI";
+    if (nc.source.depth == 0) block = line_of_text(programs_.mdi(), nc.source.line);
+  } else if (selected.any) {
+    program = file_name(programs_.at(selected.file).path);
+    if (nc.source.line != 0) {
+      const std::string path = programs_.at(nc.source.file).path;
+      file = file_name(path);
+      block = text_[index].line(path, nc.source.line);
+    }
+  }
+  out->sequence_number = sequence_number(block);
+  set_text(&out->program, program);
+  set_text(&out->file, file);
+  set_text(&out->block, block);
+}
+
+void Publisher::fill_figures() {
+  const ScanStatistics& statistics = runtime_.statistics();
+  ScanFigures& out = status_.figures;
+  out.execution_p50_ns = statistics.execution.percentile_ns(0.5);
+  out.execution_p999_ns = statistics.execution.percentile_ns(0.999);
+  out.execution_max_ns = statistics.execution.max_ns();
+  out.jitter_p50_ns = statistics.jitter.percentile_ns(0.5);
+  out.jitter_p999_ns = statistics.jitter.percentile_ns(0.999);
+  out.jitter_max_ns = statistics.jitter.max_ns();
+}
+
+void Publisher::fill_alarms(const Snapshot& snapshot, const FeederInfo& info) {
+  bool changed = log_.update(snapshot.alarms, this, status_.published_ns);
+  if (info.messages != messages_) {
+    // Messages that came between two pictures share one place; the count says so.
+    messages_ = info.messages;
+    log_.add_message(info.last_message, status_.published_ns);
+    set_text(&status_.message, info.last_message);
+    changed = true;
+  }
+  status_.message_count = info.messages;
+  if (!changed) return;
+  const std::vector<Entry>& active = log_.active();
+  status_.alarm_count = static_cast<std::uint32_t>(std::min<std::size_t>(active.size(), kAlarms));
+  status_.alarms_left_out = static_cast<std::uint32_t>(active.size()) - status_.alarm_count;
+  std::copy_n(active.begin(), status_.alarm_count, status_.alarm.begin());
+  segment_.history.store(log_.history());
+}
+
+bool Publisher::describe(const ActiveAlarm& alarm, Entry* entry) {
+  const auto axis_name = [&](int axis) {
+    if (axis >= 0 && axis < static_cast<int>(config_.nc.system[alarm.system].axis_count))
+      set_text(&entry->axis, std::string(1, config_.nc.system[alarm.system].axis[axis].name));
+  };
+  const AlarmRow& row = alarm_row(alarm.id);
+  if (alarm.id != AlarmId::kProgram) {
+    set_text(&entry->code, row.code);
+    axis_name(alarm.axis);
+    set_text(&entry->text, without_place(runtime_.alarm_text(alarm), row.code, std::string(text_of(entry->axis))));
+    return true;
+  }
+  set_text(&entry->text, row.text);
+  if (!info_.alarm) return false;
+  const nc_alarm& details = info_.program_alarm;
+  set_text(&entry->code, details.code);
+  std::string text = details.message;
+  if (details.detail.s[0] != 0) text += std::string(": ") + details.detail.s;
+  set_text(&entry->text, text);
+  if (details.source.line != 0) {
+    entry->line = details.source.line;
+    entry->program_number = details.source.program;
+  }
+  axis_name(details.axis);
+  return true;
+}
+
+void Publisher::fill_points(const Snapshot& snapshot) {
+  bool lost = false;
+  if (tap_->take(&image_, &lost)) {
+    points_.scan = snapshot.scan;
+    points_.count = config_.points.size();
+    for (unsigned p = 0; p < points_.count; ++p) {
+      points_.value[p] = image_.value[p];
+      points_.good[p] = config_.points.at(p).bus == 0 ? !lost : image_.good[p] != 0;
+    }
+    segment_.points.store(points_);
+  }
+  tap_->want();
+}
+
+}  // namespace nc::rt::share

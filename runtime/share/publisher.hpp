@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes what the runtime looks like into the segment. Reads snapshots like any other reader: the scan does
+// not know of it. One ordinary thread.
+#pragma once
+
+#include <string>
+
+#include "runtime/runtime.hpp"
+#include "runtime/share/alarm_log.hpp"
+#include "runtime/share/block_text.hpp"
+#include "runtime/share/layout.hpp"
+#include "runtime/share/point_tap.hpp"
+#include "runtime/share/program_table.hpp"
+
+namespace nc::rt::share {
+
+// The description of the machine, from its configuration.
+MachineBlock machine_block(const Config& config, const std::string& name);
+
+class Publisher final : private AlarmLog::Describer {
+ public:
+  // `tap` may be null (no points). `virtual_time`: the runtime's clock is not the time of day.
+  Publisher(Runtime* runtime, const ProgramTable* programs, PointTap* tap, Segment* segment, bool virtual_time);
+  // One picture; wakes the readers.
+  void publish();
+
+ private:
+  bool describe(const ActiveAlarm& alarm, Entry* entry) override;
+  void fill_machine(const Snapshot& snapshot, const FeederInfo& info);
+  void fill_system(unsigned index, const Snapshot& snapshot, const FeederInfo& info);
+  void fill_block(unsigned index, const nc_outputs& nc, const FeederInfo& info, SystemStatus* out);
+  void fill_figures();
+  void fill_alarms(const Snapshot& snapshot, const FeederInfo& info);
+  void fill_points(const Snapshot& snapshot);
+
+  Runtime& runtime_;
+  const Config& config_;
+  const ProgramTable& programs_;
+  PointTap* tap_;
+  Segment& segment_;
+  const bool virtual_time_;
+  BlockText text_[NC_MAX_SYSTEMS];
+  AlarmLog log_;
+  FeederInfo info_;  // of this picture, for describe()
+  std::uint64_t messages_ = 0;
+  unsigned pictures_ = 0;
+  StatusBlock status_{};
+  PointsBlock points_{};
+  hal::PointImage image_;
+};
+
+}  // namespace nc::rt::share

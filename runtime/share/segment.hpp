@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The segment as a file of POSIX shared memory, /nc-<name>: made by ncrtd, opened by readers.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "runtime/share/layout.hpp"
+
+namespace nc::rt::share {
+
+// Prefix of every segment; "/nc-sim-mill".
+std::string segment_path(const std::string& name);
+
+// Check sum of what does not change: FNV-1a over identity and machine, 64 bits.
+std::uint64_t check_sum(const Segment& segment);
+
+// Start time of a process in clock ticks since boot, 0 = there is none. A pid with another start time is
+// another process.
+std::uint64_t process_start(pid_t pid);
+
+// ncrtd's side.
+class SegmentOwner {
+ public:
+  SegmentOwner() = default;
+  ~SegmentOwner() { remove(); }
+  SegmentOwner(const SegmentOwner&) = delete;
+  SegmentOwner& operator=(const SegmentOwner&) = delete;
+
+  // Makes the segment. One that a dead process left is replaced; one of a living process is refused. False
+  // with a sentence in *error. `mode`: permissions, 0600 or 0660.
+  bool create(const std::string& name, mode_t mode, bool commands, const MachineBlock& machine, std::string* error);
+  // Says goodbye to readers and takes the name away; readers that have it open keep the last values.
+  void remove();
+
+  Segment* get() { return segment_; }
+
+ private:
+  Segment* segment_ = nullptr;
+  std::string path_;
+  int descriptor_ = -1;  // holds the lock that says the owner lives
+};
+
+// A reader's side.
+class SegmentReader {
+ public:
+  SegmentReader() = default;
+  ~SegmentReader() { close(); }
+  SegmentReader(const SegmentReader&) = delete;
+  SegmentReader& operator=(const SegmentReader&) = delete;
+
+  // False with a sentence in *error when there is none, or when it is not a segment of this build.
+  bool open(const std::string& name, std::string* error);
+  void close();
+  bool is_open() const { return segment_ != nullptr; }
+  Segment* get() { return segment_; }
+  const Segment* get() const { return segment_; }
+
+  // Consistent copies whose counts and texts are what they must be. False with a sentence in *error: the
+  // writer died in the middle, or someone else has written here.
+  bool status(StatusBlock* block, std::string* error) const;
+  bool history(HistoryBlock* block, std::uint64_t* sequence, std::string* error) const;
+  bool points(PointsBlock* block, std::string* error) const;
+
+  // The owner has said goodbye, or its process is gone.
+  bool owner_gone() const;
+  // The right to put commands in. One process at a time; one that died loses it.
+  bool claim_commands(std::string* error);
+  void release_commands();
+
+ private:
+  Segment* segment_ = nullptr;
+};
+
+// Sees a writer that stands still: alive as long as its heart beats.
+class HeartbeatWatch {
+ public:
+  explicit HeartbeatWatch(std::int64_t limit_ns = 1'000'000'000) : limit_ns_(limit_ns) {}
+  // `now_ns` monotonic. True while the last beat is younger than the limit.
+  bool alive(std::uint64_t beat, std::int64_t now_ns) {
+    if (!started_ || beat != beat_) {
+      started_ = true;
+      beat_ = beat;
+      since_ns_ = now_ns;
+    }
+    return now_ns - since_ns_ < limit_ns_;
+  }
+  void restart() { started_ = false; }
+
+ private:
+  std::int64_t limit_ns_, since_ns_ = 0;
+  std::uint64_t beat_ = 0;
+  bool started_ = false;
+};
+
+// Futex words shared by processes.
+void wake(std::atomic<std::uint32_t>* word);
+// Returns when the word is no longer `seen`, or after the time, or on a signal.
+void wait_for_change(std::atomic<std::uint32_t>* word, std::uint32_t seen, std::int64_t timeout_ns);
+
+}  // namespace nc::rt::share

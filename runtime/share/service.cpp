@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Threads of the segment. See service.hpp.
+#include "runtime/share/service.hpp"
+
+#include "runtime/share/text.hpp"
+
+namespace nc::rt::share {
+namespace {
+
+constexpr std::int64_t kPublishNs = 10'000'000;
+constexpr std::int64_t kIntakeNs = 5'000'000;  // leases and jogs are looked at so often, commands wake it at once
+constexpr unsigned kCommandsPerTurn = 32;
+
+void sleep_until(std::int64_t when_ns) {
+  const timespec when{when_ns / 1'000'000'000, when_ns % 1'000'000'000};
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &when, nullptr);
+}
+
+}  // namespace
+
+Machine::State RuntimeMachine::state() {
+  const Snapshot snapshot = runtime_.snapshot();
+  const FeederInfo info = runtime_.info();
+  const Config& config = runtime_.config();
+  State state;
+  state.mode = snapshot.mode;
+  state.resetting = snapshot.resetting;
+  state.alarmed = snapshot.alarmed();
+  state.system_count = config.nc.system_count;
+  state.runs = info.runs;
+  state.max_feed_override = config.nc.max_feed_override;
+  for (unsigned s = 0; s < state.system_count; ++s) {
+    state.axis_count[s] = config.nc.system[s].axis_count;
+    state.run_state[s] = snapshot.system[s].nc.state;
+    const FeederInfo::Selected& selected = info.selected[s];
+    if (selected.any) state.program[s] = selected.mdi ? "MDI" : file_name(programs_.at(selected.file).path);
+  }
+  return state;
+}
+
+Answer RuntimeMachine::load_mdi(unsigned system, const std::string& blocks) {
+  const Answer answer = runtime_.load_mdi(blocks, system);
+  if (answer == Answer::kDone) programs_.set_mdi(blocks);
+  return answer;
+}
+
+Service::Service(Runtime* runtime, ProgramTable* programs, PointTap* tap, const ServiceOptions& options)
+    : runtime_(*runtime),
+      options_(options),
+      machine_(runtime, programs),
+      intake_(&machine_),
+      programs_(*programs),
+      tap_(tap) {}
+
+bool Service::create(std::string* error) {
+  const MachineBlock machine = machine_block(runtime_.config(), options_.name);
+  if (!segment_.create(options_.name, options_.group ? 0660 : 0600, options_.commands, machine, error)) return false;
+  publisher_ = std::make_unique<Publisher>(&runtime_, &programs_, tap_, segment_.get(), options_.virtual_time);
+  return true;
+}
+
+bool Service::start(std::string* error) {
+  started_ = true;
+  publisher_->publish();
+  if (!publisher_thread_.start([this] { publisher_thread(); }, error)) return false;
+  return !options_.commands || intake_thread_.start([this] { intake_thread(); }, error);
+}
+
+void Service::stop() {
+  if (!started_) return;
+  started_ = false;
+  stop_ = true;
+  wake(&segment_.get()->wake_intake);
+  intake_thread_.join();
+  publisher_thread_.join();
+  publisher_->publish();
+  segment_.remove();
+}
+
+void Service::publisher_thread() {
+  std::int64_t next_ns = RealClock().now_ns();
+  while (!stop_) {
+    publisher_->publish();
+    next_ns += kPublishNs;
+    const std::int64_t now_ns = RealClock().now_ns();
+    if (next_ns < now_ns) next_ns = now_ns;
+    sleep_until(next_ns);
+  }
+}
+
+void Service::intake_thread() {
+  Segment& segment = *segment_.get();
+  std::vector<Ack> acks;
+  while (!stop_) {
+    const std::uint32_t seen = segment.wake_intake.load(std::memory_order_acquire);
+    Request request;
+    for (unsigned i = 0; i < kCommandsPerTurn && segment.commands.pop(&request); ++i)
+      intake_.take(request, wall_ns(), &acks);
+    intake_.tick(wall_ns(), &acks);
+    for (const Ack& ack : acks) (void)segment.acks.push(ack);  // a gateway that never looks loses answers
+    if (!acks.empty()) wake(&segment.wake_reader);
+    acks.clear();
+    if (segment.commands.size() == 0) wait_for_change(&segment.wake_intake, seen, kIntakeNs);
+  }
+}
+
+}  // namespace nc::rt::share

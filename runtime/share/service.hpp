@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// ncrtd's end of the segment: makes it, publishes every 10 ms, takes commands where that is allowed. Its
+// threads are ordinary ones.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "runtime/rt_thread.hpp"
+#include "runtime/runtime.hpp"
+#include "runtime/share/intake.hpp"
+#include "runtime/share/point_tap.hpp"
+#include "runtime/share/program_table.hpp"
+#include "runtime/share/publisher.hpp"
+#include "runtime/share/segment.hpp"
+
+namespace nc::rt::share {
+
+struct ServiceOptions {
+  std::string name;
+  bool commands = false, group = false, virtual_time = false;
+};
+
+// A running Runtime as the intake sees it.
+class RuntimeMachine final : public Machine {
+ public:
+  RuntimeMachine(Runtime* runtime, ProgramTable* programs) : runtime_(*runtime), programs_(*programs) {}
+  State state() override;
+  Answer execute(const Command& command) override { return runtime_.execute(command); }
+  Answer load_mdi(unsigned system, const std::string& blocks) override;
+  Answer select_program(unsigned system, const std::string& file) override {
+    return runtime_.select_program(system, file);
+  }
+
+ private:
+  Runtime& runtime_;
+  ProgramTable& programs_;
+};
+
+class Service {
+ public:
+  // All must outlive the service. `tap` may be null.
+  Service(Runtime* runtime, ProgramTable* programs, PointTap* tap, const ServiceOptions& options);
+  ~Service() { stop(); }
+  // Makes the segment; before the runtime starts, so that a name in use is an error before anything moves.
+  bool create(std::string* error);
+  // After the start of the runtime.
+  bool start(std::string* error);
+  // The last picture is published, then readers are told that this is the end.
+  void stop();
+
+ private:
+  void publisher_thread();
+  void intake_thread();
+
+  Runtime& runtime_;
+  const ServiceOptions options_;
+  RuntimeMachine machine_;
+  Intake intake_;
+  SegmentOwner segment_;
+  ProgramTable& programs_;
+  PointTap* tap_;
+  std::unique_ptr<Publisher> publisher_;
+  RtThread publisher_thread_, intake_thread_;
+  std::atomic<bool> stop_{false};
+  bool started_ = false;
+};
+
+}  // namespace nc::rt::share

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A value in shared memory under a sequence lock, as runtime/seqlock.hpp, between two processes: the reader
+// gives up when the writer died in the middle, and knows from the sequence whether anything is new.
+#pragma once
+
+#include <sched.h>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+namespace nc::rt::share {
+
+template <class T>
+class SharedBlock {
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 8 == 0);
+  static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
+  static constexpr std::size_t kWords = sizeof(T) / 8;
+
+ public:
+  // One writer. A sequence left odd by a writer that died is made even by the next one.
+  void store(const T& value) noexcept {
+    const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed) | 1;
+    sequence_.store(sequence, std::memory_order_relaxed);
+    const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
+    for (std::size_t i = 0; i < kWords; ++i) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + 8 * i, 8);
+      words_[i].store(word, std::memory_order_release);  // behind the odd sequence
+    }
+    sequence_.store(sequence + 1, std::memory_order_release);
+  }
+
+  // False when no consistent value was found: the writer stopped in the middle of one.
+  bool load(T* value, std::uint64_t* sequence = nullptr) const noexcept {
+    for (unsigned attempt = 0; attempt < kAttempts; ++attempt) {
+      if (attempt != 0) sched_yield();
+      const std::uint64_t before = sequence_.load(std::memory_order_acquire);
+      if ((before & 1) != 0) continue;
+      auto* bytes = reinterpret_cast<unsigned char*>(value);
+      for (std::size_t i = 0; i < kWords; ++i) {
+        const std::uint64_t word = words_[i].load(std::memory_order_acquire);
+        std::memcpy(bytes + 8 * i, &word, 8);
+      }
+      if (sequence_.load(std::memory_order_relaxed) != before) continue;
+      if (sequence != nullptr) *sequence = before;
+      return true;
+    }
+    return false;
+  }
+  std::uint64_t sequence() const noexcept { return sequence_.load(std::memory_order_acquire); }
+
+ private:
+  static constexpr unsigned kAttempts = 2000;
+  std::atomic<std::uint64_t> sequence_;
+  std::array<std::atomic<std::uint64_t>, kWords> words_;
+};
+
+}  // namespace nc::rt::share

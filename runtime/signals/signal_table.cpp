@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of signals. A row is the only place where a signal is described.
+#include "runtime/signals/signal_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nc::rt {
+namespace {
+
+using Image = const LadderImage&;
+using Type = ladder::DeviceType;
+constexpr auto kBit = Type::kBit;
+constexpr auto kWord16 = Type::kWord16;
+constexpr auto kWord32 = Type::kWord32;
+constexpr auto kFrom = SignalDirection::kFromNc;
+constexpr auto kTo = SignalDirection::kToNc;
+constexpr auto kControl = SignalScope::kControl;
+constexpr auto kNumberedControl = SignalScope::kNumberedControl;
+constexpr auto kSystem = SignalScope::kSystem;
+constexpr auto kAxis = SignalScope::kAxis;
+constexpr auto kNumbered = SignalScope::kNumbered;
+
+enum : std::uint8_t { kStrobeM = 1, kStrobeS = 2, kStrobeT = 4, kStrobeB = 8 };
+
+std::int32_t to_int(double value) {
+  constexpr double kMost = 2147483647.0;
+  if (!(value > -kMost)) return value == value ? -2147483647 : 0;
+  return value < kMost ? static_cast<std::int32_t>(std::lround(value)) : 2147483647;
+}
+
+const nc_outputs& out(Image image, unsigned system) {
+  return image.nc_out[system];
+}
+bool strobe(Image image, unsigned system, std::uint8_t group) {
+  return (out(image, system).strobe & group) != 0;
+}
+bool decoded(Image image, unsigned system, std::uint32_t code) {
+  return strobe(image, system, kStrobeM) && out(image, system).m == code;
+}
+bool state(Image image, unsigned system, nc_run_state wanted) {
+  return out(image, system).state == wanted;
+}
+
+}  // namespace
+
+#define NC_READ [](Image image, [[maybe_unused]] unsigned s, [[maybe_unused]] unsigned i) -> std::int32_t
+#define NC_WRITE [](std::int32_t value, LadderImage* image, [[maybe_unused]] unsigned s, [[maybe_unused]] unsigned i)
+
+const SignalRow kSignals[] = {
+    // ---- state of the control ----
+    {"ready", kBit, kFrom, kControl, 0, 0, "drives are on and no alarm is active", "level",
+     NC_READ { return image.status->drives_on && !image.status->alarm; }, nullptr},
+    {"alarm", kBit, kFrom, kControl, 0, 0, "an alarm is active", "level, until reset with the cause gone",
+     NC_READ { return image.status->alarm; }, nullptr},
+    {"resetting", kBit, kFrom, kControl, 0, 0, "a reset is going on", "at least 2 scans",
+     NC_READ { return image.status->resetting; }, nullptr},
+    {"mode_auto", kBit, kFrom, kControl, 0, 0, "automatic mode is selected", "level",
+     NC_READ { return image.status->mode == Mode::kAuto; }, nullptr},
+    {"mode_mdi", kBit, kFrom, kControl, 0, 0, "MDI mode is selected", "level",
+     NC_READ { return image.status->mode == Mode::kMdi; }, nullptr},
+    {"mode_manual", kBit, kFrom, kControl, 0, 0, "manual mode is selected", "level",
+     NC_READ { return image.status->mode == Mode::kManual; }, nullptr},
+    {"in_auto", kBit, kFrom, kSystem, 0, 0, "a program is in execution or interrupted (OP)", "level",
+     NC_READ {
+       return state(image, s, NC_STATE_RUNNING) || state(image, s, NC_STATE_HOLD) ||
+              state(image, s, NC_STATE_STOPPED);
+     },
+     nullptr},
+    {"cycle_lamp", kBit, kFrom, kSystem, 0, 0, "a program is in execution (STL)", "level",
+     NC_READ { return state(image, s, NC_STATE_RUNNING); }, nullptr},
+    {"hold_lamp", kBit, kFrom, kSystem, 0, 0, "feed hold (SPL)", "level",
+     NC_READ { return state(image, s, NC_STATE_HOLD); }, nullptr},
+    {"block_stop", kBit, kFrom, kSystem, 0, 0, "stopped between two blocks: single block, M00, M01", "level",
+     NC_READ { return state(image, s, NC_STATE_STOPPED); }, nullptr},
+    {"stop_cause", kWord16, kFrom, kSystem, 0, 0,
+     "why nothing moves though a program runs: 0 moves, 1 FIN, 2 dwell, 3 in position, 4 program stop, 5 single "
+     "block, 6 feed hold, 7 interlock, 8 override 0, 9 look-ahead empty, 10 alarm",
+     "level", NC_READ { return out(image, s).cause; }, nullptr},
+
+    // ---- M, S, T, B ----
+    {"m_strobe", kBit, kFrom, kSystem, 0, 0, "an M code waits to be done", "on with the code, off when FIN is seen",
+     NC_READ { return strobe(image, s, kStrobeM); }, nullptr},
+    {"s_strobe", kBit, kFrom, kSystem, 0, 0, "an S code waits to be done", "as m_strobe",
+     NC_READ { return strobe(image, s, kStrobeS); }, nullptr},
+    {"t_strobe", kBit, kFrom, kSystem, 0, 0, "a T code waits to be done", "as m_strobe",
+     NC_READ { return strobe(image, s, kStrobeT); }, nullptr},
+    {"b_strobe", kBit, kFrom, kSystem, 0, 0, "a second auxiliary function waits to be done", "as m_strobe",
+     NC_READ { return strobe(image, s, kStrobeB); }, nullptr},
+    {"m_code", kWord32, kFrom, kSystem, 0, 0, "the M code", "stays until the next one",
+     NC_READ { return static_cast<std::int32_t>(out(image, s).m); }, nullptr},
+    {"s_code", kWord32, kFrom, kSystem, 0, 0, "the S code, r/min", "stays until the next one",
+     NC_READ { return to_int(out(image, s).s); }, nullptr},
+    {"t_code", kWord32, kFrom, kSystem, 0, 0, "the T code", "stays until the next one",
+     NC_READ { return static_cast<std::int32_t>(out(image, s).t); }, nullptr},
+    {"b_code", kWord32, kFrom, kSystem, 0, 0, "the second auxiliary function's code", "stays until the next one",
+     NC_READ { return static_cast<std::int32_t>(out(image, s).b); }, nullptr},
+    {"dm00", kBit, kFrom, kSystem, 0, 0, "decoded M00", "with m_strobe", NC_READ { return decoded(image, s, 0); },
+     nullptr},
+    {"dm01", kBit, kFrom, kSystem, 0, 0, "decoded M01", "with m_strobe", NC_READ { return decoded(image, s, 1); },
+     nullptr},
+    {"dm02", kBit, kFrom, kSystem, 0, 0, "decoded M02", "with m_strobe", NC_READ { return decoded(image, s, 2); },
+     nullptr},
+    {"dm30", kBit, kFrom, kSystem, 0, 0, "decoded M30", "with m_strobe", NC_READ { return decoded(image, s, 30); },
+     nullptr},
+    {"fin_wait", kWord16, kFrom, kSystem, 0, 0, "groups that wait for FIN: bit 0 M, 1 S, 2 T, 3 B",
+     "from the strobe until FIN1 has fallen or FIN2 has risen", NC_READ { return out(image, s).fin_wait; }, nullptr},
+
+    // ---- motion ----
+    {"distance_end", kBit, kFrom, kSystem, 0, 0, "no axis is commanded to move (DEN)", "level",
+     NC_READ { return out(image, s).distance_zero; }, nullptr},
+    {"rapid", kBit, kFrom, kSystem, 0, 0, "a rapid move is in execution", "level",
+     NC_READ { return out(image, s).rapid; }, nullptr},
+    {"cutting", kBit, kFrom, kSystem, 0, 0, "a cutting move is in execution", "level",
+     NC_READ { return !out(image, s).rapid && !out(image, s).distance_zero && state(image, s, NC_STATE_RUNNING); },
+     nullptr},
+    {"feed", kWord32, kFrom, kSystem, 0, 0, "actual path speed, mm/min", "every scan",
+     NC_READ { return to_int(out(image, s).feed_mm_min); }, nullptr},
+    {"spindle_speed", kWord32, kFrom, kSystem, 0, 0, "measured spindle speed, r/min, signed", "every scan",
+     NC_READ { return to_int(image.feedback->system[s].spindle_rev_per_s * 60); }, nullptr},
+    {"line", kWord32, kFrom, kSystem, 0, 0, "line of the block in execution", "every scan",
+     NC_READ { return static_cast<std::int32_t>(out(image, s).source.line); }, nullptr},
+    {"program", kWord32, kFrom, kSystem, 0, 0, "O number of the program in execution", "every scan",
+     NC_READ { return static_cast<std::int32_t>(out(image, s).source.program); }, nullptr},
+    {"moving_p", kBit, kFrom, kAxis, 0, 0, "the axis is commanded to move in +", "every scan",
+     NC_READ { return out(image, s).velocity.v[i] > 0; }, nullptr},
+    {"moving_m", kBit, kFrom, kAxis, 0, 0, "the axis is commanded to move in -", "every scan",
+     NC_READ { return out(image, s).velocity.v[i] < 0; }, nullptr},
+    {"drive_fault", kBit, kFrom, kAxis, 0, 0, "the drive reports a fault", "level",
+     NC_READ { return static_cast<std::int32_t>(image.feedback->system[s].drive_fault >> i & 1u); }, nullptr},
+    {"position", kWord32, kFrom, kAxis, 0, 0, "measured machine position, 0.001 mm or 0.001 deg", "every scan",
+     NC_READ { return to_int(image.feedback->system[s].actual.v[i] * 1000); }, nullptr},
+
+    // ---- to the NC ----
+    {"fin1", kBit, kTo, kSystem, 0, 0, "completion, FIN1: strobes go off when it rises, the program goes on when it falls",
+     "on for at least one scan; on before the strobe it does not count until it was off", nullptr,
+     NC_WRITE { image->nc_in[s].fin = value != 0; }},
+    {"fin2", kBit, kTo, kSystem, 0, 0, "completion, FIN2: strobes go off and the program goes on when it rises",
+     "as fin1", nullptr, NC_WRITE { image->nc_in[s].fin2 = value != 0; }},
+    {"cycle_start", kBit, kTo, kControl, 0, 0, "start or go on (ST)", "acts when it falls after 2 scans or more", nullptr,
+     NC_WRITE { image->requests->cycle_start = value != 0; }},
+    {"feed_hold_n", kBit, kTo, kSystem, 0, 1, "0: decelerate on the path and stay (*SP)", "level", nullptr,
+     NC_WRITE { image->nc_in[s].feed_hold |= value == 0; }},
+    {"reset", kBit, kTo, kControl, 0, 0, "give the program up; acknowledge alarms", "acts when it rises", nullptr,
+     NC_WRITE { image->requests->reset = value != 0; }},
+    {"single_block", kBit, kTo, kSystem, 0, 0, "stop at the end of each block", "level, at block end; or the operator's",
+     nullptr, NC_WRITE { image->nc_in[s].single_block |= value != 0; }},
+    {"optional_stop", kBit, kTo, kSystem, 0, 0, "M01 stops", "level, when M01 is reached; or the operator's", nullptr,
+     NC_WRITE { image->nc_in[s].optional_stop |= value != 0; }},
+    {"interlock_n", kBit, kTo, kSystem, 0, 1, "0: axes decelerate to rest and none starts: door, chuck, coolant",
+     "level", nullptr, NC_WRITE { image->nc_in[s].interlock |= value == 0; }},
+    {"feed_override", kWord16, kTo, kSystem, 0, -1, "feed override in 0.01 %; -1: the operator's counts", "every scan",
+     nullptr, NC_WRITE { if (value >= 0) image->nc_in[s].feed_override = value / 10000.0; }},
+    {"skip", kBit, kTo, kNumbered, 8, 0, "skip signal, beside the machine's own", "level, sampled once a scan", nullptr,
+     NC_WRITE { image->nc_in[s].skip |= static_cast<std::uint32_t>(value != 0) << i; }},
+    {"mode_auto", kBit, kTo, kControl, 0, 0, "select automatic mode",
+     "acts when it rises; refused while a program runs; none or two of the modes: the old one stays", nullptr,
+     NC_WRITE { image->requests->mode[0] = value != 0; }},
+    {"mode_mdi", kBit, kTo, kControl, 0, 0, "select MDI mode", "as mode_auto", nullptr,
+     NC_WRITE { image->requests->mode[1] = value != 0; }},
+    {"mode_manual", kBit, kTo, kControl, 0, 0, "select manual mode", "as mode_auto", nullptr,
+     NC_WRITE { image->requests->mode[2] = value != 0; }},
+    {"alarm", kBit, kTo, kNumberedControl, kLadderAlarms, 0, "alarm of the ladder: motion stops, no start until reset",
+     "level; comes back as long as it is on", nullptr,
+     NC_WRITE { image->requests->alarm = static_cast<std::uint8_t>(image->requests->alarm | (value != 0 ? 1u << i : 0u)); }},
+};
+
+const unsigned kSignalCount = sizeof(kSignals) / sizeof(kSignals[0]);
+
+#undef NC_READ
+#undef NC_WRITE
+
+std::vector<Signal> machine_signals(const nc_config& nc) {
+  std::vector<Signal> all;
+  for (unsigned r = 0; r < kSignalCount; ++r) {
+    const SignalRow& row = kSignals[r];
+    const bool once = row.scope == SignalScope::kControl || row.scope == SignalScope::kNumberedControl;
+    for (unsigned s = 0; s < (once ? 1u : nc.system_count); ++s) {
+      std::string base = row.direction == SignalDirection::kFromNc ? "nc" : "plc";
+      if (s > 0) base += std::to_string(s + 1);
+      base += std::string(".") + row.name;
+      const auto add = [&](unsigned index, const std::string& name) {
+        all.push_back({&row, static_cast<std::uint8_t>(s), static_cast<std::uint8_t>(index), name});
+      };
+      if (row.scope == SignalScope::kAxis) {
+        for (unsigned a = 0; a < nc.system[s].axis_count; ++a)
+          add(a, base + "." + std::string(1, nc.system[s].axis[a].name));
+      } else if (row.scope == SignalScope::kNumbered || row.scope == SignalScope::kNumberedControl) {
+        for (unsigned n = 0; n < row.count; ++n) add(n, base + "." + std::to_string(n + 1));
+      } else {
+        add(0, base);
+      }
+    }
+  }
+  return all;
+}
+
+namespace {
+
+const char* type_text(ladder::DeviceType type) {
+  return type == kBit ? "bit" : type == kWord16 ? "16 bit" : "32 bit";
+}
+
+std::string shown_name(const SignalRow& row) {
+  std::string name = std::string(row.direction == SignalDirection::kFromNc ? "nc." : "plc.") + row.name;
+  if (row.scope == SignalScope::kAxis) name += ".X";
+  if (row.scope == SignalScope::kNumbered || row.scope == SignalScope::kNumberedControl)
+    name += ".1 ... ." + std::to_string(row.count);
+  return name;
+}
+
+}  // namespace
+
+std::string signal_document() {
+  std::string text;
+  for (const auto direction : {SignalDirection::kFromNc, SignalDirection::kToNc}) {
+    const bool from = direction == SignalDirection::kFromNc;
+    text += from ? "## From the NC to the ladder\n\n| signal | type | meaning | timing |\n|---|---|---|---|\n"
+                 : "\n## From the ladder to the NC\n\n| signal | type | safe value | meaning | timing |\n|---|---|---|---|---|\n";
+    for (unsigned r = 0; r < kSignalCount; ++r) {
+      const SignalRow& row = kSignals[r];
+      if (row.direction != direction) continue;
+      text += "| `" + shown_name(row) + "` | " + type_text(row.type) + " | ";
+      if (!from) text += std::to_string(row.safe) + " | ";
+      text += std::string(row.meaning) + " | " + row.timing + " |\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+# A fresh Debian 12 in a folder: for scripts/prove-chroot and scripts/prove-packages. Sourced after lib.sh, not run; as root.
+# It gets this machine's apt configuration at run time, so that it reaches packages the way this machine does.
+
+# make_chroot ROOT: debootstrap, where there is none yet, and mounts. Sets $proxy.
+make_chroot() {
+  local root=$1 mirror part
+  command -v debootstrap >/dev/null || die "install debootstrap first"
+  mkdir -p "$root"
+  # The archive that this machine uses for bookworm, whatever it is.
+  mirror=$(apt-get indextargets --format '$(REPO_URI) $(CODENAME) $(ORIGIN)' 2>/dev/null | awk '$2 == "bookworm" && $3 == "Debian" {print $1; exit}')
+  [ -n "$mirror" ] || die "apt on this machine knows no archive with Debian bookworm"
+  proxy=$(apt-config shell p Acquire::http::Proxy | sed -n "s/^p='\(.*\)'$/\1/p")
+  if [ ! -x "$root/usr/bin/apt-get" ]; then
+    say "debootstrap bookworm ..."
+    env ${proxy:+http_proxy="$proxy"} debootstrap --variant=minbase --include=ca-certificates bookworm "$root" "$mirror" >"$root.log" 2>&1 ||
+      { tail -n 20 "$root.log" >&2; die "debootstrap failed"; }
+  fi
+  rm -f "$root.log"
+  for part in sources.list sources.list.d apt.conf.d auth.conf.d keyrings trusted.gpg.d preferences.d; do
+    [ ! -e "/etc/apt/$part" ] || { rm -rf "${root:?}/etc/apt/$part"; cp -a "/etc/apt/$part" "$root/etc/apt/"; }
+  done
+  cp -L /etc/resolv.conf /etc/hosts "$root/etc/" 2>/dev/null || true
+  cp -a /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates/" 2>/dev/null || true
+  chroot "$root" update-ca-certificates >/dev/null 2>&1 || true
+  mount_devices "$root"
+}
+
+# mount_devices ROOT: /proc, and a /dev of its own. Never a bind mount of this machine's: a folder that is deleted while it is still
+# mounted would take the devices of the machine with it.
+mount_devices() {
+  local dev=$1/dev node name major minor
+  mount -t proc proc "$1/proc" && mount -t tmpfs -o mode=755 nc-chroot "$dev" || die "/proc and /dev cannot be mounted in $1"
+  for node in null:1:3 zero:1:5 full:1:7 random:1:8 urandom:1:9 tty:5:0; do
+    IFS=: read -r name major minor <<<"$node"
+    mknod -m 666 "$dev/$name" c "$major" "$minor"
+  done
+  mkdir -m 1777 "$dev/shm"
+  mkdir "$dev/pts"
+  mount -t devpts -o newinstance,ptmxmode=0666,mode=620 nc-chroot "$dev/pts" || say "note: no terminals in the chroot"
+  ln -s pts/ptmx "$dev/ptmx"
+  ln -s /proc/self/fd "$dev/fd"
+  for node in stdin:0 stdout:1 stderr:2; do ln -s "/proc/self/fd/${node#*:}" "$dev/${node%:*}"; done
+}
+
+# leave_chroot ROOT [KEEP]: takes the mounts away, and the folder unless KEEP is not empty.
+leave_chroot() {
+  local place
+  for place in "$1/dev/pts" "$1/dev" "$1/proc"; do
+    ! mountpoint -q "$place" || umount "$place" || umount -l "$place" || say "note: $place is still mounted"
+  done
+  [ -n "${2:-}" ] || rm -rf --one-file-system "$1"
+}
+
+# in_chroot ROOT COMMAND: a shell command in there with a plain environment.
+in_chroot() {
+  chroot "$1" env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C DEBIAN_FRONTEND=noninteractive \
+    ${proxy:+http_proxy="$proxy"} sh -c "$2" </dev/null
+}

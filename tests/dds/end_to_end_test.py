@@ -1,0 +1,417 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""ncrtd, ncdds, ncmon and a subscriber of another make (PyPI cyclonedds) together.
+
+The first half makes a virtual environment in build/ and starts the second half in it. Exit status 77 = skipped: no Python
+packages can be had here, or the programs are not built.
+"""
+import fcntl
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+SKIPPED = 77
+BINDING = "cyclonedds==11.0.1"
+root = os.environ.get("NC_SOURCE_DIR") or os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+build = os.environ.get("NC_BINARY_DIR") or os.path.join(root, "build/release")
+
+
+def skip(text):
+    print("skipped:", text)
+    sys.exit(SKIPPED)
+
+
+def environment():
+    """The Python of a virtual environment that has the binding."""
+    folder = os.path.join(root, "build", "venv-dds")
+    python = os.path.join(folder, "bin", "python")
+    os.makedirs(os.path.dirname(folder), exist_ok=True)
+    with open(folder + ".lock", "w", encoding="ascii") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if os.path.exists(python) and subprocess.run([python, "-c", "import cyclonedds"], capture_output=True).returncode == 0:
+            return python
+        for command in ([sys.executable, "-m", "venv", "--clear", folder], [python, "-m", "pip", "install", "-q", "--retries", "1", BINDING]):
+            done = subprocess.run(command, capture_output=True, text=True)
+            if done.returncode != 0:
+                skip(f"{' '.join(command[1:4])}: {(done.stderr or done.stdout).strip()[-300:]}")
+    return python
+
+
+if __name__ == "__main__" and os.environ.get("NC_DDS_INSIDE") is None:
+    for program in ("ncrtd", "ncdds", "ncmon"):
+        if not os.path.exists(os.path.join(build, "bin", program)):
+            skip(f"{program} is not built")
+    if "thread" in os.environ.get("NC_SANITIZE", ""):
+        skip("Cyclone DDS is not built for the thread sanitizer")
+    sys.exit(subprocess.run([environment(), os.path.abspath(__file__)], env={**os.environ, "NC_DDS_INSIDE": "1"}).returncode)
+
+# ---- inside the environment ----
+
+sys.path.insert(0, os.path.join(root, "dds"))
+import nc_dds  # noqa: E402
+from nc_dds import AckReason, AckState, CommandKind, Mode, RunState  # noqa: E402
+from cyclonedds.core import InstanceState  # noqa: E402
+from cyclonedds.domain import DomainParticipant  # noqa: E402
+from cyclonedds.idl import IdlStruct, types  # noqa: E402
+from cyclonedds.pub import DataWriter, Publisher  # noqa: E402
+from cyclonedds.core import Policy, Qos  # noqa: E402
+from cyclonedds.topic import Topic  # noqa: E402
+from dataclasses import dataclass  # noqa: E402
+
+PATIENCE = 30.0  # s for anything to come; only a failure takes so long
+MACHINE = """
+[machine]
+name = "Test"
+programs = "."
+[scheduling]
+policy = "other"
+lock_memory = false
+overrun = "count"
+[[axis]]
+name = "X"
+max_velocity = 200.0
+max_acceleration = 2000.0
+soft_limits = [-500.0, 500.0]
+[[axis]]
+name = "Y"
+max_velocity = 200.0
+max_acceleration = 2000.0
+[[point]]
+name = "clamp"
+direction = "output"
+[[point]]
+name = "pallet"
+type = "word"
+direction = "input"
+initial = 7
+[macro_interface]
+"#1100" = "clamp"
+"#1032" = "pallet"
+[work_offsets]
+G54 = { X = 0.0, Y = 0.0 }
+"""
+PART = "G90 G54 G17\n#1=0\n#1100=1\nWHILE [#1 LT 5] DO1\nN20 G1 X20. Y10. F3000.\nG3 X20. Y30. J10.\nG1 X0. Y0.\n#1=#1+1\nEND1\nM30\n"
+BAD = "G90 G54\nG1 X10.\nM30\n"
+
+
+def check(condition, text):
+    if not condition:
+        raise AssertionError(text)
+    print("ok:", text, flush=True)
+
+
+def until(function, text, patience=PATIENCE):
+    """Calls until the answer is true; that answer."""
+    end = time.monotonic() + patience
+    while True:
+        if answer := function():
+            print("ok:", text, flush=True)
+            return answer
+        if time.monotonic() > end:
+            raise AssertionError(f"not within {patience} s: {text}")
+        time.sleep(0.02)
+
+
+class Plant:
+    """The processes under test."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.share = f"test-{os.getpid()}"
+        self.domain = 1 + os.getpid() % 100  # below the ports that the system hands out
+        self.all = []
+
+    def start(self, *command):
+        child = subprocess.Popen([os.path.join(build, "bin", command[0]), *command[1:]], stdout=subprocess.PIPE,
+                                 stderr=subprocess.STDOUT, text=True)
+        self.all.append(child)
+        return child
+
+    def control(self):
+        return self.start("ncrtd", "--config", os.path.join(self.folder, "machine.toml"), "serve", "--share", self.share, "--commands")
+
+    def gateway(self):
+        return self.start("ncdds", "--share", self.share, "--domain", str(self.domain), "--commands")
+
+    def monitor(self, *options):
+        return subprocess.run([os.path.join(build, "bin/ncmon"), "--domain", str(self.domain), *options], capture_output=True, text=True)
+
+    def end(self):
+        for child in self.all:
+            if child.poll() is None:
+                child.kill()
+            child.communicate()
+
+
+class Watch:
+    """The newest status, and every alarm that came or went."""
+
+    def __init__(self, participant, machine):
+        self.reader = nc_dds.reader(participant, nc_dds.Status, machine)
+        self.alarms = nc_dds.reader(participant, nc_dds.Alarm, machine)
+        self.history = nc_dds.reader(participant, nc_dds.AlarmHistory, machine)
+        self.status, self.samples, self.gone = None, 0, False
+        self.active, self.past, self.x = {}, {}, set()
+
+    def look(self):
+        for sample in self.reader.take(N=20):
+            if sample.sample_info.valid_data:
+                self.status, self.samples = sample, self.samples + 1
+                self.x.add(round(sample.axes[0].commanded, 3))
+            self.gone = sample.sample_info.instance_state != InstanceState.Alive
+        for sample in self.alarms.take(N=20):
+            if sample.sample_info.valid_data and sample.sample_info.instance_state == InstanceState.Alive:
+                self.active[sample.slot] = sample
+            elif sample.sample_info.valid_data:
+                self.active.pop(sample.slot, None)
+            else:
+                self.active.clear()  # the writer is gone
+        for sample in self.history.take(N=50):
+            if sample.sample_info.valid_data:
+                self.past[sample.id] = sample
+        return self
+
+    def fresh(self):
+        """A status that came after this call."""
+        before = self.samples
+        until(lambda: self.look().samples > before, "status comes")
+        return self.status
+
+
+class Operator(nc_dds.Client):
+    def ask(self, kind, patience=PATIENCE, **fields):
+        """Sends it and waits for the answer; for `done` of what was accepted."""
+        seq = self.send(kind, **fields)
+        return self.answer(seq, patience)
+
+    def answer(self, seq, patience=PATIENCE):
+        end = time.monotonic() + patience
+        while time.monotonic() < end:
+            for ack in self.acks.take(N=20):
+                if ack.sample_info.valid_data and ack.client == self.name and ack.seq == seq and ack.state != AckState.ACK_ACCEPTED:
+                    return ack
+            time.sleep(0.005)
+        raise AssertionError(f"no answer to command {seq}")
+
+
+def commands(plant, watch, operator):
+    def refused(reason, kind, what, **fields):
+        ack = operator.ask(kind, **fields)
+        check(ack.state == AckState.ACK_REJECTED and ack.reason == reason, f"{what}: {ack.reason.name} ({ack.text})")
+
+    refused(AckReason.REASON_NO_CONTROL, CommandKind.CMD_CYCLE_START, "start without control")
+    check(operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "takes control")
+    refused(AckReason.REASON_REFUSED, CommandKind.CMD_CYCLE_START, "start without a program")
+    refused(AckReason.REASON_REFUSED, CommandKind.CMD_SELECT_PROGRAM, "program that is not there", text="none.nc")
+    refused(AckReason.REASON_MALFORMED, CommandKind.CMD_SELECT_PROGRAM, "way out of the folder", text="../part.nc")
+    refused(AckReason.REASON_MALFORMED, CommandKind.CMD_FEED_OVERRIDE, "override out of range", value=7.0)
+    refused(AckReason.REASON_MALFORMED, CommandKind.CMD_FEED_OVERRIDE, "not a number", value=float("nan"))
+    refused(AckReason.REASON_MALFORMED, CommandKind.CMD_JOG, "axis that is not there", axis="Q", value=1.0)
+    refused(AckReason.REASON_MALFORMED, CommandKind.CMD_RESET, "part system that is not there", part_system=3)
+    refused(AckReason.REASON_MALFORMED, CommandKind.CMD_SET_MODE, "mode that is not there", number=9)
+    check(operator.ask(CommandKind.CMD_FEED_OVERRIDE, value=0.5).state == AckState.ACK_DONE, "feed override 50 %")
+    until(lambda: watch.look().status.feed_override == 0.5, "the status shows it")
+    operator.ask(CommandKind.CMD_FEED_OVERRIDE, value=1.0)
+    check(operator.ask(CommandKind.CMD_SELECT_PROGRAM, text="part.nc").state == AckState.ACK_DONE, "selects a program")
+    refused(AckReason.REASON_EXPECTED_STATE, CommandKind.CMD_CYCLE_START, "start of another program", expected_program="old.nc")
+    refused(AckReason.REASON_EXPECTED_STATE, CommandKind.CMD_CYCLE_START, "start in another mode", expected_mode=Mode.MODE_MDI.value)
+    operator.seq += 1
+    old = nc_dds.Command(client=operator.name, seq=operator.seq, kind=CommandKind.CMD_CYCLE_START, lifespan_ms=100)
+    operator.writer.write(old, timestamp=time.time_ns() - 500_000_000)
+    ack = operator.answer(operator.seq)
+    check(ack.reason == AckReason.REASON_LATE, f"late: {ack.text}")
+    operator.seq += 10
+    check(operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "numbers may be left out")
+    operator.send(CommandKind.CMD_CYCLE_START, seq=operator.seq - 5)
+    check(operator.answer(operator.seq - 5).reason == AckReason.REASON_OUT_OF_ORDER, "out of order")
+    check(watch.fresh().run_state == RunState.RUN_IDLE and watch.status.runs == 0, "nothing of all this has moved anything")
+
+
+def program(plant, watch, operator, gateway):
+    """A program with the gateway killed in its middle. Returns the new gateway."""
+    ack = operator.ask(CommandKind.CMD_CYCLE_START, expected_program="part.nc", expected_mode=Mode.MODE_AUTO.value,
+                       expected_run_state=RunState.RUN_IDLE.value)
+    check(ack.state == AckState.ACK_DONE, f"cycle start: {ack.state.name} {ack.text}")
+    start = operator.seq
+    watch.x.clear()
+    until(lambda: len(watch.look().x) > 5 and watch.status.run_state == RunState.RUN_RUNNING, "positions move")
+    status = watch.status
+    with open(os.path.join(plant.folder, "part.nc"), encoding="ascii") as file:
+        check(status.program == "part.nc" and status.block == file.read().split("\n")[status.line - 1], f"line {status.line}: {status.block!r}")
+    check("G90" in status.modal.split(), f"modal: {status.modal}")
+    operator.send(CommandKind.CMD_CYCLE_START, seq=start)
+    again = operator.answer(start)
+    check(again.repeated and again.state == AckState.ACK_DONE, "the duplicate gets the same answer")
+    before = watch.fresh().scan
+    gateway.send_signal(signal.SIGKILL)
+    gateway.wait()
+    until(lambda: watch.look().gone, "subscribers see that the gateway is gone")
+    gateway = plant.gateway()
+    until(lambda: not watch.look().gone and watch.status.scan > before, "it comes back, the scan has gone on")
+    check(watch.status.runs == 0, "the program is still in execution")
+    until(lambda: watch.look().status.runs == 1, "the program ends")
+    check(watch.status.last_run_ok and watch.status.percent == 100, "as it should")
+    reference = subprocess.run([os.path.join(build, "bin/ncrtd"), "--config", os.path.join(plant.folder, "machine.toml"), "run", "--fast",
+                                "--no-progress", os.path.join(plant.folder, "part.nc")], capture_output=True, text=True).stdout
+    length = float(reference.split("path length")[1].split()[0])
+    check(abs(watch.status.path_length - length) < 0.01, f"path length {watch.status.path_length:.3f} as without a gateway ({length})")
+    check(watch.status.interface_output[0] & 1 == 1, "macro interface output #1100")
+    return gateway
+
+
+def alarms(watch, operator):
+    operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000)
+    check(operator.ask(CommandKind.CMD_SELECT_PROGRAM, text="bad.nc").state == AckState.ACK_DONE, "selects the bad program")
+    operator.ask(CommandKind.CMD_CYCLE_START)
+    until(lambda: watch.look().active, "an alarm comes")
+    alarm = next(iter(watch.active.values()))
+    check(alarm.code == "P62" and alarm.line == 2, f"{alarm.code} {alarm.text} (line {alarm.line})")
+    check(operator.ask(CommandKind.CMD_RESET).state == AckState.ACK_DONE, "reset")
+    until(lambda: not watch.look().active, "the alarm is disposed")
+    until(lambda: alarm.id in watch.look().past and watch.past[alarm.id].cleared_ns >= alarm.raised_ns, "the history has its end")
+
+
+def manual(watch, operator):
+    check(operator.ask(CommandKind.CMD_SET_MODE, number=Mode.MODE_MDI.value).state == AckState.ACK_DONE, "mode MDI")
+    check(operator.ask(CommandKind.CMD_MDI, text="G0 X5.").state == AckState.ACK_DONE, "MDI block")
+    operator.ask(CommandKind.CMD_CYCLE_START)
+    until(lambda: abs(watch.look().status.axes[0].commanded - 5) < 1e-6, "it has been executed")
+    until(lambda: watch.look().status.run_state == RunState.RUN_IDLE, "idle")
+    check(operator.ask(CommandKind.CMD_SET_MODE, number=Mode.MODE_MANUAL.value).state == AckState.ACK_DONE, "mode manual")
+    for _ in range(5):
+        operator.ask(CommandKind.CMD_JOG, axis="X", value=10.0)
+    until(lambda: watch.look().status.axes[0].commanded > 5.01, "the axis jogs")
+    until(lambda: watch.look().status.axes[0].velocity == 0, "and stops when nobody asks for it any more")
+    check(operator.ask(CommandKind.CMD_SET_MODE, number=Mode.MODE_AUTO.value).state == AckState.ACK_DONE, "mode auto")
+
+
+def dead_client(plant, operator):
+    check(operator.ask(CommandKind.CMD_RELEASE_CONTROL).state == AckState.ACK_DONE, "gives control away")
+    other = subprocess.Popen([sys.executable, os.path.abspath(__file__), "client", str(plant.domain), plant.share],
+                             stdout=subprocess.PIPE, text=True)
+    plant.all.append(other)
+    check(other.stdout.readline().strip() == "ACK_DONE", "another process takes it for a minute")
+    ack = operator.ask(CommandKind.CMD_TAKE_CONTROL)
+    check(ack.reason == AckReason.REASON_NO_CONTROL, f"then this one does not get it: {ack.text}")
+    other.kill()
+    other.wait()
+    until(lambda: operator.ask(CommandKind.CMD_TAKE_CONTROL).state == AckState.ACK_DONE, "it dies, and control is free long before the minute is over", 20)
+
+
+@dataclass
+class Odd(IdlStruct, typename="nc.Status"):
+    part_system: types.uint8
+    something: types.int8
+    text: str
+
+
+def stranger(plant, watch, operator, gateway):
+    """A participant that has other types under our names, one of them known to have crashed publishers."""
+    participant = DomainParticipant(plant.domain)
+    publisher = Publisher(participant, qos=Qos(Policy.Partition([plant.share])))
+    writers = [DataWriter(publisher, Topic(participant, name, Odd)) for name in ("nc_Status", "nc_Command", "nc_CommandAck", "nc_MachineInfo")]
+    for _ in range(20):
+        for writer in writers:
+            writer.write(Odd(1, 2, "x" * 1000))
+        time.sleep(0.02)
+    check(gateway.poll() is None, "a participant with other types does not end the gateway")
+    watch.fresh()
+    check(operator.ask(CommandKind.CMD_TAKE_CONTROL).state == AckState.ACK_DONE, "commands go on")
+
+
+def signals(plant, participant):
+    reader = nc_dds.reader(participant, nc_dds.SignalImage, plant.share)
+    image = []
+
+    def complete():
+        image.extend(s for s in reader.take(N=5) if s.sample_info.valid_data)
+        return image
+
+    until(complete, "the signal image comes when someone asks for it")
+    values = {signal.name: signal for signal in image[-1].signals}
+    check(values["pallet"].value == 7 and values["pallet"].is_word and values["pallet"].good, "with names and values")
+
+
+def monitor(plant):
+    shown = plant.monitor("--once", "--json", "--machine", plant.share, "--wait", "20")
+    check(shown.returncode == 0 and json.loads(shown.stdout)["systems"][0]["machine"] == plant.share, "ncmon --once --json")
+    nobody = plant.monitor("--once", "--machine", "nobody", "--wait", "0.5")
+    check(nobody.returncode == 2 and "nobody publishes" in nobody.stderr, "ncmon without a publisher")
+
+
+def restart(plant, watch, control):
+    second = plant.control()
+    text = second.communicate(timeout=60)[0]
+    check(second.returncode == 1 and "belongs to a control that is running" in text, "a second control of the same name is refused")
+    control.send_signal(signal.SIGKILL)
+    control.wait()
+    until(lambda: watch.look().gone, "subscribers see that the control is gone")
+    control = plant.control()
+    until(lambda: not watch.look().gone and watch.status.runs == 0, "a new one takes over the name, and they see it")
+    return control
+
+
+def client(domain, share):
+    """A client that takes control and then hangs."""
+    me = Operator(DomainParticipant(domain), share, f"other-{os.getpid()}", liveliness=1.0)
+    time.sleep(1.0)
+    while True:
+        try:
+            ack = me.ask(CommandKind.CMD_TAKE_CONTROL, patience=2.0, lease_ms=60000)
+            break
+        except AssertionError:
+            continue
+    print(ack.state.name, flush=True)
+    time.sleep(120)
+
+
+def main():
+    if len(sys.argv) > 3 and sys.argv[1] == "client":
+        client(int(sys.argv[2]), sys.argv[3])
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in (("machine.toml", MACHINE), ("part.nc", PART), ("bad.nc", BAD)):
+            with open(os.path.join(folder, name), "w", encoding="ascii") as file:
+                file.write(text)
+        plant = Plant(folder)
+        try:
+            gateway, control = plant.gateway(), plant.control()
+            participant = DomainParticipant(plant.domain)
+            watch = Watch(participant, plant.share)
+            operator = Operator(participant, plant.share, f"test-{os.getpid()}")
+            core = nc_dds.reader(participant, nc_dds.Status_v1, plant.share)
+            until(lambda: watch.look().status, "the status comes")
+            until(lambda: [s for s in core.take(N=5) if s.sample_info.valid_data and s.axis_names == "XY"], "the core status comes")
+            until(lambda: answers(operator), "the gateway answers")
+            commands(plant, watch, operator)
+            gateway = program(plant, watch, operator, gateway)
+            until(lambda: answers(operator), "the new gateway answers")
+            alarms(watch, operator)
+            manual(watch, operator)
+            signals(plant, participant)
+            monitor(plant)
+            dead_client(plant, operator)
+            stranger(plant, watch, operator, gateway)
+            control = restart(plant, watch, control)
+            gateway.send_signal(signal.SIGTERM)
+            check(gateway.wait(timeout=60) == 0, "the gateway ends in order")
+            check(control.poll() is None, "the control does not care")
+            control.send_signal(signal.SIGTERM)
+            check(control.wait(timeout=60) == 0, "the control ends in order")
+        finally:
+            plant.end()
+
+
+def answers(operator):
+    """Reader and writer find each other at different times: asked until there is an answer."""
+    try:
+        return operator.ask(CommandKind.CMD_RELEASE_CONTROL, patience=0.5)
+    except AssertionError:
+        return None
+
+
+main()

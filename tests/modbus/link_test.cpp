@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Modbus link against a server on loopback: exchange, loss, exceptions, stop.
+#include <algorithm>
+
+#include "modbus/link_rig.hpp"
+
+namespace {
+
+using namespace nc::test;
+
+TEST(ModbusLink, EveryTableBothWaysTwoUnits) {
+  LoopbackServer server;
+  server.with([](auto& units) {
+    units[1].coil = {{0, 1}, {5, 0}, {6, 0}};
+    units[1].discrete = {{100, 1}};
+    units[2].input = {{7, 0xFFFE}};
+    units[2].holding = {{65534, 0x5678}, {65535, 0x1234}, {20, 0}, {21, 0}, {30, 0}};
+  });
+  LinkRig rig;
+  const unsigned coil = rig.add(Table::kCoil, 0), discrete = rig.add(Table::kDiscrete, 100);
+  const unsigned input = rig.add(Table::kInput, 7, Format::kS16, false, 2);
+  const unsigned wide = rig.add(Table::kHolding, 65534, Format::kU32, false, 2);
+  rig.map().order = nc::hal::modbus::WordOrder::kCdab;
+  const unsigned lamp = rig.add(Table::kCoil, 5, Format::kBit, true),
+                 horn = rig.add(Table::kCoil, 6, Format::kBit, true);
+  const unsigned speed = rig.add(Table::kHolding, 20, Format::kF32, true, 2);
+  rig.map().scale = 0.5;
+  const unsigned enable = rig.add(Table::kHolding, 30, Format::kBit, true, 2);
+  rig.map().bit = 3;
+  const unsigned brake = rig.add(Table::kHolding, 30, Format::kBit, true, 2);
+  rig.map().bit = 15;
+  rig.start(server.port());
+  ASSERT_TRUE(rig.until([&] { return rig.link->statistics().state == LinkState::kOk; }));
+  rig.scan();
+  for (const unsigned point : {coil, discrete, input, wide, lamp, horn, speed, enable, brake})
+    EXPECT_TRUE(rig.good(point));
+  EXPECT_TRUE(rig.ok());
+  EXPECT_EQ(rig.value(coil), 1u);
+  EXPECT_EQ(rig.value(discrete), 1u);
+  EXPECT_EQ(static_cast<std::int32_t>(rig.value(input)), -2);
+  EXPECT_EQ(rig.value(wide), 0x12345678u);
+  rig.image.value[horn] = rig.image.value[brake] = 1;
+  rig.image.value[speed] = 3;
+  EXPECT_TRUE(rig.until([&] {
+    return server.coil(1, 6) == 1 && server.holding(2, 30) == 0x8000 && server.holding(2, 20) == 0x40C0;
+  }));
+  EXPECT_EQ(server.coil(1, 5), 0);
+  EXPECT_EQ(server.holding(2, 21), 0) << "6.0 as a float: 40C0 0000";
+  rig.image.value[enable] = 1;
+  EXPECT_TRUE(rig.until([&] { return server.holding(2, 30) == 0x8008; }));
+  server.with([](auto& units) { units[2].input[7] = 40; });
+  EXPECT_TRUE(rig.until([&] { return rig.value(input) == 40; }));
+  const auto statistics = rig.link->statistics();
+  EXPECT_EQ(statistics.errors + statistics.timeouts + statistics.exceptions + statistics.reconnects(), 0u);
+  EXPECT_GT(statistics.requests, 5u);
+  EXPECT_GT(statistics.round_trip_mean_us, 0.0);
+  EXPECT_GE(statistics.round_trip_max_us, statistics.round_trip_us);
+}
+
+// Four inputs, one for each reaction, all holding 5 while the link is there.
+struct LossRig : LinkRig {
+  LossRig() {
+    off = add(Table::kHolding, 0, Format::kU16);
+    hold = add(Table::kHolding, 1, Format::kU16);
+    map().on_loss = OnLoss::kHold;
+    map().initial = 77;
+    value = add(Table::kHolding, 2, Format::kU16);
+    map().on_loss = OnLoss::kValue;
+    map().loss_value = 99;
+    out = add(Table::kHolding, 3, Format::kU16, true);
+    map().initial = 8;
+  }
+  static void fill(LoopbackServer* server) {
+    server->with([](auto& units) { units[1].holding = {{0, 5}, {1, 5}, {2, 5}, {3, 0}}; });
+  }
+  bool there() const {
+    return ok() && good(off) && good(hold) && good(value) && LinkRig::value(off) == 5 &&
+           LinkRig::value(value) == 5;
+  }
+  bool gone() const { return !ok() && !good(off) && !good(hold) && !good(value) && !good(out); }
+  unsigned off, hold, value, out;
+};
+
+TEST(ModbusLink, NotThereAtTheStartThenThere) {
+  std::uint16_t port = 0;
+  { port = LoopbackServer().port(); }
+  LossRig rig;
+  rig.start(port);
+  ASSERT_TRUE(rig.until([&] { return rig.link->statistics().errors > 3; }));
+  rig.scan();
+  EXPECT_TRUE(rig.gone());
+  EXPECT_EQ(rig.value, 3u);
+  EXPECT_EQ(rig.image.value[rig.off], 0u);
+  EXPECT_EQ(rig.image.value[rig.hold], 77u) << "nothing to hold yet: the initial value";
+  EXPECT_EQ(rig.image.value[rig.value], 99u);
+  EXPECT_NE(rig.link->statistics().last_error.find("connect to 127.0.0.1"), std::string::npos);
+  LoopbackServer server(port);
+  LossRig::fill(&server);
+  EXPECT_TRUE(rig.until([&] { return rig.there(); }));
+  EXPECT_TRUE(rig.until([&] { return server.holding(1, 3) == 8; })) << "outputs have their initial value";
+}
+
+TEST(ModbusLink, KilledAndBack) {
+  auto server = std::make_unique<LoopbackServer>();
+  const std::uint16_t port = server->port();
+  LossRig::fill(server.get());
+  LossRig rig;
+  rig.start(port);
+  ASSERT_TRUE(rig.until([&] { return rig.there(); }));
+  rig.image.value[rig.out] = 4;
+  ASSERT_TRUE(rig.until([&] { return server->holding(1, 3) == 4 && rig.good(rig.out); }));
+  server.reset();
+  ASSERT_TRUE(rig.until([&] { return rig.gone(); }));
+  EXPECT_EQ(rig.image.value[rig.off], 0u);
+  EXPECT_EQ(rig.image.value[rig.hold], 5u);
+  EXPECT_EQ(rig.image.value[rig.value], 99u);
+  EXPECT_EQ(rig.link->statistics().state, LinkState::kLost);
+  EXPECT_NE(rig.log().find("io: lost: "), std::string::npos) << rig.log();
+  server = std::make_unique<LoopbackServer>(port);
+  LossRig::fill(server.get());
+  EXPECT_TRUE(rig.until([&] { return rig.there(); }));
+  EXPECT_TRUE(rig.until([&] { return server->holding(1, 3) == 4; })) << "outputs are written again";
+  EXPECT_GE(rig.link->statistics().reconnects(), 1u);
+}
+
+TEST(ModbusLink, AnExceptionIsNamedAndLeavesTheConnection) {
+  LoopbackServer server;
+  server.with([](auto& units) { units[1].holding = {{0, 5}}; });
+  LinkRig rig;
+  const unsigned there = rig.add(Table::kHolding, 0, Format::kU16);
+  const unsigned missing = rig.add(Table::kHolding, 500, Format::kU16);
+  rig.map().on_loss = OnLoss::kValue;
+  rig.map().loss_value = 1;
+  const unsigned no_output = rig.add(Table::kCoil, 3, Format::kBit, true);
+  rig.start(server.port());
+  ASSERT_TRUE(rig.until([&] { return rig.link->statistics().exceptions >= 2 && rig.good(there); }));
+  rig.scan();
+  EXPECT_FALSE(rig.good(missing));
+  EXPECT_EQ(rig.value(missing), 1u);
+  EXPECT_FALSE(rig.good(no_output));
+  EXPECT_TRUE(rig.ok());
+  EXPECT_EQ(rig.link->statistics().state, LinkState::kDegraded);
+  EXPECT_EQ(server.connections(), 1u);
+  EXPECT_EQ(rig.link->statistics().errors, 0u);
+  EXPECT_NE(rig.log().find("io: holding 500 unit 1, function 3: Illegal data address"), std::string::npos)
+      << rig.log();
+  EXPECT_NE(rig.log().find("io: coil 3 unit 1, function 5: Illegal data address"), std::string::npos)
+      << rig.log();
+  server.with([](auto& units) { units[1].holding[500] = 6, units[1].coil[3] = 1; });
+  EXPECT_TRUE(rig.until([&] { return rig.good(missing) && rig.value(missing) == 6 && rig.good(no_output); }));
+  EXPECT_EQ(server.connections(), 1u);
+}
+
+// A gateway whose unit 2 is dead and says nothing.
+TEST(ModbusLink, ADeadUnitTakesNoOtherWithIt) {
+  LoopbackServer server;
+  server.with([](auto& units) { units[1].holding = units[2].holding = units[3].holding = {{0, 5}}; });
+  LinkRig rig;
+  rig.short_timeouts(150);
+  const unsigned first = rig.add(Table::kHolding, 0, Format::kU16, false, 1);
+  const unsigned second = rig.add(Table::kHolding, 0, Format::kU16, false, 2);
+  const unsigned third = rig.add(Table::kHolding, 0, Format::kU16, false, 3);
+  rig.start(server.port());
+  ASSERT_TRUE(rig.until([&] { return rig.good(first) && rig.good(second) && rig.good(third); }));
+  server.set_fault([](const Bytes& request, Answer right) {
+    if (request[6] == 2) right.bytes.clear();
+    return right;
+  });
+  server.with([](auto& units) { units[1].holding[0] = units[3].holding[0] = 6; });
+  EXPECT_TRUE(rig.until([&] { return !rig.good(second) && rig.value(second) == 0; }));
+  EXPECT_TRUE(rig.until(
+      [&] { return rig.good(first) && rig.value(first) == 6 && rig.good(third) && rig.value(third) == 6; }));
+  EXPECT_NE(rig.log().find("unit 2"), std::string::npos) << rig.log();
+  server.set_fault({});
+  EXPECT_TRUE(rig.until([&] { return rig.good(second) && rig.value(second) == 5; }));
+}
+
+// One byte now and then keeps every time-out of the protocol library from coming; the scan sees that the
+// thread is stuck.
+TEST(ModbusLink, AnAnswerThatDripsIsNotBelieved) {
+  LoopbackServer server;
+  LossRig::fill(&server);
+  LossRig rig;
+  rig.short_timeouts(400);
+  rig.start(server.port());
+  ASSERT_TRUE(rig.until([&] { return rig.there(); }));
+  server.set_fault([](const Bytes&, Answer right) {
+    right.drip_ms = 250;
+    return right;
+  });
+  EXPECT_TRUE(rig.until([&] { return rig.gone(); }));
+  EXPECT_EQ(rig.image.value[rig.off], 0u);
+  EXPECT_EQ(rig.image.value[rig.hold], 5u);
+  EXPECT_EQ(rig.image.value[rig.value], 99u);
+  server.set_fault({});
+  EXPECT_TRUE(rig.until([&] { return rig.there(); }));
+}
+
+TEST(ModbusLink, StopWritesTheSafeValues) {
+  LoopbackServer server;
+  LossRig::fill(&server);
+  LossRig rig;
+  rig.start(server.port());
+  rig.image.value[rig.out] = 4;
+  ASSERT_TRUE(rig.until([&] { return server.holding(1, 3) == 4; }));
+  rig.link->stop();
+  EXPECT_EQ(server.holding(1, 3), 8);
+  rig.link->stop();  // a second time does nothing
+  std::string error;
+  EXPECT_TRUE(rig.link->start(rig.image, &error)) << "and it can be started again: " << error;
+  EXPECT_TRUE(rig.until([&] { return rig.there(); }));
+}
+
+TEST(ModbusLink, StopEndsWithAPartnerThatIsSilent) {
+  LoopbackServer server;
+  LossRig::fill(&server);
+  LossRig rig;
+  rig.short_timeouts();
+  rig.start(server.port());
+  ASSERT_TRUE(rig.until([&] { return rig.there(); }));
+  server.set_fault([](const Bytes&, Answer right) {
+    right.drip_ms = 250;  // for ever, nearly
+    return right;
+  });
+  const auto requests = server.functions().size();
+  ASSERT_TRUE(rig.until([&] { return server.functions().size() > requests; }));
+  rig.link->stop();
+  EXPECT_EQ(rig.link->statistics().state, LinkState::kLost);
+  EXPECT_NE(rig.log().find("safe values not written"), std::string::npos) << rig.log();
+}
+
+TEST(ModbusLink, WritesOnChangeAndToRefresh) {
+  LoopbackServer server;
+  server.with([](auto& units) { units[1].holding = {{0, 5}, {1, 5}}; });
+  for (const bool refresh : {false, true}) {
+    LinkRig rig;
+    rig.config.refresh_ms = refresh ? 20 : 3600000;
+    rig.add(Table::kHolding, 0, Format::kU16, true);
+    const unsigned in = rig.add(Table::kHolding, 1, Format::kU16);
+    rig.start(server.port());
+    ASSERT_TRUE(rig.until([&] { return rig.good(in); }));
+    const auto writes = [&] {
+      const auto functions = server.functions();
+      return std::count(functions.begin(), functions.end(), 6);
+    };
+    const auto before = writes();
+    const auto requests = rig.link->statistics().requests;
+    ASSERT_TRUE(rig.until([&] { return rig.link->statistics().requests > requests + 100; }));
+    if (refresh)
+      EXPECT_GT(writes(), before);
+    else
+      EXPECT_EQ(writes(), before);
+  }
+}
+
+TEST(ModbusLink, AHostThatDoesNotExistIsAnErrorAndNoCrash) {
+  LossRig rig;
+  rig.config.host = "no..host";  // no name: the resolver asks nobody
+  rig.start(1);
+  EXPECT_TRUE(rig.until([&] { return rig.link->statistics().errors > 0; }));
+  EXPECT_NE(rig.link->statistics().last_error.find("no..host"), std::string::npos);
+}
+
+TEST(ModbusLink, ANotANumberIsNotGood) {
+  LoopbackServer server;
+  server.with([](auto& units) { units[1].input = {{0, 0x7FC0}, {1, 0}, {2, 0x41A0}, {3, 0}}; });
+  LinkRig rig;
+  const unsigned nan = rig.add(Table::kInput, 0, Format::kF32),
+                 number = rig.add(Table::kInput, 2, Format::kF32);
+  rig.start(server.port());
+  EXPECT_TRUE(rig.until([&] { return rig.good(number) && rig.value(number) == 20; }));
+  EXPECT_FALSE(rig.good(nan));
+  EXPECT_EQ(rig.value(nan), 0u);
+}
+
+}  // namespace

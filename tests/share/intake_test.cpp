@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rules of the command intake, one by one.
+#include "runtime/share/intake.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "nc/run.h"
+#include "runtime/share/text.hpp"
+
+namespace nc::rt::share {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+
+struct FakeMachine final : Machine {
+  State now;
+  Answer answer = Answer::kDone;
+  std::vector<Command> executed;
+  std::vector<std::string> mdi, selected;
+  FakeMachine() {
+    now.axis_count[0] = 3;
+    now.program[0] = "part.nc";
+  }
+  State state() override { return now; }
+  Answer execute(const Command& command) override {
+    executed.push_back(command);
+    return answer;
+  }
+  Answer load_mdi(unsigned, const std::string& blocks) override {
+    mdi.push_back(blocks);
+    return answer;
+  }
+  Answer select_program(unsigned, const std::string& file) override {
+    selected.push_back(file);
+    return answer;
+  }
+  std::size_t total() const { return executed.size() + mdi.size() + selected.size(); }
+};
+
+class IntakeRules : public testing::Test {
+ protected:
+  Request request(RequestKind kind, std::uint64_t sequence, const char* client = "hmi") {
+    Request r{};
+    set_text(&r.client, client);
+    r.sequence = sequence;
+    r.writer = std::string(client) == "hmi" ? 1 : 2;
+    r.issued_ns = now_;
+    r.kind = static_cast<std::uint32_t>(kind);
+    r.lifespan_ms = 1000;
+    r.expected_mode = r.expected_run_state = kAny;
+    return r;
+  }
+  Ack give(const Request& r) {
+    acks_.clear();
+    intake_.take(r, now_, &acks_);
+    return acks_.empty() ? Ack{} : acks_.back();
+  }
+  Ack give(RequestKind kind, std::uint64_t sequence, const char* client = "hmi") {
+    return give(request(kind, sequence, client));
+  }
+  void take_control() { ASSERT_EQ(give(RequestKind::kTakeControl, 1).state, state(AckState::kDone)); }
+  static std::uint32_t state(AckState s) { return static_cast<std::uint32_t>(s); }
+  static std::uint32_t reason(AckReason r) { return static_cast<std::uint32_t>(r); }
+  void expect_rejected(const Ack& ack, AckReason why) {
+    EXPECT_EQ(ack.state, state(AckState::kRejected));
+    EXPECT_EQ(ack.reason, reason(why)) << text_of(ack.text);
+    EXPECT_FALSE(text_of(ack.text).empty());
+  }
+
+  FakeMachine machine_;
+  Intake intake_{&machine_};
+  std::int64_t now_ = 1'000'000 * kMs;
+  std::vector<Ack> acks_;
+};
+
+TEST_F(IntakeRules, NothingActsWithoutControlButAHold) {
+  expect_rejected(give(RequestKind::kCycleStart, 1), AckReason::kNoControl);
+  EXPECT_EQ(machine_.total(), 0u);
+  EXPECT_EQ(give(RequestKind::kFeedHold, 2).state, state(AckState::kAccepted));
+  ASSERT_EQ(machine_.executed.size(), 1u);
+  EXPECT_EQ(machine_.executed[0].kind, CommandKind::kFeedHold);
+}
+
+TEST_F(IntakeRules, ControlBelongsToOne) {
+  take_control();
+  expect_rejected(give(RequestKind::kTakeControl, 1, "other"), AckReason::kNoControl);
+  expect_rejected(give(RequestKind::kCycleStart, 2, "other"), AckReason::kNoControl);
+  expect_rejected(give(RequestKind::kReleaseControl, 3, "other"), AckReason::kNoControl);
+  EXPECT_EQ(give(RequestKind::kReleaseControl, 2).state, state(AckState::kDone));
+  EXPECT_EQ(give(RequestKind::kTakeControl, 4, "other").state, state(AckState::kDone));
+  EXPECT_EQ(intake_.controlling(), "other");
+}
+
+TEST_F(IntakeRules, ControlEndsWithItsLease) {
+  Request r = request(RequestKind::kTakeControl, 1);
+  r.lease_ms = 500;
+  give(r);
+  now_ += 400 * kMs;
+  give(RequestKind::kSingleBlock, 2);  // any command renews it
+  now_ += 400 * kMs;
+  acks_.clear();
+  intake_.tick(now_, &acks_);
+  EXPECT_EQ(intake_.controlling(), "hmi");
+  now_ += 200 * kMs;
+  intake_.tick(now_, &acks_);
+  EXPECT_EQ(intake_.controlling(), "");
+  expect_rejected(give(RequestKind::kCycleStart, 3), AckReason::kNoControl);
+}
+
+TEST_F(IntakeRules, ControlEndsWithItsClient) {
+  take_control();
+  machine_.now.mode = Mode::kManual;
+  Request jog = request(RequestKind::kJog, 2);
+  jog.axis = 1;
+  jog.value = 20;
+  EXPECT_EQ(give(jog).state, state(AckState::kDone));
+  Request gone{};
+  gone.kind = static_cast<std::uint32_t>(RequestKind::kClientGone);
+  gone.writer = 99;
+  give(gone);
+  EXPECT_EQ(intake_.controlling(), "hmi") << "somebody else";
+  gone.writer = 1;
+  give(gone);
+  EXPECT_EQ(intake_.controlling(), "");
+  ASSERT_EQ(machine_.executed.size(), 2u) << "its jog is stopped";
+  EXPECT_EQ(machine_.executed[1].kind, CommandKind::kJog);
+  EXPECT_EQ(machine_.executed[1].axis, 1);
+  EXPECT_EQ(machine_.executed[1].value, 0);
+  EXPECT_EQ(give(RequestKind::kTakeControl, 1).state, state(AckState::kDone)) << "it may begin again with 1";
+}
+
+TEST_F(IntakeRules, NewGatewayEndsEverything) {
+  take_control();
+  Request began{};
+  began.kind = static_cast<std::uint32_t>(RequestKind::kGatewayBegan);
+  give(began);
+  EXPECT_EQ(intake_.controlling(), "");
+  EXPECT_TRUE(acks_.empty());
+}
+
+TEST_F(IntakeRules, DuplicateGetsTheSameAnswerAndIsNotExecuted) {
+  take_control();
+  const Request start = request(RequestKind::kCycleStart, 2);
+  const Ack first = give(start);
+  EXPECT_EQ(first.state, state(AckState::kAccepted));
+  for (int i = 0; i < 3; ++i) {
+    const Ack again = give(start);
+    EXPECT_EQ(again.state, first.state);
+    EXPECT_EQ(again.repeated, 1u);
+  }
+  EXPECT_EQ(machine_.executed.size(), 1u);
+  machine_.now.run_state[0] = NC_STATE_RUNNING;
+  acks_.clear();
+  intake_.tick(now_, &acks_);
+  ASSERT_EQ(acks_.size(), 1u);
+  EXPECT_EQ(acks_[0].state, state(AckState::kDone));
+  EXPECT_EQ(give(start).state, state(AckState::kDone)) << "from now on the duplicate gets the later answer";
+  EXPECT_EQ(machine_.executed.size(), 1u);
+}
+
+TEST_F(IntakeRules, OutOfOrderIsRejected) {
+  take_control();
+  give(RequestKind::kReset, 10);
+  expect_rejected(give(RequestKind::kCycleStart, 5), AckReason::kOutOfOrder);
+  expect_rejected(give(RequestKind::kCycleStart, 0), AckReason::kMalformed);
+  EXPECT_EQ(machine_.executed.size(), 1u);
+  EXPECT_EQ(give(RequestKind::kCycleStart, 11).state, state(AckState::kAccepted));
+}
+
+TEST_F(IntakeRules, LateIsRejected) {
+  take_control();
+  Request r = request(RequestKind::kCycleStart, 2);
+  r.lifespan_ms = 100;
+  now_ += 101 * kMs;
+  expect_rejected(give(r), AckReason::kLate);
+  r = request(RequestKind::kCycleStart, 3);
+  r.issued_ns = now_ + 10'000 * kMs;
+  expect_rejected(give(r), AckReason::kLate);
+  r = request(RequestKind::kCycleStart, 4);
+  r.issued_ns = std::numeric_limits<std::int64_t>::min();
+  expect_rejected(give(r), AckReason::kLate);
+  r = request(RequestKind::kCycleStart, 5);
+  r.issued_ns = std::numeric_limits<std::int64_t>::max();
+  expect_rejected(give(r), AckReason::kLate);
+  EXPECT_EQ(machine_.total(), 0u);
+  expect_rejected(give(r), AckReason::kLate);
+  EXPECT_EQ(acks_.back().repeated, 1u) << "a rejection is remembered, too";
+}
+
+TEST_F(IntakeRules, ExpectedStateIsHeldAgainstTheMachine) {
+  take_control();
+  Request r = request(RequestKind::kCycleStart, 2);
+  r.expected_mode = static_cast<std::int32_t>(Mode::kMdi);
+  expect_rejected(give(r), AckReason::kExpectedState);
+  r = request(RequestKind::kCycleStart, 3);
+  r.expected_run_state = NC_STATE_HOLD;
+  expect_rejected(give(r), AckReason::kExpectedState);
+  r = request(RequestKind::kCycleStart, 4);
+  set_text(&r.expected_program, "old.nc");
+  expect_rejected(give(r), AckReason::kExpectedState);
+  EXPECT_EQ(machine_.total(), 0u);
+  r = request(RequestKind::kCycleStart, 5);
+  r.expected_mode = static_cast<std::int32_t>(Mode::kAuto);
+  r.expected_run_state = NC_STATE_IDLE;
+  set_text(&r.expected_program, "part.nc");
+  EXPECT_EQ(give(r).state, state(AckState::kAccepted));
+}
+
+TEST_F(IntakeRules, MalformedIsRejected) {
+  take_control();
+  std::uint64_t sequence = 2;
+  const auto rejected = [&](Request r, auto change, AckReason why = AckReason::kMalformed) {
+    r.sequence = sequence++;
+    change(&r);
+    expect_rejected(give(r), why);
+  };
+  const Request start = request(RequestKind::kCycleStart, 1), feed = request(RequestKind::kFeedOverride, 1),
+                jog = request(RequestKind::kJog, 1), mdi = request(RequestKind::kMdi, 1),
+                select = request(RequestKind::kSelectProgram, 1);
+  rejected(start, [](Request* r) { r->kind = 4711; }, AckReason::kUnknownKind);
+  rejected(start, [](Request* r) { r->kind = static_cast<std::uint32_t>(RequestKind::kCount); }, AckReason::kUnknownKind);
+  rejected(start, [](Request* r) { r->lifespan_ms = 0; });
+  rejected(start, [](Request* r) { r->lifespan_ms = ~0u; });
+  rejected(start, [](Request* r) { r->lease_ms = 1; });
+  rejected(start, [](Request* r) { r->system = 1; });
+  rejected(start, [](Request* r) { r->system = ~0u; });
+  rejected(start, [](Request* r) { r->expected_mode = 3; });
+  rejected(start, [](Request* r) { r->expected_run_state = -2; });
+  rejected(start, [](Request* r) { r->value = std::nan(""); });
+  rejected(start, [](Request* r) { r->text.fill('G'); });
+  rejected(feed, [](Request* r) { r->value = 2.01; });
+  rejected(feed, [](Request* r) { r->value = -0.01; });
+  rejected(feed, [](Request* r) { r->value = std::numeric_limits<double>::infinity(); });
+  rejected(request(RequestKind::kRapidOverride, 1), [](Request* r) { r->value = 1.01; });
+  rejected(request(RequestKind::kSetMode, 1), [](Request* r) { r->number = 3; });
+  rejected(request(RequestKind::kSingleBlock, 1), [](Request* r) { r->number = 2; });
+  rejected(jog, [](Request* r) { r->axis = 3; });
+  rejected(jog, [](Request* r) { r->value = 1e9; });
+  rejected(mdi, [](Request*) {});
+  rejected(mdi, [](Request* r) { set_text(&r->text, "G0 X1\x1b[2J"); });
+  for (const char* name : {"", "../part.nc", "/etc/passwd", ".hidden", "a\nb"})
+    rejected(select, [&](Request* r) { set_text(&r->text, name); });
+  EXPECT_EQ(machine_.total(), 0u);
+}
+
+TEST_F(IntakeRules, WithoutANameThereIsNoAnswer) {
+  Request r = request(RequestKind::kTakeControl, 1, "");
+  give(r);
+  EXPECT_TRUE(acks_.empty());
+  r.client.fill('x');  // not ended
+  give(r);
+  EXPECT_TRUE(acks_.empty());
+  set_text(&r.client, "two words");
+  give(r);
+  EXPECT_TRUE(acks_.empty());
+  EXPECT_EQ(intake_.controlling(), "");
+}
+
+TEST_F(IntakeRules, ClientIdBelongsToItsParticipant) {
+  take_control();
+  Request thief = request(RequestKind::kCycleStart, 2);
+  thief.writer = 77;
+  expect_rejected(give(thief), AckReason::kClientInUse);
+  EXPECT_EQ(machine_.total(), 0u);
+}
+
+TEST_F(IntakeRules, ClientsAreBounded) {
+  for (unsigned i = 0; i < Intake::kClients; ++i)
+    give(RequestKind::kFeedHold, 1, ("c" + std::to_string(i)).c_str());
+  expect_rejected(give(RequestKind::kFeedHold, 1, "one-more"), AckReason::kTooManyClients);
+  now_ += Intake::kForgetNs + kMs;
+  intake_.tick(now_, &acks_);
+  EXPECT_EQ(give(RequestKind::kFeedHold, 1, "one-more").state, state(AckState::kAccepted)) << "the silent are forgotten";
+}
+
+TEST_F(IntakeRules, RefusalOfTheMachineIsPassedOn) {
+  take_control();
+  machine_.answer = Answer::kAlarmActive;
+  const Ack ack = give(RequestKind::kCycleStart, 2);
+  expect_rejected(ack, AckReason::kRefused);
+  EXPECT_EQ(text_of(ack.text), answer_text(Answer::kAlarmActive));
+}
+
+TEST_F(IntakeRules, AcceptedBecomesFailedWhenItsStateDoesNotCome) {
+  take_control();
+  Request r = request(RequestKind::kSetMode, 2);
+  r.number = static_cast<std::uint32_t>(Mode::kMdi);
+  EXPECT_EQ(give(r).state, state(AckState::kAccepted));
+  acks_.clear();
+  intake_.tick(now_, &acks_);
+  EXPECT_TRUE(acks_.empty());
+  now_ += Intake::kReachNs + kMs;
+  intake_.tick(now_, &acks_);
+  ASSERT_EQ(acks_.size(), 1u);
+  EXPECT_EQ(acks_[0].state, state(AckState::kFailed));
+  EXPECT_EQ(acks_[0].reason, reason(AckReason::kNotReached));
+  EXPECT_EQ(acks_[0].sequence, 2u);
+}
+
+TEST_F(IntakeRules, StartThatEndsInAnAlarmFails) {
+  take_control();
+  give(RequestKind::kCycleStart, 2);
+  machine_.now.alarmed = true;
+  machine_.now.run_state[0] = NC_STATE_ALARM;
+  acks_.clear();
+  intake_.tick(now_, &acks_);
+  ASSERT_EQ(acks_.size(), 1u);
+  EXPECT_EQ(acks_[0].state, state(AckState::kFailed));
+}
+
+TEST_F(IntakeRules, TextsAndValuesArriveAsTheyWereSent) {
+  take_control();
+  Request r = request(RequestKind::kMdi, 2);
+  set_text(&r.text, "G0 X1.\nM3 S100");
+  EXPECT_EQ(give(r).state, state(AckState::kDone));
+  EXPECT_EQ(machine_.mdi.at(0), "G0 X1.\nM3 S100\n");
+  r = request(RequestKind::kSelectProgram, 3);
+  set_text(&r.text, "part 7 (left).nc");
+  give(r);
+  EXPECT_EQ(machine_.selected.at(0), "part 7 (left).nc");
+  r = request(RequestKind::kFeedOverride, 4);
+  r.value = 1.25;
+  give(r);
+  EXPECT_EQ(machine_.executed.at(0).kind, CommandKind::kFeedOverride);
+  EXPECT_EQ(machine_.executed.at(0).value, 1.25);
+}
+
+}  // namespace
+}  // namespace nc::rt::share

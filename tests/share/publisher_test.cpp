@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a runtime on virtual time to what a reader of the segment sees; alarms and their history; block texts.
+#include "runtime/share/publisher.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "hal/sim/sim_machine.hpp"
+#include "runtime/share/segment.hpp"
+#include "runtime/share/service.hpp"
+#include "runtime/share/text.hpp"
+
+namespace nc::rt::share {
+namespace {
+
+constexpr char kMachine[] = R"(
+[machine]
+name = "Unit"
+[[axis]]
+name = "X"
+max_velocity = 200.0
+max_acceleration = 2000.0
+[[axis]]
+name = "C"
+rotary = true
+max_velocity = 90.0
+max_acceleration = 900.0
+[[point]]
+name = "clamp"
+direction = "output"
+[[point]]
+name = "pallet"
+type = "word"
+initial = 7
+direction = "input"
+[macro_interface]
+"#1100" = "clamp"
+"#1032" = "pallet"
+)";
+
+class SharePublisher : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto errors = parse_config(kMachine, "unit.toml", &config_);
+    ASSERT_TRUE(errors.empty()) << errors.front().text();
+    sim_ = std::make_unique<hal::SimMachine>(config_.sim, config_.points);
+    tap_ = std::make_unique<PointTap>(sim_.get(), config_.points.size());
+    std::vector<ConfigError> refused;
+    runtime_ = Runtime::create(config_, {&clock_, tap_.get(), nullptr, nullptr}, &refused);
+    ASSERT_NE(runtime_, nullptr);
+    std::string error;
+    name_ = "unit-p" + std::to_string(getpid());
+    ASSERT_TRUE(owner_.create(name_, 0600, false, machine_block(config_, name_), &error)) << error;
+    publisher_ = std::make_unique<Publisher>(runtime_.get(), &programs_, tap_.get(), owner_.get(), true);
+    ASSERT_TRUE(runtime_->start_stepping(&error)) << error;
+    publisher_->publish();
+    ASSERT_TRUE(reader_.open(name_, &error)) << error;
+  }
+  void TearDown() override {
+    std::filesystem::remove(path_);
+    if (runtime_ != nullptr) runtime_->stop();
+  }
+  void select(const std::string& text) {
+    path_ = (std::filesystem::temp_directory_path() / (name_ + ".nc")).string();
+    std::ofstream(path_) << text;
+    text_ = text;
+    unsigned file = 0;
+    ASSERT_EQ(nc_program_add_text(runtime_->control(), "unit.nc", text_.data(), text_.size(), &file), NC_OK);
+    programs_.add(file, path_);
+    ASSERT_EQ(runtime_->select_program(file), Answer::kDone);
+  }
+  void steps(unsigned count) {
+    for (unsigned i = 0; i < count; ++i) runtime_->step();
+  }
+  StatusBlock look() {
+    publisher_->publish();
+    StatusBlock block{};
+    std::string error;
+    EXPECT_TRUE(reader_.status(&block, &error)) << error;
+    return block;
+  }
+  HistoryBlock history() {
+    HistoryBlock block{};
+    std::uint64_t sequence = 0;
+    std::string error;
+    EXPECT_TRUE(reader_.history(&block, &sequence, &error)) << error;
+    return block;
+  }
+
+  Config config_;
+  VirtualClock clock_;
+  std::unique_ptr<hal::SimMachine> sim_;
+  std::unique_ptr<PointTap> tap_;
+  std::unique_ptr<Runtime> runtime_;
+  ProgramTable programs_;
+  SegmentOwner owner_;
+  SegmentReader reader_;
+  std::unique_ptr<Publisher> publisher_;
+  std::string name_, path_, text_;
+};
+
+TEST_F(SharePublisher, ShowsTheMachine) {
+  const MachineBlock& machine = reader_.get()->machine;
+  EXPECT_EQ(text_of(machine.machine), "Unit");
+  EXPECT_EQ(text_of(machine.share), name_);
+  EXPECT_EQ(machine.axis_count[0], 2u);
+  EXPECT_EQ(text_of(machine.axis[0][1].name), "C");
+  EXPECT_EQ(machine.axis[0][1].rotary, 1u);
+  EXPECT_EQ(machine.point_count, 2u);
+  EXPECT_EQ(text_of(machine.point[1].name), "pallet");
+}
+
+TEST_F(SharePublisher, ShowsTheBlockInExecution) {
+  select("G90\n#1100=1\nN7 G1 X50. F1200.\nM30\n");
+  ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(300);
+  const StatusBlock block = look();
+  const SystemStatus& system = block.system[0];
+  EXPECT_EQ(system.run_state, static_cast<std::uint32_t>(NC_STATE_RUNNING));
+  EXPECT_EQ(system.line, 3u);
+  EXPECT_EQ(system.sequence_number, 7u);
+  EXPECT_EQ(text_of(system.block), "N7 G1 X50. F1200.");
+  EXPECT_EQ(text_of(system.program), name_ + ".nc");
+  EXPECT_NE(text_of(system.modal).find("G90"), std::string::npos) << text_of(system.modal);
+  EXPECT_NEAR(system.feed_mm_min, 1200, 1);
+  EXPECT_GT(system.axis[0].commanded, 1.0);
+  EXPECT_NEAR(system.axis[0].work + system.axis[0].distance_to_go, 50, 1e-6);
+  EXPECT_EQ(block.program_lines, 4u);
+  EXPECT_EQ(block.percent, 75u);
+  EXPECT_EQ(block.interface_output[0] & 1, 1u);
+  EXPECT_EQ(block.scan, runtime_->snapshot().scan);
+  steps(5000);
+  EXPECT_EQ(look().runs, 1u);
+  EXPECT_EQ(look().percent, 100u);
+  EXPECT_EQ(look().last_run_ok, 1u);
+}
+
+TEST_F(SharePublisher, ShowsThePoints) {
+  steps(3);
+  publisher_->publish();
+  steps(2);
+  publisher_->publish();
+  EXPECT_EQ(reader_.get()->points.sequence(), 0u) << "only while someone wants them";
+  reader_.get()->points_until = RealClock().now_ns() + kPointsWantedNs;
+  publisher_->publish();  // asks
+  steps(2);               // the scan fills
+  publisher_->publish();  // takes
+  PointsBlock points{};
+  std::string error;
+  ASSERT_TRUE(reader_.points(&points, &error)) << error;
+  EXPECT_EQ(points.count, 2u);
+  EXPECT_EQ(points.value[1], 7u);
+  EXPECT_EQ(points.good[1], 1);
+}
+
+TEST_F(SharePublisher, AlarmsComeAndGoWithNumberAndTimes) {
+  select("G90\nG1 X50.\nM30\n");  // no F
+  ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(50);
+  StatusBlock block = look();
+  ASSERT_EQ(block.alarm_count, 1u);
+  EXPECT_EQ(text_of(block.alarm[0].code), "P62");
+  EXPECT_EQ(block.alarm[0].line, 2u);
+  EXPECT_GT(block.alarm[0].raised_ns, 0);
+  EXPECT_EQ(block.alarm[0].cleared_ns, 0);
+  EXPECT_EQ(history().last_sequence, 1u);
+  EXPECT_EQ(history().entry[0].cleared_ns, 0);
+  ASSERT_EQ(runtime_->execute(CommandKind::kReset), Answer::kDone);
+  steps(50);
+  block = look();
+  EXPECT_EQ(block.alarm_count, 0u);
+  EXPECT_EQ(history().last_sequence, 1u);
+  EXPECT_GE(history().entry[0].cleared_ns, history().entry[0].raised_ns);
+  ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(50);
+  EXPECT_EQ(look().alarm[0].sequence, 2u) << "the same alarm again is another occurrence";
+}
+
+TEST_F(SharePublisher, MachineAndIntakeSpeakOfTheSameThings) {
+  RuntimeMachine machine(runtime_.get(), &programs_);
+  EXPECT_EQ(machine.state().axis_count[0], 2u);
+  EXPECT_EQ(machine.state().program[0], "");
+  select("G90\nM30\n");
+  steps(2);
+  EXPECT_EQ(machine.state().program[0], name_ + ".nc");
+  Command mode;
+  mode.kind = CommandKind::kSetMode;
+  mode.number = static_cast<std::uint32_t>(Mode::kMdi);
+  EXPECT_EQ(machine.execute(mode), Answer::kDone);
+  EXPECT_EQ(machine.load_mdi(0, "N3 G90\n"), Answer::kDone);
+  EXPECT_EQ(programs_.mdi(), "N3 G90\n");
+  steps(2);
+  EXPECT_EQ(machine.state().program[0], "MDI");
+  EXPECT_EQ(machine.select_program(0, "none.nc"), Answer::kNotInThisMode);
+  mode.number = static_cast<std::uint32_t>(Mode::kAuto);
+  machine.execute(mode);
+  EXPECT_EQ(machine.select_program(0, "none.nc"), Answer::kNoProgram) << "there is no loader";
+}
+
+// A service over a runtime on virtual time: the intake thread takes what stands in the ring.
+class ShareService : public SharePublisher {
+ protected:
+  // Starts it and puts a feed hold in, which nobody needs control for. The answer, if one comes.
+  bool answered(bool commands, Ack* ack) {
+    const std::string name = name_ + "-s";
+    Service service(runtime_.get(), &programs_, tap_.get(), {name, commands, false, true});
+    std::string error;
+    EXPECT_TRUE(service.create(&error) && service.start(&error)) << error;
+    SegmentReader reader;
+    EXPECT_TRUE(reader.open(name, &error)) << error;
+    EXPECT_EQ(reader.claim_commands(&error), commands) << error;
+    Request request{};
+    set_text(&request.client, "unit");
+    request.sequence = 1;
+    request.kind = static_cast<std::uint32_t>(RequestKind::kFeedHold);
+    request.lifespan_ms = 10'000;
+    request.issued_ns = wall_ns();
+    request.expected_mode = request.expected_run_state = kAny;
+    EXPECT_TRUE(reader.get()->commands.push(request));
+    wake(&reader.get()->wake_intake);
+    bool got = false;
+    for (unsigned i = 0; i < (commands ? 5000 : 100) && !got; ++i) {
+      got = reader.get()->acks.pop(ack);
+      usleep(1000);
+    }
+    service.stop();
+    EXPECT_TRUE(reader.owner_gone());
+    return got;
+  }
+};
+
+TEST_F(ShareService, TakesNoCommandsUnlessItIsToldTo) {
+  Ack ack{};
+  EXPECT_FALSE(answered(false, &ack));
+}
+
+TEST_F(ShareService, AnswersACommand) {
+  Ack ack{};
+  ASSERT_TRUE(answered(true, &ack));
+  EXPECT_EQ(ack.sequence, 1u);
+  EXPECT_EQ(text_of(ack.client), "unit");
+  EXPECT_NE(ack.reason, static_cast<std::uint32_t>(AckReason::kNoControl));
+}
+
+// ---- alarms without a runtime ----
+
+struct Texts final : AlarmLog::Describer {
+  bool known = true;
+  bool describe(const ActiveAlarm& alarm, Entry* entry) override {
+    set_text(&entry->code, "R" + std::to_string(static_cast<int>(alarm.id)));
+    return known;
+  }
+};
+
+AlarmList list(std::initializer_list<std::uint64_t> scans) {
+  AlarmList alarms;
+  for (const std::uint64_t scan : scans) {
+    alarms.alarm[alarms.count].id = AlarmId::kDriveFault;
+    alarms.alarm[alarms.count++].scan = scan;
+  }
+  return alarms;
+}
+
+TEST(ShareAlarmLog, KeepsTheLast256) {
+  AlarmLog log;
+  Texts texts;
+  for (std::uint64_t i = 1; i <= 1000; ++i) {
+    EXPECT_TRUE(log.update(list({i}), &texts, static_cast<std::int64_t>(i)));
+    EXPECT_EQ(log.active().size(), 1u);
+    EXPECT_EQ(log.active()[0].sequence, i);
+  }
+  EXPECT_TRUE(log.update(list({}), &texts, 2000));
+  EXPECT_TRUE(log.active().empty());
+  EXPECT_FALSE(log.update(list({}), &texts, 2001));
+  const HistoryBlock& history = log.history();
+  EXPECT_EQ(history.last_sequence, 1000u);
+  for (std::uint64_t i = 1000 - kHistory + 1; i <= 1000; ++i) {
+    const Entry& entry = history.entry[(i - 1) % kHistory];
+    EXPECT_EQ(entry.sequence, i);
+    EXPECT_EQ(entry.cleared_ns, i == 1000 ? 2000 : static_cast<std::int64_t>(i + 1));
+  }
+}
+
+TEST(ShareAlarmLog, WaitsForTheTextsButNotForEver) {
+  AlarmLog log;
+  Texts texts;
+  texts.known = false;
+  EXPECT_FALSE(log.update(list({5}), &texts, 1000));
+  EXPECT_TRUE(log.active().empty());
+  EXPECT_TRUE(log.update(list({5}), &texts, 1000 + AlarmLog::kWaitForTextNs));
+  ASSERT_EQ(log.active().size(), 1u);
+  EXPECT_EQ(log.active()[0].raised_ns, 1000);
+  AlarmLog other;
+  EXPECT_FALSE(other.update(list({5}), &texts, 1000));
+  EXPECT_FALSE(other.update(list({}), &texts, 1001)) << "gone before anyone saw it";
+}
+
+// ---- block texts ----
+
+TEST(ShareBlockText, FindsLinesForwardsAndBackwards) {
+  const std::string path = (std::filesystem::temp_directory_path() / ("nc-text-" + std::to_string(getpid()))).string();
+  std::ofstream(path, std::ios::binary) << "G90\r\n" << std::string(10000, 'X') << "\n\n/N12 G1\nlast";
+  BlockText text;
+  EXPECT_EQ(text.line(path, 1), "G90");
+  EXPECT_EQ(text.line(path, 4), "/N12 G1");
+  EXPECT_EQ(text.line(path, 2), std::string(127, 'X'));
+  EXPECT_EQ(text.line(path, 3), "");
+  EXPECT_EQ(text.line(path, 5), "last");
+  EXPECT_EQ(text.line(path, 6), "");
+  EXPECT_EQ(text.line(path, 7), "");
+  EXPECT_EQ(text.line(path, 5), "last");
+  EXPECT_EQ(text.line("/nowhere", 1), "");
+  std::filesystem::remove(path);
+}
+
+TEST(ShareBlockText, SequenceNumbers) {
+  EXPECT_EQ(sequence_number("N10 G1"), 10u);
+  EXPECT_EQ(sequence_number(" /n007G1"), 7u);
+  EXPECT_EQ(sequence_number("G1 N5"), 0u);
+  EXPECT_EQ(sequence_number(""), 0u);
+  EXPECT_EQ(line_of_text("G0 X1\nG1\n", 2), "G1");
+  EXPECT_EQ(line_of_text("G0 X1\n", 5), "");
+}
+
+// ---- configuration ----
+
+TEST(ShareConfigSection, IsReadAndChecked) {
+  const std::string machine = kMachine;
+  Config config;
+  ASSERT_TRUE(parse_config(machine, "a", &config).empty());
+  EXPECT_FALSE(config.share.enabled);
+  EXPECT_FALSE(config.share.commands) << "commands are off unless they are asked for";
+  ASSERT_TRUE(parse_config(machine + "[share]\nenabled = true\nname = \"mill-3\"\ncommands = true\n", "a", &config).empty());
+  EXPECT_TRUE(config.share.enabled && config.share.commands);
+  EXPECT_EQ(config.share.name, "mill-3");
+  const auto errors = parse_config(machine + "[share]\nname = \"../Mill\"\nother = 1\n", "a", &config);
+  ASSERT_EQ(errors.size(), 2u);
+  EXPECT_NE(errors[0].text().find("share.name"), std::string::npos) << errors[0].text();
+}
+
+}  // namespace
+}  // namespace nc::rt::share

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shared-memory segment: who may make it, and what a reader refuses.
+#include "runtime/share/segment.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "runtime/share/text.hpp"
+
+namespace nc::rt::share {
+namespace {
+
+MachineBlock machine() {
+  MachineBlock block{};
+  set_text(&block.machine, "Test");
+  set_text(&block.share, "test");
+  block.system_count = 1;
+  block.axis_count[0] = 2;
+  set_text(&block.axis[0][0].name, "X");
+  set_text(&block.axis[0][1].name, "Y");
+  return block;
+}
+
+void set_alive(Segment* segment) {
+  StatusBlock status{};
+  status.system_count = 1;
+  segment->status.store(status);
+  segment->life = static_cast<std::uint32_t>(Life::kAlive);
+}
+
+class Share : public testing::Test {
+ protected:
+  void SetUp() override {
+    name_ = "unit-" + std::to_string(getpid());
+    shm_unlink(segment_path(name_).c_str());
+  }
+  void TearDown() override { shm_unlink(segment_path(name_).c_str()); }
+
+  bool create(SegmentOwner* owner) {
+    if (!owner->create(name_, 0600, true, machine(), &error_)) return false;
+    set_alive(owner->get());
+    return true;
+  }
+  // A file of these bytes in the segment's place.
+  void put(const void* data, std::size_t size) {
+    const int descriptor = shm_open(segment_path(name_).c_str(), O_RDWR | O_CREAT | O_TRUNC, 0600);
+    ASSERT_GE(descriptor, 0);
+    ASSERT_EQ(write(descriptor, data, size), static_cast<ssize_t>(size));
+    close(descriptor);
+  }
+  // What a reader says of the segment.
+  std::string refusal() {
+    SegmentReader reader;
+    std::string error;
+    return reader.open(name_, &error) ? "" : error;
+  }
+  std::string name_, error_;
+};
+
+TEST(ShareName, IsOneForFilesAndPartitions) {
+  EXPECT_EQ(share_name("Sim mill"), "sim-mill");
+  EXPECT_EQ(share_name("../etc/passwd"), "etc-passwd");
+  EXPECT_EQ(share_name("Fräse *?[3]"), "fr-se-3");
+  EXPECT_EQ(share_name(""), "machine");
+  EXPECT_LE(share_name(std::string(1000, 'a')).size(), 48u);
+  EXPECT_EQ(share_name(share_name("A  b--c ")), share_name("A  b--c "));
+}
+
+TEST(ShareText, IsCutAtACharacterAndAlwaysEnded) {
+  Text<8> text;
+  set_text(&text, "abcdefghij");
+  EXPECT_EQ(text_of(text), "abcdefg");
+  set_text(&text, "abcdef\xc3\xa4");  // the two bytes of a letter do not both fit
+  EXPECT_EQ(text_of(text), "abcdef");
+  EXPECT_TRUE(is_ended(text));
+  text.fill('x');
+  EXPECT_FALSE(is_ended(text));
+  EXPECT_EQ(text_of(text).size(), 8u);
+}
+
+TEST_F(Share, ReaderSeesWhatTheOwnerWrote) {
+  SegmentOwner owner;
+  ASSERT_TRUE(create(&owner)) << error_;
+  struct stat status {};
+  const int descriptor = shm_open(segment_path(name_).c_str(), O_RDONLY, 0);
+  ASSERT_EQ(fstat(descriptor, &status), 0);
+  close(descriptor);
+  EXPECT_EQ(status.st_mode & 0777, 0600u);
+  SegmentReader reader;
+  ASSERT_TRUE(reader.open(name_, &error_)) << error_;
+  StatusBlock block{};
+  block.system_count = 1;
+  block.scan = 77;
+  block.alarm_count = 1;
+  set_text(&block.alarm[0].code, "P62");
+  owner.get()->status.store(block);
+  StatusBlock got{};
+  ASSERT_TRUE(reader.status(&got, &error_)) << error_;
+  EXPECT_EQ(got.scan, 77u);
+  EXPECT_EQ(text_of(got.alarm[0].code), "P62");
+  EXPECT_FALSE(reader.owner_gone());
+  owner.remove();
+  EXPECT_TRUE(reader.owner_gone()) << "the goodbye is in the memory that the reader still has";
+  EXPECT_NE(refusal().find("there is no control"), std::string::npos);
+}
+
+TEST_F(Share, SegmentOfALivingControlIsRefused) {
+  SegmentOwner owner, second;
+  ASSERT_TRUE(create(&owner)) << error_;
+  EXPECT_FALSE(create(&second));
+  EXPECT_NE(error_.find("belongs to a control that is running"), std::string::npos) << error_;
+  SegmentReader reader;
+  EXPECT_TRUE(reader.open(name_, &error_)) << "the first one is not harmed: " << error_;
+}
+
+TEST_F(Share, SegmentOfADeadProcessIsReplaced) {
+  const pid_t child = fork();
+  if (child == 0) {
+    SegmentOwner owner;
+    std::string error;
+    const bool made = owner.create(name_, 0600, false, machine(), &error);
+    if (made) set_alive(owner.get());
+    _exit(made ? 0 : 1);  // no destructor: as after a crash
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_EQ(status, 0);
+  SegmentReader old;
+  ASSERT_TRUE(old.open(name_, &error_)) << error_;
+  EXPECT_TRUE(old.owner_gone());
+  SegmentOwner owner;
+  ASSERT_TRUE(create(&owner)) << error_;
+  SegmentReader reader;
+  ASSERT_TRUE(reader.open(name_, &error_)) << error_;
+  EXPECT_FALSE(reader.owner_gone());
+  EXPECT_NE(reader.get()->identity.created_ns, old.get()->identity.created_ns) << "the old one keeps its memory";
+}
+
+TEST_F(Share, ForeignFilesAreRefusedAndReplaced) {
+  put("hello", 5);
+  EXPECT_NE(refusal().find("too short"), std::string::npos) << refusal();
+  const std::string garbage(sizeof(Segment) + 100, '\x5a');
+  put(garbage.data(), garbage.size());
+  EXPECT_NE(refusal().find("is not a segment of ncrtd"), std::string::npos) << refusal();
+  put(garbage.data(), 4096);
+  EXPECT_NE(refusal().find("is not a segment of ncrtd"), std::string::npos) << refusal();
+  SegmentOwner owner;
+  ASSERT_TRUE(create(&owner)) << error_;
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(Share, OtherLayoutsAreRefused) {
+  SegmentOwner owner;
+  ASSERT_TRUE(create(&owner)) << error_;
+  Segment& segment = *owner.get();
+  const Identity good = segment.identity;
+  segment.identity.layout_version = 9;
+  EXPECT_NE(refusal().find("layout version 9"), std::string::npos) << refusal();
+  segment.identity = good;
+  segment.identity.layout_hash ^= 1;
+  EXPECT_NE(refusal().find("another build"), std::string::npos) << refusal();
+  segment.identity = good;
+  segment.identity.size -= 64;
+  EXPECT_NE(refusal().find("too short"), std::string::npos) << refusal();
+  segment.identity = good;
+  segment.machine.cycle_us ^= 1;
+  EXPECT_NE(refusal().find("damaged"), std::string::npos) << refusal();
+  segment.machine.cycle_us ^= 1;
+  segment.life = static_cast<std::uint32_t>(Life::kMaking);
+  EXPECT_NE(refusal().find("not complete"), std::string::npos) << refusal();
+  segment.life = static_cast<std::uint32_t>(Life::kAlive);
+  EXPECT_EQ(refusal(), "");
+  // A check sum that fits does not make sense of nonsense.
+  segment.machine.axis_count[0] = 200;
+  segment.check = check_sum(segment);
+  EXPECT_NE(refusal().find("makes no sense"), std::string::npos) << refusal();
+}
+
+TEST_F(Share, SegmentCutAtAnyPlaceIsRefused) {
+  std::string bytes;
+  {
+    SegmentOwner owner;
+    ASSERT_TRUE(create(&owner)) << error_;
+    bytes.assign(reinterpret_cast<const char*>(owner.get()), sizeof(Segment));
+  }
+  for (std::size_t size = 1; size < bytes.size(); size += size < 256 ? 1 : 4099) {
+    put(bytes.data(), size);
+    EXPECT_NE(refusal().find("too short"), std::string::npos) << size << ": " << refusal();
+  }
+  put(bytes.data(), bytes.size());
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(Share, ValuesThatMakeNoSenseAreRefused) {
+  SegmentOwner owner;
+  ASSERT_TRUE(create(&owner)) << error_;
+  SegmentReader reader;
+  ASSERT_TRUE(reader.open(name_, &error_)) << error_;
+  StatusBlock good{}, got{};
+  good.system_count = 1;
+  const auto refused = [&](const StatusBlock& block) {
+    owner.get()->status.store(block);
+    return !reader.status(&got, &error_) && error_.find("no sense") != std::string::npos;
+  };
+  EXPECT_FALSE(refused(good));
+  StatusBlock bad = good;
+  bad.alarm_count = kAlarms + 1;
+  EXPECT_TRUE(refused(bad));
+  bad = good;
+  bad.system_count = 3;
+  EXPECT_TRUE(refused(bad));
+  bad = good;
+  bad.system[0].axis_count = NC_MAX_AXES + 1;
+  EXPECT_TRUE(refused(bad));
+  bad = good;
+  bad.system[0].block.fill('G');
+  EXPECT_TRUE(refused(bad));
+  HistoryBlock history{};
+  std::uint64_t sequence = 0;
+  history.last_sequence = 300;  // but the places hold nothing
+  owner.get()->history.store(history);
+  EXPECT_FALSE(reader.history(&history, &sequence, &error_));
+  PointsBlock points{};
+  points.count = hal::kMaxPoints + 1;
+  owner.get()->points.store(points);
+  EXPECT_FALSE(reader.points(&points, &error_));
+}
+
+TEST_F(Share, WriterThatDiedInTheMiddleIsSeen) {
+  SegmentOwner owner;
+  ASSERT_TRUE(create(&owner)) << error_;
+  SegmentReader reader;
+  ASSERT_TRUE(reader.open(name_, &error_)) << error_;
+  // The sequence is the first word of the block: odd = in the middle.
+  auto* sequence = reinterpret_cast<std::atomic<std::uint64_t>*>(&owner.get()->status);
+  sequence->fetch_add(1);
+  StatusBlock got{};
+  EXPECT_FALSE(reader.status(&got, &error_));
+  EXPECT_NE(error_.find("in the middle"), std::string::npos) << error_;
+  StatusBlock next{};
+  next.system_count = 1;
+  owner.get()->status.store(next);  // the next writer makes it whole
+  EXPECT_TRUE(reader.status(&got, &error_)) << error_;
+}
+
+TEST_F(Share, OneProcessGivesCommands) {
+  SegmentOwner owner;
+  ASSERT_TRUE(create(&owner)) << error_;
+  SegmentReader reader;
+  ASSERT_TRUE(reader.open(name_, &error_)) << error_;
+  ASSERT_TRUE(reader.claim_commands(&error_)) << error_;
+  const pid_t child = fork();
+  if (child == 0) {
+    SegmentReader second;
+    std::string error;
+    const bool refused = second.open(name_, &error) && !second.claim_commands(&error);
+    _exit(refused ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  owner.get()->command_pid = child;  // dead by now
+  EXPECT_TRUE(reader.claim_commands(&error_)) << error_;
+  EXPECT_EQ(owner.get()->command_pid, getpid());
+  reader.close();
+  EXPECT_EQ(owner.get()->command_pid, 0);
+}
+
+TEST_F(Share, CommandsAreOffUnlessTheControlTakesThem) {
+  SegmentOwner owner;
+  ASSERT_TRUE(owner.create(name_, 0600, false, machine(), &error_)) << error_;
+  set_alive(owner.get());
+  SegmentReader reader;
+  ASSERT_TRUE(reader.open(name_, &error_)) << error_;
+  EXPECT_FALSE(reader.claim_commands(&error_));
+  EXPECT_NE(error_.find("takes no commands"), std::string::npos) << error_;
+  EXPECT_EQ(owner.get()->command_pid, 0);
+}
+
+TEST_F(Share, SegmentThatIsBeingMadeIsNotTakenForForeign) {
+  put("", 0);
+  EXPECT_NE(refusal().find("not complete"), std::string::npos) << refusal();
+  const std::string zeros(sizeof(Segment), '\0');
+  put(zeros.data(), zeros.size());
+  EXPECT_NE(refusal().find("not complete"), std::string::npos) << refusal();
+}
+
+TEST(ShareHeartbeat, StandsStill) {
+  HeartbeatWatch watch(100);
+  EXPECT_TRUE(watch.alive(5, 1000));
+  EXPECT_TRUE(watch.alive(5, 1099));
+  EXPECT_FALSE(watch.alive(5, 1100));
+  EXPECT_TRUE(watch.alive(6, 1101));
+  EXPECT_FALSE(watch.alive(6, 5000));
+  watch.restart();
+  EXPECT_TRUE(watch.alive(6, 5000));
+}
+
+struct Numbers {
+  std::uint64_t n[64];
+};
+
+TEST(ShareBlock, ReaderNeverSeesHalfAValue) {
+  static SharedBlock<Numbers> block;
+  std::atomic<bool> stop{false};
+  std::thread writer([&] {
+    Numbers numbers{};
+    for (std::uint64_t k = 1; !stop; ++k) {
+      for (std::uint64_t& n : numbers.n) n = k;
+      block.store(numbers);
+      if (k % 64 == 0) std::this_thread::yield();
+    }
+  });
+  std::uint64_t last = 0, sequence = 0;
+  unsigned good = 0;
+  for (unsigned i = 0; i < 20000; ++i) {
+    Numbers numbers{};
+    if (!block.load(&numbers, &sequence)) continue;
+    ++good;
+    for (const std::uint64_t n : numbers.n) ASSERT_EQ(n, numbers.n[0]);
+    ASSERT_GE(numbers.n[0], last);
+    last = numbers.n[0];
+    ASSERT_EQ(sequence % 2, 0u);
+  }
+  stop = true;
+  writer.join();
+  EXPECT_GT(good, 0u);
+}
+
+TEST(ShareRing, KeepsOrderAndRefusesWhenFull) {
+  static SharedRing<int, 8> ring;
+  int value = 0;
+  EXPECT_FALSE(ring.pop(&value));
+  for (int i = 0; i < 8; ++i) EXPECT_TRUE(ring.push(i));
+  EXPECT_FALSE(ring.push(8));
+  EXPECT_EQ(ring.size(), 8u);
+  for (int i = 0; i < 8; ++i) {
+    ASSERT_TRUE(ring.pop(&value));
+    EXPECT_EQ(value, i);
+  }
+  EXPECT_FALSE(ring.pop(&value));
+}
+
+TEST(ShareRing, SurvivesIndicesThatCannotBe) {
+  static SharedRing<int, 8> ring;
+  int value = 0;
+  ring.force(4000000000u, 5);
+  EXPECT_FALSE(ring.pop(&value));
+  EXPECT_FALSE(ring.pop(&value)) << "it is empty now, not full of garbage";
+  EXPECT_TRUE(ring.push(42));
+  EXPECT_TRUE(ring.pop(&value));
+  EXPECT_EQ(value, 42);
+  ring.force(3, 0xfffffffeu);  // five elements across the wrap of the indices
+  EXPECT_EQ(ring.size(), 5u);
+  for (unsigned i = 0; i < 5; ++i) EXPECT_TRUE(ring.pop(&value));
+  EXPECT_FALSE(ring.pop(&value));
+}
+
+TEST(ShareRing, TwoThreadsExchangeEverything) {
+  static SharedRing<std::uint64_t, 16> ring;
+  constexpr std::uint64_t kCount = 20000;
+  std::thread producer([] {
+    for (std::uint64_t k = 1; k <= kCount;)
+      if (ring.push(k)) ++k;
+      else std::this_thread::yield();
+  });
+  for (std::uint64_t k = 1; k <= kCount;) {
+    std::uint64_t value = 0;
+    if (!ring.pop(&value)) {
+      std::this_thread::yield();
+      continue;
+    }
+    ASSERT_EQ(value, k);
+    ++k;
+  }
+  producer.join();
+}
+
+}  // namespace
+}  // namespace nc::rt::share

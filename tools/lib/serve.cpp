@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loop of the service. See serve.hpp.
+#include "tools/lib/serve.hpp"
+
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "runtime/clock.hpp"
+#include "runtime/console.hpp"
+#include "tools/lib/service_notify.hpp"
+
+namespace nc::tools {
+namespace {
+
+using nc::rt::CommandKind;
+using nc::rt::Snapshot;
+
+constexpr auto kLook = std::chrono::milliseconds(5);
+
+class Service {
+ public:
+  Service(nc::rt::Runtime* runtime, const ServeOptions& options) : runtime_(*runtime), options_(options) {}
+
+  bool run() {
+    const nc::rt::Config& config = runtime_.config();
+    say("up: " + config.name + ", cycle " + std::to_string(config.cycle_us) + " us");
+    notify_.send("READY=1\nSTATUS=ready");
+    while (*options_.signal == 0) {
+      look();
+      if (options_.look) options_.look();
+      std::this_thread::sleep_for(kLook);
+    }
+    return end();
+  }
+
+ private:
+  void say(const std::string& text) {
+    std::fprintf(options_.out, "%s\n", text.c_str());
+    std::fflush(options_.out);
+  }
+
+  void look() {
+    const Snapshot now = runtime_.snapshot();
+    beat(now);
+    tell_state(now);
+    tell_alarms(now);
+  }
+
+  // The watchdog is fed at a third of its interval, and only when the scan has gone on since.
+  void beat(const Snapshot& now) {
+    const std::int64_t interval_ns = notify_.watchdog_ns(), time_ns = clock_.now_ns();
+    if (interval_ns == 0 || time_ns - fed_ns_ < interval_ns / 3 || now.scan == fed_scan_) return;
+    if (notify_.send("WATCHDOG=1")) fed_ns_ = time_ns;
+    fed_scan_ = now.scan;
+  }
+
+  void tell_state(const Snapshot& now) {
+    for (unsigned s = 0; s < now.system_count; ++s) {
+      const unsigned state = now.system[s].nc.state;
+      if (state == state_[s]) continue;
+      state_[s] = state;
+      std::string text = now.system_count > 1 ? "part system " + std::to_string(s + 1) + ": " : "";
+      text += nc::rt::state_text(now.system[s].nc);
+      say(text);
+      notify_.send("STATUS=" + text);
+    }
+  }
+
+  // An alarm is told one look after it came: what the feeder knows about it is there then.
+  void tell_alarms(const Snapshot& now) {
+    std::vector<nc::rt::ActiveAlarm> active(now.alarms.alarm, now.alarms.alarm + now.alarms.count);
+    for (const nc::rt::ActiveAlarm& alarm : active) {
+      const bool seen = contains(seen_, alarm);
+      if (seen && !contains(told_, alarm)) {
+        say("alarm: " + runtime_.alarm_text(alarm));
+        told_.push_back(alarm);
+      }
+    }
+    seen_ = active;
+    if (active.empty()) told_.clear();
+  }
+  static bool contains(const std::vector<nc::rt::ActiveAlarm>& list, const nc::rt::ActiveAlarm& alarm) {
+    for (const nc::rt::ActiveAlarm& other : list)
+      if (other.id == alarm.id && other.axis == alarm.axis && other.system == alarm.system &&
+          other.scan == alarm.scan)
+        return true;
+    return false;
+  }
+
+  // Feed hold, rest, reset: a path is left on the path, not by drives that lose their enable.
+  bool end() {
+    say("end: feed hold");
+    notify_.send("STOPPING=1\nSTATUS=coming to rest");
+    if (options_.leave) options_.leave();
+    runtime_.execute(CommandKind::kFeedHold);
+    const bool rest = wait_for([](const Snapshot& now) {
+      for (unsigned s = 0; s < now.system_count; ++s)
+        if (!now.system[s].nc.distance_zero) return false;
+      return true;
+    });
+    runtime_.execute(CommandKind::kReset);
+    const bool reset = wait_for([](const Snapshot& now) { return !now.resetting; });
+    say(rest && reset ? "end: at rest" : "end: not at rest in time; the outputs are made safe all the same");
+    return rest && reset;
+  }
+  template <class Condition>
+  bool wait_for(Condition condition) {
+    const std::int64_t give_up = clock_.now_ns() + options_.rest_ns;
+    // The snapshot after the command's: what it changed is in there.
+    const std::uint64_t first = runtime_.snapshot().scan + 2;
+    for (;;) {
+      const Snapshot now = runtime_.snapshot();
+      beat(now);
+      if (now.scan >= first && condition(now)) return true;
+      if (clock_.now_ns() > give_up) return false;
+      std::this_thread::sleep_for(kLook);
+    }
+  }
+
+  nc::rt::Runtime& runtime_;
+  const ServeOptions& options_;
+  ServiceNotify notify_;
+  nc::rt::RealClock clock_;
+  std::int64_t fed_ns_ = 0;
+  std::uint64_t fed_scan_ = 0;
+  unsigned state_[NC_MAX_SYSTEMS] = {};
+  std::vector<nc::rt::ActiveAlarm> seen_, told_;
+};
+
+}  // namespace
+
+bool serve(nc::rt::Runtime* runtime, const ServeOptions& options) {
+  return Service(runtime, options).run();
+}
+
+}  // namespace nc::tools

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a service tells its service manager: the datagrams of sd_notify(3), without its library. The protocol
+// is a promise of systemd: one datagram of "NAME=value" lines to the socket that $NOTIFY_SOCKET names.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace nc::tools {
+
+class ServiceNotify {
+ public:
+  // Looks at $NOTIFY_SOCKET, $WATCHDOG_USEC and $WATCHDOG_PID.
+  ServiceNotify();
+  ~ServiceNotify();
+  ServiceNotify(const ServiceNotify&) = delete;
+  ServiceNotify& operator=(const ServiceNotify&) = delete;
+
+  // False when there is no service manager, or when it does not take the datagram; never waits.
+  bool send(const std::string& lines);
+
+  // The manager expects WATCHDOG=1 at least this often; 0 = it does not.
+  std::int64_t watchdog_ns() const { return watchdog_ns_; }
+
+ private:
+  int socket_ = -1;
+  std::string address_;  // as in sockaddr_un.sun_path
+  std::int64_t watchdog_ns_ = 0;
+};
+
+}  // namespace nc::tools
