@@ -77,6 +77,20 @@ printf '[machine]\n[[axis]]\nname = "X"\nmax_velocity = 1\nmax_acceleration = 1\
 expect 1 "$ncrtd" --config "$work/bad.toml" check
 said err "bad.toml:7: parameters.nosuch: the control"
 
+# until_listening PID: ncrtd is there and handles SIGINT and SIGTERM; before that a signal kills it, or is lost.
+until_listening() {
+  local caught i
+  for ((i = 0; i < 600; ++i)); do
+    caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$1/status" 2>/dev/null)
+    if [ "$(basename "$(readlink "/proc/$1/exe" 2>/dev/null)")" = ncrtd ] && [ $((0x${caught:-0} & 0x4002)) -eq $((0x4002)) ]; then
+      sleep 0.5
+      return 0
+    fi
+    sleep 0.1
+  done
+  fail "ncrtd does not handle signals"
+}
+
 # In real time: two threads, real clock; and a signal is a feed hold, then a clean end.
 printf 'G90 G0 X-290.\nG4 P100\nM30\n' >"$work/short.nc"
 expect 0 "$ncrtd" --config "$machine" run "$work/short.nc"
@@ -84,7 +98,7 @@ said out "wake-up jitter"
 printf 'G91\nN1 G1 X0.5 F60.\nX-0.5\nGOTO 1\n' >"$work/long.nc"
 "$ncrtd" --config "$machine" run --no-progress "$work/long.nc" >"$work/out" 2>"$work/err" &
 child=$!
-sleep 1
+until_listening "$child"
 kill -TERM "$child"
 wait "$child"
 status=$?
@@ -101,7 +115,7 @@ python3 -c 'import os, signal, sys
 signal.signal(signal.SIGINT, signal.SIG_DFL)
 os.execv(sys.argv[1], sys.argv[1:])' "$ncrtd" --config "$machine" run --fast --no-progress --plot "$work/cut" "$work/long.nc" >"$work/out" 2>"$work/err" &
 child=$!
-sleep 1
+until_listening "$child"
 kill -INT "$child"
 wait "$child"
 status=$?
