@@ -19,13 +19,6 @@ __attribute__((format(printf, 2, 3))) void append(std::string* text, const char*
   *text += buffer;
 }
 
-// What comes from the network must not steer the terminal.
-std::string printable(const std::string& text) {
-  std::string clean;
-  for (const char c : text) clean += static_cast<unsigned char>(c) < ' ' || c == 0x7f ? ' ' : c;
-  return clean;
-}
-
 std::string time_text(std::int64_t ns) {
   const std::time_t seconds = static_cast<std::time_t>(ns / 1'000'000'000);
   std::tm parts{};
@@ -129,6 +122,12 @@ void append_system(std::string* text, const StatusView& s) {
 }
 
 }  // namespace
+
+std::string printable(const std::string& text) {
+  std::string clean;
+  for (const char c : text) clean += static_cast<unsigned char>(c) < ' ' || c == 0x7f ? ' ' : c;
+  return clean;
+}
 
 std::string alarm_line(const AlarmView& alarm) {
   std::string text = alarm.code.empty() ? alarm.text : alarm.code + " " + alarm.text;

@@ -56,6 +56,8 @@ struct MonitorView {
   bool ended = false;  // the control has ended
 };
 
+// Without control characters: what comes from the network must not steer the terminal.
+std::string printable(const std::string& text);
 // "P62 No feed command, axis X (line 7)"
 std::string alarm_line(const AlarmView& alarm);
 // "  43 %  line 27    X  -12.345 ...  F4800   S8000   T2    running"

@@ -180,7 +180,7 @@ int progress(nc::dds::Monitor* monitor) {
     if (status.message_count > messages) {
       messages = status.message_count;
       leave_line();
-      std::printf("message: %s\n", status.message.c_str());
+      std::printf("message: %s\n", nc::dds::printable(status.message).c_str());
     }
     if (monitor->view().alive != alive) {
       alive = monitor->view().alive;

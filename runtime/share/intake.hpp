@@ -6,7 +6,7 @@
 //   2  a (client, sequence) that was answered before gets the same answer; nothing is executed again
 //   3  sequence above the last one of this client                                            else out of order
 //   4  younger than its lifespan                                                             else late
-//   5  from the client that has control; a feed hold and a release are taken from anyone     else no control
+//   5  from the client that has control; a feed hold is taken from anyone                   else no control
 //   6  mode, run state and program are what the client believes                              else expected state
 //   7  the runtime agrees                                                                    else refused
 // Control is a token: one client has it, from its first kTakeControl until it releases it, is gone, or does

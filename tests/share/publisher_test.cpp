@@ -46,6 +46,7 @@ direction = "input"
 class SharePublisher : public testing::Test {
  protected:
   void SetUp() override {
+    if (access("/dev/shm", W_OK) != 0) GTEST_SKIP() << "no shared memory (/dev/shm)";
     const auto errors = parse_config(kMachine, "unit.toml", &config_);
     ASSERT_TRUE(errors.empty()) << errors.front().text();
     sim_ = std::make_unique<hal::SimMachine>(config_.sim, config_.points);

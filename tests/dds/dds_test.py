@@ -8,7 +8,9 @@ packages can be had here, or the programs are not built.
 import fcntl
 import json
 import os
+import random
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -34,7 +36,7 @@ def environment():
         fcntl.flock(lock, fcntl.LOCK_EX)
         if os.path.exists(python) and subprocess.run([python, "-c", "import cyclonedds"], capture_output=True).returncode == 0:
             return python
-        for command in ([sys.executable, "-m", "venv", "--clear", folder], [python, "-m", "pip", "install", "-q", "--retries", "1", BINDING]):
+        for command in ([sys.executable, "-m", "venv", "--clear", folder], [python, "-m", "pip", "install", "-q", "--retries", "1", "--timeout", "20", BINDING]):
             done = subprocess.run(command, capture_output=True, text=True)
             if done.returncode != 0:
                 skip(f"{' '.join(command[1:4])}: {(done.stderr or done.stdout).strip()[-300:]}")
@@ -45,6 +47,8 @@ if __name__ == "__main__" and os.environ.get("NC_DDS_INSIDE") is None:
     for program in ("ncrtd", "ncdds", "ncmon"):
         if not os.path.exists(os.path.join(build, "bin", program)):
             skip(f"{program} is not built")
+    if not os.access("/dev/shm", os.W_OK):
+        skip("no shared memory (/dev/shm)")
     if "thread" in os.environ.get("NC_SANITIZE", ""):
         skip("Cyclone DDS is not built for the thread sanitizer")
     sys.exit(subprocess.run([environment(), os.path.abspath(__file__)], env={**os.environ, "NC_DDS_INSIDE": "1"}).returncode)
@@ -57,9 +61,12 @@ from nc_dds import AckReason, AckState, CommandKind, Mode, RunState  # noqa: E40
 from cyclonedds.core import InstanceState  # noqa: E402
 from cyclonedds.domain import DomainParticipant  # noqa: E402
 from cyclonedds.idl import IdlStruct, types  # noqa: E402
+from cyclonedds.idl import annotations as annotate  # noqa: E402
 from cyclonedds.pub import DataWriter, Publisher  # noqa: E402
+from cyclonedds.sub import DataReader, Subscriber  # noqa: E402
 from cyclonedds.core import Policy, Qos  # noqa: E402
 from cyclonedds.topic import Topic  # noqa: E402
+from cyclonedds.util import duration  # noqa: E402
 from dataclasses import dataclass  # noqa: E402
 
 PATIENCE = 30.0  # s for anything to come; only a failure takes so long
@@ -131,20 +138,27 @@ class Plant:
         self.all.append(child)
         return child
 
-    def control(self):
-        return self.start("ncrtd", "--config", os.path.join(self.folder, "machine.toml"), "serve", "--share", self.share, "--commands")
+    def control(self, *options):
+        return self.start("ncrtd", "--config", os.path.join(self.folder, "machine.toml"), "serve", "--share", self.share, *options)
 
-    def gateway(self):
-        return self.start("ncdds", "--share", self.share, "--domain", str(self.domain), "--commands")
+    def gateway(self, *options):
+        return self.start("ncdds", "--share", self.share, "--domain", str(self.domain), *options)
 
     def monitor(self, *options):
         return subprocess.run([os.path.join(build, "bin/ncmon"), "--domain", str(self.domain), *options], capture_output=True, text=True)
 
     def end(self):
+        """In order where that works: a control that is killed leaves its shared memory."""
         for child in self.all:
             if child.poll() is None:
+                child.send_signal(signal.SIGCONT)
+                child.terminate()
+        for child in self.all:
+            try:
+                child.communicate(timeout=20)
+            except subprocess.TimeoutExpired:
                 child.kill()
-            child.communicate()
+                child.communicate()
 
 
 class Watch:
@@ -154,7 +168,7 @@ class Watch:
         self.reader = nc_dds.reader(participant, nc_dds.Status, machine)
         self.alarms = nc_dds.reader(participant, nc_dds.Alarm, machine)
         self.history = nc_dds.reader(participant, nc_dds.AlarmHistory, machine)
-        self.status, self.samples, self.gone = None, 0, False
+        self.status, self.samples, self.gone, self.ended = None, 0, False, False
         self.active, self.past, self.x = {}, {}, set()
 
     def look(self):
@@ -163,6 +177,7 @@ class Watch:
                 self.status, self.samples = sample, self.samples + 1
                 self.x.add(round(sample.axes[0].commanded, 3))
             self.gone = sample.sample_info.instance_state != InstanceState.Alive
+            self.ended = sample.sample_info.instance_state == InstanceState.NotAliveDisposed
         for sample in self.alarms.take(N=20):
             if sample.sample_info.valid_data and sample.sample_info.instance_state == InstanceState.Alive:
                 self.active[sample.slot] = sample
@@ -246,13 +261,18 @@ def program(plant, watch, operator, gateway):
     operator.send(CommandKind.CMD_CYCLE_START, seq=start)
     again = operator.answer(start)
     check(again.repeated and again.state == AckState.ACK_DONE, "the duplicate gets the same answer")
-    before = watch.fresh().scan
+    before = watch.fresh()
     gateway.send_signal(signal.SIGKILL)
     gateway.wait()
     until(lambda: watch.look().gone, "subscribers see that the gateway is gone")
-    gateway = plant.gateway()
-    until(lambda: not watch.look().gone and watch.status.scan > before, "it comes back, the scan has gone on")
-    check(watch.status.runs == 0, "the program is still in execution")
+    check(not watch.ended, "and that this is not the end of the control")
+    gateway = plant.gateway("--commands")
+    until(lambda: not watch.look().gone and watch.status.scan > before.scan, "it comes back, the scan has gone on")
+    after = watch.status
+    slots = after.scan + after.figures.missed_slots - before.scan - before.figures.missed_slots
+    elapsed = (after.time_ns - before.time_ns) / 1e6  # cycles of 1 ms
+    check(abs(slots - elapsed) < 300, f"without a gap: {slots} slots of 1 ms in {elapsed:.0f} ms")
+    check(after.runs == 0, "the program is still in execution")
     until(lambda: watch.look().status.runs == 1, "the program ends")
     check(watch.status.last_run_ok and watch.status.percent == 100, "as it should")
     reference = subprocess.run([os.path.join(build, "bin/ncrtd"), "--config", os.path.join(plant.folder, "machine.toml"), "run", "--fast",
@@ -263,13 +283,53 @@ def program(plant, watch, operator, gateway):
     return gateway
 
 
-def alarms(watch, operator):
+# What subscribers of another release have: members added at the end, or not there yet.
+@dataclass
+@annotate.appendable
+class OlderAlarm(IdlStruct, typename="nc.Alarm"):
+    slot: types.uint32
+    annotate.key("slot")
+    id: types.uint64
+    machine: types.bounded_str[63]
+    part_system: types.uint32
+    code: types.bounded_str[15]
+    text: types.bounded_str[255]
+
+
+@dataclass
+@annotate.appendable
+class NewerAlarm(IdlStruct, typename="nc.Alarm"):
+    slot: types.uint32
+    annotate.key("slot")
+    id: types.uint64
+    machine: types.bounded_str[63]
+    part_system: types.uint32
+    code: types.bounded_str[15]
+    text: types.bounded_str[255]
+    axis: types.bounded_str[7]
+    program_number: types.uint32
+    line: types.uint32
+    raised_ns: types.int64
+    remedy: types.bounded_str[31]
+
+
+def other_releases(plant, alarm):
+    for kind in (OlderAlarm, NewerAlarm):
+        participant = DomainParticipant(plant.domain)
+        qos = Qos(Policy.Reliability.Reliable(duration(milliseconds=100)), Policy.Durability.TransientLocal, Policy.History.KeepLast(1))
+        reader = DataReader(Subscriber(participant, qos=Qos(Policy.Partition([plant.share]))), Topic(participant, "nc_Alarm", kind), qos=qos)
+        got = until(lambda: [s for s in reader.take(N=5) if s.sample_info.valid_data], f"{kind.__name__} talks to this release")[0]
+        check((got.id, got.code, got.text, getattr(got, "remedy", "")) == (alarm.id, alarm.code, alarm.text, ""), "and has its values")
+
+
+def alarms(plant, watch, operator):
     operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000)
     check(operator.ask(CommandKind.CMD_SELECT_PROGRAM, text="bad.nc").state == AckState.ACK_DONE, "selects the bad program")
     operator.ask(CommandKind.CMD_CYCLE_START)
     until(lambda: watch.look().active, "an alarm comes")
     alarm = next(iter(watch.active.values()))
     check(alarm.code == "P62" and alarm.line == 2, f"{alarm.code} {alarm.text} (line {alarm.line})")
+    other_releases(plant, alarm)
     check(operator.ask(CommandKind.CMD_RESET).state == AckState.ACK_DONE, "reset")
     until(lambda: not watch.look().active, "the alarm is disposed")
     until(lambda: alarm.id in watch.look().past and watch.past[alarm.id].cleared_ns >= alarm.raised_ns, "the history has its end")
@@ -319,8 +379,43 @@ def stranger(plant, watch, operator, gateway):
             writer.write(Odd(1, 2, "x" * 1000))
         time.sleep(0.02)
     check(gateway.poll() is None, "a participant with other types does not end the gateway")
+    noise, chance = socket.socket(socket.AF_INET, socket.SOCK_DGRAM), random.Random(1)
+    for port in range(7410 + 250 * plant.domain, 7410 + 250 * plant.domain + 24):  # RTPS: participants 0 to 11
+        for length in (0, 3, 20, 64, 300, 1400):
+            noise.sendto(b"RTPS\x02\x01" + chance.randbytes(length), ("127.0.0.1", port))
+            noise.sendto(chance.randbytes(length), ("127.0.0.1", port))
+    noise.close()
+    check(gateway.poll() is None, "nor does garbage on its ports")
     watch.fresh()
     check(operator.ask(CommandKind.CMD_TAKE_CONTROL).state == AckState.ACK_DONE, "commands go on")
+
+
+def hang(watch, operator, control):
+    """A control that does not look for a while: what waited too long is not executed, what is too much is refused."""
+    check(operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "has control")
+
+    def stopped():
+        with open(f"/proc/{control.pid}/stat", encoding="ascii") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] == "T"
+
+    reasons = {}
+
+    def answered(reason):
+        for ack in operator.acks.take(N=100):
+            if ack.sample_info.valid_data:
+                reasons[ack.seq] = ack.reason
+        return reason in reasons.values()
+
+    control.send_signal(signal.SIGSTOP)
+    until(stopped, "the control hangs")
+    for _ in range(100):
+        operator.send(CommandKind.CMD_SINGLE_BLOCK, number=1, lifespan_ms=100)
+    until(lambda: answered(AckReason.REASON_OVERFLOW), "too many commands: REASON_OVERFLOW")
+    time.sleep(0.5)
+    control.send_signal(signal.SIGCONT)
+    until(lambda: answered(AckReason.REASON_LATE), "the others are too late: REASON_LATE")
+    check(operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "it is back")
+    check(not watch.fresh().single_block, "none of them was executed")
 
 
 def signals(plant, participant):
@@ -343,16 +438,39 @@ def monitor(plant):
     check(nobody.returncode == 2 and "nobody publishes" in nobody.stderr, "ncmon without a publisher")
 
 
-def restart(plant, watch, control):
+def restart(plant, watch, operator, info, control):
+    """Another control under the same name, this one without commands."""
     second = plant.control()
     text = second.communicate(timeout=60)[0]
     check(second.returncode == 1 and "belongs to a control that is running" in text, "a second control of the same name is refused")
+    check(taken(info)[-1].commands, "the machine's description says that commands are taken")
     control.send_signal(signal.SIGKILL)
     control.wait()
-    until(lambda: watch.look().gone, "subscribers see that the control is gone")
+    until(lambda: watch.look().ended, "subscribers see that the control is gone")
     control = plant.control()
     until(lambda: not watch.look().gone and watch.status.runs == 0, "a new one takes over the name, and they see it")
+    ack = operator.ask(CommandKind.CMD_TAKE_CONTROL)
+    check(ack.state == AckState.ACK_REJECTED and ack.reason == AckReason.REASON_REFUSED, f"without --commands: {ack.text}")
+    until(lambda: any(not i.commands for i in taken(info)), "and the description says so")
     return control
+
+
+def end(plant, watch, gateway, control):
+    gateway.send_signal(signal.SIGTERM)
+    check(gateway.wait(timeout=60) == 0, "the gateway ends in order")
+    until(lambda: watch.look().gone, "subscribers see it")
+    check(not watch.ended and control.poll() is None, "the control does not care")
+    gateway = plant.gateway()
+    progress = plant.start("ncmon", "--domain", str(plant.domain), "--machine", plant.share, "--progress", "--wait", "30")
+    check("idle" in progress.stdout.readline(), "ncmon --progress begins")
+    control.send_signal(signal.SIGTERM)
+    check(control.wait(timeout=60) == 0, "the control ends in order")
+    text = progress.communicate(timeout=60)[0]
+    check(progress.returncode == 0 and "the control has ended" in text, "ncmon says that it has ended")
+    shown = plant.monitor("--once", "--machine", plant.share, "--wait", "1")
+    check(shown.returncode == 2 and "its control is not" in shown.stderr, f"also who comes later: {shown.stderr.strip()}")
+    gateway.send_signal(signal.SIGTERM)
+    check(gateway.wait(timeout=60) == 0, "the gateway ends in order without a control")
 
 
 def client(domain, share):
@@ -379,10 +497,11 @@ def main():
                 file.write(text)
         plant = Plant(folder)
         try:
-            gateway, control = plant.gateway(), plant.control()
+            gateway, control = plant.gateway("--commands"), plant.control("--commands")
             participant = DomainParticipant(plant.domain)
             watch = Watch(participant, plant.share)
             operator = Operator(participant, plant.share, f"test-{os.getpid()}")
+            info = nc_dds.reader(participant, nc_dds.MachineInfo, plant.share)
             core = nc_dds.reader(participant, nc_dds.Status_v1, plant.share)
             until(lambda: watch.look().status, "the status comes")
             until(lambda: [s for s in core.take(N=5) if s.sample_info.valid_data and s.axis_names == "XY"], "the core status comes")
@@ -390,20 +509,21 @@ def main():
             commands(plant, watch, operator)
             gateway = program(plant, watch, operator, gateway)
             until(lambda: answers(operator), "the new gateway answers")
-            alarms(watch, operator)
+            alarms(plant, watch, operator)
             manual(watch, operator)
             signals(plant, participant)
             monitor(plant)
             dead_client(plant, operator)
             stranger(plant, watch, operator, gateway)
-            control = restart(plant, watch, control)
-            gateway.send_signal(signal.SIGTERM)
-            check(gateway.wait(timeout=60) == 0, "the gateway ends in order")
-            check(control.poll() is None, "the control does not care")
-            control.send_signal(signal.SIGTERM)
-            check(control.wait(timeout=60) == 0, "the control ends in order")
+            hang(watch, operator, control)
+            control = restart(plant, watch, operator, info, control)
+            end(plant, watch, gateway, control)
         finally:
             plant.end()
+
+
+def taken(reader):
+    return [sample for sample in reader.take(N=10) if sample.sample_info.valid_data]
 
 
 def answers(operator):
