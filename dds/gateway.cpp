@@ -147,8 +147,7 @@ bool Gateway::look() {
   const bool beats = heart_.alive(segment_.get()->heartbeat.load(std::memory_order_acquire), at);
   publish_acks();
   if (ended || (beats && at >= next_status_ns_)) {
-    publish_status(at);
-    publish_alarms();
+    if (publish_status(at)) publish_alarms();
     publish_history();
     publish_signals(at);
   }
@@ -183,14 +182,14 @@ void Gateway::run() {
 
 // ---- publications ----
 
-void Gateway::publish_status(std::int64_t now_ns) {
+bool Gateway::publish_status(std::int64_t now_ns) {
   std::string error;
   if (!segment_.status(&block_, &error)) {
     say(error);
-    return;
+    return false;
   }
   // A write asserts the liveliness of the topic: there is none for a scan that stands still.
-  if (written_any_ && block_.scan == written_scan_) return;
+  if (written_any_ && block_.scan == written_scan_) return true;
   written_any_ = true;
   written_scan_ = block_.scan;
   // Half a publication early: pictures come every 10 ms, and the next one would be late.
@@ -203,6 +202,7 @@ void Gateway::publish_status(std::int64_t now_ns) {
     const nc_Status_v1 core = core_status(machine, block_, s, partition_.c_str());
     write(status_core_, &core);
   }
+  return true;
 }
 
 void Gateway::clear_alarm(const Shown& shown) {

@@ -44,7 +44,7 @@ class Gateway {
   bool attach();
   void detach(const char* why);
   bool look();
-  void publish_status(std::int64_t now_ns);
+  bool publish_status(std::int64_t now_ns);
   void publish_alarms();
   void clear_alarm(const Shown& shown);
   void publish_history();

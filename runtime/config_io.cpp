@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "runtime/config_sections.hpp"
+#include "runtime/signals/signal_table.hpp"
 
 namespace nc::rt {
 namespace {
@@ -17,6 +18,22 @@ bool valid_point_name(std::string_view name) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '.' || c == '-';
   });
+}
+
+// What the ladder would read as a device or a constant of its own: capitals and a number, K5, M100, TN0.
+bool is_device_name(std::string_view name) {
+  std::size_t letters = 0;
+  while (letters < name.size() && name[letters] >= 'A' && name[letters] <= 'Z') ++letters;
+  return letters > 0 && letters <= 2 && letters < name.size() &&
+         std::all_of(name.begin() + static_cast<std::ptrdiff_t>(letters), name.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'F') || c == '.' || c == '-';
+         });
+}
+
+bool is_signal_name(std::string_view name, const nc_config& nc) {
+  for (const Signal& signal : machine_signals(nc))
+    if (signal.name == name) return true;
+  return false;
 }
 
 // One number of the macro interface. M700 13.5.5.
@@ -150,6 +167,10 @@ void read_points(TableReader* root, Config* config) {
     if (!named) return;
     if (!valid_point_name(point.name))
       reader.error("name", "must be 1 to 64 letters, digits, '_', '-' or '.'");
+    else if (is_device_name(point.name))
+      reader.error("name", "\"" + point.name + "\" is a device or a constant of the ladder; tie addresses to points by ALIAS");
+    else if (is_signal_name(point.name, config->nc))
+      reader.error("name", "\"" + point.name + "\" is a signal between NC and ladder");
     else if (config->points.find(point.name) >= 0)
       reader.error("name", "point \"" + point.name + "\" is already there");
     else if (!config->points.add(point))

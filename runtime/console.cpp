@@ -107,11 +107,11 @@ std::string state_text(const nc_outputs& outputs) {
   switch (outputs.cause) {
     case NC_CAUSE_FIN: {
       std::string text = "waits for FIN of";
-      if (outputs.strobe & 1) append(&text, " M%02u", outputs.m);
-      if (outputs.strobe & 2) append(&text, " S%.0f", outputs.s);
-      if (outputs.strobe & 4) append(&text, " T%u", outputs.t);
-      if (outputs.strobe & 8) append(&text, " B%u", outputs.b);
-      return outputs.strobe == 0 ? "waits for FIN" : text;
+      if (outputs.fin_wait & 1) append(&text, " M%02u", outputs.m);
+      if (outputs.fin_wait & 2) append(&text, " S%.0f", outputs.s);
+      if (outputs.fin_wait & 4) append(&text, " T%u", outputs.t);
+      if (outputs.fin_wait & 8) append(&text, " B%u", outputs.b);
+      return outputs.fin_wait == 0 ? "waits for FIN to go off" : text;
     }
     case NC_CAUSE_DWELL:
       return "dwell";

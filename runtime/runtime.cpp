@@ -52,6 +52,7 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
     runtime->own_ladder_ = LadderTask::create(config, errors);
     if (runtime->own_ladder_ == nullptr) return nullptr;
     runtime->parts_.ladder = runtime->own_ladder_.get();
+    for (const std::string& warning : runtime->own_ladder_->warnings()) runtime->warnings_.push_back(warning);
   }
   runtime->scan_ =
       std::make_unique<Scan>(config, parts.clock, parts.hal, runtime->parts_.ladder, runtime->parts_.nc);
@@ -266,7 +267,8 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   }
   const AlarmRow& row = alarm_row(alarm.id);
   std::string text = std::string(row.code) + " " + row.text;
-  if (alarm.id == AlarmId::kFinTimeout) text += ": " + fin_text(alarm.detail, alarm.code);
+  if (alarm.id == AlarmId::kFinTimeout)
+    text += alarm.detail != 0 ? ": " + fin_text(alarm.detail, alarm.code) : ": it is stuck on, so that no strobe can rise";
   if (alarm.id == AlarmId::kLadder) {
     const std::string& own = config_.ladder.alarm[alarm.detail % config_.ladder.alarm.size()];
     text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);

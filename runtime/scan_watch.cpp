@@ -116,7 +116,7 @@ void Scan::watch_fin() noexcept {
   const auto most = static_cast<std::uint64_t>(config_.ladder.fin_timeout_s * 1e9 / static_cast<double>(period_ns_));
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
-    const bool waits = out.state == NC_STATE_RUNNING && out.cause == NC_CAUSE_FIN && out.fin_wait != 0;
+    const bool waits = out.state == NC_STATE_RUNNING && out.cause == NC_CAUSE_FIN;  // also for a FIN that is stuck on
     fin_scans_[s] = waits ? fin_scans_[s] + 1 : 0;
     if (fin_scans_[s] > most) raise(AlarmId::kFinTimeout, s, -1, out.fin_wait, (out.fin_wait & 1) != 0 ? out.m : out.t);
   }

@@ -141,7 +141,9 @@ class Run {
       : runtime_(*runtime), options_(options), progress_(*progress) {}
 
   int to_end() {
-    if (const Answer answer = runtime_.execute(CommandKind::kCycleStart); answer != Answer::kDone)
+    const Answer answer = runtime_.execute(CommandKind::kCycleStart);
+    if (answer == Answer::kAlarmActive) return stop_by_alarm();
+    if (answer != Answer::kDone)
       return failed(std::string("cycle start: ") + nc::rt::answer_text(answer));
     for (;;) {
       wait();
@@ -152,6 +154,7 @@ class Run {
       if (g_signal != 0) return stop_by_signal();
       if (now.alarmed()) return stop_by_alarm();
       if (info.runs > 0 && now.system[0].nc.state == NC_STATE_IDLE) return ended(now);
+      if (given_up(now)) return stop_by_reset();
       // Someone who gives commands continues it himself.
       if (now.system[0].nc.state == NC_STATE_STOPPED && !options_.commands) {
         note("stop in line " + std::to_string(now.system[0].nc.source.line) + " (" +
@@ -159,6 +162,18 @@ class Run {
         runtime_.execute(CommandKind::kCycleStart);
       }
     }
+  }
+
+  // Prints the active alarms and the summary.
+  int stop_by_alarm() {
+    rest();
+    wait();  // the details of a program alarm come from the feeder
+    const nc::rt::Snapshot now = runtime_.snapshot();
+    progress_.finish();
+    for (unsigned i = 0; i < now.alarms.count; ++i)
+      std::fprintf(stderr, "alarm: %s\n", runtime_.alarm_text(now.alarms.alarm[i]).c_str());
+    std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc, options_.since_ns).c_str());
+    return kExitAlarm;
   }
 
  private:
@@ -192,6 +207,19 @@ class Run {
     std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc, options_.since_ns).c_str());
     return 0;
   }
+  // Idle for a while though the run has not come to its end: somebody else (the ladder, a client) has reset it.
+  bool given_up(const nc::rt::Snapshot& now) {
+    constexpr unsigned kLooks = 20;
+    if (now.system[0].nc.state != NC_STATE_IDLE) last_line_ = now.system[0].nc.source.line;
+    idle_looks_ = now.system[0].nc.state == NC_STATE_IDLE && !now.resetting ? idle_looks_ + 1 : 0;
+    return idle_looks_ > kLooks;
+  }
+  int stop_by_reset() {
+    progress_.finish();
+    std::fprintf(stderr, "reset in line %u, before the end of the program\n", last_line_);
+    std::printf("%s", nc::rt::summary_text(runtime_, runtime_.snapshot().system[0].nc, options_.since_ns).c_str());
+    return kExitAlarm;
+  }
   int stop_by_signal() {
     const int signal = g_signal;
     note("signal: feed hold");
@@ -206,21 +234,13 @@ class Run {
     std::printf("%s", nc::rt::summary_text(runtime_, stopped, options_.since_ns).c_str());
     return kExitSignal + signal;
   }
-  int stop_by_alarm() {
-    rest();
-    wait();  // the details of a program alarm come from the feeder
-    const nc::rt::Snapshot now = runtime_.snapshot();
-    progress_.finish();
-    for (unsigned i = 0; i < now.alarms.count; ++i)
-      std::fprintf(stderr, "alarm: %s\n", runtime_.alarm_text(now.alarms.alarm[i]).c_str());
-    std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc, options_.since_ns).c_str());
-    return kExitAlarm;
-  }
 
   nc::rt::Runtime& runtime_;
   const Options& options_;
   nc::rt::Progress& progress_;
   std::uint64_t messages_ = 0;
+  unsigned idle_looks_ = 0;
+  std::uint32_t last_line_ = 0;
   const unsigned looks_ =
       options_.fast ? 100000 : 400;  // for the machine to come to rest; a look may be one scan
 };
@@ -343,8 +363,10 @@ int operate(const Options& options, nc::rt::Config* config) {
     answer = runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(nc::rt::Mode::kMdi));
     if (answer == Answer::kDone) answer = runtime->load_mdi(options.mdi + "\n");
   }
-  int result = answer == Answer::kDone ? Run(runtime.get(), options, &progress).to_end()
-                                       : failed(std::string("not started: ") + nc::rt::answer_text(answer));
+  Run run(runtime.get(), options, &progress);
+  int result = answer == Answer::kDone          ? run.to_end()
+               : answer == Answer::kAlarmActive ? run.stop_by_alarm()
+                                                : failed(std::string("not started: ") + nc::rt::answer_text(answer));
   sharing.stop();
   runtime->stop();
   if (options.plot.empty() || result == kExitUsage) return result;

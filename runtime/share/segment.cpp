@@ -239,6 +239,7 @@ bool SegmentReader::status(StatusBlock* block, std::string* error) const {
     return false;
   }
   if (status_is_sound(*block, segment_->machine.system_count)) return true;
+  *block = {};  // nobody may use what was refused
   *error = kNonsense;
   return false;
 }

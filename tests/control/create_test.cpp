@@ -405,9 +405,31 @@ TEST(Mdi, EndsByItself) {
   run = bench.finish();
   EXPECT_EQ(run.path(), (Path{"rapid 6 0 0"}));
   EXPECT_TRUE(run.ended_ok);
+  EXPECT_EQ(run.aux(), "M30");
+  ASSERT_EQ(nc_mdi_load(bench.control(), 0, "M3 S100", 7), NC_OK);
+  run = bench.finish();
+  EXPECT_EQ(run.aux(), "S100 M3") << "no end code that nobody wrote";
+  EXPECT_EQ(run.lines(), (std::vector<unsigned>{1}));
   Bench dgshape_bench(NC_DIALECT_DGSHAPE);
   ASSERT_EQ(nc_mdi_load(dgshape_bench.control(), 0, "G0X5000", 7), NC_OK);
   EXPECT_EQ(dgshape_bench.finish().path(), (Path{"rapid 5 0 0"}));
+}
+
+TEST(Mdi, ModalCodesStayFromOneToTheNextUntilResetOrAProgram) {  // M700 5.1
+  Bench bench;
+  const auto mdi = [&](const std::string& blocks) {
+    EXPECT_EQ(nc_mdi_load(bench.control(), 0, blocks.data(), blocks.size()), NC_OK);
+    return bench.finish();
+  };
+  EXPECT_EQ(mdi("G91 G1 X2. F500").path(), (Path{"line 2 0 0 F500"}));
+  EXPECT_EQ(mdi("X3.").path(), (Path{"line 5 0 0 F500"}));
+  EXPECT_EQ(mdi("G55").alarm, "");
+  EXPECT_EQ(mdi("G81 X1. Z-1. R0").alarm, "");
+  EXPECT_EQ(mdi("Y1.").path(), (Path{"line 6 1 0 F500"})) << "a cycle does not stay";
+  EXPECT_EQ(nc_reset(bench.control(), 0), NC_OK);
+  EXPECT_EQ(mdi("X1. F100").path(), (Path{"line 1 1 0 F100"})) << "absolute again";
+  EXPECT_EQ(mdi("G91").alarm, "");
+  EXPECT_EQ(bench.run("G0 X7.\nM30").path(), (Path{"rapid 7 1 0"})) << "a program begins with the initial codes";
 }
 
 }  // namespace

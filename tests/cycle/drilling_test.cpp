@@ -63,6 +63,19 @@ TEST(Cycle, BoreG85AndG89FeedBack) {
             (Path{"rapid 1 0 10", "stop", "rapid 1 0 2", "stop", "line 1 0 -8 F100", "dwell 0.25", "line 1 0 2 F100", "rapid 1 0 10", "end", "end"}));
 }
 
+// The return of G98 is to the programmed level, which a tool length displaces like every other end point, also one that
+// was pending when the cycle was commanded. M700 12.2, 13.1.1.
+TEST(Cycle, ToolLengthThatComesIntoForceDisplacesTheInitialLevelToo) {
+  Bench bench;
+  bench.tool(11, 100).tool(2, 3).at(0, 0, 50);
+  const Path drilled{"rapid 1 0 50", "rapid 1 0 102", "line 1 0 95 F100", "rapid 1 0 150"};
+  EXPECT_EQ(bench.run("G43 H11\nG98 G81 X1. Z-5. R2. F100\nM30").path(), drilled);
+  EXPECT_EQ(bench.at(0, 0, 50).run("G43 H11 G98 G81 X1. Z-5. R2. F100\nM30").path(), drilled);
+  EXPECT_EQ(bench.at(0, 0, 0).run("G43 H2 G0 Z50.\nG98 G81 X1. Z-5. R2. F100\nG43 H11\nX2.\nM30").path(),
+            (Path{"rapid 0 0 53", "rapid 1 0 53", "rapid 1 0 5", "line 1 0 -2 F100", "rapid 1 0 53", "rapid 2 0 53", "rapid 2 0 102",
+                  "line 2 0 95 F100", "rapid 2 0 150"}));
+}
+
 TEST(Cycle, Incremental) {  // M700 13.1.1: R from the initial level, Z from R; the sign of R is ignored
   EXPECT_EQ(at_ten("G91 G81 X10. Z-8. R-6. F100\nM30").path(), (Path{"rapid 10 0 10", "rapid 10 0 4", "line 10 0 -4 F100", "rapid 10 0 10"}));
   EXPECT_EQ(at_ten("G91 G81 X10. Z-8. R6. F100\nM30").path(), (Path{"rapid 10 0 10", "rapid 10 0 4", "line 10 0 -4 F100", "rapid 10 0 10"}));

@@ -235,11 +235,11 @@ TEST(LadderText, CommentsCaseAndSeparators) {
 
 TEST(LadderText, AliasesNameTheSameDevice) {
   Rig rig(
-      "ALIAS X10 door_closed\nALIAS Y10 nc.fin1\nALIAS R100 D50\nALIAS again X10\nLD X10\nAND again\nOUT "
+      "ALIAS X10 door_closed\nALIAS Y10 plc.fin1\nALIAS R100 D50\nALIAS again X10\nLD X10\nAND again\nOUT "
       "Y10\nMOV K3 R100");
   rig.set("door_closed", 1);
   rig.scan();
-  EXPECT_EQ(rig.get("nc.fin1"), 1);
+  EXPECT_EQ(rig.get("plc.fin1"), 1);
   EXPECT_EQ(rig.get("D50"), 3);
   EXPECT_EQ(rig.get("R100"), 3);
   EXPECT_EQ(rig.get("X10"), 1);

@@ -13,13 +13,13 @@ TEST(LadderMasterControl, NothingIsOnWhileItIsOff) {
       "LD X1\nINV\nOUT Y3\n"
       "LD X1\nMPS\nINV\nOUT Y4\nMPP\nINV\nOUT Y5\n"
       "MCR N0\n"
-      "LD X1\nOUT nc.fin1\n");
+      "LD X1\nOUT plc.fin1\n");
   for (const int x1 : {0, 1}) {
     rig.set("X1", x1);
     rig.scan(3);
     for (const char* name : {"M100", "Y0", "Y1", "Y2", "Y3", "Y4", "Y5", "T0", "TN0", "STN0", "CN0", "D0"})
       EXPECT_EQ(rig.get(name), 0) << name;
-    EXPECT_EQ(rig.get("nc.fin1"), x1);
+    EXPECT_EQ(rig.get("plc.fin1"), x1);
   }
   rig.set("X0", 1);
   rig.scan(3);

@@ -17,7 +17,7 @@ inline DeviceTable test_table() {
   DeviceTable table;
   for (const char* name : {"X0", "X1", "X2", "X3", "X4", "X5", "nc.m_strobe", "door_closed"})
     table.add(name, DeviceType::kBit, false);
-  for (const char* name : {"Y0", "Y1", "Y2", "Y3", "Y4", "Y5", "nc.fin1", "part_present"})
+  for (const char* name : {"Y0", "Y1", "Y2", "Y3", "Y4", "Y5", "plc.fin1", "part_present"})
     table.add(name, DeviceType::kBit, true);
   table.add("in16", DeviceType::kWord16, false);
   table.add("in32", DeviceType::kWord32, false);

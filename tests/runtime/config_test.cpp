@@ -116,6 +116,8 @@ const Case kCases[] = {
     {"system_gap", "name = \"Z\"", "name = \"Z\"\nsystem = 3", "axis", "part system 2 has no axis"},
     {"point_twice", "name = \"in1\"", "name = \"in0\"", "point[2].name", "already there"},
     {"point_name", "name = \"in1\"", "name = \"in 1\"", "point[2].name", "letters, digits"},
+    {"point_device", "name = \"in1\"", "name = \"K5\"", "point[2].name", "constant of the ladder"},
+    {"point_signal", "name = \"in1\"", "name = \"nc.ready\"", "point[2].name", "signal between"},
     {"point_direction", "name = \"in1\"\ndirection = \"input\"", "name = \"in1\"", "point[2].direction",
      "is missing"},
     {"point_initial", "name = \"in1\"", "name = \"in1\"\ninitial = 2", "point[2].initial", "from 0 to 1"},

@@ -49,10 +49,14 @@ TEST(StateText, SaysWhyNothingMoves) {
   out.rapid = true;
   EXPECT_EQ(nc::rt::state_text(out), "rapid");
   out.cause = NC_CAUSE_FIN;
-  out.strobe = 5;
+  out.strobe = out.fin_wait = 5;
   out.m = 6;
   out.t = 12;
   EXPECT_EQ(nc::rt::state_text(out), "waits for FIN of M06 T12");
+  out.strobe = 0;  // FIN1 is on and has to fall
+  EXPECT_EQ(nc::rt::state_text(out), "waits for FIN of M06 T12");
+  out.fin_wait = 0;
+  EXPECT_EQ(nc::rt::state_text(out), "waits for FIN to go off");
   out.cause = NC_CAUSE_OVERRIDE_ZERO;
   EXPECT_EQ(nc::rt::state_text(out), "override 0 %");
   out.state = NC_STATE_HOLD;

@@ -201,6 +201,19 @@ TEST_F(OwnLadder, AFinThatIsStuckOnHoldsTheNextStrobeBack) {
   EXPECT_EQ(out().fin_wait, 1) << "FIN1 has not fallen";
 }
 
+TEST_F(OwnLadder, AFinThatIsStuckOnFromTheStartIsAnAlarmToo) {
+  use("LD SM400\nOUT plc.fin1\nEND\n");
+  config.ladder.fin_timeout_s = 1;
+  start("M50\nM30\n");
+  ASSERT_GT(until([&] { return !alarm().empty(); }, 3000), 0);
+  EXPECT_EQ(alarm(), "R15 FIN does not come: it is stuck on, so that no strobe can rise (line 1)");
+}
+
+TEST_F(LadderMachine, SpeedZeroWithATurningSpindleIsCompleteWhenItStands) {
+  start("S1000 M3\nS0\nM5\nM30\n");
+  EXPECT_GE(until_end(), 0);
+}
+
 TEST_F(OwnLadder, AlarmsOfTheLadderStopAndComeBackWhileTheyAreOn) {
   use("LD in0\nOUT plc.alarm.2\nLD nc.m_strobe\nOUT plc.fin2\nEND\n");
   config.ladder.alarm[1] = "Door open";

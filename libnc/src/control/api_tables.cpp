@@ -187,7 +187,7 @@ nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t l
   if (!known(c, system) || text == nullptr || length + 6 > sizeof(c->mdi[0])) return NC_E_ARGUMENT;
   nc::PartSystem& part = c->system[system];
   if (part.busy()) return NC_E_STATE;
-  // An MDI program ends by itself: M02 stands behind the operator's blocks (and the start mark before them, where it is required).
+  // The end of the blocks ends them; a start mark stands before them where it is required.
   char* mdi = c->mdi[system];
   size_t at = 0;
   if (c->dialect->percent_required) {
@@ -196,13 +196,15 @@ nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t l
   }
   std::memcpy(mdi + at, text, length);
   at += length;
-  std::memcpy(mdi + at, "\nM2", 3);
-  at += 3;
+  mdi[at++] = '\n';
   unsigned file = 0;
   char name[] = "MDI0";
   name[3] = static_cast<char>('0' + system);
   const nc_status status = nc_program_add_text(c, name, mdi, at, &file);
-  return status == NC_OK ? nc_program_select(c, system, file) : status;
+  if (status != NC_OK) return status;
+  nc::ProgramRef program;
+  program.file = static_cast<uint16_t>(file);
+  return part.select(program, true);
 }
 
 // ---- state ------------------------------------------------------------------------------------------------------------------

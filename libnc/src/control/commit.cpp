@@ -22,6 +22,13 @@ Circle map_circle(const Circle& c, const Transform& t, unsigned h, unsigned v) {
   return m;
 }
 
+/// Full turns beyond the arc up to the first time that its end is reached; compensation may have made it longer than programmed.
+uint32_t extra_turns(double sweep) {
+  constexpr double kNoise = 1e-7;  // turns
+  const double turns = std::ceil(std::fabs(sweep) / (2 * kPi) - kNoise) - 1;
+  return turns > 0 ? static_cast<uint32_t>(turns) : 0;
+}
+
 nc_axes to_axes(const AxisVec& a) {
   nc_axes out;
   std::memcpy(out.v, a.v, sizeof(out.v));
@@ -132,7 +139,7 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       m.exact_stop = move.exact_stop;
       m.skip_mask = move.skip_mask;
       m.plane = move.circular ? static_cast<uint8_t>(move.plane) : static_cast<uint8_t>(NC_PLANE_NONE);
-      m.turns = move.turns;
+      m.turns = move.circular ? extra_turns(circle_.sweep) : 0;
       m.center[0] = move.work_center[0];
       m.center[1] = move.work_center[1];
       m.plane_axis[0] = move.plane_axis[0];

@@ -168,8 +168,8 @@ nc_status PartSystem::rewind(Serial serial) {
   return NC_OK;
 }
 
-void PartSystem::restart(const AxisVec& machine) {
-  interpreter.reset();
+void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
+  interpreter.reset(keep_modal);
   interpreter.set_machine(machine);
   offset_.reset();
   has_staged_ = false;
@@ -186,10 +186,14 @@ nc_status PartSystem::reset() {
   return NC_OK;
 }
 
-nc_status PartSystem::select(const ProgramRef& program) {
+nc_status PartSystem::select(const ProgramRef& program, bool mdi) {
   if (busy()) return NC_E_STATE;
+  const bool keep_modal = mdi && interpreter.mdi;
+  interpreter.mdi = mdi;
   interpreter.main_program = program;
-  return reset();
+  restart(online_ ? executor.commanded() : commit_.machine(), keep_modal);
+  commit_.restart();
+  return NC_OK;
 }
 
 void PartSystem::set_position(const AxisVec& machine) {
@@ -245,7 +249,7 @@ nc_status PartSystem::feed(uint32_t budget) {
   if (starts != starts_) {
     starts_ = starts;
     if (!running_ && interpreter.main_program.valid()) {
-      restart(executor.commanded());
+      restart(executor.commanded(), interpreter.mdi);
       commit_.restart();
       running_ = true;
     }

@@ -13,7 +13,8 @@ class PartSystem {
  public:
   void create(const nc_config& config, unsigned index, const Dialect& dialect, ProgramStore* store, CommonVariables* common, Arena& arena);
 
-  nc_status select(const ProgramRef& program);
+  /// `mdi`: blocks of MDI, which go on with the modal state that MDI blocks before them have left.
+  nc_status select(const ProgramRef& program, bool mdi = false);
   nc_status reset();
   nc_status pull(uint32_t budget, nc_item* item);
   nc_status answer(const nc_world& world);
@@ -42,7 +43,7 @@ class PartSystem {
   }
   void stop_on(const Fault& fault, const nc_source& source);
   void describe_alarm();
-  void restart(const AxisVec& machine);
+  void restart(const AxisVec& machine, bool keep_modal = false);
   nc_status commit_online(uint32_t& budget);
   bool read_again(Serial last);
   void displace(const AxisVec& machine);

@@ -360,7 +360,7 @@ Did return_sub(Interpreter& in) {
 
 Did text_ended(Interpreter& in) {
   // M700 App.1 P36: '%' (or the end of the text, or the next O number) was read without M02, M30 or M99.
-  if (in.dialect->end_code_required || in.state.depth > 0) return in.raise(Condition::program_end);
+  if ((in.dialect->end_code_required && !in.mdi) || in.state.depth > 0) return in.raise(Condition::program_end);
   in.state.end_seen = true;
   Item& end = in.emit(ItemKind::end);
   end.end.ok = true;

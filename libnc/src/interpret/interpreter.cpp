@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <initializer_list>
 #include <new>
 
 namespace nc {
@@ -96,12 +97,27 @@ nc_status Interpreter::select(const ProgramRef& program) {
 }
 
 /// M700 3.7 "reset 2": modal state to its initial values; positions, offsets and G92 shifts stay (M700 9.1).
-void Interpreter::reset() {
-  const AxisVec machine = state.machine;
+void Interpreter::reset(bool keep_modal) {
+  const AxisVec machine = state.machine, applied = state.applied;
+  const ModalState modal = state.modal;
+  const double length_value = state.length_value;
+  const uint8_t length_axis = state.length_axis;
+  const uint16_t work_system = state.work_system;
+  const bool spindle_on = state.spindle_on;
   state = State{};
   state.machine = machine;
   for (unsigned i = 0; i < NC_GROUPS; ++i) state.modal.code[i] = dialect->initial[i];
   if (settings.start_inch) state.modal.code[kGroupUnit] = 200;
+  if (keep_modal) {
+    const ModalState initial = state.modal;
+    state.modal = modal;
+    for (const Group group : {kGroupCompensation, kGroupCycle, kGroupMacro}) state.modal.code[group] = initial.code[group];
+    state.work_system = work_system;
+    state.applied = applied;
+    state.length_value = length_value;
+    state.length_axis = length_axis;
+    state.spindle_on = spindle_on;
+  }
   state.frame[0].program = main_program;
   state.frame[0].offset = state.frame[0].begin = main_program.offset;
   state.frame[0].line = state.frame[0].begin_line = main_program.line;

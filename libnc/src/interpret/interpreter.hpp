@@ -63,7 +63,10 @@ struct Interpreter {
   // ---- programs -----------------------------------------------------------------------------------------------------
   nc_status select(const ProgramRef& program);
   /// To the head of the selected program; modal state as after reset 2 (M700 3.7).
-  void reset();
+  void reset() { reset(false); }
+  /// With `keep_modal` (MDI after MDI, M700 5.1) modal codes and words, work system and tool length stay; cycles and radius
+  /// compensation do not.
+  void reset(bool keep_modal);
   /// Back to right behind the block `seq`; false when it is too old.
   bool rewind(BlockSeq seq);
   /// Forget checkpoints; go on from here (position of the machine).
@@ -105,6 +108,7 @@ struct Interpreter {
   InternPool<ModalState> modals;
   InternPool<Message> texts;
   ProgramRef main_program;
+  bool mdi = false;                ///< the main program is blocks of MDI: their end is no alarm
   uint32_t optional_skip = 0;      ///< switches, bit n = /n
 
   Fault fault;

@@ -44,7 +44,7 @@ Did select_cycle(Interpreter& in, const FunctionRow& row) {
   if (state.cycle.kind == CycleKind::none) {
     state.cycle = CycleState{};
     state.cycle.drill_axis = static_cast<uint8_t>(axis);
-    state.cycle.initial_machine = state.machine[static_cast<unsigned>(axis)];
+    state.cycle.initial_level = state.machine[static_cast<unsigned>(axis)] - state.applied[static_cast<unsigned>(axis)];
   }
   state.cycle.kind = kind_of(row.function);
   state.modal.code[kGroupCycle] = row.code;
@@ -81,9 +81,9 @@ void resolve_hole(Interpreter& in) {
   const CycleState& c = in.state.cycle;
   Hole& h = in.hole;
   h.kind = c.kind;
-  // As a coordinate of now: zero point and tool length may have changed since the cycle was commanded.
-  const double length = c.drill_axis == in.state.length_axis ? in.state.length_value : 0.0;
-  h.initial = c.initial_machine - in.zero()[c.drill_axis] - length;
+  // As a coordinate of now: the zero point may have changed since the cycle was commanded. A tool length that comes into
+  // force in between (also one that is pending, M700 12.2) displaces this level like every other end point.
+  h.initial = c.initial_level - in.zero()[c.drill_axis];
   if (!c.has_r) {
     h.r = h.initial;  // DGSHAPE: omitted R = initial level
   } else if (c.r_incremental) {
