@@ -57,7 +57,7 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   handshake(in);
   messages();
   states(in);
-  if (!frozen_) run(in);
+  if (!frozen_ && !rereading_) run(in);  // the ring from here on may be the feeder's
   manual(in);
   last_command_ = command_;
   command_ = shape_.filter(wanted_);
