@@ -7,6 +7,7 @@ make_chroot() {
   local root=$1 mirror part
   command -v debootstrap >/dev/null || die "install debootstrap first"
   mkdir -p "$root"
+  chmod 755 "$root"    # mktemp makes it 700: nobody but root could look in
   # The archive that this machine uses for bookworm, whatever it is.
   mirror=$(apt-get indextargets --format '$(REPO_URI) $(CODENAME) $(ORIGIN)' 2>/dev/null | awk '$2 == "bookworm" && $3 == "Debian" {print $1; exit}')
   [ -n "$mirror" ] || die "apt on this machine knows no archive with Debian bookworm"
