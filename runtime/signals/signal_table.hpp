@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The signals between NC and ladder: one table of name, direction, type, meaning, timing and safe value. The
-// devices of the ladder, the signal image for monitors, and docs/signals.md all come from it.
+// devices of the ladder and docs/signals.md come from it.
 //
 // Names: "nc." is what the NC says, "plc." what the ladder tells it. A second part system is "nc2." and
 // "plc2.". A signal of an axis carries the axis letter behind a point (nc.in_position.X), a numbered one its
