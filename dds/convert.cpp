@@ -188,48 +188,43 @@ nc_Status_v1 core_status(const share::MachineBlock& machine, const share::Status
   return to;
 }
 
-nc_Alarm alarm(const share::Entry& entry, std::uint32_t slot, const char* partition) {
-  nc_Alarm to{};
-  to.slot = slot;
+namespace {
+
+// What the alarm types have in common.
+template <class T>
+T entry_as(const share::Entry& entry, const char* partition) {
+  T to{};
   to.id = entry.sequence;
   set(to.machine, partition);
   to.part_system = entry.system + 1;
   set(to.code, entry.code);
   set(to.text, entry.text);
   set(to.axis, entry.axis);
-  to.program_number = entry.program_number;
   to.line = entry.line;
   to.raised_ns = entry.raised_ns;
+  return to;
+}
+
+}  // namespace
+
+nc_Alarm alarm(const share::Entry& entry, std::uint32_t slot, const char* partition) {
+  nc_Alarm to = entry_as<nc_Alarm>(entry, partition);
+  to.slot = slot;
+  to.program_number = entry.program_number;
   return to;
 }
 
 nc_Alarm_v1 core_alarm(const share::Entry& entry, std::uint32_t slot, const char* partition) {
-  nc_Alarm_v1 to{};
+  nc_Alarm_v1 to = entry_as<nc_Alarm_v1>(entry, partition);
   to.slot = slot;
-  to.id = entry.sequence;
-  set(to.machine, partition);
-  to.part_system = entry.system + 1;
-  set(to.code, entry.code);
-  set(to.text, entry.text);
-  set(to.axis, entry.axis);
-  to.line = entry.line;
-  to.raised_ns = entry.raised_ns;
   return to;
 }
 
 nc_AlarmHistory history(const share::Entry& entry, const char* partition) {
-  nc_AlarmHistory to{};
+  nc_AlarmHistory to = entry_as<nc_AlarmHistory>(entry, partition);
   to.slot = static_cast<std::uint32_t>((entry.sequence - 1) % share::kHistory);
-  to.id = entry.sequence;
-  set(to.machine, partition);
-  to.part_system = entry.system + 1;
   to.message = entry.is_message != 0;
-  set(to.code, entry.code);
-  set(to.text, entry.text);
-  set(to.axis, entry.axis);
   to.program_number = entry.program_number;
-  to.line = entry.line;
-  to.raised_ns = entry.raised_ns;
   to.cleared_ns = entry.cleared_ns;
   return to;
 }
