@@ -90,12 +90,6 @@ Move& Interpreter::emit_move(const AxisVec& start, const AxisVec& end) {
 
 // ---- program selection, reset, rewind ----------------------------------------------------------------------------------
 
-nc_status Interpreter::select(const ProgramRef& program) {
-  main_program = program;
-  reset();
-  return NC_OK;
-}
-
 /// M700 3.7 "reset 2": modal state to its initial values; positions, offsets and G92 shifts stay (M700 9.1).
 void Interpreter::reset(bool keep_modal) {
   const AxisVec machine = state.machine, applied = state.applied;

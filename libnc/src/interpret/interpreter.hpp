@@ -61,7 +61,6 @@ struct Interpreter {
   void answer(const nc_world& world);
 
   // ---- programs -----------------------------------------------------------------------------------------------------
-  nc_status select(const ProgramRef& program);
   /// To the head of the selected program; modal state as after reset 2 (M700 3.7).
   void reset() { reset(false); }
   /// With `keep_modal` (MDI after MDI, M700 5.1) modal codes and words, work system and tool length stay; cycles and radius

@@ -179,7 +179,6 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
   move.circle = circle;
   move.work_center[0] = circle.center[0];
   move.work_center[1] = circle.center[1];
-  move.turns = words.turns;
   move.feed_mm_min = feed_mm_min(in);
   move.exact_stop = w.exact_stop || in.state.modal.code[kGroupCutting] == 610;
   return Did::done;

@@ -75,7 +75,6 @@ void make_straight(const Item& like, const AxisVec& programmed, const AxisVec& s
   move.circular = false;
   move.connecting = true;
   move.skip_mask = 0;
-  move.turns = 0;
   move.plane = Plane::none;
   move.start = start;
   move.end = end;

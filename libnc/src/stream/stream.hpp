@@ -113,7 +113,6 @@ struct Move {
   Circle circle;                 ///< circular only
   double feed_mm_min = 0;        ///< 0 = rapid
   double feed_mm_rev = 0;
-  uint32_t turns = 0;            ///< full extra turns (already in circle.sweep)
   Compensation comp;
 };
 
