@@ -2,6 +2,7 @@
 // Words -> values: expressions, the G and M codes of the block, units and decimal point rules.
 #include "interpret/block_words.hpp"
 
+#include <bit>
 #include <cmath>
 #include <initializer_list>
 
@@ -18,11 +19,16 @@ bool near_integer(double value, double* integer) {
 
 /// Files a G code under what it is.
 Did take_g(Interpreter& in, double value) {
+  const FunctionRow* row = nullptr;
   double code = 0;
-  if (!near_integer(value * 10, &code) || code < 0 || code > 9999) return in.raise(Condition::illegal_g, 'G', value);
-  const int tenths = static_cast<int>(code);
-  const bool direct = tenths % 10 == 0 && tenths < Interpreter::kDirectCodes * 10;
-  const FunctionRow* row = direct ? in.direct_function[tenths / 10] : find_function(*in.dialect, tenths);
+  const int whole = value >= 0 && value < Interpreter::kDirectCodes ? static_cast<int>(value) : -1;
+  if (whole == value) {
+    code = whole * 10;
+    row = in.direct_function[whole];
+  } else {
+    if (!near_integer(value * 10, &code) || code < 0 || code > 9999) return in.raise(Condition::illegal_g, 'G', value);
+    row = find_function(*in.dialect, static_cast<int>(code));
+  }
   if (row == nullptr) return in.raise(Condition::illegal_g, 'G', value);
   if (row->function == Function::missing) return in.raise(Condition::no_function, 'G', code);
   BlockWords& w = in.words;
@@ -195,39 +201,46 @@ bool in_range(const Interpreter& in, double value, bool rotary) {
   return std::fabs(value) < limit;
 }
 
+/// Axes whose words count from where the axis is.
+uint32_t incremental_axes(const Interpreter& in) {
+  const BlockWords& w = in.words;
+  // Families without the rule below have at most one of G90/G91 in a block, so that the order of words does not matter: the code counts
+  // for the whole block.
+  if (!in.distance_by_word) return in.state.modal.code[kGroupDistance] == 910 ? ~uint32_t{0} : 0;
+  // M700 5.1: each axis word goes by the G90/G91 before it in the block; the last one stays modal.
+  bool incremental = in.block_starts_incremental;
+  uint32_t axes = 0;
+  for (unsigned i = 0; i < in.block->words.size(); ++i) {
+    if (((w.absolute_at >> i) & 1) != 0) incremental = false;
+    if (((w.incremental_at >> i) & 1) != 0) incremental = true;
+    const int axis = in.axis_of[in.block->words[i].letter - 'A'];
+    if (axis < 0) continue;
+    const uint32_t bit = 1u << axis;
+    axes = incremental ? axes | bit : axes & ~bit;
+  }
+  return axes;
+}
+
 }  // namespace
 
 Did resolve_axes(Interpreter& in) {
   BlockWords& w = in.words;
-  bool incremental = in.block_starts_incremental;
-  // M700 5.1: each axis word goes by the G90/G91 before it in the block; the last one stays modal. Families without that rule have
-  // at most one of them in a block, so that the order of words does not matter: the code counts for the whole block.
-  const bool per_word = in.distance_by_word;
-  if (!per_word) incremental = in.state.modal.code[kGroupDistance] == 910;
-  const Word* const words = in.block->words.begin();
-  const unsigned count = in.block->words.size();
+  w.incremental = incremental_axes(in);
   const uint32_t named = w.present & in.axis_letters;
-  uint32_t axes = 0, by_increment = 0;
-  for (unsigned i = 0; i < count; ++i) {
-    const Word& word = words[i];
-    const unsigned at = static_cast<unsigned>(word.letter - 'A');
-    if (((named >> at) & 1) == 0) {
-      if (per_word && ((w.absolute_at >> i) & 1) != 0) incremental = false;
-      if (per_word && ((w.incremental_at >> i) & 1) != 0) incremental = true;
-      continue;
-    }
-    const int axis = in.axis_of[at];
-    const uint32_t axis_bit = 1u << axis;
-    axes |= axis_bit;
-    by_increment = incremental ? by_increment | axis_bit : by_increment & ~axis_bit;
-    const bool turns = (in.rotary & axis_bit) != 0;
-    const bool time = word.letter == 'X' && w.one_shot != nullptr && w.one_shot->function == Function::dwell;  // seconds: a range of its own
+  uint32_t axes = 0;
+  for (uint32_t left = named; left != 0; left &= left - 1) {
+    const auto at = static_cast<unsigned>(std::countr_zero(left));
+    const auto axis = static_cast<unsigned>(in.axis_of[at]);
+    axes |= 1u << axis;
+    const bool turns = ((in.rotary >> axis) & 1) != 0;
     const double value = length_value(in, w.raw[at], w.flags[at], turns, false);
-    if (!time && !in_range(in, value, turns)) return in.raise(Condition::value_range, word.letter, w.raw[at]);
-    w.axis[static_cast<unsigned>(axis)] = value;
+    const char letter = static_cast<char>('A' + at);
+    const bool time = letter == 'X' && w.one_shot != nullptr && w.one_shot->function == Function::dwell;  // seconds: a range of its own
+    if (!time && !in_range(in, value, turns)) return in.raise(Condition::value_range, letter, w.raw[at]);
+    w.axis[axis] = value;
   }
   w.axes = axes;
-  w.incremental = by_increment;
+  w.incremental &= axes;
   if (!w.any(letters("IJKQR"))) return Did::done;
   for (const char letter : {'I', 'J', 'K', 'Q', 'R'})
     if (w.has(letter) && !in_range(in, length_of(in, letter), false)) return in.raise(Condition::value_range, letter, w.get(letter));

@@ -145,12 +145,31 @@ Did finish(Interpreter& in, Did did) {
   return auxiliary_after(in);
 }
 
+/// Nothing in the block but axis words, F and a code of group 1: most blocks of a long program. What the other words would need looked
+/// at is left out; the order is that of every block.
+bool only_moves(const Interpreter& in) {
+  const BlockWords& w = in.words;
+  const bool codes = w.g.empty() || (w.g.size() == 1 && w.motion != nullptr);
+  return codes && w.m.empty() && (w.present & ~(in.axis_letters | letters("F"))) == 0 && in.state.cycle.kind == CycleKind::none;
+}
+
+Did execute_move(Interpreter& in) {
+  BlockWords& w = in.words;
+  in.distance_by_word = false;
+  if (w.motion != nullptr) in.state.modal.code[kGroupMotion] = w.motion->code;
+  Did did = resolve_axes(in);
+  if (did == Did::done && w.has('F')) did = feed_of(in, &in.state.modal.feed);
+  if (did == Did::done) did = move_by_words(in);
+  return did == Did::done ? finish(in, did) : did;
+}
+
 }  // namespace
 
 Did execute_words(Interpreter& in) {
   Did did = gather_words(in);
   if (did != Did::done) return did;
   BlockWords& w = in.words;
+  if (only_moves(in)) return execute_move(in);
   const bool macro_call = w.one_shot != nullptr && w.one_shot->function == Function::macro_call;
   did = apply_reading_modes(in);
   if (did != Did::done) return did;

@@ -196,7 +196,9 @@ Did move_by_words(Interpreter& in) {
     in.fault.axis = static_cast<int8_t>(i);
     return Did::fault;
   }
-  const AxisVec position = in.position(), target = target_of_words(in, position);
+  // Where the block starts is asked only by words that count from there (an axis without a word stays) and by the feed of rotary axes.
+  const AxisVec position = w.incremental != 0 || in.rotary != 0 ? in.position() : AxisVec{};
+  const AxisVec target = target_of_words(in, position);
   if (code == 0) {
     LinearStyle style;
     style.kind = NC_MOVE_RAPID;

@@ -36,35 +36,46 @@ Behind behind(const char* p, const char* end) {
 
 /// Sign and number of a word of the common form.
 struct Plain {
-  uint64_t integer = 0, mantissa = 0;
+  uint64_t mantissa = 0;
+  uint32_t integer_digits = 0;  ///< leading zeros included
   uint32_t fraction_digits = 0;
   uint8_t flags = 0;
   bool good = false;  ///< there are digits, and not too many
 
   double value(bool integer_only) const {
     // One division rounds once: a good mantissa is below 10^18, but only up to 2^53 is it exact in a double.
-    const double v = integer_only ? static_cast<double>(integer) : scale_decimal(mantissa, fraction_digits);
+    const double v = integer_only ? static_cast<double>(mantissa / kPowersOfTen[fraction_digits])
+                                  : scale_decimal(mantissa, fraction_digits);
     return (flags & kWordNegative) != 0 ? -v : v;
   }
+  /// More digits before the point than `most`; a good mantissa is below the last power of the table.
+  bool longer_than(unsigned most) const {
+    if (integer_digits <= most) return false;
+    const unsigned power = most + fraction_digits;
+    return mantissa >= kPowersOfTen[power < 19 ? power : 19];
+  }
 
-  /// Needs kPlainReach characters behind p. nullptr: more digits than it takes.
+  /// Needs kPlainReach characters behind p. nullptr: more characters than it takes.
   const char* scan_by_eight(const char* p) {
     const bool minus = *p == '-';
     p += minus || *p == '+';
     flags = minus ? kWordNegative : 0;
-    const EightCharacters front(p);
-    p += front.digits();
-    if (front.digits() == 8) return nullptr;
-    mantissa = integer = front.value();
-    good = front.digits() != 0;
-    if (*p != '.') return p;
+    const EightCharacters all(p);
+    const unsigned digits = all.digits();
+    if (digits == 8) return nullptr;
+    integer_digits = digits;
+    if (p[digits] != '.') {
+      mantissa = all.value();
+      good = digits != 0;
+      return p + digits;
+    }
     flags |= kWordPoint;
-    const EightCharacters behind(++p);
-    if (behind.digits() == 8) return nullptr;
-    fraction_digits = behind.digits();
-    mantissa = integer * kPowersOfTen[fraction_digits] + behind.value();
-    good = good || fraction_digits != 0;
-    return p + fraction_digits;
+    const unsigned length = all.length_past_point();
+    if (length == 8) return scan_parts(p, all);
+    mantissa = all.value_without(digits, length);
+    fraction_digits = length - 1 - digits;
+    good = length > 1;
+    return p + length;
   }
 
   const char* scan(const char* p, const char* end) {
@@ -73,8 +84,8 @@ struct Plain {
     if (p != end && (*p == '-' || *p == '+')) flags = *p++ == '-' ? kWordNegative : 0;
     const char* from = p;
     for (; p != end && is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<uint64_t>(*p - '0');
-    integer = mantissa;
     size_t digits = static_cast<size_t>(p - from);
+    integer_digits = static_cast<uint32_t>(digits);
     if (p != end && *p == '.') {
       flags |= kWordPoint;
       from = ++p;
@@ -84,6 +95,18 @@ struct Plain {
     }
     good = digits != 0 && digits <= kMostDigits;
     return p;
+  }
+
+ private:
+  /// A number with its point that does not fit into eight characters: what is before the point and what is behind it.
+  const char* scan_parts(const char* p, const EightCharacters& front) {
+    p += front.digits() + 1;
+    const EightCharacters behind(p);
+    if (behind.digits() == 8) return nullptr;
+    fraction_digits = behind.digits();
+    mantissa = front.value() * kPowersOfTen[fraction_digits] + behind.value();
+    good = front.digits() + fraction_digits != 0;
+    return p + fraction_digits;
   }
 };
 
@@ -177,7 +200,7 @@ class Lexer {
       const char name = static_cast<char>('A' + letter);
       if (!format.known) return fault(Condition::illegal_address, name);
       const double value = plain.value(format.integer);
-      if (plain.integer >= kPowersOfTen[format.integer_digits] ||
+      if (plain.longer_than(format.integer_digits) ||
           (plain.fraction_digits > format.fraction_digits && !keeps_any_fraction(format))) {
         return fault(Condition::value_range, name, value);
       }

@@ -33,20 +33,37 @@ class EightCharacters {
     std::memcpy(&x_, p, sizeof x_);
     x_ ^= 0x3030303030303030u;  // digits become 0..9
     // Bit 7 of every byte above 9. A carry out of a byte can only spoil those behind the first such byte.
-    const uint64_t others = ((x_ + 0x7676767676767676u) | x_) & 0x8080808080808080u;
-    count_ = others != 0 ? static_cast<unsigned>(std::countr_zero(others)) >> 3 : 8;
+    others_ = ((x_ + 0x7676767676767676u) | x_) & 0x8080808080808080u;
+    count_ = first(others_);
   }
   unsigned digits() const { return count_; }
   /// Value of the digits; not for eight of them. Neighbours are joined: to 2, 4 and 8 decimals.
-  uint64_t value() const {
-    uint64_t v = (x_ << (56 - 8 * count_)) << 8;
+  uint64_t value() const { return joined(x_, count_); }
+
+  /// Digits and the point behind them: how many characters, digits behind the point included; 8 = perhaps more.
+  unsigned length_past_point() const {
+    return first(others_ & (others_ - 1));  // a point makes no carry, so the next mark is right too
+  }
+  /// Value of `length` characters but for the point among them.
+  uint64_t value_without(unsigned point, unsigned length) const {
+    const unsigned bits = 8 * point;
+    const uint64_t before = x_ & ((uint64_t{1} << bits) - 1);
+    return joined(before | ((x_ >> bits >> 8) << bits), length - 1);
+  }
+
+ private:
+  /// Byte of the lowest mark, 8 = there is none.
+  static unsigned first(uint64_t marks) {
+    return marks != 0 ? static_cast<unsigned>(std::countr_zero(marks)) >> 3 : 8;
+  }
+  static uint64_t joined(uint64_t digits, unsigned count) {
+    uint64_t v = (digits << (56 - 8 * count)) << 8;
     v = (v * 10 + (v >> 8)) & 0x00ff00ff00ff00ffu;
     v = (v * 100 + (v >> 16)) & 0x0000ffff0000ffffu;
     return (v * 10000 + (v >> 32)) & 0xffffffffu;
   }
 
- private:
-  uint64_t x_;
+  uint64_t x_, others_;
   unsigned count_;
 };
 
