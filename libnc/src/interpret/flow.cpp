@@ -114,13 +114,17 @@ Did end_loop(Interpreter& in, const Statement& statement) {
 }
 
 Did assign(Interpreter& in, const Statement& statement) {
-  Value number, value;
-  Did did = evaluate_here(in, statement.target, &number);
-  if (did != Did::done) return did;
+  Value value;
+  uint32_t n = 0;
+  Did did = Did::done;
+  if (!constant_number(*in.block, statement.target, &n)) {
+    Value number;
+    did = evaluate_here(in, statement.target, &number);
+    if (did != Did::done) return did;
+    if (!variable_number(number, &n)) return in.raise(Condition::variable_number, '#', number.or_zero());
+  }
   did = evaluate_here(in, statement.value, &value);
   if (did != Did::done) return did;
-  uint32_t n = 0;
-  if (!variable_number(number, &n)) return in.raise(Condition::variable_number, '#', number.or_zero());
   if (n == 0) return in.raise(Condition::variable_use, '#', 0);  // M700 13.5.4: #0 never on the left
   if (in.variables.set(n, in.macro_level(), value, in.state.seq + 1)) return Did::done;
   return write_system_variable(in, n, value, statement);

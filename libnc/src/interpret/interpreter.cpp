@@ -38,7 +38,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   parameters.create(512, arena);
   frames.create(config.frames, arena);
   variables.create(common, power_of_two_above(4 * config.look_ahead < 4096 ? 4096 : 4 * config.look_ahead), arena);
-  reader.create(store, dialect->lex, config.window_bytes, config.look_ahead < 256 ? 16 : 64, arena);
+  reader.create(store, dialect->lex, config.window_bytes, config.look_ahead < 256 ? 16 : 128, arena);
   transforms.create(under_way, arena);
   modals.create(under_way, arena);
   texts.create(64, arena);
@@ -71,11 +71,11 @@ Item& Interpreter::emit(ItemKind kind) {
   item.source = source;
   if (kind != ItemKind::mark) world_fresh = false;
   switch (kind) {
-    case ItemKind::move: break;  // emit_move() makes it
+    case ItemKind::move:
+    case ItemKind::mark: break;  // whoever emits one makes it in one go
     case ItemKind::action: new (&item.action) Action(); break;
     case ItemKind::gate: new (&item.gate) Gate(); break;
     case ItemKind::sync: new (&item.sync) Sync(); break;
-    case ItemKind::mark: new (&item.mark) Mark(); break;
     case ItemKind::alarm: new (&item.alarm) Fault(); break;
     case ItemKind::end: new (&item.end) End(); break;
   }
@@ -120,6 +120,7 @@ void Interpreter::reset(bool keep_modal) {
   // DGSHAPE G28: a midpoint is remembered within a program.
   for (unsigned i = 0; i < axis_count; ++i) frames.set(Frames::midpoint_set_key(i), 0);
   finished_modal = state.modal;
+  newest_modal_ = kNoModal;
   head_ = queued_ = 0;
   waiting_ = false;
   next_step = Step::none;
@@ -142,6 +143,7 @@ bool Interpreter::rewind(BlockSeq seq) {
   if (!checkpoints_.holds(seq) || !variables.rewind(seq, this, undo_table)) return false;
   checkpoints_.restore(seq, &state);
   finished_modal = state.modal;
+  newest_modal_ = kNoModal;
   head_ = queued_ = 0;
   waiting_ = false;
   next_step = Step::none;
@@ -263,6 +265,7 @@ nc_status Interpreter::settle(Did did) {
       next_step = Step::none;
       // Macro statements are worked off together with the executable block before them unless #8101 is on (M700 13.5.9).
       const bool macro = block != nullptr && !block->statements.empty();
+      modal_unchanged_ = macro && !block->has_n && !block->has_o && newest_modal_ != kNoModal;
       finish_block(!macro || settings.macro_single, !macro);
       return NC_OK;
     }
@@ -288,6 +291,7 @@ void Interpreter::take_block_back() {
   queued_ = 0;
   if (!checkpoints_.holds(state.seq) || !variables.rewind(state.seq, this, undo_table)) return;
   checkpoints_.restore(state.seq, &state);
+  newest_modal_ = kNoModal;
 }
 
 void Interpreter::keep_call() {
@@ -298,10 +302,7 @@ void Interpreter::keep_call() {
 void Interpreter::emit_stop_point() {
   Item& item = emit(ItemKind::mark);
   item.block_end = false;
-  item.mark.work = position();
-  item.mark.modal = modals.intern(state.modal);
-  item.mark.stop = (state.control_3003 & 1) == 0;
-  item.mark.report = false;
+  new (&item.mark) Mark{position(), modals.intern(state.modal), 0, 0, (state.control_3003 & 1) == 0, false};
 }
 
 void Interpreter::stop(const Fault& what, const nc_source& where) {
@@ -323,17 +324,19 @@ void Interpreter::abort(const Fault& what, const nc_source& where) {
   stop(what, where);
 }
 
+ModalId Interpreter::modal_now() {
+  // Macro statements command nothing: behind them the modal state is that of the mark before.
+  if (!modal_unchanged_) newest_modal_ = modals.intern(finished_modal = state.modal);
+  return newest_modal_;
+}
+
 void Interpreter::finish_block(bool stop, bool executable) {
   ++state.seq;
   if (state.control_3003 & 1) stop = false;  // M700 10.5: single block suppressed
   Item& item = emit(ItemKind::mark);
   item.block_end = executable;
-  item.mark.work = position();
-  item.mark.modal = modals.intern(state.modal);
-  item.mark.seq = state.seq;
-  item.mark.stop = stop;
-  item.mark.report = true;
-  finished_modal = state.modal;
+  new (&item.mark) Mark{position(), modal_now(), state.seq, 0, stop, true};
+  modal_unchanged_ = false;
   world_fresh = false;
   if (state.end_seen) emit_end();
   checkpoints_.save(state);

@@ -183,6 +183,8 @@ struct Interpreter {
   void stop(const Fault& what, const nc_source& where);
   void take_block_back();
   void emit_end();
+  /// Id of the modal state for a mark; finished_modal becomes it.
+  ModalId modal_now();
   Did execute_statements();
   bool skipped(const Block& b) const;
 
@@ -191,6 +193,9 @@ struct Interpreter {
   bool waiting_ = false;
   uint32_t waiting_for_ = 0;
   Checkpoints checkpoints_;
+  static constexpr ModalId kNoModal = ~ModalId{0};
+  ModalId newest_modal_ = kNoModal;  ///< of the newest mark
+  bool modal_unchanged_ = false;     ///< since the newest mark
 };
 
 /// interpret/execute_block.cpp: a block of words.

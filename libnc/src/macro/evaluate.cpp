@@ -238,6 +238,14 @@ Eval fail(Fault* fault, Condition condition, double value) {
   return Eval::fault;
 }
 
+/// Room for values that are written before they are read: clearing it would take longer than most formulas.
+struct ValueStack {
+  ValueStack() {}
+  union {
+    Value at[kStackDepth];
+  };
+};
+
 }  // namespace
 
 bool variable_number(const Value& value, uint32_t* number) {
@@ -247,9 +255,17 @@ bool variable_number(const Value& value, uint32_t* number) {
   return true;
 }
 
+bool constant_number(const Block& block, uint16_t code, uint32_t* number) {
+  const uint8_t* p = block.code.begin() + code;
+  if (static_cast<Op>(p[0]) != Op::small || static_cast<Op>(p[3]) != Op::end) return false;
+  *number = static_cast<uint32_t>(p[1] | p[2] << 8);
+  return *number <= INT16_MAX;
+}
+
 Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, const EvalOptions& options,
               Value* value, Fault* fault, uint32_t* sync) {
-  Value stack[kStackDepth];
+  ValueStack values;
+  Value* const stack = values.at;
   unsigned top = 0;  // number of values on the stack
   const uint8_t* p = block.code.begin() + code;
   for (;;) {
@@ -268,6 +284,11 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
       case Op::variable: {
         const uint32_t number = static_cast<uint32_t>(p[0] | p[1] << 8 | p[2] << 16);
         p += 3;
+        if (number - 1 < reader.local_count) {
+          const double stored = reader.locals[number - 1];
+          stack[top++] = stored != stored ? Value{} : Value::of(stored);
+          break;
+        }
         const Eval got = reader.read(reader.self, number, &stack[top++], fault, sync);
         if (got != Eval::ok) return got;
         break;

@@ -26,6 +26,9 @@ struct VariableReader {
   /// Number of the variable with this name (capitals; SETVN, M700 13.5.5). Null: every name is
   /// Condition::variable_name.
   bool (*find_name)(void* self, const char* name, size_t length, uint32_t* number) = nullptr;
+  /// #1..#33 of the level in force as they are stored (NaN = vacant): most reads are of these. Null: ask `read`.
+  const double* locals = nullptr;
+  uint32_t local_count = 0;
 };
 
 struct EvalOptions {
@@ -41,6 +44,9 @@ bool compile_expression(Block& block, const char* text, size_t size, size_t* at,
 /// Evaluates the code at `code`. A comparison gives 1 or 0.
 Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, const EvalOptions& options,
               Value* value, Fault* fault, uint32_t* sync);
+
+/// True when the code is a small number and nothing else: #1, GOTO 10.
+bool constant_number(const Block& block, uint16_t code, uint32_t* number);
 
 /// M700 13.5.4: a variable number from an expression, fraction rounded, 2.5 up. False when negative or no
 /// number.

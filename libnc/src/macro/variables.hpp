@@ -69,6 +69,8 @@ class Variables {
   bool get(uint32_t number, unsigned level, Value* value) const;
   bool set(uint32_t number, unsigned level, Value value, BlockSeq seq);
 
+  /// The stored #1..#33 of a level: NaN = vacant.
+  const double* locals(unsigned level) const { return local_[level]; }
   /// Locals of `level` become `arguments` (33 values).
   void enter(unsigned level, const Value* arguments, BlockSeq seq);
   void clear_locals(BlockSeq seq);

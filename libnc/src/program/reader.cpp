@@ -119,6 +119,7 @@ void BlockReader::create(ProgramStore* store, const LexRules* rules, unsigned wi
   rules_ = rules;
   window_.create(window_bytes, arena);
   slots_ = power_of_two_below(cached_blocks);
+  if (slots_ < kWays) slots_ = 0;
   first_time_ = arena.make<Block>();
   searched_ = arena.make<Block>();
   cache_ = arena.make<Block>(slots_);
@@ -140,10 +141,20 @@ const Block* BlockReader::read(unsigned file, uint64_t offset, uint32_t line) {
   return block != nullptr ? block : miss(*entry, file, offset, line);
 }
 
+/// Slot of a block in the cache, or ~0u. A block may lie in any slot of its set: a loop whose blocks met in one slot would be compiled
+/// again in every turn.
+unsigned BlockReader::find_slot(uint32_t generation, uint64_t offset) const {
+  const unsigned set = static_cast<unsigned>(hash(generation, offset)) & (slots_ - 1) & ~(kWays - 1);
+  for (unsigned at = set; at < set + kWays; ++at) {
+    if (tags_[at].offset == offset && tags_[at].generation == generation) return at;
+  }
+  return ~0u;
+}
+
 const Block* BlockReader::cached(const TextEntry& entry, uint64_t offset, uint32_t line) {
   if (slots_ == 0) return nullptr;
-  const size_t at = hash(entry.generation, offset) & (slots_ - 1);
-  if (tags_[at].generation != entry.generation || tags_[at].offset != offset) return nullptr;
+  const unsigned at = find_slot(entry.generation, offset);
+  if (at == ~0u) return nullptr;
   Block& block = cache_[at];
   if (block.line != line) {
     block.next_line += line - block.line;
@@ -158,7 +169,8 @@ const Block* BlockReader::miss(const TextEntry& entry, unsigned file, uint64_t o
     seen_so_far.end = offset + 1;
     return compile(entry, file, offset, line, *first_time_) ? first_time_ : nullptr;
   }
-  const size_t at = hash(entry.generation, offset) & (slots_ - 1);
+  const unsigned set = static_cast<unsigned>(hash(entry.generation, offset)) & (slots_ - 1) & ~(kWays - 1);
+  const unsigned at = set + (next_way_++ & (kWays - 1));
   tags_[at].generation = 0;
   if (!compile(entry, file, offset, line, cache_[at])) return nullptr;
   tags_[at] = Tag{offset, entry.generation};

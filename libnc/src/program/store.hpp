@@ -72,6 +72,7 @@ class BlockReader {
   void forget(unsigned file);
 
  private:
+  static constexpr unsigned kWays = 4;     ///< slots of the cache where a block may lie; power of two
   static constexpr unsigned kSeen = 8;     ///< texts whose extent of reading is remembered
   static constexpr unsigned kIndexes = 2;  ///< texts whose O lines are remembered
   static constexpr unsigned kJumps = 64;  ///< searches for sequence numbers that are remembered; power of two
@@ -109,6 +110,7 @@ class BlockReader {
   bool compile_here(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
   bool compile_long(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
   Seen& seen(uint32_t generation);
+  unsigned find_slot(uint32_t generation, uint64_t offset) const;
   static size_t hash(uint32_t generation, uint64_t offset);
   Index& index(const TextEntry& entry);
   Jump scan_for_sequence(const TextEntry& entry, uint32_t line, const Jump& wanted, uint64_t budget,
@@ -122,7 +124,8 @@ class BlockReader {
   Block* searched_ = nullptr;    ///< block that a search looks at
   Block* cache_ = nullptr;
   Tag* tags_ = nullptr;
-  unsigned slots_ = 0;  ///< power of two, or 0
+  unsigned slots_ = 0;  ///< power of two, at least kWays, or 0
+  unsigned next_way_ = 0;
   Seen seen_[kSeen];
   unsigned seen_used_ = 0;  ///< entry of seen_ last used
   Index* indexes_ = nullptr;
