@@ -14,16 +14,16 @@ namespace {
 constexpr unsigned kFiguresEvery = 10;  // pictures; a percentile walks the whole histogram
 
 std::string modal_text(const nc_modal& modal) {
-  char codes[NC_GROUPS][8];
+  char code_text[16];
   // Needs no control of its own: the codes are in the snapshot.
   std::string text;
   for (unsigned group = 1; group < NC_GROUPS; ++group) {
     if (modal.code[group] < 0) continue;
     const int code = modal.code[group];
-    if (code % 10 == 0) std::snprintf(codes[0], sizeof codes[0], "G%02d", code / 10);
-    else std::snprintf(codes[0], sizeof codes[0], "G%02d.%d", code / 10, code % 10);
+    if (code % 10 == 0) std::snprintf(code_text, sizeof code_text, "G%02d", code / 10);
+    else std::snprintf(code_text, sizeof code_text, "G%02d.%d", code / 10, code % 10);
     if (!text.empty()) text += ' ';
-    text += codes[0];
+    text += code_text;
   }
   return text;
 }
