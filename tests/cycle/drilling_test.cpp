@@ -56,6 +56,26 @@ TEST(Cycle, StepG73) {  // M700 13.1.1 with m = #8012
   EXPECT_EQ(bench.at(0, 0, 10).run("G99 G73 Z-1. R2. Q4. F100\nM30").path(), (Path{"rapid 0 0 2", "line 0 0 -1 F100", "rapid 0 0 2"}));
 }
 
+TEST(Cycle, WithoutClearanceG83GoesDownToTheLastBottomAndG73DoesNotGoBack) {  // #8013, #8012 at 0
+  EXPECT_EQ(at_ten("G99 G83 Z-6. R2. Q4. F100\nM30").path(),
+            (Path{"rapid 0 0 2", "line 0 0 -2 F100", "rapid 0 0 2", "rapid 0 0 -2", "line 0 0 -6 F100", "rapid 0 0 2"}));
+  EXPECT_EQ(at_ten("G99 G73 Z-6. R2. Q4. F100\nM30").path(), (Path{"rapid 0 0 2", "line 0 0 -2 F100", "line 0 0 -6 F100", "rapid 0 0 2"}));
+}
+
+TEST(Cycle, ClearanceIsNeverMoreThanTheDepthReached) {
+  Bench bench;
+  bench.param("8013", "9").at(0, 0, 10);
+  EXPECT_EQ(bench.run("G99 G83 Z-6. R2. Q4. F100\nM30").path(),
+            (Path{"rapid 0 0 2", "line 0 0 -2 F100", "rapid 0 0 2", "line 0 0 -6 F100", "rapid 0 0 2"}));
+}
+
+TEST(Cycle, InchAndMetricInTheMode) {  // M700 5.2 note 1: F as it stands, in the unit after the change; the levels are places and stay
+  const std::string holes = "G99 G81 Z-8. R2. F100\nG20 X1.\nG21 X5.\nM30";
+  EXPECT_EQ(at_ten(holes).path(), (Path{"rapid 0 0 2", "line 0 0 -8 F100", "rapid 0 0 2", "rapid 25.4 0 2", "line 25.4 0 -8 F2540", "rapid 25.4 0 2",
+                                        "rapid 5 0 2", "line 5 0 -8 F100", "rapid 5 0 2"}));
+  EXPECT_EQ(at_ten("G99 G81 Z-8. R2. F100\nG20 X1. F4.\nM30").path().at(4), "line 25.4 0 -8 F101.6");
+}
+
 TEST(Cycle, BoreG85AndG89FeedBack) {
   EXPECT_EQ(at_ten("G85 Z-8. R2. F100\nM30").path(), (Path{"rapid 0 0 2", "line 0 0 -8 F100", "line 0 0 2 F100", "rapid 0 0 10"}));
   EXPECT_EQ(at_ten("G99 G85 Z-8. R2. F100\nM30").path(), (Path{"rapid 0 0 2", "line 0 0 -8 F100", "line 0 0 2 F100"}));

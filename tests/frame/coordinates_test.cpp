@@ -163,6 +163,8 @@ TEST(DataInput, Alarms) {
   EXPECT_EQ(m700("G10 L20 P0 X1.\nM30").alarm, "P35");
   EXPECT_EQ(m700("G10 L20 P97 X1.\nM30").alarm, "P35");
   EXPECT_EQ(m700("G10 L9 P1 X1.\nM30").alarm, "P172");
+  for (const char* two : {"L2 L10 P1 R1.", "L10 L20 P1 X1.", "L2 P1 X1. L2"})  // 12.7 (5); one of them would be lost
+    EXPECT_EQ(m700(std::string("G10 ") + two + "\nM30").alarm, "P172") << two;
   EXPECT_EQ(m700("G10 L10 P201 R1.\nM30").alarm, "P173");
   EXPECT_EQ(m700("G10 L10 P0 R1.\nM30").alarm, "P173");
   EXPECT_EQ(m700("G10 L10 P1\nM30").alarm, "P33");

@@ -179,7 +179,8 @@ TEST(Alarm, AFileThatCannotBeRead) {
 
 TEST(Alarm, AFileCutInTheMiddleOfABlock) {
   const Outcome run = m700("G0 X1.\nX2. Y");
-  EXPECT_EQ(run.alarm, "P36");  // a word without a value is 0, then the text ends
+  EXPECT_EQ(run.alarm, "P33");  // half a word
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0"}));
   EXPECT_EQ(m700("G0 X1.\nM3").alarm, "P36");
 }
 
@@ -214,6 +215,36 @@ TEST(DgshapeAlarm, EveryErrorOfTheManual) {  // DGSHAPE 5
     Bench bench(NC_DIALECT_DGSHAPE);
     bench.tool(1, 2);
     EXPECT_EQ(bench.run("%\n" + std::string(row.program) + "\nM02").alarm, row.code) << row.program;
+  }
+}
+
+std::string dgshape_alarm(const char* text) { return Bench(NC_DIALECT_DGSHAPE).run(text).alarm; }
+
+TEST(Dgshape, ThePercentBlockHoldsNoWord) {  // DGSHAPE 1-1, 2-6
+  for (const char* text : {"%G0X5.\nM02", "% O1\nM02", "%N1\nM02", "G90\n%\nM02", "M02", "N1\n%\nM02"})
+    EXPECT_EQ(dgshape_alarm(text), "NC-START") << text;
+  for (const char* text : {"%\nM02", "% \nM02", "%(part 1)\nM02", "% PART A\nM02", "\n\n%\nM02", "(head)\n%\nM02", "\r\n%\r\nM02\r\n% G0X5.\r\n"})
+    EXPECT_EQ(dgshape_alarm(text), "") << text;
+  EXPECT_EQ(m700("% G0X5.\nG0 X1.\nM30").path(), (Path{"rapid 1 0 0"}));  // M700: the rest of the line is text
+}
+
+TEST(Dgshape, OneProgramNumber) {  // DGSHAPE 1-1, 2-6; the comment example prints it behind "G90"
+  EXPECT_EQ(dgshape("G90\nO0001\nG0X1.\nM02").path(), (Path{"rapid 1 0 0"}));
+  EXPECT_EQ(dgshape("O1\nG0X1.\nO2\nM02").alarm, "NC-FORMAT");
+  EXPECT_EQ(dgshape("G90\nO1\nG0X1.\nO2\nM02").alarm_line, 5u);
+}
+
+TEST(Alarm, DetailsNameWhatTheFamilyHas) {
+  EXPECT_EQ(dgshape("G0X1.").alarm_detail, "The text of the program ends without M02 or M30.");
+  EXPECT_EQ(m700("G0 X1.").alarm_detail, "The text of the program ends without M02 or M30.");
+  Bench bench;
+  bench.add("O5", "X1.\n");
+  EXPECT_EQ(bench.run("M98 P5\nM30").alarm_detail, "The text of the sub program ends without M99.");
+  EXPECT_NE(m700("#1=SQRT[-4]\nM30").alarm_detail.find("no result for -4"), std::string::npos);
+  for (const char* block : {"#1=1+", "#1=SIN30", "#1=--5", "#1=[1+*2]"}) {
+    const Outcome run = m700(std::string(block) + "\nM30");
+    EXPECT_NE(run.alarm, "") << block;
+    EXPECT_EQ(run.alarm_detail.find("no result"), std::string::npos) << block;
   }
 }
 

@@ -32,6 +32,8 @@ TEST(SubProgram, Repetitions) {
   bench.add("O1", "G91 G0 X1.\nM99\n");
   EXPECT_EQ(bench.run("M98 P1 L3\nM30").path(), (Path{"rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0"}));
   EXPECT_EQ(bench.at(0, 0, 0).run("M98 P1 L0\nM30").path(), Path{});
+  EXPECT_EQ(bench.run("M98 P5 L0\nM30").alarm, "");  // 13.3.1: "not executed when L0", so it may be missing
+  EXPECT_EQ(bench.run("M98 P5 L1\nM30").alarm, "P232");
   EXPECT_EQ(bench.at(0, 0, 0).run("M98 P1\nM98 P1\nM30").path().size(), 2u);
 }
 
@@ -397,6 +399,7 @@ TEST(Macro, Repetitions) {
   bench.add("O1", "G91 G0 X#24\nM99\n");
   EXPECT_EQ(bench.run("G65 P1 L3 X2.\nM30").path(), (Path{"rapid 2 0 0", "rapid 4 0 0", "rapid 6 0 0"}));
   EXPECT_EQ(bench.run("G65 P1 L0 X2.\nM30").path(), Path{});
+  EXPECT_EQ(bench.run("G65 P5 L0 X2.\nM30").alarm, "");
 }
 
 TEST(Macro, FrontMillingOfTheManual) {  // M700 13.5.5 (20893-20955)

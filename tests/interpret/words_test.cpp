@@ -100,6 +100,20 @@ TEST(Range, ValuesThatAreTooLarge) {  // M700 5.3
   EXPECT_EQ(m700("#100=99999999\nG1 X1. F#100\nM30").alarm, "P35");
 }
 
+TEST(Range, EndsOneUnitBelowTheRoundNumber) {  // M700 2.1, 5.3: +-99999.999 by #1003, with more decimals in finer units
+  EXPECT_EQ(m700("G0 X99999.9999\nM30").alarm, "P35");
+  EXPECT_EQ(m700("G0 Y-99999.9991\nM30").alarm, "P35");
+  EXPECT_EQ(Bench().param("1003", "C").run("G0 X99999.9999\nM30").path(), (Path{"rapid 99999.9999 0 0"}));
+  EXPECT_EQ(Bench().param("1003", "C").run("G0 X99999.99999\nM30").alarm, "P35");
+  EXPECT_EQ(m700("G20 G0 X9999.99999\nM30").alarm, "P35");
+  EXPECT_EQ(Bench().param("1003", "E").run("G20 G0 X9999.9999999\nM30").alarm, "");
+  EXPECT_EQ(Bench(NC_DIALECT_M700, axes("XYZc")).run("G20 G0 C99999.999\nM30").path(), (Path{"rapid 0 0 0 99999.999"}));
+  EXPECT_EQ(Bench(NC_DIALECT_M700, axes("XYZc")).run("G0 C99999.9999\nM30").alarm, "P35");
+  for (const char* block : {"G2 X1. J99999.9999 F1", "G2 X1. R-99999.9999 F1", "G83 Z-5. Q99999.9999 F1", "G10 L10 P1 R99999.9999", "G10 L2 P1 X99999.9999",
+                            "G92 X99999.9999", "G52 X99999.9999"})
+    EXPECT_EQ(m700(std::string(block) + "\nM30").alarm, "P35") << block;
+}
+
 TEST(Range, UndottedWordsInTypeTwo) {
   const Outcome run = Bench().param("1078", "1").run("G0 X123456\nM30");
   EXPECT_EQ(run.alarm, "P35");
@@ -147,10 +161,21 @@ TEST(Words, UnknownOnesAreAlarms) {
   EXPECT_EQ(m700("G0 X1. $\nM30").alarm, "P32");
   EXPECT_EQ(m700("G0 A1.\nM30").alarm, "P130");   // another second auxiliary address than the one in use
   EXPECT_EQ(m700("G0 U1.\nM30").alarm, "P11");
-  EXPECT_EQ(m700("G0 X\nM30").path(), Path{});    // an axis without a value is 0 (M700 14.10)
-  EXPECT_EQ(m700("G1 X1. F\nM30").alarm, "P33");
   EXPECT_EQ(m700("G0 X1. ,C5.\nM30").alarm, "P380");
   EXPECT_EQ(m700("G0 X1. ,A5.\nM30").alarm, "P390");
+}
+
+TEST(Words, EveryWordHasANumber) {  // M700 3.2 (1)
+  for (const char* block : {"G0 X", "G0 X Y1.", "G0 Z1. Y-", "G1 X1. F", "S", "T", "M", "G04 P", "G04 X", "G2 X10. I5. J F100", "G92 X", "G53 Z", "G10 L2 P1 X",
+                            "G41 D", "G43 H", "G10 L10 P R1.", "G65 P1 X"}) {
+    const Outcome run = m700(std::string(block) + "\nM30");
+    EXPECT_EQ(run.alarm, "P33") << block;
+    EXPECT_TRUE(run.moves().empty()) << block;
+  }
+  // Printed in 14.10 with zeros in mind; and 3.7: "G" alone is G00.
+  EXPECT_EQ(m700("G0 X1. Y2. Z3.\nG28 XYZ\nM30").path(), (Path{"rapid 1 2 3", "rapid 0 0 0"}));
+  EXPECT_EQ(m700("G0 X1. Z3.\nZ G28 X\nM30").path(), (Path{"rapid 1 0 3", "rapid 0 0 0"}));
+  EXPECT_EQ(m700("G\nX1.\nM30").path(), (Path{"rapid 1 0 0"}));
 }
 
 TEST(DgshapeWords, ConventionalIsTheLeastUnit) {  // DGSHAPE 1-5
@@ -180,6 +205,31 @@ TEST(DgshapeWords, ThereAreNoMacrosAndNoFractionsOfNumbers) {
   EXPECT_NE(dgshape("S1000.5\nM02").alarm, "");
   EXPECT_NE(dgshape("G0X[1+2]\nM02").alarm, "");
   EXPECT_EQ(dgshape("G0X100000.\nM02").alarm, "NC-RANGE");
+}
+
+TEST(DgshapeWords, EveryWordHasANumber) {  // DGSHAPE 1-1
+  for (const char* block : {"G0X", "G28XYZ", "G0X1.Y-", "G1X1.F", "G", "M", "S", "M06T", "G04P", "G10P1R", "G41DX1."}) {
+    const Outcome run = dgshape(std::string(block) + "\nM02");
+    EXPECT_EQ(run.alarm, "NC-FORMAT") << block;
+    EXPECT_TRUE(run.moves().empty()) << block;
+  }
+}
+
+TEST(DgshapeWords, RangeOne) {  // DGSHAPE 2-1
+  EXPECT_EQ(dgshape("G0X99999.999Y-99999.999\nM02").path(), (Path{"rapid 99999.999 -99999.999 0"}));
+  EXPECT_EQ(dgshape("G0X99999999\nM02").path(), (Path{"rapid 99999.999 0 0"}));
+  for (const char* block : {"G0X99999.9999", "G0Z-100000.", "G0X100000000", "G20\nG0X10000.", "G20\nG0X9999.99995", "G1X1.F100000.", "G2X1.R100000.F100."})
+    EXPECT_EQ(dgshape(std::string(block) + "\nM02").alarm, "NC-RANGE") << block;
+  // Eight digits in the unit of the word, whatever that is.
+  EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).param("interpretation", "calculator").run("%\nG1X200000F200000\nM02").path(),
+            (Path{"line 200000 0 0 F200000"}));
+}
+
+TEST(DgshapeWords, NumbersOfThingsHaveNoPoint) {  // DGSHAPE 2: "with no decimal point"
+  for (const char* block : {"S1000.", "M03.", "M06T1.", "G10L2P1.X1.", "G10P1.R1.", "G04P500.", "G41D1.X5.", "G43H1.", "M03\nG82Z-1.P500.F100.",
+                            "M03\nG81Z-1.K2.F100."})
+    EXPECT_EQ(dgshape(std::string(block) + "\nM02").alarm, "NC-FORMAT") << block;
+  EXPECT_EQ(dgshape("G18G2X10.Z0K0.I5.F100.\nM02").alarm, "");  // K of an arc is a length
 }
 
 TEST(DgshapeWords, OfTwoDimensionCodesTheLastOneCountsForTheBlock) {  // DGSHAPE 1 (296)

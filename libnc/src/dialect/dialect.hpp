@@ -86,6 +86,7 @@ struct Dialect {
   // rules that differ by family and belong to no single function
   bool percent_required;             ///< DGSHAPE 2: the first block must be '%'
   bool end_code_required;            ///< M700 P36: text must not end without M02/M30
+  bool bare_letters;                 ///< "G" alone is G00, "G28 XYZ" means zeros (M700 3.7, 14.10); else every word has its number
   unsigned call_depth;               ///< levels of sub programs
 };
 

@@ -85,6 +85,7 @@ Did gather_words(Interpreter& in) {
   const Word* const words = in.block->words.begin();
   const unsigned count = in.block->words.size();
   uint32_t present = 0;
+  char bare_axis = 0;
   for (unsigned i = 0; i < count; ++i) {
     const Word& word = words[i];
     const unsigned at = static_cast<unsigned>(word.letter - 'A');
@@ -110,6 +111,8 @@ Did gather_words(Interpreter& in) {
       return in.raise(corner ? Condition::corner_option : word.letter == 'A' ? Condition::geometric_option : Condition::no_function, word.letter, value);
     }
     if ((word.flags & kWordCount) != 0) return in.raise(Condition::format_error, word.letter, word.index);
+    const bool bare = (word.flags & kWordNoValue) != 0;
+    if (bare && (word.letter == 'M' || !in.dialect->bare_letters)) return in.raise(Condition::format_error, word.letter);
     if (word.letter == 'G') {
       const Did did = take_g(in, value);
       if (did != Did::done) return did;
@@ -123,9 +126,9 @@ Did gather_words(Interpreter& in) {
       if (did != Did::done) return did;
       continue;
     }
-    if ((word.flags & kWordNoValue) != 0) {
-      // M700 14.10: "G28 XYZ" means zeros; any other address needs a number.
+    if (bare) {  // any other address needs a number
       if (in.axis_of[at] < 0) return in.raise(Condition::format_error, word.letter);
+      bare_axis = word.letter;
       value = 0;
     }
     present |= 1u << at;
@@ -133,6 +136,9 @@ Did gather_words(Interpreter& in) {
     w.flags[at] = word.flags;
   }
   w.present = present;
+  // M700 14.10 prints "G28 XYZ" and means zeros; a word of any other block is a letter and a number (3.2 (1)).
+  if (bare_axis != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::reference_return))
+    return in.raise(Condition::format_error, bare_axis);
   return Did::done;
 }
 
@@ -183,22 +189,40 @@ double length_of(const Interpreter& in, char letter, bool setting_unit) {
   return length_value(in, in.words.raw[at], in.words.flags[at], false, setting_unit);
 }
 
+namespace {
+
+/// M700 5.3; DGSHAPE 2-1 "range 1". In mm/min or inch/min.
+double largest_feed(const Interpreter& in) {
+  if (in.dialect->id == NC_DIALECT_M700) return inch(in) ? 1e6 : 1e7;
+  if (!in.words.pointed('F')) return 99999999;
+  return inch(in) ? 9999.9999 : 99999.999;
+}
+
+}  // namespace
+
 Did feed_of(Interpreter& in, double* feed) {
   const double raw = in.words.get('F');
   // M700 7.2: F1 = 1.000 in both decimal point types. DGSHAPE 3: 0.001 mm/min (0.0001 inch/min) unless the calculator type reads F.
   const bool whole = in.dialect->id != NC_DIALECT_DGSHAPE || in.words.pointed('F') || dgshape_whole_units(in, true);
   const double value = whole ? raw : scaled(raw, inch(in) ? 0.0001 : 0.001);
-  if (!(value >= 0) || value > (inch(in) ? 1e6 : 1e7)) return in.raise(Condition::value_range, 'F', raw);  // M700 5.3
+  if (!(value >= 0) || value > largest_feed(in)) return in.raise(Condition::value_range, 'F', raw);
   *feed = value;
   return Did::done;
 }
 
 namespace {
 
-/// M700 5.3: +-99999.999 mm or deg, +-9999.9999 inch, with more decimals in finer units; DGSHAPE 1-5 "range 1".
-bool in_range(const Interpreter& in, double value, bool rotary) {
-  const double limit = inch(in) && !rotary ? 10000 * 25.4 : 100000;
-  return std::fabs(value) < limit;
+/// The last value of a coordinate or length is one unit below this, in mm or deg.
+double end_of_range(const Interpreter& in, bool rotary) { return inch(in) && !rotary ? 10000 * 25.4 : 100000; }
+
+/// M700 2.1, 5.3: +-99999.999 mm or deg, +-9999.9999 inch, with more decimals in finer units. DGSHAPE 2-1 "range 1": the same numbers
+/// with a point (the two labels are exchanged in print); without one eight digits of whatever unit the word is read in.
+bool in_range(const Interpreter& in, double value, uint8_t flags, bool rotary) {
+  const Settings& s = in.settings;
+  if (in.dialect->id == NC_DIALECT_DGSHAPE && (flags & kWordPoint) == 0) return true;
+  const double unit = rotary ? s.setting_unit_deg : inch(in) ? s.setting_unit_inch * 25.4 : s.setting_unit_mm;
+  constexpr double kNoise = 1e-9;  // of inches in mm; below the finest unit
+  return std::fabs(value) <= end_of_range(in, rotary) - unit + kNoise;
 }
 
 /// Axes whose words count from where the axis is.
@@ -236,14 +260,14 @@ Did resolve_axes(Interpreter& in) {
     const double value = length_value(in, w.raw[at], w.flags[at], turns, false);
     const char letter = static_cast<char>('A' + at);
     const bool time = letter == 'X' && w.one_shot != nullptr && w.one_shot->function == Function::dwell;  // seconds: a range of its own
-    if (!time && !in_range(in, value, turns)) return in.raise(Condition::value_range, letter, w.raw[at]);
+    if (!time && !in_range(in, value, w.flags[at], turns)) return in.raise(Condition::value_range, letter, w.raw[at]);
     w.axis[axis] = value;
   }
   w.axes = axes;
   w.incremental &= axes;
   if (!w.any(letters("IJKQR"))) return Did::done;
   for (const char letter : {'I', 'J', 'K', 'Q', 'R'})
-    if (w.has(letter) && !in_range(in, length_of(in, letter), false)) return in.raise(Condition::value_range, letter, w.get(letter));
+    if (w.has(letter) && !in_range(in, length_of(in, letter), w.flags[letter - 'A'], false)) return in.raise(Condition::value_range, letter, w.get(letter));
   return Did::done;
 }
 

@@ -274,12 +274,12 @@ Did execute_statement(Interpreter& in, const Statement& statement) {
 Did call_sub(Interpreter& in) {
   const BlockWords& w = in.words;
   if (w.has('I') || w.has('J') || w.has('K')) return in.raise(Condition::no_function, 'M', 98);  // figure rotation, M700 13.3.3
-  ProgramRef program;
-  Did did = find_called(in, w.has('P'), w.has('P') ? w.get('P') : 0, true, &program);
-  if (did != Did::done) return did;
   uint32_t passes = 1;
-  did = repetitions(in, w.has('L'), w.has('L') ? w.get('L') : 1, &passes);
-  if (did != Did::done || passes == 0) return did;
+  Did did = repetitions(in, w.has('L'), w.has('L') ? w.get('L') : 1, &passes);
+  if (did != Did::done || passes == 0) return did;  // M700 13.3.1: not called with L0, so nothing is looked for
+  ProgramRef program;
+  did = find_called(in, w.has('P'), w.has('P') ? w.get('P') : 0, true, &program);
+  if (did != Did::done) return did;
   uint64_t offset = program.offset;
   uint32_t line = program.line;
   if (w.has('H')) {
@@ -300,12 +300,12 @@ Did call_macro(Interpreter& in) {
   MacroCall call;
   Did did = gather_arguments(in, call);
   if (did != Did::done) return did;
-  ProgramRef program;
-  did = find_called(in, call.has_p, call.p, false, &program);
-  if (did != Did::done) return did;
   uint32_t passes = 1;
   did = repetitions(in, call.has_l, call.l, &passes);
   if (did != Did::done || passes == 0) return did;
+  ProgramRef program;
+  did = find_called(in, call.has_p, call.p, false, &program);
+  if (did != Did::done) return did;
   const unsigned level = in.macro_level() + 1u;
   if (level > kMacroDepth) return in.raise(Condition::macro_nesting, 'P', program.number);
   did = enter(in, program, CallKind::macro, passes, program.offset, program.line);
@@ -364,7 +364,8 @@ Did return_sub(Interpreter& in) {
 
 Did text_ended(Interpreter& in) {
   // M700 App.1 P36: '%' (or the end of the text, or the next O number) was read without M02, M30 or M99.
-  if ((in.dialect->end_code_required && !in.mdi) || in.state.depth > 0) return in.raise(Condition::program_end);
+  if (in.state.depth > 0) return in.raise(Condition::program_end, 'M', 99);
+  if (in.dialect->end_code_required && !in.mdi) return in.raise(Condition::program_end);
   in.state.end_seen = true;
   Item& end = in.emit(ItemKind::end);
   end.end.ok = true;

@@ -203,8 +203,16 @@ nc_status Interpreter::run_block(uint32_t& budget) {
     frame.line = block->next_line;
     return NC_OK;
   }
-  if (block->percent || block->end_of_text || (block->has_o && frame.started)) {
+  // A further O number begins another program; a family without sub programs has one in a program, and prints it behind a block, too.
+  const bool number_again = block->has_o && frame.started;
+  const bool one_number = dialect->call_depth == 0;
+  if (number_again && one_number && frame.program.number != 0) return settle(raise(Condition::format_error, 'O', block->o));  // DGSHAPE 1-1, 2-6
+  if (block->percent || block->end_of_text || (number_again && !one_number)) {
     if (block->percent && !frame.started) {  // the start mark
+      if (block->has_fault) {
+        fault = block->fault;
+        return settle(Did::fault);
+      }
       state.percent_seen = true;
       frame.offset = block->next;
       frame.line = block->next_line;
@@ -214,7 +222,8 @@ nc_status Interpreter::run_block(uint32_t& budget) {
     if (did == Did::later) return NC_OK;
     return settle(did);
   }
-  if (dialect->percent_required && state.depth == 0 && !state.percent_seen) return settle(raise(Condition::no_start_mark));
+  const bool blank = block->empty && !block->has_n && !block->has_o && !block->has_fault;  // comments at most
+  if (dialect->percent_required && state.depth == 0 && !state.percent_seen && !blank) return settle(raise(Condition::no_start_mark));
   if (block->has_o) {
     frame.program.number = source.program = block->o;
     state.modal.o = block->o;

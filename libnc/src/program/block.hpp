@@ -23,6 +23,7 @@ struct LexRules {
   bool slash_only_at_head = true;  ///< elsewhere '/' is an error (dgshape) or division (with macros)
   bool comma_words = false;        ///< ",R" ",C" ",A" ",I" ",J" ",S" ",D"
   bool angle_names = false;        ///< <FILE.NC> behind M98 G65
+  bool percent_alone = false;      ///< no word may stand behind '%' in its block (DGSHAPE 2-6); else it is text
   WordFormat word[26];             ///< by letter - 'A'
 };
 

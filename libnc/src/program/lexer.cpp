@@ -136,6 +136,7 @@ class Lexer {
     char c = at_.peek();
     if (c == '\0' && at_.p != at_.end && *at_.p == '%') {
       block_.percent = true;
+      if (rules_.percent_alone) check_percent_alone();
       return false;
     }
     if (c == '/') {
@@ -146,6 +147,18 @@ class Lexer {
     if (c == 'O') c = at_.peek();
     if (c == 'N' && !head_number('N', &block_.has_n, &block_.n)) return false;
     return !block_.has_fault;
+  }
+
+  /// Words behind '%' would be lost: letters and numbers up to the end of the line. Comments and plain text lose nothing.
+  void check_percent_alone() {
+    ++at_.p;
+    const char first = at_.peek();
+    for (char letter = first; is_letter(letter); letter = at_.peek()) {
+      ++at_.p;
+      if (!at_.accept('-')) at_.accept('+');
+      if (at_.number().digits == 0) return;
+    }
+    if (is_letter(first) && at_.at_end()) fault(Condition::no_start_mark, first);
   }
 
   void skip_sign() {  // M700 3.4

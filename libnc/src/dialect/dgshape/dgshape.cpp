@@ -31,6 +31,7 @@ const Dialect kDialect = {
                 500, 540, -1,  -1,  -1, -1, -1,  -1,  -1,  -1,  -1},
     .percent_required = true,   // 2-6 "%"
     .end_code_required = true,  // 1-1 "M02"
+    .bare_letters = false,      // 1-1: a word is an address and a numerical value
     .call_depth = 0,
 };
 

@@ -15,6 +15,7 @@ constexpr unsigned at(char letter) {
 
 constexpr LexRules make_rules() {
   LexRules rules{};
+  rules.percent_alone = true;       // 2-6: "Never specify any word other than % in this block"
   rules.slash_only_at_head = true;  // 2-6: "/" at the start of the block
   // P and K are real numbers somewhere (G51 P 0.5, arc centre K) and integers elsewhere, so they are read as
   // written.

@@ -29,6 +29,7 @@ const Dialect kDialect = {
                 500, 540, 640, 670, 401, 690, 970, 150, 501, -1,  131},
     .percent_required = false,
     .end_code_required = true,  // P36
+    .bare_letters = true,       // 3.7, 14.10
     .call_depth = 8,            // 13.3.1
 };
 

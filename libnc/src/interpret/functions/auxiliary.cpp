@@ -74,11 +74,25 @@ Did check_tool_pair(Interpreter& in) {
   return Did::done;
 }
 
+/// DGSHAPE 2: numbers "with no decimal point": codes, speeds, numbers of things; P and K where they are milliseconds, a number, a count.
+Did check_whole_numbers(Interpreter& in) {
+  const BlockWords& w = in.words;
+  const bool cycle = w.cycle != nullptr || in.state.cycle.kind != CycleKind::none;
+  const bool arc = w.motion != nullptr && w.motion->function != Function::rapid && w.motion->function != Function::linear;
+  const uint32_t whole = letters("MSTDHLP") | (cycle && !arc ? letters("K") : 0);
+  for (const Word& word : in.block->words)
+    if (((whole >> (word.letter - 'A')) & 1) != 0 && (word.flags & kWordPoint) != 0)
+      return in.raise(Condition::format_error, word.letter, word.value);
+  return Did::done;
+}
+
 }  // namespace
 
 Did check_company(Interpreter& in) {
   const BlockWords& w = in.words;
   if (in.dialect->id != NC_DIALECT_DGSHAPE) return Did::done;
+  const Did did = check_whole_numbers(in);
+  if (did != Did::done) return did;
   // DGSHAPE 2: M00 M01 M02 M30 alone; G04 alone in its block.
   const unsigned words = in.block->words.size();
   for (const uint32_t m : w.m)

@@ -70,7 +70,7 @@ Did take_hole_data(Interpreter& in) {
   if (w.has('Q')) c.q = std::fabs(length_of(in, 'Q'));
   if (w.has('P')) {
     const double ms = dgshape ? w.get('P') : std::trunc(w.get('P'));  // decimals are ignored
-    if (!(ms >= 0) || ms > 99999999) return in.raise(Condition::value_range, 'P', w.get('P'));
+    if (!(ms >= 0) || ms > (dgshape ? 3600e3 : 99999999)) return in.raise(Condition::value_range, 'P', w.get('P'));
     c.dwell_s = ms / 1000;
   }
   return Did::done;

@@ -61,11 +61,19 @@ Did dgshape_data_input(Interpreter& in) {
   return work_offset(in, 2, false);  // absolute, G90/G91 make no difference
 }
 
+/// M700 12.7 (5): L2 or L20 "should not [be] issued in the same block as" L10. One of them would be lost.
+bool two_kinds(const Interpreter& in) {
+  unsigned kinds = 0;
+  for (const Word& word : in.block->words) kinds += word.letter == 'L' ? 1u : 0u;
+  return kinds > 1;
+}
+
 }  // namespace
 
 Did do_data_input(Interpreter& in) {
-  if (in.dialect->id == NC_DIALECT_DGSHAPE) return dgshape_data_input(in);
   const BlockWords& w = in.words;
+  if (two_kinds(in)) return in.raise(Condition::g10_l, 'L', w.get('L'));
+  if (in.dialect->id == NC_DIALECT_DGSHAPE) return dgshape_data_input(in);
   uint32_t l = 2;  // no L is judged as L2
   if (w.has('L') && !whole_number(w.get('L'), &l)) return in.raise(Condition::g10_l, 'L', w.get('L'));
   switch (l) {
