@@ -16,6 +16,7 @@
 #include "dds/gateway.hpp"
 #include "runtime/config.hpp"
 #include "runtime/share/text.hpp"
+#include "tools/lib/option_values.hpp"
 
 namespace {
 
@@ -45,12 +46,12 @@ int main(int argc, char** argv) {
   CLI::App app{"ncdds: publishes a control over DDS"};
   nc::dds::GatewayOptions options;
   std::string config, ready_file;
-  app.add_option("--config", config, "machine configuration: takes the name from it");
-  app.add_option("--share", options.share, "name of the control, as ncrtd --share");
-  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230));
-  app.add_option("--rate", options.rate_hz, "status per second")->check(CLI::Range(1, 100));
+  app.add_option("--config", config, "machine configuration: takes the name from it")->check(nc::tools::given());
+  app.add_option("--share", options.share, "name of the control, as ncrtd --share")->check(nc::tools::given());
+  app.add_option("--domain", options.domain, "DDS domain")->transform(nc::tools::whole(0, 230));
+  app.add_option("--rate", options.rate_hz, "status per second")->transform(nc::tools::whole(1, 100));
   app.add_flag("--commands", options.commands, "bring commands in (ncrtd must take them, too)");
-  app.add_option("--ready-file", ready_file, "written when DDS is up");
+  app.add_option("--ready-file", ready_file, "written when DDS is up")->check(nc::tools::given());
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

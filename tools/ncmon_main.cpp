@@ -22,6 +22,7 @@
 
 #include "dds/monitor.hpp"
 #include "runtime/clock.hpp"
+#include "tools/lib/option_values.hpp"
 
 namespace {
 
@@ -230,14 +231,15 @@ int full_screen(nc::dds::Monitor* monitor, const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"ncmon: shows a control that ncdds publishes"};
   Options options;
-  app.add_option("--machine", options.machine, "name of the control (ncdds --share); default: the first that is heard");
-  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230));
+  app.add_option("--machine", options.machine, "name of the control (ncdds --share); default: the first that is heard")
+      ->check(nc::tools::given());
+  app.add_option("--domain", options.domain, "DDS domain")->transform(nc::tools::whole(0, 230));
   CLI::Option* once_flag = app.add_flag("--once", options.once, "one status, then end");
   app.add_flag("--json", options.json, "as JSON, one object in a line");
   CLI::Option* progress_flag = app.add_flag("--progress", options.progress, "one live line, until the control ends");
-  app.add_option("--wait", options.wait_s, "seconds for the first status")->check(CLI::Range(0.0, 86400.0));
+  app.add_option("--wait", options.wait_s, "seconds for the first status")->check(nc::tools::seconds(true, "86400"));
   CLI::Option* latency_option = app.add_option("--latency", options.latency, "times of so many samples")
-                                    ->check(CLI::Range(1, 1000000));
+                                    ->transform(nc::tools::whole(1, 1000000));
   once_flag->excludes(progress_flag);
   latency_option->excludes(once_flag)->excludes(progress_flag);
   try {

@@ -24,6 +24,7 @@
 #include "runtime/console.hpp"
 #include "runtime/runtime.hpp"
 #include "runtime/share/service.hpp"
+#include "tools/lib/option_values.hpp"
 #include "tools/lib/output_check.hpp"
 #include "tools/lib/program_files.hpp"
 #include "tools/lib/serve.hpp"
@@ -388,17 +389,18 @@ int main(int argc, char** argv) {
   nc::rt::limit_allocator();
   CLI::App app{"ncrtd: runs NC programs on a machine, or on a simulated one"};
   Options options;
-  app.add_option("--config", options.config, "machine configuration (TOML)")->required();
+  app.add_option("--config", options.config, "machine configuration (TOML)")->required()->check(nc::tools::given());
   app.require_subcommand(1);
   CLI::App* check = app.add_subcommand("check", "read the configuration, report every error, do nothing");
   CLI::App* run = app.add_subcommand("run", "run a program from cycle start to its end");
-  run->add_option("PROGRAM", options.program, "NC program")->required();
+  run->add_option("PROGRAM", options.program, "NC program")->required()->check(nc::tools::given());
   run->add_option("--dialect", options.dialect, "instead of the configured one")
-      ->check(CLI::IsMember({"m700", "dgshape"}));
+      ->transform(nc::tools::one_of({"m700", "dgshape"}));
   run->add_option("--plot", options.plot, "write BASE.svg and BASE.png of the executed path")
-      ->type_name("BASE");
+      ->type_name("BASE")
+      ->check(nc::tools::given());
   CLI::App* mdi = app.add_subcommand("mdi", "execute blocks");
-  mdi->add_option("BLOCKS", options.mdi, "blocks, separated by line ends")->required();
+  mdi->add_option("BLOCKS", options.mdi, "blocks, separated by line ends")->required()->check(nc::tools::given());
   for (CLI::App* sub : {run, mdi}) {
     sub->add_flag("--fast", options.fast, "virtual time: as fast as the processor");
     sub->add_flag("--no-progress", options.no_progress, "no live line");
@@ -406,7 +408,7 @@ int main(int argc, char** argv) {
   }
   CLI::App* service = app.add_subcommand("serve", "bring the machine up and stay until SIGTERM or SIGINT");
   for (CLI::App* sub : {run, mdi, service}) {
-    sub->add_option("--share", options.share, "shared memory of this name, for ncdds");
+    sub->add_option("--share", options.share, "shared memory of this name, for ncdds")->check(nc::tools::given());
     sub->add_flag("--commands", options.commands, "take commands from it");
   }
   try {

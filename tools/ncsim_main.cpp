@@ -11,6 +11,7 @@
 #include <string>
 
 #include "tools/lib/commands.hpp"
+#include "tools/lib/option_values.hpp"
 #include "tools/lib/output_check.hpp"
 
 namespace {
@@ -19,17 +20,18 @@ using nc::tools::PlotView;
 using nc::tools::SessionOptions;
 
 void add_program(CLI::App* command, SessionOptions* options) {
-  command->add_option("PROGRAM", options->program, "NC program, - for standard input")->required();
-  command->add_option("--setup", options->setup, "setup of control and machine, JSON (docs/trace.md)");
-  command->add_option("--dialect", options->dialect, "m700 or dgshape")->capture_default_str();
-  command->add_option("--programs", options->programs, "folder of sub programs (default: PROGRAM's own)");
+  command->add_option("PROGRAM", options->program, "NC program, - for standard input")->required()->check(nc::tools::given());
+  command->add_option("--setup", options->setup, "setup of control and machine, JSON (docs/trace.md)")->check(nc::tools::given());
+  command->add_option("--dialect", options->dialect, "m700 or dgshape")->capture_default_str()->check(nc::tools::given());
+  command->add_option("--programs", options->programs, "folder of sub programs (default: PROGRAM's own)")->check(nc::tools::given());
 }
 
 void add_loop_limit(CLI::App* command, uint64_t* limit) {
   command
       ->add_option("--max-silent-blocks", *limit,
                    "blocks that only calculate after which it is an endless loop, 0 = no limit")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->transform(nc::tools::whole(0, 1'000'000'000'000'000'000));
 }
 
 int run(int argc, char** argv) {
@@ -47,40 +49,31 @@ int run(int argc, char** argv) {
   add_program(check, &options);
   add_loop_limit(check, &silent);
 
-  // CLI::Range lets nan through.
-  const CLI::Validator seconds(
-      [](std::string& text) {
-        double value = 0;
-        const bool number = CLI::detail::lexical_cast(text, value) && value > 0 && value <= 1e9;
-        return number ? std::string() : "must be above 0 and at most 1e9, is " + text;
-      },
-      "SECONDS");
   std::string limits;
   double limit_s = 30 * 86400.0;
   CLI::App* time = app.add_subcommand("time", "cycle time on a simulated machine");
   add_program(time, &options);
-  time->add_option("--config", limits, "limits of the machine, JSON (docs/trace.md)");
+  time->add_option("--config", limits, "limits of the machine, JSON (docs/trace.md)")->check(nc::tools::given());
   time->add_option("--max-seconds", limit_s, "machine time after which the run is given up")
       ->capture_default_str()
-      ->check(seconds);
+      ->check(nc::tools::seconds(false, "1e9"));
 
-  PlotView view = PlotView::kIsometric;
-  std::string base;
+  std::string base, view = "iso";
   const std::map<std::string, PlotView> views = {
       {"iso", PlotView::kIsometric}, {"xy", PlotView::kXY}, {"xz", PlotView::kXZ}, {"yz", PlotView::kYZ}};
   CLI::App* plot = app.add_subcommand("plot", "the tool path as SVG and PNG");
   add_program(plot, &options);
   add_loop_limit(plot, &silent);
   plot->add_option("-o,--output", base, "writes OUTPUT.svg and OUTPUT.png (default: toolpath)")
-      ->default_str("toolpath");
-  plot->add_option("--view", view, "iso, xy, xz or yz")
-      ->transform(CLI::CheckedTransformer(views, CLI::ignore_case));
+      ->default_str("toolpath")
+      ->check(nc::tools::given());
+  plot->add_option("--view", view, "iso, xy, xz or yz")->capture_default_str()->transform(nc::tools::one_of({"iso", "xy", "xz", "yz"}));
 
   bool markdown = false;
   CLI::App* functions = app.add_subcommand("functions", "the G and M codes of a dialect");
   CLI::App* alarms = app.add_subcommand("alarms", "the alarms of a dialect");
   for (CLI::App* table : {functions, alarms}) {
-    table->add_option("--dialect", options.dialect, "m700 or dgshape")->capture_default_str();
+    table->add_option("--dialect", options.dialect, "m700 or dgshape")->capture_default_str()->check(nc::tools::given());
     table->add_flag("--markdown", markdown, "as a Markdown table");
   }
 
@@ -100,7 +93,7 @@ int run(int argc, char** argv) {
   if (check->parsed()) return nc::tools::check_command(options, silent, stdout, stderr);
   if (time->parsed()) return nc::tools::time_command(options, limits, limit_s, stdout, stderr);
   if (plot->parsed())
-    return nc::tools::plot_command(options, silent, view, base.empty() ? "toolpath" : base, stdout, stderr);
+    return nc::tools::plot_command(options, silent, views.at(view), base.empty() ? "toolpath" : base, stdout, stderr);
   if (functions->parsed()) return nc::tools::functions_command(options.dialect, markdown, stdout, stderr);
   return nc::tools::alarms_command(options.dialect, markdown, stdout, stderr);
 }

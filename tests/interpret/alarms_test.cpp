@@ -238,7 +238,7 @@ TEST(Alarm, DetailsNameWhatTheFamilyHas) {
   EXPECT_EQ(dgshape("G0X1.").alarm_detail, "The text of the program ends without M02 or M30.");
   EXPECT_EQ(m700("G0 X1.").alarm_detail, "The text of the program ends without M02 or M30.");
   Bench bench;
-  bench.add("O5", "X1.\n");
+  bench.add("O5", "G0 X1.\n");
   EXPECT_EQ(bench.run("M98 P5\nM30").alarm_detail, "The text of the sub program ends without M99.");
   EXPECT_NE(m700("#1=SQRT[-4]\nM30").alarm_detail.find("no result for -4"), std::string::npos);
   for (const char* block : {"#1=1+", "#1=SIN30", "#1=--5", "#1=[1+*2]"}) {

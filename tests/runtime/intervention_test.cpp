@@ -92,6 +92,16 @@ class InterventionTest : public testing::Test {
     for (unsigned i = 0; i < limit && out().state != state; ++i) runtime->step();
     return out().state == state;
   }
+  // Cycle start, then the next stop, which must be in this line.
+  bool next_stop_in(std::uint32_t line) {
+    const std::uint64_t serial = out().serial;
+    press();
+    for (unsigned i = 0; i < 20000; ++i) {
+      runtime->step();
+      if (out().state == NC_STATE_STOPPED && out().serial != serial) return out().source.line == line;
+    }
+    return false;
+  }
   bool to_end(unsigned limit = 100000) {
     const std::uint64_t runs = runtime->info().runs;
     for (unsigned i = 0; i < limit && runtime->info().runs == runs; ++i) {
@@ -325,6 +335,42 @@ TEST_F(InterventionTest, BetweenTheStepsOfACycleManualIsRefused) {
   ASSERT_TRUE(until_state(NC_STATE_STOPPED));
   steps(2);
   ASSERT_NEAR(out().command.v[2], 10, 1e-9) << "over the hole, the rest of the cycle is still to come";
+  EXPECT_EQ(set_mode(Mode::kManual), Answer::kMiddleOfBlock);
+  single_block(false);
+  press();
+  EXPECT_TRUE(to_end()) << alarms();
+}
+
+// M700 13.3.1: a call with other words stops, once: with or without a motion of its own, jogged away or not.
+TEST_F(InterventionTest, ACallBlockStopsOnce) {
+  for (const bool moves : {false, true}) {
+    for (const bool jogged : {false, true}) {
+      SCOPED_TRACE(std::string(moves ? "moves" : "rests") + (jogged ? ", jogged" : ""));
+      build();
+      single_block(true);
+      start(std::string("G90 G0 X10.\nG90 ") + (moves ? "X20. " : "") + "M98 P77 L2\nM30\nO77\nG91 G1 Y2. F3000.\nG90\nM99\n");
+      ASSERT_TRUE(until_state(NC_STATE_STOPPED));
+      ASSERT_TRUE(next_stop_in(2)) << alarms();
+      if (jogged) jog_in_stop(0, 30);
+      const double x = out().command.v[0];
+      ASSERT_TRUE(next_stop_in(5)) << alarms();
+      expect_at(x, 2, 0);
+      single_block(false);
+      press();
+      EXPECT_TRUE(to_end()) << alarms();
+      expect_at(x, 4, 0);
+      runtime.reset();
+    }
+  }
+}
+
+TEST_F(InterventionTest, OverAHoleThatNeedsNoPositioningManualIsRefusedToo) {
+  build();
+  single_block(true);
+  start("G90 G0 X20. Z10.\nG81 Z-5. R2. F3000.\nG80\nM30\n");
+  ASSERT_TRUE(until_state(NC_STATE_STOPPED));
+  ASSERT_TRUE(next_stop_in(2));
+  steps(2);
   EXPECT_EQ(set_mode(Mode::kManual), Answer::kMiddleOfBlock);
   single_block(false);
   press();

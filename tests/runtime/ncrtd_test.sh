@@ -64,6 +64,15 @@ expect 1 "$ncrtd"
 expect 1 "$ncrtd" --config "$machine"
 expect 1 "$ncrtd" --config "$machine" run
 expect 1 "$ncrtd" --config "$machine" run --dialect hx x.nc
+said err "--dialect: must be one of m700, dgshape, is hx"
+for option in --plot --share --dialect; do
+  expect 1 "$ncrtd" --config "$machine" run --fast "$option" "" x.nc
+  said err "$option: must"
+done
+expect 1 "$ncrtd" --config "" check
+said err "--config: must not be empty"
+expect 1 "$ncrtd" --config "$machine" mdi --fast ""
+said err "BLOCKS: must not be empty"
 expect 1 "$ncrtd" --config "$machine" run --fast "$work/none.nc"
 said err "none.nc"
 expect 1 "$ncrtd" --config "$work/none.toml" check

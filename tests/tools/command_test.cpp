@@ -274,6 +274,40 @@ TEST_F(CommandTest, MaxSecondsIsANumberOfSeconds) {
   EXPECT_EQ(ncsim("time --max-seconds 1e9 p.nc").code, 0);
 }
 
+TEST_F(CommandTest, OptionsRefuseBadValuesWithASentence) {
+  file("p.nc", kPart);
+  const struct {
+    const char* arguments;
+    const char* says;
+  } rows[] = {
+      {"check p.nc --max-silent-blocks=-1", "--max-silent-blocks: must be a whole number from 0 to 1000000000000000000, is -1"},
+      {"check p.nc --max-silent-blocks 1.5", "--max-silent-blocks: must be a whole number"},
+      {"trace p.nc --max-silent-blocks 0x10", "--max-silent-blocks: must be a whole number"},
+      {"plot p.nc --max-silent-blocks 99999999999999999999999", "--max-silent-blocks: must be a whole number"},
+      {"check p.nc --max-silent-blocks ''", "--max-silent-blocks: must be a whole number"},
+      {"plot p.nc --view foo", "--view: must be one of iso, xy, xz, yz, is foo"},
+      {"plot p.nc --view 2", "--view: must be one of iso, xy, xz, yz, is 2"},
+      {"plot p.nc --view ''", "--view: must be one of iso, xy, xz, yz, is empty"},
+      {"plot p.nc -o ''", "--output: must not be empty"},
+      {"trace p.nc --setup ''", "--setup: must not be empty"},
+      {"trace p.nc --programs ''", "--programs: must not be empty"},
+      {"trace p.nc --dialect ''", "--dialect: must not be empty"},
+      {"trace p.nc --dialect foo", "--dialect foo: this version knows m700 and dgshape"},
+      {"time p.nc --config ''", "--config: must not be empty"},
+      {"time p.nc --max-seconds ''", "--max-seconds: must be above 0"},
+      {"trace ''", "PROGRAM: must not be empty"},
+      {"functions --dialect foo", "--dialect foo: this version knows"},
+  };
+  for (const auto& row : rows) {
+    const Outcome run = ncsim(row.arguments);
+    EXPECT_EQ(run.code, 1) << row.arguments;
+    EXPECT_EQ(run.out, "") << row.arguments;
+    EXPECT_NE(run.err.find(row.says), std::string::npos) << row.arguments << ": " << run.err;
+  }
+  EXPECT_EQ(ncsim("check p.nc --max-silent-blocks 0009").code, 0);
+  EXPECT_EQ(ncsim("plot p.nc --view XZ").code, 0);
+}
+
 TEST_F(CommandTest, WhatCannotBeWrittenIsAnErrorOfEveryCommand) {
   file("p.nc", kPart);
   for (const char* command :

@@ -93,7 +93,7 @@ Committed Commit::commit(const Item& item, const Transform& transform) {
 }
 
 void Commit::remember(const Item& mark, const OffsetResume* offset) {
-  if (!mark.mark.report) return;
+  if (!mark.mark.resume) return;
   MarkPoint& point = marks_[mark_count_++ & mark_mask_];
   point.serial = last_serial_;
   point.seq = mark.mark.seq;

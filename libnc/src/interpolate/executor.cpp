@@ -109,7 +109,7 @@ bool Executor::give_up_behind_block(Serial* last) {
   bool complete = e.shared.block_begun.load(std::memory_order_relaxed) == 0;
   while (!complete && end != e.head) {
     const Record& r = e.ring[end++ & e.mask];
-    if (r.kind == ItemKind::mark && r.mark.report) {
+    if (r.kind == ItemKind::mark && r.mark.resume) {
       *last = r.serial;
       complete = true;
     }

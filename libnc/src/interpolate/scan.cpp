@@ -220,7 +220,7 @@ void Scan::run(const nc_inputs& in) {
     }
     serial_ = r.serial;
     source_ = r.source;
-    if (r.kind == ItemKind::mark && r.mark.report) last_mark_ = r.serial;
+    if (r.kind == ItemKind::mark && r.mark.resume) last_mark_ = r.serial;
     if (execute(r, in) == Done::no) break;
     leave(r, true);
     if (state_ != NC_STATE_RUNNING && at_rest()) break;
@@ -246,7 +246,7 @@ bool Scan::between_blocks() const {
   if (!block_begun_) return true;
   for (uint32_t at = tail_; at != plan_->end; ++at) {
     const Record& r = ring_[at & mask_];
-    if (r.kind == ItemKind::mark && r.mark.report) return true;
+    if (r.kind == ItemKind::mark && r.mark.resume) return true;
     if (r.kind == ItemKind::move || r.kind == ItemKind::sync) return false;
   }
   return false;  // its end is not committed yet

@@ -273,10 +273,8 @@ Scan::Done Scan::sync(const Record& r, const nc_inputs& in) {
 /// The end of a block, or a place inside a cycle where single block may stop.
 void Scan::mark(const Mark& m, const nc_inputs& in) {
   modal_ = m.modal;
-  if (m.report) {
-    ++blocks_;
-    block_begun_ = false;
-  }
+  if (m.report) ++blocks_;
+  block_begun_ = !m.resume;  // a block that stops at one of its places has begun, even when nothing moved yet
   if (m.stop && in.single_block && !(suppress_ & 1) && at_rest() && state_ == NC_STATE_RUNNING) {
     state_ = NC_STATE_STOPPED;
     cause_ = NC_CAUSE_SINGLE_BLOCK;

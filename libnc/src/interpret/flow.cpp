@@ -290,9 +290,10 @@ Did call_sub(Interpreter& in) {
   }
   // M700 13.3.1: single block does not stop at a block that only calls; with other words it may, behind what they do.
   const bool stops = !only_calls(in);
-  if (stops) in.emit_stop_point();
   did = enter(in, program, CallKind::sub, passes, offset, line);
-  if (did == Did::later) in.keep_call();
+  if (did != Did::later) return did;
+  in.keep_call();
+  if (stops) in.emit_stop_point(true);  // the call is made: what is read again after a stop is the sub program
   return did;
 }
 

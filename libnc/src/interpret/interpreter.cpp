@@ -308,10 +308,10 @@ void Interpreter::keep_call() {
   checkpoints_.save(state);
 }
 
-void Interpreter::emit_stop_point() {
+void Interpreter::emit_stop_point(bool resume) {
   Item& item = emit(ItemKind::mark);
   item.block_end = false;
-  new (&item.mark) Mark{position(), modals.intern(state.modal), 0, 0, (state.control_3003 & 1) == 0, false};
+  new (&item.mark) Mark{position(), modals.intern(state.modal), resume ? state.seq : 0, 0, (state.control_3003 & 1) == 0, false, resume};
 }
 
 void Interpreter::stop(const Fault& what, const nc_source& where) {

@@ -162,8 +162,9 @@ struct Interpreter {
   /// The block of `source` has ended: its mark (and the end, after M02/M30), and the checkpoint to rewind to.
   /// `executable`: it counts as a block for radius compensation (M700 12.4.2 lists NC blocks; 13.5.9: macro statements are none).
   void finish_block(bool stop, bool executable);
-  /// A place inside a block where single block may stop.
-  void emit_stop_point();
+  /// A place inside a block where single block may stop. `resume`: what has been read so far is kept, and what follows can be read
+  /// again from here.
+  void emit_stop_point(bool resume = false);
   /// The block has done its part and the program goes on in the one it calls: what comes there does not undo it.
   void keep_call();
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }

@@ -136,9 +136,10 @@ struct Sync {
 struct Mark {
   AxisVec work;                  ///< programmed position at the end of the block, active workpiece coordinates
   ModalId modal = 0;
-  BlockSeq seq = 0;              ///< its checkpoint
+  BlockSeq seq = 0;              ///< its checkpoint, where `resume`
   TransformId transform = 0;     ///< in force at the end of the block
   bool stop = true, report = true;
+  bool resume = true;            ///< what follows can be read again from here: the end of a block, or a call that has been entered
 };
 
 struct End {

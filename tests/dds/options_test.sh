@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# ncdds and ncmon refuse bad values of their options with a sentence, before they open anything.
+set -u
+bin=${NC_BINARY_DIR:?}/bin
+[ -x "$bin/ncdds" ] && [ -x "$bin/ncmon" ] || { echo "ncdds and ncmon are not built: skipped"; exit 77; }
+failures=0
+# refuses TEXT COMMAND...: exit status 1, and TEXT on standard error.
+refuses() {
+  local text=$1 err; shift
+  err=$("$@" 2>&1 >/dev/null)
+  local got=$?
+  [ "$got" = 1 ] && [[ "$err" == *"$text"* ]] || { echo "FAILED (exit $got, '$err'): $*"; failures=$((failures + 1)); }
+}
+for program in ncdds ncmon; do
+  for value in -1 231 1.5 nan x 0x1 99999999999999999999; do
+    refuses "--domain: must be a whole number from 0 to 230, is" "$bin/$program" "--domain=$value"
+  done
+  refuses "not expected" "$bin/$program" --nosuch
+done
+for value in 0 101 -5 2.5; do refuses "--rate: must be a whole number from 1 to 100, is $value" "$bin/ncdds" "--rate=$value"; done
+for option in --share --config --ready-file; do refuses "$option: must not be empty" "$bin/ncdds" "$option" ""; done
+refuses "which control?" "$bin/ncdds"
+for value in nan inf -1 86401 x; do refuses "--wait: must be at least 0 and at most 86400" "$bin/ncmon" "--wait=$value"; done
+for value in 0 -1 1000001 nan; do refuses "--latency: must be a whole number from 1 to 1000000, is $value" "$bin/ncmon" "--latency=$value"; done
+refuses "--machine: must not be empty" "$bin/ncmon" --machine ""
+refuses "" "$bin/ncmon" --once --progress
+exit $((failures != 0))
