@@ -35,7 +35,7 @@ namespace nc::ladder {
                   X(kBset) X(kBrst) X(kRstWord) X(kDmov) X(kDcml) X(kDxch) X(kDbcd) X(kDbin) X(kDadd)      \
                       X(kDsub) X(kDmul) X(kDdiv) X(kDinc) X(kDdec) X(kDneg) X(kDwand) X(kDwor) X(kDwxor)   \
                           X(kDror) X(kDrol) X(kRstWord32) X(kBmov) X(kFmov) X(kZrstBits) X(kZrstWords)     \
-                              X(kZrstTimers) X(kZrstCounters) X(kSer) X(kDser) X(kRots)
+                              X(kZrstTimers) X(kZrstCounters) X(kWordBit) X(kBitWord) X(kSer) X(kDser) X(kRots)
 // What lower() turns into cells. One unit each.
 #define NC_LADDER_OPS_LOGIC(X)                                                                          \
   X(kNop)                                                                                               \

@@ -39,6 +39,7 @@ class Compiler {
     bool gated_before = false;
     std::size_t start = 0;   // its first unit
     unsigned inherited = 0;  // branches (MPS) open when it began
+    bool always = false;     // nothing but a contact of SM400 to SM402
   };
   struct Master {
     std::uint32_t level;
@@ -116,9 +117,15 @@ class Compiler {
   void gate();
   void close_rung();  // nothing may be open here
   void note_coil(const Place& place);
+  void note_rising();  // of a result that never rises, a warning
+
+  // constants.cpp
+  void check_constants(const Rule& rule, const Encoded* operands, std::size_t count);
 
   // operands; encode.cpp
   bool bit_operand(std::string_view word, bool written, Place* place);
+  void open_word_bit(Place* place, bool written);
+  void close_word_bits();
   bool encode(char letter, std::string_view word, Encoded* out);
   bool encode_constant(const Operand& operand, bool wide, bool written, Encoded* out);
   bool encode_digits(const Operand& operand, bool wide, bool written, Encoded* out);
@@ -149,7 +156,11 @@ class Compiler {
   std::uint32_t loops_ = 0;
   std::map<std::uint32_t, Label> labels_;
   std::vector<Jump> jumps_;
-  std::map<std::uint32_t, unsigned> coils_;  // bit -> line of its OUT
+  std::map<std::uint64_t, unsigned> coils_;  // bit, or word and bit of it -> line of its OUT
+  struct WordBit {
+    std::uint32_t word, number, bit;
+  };
+  std::vector<WordBit> word_bits_;  // written by this instruction: behind it they go back into their words
   bool main_ended_ = false, ended_ = false;
   std::uint32_t main_end_ = 0xffffffffu;  // unit of FEND
 };

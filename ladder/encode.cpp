@@ -26,6 +26,7 @@ void Compiler::emit2(std::uint32_t b, std::uint32_t c) {
 }
 
 void Compiler::emit_pulse(Op next, bool pulse) {
+  if (pulse) note_rising();
   if (pulse) emit(Op::kSkipNotRising, new_edge(), units_of(next));
 }
 
@@ -53,7 +54,25 @@ bool Compiler::bit_operand(std::string_view word, bool written, Place* place) {
     return false;
   }
   *place = operand->place;
+  if (place->kind == Kind::kWordBit) open_word_bit(place, written);
   return true;
+}
+
+// A bit of a word is worked on in a bit of its own: taken out before the instruction, put back behind it.
+void Compiler::open_word_bit(Place* place, bool written) {
+  const WordBit bit{place->index, place->number, new_edge(0)};
+  emit(Op::kWordBit, bit.word);
+  emit2(bit.number, bit.bit);
+  if (written) word_bits_.push_back(bit);
+  place->index = bit.bit;
+}
+
+void Compiler::close_word_bits() {
+  for (const WordBit& bit : word_bits_) {
+    emit(Op::kBitWord, bit.word);
+    emit2(bit.number, bit.bit);
+  }
+  word_bits_.clear();
 }
 
 // "use DMOV" where there is such an instruction.

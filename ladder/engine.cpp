@@ -108,7 +108,8 @@ std::vector<RetainedRange> Engine::retained() const {
     ranges.push_back({"C value", true, at.counter_value, kCounters});
   }
   if (code_->retained_d.count != 0)
-    ranges.push_back({"D", true, at.d + code_->retained_d.first, code_->retained_d.count});
+    ranges.push_back({"D", true, at.d + code_->retained_d.first, code_->retained_d.count,
+                      code_->retained_d.first});
   return ranges;
 }
 

@@ -284,6 +284,20 @@ dispatch:
   NC_LADDER_WORDS(kDrol, 2, machine.rotate(ip, true, false))
   NC_LADDER_WORDS(kRstWord32, 2, machine.put32(ip, 0, 0))
 
+  // D0.5: the bit b of word a into bit c before the instruction that works on it, and back behind it. The result
+  // of logic stays.
+  NC_LADDER_CASE(kWordBit) {
+    bit[ip[1].tail.c] = NC_LADDER_BYTE(static_cast<std::uint16_t>(word[ip->head.a]) >> ip[1].tail.b & 1u);
+    NC_LADDER_NEXT(2)
+  }
+  NC_LADDER_CASE(kBitWord) {
+    const std::uint32_t mask = 1u << ip[1].tail.b;
+    const std::uint32_t old = static_cast<std::uint16_t>(word[ip->head.a]);
+    word[ip->head.a] = static_cast<std::int16_t>(
+        static_cast<std::uint16_t>(bit[ip[1].tail.c] != 0 ? old | mask : old & ~mask));
+    NC_LADDER_NEXT(2)
+  }
+
   // Rows.
   NC_LADDER_WORDS(kBmov, 2, if (!machine.block_move(ip)) goto watchdog)
   NC_LADDER_WORDS(kFmov, 2, if (!machine.fill(ip)) goto watchdog)

@@ -18,6 +18,7 @@ enum class Kind {
   kContact,       // TS, STS, CS: read-only bits
   kRegister,      // D, Z, SD: words
   kCurrentValue,  // TN, STN, CN: words
+  kWordBit,       // D0.5: `index` is the word, `number` the bit
 };
 
 // A device as an operand.

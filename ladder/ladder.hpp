@@ -81,6 +81,7 @@ struct RetainedRange {
   bool words;        // of DeviceImage::word, else of DeviceImage::bit
   std::uint32_t first;
   std::uint32_t count;
+  std::uint32_t number = 0;  // of its first device: D100 -> 100
 };
 
 class Engine {

@@ -78,11 +78,33 @@ std::string Names::nearest(std::string_view word) const {
   return found;
 }
 
+// D0.5, D0.F, nc.fin_wait.0: one bit of a word, its number as a hexadecimal digit.
+std::optional<Place> Names::word_bit(std::string_view word) const {
+  const std::size_t dot = word.rfind('.');
+  if (dot == std::string_view::npos || dot == 0 || dot + 2 != word.size()) return std::nullopt;
+  const char digit = word[dot + 1];
+  if (!is_digit(digit) && (digit < 'A' || digit > 'F')) return std::nullopt;
+  std::string ignored;
+  std::string_view base = word.substr(0, dot);
+  if (const auto alias = aliases_.find(std::string(base)); alias != aliases_.end()) base = alias->second;
+  Place place;
+  if (const Device* device = table_.find(base)) place = named_device(*device);
+  else if (const auto internal = internal_device(base, layout_, &ignored)) place = *internal;
+  else return std::nullopt;
+  if (place.type == DeviceType::kBit) return std::nullopt;
+  place.kind = Kind::kWordBit;
+  place.type = DeviceType::kBit;
+  place.number = static_cast<std::uint32_t>(is_digit(digit) ? digit - '0' : digit - 'A' + 10);
+  place.family = {};
+  return place;
+}
+
 std::optional<Place> Names::device(std::string_view word, std::string* message) const {
   if (const auto alias = aliases_.find(std::string(word)); alias != aliases_.end()) word = alias->second;
   if (const Device* device = table_.find(word)) return named_device(*device);
   std::string why;
   if (const auto place = internal_device(word, layout_, &why)) return place;
+  if (const auto place = word_bit(word)) return place;
   if (why.empty()) {
     why = "no such device";
     if (word.size() > kMaxName) {
@@ -170,7 +192,7 @@ bool Names::alias(std::string_view name, std::string_view target, std::string* m
   }
   std::string unused;
   if (aliases_.count(std::string(name)) != 0 || table_.find(name) != nullptr ||
-      internal_device(name, layout_, &unused) || !unused.empty()) {
+      internal_device(name, layout_, &unused) || !unused.empty() || word_bit(name)) {
     *message = "'" + std::string(name) + "' is a device already";
     return false;
   }

@@ -34,6 +34,7 @@ class Names {
   const std::map<std::string, std::string>& aliases() const { return aliases_; }
 
  private:
+  std::optional<Place> word_bit(std::string_view word) const;
   std::optional<Operand> constant(std::string_view word, std::string* message) const;
   std::string nearest(std::string_view word) const;
 

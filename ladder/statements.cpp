@@ -48,10 +48,28 @@ void Compiler::close_rung() {
 }
 
 void Compiler::note_coil(const Place& place) {
-  const auto [coil, added] = coils_.emplace(place.index, line_);
+  std::uint64_t key = place.index;
+  if (!word_bits_.empty() && word_bits_.back().bit == place.index)
+    key = std::uint64_t{word_bits_.back().word} << 36 | std::uint64_t{word_bits_.back().number} << 32 | 0xffffffffu;
+  const auto [coil, added] = coils_.emplace(key, line_);
   if (!added)
     warning("the same coil as in line " + std::to_string(coil->second) + ": the last one that runs decides");
 }
+
+// A rising edge is a difference between two scans, and the first one counts for none.
+void Compiler::note_rising() {
+  if (rung_.always && masters_.empty())
+    warning("its condition is SM400, SM401 or SM402 alone, which never rises: for once at the start take LD SM402 and "
+            "the form without an edge");
+}
+
+namespace {
+
+bool is_always(const Place& place) {
+  return place.family == "SM" && place.number >= kSmOn && place.number <= kSmFirst;
+}
+
+}  // namespace
 
 // ---- lines ----
 
@@ -74,6 +92,7 @@ void Compiler::statement() {
   }
   ++code_.instructions;
   act(*rule_, pulse);
+  close_word_bits();
 }
 
 bool Compiler::operand_count(const Rule& rule, std::size_t least, std::size_t most) {
@@ -99,7 +118,9 @@ void Compiler::act(const Rule& rule, bool pulse) {
     case Action::kInvert:
     case Action::kEdgeOfResult:
       if (!operand_count(rule, 0, 0) || !has_result()) return;
+      if (rule.op == Op::kMep) note_rising();
       if (rung_.blocks == 1) gate();
+      rung_.always = false;
       emit(rule.op, rule.edge ? new_edge() : 0);
       rung_.used = false;
       // What comes out may be on although the master control is off.
@@ -158,6 +179,7 @@ void Compiler::load(const Rule& rule) {
     rung_.used = false;
   }
   const bool first = rung_.blocks == 0;
+  rung_.always = false;
   if (rung_.blocks == kMaxBlocks)
     return error("more than " + std::to_string(kMaxBlocks) + " blocks inside each other");
   ++rung_.blocks;
@@ -175,7 +197,10 @@ void Compiler::load(const Rule& rule) {
   Place place;
   if (!operand_count(rule, 1, 1) || !bit_operand(words_[1], false, &place)) return;
   if (place.family == "SM" && place.number >= kSmClock && place.number < kSmClock + 4) code_.clocks = true;
+  rung_.always = first && is_always(place);
+  if (rule.op == Op::kLdp) note_rising();
   if (!rule.edge) return emit(first ? rule.op : rule.op2, place.index);
+  rung_.always = false;
   if (!first) emit(Op::kPush);
   emit(rule.op, place.index);
   emit2(new_edge(), 0);
@@ -187,6 +212,7 @@ void Compiler::join(const Rule& rule) {
     return error("a parallel contact cannot follow an output or a branch: begin with LD");
   Place place;
   Encoded left, right;
+  rung_.always = false;
   if (rule.spec[0] != '\0') {
     if (!operand_count(rule, 2, 2) || !encode(rule.spec[0], words_[1], &left) ||
         !encode(rule.spec[1], words_[2], &right) || !good)
@@ -362,6 +388,7 @@ void Compiler::pulse_coil(const Rule& rule) {
   const bool good = take_result();
   if (!operand_count(rule, 1, 1) || !bit_operand(words_[1], true, &place) || !good) return;
   note_coil(place);
+  if (rule.op != Op::kPlf) note_rising();
   emit(rule.op, place.index);
   emit2(new_edge(), 0);
 }
@@ -387,6 +414,7 @@ void Compiler::words(const Rule& rule, bool pulse) {
     encoded[0] = encoded[2];
     mode |= static_cast<unsigned>(encoded[0].mode);
   }
+  check_constants(rule, encoded, spec.size());
   emit_pulse(rule.op, pulse);
   emit(rule.op, encoded[0].value, mode);
   emit2(encoded[1].value, encoded[2].value);

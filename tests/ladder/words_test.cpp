@@ -139,9 +139,9 @@ TEST(LadderWords, WhatCannotBeDoneWritesNothingAndIsReported) {
         Case{"DBCD D0 D4", 100000000, 0, true, 4100}, Case{"BIN D0 D4", 0x0a00, 0, false, 4100},
         Case{"DBIN D0 D4", 0x0000000f, 0, true, 4100}, Case{"BSET D4 D0", 16, 0, false, 4100},
         Case{"ROR D4 D0", 16, 0, false, 4100}, Case{"SFL D4 D0", -1, 0, false, 4100},
-        Case{"BMOV D8190 D4 K3", 0, 0, false, 4101}, Case{"FMOV K1 D4 D0", -1, 0, false, 4100},
+        Case{"BMOV D8190 D4 D0", 3, 0, false, 4101}, Case{"FMOV K1 D4 D0", -1, 0, false, 4100},
         Case{"FMOV K1 D4 D0", 8189, 0, false, 4101}, Case{"ROTS D0 K1 K1 D4", 0, 0, false, 4100},
-        Case{"ROTS K10 D0 K1 D4", 11, 0, false, 4100}, Case{"SER K1 D8190 D4 K3", 0, 0, false, 4101}}) {
+        Case{"ROTS K10 D0 K1 D4", 11, 0, false, 4100}, Case{"SER K1 D8190 D4 D0", 3, 0, false, 4101}}) {
     Rig rig("LD SM400\n" + std::string(c.instruction));
     c.wide ? rig.set32("D0", c.d0) : rig.set("D0", c.d0);
     c.wide ? rig.set32("D2", c.d2) : rig.set("D2", c.d2);
@@ -153,7 +153,8 @@ TEST(LadderWords, WhatCannotBeDoneWritesNothingAndIsReported) {
 }
 
 TEST(LadderWords, TheFirstErrorStaysUntilItIsReset) {
-  Rig rig("LD X0\n/ K1 K0 D0\nLD SM400\nBIN H0A D0\nLD X1\nRST SM0");
+  Rig rig("LD X0\n/ K1 D9 D0\nLD SM400\nBIN D8 D0\nLD X1\nRST SM0");
+  rig.set("D8", 0x0a);
   rig.scan();
   EXPECT_EQ(rig.get("SD1"), 4);
   rig.set("X0", 1);
