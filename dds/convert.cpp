@@ -140,7 +140,48 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   set(to.message, block.message);
 }
 
-void SignalSample::fill(const share::MachineBlock& machine, const share::PointsBlock& points, const char* partition) {
+namespace {
+
+nc_SignalDirection direction_of(const share::PointRow& point) {
+  return point.is_input != 0 ? nc_SIGNAL_FROM_MACHINE : nc_SIGNAL_TO_MACHINE;
+}
+nc_SignalDirection direction_of(const share::SignalText& signal) {
+  return signal.from_nc != 0 ? nc_SIGNAL_FROM_NC : nc_SIGNAL_TO_NC;
+}
+nc_SignalType type_of(const share::SignalText& signal) {
+  return as_enum(signal.type, nc_SIGNAL_WORD32, nc_SIGNAL_WORD32);
+}
+
+}  // namespace
+
+void SignalTableSample::fill(const share::MachineBlock& machine, const char* partition) {
+  set(table.machine, partition);
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < machine.signal_count; ++i) {
+    const share::SignalText& from = machine.signal[i];
+    nc_SignalInfo& to = rows[count++];
+    set(to.name, from.name);
+    to.direction = direction_of(from);
+    to.type = type_of(from);
+    to.safe = from.safe;
+    set(to.meaning, from.meaning);
+    set(to.timing, from.timing);
+  }
+  for (std::uint32_t p = 0; p < machine.point_count; ++p) {
+    const share::PointRow& from = machine.point[p];
+    nc_SignalInfo& to = rows[count++];
+    set(to.name, from.name);
+    to.direction = direction_of(from);
+    to.type = from.is_word != 0 ? nc_SIGNAL_WORD32 : nc_SIGNAL_BIT;
+    to.safe = from.safe;
+    set(to.meaning, from.meaning);
+    set(to.timing, "every scan");
+  }
+  table.signals = {nc::hal::kMaxPoints + share::kMaxSignals, count, rows, false};
+}
+
+void SignalSample::fill(const share::MachineBlock& machine, const share::PointsBlock& points,
+                        const share::SignalsBlock& control_signals, const char* partition) {
   set(image.machine, partition);
   image.scan = points.scan;
   const std::uint32_t count = std::min(points.count, machine.point_count);
@@ -152,6 +193,15 @@ void SignalSample::fill(const share::MachineBlock& machine, const share::PointsB
     signals[p].good = points.good[p] != 0;
   }
   image.signals = {nc::hal::kMaxPoints, count, signals, false};
+  image.control_scan = control_signals.scan;
+  const std::uint32_t controls = std::min(control_signals.count, machine.signal_count);
+  for (std::uint32_t i = 0; i < controls; ++i) {
+    set(control[i].name, machine.signal[i].name);
+    control[i].direction = direction_of(machine.signal[i]);
+    control[i].type = type_of(machine.signal[i]);
+    control[i].value = control_signals.value[i];
+  }
+  image.control = {share::kMaxSignals, controls, control, false};
 }
 
 nc_Status_v1 core_status(const share::MachineBlock& machine, const share::StatusBlock& block, unsigned system,

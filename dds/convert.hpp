@@ -24,10 +24,18 @@ struct StatusSample {
             const char* partition);
 };
 
+struct SignalTableSample {
+  nc_SignalTable table{};
+  nc_SignalInfo rows[nc::hal::kMaxPoints + share::kMaxSignals] = {};
+  void fill(const share::MachineBlock& machine, const char* partition);
+};
+
 struct SignalSample {
   nc_SignalImage image{};
   nc_Signal signals[nc::hal::kMaxPoints] = {};
-  void fill(const share::MachineBlock& machine, const share::PointsBlock& points, const char* partition);
+  nc_ControlSignal control[share::kMaxSignals] = {};
+  void fill(const share::MachineBlock& machine, const share::PointsBlock& points,
+            const share::SignalsBlock& control_signals, const char* partition);
 };
 
 nc_Status_v1 core_status(const share::MachineBlock& machine, const share::StatusBlock& block, unsigned system,

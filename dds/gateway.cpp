@@ -34,6 +34,8 @@ Gateway::Gateway(const GatewayOptions& options)
       history_block_(std::make_unique<share::HistoryBlock>()),
       points_(std::make_unique<share::PointsBlock>()),
       last_points_(std::make_unique<share::PointsBlock>()),
+      control_signals_(std::make_unique<share::SignalsBlock>()),
+      last_control_signals_(std::make_unique<share::SignalsBlock>()),
       signal_sample_(std::make_unique<SignalSample>()) {}
 
 Gateway::~Gateway() {
@@ -49,6 +51,7 @@ bool Gateway::open(std::string* error) {
     Topic topic;
   } writers[] = {{&machine_, Topic::kMachineInfo},     {&status_, Topic::kStatus},
                  {&alarm_, Topic::kAlarm},             {&history_, Topic::kAlarmHistory},
+                 {&signal_table_, Topic::kSignalTable},
                  {&signals_, Topic::kSignalImage},     {&status_core_, Topic::kStatusCore},
                  {&alarm_core_, Topic::kAlarmCore},    {&ack_, Topic::kCommandAck}};
   for (const auto& entry : writers) {
@@ -109,6 +112,9 @@ bool Gateway::attach() {
   MachineSample machine;
   machine.fill(segment_.get()->machine, partition_.c_str(), may_command_);
   write(machine_, &machine.info);
+  const auto table = std::make_unique<SignalTableSample>();
+  table->fill(segment_.get()->machine, partition_.c_str());
+  write(signal_table_, &table->table);
   say("publishes \"" + std::string(share::text_of(segment_.get()->machine.machine)) + "\" as " + partition_ +
       " in domain " + std::to_string(options_.domain) + (may_command_ ? ", takes commands" : ""));
   return true;
@@ -265,18 +271,20 @@ void Gateway::publish_signals(std::int64_t now_ns) {
   if (dds_get_publication_matched_status(signals_, &matched) < 0 || matched.current_count == 0) return;
   next_signals_ns_ = now_ns + kSignalsNs;
   segment_.get()->points_until.store(now_ns + share::kPointsWantedNs, std::memory_order_relaxed);
-  if (segment_.get()->points.sequence() == 0) return;  // nobody has asked before: they come with the next look
+  if (segment_.get()->points.sequence() == 0 || segment_.get()->signals.sequence() == 0) return;  // nobody has asked before: they come with the next look
   std::string error;
-  if (!segment_.points(points_.get(), &error)) {
+  if (!segment_.points(points_.get(), &error) || !segment_.signals(control_signals_.get(), &error)) {
     say(error);
     return;
   }
   const bool same = points_->count == last_points_->count && points_->value == last_points_->value &&
-                    points_->good == last_points_->good;
+                    points_->good == last_points_->good &&
+                    control_signals_->value == last_control_signals_->value;
   if (same && now_ns < forced_signals_ns_) return;
   forced_signals_ns_ = now_ns + kSignalsForcedNs;
   *last_points_ = *points_;
-  signal_sample_->fill(segment_.get()->machine, *points_, partition_.c_str());
+  *last_control_signals_ = *control_signals_;
+  signal_sample_->fill(segment_.get()->machine, *points_, *control_signals_, partition_.c_str());
   write(signals_, &signal_sample_->image);
 }
 

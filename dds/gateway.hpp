@@ -63,7 +63,7 @@ class Gateway {
   std::atomic<bool> stop_{false};
 
   Participant participant_;
-  dds_entity_t machine_ = 0, status_ = 0, alarm_ = 0, history_ = 0, signals_ = 0, status_core_ = 0, alarm_core_ = 0;
+  dds_entity_t machine_ = 0, status_ = 0, alarm_ = 0, history_ = 0, signals_ = 0, signal_table_ = 0, status_core_ = 0, alarm_core_ = 0;
   dds_entity_t command_ = 0, ack_ = 0, waitset_ = 0;
 
   std::mutex segment_mutex_;  // the command thread puts commands in while run() may let the segment go
@@ -80,6 +80,7 @@ class Gateway {
   std::uint64_t history_sequence_ = 0;
   std::unique_ptr<share::HistoryBlock> history_block_;  // as published
   std::unique_ptr<share::PointsBlock> points_, last_points_;
+  std::unique_ptr<share::SignalsBlock> control_signals_, last_control_signals_;
   std::unique_ptr<SignalSample> signal_sample_;
 
   struct Client {

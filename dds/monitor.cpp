@@ -49,6 +49,25 @@ const char* cause_name(nc_StopCause cause) {
   }
 }
 
+const char* direction_name(nc_SignalDirection direction) {
+  switch (direction) {
+    case nc_SIGNAL_FROM_NC: return "from NC";
+    case nc_SIGNAL_TO_NC: return "to NC";
+    case nc_SIGNAL_FROM_MACHINE: return "from machine";
+    case nc_SIGNAL_TO_MACHINE: return "to machine";
+    default: return "?";
+  }
+}
+
+const char* type_name(nc_SignalType type) {
+  switch (type) {
+    case nc_SIGNAL_BIT: return "bit";
+    case nc_SIGNAL_WORD16: return "16 bit";
+    case nc_SIGNAL_WORD32: return "32 bit";
+    default: return "?";
+  }
+}
+
 StatusView view_of(const nc_Status& s) {
   StatusView v;
   v.part_system = s.part_system;
@@ -122,20 +141,41 @@ bool Monitor::open(std::string* error) {
   alarm_ = make_reader(participant_.get(), Topic::kAlarm, partition, error);
   if (alarm_ <= 0) return false;
   waitset_ = dds_create_waitset(participant_.get());
-  for (const dds_entity_t reader : {status_, alarm_}) {
-    const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
-    if (waitset_ > 0 && condition > 0 && dds_waitset_attach(waitset_, condition, 0) >= 0) continue;
-    *error = "the status cannot be waited for";
-    return false;
+  if (wait_for(status_) && wait_for(alarm_)) return true;
+  *error = "the status cannot be waited for";
+  return false;
+}
+
+bool Monitor::wait_for(dds_entity_t reader) {
+  const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
+  return waitset_ > 0 && condition > 0 && dds_waitset_attach(waitset_, condition, 0) >= 0;
+}
+
+bool Monitor::watch_signals(bool on, std::string* error) {
+  if (on == (signals_ > 0)) return true;
+  if (!on) {  // with its reader goes the request
+    (void)dds_delete(signals_);
+    (void)dds_delete(signal_table_);
+    signals_ = signal_table_ = 0;
+    view_.signals.clear();
+    return true;
   }
-  return true;
+  const std::string partition = machine_.empty() ? "*" : machine_;
+  signal_table_ = make_reader(participant_.get(), Topic::kSignalTable, partition, error);
+  if (signal_table_ <= 0) return false;
+  signals_ = make_reader(participant_.get(), Topic::kSignalImage, partition, error);
+  if (signals_ <= 0) return false;
+  if (wait_for(signal_table_) && wait_for(signals_)) return true;
+  *error = "the signals cannot be waited for";
+  return false;
 }
 
 bool Monitor::wait(std::int64_t timeout_ns) {
-  dds_attach_t triggered[2];
-  if (dds_waitset_wait(waitset_, triggered, 2, timeout_ns) <= 0) return false;
+  dds_attach_t triggered[4];
+  if (dds_waitset_wait(waitset_, triggered, 4, timeout_ns) <= 0) return false;
   take_status();
   take_alarms();
+  if (signals_ > 0) take_signals();
   return true;
 }
 
@@ -187,6 +227,54 @@ void Monitor::take_alarms() {
     }
   }
   if (count > 0) (void)dds_return_loan(alarm_, samples, count);
+}
+
+// The image has the values, the table what they mean; who has no table yet shows names and values.
+void Monitor::take_signals() {
+  void* samples[1] = {};
+  dds_sample_info_t infos[1];
+  while (dds_take(signal_table_, samples, infos, 1, 1) > 0) {
+    const auto& table = *static_cast<const nc_SignalTable*>(samples[0]);
+    if (infos[0].valid_data && (machine_.empty() || machine_ == table.machine)) {
+      signal_rows_.clear();
+      for (std::uint32_t i = 0; i < table.signals._length; ++i) {
+        const nc_SignalInfo& row = table.signals._buffer[i];
+        signal_rows_[row.name] = {row.name, "", "", 0, row.safe, true, row.meaning, row.timing};
+      }
+    }
+    (void)dds_return_loan(signal_table_, samples, 1);
+    samples[0] = nullptr;
+  }
+  while (dds_take(signals_, samples, infos, 1, 1) > 0) {
+    const auto& image = *static_cast<const nc_SignalImage*>(samples[0]);
+    if (infos[0].valid_data && (machine_.empty() || machine_ == image.machine)) show_signals(image);
+    (void)dds_return_loan(signals_, samples, 1);
+    samples[0] = nullptr;
+  }
+}
+
+void Monitor::show_signals(const nc_SignalImage& image) {
+  view_.signals.clear();
+  view_.signals_scan = image.scan;
+  const auto add = [&](const char* name, const char* direction, const char* type, std::int64_t value, bool good) {
+    const auto row = signal_rows_.find(name);
+    SignalView view = row == signal_rows_.end() ? SignalView{} : row->second;
+    view.name = name;
+    view.direction = direction;
+    view.type = type;
+    view.value = value;
+    view.good = good;
+    view_.signals.push_back(std::move(view));
+  };
+  for (std::uint32_t i = 0; i < image.control._length; ++i) {
+    const nc_ControlSignal& s = image.control._buffer[i];
+    add(s.name, direction_name(s.direction), type_name(s.type), s.value, true);
+  }
+  for (std::uint32_t i = 0; i < image.signals._length; ++i) {
+    const nc_Signal& s = image.signals._buffer[i];
+    add(s.name, s.is_input ? "from machine" : "to machine", s.is_word ? "32 bit" : "bit", s.value, s.good);
+  }
+  ++changes_;
 }
 
 }  // namespace nc::dds

@@ -15,6 +15,8 @@ class Monitor {
   // `machine`: the partition, "" = the first control that is heard.
   Monitor(unsigned domain, std::string machine) : domain_(domain), machine_(std::move(machine)) {}
   bool open(std::string* error);
+  // The table of signals and their values, from now on (or never again).
+  bool watch_signals(bool on, std::string* error);
   // Waits at most `timeout_ns` for news and takes them. True when there were some.
   bool wait(std::int64_t timeout_ns);
 
@@ -30,11 +32,15 @@ class Monitor {
  private:
   void take_status();
   void take_alarms();
+  void take_signals();
+  void show_signals(const nc_SignalImage& image);
+  bool wait_for(dds_entity_t reader);
 
   const unsigned domain_;
   std::string machine_;
   Participant participant_;
-  dds_entity_t status_ = 0, alarm_ = 0, waitset_ = 0;
+  dds_entity_t status_ = 0, alarm_ = 0, waitset_ = 0, signals_ = 0, signal_table_ = 0;
+  std::map<std::string, SignalView> signal_rows_;  // what the table says of them, by name
   MonitorView view_;
   bool heard_ = false;
   std::uint64_t samples_ = 0, changes_ = 0;

@@ -2,6 +2,7 @@
 // Texts of the monitor. See monitor_view.hpp.
 #include "dds/monitor_view.hpp"
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <ctime>
@@ -121,6 +122,20 @@ void append_system(std::string* text, const StatusView& s) {
   if (s.message_count != 0) append(text, "  Message  %s\n", printable(s.message).c_str());
 }
 
+nlohmann::json signals_json(const MonitorView& view) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const SignalView& s : view.signals)
+    rows.push_back({{"name", s.name},
+                    {"direction", s.direction},
+                    {"type", s.type},
+                    {"value", s.value},
+                    {"good", s.good},
+                    {"safe", s.safe},
+                    {"meaning", s.meaning},
+                    {"timing", s.timing}});
+  return {{"scan", view.signals_scan}, {"values", rows}};
+}
+
 }  // namespace
 
 std::string printable(const std::string& text) {
@@ -161,6 +176,30 @@ std::string page(const MonitorView& view) {
   return text;
 }
 
+std::string signal_page(const MonitorView& view, unsigned columns) {
+  constexpr unsigned kName = 26, kValue = 11, kColumn = kName + kValue + 4;
+  std::string text;
+  if (view.signals.empty()) return "  no signals have come yet\n";
+  const unsigned in_line = columns == 0 ? 1 : std::max(1u, columns / kColumn);
+  const std::size_t lines = (view.signals.size() + in_line - 1) / in_line;
+  for (std::size_t line = 0; line < lines; ++line) {
+    for (unsigned column = 0; column < in_line; ++column) {
+      const std::size_t place = line + column * lines;
+      if (place >= view.signals.size()) break;
+      const SignalView& s = view.signals[place];
+      const std::string name = printable(s.name);
+      if (columns == 0)
+        append(&text, "%-32s %-12s %-6s %11lld%s  %s\n", name.c_str(), s.direction.c_str(), s.type.c_str(),
+               static_cast<long long>(s.value), s.good ? " " : "!", printable(s.meaning).c_str());
+      else
+        append(&text, "%-*.*s %*lld%s  ", kName, kName, name.c_str(), kValue, static_cast<long long>(s.value),
+               s.good ? " " : "!");
+    }
+    if (columns != 0) text += '\n';
+  }
+  return text;
+}
+
 std::string json_line(const MonitorView& view) {
   nlohmann::json systems = nlohmann::json::array(), alarms = nlohmann::json::array();
   for (const auto& [number, status] : view.systems) systems.push_back(status_json(status));
@@ -172,7 +211,8 @@ std::string json_line(const MonitorView& view) {
                       {"axis", alarm.axis},
                       {"line", alarm.line},
                       {"raised_ns", alarm.raised_ns}});
-  const nlohmann::json all = {{"alive", view.alive}, {"ended", view.ended}, {"systems", systems}, {"alarms", alarms}};
+  nlohmann::json all = {{"alive", view.alive}, {"ended", view.ended}, {"systems", systems}, {"alarms", alarms}};
+  if (!view.signals.empty()) all["signals"] = signals_json(view);
   return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -49,7 +49,17 @@ struct AlarmView {
   std::int64_t raised_ns = 0;
 };
 
+// One row of the table of signals, with its value.
+struct SignalView {
+  std::string name, direction, type;
+  std::int64_t value = 0, safe = 0;
+  bool good = true;
+  std::string meaning, timing;
+};
+
 struct MonitorView {
+  std::vector<SignalView> signals;  // where they are asked for
+  std::uint64_t signals_scan = 0;
   std::map<unsigned, StatusView> systems;  // by part system
   std::map<unsigned, AlarmView> alarms;  // by slot
   bool alive = false;  // the scan runs, and somebody publishes it
@@ -64,7 +74,9 @@ std::string alarm_line(const AlarmView& alarm);
 std::string progress_line(const StatusView& status, const std::map<unsigned, AlarmView>& alarms);
 // Several lines, for a terminal and for --once.
 std::string page(const MonitorView& view);
-// One line of JSON, with the alarms.
+// The table of signals with values; `columns`: width of the terminal, 0 = one signal in a line, with its meaning.
+std::string signal_page(const MonitorView& view, unsigned columns);
+// One line of JSON, with the alarms, and the signals where they are asked for.
 std::string json_line(const MonitorView& view);
 
 }  // namespace nc::dds

@@ -101,6 +101,21 @@ class AckReason(IdlEnum, typename="nc.AckReason", default="REASON_NONE"):
     REASON_CLIENT_IN_USE = 11
 
 
+@annotate.appendable
+class SignalDirection(IdlEnum, typename="nc.SignalDirection", default="SIGNAL_FROM_NC"):
+    SIGNAL_FROM_NC = 0
+    SIGNAL_TO_NC = 1
+    SIGNAL_FROM_MACHINE = 2
+    SIGNAL_TO_MACHINE = 3
+
+
+@annotate.appendable
+class SignalType(IdlEnum, typename="nc.SignalType", default="SIGNAL_BIT"):
+    SIGNAL_BIT = 0
+    SIGNAL_WORD16 = 1
+    SIGNAL_WORD32 = 2
+
+
 @dataclass
 @annotate.appendable
 class AxisInfo(IdlStruct, typename="nc.AxisInfo"):
@@ -242,6 +257,25 @@ class AlarmHistory(IdlStruct, typename="nc.AlarmHistory"):
 
 @dataclass
 @annotate.appendable
+class SignalInfo(IdlStruct, typename="nc.SignalInfo"):
+    name: types.bounded_str[55]
+    direction: SignalDirection
+    type: SignalType
+    safe: types.int64
+    meaning: types.bounded_str[255]
+    timing: types.bounded_str[127]
+
+
+@dataclass
+@annotate.appendable
+class SignalTable(IdlStruct, typename="nc.SignalTable"):
+    machine: types.bounded_str[63]
+    annotate.key("machine")
+    signals: types.sequence[SignalInfo, 1536]
+
+
+@dataclass
+@annotate.appendable
 class Signal(IdlStruct, typename="nc.Signal"):
     name: types.bounded_str[55]
     is_input: bool
@@ -252,11 +286,22 @@ class Signal(IdlStruct, typename="nc.Signal"):
 
 @dataclass
 @annotate.appendable
+class ControlSignal(IdlStruct, typename="nc.ControlSignal"):
+    name: types.bounded_str[55]
+    direction: SignalDirection
+    type: SignalType
+    value: types.int32
+
+
+@dataclass
+@annotate.appendable
 class SignalImage(IdlStruct, typename="nc.SignalImage"):
     machine: types.bounded_str[63]
     annotate.key("machine")
     scan: types.uint64
     signals: types.sequence[Signal, 1024]
+    control_scan: types.uint64
+    control: types.sequence[ControlSignal, 512]
 
 
 @dataclass
@@ -341,13 +386,14 @@ TOPICS = {
     Status: "nc_Status",
     Alarm: "nc_Alarm",
     AlarmHistory: "nc_AlarmHistory",
+    SignalTable: "nc_SignalTable",
     SignalImage: "nc_SignalImage",
     Command: "nc_Command",
     CommandAck: "nc_CommandAck",
     Status_v1: "nc_Status_v1",
     Alarm_v1: "nc_Alarm_v1",
 }
-_DURABLE = (MachineInfo, Status, Alarm, AlarmHistory, Status_v1, Alarm_v1)
+_DURABLE = (MachineInfo, Status, Alarm, AlarmHistory, SignalTable, Status_v1, Alarm_v1)
 
 
 def reader(participant, kind, machine="*"):

@@ -25,6 +25,7 @@ const Row kTopics[] = {
     {Topic::kStatus, "nc_Status", &nc_Status_desc, true, 1},
     {Topic::kAlarm, "nc_Alarm", &nc_Alarm_desc, true, 1},
     {Topic::kAlarmHistory, "nc_AlarmHistory", &nc_AlarmHistory_desc, true, 1},
+    {Topic::kSignalTable, "nc_SignalTable", &nc_SignalTable_desc, true, 1},
     {Topic::kSignalImage, "nc_SignalImage", &nc_SignalImage_desc, false, 1},
     {Topic::kCommand, "nc_Command", &nc_Command_desc, false, 0},
     {Topic::kCommandAck, "nc_CommandAck", &nc_CommandAck_desc, false, 16},

@@ -34,6 +34,7 @@ enum class Topic {
   kStatus,
   kAlarm,
   kAlarmHistory,
+  kSignalTable,
   kSignalImage,
   kCommand,
   kCommandAck,

@@ -24,6 +24,7 @@ struct Point {
   PointDirection direction = PointDirection::kInput;
   std::uint32_t initial = 0;  // value before anyone has written it, and the safe value when the runtime stops
   std::uint8_t bus = 0;       // who carries it: 0 the machine's Hal, n the n-th PointBus (hal/point_bus.hpp)
+  std::string meaning = {};   // for monitors and listings
 };
 
 // Immutable after configuration; the index of a point is its place in the image.

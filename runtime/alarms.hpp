@@ -18,6 +18,7 @@ enum class AlarmId : std::uint8_t {
   kFinTimeout,
   kLadder,         // plc.alarm.1...; the texts are the configuration's
   kLadderStopped,
+  kLinkLost,       // of a Modbus link with alarm = true
   kProgram,  // an alarm of libnc; code and text come from there
   kCount
 };
@@ -38,6 +39,7 @@ inline constexpr AlarmRow kAlarmTable[] = {
     {AlarmId::kFinTimeout, "R15", "FIN does not come"},
     {AlarmId::kLadder, "R16", "Alarm of the ladder"},
     {AlarmId::kLadderStopped, "R17", "The ladder program has stopped"},
+    {AlarmId::kLinkLost, "R18", "Modbus link lost"},
     {AlarmId::kProgram, "", "Program alarm"},
 };
 
@@ -54,7 +56,7 @@ struct ActiveAlarm {
   std::uint8_t system = 0;  // index of the part system
   std::uint64_t scan = 0;   // when it came
   nc_source source{};       // block in execution at that moment
-  std::uint32_t detail = 0; // R15: groups that wait (bit 0 M, 1 S, 2 T, 3 B); R16: number; R17: line
+  std::uint32_t detail = 0; // R15: groups that wait (bit 0 M, 1 S, 2 T, 3 B); R16: number; R17: line; R18: link
   std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M
 };
 

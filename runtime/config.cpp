@@ -43,7 +43,8 @@ std::string Config::programs_folder() const {
   return (std::filesystem::path(file).parent_path() / folder).lexically_normal().string();
 }
 
-std::vector<ConfigError> parse_config(std::string_view text, const std::string& file, Config* config) {
+std::vector<ConfigError> parse_config(std::string_view text, const std::string& file, Config* config,
+                                      Config* partial) {
   ErrorList errors(file);
   Config read;
   read.file = file;
@@ -67,12 +68,14 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   check_modbus(&reader, read);
   read_macro_interface(&reader, &read);
   read_ladder(&reader, &read);
+  read_signals(&reader, &read);
   read_sim(&reader, &read);
   read_share(&reader, &read);
   reader.finish();
   if (errors.empty() && nc_memory_required(&read.nc) == 0)
     errors.add(0, "", "the control refuses this combination of axes and sizes");
   std::vector<ConfigError> found = errors.take();
+  if (partial != nullptr) *partial = read;
   if (found.empty()) *config = std::move(read);
   return found;
 }
@@ -93,7 +96,7 @@ std::vector<ConfigError> check_host(const Config& config) {
   return errors.take();
 }
 
-std::vector<ConfigError> load_config(const std::string& path, Config* config) {
+std::vector<ConfigError> load_config(const std::string& path, Config* config, Config* partial) {
   std::error_code ignored;
   std::ifstream stream(path, std::ios::binary);
   if (std::filesystem::is_directory(path, ignored)) return {{path, 0, "", "cannot be read: is a folder"}};
@@ -102,7 +105,7 @@ std::vector<ConfigError> load_config(const std::string& path, Config* config) {
         {path, 0, "", std::string("cannot be read: ") + (errno != 0 ? std::strerror(errno) : "not a file")}};
   std::ostringstream text;
   text << stream.rdbuf();
-  return parse_config(text.str(), path, config);
+  return parse_config(text.str(), path, config, partial);
 }
 
 }  // namespace nc::rt

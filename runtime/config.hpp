@@ -84,12 +84,16 @@ struct LadderConfig {
   std::string program;      // file, relative to the configuration's folder unless absolute; empty = none
   double fin_timeout_s = 0; // FIN that does not come within this time is an alarm; 0 = wait for ever
   std::array<std::string, 8> alarm;  // texts of plc.alarm.1 ... .8
+  std::string retain;                // file of the retained devices, relative as `program`; empty = see retain_path()
+  bool retain_counters = false;      // C among them
+  unsigned retain_d_first = 0, retain_d_count = 0;  // D among them
 };
 
 // A Modbus link; the n-th is bus n of the points, counted from 1.
 struct ModbusLinkConfig {
   hal::modbus::LinkConfig link;
   std::uint8_t unit = 1;  // of points that name none
+  bool alarm = false;     // a link that is lost is alarm R18
   ConfigPlace place;
 };
 
@@ -98,7 +102,13 @@ struct ShareConfig {
   bool enabled = false;
   std::string name;            // empty = from the machine's name
   bool commands = false;       // take commands from it
-  bool group = false;          // readers of the same group too (0660)
+  bool group = false;          // readers of the same group too, not of the user alone
+};
+
+// A signal that is a point of the machine, without a ladder program between them.
+struct SignalWire {
+  unsigned signal = 0;  // place in machine_signals()
+  unsigned point = 0;
 };
 
 struct Config {
@@ -117,6 +127,7 @@ struct Config {
   MacroMap macro;
   std::vector<ModbusLinkConfig> modbus;
   LadderConfig ladder;
+  std::vector<SignalWire> wires;
   hal::SimConfig sim;
   ShareConfig share;
 
@@ -127,13 +138,20 @@ struct Config {
   std::vector<hal::modbus::LinkConfig> modbus_links() const;
   // The ladder program in the same way.
   std::string ladder_file() const;
+  // File of the retained devices: as configured, else in the folder that a service manager gives
+  // (STATE_DIRECTORY); empty = they are not kept.
+  std::string retain_path() const;
+  // An output that follows a signal of the NC.
+  bool is_wired_output(unsigned point) const;
 };
 
-// Parse a text. `file` is used in messages only. Returns the errors; empty = *config is valid.
-std::vector<ConfigError> parse_config(std::string_view text, const std::string& file, Config* config);
+// Parse a text. `file` is used in messages only. Returns the errors; empty = *config is valid. `partial` (may be
+// null) gets what could be read in any case, for those who want to look further.
+std::vector<ConfigError> parse_config(std::string_view text, const std::string& file, Config* config,
+                                      Config* partial = nullptr);
 
 // Read and parse a file.
-std::vector<ConfigError> load_config(const std::string& path, Config* config);
+std::vector<ConfigError> load_config(const std::string& path, Config* config, Config* partial = nullptr);
 
 // What the file asks of the computer that it is used on: processors, folders.
 std::vector<ConfigError> check_host(const Config& config);

@@ -11,9 +11,10 @@ namespace nc::rt {
 namespace {
 
 constexpr double kMaxSeconds = 3600;
+constexpr std::size_t kMaxPointName = 55, kMaxMeaning = 127;  // bytes, as monitors show them
 
 bool valid_point_name(std::string_view name) {
-  if (name.empty() || name.size() > 64) return false;
+  if (name.empty() || name.size() > kMaxPointName) return false;
   return std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '.' || c == '-';
@@ -163,10 +164,12 @@ void read_points(TableReader* root, Config* config) {
       point.direction = word == 0 ? hal::PointDirection::kInput : hal::PointDirection::kOutput;
     const std::int64_t top = point.type == hal::PointType::kBit ? 1 : 0xFFFFFFFFll;
     reader.integer("initial", &point.initial, 0, top);
+    if (reader.string("meaning", &point.meaning) && point.meaning.size() > kMaxMeaning)
+      reader.error("meaning", "is longer than " + std::to_string(kMaxMeaning) + " bytes");
     point.bus = read_point_modbus(&reader, point, config);
     if (!named) return;
     if (!valid_point_name(point.name))
-      reader.error("name", "must be 1 to 64 letters, digits, '_', '-' or '.'");
+      reader.error("name", "must be 1 to 55 letters, digits, '_', '-' or '.'");
     else if (is_device_name(point.name))
       reader.error("name", "\"" + point.name + "\" is a device or a constant of the ladder; tie addresses to points by ALIAS");
     else if (is_signal_name(point.name, config->nc))

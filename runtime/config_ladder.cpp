@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configuration section [ladder].
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "runtime/config_sections.hpp"
-#include "runtime/ladder_hook.hpp"
+#include "runtime/share/text.hpp"
 
 namespace nc::rt {
+namespace {
 
+constexpr unsigned kLastD = 8191;
 
+}  // namespace
 
 void read_ladder(TableReader* root, Config* config) {
   root->table("ladder", [&](TableReader& reader) {
@@ -15,6 +20,18 @@ void read_ladder(TableReader* root, Config* config) {
     reader.require("program");
     reader.string("program", &ladder.program);
     reader.number("fin_timeout_s", &ladder.fin_timeout_s, 0, 3600);
+    reader.string("retain", &ladder.retain);
+    reader.boolean("retain_counters", &ladder.retain_counters);
+    std::vector<double> range;
+    if (reader.numbers("retain_d", &range, 2, 2)) {
+      const bool whole = range[0] == std::floor(range[0]) && range[1] == std::floor(range[1]);
+      if (!whole || range[0] < 0 || range[1] < range[0] || range[1] > kLastD)
+        reader.error("retain_d", "must be the first and the last of a row of D devices, 0 to " + std::to_string(kLastD));
+      else {
+        ladder.retain_d_first = static_cast<unsigned>(range[0]);
+        ladder.retain_d_count = static_cast<unsigned>(range[1] - range[0]) + 1;
+      }
+    }
     std::vector<std::pair<std::string, unsigned>> texts;
     if (!reader.strings("alarms", &texts)) return;
     if (texts.size() > ladder.alarm.size())
@@ -26,6 +43,15 @@ void read_ladder(TableReader* root, Config* config) {
 std::string Config::ladder_file() const {
   if (ladder.program.empty()) return {};
   return (std::filesystem::path(file).parent_path() / ladder.program).string();
+}
+
+std::string Config::retain_path() const {
+  if (ladder.program.empty()) return {};
+  if (!ladder.retain.empty()) return (std::filesystem::path(file).parent_path() / ladder.retain).string();
+  const char* folder = std::getenv("STATE_DIRECTORY");  // systemd; several of them stand between colons
+  if (folder == nullptr || *folder == '\0') return {};
+  const std::string first = std::string(folder).substr(0, std::string(folder).find(':'));
+  return first + "/" + share::share_name(name) + ".retain";
 }
 
 }  // namespace nc::rt

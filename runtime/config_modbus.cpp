@@ -56,6 +56,7 @@ void read_link(TableReader* reader, Config* config) {
   reader->integer("lost_after", &link.lost_after, 1, 1000);
   reader->integer("refresh_ms", &link.refresh_ms, 10, 3600000);
   reader->integer("merge_gap", &link.merge_gap, 0, 124);
+  reader->boolean("alarm", &entry.alarm);
   if (!named) return;
   if (!valid_link_name(link.name)) {
     reader->error("name", "must be 1 to 32 letters, digits, '_' or '-'");
@@ -72,6 +73,7 @@ void read_link(TableReader* reader, Config* config) {
   }
   hal::Point ok;
   ok.name = link.name + ".ok";
+  ok.meaning = "the Modbus link answers";
   ok.bus = static_cast<std::uint8_t>(config->modbus.size() + 1);
   link.ok_point = config->points.size();
   if (!config->points.add(ok)) reader->error("name", "there is no room for the point \"" + ok.name + "\"");

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configuration sections [sim.spindle] and [sim.tool_changer]: which points drive them and which they answer by.
+#include <map>
+
 #include "runtime/config_sections.hpp"
 
 namespace nc::rt {
@@ -13,7 +15,10 @@ struct PointKey {
   int* index;
 };
 
-void read_point_key(TableReader* reader, const Config& config, const PointKey& wanted) {
+// Which key of the plant uses a point: each point is one wire.
+using Wires = std::map<int, std::string>;
+
+void read_point_key(TableReader* reader, const Config& config, const PointKey& wanted, Wires* wires) {
   if (wanted.required) reader->require(wanted.key);
   std::string name;
   if (!reader->string(wanted.key, &name)) return;
@@ -27,6 +32,8 @@ void read_point_key(TableReader* reader, const Config& config, const PointKey& w
     return reader->error(wanted.key, "point \"" + name + "\" must be a " +
                                          (wanted.type == hal::PointType::kBit ? "bit" : "word"));
   if (point.bus != 0) return reader->error(wanted.key, "point \"" + name + "\" belongs to another bus");
+  const auto [wire, added] = wires->emplace(index, reader->path(wanted.key));
+  if (!added) return reader->error(wanted.key, "point \"" + name + "\" is used by " + wire->second + " already");
   *wanted.index = index;
 }
 
@@ -43,6 +50,7 @@ void read_sim_plant(TableReader* sim, Config* config) {
   plant.max_rpm = config->sim.spindle_max_rpm;
   plant.prepare_s = config->sim.tool_select_s;
   plant.change_s = config->sim.tool_change_s;
+  Wires wires;
   const auto needs_ladder = [&](TableReader& reader) {
     if (config->ladder.program.empty())
       reader.errors()->add(reader.line(), reader.path(), "needs a ladder program: see [ladder]");
@@ -54,7 +62,7 @@ void read_sim_plant(TableReader* sim, Config* config) {
                                 {"speed", kWord, kOut, true, &plant.speed},
                                 {"at_speed", kBit, kIn, false, &plant.at_speed},
                                 {"stopped", kBit, kIn, false, &plant.stopped}})
-      read_point_key(&reader, *config, key);
+      read_point_key(&reader, *config, key, &wires);
     needs_ladder(reader);
   });
   sim->table("tool_changer", [&](TableReader& reader) {
@@ -65,7 +73,7 @@ void read_sim_plant(TableReader* sim, Config* config) {
                                 {"change", kBit, kOut, true, &plant.change},
                                 {"changed", kBit, kIn, true, &plant.changed},
                                 {"tool", kWord, kIn, false, &plant.tool}})
-      read_point_key(&reader, *config, key);
+      read_point_key(&reader, *config, key, &wires);
     needs_ladder(reader);
   });
 }

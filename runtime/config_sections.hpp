@@ -22,6 +22,7 @@ std::uint8_t read_point_modbus(TableReader* point_reader, const hal::Point& poin
 void check_modbus(TableReader* root, const Config& config);
 void read_macro_interface(TableReader* root, Config* config);
 void read_ladder(TableReader* root, Config* config);
+void read_signals(TableReader* root, Config* config);  // after points, macro interface and ladder
 void read_sim(TableReader* root, Config* config);
 void read_share(TableReader* root, Config* config);  // runtime/share/config_share.cpp
 // [sim.spindle] and [sim.tool_changer]; called by read_sim() with the reader of [sim].

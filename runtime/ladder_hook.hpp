@@ -46,6 +46,8 @@ class LadderHook {
  public:
   virtual ~LadderHook() = default;
   virtual void scan(LadderImage* image) noexcept { (void)image; }  // NC_RT
+  // After a fault: as at power on, with the next scan. NC_RT.
+  virtual void restart() noexcept {}
 };
 
 }  // namespace nc::rt

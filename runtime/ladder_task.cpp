@@ -2,32 +2,43 @@
 // The ladder program in the scan.
 #include "runtime/ladder_task.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 namespace nc::rt {
 namespace {
 
 constexpr std::size_t kLargestProgram = 8u << 20;  // bytes of text
 
+// A pipe would be waited for, and a device may never end: only a file is read.
 bool read_text(const std::string& path, std::string* text, std::string* error) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  struct stat status {};
+  if (file < 0 || fstat(file, &status) != 0) {
     *error = std::string("cannot be read: ") + std::strerror(errno);
-    return false;
+  } else if (!S_ISREG(status.st_mode)) {
+    *error = S_ISDIR(status.st_mode) ? "is a folder, not a ladder program" : "is no file: a ladder program is text in a file";
+  } else if (status.st_size == 0) {
+    *error = "is empty: a ladder program has at least END";
+  } else if (static_cast<std::uint64_t>(status.st_size) > kLargestProgram) {
+    *error = "larger than " + std::to_string(kLargestProgram >> 20) + " MB";
+  } else {
+    text->resize(static_cast<std::size_t>(status.st_size));
+    const ssize_t got = pread(file, text->data(), text->size(), 0);
+    if (got < 0) *error = std::string("cannot be read: ") + std::strerror(errno);
+    else text->resize(static_cast<std::size_t>(got));
   }
-  std::ostringstream all;
-  all << file.rdbuf();
-  if (!file || !all) {
-    *error = "cannot be read";
-    return false;
-  }
-  *text = all.str();
-  if (text->size() <= kLargestProgram) return true;
-  *error = "larger than " + std::to_string(kLargestProgram >> 20) + " MB";
-  return false;
+  if (file >= 0) close(file);
+  return error->empty();
+}
+
+ladder::DeviceType point_device(const hal::Point& point) {
+  return point.type == hal::PointType::kBit ? ladder::DeviceType::kBit : ladder::DeviceType::kWord32;
 }
 
 }  // namespace
@@ -38,61 +49,143 @@ std::unique_ptr<LadderTask> LadderTask::create(const Config& config, std::vector
   return task;
 }
 
-void LadderTask::add_signals(const Config& config, ladder::DeviceTable* table) {
-  for (const Signal& signal : machine_signals(config.nc)) {
+// A point has its own name; "<name>.good" is its quality. A point that the configuration ties to a signal of the
+// NC is not the program's to write.
+ladder::DeviceTable LadderTask::device_table(const Config& config, std::vector<ConfigError>* errors) {
+  ladder::DeviceTable table;
+  for (const Signal& signal : machine_signals(config.nc))  // their names differ; a test says so
+    (void)table.add(signal.name, signal.row->type, signal.row->direction == SignalDirection::kToNc, signal.row->meaning);
+  for (unsigned p = 0; p < config.points.size(); ++p) {
+    const hal::Point& point = config.points.at(p);
+    const bool output = point.direction == hal::PointDirection::kOutput && !config.is_wired_output(p);
+    const auto device = table.add(point.name, point_device(point), output,
+                                  point.meaning.empty() ? "point of the machine" : point.meaning);
+    const auto good = table.add(point.name + ".good", ladder::DeviceType::kBit, false, "the bus of the point answers");
+    if (device < 0 || good < 0)
+      errors->push_back({config.file, 0, "point", "\"" + point.name + "\" is the name of a signal"});
+  }
+  return table;
+}
+
+void LadderTask::find_places(const Config& config, const ladder::DeviceTable& table) {
+  const std::vector<Signal> signals = machine_signals(config.nc);
+  to_nc_.reserve(signals.size());  // by_signal_ points into it
+  for (const Signal& signal : signals) {
     const bool writable = signal.row->direction == SignalDirection::kToNc;
-    const auto device = table->add(signal.name, signal.row->type, writable, signal.row->meaning);
-    if (device < 0) continue;  // the names of the table differ (a test says so)
     (writable ? to_nc_ : from_nc_)
-        .push_back({signal.row, signal.system, signal.index, static_cast<std::uint32_t>(device)});
+        .push_back({signal.row, signal.system, signal.index, table.find(signal.name)->index});
+    by_signal_.push_back(writable ? &to_nc_.back() : nullptr);
+  }
+  for (unsigned p = 0; p < config.points.size(); ++p) {
+    const hal::Point& point = config.points.at(p);
+    const ladder::Device& device = *table.find(point.name);
+    const auto index = static_cast<std::uint16_t>(p);
+    (device.writable ? outputs_ : inputs_).push_back({index, device.type, device.index});
+    quality_.push_back({index, ladder::DeviceType::kBit, table.find(point.name + ".good")->index});
   }
 }
 
-// A point has its own name; "<name>.good" is its quality.
-void LadderTask::add_points(const Config& config, ladder::DeviceTable* table, std::vector<ConfigError>* errors) {
-  for (unsigned p = 0; p < config.points.size(); ++p) {
-    const hal::Point& point = config.points.at(p);
-    const auto type =
-        point.type == hal::PointType::kBit ? ladder::DeviceType::kBit : ladder::DeviceType::kWord32;
-    const bool output = point.direction == hal::PointDirection::kOutput;
-    const auto device = table->add(point.name, type, output, "point of the machine");
-    const auto good = table->add(point.name + ".good", ladder::DeviceType::kBit, false, "the bus of the point answers");
-    if (device < 0 || good < 0) {
-      errors->push_back({config.file, 0, "point", "\"" + point.name + "\" is the name of a signal"});
-      continue;
-    }
-    const auto index = static_cast<std::uint16_t>(p);
-    (output ? outputs_ : inputs_).push_back({index, type, static_cast<std::uint32_t>(device)});
-    quality_.push_back({index, ladder::DeviceType::kBit, static_cast<std::uint32_t>(good)});
-  }
+void LadderTask::set_start_values(const Config& config) {
+  for (const SignalPlace& place : to_nc_) set(place.row->type, place.device, place.row->safe);
+  for (const PointPlace& place : outputs_)
+    set(place.type, place.device, static_cast<std::int32_t>(config.points.at(place.point).initial));
 }
 
 bool LadderTask::load(const Config& config, std::vector<ConfigError>* errors) {
-  ladder::DeviceTable table;
-  add_signals(config, &table);
-  add_points(config, &table, errors);
-  if (!errors->empty()) return false;
+  const std::size_t before = errors->size();
+  const ladder::DeviceTable table = device_table(config, errors);
   const std::string path = config.ladder_file();
   std::string text, error;
-  if (!read_text(path, &text, &error)) {
-    errors->push_back({path, 0, "", error});
-    return false;
-  }
+  if (!read_text(path, &text, &error)) errors->push_back({path, 0, "", error});
+  if (errors->size() != before) return false;
   ladder::CompileOptions options;
   options.scan_s = config.cycle_us * 1e-6;
+  options.retain_counters = config.ladder.retain_counters;
+  options.retain_d_first = config.ladder.retain_d_first;
+  options.retain_d_count = config.ladder.retain_d_count;
   std::vector<ladder::Error> found;
   if (!ladder::compile(text, path, table, options, &program_, &found)) {
     for (const ladder::Error& e : found) errors->push_back({e.file, e.line, e.instruction, e.message});
     return false;
   }
+  if (program_.instruction_count() == 0) {
+    errors->push_back({path, 0, "", "holds no instruction: a ladder program has at least END"});
+    return false;
+  }
   for (const ladder::Error& e : program_.warnings()) warnings_.push_back(e.text());
   engine_ = std::make_unique<ladder::Engine>(program_);
   devices_ = engine_->make_image();
-  for (const SignalPlace& place : to_nc_) set(place.row->type, place.device, place.row->safe);
-  for (const PointPlace& place : outputs_)
-    set(place.type, place.device, static_cast<std::int32_t>(config.points.at(place.point).initial));
+  ranges_ = engine_->retained();
+  find_places(config, table);
+  set_start_values(config);
+  fresh_ = copied_ = devices_;
   return true;
 }
+
+std::int32_t LadderTask::signal(unsigned place) const noexcept {
+  const SignalPlace* to_nc = by_signal_[place];
+  if (to_nc == nullptr) return 0;
+  return engine_->fault() != ladder::kNoFault ? to_nc->row->safe : get(to_nc->row->type, to_nc->device);
+}
+
+void LadderTask::restart() noexcept {
+  copy_retained(devices_, &fresh_);
+  std::copy(fresh_.bit.begin(), fresh_.bit.end(), devices_.bit.begin());
+  std::copy(fresh_.word.begin(), fresh_.word.end(), devices_.word.begin());
+  engine_->reset_fault();
+}
+
+// ---- retained devices ----
+
+void LadderTask::copy_retained(const ladder::DeviceImage& from, ladder::DeviceImage* to) const noexcept {
+  for (const ladder::RetainedRange& range : ranges_) {
+    if (range.words) std::copy_n(from.word.begin() + range.first, range.count, to->word.begin() + range.first);
+    else std::copy_n(from.bit.begin() + range.first, range.count, to->bit.begin() + range.first);
+  }
+}
+
+std::vector<RetainedRow> LadderTask::rows_of(const ladder::DeviceImage& image) const {
+  std::vector<RetainedRow> rows;
+  for (const ladder::RetainedRange& range : ranges_) {
+    RetainedRow row{range.name, range.number, std::vector<std::int16_t>(range.count)};
+    for (std::uint32_t i = 0; i < range.count; ++i)
+      row.values[i] = range.words ? image.word[range.first + i] : image.bit[range.first + i];
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<RetainedRow> LadderTask::retained() const {
+  return rows_of(devices_);
+}
+
+// Devices that were not retained then, or are no more, are left out.
+void LadderTask::restore(const std::vector<RetainedRow>& rows) {
+  for (const ladder::RetainedRange& range : ranges_)
+    for (const RetainedRow& row : rows) {
+      if (row.name != range.name) continue;
+      for (std::size_t i = 0; i < row.values.size(); ++i) {
+        const std::uint64_t number = std::uint64_t{row.first} + i;
+        if (number < range.number || number >= std::uint64_t{range.number} + range.count) continue;
+        const auto place = range.first + static_cast<std::uint32_t>(number - range.number);
+        if (range.words) devices_.word[place] = row.values[i];
+        else devices_.bit[place] = row.values[i] != 0;
+      }
+    }
+}
+
+void LadderTask::want_retained() {
+  if (turn_.load(std::memory_order_relaxed) == kIdle) turn_.store(kWanted, std::memory_order_release);
+}
+
+bool LadderTask::take_retained(std::vector<RetainedRow>* rows) {
+  if (turn_.load(std::memory_order_acquire) != kFilled) return false;
+  *rows = rows_of(copied_);
+  turn_.store(kIdle, std::memory_order_release);
+  return true;
+}
+
+// ---- the scan ----
 
 std::int32_t LadderTask::get(const ladder::DeviceType type, std::uint32_t device) const noexcept {
   switch (type) {
@@ -131,6 +224,10 @@ void LadderTask::scan(LadderImage* image) noexcept {
     set(place.type, place.device, static_cast<std::int32_t>(points.value[place.point]));
   for (const PointPlace& place : quality_) devices_.bit[place.device] = points.good[place.point];
   engine_->scan(&devices_);
+  if (turn_.load(std::memory_order_acquire) == kWanted) {
+    copy_retained(devices_, &copied_);
+    turn_.store(kFilled, std::memory_order_release);
+  }
   if (engine_->fault() != ladder::kNoFault) {  // signals as if there were no program; outputs as they are
     image->requests->stopped = true;
     image->requests->stopped_line = engine_->fault_line();

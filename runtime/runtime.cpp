@@ -47,13 +47,19 @@ Runtime::Runtime(const Config& config, const RuntimeParts& parts) : config_(conf
 std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimeParts& parts,
                                          std::vector<ConfigError>* errors) {
   std::unique_ptr<Runtime> runtime(new Runtime(config, parts));
-  if (parts.nc == nullptr && !runtime->make_control(errors)) return nullptr;
+  // Both are looked at, so that every mistake is reported at once.
+  bool good = parts.nc != nullptr || runtime->make_control(errors);
   if (parts.ladder == nullptr && !config.ladder.program.empty()) {
     runtime->own_ladder_ = LadderTask::create(config, errors);
-    if (runtime->own_ladder_ == nullptr) return nullptr;
+    good = good && runtime->own_ladder_ != nullptr;
+  }
+  if (!good) return nullptr;
+  if (runtime->own_ladder_ != nullptr) {
     runtime->parts_.ladder = runtime->own_ladder_.get();
     for (const std::string& warning : runtime->own_ladder_->warnings()) runtime->warnings_.push_back(warning);
   }
+  runtime->board_ = std::make_unique<SignalBoard>(config, runtime->parts_.ladder, runtime->own_ladder_.get());
+  runtime->parts_.ladder = runtime->board_.get();
   runtime->scan_ =
       std::make_unique<Scan>(config, parts.clock, parts.hal, runtime->parts_.ladder, runtime->parts_.nc);
   runtime->feeder_ =
@@ -122,6 +128,10 @@ bool Runtime::start(std::string* error) {
   }
   if (!bring_up(error)) return false;
   stop_scan_ = stop_feeder_ = false;
+  if (own_ladder_ != nullptr && !config_.retain_path().empty()) {
+    keeper_ = std::make_unique<RetainKeeper>(own_ladder_.get(), config_.retain_path());
+    keeper_->restore(&warnings_);
+  }
   feeder_->step();  // the first blocks are there before the first scan
   if (!feeder_thread_.start([this] { feeder_thread(); }, error)) {
     parts_.hal->stop();
@@ -129,6 +139,10 @@ bool Runtime::start(std::string* error) {
   }
   running_ = true;
   if (!scan_thread_.start([this] { scan_thread(); }, error)) {
+    stop();
+    return false;
+  }
+  if (keeper_ != nullptr && !keeper_->start(error)) {
     stop();
     return false;
   }
@@ -148,6 +162,7 @@ void Runtime::stop() {
     feeder_thread_.join();
     running_ = false;
     parts_.hal->stop();
+    keeper_.reset();  // writes what the last scan left
   } else if (stepping_) {
     stepping_ = false;
     parts_.hal->stop();
@@ -273,6 +288,7 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
     const std::string& own = config_.ladder.alarm[alarm.detail % config_.ladder.alarm.size()];
     text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);
   }
+  if (alarm.id == AlarmId::kLinkLost) text += ": " + config_.modbus[alarm.detail % config_.modbus.size()].link.name;
   if (alarm.id == AlarmId::kLadderStopped)
     text += ": " + config_.ladder.program + ", line " + std::to_string(alarm.detail);
   if (alarm.axis >= 0) text += std::string(", axis ") + config_.nc.system[alarm.system].axis[alarm.axis].name;

@@ -18,8 +18,10 @@
 
 #include "runtime/feeder.hpp"
 #include "runtime/ladder_task.hpp"
+#include "runtime/retain/keeper.hpp"
 #include "runtime/rt_thread.hpp"
 #include "runtime/scan.hpp"
+#include "runtime/signals/signal_board.hpp"
 
 namespace nc::rt {
 
@@ -45,6 +47,8 @@ class Runtime {
   nc_control* control() { return control_; }
   // The configuration's ladder program; null without one.
   const LadderTask* ladder() const { return own_ladder_.get(); }
+  // Values of the signals, for one reader.
+  SignalBoard* signals() { return board_.get(); }
   // Before the start.
   void set_sink(EventSink* sink) { feeder_->set_sink(sink); }
   void set_path_sink(PathSink* sink) { feeder_->set_path_sink(sink); }
@@ -58,7 +62,7 @@ class Runtime {
   std::int64_t first_scan_ns() const { return first_scan_ns_.load(); }  // CLOCK_MONOTONIC; 0 = not yet
 
   // ---- virtual time ----
-  // Brings the machine up without threads.
+  // Brings the machine up without threads. Retained devices begin with 0: the same run gives the same result.
   bool start_stepping(std::string* error);
   void step();
 
@@ -95,6 +99,8 @@ class Runtime {
   RuntimeParts parts_;
   LadderHook empty_ladder_;
   std::unique_ptr<LadderTask> own_ladder_;
+  std::unique_ptr<SignalBoard> board_;
+  std::unique_ptr<RetainKeeper> keeper_;  // in real time only
   struct FreeMemory {
     void operator()(void* memory) const;
   };

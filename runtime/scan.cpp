@@ -88,6 +88,7 @@ void Scan::read_inputs() noexcept {
   watch_standstill();
   watch_overruns();
   watch_fin();
+  watch_links();
   build_nc_inputs();
 }
 

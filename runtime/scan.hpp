@@ -103,6 +103,7 @@ class Scan {
   void run_ladder() noexcept;
   void follow_ladder(const LadderRequests& requests) noexcept;
   void watch_fin() noexcept;
+  void watch_links() noexcept;
   void request_reset() noexcept;
   void write_outputs() noexcept;
   void watch_machine() noexcept;
@@ -144,6 +145,7 @@ class Scan {
   bool single_block_ = false, optional_stop_ = false;
   LadderRequests last_requests_;     // of the scan before
   unsigned ladder_start_scans_ = 0;  // the ladder's cycle start has been on for
+  std::uint32_t links_seen_ = 0;  // bit n: Modbus link n has answered
   std::uint64_t fin_scans_[NC_MAX_SYSTEMS] = {};  // a part system has waited for FIN for
   bool start_pulse_ = false, hold_request_ = false;
   // From a fault of the machine to the end of the reset; the commanded position follows the measured one.

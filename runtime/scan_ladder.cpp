@@ -47,6 +47,8 @@ void Scan::request_reset() noexcept {
   if (reset_phase_ != ResetPhase::kNone) return;
   reset_phase_ = ResetPhase::kStopping;
   reset_scans_ = 0;
+  for (unsigned i = 0; i < alarms_.count; ++i)  // the program gets its next try; the same fault comes back as R17
+    if (alarms_.alarm[i].id == AlarmId::kLadderStopped) ladder_->restart();
   acknowledge_alarms();  // a cause that is still there brings its alarm back
 }
 

@@ -110,6 +110,19 @@ void Scan::watch_overruns() noexcept {
   missed_since_reset_ = 0;
 }
 
+// A link that has not answered yet is given some time, so that the control may be up before its devices.
+void Scan::watch_links() noexcept {
+  constexpr std::int64_t kGraceNs = 10'000'000'000;
+  for (unsigned n = 0; n < config_.modbus.size(); ++n) {
+    const ModbusLinkConfig& link = config_.modbus[n];
+    if (!link.alarm) continue;
+    const bool good = points_.value[link.link.ok_point] != 0;
+    links_seen_ |= static_cast<std::uint32_t>(good) << n;
+    const bool due = (links_seen_ >> n & 1u) != 0 || static_cast<std::int64_t>(scan_) * period_ns_ > kGraceNs;
+    if (!good && due) raise(AlarmId::kLinkLost, 0, -1, n);
+  }
+}
+
 // A completion that does not come is named with what it is waited for. Time in a hold does not count.
 void Scan::watch_fin() noexcept {
   if (config_.ladder.fin_timeout_s <= 0) return;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ncmon: a monitor on the terminal. Nothing but a DDS subscriber: it shows what ncdds publishes.
 //
-//   ncmon [--machine NAME] [--domain N]      full screen; q ends it
+//   ncmon [--machine NAME] [--domain N]      full screen; q ends it, s shows the signals, space their next page
+//   ncmon --view signals                     begins with them; also for --once and --json
 //   ncmon --once [--json] [--wait SECONDS]   one status
 //   ncmon --json                             a line of JSON for each status
 //   ncmon --progress                         one live line, until the control ends
@@ -38,6 +39,8 @@ struct Options {
   std::string machine;
   unsigned domain = nc::dds::kDefaultDomain;
   bool once = false, json = false, progress = false;
+  std::string view = "status";
+  bool signals() const { return view == "signals"; }
   double wait_s = 5;
   unsigned latency = 0;
 };
@@ -66,9 +69,13 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  void show(const std::string& page) {
+  static winsize dimensions() {
     winsize size{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_row == 0) size = {24, 80, 0, 0};
+    return size;
+  }
+  void show(const std::string& page) {
+    const winsize size = dimensions();
     std::string text = "\033[H";
     unsigned row = 0;
     for (std::size_t begin = 0; begin < page.size() && row + 1 < size.ws_row; ++row) {
@@ -81,10 +88,11 @@ class Screen {
     std::fputs((text + "\033[J").c_str(), stdout);
     std::fflush(stdout);
   }
-  bool quit_key() const {
+  // The key that was pressed, 0 = none.
+  char key() const {
     pollfd in{STDIN_FILENO, POLLIN, 0};
     char key = 0;
-    return raw_ && poll(&in, 1, 0) > 0 && read(STDIN_FILENO, &key, 1) == 1 && (key == 'q' || key == 'Q');
+    return raw_ && poll(&in, 1, 0) > 0 && read(STDIN_FILENO, &key, 1) == 1 ? key : '\0';
   }
 
  private:
@@ -123,6 +131,19 @@ int once(nc::dds::Monitor* monitor, const Options& options) {
     return monitor->samples() >= first + 2 && (!status.alarm || !monitor->view().alarms.empty());
   };
   while (!complete() && now() < end) monitor->wait(50 * kMs);
+  if (options.signals()) {
+    const std::int64_t patience = now() + static_cast<std::int64_t>(options.wait_s * 1e9);
+    while (monitor->view().signals.empty() && g_signal == 0 && now() < patience) monitor->wait(50 * kMs);
+    if (monitor->view().signals.empty()) {
+      std::fprintf(stderr, "ncmon: no signals came (waited %g s)\n", options.wait_s);
+      return kExitNobody;
+    }
+    monitor->wait(200 * kMs);  // the table, which says what they mean
+  }
+  if (options.signals() && !options.json) {
+    std::printf("%s", nc::dds::signal_page(monitor->view(), 0).c_str());
+    return 0;
+  }
   std::printf("%s", options.json ? (nc::dds::json_line(monitor->view()) + "\n").c_str()
                                  : nc::dds::page(monitor->view()).c_str());
   return 0;
@@ -207,6 +228,19 @@ int progress(nc::dds::Monitor* monitor) {
   return 0;
 }
 
+int failed(const std::string& text) {
+  std::fprintf(stderr, "ncmon: %s\n", text.c_str());
+  return kExitUsage;
+}
+
+// A page from this line on; behind its end it begins again.
+std::string from_line(const std::string& page, std::size_t* line) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < *line && at < page.size(); ++i) at = std::min(page.find('\n', at), page.size() - 1) + 1;
+  if (at >= page.size()) at = *line = 0;
+  return page.substr(at);
+}
+
 int full_screen(nc::dds::Monitor* monitor, const Options& options) {
   if (isatty(STDOUT_FILENO) == 0) {
     std::fprintf(stderr, "ncmon: this is not a terminal: --once, --json or --progress\n");
@@ -214,13 +248,27 @@ int full_screen(nc::dds::Monitor* monitor, const Options& options) {
   }
   Screen screen;
   std::int64_t next = 0;
-  while (g_signal == 0 && !screen.quit_key()) {
+  bool signals = options.signals();
+  std::size_t first_line = 0;
+  while (g_signal == 0) {
+    const char key = screen.key();
+    if (key == 'q' || key == 'Q') break;
+    if (key == 's' || key == 'S') {
+      std::string error;
+      signals = !signals;
+      first_line = 0;
+      if (!monitor->watch_signals(signals, &error)) return failed(error);
+    }
+    const winsize size = Screen::dimensions();
+    if (key == ' ') first_line += size.ws_row > 4 ? size.ws_row - 4u : 1u;
     monitor->wait(100 * kMs);
-    if (now() < next) continue;
+    if (now() < next && key == '\0') continue;
     next = now() + 100 * kMs;
-    std::string text = "ncmon   domain " + std::to_string(options.domain) + "   q ends\n\n";
+    std::string text = "ncmon   domain " + std::to_string(options.domain) +
+                       (signals ? "   q ends, s status, space next page\n\n" : "   q ends, s signals\n\n");
     if (!monitor->heard()) text += "nobody publishes yet ...\n";
-    else text += nc::dds::page(monitor->view());
+    else text += signals ? from_line(nc::dds::signal_page(monitor->view(), size.ws_col), &first_line)
+                         : nc::dds::page(monitor->view());
     screen.show(text);
   }
   return 0;
@@ -236,6 +284,8 @@ int main(int argc, char** argv) {
   app.add_option("--domain", options.domain, "DDS domain")->transform(nc::tools::whole(0, 230));
   CLI::Option* once_flag = app.add_flag("--once", options.once, "one status, then end");
   app.add_flag("--json", options.json, "as JSON, one object in a line");
+  app.add_option("--view", options.view, "status, or the signals between NC, ladder and machine")
+      ->check(CLI::IsMember({"status", "signals"}));
   CLI::Option* progress_flag = app.add_flag("--progress", options.progress, "one live line, until the control ends");
   app.add_option("--wait", options.wait_s, "seconds for the first status")->check(nc::tools::seconds(true, "86400"));
   CLI::Option* latency_option = app.add_option("--latency", options.latency, "times of so many samples")
@@ -253,10 +303,7 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   nc::dds::Monitor monitor(options.domain, options.machine);
   std::string error;
-  if (!monitor.open(&error)) {
-    std::fprintf(stderr, "ncmon: %s\n", error.c_str());
-    return kExitUsage;
-  }
+  if (!monitor.open(&error) || (options.signals() && !monitor.watch_signals(true, &error))) return failed(error);
   const bool shows_screen = !options.once && !options.json && !options.progress && options.latency == 0;
   int result = 0;
   if (shows_screen) result = full_screen(&monitor, options);

@@ -41,6 +41,12 @@ std::vector<Block> merge(const std::vector<PointMap>& points, bool write, unsign
 
 }  // namespace
 
+std::string place_text(const Block& block) {
+  std::string text = std::string(table_name(block.table)) + " " + std::to_string(block.first);
+  if (block.count > 1) text += ".." + std::to_string(block.end() - 1);
+  return text + " unit " + std::to_string(block.unit);
+}
+
 std::vector<Block> read_blocks(const std::vector<PointMap>& points, unsigned merge_gap) {
   return merge(points, false, merge_gap);
 }

@@ -2,6 +2,7 @@
 // Points merged into the requests that carry them.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "hal/modbus/map.hpp"
@@ -22,6 +23,9 @@ struct Block {
 
   unsigned end() const { return first + count; }
 };
+
+// "holding 10..13 unit 1"
+std::string place_text(const Block& block);
 
 // Inputs, in the order of unit, table, address. A block reads at most `merge_gap` cells in a row that no
 // point has; a 32-bit value is never split.

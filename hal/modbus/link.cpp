@@ -245,7 +245,7 @@ void ModbusLink::answered(Job* job, Result result) {
     report("connected to " + config_.host + " port " + std::to_string(config_.port));
   }
   if (result == Result::kOk) {
-    if (!job->trouble.empty()) report("again good: " + job->trouble);
+    if (!job->trouble.empty()) report("again good: " + place_text(job->block));
     job->bad = false;
     job->pause_ms = 0;
     job->trouble.clear();

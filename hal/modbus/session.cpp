@@ -24,9 +24,7 @@ constexpr unsigned kReadFunction[] = {1, 2, 4, 3};  // by Table
 constexpr unsigned kWriteOneCoil = 5, kWriteOneRegister = 6, kWriteCoils = 15, kWriteRegisters = 16;
 
 std::string place(const Block& block, unsigned function) {
-  std::string text = std::string(table_name(block.table)) + " " + std::to_string(block.first);
-  if (block.count > 1) text += ".." + std::to_string(block.end() - 1);
-  return text + " unit " + std::to_string(block.unit) + ", function " + std::to_string(function);
+  return place_text(block) + ", function " + std::to_string(function);
 }
 
 bool is_exception(int error) {

@@ -2,7 +2,7 @@
 // The shared-memory segment between ncrtd and its readers (the DDS gateway): plain data with a fixed layout.
 //
 //   header | machine | point table        fixed after creation, under a check sum
-//   status | history | points             each under a sequence lock of its own, written by ncrtd
+//   status | history | points | signals   each under a sequence lock of its own, written by ncrtd
 //   commands | acknowledgements           rings with one producer and one consumer
 //
 // Nothing in here is a pointer, and every text has a terminating NUL inside its array. A change of any struct
@@ -22,9 +22,10 @@
 namespace nc::rt::share {
 
 inline constexpr std::uint64_t kMagic = 0x3165'7261'6873'636e;  // "ncshare1" in memory
-inline constexpr std::uint32_t kLayoutVersion = 1;
+inline constexpr std::uint32_t kLayoutVersion = 2;
 inline constexpr unsigned kHistory = 256;  // alarms and messages kept
 inline constexpr unsigned kAlarms = 16;
+inline constexpr unsigned kMaxSignals = 512;  // between NC and ladder
 inline constexpr unsigned kCommandRing = 64;
 inline constexpr unsigned kAckRing = 256;
 inline constexpr std::size_t kMdiText = 1024;  // with its NUL; nc_mdi_load() takes no more
@@ -118,7 +119,25 @@ struct PointsBlock {
 
 struct PointRow {
   Text<56> name;
-  std::uint32_t is_word, is_input;
+  std::uint32_t is_word, is_input, safe, reserved;
+  Text<128> meaning;
+};
+
+// A signal between NC and ladder (runtime/signals/): its row of the table.
+struct SignalText {
+  Text<56> name;
+  std::uint32_t type;  // ladder::DeviceType
+  std::uint32_t from_nc;
+  std::int32_t safe;
+  std::uint32_t reserved;
+  Text<256> meaning;
+  Text<128> timing;
+};
+
+struct SignalsBlock {
+  std::uint64_t scan;
+  std::uint32_t count, reserved;
+  std::array<std::int32_t, kMaxSignals> value;
 };
 
 struct AxisRow {
@@ -133,11 +152,12 @@ struct MachineBlock {
   Text<64> machine;  // as configured
   Text<64> share;    // name of the segment without its prefix; the partition in DDS
   Text<32> version;  // of libnc
-  std::uint32_t dialect, system_count, cycle_us, point_count;
+  std::uint32_t dialect, system_count, cycle_us, point_count, signal_count, reserved;
   double max_feed_override;
   std::array<std::uint32_t, NC_MAX_SYSTEMS> axis_count;
   std::array<std::array<AxisRow, NC_MAX_AXES>, NC_MAX_SYSTEMS> axis;
   std::array<PointRow, hal::kMaxPoints> point;
+  std::array<SignalText, kMaxSignals> signal;
 };
 
 // ---- commands ----
@@ -243,6 +263,7 @@ struct Segment {
   SharedBlock<StatusBlock> status;
   SharedBlock<HistoryBlock> history;
   SharedBlock<PointsBlock> points;
+  SharedBlock<SignalsBlock> signals;  // asked for with the points
   SharedRing<Request, kCommandRing> commands;
   SharedRing<Ack, kAckRing> acks;
 };
@@ -250,7 +271,7 @@ struct Segment {
 // Over the places and sizes of what the segment is made of.
 constexpr std::uint32_t layout_hash() {
   const std::size_t figures[] = {sizeof(Segment), offsetof(Segment, machine), offsetof(Segment, status),
-                                 offsetof(Segment, history), offsetof(Segment, points), offsetof(Segment, commands),
+                                 offsetof(Segment, history), offsetof(Segment, points), offsetof(Segment, signals), sizeof(SignalText), offsetof(Segment, commands),
                                  offsetof(Segment, acks), sizeof(SystemStatus), sizeof(AxisStatus), sizeof(Entry),
                                  sizeof(ScanFigures), sizeof(PointRow), sizeof(AxisRow), sizeof(Request), sizeof(Ack),
                                  static_cast<std::size_t>(RequestKind::kCount), static_cast<std::size_t>(AckReason::kCount),

@@ -69,6 +69,18 @@ MachineBlock machine_block(const Config& config, const std::string& name) {
     set_text(&block.point[p].name, point.name);
     block.point[p].is_word = point.type == hal::PointType::kWord;
     block.point[p].is_input = point.direction == hal::PointDirection::kInput;
+    block.point[p].safe = point.initial;
+    set_text(&block.point[p].meaning, point.meaning);
+  }
+  for (const Signal& signal : machine_signals(config.nc)) {
+    if (block.signal_count == kMaxSignals) break;  // the largest machine has fewer; a test says so
+    SignalText& row = block.signal[block.signal_count++];
+    set_text(&row.name, signal.name);
+    row.type = static_cast<std::uint32_t>(signal.row->type);
+    row.from_nc = signal.row->direction == SignalDirection::kFromNc;
+    row.safe = signal.row->safe;
+    set_text(&row.meaning, signal.row->meaning);
+    set_text(&row.timing, signal.row->timing);
   }
   return block;
 }
@@ -95,8 +107,10 @@ void Publisher::publish() {
   status_.figures.overruns = snapshot.overruns;
   status_.figures.missed_slots = snapshot.missed_slots;
   fill_alarms(snapshot, info_);
-  if (tap_ != nullptr && segment_.points_until.load(std::memory_order_relaxed) > RealClock().now_ns())
-    fill_points(snapshot);
+  if (segment_.points_until.load(std::memory_order_relaxed) > RealClock().now_ns()) {
+    if (tap_ != nullptr) fill_points(snapshot);
+    fill_signals();
+  }
   segment_.status.store(status_);
   segment_.heartbeat.fetch_add(1, std::memory_order_release);
   if (segment_.life.load(std::memory_order_relaxed) == static_cast<std::uint32_t>(Life::kMaking))
@@ -247,6 +261,16 @@ void Publisher::fill_points(const Snapshot& snapshot) {
     segment_.points.store(points_);
   }
   tap_->want();
+}
+
+void Publisher::fill_signals() {
+  SignalBoard& board = *runtime_.signals();
+  if (board.signals().size() > kMaxSignals) return;
+  if (board.take(signals_.value.data(), &signals_.scan)) {
+    signals_.count = static_cast<std::uint32_t>(board.signals().size());
+    segment_.signals.store(signals_);
+  }
+  board.want();
 }
 
 }  // namespace nc::rt::share

@@ -32,6 +32,7 @@ class Publisher final : private AlarmLog::Describer {
   void fill_figures();
   void fill_alarms(const Snapshot& snapshot, const FeederInfo& info);
   void fill_points(const Snapshot& snapshot);
+  void fill_signals();
 
   Runtime& runtime_;
   const Config& config_;
@@ -46,6 +47,7 @@ class Publisher final : private AlarmLog::Describer {
   unsigned pictures_ = 0;
   StatusBlock status_{};
   PointsBlock points_{};
+  SignalsBlock signals_{};
   hal::PointImage image_;
 };
 

@@ -4,7 +4,6 @@
 
 #include <fcntl.h>
 #include <linux/futex.h>
-#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -18,6 +17,7 @@
 #include <iterator>
 #include <new>
 
+#include "runtime/share/door.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::rt::share {
@@ -56,7 +56,10 @@ std::string fault_of(const Segment& segment, std::uint64_t size) {
     whole = whole && machine.axis_count[s] <= NC_MAX_AXES;
     for (const AxisRow& axis : machine.axis[s]) whole = whole && is_ended(axis.name);
   }
-  for (const PointRow& point : machine.point) whole = whole && is_ended(point.name);
+  whole = whole && machine.signal_count <= kMaxSignals;
+  for (const PointRow& point : machine.point) whole = whole && is_ended(point.name) && is_ended(point.meaning);
+  for (const SignalText& signal : machine.signal)
+    whole = whole && is_ended(signal.name) && is_ended(signal.meaning) && is_ended(signal.timing) && signal.type <= 2;
   return whole ? "" : "is damaged (its description of the machine makes no sense)";
 }
 
@@ -103,7 +106,7 @@ std::int64_t wall_ns() {
 }
 
 std::string segment_path(const std::string& name) {
-  return "/nc-" + share_name(name);
+  return "nc-" + share_name(name);
 }
 
 std::uint64_t check_sum(const Segment& segment) {
@@ -124,64 +127,40 @@ std::uint64_t process_start(pid_t pid) {
 
 // ---- owner ----
 
-// The owner holds an flock() on the file as long as it lives, whatever ends it. Whoever gets the lock of an
-// existing file knows that its owner is gone.
-bool SegmentOwner::create(const std::string& name, mode_t mode, bool commands, const MachineBlock& machine,
+bool SegmentOwner::create(const std::string& name, bool group, bool commands, const MachineBlock& machine,
                           std::string* error) {
-  path_ = segment_path(name);
-  for (unsigned attempt = 0; attempt < 3; ++attempt) {
-    descriptor_ = shm_open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, mode);
-    if (descriptor_ < 0) {
-      *error = system_error("shared memory " + path_ + " cannot be made");
-      return false;
-    }
-    struct stat status {};
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 || fstat(descriptor_, &status) != 0) {
-      *error = "shared memory " + path_ + " belongs to a control that is running: give this one another name (--share)";
-      ::close(descriptor_);
-      descriptor_ = -1;
-      return false;
-    }
-    if (status.st_nlink != 0 && status.st_size == 0) break;  // new
-    // Left by a dead process, or taken away just now: its readers keep it, this one starts afresh.
-    if (status.st_nlink != 0) shm_unlink(path_.c_str());
-    ::close(descriptor_);
-    descriptor_ = -1;
-  }
-  if (descriptor_ < 0) {
-    *error = "shared memory " + path_ + " cannot be replaced";
-    return false;
-  }
-  if (fchmod(descriptor_, mode) != 0 || ftruncate(descriptor_, sizeof(Segment)) != 0) {
-    *error = system_error("shared memory " + path_);
-    remove();
-    return false;
-  }
-  void* memory = mmap(nullptr, sizeof(Segment), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, 0);
+  const std::string path = segment_path(name);
+  memory_ = make_sealed_memory(path, sizeof(Segment), error);
+  if (memory_ < 0) return false;
+  void* memory = mmap(nullptr, sizeof(Segment), PROT_READ | PROT_WRITE, MAP_SHARED, memory_, 0);
   if (memory == MAP_FAILED) {
-    *error = system_error("shared memory " + path_ + " cannot be mapped");
+    *error = system_error("shared memory " + path + " cannot be mapped");
     remove();
     return false;
   }
-  segment_ = new (memory) Segment;  // the file is all zeros: rings empty, sequences 0
+  segment_ = new (memory) Segment;  // the memory is all zeros: rings empty, sequences 0
   segment_->machine = machine;
   segment_->identity = {kMagic, kLayoutVersion, layout_hash(), sizeof(Segment), getpid(), commands ? 1u : 0u,
                         process_start(getpid()), wall_ns()};
   segment_->check = check_sum(*segment_);
-  return true;
+  bool in_use = false;
+  if (door_.open(path, memory_, group, &in_use, error)) return true;
+  if (in_use)
+    *error = "shared memory " + path + " belongs to a control that is running: give this one another name (--share)";
+  remove();
+  return false;
 }
 
 void SegmentOwner::remove() {
+  door_.close();
   if (segment_ != nullptr) {
     segment_->life.store(static_cast<std::uint32_t>(Life::kEnded), std::memory_order_release);
     wake(&segment_->wake_reader);
     munmap(segment_, sizeof(Segment));
     segment_ = nullptr;
   }
-  if (descriptor_ < 0) return;
-  shm_unlink(path_.c_str());
-  ::close(descriptor_);
-  descriptor_ = -1;
+  if (memory_ >= 0) ::close(memory_);
+  memory_ = -1;
 }
 
 // ---- reader ----
@@ -189,11 +168,17 @@ void SegmentOwner::remove() {
 bool SegmentReader::open(const std::string& name, std::string* error) {
   close();
   const std::string path = segment_path(name);
-  const int descriptor = shm_open(path.c_str(), O_RDWR | O_CLOEXEC, 0);
-  if (descriptor < 0) {
-    *error = errno == ENOENT ? "there is no control named \"" + share_name(name) + "\" (no shared memory " + path + ")"
-                             : system_error("shared memory " + path + " cannot be opened");
-    return false;
+  int descriptor = -1;
+  std::string why;
+  switch (fetch_memory(path, &descriptor, &why)) {
+    case Knock::kGiven:
+      break;
+    case Knock::kNobody:
+      *error = "there is no control named \"" + share_name(name) + "\" that shows itself";
+      return false;
+    case Knock::kRefused:
+      *error = "shared memory " + path + " " + why;
+      return false;
   }
   struct stat status {};
   void* memory = MAP_FAILED;
@@ -201,7 +186,7 @@ bool SegmentReader::open(const std::string& name, std::string* error) {
   if (fstat(descriptor, &status) != 0) fault = std::strerror(errno);
   else if (status.st_size == 0) fault = "is not complete yet";
   else if (static_cast<std::uint64_t>(status.st_size) < sizeof(Identity)) fault = "is too short for a segment of ncrtd";
-  // A page behind the end of the file would be a bus error: the size is judged before anything is read.
+  // A page behind the end of the memory would be a bus error: the size is judged before anything is read.
   else if (static_cast<std::uint64_t>(status.st_size) < sizeof(Segment)) {
     Identity identity{};
     const ssize_t got = pread(descriptor, &identity, sizeof identity, 0);
@@ -267,6 +252,16 @@ bool SegmentReader::points(PointsBlock* block, std::string* error) const {
     return false;
   }
   if (block->count <= hal::kMaxPoints) return true;
+  *error = kNonsense;
+  return false;
+}
+
+bool SegmentReader::signals(SignalsBlock* block, std::string* error) const {
+  if (!segment_->signals.load(block)) {
+    *error = kTorn;
+    return false;
+  }
+  if (block->count <= segment_->machine.signal_count) return true;
   *error = kNonsense;
   return false;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The segment as a file of POSIX shared memory, /nc-<name>: made by ncrtd, opened by readers.
+// The segment as sealed memory under a name, nc-<name>: made by ncrtd, which hands it to readers (door.hpp).
 #pragma once
 
 #include <sys/types.h>
@@ -8,11 +8,12 @@
 #include <memory>
 #include <string>
 
+#include "runtime/share/door.hpp"
 #include "runtime/share/layout.hpp"
 
 namespace nc::rt::share {
 
-// Prefix of every segment; "/nc-sim-mill".
+// Name of a segment: "nc-sim-mill".
 std::string segment_path(const std::string& name);
 
 // Check sum of what does not change: FNV-1a over identity and machine, 64 bits.
@@ -30,9 +31,9 @@ class SegmentOwner {
   SegmentOwner(const SegmentOwner&) = delete;
   SegmentOwner& operator=(const SegmentOwner&) = delete;
 
-  // Makes the segment. One that a dead process left is replaced; one of a living process is refused. False
-  // with a sentence in *error. `mode`: permissions, 0600 or 0660.
-  bool create(const std::string& name, mode_t mode, bool commands, const MachineBlock& machine, std::string* error);
+  // Makes the segment and opens its door. A name that a living process has is refused. False with a sentence in
+  // *error. `group`: readers of this process's group too, else of its user only.
+  bool create(const std::string& name, bool group, bool commands, const MachineBlock& machine, std::string* error);
   // Says goodbye to readers and takes the name away; readers that have it open keep the last values.
   void remove();
 
@@ -40,8 +41,8 @@ class SegmentOwner {
 
  private:
   Segment* segment_ = nullptr;
-  std::string path_;
-  int descriptor_ = -1;  // holds the lock that says the owner lives
+  int memory_ = -1;
+  Door door_;
 };
 
 // A reader's side.
@@ -64,6 +65,7 @@ class SegmentReader {
   bool status(StatusBlock* block, std::string* error) const;
   bool history(HistoryBlock* block, std::uint64_t* sequence, std::string* error) const;
   bool points(PointsBlock* block, std::string* error) const;
+  bool signals(SignalsBlock* block, std::string* error) const;
 
   // The owner has said goodbye, or its process is gone.
   bool owner_gone() const;

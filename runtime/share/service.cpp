@@ -54,7 +54,7 @@ Service::Service(Runtime* runtime, ProgramTable* programs, PointTap* tap, const 
 
 bool Service::create(std::string* error) {
   const MachineBlock machine = machine_block(runtime_.config(), options_.name);
-  if (!segment_.create(options_.name, options_.group ? 0660 : 0600, options_.commands, machine, error)) return false;
+  if (!segment_.create(options_.name, options_.group, options_.commands, machine, error)) return false;
   publisher_ = std::make_unique<Publisher>(&runtime_, &programs_, tap_, segment_.get(), options_.virtual_time);
   return true;
 }

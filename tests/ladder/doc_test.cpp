@@ -9,6 +9,7 @@
 
 #include "ladder/ladder.hpp"
 #include "rig.hpp"
+#include "runtime/ladder_task.hpp"
 
 namespace nc::ladder {
 namespace {
@@ -63,10 +64,28 @@ TEST(LadderDocument, ItsExamplesCompile) {
     const std::string example = text.substr(at, text.find("```", at) - at);
     Program program;
     std::vector<Error> errors;
+    if (examples == 0) continue;  // of the shipped machine: below
     EXPECT_TRUE(compile(example, "ladder.md", test_table(), {}, &program, &errors))
         << all_text(errors) << example;
   }
   EXPECT_GE(examples, 3u);
+}
+
+// The first one is for the machine that is shipped: whoever copies it finds its devices.
+TEST(LadderDocument, TheFirstExampleIsOfTheShippedMachine) {
+  nc::rt::Config config;
+  for (const nc::rt::ConfigError& error : nc::rt::load_config(std::string(NC_SOURCE_DIR) + "/etc/machine.toml", &config))
+    FAIL() << error.text();
+  std::vector<nc::rt::ConfigError> wrong;
+  const DeviceTable table = nc::rt::LadderTask::device_table(config, &wrong);
+  ASSERT_TRUE(wrong.empty());
+  const std::string text = document();
+  const std::size_t at = text.find("```il\n") + 6;
+  const std::string example = text.substr(at, text.find("```", at) - at);
+  Program program;
+  std::vector<Error> errors;
+  EXPECT_TRUE(compile(example, "ladder.md", table, {}, &program, &errors)) << all_text(errors) << example;
+  EXPECT_TRUE(program.warnings().empty());
 }
 
 TEST(LadderInstructions, EachNameOnceAndEachCompiles) {

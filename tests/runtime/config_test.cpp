@@ -41,6 +41,9 @@ unsigned first_line(const std::string& text, std::size_t place, const Case& c) {
   return line_of(text, place);
 }
 
+#define NC_LONG_30 "123456789012345678901234567890"
+#define NC_LONG NC_LONG_30 NC_LONG_30 NC_LONG_30 NC_LONG_30 NC_LONG_30
+
 class ConfigErrors : public testing::TestWithParam<Case> {};
 
 TEST_P(ConfigErrors, NameFileLineAndKey) {
@@ -250,6 +253,26 @@ const Case kCases[] = {
      "carried by another bus"},
     {"modbus_not_a_table", nullptr, NC_LINK "[[point]]\nname = \"p\"\ndirection = \"input\"\nmodbus = \"io\"\n",
      "point[6].modbus", "must be a table"},
+    {"modbus_alarm", nullptr, "[[modbus]]\nname = \"io\"\nhost = \"h\"\nalarm = 1\n", "modbus[1].alarm", "must be"},
+    {"signal_unknown", nullptr, "[signals]\n\"plc.feed_hold\" = \"in0\"\n", "signals.\"plc.feed_hold\"", "no signal of this machine"},
+    {"signal_axis_unknown", nullptr, "[signals]\n\"nc.moving_p.Q\" = \"out1\"\n", "signals.\"nc.moving_p.Q\"", "no signal"},
+    {"signal_second_system", nullptr, "[signals]\n\"nc2.cycle_lamp\" = \"out0\"\n", "signals.\"nc2.cycle_lamp\"", "no signal"},
+    {"signal_no_point", nullptr, "[signals]\n\"plc.fin1\" = \"nowhere\"\n", "signals.\"plc.fin1\"", "no point is named"},
+    {"signal_direction", nullptr, "[signals]\n\"plc.fin1\" = \"out0\"\n", "signals.\"plc.fin1\"", "is an output"},
+    {"signal_direction_back", nullptr, "[signals]\n\"nc.ready\" = \"in0\"\n", "signals.\"nc.ready\"", "is an input"},
+    {"signal_type", nullptr, "[signals]\n\"plc.fin1\" = \"word_in\"\n", "signals.\"plc.fin1\"", "is a bit, but"},
+    {"signal_type_word", nullptr, "[signals]\n\"plc.feed_override\" = \"in0\"\n", "signals.\"plc.feed_override\"", "is a word, but"},
+    {"signal_macro", nullptr, "[signals]\n\"nc.ready\" = \"out0\"\n", "signals.\"nc.ready\"", "macro interface already"},
+    {"signal_ladder", nullptr, "[ladder]\nprogram = \"x.il\"\n[signals]\n\"plc.fin1\" = \"in0\"\n", "signals.\"plc.fin1\"",
+     "given by the ladder"},
+    {"signal_twice", nullptr,
+     "[[point]]\nname = \"lamp\"\ndirection = \"output\"\n[signals]\n\"nc.ready\" = \"lamp\"\n\"nc.alarm\" = \"lamp\"\n",
+     "signals.\"nc.ready\"", "has a signal already"},
+    {"signal_not_text", nullptr, "[signals]\n\"nc.ready\" = 1\n", "signals.\"nc.ready\"", "must be"},
+    {"retain_d_order", nullptr, "[ladder]\nprogram = \"x.il\"\nretain_d = [10, 5]\n", "ladder.retain_d", "first and the last"},
+    {"retain_d_range", nullptr, "[ladder]\nprogram = \"x.il\"\nretain_d = [0, 8192]\n", "ladder.retain_d", "0 to 8191"},
+    {"retain_d_fraction", nullptr, "[ladder]\nprogram = \"x.il\"\nretain_d = [0.5, 8]\n", "ladder.retain_d", "first and the last"},
+    {"point_meaning", "name = \"in1\"", "name = \"in1\"\nmeaning = \"" NC_LONG "\"", "point[2].meaning", "longer than 127"},
     {"syntax", "name = \"test\"", "name = \"test", "", "syntax"},
     {"duplicate_key", "name = \"test\"", "name = \"test\"\nname = \"again\"", "", "syntax"},
 };
@@ -264,6 +287,30 @@ TEST(Config, AWordAndItsBitsAreOneImage) {
   const auto errors = nc::rt::parse_config(text, "m.toml", &config);
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_NE(errors[0].message.find("word and a bit"), std::string::npos) << errors[0].text();
+}
+
+TEST(Config, APointIsOneWireOfTheSimulatedMachine) {
+  std::string text = nc::test::base_toml() + "[ladder]\nprogram = \"x.il\"\n[[point]]\nname = \"w2\"\ntype = \"word\"\ndirection = \"output\"\n";
+  const std::string spindle = "[sim.spindle]\nforward = \"out0\"\nspeed = \"word_out\"\n";
+  Config config;
+  EXPECT_TRUE(nc::rt::parse_config(text + spindle, "m.toml", &config).empty());
+  const auto errors = nc::rt::parse_config(text + spindle + "reverse = \"out0\"\n", "m.toml", &config);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].key, "sim.spindle.reverse");
+  EXPECT_NE(errors[0].message.find("sim.spindle.forward already"), std::string::npos) << errors[0].text();
+  const auto across = nc::rt::parse_config(text + spindle + "[sim.tool_changer]\nprepare = \"out0\"\npocket = \"word_out\"\n"
+      "prepared = \"in0\"\nchange = \"out0\"\nchanged = \"in1\"\n", "m.toml", &config);
+  ASSERT_EQ(across.size(), 3u) << "prepare, pocket, change";
+}
+
+TEST(Config, WhatCouldBeReadIsThereForThoseWhoLookFurther) {
+  Config config, partial;
+  config.name = "untouched";
+  const std::string text = nc::test::base_toml() + "[ladder]\nprogram = \"x.il\"\nalarms = 3\n";
+  EXPECT_EQ(nc::rt::parse_config(text, "m.toml", &config, &partial).size(), 1u);
+  EXPECT_EQ(config.name, "untouched");
+  EXPECT_EQ(partial.ladder.program, "x.il");
+  EXPECT_GE(partial.points.find("in0"), 0);
 }
 
 TEST(Config, ReportsEveryErrorInTheOrderOfLines) {

@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <deque>
+#include <fstream>
 #include <memory>
+#include <sstream>
 
 #include "hal/sim/sim_machine.hpp"
 #include "runtime/runtime.hpp"
@@ -184,6 +186,23 @@ class OwnLadder : public LadderMachine {
   }
   std::string path_;
 };
+
+// docs/ladder.md says what it does.
+TEST_F(OwnLadder, TheFirstExampleOfTheDocumentRuns) {
+  std::ifstream file(std::string(NC_SOURCE_DIR) + "/docs/ladder.md");
+  std::ostringstream text;
+  text << file.rdbuf();
+  const std::size_t at = text.str().find("```il\n") + 6;
+  use(text.str().substr(at, text.str().find("```", at) - at));
+  ASSERT_TRUE(nc::rt::load_config(std::string(NC_SOURCE_DIR) + "/etc/machine.toml", &config).empty());
+  config.ladder.program = path_;
+  start("M8\nM50\nM9\nM30\n");
+  EXPECT_NEAR(until_line(2), 2000, 60) << "the coolant comes";
+  EXPECT_EQ(point("coolant"), 1u);
+  EXPECT_LT(until_line(3), 60) << "M50 is not waited for";
+  ASSERT_GE(until_end(), 0);
+  EXPECT_EQ(point("coolant"), 0u);
+}
 
 TEST_F(OwnLadder, Fin2GoesOnWhenItRises) {
   use("LD nc.m_strobe\nOR nc.t_strobe\nOUT plc.fin2\nEND\n");

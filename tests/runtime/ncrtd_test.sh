@@ -167,5 +167,65 @@ for command in check "run --fast $work/bom.nc"; do
   said err "scheduling.cpu: this computer has the processors 0 to"
 done
 
+# Mistakes of the configuration and of the ladder program in one go; what is no program is named, and not waited for.
+mkdir "$work/il"
+sed -e "s#^programs = .*#programs = \"$work\"#" -e 's#^cycle_us = .*#cycle_us = 7#' "$machine" >"$work/il/machine.toml"
+printf 'LD nc.m_strobe\nOUT nowhere\nBMOV D8190 D0 K5\nEND\n' >"$work/il/mill.il"
+expect 1 "$ncrtd" --config "$work/il/machine.toml" check
+said err "machine.cycle_us: must be"
+said err "mill.il:2: OUT nowhere: no such device"
+said err "mill.il:3: BMOV D8190 D0 K5: the row is longer"
+sed -i 's#^cycle_us = .*#cycle_us = 1000#' "$work/il/machine.toml"
+rm "$work/il/mill.il"
+mkfifo "$work/il/mill.il"
+expect 1 timeout 10 "$ncrtd" --config "$work/il/machine.toml" check
+said err "mill.il: is no file"
+rm "$work/il/mill.il"; mkdir "$work/il/mill.il"
+expect 1 timeout 10 "$ncrtd" --config "$work/il/machine.toml" check
+said err "mill.il: is a folder"
+rmdir "$work/il/mill.il"; ln -s /dev/zero "$work/il/mill.il"
+expect 1 timeout 10 "$ncrtd" --config "$work/il/machine.toml" check
+said err "mill.il: is no file"
+rm "$work/il/mill.il"; : >"$work/il/mill.il"
+expect 1 "$ncrtd" --config "$work/il/machine.toml" check
+said err "mill.il: is empty"
+printf '; nothing\n\n' >"$work/il/mill.il"
+expect 1 "$ncrtd" --config "$work/il/machine.toml" check
+said err "mill.il: holds no instruction"
+rm "$work/il/mill.il"
+expect 1 "$ncrtd" --config "$work/il/machine.toml" check
+said err "mill.il: cannot be read"
+
+# Retained devices: D0 counts the starts of the control, and the third one is an alarm. The file is as it was after a kill.
+sed -e "s#^programs = .*#programs = \"$work\"#" -e 's#^retain = .*#retain = "count.retain"\nretain_d = [0, 0]#' "$machine" >"$work/il/machine.toml"
+printf 'LD SM402\nINC D0\nLD>= D0 K3\nOUT plc.alarm.1\nLD nc.m_strobe\nOUT plc.fin2\nEND\n' >"$work/il/mill.il"
+keep() { expect "$1" "$ncrtd" --config "$work/il/machine.toml" run --no-progress "$work/short.nc"; }
+keep 0
+[ -s "$work/il/count.retain" ] || fail "no file of retained devices"
+"$ncrtd" --config "$work/il/machine.toml" run --no-progress "$work/long.nc" >"$work/out" 2>"$work/err" &
+child=$!
+until_listening "$child"
+expect 1 "$ncrtd" --config "$work/il/machine.toml" check --nonsense
+cp "$work/il/count.retain" "$work/first"
+for ((i = 0; i < 100; ++i)); do  # it is written within a second or so
+  cmp -s "$work/first" "$work/il/count.retain" || break
+  sleep 0.1
+done
+kill -KILL "$child"
+wait "$child" 2>/dev/null
+keep 2
+said err "R16 Alarm of the ladder 1"
+printf 'garbage' >"$work/il/count.retain"
+keep 2
+said err "retained devices are those of the last time but one"
+printf 'garbage' >"$work/il/count.retain"
+printf 'garbage' >"$work/il/count.retain.old"
+keep 0
+said err "retained devices are lost and begin with 0"
+[ -e "$work/il/count.retain.damaged" ] || fail "the damaged file is gone"
+sed -i 's#^retain = .*#retain = "/proc/nowhere/x"#' "$work/il/machine.toml"
+keep 0
+said err "retained devices are not kept: /proc/nowhere/x"
+
 [ "$failures" = 0 ] && echo "all good"
 exit $((failures > 0))

@@ -9,6 +9,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
+
 #include <thread>
 
 #include "runtime/share/text.hpp"
@@ -37,23 +40,29 @@ void set_alive(Segment* segment) {
 class Share : public testing::Test {
  protected:
   void SetUp() override {
-    if (access("/dev/shm", W_OK) != 0) GTEST_SKIP() << "no shared memory (/dev/shm)";
     name_ = "unit-" + std::to_string(getpid());
-    shm_unlink(segment_path(name_).c_str());
   }
-  void TearDown() override { shm_unlink(segment_path(name_).c_str()); }
+  void TearDown() override { take_away(); }
 
   bool create(SegmentOwner* owner) {
-    if (!owner->create(name_, 0600, true, machine(), &error_)) return false;
+    if (!owner->create(name_, false, true, machine(), &error_)) return false;
     set_alive(owner->get());
     return true;
   }
-  // A file of these bytes in the segment's place.
+  // Memory of these bytes in the segment's place.
   void put(const void* data, std::size_t size) {
-    const int descriptor = shm_open(segment_path(name_).c_str(), O_RDWR | O_CREAT | O_TRUNC, 0600);
-    ASSERT_GE(descriptor, 0);
-    ASSERT_EQ(write(descriptor, data, size), static_cast<ssize_t>(size));
-    close(descriptor);
+    take_away();
+    std::string error;
+    foreign_ = make_sealed_memory("unit", size, &error);
+    ASSERT_GE(foreign_, 0) << error;
+    ASSERT_EQ(pwrite(foreign_, data, size, 0), static_cast<ssize_t>(size));
+    bool in_use = false;
+    ASSERT_TRUE(door_.open(segment_path(name_), foreign_, false, &in_use, &error)) << error;
+  }
+  void take_away() {
+    door_.close();
+    if (foreign_ >= 0) close(foreign_);
+    foreign_ = -1;
   }
   // What a reader says of the segment.
   std::string refusal() {
@@ -62,6 +71,8 @@ class Share : public testing::Test {
     return reader.open(name_, &error) ? "" : error;
   }
   std::string name_, error_;
+  Door door_;
+  int foreign_ = -1;
 };
 
 TEST(ShareName, IsOneForFilesAndPartitions) {
@@ -88,11 +99,6 @@ TEST(ShareText, IsCutAtACharacterAndAlwaysEnded) {
 TEST_F(Share, ReaderSeesWhatTheOwnerWrote) {
   SegmentOwner owner;
   ASSERT_TRUE(create(&owner)) << error_;
-  struct stat status {};
-  const int descriptor = shm_open(segment_path(name_).c_str(), O_RDONLY, 0);
-  ASSERT_EQ(fstat(descriptor, &status), 0);
-  close(descriptor);
-  EXPECT_EQ(status.st_mode & 0777, 0600u);
   SegmentReader reader;
   ASSERT_TRUE(reader.open(name_, &error_)) << error_;
   StatusBlock block{};
@@ -121,20 +127,30 @@ TEST_F(Share, SegmentOfALivingControlIsRefused) {
 }
 
 TEST_F(Share, SegmentOfADeadProcessIsReplaced) {
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
   const pid_t child = fork();
   if (child == 0) {
     SegmentOwner owner;
     std::string error;
-    const bool made = owner.create(name_, 0600, false, machine(), &error);
-    if (made) set_alive(owner.get());
-    _exit(made ? 0 : 1);  // no destructor: as after a crash
+    const char made = owner.create(name_, false, false, machine(), &error) ? 1 : 0;
+    if (made != 0) set_alive(owner.get());
+    if (write(ready[1], &made, 1) != 1) _exit(1);
+    for (;;) pause();
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  ASSERT_EQ(status, 0);
+  char made = 0;
+  ASSERT_EQ(read(ready[0], &made, 1), 1);
+  ASSERT_EQ(made, 1);
   SegmentReader old;
   ASSERT_TRUE(old.open(name_, &error_)) << error_;
+  EXPECT_FALSE(old.owner_gone());
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  close(ready[0]);
+  close(ready[1]);
   EXPECT_TRUE(old.owner_gone());
+  EXPECT_NE(refusal().find("there is no control"), std::string::npos) << "its name went with it: " << refusal();
   SegmentOwner owner;
   ASSERT_TRUE(create(&owner)) << error_;
   SegmentReader reader;
@@ -143,7 +159,81 @@ TEST_F(Share, SegmentOfADeadProcessIsReplaced) {
   EXPECT_NE(reader.get()->identity.created_ns, old.get()->identity.created_ns) << "the old one keeps its memory";
 }
 
-TEST_F(Share, ForeignFilesAreRefusedAndReplaced) {
+// Whoever has the descriptor can do what he likes with the values, but he cannot take the memory away: the next
+// access of the control would be a bus error.
+TEST_F(Share, NobodyCanMakeTheMemoryShorter) {
+  SegmentOwner owner;
+  ASSERT_TRUE(create(&owner)) << error_;
+  int memory = -1;
+  ASSERT_EQ(fetch_memory(segment_path(name_), &memory, &error_), Knock::kGiven) << error_;
+  EXPECT_NE(ftruncate(memory, 0), 0);
+  EXPECT_EQ(errno, EPERM);
+  EXPECT_NE(ftruncate(memory, 1), 0);
+  EXPECT_NE(ftruncate(memory, sizeof(Segment) + 1), 0);
+  const std::string again = "/proc/self/fd/" + std::to_string(memory);
+  EXPECT_LT(open(again.c_str(), O_RDWR | O_TRUNC | O_CLOEXEC), 0) << "nor by opening it again";
+  EXPECT_NE(fcntl(memory, F_ADD_SEALS, F_SEAL_WRITE), 0);
+  struct stat status {};
+  ASSERT_EQ(fstat(memory, &status), 0);
+  EXPECT_EQ(status.st_size, static_cast<off_t>(sizeof(Segment)));
+  EXPECT_EQ(status.st_mode & 0777, 0600u);
+  // A hole is no end: what was in it is zero, and whoever reads or writes there goes on.
+  EXPECT_EQ(fallocate(memory, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, 0, sizeof(Segment)), 0);
+  close(memory);
+  EXPECT_NE(refusal(), "");
+  owner.remove();
+  ASSERT_TRUE(create(&owner)) << error_;
+  StatusBlock got{};
+  SegmentReader reader;
+  ASSERT_TRUE(reader.open(name_, &error_)) << error_;
+  EXPECT_TRUE(reader.status(&got, &error_)) << error_;
+}
+
+TEST_F(Share, MemoryThatCouldShrinkIsRefused) {
+  foreign_ = memfd_create("unit", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+  ASSERT_GE(foreign_, 0);
+  ASSERT_EQ(ftruncate(foreign_, sizeof(Segment)), 0);
+  bool in_use = false;
+  ASSERT_TRUE(door_.open(segment_path(name_), foreign_, false, &in_use, &error_)) << error_;
+  EXPECT_NE(refusal().find("no sealed memory"), std::string::npos) << refusal();
+}
+
+TEST_F(Share, AControlThatHangsIsNotWaitedForForEver) {
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    SegmentOwner owner;
+    std::string error;
+    const char made = owner.create(name_, false, false, machine(), &error) ? 1 : 0;
+    if (write(ready[1], &made, 1) != 1) _exit(1);
+    for (;;) pause();
+  }
+  char made = 0;
+  ASSERT_EQ(read(ready[0], &made, 1), 1);
+  kill(child, SIGSTOP);
+  int status = 0;
+  waitpid(child, &status, WUNTRACED);
+  EXPECT_NE(refusal().find("hangs"), std::string::npos) << refusal();
+  kill(child, SIGKILL);
+  waitpid(child, &status, 0);
+  close(ready[0]);
+  close(ready[1]);
+}
+
+// Readers that come and go, and who says nothing, do not keep the next one out.
+TEST_F(Share, TheDoorStaysOpen) {
+  SegmentOwner owner;
+  ASSERT_TRUE(create(&owner)) << error_;
+  for (unsigned i = 0; i < 200; ++i) {
+    int memory = -1;
+    ASSERT_EQ(fetch_memory(segment_path(name_), &memory, &error_), Knock::kGiven) << i << ": " << error_;
+    close(memory);
+  }
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(Share, ForeignMemoryIsRefused) {
   put("hello", 5);
   EXPECT_NE(refusal().find("too short"), std::string::npos) << refusal();
   const std::string garbage(sizeof(Segment) + 100, '\x5a');
@@ -151,9 +241,6 @@ TEST_F(Share, ForeignFilesAreRefusedAndReplaced) {
   EXPECT_NE(refusal().find("is not a segment of ncrtd"), std::string::npos) << refusal();
   put(garbage.data(), 4096);
   EXPECT_NE(refusal().find("is not a segment of ncrtd"), std::string::npos) << refusal();
-  SegmentOwner owner;
-  ASSERT_TRUE(create(&owner)) << error_;
-  EXPECT_EQ(refusal(), "");
 }
 
 TEST_F(Share, OtherLayoutsAreRefused) {
@@ -275,7 +362,7 @@ TEST_F(Share, OneProcessGivesCommands) {
 
 TEST_F(Share, CommandsAreOffUnlessTheControlTakesThem) {
   SegmentOwner owner;
-  ASSERT_TRUE(owner.create(name_, 0600, false, machine(), &error_)) << error_;
+  ASSERT_TRUE(owner.create(name_, false, false, machine(), &error_)) << error_;
   set_alive(owner.get());
   SegmentReader reader;
   ASSERT_TRUE(reader.open(name_, &error_)) << error_;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configuration section [signals]: signals of the table (docs/signals.md) that are points of the machine,
+// without a ladder program between them.
+#include <algorithm>
+
+#include "runtime/config_sections.hpp"
+#include "runtime/signals/signal_table.hpp"
+
+namespace nc::rt {
+namespace {
+
+bool macro_output(const MacroMap& map, int point) {
+  const auto has = [point](const auto& list) { return std::find(list.begin(), list.end(), point) != list.end(); };
+  return has(map.output_word) || std::any_of(map.output_bit.begin(), map.output_bit.end(), has);
+}
+
+void connect(TableReader* reader, const std::string& key, const std::vector<Signal>& signals, Config* config) {
+  std::string name;
+  if (!reader->string(key, &name)) return;
+  const auto signal =
+      std::find_if(signals.begin(), signals.end(), [&](const Signal& each) { return each.name == key; });
+  if (signal == signals.end())
+    return reader->error(key, "no signal of this machine has this name; docs/signals.md lists them");
+  const int index = config->points.find(name);
+  if (index < 0) return reader->error(key, "no point is named \"" + name + "\"");
+  const hal::Point& point = config->points.at(static_cast<unsigned>(index));
+  const bool to_nc = signal->row->direction == SignalDirection::kToNc;
+  if ((point.direction == hal::PointDirection::kInput) != to_nc)
+    return reader->error(key, to_nc ? "goes to the NC, but point \"" + name + "\" is an output"
+                                    : "comes from the NC, but point \"" + name + "\" is an input");
+  if ((point.type == hal::PointType::kBit) != (signal->row->type == ladder::DeviceType::kBit))
+    return reader->error(key, point.type == hal::PointType::kBit ? "is a word, but point \"" + name + "\" is a bit"
+                                                                 : "is a bit, but point \"" + name + "\" is a word");
+  if (to_nc && !config->ladder.program.empty())
+    return reader->error(key, "is given by the ladder program: connect it there");
+  if (!to_nc && macro_output(config->macro, index))
+    return reader->error(key, "point \"" + name + "\" is an output of the macro interface already");
+  const auto place = static_cast<unsigned>(signal - signals.begin());
+  const auto taken = [&](const SignalWire& wire) { return !to_nc && wire.point == static_cast<unsigned>(index); };
+  if (std::any_of(config->wires.begin(), config->wires.end(), taken))
+    return reader->error(key, "point \"" + name + "\" has a signal already");
+  config->wires.push_back({place, static_cast<unsigned>(index)});
+}
+
+}  // namespace
+
+void read_signals(TableReader* root, Config* config) {
+  root->table("signals", [&](TableReader& reader) {
+    const std::vector<Signal> signals = machine_signals(config->nc);
+    reader.each([&](const std::string& key, const toml::node&) { connect(&reader, key, signals, config); });
+  });
+}
+
+bool Config::is_wired_output(unsigned point) const {
+  if (points.at(point).direction != hal::PointDirection::kOutput) return false;
+  return std::any_of(wires.begin(), wires.end(), [point](const SignalWire& wire) { return wire.point == point; });
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small file that survives a power cut: written beside the old one, brought to the disk, then renamed. Two
+// generations stay, each under a check sum, so that whatever moment the power goes, one of them is whole.
+//
+//   PATH.new   being written       PATH   the last one       PATH.old   the one before
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace nc::rt {
+
+class RetainStore {
+ public:
+  explicit RetainStore(std::string path) : path_(std::move(path)) {}
+  ~RetainStore();
+  RetainStore(const RetainStore&) = delete;
+  RetainStore& operator=(const RetainStore&) = delete;
+
+  // Keeps other processes away from the file. False with a sentence in *error.
+  bool lock(std::string* error);
+
+  enum class Loaded { kWhole, kOlder, kNothing, kDamaged };
+  // The newest whole generation. kOlder: the last one is damaged, this is the one before. kNothing: there is
+  // no file yet. kDamaged: there are files, and none is whole; they are kept as PATH.damaged. A sentence in
+  // *error for kOlder and kDamaged.
+  Loaded load(std::string* payload, std::string* error);
+  // False with a sentence in *error; what was there before is there still.
+  bool save(const std::string& payload, std::string* error);
+
+  std::uint64_t generation() const { return generation_; }
+  const std::string& path() const { return path_; }
+  static constexpr std::size_t kMaxPayload = 1u << 20;
+
+ private:
+  const std::string path_;
+  std::uint64_t generation_ = 0;  // of the last one read or written
+  int lock_ = -1;
+};
+
+}  // namespace nc::rt

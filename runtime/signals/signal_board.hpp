@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The signals of this machine around its ladder program: what the configuration connects directly to points,
+// and the values of all of them for monitors. Stands between the scan and the ladder.
+//
+// The buffer for monitors belongs to the scan or to the reader, by turns, so neither waits; a scan in which
+// nobody wants anything reads one flag.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "runtime/config.hpp"
+#include "runtime/ladder_hook.hpp"
+#include "runtime/signals/signal_table.hpp"
+
+namespace nc::rt {
+
+class LadderTask;
+
+class SignalBoard final : public LadderHook {
+ public:
+  // `inner`: the ladder's hook. `task`: the program behind it, null when it is none of ours. Both must outlive
+  // this object.
+  SignalBoard(const Config& config, LadderHook* inner, const LadderTask* task);
+
+  void scan(LadderImage* image) noexcept override;  // NC_RT
+  void restart() noexcept override { inner_->restart(); }
+
+  // ---- reader, one thread ----
+  const std::vector<Signal>& signals() const { return signals_; }
+  void want() {
+    if (turn_.load(std::memory_order_relaxed) == kIdle) turn_.store(kWanted, std::memory_order_release);
+  }
+  // The values asked for, by place in signals(), once they are there; false before. `scan`: they are of.
+  bool take(std::int32_t* values, std::uint64_t* scan);
+
+ private:
+  enum Turn : unsigned { kIdle, kWanted, kFilled };
+  struct Wire {
+    const SignalRow* row;
+    std::uint8_t system, index;
+    unsigned point;
+    unsigned signal;  // place in signals_
+  };
+  std::int32_t given(unsigned signal, const LadderImage& image) const noexcept;
+
+  LadderHook* inner_;
+  const LadderTask* task_;
+  std::vector<Signal> signals_;
+  std::vector<Wire> wires_;
+  std::vector<int> wired_;  // by signal: point that gives a signal to the NC, -1 = none
+  std::vector<std::int32_t> values_;
+  std::uint64_t scan_ = 0;
+  std::atomic<unsigned> turn_{kIdle};
+};
+
+}  // namespace nc::rt
