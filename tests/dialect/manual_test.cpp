@@ -125,7 +125,7 @@ TEST(M700Manual, MissingFunctionsRaiseTheManualsAlarm) {
       {"P220", {340, 350, 360, 371}},
       {"P224", {120, 130}},
       {"P260", {680}},
-      {"P270", {660, 661, 1010, 1100, 2000, 2020}},
+      {"P270", {1010, 1100, 2000, 2020}},
       {"P350", {510}},
       {"P360", {511}},
       {"P431", {300}},
@@ -195,7 +195,7 @@ TEST(M700Manual, CodesOfOneFunctionAreBoundAlike) {
 }
 
 TEST(M700Manual, EveryCancelCodeOfAMissingFunctionIsAccepted) {
-  for (int code : {131, 1130, 150, 230, 401, 500, 501, 670, 690, 970}) {
+  for (int code : {131, 1130, 150, 230, 401, 500, 501, 690, 970}) {
     EXPECT_EQ(find_function(m700(), code)->function, Function::modal_off) << g_text(code);
   }
 }

@@ -137,6 +137,8 @@ constexpr Sentence kSentences[] = {
     {C::no_equals, "A variable is named without '=' and a value.", nullptr},
     {C::variable_use, "Variable #{value} cannot be used here.", "This variable cannot be used here."},
     {C::variable_name, "The name of the variable is not correct.", nullptr},
+    {C::variable_name_twice, "Another variable has the name that #{value} is to have.", "Another variable has this name."},
+    {C::print_port, "Nothing can be printed: POPEN has not been executed.", nullptr},
     {C::call_in_cycle, "A macro cannot be called by {word} during a fixed cycle.",
      "A macro cannot be called by a code during a fixed cycle."},
     {C::read_failed, "The program could not be read any further.", nullptr},

@@ -29,9 +29,12 @@ enum class Function : uint8_t {
   feed_per_minute,
   return_initial, return_r,
   exact_stop_mode, cutting_mode,   ///< G61 G64
-  macro_call,         ///< G65
+  macro_call, macro_modal, macro_every_block,   ///< G65 G66 G66.1: the words behind them are arguments
+  macro_modal_off,    ///< G67
   modal_off           ///< the cancel code of a function that is not built: the state it asks for is the only one there is
 };
+
+constexpr bool is_macro_call(Function f) { return f == Function::macro_call || f == Function::macro_modal || f == Function::macro_every_block; }
 
 struct FunctionRow {
   int16_t code;          ///< times 10: G54.1 = 541

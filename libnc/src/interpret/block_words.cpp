@@ -35,9 +35,13 @@ Did take_g(Interpreter& in, double value) {
   if (!w.g.push_back(row)) return in.raise(Condition::format_error, 'G', value);
   switch (row->function) {
     case Function::exact_stop_once: w.exact_stop = true; return Did::done;
-    case Function::modal_off:
-      // M700 13.5.1: G67 without a modal call in force.
-      if (code == 670) return in.raise(Condition::cancel_without_call, 'G', value);
+    case Function::modal_off: return Did::done;
+    case Function::macro_modal_off:  // M700 13.5.1: G67 without a modal call in force
+      return has_modal_call(in) ? Did::done : in.raise(Condition::cancel_without_call, 'G', value);
+    case Function::macro_modal:
+    case Function::macro_every_block:
+      w.one_shot = row;  // takes the words of the block though it is modal
+      w.one_shot_code = static_cast<int16_t>(code);
       return Did::done;
     default: break;
   }
@@ -118,7 +122,7 @@ Did gather_words(Interpreter& in) {
       if (did != Did::done) return did;
       if (w.g.back()->function == Function::absolute) w.absolute_at |= uint64_t{1} << i;
       if (w.g.back()->function == Function::incremental) w.incremental_at |= uint64_t{1} << i;
-      if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::macro_call) break;  // the rest are arguments
+      if (in.words.one_shot != nullptr && is_macro_call(in.words.one_shot->function)) break;  // the rest are arguments
       continue;
     }
     if (word.letter == 'M') {

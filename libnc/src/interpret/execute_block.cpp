@@ -50,6 +50,8 @@ Did select_plane(Interpreter& in, int16_t code) {
   return Did::done;
 }
 
+}  // namespace
+
 /// 1: modes that other words are read by.
 Did apply_reading_modes(Interpreter& in) {
   in.block_starts_incremental = in.state.modal.code[kGroupDistance] == 910;
@@ -82,11 +84,14 @@ Did apply_reading_modes(Interpreter& in) {
       case Function::modal_off:
         if (row->group != kGroupOneShot) in.state.modal.code[row->group] = row->code;
         break;
+      case Function::macro_modal_off: cancel_modal_call(in); break;
       default: break;
     }
   }
   return Did::done;
 }
+
+namespace {
 
 /// 2: coordinate systems and compensation.
 Did apply_systems(Interpreter& in) {
@@ -142,7 +147,9 @@ Did finish(Interpreter& in, Did did) {
   if (did != Did::done) return did;
   in.state.comp.has_vector = false;
   in.state.comp.cancel_vector = false;
-  return auxiliary_after(in);
+  did = auxiliary_after(in);
+  if (did != Did::done || (in.after_block == nullptr && in.state.frame[in.state.depth].modal_call == 0)) return did;
+  return call_behind_block(in);
 }
 
 /// Nothing in the block but axis words, F and a code of group 1: most blocks of a long program. What the other words would need looked
@@ -150,7 +157,8 @@ Did finish(Interpreter& in, Did did) {
 bool only_moves(const Interpreter& in) {
   const BlockWords& w = in.words;
   const bool codes = w.g.empty() || (w.g.size() == 1 && w.motion != nullptr);
-  return codes && w.m.empty() && (w.present & ~(in.axis_letters | letters("F"))) == 0 && in.state.cycle.kind == CycleKind::none;
+  return codes && w.m.empty() && (w.present & ~(in.axis_letters | letters("F"))) == 0 && in.state.cycle.kind == CycleKind::none &&
+         in.state.frame[in.state.depth].modal_call == 0;
 }
 
 Did execute_move(Interpreter& in) {
@@ -166,14 +174,20 @@ Did execute_move(Interpreter& in) {
 }  // namespace
 
 Did execute_words(Interpreter& in) {
+  if (in.code_calls.any) {
+    bool taken = false;
+    const Did did = dispatch_block(in, &taken);
+    if (taken || did != Did::done) return did;
+  }
   Did did = gather_words(in);
   if (did != Did::done) return did;
   BlockWords& w = in.words;
   if (only_moves(in)) return execute_move(in);
-  const bool macro_call = w.one_shot != nullptr && w.one_shot->function == Function::macro_call;
+  const bool macro_call = w.one_shot != nullptr && is_macro_call(w.one_shot->function);
   did = apply_reading_modes(in);
   if (did != Did::done) return did;
   if (macro_call) return call_macro(in);
+  if (in.state.frame[in.state.depth].modal_call != 0 && block_is_argument(in)) return call_with_block(in);
   did = check_company(in);
   if (did != Did::done) return did;
   did = resolve_axes(in);

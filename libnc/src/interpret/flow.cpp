@@ -2,23 +2,13 @@
 // Where the program goes on: GOTO, WHILE, sub programs, macro calls, the ends of texts (M700 13.3, 13.5.1, 13.5.7).
 #include <cmath>
 
-#include "interpret/interpreter.hpp"
+#include "interpret/calls.hpp"
 
 namespace nc {
 namespace {
 
 constexpr uint32_t kMaxLoopNumber = 127;   // M700 13.5.7: DO 1..127
 constexpr unsigned kLoopDepth = 27;
-constexpr unsigned kMacroDepth = 4;        // M700 13.5.2
-constexpr uint64_t kWholeText = ~uint64_t{0};
-
-CallFrame& top(Interpreter& in) { return in.state.frame[in.state.depth]; }
-
-Did evaluate_here(Interpreter& in, uint16_t code, Value* value) {
-  const Eval eval = evaluate(*in.block, code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, value, &in.fault, &in.sync_needed);
-  if (eval == Eval::fault) return Did::fault;
-  return eval == Eval::need_sync ? Did::sync : Did::done;
-}
 
 /// M700 13.5.7, 13.12: from the next block to the end of the program, then from its head.
 bool find_from_here(Interpreter& in, const CallFrame& frame, uint32_t n, uint64_t* offset, uint32_t* line) {
@@ -130,7 +120,16 @@ Did assign(Interpreter& in, const Statement& statement) {
   return write_system_variable(in, n, value, statement);
 }
 
-/// P (or <name>) of M98 and G65.
+}  // namespace
+
+// ---- entering programs ------------------------------------------------------------------------------------------------------
+
+Did evaluate_here(Interpreter& in, uint16_t code, Value* value) {
+  const Eval eval = evaluate(*in.block, code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, value, &in.fault, &in.sync_needed);
+  if (eval == Eval::fault) return Did::fault;
+  return eval == Eval::need_sync ? Did::sync : Did::done;
+}
+
 Did find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program) {
   if (in.block->name_length > 0) {
     if (in.block->name_length > 32) return in.raise(Condition::program_missing, '<');  // M700 13.3.1: at most 32 characters
@@ -143,100 +142,64 @@ Did find_called(Interpreter& in, bool has_p, double p, bool own_allowed, Program
     return Did::done;
   }
   uint32_t number = 0;
-  if (!whole_number(p, &number) || number == 0 || number > 99999999) return in.raise(Condition::program_missing, 'P', p);
+  if (!whole_number(p, &number)) return in.raise(Condition::program_missing, 'P', p);
+  return find_number(in, number, program);
+}
+
+Did find_number(Interpreter& in, uint32_t number, ProgramRef* program) {
+  if (number == 0 || number > 99999999) return in.raise(Condition::program_missing, 'P', number);
   *program = in.reader.find_program(number, top(in).program.file);
   if (!program->valid()) return in.raise(Condition::program_missing, 'P', number);
   program->number = number;
   return Did::done;
 }
 
-/// L of a call: 1 when it is not there.
 Did repetitions(Interpreter& in, bool has_l, double l, uint32_t* count) {
   *count = 1;
   if (has_l && (!whole_number(l, count) || *count > 9999)) return in.raise(Condition::value_range, 'L', l);
   return Did::done;
 }
 
-/// M98 or M99 with nothing but O N P L H (M700 13.3.1).
 bool only_calls(const Interpreter& in) {
   for (const Word& word : in.block->words)
     if (word.letter != 'M' && word.letter != 'P' && word.letter != 'L' && word.letter != 'H') return false;
   return in.words.m.size() == 1;
 }
 
-Did enter(Interpreter& in, const ProgramRef& program, CallKind kind, uint32_t passes, uint64_t offset, uint32_t line) {
+Did enter(Interpreter& in, const Entry& entry) {
   State& s = in.state;
-  if (s.depth + 1u > in.dialect->call_depth || s.depth + 1u >= kMaxFrames) return in.raise(Condition::nesting, 'P', program.number);
-  const uint8_t level = top(in).macro_level;
+  if (s.depth + 1u > in.dialect->call_depth || s.depth + 1u >= kMaxFrames) return in.raise(Condition::nesting, 'P', entry.program.number);
+  const CallFrame& caller = top(in);
+  const uint8_t level = caller.macro_level;
+  const uint8_t modal = entry.slot == 0 ? caller.modal_call : static_cast<uint8_t>(in.notes.get(Notes::slot_key(entry.slot, Notes::kBelow)));
   top(in).call_line = in.source.line;
   ++s.depth;
   CallFrame& frame = top(in);
   frame = CallFrame{};
-  frame.program = program;
-  frame.offset = frame.begin = offset;
-  frame.line = frame.begin_line = line;
-  frame.repeats = passes - 1;
-  frame.kind = kind;
-  frame.macro_level = static_cast<uint8_t>(kind == CallKind::macro ? level + 1 : level);
+  frame.program = entry.program;
+  frame.offset = frame.begin = entry.offset;
+  frame.line = frame.begin_line = entry.line;
+  frame.repeats = entry.passes - 1;
+  frame.kind = entry.kind;
+  frame.origin = entry.origin;
+  frame.modal_call = modal;
+  frame.modal_slot = entry.slot;
+  frame.macro_level = static_cast<uint8_t>(entry.kind == CallKind::macro ? level + 1 : level);
   frame.loop_base = s.loop_count;
-  frame.started = offset != program.offset;
+  frame.started = entry.offset != entry.program.offset;
+  if (modal != caller.modal_call) show_modal_call(in);
   return Did::later;  // the mark of the calling block comes after the return
 }
 
-// ---- macro arguments (M700 13.5.1) ---------------------------------------------------------------------------------------
+namespace {
 
-/// Designation I: local variable of a letter, 0 = no argument address. I J K: see below.
-constexpr uint8_t kArgument[26] = {/*A*/ 1, /*B*/ 2, /*C*/ 3, /*D*/ 7, /*E*/ 8, /*F*/ 9, /*G*/ 0, /*H*/ 11, /*I*/ 4, /*J*/ 5, /*K*/ 6, /*L*/ 0, /*M*/ 13,
-                                   /*N*/ 0, /*O*/ 0, /*P*/ 0, /*Q*/ 17, /*R*/ 18, /*S*/ 19, /*T*/ 20, /*U*/ 21, /*V*/ 22, /*W*/ 23, /*X*/ 24, /*Y*/ 25, /*Z*/ 26};
-
-struct MacroCall {
-  bool has_p = false, has_l = false;
-  double p = 0, l = 0;
-  Value argument[kLocals];
-};
-
-/// Designation II: I J K up to ten times, #(3k+1) #(3k+2) #(3k+3); a letter that does not come after the one before it in the
-/// alphabet begins the next group. The first group is what designation I says of I J K.
-struct GroupCounter {
-  unsigned group = 1;
-  char last = 0;
-  /// Variable number, 0 = more than ten groups.
-  unsigned variable(char letter) {
-    if (last != 0 && letter <= last) ++group;
-    last = letter;
-    return group > 10 ? 0 : 3 * group + 1 + static_cast<unsigned>(letter - 'I');
-  }
-};
-
-Did gather_arguments(Interpreter& in, MacroCall& call) {
-  GroupCounter groups;
-  bool behind_g65 = false;
-  for (unsigned i = 0; i < in.block->words.size(); ++i) {
-    const Word& word = in.block->words[i];
-    if (word.letter == 'G') {
-      behind_g65 = behind_g65 || word.value == 65;
-      continue;
-    }
-    Value value = Value::of(word.value);
-    if ((word.flags & kWordExpression) != 0) {
-      const Did did = evaluate_here(in, word.code, &value);
-      if (did != Did::done) return did;
-    }
-    if ((word.flags & (kWordNoValue | kWordComma | kWordCount)) != 0) return in.raise(Condition::format_error, word.letter);
-    if (word.letter == 'P' || word.letter == 'L') {
-      (word.letter == 'P' ? call.has_p : call.has_l) = !value.vacant;
-      (word.letter == 'P' ? call.p : call.l) = value.or_zero();
-      continue;
-    }
-    unsigned variable = kArgument[word.letter - 'A'];
-    if (word.letter >= 'I' && word.letter <= 'K') {
-      variable = groups.variable(word.letter);
-      if (variable == 0) return in.raise(Condition::macro_argument, word.letter);
-    }
-    if (variable == 0) return in.raise(Condition::illegal_address, word.letter);
-    call.argument[variable - 1] = value;
-  }
-  return Did::done;
+/// The program in hand has ended: the one that called it goes on. A modal call that it has commanded or cancelled stays so there.
+void leave(Interpreter& in) {
+  State& s = in.state;
+  const CallFrame& frame = top(in);
+  if (frame.modal_slot == 0 && frame.origin != CallOrigin::interrupt) s.frame[s.depth - 1].modal_call = frame.modal_call;
+  --s.depth;
+  show_modal_call(in);
 }
 
 }  // namespace
@@ -261,12 +224,18 @@ Did execute_statement(Interpreter& in, const Statement& statement) {
     }
     case StatementKind::do_loop: return begin_loop(in, statement, true);
     case StatementKind::end_loop: return end_loop(in, statement);
-    case StatementKind::if_then: return in.raise(Condition::if_statement);  // an option of later models, off
-    case StatementKind::set_name: return in.raise(Condition::no_function, 'V');
-    case StatementKind::open_port:
-    case StatementKind::close_port:
-    case StatementKind::print_decimal:
-    case StatementKind::print_binary: return in.raise(Condition::no_function, 'O');
+    case StatementKind::if_then: {  // of later models, an option: what follows in the block is done when the condition holds
+      if (!in.settings.macro_extensions) return in.raise(Condition::if_statement);
+      Value condition;
+      const Did did = evaluate_here(in, statement.value, &condition);
+      if (did == Did::done && condition.or_zero() == 0) in.jumped = true;  // past the rest of the block
+      return did;
+    }
+    case StatementKind::set_name: return set_names(in, statement);
+    case StatementKind::open_port: return open_port(in);
+    case StatementKind::close_port: return close_port(in);
+    case StatementKind::print_decimal: return print_decimal(in, statement);
+    case StatementKind::print_binary: return in.raise(Condition::no_function, 'O');  // the manual has lost its format
   }
   return in.raise(Condition::internal);
 }
@@ -290,29 +259,10 @@ Did call_sub(Interpreter& in) {
   }
   // M700 13.3.1: single block does not stop at a block that only calls; with other words it may, behind what they do.
   const bool stops = !only_calls(in);
-  did = enter(in, program, CallKind::sub, passes, offset, line);
+  did = enter(in, Entry{program, CallKind::sub, CallOrigin::word, passes, offset, line, 0});
   if (did != Did::later) return did;
   in.keep_call();
   if (stops) in.emit_stop_point(true);  // the call is made: what is read again after a stop is the sub program
-  return did;
-}
-
-Did call_macro(Interpreter& in) {
-  MacroCall call;
-  Did did = gather_arguments(in, call);
-  if (did != Did::done) return did;
-  uint32_t passes = 1;
-  did = repetitions(in, call.has_l, call.l, &passes);
-  if (did != Did::done || passes == 0) return did;
-  ProgramRef program;
-  did = find_called(in, call.has_p, call.p, false, &program);
-  if (did != Did::done) return did;
-  const unsigned level = in.macro_level() + 1u;
-  if (level > kMacroDepth) return in.raise(Condition::macro_nesting, 'P', program.number);
-  did = enter(in, program, CallKind::macro, passes, program.offset, program.line);
-  if (did != Did::later) return did;
-  in.variables.enter(level, call.argument, in.state.seq + 1);
-  in.keep_call();
   return did;
 }
 
@@ -350,12 +300,12 @@ Did return_sub(Interpreter& in) {
     uint32_t line = 0;
     CallFrame& caller = s.frame[s.depth - 1];
     if (!whole_number(w.get('P'), &n) || !find_from_here(in, caller, n, &offset, &line)) return in.raise(Condition::sequence_missing, 'P', w.get('P'));
-    --s.depth;
+    leave(in);
     leave_loops(in, offset);
     caller.offset = offset;
     caller.line = line;
   } else {
-    --s.depth;
+    leave(in);
   }
   const bool stops = !only_calls(in);
   s.owes_mark = true;

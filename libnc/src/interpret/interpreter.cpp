@@ -16,7 +16,17 @@ unsigned power_of_two_above(unsigned n) {
   return p;
 }
 
-void undo_table(void* self, uint32_t key, double old) { static_cast<Interpreter*>(self)->frames.set(key - Variables::kForeignKey, old); }
+// Foreign keys of the journal: the frames' table, and behind it the notes.
+constexpr uint32_t kNoteKey = Variables::kForeignKey + 0x10000000;
+
+void undo_table(void* self, uint32_t key, double old) {
+  Interpreter& in = *static_cast<Interpreter*>(self);
+  if (key < kNoteKey) {
+    in.frames.set(key - Variables::kForeignKey, old);
+  } else {
+    in.notes.set(key - kNoteKey, old);
+  }
+}
 
 }  // namespace
 
@@ -41,7 +51,9 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   reader.create(store, dialect->lex, config.window_bytes, config.look_ahead < 256 ? 16 : 128, arena);
   transforms.create(under_way, arena);
   modals.create(under_way, arena);
-  texts.create(64, arena);
+  texts.create(power_of_two_above(config.look_ahead + 64), arena);  // DPRNT: one in every block that is under way
+  notes.create(arena);
+  rewritten = arena.make<Block>();
   queue_ = arena.make<Item>(kQueue);
   checkpoints_.create(power_of_two_above(config.look_ahead + 64), arena);
   if (queue_ != nullptr && !arena.overflowed()) {
@@ -61,6 +73,18 @@ AxisVec Interpreter::position() const {
 void Interpreter::set_table(unsigned key, double value) {
   variables.note(state.seq + 1, Variables::kForeignKey + key, frames.get(key));
   frames.set(key, value);
+}
+
+void Interpreter::set_note(unsigned key, double value) {
+  const double old = notes.get(key);
+  if (std::memcmp(&old, &value, sizeof old) == 0) return;  // vacant arguments are NaN
+  variables.note(state.seq + 1, kNoteKey + key, old);
+  notes.set(key, value);
+}
+
+void Interpreter::refresh_settings() {
+  settings = parameters.settings(*dialect);
+  code_calls = dialect->lex->macros ? read_code_calls(parameters) : CodeCalls{};
 }
 
 Item& Interpreter::emit(ItemKind kind) {
@@ -97,9 +121,10 @@ void Interpreter::reset(bool keep_modal) {
   const double length_value = state.length_value;
   const uint8_t length_axis = state.length_axis;
   const uint16_t work_system = state.work_system;
-  const bool spindle_on = state.spindle_on;
+  const bool spindle_on = state.spindle_on, port_open = state.port_open;
   state = State{};
   state.machine = machine;
+  state.port_open = port_open;
   for (unsigned i = 0; i < NC_GROUPS; ++i) state.modal.code[i] = dialect->initial[i];
   if (settings.start_inch) state.modal.code[kGroupUnit] = 200;
   if (keep_modal) {
@@ -117,6 +142,7 @@ void Interpreter::reset(bool keep_modal) {
   state.frame[0].line = state.frame[0].begin_line = main_program.line;
   variables.clear_locals(1);
   variables.forget();
+  notes.clear();
   // DGSHAPE G28: a midpoint is remembered within a program.
   for (unsigned i = 0; i < axis_count; ++i) frames.set(Frames::midpoint_set_key(i), 0);
   finished_modal = state.modal;
@@ -124,6 +150,7 @@ void Interpreter::reset(bool keep_modal) {
   head_ = queued_ = 0;
   waiting_ = false;
   next_step = Step::none;
+  after_block = nullptr;
   statement = 0;
   ended = !main_program.valid();
   alarmed = false;
@@ -147,6 +174,7 @@ bool Interpreter::rewind(BlockSeq seq) {
   head_ = queued_ = 0;
   waiting_ = false;
   next_step = Step::none;
+  after_block = nullptr;
   statement = 0;
   ended = false;
   alarmed = false;
@@ -316,6 +344,7 @@ void Interpreter::emit_stop_point(bool resume) {
 
 void Interpreter::stop(const Fault& what, const nc_source& where) {
   next_step = Step::none;
+  after_block = nullptr;
   statement = 0;
   waiting_ = false;
   alarm_fault = what;

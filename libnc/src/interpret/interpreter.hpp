@@ -6,7 +6,9 @@
 //   execute_block.cpp     the order in which the words of one block act
 //   functions/*.cpp       what the one-shot and modal functions do, one handler per Function (functions.hpp is the table)
 //   motion.cpp, arc.cpp   moves
-//   flow.cpp              GOTO, WHILE, M98/M99, G65, the ends of programs
+//   flow.cpp              GOTO, WHILE, M98/M99, the ends of programs
+//   macro_call.cpp        G65, G66, G66.1, G67 and their arguments
+//   code_call.cpp         G M S T B and ASCII codes that call programs
 //   system_variables.cpp  #1000 and up
 #pragma once
 
@@ -15,6 +17,8 @@
 #include "frame/frames.hpp"
 #include "frame/transform.hpp"
 #include "interpret/block_words.hpp"
+#include "interpret/code_calls.hpp"
+#include "interpret/notes.hpp"
 #include "interpret/parameters.hpp"
 #include "interpret/checkpoints.hpp"
 #include "interpret/state.hpp"
@@ -77,7 +81,7 @@ struct Interpreter {
   }
   /// A stage behind has found a fault: what is queued is void, the alarm and the end take its place.
   void abort(const Fault& what, const nc_source& where);
-  void refresh_settings() { settings = parameters.settings(*dialect); }
+  void refresh_settings();
   /// The host has changed a number of the frames' table: no rewind brings the old one back.
   void set_table_from_outside(unsigned key, double value) {
     frames.set(key, value);
@@ -100,6 +104,8 @@ struct Interpreter {
   Parameters parameters;
   Frames frames;
   Variables variables;
+  Notes notes;
+  CodeCalls code_calls;
   CommonVariables* common = nullptr;
   ProgramStore* store = nullptr;
   BlockReader reader;
@@ -134,6 +140,8 @@ struct Interpreter {
   AxisVec hole_increment;
   uint32_t hole_axes = 0;
   bool motion_done = false;
+  Block* rewritten = nullptr;      ///< copy of the block in hand without the code that calls a program
+  const CodeCall* after_block = nullptr; ///< the program to be called when the block in hand has done its part
   bool block_starts_incremental = false; ///< G91 was modal before this block
   bool distance_by_word = false;         ///< an axis word goes by the G90/G91 before it in the block (M700 5.1)
 
@@ -174,6 +182,8 @@ struct Interpreter {
   AxisVec position() const;
   /// Journalled write to the frames' table.
   void set_table(unsigned key, double value);
+  /// The same to the notes.
+  void set_note(unsigned key, double value);
 
  private:
   static constexpr unsigned kQueue = 64;    ///< items a block may make before the stages take them
@@ -201,6 +211,8 @@ struct Interpreter {
 
 /// interpret/execute_block.cpp: a block of words.
 Did execute_words(Interpreter& in);
+/// The G codes of in.words that say how other words are read.
+Did apply_reading_modes(Interpreter& in);
 /// Goes on with a block that said Did::later.
 Did continue_block(Interpreter& in);
 
@@ -209,12 +221,28 @@ Did execute_statement(Interpreter& in, const Statement& statement);
 Did call_sub(Interpreter& in);          ///< M98
 Did return_sub(Interpreter& in);        ///< M99
 Did check_loops_closed(Interpreter& in);  ///< at the end of a program: a DO without END is P294
-Did call_macro(Interpreter& in);        ///< G65
 Did text_ended(Interpreter& in);        ///< the end of the text, or '%'
+
+/// interpret/macro_call.cpp
+Did call_macro(Interpreter& in);           ///< G65, G66, G66.1
+Did call_with_block(Interpreter& in);      ///< a block in the mode of G66.1
+bool modal_call_takes_blocks(const Interpreter& in);
+bool has_modal_call(const Interpreter& in);   ///< something that G67 can cancel
+void cancel_modal_call(Interpreter& in);      ///< G67
+
+/// interpret/code_call.cpp
+/// A block that may hold a registered code. *taken: the call has been made and takes all the words.
+Did dispatch_block(Interpreter& in, bool* taken);
+/// G66.1 is in force and takes the words of this block (in.words).
+bool block_is_argument(const Interpreter& in);
+/// What a block calls behind its own part: a code of type M98, the modal call after a move.
+Did call_behind_block(Interpreter& in);
 
 /// interpret/system_variables.cpp
 Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault* fault, uint32_t* sync);
 Did write_system_variable(Interpreter& in, uint32_t number, Value value, const Statement& statement);
+/// print.cpp: the variable that SETVN has given this name.
+bool find_variable_name(void* self, const char* name, size_t length, uint32_t* number);
 /// Reader over everything, for evaluate().
 VariableReader variable_reader(Interpreter& in);
 

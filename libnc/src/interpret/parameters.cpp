@@ -188,6 +188,8 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.peck_clearance_83 = number("8013", 0);
   s.peck_clearance_73 = number("8012", 0);
   s.macro_single = flag("8101");
+  s.macro_extensions = flag("macro_extensions");
+  s.print_blanks = flag("DPRNT_BLANK");
   s.asin_0_360 = flag("1273/bit0");
   s.preset_allowed = number("1267/bit0", 1) != 0;
   s.run_time_hours = flag("1273/bit1");

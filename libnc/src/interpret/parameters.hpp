@@ -29,6 +29,8 @@ struct Settings {
   double peck_clearance_83 = 0;       ///< #8013, mm
   double peck_clearance_73 = 0;       ///< #8012, mm
   bool macro_single = false;          ///< #8101
+  bool macro_extensions = false;      ///< IF THEN of later models
+  bool print_blanks = false;          ///< DPRNT: leading zeros become blanks (M700 13.5.8 (4))
   bool asin_0_360 = false;            ///< #1273 bit 0
   bool start_absolute = true;
   bool start_inch = false;            ///< #1152

@@ -15,6 +15,15 @@ inline constexpr unsigned kMaxLoops = 108;    ///< DO-END: 27 in each program (M
 
 enum class CallKind : uint8_t { main, sub, macro };
 
+/// What has called a program.
+enum class CallOrigin : uint8_t {
+  word,       ///< M98, G65
+  modal,      ///< G66, G66.1
+  code,       ///< a registered G M S T B or ASCII code: such codes are ordinary ones in there (M700 13.5.2, 13.5.3)
+  external,   ///< M198
+  interrupt   ///< M96
+};
+
 /// One level of the call stack.
 struct CallFrame {
   ProgramRef program;
@@ -27,7 +36,12 @@ struct CallFrame {
   uint8_t macro_level = 0;
   uint8_t loop_base = 0;      ///< loops of this level start here
   bool started = false;       ///< a block of this program has been executed: a further O line is another program
+  CallOrigin origin = CallOrigin::word;
+  uint8_t modal_call = 0;     ///< slot (interpret/notes.hpp) of the modal macro call in force in this program, 0 = none
+  uint8_t modal_slot = 0;     ///< slot of the modal call that runs this program, 0 = none
+  bool figure = false;        ///< passes are rotated (M700 13.3.3)
 };
+static_assert(sizeof(CallFrame) == 64);
 
 /// An open DO.
 struct Loop {
@@ -53,6 +67,7 @@ struct State {
   uint16_t work_system = 0;   ///< 0..5 G54..G59, 6.. G54.1 P1..
   bool spindle_on = false;
   bool end_seen = false;
+  bool port_open = false;     ///< POPEN has been executed (M700 13.5.8)
   bool percent_seen = false;  ///< the start mark of the main program has been read
   uint32_t moves_since_comp_off = 1; ///< M700 P112: a plane change right after G40 needs a move in between
   uint8_t control_3003 = 0, control_3004 = 0;

@@ -392,7 +392,7 @@ Eval read_any(void* self, uint32_t number, Value* value, Fault* fault, uint32_t*
 
 }  // namespace
 
-VariableReader variable_reader(Interpreter& in) { return {&in, read_any, nullptr, in.variables.locals(in.macro_level()), kLocals}; }
+VariableReader variable_reader(Interpreter& in) { return {&in, read_any, find_variable_name, in.variables.locals(in.macro_level()), kLocals}; }
 
 Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault* fault, uint32_t* sync) {
   const Range* range = find_range(number);

@@ -26,8 +26,22 @@ void fill_vacant(double* slots, size_t count) {
 
 // Journal keys of local variables: beside the numbers of common variables, below kForeignKey.
 constexpr uint32_t kLocalKey = 0x20000000;
+constexpr uint32_t kNameKey = 0x10000000;
 constexpr uint32_t local_key(unsigned level, unsigned number) {
   return kLocalKey | level << 8 | number;
+}
+
+constexpr uint32_t kFirstNamed = 500;
+
+unsigned digit_of(char c) {
+  return c >= '0' && c <= '9' ? static_cast<unsigned>(c - '0') + 1 : static_cast<unsigned>(c - 'A') + 11;
+}
+
+/// A name as a number, so that it is journalled like one: seven digits of base 37 are below 2^53.
+double name_code(const char* name, size_t length) {
+  double code = 0;
+  for (size_t i = 0; i < kNameLength; ++i) code = code * 37 + (i < length ? digit_of(name[i]) : 0);
+  return code;
 }
 
 }  // namespace
@@ -176,6 +190,38 @@ void Variables::clear_locals(BlockSeq seq) {
   for (unsigned level = 0; level < kLocalLevels; ++level) enter(level, kNoArguments, seq);
 }
 
+bool Variables::set_name(uint32_t number, const char* name, size_t length, BlockSeq seq) {
+  const uint32_t index = number - kFirstNamed;
+  if (index >= kNames || !common_->exists(number) || length > kNameLength) return false;
+  journal_.note(seq, kNameKey | index, Value::of(common_->name(index)));
+  common_->set_name(index, name_code(name, length));
+  return true;
+}
+
+bool Variables::find_name(const char* name, size_t length, uint32_t* number) const {
+  if (length == 0 || length > kNameLength) return false;
+  const double code = name_code(name, length);
+  for (unsigned i = 0; i < kNames; ++i) {
+    if (common_->name(i) != code) continue;
+    *number = kFirstNamed + i;
+    return true;
+  }
+  return false;
+}
+
+unsigned Variables::name_of(uint32_t number, char* name) const {
+  const uint32_t index = number - kFirstNamed;
+  if (index >= kNames) return 0;
+  auto code = static_cast<uint64_t>(common_->name(index));
+  unsigned length = 0;
+  for (unsigned i = kNameLength; i-- > 0; code /= 37) {
+    const unsigned digit = static_cast<unsigned>(code % 37);
+    name[i] = static_cast<char>(digit == 0 ? 0 : digit <= 10 ? '0' + digit - 1 : 'A' + digit - 11);
+    if (digit != 0 && length == 0) length = i + 1;
+  }
+  return length;
+}
+
 void Variables::note(BlockSeq seq, uint32_t key, double old) {
   journal_.note(seq, key, Value::of(old));
 }
@@ -185,6 +231,8 @@ bool Variables::rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uin
   journal_.rewind(seq, [&](uint32_t key, Value old) {
     if (key >= kForeignKey) {
       if (foreign != nullptr) foreign(self, key, old.number);
+    } else if ((key & kNameKey) != 0) {
+      common_->set_name(key & 0xff, old.number);
     } else if ((key & kLocalKey) != 0) {
       local_[key >> 8 & 0xff][key & 0xff] = to_storage(old);
     } else {

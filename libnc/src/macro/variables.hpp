@@ -8,6 +8,8 @@
 namespace nc {
 
 inline constexpr unsigned kLocals = 33;      ///< #1..#33
+inline constexpr unsigned kNames = 20;       ///< #500..#519 can have a name (M700 13.5.5)
+inline constexpr unsigned kNameLength = 7;
 inline constexpr unsigned kLocalLevels = 5;  ///< main program and four macro levels (M700 13.5.2)
 
 /// Which common variables exist (M700 13.4).
@@ -24,12 +26,16 @@ class CommonVariables {
   bool exists(uint32_t number) const;
   Value get(uint32_t number) const;  ///< number must exist
   void set(uint32_t number, Value value);
+  /// Names of #500..#519, as numbers: base 37, first letter highest; 0 = none.
+  double name(unsigned index) const { return name_[index]; }
+  void set_name(unsigned index, double code) { name_[index] = code; }
   /// First number >= from that is not vacant; false = none.
   bool next(uint32_t from, uint32_t* number, double* value) const;
 
  private:
   CommonRanges ranges_;
   double* slot_[3] = {};
+  double name_[kNames] = {};
 };
 
 /// Old values by the block that overwrote them; bounded: the oldest entries go first, and with them the
@@ -74,6 +80,12 @@ class Variables {
   /// Locals of `level` become `arguments` (33 values).
   void enter(unsigned level, const Value* arguments, BlockSeq seq);
   void clear_locals(BlockSeq seq);
+
+  /// SETVN: capitals and digits, 1..kNameLength of them; false when the variable cannot have a name.
+  bool set_name(uint32_t number, const char* name, size_t length, BlockSeq seq);
+  bool find_name(const char* name, size_t length, uint32_t* number) const;
+  /// The name of a variable, without end; 0 = none. `name` has kNameLength places.
+  unsigned name_of(uint32_t number, char* name) const;
 
   /// Journal key for something that is not a variable (offset tables, outputs): the owner undoes it in
   /// rewind().

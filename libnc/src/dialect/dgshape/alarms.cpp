@@ -112,7 +112,9 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::no_equals, "NC-MACRO", nullptr},
     {C::variable_use, "NC-MACRO", nullptr},
     {C::variable_name, "NC-MACRO", nullptr},
+    {C::variable_name_twice, "NC-MACRO", nullptr},
     {C::call_in_cycle, "NC-MACRO", nullptr},
+    {C::print_port, "NC-MACRO", nullptr},
     {C::read_failed, "NC-READ", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };

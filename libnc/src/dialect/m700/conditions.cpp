@@ -82,7 +82,9 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::no_equals, "P242", nullptr},
     {C::variable_use, "P243", nullptr},
     {C::variable_name, "P300", nullptr},
+    {C::variable_name_twice, "P301", nullptr},
     {C::call_in_cycle, "P310", nullptr},
+    {C::print_port, "P460", nullptr},  // appendix 1: "... or in the printer during macro printing"
     {C::read_failed, "P461", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };

@@ -108,9 +108,9 @@ constexpr FunctionRow kListed[] = {
     {632, 13, F::missing, "P39", "synchronous tapping mode, reverse", "3.7"},
     {640, 13, F::cutting_mode, nullptr, "cutting mode", "7.12"},
     {650, 0, F::macro_call, nullptr, "macro call", "13.5.1"},
-    {660, 14, F::missing, "P270", "modal macro call after moves", "13.5.1"},
-    {661, 14, F::missing, "P270", "modal macro call for every block", "13.5.1"},
-    {670, 14, F::modal_off, nullptr, "modal macro call off", "13.5.1"},
+    {660, 14, F::macro_modal, nullptr, "modal macro call after moves", "13.5.1"},
+    {661, 14, F::macro_every_block, nullptr, "modal macro call for every block", "13.5.1"},
+    {670, 14, F::macro_modal_off, nullptr, "modal macro call off", "13.5.1"},
     {680, 16, F::missing, "P260", "coordinate rotation, conversion in space", "13.20"},
     {690, 16, F::modal_off, nullptr, "coordinate rotation off", "13.20"},
     // Appendix 1, P180: "G72 to G89"; G70 and G71 are not in that range.

@@ -7,9 +7,12 @@
 namespace nc::m700 {
 namespace {
 
-// Every parameter has a number; this one is only named (2.2).
+// Every parameter has a number; these have none in the manual: UNIT*10 is only named (2.2), the blanks of
+// DPRNT are "a parameter" (13.5.8), macro_extensions is the option of later models (docs/macros.md).
 const ParameterName kParameters[] = {
     {"UNIT*10", 1, nullptr},
+    {"DPRNT_BLANK", 0, nullptr},
+    {"macro_extensions", 0, nullptr},
 };
 
 }  // namespace

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// Codes that call programs: G M S T B codes (M700 13.5.2) and ASCII codes (13.5.3) that parameters register, and what a block calls
+// when its own part is done.
+#include <cmath>
+
+#include "interpret/calls.hpp"
+
+namespace nc {
+namespace {
+
+/// The word of the block in hand that calls.
+struct Caller {
+  unsigned at = 0;               ///< index of the word
+  const CodeCall* call = nullptr;
+  bool ascii = false;
+  double value = 0;
+};
+
+Did word_value(Interpreter& in, const Word& word, Value* value) {
+  *value = Value::of(word.value);
+  return (word.flags & kWordExpression) != 0 ? evaluate_here(in, word.code, value) : Did::done;
+}
+
+bool plain_number(const Word& word) { return (word.flags & (kWordComma | kWordCount | kWordNoValue)) == 0; }
+
+/// The second auxiliary address calls where it is no axis (M700 9.2).
+bool second_aux(const Interpreter& in, char letter) { return letter == 'B' && in.axis_of['B' - 'A'] < 0; }
+
+/// M00 M01 M02 M30 and the calls are what they are, whatever is registered (M700 13.5.3: priority of the letter M).
+bool kept_m(double code) { return code == 0 || code == 1 || code == 2 || code == 30 || (code >= 96 && code <= 99) || code == 198; }
+
+const CodeCall* registered(const Interpreter& in, const Word& word, double value, bool ascii_allowed, bool* ascii) {
+  const CodeCalls& calls = in.code_calls;
+  *ascii = false;
+  const CodeCall* call = nullptr;
+  switch (word.letter) {
+    case 'G': return calls.find_g(value);
+    case 'M':
+      if (kept_m(value)) return nullptr;
+      call = calls.find_m(value);
+      break;
+    case 'S': call = calls.s.program != 0 ? &calls.s : nullptr; break;
+    case 'T': call = calls.t.program != 0 ? &calls.t : nullptr; break;
+    default: call = second_aux(in, word.letter) && calls.b.program != 0 ? &calls.b : nullptr; break;
+  }
+  if (call != nullptr || !ascii_allowed) return call;
+  *ascii = true;
+  return calls.find_ascii(word.letter);
+}
+
+/// The first word that calls. G65, G66 and G66.1 before it make it an argument, G10 makes it an ordinary word.
+Did find_caller(Interpreter& in, Caller* caller) {
+  bool data_input = false;
+  for (const Word& word : in.block->words) data_input = data_input || (word.letter == 'G' && word.value == 10);
+  for (unsigned i = 0; i < in.block->words.size(); ++i) {
+    const Word& word = in.block->words[i];
+    if (!plain_number(word)) continue;
+    const bool candidate = word.letter == 'G' || word.letter == 'M' || in.code_calls.find_ascii(word.letter) != nullptr ||
+                           (word.letter == 'S' && in.code_calls.s.program != 0) || (word.letter == 'T' && in.code_calls.t.program != 0) ||
+                           (word.letter == 'B' && in.code_calls.b.program != 0);
+    if (!candidate) continue;
+    Value value;
+    const Did did = word_value(in, word, &value);
+    if (did != Did::done) return did;
+    if (value.vacant) continue;
+    if (word.letter == 'G') {
+      const FunctionRow* row = find_function(*in.dialect, static_cast<int>(std::lround(value.number * 10)));
+      if (row != nullptr && is_macro_call(row->function) && in.code_calls.find_g(value.number) == nullptr) return Did::done;
+    }
+    // M700 13.5.3: in a fixed cycle and with G10 an ASCII code is the ordinary word.
+    const bool ascii_allowed = !data_input && in.state.cycle.kind == CycleKind::none;
+    bool ascii = false;
+    const CodeCall* call = registered(in, word, value.number, ascii_allowed, &ascii);
+    if (call == nullptr) continue;
+    *caller = Caller{i, call, ascii, value.number};
+    return Did::done;
+  }
+  return Did::done;
+}
+
+/// The code is shown as any other though nothing goes out (M700 13.5.2 (3)).
+void show_code(Interpreter& in, const Caller& caller) {
+  const char letter = in.block->words[caller.at].letter;
+  const auto whole = static_cast<uint32_t>(caller.value > 0 && caller.value < 4294967295.0 ? caller.value : 0);
+  switch (letter) {
+    case 'M': in.state.modal.m = whole; break;
+    case 'S': in.state.modal.spindle = caller.value; break;
+    case 'T': in.state.modal.tool = whole; break;
+    case 'B': in.state.modal.b = whole; break;
+    default: break;
+  }
+}
+
+/// The G codes before the call act as they do before G65: G91 G100 X10.
+Did apply_codes_before(Interpreter& in, unsigned at) {
+  const Block* original = in.block;
+  Block& copy = *in.rewritten;
+  copy = *original;
+  copy.words.clear();
+  for (unsigned i = 0; i < at; ++i)
+    if (original->words[i].letter == 'G') copy.words.push_back(original->words[i]);
+  in.block = &copy;
+  Did did = gather_words(in);
+  if (did == Did::done) did = apply_reading_modes(in);
+  in.block = original;
+  return did;
+}
+
+/// Type M98: the rest of the block is executed as if the code were not there, then the program is called.
+void run_rest_first(Interpreter& in, const Caller& caller) {
+  const Block* original = in.block;
+  Block& copy = *in.rewritten;
+  copy = *original;
+  for (unsigned i = caller.at; i + 1 < copy.words.size(); ++i) copy.words[i] = copy.words[i + 1];
+  copy.words.resize(copy.words.size() - 1);
+  in.block = &copy;
+  in.after_block = caller.call;
+}
+
+Did set_ascii_variable(Interpreter& in, const Caller& caller) {
+  if (in.variables.set(caller.call->variable, in.macro_level(), Value::of(caller.value), in.state.seq + 1)) return Did::done;
+  return in.raise(Condition::variable_number, '#', caller.call->variable);
+}
+
+/// Types G65, G66, G66.1: every other word is an argument, and so is the code itself but for G.
+Did call_with_arguments(Interpreter& in, const Caller& caller) {
+  MacroCall call;
+  Did did = gather_arguments(in, false, call);
+  if (did != Did::done) return did;
+  if (call.has_p) return in.raise(Condition::illegal_address, 'P', call.p);
+  Entry entry;
+  did = repetitions(in, call.has_l, call.l, &entry.passes);
+  if (did != Did::done) return did;
+  did = find_number(in, caller.call->program, &entry.program);
+  if (did != Did::done) return did;
+  if (caller.call->type == CodeCallType::macro) {
+    entry.kind = CallKind::macro;
+    entry.origin = CallOrigin::code;
+    entry.offset = entry.program.offset;
+    entry.line = entry.program.line;
+    return enter_macro(in, entry, call.argument);
+  }
+  const bool every_block = caller.call->type == CodeCallType::modal_block;
+  did = store_modal_call(in, entry.program, call, entry.passes, every_block, true);
+  return did == Did::done && every_block ? make_modal_call(in) : did;
+}
+
+/// Whether the words of the block are a movement command, after which G66 calls (M700 13.5.1).
+bool moves(const Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (w.axes == 0) return in.state.modal.code[kGroupMotion] >= 20 && w.any(letters("IJKR")) && w.one_shot == nullptr;
+  if (w.one_shot == nullptr) return true;
+  switch (w.one_shot->function) {
+    case Function::reference_return:
+    case Function::skip:
+    case Function::machine_move: return true;
+    default: return false;
+  }
+}
+
+bool cancels(const Interpreter& in) {
+  for (const FunctionRow* row : in.words.g)
+    if (row->function == Function::macro_modal_off) return true;
+  return false;
+}
+
+}  // namespace
+
+Did dispatch_block(Interpreter& in, bool* taken) {
+  in.after_block = nullptr;
+  if (top(in).origin == CallOrigin::code || modal_call_takes_blocks(in)) return Did::done;
+  Caller caller;
+  Did did = find_caller(in, &caller);
+  if (did != Did::done || caller.call == nullptr) return did;
+  // M700 App.1 P310: no such call during a fixed cycle.
+  if (in.state.cycle.kind != CycleKind::none) return in.raise(Condition::call_in_cycle, in.block->words[caller.at].letter, caller.value);
+  if (caller.ascii && std::fabs(caller.value) > 999999.9999) return in.raise(Condition::value_range, in.block->words[caller.at].letter, caller.value);
+  show_code(in, caller);
+  if (caller.call->type == CodeCallType::sub) {
+    if (caller.ascii && (did = set_ascii_variable(in, caller)) != Did::done) return did;
+    run_rest_first(in, caller);
+    return Did::done;
+  }
+  *taken = true;
+  did = apply_codes_before(in, caller.at);
+  if (did != Did::done) return did;
+  return call_with_arguments(in, caller);
+}
+
+bool block_is_argument(const Interpreter& in) { return modal_call_takes_blocks(in) && !cancels(in); }
+
+Did call_behind_block(Interpreter& in) {
+  if (in.state.end_seen) return Did::done;
+  if (in.after_block != nullptr) {
+    Entry entry;
+    entry.origin = CallOrigin::code;
+    Did did = find_number(in, in.after_block->program, &entry.program);
+    in.after_block = nullptr;
+    if (did != Did::done) return did;
+    entry.offset = entry.program.offset;
+    entry.line = entry.program.line;
+    if (!in.block->words.empty()) in.emit_stop_point();
+    did = enter(in, entry);
+    if (did == Did::later) in.keep_call();
+    return did;
+  }
+  if (modal_call_takes_blocks(in) || !moves(in) || cancels(in)) return Did::done;
+  in.emit_stop_point();  // single block may stop behind the move
+  return make_modal_call(in);
+}
+
+}  // namespace nc

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Macro calls: arguments, G65, and the modal calls G66, G66.1, G67 (M700 13.5.1).
+//
+// Modal calls nest. Each frame of the call stack knows the slot of the call that is in force in its program; the program that a call
+// enters has the call below it in force, so that a move in the macro of the last G66 calls the macro of the one before.
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include "interpret/calls.hpp"
+
+namespace nc {
+namespace {
+
+/// Designation I: local variable of a letter (M700 13.5.1). G L N O P are arguments in the mode of G66.1 only. I J K: see below.
+constexpr uint8_t kArgument[26] = {/*A*/ 1,  /*B*/ 2,  /*C*/ 3,  /*D*/ 7,  /*E*/ 8,  /*F*/ 9,  /*G*/ 10, /*H*/ 11, /*I*/ 4,
+                                   /*J*/ 5,  /*K*/ 6,  /*L*/ 12, /*M*/ 13, /*N*/ 14, /*O*/ 15, /*P*/ 16, /*Q*/ 17, /*R*/ 18,
+                                   /*S*/ 19, /*T*/ 20, /*U*/ 21, /*V*/ 22, /*W*/ 23, /*X*/ 24, /*Y*/ 25, /*Z*/ 26};
+
+/// Designation II: I J K up to ten times, #(3k+1) #(3k+2) #(3k+3); a letter that does not come after the one before it in the
+/// alphabet begins the next group. The first group is what designation I says of I J K.
+struct GroupCounter {
+  unsigned group = 1;
+  char last = 0;
+  /// Variable number, 0 = more than ten groups.
+  unsigned variable(char letter) {
+    if (last != 0 && letter <= last) ++group;
+    last = letter;
+    return group > 10 ? 0 : 3 * group + 1 + static_cast<unsigned>(letter - 'I');
+  }
+};
+
+double slot_value(const Interpreter& in, unsigned slot, unsigned what) { return in.notes.get(Notes::slot_key(slot, what)); }
+
+/// A slot that no open program refers to; 0 = none. Rare, so it may look at all of them.
+unsigned free_slot(const Interpreter& in) {
+  uint32_t used = 0;
+  for (unsigned level = 0; level <= in.state.depth; ++level) {
+    for (unsigned slot : {in.state.frame[level].modal_call, in.state.frame[level].modal_slot}) {
+      while (slot != 0 && ((used >> slot) & 1) == 0) {
+        used |= 1u << slot;
+        slot = static_cast<unsigned>(slot_value(in, slot, Notes::kBelow));
+      }
+    }
+  }
+  for (unsigned slot = 1; slot <= Notes::kSlots; ++slot)
+    if (((used >> slot) & 1) == 0) return slot;
+  return 0;
+}
+
+ProgramRef slot_program(const Interpreter& in, unsigned slot) {
+  ProgramRef program;
+  program.file = static_cast<uint16_t>(slot_value(in, slot, Notes::kFile));
+  program.number = static_cast<uint32_t>(slot_value(in, slot, Notes::kNumber));
+  program.offset = static_cast<uint64_t>(slot_value(in, slot, Notes::kOffset));
+  program.line = static_cast<uint32_t>(slot_value(in, slot, Notes::kLine));
+  return program;
+}
+
+Did enter_modal(Interpreter& in, unsigned slot, const Value* arguments) {
+  Entry entry;
+  entry.program = slot_program(in, slot);
+  entry.kind = CallKind::macro;
+  entry.origin = slot_value(in, slot, Notes::kByCode) != 0 ? CallOrigin::code : CallOrigin::modal;
+  entry.passes = static_cast<uint32_t>(slot_value(in, slot, Notes::kRepeats));
+  entry.offset = entry.program.offset;
+  entry.line = entry.program.line;
+  entry.slot = static_cast<uint8_t>(slot);
+  return enter_macro(in, entry, arguments);
+}
+
+}  // namespace
+
+Did gather_arguments(Interpreter& in, bool every_word, MacroCall& call) {
+  GroupCounter groups;
+  for (const Word& word : in.block->words) {
+    if (word.letter == 'G' && !every_word) continue;
+    Value value = Value::of(word.value);
+    if ((word.flags & kWordExpression) != 0) {
+      const Did did = evaluate_here(in, word.code, &value);
+      if (did != Did::done) return did;
+    }
+    if ((word.flags & (kWordNoValue | kWordComma | kWordCount)) != 0) return in.raise(Condition::format_error, word.letter);
+    if (!every_word && (word.letter == 'P' || word.letter == 'L')) {
+      (word.letter == 'P' ? call.has_p : call.has_l) = !value.vacant;
+      (word.letter == 'P' ? call.p : call.l) = value.or_zero();
+      continue;
+    }
+    if (!every_word && (word.letter == 'N' || word.letter == 'O')) return in.raise(Condition::illegal_address, word.letter);
+    unsigned variable = kArgument[word.letter - 'A'];
+    if (word.letter >= 'I' && word.letter <= 'K') {
+      variable = groups.variable(word.letter);
+      if (variable == 0) return in.raise(Condition::macro_argument, word.letter);
+    }
+    call.argument[variable - 1] = value;
+  }
+  return Did::done;
+}
+
+Did enter_macro(Interpreter& in, const Entry& entry, const Value* arguments) {
+  if (entry.passes == 0) return Did::done;
+  const unsigned level = in.macro_level() + 1u;
+  if (level > kMacroDepth) return in.raise(Condition::macro_nesting, 'P', entry.program.number);
+  const Did did = enter(in, entry);
+  if (did != Did::later) return did;
+  in.variables.enter(level, arguments, in.state.seq + 1);
+  in.keep_call();
+  return did;
+}
+
+// ---- modal calls ------------------------------------------------------------------------------------------------------------
+
+void show_modal_call(Interpreter& in) {
+  int16_t& code = in.state.modal.code[kGroupMacro];
+  if (code < 0) return;  // the family has no such group
+  const unsigned slot = top(in).modal_call;
+  code = slot == 0 ? int16_t{670} : slot_value(in, slot, Notes::kEveryBlock) != 0 ? int16_t{661} : int16_t{660};
+}
+
+bool modal_call_takes_blocks(const Interpreter& in) {
+  const unsigned slot = in.state.frame[in.state.depth].modal_call;
+  return slot != 0 && slot_value(in, slot, Notes::kEveryBlock) != 0;
+}
+
+Did store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall& call, uint32_t passes, bool every_block, bool by_code) {
+  const unsigned slot = free_slot(in);
+  if (slot == 0) return in.raise(Condition::macro_nesting, 'P', program.number);
+  const double head[Notes::kArgument] = {static_cast<double>(program.file),
+                                         static_cast<double>(program.number),
+                                         static_cast<double>(program.offset),
+                                         static_cast<double>(program.line),
+                                         static_cast<double>(passes),
+                                         every_block ? 1.0 : 0.0,
+                                         static_cast<double>(top(in).modal_call),
+                                         static_cast<double>(in.state.depth),
+                                         by_code ? 1.0 : 0.0};
+  for (unsigned i = 0; i < Notes::kArgument; ++i) in.set_note(Notes::slot_key(slot, i), head[i]);
+  for (unsigned i = 0; i < kLocals; ++i) {
+    const Value& value = call.argument[i];
+    in.set_note(Notes::slot_key(slot, Notes::kArgument + i), value.vacant ? std::numeric_limits<double>::quiet_NaN() : value.number);
+  }
+  top(in).modal_call = static_cast<uint8_t>(slot);
+  show_modal_call(in);
+  return Did::done;
+}
+
+Did make_modal_call(Interpreter& in) {
+  const unsigned slot = top(in).modal_call;
+  Value arguments[kLocals];
+  for (unsigned i = 0; i < kLocals; ++i) {
+    const double value = slot_value(in, slot, Notes::kArgument + i);
+    if (value == value) arguments[i] = Value::of(value);
+  }
+  return enter_modal(in, slot, arguments);
+}
+
+/// M700 13.5.1, G66.1: the words of a block in the mode go to the macro as if G65 P_ stood before them. O, N and modal G codes update
+/// the modal state all the same.
+Did call_with_block(Interpreter& in) {
+  MacroCall call;
+  const Did did = gather_arguments(in, true, call);
+  return did == Did::done ? enter_modal(in, top(in).modal_call, call.argument) : did;
+}
+
+bool has_modal_call(const Interpreter& in) {
+  const CallFrame& frame = in.state.frame[in.state.depth];
+  return frame.modal_call != 0 || (frame.modal_slot != 0 && in.state.frame[in.state.depth - 1].modal_call == frame.modal_slot);
+}
+
+/// G67: the call commanded last. A macro that a modal call runs may cancel that call itself (M700 13.5.2 (1)).
+void cancel_modal_call(Interpreter& in) {
+  CallFrame& frame = top(in);
+  const unsigned own = frame.modal_call;
+  const bool commanded_here = own != 0 && slot_value(in, own, Notes::kDepth) == in.state.depth;
+  const bool runs_here = frame.modal_slot != 0 && in.state.frame[in.state.depth - 1].modal_call == frame.modal_slot;
+  if (runs_here && !commanded_here) {
+    in.state.frame[in.state.depth - 1].modal_call = static_cast<uint8_t>(slot_value(in, frame.modal_slot, Notes::kBelow));
+  } else {
+    frame.modal_call = static_cast<uint8_t>(slot_value(in, own, Notes::kBelow));
+  }
+  show_modal_call(in);
+}
+
+// ---- G65, G66, G66.1 as written -----------------------------------------------------------------------------------------------
+
+Did call_macro(Interpreter& in) {
+  MacroCall call;
+  Did did = gather_arguments(in, false, call);
+  if (did != Did::done) return did;
+  Entry entry;
+  did = find_called(in, call.has_p, call.p, false, &entry.program);
+  if (did != Did::done) return did;
+  did = repetitions(in, call.has_l, call.l, &entry.passes);
+  if (did != Did::done) return did;
+  const Function function = in.words.one_shot->function;
+  if (function == Function::macro_call) {
+    entry.kind = CallKind::macro;
+    entry.offset = entry.program.offset;
+    entry.line = entry.program.line;
+    return enter_macro(in, entry, call.argument);
+  }
+  const bool every_block = function == Function::macro_every_block;
+  did = store_modal_call(in, entry.program, call, entry.passes, every_block, false);
+  // M700 13.5.1: the block of G66 only stores the call, that of G66.1 makes it too.
+  return did == Did::done && every_block ? make_modal_call(in) : did;
+}
+
+}  // namespace nc

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers that a program leaves for later blocks and that are too many for the state, which is copied at every block: modal macro calls
+// with their arguments, figure rotation, the interrupt program, mirror centres. One flat table like the offsets' (frame/frames.hpp):
+// every write is journalled under the block that made it, so a rewind takes it back.
+#pragma once
+
+#include "base/arena.hpp"
+#include "macro/variables.hpp"
+
+namespace nc {
+
+class Notes {
+ public:
+  // ---- modal macro calls (M700 13.5.1): numbered slots, 1..kSlots; 0 = none
+  static constexpr unsigned kSlots = 8;
+  enum Slot : unsigned {
+    kFile, kNumber, kOffset, kLine,  ///< the program called
+    kRepeats,                        ///< L
+    kEveryBlock,                     ///< 1: G66.1, 0: G66
+    kBelow,                          ///< slot of the call that was in force before
+    kDepth,                          ///< of the program that commanded it
+    kByCode,                         ///< 1: commanded by a registered code
+    kArgument,                       ///< 33 values, NaN = vacant
+    kSlotSize = kArgument + kLocals
+  };
+  static constexpr unsigned slot_key(unsigned slot, unsigned what) { return (slot - 1) * kSlotSize + what; }
+
+  // ---- figure rotation (M700 13.3.3)
+  enum Figure : unsigned { kCenterH, kCenterV, kStartH, kStartV, kStep, kAngle, kFigureSize };
+  static constexpr unsigned figure_key(unsigned what) { return kSlots * kSlotSize + what; }
+
+  // ---- macro interrupt (M700 13.12): the program of M96
+  enum Interrupt : unsigned { kInterruptFile, kInterruptNumber, kInterruptOffset, kInterruptLine, kInterruptBegin, kInterruptBeginLine, kInterruptSize };
+  static constexpr unsigned interrupt_key(unsigned what) { return figure_key(kFigureSize) + what; }
+
+  // ---- mirror image by program (M700 13.6): centre of each axis
+  static constexpr unsigned mirror_key(unsigned axis) { return interrupt_key(kInterruptSize) + axis; }
+
+  // ---- what #100000-#100002 and #100100-#100103, #60000 select (M700 13.5.5)
+  enum Select : unsigned { kParameter, kPart, kAxis, kDevice, kDeviceNumber, kBytes, kBit, kToolGroup, kSelectSize };
+  static constexpr unsigned select_key(unsigned what) { return mirror_key(kMaxAxes) + what; }
+  static constexpr unsigned kSize = kSlots * kSlotSize + kFigureSize + kInterruptSize + kMaxAxes + kSelectSize;
+
+  void create(Arena& arena) { table_ = arena.make<double>(kSize); }
+  double get(unsigned key) const { return table_[key]; }
+  void set(unsigned key, double value) { table_[key] = value; }
+  void clear() {
+    for (unsigned i = 0; i < kSize; ++i) table_[i] = 0;
+  }
+
+ private:
+  double* table_ = nullptr;
+};
+
+}  // namespace nc

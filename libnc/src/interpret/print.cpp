@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names of variables (SETVN, M700 13.5.5) and external output (POPEN, DPRNT, PCLOS, M700 13.5.8).
+#include <cmath>
+#include <cstring>
+
+#include "dialect/text.hpp"
+#include "interpret/calls.hpp"
+#include "program/scan.hpp"
+
+namespace nc {
+namespace {
+
+constexpr uint32_t kPort = 1;              ///< external output; 0 is the operator's message line
+constexpr char kDc2 = 0x12, kDc4 = 0x14;   ///< switch the punch of the external device on and off
+
+/// What no name may begin with: the functions and operators (M700 13.5.5, note). Those of two letters are left out but LN, so that
+/// ORIGIN, LENGTH or NEXT are names; in the brackets of [#NAME] nothing can be mistaken.
+constexpr const char* kReserved[] = {"SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "ATN", "SQRT", "SQR", "ABS", "BIN", "BCD",
+                                     "ROUND", "RND", "FIX", "FUP", "LN", "EXP", "MOD", "AND", "XOR"};
+
+bool begins_reserved(const char* name, size_t length) {
+  for (const char* word : kReserved) {
+    const size_t n = std::strlen(word);
+    if (n <= length && std::memcmp(word, name, n) == 0) return true;
+  }
+  return false;
+}
+
+Did set_one_name(Interpreter& in, uint32_t variable, const char* from, size_t length) {
+  char name[kNameLength];
+  if (length == 0) return Did::done;  // "[A,,C]": the variable between keeps its name
+  if (length > kNameLength) return in.raise(Condition::name_statement, '#', variable);
+  for (size_t i = 0; i < length; ++i) {
+    name[i] = upper(from[i]);
+    if (!is_letter(name[i]) && (i == 0 || !is_digit(name[i]))) return in.raise(Condition::variable_name, '#', variable);
+  }
+  if (begins_reserved(name, length)) return in.raise(Condition::variable_name, '#', variable);
+  uint32_t other = 0;
+  if (in.variables.find_name(name, length, &other) && other != variable) return in.raise(Condition::variable_name_twice, '#', variable);
+  if (!in.variables.set_name(variable, name, length, in.state.seq + 1)) return in.raise(Condition::variable_number, '#', variable);
+  return Did::done;
+}
+
+/// Text for the port on its way to the machine: it goes out when the machine gets there.
+Did emit_line(Interpreter& in, const char* text, size_t length) {
+  Message message;
+  if (length >= sizeof message.text.s) return in.raise(Condition::block_too_long, 'D');
+  std::memcpy(message.text.s, text, length);
+  Action& action = in.emit(ItemKind::action).action;
+  action.kind = NC_ACTION_MESSAGE;
+  action.index = kPort;
+  action.text = in.texts.intern(message);
+  return Did::done;
+}
+
+/// [dc] behind a variable: digits before and behind the point. The cursor is behind '['.
+bool digits_wanted(const char** at, const char* end, unsigned* before, unsigned* behind) {
+  const char* p = *at;
+  if (end - p < 3 || !is_digit(p[0]) || !is_digit(p[1]) || p[2] != ']') return false;
+  *before = static_cast<unsigned>(p[0] - '0');
+  *behind = static_cast<unsigned>(p[1] - '0');
+  *at = p + 3;
+  return *before + *behind >= 1 && *before + *behind <= 8;  // M700 13.5.8: c + d <= 8
+}
+
+/// Trailing zeros stay, leading ones go, or become blanks where the parameter says so. A value that needs more digits gets them.
+void put_value(TextWriter& out, double value, unsigned before, unsigned behind, bool blanks) {
+  double scale = 1;
+  for (unsigned i = 0; i < behind; ++i) scale *= 10;
+  const bool negative = value < 0;
+  const auto scaled = static_cast<unsigned long long>(std::fabs(value) * scale + 0.5);
+  const unsigned long long whole = scaled / static_cast<unsigned long long>(scale);
+  unsigned digits = 1;
+  for (unsigned long long rest = whole; rest >= 10; rest /= 10) ++digits;
+  if (blanks) {
+    out.put(negative && scaled != 0 ? '-' : ' ');
+    for (; digits < before; ++digits) out.put(' ');
+  } else if (negative && scaled != 0) {
+    out.put('-');
+  }
+  out.put_integer(whole);
+  if (behind == 0) return;
+  out.put('.');
+  out.put_integer(scaled % static_cast<unsigned long long>(scale), behind);
+}
+
+bool printable(char c) { return is_letter(c) || is_digit(c) || c == '+' || c == '-' || c == '*' || c == '/'; }
+
+}  // namespace
+
+Did set_names(Interpreter& in, const Statement& statement) {
+  const char* p = in.block->text.begin() + statement.text;
+  const char* const end = p + statement.text_length;
+  uint32_t variable = statement.number;
+  for (;; ++variable) {
+    const char* from = p;
+    while (p != end && *p != ',') ++p;
+    const Did did = set_one_name(in, variable, from, static_cast<size_t>(p - from));
+    if (did != Did::done || p == end) return did;
+    ++p;
+  }
+}
+
+bool find_variable_name(void* self, const char* name, size_t length, uint32_t* number) {
+  return static_cast<Interpreter*>(self)->variables.find_name(name, length, number);
+}
+
+Did open_port(Interpreter& in) {
+  in.state.port_open = true;
+  const char text[] = {kDc2, '%'};
+  return emit_line(in, text, sizeof text);
+}
+
+Did close_port(Interpreter& in) {
+  in.state.port_open = false;
+  const char text[] = {'%', kDc4};
+  return emit_line(in, text, sizeof text);
+}
+
+Did print_decimal(Interpreter& in, const Statement& statement) {
+  if (!in.state.port_open) return in.raise(Condition::print_port);
+  char line[160];
+  TextWriter out(line, sizeof line);
+  const char* p = in.block->text.begin() + statement.text;
+  const char* const end = p + statement.text_length;
+  Block& scratch = *in.rewritten;
+  while (p != end) {
+    if (*p != '#' && *p != '[') {
+      const char c = upper(*p++);
+      if (!printable(c)) return in.raise(Condition::format_error, c);
+      out.put(c);
+      continue;
+    }
+    scratch.clear();
+    uint16_t code = 0;
+    size_t used = 0;
+    if (!compile_expression(scratch, p, static_cast<size_t>(end - p), &used, false, &code, &in.fault)) return Did::fault;
+    p += used;
+    Value value;
+    const Eval eval = evaluate(scratch, code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, &value, &in.fault, &in.sync_needed);
+    if (eval != Eval::ok) return eval == Eval::fault ? Did::fault : Did::sync;
+    unsigned before = 0, behind = 0;
+    if (p == end || *p != '[') return in.raise(Condition::format_error, 'D');
+    ++p;
+    if (!digits_wanted(&p, end, &before, &behind)) return in.raise(Condition::format_error, 'D');
+    if (std::fabs(value.or_zero()) >= 1e9) return in.raise(Condition::value_range, 'D', value.or_zero());
+    put_value(out, value.or_zero(), before, behind, in.settings.print_blanks);
+  }
+  return emit_line(in, line, out.used());
+}
+
+}  // namespace nc

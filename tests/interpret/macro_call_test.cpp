@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// Modal macro calls, codes that call programs, names of variables, external output (M700 13.5.1 - 13.5.3, 13.5.5, 13.5.8).
+#include <gtest/gtest.h>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+std::vector<std::string> printed(const Outcome& run) {
+  std::vector<std::string> lines;
+  for (const Step& step : run.steps)
+    if (step.item.kind == NC_ITEM_ACTION && step.item.u.action.kind == NC_ACTION_MESSAGE && step.item.u.action.index == 1) lines.push_back(step.text);
+  return lines;
+}
+
+// ---- G66, G66.1, G67 -----------------------------------------------------------------------------------------------------------
+
+TEST(ModalMacro, CallsBehindEachMove) {  // 13.5.1: the G66 block stores, moves call, blocks without movement do not
+  Bench bench;
+  bench.add("O10", "#100=#100+#1\nM99\n");
+  const Outcome run = bench.run("#100=0\nG66 P10 A1.\nG0 X1.\nM8\nF100\nG1 Y1.\nG67\nX5.\nM30");
+  EXPECT_EQ(run.var(100), 2);
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "line 1 1 0 F100", "line 5 1 0 F100"}));
+}
+
+TEST(ModalMacro, MoveFirstThenLTimes) {
+  Bench bench;
+  bench.add("O10", "G0 G91 Z-#26\nZ#26 G90\nM99\n");
+  EXPECT_EQ(bench.run("G66 P10 L2 Z3.\nG0 X1.\nG67\nM30").path(),
+            (Path{"rapid 1 0 0", "rapid 1 0 -3", "rapid 1 0 0", "rapid 1 0 -3", "rapid 1 0 0"}));
+}
+
+TEST(ModalMacro, MarkOfTheMovingBlockComesBehindTheMacro) {
+  Bench bench;
+  bench.add("O10", "#100=1\nM99\n");
+  const Outcome run = bench.run("G66 P10\nG0 X1.\nM30");
+  std::vector<unsigned> depths;
+  for (const nc_item& item : run.of(NC_ITEM_MARK))
+    if (item.u.mark.report) depths.push_back(item.source.depth);
+  EXPECT_EQ(depths, (std::vector<unsigned>{0, 1, 1, 0, 0}));
+}
+
+TEST(ModalMacro, StackedCallsRunInTheMacrosOfTheLastOne) {  // 13.5.1 (2), 13.5.2 (20205)
+  Bench bench;
+  bench.add("O1", "#101=#101+1\nM99\n");
+  bench.add("O2", "#102=#102+1\nG0 Z#102\nZ0\nM99\n");
+  const Outcome run = bench.run("#101=0\n#102=0\nG66 P1\nG66 P2\nG0 X1.\nG67\nX2.\nG67\nX3.\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(102), 1);  // behind X1 only
+  EXPECT_EQ(run.var(101), 3);  // behind the two moves of O2, and behind X2
+}
+
+TEST(ModalMacro, OwnLocalsAtEachCall) {
+  Bench bench;
+  bench.add("O10", "#100=#1\n#1=99\n#101=#2\nM99\n");
+  const Outcome run = bench.run("#1=7\nG66 P10 A5.\nG0 X1.\nX2.\nG67\n#102=#1\nM30");
+  EXPECT_EQ(run.var(100), 5);
+  EXPECT_EQ(run.var(102), 7);
+  EXPECT_TRUE(std::isnan(run.var(101)));
+}
+
+TEST(ModalMacro, CallsInSubProgramsToo) {
+  Bench bench;
+  bench.add("O10", "#100=#100+1\nM99\n");
+  bench.add("O20", "G0 X1.\nX2.\nM99\n");
+  EXPECT_EQ(bench.run("#100=0\nG66 P10\nM98 P20\nG67\nM30").var(100), 2);
+}
+
+TEST(ModalMacro, CancelInTheMacroItself) {  // 13.5.2 (1)
+  Bench bench;
+  bench.add("O10", "#100=#100+1\nG67\nM99\n");
+  const Outcome run = bench.run("#100=0\nG66 P10\nG0 X1.\nX2.\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(100), 1);
+}
+
+TEST(ModalMacro, Alarms) {
+  Bench bench;
+  bench.add("O10", "M99\n");
+  EXPECT_EQ(bench.run("G67\nM30").alarm, "P276");
+  EXPECT_EQ(bench.run("G66 P10\nG67\nG67\nM30").alarm, "P276");
+  EXPECT_EQ(bench.run("G66 P11\nM30").alarm, "P232");
+  EXPECT_EQ(bench.run("G66 A1.\nM30").alarm, "P296");
+  EXPECT_EQ(bench.run("G66.1 P11\nM30").alarm, "P232");
+}
+
+TEST(ModalMacro, FifthLevelIsTooDeep) {  // P273
+  Bench bench;
+  bench.add("O1", "G0 Z1.\nZ0\nM99\n");
+  EXPECT_EQ(bench.run("G66 P1\nG66 P1\nG66 P1\nG66 P1\nG0 X1.\nG67\nG67\nG67\nG67\nM30").alarm, "");
+  EXPECT_EQ(bench.at(0, 0, 0).run("G66 P1\nG66 P1\nG66 P1\nG66 P1\nG66 P1\nG0 X1.\nM30").alarm, "P273");
+}
+
+TEST(ModalMacro, GroupFourteenShowsWhatIsInForce) {  // 13.5.5, #4014
+  Bench bench;
+  bench.add("O10", "#102=#4014\nM99\n");
+  const Outcome run = bench.run("#100=#4014\nG66 P10\n#101=#4014\nG0 X1.\nG67\n#103=#4014\nG66.1 P10\n#104=#4014\nG67\nM30");
+  EXPECT_EQ(run.var(100), 67);
+  EXPECT_EQ(run.var(101), 66);
+  EXPECT_EQ(run.var(102), 67);  // nothing is in force in the macro
+  EXPECT_EQ(run.var(103), 67);
+  EXPECT_EQ(run.var(104), 66.1);
+}
+
+TEST(ModalMacro, EveryBlockIsHandedOver) {  // G66.1
+  Bench bench;
+  bench.add("O10", "#100=#100+1\n#110=#10\n#113=#13\n#114=#14\n#112=#12\n#116=#16\n#124=#24\n#109=#9\nM99\n");
+  const Outcome run = bench.run("#100=0\nG66.1 P10\nN5 G0 G91 X7. M8 L3 P4 F5 N77\n#150=1\nG67 X1.\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(100), 2);
+  EXPECT_EQ(run.var(110), 91);
+  EXPECT_EQ(run.var(113), 8);
+  EXPECT_EQ(run.var(114), 77);
+  EXPECT_EQ(run.var(112), 3);
+  EXPECT_EQ(run.var(116), 4);
+  EXPECT_EQ(run.var(124), 7);
+  EXPECT_EQ(run.var(109), 5);
+  EXPECT_EQ(run.aux(), "M30");
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0"}));  // G0 and G91 are modal all the same
+}
+
+TEST(ModalMacro, RewindTakesTheCallBack) {
+  Bench bench;
+  bench.add("O10", "#100=#100+#1\nM99\n");
+  bench.add("O11", "#100=#100+100\nM99\n");
+  bench.start("#100=0\nG66 P10 A1.\nG0 X1.\nG67\nG66 P11\nX2.\nM30");
+  std::vector<std::pair<uint64_t, nc_axes>> marks;
+  const Outcome first = [&] {
+    Outcome run;
+    Step step;
+    while (bench.pull(&step) == NC_OK) {
+      run.steps.push_back(step);
+      if (step.item.kind == NC_ITEM_MARK && step.item.u.mark.report) marks.emplace_back(step.item.serial, step.machine);
+    }
+    return run;
+  }();
+  ASSERT_EQ(bench.var_now(100), 101);
+  ASSERT_EQ(bench.rewind(marks[1].first, marks[1].second), NC_OK);  // behind G66 P10
+  EXPECT_EQ(bench.finish().var(100), 101);
+}
+
+// ---- registered codes -----------------------------------------------------------------------------------------------------------
+
+TEST(CodeCall, GCodeOfEachType) {  // 13.5.2: G100 to G255
+  Bench bench;
+  bench.add("O500", "#100=#24\n#101=#4003\nM99\n");
+  bench.param("7201", "120").param("7202", "1").param("7203", "500");
+  const Outcome run = bench.run("G91 G120 X3.\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(100), 3);
+  EXPECT_EQ(run.var(101), 91);
+  EXPECT_EQ(run.path(), Path{});
+  bench.param("7202", "0");  // as M98: the rest of the block is executed first
+  EXPECT_EQ(bench.at(0, 0, 0).run("#24=8\nG0 G120 X3.\nM30").path(), (Path{"rapid 3 0 0"}));
+  bench.param("7202", "2");
+  EXPECT_EQ(bench.at(0, 0, 0).run("#100=0\nG120 X3.\nG0 Y1.\nG67\nM30").var(100), 3);
+  bench.param("7202", "3");
+  EXPECT_EQ(bench.at(0, 0, 0).run("#100=0\nG120 X3.\nX4.\nG67\nM30").var(100), 4);
+  EXPECT_EQ(bench.run("G121\nM30").alarm, "P34");
+}
+
+TEST(CodeCall, SystemGCodeNeedsItsParameter) {  // #1081 Gmac_P
+  Bench bench;
+  bench.add("O9016", "#100=#9\nM99\n");
+  bench.param("7201", "16").param("7202", "1").param("7203", "9016");
+  EXPECT_EQ(bench.run("G16 X1. F500\nM30").alarm, "P39");
+  bench.param("1081", "1");
+  EXPECT_EQ(bench.run("G16 X100. Y100. Z100. F500\nM30").var(100), 500);
+}
+
+TEST(CodeCall, ToolChangeMacro) {  // 13.5.2: the code is not output; T is output before with type M98, an argument with type G65
+  Bench bench;
+  bench.add("O9006", "#100=#20\n#101=#13\n#102=#4120\nM6\nM99\n");
+  bench.param("7001", "6").param("7002", "0").param("7003", "9006");
+  Outcome run = bench.run("T5 M6\nM30");
+  EXPECT_EQ(run.aux(), "T5 M6 M30");  // M6 in the macro is the ordinary one
+  EXPECT_EQ(run.var(102), 5);
+  bench.param("7002", "1");
+  run = bench.run("T5 M6\nM30");
+  EXPECT_EQ(run.aux(), "M6 M30");
+  EXPECT_EQ(run.var(100), 5);
+  EXPECT_EQ(run.var(101), 6);
+}
+
+TEST(CodeCall, SAndTAndB) {
+  Bench bench;
+  bench.add("O8", "#100=#19\n#101=#20\n#102=#2\nM99\n");
+  bench.param("7302", "1").param("7303", "8");
+  EXPECT_EQ(bench.run("S1200\nM30").var(100), 1200);
+  bench.param("7312", "1").param("7313", "8");
+  EXPECT_EQ(bench.run("T12\nM30").var(101), 12);
+  bench.param("7102", "1").param("7103", "8");
+  EXPECT_EQ(bench.run("B45\nM30").var(102), 45);
+}
+
+TEST(CodeCall, KeptCodesAndSwitchedOff) {
+  Bench bench;
+  bench.add("O8", "#100=1\nM99\n");
+  bench.param("7001", "30").param("7002", "0").param("7003", "8").param("7011", "20").param("7012", "0").param("7013", "8").param("1195", "0");
+  const Outcome run = bench.run("M20\nM30");
+  EXPECT_EQ(run.aux(), "M20 M30");
+  EXPECT_TRUE(run.ended_ok);
+}
+
+TEST(CodeCall, NotDuringAFixedCycle) {  // P310
+  Bench bench;
+  bench.add("O8", "M99\n");
+  bench.param("7001", "20").param("7002", "1").param("7003", "8");
+  EXPECT_EQ(bench.run("G81 X1. Z-1. R1. F100\nM20\nM30").alarm, "P310");
+}
+
+TEST(CodeCall, AsciiLetterIsOrdinaryInACycleBehindACallAndWithG10) {  // 13.5.3
+  Bench bench;
+  bench.add("O8", "#100=#100+1\n#101=#7\nM99\n");
+  bench.param("7401", "1").param("7402", "D").param("7403", "1").param("7404", "8");
+  bench.param("7001", "50").param("7002", "1").param("7003", "8");
+  const Outcome run = bench.run("#100=0\nM50 D200\nM30");
+  EXPECT_EQ(run.var(100), 1);
+  EXPECT_EQ(run.var(101), 200);
+  EXPECT_EQ(bench.run("D1000000\nM30").alarm, "P35");
+}
+
+// ---- names ----------------------------------------------------------------------------------------------------------------------
+
+TEST(VariableNames, Rules) {  // 13.5.5: 7 characters, a letter first, no reserved word, no name twice
+  EXPECT_EQ(m700("SETVN500[A234567,DIST]\n[#DIST]=25\n#100=[#DIST]+[#dist]*2\nM30").var(100), 75);
+  EXPECT_EQ(m700("SETVN500[ABCDEFGH]\nM30").alarm, "P292");
+  EXPECT_EQ(m700("SETVN500[1A]\nM30").alarm, "P300");
+  EXPECT_EQ(m700("SETVN500[SINUS]\nM30").alarm, "P300");
+  EXPECT_EQ(m700("SETVN500[AB,AB]\nM30").alarm, "P301");
+  EXPECT_EQ(m700("SETVN500[AB]\nSETVN500[AB]\nM30").alarm, "");
+  EXPECT_EQ(m700("SETVN520[AB]\nM30").alarm, "P241");
+  EXPECT_EQ(m700("SETVN519[AB,CD]\nM30").alarm, "P241");
+  EXPECT_EQ(m700("#100=[#NOBODY]\nM30").alarm, "P300");
+  EXPECT_EQ(m700("SETVN 500 AB\nM30").alarm, "P292");
+}
+
+TEST(VariableNames, InWordsAndRenamed) {
+  const Outcome run = m700("SETVN500[OLD]\nSETVN500[NEW]\n[#NEW]=3\nG0 X[#NEW]\nX[#OLD]\nM30");
+  EXPECT_EQ(run.path(), (Path{"rapid 3 0 0"}));
+  EXPECT_EQ(run.alarm, "P300");
+  EXPECT_EQ(run.alarm_line, 5u);
+}
+
+// ---- external output --------------------------------------------------------------------------------------------------------------
+
+TEST(ExternalOutput, OpenPrintClose) {  // 13.5.8
+  Bench bench;
+  const Outcome run = bench.run("#100=12.3456\n#101=-0.5\nPOPEN\nDPRNT[X#100[53]Y#101[33]*T-1]\nDPRNT[N#[100+2][40]]\nPCLOS\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(printed(run), (std::vector<std::string>{"\x12%", "X12.346Y-0.500*T-1", "N0", "%\x14"}));
+}
+
+TEST(ExternalOutput, BlanksByParameter) {  // leading zeros "can also be replaced by blank"
+  Bench bench;
+  bench.param("DPRNT_BLANK", "1");
+  EXPECT_EQ(printed(bench.run("#100=2.5\n#101=-2.5\nPOPEN\nDPRNT[#100[32]#101[32]]\nM30"))[1], "   2.50-  2.50");
+}
+
+TEST(ExternalOutput, ComesWhenTheMachineGetsThere) {
+  const Outcome run = m700("POPEN\nG0 X1.\nDPRNT[A]\nX2.\nM30");
+  std::vector<std::string> order;
+  for (const Step& step : run.steps) {
+    if (step.item.kind == NC_ITEM_MOVE) order.push_back("move");
+    if (!step.text.empty()) order.push_back(step.text);
+  }
+  EXPECT_EQ(order, (std::vector<std::string>{"\x12%", "move", "A", "move"}));
+}
+
+TEST(ExternalOutput, Alarms) {
+  EXPECT_EQ(m700("DPRNT[A]\nM30").alarm, "P460");
+  EXPECT_EQ(m700("POPEN\nPCLOS\nDPRNT[A]\nM30").alarm, "P460");
+  EXPECT_EQ(m700("POPEN\nDPRNT[#100]\nM30").alarm, "P33");
+  EXPECT_EQ(m700("POPEN\nDPRNT[#100[54]]\nM30").alarm, "P33");
+  EXPECT_EQ(m700("POPEN\nDPRNT[#5[5]]\nM30").alarm, "P33");
+  EXPECT_EQ(m700("POPEN\nDPRNT[A=B]\nM30").alarm, "P33");
+  EXPECT_EQ(m700("POPEN\nDPRNT[A\nM30").alarm, "P281");
+  EXPECT_EQ(m700("POPEN\nBPRNT[A]\nM30").alarm, "P39");
+}
+
+// ---- IF THEN ------------------------------------------------------------------------------------------------------------------
+
+TEST(IfThen, IsAnOptionOfLaterModels) {
+  EXPECT_EQ(m700("IF [1 EQ 1] THEN #100=1\nM30").alarm, "P290");
+  Bench bench;
+  bench.param("macro_extensions", "1");
+  const Outcome run = bench.run("IF [1 EQ 1] THEN #100=1\nIF [1 EQ 2] THEN #101=1 #102=2\nIF [1 LT 2] THEN GOTO 9\n#103=1\nN9 M30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(100), 1);
+  EXPECT_TRUE(std::isnan(run.var(101)));
+  EXPECT_TRUE(std::isnan(run.var(102)));
+  EXPECT_TRUE(std::isnan(run.var(103)));
+}
+
+}  // namespace
+}  // namespace nc::test
