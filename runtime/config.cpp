@@ -43,6 +43,12 @@ std::string Config::programs_folder() const {
   return (std::filesystem::path(file).parent_path() / folder).lexically_normal().string();
 }
 
+std::string Config::print_file() const {
+  const std::filesystem::path path(print);
+  if (print.empty() || path.is_absolute()) return print;
+  return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
+}
+
 std::vector<ConfigError> parse_config(std::string_view text, const std::string& file, Config* config,
                                       Config* partial) {
   ErrorList errors(file);

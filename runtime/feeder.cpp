@@ -174,6 +174,10 @@ void Feeder::take_messages() {
   while (scan_->poll_message(&message)) {
     nc_text text;
     if (nc_->text(message.system, message.text, &text) != NC_OK) continue;
+    if (message.port != 0) {
+      if (printer_) printer_(text.s);
+      continue;
+    }
     const std::lock_guard lock(mutex_);
     info_.last_message = text.s;
     ++info_.messages;

@@ -56,6 +56,8 @@ struct FeederInfo {
 
 // Enters the program of this name into the store: feeder thread, while nothing runs.
 using ProgramLoader = std::function<bool(const std::string& name, unsigned* file)>;
+// Takes what programs print (POPEN, DPRNT, PCLOS) when the machine gets there: feeder thread.
+using Printer = std::function<void(const char* text)>;
 // kSelectProgram with this number selects the program given by name.
 inline constexpr std::uint32_t kProgramByName = ~0u;
 
@@ -78,6 +80,7 @@ class Feeder {
   // Before the threads start.
   void set_sink(EventSink* sink) { sink_ = sink; }
   void set_program_loader(ProgramLoader loader) { loader_ = std::move(loader); }
+  void set_printer(Printer printer) { printer_ = std::move(printer); }
   void set_path_sink(PathSink* sink) {
     path_sink_ = sink;
     scan_->record_positions();
@@ -100,6 +103,7 @@ class Feeder {
   Scan* scan_;
   EventSink* sink_ = nullptr;
   PathSink* path_sink_ = nullptr;
+  Printer printer_;
 
   struct System {
     bool selected = false, mdi = false;

@@ -51,6 +51,7 @@ class Runtime {
   SignalBoard* signals() { return board_.get(); }
   // Before the start.
   void set_sink(EventSink* sink) { feeder_->set_sink(sink); }
+  void set_printer(Printer printer) { feeder_->set_printer(std::move(printer)); }
   void set_path_sink(PathSink* sink) { feeder_->set_path_sink(sink); }
 
   // ---- real time ----

@@ -213,6 +213,7 @@ void Scan::build_nc_inputs() noexcept {
     in.fin = machine.fin;
     in.fin2 = false;
     in.interlock = false;
+    in.macro_interrupt = false;
     // A program alarm is libnc's own state; the level is for what the machine does wrong.
     in.alarm = false;
     for (unsigned i = 0; i < alarms_.count; ++i) in.alarm |= alarms_.alarm[i].id != AlarmId::kProgram;
@@ -261,7 +262,7 @@ void Scan::write_outputs() noexcept {
                           out.source,
                           out.state == NC_STATE_RUNNING};
     if (out.message && !message_seen_[s])
-      (void)messages_.push({s, out.message_text});  // full: the oldest stay
+      (void)messages_.push({s, out.message_text, out.message_port});  // full: the oldest stay
     message_seen_[s] = out.message;
     if (recording_) record_position(s);
   }

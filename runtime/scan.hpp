@@ -79,6 +79,7 @@ class Scan {
   struct Message {
     unsigned system;
     std::uint32_t text;
+    std::uint32_t port;  // 0 the operator, 1 the external output
   };
   bool poll_message(Message* message) noexcept { return messages_.pop(message); }
   // Positions are recorded from now on, one per scan in which an axis moves. Before the threads start.

@@ -26,6 +26,7 @@
 #include "runtime/share/service.hpp"
 #include "tools/lib/option_values.hpp"
 #include "tools/lib/output_check.hpp"
+#include "tools/lib/print_file.hpp"
 #include "tools/lib/program_files.hpp"
 #include "tools/lib/serve.hpp"
 #include "tools/lib/toolpath_plot.hpp"
@@ -350,6 +351,11 @@ int operate(const Options& options, nc::rt::Config* config) {
   if (!options.program.empty()) sharing.programs().add(file, options.program);
   sharing.programs().set_mdi(options.mdi);
   if (!sharing.prepare(runtime.get(), &files, config->programs_folder(), &error)) return failed(error);
+  nc::tools::PrintFile print;
+  if (!config->print.empty()) {
+    if (!print.open(config->print_file(), &error)) return failed(error);
+    runtime->set_printer([&print](const char* text) { print.write(text); });
+  }
   PlotSink path(*config);
   if (!options.plot.empty()) runtime->set_path_sink(&path);
   nc::rt::Progress progress(stdout, isatty(STDOUT_FILENO) != 0, nc::rt::estimate_lines(options.program));

@@ -26,6 +26,10 @@ void add_program(CLI::App* command, SessionOptions* options) {
   command->add_option("--programs", options->programs, "folder of sub programs (default: PROGRAM's own)")->check(nc::tools::given());
 }
 
+void add_print(CLI::App* command, SessionOptions* options) {
+  command->add_option("--print", options->print, "file to which DPRNT of user macros is appended");
+}
+
 void add_loop_limit(CLI::App* command, uint64_t* limit) {
   command
       ->add_option("--max-silent-blocks", *limit,
@@ -43,10 +47,12 @@ int run(int argc, char** argv) {
 
   CLI::App* trace = app.add_subcommand("trace", "every event of the program as JSON Lines");
   add_program(trace, &options);
+  add_print(trace, &options);
   add_loop_limit(trace, &silent);
 
   CLI::App* check = app.add_subcommand("check", "the alarm that stops the program, if one does");
   add_program(check, &options);
+  add_print(check, &options);
   add_loop_limit(check, &silent);
 
   std::string limits;

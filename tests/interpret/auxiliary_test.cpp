@@ -53,7 +53,6 @@ TEST(Auxiliary, Stops) {  // M700 9.1
 }
 
 TEST(Auxiliary, CodesThatAreNotBuilt) {
-  EXPECT_EQ(m700("M96 P1\nM30").alarm, "P271");
   EXPECT_EQ(m700("M198 P1\nM30").alarm, "P39");
 }
 

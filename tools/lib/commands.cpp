@@ -11,6 +11,7 @@
 #include "tools/lib/offline_run.hpp"
 #include "tools/lib/output_check.hpp"
 #include "tools/lib/output_file.hpp"
+#include "tools/lib/print_file.hpp"
 #include "tools/lib/trace_writer.hpp"
 #include "tools/lib/virtual_machine.hpp"
 #include "tools/lib/virtual_world.hpp"
@@ -91,6 +92,30 @@ class TraceSink final : public RunSink {
   ItemSource* items_;
 };
 
+/** Hands everything on, and what goes to an external port into a file. */
+class PrintSink final : public RunSink {
+ public:
+  PrintSink(RunSink* next, PrintFile* file) : next_(*next), file_(*file) {}
+  void move(const nc_source& s, const nc_move& m) override { next_.move(s, m); }
+  void block(const nc_source& s, const nc_axes& work, const nc_axes& machine) override { next_.block(s, work, machine); }
+  void aux(const nc_source& s, char code, double value) override { next_.aux(s, code, value); }
+  void dwell(const nc_source& s, bool turns, double value) override { next_.dwell(s, turns, value); }
+  void sync(const nc_source& s, uint32_t what) override { next_.sync(s, what); }
+  void message(const nc_source& s, uint32_t port, const char* text) override {
+    if (port != 0) file_.write(text);
+    next_.message(s, port, text);
+  }
+  void alarm(const nc_alarm& alarm) override { next_.alarm(alarm); }
+  void end(const nc_source& s, bool ok, const nc_axes& work, const nc_axes& machine, uint32_t modal) override {
+    next_.end(s, ok, work, machine, modal);
+  }
+  bool stop() const override { return next_.stop() || !file_.good(); }
+
+ private:
+  RunSink& next_;
+  PrintFile& file_;
+};
+
 /** The drawing: moves only. */
 class PlotSink final : public RunSink {
  public:
@@ -105,6 +130,21 @@ class PlotSink final : public RunSink {
 RunResult run_session(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks) {
   VirtualWorld world(session->setup(), session->config().system[0]);
   return run_offline(items, &world, sink, session->block_lines(), max_silent_blocks);
+}
+
+/** The run with what it prints in `path` ("" = nowhere). @return false when the file cannot be written: *error says why. */
+bool run_printing(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks, const std::string& path,
+                  RunResult* result, std::string* error) {
+  PrintFile file;
+  if (path.empty()) {
+    *result = run_session(session, sink, items, max_silent_blocks);
+    return true;
+  }
+  if (!file.open(path, error)) return false;
+  PrintSink printing(sink, &file);
+  *result = run_session(session, &printing, items, max_silent_blocks);
+  if (!file.good()) *error = path + ": cannot be written";
+  return file.good();
 }
 
 bool open_session(Session* session, const SessionOptions& options, std::string* error) {
@@ -147,7 +187,8 @@ int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int
   OutputFile file(out);
   ControlSource items(session.control());
   TraceSink sink(&file, session.config().system[0], &items);
-  const RunResult result = run_session(&session, &sink, &items, max_silent_blocks);
+  RunResult result;
+  if (!run_printing(&session, &sink, &items, max_silent_blocks, options.print, &result, &error)) return complain(err, error);
   if (!file.flush()) return complain(err, "the trace cannot be written: " + file.error_text());
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   return exit_code(result.how);
@@ -159,7 +200,8 @@ int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std
   if (!open_session(&session, options, &error)) return complain(err, error);
   ControlSource items(session.control());
   RunSink nothing;
-  const RunResult result = run_session(&session, &nothing, &items, max_silent_blocks);
+  RunResult result;
+  if (!run_printing(&session, &nothing, &items, max_silent_blocks, options.print, &result, &error)) return complain(err, error);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   if (result.how == RunResult::How::kAlarmed)
     std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());

@@ -17,6 +17,8 @@ class ItemSource {
   virtual nc_status pull(uint32_t budget, nc_item* item) = 0;
   virtual nc_status answer(const nc_world& world) = 0;
   virtual nc_status reset() = 0;
+  /** Level of the macro interrupt signal. @return true when the item pulled last must not be executed. */
+  virtual bool interrupt(bool /*on*/) { return false; }
   virtual bool alarm(nc_alarm* alarm) = 0;
   virtual bool text(uint32_t id, nc_text* text) = 0;
   /** Codes of a modal snapshot. @return their number. */
@@ -32,6 +34,11 @@ class ControlSource final : public ItemSource {
     return nc_pull(control_, kPartSystem, budget, item);
   }
   nc_status answer(const nc_world& world) override { return nc_answer(control_, kPartSystem, &world); }
+  bool interrupt(bool on) override {
+    bool take_back = false;
+    nc_interrupt_signal(control_, kPartSystem, on, &take_back);
+    return take_back;
+  }
   nc_status reset() override { return nc_reset(control_, kPartSystem); }
   bool alarm(nc_alarm* alarm) override { return nc_alarm_get(control_, kPartSystem, alarm) == NC_OK; }
   bool text(uint32_t id, nc_text* text) override {

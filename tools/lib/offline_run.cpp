@@ -28,6 +28,10 @@ class OfflineRun {
       count_silence(item);
       const uint32_t next = world_.waits_for_line() ? lines_.after(ended_line_) : 0;
       if (world_.on_item(item, next)) return reset();
+      if (world_.macro_interrupt() != interrupt_) {
+        interrupt_ = !interrupt_;
+        if (items_.interrupt(interrupt_)) continue;  // the interrupt program comes before this item
+      }
       if (!handle(item)) return result_;
       if (sink_.stop()) {
         result_.how = RunResult::How::kStopped;
@@ -180,7 +184,7 @@ class OfflineRun {
   nc_axes work_ = {};
   uint64_t silent_ = 0;  // blocks since something happened
   uint32_t modal_ = 0, ended_line_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, interrupt_ = false;
 };
 
 }  // namespace

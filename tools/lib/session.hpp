@@ -18,6 +18,7 @@ struct SessionOptions {
   std::string program;  // "-" = standard input
   std::string setup;    // "" = all defaults
   std::string dialect = "m700";
+  std::string print;        // file for what programs print (DPRNT); "" = none
   std::optional<std::string> programs;  // folder of sub programs; default: the program's own
 };
 

@@ -30,7 +30,9 @@ VirtualWorld::VirtualWorld(const Setup& setup, const nc_system_config& system)
 void VirtualWorld::fire(const SetupEvent& event) {
   for (int w = 0; w < NC_WORDS; ++w)
     input_[w] = (input_[w] & ~event.inputs.mask[w]) | (event.inputs.bits[w] & event.inputs.mask[w]);
-  // feed_hold delays and is continued at once; macro_interrupt without M96 does nothing. // M700 13.5.8
+  // feed_hold delays and is continued at once; macro_interrupt without M96 does nothing. // M700 13.12
+  const auto interrupt = event.signals.find("macro_interrupt");
+  if (interrupt != event.signals.end()) interrupt_ = interrupt->second != 0;
   const auto reset = event.signals.find("reset");
   if (reset != event.signals.end() && reset->second) reset_ = true;
 }

@@ -43,6 +43,9 @@ class VirtualWorld {
   /** The world for a sync; a read of the clock lets 1 ms pass. */
   nc_world answer(uint32_t what);
 
+  /** Level of the macro interrupt signal. */
+  bool macro_interrupt() const { return interrupt_; }
+
   const nc_axes& machine() const { return machine_; }
   double seconds() const { return seconds_; }
   /** Set the clock where another executor measures the time. */
@@ -66,6 +69,7 @@ class VirtualWorld {
   double seconds_ = 0.0;
   double spindle_rev_min_ = 0.0;
   bool reset_ = false;
+  bool interrupt_ = false;
   bool called_ = false;  // a sub program has begun since the last item of the main program
   std::vector<const SetupEvent*> line_events_, time_events_;  // not yet fired
 };

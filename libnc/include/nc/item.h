@@ -49,8 +49,15 @@ typedef enum nc_action_kind {
   NC_ACTION_B = 3,       /**< second auxiliary function; `letter` its address */
   NC_ACTION_OUTPUT = 4,  /**< macro interface output: word `index` (0..3), bits `mask` become `bits` (M700 13.5.5) */
   NC_ACTION_MESSAGE = 5, /**< #3006, DPRNT: `text`, `index` = port (0 operator message) */
-  NC_ACTION_CONTROL = 6  /**< #3003/#3004: `index` the variable, `value` */
+  NC_ACTION_CONTROL = 6  /**< #3003/#3004: `index` the variable, `value`; `index` 96: macro interrupt, `value` nc_interrupt_bits */
 } nc_action_kind;
+
+/** State of the macro interrupt (M700 13.12): bits. */
+typedef enum nc_interrupt_bits {
+  NC_INTERRUPT_ENABLED = 1,   /**< between M96 and M97 */
+  NC_INTERRUPT_BY_LEVEL = 2,  /**< accepted as long as the signal is on, else when it rises (#1112) */
+  NC_INTERRUPT_IN_SERVICE = 4 /**< the interrupt program runs: signals are ignored */
+} nc_interrupt_bits;
 
 /** Kinds of gate. */
 typedef enum nc_gate_kind {

@@ -41,6 +41,12 @@ NC_API nc_status nc_rewind(nc_control*, unsigned system, uint64_t serial);
  */
 NC_API nc_status nc_recalculate(nc_control*, unsigned system);
 
+/**
+ * Offline: the level of the macro interrupt signal UIT (M700 13.12), to be told when it changes. The item pulled last counts as not
+ * executed yet: when *take_back comes back true (type 1 of the interrupt) it must not be executed any more.
+ */
+NC_API nc_status nc_interrupt_signal(nc_control*, unsigned system, bool on, bool* take_back);
+
 /** Stop the program: modal state as after reset (M700 3.7 "reset 2"), program at its head. Not while online motion runs. */
 NC_API nc_status nc_reset(nc_control*, unsigned system);
 
@@ -94,6 +100,7 @@ typedef struct nc_inputs {
   bool fin2;             /**< FIN2: when it rises the strobes go off and the program goes on */
   bool interlock;        /**< level: no axis may start; motion decelerates to rest */
   bool alarm;            /**< level: stop motion, no start until reset (a drive, the PLC) */
+  bool macro_interrupt;  /**< UIT, M700 13.12: the interrupt program of M96 comes at the end of the block in execution */
   uint32_t skip;         /**< skip signals, bit n = signal n+1 */
   uint32_t input[NC_WORDS]; /**< macro interface inputs */
   double feed_override;  /**< 0..max_feed_override, 1 = 100 % */
@@ -148,6 +155,7 @@ typedef struct nc_outputs {
   bool manual_allowed;      /**< nc_inputs::manual acts: no program, or one that is stopped between two blocks */
   bool message;             /**< rising edge: `message_text` has a new operator message */
   uint32_t message_text;    /**< id for nc_text_get() */
+  uint32_t message_port;    /**< where it goes: 0 the operator, 1 the external output (POPEN, DPRNT, PCLOS) */
   double feed_mm_min;       /**< actual path speed */
   double feed_command_mm_min; /**< of the move in execution, without override */
   uint64_t serial;          /**< item in execution: "the block in execution" */

@@ -31,6 +31,11 @@ nc_status nc_recalculate(nc_control* c, unsigned system) {
   return c->system[system].recalculate();
 }
 
+nc_status nc_interrupt_signal(nc_control* c, unsigned system, bool on, bool* take_back) {
+  if (!known(c, system) || take_back == nullptr) return NC_E_ARGUMENT;
+  return c->system[system].interrupt_signal(on, take_back);
+}
+
 nc_status nc_reset(nc_control* c, unsigned system) {
   if (!known(c, system)) return NC_E_ARGUMENT;
   return c->system[system].reset();

@@ -56,6 +56,19 @@ class Commit {
   /// The same for the ring.
   void to_record(const Item& item, const Transform& transform, Record* out) const;
 
+  /// The item just committed has not been executed and is given up; `move`: it was one.
+  void take_back(bool move) {
+    taken_end_ = machine_;
+    if (move) machine_ = start_;
+    --last_serial_;
+  }
+  void put_back(bool move) {
+    if (move) machine_ = taken_end_;
+    ++last_serial_;
+  }
+  /// It has been executed before under another serial.
+  void uncount() { --last_serial_; }
+
   Serial serial() const { return last_serial_; }
   int8_t limit_axis() const { return limit_axis_; }
   const MarkPoint* find(Serial serial) const;
@@ -72,6 +85,7 @@ class Commit {
   bool any_limit_ = false;
   AxisVec machine_;
   AxisVec start_;            ///< of the move just committed
+  AxisVec taken_end_;        ///< end of the move that was taken back
   Circle circle_;            ///< of the move just committed, machine coordinates
   Curve curve_;
   Serial last_serial_ = 0;

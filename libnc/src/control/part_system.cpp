@@ -109,8 +109,52 @@ void PartSystem::describe_alarm() {
 
 // ---- offline ---------------------------------------------------------------------------------------------------------------
 
+nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
+  *take_back = false;
+  const Settings& settings = interpreter.settings;
+  const bool rises = on && !uit_;
+  uit_ = on;
+  if (!(settings.interrupt_by_level ? on : rises) || !interpreter.interruptible()) return NC_OK;
+  uit_pending_ = true;
+  // M700 13.12, type 1: at once. The item that was given out last is the one that is interrupted, unless it is done already; a contour
+  // under compensation and a block that waits for an answer are finished first.
+  const bool cuttable = pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate;
+  if (settings.interrupt_type_2 || !cuttable || !offset_.idle() || has_staged_ || open_sync_ != 0) return NC_OK;
+  commit_.take_back(pulled_ == ItemKind::move);
+  if (interpreter.interrupt(commit_.machine(), 1, true)) {
+    uit_pending_ = false;
+    pulled_ = ItemKind::mark;
+    *take_back = true;
+  } else {
+    commit_.put_back(pulled_ == ItemKind::move);
+  }
+  return NC_OK;
+}
+
+/// At the end of a block: the interrupt program comes before what was read ahead.
+bool PartSystem::begin_interrupt() {
+  const MarkPoint* last = commit_.newest();
+  if (last == nullptr || last->serial != commit_.serial()) return false;
+  const Serial serial = last->serial;
+  if (rewind(serial) != NC_OK) return false;
+  uit_pending_ = false;
+  return interpreter.interrupt(interpreter.state.machine, 0, false);
+}
+
+/// A block that was interrupted is read again from its head: what it has done is not done twice.
+void PartSystem::drop_repeated() {
+  AxisVec from;
+  drop_ = interpreter.take_drop(&from);
+  if (drop_ != 0) commit_.set_machine(from);
+}
+
 nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   for (;;) {
+    if (uit_pending_ || uit_) [[unlikely]] {
+      if (!interpreter.state.interrupt_on) uit_pending_ = false;
+      const bool wanted = uit_pending_ || (uit_ && interpreter.settings.interrupt_by_level);
+      if (wanted && pulled_ == ItemKind::mark && interpreter.interruptible()) begin_interrupt();
+    }
     const Item* item = nullptr;
     const nc_status status = next(budget, &item);
     if (status != NC_OK) return status;
@@ -128,12 +172,22 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
       stop_on(fault, item->source);
       continue;
     }
+    if (drop_ != 0 && item->kind != ItemKind::sync) [[unlikely]] {
+      --drop_;
+      if (committed == Committed::yes) commit_.uncount();
+      take();
+      continue;
+    }
     if (committed == Committed::nothing) {
       take();
       continue;
     }
     commit_.to_public(*item, out);
-    if (item->kind == ItemKind::mark) remember_mark(*item);
+    pulled_ = item->kind;
+    if (item->kind == ItemKind::mark) {
+      remember_mark(*item);
+      if (interpreter.drop_pending()) drop_repeated();
+    }
     if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
     if (item->kind == ItemKind::alarm) describe_alarm();
     take();
@@ -158,6 +212,7 @@ nc_status PartSystem::rewind(Serial serial) {
   const MarkPoint* point = serial == 0 ? &head : commit_.find(serial);
   if (point == nullptr || !interpreter.rewind(point->seq)) return NC_E_NOT_FOUND;
   if (serial == 0) head.machine = interpreter.state.machine;
+  forget_interrupt();
   has_staged_ = false;
   open_sync_ = 0;
   finished_ = false;
@@ -171,6 +226,7 @@ nc_status PartSystem::rewind(Serial serial) {
 void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   interpreter.reset(keep_modal);
   interpreter.set_machine(machine);
+  forget_interrupt();
   offset_.reset();
   has_staged_ = false;
   open_sync_ = 0;
@@ -260,7 +316,14 @@ nc_status PartSystem::feed(uint32_t budget) {
     return interpreter.alarmed ? NC_ALARMED : NC_ENDED;
   }
   if (executor.reread_asked()) {
-    if (read_again(executor.give_up_ahead())) displace(executor.commanded());
+    const bool interrupt = executor.interrupt_asked();
+    if (!read_again(executor.give_up_ahead())) {
+      // stopped with an alarm
+    } else if (interrupt) {
+      interpreter.interrupt(interpreter.state.machine, 0, false);
+    } else {
+      displace(executor.commanded());
+    }
     executor.reread_done();
   }
   nc_status status = NC_OK;

@@ -19,6 +19,8 @@ class PartSystem {
   nc_status pull(uint32_t budget, nc_item* item);
   nc_status answer(const nc_world& world);
   nc_status rewind(Serial serial);
+  /// Offline: level of the interrupt signal (M700 13.12). *take_back: the item pulled last must not be executed.
+  nc_status interrupt_signal(bool on, bool* take_back);
   nc_status feed(uint32_t budget);
   nc_status recalculate();
   void set_position(const AxisVec& machine);
@@ -47,6 +49,13 @@ class PartSystem {
   nc_status commit_online(uint32_t& budget);
   bool read_again(Serial last);
   void displace(const AxisVec& machine);
+  bool begin_interrupt();
+  void drop_repeated();
+  void forget_interrupt() {
+    uit_pending_ = false;
+    pulled_ = ItemKind::mark;
+    drop_ = 0;
+  }
 
   OffsetStage offset_;
   Commit commit_;
@@ -58,6 +67,9 @@ class PartSystem {
   bool online_ = false;      ///< driven by feed()
   bool running_ = false;     ///< a cycle start has been accepted and the end not been executed
   bool finished_ = false;    ///< the end item has been committed
+  bool uit_ = false, uit_pending_ = false;  ///< interrupt signal: level, and a request that waits for its place
+  ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
+  unsigned drop_ = 0;                        ///< items to come that have been executed already
   Serial open_sync_ = 0;
   uint32_t sync_what_ = 0;
   uint32_t epoch_ = 0;

@@ -127,6 +127,10 @@ bool Executor::reread_asked() const {
          shared.reread_done.load(std::memory_order_relaxed);
 }
 
+bool Executor::interrupt_asked() const {
+  return state_->shared.reread_interrupt.load(std::memory_order_relaxed) != 0;
+}
+
 Serial Executor::give_up_ahead() {
   Serial last = 0;
   give_up_behind_block(&last);  // complete: without its end the scan lets no axis be moved by hand

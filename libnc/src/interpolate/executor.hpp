@@ -59,6 +59,8 @@ class Executor {
   /// The axes were moved by hand in a block stop and the program is to go on: the scan waits, and the ring
   /// from its tail on is the feeder's alone until reread_done().
   bool reread_asked() const;
+  /// The request is for a macro interrupt at the end of a block (M700 13.12).
+  bool interrupt_asked() const;
   /// Gives up every committed record behind the block stop; the mark to go on behind, as truncate().
   Serial give_up_ahead();
   void reread_done();

@@ -52,11 +52,13 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   latest_ = nullptr;
   if (state_ != NC_STATE_STOPPED) cause_ = NC_CAUSE_NONE;
   answer_truncate();
+  ask_for_interrupt();
   await_reread();
   plan_ = &planner_->newest();
   handshake(in);
   messages();
   states(in);
+  interrupt(in);
   if (!frozen_ && !rereading_) run(in);  // the ring from here on may be the feeder's
   manual(in);
   last_command_ = command_;
@@ -108,7 +110,7 @@ void Scan::handshake(const nc_inputs& in) {
   }
 }
 
-/// Operator messages, one at a time, each with a rising edge of its own.
+/// Operator messages and lines for the external output, one at a time, each with a rising edge of its own.
 void Scan::messages() {
   if (message_) {
     message_ = false;
@@ -117,6 +119,29 @@ void Scan::messages() {
     message_text_ = messages_.front();
     messages_.pop();
   }
+}
+
+/// M700 13.12: by level or by rising edge, between M96 and M97, not while an interrupt is in service, and only while a program runs.
+void Scan::interrupt(const nc_inputs& in) {
+  const bool rises = in.macro_interrupt && !interrupt_last_;
+  interrupt_last_ = in.macro_interrupt;
+  if (interrupt_mode_ == 0) return;
+  const bool accepted = (interrupt_mode_ & (NC_INTERRUPT_ENABLED | NC_INTERRUPT_IN_SERVICE)) == NC_INTERRUPT_ENABLED &&
+                        (state_ == NC_STATE_RUNNING || state_ == NC_STATE_HOLD);
+  if (!accepted) {
+    interrupt_wanted_ = false;
+    return;
+  }
+  if ((interrupt_mode_ & NC_INTERRUPT_BY_LEVEL) != 0 ? in.macro_interrupt : rises) interrupt_wanted_ = true;
+}
+
+/// A cycle after the mark, so that what the feeder reads of the scan's place is as of the mark.
+void Scan::ask_for_interrupt() {
+  if (!interrupt_reached_) return;
+  interrupt_reached_ = false;
+  shared_->block_begun.store(0, std::memory_order_relaxed);
+  shared_->reread_interrupt.store(1, std::memory_order_relaxed);
+  shared_->reread_request.store(++reread_, std::memory_order_release);
 }
 
 void Scan::states(const nc_inputs& in) {
@@ -152,6 +177,7 @@ void Scan::states(const nc_inputs& in) {
     if (displaced_ && still && state_ == NC_STATE_STOPPED) {  // acts when that is done
       rereading_ = true;
       shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
+      shared_->reread_interrupt.store(0, std::memory_order_relaxed);
       shared_->reread_request.store(++reread_, std::memory_order_release);
       return;
     }
@@ -190,6 +216,8 @@ void Scan::give_up() {
   fin1_groups_ = 0;
   strobe_ = 0;               // a FIN that comes now is late and completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
+  interrupt_mode_ = 0;
+  interrupt_wanted_ = false;
   messages_.clear();
   shared_->world.write({});
 }
@@ -223,7 +251,7 @@ void Scan::run(const nc_inputs& in) {
     if (r.kind == ItemKind::mark && r.mark.resume) last_mark_ = r.serial;
     if (execute(r, in) == Done::no) break;
     leave(r, true);
-    if (state_ != NC_STATE_RUNNING && at_rest()) break;
+    if (rereading_ || (state_ != NC_STATE_RUNNING && at_rest())) break;
   }
 }
 
@@ -280,7 +308,7 @@ void Scan::publish(const nc_inputs& in) {
   ScanStatus status;
   status.command = command_;
   status.feed_override = feed_override(in);
-  status.single_block = in.single_block && !(suppress_ & 1);
+  status.single_block = (in.single_block && !(suppress_ & 1)) || interrupt_wanted_;  // the plan rests at the ends of blocks
   status.last_mark = last_mark_;
   shared_->status.write(status);
   shared_->ordinal.store(ordinal_, std::memory_order_relaxed);
@@ -324,7 +352,8 @@ void Scan::outputs(const nc_inputs&, nc_outputs& out) {
   out.s = s_;
   out.manual_allowed = manual_allowed_;
   out.message = message_;
-  out.message_text = message_text_;
+  out.message_text = message_text_.id;
+  out.message_port = message_text_.port;
   if (moving_) {
     const Segment& s = current().segment;
     out.rapid = s.rapid;

@@ -43,6 +43,7 @@ struct ScanShared {
   alignas(64) std::atomic<uint32_t> truncate_request{0};
   std::atomic<uint32_t> truncate_release{0};
   std::atomic<uint32_t> reread_request{0};  ///< scan: read again from where the axes are; it waits for
+  std::atomic<uint32_t> reread_interrupt{0};  ///< 1: and begin with the interrupt program
   std::atomic<uint32_t> reread_done{0};     ///< feeder: the request that is done
   Latest<ScanStatus> status;
   Latest<ScanWorld> world;
@@ -61,6 +62,8 @@ class Scan {
   // scan.cpp: states
   void handshake(const nc_inputs& in) NC_RT;
   void messages() NC_RT;
+  void interrupt(const nc_inputs& in) NC_RT;
+  void ask_for_interrupt() NC_RT;
   void states(const nc_inputs& in) NC_RT;
   void start(const nc_inputs& in) NC_RT;
   void drop_old() NC_RT;
@@ -146,6 +149,12 @@ class Scan {
   uint32_t suppress_ = 0;  ///< #3003
   uint32_t disable_ = 0;   ///< #3004
 
+  // ---- macro interrupt (M700 13.12)
+  uint32_t interrupt_mode_ = 0;      ///< nc_interrupt_bits
+  bool interrupt_last_ = false;      ///< level of the signal
+  bool interrupt_wanted_ = false;    ///< accepted: acts at the end of the block in execution
+  bool interrupt_reached_ = false;   ///< that end has been reached: the feeder is asked with the next cycle
+
   // ---- gates
   bool gate_begun_ = false;
   double gate_left_ = 0;
@@ -157,9 +166,12 @@ class Scan {
 
   // ---- outside
   uint32_t output_[NC_WORDS] = {};
-  FixedQueue<uint32_t, 32> messages_;
+  struct Text {
+    uint32_t id = 0, port = 0;
+  };
+  FixedQueue<Text, 32> messages_;
   bool message_ = false;
-  uint32_t message_text_ = 0;
+  Text message_text_;
   Serial serial_ = 0;
   nc_source source_{};
   ModalId modal_ = 0;

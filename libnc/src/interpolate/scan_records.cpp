@@ -44,6 +44,8 @@ Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
       break;
     case ItemKind::end:
       modal_ = r.end.modal;
+      interrupt_mode_ = 0;
+      interrupt_wanted_ = false;
       block_begun_ = false;
       state_ = NC_STATE_IDLE;
       shared_->world.write({});  // serials begin anew with the next run
@@ -154,11 +156,11 @@ Scan::Done Scan::action(const Action& a) {
       if (a.index < NC_WORDS) output_[a.index] = (output_[a.index] & ~a.mask) | (a.bits & a.mask);
       return Done::yes;
     case NC_ACTION_MESSAGE:
-      if (a.index != 0) return Done::yes;  // DPRNT: the host writes it when it sees the event
-      return messages_.push(a.text) ? Done::yes : wait(NC_CAUSE_NONE);
+      return messages_.push({a.text, a.index}) ? Done::yes : wait(NC_CAUSE_NONE);
     case NC_ACTION_CONTROL:
       if (a.index == 3003) suppress_ = code_number(a.value);
       if (a.index == 3004) disable_ = code_number(a.value);
+      if (a.index == 96) interrupt_mode_ = code_number(a.value);
       return Done::yes;
     default:
       return strobe(a);
@@ -275,6 +277,12 @@ void Scan::mark(const Mark& m, const nc_inputs& in) {
   modal_ = m.modal;
   if (m.report) ++blocks_;
   block_begun_ = !m.resume;  // a block that stops at one of its places has begun, even when nothing moved yet
+  if (m.report && m.stop && interrupt_wanted_ && at_rest() && state_ == NC_STATE_RUNNING) {
+    // What lies behind this block is given up and the feeder goes on with the interrupt program.
+    interrupt_wanted_ = false;
+    rereading_ = interrupt_reached_ = true;
+    return;
+  }
   if (m.stop && in.single_block && !(suppress_ & 1) && at_rest() && state_ == NC_STATE_RUNNING) {
     state_ = NC_STATE_STOPPED;
     cause_ = NC_CAUSE_SINGLE_BLOCK;

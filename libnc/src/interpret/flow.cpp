@@ -285,6 +285,7 @@ Did return_sub(Interpreter& in) {
     return Did::done;
   }
   CallFrame& frame = top(in);
+  const bool interrupted = frame.origin == CallOrigin::interrupt;
   s.loop_count = frame.loop_base;
   if (frame.repeats > 0) {
     --frame.repeats;
@@ -299,16 +300,18 @@ Did return_sub(Interpreter& in) {
     uint64_t offset = 0;
     uint32_t line = 0;
     CallFrame& caller = s.frame[s.depth - 1];
+    if (s.interrupt_depth == s.depth) in.leave_interrupt(true);
     if (!whole_number(w.get('P'), &n) || !find_from_here(in, caller, n, &offset, &line)) return in.raise(Condition::sequence_missing, 'P', w.get('P'));
     leave(in);
     leave_loops(in, offset);
     caller.offset = offset;
     caller.line = line;
   } else {
+    if (s.interrupt_depth == s.depth) in.leave_interrupt(false);
     leave(in);
   }
   const bool stops = !only_calls(in);
-  s.owes_mark = true;
+  s.owes_mark = !interrupted;
   in.finish_block(stops, stops);
   return Did::later;
 }

@@ -151,6 +151,7 @@ void Interpreter::reset(bool keep_modal) {
   waiting_ = false;
   next_step = Step::none;
   after_block = nullptr;
+  drop_ = 0;
   statement = 0;
   ended = !main_program.valid();
   alarmed = false;
@@ -175,6 +176,7 @@ bool Interpreter::rewind(BlockSeq seq) {
   waiting_ = false;
   next_step = Step::none;
   after_block = nullptr;
+  drop_ = 0;
   statement = 0;
   ended = false;
   alarmed = false;
@@ -197,7 +199,12 @@ nc_status Interpreter::step(uint32_t& budget) {
     if (ended) return alarmed ? NC_ALARMED : NC_ENDED;
     if (budget == 0) return NC_BUDGET;
     --budget;
+    if (next_step == Step::none) {
+      made_ = 0;
+      block_seq_ = state.seq;
+    }
     const nc_status status = run_block(budget);
+    made_ += queued_;
     if (status != NC_OK) return status;
   }
   return NC_OK;
@@ -333,6 +340,7 @@ void Interpreter::take_block_back() {
 
 void Interpreter::keep_call() {
   ++state.seq;
+  if (state.interrupt_depth != 0) note_interrupt_items();
   checkpoints_.save(state);
 }
 
@@ -345,6 +353,7 @@ void Interpreter::emit_stop_point(bool resume) {
 void Interpreter::stop(const Fault& what, const nc_source& where) {
   next_step = Step::none;
   after_block = nullptr;
+  drop_ = 0;
   statement = 0;
   waiting_ = false;
   alarm_fault = what;
@@ -370,6 +379,7 @@ ModalId Interpreter::modal_now() {
 
 void Interpreter::finish_block(bool stop, bool executable) {
   ++state.seq;
+  if (state.interrupt_depth != 0) note_interrupt_items();
   if (state.control_3003 & 1) stop = false;  // M700 10.5: single block suppressed
   Item& item = emit(ItemKind::mark);
   item.block_end = executable;

@@ -8,6 +8,7 @@
 //   motion.cpp, arc.cpp   moves
 //   flow.cpp              GOTO, WHILE, M98/M99, the ends of programs
 //   macro_call.cpp        G65, G66, G66.1, G67 and their arguments
+//   interrupt.cpp         M96, M97 and the interrupt program
 //   code_call.cpp         G M S T B and ASCII codes that call programs
 //   system_variables.cpp  #1000 and up
 #pragma once
@@ -79,6 +80,22 @@ struct Interpreter {
     state.machine = machine;
     checkpoints_.save(state);
   }
+  /// Macro interrupt (M700 13.12): an interrupt signal would be accepted.
+  bool interruptible() const;
+  /// The interrupt program runs next, the machine stands at `machine`. Everything made before has happened but for the newest
+  /// `taken_back` items, which are given up. Inside a block only with `cut_block`; false: not now.
+  bool interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block);
+  /// Items of a block that is read again which have happened already: how many, and where the machine was before them.
+  bool drop_pending() const { return drop_ != 0; }
+  unsigned take_drop(AxisVec* from) {
+    const unsigned count = drop_;
+    *from = drop_from_;
+    drop_ = 0;
+    return count;
+  }
+  /// Program and modal state at the interrupt (#4401...).
+  const ModalState& interrupted_modal() const { return interrupted_.modal; }
+  void leave_interrupt(bool to_sequence);
   /// A stage behind has found a fault: what is queued is void, the alarm and the end take its place.
   void abort(const Fault& what, const nc_source& where);
   void refresh_settings();
@@ -189,6 +206,21 @@ struct Interpreter {
   static constexpr unsigned kQueue = 64;    ///< items a block may make before the stages take them
   static constexpr unsigned kReserve = 24;  ///< one step of a job never makes more than this
 
+  /// What an interrupt program goes back to.
+  struct InterruptReturn {
+    AxisVec machine;             ///< at the head of the interrupted block
+    unsigned items = 0;          ///< of that block that have happened
+    bool inside_block = false;
+    ModalState modal;
+    Compensation comp;
+    double length_value = 0;
+    uint8_t length_axis = 2;
+    uint16_t work_system = 0;
+    CycleState cycle;
+  };
+  Did enter_interrupt();
+  void note_interrupt_items();
+
   nc_status run_block(uint32_t& budget);
   nc_status settle(Did did);
   void stop(const Fault& what, const nc_source& where);
@@ -203,6 +235,11 @@ struct Interpreter {
   unsigned head_ = 0, queued_ = 0;
   bool waiting_ = false;
   uint32_t waiting_for_ = 0;
+  unsigned made_ = 0;          ///< items of the block in hand so far
+  BlockSeq block_seq_ = 0;     ///< the state before it
+  unsigned drop_ = 0;
+  AxisVec drop_from_;
+  InterruptReturn interrupted_;
   Checkpoints checkpoints_;
   static constexpr ModalId kNoModal = ~ModalId{0};
   ModalId newest_modal_ = kNoModal;  ///< of the newest mark
@@ -237,6 +274,12 @@ Did dispatch_block(Interpreter& in, bool* taken);
 bool block_is_argument(const Interpreter& in);
 /// What a block calls behind its own part: a code of type M98, the modal call after a move.
 Did call_behind_block(Interpreter& in);
+
+/// interpret/interrupt.cpp
+bool is_interrupt_on(const Interpreter& in, uint32_t m);   ///< M96, or what stands for it
+bool is_interrupt_off(const Interpreter& in, uint32_t m);  ///< M97
+Did enable_interrupt(Interpreter& in);
+Did disable_interrupt(Interpreter& in);
 
 /// interpret/system_variables.cpp
 Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault* fault, uint32_t* sync);

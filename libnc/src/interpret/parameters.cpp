@@ -189,6 +189,17 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.peck_clearance_73 = number("8012", 0);
   s.macro_single = flag("8101");
   s.macro_extensions = flag("macro_extensions");
+  if (flag("1109")) {  // M700 13.12: M codes 03 to 97 but 30
+    const auto m_code = [&number](const char* key, uint32_t fallback) {
+      const double m = number(key, fallback);
+      return m >= 3 && m <= 97 && m != 30 ? static_cast<uint32_t>(m) : fallback;
+    };
+    s.interrupt_on_m = m_code("1110", 96);
+    s.interrupt_off_m = m_code("1111", 97);
+  }
+  s.interrupt_by_level = flag("1112");
+  s.interrupt_type_2 = flag("1113");
+  s.interrupt_as_sub = flag("1229/bit0");
   s.print_blanks = flag("DPRNT_BLANK");
   s.asin_0_360 = flag("1273/bit0");
   s.preset_allowed = number("1267/bit0", 1) != 0;

@@ -30,6 +30,10 @@ struct Settings {
   double peck_clearance_73 = 0;       ///< #8012, mm
   bool macro_single = false;          ///< #8101
   bool macro_extensions = false;      ///< IF THEN of later models
+  uint32_t interrupt_on_m = 96, interrupt_off_m = 97;  ///< #1109: #1110, #1111 instead
+  bool interrupt_by_level = false;    ///< #1112 S_TRG
+  bool interrupt_type_2 = false;      ///< #1113 INT_2
+  bool interrupt_as_sub = false;      ///< #1229 bit 0
   bool print_blanks = false;          ///< DPRNT: leading zeros become blanks (M700 13.5.8 (4))
   bool asin_0_360 = false;            ///< #1273 bit 0
   bool start_absolute = true;

@@ -67,6 +67,9 @@ struct State {
   uint16_t work_system = 0;   ///< 0..5 G54..G59, 6.. G54.1 P1..
   bool spindle_on = false;
   bool end_seen = false;
+  bool interrupt_on = false;  ///< M96 in force (M700 13.12)
+  bool interrupt_moved = false; ///< the interrupt program has moved or given out M S T B
+  uint8_t interrupt_depth = 0;  ///< level of the interrupt program in service, 0 = none
   bool port_open = false;     ///< POPEN has been executed (M700 13.5.8)
   bool percent_seen = false;  ///< the start mark of the main program has been read
   uint32_t moves_since_comp_off = 1; ///< M700 P112: a plane change right after G40 needs a move in between

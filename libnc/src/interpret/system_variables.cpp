@@ -309,6 +309,17 @@ Eval give_word(Access& a, const ModalState& m) {
 Eval read_word_ahead(Access& a) { return give_word(a, a.in.state.modal); }
 Eval read_word_now(Access& a) { return world_known(a, NC_SYNC_MODAL) ? give_word(a, a.in.finished_modal) : Eval::need_sync; }
 
+/// #4401-#4421, #4507-#4520: as the interrupt program was entered, and only in it (M700 13.12).
+Eval read_group_interrupt(Access& a) {
+  return a.in.state.interrupt_depth != 0 ? give_group(a, a.in.interrupted_modal()) : no_variable(a);
+}
+Eval read_word_interrupt(Access& a) {
+  if (a.in.state.interrupt_depth == 0) return no_variable(a);
+  const ModalState& m = a.in.interrupted_modal();
+  if (a.offset + 1 != 15) return give_word(a, m);
+  return give(a, a.in.state.frame[a.in.state.interrupt_depth - 1].program.number);
+}
+
 // ---- positions -----------------------------------------------------------------------------------------------------------------
 
 bool axis_ok(Access& a) { return a.offset < a.in.axis_count; }
@@ -360,6 +371,8 @@ constexpr Range kRanges[] = {
     {4101, 4120, read_word_ahead, nullptr},
     {4201, 4221, read_group_now, nullptr},
     {4301, 4320, read_word_now, nullptr},
+    {4401, 4421, read_group_interrupt, nullptr},
+    {4501, 4520, read_word_interrupt, nullptr},
     {5001, 5020, read_end_point, nullptr},
     {5021, 5040, read_machine, nullptr},
     {5041, 5060, read_work_position, nullptr},

@@ -62,6 +62,7 @@ Did check_axis_letters(Interpreter& in, char second) {
 }
 
 bool output_code(const Interpreter& in, uint32_t code) {
+  if (is_interrupt_on(in, code) || is_interrupt_off(in, code)) return false;  // M700 13.12: processed internally
   const MiscRow* row = find_misc(*in.dialect, code);
   return row == nullptr || row->function == MiscFunction::output;
 }
@@ -149,6 +150,11 @@ Did auxiliary_before(Interpreter& in) {
 
 Did auxiliary_after(Interpreter& in) {
   for (const uint32_t m : in.words.m) {
+    if (is_interrupt_on(in, m) || is_interrupt_off(in, m)) {
+      const Did did = is_interrupt_on(in, m) ? enable_interrupt(in) : disable_interrupt(in);
+      if (did != Did::done) return did;
+      continue;
+    }
     const MiscRow* row = find_misc(*in.dialect, m);
     if (row == nullptr) continue;
     switch (row->function) {

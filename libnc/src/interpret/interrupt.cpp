@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Macro interrupt: M96, M97, and the way into the interrupt program and back (M700 13.12).
+//
+// An interrupt comes when everything before it has happened, so it never has to be taken back: what is kept for the return lies beside
+// the state and not in it.
+//
+// A block is interrupted at one of its items. The interpreter goes back to where the block began and enters the interrupt program from
+// there, with the machine where it stands. On return either the rest of the block is lost (type 1, when the interrupt program moved or
+// gave out M S T B), or the block is read again and the items that have happened already are dropped.
+#include "interpret/calls.hpp"
+
+namespace nc {
+namespace {
+
+/// What sinks and the scan know of the interrupt: NC_ACTION_CONTROL 96.
+void announce(Interpreter& in) {
+  uint32_t bits = 0;
+  if (in.state.interrupt_on) bits |= NC_INTERRUPT_ENABLED;
+  if (in.settings.interrupt_by_level) bits |= NC_INTERRUPT_BY_LEVEL;
+  if (in.state.interrupt_depth != 0) bits |= NC_INTERRUPT_IN_SERVICE;
+  Action& action = in.emit(ItemKind::action).action;
+  action.kind = NC_ACTION_CONTROL;
+  action.index = 96;
+  action.value = bits;
+}
+
+ProgramRef interrupt_program(const Interpreter& in) {
+  ProgramRef program;
+  program.file = static_cast<uint16_t>(in.notes.get(Notes::interrupt_key(Notes::kInterruptFile)));
+  program.number = static_cast<uint32_t>(in.notes.get(Notes::interrupt_key(Notes::kInterruptNumber)));
+  program.offset = static_cast<uint64_t>(in.notes.get(Notes::interrupt_key(Notes::kInterruptOffset)));
+  program.line = static_cast<uint32_t>(in.notes.get(Notes::interrupt_key(Notes::kInterruptLine)));
+  return program;
+}
+
+/// The block that was interrupted is not finished: the program that runs it goes on behind it.
+void pass_over_block(Interpreter& in, CallFrame& frame) {
+  const Block* block = in.reader.read(frame.program.file, frame.offset, frame.line);
+  if (block == nullptr || block->end_of_text) return;
+  frame.offset = block->next;
+  frame.line = block->next_line;
+}
+
+}  // namespace
+
+bool is_interrupt_on(const Interpreter& in, uint32_t m) { return m == in.settings.interrupt_on_m && in.dialect->id == NC_DIALECT_M700; }
+bool is_interrupt_off(const Interpreter& in, uint32_t m) { return m == in.settings.interrupt_off_m && in.dialect->id == NC_DIALECT_M700; }
+
+Did enable_interrupt(Interpreter& in) {
+  const BlockWords& w = in.words;
+  ProgramRef program;
+  const Did did = find_called(in, w.has('P'), w.has('P') ? w.get('P') : 0, false, &program);
+  if (did != Did::done) return did;
+  uint64_t offset = program.offset;
+  uint32_t line = program.line;
+  if (w.has('H')) {
+    uint32_t n = 0;
+    bool again = false;
+    if (!whole_number(w.get('H'), &n) || !in.reader.find_sequence(program.file, n, &offset, &line, 0, kWholeText, &again))
+      return in.raise(Condition::sequence_missing, 'H', w.get('H'));
+  }
+  const double values[Notes::kInterruptSize] = {static_cast<double>(program.file), static_cast<double>(program.number),
+                                                static_cast<double>(program.offset), static_cast<double>(program.line),
+                                                static_cast<double>(offset), static_cast<double>(line)};
+  for (unsigned i = 0; i < Notes::kInterruptSize; ++i) in.set_note(Notes::interrupt_key(i), values[i]);
+  in.state.interrupt_on = true;
+  announce(in);
+  return Did::done;
+}
+
+Did disable_interrupt(Interpreter& in) {
+  in.state.interrupt_on = false;
+  announce(in);
+  return Did::done;
+}
+
+bool Interpreter::interruptible() const { return state.interrupt_on && state.interrupt_depth == 0 && !ended && !state.end_seen; }
+
+bool Interpreter::interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block) {
+  if (!interruptible()) return false;
+  const bool inside = queued_ > 0 || next_step != Step::none || taken_back > 0;
+  InterruptReturn back;
+  if (inside) {
+    if (!cut_block || waiting_) return false;
+    back.items = made_ - queued_ - taken_back;
+    if (!rewind(block_seq_)) return false;
+    back.inside_block = true;
+  }
+  back.machine = state.machine;
+  back.modal = state.modal;
+  back.comp = state.comp;
+  back.length_value = state.length_value;
+  back.length_axis = state.length_axis;
+  back.work_system = state.work_system;
+  back.cycle = state.cycle;
+  const Did did = enter_interrupt();
+  if (did == Did::fault) {
+    stop(fault, source);
+    return true;
+  }
+  interrupted_ = back;
+  state.machine = machine;
+  state.interrupt_moved = false;
+  announce(*this);
+  checkpoints_.save(state);
+  return true;
+}
+
+Did Interpreter::enter_interrupt() {
+  Entry entry;
+  entry.program = interrupt_program(*this);
+  entry.origin = CallOrigin::interrupt;
+  entry.kind = settings.interrupt_as_sub ? CallKind::sub : CallKind::macro;  // M700 #1229 bit 0
+  entry.offset = static_cast<uint64_t>(notes.get(Notes::interrupt_key(Notes::kInterruptBegin)));
+  entry.line = static_cast<uint32_t>(notes.get(Notes::interrupt_key(Notes::kInterruptBeginLine)));
+  const unsigned level = macro_level() + 1u;
+  if (entry.kind == CallKind::macro && level > kMacroDepth) return raise(Condition::macro_nesting, 'P', entry.program.number);
+  const Did did = enter(*this, entry);
+  if (did != Did::later) return did;
+  static constexpr Value kNoArguments[kLocals] = {};
+  if (entry.kind == CallKind::macro) variables.enter(level, kNoArguments, state.seq + 1);
+  state.interrupt_depth = state.depth;
+  CallFrame& frame = state.frame[state.depth];
+  frame.modal_call = 0;  // no macro is called behind the moves of an interrupt
+  show_modal_call(*this);
+  return Did::later;
+}
+
+/// M99 of the interrupt program; its frame is still there. `to_sequence`: M99 P, which has its own place to go to.
+void Interpreter::leave_interrupt(bool to_sequence) {
+  CallFrame& caller = state.frame[state.depth - 1];
+  const bool cut = settings.interrupt_type_2 ? false : state.interrupt_moved;
+  state.interrupt_depth = 0;
+  if (to_sequence) {
+    if (interrupted_.inside_block) pass_over_block(*this, caller);
+  } else if (!cut) {  // M700 13.12: modal information is restored
+    const uint32_t m = state.modal.m;
+    state.modal = interrupted_.modal;
+    state.modal.m = m;
+    state.comp = interrupted_.comp;
+    state.length_value = interrupted_.length_value;
+    state.length_axis = interrupted_.length_axis;
+    state.work_system = interrupted_.work_system;
+    state.cycle = interrupted_.cycle;
+    if (interrupted_.inside_block) {
+      state.machine = interrupted_.machine;
+      drop_ = interrupted_.items;
+      drop_from_ = interrupted_.machine;
+    }
+  } else if (interrupted_.inside_block) {
+    pass_over_block(*this, caller);
+  }
+  announce(*this);
+}
+
+/// A move or M S T B of the interrupt program has gone into the stream (the items of the block in hand).
+void Interpreter::note_interrupt_items() {
+  for (unsigned i = 0; i < queued_; ++i) {
+    const Item& item = queue_[(head_ + i) % kQueue];
+    const bool code = item.kind == ItemKind::action && item.action.kind <= NC_ACTION_B;
+    if (item.kind == ItemKind::move || code) state.interrupt_moved = true;
+  }
+}
+
+}  // namespace nc

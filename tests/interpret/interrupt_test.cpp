@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Macro interrupt (M700 13.12): offline at chosen items, and on the machine at the end of the block in execution.
+#include <gtest/gtest.h>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+/// Pulls a program; the interrupt signal rises with the first item of main program line `line` that `wanted` says yes to.
+Outcome interrupted(Bench& bench, const std::string& text, unsigned line, const std::function<bool(const nc_item&)>& wanted, bool release = true) {
+  bench.start(text);
+  Outcome run;
+  bool done = false;
+  Step step;
+  while (run.steps.size() < 2000) {
+    run.status = bench.pull(&step);
+    if (run.status == NC_BUDGET) continue;
+    if (run.status != NC_OK) break;
+    if (!done && step.item.source.line == line && step.item.source.depth == 0 && wanted(step.item)) {
+      done = true;
+      bool take_back = false;
+      EXPECT_EQ(nc_interrupt_signal(bench.control(), 0, true, &take_back), NC_OK);
+      if (release) {
+        bool ignored = false;
+        nc_interrupt_signal(bench.control(), 0, false, &ignored);
+      }
+      if (take_back) continue;
+    }
+    if (step.item.kind == NC_ITEM_END) run.ended_ok = step.item.u.end.ok;
+    run.steps.push_back(step);
+  }
+  nc_alarm alarm{};
+  if (nc_alarm_get(bench.control(), 0, &alarm) == NC_OK) run.alarm = alarm.code, run.alarm_line = alarm.source.line;
+  double value = 0;
+  for (uint32_t n = 0; nc_common_next(bench.control(), 0, n, &n, &value) == NC_OK; ++n) run.vars[n] = value;
+  return run;
+}
+
+bool is_move(const nc_item& item) { return item.kind == NC_ITEM_MOVE; }
+bool is_mark(const nc_item& item) { return item.kind == NC_ITEM_MARK; }
+
+constexpr const char* kMain = "M96 P1000\nG0 X1.\nG91 X2. M8\nG90 Y5.\nN9 Z1.\nM97\nM30";
+
+TEST(MacroInterrupt, TypeOneWithAMoveLosesTheBlock) {
+  Bench bench;
+  bench.add("O1000", "G0 Z7.\nM99\n");
+  const Outcome run = interrupted(bench, kMain, 3, is_move);
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "rapid 1 0 7", "rapid 1 5 7", "rapid 1 5 1"}));
+  EXPECT_EQ(run.aux(), "M8 M30");  // that had gone out before
+}
+
+TEST(MacroInterrupt, TypeOneWithoutAMoveGoesOnInTheBlock) {
+  Bench bench;
+  bench.add("O1000", "#100=#5001\nM99\n");
+  const Outcome run = interrupted(bench, kMain, 3, is_move);
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "rapid 3 0 0", "rapid 3 5 0", "rapid 3 5 1"}));
+  EXPECT_EQ(run.aux(), "M8 M30");  // once
+  EXPECT_EQ(run.var(100), 1);
+}
+
+TEST(MacroInterrupt, TypeTwoCompletesTheBlock) {  // #1113
+  Bench bench;
+  bench.add("O1000", "G0 Z7.\nM99\n");
+  bench.param("1113", "1");
+  EXPECT_EQ(interrupted(bench, kMain, 3, is_move).path(), (Path{"rapid 1 0 0", "rapid 3 0 0", "rapid 3 0 7", "rapid 3 5 7", "rapid 3 5 1"}));
+}
+
+TEST(MacroInterrupt, BetweenBlocksNothingIsLost) {
+  Bench bench;
+  bench.add("O1000", "G0 Z7.\nM99\n");
+  EXPECT_EQ(interrupted(bench, kMain, 2, is_mark).path(), (Path{"rapid 1 0 0", "rapid 1 0 7", "rapid 3 0 7", "rapid 3 5 7", "rapid 3 5 1"}));
+}
+
+TEST(MacroInterrupt, ReturnToASequenceNumber) {  // M99 P: from the block behind the interrupted one
+  Bench bench;
+  bench.add("O1000", "G91 G0\nM99 P9\n");
+  EXPECT_EQ(interrupted(bench, kMain, 2, is_move).path(), (Path{"rapid 0 0 1"}));  // G91 stays
+}
+
+TEST(MacroInterrupt, ModalStateIsRestored) {
+  Bench bench;
+  bench.add("O1000", "G91 G55 F77 G1\n#100=#4012\nM99\n");
+  bench.work_offset(2, {10, 0, 0});
+  const Outcome run = interrupted(bench, "M96 P1000\nG0 X1.\nY5. X2.\n#101=#4012\n#102=#4003\n#103=#4109\nX3.\nM30", 2, is_mark);
+  EXPECT_EQ(run.var(100), 55);
+  EXPECT_EQ(run.var(101), 54);
+  EXPECT_EQ(run.var(102), 90);
+  EXPECT_EQ(run.var(103), 0);
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "rapid 2 5 0", "rapid 3 5 0"}));
+}
+
+TEST(MacroInterrupt, LocalLevelByParameter) {  // #1229 bit 0
+  Bench bench;
+  bench.add("O1000", "#100=#1\n#1=5\nM99\n");
+  const std::string text = "#1=2\nM96 P1000\nG0 X1.\nX2.\n#101=#1\nM30";
+  Outcome run = interrupted(bench, text, 3, is_mark);
+  EXPECT_TRUE(std::isnan(run.var(100)));
+  EXPECT_EQ(run.var(101), 2);
+  bench.param("1229/bit0", "1");
+  run = interrupted(bench.at(0, 0, 0), text, 3, is_mark);
+  EXPECT_EQ(run.var(100), 2);
+  EXPECT_EQ(run.var(101), 5);
+}
+
+TEST(MacroInterrupt, EdgeOnceLevelAgainAndAgain) {  // #1112
+  Bench bench;
+  bench.add("O1000", "#100=#100+1\nIF [#100 LT 3] GOTO 5\nM97\nN5 M99\n");
+  const std::string text = "#100=0\nM96 P1000\nG0 X1.\nX2.\nX3.\nM30";
+  EXPECT_EQ(interrupted(bench, text, 3, is_mark, false).var(100), 1);
+  bool ignored = false;
+  nc_interrupt_signal(bench.control(), 0, false, &ignored);
+  bench.param("1112", "1");
+  EXPECT_EQ(interrupted(bench.at(0, 0, 0), text, 3, is_mark, false).var(100), 3);  // M97 ends it
+}
+
+TEST(MacroInterrupt, IgnoredWhileOffAndInService) {
+  Bench bench;
+  bench.add("O1000", "#100=#100+1\nG0 Z1.\nM99\n");
+  EXPECT_EQ(interrupted(bench, "#100=0\nG0 X1.\nM96 P1000\nX2.\nM30", 2, is_mark).var(100), 0);
+  EXPECT_EQ(interrupted(bench.at(0, 0, 0), "#100=0\nM96 P1000\nM97\nG0 X1.\nX2.\nM30", 4, is_mark).var(100), 0);
+}
+
+TEST(MacroInterrupt, SequenceNumberOfTheInterruptProgram) {  // M96 P H
+  Bench bench;
+  bench.add("O1000", "#100=1\nN50 #101=1\nM99\n");
+  const Outcome run = interrupted(bench, "M96 P1000 H50\nG0 X1.\nM30", 2, is_mark);
+  EXPECT_TRUE(std::isnan(run.var(100)));
+  EXPECT_EQ(run.var(101), 1);
+  EXPECT_EQ(bench.run("M96 P1000 H51\nM30").alarm, "P231");
+  EXPECT_EQ(bench.run("M96 P1001\nM30").alarm, "P232");
+  EXPECT_EQ(bench.run("M96\nM30").alarm, "P296");
+}
+
+TEST(MacroInterrupt, ModalVariablesOfTheInterruptedProgram) {  // #4401...
+  Bench bench;
+  bench.add("O1000", "G91 F2\n#100=#4403\n#101=#4509\n#102=#4514\n#103=#4520\nM99\n");
+  const Outcome run = interrupted(bench, "M96 P1000\nT4\nN33 G1 X1. F250\nM30", 3, is_mark);
+  EXPECT_EQ(run.var(100), 90);
+  EXPECT_EQ(run.var(101), 250);
+  EXPECT_EQ(run.var(102), 33);
+  EXPECT_EQ(run.var(103), 4);
+  EXPECT_EQ(bench.run("#100=#4401\nM30").alarm, "P241");
+  EXPECT_EQ(bench.run("#100=#4520\nM30").alarm, "P241");
+}
+
+TEST(MacroInterrupt, OtherCodesByParameter) {  // #1109 #1110 #1111
+  Bench bench;
+  bench.add("O1000", "#100=1\nM99\n");
+  bench.param("1109", "1").param("1110", "80").param("1111", "81");
+  const Outcome run = interrupted(bench, "M80 P1000\nG0 X1.\nM81 M96\nM30", 2, is_mark);
+  EXPECT_EQ(run.var(100), 1);
+  EXPECT_EQ(run.aux(), "M96 M30");
+}
+
+TEST(MacroInterrupt, OnTheMachine) {
+  Bench bench(NC_DIALECT_M700, [](nc_config& c) {
+    c.cycle_s = 0.004;
+    for (unsigned i = 0; i < 3; ++i) {
+      c.system[0].axis[i].rapid = 200;
+      c.system[0].axis[i].max_velocity = 100;
+      c.system[0].axis[i].max_acceleration = 500;
+    }
+  });
+  bench.add("O1000", "#100=#100+1\nG0 Z7.\nM99\n");
+  bench.start("#100=0\nM96 P1000\nG1 X10. F6000\nX20.\nX30.\nX40.\nM97\nX50.\nM30");
+  nc_control* control = bench.control();
+  nc_inputs in{};
+  nc_outputs out{};
+  in.feed_override = in.rapid_override = 1;
+  bool ended = false;
+  std::vector<double> ends;
+  double z_at = -1;
+  for (unsigned n = 0; n < 20000 && !ended; ++n) {
+    nc_feed(control, 50);
+    in.cycle_start = n == 2;
+    in.fin = out.strobe != 0;
+    in.macro_interrupt = out.command.v[0] > 12 && out.command.v[0] < 45;  // inside the block to X20, and stays on
+    nc_cycle(control, &in, &out);
+    if (z_at < 0 && out.command.v[2] > 0) z_at = out.command.v[0];
+    nc_event event;
+    while (nc_event_poll(control, 0, &event, nullptr) == NC_OK) {
+      if (event.kind == NC_ITEM_MOVE) ends.push_back(event.machine.v[0]);
+      ended = ended || event.kind == NC_ITEM_END;
+    }
+  }
+  EXPECT_TRUE(ended);
+  EXPECT_EQ(bench.var_now(100), 1);  // by edge: once
+  EXPECT_TRUE(z_at == 20 || z_at == 30) << z_at;  // at rest at the end of a block: of this one where it could still stop there
+  EXPECT_EQ(ends.back(), 50);
+  EXPECT_EQ(ends.size(), 6u);
+}
+
+}  // namespace
+}  // namespace nc::test

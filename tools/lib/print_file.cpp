@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/lib/print_file.hpp"
+
+#include <cerrno>
+#include <system_error>
+
+namespace nc::tools {
+
+bool PrintFile::open(const std::string& path, std::string* error) {
+  file_.reset(std::fopen(path.c_str(), "ae"));
+  if (file_) return true;
+  *error = path + ": " + std::generic_category().message(errno);
+  return false;
+}
+
+void PrintFile::write(const char* text) {
+  if (!file_) return;
+  std::string line;
+  for (; *text != 0; ++text)
+    if (static_cast<unsigned char>(*text) >= 0x20) line += *text;
+  line += '\n';
+  good_ = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() && std::fflush(file_.get()) == 0 && good_;
+}
+
+}  // namespace nc::tools

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// External output of programs (POPEN, DPRNT, PCLOS; M700 13.5.8) in a file: what a printer or a punch at the port would get.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace nc::tools {
+
+class PrintFile {
+ public:
+  /** Opens `path` for appending. @return false with the reason in *error. */
+  bool open(const std::string& path, std::string* error);
+  bool is_open() const { return file_ != nullptr; }
+  /** One output: a line of its own, without the codes that switch a punch on and off. It is in the file when this returns. */
+  void write(const char* text);
+  /** @return false when something could not be written. */
+  bool good() const { return good_; }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> file_;
+  bool good_ = true;
+};
+
+}  // namespace nc::tools
