@@ -170,7 +170,6 @@ TEST(DataInput, Alarms) {
   EXPECT_EQ(m700("G10 L10 P1\nM30").alarm, "P33");
   EXPECT_EQ(m700("G10 L10 R1.\nM30").alarm, "P33");
   EXPECT_EQ(m700("G91 G10 L2 P1 X99999.\nG10 L2 P1 X99999.\nM30").alarm, "P35");
-  EXPECT_EQ(m700("G10 L70\nM30").alarm, "P39");
 }
 
 TEST(DataInput, Dgshape) {  // DGSHAPE G10

@@ -12,7 +12,7 @@ namespace nc {
 enum class Function : uint8_t {
   missing,            ///< in the manual, not built: raises the row's alarm when used
   rapid, linear, arc_cw, arc_ccw,
-  dwell, data_input,
+  dwell, data_input, data_input_end,   ///< G04 G10 G11
   exact_stop_once,    ///< G09
   plane_xy, plane_zx, plane_yz,
   inch, metric,
@@ -31,6 +31,7 @@ enum class Function : uint8_t {
   exact_stop_mode, cutting_mode,   ///< G61 G64
   macro_call, macro_modal, macro_every_block,   ///< G65 G66 G66.1: the words behind them are arguments
   macro_modal_off,    ///< G67
+  mirror_on, mirror_off,   ///< G51.1 G50.1: modal, and they take the axis words of the block
   modal_off           ///< the cancel code of a function that is not built: the state it asks for is the only one there is
 };
 

@@ -40,6 +40,8 @@ Did take_g(Interpreter& in, double value) {
       return has_modal_call(in) ? Did::done : in.raise(Condition::cancel_without_call, 'G', value);
     case Function::macro_modal:
     case Function::macro_every_block:
+    case Function::mirror_on:
+    case Function::mirror_off:
       w.one_shot = row;  // takes the words of the block though it is modal
       w.one_shot_code = static_cast<int16_t>(code);
       return Did::done;

@@ -174,6 +174,7 @@ Did execute_move(Interpreter& in) {
 }  // namespace
 
 Did execute_words(Interpreter& in) {
+  if (in.state.parameter_input) return parameter_block(in);
   if (in.code_calls.any) {
     bool taken = false;
     const Did did = dispatch_block(in, &taken);

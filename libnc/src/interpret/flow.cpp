@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interpret/calls.hpp"
+#include "interpret/program_map.hpp"
 
 namespace nc {
 namespace {
@@ -193,6 +194,14 @@ Did enter(Interpreter& in, const Entry& entry) {
 
 namespace {
 
+/// I J K of M98: the centre of the figure, from where the call finds the axes (M700 13.3.3).
+void figure_center(const Interpreter& in, double center[2]) {
+  const int16_t code = in.state.modal.code[kGroupPlane];
+  const char h = code == 180 ? 'K' : code == 190 ? 'J' : 'I', v = code == 180 ? 'I' : code == 190 ? 'K' : 'J';
+  if (in.words.has(h)) center[0] = length_of(in, h);
+  if (in.words.has(v)) center[1] = length_of(in, v);
+}
+
 /// The program in hand has ended: the one that called it goes on. A modal call that it has commanded or cancelled stays so there.
 void leave(Interpreter& in) {
   State& s = in.state;
@@ -242,7 +251,7 @@ Did execute_statement(Interpreter& in, const Statement& statement) {
 
 Did call_sub(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (w.has('I') || w.has('J') || w.has('K')) return in.raise(Condition::no_function, 'M', 98);  // figure rotation, M700 13.3.3
+  if (top(in).figure != 0) return in.raise(Condition::nesting, 'M', 98);  // M700 13.3.3 (6): no branch from a rotating program
   uint32_t passes = 1;
   Did did = repetitions(in, w.has('L'), w.has('L') ? w.get('L') : 1, &passes);
   if (did != Did::done || passes == 0) return did;  // M700 13.3.1: not called with L0, so nothing is looked for
@@ -259,8 +268,12 @@ Did call_sub(Interpreter& in) {
   }
   // M700 13.3.1: single block does not stop at a block that only calls; with other words it may, behind what they do.
   const bool stops = !only_calls(in);
+  const bool figure = w.any(letters("IJK"));
+  double center[2] = {0, 0};
+  if (figure) figure_center(in, center);
   did = enter(in, Entry{program, CallKind::sub, CallOrigin::word, passes, offset, line, 0});
   if (did != Did::later) return did;
+  if (figure) begin_figure(in, center);
   in.keep_call();
   if (stops) in.emit_stop_point(true);  // the call is made: what is read again after a stop is the sub program
   return did;
@@ -289,6 +302,7 @@ Did return_sub(Interpreter& in) {
   s.loop_count = frame.loop_base;
   if (frame.repeats > 0) {
     --frame.repeats;
+    if (frame.figure != 0) turn_figure(in);
     frame.offset = frame.begin;
     frame.line = frame.begin_line;
     frame.started = frame.begin != frame.program.offset;

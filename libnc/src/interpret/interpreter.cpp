@@ -18,15 +18,7 @@ unsigned power_of_two_above(unsigned n) {
 
 // Foreign keys of the journal: the frames' table, and behind it the notes.
 constexpr uint32_t kNoteKey = Variables::kForeignKey + 0x10000000;
-
-void undo_table(void* self, uint32_t key, double old) {
-  Interpreter& in = *static_cast<Interpreter*>(self);
-  if (key < kNoteKey) {
-    in.frames.set(key - Variables::kForeignKey, old);
-  } else {
-    in.notes.set(key - kNoteKey, old);
-  }
-}
+constexpr uint32_t kParameterKey = Variables::kForeignKey + 0x20000000;
 
 }  // namespace
 
@@ -82,7 +74,29 @@ void Interpreter::set_note(unsigned key, double value) {
   notes.set(key, value);
 }
 
+bool Interpreter::set_parameter(const char* key, int axis, const char* text) {
+  unsigned index = 0;
+  double old = 0;
+  if (parameters.set(*dialect, key, axis, text, &index, &old) != NC_OK) return false;
+  variables.note(state.seq + 1, kParameterKey + index, old);
+  refresh_settings();
+  return true;
+}
+
+void Interpreter::undo(void* self, uint32_t key, double old) {
+  Interpreter& in = *static_cast<Interpreter*>(self);
+  if (key < kNoteKey) {
+    in.frames.set(key - Variables::kForeignKey, old);
+  } else if (key < kParameterKey) {
+    in.notes.set(key - kNoteKey, old);
+  } else {
+    in.parameters.restore(key - kParameterKey, old);
+    in.settings_stale_ = true;
+  }
+}
+
 void Interpreter::refresh_settings() {
+  settings_stale_ = false;
   settings = parameters.settings(*dialect);
   code_calls = dialect->lex->macros ? read_code_calls(parameters) : CodeCalls{};
 }
@@ -168,7 +182,8 @@ void Interpreter::set_machine(const AxisVec& machine) {
 }
 
 bool Interpreter::rewind(BlockSeq seq) {
-  if (!checkpoints_.holds(seq) || !variables.rewind(seq, this, undo_table)) return false;
+  if (!checkpoints_.holds(seq) || !variables.rewind(seq, this, undo)) return false;
+  if (settings_stale_) refresh_settings();
   checkpoints_.restore(seq, &state);
   finished_modal = state.modal;
   newest_modal_ = kNoModal;
@@ -333,7 +348,8 @@ nc_status Interpreter::settle(Did did) {
 /// What the block in hand has put into the stream, and what it has changed.
 void Interpreter::take_block_back() {
   queued_ = 0;
-  if (!checkpoints_.holds(state.seq) || !variables.rewind(state.seq, this, undo_table)) return;
+  if (!checkpoints_.holds(state.seq) || !variables.rewind(state.seq, this, undo)) return;
+  if (settings_stale_) refresh_settings();
   checkpoints_.restore(state.seq, &state);
   newest_modal_ = kNoModal;
 }

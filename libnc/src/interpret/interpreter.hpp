@@ -199,6 +199,8 @@ struct Interpreter {
   AxisVec position() const;
   /// Journalled write to the frames' table.
   void set_table(unsigned key, double value);
+  /// Journalled write to a parameter; false when there is no such parameter or value.
+  bool set_parameter(const char* key, int axis, const char* text);
   /// The same to the notes.
   void set_note(unsigned key, double value);
 
@@ -235,6 +237,8 @@ struct Interpreter {
   unsigned head_ = 0, queued_ = 0;
   bool waiting_ = false;
   uint32_t waiting_for_ = 0;
+  bool settings_stale_ = false;
+  static void undo(void* self, uint32_t key, double old);
   unsigned made_ = 0;          ///< items of the block in hand so far
   BlockSeq block_seq_ = 0;     ///< the state before it
   unsigned drop_ = 0;
@@ -250,6 +254,8 @@ struct Interpreter {
 Did execute_words(Interpreter& in);
 /// The G codes of in.words that say how other words are read.
 Did apply_reading_modes(Interpreter& in);
+/// interpret/functions/parameter_input.cpp: a block between G10 L70 and G11.
+Did parameter_block(Interpreter& in);
 /// Goes on with a block that said Did::later.
 Did continue_block(Interpreter& in);
 
@@ -310,6 +316,8 @@ Did move_by_words(Interpreter& in);
 double feed_mm_min(const Interpreter& in);
 /// The end point that the words ask for.
 AxisVec target_of_words(const Interpreter& in);
+/// The same from values by axis; `axes` of them are programmed.
+AxisVec target_of(const Interpreter& in, const AxisVec& position, uint32_t axes, const AxisVec& value);
 AxisVec target_of_words(const Interpreter& in, const AxisVec& position);  ///< with position() at hand
 
 /// interpret/arc.cpp

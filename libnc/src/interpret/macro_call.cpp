@@ -99,6 +99,7 @@ Did gather_arguments(Interpreter& in, bool every_word, MacroCall& call) {
 
 Did enter_macro(Interpreter& in, const Entry& entry, const Value* arguments) {
   if (entry.passes == 0) return Did::done;
+  if (top(in).figure != 0) return in.raise(Condition::nesting, 'P', entry.program.number);  // M700 13.3.3 (6)
   const unsigned level = in.macro_level() + 1u;
   if (level > kMacroDepth) return in.raise(Condition::macro_nesting, 'P', entry.program.number);
   const Did did = enter(in, entry);

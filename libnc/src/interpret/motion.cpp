@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interpret/interpreter.hpp"
+#include "interpret/program_map.hpp"
 
 namespace nc {
 namespace {
@@ -33,6 +34,7 @@ Transform transform_in_force(const Interpreter& in) {
 /// What every move has in common.
 Move& begin_move(Interpreter& in, const Transform& transform, const AxisVec& start, const AxisVec& target) {
   Move& move = in.emit_move(start, target);
+  if (in.state.mirror != 0) map_compensation(in, move.comp);
   move.transform = in.transforms.intern(transform);
   in.state.machine = transform.to_machine(target);
   in.state.moves_since_comp_off = 1;
@@ -83,16 +85,31 @@ double feed_for(const Interpreter& in, const AxisVec& start, const AxisVec& end)
 
 AxisVec target_of_words(const Interpreter& in) { return target_of_words(in, in.position()); }
 
-AxisVec target_of_words(const Interpreter& in, const AxisVec& position) {
+namespace {
+
+AxisVec plain_target(const Interpreter& in, const AxisVec& position, uint32_t axes, const AxisVec& value) {
   AxisVec target = position;
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((in.words.axes >> i) & 1) == 0) continue;
-    target[i] = ((in.words.incremental >> i) & 1) != 0 ? target[i] + in.words.axis[i] : in.words.axis[i];
+    if (((axes >> i) & 1) == 0) continue;
+    target[i] = ((in.words.incremental >> i) & 1) != 0 ? target[i] + value[i] : value[i];
   }
   return target;
 }
 
+}  // namespace
+
+AxisVec target_of_words(const Interpreter& in, const AxisVec& position) { return target_of(in, position, in.words.axes, in.words.axis); }
+
+AxisVec target_of(const Interpreter& in, const AxisVec& position, uint32_t axes, const AxisVec& value) {
+  if (!program_mapped(in)) return plain_target(in, position, axes, value);
+  return from_program(in, plain_target(in, to_program(in, position), axes, value));
+}
+
 void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
+  if (in.state.frame[in.state.depth].figure != 0 && commanded != 0) {
+    commanded = moved_axes(in, commanded);
+    figure_has_moved(in);
+  }
   apply_length(in, commanded);
   const Transform transform = transform_in_force(in);
   const AxisVec start = transform.from_machine(in.state.machine);
@@ -149,6 +166,11 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
     for (unsigned i = 0; i < 2; ++i)
       if (w.has(plane.center[i])) words.center[i] = length_of(in, plane.center[i]);
     if (w.has('P') && (!whole_number(w.get('P'), &words.turns) || words.turns > 9999)) return in.raise(Condition::value_range, 'P', w.get('P'));
+  }
+  if (program_mapped(in)) {
+    map_arc(in, h, v, words.center, &ccw);
+    commanded = moved_axes(in, commanded);
+    figure_has_moved(in);
   }
   apply_length(in, commanded);
   const Transform transform = transform_in_force(in);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace nc {
 namespace {
@@ -95,7 +96,7 @@ Parameters::Entry* Parameters::find(const char* key, int axis) const {
   return nullptr;
 }
 
-nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, const char* text) {
+nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, const char* text, unsigned* index, double* old) {
   if (key == nullptr || text == nullptr || std::strlen(key) >= sizeof(Entry::key)) return NC_E_NOT_FOUND;
   double value = 0;
   char whole[24];
@@ -104,9 +105,9 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
   for (const ParameterName& row : dialect.parameters)
     if (std::strcmp(row.key, key) == 0) named = &row;
   if (named != nullptr && named->words != nullptr) {
-    const int index = word_index(named->words, text);
-    if (index < 0) return NC_E_ARGUMENT;
-    value = index;
+    const int word = word_index(named->words, text);
+    if (word < 0) return NC_E_ARGUMENT;
+    value = word;
   } else if (named == nullptr && (dialect.id != NC_DIALECT_M700 || (bit = bit_of_key(key, whole)) == kNoKey)) {
     return NC_E_NOT_FOUND;
   } else {
@@ -131,7 +132,10 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
     entry = &entries_[count_++];
     std::strcpy(entry->key, key);
     entry->axis = static_cast<int8_t>(axis);
+    entry->value = std::numeric_limits<double>::quiet_NaN();
   }
+  *index = static_cast<unsigned>(entry - entries_);
+  *old = entry->value;
   entry->value = value;
   return NC_OK;
 }
@@ -141,8 +145,8 @@ bool Parameters::get(const char* key, int axis, double* value) const {
   const int bit = bit_of_key(key, whole);
   const char* name = bit >= 0 ? whole : key;
   const Entry* entry = find(name, axis);
-  if (entry == nullptr && axis >= 0) entry = find(name, -1);
-  if (entry == nullptr) return false;
+  if ((entry == nullptr || std::isnan(entry->value)) && axis >= 0) entry = find(name, -1);
+  if (entry == nullptr || std::isnan(entry->value)) return false;
   *value = bit >= 0 ? (bits_of(entry->value) >> bit) & 1 : entry->value;
   return true;
 }

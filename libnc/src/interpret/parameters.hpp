@@ -49,7 +49,14 @@ struct Settings {
 class Parameters {
  public:
   void create(unsigned capacity, Arena& arena);
-  nc_status set(const Dialect& dialect, const char* key, int axis, const char* text);
+  nc_status set(const Dialect& dialect, const char* key, int axis, const char* text) {
+    unsigned index = 0;
+    double old = 0;
+    return set(dialect, key, axis, text, &index, &old);
+  }
+  /// The same; what was there before can be put back with restore(*index, *old).
+  nc_status set(const Dialect& dialect, const char* key, int axis, const char* text, unsigned* index, double* old);
+  void restore(unsigned index, double old) { entries_[index].value = old; }
   /// Value of "1229/bit2", "1084", a name; false = never set.
   bool get(const char* key, int axis, double* value) const;
   /// Typed view; call after changes.
@@ -59,7 +66,7 @@ class Parameters {
   struct Entry {
     char key[24];
     int8_t axis;   ///< -1 = all axes
-    double value;
+    double value;  ///< NaN = not set
   };
   Entry* find(const char* key, int axis) const;
   Entry* entries_ = nullptr;

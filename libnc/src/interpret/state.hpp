@@ -24,6 +24,9 @@ enum class CallOrigin : uint8_t {
   interrupt   ///< M96
 };
 
+/// CallFrame::figure: this pass has not moved yet, or it has.
+inline constexpr uint8_t kFigureStarts = 1, kFigureMoved = 2;
+
 /// One level of the call stack.
 struct CallFrame {
   ProgramRef program;
@@ -39,7 +42,7 @@ struct CallFrame {
   CallOrigin origin = CallOrigin::word;
   uint8_t modal_call = 0;     ///< slot (interpret/notes.hpp) of the modal macro call in force in this program, 0 = none
   uint8_t modal_slot = 0;     ///< slot of the modal call that runs this program, 0 = none
-  bool figure = false;        ///< passes are rotated (M700 13.3.3)
+  uint8_t figure = 0;         ///< passes are rotated (M700 13.3.3): one of the two below, 0 = no
 };
 static_assert(sizeof(CallFrame) == 64);
 
@@ -69,7 +72,9 @@ struct State {
   bool end_seen = false;
   bool interrupt_on = false;  ///< M96 in force (M700 13.12)
   bool interrupt_moved = false; ///< the interrupt program has moved or given out M S T B
+  uint8_t mirror = 0;           ///< bit i: axis i is mirrored by program (M700 13.6)
   uint8_t interrupt_depth = 0;  ///< level of the interrupt program in service, 0 = none
+  bool parameter_input = false; ///< between G10 L70 and G11 (M700 13.11)
   bool port_open = false;     ///< POPEN has been executed (M700 13.5.8)
   bool percent_seen = false;  ///< the start mark of the main program has been read
   uint32_t moves_since_comp_off = 1; ///< M700 P112: a plane change right after G40 needs a move in between

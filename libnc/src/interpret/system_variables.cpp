@@ -272,7 +272,7 @@ Did write_control(Access& a) {
   return Did::done;
 }
 Eval read_control(Access& a) { return give(a, a.number == 3003 ? a.in.state.control_3003 : a.in.state.control_3004); }
-Eval read_zero(Access& a) { return give(a, 0); }
+Eval read_mirror(Access& a) { return give(a, a.in.state.mirror); }
 Eval write_only(Access& a) {
   a.in.raise(Condition::variable_use, '#', a.number);
   return Eval::fault;
@@ -364,7 +364,7 @@ constexpr Range kRanges[] = {
     {3001, 3002, read_counter, write_counter},
     {3003, 3004, read_control, write_control},
     {3006, 3006, write_only, write_message},
-    {3007, 3007, read_zero, nullptr},   // no mirror is built: no axis is mirrored
+    {3007, 3007, read_mirror, nullptr},
     {3011, 3012, read_date, write_date},
     {3901, 3902, read_count, write_count},
     {4001, 4021, read_group_ahead, nullptr},

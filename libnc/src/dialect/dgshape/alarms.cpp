@@ -115,6 +115,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::variable_name_twice, "NC-MACRO", nullptr},
     {C::call_in_cycle, "NC-MACRO", nullptr},
     {C::print_port, "NC-MACRO", nullptr},
+    {C::parameter_input, "NC-DATA", nullptr},
     {C::read_failed, "NC-READ", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };

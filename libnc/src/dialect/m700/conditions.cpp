@@ -85,6 +85,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::variable_name_twice, "P301", nullptr},
     {C::call_in_cycle, "P310", nullptr},
     {C::print_port, "P460", nullptr},  // appendix 1: "... or in the printer during macro printing"
+    {C::parameter_input, "P421", nullptr},
     {C::read_failed, "P461", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };

@@ -111,12 +111,8 @@ void position_over_hole(Interpreter& in) {
   uint32_t geometric = 0;
   for (const int axis : {x, y, z})
     if (axis >= 0) geometric |= 1u << axis;
-  AxisVec target = in.position();
   const uint32_t axes = in.hole_axes & ~drill_bit;
-  for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((axes >> i) & 1) == 0) continue;
-    target[i] = ((in.words.incremental >> i) & 1) != 0 ? target[i] + in.hole_increment[i] : in.hole_increment[i];
-  }
+  const AxisVec target = target_of(in, in.position(), axes, in.hole_increment);
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   move_linear(in, target, axes & ~geometric, style);

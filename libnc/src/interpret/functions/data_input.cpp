@@ -88,8 +88,9 @@ Did do_data_input(Interpreter& in) {
       return tool_offset(in, l - 10, true);
     case 3:
     case 14:
+      return in.raise(Condition::no_function, 'L', l);  // tool life, current limit: not built
     case 50:
-    case 70: return in.raise(Condition::no_function, 'L', l);  // tool life, current limit, parameters: not built
+    case 70: return begin_parameter_input(in);
     default: return in.raise(Condition::g10_l, 'L', l);
   }
 }

@@ -12,6 +12,8 @@ Did execute_one_shot(Interpreter& in);
 
 Did do_dwell(Interpreter& in);              // dwell.cpp
 Did do_data_input(Interpreter& in);         // data_input.cpp
+Did do_mirror(Interpreter& in);             // mirror.cpp
+Did begin_parameter_input(Interpreter& in); // parameter_input.cpp: G10 L70
 Did do_reference_return(Interpreter& in);   // reference.cpp
 Did do_machine_move(Interpreter& in);       // reference.cpp
 Did do_skip(Interpreter& in);               // skip.cpp

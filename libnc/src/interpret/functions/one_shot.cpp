@@ -10,9 +10,15 @@ struct Handler {
   Did (*run)(Interpreter& in);
 };
 
+/// G11 that ends nothing (M700 13.11, appendix 1 P421).
+Did end_without_input(Interpreter& in) { return in.raise(Condition::parameter_input, 'G', 11); }
+
 constexpr Handler kHandlers[] = {
     {Function::dwell, do_dwell},
     {Function::data_input, do_data_input},
+    {Function::data_input_end, end_without_input},
+    {Function::mirror_on, do_mirror},
+    {Function::mirror_off, do_mirror},
     {Function::reference_return, do_reference_return},
     {Function::machine_move, do_machine_move},
     {Function::skip, do_skip},

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pass n of a rotated figure is pass 1 turned about the centre c by (n - 1) a, where a is the angle from the start to the end of pass 1
+// as seen from c:  p = c + R((n - 1) a) (q - c).  The radius is not scaled: when start and end are not on one circle, the first move of
+// a pass leads from where the last one ended to the end point of its turned block (M700 13.3.3 (4)).
+#include "interpret/program_map.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace nc {
+namespace {
+
+struct PlaneAxes {
+  int h, v;
+};
+
+PlaneAxes plane(const Interpreter& in) {
+  const int x = in.axis_of['X' - 'A'], y = in.axis_of['Y' - 'A'], z = in.axis_of['Z' - 'A'];
+  switch (in.state.modal.code[kGroupPlane]) {
+    case 180: return {z, x};
+    case 190: return {y, z};
+    default: return {x, y};
+  }
+}
+
+double figure(const Interpreter& in, unsigned what) { return in.notes.get(Notes::figure_key(what)); }
+bool rotated(const Interpreter& in) { return in.state.frame[in.state.depth].figure != 0; }
+
+void rotate(double angle, double* h, double* v) {
+  const double c = std::cos(angle), s = std::sin(angle), x = *h;
+  *h = c * x - s * *v;
+  *v = s * x + c * *v;
+}
+
+/// The plane coordinates of `p` turned about the centre of the figure.
+void turn(const Interpreter& in, double angle, AxisVec& p) {
+  const PlaneAxes axes = plane(in);
+  if (axes.h < 0 || axes.v < 0) return;
+  const auto h = static_cast<unsigned>(axes.h), v = static_cast<unsigned>(axes.v);
+  double dh = p[h] - figure(in, Notes::kCenterH), dv = p[v] - figure(in, Notes::kCenterV);
+  rotate(angle, &dh, &dv);
+  p[h] = figure(in, Notes::kCenterH) + dh;
+  p[v] = figure(in, Notes::kCenterV) + dv;
+}
+
+void reflect(const Interpreter& in, AxisVec& p) {
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((in.state.mirror >> i) & 1) != 0) p[i] = 2 * in.notes.get(Notes::mirror_key(i)) - p[i];
+}
+
+bool odd(const Interpreter& in, unsigned h, unsigned v) { return (((in.state.mirror >> h) ^ (in.state.mirror >> v)) & 1) != 0; }
+
+}  // namespace
+
+AxisVec to_program(const Interpreter& in, const AxisVec& work) {
+  AxisVec p = work;
+  reflect(in, p);
+  if (!rotated(in)) return p;
+  if (in.state.frame[in.state.depth].figure == kFigureMoved) {
+    turn(in, -figure(in, Notes::kAngle), p);
+    return p;
+  }
+  // Nothing of this pass has moved yet: its increments count from where the figure began.
+  const PlaneAxes axes = plane(in);
+  if (axes.h >= 0) p[static_cast<unsigned>(axes.h)] = figure(in, Notes::kStartH);
+  if (axes.v >= 0) p[static_cast<unsigned>(axes.v)] = figure(in, Notes::kStartV);
+  return p;
+}
+
+AxisVec from_program(const Interpreter& in, const AxisVec& programmed) {
+  AxisVec p = programmed;
+  if (rotated(in)) turn(in, figure(in, Notes::kAngle), p);
+  reflect(in, p);
+  return p;
+}
+
+uint32_t moved_axes(const Interpreter& in, uint32_t axes) {
+  if (!rotated(in)) return axes;
+  const PlaneAxes p = plane(in);
+  if (p.h < 0 || p.v < 0) return axes;
+  const uint32_t both = (1u << p.h) | (1u << p.v);
+  return (axes & both) != 0 ? axes | both : axes;
+}
+
+void map_arc(const Interpreter& in, unsigned h, unsigned v, double center[2], bool* ccw) {
+  if (rotated(in)) rotate(figure(in, Notes::kAngle), &center[0], &center[1]);
+  if (((in.state.mirror >> h) & 1) != 0) center[0] = -center[0];
+  if (((in.state.mirror >> v) & 1) != 0) center[1] = -center[1];
+  if (odd(in, h, v)) *ccw = !*ccw;
+}
+
+void map_compensation(const Interpreter& in, Compensation& comp) {
+  if (!odd(in, comp.axis[0], comp.axis[1])) return;
+  comp.side = static_cast<int8_t>(-comp.side);
+  for (unsigned i = 0; i < 2; ++i)
+    if (((in.state.mirror >> comp.axis[i]) & 1) != 0) comp.vector[i] = -comp.vector[i];
+}
+
+void begin_figure(Interpreter& in, const double center[2]) {
+  const PlaneAxes axes = plane(in);
+  const AxisVec at = to_program(in, in.position());
+  const double start[2] = {axes.h >= 0 ? at[static_cast<unsigned>(axes.h)] : 0, axes.v >= 0 ? at[static_cast<unsigned>(axes.v)] : 0};
+  in.state.frame[in.state.depth].figure = kFigureStarts;
+  in.set_note(Notes::figure_key(Notes::kStartH), start[0]);
+  in.set_note(Notes::figure_key(Notes::kStartV), start[1]);
+  in.set_note(Notes::figure_key(Notes::kCenterH), start[0] + center[0]);
+  in.set_note(Notes::figure_key(Notes::kCenterV), start[1] + center[1]);
+  in.set_note(Notes::figure_key(Notes::kStep), 0);
+  in.set_note(Notes::figure_key(Notes::kAngle), 0);
+}
+
+void turn_figure(Interpreter& in) {
+  const PlaneAxes axes = plane(in);
+  uint8_t& state = in.state.frame[in.state.depth].figure;
+  if (axes.h < 0 || axes.v < 0) return;
+  const double angle = figure(in, Notes::kAngle);
+  double step = figure(in, Notes::kStep);
+  if (angle == 0 && step == 0) {  // behind pass 1
+    AxisVec end = in.position();
+    reflect(in, end);
+    const double c[2] = {figure(in, Notes::kCenterH), figure(in, Notes::kCenterV)};
+    const double from = std::atan2(figure(in, Notes::kStartV) - c[1], figure(in, Notes::kStartH) - c[0]);
+    const double to = std::atan2(end[static_cast<unsigned>(axes.v)] - c[1], end[static_cast<unsigned>(axes.h)] - c[0]);
+    step = to - from;
+    in.set_note(Notes::figure_key(Notes::kStep), step);
+  }
+  in.set_note(Notes::figure_key(Notes::kAngle), std::fmod(angle + step, 2 * std::numbers::pi));
+  state = kFigureStarts;
+}
+
+}  // namespace nc

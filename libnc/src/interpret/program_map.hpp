@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The map from programmed points to the active workpiece coordinates: figure rotation (M700 13.3.3), then mirror image by program
+// (13.6). It lies in front of tool radius compensation: reflecting the path and its side gives the reflected compensated path.
+#pragma once
+
+#include "interpret/interpreter.hpp"
+
+namespace nc {
+
+/// Something is in force. Asked in every block that moves.
+inline bool program_mapped(const Interpreter& in) { return in.state.mirror != 0 || in.state.frame[in.state.depth].figure != 0; }
+
+AxisVec to_program(const Interpreter& in, const AxisVec& work);
+AxisVec from_program(const Interpreter& in, const AxisVec& programmed);
+/// Axes that move when `axes` are programmed: a rotated plane moves with both.
+uint32_t moved_axes(const Interpreter& in, uint32_t axes);
+/// The increments of an arc's centre on the axes h, v, and its direction.
+void map_arc(const Interpreter& in, unsigned h, unsigned v, double center[2], bool* ccw);
+/// A mirrored path is compensated on its other side.
+void map_compensation(const Interpreter& in, Compensation& comp);
+
+/// Figure rotation: M98 with I J K begins it with the frame just entered, each further pass turns on.
+void begin_figure(Interpreter& in, const double center[2]);
+void turn_figure(Interpreter& in);
+inline void figure_has_moved(Interpreter& in) {
+  uint8_t& figure = in.state.frame[in.state.depth].figure;
+  if (figure != 0) figure = kFigureMoved;
+}
+
+}  // namespace nc

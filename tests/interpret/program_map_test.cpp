@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Figure rotation (M700 13.3.3), mirror image by program (13.6), parameters by program (13.11).
+#include <gtest/gtest.h>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+// ---- figure rotation ------------------------------------------------------------------------------------------------------------
+
+TEST(FigureRotation, QuarterTurnsInAbsoluteAndIncremental) {  // (2), (5)
+  Bench bench;
+  bench.add("O1", "G90 G1 X10. Y10. F100\nX0 Y10.\nM99\n");
+  bench.add("O2", "G91 G1 Y10. F100\nX-10.\nM99\n");
+  const Path expected{"rapid 10 0 0", "line 10 10 0 F100", "line 0 10 0 F100", "line -10 10 0 F100", "line -10 0 0 F100"};
+  EXPECT_EQ(bench.run("G90 G0 X10.\nM98 P1 L2 I-10.\nM30").path(), expected);
+  EXPECT_EQ(bench.at(0, 0, 0).run("G90 G0 X10.\nM98 P2 L2 I-10.\nM30").path(), expected);
+}
+
+TEST(FigureRotation, ArcsTurnToo) {  // (3)
+  Bench bench;
+  bench.add("O1", "G3 X0 Y10. I-10. F100\nM99\n");
+  EXPECT_EQ(bench.run("G90 G0 X10.\nM98 P1 L4 I-10.\nM30").path(),
+            (Path{"rapid 10 0 0", "ccw 0 10 0 c0,0 F100", "ccw -10 0 0 c0,0 F100", "ccw 0 -10 0 c0,0 F100", "ccw 10 0 0 c0,0 F100"}));
+}
+
+TEST(FigureRotation, TheAxisOutsideThePlaneIsNotTurned) {
+  Bench bench;
+  bench.add("O1", "G1 Z-1. F100\nX0 Y10.\nZ0\nM99\n");
+  EXPECT_EQ(bench.run("G90 G0 X10.\nM98 P1 L2 I-10.\nM30").path(),
+            (Path{"rapid 10 0 0", "line 10 0 -1 F100", "line 0 10 -1 F100", "line 0 10 0 F100", "line 0 10 -1 F100", "line -10 0 -1 F100",
+                  "line -10 0 0 F100"}));
+}
+
+TEST(FigureRotation, NotOnOneCircle) {  // (4): the first move of a pass goes to the end point of its turned block
+  Bench bench;
+  bench.add("O1", "G90 G1 X20. Y0 F100\nX0 Y20.\nM99\n");
+  EXPECT_EQ(bench.run("G90 G0 X10.\nM98 P1 L2 I-10.\nM30").path(),
+            (Path{"rapid 10 0 0", "line 20 0 0 F100", "line 0 20 0 F100", "line -20 0 0 F100"}));
+}
+
+TEST(FigureRotation, NoCallsInside) {  // (6)
+  Bench bench;
+  bench.add("O1", "M98 P2\nM99\n");
+  bench.add("O2", "M99\n");
+  EXPECT_EQ(bench.run("M98 P1 L2 I1.\nM30").alarm, "P230");
+  bench.add("O1", "M98 P2 I1.\nM99\n");
+  EXPECT_EQ(bench.run("M98 P1 L2 I1.\nM30").alarm, "P230");
+  bench.add("O1", "G65 P2\nM99\n");
+  EXPECT_EQ(bench.run("M98 P1 L2 I1.\nM30").alarm, "P230");
+  EXPECT_EQ(bench.run("M98 P1 L0 I1.\nM30").alarm, "");
+}
+
+// ---- mirror ------------------------------------------------------------------------------------------------------------------------
+
+TEST(Mirror, OneAxisTurnsArcsAndTheSideOfCompensation) {  // 13.6
+  EXPECT_EQ(m700("G0\nG51.1 X0\nG2 X10. Y10. J10. F100\nG50.1 X0\nM30").path(), (Path{"ccw -10 10 0 c0,10 F100"}));
+  EXPECT_EQ(m700("G0\nG51.1 X0 Y0\nG2 X10. Y10. J10. F100\nM30").path(), (Path{"cw -10 -10 0 c0,-10 F100"}));
+  Bench bench;
+  bench.tool(1, 1);
+  const Path plain = bench.run("G0\nG41 D1 X5. Y5.\nG1 X20. F100\nY20.\nG40 G0 X30.\nM30").path();
+  const Path mirrored = bench.at(0, 0, 0).run("G0\nG51.1 X0\nG41 D1 X5. Y5.\nG1 X20. F100\nY20.\nG40 G0 X30.\nM30").path();
+  ASSERT_EQ(plain.size(), mirrored.size());
+  for (size_t i = 0; i < plain.size(); ++i) {
+    std::string flipped = mirrored[i];
+    const size_t at = flipped.find(' ') + 1;
+    flipped = flipped[at] == '-' ? flipped.erase(at, 1) : flipped.insert(at, "-");
+    EXPECT_EQ(plain[i], flipped);
+  }
+}
+
+TEST(Mirror, CentreByG90AndG91FollowsTheCoordinateSystem) {
+  EXPECT_EQ(m700("G0 X10.\nG91 G51.1 X5.\nG90 X20. Y1.\nM30").path(), (Path{"rapid 10 0 0", "rapid 10 1 0"}));  // about X15
+  Bench bench;
+  bench.work_offset(2, {100, 0, 0});
+  EXPECT_EQ(bench.run("G0\nG51.1 X10.\nX15.\nG55 X15.\nM30").path(), (Path{"rapid 5 0 0", "rapid 105 0 0"}));
+}
+
+TEST(Mirror, ShownInTheModalStateAndIn3007) {
+  const Outcome run = m700("#100=#3007\nG51.1 X0 Z0\n#101=#3007\n#102=#4019\nG50.1 X0\n#103=#3007\nG50.1\n#104=#4019\nM30");
+  EXPECT_EQ(run.var(100), 0);
+  EXPECT_EQ(run.var(101), 5);
+  EXPECT_EQ(run.var(102), 51.1);
+  EXPECT_EQ(run.var(103), 4);
+  EXPECT_EQ(run.var(104), 50.1);
+  EXPECT_EQ(m700("G51.1\nM30").alarm, "P33");
+}
+
+TEST(Mirror, HolesOfACycle) {
+  const Path path = m700("G0\nG51.1 X0\nG81 X10. Y3. Z-2. R1. F100\nG80\nM30").path();
+  ASSERT_FALSE(path.empty());
+  EXPECT_EQ(path.front(), "rapid -10 3 0");
+}
+
+// ---- parameter input ----------------------------------------------------------------------------------------------------------------
+
+TEST(ParameterInput, BitNumberAndText) {  // 13.11
+  Bench bench;
+  const Outcome run = bench.run("#1=1037\nG10 L70\nP#1 D2\nP6401 H71\nP8204 S1 A2 D1.2345\nP8621 <X>\nG11\n#16001=3\nM30");
+  EXPECT_EQ(run.alarm, "");
+  double value = 0;
+  EXPECT_EQ(nc_parameter_get(bench.control(), 0, "6401/bit7", 0, &value), NC_OK);
+  EXPECT_EQ(value, 1);
+  EXPECT_EQ(nc_parameter_get(bench.control(), 0, "8204", 'Y', &value), NC_OK);
+  EXPECT_NEAR(value, 1.234, 1e-3);  // rounded to the setting unit
+  EXPECT_EQ(std::nearbyint(value * 1000), value * 1000);
+  EXPECT_EQ(nc_parameter_get(bench.control(), 0, "8621", 0, &value), NC_OK);
+  EXPECT_EQ(value, 'X');
+  EXPECT_EQ(bench.tool_now(1, NC_TOOL_RADIUS), 3);  // #1037 acts at once
+}
+
+TEST(ParameterInput, WhatIsNotPossibleIsP421) {
+  EXPECT_EQ(m700("G10 L70 P1\nM30").alarm, "P421");
+  EXPECT_EQ(m700("G11\nM30").alarm, "P421");
+  EXPECT_EQ(m700("G10 L70\nG1 X1.\nG11\nM30").alarm, "P421");
+  EXPECT_EQ(m700("G10 L70\nP1078 D5\nG11\nM30").alarm, "P421");
+  EXPECT_EQ(m700("G10 L70\nP1078\nG11\nM30").alarm, "P421");
+  EXPECT_EQ(m700("G10 L70\nP1078 H82\nG11\nM30").alarm, "P421");
+  EXPECT_EQ(m700("G10 L70\nP8204 A4 D1\nG11\nM30").alarm, "P421");
+  EXPECT_EQ(m700("G10 L70\nP8204 S2 D1\nG11\nM30").alarm, "P421");
+  EXPECT_EQ(m700("G81 X1. Z-1. R1. F100\nG10 L70\nM30").alarm, "P421");
+}
+
+TEST(ParameterInput, RewindTakesItBack) {
+  Bench bench;
+  bench.start("#100=1\nG10 L70\nP1078 D1\nG11\nG0 X7\nM30");
+  Step step;
+  uint64_t first = 0;
+  nc_axes at{};
+  while (bench.pull(&step) == NC_OK)
+    if (first == 0 && step.item.kind == NC_ITEM_MARK) first = step.item.serial, at = step.machine;
+  double value = 0;
+  nc_parameter_get(bench.control(), 0, "1078", 0, &value);
+  ASSERT_EQ(value, 1);
+  ASSERT_EQ(bench.rewind(first, at), NC_OK);
+  nc_parameter_get(bench.control(), 0, "1078", 0, &value);
+  EXPECT_EQ(value, 0);
+  EXPECT_EQ(bench.finish().path(), (Path{"rapid 7 0 0"}));
+}
+
+}  // namespace
+}  // namespace nc::test
