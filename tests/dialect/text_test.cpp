@@ -101,9 +101,9 @@ TEST(AlarmDetail, NamesTheWordTheAxisAndTheValue) {
 TEST(AlarmDetail, WritesCodesAsCodes) {
   // no_function carries the code of the table row (times 10), every other fault the number as programmed.
   EXPECT_EQ(detail({Condition::no_function, -1, 'G', true, 23}),
-            "G02.3 is known to the control, but the function is not fitted.");
+            "G02.3 is not available on this control.");
   EXPECT_EQ(detail({Condition::no_function, -1, 'M', true, 96}),
-            "M96 is known to the control, but the function is not fitted.");
+            "M96 is not available on this control.");
   EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 54.2}), "G54.2 is not a G code of this control.");
   EXPECT_EQ(detail({Condition::words_missing, -1, 'G', true, 4}), "G04 needs a word that is not there.");
   // The number of a code is not a value that a sentence could mean.

@@ -178,6 +178,15 @@ TEST(Words, EveryWordHasANumber) {  // M700 3.2 (1)
   EXPECT_EQ(m700("G\nX1.\nM30").path(), (Path{"rapid 1 0 0"}));
 }
 
+TEST(Words, NumbersOfBlocksAndProgramsStandInFront) {  // M700 3.2 note 9, DGSHAPE 1-1
+  for (const char* block : {"G0 X1. N5", "G0 N5 X1.", "G0 X1. O5", "N1 O5 G0 X1."}) {
+    EXPECT_EQ(m700(std::string(block) + "\nM30").alarm, "P33") << block;
+    EXPECT_EQ(dgshape(std::string(block) + "\nM02").alarm, "NC-FORMAT") << block;
+  }
+  EXPECT_EQ(m700("O5 N7 G0 X1.\nM30").path(), (Path{"rapid 1 0 0"}));
+  EXPECT_EQ(m700("/ N7 G0 X1.\nM30").path(), (Path{"rapid 1 0 0"}));
+}
+
 TEST(DgshapeWords, ConventionalIsTheLeastUnit) {  // DGSHAPE 1-5
   EXPECT_EQ(dgshape("G0X1000Y-2000Z1.5\nM02").path(), (Path{"rapid 1 -2 1.5"}));
   EXPECT_EQ(dgshape("G1X1000.F600.\nM02").path(), (Path{"line 1000 0 0 F600"}));

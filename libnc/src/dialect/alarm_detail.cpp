@@ -52,7 +52,7 @@ constexpr Sentence kSentences[] = {
     // G and M codes
     {C::illegal_g, "{word} is not a G code of this control.", "There is no such G code on this control."},
     {C::no_function, "The function that {word} asks for is not fitted.", "This function is not fitted.",
-     "{word} is known to the control, but the function is not fitted."},
+     "{word} is not available on this control."},
     {C::must_stand_alone, "{word} must stand alone in its block.", "This must stand alone in its block."},
     {C::words_missing, "The block needs the word {word}.", "The block needs a word that is not there.",
      "{word} needs a word that is not there."},
