@@ -163,6 +163,7 @@ TEST(DataInput, Alarms) {
   EXPECT_EQ(m700("G10 L20 P0 X1.\nM30").alarm, "P35");
   EXPECT_EQ(m700("G10 L20 P97 X1.\nM30").alarm, "P35");
   EXPECT_EQ(m700("G10 L9 P1 X1.\nM30").alarm, "P172");
+  EXPECT_EQ(m700("G10 L2 P1 X1.\nG11\nG0 X0\nM30").path(), (Path{"rapid 1 0 0"}));  // 12.7 (3)
   for (const char* two : {"L2 L10 P1 R1.", "L10 L20 P1 X1.", "L2 P1 X1. L2"})  // 12.7 (5); one of them would be lost
     EXPECT_EQ(m700(std::string("G10 ") + two + "\nM30").alarm, "P172") << two;
   EXPECT_EQ(m700("G10 L10 P201 R1.\nM30").alarm, "P173");
@@ -260,6 +261,14 @@ TEST(DgshapeLength, MovesByTheOffsetWithoutAWord) {  // DGSHAPE G43
   EXPECT_EQ(bench.run("%\nG43H1\nG0Z5000\nG49\nM02").path(), (Path{"rapid 0 0 10", "rapid 0 0 15", "rapid 0 0 5"}));
   EXPECT_EQ(bench.at(0, 0, 0).run("%\nG43H1Z5000\nG43H0Z5000\nM02").path(), (Path{"rapid 0 0 15", "rapid 0 0 5"}));
   EXPECT_EQ(bench.run("%\nG43H201\nM02").alarm, "NC-OFFSET-DATA");
+}
+
+TEST(DgshapeLength, GoesTogetherWithTheAxesOfItsBlock) {  // "If an axis-movement instruction is present within the same block"
+  Bench bench(NC_DIALECT_DGSHAPE);
+  bench.tool(1, 10);
+  EXPECT_EQ(bench.run("%\nG0Z2.\nG43H1X5.\nG1F100.G49Y3.\nM02").path(), (Path{"rapid 0 0 2", "rapid 5 0 12", "line 5 3 2 F100"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("%\nG91G0G43H1X5.\nG49X1.Y1.\nM02").path(), (Path{"rapid 5 0 10", "rapid 6 1 0"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("%\nM03F100.\nG0Z10.\nG81Z-5.R2.\nG43H1X5.\nM02").path().back(), "rapid 5 0 20");
 }
 
 }  // namespace

@@ -191,6 +191,8 @@ TEST(DgshapeAlarm, EveryErrorOfTheManual) {  // DGSHAPE 5
   const DgshapeRow rows[] = {
       {"NC-TOOL", "M06"},
       {"NC-TOOL", "T1"},
+      {"NC-TOOL", "M06T1T2"},
+      {"NC-TOOL", "M06M06T1"},
       {"NC-INCREMENTAL", "G91G53X1000"},
       {"NC-SPINDLE", "G81Z-1000F60000"},
       {"NC-OFFSET-START", "G2G41D1X20000I10000F60000"},

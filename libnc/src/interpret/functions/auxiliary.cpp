@@ -67,11 +67,12 @@ bool output_code(const Interpreter& in, uint32_t code) {
   return row == nullptr || row->function == MiscFunction::output;
 }
 
-/// DGSHAPE 2: M06 and T come as a pair.
+/// DGSHAPE M06: M06 and T come as a pair, never more than one of each in a block.
 Did check_tool_pair(Interpreter& in) {
-  unsigned changes = 0;
-  for (const uint32_t m : in.words.m) changes += m == 6;
-  if (changes > 1 || (changes == 1) != in.words.has('T')) return in.raise(Condition::tool_pair, changes == 0 ? 'T' : 'M', changes == 0 ? in.words.get('T') : 6);
+  unsigned changes = 0, tools = 0;
+  for (const uint32_t m : in.words.m) changes += m == 6 ? 1u : 0u;
+  for (const Word& word : in.block->words) tools += word.letter == 'T' ? 1u : 0u;
+  if (changes != 1 || tools != 1) return in.raise(Condition::tool_pair, changes == 0 ? 'T' : 'M', changes == 0 ? in.words.get('T') : 6);
   return Did::done;
 }
 

@@ -133,9 +133,16 @@ Did set_length(Interpreter& in, Function function) {
     state.length_value = function == Function::length_minus ? -value : value;
   }
   if (m700) return Did::done;
-  // DGSHAPE G43: without a Z word the block itself moves Z by the offset.
+  // DGSHAPE G43: without a Z word the block itself moves Z by the offset, together with the axes that it names.
   const uint32_t axis_bit = 1u << state.length_axis;
   if ((in.words.axes & axis_bit) == 0 && in.words.one_shot == nullptr) {
+    const int16_t motion = state.modal.code[kGroupMotion];
+    const bool line = (motion == 0 || motion == 10) && in.words.cycle == nullptr && (state.cycle.kind == CycleKind::none || in.words.motion != nullptr);
+    if (in.words.axes != 0 && line) {
+      in.words.axis[state.length_axis] = in.position()[state.length_axis];
+      in.words.axes |= axis_bit;
+      return Did::done;
+    }
     LinearStyle style;
     style.kind = state.modal.code[kGroupMotion] == 0 || state.modal.feed <= 0 ? NC_MOVE_RAPID : NC_MOVE_LINE;
     style.feed_mm_min = feed_mm_min(in);
