@@ -37,6 +37,17 @@ TEST(SubProgram, Repetitions) {
   EXPECT_EQ(bench.at(0, 0, 0).run("M98 P1\nM98 P1\nM30").path().size(), 2u);
 }
 
+TEST(SubProgram, OneWayOnInABlock) {  // only the first of them would act
+  Bench bench;
+  bench.add("O1", "G0 X1.\nM99\n");
+  for (const char* block : {"M98 P1 M99", "M98 P1 M98 P1", "M98 P1 M30", "M99 M30", "M2 M99"}) {
+    const Outcome run = bench.at(0, 0, 0).run(std::string("G0 X5. ") + block + "\nM30");
+    EXPECT_EQ(run.alarm, "P33") << block;
+    EXPECT_EQ(run.path(), Path{}) << block;
+  }
+  EXPECT_EQ(bench.at(0, 0, 0).run("M3 M8 M98 P1\nM30").path(), (Path{"rapid 1 0 0"}));
+}
+
 TEST(SubProgram, FromASequenceNumber) {  // H
   Bench bench;
   bench.add("O1", "G0 X1.\nN20 Y1.\nM99\n");

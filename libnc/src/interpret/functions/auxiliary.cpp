@@ -149,7 +149,26 @@ Did auxiliary_before(Interpreter& in) {
   return Did::done;
 }
 
+namespace {
+
+/// M98 or M99 beside another of M98 M99 M02 M30: only the first would ever act.
+bool two_ways_on(const Interpreter& in) {
+  unsigned ways = 0;
+  bool call = false;
+  for (const uint32_t m : in.words.m) {
+    const MiscRow* row = find_misc(*in.dialect, m);
+    if (row == nullptr) continue;
+    const bool here = row->function == MiscFunction::call_sub || row->function == MiscFunction::return_sub;
+    call = call || here;
+    ways += here || row->function == MiscFunction::program_end ? 1u : 0u;
+  }
+  return call && ways > 1;
+}
+
+}  // namespace
+
 Did auxiliary_after(Interpreter& in) {
+  if (in.words.m.size() > 1 && two_ways_on(in)) return in.raise(Condition::format_error, 'M', in.words.m.back());
   for (const uint32_t m : in.words.m) {
     if (is_interrupt_on(in, m) || is_interrupt_off(in, m)) {
       const Did did = is_interrupt_on(in, m) ? enable_interrupt(in) : disable_interrupt(in);
