@@ -39,6 +39,14 @@ TEST(DecimalPoint, TenfoldActsOnWordsWithoutAPoint) {  // M700 2.2, the printed 
   EXPECT_EQ(Bench().param("UNIT*10", "10").param("1078", "1").run("G0 X5\nM30").path(), (Path{"rapid 5 0 0"}));
 }
 
+TEST(DecimalPoint, TenfoldIsNotForDwellsAndToolAmounts) {  // M700 2.2 (3) (4)
+  Bench bench;
+  bench.param("UNIT*10", "10");
+  const Outcome run = bench.run("G4 X1000\nG4 P1000\nG10 L10 P1 R100\nG10 L2 P1 X100\nG43 H1 G0 Z0\nX0\nM30");
+  EXPECT_EQ(run.dwells(), (std::vector<double>{1, 1}));
+  EXPECT_EQ(run.path(), (Path{"rapid 0 0 0.1", "rapid 1 0 0.1"}));
+}
+
 TEST(DecimalPoint, FeedIsInWholeUnitsInBothTypes) {  // M700 7.2
   EXPECT_EQ(m700("G1 X1. F200\nM30").path(), (Path{"line 1 0 0 F200"}));
   EXPECT_EQ(Bench().param("1078", "1").run("G1 X1 F200.5\nM30").path(), (Path{"line 1 0 0 F200.5"}));

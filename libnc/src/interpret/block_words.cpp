@@ -177,7 +177,7 @@ bool dgshape_whole_units(const Interpreter& in, bool feed) {
 
 }  // namespace
 
-double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotary, bool setting_unit) {
+double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotary, bool setting_unit, bool tenfold) {
   const bool pointed = (flags & (kWordPoint | kWordExpression)) != 0;
   const bool in_inch = inch(in) && !rotary;
   const Settings& s = in.settings;
@@ -188,7 +188,7 @@ double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotar
     } else if (!s.decimal_type_2) {  // M700 5.3, type I: the least command unit; tenfold 2.2
       const double unit = setting_unit ? (rotary ? s.setting_unit_deg : in_inch ? s.setting_unit_inch : s.setting_unit_mm)
                                        : (rotary ? s.command_unit_deg : in_inch ? s.command_unit_inch : s.command_unit_mm);
-      value = scaled(raw * s.tenfold, unit);
+      value = scaled(tenfold ? raw * s.tenfold : raw, unit);
     }
   }
   return in_inch ? value * 25.4 : value;

@@ -46,7 +46,8 @@ Did gather_words(Interpreter& in);
 Did resolve_axes(Interpreter& in);
 
 /// Value of a length word (I J K R Q and the like) in mm; axis = -1 a length, else rotary or linear like the axis.
-double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotary, bool setting_unit);
+/// `tenfold`: "UNIT*10" acts on it (M700 2.2).
+double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotary, bool setting_unit, bool tenfold = true);
 double length_of(const Interpreter& in, char letter, bool setting_unit = true);
 /// F of the block -> the number that is kept modal.
 Did feed_of(Interpreter& in, double* feed);

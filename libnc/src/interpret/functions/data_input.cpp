@@ -44,7 +44,9 @@ Did tool_offset(Interpreter& in, unsigned column, bool accumulate) {
     return in.raise(Condition::g10_p, 'P', w.get('P'));
   const unsigned key = in.frames.tool_key(number, column);
   const bool add = accumulate && in.state.modal.code[kGroupDistance] == 910;
-  const double amount = (add ? in.frames.get(key) : 0.0) + length_of(in, 'R');
+  // M700 2.2 (4): the tenfold unit is not for the amounts of tool compensation.
+  const double input = length_value(in, w.get('R'), w.flags['R' - 'A'], false, true, false);
+  const double amount = (add ? in.frames.get(key) : 0.0) + input;
   // M700 12.1: the range of an offset.
   if (std::fabs(amount) >= kOffsetRange) return in.raise(Condition::value_range, 'R', w.get('R'));
   in.set_table(key, amount);
