@@ -1,34 +1,107 @@
 // SPDX-License-Identifier: Apache-2.0
-// Execution time of a scan with three axes, 64 points and a ladder program: inputs, ladder, NC, outputs, snapshot, on the
-// simulated machine. The distribution comes from the runtime's own histogram (p50, p99, p99.9, max); wake-up
+// Execution time of a scan with three axes, 64 points on a Modbus link and a ladder program: inputs, ladder, NC, outputs,
+// snapshot; the axes are simulated. The link has its thread and its buffered images, and a server in this process that
+// answers every request, so that the images change hands as they do on a machine. The distribution comes from the runtime's own histogram (p50, p99, p99.9, max); wake-up
 // jitter is another figure, see runtime_process.py. Goal: at most 50 us at p99.9.
 #include <benchmark/benchmark.h>
 
+#include <modbus/modbus.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <string>
+#include <thread>
 
+#include "hal/composite.hpp"
+#include "hal/modbus/link.hpp"
 #include "hal/sim/sim_machine.hpp"
 #include "runtime/runtime.hpp"
 
 namespace {
 
-std::string configuration(unsigned points) {
+// A server that answers what the link asks: bits and registers that count up. One connection, one thread.
+class Server {
+ public:
+  Server() {
+    context_ = modbus_new_tcp("127.0.0.1", 0);
+    mapping_ = modbus_mapping_new(256, 256, 256, 256);
+    if (context_ == nullptr || mapping_ == nullptr) return;
+    listener_ = modbus_tcp_listen(context_, 1);
+    sockaddr_in address{};
+    socklen_t size = sizeof address;
+    if (listener_ < 0 || getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size) != 0) return;
+    port_ = ntohs(address.sin_port);
+    thread_ = std::thread([this] { serve(); });
+  }
+  ~Server() {
+    stop_ = true;
+    if (thread_.joinable()) thread_.join();
+    if (listener_ >= 0) close(listener_);
+    modbus_mapping_free(mapping_);
+    modbus_free(context_);
+  }
+  unsigned port() const { return port_; }
+
+ private:
+  void serve() {
+    pollfd wait{listener_, POLLIN, 0};
+    while (!stop_ && poll(&wait, 1, 100) <= 0) continue;
+    if (stop_ || modbus_tcp_accept(context_, &listener_) < 0) return;
+    std::uint8_t query[MODBUS_TCP_MAX_ADU_LENGTH];
+    modbus_set_indication_timeout(context_, 0, 100000);
+    for (unsigned n = 0; !stop_; ++n) {
+      const int length = modbus_receive(context_, query);
+      if (length < 0 && errno != ETIMEDOUT) break;
+      if (length <= 0) continue;
+      mapping_->tab_input_bits[n % 32] ^= 1;
+      if (modbus_reply(context_, query, length, mapping_) < 0) break;
+    }
+    modbus_close(context_);
+  }
+  modbus_t* context_ = nullptr;
+  modbus_mapping_t* mapping_ = nullptr;
+  int listener_ = -1;
+  unsigned port_ = 0;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+// Half of the points are inputs. Of each half 16 bits have a table of bits, 12 stand in a register, 4 are words with a scale.
+constexpr unsigned kHalf = 32, kBits = 16, kWords = 4;
+
+std::string modbus_place(unsigned point, bool input) {
+  const unsigned n = point % kHalf;
+  const std::string link = "modbus = { link = \"io\", table = \"";
+  if (n < kBits) return link + (input ? "discrete" : "coil") + "\", address = " + std::to_string(n) + " }\n";
+  const std::string registers = link + (input ? "input" : "holding");
+  if (n < kHalf - kWords)
+    return registers + "\", address = 0, bit = " + std::to_string(n - kBits) + " }\n";
+  return registers + "\", address = " + std::to_string(10 + 2 * n) + ", words = \"CDAB\", scale = 0.5 }\n";
+}
+
+std::string configuration(unsigned points, unsigned port) {
   std::string text = "[machine]\n";
   for (const char* name : {"X", "Y", "Z"})
     text += std::string("[[axis]]\nname = \"") + name +
             "\"\nmax_velocity = 500.0\nmax_acceleration = 5000.0\nmax_jerk = 100000.0\nsoft_limits = "
             "[-1000.0, 1000.0]\n";
+  text += "[[modbus]]\nname = \"io\"\nhost = \"127.0.0.1\"\nport = " + std::to_string(port) + "\npoll_ms = 5\n";
   std::string map = "[macro_interface]\n";
   for (unsigned p = 0; p < points; ++p) {
     const bool input = p < points / 2;
     const std::string name = (input ? "in" : "out") + std::to_string(p);
-    text += "[[point]]\nname = \"" + name + "\"\ndirection = \"" + (input ? "input" : "output") + "\"\n";
-    map += "\"#" + std::to_string((input ? 1000 : 1100) + p % (points / 2)) + "\" = \"" + name + "\"\n";
+    const bool word = p % kHalf >= kHalf - kWords;
+    text += "[[point]]\nname = \"" + name + "\"\ndirection = \"" + (input ? "input" : "output") + "\"\n" +
+            (word ? "type = \"word\"\n" : "") + modbus_place(p, input);
+    if (!word) map += "\"#" + std::to_string((input ? 1000 : 1100) + p % (points / 2)) + "\" = \"" + name + "\"\n";
   }
   return text + map;
 }
@@ -51,21 +124,22 @@ std::string ladder(unsigned instructions) {
   std::string text = "LD nc.m_strobe\nOR nc.s_strobe\nOR nc.t_strobe\nOUT plc.fin2\n";
   unsigned count = 5;  // with END
   for (unsigned n = 0; count + 10 <= instructions; ++n, count += 10) {
-    const std::string in = "in" + std::to_string(n % 32), other = "in" + std::to_string((n + 7) % 32);
-    const std::string out = "out" + std::to_string(32 + n % 30), m = "M" + std::to_string(n), k = std::to_string(n);
+    const std::string in = "in" + std::to_string(n % 28), other = "in" + std::to_string((n + 7) % 28);
+    const std::string out = "out" + std::to_string(32 + n % 28), m = "M" + std::to_string(n), k = std::to_string(n);
     text += "LD " + in + "\nAND " + other + "\nOR " + m + "\nANI nc.alarm\nOUT " + m + "\nLD " + m + "\nOUT T" + k +
             " K5\nAND> D" + k + " K100\nMOV K" + k + " D" + k + "\nSET " + out + "\n";
   }
   return text + "END\n";
 }
 
-// Scans with 3 axes and 64 points mapped to the macro interface; range(0): instructions of the ladder, 0 = none.
+// Scans with 3 axes and 64 points on the link, the bits among them mapped to the macro interface; range(0): instructions of the ladder, 0 = none.
 void scan(benchmark::State& state) {
   nc::rt::Config config;
   const auto instructions = static_cast<unsigned>(state.range(0));
   const std::string path = std::string(std::getenv("TMPDIR") != nullptr ? std::getenv("TMPDIR") : "/tmp") +
                            "/nc_scan_bench_" + std::to_string(getpid()) + ".il";
-  std::string text = configuration(64);
+  Server server;
+  std::string text = configuration(2 * kHalf, server.port());
   if (instructions != 0) {
     std::ofstream(path) << ladder(instructions);
     text += "[ladder]\nprogram = \"" + path + "\"\n";
@@ -75,9 +149,11 @@ void scan(benchmark::State& state) {
     return;
   }
   nc::hal::SimMachine machine(config.sim, config.points);
+  const auto links = nc::hal::modbus::make_links(config.modbus_links(), {});
+  nc::hal::Composite hal(&machine, {links[0].get()}, config.points);
   nc::rt::VirtualClock clock;
   std::vector<nc::rt::ConfigError> errors;
-  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  const auto runtime = nc::rt::Runtime::create(config, {&clock, &hal, nullptr, nullptr}, &errors);
   if (instructions != 0) std::remove(path.c_str());
   for (const nc::rt::ConfigError& e : errors) state.SkipWithError(e.text().c_str());
   unsigned file = 0;
@@ -89,7 +165,11 @@ void scan(benchmark::State& state) {
     state.SkipWithError("the runtime does not start");
     return;
   }
+  for (unsigned n = 0; n < 200 && links[0]->statistics().state == nc::hal::modbus::LinkState::kLost; ++n) usleep(10000);
+  const std::uint64_t requests = links[0]->statistics().requests;
   for (auto _ : state) runtime->step();
+  if (links[0]->statistics().state != nc::hal::modbus::LinkState::kOk) state.SkipWithError("the link is not ok");
+  state.counters["modbus_requests"] = static_cast<double>(links[0]->statistics().requests - requests);
   if (runtime->snapshot().alarmed()) state.SkipWithError("the program stopped on an alarm");
   const nc::rt::Histogram& execution = runtime->statistics().execution;
   state.counters["scan_p50_us"] = static_cast<double>(execution.percentile_ns(0.5)) / 1e3;

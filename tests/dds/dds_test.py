@@ -8,6 +8,7 @@ packages can be had here, or the programs are not built.
 import fcntl
 import inspect
 import json
+import mmap
 import os
 import random
 import signal
@@ -455,6 +456,28 @@ def signals(plant, participant):
     other_releases_of_status(plant)
 
 
+def attack_on_memory(watch, control, gateway):
+    """Another process of this user takes the shared memory away, or writes what it likes into it."""
+    folder = f"/proc/{control.pid}/fd"
+    places = [place for place in (os.path.join(folder, fd) for fd in os.listdir(folder)) if "memfd:nc-" in os.readlink(place)]
+    check(len(places) == 1, "the control has its shared memory without a name in a file system")
+    for length in (0, 4096, 1 << 30):
+        try:
+            os.truncate(places[0], length)
+            raise AssertionError(f"the memory has become {length} bytes")
+        except PermissionError:
+            print("ok: nobody makes it", length, "bytes", flush=True)
+    chance = random.Random(2)
+    with open(places[0], "r+b") as file, mmap.mmap(file.fileno(), 0) as memory:
+        before = memory[:]
+        for _ in range(5):
+            memory[:] = chance.randbytes(len(memory))
+            time.sleep(0.05)
+        memory[:] = before
+    check(control.poll() is None and gateway.poll() is None, "garbage in it ends neither the control nor the gateway")
+    watch.fresh()
+
+
 def monitor(plant):
     shown = plant.monitor("--once", "--json", "--machine", plant.share, "--wait", "20")
     check(shown.returncode == 0 and json.loads(shown.stdout)["systems"][0]["machine"] == plant.share, "ncmon --once --json")
@@ -548,6 +571,8 @@ def main():
             manual(watch, operator)
             signals(plant, participant)
             monitor(plant)
+            attack_on_memory(watch, control, gateway)
+            until(lambda: operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "commands come through as before")
             dead_client(plant, operator)
             stranger(plant, watch, operator, gateway)
             hang(watch, operator, control)

@@ -148,6 +148,8 @@ TEST(ModbusLink, AnExceptionIsNamedAndLeavesTheConnection) {
       << rig.log();
   server.with([](auto& units) { units[1].holding[500] = 6, units[1].coil[3] = 1; });
   EXPECT_TRUE(rig.until([&] { return rig.good(missing) && rig.value(missing) == 6 && rig.good(no_output); }));
+  EXPECT_NE(rig.log().find("io: again good: holding 500 unit 1\n"), std::string::npos) << "without the old error: " << rig.log();
+  EXPECT_NE(rig.log().find("io: again good: coil 3 unit 1\n"), std::string::npos) << rig.log();
   EXPECT_EQ(server.connections(), 1u);
 }
 

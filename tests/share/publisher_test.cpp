@@ -156,6 +156,24 @@ TEST_F(SharePublisher, ShowsThePoints) {
   EXPECT_EQ(points.count, 2u);
   EXPECT_EQ(points.value[1], 7u);
   EXPECT_EQ(points.good[1], 1);
+  SignalsBlock signals{};
+  ASSERT_TRUE(reader_.signals(&signals, &error)) << error;
+  const MachineBlock& machine = reader_.get()->machine;
+  ASSERT_EQ(signals.count, machine.signal_count);
+  EXPECT_GT(signals.scan, 3u);
+  bool seen = false;
+  for (unsigned i = 0; i < signals.count; ++i) {
+    if (text_of(machine.signal[i].name) != "plc.interlock_n") continue;
+    seen = true;
+    EXPECT_EQ(signals.value[i], 1);
+    EXPECT_EQ(machine.signal[i].safe, 1);
+    EXPECT_EQ(machine.signal[i].from_nc, 0u);
+    EXPECT_NE(text_of(machine.signal[i].meaning).find("decelerate"), std::string::npos);
+  }
+  EXPECT_TRUE(seen);
+  signals.count = machine.signal_count + 1;
+  owner_.get()->signals.store(signals);
+  EXPECT_FALSE(reader_.signals(&signals, &error)) << "more than there are";
 }
 
 TEST_F(SharePublisher, AlarmsComeAndGoWithNumberAndTimes) {

@@ -3,6 +3,7 @@
 #include "runtime/share/segment.hpp"
 
 #include <fcntl.h>
+#include <grp.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -216,6 +217,73 @@ TEST_F(Share, AControlThatHangsIsNotWaitedForForEver) {
   waitpid(child, &status, WUNTRACED);
   EXPECT_NE(refusal().find("hangs"), std::string::npos) << refusal();
   kill(child, SIGKILL);
+  waitpid(child, &status, 0);
+  close(ready[0]);
+  close(ready[1]);
+}
+
+// What a process of this user and group says of the segment.
+std::string refusal_of(uid_t user, gid_t group, const std::string& name) {
+  int answer[2];
+  if (pipe(answer) != 0) return "no pipe";
+  const pid_t child = fork();
+  if (child == 0) {
+    std::string error = "no other user";
+    SegmentReader reader;
+    if (setgroups(0, nullptr) == 0 && setresgid(group, group, group) == 0 && setresuid(user, user, user) == 0) {
+      error.clear();
+      (void)reader.open(name, &error);
+    }
+    _exit(write(answer[1], error.data(), error.size()) == static_cast<ssize_t>(error.size()) ? 0 : 1);
+  }
+  close(answer[1]);
+  std::string text(1000, '\0');
+  const ssize_t got = read(answer[0], text.data(), text.size());
+  text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  close(answer[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return text;
+}
+
+TEST_F(Share, OtherUsersAreKeptOut) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can be somebody else";
+  constexpr uid_t kOther = 65533, kGroup = 65532;
+  SegmentOwner owner;
+  ASSERT_TRUE(owner.create(name_, false, false, machine(), &error_)) << error_;
+  set_alive(owner.get());
+  EXPECT_NE(refusal_of(kOther, getegid(), name_).find("is not for this user"), std::string::npos);
+  owner.remove();
+  ASSERT_TRUE(owner.create(name_, true, false, machine(), &error_)) << error_;
+  set_alive(owner.get());
+  EXPECT_EQ(refusal_of(kOther, getegid(), name_), "") << "of the group";
+  EXPECT_NE(refusal_of(kOther, kGroup, name_).find("is not for this user"), std::string::npos) << "of another group";
+}
+
+// A stranger who takes a name first is not believed to be the control.
+TEST_F(Share, AStrangerIsNotBelieved) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can be somebody else";
+  constexpr uid_t kStranger = 65531, kOther = 65533;
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    SegmentOwner owner;
+    std::string error;
+    char made = 0;
+    if (setgroups(0, nullptr) == 0 && setresgid(kStranger, kStranger, kStranger) == 0 &&
+        setresuid(kStranger, kStranger, kStranger) == 0)
+      made = owner.create(name_, true, false, machine(), &error) ? 1 : 0;
+    if (write(ready[1], &made, 1) != 1) _exit(1);
+    for (;;) pause();
+  }
+  char made = 0;
+  EXPECT_EQ(read(ready[0], &made, 1), 1);
+  EXPECT_EQ(made, 1);
+  EXPECT_NE(refusal_of(kOther, kOther, name_).find("belongs to another user"), std::string::npos)
+      << refusal_of(kOther, kOther, name_);
+  kill(child, SIGKILL);
+  int status = 0;
   waitpid(child, &status, 0);
   close(ready[0]);
   close(ready[1]);
