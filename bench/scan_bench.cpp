@@ -162,7 +162,7 @@ void scan(benchmark::State& state) {
       nc_program_add_text(runtime->control(), "bench.nc", kProgram, sizeof kProgram - 1, &file) != NC_OK ||
       !runtime->start_stepping(&error) || runtime->select_program(file) != nc::rt::Answer::kDone ||
       runtime->execute(nc::rt::CommandKind::kCycleStart) != nc::rt::Answer::kDone) {
-    state.SkipWithError("the runtime does not start");
+    state.SkipWithError(("the runtime does not start: " + error).c_str());
     return;
   }
   for (unsigned n = 0; n < 200 && links[0]->statistics().state == nc::hal::modbus::LinkState::kLost; ++n) usleep(10000);

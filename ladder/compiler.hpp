@@ -120,7 +120,10 @@ class Compiler {
   void note_rising();  // of a result that never rises, a warning
 
   // constants.cpp
-  void check_constants(const Rule& rule, const Encoded* operands, std::size_t count);
+  void check_constants(const Rule& rule, const Encoded* operands);
+  static bool is_constant(const Encoded& operand, std::int64_t* value);
+  bool check_range(const Encoded& operand, std::int64_t least, std::int64_t most);
+  bool check_row(const Encoded& first, const Encoded& length, std::int64_t width);
 
   // operands; encode.cpp
   bool bit_operand(std::string_view word, bool written, Place* place);

@@ -8,12 +8,30 @@
 namespace nc::ladder {
 namespace {
 
-// The largest whole number of so many decimal digits.
-std::int64_t largest_decimal(unsigned digits) {
-  std::int64_t value = 1;
-  for (unsigned i = 0; i < digits; ++i) value *= 10;
-  return value - 1;
-}
+constexpr std::int64_t kMost16 = std::numeric_limits<std::int16_t>::max();
+
+// Operands that have a range of their own.
+struct Range {
+  Op op;
+  std::size_t operand;
+  std::int64_t least, most;
+};
+constexpr Range kRanges[] = {
+    {Op::kBmov, 2, 0, kMost16},  {Op::kFmov, 2, 0, kMost16}, {Op::kSer, 3, 0, kMost16}, {Op::kDser, 3, 0, kMost16},
+    {Op::kRor, 1, 0, 15},        {Op::kRol, 1, 0, 15},       {Op::kSfr, 1, 0, 15},      {Op::kSfl, 1, 0, 15},
+    {Op::kBset, 1, 0, 15},       {Op::kBrst, 1, 0, 15},      {Op::kDror, 1, 0, 31},     {Op::kDrol, 1, 0, 31},
+    {Op::kBcd, 0, 0, 9999},      {Op::kDbcd, 0, 0, 99999999}, {Op::kRots, 0, 1, kMost16},
+};
+
+// Rows of words: where they begin, and which operand is their length.
+struct Row {
+  Op op;
+  std::size_t first, length;
+  std::int64_t width;
+};
+constexpr Row kRows[] = {
+    {Op::kBmov, 0, 2, 1}, {Op::kBmov, 1, 2, 1}, {Op::kFmov, 1, 2, 1}, {Op::kSer, 1, 3, 1}, {Op::kDser, 1, 3, 2},
+};
 
 bool is_bcd(std::uint32_t value, unsigned digits) {
   for (unsigned i = 0; i < digits; ++i)
@@ -23,79 +41,54 @@ bool is_bcd(std::uint32_t value, unsigned digits) {
 
 }  // namespace
 
-void Compiler::check_constants(const Rule& rule, const Encoded* operands, std::size_t count) {
-  const auto constant = [&](std::size_t i, std::int64_t* value) {
-    if (i >= count || operands[i].mode != Mode::kConstant) return false;
-    *value = static_cast<std::int32_t>(operands[i].value);
-    return true;
-  };
-  const auto from_to = [&](std::size_t i, std::int64_t least, std::int64_t most) {
-    std::int64_t value = 0;
-    if (!constant(i, &value) || (value >= least && value <= most)) return true;
-    error("K" + std::to_string(value) + " is not possible here: " + std::to_string(least) + " to " + std::to_string(most));
-    return false;
-  };
-  // A row of n words from an operand on, where both are known now.
-  const auto row = [&](std::size_t first, std::size_t n, std::int64_t width) {
-    std::int64_t length = 0;
-    if (!from_to(n, 0, std::numeric_limits<std::int16_t>::max())) return false;
-    if (!constant(n, &length) || operands[first].mode != Mode::kIndirect) return true;
-    const Indirect& where = code_.indirect[operands[first].value];
-    const std::int64_t room = (std::int64_t{where.end} - where.base) / width;
-    if (where.z != Indirect::kNoZ || where.digits != 0 || length <= room) return true;
-    error("the row is longer than its devices: there are " + std::to_string(room) + " from there on");
-    return false;
-  };
+bool Compiler::is_constant(const Encoded& operand, std::int64_t* value) {
+  *value = static_cast<std::int32_t>(operand.value);
+  return operand.mode == Mode::kConstant;
+}
+
+bool Compiler::check_range(const Encoded& operand, std::int64_t least, std::int64_t most) {
+  std::int64_t value = 0;
+  if (!is_constant(operand, &value) || (value >= least && value <= most)) return true;
+  error("K" + std::to_string(value) + " is not possible here: " + std::to_string(least) + " to " + std::to_string(most));
+  return false;
+}
+
+// A row whose place and length are known now.
+bool Compiler::check_row(const Encoded& first, const Encoded& length, std::int64_t width) {
+  std::int64_t count = 0;
+  if (!is_constant(length, &count) || first.mode != Mode::kIndirect) return true;
+  const Indirect& where = code_.indirect[first.value];
+  const std::int64_t room = (std::int64_t{where.end} - where.base) / width;
+  if (where.z != Indirect::kNoZ || where.digits != 0 || count <= room) return true;
+  error("the row is longer than its devices: there are " + std::to_string(room) + " from there on");
+  return false;
+}
+
+void Compiler::check_constants(const Rule& rule, const Encoded* operands) {
+  for (const Range& range : kRanges)
+    if (range.op == rule.op && !check_range(operands[range.operand], range.least, range.most)) return;
+  for (const Row& row : kRows)
+    if (row.op == rule.op && !check_row(operands[row.first], operands[row.length], row.width)) return;
   std::int64_t left = 0, right = 0;
   switch (rule.op) {
     case Op::kDiv:
-    case Op::kDdiv:
-      if (!constant(1, &right)) return;
+    case Op::kDdiv: {
+      if (!is_constant(operands[1], &right)) return;
       if (right == 0) return error("division by zero");
-      if (right == -1 && constant(0, &left) &&
-          left == (rule.op == Op::kDiv ? std::numeric_limits<std::int16_t>::min()
-                                       : std::int64_t{std::numeric_limits<std::int32_t>::min()}))
-        error("the quotient does not fit");
-      return;
-    case Op::kBmov:
-      if (row(0, 2, 1)) (void)row(1, 2, 1);
-      return;
-    case Op::kFmov:
-      (void)row(1, 2, 1);
-      return;
-    case Op::kSer:
-    case Op::kDser:
-      (void)row(1, 3, rule.op == Op::kDser ? 2 : 1);
-      return;
-    case Op::kRor:
-    case Op::kRol:
-    case Op::kSfr:
-    case Op::kSfl:
-    case Op::kBset:
-    case Op::kBrst:
-      (void)from_to(1, 0, 15);
-      return;
-    case Op::kDror:
-    case Op::kDrol:
-      (void)from_to(1, 0, 31);
-      return;
-    case Op::kBcd:
-    case Op::kDbcd:
-      (void)from_to(0, 0, largest_decimal(rule.op == Op::kBcd ? 4 : 8));
-      return;
-    case Op::kBin:
-    case Op::kDbin:
-      if (constant(0, &left) && !is_bcd(static_cast<std::uint32_t>(left), rule.op == Op::kBin ? 4 : 8))
-        error("the constant is no BCD number");
-      return;
-    case Op::kRots: {
-      constexpr std::int64_t kMost = std::numeric_limits<std::int16_t>::max();
-      std::int64_t places = kMost;
-      if (!from_to(0, 1, kMost)) return;
-      (void)constant(0, &places);
-      if (from_to(1, 1, places)) (void)from_to(2, 1, places);
+      const std::int64_t least =
+          rule.op == Op::kDiv ? std::numeric_limits<std::int16_t>::min() : std::numeric_limits<std::int32_t>::min();
+      if (right == -1 && is_constant(operands[0], &left) && left == least) error("the quotient does not fit");
       return;
     }
+    case Op::kBin:
+    case Op::kDbin:
+      if (is_constant(operands[0], &left) && !is_bcd(static_cast<std::uint32_t>(left), rule.op == Op::kBin ? 4 : 8))
+        error("the constant is no BCD number");
+      return;
+    case Op::kRots:
+      if (!is_constant(operands[0], &left)) left = kMost16;
+      if (check_range(operands[1], 1, left)) (void)check_range(operands[2], 1, left);
+      return;
     default:
       return;
   }

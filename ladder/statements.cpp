@@ -414,7 +414,7 @@ void Compiler::words(const Rule& rule, bool pulse) {
     encoded[0] = encoded[2];
     mode |= static_cast<unsigned>(encoded[0].mode);
   }
-  check_constants(rule, encoded, spec.size());
+  check_constants(rule, encoded);
   emit_pulse(rule.op, pulse);
   emit(rule.op, encoded[0].value, mode);
   emit2(encoded[1].value, encoded[2].value);

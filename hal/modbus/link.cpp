@@ -61,6 +61,8 @@ bool ModbusLink::make_thread(std::string* error) {
   pthread_attr_setstacksize(&attributes, kStackBytes);
   pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
   pthread_attr_setschedpolicy(&attributes, SCHED_OTHER);
+  const sched_param ordinary{};  // without it the priority of a real-time caller is tried, and refused
+  pthread_attr_setschedparam(&attributes, &ordinary);
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);

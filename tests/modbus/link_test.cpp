@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Modbus link against a server on loopback: exchange, loss, exceptions, stop.
+#include <pthread.h>
+
 #include <algorithm>
+#include <thread>
 
 #include "modbus/link_rig.hpp"
 
@@ -121,6 +124,23 @@ TEST(ModbusLink, KilledAndBack) {
   EXPECT_TRUE(rig.until([&] { return rig.there(); }));
   EXPECT_TRUE(rig.until([&] { return server->holding(1, 3) == 4; })) << "outputs are written again";
   EXPECT_GE(rig.link->statistics().reconnects(), 1u);
+}
+
+// A service manager may start the whole control with a real-time policy.
+TEST(ModbusLink, StartsFromARealTimeThread) {
+  LoopbackServer server;
+  server.with([](auto& units) { units[1].holding = {{0, 5}}; });
+  LinkRig rig;
+  const unsigned there = rig.add(Table::kHolding, 0, Format::kU16);
+  bool allowed = false;
+  std::thread([&] {
+    sched_param priority{};
+    priority.sched_priority = 1;
+    allowed = pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0;
+    if (allowed) rig.start(server.port());
+  }).join();
+  if (!allowed) GTEST_SKIP() << "no real-time priority here";
+  EXPECT_TRUE(rig.until([&] { return rig.good(there); }));
 }
 
 TEST(ModbusLink, AnExceptionIsNamedAndLeavesTheConnection) {
