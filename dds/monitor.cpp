@@ -154,8 +154,7 @@ bool Monitor::wait_for(dds_entity_t reader) {
 bool Monitor::watch_signals(bool on, std::string* error) {
   if (on == (signals_ > 0)) return true;
   if (!on) {  // with its reader goes the request
-    (void)dds_delete(signals_);
-    (void)dds_delete(signal_table_);
+    for (const dds_entity_t reader : {signals_, signal_table_}) (void)dds_delete(dds_get_parent(reader));
     signals_ = signal_table_ = 0;
     view_.signals.clear();
     return true;

@@ -104,8 +104,12 @@ std::vector<ConfigError> check_host(const Config& config) {
 
 std::vector<ConfigError> load_config(const std::string& path, Config* config, Config* partial) {
   std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status)) return {{path, 0, "", "cannot be read: is a folder"}};
+  // A pipe would be waited for, and a device may never end.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return {{path, 0, "", "cannot be read: is no file"}};
   std::ifstream stream(path, std::ios::binary);
-  if (std::filesystem::is_directory(path, ignored)) return {{path, 0, "", "cannot be read: is a folder"}};
   if (!stream)
     return {
         {path, 0, "", std::string("cannot be read: ") + (errno != 0 ? std::strerror(errno) : "not a file")}};

@@ -122,10 +122,13 @@ class Writer {
   unsigned pick(unsigned n) { return at_ < choices_.size() ? choices_[at_++] % n : 0; }
   void line(const std::string& text) { text_ += text + "\n"; }
   std::string contact() {
-    static const char* const kKinds[] = {"X", "Y", "M"};
+    static const char* const kKinds[] = {"X", "Y", "M", "D0."};
+    return kKinds[pick(4)] + std::to_string(pick(6));
+  }
+  std::string coil() {
+    static const char* const kKinds[] = {"Y", "M", "D0."};
     return kKinds[pick(3)] + std::to_string(pick(6));
   }
-  std::string coil() { return (pick(2) == 0 ? "Y" : "M") + std::to_string(pick(6)); }
   void one(const char* const* names, unsigned count) {
     line(std::string(names[pick(count)]) + " " + contact());
   }
@@ -211,11 +214,14 @@ RC_GTEST_PROP(LadderRungs, DoWhatTheirTextSays, (const std::vector<std::uint16_t
     RC_ASSERT(engine.fault() == static_cast<unsigned>(kNoFault));
     RC_ASSERT(execute_portable(*program.code(), &portable).fault == static_cast<unsigned>(kNoFault));
     RC_ASSERT(image.bit == portable.bit);
+    RC_ASSERT(image.word == portable.word);
     oracle.scan(text);
     for (const auto& [name, on] : oracle.device) {
-      if (const Device* device = engine.find(name)) {
-        if ((image.bit[device->index] != 0) != on) RC_FAIL(name + " in\n" + text);
-      }
+      const bool of_word = name.rfind("D0.", 0) == 0;
+      const Device* device = engine.find(of_word ? "D0" : name);
+      if (device == nullptr) continue;
+      const bool is = of_word ? (image.word[device->index] >> (name.back() - '0') & 1) != 0 : image.bit[device->index] != 0;
+      if (is != on) RC_FAIL(name + " in\n" + text);
     }
   }
 }
@@ -239,6 +245,8 @@ RC_GTEST_PROP(LadderRungs, DoTheSameBetweenLabels, (const std::vector<std::uint1
         RC_ASSERT(plain.get(name) == labelled.get(name));
         RC_ASSERT(plain.get(name) == called.get(name));
       }
+    RC_ASSERT(plain.get("D0") == labelled.get("D0"));
+    RC_ASSERT(plain.get("D0") == called.get("D0"));
   }
 }
 

@@ -158,6 +158,11 @@ said err "is a pipe"
 printf '\xef\xbb\xbfG90 G0 X-290.\nM30\n' >"$work/bom.nc"
 expect 0 "$ncrtd" --config "$machine" run --fast "$work/bom.nc"
 
+expect 1 timeout 10 "$ncrtd" --config "$work/fifo" check
+said err "fifo: cannot be read: is no file"
+expect 1 timeout 10 "$ncrtd" --config /dev/zero check
+said err "/dev/zero: cannot be read: is no file"
+
 # What the configuration asks of the computer.
 sed -e "s#^programs = .*#programs = \"$work/nowhere\"#" -e 's#^cpu = .*#cpu = 999#' "$machine" >"$work/host.toml"
 for command in check "run --fast $work/bom.nc"; do
