@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the program goes on: GOTO, WHILE, sub programs, macro calls, the ends of texts (M700 13.3, 13.5.1, 13.5.7).
 #include <cmath>
-#include <initializer_list>
 
 #include "interpret/calls.hpp"
 #include "interpret/program_map.hpp"
