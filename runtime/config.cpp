@@ -31,23 +31,28 @@ MacroMap::MacroMap() {
   output_word.fill(-1);
 }
 
+namespace {
+
+// A path of the configuration: relative to the folder of its file unless absolute.
+std::string beside_file(const std::string& file, const std::string& path) {
+  const std::filesystem::path own(path);
+  if (own.is_absolute()) return own.string();
+  return (std::filesystem::path(file).parent_path() / own).lexically_normal().string();
+}
+
+}  // namespace
+
 Config::Config() {
   nc_config_init(&nc);
   nc.system_count = 1;
   for (nc_system_config& system : nc.system) system.axis_count = 0;
 }
 
-std::string Config::programs_folder() const {
-  const std::filesystem::path folder(programs);
-  if (folder.is_absolute()) return folder.string();
-  return (std::filesystem::path(file).parent_path() / folder).lexically_normal().string();
-}
+std::string Config::programs_folder() const { return beside_file(file, programs); }
 
-std::string Config::print_file() const {
-  const std::filesystem::path path(print);
-  if (print.empty() || path.is_absolute()) return print;
-  return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
-}
+std::string Config::external_folder() const { return external.empty() ? external : beside_file(file, external); }
+
+std::string Config::print_file() const { return print.empty() ? print : beside_file(file, print); }
 
 std::vector<ConfigError> parse_config(std::string_view text, const std::string& file, Config* config,
                                       Config* partial) {

@@ -116,6 +116,7 @@ struct Config {
   std::string name = "machine";
   std::string programs = ".";  // folder of programs, relative to the file's folder unless absolute
   ConfigPlace programs_place;
+  std::string external;        // folder of the programs of M198, in the same way; empty = the folder of programs
   std::string print;           // file that programs print to, relative to the file's folder unless absolute; empty = nowhere
   unsigned cycle_us = 1000;
   nc_config nc;  // everything that libnc is created with
@@ -135,6 +136,7 @@ struct Config {
   Config();
   // Folder of programs as a path that can be opened.
   std::string programs_folder() const;
+  std::string external_folder() const;
   // File that programs print to; empty = none.
   std::string print_file() const;
   // What the links are made from, in the order of their buses.

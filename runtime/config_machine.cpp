@@ -99,6 +99,7 @@ void read_machine(TableReader* root, Config* config) {
     reader.choice("hal", {"sim"}, &word);
     reader.string("programs", &config->programs);
     config->programs_place = {reader.line("programs"), reader.path("programs")};
+    reader.string("external", &config->external);
     reader.string("print", &config->print);
     reader.integer("cycle_us", &config->cycle_us, 100, 100000);
     nc.cycle_s = config->cycle_us * 1e-6;

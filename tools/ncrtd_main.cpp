@@ -344,6 +344,7 @@ int operate(const Options& options, nc::rt::Config* config) {
   if (runtime == nullptr) return config_failed(errors);
 
   nc::tools::ProgramFiles files(config->programs_folder());
+  files.set_external(config->external_folder());
   files.attach(runtime->control());
   unsigned file = 0;
   if (!options.program.empty() && files.add(runtime->control(), options.program, &file, &error) != NC_OK)

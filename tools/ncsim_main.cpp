@@ -24,10 +24,12 @@ void add_program(CLI::App* command, SessionOptions* options) {
   command->add_option("--setup", options->setup, "setup of control and machine, JSON (docs/trace.md)")->check(nc::tools::given());
   command->add_option("--dialect", options->dialect, "m700 or dgshape")->capture_default_str()->check(nc::tools::given());
   command->add_option("--programs", options->programs, "folder of sub programs (default: PROGRAM's own)")->check(nc::tools::given());
+  command->add_option("--external", options->external, "folder of the programs that M198 calls (default: that of sub programs)")
+      ->check(nc::tools::given());
 }
 
 void add_print(CLI::App* command, SessionOptions* options) {
-  command->add_option("--print", options->print, "file to which DPRNT of user macros is appended");
+  command->add_option("--print", options->print, "file to which DPRNT of user macros is appended")->check(nc::tools::given());
 }
 
 void add_loop_limit(CLI::App* command, uint64_t* limit) {
@@ -78,6 +80,8 @@ int run(int argc, char** argv) {
   bool markdown = false;
   CLI::App* functions = app.add_subcommand("functions", "the G and M codes of a dialect");
   CLI::App* alarms = app.add_subcommand("alarms", "the alarms of a dialect");
+  CLI::App* variables = app.add_subcommand("variables", "the system variables of the m700 dialect");
+  variables->add_flag("--markdown", markdown, "as a Markdown table");
   for (CLI::App* table : {functions, alarms}) {
     table->add_option("--dialect", options.dialect, "m700 or dgshape")->capture_default_str()->check(nc::tools::given());
     table->add_flag("--markdown", markdown, "as a Markdown table");
@@ -101,6 +105,7 @@ int run(int argc, char** argv) {
   if (plot->parsed())
     return nc::tools::plot_command(options, silent, views.at(view), base.empty() ? "toolpath" : base, stdout, stderr);
   if (functions->parsed()) return nc::tools::functions_command(options.dialect, markdown, stdout, stderr);
+  if (variables->parsed()) return nc::tools::variables_command(markdown, stdout, stderr);
   return nc::tools::alarms_command(options.dialect, markdown, stdout, stderr);
 }
 

@@ -52,10 +52,6 @@ TEST(Auxiliary, Stops) {  // M700 9.1
   EXPECT_EQ(m700("M0\nM30").lines(), (std::vector<unsigned>{1, 2}));
 }
 
-TEST(Auxiliary, CodesThatAreNotBuilt) {
-  EXPECT_EQ(m700("M198 P1\nM30").alarm, "P39");
-}
-
 TEST(DgshapeAuxiliary, SpindleCodes) {  // DGSHAPE 2-4: R20 series
   auto speed = [](const char* word) { return dgshape(std::string(word) + "\nM02").of(NC_ITEM_ACTION)[0].u.action.value; };
   EXPECT_DOUBLE_EQ(speed("S100"), 100);

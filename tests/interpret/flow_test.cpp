@@ -467,5 +467,58 @@ TEST(Macro, OptionOfCommonVariables) {  // M700 13.4
   EXPECT_EQ(alarm(600, "#999=1\nM30"), "");
 }
 
+// ---- M198, the program store ---------------------------------------------------------------------------------------------------
+
+TEST(ExternalProgram, FirstLineIsNotRunUnlessItIsAnONumber) {  // M700 13.3.2
+  Bench bench;
+  bench.add("198:O7", "#100=1\n#101=1\nM99\n");
+  bench.add("198:O8", "O8\n#102=1\nM99\n");
+  bench.add("198:PART.NC", "G0 X9.;#103=1\n#104=1\nM99\n");
+  const Outcome run = bench.run("M198 P7\nM198 P8\nM198 <PART.NC>\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_TRUE(std::isnan(run.var(100)));
+  EXPECT_EQ(run.var(101), 1);
+  EXPECT_EQ(run.var(102), 1);
+  EXPECT_TRUE(std::isnan(run.var(103)));
+  EXPECT_EQ(run.var(104), 1);
+}
+
+TEST(ExternalProgram, Rules) {
+  Bench bench;
+  bench.add("O5", "#100=#100+1\nM99\n");
+  EXPECT_EQ(bench.run("#100=0\nM198 P5 L3\nM198 P5 L0\nM30").var(100), 3);  // what is no file of the server is looked for in memory
+  bench.add("198:O6", "O6\nM198 P5\nM99\n");
+  EXPECT_EQ(bench.run("M198 P6\nM30").alarm, "P230");  // once per nest
+  EXPECT_EQ(bench.run("M198 P5 H1\nM30").alarm, "P33");
+  EXPECT_EQ(bench.run("M198 P4\nM30").alarm, "P232");
+  EXPECT_EQ(bench.run("M198\nM30").alarm, "P296");
+}
+
+TEST(ProgramStore, ProtectedNumbersAreNotReplaced) {
+  Bench bench;
+  bench.add("O8500", "M99\n");
+  bench.add("O9100", "M99\n");
+  bench.add("O8500", "M99\n");
+  unsigned file = 0;
+  bench.param("1121", "1");
+  EXPECT_EQ(nc_program_add_text(bench.control(), "O9100", "M99", 3, &file), NC_E_STATE);
+  EXPECT_EQ(nc_program_add_text(bench.control(), "O8500", "M99", 3, &file), NC_OK);
+  bench.param("8105", "1");
+  EXPECT_EQ(nc_program_add_text(bench.control(), "O8500", "M99", 3, &file), NC_E_STATE);
+  EXPECT_EQ(nc_program_add_text(bench.control(), "O7999", "M99", 3, &file), NC_OK);
+}
+
+TEST(Reset, ClearsCommonVariablesByParameter) {  // M700 13.4, #1128
+  Bench bench;
+  bench.var(100, 1).var(199, 1).var(500, 1);
+  EXPECT_EQ(nc_reset(bench.control(), 0), NC_OK);
+  EXPECT_EQ(bench.var_now(100), 1);
+  bench.param("1128", "1");
+  EXPECT_EQ(nc_reset(bench.control(), 0), NC_OK);
+  EXPECT_TRUE(std::isnan(bench.var_now(100)));
+  EXPECT_TRUE(std::isnan(bench.var_now(199)));
+  EXPECT_EQ(bench.var_now(500), 1);
+}
+
 }  // namespace
 }  // namespace nc::test

@@ -271,6 +271,19 @@ int functions_command(const std::string& dialect, bool markdown, std::FILE* out,
   return close_output(out, err, kExitEnded);
 }
 
+int variables_command(bool markdown, std::FILE* out, std::FILE* err) {
+  Table table(out, markdown);
+  table.head({"variables", "what", "unit", "read", "written", "section"});
+  nc_system_variable row;
+  for (unsigned i = 0; nc_system_variable_get(i, &row) == NC_OK; ++i) {
+    std::string numbers = "#" + std::to_string(row.first);
+    if (row.last != row.first) numbers += "-#" + std::to_string(row.last);
+    table.row({numbers, row.name, row.unit, !row.readable ? "no" : row.sync != 0 ? "waits for the machine" : "ahead",
+               row.writable ? "yes" : "no", row.section});
+  }
+  return close_output(out, err, kExitEnded);
+}
+
 int alarms_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err) {
   const auto id = dialect_from_name(dialect);
   if (!id) return complain(err, "--dialect " + dialect + ": this version knows m700 and dgshape");

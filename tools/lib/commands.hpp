@@ -35,6 +35,9 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, Plot
 /** `ncsim functions`: the dialect's table, tab-separated or as Markdown. */
 int functions_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err);
 
+/** `ncsim variables`: the table of system variables. */
+int variables_command(bool markdown, std::FILE* out, std::FILE* err);
+
 /** `ncsim alarms`: the dialect's alarm table. */
 int alarms_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err);
 

@@ -33,6 +33,8 @@ struct ProgramFiles::OpenFile {
 
 namespace {
 
+constexpr char kExternal[] = "198:";  // before the names of programs that M198 calls
+
 char lower(char c) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
@@ -75,7 +77,7 @@ std::string reason(nc_status status) {
     case NC_E_MEMORY:
       return "the program store is full";
     case NC_E_STATE:
-      return "a program is running";
+      return "it runs, or is protected (parameters 8105 and 1121)";
     case NC_E_READ:
       return "cannot be read";
     default:
@@ -191,7 +193,10 @@ std::string ProgramFiles::find(const std::string& name) {
 
 bool ProgramFiles::on_missing(void* user, nc_control* control, const char* name) {
   auto* self = static_cast<ProgramFiles*>(user);
-  const std::string path = self->find(name);
+  // M700 13.3.2: a program of the data server.
+  const bool external = std::strncmp(name, kExternal, sizeof kExternal - 1) == 0;
+  const std::string wanted = external ? name + sizeof kExternal - 1 : name;
+  const std::string path = external && !self->external_.empty() ? ProgramFiles(self->external_).find(wanted) : self->find(wanted);
   if (path.empty()) return false;
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return false;

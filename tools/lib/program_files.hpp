@@ -20,6 +20,8 @@ class ProgramFiles {
  public:
   /** @param folder where sub programs are looked for; "" = nowhere. */
   explicit ProgramFiles(std::string folder);
+  /** Folder of the programs of M198 (the data server); "" = the same as that of sub programs. */
+  void set_external(std::string folder) { external_ = std::move(folder); }
   ~ProgramFiles();
   ProgramFiles(const ProgramFiles&) = delete;
   ProgramFiles& operator=(const ProgramFiles&) = delete;
@@ -52,6 +54,7 @@ class ProgramFiles {
   struct OpenFile;
   static long read_at(void* user, uint64_t offset, char* buffer, size_t size);
   static bool on_missing(void* user, nc_control* control, const char* name);
+  std::string external_;
   void list_folder();
 
   std::string folder_;

@@ -85,6 +85,7 @@ bool Session::start(const SessionOptions& options, std::string* error) {
   files_ = std::make_unique<ProgramFiles>(options.programs         ? *options.programs
                                           : options.program == "-" ? "."
                                                                    : folder_of(options.program));
+  files_->set_external(options.external);
   if (!add_main(options, error)) return false;
   files_->attach(control_);
   status = nc_program_select(control_, kPartSystem, main_file_);

@@ -19,6 +19,7 @@ struct SessionOptions {
   std::string setup;    // "" = all defaults
   std::string dialect = "m700";
   std::string print;        // file for what programs print (DPRNT); "" = none
+  std::string external;     // folder of the programs of M198; "" = that of sub programs
   std::optional<std::string> programs;  // folder of sub programs; default: the program's own
 };
 

@@ -106,7 +106,8 @@ typedef long (*nc_read_at)(void* user, uint64_t offset, char* buffer, size_t siz
 /**
  * Enter a text into the program store. The text must stay unchanged while a program runs; it is read in windows, never whole.
  * @param name file name without folder; "O1000", "1000", "1000.nc" make it program 1000 even when the text has no O line. Copied.
- * @param file receives its index (nc_source::file). An entry of the same name is replaced.
+ * @param file receives its index (nc_source::file). An entry of the same name is replaced, unless it runs (online)
+ *             or is protected (M700 #8105: O8000 to O9999, #1121: O9000 to O9999): NC_E_STATE.
  */
 NC_API nc_status nc_program_add(nc_control*, const char* name, nc_read_at read, void* user, uint64_t size, unsigned* file);
 
@@ -115,7 +116,8 @@ NC_API nc_status nc_program_add_text(nc_control*, const char* name, const char* 
 
 /**
  * Asked when a sub program is not in the store: the host may add it with nc_program_add() from inside this call.
- * @param name "O1000" or the name between < >. @return true when it has been added.
+ * @param name "O1000" or the name between < >; for M198 with "198:" before it. To be added under this name.
+ * @return true when it has been added.
  */
 typedef bool (*nc_program_missing)(void* user, nc_control*, const char* name);
 NC_API void nc_program_on_missing(nc_control*, nc_program_missing callback, void* user);
@@ -130,6 +132,18 @@ NC_API nc_status nc_mdi_load(nc_control*, unsigned system, const char* text, siz
 
 /** Put the machine at this place (machine coordinates) while nothing runs; all axes count as referenced. */
 NC_API nc_status nc_position_set(nc_control*, unsigned system, const nc_axes* machine);
+
+/** Name of a common variable (SETVN; M700 13.5.5), "" = none. `name` takes 8 bytes. */
+NC_API nc_status nc_variable_name_get(const nc_control*, uint32_t number, char name[8]);
+/** Give #500..#519 a name that was kept while the power was off; "" takes it away. */
+NC_API nc_status nc_variable_name_set(nc_control*, uint32_t number, const char* name);
+
+/**
+ * What #100110 reads (M700 13.5.5): device `code` of the manual's table, its number; a bit device gives 0 or 1, a word device 16 bits.
+ * Feeder thread. Without a callback the devices do not exist (P39).
+ */
+typedef void (*nc_device_read)(void* user, unsigned code, uint32_t number, uint32_t* value);
+NC_API void nc_device_on_read(nc_control*, nc_device_read callback, void* user);
 
 /** Macro interface outputs as the interpreter holds them (#1132..#1135), for sinks; the machine's own image is in nc_outputs. */
 NC_API uint32_t nc_interface_output(const nc_control*, unsigned system, unsigned word);
@@ -160,6 +174,18 @@ typedef struct nc_function {
 } nc_function;
 /** Row `index` of the table of a dialect; NC_E_NOT_FOUND behind the last. Needs no control. */
 NC_API nc_status nc_function_get(nc_dialect dialect, unsigned index, nc_function* row);
+
+/** One range of system variables (M700 13.5.5), for documentation and HMIs. */
+typedef struct nc_system_variable {
+  uint32_t first, last;
+  bool readable, writable;
+  uint32_t sync;        /**< nc_sync_what: reading waits until everything before has happened; 0 = it is read ahead */
+  const char* unit;
+  const char* name;     /**< short English name */
+  const char* section;  /**< of the manual */
+} nc_system_variable;
+/** Row `index` of the table; NC_E_NOT_FOUND behind the last. Needs no control. */
+NC_API nc_status nc_system_variable_get(unsigned index, nc_system_variable* row);
 
 /** One row of a dialect's alarm table. */
 NC_API nc_status nc_alarm_row(nc_dialect dialect, unsigned index, char code[16], const char** message);

@@ -56,9 +56,28 @@ bool parse_name(const char* name, Name* out) {
   return true;
 }
 
+/// A program whose text must stay: one that runs, or one of the protected numbers (#8105: 8000 to 9999, #1121: 9000 to 9999).
+bool kept(const nc_control* c, unsigned file) {
+  for (unsigned i = 0; i < c->config.system_count; ++i) {
+    const nc::PartSystem& system = c->system[i];
+    const nc::State& state = system.interpreter.state;
+    for (unsigned level = 0; system.busy() && level <= state.depth; ++level)
+      if (state.frame[level].program.file == file) return true;
+  }
+  const uint32_t number = c->store.entry(file)->number;
+  const auto locked = [c](const char* key) {
+    double value = 0;
+    return c->system[0].interpreter.parameters.get(key, -1, &value) && value != 0;
+  };
+  if (number >= 9000 && number <= 9999 && locked("1121")) return true;
+  return number >= 8000 && number <= 9999 && locked("8105");
+}
+
 nc_status add_entry(nc_control* c, const char* name, nc::TextEntry entry, unsigned* file) {
   Name parsed;
   if (c == nullptr || !parse_name(name, &parsed)) return NC_E_ARGUMENT;
+  const int before = c->store.find_exactly(parsed.text);
+  if (before >= 0 && kept(c, static_cast<unsigned>(before))) return NC_E_STATE;
   entry.number = parsed.number;
   unsigned index = 0;
   const nc_status status = c->store.add(entry, parsed.text, &index);
@@ -140,6 +159,24 @@ nc_status nc_variable_get(const nc_control* c, unsigned system, uint32_t number,
   *value = v.number;
   *vacant = v.vacant;
   return NC_OK;
+}
+
+nc_status nc_variable_name_get(const nc_control* c, uint32_t number, char name[8]) {
+  if (c == nullptr || name == nullptr) return NC_E_ARGUMENT;
+  const unsigned length = c->system[0].interpreter.variables.name_of(number, name);
+  name[length] = 0;
+  return NC_OK;
+}
+
+nc_status nc_variable_name_set(nc_control* c, uint32_t number, const char* name) {
+  if (c == nullptr || name == nullptr) return NC_E_ARGUMENT;
+  nc::Variables& variables = c->system[0].interpreter.variables;
+  return variables.name_from_outside(number, name) ? NC_OK : NC_E_ARGUMENT;
+}
+
+void nc_device_on_read(nc_control* c, nc_device_read callback, void* user) {
+  if (c == nullptr) return;
+  for (unsigned i = 0; i < c->config.system_count; ++i) c->system[i].interpreter.devices = {callback, user};
 }
 
 nc_status nc_common_next(const nc_control* c, unsigned system, uint32_t from, uint32_t* number, double* value) {

@@ -237,6 +237,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
 
 nc_status PartSystem::reset() {
   if (busy()) return NC_E_STATE;
+  interpreter.clear_by_reset();
   restart(online_ ? executor.commanded() : commit_.machine());  // by hand or with its drives off the machine may have moved
   commit_.restart();
   return NC_OK;
@@ -298,6 +299,7 @@ nc_status PartSystem::feed(uint32_t budget) {
   if (epoch != epoch_) {  // the scan has given the program up: from its head again, from where the machine stands
     epoch_ = epoch;
     running_ = false;
+    interpreter.clear_by_reset();
     restart(executor.commanded());
     commit_.restart();
   }

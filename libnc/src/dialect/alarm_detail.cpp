@@ -144,6 +144,8 @@ constexpr Sentence kSentences[] = {
     {C::parameter_input,
      "Parameter input (G10 L70 ... G11): {word} is not possible, or there is no such parameter or value.",
      "Parameter input: G10 L70 and G11 stand alone, between them only blocks with P and H, D or <text>."},
+    {C::no_such_data, "There is no parameter, part system, axis or device {value} to read.",
+     "The data that is to be read does not exist."},
     {C::read_failed, "The program could not be read any further.", nullptr},
     {C::internal,
      "The control has met a state that should not exist. Please report the program that led to it.", nullptr},

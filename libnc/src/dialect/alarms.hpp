@@ -26,7 +26,7 @@ enum class Condition : uint16_t {
   program_missing, sequence_missing, nesting, macro_nesting, no_macro, macro_and_words, macro_argument, cancel_without_call,
   user_alarm, bracket_nesting, bracket_pair, calculation, division_by_zero, if_statement, while_statement, name_statement,
   loop_nesting, loop_pair, address_missing, variable_number, no_equals, variable_use, variable_name,
-  variable_name_twice, call_in_cycle, print_port, parameter_input,
+  variable_name_twice, call_in_cycle, print_port, parameter_input, no_such_data,
   read_failed, internal,
   count_
 };

@@ -47,7 +47,7 @@ struct FunctionRow {
 };
 
 /// What an M code is to the control itself; every other M is output.
-enum class MiscFunction : uint8_t { output, program_stop, optional_stop, program_end, call_sub, return_sub, missing };
+enum class MiscFunction : uint8_t { output, program_stop, optional_stop, program_end, call_sub, return_sub, call_external, missing };
 struct MiscRow {
   uint16_t code;
   MiscFunction function;

@@ -279,6 +279,46 @@ Did call_sub(Interpreter& in) {
   return did;
 }
 
+/// M700 13.3.2: a program of the data server; what the host has as such (BlockReader::find_external), else the memory.
+Did call_external(Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (w.has('H')) return in.raise(Condition::format_error, 'H', w.get('H'));  // no call of a sequence number
+  for (unsigned level = 1; level <= in.state.depth; ++level)
+    if (in.state.frame[level].origin == CallOrigin::external) return in.raise(Condition::nesting, 'M', 198);  // once per nest
+  if (top(in).figure != 0) return in.raise(Condition::nesting, 'M', 198);
+  Entry entry;
+  entry.origin = CallOrigin::external;
+  Did did = repetitions(in, w.has('L'), w.has('L') ? w.get('L') : 1, &entry.passes);
+  if (did != Did::done || entry.passes == 0) return did;
+  uint32_t number = 0;
+  if (in.block->name_length == 0 && (!w.has('P') || !whole_number(w.get('P'), &number)))
+    return in.raise(w.has('P') ? Condition::program_missing : Condition::address_missing, 'P');
+  const char* name = in.block->text.begin() + in.block->name;
+  if (in.block->name_length <= 32) entry.program = in.reader.find_external(name, in.block->name_length, number);
+  const bool outside = entry.program.valid();
+  if (!outside) did = find_called(in, w.has('P'), number, false, &entry.program);
+  if (did != Did::done) return did;
+  if (number != 0) entry.program.number = number;
+  if (outside) {
+    // What stands up to the first line feed is not run, unless the file begins with an O number.
+    const Block* first = in.reader.peek(entry.program.file);
+    if (first == nullptr) return in.raise(Condition::read_failed);
+    while (!first->end_of_text && !first->has_o && first->line == 1) {
+      entry.program.offset = first->next;
+      entry.program.line = first->next_line;
+      if (first->next_line > 1) break;
+      first = in.reader.peek(entry.program.file, first->next, first->next_line);
+      if (first == nullptr) return in.raise(Condition::read_failed);
+    }
+  }
+  entry.offset = entry.program.offset;
+  entry.line = entry.program.line;
+  if (!only_calls(in)) in.emit_stop_point();
+  did = enter(in, entry);
+  if (did == Did::later) in.keep_call();
+  return did;
+}
+
 Did check_loops_closed(Interpreter& in) {
   uint32_t number = 0;
   return loop_without_end(in, &number) ? in.raise(Condition::loop_pair, 'D', number) : Did::done;

@@ -71,6 +71,12 @@ struct Interpreter {
   /// With `keep_modal` (MDI after MDI, M700 5.1) modal codes and words, work system and tool length stay; cycles and radius
   /// compensation do not.
   void reset(bool keep_modal);
+  /// What a reset by the operator clears by parameter: #100 to #199 (M700 13.4, #1128 RstVC1).
+  void clear_by_reset() {
+    if (!settings.reset_clears_common) return;
+    for (uint32_t n = 100; n <= 199; ++n)
+      if (common->exists(n)) common->set(n, Value{});
+  }
   /// Back to right behind the block `seq`; false when it is too old.
   bool rewind(BlockSeq seq);
   /// Forget checkpoints; go on from here (position of the machine).
@@ -123,6 +129,10 @@ struct Interpreter {
   Variables variables;
   Notes notes;
   CodeCalls code_calls;
+  struct {
+    nc_device_read read = nullptr;
+    void* user = nullptr;
+  } devices;                       ///< of the PLC (#100110)
   CommonVariables* common = nullptr;
   ProgramStore* store = nullptr;
   BlockReader reader;
@@ -263,6 +273,7 @@ Did continue_block(Interpreter& in);
 Did execute_statement(Interpreter& in, const Statement& statement);
 Did call_sub(Interpreter& in);          ///< M98
 Did return_sub(Interpreter& in);        ///< M99
+Did call_external(Interpreter& in);     ///< M198
 Did check_loops_closed(Interpreter& in);  ///< at the end of a program: a DO without END is P294
 Did text_ended(Interpreter& in);        ///< the end of the text, or '%'
 

@@ -204,6 +204,7 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.interrupt_by_level = flag("1112");
   s.interrupt_type_2 = flag("1113");
   s.interrupt_as_sub = flag("1229/bit0");
+  s.reset_clears_common = flag("1128");
   s.print_blanks = flag("DPRNT_BLANK");
   s.asin_0_360 = flag("1273/bit0");
   s.preset_allowed = number("1267/bit0", 1) != 0;

@@ -34,6 +34,7 @@ struct Settings {
   bool interrupt_by_level = false;    ///< #1112 S_TRG
   bool interrupt_type_2 = false;      ///< #1113 INT_2
   bool interrupt_as_sub = false;      ///< #1229 bit 0
+  bool reset_clears_common = false;   ///< #1128 RstVC1
   bool print_blanks = false;          ///< DPRNT: leading zeros become blanks (M700 13.5.8 (4))
   bool asin_0_360 = false;            ///< #1273 bit 0
   bool start_absolute = true;

@@ -3,41 +3,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "interpret/interpreter.hpp"
+#include "interpret/system_variable_table.hpp"
 
 namespace nc {
 namespace {
-
-struct Access {
-  Interpreter& in;
-  uint32_t number;
-  uint32_t offset;          ///< number - first of the range
-  Value* value = nullptr;   ///< read
-  uint32_t* sync = nullptr; ///< read: what is missing
-  double written = 0;       ///< write
-  const Statement* statement = nullptr;
-};
-
-using Reader = Eval (*)(Access& a);
-using Writer = Did (*)(Access& a);
-
-struct Range {
-  uint32_t first, last;
-  Reader read;
-  Writer write;             ///< nullptr: read only (P243)
-};
-
-Eval give(Access& a, double number) {
-  *a.value = Value::of(number);
-  return Eval::ok;
-}
-
-/// The value exists only when everything before has happened: is the answer there?
-bool world_known(Access& a, uint32_t what) {
-  if (a.in.world_fresh) return true;
-  *a.sync = what;
-  return false;
-}
 
 bool reads_inch(const Interpreter& in, unsigned axis) {
   return in.state.modal.code[kGroupUnit] == 200 && ((in.rotary >> axis) & 1) == 0;
@@ -118,10 +87,6 @@ bool tool_key(Access& a, uint32_t* key) {
   *key = a.in.frames.tool_key(index, column);
   return true;
 }
-Eval no_variable(Access& a) {
-  a.in.raise(Condition::variable_number, '#', a.number);
-  return Eval::fault;
-}
 Eval read_tool(Access& a) {
   uint32_t key = 0;
   return tool_key(a, &key) ? give(a, a.in.frames.get(key)) : no_variable(a);
@@ -183,18 +148,20 @@ Did write_message(Access& a) {
   return Did::done;
 }
 
+unsigned counter_of(const Access& a) { return a.number - 3001; }
+
 double counter_ms(const Interpreter& in, unsigned which) { return which == 0 ? in.world.power_on_ms : in.world.run_ms; }
 double counter_unit(const Interpreter& in, unsigned which) { return which == 1 && in.settings.run_time_hours ? 3600000.0 : 1.0; }
 
 Eval read_counter(Access& a) {
   if (!world_known(a, NC_SYNC_CLOCK)) return Eval::need_sync;
-  return give(a, (counter_ms(a.in, a.offset) - a.in.state.clock_base[a.offset]) / counter_unit(a.in, a.offset));
+  return give(a, (counter_ms(a.in, counter_of(a)) - a.in.state.clock_base[counter_of(a)]) / counter_unit(a.in, counter_of(a)));
 }
 Did write_counter(Access& a) {
-  const double unit = counter_unit(a.in, a.offset);
+  const double unit = counter_unit(a.in, counter_of(a));
   if (!(a.written >= 0) || a.written * unit > 244335917226.0) return a.in.raise(Condition::value_range, '#', a.written);  // M700 13.5.5 (24299)
   if (!a.in.world_fresh) return a.in.need(NC_SYNC_CLOCK);
-  a.in.state.clock_base[a.offset] = counter_ms(a.in, a.offset) - a.written * unit;
+  a.in.state.clock_base[counter_of(a)] = counter_ms(a.in, counter_of(a)) - a.written * unit;
   return Did::done;
 }
 
@@ -230,7 +197,7 @@ Did write_date(Access& a) {
   const unsigned high = digits / 10000, middle = digits / 100 % 100, low = digits % 100;
   int64_t year = 0;
   unsigned month = 0, day = 0;
-  if (a.offset == 0) {
+  if ((a.number - 3011) == 0) {
     civil(days_of(high, middle == 0 ? 1 : middle, low == 0 ? 1 : low), &year, &month, &day);
     if (high < 2000 || high > 2099 || month != middle || day != low) return a.in.raise(Condition::value_range, '#', a.written);
   } else if (high > 23 || middle > 59 || low > 59) {
@@ -238,7 +205,7 @@ Did write_date(Access& a) {
   }
   if (!a.in.world_fresh) return a.in.need(NC_SYNC_CLOCK);
   const int64_t now = clock_seconds(a.in);
-  const int64_t wanted = a.offset == 0 ? days_of(high, middle, low) * 86400 + now % 86400 : now - now % 86400 + high * 3600 + middle * 60 + low;
+  const int64_t wanted = (a.number - 3011) == 0 ? days_of(high, middle, low) * 86400 + now % 86400 : now - now % 86400 + high * 3600 + middle * 60 + low;
   a.in.state.clock_shift_s += wanted - now;
   return Did::done;
 }
@@ -254,7 +221,7 @@ Did write_count(Access& a) {
 Eval read_date(Access& a) {
   if (!world_known(a, NC_SYNC_CLOCK)) return Eval::need_sync;
   const int64_t seconds = clock_seconds(a.in);
-  if (a.offset == 1) return give(a, static_cast<double>(seconds / 3600 % 24 * 10000 + seconds / 60 % 60 * 100 + seconds % 60));
+  if ((a.number - 3011) == 1) return give(a, static_cast<double>(seconds / 3600 % 24 * 10000 + seconds / 60 % 60 * 100 + seconds % 60));
   int64_t year = 0;
   unsigned month = 0, day = 0;
   civil(seconds / 86400, &year, &month, &day);
@@ -273,10 +240,6 @@ Did write_control(Access& a) {
 }
 Eval read_control(Access& a) { return give(a, a.number == 3003 ? a.in.state.control_3003 : a.in.state.control_3004); }
 Eval read_mirror(Access& a) { return give(a, a.in.state.mirror); }
-Eval write_only(Access& a) {
-  a.in.raise(Condition::variable_use, '#', a.number);
-  return Eval::fault;
-}
 
 // ---- modal state ---------------------------------------------------------------------------------------------------------------
 
@@ -352,44 +315,65 @@ Eval read_deviation(Access& a) {
   return world_known(a, NC_SYNC_POSITION) ? give(a, 0) : Eval::need_sync;
 }
 
-constexpr Range kRanges[] = {
-    {1000, 1031, read_input_bit, nullptr},
-    {1032, 1035, read_input_word, nullptr},
-    {1100, 1131, read_output_bit, write_output_bit},
-    {1132, 1135, read_output_word, write_output_word},
-    {1200, 1295, read_input_bit, nullptr},
-    {1300, 1395, read_output_bit, write_output_bit},
-    {2001, 2800, read_tool, write_tool},
-    {3000, 3000, write_only, write_alarm},
-    {3001, 3002, read_counter, write_counter},
-    {3003, 3004, read_control, write_control},
-    {3006, 3006, write_only, write_message},
-    {3007, 3007, read_mirror, nullptr},
-    {3011, 3012, read_date, write_date},
-    {3901, 3902, read_count, write_count},
-    {4001, 4021, read_group_ahead, nullptr},
-    {4101, 4120, read_word_ahead, nullptr},
-    {4201, 4221, read_group_now, nullptr},
-    {4301, 4320, read_word_now, nullptr},
-    {4401, 4421, read_group_interrupt, nullptr},
-    {4501, 4520, read_word_interrupt, nullptr},
-    {5001, 5020, read_end_point, nullptr},
-    {5021, 5040, read_machine, nullptr},
-    {5041, 5060, read_work_position, nullptr},
-    {5061, 5080, read_skip, nullptr},
-    {5081, 5100, read_compensation, nullptr},
-    {5101, 5120, read_deviation, nullptr},
-    {5201, 5340, read_work, write_work},
-    {7001, 8920, read_work, write_work},
-    {10001, 10999, read_tool, write_tool},
-    {11001, 11999, read_tool, write_tool},
-    {16001, 16999, read_tool, write_tool},
-    {17001, 17999, read_tool, write_tool},
+constexpr uint32_t kPosition = NC_SYNC_POSITION, kInput = NC_SYNC_INPUT, kClock = NC_SYNC_CLOCK, kModal = NC_SYNC_MODAL;
+
+// The table. Sections are those of 13.5.5 but for 13.12 and 14.10.
+constexpr SystemVariableRow kRows[] = {
+    {1000, 1031, read_input_bit, nullptr, kInput, "0/1", "macro interface inputs, bits of #1032", "13.5.5"},
+    {1032, 1035, read_input_word, nullptr, kInput, "32 bits", "macro interface inputs, words", "13.5.5"},
+    {1100, 1131, read_output_bit, write_output_bit, 0, "0/1", "macro interface outputs, bits of #1132", "13.5.5"},
+    {1132, 1135, read_output_word, write_output_word, 0, "32 bits", "macro interface outputs, words", "13.5.5"},
+    {1200, 1295, read_input_bit, nullptr, kInput, "0/1", "macro interface inputs, bits of #1033 to #1035", "13.5.5"},
+    {1300, 1395, read_output_bit, write_output_bit, 0, "0/1", "macro interface outputs, bits of #1133 to #1135", "13.5.5"},
+    {2001, 2800, read_tool, write_tool, 0, "mm", "tool offsets 1 to 200: length, #2201 its wear, #2401 radius, #2601 its wear", "13.5.5"},
+    {3000, 3000, nullptr, write_alarm, 0, "1-9999", "alarm of the program, with its text in ( )", "13.5.5"},
+    {3001, 3001, read_counter, write_counter, kClock, "ms", "time with power on", "13.5.5"},
+    {3002, 3002, read_counter, write_counter, kClock, "ms, h (#1273 bit 1)", "time in automatic start", "13.5.5"},
+    {3003, 3004, read_control, write_control, 0, "bits", "#3003 no single block stop, no FIN; #3004 no feed hold, override, G09", "13.5.5"},
+    {3006, 3006, nullptr, write_message, 0, "-", "stop with the message in ( )", "13.5.5"},
+    {3007, 3007, read_mirror, nullptr, 0, "bits", "mirrored axes, bit 0 = first axis", "13.5.5"},
+    {3011, 3011, read_date, write_date, kClock, "YYYYMMDD", "date", "13.5.5"},
+    {3012, 3012, read_date, write_date, kClock, "HHMMSS", "time of day", "13.5.5"},
+    {3901, 3902, read_count, write_count, 0, "count", "workpieces machined, #3902 their maximum", "13.5.5"},
+    {4001, 4021, read_group_ahead, nullptr, 0, "G code", "active G code of groups 1 to 21, as read", "13.5.5"},
+    {4101, 4120, read_word_ahead, nullptr, 0, "as programmed", "B D F H M N O S T (#4102 07 09 11 13 14 15 19 20), as read", "13.5.5"},
+    {4201, 4221, read_group_now, nullptr, kModal, "G code", "active G code of groups 1 to 21, block in execution", "13.5.5"},
+    {4301, 4320, read_word_now, nullptr, kModal, "as programmed", "B D F H M N O S T, block in execution", "13.5.5"},
+    {4401, 4421, read_group_interrupt, nullptr, 0, "G code", "active G code of groups 1 to 21 at a macro interrupt", "13.12"},
+    {4501, 4520, read_word_interrupt, nullptr, 0, "as programmed", "D F H M N O S T at a macro interrupt", "13.12"},
+    {5001, 5020, read_end_point, nullptr, 0, "mm, inch, deg", "end point of the block before, by axis", "13.5.5"},
+    {5021, 5040, read_machine, nullptr, kPosition, "mm, inch, deg", "machine position", "13.5.5"},
+    {5041, 5060, read_work_position, nullptr, kPosition, "mm, inch, deg", "workpiece position, tool compensation in it", "13.5.5"},
+    {5061, 5080, read_skip, nullptr, 0, "mm, inch, deg", "position of the last skip", "13.5.5"},
+    {5081, 5100, read_compensation, nullptr, 0, "mm, inch, deg", "tool position compensation", "13.5.5"},
+    {5101, 5120, read_deviation, nullptr, kPosition, "mm, inch, deg", "servo deviation", "13.5.5"},
+    {5201, 5340, read_work, write_work, 0, "mm, deg", "work offsets: external, #5221 G54 to #5321 G59, by axis", "13.5.5"},
+    {7001, 8920, read_work, write_work, 0, "mm, deg", "work offsets G54.1 P1 to P96, 20 numbers each, by axis", "14.10"},
+    {10001, 10999, read_tool, write_tool, 0, "mm", "tool offsets: length (type I: the value)", "13.5.5"},
+    {11001, 11999, read_tool, write_tool, 0, "mm", "tool offsets: length wear (type II)", "13.5.5"},
+    {16001, 16999, read_tool, write_tool, 0, "mm", "tool offsets: radius (type II)", "13.5.5"},
+    {17001, 17999, read_tool, write_tool, 0, "mm", "tool offsets: radius wear (type II)", "13.5.5"},
+    {30060, 30068, read_rotation, nullptr, 0, "axis, mm, deg", "coordinate rotation: axes, centre, angle, SIN, COS, vector", "13.5.5"},
+    {60000, 60000, nullptr, select_tool_group, 0, "group", "tool life: group that is read", "13.5.5"},
+    {60001, 60008, read_tool_group, nullptr, 0, "-", "tool life of the group; -1 = not registered", "13.5.5"},
+    {60501, 60700, read_tool_life, nullptr, 0, "-", "tool life: group number; -1 = no tool registered", "13.5.5"},
+    {61001, 61200, read_tool_life, nullptr, 0, "-", "tool life: tool number", "13.5.5"},
+    {61501, 61700, read_tool_life, nullptr, 0, "-", "tool life: flags", "13.5.5"},
+    {62001, 62200, read_tool_life, nullptr, 0, "-", "tool life: status", "13.5.5"},
+    {62501, 62700, read_tool_life, nullptr, 0, "-", "tool life: life", "13.5.5"},
+    {63001, 63200, read_tool_life, nullptr, 0, "-", "tool life: used", "13.5.5"},
+    {63501, 63700, read_tool_life, nullptr, 0, "-", "tool life: length compensation", "13.5.5"},
+    {64001, 64200, read_tool_life, nullptr, 0, "-", "tool life: radius compensation", "13.5.5"},
+    {64501, 64700, read_tool_life, nullptr, 0, "-", "tool life: auxiliary data", "13.5.5"},
+    {100000, 100002, nullptr, select_parameter, 0, "-", "parameter that is read: number, part system, axis", "13.5.5"},
+    {100010, 100010, read_parameter, nullptr, 0, "the parameter's", "value of that parameter", "13.5.5"},
+    {100100, 100103, nullptr, select_device, 0, "-", "PLC data that is read: device, number, bytes, bit", "13.5.5"},
+    {100110, 100110, read_device, nullptr, kInput, "-", "value of that device", "13.5.5"},
 };
 
-const Range* find_range(uint32_t number) {
-  for (const Range& range : kRanges)
-    if (number >= range.first && number <= range.last) return &range;
+const SystemVariableRow* find_range(uint32_t number) {
+  for (const SystemVariableRow& row : kRows)
+    if (number >= row.first && number <= row.last) return &row;
   return nullptr;
 }
 
@@ -408,9 +392,9 @@ Eval read_any(void* self, uint32_t number, Value* value, Fault* fault, uint32_t*
 VariableReader variable_reader(Interpreter& in) { return {&in, read_any, find_variable_name, in.variables.locals(in.macro_level()), kLocals}; }
 
 Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault* fault, uint32_t* sync) {
-  const Range* range = find_range(number);
-  if (range == nullptr) {
-    in.raise(Condition::variable_number, '#', number);
+  const SystemVariableRow* range = find_range(number);
+  if (range == nullptr || range->read == nullptr) {
+    in.raise(range == nullptr ? Condition::variable_number : Condition::variable_use, '#', number);
     *fault = in.fault;
     return Eval::fault;
   }
@@ -421,7 +405,7 @@ Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault*
 }
 
 Did write_system_variable(Interpreter& in, uint32_t number, Value value, const Statement& statement) {
-  const Range* range = find_range(number);
+  const SystemVariableRow* range = find_range(number);
   if (range == nullptr) return in.raise(Condition::variable_number, '#', number);
   if (range->write == nullptr) return in.raise(Condition::variable_use, '#', number);
   Access access{in, number, number - range->first};
@@ -431,3 +415,12 @@ Did write_system_variable(Interpreter& in, uint32_t number, Value value, const S
 }
 
 }  // namespace nc
+
+nc_status nc_system_variable_get(unsigned index, nc_system_variable* row) {
+  constexpr unsigned kCount = sizeof nc::kRows / sizeof nc::kRows[0];
+  if (row == nullptr) return NC_E_ARGUMENT;
+  if (index >= kCount) return NC_E_NOT_FOUND;
+  const nc::SystemVariableRow& from = nc::kRows[index];
+  *row = nc_system_variable{from.first, from.last, from.read != nullptr, from.write != nullptr, from.sync, from.unit, from.name, from.section};
+  return NC_OK;
+}

@@ -198,6 +198,21 @@ bool Variables::set_name(uint32_t number, const char* name, size_t length, Block
   return true;
 }
 
+bool Variables::name_from_outside(uint32_t number, const char* name) {
+  const uint32_t index = number - kFirstNamed;
+  size_t length = 0;
+  for (; name[length] != 0; ++length) {
+    const char c = name[length];
+    const bool good = (c >= 'A' && c <= 'Z') || (length > 0 && c >= '0' && c <= '9');
+    if (!good || length == kNameLength) return false;
+  }
+  if (index >= kNames || !common_->exists(number)) return false;
+  const double code = length == 0 ? 0 : name_code(name, length);
+  common_->set_name(index, code);
+  journal_.replace(kNameKey | index, Value::of(code));
+  return true;
+}
+
 bool Variables::find_name(const char* name, size_t length, uint32_t* number) const {
   if (length == 0 || length > kNameLength) return false;
   const double code = name_code(name, length);

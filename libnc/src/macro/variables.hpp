@@ -83,6 +83,8 @@ class Variables {
 
   /// SETVN: capitals and digits, 1..kNameLength of them; false when the variable cannot have a name.
   bool set_name(uint32_t number, const char* name, size_t length, BlockSeq seq);
+  /// The same by the host, NUL-terminated; "" takes the name away. No rewind undoes it.
+  bool name_from_outside(uint32_t number, const char* name);
   bool find_name(const char* name, size_t length, uint32_t* number) const;
   /// The name of a variable, without end; 0 = none. `name` has kNameLength places.
   unsigned name_of(uint32_t number, char* name) const;

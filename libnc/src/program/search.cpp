@@ -241,6 +241,34 @@ ProgramRef BlockReader::find_program(const char* name, size_t length) {
   return ref;
 }
 
+ProgramRef BlockReader::find_external(const char* name, size_t length, uint32_t number) {
+  char text[sizeof TextEntry{}.name] = "198:";
+  size_t used = 4;
+  if (length != 0) {
+    if (used + length >= sizeof text) return {};
+    std::memcpy(text + used, name, length);
+    used += length;
+  } else {
+    char digits[10];
+    unsigned count = 0;
+    for (uint32_t n = number; n != 0; n /= 10) digits[count++] = static_cast<char>('0' + n % 10);
+    if (count == 0) return {};
+    text[used++] = 'O';
+    while (count != 0) text[used++] = digits[--count];
+  }
+  text[used] = '\0';
+  if (store_->find_name(text, used) < 0 && !store_->ask_host(text)) return {};
+  const int file = store_->find_name(text, used);
+  ProgramRef ref;
+  if (file >= 0) ref.file = static_cast<uint16_t>(file);
+  return ref;
+}
+
+const Block* BlockReader::peek(unsigned file, uint64_t offset, uint32_t line) {
+  const TextEntry* entry = store_->entry(file);
+  return entry != nullptr && compile(*entry, file, offset, line, *searched_) ? searched_ : nullptr;
+}
+
 bool BlockReader::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t limit,
                                 uint64_t budget, bool* again, bool from_head) {
   *again = false;

@@ -87,6 +87,13 @@ const TextEntry* ProgramStore::entry(unsigned file) const {
   return file < count_ ? &entries_[file] : nullptr;
 }
 
+int ProgramStore::find_exactly(const char* name) const {
+  const size_t length = std::strlen(name);
+  for (unsigned i = 0; i < count_; ++i)
+    if (same_name(entries_[i].name, std::strlen(entries_[i].name), name, length)) return static_cast<int>(i);
+  return -1;
+}
+
 int ProgramStore::find_name(const char* name, size_t length) const {
   for (size_t i = length; i-- > 0;) {
     if (name[i] != '/' && name[i] != '\\') continue;

@@ -25,6 +25,8 @@ class ProgramStore {
   nc_status add(const TextEntry& entry, const char* name, unsigned* file);
   void on_missing(nc_program_missing callback, void* user, nc_control* control);
   const TextEntry* entry(unsigned file) const;
+  /// By the whole name; case is ignored.
+  int find_exactly(const char* name) const;
   /// By name without folder; case is ignored; with or without an ending.
   int find_name(const char* name, size_t length) const;
   int find_number(uint32_t number) const;
@@ -55,6 +57,11 @@ class BlockReader {
   /// host adds.
   ProgramRef find_program(uint32_t number, unsigned own_file);
   ProgramRef find_program(const char* name, size_t length);
+  /// A program of the data server (M198): by name, or by number where `length` is 0. In the store and for the host its name begins
+  /// with "198:".
+  ProgramRef find_external(const char* name, size_t length, uint32_t number);
+  /// The block at `offset` without disturbing the one that read() gave.
+  const Block* peek(unsigned file, uint64_t offset = 0, uint32_t line = 1);
 
   /// First block with sequence number n in [offset, limit); limit 0 = the end of the program (a '%', the next
   /// O line, the end of the text). Blocks with a skip sign count (M700 13.5.7). False when there is none.

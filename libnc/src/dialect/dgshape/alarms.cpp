@@ -116,6 +116,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::call_in_cycle, "NC-MACRO", nullptr},
     {C::print_port, "NC-MACRO", nullptr},
     {C::parameter_input, "NC-DATA", nullptr},
+    {C::no_such_data, "NC-DATA", nullptr},
     {C::read_failed, "NC-READ", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };

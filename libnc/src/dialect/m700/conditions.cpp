@@ -86,6 +86,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::call_in_cycle, "P310", nullptr},
     {C::print_port, "P460", nullptr},  // appendix 1: "... or in the printer during macro printing"
     {C::parameter_input, "P421", nullptr},
+    {C::no_such_data, "P39", nullptr},  // 13.5.5, parameter and PLC data read
     {C::read_failed, "P461", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };

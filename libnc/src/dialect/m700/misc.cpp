@@ -15,7 +15,7 @@ const MiscRow kMisc[] = {
     {97, M::output, nullptr, "macro interrupt off", "13.12"},
     {98, M::call_sub, nullptr, "sub program call", "13.3.1"},
     {99, M::return_sub, nullptr, "return from a sub program", "13.3.1"},
-    {198, M::missing, "P39", "sub program call in the data server", "13.3.2"},
+    {198, M::call_external, nullptr, "sub program call in the data server", "13.3.2"},
 };
 
 }  // namespace nc::m700

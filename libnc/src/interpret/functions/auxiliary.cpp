@@ -197,6 +197,7 @@ Did auxiliary_after(Interpreter& in) {
         in.state.end_seen = true;
         return Did::done;
       case MiscFunction::call_sub: return call_sub(in);
+      case MiscFunction::call_external: return call_external(in);
       case MiscFunction::return_sub: return return_sub(in);
       default: break;
     }

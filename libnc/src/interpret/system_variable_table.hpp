@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a row of the table of system variables is (M700 13.5.5), for the files that hold its readers and writers.
+#pragma once
+
+#include "interpret/interpreter.hpp"
+
+namespace nc {
+
+/// One access to one variable.
+struct Access {
+  Interpreter& in;
+  uint32_t number;
+  uint32_t offset;          ///< number - first of the range
+  Value* value = nullptr;   ///< read
+  uint32_t* sync = nullptr; ///< read: what is missing
+  double written = 0;       ///< write
+  const Statement* statement = nullptr;
+};
+
+using VariableGet = Eval (*)(Access& a);
+using VariableSet = Did (*)(Access& a);
+
+/// One range: the only place that says what a system variable is. docs/system-variables.md is made from it.
+struct SystemVariableRow {
+  uint32_t first, last;
+  VariableGet read;         ///< nullptr: cannot be read (P243)
+  VariableSet write;        ///< nullptr: cannot be written (P243)
+  uint32_t sync;            ///< nc_sync_what: its value exists only when everything before has happened; 0 = read ahead
+  const char* unit;
+  const char* name;
+  const char* section;      ///< of the manual
+};
+
+inline Eval give(Access& a, double number) {
+  *a.value = Value::of(number);
+  return Eval::ok;
+}
+
+inline Eval no_variable(Access& a) {
+  a.in.raise(Condition::variable_number, '#', a.number);
+  return Eval::fault;
+}
+
+/// The value exists only when everything before has happened: is the answer there?
+inline bool world_known(Access& a, uint32_t what) {
+  if (a.in.world_fresh) return true;
+  *a.sync = what;
+  return false;
+}
+
+// machine_data_variables.cpp
+Eval read_rotation(Access& a);         ///< #30060...
+Did select_tool_group(Access& a);      ///< #60000
+Eval read_tool_group(Access& a);       ///< #60001...
+Eval read_tool_life(Access& a);        ///< #60500 + r ... #64500 + r
+Did select_parameter(Access& a);       ///< #100000...#100002
+Eval read_parameter(Access& a);        ///< #100010
+Did select_device(Access& a);          ///< #100100...#100103
+Eval read_device(Access& a);           ///< #100110
+
+}  // namespace nc
