@@ -76,6 +76,15 @@ void set_parameters(nc_control* control, const Chosen& chosen) {
     set("8103", (o & 32) != 0);
     set("1080", (o & 64) != 0);
     set("8101", (o & 64) != 0);
+    set("macro_extensions", (o & 1) != 0);
+    set("1112", (o & 32) != 0);
+    set("1113", (o & 8) != 0);
+    set("1229/bit0", (o & 16) != 0);
+    set("7202", (o & 2) != 0, "1", "3");
+    // G120 calls O7, M50 calls O8, D calls O7 with its value in #130.
+    constexpr const char* kCalls[][2] = {{"7201", "120"}, {"7203", "7"}, {"7001", "50"}, {"7003", "8"}, {"7401", "1"},
+                                         {"7402", "D"},   {"7403", "0"}, {"7404", "7"},  {"7405", "130"}};
+    for (const auto& call : kCalls) require(nc_parameter_set(control, 0, call[0], 0, call[1]) == NC_OK);
     require(nc_parameter_set(control, 0, "2106", 'A', (o & 2) != 0 ? "5" : "0") == NC_OK);
   } else {
     set("interpretation", (o & 2) != 0, "calculator", "conventional");
@@ -121,6 +130,11 @@ void pull(nc_control* control, const Chosen& chosen) {
     }
     require(!ended);
     require(item.serial == serial + 1);
+    if ((chosen.world & 16) != 0 && (item.serial * 7 + chosen.world) % 11 < 2) {  // the interrupt signal comes and goes
+      bool take_back = false;
+      require(nc_interrupt_signal(control, 0, (item.serial * 7 + chosen.world) % 11 == 0, &take_back) == NC_OK);
+      if (take_back) continue;  // the item was not executed: its serial comes again
+    }
     serial = item.serial;
     if (item.kind == NC_ITEM_MOVE) {
       const nc_move& m = item.u.move;
@@ -167,6 +181,7 @@ void cycle(nc_control* control, const Chosen& chosen) {
     in.single_block = (chosen.world & 1) != 0 && (n >> 7) % 2 == 0;
     in.optional_stop = (chosen.world & 2) != 0;
     in.fin = n % 5 == 4;
+    in.macro_interrupt = (chosen.world & 16) != 0 && n % 83 == 40;
     in.reset = (chosen.world & 4) != 0 && n == kCycles / 2;
     in.feed_override = 0.5 + 0.25 * ((n >> 5) % 5);
     in.rapid_override = 1;

@@ -313,9 +313,11 @@ Did call_external(Interpreter& in) {
   }
   entry.offset = entry.program.offset;
   entry.line = entry.program.line;
-  if (!only_calls(in)) in.emit_stop_point();
+  const bool stops = !only_calls(in);
   did = enter(in, entry);
-  if (did == Did::later) in.keep_call();
+  if (did != Did::later) return did;
+  in.keep_call();
+  if (stops) in.emit_stop_point(true);
   return did;
 }
 
