@@ -37,12 +37,6 @@ TEST(SubProgram, Repetitions) {
   EXPECT_EQ(bench.at(0, 0, 0).run("M98 P1\nM98 P1\nM30").path().size(), 2u);
 }
 
-TEST(SubProgram, FigureRotationIsNotFitted) {  // M700 13.3.3; the sentence names what asks for it, not the call
-  const Outcome run = m700("M98 P1 J1.\nM30");
-  EXPECT_EQ(run.alarm, "P39");
-  EXPECT_NE(run.alarm_detail.find("J1"), std::string::npos) << run.alarm_detail;
-}
-
 TEST(SubProgram, OneWayOnInABlock) {  // only the first of them would act
   Bench bench;
   bench.add("O1", "G0 X1.\nM99\n");

@@ -112,7 +112,7 @@ TEST(ParameterInput, BitNumberAndText) {  // 13.11
 
 TEST(ParameterInput, WhatIsNotPossibleIsP421) {
   EXPECT_EQ(m700("G10 L70 P1\nM30").alarm, "P421");
-  EXPECT_EQ(m700("G11\nM30").alarm, "P421");
+  EXPECT_EQ(m700("G11\nM30").alarm, "");  // 12.7 (3): it ends the input of offsets too
   EXPECT_EQ(m700("G10 L70\nG1 X1.\nG11\nM30").alarm, "P421");
   EXPECT_EQ(m700("G10 L70\nP1078 D5\nG11\nM30").alarm, "P421");
   EXPECT_EQ(m700("G10 L70\nP1078\nG11\nM30").alarm, "P421");

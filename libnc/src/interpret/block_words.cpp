@@ -91,7 +91,8 @@ Did gather_words(Interpreter& in) {
   const Word* const words = in.block->words.begin();
   const unsigned count = in.block->words.size();
   uint32_t present = 0;
-  char bare_axis = 0, late_number = 0;
+  char bare_axis = 0;
+  w.late_number = 0;
   for (unsigned i = 0; i < count; ++i) {
     const Word& word = words[i];
     const unsigned at = static_cast<unsigned>(word.letter - 'A');
@@ -132,7 +133,7 @@ Did gather_words(Interpreter& in) {
       if (did != Did::done) return did;
       continue;
     }
-    if (word.letter == 'N' || word.letter == 'O') late_number = word.letter;
+    if (word.letter == 'N' || word.letter == 'O') w.late_number = word.letter;
     if (bare) {  // any other address needs a number
       if (in.axis_of[at] < 0) return in.raise(Condition::format_error, word.letter);
       bare_axis = word.letter;
@@ -146,9 +147,6 @@ Did gather_words(Interpreter& in) {
   // M700 14.10 prints "G28 XYZ" and means zeros; a word of any other block is a letter and a number (3.2 (1)).
   if (bare_axis != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::reference_return))
     return in.raise(Condition::format_error, bare_axis);
-  // M700 3.2 note 9, DGSHAPE 1-1: N and O begin a block. Behind other words nothing would find them (N of G10 is something else).
-  if (late_number != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
-    return in.raise(Condition::format_error, late_number, w.get(late_number));
   return Did::done;
 }
 

@@ -189,6 +189,9 @@ Did execute_words(Interpreter& in) {
   if (did != Did::done) return did;
   if (macro_call) return call_macro(in);
   if (in.state.frame[in.state.depth].modal_call != 0 && block_is_argument(in)) return call_with_block(in);
+  // M700 3.2 note 9, DGSHAPE 1-1: N and O begin a block. Behind other words nothing would find them (N of G10 is something else).
+  if (w.late_number != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
+    return in.raise(Condition::format_error, w.late_number, w.get(w.late_number));
   did = check_company(in);
   if (did != Did::done) return did;
   did = resolve_axes(in);

@@ -188,12 +188,12 @@ Did call_macro(Interpreter& in) {
   MacroCall call;
   Did did = gather_arguments(in, false, call);
   if (did != Did::done) return did;
+  const Function function = in.words.one_shot->function;
   Entry entry;
+  did = repetitions(in, call.has_l, call.l, &entry.passes);
+  if (did != Did::done || (entry.passes == 0 && function == Function::macro_call)) return did;  // not called, so nothing is looked for
   did = find_called(in, call.has_p, call.p, false, &entry.program);
   if (did != Did::done) return did;
-  did = repetitions(in, call.has_l, call.l, &entry.passes);
-  if (did != Did::done) return did;
-  const Function function = in.words.one_shot->function;
   if (function == Function::macro_call) {
     entry.kind = CallKind::macro;
     entry.offset = entry.program.offset;

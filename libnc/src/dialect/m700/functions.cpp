@@ -33,7 +33,7 @@ constexpr FunctionRow kListed[] = {
     {80, 0, F::missing, "P123", "high-accuracy control on and off", "13.15"},
     {90, 0, F::exact_stop_once, nullptr, "exact stop check in this block", "7.7"},
     {100, 0, F::data_input, nullptr, "data input by program", "12.7"},
-    {110, 0, F::data_input_end, nullptr, "parameter input end", "13.11"},
+    {110, 0, F::data_input_end, nullptr, "data input end", "12.7, 13.11"},
     {120, 0, F::missing, "P224", "circle cutting clockwise", "13.10"},
     {121, 21, F::missing, "P480", "polar coordinate interpolation", "6.10"},
     {130, 0, F::missing, "P224", "circle cutting counter-clockwise", "13.10"},

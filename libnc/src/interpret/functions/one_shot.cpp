@@ -10,8 +10,8 @@ struct Handler {
   Did (*run)(Interpreter& in);
 };
 
-/// G11 that ends nothing (M700 13.11, appendix 1 P421).
-Did end_without_input(Interpreter& in) { return in.raise(Condition::parameter_input, 'G', 11); }
+/// G11 outside the input of parameters: G10 L2 to L20, which 12.7 (3) lets it end too, act in their own block only.
+Did end_without_input(Interpreter&) { return Did::done; }
 
 constexpr Handler kHandlers[] = {
     {Function::dwell, do_dwell},
