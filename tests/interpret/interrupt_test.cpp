@@ -153,6 +153,50 @@ TEST(MacroInterrupt, OtherCodesByParameter) {  // #1109 #1110 #1111
   EXPECT_EQ(run.aux(), "M96 M30");
 }
 
+/// An interrupt program that neither moves nor gives out codes changes nothing, wherever it comes in: what has happened of a block is
+/// not done twice, and nothing of it is lost.
+TEST(MacroInterrupt, WithoutMovesNothingChangesAtAnyItem) {
+  const std::string text =
+      "M96 P1000\nG0 X1. Y2.\nT3 M6\nG1 X5. F300 M8 S500\nG91 G2 X2. I1.\nG90 G4 P100\nG98 G83 X9. Y1. Z-3. Q1. R1. F100\nX11. L2\nG80 G0\n"
+      "M98 P1 L2\n#1=2\nWHILE [#1 GT 0] DO1\nG91 X[#1]\n#1=#1-1\nEND1\nG65 P2 A4.\nG66 P2 A1.\nG0 X3. Z2.\nG67\nG90 G28 X0\nM30";
+  const auto prepare = [](Bench& bench, bool type_2) {
+    bench.add("O1", "G91 X1. M7\nG90\nM99\n");
+    bench.add("O2", "G0 Z[5+#1]\nM9\nM99\n");
+    bench.add("O1000", "#150=#150+1\nG91 G55 F5\nM99\n");
+    bench.param("1113", type_2 ? "1" : "0").param("8013", "0.5").work_offset(2, {7, 7, 7});
+  };
+  Bench plain;
+  prepare(plain, false);
+  const Outcome expected = plain.run(text);
+  ASSERT_EQ(expected.alarm, "");
+  ASSERT_GT(expected.steps.size(), 90u);
+  unsigned accepted = 0;
+  for (const bool type_2 : {false, true}) {
+    for (size_t at = 3; at + 2 < expected.steps.size(); ++at) {
+      SCOPED_TRACE("item " + std::to_string(at) + (type_2 ? ", type 2" : ", type 1"));
+      Bench bench;
+      prepare(bench, type_2);
+      size_t n = 0;
+      bench.start(text);
+      Outcome run;
+      Step step;
+      while (bench.pull(&step) == NC_OK && run.steps.size() < 2000) {
+        bool take_back = false, ignored = false;
+        if (n++ == at) {
+          nc_interrupt_signal(bench.control(), 0, true, &take_back);
+          nc_interrupt_signal(bench.control(), 0, false, &ignored);
+        }
+        if (!take_back) run.steps.push_back(step);
+      }
+      EXPECT_EQ(run.path(), expected.path());
+      EXPECT_EQ(run.aux(), expected.aux());
+      EXPECT_EQ(run.dwells(), expected.dwells());
+      accepted += !std::isnan(bench.var_now(150));
+    }
+  }
+  EXPECT_GT(accepted, 120u);
+}
+
 TEST(MacroInterrupt, OnTheMachine) {
   Bench bench(NC_DIALECT_M700, [](nc_config& c) {
     c.cycle_s = 0.004;
