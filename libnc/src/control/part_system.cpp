@@ -114,8 +114,10 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   const Settings& settings = interpreter.settings;
   const bool rises = on && !uit_;
   uit_ = on;
+  watch();
   if (!(settings.interrupt_by_level ? on : rises) || !interpreter.interruptible()) return NC_OK;
   uit_pending_ = true;
+  watch();
   // M700 13.12, type 1: at once. The item that was given out last is the one that is interrupted, unless it is done already; a contour
   // under compensation and a block that waits for an answer are finished first.
   const bool cuttable = pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate;
@@ -146,11 +148,12 @@ void PartSystem::drop_repeated() {
   AxisVec from;
   drop_ = interpreter.take_drop(&from);
   if (drop_ != 0) commit_.set_machine(from);
+  watch();
 }
 
 nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   for (;;) {
-    if (uit_pending_ || uit_) [[unlikely]] {
+    if (watched_) [[unlikely]] {
       if (!interpreter.state.interrupt_on) uit_pending_ = false;
       const bool wanted = uit_pending_ || (uit_ && interpreter.settings.interrupt_by_level);
       if (wanted && pulled_ == ItemKind::mark && interpreter.interruptible()) begin_interrupt();
@@ -172,7 +175,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
       stop_on(fault, item->source);
       continue;
     }
-    if (drop_ != 0 && item->kind != ItemKind::sync) [[unlikely]] {
+    if (watched_ && drop_ != 0 && item->kind != ItemKind::sync) [[unlikely]] {
       --drop_;
       if (committed == Committed::yes) commit_.uncount();
       take();

@@ -55,6 +55,7 @@ class PartSystem {
     uit_pending_ = false;
     pulled_ = ItemKind::mark;
     drop_ = 0;
+    watch();
   }
 
   OffsetStage offset_;
@@ -67,6 +68,8 @@ class PartSystem {
   bool online_ = false;      ///< driven by feed()
   bool running_ = false;     ///< a cycle start has been accepted and the end not been executed
   bool finished_ = false;    ///< the end item has been committed
+  void watch() { watched_ = uit_ || uit_pending_ || drop_ != 0; }
+  bool watched_ = false;                    ///< one of the three below is on: asked with every item
   bool uit_ = false, uit_pending_ = false;  ///< interrupt signal: level, and a request that waits for its place
   ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
   unsigned drop_ = 0;                        ///< items to come that have been executed already

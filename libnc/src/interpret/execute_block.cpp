@@ -148,7 +148,7 @@ Did finish(Interpreter& in, Did did) {
   in.state.comp.has_vector = false;
   in.state.comp.cancel_vector = false;
   did = auxiliary_after(in);
-  if (did != Did::done || (in.after_block == nullptr && in.state.frame[in.state.depth].modal_call == 0)) return did;
+  if (did != Did::done || (in.after_block == nullptr && in.state.modal_call == 0)) return did;
   return call_behind_block(in);
 }
 
@@ -158,7 +158,7 @@ bool only_moves(const Interpreter& in) {
   const BlockWords& w = in.words;
   const bool codes = w.g.empty() || (w.g.size() == 1 && w.motion != nullptr);
   return codes && w.m.empty() && (w.present & ~(in.axis_letters | letters("F"))) == 0 && in.state.cycle.kind == CycleKind::none &&
-         in.state.frame[in.state.depth].modal_call == 0;
+         in.state.modal_call == 0;
 }
 
 Did execute_move(Interpreter& in) {
@@ -188,7 +188,7 @@ Did execute_words(Interpreter& in) {
   did = apply_reading_modes(in);
   if (did != Did::done) return did;
   if (macro_call) return call_macro(in);
-  if (in.state.frame[in.state.depth].modal_call != 0 && block_is_argument(in)) return call_with_block(in);
+  if (in.state.modal_call != 0 && block_is_argument(in)) return call_with_block(in);
   // M700 3.2 note 9, DGSHAPE 1-1: N and O begin a block. Behind other words nothing would find them (N of G10 is something else).
   if (w.late_number != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
     return in.raise(Condition::format_error, w.late_number, w.get(w.late_number));

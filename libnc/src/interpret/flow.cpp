@@ -188,7 +188,11 @@ Did enter(Interpreter& in, const Entry& entry) {
   frame.macro_level = static_cast<uint8_t>(entry.kind == CallKind::macro ? level + 1 : level);
   frame.loop_base = s.loop_count;
   frame.started = entry.offset != entry.program.offset;
-  if (modal != caller.modal_call) show_modal_call(in);
+  if (modal != caller.modal_call) {
+    show_modal_call(in);
+  } else {
+    in.program_changed();
+  }
   return Did::later;  // the mark of the calling block comes after the return
 }
 

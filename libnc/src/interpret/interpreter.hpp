@@ -202,6 +202,12 @@ struct Interpreter {
   void emit_stop_point(bool resume = false);
   /// The block has done its part and the program goes on in the one it calls: what comes there does not undo it.
   void keep_call();
+  /// The program that runs, or what is in force in it, has changed: what blocks ask of it.
+  void program_changed() {
+    const CallFrame& frame = state.frame[state.depth];
+    state.modal_call = frame.modal_call;
+    state.mapped = state.mirror != 0 || frame.figure != 0;
+  }
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }
 
   /// Active zero and the position in it.

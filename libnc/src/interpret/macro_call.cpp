@@ -112,6 +112,7 @@ Did enter_macro(Interpreter& in, const Entry& entry, const Value* arguments) {
 // ---- modal calls ------------------------------------------------------------------------------------------------------------
 
 void show_modal_call(Interpreter& in) {
+  in.program_changed();
   int16_t& code = in.state.modal.code[kGroupMacro];
   if (code < 0) return;  // the family has no such group
   const unsigned slot = top(in).modal_call;

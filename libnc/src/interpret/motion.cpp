@@ -106,7 +106,7 @@ AxisVec target_of(const Interpreter& in, const AxisVec& position, uint32_t axes,
 }
 
 void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
-  if (in.state.frame[in.state.depth].figure != 0 && commanded != 0) {
+  if (program_mapped(in) && commanded != 0) {
     commanded = moved_axes(in, commanded);
     figure_has_moved(in);
   }

@@ -101,6 +101,7 @@ void begin_figure(Interpreter& in, const double center[2]) {
   const AxisVec at = to_program(in, in.position());
   const double start[2] = {axes.h >= 0 ? at[static_cast<unsigned>(axes.h)] : 0, axes.v >= 0 ? at[static_cast<unsigned>(axes.v)] : 0};
   in.state.frame[in.state.depth].figure = kFigureStarts;
+  in.program_changed();
   in.set_note(Notes::figure_key(Notes::kStartH), start[0]);
   in.set_note(Notes::figure_key(Notes::kStartV), start[1]);
   in.set_note(Notes::figure_key(Notes::kCenterH), start[0] + center[0]);

@@ -8,7 +8,7 @@
 namespace nc {
 
 /// Something is in force. Asked in every block that moves.
-inline bool program_mapped(const Interpreter& in) { return in.state.mirror != 0 || in.state.frame[in.state.depth].figure != 0; }
+inline bool program_mapped(const Interpreter& in) { return in.state.mapped; }
 
 AxisVec to_program(const Interpreter& in, const AxisVec& work);
 AxisVec from_program(const Interpreter& in, const AxisVec& programmed);

@@ -72,6 +72,8 @@ struct State {
   bool end_seen = false;
   bool interrupt_on = false;  ///< M96 in force (M700 13.12)
   bool interrupt_moved = false; ///< the interrupt program has moved or given out M S T B
+  uint8_t modal_call = 0;       ///< of the program that runs (CallFrame::modal_call), asked in every block
+  bool mapped = false;          ///< mirror, or a figure of the program that runs: asked in every move
   uint8_t mirror = 0;           ///< bit i: axis i is mirrored by program (M700 13.6)
   uint8_t interrupt_depth = 0;  ///< level of the interrupt program in service, 0 = none
   bool parameter_input = false; ///< between G10 L70 and G11 (M700 13.11)

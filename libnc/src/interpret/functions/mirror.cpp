@@ -21,6 +21,7 @@ Did do_mirror(Interpreter& in) {
     mirror = w.axes == 0 ? 0 : mirror & ~w.axes;  // of the named axes, whatever the value
   }
   in.state.mirror = static_cast<uint8_t>(mirror);
+  in.program_changed();
   in.state.modal.code[kGroupMirror] = mirror != 0 ? int16_t{511} : int16_t{501};
   return Did::done;
 }
