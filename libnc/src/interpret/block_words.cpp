@@ -220,17 +220,12 @@ Did feed_of(Interpreter& in, double* feed) {
 
 namespace {
 
-/// The last value of a coordinate or length is one unit below this, in mm or deg.
-double end_of_range(const Interpreter& in, bool rotary) { return inch(in) && !rotary ? 10000 * 25.4 : 100000; }
-
-/// M700 2.1, 5.3: +-99999.999 mm or deg, +-9999.9999 inch, with more decimals in finer units. DGSHAPE 2-1 "range 1": the same numbers
-/// with a point (the two labels are exchanged in print); without one eight digits of whatever unit the word is read in.
+/// M700 2.1, 5.3. DGSHAPE 2-1 "range 1": the same numbers with a point (the two labels are exchanged in print); without one eight digits of
+/// whatever unit the word is read in.
 bool in_range(const Interpreter& in, double value, uint8_t flags, bool rotary) {
   const Settings& s = in.settings;
-  if (in.dialect->id == NC_DIALECT_DGSHAPE && (flags & kWordPoint) == 0) return true;
-  const double unit = rotary ? s.setting_unit_deg : inch(in) ? s.setting_unit_inch * 25.4 : s.setting_unit_mm;
-  constexpr double kNoise = 1e-9;  // of inches in mm; below the finest unit
-  return std::fabs(value) <= end_of_range(in, rotary) - unit + kNoise;
+  const double last = rotary ? s.last_deg : inch(in) ? s.last_inch : s.last_mm;
+  return std::fabs(value) <= last || (in.dialect->id == NC_DIALECT_DGSHAPE && (flags & kWordPoint) == 0);
 }
 
 /// Axes whose words count from where the axis is.

@@ -220,7 +220,7 @@ Did move_by_words(Interpreter& in) {
   }
   // Where the block starts is asked only by words that count from there (an axis without a word stays) and by the feed of rotary axes.
   const AxisVec position = w.incremental != 0 || in.rotary != 0 ? in.position() : AxisVec{};
-  const AxisVec target = target_of_words(in, position);
+  const AxisVec target = program_mapped(in) ? target_of_words(in, position) : plain_target(in, position, w.axes, w.axis);
   if (code == 0) {
     LinearStyle style;
     style.kind = NC_MOVE_RAPID;

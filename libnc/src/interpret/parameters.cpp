@@ -173,6 +173,9 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.setting_unit_mm = 0.001 / finer;
   s.setting_unit_inch = 0.0001 / finer;
   s.setting_unit_deg = 0.001 / finer;
+  s.last_mm = 100000 - s.setting_unit_mm + Settings::kNoise;
+  s.last_deg = 100000 - s.setting_unit_deg + Settings::kNoise;
+  s.last_inch = (10000 - s.setting_unit_inch) * 25.4 + Settings::kNoise;
   const double cunit = number("1015", 0);
   s.command_unit_mm = cunit > 0 ? cunit * 0.0001 : s.setting_unit_mm;
   s.command_unit_inch = cunit > 0 ? cunit * 0.00001 : s.setting_unit_inch;

@@ -15,6 +15,10 @@ struct Settings {
   double setting_unit_mm = 0.001;     ///< #1003 iunit: undotted I J K R
   double setting_unit_inch = 0.0001;
   double setting_unit_deg = 0.001;
+  // Largest coordinate and length, in mm or deg: +-99999.999 mm or deg, +-9999.9999 inch, with more decimals in finer units (M700 2.1,
+  // 5.3). The noise is that of inches in mm, far below the finest unit.
+  static constexpr double kNoise = 1e-9;
+  double last_mm = 100000 - 0.001 + kNoise, last_inch = (10000 - 0.0001) * 25.4 + kNoise, last_deg = 100000 - 0.001 + kNoise;
   bool decimal_type_2 = false;        ///< #1078
   double tenfold = 1;                 ///< "UNIT*10"
   bool dwell_p_decimal = false;       ///< #8112
