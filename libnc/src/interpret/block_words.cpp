@@ -21,8 +21,9 @@ bool near_integer(double value, double* integer) {
 Did take_g(Interpreter& in, double value) {
   const FunctionRow* row = nullptr;
   double code = 0;
-  const int whole = value >= 0 && value < Interpreter::kDirectCodes ? static_cast<int>(value) : -1;
-  if (whole == value) {
+  const bool direct = value >= 0 && value < Interpreter::kDirectCodes;
+  const int whole = direct ? static_cast<int>(value) : 0;
+  if (direct && whole == value) {
     code = whole * 10;
     row = in.direct_function[whole];
   } else {
