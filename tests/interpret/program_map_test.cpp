@@ -18,6 +18,13 @@ TEST(FigureRotation, QuarterTurnsInAbsoluteAndIncremental) {  // (2), (5)
   EXPECT_EQ(bench.at(0, 0, 0).run("G90 G0 X10.\nM98 P2 L2 I-10.\nM30").path(), expected);
 }
 
+TEST(FigureRotation, OneWordMovesBothAxes) {
+  Bench bench;
+  bench.add("O1", "G90 G1 Y10. F100\nX0\nM99\n");
+  EXPECT_EQ(bench.run("G90 G0 X10.\nM98 P1 L2 I-10.\nM30").path(),
+            (Path{"rapid 10 0 0", "line 10 10 0 F100", "line 0 10 0 F100", "line -10 10 0 F100", "line -10 0 0 F100"}));
+}
+
 TEST(FigureRotation, ArcsTurnToo) {  // (3)
   Bench bench;
   bench.add("O1", "G3 X0 Y10. I-10. F100\nM99\n");

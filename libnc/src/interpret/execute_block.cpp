@@ -168,7 +168,10 @@ Did execute_move(Interpreter& in) {
   Did did = resolve_axes(in);
   if (did == Did::done && w.has('F')) did = feed_of(in, &in.state.modal.feed);
   if (did == Did::done) did = move_by_words(in);
-  return did == Did::done ? finish(in, did) : did;
+  if (did != Did::done) return did;
+  in.state.comp.has_vector = false;
+  in.state.comp.cancel_vector = false;
+  return in.after_block == nullptr ? Did::done : call_behind_block(in);
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ AxisVec target_of_words(const Interpreter& in) { return target_of_words(in, in.p
 
 namespace {
 
-AxisVec plain_target(const Interpreter& in, const AxisVec& position, uint32_t axes, const AxisVec& value) {
+inline AxisVec plain_target(const Interpreter& in, const AxisVec& position, uint32_t axes, const AxisVec& value) {
   AxisVec target = position;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((axes >> i) & 1) == 0) continue;
@@ -218,9 +218,11 @@ Did move_by_words(Interpreter& in) {
     in.fault.axis = static_cast<int8_t>(i);
     return Did::fault;
   }
-  // Where the block starts is asked only by words that count from there (an axis without a word stays) and by the feed of rotary axes.
-  const AxisVec position = w.incremental != 0 || in.rotary != 0 ? in.position() : AxisVec{};
-  const AxisVec target = program_mapped(in) ? target_of_words(in, position) : plain_target(in, position, w.axes, w.axis);
+  // Where the block starts is asked only by words that count from there (an axis without a word stays), by the feed of rotary axes, and
+  // by a turned figure, in which one word moves two axes.
+  const bool mapped = program_mapped(in);
+  const AxisVec position = w.incremental != 0 || in.rotary != 0 || mapped ? in.position() : AxisVec{};
+  const AxisVec target = mapped ? target_of_words(in, position) : plain_target(in, position, w.axes, w.axis);
   if (code == 0) {
     LinearStyle style;
     style.kind = NC_MOVE_RAPID;
