@@ -59,6 +59,15 @@ expect 2 "$ncrtd" --config "$work/machine.toml" run --fast "$work/main.nc"
 said err "P232"
 said err "line 3"
 
+# External output: every line in the file, in order, more of them than fit between two looks. M198 in a folder of its own.
+mkdir "$work/server"
+printf 'A LINE THAT IS NOT RUN\n#100=7\nM99\n' >"$work/server/O79.nc"
+sed "s#^programs = .*#programs = \"$work\"\nexternal = \"server\"\nprint = \"printed\"#" "$machine" >"$work/print.toml"
+printf 'M198 P79\nPOPEN\n#1=0\nWHILE [#1 LT 200] DO1\nG0 X-[#1/100]\nDPRNT[N#1[30]*V#100[10]]\n#1=#1+1\nEND1\nPCLOS\nM30\n' >"$work/main.nc"
+expect 0 "$ncrtd" --config "$work/print.toml" run --fast --no-progress "$work/main.nc"
+{ echo %; for n in $(seq 0 199); do echo "N$n*V7"; done; echo %; } >"$work/expected"
+cmp "$work/expected" "$work/printed" || fail "what was printed is not what the program prints"
+
 # Usage and configuration.
 expect 1 "$ncrtd"
 expect 1 "$ncrtd" --config "$machine"
