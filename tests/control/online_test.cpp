@@ -121,6 +121,61 @@ TEST(Online, HoldsAndOverrides) { compare({.hold = true, .override_changes = tru
 TEST(Online, SingleBlockAndSlowCompletion) { compare({.single = true, .slow_fin = true}, 128); }
 TEST(Online, RecalculationAtEveryStop) { compare({.single = true, .recalculate = true}, 128); }
 
+/// M700 13.12: an interrupt program that neither moves nor gives out codes changes nothing, whenever the signal comes, inside of
+/// contours, cycles, sub programs and macros too.
+TEST(Online, InterruptsAtRandomPoints) {
+  unsigned served = 0;
+  for (uint32_t seed = 0; seed < kPrograms; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const RandomProgram program = ProgramMaker(seed + 900, false).make();
+    const std::string text = "M96 P1000\n" + program.main;
+    const auto prepare = [&](Bench& bench) {
+      set_up(bench, program);
+      bench.add("O1000", "#199=#199+1\nG91 F1\nM99\n");
+      bench.param("1229/bit0", "1");  // the local level of the program, whatever it is
+    };
+    Bench offline(NC_DIALECT_M700, machine(256));
+    prepare(offline);
+    const Outcome expected = offline.run(text);
+    if (!expected.ended_ok) continue;
+    Bench online(NC_DIALECT_M700, machine(seed % 2 == 0 ? 64 : 256));
+    prepare(online);
+    online.start(text);
+    nc_control* control = online.control();
+    nc_inputs in{};
+    nc_outputs out{};
+    in.feed_override = in.rapid_override = 1;
+    in.spindle_rev_per_s = 50;
+    std::mt19937 random(seed);
+    std::vector<nc_axes> ends;
+    bool ended = false;
+    for (unsigned n = 0; n < 400000 && !ended; ++n) {
+      if (random() % 3 != 0 || n < 3) nc_feed(control, 1 + random() % 40);
+      in.cycle_start = n == 2 || (n > 2 && n % 7 == 0);
+      in.fin = out.strobe != 0;
+      in.macro_interrupt = random() % 25 == 0;
+      nc_cycle(control, &in, &out);
+      nc_event event;
+      while (nc_event_poll(control, 0, &event, nullptr) == NC_OK) {
+        if (event.kind == NC_ITEM_MOVE) ends.push_back(event.machine);
+        ended = ended || event.kind == NC_ITEM_END;
+      }
+    }
+    ASSERT_TRUE(ended);
+    const std::vector<nc_move> moves = expected.moves();
+    ASSERT_EQ(ends.size(), moves.size());
+    for (size_t i = 0; i < ends.size(); ++i)
+      for (unsigned axis = 0; axis < 3; ++axis) ASSERT_NEAR(ends[i].v[axis], moves[i].machine.v[axis], 1e-9) << i;
+    for (const auto& [number, value] : expected.vars) {
+      if (number == 199) continue;
+      EXPECT_EQ(brief(online.var_now(number)), brief(value)) << number;
+    }
+    for (unsigned n = 1; n <= 20; ++n) EXPECT_EQ(online.tool_now(n), offline.tool_now(n)) << n;
+    served += std::isnan(online.var_now(199)) ? 0 : static_cast<unsigned>(online.var_now(199));
+  }
+  EXPECT_GT(served, kPrograms);
+}
+
 TEST(Online, ChangedDataActAfterARecalculation) {  // M700 4.2: from the next block
   Bench bench(NC_DIALECT_M700, machine(64));
   bench.start("G0 X1.\nX2.\nX#100\nM30");
