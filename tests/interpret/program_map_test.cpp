@@ -100,6 +100,12 @@ TEST(Mirror, HolesOfACycle) {
   EXPECT_EQ(path.front(), "rapid -10 3 0");
 }
 
+TEST(Mirror, DrillingAxisOfACycle) {
+  const std::string cycle = "G0 Z10.\nG51.1 Z0\nG98 G81 X1. Z-2. R3. F100\nG91 X1. Z-5. R-1.\nG80\nM30";
+  EXPECT_EQ(m700(cycle).path(), (Path{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 -3", "line 1 0 2 F100", "rapid 1 0 10", "rapid 2 0 10",
+                                      "rapid 2 0 11", "line 2 0 16 F100", "rapid 2 0 10"}));
+}
+
 // ---- parameter input ----------------------------------------------------------------------------------------------------------------
 
 TEST(ParameterInput, BitNumberAndText) {  // 13.11

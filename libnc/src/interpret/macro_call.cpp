@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "interpret/calls.hpp"
+#include "interpret/functions/functions.hpp"
 
 namespace nc {
 namespace {
@@ -160,6 +161,8 @@ Did make_modal_call(Interpreter& in) {
 /// the modal state all the same.
 Did call_with_block(Interpreter& in) {
   MacroCall call;
+  for (const FunctionRow* row : in.words.g)
+    if (row->function == Function::work_system && select_work_system(in, *row) != Did::done) return Did::fault;
   const Did did = gather_arguments(in, true, call);
   return did == Did::done ? enter_modal(in, top(in).modal_call, call.argument) : did;
 }

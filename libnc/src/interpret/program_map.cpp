@@ -44,8 +44,7 @@ void turn(const Interpreter& in, double angle, AxisVec& p) {
 }
 
 void reflect(const Interpreter& in, AxisVec& p) {
-  for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((in.state.mirror >> i) & 1) != 0) p[i] = 2 * in.notes.get(Notes::mirror_key(i)) - p[i];
+  for (unsigned i = 0; i < in.axis_count; ++i) p[i] = mirrored(in, i, p[i]);
 }
 
 bool odd(const Interpreter& in, unsigned h, unsigned v) { return (((in.state.mirror >> h) ^ (in.state.mirror >> v)) & 1) != 0; }
@@ -72,6 +71,10 @@ AxisVec from_program(const Interpreter& in, const AxisVec& programmed) {
   if (rotated(in)) turn(in, figure(in, Notes::kAngle), p);
   reflect(in, p);
   return p;
+}
+
+double mirrored(const Interpreter& in, unsigned axis, double value) {
+  return ((in.state.mirror >> axis) & 1) != 0 ? 2 * in.notes.get(Notes::mirror_key(axis)) - value : value;
 }
 
 uint32_t moved_axes(const Interpreter& in, uint32_t axes) {

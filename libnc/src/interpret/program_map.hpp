@@ -12,6 +12,8 @@ inline bool program_mapped(const Interpreter& in) { return in.state.mapped; }
 
 AxisVec to_program(const Interpreter& in, const AxisVec& work);
 AxisVec from_program(const Interpreter& in, const AxisVec& programmed);
+/// One coordinate reflected where its axis is mirrored: from programmed to workpiece coordinates, and back.
+double mirrored(const Interpreter& in, unsigned axis, double value);
 /// Axes that move when `axes` are programmed: a rotated plane moves with both.
 uint32_t moved_axes(const Interpreter& in, uint32_t axes);
 /// The increments of an arc's centre on the axes h, v, and its direction.
