@@ -74,6 +74,9 @@ TEST(ModalMacro, CancelInTheMacroItself) {  // 13.5.2 (1)
   const Outcome run = bench.run("#100=0\nG66 P10\nG0 X1.\nX2.\nM30");
   EXPECT_EQ(run.alarm, "");
   EXPECT_EQ(run.var(100), 1);
+  const Outcome twice = bench.at(0, 0, 0).run("#100=0\nG66 P10 L2\nG0 X1.\nX2.\nM30");
+  EXPECT_EQ(twice.alarm, "");
+  EXPECT_EQ(twice.var(100), 2);
 }
 
 TEST(ModalMacro, Alarms) {

@@ -169,7 +169,7 @@ Did call_with_block(Interpreter& in) {
 
 bool has_modal_call(const Interpreter& in) {
   const CallFrame& frame = in.state.frame[in.state.depth];
-  return frame.modal_call != 0 || (frame.modal_slot != 0 && in.state.frame[in.state.depth - 1].modal_call == frame.modal_slot);
+  return frame.modal_call != 0 || frame.modal_slot != 0;  // a further pass of a macro that has cancelled itself may say so again
 }
 
 /// G67: the call commanded last. A macro that a modal call runs may cancel that call itself (M700 13.5.2 (1)).
@@ -180,7 +180,7 @@ void cancel_modal_call(Interpreter& in) {
   const bool runs_here = frame.modal_slot != 0 && in.state.frame[in.state.depth - 1].modal_call == frame.modal_slot;
   if (runs_here && !commanded_here) {
     in.state.frame[in.state.depth - 1].modal_call = static_cast<uint8_t>(slot_value(in, frame.modal_slot, Notes::kBelow));
-  } else {
+  } else if (own != 0) {
     frame.modal_call = static_cast<uint8_t>(slot_value(in, own, Notes::kBelow));
   }
   show_modal_call(in);
