@@ -59,6 +59,10 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   ErrorList errors(file);
   Config read;
   read.file = file;
+  if (const unsigned line = line_of_too_deep_key(text)) {
+    errors.add(line, "", "syntax: a key of too many parts");
+    return errors.take();
+  }
   toml::table root;
   try {
     root = toml::parse(text, std::string_view(file));

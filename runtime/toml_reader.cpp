@@ -14,6 +14,29 @@ std::vector<ConfigError> ErrorList::take() {
   return std::move(errors_);
 }
 
+unsigned line_of_too_deep_key(std::string_view text) {
+  constexpr unsigned kMostParts = 64;
+  unsigned line = 1, dots = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {  // to its end on this line; a dot in it joins nothing
+      for (++i; i < text.size() && text[i] != c && text[i] != '\n'; ++i)
+        if (c == '"' && text[i] == '\\') ++i;
+      if (i < text.size() && text[i] == '\n') --i;
+    } else if (c == '#') {
+      while (i + 1 < text.size() && text[i + 1] != '\n') ++i;
+    } else if (c == '\n') {
+      ++line;
+      dots = 0;
+    } else if (c == '.') {
+      if (++dots >= kMostParts) return line;
+    } else if (c == '=' || c == ',' || c == '[' || c == '{') {
+      dots = 0;
+    }
+  }
+  return 0;
+}
+
 const char* type_name(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:

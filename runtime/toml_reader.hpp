@@ -31,6 +31,10 @@ class ErrorList {
   std::vector<ConfigError> errors_;
 };
 
+// Line of the first key with more parts than anyone means (a.b.c...), 0 = none: the parser makes a table in a table for each part, and
+// would run out of stack when it lets go of them.
+unsigned line_of_too_deep_key(std::string_view text);
+
 inline unsigned line_of(const toml::node& node) {
   return static_cast<unsigned>(node.source().begin.line);
 }

@@ -337,6 +337,22 @@ TEST(Config, EmptyTextNamesWhatIsMissing) {
   EXPECT_NE(all.find("axis: is missing"), std::string::npos) << all;
 }
 
+TEST(Config, AKeyOfAThousandPartsIsRefusedOnItsLine) {
+  std::string deep = "a";
+  for (int i = 0; i < 100000; ++i) deep += i % 2 == 0 ? ".a" : " . 'a'";
+  for (const std::string& text : {deep + " = 1", "[" + deep + "]", "x = { " + deep + " = 1 }", "\"#\"." + deep + " = 1"}) {
+    Config config;
+    const std::vector<ConfigError> errors = nc::rt::parse_config("# ok\n" + text + "\n", "deep.toml", &config);
+    ASSERT_EQ(errors.size(), 1u);
+    EXPECT_EQ(errors[0].line, 2u);
+    EXPECT_NE(errors[0].message.find("too many parts"), std::string::npos);
+  }
+  Config config;
+  const std::string dots(200, '.');
+  for (const ConfigError& error : nc::rt::parse_config("# " + dots + "\nname = \"" + dots + "\"\n", "dots.toml", &config))
+    EXPECT_EQ(error.message.find("too many parts"), std::string::npos);
+}
+
 TEST(Config, ReadsValues) {
   const Config config = nc::test::parse_or_fail(nc::test::base_toml() + R"(
 [scheduling]
