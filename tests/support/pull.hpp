@@ -102,7 +102,8 @@ struct Outcome {
 
  private:
   std::vector<std::string> describe_moves(bool in_work) const {
-    static constexpr const char* kNames[] = {"rapid", "line", "arc", "helix", "skip", "thread", "tap"};
+    static constexpr const char* kNames[] = {"rapid", "line",   "arc",         "helix", "skip",
+                                             "thread", "tap",   "spiral", "exponential", "nurbs"};
     std::vector<std::string> all;
     for (const Step& step : steps) {
       if (step.item.kind != NC_ITEM_MOVE) continue;

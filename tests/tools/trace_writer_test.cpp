@@ -56,6 +56,7 @@ TEST(TraceWriter, Moves) {
 TEST(TraceWriter, CircularMoves) {
   nc_move m = straight(NC_MOVE_HELIX);
   m.plane = NC_PLANE_ZX;
+  m.center_axes = 2;
   m.plane_axis[0] = 2;
   m.plane_axis[1] = 0;
   m.ccw = true;

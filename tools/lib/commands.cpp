@@ -2,6 +2,7 @@
 // The subcommands of ncsim; see commands.hpp.
 #include "tools/lib/commands.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -119,12 +120,26 @@ class PrintSink final : public RunSink {
 /** The drawing: moves only. */
 class PlotSink final : public RunSink {
  public:
-  PlotSink(ToolpathPlot* plot, const nc_system_config& system) : plot_(*plot), system_(system) {}
-  void move(const nc_source&, const nc_move& move) override { plot_.add_move(move, system_); }
+  PlotSink(ToolpathPlot* plot, const nc_system_config& system, ItemSource* items)
+      : plot_(*plot), system_(system), items_(*items) {}
+  void move(const nc_source&, const nc_move& move) override {
+    if (!move.curved) return plot_.add_move(move, system_);
+    // In short pieces: what no line and no circle is.
+    constexpr double kPieceMm = 0.2, kMost = 4000;
+    const double pieces = std::ceil(std::min(kMost, std::max(32.0, move.length / kPieceMm)));
+    nc_move piece = move;
+    piece.plane = NC_PLANE_NONE;
+    for (double k = 1; k <= pieces; ++k) {
+      if (!items_.move_point(k / pieces, &piece.machine)) return plot_.add_move(move, system_);
+      plot_.add_move(piece, system_);
+      piece.machine_start = piece.machine;
+    }
+  }
 
  private:
   ToolpathPlot& plot_;
   const nc_system_config& system_;
+  ItemSource& items_;
 };
 
 RunResult run_session(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks) {
@@ -245,8 +260,8 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, Plot
   const size_t slash = options.program.find_last_of('/');
   plot.set_title(options.program == "-" ? "standard input"
                                         : options.program.substr(slash == std::string::npos ? 0 : slash + 1));
-  PlotSink sink(&plot, session.config().system[0]);
   ControlSource items(session.control());
+  PlotSink sink(&plot, session.config().system[0], &items);
   const RunResult result = run_session(&session, &sink, &items, max_silent_blocks);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error))

@@ -19,6 +19,8 @@ class ItemSource {
   virtual nc_status reset() = 0;
   /** Level of the macro interrupt signal. @return true when the item pulled last must not be executed. */
   virtual bool interrupt(bool /*on*/) { return false; }
+  /** A point of the move pulled last; false when the source knows none. */
+  virtual bool move_point(double /*share*/, nc_axes* /*machine*/) { return false; }
   virtual bool alarm(nc_alarm* alarm) = 0;
   virtual bool text(uint32_t id, nc_text* text) = 0;
   /** Codes of a modal snapshot. @return their number. */
@@ -38,6 +40,9 @@ class ControlSource final : public ItemSource {
     bool take_back = false;
     nc_interrupt_signal(control_, kPartSystem, on, &take_back);
     return take_back;
+  }
+  bool move_point(double share, nc_axes* machine) override {
+    return nc_move_point(control_, kPartSystem, share, machine) == NC_OK;
   }
   nc_status reset() override { return nc_reset(control_, kPartSystem); }
   bool alarm(nc_alarm* alarm) override { return nc_alarm_get(control_, kPartSystem, alarm) == NC_OK; }

@@ -29,7 +29,7 @@ struct LinearAxes {
 };
 
 bool is_circular(const nc_move& move) {
-  return (move.kind == NC_MOVE_ARC || move.kind == NC_MOVE_HELIX) && move.plane != NC_PLANE_NONE;
+  return move.plane != NC_PLANE_NONE;
 }
 
 }  // namespace

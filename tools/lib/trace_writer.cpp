@@ -16,7 +16,8 @@ constexpr size_t kLine = 8192;
 static_assert(kLine <= OutputFile::kLargest);
 
 // nc_move_kind -> the name in a trace.
-constexpr std::string_view kMoveKinds[] = {"rapid", "line", "arc", "helix", "skip", "thread", "tap"};
+constexpr std::string_view kMoveKinds[] = {"rapid", "line", "arc", "helix", "skip", "thread",
+                                             "tap",   "spiral", "exponential", "nurbs"};
 constexpr std::string_view kPlanes[] = {"XY", "ZX", "YZ"};
 
 struct SyncName {
@@ -48,7 +49,7 @@ size_t utf8_length(std::string_view s) {
 }
 
 bool circular(const nc_move& move) {
-  return move.kind == NC_MOVE_ARC || move.kind == NC_MOVE_HELIX;
+  return move.center_axes != 0;
 }
 
 }  // namespace
@@ -128,9 +129,9 @@ void TraceWriter::put_axes(std::string_view key, const nc_axes& axes) {
   put("}");
 }
 
-void TraceWriter::put_pair(std::string_view key, const nc_move& move, const double (&center)[2]) {
+void TraceWriter::put_pair(std::string_view key, const nc_move& move, const double (&center)[3]) {
   put(key);
-  for (int i = 0; i < 2; ++i) {
+  for (unsigned i = 0; i < move.center_axes; ++i) {
     put({axis_key_[move.plane_axis[i]] + (i == 0 ? 1 : 0), i == 0 ? size_t{4} : size_t{5}});
     put_number(center[i]);
   }
@@ -143,7 +144,7 @@ void TraceWriter::put_circular(const nc_move& move) {
     put(kPlanes[move.plane]);
     put("\"");
   }
-  put(move.ccw ? ",\"dir\":\"ccw\"" : ",\"dir\":\"cw\"");
+  if (move.center_axes == 2) put(move.ccw ? ",\"dir\":\"ccw\"" : ",\"dir\":\"cw\"");  // in space there is no sense of rotation
   put_pair(",\"center\":{", move, move.center);
   put_pair(",\"machine_center\":{", move, move.machine_center);
   put(",\"turns\":");

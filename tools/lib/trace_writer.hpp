@@ -35,7 +35,7 @@ class TraceWriter {
   void put_number(double value);
   void put_integer(uint64_t value);
   void put_axes(std::string_view key, const nc_axes& axes);
-  void put_pair(std::string_view key, const nc_move& move, const double (&center)[2]);
+  void put_pair(std::string_view key, const nc_move& move, const double (&center)[3]);
   void put_circular(const nc_move& move);
   void put_string(std::string_view text);
 

@@ -35,7 +35,10 @@ typedef enum nc_move_kind {
   NC_MOVE_HELIX = 3,
   NC_MOVE_SKIP = 4,  /**< G31: a line that ends where the skip signal comes */
   NC_MOVE_THREAD = 5,
-  NC_MOVE_TAP = 6
+  NC_MOVE_TAP = 6,
+  NC_MOVE_SPIRAL = 7,
+  NC_MOVE_EXPONENTIAL = 8,
+  NC_MOVE_NURBS = 9
 } nc_move_kind;
 
 /** Plane of a circular move. */
@@ -90,8 +93,8 @@ typedef struct nc_move {
   nc_axes work;             /**< programmed end point */
   nc_axes machine_start;    /**< where the axes start */
   nc_axes machine;          /**< where the axes end up */
-  double center[2];         /**< circular: programmed centre on the plane's first and second axis */
-  double machine_center[2]; /**< circular: centre of the machine path */
+  double center[3];         /**< circular: programmed centre on the plane's first and second axis, an arc in space: on all three (the third counts for no other) */
+  double machine_center[3]; /**< circular: centre of the machine path */
   double radius;            /**< circular: of the machine path at its start */
   double sweep_deg;         /**< circular: signed angle of the machine path about the plane normal, ccw positive */
   double feed_mm_min;       /**< what the block asks for; 0 for rapid */
@@ -100,9 +103,11 @@ typedef struct nc_move {
   uint32_t turns;           /**< circular: full extra turns */
   uint8_t kind;             /**< nc_move_kind */
   uint8_t plane;            /**< nc_plane; NC_PLANE_NONE unless circular */
-  uint8_t plane_axis[2];    /**< circular: axis indices of the plane's first and second axis */
+  uint8_t center_axes;      /**< 2 for a circular move in a plane, 3 for an arc in space, else 0 */
+  uint8_t plane_axis[3];    /**< circular: axis indices of the plane's first and second axis; of the three of an arc in space */
   bool ccw;                 /**< circular: direction really travelled */
   bool exact_stop;          /**< comes to rest at its end */
+  bool curved;              /**< neither straight nor circular for the axes: nc_move_point() says where it goes */
   uint8_t skip_mask;        /**< skip: which signals end the move, bit n = signal n+1 */
 } nc_move;
 

@@ -26,6 +26,9 @@ extern "C" {
  */
 NC_API nc_status nc_pull(nc_control*, unsigned system, uint32_t budget, nc_item* item);
 
+/** Offline: a point of the move that nc_pull() gave last, where `share` (0 to 1) of its length is done. Machine coordinates. */
+NC_API nc_status nc_move_point(const nc_control*, unsigned system, double share, nc_axes* machine);
+
 /** Answer the open sync of a part system. After NC_SYNC_SKIP the interpreter continues from world->machine. */
 NC_API nc_status nc_answer(nc_control*, unsigned system, const nc_world* world);
 

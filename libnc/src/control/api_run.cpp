@@ -13,6 +13,11 @@ nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item
   return c->system[system].pull(budget, item);
 }
 
+nc_status nc_move_point(const nc_control* c, unsigned system, double share, nc_axes* machine) {
+  if (!known(c, system) || machine == nullptr || !(share >= 0 && share <= 1)) return NC_E_ARGUMENT;
+  return c->system[system].move_point(share, machine);
+}
+
 nc_status nc_answer(nc_control* c, unsigned system, const nc_world* world) {
   if (!known(c, system) || world == nullptr) return NC_E_ARGUMENT;
   for (unsigned i = 0; i < c->config.system[system].axis_count; ++i)

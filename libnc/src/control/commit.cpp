@@ -45,6 +45,10 @@ void Commit::create(const CommitConfig& config, Arena& arena) {
     any_limit_ = any_limit_ || config.system->axis[i].soft_limited;
   }
   marks_ = arena.make<MarkPoint>(config.marks);
+  constexpr uint32_t kMostShapes = 256;
+  shape_mask_ = (config.records < kMostShapes ? config.records : kMostShapes) - 1;
+  shapes_ = arena.make<CurveShape>(shape_mask_ + 1);
+  shape_record_ = arena.make<uint32_t>(shape_mask_ + 1);
   mark_mask_ = config.marks - 1;
 }
 
@@ -68,12 +72,39 @@ bool Commit::inside_limits(const Curve& curve) {
   return true;
 }
 
-Committed Commit::commit(const Item& item, const Transform& transform) {
+bool Commit::shape_room(uint32_t tail, uint32_t head) const {
+  if (shape_count_ <= shape_mask_) return true;
+  const uint32_t record = shape_record_[shape_count_ & shape_mask_];
+  return record - tail >= head - tail;
+}
+
+void Commit::note_record(uint32_t record) {
+  if (curve_.shape != nullptr) shape_record_[(shape_count_ - 1) & shape_mask_] = record;
+}
+
+/// A curve of any other shape than a line or a circle of the axes.
+void Commit::commit_shape(const Move& move, const Transform& transform, const MoveShape& shape) {
+  circle_ = Circle{};
+  if (move.circular) circle_ = map_circle(move.circle, transform, move.plane_axis[0], move.plane_axis[1]);
+  const AxisMap& map = shape.map;
+  for (unsigned i = 0; i < 2 && map.kind == AxisMap::Kind::cylinder && move.circular; ++i) {
+    const unsigned axis = map.rotary;
+    if (move.plane_axis[i] == axis) circle_.center[i] = transform.sign[axis] * move.circle.center[i] / map.scale + transform.offset[axis];
+  }
+  const PlainMove plain{&move.start, &move.end, move.circular ? &move.circle : nullptr, move.plane_axis[0], move.plane_axis[1]};
+  make_shaped(shape, plain, transform.sign, transform.offset, machine_, axis_count_, rotary_, &shapes_[shape_count_ & shape_mask_], &curve_);
+}
+
+Committed Commit::commit(const Item& item, const Transform& transform, const MoveShape* shape) {
   if (item.kind == ItemKind::move) {
     const Move& move = item.move;
     // The move begins where the one before ended, to the last bit.
-    const AxisVec end = transform.to_machine(move.end);
-    if (move.circular) {
+    AxisVec end = transform.to_machine(move.end);
+    if (shape != nullptr) {
+      commit_shape(move, transform, *shape);
+      if (jumps_at_pole(curve_)) return Committed::at_pole;
+      end = curve_.end;
+    } else if (move.circular) {
       circle_ = map_circle(move.circle, transform, move.plane_axis[0], move.plane_axis[1]);
       curve_ = make_arc(machine_, end, move.plane_axis[0], move.plane_axis[1], circle_, axis_count_, rotary_);
     } else {
@@ -85,11 +116,25 @@ Committed Commit::commit(const Item& item, const Transform& transform) {
       return Committed::nothing;
     }
     if (any_limit_ && !inside_limits(curve_)) return Committed::soft_limit;
+    if (shape != nullptr) ++shape_count_;
     start_ = machine_;
     machine_ = end;
   }
   ++last_serial_;
   return Committed::yes;
+}
+
+/// M700 6.7.1: the lead of a taper is that of its long axis; the way along the path is longer.
+double Commit::along_longest() const {
+  double longest = 0;
+  for (unsigned i = 0; i < axis_count_; ++i) longest = std::fmax(longest, std::fabs(curve_.delta[i]));
+  return longest > 0 ? curve_.length / longest : 1.0;
+}
+
+/// M700 6.6: from the speed in the plane of the arc to that along the helix.
+double Commit::helix_slope() const {
+  const double in_plane = std::fabs(circle_.sweep) * 0.5 * (circle_.radius_start + circle_.radius_end);
+  return in_plane > 0 ? curve_.length / in_plane : 1.0;
 }
 
 void Commit::remember(const Item& mark, const OffsetResume* offset) {
@@ -121,6 +166,18 @@ void Commit::rewind_to(const MarkPoint& point) {
   while (mark_count_ > 0 && marks_[(mark_count_ - 1) & mark_mask_].serial > serial) --mark_count_;
 }
 
+void Commit::space_arc_to_public(nc_move* out) const {
+  const CurveShape& shape = *curve_.shape;
+  const SpaceArc& arc = shape.what.arc;
+  out->center_axes = 3;
+  for (unsigned i = 0; i < 3; ++i) {
+    out->plane_axis[i] = arc.axis[i];
+    out->center[i] = arc.center[i];
+    out->machine_center[i] = shape.sign[arc.axis[i]] * arc.center[i] + shape.offset[arc.axis[i]];
+  }
+  out->radius = arc.radius;
+}
+
 void Commit::to_public(const Item& item, nc_item* out) const {
   out->serial = last_serial_;
   out->source = item.source;
@@ -140,6 +197,8 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       m.skip_mask = move.skip_mask;
       m.plane = move.circular ? static_cast<uint8_t>(move.plane) : static_cast<uint8_t>(NC_PLANE_NONE);
       m.turns = move.circular ? extra_turns(circle_.sweep) : 0;
+      m.curved = curve_.shape != nullptr;
+      m.center_axes = move.circular ? 2 : 0;
       m.center[0] = move.work_center[0];
       m.center[1] = move.work_center[1];
       m.plane_axis[0] = move.plane_axis[0];
@@ -149,6 +208,7 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       m.radius = circle_.radius_start;
       m.sweep_deg = circle_.sweep * 180 / kPi;
       m.ccw = circle_.sweep > 0;
+      if (curve_.shape != nullptr && curve_.shape->what.kind == ShapeKind::space_arc) space_arc_to_public(&m);
       break;
     }
     case ItemKind::action: {
@@ -209,6 +269,11 @@ void Commit::to_record(const Item& item, const Transform& transform, Record* out
       s.exact_stop = item.move.exact_stop;
       s.skip = item.move.kind == NC_MOVE_SKIP;
       s.skip_mask = item.move.skip_mask;
+      s.thread = item.move.kind == NC_MOVE_THREAD;
+      if (s.thread) s.feed_mm_rev *= along_longest();
+      if (item.move.plane_feed && !s.rapid) s.feed_mm_s *= helix_slope();
+      s.feed_end_mm_s = static_cast<double>(item.move.feed_end) / 60;
+      s.thread_angle = item.move.thread_angle;
       break;
     }
     case ItemKind::action: out->action = item.action; break;

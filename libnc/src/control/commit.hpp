@@ -7,12 +7,14 @@
 #include "nc/control.h"
 #include "interpolate/record.hpp"
 #include "offset/offset.hpp"
+#include "path/shape.hpp"
 
 namespace nc {
 
 struct CommitConfig {
   const nc_system_config* system = nullptr;
   uint32_t marks = 1024;      ///< marks that can be rewound to, power of two
+  uint32_t records = 1024;    ///< that may be under way behind here
 };
 
 /// A place to rewind to: what the stages must know to go on right behind a mark.
@@ -26,6 +28,7 @@ struct MarkPoint {
 enum class Committed : uint8_t {
   yes,
   nothing,       ///< the item vanishes: a move without length
+  at_pole,       ///< the rotary axis of polar coordinate interpolation would jump: nothing was committed
   soft_limit     ///< the move would leave the stroke: nothing was committed, `limit_axis()` says which axis
 };
 
@@ -46,8 +49,13 @@ class Commit {
     mark_count_ = 0;
   }
 
-  /// `transform` is the one the move names (ignored for other items). Fills the geometry members.
-  Committed commit(const Item& item, const Transform& transform);
+  /// `transform` and `shape` are what the move names (ignored for other items; nullptr = no shape). Fills the geometry members.
+  Committed commit(const Item& item, const Transform& transform, const MoveShape* shape);
+  /// False when every place for a shape is taken by one that the scan may still evaluate: records from `tail` up to `head` are under way.
+  bool shape_room(uint32_t tail, uint32_t head) const;
+  /// The curve just committed, which is a move, goes into record number `record`.
+  void note_record(uint32_t record);
+  const Curve& curve() const { return curve_; }
   /// `offset`: where the compensation stage is, nullptr while it is idle.
   void remember(const Item& mark, const OffsetResume* offset);
 
@@ -78,6 +86,10 @@ class Commit {
 
  private:
   bool inside_limits(const Curve& curve);
+  void commit_shape(const Move& move, const Transform& transform, const MoveShape& shape);
+  double along_longest() const;
+  void space_arc_to_public(nc_move* out) const;
+  double helix_slope() const;
 
   CommitConfig config_;
   unsigned axis_count_ = 3;
@@ -88,6 +100,11 @@ class Commit {
   AxisVec taken_end_;        ///< end of the move that was taken back
   Circle circle_;            ///< of the move just committed, machine coordinates
   Curve curve_;
+  /// Shapes in a ring: one is free when its record has been executed or given up.
+  CurveShape* shapes_ = nullptr;
+  uint32_t* shape_record_ = nullptr;
+  uint32_t shape_mask_ = 0;
+  uint32_t shape_count_ = 0;
   Serial last_serial_ = 0;
   int8_t limit_axis_ = -1;
   MarkPoint* marks_ = nullptr;

@@ -21,6 +21,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   CommitConfig commit;
   commit.system = &system;
   commit.marks = config.look_ahead;
+  commit.records = config.look_ahead;
   commit_.create(commit, arena);
 
   ExecutorConfig ex;
@@ -73,12 +74,28 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   }
 }
 
+const MoveShape* PartSystem::shape_of_item(const Item& item) const {
+  return item.kind == ItemKind::move && item.move.shape != 0 ? &interpreter.shapes[item.move.shape - 1] : nullptr;
+}
+
 void PartSystem::take() {
   if (from_stage_) {
     has_staged_ = false;
   } else {
     interpreter.pop();
   }
+}
+
+/// Why commit has not taken a move.
+Fault PartSystem::refused(Committed committed) const {
+  Fault fault;
+  if (committed == Committed::at_pole) {
+    fault.condition = Condition::mill_state;
+    return fault;
+  }
+  fault.condition = Condition::soft_limit;
+  fault.axis = commit_.limit_axis();
+  return fault;
 }
 
 /// A stage behind the interpreter has found what is wrong: everything that was read beyond is void.
@@ -168,12 +185,9 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     }
     static constexpr Transform kNone{};
     const Transform& transform = item->kind == ItemKind::move ? interpreter.transforms[item->move.transform] : kNone;
-    const Committed committed = commit_.commit(*item, transform);
-    if (committed == Committed::soft_limit) {
-      Fault fault;
-      fault.condition = Condition::soft_limit;
-      fault.axis = commit_.limit_axis();
-      stop_on(fault, item->source);
+    const Committed committed = commit_.commit(*item, transform, shape_of_item(*item));
+    if (committed == Committed::soft_limit || committed == Committed::at_pole) {
+      stop_on(refused(committed), item->source);
       continue;
     }
     if (watched_ && drop_ != 0 && item->kind != ItemKind::sync) [[unlikely]] {
@@ -197,6 +211,14 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     take();
     return NC_OK;
   }
+}
+
+nc_status PartSystem::move_point(double share, nc_axes* machine) const {
+  const Curve& curve = commit_.curve();
+  if (online_ || !(curve.length > 0)) return NC_E_STATE;
+  const AxisVec at = curve_position(curve, share * curve.length, interpreter.axis_count);
+  std::memcpy(machine->v, at.v, sizeof machine->v);
+  return NC_OK;
 }
 
 nc_status PartSystem::answer(const nc_world& world) {
@@ -275,18 +297,16 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
   }
   static constexpr Transform kNone{};
   const Transform& transform = item->kind == ItemKind::move ? interpreter.transforms[item->move.transform] : kNone;
-  const Committed committed = commit_.commit(*item, transform);
-  if (committed == Committed::soft_limit) {
-    Fault fault;
-    fault.condition = Condition::soft_limit;
-    fault.axis = commit_.limit_axis();
-    stop_on(fault, item->source);
+  const Committed committed = commit_.commit(*item, transform, shape_of_item(*item));
+  if (committed == Committed::soft_limit || committed == Committed::at_pole) {
+    stop_on(refused(committed), item->source);
     return NC_OK;
   }
   if (committed == Committed::yes) {
     Record record;
     commit_.to_record(*item, transform, &record);
     record.epoch = epoch_;
+    if (item->kind == ItemKind::move) commit_.note_record(executor.head());
     executor.push(record);
     if (item->kind == ItemKind::mark) remember_mark(*item);
     if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
@@ -334,7 +354,7 @@ nc_status PartSystem::feed(uint32_t budget) {
   }
   nc_status status = NC_OK;
   unsigned committed = 0;
-  while (status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1) {
+  while (status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1 && commit_.shape_room(executor.tail(), executor.head())) {
     status = commit_online(budget);
     ++committed;
   }

@@ -17,6 +17,7 @@ class PartSystem {
   nc_status select(const ProgramRef& program, bool mdi = false);
   nc_status reset();
   nc_status pull(uint32_t budget, nc_item* item);
+  nc_status move_point(double share, nc_axes* machine) const;
   nc_status answer(const nc_world& world);
   nc_status rewind(Serial serial);
   /// Offline: level of the interrupt signal (M700 13.12). *take_back: the item pulled last must not be executed.
@@ -38,11 +39,13 @@ class PartSystem {
   /// Next item in stream order behind the offset stage; NC_OK, or why there is none. take() removes it.
   nc_status next(uint32_t& budget, const Item** item);
   void take();
+  const MoveShape* shape_of_item(const Item& item) const;
   void remember_mark(const Item& mark) {
     if (offset_.idle()) return commit_.remember(mark, nullptr);
     const OffsetResume resume = offset_.resume_point();
     commit_.remember(mark, &resume);
   }
+  Fault refused(Committed committed) const;
   void stop_on(const Fault& fault, const nc_source& source);
   void describe_alarm();
   void restart(const AxisVec& machine, bool keep_modal = false);

@@ -12,6 +12,12 @@ namespace nc {
 enum class Function : uint8_t {
   missing,            ///< in the manual, not built: raises the row's alarm when used
   rapid, linear, arc_cw, arc_ccw,
+  spiral, exponential, space_arc, nurbs, thread,   ///< G02.1 G02.3 G02.4 G06.2 G33 and their counterparts: group 1 tells which
+  cylinder, polar_on, polar_off,   ///< G07.1 G12.1 G13.1
+  polar_command_on, polar_command_off,   ///< G16 G15
+  hypothetical_axis,  ///< G07
+  unidirectional,     ///< G60
+  high_speed,         ///< G05
   dwell, data_input, data_input_end,   ///< G04 G10 G11
   exact_stop_once,    ///< G09
   plane_xy, plane_zx, plane_yz,

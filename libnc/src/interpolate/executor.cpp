@@ -42,6 +42,14 @@ unsigned Executor::room() const {
   return state_->config.capacity - (state_->head - state_->shared.tail.load(std::memory_order_acquire));
 }
 
+uint32_t Executor::head() const {
+  return state_->head;
+}
+
+uint32_t Executor::tail() const {
+  return state_->shared.tail.load(std::memory_order_acquire);
+}
+
 void Executor::push(const Record& record) {
   ExecutorState& e = *state_;
   e.ring[e.head & e.mask] = record;

@@ -33,6 +33,9 @@ class Executor {
   // ----------------------------------------------------------------------------------------------
   /// Records that may be pushed now.
   unsigned room() const;
+  /// Numbers of the records under way: [tail, head).
+  uint32_t head() const;
+  uint32_t tail() const;
   /// Commits one record: computes its speed limits, and makes it visible to the scan after the next plan().
   void push(const Record& record);
   /// Recomputes the time law over everything committed (always ending at rest at its end) for the override

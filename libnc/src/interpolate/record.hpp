@@ -23,6 +23,9 @@ struct Segment {
   bool exact_stop = false;
   uint8_t skip_mask = 0;  ///< ends where one of these signals comes
   bool skip = false;
+  bool thread = false;       ///< goes with the spindle, whatever override and hold say (M700 6.7.1)
+  float thread_angle = 0;    ///< of the spindle where it starts, deg
+  double feed_end_mm_s = 0;  ///< the feed goes evenly to this at the end; 0 = it stays
   // filled by the planner when it is committed
   double speed_limit = 0;  ///< path speed at which some axis reaches its velocity limit, or the curvature its
                            ///< acceleration limit

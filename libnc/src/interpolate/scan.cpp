@@ -169,7 +169,9 @@ void Scan::states(const nc_inputs& in) {
     }
     return;
   }
-  if (in.feed_hold && !(disable_ & 1) && state_ == NC_STATE_RUNNING) {  // M700 13.5.10: #3004 bit 0
+  if (in.feed_hold && !(disable_ & 1) && state_ == NC_STATE_RUNNING && cutting_thread()) {
+    hold_behind_thread_ = true;
+  } else if (in.feed_hold && !(disable_ & 1) && state_ == NC_STATE_RUNNING && (!hold_behind_thread_ || at_rest())) {  // M700 13.5.10: #3004 bit 0
     hold_ = true;
     state_ = NC_STATE_HOLD;
   }
@@ -213,6 +215,7 @@ void Scan::give_up() {
   ++epoch_;
   law_ = {};
   moving_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = displaced_ = false;
+  hold_behind_thread_ = block_has_thread_ = false;
   fin1_groups_ = 0;
   strobe_ = 0;               // a FIN that comes now is late and completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
@@ -308,7 +311,8 @@ void Scan::publish(const nc_inputs& in) {
   ScanStatus status;
   status.command = command_;
   status.feed_override = feed_override(in);
-  status.single_block = (in.single_block && !(suppress_ & 1)) || interrupt_wanted_;  // the plan rests at the ends of blocks
+  // The plan rests at the ends of blocks where an interrupt waits or a hold that was pressed in a thread.
+  status.single_block = (in.single_block && !(suppress_ & 1)) || interrupt_wanted_ || hold_behind_thread_;
   status.last_mark = last_mark_;
   shared_->status.write(status);
   shared_->ordinal.store(ordinal_, std::memory_order_relaxed);

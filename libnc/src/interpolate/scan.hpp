@@ -94,12 +94,17 @@ class Scan {
   void mark(const Mark& mark, const nc_inputs& in) NC_RT;
   void alarm() NC_RT;
   void leave(const Record& record, bool executed) NC_RT;
-  bool in_position(const nc_inputs& in) const NC_RT;
+  /// `width` > 0: of the block instead of the axes'.
+  bool in_position(const nc_inputs& in, double width = 0) const NC_RT;
 
   const Record& current() const { return ring_[tail_ & mask_]; }
   bool at_rest() const { return law_.v == 0; }
   bool held() const { return hold_ || reset_ || alarmed_; }  ///< nothing is executed at rest
   bool braking() const { return held() || interlock_; }      ///< no axis may move
+  /// M700 6.7.1: a thread that is being cut is not held, nor is its feed changed.
+  bool thread_braking() const { return reset_ || alarmed_ || interlock_; }
+  bool cutting_thread() const { return moving_ && law_.v > 0 && current().segment.thread; }
+  double programmed_feed(const Segment& s) const;
 
   // ---- set once
   ExecutorConfig config_;
@@ -158,6 +163,10 @@ class Scan {
   // ---- gates
   bool gate_begun_ = false;
   double gate_left_ = 0;
+
+  // ---- threads (M700 6.7.1)
+  bool block_has_thread_ = false;    ///< the block in execution has cut one
+  bool hold_behind_thread_ = false;  ///< feed hold was pressed in a thread: stop behind the first block that is none
 
   // ---- skip
   bool skipped_ = false;       ///< the last skip move ended by its signal

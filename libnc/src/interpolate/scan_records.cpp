@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "interpolate/scan.hpp"
+#include "path/shape.hpp"
 
 namespace nc {
 namespace {
@@ -90,18 +91,29 @@ void Scan::end_move(const Record& r) {
   law_.s = 0;
   moving_ = skip_braking_ = false;
   latest_ = &r.segment;
+  block_has_thread_ |= r.segment.thread;
   if (r.segment.skip && !skipped_) skip_position_ = wanted_;
+}
+
+/// Feed of the segment at 100 %. M700 6.11: that of an exponential curve goes from F to Q evenly with its linear axis.
+double Scan::programmed_feed(const Segment& s) const {
+  if (!(s.feed_end_mm_s > 0) || s.curve.shape == nullptr) return s.feed_mm_s;
+  const unsigned axis = s.curve.shape->what.exponential.linear;
+  const double share = (wanted_[axis] - s.curve.start[axis]) / s.curve.delta[axis];
+  return s.feed_mm_s + (s.feed_end_mm_s - s.feed_mm_s) * std::min(1.0, std::max(0.0, share));
 }
 
 /// Path speed that is wanted now; 0 brakes.
 double Scan::speed_cap(const Segment& s, const nc_inputs& in) {
-  if (braking() || skip_braking_) return 0;
+  if ((s.thread ? thread_braking() : braking()) || skip_braking_) return 0;
   double cap = s.speed_limit;
   if (s.rapid) {
     cap *= std::min(1.0, std::max(0.0, in.rapid_override));
+  } else if (s.thread) {
+    cap = std::min(cap, s.feed_mm_rev * std::fabs(in.spindle_rev_per_s));
   } else {
     const double override_now = feed_override(in);
-    const double feed = s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(in.spindle_rev_per_s) : s.feed_mm_s;
+    const double feed = s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(in.spindle_rev_per_s) : programmed_feed(s);
     // M700 15.2: a skip move goes at 100 %, but for an override of 0.
     cap = std::min(cap, s.skip && override_now > 0 ? feed : feed * override_now);
   }
@@ -195,11 +207,11 @@ Scan::Done Scan::strobe(const Action& a) {
 // ---- gates
 // --------------------------------------------------------------------------------------------------------------
 
-bool Scan::in_position(const nc_inputs& in) const {
+bool Scan::in_position(const nc_inputs& in, double width_of_block) const {
   if (!shape_.settled(wanted_)) return false;
   if (!in.actual_valid) return true;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
-    const double width = config_.limits[i].in_position;
+    const double width = width_of_block > 0 ? width_of_block : config_.limits[i].in_position;
     if (width > 0 && std::fabs(in.actual.v[i] - wanted_[i]) > width) return false;
   }
   return true;
@@ -244,7 +256,7 @@ Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
     case NC_GATE_DWELL_TURNS:
       return dwell(std::fabs(in.spindle_rev_per_s), g.value);
     case NC_GATE_IN_POSITION:
-      return in_position(in) ? Done::yes : wait(NC_CAUSE_IN_POSITION);
+      return in_position(in, g.value) ? Done::yes : wait(NC_CAUSE_IN_POSITION);
     case NC_GATE_OPTIONAL_STOP:
       return optional_stop(in);
     case NC_GATE_STOP:
@@ -277,13 +289,20 @@ void Scan::mark(const Mark& m, const nc_inputs& in) {
   modal_ = m.modal;
   if (m.report) ++blocks_;
   block_begun_ = !m.resume;  // a block that stops at one of its places has begun, even when nothing moved yet
-  if (m.report && m.stop && interrupt_wanted_ && at_rest() && state_ == NC_STATE_RUNNING) {
+  const bool thread = block_has_thread_;
+  if (m.report) block_has_thread_ = false;
+  if (m.report && m.stop && !thread && interrupt_wanted_ && at_rest() && state_ == NC_STATE_RUNNING) {
     // What lies behind this block is given up and the feeder goes on with the interrupt program.
     interrupt_wanted_ = false;
     rereading_ = interrupt_reached_ = true;
     return;
   }
-  if (m.stop && in.single_block && !(suppress_ & 1) && at_rest() && state_ == NC_STATE_RUNNING) {
+  if (thread || !m.stop || !at_rest() || state_ != NC_STATE_RUNNING) return;
+  if (hold_behind_thread_) {
+    hold_behind_thread_ = false;
+    state_ = NC_STATE_STOPPED;
+    cause_ = NC_CAUSE_FEED_HOLD;
+  } else if (in.single_block && !(suppress_ & 1)) {
     state_ = NC_STATE_STOPPED;
     cause_ = NC_CAUSE_SINGLE_BLOCK;
   }

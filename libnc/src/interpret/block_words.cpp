@@ -6,7 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "interpret/interpreter.hpp"
+#include "interpret/functions/functions.hpp"
 
 namespace nc {
 namespace {
@@ -31,6 +31,13 @@ Did take_g(Interpreter& in, double value) {
     row = find_function(*in.dialect, static_cast<int>(code));
   }
   if (row == nullptr) return in.raise(Condition::illegal_g, 'G', value);
+  if (is_space_arc(in.state.modal.code[kGroupMotion])) {
+    const Did did = check_in_space_arc(in, *row);
+    if (did != Did::done) return did;
+  }
+  // M700 6.12: high-speed high-accuracy control I and the spline exclude the polar command.
+  if (row->function == Function::missing && row->code == 51 && in.state.modal.code[kGroupPolarCommand] == 160)
+    return in.raise(Condition::illegal_g, 'G', value);
   if (row->function == Function::missing) return in.raise(Condition::no_function, 'G', code);
   BlockWords& w = in.words;
   if (!w.g.push_back(row)) return in.raise(Condition::format_error, 'G', value);
@@ -48,7 +55,7 @@ Did take_g(Interpreter& in, double value) {
       return Did::done;
     default: break;
   }
-  if (row->group == kGroupOneShot) {
+  if (row->group == kGroupOneShot || row->group == kGroupInterpolationMode) {
     w.one_shot = row;
     w.one_shot_code = static_cast<int16_t>(code);
   } else if (row->group == kGroupMotion) {
@@ -88,6 +95,7 @@ Did gather_words(Interpreter& in) {
   w.one_shot = w.motion = w.cycle = nullptr;
   w.one_shot_code = 0;
   w.exact_stop = false;
+  w.in_position = 0;
   w.absolute_at = w.incremental_at = 0;
   const Word* const words = in.block->words.begin();
   const unsigned count = in.block->words.size();
@@ -113,6 +121,11 @@ Did gather_words(Interpreter& in) {
       if (eval == Eval::need_sync) return Did::sync;
       if (v.vacant) continue;  // M700 13.5.4: a word with only a vacant variable is ignored
       value = v.number;
+    }
+    if ((word.flags & kWordComma) != 0 && word.letter == 'I' && in.dialect->id == NC_DIALECT_M700) {
+      w.in_position = length_value(in, value, word.flags, false, true);
+      if (!(w.in_position > 0)) return in.raise(Condition::value_range, 'I', value);
+      continue;
     }
     if ((word.flags & kWordComma) != 0) {  // M700 13.7 ,C ,R; 13.8 ,A; in-position widths ,I ,J, device ,D, tap ,S
       const bool corner = word.letter == 'C' || word.letter == 'R';
@@ -260,7 +273,8 @@ Did resolve_axes(Interpreter& in) {
     const auto at = static_cast<unsigned>(std::countr_zero(left));
     const auto axis = static_cast<unsigned>(in.axis_of[at]);
     axes |= 1u << axis;
-    const bool turns = ((in.rotary >> axis) & 1) != 0;
+    // M700 6.10: in the plane of polar coordinate interpolation the rotary axis is commanded in mm or inch.
+    const bool turns = ((in.rotary >> axis) & 1) != 0 && !(in.state.map.kind == AxisMap::Kind::polar && axis == in.state.map.rotary);
     const double value = length_value(in, w.raw[at], w.flags[at], turns, false);
     const char letter = static_cast<char>('A' + at);
     const bool time = letter == 'X' && w.one_shot != nullptr && w.one_shot->function == Function::dwell;  // seconds: a range of its own

@@ -31,6 +31,7 @@ struct BlockWords {
   const FunctionRow* cycle = nullptr;    ///< group 9 code of this block, or null
   bool exact_stop = false;         ///< G09
   char late_number = 0;            ///< N or O behind other words, 0 = none
+  double in_position = 0;          ///< ,I: in-position width of this block, mm (M700 6.1, 6.2); 0 = none
   bool comp_command = false;       ///< G40-G42 that means something here
   uint64_t absolute_at = 0, incremental_at = 0;  ///< bit i: word i of the block is G90, G91
 

@@ -11,7 +11,7 @@ namespace {
 uint32_t head_size(const State& state) { return static_cast<uint32_t>(offsetof(State, frame) + (state.depth + 1u) * sizeof(CallFrame)); }
 uint32_t loops_size(const State& state) { return static_cast<uint32_t>(state.loop_count * sizeof(Loop)); }
 
-constexpr uint32_t kOrdinary = 640;  // main program and one or two levels
+constexpr uint32_t kOrdinary = 736;  // main program and one or two levels
 
 }  // namespace
 

@@ -7,9 +7,15 @@
 //   4. the one-shot function, or the fixed cycle, or the motion of group 1
 //   5. M00 M01 M02 M30 M98 M99
 #include "interpret/functions/functions.hpp"
+#include "interpret/plane.hpp"
 
 namespace nc {
 namespace {
+
+/// G00 G01 G02 G03.
+bool plain_motion(int16_t code) { return code <= 30 && code % 10 == 0; }
+
+bool has_own_feed(int16_t code) { return code == 330 || code == 23 || code == 33; }
 
 bool is_arc(int16_t code) { return code == 20 || code == 30; }
 
@@ -35,19 +41,6 @@ bool ignores_cycle(const FunctionRow* one_shot) {
     case Function::coordinate_set: return true;
     default: return false;
   }
-}
-
-Did select_plane(Interpreter& in, int16_t code) {
-  const bool changes = in.state.modal.code[kGroupPlane] != code;
-  if (in.dialect->id == NC_DIALECT_DGSHAPE) {
-    // DGSHAPE G40-G42, G80: XY plane only.
-    if (code != 170 && in.state.comp.side != 0) return in.raise(Condition::plane_in_compensation, 'G', code / 10.0);
-    if (code != 170 && in.state.cycle.kind != CycleKind::none) return in.raise(Condition::cycle_wrong_plane, 'G', code / 10.0);
-  } else if (changes && (in.state.comp.side != 0 || in.state.moves_since_comp_off == 0)) {
-    return in.raise(Condition::plane_in_compensation, 'G', code / 10.0);  // M700 App.1 P112, also right after G40
-  }
-  in.state.modal.code[kGroupPlane] = code;
-  return Did::done;
 }
 
 }  // namespace
@@ -81,10 +74,22 @@ Did apply_reading_modes(Interpreter& in) {
       case Function::linear:
       case Function::arc_cw:
       case Function::arc_ccw:
+      case Function::spiral:
+      case Function::exponential:
+      case Function::space_arc:
+      case Function::nurbs:
+      case Function::thread:
       case Function::modal_off:
         if (row->group != kGroupOneShot) in.state.modal.code[row->group] = row->code;
         break;
       case Function::macro_modal_off: cancel_modal_call(in); break;
+      case Function::polar_command_on:
+      case Function::polar_command_off: {
+        const Did did = select_polar_command(in, *row);
+        if (did != Did::done) return did;
+        in.state.refresh_special();
+        break;
+      }
       default: break;
     }
   }
@@ -156,6 +161,8 @@ Did finish(Interpreter& in, Did did) {
 /// at is left out; the order is that of every block.
 bool only_moves(const Interpreter& in) {
   const BlockWords& w = in.words;
+  // Codes of group 1 with words of their own, and modes that change what words mean, take the long way.
+  if (in.state.special != 0 || !plain_motion(w.motion != nullptr ? w.motion->code : in.state.modal.code[kGroupMotion])) return false;
   const bool codes = w.g.empty() || (w.g.size() == 1 && w.motion != nullptr);
   return codes && w.m.empty() && (w.present & ~(in.axis_letters | letters("F"))) == 0 && in.state.cycle.kind == CycleKind::none &&
          in.state.modal_call == 0;
@@ -196,11 +203,18 @@ Did execute_words(Interpreter& in) {
   if (w.late_number != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
     return in.raise(Condition::format_error, w.late_number, w.get(w.late_number));
   did = check_company(in);
+  if (did == Did::done && in.state.map.kind != AxisMap::Kind::none) did = check_mill_block(in);
   if (did != Did::done) return did;
   did = resolve_axes(in);
   if (did != Did::done) return did;
+  if (is_space_arc(in.state.modal.code[kGroupMotion]) || in.state.arc_step != ArcStep::none) did = check_space_arc_block(in);
+  if (did == Did::done && in.state.nurbs.active()) did = check_nurbs_block(in);
+  if (did != Did::done) return did;
+  if (in.state.modal.code[kGroupPolarCommand] == 160) resolve_polar_words(in);
   // The F of a skip block is its own and never modal (M700 15.2).
-  const bool own_feed = w.one_shot != nullptr && w.one_shot->function == Function::skip;
+  // Nor is the lead of a thread (6.7.1) or the feed of an exponential curve (6.11).
+  const bool own_feed = w.one_shot != nullptr ? w.one_shot->function == Function::skip
+                                              : has_own_feed(in.state.modal.code[kGroupMotion]);
   if (w.has('F') && !own_feed) did = feed_of(in, &in.state.modal.feed);
   if (did != Did::done) return did;
   did = apply_systems(in);

@@ -7,6 +7,8 @@
 #include <initializer_list>
 #include <new>
 
+#include "interpret/plane.hpp"
+
 namespace nc {
 namespace {
 
@@ -27,10 +29,8 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   system = config.system;
   system_number = config.system_number;
   axis_count = config.system->axis_count;
-  for (int8_t& a : axis_of) a = -1;
+  refresh_letters();
   for (unsigned i = 0; i < axis_count; ++i) {
-    axis_of[config.system->axis[i].name - 'A'] = static_cast<int8_t>(i);
-    axis_letters |= 1u << (config.system->axis[i].name - 'A');
     if (config.system->axis[i].rotary) rotary |= 1u << i;
   }
   for (int code = 0; code < kDirectCodes; ++code) direct_function[code] = find_function(*dialect, code * 10);
@@ -46,6 +46,8 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   texts.create(power_of_two_above(config.look_ahead + 64), arena);  // DPRNT: one in every block that is under way
   notes.create(arena);
   rewritten = arena.make<Block>();
+  shapes.create(128, arena);
+  points.create(power_of_two_above(config.look_ahead + 128), arena);
   queue_ = arena.make<Item>(kQueue);
   checkpoints_.create(power_of_two_above(config.look_ahead + 64), arena);
   if (queue_ != nullptr && !arena.overflowed()) {
@@ -55,10 +57,28 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   }
 }
 
+void Interpreter::refresh_letters() {
+  for (int8_t& a : axis_of) a = -1;
+  axis_letters = 0;
+  for (unsigned i = 0; i < axis_count; ++i) {
+    axis_of[system->axis[i].name - 'A'] = static_cast<int8_t>(i);
+    axis_letters |= 1u << (system->axis[i].name - 'A');
+  }
+  const char hypothetical = state.mill.hypothetical_letter;
+  if (hypothetical == 0) return;
+  axis_of[hypothetical - 'A'] = static_cast<int8_t>(state.map.rotary);
+  axis_letters |= 1u << (hypothetical - 'A');
+}
+
 AxisVec Interpreter::position() const {
   const AxisVec& z = zero();
   AxisVec p;  // all axes: a count that the compiler knows; those that the machine does not have are zero everywhere
   for (unsigned i = 0; i < kMaxAxes; ++i) p[i] = state.machine[i] - z[i] - state.applied[i];
+  if (state.map.kind == AxisMap::Kind::polar) {
+    Transform t;
+    for (unsigned i = 0; i < kMaxAxes; ++i) t.offset[i] = z[i] + state.applied[i];
+    return to_programmed(state.map, t.sign, t.offset, state.machine);
+  }
   return p;
 }
 
@@ -136,11 +156,13 @@ void Interpreter::reset(bool keep_modal) {
   const uint8_t length_axis = state.length_axis;
   const uint16_t work_system = state.work_system;
   const bool spindle_on = state.spindle_on, port_open = state.port_open;
+  const int8_t plane_axis[2] = {state.plane_axis[0], state.plane_axis[1]};
   state = State{};
   state.machine = machine;
   state.port_open = port_open;
   for (unsigned i = 0; i < NC_GROUPS; ++i) state.modal.code[i] = dialect->initial[i];
   if (settings.start_inch) state.modal.code[kGroupUnit] = 200;
+  select_basic_plane(*this, dialect->id == NC_DIALECT_M700 ? settings.start_plane : state.modal.code[kGroupPlane]);
   if (keep_modal) {
     const ModalState initial = state.modal;
     state.modal = modal;
@@ -150,10 +172,12 @@ void Interpreter::reset(bool keep_modal) {
     state.length_value = length_value;
     state.length_axis = length_axis;
     state.spindle_on = spindle_on;
+    for (unsigned i = 0; i < 2; ++i) state.plane_axis[i] = plane_axis[i];
   }
   state.frame[0].program = main_program;
   state.frame[0].offset = state.frame[0].begin = main_program.offset;
   state.frame[0].line = state.frame[0].begin_line = main_program.line;
+  refresh_letters();
   variables.clear_locals(1);
   variables.forget();
   notes.clear();
@@ -185,6 +209,7 @@ bool Interpreter::rewind(BlockSeq seq) {
   if (!checkpoints_.holds(seq) || !variables.rewind(seq, this, undo)) return false;
   if (settings_stale_) refresh_settings();
   checkpoints_.restore(seq, &state);
+  refresh_letters();
   finished_modal = state.modal;
   newest_modal_ = kNoModal;
   head_ = queued_ = 0;
@@ -352,6 +377,7 @@ void Interpreter::take_block_back() {
   if (settings_stale_) refresh_settings();
   checkpoints_.restore(state.seq, &state);
   newest_modal_ = kNoModal;
+  refresh_letters();
 }
 
 void Interpreter::keep_call() {
@@ -396,6 +422,7 @@ ModalId Interpreter::modal_now() {
 void Interpreter::finish_block(bool stop, bool executable) {
   ++state.seq;
   if (state.interrupt_depth != 0) note_interrupt_items();
+  if (state.nurbs.active()) stop = false;   // M700 6.15: single block stops at the last control point only
   if (state.control_3003 & 1) stop = false;  // M700 10.5: single block suppressed
   Item& item = emit(ItemKind::mark);
   item.block_end = executable;

@@ -42,6 +42,14 @@ struct Message {
   bool operator==(const Message& other) const { return std::strcmp(text.s, other.text.s) == 0; }
 };
 
+/// A point that blocks to come need: of an axis that is held, on the way of an arc in space, a control point.
+struct PathPoint {
+  AxisVec at;
+  double weight = 1, knot = 0;
+  nc_source source{};
+  bool operator==(const PathPoint&) const { return false; }  // each is one of its own
+};
+
 struct InterpreterConfig {
   const Dialect* dialect = nullptr;
   const nc_system_config* system = nullptr;
@@ -139,6 +147,8 @@ struct Interpreter {
   InternPool<Transform> transforms;
   InternPool<ModalState> modals;
   InternPool<Message> texts;
+  InternPool<MoveShape> shapes;    ///< of moves under way; Move::shape counts from 1
+  InternPool<PathPoint> points;
   ProgramRef main_program;
   bool mdi = false;                ///< the main program is blocks of MDI: their end is no alarm
   uint32_t optional_skip = 0;      ///< switches, bit n = /n
@@ -213,6 +223,8 @@ struct Interpreter {
   /// Active zero and the position in it.
   const AxisVec& zero() const { return frames.zero(state.work_system); }
   AxisVec position() const;
+  /// The letters that command axes: those of the axes, or what a mode of the state makes of them.
+  void refresh_letters();
   /// Journalled write to the frames' table.
   void set_table(unsigned key, double value);
   /// Journalled write to a parameter; false when there is no such parameter or value.
@@ -319,12 +331,27 @@ struct LinearStyle {
   bool exact_stop = false;
   bool transparent = false;   ///< radius compensation vectors are away for this move
   uint8_t skip_mask = 0;
+  double feed_mm_rev = 0;     ///< thread: lead along the longest axis
+  double thread_angle = 0;
 };
 /// A straight move to `target` in the active coordinates; `commanded` = axes named in the block (tool length is applied to them).
 void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
 /// A straight rapid to machine coordinates without any compensation on the `commanded` axes (G53, second leg of G28).
 void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded);
 Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw);
+/// Programmed coordinates of a move: where it starts and ends, and the transform behind them.
+struct MoveFrame {
+  Transform transform;
+  AxisVec start, end;
+};
+/// Tool length goes to the commanded axes; axes that are not stay where they are.
+MoveFrame frame_of_move(Interpreter& in, const AxisVec& target, uint32_t commanded);
+struct PlaneAxes;
+/// A circular move (arc, helix, spiral) at the feed in force.
+void emit_circular(Interpreter& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind);
+/// A move of any other shape at the feed in force.
+Move& emit_shaped(Interpreter& in, const MoveFrame& frame, const MoveShape& shape, nc_move_kind kind);
+inline bool is_space_arc(int16_t motion) { return motion == 24 || motion == 34; }
 /// A compensation command in a block that does not move: a move without length carries it to the offset stage (offset/offset.hpp).
 void move_nowhere(Interpreter& in);
 /// The motion that the words of the block ask for by the modal group 1.

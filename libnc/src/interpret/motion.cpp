@@ -2,7 +2,8 @@
 // Moves: from words to curves in the compensation frame.
 #include <cmath>
 
-#include "interpret/interpreter.hpp"
+#include "interpret/functions/functions.hpp"
+#include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
 
 namespace nc {
@@ -41,19 +42,31 @@ Move& begin_move(Interpreter& in, const Transform& transform, const AxisVec& sta
   return move;
 }
 
-struct PlaneAxes {
-  int h, v;
-  Plane plane;
-  char center[2];  ///< address letters of the centre
-};
-
-PlaneAxes plane_axes(const Interpreter& in) {
-  const int x = in.axis_of['X' - 'A'], y = in.axis_of['Y' - 'A'], z = in.axis_of['Z' - 'A'];
-  switch (in.state.modal.code[kGroupPlane]) {
-    case 180: return {z, x, Plane::zx, {'K', 'I'}};   // right-handed: Z is the first axis of G18
-    case 190: return {y, z, Plane::yz, {'J', 'K'}};
-    default: return {x, y, Plane::xy, {'I', 'J'}};
+/// Programmed coordinates are not those of the axes: the move gets its shape, and the axes end where that leads. `before`: where they
+/// stand.
+void finish_shaped(Interpreter& in, const MoveShape& what, const MoveFrame& frame, const AxisVec& before, Move& move) {
+  move.shape = in.shapes.intern(what) + 1;
+  const PlainMove plain{&move.start, &move.end, move.circular ? &move.circle : nullptr, move.plane_axis[0], move.plane_axis[1]};
+  CurveShape shape;
+  Curve curve;
+  make_shaped(what, plain, frame.transform.sign, frame.transform.offset, before, in.axis_count, in.rotary, &shape, &curve);
+  const AxisMap& map = what.map;
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    // The program goes on from where a held axis would be; its real place is kept beside (M700 6.16).
+    if (((map.frozen >> i) & 1) == 0) in.state.machine[i] = curve.end[i];
   }
+  if (map.kind != AxisMap::Kind::cylinder) return;
+  // Positions on a cylinder are shown in degrees.
+  move.work[map.rotary] /= map.scale;
+  for (unsigned i = 0; i < 2; ++i)
+    if (move.plane_axis[i] == map.rotary) move.work_center[i] /= map.scale;
+}
+
+void finish_mapped(Interpreter& in, const MoveFrame& frame, const AxisVec& before, Move& move) {
+  if ((in.state.special & kSpecialMap) == 0) return;
+  MoveShape shape;
+  shape.map = in.state.map;
+  finish_shaped(in, shape, frame, before, move);
 }
 
 /// M700 2.3: a rotary position must be a multiple of #2106.
@@ -105,11 +118,56 @@ AxisVec target_of(const Interpreter& in, const AxisVec& position, uint32_t axes,
   return from_program(in, plain_target(in, to_program(in, position), axes, value));
 }
 
+MoveFrame frame_of_move(Interpreter& in, const AxisVec& target, uint32_t commanded) {
+  if (program_mapped(in) && commanded != 0) {
+    commanded = moved_axes(in, commanded);
+    figure_has_moved(in);
+  }
+  apply_length(in, commanded);
+  MoveFrame frame{transform_in_force(in), {}, target};
+  if ((in.state.special & kSpecialMap) != 0) {
+    const AxisMap& map = in.state.map;
+    frame.start = to_programmed(map, frame.transform.sign, frame.transform.offset, in.state.machine);
+    if (map.kind == AxisMap::Kind::cylinder) frame.end[map.rotary] *= map.scale;
+  } else {
+    frame.start = frame.transform.from_machine(in.state.machine);
+  }
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((commanded >> i) & 1) == 0) frame.end[i] = frame.start[i];  // an axis that is not named stays where it is
+  return frame;
+}
+
+namespace {
+
+inline void set_style(Move& move, const LinearStyle& style) {
+  move.kind = style.kind;
+  move.exact_stop = style.exact_stop || style.kind == NC_MOVE_RAPID;
+  move.feed_mm_min = style.kind == NC_MOVE_RAPID ? 0 : style.feed_mm_min;
+  move.skip_mask = style.skip_mask;
+  move.comp.transparent = style.transparent;
+  if (style.kind != NC_MOVE_THREAD) return;
+  move.feed_mm_rev = style.feed_mm_rev;
+  move.thread_angle = static_cast<float>(style.thread_angle);
+}
+
+void move_linear_mapped(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
+  const MoveFrame frame = frame_of_move(in, target, commanded);
+  if (same_place(frame.start, frame.end, in.axis_count)) return;
+  const AxisVec before = in.state.machine;
+  Move& move = begin_move(in, frame.transform, frame.start, frame.end);
+  set_style(move, style);
+  finish_mapped(in, frame, before, move);
+}
+
+}  // namespace
+
 void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
   if (program_mapped(in) && commanded != 0) {
     commanded = moved_axes(in, commanded);
     figure_has_moved(in);
   }
+  if ((in.state.special & kSpecialMap) != 0) return move_linear_mapped(in, target, commanded, style);
+  // One for nearly every block: what frame_of_move() does, without carrying it about.
   apply_length(in, commanded);
   const Transform transform = transform_in_force(in);
   const AxisVec start = transform.from_machine(in.state.machine);
@@ -117,23 +175,19 @@ void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, con
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded >> i) & 1) == 0) end[i] = start[i];  // an axis that is not named stays where it is
   if (same_place(start, end, in.axis_count)) return;
-  Move& move = begin_move(in, transform, start, end);
-  move.kind = style.kind;
-  move.exact_stop = style.exact_stop || style.kind == NC_MOVE_RAPID;
-  move.feed_mm_min = style.kind == NC_MOVE_RAPID ? 0 : style.feed_mm_min;
-  move.skip_mask = style.skip_mask;
-  move.comp.transparent = style.transparent;
+  set_style(begin_move(in, transform, start, end), style);
 }
 
 void move_nowhere(Interpreter& in) {
-  const Transform transform = transform_in_force(in);
-  const AxisVec at = transform.from_machine(in.state.machine);
+  const MoveFrame frame = frame_of_move(in, AxisVec{}, 0);
+  const AxisVec before = in.state.machine;
   const auto moves = in.state.moves_since_comp_off;
-  Move& move = begin_move(in, transform, at, at);
+  Move& move = begin_move(in, frame.transform, frame.start, frame.start);
   in.state.moves_since_comp_off = moves;
   move.kind = in.state.modal.code[kGroupMotion] == 0 ? NC_MOVE_RAPID : NC_MOVE_LINE;
   move.exact_stop = move.kind == NC_MOVE_RAPID;
   move.feed_mm_min = move.kind == NC_MOVE_RAPID ? 0 : feed_mm_min(in);
+  finish_mapped(in, frame, before, move);
 }
 
 void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded) {
@@ -145,10 +199,39 @@ void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded) {
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded >> i) & 1) == 0) end[i] = start[i];
   if (same_place(start, end, in.axis_count)) return;
+  const AxisVec before = in.state.machine;
   Move& move = begin_move(in, transform, start, end);
   move.kind = NC_MOVE_RAPID;
   move.exact_stop = true;
   move.comp.transparent = true;
+  finish_mapped(in, MoveFrame{transform, start, end}, before, move);
+}
+
+void emit_circular(Interpreter& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind) {
+  const AxisVec before = in.state.machine;
+  Move& move = begin_move(in, frame.transform, frame.start, frame.end);
+  move.kind = kind;
+  move.circular = true;
+  move.plane = plane.plane;
+  move.plane_axis[0] = static_cast<uint8_t>(plane.h);
+  move.plane_axis[1] = static_cast<uint8_t>(plane.v);
+  move.circle = circle;
+  move.work_center[0] = circle.center[0];
+  move.work_center[1] = circle.center[1];
+  move.feed_mm_min = feed_mm_min(in);
+  move.plane_feed = kind == NC_MOVE_HELIX && in.settings.helix_plane_feed;  // M700 6.6: lines and arcs keep F
+  move.exact_stop = in.words.exact_stop || in.state.modal.code[kGroupCutting] == 610;
+  finish_mapped(in, frame, before, move);
+}
+
+Move& emit_shaped(Interpreter& in, const MoveFrame& frame, const MoveShape& shape, nc_move_kind kind) {
+  const AxisVec before = in.state.machine;
+  Move& move = begin_move(in, frame.transform, frame.start, frame.end);
+  move.kind = kind;
+  move.feed_mm_min = feed_mm_min(in);
+  move.exact_stop = in.words.exact_stop || in.state.modal.code[kGroupCutting] == 610;
+  finish_shaped(in, shape, frame, before, move);
+  return move;
 }
 
 Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw) {
@@ -167,18 +250,9 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
       if (w.has(plane.center[i])) words.center[i] = length_of(in, plane.center[i]);
     if (w.has('P') && (!whole_number(w.get('P'), &words.turns) || words.turns > 9999)) return in.raise(Condition::value_range, 'P', w.get('P'));
   }
-  if (program_mapped(in)) {
-    map_arc(in, h, v, words.center, &ccw);
-    commanded = moved_axes(in, commanded);
-    figure_has_moved(in);
-  }
-  apply_length(in, commanded);
-  const Transform transform = transform_in_force(in);
-  const AxisVec start = transform.from_machine(in.state.machine);
-  AxisVec end = target;
-  for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((commanded >> i) & 1) == 0) end[i] = start[i];
-  const double from[2] = {start[h], start[v]}, to[2] = {end[h], end[v]};
+  if (program_mapped(in)) map_arc(in, h, v, words.center, &ccw);
+  const MoveFrame frame = frame_of_move(in, target, commanded);
+  const double from[2] = {frame.start[h], frame.start[v]}, to[2] = {frame.end[h], frame.end[v]};
   Circle circle;
   bool no_motion = false;
   const Condition bad = make_circle(from, to, words, ccw, in.settings.arc_tolerance, &circle, &no_motion);
@@ -187,23 +261,35 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
     // Nothing goes round; axes outside the plane still go along a line.
     LinearStyle style;
     style.feed_mm_min = feed_mm_min(in);
-    move_linear(in, end, commanded, style);
+    move_linear(in, target, commanded, style);
     return Did::done;
   }
-  Move& move = begin_move(in, transform, start, end);
   bool helix = false;
-  for (unsigned i = 0; i < in.axis_count; ++i) helix = helix || (i != h && i != v && std::fabs(end[i] - start[i]) > kNoMotion);
-  move.kind = helix ? NC_MOVE_HELIX : NC_MOVE_ARC;
-  move.circular = true;
-  move.plane = plane.plane;
-  move.plane_axis[0] = static_cast<uint8_t>(h);
-  move.plane_axis[1] = static_cast<uint8_t>(v);
-  move.circle = circle;
-  move.work_center[0] = circle.center[0];
-  move.work_center[1] = circle.center[1];
-  move.feed_mm_min = feed_mm_min(in);
-  move.exact_stop = w.exact_stop || in.state.modal.code[kGroupCutting] == 610;
+  for (unsigned i = 0; i < in.axis_count; ++i) helix = helix || (i != h && i != v && std::fabs(frame.end[i] - frame.start[i]) > kNoMotion);
+  emit_circular(in, frame, plane, circle, helix ? NC_MOVE_HELIX : NC_MOVE_ARC);
   return Did::done;
+}
+
+/// M700 6.1, 6.2: the next block begins when every axis is nearer to its end than the width that the block gives with ,I.
+void wait_in_position(Interpreter& in) {
+  Gate& gate = in.emit(ItemKind::gate).gate;
+  gate.kind = NC_GATE_IN_POSITION;
+  gate.value = in.words.in_position;
+}
+
+/// Motions of group 1 beside G00 to G03.
+Did move_by_function(Interpreter& in, int16_t code, const AxisVec& target, uint32_t commanded) {
+  switch (code) {
+    case 330: return move_thread(in, target, commanded);
+    case 21:
+    case 31: return move_spiral(in, target, commanded, code == 31);
+    case 23:
+    case 33: return move_exponential(in, target, commanded, code == 33);
+    case 24:
+    case 34: return move_space_arc(in, target);
+    case 62: return move_nurbs(in, target);
+    default: return in.raise(Condition::internal, 'G', code / 10.0);
+  }
 }
 
 Did move_by_words(Interpreter& in) {
@@ -211,30 +297,49 @@ Did move_by_words(Interpreter& in) {
   const int16_t code = in.state.modal.code[kGroupMotion];
   const bool arc = code == 20 || code == 30;
   const bool arc_words = w.any(letters("RIJK"));
-  if (w.axes == 0 && !(arc && arc_words)) return Did::done;
+  const bool plain = code <= 30 && code % 10 == 0;
+  if (w.axes == 0 && !((arc || !plain) && (arc_words || code == 330))) return Did::done;
+  if (in.state.map.kind != AxisMap::Kind::none) {
+    const Did did = check_mill_move(in, w.axes);
+    if (did != Did::done) return did;
+  }
   for (unsigned i = 0; in.rotary != 0 && i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0 || !off_increment(in, i, w.axis[i])) continue;
     in.raise(Condition::index_increment, in.system->axis[i].name, w.axis[i]);
     in.fault.axis = static_cast<int8_t>(i);
     return Did::fault;
   }
-  // Where the block starts is asked only by words that count from there (an axis without a word stays), by the feed of rotary axes, and
-  // by a turned figure, in which one word moves two axes.
+  // Where the block starts is asked only by words that count from there (an axis without a word stays), by the feed of rotary axes,
+  // by a turned figure, in which one word moves two axes, and by curves. The end of an arc in space counts from its middle point.
   const bool mapped = program_mapped(in);
-  const AxisVec position = w.incremental != 0 || in.rotary != 0 || mapped ? in.position() : AxisVec{};
+  const bool halfway = in.state.arc_step == ArcStep::middle_given;
+  const AxisVec position = halfway                                                    ? in.points[in.state.arc_points + 1].at
+                           : w.incremental != 0 || in.rotary != 0 || mapped || !plain ? in.position()
+                                                                                      : AxisVec{};
   const AxisVec target = mapped ? target_of_words(in, position) : plain_target(in, position, w.axes, w.axis);
   if (code == 0) {
     LinearStyle style;
     style.kind = NC_MOVE_RAPID;
     move_linear(in, target, w.axes, style);
+    if (w.in_position > 0) wait_in_position(in);
     return Did::done;
   }
+  if (w.in_position > 0 && code != 10) return in.raise(Condition::illegal_address, 'I', w.in_position);
+  if (code == 330 || code == 23 || code == 33) return move_by_function(in, code, target, w.axes);
   if (in.state.modal.feed <= 0) return in.raise(Condition::no_feed, 'F');
-  if (arc) return move_arc(in, target, w.axes, code == 30);
+  if (!plain) return move_by_function(in, code, target, w.axes);
+  if (arc && in.settings.spiral_type_2 && means_spiral(in)) return move_spiral(in, target, w.axes, code == 30);
+  if (arc) {
+    const Did did = move_arc(in, target, w.axes, code == 30);
+    // M700 6.13: in type 2 radii that differ by more than the tolerance are a spiral of less than one turn (L1 when omitted).
+    const bool spiral = did == Did::fault && in.fault.condition == Condition::arc_deviation && in.settings.spiral_type_2 && !w.has('R');
+    return spiral && arc_words ? move_spiral(in, target, w.axes, code == 30) : did;
+  }
   LinearStyle style;
   style.feed_mm_min = feed_for(in, position, target);
   style.exact_stop = w.exact_stop || in.state.modal.code[kGroupCutting] == 610;
   move_linear(in, target, w.axes, style);
+  if (w.in_position > 0 && style.exact_stop) wait_in_position(in);  // only where there is a deceleration check
   return Did::done;
 }
 

@@ -80,6 +80,14 @@ int bit_of_key(const char* key, char (&whole)[24]) {
   return *end == 0 && bit < 32 ? bit : kNoKey;
 }
 
+/// An axis name, 0 = none (blank, 0, or a number that is no letter).
+char axis_letter(double value) {
+  if (!(value >= 'A' && value <= 'z')) return 0;
+  const char letter = static_cast<char>(value);
+  if (letter >= 'A' && letter <= 'Z') return letter;
+  return letter >= 'a' ? static_cast<char>(letter - 'a' + 'A') : char{0};
+}
+
 /// A parameter as bits; what is no whole number of 32 bits has none set.
 uint32_t bits_of(double value) { return value >= 0 && value <= 4294967295.0 ? static_cast<uint32_t>(value) : 0; }
 
@@ -213,6 +221,24 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.preset_allowed = number("1267/bit0", 1) != 0;
   s.run_time_hours = flag("1273/bit1");
   s.start_inch = flag("1152");
+  for (unsigned i = 0; i < 3; ++i) {
+    const char basic[5] = {'1', '0', '2', static_cast<char>('6' + i), 0};
+    const char parallel[5] = {'1', '0', i == 0 ? '2' : '3', i == 0 ? '9' : static_cast<char>('0' + i - 1), 0};
+    s.plane_basic[i] = axis_letter(number(basic, s.plane_basic[i]));
+    s.plane_parallel[i] = axis_letter(number(parallel, 0));
+  }
+  const double start_plane = number("1025", 1);  // 1 G17, 2 G18, 3 G19
+  s.start_plane = start_plane == 2 ? 180 : start_plane == 3 ? 190 : 170;
+  s.helix_plane_feed = flag("1235/bit0");
+  s.precision_lead = flag("1229/bit1");
+  s.spiral_type_2 = flag("1272/bit2");
+  s.spiral_tolerance = number("8075", s.spiral_tolerance);
+  s.mill_axis = axis_letter(number("1516", 0));
+  s.polar_linear = axis_letter(number("1533", 0));
+  s.hypothetical_by_name = flag("1517");
+  s.exponential_linear = axis_letter(number("1514", 0));
+  s.exponential_rotary = axis_letter(number("1515", 0));
+  for (unsigned i = 0; i < kMaxAxes; ++i) s.creep[i] = number("8209", 0, static_cast<int>(i));
   for (unsigned i = 0; i < kMaxAxes; ++i) s.index_increment[i] = number("2106", 0, static_cast<int>(i));
   return s;
 }

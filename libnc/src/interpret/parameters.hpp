@@ -46,6 +46,18 @@ struct Settings {
   double index_increment[kMaxAxes] = {};  ///< #2106, deg, 0 = not checked
   bool run_time_hours = false;        ///< #1273 bit 1
   bool preset_allowed = true;         ///< #1267 bit 0: G92.1 in list 1
+  char plane_basic[3] = {'X', 'Y', 'Z'};  ///< #1026-#1028: the axes of I, J, K
+  char plane_parallel[3] = {};            ///< #1029-#1031: their parallel axes, 0 = none
+  int16_t start_plane = 170;              ///< #1025
+  bool helix_plane_feed = false;          ///< #1235 bit 0: F of a helix is the speed in the plane of its arc
+  bool precision_lead = false;            ///< #1229 bit 1: E of G33 is a lead, not ridges per inch
+  bool spiral_type_2 = false;             ///< #1272 bit 2
+  double spiral_tolerance = 0.1;          ///< #8075 SpiralEndErr, mm
+  char mill_axis = 0;                     ///< #1516: rotary axis of cylindrical and polar coordinate interpolation
+  char polar_linear = 0;                  ///< #1533
+  bool hypothetical_by_name = false;      ///< #1517
+  char exponential_linear = 0, exponential_rotary = 0;  ///< #1514, #1515
+  double creep[kMaxAxes] = {};            ///< #8209 G60 shift, mm, signed
   // DGSHAPE settings
   bool calculator = false;
   uint8_t calculator_words = 0;       ///< 0 none, 1 all, 2 F, 3 IJKRXYZA

@@ -4,24 +4,15 @@
 // a pass leads from where the last one ended to the end point of its turned block (M700 13.3.3 (4)).
 #include "interpret/program_map.hpp"
 
+#include "interpret/plane.hpp"
+
 #include <cmath>
 #include <numbers>
 
 namespace nc {
 namespace {
 
-struct PlaneAxes {
-  int h, v;
-};
-
-PlaneAxes plane(const Interpreter& in) {
-  const int x = in.axis_of['X' - 'A'], y = in.axis_of['Y' - 'A'], z = in.axis_of['Z' - 'A'];
-  switch (in.state.modal.code[kGroupPlane]) {
-    case 180: return {z, x};
-    case 190: return {y, z};
-    default: return {x, y};
-  }
-}
+PlaneAxes plane(const Interpreter& in) { return plane_axes(in); }
 
 double figure(const Interpreter& in, unsigned what) { return in.notes.get(Notes::figure_key(what)); }
 bool rotated(const Interpreter& in) { return in.state.frame[in.state.depth].figure != 0; }

@@ -5,6 +5,7 @@
 
 #include "cycle/drilling.hpp"
 #include "modal/modal_state.hpp"
+#include "path/shape.hpp"
 #include "program/store.hpp"
 #include "stream/stream.hpp"
 
@@ -59,6 +60,36 @@ struct Loop {
 /// What a block still has to do after its first items; always Step::none at a mark that reports.
 enum class Step : uint8_t { none, cycle, skip_answered, after_motion };
 
+/// What cylindrical and polar coordinate interpolation give back when they end (M700 6.9, 6.10).
+struct MillReturn {
+  double feed = 0;
+  int16_t plane = 170, feed_mode = 940;
+  int8_t plane_axis[2] = {0, 1};
+  char hypothetical_letter = 0;  ///< commands the rotary axis in the plane; 0 = its own name does
+  bool moved = false;            ///< the mode has seen a movement
+};
+
+/// An arc in space over two blocks (M700 6.14).
+enum class ArcStep : uint8_t { none, middle_given, halfway };
+
+/// A NURBS that is being given block by block (M700 6.15).
+struct NurbsState {
+  uint32_t first = 0;   ///< of its points (Interpreter::points), one behind the other
+  uint32_t knots = 0;   ///< given so far; 0 = no curve is open
+  uint32_t points = 0;  ///< control points among them
+  uint8_t order = 4;    ///< degree + 1
+  uint8_t axes = 0;     ///< bit i: axis i stands in the first block
+  bool active() const { return knots != 0; }
+};
+
+/// Bits of State::special.
+enum Special : uint8_t {
+  kSpecialMap = 1,         ///< programmed coordinates are not those of the axes
+  kSpecialWords = 2        ///< axis words mean something else (G16)
+};
+/// Values of State::high_speed, the P of the last G05.
+inline constexpr uint16_t kHighAccuracy2 = 10000;
+
 struct State {
   BlockSeq seq = 0;           ///< blocks executed
   AxisVec machine;            ///< end of the last move, machine coordinates, without radius compensation
@@ -67,6 +98,19 @@ struct State {
   Compensation comp;          ///< tool radius compensation in force
   double length_value = 0;    ///< tool length compensation in force ...
   uint8_t length_axis = 2;    ///< ... on this axis
+  uint8_t special = 0;        ///< Special bits: 0 in nearly every program
+  bool polar_angle_known = false;
+  ArcStep arc_step = ArcStep::none;
+  uint8_t nurbs_order = 0;    ///< of the last curve, for one that a knot alone begins
+  uint16_t high_speed = 0;    ///< P of G05
+  uint32_t arc_points = 0;    ///< start and middle point of the arc in space
+  NurbsState nurbs;
+  uint32_t held_point = 0;    ///< where the axes of G07 stand (Interpreter::points)
+  double polar_angle = 0;     ///< G16: angle of the block before, deg
+  double thread_lead = 0;     ///< G33: mm along the long axis
+  AxisMap map;
+  MillReturn mill;
+  int8_t plane_axis[2] = {0, 1};  ///< axes of the plane in force, -1 = none
   uint16_t work_system = 0;   ///< 0..5 G54..G59, 6.. G54.1 P1..
   bool spindle_on = false;
   bool end_seen = false;
@@ -87,6 +131,9 @@ struct State {
   bool owes_mark = false;     ///< the block that called a program has ended with the return and still needs its mark
   uint8_t depth = 0;
   uint8_t loop_count = 0;
+  void refresh_special() {
+    special = static_cast<uint8_t>((map.active() ? kSpecialMap : 0) | (modal.code[kGroupPolarCommand] == 160 ? kSpecialWords : 0));
+  }
   // Only the first depth + 1 frames and loop_count loops are meaningful, and only these are copied into checkpoints.
   CallFrame frame[kMaxFrames];
   Loop loop[kMaxLoops];

@@ -3,6 +3,8 @@
 // smoothing".
 #include "motion/limits.hpp"
 
+#include "path/shape.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -50,6 +52,52 @@ void shape_arc(const Segment& s, const MotionLimits& limits, SegmentShape& g) {
   if (slowest > 0) g.bend = turn * turn * r_max * dr / (slowest * slowest * slowest);
 }
 
+/// Near the pole radius and angle change over a stretch as short as the distance from it, which samples may miss. With |z'| <= 1 and
+/// |z''| <= k at the distance d or more: |angle'| <= 1/d, |angle''| <= k/d + 1/d^2, |radius''| <= k + 1/d.
+void bound_near_pole(const CurveShape& shape, SegmentShape& g, AxisVec& bend) {
+  constexpr double kDegrees = 90 / kHalfPi;
+  const AxisMap& map = shape.what.map;
+  const PolarReach reach = polar_reach(shape);
+  if (reach.radial || !(reach.distance > 0)) return;
+  const double near = 1 / reach.distance;
+  g.most[map.linear] = 1;
+  bend[map.linear] = reach.curvature + near;
+  g.most[map.rotary] = kDegrees * near;
+  bend[map.rotary] = kDegrees * near * (reach.curvature + near);
+}
+
+/// Any other curve: tangents at the ends, the largest |d1| of each axis, and as `bend` what its curvature takes from the path
+/// acceleration at a speed of 1 mm/s. Between the samples d3 bounds how far d1 and d2 may go beyond them.
+void shape_general(const Segment& s, const MotionLimits& limits, SegmentShape& g) {
+  constexpr unsigned kPieces = 32;
+  const Curve& c = s.curve;
+  const double h = c.length / kPieces;
+  AxisVec bend, twist;
+  for (unsigned k = 0; k <= kPieces; ++k) {
+    const CurvePoint q = curve_evaluate(c, k == kPieces ? c.length : h * k, limits.axis_count);
+    if (k == 0) g.entry = q.d1;
+    if (k == kPieces) g.exit = q.d1;
+    for (unsigned i = 0; i < limits.axis_count; ++i) {
+      g.most[i] = std::max(g.most[i], std::fabs(q.d1[i]));
+      bend[i] = std::max(bend[i], std::fabs(q.d2[i]));
+      twist[i] = std::max(twist[i], std::fabs(q.d3[i]));
+    }
+  }
+  for (unsigned i = 0; i < limits.axis_count; ++i) {
+    g.most[i] += h * h / 8 * twist[i];
+    bend[i] += h / 2 * twist[i];
+  }
+  if (c.shape->what.map.kind == AxisMap::Kind::polar) bound_near_pole(*c.shape, g, bend);
+  double along = HUGE_VAL, across = HUGE_VAL;
+  for (unsigned i = 0; i < limits.axis_count; ++i) {
+    const double axis = limits.axis[i].acceleration;
+    if (axis <= 0) continue;
+    if (g.most[i] > 0) along = std::min(along, axis / g.most[i]);
+    if (bend[i] > 0) across = std::min(across, axis / bend[i]);
+  }
+  if (across < HUGE_VAL && along < HUGE_VAL) g.bend = along / across;
+}
+
 /// Acceleration limit of the plane: the weaker of its two axes.
 double plane_acceleration(const Curve& c, const MotionLimits& limits) {
   const double h = limits.axis[c.h].acceleration, v = limits.axis[c.v].acceleration;
@@ -59,7 +107,7 @@ double plane_acceleration(const Curve& c, const MotionLimits& limits) {
 
 double highest_feed(const Segment& s, const MotionLimits& limits) {
   if (s.rapid || s.feed_mm_rev > 0 || !(s.feed_mm_s > 0)) return HUGE_VAL;
-  return s.skip ? s.feed_mm_s : s.feed_mm_s * limits.max_feed_override;
+  return s.skip ? s.feed_mm_s : std::max(s.feed_mm_s, s.feed_end_mm_s) * limits.max_feed_override;
 }
 
 /// Speed that keeps the per-axis velocity limits and the bound on segments per cycle.
@@ -95,6 +143,9 @@ double path_acceleration(const Segment& s, const SegmentShape& g, double keep, d
 /// Speed at which centripetal acceleration takes kArcShare of `keep`, and what goes along unevenly
 /// kBendShare.
 double arc_speed(const Segment& s, const SegmentShape& g, double keep, const MotionLimits& limits) {
+  if (s.curve.shape != nullptr) {
+    return g.bend > 0 ? std::sqrt(kArcShare * path_acceleration(s, g, keep, 0, limits) / g.bend) : HUGE_VAL;
+  }
   if (!s.curve.circular || g.curvature <= 0) return HUGE_VAL;
   double v2 = kArcShare * keep * plane_acceleration(s.curve, limits) / g.curvature;
   if (g.bend > 0) v2 = std::min(v2, kBendShare * path_acceleration(s, g, keep, 0, limits) / g.bend);
@@ -107,7 +158,9 @@ SegmentShape shape_of(const Segment& s, const MotionLimits& limits) {
   SegmentShape g;
   const Curve& c = s.curve;
   if (c.length > 0) {
-    if (c.circular) {
+    if (c.shape != nullptr) {
+      shape_general(s, limits, g);
+    } else if (c.circular) {
       shape_arc(s, limits, g);
     } else {
       const double per_mm = 1 / c.length;

@@ -66,7 +66,7 @@ void Planner::close(const Joint& exit, double reserve) {
   Entry& e = entry(tip_.ordinal);
   e.corner2 = exit.speed2;
   e.joint2 = 0;
-  e.feed = s.rapid || s.feed_mm_rev > 0 ? HUGE_VAL : s.feed_mm_s;
+  e.feed = s.rapid || s.feed_mm_rev > 0 ? HUGE_VAL : s.feed_end_mm_s > 0 ? std::min(s.feed_mm_s, s.feed_end_mm_s) : s.feed_mm_s;
   e.limit = s.speed_limit;
   e.gain = 2 * s.acceleration * s.curve.length;
   e.constant = s.skip || e.feed == HUGE_VAL;
@@ -101,7 +101,8 @@ void Planner::commit(uint32_t index) {
     return;
   }
   ++tip_.between;
-  if (r.kind == ItemKind::mark && r.mark.stop && tip_.valid) entry(tip_.ordinal).stop_mark = true;
+  // M700 6.7.1: single block stops behind the first block that is no thread any more.
+  if (r.kind == ItemKind::mark && r.mark.stop && tip_.valid && !record(tip_.record).segment.thread) entry(tip_.ordinal).stop_mark = true;
   if (tip_.open && demands_rest(r)) close({}, 0);
 }
 

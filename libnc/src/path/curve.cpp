@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "path/shape.hpp"
+
 namespace nc {
 namespace {
 
@@ -118,6 +120,7 @@ void arc_axis_bounds(const Curve& c, uint8_t axis, double phase, double* low, do
 
 void make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary, Curve* curve) {
   curve->circular = false;
+  curve->shape = nullptr;
   curve->start = start;
   curve->end = end;
   double linear = 0, turned = 0;
@@ -162,6 +165,7 @@ Curve make_arc(const AxisVec& start, const AxisVec& end, uint8_t h, uint8_t v, c
 AxisVec curve_position(const Curve& c, double s, unsigned axis_count) {
   if (!(s > 0)) return c.start;
   if (s >= c.length) return c.end;
+  if (c.shape != nullptr) return shape_position(c, s, axis_count);
   AxisVec p;
   if (!c.circular) {
     const double u = s / c.length;
@@ -177,7 +181,14 @@ AxisVec curve_position(const Curve& c, double s, unsigned axis_count) {
   return p;
 }
 
+double curve_arc_parameter(const Curve& c, double s) {
+  if (!(s > 0)) return 0;
+  if (s >= c.length) return 1;
+  return spiral_parameter(c, spiral_of(c), s);
+}
+
 CurvePoint curve_evaluate(const Curve& c, double s, unsigned axis_count) {
+  if (c.shape != nullptr) return shape_evaluate(c, s, axis_count);
   CurvePoint out;
   out.position = curve_position(c, s, axis_count);
   if (!(c.length > 0)) return out;
@@ -229,6 +240,7 @@ void curve_bounds(const Curve& c, unsigned axis_count, AxisVec* low, AxisVec* hi
     (*low)[i] = std::min(c.start[i], c.end[i]);
     (*high)[i] = std::max(c.start[i], c.end[i]);
   }
+  if (c.shape != nullptr) return shape_bounds(c, axis_count, low, high);
   if (!c.circular) return;
   arc_axis_bounds(c, c.h, 0.0, &(*low)[c.h], &(*high)[c.h]);
   arc_axis_bounds(c, c.v, kHalfPi, &(*low)[c.v], &(*high)[c.v]);

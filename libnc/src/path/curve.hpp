@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Curves: what one committed move looks like, by its path parameter. Lines and circular arcs (with any
-// further axes going linearly along: helices) are exact; there are no chords anywhere behind this header.
+// further axes going linearly along: helices) are exact; there are no chords anywhere behind this header. All other
+// curves are shapes (path/shape.hpp).
 #pragma once
 
 #include "stream/stream.hpp"
@@ -14,6 +15,8 @@ struct CurvePoint {
   AxisVec position, d1, d2, d3;
 };
 
+struct CurveShape;  // path/shape.hpp
+
 /// A move in machine coordinates. s runs from 0 to `length`; |d1| over the axes that make the length is 1.
 /// Which axes make the length: all linear axes that move, or all rotary ones when no linear axis moves
 /// (M700 7.6).
@@ -25,6 +28,8 @@ struct Curve {
   Circle circle;         ///< in machine coordinates
   double length = 0;
   double linear2 = 0;  ///< circular: squared way of the linear axes outside the plane, mm^2
+  /// Any other curve; then |d1| is 1 over the axes as they are programmed, not over those that move. It outlives the curve.
+  const CurveShape* shape = nullptr;
 };
 
 /// Makes a line. `axis_count` axes; bit i of `rotary` = axis i is rotary.
@@ -41,6 +46,9 @@ AxisVec curve_position(const Curve& curve, double s, unsigned axis_count) NC_RT;
 
 /// Position and derivatives at s.
 CurvePoint curve_evaluate(const Curve& curve, double s, unsigned axis_count) NC_RT;
+
+/// The share of its sweep that an arc has gone at s, 0 to 1.
+double curve_arc_parameter(const Curve& curve, double s) NC_RT;
 
 /// Smallest and largest coordinate of each axis over the whole curve (for stroke limits): exact for arcs.
 void curve_bounds(const Curve& curve, unsigned axis_count, AxisVec* low, AxisVec* high);

@@ -106,13 +106,17 @@ struct Move {
   uint8_t skip_mask = 0;
   Plane plane = Plane::none;     ///< circular only
   uint8_t plane_axis[2] = {0, 1};///< circular only
+  bool plane_feed = false;       ///< helix: the feed is the speed in the plane of its arc (M700 6.6)
   TransformId transform = 0;
+  uint32_t shape = 0;            ///< of the MoveShape, counted from 1; 0 = the line or circle below is all
   AxisVec start, end;            ///< compensation frame; after the offset stage: of the compensated path
   AxisVec work;                  ///< programmed end point, same frame, never changed by the offset stage
   double work_center[2] = {0, 0};///< circular: programmed centre, never changed
   Circle circle;                 ///< circular only
   double feed_mm_min = 0;        ///< 0 = rapid
   double feed_mm_rev = 0;
+  float feed_end = 0;            ///< exponential: feed at its end, mm/min; 0 = constant
+  float thread_angle = 0;        ///< thread: start angle of the spindle, deg
   Compensation comp;
 };
 

@@ -84,6 +84,19 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::geometric_option, "NC-ADDRESS", nullptr},    // nor is ",A"
     {C::second_aux, "NC-ADDRESS", nullptr},          // nor B and C
     {C::space_compensation, "NC-ADDRESS", nullptr},  // G41/G42 take no I J K
+    // do not occur: curves and modes that the family does not have
+    {C::thread_lead, "NC-NO-SUCH-CODE", nullptr},
+    {C::mill_code, "NC-NO-SUCH-CODE", nullptr},
+    {C::mill_axis, "NC-NO-SUCH-CODE", nullptr},
+    {C::mill_modal, "NC-NO-SUCH-CODE", nullptr},
+    {C::mill_state, "NC-NO-SUCH-CODE", nullptr},
+    {C::space_arc_blocks, "NC-NO-SUCH-CODE", nullptr},
+    {C::space_arc_mode, "NC-NO-SUCH-CODE", nullptr},
+    {C::exponential_mode, "NC-NO-SUCH-CODE", nullptr},
+    {C::exponential_axes, "NC-NO-SUCH-CODE", nullptr},
+    {C::nurbs_knot, "NC-NO-SUCH-CODE", nullptr},
+    {C::nurbs_start, "NC-NO-SUCH-CODE", nullptr},
+    {C::space_conversion_code, "NC-NO-SUCH-CODE", nullptr},
     // offsets
     {C::g10_l, "NC-DATA", nullptr},
     {C::g10_p, "NC-DATA", nullptr},

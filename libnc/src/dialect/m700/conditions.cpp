@@ -54,6 +54,18 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::geometric_option, "P390", nullptr},    // 13.8, 13.9
     {C::second_aux, "P130", nullptr},          // 9.2
     {C::space_compensation, "P150", nullptr},  // 12.5: the option that I J K together ask for
+    {C::thread_lead, "P93", nullptr},          // 6.7.1
+    {C::mill_code, "P481", nullptr},           // 6.9, 6.10
+    {C::mill_axis, "P482", nullptr},
+    {C::mill_modal, "P485", nullptr},
+    {C::mill_state, "P486", nullptr},
+    {C::space_arc_blocks, "P74", nullptr},     // 6.14
+    {C::space_arc_mode, "P75", nullptr},
+    {C::exponential_mode, "P612", nullptr},    // 6.11
+    {C::exponential_axes, "P610", nullptr},
+    {C::nurbs_knot, "P551", nullptr},          // 6.15
+    {C::nurbs_start, "P552", nullptr},
+    {C::space_conversion_code, "P921", nullptr},
     // offsets
     {C::g10_l, "P172", nullptr},
     {C::g10_p, "P173", nullptr},  // appendix 1; 12.7 prints P170 for the same thing

@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "interpret/functions/functions.hpp"
+#include "interpret/plane.hpp"
 
 namespace nc {
 namespace {
@@ -29,21 +30,10 @@ Did offset_number(Interpreter& in, char letter, uint32_t* number) {
 
 /// Letters of the compensation vector on the plane (h, v).
 void plane_of(const Interpreter& in, Compensation& comp, char letters[2]) {
-  const int x = in.axis_of['X' - 'A'], y = in.axis_of['Y' - 'A'], z = in.axis_of['Z' - 'A'];
-  int h = x, v = y;
-  letters[0] = 'I';
-  letters[1] = 'J';
-  if (in.state.modal.code[kGroupPlane] == 180) {
-    h = z, v = x;
-    letters[0] = 'K';
-    letters[1] = 'I';
-  } else if (in.state.modal.code[kGroupPlane] == 190) {
-    h = y, v = z;
-    letters[0] = 'J';
-    letters[1] = 'K';
-  }
-  comp.axis[0] = static_cast<uint8_t>(h < 0 ? 0 : h);
-  comp.axis[1] = static_cast<uint8_t>(v < 0 ? 0 : v);
+  const PlaneAxes plane = plane_axes(in);
+  for (unsigned i = 0; i < 2; ++i) letters[i] = plane.center[i];
+  comp.axis[0] = static_cast<uint8_t>(plane.h < 0 ? 0 : plane.h);
+  comp.axis[1] = static_cast<uint8_t>(plane.v < 0 ? 0 : plane.v);
 }
 
 bool take_vector(const Interpreter& in, const char letters[2], double vector[2]) {

@@ -113,6 +113,8 @@ void position_over_hole(Interpreter& in) {
   uint32_t geometric = 0;
   for (const int axis : {x, y, z})
     if (axis >= 0) geometric |= 1u << axis;
+  for (const int axis : in.state.plane_axis)
+    if (axis >= 0) geometric |= 1u << axis;
   const uint32_t axes = in.hole_axes & ~drill_bit;
   const AxisVec target = target_of(in, in.position(), axes, in.hole_increment);
   LinearStyle style;

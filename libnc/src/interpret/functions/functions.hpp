@@ -22,6 +22,33 @@ Did do_local_system(Interpreter& in);       // coordinates.cpp
 Did do_coordinate_set(Interpreter& in);     // coordinates.cpp
 Did do_coordinate_preset(Interpreter& in);  // coordinates.cpp
 
+Did do_cylinder(Interpreter& in);           // milling.cpp
+Did do_polar_on(Interpreter& in);           // milling.cpp
+Did do_polar_off(Interpreter& in);          // milling.cpp
+Did do_hypothetical_axis(Interpreter& in);  // hypothetical.cpp
+Did do_unidirectional(Interpreter& in);     // unidirectional.cpp
+
+/// Motions of group 1 with rules of their own.
+Did move_thread(Interpreter& in, const AxisVec& target, uint32_t commanded);             // thread.cpp
+Did move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw);   // spiral.cpp
+Did move_exponential(Interpreter& in, const AxisVec& target, uint32_t commanded, bool negative);   // exponential.cpp
+Did move_space_arc(Interpreter& in, const AxisVec& target);                              // space_arc.cpp
+Did move_nurbs(Interpreter& in, const AxisVec& target);                                  // nurbs.cpp
+/// What may stand beside an arc in space: a code while it is modal; a whole block.
+Did check_in_space_arc(Interpreter& in, const FunctionRow& row);
+Did check_space_arc_block(Interpreter& in);
+Did check_nurbs_block(Interpreter& in);
+Did do_high_speed(Interpreter& in);         // high_speed.cpp
+bool means_spiral(const Interpreter& in);                                                // spiral.cpp: a G02/G03 of type 2
+
+/// Rules of a block, and of a move, while cylindrical or polar coordinate interpolation is on (milling.cpp).
+Did check_mill_block(Interpreter& in);
+Did check_mill_move(Interpreter& in, uint32_t commanded);
+
+/// G15, G16 (polar_command.cpp): the code; the axis words of a block as radius and angle.
+Did select_polar_command(Interpreter& in, const FunctionRow& row);
+void resolve_polar_words(Interpreter& in);
+
 /// Modal functions with more to them than their code.
 Did select_work_system(Interpreter& in, const FunctionRow& row);   // coordinates.cpp
 Did set_compensation(Interpreter& in, Function function);          // compensation.cpp

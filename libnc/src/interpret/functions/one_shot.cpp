@@ -25,6 +25,12 @@ constexpr Handler kHandlers[] = {
     {Function::local_system, do_local_system},
     {Function::coordinate_set, do_coordinate_set},
     {Function::coordinate_preset, do_coordinate_preset},
+    {Function::cylinder, do_cylinder},
+    {Function::polar_on, do_polar_on},
+    {Function::polar_off, do_polar_off},
+    {Function::hypothetical_axis, do_hypothetical_axis},
+    {Function::unidirectional, do_unidirectional},
+    {Function::high_speed, do_high_speed},
 };
 
 }  // namespace

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// G02.3, G03.3: a linear axis goes exponentially with the angle of a rotary one (M700 6.11).
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kNoMotion = 1e-9;
+
+/// I, J in degrees, R in mm, F and Q in mm/min.
+struct ExponentialWords {
+  double taper = 0, torsion = 0, radius = 0, feed = 0, feed_end = 0;
+};
+
+Did angle_word(Interpreter& in, char letter, double* angle) {
+  *angle = length_value(in, in.words.get(letter), in.words.flags[letter - 'A'], true, true);
+  if (*angle == 0 || std::fabs(*angle) > 89) return in.raise(Condition::value_range, letter, in.words.get(letter));
+  return Did::done;
+}
+
+Did take_words(Interpreter& in, ExponentialWords* words) {
+  const BlockWords& w = in.words;
+  for (const char letter : {'I', 'J', 'R', 'F'})
+    if (!w.has(letter)) return in.raise(Condition::format_error, letter);
+  Did did = angle_word(in, 'I', &words->taper);
+  if (did == Did::done) did = angle_word(in, 'J', &words->torsion);
+  if (did != Did::done) return did;
+  words->radius = length_of(in, 'R');
+  if (!(words->radius > 0)) return in.raise(Condition::value_range, 'R', w.get('R'));
+  did = feed_of(in, &words->feed);
+  if (did != Did::done) return did;
+  if (!(words->feed > 0)) return in.raise(Condition::value_range, 'F', w.get('F'));
+  const double unit = in.state.modal.code[kGroupUnit] == 200 ? 25.4 : 1.0;
+  words->feed *= unit;
+  words->feed_end = words->feed;
+  if (w.has('Q')) {
+    if (!(w.get('Q') > 0) || w.get('Q') > 1e7) return in.raise(Condition::value_range, 'Q', w.get('Q'));
+    words->feed_end = w.get('Q') * unit;
+  }
+  return Did::done;
+}
+
+Did check_modes(Interpreter& in) {
+  const State& state = in.state;
+  if (state.high_speed == kHighAccuracy2) return in.raise(Condition::illegal_g, 'G', state.modal.code[kGroupMotion] / 10.0);
+  const int16_t* const modal = state.modal.code;
+  const bool length_starts = state.length_value != 0 && in.words.any(letters("H"));
+  if (modal[kGroupScaling] != 500 || modal[kGroupMirror] != 501 || modal[kGroupRotation] != 690 || state.comp.side != 0 || length_starts)
+    return in.raise(Condition::exponential_mode);
+  return Did::done;
+}
+
+}  // namespace
+
+Did move_exponential(Interpreter& in, const AxisVec& target, uint32_t commanded, bool negative) {
+  Did did = check_modes(in);
+  if (did != Did::done) return did;
+  ExponentialWords words;
+  did = take_words(in, &words);
+  if (did != Did::done) return did;
+  const char linear_name = in.settings.exponential_linear, rotary_name = in.settings.exponential_rotary;
+  const int linear = linear_name == 0 ? -1 : in.axis_of[linear_name - 'A'], rotary = rotary_name == 0 ? -1 : in.axis_of[rotary_name - 'A'];
+  if (linear < 0 || rotary < 0 || ((in.rotary >> linear) & 1) != 0 || ((in.rotary >> rotary) & 1) == 0) return in.raise(Condition::exponential_axes);
+  const auto x = static_cast<unsigned>(linear), c = static_cast<unsigned>(rotary);
+  MoveFrame frame = frame_of_move(in, target, commanded);
+  const double way = frame.end[x] - frame.start[x];
+  if (((commanded >> x) & 1) == 0 || std::fabs(way) < kNoMotion || ((commanded >> c) & 1) != 0) {
+    LinearStyle style;  // a straight line at the F of the block
+    style.feed_mm_min = words.feed;
+    move_linear(in, target, commanded, style);
+    return Did::done;
+  }
+  // x = r (e^(t/D) - 1) / tan i, D = tan j / tan i, so t = D ln(x tan i / r + 1).
+  const double tan_i = std::tan(words.taper / kDegrees), tan_j = std::tan(words.torsion / kDegrees);
+  const double argument = way * tan_i / words.radius + 1;
+  if (!(argument > 0)) return in.raise(Condition::exponential_mode);  // the curve never gets there
+  const double d = tan_j / tan_i, turn = d * std::log(argument);
+  const double sign = turn < 0 ? -1 : 1, sense = negative ? -1 : 1;
+  MoveShape shape;
+  shape.kind = ShapeKind::exponential;
+  shape.map = in.state.map;
+  shape.exponential = Exponential{words.radius / tan_i, d * sign, turn * sign, sense * sign * kDegrees, static_cast<uint8_t>(x),
+                                  static_cast<uint8_t>(c)};
+  frame.end[c] = frame.start[c] + sense * turn * kDegrees;
+  Move& move = emit_shaped(in, frame, shape, NC_MOVE_EXPONENTIAL);
+  move.feed_mm_min = words.feed;  // per minute in G95 too, and never modal
+  move.feed_end = static_cast<float>(words.feed_end);
+  return Did::done;
+}
+
+}  // namespace nc

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// G06.2: NURBS, one control point with its knot and weight in each block (M700 6.15). A span of the curve goes out as soon as its
+// knots are known, as a rational Bezier curve: nothing limits the number of control points.
+#include <cmath>
+#include <initializer_list>
+
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kSamePlace = 1e-6;  // mm: the first control point is where the axes are
+
+/// The basic axes that the machine has, 0xff for those it has not.
+void basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
+  for (unsigned i = 0; i < 3; ++i) {
+    const char name = in.settings.plane_basic[i];
+    const int index = name == 0 ? -1 : in.axis_of[name - 'A'];
+    axis[i] = index < 0 ? uint8_t{0xff} : static_cast<uint8_t>(index);
+  }
+}
+
+/// M700 6.15: at most four decimals.
+bool too_fine(double value) { return std::fabs(value * 1e4 - std::nearbyint(value * 1e4)) > 1e-6; }
+
+Did take_knot(Interpreter& in, double* knot) {
+  if (!in.words.has('K')) return in.raise(Condition::format_error, 'K');
+  *knot = in.words.get('K');  // K1 = 1.0
+  if (too_fine(*knot)) return in.raise(Condition::format_error, 'K', *knot);
+  return Did::done;
+}
+
+Did take_weight(Interpreter& in, double* weight) {
+  *weight = 1;
+  if (!in.words.has('R')) return Did::done;
+  *weight = in.words.get('R');
+  if (too_fine(*weight)) return in.raise(Condition::format_error, 'R', *weight);
+  if (*weight < 0.0001 || *weight > 99.9999) return in.raise(Condition::value_range, 'R', *weight);
+  return Did::done;
+}
+
+/// The first block of a curve: its order and axes.
+Did begin_curve(Interpreter& in, const AxisVec& target) {
+  NurbsState& n = in.state.nurbs;
+  const BlockWords& w = in.words;
+  n = NurbsState{};
+  uint32_t order = n.order = in.state.nurbs_order != 0 && !w.has('P') && w.motion == nullptr ? in.state.nurbs_order : uint8_t{4};
+  if (w.has('P') && (!whole_number(w.get('P'), &order) || order < 2 || order > 4)) return in.raise(Condition::value_range, 'P', w.get('P'));
+  n.order = in.state.nurbs_order = static_cast<uint8_t>(order);
+  n.axes = static_cast<uint8_t>(w.axes);
+  const AxisVec at = in.position();
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (std::fabs(target[i] - at[i]) > kSamePlace) return in.raise(Condition::nurbs_start, in.system->axis[i].name);
+  uint8_t axis[3];
+  basic_axes(in, axis);
+  uint32_t basic = 0;
+  for (const uint8_t a : axis)
+    if (a < kMaxAxes) basic |= 1u << a;
+  if (w.axes == 0) n.axes = static_cast<uint8_t>(basic);  // a knot alone behind a curve begins the next one at its end
+  if ((w.axes & ~basic) != 0) return in.raise(Condition::illegal_address, 'X');
+  return Did::done;
+}
+
+const PathPoint& point(const Interpreter& in, uint32_t index) { return in.points[in.state.nurbs.first + index]; }
+
+/// Bezier points of the span between knots j and j + 1: values of the polar form (de Boor's scheme with one argument for each level).
+RationalSpan span_of(const Interpreter& in, uint32_t j, const uint8_t (&axis)[3]) {
+  const unsigned degree = in.state.nurbs.order - 1u;
+  RationalSpan span{};
+  span.degree = static_cast<uint8_t>(degree);
+  for (unsigned i = 0; i < 3; ++i) span.axis[i] = axis[i];
+  const double from = point(in, j).knot, to = point(in, j + 1).knot;
+  for (unsigned b = 0; b <= degree; ++b) {
+    double c[4][4];
+    for (unsigned r = 0; r <= degree; ++r) {
+      const PathPoint& p = point(in, j - degree + r);
+      c[r][3] = p.weight;
+      for (unsigned i = 0; i < 3; ++i) c[r][i] = axis[i] < kMaxAxes ? p.at[axis[i]] * p.weight : 0;
+    }
+    for (unsigned level = 1; level <= degree; ++level) {
+      const double u = level <= b ? to : from;
+      for (unsigned r = degree; r >= level; --r) {
+        const double left = point(in, j - degree + r).knot, right = point(in, j + 1 + r - level).knot;
+        const double share = (u - left) / (right - left);
+        for (unsigned i = 0; i < 4; ++i) c[r][i] = (1 - share) * c[r - 1][i] + share * c[r][i];
+      }
+    }
+    span.weight[b] = c[degree][3];
+    for (unsigned i = 0; i < 3; ++i) span.point[b][i] = c[degree][i] / c[degree][3];
+  }
+  return span;
+}
+
+/// The span whose last knot has just been given.
+void emit_span(Interpreter& in) {
+  const NurbsState& n = in.state.nurbs;
+  const unsigned degree = n.order - 1u;
+  const uint32_t newest = n.knots - 1;
+  if (newest < 2 * degree) return;
+  const uint32_t j = newest - degree;
+  if (j >= n.points || !(point(in, j + 1).knot > point(in, j).knot)) return;
+  uint8_t axis[3];
+  basic_axes(in, axis);
+  MoveShape shape;
+  shape.kind = ShapeKind::rational;
+  shape.map = in.state.map;
+  shape.span = span_of(in, j, axis);
+  AxisVec end = in.position();
+  for (unsigned i = 0; i < 3; ++i)
+    if (axis[i] < kMaxAxes) end[axis[i]] = shape.span.point[degree][i];
+  emit_shaped(in, frame_of_move(in, end, n.axes), shape, NC_MOVE_NURBS);
+}
+
+}  // namespace
+
+Did check_nurbs_block(Interpreter& in) {
+  const BlockWords& w = in.words;
+  const NurbsState& n = in.state.nurbs;
+  if (!n.active()) return Did::done;
+  // No other codes, F, M, S or T until the curve is closed.
+  if (!w.g.empty()) return in.raise(Condition::format_error, 'G', w.g.back()->code / 10.0);
+  if (!w.m.empty()) return in.raise(Condition::format_error, 'M', w.m.back());
+  for (const char letter : {'F', 'S', 'T', 'P'})
+    if (w.has(letter)) return in.raise(Condition::format_error, letter, w.get(letter));
+  return Did::done;
+}
+
+Did move_nurbs(Interpreter& in, const AxisVec& target) {
+  State& state = in.state;
+  NurbsState& n = state.nurbs;
+  const BlockWords& w = in.words;
+  if (state.high_speed != kHighAccuracy2) return in.raise(Condition::illegal_g, 'G', 6.2);
+  if (state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', 6.2);
+  PathPoint p{target};
+  Did did = take_knot(in, &p.knot);
+  if (did == Did::done) did = take_weight(in, &p.weight);
+  if (did != Did::done) return did;
+  if (!n.active()) {
+    did = begin_curve(in, target);
+    if (did != Did::done) return did;
+  }
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((w.axes >> i) & 1) != 0 && ((n.axes >> i) & 1) == 0) return in.raise(Condition::illegal_address, in.system->axis[i].name, w.axis[i]);
+  if (n.knots > 0 && p.knot < point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, 'K', p.knot);
+  const bool closes = w.axes == 0 && n.knots > 0;
+  // The first knots and the last ones are the same as often as the order says, so that the curve begins and ends on control points.
+  const bool must_repeat = closes ? n.knots > n.points : n.knots > 0 && n.knots < n.order;
+  if (must_repeat && p.knot != point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, 'K', p.knot);
+  if (!closes && n.knots > n.points) return in.raise(Condition::format_error, 'K', p.knot);  // a point after the closing has begun
+  if (closes && n.points < n.order) return in.raise(Condition::format_error, 'K', p.knot);   // fewer points than the order
+  const uint32_t id = in.points.intern(p);
+  if (n.knots == 0) n.first = id;
+  ++n.knots;
+  if (!closes) n.points = n.knots;
+  emit_span(in);
+  if (closes && n.knots == n.points + n.order) n = NurbsState{};
+  return Did::done;
+}
+
+}  // namespace nc

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// G15, G16: the plane's axis words as radius and angle (M700 6.12).
+#include <cmath>
+#include <numbers>
+
+#include "interpret/functions/functions.hpp"
+#include "interpret/plane.hpp"
+#include "interpret/program_map.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// M700 6.12: these read their words as they stand: data, machine positions, returns, measurements, and what sets up other modes.
+bool reads_plain_words(const Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (w.one_shot != nullptr && w.one_shot->function != Function::unidirectional) return true;
+  for (const FunctionRow* row : w.g)
+    if (row->group == kGroupScaling || row->group == kGroupRotation || row->group == kGroupMirror || row->group == kGroupMacro) return true;
+  return false;
+}
+
+}  // namespace
+
+Did select_polar_command(Interpreter& in, const FunctionRow& row) {
+  State& state = in.state;
+  if (row.function == Function::polar_command_on) {
+    if (state.high_speed == kHighAccuracy2) return in.raise(Condition::illegal_g, 'G', 16);
+    if (is_space_arc(state.modal.code[kGroupMotion])) return in.raise(Condition::space_arc_mode, 'G', 16);  // 6.14 (a)
+  }
+  state.modal.code[kGroupPolarCommand] = row.code;
+  state.polar_angle_known = false;
+  return Did::done;
+}
+
+void resolve_polar_words(Interpreter& in) {
+  BlockWords& w = in.words;
+  State& state = in.state;
+  if (reads_plain_words(in)) {
+    if (w.axes != 0) state.polar_angle_known = false;
+    return;
+  }
+  const PlaneAxes plane = plane_axes(in);
+  if (plane.h < 0 || plane.v < 0) return;
+  const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
+  const bool has_radius = ((w.axes >> h) & 1) != 0, has_angle = ((w.axes >> v) & 1) != 0;
+  if (!has_radius && !has_angle) return;  // a block with neither word is not polar
+  const AxisVec position = program_mapped(in) ? to_program(in, in.position()) : in.position();
+  double pole[2] = {0, 0};
+  double radius = std::hypot(position[h], position[v]);
+  if (has_radius) {
+    radius = w.axis[h];
+    if (((w.incremental >> h) & 1) != 0) pole[0] = position[h], pole[1] = position[v];
+  }
+  const double seen = std::atan2(position[v], position[h]) * 180 / kPi;
+  double angle = seen;
+  if (has_angle) {
+    const unsigned at = static_cast<unsigned>(in.system->axis[v].name - 'A');
+    angle = length_value(in, w.raw[at], w.flags[at], true, false);  // degrees, in inch too
+    if (((w.incremental >> v) & 1) != 0) angle += state.polar_angle_known ? state.polar_angle : seen;
+  }
+  state.polar_angle = angle;
+  state.polar_angle_known = true;
+  // A negative radius lies on the other side: |r| and 180 degrees more.
+  w.axis[h] = pole[0] + radius * std::cos(angle * kPi / 180);
+  w.axis[v] = pole[1] + radius * std::sin(angle * kPi / 180);
+  w.axes |= 1u << h | 1u << v;
+  w.incremental &= ~(1u << h | 1u << v);
+}
+
+}  // namespace nc

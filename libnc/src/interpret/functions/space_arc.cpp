@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// G02.4, G03.4: arcs in space through three points, given over two blocks (M700 6.14). The first block moves nothing by itself: its
+// arc and its mark come with the second, which is what makes the circle known.
+#include <cmath>
+#include <initializer_list>
+
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+using Vec3 = double[3];
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+void cross(const Vec3& a, const Vec3& b, Vec3& out) {
+  for (unsigned i = 0; i < 3; ++i) out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+/// The circle through three points, from the first through the second to the third.
+struct ThreePoints {
+  SpaceArc first, second;  ///< up to the middle point, and from there
+};
+
+/// False when the points lie on one line, or two of them are one: then the ways are straight.
+bool circle_through(const Vec3& a, const Vec3& b, const Vec3& c, ThreePoints* out) {
+  constexpr double kFlat = 1e-9;  // of the product of the sides: sine of the angle between them
+  Vec3 p, q, n;
+  for (unsigned i = 0; i < 3; ++i) {
+    p[i] = b[i] - a[i];
+    q[i] = c[i] - a[i];
+  }
+  cross(p, q, n);
+  const double pp = dot(p, p), qq = dot(q, q), nn = dot(n, n);
+  if (nn <= kFlat * kFlat * pp * qq || nn == 0) return false;
+  // Centre from a: ((p.p) (q x n)... over 2 n.n, with n = p x q.
+  Vec3 np, nq;
+  cross(n, p, np);
+  cross(q, n, nq);
+  Vec3 u;  // from a to the centre
+  for (unsigned i = 0; i < 3; ++i) u[i] = (qq * np[i] + pp * nq[i]) / (2 * nn);
+  const double radius = std::sqrt(dot(u, u)), normal = std::sqrt(nn);
+  if (!(radius > 0)) return false;
+  Vec3 e1, e2, unit;
+  for (unsigned i = 0; i < 3; ++i) {
+    e1[i] = -u[i] / radius;
+    unit[i] = n[i] / normal;
+  }
+  cross(unit, e1, e2);
+  const auto angle_of = [&](const Vec3& from_a) {
+    Vec3 r;
+    for (unsigned i = 0; i < 3; ++i) r[i] = from_a[i] - u[i];
+    const double angle = std::atan2(dot(r, e2), dot(r, e1));
+    return angle > 0 ? angle : angle + 6.28318530717958648;
+  };
+  const double middle = angle_of(p), end = angle_of(q);
+  SpaceArc& f = out->first;
+  SpaceArc& s = out->second;
+  f = s = SpaceArc{};
+  f.radius = s.radius = radius;
+  f.sweep = middle;
+  s.sweep = end - middle;
+  for (unsigned i = 0; i < 3; ++i) {
+    f.center[i] = s.center[i] = a[i] + u[i];
+    f.e1[i] = e1[i];
+    f.e2[i] = e2[i];
+    s.e1[i] = e1[i] * std::cos(middle) + e2[i] * std::sin(middle);
+    s.e2[i] = e2[i] * std::cos(middle) - e1[i] * std::sin(middle);
+  }
+  return s.sweep > 0;
+}
+
+/// The three basic axes, #1026 to #1028.
+bool basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
+  for (unsigned i = 0; i < 3; ++i) {
+    const char name = in.settings.plane_basic[i];
+    const int index = name == 0 ? -1 : in.axis_of[name - 'A'];
+    if (index < 0) return false;
+    axis[i] = static_cast<uint8_t>(index);
+  }
+  return true;
+}
+
+/// One half: along its arc, or straight.
+void emit_half(Interpreter& in, const AxisVec& to, const SpaceArc* arc) {
+  const uint32_t all = (1u << in.axis_count) - 1;
+  if (arc == nullptr) {
+    LinearStyle style;
+    style.feed_mm_min = feed_mm_min(in);
+    style.exact_stop = in.words.exact_stop || in.state.modal.code[kGroupCutting] == 610;
+    move_linear(in, to, all, style);
+    return;
+  }
+  MoveShape shape;
+  shape.kind = ShapeKind::space_arc;
+  shape.map = in.state.map;
+  shape.arc = *arc;
+  emit_shaped(in, frame_of_move(in, to, all), shape, NC_MOVE_ARC);
+}
+
+/// The first half and the end of its block, so that the machine can stop and be stopped there; going back there reads the block in
+/// hand again.
+void emit_first_half(Interpreter& in, const AxisVec& middle, const SpaceArc* arc) {
+  State& state = in.state;
+  const nc_source second = in.source;
+  in.source = in.points[state.arc_points].source;
+  emit_half(in, middle, arc);
+  state.arc_step = ArcStep::halfway;
+  CallFrame& frame = state.frame[state.depth];
+  const uint64_t next = frame.offset;
+  const uint32_t line = frame.line;
+  frame.offset = in.block->begin;
+  frame.line = in.block->line;
+  in.finish_block(true, true);
+  frame.offset = next;
+  frame.line = line;
+  in.source = second;
+}
+
+/// Codes that the modal of the arc in space does not bear (6.14 (a)).
+Condition refusal(const FunctionRow& row) {
+  switch (row.code) {
+    case 50:
+    case 51: return Condition::illegal_g;
+    case 120:
+    case 130:
+    case 160:
+    case 410:
+    case 420:
+    case 411:
+    case 421:
+    case 430:
+    case 440:
+    case 510:
+    case 511:
+    case 660:
+    case 661:
+    case 680:
+    case 730:
+    case 740:
+    case 760: return Condition::space_arc_mode;
+    case 670: return Condition::cancel_without_call;
+    default: return row.group == kGroupCycle && row.code > 800 ? Condition::space_arc_mode : Condition::none;
+  }
+}
+
+bool names_centre(const Block& block) {
+  for (const Word& word : block.words)
+    if (word.letter >= 'I' && word.letter <= 'K') return true;
+  return false;
+}
+
+}  // namespace
+
+Did check_in_space_arc(Interpreter& in, const FunctionRow& row) {
+  if (in.words.motion != nullptr && !is_space_arc(in.words.motion->code)) return Did::done;  // the block leaves the modal
+  Condition bad = refusal(row);
+  if (row.code == 680 && names_centre(*in.block)) bad = Condition::space_conversion_code;  // with I J K it converts in space
+  return bad == Condition::none ? Did::done : in.raise(bad, 'G', row.code / 10.0);
+}
+
+Did check_space_arc_block(Interpreter& in) {
+  State& state = in.state;
+  const BlockWords& w = in.words;
+  const bool goes_on = w.one_shot == nullptr && w.cycle == nullptr && w.axes != 0 && is_space_arc(state.modal.code[kGroupMotion]);
+  if (state.arc_step == ArcStep::middle_given && !goes_on) return in.raise(Condition::space_arc_blocks);
+  if (w.motion == nullptr || !is_space_arc(w.motion->code)) return Did::done;
+  // 6.14 (b)
+  const double code = w.motion->code / 10.0;
+  if (state.high_speed != 0) return in.raise(Condition::illegal_g, 'G', code);
+  const int16_t* const modal = state.modal.code;
+  const bool refused = modal[kGroupPolarCommand] == 160 || state.comp.side != 0 || modal[kGroupCompensation] != 400 ||
+                       modal[kGroupNormalLine] != 401 || modal[kGroupLength] != 490 || modal[kGroupScaling] != 500 ||
+                       modal[kGroupMirror] != 501 || modal[kGroupMacro] != 670 || modal[kGroupRotation] != 690;
+  return refused ? in.raise(Condition::space_arc_mode, 'G', code) : Did::done;
+}
+
+Did move_space_arc(Interpreter& in, const AxisVec& target) {
+  State& state = in.state;
+  if (state.arc_step == ArcStep::none) {  // the first block: the point on the way
+    PathPoint start{in.position()}, middle{target};
+    start.source = middle.source = in.source;
+    state.arc_points = in.points.intern(start);
+    in.points.intern(middle);
+    state.arc_step = ArcStep::middle_given;
+    in.keep_call();
+    return Did::later;
+  }
+  uint8_t axis[3];
+  if (!basic_axes(in, axis)) return in.raise(Condition::illegal_axis, 'X');
+  const AxisVec start = in.points[state.arc_points].at, middle = in.points[state.arc_points + 1].at;
+  Vec3 a, b, c;
+  for (unsigned i = 0; i < 3; ++i) {
+    a[i] = start[axis[i]];
+    b[i] = middle[axis[i]];
+    c[i] = target[axis[i]];
+  }
+  ThreePoints arcs;
+  const bool bent = circle_through(a, b, c, &arcs);
+  for (unsigned i = 0; bent && i < 3; ++i) arcs.first.axis[i] = arcs.second.axis[i] = axis[i];
+  if (state.arc_step == ArcStep::middle_given) emit_first_half(in, middle, bent ? &arcs.first : nullptr);
+  emit_half(in, target, bent ? &arcs.second : nullptr);
+  state.arc_step = ArcStep::none;
+  return Did::done;
+}
+
+}  // namespace nc

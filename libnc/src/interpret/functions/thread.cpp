@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// G33: threads of constant lead, metric and inch, straight and tapered (M700 6.7).
+#include <cmath>
+
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kMillimetresPerInch = 25.4;
+
+/// M700 6.7.1: a lead is below 1000 mm, or below 100 inch by F and below 39.370079 inch by E.
+bool lead_in_range(double lead, double limit) { return lead > 0 && lead < limit; }
+
+/// The lead along the long axis that the words give; it stays in force for the thread blocks behind.
+Did take_lead(Interpreter& in) {
+  const BlockWords& w = in.words;
+  const bool inch = in.state.modal.code[kGroupUnit] == 200;
+  const double unit = inch ? kMillimetresPerInch : 1.0;
+  double lead = 0, limit = 1000;
+  char letter = 'F';
+  if (w.has('E')) {
+    letter = 'E';
+    // M700 6.7.1, 6.7.2: #1229 bit 1 says whether E is a precision lead or the number of ridges per inch.
+    if (in.settings.precision_lead) {
+      lead = w.get('E') * unit;
+      if (inch) limit = 39.370079 * kMillimetresPerInch;
+    } else if (w.get('E') > 0) {
+      lead = kMillimetresPerInch / w.get('E');
+      limit = HUGE_VAL;
+      if (w.get('E') >= 10000) lead = 0;
+    }
+  } else if (w.has('F')) {
+    lead = w.get('F') * unit;  // M700 6.7.1: F1 = 1.000
+    if (inch) limit = 100 * kMillimetresPerInch;
+  } else {
+    return in.state.thread_lead > 0 ? Did::done : in.raise(Condition::no_feed, 'F');
+  }
+  if (!lead_in_range(lead, limit)) return in.raise(Condition::thread_lead, letter, w.get(letter));
+  in.state.thread_lead = lead;
+  return Did::done;
+}
+
+}  // namespace
+
+Did move_thread(Interpreter& in, const AxisVec& target, uint32_t commanded) {
+  const BlockWords& w = in.words;
+  const Did did = take_lead(in);
+  if (did != Did::done) return did;
+  double angle = 0;  // M700 6.7.1: not modal
+  if (w.has('Q')) {
+    angle = length_value(in, w.get('Q'), w.flags['Q' - 'A'], true, true);
+    if (!(angle >= 0 && angle <= 360)) return in.raise(Condition::value_range, 'Q', w.get('Q'));
+  }
+  if (commanded == 0) return Did::done;
+  LinearStyle style;
+  style.kind = NC_MOVE_THREAD;
+  style.feed_mm_rev = in.state.thread_lead;
+  style.thread_angle = angle;
+  style.transparent = true;  // M700 6.7.1: radius compensation is away for the thread
+  move_linear(in, target, commanded, style);
+  return Did::done;
+}
+
+}  // namespace nc

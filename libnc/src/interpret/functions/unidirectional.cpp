@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// G60: positioning whose last stretch always goes in the same direction (M700 6.8).
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+
+Did do_unidirectional(Interpreter& in) {
+  const uint32_t axes = in.words.axes;
+  const AxisVec target = target_of_words(in);
+  AxisVec before = target;
+  uint32_t creeps = 0;
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((axes >> i) & 1) == 0 || in.settings.creep[i] == 0) continue;
+    before[i] -= in.settings.creep[i];  // its sign is the final direction
+    creeps |= 1u << i;
+  }
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  move_linear(in, before, axes, style);
+  move_linear(in, target, creeps, style);
+  return Did::done;
+}
+
+}  // namespace nc

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arcs in space, exponential curves and spans of NURBS by their own parameter u:
+//
+//     space arc     u in [0, 1], angle = sweep u, all other axes linearly; |dP/du| is constant
+//     exponential   u in [0, end] is the angle of M700 6.11
+//     rational      u in [0, 1] of one knot span
+//
+// With sigma = |dP/du| over the axes that make the length, u' = 1/sigma by the length s; u(s) itself comes from a table of exact
+// values at equal steps of s with quintic interpolation between them.
+#include "path/shape_base.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nc {
+namespace {
+
+/// Point and derivatives by u.
+struct ByParameter {
+  AxisVec p, d1, d2, d3;
+};
+
+void space_arc_at(const CurveShape& shape, double u, unsigned axis_count, ByParameter* q) {
+  const SpaceArc& a = shape.what.arc;
+  for (unsigned i = 0; i < axis_count; ++i) {
+    q->p[i] = shape.base.start[i] + shape.base.delta[i] * u;
+    q->d1[i] = shape.base.delta[i];
+  }
+  const double t = a.sweep * u, c = a.radius * std::cos(t), s = a.radius * std::sin(t), w = a.sweep;
+  for (unsigned i = 0; i < 3; ++i) {
+    const double radial = a.e1[i] * c + a.e2[i] * s, tangential = a.e2[i] * c - a.e1[i] * s;
+    q->p[a.axis[i]] = a.center[i] + radial;
+    q->d1[a.axis[i]] = w * tangential;
+    q->d2[a.axis[i]] = -w * w * radial;
+    q->d3[a.axis[i]] = -w * w * w * tangential;
+  }
+}
+
+void exponential_at(const CurveShape& shape, double u, unsigned axis_count, ByParameter* q) {
+  const Exponential& e = shape.what.exponential;
+  const double whole = shape.base.delta[e.linear];
+  const double x = e.k * std::expm1(u / e.d), slope = (x + e.k) / e.d;
+  for (unsigned i = 0; i < axis_count; ++i) {
+    if (i == e.rotary) continue;
+    const double share = shape.base.delta[i] / whole;
+    q->p[i] = shape.base.start[i] + share * x;
+    q->d1[i] = share * slope;
+    q->d2[i] = q->d1[i] / e.d;
+    q->d3[i] = q->d2[i] / e.d;
+  }
+  q->p[e.rotary] = shape.base.start[e.rotary] + e.degrees_per_rad * u;
+  q->d1[e.rotary] = e.degrees_per_rad;
+}
+
+/// Bernstein coefficients of degree `n` to powers of u: the degree is at most 3, so nothing cancels that was not small.
+void to_powers(const double (&b)[4], unsigned n, double (&a)[4]) {
+  a[0] = b[0];
+  a[1] = a[2] = a[3] = 0;
+  if (n == 1) {
+    a[1] = b[1] - b[0];
+  } else if (n == 2) {
+    a[1] = 2 * (b[1] - b[0]);
+    a[2] = (b[2] - b[1]) - (b[1] - b[0]);
+  } else {
+    a[1] = 3 * (b[1] - b[0]);
+    a[2] = 3 * ((b[2] - b[1]) - (b[1] - b[0]));
+    a[3] = (b[3] - b[0]) - 3 * (b[2] - b[1]);
+  }
+}
+
+void make_powers(CurveShape* shape) {
+  const RationalSpan& r = shape->what.span;
+  to_powers(r.weight, r.degree, shape->power[3]);
+  for (unsigned i = 0; i < 3; ++i) {
+    double b[4];
+    for (unsigned k = 0; k < 4; ++k) b[k] = r.axis[i] < kMaxAxes ? r.point[k][i] * r.weight[k] : 0;
+    to_powers(b, r.degree, shape->power[i]);
+  }
+}
+
+double value_of(const double (&a)[4], double u) { return ((a[3] * u + a[2]) * u + a[1]) * u + a[0]; }
+double slope_of(const double (&a)[4], double u) { return (3 * a[3] * u + 2 * a[2]) * u + a[1]; }
+
+void rational_at(const CurveShape& shape, double u, unsigned axis_count, ByParameter* q) {
+  const RationalSpan& r = shape.what.span;
+  for (unsigned i = 0; i < axis_count; ++i) q->p[i] = shape.base.start[i];
+  const double (&w)[4] = shape.power[3];
+  const double iw = 1 / value_of(w, u), w1 = slope_of(w, u), w2 = 6 * w[3] * u + 2 * w[2], w3 = 6 * w[3];
+  for (unsigned i = 0; i < 3; ++i) {
+    if (r.axis[i] >= kMaxAxes) continue;
+    const double (&n)[4] = shape.power[i];
+    // N = w P, differentiated three times.
+    const double p = value_of(n, u) * iw;
+    const double d1 = (slope_of(n, u) - w1 * p) * iw;
+    const double d2 = (6 * n[3] * u + 2 * n[2] - 2 * w1 * d1 - w2 * p) * iw;
+    const double d3 = (6 * n[3] - 3 * w1 * d2 - 3 * w2 * d1 - w3 * p) * iw;
+    const unsigned axis = r.axis[i];
+    q->p[axis] = p;
+    q->d1[axis] = d1;
+    q->d2[axis] = d2;
+    q->d3[axis] = d3;
+  }
+}
+
+AxisVec rational_point(const CurveShape& shape, double u) {
+  const RationalSpan& r = shape.what.span;
+  AxisVec p = shape.base.start;
+  const double iw = 1 / value_of(shape.power[3], u);
+  for (unsigned i = 0; i < 3; ++i)
+    if (r.axis[i] < kMaxAxes) p[r.axis[i]] = value_of(shape.power[i], u) * iw;
+  return p;
+}
+
+/// |dP/du| alone, which the length is the integral of.
+double rational_speed(const CurveShape& shape, double u) {
+  const double iw = 1 / value_of(shape.power[3], u), w1 = slope_of(shape.power[3], u);
+  double sum = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    const double d = (slope_of(shape.power[i], u) - w1 * value_of(shape.power[i], u) * iw) * iw;
+    sum += d * d;
+  }
+  return std::sqrt(sum);
+}
+
+double exponential_speed(const CurveShape& shape, double u) {
+  const Exponential& e = shape.what.exponential;
+  const double slope = e.k / e.d * std::exp(u / e.d);
+  return std::sqrt(slope * slope * shape.along2 + e.degrees_per_rad * e.degrees_per_rad);
+}
+
+void by_parameter(const CurveShape& shape, double u, unsigned axis_count, ByParameter* q) {
+  switch (shape.what.kind) {
+    case ShapeKind::space_arc: space_arc_at(shape, u, axis_count, q); break;
+    case ShapeKind::exponential: exponential_at(shape, u, axis_count, q); break;
+    default: rational_at(shape, u, axis_count, q); break;
+  }
+}
+
+double dot(const CurveShape& shape, const AxisVec& a, const AxisVec& b, unsigned axis_count) {
+  double sum = 0;
+  for (unsigned i = 0; i < axis_count; ++i)
+    if (((shape.length_axes >> i) & 1) != 0) sum += a[i] * b[i];
+  return sum;
+}
+
+/// u', u'', u''' by the length: 1/sigma, -sigma'/sigma^3, (3 sigma'^2 - sigma sigma'')/sigma^5.
+struct ByLength {
+  double u1 = 0, u2 = 0, u3 = 0;
+};
+
+ByLength by_length(const CurveShape& shape, const ByParameter& q, unsigned axis_count) {
+  ByLength out;
+  const double sigma = std::sqrt(dot(shape, q.d1, q.d1, axis_count));
+  if (!(sigma > 0)) return out;
+  const double s1 = dot(shape, q.d1, q.d2, axis_count) / sigma;
+  const double s2 = (dot(shape, q.d2, q.d2, axis_count) + dot(shape, q.d1, q.d3, axis_count) - s1 * s1) / sigma;
+  out.u1 = 1 / sigma;
+  const double u1_3 = out.u1 * out.u1 * out.u1;
+  out.u2 = -s1 * u1_3;
+  out.u3 = (3 * s1 * s1 - sigma * s2) * u1_3 * out.u1 * out.u1;
+  return out;
+}
+
+double sigma_at(const CurveShape& shape, double u, unsigned axis_count) {
+  if (shape.what.kind == ShapeKind::rational) return rational_speed(shape, u);
+  if (shape.what.kind == ShapeKind::exponential) return exponential_speed(shape, u);
+  ByParameter q;
+  by_parameter(shape, u, axis_count, &q);
+  return std::sqrt(dot(shape, q.d1, q.d1, axis_count));
+}
+
+/// Length from `from` to `to` by Gauss-Legendre with five points.
+double length_between(const CurveShape& shape, double from, double to, unsigned axis_count) {
+  constexpr double kNode[5] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155, 0.95308992296933200};
+  constexpr double kWeight[5] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
+  double sum = 0;
+  for (int i = 0; i < 5; ++i) sum += kWeight[i] * sigma_at(shape, from + (to - from) * kNode[i], axis_count);
+  return sum * (to - from);
+}
+
+double last_parameter(const CurveShape& shape) { return shape.what.kind == ShapeKind::exponential ? shape.what.exponential.end : 1.0; }
+
+/// Quintic through value, first and second derivative at both ends of one step of length h; t in [0, 1].
+double quintic(const ParameterTable& table, unsigned k, double h, double t) {
+  const double p0 = table.u[k], p1 = table.u[k + 1];
+  const double v0 = table.du[k] * h, v1 = table.du[k + 1] * h;
+  const double a0 = table.ddu[k] * h * h * 0.5, a1 = table.ddu[k + 1] * h * h * 0.5;
+  const double rest = p1 - p0 - v0 - a0, slope = v1 - v0 - 2 * a0, bend = a1 - a0;
+  const double c3 = 10 * rest - 4 * slope + bend;
+  const double c4 = -15 * rest + 7 * slope - 2 * bend;
+  const double c5 = 6 * rest - 3 * slope + bend;
+  return ((((c5 * t + c4) * t + c3) * t + a0) * t + v0) * t + p0;
+}
+
+constexpr unsigned kPieces = 64;  ///< of the parameter, for the length of the whole
+
+/// Length up to the beginning of each piece.
+struct PieceLengths {
+  double at[kPieces + 1];
+};
+
+/// The parameter at the length s: the piece, then Newton's method inside it.
+double solve_parameter(const CurveShape& shape, const PieceLengths& pieces, double s, unsigned axis_count) {
+  const double last = last_parameter(shape);
+  unsigned k = 0;
+  while (k + 1 < kPieces && pieces.at[k + 1] <= s) ++k;
+  const double from = last * k / kPieces, to = last * (k + 1) / kPieces;
+  const double whole = pieces.at[k + 1] - pieces.at[k];
+  double u = whole > 0 ? from + (to - from) * (s - pieces.at[k]) / whole : from;
+  for (int i = 0; i < 20; ++i) {
+    const double sigma = sigma_at(shape, u, axis_count);
+    if (!(sigma > 0)) break;
+    const double step = (pieces.at[k] + length_between(shape, from, u, axis_count) - s) / sigma;
+    u = std::clamp(u - step, from, to);
+    if (std::fabs(step) < 1e-15 * last) break;
+  }
+  return u;
+}
+
+/// Fills length and table.
+void make_table(unsigned axis_count, CurveShape* shape) {
+  constexpr unsigned kSteps = ParameterTable::kSteps;
+  constexpr double kFine = 1e-10;  // of the length: nobody sees an error of the parameter below this
+  PieceLengths pieces;
+  const double last = last_parameter(*shape);
+  pieces.at[0] = 0;
+  for (unsigned k = 0; k < kPieces; ++k)
+    pieces.at[k + 1] = pieces.at[k] + length_between(*shape, last * k / kPieces, last * (k + 1) / kPieces, axis_count);
+  shape->base.length = pieces.at[kPieces];
+  if (!(shape->base.length > 0)) return;
+  ParameterTable& table = shape->table;
+  for (unsigned k = 0; k <= kSteps; ++k) {
+    const double s = shape->base.length * k / kSteps;
+    table.u[k] = k == 0 ? 0 : k == kSteps ? last : solve_parameter(*shape, pieces, s, axis_count);
+    ByParameter q;
+    by_parameter(*shape, table.u[k], axis_count, &q);
+    const ByLength d = by_length(*shape, q, axis_count);
+    table.du[k] = d.u1;
+    table.ddu[k] = d.u2;
+  }
+  table.refine = false;
+  const double h = shape->base.length / kSteps;
+  for (unsigned k = 0; k < kSteps && !table.refine; ++k) {
+    const double middle = quintic(table, k, h, 0.5);
+    const double error = length_between(*shape, table.u[k], middle, axis_count) - 0.5 * h;
+    table.refine = std::fabs(error) > kFine * shape->base.length;
+  }
+}
+
+}  // namespace
+
+void make_base(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary, CurveShape* shape) {
+  Curve& base = shape->base;
+  base.circular = false;
+  base.shape = nullptr;
+  base.start = start;
+  base.end = end;
+  for (unsigned i = 0; i < kMaxAxes; ++i) base.delta[i] = i < axis_count ? end[i] - start[i] : 0;
+  // M700 6.11: the feed of an exponential curve is that of all its axes; else the linear ones make the length.
+  shape->length_axes = (1u << axis_count) - 1;
+  if (shape->what.kind != ShapeKind::exponential) shape->length_axes &= ~rotary;
+  if (shape->what.kind == ShapeKind::rational) make_powers(shape);
+  if (shape->what.kind == ShapeKind::exponential) {
+    const Exponential& e = shape->what.exponential;
+    shape->along2 = 0;
+    for (unsigned i = 0; i < axis_count; ++i)
+      if (i != e.rotary) shape->along2 += base.delta[i] * base.delta[i] / (base.delta[e.linear] * base.delta[e.linear]);
+  }
+  if (shape->what.kind == ShapeKind::space_arc) {
+    base.length = sigma_at(*shape, 0, axis_count);
+    return;
+  }
+  make_table(axis_count, shape);
+}
+
+double base_parameter(const CurveShape& shape, double s, unsigned axis_count) {
+  const double length = shape.base.length;
+  if (!(s > 0)) return 0;
+  if (s >= length) return last_parameter(shape);
+  if (shape.what.kind == ShapeKind::space_arc) return s / length;
+  constexpr unsigned kSteps = ParameterTable::kSteps;
+  const double place = s / length * kSteps;
+  const unsigned k = std::min(kSteps - 1, static_cast<unsigned>(place));
+  double u = quintic(shape.table, k, length / kSteps, place - k);
+  if (shape.table.refine) {
+    const double over = length_between(shape, shape.table.u[k], u, axis_count) - (place - k) * length / kSteps;
+    const double sigma = sigma_at(shape, u, axis_count);
+    if (sigma > 0) u = std::clamp(u - over / sigma, 0.0, last_parameter(shape));
+  }
+  return u;
+}
+
+AxisVec base_position(const CurveShape& shape, double u, unsigned axis_count) {
+  if (shape.what.kind == ShapeKind::rational) return rational_point(shape, u);
+  ByParameter q;
+  by_parameter(shape, u, axis_count, &q);
+  return q.p;
+}
+
+CurvePoint base_evaluate(const CurveShape& shape, double s, unsigned axis_count) {
+  const double u = base_parameter(shape, s, axis_count), last = last_parameter(shape);
+  ByParameter q;
+  by_parameter(shape, u, axis_count, &q);
+  const AxisVec at = q.p;
+  ByLength d = by_length(shape, q, axis_count);
+  if (d.u1 == 0) {  // control points that coincide: the tangent is that of the curve right beside
+    constexpr double kBeside = 1e-5;
+    by_parameter(shape, u + (u < 0.5 * last ? kBeside : -kBeside) * last, axis_count, &q);
+    d = by_length(shape, q, axis_count);
+  }
+  CurvePoint out;
+  out.position = at;
+  for (unsigned i = 0; i < axis_count; ++i) {
+    out.d1[i] = q.d1[i] * d.u1;
+    out.d2[i] = q.d2[i] * d.u1 * d.u1 + q.d1[i] * d.u2;
+    out.d3[i] = q.d3[i] * d.u1 * d.u1 * d.u1 + 3 * q.d2[i] * d.u1 * d.u2 + q.d1[i] * d.u3;
+  }
+  return out;
+}
+
+}  // namespace nc
