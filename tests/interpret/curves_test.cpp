@@ -241,6 +241,29 @@ TEST(Nurbs, EndsOnTheLastPointAndOnItsCurve) {  // M700 6.15
   EXPECT_EQ(from_zero(bench, "G5 P10000\nG6.2 P2 K0 X0 F100\nX8. K0 M8\nM30").alarm, "P33");
 }
 
+TEST(Nurbs, ReadAgainFromItsMiddleIsTheSameCurve) {
+  Bench bench;
+  const std::string text =
+      "G5 P10000\nG6.2 P4 K0 X0 Y0 F100\nK0 X2. Y3.\nK0 X5. Y4.\nK0 X7. Y1.\nK1 X9. Y0\nK2 X12. Y2.\nK3 X15. Y5.\nK4 X16. Y9.\nK5\nK5\nK5\nK5\nM30";
+  const Outcome whole = from_zero(bench, text);
+  ASSERT_EQ(whole.moves().size(), 5u);
+  for (const unsigned back : {3u, 5u, 7u, 9u}) {
+    bench.at(0, 0, 0).start(text);
+    Step step, mark;
+    while (bench.pull(&step) == NC_OK && step.item.source.line < 10)
+      if (step.item.kind == NC_ITEM_MARK && step.item.source.line == back) mark = step;
+    ASSERT_EQ(bench.rewind(mark.item.serial, mark.machine), NC_OK);
+    const std::vector<nc_move> rest = bench.finish().moves(), all = whole.moves();
+    ASSERT_LE(rest.size(), all.size());
+    for (size_t i = 0; i < rest.size(); ++i) {
+      const nc_move& same = all[all.size() - rest.size() + i];
+      EXPECT_EQ(rest[i].length, same.length) << back;
+      for (unsigned axis = 0; axis < 2; ++axis) EXPECT_EQ(rest[i].machine.v[axis], same.machine.v[axis]) << back;
+    }
+    EXPECT_EQ(rest.back().machine.v[1], 9);
+  }
+}
+
 TEST(Hypothetical, TheAxisStaysAndComesBackToItself) {  // M700 6.16
   Bench bench;
   const Outcome run = from_zero(bench, "G7 Y0\nG2 X10. Y-10. Z20. J-10. F100\nG1 Y5.\nG7 Y1\nY3.\nM30");

@@ -91,6 +91,24 @@ RationalSpan span_of(const Interpreter& in, uint32_t j, const uint8_t (&axis)[3]
   return span;
 }
 
+/// The next point of the curve. Points have numbers one behind the other; when the program is read again from the middle of a curve the
+/// next free number is another one, so those that spans to come need go there too.
+void append(Interpreter& in, const PathPoint& p) {
+  constexpr uint32_t kNeeded = 2 * 3;  // a span reaches back by twice the degree
+  NurbsState& n = in.state.nurbs;
+  uint32_t id = in.points.intern(p);
+  if (n.knots > 0 && id != n.first + n.knots) {
+    const uint32_t kept = n.knots < kNeeded ? n.knots : kNeeded, from = n.first + n.knots - kept;
+    for (uint32_t i = 0; i < kept; ++i) {
+      const PathPoint before = in.points[from + i];
+      in.points.intern(before);
+    }
+    id = in.points.intern(p);
+  }
+  n.first = id - n.knots;
+  ++n.knots;
+}
+
 /// The span whose last knot has just been given.
 void emit_span(Interpreter& in) {
   const NurbsState& n = in.state.nurbs;
@@ -148,9 +166,7 @@ Did move_nurbs(Interpreter& in, const AxisVec& target) {
   if (must_repeat && p.knot != point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, 'K', p.knot);
   if (!closes && n.knots > n.points) return in.raise(Condition::format_error, 'K', p.knot);  // a point after the closing has begun
   if (closes && n.points < n.order) return in.raise(Condition::format_error, 'K', p.knot);   // fewer points than the order
-  const uint32_t id = in.points.intern(p);
-  if (n.knots == 0) n.first = id;
-  ++n.knots;
+  append(in, p);
   if (!closes) n.points = n.knots;
   emit_span(in);
   if (closes && n.knots == n.points + n.order) n = NurbsState{};
