@@ -142,7 +142,7 @@ void pull(nc_control* control, const Chosen& chosen) {
       require_finite(m.machine);
       require_finite(m.machine_start);
       require(std::isfinite(m.length) && m.length > 0 && std::isfinite(m.sweep_deg) && std::isfinite(m.radius));
-      require(m.kind == NC_MOVE_RAPID || m.feed_mm_min > 0);
+      require(m.kind == NC_MOVE_RAPID || m.feed_mm_min > 0 || m.feed_mm_rev > 0);
       from = m.machine_start;
       machine = m.machine;
     } else if (item.kind == NC_ITEM_SYNC) {
