@@ -299,7 +299,7 @@ Did move_by_words(Interpreter& in) {
   const bool arc_words = w.any(letters("RIJK"));
   const bool plain = code <= 30 && code % 10 == 0;
   if (w.axes == 0 && !((arc || !plain) && (arc_words || code == 330))) return Did::done;
-  if (in.state.map.kind != AxisMap::Kind::none) {
+  if ((in.state.special & kSpecialMap) != 0 && in.state.map.kind != AxisMap::Kind::none) {
     const Did did = check_mill_move(in, w.axes);
     if (did != Did::done) return did;
   }
@@ -312,7 +312,7 @@ Did move_by_words(Interpreter& in) {
   // Where the block starts is asked only by words that count from there (an axis without a word stays), by the feed of rotary axes,
   // by a turned figure, in which one word moves two axes, and by curves. The end of an arc in space counts from its middle point.
   const bool mapped = program_mapped(in);
-  const bool halfway = in.state.arc_step == ArcStep::middle_given;
+  const bool halfway = !plain && in.state.arc_step == ArcStep::middle_given;
   const AxisVec position = halfway                                                    ? in.points[in.state.arc_points + 1].at
                            : w.incremental != 0 || in.rotary != 0 || mapped || !plain ? in.position()
                                                                                       : AxisVec{};
