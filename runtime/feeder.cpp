@@ -36,6 +36,7 @@ void Feeder::step() {
   feed();
   complete_reset();
   rewind_ended();
+  restore_parts();
   Command command;
   while (commands_.pop(&command)) (void)answers_.push({command.ticket, apply(command)});
   PositionSample sample;
@@ -44,13 +45,35 @@ void Feeder::step() {
   take_messages();
   take_alarm();
   take_modal();
-  bool ready = false;
-  for (unsigned s = 0; s < systems_; ++s) ready |= system_[s].selected;
-  scan_->set_program_ready(ready);
+  tell_what_is_loaded();
+}
+
+void Feeder::tell_what_is_loaded() {
+  std::uint8_t loaded = Scan::kNothingLoaded;
+  for (unsigned s = 0; s < systems_; ++s)
+    if (system_[s].selected) loaded |= system_[s].mdi ? Scan::kMdiLoaded : Scan::kPartLoaded;
+  scan_->set_loaded(loaded);
   const std::lock_guard lock(mutex_);
-  info_.program_ready = ready;
+  info_.program_ready = loaded != Scan::kNothingLoaded;
   for (unsigned s = 0; s < systems_; ++s)
     info_.selected[s] = {system_[s].selected, system_[s].mdi, system_[s].file};
+}
+
+// Back in AUTO the part program that was selected before MDI is selected again, at its head; blocks of MDI that nobody started are gone.
+void Feeder::restore_parts() {
+  if (seen_.mode != Mode::kAuto || seen_.program_active() || scan_->reset_waits()) return;
+  for (unsigned s = 0; s < systems_; ++s) {
+    System& system = system_[s];
+    if (system.ended || (system.selected && !system.mdi) || (!system.selected && !system.part)) continue;
+    if (!system.part) {
+      system.clear();
+      continue;
+    }
+    const nc_status status = nc_->select(s, system.part_file);
+    if (status == NC_E_STATE) continue;  // not yet: the next step tries again
+    if (status < 0) system = {};
+    else system = {true, false, system.part_file, false, false, true, system.part_file};
+  }
 }
 
 Answer Feeder::apply(const Command& command) {
@@ -79,8 +102,9 @@ Answer Feeder::select(unsigned system, std::uint32_t file) {
     if (!loader_ || !loader_(name, &loaded)) return Answer::kNoProgram;
     file = loaded;
   }
+  scan_->set_loaded(Scan::kNothingLoaded);  // until this step has ended: what lies in the control changes now
   if (nc_->select(system, file) < 0) return Answer::kRefusedByControl;
-  system_[system] = {true, false, file, false, false};
+  system_[system] = {true, false, file, false, false, true, file};
   const std::lock_guard lock(mutex_);
   info_.main_line = 0;
   info_.ended = false;
@@ -96,8 +120,9 @@ Answer Feeder::load_mdi(unsigned system) {
     info_.main_line = 0;
     info_.ended = false;
   }
+  scan_->set_loaded(Scan::kNothingLoaded);
   if (nc_->load_mdi(system, text.data(), text.size()) < 0) return Answer::kRefusedByControl;
-  system_[system] = {true, true, 0, false, false};
+  system_[system] = {true, true, 0, false, false, system_[system].part, system_[system].part_file};
   return Answer::kDone;
 }
 
@@ -107,7 +132,7 @@ void Feeder::complete_reset() {
   if (!scan_->reset_waits()) return;
   for (unsigned s = 0; s < systems_; ++s) {
     if (nc_->reset(s) == NC_E_STATE) return;  // not yet: the next step tries again
-    if (system_[s].mdi) system_[s] = {};
+    if (system_[s].mdi) system_[s].clear();
     system_[s].ended = system_[s].alarmed = false;
   }
   take_events();  // what was executed before the reset belongs before it
@@ -124,7 +149,7 @@ void Feeder::rewind_ended() {
     if (!system.ended || seen_.system[s].nc.state != NC_STATE_IDLE || scan_->reset_waits()) continue;
     const bool ok = !system.alarmed;
     if (system.mdi || !system.selected) {
-      system = {};
+      system.clear();
     } else {
       const nc_status status = nc_->select(s, system.file);
       if (status == NC_E_STATE) continue;  // the control has not seen its end yet: the next step

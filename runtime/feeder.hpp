@@ -110,7 +110,13 @@ class Feeder {
     std::uint32_t file = 0;
     bool ended = false;    // the end item has been executed
     bool alarmed = false;  // behind an alarm item
+    bool part = false;     // a part program was selected, perhaps before the MDI blocks ...
+    std::uint32_t part_file = 0;  // ... and this is it
+    // Nothing is selected, but for what is remembered.
+    void clear() { *this = {false, false, 0, false, false, part, part_file}; }
   };
+  void restore_parts();
+  void tell_what_is_loaded();
   System system_[NC_MAX_SYSTEMS];
   Snapshot seen_;  // of this step
 

@@ -167,7 +167,8 @@ Answer Scan::start_cycle() noexcept {
   if (alarms_.count != 0) return Answer::kAlarmActive;
   for (unsigned s = 0; s < systems_; ++s)
     if (out_[s].state == NC_STATE_RUNNING) return Answer::kAlreadyRunning;
-  if (!program_active() && !program_ready_.load(std::memory_order_acquire)) return Answer::kNoProgram;
+  const std::uint8_t wanted = mode_ == Mode::kMdi ? kMdiLoaded : kPartLoaded;
+  if (!program_active() && (loaded_.load(std::memory_order_acquire) & wanted) == 0) return Answer::kNoProgram;
   if (!program_active()) program_mode_ = mode_;
   start_pulse_ = true;
   hold_request_ = false;

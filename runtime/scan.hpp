@@ -68,7 +68,9 @@ class Scan {
   const ScanStatistics& statistics() const { return statistics_; }
 
   // ---- feeder thread ----
-  void set_program_ready(bool ready) noexcept { program_ready_.store(ready, std::memory_order_release); }
+  // What lies in the control, ready to start: each belongs to its mode, so that nothing forgotten starts in the other.
+  enum Loaded : std::uint8_t { kNothingLoaded = 0, kPartLoaded = 1, kMdiLoaded = 2 };
+  void set_loaded(std::uint8_t loaded) noexcept { loaded_.store(loaded, std::memory_order_release); }
   // A reset came to rest: the feeder resets the interpreter and says so.
   bool reset_waits() const noexcept {
     return reset_rest_.load(std::memory_order_acquire) != reset_done_.load(std::memory_order_relaxed);
@@ -168,7 +170,7 @@ class Scan {
   SpscQueue<Message, 64> messages_;
   bool recording_ = false;
   SpscQueue<PositionSample, 4096> positions_;
-  std::atomic<bool> program_ready_{false};
+  std::atomic<std::uint8_t> loaded_{kNothingLoaded};
   std::atomic<std::uint32_t> reset_rest_{0}, reset_done_{0};
   SeqLock<Snapshot> snapshot_;
   Snapshot building_;

@@ -232,6 +232,37 @@ TEST_F(ScanTest, MdiBlocksRunOnce) {
   EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kNoProgram);
 }
 
+TEST_F(ScanTest, WhatIsLoadedStartsInItsOwnModeOnly) {
+  build();
+  EXPECT_EQ(runtime->select_program(0), Answer::kDone);
+  EXPECT_EQ(set_mode(Mode::kMdi), Answer::kDone);
+  steps(3);
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kNoProgram) << "the part program in MDI mode";
+  EXPECT_EQ(runtime->load_mdi("G0X9\n"), Answer::kDone);
+  EXPECT_EQ(set_mode(Mode::kAuto), Answer::kDone);
+  steps(3);
+  EXPECT_TRUE(runtime->info().selected[0].any);
+  EXPECT_FALSE(runtime->info().selected[0].mdi) << "forgotten MDI blocks are gone";
+  EXPECT_EQ(nc.selects, 2u) << "the part program is selected again";
+  EXPECT_EQ(set_mode(Mode::kMdi), Answer::kDone);
+  steps(3);
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kNoProgram) << "and do not come back";
+}
+
+TEST_F(ScanTest, ThePartProgramIsThereAgainAfterMdi) {
+  nc.cycles = 5;
+  build();
+  EXPECT_EQ(runtime->select_program(0), Answer::kDone);
+  EXPECT_EQ(set_mode(Mode::kMdi), Answer::kDone);
+  EXPECT_EQ(runtime->load_mdi("G0X1\n"), Answer::kDone);
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(10);
+  EXPECT_EQ(set_mode(Mode::kAuto), Answer::kDone);
+  steps(3);
+  EXPECT_EQ(nc.selects, 2u);
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+}
+
 TEST_F(ScanTest, ModeChangesOnlyAtRestWithoutAProgram) {
   build();
   start_program();
