@@ -45,6 +45,15 @@ extern "C" void on_signal(int number) {
   g_signal = number;
 }
 
+const char* signal_name(int number) {
+  switch (number) {
+    case SIGINT: return "SIGINT";
+    case SIGHUP: return "SIGHUP";
+    case SIGQUIT: return "SIGQUIT";
+    default: return "SIGTERM";
+  }
+}
+
 struct Options {
   std::string config, program, mdi, dialect, plot, share;
   bool fast = false, no_progress = false, quiet = false, serve = false, commands = false;
@@ -244,7 +253,7 @@ class Run {
     for (unsigned i = 0; i < looks_ && runtime_.snapshot().resetting; ++i) wait();
     progress_.finish();
     std::printf("interrupted  by %s in line %u, before the end of the program\n",
-                signal == SIGINT ? "SIGINT" : "SIGTERM", stopped.source.line);
+                signal_name(signal), stopped.source.line);
     std::printf("%s", nc::rt::summary_text(runtime_, stopped, options_.since_ns).c_str());
     return kExitSignal + signal;
   }
@@ -355,15 +364,18 @@ int operate(const Options& options, nc::rt::Config* config) {
   nc::tools::PrintFile print;
   if (!config->print.empty()) {
     if (!print.open(config->print_file(), &error)) return failed(error);
-    runtime->set_printer([&print](const char* text) { print.write(text); });
+    runtime->set_printer([&print](const char* text) {
+      const bool was_good = print.good();
+      print.write(text);
+      if (was_good && !print.good()) std::fprintf(stderr, "warning: external output: %s\n", print.error().c_str());
+    });
   }
   PlotSink path(*config);
   if (!options.plot.empty()) runtime->set_path_sink(&path);
   nc::rt::Progress progress(stdout, isatty(STDOUT_FILENO) != 0, nc::rt::estimate_lines(options.program));
 
   std::signal(SIGPIPE, SIG_IGN);  // a reader of the progress that goes away must not stop a machine in motion
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  for (const int ending : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(ending, on_signal);  // HUP: a terminal that goes away
   if (!(options.fast ? runtime->start_stepping(&error) : runtime->start(&error))) return failed(error);
   for (const std::string& warning : runtime->warnings())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
@@ -389,6 +401,10 @@ int operate(const Options& options, nc::rt::Config* config) {
                                                 : failed(std::string("not started: ") + nc::rt::answer_text(answer));
   sharing.stop();
   runtime->stop();
+  if (!print.good()) {
+    std::fprintf(stderr, "ncrtd: %s: not all that the program printed is there: %s\n", config->print_file().c_str(), print.error().c_str());
+    if (result == 0) result = kExitUsage;
+  }
   if (options.plot.empty() || result == kExitUsage) return result;
   path.finish();
   path.plot.set_title(options.program);

@@ -67,6 +67,18 @@ printf 'M198 P79\nPOPEN\n#1=0\nWHILE [#1 LT 200] DO1\nG0 X-[#1/100]\nDPRNT[N#1[3
 expect 0 "$ncrtd" --config "$work/print.toml" run --fast --no-progress "$work/main.nc"
 { echo %; for n in $(seq 0 199); do echo "N$n*V7"; done; echo %; } >"$work/expected"
 cmp "$work/expected" "$work/printed" || fail "what was printed is not what the program prints"
+# Everything that was printed is there when the program ends at once behind it, by M30 or by an alarm, and a full disk is said.
+for ending in M30 '#3000=1(STOP)'; do
+  rm -f "$work/printed"
+  printf 'POPEN\n#1=0\nWHILE [#1 LT 300] DO1\nDPRNT[X#1[53]]\n#1=#1+1\nEND1\nPCLOS\n%s\n' "$ending" >"$work/main.nc"
+  expect "$([ "$ending" = M30 ] && echo 0 || echo 2)" "$ncrtd" --config "$work/print.toml" run --fast --no-progress "$work/main.nc"
+  [ "$(grep -c '^X' "$work/printed")" = 300 ] || fail "$(grep -c '^X' "$work/printed") of 300 printed lines before $ending"
+  [ "$(tail -n 1 "$work/printed")" = % ] || fail "PCLOS is not the last line before $ending"
+done
+sed 's#^print = .*#print = "/dev/full"#' "$work/print.toml" >"$work/full.toml"
+printf 'POPEN\nDPRNT[X1]\nPCLOS\nM30\n' >"$work/main.nc"
+expect 1 "$ncrtd" --config "$work/full.toml" run --fast --no-progress "$work/main.nc"
+said err "No space left"
 
 # Usage and configuration.
 expect 1 "$ncrtd"

@@ -52,9 +52,11 @@ class OfflineRun {
   }
 
   RunResult endless() {
-    return fail("line " + std::to_string(last_.line) +
-                (last_.program ? " of O" + std::to_string(last_.program) : "") + ": " +
-                std::to_string(silent_) + " blocks without anything but calculation, an endless loop");
+    const std::string place = last_.line == 0 ? ""
+                              : "line " + std::to_string(last_.line) +
+                                    (last_.program ? " of O" + std::to_string(last_.program) : "") + ": ";
+    return fail(place + std::to_string(silent_) +
+                " blocks without anything that the machine would do: an endless loop, or too few allowed (--max-silent-blocks)");
   }
 
   bool handle(nc_item& item) {

@@ -19,7 +19,8 @@ void PrintFile::write(const char* text) {
   for (; *text != 0; ++text)
     if (static_cast<unsigned char>(*text) >= 0x20) line += *text;
   line += '\n';
-  good_ = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() && std::fflush(file_.get()) == 0 && good_;
+  if (std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() && std::fflush(file_.get()) == 0) return;
+  if (error_.empty()) error_ = std::generic_category().message(errno);
 }
 
 }  // namespace nc::tools

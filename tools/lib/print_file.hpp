@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string>
 
 namespace nc::tools {
 
@@ -16,14 +17,16 @@ class PrintFile {
   /** One output: a line of its own, without the codes that switch a punch on and off. It is in the file when this returns. */
   void write(const char* text);
   /** @return false when something could not be written. */
-  bool good() const { return good_; }
+  bool good() const { return error_.empty(); }
+  /** The first reason. */
+  const std::string& error() const { return error_; }
 
  private:
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::unique_ptr<std::FILE, Close> file_;
-  bool good_ = true;
+  std::string error_;
 };
 
 }  // namespace nc::tools

@@ -41,9 +41,11 @@ Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
       mark(r.mark, in);
       return Done::yes;
     case ItemKind::alarm:
+      if (!messages_.empty()) return wait(NC_CAUSE_NONE);  // what the program has printed before goes out first
       alarm();
       break;
     case ItemKind::end:
+      if (!messages_.empty()) return wait(NC_CAUSE_NONE);
       modal_ = r.end.modal;
       interrupt_mode_ = 0;
       interrupt_wanted_ = false;
