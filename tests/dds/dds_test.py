@@ -60,7 +60,7 @@ import nc_dds  # noqa: E402
 from nc_dds import AckReason, AckState, CommandKind, Mode, RunState, SignalDirection, SignalType  # noqa: E402
 from cyclonedds.core import InstanceState  # noqa: E402
 from cyclonedds.domain import DomainParticipant  # noqa: E402
-from cyclonedds.idl import IdlStruct, types  # noqa: E402
+from cyclonedds.idl import IdlStruct, annotations as annotate, types  # noqa: E402
 from cyclonedds.pub import DataWriter, Publisher  # noqa: E402
 from cyclonedds.sub import DataReader, Subscriber  # noqa: E402
 from cyclonedds.core import Policy, Qos  # noqa: E402
@@ -381,6 +381,14 @@ class Odd(IdlStruct, typename="nc.Status"):
     text: str
 
 
+@dataclass
+class OddBytes(IdlStruct, typename="nc.Command"):
+    client: str
+    annotate.key("client")
+    seq: types.uint8
+    junk: types.sequence[types.uint8]
+
+
 def stranger(plant, watch, operator, gateway):
     """A participant that has other types under our names, one of them known to have crashed publishers."""
     participant = DomainParticipant(plant.domain)
@@ -391,6 +399,14 @@ def stranger(plant, watch, operator, gateway):
             writer.write(Odd(1, 2, "x" * 1000))
         time.sleep(0.02)
     check(gateway.poll() is None, "a participant with other types does not end the gateway")
+    subscriber = Subscriber(participant, qos=Qos(Policy.Partition([plant.share])))
+    readers = [DataReader(subscriber, Topic(participant, name, OddBytes)) for name in ("nc_Status", "nc_Alarm")]
+    command = DataWriter(publisher, Topic(participant, "nc_Command", OddBytes))
+    for _ in range(20):
+        command.write(OddBytes("odd", 1, [2, 3]))
+        time.sleep(0.1)
+    check(gateway.poll() is None, "nor does one whose types have ended a gateway with type information")
+    del readers, command
     noise, chance = socket.socket(socket.AF_INET, socket.SOCK_DGRAM), random.Random(1)
     for port in range(7410 + 250 * plant.domain, 7410 + 250 * plant.domain + 24):  # RTPS: participants 0 to 11
         for length in (0, 3, 20, 64, 300, 1400):
