@@ -31,6 +31,31 @@ bool is_device_name(std::string_view name) {
          });
 }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// K4M0: bits taken together.
+bool is_digit_group(std::string_view name) {
+  return name.size() > 3 && name[0] == 'K' && name[1] >= '1' && name[1] <= '8' && is_device_name(name.substr(2));
+}
+
+// w.3: a bit of the word w.
+bool is_bit_name(std::string_view name) {
+  if (name.size() < 3 || name[name.size() - 2] != '.') return false;
+  const char last = name.back();
+  return is_digit(last) || (last >= 'A' && last <= 'F');
+}
+
+// nc.x, nc2.x, plc.x, plc2.x: signals of the table, also those that come with a later version.
+bool is_like_a_signal(std::string_view name) {
+  for (const std::string_view family : {"nc", "plc"}) {
+    if (name.substr(0, family.size()) != family) continue;
+    std::size_t at = family.size();
+    while (at < name.size() && is_digit(name[at])) ++at;
+    if (at < name.size() && name[at] == '.') return true;
+  }
+  return false;
+}
+
 bool is_signal_name(std::string_view name, const nc_config& nc) {
   for (const Signal& signal : machine_signals(nc))
     if (signal.name == name) return true;
@@ -170,10 +195,14 @@ void read_points(TableReader* root, Config* config) {
     if (!named) return;
     if (!valid_point_name(point.name))
       reader.error("name", "must be 1 to 55 letters, digits, '_', '-' or '.'");
-    else if (is_device_name(point.name))
+    else if (is_device_name(point.name) || is_digit_group(point.name))
       reader.error("name", "\"" + point.name + "\" is a device or a constant of the ladder; tie addresses to points by ALIAS");
     else if (is_signal_name(point.name, config->nc))
       reader.error("name", "\"" + point.name + "\" is a signal between NC and ladder");
+    else if (is_like_a_signal(point.name))
+      reader.error("name", "names that begin with nc. and plc. belong to the signals between NC and ladder");
+    else if (is_bit_name(point.name))
+      reader.error("name", "\"" + point.name + "\" would be bit " + point.name.back() + " of a word in the ladder");
     else if (config->points.find(point.name) >= 0)
       reader.error("name", "point \"" + point.name + "\" is already there");
     else if (!config->points.add(point))
