@@ -151,6 +151,8 @@ TEST(Create, ConfigurationsThatAreNone) {
       [](nc_config& c) { c.tool_offsets = 1000; },
       [](nc_config& c) { c.work_offsets = 301; },
       [](nc_config& c) { c.window_bytes = 100; },
+      [](nc_config& c) { c.window_bytes = 0xffffffff; },
+      [](nc_config& c) { c.variable_sets = 7; },
       [](nc_config& c) { c.max_feed_override = 0.5; },
       [=](nc_config& c) { c.max_feed_override = kNan; },
   };

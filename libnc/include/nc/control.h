@@ -49,7 +49,7 @@ typedef struct nc_config {
   uint32_t work_offsets;   /**< G54.1 P1..Pn; default 96 */
   uint32_t variable_sets;  /**< common variables by option, 100 200 300 600 (M700 13.4); default 600 */
   bool extended_variables; /**< #900000-#907399 of later models; default false */
-  uint32_t window_bytes;   /**< text window per part system; default 65536 */
+  uint32_t window_bytes;   /**< text window per part system, 512..16777216; default 65536 */
   double max_feed_override; /**< largest value of nc_inputs::feed_override, default 2.0 */
 } nc_config;
 

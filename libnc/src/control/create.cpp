@@ -26,6 +26,9 @@ bool axes_valid(const nc_system_config& system) {
   return true;
 }
 
+/// M700 13.4.
+bool is_option(uint32_t variable_sets) { return variable_sets == 100 || variable_sets == 200 || variable_sets == 300 || variable_sets == 600; }
+
 bool valid(const nc_config* c) {
   if (c == nullptr || c->struct_size != sizeof(nc_config)) return false;
   if (c->dialect >= NC_DIALECT_COUNT || c->system_count < 1 || c->system_count > NC_MAX_SYSTEMS) return false;
@@ -33,7 +36,8 @@ bool valid(const nc_config* c) {
     if (!axes_valid(c->system[i])) return false;
   return c->cycle_s > 0 && c->cycle_s <= 0.1 && power_of_two(c->look_ahead) && c->look_ahead >= 64 && c->look_ahead <= 65536 &&
          c->programs >= 1 && c->programs <= 65535 && c->tool_offsets >= 1 && c->tool_offsets <= 999 && c->work_offsets <= 300 &&
-         c->window_bytes >= 512 && c->max_feed_override >= 1 && c->max_feed_override <= 10;
+         c->window_bytes >= 512 && c->window_bytes <= (1u << 24) && is_option(c->variable_sets) && c->max_feed_override >= 1 &&
+         c->max_feed_override <= 10;
 }
 
 /// M700 13.4: which common variables there are by option.
