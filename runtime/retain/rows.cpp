@@ -21,7 +21,7 @@ class Reader {
   bool number(std::uint32_t most, std::uint32_t* value) { return raw(value, sizeof *value) && *value <= most; }
   bool raw(void* to, std::size_t size) {
     if (bytes_.size() - at_ < size) return false;
-    std::memcpy(to, bytes_.data() + at_, size);
+    if (size != 0) std::memcpy(to, bytes_.data() + at_, size);
     at_ += size;
     return true;
   }
