@@ -81,6 +81,7 @@ void Planner::commit_segment(uint32_t index) {
   tip.ordinal = r.segment.ordinal = next_ordinal_++;
   tip.shape = shape_of(r.segment, limits_);
   tip.open = tip.valid = true;
+  tip.thread = r.segment.thread;
   entry(tip.ordinal).stop_mark = false;
   if (tip_.open) {
     const Segment& from = record(tip_.record).segment;
@@ -102,7 +103,7 @@ void Planner::commit(uint32_t index) {
   }
   ++tip_.between;
   // M700 6.7.1: single block stops behind the first block that is no thread any more.
-  if (r.kind == ItemKind::mark && r.mark.stop && tip_.valid && !record(tip_.record).segment.thread) entry(tip_.ordinal).stop_mark = true;
+  if (r.kind == ItemKind::mark && r.mark.stop && tip_.valid && !tip_.thread) entry(tip_.ordinal).stop_mark = true;
   if (tip_.open && demands_rest(r)) close({}, 0);
 }
 

@@ -58,8 +58,9 @@ class Planner {
     SegmentShape shape;
     double reserve = 0;    ///< share reserved for its start
     unsigned between = 0;  ///< other records committed behind it
-    bool open = false;     ///< its end is not known: held back
+    bool open = false;     ///< its end is not known: held back, its record is still there
     bool valid = false;
+    bool thread = false;   ///< it goes with the spindle
   };
 
   Record& record(uint32_t index) const { return ring_[index & mask_]; }
