@@ -253,6 +253,17 @@ Did execute_statement(Interpreter& in, const Statement& statement) {
   return in.raise(Condition::internal);
 }
 
+Did find_start(Interpreter& in, const ProgramRef& program, uint64_t* offset, uint32_t* line) {
+  const BlockWords& w = in.words;
+  *offset = program.offset;
+  *line = program.line;
+  if (!w.has('H')) return Did::done;
+  uint32_t n = 0;
+  bool again = false;
+  if (whole_number(w.get('H'), &n) && in.reader.find_sequence(program.file, n, offset, line, 0, kWholeText, &again)) return Did::done;
+  return in.raise(Condition::sequence_missing, 'H', w.get('H'));
+}
+
 Did call_sub(Interpreter& in) {
   const BlockWords& w = in.words;
   if (top(in).figure != 0) return in.raise(Condition::nesting, 'M', 98);  // M700 13.3.3 (6): no branch from a rotating program
@@ -262,14 +273,10 @@ Did call_sub(Interpreter& in) {
   ProgramRef program;
   did = find_called(in, w.has('P'), w.has('P') ? w.get('P') : 0, true, &program);
   if (did != Did::done) return did;
-  uint64_t offset = program.offset;
-  uint32_t line = program.line;
-  if (w.has('H')) {
-    uint32_t n = 0;
-    bool again = false;
-    if (!whole_number(w.get('H'), &n) || !in.reader.find_sequence(program.file, n, &offset, &line, 0, kWholeText, &again))
-      return in.raise(Condition::sequence_missing, 'H', w.get('H'));
-  }
+  uint64_t offset = 0;
+  uint32_t line = 0;
+  did = find_start(in, program, &offset, &line);
+  if (did != Did::done) return did;
   // M700 13.3.1: single block does not stop at a block that only calls; with other words it may, behind what they do.
   const bool stops = !only_calls(in);
   const bool figure = w.any(letters("IJK"));

@@ -49,16 +49,12 @@ bool is_interrupt_off(const Interpreter& in, uint32_t m) { return m == in.settin
 Did enable_interrupt(Interpreter& in) {
   const BlockWords& w = in.words;
   ProgramRef program;
-  const Did did = find_called(in, w.has('P'), w.has('P') ? w.get('P') : 0, false, &program);
+  Did did = find_called(in, w.has('P'), w.has('P') ? w.get('P') : 0, false, &program);
   if (did != Did::done) return did;
-  uint64_t offset = program.offset;
-  uint32_t line = program.line;
-  if (w.has('H')) {
-    uint32_t n = 0;
-    bool again = false;
-    if (!whole_number(w.get('H'), &n) || !in.reader.find_sequence(program.file, n, &offset, &line, 0, kWholeText, &again))
-      return in.raise(Condition::sequence_missing, 'H', w.get('H'));
-  }
+  uint64_t offset = 0;
+  uint32_t line = 0;
+  did = find_start(in, program, &offset, &line);
+  if (did != Did::done) return did;
   const double values[Notes::kInterruptSize] = {static_cast<double>(program.file), static_cast<double>(program.number),
                                                 static_cast<double>(program.offset), static_cast<double>(program.line),
                                                 static_cast<double>(offset), static_cast<double>(line)};
