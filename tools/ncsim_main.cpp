@@ -96,7 +96,10 @@ int run(int argc, char** argv) {
       std::fprintf(stderr, "ncsim: the output cannot be written\n");
       return nc::tools::kExitError;
     }
-    std::fprintf(stderr, "ncsim: %s (ncsim --help)\n", error.what());
+    // The parser's own words for a subcommand that does not exist are that one is missing.
+    const bool unknown = app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-';
+    if (unknown) std::fprintf(stderr, "ncsim: there is no subcommand '%s' (ncsim --help)\n", argv[1]);
+    else std::fprintf(stderr, "ncsim: %s (ncsim --help)\n", error.what());
     return nc::tools::kExitError;
   }
   if (trace->parsed()) return nc::tools::trace_command(options, silent, STDOUT_FILENO, stderr);

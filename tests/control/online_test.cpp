@@ -207,6 +207,29 @@ TEST(Online, ChangedDataActAfterARecalculation) {  // M700 4.2: from the next bl
   EXPECT_EQ(out.state, NC_STATE_IDLE);
 }
 
+TEST(Online, SingleBlockNeedsNoStartBehindTheEndOfTheProgram) {
+  Bench bench(NC_DIALECT_M700, machine(64));
+  bench.start("G0 X1.\nX2.\nM30");
+  nc_control* control = bench.control();
+  nc_inputs in{};
+  nc_outputs out{};
+  in.feed_override = in.rapid_override = 1;
+  in.single_block = true;
+  unsigned starts = 0;
+  bool idle = false;
+  for (unsigned n = 0; n < 5000 && !idle; ++n) {
+    nc_feed(control, 50);
+    const bool waits = out.state == NC_STATE_STOPPED || starts == 0;
+    if (waits && !in.cycle_start) ++starts;
+    in.cycle_start = waits && !in.cycle_start;
+    in.fin = out.strobe != 0;
+    nc_cycle(control, &in, &out);
+    idle = starts > 0 && n > 10 && out.state == NC_STATE_IDLE;
+  }
+  EXPECT_TRUE(idle);
+  EXPECT_EQ(starts, 3u);  // one for each block
+}
+
 TEST(Online, AnAlarmStopsTheMachineWhereTheBlockBeforeEnded) {
   Bench bench(NC_DIALECT_M700, machine(64));
   bench.start("G0 X10.\nG1 X20. F6000\nG67\nX30.\nM30");

@@ -106,6 +106,9 @@ TEST(AlarmDetail, WritesCodesAsCodes) {
             "M96 is not available on this control.");
   EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 54.2}), "G54.2 is not a G code of this control.");
   EXPECT_EQ(detail({Condition::words_missing, -1, 'G', true, 4}), "G04 needs a word that is not there.");
+  // A number that is no code is shown as it was programmed, not rounded to one that is.
+  EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 0.15}), "G0.15 is not a G code of this control.");
+  EXPECT_EQ(detail({Condition::value_range, -1, 'M', true, 3.5}), "The value of M3.5 is outside its range.");
   // The number of a code is not a value that a sentence could mean.
   EXPECT_EQ(detail({Condition::arc_deviation, -1, 'G', true, 2}),
             "Start and end of the arc are not on one circle about its centre.");

@@ -248,6 +248,21 @@ TEST_F(CommandTest, AnEndlessLoopEndsWithAMessage) {
   }
 }
 
+TEST_F(CommandTest, AProgramThatOnlyRunsOnIsNoEndlessLoop) {
+  std::string blanks = "O1\n", standing = "O1 G1 F100 X0\n";
+  for (unsigned i = 0; i < 30000; ++i) blanks += "\n", standing += "X0\n";
+  for (const std::string& text : {blanks, standing}) {
+    file("p.nc", text + "M30\n");
+    const Outcome run = ncsim("check --max-silent-blocks 10000 p.nc");
+    EXPECT_EQ(run.code, 0) << run.err;
+  }
+}
+
+TEST_F(CommandTest, ASubcommandThatDoesNotExistIsNamed) {
+  EXPECT_EQ(ncsim("foo").err, "ncsim: there is no subcommand 'foo' (ncsim --help)\n");
+  EXPECT_NE(ncsim("trace /").err.find("/: is a folder, not a program"), std::string::npos);
+}
+
 TEST_F(CommandTest, TimeOfAMoveIsThatOfItsLimits) {
   file("p.nc", "G00 X500.\nM30\n");
   file("m.json", R"({"axes": {"X": {"velocity": 100, "acceleration": 1000, "jerk": 1000000}}})");

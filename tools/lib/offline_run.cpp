@@ -19,9 +19,8 @@ class OfflineRun {
     nc_item item;
     for (;;) {
       const nc_status status = items_.pull(kBudget, &item);
-      if (status == NC_BUDGET) silent_ += kBudget;
       if (max_silent_blocks && silent_ >= max_silent_blocks) return endless();
-      if (status == NC_BUDGET) continue;
+      if (status == NC_BUDGET) continue;  // lines without a block: every loop has blocks, and so marks
       if (status == NC_ENDED || status == NC_ALARMED) break;
       if (status != NC_OK) return fail("the control stopped with status " + std::to_string(status));
       last_ = item.source;
@@ -43,12 +42,18 @@ class OfflineRun {
   }
 
  private:
-  // What the world sees, or lets time pass, ends a silence; blocks that only calculate and jump do not.
+  // What the world sees, or lets time pass, ends a silence, and so does a block of the main program behind all that were executed
+  // before: a program that only runs on comes to its end. Blocks that calculate and jump do not.
   void count_silence(const nc_item& item) {
-    if (item.kind == NC_ITEM_MARK)
+    if (item.kind == NC_ITEM_MARK) {
       ++silent_;
-    else if (item.kind != NC_ITEM_SYNC || (item.u.sync.what & NC_SYNC_CLOCK))
+      if (item.source.depth == 0 && item.source.line > furthest_line_) {
+        furthest_line_ = item.source.line;
+        silent_ = 0;
+      }
+    } else if (item.kind != NC_ITEM_SYNC || (item.u.sync.what & NC_SYNC_CLOCK)) {
       silent_ = 0;
+    }
   }
 
   RunResult endless() {
@@ -185,6 +190,7 @@ class OfflineRun {
   nc_source last_ = {};
   nc_axes work_ = {};
   uint64_t silent_ = 0;  // blocks since something happened
+  uint32_t furthest_line_ = 0;  // of the main program that a block was executed on
   uint32_t modal_ = 0, ended_line_ = 0;
   bool ended_ = false, interrupt_ = false;
 };

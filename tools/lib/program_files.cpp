@@ -60,7 +60,7 @@ std::optional<unsigned long> program_number(const std::string& name) {
 
 std::string base_name(const std::string& path) {
   const size_t slash = path.find_last_of('/');
-  return slash == std::string::npos ? path : path.substr(slash + 1);
+  return slash == std::string::npos || slash + 1 == path.size() ? path : path.substr(slash + 1);
 }
 
 const char* not_a_program(mode_t mode) {

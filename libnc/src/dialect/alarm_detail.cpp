@@ -203,15 +203,15 @@ bool has_letter(const Fault& fault) {
 void put_word(TextWriter& out, const Fault& fault) {
   char code[12];
   if (about_code(fault) && fault.has_value && fault.value >= 0 && fault.value < 1e6) {
-    if (fault.letter == 'G') {
-      // no_function carries the code of a table row, times 10; every other fault the number as programmed.
-      const double tenfold = fault.condition == C::no_function ? fault.value : fault.value * 10;
-      g_code_text(static_cast<int>(std::lround(tenfold)), code, sizeof code);
-    } else {
-      m_code_text(static_cast<unsigned>(std::lround(fault.value)), code, sizeof code);
+    // no_function carries the code of a table row, times 10; every other G fault the number as programmed.
+    const bool times_ten = fault.letter == 'M' || fault.condition == C::no_function;
+    const double number = times_ten ? fault.value : fault.value * 10;
+    if (std::fabs(number - std::nearbyint(number)) < 1e-6) {  // G0.15, M3.5 are no codes: they are shown as they were programmed
+      if (fault.letter == 'G') g_code_text(static_cast<int>(std::lround(number)), code, sizeof code);
+      else m_code_text(static_cast<unsigned>(std::lround(number)), code, sizeof code);
+      out.put(code);
+      return;
     }
-    out.put(code);
-    return;
   }
   if (fault.letter == '#' && fault.condition != C::illegal_character) {
     // The value may be the number of the variable or what was written into it.

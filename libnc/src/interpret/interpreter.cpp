@@ -422,6 +422,7 @@ ModalId Interpreter::modal_now() {
 void Interpreter::finish_block(bool stop, bool executable) {
   ++state.seq;
   if (state.interrupt_depth != 0) note_interrupt_items();
+  if (state.end_seen) stop = false;          // the program is over: nothing is left that a start could go on with
   if (state.nurbs.active()) stop = false;   // M700 6.15: single block stops at the last control point only
   if (state.control_3003 & 1) stop = false;  // M700 10.5: single block suppressed
   Item& item = emit(ItemKind::mark);
