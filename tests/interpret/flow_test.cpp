@@ -156,9 +156,9 @@ TEST(SubProgram, SingleBlockDoesNotStopAtAPureCall) {  // M700 13.3.1
       if (item.u.mark.stop) lines.push_back(item.source.depth * 10 + item.source.line);
     return lines;
   };
-  EXPECT_EQ(stops("M98 P1\nM30"), (std::vector<unsigned>{11, 2}));
-  EXPECT_EQ(stops("G0 Y1. M98 P1\nM30"), (std::vector<unsigned>{1, 11, 2}));  // stops behind the motion, before the call
-  EXPECT_EQ(stops("G65 P1 A1.\nM30"), (std::vector<unsigned>{11, 2}));
+  EXPECT_EQ(stops("M98 P1\nM30"), (std::vector<unsigned>{11}));
+  EXPECT_EQ(stops("G0 Y1. M98 P1\nM30"), (std::vector<unsigned>{1, 11}));  // stops behind the motion, before the call
+  EXPECT_EQ(stops("G65 P1 A1.\nM30"), (std::vector<unsigned>{11}));
 }
 
 // ---- ends -----------------------------------------------------------------------------------------------------------------------

@@ -192,8 +192,8 @@ TEST(SystemVariables, StopSuppression3003) {  // M700 10.5
       if (item.u.mark.stop) lines.push_back(item.source.line);
     return lines;
   };
-  EXPECT_EQ(stops("G0 X1.\n#3003=1\nX2.\nX3.\n#3003=0\nX4.\nM30"), (std::vector<unsigned>{1, 6, 7}));
-  EXPECT_EQ(stops("#3003=2\nX2. F1\nM30"), (std::vector<unsigned>{2, 3}));
+  EXPECT_EQ(stops("G0 X1.\n#3003=1\nX2.\nX3.\n#3003=0\nX4.\nM30"), (std::vector<unsigned>{1, 6}));
+  EXPECT_EQ(stops("#3003=2\nX2. F1\nM30"), (std::vector<unsigned>{2}));
   // Bit 1: FIN is not awaited.
   auto gates = [](const char* program) {
     unsigned n = 0;

@@ -39,7 +39,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.max_feed_override = config.max_feed_override;
   ex.capacity = config.look_ahead;
   executor.create(ex, arena);
-  if (!arena.measuring() && !arena.overflowed()) offset_.reset();
+  if (!arena.measuring() && !arena.overflowed()) clear_offset();
 }
 
 // ---- the stream behind the stages ----------------------------------------------------------------------------------------
@@ -52,10 +52,14 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
     return NC_OK;
   }
   for (;;) {
-    if (!offset_.idle() && offset_.pop(staged_)) {
-      has_staged_ = from_stage_ = true;
-      *item = &staged_;
-      return NC_OK;
+    if (!offset_idle_) {
+      const bool any = offset_.pop(staged_);
+      offset_idle_ = offset_.idle();
+      if (any) {
+        has_staged_ = from_stage_ = true;
+        *item = &staged_;
+        return NC_OK;
+      }
     }
     Item* front = interpreter.front();
     if (front == nullptr) {
@@ -64,12 +68,13 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
       front = interpreter.front();
     }
     const bool compensated = front->kind == ItemKind::move && front->move.comp.side != 0;
-    if (offset_.idle() && !compensated) {  // nothing to compensate: straight through
+    if (offset_idle_ && !compensated) {  // nothing to compensate: straight through
       from_stage_ = false;
       *item = front;
       return NC_OK;
     }
     offset_.push(*front);
+    offset_idle_ = offset_.idle();
     interpreter.pop();
   }
 }
@@ -104,7 +109,7 @@ void PartSystem::stop_on(const Fault& fault, const nc_source& source) {
   interpreter.rewind(last != nullptr ? last->seq : 0);
   // Of the block that stops some moves may have gone; compensated ones do not end where the program says.
   if (!from_stage_) interpreter.state.machine = commit_.machine();
-  offset_.reset();
+  clear_offset();
   has_staged_ = false;
   interpreter.abort(fault, source);
 }
@@ -139,7 +144,7 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   // M700 13.12, type 1: at once. The item that was given out last is the one that is interrupted, unless it is done already; a contour
   // under compensation and a block that waits for an answer are finished first.
   const bool cuttable = pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate;
-  if (settings.interrupt_type_2 || !cuttable || !offset_.idle() || has_staged_ || open_sync_ != 0) return NC_OK;
+  if (settings.interrupt_type_2 || !cuttable || !offset_idle_ || has_staged_ || open_sync_ != 0) return NC_OK;
   commit_.take_back(pulled_ == ItemKind::move);
   if (interpreter.interrupt(commit_.machine(), 1, true)) {
     uit_pending_ = false;
@@ -243,8 +248,9 @@ nc_status PartSystem::rewind(Serial serial) {
   open_sync_ = 0;
   finished_ = false;
   alarm_given_ = false;
-  offset_.reset();
+  clear_offset();
   if (point->offset.active) offset_.restore(point->offset);
+  offset_idle_ = offset_.idle();
   commit_.rewind_to(*point);
   return NC_OK;
 }
@@ -253,7 +259,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   interpreter.reset(keep_modal);
   interpreter.set_machine(machine);
   forget_interrupt();
-  offset_.reset();
+  clear_offset();
   has_staged_ = false;
   open_sync_ = 0;
   finished_ = false;
@@ -397,7 +403,7 @@ void PartSystem::displace(const AxisVec& machine) {
   for (unsigned i = 0; i < interpreter.axis_count; ++i) {
     const double moved = machine[i] - commit_.machine()[i];
     if (moved == 0) continue;
-    programmed[i] = offset_.idle() ? machine[i] : programmed[i] + moved;
+    programmed[i] = offset_idle_ ? machine[i] : programmed[i] + moved;
   }
   interpreter.move_to(programmed);
   commit_.displace(machine);

@@ -41,7 +41,7 @@ class PartSystem {
   void take();
   const MoveShape* shape_of_item(const Item& item) const;
   void remember_mark(const Item& mark) {
-    if (offset_.idle()) return commit_.remember(mark, nullptr);
+    if (offset_idle_) return commit_.remember(mark, nullptr);
     const OffsetResume resume = offset_.resume_point();
     commit_.remember(mark, &resume);
   }
@@ -62,6 +62,11 @@ class PartSystem {
   }
 
   OffsetStage offset_;
+  bool offset_idle_ = true;  ///< offset_.idle(), which every item asks
+  void clear_offset() {
+    offset_.reset();
+    offset_idle_ = true;
+  }
   Commit commit_;
   nc_alarm alarm_{};
   bool alarm_given_ = false;

@@ -171,7 +171,10 @@ bool only_moves(const Interpreter& in) {
 Did execute_move(Interpreter& in) {
   BlockWords& w = in.words;
   in.distance_by_word = false;
-  if (w.motion != nullptr) in.state.modal.code[kGroupMotion] = w.motion->code;
+  int16_t& code = in.state.modal.code[kGroupMotion];
+  const int16_t now = w.motion != nullptr ? w.motion->code : code;
+  in.modal_kept = now == code && !w.has('F');
+  code = now;
   Did did = resolve_axes(in);
   if (did == Did::done && w.has('F')) did = feed_of(in, &in.state.modal.feed);
   if (did == Did::done) did = move_by_words(in);

@@ -344,12 +344,14 @@ Did Interpreter::execute_statements() {
 
 /// What the result of a block makes of the stream.
 nc_status Interpreter::settle(Did did) {
+  const bool kept = modal_kept;
+  modal_kept = false;
   switch (did) {
     case Did::done: {
       next_step = Step::none;
       // Macro statements are worked off together with the executable block before them unless #8101 is on (M700 13.5.9).
       const bool macro = block != nullptr && !block->statements.empty();
-      modal_unchanged_ = macro && !block->has_n && !block->has_o && newest_modal_ != kNoModal;
+      modal_unchanged_ = (macro || kept) && !block->has_n && !block->has_o && newest_modal_ != kNoModal;
       finish_block(!macro || settings.macro_single, !macro);
       return NC_OK;
     }
@@ -414,7 +416,7 @@ void Interpreter::abort(const Fault& what, const nc_source& where) {
 }
 
 ModalId Interpreter::modal_now() {
-  // Macro statements command nothing: behind them the modal state is that of the mark before.
+  // Macro statements command nothing, most moves neither: behind them the modal state is that of the mark before.
   if (!modal_unchanged_) newest_modal_ = modals.intern(finished_modal = state.modal);
   return newest_modal_;
 }

@@ -170,6 +170,7 @@ struct Interpreter {
   BlockWords words;
   unsigned statement = 0;          ///< next macro statement of the block
   bool jumped = false;             ///< a statement has sent the program elsewhere: those behind it in the block are not executed
+  bool modal_kept = false;         ///< the block in hand has changed nothing of the modal state
   Step next_step = Step::none;
   Hole hole;
   HoleProgress progress;

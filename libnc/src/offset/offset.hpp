@@ -58,7 +58,7 @@ class OffsetStage {
   OffsetResume resume_point() const;
   void restore(const OffsetResume& resume);
   /// True when nothing is held and compensation is off: items may bypass the stage.
-  bool idle() const { return count_ == 0 && mode_ == Mode::off && vector_ == Vec2{} && !failed_; }
+  bool idle() const { return count_ == 0 && mode_ == Mode::off && !failed_ && vector_ == Vec2{}; }
 
  private:
   /// Room for items; a power of two, so that the numbers of items may wrap.
