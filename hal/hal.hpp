@@ -20,6 +20,8 @@ struct SystemFeedback {
   std::uint32_t drive_fault = 0;      // bit per axis: the drive reports a fault
   std::uint32_t skip = 0;             // skip signals, bit n = signal n+1
   double spindle_rev_per_s = 0;       // actual speed, signed
+  bool spindle_turns_valid = false;   // the spindle has an encoder: see nc_inputs::spindle_turns
+  double spindle_turns = 0;
   bool fin = false;                   // completion of M, S, T or B (level, FIN1 style handshake)
 };
 

@@ -127,6 +127,14 @@ std::string state_text(const nc_outputs& outputs) {
       return "override 0 %";
     case NC_CAUSE_STARVED:
       return "waits for blocks";
+    case NC_CAUSE_FEED_ZERO:
+      return "104 F1 to F5 is 0";
+    case NC_CAUSE_SPINDLE_STOPPED:
+      return "105 spindle stopped";
+    case NC_CAUSE_SPINDLE_ANGLE:
+      return "waits for the spindle";
+    case NC_CAUSE_SPINDLE_FAST:
+      return "thread feed too high";
     default:
       return outputs.state == NC_STATE_STOPPED ? "stopped" : outputs.rapid ? "rapid" : "running";
   }

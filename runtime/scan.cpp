@@ -222,6 +222,9 @@ void Scan::build_nc_inputs() noexcept {
     in.feed_override = feed_override_;
     in.rapid_override = rapid_override_;
     in.spindle_rev_per_s = machine.spindle_rev_per_s;
+    in.spindle_turns_valid = machine.spindle_turns_valid;
+    in.spindle_turns = machine.spindle_turns;
+    in.feed_pulses = 0;
     in.actual_valid = machine.actual_valid;
     in.actual = machine.actual;
     in.follow_up = drives_off_ && !feedback_.lost;
@@ -314,6 +317,7 @@ void Scan::publish() noexcept {
     out.system[s].nc = out_[s];
     out.system[s].actual = feedback_.system[s].actual;
     out.system[s].spindle_rpm = feedback_.system[s].spindle_rev_per_s * 60.0;
+    out.system[s].spindle_turns = feedback_.system[s].spindle_turns;
   }
   out.feed_override = feed_override_;
   out.rapid_override = rapid_override_;

@@ -14,6 +14,7 @@ struct SystemSnapshot {
   nc_outputs nc{};         // commanded side, from libnc
   nc_axes actual{};        // measured
   double spindle_rpm = 0;  // measured
+  double spindle_turns = 0;  // of its encoder, 0 without one
 };
 
 struct Snapshot {

@@ -79,6 +79,8 @@ void SimMachine::read(Feedback* feedback, PointImage* image) noexcept {
     out.drive_fault = system.drive_fault;
     out.skip = skip_signals(s);
     out.spindle_rev_per_s = system.rpm / 60.0;
+    out.spindle_turns_valid = true;
+    out.spindle_turns = system.turns;
     out.fin = system.fin;
   }
   for (unsigned p = 0; p < table_.size(); ++p)
@@ -101,6 +103,7 @@ void SimMachine::write(const Command& command, const PointImage& image) noexcept
       system_[s].rpm = plant_.rpm();
     else
       turn_spindle(&system_[s]);
+    system_[s].turns += system_[s].rpm / 60.0 * config_.cycle_s;
   }
   const SystemCommand& first = command.system[0];
   script_.step(scan_, first.source, (first.strobe & kStrobeM) != 0, first.m, &input_);

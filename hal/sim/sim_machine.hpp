@@ -100,6 +100,7 @@ class SimMachine final : public Hal {
     double step[NC_MAX_AXES] = {};    // way of the last cycle
     std::uint32_t following_fault = 0, drive_fault = 0, blocked = 0;
     double rpm = 0, s_rpm = 0;
+    double turns = 0;   // of the spindle, as its encoder counts them
     int direction = 0;  // spindle: +1 M03, -1 M04, 0 stopped
     unsigned tool = 0, selected = 0;
     bool busy = false, fin = false;

@@ -75,7 +75,8 @@ const SignalRow kSignals[] = {
      NC_READ { return state(image, s, NC_STATE_STOPPED); }, nullptr},
     {"stop_cause", kWord16, kFrom, kSystem, 0, 0,
      "why nothing moves though a program runs: 0 moves, 1 FIN, 2 dwell, 3 in position, 4 program stop, 5 single "
-     "block, 6 feed hold, 7 interlock, 8 override 0, 9 look-ahead empty, 10 alarm",
+     "block, 6 feed hold, 7 interlock, 8 override 0, 9 look-ahead empty, 10 alarm, 11 F1 to F5 is 0 (104), 12 synchronous feed "
+     "without spindle (105), 13 thread waits for its angle, 14 thread too fast to begin",
      "level", NC_READ { return out(image, s).cause; }, nullptr},
 
     // ---- M, S, T, B ----
@@ -114,6 +115,12 @@ const SignalRow kSignals[] = {
     {"cutting", kBit, kFrom, kSystem, 0, 0, "a cutting move is in execution", "level",
      NC_READ { return !out(image, s).rapid && !out(image, s).distance_zero && state(image, s, NC_STATE_RUNNING); },
      nullptr},
+    {"tapping", kBit, kFrom, kSystem, 0, 0, "tapping mode G63", "level",
+     NC_READ { return out(image, s).tapping; }, nullptr},
+    {"f_digit_on", kBit, kFrom, kSystem, 0, 0, "the feed in execution was commanded by one digit", "level",
+     NC_READ { return out(image, s).feed_digit_on; }, nullptr},
+    {"f_digit", kWord16, kFrom, kSystem, 0, 0, "that digit, 0 to 5", "with f_digit_on",
+     NC_READ { return out(image, s).feed_digit; }, nullptr},
     {"feed", kWord32, kFrom, kSystem, 0, 0, "actual path speed, mm/min", "every scan",
      NC_READ { return to_int(out(image, s).feed_mm_min); }, nullptr},
     {"spindle_speed", kWord32, kFrom, kSystem, 0, 0, "measured spindle speed, r/min, signed", "every scan",
@@ -153,6 +160,9 @@ const SignalRow kSignals[] = {
      "level", nullptr, NC_WRITE { image->nc_in[s].interlock |= value == 0; }},
     {"feed_override", kWord16, kTo, kSystem, 0, -1, "feed override in 0.01 %; -1: the operator's counts", "every scan",
      nullptr, NC_WRITE { if (value >= 0) image->nc_in[s].feed_override = value / 10000.0; }},
+    {"f_digit_pulses", kWord16, kTo, kSystem, 0, 0,
+     "pulses of the first handle since the last scan: they change F1 to F5 (#1506, #1507)", "every scan, during a cut with F1 to F5",
+     nullptr, NC_WRITE { image->nc_in[s].feed_pulses = value; }},
     {"skip", kBit, kTo, kNumbered, 8, 0, "skip signal, beside the machine's own", "level, sampled once a scan", nullptr,
      NC_WRITE { image->nc_in[s].skip |= static_cast<std::uint32_t>(value != 0) << i; }},
     {"mode_auto", kBit, kTo, kControl, 0, 0, "select automatic mode",

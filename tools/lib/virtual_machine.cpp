@@ -80,6 +80,8 @@ class VirtualMachine {
     in.feed_override = 1.0;
     in.rapid_override = 1.0;
     in.spindle_rev_per_s = last.s / 60.0;
+    in.spindle_turns_valid = true;
+    in.spindle_turns += in.spindle_rev_per_s * config_.cycle_s;
     // Events of the setup: by the block in execution and by the machine's own time.
     nc_item now = {};
     now.source = last.source;

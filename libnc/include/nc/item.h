@@ -52,8 +52,11 @@ typedef enum nc_action_kind {
   NC_ACTION_B = 3,       /**< second auxiliary function; `letter` its address */
   NC_ACTION_OUTPUT = 4,  /**< macro interface output: word `index` (0..3), bits `mask` become `bits` (M700 13.5.5) */
   NC_ACTION_MESSAGE = 5, /**< #3006, DPRNT: `text`, `index` = port (0 operator message) */
-  NC_ACTION_CONTROL = 6  /**< #3003/#3004: `index` the variable, `value`; `index` 96: macro interrupt, `value` nc_interrupt_bits */
+  NC_ACTION_CONTROL = 6  /**< #3003/#3004: `index` the variable, `value`; `index` 96: macro interrupt, `value` nc_interrupt_bits; NC_CONTROL_TAPPING */
 } nc_action_kind;
+
+/** `index` of NC_ACTION_CONTROL: tapping mode G63 begins (`value` 1) or ends (M700 7.11). */
+#define NC_CONTROL_TAPPING 63
 
 /** State of the macro interrupt (M700 13.12): bits. */
 typedef enum nc_interrupt_bits {

@@ -108,7 +108,10 @@ typedef struct nc_inputs {
   uint32_t input[NC_WORDS]; /**< macro interface inputs */
   double feed_override;  /**< 0..max_feed_override, 1 = 100 % */
   double rapid_override; /**< 0..1 */
-  double spindle_rev_per_s; /**< actual speed, for dwell in revolutions */
+  double spindle_rev_per_s; /**< actual speed, signed: feed per revolution, threads, dwell in revolutions */
+  bool spindle_turns_valid; /**< `spindle_turns` is measured; without it threads begin at any angle */
+  double spindle_turns;     /**< encoder of the spindle, revolutions, counting on with the sign of the speed; whole numbers are its zero mark */
+  int32_t feed_pulses;      /**< pulses of the first handle in this cycle: they change the feed of F1 to F5 (M700 7.3) */
   bool actual_valid;     /**< `actual` holds measured positions; otherwise commanded = actual */
   nc_axes actual;        /**< measured machine position */
   bool follow_up;        /**< level, while drives are off: with no program the commanded position follows `actual` */
@@ -138,7 +141,11 @@ typedef enum nc_stop_cause {
   NC_CAUSE_INTERLOCK = 7,
   NC_CAUSE_OVERRIDE_ZERO = 8,
   NC_CAUSE_STARVED = 9,     /**< the feeder has not committed anything further */
-  NC_CAUSE_ALARM = 10
+  NC_CAUSE_ALARM = 10,
+  NC_CAUSE_FEED_ZERO = 11,       /**< F1 to F5 is 0 (M700 operation alarm 104) */
+  NC_CAUSE_SPINDLE_STOPPED = 12, /**< synchronous feed without a turning spindle (M700 operation alarm 105) */
+  NC_CAUSE_SPINDLE_ANGLE = 13,   /**< a thread waits for its start angle */
+  NC_CAUSE_SPINDLE_FAST = 14     /**< a thread would need more than the largest cutting feed: it does not begin (M700 6.7.1) */
 } nc_stop_cause;
 
 /** What one part system gives out in one cycle. */
@@ -154,6 +161,9 @@ typedef struct nc_outputs {
   uint32_t m, t, b;
   double s;
   bool rapid;               /**< a rapid move is in execution */
+  bool tapping;             /**< tapping mode G63 (M700 7.11) */
+  bool feed_digit_on;       /**< the move in execution has a feed of one digit, `feed_digit` (M700 7.3) */
+  uint8_t feed_digit;       /**< 0 to 5 */
   bool distance_zero;       /**< no axis is commanded to move */
   bool manual_allowed;      /**< nc_inputs::manual acts: no program, or one that is stopped between two blocks */
   bool message;             /**< rising edge: `message_text` has a new operator message */

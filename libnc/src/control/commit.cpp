@@ -39,11 +39,13 @@ nc_axes to_axes(const AxisVec& a) {
 
 void Commit::create(const CommitConfig& config, Arena& arena) {
   config_ = config;
+  line_rotary_ = 0;
   axis_count_ = config.system->axis_count;
   for (unsigned i = 0; i < axis_count_; ++i) {
     if (config.system->axis[i].rotary) rotary_ |= 1u << i;
     any_limit_ = any_limit_ || config.system->axis[i].soft_limited;
   }
+  if (!config.rotary_makes_length) line_rotary_ = rotary_;
   marks_ = arena.make<MarkPoint>(config.marks);
   constexpr uint32_t kMostShapes = 256;
   shape_mask_ = (config.records < kMostShapes ? config.records : kMostShapes) - 1;
@@ -109,7 +111,7 @@ Committed Commit::commit(const Item& item, const Transform& transform, const Mov
       curve_ = make_arc(machine_, end, move.plane_axis[0], move.plane_axis[1], circle_, axis_count_, rotary_);
     } else {
       circle_ = Circle{};
-      make_line(machine_, end, axis_count_, rotary_, &curve_);
+      make_line(machine_, end, axis_count_, line_rotary_, &curve_);
     }
     if (curve_.length < kNoLength) {
       machine_ = end;
@@ -250,7 +252,35 @@ void Commit::to_public(const Item& item, nc_item* out) const {
   }
 }
 
-void Commit::to_record(const Item& item, const Transform& transform, Record* out) const {
+/// M700 7.9.2: an axis goes back where it has come from. An axis without a movement does not count.
+bool Commit::turns_round(bool checked) {
+  constexpr double kStill = 1e-9;
+  bool back = false;
+  if (checked) {
+    const AxisVec entry = curve_evaluate(curve_, 0, axis_count_).d1;
+    for (unsigned i = 0; exit_known_ && i < axis_count_; ++i)
+      back = back || (std::fabs(entry[i]) > kStill && std::fabs(exit_[i]) > kStill && (entry[i] > 0) != (exit_[i] > 0));
+    exit_ = curve_evaluate(curve_, curve_.length, axis_count_).d1;
+  }
+  exit_known_ = checked;
+  return back;
+}
+
+/// What the feed of a segment goes by beside its number.
+void Commit::set_rule(const FeedRule& rule, Segment* s) {
+  s->feed_digit = rule.digit;
+  s->rest_before = turns_round(rule.check_reversal);
+  s->fixed_override = rule.tapping;
+  s->digit_most_mm_s = rule.digit_most / 60;
+  s->digit_step_mm_s = rule.digit_step / 60;
+  if (rule.scale > 0) s->feed_mm_s *= static_cast<double>(rule.scale);
+  if (rule.slow_zone > 0) {
+    s->slow_zone = rule.slow_zone;
+    s->slow_factor = rule.corner_override;
+  }
+}
+
+void Commit::to_record(const Item& item, const Transform& transform, Record* out) {
   out->serial = last_serial_;
   out->source = item.source;
   out->kind = item.kind;
@@ -270,6 +300,7 @@ void Commit::to_record(const Item& item, const Transform& transform, Record* out
       s.skip = item.move.kind == NC_MOVE_SKIP;
       s.skip_mask = item.move.skip_mask;
       s.thread = item.move.kind == NC_MOVE_THREAD;
+      set_rule(item.move.rule, &s);
       if (s.thread) s.feed_mm_rev *= along_longest();
       if (item.move.plane_feed && !s.rapid) s.feed_mm_s *= helix_slope();
       s.feed_end_mm_s = static_cast<double>(item.move.feed_end) / 60;

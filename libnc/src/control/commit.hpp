@@ -15,6 +15,7 @@ struct CommitConfig {
   const nc_system_config* system = nullptr;
   uint32_t marks = 1024;      ///< marks that can be rewound to, power of two
   uint32_t records = 1024;    ///< that may be under way behind here
+  bool rotary_makes_length = false;  ///< F of a line is composite: a degree counts as a millimetre (M700 7.6)
 };
 
 /// A place to rewind to: what the stages must know to go on right behind a mark.
@@ -62,7 +63,7 @@ class Commit {
   /// The item just committed, as a sink sees it.
   void to_public(const Item& item, nc_item* out) const;
   /// The same for the ring.
-  void to_record(const Item& item, const Transform& transform, Record* out) const;
+  void to_record(const Item& item, const Transform& transform, Record* out);
 
   /// The item just committed has not been executed and is given up; `move`: it was one.
   void take_back(bool move) {
@@ -88,12 +89,14 @@ class Commit {
   bool inside_limits(const Curve& curve);
   void commit_shape(const Move& move, const Transform& transform, const MoveShape& shape);
   double along_longest() const;
+  void set_rule(const FeedRule& rule, Segment* segment);
+  bool turns_round(bool checked);
   void space_arc_to_public(nc_move* out) const;
   double helix_slope() const;
 
   CommitConfig config_;
   unsigned axis_count_ = 3;
-  uint32_t rotary_ = 0;
+  uint32_t rotary_ = 0, line_rotary_ = 0;
   bool any_limit_ = false;
   AxisVec machine_;
   AxisVec start_;            ///< of the move just committed
@@ -105,6 +108,8 @@ class Commit {
   uint32_t* shape_record_ = nullptr;
   uint32_t shape_mask_ = 0;
   uint32_t shape_count_ = 0;
+  AxisVec exit_;             ///< tangent at the end of the last move put into the ring, where reversals are checked
+  bool exit_known_ = false;
   Serial last_serial_ = 0;
   int8_t limit_axis_ = -1;
   MarkPoint* marks_ = nullptr;

@@ -22,6 +22,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   commit.system = &system;
   commit.marks = config.look_ahead;
   commit.records = config.look_ahead;
+  commit.rotary_makes_length = dialect.id == NC_DIALECT_M700;
   commit_.create(commit, arena);
 
   ExecutorConfig ex;

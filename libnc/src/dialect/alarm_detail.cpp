@@ -124,6 +124,9 @@ constexpr Sentence kSentences[] = {
     {C::nurbs_start, "The first control point is not where the axes are.", nullptr},
     {C::space_conversion_code, "{word} and the conversion of coordinates in space exclude each other.",
      "This and the conversion of coordinates in space exclude each other."},
+    {C::inverse_time_code, "{word} and inverse time feed (G93) exclude each other.",
+     "This and inverse time feed (G93) exclude each other."},
+    {C::arc_feed_zero, "F0 is the rapid traverse rate, and an arc cannot be cut with it.", nullptr},
     // offsets
     {C::g10_l, "G10 does not know L{value}.", "G10 does not know this L."},
     {C::g10_p, "G10: there is no data set P{value}.",

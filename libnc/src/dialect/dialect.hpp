@@ -32,9 +32,9 @@ enum class Function : uint8_t {
   coordinate_preset,  ///< G92.1
   cycle_off, cycle_drill, cycle_spot, cycle_peck, cycle_step, cycle_bore_feed, cycle_bore_dwell,   ///< G80 G81 G82 G83 G73 G85 G89
   absolute, incremental,
-  feed_per_minute,
+  feed_per_minute, feed_per_revolution, inverse_time_feed,   ///< G94 G95 G93
   return_initial, return_r,
-  exact_stop_mode, cutting_mode,   ///< G61 G64
+  exact_stop_mode, corner_override, tapping_mode, cutting_mode,   ///< G61 G62 G63 G64
   macro_call, macro_modal, macro_every_block,   ///< G65 G66 G66.1: the words behind them are arguments
   macro_modal_off,    ///< G67
   mirror_on, mirror_off,   ///< G51.1 G50.1: modal, and they take the axis words of the block

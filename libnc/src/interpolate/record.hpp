@@ -26,6 +26,11 @@ struct Segment {
   bool thread = false;       ///< goes with the spindle, whatever override and hold say (M700 6.7.1)
   float thread_angle = 0;    ///< of the spindle where it starts, deg
   double feed_end_mm_s = 0;  ///< the feed goes evenly to this at the end; 0 = it stays
+  uint8_t feed_digit = 0;    ///< n + 1: commanded as Fn of one digit (M700 7.3)
+  bool fixed_override = false;  ///< the feed override does not act (G63)
+  bool rest_before = false;     ///< the path comes to rest where it begins
+  float digit_most_mm_s = 0, digit_step_mm_s = 0;  ///< F1 to F5: what the handle may make of the feed, and by one pulse
+  float slow_zone = 0, slow_factor = 1;            ///< the feed over this length before the end (M700 7.10)
   // filled by the planner when it is committed
   double speed_limit = 0;  ///< path speed at which some axis reaches its velocity limit, or the curvature its
                            ///< acceleration limit

@@ -59,6 +59,7 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   messages();
   states(in);
   interrupt(in);
+  turn_feed_handle(in);
   if (!frozen_ && !rereading_) run(in);  // the ring from here on may be the feeder's
   manual(in);
   last_command_ = command_;
@@ -169,9 +170,10 @@ void Scan::states(const nc_inputs& in) {
     }
     return;
   }
-  if (in.feed_hold && !(disable_ & 1) && state_ == NC_STATE_RUNNING && cutting_thread()) {
+  const bool holds = in.feed_hold && !(disable_ & 1) && !tapping_;  // M700 13.5.10: #3004 bit 0; 7.11 (3)
+  if (holds && state_ == NC_STATE_RUNNING && cutting_thread()) {
     hold_behind_thread_ = true;
-  } else if (in.feed_hold && !(disable_ & 1) && state_ == NC_STATE_RUNNING && (!hold_behind_thread_ || at_rest())) {  // M700 13.5.10: #3004 bit 0
+  } else if (holds && state_ == NC_STATE_RUNNING && (!hold_behind_thread_ || at_rest())) {
     hold_ = true;
     state_ = NC_STATE_HOLD;
   }
@@ -215,7 +217,7 @@ void Scan::give_up() {
   ++epoch_;
   law_ = {};
   moving_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = displaced_ = false;
-  hold_behind_thread_ = block_has_thread_ = false;
+  hold_behind_thread_ = block_has_thread_ = tapping_ = false;
   fin1_groups_ = 0;
   strobe_ = 0;               // a FIN that comes now is late and completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
@@ -326,7 +328,7 @@ double Scan::feed_override(const nc_inputs& in) const {
   return std::min(config_.max_feed_override, std::max(0.0, in.feed_override));
 }
 
-void Scan::outputs(const nc_inputs&, nc_outputs& out) {
+void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   const double per_s = 1 / config_.cycle_s;
   out = {};
   out.distance_zero = true;
@@ -348,6 +350,7 @@ void Scan::outputs(const nc_inputs&, nc_outputs& out) {
                                    : state_ == NC_STATE_HOLD                             ? NC_CAUSE_FEED_HOLD
                                    : interlock_ && moving_ && state_ == NC_STATE_RUNNING ? NC_CAUSE_INTERLOCK
                                                                                          : cause_);
+  out.tapping = tapping_;
   out.strobe = strobe_;
   out.fin_wait = fin_wait();
   out.m = m_;
@@ -361,7 +364,9 @@ void Scan::outputs(const nc_inputs&, nc_outputs& out) {
   if (moving_) {
     const Segment& s = current().segment;
     out.rapid = s.rapid;
-    out.feed_command_mm_min = s.feed_mm_s * 60;
+    out.feed_command_mm_min = (s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(in.spindle_rev_per_s) : programmed_feed(s)) * 60;
+    out.feed_digit_on = s.feed_digit != 0;
+    out.feed_digit = s.feed_digit != 0 ? static_cast<uint8_t>(s.feed_digit - 1) : uint8_t{0};
   }
   out.feed_mm_min = law_.v * 60;
   out.serial = serial_;

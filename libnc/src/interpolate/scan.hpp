@@ -104,7 +104,12 @@ class Scan {
   /// M700 6.7.1: a thread that is being cut is not held, nor is its feed changed.
   bool thread_braking() const { return reset_ || alarmed_ || interlock_; }
   bool cutting_thread() const { return moving_ && law_.v > 0 && current().segment.thread; }
-  double programmed_feed(const Segment& s) const;
+  double programmed_feed(const Segment& s) const NC_RT;
+  void turn_feed_handle(const nc_inputs& in) NC_RT;
+  bool thread_may_begin(const Segment& segment, const nc_inputs& in) NC_RT;
+  double thread_speed(const Segment& segment, const nc_inputs& in) NC_RT;
+  /// Of the spindle at this moment of the cycle.
+  double spindle_turns(const nc_inputs& in) const { return in.spindle_turns + (config_.cycle_s - time_) * in.spindle_rev_per_s; }
 
   // ---- set once
   ExecutorConfig config_;
@@ -167,6 +172,13 @@ class Scan {
   // ---- threads (M700 6.7.1)
   bool block_has_thread_ = false;    ///< the block in execution has cut one
   bool hold_behind_thread_ = false;  ///< feed hold was pressed in a thread: stop behind the first block that is none
+
+  bool thread_locked_ = false;       ///< the thread has reached its speed and keeps its place on the spindle
+  double thread_origin_ = 0;         ///< turns of the spindle where the segment in execution would have begun at speed
+
+  // ---- feed (M700 7)
+  bool tapping_ = false;             ///< between G63 and what ends it
+  double digit_pulses_[5] = {};      ///< what the handle has made of F1 to F5
 
   // ---- skip
   bool skipped_ = false;       ///< the last skip move ended by its signal

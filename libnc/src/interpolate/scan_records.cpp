@@ -48,7 +48,7 @@ Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
       if (!messages_.empty()) return wait(NC_CAUSE_NONE);
       modal_ = r.end.modal;
       interrupt_mode_ = 0;
-      interrupt_wanted_ = false;
+      interrupt_wanted_ = tapping_ = false;
       block_begun_ = false;
       state_ = NC_STATE_IDLE;
       shared_->world.write({});  // serials begin anew with the next run
@@ -84,6 +84,7 @@ bool Scan::begin_move(const Record& r, const nc_inputs&) {
   law_.s = 0;
   moving_ = true;
   block_begun_ = true;
+  thread_locked_ = false;
   skip_braking_ = false;
   if (s.skip) skipped_ = false;
   return true;
@@ -97,29 +98,90 @@ void Scan::end_move(const Record& r) {
   if (r.segment.skip && !skipped_) skip_position_ = wanted_;
 }
 
-/// Feed of the segment at 100 %. M700 6.11: that of an exponential curve goes from F to Q evenly with its linear axis.
+/// Feed of the segment at 100 %. M700 6.11: that of an exponential curve goes from F to Q evenly with its linear axis. 7.3: that of F1 to
+/// F5 is what the handle has made of it.
 double Scan::programmed_feed(const Segment& s) const {
+  if (s.digit_step_mm_s > 0)
+    return std::clamp(s.feed_mm_s + digit_pulses_[s.feed_digit - 2] * static_cast<double>(s.digit_step_mm_s), 0.0,
+                      static_cast<double>(s.digit_most_mm_s));
   if (!(s.feed_end_mm_s > 0) || s.curve.shape == nullptr) return s.feed_mm_s;
   const unsigned axis = s.curve.shape->what.exponential.linear;
   const double share = (wanted_[axis] - s.curve.start[axis]) / s.curve.delta[axis];
   return s.feed_mm_s + (s.feed_end_mm_s - s.feed_mm_s) * std::min(1.0, std::max(0.0, share));
 }
 
+/// M700 7.3: the first handle acts while a cut with F1 to F5 is in execution. What it has made of the feed stays, within 0 and #1506.
+void Scan::turn_feed_handle(const nc_inputs& in) {
+  if (in.feed_pulses == 0 || !moving_ || state_ != NC_STATE_RUNNING) return;
+  const Segment& s = current().segment;
+  if (!(s.digit_step_mm_s > 0)) return;
+  const double step = static_cast<double>(s.digit_step_mm_s), most = static_cast<double>(s.digit_most_mm_s);
+  double& pulses = digit_pulses_[s.feed_digit - 2];
+  pulses = std::clamp(pulses + in.feed_pulses, -s.feed_mm_s / step, (most - s.feed_mm_s) / step);
+}
+
+/// M700 6.7.1: a thread that is cut from rest begins at its angle of the spindle, within the cycle. At the start its feed must not
+/// exceed the largest one.
+bool Scan::thread_may_begin(const Segment& s, const nc_inputs& in) {
+  const double speed = in.spindle_rev_per_s;
+  if (speed != 0 && s.feed_mm_rev * std::fabs(speed) > s.speed_limit * (1 + 1e-9)) {
+    wait(NC_CAUSE_SPINDLE_FAST);
+    return false;
+  }
+  if (!in.spindle_turns_valid) return true;
+  if (speed == 0) {
+    wait(NC_CAUSE_SPINDLE_STOPPED);
+    return false;
+  }
+  const double ahead = (static_cast<double>(s.thread_angle) / 360 - spindle_turns(in)) * (speed > 0 ? 1 : -1);
+  const double until = (ahead - std::floor(ahead)) / std::fabs(speed);
+  if (until >= time_) {
+    wait(NC_CAUSE_SPINDLE_ANGLE);
+    return false;
+  }
+  time_ -= until;
+  return true;
+}
+
+/// Path speed of a thread: the pace of the spindle, and once that is reached, what keeps the place that the path then has on the
+/// spindle: where its measured speed and its angle differ, the angle counts.
+double Scan::thread_speed(const Segment& s, const nc_inputs& in) {
+  constexpr double kReturn = 0.2;  // share of an error that is made good in one cycle
+  const double pace = s.feed_mm_rev * std::fabs(in.spindle_rev_per_s);
+  if (!in.spindle_turns_valid) return pace;
+  const double turns = spindle_turns(in);
+  if (!thread_locked_) {
+    if (law_.v >= pace && pace > 0) {
+      thread_locked_ = true;
+      thread_origin_ = turns - std::copysign(law_.s / s.feed_mm_rev, in.spindle_rev_per_s);
+    }
+    return pace;
+  }
+  const double behind = s.feed_mm_rev * std::fabs(turns - thread_origin_) - law_.s;
+  return std::max(0.0, pace + kReturn * behind / config_.cycle_s);
+}
+
 /// Path speed that is wanted now; 0 brakes.
 double Scan::speed_cap(const Segment& s, const nc_inputs& in) {
   if ((s.thread ? thread_braking() : braking()) || skip_braking_) return 0;
   double cap = s.speed_limit;
+  nc_stop_cause cause = NC_CAUSE_OVERRIDE_ZERO;
   if (s.rapid) {
     cap *= std::min(1.0, std::max(0.0, in.rapid_override));
   } else if (s.thread) {
-    cap = std::min(cap, s.feed_mm_rev * std::fabs(in.spindle_rev_per_s));
+    cap = std::min(cap, thread_speed(s, in));
+    cause = NC_CAUSE_SPINDLE_STOPPED;
   } else {
-    const double override_now = feed_override(in);
-    const double feed = s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(in.spindle_rev_per_s) : programmed_feed(s);
+    const double override_now = s.fixed_override ? 1 : feed_override(in);
+    double feed = s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(in.spindle_rev_per_s) : programmed_feed(s);
+    // M700 7.3, 7.4 note 3: operation alarms 104 and 105.
+    if (feed <= 0) cause = s.feed_mm_rev > 0 ? NC_CAUSE_SPINDLE_STOPPED : NC_CAUSE_FEED_ZERO;
+    // M700 7.10: on top of the override, below the clamp.
+    if (s.slow_zone > 0 && law_.s >= s.curve.length - static_cast<double>(s.slow_zone)) feed *= static_cast<double>(s.slow_factor);
     // M700 15.2: a skip move goes at 100 %, but for an override of 0.
     cap = std::min(cap, s.skip && override_now > 0 ? feed : feed * override_now);
   }
-  if (cap <= 0 && at_rest()) cause_ = NC_CAUSE_OVERRIDE_ZERO;
+  if (cap <= 0 && at_rest()) cause_ = cause;
   return cap;
 }
 
@@ -127,6 +189,7 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
   const Segment& s = r.segment;
   if (!(s.curve.length > 0)) return Done::yes;
   const bool begins = !moving_;
+  if (begins && s.thread && at_rest() && !thread_may_begin(s, in)) return Done::no;
   if (begins && !begin_move(r, in)) {
     alarmed_ = true;
     return Done::no;
@@ -175,6 +238,7 @@ Scan::Done Scan::action(const Action& a) {
       if (a.index == 3003) suppress_ = code_number(a.value);
       if (a.index == 3004) disable_ = code_number(a.value);
       if (a.index == 96) interrupt_mode_ = code_number(a.value);
+      if (a.index == NC_CONTROL_TAPPING) tapping_ = a.value != 0;
       return Done::yes;
     default:
       return strobe(a);
@@ -254,6 +318,10 @@ Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
     case NC_GATE_FIN:
       return fin_wait() != 0 && !(suppress_ & 2) ? wait(NC_CAUSE_FIN) : Done::yes;
     case NC_GATE_DWELL_SECONDS:
+      if ((in.skip & g.skip_mask) != 0) {  // M700 8.1 (8): the rest is discarded
+        gate_begun_ = false;
+        return Done::yes;
+      }
       return dwell(1.0, g.value);
     case NC_GATE_DWELL_TURNS:
       return dwell(std::fabs(in.spindle_rev_per_s), g.value);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -38,7 +39,10 @@ Did take_g(Interpreter& in, double value) {
   // M700 6.12: high-speed high-accuracy control I and the spline exclude the polar command.
   if (row->function == Function::missing && row->code == 51 && in.state.modal.code[kGroupPolarCommand] == 160)
     return in.raise(Condition::illegal_g, 'G', value);
-  if (row->function == Function::missing) return in.raise(Condition::no_function, 'G', code);
+  if (row->function == Function::missing) {
+    const bool excluded = refused_in_inverse_time(row->code) && inverse_time_so_far(in);
+    return excluded ? in.raise(Condition::inverse_time_code, 'G', value) : in.raise(Condition::no_function, 'G', code);
+  }
   BlockWords& w = in.words;
   if (!w.g.push_back(row)) return in.raise(Condition::format_error, 'G', value);
   switch (row->function) {
@@ -94,7 +98,7 @@ Did gather_words(Interpreter& in) {
   w.m.clear();
   w.one_shot = w.motion = w.cycle = nullptr;
   w.one_shot_code = 0;
-  w.exact_stop = false;
+  w.exact_stop = w.fin_behind_dwell = false;
   w.in_position = 0;
   w.absolute_at = w.incremental_at = 0;
   const Word* const words = in.block->words.begin();

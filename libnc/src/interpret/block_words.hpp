@@ -30,6 +30,7 @@ struct BlockWords {
   const FunctionRow* motion = nullptr;   ///< group 1 code of this block, or null
   const FunctionRow* cycle = nullptr;    ///< group 9 code of this block, or null
   bool exact_stop = false;         ///< G09
+  bool fin_behind_dwell = false;   ///< M S T B beside G04: their completion is awaited when the time is over
   char late_number = 0;            ///< N or O behind other words, 0 = none
   double in_position = 0;          ///< ,I: in-position width of this block, mm (M700 6.1, 6.2); 0 = none
   bool comp_command = false;       ///< G40-G42 that means something here

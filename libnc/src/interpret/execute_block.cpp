@@ -6,6 +6,7 @@
 //   3. S, T, second auxiliary function, M codes
 //   4. the one-shot function, or the fixed cycle, or the motion of group 1
 //   5. M00 M01 M02 M30 M98 M99
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 
@@ -49,6 +50,7 @@ bool ignores_cycle(const FunctionRow* one_shot) {
 Did apply_reading_modes(Interpreter& in) {
   in.block_starts_incremental = in.state.modal.code[kGroupDistance] == 910;
   in.distance_by_word = false;
+  const int16_t feed_mode = in.state.modal.code[kGroupFeed], cutting = in.state.modal.code[kGroupCutting];
   for (const FunctionRow* row : in.words.g) {
     switch (row->function) {
       case Function::absolute:
@@ -66,9 +68,13 @@ Did apply_reading_modes(Interpreter& in) {
       case Function::inch:
       case Function::metric:
       case Function::feed_per_minute:
+      case Function::feed_per_revolution:
+      case Function::inverse_time_feed:
       case Function::return_initial:
       case Function::return_r:
       case Function::exact_stop_mode:
+      case Function::corner_override:
+      case Function::tapping_mode:
       case Function::cutting_mode:
       case Function::rapid:
       case Function::linear:
@@ -93,7 +99,8 @@ Did apply_reading_modes(Interpreter& in) {
       default: break;
     }
   }
-  return Did::done;
+  if (in.state.modal.code[kGroupCutting] != cutting) change_cutting_mode(in, cutting);
+  return in.state.modal.code[kGroupFeed] != feed_mode ? change_feed_mode(in, feed_mode) : Did::done;
 }
 
 namespace {
@@ -176,7 +183,7 @@ Did execute_move(Interpreter& in) {
   in.modal_kept = now == code && !w.has('F');
   code = now;
   Did did = resolve_axes(in);
-  if (did == Did::done && w.has('F')) did = feed_of(in, &in.state.modal.feed);
+  if (did == Did::done && w.has('F')) did = in.settings.feed_by_digit ? take_feed_word(in) : feed_of(in, &in.state.modal.feed);
   if (did == Did::done) did = move_by_words(in);
   if (did != Did::done) return did;
   in.state.comp.has_vector = false;
@@ -218,7 +225,8 @@ Did execute_words(Interpreter& in) {
   // Nor is the lead of a thread (6.7.1) or the feed of an exponential curve (6.11).
   const bool own_feed = w.one_shot != nullptr ? w.one_shot->function == Function::skip
                                               : has_own_feed(in.state.modal.code[kGroupMotion]);
-  if (w.has('F') && !own_feed) did = feed_of(in, &in.state.modal.feed);
+  if (in.state.modal.code[kGroupFeed] == 930) did = check_inverse_time_block(in);
+  if (did == Did::done && w.has('F') && !own_feed) did = take_feed_word(in);
   if (did != Did::done) return did;
   did = apply_systems(in);
   if (did != Did::done) return did;

@@ -162,6 +162,7 @@ void Interpreter::reset(bool keep_modal) {
   state.port_open = port_open;
   for (unsigned i = 0; i < NC_GROUPS; ++i) state.modal.code[i] = dialect->initial[i];
   if (settings.start_inch) state.modal.code[kGroupUnit] = 200;
+  if (settings.start_synchronous) state.modal.code[kGroupFeed] = 950;  // M700 7.4 note 6, 7.5 (3)
   select_basic_plane(*this, dialect->id == NC_DIALECT_M700 ? settings.start_plane : state.modal.code[kGroupPlane]);
   if (keep_modal) {
     const ModalState initial = state.modal;
@@ -177,6 +178,7 @@ void Interpreter::reset(bool keep_modal) {
   state.frame[0].program = main_program;
   state.frame[0].offset = state.frame[0].begin = main_program.offset;
   state.frame[0].line = state.frame[0].begin_line = main_program.line;
+  state.refresh_special();
   refresh_letters();
   variables.clear_locals(1);
   variables.forget();
@@ -391,7 +393,8 @@ void Interpreter::keep_call() {
 void Interpreter::emit_stop_point(bool resume) {
   Item& item = emit(ItemKind::mark);
   item.block_end = false;
-  new (&item.mark) Mark{position(), modals.intern(state.modal), resume ? state.seq : 0, 0, (state.control_3003 & 1) == 0, false, resume};
+  new (&item.mark) Mark{position(), modals.intern(state.modal), resume ? state.seq : 0, 0,
+                        (state.control_3003 & 1) == 0 && state.modal.code[kGroupCutting] != 630, false, resume};
 }
 
 void Interpreter::stop(const Fault& what, const nc_source& where) {
@@ -427,6 +430,7 @@ void Interpreter::finish_block(bool stop, bool executable) {
   if (state.end_seen) stop = false;          // the program is over: nothing is left that a start could go on with
   if (state.nurbs.active()) stop = false;   // M700 6.15: single block stops at the last control point only
   if (state.control_3003 & 1) stop = false;  // M700 10.5: single block suppressed
+  if (state.special != 0 && state.modal.code[kGroupCutting] == 630) stop = false;  // M700 7.11 (4)
   Item& item = emit(ItemKind::mark);
   item.block_end = executable;
   new (&item.mark) Mark{position(), modal_now(), state.seq, 0, stop, true};

@@ -334,6 +334,7 @@ struct LinearStyle {
   uint8_t skip_mask = 0;
   double feed_mm_rev = 0;     ///< thread: lead along the longest axis
   double thread_angle = 0;
+  bool special_feed = false;  ///< the modal feed, and it is not the plain one (interpret/feed.hpp)
 };
 /// A straight move to `target` in the active coordinates; `commanded` = axes named in the block (tool length is applied to them).
 void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
@@ -350,7 +351,7 @@ MoveFrame frame_of_move(Interpreter& in, const AxisVec& target, uint32_t command
 struct PlaneAxes;
 /// A circular move (arc, helix, spiral) at the feed in force.
 void emit_circular(Interpreter& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind);
-/// A move of any other shape at the feed in force.
+/// A move of any other shape; its feed is the caller's.
 Move& emit_shaped(Interpreter& in, const MoveFrame& frame, const MoveShape& shape, nc_move_kind kind);
 inline bool is_space_arc(int16_t motion) { return motion == 24 || motion == 34; }
 /// A compensation command in a block that does not move: a move without length carries it to the offset stage (offset/offset.hpp).

@@ -132,6 +132,7 @@ void Interpreter::leave_interrupt(bool to_sequence) {
   } else if (!cut) {  // M700 13.12: modal information is restored
     const uint32_t m = state.modal.m;
     state.modal = interrupted_.modal;
+    state.refresh_special();
     state.modal.m = m;
     state.comp = interrupted_.comp;
     state.length_value = interrupted_.length_value;

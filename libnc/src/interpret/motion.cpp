@@ -2,6 +2,7 @@
 // Moves: from words to curves in the compensation frame.
 #include <cmath>
 
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
@@ -139,12 +140,22 @@ MoveFrame frame_of_move(Interpreter& in, const AxisVec& target, uint32_t command
 
 namespace {
 
-inline void set_style(Move& move, const LinearStyle& style) {
+/// M700 7.9: behind rapid traverse, and behind cutting with G09 or in G61, the next block waits until the axes are in position where the
+/// parameters ask for more than that the command has come to rest. A width of the block itself (,I) has its own gate.
+inline void check_deceleration(Interpreter& in, nc_move_kind kind) {
+  if (!in.settings.check_rapid && !in.settings.check_cutting) return;
+  const bool check = kind == NC_MOVE_RAPID ? in.settings.check_rapid : in.settings.check_cutting && asks_exact_stop(in);
+  if (check && in.words.in_position == 0) in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION;
+}
+
+inline void set_style(Interpreter& in, Move& move, const LinearStyle& style) {
   move.kind = style.kind;
   move.exact_stop = style.exact_stop || style.kind == NC_MOVE_RAPID;
+  move.rule.check_reversal = in.settings.check_reversal && style.kind != NC_MOVE_RAPID;
   move.feed_mm_min = style.kind == NC_MOVE_RAPID ? 0 : style.feed_mm_min;
   move.skip_mask = style.skip_mask;
   move.comp.transparent = style.transparent;
+  if (style.special_feed) apply_special_feed(in, move);
   if (style.kind != NC_MOVE_THREAD) return;
   move.feed_mm_rev = style.feed_mm_rev;
   move.thread_angle = static_cast<float>(style.thread_angle);
@@ -155,8 +166,9 @@ void move_linear_mapped(Interpreter& in, const AxisVec& target, uint32_t command
   if (same_place(frame.start, frame.end, in.axis_count)) return;
   const AxisVec before = in.state.machine;
   Move& move = begin_move(in, frame.transform, frame.start, frame.end);
-  set_style(move, style);
+  set_style(in, move, style);
   finish_mapped(in, frame, before, move);
+  check_deceleration(in, move.kind);
 }
 
 }  // namespace
@@ -175,7 +187,9 @@ void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, con
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded >> i) & 1) == 0) end[i] = start[i];  // an axis that is not named stays where it is
   if (same_place(start, end, in.axis_count)) return;
-  set_style(begin_move(in, transform, start, end), style);
+  Move& move = begin_move(in, transform, start, end);
+  set_style(in, move, style);
+  check_deceleration(in, move.kind);
 }
 
 void move_nowhere(Interpreter& in) {
@@ -186,7 +200,7 @@ void move_nowhere(Interpreter& in) {
   in.state.moves_since_comp_off = moves;
   move.kind = in.state.modal.code[kGroupMotion] == 0 ? NC_MOVE_RAPID : NC_MOVE_LINE;
   move.exact_stop = move.kind == NC_MOVE_RAPID;
-  move.feed_mm_min = move.kind == NC_MOVE_RAPID ? 0 : feed_mm_min(in);
+  if (move.kind != NC_MOVE_RAPID) set_modal_feed(in, move, feed_mm_min(in));
   finish_mapped(in, frame, before, move);
 }
 
@@ -205,6 +219,7 @@ void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded) {
   move.exact_stop = true;
   move.comp.transparent = true;
   finish_mapped(in, MoveFrame{transform, start, end}, before, move);
+  check_deceleration(in, NC_MOVE_RAPID);
 }
 
 void emit_circular(Interpreter& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind) {
@@ -218,18 +233,20 @@ void emit_circular(Interpreter& in, const MoveFrame& frame, const PlaneAxes& pla
   move.circle = circle;
   move.work_center[0] = circle.center[0];
   move.work_center[1] = circle.center[1];
-  move.feed_mm_min = feed_mm_min(in);
   move.plane_feed = kind == NC_MOVE_HELIX && in.settings.helix_plane_feed;  // M700 6.6: lines and arcs keep F
-  move.exact_stop = in.words.exact_stop || in.state.modal.code[kGroupCutting] == 610;
+  move.exact_stop = asks_exact_stop(in);
+  move.rule.check_reversal = in.settings.check_reversal;
+  set_modal_feed(in, move, feed_mm_min(in));
   finish_mapped(in, frame, before, move);
+  check_deceleration(in, kind);
 }
 
 Move& emit_shaped(Interpreter& in, const MoveFrame& frame, const MoveShape& shape, nc_move_kind kind) {
   const AxisVec before = in.state.machine;
   Move& move = begin_move(in, frame.transform, frame.start, frame.end);
   move.kind = kind;
-  move.feed_mm_min = feed_mm_min(in);
-  move.exact_stop = in.words.exact_stop || in.state.modal.code[kGroupCutting] == 610;
+  move.exact_stop = asks_exact_stop(in);
+  move.rule.check_reversal = in.settings.check_reversal;
   finish_shaped(in, shape, frame, before, move);
   return move;
 }
@@ -261,6 +278,7 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
     // Nothing goes round; axes outside the plane still go along a line.
     LinearStyle style;
     style.feed_mm_min = feed_mm_min(in);
+    style.special_feed = special_feed(in);
     move_linear(in, target, commanded, style);
     return Did::done;
   }
@@ -326,7 +344,8 @@ Did move_by_words(Interpreter& in) {
   }
   if (w.in_position > 0 && code != 10) return in.raise(Condition::illegal_address, 'I', w.in_position);
   if (code == 330 || code == 23 || code == 33) return move_by_function(in, code, target, w.axes);
-  if (in.state.modal.feed <= 0) return in.raise(Condition::no_feed, 'F');
+  const Did fed = check_feed(in, code);
+  if (fed != Did::done) return fed;
   if (!plain) return move_by_function(in, code, target, w.axes);
   if (arc && in.settings.spiral_type_2 && means_spiral(in)) return move_spiral(in, target, w.axes, code == 30);
   if (arc) {
@@ -337,7 +356,8 @@ Did move_by_words(Interpreter& in) {
   }
   LinearStyle style;
   style.feed_mm_min = feed_for(in, position, target);
-  style.exact_stop = w.exact_stop || in.state.modal.code[kGroupCutting] == 610;
+  style.special_feed = special_feed(in);
+  style.exact_stop = asks_exact_stop(in);
   move_linear(in, target, w.axes, style);
   if (w.in_position > 0 && style.exact_stop) wait_in_position(in);  // only where there is a deceleration check
   return Did::done;

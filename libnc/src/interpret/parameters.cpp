@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 
 namespace nc {
@@ -61,6 +62,15 @@ bool in_range(const char* key, double value) {
   if (std::strcmp(key, "1037") == 0) return value == 1 || value == 2;    // 12.1
   if (std::strcmp(key, "1084") == 0) return value >= 0 && value <= 1;    // 6.4
   if (std::strcmp(key, "2106") == 0) return value >= 0 && value <= 360;  // 2.3
+  if (std::strcmp(key, "1079") == 0 || std::strcmp(key, "1074") == 0) return value == 0 || value == 1;  // 7.3, 7.4
+  if (std::strcmp(key, "1507") == 0) return value >= 1 && value <= 32767;  // 7.3
+  if (std::strcmp(key, "1506") == 0) return value >= 0;
+  for (const char* speed : {"1185", "1186", "1187", "1188", "1189"})
+    if (std::strcmp(key, speed) == 0) return value >= 0 && value <= 1e7;
+  if (std::strcmp(key, "8007") == 0) return value >= 0 && value <= 100;  // 7.10
+  if (std::strcmp(key, "8008") == 0) return value >= 0 && value <= 180;
+  if (std::strcmp(key, "8009") == 0) return value >= 0 && value <= 99999.999;
+  if (std::strcmp(key, "1173") == 0) return value >= 0 && value <= 255 && value == std::floor(value);  // 8.1
   return true;
 }
 
@@ -159,6 +169,34 @@ bool Parameters::get(const char* key, int axis, double* value) const {
   return true;
 }
 
+/// M700 7, 8.1.
+void Parameters::feed_settings(Settings& s) const {
+  auto number = [this](const char* key, double fallback) {
+    double value = fallback;
+    get(key, -1, &value);
+    return value;
+  };
+  s.start_synchronous = number("1074", 0) != 0;
+  s.feed_by_digit = number("1079", 0) != 0;
+  s.digit_most = number("1506", 0);
+  const double divisions = number("1507", 0);
+  s.digit_step = divisions > 0 ? s.digit_most / divisions : 0;
+  const char* const speeds[] = {"1185", "1186", "1187", "1188", "1189"};
+  for (unsigned i = 0; i < 5; ++i) {
+    s.digit_feed[i] = number(speeds[i], 0);
+    if (s.digit_most > 0 && s.digit_feed[i] > s.digit_most) s.digit_feed[i] = s.digit_most;
+  }
+  // 7.9 (a), (b): with #1306 = 0 rapid traverse and cutting have a parameter each, else one for both.
+  const bool in_position = number("1193", 0) != 0;
+  s.check_rapid = in_position;
+  s.check_cutting = number("1306", 0) != 0 ? in_position : number("1223/bit1", 0) != 0;
+  s.check_reversal = number("1503", 0) != 0;
+  s.corner_override = number("8007", 0);
+  s.corner_angle = number("8008", 0);
+  s.corner_zone = number("8009", 0);
+  s.dwell_skip = static_cast<uint8_t>(number("1173", 0));
+}
+
 Settings Parameters::settings(const Dialect& dialect) const {
   Settings s;
   auto number = [this](const char* key, double fallback, int axis = -1) {
@@ -238,6 +276,7 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.hypothetical_by_name = flag("1517");
   s.exponential_linear = axis_letter(number("1514", 0));
   s.exponential_rotary = axis_letter(number("1515", 0));
+  feed_settings(s);
   for (unsigned i = 0; i < kMaxAxes; ++i) s.creep[i] = number("8209", 0, static_cast<int>(i));
   for (unsigned i = 0; i < kMaxAxes; ++i) s.index_increment[i] = number("2106", 0, static_cast<int>(i));
   return s;

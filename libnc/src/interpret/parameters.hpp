@@ -58,6 +58,18 @@ struct Settings {
   bool hypothetical_by_name = false;      ///< #1517
   char exponential_linear = 0, exponential_rotary = 0;  ///< #1514, #1515
   double creep[kMaxAxes] = {};            ///< #8209 G60 shift, mm, signed
+  bool start_synchronous = false;         ///< #1074 I_Sync: G95 at power on and after M02/M30
+  bool feed_by_digit = false;             ///< #1079 F1digt
+  double digit_feed[5] = {};              ///< #1185-#1189: F1 to F5, mm/min, not above #1506
+  double digit_most = 0;                  ///< #1506 F1_FM, mm/min, 0 = the handle changes nothing
+  double digit_step = 0;                  ///< #1506 / #1507: by one pulse of the handle, mm/min
+  bool check_rapid = false;               ///< 7.9: rapid traverse ends in position, not only at rest
+  bool check_cutting = false;             ///< 7.9: the same where G09 or G61 stands
+  bool check_reversal = false;            ///< #1503 G1Ipfg
+  double corner_override = 0;             ///< #8007, %
+  double corner_angle = 0;                ///< #8008, deg
+  double corner_zone = 0;                 ///< #8009, mm
+  uint8_t dwell_skip = 0;                 ///< #1173 dwlskp: skip signals that end a dwell
   // DGSHAPE settings
   bool calculator = false;
   uint8_t calculator_words = 0;       ///< 0 none, 1 all, 2 F, 3 IJKRXYZA
@@ -86,6 +98,7 @@ class Parameters {
     double value;  ///< NaN = not set
   };
   Entry* find(const char* key, int axis) const;
+  void feed_settings(Settings& settings) const;
   Entry* entries_ = nullptr;
   unsigned capacity_ = 0, count_ = 0;
 };

@@ -85,7 +85,8 @@ struct NurbsState {
 /// Bits of State::special.
 enum Special : uint8_t {
   kSpecialMap = 1,         ///< programmed coordinates are not those of the axes
-  kSpecialWords = 2        ///< axis words mean something else (G16)
+  kSpecialWords = 2,       ///< axis words mean something else (G16)
+  kSpecialFeed = 4         ///< F is more than the speed of every cut, or cutting has a mode of its own (interpret/feed.hpp)
 };
 /// Values of State::high_speed, the P of the last G05.
 inline constexpr uint16_t kHighAccuracy2 = 10000;
@@ -108,6 +109,7 @@ struct State {
   uint32_t held_point = 0;    ///< where the axes of G07 stand (Interpreter::points)
   double polar_angle = 0;     ///< G16: angle of the block before, deg
   double thread_lead = 0;     ///< G33: mm along the long axis
+  double last_feed = 0;       ///< G93: of the last cutting block, mm/min: displacements of compensation go on with it
   AxisMap map;
   MillReturn mill;
   int8_t plane_axis[2] = {0, 1};  ///< axes of the plane in force, -1 = none
@@ -132,7 +134,10 @@ struct State {
   uint8_t depth = 0;
   uint8_t loop_count = 0;
   void refresh_special() {
-    special = static_cast<uint8_t>((map.active() ? kSpecialMap : 0) | (modal.code[kGroupPolarCommand] == 160 ? kSpecialWords : 0));
+    const bool feed = modal.code[kGroupFeed] == 930 || modal.code[kGroupFeed] == 950 || modal.feed_digit != 0 ||
+                      modal.code[kGroupCutting] == 620 || modal.code[kGroupCutting] == 630;
+    special = static_cast<uint8_t>((map.active() ? kSpecialMap : 0) | (modal.code[kGroupPolarCommand] == 160 ? kSpecialWords : 0) |
+                                   (feed ? kSpecialFeed : 0));
   }
   // Only the first depth + 1 frames and loop_count loops are meaningful, and only these are copied into checkpoints.
   CallFrame frame[kMaxFrames];

@@ -20,7 +20,7 @@ enum Group : uint8_t {
 struct ModalState {
   int16_t code[NC_GROUPS] = {};   ///< active code of each group, times 10; -1 = the dialect has no such group
   uint16_t extended = 0;          ///< n of G54.1 Pn while it is active
-  uint16_t unused_ = 0;           ///< no padding: states are compared as bytes, once in every block
+  uint16_t feed_digit = 0;        ///< n + 1: F is the one digit n (M700 7.3). No padding: states are compared as bytes, once in every block
   double feed = 0;                ///< F as programmed (its unit is that of the block that moves: M700 5.2 note 1); 0 = none yet
   double spindle = 0;
   uint32_t tool = 0, d = 0, h = 0, m = 0, n = 0, o = 0, b = 0;

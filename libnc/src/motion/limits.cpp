@@ -106,8 +106,9 @@ double plane_acceleration(const Curve& c, const MotionLimits& limits) {
 }
 
 double highest_feed(const Segment& s, const MotionLimits& limits) {
-  if (s.rapid || s.feed_mm_rev > 0 || !(s.feed_mm_s > 0)) return HUGE_VAL;
-  return s.skip ? s.feed_mm_s : std::max(s.feed_mm_s, s.feed_end_mm_s) * limits.max_feed_override;
+  const double feed = std::max({s.feed_mm_s, s.feed_end_mm_s, static_cast<double>(s.digit_most_mm_s)});
+  if (s.rapid || s.feed_mm_rev > 0 || !(feed > 0)) return HUGE_VAL;
+  return s.skip || s.fixed_override ? feed : feed * limits.max_feed_override;
 }
 
 /// Speed that keeps the per-axis velocity limits and the bound on segments per cycle.

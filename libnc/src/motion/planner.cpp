@@ -36,7 +36,7 @@ void Planner::create(const MotionLimits& limits, Record* ring, uint32_t capacity
 
 bool Planner::must_rest(const Record& from, const Record& to) const {
   const Segment &a = from.segment, &b = to.segment;
-  if (a.rapid || b.rapid || a.exact_stop || a.skip || b.skip) return true;
+  if (a.rapid || b.rapid || a.exact_stop || a.skip || b.skip || b.rest_before) return true;
   if (from.epoch != to.epoch || tip_.between > kRecordsBetween) return true;
   for (unsigned i = 0; i < limits_.axis_count; ++i) {
     if (std::fabs(a.curve.end[i] - b.curve.start[i]) > kSamePlace) return true;
@@ -66,10 +66,12 @@ void Planner::close(const Joint& exit, double reserve) {
   Entry& e = entry(tip_.ordinal);
   e.corner2 = exit.speed2;
   e.joint2 = 0;
-  e.feed = s.rapid || s.feed_mm_rev > 0 ? HUGE_VAL : s.feed_end_mm_s > 0 ? std::min(s.feed_mm_s, s.feed_end_mm_s) : s.feed_mm_s;
+  e.feed = s.rapid || s.feed_mm_rev > 0 ? HUGE_VAL
+           : s.feed_end_mm_s > 0      ? std::min(s.feed_mm_s, s.feed_end_mm_s)
+                                      : std::max(s.feed_mm_s, static_cast<double>(s.digit_most_mm_s));  // the scan keeps what the handle says
   e.limit = s.speed_limit;
   e.gain = 2 * s.acceleration * s.curve.length;
-  e.constant = s.skip || e.feed == HUGE_VAL;
+  e.constant = s.skip || s.fixed_override || e.feed == HUGE_VAL;
   tip_.open = false;
   update_joint(tip_.ordinal - 1);
 }

@@ -14,6 +14,8 @@ static_assert(std::is_trivially_copyable_v<OffsetStage>);
 
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
+
 bool same_plane(const Compensation& a, const Compensation& b) {
   return a.axis[0] == b.axis[0] && a.axis[1] == b.axis[1];
 }
@@ -31,6 +33,16 @@ bool without_length(const Move& move) {
 double offset_on_side(const Compensation& amount_of, const Compensation& side_of) {
   const double amount = signed_offset(amount_of), side = signed_offset(side_of);
   return side == 0 ? amount : std::copysign(amount, side);
+}
+
+/// M700 7.10: the corner between two cutting blocks is an inner one, sharper than the angle of G62, and its vector is computed.
+bool cuts_inner_corner(const Section& before, const Move& move, const Section& behind, const Move& move_behind) {
+  if (move.rule.corner_override <= 0 || move_behind.kind == NC_MOVE_RAPID) return false;
+  const auto commanded = [](const Compensation& c) { return c.has_vector || c.hold_vector || c.corner_arc; };
+  if (commanded(move.comp) || commanded(move_behind.comp) || before.offset * behind.offset <= 0) return false;
+  if (classify(before.end.u, behind.begin.u, before.offset) != Turn::inner) return false;
+  const double turn = std::atan2(std::abs(cross(before.end.u, behind.begin.u)), dot(before.end.u, behind.begin.u));
+  return kPi - turn < static_cast<double>(move.rule.corner_angle);
 }
 
 bool vanishes(const Leg& begin, const Leg& end, double offset) {
@@ -71,7 +83,7 @@ OffsetStage::Held& OffsetStage::new_slot(const Item& item) {
   Held& held = held_at(next_index());
   held.item = item;
   held.role = Role::pass;
-  held.has_lead = held.lead_arc = held.dead = held.trim = false;
+  held.has_lead = held.lead_arc = held.dead = held.trim = held.inner = false;
   held.lead = Vec2{};
   held.joint.n = 0;
   return held;
@@ -85,6 +97,7 @@ void OffsetStage::reset() {
   moved_ = failed_ = lead_done_ = false;
   comp_ = out_comp_ = Compensation{};
   tail_ = chain_start_ = vector_ = direction_ = Vec2{};
+  feed_scale_ = 0;
   axis_[0] = 0;
   axis_[1] = 1;
   programmed_ = compensated_ = AxisVec{};
@@ -309,6 +322,7 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
   last->joint = find_joint(*last, held_last.item.move.comp, behind, comp_behind, &found);
   last->jointed = true;
   if (!found) return fail(last->index, Condition::comp_no_intersection, held_last.item.source);
+  held_last.inner = !last->start && !behind.cancel && cuts_inner_corner(*last, held_last.item.move, behind, held_behind->item.move);
   const bool changes_side = !behind.cancel && last->offset * behind.offset < 0;
   if (changes_side || comp_behind.cancel_vector) held_last.trim = held_behind->trim = true;
   last->merge_first = last->end.curvature == 0 && !last->start;

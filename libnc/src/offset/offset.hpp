@@ -81,6 +81,7 @@ class OffsetStage {
     bool has_lead = false;    ///< displacement before the move, from the vector in force to `lead`
     bool lead_arc = false;    ///< on an arc about the programmed point
     bool dead = false;        ///< left out by the interference avoidance
+    bool inner = false;       ///< section: the joint at its end is a corner that the tool cuts from the inside (M700 7.10)
     bool trim = false;        ///< an arc longer than a full circle loses the part beyond (M700 12.4.2)
     Mode mode = Mode::off;    ///< marks: state behind them
     uint8_t idle_blocks = 0;  ///< marks
@@ -139,6 +140,7 @@ class OffsetStage {
   AxisVec programmed_, compensated_;
   Vec2 direction_;  ///< tangent at the end of the last move
   Compensation out_comp_;
+  float feed_scale_ = 0;  ///< FeedRule::scale of the last move: what is inserted behind it goes on at its speed (M700 7.5 (4))
   OffsetResume resume_;
 };
 

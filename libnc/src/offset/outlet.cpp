@@ -56,6 +56,21 @@ void shift_circle(Circle* circle, Vec2 start, Vec2 end, Vec2 w_start, Vec2 w_end
   circle->sweep = exceeds ? sweep - std::copysign(full, sweep) : sweep;
 }
 
+double straight_length(const Move& move) {
+  double squares = 0;
+  for (unsigned i = 0; i < kMaxAxes; ++i) squares += (move.end[i] - move.start[i]) * (move.end[i] - move.start[i]);
+  return std::sqrt(squares);
+}
+
+// M700 7.5: inverse time is that of the block, so the tool centre goes as much faster as its path is longer, or its radius larger.
+void scale_feed(const Move& programmed, Move* move) {
+  move->rule.scale = 0;
+  if (!programmed.rule.inverse_time) return;
+  const double before = programmed.circular ? programmed.circle.radius_start : straight_length(programmed);
+  const double now = move->circular ? move->circle.radius_start : straight_length(*move);
+  if (before > 0 && now > 0) move->rule.scale = static_cast<float>(now / before);
+}
+
 Plane plane_of(const Move& like) {
   if (like.circular) return like.plane;
   const unsigned h = like.comp.axis[0], v = like.comp.axis[1];
@@ -72,6 +87,7 @@ void make_straight(const Item& like, const AxisVec& programmed, const AxisVec& s
   out->block_end = false;
   Move& move = out->move;
   move.kind = like.move.kind == NC_MOVE_RAPID ? NC_MOVE_RAPID : NC_MOVE_LINE;
+  move.rule.slow_zone = 0;
   move.circular = false;
   move.connecting = true;
   move.skip_mask = 0;
@@ -187,6 +203,9 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
     }
   }
   vector_ = end_vector;
+  if (!held.inner) move.rule.slow_zone = 0;
+  scale_feed(programmed, &move);
+  feed_scale_ = move.rule.scale;
   if (!has_length(move)) {
     note_move(programmed, compensated_);
     return false;
@@ -206,6 +225,7 @@ bool OffsetStage::pop_lead(const Held& held, Item& out) {
   vector_ = held.lead;
   const AxisVec end = shifted(move.start, axis_, vector_);
   make_straight(held.item, move.start, start, end, &out);
+  out.move.rule.scale = feed_scale_;
   if (held.lead_arc && bendable(from, vector_)) bend(move.start, from, vector_, plane_of(move), &out);
   if (!has_length(out.move)) return false;
   compensated_ = end;
@@ -217,6 +237,7 @@ void OffsetStage::pop_connecting(const Held& held, Item& out) {
   const Move& move = held.item.move;
   const Vec2 from = held.joint.v[connecting_ - 1], to = held.joint.v[connecting_];
   make_straight(held.item, move.work, compensated_, shifted(move.end, axis_, to), &out);
+  out.move.rule.scale = feed_scale_;
   if (held.joint.corner_arc && bendable(from, to)) bend(move.end, from, to, plane_of(move), &out);
   vector_ = to;
   if (has_length(out.move)) compensated_ = out.move.end;

@@ -95,6 +95,19 @@ struct Circle {
 
 enum class Plane : uint8_t { xy = NC_PLANE_XY, zx = NC_PLANE_ZX, yz = NC_PLANE_YZ, none = NC_PLANE_NONE };
 
+/// What the feed of a move goes by beside its number; all zero for the plain feed per minute.
+struct FeedRule {
+  uint8_t digit = 0;           ///< n + 1: commanded as Fn of one digit (M700 7.3)
+  bool inverse_time = false;   ///< G93: the time of the block stays as it is compensated (M700 7.5)
+  bool tapping = false;        ///< G63: the override is 100 % (M700 7.11)
+  bool check_reversal = false; ///< no axis turns round at its start at speed (M700 7.9.2)
+  float scale = 0;             ///< of the compensated path, so that the time or the cut keeps its speed; 0 = 1
+  float digit_most = 0, digit_step = 0;  ///< F1 to F5: limit of the handle, change by one pulse of it, mm/min
+  float corner_override = 0;   ///< G62: factor before an inner corner (M700 7.10), 0 = none
+  float corner_angle = 0;      ///< at corners that are sharper than this, rad
+  float slow_zone = 0;         ///< over this length before the end, mm
+};
+
 struct Move {
   Move() = default;
   Move(const AxisVec& from, const AxisVec& to, const Compensation& c) : start(from), end(to), work(to), comp(c) {}
@@ -117,6 +130,7 @@ struct Move {
   double feed_mm_rev = 0;
   float feed_end = 0;            ///< exponential: feed at its end, mm/min; 0 = constant
   float thread_angle = 0;        ///< thread: start angle of the spindle, deg
+  FeedRule rule;
   Compensation comp;
 };
 
@@ -130,6 +144,7 @@ struct Action {
 struct Gate {
   nc_gate_kind kind = NC_GATE_FIN;
   bool announce = false;
+  uint8_t skip_mask = 0;  ///< dwell: ends where one of these signals is on (M700 8.1 (8))
   double value = 0;
 };
 

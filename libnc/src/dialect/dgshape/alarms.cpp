@@ -97,6 +97,8 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::nurbs_knot, "NC-NO-SUCH-CODE", nullptr},
     {C::nurbs_start, "NC-NO-SUCH-CODE", nullptr},
     {C::space_conversion_code, "NC-NO-SUCH-CODE", nullptr},
+    {C::inverse_time_code, "NC-NO-SUCH-CODE", nullptr},
+    {C::arc_feed_zero, "NC-NO-SUCH-CODE", nullptr},
     // offsets
     {C::g10_l, "NC-DATA", nullptr},
     {C::g10_p, "NC-DATA", nullptr},

@@ -66,6 +66,8 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::nurbs_knot, "P551", nullptr},          // 6.15
     {C::nurbs_start, "P552", nullptr},
     {C::space_conversion_code, "P921", nullptr},
+    {C::inverse_time_code, "P125", nullptr},   // 7.5
+    {C::arc_feed_zero, "P121", nullptr},       // 7.3
     // offsets
     {C::g10_l, "P172", nullptr},
     {C::g10_p, "P173", nullptr},  // appendix 1; 12.7 prints P170 for the same thing

@@ -15,11 +15,7 @@ void emit_action(Interpreter& in, nc_action_kind kind, char letter, double value
   action.value = value;
 }
 
-/// M700 10.5: #3003 bit 1 = FIN is not awaited.
-void emit_fin(Interpreter& in) {
-  if ((in.state.control_3003 & 2) != 0) return;
-  in.emit(ItemKind::gate).gate.kind = NC_GATE_FIN;
-}
+void emit_fin(Interpreter& in) { await_fin(in); }
 
 /// DGSHAPE 2: S00..S99 are code numbers of the R20 series, 10^(n/20) with the series' rounded factors; from 100 on r/min.
 double dgshape_speed(uint32_t s) {
@@ -90,6 +86,12 @@ Did check_whole_numbers(Interpreter& in) {
 
 }  // namespace
 
+/// M700 10.5: #3003 bit 1 = FIN is not awaited.
+void await_fin(Interpreter& in) {
+  if ((in.state.control_3003 & 2) != 0) return;
+  in.emit(ItemKind::gate).gate.kind = NC_GATE_FIN;
+}
+
 Did check_company(Interpreter& in) {
   const BlockWords& w = in.words;
   if (in.dialect->id != NC_DIALECT_DGSHAPE) return Did::done;
@@ -145,7 +147,12 @@ Did auxiliary_before(Interpreter& in) {
     emit_action(in, NC_ACTION_M, 'M', m);
     waiting = true;
   }
-  if (waiting) emit_fin(in);
+  if (!waiting) return Did::done;
+  if (w.one_shot != nullptr && w.one_shot->function == Function::dwell) {
+    w.fin_behind_dwell = true;  // M700 8.1 (5): the time begins with the function
+  } else {
+    emit_fin(in);
+  }
   return Did::done;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 
@@ -81,7 +82,7 @@ Did set_compensation(Interpreter& in, Function function) {
   comp.side = state.modal.d == 0 ? int8_t{0} : function == Function::comp_left ? int8_t{1} : int8_t{-1};
   comp.has_vector = in.dialect->id == NC_DIALECT_M700 && take_vector(in, letters, comp.vector);
   // M700 12.4.3: the vector is gone to at once, even when the block names no axis; cutting takes a feed (3.2, P62).
-  if (comp.has_vector && comp.side != 0 && motion != 0 && state.modal.feed <= 0) return in.raise(Condition::no_feed, 'F');
+  if (comp.has_vector && comp.side != 0 && motion != 0) return check_feed(in, motion);
   return Did::done;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/program_map.hpp"
 
@@ -129,6 +130,7 @@ void emit_cycle_move(Interpreter& in, const CycleStep& step) {
   LinearStyle style;
   style.kind = step.kind == CycleStep::Kind::rapid ? NC_MOVE_RAPID : NC_MOVE_LINE;
   style.feed_mm_min = feed_mm_min(in);
+  style.special_feed = style.kind != NC_MOVE_RAPID && special_feed(in);
   style.exact_stop = true;  // every level of a hole is reached
   move_linear(in, target, 1u << in.state.cycle.drill_axis, style);
 }
@@ -183,7 +185,8 @@ Did do_cycle(Interpreter& in) {
   }
   if (dgshape && (w.axes & in.rotary) != 0) return in.raise(Condition::illegal_axis, 'A');
   if (dgshape && !in.state.spindle_on) return in.raise(Condition::spindle_not_turning, 'G', in.state.modal.code[kGroupCycle] / 10.0);
-  if (in.state.modal.feed <= 0) return in.raise(Condition::no_feed, 'F');
+  did = check_feed(in, 10);
+  if (did != Did::done) return did;
   // A peck below the finest unit of the control (M700 2.1 E) is none: the hole would never be done.
   if ((c.kind == CycleKind::peck || c.kind == CycleKind::step) && !(c.q >= 1e-6)) return in.raise(Condition::words_missing, 'Q');
   in.holes_left = count;

@@ -7,11 +7,22 @@
 namespace nc {
 namespace {
 
+/// M700 8.1 note 3: an X before G04 is read as a length; what is inch with one decimal more comes out tenfold.
+bool read_as_inch(const Interpreter& in) {
+  if (in.state.modal.code[kGroupUnit] != 200 || !in.words.pointed('X')) return false;
+  for (const Word& word : in.block->words) {
+    if (word.letter == 'X') return true;
+    if (word.letter == 'G' && word.value == 4) return false;
+  }
+  return false;
+}
+
 /// M700 8.1, table of X and P against #1078 and #8112.
 double m700_seconds(const Interpreter& in, char letter) {
   const BlockWords& w = in.words;
   const double raw = w.get(letter);
   const bool pointed = w.pointed(letter);
+  if (letter == 'X' && read_as_inch(in)) return raw * 10;
   if (letter == 'P' && !in.settings.dwell_p_decimal) return std::trunc(raw) / 1000;  // always whole ms
   if (pointed) return raw;
   return in.settings.decimal_type_2 ? raw : raw / 1000;
@@ -39,6 +50,8 @@ Did do_dwell(Interpreter& in) {
   gate.kind = NC_GATE_DWELL_SECONDS;
   gate.announce = true;
   gate.value = seconds;
+  gate.skip_mask = in.settings.dwell_skip;
+  if (in.words.fin_behind_dwell) await_fin(in);
   return Did::done;
 }
 

@@ -63,6 +63,8 @@ void cancel_cycle(Interpreter& in);
 /// M S T B (auxiliary.cpp). before: everything that goes out before the motion; after: stops, ends, calls.
 Did auxiliary_before(Interpreter& in);
 Did auxiliary_after(Interpreter& in);
+/// The program goes on when what has been given out is complete.
+void await_fin(Interpreter& in);
 /// Rules about what may share a block (DGSHAPE 2, M700 App.2).
 Did check_company(Interpreter& in);
 

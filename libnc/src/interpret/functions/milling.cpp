@@ -58,6 +58,7 @@ void end_mode(Interpreter& in) {
   if (state.mill.feed_mode != 940) {
     state.modal.code[kGroupFeed] = state.mill.feed_mode;
     state.modal.feed = state.mill.feed;
+    state.modal.feed_digit = 0;
   }
   state.modal.code[kGroupCutting] = 640;
   state.modal.code[kGroupInterpolationMode] = 131;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -126,7 +127,7 @@ void emit_span(Interpreter& in) {
   AxisVec end = in.position();
   for (unsigned i = 0; i < 3; ++i)
     if (axis[i] < kMaxAxes) end[axis[i]] = shape.span.point[degree][i];
-  emit_shaped(in, frame_of_move(in, end, n.axes), shape, NC_MOVE_NURBS);
+  set_modal_feed(in, emit_shaped(in, frame_of_move(in, end, n.axes), shape, NC_MOVE_NURBS), feed_mm_min(in));
 }
 
 }  // namespace

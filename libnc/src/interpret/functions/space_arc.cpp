@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -87,7 +88,8 @@ void emit_half(Interpreter& in, const AxisVec& to, const SpaceArc* arc) {
   if (arc == nullptr) {
     LinearStyle style;
     style.feed_mm_min = feed_mm_min(in);
-    style.exact_stop = in.words.exact_stop || in.state.modal.code[kGroupCutting] == 610;
+    style.special_feed = special_feed(in);
+    style.exact_stop = asks_exact_stop(in);
     move_linear(in, to, all, style);
     return;
   }
@@ -95,7 +97,7 @@ void emit_half(Interpreter& in, const AxisVec& to, const SpaceArc* arc) {
   shape.kind = ShapeKind::space_arc;
   shape.map = in.state.map;
   shape.arc = *arc;
-  emit_shaped(in, frame_of_move(in, to, all), shape, NC_MOVE_ARC);
+  set_modal_feed(in, emit_shaped(in, frame_of_move(in, to, all), shape, NC_MOVE_ARC), feed_mm_min(in));
 }
 
 /// The first half and the end of its block, so that the machine can stop and be stopped there; going back there reads the block in

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
@@ -128,6 +129,7 @@ Did move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool
   if (s.circle.sweep == 0) {  // it does not turn: straight to the end
     LinearStyle style;
     style.feed_mm_min = feed_mm_min(in);
+    style.special_feed = special_feed(in);
     move_linear(in, frame.end, commanded, style);
     return Did::done;
   }

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Feed functions (M700 7): F by mode, F of one digit, inverse time.
+#include "interpret/feed.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace nc {
+namespace {
+
+constexpr int16_t kInverseTime = 930, kPerMinute = 940, kPerRevolution = 950;
+constexpr double kMillimetresPerInch = 25.4;
+constexpr double kNoise = 1e-9;
+
+bool inch(const Interpreter& in) { return in.state.modal.code[kGroupUnit] == 200; }
+
+/// M700 7.4 (1): without a point F counts in the least unit of the setting; 0.001 to 999.999, one decimal more for each finer unit.
+Did take_feed_per_revolution(Interpreter& in) {
+  const double unit = inch(in) ? in.settings.setting_unit_inch : in.settings.setting_unit_mm;
+  const double raw = in.words.get('F');
+  const double value = in.words.pointed('F') || in.settings.decimal_type_2 ? raw : raw / std::nearbyint(1 / unit);
+  const bool below = value > 0 && value < unit - kNoise * unit;
+  if (!(value >= 0) || below || value > 1000 - unit + kNoise) return in.raise(Condition::value_range, 'F', raw);
+  in.state.modal.feed = value;
+  return Did::done;
+}
+
+/// M700 7.5 (2), precaution (3): 0.001 to 999999.999 1/min with #1003 = B; F0 is an alarm.
+Did take_inverse_time(Interpreter& in) {
+  const double unit = in.settings.setting_unit_mm, value = in.words.get('F');
+  if (value == 0) return in.raise(Condition::no_feed, 'F', value);
+  if (!(value >= unit - kNoise * unit) || value > 1e6 - unit + kNoise) return in.raise(Condition::value_range, 'F', value);
+  in.state.modal.feed = value;
+  return Did::done;
+}
+
+/// M700 7.3: F0 to F5 without a point, where #1079 says so.
+bool is_digit(const Interpreter& in, double raw) {
+  return in.settings.feed_by_digit && !in.words.pointed('F') && raw >= 0 && raw <= 5 && raw == std::floor(raw);
+}
+
+double straight_length(const Interpreter& in, const Move& move) {
+  double squares = 0;
+  for (unsigned i = 0; i < in.axis_count; ++i) squares += (move.end[i] - move.start[i]) * (move.end[i] - move.start[i]);
+  return std::sqrt(squares);
+}
+
+/// M700 7.5 (2): F is the speed over the length of a line, or over the radius of an arc at its start.
+void apply_inverse_time(Interpreter& in, Move& move) {
+  double extent = move.circular ? move.circle.radius_start : straight_length(in, move);
+  if (move.shape != 0 && in.shapes[move.shape - 1].kind == ShapeKind::space_arc) extent = in.shapes[move.shape - 1].arc.radius;
+  const double feed = in.state.modal.feed * extent;
+  move.rule.inverse_time = feed > 0;
+  // A block that only displaces the tool goes on at the speed of the one before (7.5 (4)).
+  move.feed_mm_min = feed > 0 ? feed : in.state.last_feed;
+  in.state.last_feed = move.feed_mm_min;
+}
+
+/// M700 7.3: F0 is the rapid rate in the motion of group 1; F1 to F5 are speeds of parameters, in inch a tenth of them.
+void apply_digit(Interpreter& in, Move& move) {
+  const unsigned digit = in.state.modal.feed_digit - 1u;
+  move.rule.digit = static_cast<uint8_t>(digit + 1);
+  if (digit == 0) {
+    move.kind = NC_MOVE_RAPID;
+    move.exact_stop = true;
+    move.feed_mm_min = 0;
+    return;
+  }
+  const double unit = move.feed_mm_min / digit / (inch(in) ? 10 : 1);  // mm/min or deg/min of one unit of F
+  move.feed_mm_min = in.settings.digit_feed[digit - 1] * unit;
+  move.rule.digit_most = static_cast<float>(in.settings.digit_most * unit);
+  move.rule.digit_step = static_cast<float>(in.settings.digit_step * unit);
+}
+
+}  // namespace
+
+Did take_feed_word(Interpreter& in) {
+  ModalState& modal = in.state.modal;
+  if (modal.code[kGroupFeed] == kPerRevolution) return take_feed_per_revolution(in);
+  if (modal.code[kGroupFeed] == kInverseTime) return take_inverse_time(in);
+  const double raw = in.words.get('F');
+  const uint16_t before = modal.feed_digit;
+  if (is_digit(in, raw)) {
+    modal.feed = raw;
+    modal.feed_digit = static_cast<uint16_t>(raw + 1);
+  } else {
+    const Did did = feed_of(in, &modal.feed);
+    if (did != Did::done) return did;
+    modal.feed_digit = 0;
+  }
+  if (before != modal.feed_digit) in.state.refresh_special();
+  return Did::done;
+}
+
+Did change_feed_mode(Interpreter& in, int16_t before) {
+  State& state = in.state;
+  const int16_t now = state.modal.code[kGroupFeed];
+  // M700 7.5, precaution (4)
+  if (before == kInverseTime && !in.words.has('F')) return in.raise(Condition::no_feed, 'F');
+  if (now == kInverseTime) state.last_feed = before == kPerMinute ? feed_mm_min(in) : 0;
+  state.modal.feed = 0;  // an F of one mode means nothing in another one
+  state.modal.feed_digit = 0;
+  state.refresh_special();
+  return Did::done;
+}
+
+/// The scan has to know of G63: no feed hold in there (M700 7.11 (3), (5)).
+void change_cutting_mode(Interpreter& in, int16_t before) {
+  const int16_t now = in.state.modal.code[kGroupCutting];
+  in.state.refresh_special();
+  if ((before == 630) == (now == 630)) return;
+  Action& action = in.emit(ItemKind::action).action;
+  action.kind = NC_ACTION_CONTROL;
+  action.index = NC_CONTROL_TAPPING;
+  action.value = now == 630 ? 1 : 0;
+}
+
+bool refused_in_inverse_time(int16_t code) {
+  switch (code) {
+    case 23: case 33: case 62: case 120: case 130: case 310: case 311: case 312: case 313: case 330: case 340: case 350: case 360:
+    case 370: case 371: case 960: return true;
+    default: return code >= 730 && code <= 890 && code != 800;
+  }
+}
+
+bool inverse_time_so_far(const Interpreter& in) {
+  int16_t mode = in.state.modal.code[kGroupFeed];
+  for (const FunctionRow* row : in.words.g)
+    if (row->group == kGroupFeed) mode = row->code;
+  return mode == kInverseTime;
+}
+
+Did check_inverse_time_block(Interpreter& in) {
+  const BlockWords& w = in.words;
+  const int16_t* const modal = in.state.modal.code;
+  for (const FunctionRow* row : w.g)
+    if (refused_in_inverse_time(row->code)) return in.raise(Condition::inverse_time_code, 'G', row->code / 10.0);
+  // (5) modes that were there before
+  const int16_t motion = modal[kGroupMotion];
+  if (motion != 62 && refused_in_inverse_time(motion)) return in.raise(Condition::inverse_time_code, 'G', motion / 10.0);
+  if (motion == 62 && w.axes != 0) return in.raise(Condition::inverse_time_code, 'G', motion / 10.0);
+  const bool cycle = in.state.cycle.kind != CycleKind::none && w.cycle == nullptr && w.motion == nullptr;
+  if (cycle) return in.raise(Condition::inverse_time_code, 'G', modal[kGroupCycle] / 10.0);
+  if (modal[kGroupSurfaceSpeed] == 960) return in.raise(Condition::inverse_time_code, 'G', 96);
+  return Did::done;
+}
+
+Did check_special_feed(Interpreter& in, int16_t motion) {
+  const ModalState& modal = in.state.modal;
+  if (modal.code[kGroupFeed] == kInverseTime) {  // M700 7.5, precaution (2)
+    return in.words.has('F') ? Did::done : in.raise(Condition::no_feed, 'F');
+  }
+  if (modal.feed_digit == 1 && motion != 10) return in.raise(Condition::arc_feed_zero, 'F', 0);  // M700 7.3 (2) (c)
+  if (modal.feed_digit != 0) return Did::done;
+  return modal.feed <= 0 ? in.raise(Condition::no_feed, 'F') : Did::done;
+}
+
+void apply_special_feed(Interpreter& in, Move& move) {
+  const ModalState& modal = in.state.modal;
+  if (modal.code[kGroupFeed] == kInverseTime) {
+    apply_inverse_time(in, move);
+  } else if (modal.code[kGroupFeed] == kPerRevolution) {
+    move.feed_mm_rev = move.feed_mm_min;
+    move.feed_mm_min = 0;
+    move.plane_feed = false;  // M700 6.6: only with the feed per minute
+  } else if (modal.feed_digit != 0) {
+    apply_digit(in, move);
+  }
+  if (modal.code[kGroupCutting] == 630) {  // M700 7.11 (1), (2)
+    move.rule.tapping = true;
+    move.exact_stop = move.kind == NC_MOVE_RAPID;
+  } else if (modal.code[kGroupCutting] == 620 && move.comp.side != 0 && !move.comp.transparent && move.kind != NC_MOVE_RAPID) {
+    const Settings& s = in.settings;  // M700 7.10, precautions (8), (9)
+    if (s.corner_angle <= 0 || s.corner_angle >= 180 || s.corner_override <= 0 || s.corner_override >= 100) return;
+    move.rule.corner_override = static_cast<float>(s.corner_override / 100);
+    move.rule.corner_angle = static_cast<float>(s.corner_angle * std::numbers::pi / 180);
+    move.rule.slow_zone = static_cast<float>(s.corner_zone);
+  }
+}
+
+}  // namespace nc
