@@ -16,6 +16,8 @@
 
 namespace {
 
+using nc::tools::MachineOptions;
+using nc::tools::MotionFormat;
 using nc::tools::PlotView;
 using nc::tools::SessionOptions;
 
@@ -40,6 +42,31 @@ void add_loop_limit(CLI::App* command, uint64_t* limit) {
       ->transform(nc::tools::whole(0, 1'000'000'000'000'000'000));
 }
 
+/// What can be said of a machine; the texts of numbers stay texts until the axes are known.
+struct MachineArguments {
+  MachineOptions options;
+  unsigned cycle_us = 0;
+  double limit_s = 30 * 86400.0;
+};
+
+void add_machine(CLI::App* command, MachineArguments* machine) {
+  auto* file = command->add_option("--machine", machine->options.machine, "machine configuration, TOML, as ncrtd reads it")->check(nc::tools::given());
+  command->add_option("--config", machine->options.limits_file, "limits of the machine, JSON (docs/trace.md)")
+      ->check(nc::tools::given())
+      ->excludes(file);
+  const auto every_axis = [](std::string& text) {
+    std::string why;
+    return nc::tools::parse_every_axis(text, &why) ? std::string() : why;
+  };
+  command->add_option("--limits", machine->options.every_axis, "velocity, acceleration, jerk of every axis, as 250,2000,50000")
+      ->check(CLI::Validator(every_axis, "V,A,J"));
+  command->add_option("--cycle-us", machine->cycle_us, "servo cycle in microseconds (default: the machine's, else 1000)")
+      ->transform(nc::tools::whole(10, 100'000));
+  command->add_option("--max-seconds", machine->limit_s, "machine time after which the run is given up")
+      ->capture_default_str()
+      ->check(nc::tools::seconds(false, "1e9"));
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"ncsim: run NC programs without a machine"};
   app.set_version_flag("--version", std::string("ncsim ") + nc_version());
@@ -57,14 +84,19 @@ int run(int argc, char** argv) {
   add_print(check, &options);
   add_loop_limit(check, &silent);
 
-  std::string limits;
-  double limit_s = 30 * 86400.0;
+  MachineArguments machine;
   CLI::App* time = app.add_subcommand("time", "cycle time on a simulated machine");
   add_program(time, &options);
-  time->add_option("--config", limits, "limits of the machine, JSON (docs/trace.md)")->check(nc::tools::given());
-  time->add_option("--max-seconds", limit_s, "machine time after which the run is given up")
+  add_machine(time, &machine);
+
+  std::string rows, format = "csv";
+  CLI::App* motion = app.add_subcommand("motion", "commanded position of every axis in every servo cycle");
+  add_program(motion, &options);
+  add_machine(motion, &machine);
+  motion->add_option("--format", format, "csv, or f64: raw little-endian doubles, t and the axes")
       ->capture_default_str()
-      ->check(nc::tools::seconds(false, "1e9"));
+      ->transform(nc::tools::one_of({"csv", "f64"}));
+  motion->add_option("-o,--output", rows, "file for the rows (default: standard output)")->check(nc::tools::given());
 
   std::string base, view = "iso";
   const std::map<std::string, PlotView> views = {
@@ -72,10 +104,14 @@ int run(int argc, char** argv) {
   CLI::App* plot = app.add_subcommand("plot", "the tool path as SVG and PNG");
   add_program(plot, &options);
   add_loop_limit(plot, &silent);
-  plot->add_option("-o,--output", base, "writes OUTPUT.svg and OUTPUT.png (default: toolpath)")
-      ->default_str("toolpath")
+  plot->add_option("-o,--output", base, "writes OUTPUT.svg and OUTPUT.png (default: toolpath; with --profile: profile)")
       ->check(nc::tools::given());
-  plot->add_option("--view", view, "iso, xy, xz or yz")->capture_default_str()->transform(nc::tools::one_of({"iso", "xy", "xz", "yz"}));
+  bool profile = false;
+  auto* profile_flag = plot->add_flag("--profile", profile, "path speed, acceleration and jerk of every axis over time instead of the path");
+  plot->add_option("--view", view, "iso, xy, xz or yz")->capture_default_str()->transform(nc::tools::one_of({"iso", "xy", "xz", "yz"}))->excludes(profile_flag);
+  CLI::App* const profile_machine = plot->add_option_group("machine", "of --profile");
+  add_machine(profile_machine, &machine);
+  for (CLI::Option* option : profile_machine->get_options()) option->needs(profile_flag);
 
   bool markdown = false;
   CLI::App* functions = app.add_subcommand("functions", "the G and M codes of a dialect");
@@ -102,9 +138,18 @@ int run(int argc, char** argv) {
     else std::fprintf(stderr, "ncsim: %s (ncsim --help)\n", error.what());
     return nc::tools::kExitError;
   }
+  options.dialect_given = false;
+  for (CLI::App* command : {time, motion, plot})
+    if (command->count("--dialect") != 0) options.dialect_given = true;
+  if (machine.cycle_us != 0) machine.options.cycle_us = machine.cycle_us;
   if (trace->parsed()) return nc::tools::trace_command(options, silent, STDOUT_FILENO, stderr);
   if (check->parsed()) return nc::tools::check_command(options, silent, stdout, stderr);
-  if (time->parsed()) return nc::tools::time_command(options, limits, limit_s, stdout, stderr);
+  if (time->parsed()) return nc::tools::time_command(options, machine.options, machine.limit_s, stdout, stderr);
+  if (motion->parsed())
+    return nc::tools::motion_command(options, machine.options, format == "f64" ? MotionFormat::kF64 : MotionFormat::kCsv, rows,
+                                     machine.limit_s, STDOUT_FILENO, stderr);
+  if (plot->parsed() && profile)
+    return nc::tools::profile_command(options, machine.options, machine.limit_s, base.empty() ? "profile" : base, stdout, stderr);
   if (plot->parsed())
     return nc::tools::plot_command(options, silent, views.at(view), base.empty() ? "toolpath" : base, stdout, stderr);
   if (functions->parsed()) return nc::tools::functions_command(options.dialect, markdown, stdout, stderr);

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -310,6 +312,23 @@ TEST_F(CommandTest, OptionsRefuseBadValuesWithASentence) {
       {"trace p.nc --dialect foo", "--dialect foo: this version knows m700 and dgshape"},
       {"time p.nc --config ''", "--config: must not be empty"},
       {"time p.nc --max-seconds ''", "--max-seconds: must be above 0"},
+      {"motion p.nc --limits 1,2", "--limits: must be three numbers, velocity,acceleration,jerk, is 1,2"},
+      {"motion p.nc --limits 1,2,3,4", "--limits: must be three numbers"},
+      {"motion p.nc --limits '1, 2,3'", "--limits: must be three numbers"},
+      {"motion p.nc --limits ''", "--limits: must be three numbers, velocity,acceleration,jerk, is empty"},
+      {"motion p.nc --limits nan,1,1", "--limits: must be three numbers"},
+      {"motion p.nc --limits=-1,1,1", "--limits: each must be from 0.001 to 1e9"},
+      {"time p.nc --limits 1,0,1", "--limits: each must be from 0.001 to 1e9"},
+      {"motion p.nc --cycle-us 9", "--cycle-us: must be a whole number from 10 to 100000, is 9"},
+      {"motion p.nc --cycle-us 1e3", "--cycle-us: must be a whole number from 10 to 100000, is 1e3"},
+      {"motion p.nc --format xml", "--format: must be one of csv, f64, is xml"},
+      {"motion p.nc -o ''", "--output: must not be empty"},
+      {"motion p.nc --machine ''", "--machine: must not be empty"},
+      {"motion p.nc --machine none.toml", "none.toml: cannot be read"},
+      {"motion p.nc --machine p.nc", "p.nc:1: syntax"},
+      {"motion p.nc --machine m.toml --config m.json", "--machine excludes --config"},
+      {"plot p.nc --limits 1,1,1", "--limits requires --profile"},
+      {"plot p.nc --profile --view xy", "--profile excludes --view"},
       {"trace ''", "PROGRAM: must not be empty"},
       {"functions --dialect foo", "--dialect foo: this version knows"},
   };
@@ -326,7 +345,8 @@ TEST_F(CommandTest, OptionsRefuseBadValuesWithASentence) {
 TEST_F(CommandTest, WhatCannotBeWrittenIsAnErrorOfEveryCommand) {
   file("p.nc", kPart);
   for (const char* command :
-       {"trace p.nc", "check p.nc", "time p.nc", "plot p.nc", "functions", "alarms", "--help", "--version"}) {
+       {"trace p.nc", "check p.nc", "time p.nc", "motion p.nc", "motion --format f64 p.nc", "plot p.nc",
+        "plot --profile p.nc", "functions", "alarms", "--help", "--version"}) {
     const Outcome run = ncsim(std::string(command) + " > /dev/full");
     EXPECT_EQ(run.code, 1) << command;
     EXPECT_NE(run.err.find("cannot be written"), std::string::npos) << command << ": " << run.err;
@@ -381,6 +401,147 @@ TEST_F(CommandTest, PlotWritesBothFiles) {
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
   EXPECT_EQ(ncsim("plot -o again --view xy p.nc").code, 0);
   EXPECT_EQ(svg == content(folder_ + "/again.svg"), true) << "two runs give the same bytes";
+}
+
+// A row of a motion: t and the axes.
+using Row = std::vector<double>;
+
+std::vector<Row> csv_rows(const std::string& text, std::string* head) {
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, *head);
+  std::vector<Row> rows;
+  while (std::getline(lines, line)) {
+    rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+  }
+  return rows;
+}
+
+double seconds_of(const std::string& text) {
+  double seconds = -1;
+  std::sscanf(text.c_str(), "cycle time %lf s", &seconds);  // NOLINT(cert-err34-c): -1 says that it failed
+  return seconds;
+}
+
+TEST_F(CommandTest, MotionIsARowForEveryCycleOfTheTime) {
+  file("p.nc", kPart);
+  file("stops.nc", "G00 X1.\nM00\nG04 X0.25\nG01 X2. F60.\nM01\nM03 S100\nM30\n");
+  for (const char* program : {"p.nc", "stops.nc"})
+    for (const std::string us : {"1000", "250", "333"}) {
+      const Outcome motion = ncsim(std::string("motion --cycle-us ") + us + " " + program);
+      EXPECT_EQ(motion.code, 0) << motion.err;
+      std::string head;
+      const std::vector<Row> rows = csv_rows(motion.out, &head);
+      EXPECT_EQ(head, "t,X,Y,Z");
+      const double seconds = seconds_of(ncsim(std::string("time --cycle-us ") + us + " " + program).out);
+      ASSERT_GT(rows.size(), 100u);
+      EXPECT_NEAR(static_cast<double>(rows.size() - 1) * std::stod(us) * 1e-6, seconds, 1e-9) << program << " " << us;
+      EXPECT_NEAR(rows.back()[0], seconds, 1e-9);
+      for (size_t i = 0; i < rows.size(); ++i) {
+        ASSERT_EQ(rows[i].size(), 4u);
+        ASSERT_NEAR(rows[i][0], static_cast<double>(i) * std::stod(us) * 1e-6, 1e-9);
+      }
+    }
+  std::string head;
+  EXPECT_EQ(csv_rows(ncsim("motion p.nc").out, &head).back(), (Row{seconds_of(ncsim("time p.nc").out), 20, -5, -1}));
+}
+
+TEST_F(CommandTest, MotionHasTwelveDecimalsAndNoNegativeZero) {
+  file("p.nc", "G00 X-1. Y0.\nG01 X0. F600.\nM30\n");
+  const Outcome run = ncsim("motion p.nc");
+  EXPECT_EQ(run.out.find("-0.000000000000"), std::string::npos);
+  EXPECT_NE(run.out.find("\n0.001,"), std::string::npos);
+  std::istringstream lines(run.out);
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    for (size_t at = line.find(','); at != std::string::npos; at = line.find(',', at + 1)) {
+      const size_t point = line.find('.', at), end = std::min(line.find(',', at + 1), line.size());
+      ASSERT_EQ(end - point, 13u) << line;
+    }
+  }
+  EXPECT_EQ(ncsim("motion p.nc").out, run.out) << "two runs give the same bytes";
+}
+
+TEST_F(CommandTest, RawMotionIsTheSameRows) {
+  file("p.nc", kPart);
+  std::string head;
+  const std::vector<Row> rows = csv_rows(ncsim("motion p.nc").out, &head);
+  EXPECT_EQ(ncsim("motion --format F64 -o raw p.nc").out, "");
+  const std::string raw = content(folder_ + "/raw");
+  ASSERT_EQ(raw.size(), rows.size() * 4 * sizeof(double));
+  for (size_t i = 0; i < rows.size(); ++i)
+    for (size_t k = 0; k < 4; ++k) {
+      double value = 0;  // this machine is little-endian too
+      std::memcpy(&value, raw.data() + (i * 4 + k) * sizeof value, sizeof value);
+      ASSERT_NEAR(value, rows[i][k], 1e-9);
+    }
+}
+
+TEST_F(CommandTest, MotionUntilAnAlarmIsExitTwo) {
+  file("p.nc", "G00 X1.\nG01 X2.\nM30\n");  // no F: P62
+  const Outcome run = ncsim("motion p.nc");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.err.rfind("p.nc:2: P62 ", 0), 0u) << run.err;
+  std::string head;
+  EXPECT_EQ(csv_rows(run.out, &head).back()[1], 1.0);
+}
+
+TEST_F(CommandTest, MotionThatCannotBeWrittenIsExitOne) {
+  file("p.nc", kPart);
+  EXPECT_EQ(ncsim("motion -o none/x no-such-program.nc").err, "ncsim: none/x: cannot be written: No such file or directory\n");
+  EXPECT_EQ(ncsim("motion -o /dev/full p.nc").err, "ncsim: /dev/full cannot be written: No space left on device\n");
+  EXPECT_EQ(ncsim("motion p.nc > /dev/full").err, "ncsim: the motion cannot be written: No space left on device\n");
+}
+
+TEST_F(CommandTest, LimitsOfTheCommandLineHoldForEveryAxis) {
+  file("p.nc", "G00 X500.\nM30\n");
+  file("m.json", R"({"axes": {"X": {"velocity": 5}}})");
+  const double slow = seconds_of(ncsim("time --config m.json p.nc").out);
+  EXPECT_GT(slow, 100.0);
+  const double fast = seconds_of(ncsim("time --config m.json --limits 100,1000,1e9 p.nc").out);
+  EXPECT_GT(fast, 5.0);
+  EXPECT_LT(fast, 5.25);
+}
+
+TEST_F(CommandTest, AMachineConfigurationGivesAxesLimitsAndStart) {
+  file("p.nc", "G90 G53 G00 X-100. C90.\nM30\n");
+  std::string machine = "[machine]\nname = \"m\"\ncycle_us = 500\n";
+  for (const char* axis : {"X", "C"})
+    machine += std::string("[[axis]]\nname = \"") + axis + "\"\n" + (*axis == 'C' ? "rotary = true\n" : "") +
+               "rapid = 100.0\nmax_velocity = 100.0\nmax_acceleration = 1000.0\nmax_jerk = 50000.0\nin_position = 0.01\nstart = -10.0\n";
+  file("m.toml", machine);
+  const Outcome run = ncsim("motion --machine m.toml p.nc");
+  EXPECT_EQ(run.code, 0) << run.err;
+  std::string head;
+  const std::vector<Row> rows = csv_rows(run.out, &head);
+  EXPECT_EQ(head, "t,X,C");
+  ASSERT_GT(rows.size(), 1000u);
+  EXPECT_EQ(rows.front(), (Row{0, -10, -10}));
+  EXPECT_EQ(rows[1][0], 0.0005);
+  EXPECT_EQ(rows.back()[1], -100);
+  EXPECT_EQ(rows.back()[2], 90);
+  file("s.json", R"({"axes": ["X", "Y"]})");
+  EXPECT_EQ(ncsim("time --machine m.toml --setup s.json p.nc").err, "ncsim: s.json: axes: are not those of m.toml\n");
+  file("start.json", R"({"start": {"C": 45}})");
+  EXPECT_EQ(csv_rows(ncsim("motion --machine m.toml --setup start.json p.nc").out, &head).front(), (Row{0, -10, 45}));
+  EXPECT_EQ(ncsim("time --dialect dgshape --machine m.toml p.nc").err,
+            "ncsim: --dialect dgshape: m.toml is a machine of another dialect\n");
+}
+
+TEST_F(CommandTest, ProfileIsDrawnForEveryAxis) {
+  file("p.nc", kPart);
+  const Outcome run = ncsim("plot --profile --limits 100,1000,50000 -o drawing p.nc");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.out.rfind("drawing.svg drawing.png: ", 0), 0u) << run.out;
+  EXPECT_EQ(content(folder_ + "/drawing.png").substr(1, 3), "PNG");
+  const std::string svg = content(folder_ + "/drawing.svg");
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  EXPECT_EQ(ncsim("plot --profile --limits 100,1000,50000 -o again p.nc").code, 0);
+  EXPECT_EQ(svg == content(folder_ + "/again.svg"), true) << "two runs give the same bytes";
+  EXPECT_EQ(ncsim("plot --profile p.nc").out.rfind("profile.svg profile.png: ", 0), 0u);
 }
 
 TEST_F(CommandTest, TablesOfFunctionsAndAlarms) {

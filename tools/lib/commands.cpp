@@ -6,51 +6,22 @@
 #include <cmath>
 #include <cstring>
 
+#include "tools/lib/command_text.hpp"
 #include "tools/lib/item_source.hpp"
-#include "tools/lib/machine_limits.hpp"
 #include "tools/lib/number_text.hpp"
 #include "tools/lib/offline_run.hpp"
 #include "tools/lib/output_check.hpp"
 #include "tools/lib/output_file.hpp"
 #include "tools/lib/print_file.hpp"
 #include "tools/lib/trace_writer.hpp"
-#include "tools/lib/virtual_machine.hpp"
 #include "tools/lib/virtual_world.hpp"
 
 namespace nc::tools {
 namespace {
 
-int complain(std::FILE* err, const std::string& what) {
-  std::fprintf(err, "ncsim: %s\n", what.c_str());
-  return kExitError;
-}
-
 std::string number(double value) {
   char text[kNumberText];
   return std::string(text, number_text(value, text));
-}
-
-// "12.3456" with a fixed number of decimals: for summaries, where columns matter more than exactness.
-std::string decimals(double value, int count) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", count, value);
-  return text;
-}
-
-// A text of the program or the alarm table on one line of a terminal: no control characters.
-std::string printable(const char* text) {
-  std::string out = text;
-  for (char& c : out)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-  return out;
-}
-
-std::string alarm_line(const Session& session, const nc_alarm& alarm) {
-  std::string line =
-      session.file_name(alarm.source) + ":" + std::to_string(alarm.source.line) + ": " + alarm.code;
-  if (alarm.message[0] && std::strcmp(alarm.message, alarm.code) != 0) line += " " + printable(alarm.message);
-  if (alarm.detail.s[0]) line += " - " + printable(alarm.detail.s);
-  return line;
 }
 
 int exit_code(RunResult::How how) {
@@ -188,11 +159,6 @@ class Table {
   bool markdown_;
 };
 
-int close_output(std::FILE* out, std::FILE* err, int code) {
-  if (std::fflush(out) != 0 || std::ferror(out)) return complain(err, "the output cannot be written");
-  return code;
-}
-
 }  // namespace
 
 int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int out, std::FILE* err) {
@@ -225,27 +191,6 @@ int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std
                  static_cast<unsigned long long>(result.blocks),
                  static_cast<unsigned long long>(result.moves), decimals(result.length, 3).c_str());
   return close_output(out, err, exit_code(result.how));
-}
-
-int time_command(const SessionOptions& options, const std::string& limits, double limit_s, std::FILE* out,
-                 std::FILE* err) {
-  Session session;
-  std::string error;
-  if (!session.configure(options, &error)) return complain(err, error);
-  default_machine_limits(&session.config());
-  if (!limits.empty() && !load_machine_limits(limits, &session.config(), &error)) return complain(err, error);
-  if (!session.start(options, &error)) return complain(err, error);
-  const MachineResult result = run_machine(session.control(), session.config(), session.setup(), limit_s);
-  if (result.how == MachineResult::How::kFailed) return complain(err, options.program + ": " + result.error);
-  if (result.how == MachineResult::How::kAlarmed)
-    std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
-  const uint64_t whole = static_cast<uint64_t>(result.seconds);
-  std::fprintf(out, "cycle time   %s s (%llu:%02llu:%02llu)\n", decimals(result.seconds, 3).c_str(),
-               static_cast<unsigned long long>(whole / 3600),
-               static_cast<unsigned long long>(whole / 60 % 60), static_cast<unsigned long long>(whole % 60));
-  std::fprintf(out, "path length  %s mm\n", decimals(result.path_length, 3).c_str());
-  std::fprintf(out, "blocks       %llu\n", static_cast<unsigned long long>(result.blocks));
-  return close_output(out, err, result.how == MachineResult::How::kAlarmed ? kExitAlarm : kExitEnded);
 }
 
 int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, PlotView view,

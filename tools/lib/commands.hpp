@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "tools/lib/machine_choice.hpp"
+#include "tools/lib/motion_writer.hpp"
 #include "tools/lib/session.hpp"
 #include "tools/lib/toolpath_plot.hpp"
 
@@ -23,10 +25,17 @@ int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int
  * `out`. */
 int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std::FILE* out, std::FILE* err);
 
-/** `ncsim time`: cycle time, path length and blocks of the program on a machine with these limits ("" =
- * defaults). */
-int time_command(const SessionOptions& options, const std::string& limits, double limit_s, std::FILE* out,
-                 std::FILE* err);
+/** `ncsim time`: cycle time, path length and blocks of the program on this machine. */
+int time_command(const SessionOptions& options, const MachineOptions& machine, double limit_s, std::FILE* out, std::FILE* err);
+
+/** `ncsim motion`: the position of every axis in every cycle, to `path` ("" = the descriptor `out`). The rows until an alarm are written
+ * too; the alarm is said on `err`. */
+int motion_command(const SessionOptions& options, const MachineOptions& machine, MotionFormat format, const std::string& path,
+                   double limit_s, int out, std::FILE* err);
+
+/** `ncsim plot --profile`: BASE.svg and BASE.png with path speed, acceleration and jerk over time. */
+int profile_command(const SessionOptions& options, const MachineOptions& machine, double limit_s, const std::string& base,
+                    std::FILE* out, std::FILE* err);
 
 /** `ncsim plot`: BASE.svg and BASE.png. What was reached before an alarm is drawn too. */
 int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, PlotView view,

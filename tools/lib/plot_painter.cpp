@@ -5,7 +5,6 @@
 // 2 and
 // (-1, 1, 2)/sqrt 6, so the three axes are shortened alike (by sqrt(2/3)) and one scale bar holds along each
 // of them.
-#include <cairo-svg.h>
 #include <cairo.h>
 
 #include <algorithm>
@@ -14,23 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/lib/number_text.hpp"
+#include "tools/lib/drawing.hpp"
 #include "tools/lib/toolpath_plot.hpp"
-
-#if defined(__SANITIZE_ADDRESS__)
-#define NC_ADDRESS_SANITIZER 1
-#elif defined(__has_feature)  // how clang says it
-#if __has_feature(address_sanitizer)
-#define NC_ADDRESS_SANITIZER 1
-#endif
-#endif
-#if defined(NC_ADDRESS_SANITIZER)
-// fontconfig, which cairo asks for the font, keeps some blocks for the life of the process.
-extern "C" const char*
-__lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier): the sanitizer's name
-  return "leak:libfontconfig";
-}
-#endif
 
 namespace nc::tools {
 namespace {
@@ -41,51 +25,11 @@ constexpr double kMinPixels = 0.3;  // vertices nearer than this to the last one
 constexpr int kStrokeChunk = 500;   // cairo's time for one stroke grows faster than its length
 constexpr double kIsoShortening = 0.81649658092772603;  // sqrt(2/3)
 
-struct Color {
-  double r, g, b;
-};
-constexpr Color kRapid{0.85, 0.20, 0.10}, kFeed{0.05, 0.30, 0.75}, kInk{0.15, 0.15, 0.15},
-    kGrid{0.85, 0.85, 0.85}, kStart{0.10, 0.55, 0.20};
-
-void use(cairo_t* c, const Color& color) {
-  cairo_set_source_rgb(c, color.r, color.g, color.b);
-}
+constexpr Color kRapid{0.85, 0.20, 0.10}, kFeed{0.05, 0.30, 0.75}, kStart{0.10, 0.55, 0.20};
 
 struct Page {
   double u, v;  // to the right and up, mm
 };
-
-// Tick distance: 1, 2 or 5 times a power of ten, so that there are at most about `count` of them.
-double nice_step(double span, double count) {
-  const double raw = span / count;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= raw * (1.0 - 1e-9)) return factor * power;
-  return 10.0 * power;
-}
-
-// Multiples of `step` from low to high; counted, because adding a step to a large number may not change it.
-std::vector<double> ticks_between(double low, double high, double step) {
-  constexpr int kMost = 100;
-  std::vector<double> ticks;
-  const double first = std::ceil(low / step - 1e-9);
-  for (int k = 0; k < kMost && (first + k) * step <= high + 1e-9 * step; ++k)
-    ticks.push_back((first + k) * step);
-  return ticks;
-}
-
-std::string mm_text(double value) {
-  char text[kNumberText];
-  return std::string(text, number_text(value, text));
-}
-
-void put_text(cairo_t* c, double x, double y, const std::string& text, double size, double align = 0.0) {
-  cairo_set_font_size(c, size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(c, text.c_str(), &extents);
-  cairo_move_to(c, x - align * extents.x_advance, y);
-  cairo_show_text(c, text.c_str());
-}
 
 }  // namespace
 
@@ -95,9 +39,6 @@ class PlotPainter {
   PlotPainter(const ToolpathPlot& plot, cairo_t* context) : plot_(plot), c_(context) {}
 
   void paint() {
-    cairo_set_source_rgb(c_, 1, 1, 1);
-    cairo_paint(c_);
-    cairo_select_font_face(c_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     fit();
     if (plot_.view_ == PlotView::kIsometric)
       box();
@@ -160,13 +101,13 @@ class PlotPainter {
       const double x = px({t, low_.v});
       line(kGrid, x, y0, x, y1);
       line(kInk, x, y0, x, y0 + 5);
-      put_text(c_, x, y0 + 20, mm_text(t), 13, 0.5);
+      put_text(c_, x, y0 + 20, tick_text(t), 13, 0.5);
     }
     for (const double t : ticks_between(low_.v, high_.v, step)) {
       const double y = py({low_.u, t});
       line(kGrid, x0, y, x1, y);
       line(kInk, x0 - 5, y, x0, y);
-      put_text(c_, x0 - 9, y + 4, mm_text(t), 13, 1.0);
+      put_text(c_, x0 - 9, y + 4, tick_text(t), 13, 1.0);
     }
     use(c_, kInk);
     cairo_rectangle(c_, x0, y1, x1 - x0, y0 - y1);
@@ -208,7 +149,7 @@ class PlotPainter {
     for (const double t : ticks_between(lo_[axis], hi_[axis], step)) {
       const Page p = at(t);
       line(kInk, px(p), py(p), px(p) + dx / 2, py(p) + dy / 4);
-      put_text(c_, px(p) + dx, py(p) + dy, mm_text(t), 13, align);
+      put_text(c_, px(p) + dx, py(p) + dy, tick_text(t), 13, align);
     }
     const Page middle = at((lo_[axis] + hi_[axis]) / 2);
     put_text(c_, px(middle) + 4 * dx, py(middle) + 2.2 * dy, std::string(name) + " [mm]", 15, align);
@@ -302,7 +243,7 @@ class PlotPainter {
     line(kInk, x0, y, x1, y);
     line(kInk, x0, y - 5, x0, y + 5);
     line(kInk, x1, y - 5, x1, y + 5);
-    std::string text = mm_text(length_mm) + " mm";
+    std::string text = tick_text(length_mm) + " mm";
     if (plot_.view_ == PlotView::kIsometric) text += " along each axis";
     put_text(c_, x1 + 12, y + 5, text, 14);
   }
@@ -314,45 +255,11 @@ class PlotPainter {
   double scale_ = 1, offset_x_ = 0, offset_y_ = 0;
 };
 
-namespace {
-
-cairo_status_t write_stream(void* closure, const unsigned char* data, unsigned length) {
-  return std::fwrite(data, 1, length, static_cast<std::FILE*>(closure)) == length ? CAIRO_STATUS_SUCCESS
-                                                                                  : CAIRO_STATUS_WRITE_ERROR;
-}
-
-bool write_drawing(const ToolpathPlot& plot, const std::string& path, bool svg, std::string* error) {
-  std::FILE* file = std::fopen(path.c_str(), "wbe");
-  if (!file) {
-    if (error) *error = path + ": cannot be created";
-    return false;
-  }
-  cairo_surface_t* surface = svg ? cairo_svg_surface_create_for_stream(write_stream, file, kWidth, kHeight)
-                                 : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(kWidth),
-                                                              static_cast<int>(kHeight));
-  cairo_t* context = cairo_create(surface);
-  PlotPainter(plot, context).paint();
-  cairo_status_t status = cairo_status(context);
-  cairo_destroy(context);
-  if (status == CAIRO_STATUS_SUCCESS && !svg)
-    status = cairo_surface_write_to_png_stream(surface, write_stream, file);
-  cairo_surface_finish(surface);
-  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
-  cairo_surface_destroy(surface);
-  const bool closed = std::fclose(file) == 0;
-  if (status == CAIRO_STATUS_SUCCESS && closed) return true;
-  if (error)
-    *error = path + ": " + (status == CAIRO_STATUS_SUCCESS ? "write error" : cairo_status_to_string(status));
-  return false;
-}
-
-}  // namespace
-
 bool ToolpathPlot::write_svg(const std::string& path, std::string* error) const {
-  return write_drawing(*this, path, true, error);
+  return write_drawing({path, true, kWidth, kHeight}, [this](cairo_t* c) { PlotPainter(*this, c).paint(); }, error);
 }
 bool ToolpathPlot::write_png(const std::string& path, std::string* error) const {
-  return write_drawing(*this, path, false, error);
+  return write_drawing({path, false, kWidth, kHeight}, [this](cairo_t* c) { PlotPainter(*this, c).paint(); }, error);
 }
 
 }  // namespace nc::tools

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
@@ -24,6 +25,25 @@ std::string folder_of(const std::string& path) {
   const size_t slash = path.find_last_of('/');
   if (slash == std::string::npos) return ".";
   return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+// What a machine is where a setup says nothing.
+Setup setup_of(const rt::Config& machine) {
+  Setup setup;
+  const nc_system_config& system = machine.nc.system[0];
+  setup.axes.clear();
+  for (unsigned i = 0; i < system.axis_count; ++i) setup.axes.push_back({system.axis[i].name, system.axis[i].rotary});
+  setup.start = machine.start[0];
+  setup.option_variable_sets = machine.nc.variable_sets;
+  setup.option_tool_offsets = machine.nc.tool_offsets;
+  setup.option_work_offsets = machine.nc.work_offsets;
+  setup.option_extended_variables = machine.nc.extended_variables;
+  return setup;
+}
+
+bool same_axes(const Setup& a, const Setup& b) {
+  return std::equal(a.axes.begin(), a.axes.end(), b.axes.begin(), b.axes.end(),
+                    [](const SetupAxis& x, const SetupAxis& y) { return x.name == y.name && x.rotary == y.rotary; });
 }
 
 std::string why_not(nc_status status) {
@@ -54,15 +74,28 @@ void Session::Release::operator()(void* memory) const {
   std::free(memory);
 }
 
-bool Session::configure(const SessionOptions& options, std::string* error) {
+bool Session::configure(const SessionOptions& options, std::string* error, std::unique_ptr<rt::Config> machine) {
   const auto dialect = dialect_from_name(options.dialect);
   if (!dialect) {
     *error = "--dialect " + options.dialect + ": this version knows m700 and dgshape";
     return false;
   }
   dialect_ = *dialect;
-  if (!options.setup.empty() && !load_setup(options.setup, &setup_, error)) return false;
+  machine_ = std::move(machine);
+  if (machine_ && !options.dialect_given) dialect_ = static_cast<nc_dialect>(machine_->nc.dialect);
+  if (machine_ && dialect_ != machine_->nc.dialect) {
+    *error = "--dialect " + options.dialect + ": " + machine_->file + " is a machine of another dialect";
+    return false;
+  }
+  const Setup defaults = machine_ ? setup_of(*machine_) : Setup();
+  setup_ = defaults;
+  if (!options.setup.empty() && !load_setup(options.setup, &setup_, error, defaults)) return false;
+  if (machine_ && !same_axes(setup_, defaults)) {
+    *error = setup_.name + ": axes: are not those of " + machine_->file;
+    return false;
+  }
   nc_config_init(&config_);
+  if (machine_) config_ = machine_->nc;
   config_.dialect = static_cast<uint8_t>(dialect_);
   apply_setup(setup_, &config_);
   return true;
@@ -81,7 +114,7 @@ bool Session::start(const SessionOptions& options, std::string* error) {
     *error = "the control cannot be created: " + why_not(status);
     return false;
   }
-  if (!apply_setup(setup_, dialect_, control_, error)) return false;
+  if (!apply_machine(error) || !apply_setup(setup_, dialect_, control_, error)) return false;
   files_ = std::make_unique<ProgramFiles>(options.programs         ? *options.programs
                                           : options.program == "-" ? "."
                                                                    : folder_of(options.program));
@@ -94,6 +127,15 @@ bool Session::start(const SessionOptions& options, std::string* error) {
     return false;
   }
   return true;
+}
+
+// Before the setup, which may change what the machine says.
+bool Session::apply_machine(std::string* error) {
+  if (!machine_) return true;
+  const std::vector<rt::ConfigError> errors = rt::apply_config(*machine_, control_);
+  if (errors.empty()) return true;
+  *error = errors.front().text();
+  return false;
 }
 
 bool Session::add_main(const SessionOptions& options, std::string* error) {

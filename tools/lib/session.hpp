@@ -7,6 +7,7 @@
 #include <string>
 
 #include "nc/nc.h"
+#include "runtime/config.hpp"
 #include "tools/lib/offline_run.hpp"
 #include "tools/lib/program_files.hpp"
 #include "tools/lib/setup.hpp"
@@ -18,6 +19,7 @@ struct SessionOptions {
   std::string program;  // "-" = standard input
   std::string setup;    // "" = all defaults
   std::string dialect = "m700";
+  bool dialect_given = false;  // on the command line; else a machine's own goes before
   std::string print;        // file for what programs print (DPRNT); "" = none
   std::string external;     // folder of the programs of M198; "" = that of sub programs
   std::optional<std::string> programs;  // folder of sub programs; default: the program's own
@@ -34,12 +36,17 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /** Read the setup and prepare a configuration, which the caller may still change. */
-  bool configure(const SessionOptions& options, std::string* error);
+  /**
+   * Read the setup and prepare a configuration, which the caller may still change.
+   * @param machine null, or a machine whose axes, sizes, parameters, offsets and start position hold where the setup says nothing.
+   */
+  bool configure(const SessionOptions& options, std::string* error, std::unique_ptr<rt::Config> machine = nullptr);
   /** Create the control, carry the setup in, select the program. */
   bool start(const SessionOptions& options, std::string* error);
 
   nc_config& config() { return config_; }
+  /** What configure() was given. */
+  const rt::Config* machine() const { return machine_.get(); }
   const Setup& setup() const { return setup_; }
   nc_control* control() { return control_; }
   /** Block lines of the main program; empty unless an event of the setup waits for a line. */
@@ -54,6 +61,9 @@ class Session {
   bool add_main(const SessionOptions& options, std::string* error);
   bool add_standard_input(std::string* error);
 
+  bool apply_machine(std::string* error);
+
+  std::unique_ptr<rt::Config> machine_;
   Setup setup_;
   nc_config config_;
   nc_dialect dialect_ = NC_DIALECT_M700;

@@ -448,8 +448,9 @@ std::optional<int64_t> parse_clock(const std::string& value) {
   return ((days_from_date(year, month, day) * 24 + hour) * 60 + minute) * 60'000 + int64_t{second} * 1000;
 }
 
-bool parse_setup(const std::string& content, const std::string& name, Setup* setup, std::string* error) {
-  *setup = Setup();
+bool parse_setup(const std::string& content, const std::string& name, Setup* setup, std::string* error,
+                 const Setup& defaults) {
+  *setup = Setup(defaults);
   setup->name = name;
   JsonNode root;
   std::string why;
@@ -466,10 +467,10 @@ bool parse_setup(const std::string& content, const std::string& name, Setup* set
   return true;
 }
 
-bool load_setup(const std::string& path, Setup* setup, std::string* error) {
+bool load_setup(const std::string& path, Setup* setup, std::string* error, const Setup& defaults) {
   std::string content;
   if (!read_text_file(path, &content, error)) return false;
-  return parse_setup(content, path, setup, error);
+  return parse_setup(content, path, setup, error, defaults);
 }
 
 }  // namespace nc::tools

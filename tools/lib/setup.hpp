@@ -117,11 +117,13 @@ struct Setup {
   int axis_index(char axis_name) const;
 };
 
-/** Parse the text of a setup file. @return false with "NAME:LINE: key.path: why" in *error. */
-bool parse_setup(const std::string& text, const std::string& name, Setup* setup, std::string* error);
+/** Parse the text of a setup file; what it does not say is as in `defaults`. @return false with "NAME:LINE: key.path: why" in
+ * *error. */
+bool parse_setup(const std::string& text, const std::string& name, Setup* setup, std::string* error,
+                 const Setup& defaults = Setup());
 
 /** Read and parse a setup file. */
-bool load_setup(const std::string& path, Setup* setup, std::string* error);
+bool load_setup(const std::string& path, Setup* setup, std::string* error, const Setup& defaults = Setup());
 
 /** ms since 1970-01-01 of "2026-01-01T00:00:00" (local time as it stands, no zone); a "Z" or fraction is an
  * error. */

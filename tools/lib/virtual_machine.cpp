@@ -30,7 +30,7 @@ class VirtualMachine {
       inputs(cycle);
       nc_cycle(control_, in_, out_);
       result_.cycles = cycle + 1;
-      if (observe) observe(out);
+      if (observe && !observe(out)) return take(MachineResult::How::kStopped);
       if (out.state != NC_STATE_IDLE) started_ = true;
       if (out.state == NC_STATE_ALARM) return alarmed();
       if (started_ && out.state == NC_STATE_IDLE) return take(MachineResult::How::kEnded);

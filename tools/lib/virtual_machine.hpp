@@ -14,7 +14,7 @@ namespace nc::tools {
 
 /** What a run took. */
 struct MachineResult {
-  enum class How { kEnded, kAlarmed, kFailed };
+  enum class How { kEnded, kAlarmed, kStopped, kFailed };
   How how = How::kFailed;
   nc_alarm alarm = {};
   std::string error;         // kFailed
@@ -23,8 +23,8 @@ struct MachineResult {
   uint64_t blocks = 0, cycles = 0;
 };
 
-/** Called once per servo cycle with what the control gave out. */
-using CycleObserver = std::function<void(const nc_outputs&)>;
+/** Called once per servo cycle with what the control gave out. @return false when nothing more is wanted. */
+using CycleObserver = std::function<bool(const nc_outputs&)>;
 
 /**
  * Run the selected program of a control made with `config`.

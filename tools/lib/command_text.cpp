@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// See command_text.hpp.
+#include "tools/lib/command_text.hpp"
+
+#include <cstring>
+
+#include "tools/lib/commands.hpp"
+
+namespace nc::tools {
+namespace {
+
+// A text of the program or the alarm table on one line of a terminal: no control characters.
+std::string printable(const char* text) {
+  std::string out = text;
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  return out;
+}
+
+}  // namespace
+
+int complain(std::FILE* err, const std::string& what) {
+  std::fprintf(err, "ncsim: %s\n", what.c_str());
+  return kExitError;
+}
+
+std::string decimals(double value, int count) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", count, value);
+  return text;
+}
+
+std::string alarm_line(const Session& session, const nc_alarm& alarm) {
+  std::string line =
+      session.file_name(alarm.source) + ":" + std::to_string(alarm.source.line) + ": " + alarm.code;
+  if (alarm.message[0] && std::strcmp(alarm.message, alarm.code) != 0) line += " " + printable(alarm.message);
+  if (alarm.detail.s[0]) line += " - " + printable(alarm.detail.s);
+  return line;
+}
+
+int close_output(std::FILE* out, std::FILE* err, int code) {
+  if (std::fflush(out) != 0 || std::ferror(out)) return complain(err, "the output cannot be written");
+  return code;
+}
+
+}  // namespace nc::tools
