@@ -140,7 +140,7 @@ class OffsetStage {
   AxisVec programmed_, compensated_;
   Vec2 direction_;  ///< tangent at the end of the last move
   Compensation out_comp_;
-  float feed_scale_ = 0;  ///< FeedRule::scale of the last move: what is inserted behind it goes on at its speed (M700 7.5 (4))
+  double feed_scale_ = 0;  ///< FeedRule::scale of the last move: what is inserted behind it goes on at its speed (M700 7.5 (4))
   OffsetResume resume_;
 };
 

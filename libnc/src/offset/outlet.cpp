@@ -68,7 +68,7 @@ void scale_feed(const Move& programmed, Move* move) {
   if (!programmed.rule.inverse_time) return;
   const double before = programmed.circular ? programmed.circle.radius_start : straight_length(programmed);
   const double now = move->circular ? move->circle.radius_start : straight_length(*move);
-  if (before > 0 && now > 0) move->rule.scale = static_cast<float>(now / before);
+  if (before > 0 && now > 0) move->rule.scale = now / before;
 }
 
 Plane plane_of(const Move& like) {

@@ -101,7 +101,7 @@ struct FeedRule {
   bool inverse_time = false;   ///< G93: the time of the block stays as it is compensated (M700 7.5)
   bool tapping = false;        ///< G63: the override is 100 % (M700 7.11)
   bool check_reversal = false; ///< no axis turns round at its start at speed (M700 7.9.2)
-  float scale = 0;             ///< of the compensated path, so that the time or the cut keeps its speed; 0 = 1
+  double scale = 0;            ///< of the compensated path, so that the time or the cut keeps its speed; 0 = 1
   float digit_most = 0, digit_step = 0;  ///< F1 to F5: limit of the handle, change by one pulse of it, mm/min
   float corner_override = 0;   ///< G62: factor before an inner corner (M700 7.10), 0 = none
   float corner_angle = 0;      ///< at corners that are sharper than this, rad
@@ -144,8 +144,8 @@ struct Action {
 struct Gate {
   nc_gate_kind kind = NC_GATE_FIN;
   bool announce = false;
-  uint8_t skip_mask = 0;  ///< dwell: ends where one of these signals is on (M700 8.1 (8))
   double value = 0;
+  uint8_t skip_mask = 0;  ///< dwell: ends where one of these signals is on (M700 8.1 (8))
 };
 
 struct Sync {

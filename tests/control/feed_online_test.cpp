@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Feed functions (M700 7) from the program to the motion: what the axes really do.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+void quick_machine(nc_config& c) {
+  for (unsigned i = 0; i < c.system[0].axis_count; ++i) {
+    c.system[0].axis[i].rapid = 1000;
+    c.system[0].axis[i].max_velocity = 500;
+    c.system[0].axis[i].max_acceleration = 20000;
+  }
+}
+
+/// Runs the text to its end; `see` after every cycle.
+void run_online(Bench& bench, const std::string& text, const std::function<void(nc_inputs&, const nc_outputs&)>& see) {
+  bench.start(text);
+  nc_inputs in{};
+  nc_outputs out{};
+  in.feed_override = in.rapid_override = 1;
+  for (unsigned n = 0; n < 200000; ++n) {
+    nc_feed(bench.control(), 100);
+    in.cycle_start = n == 1;
+    in.fin = out.strobe != 0;
+    nc_cycle(bench.control(), &in, &out);
+    see(in, out);
+    if (n > 5 && out.state == NC_STATE_IDLE) {
+      while (nc_feed(bench.control(), 100) == NC_OK) {}
+      nc_feed(bench.control(), 100);
+      return;
+    }
+  }
+  FAIL() << "the program does not end";
+}
+
+/// Speed in the middle of the time that each line takes, mm/min.
+std::map<unsigned, double> speeds(Bench& bench, const std::string& text) {
+  std::map<unsigned, std::vector<double>> all;
+  bench.at(0, 0, 0);
+  run_online(bench, text, [&](nc_inputs& in, const nc_outputs& out) {
+    in.spindle_rev_per_s = 10;
+    if (!out.distance_zero) all[out.source.line].push_back(out.feed_mm_min);
+  });
+  std::map<unsigned, double> middle;
+  for (const auto& [line, values] : all) middle[line] = values[values.size() / 2];
+  return middle;
+}
+
+TEST(FeedOnline, InverseTimeKeepsTheSpeedAtTheCut) {  // M700 7.5, the printed example: tool radius 10
+  Bench bench(NC_DIALECT_M700, quick_machine);
+  bench.tool(11, 10).param("8103", "1");
+  auto speed = speeds(bench,
+                      "G0 X80. Y-80.\nG1 G41 X80. Y-80. D11 F5000\nX180.\nG93 G2 Y-280. R100. F50\nG3 Y-480. R100. F50\nG2 Y-680. R100. F50\n"
+                      "G94 G1 X80. F5000\nY-80.\nG40 X0\nM02");
+  EXPECT_NEAR(speed[3], 5000, 1e-6);
+  EXPECT_NEAR(speed[4], 5500, 1e-6);
+  EXPECT_NEAR(speed[5], 4500, 1e-6);
+  EXPECT_NEAR(speed[6], 5500, 1e-6);
+}
+
+TEST(FeedOnline, InverseTimeIsTheTimeOfTheBlock) {
+  Bench bench(NC_DIALECT_M700, quick_machine);
+  bench.tool(1, 5).param("8103", "1");
+  // Around a square: the compensated lines have another length and take the same time.
+  const std::string square = " D1 G1 X0 Y10. F60\nX0 Y50. F60\nX50. F60\nY0 F60\nX-9. F60\nG40 G0 X-20. Y-20.\nM30";
+  auto speed = speeds(bench, "G93 G41" + square);
+  EXPECT_NEAR(speed[2], 60 * 45, 1e-6);  // outside: longer by the radius at its end
+  EXPECT_NEAR(speed[3], 60 * 60, 1e-6);  // and at either end
+  speed = speeds(bench, "G93 G42" + square);
+  EXPECT_NEAR(speed[2], 60 * 35, 1e-6);
+  EXPECT_NEAR(speed[3], 60 * 40, 1e-6);
+}
+
+TEST(FeedOnline, MixedAxesAreComposite) {  // M700 7.6
+  Bench bench(NC_DIALECT_M700, [](nc_config& c) {
+    axes("XYZc")(c);
+    quick_machine(c);
+  });
+  double x = 0, turned = 0;
+  bench.at(0, 0, 0);
+  run_online(bench, "G1 X30. C40. F3000\nM30", [&](nc_inputs&, const nc_outputs& out) {
+    if (out.command.v[0] > 10 && out.command.v[0] < 20) x = out.velocity.v[0], turned = out.velocity.v[3];
+  });
+  EXPECT_NEAR(x, 50 * 0.6, 1e-6);
+  EXPECT_NEAR(turned, 50 * 0.8, 1e-6);
+}
+
+TEST(FeedOnline, CornerOverrideActsInsideOnly) {  // M700 7.10
+  Bench bench(NC_DIALECT_M700, quick_machine);
+  bench.tool(1, 2).param("8103", "1").param("8007", "50").param("8008", "120").param("8009", "5");
+  const auto slowest_part = [&](const std::string& head, unsigned line) {
+    double slow = 0, count = 0;
+    bench.at(0, 0, 0);
+    run_online(bench, head + "G1 X0 Y5. F1200\nX0 Y50.\nX50.\nY20.\nX20. Y20.\nG40 G0 X0 Y0\nM30", [&](nc_inputs&, const nc_outputs& out) {
+      if (out.distance_zero || out.source.line != line) return;
+      ++count;
+      if (std::fabs(out.feed_mm_min - 600) < 1) ++slow;
+    });
+    return slow / count;
+  };
+  EXPECT_GT(slowest_part("G62 G42 D1\n", 3), 0.1);    // right of the path, which turns right: inner corners
+  EXPECT_EQ(slowest_part("G64 G42 D1\n", 3), 0);
+  EXPECT_EQ(slowest_part("G62 G41 D1\n", 3), 0);      // outside
+  EXPECT_EQ(slowest_part("G62 G42 D1\n", 6), 0);      // the corner of the cancel
+  EXPECT_EQ(slowest_part("G62\n", 3), 0);             // without compensation
+  bench.param("8008", "80");
+  EXPECT_EQ(slowest_part("G62 G42 D1\n", 3), 0);      // 90 degrees is not sharp enough
+}
+
+TEST(FeedOnline, ReversalsRestByParameter) {  // M700 7.9.2, the printed examples (1), (3), (4), (5)
+  const auto rests = [](const char* value, const std::string& text) {
+    Bench bench(NC_DIALECT_M700, quick_machine);
+    bench.param("1503", value).at(0, 0, 0);
+    double at_joint = 1e9;
+    run_online(bench, text, [&](nc_inputs&, const nc_outputs& out) {
+      if (out.source.line == 2) at_joint = std::min(at_joint, out.distance_zero ? 1e9 : out.feed_mm_min);
+    });
+    return at_joint;
+  };
+  const std::string smooth = "G91 G1 X100. Y100. F4000\nX100. Y100.\nG4 P1\nM30", axis = "G91 G1 X100. Y1. F4000\nX80.\nG4 P1\nM30";
+  EXPECT_GT(rests("1", smooth), 500);
+  EXPECT_GT(rests("1", axis), 500);
+  // Y turns round at a joint that could be passed at speed.
+  const std::string back = "G91 G1 X100. Y.5 F4000\nX100. Y-.5\nG4 P1\nM30";
+  EXPECT_GT(rests("0", back), 500);
+  EXPECT_LT(rests("1", back), 500);
+}
+
+TEST(FeedOnline, TheHandleReachesTheProgram) {  // M700 7.3
+  Bench bench(NC_DIALECT_M700, quick_machine);
+  bench.param("1079", "1").param("1506", "6000").param("1507", "600").param("1185", "1200").at(0, 0, 0);
+  double fastest = 0;
+  run_online(bench, "G1 X50. F1\nX60. F1200\nM30", [&](nc_inputs& in, const nc_outputs& out) {
+    in.feed_pulses = out.source.line == 1 ? 1 : 0;
+    if (out.source.line == 1) fastest = std::max(fastest, out.feed_mm_min);
+    EXPECT_TRUE(!out.feed_digit_on || out.feed_digit == 1);
+  });
+  EXPECT_NEAR(fastest, 6000, 1e-3);  // 10 mm/min a pulse, up to FM
+}
+
+TEST(FeedOnline, ThreadsOfOneProgramLieInOneGroove) {  // M700 6.7.1
+  Bench bench(NC_DIALECT_M700, quick_machine);
+  bench.at(0, 0, 0);
+  std::map<unsigned, double> phase;
+  run_online(bench, "S600 M3\nG33 Z-20. F2.\nG0 Z0\nG4 P33\nG33 Z-20. F2.\nG0 Z0\nG4 P77\nG33 Z-20. F2. Q180.\nM30",
+             [&](nc_inputs& in, const nc_outputs& out) {
+               const double turns = in.spindle_turns + (in.spindle_rev_per_s * 0.001);
+               const double place = turns + out.command.v[2] / 2;
+               if (out.command.v[2] < -9 && out.command.v[2] > -12 && out.velocity.v[2] < 0) phase[out.source.line] = place - std::floor(place);
+               in.spindle_rev_per_s = 10;
+               in.spindle_turns_valid = true;
+               in.spindle_turns = turns;
+             });
+  ASSERT_EQ(phase.size(), 3u);
+  EXPECT_NEAR(phase[2], phase[5], 1e-6);
+  const double other = phase[8] - phase[2];
+  EXPECT_NEAR(other - std::floor(other), 0.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace nc::test
