@@ -115,7 +115,10 @@ TEST(FeedOnline, CornerOverrideActsInsideOnly) {  // M700 7.10
 
 TEST(FeedOnline, ReversalsRestByParameter) {  // M700 7.9.2, the printed examples (1), (3), (4), (5)
   const auto rests = [](const char* value, const std::string& text) {
-    Bench bench(NC_DIALECT_M700, quick_machine);
+    Bench bench(NC_DIALECT_M700, [](nc_config& c) {
+      quick_machine(c);
+      for (unsigned i = 0; i < 3; ++i) c.system[0].axis[i].max_acceleration = 2000;
+    });
     bench.param("1503", value).at(0, 0, 0);
     double at_joint = 1e9;
     run_online(bench, text, [&](nc_inputs&, const nc_outputs& out) {

@@ -47,13 +47,14 @@ double straight_length(const Interpreter& in, const Move& move) {
 
 /// M700 7.5 (2): F is the speed over the length of a line, or over the radius of an arc at its start.
 void apply_inverse_time(Interpreter& in, Move& move) {
-  double extent = move.circular ? move.circle.radius_start : straight_length(in, move);
+  double extent = straight_length(in, move);
+  if (move.circular) extent = move.circle.radius_start > 0 ? move.circle.radius_start : move.circle.radius_end;
   if (move.shape != 0 && in.shapes[move.shape - 1].kind == ShapeKind::space_arc) extent = in.shapes[move.shape - 1].arc.radius;
-  const double feed = in.state.modal.feed * extent;
-  move.rule.inverse_time = feed > 0;
-  // A block that only displaces the tool goes on at the speed of the one before (7.5 (4)).
-  move.feed_mm_min = feed > 0 ? feed : in.state.last_feed;
-  in.state.last_feed = move.feed_mm_min;
+  move.rule.inverse_time = extent > 0;
+  if (extent > 0) in.state.last_feed = in.state.modal.feed * extent;
+  // A block that only displaces the tool goes on at the speed of the one before (7.5 (4)); there may be none.
+  if (!(in.state.last_feed > 0)) in.state.last_feed = in.state.modal.feed * std::fmax(std::fabs(move.comp.radius), 1);
+  move.feed_mm_min = in.state.last_feed;
 }
 
 /// M700 7.3: F0 is the rapid rate in the motion of group 1; F1 to F5 are speeds of parameters, in inch a tenth of them.

@@ -168,6 +168,7 @@ void Interpreter::reset(bool keep_modal) {
     const ModalState initial = state.modal;
     state.modal = modal;
     for (const Group group : {kGroupCompensation, kGroupCycle, kGroupMacro}) state.modal.code[group] = initial.code[group];
+    if (state.modal.code[kGroupCutting] == 630) state.modal.code[kGroupCutting] = initial.code[kGroupCutting];  // it ends with its program
     state.work_system = work_system;
     state.applied = applied;
     state.length_value = length_value;

@@ -7,6 +7,7 @@
 // A block is interrupted at one of its items. The interpreter goes back to where the block began and enters the interrupt program from
 // there, with the machine where it stands. On return either the rest of the block is lost (type 1, when the interrupt program moved or
 // gave out M S T B), or the block is read again and the items that have happened already are dropped.
+#include "interpret/feed.hpp"
 #include "interpret/calls.hpp"
 
 namespace nc {
@@ -131,8 +132,9 @@ void Interpreter::leave_interrupt(bool to_sequence) {
     if (interrupted_.inside_block) pass_over_block(*this, caller);
   } else if (!cut) {  // M700 13.12: modal information is restored
     const uint32_t m = state.modal.m;
+    const int16_t cutting = state.modal.code[kGroupCutting];
     state.modal = interrupted_.modal;
-    state.refresh_special();
+    change_cutting_mode(*this, cutting);
     state.modal.m = m;
     state.comp = interrupted_.comp;
     state.length_value = interrupted_.length_value;

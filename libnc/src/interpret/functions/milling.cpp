@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 
@@ -60,9 +61,10 @@ void end_mode(Interpreter& in) {
     state.modal.feed = state.mill.feed;
     state.modal.feed_digit = 0;
   }
+  const int16_t cutting = state.modal.code[kGroupCutting];
   state.modal.code[kGroupCutting] = 640;
   state.modal.code[kGroupInterpolationMode] = 131;
-  in.state.refresh_special();
+  change_cutting_mode(in, cutting);
   in.refresh_letters();
   in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION;
 }
