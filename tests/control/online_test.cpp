@@ -207,6 +207,110 @@ TEST(Online, ChangedDataActAfterARecalculation) {  // M700 4.2: from the next bl
   EXPECT_EQ(out.state, NC_STATE_IDLE);
 }
 
+/// Tool offsets, work offsets and common variables, as text.
+std::string tables(Bench& bench) {
+  std::string all;
+  for (unsigned n = 1; n <= 20; ++n) all += brief(bench.tool_now(n)) + " ";
+  for (unsigned index = 0; index <= 6; ++index)
+    for (unsigned axis = 0; axis < 3; ++axis) all += brief(bench.work_offset_now(index, axis)) + " ";
+  uint32_t number = 0;
+  double value = 0;
+  for (; nc_common_next(bench.control(), 0, number, &number, &value) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(value) + " ";
+  return all;
+}
+
+/// Runs the program until a reset in cycle `cycles`; serial of the newest block end that was executed, 0: none.
+uint64_t reset_after(Bench& bench, const std::string& text, unsigned cycles) {
+  bench.start(text);
+  nc_control* control = bench.control();
+  nc_inputs in{};
+  nc_outputs out{};
+  in.feed_override = in.rapid_override = 1;
+  in.spindle_rev_per_s = 50;
+  uint64_t last = 0;
+  for (unsigned n = 0; n < cycles + 500; ++n) {
+    nc_feed(control, 100);
+    in.cycle_start = n == 2;
+    in.reset = n >= cycles;
+    in.fin = out.strobe != 0;
+    nc_cycle(control, &in, &out);
+    nc_event event;
+    uint64_t dropped = 0;
+    while (nc_event_poll(control, 0, &event, &dropped) == NC_OK)
+      if (event.kind == NC_ITEM_MARK) last = event.serial;
+    if (in.reset && out.state == NC_STATE_IDLE) break;
+  }
+  EXPECT_EQ(out.state, NC_STATE_IDLE);
+  nc_feed(control, 100);
+  return last;
+}
+
+/// What was only read ahead when the program was given up has not happened: offsets, variables and outputs are those of the blocks that
+/// were executed.
+TEST(Online, AResetLeavesWhatTheExecutedBlocksHaveDone) {
+  unsigned inside = 0;
+  for (uint32_t seed = 0; seed < 3 * kPrograms; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const RandomProgram program = ProgramMaker(seed + 1300, false).make();
+    Bench online(NC_DIALECT_M700, machine(128));
+    set_up(online, program);
+    const uint64_t last = reset_after(online, program.main, 3 + seed * seed % 397);
+    Bench offline(NC_DIALECT_M700, machine(128));
+    set_up(offline, program);
+    offline.start(program.main);
+    Step step;
+    step.item.serial = 0;
+    while (step.item.serial < last && offline.pull(&step) >= NC_OK) {
+    }
+    inside += last > 0 && step.item.serial == last;
+    nc_reset(offline.control(), 0);
+    ASSERT_EQ(tables(online), tables(offline)) << "behind item " << last;
+  }
+  EXPECT_GT(inside, kPrograms);
+}
+
+TEST(Online, AResetTakesBackWhatWasOnlyReadAhead) {
+  for (const char* ahead : {"G92 Y5.", "G52 Y3.", "G10 L2 P1 Y3.", "#5222=3", "#500=7", "#1100=1", "#1132=5", "G10 L10 P1 R50."}) {
+    SCOPED_TRACE(ahead);
+    Bench bench(NC_DIALECT_M700, machine(64));
+    bench.tool(1, 10);
+    reset_after(bench, std::string("G1 X100. F1000\n") + ahead + "\nM30", 50);
+    const std::string mdi = "G90 G0 Y0\n#510=#500\n#511=#1132\n#512=#10001\nM30";
+    reset_after(bench, mdi, 2000);
+    EXPECT_NEAR(bench.var_now(511), 0, 1e-9);
+    EXPECT_NEAR(bench.var_now(512), 10, 1e-9);
+    EXPECT_TRUE(std::isnan(bench.var_now(510)));
+    nc_inputs in{};
+    nc_outputs out{};
+    nc_cycle(bench.control(), &in, &out);
+    EXPECT_NEAR(out.command.v[1], 0, 1e-9);
+  }
+}
+
+/// M700 9.1: reading ahead is suspended at M00 and M01, so what the operator changes in the stop counts for the next block.
+TEST(Online, NothingIsReadAheadOfAProgramStop) {
+  for (const char* stop : {"M0", "M1"}) {
+    Bench bench(NC_DIALECT_M700, machine(64));
+    bench.tool(1, 10).start(std::string("G0 G43 Z0 H1\n") + stop + "\nG43 Z0 H1\nM30");
+    nc_inputs in{};
+    nc_outputs out{};
+    in.feed_override = in.rapid_override = 1;
+    in.optional_stop = true;
+    unsigned stopped = 0;
+    for (unsigned n = 0; n < 3000; ++n) {
+      nc_feed(bench.control(), 100);
+      stopped += out.state == NC_STATE_STOPPED;
+      if (stopped == 20) bench.tool(1, 25);
+      in.cycle_start = n == 2 || stopped == 40;
+      in.fin = out.strobe != 0;
+      nc_cycle(bench.control(), &in, &out);
+    }
+    EXPECT_GE(stopped, 40u);
+    EXPECT_EQ(out.state, NC_STATE_IDLE);
+    EXPECT_NEAR(out.command.v[2], 25, 1e-9) << stop;
+  }
+}
+
 TEST(Online, SingleBlockNeedsNoStartBehindTheEndOfTheProgram) {
   Bench bench(NC_DIALECT_M700, machine(64));
   bench.start("G0 X1.\nX2.\nM30");

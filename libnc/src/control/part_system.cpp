@@ -245,6 +245,7 @@ nc_status PartSystem::rewind(Serial serial) {
   if (point == nullptr || !interpreter.rewind(point->seq)) return NC_E_NOT_FOUND;
   if (serial == 0) head.machine = interpreter.state.machine;
   forget_interrupt();
+  if (stop_ == Stop::committed) stop_ = Stop::none;  // its block is read again; one that is passed is still to be executed
   has_staged_ = false;
   open_sync_ = 0;
   finished_ = false;
@@ -257,6 +258,7 @@ nc_status PartSystem::rewind(Serial serial) {
 }
 
 void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
+  stop_ = Stop::none;
   interpreter.reset(keep_modal);
   interpreter.set_machine(machine);
   forget_interrupt();
@@ -270,6 +272,10 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
 
 nc_status PartSystem::reset() {
   if (busy()) return NC_E_STATE;
+  if (!online_ && !interpreter.ended) {  // blocks that the offset stage holds back have not happened
+    const MarkPoint* last = commit_.newest();
+    rewind(last != nullptr ? last->serial : 0);
+  }
   interpreter.clear_by_reset();
   restart(online_ ? executor.commanded() : commit_.machine());  // by hand or with its drives off the machine may have moved
   commit_.restart();
@@ -315,7 +321,11 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
     record.epoch = epoch_;
     if (item->kind == ItemKind::move) commit_.note_record(executor.head());
     executor.push(record);
-    if (item->kind == ItemKind::mark) remember_mark(*item);
+    if (item->kind == ItemKind::mark) {
+      remember_mark(*item);
+      if (stop_ == Stop::committed) stop_ = Stop::passed;
+    }
+    if (item->kind == ItemKind::gate && stops(item->gate)) stop_ = Stop::committed;
     if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
     if (item->kind == ItemKind::alarm) describe_alarm();
     if (item->kind == ItemKind::end) finished_ = true;
@@ -324,11 +334,22 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
   return NC_OK;
 }
 
+/// Whether the next block may be read before the machine has done more.
+bool PartSystem::may_read_on() {
+  if (executor.drained()) {
+    stop_ = Stop::none;
+    return true;
+  }
+  return stop_ != Stop::passed && interpreter.remembers(executed_);
+}
+
 nc_status PartSystem::feed(uint32_t budget) {
   online_ = true;
   const uint32_t epoch = executor.epoch();
   if (epoch != epoch_) {  // the scan has given the program up: from its head again, from where the machine stands
     epoch_ = epoch;
+    // What was read beyond the last block that was executed has not happened: offsets, variables and outputs are as before it.
+    if (running_) rewind(executor.last_mark());
     running_ = false;
     interpreter.clear_by_reset();
     restart(executor.commanded());
@@ -361,7 +382,9 @@ nc_status PartSystem::feed(uint32_t budget) {
   }
   nc_status status = NC_OK;
   unsigned committed = 0;
-  while (status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1 && commit_.shape_room(executor.tail(), executor.head())) {
+  executed_ = executor.last_block();
+  while (status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1 && commit_.shape_room(executor.tail(), executor.head()) &&
+         may_read_on()) {
     status = commit_online(budget);
     ++committed;
   }

@@ -50,6 +50,8 @@ class PartSystem {
   void describe_alarm();
   void restart(const AxisVec& machine, bool keep_modal = false);
   nc_status commit_online(uint32_t& budget);
+  bool may_read_on();
+  static bool stops(const Gate& gate) { return gate.kind == NC_GATE_STOP || gate.kind == NC_GATE_OPTIONAL_STOP; }
   bool read_again(Serial last);
   void displace(const AxisVec& machine);
   bool begin_interrupt();
@@ -81,6 +83,10 @@ class PartSystem {
   bool uit_ = false, uit_pending_ = false;  ///< interrupt signal: level, and a request that waits for its place
   ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
   unsigned drop_ = 0;                        ///< items to come that have been executed already
+  /// M700 9.1: M00 and M01 suspend pre-reading. committed: the gate is, its block is not yet; passed: nothing more until the machine has done it.
+  enum class Stop : uint8_t { none, committed, passed };
+  Stop stop_ = Stop::none;
+  BlockSeq executed_ = 0;    ///< online: newest block that has been executed, as feed() found it
   Serial open_sync_ = 0;
   uint32_t sync_what_ = 0;
   uint32_t epoch_ = 0;

@@ -154,6 +154,14 @@ bool Executor::poll_event(nc_event* event, uint64_t* dropped) {
   return state_->shared.events.pop(event, dropped);
 }
 
+Serial Executor::last_mark() const {
+  return state_->shared.status.read().last_mark;
+}
+
+BlockSeq Executor::last_block() const {
+  return state_->shared.status.read().last_block;
+}
+
 AxisVec Executor::commanded() const {
   return state_->shared.status.read().command;
 }

@@ -69,6 +69,9 @@ class Executor {
   void reread_done();
   /// Next executed record for the host.
   bool poll_event(nc_event* event, uint64_t* dropped);
+  /// End of the newest block that has been executed in this run, 0: none. Right behind a new epoch(): as of when the program was given up.
+  Serial last_mark() const;
+  BlockSeq last_block() const;
   /// Commanded machine position as of the last scan (consistent snapshot).
   AxisVec commanded() const;
   /// Set position; only while idle, before the scan runs.

@@ -198,6 +198,7 @@ void Scan::start(const nc_inputs& in) {
       start_cycles_ = 0;
       blocks_ = 0;
       last_mark_ = 0;
+      last_block_ = 0;
       shared_->starts.fetch_add(1, std::memory_order_release);
       [[fallthrough]];
     case NC_STATE_STOPPED:
@@ -253,7 +254,10 @@ void Scan::run(const nc_inputs& in) {
     }
     serial_ = r.serial;
     source_ = r.source;
-    if (r.kind == ItemKind::mark && r.mark.resume) last_mark_ = r.serial;
+    if (r.kind == ItemKind::mark && r.mark.resume) {
+      last_mark_ = r.serial;
+      last_block_ = r.mark.seq;
+    }
     if (execute(r, in) == Done::no) break;
     leave(r, true);
     if (rereading_ || (state_ != NC_STATE_RUNNING && at_rest())) break;
@@ -316,6 +320,7 @@ void Scan::publish(const nc_inputs& in) {
   // The plan rests at the ends of blocks where an interrupt waits or a hold that was pressed in a thread.
   status.single_block = (in.single_block && !(suppress_ & 1)) || interrupt_wanted_ || hold_behind_thread_;
   status.last_mark = last_mark_;
+  status.last_block = last_block_;
   shared_->status.write(status);
   shared_->ordinal.store(ordinal_, std::memory_order_relaxed);
   shared_->epoch.store(epoch_, std::memory_order_release);

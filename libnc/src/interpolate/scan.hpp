@@ -22,6 +22,7 @@ struct ScanStatus {
   double feed_override = 1;
   bool single_block = false;
   Serial last_mark = 0;  ///< newest block end that has been executed in this run
+  BlockSeq last_block = 0;  ///< of that block
 };
 
 /// The world at the last sync.
@@ -197,6 +198,7 @@ class Scan {
   nc_source source_{};
   ModalId modal_ = 0;
   Serial last_mark_ = 0;
+  BlockSeq last_block_ = 0;
   double path_length_ = 0;
   uint64_t run_cycles_ = 0, start_cycles_ = 0, power_cycles_ = 0, blocks_ = 0;
 };

@@ -49,6 +49,7 @@ Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
       modal_ = r.end.modal;
       interrupt_mode_ = 0;
       interrupt_wanted_ = tapping_ = false;
+      suppress_ = disable_ = 0;  // M700 9.1: the end of the program resets
       block_begun_ = false;
       state_ = NC_STATE_IDLE;
       shared_->world.write({});  // serials begin anew with the next run

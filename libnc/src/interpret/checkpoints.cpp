@@ -17,7 +17,7 @@ constexpr uint32_t kOrdinary = 736;  // main program and one or two levels
 
 void Checkpoints::create(unsigned count, Arena& arena) {
   capacity_ = count * kOrdinary;
-  if (capacity_ < 4 * sizeof(State)) capacity_ = 4 * sizeof(State);
+  if (capacity_ < 16 * sizeof(State)) capacity_ = 16 * sizeof(State);
   entries_ = arena.make<Entry>(count);
   bytes_ = arena.make<char>(capacity_);
   mask_ = count - 1;
@@ -45,6 +45,14 @@ void Checkpoints::save(const State& state) {
   std::memcpy(bytes_ + begin + head, state.loop, loops_size(state));
   entry(seq) = Entry{begin, begin + size};
   next_ = seq + 1;
+}
+
+bool Checkpoints::keeps(BlockSeq seq) const {
+  constexpr uint32_t kStates = 4;  // of one block at most: what it calls begins with one of its own
+  constexpr uint32_t kRoom = kStates * sizeof(State);
+  if (!holds(seq) || next_ - seq + kStates > mask_) return false;
+  const uint32_t begin = entry(seq).begin, end = entry(next_ - 1).end;
+  return begin >= end ? begin - end >= kRoom : begin >= kRoom || capacity_ - end >= kRoom;
 }
 
 void Checkpoints::restore(BlockSeq seq, State* state) {

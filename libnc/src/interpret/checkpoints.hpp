@@ -16,6 +16,8 @@ class Checkpoints {
   void save(const State& state);
   /// The state behind block `seq` is still kept.
   bool holds(BlockSeq seq) const { return seq >= oldest_ && seq < next_; }
+  /// The same, and it still will be when one more block has been executed.
+  bool keeps(BlockSeq seq) const;
   /// Restores the state behind block `seq`, which must be kept. Later states are forgotten.
   void restore(BlockSeq seq, State* state);
   void clear();

@@ -87,6 +87,8 @@ struct Interpreter {
   }
   /// Back to right behind the block `seq`; false when it is too old.
   bool rewind(BlockSeq seq);
+  /// rewind(seq) is possible, and still will be when one more block has been executed.
+  bool remembers(BlockSeq seq) const { return checkpoints_.keeps(seq) && variables.keeps(seq); }
   /// Forget checkpoints; go on from here (position of the machine).
   void set_machine(const AxisVec& machine);
   /// The axes have been moved behind the newest block; whoever goes back there finds them so.

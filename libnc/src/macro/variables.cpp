@@ -117,6 +117,14 @@ BlockSeq Journal::oldest() const {
   return lost_ + 1;
 }
 
+bool Journal::keeps(BlockSeq seq, unsigned more) const {
+  if (lost_ > seq) return false;
+  const uint64_t under_way = head_ - tail_, room = uint64_t{mask_} + 1 - under_way;
+  if (more <= room) return true;
+  const uint64_t overwritten = more - room;  // the oldest ones
+  return overwritten <= under_way && ring_[(tail_ + overwritten - 1) & mask_].seq <= seq;
+}
+
 void Journal::clear() {
   head_ = tail_ = 0;
   lost_ = 0;

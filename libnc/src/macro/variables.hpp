@@ -45,6 +45,8 @@ class Journal {
   void create(unsigned capacity, Arena& arena);  ///< capacity: power of two
   void note(BlockSeq seq, uint32_t key, Value old);
   BlockSeq oldest() const;  ///< rewinding to seq >= oldest() - 1 is possible
+  /// Rewinding to `seq` is possible, and still will be after `more` notes.
+  bool keeps(BlockSeq seq, unsigned more) const;
   /// Takes entries newer than `seq` back, newest first, through `undo`.
   template <class Undo>
   void rewind(BlockSeq seq, Undo&& undo);
@@ -79,6 +81,9 @@ class Variables {
   const double* locals(unsigned level) const { return local_[level]; }
   /// Locals of `level` become `arguments` (33 values).
   void enter(unsigned level, const Value* arguments, BlockSeq seq);
+  /// rewind(seq) is possible, and still will be when one more block has been executed.
+  bool keeps(BlockSeq seq) const { return journal_.keeps(seq, kMostWrites); }
+  static constexpr unsigned kMostWrites = 512;  ///< of a block: each of its words and statements writes a few numbers
   void clear_locals(BlockSeq seq);
 
   /// SETVN: capitals and digits, 1..kNameLength of them; false when the variable cannot have a name.
