@@ -41,9 +41,16 @@ class TraceSink final : public RunSink {
  public:
   TraceSink(OutputFile* out, const nc_system_config& system, ItemSource* items)
       : out_(*out), writer_(out, system), items_(items) {}
-  void move(const nc_source& s, const nc_move& m) override { writer_.move(s, m); }
+  // Rotary axes count on over their turns in the items; a trace shows them like the counters. // M700 14.13
+  void move(const nc_source& s, const nc_move& m) override {
+    nc_move shown = m;
+    items_->shown(&shown.machine, &shown.work);
+    writer_.move(s, shown);
+  }
   void block(const nc_source& s, const nc_axes& work, const nc_axes& machine) override {
-    writer_.block(s, work, machine);
+    nc_axes work_shown = work, machine_shown = machine;
+    items_->shown(&machine_shown, &work_shown);
+    writer_.block(s, work_shown, machine_shown);
   }
   void aux(const nc_source& s, char code, double value) override { writer_.aux(s, code, value); }
   void dwell(const nc_source& s, bool turns, double value) override { writer_.dwell(s, turns, value); }
@@ -54,7 +61,9 @@ class TraceSink final : public RunSink {
   void alarm(const nc_alarm& alarm) override { writer_.alarm(alarm); }
   void end(const nc_source& s, bool ok, const nc_axes& work, const nc_axes& machine,
            uint32_t modal) override {
-    writer_.end(s, ok, work, machine, modal, items_);
+    nc_axes work_shown = work, machine_shown = machine;
+    items_->shown(&machine_shown, &work_shown);
+    writer_.end(s, ok, work_shown, machine_shown, modal, items_);
   }
   bool stop() const override { return out_.failed(); }
 

@@ -21,6 +21,8 @@ class ItemSource {
   virtual bool interrupt(bool /*on*/) { return false; }
   /** A point of the move pulled last; false when the source knows none. */
   virtual bool move_point(double /*share*/, nc_axes* /*machine*/) { return false; }
+  /** Positions as the counters show them (nc_position_shown). */
+  virtual void shown(nc_axes* /*machine*/, nc_axes* /*work*/) {}
   virtual bool alarm(nc_alarm* alarm) = 0;
   virtual bool text(uint32_t id, nc_text* text) = 0;
   /** Codes of a modal snapshot. @return their number. */
@@ -43,6 +45,9 @@ class ControlSource final : public ItemSource {
   }
   bool move_point(double share, nc_axes* machine) override {
     return nc_move_point(control_, kPartSystem, share, machine) == NC_OK;
+  }
+  void shown(nc_axes* machine, nc_axes* work) override {
+    nc_position_shown(control_, kPartSystem, machine, work);
   }
   nc_status reset() override { return nc_reset(control_, kPartSystem); }
   bool alarm(nc_alarm* alarm) override { return nc_alarm_get(control_, kPartSystem, alarm) == NC_OK; }

@@ -144,7 +144,7 @@ class OfflineRun {
     if (gate.kind == NC_GATE_OPTIONAL_STOP && world_.optional_stop()) sink_.aux(item.source, 'M', 1.0);
     if (gate.kind != NC_GATE_DWELL_SECONDS && gate.kind != NC_GATE_DWELL_TURNS) return;
     const bool turns = gate.kind == NC_GATE_DWELL_TURNS;
-    world_.dwell(turns, gate.value);
+    world_.dwell(turns, gate.value, gate.skip_mask);
     if (gate.announce) sink_.dwell(item.source, turns, gate.value);
   }
 

@@ -4,8 +4,8 @@
 // Where a skip move meets a solid. The path is p(t) = a + t (b - a), 0 <= t <= 1; a box is the product of
 // intervals, so the parameters inside it are the intersection of one interval per axis (the slab method),
 // exact up to rounding. The signal is on in the open inside: a path that starts on a surface and leaves it,
-// or slides along it, does not skip, one that starts on a surface and goes in skips at once. A stay shorter
-// than kTouch counts as rounding, not as inside.
+// or slides along it, does not skip, one that starts on a surface and goes in skips at once, and so does one
+// that would go in where it ends. A stay shorter than kTouch counts as rounding, not as inside.
 #include "tools/lib/virtual_world.hpp"
 
 #include <algorithm>
@@ -80,7 +80,8 @@ double VirtualWorld::first_entry(const nc_move& move) const {
     length = std::hypot(length, move.machine.v[a] - move.machine_start.v[a]);
   for (const SkipSolid& solid : setup_.skip) {
     if (!(move.skip_mask & (1u << (solid.signal - 1)))) continue;
-    double in = 0.0, out = 1.0;
+    const double end = length > 0.0 ? 1.0 + 2.0 * kTouch / length : 1.0;  // the last place is looked at as well
+    double in = 0.0, out = end;
     for (unsigned a = 0; a < axis_count_ && in < out; ++a) {
       if (!solid.bounded[a]) continue;
       const double from = move.machine_start.v[a], by = move.machine.v[a] - from;
@@ -92,7 +93,7 @@ double VirtualWorld::first_entry(const nc_move& move) const {
       in = std::max(in, std::min(t0, t1));
       out = std::min(out, std::max(t0, t1));
     }
-    if ((out - in) * length > kTouch) entry = std::min(entry, in);
+    if ((out - in) * length > kTouch) entry = std::min(entry, std::min(in, 1.0));
   }
   return entry;
 }
@@ -122,7 +123,8 @@ bool VirtualWorld::execute(nc_move* move) {
   return part > 0.0;
 }
 
-void VirtualWorld::dwell(bool turns, double value) {
+void VirtualWorld::dwell(bool turns, double value, uint32_t skip_mask) {
+  if (skip_mask && (signals_at(machine_) & skip_mask)) return;
   if (!turns)
     seconds_ += value;
   else if (spindle_rev_min_ > 0.0)

@@ -36,8 +36,8 @@ class VirtualWorld {
    */
   bool execute(nc_move* move);
 
-  /** A dwell in seconds or spindle turns. */
-  void dwell(bool turns, double value);
+  /** A dwell in seconds or spindle turns; none while one of the skip signals is on. // M700 15.3 (2) */
+  void dwell(bool turns, double value, uint32_t skip_mask = 0);
   void spindle(double rev_per_min) { spindle_rev_min_ = rev_per_min; }
 
   /** The world for a sync; a read of the clock lets 1 ms pass. */

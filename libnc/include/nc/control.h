@@ -133,6 +133,12 @@ NC_API nc_status nc_mdi_load(nc_control*, unsigned system, const char* text, siz
 /** Put the machine at this place (machine coordinates) while nothing runs; all axes count as referenced. */
 NC_API nc_status nc_position_set(nc_control*, unsigned system, const nc_axes* machine);
 
+/**
+ * Positions as the counters show them: machine coordinates of rotary axes of #8213 = 0, 1 and 2, and workpiece coordinates of #8213 = 0
+ * and 1, as 0 <= angle < 360 (M700 14.13). In items, events and set-points such an axis counts on over its turns. Either may be NULL.
+ */
+NC_API void nc_position_shown(const nc_control*, unsigned system, nc_axes* machine, nc_axes* work);
+
 /** Name of a common variable (SETVN; M700 13.5.5), "" = none. `name` takes 8 bytes. */
 NC_API nc_status nc_variable_name_get(const nc_control*, uint32_t number, char name[8]);
 /** Give #500..#519 a name that was kept while the power was off; "" takes it away. */

@@ -52,7 +52,8 @@ typedef enum nc_action_kind {
   NC_ACTION_B = 3,       /**< second auxiliary function; `letter` its address */
   NC_ACTION_OUTPUT = 4,  /**< macro interface output: word `index` (0..3), bits `mask` become `bits` (M700 13.5.5) */
   NC_ACTION_MESSAGE = 5, /**< #3006, DPRNT: `text`, `index` = port (0 operator message) */
-  NC_ACTION_CONTROL = 6  /**< #3003/#3004: `index` the variable, `value`; `index` 96: macro interrupt, `value` nc_interrupt_bits; NC_CONTROL_TAPPING */
+  NC_ACTION_CONTROL = 6, /**< #3003/#3004: `index` the variable, `value`; `index` 96: macro interrupt, `value` nc_interrupt_bits; NC_CONTROL_TAPPING */
+  NC_ACTION_CURRENT_LIMIT = 7 /**< current limit of axis `index`: `value` percent of the rated current (M700 15.6) */
 } nc_action_kind;
 
 /** `index` of NC_ACTION_CONTROL: tapping mode G63 begins (`value` 1) or ends (M700 7.11). */
@@ -128,6 +129,7 @@ typedef struct nc_action {
 typedef struct nc_gate {
   double value;
   uint8_t kind; /**< nc_gate_kind */
+  uint8_t skip_mask; /**< dwell: skip signals that end it, bit n = signal n+1 (M700 15.3, 15.4) */
   bool announce; /**< G04 as programmed or made by a cycle: an event in a trace */
 } nc_gate;
 

@@ -160,6 +160,7 @@ typedef struct nc_outputs {
   uint8_t fin_wait;         /**< groups (bits as in strobe) whose completion is awaited: on until FIN1 has fallen or FIN2 has risen */
   uint32_t m, t, b;
   double s;
+  uint16_t current_limit[NC_MAX_AXES]; /**< percent of the rated current of each drive, 0 = none set (M700 15.6); stays until it is changed */
   bool rapid;               /**< a rapid move is in execution */
   bool tapping;             /**< tapping mode G63 (M700 7.11) */
   bool feed_digit_on;       /**< the move in execution has a feed of one digit, `feed_digit` (M700 7.3) */
@@ -174,7 +175,7 @@ typedef struct nc_outputs {
   uint64_t serial;          /**< item in execution: "the block in execution" */
   nc_source source;
   uint32_t modal;           /**< snapshot of the last finished block */
-  nc_axes work;             /**< command in the workpiece coordinates of the block in execution */
+  nc_axes work;             /**< command in the workpiece coordinates of the block in execution; see nc_position_shown() */
   nc_axes distance_to_go;
   double path_length;       /**< mm travelled since cycle start */
   double run_s;             /**< seconds in state RUNNING since cycle start */

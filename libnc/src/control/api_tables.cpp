@@ -5,6 +5,7 @@
 
 #include "control/control.hpp"
 #include "dialect/function_table.hpp"
+#include "interpret/functions/functions.hpp"
 
 namespace {
 
@@ -256,6 +257,20 @@ nc_status nc_position_set(nc_control* c, unsigned system, const nc_axes* machine
   }
   c->system[system].set_position(position);
   return NC_OK;
+}
+
+void nc_position_shown(const nc_control* c, unsigned system, nc_axes* machine, nc_axes* work) {
+  if (!known(c, system)) return;
+  const nc::Interpreter& in = c->system[system].interpreter;
+  const auto show = [&in](nc_axes* axes, nc::AxisVec (*shown)(const nc::Interpreter&, const nc::AxisVec&)) {
+    if (axes == nullptr) return;
+    nc::AxisVec position;
+    std::memcpy(position.v, axes->v, sizeof position.v);
+    position = shown(in, position);
+    std::memcpy(axes->v, position.v, sizeof position.v);
+  };
+  show(machine, nc::machine_shown);
+  show(work, nc::work_shown);
 }
 
 void nc_switches_set(nc_control* c, unsigned system, uint32_t optional_skip, uint32_t mirror_axes) {

@@ -54,16 +54,55 @@ void Commit::create(const CommitConfig& config, Arena& arena) {
   mark_mask_ = config.marks - 1;
 }
 
+/// M700 6.16 (5): a held axis does not move, and its stroke limits hold all the same for the way it is commanded.
+void Commit::add_held_axes(const Curve& curve, AxisVec* from, AxisVec* low, AxisVec* high) {
+  CurveShape& shape = shapes_[shape_count_ & shape_mask_];
+  const uint8_t held = shape.what.map.frozen;
+  Curve commanded = curve;
+  AxisVec commanded_low, commanded_high;
+  shape.what.map.frozen = 0;
+  for (unsigned i = 0; i < axis_count_; ++i)
+    if (((held >> i) & 1) != 0) commanded.start[i] = shape.sign[i] * shape.base.start[i] + shape.offset[i];
+  commanded.end = curve_position(commanded, commanded.length, axis_count_);
+  curve_bounds(commanded, axis_count_, &commanded_low, &commanded_high);
+  shape.what.map.frozen = held;
+  for (unsigned i = 0; i < axis_count_; ++i) {
+    if (((held >> i) & 1) == 0) continue;
+    (*from)[i] = commanded.start[i];
+    (*low)[i] = commanded_low[i];
+    (*high)[i] = commanded_high[i];
+  }
+}
+
+namespace {
+
+/// M700 14.13: an axis that counts on over its turns has its limits within one. The turns that it stands away from them.
+double whole_turns(double from, const nc_axis_config& axis) {
+  const double turns = std::floor((from - axis.soft_min) / 360);
+  const double inside = from - 360 * turns;
+  return inside <= axis.soft_max ? turns : std::floor(from / 360);
+}
+
+}  // namespace
+
 /// Stored stroke limits, checked over the whole curve before it moves.
 bool Commit::inside_limits(const Curve& curve) {
   constexpr double kOnTheLimit = 1e-6;  // mm: standing on a limit is inside
-  AxisVec low, high;
+  AxisVec low, high, start = curve.start;
   curve_bounds(curve, axis_count_, &low, &high);
+  if (curve.shape != nullptr && curve.shape->what.map.frozen != 0) add_held_axes(curve, &start, &low, &high);
+  for (unsigned i = 0; i < axis_count_ && *config_.machine_turn != 0; ++i) {
+    if (((*config_.machine_turn >> i) & 1) == 0 || !config_.system->axis[i].soft_limited) continue;
+    const double away = 360 * whole_turns(start[i], config_.system->axis[i]);
+    start[i] -= away;
+    low[i] -= away;
+    high[i] -= away;
+  }
   for (unsigned i = 0; i < axis_count_; ++i) {
     const nc_axis_config& axis = config_.system->axis[i];
     if (!axis.soft_limited) continue;
     // A move that starts outside may come back in.
-    const double from = curve.start[i];
+    const double from = start[i];
     const bool above = high[i] > axis.soft_max + kOnTheLimit && high[i] > from + kOnTheLimit;
     const bool below = low[i] < axis.soft_min - kOnTheLimit && low[i] < from - kOnTheLimit;
     if (above || below) {
@@ -118,6 +157,10 @@ Committed Commit::commit(const Item& item, const Transform& transform, const Mov
       return Committed::nothing;
     }
     if (any_limit_ && !inside_limits(curve_)) return Committed::soft_limit;
+    if (move.stroke_box != 0) [[unlikely]] {  // M700 15.7 (2)
+      const StrokeBox& box = (*config_.stroke_boxes)[move.stroke_box - 1];
+      if (box.holds(machine_) || box.holds(end)) return Committed::prohibited;
+    }
     if (shape != nullptr) ++shape_count_;
     start_ = machine_;
     machine_ = end;
@@ -229,6 +272,7 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       out->kind = NC_ITEM_GATE;
       out->u.gate.value = item.gate.value;
       out->u.gate.kind = static_cast<uint8_t>(item.gate.kind);
+      out->u.gate.skip_mask = item.gate.skip_mask;
       out->u.gate.announce = item.gate.announce;
       break;
     case ItemKind::sync:
@@ -299,6 +343,10 @@ void Commit::to_record(const Item& item, const Transform& transform, Record* out
       s.exact_stop = item.move.exact_stop;
       s.skip = item.move.kind == NC_MOVE_SKIP;
       s.skip_mask = item.move.skip_mask;
+      s.skip_speeds = item.move.skip_speeds;
+      s.start_feed_mm_s = s.feed_mm_s;
+      for (unsigned i = 0; s.skip_speeds != nullptr && i < SkipSpeeds::kSignals; ++i)
+        s.feed_mm_s = std::fmax(s.feed_mm_s, s.skip_speeds->feed_mm_min[i] / 60);  // the fastest: what the plan must allow for
       s.thread = item.move.kind == NC_MOVE_THREAD;
       set_rule(item.move.rule, &s);
       if (s.thread) s.feed_mm_rev *= along_longest();

@@ -3,6 +3,7 @@
 // leaves here never changes.
 #pragma once
 
+#include "frame/stroke_box.hpp"
 #include "frame/transform.hpp"
 #include "nc/control.h"
 #include "interpolate/record.hpp"
@@ -13,6 +14,8 @@ namespace nc {
 
 struct CommitConfig {
   const nc_system_config* system = nullptr;
+  const InternPool<StrokeBox>* stroke_boxes = nullptr;  ///< that moves name
+  const uint32_t* machine_turn = nullptr;  ///< bit i: machine coordinates of axis i are shown within one turn (M700 14.13)
   uint32_t marks = 1024;      ///< marks that can be rewound to, power of two
   uint32_t records = 1024;    ///< that may be under way behind here
   bool rotary_makes_length = false;  ///< F of a line is composite: a degree counts as a millimetre (M700 7.6)
@@ -29,6 +32,7 @@ struct MarkPoint {
 enum class Committed : uint8_t {
   yes,
   nothing,       ///< the item vanishes: a move without length
+  prohibited,    ///< it starts or ends in the area of G22: nothing was committed
   at_pole,       ///< the rotary axis of polar coordinate interpolation would jump: nothing was committed
   soft_limit     ///< the move would leave the stroke: nothing was committed, `limit_axis()` says which axis
 };
@@ -87,6 +91,7 @@ class Commit {
 
  private:
   bool inside_limits(const Curve& curve);
+  void add_held_axes(const Curve& curve, AxisVec* from, AxisVec* low, AxisVec* high);
   void commit_shape(const Move& move, const Transform& transform, const MoveShape& shape);
   double along_longest() const;
   void set_rule(const FeedRule& rule, Segment* segment);

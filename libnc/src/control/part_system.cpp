@@ -20,6 +20,8 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
 
   CommitConfig commit;
   commit.system = &system;
+  commit.stroke_boxes = &interpreter.stroke_boxes;
+  commit.machine_turn = &interpreter.settings.machine_turn;
   commit.marks = config.look_ahead;
   commit.records = config.look_ahead;
   commit.rotary_makes_length = dialect.id == NC_DIALECT_M700;
@@ -97,6 +99,10 @@ Fault PartSystem::refused(Committed committed) const {
   Fault fault;
   if (committed == Committed::at_pole) {
     fault.condition = Condition::mill_state;
+    return fault;
+  }
+  if (committed == Committed::prohibited) {
+    fault.condition = Condition::stroke_check;
     return fault;
   }
   fault.condition = Condition::soft_limit;
@@ -192,7 +198,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     static constexpr Transform kNone{};
     const Transform& transform = item->kind == ItemKind::move ? interpreter.transforms[item->move.transform] : kNone;
     const Committed committed = commit_.commit(*item, transform, shape_of_item(*item));
-    if (committed == Committed::soft_limit || committed == Committed::at_pole) {
+    if (committed != Committed::yes && committed != Committed::nothing) {
       stop_on(refused(committed), item->source);
       continue;
     }
@@ -311,7 +317,7 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
   static constexpr Transform kNone{};
   const Transform& transform = item->kind == ItemKind::move ? interpreter.transforms[item->move.transform] : kNone;
   const Committed committed = commit_.commit(*item, transform, shape_of_item(*item));
-  if (committed == Committed::soft_limit || committed == Committed::at_pole) {
+  if (committed != Committed::yes && committed != Committed::nothing) {
     stop_on(refused(committed), item->source);
     return NC_OK;
   }

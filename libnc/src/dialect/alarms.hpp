@@ -22,6 +22,8 @@ enum class Condition : uint16_t {
   comp_no_intersection, comp_interference, corner_option, geometric_option, second_aux, space_compensation,
   thread_lead, mill_code, mill_axis, mill_modal, mill_state, space_arc_blocks, space_arc_mode, exponential_mode, exponential_axes,
   nurbs_knot, nurbs_start, space_conversion_code, inverse_time_code, arc_feed_zero,
+  reference_compare, reference_check_m, start_return_m,
+  measure_axis, measure_h, measure_no_length, measure_signal, stroke_check,
   // offsets
   g10_l, g10_p, local_in_extended,
   // programs and macros

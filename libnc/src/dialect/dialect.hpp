@@ -23,6 +23,9 @@ enum class Function : uint8_t {
   plane_xy, plane_zx, plane_yz,
   inch, metric,
   reference_return, skip, machine_move,
+  reference_check, start_return, second_reference, tool_change_return,   ///< G27 G29 G30 G30.1-G30.6
+  multi_skip, measure_length,          ///< G31.1-G31.3 G37
+  stroke_check_on, stroke_check_off,   ///< G22 G23: modal, and G22 takes the axis words of the block
   comp_off, comp_left, comp_right,
   length_plus, length_minus, length_off,
   work_system,        ///< G54..G59; which one is code10 / 10 - 54

@@ -23,6 +23,8 @@ struct Segment {
   bool exact_stop = false;
   uint8_t skip_mask = 0;  ///< ends where one of these signals comes
   bool skip = false;
+  const SkipSpeeds* skip_speeds = nullptr;  ///< skip: signals that change its feed, feed_mm_s is then the fastest
+  double start_feed_mm_s = 0;               ///< and this the one that it begins with
   bool thread = false;       ///< goes with the spindle, whatever override and hold say (M700 6.7.1)
   float thread_angle = 0;    ///< of the spindle where it starts, deg
   double feed_end_mm_s = 0;  ///< the feed goes evenly to this at the end; 0 = it stays

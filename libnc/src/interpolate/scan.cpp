@@ -350,6 +350,7 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
     out.distance_to_go.v[i] = moving_ ? target_[i] - command_[i] : 0;
   }
   for (unsigned i = 0; i < NC_WORDS; ++i) out.output[i] = output_[i];
+  for (unsigned i = 0; i < kMaxAxes; ++i) out.current_limit[i] = current_limit_[i];
   out.state = static_cast<uint8_t>(alarmed_ ? NC_STATE_ALARM : manual_.active() ? NC_STATE_MANUAL : state_);
   out.cause = static_cast<uint8_t>(alarmed_                                              ? NC_CAUSE_ALARM
                                    : state_ == NC_STATE_HOLD                             ? NC_CAUSE_FEED_HOLD

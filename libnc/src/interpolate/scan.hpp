@@ -83,6 +83,7 @@ class Scan {
   Done move(const Record& record, const nc_inputs& in) NC_RT;
   bool begin_move(const Record& record, const nc_inputs& in) NC_RT;
   void end_move(const Record& record) NC_RT;
+  void change_skip_feed(const SkipSpeeds& speeds, uint32_t signals) NC_RT;
   double speed_cap(const Segment& segment, const nc_inputs& in) NC_RT;
   double feed_override(const nc_inputs& in) const NC_RT;
   Done action(const Action& action) NC_RT;
@@ -185,6 +186,9 @@ class Scan {
   bool skipped_ = false;       ///< the last skip move ended by its signal
   bool skip_braking_ = false;  ///< on the way to rest after the signal
   AxisVec skip_position_;
+  double skip_feed_ = 0;       ///< of a move whose signals change it (M700 15.5), mm/s
+  uint32_t skip_last_ = 0;     ///< signals of the cycle before, for their rising edges
+  uint16_t current_limit_[kMaxAxes] = {};  ///< percent (M700 15.6)
 
   // ---- outside
   uint32_t output_[NC_WORDS] = {};

@@ -88,6 +88,8 @@ bool Scan::begin_move(const Record& r, const nc_inputs&) {
   thread_locked_ = false;
   skip_braking_ = false;
   if (s.skip) skipped_ = false;
+  skip_last_ = 0;  // M700 15.5 (10): a signal that is on rises with the block
+  skip_feed_ = s.start_feed_mm_s;
   return true;
 }
 
@@ -105,6 +107,7 @@ double Scan::programmed_feed(const Segment& s) const {
   if (s.digit_step_mm_s > 0)
     return std::clamp(s.feed_mm_s + digit_pulses_[s.feed_digit - 2] * static_cast<double>(s.digit_step_mm_s), 0.0,
                       static_cast<double>(s.digit_most_mm_s));
+  if (s.skip_speeds != nullptr) return skip_feed_;
   if (!(s.feed_end_mm_s > 0) || s.curve.shape == nullptr) return s.feed_mm_s;
   const unsigned axis = s.curve.shape->what.exponential.linear;
   const double share = (wanted_[axis] - s.curve.start[axis]) / s.curve.delta[axis];
@@ -162,6 +165,16 @@ double Scan::thread_speed(const Segment& s, const nc_inputs& in) {
   return std::max(0.0, pace + kReturn * behind / config_.cycle_s);
 }
 
+/// M700 15.5 (9): at the rising edge of a signal its feed; of several the smaller.
+void Scan::change_skip_feed(const SkipSpeeds& speeds, uint32_t signals) {
+  const uint32_t rises = signals & ~skip_last_ & speeds.mask;
+  skip_last_ = signals;
+  double feed = HUGE_VAL;
+  for (unsigned i = 0; i < SkipSpeeds::kSignals; ++i)
+    if (((rises >> i) & 1) != 0) feed = std::min(feed, speeds.feed_mm_min[i] / 60);
+  if (feed < HUGE_VAL) skip_feed_ = feed;
+}
+
 /// Path speed that is wanted now; 0 brakes.
 double Scan::speed_cap(const Segment& s, const nc_inputs& in) {
   if ((s.thread ? thread_braking() : braking()) || skip_braking_) return 0;
@@ -196,6 +209,7 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
     return Done::no;
   }
   latest_ = &s;
+  if (s.skip_speeds != nullptr) change_skip_feed(*s.skip_speeds, in.skip);
   if (s.skip && !skipped_ && (in.skip & s.skip_mask)) {
     // The signal was sampled with the position that the axes had when this cycle began.
     skipped_ = skip_braking_ = true;
@@ -240,6 +254,9 @@ Scan::Done Scan::action(const Action& a) {
       if (a.index == 3004) disable_ = code_number(a.value);
       if (a.index == 96) interrupt_mode_ = code_number(a.value);
       if (a.index == NC_CONTROL_TAPPING) tapping_ = a.value != 0;
+      return Done::yes;
+    case NC_ACTION_CURRENT_LIMIT:  // M700 15.6
+      if (a.index < kMaxAxes) current_limit_[a.index] = static_cast<uint16_t>(code_number(a.value));
       return Done::yes;
     default:
       return strobe(a);
@@ -319,13 +336,12 @@ Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
     case NC_GATE_FIN:
       return fin_wait() != 0 && !(suppress_ & 2) ? wait(NC_CAUSE_FIN) : Done::yes;
     case NC_GATE_DWELL_SECONDS:
-      if ((in.skip & g.skip_mask) != 0) {  // M700 8.1 (8): the rest is discarded
+    case NC_GATE_DWELL_TURNS:
+      if ((in.skip & g.skip_mask) != 0) {  // M700 15.3 (2): the rest of the dwell is cancelled
         gate_begun_ = false;
         return Done::yes;
       }
-      return dwell(1.0, g.value);
-    case NC_GATE_DWELL_TURNS:
-      return dwell(std::fabs(in.spindle_rev_per_s), g.value);
+      return g.kind == NC_GATE_DWELL_SECONDS ? dwell(1.0, g.value) : dwell(std::fabs(in.spindle_rev_per_s), g.value);
     case NC_GATE_IN_POSITION:
       return in_position(in, g.value) ? Done::yes : wait(NC_CAUSE_IN_POSITION);
     case NC_GATE_OPTIONAL_STOP:

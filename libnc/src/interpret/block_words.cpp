@@ -52,9 +52,15 @@ Did take_g(Interpreter& in, double value) {
       return has_modal_call(in) ? Did::done : in.raise(Condition::cancel_without_call, 'G', value);
     case Function::macro_modal:
     case Function::macro_every_block:
+    case Function::stroke_check_on:
+      w.one_shot = row;  // takes the words of the block though it is modal
+      w.one_shot_code = static_cast<int16_t>(code);
+      return Did::done;
     case Function::mirror_on:
     case Function::mirror_off:
-      w.one_shot = row;  // takes the words of the block though it is modal
+      // So does this, unless a function of group 0 takes them (App. 2).
+      if (w.one_shot != nullptr && w.one_shot->group == kGroupOneShot) return Did::done;
+      w.one_shot = row;
       w.one_shot_code = static_cast<int16_t>(code);
       return Did::done;
     default: break;
@@ -100,6 +106,7 @@ Did gather_words(Interpreter& in) {
   w.one_shot_code = 0;
   w.exact_stop = w.fin_behind_dwell = false;
   w.in_position = 0;
+  w.counted_feeds = 0;
   w.absolute_at = w.incremental_at = 0;
   const Word* const words = in.block->words.begin();
   const unsigned count = in.block->words.size();
@@ -135,7 +142,12 @@ Did gather_words(Interpreter& in) {
       const bool corner = word.letter == 'C' || word.letter == 'R';
       return in.raise(corner ? Condition::corner_option : word.letter == 'A' ? Condition::geometric_option : Condition::no_function, word.letter, value);
     }
-    if ((word.flags & kWordCount) != 0) return in.raise(Condition::format_error, word.letter, word.index);
+    if ((word.flags & kWordCount) != 0) {
+      if (word.letter != 'F' || word.index < 1 || word.index > 8) return in.raise(Condition::format_error, word.letter, word.index);
+      w.counted_feeds = static_cast<uint8_t>(w.counted_feeds | 1u << (word.index - 1));
+      w.counted_feed[word.index - 1] = value;
+      continue;
+    }
     const bool bare = (word.flags & kWordNoValue) != 0;
     if (bare && (word.letter == 'M' || !in.dialect->bare_letters)) return in.raise(Condition::format_error, word.letter);
     if (word.letter == 'G') {
@@ -165,6 +177,8 @@ Did gather_words(Interpreter& in) {
   // M700 14.10 prints "G28 XYZ" and means zeros; a word of any other block is a letter and a number (3.2 (1)).
   if (bare_axis != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::reference_return))
     return in.raise(Condition::format_error, bare_axis);
+  // M700 15.5: feeds behind a skip signal belong to G31.
+  if (w.counted_feeds != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::skip)) return in.raise(Condition::format_error, 'F');
   return Did::done;
 }
 

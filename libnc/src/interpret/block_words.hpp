@@ -32,6 +32,8 @@ struct BlockWords {
   bool exact_stop = false;         ///< G09
   bool fin_behind_dwell = false;   ///< M S T B beside G04: their completion is awaited when the time is over
   char late_number = 0;            ///< N or O behind other words, 0 = none
+  uint8_t counted_feeds = 0;       ///< F1= to F8=, bit n - 1 (M700 15.5); their values stand in counted_feed
+  double counted_feed[8];
   double in_position = 0;          ///< ,I: in-position width of this block, mm (M700 6.1, 6.2); 0 = none
   bool comp_command = false;       ///< G40-G42 that means something here
   uint64_t absolute_at = 0, incremental_at = 0;  ///< bit i: word i of the block is G90, G91

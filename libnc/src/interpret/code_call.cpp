@@ -152,7 +152,13 @@ bool moves(const Interpreter& in) {
   if (w.one_shot == nullptr) return true;
   switch (w.one_shot->function) {
     case Function::reference_return:
+    case Function::second_reference:
+    case Function::start_return:
+    case Function::reference_check:
+    case Function::tool_change_return:
     case Function::skip:
+    case Function::multi_skip:
+    case Function::measure_length:
     case Function::machine_move: return true;
     default: return false;
   }

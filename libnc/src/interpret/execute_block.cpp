@@ -18,6 +18,11 @@ bool plain_motion(int16_t code) { return code <= 30 && code % 10 == 0; }
 
 bool has_own_feed(int16_t code) { return code == 330 || code == 23 || code == 33; }
 
+/// The F of a skip block and of a measurement is its own and never modal (M700 15.2).
+bool keeps_its_feed(Function one_shot) {
+  return one_shot == Function::skip || one_shot == Function::multi_skip || one_shot == Function::measure_length;
+}
+
 bool is_arc(int16_t code) { return code == 20 || code == 30; }
 
 /// M700 App.2: these take the block; codes of groups 7 and 8 beside them are ignored (G49 beside a reference return is not).
@@ -27,8 +32,12 @@ bool ignores_compensation(const FunctionRow* one_shot, Function modal) {
     case Function::dwell:
     case Function::data_input:
     case Function::local_system:
-    case Function::machine_move: return true;
-    case Function::reference_return: return modal != Function::length_off;
+    case Function::machine_move:
+    case Function::measure_length: return true;
+    case Function::reference_return:
+    case Function::second_reference:
+    case Function::start_return:
+    case Function::reference_check: return modal != Function::length_off;
     default: return false;
   }
 }
@@ -39,7 +48,16 @@ bool ignores_cycle(const FunctionRow* one_shot) {
     case Function::dwell:
     case Function::data_input:
     case Function::local_system:
-    case Function::coordinate_set: return true;
+    case Function::coordinate_set:
+    case Function::reference_return:
+    case Function::second_reference:
+    case Function::start_return:
+    case Function::reference_check:
+    case Function::tool_change_return:
+    case Function::machine_move:
+    case Function::skip:
+    case Function::multi_skip:
+    case Function::measure_length: return true;
     default: return false;
   }
 }
@@ -87,6 +105,10 @@ Did apply_reading_modes(Interpreter& in) {
       case Function::thread:
       case Function::modal_off:
         if (row->group != kGroupOneShot) in.state.modal.code[row->group] = row->code;
+        break;
+      case Function::stroke_check_off:
+        in.state.modal.code[kGroupStrokeCheck] = row->code;
+        in.state.stroke_box = 0;
         break;
       case Function::macro_modal_off: cancel_modal_call(in); break;
       case Function::polar_command_on:
@@ -205,6 +227,7 @@ Did execute_words(Interpreter& in) {
   BlockWords& w = in.words;
   if (only_moves(in)) return execute_move(in);
   const bool macro_call = w.one_shot != nullptr && is_macro_call(w.one_shot->function);
+  const int16_t motion_before = in.state.modal.code[kGroupMotion];  // M700 App.2: codes of group 1 beside G37 are ignored
   did = apply_reading_modes(in);
   if (did != Did::done) return did;
   if (macro_call) return call_macro(in);
@@ -221,9 +244,8 @@ Did execute_words(Interpreter& in) {
   if (did == Did::done && in.state.nurbs.active()) did = check_nurbs_block(in);
   if (did != Did::done) return did;
   if (in.state.modal.code[kGroupPolarCommand] == 160) resolve_polar_words(in);
-  // The F of a skip block is its own and never modal (M700 15.2).
-  // Nor is the lead of a thread (6.7.1) or the feed of an exponential curve (6.11).
-  const bool own_feed = w.one_shot != nullptr ? w.one_shot->function == Function::skip
+  // Neither is the lead of a thread (6.7.1) or the feed of an exponential curve (6.11).
+  const bool own_feed = w.one_shot != nullptr ? keeps_its_feed(w.one_shot->function)
                                               : has_own_feed(in.state.modal.code[kGroupMotion]);
   if (in.state.modal.code[kGroupFeed] == 930) did = check_inverse_time_block(in);
   if (did == Did::done && w.has('F') && !own_feed) did = take_feed_word(in);
@@ -238,6 +260,7 @@ Did execute_words(Interpreter& in) {
   }
   did = auxiliary_before(in);
   if (did != Did::done) return did;
+  if (w.one_shot != nullptr && w.one_shot->function == Function::measure_length) in.state.modal.code[kGroupMotion] = motion_before;
   if (!w.comp_command) return finish(in, execute_motion(in));
   const AxisVec before = in.state.machine;
   did = execute_motion(in);
@@ -250,6 +273,8 @@ Did continue_block(Interpreter& in) {
   Did did = Did::done;
   if (step == Step::cycle) did = continue_cycle(in);
   if (step == Step::skip_answered) did = skip_answered(in);
+  if (step == Step::measured) did = measured(in);
+  if (step == Step::reference_check) did = compare_reference(in);
   if (did == Did::later) return did;
   if (did == Did::done) in.next_step = Step::none;
   return finish(in, did);

@@ -47,6 +47,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   notes.create(arena);
   rewritten = arena.make<Block>();
   shapes.create(128, arena);
+  stroke_boxes.create(64, arena);
   points.create(power_of_two_above(config.look_ahead + 128), arena);
   queue_ = arena.make<Item>(kQueue);
   checkpoints_.create(power_of_two_above(config.look_ahead + 64), arena);
@@ -118,6 +119,8 @@ void Interpreter::undo(void* self, uint32_t key, double old) {
 void Interpreter::refresh_settings() {
   settings_stale_ = false;
   settings = parameters.settings(*dialect);
+  for (uint32_t* axes : {&settings.turning, &settings.short_cut, &settings.machine_turn, &settings.tool_change_axes})
+    *axes &= axes == &settings.tool_change_axes ? (1u << axis_count) - 1 : rotary;
   code_calls = dialect->lex->macros ? read_code_calls(parameters) : CodeCalls{};
 }
 
@@ -143,7 +146,9 @@ Item& Interpreter::emit(ItemKind kind) {
 Move& Interpreter::emit_move(const AxisVec& start, const AxisVec& end) {
   Item& item = emit(ItemKind::move);
   // Made in one go: clearing three positions only to fill them would be felt in every block.
-  return *new (&item.move) Move(start, end, state.comp);
+  Move& move = *new (&item.move) Move(start, end, state.comp);
+  move.stroke_box = state.stroke_box;
+  return move;
 }
 
 // ---- program selection, reset, rewind ----------------------------------------------------------------------------------
@@ -156,6 +161,7 @@ void Interpreter::reset(bool keep_modal) {
   const uint8_t length_axis = state.length_axis;
   const uint16_t work_system = state.work_system;
   const bool spindle_on = state.spindle_on, port_open = state.port_open;
+  const uint32_t stroke_box = state.stroke_box;
   const int8_t plane_axis[2] = {state.plane_axis[0], state.plane_axis[1]};
   state = State{};
   state.machine = machine;
@@ -174,6 +180,7 @@ void Interpreter::reset(bool keep_modal) {
     state.length_value = length_value;
     state.length_axis = length_axis;
     state.spindle_on = spindle_on;
+    state.stroke_box = stroke_box;
     for (unsigned i = 0; i < 2; ++i) state.plane_axis[i] = plane_axis[i];
   }
   state.frame[0].program = main_program;
@@ -184,8 +191,8 @@ void Interpreter::reset(bool keep_modal) {
   variables.clear_locals(1);
   variables.forget();
   notes.clear();
-  // DGSHAPE G28: a midpoint is remembered within a program.
-  for (unsigned i = 0; i < axis_count; ++i) frames.set(Frames::midpoint_set_key(i), 0);
+  // DGSHAPE G28: a midpoint is remembered within a program. M700 14.7: since power-on.
+  for (unsigned i = 0; i < axis_count && dialect->id == NC_DIALECT_DGSHAPE; ++i) frames.set(Frames::midpoint_set_key(i), 0);
   finished_modal = state.modal;
   newest_modal_ = kNoModal;
   head_ = queued_ = 0;

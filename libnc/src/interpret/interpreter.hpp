@@ -16,6 +16,7 @@
 #include <cstring>
 
 #include "frame/frames.hpp"
+#include "frame/stroke_box.hpp"
 #include "frame/transform.hpp"
 #include "interpret/block_words.hpp"
 #include "interpret/code_calls.hpp"
@@ -151,6 +152,10 @@ struct Interpreter {
   InternPool<Message> texts;
   InternPool<MoveShape> shapes;    ///< of moves under way; Move::shape counts from 1
   InternPool<PathPoint> points;
+  InternPool<StrokeBox> stroke_boxes;   ///< of G22; Move::stroke_box counts from 1
+  SkipSpeeds skip_speeds;               ///< of the G31 under way
+  double measured_position = 0, measured_range = 0;  ///< of the G37 under way
+  bool measured_nothing = false;                     ///< it has no range to measure in
   ProgramRef main_program;
   bool mdi = false;                ///< the main program is blocks of MDI: their end is no alarm
   uint32_t optional_skip = 0;      ///< switches, bit n = /n
@@ -226,6 +231,11 @@ struct Interpreter {
   /// Active zero and the position in it.
   const AxisVec& zero() const { return frames.zero(state.work_system); }
   AxisVec position() const;
+  /// Reference position 1 to 4 (`which` 0 to 3) of an axis, machine coordinates (M700 14.3).
+  double reference(unsigned which, unsigned axis) const {
+    const double set = settings.reference[which][axis];
+    return set == set ? set : system->axis[axis].reference[which];
+  }
   /// The letters that command axes: those of the axes, or what a mode of the state makes of them.
   void refresh_letters();
   /// Journalled write to the frames' table.
@@ -331,6 +341,7 @@ VariableReader variable_reader(Interpreter& in);
 struct LinearStyle {
   nc_move_kind kind = NC_MOVE_LINE;
   double feed_mm_min = 0;
+  const SkipSpeeds* skip_speeds = nullptr;
   bool exact_stop = false;
   bool transparent = false;   ///< radius compensation vectors are away for this move
   uint8_t skip_mask = 0;
@@ -340,8 +351,9 @@ struct LinearStyle {
 };
 /// A straight move to `target` in the active coordinates; `commanded` = axes named in the block (tool length is applied to them).
 void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
-/// A straight rapid to machine coordinates without any compensation on the `commanded` axes (G53, second leg of G28).
-void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded);
+/// A straight rapid to machine coordinates of the `commanded` axes (G53, second leg of G28), without any compensation on those of them
+/// that are `bare`.
+void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded, uint32_t bare = ~uint32_t{0});
 Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw);
 /// Programmed coordinates of a move: where it starts and ends, and the transform behind them.
 struct MoveFrame {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interpret/feed.hpp"
+#include "frame/rotary.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
@@ -101,12 +102,24 @@ AxisVec target_of_words(const Interpreter& in) { return target_of_words(in, in.p
 
 namespace {
 
+/// M700 14.13: absolute commands to rotating axes; the angles in `target` become places on the axes, which count over their turns.
+void turn_within_range(const Interpreter& in, const AxisVec& position, uint32_t axes, AxisVec& target) {
+  // In the plane of polar coordinate interpolation the rotary axis holds millimetres (6.10).
+  if (in.state.map.kind == AxisMap::Kind::polar) axes &= ~(1u << in.state.map.rotary);
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((axes >> i) & 1) == 0) continue;
+    target[i] = position[i] + turn_to(target[i], within_one_turn(position[i]), ((in.settings.short_cut >> i) & 1) != 0);
+  }
+}
+
 inline AxisVec plain_target(const Interpreter& in, const AxisVec& position, uint32_t axes, const AxisVec& value) {
   AxisVec target = position;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((axes >> i) & 1) == 0) continue;
     target[i] = ((in.words.incremental >> i) & 1) != 0 ? target[i] + value[i] : value[i];
   }
+  const uint32_t rotary = axes & in.rotary & ~in.words.incremental;
+  if (rotary != 0 && in.settings.turning != 0) turn_within_range(in, position, rotary & in.settings.turning, target);
   return target;
 }
 
@@ -154,6 +167,7 @@ inline void set_style(Interpreter& in, Move& move, const LinearStyle& style) {
   move.rule.check_reversal = in.settings.check_reversal && style.kind != NC_MOVE_RAPID;
   move.feed_mm_min = style.kind == NC_MOVE_RAPID ? 0 : style.feed_mm_min;
   move.skip_mask = style.skip_mask;
+  move.skip_speeds = style.skip_speeds;
   move.comp.transparent = style.transparent;
   if (style.special_feed) apply_special_feed(in, move);
   if (style.kind != NC_MOVE_THREAD) return;
@@ -204,9 +218,9 @@ void move_nowhere(Interpreter& in) {
   finish_mapped(in, frame, before, move);
 }
 
-void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded) {
+void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded, uint32_t bare) {
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((commanded >> i) & 1) != 0) in.state.applied[i] = 0;
+    if (((commanded & bare) >> i & 1) != 0) in.state.applied[i] = 0;
   const Transform transform = transform_in_force(in);
   const AxisVec start = transform.from_machine(in.state.machine);
   AxisVec end = transform.from_machine(machine);

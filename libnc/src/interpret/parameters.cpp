@@ -61,6 +61,7 @@ bool in_range(const char* key, double value) {
   if (std::strcmp(key, "1078") == 0 || std::strcmp(key, "8112") == 0) return value == 0 || value == 1;  // 5.3, 8.1
   if (std::strcmp(key, "1037") == 0) return value == 1 || value == 2;    // 12.1
   if (std::strcmp(key, "1084") == 0) return value >= 0 && value <= 1;    // 6.4
+  if (std::strcmp(key, "8213") == 0) return value >= 0 && value <= 3 && value == std::floor(value);  // 14.13
   if (std::strcmp(key, "2106") == 0) return value >= 0 && value <= 360;  // 2.3
   if (std::strcmp(key, "1079") == 0 || std::strcmp(key, "1074") == 0) return value == 0 || value == 1;  // 7.3, 7.4
   if (std::strcmp(key, "1507") == 0) return value >= 1 && value <= 32767;  // 7.3
@@ -197,6 +198,27 @@ void Parameters::feed_settings(Settings& s) const {
   s.dwell_skip = static_cast<uint8_t>(number("1173", 0));
 }
 
+/// M700 13.13, 14.7, 14.13: what stands for each axis.
+void Parameters::axis_settings(int axis, Settings* s) const {
+  const auto number = [this, axis](const char* key, double fallback) {
+    double value = fallback;
+    get(key, axis, &value);
+    return value;
+  };
+  const uint32_t bit = 1u << axis;
+  // #2037 is printed; the 2nd to 4th have the numbers behind it.
+  for (unsigned which = 0; which < 4; ++which) {
+    constexpr const char* kKeys[4] = {"2037", "2038", "2039", "2040"};
+    s->reference[which][axis] = number(kKeys[which], std::numeric_limits<double>::quiet_NaN());
+  }
+  s->tool_change[axis] = number("8206", 0);
+  if (number("1092", 0) != 0) s->tool_change_axes |= bit;
+  const double type = number("8213", 3);
+  if (type < 2) s->turning |= bit;
+  if (type == 1) s->short_cut |= bit;
+  if (type < 3) s->machine_turn |= bit;
+}
+
 Settings Parameters::settings(const Dialect& dialect) const {
   Settings s;
   auto number = [this](const char* key, double fallback, int axis = -1) {
@@ -205,6 +227,8 @@ Settings Parameters::settings(const Dialect& dialect) const {
     return value;
   };
   auto flag = [&number](const char* key) { return number(key, 0) != 0; };
+  for (auto& place : s.reference)
+    for (double& coordinate : place) coordinate = std::numeric_limits<double>::quiet_NaN();
   if (dialect.id == NC_DIALECT_DGSHAPE) {
     s.calculator = number("interpretation", 0) != 0;
     s.calculator_words = static_cast<uint8_t>(number("calculator_words", s.calculator ? 1 : 0));
@@ -238,6 +262,16 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.interference_check = !flag("8103");
   s.interference_avoid = flag("8102");
   s.skip_feed = number("1174", 0);
+  const auto signals = [&number](const char* key, uint8_t fallback) { return static_cast<uint8_t>(bits_of(number(key, fallback)) & 0xff); };
+  for (unsigned i = 0; i < 3; ++i) {  // 15.3
+    const char mask[5] = {'1', '1', '7', static_cast<char>('5' + 2 * i), 0};
+    const char feed[5] = {'1', '1', i == 2 ? '8' : '7', i == 2 ? '0' : static_cast<char>('6' + 2 * i), 0};
+    s.multi_skip_mask[i] = signals(mask, s.multi_skip_mask[i]);
+    s.multi_skip_feed[i] = number(feed, 0);
+  }
+  s.measure_feed = number("8004", 0);
+  s.measure_deceleration = number("8005", 0);
+  s.measure_range = number("8006", 0);
   s.peck_clearance_83 = number("8013", 0);
   s.peck_clearance_73 = number("8012", 0);
   s.macro_single = flag("8101");
@@ -278,6 +312,7 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.exponential_rotary = axis_letter(number("1515", 0));
   feed_settings(s);
   for (unsigned i = 0; i < kMaxAxes; ++i) s.creep[i] = number("8209", 0, static_cast<int>(i));
+  for (unsigned i = 0; i < kMaxAxes; ++i) axis_settings(static_cast<int>(i), &s);
   for (unsigned i = 0; i < kMaxAxes; ++i) s.index_increment[i] = number("2106", 0, static_cast<int>(i));
   return s;
 }

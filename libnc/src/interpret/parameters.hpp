@@ -30,6 +30,18 @@ struct Settings {
   bool interference_check = false;    ///< #8103 OFF (M700; DGSHAPE checks nothing)
   bool interference_avoid = false;    ///< #8102 ON
   double skip_feed = 0;               ///< #1174, mm/min
+  double multi_skip_feed[3] = {};     ///< #1176 #1178 #1180: G31.1 G31.2 G31.3, mm/min
+  uint8_t multi_skip_mask[3] = {1, 2, 4};  ///< #1175 #1177 #1179: their skip signals, bit n = signal n+1
+  double measure_feed = 0;            ///< #8004, mm/min
+  double measure_deceleration = 0;    ///< #8005, mm
+  double measure_range = 0;           ///< #8006, mm
+  double reference[4][kMaxAxes];      ///< #2037 to #2040, machine coordinates; NaN = that of the machine
+  double tool_change[kMaxAxes] = {};  ///< #8206, machine coordinates
+  uint32_t tool_change_axes = 0;      ///< #1092: bit i: an added axis goes there too
+  // #8213, bit i: axis i. Rotary axes only (Interpreter::refresh_settings).
+  uint32_t turning = 0;               ///< types 0 and 1: workpiece coordinates within one turn
+  uint32_t short_cut = 0;             ///< type 1: G90 goes the shorter way
+  uint32_t machine_turn = 0;          ///< types 0 to 2: machine coordinates within one turn
   double peck_clearance_83 = 0;       ///< #8013, mm
   double peck_clearance_73 = 0;       ///< #8012, mm
   bool macro_single = false;          ///< #8101
@@ -99,6 +111,7 @@ class Parameters {
   };
   Entry* find(const char* key, int axis) const;
   void feed_settings(Settings& settings) const;
+  void axis_settings(int axis, Settings* s) const;
   Entry* entries_ = nullptr;
   unsigned capacity_ = 0, count_ = 0;
 };

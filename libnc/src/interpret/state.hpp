@@ -58,7 +58,7 @@ struct Loop {
 };
 
 /// What a block still has to do after its first items; always Step::none at a mark that reports.
-enum class Step : uint8_t { none, cycle, skip_answered, after_motion };
+enum class Step : uint8_t { none, cycle, skip_answered, measured, reference_check, after_motion };
 
 /// What cylindrical and polar coordinate interpolation give back when they end (M700 6.9, 6.10).
 struct MillReturn {
@@ -107,6 +107,7 @@ struct State {
   uint32_t arc_points = 0;    ///< start and middle point of the arc in space
   NurbsState nurbs;
   uint32_t held_point = 0;    ///< where the axes of G07 stand (Interpreter::points)
+  uint32_t stroke_box = 0;    ///< prohibited area of G22 (Interpreter::stroke_boxes), counted from 1; 0 = G23
   double polar_angle = 0;     ///< G16: angle of the block before, deg
   double thread_lead = 0;     ///< G33: mm along the long axis
   double last_feed = 0;       ///< G93: of the last cutting block, mm/min: displacements of compensation go on with it

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "interpret/functions/functions.hpp"
 #include "interpret/system_variable_table.hpp"
 
 namespace nc {
@@ -285,25 +286,35 @@ Eval read_word_interrupt(Access& a) {
 
 // ---- positions -----------------------------------------------------------------------------------------------------------------
 
+AxisVec axes_of(const nc_axes& axes) {
+  AxisVec out;
+  std::memcpy(out.v, axes.v, sizeof out.v);
+  return out;
+}
+
 bool axis_ok(Access& a) { return a.offset < a.in.axis_count; }
 
 Eval read_end_point(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
-  return give(a, in_program_unit(a.in, a.offset, a.in.position()[a.offset]));
+  return give(a, in_program_unit(a.in, a.offset, work_shown(a.in, a.in.position())[a.offset]));
 }
 Eval read_machine(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
-  return give(a, in_program_unit(a.in, a.offset, a.in.world.machine.v[a.offset]));
+  return give(a, in_program_unit(a.in, a.offset, machine_shown(a.in, axes_of(a.in.world.machine))[a.offset]));
 }
 Eval read_work_position(Access& a) {  // with tool compensation in it (M700 10.11)
   if (!axis_ok(a)) return no_variable(a);
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
-  return give(a, in_program_unit(a.in, a.offset, a.in.world.machine.v[a.offset] - a.in.zero()[a.offset]));
+  AxisVec work = axes_of(a.in.world.machine);
+  work[a.offset] -= a.in.zero()[a.offset];
+  return give(a, in_program_unit(a.in, a.offset, work_shown(a.in, work)[a.offset]));
 }
 Eval read_skip(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
-  return give(a, in_program_unit(a.in, a.offset, a.in.frames.get(Frames::skip_key(a.offset))));
+  AxisVec skip;
+  skip[a.offset] = a.in.frames.get(Frames::skip_key(a.offset));
+  return give(a, in_program_unit(a.in, a.offset, work_shown(a.in, skip)[a.offset]));
 }
 Eval read_compensation(Access& a) {
   if (!axis_ok(a)) return no_variable(a);

@@ -108,6 +108,13 @@ struct FeedRule {
   float slow_zone = 0;         ///< over this length before the end, mm
 };
 
+/// Feeds that the skip signals of a G31 call for (M700 15.5). One such move is under way at a time: it is followed by a sync.
+struct SkipSpeeds {
+  static constexpr unsigned kSignals = 8;
+  uint8_t mask = 0;                  ///< signals that change the feed, bit n = signal n+1
+  double feed_mm_min[kSignals] = {};
+};
+
 struct Move {
   Move() = default;
   Move(const AxisVec& from, const AxisVec& to, const Compensation& c) : start(from), end(to), work(to), comp(c) {}
@@ -117,6 +124,8 @@ struct Move {
   bool exact_stop = false;       ///< at rest at its end: rapid, G09/G61, and what the dialect says
   bool connecting = false;       ///< inserted by a stage (corner of a compensated contour), not programmed
   uint8_t skip_mask = 0;
+  const SkipSpeeds* skip_speeds = nullptr; ///< skip: signals that change its feed (M700 15.5); nullptr in nearly every move
+  uint32_t stroke_box = 0;       ///< id of the prohibited area in force, counted from 1; 0 = none (M700 15.7)
   Plane plane = Plane::none;     ///< circular only
   uint8_t plane_axis[2] = {0, 1};///< circular only
   bool plane_feed = false;       ///< helix: the feed is the speed in the plane of its arc (M700 6.6)

@@ -194,6 +194,7 @@ const AlarmText kAlarms[] = {
     // The program manual refers to operation errors by number and leaves their list to the alarm manual. The
     // number of a programmed move beyond a stored stroke limit is known from machines of the family.
     {"M01-0007", "S/W stroke end"},
+    {"P452", "Limit before travel"},
     {"NC-INTERNAL", "Internal error of the control"},
 };
 

@@ -68,6 +68,14 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::space_conversion_code, "P921", nullptr},
     {C::inverse_time_code, "P125", nullptr},   // 7.5
     {C::arc_feed_zero, "P121", nullptr},       // 7.3
+    {C::reference_compare, "P434", nullptr},   // 14.9
+    {C::reference_check_m, "P435", nullptr},
+    {C::start_return_m, "P436", nullptr},      // 14.7
+    {C::measure_axis, "P604", nullptr},        // 15.1
+    {C::measure_h, "P605", nullptr},
+    {C::measure_no_length, "P606", nullptr},
+    {C::measure_signal, "P607", nullptr},
+    {C::stroke_check, "P452", nullptr},        // 15.7 prints no number; that of the family's later manuals
     // offsets
     {C::g10_l, "P172", nullptr},
     {C::g10_p, "P173", nullptr},  // appendix 1; 12.7 prints P170 for the same thing

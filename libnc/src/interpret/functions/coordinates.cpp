@@ -51,6 +51,9 @@ Did do_coordinate_set(Interpreter& in) {
 Did do_coordinate_preset(Interpreter& in) {
   const BlockWords& w = in.words;
   if (!in.settings.preset_allowed) return in.raise(Condition::illegal_g, 'G', 92.1);  // M700 14.12: list 1 only with #1267 bit 0
+  // 14.12: not during scaling, coordinate rotation, mirror image by program.
+  const int16_t* modal = in.state.modal.code;
+  if (modal[kGroupScaling] == 510 || modal[kGroupRotation] == 680 || in.state.mirror != 0) return in.raise(Condition::illegal_g, 'G', 92.1);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     if (w.axis[i] != 0) return in.raise(Condition::value_range, in.system->axis[i].name, w.axis[i]);

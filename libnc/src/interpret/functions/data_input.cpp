@@ -24,6 +24,7 @@ Did work_offset(Interpreter& in, uint32_t l, bool accumulate) {
   const BlockWords& w = in.words;
   const bool extended_active = in.state.work_system >= 6;
   uint32_t p = 0;
+  if (l == 20 && in.frames.extended_systems() == 0) return in.raise(Condition::g10_l, 'L', l);  // M700 14.10 (14)
   if (w.has('P')) {
     const uint32_t last = l == 20 ? in.frames.extended_systems() : 6;
     if (!whole_number(w.get('P'), &p) || p > last || (l == 20 && p == 0)) return in.raise(Condition::value_range, 'P', w.get('P'));
@@ -72,6 +73,25 @@ bool two_kinds(const Interpreter& in) {
 
 }  // namespace
 
+/// M700 15.6: percent of the rated current, whatever decimals stand behind it.
+Did set_current_limit(Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (w.axes == 0) return in.raise(Condition::format_error, 'L', 14);
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((w.axes >> i) & 1) == 0) continue;
+    const char name = in.system->axis[i].name;
+    if (name == 'C') return in.raise(Condition::illegal_address, name, w.get(name));  // (6): not from a program
+    const double percent = std::trunc(w.get(name));
+    if (!(percent >= 1 && percent <= 300)) return in.raise(Condition::value_range, name, w.get(name));
+    Action& action = in.emit(ItemKind::action).action;
+    action.kind = NC_ACTION_CURRENT_LIMIT;
+    action.letter = name;
+    action.index = i;
+    action.value = percent;
+  }
+  return Did::done;
+}
+
 Did do_data_input(Interpreter& in) {
   const BlockWords& w = in.words;
   if (two_kinds(in)) return in.raise(Condition::g10_l, 'L', w.get('L'));
@@ -88,9 +108,8 @@ Did do_data_input(Interpreter& in) {
       // Length wear, radius, radius wear exist in tool memory type II only (M700 12.7).
       if (!in.settings.tool_memory_2) return in.raise(Condition::g10_l, 'L', l);
       return tool_offset(in, l - 10, true);
-    case 3:
-    case 14:
-      return in.raise(Condition::no_function, 'L', l);  // tool life, current limit: not built
+    case 3: return in.raise(Condition::no_function, 'L', l);  // tool life: not built
+    case 14: return set_current_limit(in);
     case 50:
     case 70: return begin_parameter_input(in);
     default: return in.raise(Condition::g10_l, 'L', l);

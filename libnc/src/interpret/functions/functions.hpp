@@ -15,9 +15,24 @@ Did do_data_input(Interpreter& in);         // data_input.cpp
 Did do_mirror(Interpreter& in);             // mirror.cpp
 Did begin_parameter_input(Interpreter& in); // parameter_input.cpp: G10 L70
 Did do_reference_return(Interpreter& in);   // reference.cpp
+Did do_second_reference(Interpreter& in);   // reference.cpp: G30
+Did do_start_return(Interpreter& in);       // reference.cpp: G29
+Did do_reference_check(Interpreter& in);    // reference.cpp: G27
+Did compare_reference(Interpreter& in);     // reference.cpp: behind the move of G27
+Did do_tool_change_return(Interpreter& in); // tool_change.cpp: G30.1 to G30.6
 Did do_machine_move(Interpreter& in);       // reference.cpp
+/// Rapid to a fixed place in machine coordinates; rotary axes turn by less than 360 deg (M700 14.13). reference.cpp
+void move_to_place(Interpreter& in, const AxisVec& place, uint32_t axes);
+void cancel_length_of(Interpreter& in, uint32_t axes);
+/// Positions as the counters show them (M700 14.13): interpret/position_shown.cpp.
+AxisVec work_shown(const Interpreter& in, const AxisVec& work);
+AxisVec machine_shown(const Interpreter& in, const AxisVec& machine);
 Did do_skip(Interpreter& in);               // skip.cpp
 Did skip_answered(Interpreter& in);         // skip.cpp
+Did do_measure_length(Interpreter& in);     // measure.cpp: G37
+Did measured(Interpreter& in);              // measure.cpp: behind its moves
+Did do_stroke_check(Interpreter& in);       // stroke_check.cpp: G22
+Did set_current_limit(Interpreter& in);     // data_input.cpp: G10 L14
 Did do_local_system(Interpreter& in);       // coordinates.cpp
 Did do_coordinate_set(Interpreter& in);     // coordinates.cpp
 Did do_coordinate_preset(Interpreter& in);  // coordinates.cpp

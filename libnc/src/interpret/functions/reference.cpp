@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// G28 reference return, G53 machine coordinates.
+// G27 to G30: reference positions 1 to 4; G53: machine coordinates (M700 14.4, 14.7 to 14.9; DGSHAPE G28).
+#include <cmath>
+
+#include "frame/rotary.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -17,7 +20,79 @@ void take_remembered_midpoints(Interpreter& in, AxisVec& mid, uint32_t& axes) {
   }
 }
 
+/// The area of G22 does not hold for the moves made while this exists (M700 15.7 (6)).
+class WithoutStrokeCheck {
+ public:
+  explicit WithoutStrokeCheck(Interpreter& in) : in_(in), box_(in.state.stroke_box) { in_.state.stroke_box = 0; }
+  ~WithoutStrokeCheck() { in_.state.stroke_box = box_; }
+  WithoutStrokeCheck(const WithoutStrokeCheck&) = delete;
+  WithoutStrokeCheck& operator=(const WithoutStrokeCheck&) = delete;
+
+ private:
+  Interpreter& in_;
+  uint32_t box_;
+};
+
+/// G28 and G30: by the intermediate point to reference position `which`, 0 to 3.
+Did go_to_reference(Interpreter& in, unsigned which, AxisVec mid, uint32_t axes) {
+  if (axes == 0) return in.raise(Condition::words_missing, 'G', in.words.one_shot_code / 10.0);
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((axes >> i) & 1) == 0) continue;
+    in.set_table(Frames::midpoint_key(i), mid[i]);
+    if (in.dialect->id == NC_DIALECT_M700) in.set_table(Frames::midpoint_set_key(i), 1);
+  }
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  style.transparent = true;  // M700 12.4.2: no vector at the intermediate point
+  move_linear(in, mid, axes, style);
+  AxisVec place;
+  for (unsigned i = 0; i < in.axis_count; ++i) place[i] = in.reference(which, i);
+  const WithoutStrokeCheck from_here(in);
+  move_to_place(in, place, axes);
+  if (in.dialect->id == NC_DIALECT_M700) cancel_length_of(in, axes);
+  return Did::done;
+}
+
+/// M700 14.13: an angle in machine coordinates as a place on the axis, which counts over its turns.
+double machine_target(const Interpreter& in, unsigned axis, double angle) {
+  const double at = in.state.machine[axis];
+  if (((in.settings.turning >> axis) & 1) != 0)
+    return at + turn_to(angle, within_one_turn(at), ((in.settings.short_cut >> axis) & 1) != 0);
+  if (((in.settings.machine_turn >> axis) & 1) != 0) return at + angle - within_one_turn(at);
+  return angle;
+}
+
+/// Half of the finest unit of a command: nearer than this an axis is where it should be.
+double same_place(const Interpreter& in) { return in.settings.setting_unit_mm / 2; }
+
+/// Which reference position P names; `fallback` where there is no P.
+bool place_of_p(const Interpreter& in, uint32_t fallback, uint32_t* place) {
+  *place = fallback;
+  return !in.words.has('P') || whole_number(in.words.get('P'), place);
+}
+
 }  // namespace
+
+void move_to_place(Interpreter& in, const AxisVec& place, uint32_t axes) {
+  AxisVec machine = in.state.machine;
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    const uint32_t bit = 1u << i;
+    if ((axes & bit) == 0) continue;
+    if ((in.settings.machine_turn & bit) == 0) {
+      machine[i] = place[i];
+    } else {  // M700 14.13: within 360 deg
+      machine[i] += turn_to(within_one_turn(place[i]), within_one_turn(machine[i]), (in.settings.short_cut & bit) != 0);
+    }
+  }
+  move_machine(in, machine, axes);
+}
+
+/// M700 12.2, 14.7 (9), 14.8 (6): the tool length compensation of an axis is cancelled for good when it reaches such a place.
+void cancel_length_of(Interpreter& in, uint32_t axes) {
+  if (((axes >> in.state.length_axis) & 1) == 0 || in.state.modal.code[kGroupLength] == 490) return;
+  in.state.length_value = 0;
+  in.state.modal.code[kGroupLength] = 490;
+}
 
 Did do_reference_return(Interpreter& in) {
   uint32_t axes = in.words.axes;
@@ -27,20 +102,76 @@ Did do_reference_return(Interpreter& in) {
     if ((axes & in.rotary) != 0) return in.raise(Condition::illegal_axis, 'A');
     take_remembered_midpoints(in, mid, axes);
   }
-  if (axes == 0) return in.raise(Condition::words_missing, 'G', 28);
-  for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((axes >> i) & 1) != 0) in.set_table(Frames::midpoint_key(i), mid[i]);
+  return go_to_reference(in, 0, mid, axes);
+}
+
+Did do_second_reference(Interpreter& in) {
+  // M700 14.8 (1): without P, and with any other P than 2 to 4, the 2nd.
+  uint32_t place = 2;
+  if (!place_of_p(in, 2, &place) || place < 2 || place > 4) place = 2;
+  return go_to_reference(in, place - 1, target_of_words(in), in.words.axes);
+}
+
+Did do_start_return(Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (!w.m.empty()) return in.raise(Condition::start_return_m, 'M', w.m[0]);  // App.1 P436
+  if (w.axes == 0) return in.raise(Condition::words_missing, 'G', 29);
+  // M700 14.7 (5), (8): the intermediate points of the newest G28 or G30 of each axis.
+  const AxisVec position = in.position();
+  AxisVec mid = position;
+  uint32_t known = 0;
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((w.axes >> i) & 1) == 0 || in.frames.get(Frames::midpoint_set_key(i)) == 0) continue;
+    mid[i] = in.frames.get(Frames::midpoint_key(i));
+    if (((in.settings.turning >> i) & 1) != 0)
+      mid[i] = position[i] + turn_to(within_one_turn(mid[i]), within_one_turn(position[i]), ((in.settings.short_cut >> i) & 1) != 0);
+    known |= 1u << i;
+  }
+  if (known == 0) {
+    in.raise(Condition::no_reference, 'G', 29);
+    for (unsigned i = 0; i < in.axis_count && in.fault.axis < 0; ++i)
+      if (((w.axes >> i) & 1) != 0) in.fault.axis = static_cast<int8_t>(i);
+    return Did::fault;
+  }
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
-  style.transparent = true;  // M700 12.4.2: no vector at the intermediate point
-  move_linear(in, mid, axes, style);
-  AxisVec reference = in.state.machine;
-  for (unsigned i = 0; i < in.axis_count; ++i) reference[i] = in.system->axis[i].reference[0];
-  move_machine(in, reference, axes);
-  // M700 12.2, 14.7: tool length compensation of the axis is cancelled for good when the reference position is reached.
-  if (in.dialect->id == NC_DIALECT_M700 && ((axes >> in.state.length_axis) & 1) != 0 && in.state.modal.code[kGroupLength] != 490) {
-    in.state.length_value = 0;
-    in.state.modal.code[kGroupLength] = 490;
+  {
+    const WithoutStrokeCheck to_the_point(in);
+    style.transparent = true;
+    move_linear(in, mid, known, style);
+  }
+  style.transparent = false;  // 14.8 (5): from there on with radius compensation again
+  move_linear(in, target_of_words(in), w.axes, style);  // incremental words count from the intermediate point
+  return Did::done;
+}
+
+Did do_reference_check(Interpreter& in) {
+  const BlockWords& w = in.words;
+  uint32_t place = 1;
+  if (!w.m.empty()) return in.raise(Condition::reference_check_m, 'M', w.m[0]);  // App.1 P435
+  if (w.axes == 0) return in.raise(Condition::words_missing, 'G', 27);
+  if (!place_of_p(in, 1, &place) || place < 1 || place > 4) return in.raise(Condition::value_range, 'P', w.get('P'));
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  move_linear(in, target_of_words(in), w.axes, style);
+  // The comparison comes behind the move. Where radius compensation leads is known only then.
+  in.next_step = Step::reference_check;
+  return in.state.comp.side != 0 ? in.need(NC_SYNC_POSITION) : Did::later;
+}
+
+Did compare_reference(Interpreter& in) {
+  const BlockWords& w = in.words;
+  uint32_t place = 1;
+  place_of_p(in, 1, &place);
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((w.axes >> i) & 1) == 0) continue;
+    const double at = in.state.comp.side != 0 ? in.world.machine.v[i] : in.state.machine[i];
+    double apart = at - in.reference(place - 1, i);
+    if (((in.settings.machine_turn >> i) & 1) != 0) apart -= 360 * std::nearbyint(apart / 360);
+    if (std::fabs(apart) <= same_place(in)) continue;
+    in.raise(Condition::reference_compare);  // P434
+    in.fault.axis = static_cast<int8_t>(i);
+    return Did::fault;
   }
   return Did::done;
 }
@@ -60,19 +191,21 @@ Did do_machine_move(Interpreter& in) {
   const BlockWords& w = in.words;
   for (const FunctionRow* row : w.g)
     if (row->function == Function::coordinate_set && in.dialect->id == NC_DIALECT_M700) return clear_shift(in);
-  bool incremental = w.incremental != 0 || in.state.modal.code[kGroupDistance] == 910;
+  const bool incremental = w.incremental != 0 || in.state.modal.code[kGroupDistance] == 910;
   if (in.dialect->id == NC_DIALECT_DGSHAPE && incremental) return in.raise(Condition::code_in_incremental, 'G', 53);
-  if (w.incremental != 0) {  // M700 14.4: in G91 a plain incremental rapid
-    LinearStyle style;
-    style.kind = NC_MOVE_RAPID;
-    style.transparent = true;
-    move_linear(in, target_of_words(in), w.axes, style);
-    return Did::done;
-  }
   AxisVec machine = in.state.machine;
-  for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((w.axes >> i) & 1) != 0) machine[i] = w.axis[i];
-  move_machine(in, machine, w.axes);
+  uint32_t absolute = 0;
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    const uint32_t bit = 1u << i;
+    if ((w.axes & bit) == 0) continue;
+    if ((w.incremental & bit) != 0) {  // M700 14.4 (4): in G91 a plain incremental rapid; mirror image does not touch it (13.6 (7))
+      machine[i] += w.axis[i];
+      continue;
+    }
+    absolute |= bit;
+    machine[i] = machine_target(in, i, w.axis[i]);
+  }
+  move_machine(in, machine, w.axes, absolute);
   return Did::done;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// G31: a straight feed that a signal ends (M700 15.2, 15.4). Where it ended is known only when it has happened, so the block goes on
+// G31: a straight feed that a signal ends (M700 15.2, 15.4), or that signals change (15.5); G31.1 to G31.3 with signals and feeds by
+// parameter (15.3). Where it ended is known only when it has happened, so the block goes on
 // behind a sync.
 #include "interpret/functions/functions.hpp"
 
@@ -13,15 +14,38 @@ void store_skip_position(Interpreter& in, const AxisVec& machine, uint32_t axes)
     if (((axes >> i) & 1) != 0) in.set_table(Frames::skip_key(i), machine[i] - zero[i]);
 }
 
+/// M700 15.5: F1= to F8=, the feed behind each signal; 0 ends the move. Signals that are not named do nothing.
+Did take_speeds(Interpreter& in, uint32_t* stops) {
+  const BlockWords& w = in.words;
+  if (w.has('P')) return in.raise(Condition::format_error, 'P', w.get('P'));  // which signals count is said already
+  const double unit = in.state.modal.code[kGroupUnit] == 200 ? 25.4 : 1.0;
+  in.skip_speeds = SkipSpeeds{};
+  *stops = 0;
+  for (unsigned i = 0; i < SkipSpeeds::kSignals; ++i) {
+    if (((w.counted_feeds >> i) & 1) == 0) continue;
+    const double feed = w.counted_feed[i] * unit;
+    if (!(feed >= 0 && feed <= 1e7)) return in.raise(Condition::value_range, 'F', w.counted_feed[i]);
+    if (feed == 0) {
+      *stops |= 1u << i;
+      continue;
+    }
+    in.skip_speeds.mask = static_cast<uint8_t>(in.skip_speeds.mask | 1u << i);
+    in.skip_speeds.feed_mm_min[i] = feed;
+  }
+  return Did::done;
+}
+
 }  // namespace
 
 Did do_skip(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (in.state.comp.side != 0) return in.raise(Condition::skip_in_compensation, 'G', 31);
-  uint32_t mask = 1;
-  if (w.has('P') && (!whole_number(w.get('P'), &mask) || mask < 1 || mask > 255)) return in.raise(Condition::value_range, 'P', w.get('P'));
+  const unsigned step = static_cast<unsigned>(w.one_shot_code - 310);  // 0 G31, 1 to 3 G31.1 to G31.3
+  if (in.state.comp.side != 0) return in.raise(Condition::skip_in_compensation, 'G', w.one_shot_code / 10.0);
+  uint32_t mask = step == 0 ? 1u : in.settings.multi_skip_mask[step - 1];  // M700 15.3 (5)
+  if (step == 0 && w.has('P') && (!whole_number(w.get('P'), &mask) || mask < 1 || mask > 255))
+    return in.raise(Condition::value_range, 'P', w.get('P'));
   const bool inch = in.state.modal.code[kGroupUnit] == 200;
-  double feed = in.settings.skip_feed;
+  double feed = step == 0 ? in.settings.skip_feed : in.settings.multi_skip_feed[step - 1];
   if (w.has('F')) {
     const Did did = feed_of(in, &feed);
     if (did != Did::done) return did;
@@ -32,6 +56,11 @@ Did do_skip(Interpreter& in) {
   style.kind = NC_MOVE_SKIP;
   style.feed_mm_min = feed;
   style.exact_stop = true;
+  if (w.counted_feeds != 0) {
+    const Did did = take_speeds(in, &mask);
+    if (did != Did::done) return did;
+    style.skip_speeds = &in.skip_speeds;
+  }
   style.skip_mask = static_cast<uint8_t>(mask);
   const AxisVec before = in.state.machine;
   move_linear(in, target_of_words(in), w.axes, style);
@@ -47,6 +76,7 @@ Did skip_answered(Interpreter& in) {
   AxisVec at = in.state.machine;  // without a signal: the end point of the block
   if (in.world.skipped) {
     for (unsigned i = 0; i < in.axis_count; ++i) {
+      if (((in.state.map.frozen >> i) & 1) != 0) continue;  // it has not moved (M700 6.16)
       at[i] = in.world.skip_machine.v[i];
       in.state.machine[i] = in.world.machine.v[i];
     }

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stroke check before travel (M700 15.7): the area that G22 prohibits, in machine coordinates.
+#pragma once
+
+#include <cmath>
+
+#include "stream/stream.hpp"
+
+namespace nc {
+
+struct StrokeBox {
+  static constexpr unsigned kBasicAxes = 3;
+  int8_t axis[kBasicAxes] = {-1, -1, -1};  ///< its index; -1: not checked, its two coordinates are the same
+  bool turns[kBasicAxes] = {};             ///< shown within one turn (14.13): the area is converted like the command
+  double low[kBasicAxes] = {}, high[kBasicAxes] = {};
+
+  bool operator==(const StrokeBox& other) const {
+    for (unsigned i = 0; i < kBasicAxes; ++i)
+      if (axis[i] != other.axis[i] || turns[i] != other.turns[i] || low[i] != other.low[i] || high[i] != other.high[i]) return false;
+    return true;
+  }
+
+  /// The border belongs to the area: (8) prints 45 <= Z <= 315.
+  bool holds(const AxisVec& machine) const {
+    bool any = false;
+    for (unsigned i = 0; i < kBasicAxes; ++i) {
+      if (axis[i] < 0) continue;
+      any = true;
+      const double at = machine[static_cast<unsigned>(axis[i])];
+      // The first angle equal to `at` that is not below the area, when it turns.
+      const double here = turns[i] ? low[i] + (at - low[i]) - 360 * std::floor((at - low[i]) / 360) : at;
+      if (here < low[i] || here > high[i]) return false;
+    }
+    return any;
+  }
+};
+
+}  // namespace nc

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// G37: automatic tool length measurement (M700 15.1). Rapid up to the distance R before the measuring position, then at the measuring
+// feed to the distance D behind it, until the sensor comes; it must come within D of the position. What the coordinate at the sensor
+// lacks to the one commanded goes into the tool length.
+#include <algorithm>
+#include <cmath>
+
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+/// A distance of the block, or the one of the parameter.
+double distance(const Interpreter& in, char letter, double parameter) {
+  return in.words.has(letter) ? std::fabs(length_of(in, letter)) : parameter;
+}
+
+struct Measurement {
+  unsigned axis = 0;
+  double position = 0;       ///< commanded, workpiece coordinates with the tool length in force
+  double deceleration = 0;   ///< R
+  double range = 0;          ///< D
+  double feed_mm_min = 0;
+};
+
+Did read_measurement(Interpreter& in, Measurement* m) {
+  const BlockWords& w = in.words;
+  if (w.has('H')) return in.raise(Condition::measure_h, 'H', w.get('H'));
+  if (w.axes == 0 || (w.axes & (w.axes - 1)) != 0) return in.raise(Condition::measure_axis, 'G', 37);
+  while (((w.axes >> m->axis) & 1) == 0) ++m->axis;
+  const int16_t length = in.state.modal.code[kGroupLength];
+  const bool offset_given = (length == 430 || length == 440) && in.state.modal.h != 0 && in.state.length_axis == m->axis;
+  if (!offset_given) return in.raise(Condition::measure_no_length, 'G', 37);
+  if (in.state.comp.side != 0) return in.raise(Condition::skip_in_compensation, 'G', 37);
+  const bool inch = in.state.modal.code[kGroupUnit] == 200;
+  m->feed_mm_min = in.settings.measure_feed;
+  if (w.has('F')) {
+    const Did did = feed_of(in, &m->feed_mm_min);
+    if (did != Did::done) return did;
+    if (inch) m->feed_mm_min *= 25.4;
+  }
+  if (!(m->feed_mm_min > 0)) m->feed_mm_min = 1;  // (3)
+  m->deceleration = distance(in, 'R', in.settings.measure_deceleration);
+  m->range = distance(in, 'D', in.settings.measure_range);
+  return Did::done;
+}
+
+double finest(const Interpreter& in) { return in.settings.setting_unit_mm / 2; }
+
+}  // namespace
+
+Did do_measure_length(Interpreter& in) {
+  Measurement m;
+  const Did did = read_measurement(in, &m);
+  if (did != Did::done) return did;
+  const uint32_t axis = 1u << m.axis;
+  const AxisVec target = target_of_words(in);
+  const double way = target[m.axis] - in.position()[m.axis];
+  m.position = target[m.axis];
+  // (7) |measuring point - start point| > R > D; (8), (9): both may be 0, or D alone.
+  const bool none = m.deceleration == 0 && m.range == 0;
+  if (!none && !(m.deceleration > m.range)) return in.raise(Condition::value_range, 'D', m.range);
+  if (!none && !(std::fabs(way) > m.deceleration)) return in.raise(Condition::value_range, 'R', m.deceleration);
+  const double direction = std::copysign(1.0, way);
+  AxisVec before = target;
+  before[m.axis] = m.position - direction * m.deceleration;
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  move_linear(in, before, axis, style);
+  in.next_step = Step::measured;
+  in.measured_position = m.position;
+  in.measured_range = m.range;
+  in.measured_nothing = none;
+  if (none) return Did::later;  // (9): P607 whatever the sensor says
+  AxisVec behind = target;
+  behind[m.axis] = m.position + direction * m.range;
+  style.kind = NC_MOVE_SKIP;
+  style.feed_mm_min = m.feed_mm_min;
+  style.exact_stop = true;
+  style.skip_mask = 1;  // (2): the skip signal
+  move_linear(in, behind, axis, style);
+  return in.need(NC_SYNC_SKIP | NC_SYNC_POSITION);
+}
+
+Did measured(Interpreter& in) {
+  State& state = in.state;
+  const unsigned axis = state.length_axis;
+  const char name = in.system->axis[axis].name;
+  if (in.measured_nothing) return in.raise(Condition::measure_signal, name, in.measured_position);
+  for (unsigned i = 0; i < in.axis_count; ++i) state.machine[i] = in.world.machine.v[i];
+  if (!in.world.skipped) return in.raise(Condition::measure_signal, name, in.measured_position);
+  const double at = in.world.skip_machine.v[axis] - in.zero()[axis] - state.applied[axis];
+  const double difference = at - in.measured_position;
+  if (std::fabs(difference) > in.measured_range + finest(in)) return in.raise(Condition::measure_signal, name, in.measured_position);
+  // With the offset that is applied the tool would have to be longer by the difference; G44 counts it the other way round.
+  const double longer = state.modal.code[kGroupLength] == 440 ? -difference : difference;
+  const Frames& f = in.frames;
+  const unsigned length = f.tool_key(state.modal.h, NC_TOOL_LENGTH), wear = f.tool_key(state.modal.h, NC_TOOL_LENGTH_WEAR);
+  const double amount = f.get(length) + (in.settings.tool_memory_2 ? f.get(wear) : 0);
+  // An offset that is not 0 is corrected by its wear, where there is one.
+  const unsigned key = in.settings.tool_memory_2 && amount != 0 ? wear : length;
+  const double corrected = f.get(key) + longer;
+  if (std::fabs(corrected) >= kOffsetRange) return in.raise(Condition::value_range, 'H', corrected);
+  in.set_table(key, corrected);
+  state.length_value += difference;  // (4): from the next command of the axis on
+  return Did::done;
+}
+
+}  // namespace nc

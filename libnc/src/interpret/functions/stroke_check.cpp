@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// G22: an area that no block may start or end in (M700 15.7). Commit looks at the moves, with every compensation in them
+// (control/commit.cpp). G23 ends it and is one of the reading modes of a block (execute_block.cpp).
+#include <algorithm>
+
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+
+Did do_stroke_check(Interpreter& in) {
+  const BlockWords& w = in.words;
+  StrokeBox box;
+  uint32_t taken = letters("IJK");
+  bool any = false;
+  for (unsigned i = 0; i < StrokeBox::kBasicAxes; ++i) {
+    const char name = in.settings.plane_basic[i];
+    const int axis = name == 0 ? -1 : in.axis_of[name - 'A'];
+    const char lower = static_cast<char>('I' + i);
+    if (axis < 0) {
+      if (w.has(lower)) return in.raise(Condition::illegal_address, lower, w.get(lower));
+      continue;
+    }
+    taken |= 1u << (name - 'A');
+    // (2) what is omitted is 0. Machine coordinates, in the unit of the program, whatever G90 and G91 say.
+    const auto index = static_cast<unsigned>(axis);
+    const bool turns = ((in.rotary >> index) & 1) != 0;
+    const double upper_point = w.has(name) ? w.axis[index] : 0;
+    const double lower_point = w.has(lower) ? length_value(in, w.get(lower), w.flags[lower - 'A'], turns, false) : 0;
+    if (upper_point == lower_point) continue;  // (3)
+    box.axis[i] = static_cast<int8_t>(axis);
+    box.turns[i] = ((in.settings.machine_turn >> index) & 1) != 0;
+    box.low[i] = std::min(upper_point, lower_point);
+    box.high[i] = std::max(upper_point, lower_point);
+    any = true;
+  }
+  // (7): an address that the block has no use for.
+  const uint32_t other = w.present & ~taken & ~letters("NOFSMT");
+  for (char letter = 'A'; letter <= 'Z'; ++letter)
+    if (((other >> (letter - 'A')) & 1) != 0) return in.raise(Condition::illegal_address, letter, w.get(letter));
+  in.state.stroke_box = any ? in.stroke_boxes.intern(box) + 1 : 0;
+  in.state.modal.code[kGroupStrokeCheck] = 220;
+  return Did::done;
+}
+
+}  // namespace nc

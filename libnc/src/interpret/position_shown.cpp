@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the counters show of an axis that counts on over its turns (M700 14.13).
+#include "frame/rotary.hpp"
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+AxisVec shown(const Interpreter& in, uint32_t axes, const AxisVec& position) {
+  AxisVec out = position;
+  for (unsigned i = 0; axes != 0 && i < in.axis_count; ++i)
+    if (((axes >> i) & 1) != 0) out[i] = within_one_turn(position[i]);
+  return out;
+}
+
+}  // namespace
+
+AxisVec work_shown(const Interpreter& in, const AxisVec& work) { return shown(in, in.settings.turning, work); }
+AxisVec machine_shown(const Interpreter& in, const AxisVec& machine) { return shown(in, in.settings.machine_turn, machine); }
+
+}  // namespace nc
