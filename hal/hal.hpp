@@ -41,6 +41,7 @@ struct SystemCommand {
   std::uint64_t serial = 0;  // item in execution
   nc_source source{};        // and where it stands
   bool running = false;      // a program is in execution
+  std::uint16_t current_limit[NC_MAX_AXES] = {};  // percent of the rated current of each drive, 0 = its own limit
 };
 
 struct Command {

@@ -264,7 +264,9 @@ void Scan::write_outputs() noexcept {
                           out.s,
                           out.serial,
                           out.source,
-                          out.state == NC_STATE_RUNNING};
+                          out.state == NC_STATE_RUNNING,
+                          {}};
+    std::copy(std::begin(out.current_limit), std::end(out.current_limit), machine_.system[s].current_limit);
     if (out.message && !message_seen_[s])
       (void)messages_.push({s, out.message_text, out.message_port});  // full: the oldest stay
     message_seen_[s] = out.message;

@@ -474,6 +474,78 @@ TEST(Executor, SkipWithoutSignalEndsAtItsEnd) {
   EXPECT_EQ(w.skip_machine.v[2], -20);
 }
 
+// M700 15.5 (9), (11): each signal its feed when it rises, of two the smaller, and a stop whatever else is on.
+TEST(Executor, SkipSignalsChangeTheFeed) {
+  const ExecutorConfig c = standard_config();
+  SkipSpeeds speeds;
+  speeds.mask = 0xe;
+  speeds.feed_mm_min[1] = 120;
+  speeds.feed_mm_min[2] = 240;
+  speeds.feed_mm_min[3] = 360;
+  Program p(c);
+  Segment& s = p.line(xyz(0, 0, -20), 10);
+  s.skip = true;
+  s.skip_mask = 1;
+  s.skip_speeds = &speeds;
+  s.start_feed_mm_s = 10;
+  p.mark();
+  p.sync(NC_SYNC_SKIP);
+  Machine m(c);
+  m.feed(p);
+  m.start();
+  const auto speed_at = [&](double z, uint32_t signals) {
+    EXPECT_TRUE(m.until(p, [&] { return m.out.command.v[2] <= z; }));
+    m.in.skip = signals;
+    for (unsigned i = 0; i < 20; ++i) m.cycle();
+    return -m.out.velocity.v[2];
+  };
+  EXPECT_NEAR(speed_at(-2, 0), 10, 1e-6);
+  EXPECT_NEAR(speed_at(-4, 8), 6, 1e-6);
+  EXPECT_NEAR(speed_at(-5, 8 + 4 + 2), 2, 1e-6);  // both rise at once
+  EXPECT_NEAR(speed_at(-6, 8), 2, 1e-6);          // nothing rises
+  EXPECT_NEAR(speed_at(-6.5, 8 + 4), 4, 1e-6);
+  EXPECT_NEAR(speed_at(-7, 8 + 4 + 16), 4, 1e-6);  // no feed is given for signal 5
+  m.in.skip = 8 + 4 + 1;
+  nc_world w{};
+  ASSERT_TRUE(m.until(p, [&] { return m.executor.sync_reached(3, &w); }));
+  EXPECT_TRUE(w.skipped);
+  EXPECT_GT(w.skip_machine.v[2], -8);
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+}
+
+TEST(Executor, ASkipSignalEndsADwell) {  // M700 15.3 (2)
+  const ExecutorConfig c = standard_config();
+  Program p(c);
+  p.gate(NC_GATE_DWELL_SECONDS, 1000);
+  p.records.back().gate.skip_mask = 2;
+  p.line(xyz(1, 0, 0), 10);
+  Machine m(c);
+  m.feed(p);
+  m.start();
+  for (unsigned i = 0; i < 100; ++i) m.cycle();
+  m.in.skip = 1;
+  for (unsigned i = 0; i < 100; ++i) m.cycle();
+  EXPECT_EQ(m.out.command.v[0], 0);
+  EXPECT_EQ(m.out.cause, NC_CAUSE_DWELL);
+  m.in.skip = 2;
+  EXPECT_TRUE(m.until(p, [&] { return m.out.command.v[0] == 1; }));
+}
+
+TEST(Executor, CurrentLimitsGoOutWithTheirAction) {  // M700 15.6
+  const ExecutorConfig c = standard_config();
+  Program p(c);
+  p.line(xyz(1, 0, 0), 10);
+  p.action(NC_ACTION_CURRENT_LIMIT, 80, 1);
+  p.line(xyz(2, 0, 0), 10);
+  Machine m(c);
+  m.feed(p);
+  m.start();
+  EXPECT_EQ(m.out.current_limit[1], 0);
+  ASSERT_TRUE(m.until(p, [&] { return m.out.command.v[0] == 2; }));
+  EXPECT_EQ(m.out.current_limit[1], 80);
+  EXPECT_EQ(m.out.current_limit[0], 0);
+}
+
 TEST(Executor, ResetStopsOnThePathAndGivesEverythingUp) {
   const ExecutorConfig c = standard_config();
   const Program p = ten_lines(c);

@@ -88,6 +88,27 @@ TEST(Skip, TheNearestOfSeveralSolidsWins) {
   EXPECT_EQ(world.signals_at({{70, 0, 0}}), 0u);
 }
 
+TEST(Skip, AMoveThatEndsOnTheSurfaceHasItsSignal) {
+  const tools::Setup setup = setup_of(R"({"skip": [{"box": {"Z": [-40, -10]}}]})");
+  VirtualWorld world(setup, xyz());
+  nc_move onto = skip_move({{0, 0, 0}}, {{0, 0, -10}});
+  EXPECT_TRUE(world.execute(&onto));
+  EXPECT_TRUE(world.answer(NC_SYNC_SKIP).skipped);
+  EXPECT_EQ(world.machine().v[2], -10);
+  nc_move short_of_it = skip_move({{0, 0, 0}}, {{0, 0, -9.999}});
+  EXPECT_TRUE(world.execute(&short_of_it));
+  EXPECT_FALSE(world.answer(NC_SYNC_SKIP).skipped);
+}
+
+TEST(Skip, ASignalThatIsOnEndsADwell) {  // M700 15.3 (2)
+  const tools::Setup setup = setup_of(R"({"skip": [{"signal": 2, "box": {"Z": [-1, 1]}}], "clock": "1970-01-01T00:00:00"})");
+  VirtualWorld world(setup, xyz());
+  world.dwell(false, 10, 2);
+  EXPECT_EQ(world.answer(0).power_on_ms, 0);
+  world.dwell(false, 10, 1);
+  EXPECT_EQ(world.answer(0).power_on_ms, 10000);
+}
+
 TEST(Clock, GoesByLengthOverFeedRapidsDwellsAndReads) {
   const tools::Setup setup = setup_of(R"({"clock": "1970-01-01T00:00:00"})");
   VirtualWorld world(setup, xyz());

@@ -129,8 +129,8 @@ typedef struct nc_action {
 typedef struct nc_gate {
   double value;
   uint8_t kind; /**< nc_gate_kind */
-  uint8_t skip_mask; /**< dwell: skip signals that end it, bit n = signal n+1 (M700 15.3, 15.4) */
   bool announce; /**< G04 as programmed or made by a cycle: an event in a trace */
+  uint8_t skip_mask; /**< dwell: skip signals that end it, bit n = signal n+1 (M700 15.3, 15.4) */
 } nc_gate;
 
 /** The modal state that a block leaves behind. */

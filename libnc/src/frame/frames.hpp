@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coordinate systems and offset tables of one part system.
 //
-// The composition, written down once (M700 14.2, 14.5, 14.10, 14.11; DGSHAPE G54-G59, G92):
+// The composition, written down once (M700 13.6, 14.2, 14.5, 14.10, 14.11, 14.13; DGSHAPE G54-G59, G92). From what is programmed to
+// what the axes do:
 //
-//     zero(k)  = E + O(k) + S + L(k)        E external offset, O offset of work system k, S common shift made by G92,
+//     word      = as programmed; G91: + the programmed position of before         interpret/block_words.cpp, motion.cpp
+//     turned    = an angle of G90 as a way on an axis that turns                  frame/rotary.hpp
+//     work      = mirror(figure(turned))    program maps, in front of compensation     interpret/program_map.hpp
+//     path      = work + radius vector                                            offset/
+//     machine   = path + zero(k) + T        T tool length compensation *as applied* to each axis   frame/transform.hpp
+//     zero(k)   = E + O(k) + S + L(k)       E external offset, O offset of work system k, S common shift made by G92,
 //                                           L local system (G52) held by system k
-//     machine  = work + zero(k) + T         T tool length compensation *as applied* to each axis
+//     shown     = machine, and work, within one turn where the axis type says so  interpret/position_shown.cpp
+//
+// G53 and the way to a reference position begin at `machine`: no map, no zero, no compensation.
 //
 // T is applied to an axis when that axis is next commanded (M700 12.2), so it is part of the position's state, not of the tables.
 //

@@ -62,6 +62,7 @@ Did do_coordinate_preset(Interpreter& in) {
     if (((w.axes >> i) & 1) == 0) continue;
     in.set_table(Frames::shift_key(i), 0);
     if (in.state.work_system < 6) in.set_table(Frames::local_key(in.state.work_system, i), 0);
+    in.state.applied[i] = 0;  // precaution (1): the reading becomes machine value less offset; the length comes back with the next command
   }
   return Did::done;
 }
