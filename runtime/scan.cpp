@@ -2,7 +2,9 @@
 // The scan: see scan.hpp for its order.
 #include "runtime/scan.hpp"
 
+#include <algorithm>
 #include <ctime>
+#include <iterator>
 
 #include "runtime/rt_scope.hpp"
 

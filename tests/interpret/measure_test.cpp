@@ -169,6 +169,7 @@ TEST(Measure, Alarms) {
   EXPECT_EQ(m700("G43 H1\nG37 R5. D1.\nM30").alarm, "P604");
   EXPECT_EQ(m700("G43 H1\nG37 Z-50. X1. R5. D1.\nM30").alarm, "P604");
   EXPECT_EQ(m700("G43 H1\nG37 Z-50. H1 R5. D1.\nM30").alarm, "P605");
+  EXPECT_EQ(m700("G43 H1\nG37 Z-50. T1 R5. D1.\nM30").alarm, "P605");
   EXPECT_EQ(m700("G37 Z-50. R5. D1.\nM30").alarm, "P606");
   EXPECT_EQ(m700("G43 H1\nG49\nG37 Z-50. R5. D1.\nM30").alarm, "P606");
   EXPECT_EQ(m700("G43 H1\nG37 Z-5. R5. D1.\nM30").alarm, "P35");  // (7)

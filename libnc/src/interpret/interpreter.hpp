@@ -259,6 +259,7 @@ struct Interpreter {
     double length_value = 0;
     uint8_t length_axis = 2;
     uint16_t work_system = 0;
+    uint32_t stroke_box = 0;
     CycleState cycle;
   };
   Did enter_interrupt();

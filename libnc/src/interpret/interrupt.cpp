@@ -89,6 +89,7 @@ bool Interpreter::interrupt(const AxisVec& machine, unsigned taken_back, bool cu
   back.length_value = state.length_value;
   back.length_axis = state.length_axis;
   back.work_system = state.work_system;
+  back.stroke_box = state.stroke_box;
   back.cycle = state.cycle;
   const Did did = enter_interrupt();
   if (did == Did::fault) {
@@ -140,6 +141,7 @@ void Interpreter::leave_interrupt(bool to_sequence) {
     state.length_value = interrupted_.length_value;
     state.length_axis = interrupted_.length_axis;
     state.work_system = interrupted_.work_system;
+    state.stroke_box = interrupted_.stroke_box;
     state.cycle = interrupted_.cycle;
     if (interrupted_.inside_block) {
       state.machine = interrupted_.machine;

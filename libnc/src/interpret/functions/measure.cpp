@@ -2,8 +2,8 @@
 // G37: automatic tool length measurement (M700 15.1). Rapid up to the distance R before the measuring position, then at the measuring
 // feed to the distance D behind it, until the sensor comes; it must come within D of the position. What the coordinate at the sensor
 // lacks to the one commanded goes into the tool length.
-#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "interpret/functions/functions.hpp"
 
@@ -25,7 +25,8 @@ struct Measurement {
 
 Did read_measurement(Interpreter& in, Measurement* m) {
   const BlockWords& w = in.words;
-  if (w.has('H')) return in.raise(Condition::measure_h, 'H', w.get('H'));
+  for (const char letter : {'H', 'T'})  // (3); T: appendix 1
+    if (w.has(letter)) return in.raise(Condition::measure_h, letter, w.get(letter));
   if (w.axes == 0 || (w.axes & (w.axes - 1)) != 0) return in.raise(Condition::measure_axis, 'G', 37);
   while (((w.axes >> m->axis) & 1) == 0) ++m->axis;
   const int16_t length = in.state.modal.code[kGroupLength];
