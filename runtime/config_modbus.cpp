@@ -146,6 +146,23 @@ void read_word_format(TableReader* reader, PointMap* map) {
   reader->number("offset", &map->offset, -4294967295.0, 4294967295.0);
 }
 
+std::string range_text(const hal::modbus::ValueRange& range) {
+  return std::to_string(range.min) + " to " + std::to_string(range.max);
+}
+
+// The safe value of an output goes into the register as it is, and an input shows it before the first answer: it is
+// not bent into the range in silence.
+void check_initial(TableReader* point_reader, const PointMap& map) {
+  if (point_reader->find("initial") == nullptr) return;
+  const bool is_signed = map.format != Format::kBit && point_is_signed(map);
+  const std::int64_t value = is_signed ? static_cast<std::int32_t>(map.initial) : std::int64_t{map.initial};
+  const hal::modbus::ValueRange range = value_range(map);
+  if (range.holds(value)) return;
+  point_reader->error("initial", "must be from " + range_text(range) + ", what " + table_name(map.table) + " " +
+                                     std::to_string(map.address) + " can hold with its sign, width and scale, not " +
+                                     std::to_string(value));
+}
+
 // hold | off | a number, as a number or a text.
 void read_on_loss(TableReader* reader, PointMap* map) {
   const toml::node* node = reader->find("on_loss");
@@ -157,9 +174,7 @@ void read_on_loss(TableReader* reader, PointMap* map) {
         "the link is set in the device");
     return;
   }
-  const bool negative = map->format != Format::kBit && point_is_signed(*map);
-  const std::int64_t min = negative ? -2147483648LL : 0;
-  const std::int64_t max = map->format == Format::kBit ? 1 : negative ? 2147483647LL : 4294967295LL;
+  const hal::modbus::ValueRange range = value_range(*map);
   std::int64_t value = 0;
   bool number = false;
   if (const auto* integer = node->as_integer()) {
@@ -172,9 +187,8 @@ void read_on_loss(TableReader* reader, PointMap* map) {
     if (word == "hold") map->on_loss = OnLoss::kHold;
     if (word == "hold" || word == "off") return;
   }
-  if (!number || value < min || value > max) {
-    reader->error("on_loss", "must be \"hold\", \"off\" or a number from " + std::to_string(min) + " to " +
-                                 std::to_string(max));
+  if (!number || !range.holds(value)) {
+    reader->error("on_loss", "must be \"hold\", \"off\" or a number from " + range_text(range));
     return;
   }
   map->on_loss = OnLoss::kValue;
@@ -237,6 +251,7 @@ std::uint8_t read_point_modbus(TableReader* point_reader, const hal::Point& poin
     if (addressed && map.end() > kLastAddress + 1)
       reader.error("address", "a 32-bit value needs two registers, the second would be 65536");
     read_on_loss(&reader, &map);
+    if (placed && addressed) check_initial(point_reader, map);
     if (!found || !placed || !addressed) return;
     check_collisions(&reader, *config, link->link, map);
     link->link.points.push_back(map);

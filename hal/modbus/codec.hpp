@@ -18,4 +18,11 @@ bool decode(const PointMap& map, const std::uint16_t* cells, std::uint32_t* valu
 // The inverse, for outputs; a bit of a register changes that bit only. Saturates at the raw range.
 void encode(const PointMap& map, std::uint32_t value, std::uint16_t* cells) noexcept;
 
+// The whole numbers that a point can have: its raw range, scaled, within its 32 bits.
+struct ValueRange {
+  std::int64_t min = 0, max = 1;
+  bool holds(std::int64_t value) const { return value >= min && value <= max; }
+};
+ValueRange value_range(const PointMap& map) noexcept;
+
 }  // namespace nc::hal::modbus

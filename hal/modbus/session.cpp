@@ -19,16 +19,8 @@
 namespace nc::hal::modbus {
 namespace {
 
-// Function codes. Modbus application protocol V1.1b3, 6.1 to 6.6, 6.11, 6.12.
-constexpr unsigned kReadFunction[] = {1, 2, 4, 3};  // by Table
-constexpr unsigned kWriteOneCoil = 5, kWriteOneRegister = 6, kWriteCoils = 15, kWriteRegisters = 16;
-
 std::string place(const Block& block, unsigned function) {
   return place_text(block) + ", function " + std::to_string(function);
-}
-
-bool is_exception(int error) {
-  return error > MODBUS_ENOBASE && error < MODBUS_ENOBASE + MODBUS_EXCEPTION_MAX;
 }
 
 // Connects a socket that does not block, within a time. 0 or the error.
@@ -161,47 +153,54 @@ bool Session::ready(const Block& block) {
   return false;
 }
 
-Result Session::finish(int count, const Block& block, unsigned function) {
-  if (count == block.count) return Result::kOk;
-  const int error = count < 0 ? errno : EMBBADDATA;
-  error_ = place(block, function) + ": " +
-           (error == EMBBADDATA ? "the answer does not belong to the request" : modbus_strerror(error));
-  if (count < 0 && is_exception(error)) return Result::kException;
+// 0 or the error. A partner that takes nothing is not waited for any longer than one that says nothing.
+int Session::send_all(const Frame& request) {
+  for (std::size_t at = 0; at < request.size;) {
+    const ssize_t sent = ::send(fd_, request.bytes.data() + at, request.size - at, MSG_NOSIGNAL);
+    if (sent > 0) {
+      at += static_cast<std::size_t>(sent);
+      continue;
+    }
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent == 0 || (errno != EAGAIN && errno != EWOULDBLOCK)) return sent == 0 ? EPIPE : errno;
+    pollfd wait{fd_, POLLOUT, 0};
+    const int count = poll(&wait, 1, static_cast<int>(config_.response_timeout_ms));
+    if (count == 0) return ETIMEDOUT;
+    if (count < 0 && errno != EINTR) return errno;
+  }
+  return 0;
+}
+
+Result Session::exchange(const Block& block, const Frame& request, std::uint8_t* answer) {
+  int error = send_all(request);
+  int size = 0;
+  if (error == 0 && (size = modbus_receive_confirmation(context_.get(), answer)) <= 0) error = size < 0 ? errno : EMBBADDATA;
+  unsigned exception = 0;
+  const char* why = "";
+  const Verdict verdict = error != 0 ? Verdict::kForeign
+                                     : check_answer(request, answer, static_cast<std::size_t>(size), &exception, &why);
+  if (verdict == Verdict::kGood) return Result::kOk;
+  if (verdict == Verdict::kException) why = modbus_strerror(MODBUS_ENOBASE + static_cast<int>(exception));
+  else if (error == EMBBADDATA) why = "the answer is no Modbus";
+  else if (error != 0) why = modbus_strerror(error);
+  error_ = place(block, request.function()) + ": " + why;
+  if (verdict == Verdict::kException) return Result::kException;
   close();
   return error == ETIMEDOUT ? Result::kTimeout : Result::kFailed;
 }
 
 Result Session::read(const Block& block, std::uint16_t* cells) {
   if (!ready(block)) return Result::kFailed;
-  modbus_t* context = context_.get();
-  int count = 0;
-  if (is_bit_table(block.table)) {
-    std::array<std::uint8_t, kMaxReadBits> bits{};
-    const auto function = block.table == Table::kCoil ? modbus_read_bits : modbus_read_input_bits;
-    count = function(context, block.first, block.count, bits.data());
-    for (int i = 0; i < count && i < block.count; ++i) cells[i] = bits[static_cast<unsigned>(i)];
-  } else {
-    const auto function =
-        block.table == Table::kHolding ? modbus_read_registers : modbus_read_input_registers;
-    count = function(context, block.first, block.count, cells);
-  }
-  return finish(count, block, kReadFunction[static_cast<unsigned>(block.table)]);
+  std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> answer{};
+  const Result result = exchange(block, read_request(block, ++transaction_), answer.data());
+  if (result == Result::kOk) take_cells(block, answer.data(), cells);
+  return result;
 }
 
-// One cell goes out by functions 5 and 6, which every device has; more by 15 and 16.
 Result Session::write(const Block& block, const std::uint16_t* cells) {
   if (!ready(block)) return Result::kFailed;
-  modbus_t* context = context_.get();
-  if (block.table == Table::kCoil) {
-    if (block.count == 1)
-      return finish(modbus_write_bit(context, block.first, cells[0]), block, kWriteOneCoil);
-    std::array<std::uint8_t, kMaxWriteBits> bits{};
-    for (unsigned i = 0; i < block.count; ++i) bits[i] = static_cast<std::uint8_t>(cells[i]);
-    return finish(modbus_write_bits(context, block.first, block.count, bits.data()), block, kWriteCoils);
-  }
-  if (block.count == 1)
-    return finish(modbus_write_register(context, block.first, cells[0]), block, kWriteOneRegister);
-  return finish(modbus_write_registers(context, block.first, block.count, cells), block, kWriteRegisters);
+  std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> answer{};
+  return exchange(block, write_request(block, cells, ++transaction_), answer.data());
 }
 
 }  // namespace nc::hal::modbus

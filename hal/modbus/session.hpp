@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// One TCP connection to a Modbus server: connect, requests, close. libmodbus does the protocol.
+// One TCP connection to a Modbus server: connect, requests, close. libmodbus takes answers from the socket (framing,
+// time-outs); what they say is checked here, because it does not look at all of it (frame.hpp).
 //
 // Whatever leaves a doubt about the next answer closes the socket: a time-out (the late answer would be taken
-// for the next one, and every answer after it would be one behind), a wrong transaction, a malformed answer,
-// an answer that nobody asked for. An exception reply is an answer like any other. MODBUS_ERROR_RECOVERY_LINK
+// for the next one, and every answer after it would be one behind), a wrong transaction, unit or length, a malformed
+// answer, an answer that nobody asked for. An exception reply is an answer like any other. MODBUS_ERROR_RECOVERY_LINK
 // is never used: it sleeps and reconnects inside the call.
 #pragma once
 
@@ -13,6 +14,7 @@
 #include <string>
 
 #include "hal/modbus/blocks.hpp"
+#include "hal/modbus/frame.hpp"
 
 struct _modbus;
 struct addrinfo;
@@ -56,13 +58,15 @@ class Session {
   Result connect_to(const addrinfo& address);
   bool adopt(int fd);
   bool ready(const Block& block);
-  Result finish(int count, const Block& block, unsigned function);
+  Result exchange(const Block& block, const Frame& request, std::uint8_t* answer);
+  int send_all(const Frame& request);
 
   const LinkConfig& config_;
   std::unique_ptr<_modbus, FreeContext> context_;
   std::string error_;
   std::mutex mutex_;  // fd_ while it changes, against abort()
   int fd_ = -1;
+  std::uint16_t transaction_ = 0;
   bool aborted_ = false;
 };
 

@@ -33,6 +33,39 @@ const Wrong kWrong[] = {
        a.bytes[1] ^= 1;
        return a;
      }},
+    {"unit",
+     [](Answer a) {
+       a = poisoned(a);
+       a.bytes[6] = 2;
+       return a;
+     }},
+    {"protocol",
+     [](Answer a) {
+       a = poisoned(a);
+       a.bytes[3] = 1;
+       return a;
+     }},
+    {"length_too_large",
+     [](Answer a) {
+       a = poisoned(a);
+       a.bytes[5] = 9;
+       return a;
+     }},
+    {"length_too_small",
+     [](Answer a) {
+       a = poisoned(a);
+       a.bytes[5] = 3;
+       return a;
+     }},
+    {"exception_of_another_unit",
+     [](Answer a) {
+       a.bytes[6] = 7;
+       a.bytes[7] = 0x83;
+       a.bytes[8] = 2;
+       a.bytes.resize(9);
+       a.bytes[5] = 3;
+       return a;
+     }},
     {"function",
      [](Answer a) {
        a = poisoned(a);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Requests and answers of Modbus TCP as bytes: MBAP header and PDU. Modbus application protocol V1.1b3, 6;
+// Modbus messaging on TCP/IP V1.0b, 3.1.3.
+//
+// An answer is believed only when all of it fits: transaction, protocol, length, unit, function, and, by function, the
+// number of bytes or the echo of what was written. libmodbus 3.1.6 looks at the transaction and the function alone.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/modbus/blocks.hpp"
+
+namespace nc::hal::modbus {
+
+constexpr std::size_t kMaxFrame = 260;  // 7 bytes of header, 253 of PDU
+
+struct Frame {
+  std::array<std::uint8_t, kMaxFrame> bytes{};
+  std::size_t size = 0;
+
+  std::uint8_t function() const { return bytes[7]; }
+};
+
+Frame read_request(const Block& block, std::uint16_t transaction);
+// One cell goes out by functions 5 and 6, which every device has; more by 15 and 16.
+Frame write_request(const Block& block, const std::uint16_t* cells, std::uint16_t transaction);
+
+enum class Verdict : std::uint8_t {
+  kGood,
+  kException,  // of this request; *exception is its code
+  kForeign     // the answer of something else, or none
+};
+// `why`: a sentence for kForeign, static.
+Verdict check_answer(const Frame& request, const std::uint8_t* answer, std::size_t size, unsigned* exception,
+                     const char** why);
+
+// The cells of a good answer to a read request (registers, or bits as 0 and 1).
+void take_cells(const Block& block, const std::uint8_t* answer, std::uint16_t* cells);
+
+}  // namespace nc::hal::modbus
