@@ -6,6 +6,8 @@
 #include <charconv>
 #include <numeric>
 
+#include "ladder/elsewhere.hpp"
+
 namespace nc::ladder {
 
 namespace {
@@ -111,7 +113,10 @@ std::optional<Place> Names::device(std::string_view word, std::string* message) 
       why = "no such device: a name has at most " + std::to_string(kMaxName) + " characters";
     } else {
       why += " '" + std::string(word) + "'";
-      if (const std::string name = nearest(word); !name.empty()) why += "; did you mean '" + name + "'?";
+      const std::string name = nearest(word), elsewhere = device_elsewhere(word);
+      const bool address = word[0] == 'X' || word[0] == 'Y';  // here the names of the machine say more
+      if (!elsewhere.empty() && (name.empty() || !address)) why += ": " + elsewhere;
+      else if (!name.empty()) why += "; did you mean '" + name + "'?";
     }
   }
   *message = why;
@@ -162,7 +167,7 @@ std::optional<Operand> Names::operand(std::string_view word, std::string* messag
       return operand;
     }
     if (word[0] == 'E' && number) {
-      *message = "there are no real numbers in this language; scale to whole numbers";
+      *message = instruction_elsewhere("E+");
       return std::nullopt;
     }
     if (const auto [base, z] = split_index(word); !base.empty()) {

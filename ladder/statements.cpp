@@ -3,6 +3,7 @@
 #include <cctype>
 
 #include "ladder/compiler.hpp"
+#include "ladder/elsewhere.hpp"
 
 namespace nc::ladder {
 
@@ -87,7 +88,8 @@ void Compiler::statement() {
       if (number_after('P', name, kMaxLabel, &number)) label(name);
       return;
     }
-    error("no such instruction");
+    const std::string elsewhere = instruction_elsewhere(mnemonic);
+    error(elsewhere.empty() ? "no such instruction" : "not supported: " + elsewhere);
     return;
   }
   ++code_.instructions;
@@ -312,9 +314,11 @@ void Compiler::out_timer(const Rule& rule, const Place& place) {
 void Compiler::out_counter(const Place& place) {
   Encoded target;
   if (words_.size() != 3) return error("a counter needs its set value, such as K50 or D10");
+  std::string message;
+  const auto value = names_.operand(words_[2], &message);
+  if (value && value->form == Operand::Form::kConstant && (value->constant < 0 || value->constant > 32767))
+    return error("the set value is from K0 to K32767; for more count in 32 bits, with DINCP and LDD>=");
   if (!encode('s', words_[2], &target)) return;
-  if (target.mode == Mode::kConstant && static_cast<std::int32_t>(target.value) < 0)
-    return error("the set value is from K0 to K32767");
   note_coil(place);
   emit(Op::kOutCounter, target.value, static_cast<unsigned>(target.mode));
   emit2(place.number, 0);

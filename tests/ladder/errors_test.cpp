@@ -30,6 +30,18 @@ const Bad kBad[] = {
     {"LD T512\nOUT Y0", 1, "LD T512", "T0 to T511"},
     {"LD SM400\nMOV K1 Z16", 2, "MOV K1 Z16", "Z0 to Z15"},
     {"LD SM400\nMOV K1 D8192", 2, "MOV K1 D8192", "D0 to D8191"},
+    // what other controllers of the family have
+    {"LD X0\nE+ D0 D2 D4", 2, "E+ D0 D2 D4", "not supported: there are no real numbers"},
+    {"LD X0\nEMOVP E1.5 D0", 2, "EMOVP E1.5 D0", "not supported: there are no real numbers"},
+    {"LDE>= D0 D2\nOUT Y0", 1, "LDE>= D0 D2", "not supported: there are no real numbers"},
+    {"LD X0\nDFLT D0 D2", 2, "DFLT D0 D2", "D+ D- D* D/"},
+    {"LD X0\nOUT LC0 K5", 2, "OUT LC0 K5", "16 bits here; for 32 bits count with DINCP"},
+    {"LD X0\nOUT C0 K40000", 2, "OUT C0 K40000", "from K0 to K32767; for more count in 32 bits, with DINCP"},
+    {"LD X0\nUDCNT1 X0 C0 K5", 2, "UDCNT1 X0 C0 K5", "not supported: there is no counter up and down"},
+    {"LD V0\nOUT Y0", 1, "LD V0", "edge relays"},
+    {"LD X0\nMOV R100 D0", 2, "MOV R100 D0", "no file registers"},
+    {"EI", 1, "EI", "not supported: there are no interrupt programs"},
+    {"STL S20", 1, "STL S20", "not supported: there are no step ladders"},
     // number of operands
     {"LD\nOUT Y0", 1, "LD", "operands: bit"},
     {"LD X0 X1\nOUT Y0", 1, "LD X0 X1", "operands: bit"},
