@@ -138,6 +138,11 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
                 us(figures.jitter_max_ns)};
   to.message_count = block.message_count;
   set(to.message, block.message);
+  for (unsigned i = 0; i < block.forced_count; ++i) {
+    set(forced[i].device, block.forced[i].device);
+    forced[i].value = block.forced[i].value;
+  }
+  to.forced = {share::kForced, block.forced_count, forced, false};
 }
 
 namespace {
@@ -283,13 +288,28 @@ nc_CommandAck ack(const share::Ack& ack) {
   nc_CommandAck to{};
   set(to.client, ack.client);
   to.seq = ack.sequence;
-  to.kind = as_enum(ack.kind, nc_CMD_SELECT_PROGRAM, nc_CMD_TAKE_CONTROL);
+  to.kind = as_enum(ack.kind, nc_CMD_RELEASE_FORCE, nc_CMD_TAKE_CONTROL);
   to.state = as_enum(ack.state, nc_ACK_FAILED, nc_ACK_REJECTED);
   to.reason = as_enum(ack.reason, nc_REASON_CLIENT_IN_USE, nc_REASON_REFUSED);
   to.repeated = ack.repeated != 0;
   to.time_ns = ack.time_ns;
   set(to.text, ack.text);
   return to;
+}
+
+namespace {
+
+template <std::size_t kSize>
+bool goes_on_behind_nul(const char (&text)[kSize]) {
+  const std::size_t length = strnlen(text, kSize);
+  return std::any_of(text + length, text + kSize, [](char c) { return c != 0; });
+}
+
+}  // namespace
+
+bool has_hidden_text(const nc_Command& command) {
+  return goes_on_behind_nul(command.client) || goes_on_behind_nul(command.expected_program) ||
+         goes_on_behind_nul(command.axis) || goes_on_behind_nul(command.text);
 }
 
 share::Request request(const nc_Command& command, const share::MachineBlock& machine, std::uint64_t writer,
@@ -301,7 +321,7 @@ share::Request request(const nc_Command& command, const share::MachineBlock& mac
   to.issued_ns = issued_ns;
   to.kind = static_cast<std::uint32_t>(command.kind);
   // The kinds of the gateway itself cannot be asked for from outside.
-  if (to.kind > static_cast<std::uint32_t>(nc_CMD_SELECT_PROGRAM))
+  if (to.kind > static_cast<std::uint32_t>(nc_CMD_RELEASE_FORCE))
     to.kind = static_cast<std::uint32_t>(share::RequestKind::kCount);
   to.lifespan_ms = command.lifespan_ms;
   to.lease_ms = command.lease_ms;

@@ -20,6 +20,7 @@ struct StatusSample {
   nc_Status status{};
   nc_Axis axes[NC_MAX_AXES] = {};
   std::uint32_t input[NC_WORDS] = {}, output[NC_WORDS] = {};
+  nc_ForcedDevice forced[share::kForced] = {};
   void fill(const share::MachineBlock& machine, const share::StatusBlock& block, unsigned system,
             const char* partition);
 };
@@ -44,6 +45,10 @@ nc_Alarm alarm(const share::Entry& entry, std::uint32_t slot, const char* partit
 nc_Alarm_v1 core_alarm(const share::Entry& entry, std::uint32_t slot, const char* partition);
 nc_AlarmHistory history(const share::Entry& entry, const char* partition);
 nc_CommandAck ack(const share::Ack& ack);
+
+// A text with a NUL in its middle: what stands behind it would be lost without a word. The sample has to be zero
+// before it is read.
+bool has_hidden_text(const nc_Command& command);
 
 // What is out of range in DDS's terms becomes out of range in the segment's: Intake refuses it.
 share::Request request(const nc_Command& command, const share::MachineBlock& machine, std::uint64_t writer,

@@ -36,7 +36,8 @@ Gateway::Gateway(const GatewayOptions& options)
       last_points_(std::make_unique<share::PointsBlock>()),
       control_signals_(std::make_unique<share::SignalsBlock>()),
       last_control_signals_(std::make_unique<share::SignalsBlock>()),
-      signal_sample_(std::make_unique<SignalSample>()) {}
+      signal_sample_(std::make_unique<SignalSample>()),
+      received_(kTaken) {}
 
 Gateway::~Gateway() {
   stop_ = true;
@@ -322,7 +323,10 @@ void Gateway::put(const share::Request& request) {
 }
 
 void Gateway::take_commands() {
-  void* samples[kTaken] = {};
+  // Memory of our own, zero each time, so that what stands behind the end of a text is known.
+  std::fill(received_.begin(), received_.end(), nc_Command{});
+  void* samples[kTaken];
+  for (int i = 0; i < kTaken; ++i) samples[i] = &received_[static_cast<std::size_t>(i)];
   dds_sample_info_t infos[kTaken];
   const int count = dds_take(command_, samples, infos, kTaken, kTaken);
   if (count <= 0) return;
@@ -340,7 +344,8 @@ void Gateway::take_commands() {
       Client& client = clients_[info.instance_handle];
       client.name = wanted.client;
       client.writer = info.publication_handle;
-      if (open) put(wanted);
+      if (has_hidden_text(command)) refuse(wanted, share::AckReason::kMalformed, "a text has a NUL in its middle");
+      else if (open) put(wanted);
       else refuse(wanted, share::AckReason::kRefused, "there is no control that takes commands");
     }
   }
@@ -354,7 +359,6 @@ void Gateway::take_commands() {
     clients_.erase(found);
     if (segment_.is_open() && may_command_) put(gone);
   }
-  (void)dds_return_loan(command_, samples, count);
 }
 
 void Gateway::command_thread() {

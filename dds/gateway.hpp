@@ -11,6 +11,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "dds/convert.hpp"
 #include "dds/participant.hpp"
@@ -82,6 +83,7 @@ class Gateway {
   std::unique_ptr<share::PointsBlock> points_, last_points_;
   std::unique_ptr<share::SignalsBlock> control_signals_, last_control_signals_;
   std::unique_ptr<SignalSample> signal_sample_;
+  std::vector<nc_Command> received_;
 
   struct Client {
     share::Text<32> name{};

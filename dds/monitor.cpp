@@ -128,6 +128,8 @@ StatusView view_of(const nc_Status& s) {
   v.jitter_max_us = s.figures.jitter_max_us;
   v.message_count = s.message_count;
   v.message = s.message;
+  for (std::uint32_t i = 0; i < s.forced._length; ++i)
+    v.forced.emplace_back(s.forced._buffer[i].device, s.forced._buffer[i].value);
   return v;
 }
 

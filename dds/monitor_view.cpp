@@ -39,6 +39,8 @@ nlohmann::json axis_json(const AxisView& axis) {
 nlohmann::json status_json(const StatusView& s) {
   nlohmann::json axes = nlohmann::json::array();
   for (const AxisView& axis : s.axes) axes.push_back(axis_json(axis));
+  nlohmann::json forced = nlohmann::json::array();
+  for (const auto& [device, value] : s.forced) forced.push_back({{"device", device}, {"value", value}});
   return {{"part_system", s.part_system},
           {"machine", s.machine},
           {"scan", s.scan},
@@ -88,7 +90,8 @@ nlohmann::json status_json(const StatusView& s) {
           {"execution_us", {{"p50", s.execution_p50_us}, {"p99.9", s.execution_p999_us}, {"max", s.execution_max_us}}},
           {"jitter_us", {{"p50", s.jitter_p50_us}, {"p99.9", s.jitter_p999_us}, {"max", s.jitter_max_us}}},
           {"message_count", s.message_count},
-          {"message", s.message}};
+          {"message", s.message},
+          {"forced", forced}};
 }
 
 void append_place(std::string* text, const StatusView& s) {
@@ -120,6 +123,11 @@ void append_system(std::string* text, const StatusView& s) {
          static_cast<unsigned long long>(s.scans), static_cast<unsigned long long>(s.overruns),
          static_cast<unsigned long long>(s.missed_slots), s.execution_p50_us, s.execution_p999_us, s.execution_max_us);
   if (s.message_count != 0) append(text, "  Message  %s\n", printable(s.message).c_str());
+  if (!s.forced.empty()) {
+    *text += "  FORCED  ";
+    for (const auto& [device, value] : s.forced) *text += " " + printable(device) + " = " + std::to_string(value);
+    *text += "\n";
+  }
 }
 
 nlohmann::json signals_json(const MonitorView& view) {

@@ -39,6 +39,7 @@ struct StatusView {
   double jitter_p50_us = 0, jitter_p999_us = 0, jitter_max_us = 0;
   std::uint64_t message_count = 0;
   std::string message;
+  std::vector<std::pair<std::string, std::int64_t>> forced;  // devices of the ladder and what they are held at
 };
 
 struct AlarmView {

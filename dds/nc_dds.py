@@ -75,6 +75,8 @@ class CommandKind(IdlEnum, typename="nc.CommandKind", default="CMD_TAKE_CONTROL"
     CMD_JOG = 10
     CMD_MDI = 11
     CMD_SELECT_PROGRAM = 12
+    CMD_FORCE = 13
+    CMD_RELEASE_FORCE = 14
 
 
 @annotate.appendable
@@ -171,6 +173,13 @@ class ScanFigures(IdlStruct, typename="nc.ScanFigures"):
 
 @dataclass
 @annotate.appendable
+class ForcedDevice(IdlStruct, typename="nc.ForcedDevice"):
+    device: types.bounded_str[63]
+    value: types.int32
+
+
+@dataclass
+@annotate.appendable
 class Status(IdlStruct, typename="nc.Status"):
     part_system: types.uint32
     annotate.key("part_system")
@@ -219,6 +228,7 @@ class Status(IdlStruct, typename="nc.Status"):
     figures: ScanFigures
     message_count: types.uint64
     message: types.bounded_str[127]
+    forced: types.sequence[ForcedDevice, 32]
 
 
 @dataclass
@@ -271,7 +281,7 @@ class SignalInfo(IdlStruct, typename="nc.SignalInfo"):
 class SignalTable(IdlStruct, typename="nc.SignalTable"):
     machine: types.bounded_str[63]
     annotate.key("machine")
-    signals: types.sequence[SignalInfo, 1536]
+    signals: types.sequence[SignalInfo, 2048]
 
 
 @dataclass
@@ -301,7 +311,7 @@ class SignalImage(IdlStruct, typename="nc.SignalImage"):
     scan: types.uint64
     signals: types.sequence[Signal, 1024]
     control_scan: types.uint64
-    control: types.sequence[ControlSignal, 512]
+    control: types.sequence[ControlSignal, 1024]
 
 
 @dataclass

@@ -19,6 +19,8 @@ enum class AlarmId : std::uint8_t {
   kLadder,         // plc.alarm.1...; the texts are the configuration's
   kLadderStopped,
   kLinkLost,       // of a Modbus link with alarm = true
+  kRetainedLost,   // not found again at the start
+  kRetainedUnwritable,
   kProgram,  // an alarm of libnc; code and text come from there
   kCount
 };
@@ -27,9 +29,11 @@ struct AlarmRow {
   AlarmId id;
   const char* code;
   const char* text;
+  // false: a program that runs goes on to its end; nothing new starts until reset, which acknowledges it.
+  bool stops = true;
 };
 
-// Every alarm stops motion and holds the machine until reset, when its cause is gone.
+// An alarm stops motion and holds the machine until reset, when its cause is gone.
 inline constexpr AlarmRow kAlarmTable[] = {
     {AlarmId::kScanOverrun, "R10", "Scan overrun: the cycle was missed too often"},
     {AlarmId::kFollowingError, "R11", "Following error beyond its limit"},
@@ -40,6 +44,8 @@ inline constexpr AlarmRow kAlarmTable[] = {
     {AlarmId::kLadder, "R16", "Alarm of the ladder"},
     {AlarmId::kLadderStopped, "R17", "The ladder program has stopped"},
     {AlarmId::kLinkLost, "R18", "Modbus link lost"},
+    {AlarmId::kRetainedLost, "R19", "Retained data lost", false},
+    {AlarmId::kRetainedUnwritable, "R20", "Retained data are not kept", false},
     {AlarmId::kProgram, "", "Program alarm"},
 };
 
@@ -49,6 +55,22 @@ constexpr const AlarmRow& alarm_row(AlarmId id) {
   return kAlarmTable[0];
 }
 
+// What has gone wrong with retained data (R19, R20): `detail` of the alarm, beside the number of the data.
+enum class RetainTrouble : std::uint8_t { kLost, kOlder, kNotKept, kUnwritable };
+inline constexpr unsigned kRetainedData = 2;  // 0 devices of the ladder, 1 common variables
+constexpr unsigned retain_detail(unsigned data, RetainTrouble trouble) {
+  return data * 4 + static_cast<unsigned>(trouble);
+}
+
+// What is wrong with a FIN that does not complete (R15), and which of the two it is.
+enum FinFault : std::uint32_t {
+  kFinGroups = 0xf,    // groups that wait (bit 0 M, 1 S, 2 T, 3 B)
+  kFinStays = 1 << 4,  // it has completed, and does not go off
+  kFinEarly = 1 << 5,  // it was on before the strobe
+  kFinOne = 1 << 6,    // FIN1 is on
+  kFinTwo = 1 << 7     // FIN2 is on
+};
+
 // One active alarm, as the scan raises it.
 struct ActiveAlarm {
   AlarmId id = AlarmId::kCount;
@@ -56,8 +78,8 @@ struct ActiveAlarm {
   std::uint8_t system = 0;  // index of the part system
   std::uint64_t scan = 0;   // when it came
   nc_source source{};       // block in execution at that moment
-  std::uint32_t detail = 0; // R15: groups that wait (bit 0 M, 1 S, 2 T, 3 B); R16: number; R17: line; R18: link
-  std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M
+  std::uint32_t detail = 0; // R15: FinFault; R16: number; R17: line; R18: link; R19, R20: retain_detail()
+  std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M; ~0 = not given out yet
 };
 
 inline constexpr unsigned kMaxActiveAlarms = 16;
@@ -65,6 +87,13 @@ inline constexpr unsigned kMaxActiveAlarms = 16;
 struct AlarmList {
   unsigned count = 0;
   ActiveAlarm alarm[kMaxActiveAlarms];
+
+  // One of them stops the machine.
+  bool stops() const {
+    for (unsigned i = 0; i < count; ++i)
+      if (alarm_row(alarm[i].id).stops) return true;
+    return false;
+  }
 };
 
 }  // namespace nc::rt

@@ -21,6 +21,8 @@ enum class CommandKind : std::uint8_t {
   kJog,            // axis, value: velocity mm/s signed; has to be repeated within kJogDeadManScans, 0 stops
   kStep,           // axis, value: distance
   kReference,      // axis: go to the first reference position
+  kForce,          // number: of LadderTask::force_number(), value: what the device is held at
+  kRelease,        // number: the same, kAllForces
   // for the feeder
   kSelectProgram,  // number: file index of the program store; AUTO
   kLoadMdi,        // the text given to Runtime::load_mdi(); MDI
@@ -53,6 +55,10 @@ enum class Answer : std::uint8_t {
   kOutOfRange,
   kAxisUnknown,
   kRefusedByControl,  // libnc said no
+  kNotLoaded,         // the program cannot be had
+  kNoDevice,          // no such device, or one that cannot be forced
+  kTooManyForces,
+  kNoLadder,
   kNoAnswer           // the runtime does not run
 };
 
@@ -82,6 +88,14 @@ constexpr const char* answer_text(Answer answer) {
       return "no such axis or part system";
     case Answer::kRefusedByControl:
       return "refused by the control";
+    case Answer::kNotLoaded:
+      return "the program cannot be loaded";
+    case Answer::kNoDevice:
+      return "no such device, or none that can be forced";
+    case Answer::kTooManyForces:
+      return "32 devices are forced already";
+    case Answer::kNoLadder:
+      return "there is no ladder program";
     case Answer::kNoAnswer:
       return "the runtime does not answer";
   }
@@ -95,5 +109,8 @@ struct CommandAnswer {
 
 // A jog stops by itself when it is not repeated: a lost connection must not leave an axis moving.
 inline constexpr unsigned kJogDeadManScans = 200;
+
+inline constexpr std::uint32_t kAllForces = ~0u;
+inline constexpr unsigned kMaxForces = 32;  // devices at the same time
 
 }  // namespace nc::rt

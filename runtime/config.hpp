@@ -117,6 +117,9 @@ struct Config {
   std::string programs = ".";  // folder of programs, relative to the file's folder unless absolute
   ConfigPlace programs_place;
   std::string external;        // folder of the programs of M198, in the same way; empty = the folder of programs
+  std::string variables;       // file of the common variables, relative as `print`; empty = see variables_path()
+  ConfigPlace variables_place;
+  double retain_every_s = 1;   // retained data are looked at so often
   std::string print;           // file that programs print to, relative to the file's folder unless absolute; empty = nowhere
   unsigned cycle_us = 1000;
   nc_config nc;  // everything that libnc is created with
@@ -146,6 +149,8 @@ struct Config {
   // File of the retained devices: as configured, else in the folder that a service manager gives
   // (STATE_DIRECTORY); empty = they are not kept.
   std::string retain_path() const;
+  // File of the common variables in the same way.
+  std::string variables_path() const;
   // An output that follows a signal of the NC.
   bool is_wired_output(unsigned point) const;
 };

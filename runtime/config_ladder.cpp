@@ -12,6 +12,14 @@ namespace {
 
 constexpr unsigned kLastD = 8191;
 
+// In the folder that a service manager gives; "" without one.
+std::string state_file(const std::string& machine, const char* ending) {
+  const char* folder = std::getenv("STATE_DIRECTORY");  // systemd; several of them stand between colons
+  if (folder == nullptr || *folder == '\0') return {};
+  const std::string first = std::string(folder).substr(0, std::string(folder).find(':'));
+  return first + "/" + share::share_name(machine) + ending;
+}
+
 }  // namespace
 
 void read_ladder(TableReader* root, Config* config) {
@@ -32,6 +40,8 @@ void read_ladder(TableReader* root, Config* config) {
         ladder.retain_d_count = static_cast<unsigned>(range[1] - range[0]) + 1;
       }
     }
+    if (!ladder.retain.empty() && ladder.retain == config->variables)
+      reader.error("retain", "is the file of the common variables too: [machine] variables");
     std::vector<std::pair<std::string, unsigned>> texts;
     if (!reader.strings("alarms", &texts)) return;
     if (texts.size() > ladder.alarm.size())
@@ -48,10 +58,12 @@ std::string Config::ladder_file() const {
 std::string Config::retain_path() const {
   if (ladder.program.empty()) return {};
   if (!ladder.retain.empty()) return (std::filesystem::path(file).parent_path() / ladder.retain).string();
-  const char* folder = std::getenv("STATE_DIRECTORY");  // systemd; several of them stand between colons
-  if (folder == nullptr || *folder == '\0') return {};
-  const std::string first = std::string(folder).substr(0, std::string(folder).find(':'));
-  return first + "/" + share::share_name(name) + ".retain";
+  return state_file(name, ".retain");
+}
+
+std::string Config::variables_path() const {
+  if (!variables.empty()) return (std::filesystem::path(file).parent_path() / variables).string();
+  return state_file(name, ".variables");
 }
 
 }  // namespace nc::rt

@@ -101,6 +101,9 @@ void read_machine(TableReader* root, Config* config) {
     config->programs_place = {reader.line("programs"), reader.path("programs")};
     reader.string("external", &config->external);
     reader.string("print", &config->print);
+    reader.string("variables", &config->variables);
+    config->variables_place = {reader.line("variables"), reader.path("variables")};
+    reader.number("retain_every_s", &config->retain_every_s, 0.02, 3600);
     reader.integer("cycle_us", &config->cycle_us, 100, 100000);
     nc.cycle_s = config->cycle_us * 1e-6;
     if (reader.integer("look_ahead", &nc.look_ahead, 64, 65536) && !std::has_single_bit(nc.look_ahead))

@@ -107,11 +107,16 @@ std::string state_text(const nc_outputs& outputs) {
   switch (outputs.cause) {
     case NC_CAUSE_FIN: {
       std::string text = "waits for FIN of";
+      if (outputs.strobe == 0) {  // FIN1 stays on, or one is on before the strobe: its code may not be out yet
+        for (unsigned group = 0; group < 4; ++group)
+          if (outputs.fin_wait >> group & 1) append(&text, " %c", "MSTB"[group]);
+        return outputs.fin_wait == 0 ? "waits for FIN to go off" : text + " to go off";
+      }
       if (outputs.fin_wait & 1) append(&text, " M%02u", outputs.m);
       if (outputs.fin_wait & 2) append(&text, " S%.0f", outputs.s);
       if (outputs.fin_wait & 4) append(&text, " T%u", outputs.t);
       if (outputs.fin_wait & 8) append(&text, " B%u", outputs.b);
-      return outputs.fin_wait == 0 ? "waits for FIN to go off" : text;
+      return text;
     }
     case NC_CAUSE_DWELL:
       return "dwell";

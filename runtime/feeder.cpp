@@ -11,6 +11,21 @@ namespace {
 constexpr std::uint32_t kBlocksPerCall = 256;
 constexpr unsigned kCallsPerStep = 8;
 
+const char* status_text(nc_status status) {
+  switch (status) {
+    case NC_E_STATE:
+      return "the control is not ready for another program";
+    case NC_E_NOT_FOUND:
+      return "the control has no such program";
+    case NC_E_READ:
+      return "the program cannot be read";
+    case NC_E_MEMORY:
+      return "the control has no room for the program";
+    default:
+      return "refused by the control";
+  }
+}
+
 }  // namespace
 
 Feeder::Feeder(unsigned systems, NcPort* nc, Scan* scan) : systems_(systems), nc_(nc), scan_(scan) {}
@@ -37,6 +52,8 @@ void Feeder::step() {
   complete_reset();
   rewind_ended();
   restore_parts();
+  follow_ladder();
+  leave_variables();
   Command command;
   while (commands_.pop(&command)) (void)answers_.push({command.ticket, apply(command)});
   PositionSample sample;
@@ -76,10 +93,63 @@ void Feeder::restore_parts() {
   }
 }
 
+// ---- what the ladder asks of the reader ----
+
+// Optional block skips are those of the operator and those of the ladder together. A recalculation is tried until the
+// scan has agreed; while the machine moves it never does, and the request is dropped.
+void Feeder::follow_ladder() {
+  for (unsigned s = 0; s < systems_; ++s) {
+    const std::uint32_t wanted = operator_switches_[s] | scan_->skip_switches(s);
+    if (wanted != switches_[s]) {
+      switches_[s] = wanted;
+      nc_->switches(s, wanted);
+    }
+    const std::uint32_t asked = scan_->recalculations(s);
+    if (asked == recalculated_[s]) continue;
+    const std::uint8_t state = seen_.system[s].nc.state;
+    const bool rests = seen_.system[s].nc.distance_zero && (state == NC_STATE_STOPPED || state == NC_STATE_HOLD);
+    if (!rests || nc_->recalculate(s) != NC_WAITING) recalculated_[s] = asked;
+  }
+}
+
+// ---- retained variables ----
+
+void Feeder::leave_variables() {
+  if (!variables_wanted_.load(std::memory_order_acquire)) return;
+  std::string bytes = nc_->variables();
+  variables_wanted_.store(false, std::memory_order_relaxed);
+  const std::lock_guard lock(mutex_);
+  variables_ = std::move(bytes);
+  variables_ready_ = true;
+}
+
+bool Feeder::take_variables(std::string* bytes) {
+  const std::lock_guard lock(mutex_);
+  if (!variables_ready_) return false;
+  *bytes = std::move(variables_);
+  variables_ready_ = false;
+  return true;
+}
+
+// ---- commands ----
+
+std::string Feeder::refusal() const {
+  const std::lock_guard lock(mutex_);
+  return refusal_;
+}
+
+Answer Feeder::refuse(Answer answer, std::string why) {
+  const std::lock_guard lock(mutex_);
+  refusal_ = std::move(why);
+  return answer;
+}
+
 Answer Feeder::apply(const Command& command) {
+  (void)refuse(Answer::kDone, "");
   if (command.system >= systems_) return Answer::kAxisUnknown;
   if (command.kind == CommandKind::kSwitches) {
-    nc_->switches(command.system, command.number);
+    operator_switches_[command.system] = command.number;
+    follow_ladder();
     return Answer::kDone;
   }
   if (seen_.resetting || scan_->reset_waits()) return Answer::kResetting;
@@ -99,11 +169,13 @@ Answer Feeder::select(unsigned system, std::uint32_t file) {
       name = program_name_;
     }
     unsigned loaded = 0;
-    if (!loader_ || !loader_(name, &loaded)) return Answer::kNoProgram;
+    std::string error = "there is no folder of programs";
+    if (!loader_ || !loader_(name, &loaded, &error)) return refuse(Answer::kNotLoaded, error);
     file = loaded;
   }
   scan_->set_loaded(Scan::kNothingLoaded);  // until this step has ended: what lies in the control changes now
-  if (nc_->select(system, file) < 0) return Answer::kRefusedByControl;
+  if (const nc_status status = nc_->select(system, file); status < 0)
+    return refuse(Answer::kRefusedByControl, status_text(status));
   system_[system] = {true, false, file, false, false, true, file};
   const std::lock_guard lock(mutex_);
   info_.main_line = 0;
@@ -121,7 +193,9 @@ Answer Feeder::load_mdi(unsigned system) {
     info_.ended = false;
   }
   scan_->set_loaded(Scan::kNothingLoaded);
-  if (nc_->load_mdi(system, text.data(), text.size()) < 0) return Answer::kRefusedByControl;
+  if (const nc_status status = nc_->load_mdi(system, text.data(), text.size()); status < 0)
+    return refuse(Answer::kRefusedByControl,
+                  status == NC_E_ARGUMENT ? "more than 1024 bytes of blocks" : status_text(status));
   system_[system] = {true, true, 0, false, false, system_[system].part, system_[system].part_file};
   return Answer::kDone;
 }

@@ -55,7 +55,8 @@ struct FeederInfo {
 };
 
 // Enters the program of this name into the store: feeder thread, while nothing runs.
-using ProgramLoader = std::function<bool(const std::string& name, unsigned* file)>;
+// With a sentence when it cannot.
+using ProgramLoader = std::function<bool(const std::string& name, unsigned* file, std::string* error)>;
 // Takes what programs print (POPEN, DPRNT, PCLOS) when the machine gets there: feeder thread.
 using Printer = std::function<void(const char* text)>;
 // kSelectProgram with this number selects the program given by name.
@@ -76,6 +77,12 @@ class Feeder {
 
   // ---- any thread ----
   FeederInfo info() const;
+  // Why the last command was refused, where there is more to say than its answer says; "" = nothing.
+  std::string refusal() const;
+
+  // ---- the thread of the retained data ----
+  void want_variables() { variables_wanted_.store(true, std::memory_order_release); }
+  bool take_variables(std::string* bytes);
 
   // Before the threads start.
   void set_sink(EventSink* sink) { sink_ = sink; }
@@ -90,6 +97,9 @@ class Feeder {
   Answer apply(const Command& command);
   Answer select(unsigned system, std::uint32_t file);
   Answer load_mdi(unsigned system);
+  Answer refuse(Answer answer, std::string why);
+  void leave_variables();
+  void follow_ladder();
   void complete_reset();
   void feed();
   void take_events();
@@ -127,6 +137,12 @@ class Feeder {
   std::string mdi_text_, program_name_;
   ProgramLoader loader_;
   std::uint32_t modal_id_[NC_MAX_SYSTEMS] = {};
+  std::string refusal_;  // under mutex_
+  std::uint32_t operator_switches_[NC_MAX_SYSTEMS] = {}, switches_[NC_MAX_SYSTEMS] = {};  // given, and in force
+  std::uint32_t recalculated_[NC_MAX_SYSTEMS] = {};  // requests of the ladder that were done
+  std::atomic<bool> variables_wanted_{false};
+  bool variables_ready_ = false;  // under mutex_, with variables_
+  std::string variables_;
 };
 
 }  // namespace nc::rt

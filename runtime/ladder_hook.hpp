@@ -5,16 +5,19 @@
 
 #include "hal/hal.hpp"
 #include "runtime/command.hpp"
+#include "runtime/snapshot.hpp"
 
 namespace nc::rt {
 
 // What the scan says of itself.
 struct LadderStatus {
   Mode mode = Mode::kAuto;
-  bool alarm = false;      // any alarm is active
+  bool alarm = false;      // an alarm is active that stops the machine
+  bool warning = false;    // one that lets a program end
   bool resetting = false;  // from the request to the end of the reset
   bool drives_on = true;
   std::uint64_t scan = 0;
+  const std::uint32_t* macro_output = nullptr;  // NC_WORDS words of #1132..., as the machine has them
 };
 
 inline constexpr unsigned kLadderAlarms = 8;
@@ -28,6 +31,18 @@ struct LadderRequests {
   std::uint8_t alarm = 0;  // bit n: the ladder's alarm n+1
   bool stopped = false;    // the program has a fault and does not run
   unsigned stopped_line = 0;
+  std::uint32_t macro_input[NC_WORDS] = {};  // beside the points of #1000...
+
+  // By part system.
+  struct System {
+    std::uint32_t skip_switches = 0;  // bit n: optional block skip n
+    bool recalculate = false;
+    bool rapid = false;          // of jogs
+    std::int32_t jog_feed = 0;   // mm/min or deg/min
+    std::uint32_t jog_p = 0, jog_m = 0, reference = 0;  // bit n: axis n
+    std::int16_t handle[NC_MAX_AXES] = {};              // increments in this scan
+  };
+  System system[NC_MAX_SYSTEMS];
 };
 
 // What a ladder reads and writes. All of it belongs to the scan thread; nothing in here may be kept.
@@ -40,6 +55,7 @@ struct LadderImage {
   unsigned system_count;
   const LadderStatus* status;
   LadderRequests* requests;
+  const nc_config* nc = nullptr;
 };
 
 class LadderHook {
@@ -48,6 +64,19 @@ class LadderHook {
   virtual void scan(LadderImage* image) noexcept { (void)image; }  // NC_RT
   // After a fault: as at power on, with the next scan. NC_RT.
   virtual void restart() noexcept {}
+
+  // ---- forced devices: held at a value whatever the program and the machine say. NC_RT. ----
+  virtual Answer force(std::uint32_t number, std::int32_t value) noexcept {
+    (void)number, (void)value;
+    return Answer::kNoLadder;
+  }
+  virtual Answer release(std::uint32_t number) noexcept {
+    (void)number;
+    return Answer::kNoLadder;
+  }
+  // Behind the NC, which may have switched outputs too.
+  virtual void hold_outputs(hal::PointImage* points) noexcept { (void)points; }
+  virtual void list_forces(ForceList* list) const noexcept { list->count = 0; }
 };
 
 }  // namespace nc::rt

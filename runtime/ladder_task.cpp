@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 namespace nc::rt {
 namespace {
@@ -116,6 +118,7 @@ bool LadderTask::load(const Config& config, std::vector<ConfigError>* errors) {
   engine_ = std::make_unique<ladder::Engine>(program_);
   devices_ = engine_->make_image();
   ranges_ = engine_->retained();
+  points_ = &config.points;
   find_places(config, table);
   set_start_values(config);
   fresh_ = copied_ = devices_;
@@ -129,10 +132,66 @@ std::int32_t LadderTask::signal(unsigned place) const noexcept {
 }
 
 void LadderTask::restart() noexcept {
+  (void)forces_.release(kAllForces);
   copy_retained(devices_, &fresh_);
   std::copy(fresh_.bit.begin(), fresh_.bit.end(), devices_.bit.begin());
   std::copy(fresh_.word.begin(), fresh_.word.end(), devices_.word.begin());
   engine_->reset_fault();
+}
+
+// ---- forced devices, and one device for others ----
+
+const ladder::Device* LadderTask::find_device(const std::string& name) const {
+  const std::lock_guard lock(find_mutex_);
+  return engine_->find(name);
+}
+
+std::int64_t LadderTask::force_number(const std::string& name, std::int64_t value, std::string* error) {
+  const auto refuse = [&](const std::string& why) {
+    *error = why;
+    return std::int64_t{-1};
+  };
+  const ladder::Device* device = find_device(name);
+  if (device == nullptr) return refuse("no such device '" + name + "'");
+  if (device->name.size() > 2 && (device->name.substr(0, 2) == "SM" || device->name.substr(0, 2) == "SD") &&
+      device->name[2] >= '0' && device->name[2] <= '9')
+    return refuse("'" + name + "' belongs to the engine and cannot be forced");
+  if (!ForceTable::fits(device->type, value))
+    return refuse(std::to_string(value) + " is not possible: '" + name + "' " +
+                  (device->type == ladder::DeviceType::kBit      ? "is a bit"
+                   : device->type == ladder::DeviceType::kWord16 ? "has 16 bits"
+                                                                 : "has 32 bits"));
+  int point = -1;
+  for (const auto* places : {&inputs_, &outputs_})
+    for (const PointPlace& place : *places)
+      if (place.device == device->index &&
+          (place.type == ladder::DeviceType::kBit) == (device->type == ladder::DeviceType::kBit))
+        point = place.point;
+  const bool output = point >= 0 && points_->at(static_cast<unsigned>(point)).direction == hal::PointDirection::kOutput;
+  const std::int64_t number = forces_.number_of(device->name, *device, point, output);
+  return number >= 0 ? number : refuse("too many different devices have been forced since the start");
+}
+
+std::uint32_t LadderTask::read_device(const std::string& name, bool direct) {
+  constexpr auto kPatience = std::chrono::milliseconds(200);
+  const ladder::Device* device = find_device(name);
+  if (device == nullptr) return 0;
+  if (direct) return static_cast<std::uint32_t>(get(device->type, device->index));
+  question_.type = device->type;
+  question_.index = device->index;
+  question_.turn.store(kWanted, std::memory_order_release);
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  while (question_.turn.load(std::memory_order_acquire) != kFilled) {
+    if (std::chrono::steady_clock::now() > give_up) {
+      unsigned wanted = kWanted;
+      if (question_.turn.compare_exchange_strong(wanted, kIdle)) return 0;
+      break;  // it has come after all
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+  const auto value = static_cast<std::uint32_t>(question_.value);
+  question_.turn.store(kIdle, std::memory_order_release);
+  return value;
 }
 
 // ---- retained devices ----
@@ -213,17 +272,33 @@ void LadderTask::set(ladder::DeviceType type, std::uint32_t device, std::int32_t
   }
 }
 
+// What was asked for in read_device().
+void LadderTask::answer() noexcept {
+  if (question_.turn.load(std::memory_order_acquire) != kWanted) return;
+  question_.value = get(question_.type, question_.index);
+  question_.turn.store(kFilled, std::memory_order_release);
+}
+
+void LadderTask::hold_outputs(hal::PointImage* points) noexcept {
+  if (forces_.any() && engine_->fault() == ladder::kNoFault) forces_.hold_outputs(points);
+}
+
 void LadderTask::scan(LadderImage* image) noexcept {
   for (const SignalPlace& place : from_nc_)
     set(place.row->type, place.device, place.row->read(*image, place.system, place.index));
   hal::PointImage& points = *image->points;
+  const bool forced = forces_.any() && engine_->fault() == ladder::kNoFault;
+  if (forced) forces_.hold_inputs(&points);
   for (const PointPlace& place : inputs_)
     set(place.type, place.device, static_cast<std::int32_t>(points.value[place.point]));
   // Outputs as they stand: the NC program may have switched them since.
   for (const PointPlace& place : outputs_)
     set(place.type, place.device, static_cast<std::int32_t>(points.value[place.point]));
   for (const PointPlace& place : quality_) devices_.bit[place.device] = points.good[place.point];
+  if (forced) forces_.hold_devices(&devices_);
   engine_->scan(&devices_);
+  if (forced) forces_.hold_devices(&devices_);
+  answer();
   if (turn_.load(std::memory_order_acquire) == kWanted) {
     copy_retained(devices_, &copied_);
     turn_.store(kFilled, std::memory_order_release);

@@ -5,11 +5,13 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "ladder/ladder.hpp"
 #include "runtime/config.hpp"
+#include "runtime/force_table.hpp"
 #include "runtime/ladder_hook.hpp"
 #include "runtime/retain/rows.hpp"
 #include "runtime/signals/signal_table.hpp"
@@ -28,6 +30,21 @@ class LadderTask final : public LadderHook {
   void scan(LadderImage* image) noexcept override;  // NC_RT
   // The program begins again, as at power on; retained devices keep their values. NC_RT.
   void restart() noexcept override;
+
+  // ---- forced devices ----
+  // Number of a device for CommandKind::kForce; the same name has the same number. -1 with a sentence when there
+  // is no such device, when it cannot have this value, or when it is not the user's to force. Any thread.
+  std::int64_t force_number(const std::string& name, std::int64_t value, std::string* error);
+  std::string force_name(std::uint32_t number) const { return forces_.name_of(number); }
+  Answer force(std::uint32_t number, std::int32_t value) noexcept override { return forces_.force(number, value); }
+  Answer release(std::uint32_t number) noexcept override { return forces_.release(number); }
+  void hold_outputs(hal::PointImage* points) noexcept override;
+  void list_forces(ForceList* list) const noexcept override { forces_.list(list); }
+
+  // ---- one device, from another thread ----
+  // Its value in the present scan: asked for and waited for, so that the scan alone touches the devices. `direct`: the
+  // scan runs in this thread. 0 when there is no such device, or no scan.
+  std::uint32_t read_device(const std::string& name, bool direct);
 
   // ---- retained devices ----
   // Not while it is scanned.
@@ -63,6 +80,8 @@ class LadderTask final : public LadderHook {
   void set_start_values(const Config& config);
   void copy_retained(const ladder::DeviceImage& from, ladder::DeviceImage* to) const noexcept;
   std::vector<RetainedRow> rows_of(const ladder::DeviceImage& image) const;
+  const ladder::Device* find_device(const std::string& name) const;
+  void answer() noexcept;
   std::int32_t get(const ladder::DeviceType type, std::uint32_t device) const noexcept;
   void set(ladder::DeviceType type, std::uint32_t device, std::int32_t value) noexcept;
 
@@ -76,6 +95,16 @@ class LadderTask final : public LadderHook {
   std::vector<const SignalPlace*> by_signal_;  // to the NC; null = from it
   std::vector<SignalPlace> from_nc_, to_nc_;
   std::vector<PointPlace> inputs_, outputs_, quality_;
+  const hal::PointTable* points_ = nullptr;  // of the configuration
+  ForceTable forces_;
+  mutable std::mutex find_mutex_;  // Engine::find() is for one caller; never taken by the scan
+  struct Question {
+    std::atomic<unsigned> turn{kIdle};
+    ladder::DeviceType type = ladder::DeviceType::kBit;
+    std::uint32_t index = 0;
+    std::int32_t value = 0;
+  };
+  Question question_;  // of read_device()
   std::vector<std::string> warnings_;
 };
 

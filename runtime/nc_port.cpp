@@ -3,6 +3,7 @@
 #include "runtime/nc_port.hpp"
 
 #include "runtime/nc_system.hpp"
+#include "runtime/retain/variables.hpp"
 
 namespace nc::rt {
 
@@ -26,6 +27,12 @@ nc_status LibNc::alarm(unsigned system, nc_alarm* alarm) {
 }
 nc_status LibNc::modal(unsigned system, std::uint32_t id, nc_modal* modal) {
   return nc_modal_get(control_, api_system(system), id, modal);
+}
+nc_status LibNc::recalculate(unsigned system) {
+  return nc_recalculate(control_, api_system(system));
+}
+std::string LibNc::variables() {
+  return encode_variables(control_);
 }
 nc_status LibNc::text(unsigned system, std::uint32_t id, nc_text* text) {
   return nc_text_get(control_, api_system(system), id, text);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "nc/nc.h"
 
@@ -24,6 +25,13 @@ class NcPort {
   virtual nc_status alarm(unsigned system, nc_alarm* alarm) = 0;
   virtual nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) = 0;
   virtual nc_status text(unsigned system, std::uint32_t id, nc_text* text) = 0;
+  // What is read beyond the block in execution is given up and read again; NC_WAITING: call again.
+  virtual nc_status recalculate(unsigned system) {
+    (void)system;
+    return NC_OK;
+  }
+  // The common variables, for runtime/retain/variables.hpp.
+  virtual std::string variables() { return {}; }
 };
 
 // libnc behind the port; `system` counts from 0.
@@ -40,6 +48,8 @@ class LibNc final : public NcPort {
   nc_status alarm(unsigned system, nc_alarm* alarm) override;
   nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) override;
   nc_status text(unsigned system, std::uint32_t id, nc_text* text) override;
+  nc_status recalculate(unsigned system) override;
+  std::string variables() override;
 
  private:
   nc_control* control_;

@@ -8,30 +8,47 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <cstdio>
 #include <cstring>
 #include <thread>
+
+#include "runtime/retain/ladder_data.hpp"
+#include "runtime/retain/variables.hpp"
 
 namespace nc::rt {
 namespace {
 
 constexpr std::size_t kControlAlignment = 64;
+constexpr std::uint32_t kNoCode = ~0u;
 constexpr unsigned kAnswerSteps = 100;  // virtual time: scans until an answer must be there
 constexpr auto kAnswerTime = std::chrono::milliseconds(500);  // real time
 
-// "M6", "M3 S": the groups that wait; the code of the first of M and T.
-std::string fin_text(std::uint32_t groups, std::uint32_t code) {
+// "M6", "M3 S": the groups that wait; the code of the first of M and T, where it has been given out.
+std::string fin_groups(std::uint32_t groups, std::uint32_t code) {
   std::string text;
   bool coded = false;
   for (unsigned g = 0; g < 4; ++g) {
     if ((groups >> g & 1u) == 0) continue;
     if (!text.empty()) text += ' ';
     text += "MSTB"[g];
-    if (!coded && (g == 0 || g == 2)) {
+    if (!coded && code != kNoCode && (g == 0 || g == 2)) {
       text += std::to_string(code);
       coded = true;
     }
   }
   return text;
+}
+
+// What is wrong with the handshake, and what it holds up.
+std::string fin_fault_text(std::uint32_t fault, std::uint32_t code) {
+  const std::string groups = fin_groups(fault & kFinGroups, code);
+  const std::string which = (fault & kFinOne) == 0 ? "FIN2" : (fault & kFinTwo) == 0 ? "FIN1" : "FIN1 and FIN2";
+  const bool both = (fault & kFinOne) != 0 && (fault & kFinTwo) != 0;
+  if ((fault & kFinStays) != 0) return which + (both ? " do" : " does") + " not go off: " + groups + " is done, and the program waits for that";
+  if ((fault & kFinEarly) != 0)
+    return which + (both ? " were" : " was") + " on before the strobe: " + groups + " waits until " +
+           (both ? "they have" : "it has") + " been off";
+  return "FIN does not come: " + groups;
 }
 
 }  // namespace
@@ -60,6 +77,8 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
   }
   runtime->board_ = std::make_unique<SignalBoard>(config, runtime->parts_.ladder, runtime->own_ladder_.get());
   runtime->parts_.ladder = runtime->board_.get();
+  if (runtime->control_ != nullptr && runtime->own_ladder_ != nullptr)
+    nc_device_on_read(runtime->control_, &Runtime::read_device, runtime.get());
   runtime->scan_ =
       std::make_unique<Scan>(config, parts.clock, parts.hal, runtime->parts_.ladder, runtime->parts_.nc);
   runtime->feeder_ =
@@ -128,10 +147,13 @@ bool Runtime::start(std::string* error) {
   }
   if (!bring_up(error)) return false;
   stop_scan_ = stop_feeder_ = false;
-  if (own_ladder_ != nullptr && !config_.retain_path().empty()) {
-    keeper_ = std::make_unique<RetainKeeper>(own_ladder_.get(), config_.retain_path());
-    keeper_->restore(&warnings_);
-  }
+  keeper_ = std::make_unique<RetainKeeper>(static_cast<unsigned>(config_.retain_every_s * 1000),
+                                           [this](unsigned detail) { scan_->post_retain_trouble(detail); });
+  if (own_ladder_ != nullptr && !config_.retain_path().empty())
+    keeper_->add(0, std::make_unique<LadderData>(own_ladder_.get()), config_.retain_path());
+  if (control_ != nullptr && !config_.variables_path().empty())
+    keeper_->add(1, std::make_unique<VariableData>(control_, feeder_.get()), config_.variables_path());
+  keeper_->restore(&warnings_);
   feeder_->step();  // the first blocks are there before the first scan
   if (!feeder_thread_.start([this] { feeder_thread(); }, error)) {
     parts_.hal->stop();
@@ -142,7 +164,7 @@ bool Runtime::start(std::string* error) {
     stop();
     return false;
   }
-  if (keeper_ != nullptr && !keeper_->start(error)) {
+  if (!keeper_->start(error)) {
     stop();
     return false;
   }
@@ -162,7 +184,7 @@ void Runtime::stop() {
     feeder_thread_.join();
     running_ = false;
     parts_.hal->stop();
-    keeper_.reset();  // writes what the last scan left
+    keeper_->stop();  // writes what the last scan left
   } else if (stepping_) {
     stepping_ = false;
     parts_.hal->stop();
@@ -270,6 +292,73 @@ Answer Runtime::select_program(unsigned system, const std::string& name) {
   return execute_alone(command);
 }
 
+Answer Runtime::force(const std::string& device, std::int64_t value) {
+  const std::lock_guard lock(operator_);
+  refused_.clear();
+  if (own_ladder_ == nullptr) return Answer::kNoLadder;
+  const std::int64_t number = own_ladder_->force_number(device, value, &refused_);
+  if (number < 0) return Answer::kNoDevice;
+  Command command;
+  command.kind = CommandKind::kForce;
+  command.number = static_cast<std::uint32_t>(number);
+  command.value = static_cast<double>(static_cast<std::int32_t>(value));
+  return execute_alone(command);
+}
+
+Answer Runtime::release(const std::string& device) {
+  const std::lock_guard lock(operator_);
+  refused_.clear();
+  if (own_ladder_ == nullptr) return Answer::kNoLadder;
+  const std::int64_t number = device.empty() ? kAllForces : own_ladder_->force_number(device, 0, &refused_);
+  if (number < 0) return Answer::kNoDevice;
+  Command command;
+  command.kind = CommandKind::kRelease;
+  command.number = static_cast<std::uint32_t>(number);
+  return execute_alone(command);
+}
+
+std::string Runtime::forced_name(std::uint32_t number) const {
+  return own_ladder_ != nullptr ? own_ladder_->force_name(number) : std::string();
+}
+
+std::string Runtime::explain(Answer answer) const {
+  std::string text;
+  if (answer == Answer::kNotLoaded || answer == Answer::kRefusedByControl) text = feeder_->refusal();
+  if (answer == Answer::kNoDevice) {
+    const std::lock_guard lock(operator_);
+    text = refused_;
+  }
+  return text.empty() ? answer_text(answer) : text;
+}
+
+// M700 13.5.5: the device of #100100 by its code in the manual's table, as the program of the machine names it.
+void Runtime::read_device(void* self, unsigned code, std::uint32_t number, std::uint32_t* value) {
+  struct Row {
+    unsigned code;
+    const char* letters;
+    bool hexadecimal;
+  };
+  static constexpr Row kRows[] = {{0, "M", false},   {1, "D", false},  {2, "C", false},  {4, "X", true},   {5, "Y", true},
+                                  {6, "R", false},   {7, "T", false},  {9, "SM", false}, {10, "F", false}, {13, "L", false},
+                                  {18, "V", false},  {19, "ST", false}, {20, "SD", false}, {21, "SB", true}, {22, "SW", true},
+                                  {23, "B", true},   {24, "W", true}};
+  auto& runtime = *static_cast<Runtime*>(self);
+  *value = 0;
+  if (runtime.own_ladder_ == nullptr) return;
+  for (const Row& row : kRows) {
+    if (row.code != code) continue;
+    char name[24];
+    std::snprintf(name, sizeof name, row.hexadecimal ? "%s%X" : "%s%u", row.letters, number);
+    *value = runtime.own_ladder_->read_device(name, runtime.stepping_);
+  }
+}
+
+// "common variables are lost and are vacant: ...": the keeper's sentence.
+std::string Runtime::retain_text(const ActiveAlarm& alarm) const {
+  const std::string why = keeper_ != nullptr ? keeper_->trouble(alarm.detail / 4) : "";
+  return why.empty() ? "" : ": " + why;
+}
+
 std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kProgram) {
     const FeederInfo now = info();
@@ -282,8 +371,8 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   }
   const AlarmRow& row = alarm_row(alarm.id);
   std::string text = std::string(row.code) + " " + row.text;
-  if (alarm.id == AlarmId::kFinTimeout)
-    text += alarm.detail != 0 ? ": " + fin_text(alarm.detail, alarm.code) : ": it is stuck on, so that no strobe can rise";
+  if (alarm.id == AlarmId::kFinTimeout) text = std::string(row.code) + " " + fin_fault_text(alarm.detail, alarm.code);
+  if (alarm.id == AlarmId::kRetainedLost || alarm.id == AlarmId::kRetainedUnwritable) text += retain_text(alarm);
   if (alarm.id == AlarmId::kLadder) {
     const std::string& own = config_.ladder.alarm[alarm.detail % config_.ladder.alarm.size()];
     text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);

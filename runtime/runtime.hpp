@@ -77,6 +77,12 @@ class Runtime {
   Answer select_program(unsigned file) { return execute(CommandKind::kSelectProgram, 0, file); }
   Answer load_mdi(const std::string& text, unsigned system = 0);
   Answer select_program(unsigned system, const std::string& name);  // through the program loader
+  // A device of the ladder is held at a value until it is released; "" releases all of them.
+  Answer force(const std::string& device, std::int64_t value);
+  Answer release(const std::string& device);
+  // What the last answer means, with the reason where one is known. The thread that got it, before its next command.
+  std::string explain(Answer answer) const;
+  std::string forced_name(std::uint32_t number) const;
 
   // ---- anyone ----
   Snapshot snapshot() const { return scan_->snapshot(); }
@@ -93,6 +99,8 @@ class Runtime {
   void scan_thread();
   void feeder_thread();
   Answer execute_alone(Command command);
+  std::string retain_text(const ActiveAlarm& alarm) const;
+  static void read_device(void* self, unsigned code, std::uint32_t number, std::uint32_t* value);
   bool find_answer(std::uint64_t ticket, bool from_feeder, Answer* answer);
   void wake_feeder();
 
@@ -102,6 +110,7 @@ class Runtime {
   std::unique_ptr<LadderTask> own_ladder_;
   std::unique_ptr<SignalBoard> board_;
   std::unique_ptr<RetainKeeper> keeper_;  // in real time only
+  std::string refused_;                   // a force, under operator_
   struct FreeMemory {
     void operator()(void* memory) const;
   };
@@ -118,7 +127,7 @@ class Runtime {
   std::vector<std::string> warnings_, thread_warnings_;
   int wake_fd_ = -1;
   bool running_ = false, stepping_ = false;
-  std::mutex operator_;       // one command at a time; never taken by the scan or the feeder
+  mutable std::mutex operator_;       // one command at a time; never taken by the scan or the feeder
   std::uint64_t next_ticket_ = 1;
 };
 

@@ -23,6 +23,10 @@ std::int64_t processor_ns() noexcept {
 
 }  // namespace
 
+bool stops_the_nc(const ActiveAlarm& alarm) noexcept {
+  return alarm.id != AlarmId::kProgram && alarm_row(alarm.id).stops;
+}
+
 Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder, NcPort* nc)
     : config_(config),
       clock_(clock),
@@ -72,7 +76,7 @@ void Scan::run_once() noexcept {
   run_ladder();
   for (unsigned s = 0; s < systems_; ++s) {  // what the ladder left in the points is what the program reads
     macro_.gather(points_, interface_input_);
-    for (unsigned w = 0; w < NC_WORDS; ++w) in_[s].input[w] = interface_input_[w];
+    for (unsigned w = 0; w < NC_WORDS; ++w) in_[s].input[w] = interface_input_[w] |= last_requests_.macro_input[w];
   }
   for (unsigned s = 0; s < systems_; ++s) last_command_[s] = out_[s].command;
   nc_->cycle(in_, out_);
@@ -91,6 +95,7 @@ void Scan::read_inputs() noexcept {
   watch_overruns();
   watch_fin();
   watch_links();
+  watch_retained();
   build_nc_inputs();
 }
 
@@ -136,6 +141,10 @@ Answer Scan::apply(const Command& command) noexcept {
     case CommandKind::kStep:
     case CommandKind::kReference:
       return manual(command);
+    case CommandKind::kForce:
+      return ladder_->force(command.number, static_cast<std::int32_t>(command.value));
+    case CommandKind::kRelease:
+      return ladder_->release(command.number);
     case CommandKind::kSelectProgram:
     case CommandKind::kLoadMdi:
     case CommandKind::kSwitches:
@@ -166,7 +175,8 @@ Answer Scan::set_mode(Mode mode) noexcept {
 Answer Scan::start_cycle() noexcept {
   if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
   if (reset_phase_ != ResetPhase::kNone) return Answer::kResetting;
-  if (alarms_.count != 0) return Answer::kAlarmActive;
+  // An alarm that does not stop keeps the next program from starting, not one from going on.
+  if (program_active() ? alarms_.stops() : alarms_.count != 0) return Answer::kAlarmActive;
   for (unsigned s = 0; s < systems_; ++s)
     if (out_[s].state == NC_STATE_RUNNING) return Answer::kAlreadyRunning;
   const std::uint8_t wanted = mode_ == Mode::kMdi ? kMdiLoaded : kPartLoaded;
@@ -187,11 +197,11 @@ Answer Scan::manual(const Command& command) noexcept {
   if (command.kind == CommandKind::kJog) {
     if (!(command.value >= -axis.max_velocity && command.value <= axis.max_velocity))
       return Answer::kOutOfRange;
-    if (alarms_.count != 0 && command.value != 0) return Answer::kAlarmActive;
+    if (alarms_.stops() && command.value != 0) return Answer::kAlarmActive;
     jog = command.value == 0 ? Jog{} : Jog{NC_MANUAL_JOG, command.value, kJogDeadManScans};
     return Answer::kDone;
   }
-  if (alarms_.count != 0) return Answer::kAlarmActive;
+  if (alarms_.stops()) return Answer::kAlarmActive;
   if (!at_rest()) return Answer::kNotWhileRunning;
   if (command.kind == CommandKind::kStep) {
     if (!(command.value >= -1e6 && command.value <= 1e6)) return Answer::kOutOfRange;
@@ -203,7 +213,7 @@ Answer Scan::manual(const Command& command) noexcept {
 }
 
 void Scan::build_nc_inputs() noexcept {
-  const bool stop = alarms_.count != 0;
+  const bool stop = alarms_.stops();
   const std::int64_t local_ms = clock_->local_ms();
   for (unsigned s = 0; s < systems_; ++s) {
     nc_inputs& in = in_[s];
@@ -219,7 +229,7 @@ void Scan::build_nc_inputs() noexcept {
     in.macro_interrupt = false;
     // A program alarm is libnc's own state; the level is for what the machine does wrong.
     in.alarm = false;
-    for (unsigned i = 0; i < alarms_.count; ++i) in.alarm |= alarms_.alarm[i].id != AlarmId::kProgram;
+    for (unsigned i = 0; i < alarms_.count; ++i) in.alarm |= stops_the_nc(alarms_.alarm[i]);
     in.skip = machine.skip;
     in.feed_override = feed_override_;
     in.rapid_override = rapid_override_;
@@ -274,6 +284,7 @@ void Scan::write_outputs() noexcept {
     message_seen_[s] = out.message;
     if (recording_) record_position(s);
   }
+  ladder_->hold_outputs(&points_);
   hal_->write(machine_, points_);
 }
 
@@ -329,6 +340,7 @@ void Scan::publish() noexcept {
   out.optional_stop = optional_stop_;
   out.resetting = reset_phase_ != ResetPhase::kNone;
   out.alarms = alarms_;
+  ladder_->list_forces(&out.forces);
   out.overruns = statistics_.overruns.load(std::memory_order_relaxed);
   out.missed_slots = statistics_.missed_slots.load(std::memory_order_relaxed);
   for (unsigned w = 0; w < NC_WORDS; ++w) {

@@ -40,6 +40,9 @@ struct ScanStatistics {
   std::atomic<std::uint64_t> missed_slots{0};  // slots without a scan; the path's time stands still in them
 };
 
+// Not an alarm of the program, which is libnc's own state.
+bool stops_the_nc(const ActiveAlarm& alarm) noexcept;
+
 // Where the machine was sent in one scan, for whoever wants the executed path.
 struct PositionSample {
   std::uint8_t system = 0;
@@ -87,6 +90,19 @@ class Scan {
   // Positions are recorded from now on, one per scan in which an axis moves. Before the threads start.
   void record_positions() { recording_ = true; }
   bool poll_position(PositionSample* sample) noexcept { return positions_.pop(sample); }
+  // Optional block skips that the ladder gives to a part system; and how often it has asked for a recalculation.
+  std::uint32_t skip_switches(unsigned system) const noexcept {
+    return skip_switches_[system].load(std::memory_order_relaxed);
+  }
+  std::uint32_t recalculations(unsigned system) const noexcept {
+    return recalculations_[system].load(std::memory_order_acquire);
+  }
+
+  // ---- the thread of the retained data ----
+  // Alarm R19 or R20, with the next scan; reset acknowledges it. `detail`: retain_detail().
+  void post_retain_trouble(unsigned detail) noexcept {
+    retain_trouble_.fetch_or(1u << detail, std::memory_order_release);
+  }
 
  private:
   enum class ResetPhase : std::uint8_t { kNone, kStopping, kFeeder };
@@ -107,6 +123,8 @@ class Scan {
   void follow_ladder(const LadderRequests& requests) noexcept;
   void watch_fin() noexcept;
   void watch_links() noexcept;
+  void watch_retained() noexcept;
+  void follow_ladder_manual(const LadderRequests& requests) noexcept;
   void request_reset() noexcept;
   void write_outputs() noexcept;
   void watch_machine() noexcept;
@@ -150,6 +168,8 @@ class Scan {
   unsigned ladder_start_scans_ = 0;  // the ladder's cycle start has been on for
   std::uint32_t links_seen_ = 0;  // bit n: Modbus link n has answered
   std::uint64_t fin_scans_[NC_MAX_SYSTEMS] = {};  // a part system has waited for FIN for
+  std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // of the scan before
+  std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that the FIN that is on has completed
   bool start_pulse_ = false, hold_request_ = false;
   // From a fault of the machine to the end of the reset; the commanded position follows the measured one.
   bool drives_off_ = false;
@@ -171,6 +191,8 @@ class Scan {
   bool recording_ = false;
   SpscQueue<PositionSample, 4096> positions_;
   std::atomic<std::uint8_t> loaded_{kNothingLoaded};
+  std::atomic<std::uint32_t> skip_switches_[NC_MAX_SYSTEMS] = {}, recalculations_[NC_MAX_SYSTEMS] = {};
+  std::atomic<std::uint32_t> retain_trouble_{0};
   std::atomic<std::uint32_t> reset_rest_{0}, reset_done_{0};
   SeqLock<Snapshot> snapshot_;
   Snapshot building_;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ladder's place in the scan, and when its requests act.
+#include <algorithm>
+
 #include "runtime/scan.hpp"
 
 namespace nc::rt {
@@ -8,12 +10,16 @@ namespace {
 // A start that is shorter is a bounce of the button.
 constexpr unsigned kStartMinScans = 2;
 
+constexpr double kHandleIncrement = 0.001;  // mm or deg
+
 }  // namespace
 
 void Scan::run_ladder() noexcept {
-  const LadderStatus status{mode_, alarms_.count != 0, reset_phase_ != ResetPhase::kNone, !drives_off_, scan_};
+  const bool stopped = alarms_.stops();
+  const LadderStatus status{mode_,       stopped, !stopped && alarms_.count != 0, reset_phase_ != ResetPhase::kNone,
+                            !drives_off_, scan_,   macro_.output()};
   LadderRequests requests;
-  LadderImage image{&config_.points, &points_, &feedback_, out_, in_, systems_, &status, &requests};
+  LadderImage image{&config_.points, &points_, &feedback_, out_, in_, systems_, &status, &requests, &config_.nc};
   ladder_->scan(&image);
   follow_ladder(requests);
 }
@@ -37,10 +43,38 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
   for (unsigned n = 0; n < kLadderAlarms; ++n)
     if ((requests.alarm >> n & 1u) != 0) raise(AlarmId::kLadder, 0, -1, n);
   if (requests.stopped) raise(AlarmId::kLadderStopped, 0, -1, requests.stopped_line);
-  last_requests_ = requests;
   // An alarm that came here stops the machine in this scan.
   for (unsigned s = 0; s < systems_; ++s)
-    for (unsigned i = 0; i < alarms_.count; ++i) in_[s].alarm |= alarms_.alarm[i].id != AlarmId::kProgram;
+    for (unsigned i = 0; i < alarms_.count; ++i) in_[s].alarm |= stops_the_nc(alarms_.alarm[i]);
+  follow_ladder_manual(requests);
+  for (unsigned s = 0; s < systems_; ++s) {
+    const LadderRequests::System &now = requests.system[s], &before = last_requests_.system[s];
+    skip_switches_[s].store(now.skip_switches, std::memory_order_relaxed);
+    if (now.recalculate && !before.recalculate) recalculations_[s].fetch_add(1, std::memory_order_release);
+  }
+  last_requests_ = requests;
+}
+
+// Buttons and handles of the machine, in manual mode; they go before the operator's jogs. Both directions at once
+// are none.
+void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
+  if (mode_ != Mode::kManual || reset_phase_ != ResetPhase::kNone || alarms_.stops()) return;
+  for (unsigned s = 0; s < systems_; ++s) {
+    const LadderRequests::System &now = requests.system[s], &before = last_requests_.system[s];
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
+      const nc_axis_config& axis = config_.nc.system[s].axis[a];
+      const int direction = static_cast<int>(now.jog_p >> a & 1u) - static_cast<int>(now.jog_m >> a & 1u);
+      nc_manual& manual = in_[s].manual[a];
+      if (direction != 0) {
+        const double asked = now.rapid ? axis.rapid : std::max(0, now.jog_feed) / 60.0;
+        manual = {NC_MANUAL_JOG, direction * std::min(asked, axis.max_velocity), 0};
+      } else if (now.handle[a] != 0) {
+        manual = {NC_MANUAL_HANDLE, 0, now.handle[a] * kHandleIncrement};
+      } else if ((now.reference & ~before.reference) >> a & 1u) {
+        (void)this->manual({CommandKind::kReference, static_cast<std::uint8_t>(s), static_cast<std::uint8_t>(a), 0, 0, 0});
+      }
+    }
+  }
 }
 
 void Scan::request_reset() noexcept {

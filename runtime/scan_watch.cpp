@@ -123,15 +123,40 @@ void Scan::watch_links() noexcept {
   }
 }
 
-// A completion that does not come is named with what it is waited for. Time in a hold does not count.
+// What the thread of the retained data has found.
+void Scan::watch_retained() noexcept {
+  if (retain_trouble_.load(std::memory_order_relaxed) == 0) return;
+  const std::uint32_t found = retain_trouble_.exchange(0, std::memory_order_acquire);
+  for (unsigned detail = 0; detail < 4 * kRetainedData; ++detail) {
+    if ((found >> detail & 1u) == 0) continue;
+    const bool lost = detail % 4 <= static_cast<unsigned>(RetainTrouble::kOlder);
+    raise(lost ? AlarmId::kRetainedLost : AlarmId::kRetainedUnwritable, 0, -1, detail);
+  }
+}
+
+// A completion that does not come is named with what it is waited for. Time in a hold does not count. FIN is what
+// the NC got in the scan before, the strobes are what it said to it.
 void Scan::watch_fin() noexcept {
+  for (unsigned s = 0; s < systems_; ++s) {
+    const std::uint8_t strobe = out_[s].strobe;
+    const bool fin = in_[s].fin || in_[s].fin2;
+    if (!fin || strobe != 0) fin_taken_[s] = 0;
+    else if (last_strobe_[s] != 0) fin_taken_[s] = last_strobe_[s];
+    last_strobe_[s] = strobe;
+  }
   if (config_.ladder.fin_timeout_s <= 0) return;
   const auto most = static_cast<std::uint64_t>(config_.ladder.fin_timeout_s * 1e9 / static_cast<double>(period_ns_));
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
     const bool waits = out.state == NC_STATE_RUNNING && out.cause == NC_CAUSE_FIN;  // also for a FIN that is stuck on
     fin_scans_[s] = waits ? fin_scans_[s] + 1 : 0;
-    if (fin_scans_[s] > most) raise(AlarmId::kFinTimeout, s, -1, out.fin_wait, (out.fin_wait & 1) != 0 ? out.m : out.t);
+    if (fin_scans_[s] <= most) continue;
+    std::uint32_t fault = out.fin_wait & kFinGroups;
+    const bool given_out = out.strobe != 0 || (in_[s].fin && fin_taken_[s] != 0);  // else the codes are the last ones'
+    if (in_[s].fin) fault |= kFinOne;
+    if (in_[s].fin2) fault |= kFinTwo;
+    if ((fault & (kFinOne | kFinTwo)) != 0) fault |= out.strobe == 0 && given_out ? kFinStays : kFinEarly;
+    raise(AlarmId::kFinTimeout, s, -1, fault, !given_out ? ~0u : (fault & 1) != 0 ? out.m : out.t);
   }
 }
 
@@ -150,7 +175,7 @@ void Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, st
   alarm.scan = scan_;
   alarm.detail = detail;
   alarm.code = code;
-  alarm.source = out_[system].source;
+  if (id != AlarmId::kRetainedLost && id != AlarmId::kRetainedUnwritable) alarm.source = out_[system].source;
 }
 
 void Scan::acknowledge_alarms() noexcept {

@@ -10,6 +10,16 @@
 
 namespace nc::rt {
 
+// A device of the ladder that is held at a value.
+struct ForcedDevice {
+  std::uint32_t number = 0;  // LadderTask::force_name()
+  std::int32_t value = 0;
+};
+struct ForceList {
+  unsigned count = 0;
+  ForcedDevice device[kMaxForces];
+};
+
 struct SystemSnapshot {
   nc_outputs nc{};         // commanded side, from libnc
   nc_axes actual{};        // measured
@@ -28,6 +38,7 @@ struct Snapshot {
   AlarmList alarms;
   std::uint64_t overruns = 0;      // scans that ended behind their slot
   std::uint64_t missed_slots = 0;  // slots without a scan
+  ForceList forces;
   std::uint32_t interface_input[NC_WORDS] = {};
   std::uint32_t interface_output[NC_WORDS] = {};
   SystemSnapshot system[NC_MAX_SYSTEMS];  // last: only those that there are, are exchanged
@@ -37,6 +48,8 @@ struct Snapshot {
     return sizeof(Snapshot) - (NC_MAX_SYSTEMS - systems) * sizeof(SystemSnapshot);
   }
   bool alarmed() const { return alarms.count != 0; }
+  // By an alarm that stops; others let a program end.
+  bool stopped_by_alarm() const { return alarms.stops(); }
   // A program is in execution or interrupted.
   bool program_active() const {
     for (unsigned s = 0; s < system_count; ++s) {

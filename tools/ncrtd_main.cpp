@@ -167,7 +167,7 @@ class Run {
     const Answer answer = runtime_.execute(CommandKind::kCycleStart);
     if (answer == Answer::kAlarmActive) return stop_by_alarm();
     if (answer != Answer::kDone)
-      return failed(std::string("cycle start: ") + nc::rt::answer_text(answer));
+      return failed(std::string("cycle start: ") + runtime_.explain(answer));
     for (;;) {
       wait();
       show();
@@ -175,7 +175,7 @@ class Run {
       const nc::rt::FeederInfo info = runtime_.info();
       show_message(info);
       if (g_signal != 0) return stop_by_signal();
-      if (now.alarmed()) return stop_by_alarm();
+      if (now.stopped_by_alarm()) return stop_by_alarm();
       if (info.runs > 0 && now.system[0].nc.state == NC_STATE_IDLE) return ended(now);
       if (given_up(now)) return stop_by_reset();
       // Someone who gives commands continues it himself.
@@ -290,10 +290,13 @@ class Sharing final : public nc::rt::EventSink {
     if (!wanted_) return true;
     files_ = files;
     runtime->set_sink(this);
-    runtime->set_program_loader([this, runtime, folder](const std::string& name, unsigned* file) {
+    runtime->set_program_loader([this, runtime, folder](const std::string& name, unsigned* file, std::string* why) {
       const std::string path = folder + "/" + name;
-      std::string ignored;  // the client is told that there is no such program
-      if (files_->add(runtime->control(), path, file, &ignored) != NC_OK) return false;
+      if (files_->add(runtime->control(), path, file, why) != NC_OK) {
+        // The folder is the control's affair; the client has given a name in it.
+        if (why->rfind(folder + "/", 0) == 0) why->erase(0, folder.size() + 1);
+        return false;
+      }
       programs_.add(*file, path);
       return true;
     });
@@ -398,7 +401,7 @@ int operate(const Options& options, nc::rt::Config* config) {
   Run run(runtime.get(), options, &progress);
   int result = answer == Answer::kDone          ? run.to_end()
                : answer == Answer::kAlarmActive ? run.stop_by_alarm()
-                                                : failed(std::string("not started: ") + nc::rt::answer_text(answer));
+                                                : failed(std::string("not started: ") + runtime->explain(answer));
   sharing.stop();
   runtime->stop();
   if (!print.good()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Retained devices over a restart. See keeper.hpp.
+// Retained data over a restart. See keeper.hpp.
 #include "runtime/retain/keeper.hpp"
 
 #include <chrono>
@@ -8,35 +8,62 @@
 namespace nc::rt {
 namespace {
 
-constexpr int kEveryMs = 1000;  // what a power cut may cost at most, with the time of the disk
-constexpr int kLookMs = 5;
+constexpr unsigned kLookMs = 5;
 
 }  // namespace
 
-void RetainKeeper::restore(std::vector<std::string>* warnings) {
+void RetainKeeper::add(unsigned number, std::unique_ptr<RetainedData> data, const std::string& path) {
+  auto entry = std::make_unique<Entry>();
+  entry->number = number;
+  entry->data = std::move(data);
+  entry->store = std::make_unique<RetainStore>(path);
+  entries_.push_back(std::move(entry));
+}
+
+void RetainKeeper::tell(Entry* entry, RetainTrouble what, const std::string& why, std::vector<std::string>* warnings) {
+  {
+    const std::lock_guard lock(mutex_);
+    entry->trouble = why;
+  }
+  trouble_(retain_detail(entry->number, what));
+  if (warnings != nullptr) warnings->push_back("retained data: " + why);
+  else std::fprintf(stderr, "warning: retained data: %s\n", why.c_str());
+}
+
+std::string RetainKeeper::trouble(unsigned number) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& entry : entries_)
+    if (entry->number == number) return entry->trouble;
+  return "";
+}
+
+void RetainKeeper::restore(Entry* entry, std::vector<std::string>* warnings) {
+  const std::string name = entry->data->name(), lost = name + " are lost and " + entry->data->start() + ": ";
   std::string bytes, error;
-  usable_ = store_.lock(&error);
-  if (!usable_) {
-    warnings->push_back("retained devices are not kept: " + error);
-    return;
-  }
-  const RetainStore::Loaded loaded = store_.load(&bytes, &error);
-  std::vector<RetainedRow> rows;
+  entry->usable = entry->store->lock(&error);
+  if (!entry->usable) return tell(entry, RetainTrouble::kNotKept, name + " are not kept: " + error, warnings);
+  const RetainStore::Loaded loaded = entry->store->load(&bytes, &error);
   if (loaded == RetainStore::Loaded::kDamaged) {
-    warnings->push_back("retained devices are lost and begin with 0: " + error);
+    tell(entry, RetainTrouble::kLost, lost + error, warnings);
   } else if (loaded != RetainStore::Loaded::kNothing) {
-    if (loaded == RetainStore::Loaded::kOlder)
-      warnings->push_back("retained devices are those of the last time but one: " + error);
-    if (decode_rows(bytes, &rows)) task_.restore(rows);
-    else warnings->push_back("retained devices are lost and begin with 0: " + store_.path() + " makes no sense");
+    if (!entry->data->restore(bytes))
+      tell(entry, RetainTrouble::kLost, lost + entry->store->path() + " makes no sense", warnings);
+    else if (loaded == RetainStore::Loaded::kOlder)
+      tell(entry, RetainTrouble::kOlder, name + " are those of the last time but one: " + error, warnings);
   }
-  saved_ = task_.retained();
-  if (store_.save(encode_rows(saved_), &error)) return;  // tells now whether it will work later
-  warnings->push_back("retained devices cannot be written: " + error);
+  entry->saved = entry->data->now();
+  entry->failed = !entry->store->save(entry->saved, &error);  // tells now whether it will work later
+  if (entry->failed) tell(entry, RetainTrouble::kUnwritable, name + " cannot be written: " + error, warnings);
+}
+
+void RetainKeeper::restore(std::vector<std::string>* warnings) {
+  for (const auto& entry : entries_) restore(entry.get(), warnings);
 }
 
 bool RetainKeeper::start(std::string* error) {
-  if (!usable_ || running_) return true;
+  bool any = false;
+  for (const auto& entry : entries_) any |= entry->usable;
+  if (!any || running_) return true;
   stopping_ = false;
   running_ = thread_.start([this] { run(); }, error);
   return running_;
@@ -51,34 +78,40 @@ void RetainKeeper::stop() {
   wake_.notify_all();
   thread_.join();
   running_ = false;
-  save(task_.retained());
+  for (const auto& entry : entries_)
+    if (entry->usable) save(entry.get(), entry->data->now());
 }
 
-bool RetainKeeper::pause_ms(int time) {
+bool RetainKeeper::pause_ms(unsigned time) {
   std::unique_lock lock(mutex_);
   return !wake_.wait_for(lock, std::chrono::milliseconds(time), [this] { return stopping_; });
 }
 
 void RetainKeeper::run() {
-  std::vector<RetainedRow> rows;
-  while (pause_ms(kEveryMs)) {
-    task_.want_retained();
-    while (!task_.take_retained(&rows))
-      if (!pause_ms(kLookMs)) return;
-    save(rows);
+  std::string bytes;
+  while (pause_ms(every_ms_)) {
+    for (const auto& entry : entries_) {
+      if (!entry->usable) continue;
+      entry->data->want();
+      while (!entry->data->take(&bytes))
+        if (!pause_ms(kLookMs)) return;
+      save(entry.get(), bytes);
+    }
   }
 }
 
-void RetainKeeper::save(const std::vector<RetainedRow>& rows) {
-  if (!failed_ && rows == saved_) return;
+// What could not be written is tried again each time, and told again when it had worked in between.
+void RetainKeeper::save(Entry* entry, const std::string& bytes) {
+  if (!entry->failed && bytes == entry->saved) return;
   std::string error;
-  if (store_.save(encode_rows(rows), &error)) {
-    saved_ = rows;
-    failed_ = false;
+  if (entry->store->save(bytes, &error)) {
+    entry->saved = bytes;
+    entry->failed = false;
     return;
   }
-  if (!failed_) std::fprintf(stderr, "warning: retained devices cannot be written: %s\n", error.c_str());
-  failed_ = true;
+  if (!entry->failed)
+    tell(entry, RetainTrouble::kUnwritable, std::string(entry->data->name()) + " cannot be written: " + error, nullptr);
+  entry->failed = true;
 }
 
 }  // namespace nc::rt

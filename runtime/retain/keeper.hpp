@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the retained devices of the ladder program over a restart: reads them before the first scan, looks at
-// them once a second and writes them when they have changed, and once more behind the last scan. An ordinary
-// thread; the scan leaves a copy when it is asked for one.
+// Keeps retained data over a restart: reads them before the first scan, looks at them now and then and writes them
+// when they have changed, and once more behind the last scan. An ordinary thread; scan and feeder leave a copy when
+// they are asked for one.
+//
+// What is lost or cannot be written is an alarm, not only a line of text: a machine that has forgotten which tool is
+// in the spindle must not start as if nothing had happened.
 #pragma once
 
 #include <condition_variable>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
-#include "runtime/ladder_task.hpp"
+#include "runtime/alarms.hpp"
+#include "runtime/retain/retained_data.hpp"
 #include "runtime/retain/store.hpp"
 #include "runtime/rt_thread.hpp"
 
@@ -17,29 +23,46 @@ namespace nc::rt {
 
 class RetainKeeper {
  public:
-  RetainKeeper(LadderTask* task, const std::string& path) : task_(*task), store_(path) {}
+  // Takes retain_detail() of what has gone wrong; called before the first scan and in the keeper's thread.
+  using Trouble = std::function<void(unsigned detail)>;
+
+  RetainKeeper(unsigned every_ms, Trouble trouble) : every_ms_(every_ms), trouble_(std::move(trouble)) {}
   ~RetainKeeper() { stop(); }
 
-  // Before the first scan. What is damaged or cannot be written is a sentence in *warnings: the machine runs
-  // all the same, with devices that are 0.
+  // `number`: of the data in alarms.
+  void add(unsigned number, std::unique_ptr<RetainedData> data, const std::string& path);
+  bool empty() const { return entries_.empty(); }
+
+  // Before the first scan. What is damaged or cannot be written is told, and a sentence in *warnings: the control
+  // comes up all the same, with data as at its first start.
   void restore(std::vector<std::string>* warnings);
   // The thread. False with a sentence in *error.
   bool start(std::string* error);
   // Behind the last scan.
   void stop();
+  // What was wrong with these data last, "" = nothing. Any thread.
+  std::string trouble(unsigned number) const;
 
  private:
+  struct Entry {
+    unsigned number = 0;
+    std::unique_ptr<RetainedData> data;
+    std::unique_ptr<RetainStore> store;
+    bool usable = false;
+    bool failed = false;  // the last write; told once
+    std::string saved, trouble;
+  };
+  void restore(Entry* entry, std::vector<std::string>* warnings);
   void run();
-  bool pause_ms(int time);  // false: it ends
-  void save(const std::vector<RetainedRow>& rows);
+  bool pause_ms(unsigned time);  // false: it ends
+  void save(Entry* entry, const std::string& bytes);
+  void tell(Entry* entry, RetainTrouble what, const std::string& why, std::vector<std::string>* warnings);
 
-  LadderTask& task_;
-  RetainStore store_;
-  bool usable_ = false;
-  std::vector<RetainedRow> saved_;
-  bool failed_ = false;  // said once
+  const unsigned every_ms_;
+  const Trouble trouble_;
+  std::vector<std::unique_ptr<Entry>> entries_;
   RtThread thread_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable wake_;
   bool running_ = false, stopping_ = false;
 };

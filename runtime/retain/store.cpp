@@ -150,6 +150,7 @@ RetainStore::Loaded RetainStore::load(std::string* payload, std::string* error) 
     }
     if (found && generation <= generation_) continue;
     found = true;
+    newest_is_new_ = ending[0] != '\0' && ending[1] == 'n';
     generation_ = generation;
     *payload = std::move(read);
   }
@@ -158,6 +159,11 @@ RetainStore::Loaded RetainStore::load(std::string* payload, std::string* error) 
   if (!any) return Loaded::kNothing;
   (void)rename(path_.c_str(), (path_ + ".damaged").c_str());  // for whoever wants to look; not there is no loss
   return Loaded::kDamaged;
+}
+
+bool RetainStore::put_in_place() {
+  return (rename(path_.c_str(), (path_ + ".old").c_str()) == 0 || errno == ENOENT) &&
+         rename((path_ + ".new").c_str(), path_.c_str()) == 0 && sync_folder(path_);
 }
 
 bool RetainStore::save(const std::string& payload, std::string* error) {
@@ -176,14 +182,19 @@ bool RetainStore::save(const std::string& payload, std::string* error) {
   std::memcpy(bytes.data(), &header, sizeof header);
 
   const std::string next = path_ + ".new";
+  // The newest generation is not written over before the next one is whole.
+  if (newest_is_new_ && !put_in_place()) {
+    *error = system_error(path_);
+    return false;
+  }
+  newest_is_new_ = false;
   const int file = open(next.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0600);
   bool good = file >= 0 && write_all(file, bytes) && fsync(file) == 0;
   const int problem = errno;
   if (file >= 0 && close(file) != 0) good = false;
   if (!good && problem != 0) errno = problem;
   // What is whole becomes the one before only when the new one is on the disk.
-  good = good && (rename(path_.c_str(), (path_ + ".old").c_str()) == 0 || errno == ENOENT) &&
-         rename(next.c_str(), path_.c_str()) == 0 && sync_folder(path_);
+  good = good && put_in_place();
   if (good) {
     ++generation_;
     return true;

@@ -33,8 +33,10 @@ class RetainStore {
   static constexpr std::size_t kMaxPayload = 1u << 20;
 
  private:
+  bool put_in_place();  // PATH becomes PATH.old, PATH.new becomes PATH
   const std::string path_;
   std::uint64_t generation_ = 0;  // of the last one read or written
+  bool newest_is_new_ = false;    // what was read last is PATH.new: whole, but its rename did not come to pass
   int lock_ = -1;
 };
 

@@ -33,6 +33,11 @@ bool is_file_name(std::string_view text) {
   return true;
 }
 
+// A device of the ladder: letters, digits, '_', '-', '.'.
+bool is_device_name(std::string_view text) {
+  return !text.empty() && text.size() <= 64 && is_graphic(text);
+}
+
 constexpr bool is_from_gateway(RequestKind kind) {
   return kind == RequestKind::kClientGone || kind == RequestKind::kGatewayBegan;
 }
@@ -150,6 +155,13 @@ Intake::Verdict Intake::check_form(const Request& r, const Machine::State& state
       return !text.empty() && is_program_text(text) ? Verdict{} : bad("no blocks, or not a program's text");
     case RequestKind::kSelectProgram:
       return is_file_name(text) ? Verdict{} : bad("not the name of a file in the folder of programs");
+    case RequestKind::kForce:
+      if (!is_device_name(text)) return bad("not the name of a device");
+      return r.value == std::floor(r.value) && r.value >= -2147483648.0 && r.value <= 4294967295.0
+                 ? Verdict{}
+                 : bad("the value of a device is a whole number of 32 bits");
+    case RequestKind::kReleaseForce:
+      return text.empty() || is_device_name(text) ? Verdict{} : bad("not the name of a device");
     case RequestKind::kClientGone:
     case RequestKind::kGatewayBegan:
     case RequestKind::kCount:
@@ -244,6 +256,10 @@ Intake::Verdict Intake::execute(const Request& request) {
   bool takes_time = false;
   if (kind == RequestKind::kMdi) {
     answer = machine_.load_mdi(request.system, std::string(text_of(request.text)) + "\n");
+  } else if (kind == RequestKind::kForce) {
+    answer = machine_.force(std::string(text_of(request.text)), static_cast<std::int64_t>(request.value));
+  } else if (kind == RequestKind::kReleaseForce) {
+    answer = machine_.release(std::string(text_of(request.text)));
   } else if (kind == RequestKind::kSelectProgram) {
     answer = machine_.select_program(request.system, std::string(text_of(request.text)));
   } else if (const Row* row = row_of(kind); row != nullptr) {
@@ -258,7 +274,7 @@ Intake::Verdict Intake::execute(const Request& request) {
     if (kind == RequestKind::kJog && answer == Answer::kDone)
       jogging_[request.system][request.axis] = request.value != 0;
   }
-  if (answer != Answer::kDone) return {AckState::kRejected, AckReason::kRefused, answer_text(answer)};
+  if (answer != Answer::kDone) return {AckState::kRejected, AckReason::kRefused, machine_.explain(answer)};
   return {takes_time ? AckState::kAccepted : AckState::kDone, AckReason::kNone, ""};
 }
 

@@ -46,6 +46,11 @@ class Machine {
   virtual Answer execute(const Command& command) = 0;
   virtual Answer load_mdi(unsigned system, const std::string& blocks) = 0;
   virtual Answer select_program(unsigned system, const std::string& file) = 0;
+  // Devices of the ladder; "" releases all of them.
+  virtual Answer force(const std::string& device, std::int64_t value) = 0;
+  virtual Answer release(const std::string& device) = 0;
+  // What the last answer means, with the reason where one is known.
+  virtual std::string explain(Answer answer) { return answer_text(answer); }
 };
 
 class Intake {

@@ -22,10 +22,11 @@
 namespace nc::rt::share {
 
 inline constexpr std::uint64_t kMagic = 0x3165'7261'6873'636e;  // "ncshare1" in memory
-inline constexpr std::uint32_t kLayoutVersion = 2;
+inline constexpr std::uint32_t kLayoutVersion = 3;
 inline constexpr unsigned kHistory = 256;  // alarms and messages kept
 inline constexpr unsigned kAlarms = 16;
-inline constexpr unsigned kMaxSignals = 512;  // between NC and ladder
+inline constexpr unsigned kMaxSignals = 1024;  // between NC and ladder
+inline constexpr unsigned kForced = 32;       // devices of the ladder
 inline constexpr unsigned kCommandRing = 64;
 inline constexpr unsigned kAckRing = 256;
 inline constexpr std::size_t kMdiText = 1024;  // with its NUL; nc_mdi_load() takes no more
@@ -82,6 +83,12 @@ struct ScanFigures {
   std::uint64_t jitter_p50_ns, jitter_p999_ns, jitter_max_ns;
 };
 
+struct ForcedText {
+  Text<64> device;
+  std::int32_t value;
+  std::uint32_t reserved;
+};
+
 struct StatusBlock {
   std::uint64_t scan;          // number of the scan this is a picture of
   std::int64_t scan_time_ns;   // time of day at its start (virtual time: of publication)
@@ -101,6 +108,8 @@ struct StatusBlock {
   Text<128> message;           // last one
   std::uint32_t alarm_count, alarms_left_out;
   std::array<Entry, kAlarms> alarm;
+  std::uint32_t forced_count, reserved;
+  std::array<ForcedText, kForced> forced;
   std::array<SystemStatus, NC_MAX_SYSTEMS> system;  // system_count of them
 };
 
@@ -176,6 +185,8 @@ enum class RequestKind : std::uint32_t {
   kJog,            // system, axis, value: velocity mm/s signed; to be repeated, 0 stops
   kMdi,            // system, text: blocks
   kSelectProgram,  // system, text: file name in the folder of programs
+  kForce,          // text: device of the ladder, value: what it is held at
+  kReleaseForce,   // text: device, "" all of them
   // from the gateway itself, without acknowledgement
   kClientGone,    // writer: this participant is dead or has left
   kGatewayBegan,  // a new gateway: every client of the one before is gone

@@ -137,6 +137,14 @@ void Publisher::fill_machine(const Snapshot& snapshot, const FeederInfo& info) {
   status_.program_lines = static_cast<std::uint32_t>(std::min<std::uint64_t>(lines, UINT32_MAX));
   const bool over = info.runs > 0 && nc.state == NC_STATE_IDLE;
   status_.percent = over ? 100 : percent_done(status_.main_line, lines);
+  if (snapshot.forces.count != 0 || status_.forced_count != 0) {
+    status_.forced = {};
+    status_.forced_count = std::min(snapshot.forces.count, kForced);
+    for (unsigned i = 0; i < status_.forced_count; ++i) {
+      set_text(&status_.forced[i].device, runtime_.forced_name(snapshot.forces.device[i].number));
+      status_.forced[i].value = snapshot.forces.device[i].value;
+    }
+  }
   std::copy(std::begin(snapshot.interface_input), std::end(snapshot.interface_input), status_.interface_input);
   std::copy(std::begin(snapshot.interface_output), std::end(snapshot.interface_output), status_.interface_output);
 }

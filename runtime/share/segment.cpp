@@ -76,6 +76,9 @@ bool status_is_sound(const StatusBlock& block, unsigned systems) {
   if (block.system_count != systems || block.alarm_count > kAlarms || !is_ended(block.message)) return false;
   for (unsigned i = 0; i < block.alarm_count; ++i)
     if (!entry_is_sound(block.alarm[i])) return false;
+  if (block.forced_count > kForced) return false;
+  for (unsigned i = 0; i < block.forced_count; ++i)
+    if (!is_ended(block.forced[i].device)) return false;
   for (unsigned s = 0; s < systems; ++s)
     if (!system_is_sound(block.system[s])) return false;
   return true;

@@ -25,7 +25,7 @@ Machine::State RuntimeMachine::state() {
   State state;
   state.mode = snapshot.mode;
   state.resetting = snapshot.resetting;
-  state.alarmed = snapshot.alarmed();
+  state.alarmed = snapshot.stopped_by_alarm();
   state.system_count = config.nc.system_count;
   state.runs = info.runs;
   state.max_feed_override = config.nc.max_feed_override;

@@ -32,6 +32,9 @@ class RuntimeMachine final : public Machine {
   Answer select_program(unsigned system, const std::string& file) override {
     return runtime_.select_program(system, file);
   }
+  Answer force(const std::string& device, std::int64_t value) override { return runtime_.force(device, value); }
+  Answer release(const std::string& device) override { return runtime_.release(device); }
+  std::string explain(Answer answer) override { return runtime_.explain(answer); }
 
  private:
   Runtime& runtime_;

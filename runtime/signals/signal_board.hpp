@@ -26,6 +26,10 @@ class SignalBoard final : public LadderHook {
 
   void scan(LadderImage* image) noexcept override;  // NC_RT
   void restart() noexcept override { inner_->restart(); }
+  Answer force(std::uint32_t number, std::int32_t value) noexcept override { return inner_->force(number, value); }
+  Answer release(std::uint32_t number) noexcept override { return inner_->release(number); }
+  void hold_outputs(hal::PointImage* points) noexcept override { inner_->hold_outputs(points); }
+  void list_forces(ForceList* list) const noexcept override { inner_->list_forces(list); }
 
   // ---- reader, one thread ----
   const std::vector<Signal>& signals() const { return signals_; }

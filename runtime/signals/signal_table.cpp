@@ -51,8 +51,10 @@ const SignalRow kSignals[] = {
     // ---- state of the control ----
     {"ready", kBit, kFrom, kControl, 0, 0, "drives are on and no alarm is active", "level",
      NC_READ { return image.status->drives_on && !image.status->alarm; }, nullptr},
-    {"alarm", kBit, kFrom, kControl, 0, 0, "an alarm is active", "level, until reset with the cause gone",
+    {"alarm", kBit, kFrom, kControl, 0, 0, "an alarm is active that stops the machine", "level, until reset with the cause gone",
      NC_READ { return image.status->alarm; }, nullptr},
+    {"warning", kBit, kFrom, kControl, 0, 0, "an alarm is active that lets a program end (R19, R20)", "level, until reset",
+     NC_READ { return image.status->warning; }, nullptr},
     {"resetting", kBit, kFrom, kControl, 0, 0, "a reset is going on", "at least 2 scans",
      NC_READ { return image.status->resetting; }, nullptr},
     {"mode_auto", kBit, kFrom, kControl, 0, 0, "automatic mode is selected", "level",
@@ -107,6 +109,18 @@ const SignalRow kSignals[] = {
     {"fin_wait", kWord16, kFrom, kSystem, 0, 0, "groups that wait for FIN: bit 0 M, 1 S, 2 T, 3 B",
      "from the strobe until FIN1 has fallen or FIN2 has risen", NC_READ { return out(image, s).fin_wait; }, nullptr},
 
+    {"dwell", kBit, kFrom, kSystem, 0, 0, "a dwell is in execution", "level",
+     NC_READ { return state(image, s, NC_STATE_RUNNING) && out(image, s).cause == NC_CAUSE_DWELL; }, nullptr},
+    {"manual_allowed", kBit, kFrom, kSystem, 0, 0, "axes may be moved by hand: no program, or one between two blocks", "level",
+     NC_READ { return out(image, s).manual_allowed; }, nullptr},
+    {"macro_output", kWord16, kFrom, kNumberedControl, 2 * NC_WORDS, 0,
+     "outputs of the macro interface, 16 bits each: word 1 is #1100 to #1115, word 3 #1300 to #1315", "from the block that sets them on, kept over reset",
+     NC_READ {
+       const std::uint32_t* words = image.status->macro_output;
+       return words != nullptr ? static_cast<std::int16_t>(words[i / 2] >> 16 * (i % 2) & 0xffffu) : 0;
+     },
+     nullptr},
+
     // ---- motion ----
     {"distance_end", kBit, kFrom, kSystem, 0, 0, "no axis is commanded to move (DEN)", "level",
      NC_READ { return out(image, s).distance_zero; }, nullptr},
@@ -133,6 +147,19 @@ const SignalRow kSignals[] = {
      NC_READ { return out(image, s).velocity.v[i] > 0; }, nullptr},
     {"moving_m", kBit, kFrom, kAxis, 0, 0, "the axis is commanded to move in -", "every scan",
      NC_READ { return out(image, s).velocity.v[i] < 0; }, nullptr},
+    {"in_position", kBit, kFrom, kAxis, 0, 0, "the axis is where it is commanded to be, within its width (INP)", "every scan",
+     NC_READ {
+       const hal::SystemFeedback& machine = image.feedback->system[s];
+       const double width = image.nc->system[s].axis[i].in_position;
+       return !machine.actual_valid || std::abs(machine.actual.v[i] - out(image, s).command.v[i]) <= width;
+     },
+     nullptr},
+    {"at_reference", kBit, kFrom, kAxis, 0, 0, "the axis is commanded to its first reference position and stands (ZP1)", "every scan",
+     NC_READ {
+       return out(image, s).velocity.v[i] == 0 &&
+              std::abs(out(image, s).command.v[i] - image.nc->system[s].axis[i].reference[0]) <= 1e-6;
+     },
+     nullptr},
     {"drive_fault", kBit, kFrom, kAxis, 0, 0, "the drive reports a fault", "level",
      NC_READ { return static_cast<std::int32_t>(image.feedback->system[s].drive_fault >> i & 1u); }, nullptr},
     {"position", kWord32, kFrom, kAxis, 0, 0, "measured machine position, 0.001 mm or 0.001 deg", "every scan",
@@ -163,6 +190,29 @@ const SignalRow kSignals[] = {
     {"f_digit_pulses", kWord16, kTo, kSystem, 0, 0,
      "pulses of the first handle since the last scan: they change F1 to F5 (#1506, #1507)", "every scan, during a cut with F1 to F5",
      nullptr, NC_WRITE { image->nc_in[s].feed_pulses = value; }},
+    {"rapid_override", kWord16, kTo, kSystem, 0, -1, "rapid override in 0.01 %, at most 10000; -1: the operator's counts",
+     "every scan", nullptr,
+     NC_WRITE { if (value >= 0) image->nc_in[s].rapid_override = std::min(value, 10000) / 10000.0; }},
+    {"block_skip", kBit, kTo, kNumbered, 9, 0, "optional block skip: blocks with / or /1, /2 ... /9 are left out", "level, as a block is read ahead; or the operator's",
+     nullptr, NC_WRITE { if (value != 0) image->requests->system[s].skip_switches |= 2u << i; }},
+    {"recalculate", kBit, kTo, kSystem, 0, 0, "what was read ahead is given up and read again: switches and variables act from the next block",
+     "acts when it rises, in a block stop or a feed hold at rest", nullptr,
+     NC_WRITE { image->requests->system[s].recalculate = value != 0; }},
+    {"macro_input", kWord16, kTo, kNumberedControl, 2 * NC_WORDS, 0,
+     "inputs of the macro interface, 16 bits each, beside the points: word 1 is #1000 to #1015, word 3 #1200 to #1215", "every scan", nullptr,
+     NC_WRITE { image->requests->macro_input[i / 2] |= static_cast<std::uint32_t>(value & 0xffff) << 16 * (i % 2); }},
+    {"jog_p", kBit, kTo, kAxis, 0, 0, "the axis goes in + as long as it is on", "level, in manual mode", nullptr,
+     NC_WRITE { if (value != 0) image->requests->system[s].jog_p |= 1u << i; }},
+    {"jog_m", kBit, kTo, kAxis, 0, 0, "the axis goes in -; with jog_p it stands", "level, in manual mode", nullptr,
+     NC_WRITE { if (value != 0) image->requests->system[s].jog_m |= 1u << i; }},
+    {"jog_feed", kWord32, kTo, kSystem, 0, 0, "speed of jogs, mm/min or deg/min, at most the axis' own", "every scan", nullptr,
+     NC_WRITE { image->requests->system[s].jog_feed = value; }},
+    {"jog_rapid", kBit, kTo, kSystem, 0, 0, "jogs at the rapid rate of the axis (RT)", "level", nullptr,
+     NC_WRITE { image->requests->system[s].rapid = value != 0; }},
+    {"handle", kWord16, kTo, kAxis, 0, 0, "handle: the axis goes so many increments of 0.001 mm or deg further", "in each scan in which it is not 0, in manual mode", nullptr,
+     NC_WRITE { image->requests->system[s].handle[i] = static_cast<std::int16_t>(value); }},
+    {"reference", kBit, kTo, kAxis, 0, 0, "the axis goes to its first reference position", "acts when it rises, in manual mode at rest", nullptr,
+     NC_WRITE { if (value != 0) image->requests->system[s].reference |= 1u << i; }},
     {"skip", kBit, kTo, kNumbered, 8, 0, "skip signal, beside the machine's own", "level, sampled once a scan", nullptr,
      NC_WRITE { image->nc_in[s].skip |= static_cast<std::uint32_t>(value != 0) << i; }},
     {"mode_auto", kBit, kTo, kControl, 0, 0, "select automatic mode",

@@ -100,7 +100,10 @@ meaning = "number on the pallet"
 "#1032" = "pallet"
 [work_offsets]
 G54 = { X = 0.0, Y = 0.0 }
+[ladder]
+program = "own.il"
 """
+LADDER = "LD nc.m_strobe\nOUT plc.fin2\nLD SM400\nDMOV pallet D0\nEND\n"
 PART = "G90 G54 G17\n#1=0\n#1100=1\nWHILE [#1 LT 5] DO1\nN20 G1 X20. Y10. F3000.\nG3 X20. Y30. J10.\nG1 X0. Y0.\n#1=#1+1\nEND1\nM30\n"
 BAD = "G90 G54\nG1 X10.\nM30\n"
 
@@ -222,6 +225,13 @@ def commands(plant, watch, operator):
     check(operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "takes control")
     refused(AckReason.REASON_REFUSED, CommandKind.CMD_CYCLE_START, "start without a program")
     refused(AckReason.REASON_REFUSED, CommandKind.CMD_SELECT_PROGRAM, "program that is not there", text="none.nc")
+    ack = operator.ask(CommandKind.CMD_SELECT_PROGRAM, text="none.nc")
+    check(ack.text == "none.nc: No such file or directory", f"and why: {ack.text}")
+    ack = operator.ask(CommandKind.CMD_SELECT_PROGRAM, text="folder")
+    check(ack.text == "folder: is a folder, not a program", f"a folder: {ack.text}")
+    refused(AckReason.REASON_MALFORMED, CommandKind.CMD_MDI, "a text with a NUL in its middle", text="G0 X5.\0G0 Y5.")
+    refused(AckReason.REASON_MALFORMED, CommandKind.CMD_SELECT_PROGRAM, "a name with a NUL in its middle", text="part.nc\0x")
+    refused(AckReason.REASON_MALFORMED, CommandKind.CMD_JOG, "an axis with a NUL in its middle", axis="X\0Y", value=1.0)
     refused(AckReason.REASON_MALFORMED, CommandKind.CMD_SELECT_PROGRAM, "way out of the folder", text="../part.nc")
     refused(AckReason.REASON_MALFORMED, CommandKind.CMD_FEED_OVERRIDE, "override out of range", value=7.0)
     refused(AckReason.REASON_MALFORMED, CommandKind.CMD_FEED_OVERRIDE, "not a number", value=float("nan"))
@@ -389,6 +399,36 @@ class OddBytes(IdlStruct, typename="nc.Command"):
     junk: types.sequence[types.uint8]
 
 
+def forces(plant, watch, operator, participant):
+    """Devices of the ladder held at a value."""
+    image = nc_dds.reader(participant, nc_dds.SignalImage, plant.share)
+
+    def ask(kind, **fields):
+        ack = operator.ask(kind, **fields)
+        return ack.state, ack.reason, ack.text
+
+    operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000)
+    refused = (AckState.ACK_REJECTED, AckReason.REASON_REFUSED)
+    malformed = (AckState.ACK_REJECTED, AckReason.REASON_MALFORMED)
+    check(ask(CommandKind.CMD_FORCE, text="nowhere", value=1.0) == (*refused, "no such device 'nowhere'"), "force of no device")
+    check(ask(CommandKind.CMD_FORCE, text="clamp", value=2.0)[:2] == refused, "a bit is not 2")
+    check(ask(CommandKind.CMD_FORCE, text="pallet", value=1.5)[:2] == malformed, "nor a word one and a half")
+    check(ask(CommandKind.CMD_FORCE, text="pallet", value=1e300)[:2] == malformed, "nor beyond 32 bits")
+    check(ask(CommandKind.CMD_FORCE, text="", value=1.0)[:2] == malformed, "no name")
+    check(watch.fresh().forced == [], "nothing is forced")
+    check(ask(CommandKind.CMD_FORCE, text="pallet", value=99.0)[0] == AckState.ACK_DONE, "force of an input")
+    check(ask(CommandKind.CMD_FORCE, text="clamp", value=1.0)[0] == AckState.ACK_DONE, "force of an output")
+    until(lambda: [(f.device, f.value) for f in watch.look().status.forced] == [("pallet", 99), ("clamp", 1)], "the status shows them")
+    until(lambda: any({s.name: s.value for s in i.signals}["clamp"] == 1 for i in taken(image)), "the machine gets it")
+    shown = plant.monitor("--once", "--machine", plant.share, "--wait", "20")
+    check("FORCED   pallet = 99 clamp = 1" in shown.stdout, "ncmon shows them")
+    check(ask(CommandKind.CMD_RELEASE_FORCE, text="pallet")[0] == AckState.ACK_DONE, "release of one")
+    until(lambda: [f.device for f in watch.look().status.forced] == ["clamp"], "the other stays")
+    check(ask(CommandKind.CMD_RELEASE_FORCE, text="")[0] == AckState.ACK_DONE, "release of all")
+    until(lambda: watch.look().status.forced == [], "nothing is forced any more")
+    check(ask(CommandKind.CMD_FORCE, text="pallet", value=5.0)[0] == AckState.ACK_DONE, "a force that the end of the control ends")
+
+
 def stranger(plant, watch, operator, gateway):
     """A participant that has other types under our names, one of them known to have crashed publishers."""
     participant = DomainParticipant(plant.domain)
@@ -510,6 +550,7 @@ def monitor(plant):
     stream.communicate()
     nobody = plant.monitor("--once", "--machine", "nobody", "--wait", "0.5")
     check(nobody.returncode == 2 and "nobody publishes" in nobody.stderr, "ncmon without a publisher")
+    check("QoS" not in nobody.stderr and "warning" not in nobody.stderr, "another partition is no other QoS")
 
 
 def restart(plant, watch, operator, info, control):
@@ -523,6 +564,7 @@ def restart(plant, watch, operator, info, control):
     until(lambda: watch.look().ended, "subscribers see that the control is gone")
     control = plant.control()
     until(lambda: not watch.look().gone and watch.status.runs == 0, "a new one takes over the name, and they see it")
+    check(watch.fresh().forced == [], "nothing is forced in it")
     ack = operator.ask(CommandKind.CMD_TAKE_CONTROL)
     check(ack.state == AckState.ACK_REJECTED and ack.reason == AckReason.REASON_REFUSED, f"without --commands: {ack.text}")
     until(lambda: any(not i.commands for i in taken(info)), "and the description says so")
@@ -566,7 +608,8 @@ def main():
         client(int(sys.argv[2]), sys.argv[3])
         return
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in (("machine.toml", MACHINE), ("part.nc", PART), ("bad.nc", BAD)):
+        os.mkdir(os.path.join(folder, "folder"))
+        for name, text in (("machine.toml", MACHINE), ("part.nc", PART), ("bad.nc", BAD), ("own.il", LADDER)):
             with open(os.path.join(folder, name), "w", encoding="ascii") as file:
                 file.write(text)
         plant = Plant(folder)
@@ -587,6 +630,7 @@ def main():
             manual(watch, operator)
             signals(plant, participant)
             monitor(plant)
+            forces(plant, watch, operator, participant)
             attack_on_memory(watch, control, gateway)
             until(lambda: operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "commands come through as before")
             dead_client(plant, operator)

@@ -67,6 +67,17 @@ struct FuzzMachine final : Machine {
     if (!(c.kind == CommandKind::kJog && c.value == 0)) ++executed;
     return answer;
   }
+  Answer force(const std::string& device, std::int64_t value) override {
+    must(!only_stop && control == client && !device.empty() && device.size() <= 64);
+    must(value >= -2147483648LL && value <= 4294967295LL);
+    ++executed;
+    return answer;
+  }
+  Answer release(const std::string& device) override {
+    must(!only_stop && control == client && device.size() <= 64);
+    ++executed;
+    return answer;
+  }
   Answer load_mdi(unsigned system, const std::string& blocks) override {
     must(!only_stop && control == client && system < now.system_count && blocks.size() > 1 && blocks.size() <= kMdiText);
     for (const char c : blocks) must(static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\r' || c == '\t');

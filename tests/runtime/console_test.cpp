@@ -54,7 +54,7 @@ TEST(StateText, SaysWhyNothingMoves) {
   out.t = 12;
   EXPECT_EQ(nc::rt::state_text(out), "waits for FIN of M06 T12");
   out.strobe = 0;  // FIN1 is on and has to fall
-  EXPECT_EQ(nc::rt::state_text(out), "waits for FIN of M06 T12");
+  EXPECT_EQ(nc::rt::state_text(out), "waits for FIN of M T to go off");
   out.fin_wait = 0;
   EXPECT_EQ(nc::rt::state_text(out), "waits for FIN to go off");
   out.cause = NC_CAUSE_OVERRIDE_ZERO;

@@ -4,77 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <deque>
 #include <fstream>
-#include <memory>
 #include <sstream>
 
-#include "hal/sim/sim_machine.hpp"
-#include "runtime/runtime.hpp"
-#include "test_config.hpp"
+#include "ladder_machine.hpp"
 
 namespace {
 
 using nc::rt::AlarmId;
 using nc::rt::Answer;
 using nc::rt::CommandKind;
-
-class LadderMachine : public testing::Test {
- protected:
-  void SetUp() override {
-    const auto errors = nc::rt::load_config(std::string(NC_SOURCE_DIR) + "/etc/machine.toml", &config);
-    ASSERT_TRUE(errors.empty()) << errors[0].text();
-  }
-  void build() {
-    machine = std::make_unique<nc::hal::SimMachine>(config.sim, config.points);
-    std::vector<nc::rt::ConfigError> errors;
-    runtime = nc::rt::Runtime::create(config, {&clock, machine.get(), nullptr, nullptr}, &errors);
-    ASSERT_NE(runtime, nullptr) << (errors.empty() ? "" : errors[0].text());
-    std::string error;
-    ASSERT_TRUE(runtime->start_stepping(&error)) << error;
-  }
-  void start(const std::string& source) {
-    if (runtime == nullptr) build();
-    unsigned file = 0;
-    const std::string& text = texts.emplace_back(source);
-    ASSERT_EQ(nc_program_add_text(runtime->control(), "p", text.data(), text.size(), &file), NC_OK);
-    ASSERT_EQ(runtime->select_program(file), Answer::kDone);
-    ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
-  }
-  nc_outputs out() const { return runtime->snapshot().system[0].nc; }
-  std::uint32_t point(const char* name) const {
-    const int index = config.points.find(name);
-    EXPECT_GE(index, 0) << name;
-    const bool output = config.points.at(static_cast<unsigned>(index)).direction == nc::hal::PointDirection::kOutput;
-    return output ? machine->outputs().value[index] : machine->input(static_cast<unsigned>(index));
-  }
-  // Steps until `done`; scans taken, or -1 after two minutes of the machine.
-  template <class Done>
-  int until(Done done, int most = 120000) {
-    for (int n = 0; n < most; ++n) {
-      if (done()) return n;
-      runtime->step();
-    }
-    return -1;
-  }
-  int until_end() {
-    const std::uint64_t runs = runtime->info().runs;
-    return until([&] { return runtime->info().runs > runs && out().state == NC_STATE_IDLE; });
-  }
-  int until_line(std::uint32_t line) {
-    return until([&] { return out().source.line == line; });
-  }
-  std::string alarm() const {
-    const nc::rt::Snapshot now = runtime->snapshot();
-    return now.alarms.count == 0 ? "" : runtime->alarm_text(now.alarms.alarm[0]);
-  }
-
-  nc::rt::Config config;
-  nc::rt::VirtualClock clock;
-  std::unique_ptr<nc::hal::SimMachine> machine;
-  std::unique_ptr<nc::rt::Runtime> runtime;
-  std::deque<std::string> texts;
-};
+using nc::test::LadderMachine;
+using nc::test::OwnLadder;
 
 TEST_F(LadderMachine, ToolsSpindleAndCoolantTakeTheirTime) {
   start("T2 M6\nM3 S1200\nM8\nG4 X0.1\nM9\nM5\nM30\n");
@@ -169,24 +110,6 @@ TEST_F(LadderMachine, HoldDuringTheWaitDoesNotLoseTheCompletion) {
 
 // ---- a ladder program of the test's own ----
 
-class OwnLadder : public LadderMachine {
- protected:
-  void use(const std::string& text) {
-    config = nc::test::parse_or_fail(nc::test::base_toml() + "[ladder]\nprogram = \"own.il\"\n");
-    const std::string folder = testing::TempDir();
-    path_ = folder + "nc_own_ladder_" + std::to_string(getpid()) + ".il";
-    FILE* file = std::fopen(path_.c_str(), "w");
-    ASSERT_NE(file, nullptr);
-    std::fwrite(text.data(), 1, text.size(), file);
-    std::fclose(file);
-    config.ladder.program = path_;
-  }
-  void TearDown() override {
-    if (!path_.empty()) std::remove(path_.c_str());
-  }
-  std::string path_;
-};
-
 // docs/ladder.md says what it does.
 TEST_F(OwnLadder, TheFirstExampleOfTheDocumentRuns) {
   std::ifstream file(std::string(NC_SOURCE_DIR) + "/docs/ladder.md");
@@ -225,7 +148,7 @@ TEST_F(OwnLadder, AFinThatIsStuckOnFromTheStartIsAnAlarmToo) {
   config.ladder.fin_timeout_s = 1;
   start("M50\nM30\n");
   ASSERT_GT(until([&] { return !alarm().empty(); }, 3000), 0);
-  EXPECT_EQ(alarm(), "R15 FIN does not come: it is stuck on, so that no strobe can rise (line 1)");
+  EXPECT_EQ(alarm(), "R15 FIN1 was on before the strobe: M waits until it has been off (line 1)");
 }
 
 TEST_F(LadderMachine, SpeedZeroWithATurningSpindleIsCompleteWhenItStands) {

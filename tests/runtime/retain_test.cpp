@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -96,6 +98,44 @@ TEST_F(Retain, APowerCutAtAnyMomentLeavesOneGeneration) {
   save("four");  // and it goes on from there
   EXPECT_EQ(found(&payload), Loaded::kWhole);
   EXPECT_EQ(payload, "four");
+}
+
+// A process that writes without end is killed at random moments: what it leaves is whole, and never older than what was
+// found before.
+TEST_F(Retain, AKillAtARandomMomentLeavesAWholeGeneration) {
+  std::mt19937 chance(7);
+  std::uint64_t newest = 0;
+  unsigned in_the_middle = 0;
+  for (unsigned round = 0; round < 60; ++round) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      RetainStore store(path_);
+      std::string payload, error;
+      (void)store.load(&payload, &error);
+      for (std::uint64_t n = store.generation() + 1;; ++n) {
+        payload.assign(1 + n % 50000, static_cast<char>('a' + n % 26));
+        payload.replace(0, std::min<std::size_t>(payload.size(), 20), std::to_string(n) + ":");
+        if (!store.save(payload, &error)) _exit(1);
+      }
+    }
+    usleep(500 + chance() % 20000);
+    kill(child, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "it could not write";
+    in_the_middle += std::filesystem::exists(path_ + ".new") ? 1 : 0;
+    RetainStore store(path_);
+    std::string payload;
+    const Loaded loaded = store.load(&payload, &error_);
+    ASSERT_TRUE(loaded == Loaded::kWhole || (loaded == Loaded::kNothing && newest == 0)) << round << ": " << error_;
+    if (loaded == Loaded::kNothing) continue;
+    ASSERT_GE(store.generation(), newest);
+    newest = store.generation();
+    EXPECT_EQ(payload.substr(0, payload.find(':')), std::to_string(newest)) << "the payload of that generation";
+  }
+  EXPECT_GT(newest, 60u);
+  EXPECT_GT(in_the_middle, 0u) << "some of them came in the middle of a write";
 }
 
 TEST_F(Retain, EveryDamagedBitAndEveryCutIsSeen) {

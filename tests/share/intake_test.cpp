@@ -19,7 +19,8 @@ struct FakeMachine final : Machine {
   State now;
   Answer answer = Answer::kDone;
   std::vector<Command> executed;
-  std::vector<std::string> mdi, selected;
+  std::vector<std::string> mdi, selected, forced, released;
+  std::string why;
   FakeMachine() {
     now.axis_count[0] = 3;
     now.program[0] = "part.nc";
@@ -37,7 +38,18 @@ struct FakeMachine final : Machine {
     selected.push_back(file);
     return answer;
   }
-  std::size_t total() const { return executed.size() + mdi.size() + selected.size(); }
+  Answer force(const std::string& device, std::int64_t value) override {
+    forced.push_back(device + "=" + std::to_string(value));
+    return answer;
+  }
+  Answer release(const std::string& device) override {
+    released.push_back(device);
+    return answer;
+  }
+  std::string explain(Answer given) override { return why.empty() ? answer_text(given) : why; }
+  std::size_t total() const {
+    return executed.size() + mdi.size() + selected.size() + forced.size() + released.size();
+  }
 };
 
 class IntakeRules : public testing::Test {

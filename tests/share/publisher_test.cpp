@@ -217,7 +217,8 @@ TEST_F(SharePublisher, MachineAndIntakeSpeakOfTheSameThings) {
   EXPECT_EQ(machine.select_program(0, "none.nc"), Answer::kNotInThisMode);
   mode.number = static_cast<std::uint32_t>(Mode::kAuto);
   machine.execute(mode);
-  EXPECT_EQ(machine.select_program(0, "none.nc"), Answer::kNoProgram) << "there is no loader";
+  EXPECT_EQ(machine.select_program(0, "none.nc"), Answer::kNotLoaded);
+  EXPECT_EQ(machine.explain(Answer::kNotLoaded), "there is no folder of programs");
 }
 
 // A service over a runtime on virtual time: the intake thread takes what stands in the ring.

@@ -51,6 +51,7 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   time_ = config_.cycle_s;
   latest_ = nullptr;
   if (state_ != NC_STATE_STOPPED) cause_ = NC_CAUSE_NONE;
+  held_ = 0;
   answer_truncate();
   ask_for_interrupt();
   await_reread();
@@ -358,7 +359,7 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
                                                                                          : cause_);
   out.tapping = tapping_;
   out.strobe = strobe_;
-  out.fin_wait = fin_wait();
+  out.fin_wait = static_cast<uint8_t>(fin_wait() | held_);
   out.m = m_;
   out.t = t_;
   out.b = b_;

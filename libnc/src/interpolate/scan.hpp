@@ -152,6 +152,7 @@ class Scan {
 
   // ---- handshake of M S T B
   uint8_t strobe_ = 0;
+  uint8_t held_ = 0;     ///< its strobe cannot rise in this cycle, because FIN is on or it waits itself
   uint8_t fin_wait() const { return strobe_ | fin1_groups_; }
   bool fin_ = false;     ///< level of either in this cycle
   uint8_t fin1_groups_ = 0;  ///< completed by the FIN1 that is on

@@ -268,7 +268,10 @@ Scan::Done Scan::action(const Action& a) {
 Scan::Done Scan::strobe(const Action& a) {
   const uint8_t bit = static_cast<uint8_t>(1u << a.kind);
   const bool awaited = !(suppress_ & 2);  // M700 13.5.9: #3003 bit 1
-  if (awaited && at_rest() && (fin_ || (strobe_ & bit))) return wait(NC_CAUSE_FIN);
+  if (awaited && at_rest() && (fin_ || (strobe_ & bit))) {
+    held_ = bit;
+    return wait(NC_CAUSE_FIN);
+  }
   switch (a.kind) {
     case NC_ACTION_M:
       m_ = code_number(a.value);

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Forced devices. See force_table.hpp.
+#include "runtime/force_table.hpp"
+
+namespace nc::rt {
+
+ForceTable::ForceTable() : places_(std::make_unique<Place[]>(kMaxNames)) {}
+
+std::int64_t ForceTable::number_of(const std::string& name, const ladder::Device& device, int point, bool output) {
+  const std::lock_guard lock(mutex_);
+  for (std::size_t n = 0; n < names_; ++n)  // an alias and its device are one
+    if (places_[n].index == device.index && (places_[n].type == ladder::DeviceType::kBit) == (device.type == ladder::DeviceType::kBit))
+      return static_cast<std::int64_t>(n);
+  if (names_ == kMaxNames) return -1;
+  places_[names_] = {device.type, output, device.index, point, name};
+  return static_cast<std::int64_t>(names_++);
+}
+
+std::string ForceTable::name_of(std::uint32_t number) const {
+  const std::lock_guard lock(mutex_);
+  return number < names_ ? places_[number].name : std::string();
+}
+
+bool ForceTable::fits(ladder::DeviceType type, std::int64_t value) {
+  switch (type) {
+    case ladder::DeviceType::kBit:
+      return value == 0 || value == 1;
+    case ladder::DeviceType::kWord16:
+      return value >= -32768 && value <= 65535;
+    case ladder::DeviceType::kWord32:
+      return value >= -2147483648LL && value <= 4294967295LL;
+  }
+  return false;
+}
+
+Answer ForceTable::force(std::uint32_t number, std::int32_t value) noexcept {
+  if (number >= kMaxNames) return Answer::kNoDevice;
+  if (places_[number].type == ladder::DeviceType::kWord16) value = static_cast<std::int16_t>(value);
+  for (unsigned i = 0; i < count_; ++i) {
+    if (active_[i].number != number) continue;
+    active_[i].value = value;
+    return Answer::kDone;
+  }
+  if (count_ == kMaxForces) return Answer::kTooManyForces;
+  active_[count_++] = {number, value};
+  return Answer::kDone;
+}
+
+// What is not forced can be released: who releases wants the device to be free, and it is.
+Answer ForceTable::release(std::uint32_t number) noexcept {
+  if (number == kAllForces) count_ = 0;
+  for (unsigned i = 0; i < count_; ++i) {
+    if (active_[i].number != number) continue;
+    active_[i] = active_[--count_];
+    break;
+  }
+  return Answer::kDone;
+}
+
+void ForceTable::hold_points(hal::PointImage* points, bool outputs) const noexcept {
+  for (unsigned i = 0; i < count_; ++i) {
+    const Place& place = places_[active_[i].number];
+    if (place.point >= 0 && place.output == outputs)
+      points->value[place.point] = static_cast<std::uint32_t>(active_[i].value);
+  }
+}
+
+void ForceTable::hold_devices(ladder::DeviceImage* image) const noexcept {
+  for (unsigned i = 0; i < count_; ++i) {
+    const Place& place = places_[active_[i].number];
+    const std::int32_t value = active_[i].value;
+    switch (place.type) {
+      case ladder::DeviceType::kBit:
+        image->bit[place.index] = value != 0;
+        break;
+      case ladder::DeviceType::kWord16:
+        image->word[place.index] = static_cast<std::int16_t>(value);
+        break;
+      case ladder::DeviceType::kWord32:
+        image->set_word32(place.index, value);
+        break;
+    }
+  }
+}
+
+void ForceTable::list(ForceList* list) const noexcept {
+  list->count = count_;
+  for (unsigned i = 0; i < count_; ++i) list->device[i] = active_[i];
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Common variables as bytes. See variables.hpp.
+//
+//   u32 number of variables; each: u32 number, f64 value; u32 number of names; each: u32 number, 8 bytes
+#include "runtime/retain/variables.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "runtime/nc_system.hpp"
+
+namespace nc::rt {
+namespace {
+
+constexpr std::uint32_t kMaxVariables = 20000;
+constexpr std::uint32_t kFirstName = 500, kNames = 20;          // M700 13.5.5
+constexpr std::uint32_t kFirstCleared = 100, kLastCleared = 199;  // M700 13.4, #1129 PwrVC1
+constexpr char kClearedAtPowerOff[] = "1129";
+
+template <class T>
+void put(std::string* bytes, const T& value) {
+  bytes->append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+template <class T>
+bool get(const std::string& bytes, std::size_t* at, T* value) {
+  if (bytes.size() - *at < sizeof *value) return false;
+  std::memcpy(value, bytes.data() + *at, sizeof *value);
+  *at += sizeof *value;
+  return true;
+}
+
+struct Variable {
+  std::uint32_t number = 0;
+  double value = 0;
+};
+struct Name {
+  std::uint32_t number = 0;
+  char text[8] = {};
+};
+
+bool decode(const std::string& bytes, std::vector<Variable>* variables, std::vector<Name>* names) {
+  std::size_t at = 0;
+  std::uint32_t count = 0;
+  if (!get(bytes, &at, &count) || count > kMaxVariables) return false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Variable& variable = variables->emplace_back();
+    if (!get(bytes, &at, &variable.number) || !get(bytes, &at, &variable.value) || !std::isfinite(variable.value))
+      return false;
+  }
+  if (!get(bytes, &at, &count) || count > kNames) return false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Name& name = names->emplace_back();
+    if (!get(bytes, &at, &name.number) || !get(bytes, &at, &name.text) || name.text[7] != 0) return false;
+  }
+  return at == bytes.size();
+}
+
+}  // namespace
+
+std::string encode_variables(const nc_control* control) {
+  std::vector<Variable> variables;
+  Variable next;
+  while (nc_common_next(control, api_system(0), next.number, &next.number, &next.value) == NC_OK) {
+    if (std::isfinite(next.value)) variables.push_back(next);
+    ++next.number;
+  }
+  std::vector<Name> names;
+  for (std::uint32_t number = kFirstName; number < kFirstName + kNames; ++number) {
+    Name name{number, {}};
+    if (nc_variable_name_get(control, number, name.text) == NC_OK && name.text[0] != 0) names.push_back(name);
+  }
+  std::string bytes;
+  put(&bytes, static_cast<std::uint32_t>(variables.size()));
+  for (const Variable& variable : variables) {
+    put(&bytes, variable.number);
+    put(&bytes, variable.value);
+  }
+  put(&bytes, static_cast<std::uint32_t>(names.size()));
+  for (const Name& name : names) {
+    put(&bytes, name.number);
+    put(&bytes, name.text);
+  }
+  return bytes;
+}
+
+bool restore_variables(nc_control* control, const std::string& bytes) {
+  std::vector<Variable> variables;
+  std::vector<Name> names;
+  if (!decode(bytes, &variables, &names)) return false;
+  double cleared = 0;
+  (void)nc_parameter_get(control, api_system(0), kClearedAtPowerOff, 0, &cleared);  // a dialect without it clears nothing
+  for (const Variable& variable : variables) {
+    const bool common = (variable.number >= kFirstCleared && variable.number <= kLastCleared) || variable.number >= kFirstName;
+    if (!common || (cleared != 0 && variable.number <= kLastCleared)) continue;
+    (void)nc_variable_set(control, api_system(0), variable.number, variable.value, false);
+  }
+  for (const Name& name : names) (void)nc_variable_name_set(control, name.number, name.text);
+  return true;
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The common variables of the programs (#100 to #199, #500 to #999 ...) and their names as bytes, and back. They are
+// kept while the power is off (M700 13.4, 13.5.4).
+#pragma once
+
+#include <string>
+
+#include "nc/nc.h"
+#include "runtime/feeder.hpp"
+#include "runtime/retain/retained_data.hpp"
+
+namespace nc::rt {
+
+// What is not vacant. The thread that the control belongs to.
+std::string encode_variables(const nc_control* control);
+// False when the bytes are not such variables; nothing has changed then. Variables that the control does not have (any
+// more) are left out, and so are #100 to #199 when #1129 PwrVC1 is on.
+bool restore_variables(nc_control* control, const std::string& bytes);
+
+class VariableData final : public RetainedData {
+ public:
+  VariableData(nc_control* control, Feeder* feeder) : control_(control), feeder_(*feeder) {}
+  const char* name() const override { return "common variables"; }
+  const char* start() const override { return "are vacant"; }
+  bool restore(const std::string& bytes) override { return restore_variables(control_, bytes); }
+  std::string now() override { return encode_variables(control_); }
+  void want() override { feeder_.want_variables(); }
+  bool take(std::string* bytes) override { return feeder_.take_variables(bytes); }
+
+ private:
+  nc_control* control_;
+  Feeder& feeder_;
+};
+
+}  // namespace nc::rt

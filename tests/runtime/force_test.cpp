@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Forced devices of the ladder: what they hold against, what is refused, and when they end.
+#include "ladder_machine.hpp"
+
+namespace {
+
+using nc::rt::Answer;
+using nc::rt::CommandKind;
+
+class Force : public nc::test::OwnLadder {
+ protected:
+  void run(const std::string& ladder) {
+    use(ladder);
+    build();
+    steps(3);
+  }
+  Answer force(const char* device, std::int64_t value) { return runtime->force(device, value); }
+  std::uint32_t output(const char* name) const { return point(name); }
+};
+
+TEST_F(Force, AnInputIsWhatItIsForcedToForEverybody) {
+  run("LD in0\nOUT M5\nLD SM400\nDMOV word_in D10\nEND\n");
+  EXPECT_EQ(device("M5"), 0);
+  ASSERT_EQ(force("in0", 1), Answer::kDone);
+  ASSERT_EQ(force("word_in", -7), Answer::kDone);
+  steps(2);
+  EXPECT_EQ(device("M5"), 1) << "against the machine";
+  EXPECT_EQ(device("D10"), -7);
+  EXPECT_EQ(runtime->snapshot().interface_input[0] & 1u, 1u) << "#1000 of the programs too";
+  EXPECT_EQ(runtime->snapshot().interface_input[1], 0xFFFFFFF9u) << "#1033";
+  in("in0", 1);
+  ASSERT_EQ(force("in0", 0), Answer::kDone);
+  steps(2);
+  EXPECT_EQ(device("M5"), 0) << "both ways";
+  ASSERT_EQ(runtime->release("in0"), Answer::kDone);
+  steps(2);
+  EXPECT_EQ(device("M5"), 1) << "the machine again";
+}
+
+TEST_F(Force, AnOutputIsHeldAgainstTheProgramAndTheNc) {
+  run("LD in0\nOUT out0\nLD nc.m_strobe\nOUT plc.fin2\nEND\n");
+  ASSERT_EQ(force("out0", 1), Answer::kDone);
+  steps(2);
+  EXPECT_EQ(output("out0"), 1u);
+  start("#1100=1\n#1100=0\nG4 X0.02\nM30\n");  // the program of the machine says 0, the NC says 0
+  for (int n = 0; n < 200; ++n) {
+    runtime->step();
+    ASSERT_EQ(output("out0"), 1u) << "in every single scan";
+  }
+  ASSERT_EQ(runtime->release("out0"), Answer::kDone);
+  steps(2);
+  EXPECT_EQ(output("out0"), 0u);
+}
+
+TEST_F(Force, RelaysRegistersTimersAndSignals) {
+  run("LD M0\nOUT M1\nLD SM400\nMOV K5 D0\nLD T0\nOUT M2\nLD SM400\nMOV D0 D1\nLD nc.alarm\nOUT plc.interlock_n\n"
+      "LD nc.m_strobe\nOUT plc.fin2\nEND\n");
+  ASSERT_EQ(force("M0", 1), Answer::kDone);
+  ASSERT_EQ(force("D0", 65535), Answer::kDone);
+  ASSERT_EQ(force("T0", 1), Answer::kDone);
+  ASSERT_EQ(force("nc.alarm", 1), Answer::kDone);
+  steps(2);
+  EXPECT_EQ(device("M1"), 1);
+  EXPECT_EQ(device("D0"), -1) << "behind the program again";
+  EXPECT_EQ(device("M2"), 1);
+  start("G91 G1 X1. F1000\nM30\n");
+  EXPECT_GE(until_end(), 0) << "the ladder believes in an alarm and gives the interlock free";
+  EXPECT_EQ(alarm(), "");
+  ASSERT_EQ(force("plc.feed_hold_n", 0), Answer::kDone);
+  ASSERT_EQ(runtime->release("plc.feed_hold_n"), Answer::kDone);
+  start("G91 G1 X100. F1000\nM30\n");
+  steps(100);
+  ASSERT_GT(out().feed_mm_min, 0);
+  ASSERT_EQ(force("plc.feed_hold_n", 0), Answer::kDone);
+  steps(100);
+  EXPECT_EQ(out().state, NC_STATE_HOLD) << "a signal to the NC, although the program does not write it";
+  EXPECT_EQ(out().feed_mm_min, 0);
+}
+
+TEST_F(Force, IsShownAndReleased) {
+  run("ALIAS X0 in0\nLD X0\nOUT M0\nEND\n");
+  EXPECT_EQ(runtime->snapshot().forces.count, 0u);
+  ASSERT_EQ(force("M7", 1), Answer::kDone);
+  ASSERT_EQ(force("X0", 1), Answer::kDone);
+  ASSERT_EQ(force("in0", 0), Answer::kDone) << "the same device by its other name";
+  steps(1);
+  const nc::rt::ForceList forces = runtime->snapshot().forces;
+  ASSERT_EQ(forces.count, 2u);
+  EXPECT_EQ(runtime->forced_name(forces.device[0].number), "M7");
+  EXPECT_EQ(runtime->forced_name(forces.device[1].number), "in0");
+  EXPECT_EQ(forces.device[1].value, 0);
+  ASSERT_EQ(runtime->release("M100"), Answer::kDone) << "what is not forced is free";
+  ASSERT_EQ(runtime->release(""), Answer::kDone);
+  steps(1);
+  EXPECT_EQ(runtime->snapshot().forces.count, 0u);
+}
+
+TEST_F(Force, WhatCannotBeIsRefusedWithItsReason) {
+  run("LD in0\nOUT M0\nEND\n");
+  const auto refused = [&](const char* device, std::int64_t value, const char* why) {
+    EXPECT_EQ(force(device, value), Answer::kNoDevice) << device;
+    EXPECT_NE(runtime->explain(Answer::kNoDevice).find(why), std::string::npos) << runtime->explain(Answer::kNoDevice);
+  };
+  refused("nowhere", 1, "no such device 'nowhere'");
+  refused("M8192", 1, "no such device");
+  refused("D0.5", 1, "no such device");
+  refused("SM400", 0, "belongs to the engine");
+  refused("SD0", 0, "belongs to the engine");
+  refused("M0", 2, "is a bit");
+  refused("M0", -1, "is a bit");
+  refused("D0", 65536, "has 16 bits");
+  refused("word_in", 4294967296LL, "has 32 bits");
+  EXPECT_EQ(runtime->release("nowhere"), Answer::kNoDevice);
+  for (unsigned n = 0; n < nc::rt::kMaxForces; ++n) ASSERT_EQ(force(("M" + std::to_string(n)).c_str(), 1), Answer::kDone);
+  EXPECT_EQ(force("M500", 1), Answer::kTooManyForces);
+  EXPECT_EQ(force("M5", 0), Answer::kDone) << "one of them may change";
+  ASSERT_EQ(runtime->release("M5"), Answer::kDone);
+  EXPECT_EQ(force("M500", 1), Answer::kDone);
+}
+
+TEST_F(Force, EndsWithTheProgramOfTheMachineAndWithTheControl) {
+  run("LD M1\nCJ P1\nLD in0\nOUT M0\nJMP P2\nP1\nLD SM400\nCJ P1\nP2\nEND\n");
+  ASSERT_EQ(force("M1", 1), Answer::kDone);
+  steps(5);
+  EXPECT_EQ(alarm().substr(0, 3), "R17") << alarm();
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  ASSERT_GE(until([&] { return !runtime->snapshot().resetting && alarm().empty(); }, 3000), 0)
+      << "the reset begins the program as at power on, without the force";
+  EXPECT_EQ(runtime->snapshot().forces.count, 0u);
+  runtime.reset();
+  build();
+  steps(2);
+  EXPECT_EQ(runtime->snapshot().forces.count, 0u);
+}
+
+TEST(ForceWithoutLadder, IsRefused) {
+  const nc::rt::Config config = nc::test::parse_or_fail(nc::test::base_toml());
+  nc::hal::SimMachine machine(config.sim, config.points);
+  nc::rt::VirtualClock clock;
+  std::vector<nc::rt::ConfigError> errors;
+  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  ASSERT_NE(runtime, nullptr);
+  std::string error;
+  ASSERT_TRUE(runtime->start_stepping(&error)) << error;
+  EXPECT_EQ(runtime->force("in0", 1), Answer::kNoLadder);
+  EXPECT_EQ(runtime->release(""), Answer::kNoLadder);
+}
+
+}  // namespace

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the ladder can ask of the NC beside the handshake, and what it sees of it: each signal in a program of the
+// machine, on the machine.
+#include <algorithm>
+
+#include "ladder_machine.hpp"
+
+namespace {
+
+using nc::rt::Answer;
+using nc::rt::CommandKind;
+using nc::rt::Mode;
+
+constexpr const char* kFin = "LD nc.m_strobe\nOUT plc.fin2\n";
+
+class LadderSignals : public nc::test::OwnLadder {
+ protected:
+  void run(const std::string& rungs) {
+    use(rungs + kFin + "END\n");
+    build();
+  }
+  void manual() {
+    ASSERT_EQ(runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(Mode::kManual)), Answer::kDone);
+    steps(2);
+  }
+  double x() const { return out().command.v[0]; }
+};
+
+// M700 13.12: UIT.
+TEST_F(LadderSignals, TheMacroInterrupt) {
+  run("LD in0\nOUT plc.macro_interrupt\n");
+  const std::string sub = "O1000\n#100=77\nM99\n";
+  unsigned file = 0;
+  ASSERT_EQ(nc_program_add_text(runtime->control(), "O1000", sub.data(), sub.size(), &file), NC_OK);
+  start("M96 P1000\nG91 G1 X20. F3000\nX1.\nM97\nM30\n");
+  ASSERT_GT(until([&] { return out().source.line == 2 && out().feed_mm_min > 0; }), 0);
+  in("in0", 1);
+  steps(5);
+  in("in0", 0);
+  ASSERT_GE(until_end(), 0) << alarm();
+  EXPECT_EQ(alarm(), "");
+  EXPECT_EQ(variable(100), 77);
+  EXPECT_NEAR(x(), 21, 1e-6);
+}
+
+// M700 4.2: '/' is switch 1, /2 to /9 the others.
+TEST_F(LadderSignals, OptionalBlockSkips) {
+  run("LD SM400\nOUT plc.block_skip.1\nLD in0\nOUT plc.block_skip.9\n");
+  steps(3);
+  start("#101=1 #102=1 #109=1\n/#101=2\n/2 #102=2\n/9 #109=2\nM30\n");
+  ASSERT_GE(until_end(), 0);
+  EXPECT_EQ(variable(101), 1) << "left out";
+  EXPECT_EQ(variable(102), 2);
+  EXPECT_EQ(variable(109), 2);
+  in("in0", 1);
+  steps(3);
+  start("#109=1\n/9 #109=2\nM30\n");
+  ASSERT_GE(until_end(), 0);
+  EXPECT_EQ(variable(109), 1);
+  // Those of the operator count beside them.
+  ASSERT_EQ(runtime->execute(CommandKind::kSwitches, 0, 1u << 3), Answer::kDone);
+  start("#103=1 #101=1\n/3 #103=2\n/#101=2\nM30\n");
+  ASSERT_GE(until_end(), 0);
+  EXPECT_EQ(variable(103), 1);
+  EXPECT_EQ(variable(101), 1);
+}
+
+TEST_F(LadderSignals, RapidOverride) {
+  run("LD SM400\nMOV K2500 plc.rapid_override\n");
+  start("G91 G0 X100.\nM30\n");
+  double top = 0;
+  while (runtime->info().runs == 0) {
+    runtime->step();
+    top = std::max(top, out().feed_mm_min);
+  }
+  EXPECT_NEAR(top, 0.25 * 200 * 60, 1);
+}
+
+TEST_F(LadderSignals, InputsAndOutputsOfTheMacroInterface) {
+  run("LD SM400\nMOV H8001 plc.macro_input.1\nMOV K5 plc.macro_input.3\nMOV nc.macro_output.1 D0\nMOV nc.macro_output.4 D1\n"
+      "LD nc.macro_output.1.2\nOUT M7\n");
+  start("#100=#1000 #101=#1015 #102=#1001 #103=#1200 #104=#1202 #105=#1201\n#1102=1\n#1316=1 #1331=1\nG4 X0.02\nM30\n");
+  ASSERT_GE(until_end(), 0) << alarm();
+  EXPECT_EQ(variable(100), 1);
+  EXPECT_EQ(variable(101), 1);
+  EXPECT_EQ(variable(102), 0);
+  EXPECT_EQ(variable(103), 1);
+  EXPECT_EQ(variable(104), 1);
+  EXPECT_EQ(variable(105), 0);
+  steps(3);
+  EXPECT_EQ(device("D0"), 4) << "#1102";
+  EXPECT_EQ(device("M7"), 1);
+  EXPECT_EQ(static_cast<std::uint16_t>(device("D1")), 0x8001) << "#1316 and #1331";
+}
+
+TEST_F(LadderSignals, JogButtons) {
+  run("LD in0\nOUT plc.jog_p.X\nLD in1\nOUT plc.jog_m.X\nLD SM400\nDMOV word_in plc.jog_feed\n");
+  in("word_in", 600);
+  in("in0", 1);
+  steps(200);
+  EXPECT_EQ(x(), 0) << "not in automatic mode";
+  in("in0", 0);
+  manual();
+  in("in0", 1);
+  steps(600);
+  EXPECT_NEAR(out().velocity.v[0], 10, 0.01);
+  in("in1", 1);
+  steps(300);
+  EXPECT_EQ(out().velocity.v[0], 0) << "both are none";
+  const double there = x();
+  EXPECT_GT(there, 3);
+  in("in0", 0);
+  steps(300);
+  EXPECT_NEAR(out().velocity.v[0], -10, 0.01);
+  in("in1", 0);
+  steps(300);
+  EXPECT_EQ(out().velocity.v[0], 0);
+  // Faster than the axis can is as fast as it can; and a soft limit holds.
+  in("word_in", 2000000000);
+  in("in0", 1);
+  double top = 0;
+  for (int n = 0; n < 10000; ++n) {
+    runtime->step();
+    top = std::max(top, out().velocity.v[0]);
+  }
+  EXPECT_LE(top, 200 + 1e-6);
+  EXPECT_NEAR(x(), 500, 1e-3);
+  EXPECT_EQ(alarm(), "");
+}
+
+TEST_F(LadderSignals, RapidJog) {
+  run("LD in0\nOUT plc.jog_m.Y\nOUT plc.jog_rapid\n");
+  manual();
+  in("in0", 1);
+  double top = 0;
+  for (int n = 0; n < 1000; ++n) {
+    runtime->step();
+    top = std::min(top, out().velocity.v[1]);
+  }
+  EXPECT_NEAR(top, -150, 1e-3);
+}
+
+TEST_F(LadderSignals, HandleAndReference) {
+  run("LD in0\nMPS\nMOV K5 plc.handle.X\nMPP\nINV\nMOV K0 plc.handle.X\nLD in1\nOUT plc.reference.X\nLD nc.at_reference.X\nOUT M1\n");
+  manual();
+  EXPECT_EQ(device("M1"), 1);
+  in("in0", 1);
+  steps(100);
+  in("in0", 0);
+  steps(500);
+  EXPECT_NEAR(x(), 0.5, 0.006) << "100 scans of 5 increments, and what a scan more or less makes";
+  EXPECT_EQ(device("M1"), 0);
+  in("in1", 1);
+  steps(2000);
+  EXPECT_NEAR(x(), 0, 1e-9);
+  steps(2);
+  EXPECT_EQ(device("M1"), 1);
+}
+
+// M700 4.2: what stands in the look-ahead was read with the old switch.
+TEST_F(LadderSignals, RecalculationReadsAgain) {
+  run("LD in0\nOUT plc.block_skip.1\nLD in1\nOUT plc.recalculate\n");
+  ASSERT_EQ(runtime->execute(CommandKind::kSingleBlock, 0, 1), Answer::kDone);
+  start("G91 G1 X1. F3000\nX1.\n/X10.\nX1.\nM30\n");
+  ASSERT_GT(until([&] { return out().state == NC_STATE_STOPPED; }), 0);
+  in("in0", 1);
+  steps(20);
+  in("in1", 1);
+  steps(50);
+  ASSERT_EQ(runtime->execute(CommandKind::kSingleBlock, 0, 0), Answer::kDone);
+  ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+  ASSERT_GE(until_end(), 0);
+  EXPECT_NEAR(x(), 3, 1e-6) << "the block with / was left out although it had been read";
+}
+
+TEST_F(LadderSignals, DwellInPositionAndManualAllowed) {
+  run("LD nc.dwell\nOUT M1\nLD nc.in_position.X\nOUT M2\nLD nc.manual_allowed\nOUT M3\n");
+  steps(3);
+  EXPECT_EQ(device("M3"), 1);
+  start("G91 G1 X50. F6000\nG4 X0.2\nM30\n");
+  ASSERT_GT(until([&] { return out().feed_mm_min > 5000; }), 0);
+  steps(2);
+  EXPECT_EQ(device("M2"), 0) << "the drive lags behind";
+  EXPECT_EQ(device("M1"), 0);
+  EXPECT_EQ(device("M3"), 0);
+  ASSERT_GT(until([&] { return out().cause == NC_CAUSE_DWELL; }), 0);
+  steps(100);
+  EXPECT_EQ(device("M1"), 1);
+  EXPECT_EQ(device("M2"), 1);
+  ASSERT_GE(until_end(), 0);
+}
+
+// M700 13.5.5: #100100 to #100110.
+TEST_F(LadderSignals, ProgramsReadDevices) {
+  run("ALIAS X1F in0\nALIAS R300 D300\nLD SM400\nMOV K-2 D5\nMOV K77 D300\nSET M20\n");
+  in("in0", 1);
+  steps(3);
+  start("#100100=1 #100101=5 #100102=102\n#100=#100110\n#100100=0 #100101=20 #100102=0\n#101=#100110\n"
+        "#100100=4 #100101=31\n#102=#100110\n#100100=6 #100101=300 #100102=2\n#103=#100110\n"
+        "#100100=5 #100101=3 #100102=0\n#104=#100110\nM30\n");
+  ASSERT_GE(until_end(), 0) << alarm();
+  EXPECT_EQ(variable(100), -2) << "D5";
+  EXPECT_EQ(variable(101), 1) << "M20";
+  EXPECT_EQ(variable(102), 1) << "X1F by its alias";
+  EXPECT_EQ(variable(103), 77) << "R300 by its alias";
+  EXPECT_EQ(variable(104), 0) << "Y3 is nothing here";
+}
+
+}  // namespace

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// Retained data in a running control: common variables come back, and what is lost or cannot be written is an alarm.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include "hal/sim/sim_machine.hpp"
+#include "runtime/retain/variables.hpp"
+#include "runtime/runtime.hpp"
+#include "test_config.hpp"
+
+namespace {
+
+using namespace nc::rt;
+using namespace std::chrono_literals;
+
+class RetainedControl : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) / ("nc-kept-" + std::to_string(getpid()));
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directory(folder_);
+    put("own.il", "LD nc.m_strobe\nOUT plc.fin2\nLD SM400\nOUT L5\nEND\n");
+  }
+  void TearDown() override {
+    runtime.reset();
+    std::filesystem::remove_all(folder_);
+  }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  void put(const std::string& name, const std::string& bytes) {
+    std::ofstream(file(name), std::ios::binary | std::ios::trunc) << bytes;
+  }
+  void configure(const std::string& more = "") {
+    std::string text = nc::test::base_toml();
+    text.replace(text.find("name = \"test\""), 13,
+                 "name = \"test\"\nvariables = \"" + file("vars") + "\"\nretain_every_s = 0.02");
+    config = nc::test::parse_or_fail(text + "[ladder]\nprogram = \"" + file("own.il") + "\"\nretain = \"" + file("devices") +
+                                     "\"\n[scheduling]\npolicy = \"other\"\nlock_memory = false\noverrun = \"count\"\n" + more);
+  }
+  void build() {
+    runtime.reset();
+    machine = std::make_unique<nc::hal::SimMachine>(config.sim, config.points);
+    std::vector<ConfigError> errors;
+    runtime = Runtime::create(config, {&clock, machine.get(), nullptr, nullptr}, &errors);
+    ASSERT_NE(runtime, nullptr) << (errors.empty() ? "" : errors[0].text());
+  }
+  void up() {
+    build();
+    std::string error;
+    ASSERT_TRUE(runtime->start(&error)) << error;
+  }
+  template <class Done>
+  bool until(Done done) {
+    for (int n = 0; n < 5000 && !done(); ++n) std::this_thread::sleep_for(2ms);
+    return done();
+  }
+  void run(const std::string& text) {
+    unsigned number = 0;
+    const std::string& source = texts.emplace_back(text);
+    const std::uint64_t runs = runtime->info().runs;
+    ASSERT_EQ(nc_program_add_text(runtime->control(), "p", source.data(), source.size(), &number), NC_OK);
+    ASSERT_EQ(runtime->select_program(number), Answer::kDone);
+    ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+    ASSERT_TRUE(until([&] { return runtime->info().runs > runs; }));
+  }
+  double variable(std::uint32_t number) const {
+    double value = 0;
+    bool vacant = true;
+    EXPECT_EQ(nc_variable_get(runtime->control(), 0, number, &value, &vacant), NC_OK);
+    return vacant ? std::nan("") : value;
+  }
+  std::string alarms() const {
+    std::string all;
+    const Snapshot now = runtime->snapshot();
+    for (unsigned i = 0; i < now.alarms.count; ++i) all += runtime->alarm_text(now.alarms.alarm[i]) + "\n";
+    return all;
+  }
+  std::filesystem::path folder_;
+  Config config;
+  RealClock clock;
+  std::unique_ptr<nc::hal::SimMachine> machine;
+  std::unique_ptr<Runtime> runtime;
+  std::deque<std::string> texts;
+};
+
+TEST_F(RetainedControl, VariablesAndTheirNamesComeBack) {
+  configure();
+  up();
+  EXPECT_EQ(alarms(), "");
+  run("#500=1.25 #501=-3 #999=70000.5 #150=9\nSETVN500[PART,TOOL]\n#1=5\nM30\n");
+  runtime->stop();
+  up();
+  EXPECT_EQ(alarms(), "");
+  EXPECT_EQ(variable(500), 1.25);
+  EXPECT_EQ(variable(501), -3);
+  EXPECT_EQ(variable(999), 70000.5);
+  EXPECT_EQ(variable(150), 9);
+  EXPECT_TRUE(std::isnan(variable(502)));
+  char name[8] = "";
+  ASSERT_EQ(nc_variable_name_get(runtime->control(), 501, name), NC_OK);
+  EXPECT_STREQ(name, "TOOL");
+  run("#501=#0\n#[#500*400]=[#PART]+1\nM30\n");  // #[1.25*400] is #500 again
+  runtime->stop();
+  up();
+  EXPECT_EQ(variable(500), 2.25);
+  EXPECT_TRUE(std::isnan(variable(501))) << "vacant again is vacant";
+}
+
+// Without waiting for the end: what was set stands in the file after one period of the keeper.
+TEST_F(RetainedControl, AreWrittenWhileItRuns) {
+  configure();
+  up();
+  run("#500=41\nM30\n");
+  ASSERT_TRUE(until([&] {
+    RetainStore store(file("vars"));
+    std::string bytes, error;
+    if (store.load(&bytes, &error) != RetainStore::Loaded::kWhole) return false;
+    Config other = config;
+    other.variables.clear();
+    const std::size_t size = nc_memory_required(&other.nc);
+    std::vector<char> memory(size + 64);
+    void* place = memory.data() + (64 - reinterpret_cast<std::uintptr_t>(memory.data()) % 64) % 64;
+    nc_status status = NC_OK;
+    nc_control* control = nc_create(&other.nc, place, size, &status);
+    double value = 0;
+    bool vacant = true;
+    return restore_variables(control, bytes) && nc_variable_get(control, 0, 500, &value, &vacant) == NC_OK && value == 41;
+  }));
+}
+
+// M700 13.4, #1129 PwrVC1.
+TEST_F(RetainedControl, AParameterClearsTheFirstOnesAtPowerOff) {
+  configure("[parameters]\n\"1129\" = 1\n");
+  up();
+  run("#500=1 #150=9\nM30\n");
+  runtime->stop();
+  up();
+  EXPECT_EQ(variable(500), 1);
+  EXPECT_TRUE(std::isnan(variable(150)));
+}
+
+TEST_F(RetainedControl, WhatIsLostIsAnAlarmUntilReset) {
+  configure();
+  put("vars", "garbage");
+  put("devices", "garbage");
+  up();
+  ASSERT_TRUE(until([&] { return runtime->snapshot().alarms.count == 2; })) << alarms();
+  const std::string text = alarms();
+  EXPECT_NE(text.find("R19 Retained data lost: devices of the ladder are lost and begin with 0: " + file("devices") +
+                      " is damaged\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("R19 Retained data lost: common variables are lost and are vacant: " + file("vars") + " is damaged\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kAlarmActive) << "nobody starts without having seen it";
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting && alarms().empty(); }));
+  run("#500=1\nM30\n");
+  runtime->stop();
+  up();
+  EXPECT_EQ(alarms(), "");
+  EXPECT_TRUE(std::filesystem::exists(file("vars.damaged")));
+}
+
+TEST_F(RetainedControl, OneGenerationBackIsSaid) {
+  configure();
+  up();
+  run("#500=1\nM30\n");
+  runtime->stop();
+  put("vars", "torn");
+  up();
+  ASSERT_TRUE(until([&] { return runtime->snapshot().alarms.count == 1; }));
+  EXPECT_NE(alarms().find("R19 Retained data lost: common variables are those of the last time but one"), std::string::npos)
+      << alarms();
+}
+
+// A disk that is full, as far as the file is concerned: what is written beside it cannot be made.
+TEST_F(RetainedControl, WhatCannotBeWrittenIsAnAlarmThatLetsTheProgramEnd) {
+  configure();
+  up();
+  unsigned number = 0;
+  const std::string& source = texts.emplace_back("#500=1\nG4 X0.3\n#500=2\nG4 X0.3\nM30\n");
+  ASSERT_EQ(nc_program_add_text(runtime->control(), "p", source.data(), source.size(), &number), NC_OK);
+  ASSERT_EQ(runtime->select_program(number), Answer::kDone);
+  std::filesystem::create_directory(file("vars.new"));
+  ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+  ASSERT_TRUE(until([&] { return runtime->snapshot().alarms.count == 1; }));
+  EXPECT_EQ(alarms().find("R20 Retained data are not kept: common variables cannot be written: " + file("vars")), 0u) << alarms();
+  EXPECT_TRUE(runtime->snapshot().alarmed());
+  EXPECT_FALSE(runtime->snapshot().stopped_by_alarm());
+  ASSERT_TRUE(until([&] { return runtime->info().runs == 1; })) << "the part is finished";
+  EXPECT_TRUE(runtime->info().ended_ok);
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kAlarmActive) << "the next one is not begun";
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting && alarms().empty(); })) << "acknowledged: it does not come back";
+  std::filesystem::remove(file("vars.new"));
+  runtime->stop();
+  up();
+  EXPECT_EQ(variable(500), 2) << "written as soon as it went";
+}
+
+TEST_F(RetainedControl, AFileOfAnotherControlIsAnAlarm) {
+  configure();
+  RetainStore other(file("vars"));
+  std::string error;
+  ASSERT_TRUE(other.lock(&error)) << error;
+  up();
+  ASSERT_TRUE(until([&] { return runtime->snapshot().alarms.count == 1; }));
+  EXPECT_EQ(alarms().find("R20 Retained data are not kept: common variables are not kept: "), 0u) << alarms();
+}
+
+TEST(RetainedVariables, BytesThatMakeNoSenseChangeNothing) {
+  Config config = nc::test::parse_or_fail(nc::test::base_toml());
+  const std::size_t size = nc_memory_required(&config.nc);
+  std::vector<char> memory(size + 64);
+  void* place = memory.data() + (64 - reinterpret_cast<std::uintptr_t>(memory.data()) % 64) % 64;
+  nc_status status = NC_OK;
+  nc_control* control = nc_create(&config.nc, place, size, &status);
+  ASSERT_NE(control, nullptr);
+  ASSERT_EQ(nc_variable_set(control, 0, 500, 3, false), NC_OK);
+  ASSERT_EQ(nc_variable_name_set(control, 500, "ABC"), NC_OK);
+  const std::string good = encode_variables(control);
+  ASSERT_TRUE(restore_variables(control, good));
+  EXPECT_EQ(encode_variables(control), good);
+  for (std::size_t cut = 0; cut < good.size(); ++cut) EXPECT_FALSE(restore_variables(control, good.substr(0, cut))) << cut;
+  EXPECT_FALSE(restore_variables(control, good + "x"));
+  EXPECT_EQ(encode_variables(control), good);
+  std::mt19937 chance(1);
+  for (unsigned i = 0; i < 20000; ++i) {
+    std::string noise = good;
+    for (unsigned k = 0; k < 3; ++k) noise[chance() % noise.size()] = static_cast<char>(chance());
+    (void)restore_variables(control, noise);
+  }
+}
+
+}  // namespace
