@@ -21,7 +21,8 @@ struct Row {
 // MELSEC-Q, QnA and iQ-R; FX. With a P at the end they are the same.
 constexpr Row kInstructions[] = {
     {"E+", kReal},      {"E-", kReal},      {"E*", kReal},      {"E/", kReal},      {"EMOV", kReal},
-    {"EDMOV", kReal},   {"ENEG", kReal},    {"FLT", kReal},     {"DFLT", kReal},    {"INT", kReal},
+    {"EDMOV", kReal},   {"ENEG", kReal},    {"ED+", kReal},     {"ED-", kReal},     {"ED*", kReal},     {"ED/", kReal},
+       {"FLT", kReal},     {"DFLT", kReal},    {"INT", kReal},
     {"DINT", kReal},    {"DECMP", kReal},   {"DEZCP", kReal},   {"DEADD", kReal},   {"DESUB", kReal},
     {"DEMUL", kReal},   {"DEDIV", kReal},   {"DESQR", kReal},   {"DEMOV", kReal},   {"DEBCD", kReal},
     {"DEBIN", kReal},   {"SIN", kReal},     {"COS", kReal},     {"TAN", kReal},     {"ASIN", kReal},

@@ -129,7 +129,7 @@ std::optional<Operand> Names::constant(std::string_view word, std::string* messa
   operand.hexadecimal = word[0] == 'H';
   const char* last = word.data() + word.size();
   const char* first = word.data() + 1;
-  if (!operand.hexadecimal && *first == '+') ++first;
+  if (!operand.hexadecimal && *first == '+' && *++first == '-') return std::nullopt;
   const auto [end, error] = std::from_chars(first, last, operand.constant, operand.hexadecimal ? 16 : 10);
   if (end != last || (operand.hexadecimal && *first == '-')) return std::nullopt;
   if (error != std::errc()) {
@@ -149,6 +149,11 @@ std::optional<Operand> Names::operand(std::string_view word, std::string* messag
         (word[0] == 'H' && std::isxdigit(static_cast<unsigned char>(word[1])) != 0)) {
       if (const auto value = constant(word, message)) return value;
       if (!message->empty()) return std::nullopt;
+      if (word[0] == 'K' && number && word.find_first_not_of("0123456789+-.", 1) == std::string_view::npos &&
+          word.find('.') != std::string_view::npos) {
+        *message = instruction_elsewhere("E+");
+        return std::nullopt;
+      }
     }
     if (word[0] == 'K' && is_digit(word[1]) && word.size() > 3 && !is_digit(word[2])) {  // K4M0
       const auto bits = device(word.substr(2), message);

@@ -108,6 +108,15 @@ std::vector<ConfigError> check_host(const Config& config) {
   if (!std::filesystem::is_directory(folder.empty() ? "." : folder, ignored))
     errors.add(config.programs_place.line, config.programs_place.key,
                "there is no folder \"" + folder + "\"");
+  const auto check_file = [&](const std::string& path, const ConfigPlace& place) {
+    const std::filesystem::path whole(path), parent = whole.parent_path();
+    if (std::filesystem::is_directory(whole, ignored))
+      errors.add(place.line, place.key, "\"" + path + "\" is a folder, not a file");
+    else if (!std::filesystem::is_directory(parent.empty() ? "." : parent, ignored))
+      errors.add(place.line, place.key, "there is no folder \"" + parent.string() + "\"");
+  };
+  if (!config.variables.empty()) check_file(config.variables_path(), config.variables_place);
+  if (!config.ladder.retain.empty() && !config.ladder.program.empty()) check_file(config.retain_path(), config.ladder.retain_place);
   return errors.take();
 }
 

@@ -85,6 +85,7 @@ struct LadderConfig {
   double fin_timeout_s = 0; // FIN that does not come within this time is an alarm; 0 = wait for ever
   std::array<std::string, 8> alarm;  // texts of plc.alarm.1 ... .8
   std::string retain;                // file of the retained devices, relative as `program`; empty = see retain_path()
+  ConfigPlace retain_place;
   bool retain_counters = false;      // C among them
   unsigned retain_d_first = 0, retain_d_count = 0;  // D among them
 };

@@ -187,8 +187,8 @@ void read_points(TableReader* root, Config* config) {
       point.type = word == 0 ? hal::PointType::kBit : hal::PointType::kWord;
     if (reader.choice("direction", {"input", "output"}, &word))
       point.direction = word == 0 ? hal::PointDirection::kInput : hal::PointDirection::kOutput;
-    const std::int64_t top = point.type == hal::PointType::kBit ? 1 : 0xFFFFFFFFll;
-    reader.integer("initial", &point.initial, 0, top);
+    const bool bit = point.type == hal::PointType::kBit;
+    reader.integer("initial", &point.initial, bit ? 0 : -0x80000000ll, bit ? 1 : 0xFFFFFFFFll);
     if (reader.string("meaning", &point.meaning) && point.meaning.size() > kMaxMeaning)
       reader.error("meaning", "is longer than " + std::to_string(kMaxMeaning) + " bytes");
     point.bus = read_point_modbus(&reader, point, config);

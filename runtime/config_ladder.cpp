@@ -29,6 +29,7 @@ void read_ladder(TableReader* root, Config* config) {
     reader.string("program", &ladder.program);
     reader.number("fin_timeout_s", &ladder.fin_timeout_s, 0, 3600);
     reader.string("retain", &ladder.retain);
+    ladder.retain_place = {reader.line("retain"), reader.path("retain")};
     reader.boolean("retain_counters", &ladder.retain_counters);
     std::vector<double> range;
     if (reader.numbers("retain_d", &range, 2, 2)) {

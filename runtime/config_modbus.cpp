@@ -46,8 +46,13 @@ void read_link(TableReader* reader, Config* config) {
   entry.place = {reader->line("name"), reader->path("name")};
   for (const char* key : {"name", "host"}) reader->require(key);
   const bool named = reader->string("name", &link.name);
-  if (reader->string("host", &link.host) && (link.host.empty() || link.host.size() > 255))
-    reader->error("host", "must be an address or the name of a host");
+  if (reader->string("host", &link.host)) {
+    const bool graphic = std::all_of(link.host.begin(), link.host.end(), [](char c) { return c > ' ' && c <= '~'; });
+    if (link.host.empty() || link.host.size() > 255 || !graphic)
+      reader->error("host", "must be an address or the name of a host");
+    else if (std::count(link.host.begin(), link.host.end(), ':') == 1)  // IPv6 has more of them
+      reader->error("host", "must be an address or the name of a host; the port has a key of its own: port");
+  }
   reader->integer("port", &link.port, 1, 65535);
   read_unit(reader, &entry.unit);
   reader->integer("poll_ms", &link.poll_ms, 1, 60000);
@@ -153,12 +158,13 @@ std::string range_text(const hal::modbus::ValueRange& range) {
 // The safe value of an output goes into the register as it is, and an input shows it before the first answer: it is
 // not bent into the range in silence.
 void check_initial(TableReader* point_reader, const PointMap& map) {
-  if (point_reader->find("initial") == nullptr) return;
+  const bool given = point_reader->find("initial") != nullptr;
+  if (!given && !map.output) return;
   const bool is_signed = map.format != Format::kBit && point_is_signed(map);
   const std::int64_t value = is_signed ? static_cast<std::int32_t>(map.initial) : std::int64_t{map.initial};
   const hal::modbus::ValueRange range = value_range(map);
   if (range.holds(value)) return;
-  point_reader->error("initial", "must be from " + range_text(range) + ", what " + table_name(map.table) + " " +
+  point_reader->error("initial", std::string(given ? "must be" : "is 0 when it is left out, but must be") + " from " + range_text(range) + ", what " + table_name(map.table) + " " +
                                      std::to_string(map.address) + " can hold with its sign, width and scale, not " +
                                      std::to_string(value));
 }

@@ -42,19 +42,35 @@ Answer ForceTable::force(std::uint32_t number, std::int32_t value) noexcept {
     return Answer::kDone;
   }
   if (count_ == kMaxForces) return Answer::kTooManyForces;
-  active_[count_++] = {number, value};
+  active_[count_++] = {number, value, 0, false};
   return Answer::kDone;
 }
 
 // What is not forced can be released: who releases wants the device to be free, and it is.
 Answer ForceTable::release(std::uint32_t number) noexcept {
-  if (number == kAllForces) count_ = 0;
-  for (unsigned i = 0; i < count_; ++i) {
-    if (active_[i].number != number) continue;
-    active_[i] = active_[--count_];
-    break;
-  }
+  for (unsigned i = count_; i-- > 0;)
+    if (number == kAllForces || active_[i].number == number) free(i);
   return Answer::kDone;
+}
+
+void ForceTable::free(unsigned place) noexcept {
+  const Active gone = active_[place];
+  active_[place] = active_[--count_];
+  if (gone.begun && freed_ < released_.size()) released_[freed_++] = gone;  // more of them in one scan stay as they are
+}
+
+void ForceTable::begin(ladder::DeviceImage* image, hal::PointImage* points) noexcept {
+  for (unsigned i = 0; i < freed_; ++i) {
+    const Place& place = places_[released_[i].number];
+    set(place, released_[i].before, image);
+    if (place.point >= 0 && place.output) points->value[place.point] = static_cast<std::uint32_t>(released_[i].before);
+  }
+  freed_ = 0;
+  for (unsigned i = 0; i < count_; ++i) {
+    if (active_[i].begun) continue;
+    active_[i].before = get(places_[active_[i].number], *image);
+    active_[i].begun = true;
+  }
 }
 
 void ForceTable::hold_points(hal::PointImage* points, bool outputs) const noexcept {
@@ -65,27 +81,39 @@ void ForceTable::hold_points(hal::PointImage* points, bool outputs) const noexce
   }
 }
 
-void ForceTable::hold_devices(ladder::DeviceImage* image) const noexcept {
-  for (unsigned i = 0; i < count_; ++i) {
-    const Place& place = places_[active_[i].number];
-    const std::int32_t value = active_[i].value;
-    switch (place.type) {
-      case ladder::DeviceType::kBit:
-        image->bit[place.index] = value != 0;
-        break;
-      case ladder::DeviceType::kWord16:
-        image->word[place.index] = static_cast<std::int16_t>(value);
-        break;
-      case ladder::DeviceType::kWord32:
-        image->set_word32(place.index, value);
-        break;
-    }
+std::int32_t ForceTable::get(const Place& place, const ladder::DeviceImage& image) noexcept {
+  switch (place.type) {
+    case ladder::DeviceType::kBit:
+      return image.bit[place.index];
+    case ladder::DeviceType::kWord16:
+      return image.word[place.index];
+    case ladder::DeviceType::kWord32:
+      return image.word32(place.index);
   }
+  return 0;
+}
+
+void ForceTable::set(const Place& place, std::int32_t value, ladder::DeviceImage* image) noexcept {
+  switch (place.type) {
+    case ladder::DeviceType::kBit:
+      image->bit[place.index] = value != 0;
+      break;
+    case ladder::DeviceType::kWord16:
+      image->word[place.index] = static_cast<std::int16_t>(value);
+      break;
+    case ladder::DeviceType::kWord32:
+      image->set_word32(place.index, value);
+      break;
+  }
+}
+
+void ForceTable::hold_devices(ladder::DeviceImage* image) const noexcept {
+  for (unsigned i = 0; i < count_; ++i) set(places_[active_[i].number], active_[i].value, image);
 }
 
 void ForceTable::list(ForceList* list) const noexcept {
   list->count = count_;
-  for (unsigned i = 0; i < count_; ++i) list->device[i] = active_[i];
+  for (unsigned i = 0; i < count_; ++i) list->device[i] = {active_[i].number, active_[i].value};
 }
 
 }  // namespace nc::rt

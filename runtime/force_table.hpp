@@ -34,7 +34,11 @@ class ForceTable {
   // ---- scan. NC_RT ----
   Answer force(std::uint32_t number, std::int32_t value) noexcept;
   Answer release(std::uint32_t number) noexcept;
-  bool any() const noexcept { return count_ != 0; }
+  void forget() noexcept { count_ = freed_ = 0; }
+  bool any() const noexcept { return count_ + freed_ != 0; }
+  // At the head of a scan. What was released has again what it had before: a relay, or a signal to the NC, that no
+  // coil writes would stay as it was forced.
+  void begin(ladder::DeviceImage* image, hal::PointImage* points) noexcept;
   // Inputs of the machine, before they are read into the devices.
   void hold_inputs(hal::PointImage* points) const noexcept { hold_points(points, false); }
   void hold_outputs(hal::PointImage* points) const noexcept { hold_points(points, true); }
@@ -50,14 +54,23 @@ class ForceTable {
     int point = -1;
     std::string name;
   };
+  struct Active {
+    std::uint32_t number = 0;
+    std::int32_t value = 0;
+    std::int32_t before = 0;
+    bool begun = false;  // `before` is known
+  };
   void hold_points(hal::PointImage* points, bool outputs) const noexcept;
+  void free(unsigned place) noexcept;
+  static std::int32_t get(const Place& place, const ladder::DeviceImage& image) noexcept;
+  static void set(const Place& place, std::int32_t value, ladder::DeviceImage* image) noexcept;
 
   // Never moves: the scan reads places whose numbers came to it through the queue of commands.
   const std::unique_ptr<Place[]> places_;
   std::size_t names_ = 0;
   mutable std::mutex mutex_;  // names_ and the names; not the scan's
-  std::array<ForcedDevice, kMaxForces> active_;
-  unsigned count_ = 0;
+  std::array<Active, kMaxForces> active_, released_;
+  unsigned count_ = 0, freed_ = 0;  // of them
 };
 
 }  // namespace nc::rt

@@ -132,7 +132,7 @@ std::int32_t LadderTask::signal(unsigned place) const noexcept {
 }
 
 void LadderTask::restart() noexcept {
-  (void)forces_.release(kAllForces);
+  forces_.forget();
   copy_retained(devices_, &fresh_);
   std::copy(fresh_.bit.begin(), fresh_.bit.end(), devices_.bit.begin());
   std::copy(fresh_.word.begin(), fresh_.word.end(), devices_.word.begin());
@@ -288,7 +288,10 @@ void LadderTask::scan(LadderImage* image) noexcept {
     set(place.row->type, place.device, place.row->read(*image, place.system, place.index));
   hal::PointImage& points = *image->points;
   const bool forced = forces_.any() && engine_->fault() == ladder::kNoFault;
-  if (forced) forces_.hold_inputs(&points);
+  if (forced) {
+    forces_.begin(&devices_, &points);
+    forces_.hold_inputs(&points);
+  }
   for (const PointPlace& place : inputs_)
     set(place.type, place.device, static_cast<std::int32_t>(points.value[place.point]));
   // Outputs as they stand: the NC program may have switched them since.

@@ -164,6 +164,10 @@ bool TableReader::string(std::string_view key, std::string* value) {
     wrong_type(key, *node, "a string");
     return false;
   }
+  if (read->get().find('\0') != std::string::npos) {  // what stands behind it would be lost where it is a path or a name
+    error(key, "must not hold a NUL");
+    return false;
+  }
   *value = read->get();
   return true;
 }

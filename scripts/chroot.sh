@@ -44,6 +44,35 @@ mount_devices() {
   for node in stdin:0 stdout:1 stderr:2; do ln -s "/proc/self/fd/${node#*:}" "$dev/${node%:*}"; done
 }
 
+# boot_chroot ROOT SCRIPT SECONDS: systemd as process 1 of the chroot, in namespaces of its own, which runs SCRIPT (a path in there) as a
+# service and powers off. What the script prints goes to its name + ".log", its exit status to its name + ".status". The chroot has no mounts then.
+boot_chroot() {
+  local root=$1 script=$2 seconds=$3 group=
+  printf '%s\n' '[Unit]' DefaultDependencies=no '[Service]' Type=oneshot "ExecStart=/bin/sh -c '$script >$script.log 2>&1; echo \$\$? >$script.status'" \
+    TimeoutStartSec="$seconds" 'ExecStopPost=/bin/systemctl --force --force poweroff' >"$root/etc/systemd/system/nc-prove.service"
+  printf '%s\n' '[Unit]' Wants=nc-prove.service >"$root/etc/systemd/system/nc-prove.target"
+  rm -f "$root$script.status"
+  # A group of its own in the unified hierarchy, wherever that is mounted: the root of what the new process 1 sees.
+  for group in /sys/fs/cgroup/unified /sys/fs/cgroup; do [ ! -f "$group/cgroup.procs" ] || break; done
+  group=$group/nc-prove.$$
+  mkdir "$group" || { rm -f "$root"/etc/systemd/system/nc-prove.*; return 1; }
+  # shellcheck disable=SC2016
+  timeout "$((seconds + 60))" bash -c 'echo $$ >"$1/cgroup.procs"; exec unshare --mount --pid --fork --uts --ipc --cgroup --propagation private bash -c "$2" "$0"' \
+    "$root" "$group" '
+    set -eu
+    . "'"$top"'/scripts/lib.sh"; . "'"$top"'/scripts/chroot.sh"
+    mount --bind "$0" "$0"
+    mount_devices "$0"
+    mount -t tmpfs -o mode=755 nc-run "$0/run"
+    mount -t sysfs -o ro nc-sys "$0/sys"
+    mount -t cgroup2 nc-cgroup "$0/sys/fs/cgroup"
+    exec chroot "$0" env -i container=other PATH=/usr/sbin:/usr/bin:/sbin:/bin /lib/systemd/systemd --system --unit=nc-prove.target --log-target=console \
+      --log-level=notice --show-status=no' >"$root$script.boot" 2>&1 </dev/null || true
+  rmdir "$group" 2>/dev/null || find "$group" -depth -type d -exec rmdir {} + 2>/dev/null || say "note: $group is left"
+  rm -f "$root"/etc/systemd/system/nc-prove.*
+  [ -f "$root$script.status" ] && [ "$(cat "$root$script.status")" = 0 ]
+}
+
 # leave_chroot ROOT [KEEP]: takes the mounts away, and the folder unless KEEP is not empty.
 leave_chroot() {
   local place

@@ -470,8 +470,9 @@ int main(int argc, char** argv) {
   nc::hal::SimMachine machine(config.sim, config.points);
   nc::rt::VirtualClock clock;
   std::vector<nc::rt::ConfigError> refused;
-  if (nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &refused) == nullptr)
-    return config_failed(refused);
+  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &refused);
+  if (runtime == nullptr) return config_failed(refused);
+  for (const std::string& warning : runtime->warnings()) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   std::printf("%s: %s, %u us, %u points: no errors\n", options.config.c_str(), config.name.c_str(),
               config.cycle_us, config.points.size());
   return written(0);

@@ -11,7 +11,7 @@ namespace {
 
 // The same occurrence: the same alarm, raised in the same scan.
 bool same(const ActiveAlarm& a, const ActiveAlarm& b) {
-  return a.id == b.id && a.axis == b.axis && a.system == b.system && a.scan == b.scan;
+  return a.id == b.id && a.axis == b.axis && a.system == b.system && a.scan == b.scan && a.detail == b.detail;
 }
 
 }  // namespace

@@ -33,6 +33,9 @@ const Bad kBad[] = {
     // what other controllers of the family have
     {"LD X0\nE+ D0 D2 D4", 2, "E+ D0 D2 D4", "not supported: there are no real numbers"},
     {"LD X0\nEMOVP E1.5 D0", 2, "EMOVP E1.5 D0", "not supported: there are no real numbers"},
+    {"LD X0\nED+ D0 D4 D8", 2, "ED+ D0 D4 D8", "not supported: there are no real numbers"},
+    {"LD X0\nMOV K1.5 D0", 2, "MOV K1.5 D0", "there are no real numbers"},
+    {"LD X0\nMOV K+-5 D0", 2, "MOV K+-5 D0", "no such device"},
     {"LDE>= D0 D2\nOUT Y0", 1, "LDE>= D0 D2", "not supported: there are no real numbers"},
     {"LD X0\nDFLT D0 D2", 2, "DFLT D0 D2", "D+ D- D* D/"},
     {"LD X0\nOUT LC0 K5", 2, "OUT LC0 K5", "16 bits here; for 32 bits count with DINCP"},

@@ -256,6 +256,15 @@ const Case kCases[] = {
     {"modbus_initial_scaled", nullptr,
      NC_WORD("output", "link = \"io\", table = \"holding\", address = 7, scale = 0.01") "initial = 700\n",
      "point[6].initial", "from 0 to 655,"},
+    {"modbus_initial_left_out", nullptr,
+     NC_WORD("output", "link = \"io\", table = \"holding\", address = 7, offset = 10"), "point[6].initial",
+     "is 0 when it is left out, but must be from 10 to 65545"},
+    {"modbus_host_with_port", nullptr, "\n[[modbus]]\nname = \"io\"\nhost = \"10.0.0.1:502\"\n", "modbus[1].host", "key of its own: port"},
+    {"modbus_host_blank", nullptr, "\n[[modbus]]\nname = \"io\"\nhost = \"a b\"\n", "modbus[1].host", "an address or the name"},
+    {"nul_in_a_text", nullptr, "[ladder]\nprogram = \"x.il\\u0000y\"\n", "ladder.program", "must not hold a NUL"},
+    {"retained_twice", "name = \"test\"", "name = \"test\"\nvariables = \"kept\"\n[ladder]\nprogram = \"x.il\"\nretain = \"kept\"",
+     "ladder.retain", "common variables too"},
+    {"retain_every", "name = \"test\"", "name = \"test\"\nretain_every_s = 0.0", "machine.retain_every_s", "from 0.02 to 3600"},
     {"initial_of_a_bit", "name = \"in1\"", "name = \"in1\"\ninitial = -1", "point[2].initial", "from 0 to 1"},
     {"modbus_on_loss_output", nullptr, NC_BIT("output", "link = \"io\", table = \"coil\", address = 0, on_loss = \"off\""),
      "point[6].modbus.on_loss", "is for inputs"},
@@ -485,6 +494,17 @@ TEST(Config, ProcessorAndFolderMustBeThere) {
   EXPECT_TRUE(nc::rt::check_host(config).empty());
   config.file = "m.toml";  // in the folder from which it is called
   EXPECT_TRUE(nc::rt::check_host(config).empty());
+}
+
+TEST(Config, FilesOfRetainedDataNeedTheirFolder) {
+  Config config = nc::test::parse_or_fail(nc::test::base_toml() + "[ladder]\nprogram = \"x.il\"\nretain = \"/nowhere/at/all\"\n");
+  config.variables = "/";
+  config.variables_place = {7, "machine.variables"};
+  const std::vector<ConfigError> errors = nc::rt::check_host(config);
+  std::string all;
+  for (const ConfigError& error : errors) all += error.text() + "\n";
+  EXPECT_NE(all.find("test.toml:7: machine.variables: \"/\" is a folder, not a file"), std::string::npos) << all;
+  EXPECT_NE(all.find("ladder.retain: there is no folder \"/nowhere/at\""), std::string::npos) << all;
 }
 
 TEST(Config, AWrongLimitIsOneErrorAndAFolderIsNoFile) {

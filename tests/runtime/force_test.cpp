@@ -52,6 +52,19 @@ TEST_F(Force, AnOutputIsHeldAgainstTheProgramAndTheNc) {
   EXPECT_EQ(output("out0"), 0u);
 }
 
+TEST_F(Force, AnOutputThatNobodyWritesIsAsItWasBefore) {
+  run("LD in0\nOUT M0\nEND\n");
+  ASSERT_EQ(force("out0", 1), Answer::kDone);
+  ASSERT_EQ(force("word_out", 1234), Answer::kDone);
+  steps(3);
+  EXPECT_EQ(output("out0"), 1u);
+  EXPECT_EQ(output("word_out"), 1234u);
+  ASSERT_EQ(runtime->release(""), Answer::kDone);
+  steps(2);
+  EXPECT_EQ(output("out0"), 0u);
+  EXPECT_EQ(output("word_out"), 0u);
+}
+
 TEST_F(Force, RelaysRegistersTimersAndSignals) {
   run("LD M0\nOUT M1\nLD SM400\nMOV K5 D0\nLD T0\nOUT M2\nLD SM400\nMOV D0 D1\nLD nc.alarm\nOUT plc.interlock_n\n"
       "LD nc.m_strobe\nOUT plc.fin2\nEND\n");
@@ -67,7 +80,11 @@ TEST_F(Force, RelaysRegistersTimersAndSignals) {
   EXPECT_GE(until_end(), 0) << "the ladder believes in an alarm and gives the interlock free";
   EXPECT_EQ(alarm(), "");
   ASSERT_EQ(force("plc.feed_hold_n", 0), Answer::kDone);
-  ASSERT_EQ(runtime->release("plc.feed_hold_n"), Answer::kDone);
+  steps(2);
+  ASSERT_EQ(runtime->release("plc.feed_hold_n"), Answer::kDone) << "no coil writes it: it has its safe value again";
+  ASSERT_EQ(runtime->release("M0"), Answer::kDone);
+  steps(2);
+  EXPECT_EQ(device("M0"), 0) << "as it was before";
   start("G91 G1 X100. F1000\nM30\n");
   steps(100);
   ASSERT_GT(out().feed_mm_min, 0);

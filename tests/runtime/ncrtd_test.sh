@@ -23,6 +23,12 @@ machine=$source/etc/machine.toml
 expect 0 "$ncrtd" --config "$machine" check
 said out "no errors"
 expect 0 "$ncrtd" --config "$source/etc/modelling-machine.toml" check
+# Warnings of the ladder program are told, and are no errors.
+{ sed '/^END$/d' "$source/etc/mill.il"; printf 'LD M0\nOUT plc.fin1\nEND\n'; } >"$work/mill.il"
+sed "s#^programs = .*#programs = \"$work\"#" "$machine" >"$work/twice.toml"
+expect 0 "$ncrtd" --config "$work/twice.toml" check
+said err "OUT plc.fin1: the same coil as in line"
+rm "$work/mill.il"
 
 # A whole part on virtual time, with its plots.
 expect 0 "$ncrtd" --config "$machine" run --fast --plot "$work/plot" "$source/examples/parts/flange.nc"

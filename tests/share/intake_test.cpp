@@ -296,6 +296,45 @@ TEST_F(IntakeRules, RefusalOfTheMachineIsPassedOn) {
   EXPECT_EQ(text_of(ack.text), answer_text(Answer::kAlarmActive));
 }
 
+TEST_F(IntakeRules, TheReasonOfARefusalIsPassedOn) {
+  take_control();
+  machine_.answer = Answer::kNotLoaded;
+  machine_.why = "none.nc: No such file or directory";
+  Request r = request(RequestKind::kSelectProgram, 2);
+  set_text(&r.text, "none.nc");
+  const Ack ack = give(r);
+  expect_rejected(ack, AckReason::kRefused);
+  EXPECT_EQ(text_of(ack.text), "none.nc: No such file or directory");
+}
+
+TEST_F(IntakeRules, ForcesNeedControlANameAndAWholeNumber) {
+  Request r = request(RequestKind::kForce, 1);
+  set_text(&r.text, "M5");
+  r.value = 1;
+  expect_rejected(give(r), AckReason::kNoControl);
+  ASSERT_EQ(give(RequestKind::kTakeControl, 2).state, state(AckState::kDone));
+  std::uint64_t sequence = 3;
+  const auto ask = [&](RequestKind kind, const char* device, double value) {
+    Request asked = request(kind, sequence++);
+    set_text(&asked.text, device);
+    asked.value = value;
+    return give(asked);
+  };
+  EXPECT_EQ(ask(RequestKind::kForce, "M5", 1).state, state(AckState::kDone));
+  EXPECT_EQ(ask(RequestKind::kForce, "plc.jog_p.X", 4294967295.0).state, state(AckState::kDone));
+  EXPECT_EQ(ask(RequestKind::kReleaseForce, "M5", 0).state, state(AckState::kDone));
+  EXPECT_EQ(ask(RequestKind::kReleaseForce, "", 0).state, state(AckState::kDone));
+  EXPECT_EQ(machine_.forced, (std::vector<std::string>{"M5=1", "plc.jog_p.X=4294967295"}));
+  EXPECT_EQ(machine_.released, (std::vector<std::string>{"M5", ""}));
+  for (const double value : {0.5, -2147483649.0, 4294967296.0, 1e300, std::nan(""), HUGE_VAL})
+    expect_rejected(ask(RequestKind::kForce, "M5", value), AckReason::kMalformed);
+  const std::string long_name(65, 'M');
+  for (const char* device : {"", "M 5", "M5\n", "M\xc3\xa4", long_name.c_str()})
+    expect_rejected(ask(RequestKind::kForce, device, 1), AckReason::kMalformed);
+  expect_rejected(ask(RequestKind::kReleaseForce, "M 5", 0), AckReason::kMalformed);
+  EXPECT_EQ(machine_.forced.size(), 2u);
+}
+
 TEST_F(IntakeRules, AcceptedBecomesFailedWhenItsStateDoesNotCome) {
   take_control();
   Request r = request(RequestKind::kSetMode, 2);

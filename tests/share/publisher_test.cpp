@@ -305,6 +305,26 @@ TEST(ShareAlarmLog, KeepsTheLast256) {
   }
 }
 
+// Two links, or two files, that are lost in one scan.
+TEST(ShareAlarmLog, TwoOfAKindInOneScanAreTwo) {
+  struct Plain final : AlarmLog::Describer {
+    bool describe(const ActiveAlarm&, Entry*) override { return true; }
+  } plain;
+  AlarmLog log;
+  AlarmList list;
+  list.count = 2;
+  for (unsigned i = 0; i < 2; ++i) {
+    list.alarm[i].id = AlarmId::kLinkLost;
+    list.alarm[i].scan = 7;
+    list.alarm[i].detail = i;
+  }
+  EXPECT_TRUE(log.update(list, &plain, 1000));
+  EXPECT_EQ(log.active().size(), 2u);
+  list.count = 1;
+  EXPECT_TRUE(log.update(list, &plain, 2000));
+  EXPECT_EQ(log.active().size(), 1u);
+}
+
 TEST(ShareAlarmLog, WaitsForTheTextsButNotForEver) {
   AlarmLog log;
   Texts texts;

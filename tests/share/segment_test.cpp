@@ -372,6 +372,13 @@ TEST_F(Share, ValuesThatMakeNoSenseAreRefused) {
   bad.system_count = 3;
   EXPECT_TRUE(refused(bad));
   bad = good;
+  bad.forced_count = kForced + 1;
+  EXPECT_TRUE(refused(bad));
+  bad = good;
+  bad.forced_count = 1;
+  bad.forced[0].device.fill('M');
+  EXPECT_TRUE(refused(bad));
+  bad = good;
   bad.system[0].axis_count = NC_MAX_AXES + 1;
   EXPECT_TRUE(refused(bad));
   bad = good;

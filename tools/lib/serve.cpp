@@ -84,7 +84,7 @@ class Service {
   static bool contains(const std::vector<nc::rt::ActiveAlarm>& list, const nc::rt::ActiveAlarm& alarm) {
     for (const nc::rt::ActiveAlarm& other : list)
       if (other.id == alarm.id && other.axis == alarm.axis && other.system == alarm.system &&
-          other.scan == alarm.scan)
+          other.scan == alarm.scan && other.detail == alarm.detail)
         return true;
     return false;
   }
