@@ -18,6 +18,7 @@ class Path:
         self.tolerance = tolerance
         self.pieces = []  # ("poly", feed, coefficients[axis][power]) or ("arc", feed, a, b, ca, cb, sweep, p0, p1)
         self.stops = {}  # number of the piece that follows -> seconds at rest
+        self.exact = set()  # of these: where the place itself must be hit
 
     # -- making --
 
@@ -30,9 +31,12 @@ class Path:
     def arc(self, feed, a, b, center_a, center_b, sweep, start, end):
         self.pieces.append(("arc", feed, a, b, center_a, center_b, sweep, list(start), list(end)))
 
-    def stop(self, seconds=0.0):
-        if self.pieces:
-            self.stops[len(self.pieces)] = self.stops.get(len(self.pieces), 0.0) + seconds
+    def stop(self, seconds=0.0, exact=True):
+        if not self.pieces:
+            return
+        self.stops[len(self.pieces)] = self.stops.get(len(self.pieces), 0.0) + seconds
+        if exact:
+            self.exact.add(len(self.pieces))
 
     # -- text --
 
@@ -63,7 +67,10 @@ class Path:
 
     def _write_stop(self, out, i):
         if i in self.stops:
-            out.write(f"dwell {float(self.stops[i])!r}\n" if self.stops[i] > 0 else "stop\n")
+            if self.stops[i] > 0:
+                out.write(f"dwell {float(self.stops[i])!r}\n")
+            else:
+                out.write("stop\n" if i in self.exact else "rest\n")
 
     # -- curves --
 
@@ -113,8 +120,8 @@ def _item(path, words):
         else:
             path.tolerance = value
         return
-    if kind == "stop":
-        path.stop()
+    if kind in ("rest", "stop"):
+        path.stop(exact=kind == "stop")
         return
     sizes = {"line": 1 + 2 * n, "arc": 6 + 2 * n}
     values = [float(v) for v in rest]

@@ -27,6 +27,7 @@ CHORD_MM = 1e-5  # of a sampled arc
 USED = 0.9  # of the tolerance: what is aimed at
 FARTHEST_MM = 8.0  # of two control points
 GROWTH = 0.35  # of their distance along the path
+TRIES = 40
 STRAIGHT = 1e-9  # turn of the direction below which a corner is none
 
 
@@ -81,15 +82,16 @@ class Move:
 
 
 def moves_of(events, axes, exact, start):
-    """[[Move, ...] between rests], seconds of dwell behind each."""
-    groups, dwells, at = [[]], [0.0], np.array(start, dtype=float)
+    """[[Move, ...] between rests], and of the rest behind each [seconds, whether it is exact]."""
+    groups, rests, at = [[]], [[0.0, False]], np.array(start, dtype=float)
 
-    def rest(seconds=0.0):
+    def rest(seconds=0.0, exact_there=True):
         if groups[-1]:
             groups.append([])
-            dwells.append(0.0)
+            rests.append([0.0, False])
         if len(groups) > 1:
-            dwells[-2] += seconds
+            rests[-2][0] += seconds
+            rests[-2][1] |= exact_there
 
     for event in events:
         if event["t"] in ("aux", "sync"):
@@ -119,15 +121,15 @@ def moves_of(events, axes, exact, start):
             arc = (a, b, ca, cb, sweep)
         feed = 0.0 if rapid else event["feed"] / 60.0
         if rapid:
-            rest()
+            rest(exact_there=False)
         groups[-1].append(Move(feed, at, end, arc))
         if rapid or event["line"] in exact:
-            rest()
+            rest(exact_there=not rapid)
         at = end
     if not groups[-1]:
         groups.pop()
-        dwells.pop()
-    return groups, dwells
+        rests.pop()
+    return groups, rests
 
 
 class Polyline:
@@ -219,7 +221,7 @@ def spline_pieces(line, s):
 def blend_cubic(line, tolerance):
     """(coefficients, feed) of each piece, within the tolerance of the polyline by measure."""
     scale = (np.array([0.0, line.s[-1]]), np.ones(2))
-    for _ in range(12):
+    for _ in range(TRIES):
         s = control_points(line, tolerance, scale)
         c = spline_pieces(line, s)
         u = np.linspace(0, 1, 9)
@@ -231,7 +233,7 @@ def blend_cubic(line, tolerance):
         if off.max() <= tolerance:
             break
         middle = (s[:-1] + s[1:]) / 2
-        factor = np.where(off > tolerance, np.sqrt(0.9 * tolerance / np.maximum(off, 1e-12)), 1.0)
+        factor = np.where(off > tolerance, np.sqrt(0.8 * tolerance / np.maximum(off, 1e-12)), 1.0)
         factor = np.minimum(factor, np.minimum(np.append(factor[1:], 1), np.append(1, factor[:-1])))
         scale = (middle, np.interp(middle, *scale) * factor)
     else:
@@ -268,9 +270,9 @@ def path_of(program, ncsim, tolerance=0.01, blend="cubic", limits=None, setup=No
     events = trace(ncsim, program, setup)
     end = next(e for e in events if e["t"] == "end")
     axes = list(end["machine"])
-    groups, dwells = moves_of(events, axes, exact_stop_lines(program), [0.0] * len(axes))
+    groups, rests = moves_of(events, axes, exact_stop_lines(program), [0.0] * len(axes))
     path = path_file.Path(axes, {a: limits for a in axes} if limits else None, tolerance)
-    for moves, dwell in zip(groups, dwells):
+    for moves, (dwell, exact) in zip(groups, rests):
         if blend == "none" or len(moves) == 1:
             for move in moves:
                 if move.arc is None:
@@ -281,7 +283,7 @@ def path_of(program, ncsim, tolerance=0.01, blend="cubic", limits=None, setup=No
             line = Polyline(moves)
             for coefficients, feed in (blend_cubic if blend == "cubic" else blend_parabola)(line, tolerance):
                 path.poly(feed, coefficients.tolist())
-        path.stop(dwell)
+        path.stop(dwell, exact)
     return path
 
 

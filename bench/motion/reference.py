@@ -200,17 +200,10 @@ class JerkStep:
                     continue
                 for sign in (1, -1):
                     add([node, node], [node, n + node], [sign * d2 * b0, sign * d1 * scale], np.ones(n), n)
-        d1, d2, d3 = (d[1:-1] for d in g.middle[1:])
-        for k, strongest in enumerate(self.limits.jerk):
-            if not np.isfinite(strongest) or not (d1[:, k].any() or d2[:, k].any() or d3[:, k].any()):
-                continue
-            for sign in (1, -1):
-                # |..| sqrt(bm0) / J + bm / (2 bm0) <= 1.5
-                on_b = sign * d3[:, k] * np.sqrt(bm0) / strongest + 1 / (2 * bm0)
-                on_a = sign * 1.5 * d2[:, k] * np.sqrt(bm0) / strongest
-                on_p = sign * d1[:, k] * np.sqrt(bm0) / strongest / h
-                add([i] * 3, [i, n + i, n + i + 1],
-                    [on_b * b0[:-1], (on_b * h * 0.75 + on_a - on_p) * scale[:-1], (on_b * h * 0.25 + on_a + on_p) * scale[1:]], np.full(n - 1, 1.5), n - 1)
+        bent = np.any(np.abs(g.middle[2][1:-1]) > 1e-9, axis=1)
+        for share, curve, last, cells in ((0.5, g.middle, bm0, i[~bent]), (0.0, g.left, b0[:-1], i[bent]), (1.0, g.right, b0[1:], i[bent])):
+            if len(cells):
+                self._limit_jerk(add, share, [d[1:-1][cells] for d in curve[1:]], last[cells], cells, b0, scale)
         most = self.most[1:-1].copy()
         most[0], most[-1] = min(most[0], self.rest[0]), min(most[-1], self.rest[1])
         bounded = node
@@ -222,6 +215,23 @@ class JerkStep:
         uppers.append(np.full(n, -1e-3))
         x = solve_program(p, q, sparse.vstack(blocks), np.concatenate(uppers), equal)
         return x[:n] * b0, x[n:] * scale
+
+
+    def _limit_jerk(self, add, share, curve, last, cells, b0, scale):
+        """Rows for the jerk at `share` of the way through each of `cells`, where the derivatives are `curve` and b was `last`."""
+        n, h = self.count, self.grid.step[1:-1][cells]
+        root = np.sqrt(last)
+        for k, strongest in enumerate(self.limits.jerk):
+            d1, d2, d3 = (d[:, k] * root / strongest for d in curve)
+            if not np.isfinite(strongest) or not (d1.any() or d2.any() or d3.any()):
+                continue
+            for sign in (1, -1):
+                # |q''' b + 3 q'' a + q' p| root / J + b / (2 last) <= 1.5
+                on_b = sign * d3 + 1 / (2 * last)
+                on_a, on_p = sign * 3 * d2, sign * d1 / h
+                add([np.arange(len(cells))] * 3, [cells, n + cells, n + cells + 1],
+                    [on_b * b0[cells], (on_b * h * share * (2 - share) + on_a * (1 - share) - on_p) * scale[cells],
+                     (on_b * h * share ** 2 + on_a * share + on_p) * scale[cells + 1]], np.full(len(cells), 1.5), len(cells))
 
 
 def times_with_jerk(grid, b, a):
