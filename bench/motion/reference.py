@@ -288,13 +288,13 @@ def iterate(grid, limits, b, bm, most_steps, tolerance):
 
 MOST_GROWTH = 30.0  # of b in one step
 REST_CELLS = 8  # the cell beside a rest takes as long as so many others: there a cell's ends differ too much otherwise
-LEAST_CELLS = 200  # of a section
-LEAST_INSIDE, LEAST_INSIDE_ALL = 12, 20_000  # parts of a piece; of all pieces of a section
+LEAST_CELLS, MOST_CELLS = 200, 10_000  # of a section, by time
+LEAST_INSIDE, LEAST_INSIDE_ALL = 12, 6000  # parts of a piece; of all pieces of a section
 
 
 def moments(seconds, step_s):
     """Times of the inner nodes of a section that takes so long."""
-    count = max(LEAST_CELLS, int(np.ceil(seconds / step_s)))
+    count = min(MOST_CELLS, max(LEAST_CELLS, int(np.ceil(seconds / step_s))))
     return np.linspace(0, seconds, count + 1)[REST_CELLS:-REST_CELLS]
 
 
