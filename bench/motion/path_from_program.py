@@ -4,7 +4,8 @@
 
 usage: path_from_program.py [--tolerance MM] [--blend cubic|parabola|none] [--limits V,A,J] PROGRAM OUT.path
 
-Between two rests (rapids, exact stops, dwells, auxiliary functions) the moves are one polyline; arcs are sampled finely. `cubic` makes it a
+Between two rests (rapids, exact stops, dwells, auxiliary functions) the moves are one polyline; arcs are sampled finely. `cubic` rounds
+sharp corners that stand alone by the curve on which one direction stops while the other starts, each with constant jerk, and makes the rest a
 uniform cubic B-spline, whose curvature is continuous: its control points lie on the polyline, as far apart as the tolerance lets them
 be. For points a distance h apart the curve is |P- - 2P + P+| / 6 from the point P, which is where their distance comes from; it grows
 slowly away from a corner, so a straight stretch stays on its line. The result is measured, and made finer where it is too far away.
@@ -28,6 +29,8 @@ USED = 0.9  # of the tolerance: what is aimed at
 FARTHEST_MM = 8.0  # of two control points
 GROWTH = 0.35  # of their distance along the path
 TRIES = 40
+SHARP = 0.5  # change of the unit direction at a corner of its own
+ROOM = 0.45  # of its neighbours
 STRAIGHT = 1e-9  # turn of the direction below which a corner is none
 
 
@@ -135,17 +138,21 @@ def moves_of(events, axes, exact, start):
 class Polyline:
     """Corners without zero steps, lengths, feeds of the pieces."""
 
-    def __init__(self, moves):
+    def __init__(self, points, feeds):
+        self.points, self.feeds = np.array(points), np.array(feeds)
+        step = np.diff(self.points, axis=0)
+        self.step = np.linalg.norm(step, axis=1)
+        self.s = np.concatenate([[0], np.cumsum(self.step)])
+
+    @classmethod
+    def of(cls, moves):
         points, feeds = [moves[0].start], []
         for move in moves:
             for p in move.points():
                 if np.linalg.norm(p - points[-1]) > 1e-9:
                     points.append(p)
                     feeds.append(move.feed)
-        self.points, self.feeds = np.array(points), np.array(feeds)
-        step = np.diff(self.points, axis=0)
-        self.step = np.linalg.norm(step, axis=1)
-        self.s = np.concatenate([[0], np.cumsum(self.step)])
+        return cls(points, feeds)
 
     def at(self, s):
         s = np.clip(s, 0, self.s[-1])
@@ -198,6 +205,7 @@ def control_points(line, tolerance, scale):
             h[i] = min(h[i], h[j] + GROWTH * abs(places[i] - places[j]))
     corner = np.searchsorted(places, line.s[1:-1])
     sharp = h[corner] < 0.5 * np.minimum(line.step[:-1], line.step[1:])
+    sharp[[0, -1]] = True  # the curve leaves and arrives along the first and the last piece
     anchors = np.concatenate([[0.0], line.s[1:-1][sharp], [total]])
     need = np.concatenate([[0], np.cumsum(np.diff(places) / ((h[:-1] + h[1:]) / 2))])
     at_anchor = np.interp(anchors, places, need)
@@ -218,8 +226,42 @@ def spline_pieces(line, s):
     return np.stack([np.tensordot(SPLINE, p[i:i + 4], axes=1) for i in range(len(p) - 3)])
 
 
+def turn(point, d, e, feed, reach):
+    """Round a sharp corner: while the way to it goes as a cube of time, the way from it does. Constant jerk on either side, no curvature at
+    the ends; |e - d| reach / 8 from the corner at most."""
+    before, after = -reach * d, reach * e
+    return np.array([point + before, -3 * before, 3 * before, after - before]).T, feed
+
+
 def blend_cubic(line, tolerance):
-    """(coefficients, feed) of each piece, within the tolerance of the polyline by measure."""
+    """(coefficients, feed) of each piece: sharp corners that stand alone by turn(), all between them by a spline."""
+    d = np.diff(line.points, axis=0) / line.step[:, None]
+    sharpness = np.linalg.norm(np.diff(d, axis=0), axis=1)
+    reach = 8 * tolerance / np.maximum(sharpness, 1e-12)
+    alone = (sharpness > SHARP) & (reach < ROOM * np.minimum(line.step[:-1], line.step[1:]))
+    corners = np.flatnonzero(alone) + 1
+    out, begin, first = [], line.points[0], 0
+    for k in [*corners, len(line.step)]:
+        last = k == len(line.step)
+        end = line.points[k] if last else line.points[k] - reach[k - 1] * d[k - 1]
+        part = Polyline([begin, *line.points[first + 1:k], end], line.feeds[first:k])
+        if len(part.step) == 1:
+            out.append((np.array([begin, end - begin]).T, part.feeds[0]))
+        else:
+            out += blend_spline(part, tolerance)
+        if not last:
+            out.append(turn(line.points[k], d[k - 1], d[k], feed_of_both(line.feeds[k - 1], line.feeds[k]), reach[k - 1]))
+            begin, first = line.points[k] + reach[k - 1] * d[k], k
+    return out
+
+
+def feed_of_both(a, b):
+    """The lower one; 0 is none."""
+    return min(a, b) if a > 0 and b > 0 else max(a, b)
+
+
+def blend_spline(line, tolerance):
+    """A B-spline, within the tolerance of the polyline by measure."""
     scale = (np.array([0.0, line.s[-1]]), np.ones(2))
     for _ in range(TRIES):
         s = control_points(line, tolerance, scale)
@@ -280,7 +322,7 @@ def path_of(program, ncsim, tolerance=0.01, blend="cubic", limits=None, setup=No
                 else:
                     path.arc(move.feed, *move.arc, move.start, move.end)
         else:
-            line = Polyline(moves)
+            line = Polyline.of(moves)
             for coefficients, feed in (blend_cubic if blend == "cubic" else blend_parabola)(line, tolerance):
                 path.poly(feed, coefficients.tolist())
         path.stop(dwell, exact)

@@ -200,10 +200,7 @@ class JerkStep:
                     continue
                 for sign in (1, -1):
                     add([node, node], [node, n + node], [sign * d2 * b0, sign * d1 * scale], np.ones(n), n)
-        bent = np.any(np.abs(g.middle[2][1:-1]) > 1e-9, axis=1)
-        for share, curve, last, cells in ((0.5, g.middle, bm0, i[~bent]), (0.0, g.left, b0[:-1], i[bent]), (1.0, g.right, b0[1:], i[bent])):
-            if len(cells):
-                self._limit_jerk(add, share, [d[1:-1][cells] for d in curve[1:]], last[cells], cells, b0, scale)
+        self._limit_jerk(add, bm0, b0, scale)
         most = self.most[1:-1].copy()
         most[0], most[-1] = min(most[0], self.rest[0]), min(most[-1], self.rest[1])
         bounded = node
@@ -217,21 +214,22 @@ class JerkStep:
         return x[:n] * b0, x[n:] * scale
 
 
-    def _limit_jerk(self, add, share, curve, last, cells, b0, scale):
-        """Rows for the jerk at `share` of the way through each of `cells`, where the derivatives are `curve` and b was `last`."""
-        n, h = self.count, self.grid.step[1:-1][cells]
+    def _limit_jerk(self, add, last, b0, scale):
+        """Rows for the jerk in the middle of each cell, where b was `last`."""
+        n, h = self.count, self.grid.step[1:-1]
+        i = np.arange(n - 1)
         root = np.sqrt(last)
         for k, strongest in enumerate(self.limits.jerk):
-            d1, d2, d3 = (d[:, k] * root / strongest for d in curve)
+            d1, d2, d3 = (d[1:-1, k] * root / strongest for d in self.grid.middle[1:])
             if not np.isfinite(strongest) or not (d1.any() or d2.any() or d3.any()):
                 continue
             for sign in (1, -1):
                 # |q''' b + 3 q'' a + q' p| root / J + b / (2 last) <= 1.5
                 on_b = sign * d3 + 1 / (2 * last)
-                on_a, on_p = sign * 3 * d2, sign * d1 / h
-                add([np.arange(len(cells))] * 3, [cells, n + cells, n + cells + 1],
-                    [on_b * b0[cells], (on_b * h * share * (2 - share) + on_a * (1 - share) - on_p) * scale[cells],
-                     (on_b * h * share ** 2 + on_a * share + on_p) * scale[cells + 1]], np.full(len(cells), 1.5), len(cells))
+                on_a, on_p = sign * 1.5 * d2, sign * d1 / h
+                add([i] * 3, [i, n + i, n + i + 1],
+                    [on_b * b0[:-1], (on_b * h * 0.75 + on_a - on_p) * scale[:-1], (on_b * h * 0.25 + on_a + on_p) * scale[1:]],
+                    np.full(n - 1, 1.5), n - 1)
 
 
 def times_with_jerk(grid, b, a):
@@ -289,7 +287,7 @@ def iterate(grid, limits, b, bm, most_steps, tolerance):
 MOST_GROWTH = 30.0  # of b in one step
 REST_CELLS = 8  # the cell beside a rest takes as long as so many others: there a cell's ends differ too much otherwise
 LEAST_CELLS, MOST_CELLS = 200, 10_000  # of a section, by time
-LEAST_INSIDE, LEAST_INSIDE_ALL = 12, 6000  # parts of a piece; of all pieces of a section
+LEAST_INSIDE, LEAST_INSIDE_ALL = 40, 8000  # parts of a piece; of all pieces of a section
 
 
 def moments(seconds, step_s):

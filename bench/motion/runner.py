@@ -180,8 +180,11 @@ def main():
                 print(f"\r{os.path.basename(program):40}", end="", file=sys.stderr)
             row = measured(program, options)
             if options.reference and "failed" not in row:
-                row["optimum"] = optimum(program, options, True) if options.limits[2] > 0 else None
-                row["free"] = optimum(program, options, False)
+                for key, jerk in (("optimum", True), ("free", False)):
+                    try:
+                        row[key] = optimum(program, options, jerk)
+                    except (path_file.PathError, RuntimeError) as error:
+                        row["breaches"].append(f"no reference: {error}")
             rows.append(row)
     except (OSError, path_file.PathError, RuntimeError) as error:
         sys.exit(f"motion benchmark: {program}: {error}")

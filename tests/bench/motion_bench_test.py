@@ -14,6 +14,9 @@ ROOT = os.environ.get("NC_SOURCE_DIR") or os.path.dirname(os.path.dirname(os.pat
 BENCH = os.path.join(ROOT, "bench", "motion")
 SHARED = os.path.join(os.environ.get("NC_SHARED_DIR") or os.path.join(ROOT, "..", "shared"), "bench", "motion")
 
+if os.environ.get("NC_SANITIZE"):
+    print("skipped: these are tools in Python, tried with the release")
+    sys.exit(77)
 if os.environ.get("NC_MOTION_INSIDE") is None:
     made = subprocess.run([os.path.join(BENCH, "setup")], capture_output=True, text=True)
     if made.returncode != 0:
@@ -34,7 +37,7 @@ import reference  # noqa: E402
 
 V, A, J = LIMITS = (250.0, 2000.0, 50000.0)
 CYCLE = 0.001
-KEPT = 1.005  # of a limit: what the grid of the reference may exceed between its nodes
+KEPT = 1.02  # of a limit: what the grid of the reference may exceed between its nodes
 
 
 def straight(length, feed):
@@ -144,6 +147,16 @@ class Reference(unittest.TestCase):
         with self.assertRaisesRegex(path_file.PathError, "step of the curvature"):
             solve(path)
         self.assertGreater(solve(path, jerk=False).seconds, (10 + 2.5 * math.pi) / 50)
+
+    def test_a_corner_between_two_lines_overlaps_their_ramps(self):
+        """One axis stops while the other starts, each with constant jerk, as far as the tolerance lets them: 6 reach / J = time^3."""
+        reach, feed = 0.06, 50
+        path = path_file.Path("XY")
+        path.line(feed, [0, 0], [10 - reach, 0])
+        path.poly(feed, [[10 - reach, 3 * reach, -3 * reach, reach], [0, 0, 0, reach]])
+        path.line(feed, [10, reach], [10, 10])
+        want = 2 * seven_phases(10, feed) - (6 * reach / J) ** (1 / 3)
+        self.assertAlmostEqual(solve(path).seconds / want, 1, delta=1.5e-3)
 
     def test_dwells_are_added(self):
         path = straight(10, 50)
@@ -268,7 +281,7 @@ class Checker(unittest.TestCase):
         away = [s for s in self.said(rows) if s.startswith("path")]
         self.assertEqual(len(away), 1, self.said(rows))
         here = rows[round(self.time_of(away[0]) / CYCLE)]
-        self.assertLess(np.linalg.norm(here - np.array([8, 0, 0])), 0.5)
+        self.assertLess(min(np.linalg.norm(here - np.array([8, y, 0])) for y in (0, 6)), 0.1)
         self.assertEqual([s for s in self.said(rows, tolerance=0.03) if not s.startswith("stop")], [])
 
     def test_one_speed_too_high_is_a_feed_and_an_acceleration(self):
