@@ -531,6 +531,24 @@ TEST_F(CommandTest, AMachineConfigurationGivesAxesLimitsAndStart) {
             "ncsim: --dialect dgshape: m.toml is a machine of another dialect\n");
 }
 
+// The runtime's own machine, with its servos: the same cycles. What its M30 takes, the ladder program's answer, is taken off.
+TEST_F(CommandTest, TimeIsWhatTheRuntimeNeeds) {
+  file("end.nc", "M30\n");
+  file("p.nc", "G17 G21 G90 G94 G64\nG53 G0 X-250. Y-150. Z-20.\nG91\nG1 X20. F3000.\nG61\nY20.\nG64\nG2 X10. Y10. I10. J0.\n"
+               "G4 X0.3\nG0 Z-30.\nG1 X-30. Y-30. F800.\nM30\n");
+  const std::string machine = NC_SOURCE_DIR "/etc/machine.toml";
+  const auto runtime = [&](const std::string& program) {
+    const std::string command = "cd " + folder_ + " && " NC_BINARY_DIR "/bin/ncrtd --config " + machine +
+                                " run --fast --no-progress " + program + " > runtime.txt 2> /dev/null";
+    EXPECT_EQ(std::system(command.c_str()), 0);  // NOLINT(concurrency-mt-unsafe,cert-env33-c): a test's own command
+    return seconds_of(content(folder_ + "/runtime.txt"));
+  };
+  const auto offline = [&](const std::string& program) { return seconds_of(ncsim("time --machine " + machine + " " + program).out); };
+  const double seconds = offline("p.nc") - offline("end.nc");
+  EXPECT_GT(seconds, 4.0);
+  EXPECT_NEAR(runtime("p.nc") - runtime("end.nc"), seconds, 0.001 + 1e-9);
+}
+
 TEST_F(CommandTest, ProfileIsDrawnForEveryAxis) {
   file("p.nc", kPart);
   const Outcome run = ncsim("plot --profile --limits 100,1000,50000 -o drawing p.nc");

@@ -56,6 +56,15 @@ std::unique_ptr<rt::Config> load_machine(const std::string& path, std::string* e
   return config;
 }
 
+ServoModel servo_of(const rt::Config& machine, double cycle_s) {
+  ServoModel servo = {};
+  for (unsigned i = 0; i < machine.nc.system[0].axis_count; ++i) {
+    const double lag = machine.sim.axis[0][i].lag_s;
+    servo.follow[i] = lag > 0 ? 1.0 - std::exp(-cycle_s / lag) : 1.0;
+  }
+  return servo;
+}
+
 bool set_machine_limits(const MachineOptions& options, const rt::Config* machine, nc_config* config, std::string* error) {
   nc_system_config& system = config->system[0];
   if (machine) {

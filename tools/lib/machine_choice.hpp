@@ -8,6 +8,7 @@
 
 #include "nc/nc.h"
 #include "runtime/config.hpp"
+#include "tools/lib/virtual_machine.hpp"
 
 namespace nc::tools {
 
@@ -29,6 +30,9 @@ struct MachineOptions {
 
 /** Reads the TOML file and keeps what concerns its first part system. @return nothing, with every mistake in *error, one a line. */
 std::unique_ptr<rt::Config> load_machine(const std::string& path, std::string* error);
+
+/** The servos of its first part system, as the runtime simulates them. */
+ServoModel servo_of(const rt::Config& machine, double cycle_s);
 
 /**
  * Rates, limits and cycle of `options` into a configuration whose axes are known; those of `machine` (may be null) first, or the

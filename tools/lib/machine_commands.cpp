@@ -25,7 +25,9 @@ bool open_session(Session* session, const SessionOptions& options, const Machine
 }
 
 MachineResult run(Session* session, double limit_s, const CycleObserver& observe = {}) {
-  return run_machine(session->control(), session->config(), session->setup(), limit_s, observe);
+  if (session->machine() == nullptr) return run_machine(session->control(), session->config(), session->setup(), limit_s, observe);
+  const ServoModel servo = servo_of(*session->machine(), session->config().cycle_s);
+  return run_machine(session->control(), session->config(), session->setup(), limit_s, observe, &servo);
 }
 
 // Milliseconds, and as many digits more as the cycle needs.

@@ -16,8 +16,8 @@ constexpr double kPatience = 10.0;  // s; a program that neither runs nor stops 
 
 class VirtualMachine {
  public:
-  VirtualMachine(nc_control* control, const nc_config& config, const Setup& setup)
-      : control_(control), config_(config), setup_(setup), world_(setup, config.system[0]) {
+  VirtualMachine(nc_control* control, const nc_config& config, const Setup& setup, const ServoModel* servo)
+      : control_(control), config_(config), setup_(setup), servo_(servo), world_(setup, config.system[0]), actual_(setup.start) {
     out_[kPartSystem].command = setup.start;
   }
 
@@ -30,6 +30,7 @@ class VirtualMachine {
       inputs(cycle);
       nc_cycle(control_, in_, out_);
       result_.cycles = cycle + 1;
+      follow();
       if (observe && !observe(out)) return take(MachineResult::How::kStopped);
       if (out.state != NC_STATE_IDLE) started_ = true;
       if (out.state == NC_STATE_ALARM) return alarmed();
@@ -58,6 +59,14 @@ class VirtualMachine {
     return false;
   }
 
+  // As the simulated machine of the runtime: a servo of first order.
+  void follow() {
+    if (servo_ == nullptr) return;
+    const nc_axes& command = out_[kPartSystem].command;
+    for (unsigned i = 0; i < config_.system[kPartSystem].axis_count; ++i)
+      actual_.v[i] += (command.v[i] - actual_.v[i]) * servo_->follow[i];
+  }
+
   // False after too many blocks in which nothing but calculation happened.
   bool progresses(const nc_outputs& out) {
     if (out.path_length != progress_length_ || out.strobe != 0 || out.cause == NC_CAUSE_DWELL) {
@@ -73,6 +82,8 @@ class VirtualMachine {
     // A rising edge starts and continues; it needs a cycle without it in between.
     const bool press = !started_ || last.state == NC_STATE_STOPPED || last.state == NC_STATE_HOLD;
     in.cycle_start = press && !in.cycle_start;
+    in.actual_valid = servo_ != nullptr;
+    in.actual = actual_;
     in.fin = last.strobe != 0;
     in.optional_stop = setup_.optional_stop;
     in.single_block = setup_.single_block;
@@ -112,7 +123,9 @@ class VirtualMachine {
   nc_control* control_;
   const nc_config& config_;
   const Setup& setup_;
+  const ServoModel* servo_;
   VirtualWorld world_;
+  nc_axes actual_;
   nc_inputs in_[NC_MAX_SYSTEMS] = {};
   nc_outputs out_[NC_MAX_SYSTEMS] = {};
   MachineResult result_;
@@ -124,8 +137,8 @@ class VirtualMachine {
 }  // namespace
 
 MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, double limit_s,
-                          const CycleObserver& observe) {
-  return VirtualMachine(control, config, setup).run(limit_s, observe);
+                          const CycleObserver& observe, const ServoModel* servo) {
+  return VirtualMachine(control, config, setup, servo).run(limit_s, observe);
 }
 
 }  // namespace nc::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The online executor on virtual time: nc_feed() and nc_cycle() with a machine that is always where it is
-// commanded to be, answers FIN in the next cycle and continues every stop at once.
+// The online executor on virtual time: nc_feed() and nc_cycle() with a machine whose axes follow at once or as a simulated servo, which
+// answers FIN in the next cycle and continues every stop at once.
 #pragma once
 
 #include <cstdint>
@@ -26,11 +26,17 @@ struct MachineResult {
 /** Called once per servo cycle with what the control gave out. @return false when nothing more is wanted. */
 using CycleObserver = std::function<bool(const nc_outputs&)>;
 
+/** How far the axes come in a cycle: this share of the way to the command. The checks of the position wait for them. */
+struct ServoModel {
+  double follow[NC_MAX_AXES];
+};
+
 /**
  * Run the selected program of a control made with `config`.
  * @param limit_s virtual seconds after which the run is given up with an error.
+ * @param servo null: the axes are always where they are commanded to be.
  */
 MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, double limit_s,
-                          const CycleObserver& observe = {});
+                          const CycleObserver& observe = {}, const ServoModel* servo = nullptr);
 
 }  // namespace nc::tools
