@@ -181,7 +181,7 @@ const SignalRow kSignals[] = {
      nullptr, NC_WRITE { image->nc_in[s].single_block |= value != 0; }},
     {"optional_stop", kBit, kTo, kSystem, 0, 0, "M01 stops", "level, when M01 is reached; or the operator's", nullptr,
      NC_WRITE { image->nc_in[s].optional_stop |= value != 0; }},
-    {"macro_interrupt", kBit, kTo, kSystem, 0, 0, "the interrupt program of M96 (UIT)", "by level or when it rises, at block end", nullptr,
+    {"macro_interrupt", kBit, kTo, kSystem, 0, 0, "the interrupt program of M96 (UIT)", "by level or when it rises; at once or at block end (#1113)", nullptr,
      NC_WRITE { image->nc_in[s].macro_interrupt |= value != 0; }},
     {"interlock_n", kBit, kTo, kSystem, 0, 1, "0: axes decelerate to rest and none starts: door, chuck, coolant",
      "level", nullptr, NC_WRITE { image->nc_in[s].interlock |= value == 0; }},

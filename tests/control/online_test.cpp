@@ -161,7 +161,9 @@ TEST(Online, InterruptsAtRandomPoints) {
         ended = ended || event.kind == NC_ITEM_END;
       }
     }
-    ASSERT_TRUE(ended);
+    nc_alarm alarm{};
+    nc_alarm_get(control, 0, &alarm);
+    ASSERT_TRUE(ended) << alarm.code << " line " << out.source.line << " state " << int{out.state} << " cause " << int{out.cause};
     const std::vector<nc_move> moves = expected.moves();
     ASSERT_EQ(ends.size(), moves.size());
     for (size_t i = 0; i < ends.size(); ++i)
@@ -174,6 +176,306 @@ TEST(Online, InterruptsAtRandomPoints) {
     served += std::isnan(online.var_now(199)) ? 0 : static_cast<unsigned>(online.var_now(199));
   }
   EXPECT_GT(served, kPrograms);
+}
+
+/// Runs on the machine and raises the interrupt signal whenever `wanted` says so. Where the axes were in every cycle, and the items.
+struct Interrupted {
+  std::vector<nc_event> events;
+  std::vector<nc_axes> places;
+  bool ended = false;
+};
+Interrupted run_interrupted(Bench& bench, const std::string& text, const std::function<bool(const nc_outputs&)>& wanted, unsigned fin_cycles = 1) {
+  bench.start(text);
+  nc_control* control = bench.control();
+  nc_inputs in{};
+  nc_outputs out{};
+  in.feed_override = in.rapid_override = 1;
+  in.spindle_rev_per_s = 50;
+  Interrupted run;
+  unsigned fin_wait = 0;
+  for (unsigned n = 0; n < 50000 && !run.ended; ++n) {
+    nc_feed(control, 50);
+    in.cycle_start = n == 2;
+    fin_wait = out.strobe != 0 ? fin_wait + 1 : 0;
+    in.fin = fin_wait >= fin_cycles;
+    in.macro_interrupt = wanted(out);
+    nc_cycle(control, &in, &out);
+    run.places.push_back(out.command);
+    nc_event event;
+    while (nc_event_poll(control, 0, &event, nullptr) == NC_OK) {
+      run.events.push_back(event);
+      run.ended = run.ended || event.kind == NC_ITEM_END;
+    }
+  }
+  return run;
+}
+
+/// X at the moment when Z leaves zero, NaN = never.
+double x_when_z_moves(const Interrupted& run) {
+  for (const nc_axes& place : run.places)
+    if (place.v[2] > 0) return place.v[0];
+  return NAN;
+}
+
+const auto kSlowMachine = [](nc_config& c) {
+  c.cycle_s = 0.004;
+  for (unsigned i = 0; i < 3; ++i) {
+    c.system[0].axis[i].rapid = 200;
+    c.system[0].axis[i].max_velocity = 100;
+    c.system[0].axis[i].max_acceleration = 500;
+  }
+};
+
+// M700 13.12, type 1: the move stops at once; with moves in the interrupt program what is left of the block is lost.
+TEST(OnlineInterrupt, InTheMiddleOfAMove) {
+  Bench bench(NC_DIALECT_M700, kSlowMachine);
+  bench.add("O1000", "#100=#5001\nG0 Z7.\nM99\n");
+  const Interrupted run = run_interrupted(bench, "M96 P1000\nG1 X100. F3000\nY5.\nM30", [](const nc_outputs& out) { return out.command.v[0] > 20; });
+  ASSERT_TRUE(run.ended);
+  const double x = x_when_z_moves(run);
+  EXPECT_GT(x, 20);
+  EXPECT_LT(x, 25);  // 50 mm/s, 500 mm/s2: rest after 2.5 mm
+  EXPECT_NEAR(bench.var_now(100), x, 1e-6);
+  EXPECT_NEAR(run.places.back().v[0], x, 1e-9);  // the block to X100 is lost
+  EXPECT_EQ(run.places.back().v[1], 5);
+}
+
+TEST(OnlineInterrupt, WithoutMovesTheRestOfTheBlockIsGone) {
+  Bench bench(NC_DIALECT_M700, kSlowMachine);
+  bench.add("O1000", "#100=#100+1\n#1100=1\nM99\n");
+  const Interrupted run = run_interrupted(bench, "#100=0\nM96 P1000\nG2 X40. I20. F3000\nG1 X60.\nM30", [](const nc_outputs& out) { return out.command.v[0] > 5 && out.command.v[0] < 30; });
+  ASSERT_TRUE(run.ended);
+  EXPECT_EQ(bench.var_now(100), 1);
+  EXPECT_EQ(run.places.back().v[0], 60);
+  double stood_at = 0;
+  for (size_t i = 1; i < run.places.size(); ++i) {
+    const double x = run.places[i].v[0], y = run.places[i].v[1];
+    if (x > 0.001 && x < 40) {  // on the circle all the way
+      EXPECT_NEAR(std::hypot(x - 20, y), 20, 1e-6);
+    }
+    if (x > 1 && x < 39 && x == run.places[i - 1].v[0]) stood_at = x;
+  }
+  EXPECT_GT(stood_at, 5);
+}
+
+TEST(OnlineInterrupt, ADwellGoesOnWhereItWasCut) {
+  Bench bench(NC_DIALECT_M700, kSlowMachine);
+  bench.add("O1000", "#100=#100+1\nM99\n");
+  const std::string text = "#100=0\nM96 P1000\nG1 X1. F3000\nG4 X2.\nX2.\nM30";
+  unsigned cycles = 0;
+  const Interrupted run = run_interrupted(bench, text, [&](const nc_outputs& out) { return out.cause == NC_CAUSE_DWELL && ++cycles == 250; });
+  ASSERT_TRUE(run.ended);
+  EXPECT_EQ(bench.var_now(100), 1);
+  EXPECT_NEAR(static_cast<double>(cycles), 500, 5);  // 2 s, not 3
+}
+
+// "If UIT comes while an MSTB is waiting for FIN, the interrupt's moves wait for FIN."
+TEST(OnlineInterrupt, FinComesFirst) {
+  Bench bench(NC_DIALECT_M700, kSlowMachine);
+  bench.add("O1000", "G0 Z7.\nM99\n");
+  bool waited = false, moved_before_fin = false;
+  const Interrupted run = run_interrupted(
+      bench, "M96 P1000\nG1 X1. F3000\nM8 X5.\nX9.\nM30",
+      [&](const nc_outputs& out) {
+        waited = waited || (out.strobe != 0 && out.m == 8);
+        moved_before_fin = moved_before_fin || (out.strobe != 0 && out.m == 8 && out.command.v[2] > 0);
+        return out.strobe != 0 && out.m == 8;
+      },
+      100);
+  ASSERT_TRUE(run.ended);
+  EXPECT_TRUE(waited);
+  EXPECT_FALSE(moved_before_fin);
+  EXPECT_EQ(x_when_z_moves(run), 1);  // before the move of the M8 block, which is lost
+  EXPECT_EQ(run.places.back().v[0], 9);
+}
+
+TEST(OnlineInterrupt, TypeTwoEndsTheBlockFirst) {  // #1113
+  Bench bench(NC_DIALECT_M700, kSlowMachine);
+  bench.add("O1000", "G0 Z7.\nM99\n");
+  bench.param("1113", "1");
+  const Interrupted run = run_interrupted(bench, "M96 P1000\nG1 X100. F3000\nY5.\nM30", [](const nc_outputs& out) { return out.command.v[0] > 20; });
+  ASSERT_TRUE(run.ended);
+  EXPECT_EQ(x_when_z_moves(run), 100);
+}
+
+TEST(OnlineInterrupt, TheSameBlockAgainAndAgain) {
+  Bench bench(NC_DIALECT_M700, kSlowMachine);
+  bench.add("O1000", "#100=#100+1\nM99\n");
+  bench.param("8013", "0.5");
+  const std::string text = "#100=0\nM96 P1000\nG0 Z10.\nM3 S100\nG98 G83 X20. Z-5. R2. Q2. F1000\nX30. L2\nG80\nM30";
+  Bench plain(NC_DIALECT_M700, kSlowMachine);
+  plain.add("O1000", "M99\n");
+  plain.param("8013", "0.5");
+  const Outcome expected = plain.run(text);
+  unsigned n = 0;
+  const Interrupted run = run_interrupted(bench, text, [&](const nc_outputs&) { return ++n % 7 == 0; });
+  ASSERT_TRUE(run.ended);
+  EXPECT_GT(bench.var_now(100), 50);
+  std::vector<nc_axes> ends;
+  for (const nc_event& event : run.events)
+    if (event.kind == NC_ITEM_MOVE) ends.push_back(event.machine);
+  const std::vector<nc_move> moves = expected.moves();
+  ASSERT_EQ(ends.size(), moves.size());
+  for (size_t i = 0; i < ends.size(); ++i)
+    for (unsigned axis = 0; axis < 3; ++axis) EXPECT_NEAR(ends[i].v[axis], moves[i].machine.v[axis], 1e-9) << i;
+}
+
+/// The trace with the interrupts that the machine has seen: behind which item each came, and whether it cut the block behind that item.
+struct Seen {
+  uint64_t behind = 0;
+  bool inside = false;
+};
+
+/// The interrupts of a run: the items of the interrupt program (O1000) begin behind another item.
+std::vector<Seen> interrupts_of(const std::vector<nc_event>& events) {
+  std::vector<Seen> all;
+  for (size_t i = 1; i < events.size(); ++i) {
+    // What announces the interrupt has the source of the block before; the program's own items follow.
+    if (events[i].source.program != 1000 || events[i - 1].source.program == 1000 || i < 2) continue;
+    const nc_event &announced = events[i - 1], &before = events[i - 2];
+    bool moved = false;
+    for (unsigned axis = 0; axis < 3; ++axis) moved = moved || std::fabs(announced.machine.v[axis] - before.machine.v[axis]) > 1e-9;
+    all.push_back({before.serial, moved || before.kind != NC_ITEM_MARK});
+  }
+  return all;
+}
+
+Outcome trace_with(Bench& bench, const std::string& text, const std::vector<Seen>& interrupts) {
+  bench.start(text);
+  Outcome run;
+  size_t next = 0;
+  Step step;
+  while (run.steps.size() < 20000) {
+    run.status = bench.pull(&step);
+    if (run.status == NC_BUDGET) continue;
+    if (run.status != NC_OK) break;
+    bool take_back = false, ignored = false;
+    if (next < interrupts.size() && step.item.serial == interrupts[next].behind + (interrupts[next].inside ? 1 : 0)) {
+      ++next;
+      nc_interrupt_signal(bench.control(), 0, true, &take_back);
+      nc_interrupt_signal(bench.control(), 0, false, &ignored);
+    }
+    if (take_back) continue;
+    if (step.item.kind == NC_ITEM_END) run.ended_ok = step.item.u.end.ok;
+    run.steps.push_back(step);
+  }
+  nc_alarm alarm{};
+  if (nc_alarm_get(bench.control(), 0, &alarm) == NC_OK) run.alarm = alarm.code, run.alarm_line = alarm.source.line;
+  EXPECT_EQ(next, interrupts.size());
+  return run;
+}
+
+/// M700 13.12, type 1 with moves: wherever the signal comes on the machine, the trace with the same signals executes the same items, to
+/// the same end points and variables.
+TEST(Online, InterruptsWithMovesExecuteAsTheyTrace) {
+  unsigned served = 0, cut = 0, compared = 0;
+  for (uint32_t seed = 0; seed < kPrograms; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const RandomProgram program = ProgramMaker(seed + 1300, false).make();
+    const std::string text = "M96 P1000\n" + program.main;
+    const auto prepare = [&](Bench& bench) {
+      set_up(bench, program);
+      bench.add("O1000", "#199=#199+1\nG90 G49 G80 G40 G0 X[#199] Y5. Z30.\nM7\nM99\n");
+      bench.param("1229/bit0", "1");
+    };
+    Bench online(NC_DIALECT_M700, machine(seed % 2 == 0 ? 64 : 256));
+    prepare(online);
+    std::mt19937 random(seed);
+    const Interrupted run = run_interrupted(online, text, [&](const nc_outputs& out) { return random() % 60 == 0 && out.state == NC_STATE_RUNNING; });
+    const std::vector<Seen> interrupts = interrupts_of(run.events);
+    Bench offline(NC_DIALECT_M700, machine(256));
+    prepare(offline);
+    const Outcome expected = trace_with(offline, text, interrupts);
+    nc_alarm alarm{};
+    nc_alarm_get(online.control(), 0, &alarm);
+    ASSERT_EQ(alarm.code, expected.alarm);
+    ASSERT_TRUE(run.ended);
+    ASSERT_EQ(run.events.size(), expected.steps.size());
+    for (size_t i = 0; i < run.events.size(); ++i) {
+      const Step& step = expected.steps[i];
+      const nc_event& event = run.events[i];
+      ASSERT_EQ(event.serial, step.item.serial);
+      ASSERT_EQ(event.kind, step.item.kind) << event.serial;
+      ASSERT_EQ(event.source.line, step.item.source.line) << event.serial;
+      if (event.kind != NC_ITEM_MOVE) continue;  // between, the machine stands where it was cut
+      for (unsigned axis = 0; axis < 3; ++axis) ASSERT_NEAR(event.machine.v[axis], step.machine.v[axis], 1e-9) << event.serial;
+    }
+    for (uint32_t n = 100; n < 200; ++n) ASSERT_EQ(brief(online.var_now(n)), brief(offline.var_now(n))) << n;
+    served += static_cast<unsigned>(interrupts.size());
+    for (const Seen& seen : interrupts) cut += seen.inside;
+    compared += static_cast<unsigned>(run.events.size());
+  }
+  EXPECT_GT(served, 2 * kPrograms);
+  EXPECT_GT(cut, kPrograms);
+  EXPECT_GT(compared, 40 * kPrograms);
+}
+
+/// G92 and G52 outlive a reset and can only be read by a program.
+void without_shifts(std::string& text) {
+  for (const char* code : {"G92 ", "G52 "})
+    for (size_t at; (at = text.find(code)) != std::string::npos;) text.erase(at, text.find('\n', at) - at);
+}
+
+/// A reset at a random point, in the middle of moves, dwells, macros and interrupts: the program from its head is then that of a control
+/// that was given what the reset has left.
+TEST(Online, ResetsAtRandomPoints) {
+  unsigned inside = 0;
+  for (uint32_t seed = 0; seed < kPrograms; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RandomProgram program = ProgramMaker(seed + 1700, false).make();
+    without_shifts(program.main);
+    for (std::string& sub : program.subs) without_shifts(sub);
+    Bench online(NC_DIALECT_M700, machine(seed % 2 == 0 ? 64 : 256));
+    set_up(online, program);
+    online.start(program.main);
+    nc_control* control = online.control();
+    nc_inputs in{};
+    nc_outputs out{};
+    in.feed_override = in.rapid_override = 1;
+    in.spindle_rev_per_s = 50;
+    std::mt19937 random(seed);
+    const unsigned reset_at = 20 + random() % 1500;
+    std::optional<Bench> offline;
+    Outcome expected;
+    std::vector<nc_event> events;
+    bool ended = false;
+    unsigned again = 0;
+    for (unsigned n = 0; n < 400000 && !ended; ++n) {
+      nc_feed(control, 1 + random() % 40);
+      in.reset = n == reset_at;
+      in.cycle_start = (n < reset_at && (n == 2 || n % 7 == 0)) || (again != 0 && (n == again + 2 || n % 7 == 0));
+      in.fin = out.strobe != 0;
+      nc_cycle(control, &in, &out);
+      if (n == reset_at) inside += out.source.line > 3 && out.state == NC_STATE_RUNNING;
+      if (n > reset_at + 5 && again == 0 && out.state == NC_STATE_IDLE && out.distance_zero) {
+        again = n;
+        offline.emplace(NC_DIALECT_M700, machine(256));
+        set_up(*offline, program);
+        for (unsigned k = 1; k <= 9; ++k) offline->tool(k, online.tool_now(k));
+        for (unsigned k = 0; k <= 6; ++k)
+          offline->work_offset(k, {online.work_offset_now(k, 0), online.work_offset_now(k, 1), online.work_offset_now(k, 2)});
+        offline->at(out.command.v[0], out.command.v[1], out.command.v[2]);
+        for (uint32_t v = 100; v < 1000; ++v)
+          if (!std::isnan(online.var_now(v))) offline->var(v, online.var_now(v));
+        expected = offline->run(program.main);
+      }
+      nc_event event;
+      while (nc_event_poll(control, 0, &event, nullptr) == NC_OK) {
+        if (again == 0 || n <= again) continue;
+        events.push_back(event);
+        ended = ended || event.kind == NC_ITEM_END;
+      }
+    }
+    ASSERT_TRUE(ended);
+    if (!expected.ended_ok) continue;
+    ASSERT_EQ(events.size(), expected.steps.size());
+    for (size_t i = 0; i < events.size(); ++i) {
+      ASSERT_EQ(events[i].serial, expected.steps[i].item.serial);
+      for (unsigned axis = 0; axis < 3; ++axis)
+        ASSERT_NEAR(events[i].machine.v[axis], expected.steps[i].machine.v[axis], 1e-9) << events[i].serial << " line " << events[i].source.line;
+    }
+  }
+  EXPECT_GT(inside, kPrograms / 4);
 }
 
 TEST(Online, ChangedDataActAfterARecalculation) {  // M700 4.2: from the next block

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Macro interrupt (M700 13.12): offline at chosen items, and on the machine at the end of the block in execution.
+// Macro interrupt (M700 13.12): offline at chosen items. On the machine: tests/control/online_test.cpp.
 #include <gtest/gtest.h>
 
 #include "support/pull.hpp"
@@ -153,6 +153,32 @@ TEST(MacroInterrupt, OtherCodesByParameter) {  // #1109 #1110 #1111
   EXPECT_EQ(run.aux(), "M96 M30");
 }
 
+/// A second interrupt between the return and the block that goes on: what that has done stays done.
+TEST(MacroInterrupt, AgainBeforeTheBlockGoesOn) {
+  Bench bench;
+  bench.add("O1000", "#100=#100+1\nM99\n");
+  bench.start("#100=0\nM96 P1000\nG0 M8 X5.\nM30");
+  Step step;
+  Outcome run;
+  unsigned signals = 0;
+  bool ignored = false, take_back = false;
+  for (nc_status status; (status = bench.pull(&step)) == NC_OK || status == NC_BUDGET;) {
+    if (status == NC_BUDGET) continue;
+    const bool in_block = step.item.kind == NC_ITEM_GATE && step.item.source.line == 3;
+    const bool back = step.item.kind == NC_ITEM_MARK && step.item.source.depth == 1 && step.item.source.line == 2;
+    take_back = false;
+    if ((in_block && signals == 0) || (back && signals == 1)) {
+      ++signals;
+      nc_interrupt_signal(bench.control(), 0, true, &take_back);
+      nc_interrupt_signal(bench.control(), 0, false, &ignored);
+    }
+    if (!take_back) run.steps.push_back(step);
+  }
+  EXPECT_EQ(signals, 2u);
+  EXPECT_EQ(bench.var_now(100), 2);
+  EXPECT_EQ(run.aux(), "M8 M30");
+}
+
 /// An interrupt program that neither moves nor gives out codes changes nothing, wherever it comes in: what has happened of a block is
 /// not done twice, and nothing of it is lost.
 TEST(MacroInterrupt, WithoutMovesNothingChangesAtAnyItem) {
@@ -195,44 +221,6 @@ TEST(MacroInterrupt, WithoutMovesNothingChangesAtAnyItem) {
     }
   }
   EXPECT_GT(accepted, 120u);
-}
-
-TEST(MacroInterrupt, OnTheMachine) {
-  Bench bench(NC_DIALECT_M700, [](nc_config& c) {
-    c.cycle_s = 0.004;
-    for (unsigned i = 0; i < 3; ++i) {
-      c.system[0].axis[i].rapid = 200;
-      c.system[0].axis[i].max_velocity = 100;
-      c.system[0].axis[i].max_acceleration = 500;
-    }
-  });
-  bench.add("O1000", "#100=#100+1\nG0 Z7.\nM99\n");
-  bench.start("#100=0\nM96 P1000\nG1 X10. F6000\nX20.\nX30.\nX40.\nM97\nX50.\nM30");
-  nc_control* control = bench.control();
-  nc_inputs in{};
-  nc_outputs out{};
-  in.feed_override = in.rapid_override = 1;
-  bool ended = false;
-  std::vector<double> ends;
-  double z_at = -1;
-  for (unsigned n = 0; n < 20000 && !ended; ++n) {
-    nc_feed(control, 50);
-    in.cycle_start = n == 2;
-    in.fin = out.strobe != 0;
-    in.macro_interrupt = out.command.v[0] > 12 && out.command.v[0] < 45;  // inside the block to X20, and stays on
-    nc_cycle(control, &in, &out);
-    if (z_at < 0 && out.command.v[2] > 0) z_at = out.command.v[0];
-    nc_event event;
-    while (nc_event_poll(control, 0, &event, nullptr) == NC_OK) {
-      if (event.kind == NC_ITEM_MOVE) ends.push_back(event.machine.v[0]);
-      ended = ended || event.kind == NC_ITEM_END;
-    }
-  }
-  EXPECT_TRUE(ended);
-  EXPECT_EQ(bench.var_now(100), 1);  // by edge: once
-  EXPECT_TRUE(z_at == 20 || z_at == 30) << z_at;  // at rest at the end of a block: of this one where it could still stop there
-  EXPECT_EQ(ends.back(), 50);
-  EXPECT_EQ(ends.size(), 6u);
 }
 
 }  // namespace

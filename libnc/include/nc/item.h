@@ -52,7 +52,9 @@ typedef enum nc_action_kind {
   NC_ACTION_B = 3,       /**< second auxiliary function; `letter` its address */
   NC_ACTION_OUTPUT = 4,  /**< macro interface output: word `index` (0..3), bits `mask` become `bits` (M700 13.5.5) */
   NC_ACTION_MESSAGE = 5, /**< #3006, DPRNT: `text`, `index` = port (0 operator message) */
-  NC_ACTION_CONTROL = 6, /**< #3003/#3004: `index` the variable, `value`; `index` 96: macro interrupt, `value` nc_interrupt_bits; NC_CONTROL_TAPPING */
+  NC_ACTION_CONTROL = 6, /**< #3003/#3004: `index` the variable, `value`; `index` 96: macro interrupt, `value` nc_interrupt_bits;
+                              `index` 17: constant surface speed G96, `value` m/min, `bits` the axis from 1, 0 = G97;
+                              `index` 92: speeds that the spindle keeps, `mask` smallest, `bits` largest r/min, 0 = none; NC_CONTROL_TAPPING */
   NC_ACTION_CURRENT_LIMIT = 7 /**< current limit of axis `index`: `value` percent of the rated current (M700 15.6) */
 } nc_action_kind;
 
@@ -63,7 +65,8 @@ typedef enum nc_action_kind {
 typedef enum nc_interrupt_bits {
   NC_INTERRUPT_ENABLED = 1,   /**< between M96 and M97 */
   NC_INTERRUPT_BY_LEVEL = 2,  /**< accepted as long as the signal is on, else when it rises (#1112) */
-  NC_INTERRUPT_IN_SERVICE = 4 /**< the interrupt program runs: signals are ignored */
+  NC_INTERRUPT_IN_SERVICE = 4, /**< the interrupt program runs: signals are ignored */
+  NC_INTERRUPT_AT_ONCE = 8     /**< type 1 (#1113 = 0): in the middle of a block, else at its end */
 } nc_interrupt_bits;
 
 /** Kinds of gate. */

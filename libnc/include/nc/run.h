@@ -103,7 +103,7 @@ typedef struct nc_inputs {
   bool fin2;             /**< FIN2: when it rises the strobes go off and the program goes on */
   bool interlock;        /**< level: no axis may start; motion decelerates to rest */
   bool alarm;            /**< level: stop motion, no start until reset (a drive, the PLC) */
-  bool macro_interrupt;  /**< UIT, M700 13.12: the interrupt program of M96 comes at the end of the block in execution */
+  bool macro_interrupt;  /**< UIT, M700 13.12: the interrupt program of M96 comes at once (type 1), or at the end of the block in execution */
   uint32_t skip;         /**< skip signals, bit n = signal n+1 */
   uint32_t input[NC_WORDS]; /**< macro interface inputs */
   double feed_override;  /**< 0..max_feed_override, 1 = 100 % */
@@ -161,6 +161,8 @@ typedef struct nc_outputs {
   uint32_t m, t, b;
   double s;
   uint16_t current_limit[NC_MAX_AXES]; /**< percent of the rated current of each drive, 0 = none set (M700 15.6); stays until it is changed */
+  double spindle_rev_min;   /**< speed that is wanted now: `s`, or what constant surface speed asks for, within the clamp (G96, G92 S Q) */
+  uint8_t m_independent;    /**< bit 0 M00, 1 M01, 2 M02, 3 M30: given out and not yet completed or reset (M700 9.1) */
   bool rapid;               /**< a rapid move is in execution */
   bool tapping;             /**< tapping mode G63 (M700 7.11) */
   bool feed_digit_on;       /**< the move in execution has a feed of one digit, `feed_digit` (M700 7.3) */

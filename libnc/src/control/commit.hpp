@@ -79,6 +79,11 @@ class Commit {
     if (move) machine_ = taken_end_;
     ++last_serial_;
   }
+  /// Serial numbers go on behind `serial`, the machine stands here.
+  void go_on(Serial serial, const AxisVec& machine) {
+    last_serial_ = serial;
+    displace(machine);
+  }
   /// It has been executed before under another serial.
   void uncount() { --last_serial_; }
 

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/part_system.hpp"
 
+#include <cmath>
 #include <cstring>
 
 namespace nc {
+namespace {
+
+/// A curve that is made again passes through the point where it was cut.
+constexpr double kSameCurve = 1e-6;  // mm or deg
+
+}  // namespace
 
 void PartSystem::create(const nc_config& config, unsigned index, const Dialect& dialect, ProgramStore* store, CommonVariables* common,
                         Arena& arena) {
@@ -170,14 +177,69 @@ bool PartSystem::begin_interrupt() {
   const Serial serial = last->serial;
   if (rewind(serial) != NC_OK) return false;
   uit_pending_ = false;
-  return interpreter.interrupt(interpreter.state.machine, 0, false);
+  return interrupt_between();
+}
+
+/// Behind the newest mark. A block that had been cut before may be the next one: then the machine is not where that block begins.
+bool PartSystem::interrupt_between() {
+  AxisVec machine = interpreter.state.machine;
+  if (interpreter.state.repeat.active) {
+    forget_interrupt();
+    machine = commit_.newest()->machine;
+    commit_.set_machine(machine);
+  }
+  return interpreter.interrupt(machine, 0, false);
+}
+
+/// The scan has stopped for an interrupt and the interpreter stands behind the newest mark that has been executed: either the machine does,
+/// too, or it stands inside the block behind (type 1).
+void PartSystem::interrupt_online() {
+  const Cut cut = executor.cut();
+  if (!cut.inside) {
+    interrupt_between();
+    return;
+  }
+  const auto items = static_cast<unsigned>(cut.done - commit_.serial());
+  cut_ = cut;
+  if (interpreter.interrupt_inside(cut.machine, items)) {
+    commit_.go_on(cut.done, cut.machine);
+  } else {  // M97 has come meanwhile: the block goes on
+    interpreter.go_on_inside(items);
+    commit_.go_on(cut.done, cut.machine);
+    drop_repeated();
+  }
+}
+
+/// An item that has happened before its block was interrupted. None lies behind the end of its block.
+bool PartSystem::drops(const Item& item) {
+  if (item.kind == ItemKind::mark && item.mark.resume) drop_ = 0;
+  if (drop_ == 0 || item.kind == ItemKind::sync) return false;
+  --drop_;
+  return true;
+}
+
+/// What is left of a move or a dwell that was cut.
+void PartSystem::resume_record(Record& record) {
+  resumes_ = false;
+  if (record.kind == ItemKind::gate && cut_.left > 0 && (record.gate.kind == NC_GATE_DWELL_SECONDS || record.gate.kind == NC_GATE_DWELL_TURNS))
+    record.gate.value = cut_.left;
+  if (record.kind != ItemKind::move || !(cut_.length > 0)) return;
+  Segment& s = record.segment;
+  const AxisVec at = curve_position(s.curve, cut_.length, interpreter.axis_count);
+  double off = 0;
+  for (unsigned i = 0; i < interpreter.axis_count; ++i) off = std::fmax(off, std::fabs(at[i] - cut_.machine[i]));
+  if (off < kSameCurve) {
+    s.begun = cut_.length;
+  } else {  // the interrupt program has changed what the block is made of: to its end from where the axes are
+    s.curve = make_line(cut_.machine, s.curve.end, interpreter.axis_count, interpreter.rotary);
+  }
 }
 
 /// A block that was interrupted is read again from its head: what it has done is not done twice.
 void PartSystem::drop_repeated() {
-  AxisVec from;
-  drop_ = interpreter.take_drop(&from);
-  if (drop_ != 0) commit_.set_machine(from);
+  drop_ = interpreter.state.repeat.items;
+  commit_.set_machine(interpreter.state.machine);
+  resumes_ = online_;
   watch();
 }
 
@@ -202,8 +264,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
       stop_on(refused(committed), item->source);
       continue;
     }
-    if (watched_ && drop_ != 0 && item->kind != ItemKind::sync) [[unlikely]] {
-      --drop_;
+    if (watched_ && drops(*item)) [[unlikely]] {
       if (committed == Committed::yes) commit_.uncount();
       take();
       continue;
@@ -216,7 +277,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     pulled_ = item->kind;
     if (item->kind == ItemKind::mark) {
       remember_mark(*item);
-      if (interpreter.drop_pending()) drop_repeated();
+      if (item->mark.resume && interpreter.state.repeat.active) drop_repeated();
     }
     if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
     if (item->kind == ItemKind::alarm) describe_alarm();
@@ -260,6 +321,7 @@ nc_status PartSystem::rewind(Serial serial) {
   if (point->offset.active) offset_.restore(point->offset);
   offset_idle_ = offset_.idle();
   commit_.rewind_to(*point);
+  if (interpreter.state.repeat.active) drop_repeated();
   return NC_OK;
 }
 
@@ -321,15 +383,23 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
     stop_on(refused(committed), item->source);
     return NC_OK;
   }
+  if (committed == Committed::yes && watched_ && drops(*item)) [[unlikely]] {
+    commit_.uncount();
+    take();
+    return NC_OK;
+  }
   if (committed == Committed::yes) {
     Record record;
     commit_.to_record(*item, transform, &record);
     record.epoch = epoch_;
+    record.staged = from_stage_;
+    if (resumes_) [[unlikely]] resume_record(record);
     if (item->kind == ItemKind::move) commit_.note_record(executor.head());
     executor.push(record);
     if (item->kind == ItemKind::mark) {
       remember_mark(*item);
       if (stop_ == Stop::committed) stop_ = Stop::passed;
+      if (item->mark.resume && interpreter.state.repeat.active) [[unlikely]] drop_repeated();
     }
     if (item->kind == ItemKind::gate && stops(item->gate)) stop_ = Stop::committed;
     if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
@@ -380,7 +450,7 @@ nc_status PartSystem::feed(uint32_t budget) {
     if (!read_again(executor.give_up_ahead())) {
       // stopped with an alarm
     } else if (interrupt) {
-      interpreter.interrupt(interpreter.state.machine, 0, false);
+      interrupt_online();
     } else {
       displace(executor.commanded());
     }

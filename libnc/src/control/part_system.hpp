@@ -55,11 +55,16 @@ class PartSystem {
   bool read_again(Serial last);
   void displace(const AxisVec& machine);
   bool begin_interrupt();
+  bool interrupt_between();
   void drop_repeated();
+  void interrupt_online();
+  bool drops(const Item& item);
+  void resume_record(Record& record);
   void forget_interrupt() {
     uit_pending_ = false;
     pulled_ = ItemKind::mark;
     drop_ = 0;
+    resumes_ = false;
     watch();
   }
 
@@ -83,6 +88,8 @@ class PartSystem {
   bool uit_ = false, uit_pending_ = false;  ///< interrupt signal: level, and a request that waits for its place
   ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
   unsigned drop_ = 0;                        ///< items to come that have been executed already
+  bool resumes_ = false;                     ///< online: the item behind them has been half done, as cut_ says
+  Cut cut_;
   /// M700 9.1: M00 and M01 suspend pre-reading. committed: the gate is, its block is not yet; passed: nothing more until the machine has done it.
   enum class Stop : uint8_t { none, committed, passed };
   Stop stop_ = Stop::none;

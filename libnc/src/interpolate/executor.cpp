@@ -139,6 +139,10 @@ bool Executor::interrupt_asked() const {
   return state_->shared.reread_interrupt.load(std::memory_order_relaxed) != 0;
 }
 
+Cut Executor::cut() const {
+  return state_->shared.status.read().cut;
+}
+
 Serial Executor::give_up_ahead() {
   Serial last = 0;
   give_up_behind_block(&last);  // complete: without its end the scan lets no axis be moved by hand

@@ -23,6 +23,15 @@ struct ExecutorConfig {
 
 class ExecutorState;  ///< all members; defined in interpolate/executor_state.hpp
 
+/// Where the scan has stopped for a macro interrupt.
+struct Cut {
+  bool inside = false;   ///< a block, else behind the newest mark
+  Serial done = 0;       ///< newest record that has been executed
+  AxisVec machine;
+  double length = 0;     ///< of the move behind it that has been gone, mm
+  double left = 0;       ///< of the dwell behind it, s or revolutions
+};
+
 /// Handle with the state in arena memory.
 class Executor {
  public:
@@ -62,8 +71,9 @@ class Executor {
   /// The axes were moved by hand in a block stop and the program is to go on: the scan waits, and the ring
   /// from its tail on is the feeder's alone until reread_done().
   bool reread_asked() const;
-  /// The request is for a macro interrupt at the end of a block (M700 13.12).
+  /// The request is for a macro interrupt (M700 13.12); cut() says where.
   bool interrupt_asked() const;
+  Cut cut() const;
   /// Gives up every committed record behind the block stop; the mark to go on behind, as truncate().
   Serial give_up_ahead();
   void reread_done();

@@ -33,6 +33,7 @@ struct Segment {
   bool rest_before = false;     ///< the path comes to rest where it begins
   float digit_most_mm_s = 0, digit_step_mm_s = 0;  ///< F1 to F5: what the handle may make of the feed, and by one pulse
   float slow_zone = 0, slow_factor = 1;            ///< the feed over this length before the end (M700 7.10)
+  double begun = 0;          ///< so much of its length has been gone before an interrupt (M700 13.12), mm
   // filled by the planner when it is committed
   double speed_limit = 0;  ///< path speed at which some axis reaches its velocity limit, or the curvature its
                            ///< acceleration limit
@@ -44,7 +45,8 @@ struct Record {
   Serial serial = 0;
   nc_source source{};
   ItemKind kind = ItemKind::mark;
-  uint32_t epoch = 0;  ///< records of an epoch before a reset are thrown away by the scan
+  bool staged = false;  ///< it has come out of the offset stage, where blocks are not apart
+  uint32_t epoch = 0;   ///< records of an epoch before a reset are thrown away by the scan
   union {
     Segment segment;
     Action action;

@@ -62,6 +62,7 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   interrupt(in);
   turn_feed_handle(in);
   if (!frozen_ && !rereading_) run(in);  // the ring from here on may be the feeder's
+  if (cutting_ && at_rest() && !frozen_ && !rereading_) cut_block();
   manual(in);
   last_command_ = command_;
   command_ = shape_.filter(wanted_);
@@ -127,6 +128,7 @@ void Scan::messages() {
 void Scan::interrupt(const nc_inputs& in) {
   const bool rises = in.macro_interrupt && !interrupt_last_;
   interrupt_last_ = in.macro_interrupt;
+  cutting_ = false;
   if (interrupt_mode_ == 0) return;
   const bool accepted = (interrupt_mode_ & (NC_INTERRUPT_ENABLED | NC_INTERRUPT_IN_SERVICE)) == NC_INTERRUPT_ENABLED &&
                         (state_ == NC_STATE_RUNNING || state_ == NC_STATE_HOLD);
@@ -135,6 +137,29 @@ void Scan::interrupt(const nc_inputs& in) {
     return;
   }
   if ((interrupt_mode_ & NC_INTERRUPT_BY_LEVEL) != 0 ? in.macro_interrupt : rises) interrupt_wanted_ = true;
+  cutting_ = interrupt_wanted_ && (interrupt_mode_ & NC_INTERRUPT_AT_ONCE) != 0 && state_ == NC_STATE_RUNNING && may_cut();
+}
+
+/// Type 1 stops at once, but not before FIN has come (M700 13.12), and not in a thread, a skip move, a contour (where blocks are not apart)
+/// or a block that has read something of the machine or changed what is asked here: these are finished first.
+bool Scan::may_cut() const {
+  if (!block_begun_ || block_waits_ || last_staged_ || (fin_wait() != 0 && !(suppress_ & 2))) return false;
+  if (tail_ == plan_->end) return true;
+  const Record& r = current();
+  if (r.epoch != epoch_ || r.staged || r.kind == ItemKind::sync) return false;
+  if (r.kind == ItemKind::mark) return false;  // it takes no time
+  return !(moving_ && (r.segment.thread || r.segment.skip));
+}
+
+/// At rest inside the block: what is left of it is given up, and the feeder goes on with the interrupt program.
+void Scan::cut_block() {
+  if (!may_cut()) return;  // the end of the block was nearer
+  const bool begun = done_ != last_mark_ || law_.s > 0 || gate_begun_;  // else nothing of it has happened
+  cut_ = Cut{begun, done_, wanted_, moving_ ? law_.s : 0, gate_begun_ ? gate_left_ : 0};
+  cutting_ = interrupt_wanted_ = moving_ = gate_begun_ = false;
+  law_.s = 0;
+  interrupt_mode_ |= NC_INTERRUPT_IN_SERVICE;  // before the program says so: a signal in between is none
+  rereading_ = interrupt_reached_ = true;
 }
 
 /// A cycle after the mark, so that what the feeder reads of the scan's place is as of the mark.
@@ -200,6 +225,8 @@ void Scan::start(const nc_inputs& in) {
       blocks_ = 0;
       last_mark_ = 0;
       last_block_ = 0;
+      done_ = 0;
+      last_staged_ = block_waits_ = false;
       shared_->starts.fetch_add(1, std::memory_order_release);
       [[fallthrough]];
     case NC_STATE_STOPPED:
@@ -258,6 +285,7 @@ void Scan::run(const nc_inputs& in) {
     if (r.kind == ItemKind::mark && r.mark.resume) {
       last_mark_ = r.serial;
       last_block_ = r.mark.seq;
+      block_waits_ = false;
     }
     if (execute(r, in) == Done::no) break;
     leave(r, true);
@@ -274,6 +302,9 @@ void Scan::leave(const Record& r, bool executed) {
     event.kind = static_cast<uint8_t>(r.kind);
     event.machine = to_nc(wanted_);
     shared_->events.push(event);
+    done_ = r.serial;
+    last_staged_ = r.staged;
+    if (r.kind == ItemKind::sync) block_waits_ = true;
   }
   if (r.kind == ItemKind::move && r.segment.curve.length > 0) ++ordinal_;
   ++tail_;
@@ -322,6 +353,7 @@ void Scan::publish(const nc_inputs& in) {
   status.single_block = (in.single_block && !(suppress_ & 1)) || interrupt_wanted_ || hold_behind_thread_;
   status.last_mark = last_mark_;
   status.last_block = last_block_;
+  status.cut = cut_;
   shared_->status.write(status);
   shared_->ordinal.store(ordinal_, std::memory_order_relaxed);
   shared_->epoch.store(epoch_, std::memory_order_release);
@@ -364,6 +396,7 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   out.t = t_;
   out.b = b_;
   out.s = s_;
+  out.spindle_rev_min = s_;
   out.manual_allowed = manual_allowed_;
   out.message = message_;
   out.message_text = message_text_.id;

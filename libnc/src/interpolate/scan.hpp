@@ -23,6 +23,7 @@ struct ScanStatus {
   bool single_block = false;
   Serial last_mark = 0;  ///< newest block end that has been executed in this run
   BlockSeq last_block = 0;  ///< of that block
+  Cut cut;
 };
 
 /// The world at the last sync.
@@ -65,6 +66,8 @@ class Scan {
   void messages() NC_RT;
   void interrupt(const nc_inputs& in) NC_RT;
   void ask_for_interrupt() NC_RT;
+  bool may_cut() const NC_RT;
+  void cut_block() NC_RT;
   void states(const nc_inputs& in) NC_RT;
   void start(const nc_inputs& in) NC_RT;
   void drop_old() NC_RT;
@@ -101,7 +104,7 @@ class Scan {
 
   const Record& current() const { return ring_[tail_ & mask_]; }
   bool at_rest() const { return law_.v == 0; }
-  bool held() const { return hold_ || reset_ || alarmed_; }  ///< nothing is executed at rest
+  bool held() const { return hold_ || reset_ || alarmed_ || cutting_; }  ///< nothing is executed at rest
   bool braking() const { return held() || interlock_; }      ///< no axis may move
   /// M700 6.7.1: a thread that is being cut is not held, nor is its feed changed.
   bool thread_braking() const { return reset_ || alarmed_ || interlock_; }
@@ -165,7 +168,12 @@ class Scan {
   // ---- macro interrupt (M700 13.12)
   uint32_t interrupt_mode_ = 0;      ///< nc_interrupt_bits
   bool interrupt_last_ = false;      ///< level of the signal
-  bool interrupt_wanted_ = false;    ///< accepted: acts at the end of the block in execution
+  bool interrupt_wanted_ = false;    ///< accepted: acts at the end of the block in execution, or at once
+  bool cutting_ = false;             ///< on the way to rest inside a block
+  bool block_waits_ = false;         ///< the block in execution has read something of the machine
+  bool last_staged_ = false;         ///< the newest record was of a contour
+  Serial done_ = 0;                  ///< newest record that has been executed
+  Cut cut_;
   bool interrupt_reached_ = false;   ///< that end has been reached: the feeder is asked with the next cycle
 
   // ---- gates

@@ -78,11 +78,12 @@ void Scan::alarm() {
 bool Scan::begin_move(const Record& r, const nc_inputs&) {
   const Segment& s = r.segment;
   if (at_rest()) {
+    const AxisVec from = s.begun > 0 ? curve_position(s.curve, s.begun, config_.axis_count) : s.curve.start;
     for (unsigned i = 0; i < config_.axis_count; ++i) {
-      if (std::fabs(s.curve.start[i] - wanted_[i]) > kSamePlace) return false;
+      if (std::fabs(from[i] - wanted_[i]) > kSamePlace) return false;
     }
   }
-  law_.s = 0;
+  law_.s = s.begun;
   moving_ = true;
   block_begun_ = true;
   thread_locked_ = false;
@@ -252,7 +253,10 @@ Scan::Done Scan::action(const Action& a) {
     case NC_ACTION_CONTROL:
       if (a.index == 3003) suppress_ = code_number(a.value);
       if (a.index == 3004) disable_ = code_number(a.value);
-      if (a.index == 96) interrupt_mode_ = code_number(a.value);
+      if (a.index == 96) {
+        interrupt_mode_ = code_number(a.value);
+        block_waits_ = true;  // a block that changes this is finished first
+      }
       if (a.index == NC_CONTROL_TAPPING) tapping_ = a.value != 0;
       return Done::yes;
     case NC_ACTION_CURRENT_LIMIT:  // M700 15.6
@@ -384,6 +388,7 @@ void Scan::mark(const Mark& m, const nc_inputs& in) {
   if (m.report && m.stop && !thread && interrupt_wanted_ && at_rest() && state_ == NC_STATE_RUNNING) {
     // What lies behind this block is given up and the feeder goes on with the interrupt program.
     interrupt_wanted_ = false;
+    cut_.inside = false;
     rereading_ = interrupt_reached_ = true;
     return;
   }

@@ -199,7 +199,7 @@ void Interpreter::reset(bool keep_modal) {
   waiting_ = false;
   next_step = Step::none;
   after_block = nullptr;
-  drop_ = 0;
+  next_repeat_ = {};
   statement = 0;
   ended = !main_program.valid();
   alarmed = false;
@@ -226,7 +226,7 @@ bool Interpreter::rewind(BlockSeq seq) {
   waiting_ = false;
   next_step = Step::none;
   after_block = nullptr;
-  drop_ = 0;
+  next_repeat_ = {};
   statement = 0;
   ended = false;
   alarmed = false;
@@ -394,6 +394,7 @@ void Interpreter::take_block_back() {
 
 void Interpreter::keep_call() {
   ++state.seq;
+  state.repeat = {};
   if (state.interrupt_depth != 0) note_interrupt_items();
   checkpoints_.save(state);
 }
@@ -408,7 +409,7 @@ void Interpreter::emit_stop_point(bool resume) {
 void Interpreter::stop(const Fault& what, const nc_source& where) {
   next_step = Step::none;
   after_block = nullptr;
-  drop_ = 0;
+  next_repeat_ = {};
   statement = 0;
   waiting_ = false;
   alarm_fault = what;
@@ -434,6 +435,8 @@ ModalId Interpreter::modal_now() {
 
 void Interpreter::finish_block(bool stop, bool executable) {
   ++state.seq;
+  state.repeat = next_repeat_;
+  next_repeat_ = {};
   if (state.interrupt_depth != 0) note_interrupt_items();
   if (state.end_seen) stop = false;          // the program is over: nothing is left that a start could go on with
   if (state.nurbs.active()) stop = false;   // M700 6.15: single block stops at the last control point only

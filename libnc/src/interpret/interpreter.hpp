@@ -102,13 +102,13 @@ struct Interpreter {
   /// The interrupt program runs next, the machine stands at `machine`. Everything made before has happened but for the newest
   /// `taken_back` items, which are given up. Inside a block only with `cut_block`; false: not now.
   bool interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block);
-  /// Items of a block that is read again which have happened already: how many, and where the machine was before them.
-  bool drop_pending() const { return drop_ != 0; }
-  unsigned take_drop(AxisVec* from) {
-    const unsigned count = drop_;
-    *from = drop_from_;
-    drop_ = 0;
-    return count;
+  /// The same on the machine: it has stopped inside the next block, of which `items` have happened. False: the block goes on.
+  bool interrupt_inside(const AxisVec& machine, unsigned items);
+  /// The next block goes on where it was cut (State::repeat).
+  void go_on_inside(unsigned items) {
+    if (!state.repeat.active) state.repeat = Repeat{};
+    state.repeat.active = true;
+    state.repeat.items = static_cast<uint16_t>(state.repeat.items + items);
   }
   /// Program and modal state at the interrupt (#4401...).
   const ModalState& interrupted_modal() const { return interrupted_.modal; }
@@ -263,6 +263,7 @@ struct Interpreter {
     CycleState cycle;
   };
   Did enter_interrupt();
+  bool begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine);
   void note_interrupt_items();
 
   nc_status run_block(uint32_t& budget);
@@ -283,8 +284,7 @@ struct Interpreter {
   static void undo(void* self, uint32_t key, double old);
   unsigned made_ = 0;          ///< items of the block in hand so far
   BlockSeq block_seq_ = 0;     ///< the state before it
-  unsigned drop_ = 0;
-  AxisVec drop_from_;
+  Repeat next_repeat_;         ///< from the next mark on
   InterruptReturn interrupted_;
   Checkpoints checkpoints_;
   static constexpr ModalId kNoModal = ~ModalId{0};

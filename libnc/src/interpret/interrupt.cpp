@@ -3,6 +3,7 @@
 //
 // An interrupt comes when everything before it has happened, so it never has to be taken back: what is kept for the return lies beside
 // the state and not in it.
+// On the machine the item in execution may be half done: what is left of it is made again from there (PartSystem).
 //
 // A block is interrupted at one of its items. The interpreter goes back to where the block began and enters the interrupt program from
 // there, with the machine where it stands. On return either the rest of the block is lost (type 1, when the interrupt program moved or
@@ -18,6 +19,7 @@ void announce(Interpreter& in) {
   uint32_t bits = 0;
   if (in.state.interrupt_on) bits |= NC_INTERRUPT_ENABLED;
   if (in.settings.interrupt_by_level) bits |= NC_INTERRUPT_BY_LEVEL;
+  if (!in.settings.interrupt_type_2) bits |= NC_INTERRUPT_AT_ONCE;
   if (in.state.interrupt_depth != 0) bits |= NC_INTERRUPT_IN_SERVICE;
   Action& action = in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_CONTROL;
@@ -75,14 +77,25 @@ bool Interpreter::interruptible() const { return state.interrupt_on && state.int
 
 bool Interpreter::interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block) {
   if (!interruptible()) return false;
-  const bool inside = queued_ > 0 || next_step != Step::none || taken_back > 0;
-  InterruptReturn back;
-  if (inside) {
+  if (queued_ > 0 || next_step != Step::none || taken_back > 0) {
     if (!cut_block || waiting_) return false;
-    back.items = made_ - queued_ - taken_back;
-    if (!rewind(block_seq_)) return false;
-    back.inside_block = true;
+    const unsigned items = made_ - queued_ - taken_back;
+    return rewind(block_seq_) && begin_interrupt(true, items, machine);
   }
+  // Between two blocks, the second of which may have begun before another interrupt.
+  return begin_interrupt(state.repeat.active, state.repeat.items, machine);
+}
+
+bool Interpreter::interrupt_inside(const AxisVec& machine, unsigned items) {
+  if (!interruptible()) return false;
+  if (state.repeat.active) items += state.repeat.items;
+  return begin_interrupt(true, items, machine);
+}
+
+bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine) {
+  InterruptReturn back;
+  back.inside_block = inside_block;
+  back.items = items;
   back.machine = state.machine;
   back.modal = state.modal;
   back.comp = state.comp;
@@ -91,12 +104,18 @@ bool Interpreter::interrupt(const AxisVec& machine, unsigned taken_back, bool cu
   back.work_system = state.work_system;
   back.stroke_box = state.stroke_box;
   back.cycle = state.cycle;
+  const CallFrame& frame = state.frame[state.depth];  // what has been read ahead is given up: the place is that of the next block
+  source.depth = state.depth;
+  source.file = frame.program.file;
+  source.program = frame.program.number;
+  source.line = frame.line;
   const Did did = enter_interrupt();
   if (did == Did::fault) {
     stop(fault, source);
     return true;
   }
   interrupted_ = back;
+  state.repeat = {};
   state.machine = machine;
   state.interrupt_moved = false;
   announce(*this);
@@ -145,8 +164,8 @@ void Interpreter::leave_interrupt(bool to_sequence) {
     state.cycle = interrupted_.cycle;
     if (interrupted_.inside_block) {
       state.machine = interrupted_.machine;
-      drop_ = interrupted_.items;
-      drop_from_ = interrupted_.machine;
+      next_repeat_.active = true;
+      next_repeat_.items = static_cast<uint16_t>(interrupted_.items);
     }
   } else if (interrupted_.inside_block) {
     pass_over_block(*this, caller);

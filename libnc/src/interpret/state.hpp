@@ -82,6 +82,12 @@ struct NurbsState {
   bool active() const { return knots != 0; }
 };
 
+/// A block that a macro interrupt has cut and that goes on: what it has done already is not done again (M700 13.12).
+struct Repeat {
+  bool active = false;
+  uint16_t items = 0;   ///< of the next block that have happened
+};
+
 /// Bits of State::special.
 enum Special : uint8_t {
   kSpecialMap = 1,         ///< programmed coordinates are not those of the axes
@@ -123,6 +129,7 @@ struct State {
   bool mapped = false;          ///< mirror, or a figure of the program that runs: asked in every move
   uint8_t mirror = 0;           ///< bit i: axis i is mirrored by program (M700 13.6)
   uint8_t interrupt_depth = 0;  ///< level of the interrupt program in service, 0 = none
+  Repeat repeat;                ///< holds for the next block only
   bool parameter_input = false; ///< between G10 L70 and G11 (M700 13.11)
   bool port_open = false;     ///< POPEN has been executed (M700 13.5.8)
   bool percent_seen = false;  ///< the start mark of the main program has been read
