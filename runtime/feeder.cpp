@@ -274,7 +274,7 @@ void Feeder::take_messages() {
     nc_text text;
     if (nc_->text(message.system, message.text, &text) != NC_OK) continue;
     if (message.port != 0) {
-      if (printer_) printer_(text.s);
+      if (printer_) printer_(text);
       continue;
     }
     const std::lock_guard lock(mutex_);

@@ -58,7 +58,7 @@ struct FeederInfo {
 // With a sentence when it cannot.
 using ProgramLoader = std::function<bool(const std::string& name, unsigned* file, std::string* error)>;
 // Takes what programs print (POPEN, DPRNT, PCLOS) when the machine gets there: feeder thread.
-using Printer = std::function<void(const char* text)>;
+using Printer = std::function<void(const nc_text& text)>;
 // kSelectProgram with this number selects the program given by name.
 inline constexpr std::uint32_t kProgramByName = ~0u;
 

@@ -367,7 +367,7 @@ int operate(const Options& options, nc::rt::Config* config) {
   nc::tools::PrintFile print;
   if (!config->print.empty()) {
     if (!print.open(config->print_file(), &error)) return failed(error);
-    runtime->set_printer([&print](const char* text) {
+    runtime->set_printer([&print](const nc_text& text) {
       const bool was_good = print.good();
       print.write(text);
       if (was_good && !print.good()) std::fprintf(stderr, "warning: external output: %s\n", print.error().c_str());

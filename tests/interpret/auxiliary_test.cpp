@@ -52,6 +52,142 @@ TEST(Auxiliary, Stops) {  // M700 9.1
   EXPECT_EQ(m700("M0\nM30").lines(), (std::vector<unsigned>{1, 2}));
 }
 
+TEST(Auxiliary, OneSpindle) {  // M700 10.6.1: S1= and S2= are no form of S
+  EXPECT_EQ(m700("S1=100\nM30").alarm, "P33");
+  EXPECT_EQ(m700("S2=100\nM30").alarm, "P33");
+}
+
+TEST(Auxiliary, CodesThatProhibitReadingAhead) {  // M700 4.2
+  Bench bench;
+  bench.param("PREREAD_STOP_M1", "55").param("PREREAD_STOP_M8", "66");
+  const auto order_of = [&](const char* text) {
+    std::string all;
+    for (const Step& step : bench.at(0, 0, 0).run(text).steps) {
+      if (step.item.kind == NC_ITEM_MOVE) all += "move ";
+      if (step.item.kind == NC_ITEM_ACTION) all += step.item.u.action.letter + brief(step.item.u.action.value) + " ";
+      if (step.item.kind == NC_ITEM_SYNC) all += "sync ";
+    }
+    return all;
+  };
+  EXPECT_EQ(order_of("M55 G0 X1.\nX2.\nM56\nM66\nX3.\nM30"), "M55 move sync move M56 M66 sync move M30 ");
+  EXPECT_EQ(order_of("M8\nX2. G0\nM30"), "M8 move M30 ");
+}
+
+TEST(Auxiliary, OrderByParameter) {  // M700 9.1: "after or simultaneously with motion" is the machine's
+  Bench bench;
+  bench.param("MSTB_AFTER_MOTION", "1");
+  EXPECT_EQ(order(bench.run("G0 M3 X1. B5 T2 S1000\nM8\nM30")), "move S1000 T2 B5 M3 fin M8 fin M30 fin");
+  EXPECT_EQ(order(bench.at(0, 0, 0).run("G0 X1. M0\nX2.\nM30")), "move M0 fin stop move M30 fin");
+}
+
+TEST(Auxiliary, AnIndexAxisIsNotBuilt) {  // M700 9.3
+  Bench bench(NC_DIALECT_M700, axes("XYZb"));
+  bench.param("2076", "1", 'B');
+  EXPECT_EQ(bench.run("G0 X1.\nB90.\nM30").alarm, "P39");
+  EXPECT_EQ(bench.at(0, 0, 0).run("G0 X1.\nM30").alarm, "");
+}
+
+// ---- constant surface speed and clamp (M700 10.3, 10.4) -----------------------------------------------------------------------------
+
+/// Speeds as the machine is told: "G96 X 200, S500".
+std::string speeds(const Outcome& run) {
+  std::string all;
+  for (const Step& step : run.steps) {
+    if (step.item.kind != NC_ITEM_ACTION) continue;
+    const nc_action& a = step.item.u.action;
+    std::string word;
+    if (a.kind == NC_ACTION_S) word = "S" + brief(a.value);
+    if (a.kind == NC_ACTION_CONTROL && a.index == NC_CONTROL_SURFACE_SPEED) word = a.bits == 0 ? "off" : "axis" + std::to_string(a.bits) + ":" + brief(a.value);
+    if (a.kind == NC_ACTION_CONTROL && a.index == NC_CONTROL_SPINDLE_CLAMP)
+      word = std::to_string(a.mask) + ".." + std::to_string(a.bits) + (a.value == 0 ? "" : "!" + brief(a.value));
+    if (!word.empty()) all += (all.empty() ? "" : " ") + word;
+  }
+  return all;
+}
+
+TEST(SurfaceSpeed, OnAndOff) {  // the manual's example
+  EXPECT_EQ(speeds(m700("G90 G96 G01 X50. Z100. S200 F100\nG97 G01 X50. Z100. F300 S500\nM02")), "axis1:200 S200 off S500");
+  EXPECT_EQ(speeds(m700("G96 S200\nS300\nG97\nG96\nM30")), "axis1:200 S200 axis1:300 S300 off axis1:300 off");
+  EXPECT_EQ(speeds(m700("G20\nG96 S100\nG97\nM30")), "axis1:30.48 S100 off");
+}
+
+TEST(SurfaceSpeed, AxisByParameterAndP) {  // #1181 G96_ax
+  Bench bench;
+  EXPECT_EQ(speeds(bench.run("G96 S100 P3\nG97\nM30")), "axis1:100 S100 off");  // 0: P has no effect
+  bench.param("1181", "1");
+  EXPECT_EQ(speeds(bench.run("G96 S100\nG97\nM30")), "axis1:100 S100 off");
+  EXPECT_EQ(speeds(bench.run("G96 S100 P3\nG97\nM30")), "axis3:100 S100 off");
+  EXPECT_EQ(bench.run("G96 S100 P4\nM30").alarm, "P133");
+  EXPECT_EQ(bench.run("G96 S100 P0\nM30").alarm, "P133");
+}
+
+TEST(SurfaceSpeed, NeedsASpeed) {  // P132
+  EXPECT_EQ(m700("G96\nM30").alarm, "P132");
+  EXPECT_EQ(m700("G96 S0\nM30").alarm, "P132");
+  EXPECT_EQ(m700("S500\nG96\nM30").alarm, "P132");  // r/min are no surface speed
+}
+
+TEST(SpindleClamp, WhatG92SIs) {  // 10.4 (Note 1)
+  EXPECT_EQ(speeds(m700("G92 S1000\nM30")), "S1000");  // Sclamp 0, G97: a speed
+  EXPECT_EQ(speeds(m700("G96 S100\nG92 S1000 Q200\nM30")), "axis1:100 S100 200..1000 off 0..0");
+  EXPECT_EQ(speeds(m700("G92 Q200\nM30")), "0..200 0..0");  // Q is always one; S0 < Q: they change places
+  Bench bench;
+  bench.param("1146", "1");
+  EXPECT_EQ(speeds(bench.run("G92 S1000\nM30")), "0..1000!1 0..0");
+  bench.param("1227/bit5", "1");
+  EXPECT_EQ(speeds(bench.run("G92 S1000\nM30")), "0..1000 0..0");
+  EXPECT_EQ(speeds(bench.run("G92 S1000 Q200\nG92 S0\nM30")), "200..1000 0..200 0..0");
+  bench.param("1210/bit19", "1");
+  EXPECT_EQ(speeds(bench.run("G92 S1000\nM30")), "0..1000!2");
+  EXPECT_EQ(m700("G92 Q-1\nM30").alarm, "P35");
+}
+
+TEST(SpindleClamp, BesideACoordinateSystem) {
+  EXPECT_EQ(m700("G0 X10.\nG92 X0 Q100\nX1.\nM30").path(), (Path{"rapid 10 0 0", "rapid 11 0 0"}));
+}
+
+/// On the machine the speed follows the axis.
+TEST(SurfaceSpeed, OnTheMachine) {
+  Bench bench(NC_DIALECT_M700, [](nc_config& c) {
+    c.cycle_s = 0.004;
+    for (unsigned i = 0; i < 3; ++i) {
+      c.system[0].axis[i].rapid = 200;
+      c.system[0].axis[i].max_velocity = 100;
+      c.system[0].axis[i].max_acceleration = 500;
+    }
+  });
+  bench.work_offset(1, {5, 0, 0});
+  bench.start("G0 X50.\nG96 S100 M3\nG92 S1000 Q300\nG1 X10. F6000\nX0\nG97 S700\nX5.\nM30");
+  nc_inputs in{};
+  nc_outputs out{};
+  in.feed_override = in.rapid_override = 1;
+  bool ended = false;
+  unsigned seen = 0;
+  double highest = 0, lowest = 1e9;
+  for (unsigned n = 0; n < 20000 && !ended; ++n) {
+    nc_feed(bench.control(), 50);
+    in.cycle_start = n == 2;
+    in.fin = out.strobe != 0;
+    nc_cycle(bench.control(), &in, &out);
+    if (out.source.line == 4 || out.source.line == 5) {
+      const double free = 1000 * 100 / (2 * 3.14159265358979 * std::max(1e-3, std::fabs(out.command.v[0] - 5)));
+      EXPECT_NEAR(out.spindle_rev_min, std::min(1000.0, std::max(300.0, free)), 1e-6);
+      highest = std::max(highest, out.spindle_rev_min);
+      lowest = std::min(lowest, out.spindle_rev_min);
+      ++seen;
+    }
+    if (out.source.line == 7) {
+      EXPECT_EQ(out.spindle_rev_min, 700);
+    }
+    nc_event event;
+    while (nc_event_poll(bench.control(), 0, &event, nullptr) == NC_OK) ended = ended || event.kind == NC_ITEM_END;
+  }
+  EXPECT_TRUE(ended);
+  EXPECT_GT(seen, 50u);
+  EXPECT_EQ(highest, 1000);
+  EXPECT_LT(lowest, 330);
+}
+
 TEST(DgshapeAuxiliary, SpindleCodes) {  // DGSHAPE 2-4: R20 series
   auto speed = [](const char* word) { return dgshape(std::string(word) + "\nM02").of(NC_ITEM_ACTION)[0].u.action.value; };
   EXPECT_DOUBLE_EQ(speed("S100"), 100);

@@ -514,5 +514,68 @@ TEST(Reset, ClearsCommonVariablesByParameter) {  // M700 13.4, #1128
   EXPECT_EQ(bench.var_now(500), 1);
 }
 
+TEST(SubPrograms, AReturnMayChangeThePasses) {  // M99 L: as FANUC
+  Bench bench;
+  bench.add("O1", "#100=#100+1\nIF [#100 NE 2] GOTO 9\nM99 L2\nN9 M99\n");
+  EXPECT_EQ(bench.run("#100=0\nM98 P1 L7\nM30").var(100), 3);
+  bench.add("O1", "#100=#100+1\nM99 L0\n");
+  EXPECT_EQ(bench.run("#100=0\nM98 P1 L7\nM30").var(100), 1);
+}
+
+TEST(SubPrograms, OfADevice) {  // 13.3.1 ,D
+  Bench bench;
+  bench.add("O1", "#100=1\nM99\n");
+  bench.add("D2:O1", "#100=2\nN5 #101=5\nM99\n");
+  bench.add("D2:PART.NC", "#100=3\nM99\n");
+  EXPECT_EQ(bench.run("M98 P1 ,D0\nM30").var(100), 1);
+  EXPECT_EQ(bench.run("M98 P1 ,D2\nM30").var(100), 2);
+  EXPECT_EQ(bench.run("#100=0\nM98 P1 H5 ,D2\nM30").var(100), 0);
+  EXPECT_EQ(bench.run("M98 <PART.NC> ,D2\nM30").var(100), 3);
+  EXPECT_EQ(bench.run("M98 P1 ,D3\nM30").alarm, "P232");
+  EXPECT_EQ(bench.run("M98 P1 ,D5\nM30").alarm, "P35");
+  EXPECT_EQ(bench.run("G0 X1. ,D2\nM30").alarm, "P39");
+}
+
+TEST(SubPrograms, OneThatIsBeingEdited) {  // appendix 1, P235
+  Bench bench;
+  const unsigned file = bench.add("O1", "G0 X5.\nM99\n");
+  ASSERT_EQ(nc_program_edit(bench.control(), file, true), NC_OK);
+  EXPECT_EQ(bench.run("M98 P1\nM30").alarm, "P235");
+  EXPECT_EQ(bench.run("G65 P1\nM30").alarm, "P235");
+  ASSERT_EQ(nc_program_edit(bench.control(), file, false), NC_OK);
+  EXPECT_EQ(bench.run("M98 P1\nM30").alarm, "");
+  EXPECT_EQ(nc_program_edit(bench.control(), 9999, true), NC_E_ARGUMENT);
+}
+
+TEST(CommonVariables, OfSeveralPartSystems) {  // 13.4, #1303 #1304
+  const auto two = [](nc_config& c) { c.system_count = 2, c.system[1] = c.system[0]; };
+  Bench bench(NC_DIALECT_M700, two);
+  const auto value = [&](unsigned system, uint32_t number) {
+    double v = 0;
+    bool vacant = true;
+    nc_variable_get(bench.control(), system, number, &v, &vacant);
+    return vacant ? -1 : v;
+  };
+  bench.run("#100=1 #150=2 #500=3 #600=4\nM30");
+  EXPECT_EQ(value(0, 100), 1);
+  EXPECT_EQ(value(1, 100), -1);  // common 2 belongs to one part system
+  EXPECT_EQ(value(1, 500), 3);   // common 1 to all
+  EXPECT_EQ(value(1, 600), 4);
+  for (unsigned system = 0; system < 2; ++system) {
+    nc_parameter_set(bench.control(), system, "1303", 0, "120");
+    nc_parameter_set(bench.control(), system, "1304", 0, "550");
+  }
+  bench.run("#100=5 #150=6 #500=7 #600=8\nM30");
+  EXPECT_EQ(value(1, 100), 5);
+  EXPECT_EQ(value(1, 150), -1);
+  EXPECT_EQ(value(1, 500), 7);
+  EXPECT_EQ(value(1, 600), -1);
+  std::string all;
+  uint32_t number = 0;
+  double v = 0;
+  for (; nc_common_next(bench.control(), 0, number, &number, &v) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(v) + " ";
+  EXPECT_EQ(all, "100=5 150=6 500=7 600=8 ");
+}
+
 }  // namespace
 }  // namespace nc::test

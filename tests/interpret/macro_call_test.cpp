@@ -282,7 +282,26 @@ TEST(ExternalOutput, Alarms) {
   EXPECT_EQ(m700("POPEN\nDPRNT[#5[5]]\nM30").alarm, "P33");
   EXPECT_EQ(m700("POPEN\nDPRNT[A=B]\nM30").alarm, "P33");
   EXPECT_EQ(m700("POPEN\nDPRNT[A\nM30").alarm, "P281");
-  EXPECT_EQ(m700("POPEN\nBPRNT[A]\nM30").alarm, "P39");
+}
+
+TEST(ExternalOutput, Binary) {  // characters, then the value times 10^c as four bytes, highest first
+  Bench bench;
+  bench.start("POPEN\n#1=-1.5 #2=123.456\nBPRNT[C*X#1[3]Y#2[0]]\nBPRNT[#99[0]]\nM30");
+  std::vector<std::string> lines;
+  Step step;
+  for (nc_status status; (status = bench.pull(&step)) == NC_OK || status == NC_BUDGET;) {
+    if (status != NC_OK || step.item.kind != NC_ITEM_ACTION || step.item.u.action.kind != NC_ACTION_MESSAGE) continue;
+    nc_text text;
+    ASSERT_EQ(nc_text_get(bench.control(), 0, step.item.u.action.text, &text), NC_OK);
+    if (text.size != 0) lines.push_back(std::string(text.s, text.size));
+  }
+  ASSERT_EQ(lines.size(), 1u);  // #99 does not exist
+  EXPECT_EQ(lines[0], std::string("C*X\xff\xff\xfa\x24Y\0\0\0\x7b", 12));
+  EXPECT_EQ(m700("BPRNT[A]\nM30").alarm, "P460");
+  EXPECT_EQ(m700("POPEN\nBPRNT[#1]\nM30").alarm, "P33");
+  EXPECT_EQ(m700("POPEN\nBPRNT[#1[12]]\nM30").alarm, "P33");
+  EXPECT_EQ(m700("POPEN\nBPRNT[]\nM30").alarm, "P33");
+  EXPECT_EQ(m700("POPEN\n#1=99999\nBPRNT[#1[5]]\nM30").alarm, "P35");
 }
 
 // ---- IF THEN ------------------------------------------------------------------------------------------------------------------

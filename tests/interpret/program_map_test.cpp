@@ -47,6 +47,23 @@ TEST(FigureRotation, NotOnOneCircle) {  // (4): the first move of a pass goes to
             (Path{"rapid 10 0 0", "line 20 0 0 F100", "line 0 20 0 F100", "line -20 0 0 F100"}));
 }
 
+TEST(FigureRotation, WhatCannotBeUsedInside) {  // (9), appendix 1
+  const auto alarm = [](const char* block) {
+    Bench bench;
+    bench.add("O1", std::string("G1 X5. F100\n") + block + "\nM99\n");
+    return bench.run("G90 G0 X10.\nM98 P1 L2 I-10.\nM30").alarm;
+  };
+  EXPECT_EQ(alarm("G68 X0 Y0 R30."), "P252");
+  EXPECT_EQ(alarm("G69"), "P252");
+  EXPECT_EQ(alarm("G45 X1. D1"), "P141");
+  EXPECT_EQ(alarm("G48 X1. D1"), "P141");
+  EXPECT_EQ(alarm("G53 X0"), "P34");
+  EXPECT_EQ(alarm("G28 Y0"), "P34");
+  EXPECT_EQ(alarm("G60 X1."), "P34");
+  EXPECT_EQ(alarm("G53 Z0"), "");  // not an axis of the plane
+  EXPECT_EQ(alarm("G28 Z0"), "");
+}
+
 TEST(FigureRotation, NoCallsInside) {  // (6)
   Bench bench;
   bench.add("O1", "M98 P2\nM99\n");
@@ -121,6 +138,18 @@ TEST(ParameterInput, BitNumberAndText) {  // 13.11
   EXPECT_EQ(nc_parameter_get(bench.control(), 0, "8621", 0, &value), NC_OK);
   EXPECT_EQ(value, 'X');
   EXPECT_EQ(bench.tool_now(1, NC_TOOL_RADIUS), 3);  // #1037 acts at once
+}
+
+TEST(ParameterInput, TextsOfSeveralCharacters) {  // "up to 63 characters"; #100010 reads them by their codes
+  const auto read = [](const char* text, const char* number) {
+    return m700(std::string("G10 L70\nP") + number + " <" + text + ">\nG11\n#100000=" + number + "\n#100001=0\n#101=#100010\nM30");
+  };
+  EXPECT_EQ(read("X", "8621").var(101), 'X');
+  EXPECT_EQ(read("X1", "8621").var(101), 'X' * 256 + '1');
+  EXPECT_EQ(read("PART-A", "8880").alarm, "");
+  EXPECT_EQ(read("LONGER-THAN-6", "8880").alarm, "P39");  // kept, and no number
+  EXPECT_EQ(read("AB", "1078").alarm, "P421");             // a number
+  EXPECT_EQ(read("1A", "8880").alarm, "P421");
 }
 
 TEST(ParameterInput, WhatIsNotPossibleIsP421) {

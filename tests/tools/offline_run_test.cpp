@@ -27,8 +27,8 @@ class Notes final : public RunSink {
     add(s, (turns ? "turns" : "dwell") + std::to_string(static_cast<int>(value)));
   }
   void sync(const nc_source& s, uint32_t what) override { add(s, "sync" + std::to_string(what)); }
-  void message(const nc_source& s, uint32_t port, const char* t) override {
-    add(s, t + std::to_string(port));
+  void message(const nc_source& s, uint32_t port, const nc_text& t) override {
+    add(s, t.s + std::to_string(port));
   }
   void alarm(const nc_alarm& a) override { add(a.source, a.code); }
   void end(const nc_source& s, bool ok, const nc_axes&, const nc_axes& machine, uint32_t) override {

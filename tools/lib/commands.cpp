@@ -55,7 +55,7 @@ class TraceSink final : public RunSink {
   void aux(const nc_source& s, char code, double value) override { writer_.aux(s, code, value); }
   void dwell(const nc_source& s, bool turns, double value) override { writer_.dwell(s, turns, value); }
   void sync(const nc_source& s, uint32_t what) override { writer_.sync(s, what); }
-  void message(const nc_source& s, uint32_t port, const char* text) override {
+  void message(const nc_source& s, uint32_t port, const nc_text& text) override {
     writer_.message(s, port, text);
   }
   void alarm(const nc_alarm& alarm) override { writer_.alarm(alarm); }
@@ -82,7 +82,7 @@ class PrintSink final : public RunSink {
   void aux(const nc_source& s, char code, double value) override { next_.aux(s, code, value); }
   void dwell(const nc_source& s, bool turns, double value) override { next_.dwell(s, turns, value); }
   void sync(const nc_source& s, uint32_t what) override { next_.sync(s, what); }
-  void message(const nc_source& s, uint32_t port, const char* text) override {
+  void message(const nc_source& s, uint32_t port, const nc_text& text) override {
     if (port != 0) file_.write(text);
     next_.message(s, port, text);
   }
@@ -232,11 +232,11 @@ int functions_command(const std::string& dialect, bool markdown, std::FILE* out,
   const auto id = dialect_from_name(dialect);
   if (!id) return complain(err, "--dialect " + dialect + ": this version knows m700 and dgshape");
   Table table(out, markdown);
-  table.head({"code", "function", "group", "section", "supported", "alarm"});
+  table.head({"code", "function", "group", "section", "supported", "alarm, or what is not built"});
   nc_function row;
   for (unsigned i = 0; nc_function_get(*id, i, &row) == NC_OK; ++i)
     table.row({row.code, row.name ? row.name : "", std::to_string(row.group), row.section ? row.section : "",
-               row.supported ? "yes" : "no", row.supported ? "" : row.alarm});
+               !row.supported ? "no" : row.part != nullptr ? "in part" : "yes", !row.supported ? row.alarm : row.part != nullptr ? row.part : ""});
   return close_output(out, err, kExitEnded);
 }
 

@@ -129,7 +129,7 @@ class OfflineRun {
         nc_text text = {};
         items_.text(action.text, &text);
         text.s[sizeof text.s - 1] = 0;
-        sink_.message(item.source, action.index, text.s);
+        sink_.message(item.source, action.index, text);
         return;
       }
       default:

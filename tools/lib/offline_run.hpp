@@ -22,7 +22,7 @@ class RunSink {
   virtual void aux(const nc_source&, char /*code*/, double /*value*/) {}
   virtual void dwell(const nc_source&, bool /*turns*/, double /*value*/) {}
   virtual void sync(const nc_source&, uint32_t /*what*/) {}
-  virtual void message(const nc_source&, uint32_t /*port*/, const char* /*text*/) {}
+  virtual void message(const nc_source&, uint32_t /*port*/, const nc_text& /*text*/) {}
   virtual void alarm(const nc_alarm&) {}
   virtual void end(const nc_source&, bool /*ok*/, const nc_axes& /*work*/, const nc_axes& /*machine*/,
                    uint32_t /*modal*/) {}

@@ -13,11 +13,11 @@ bool PrintFile::open(const std::string& path, std::string* error) {
   return false;
 }
 
-void PrintFile::write(const char* text) {
+void PrintFile::write(const nc_text& text) {
   if (!file_) return;
-  std::string line;
-  for (; *text != 0; ++text)
-    if (static_cast<unsigned char>(*text) >= 0x20) line += *text;
+  std::string line(text.s, text.size);
+  for (const char* c = text.s; text.size == 0 && *c != 0; ++c)
+    if (static_cast<unsigned char>(*c) >= 0x20) line += *c;
   line += '\n';
   if (std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() && std::fflush(file_.get()) == 0) return;
   if (error_.empty()) error_ = std::generic_category().message(errno);

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+
+#include "nc/nc.h"
 #include <string>
 
 namespace nc::tools {
@@ -14,8 +16,11 @@ class PrintFile {
   /** Opens `path` for appending. @return false with the reason in *error. */
   bool open(const std::string& path, std::string* error);
   bool is_open() const { return file_ != nullptr; }
-  /** One output: a line of its own, without the codes that switch a punch on and off. It is in the file when this returns. */
-  void write(const char* text);
+  /**
+   * One output: a line of its own, without the codes that switch a punch on and off; bytes of BPRNT as they are. It is in the file when
+   * this returns.
+   */
+  void write(const nc_text& text);
   /** @return false when something could not be written. */
   bool good() const { return error_.empty(); }
   /** The first reason. */

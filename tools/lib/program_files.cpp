@@ -195,8 +195,12 @@ bool ProgramFiles::on_missing(void* user, nc_control* control, const char* name)
   auto* self = static_cast<ProgramFiles*>(user);
   // M700 13.3.2: a program of the data server.
   const bool external = std::strncmp(name, kExternal, sizeof kExternal - 1) == 0;
-  const std::string wanted = external ? name + sizeof kExternal - 1 : name;
-  const std::string path = external && !self->external_.empty() ? ProgramFiles(self->external_).find(wanted) : self->find(wanted);
+  // M700 13.3.1, M98 ,D1 to ,D4: a folder of its own for each device, in that of the programs.
+  const bool device = name[0] == 'D' && name[1] >= '1' && name[1] <= '4' && name[2] == ':';
+  const std::string wanted = external ? name + sizeof kExternal - 1 : device ? name + 3 : name;
+  const std::string path = device                                 ? ProgramFiles(self->folder_ + "/device" + name[1]).find(wanted)
+                           : external && !self->external_.empty() ? ProgramFiles(self->external_).find(wanted)
+                                                                  : self->find(wanted);
   if (path.empty()) return false;
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return false;

@@ -210,12 +210,22 @@ void TraceWriter::sync(const nc_source& source, uint32_t what) {
   finish();
 }
 
-void TraceWriter::message(const nc_source& source, uint32_t port, std::string_view text) {
+void TraceWriter::message(const nc_source& source, uint32_t port, const nc_text& text) {
   begin("message", source);
   put(",\"port\":");
   put_integer(port);
   put(",\"text\":");
-  put_string(text);
+  if (text.size == 0) {
+    put_string({text.s, strnlen(text.s, sizeof text.s)});
+  } else {  // bytes of BPRNT: each is the character of its number
+    std::string characters;
+    for (uint32_t i = 0; i < text.size; ++i) {
+      const auto byte = static_cast<unsigned char>(text.s[i]);
+      if (byte >= 0x80) characters += static_cast<char>(0xC0 | byte >> 6);
+      characters += static_cast<char>(byte >= 0x80 ? 0x80 | (byte & 0x3F) : byte);
+    }
+    put_string(characters);
+  }
   finish();
 }
 

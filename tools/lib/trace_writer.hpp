@@ -22,7 +22,7 @@ class TraceWriter {
   void aux(const nc_source& source, char code, double value);
   void dwell(const nc_source& source, bool turns, double value);
   void sync(const nc_source& source, uint32_t what);
-  void message(const nc_source& source, uint32_t port, std::string_view text);
+  void message(const nc_source& source, uint32_t port, const nc_text& text);
   void alarm(const nc_alarm& alarm);
   /** The last line; common variables and modal codes are asked of `items`. */
   void end(const nc_source& source, bool ok, const nc_axes& work, const nc_axes& machine, uint32_t modal,

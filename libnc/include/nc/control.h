@@ -116,11 +116,17 @@ NC_API nc_status nc_program_add_text(nc_control*, const char* name, const char* 
 
 /**
  * Asked when a sub program is not in the store: the host may add it with nc_program_add() from inside this call.
- * @param name "O1000" or the name between < >; for M198 with "198:" before it. To be added under this name.
+ * @param name "O1000" or the name between < >; for M198 with "198:" before it, for M98 ,D1 to ,D4 with "D1:" to "D4:". To be added under this name.
  * @return true when it has been added.
  */
 typedef bool (*nc_program_missing)(void* user, nc_control*, const char* name);
 NC_API void nc_program_on_missing(nc_control*, nc_program_missing callback, void* user);
+
+/**
+ * The text of a program is being edited, or no longer: a program that begins meanwhile raises the alarm for it (M700 P235). One that runs
+ * cannot be edited: NC_E_STATE.
+ */
+NC_API nc_status nc_program_edit(nc_control*, unsigned file, bool editing);
 
 /** Select the main program of a part system and go to its first block. */
 NC_API nc_status nc_program_select(nc_control*, unsigned system, unsigned file);
@@ -174,6 +180,7 @@ typedef struct nc_function {
   char code[8];         /**< "G02.1", "M98" */
   uint8_t group;        /**< modal group, 0 = one-shot */
   bool supported;       /**< false: raises `alarm` when used */
+  const char* part;     /**< what of a supported function is not built, nullptr = nothing that is known */
   char alarm[16];
   const char* name;     /**< short English name */
   const char* section;  /**< of the manual */

@@ -53,13 +53,16 @@ typedef enum nc_action_kind {
   NC_ACTION_OUTPUT = 4,  /**< macro interface output: word `index` (0..3), bits `mask` become `bits` (M700 13.5.5) */
   NC_ACTION_MESSAGE = 5, /**< #3006, DPRNT: `text`, `index` = port (0 operator message) */
   NC_ACTION_CONTROL = 6, /**< #3003/#3004: `index` the variable, `value`; `index` 96: macro interrupt, `value` nc_interrupt_bits;
-                              `index` 17: constant surface speed G96, `value` m/min, `bits` the axis from 1, 0 = G97;
-                              `index` 92: speeds that the spindle keeps, `mask` smallest, `bits` largest r/min, 0 = none; NC_CONTROL_TAPPING */
+                              `index` nc_control_index: what these take */
   NC_ACTION_CURRENT_LIMIT = 7 /**< current limit of axis `index`: `value` percent of the rated current (M700 15.6) */
 } nc_action_kind;
 
-/** `index` of NC_ACTION_CONTROL: tapping mode G63 begins (`value` 1) or ends (M700 7.11). */
-#define NC_CONTROL_TAPPING 63
+/** Further indexes of NC_ACTION_CONTROL. */
+typedef enum nc_control_index {
+  NC_CONTROL_TAPPING = 63,       /**< tapping mode G63 begins (`value` 1) or ends (M700 7.11) */
+  NC_CONTROL_SURFACE_SPEED = 17, /**< constant surface speed G96: `value` m/min, `bits` the axis from 1, 0 = G97 */
+  NC_CONTROL_SPINDLE_CLAMP = 92  /**< G92 S Q: `mask` smallest, `bits` largest speed, r/min, 0 = none; `value` bit 0: in G97 too, bit 1: a reset keeps it */
+} nc_control_index;
 
 /** State of the macro interrupt (M700 13.12): bits. */
 typedef enum nc_interrupt_bits {
@@ -92,6 +95,7 @@ typedef enum nc_sync_what {
 /** A text that goes with an item; NUL-terminated, cut at NC_MAX_TEXT - 1 bytes. */
 typedef struct nc_text {
   char s[NC_MAX_TEXT];
+  uint32_t size; /**< bytes of a line of BPRNT, zeros among them; 0 = up to the NUL */
 } nc_text;
 
 /** Payload of a move. `work` and `center` are in the active workpiece coordinates, without tool compensation;

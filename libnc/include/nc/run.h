@@ -162,7 +162,6 @@ typedef struct nc_outputs {
   double s;
   uint16_t current_limit[NC_MAX_AXES]; /**< percent of the rated current of each drive, 0 = none set (M700 15.6); stays until it is changed */
   double spindle_rev_min;   /**< speed that is wanted now: `s`, or what constant surface speed asks for, within the clamp (G96, G92 S Q) */
-  uint8_t m_independent;    /**< bit 0 M00, 1 M01, 2 M02, 3 M30: given out and not yet completed or reset (M700 9.1) */
   bool rapid;               /**< a rapid move is in execution */
   bool tapping;             /**< tapping mode G63 (M700 7.11) */
   bool feed_digit_on;       /**< the move in execution has a feed of one digit, `feed_digit` (M700 7.3) */

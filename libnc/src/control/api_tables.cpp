@@ -112,6 +112,13 @@ nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key
   return NC_OK;
 }
 
+nc_status nc_program_edit(nc_control* c, unsigned file, bool editing) {
+  if (c == nullptr || c->store.entry(file) == nullptr) return NC_E_ARGUMENT;
+  if (editing && kept(c, file)) return NC_E_STATE;
+  c->store.set_edited(file, editing);
+  return NC_OK;
+}
+
 // ---- offsets ----------------------------------------------------------------------------------------------------------------
 
 nc_status nc_work_offset_set(nc_control* c, unsigned system, unsigned index, unsigned axis, double value) {
@@ -182,7 +189,7 @@ void nc_device_on_read(nc_control* c, nc_device_read callback, void* user) {
 
 nc_status nc_common_next(const nc_control* c, unsigned system, uint32_t from, uint32_t* number, double* value) {
   if (!known(c, system) || number == nullptr || value == nullptr) return NC_E_ARGUMENT;
-  return c->common.next(from, number, value) ? NC_OK : NC_E_NOT_FOUND;
+  return c->system[system].interpreter.variables.next(from, number, value) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 uint32_t nc_interface_output(const nc_control* c, unsigned system, unsigned word) {

@@ -21,6 +21,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   in.system_number = static_cast<uint8_t>(index + 1);
   in.look_ahead = config.look_ahead;
   in.window_bytes = config.window_bytes;
+  in.several = config.system_count > 1;
   in.frames.extended_systems = config.work_offsets;
   in.frames.tool_offsets = config.tool_offsets;
   interpreter.create(in, store, common, arena);

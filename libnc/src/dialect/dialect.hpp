@@ -40,6 +40,7 @@ enum class Function : uint8_t {
   exact_stop_mode, corner_override, tapping_mode, cutting_mode,   ///< G61 G62 G63 G64
   macro_call, macro_modal, macro_every_block,   ///< G65 G66 G66.1: the words behind them are arguments
   macro_modal_off,    ///< G67
+  surface_on, surface_off,   ///< G96 G97
   mirror_on, mirror_off,   ///< G51.1 G50.1: modal, and they take the axis words of the block
   modal_off           ///< the cancel code of a function that is not built: the state it asks for is the only one there is
 };
@@ -53,6 +54,7 @@ struct FunctionRow {
   const char* missing;   ///< alarm code raised when function == missing ("P90"); nullptr otherwise
   const char* name;      ///< short English name, our words
   const char* section;   ///< of the manual
+  const char* part = nullptr;  ///< supported in part: what of it is not built
 };
 
 /// What an M code is to the control itself; every other M is output.

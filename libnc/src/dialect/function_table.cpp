@@ -27,6 +27,7 @@ void set(nc_function* out, uint8_t group, const char* missing, const char* name,
   TextWriter(out->alarm, sizeof out->alarm).put(missing != nullptr ? missing : "");
   out->name = name;
   out->section = section;
+  out->part = nullptr;
 }
 
 bool known(nc_dialect id) {
@@ -45,6 +46,7 @@ nc_status nc_function_get(nc_dialect dialect, unsigned index, nc_function* row) 
     nc::g_code_text(from.code, row->code, sizeof row->code);
     nc::set(row, from.group, from.function == nc::Function::missing ? from.missing : nullptr, from.name,
             from.section);
+    row->part = from.part;
     return NC_OK;
   }
   index -= family.functions.size;

@@ -252,6 +252,7 @@ void Scan::give_up() {
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
   interrupt_mode_ = 0;
   interrupt_wanted_ = false;
+  spindle_.reset();
   messages_.clear();
   shared_->world.write({});
 }
@@ -395,8 +396,8 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   out.m = m_;
   out.t = t_;
   out.b = b_;
-  out.s = s_;
-  out.spindle_rev_min = s_;
+  // Constant surface speed asks for the coordinate of its axis.
+  out.s = out.spindle_rev_min = spindle_.now([this](unsigned axis) { return work_sign_[axis] * command_[axis] + to_work_[axis]; });
   out.manual_allowed = manual_allowed_;
   out.message = message_;
   out.message_text = message_text_.id;

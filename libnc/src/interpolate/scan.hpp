@@ -10,6 +10,7 @@
 #include "interpolate/exchange.hpp"
 #include "interpolate/executor.hpp"
 #include "interpolate/law.hpp"
+#include "interpolate/spindle.hpp"
 #include "manual/manual.hpp"
 #include "motion/planner.hpp"
 #include "shape/shape.hpp"
@@ -161,7 +162,7 @@ class Scan {
   uint8_t fin1_groups_ = 0;  ///< completed by the FIN1 that is on
   bool fin_low_ = true;  ///< was low since a strobe rose
   uint32_t m_ = 0, t_ = 0, b_ = 0;
-  double s_ = 0;
+  SpindleSpeed spindle_;
   uint32_t suppress_ = 0;  ///< #3003
   uint32_t disable_ = 0;   ///< #3004
 

@@ -253,6 +253,8 @@ Scan::Done Scan::action(const Action& a) {
     case NC_ACTION_CONTROL:
       if (a.index == 3003) suppress_ = code_number(a.value);
       if (a.index == 3004) disable_ = code_number(a.value);
+      if (a.index == NC_CONTROL_SURFACE_SPEED) spindle_.surface(a.value, a.bits);
+      if (a.index == NC_CONTROL_SPINDLE_CLAMP) spindle_.clamp(a.mask, a.bits, code_number(a.value));
       if (a.index == 96) {
         interrupt_mode_ = code_number(a.value);
         block_waits_ = true;  // a block that changes this is finished first
@@ -281,7 +283,7 @@ Scan::Done Scan::strobe(const Action& a) {
       m_ = code_number(a.value);
       break;
     case NC_ACTION_S:
-      s_ = a.value;
+      spindle_.command(a.value);
       break;
     case NC_ACTION_T:
       t_ = code_number(a.value);

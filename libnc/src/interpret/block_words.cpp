@@ -8,6 +8,7 @@
 
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
+#include "modal/company.hpp"
 
 namespace nc {
 namespace {
@@ -16,6 +17,18 @@ namespace {
 bool near_integer(double value, double* integer) {
   *integer = std::nearbyint(value);
   return std::fabs(value - *integer) < 1e-6;
+}
+
+/// Codes that a mode in force does not bear.
+Did check_modes(Interpreter& in, const FunctionRow& row, double value) {
+  const State& state = in.state;
+  if (is_space_arc(state.modal.code[kGroupMotion])) {
+    const Did did = check_in_space_arc(in, row);
+    if (did != Did::done) return did;
+  }
+  const unsigned modes = (state.modal.code[kGroupPolarCommand] == 160 ? unsigned{kInPolarCommand} : 0u) | (state.frame[state.depth].figure != 0 ? unsigned{kInFigure} : 0u);
+  const Condition bad = modes != 0 ? barred(modes, row.code) : Condition::none;
+  return bad == Condition::none ? Did::done : in.raise(bad, 'G', value);
 }
 
 /// Files a G code under what it is.
@@ -32,13 +45,10 @@ Did take_g(Interpreter& in, double value) {
     row = find_function(*in.dialect, static_cast<int>(code));
   }
   if (row == nullptr) return in.raise(Condition::illegal_g, 'G', value);
-  if (is_space_arc(in.state.modal.code[kGroupMotion])) {
-    const Did did = check_in_space_arc(in, *row);
+  if (in.state.special != 0 || in.state.mapped || is_space_arc(in.state.modal.code[kGroupMotion])) {
+    const Did did = check_modes(in, *row, value);
     if (did != Did::done) return did;
   }
-  // M700 6.12: high-speed high-accuracy control I and the spline exclude the polar command.
-  if (row->function == Function::missing && row->code == 51 && in.state.modal.code[kGroupPolarCommand] == 160)
-    return in.raise(Condition::illegal_g, 'G', value);
   if (row->function == Function::missing) {
     const bool excluded = refused_in_inverse_time(row->code) && inverse_time_so_far(in);
     return excluded ? in.raise(Condition::inverse_time_code, 'G', value) : in.raise(Condition::no_function, 'G', code);
@@ -57,9 +67,8 @@ Did take_g(Interpreter& in, double value) {
       w.one_shot_code = static_cast<int16_t>(code);
       return Did::done;
     case Function::mirror_on:
-    case Function::mirror_off:
-      // So does this, unless a function of group 0 takes them (App. 2).
-      if (w.one_shot != nullptr && w.one_shot->group == kGroupOneShot) return Did::done;
+    case Function::mirror_off:  // So does this, unless App. 2 lets another one take them.
+      if (w.one_shot != nullptr && company_of(w.one_shot->function).mirror == Beside::ignored) return Did::done;
       w.one_shot = row;
       w.one_shot_code = static_cast<int16_t>(code);
       return Did::done;
@@ -85,6 +94,13 @@ Did take_m(Interpreter& in, double value) {
   return Did::done;
 }
 
+/// M98: what ,D belongs to.
+bool calls_program(const BlockWords& w) {
+  for (const uint32_t m : w.m)
+    if (m == 98) return true;
+  return false;
+}
+
 }  // namespace
 
 bool whole_number(double raw, uint32_t* number) {
@@ -107,6 +123,7 @@ Did gather_words(Interpreter& in) {
   w.exact_stop = w.fin_behind_dwell = false;
   w.in_position = 0;
   w.counted_feeds = 0;
+  w.device = 0;
   w.absolute_at = w.incremental_at = 0;
   const Word* const words = in.block->words.begin();
   const unsigned count = in.block->words.size();
@@ -136,6 +153,12 @@ Did gather_words(Interpreter& in) {
     if ((word.flags & kWordComma) != 0 && word.letter == 'I' && in.dialect->id == NC_DIALECT_M700) {
       w.in_position = length_value(in, value, word.flags, false, true);
       if (!(w.in_position > 0)) return in.raise(Condition::value_range, 'I', value);
+      continue;
+    }
+    if ((word.flags & kWordComma) != 0 && word.letter == 'D' && in.dialect->id == NC_DIALECT_M700) {
+      uint32_t device = 0;
+      if (!whole_number(value, &device) || device > 4) return in.raise(Condition::value_range, 'D', value);
+      w.device = static_cast<int8_t>(device);
       continue;
     }
     if ((word.flags & kWordComma) != 0) {  // M700 13.7 ,C ,R; 13.8 ,A; in-position widths ,I ,J, device ,D, tap ,S
@@ -174,6 +197,7 @@ Did gather_words(Interpreter& in) {
     w.flags[at] = word.flags;
   }
   w.present = present;
+  if (w.device != 0 && !calls_program(w)) return in.raise(Condition::no_function, 'D', w.device);
   // M700 14.10 prints "G28 XYZ" and means zeros; a word of any other block is a letter and a number (3.2 (1)).
   if (bare_axis != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::reference_return))
     return in.raise(Condition::format_error, bare_axis);
@@ -301,6 +325,8 @@ Did resolve_axes(Interpreter& in) {
   }
   w.axes = axes;
   w.incremental &= axes;
+  // M700 9.3: the axis of an indexing table has to be unclamped and clamped, which is not built.
+  if ((axes & in.settings.index_axes) != 0) return in.raise(Condition::no_function, in.system->axis[std::countr_zero(axes & in.settings.index_axes)].name);
   if (!w.any(letters("IJKQR"))) return Did::done;
   for (const char letter : {'I', 'J', 'K', 'Q', 'R'})
     if (w.has(letter) && !in_range(in, length_of(in, letter), w.flags[letter - 'A'], false)) return in.raise(Condition::value_range, letter, w.get(letter));

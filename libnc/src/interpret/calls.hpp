@@ -52,11 +52,12 @@ Did make_modal_call(Interpreter& in);
 /// What #4014 reads follows the program that runs.
 void show_modal_call(Interpreter& in);
 
-/// print.cpp: SETVN, POPEN, PCLOS, DPRNT
+/// print.cpp: SETVN, POPEN, PCLOS, DPRNT, BPRNT
 Did set_names(Interpreter& in, const Statement& statement);
 Did open_port(Interpreter& in);
 Did close_port(Interpreter& in);
 Did print_decimal(Interpreter& in, const Statement& statement);
+Did print_binary(Interpreter& in, const Statement& statement);
 
 /// M98 or M99 with nothing but O N P L H (M700 13.3.1).
 bool only_calls(const Interpreter& in);

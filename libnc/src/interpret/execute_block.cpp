@@ -9,6 +9,7 @@
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
+#include "modal/company.hpp"
 
 namespace nc {
 namespace {
@@ -25,40 +26,30 @@ bool keeps_its_feed(Function one_shot) {
 
 bool is_arc(int16_t code) { return code == 20 || code == 30; }
 
-/// M700 App.2: these take the block; codes of groups 7 and 8 beside them are ignored (G49 beside a reference return is not).
-bool ignores_compensation(const FunctionRow* one_shot, Function modal) {
-  if (one_shot == nullptr) return false;
-  switch (one_shot->function) {
-    case Function::dwell:
-    case Function::data_input:
-    case Function::local_system:
-    case Function::machine_move:
-    case Function::measure_length: return true;
-    case Function::reference_return:
-    case Function::second_reference:
-    case Function::start_return:
-    case Function::reference_check: return modal != Function::length_off;
-    default: return false;
-  }
+/// G27 to G30.
+bool is_reference_move(Function function) {
+  return function == Function::reference_check || function == Function::reference_return || function == Function::start_return ||
+         function == Function::second_reference;
 }
 
-bool ignores_cycle(const FunctionRow* one_shot) {
+/// M700 App.2: codes of groups 7 and 8 beside the one-shot function (G49 beside a reference return counts all the same, 12.2).
+bool ignores_compensation(const FunctionRow* one_shot, const FunctionRow& modal) {
   if (one_shot == nullptr) return false;
-  switch (one_shot->function) {
-    case Function::dwell:
-    case Function::data_input:
-    case Function::local_system:
-    case Function::coordinate_set:
-    case Function::reference_return:
-    case Function::second_reference:
-    case Function::start_return:
-    case Function::reference_check:
-    case Function::tool_change_return:
-    case Function::machine_move:
-    case Function::skip:
-    case Function::multi_skip:
-    case Function::measure_length: return true;
-    default: return false;
+  if (modal.function == Function::length_off && is_reference_move(one_shot->function)) return false;
+  const CompanyRow& company = company_of(one_shot->function);
+  return (modal.group == kGroupLength ? company.length : company.radius) == Beside::ignored;
+}
+
+bool ignores_cycle(const FunctionRow* one_shot) { return one_shot != nullptr && company_of(one_shot->function).cycle == Beside::ignored; }
+
+/// M700 App.2, column G66 G67: a one-shot function, a cycle or a mirror beside G67 is not executed where the table says so.
+void drop_beside_cancel(Interpreter& in) {
+  BlockWords& w = in.words;
+  for (const FunctionRow* row : w.g) {
+    if (row->function != Function::macro_modal_off) continue;
+    if (w.one_shot != nullptr && company_of(w.one_shot->function).macro == Beside::loses) w.one_shot = nullptr;
+    if (company_of(row->function).cycle == Beside::ignored && w.cycle != nullptr && w.cycle->function != Function::cycle_off) w.cycle = nullptr;
+    return;
   }
 }
 
@@ -143,8 +134,8 @@ Did apply_systems(Interpreter& in) {
   in.words.comp_command = false;
   const FunctionRow* length = nullptr;
   for (const FunctionRow* row : in.words.g) {  // the last code of a group counts (M700 3.7, DGSHAPE 1)
-    if (row->group == kGroupCompensation && row->function != Function::modal_off && !ignores_compensation(one_shot, row->function)) radius = row;
-    if (row->group == kGroupLength && !ignores_compensation(one_shot, row->function)) length = row;
+    if (row->group == kGroupCompensation && row->function != Function::modal_off && !ignores_compensation(one_shot, *row)) radius = row;
+    if (row->group == kGroupLength && !ignores_compensation(one_shot, *row)) length = row;
   }
   if (radius != nullptr) {
     in.state.modal.code[kGroupCompensation] = radius->code;
@@ -159,6 +150,21 @@ Did apply_systems(Interpreter& in) {
   if (length != nullptr) {
     in.state.modal.code[kGroupLength] = length->code;
     const Did did = set_length(in, length->function);
+    if (did != Did::done) return did;
+  }
+  return Did::done;
+}
+
+/// M700 App.2: the codes of groups 8 and 12 before a macro call become modal and do no more.
+Did update_beside_call(Interpreter& in) {
+  const CompanyRow& company = company_of(in.words.one_shot->function);
+  for (const FunctionRow* row : in.words.g) {
+    Did did = Did::done;
+    if (row->function == Function::work_system && company.work == Beside::modal) did = select_work_system(in, *row);
+    if (row->group == kGroupLength && company.length == Beside::modal) {
+      in.state.modal.code[kGroupLength] = row->code;
+      did = set_length(in, row->function);
+    }
     if (did != Did::done) return did;
   }
   return Did::done;
@@ -181,7 +187,8 @@ Did finish(Interpreter& in, Did did) {
   if (did != Did::done) return did;
   in.state.comp.has_vector = false;
   in.state.comp.cancel_vector = false;
-  did = auxiliary_after(in);
+  if (codes_behind_motion(in)) did = auxiliary_before(in);
+  if (did == Did::done) did = auxiliary_after(in);
   if (did != Did::done || (in.after_block == nullptr && in.state.modal_call == 0)) return did;
   return call_behind_block(in);
 }
@@ -230,7 +237,11 @@ Did execute_words(Interpreter& in) {
   const int16_t motion_before = in.state.modal.code[kGroupMotion];  // M700 App.2: codes of group 1 beside G37 are ignored
   did = apply_reading_modes(in);
   if (did != Did::done) return did;
-  if (macro_call) return call_macro(in);
+  if (macro_call) {
+    did = update_beside_call(in);
+    return did == Did::done ? call_macro(in) : did;
+  }
+  if (w.g.size() > 1) drop_beside_cancel(in);
   if (in.state.modal_call != 0 && block_is_argument(in)) return call_with_block(in);
   // M700 3.2 note 9, DGSHAPE 1-1: N and O begin a block. Behind other words nothing would find them (N of G10 is something else).
   if (w.late_number != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
@@ -258,7 +269,8 @@ Did execute_words(Interpreter& in) {
       if (row->function == Function::length_plus || row->function == Function::length_minus)
         return in.raise(Condition::arc_deviation, 'G', row->code / 10.0);
   }
-  did = auxiliary_before(in);
+  if (!w.g.empty() && in.dialect->id == NC_DIALECT_M700) did = set_surface_speed(in);
+  if (did == Did::done && !codes_behind_motion(in)) did = auxiliary_before(in);
   if (did != Did::done) return did;
   if (w.one_shot != nullptr && w.one_shot->function == Function::measure_length) in.state.modal.code[kGroupMotion] = motion_before;
   if (!w.comp_command) return finish(in, execute_motion(in));

@@ -163,7 +163,7 @@ Did repetitions(Interpreter& in, bool has_l, double l, uint32_t* count) {
 
 bool only_calls(const Interpreter& in) {
   for (const Word& word : in.block->words)
-    if (word.letter != 'M' && word.letter != 'P' && word.letter != 'L' && word.letter != 'H') return false;
+    if (word.letter != 'M' && word.letter != 'P' && word.letter != 'L' && word.letter != 'H' && (word.flags & kWordComma) == 0) return false;
   return in.words.m.size() == 1;
 }
 
@@ -248,7 +248,7 @@ Did execute_statement(Interpreter& in, const Statement& statement) {
     case StatementKind::open_port: return open_port(in);
     case StatementKind::close_port: return close_port(in);
     case StatementKind::print_decimal: return print_decimal(in, statement);
-    case StatementKind::print_binary: return in.raise(Condition::no_function, 'O');  // the manual has lost its format
+    case StatementKind::print_binary: return print_binary(in, statement);
   }
   return in.raise(Condition::internal);
 }
@@ -264,6 +264,24 @@ Did find_start(Interpreter& in, const ProgramRef& program, uint64_t* offset, uin
   return in.raise(Condition::sequence_missing, 'H', w.get('H'));
 }
 
+namespace {
+
+/// M700 13.3.1: a sub program of one of the devices 1 to 4.
+Did find_on_device(Interpreter& in, ProgramRef* program) {
+  const BlockWords& w = in.words;
+  const char place[] = {'D', static_cast<char>('0' + w.device), ':', 0};
+  const unsigned length = in.block->name_length;
+  uint32_t number = 0;
+  if (length == 0 && !w.has('P')) return in.raise(Condition::address_missing, 'P');
+  if (length == 0 && !whole_number(w.get('P'), &number)) return in.raise(Condition::program_missing, 'P', w.get('P'));
+  if (length <= 32) *program = in.reader.find_external(place, in.block->text.begin() + in.block->name, length, number);
+  if (!program->valid()) return length != 0 ? in.raise(Condition::program_missing, '<') : in.raise(Condition::program_missing, 'P', number);
+  if (number != 0) program->number = number;
+  return Did::done;
+}
+
+}  // namespace
+
 Did call_sub(Interpreter& in) {
   const BlockWords& w = in.words;
   if (top(in).figure != 0) return in.raise(Condition::nesting, 'M', 98);  // M700 13.3.3 (6): no branch from a rotating program
@@ -271,7 +289,7 @@ Did call_sub(Interpreter& in) {
   Did did = repetitions(in, w.has('L'), w.has('L') ? w.get('L') : 1, &passes);
   if (did != Did::done || passes == 0) return did;  // M700 13.3.1: not called with L0, so nothing is looked for
   ProgramRef program;
-  did = find_called(in, w.has('P'), w.has('P') ? w.get('P') : 0, true, &program);
+  did = w.device != 0 ? find_on_device(in, &program) : find_called(in, w.has('P'), w.has('P') ? w.get('P') : 0, true, &program);
   if (did != Did::done) return did;
   uint64_t offset = 0;
   uint32_t line = 0;
@@ -305,7 +323,7 @@ Did call_external(Interpreter& in) {
   if (in.block->name_length == 0 && (!w.has('P') || !whole_number(w.get('P'), &number)))
     return in.raise(w.has('P') ? Condition::program_missing : Condition::address_missing, 'P');
   const char* name = in.block->text.begin() + in.block->name;
-  if (in.block->name_length <= 32) entry.program = in.reader.find_external(name, in.block->name_length, number);
+  if (in.block->name_length <= 32) entry.program = in.reader.find_external("198:", name, in.block->name_length, number);
   const bool outside = entry.program.valid();
   if (!outside) did = find_called(in, w.has('P'), number, false, &entry.program);
   if (did != Did::done) return did;
@@ -353,6 +371,12 @@ Did return_sub(Interpreter& in) {
   CallFrame& frame = top(in);
   const bool interrupted = frame.origin == CallOrigin::interrupt;
   s.loop_count = frame.loop_base;
+  if (w.has('L')) {  // 13.3.1 prints "M99 (P_ L_)" and no more; as FANUC: the passes still to come, this one among them
+    uint32_t passes = 0;
+    const Did did = repetitions(in, true, w.get('L'), &passes);
+    if (did != Did::done) return did;
+    frame.repeats = passes == 0 ? 0 : passes - 1;
+  }
   if (frame.repeats > 0) {
     --frame.repeats;
     if (frame.figure != 0) turn_figure(in);

@@ -40,6 +40,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   parameters.create(512, arena);
   frames.create(config.frames, arena);
   variables.create(common, power_of_two_above(4 * config.look_ahead < 4096 ? 4096 : 4 * config.look_ahead), arena);
+  if (config.several) variables.create_own(common_variables->ranges(), arena);
   reader.create(store, dialect->lex, config.window_bytes, config.look_ahead < 256 ? 16 : 128, arena);
   transforms.create(under_way, arena);
   modals.create(under_way, arena);
@@ -121,6 +122,7 @@ void Interpreter::refresh_settings() {
   settings = parameters.settings(*dialect);
   for (uint32_t* axes : {&settings.turning, &settings.short_cut, &settings.machine_turn, &settings.tool_change_axes})
     *axes &= axes == &settings.tool_change_axes ? (1u << axis_count) - 1 : rotary;
+  variables.share(settings.shared_100, settings.shared_500);
   code_calls = dialect->lex->macros ? read_code_calls(parameters) : CodeCalls{};
 }
 
@@ -162,10 +164,15 @@ void Interpreter::reset(bool keep_modal) {
   const uint16_t work_system = state.work_system;
   const bool spindle_on = state.spindle_on, port_open = state.port_open;
   const uint32_t stroke_box = state.stroke_box;
+  const SpindleControl spindle = state.spindle;
   const int8_t plane_axis[2] = {state.plane_axis[0], state.plane_axis[1]};
   state = State{};
   state.machine = machine;
   state.port_open = port_open;
+  if (settings.keeps_clamp) {  // M700 10.4 (3): #1210 bit 19
+    state.spindle.clamp_s = spindle.clamp_s;
+    state.spindle.clamp_q = spindle.clamp_q;
+  }
   for (unsigned i = 0; i < NC_GROUPS; ++i) state.modal.code[i] = dialect->initial[i];
   if (settings.start_inch) state.modal.code[kGroupUnit] = 200;
   if (settings.start_synchronous) state.modal.code[kGroupFeed] = 950;  // M700 7.4 note 6, 7.5 (3)
@@ -181,6 +188,7 @@ void Interpreter::reset(bool keep_modal) {
     state.length_axis = length_axis;
     state.spindle_on = spindle_on;
     state.stroke_box = stroke_box;
+    state.spindle = spindle;
     for (unsigned i = 0; i < 2; ++i) state.plane_axis[i] = plane_axis[i];
   }
   state.frame[0].program = main_program;
@@ -276,6 +284,11 @@ nc_status Interpreter::run_block(uint32_t& budget) {
     finish_block(false, false);  // M700 13.3.1: where it may stop, it has done so before the call
     return NC_OK;
   }
+  if (state.stop_reading) {  // M700 4.2: an M code that prohibits reading ahead
+    state.stop_reading = false;
+    source.line = frame.line;
+    return settle(need(NC_SYNC_STOPPED));
+  }
   block = reader.read(frame.program.file, frame.offset, frame.line);
   if (block == nullptr) {
     source.line = frame.line;
@@ -283,6 +296,7 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   }
   source.line = block->end_of_text ? last_line : block->line;
   if (!block->end_of_text) last_line = block->line;
+  if (!frame.started && store->entry(frame.program.file)->edited) return settle(raise(Condition::program_edited));  // M700 P235
   if (skipped(*block)) {
     frame.offset = block->next;
     frame.line = block->next_line;

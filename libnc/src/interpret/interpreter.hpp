@@ -40,7 +40,10 @@ enum class Did : uint8_t {
 /// A text under way to the operator.
 struct Message {
   nc_text text{};
-  bool operator==(const Message& other) const { return std::strcmp(text.s, other.text.s) == 0; }
+  bool operator==(const Message& other) const {
+    if (text.size != other.text.size) return false;
+    return text.size != 0 ? std::memcmp(text.s, other.text.s, text.size) == 0 : std::strcmp(text.s, other.text.s) == 0;
+  }
 };
 
 /// A point that blocks to come need: of an axis that is held, on the way of an arc in space, a control point.
@@ -58,6 +61,7 @@ struct InterpreterConfig {
   uint32_t look_ahead = 1024;
   uint32_t window_bytes = 65536;
   FramesConfig frames;
+  bool several = false;        ///< part systems
 };
 
 struct Interpreter {
@@ -84,7 +88,7 @@ struct Interpreter {
   void clear_by_reset() {
     if (!settings.reset_clears_common) return;
     for (uint32_t n = 100; n <= 199; ++n)
-      if (common->exists(n)) common->set(n, Value{});
+      if (common->exists(n)) variables.set_from_outside(n, 0, Value{});
   }
   /// Back to right behind the block `seq`; false when it is too old.
   bool rewind(BlockSeq seq);

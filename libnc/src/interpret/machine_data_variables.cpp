@@ -102,7 +102,11 @@ Eval read_parameter(Access& a) {
   TextWriter(key, sizeof key).put_integer(number >= 1 ? static_cast<uint32_t>(number) : 1u);
   const double axis = selected(a.in, Notes::kAxis);
   double value = 0;
-  a.in.parameters.get(key, axis >= 1 ? static_cast<int>(axis) - 1 : 0, &value);
+  const int index = axis >= 1 ? static_cast<int>(axis) - 1 : 0;
+  if (!a.in.parameters.get(key, index, &value) && a.in.parameters.text(key, index) != nullptr) {  // a long text is no number
+    a.in.raise(Condition::no_such_data, '#', a.number);
+    return Eval::fault;
+  }
   return give(a, value);
 }
 

@@ -51,6 +51,27 @@ int word_index(const char* words, const char* text) {
   }
 }
 
+/// Values from here on are places of texts.
+constexpr double kTextBase = 4503599627370496.0;  // 2^52: no parameter is as large
+
+/// Letters, digits and signs, at most 63, a letter first.
+bool is_text(const char* text) {
+  if (lower(text[0]) < 'a' || lower(text[0]) > 'z') return false;
+  size_t length = 0;
+  for (; text[length] != 0; ++length)
+    if (text[length] < ' ' || text[length] > '~') return false;
+  return length <= 63;
+}
+
+/// Parameters in use that are numbers; every other one may be a text.
+bool is_number(const char* key) {
+  for (const char* known : {"1003", "1015", "1025", "1037", "1073", "1078", "1080", "1081", "1084", "1109", "1110", "1111", "1112", "1113", "1121", "1128",
+                            "1152", "1074", "1079", "1173", "1174", "1185", "1186", "1187", "1188", "1189", "1193", "1223", "1306", "1503", "1506", "1507", "8007", "8008", "8009", "1181", "1195", "1196", "1197", "1198", "1229", "1235", "1267", "1272", "1273", "1303", "1304", "1517", "2106",
+                            "8012", "8013", "8075", "8101", "8102", "8103", "8105", "8112", "8117", "8209"})
+    if (std::strcmp(key, known) == 0) return true;
+  return false;
+}
+
 constexpr int kWhole = -1;   ///< a key without "/bit"
 constexpr int kNoKey = -2;
 
@@ -106,6 +127,7 @@ uint32_t bits_of(double value) { return value >= 0 && value <= 4294967295.0 ? st
 
 void Parameters::create(unsigned capacity, Arena& arena) {
   entries_ = arena.make<Entry>(capacity);
+  texts_ = reinterpret_cast<char(*)[kTextSize]>(arena.make<char>(size_t{kTexts} * kTextSize));
   capacity_ = capacity;
 }
 
@@ -132,10 +154,14 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
   } else {
     // #1003 takes the letters of 2.1; any letter is stored by its code.
     if (!parse_number(text, &value)) {
-      if (lower(text[0]) < 'a' || lower(text[0]) > 'z' || text[1] != 0 || bit != kWhole) return NC_E_ARGUMENT;
-      value = static_cast<unsigned char>(text[0]);
+      if (bit != kWhole || named != nullptr || !is_text(text)) return NC_E_ARGUMENT;
+      const bool letter = text[1] == 0;
+      if (!letter && is_number(key)) return NC_E_ARGUMENT;
+      value = letter ? static_cast<unsigned char>(text[0]) : keep_text(text);
+    } else if (!(value < kTextBase)) {
+      return NC_E_ARGUMENT;
     }
-    if (bit == kWhole && !in_range(key, value)) return NC_E_ARGUMENT;
+    if (bit == kWhole && value < kTextBase && !in_range(key, value)) return NC_E_ARGUMENT;
   }
   if (bit != kWhole) {  // one bit of a parameter: the others stay
     if (value != 0 && value != 1) return NC_E_ARGUMENT;
@@ -166,6 +192,14 @@ bool Parameters::get(const char* key, int axis, double* value) const {
   const Entry* entry = find(name, axis);
   if ((entry == nullptr || std::isnan(entry->value)) && axis >= 0) entry = find(name, -1);
   if (entry == nullptr || std::isnan(entry->value)) return false;
+  if (entry->value >= kTextBase) {
+    const char* at = texts_[static_cast<unsigned>(entry->value - kTextBase)];
+    double codes = 0;
+    unsigned length = 0;
+    for (; at[length] != 0; ++length) codes = codes * 256 + static_cast<unsigned char>(at[length]);
+    *value = codes;
+    return bit < 0 && length <= 6;
+  }
   *value = bit >= 0 ? (bits_of(entry->value) >> bit) & 1 : entry->value;
   return true;
 }
@@ -217,6 +251,19 @@ void Parameters::axis_settings(int axis, Settings* s) const {
   if (type < 2) s->turning |= bit;
   if (type == 1) s->short_cut |= bit;
   if (type < 3) s->machine_turn |= bit;
+}
+
+double Parameters::keep_text(const char* text) {
+  const unsigned place = text_count_++ % kTexts;
+  std::strcpy(texts_[place], text);
+  return kTextBase + place;
+}
+
+const char* Parameters::text(const char* key, int axis) const {
+  const Entry* entry = find(key, axis);
+  if (entry == nullptr && axis >= 0) entry = find(key, -1);
+  if (entry == nullptr || !(entry->value >= kTextBase)) return nullptr;
+  return texts_[static_cast<unsigned>(entry->value - kTextBase)];
 }
 
 Settings Parameters::settings(const Dialect& dialect) const {
@@ -275,6 +322,20 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.peck_clearance_83 = number("8013", 0);
   s.peck_clearance_73 = number("8012", 0);
   s.macro_single = flag("8101");
+  for (unsigned i = 0; i < 8; ++i) {
+    const char key[] = {'P', 'R', 'E', 'R', 'E', 'A', 'D', '_', 'S', 'T', 'O', 'P', '_', 'M', static_cast<char>('1' + i), 0};
+    const double m = number(key, 0);
+    s.reading_stops[i] = m >= 1 && m <= 99999999 ? static_cast<uint32_t>(m) : 0;
+    s.any_reading_stop |= s.reading_stops[i] != 0;
+  }
+  s.codes_after_motion = flag("MSTB_AFTER_MOTION");
+  const double surface_axis = number("1181", 0);
+  s.surface_axis = surface_axis >= 1 && surface_axis <= 3 ? static_cast<uint8_t>(surface_axis) : 0;
+  s.clamp_command_always = flag("1146");
+  s.clamp_in_g96_only = flag("1227/bit5");
+  s.keeps_clamp = flag("1210/bit19");
+  for (unsigned i = 0; i < kMaxAxes; ++i)
+    if (number("2076", 0, static_cast<int>(i)) != 0) s.index_axes |= 1u << i;
   s.macro_extensions = flag("macro_extensions");
   if (flag("1109")) {  // M700 13.12: M codes 03 to 97 but 30
     const auto m_code = [&number](const char* key, uint32_t fallback) {
@@ -288,6 +349,12 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.interrupt_type_2 = flag("1113");
   s.interrupt_as_sub = flag("1229/bit0");
   s.reset_clears_common = flag("1128");
+  const auto last_shared = [&number](const char* key, uint32_t first, uint32_t last, uint32_t fallback) {
+    const double n = number(key, 0);
+    return n >= first && n <= last ? static_cast<uint32_t>(n) : fallback;
+  };
+  s.shared_100 = last_shared("1303", 100, 199, 0);
+  s.shared_500 = last_shared("1304", 500, 999, s.shared_500);
   s.print_blanks = flag("DPRNT_BLANK");
   s.asin_0_360 = flag("1273/bit0");
   s.preset_allowed = number("1267/bit0", 1) != 0;

@@ -44,6 +44,14 @@ struct Settings {
   uint32_t machine_turn = 0;          ///< types 0 to 2: machine coordinates within one turn
   double peck_clearance_83 = 0;       ///< #8013, mm
   double peck_clearance_73 = 0;       ///< #8012, mm
+  uint32_t reading_stops[8] = {};     ///< PREREAD_STOP_M1 to _M8: M codes behind which nothing is read ahead, 0 = none
+  bool any_reading_stop = false;
+  bool codes_after_motion = false;    ///< MSTB_AFTER_MOTION: M S T B of a block that moves go out behind its motion
+  uint8_t surface_axis = 0;           ///< #1181 G96_ax
+  bool clamp_command_always = false;  ///< #1146 Sclamp
+  bool clamp_in_g96_only = false;     ///< #1227 bit 5, with Sclamp 1
+  bool keeps_clamp = false;           ///< #1210 bit 19
+  uint32_t index_axes = 0;            ///< #2076 index_x, bit = axis
   bool macro_single = false;          ///< #8101
   bool macro_extensions = false;      ///< IF THEN of later models
   uint32_t interrupt_on_m = 96, interrupt_off_m = 97;  ///< #1109: #1110, #1111 instead
@@ -51,6 +59,7 @@ struct Settings {
   bool interrupt_type_2 = false;      ///< #1113 INT_2
   bool interrupt_as_sub = false;      ///< #1229 bit 0
   bool reset_clears_common = false;   ///< #1128 RstVC1
+  uint32_t shared_100 = 0, shared_500 = 899999;  ///< #1303, #1304: last common variable that all part systems share
   bool print_blanks = false;          ///< DPRNT: leading zeros become blanks (M700 13.5.8 (4))
   bool asin_0_360 = false;            ///< #1273 bit 0
   bool start_absolute = true;
@@ -98,8 +107,11 @@ class Parameters {
   /// The same; what was there before can be put back with restore(*index, *old).
   nc_status set(const Dialect& dialect, const char* key, int axis, const char* text, unsigned* index, double* old);
   void restore(unsigned index, double old) { entries_[index].value = old; }
-  /// Value of "1229/bit2", "1084", a name; false = never set.
+  /// Value of "1229/bit2", "1084", a name; a text by the codes of its characters, one byte each, when these are at most six (#100010:
+  /// "ASCII codes as decimal"). False = never set, or a longer text.
   bool get(const char* key, int axis, double* value) const;
+  /// The text of a parameter that has been set to one of two characters or more; nullptr = it has none.
+  const char* text(const char* key, int axis) const;
   /// Typed view; call after changes.
   Settings settings(const Dialect& dialect) const;
 
@@ -112,8 +124,11 @@ class Parameters {
   Entry* find(const char* key, int axis) const;
   void feed_settings(Settings& settings) const;
   void axis_settings(int axis, Settings* s) const;
+  double keep_text(const char* text);
+  static constexpr unsigned kTexts = 128, kTextSize = 64;  ///< M700 13.11: at most 63 characters; the oldest place is used again
   Entry* entries_ = nullptr;
-  unsigned capacity_ = 0, count_ = 0;
+  char (*texts_)[kTextSize] = nullptr;
+  unsigned capacity_ = 0, count_ = 0, text_count_ = 0;
 };
 
 }  // namespace nc

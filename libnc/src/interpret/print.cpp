@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of variables (SETVN, M700 13.5.5) and external output (POPEN, DPRNT, PCLOS, M700 13.5.8).
+// Names of variables (SETVN, M700 13.5.5) and external output (POPEN, DPRNT, BPRNT, PCLOS, M700 13.5.8).
 #include <cmath>
 #include <cstring>
 
@@ -117,13 +117,33 @@ Did close_port(Interpreter& in) {
   return emit_line(in, text, sizeof text);
 }
 
+namespace {
+
+/// The value behind '#' or '[' at *at, which goes behind it.
+Did next_value(Interpreter& in, const char** at, const char* end, double* number) {
+  Block& scratch = *in.rewritten;
+  scratch.clear();
+  uint16_t code = 0;
+  size_t used = 0;
+  if (!compile_expression(scratch, *at, static_cast<size_t>(end - *at), &used, false, &code, &in.fault)) return Did::fault;
+  *at += used;
+  Value value;
+  const Eval eval = evaluate(scratch, code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, &value, &in.fault, &in.sync_needed);
+  if (eval != Eval::ok) return eval == Eval::fault ? Did::fault : Did::sync;
+  *number = value.or_zero();
+  if (*at == end || **at != '[') return in.raise(Condition::format_error, 'D');
+  ++*at;
+  return Did::done;
+}
+
+}  // namespace
+
 Did print_decimal(Interpreter& in, const Statement& statement) {
   if (!in.state.port_open) return in.raise(Condition::print_port);
   char line[160];
   TextWriter out(line, sizeof line);
   const char* p = in.block->text.begin() + statement.text;
   const char* const end = p + statement.text_length;
-  Block& scratch = *in.rewritten;
   while (p != end) {
     if (*p != '#' && *p != '[') {
       const char c = upper(*p++);
@@ -131,22 +151,49 @@ Did print_decimal(Interpreter& in, const Statement& statement) {
       out.put(c);
       continue;
     }
-    scratch.clear();
-    uint16_t code = 0;
-    size_t used = 0;
-    if (!compile_expression(scratch, p, static_cast<size_t>(end - p), &used, false, &code, &in.fault)) return Did::fault;
-    p += used;
-    Value value;
-    const Eval eval = evaluate(scratch, code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, &value, &in.fault, &in.sync_needed);
-    if (eval != Eval::ok) return eval == Eval::fault ? Did::fault : Did::sync;
+    double value = 0;
+    const Did did = next_value(in, &p, end, &value);
+    if (did != Did::done) return did;
     unsigned before = 0, behind = 0;
-    if (p == end || *p != '[') return in.raise(Condition::format_error, 'D');
-    ++p;
     if (!digits_wanted(&p, end, &before, &behind)) return in.raise(Condition::format_error, 'D');
-    if (std::fabs(value.or_zero()) >= 1e9) return in.raise(Condition::value_range, 'D', value.or_zero());
-    put_value(out, value.or_zero(), before, behind, in.settings.print_blanks);
+    if (std::fabs(value) >= 1e9) return in.raise(Condition::value_range, 'D', value);
+    put_value(out, value, before, behind, in.settings.print_blanks);
   }
   return emit_line(in, line, out.used());
+}
+
+/// The manual names BPRNT ("character output and variable value binary output") and has lost its format; this is that of FANUC:
+/// BPRNT[text #v[c] ...], characters as they are, the value times 10^c, rounded, as four bytes, highest first, two's complement.
+Did print_binary(Interpreter& in, const Statement& statement) {
+  if (!in.state.port_open) return in.raise(Condition::print_port);
+  Message message;
+  nc_text& text = message.text;
+  const char* p = in.block->text.begin() + statement.text;
+  const char* const end = p + statement.text_length;
+  while (p != end) {
+    if (text.size + 4 >= sizeof text.s) return in.raise(Condition::block_too_long, 'B');
+    if (*p != '#' && *p != '[') {
+      const char c = upper(*p++);
+      if (!printable(c)) return in.raise(Condition::format_error, c);
+      text.s[text.size++] = c;
+      continue;
+    }
+    double value = 0;
+    const Did did = next_value(in, &p, end, &value);
+    if (did != Did::done) return did;
+    if (end - p < 2 || !is_digit(p[0]) || p[1] != ']' || p[0] == '9') return in.raise(Condition::format_error, 'B');
+    for (int places = *p - '0'; places > 0; --places) value *= 10;
+    p += 2;
+    if (!(std::fabs(value) < 2147483647.5)) return in.raise(Condition::value_range, 'B', value);
+    const auto bits = static_cast<uint32_t>(static_cast<int64_t>(std::nearbyint(value)));
+    for (int shift = 24; shift >= 0; shift -= 8) text.s[text.size++] = static_cast<char>(bits >> shift & 0xff);
+  }
+  if (text.size == 0) return in.raise(Condition::format_error, 'B');
+  Action& action = in.emit(ItemKind::action).action;
+  action.kind = NC_ACTION_MESSAGE;
+  action.index = kPort;
+  action.text = in.texts.intern(message);
+  return Did::done;
 }
 
 }  // namespace nc

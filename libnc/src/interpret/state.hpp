@@ -82,6 +82,13 @@ struct NurbsState {
   bool active() const { return knots != 0; }
 };
 
+/// Constant surface speed and the clamp of the spindle (M700 10.3, 10.4).
+struct SpindleControl {
+  double surface = 0;          ///< S of G96, m/min
+  uint32_t clamp_s = 0, clamp_q = 0;  ///< S and Q of G92 as programmed, r/min
+  uint8_t axis = 0;            ///< of G96, from 1; 0 = G97
+};
+
 /// A block that a macro interrupt has cut and that goes on: what it has done already is not done again (M700 13.12).
 struct Repeat {
   bool active = false;
@@ -130,6 +137,8 @@ struct State {
   uint8_t mirror = 0;           ///< bit i: axis i is mirrored by program (M700 13.6)
   uint8_t interrupt_depth = 0;  ///< level of the interrupt program in service, 0 = none
   Repeat repeat;                ///< holds for the next block only
+  bool stop_reading = false;    ///< an M code that prohibits reading ahead was in the block before
+  SpindleControl spindle;
   bool parameter_input = false; ///< between G10 L70 and G11 (M700 13.11)
   bool port_open = false;     ///< POPEN has been executed (M700 13.5.8)
   bool percent_seen = false;  ///< the start mark of the main program has been read

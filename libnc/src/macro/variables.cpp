@@ -155,8 +155,37 @@ bool Variables::get(uint32_t number, unsigned level, Value* value) const {
     return true;
   }
   if (!common_->exists(number)) return false;
-  *value = common_->get(number);
+  *value = bank(number)->get(number);
   return true;
+}
+
+void Variables::create_own(const CommonRanges& ranges, Arena& arena) {
+  own_ = arena.make<CommonVariables>();
+  CommonVariables measured;
+  CommonRanges own = ranges;
+  own.last[2] = own.first[2] - 1;  // those of later models are shared
+  (own_ != nullptr ? *own_ : measured).create(own, arena);
+}
+
+bool Variables::next(uint32_t from, uint32_t* number, double* value) const {
+  if (own_ == nullptr) return common_->next(from, number, value);
+  for (uint32_t n = from;; n = *number + 1) {
+    uint32_t other = 0;
+    double there = 0;
+    const bool one = common_->next(n, number, value);
+    if (own_->next(n, &other, &there) && (!one || other < *number)) {
+      *number = other;
+      *value = there;
+      if (bank(other) == own_) return true;
+    } else if (!one) {
+      return false;
+    } else if (bank(*number) == common_) {
+      return true;
+    } else if (own_->exists(*number) && !own_->get(*number).vacant) {
+      *value = own_->get(*number).number;
+      return true;
+    }
+  }
 }
 
 bool Variables::set(uint32_t number, unsigned level, Value value, BlockSeq seq) {
@@ -167,8 +196,9 @@ bool Variables::set(uint32_t number, unsigned level, Value value, BlockSeq seq) 
     return true;
   }
   if (!common_->exists(number)) return false;
-  journal_.note(seq, number, common_->get(number));
-  common_->set(number, value);
+  CommonVariables* const at = bank(number);
+  journal_.note(seq, number, at->get(number));
+  at->set(number, value);
   return true;
 }
 
@@ -179,7 +209,7 @@ bool Variables::set_from_outside(uint32_t number, unsigned level, Value value) {
     return true;
   }
   if (!common_->exists(number)) return false;
-  common_->set(number, value);
+  bank(number)->set(number, value);
   journal_.replace(number, value);
   return true;
 }
@@ -259,7 +289,7 @@ bool Variables::rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uin
     } else if ((key & kLocalKey) != 0) {
       local_[key >> 8 & 0xff][key & 0xff] = to_storage(old);
     } else {
-      common_->set(key, old);
+      bank(key)->set(key, old);
     }
   });
   return true;

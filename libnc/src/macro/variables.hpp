@@ -23,6 +23,7 @@ struct CommonRanges {
 class CommonVariables {
  public:
   void create(const CommonRanges& ranges, Arena& arena);
+  const CommonRanges& ranges() const { return ranges_; }
   bool exists(uint32_t number) const;
   Value get(uint32_t number) const;  ///< number must exist
   void set(uint32_t number, Value value);
@@ -71,6 +72,14 @@ class Journal {
 class Variables {
  public:
   void create(CommonVariables* common, unsigned journal_capacity, Arena& arena);
+  /// Of several part systems: this one has common variables of its own, beside those up to `last_100` and `last_500` (M700 13.4, #1303,
+  /// #1304), which all share.
+  void create_own(const CommonRanges& ranges, Arena& arena);
+  void share(uint32_t last_100, uint32_t last_500) {
+    shared_100_ = last_100;
+    shared_500_ = last_500;
+  }
+  bool next(uint32_t from, uint32_t* number, double* value) const;
 
   /// Local or common variable; false when the number is neither (system variables are
   /// interpret/system_variables.hpp).
@@ -110,7 +119,14 @@ class Variables {
   bool rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uint32_t key, double old));
 
  private:
+  CommonVariables* bank(uint32_t number) const {
+    if (own_ == nullptr) return common_;
+    return number <= (number < 500 ? shared_100_ : number < 900000 ? shared_500_ : number) ? common_ : own_;
+  }
+
   CommonVariables* common_ = nullptr;
+  CommonVariables* own_ = nullptr;  ///< nullptr: there is one part system
+  uint32_t shared_100_ = 0, shared_500_ = 0;
   Journal journal_;
   double (*local_)[kLocals] = nullptr;
 };

@@ -241,9 +241,10 @@ ProgramRef BlockReader::find_program(const char* name, size_t length) {
   return ref;
 }
 
-ProgramRef BlockReader::find_external(const char* name, size_t length, uint32_t number) {
-  char text[sizeof TextEntry{}.name] = "198:";
-  size_t used = 4;
+ProgramRef BlockReader::find_external(const char* place, const char* name, size_t length, uint32_t number) {
+  char text[sizeof TextEntry{}.name] = {};
+  size_t used = std::strlen(place);
+  std::memcpy(text, place, used);
   if (length != 0) {
     if (used + length >= sizeof text) return {};
     std::memcpy(text + used, name, length);

@@ -25,6 +25,7 @@ class ProgramStore {
   nc_status add(const TextEntry& entry, const char* name, unsigned* file);
   void on_missing(nc_program_missing callback, void* user, nc_control* control);
   const TextEntry* entry(unsigned file) const;
+  void set_edited(unsigned file, bool edited) { entries_[file].edited = edited; }
   /// By the whole name; case is ignored.
   int find_exactly(const char* name) const;
   /// By name without folder; case is ignored; with or without an ending.
@@ -57,9 +58,9 @@ class BlockReader {
   /// host adds.
   ProgramRef find_program(uint32_t number, unsigned own_file);
   ProgramRef find_program(const char* name, size_t length);
-  /// A program of the data server (M198): by name, or by number where `length` is 0. In the store and for the host its name begins
-  /// with "198:".
-  ProgramRef find_external(const char* name, size_t length, uint32_t number);
+  /// A program outside the memory: by name, or by number where `length` is 0. In the store and for the host its name begins with
+  /// `place`: "198:" the data server (M198), "D1:" to "D4:" a device (M98 ,D).
+  ProgramRef find_external(const char* place, const char* name, size_t length, uint32_t number);
   /// The block at `offset` without disturbing the one that read() gave.
   const Block* peek(unsigned file, uint64_t offset = 0, uint32_t line = 1);
 

@@ -16,6 +16,7 @@ struct TextEntry {
   void* user = nullptr;
   const char* memory = nullptr;
   uint64_t size = 0;
+  bool edited = false;        ///< someone is changing the text
   uint32_t generation =
       0;  ///< changes when the entry is replaced: compiled blocks of the old text are not used again
 };

@@ -140,6 +140,12 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::print_port, "NC-MACRO", nullptr},
     {C::parameter_input, "NC-DATA", nullptr},
     {C::no_such_data, "NC-DATA", nullptr},
+    {C::program_edited, "NC-READ", nullptr},
+    {C::rotation_in_figure, "NC-NOT-BUILT", nullptr},  // these do not occur: there is no such function
+    {C::offset_in_figure, "NC-NOT-BUILT", nullptr},
+    {C::machine_in_figure, "NC-NOT-BUILT", nullptr},
+    {C::surface_axis, "NC-AXIS", nullptr},
+    {C::surface_speed, "NC-SPINDLE", nullptr},
     {C::read_failed, "NC-READ", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };

@@ -109,6 +109,12 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::print_port, "P460", nullptr},  // appendix 1: "... or in the printer during macro printing"
     {C::parameter_input, "P421", nullptr},
     {C::no_such_data, "P39", nullptr},  // 13.5.5, parameter and PLC data read
+    {C::program_edited, "P235", nullptr},
+    {C::rotation_in_figure, "P252", nullptr},
+    {C::offset_in_figure, "P141", nullptr},
+    {C::machine_in_figure, "P34", nullptr},  // 13.3.3 (9): "cannot be used", without a code
+    {C::surface_axis, "P133", nullptr},      // 10.3
+    {C::surface_speed, "P132", nullptr},     // 10.3
     {C::read_failed, "P461", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };

@@ -8,11 +8,21 @@ namespace nc::m700 {
 namespace {
 
 // Every parameter has a number; these have none in the manual: UNIT*10 is only named (2.2), the blanks of
-// DPRNT are "a parameter" (13.5.8), macro_extensions is the option of later models (docs/macros.md).
+// DPRNT are "a parameter" (13.5.8), M codes that prohibit pre-reading and the order of M S T B and motion are the
+// machine's (4.2, 9.1), macro_extensions is the option of later models (docs/macros.md).
 const ParameterName kParameters[] = {
     {"UNIT*10", 1, nullptr},
     {"DPRNT_BLANK", 0, nullptr},
     {"macro_extensions", 0, nullptr},
+    {"MSTB_AFTER_MOTION", 0, nullptr},
+    {"PREREAD_STOP_M1", 0, nullptr},
+    {"PREREAD_STOP_M2", 0, nullptr},
+    {"PREREAD_STOP_M3", 0, nullptr},
+    {"PREREAD_STOP_M4", 0, nullptr},
+    {"PREREAD_STOP_M5", 0, nullptr},
+    {"PREREAD_STOP_M6", 0, nullptr},
+    {"PREREAD_STOP_M7", 0, nullptr},
+    {"PREREAD_STOP_M8", 0, nullptr},
 };
 
 }  // namespace

@@ -36,6 +36,10 @@ char second_address(const Interpreter& in) {
 Did spindle_word(Interpreter& in) {
   uint32_t s = 0;
   if (!whole_number(in.words.get('S'), &s) || s > 99999999) return in.raise(Condition::value_range, 'S', in.words.get('S'));
+  if (in.state.spindle.axis != 0) {
+    const Did did = surface_word(in);
+    if (did != Did::done) return did;
+  }
   const double speed = in.dialect->id == NC_DIALECT_DGSHAPE ? dgshape_speed(s) : s;
   in.state.modal.spindle = speed;
   emit_action(in, NC_ACTION_S, 'S', speed);
@@ -108,6 +112,8 @@ Did check_company(Interpreter& in) {
   return tool != 0 ? check_tool_pair(in) : Did::done;
 }
 
+bool codes_behind_motion(const Interpreter& in) { return in.settings.codes_after_motion && in.words.axes != 0; }
+
 Did auxiliary_before(Interpreter& in) {
   BlockWords& w = in.words;
   // Most blocks have none of the addresses that are looked at here.
@@ -117,7 +123,7 @@ Did auxiliary_before(Interpreter& in) {
   Did did = check_axis_letters(in, second);
   if (did != Did::done) return did;
   bool waiting = false;
-  if (w.has('S')) {
+  if (w.has('S') && !is_clamp_command(in)) {
     did = spindle_word(in);
     if (did != Did::done) return did;
     waiting = true;
@@ -177,6 +183,8 @@ bool two_ways_on(const Interpreter& in) {
 Did auxiliary_after(Interpreter& in) {
   if (in.words.m.size() > 1 && two_ways_on(in)) return in.raise(Condition::format_error, 'M', in.words.m.back());
   for (const uint32_t m : in.words.m) {
+    if (in.settings.any_reading_stop)
+      for (const uint32_t stops : in.settings.reading_stops) in.state.stop_reading |= stops != 0 && stops == m;  // M700 4.2
     if (is_interrupt_on(in, m) || is_interrupt_off(in, m)) {
       const Did did = is_interrupt_on(in, m) ? enable_interrupt(in) : disable_interrupt(in);
       if (did != Did::done) return did;
@@ -201,6 +209,7 @@ Did auxiliary_after(Interpreter& in) {
         in.state.modal.m = m;
         emit_action(in, NC_ACTION_M, 'M', m);
         emit_fin(in);
+        end_spindle_control(in);
         in.state.end_seen = true;
         return Did::done;
       case MiscFunction::call_sub: return call_sub(in);

@@ -38,7 +38,10 @@ Did do_local_system(Interpreter& in) {
 Did do_coordinate_set(Interpreter& in) {
   const BlockWords& w = in.words;
   if (in.dialect->id == NC_DIALECT_DGSHAPE && in.state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', 92);
-  if (w.has('Q')) return in.raise(Condition::no_function, 'Q', w.get('Q'));  // spindle clamp, M700 10.4
+  if (w.any(letters("SQ")) && in.dialect->id == NC_DIALECT_M700) {
+    const Did did = set_spindle_clamp(in);
+    if (did != Did::done) return did;
+  }
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     // M700 14.5: the reading of the axis, compensation included, becomes the value; the shift is common to all systems.

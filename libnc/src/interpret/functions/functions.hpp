@@ -80,6 +80,16 @@ Did auxiliary_before(Interpreter& in);
 Did auxiliary_after(Interpreter& in);
 /// The program goes on when what has been given out is complete.
 void await_fin(Interpreter& in);
+/// Constant surface speed and clamp speeds (spindle.cpp).
+Did set_surface_speed(Interpreter& in);               ///< G96 G97 of the block
+Did surface_word(Interpreter& in);                    ///< S while G96 is in force
+bool is_clamp_command(const Interpreter& in);         ///< the S of this block is one of G92
+Did set_spindle_clamp(Interpreter& in);               ///< G92 S Q
+void announce_spindle_clamp(Interpreter& in);
+void end_spindle_control(Interpreter& in);            ///< M02, M30
+/// M S T B of this block go out behind its motion.
+bool codes_behind_motion(const Interpreter& in);
+
 /// Rules about what may share a block (DGSHAPE 2, M700 App.2).
 Did check_company(Interpreter& in);
 

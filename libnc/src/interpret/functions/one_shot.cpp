@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of one-shot functions.
 #include "interpret/functions/functions.hpp"
+#include "interpret/plane.hpp"
 
 namespace nc {
 namespace {
@@ -42,7 +43,31 @@ constexpr Handler kHandlers[] = {
 
 }  // namespace
 
+namespace {
+
+/// M700 13.3.3 (9): a rotated figure and machine coordinates exclude each other for the axes of the plane.
+bool machine_in_figure(const Interpreter& in) {
+  if (!in.state.mapped || in.state.frame[in.state.depth].figure == 0) return false;
+  switch (in.words.one_shot->function) {
+    case Function::reference_check:
+    case Function::reference_return:
+    case Function::start_return:
+    case Function::second_reference:
+    case Function::machine_move:
+    case Function::unidirectional: break;
+    default: return false;
+  }
+  const PlaneAxes plane = plane_axes(in);
+  uint32_t axes = 0;
+  if (plane.h >= 0) axes |= 1u << plane.h;
+  if (plane.v >= 0) axes |= 1u << plane.v;
+  return (in.words.axes & axes) != 0;
+}
+
+}  // namespace
+
 Did execute_one_shot(Interpreter& in) {
+  if (machine_in_figure(in)) return in.raise(Condition::machine_in_figure, 'G', in.words.one_shot_code / 10.0);
   for (const Handler& handler : kHandlers)
     if (handler.function == in.words.one_shot->function) return handler.run(in);
   return in.raise(Condition::internal, 'G', in.words.one_shot_code / 10.0);

@@ -6,6 +6,7 @@
 
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
+#include "modal/company.hpp"
 
 namespace nc {
 namespace {
@@ -119,33 +120,6 @@ void emit_first_half(Interpreter& in, const AxisVec& middle, const SpaceArc* arc
   in.source = second;
 }
 
-/// Codes that the modal of the arc in space does not bear (6.14 (a)).
-Condition refusal(const FunctionRow& row) {
-  switch (row.code) {
-    case 50:
-    case 51: return Condition::illegal_g;
-    case 120:
-    case 130:
-    case 160:
-    case 410:
-    case 420:
-    case 411:
-    case 421:
-    case 430:
-    case 440:
-    case 510:
-    case 511:
-    case 660:
-    case 661:
-    case 680:
-    case 730:
-    case 740:
-    case 760: return Condition::space_arc_mode;
-    case 670: return Condition::cancel_without_call;
-    default: return row.group == kGroupCycle && row.code > 800 ? Condition::space_arc_mode : Condition::none;
-  }
-}
-
 bool names_centre(const Block& block) {
   for (const Word& word : block.words)
     if (word.letter >= 'I' && word.letter <= 'K') return true;
@@ -156,7 +130,7 @@ bool names_centre(const Block& block) {
 
 Did check_in_space_arc(Interpreter& in, const FunctionRow& row) {
   if (in.words.motion != nullptr && !is_space_arc(in.words.motion->code)) return Did::done;  // the block leaves the modal
-  Condition bad = refusal(row);
+  Condition bad = barred(kInSpaceArc, row.code);  // 6.14 (a)
   if (row.code == 680 && names_centre(*in.block)) bad = Condition::space_conversion_code;  // with I J K it converts in space
   return bad == Condition::none ? Did::done : in.raise(bad, 'G', row.code / 10.0);
 }

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Constant surface speed G96, G97 and the clamp speeds G92 S Q (M700 10.3, 10.4). The program says what is wanted; the speed itself follows
+// the axis and is made by the scan (interpolate/spindle.hpp).
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+constexpr uint32_t kLargestSpeed = 99999999;  // 10.2: eight digits
+
+void emit_control(Interpreter& in, uint32_t index, double value, uint32_t mask, uint32_t bits) {
+  Action& action = in.emit(ItemKind::action).action;
+  action.kind = NC_ACTION_CONTROL;
+  action.index = index;
+  action.value = value;
+  action.mask = mask;
+  action.bits = bits;
+}
+
+Did speed_word(Interpreter& in, char letter, uint32_t* speed) {
+  const double raw = in.words.get(letter);
+  if (whole_number(raw, speed) && *speed <= kLargestSpeed) return Did::done;
+  return in.raise(Condition::value_range, letter, raw);
+}
+
+void announce_surface(Interpreter& in) {
+  const SpindleControl& spindle = in.state.spindle;
+  emit_control(in, NC_CONTROL_SURFACE_SPEED, spindle.axis != 0 ? spindle.surface : 0, 0, spindle.axis);
+}
+
+}  // namespace
+
+bool is_clamp_command(const Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (w.one_shot == nullptr || w.one_shot->function != Function::coordinate_set || in.dialect->id != NC_DIALECT_M700) return false;
+  // 10.4 (Note 1): without Sclamp an S of G92 in G97 is a spindle speed.
+  return in.settings.clamp_command_always || in.state.spindle.axis != 0;
+}
+
+Did set_surface_speed(Interpreter& in) {
+  State& state = in.state;
+  for (const FunctionRow* row : in.words.g) {
+    if (row->group != kGroupSurfaceSpeed) continue;
+    state.modal.code[kGroupSurfaceSpeed] = row->code;
+    if (row->function == Function::surface_off) {
+      if (state.spindle.axis == 0) continue;
+      state.spindle.axis = 0;
+      announce_surface(in);  // what turns goes on with the speed it has until the next S
+      continue;
+    }
+    uint32_t axis = in.settings.surface_axis == 0 ? 1u : in.settings.surface_axis;
+    if (in.settings.surface_axis != 0 && in.words.has('P')) {  // 10.3 (2)
+      if (!whole_number(in.words.get('P'), &axis) || axis < 1 || axis > 3 || axis > in.axis_count)
+        return in.raise(Condition::surface_axis, 'P', in.words.get('P'));
+    }
+    if (axis > in.axis_count) return in.raise(Condition::surface_axis, 'P', axis);
+    if (in.words.has('S') ? !(in.words.get('S') > 0) : state.spindle.surface == 0) return in.raise(Condition::surface_speed, 'S');  // P132
+    state.spindle.axis = static_cast<uint8_t>(axis);
+    if (!in.words.has('S')) announce_surface(in);  // else with the word
+  }
+  return Did::done;
+}
+
+Did surface_word(Interpreter& in) {
+  uint32_t speed = 0;
+  const Did did = speed_word(in, 'S', &speed);
+  if (did != Did::done) return did;
+  // The example says m/min; feet/min in inch as FANUC has it.
+  in.state.spindle.surface = in.state.modal.code[kGroupUnit] == 200 ? speed * 0.3048 : speed;
+  announce_surface(in);
+  return Did::done;
+}
+
+Did set_spindle_clamp(Interpreter& in) {
+  const BlockWords& w = in.words;
+  SpindleControl& spindle = in.state.spindle;
+  const bool s = w.has('S') && is_clamp_command(in);
+  if (!s && !w.has('Q')) return Did::done;
+  Did did = s ? speed_word(in, 'S', &spindle.clamp_s) : Did::done;
+  if (did == Did::done && w.has('Q')) did = speed_word(in, 'Q', &spindle.clamp_q);
+  if (did != Did::done) return did;
+  announce_spindle_clamp(in);
+  return Did::done;
+}
+
+void announce_spindle_clamp(Interpreter& in) {
+  const SpindleControl& spindle = in.state.spindle;
+  // 10.4, precaution (1): where S is smaller than Q the two change places.
+  const bool both = spindle.clamp_q != 0;
+  const uint32_t high = both && spindle.clamp_s < spindle.clamp_q ? spindle.clamp_q : spindle.clamp_s;
+  const uint32_t low = both && spindle.clamp_s < spindle.clamp_q ? spindle.clamp_s : spindle.clamp_q;
+  // In G97 only with Sclamp = 1 and aux11 bit 5 = 0.
+  const bool always = in.settings.clamp_command_always && !in.settings.clamp_in_g96_only;
+  emit_control(in, NC_CONTROL_SPINDLE_CLAMP, (always ? 1 : 0) + (in.settings.keeps_clamp ? 2 : 0), low, high);
+}
+
+void end_spindle_control(Interpreter& in) {
+  const SpindleControl& spindle = in.state.spindle;
+  if (spindle.axis != 0) emit_control(in, NC_CONTROL_SURFACE_SPEED, 0, 0, 0);
+  if ((spindle.clamp_s != 0 || spindle.clamp_q != 0) && !in.settings.keeps_clamp) emit_control(in, NC_CONTROL_SPINDLE_CLAMP, 0, 0, 0);
+}
+
+}  // namespace nc

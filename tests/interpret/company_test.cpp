@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// M700 appendix 2: which G codes may share a block, and what becomes of each. One test for each column of the table, over its rows.
+#include <gtest/gtest.h>
+
+#include "modal/company.hpp"
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+Bench& prepared(Bench& bench) {
+  bench.tool(1, 3.0).work_offset(1, {0, 0, 0}).work_offset(2, {100, 0, 0});
+  bench.add("O1", "#140=#140+1\nM99\n");
+  bench.add("O2", "M99\n");
+  return bench;
+}
+
+struct Run {
+  Outcome out;
+  int16_t code(unsigned group) const { return out.last_modal().code[group]; }
+};
+
+Run run(const std::string& text) {
+  Bench bench;
+  return {prepared(bench).run(text + "\nM30")};
+}
+
+TEST(Company, Group1IsUpdatedBesideOneShots) {
+  for (const char* block : {"G1 G4 P100", "G1 G10 L2 P1 X0", "G1 G52 X0", "G1 G28 X0", "G1 G92 X0", "G1 G53 X0"}) {
+    const Run r = run(std::string("G0 X1.\n") + block);
+    EXPECT_EQ(r.out.alarm, "") << block;
+    EXPECT_EQ(r.code(1), 10) << block;
+  }
+}
+
+TEST(Company, CompensationIsIgnored) {  // columns 07 and 08
+  for (const char* block : {"G4 P100", "G10 L2 P1 X0", "G52 X0", "G28 X0", "G53 X0"}) {
+    const Run r = run(std::string("G0 X1.\nG41 D1 G43 H1 ") + block);
+    EXPECT_EQ(r.out.alarm, "") << block;
+    EXPECT_EQ(r.code(7), 400) << block;
+    EXPECT_EQ(r.code(8), 490) << block;
+  }
+  // Not beside these.
+  EXPECT_EQ(run("G0 X1.\nG43 H1 G92 X0").code(8), 430);
+  EXPECT_EQ(run("G0 X1.\nG43 H1\nG49 G28 Z0").code(8), 490);  // 12.2
+}
+
+TEST(Company, CyclesAreIgnored) {  // column 09
+  for (const char* block : {"G4 P100", "G10 L2 P1 X0", "G52 X0", "G92 X0"}) {
+    const Run r = run(std::string("G0 Z9.\nG81 Z-1. R1. F100 ") + block);
+    EXPECT_EQ(r.out.alarm, "") << block;
+    EXPECT_EQ(r.code(9), 800) << block;
+    EXPECT_EQ(r.out.moves().size(), 1u) << block;
+  }
+}
+
+TEST(Company, MirrorIsIgnoredOnEitherSide) {  // column 19
+  for (const char* block : {"G51.1 G4 P100", "G4 G51.1 P100", "G51.1 G10 L2 P1 X0", "G10 G51.1 L2 P1 X0", "G51.1 G52 X0", "G52 G51.1 X0", "G28 G51.1 X0",
+                            "G53 G51.1 X0", "G51.1 G53 X0"}) {
+    const Run r = run(std::string("G0 X1.\n") + block);
+    EXPECT_EQ(r.out.alarm, "") << block;
+    EXPECT_EQ(r.code(19), 501) << block;
+  }
+  EXPECT_EQ(run("G4 G51.1 P700\nG0 X1.").out.dwells(), (std::vector<double>{0.7}));
+}
+
+TEST(Company, MacroCallsUpdateModalState) {  // rows G65, G66
+  Run r = run("G0 X1.\nG1 G43 H1 G55 G66 P1");
+  EXPECT_EQ(r.out.alarm, "");
+  EXPECT_EQ(r.code(1), 10);
+  EXPECT_EQ(r.code(8), 430);
+  EXPECT_EQ(r.code(12), 550);
+  r = run("#140=0\nG0 X1.\nG1 G44 H1 G65 P1");
+  EXPECT_EQ(r.code(1), 10);
+  EXPECT_EQ(r.code(8), 440);
+  EXPECT_EQ(r.out.var(140), 1);
+  EXPECT_EQ(run("G0 Z9.\nG81 Z-1. R1. F100 G65 P2").code(9), 800);  // the cycle is ignored
+}
+
+TEST(Company, NothingElseIsDoneBesideG67) {  // column 14: G10, G28, cycles, mirror
+  Run r = run("G66 P1\nG28 X5. G67");
+  EXPECT_EQ(r.out.alarm, "");
+  EXPECT_EQ(r.out.moves().size(), 0u);
+  EXPECT_EQ(r.code(14), 670);
+  Bench bench;
+  prepared(bench).run("G66 P1\nG10 L2 P1 X7. G67\nM30");
+  EXPECT_EQ(bench.work_offset_now(1, 0), 0);
+  r = run("G66 P1\nG67 G81 X1. Z-1. R1. F100");
+  EXPECT_EQ(r.code(9), 800);
+  EXPECT_EQ(run("G66 P1\nG51.1 X1. G67").code(19), 501);
+  EXPECT_EQ(run("G66 P1\nG4 P300 G67").out.dwells(), (std::vector<double>{0.3}));
+}
+
+TEST(Company, AlarmCells) {
+  EXPECT_EQ(run("G0 X1.\nG2 G41 D1 X5. R5. F100").out.alarm, "P151");
+  EXPECT_EQ(run("G0 X1.\nG2 G43 H1 X5. R5. F100").out.alarm, "P70");
+  EXPECT_EQ(run("G0 X1.\nG1 G41 D1 X5. F100\nG18 X9.\nX10.\nX11.\nX12.").out.alarm, "P112");
+  EXPECT_EQ(run("G1 G41 D1 X5. F100\nX9.\nG31 X20. F10\nX10.").out.alarm, "P608");
+  EXPECT_EQ(run("G1 G41 D1 X5. F100\nX9.\nG81 X20. Z-1. R1.\nX10.").out.alarm, "P155");
+}
+
+TEST(Company, BarredByModes) {  // 6.12, 6.14 (a), 13.3.3
+  EXPECT_EQ(barred(kInPolarCommand, 51), Condition::illegal_g);
+  EXPECT_EQ(barred(kInPolarCommand, 50), Condition::none);
+  EXPECT_EQ(barred(kInSpaceArc, 50), Condition::illegal_g);
+  EXPECT_EQ(barred(kInSpaceArc, 670), Condition::cancel_without_call);
+  EXPECT_EQ(barred(kInSpaceArc, 800), Condition::none);
+  EXPECT_EQ(barred(kInSpaceArc, 860), Condition::space_arc_mode);
+  EXPECT_EQ(barred(kInFigure, 690), Condition::rotation_in_figure);
+  EXPECT_EQ(barred(kInFigure | kInSpaceArc, 451), Condition::none);
+  EXPECT_EQ(barred(0, 680), Condition::none);
+}
+
+}  // namespace
+}  // namespace nc::test
