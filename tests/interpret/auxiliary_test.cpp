@@ -137,8 +137,10 @@ TEST(SpindleClamp, WhatG92SIs) {  // 10.4 (Note 1)
   bench.param("1227/bit5", "1");
   EXPECT_EQ(speeds(bench.run("G92 S1000\nM30")), "0..1000 0..0");
   EXPECT_EQ(speeds(bench.run("G92 S1000 Q200\nG92 S0\nM30")), "200..1000 0..200 0..0");
-  bench.param("1210/bit19", "1");
-  EXPECT_EQ(speeds(bench.run("G92 S1000\nM30")), "0..1000!2");
+  Bench keeping;
+  keeping.param("1146", "1").param("1210/bit19", "1");
+  EXPECT_EQ(speeds(keeping.run("G92 S1000\nM30")), "0..1000!3");
+  EXPECT_EQ(speeds(keeping.run("G92 Q200\nM30")), "200..1000!3");  // a reset has not cleared the S
   EXPECT_EQ(m700("G92 Q-1\nM30").alarm, "P35");
 }
 

@@ -15,19 +15,19 @@ Bench& prepared(Bench& bench) {
   return bench;
 }
 
-struct Run {
+struct Ran {
   Outcome out;
   int16_t code(unsigned group) const { return out.last_modal().code[group]; }
 };
 
-Run run(const std::string& text) {
+Ran run(const std::string& text) {
   Bench bench;
   return {prepared(bench).run(text + "\nM30")};
 }
 
 TEST(Company, Group1IsUpdatedBesideOneShots) {
   for (const char* block : {"G1 G4 P100", "G1 G10 L2 P1 X0", "G1 G52 X0", "G1 G28 X0", "G1 G92 X0", "G1 G53 X0"}) {
-    const Run r = run(std::string("G0 X1.\n") + block);
+    const Ran r = run(std::string("G0 X1.\n") + block);
     EXPECT_EQ(r.out.alarm, "") << block;
     EXPECT_EQ(r.code(1), 10) << block;
   }
@@ -35,7 +35,7 @@ TEST(Company, Group1IsUpdatedBesideOneShots) {
 
 TEST(Company, CompensationIsIgnored) {  // columns 07 and 08
   for (const char* block : {"G4 P100", "G10 L2 P1 X0", "G52 X0", "G28 X0", "G53 X0"}) {
-    const Run r = run(std::string("G0 X1.\nG41 D1 G43 H1 ") + block);
+    const Ran r = run(std::string("G0 X1.\nG41 D1 G43 H1 ") + block);
     EXPECT_EQ(r.out.alarm, "") << block;
     EXPECT_EQ(r.code(7), 400) << block;
     EXPECT_EQ(r.code(8), 490) << block;
@@ -47,7 +47,7 @@ TEST(Company, CompensationIsIgnored) {  // columns 07 and 08
 
 TEST(Company, CyclesAreIgnored) {  // column 09
   for (const char* block : {"G4 P100", "G10 L2 P1 X0", "G52 X0", "G92 X0"}) {
-    const Run r = run(std::string("G0 Z9.\nG81 Z-1. R1. F100 ") + block);
+    const Ran r = run(std::string("G0 Z9.\nG81 Z-1. R1. F100 ") + block);
     EXPECT_EQ(r.out.alarm, "") << block;
     EXPECT_EQ(r.code(9), 800) << block;
     EXPECT_EQ(r.out.moves().size(), 1u) << block;
@@ -57,7 +57,7 @@ TEST(Company, CyclesAreIgnored) {  // column 09
 TEST(Company, MirrorIsIgnoredOnEitherSide) {  // column 19
   for (const char* block : {"G51.1 G4 P100", "G4 G51.1 P100", "G51.1 G10 L2 P1 X0", "G10 G51.1 L2 P1 X0", "G51.1 G52 X0", "G52 G51.1 X0", "G28 G51.1 X0",
                             "G53 G51.1 X0", "G51.1 G53 X0"}) {
-    const Run r = run(std::string("G0 X1.\n") + block);
+    const Ran r = run(std::string("G0 X1.\n") + block);
     EXPECT_EQ(r.out.alarm, "") << block;
     EXPECT_EQ(r.code(19), 501) << block;
   }
@@ -65,7 +65,7 @@ TEST(Company, MirrorIsIgnoredOnEitherSide) {  // column 19
 }
 
 TEST(Company, MacroCallsUpdateModalState) {  // rows G65, G66
-  Run r = run("G0 X1.\nG1 G43 H1 G55 G66 P1");
+  Ran r = run("G0 X1.\nG1 G43 H1 G55 G66 P1");
   EXPECT_EQ(r.out.alarm, "");
   EXPECT_EQ(r.code(1), 10);
   EXPECT_EQ(r.code(8), 430);
@@ -78,7 +78,7 @@ TEST(Company, MacroCallsUpdateModalState) {  // rows G65, G66
 }
 
 TEST(Company, NothingElseIsDoneBesideG67) {  // column 14: G10, G28, cycles, mirror
-  Run r = run("G66 P1\nG28 X5. G67");
+  Ran r = run("G66 P1\nG28 X5. G67");
   EXPECT_EQ(r.out.alarm, "");
   EXPECT_EQ(r.out.moves().size(), 0u);
   EXPECT_EQ(r.code(14), 670);

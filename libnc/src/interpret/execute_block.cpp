@@ -47,8 +47,11 @@ void drop_beside_cancel(Interpreter& in) {
   BlockWords& w = in.words;
   for (const FunctionRow* row : w.g) {
     if (row->function != Function::macro_modal_off) continue;
-    if (w.one_shot != nullptr && company_of(w.one_shot->function).macro == Beside::loses) w.one_shot = nullptr;
-    if (company_of(row->function).cycle == Beside::ignored && w.cycle != nullptr && w.cycle->function != Function::cycle_off) w.cycle = nullptr;
+    const bool one_shot = w.one_shot != nullptr && company_of(w.one_shot->function).macro == Beside::loses;
+    const bool cycle = w.cycle != nullptr && w.cycle->function != Function::cycle_off && company_of(row->function).cycle == Beside::ignored;
+    if (one_shot) w.one_shot = nullptr;
+    if (cycle) w.cycle = nullptr;
+    if (one_shot || (cycle && w.one_shot == nullptr)) w.present &= ~in.axis_letters;  // its words, too
     return;
   }
 }

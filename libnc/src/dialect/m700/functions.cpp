@@ -32,7 +32,7 @@ constexpr FunctionRow kListed[] = {
     // 13.15 names P123 for high-accuracy control as a whole; G08 is its other code.
     {80, 0, F::missing, "P123", "high-accuracy control on and off", "13.15"},
     {90, 0, F::exact_stop_once, nullptr, "exact stop check in this block", "7.7"},
-    {100, 0, F::data_input, nullptr, "data input by program", "12.7", "L3 (tool life) and L14 (current limit): P172"},
+    {100, 0, F::data_input, nullptr, "data input by program", "12.7", "L3 (tool life): P172"},
     {110, 0, F::data_input_end, nullptr, "data input end", "12.7, 13.11"},
     {120, 0, F::missing, "P224", "circle cutting clockwise", "13.10"},
     {121, 21, F::polar_on, nullptr, "polar coordinate interpolation", "6.10"},
