@@ -35,7 +35,9 @@ class VirtualMachine {
       if (out.state != NC_STATE_IDLE) started_ = true;
       if (out.state == NC_STATE_ALARM) return alarmed();
       if (started_ && out.state == NC_STATE_IDLE) return take(MachineResult::How::kEnded);
-      const bool goes_on = started_ && out.state == NC_STATE_RUNNING &&
+      // A stopped spindle, a feed of 0 and a thread that is too fast stay as they are.
+      const bool stuck = out.cause == NC_CAUSE_SPINDLE_STOPPED || out.cause == NC_CAUSE_FEED_ZERO || out.cause == NC_CAUSE_SPINDLE_FAST;
+      const bool goes_on = started_ && out.state == NC_STATE_RUNNING && !stuck &&
                            (out.cause != NC_CAUSE_STARVED || out.blocks != blocks_before_);
       blocks_before_ = out.blocks;
       waiting = goes_on ? 0.0 : waiting + config_.cycle_s;
