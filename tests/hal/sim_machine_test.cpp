@@ -200,6 +200,12 @@ TEST(SimMachine, SpindleRampsAndFinWaitsForTheSpeed) {
   const unsigned scans = bench.until_fin(1000);
   EXPECT_NEAR(scans, 300u, 3);
   EXPECT_NEAR(bench.machine.spindle_rpm(0), 3000, 1e-6);
+  const double turns = bench.feedback.system[0].spindle_turns;  // its encoder counts with the speed
+  EXPECT_TRUE(bench.feedback.system[0].spindle_turns_valid);
+  EXPECT_GT(turns, 0);
+  for (unsigned n = 0; n < 100; ++n) bench.scan();
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_NEAR(bench.feedback.system[0].spindle_turns - turns, 50 * kCycle * 100, 1e-9);
   command.strobe = 0;
   bench.scan();
   command.m = 5;

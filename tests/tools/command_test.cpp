@@ -250,6 +250,15 @@ TEST_F(CommandTest, AnEndlessLoopEndsWithAMessage) {
   }
 }
 
+TEST_F(CommandTest, TimeSaysThatASpindleIsMissing) {
+  file("p.nc", "G95 G1 X10. F0.2\nM30\n");
+  const Outcome run = ncsim("time p.nc");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.err.find("waits for the spindle"), std::string::npos) << run.err;
+  file("p.nc", "S600 M3\nG95 G1 X10. F0.2\nM30\n");
+  EXPECT_EQ(ncsim("time p.nc").code, 0);
+}
+
 TEST_F(CommandTest, AProgramThatOnlyRunsOnIsNoEndlessLoop) {
   std::string blanks = "O1\n", standing = "O1 G1 F100 X0\n";
   for (unsigned i = 0; i < 30000; ++i) blanks += "\n", standing += "X0\n";

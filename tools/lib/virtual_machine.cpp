@@ -43,8 +43,7 @@ class VirtualMachine {
       waiting = goes_on ? 0.0 : waiting + config_.cycle_s;
       if (!progresses(out))
         return fail("line " + std::to_string(out.source.line) + ": an endless loop of calculation");
-      if (waiting > kPatience)
-        return fail("the program does not go on (cause " + std::to_string(out.cause) + ")");
+      if (waiting > kPatience) return fail("line " + std::to_string(out.source.line) + ": " + reason(out.cause));
     }
     return fail("not at its end after " + std::to_string(static_cast<uint64_t>(limit_s)) +
                 " s of machine time");
@@ -67,6 +66,15 @@ class VirtualMachine {
     const nc_axes& command = out_[kPartSystem].command;
     for (unsigned i = 0; i < config_.system[kPartSystem].axis_count; ++i)
       actual_.v[i] += (command.v[i] - actual_.v[i]) * servo_->follow[i];
+  }
+
+  static std::string reason(uint8_t cause) {
+    switch (cause) {
+      case NC_CAUSE_SPINDLE_STOPPED: return "a feed per revolution or a thread waits for the spindle: there is no S";
+      case NC_CAUSE_SPINDLE_FAST: return "at this S the thread needs more than the largest feed of its axes";
+      case NC_CAUSE_FEED_ZERO: return "the speed of this F1 to F5 (#1185 to #1189) is 0";
+      default: return "the program does not go on (cause " + std::to_string(cause) + ")";
+    }
   }
 
   // False after too many blocks in which nothing but calculation happened.
