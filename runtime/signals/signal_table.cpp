@@ -77,8 +77,8 @@ const SignalRow kSignals[] = {
      NC_READ { return state(image, s, NC_STATE_STOPPED); }, nullptr},
     {"stop_cause", kWord16, kFrom, kSystem, 0, 0,
      "why nothing moves though a program runs: 0 moves, 1 FIN, 2 dwell, 3 in position, 4 program stop, 5 single "
-     "block, 6 feed hold, 7 interlock, 8 override 0, 9 look-ahead empty, 10 alarm, 11 F1 to F5 is 0 (104), 12 synchronous feed "
-     "without spindle (105), 13 thread waits for its angle, 14 thread too fast to begin",
+     "block, 6 feed hold, 7 interlock, 8 override 0, 9 look-ahead empty, 10 alarm, 11 F1-F5 is 0, 12 no spindle, "
+     "13 spindle angle, 14 thread too fast",
      "level", NC_READ { return out(image, s).cause; }, nullptr},
 
     // ---- M, S, T, B ----

@@ -120,9 +120,9 @@ TEST(FeedOnline, ReversalsRestByParameter) {  // M700 7.9.2, the printed example
       for (unsigned i = 0; i < 3; ++i) c.system[0].axis[i].max_acceleration = 2000;
     });
     bench.param("1503", value).at(0, 0, 0);
-    double at_joint = 1e9;
+    double at_joint = 0;  // speed behind the joint
     run_online(bench, text, [&](nc_inputs&, const nc_outputs& out) {
-      if (out.source.line == 2) at_joint = std::min(at_joint, out.distance_zero ? 1e9 : out.feed_mm_min);
+      if (out.source.line == 2 && at_joint == 0) at_joint = out.feed_mm_min;
     });
     return at_joint;
   };
