@@ -86,6 +86,7 @@ void set_parameters(nc_control* control, const Chosen& chosen) {
                                          {"7402", "D"},   {"7403", "0"}, {"7404", "7"},  {"7405", "130"}};
     for (const auto& call : kCalls) require(nc_parameter_set(control, 0, call[0], 0, call[1]) == NC_OK);
     require(nc_parameter_set(control, 0, "2106", 'A', (o & 2) != 0 ? "5" : "0") == NC_OK);
+    require(nc_parameter_set(control, 0, "8213", 'A', (o & 16) != 0 ? "0" : (o & 8) != 0 ? "1" : (o & 32) != 0 ? "2" : "3") == NC_OK);
   } else {
     set("interpretation", (o & 2) != 0, "calculator", "conventional");
     set("startup", (o & 8) != 0, "B", "A");
