@@ -8,7 +8,8 @@ Between two rests (rapids, exact stops, dwells, auxiliary functions) the moves a
 sharp corners that stand alone by the curve on which one direction stops while the other starts, each with constant jerk, and makes the rest a
 uniform cubic B-spline, whose curvature is continuous: its control points lie on the polyline, as far apart as the tolerance lets them
 be. For points a distance h apart the curve is |P- - 2P + P+| / 6 from the point P, which is where their distance comes from; it grows
-slowly away from a corner, so a straight stretch stays on its line. The result is measured, and made finer where it is too far away.
+slowly away from a corner, so a straight stretch stays on its line. The result is measured, and made finer where it is too far away. Then the
+control points move within the tolerance to where the third derivative is least.
 `parabola` rounds every corner by a parabola of half the shorter neighbour's length at most: curvature in steps, for limits without jerk.
 A stretch that is a single move stays the line or arc that it is.
 """
@@ -21,8 +22,10 @@ import subprocess
 import sys
 
 import numpy as np
+from scipy import sparse
 
 import path_file
+from quadratic import solve_program
 
 CHORD_MM = 1e-5  # of a sampled arc
 USED = 0.9  # of the tolerance: what is aimed at
@@ -219,11 +222,56 @@ def control_points(line, tolerance, scale):
 SPLINE = np.array([[1, 4, 1, 0], [-3, 0, 3, 0], [3, -6, 3, 0], [-1, 3, -3, 1]]) / 6  # power basis of four control points
 
 
-def spline_pieces(line, s):
-    """Coefficients (pieces, power, axes); the ends of the curve are those of the polyline."""
+def controls_on(line, s):
+    """Control points on the polyline; the ends of the curve are those of the polyline, without curvature."""
     p = line.at(s)
-    p = np.concatenate([[2 * p[0] - p[1]], p, [2 * p[-1] - p[-2]]])
+    return np.concatenate([[2 * p[0] - p[1]], p, [2 * p[-1] - p[-2]]])
+
+
+def spline_pieces(p):
+    """Coefficients (pieces, power, axes)."""
     return np.stack([np.tensordot(SPLINE, p[i:i + 4], axes=1) for i in range(len(p) - 3)])
+
+
+INSIDE = (0.0, 0.25, 0.5, 0.75)  # places of a piece at which relax() looks
+
+
+def relax(line, s, p, tolerance):
+    """The control points whose curve has the least third derivative (squares, by length) and stays in a box round the one through p.
+
+    Between vertices that lie on a smooth curve the polyline itself is not smooth, and neither is a spline with its control points there.
+    """
+    free = np.arange(3, len(p) - 3)
+    if len(free) == 0:
+        return p
+    h = np.diff(s)
+    weight = np.repeat(h[:, None] ** -2.5, 4, axis=1)
+    rows = np.repeat(np.arange(len(h)), 4)
+    columns = (np.arange(len(h))[:, None] + np.arange(4)).ravel()
+    third = sparse.csc_matrix(((weight * np.array([-1, 3, -3, 1])).ravel(), (rows, columns)), shape=(len(h), len(p)))
+    scale = np.abs(third).max()
+    third = third / scale
+    moved = np.any(np.abs(np.diff(p, 3, axis=0)) > 1e-9, axis=0)
+    box = tolerance / math.sqrt(max(1, int(moved.sum())))
+    looks = sparse.vstack([sparse.csc_matrix((np.tile(np.array([u ** k for k in range(4)]) @ SPLINE, len(h)), (rows, columns)), shape=third.shape)
+                           for u in INSIDE])
+    out = p.copy()
+    near = np.concatenate([line.at(s[:-1] + u * h) for u in INSIDE])
+    own = looks @ p
+    for k in np.flatnonzero(moved):
+        # around the polyline, and where the curve cuts a corner by more than the box already, not farther away
+        low, high = np.minimum(near[:, k] - box, own[:, k]), np.maximum(near[:, k] + box, own[:, k])
+        fixed = np.setdiff1d(np.arange(len(p)), free)
+        part = looks[:, free]
+        shift = looks[:, fixed] @ p[fixed, k]
+        used = np.flatnonzero(np.abs(part).max(axis=1).toarray().ravel() > 0)
+        origin = part @ p[free, k]  # unknowns: movement over the box
+        t = third[:, free] * box
+        q = t.T @ (third @ p[:, k])
+        bounds = np.concatenate([(high - shift - origin)[used], -(low - shift - origin)[used]]) / box
+        matrix = sparse.vstack([part[used], -part[used]])
+        out[free, k] += box * solve_program(sparse.triu(t.T @ t).tocsc(), q, matrix, np.maximum(bounds, 0), 0)
+    return out
 
 
 def turn(point, d, e, feed, reach):
@@ -260,18 +308,24 @@ def feed_of_both(a, b):
     return min(a, b) if a > 0 and b > 0 else max(a, b)
 
 
+def distances(line, s, c, tolerance):
+    """The largest distance of each piece from the polyline near it."""
+    u = np.linspace(0, 1, 9)
+    points = np.einsum("up,spa->sua", u[:, None] ** np.arange(4), c).reshape(-1, c.shape[2])
+    h = np.diff(s)
+    near = (s[:-1, None] + np.outer(h, u)).ravel()
+    reach = np.repeat(2 * np.maximum(h, np.maximum(np.append(h[1:], 0), np.append(0, h[:-1]))), len(u)) + 2 * tolerance
+    return line.distance(points, near, reach).reshape(-1, len(u)).max(axis=1)
+
+
 def blend_spline(line, tolerance):
     """A B-spline, within the tolerance of the polyline by measure."""
     scale = (np.array([0.0, line.s[-1]]), np.ones(2))
     for _ in range(TRIES):
         s = control_points(line, tolerance, scale)
-        c = spline_pieces(line, s)
-        u = np.linspace(0, 1, 9)
-        power = u[:, None] ** np.arange(4)
-        points = np.einsum("up,spa->sua", power, c).reshape(-1, c.shape[2])
-        near = (s[:-1, None] + np.outer(np.diff(s), u)).ravel()
-        reach = np.repeat(2 * np.maximum(np.diff(s), np.maximum(np.append(np.diff(s)[1:], 0), np.append(0, np.diff(s)[:-1]))), len(u)) + 2 * tolerance
-        off = line.distance(points, near, reach).reshape(-1, len(u)).max(axis=1)
+        p = controls_on(line, s)
+        c = spline_pieces(p)
+        off = distances(line, s, c, tolerance)
         if off.max() <= tolerance:
             break
         middle = (s[:-1] + s[1:]) / 2
@@ -280,6 +334,14 @@ def blend_spline(line, tolerance):
         scale = (middle, np.interp(middle, *scale) * factor)
     else:
         raise path_file.PathError(f"the tolerance of {tolerance} is not reached: {off.max():.6f}")
+    for share in (0.95, 0.85, 0.7, 0.5):
+        try:
+            relaxed = spline_pieces(relax(line, s, p, share * tolerance))
+        except RuntimeError:  # what lies on the polyline will do
+            break
+        if distances(line, s, relaxed, tolerance).max() <= tolerance:
+            c = relaxed
+            break
     feeds = np.minimum(line.feed_at(s[:-1]), line.feed_at(s[1:] - 1e-9))
     feeds = np.minimum(feeds, np.minimum(line.feed_at(np.append(s[2:], s[-1]) - 1e-9), line.feed_at(np.append(0, s[:-2]))))
     return [(c[i].T, feeds[i]) for i in range(len(c))]

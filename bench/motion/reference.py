@@ -23,6 +23,7 @@ import numpy as np
 from scipy import sparse
 
 import path_file
+from quadratic import solve_program
 
 REST_POWER = 6 ** (4 / 3) / 4  # b = REST_POWER J^(2/3) s^(4/3) behind a rest, jerk J
 
@@ -40,23 +41,6 @@ def limits_of(path, every_axis=None):
         raise path_file.PathError("no limits for axis " + path.axes[rows.index(None)] + ": in the path file, or --limits V,A,J")
     v, a, j = np.array(rows, dtype=float).T
     return Limits(v, a, np.where(j > 0, j, np.inf))
-
-
-def solve_program(p, q, rows, upper, equal):
-    """min x'Px/2 + q'x with rows x <= upper, the first `equal` of them =."""
-    import clarabel
-    settings = clarabel.DefaultSettings()
-    settings.verbose = False
-    settings.max_iter = 200
-    settings.tol_infeas_abs = settings.tol_infeas_rel = 1e-13  # there is always a solution: rest
-    count = rows.shape[0]
-    cones = [clarabel.ZeroConeT(equal)] if equal else []
-    solver = clarabel.DefaultSolver(sparse.csc_matrix(p), q, sparse.csc_matrix(rows), upper, cones + [clarabel.NonnegativeConeT(count - equal)],
-                                    settings)
-    answer = solver.solve()
-    if str(answer.status) not in ("Solved", "AlmostSolved", "InsufficientProgress"):
-        raise RuntimeError(f"the solver gave up: {answer.status}")
-    return np.array(answer.x)
 
 
 class Grid:
@@ -86,7 +70,7 @@ class Grid:
         most = curves.length[who]
         self.left = curves.by_length(who, np.clip(s[:-1] - base, 0, most))
         self.right = curves.by_length(who, np.clip(s[1:] - base, 0, most))
-        self.middle = curves.by_length(who, middle - base)
+        self.inside = [curves.by_length(who, s[:-1] + share * self.step - base) for share in JERK_AT]
         self.feed = np.where(curves.feed[who] > 0, curves.feed[who], np.inf)
         self.who = who
 
@@ -161,13 +145,13 @@ class JerkStep:
         self.a_scale = limits.acceleration.max()
         self.strongest = limits.jerk[np.isfinite(limits.jerk)].max()
 
-    def middle(self, b, a):
-        """b in the middle of the cells that are no rest; arrays of inner nodes."""
+    def inside(self, b, a):
+        """b at JERK_AT of the cells that are no rest; arrays of inner nodes."""
         h = self.grid.step[1:-1]
-        return np.maximum(b[:-1] + h * (3 * a[:-1] + a[1:]) / 4, 1e-3 * np.minimum(b[:-1], b[1:]))
+        return [np.maximum(b[:-1] + h * z * ((2 - z) * a[:-1] + z * a[1:]), 1e-3 * np.minimum(b[:-1], b[1:])) for z in JERK_AT]
 
-    def solve(self, b0, bm0):
-        """b and a at the inner nodes from the last b there and in the middles of cells."""
+    def solve(self, b0, inside):
+        """b and a at the inner nodes from the last b there and inside of the cells."""
         g, n = self.grid, self.count
         h = g.step[1:-1]
         i, node = np.arange(n - 1), np.arange(n)
@@ -200,7 +184,11 @@ class JerkStep:
                     continue
                 for sign in (1, -1):
                     add([node, node], [node, n + node], [sign * d2 * b0, sign * d1 * scale], np.ones(n), n)
-        self._limit_jerk(add, bm0, b0, scale)
+        bent = np.any(np.abs(g.inside[1][2][1:-1]) > 1e-9, axis=1)
+        for number, share in enumerate(JERK_AT):
+            cells = i[bent == (share != 0.5)]
+            if len(cells):
+                self._limit_jerk(add, share, [d[1:-1][cells] for d in g.inside[number][1:]], inside[number][cells], cells, b0, scale)
         most = self.most[1:-1].copy()
         most[0], most[-1] = min(most[0], self.rest[0]), min(most[-1], self.rest[1])
         bounded = node
@@ -214,22 +202,22 @@ class JerkStep:
         return x[:n] * b0, x[n:] * scale
 
 
-    def _limit_jerk(self, add, last, b0, scale):
-        """Rows for the jerk in the middle of each cell, where b was `last`."""
-        n, h = self.count, self.grid.step[1:-1]
-        i = np.arange(n - 1)
+    def _limit_jerk(self, add, share, curve, last, cells, b0, scale):
+        """Rows for the jerk at `share` of the way through each of `cells`, where the derivatives are `curve` and b was `last`."""
+        n, h = self.count, self.grid.step[1:-1][cells]
+        i = np.arange(len(cells))
         root = np.sqrt(last)
         for k, strongest in enumerate(self.limits.jerk):
-            d1, d2, d3 = (d[1:-1, k] * root / strongest for d in self.grid.middle[1:])
+            d1, d2, d3 = (d[:, k] * root / strongest for d in curve)
             if not np.isfinite(strongest) or not (d1.any() or d2.any() or d3.any()):
                 continue
             for sign in (1, -1):
                 # |q''' b + 3 q'' a + q' p| root / J + b / (2 last) <= 1.5
                 on_b = sign * d3 + 1 / (2 * last)
-                on_a, on_p = sign * 1.5 * d2, sign * d1 / h
-                add([i] * 3, [i, n + i, n + i + 1],
-                    [on_b * b0[:-1], (on_b * h * 0.75 + on_a - on_p) * scale[:-1], (on_b * h * 0.25 + on_a + on_p) * scale[1:]],
-                    np.full(n - 1, 1.5), n - 1)
+                on_a, on_p = sign * 3 * d2, sign * d1 / h
+                add([i] * 3, [cells, n + cells, n + cells + 1],
+                    [on_b * b0[cells], (on_b * h * share * (2 - share) + on_a * (1 - share) - on_p) * scale[cells],
+                     (on_b * h * share ** 2 + on_a * share + on_p) * scale[cells + 1]], np.full(len(cells), 1.5), len(cells))
 
 
 def times_with_jerk(grid, b, a):
@@ -260,13 +248,13 @@ class Section:
         return float(self.times.sum())
 
 
-def iterate(grid, limits, b, bm, most_steps, tolerance):
-    """From b at the inner nodes and in the middles between them. @return b, a, seconds of the cells, steps."""
+def iterate(grid, limits, b, inside, most_steps, tolerance):
+    """From b at the inner nodes and inside of the cells between them. @return b, a, seconds of the cells, steps."""
     step = JerkStep(grid, limits)
-    b, bm, a = np.maximum(b, 1e-8), np.maximum(bm, 1e-8), None
+    b, inside, a = np.maximum(b, 1e-8), [np.maximum(x, 1e-8) for x in inside], None
     best, count = None, 0
     for count in range(1, most_steps + 1):
-        nb, na = step.solve(b, bm)
+        nb, na = step.solve(b, inside)
         nb = np.maximum(nb, 1e-10)
         times = times_with_jerk(grid, nb, na)
         share = 1.0
@@ -278,16 +266,18 @@ def iterate(grid, limits, b, bm, most_steps, tolerance):
         if best is not None and gain < 0:
             break
         b, a, best = nb, na, times
-        bm = step.middle(b, a)
+        inside = step.inside(b, a)
         if gain < tolerance:
             break
     return b, a, best, count
 
 
+# Of a cell, where the jerk is limited: in the middle on a straight line; on a curve, where it changes more, at the two places of Gauss.
+JERK_AT = (0.5 - 0.5 / 3 ** 0.5, 0.5, 0.5 + 0.5 / 3 ** 0.5)
 MOST_GROWTH = 30.0  # of b in one step
 REST_CELLS = 8  # the cell beside a rest takes as long as so many others: there a cell's ends differ too much otherwise
 LEAST_CELLS, MOST_CELLS = 200, 10_000  # of a section, by time
-LEAST_INSIDE, LEAST_INSIDE_ALL = 40, 8000  # parts of a piece; of all pieces of a section
+LEAST_INSIDE, LEAST_INSIDE_ALL = 80, 10_000  # parts of a piece; of all pieces of a section
 
 
 def moments(seconds, step_s):
@@ -302,7 +292,7 @@ def even_in_time(s, times, step_s):
     return np.interp(moments(t[-1], step_s), t, s)
 
 
-def solve_section(curves, first, last, limits, step_s=0.001, jerk=True, tolerance=2e-5):
+def solve_section(curves, first, last, limits, step_s=0.001, jerk=True, tolerance=1e-4):
     length = curves.length[first:last]
     total = length.sum()
     fastest = np.where(curves.feed[first:last] > 0, curves.feed[first:last], np.linalg.norm(limits.velocity)).max()
@@ -325,10 +315,10 @@ def solve_section(curves, first, last, limits, step_s=0.001, jerk=True, toleranc
     old = None
     for most_steps in (12, 8):
         new = Grid(curves, first, last, places)
-        at = np.sort(np.concatenate([new.s[1:-1], (new.s[1:-2] + new.s[2:-1]) / 2]))
-        guess = np.interp(at, grid.s, b) if old is None else squared_speed_at(grid, *old, at)
+        guess = [np.interp(at, grid.s, b) if old is None else squared_speed_at(grid, *old, at)
+                 for at in [new.s[1:-1]] + [new.s[1:-2] + z * new.step[1:-1] for z in JERK_AT]]
         grid = new
-        nb, na, times, count = iterate(grid, limits, guess[::2], guess[1::2], most_steps, tolerance)
+        nb, na, times, count = iterate(grid, limits, guess[0], guess[1:], most_steps, tolerance)
         old = nb, na
         steps += count
         places = place_at(grid, nb, na, times, moments(times.sum(), step_s))

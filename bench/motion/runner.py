@@ -64,7 +64,7 @@ def measured(program, options):
 def optimum(program, options, jerk):
     """Seconds of the reference, from the store when it was solved before."""
     text = hashlib.sha256()
-    for name in (program, *(os.path.join(HERE, f) for f in ("reference.py", "path_file.py", "path_from_program.py"))):
+    for name in (program, *(os.path.join(HERE, f) for f in ("reference.py", "path_file.py", "path_from_program.py", "quadratic.py"))):
         with open(name, "rb") as file:
             text.update(file.read())
     text.update(repr((options.limits, options.tolerance, jerk, options.step_ms, options.path)).encode())
