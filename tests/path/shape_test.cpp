@@ -96,6 +96,24 @@ void random_span(std::mt19937_64& rng, Made* made) {
   make(what, start, end, nullptr, 0, 1, start, AxisVec{}, made);
 }
 
+/// One block of a spline: a quintic that keeps going forward.
+void random_spline(std::mt19937_64& rng, Made* made) {
+  MoveShape what;
+  what.kind = ShapeKind::spline;
+  what.spline = SplineSpan{};
+  AxisVec start, end;
+  for (unsigned i = 0; i < 3; ++i) {
+    what.spline.axis[i] = static_cast<uint8_t>(i);
+    start[i] = end[i] = uniform(rng, -50, 50);
+    for (unsigned k = 0; k < 5; ++k) {
+      const double c = i == 0 && k == 0 ? uniform(rng, 4, 8) : uniform(rng, -0.5, 0.5) / (k + 1);
+      what.spline.c[k][i] = c;
+      end[i] += c;
+    }
+  }
+  make(what, start, end, nullptr, 0, 1, start, AxisVec{}, made);
+}
+
 /// A line or an arc of a plane that is not the axes' own.
 void random_mapped(std::mt19937_64& rng, AxisMap::Kind kind, Made* made) {
   MoveShape what;
@@ -144,14 +162,15 @@ void random_mapped(std::mt19937_64& rng, AxisMap::Kind kind, Made* made) {
   make(what, start, end, arc ? &circle : nullptr, 0, 3, machine, offset, made);
 }
 
-constexpr unsigned kKinds = 5;
+constexpr unsigned kKinds = 6;
 void random_shape(std::mt19937_64& rng, unsigned kind, Made* made) {
   switch (kind % kKinds) {
     case 0: return random_space_arc(rng, made);
     case 1: return random_exponential(rng, made);
     case 2: return random_span(rng, made);
     case 3: return random_mapped(rng, AxisMap::Kind::cylinder, made);
-    default: return random_mapped(rng, AxisMap::Kind::polar, made);
+    case 4: return random_mapped(rng, AxisMap::Kind::polar, made);
+    default: return random_spline(rng, made);
   }
 }
 
@@ -196,7 +215,7 @@ TEST(Shape, TheTangentOfTheProgrammedPathIsOfUnitLength) {
   for (unsigned n = 0; n < 1000; ++n) {
     Made m;
     random_shape(rng, n, &m);
-    const uint32_t linear = n % kKinds == 1 ? 0b11111 : n % kKinds >= 3 ? 0b01111 : 0b00111;
+    const uint32_t linear = n % kKinds == 1 ? 0b11111 : n % kKinds == 3 || n % kKinds == 4 ? 0b01111 : 0b00111;
     const CurvePoint p = shape_programmed(m.shape, uniform(rng, 0, m.curve.length), kAxes);
     double d1 = 0, d12 = 0;
     for (unsigned i = 0; i < kAxes; ++i) {
@@ -214,7 +233,7 @@ TEST(Shape, LengthIsThatOfManyChords) {
   for (unsigned n = 0; n < 100; ++n) {
     Made m;
     random_shape(rng, n, &m);
-    const uint32_t linear = n % kKinds == 1 ? 0b11111 : n % kKinds >= 3 ? 0b01111 : 0b00111;
+    const uint32_t linear = n % kKinds == 1 ? 0b11111 : n % kKinds == 3 || n % kKinds == 4 ? 0b01111 : 0b00111;
     constexpr int kChords = 4000;
     double sum = 0;
     AxisVec before = shape_programmed(m.shape, 0, kAxes).position;

@@ -103,7 +103,7 @@ struct Outcome {
  private:
   std::vector<std::string> describe_moves(bool in_work) const {
     static constexpr const char* kNames[] = {"rapid", "line",   "arc",         "helix", "skip",
-                                             "thread", "tap",   "spiral", "exponential", "nurbs"};
+                                             "thread", "tap",   "spiral", "exponential", "nurbs", "spline"};
     std::vector<std::string> all;
     for (const Step& step : steps) {
       if (step.item.kind != NC_ITEM_MOVE) continue;

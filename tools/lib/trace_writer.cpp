@@ -17,7 +17,7 @@ static_assert(kLine <= OutputFile::kLargest);
 
 // nc_move_kind -> the name in a trace.
 constexpr std::string_view kMoveKinds[] = {"rapid", "line", "arc", "helix", "skip", "thread",
-                                             "tap",   "spiral", "exponential", "nurbs"};
+                                             "tap",   "spiral", "exponential", "nurbs", "spline"};
 constexpr std::string_view kPlanes[] = {"XY", "ZX", "YZ"};
 
 struct SyncName {

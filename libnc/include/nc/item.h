@@ -38,7 +38,8 @@ typedef enum nc_move_kind {
   NC_MOVE_TAP = 6,
   NC_MOVE_SPIRAL = 7,
   NC_MOVE_EXPONENTIAL = 8,
-  NC_MOVE_NURBS = 9
+  NC_MOVE_NURBS = 9,
+  NC_MOVE_SPLINE = 10
 } nc_move_kind;
 
 /** Plane of a circular move. */

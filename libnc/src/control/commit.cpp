@@ -29,6 +29,23 @@ uint32_t extra_turns(double sweep) {
   return turns > 0 ? static_cast<uint32_t>(turns) : 0;
 }
 
+/// M700 13.15: what the mode asks of this segment.
+AccuracyLimits accuracy_limits(const AccuracyParameters& p, const Move& move, const Circle& circle) {
+  AccuracyLimits limits;
+  limits.speed_clamp = move.speed_clamp;
+  if (move.circular) {
+    const double clamp = arc_speed_clamp(p, std::fmin(circle.radius_start, circle.radius_end));
+    if (clamp < HUGE_VAL) limits.speed_clamp = static_cast<float>(clamp / 60);
+  }
+  const double step = tolerable_step(p) * (100 - p.corner_coefficient()) / 100;
+  if (step > 0) {
+    limits.corner_step = static_cast<float>(step / 60);
+    limits.smooth_cos = static_cast<float>(std::cos(p.corner_angle_deg * kPi / 180));
+  }
+  limits.arc_joint = static_cast<float>(p.arc_joint_mm_min / 60);
+  return limits;
+}
+
 nc_axes to_axes(const AxisVec& a) {
   nc_axes out;
   std::memcpy(out.v, a.v, sizeof(out.v));
@@ -324,7 +341,7 @@ void Commit::set_rule(const FeedRule& rule, Segment* s) {
   }
 }
 
-void Commit::to_record(const Item& item, const Transform& transform, Record* out) {
+void Commit::to_record(const Item& item, const Transform& transform, const AccuracyParameters& accuracy, Record* out) {
   out->serial = last_serial_;
   out->source = item.source;
   out->kind = item.kind;
@@ -353,6 +370,7 @@ void Commit::to_record(const Item& item, const Transform& transform, Record* out
       if (item.move.plane_feed && !s.rapid) s.feed_mm_s *= helix_slope();
       s.feed_end_mm_s = static_cast<double>(item.move.feed_end) / 60;
       s.thread_angle = item.move.thread_angle;
+      if (item.move.high_accuracy && !s.rapid) s.accuracy = accuracy_limits(accuracy, item.move, circle_);
       break;
     }
     case ItemKind::action: out->action = item.action; break;

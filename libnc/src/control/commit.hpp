@@ -7,6 +7,7 @@
 #include "frame/transform.hpp"
 #include "nc/control.h"
 #include "interpolate/record.hpp"
+#include "motion/m700_accuracy.hpp"
 #include "offset/offset.hpp"
 #include "path/shape.hpp"
 
@@ -67,7 +68,8 @@ class Commit {
   /// The item just committed, as a sink sees it.
   void to_public(const Item& item, nc_item* out) const;
   /// The same for the ring.
-  void to_record(const Item& item, const Transform& transform, Record* out);
+  /// `accuracy`: of the moves made under high-accuracy control.
+  void to_record(const Item& item, const Transform& transform, const AccuracyParameters& accuracy, Record* out);
 
   /// The item just committed has not been executed and is given up; `move`: it was one.
   void take_back(bool move) {

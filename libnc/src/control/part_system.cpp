@@ -391,7 +391,7 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
   }
   if (committed == Committed::yes) {
     Record record;
-    commit_.to_record(*item, transform, &record);
+    commit_.to_record(*item, transform, interpreter.settings.accuracy, &record);
     record.epoch = epoch_;
     record.staged = from_stage_;
     if (resumes_) [[unlikely]] resume_record(record);

@@ -138,6 +138,9 @@ constexpr Sentence kSentences[] = {
      "The signal of the sensor did not come within the measuring range about {value}.",
      "The signal of the sensor did not come within the measuring range."},
     {C::stroke_check, "The block starts or ends in the area that G22 prohibits.", nullptr},
+    {C::not_accepted, "{word} is not accepted in the mode that is on.", "This is not accepted in the mode that is on."},
+    {C::in_high_accuracy, "{word} is not possible between G08 P1 and G08 P0. Command G08 P0 first.",
+     "This is not possible between G08 P1 and G08 P0. Command G08 P0 first."},
     // offsets
     {C::g10_l, "G10 does not know L{value}.", "G10 does not know this L."},
     {C::g10_p, "G10: there is no data set P{value}.",

@@ -18,6 +18,9 @@ enum class Function : uint8_t {
   hypothetical_axis,  ///< G07
   unidirectional,     ///< G60
   high_speed,         ///< G05
+  high_speed_accuracy,///< G05.1
+  high_accuracy,      ///< G08
+  high_accuracy_mode, ///< G61.1
   dwell, data_input, data_input_end,   ///< G04 G10 G11
   exact_stop_once,    ///< G09
   plane_xy, plane_zx, plane_yz,

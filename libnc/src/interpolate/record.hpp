@@ -12,6 +12,14 @@ struct AxisLimits {
   double rapid = 0, velocity = 0, acceleration = 0, jerk = 0, in_position = 0;
 };
 
+/// What high-accuracy control asks of one segment (M700 13.15; motion/m700_accuracy.hpp). Zeros ask nothing.
+struct AccuracyLimits {
+  float speed_clamp = 0;   ///< by the radius or the curvature, mm/s
+  float corner_step = 0;   ///< change of velocity that a corner may make, mm/s
+  float smooth_cos = -1;   ///< a corner whose tangents have this cosine or more is none
+  float arc_joint = 0;     ///< speed where an arc meets another kind of path, mm/s
+};
+
 /// Committed geometry and its own speed limits. The plan over it (motion/plan.hpp) may change, this may not.
 struct Segment {
   Curve curve;
@@ -34,6 +42,7 @@ struct Segment {
   float digit_most_mm_s = 0, digit_step_mm_s = 0;  ///< F1 to F5: what the handle may make of the feed, and by one pulse
   float slow_zone = 0, slow_factor = 1;            ///< the feed over this length before the end (M700 7.10)
   double begun = 0;          ///< so much of its length has been gone before an interrupt (M700 13.12), mm
+  AccuracyLimits accuracy;   ///< of high-accuracy control
   // filled by the planner when it is committed
   double speed_limit = 0;  ///< path speed at which some axis reaches its velocity limit, or the curvature its
                            ///< acceleration limit

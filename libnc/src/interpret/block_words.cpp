@@ -50,6 +50,7 @@ Did take_g(Interpreter& in, double value) {
     if (did != Did::done) return did;
   }
   if (row->function == Function::missing) {
+    if (in.state.fine_mode != FineMode::none) return in.raise(Condition::illegal_g, 'G', value);  // M700 13.17: not in its list, fitted or not
     const bool excluded = refused_in_inverse_time(row->code) && inverse_time_so_far(in);
     return excluded ? in.raise(Condition::inverse_time_code, 'G', value) : in.raise(Condition::no_function, 'G', code);
   }

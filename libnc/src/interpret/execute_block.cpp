@@ -84,10 +84,6 @@ Did apply_reading_modes(Interpreter& in) {
       case Function::inverse_time_feed:
       case Function::return_initial:
       case Function::return_r:
-      case Function::exact_stop_mode:
-      case Function::corner_override:
-      case Function::tapping_mode:
-      case Function::cutting_mode:
       case Function::rapid:
       case Function::linear:
       case Function::arc_cw:
@@ -104,6 +100,17 @@ Did apply_reading_modes(Interpreter& in) {
         in.state.modal.code[kGroupStrokeCheck] = row->code;
         in.state.stroke_box = 0;
         break;
+      case Function::exact_stop_mode:
+      case Function::corner_override:
+      case Function::tapping_mode:
+      case Function::cutting_mode:
+      case Function::high_accuracy_mode: {
+        const Did did = check_cutting_code(in, *row);
+        if (did != Did::done) return did;
+        in.state.modal.code[kGroupCutting] = row->code;
+        in.state.refresh_accuracy();
+        break;
+      }
       case Function::macro_modal_off: cancel_modal_call(in); break;
       case Function::polar_command_on:
       case Function::polar_command_off: {
@@ -235,6 +242,10 @@ Did execute_words(Interpreter& in) {
   Did did = gather_words(in);
   if (did != Did::done) return did;
   BlockWords& w = in.words;
+  if (in.state.fine_mode != FineMode::none) {
+    did = check_fine_block(in);
+    if (did != Did::done) return did;
+  }
   if (only_moves(in)) return execute_move(in);
   const bool macro_call = w.one_shot != nullptr && is_macro_call(w.one_shot->function);
   const int16_t motion_before = in.state.modal.code[kGroupMotion];  // M700 App.2: codes of group 1 beside G37 are ignored

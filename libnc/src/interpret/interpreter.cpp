@@ -165,6 +165,9 @@ void Interpreter::reset(bool keep_modal) {
   const bool spindle_on = state.spindle_on, port_open = state.port_open;
   const uint32_t stroke_box = state.stroke_box;
   const SpindleControl spindle = state.spindle;
+  const uint16_t high_speed = state.high_speed;
+  const FineMode fine_mode = state.fine_mode;
+  const bool accuracy_command = state.accuracy_command;
   const int8_t plane_axis[2] = {state.plane_axis[0], state.plane_axis[1]};
   state = State{};
   state.machine = machine;
@@ -176,6 +179,7 @@ void Interpreter::reset(bool keep_modal) {
   for (unsigned i = 0; i < NC_GROUPS; ++i) state.modal.code[i] = dialect->initial[i];
   if (settings.start_inch) state.modal.code[kGroupUnit] = 200;
   if (settings.start_synchronous) state.modal.code[kGroupFeed] = 950;  // M700 7.4 note 6, 7.5 (3)
+  if (settings.start_high_accuracy) state.modal.code[kGroupCutting] = 611;  // M700 13.15 (4)
   select_basic_plane(*this, dialect->id == NC_DIALECT_M700 ? settings.start_plane : state.modal.code[kGroupPlane]);
   if (keep_modal) {
     const ModalState initial = state.modal;
@@ -189,8 +193,12 @@ void Interpreter::reset(bool keep_modal) {
     state.spindle_on = spindle_on;
     state.stroke_box = stroke_box;
     state.spindle = spindle;
+    state.high_speed = high_speed;
+    state.fine_mode = fine_mode;
+    state.accuracy_command = accuracy_command;
     for (unsigned i = 0; i < 2; ++i) state.plane_axis[i] = plane_axis[i];
   }
+  state.refresh_accuracy();
   state.frame[0].program = main_program;
   state.frame[0].offset = state.frame[0].begin = main_program.offset;
   state.frame[0].line = state.frame[0].begin_line = main_program.line;
@@ -351,6 +359,8 @@ nc_status Interpreter::run_block(uint32_t& budget) {
 }
 
 Did Interpreter::execute_statements() {
+  // M700 13.17.1 precaution (12): no variables and macro statements in high-speed high-accuracy control II.
+  if (state.fine_mode > FineMode::accuracy1) return raise(Condition::format_error, '#');
   while (statement < block->statements.size()) {
     jumped = false;
     const Did did = execute_statement(*this, block->statements[statement]);

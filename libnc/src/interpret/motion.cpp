@@ -38,6 +38,7 @@ Transform transform_in_force(const Interpreter& in) {
 Move& begin_move(Interpreter& in, const Transform& transform, const AxisVec& start, const AxisVec& target) {
   Move& move = in.emit_move(start, target);
   if (in.state.mirror != 0) map_compensation(in, move.comp);
+  move.high_accuracy = in.state.high_accuracy;
   move.transform = in.transforms.intern(transform);
   in.state.machine = transform.to_machine(target);
   in.state.moves_since_comp_off = 1;
@@ -372,6 +373,7 @@ Did move_by_words(Interpreter& in) {
   style.feed_mm_min = feed_for(in, position, target);
   style.special_feed = special_feed(in);
   style.exact_stop = asks_exact_stop(in);
+  if ((in.state.special & kSpecialSpline) != 0) return move_spline(in, target, w.axes, style);
   move_linear(in, target, w.axes, style);
   if (w.in_position > 0 && style.exact_stop) wait_in_position(in);  // only where there is a deceleration check
   return Did::done;

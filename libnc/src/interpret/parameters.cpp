@@ -378,6 +378,24 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.exponential_linear = axis_letter(number("1514", 0));
   s.exponential_rotary = axis_letter(number("1515", 0));
   feed_settings(s);
+  s.high_accuracy_code = number("1267/bit0", 0) == 0;
+  s.high_speed_codes = number("1267/bit0", 1) != 0;
+  s.start_high_accuracy = flag("1148");
+  s.smooth_control = flag("8090");
+  s.spline_allowed = flag("8025");
+  s.spline_cancel_angle = number("8026", 0);
+  s.spline_minute_length = number("8030", 0);
+  if (s.spline_minute_length == 0) s.spline_minute_length = 1;  // 13.18 (1) (b)
+  s.spline_tolerance_inflected = number("8027", 0);
+  s.spline_tolerance_arched = number("8028", 0);
+  s.accuracy.target_mm_min = number("1206", 0);
+  s.accuracy.time_ms = number("1207", 0);
+  s.accuracy.radius_percent = number("8019", 0);
+  s.accuracy.corner_angle_deg = number("8020", 0);
+  s.accuracy.separate = flag("8021");
+  s.accuracy.corner_percent = number("8022", 0);
+  s.accuracy.curve_percent = number("8023", 0);
+  if (flag("1149")) s.accuracy.arc_joint_mm_min = number("1209", 0);
   for (unsigned i = 0; i < kMaxAxes; ++i) s.creep[i] = number("8209", 0, static_cast<int>(i));
   for (unsigned i = 0; i < kMaxAxes; ++i) axis_settings(static_cast<int>(i), &s);
   for (unsigned i = 0; i < kMaxAxes; ++i) s.index_increment[i] = number("2106", 0, static_cast<int>(i));

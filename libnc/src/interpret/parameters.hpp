@@ -4,6 +4,7 @@
 
 #include "base/arena.hpp"
 #include "dialect/dialect.hpp"
+#include "motion/m700_accuracy.hpp"
 
 namespace nc {
 
@@ -91,6 +92,16 @@ struct Settings {
   double corner_angle = 0;                ///< #8008, deg
   double corner_zone = 0;                 ///< #8009, mm
   uint8_t dwell_skip = 0;                 ///< #1173 dwlskp: skip signals that end a dwell
+  bool high_accuracy_code = true;         ///< #1267 bit 0 is not 1: G61.1 exists (13.15)
+  bool high_speed_codes = true;           ///< #1267 bit 0 is not 0: G05 P10000, G05.1 exist (13.17)
+  bool start_high_accuracy = false;       ///< #1148 I_G611
+  bool smooth_control = false;            ///< #8090 SSS ON
+  bool spline_allowed = false;            ///< #8025 SPLINE ON
+  double spline_cancel_angle = 0;         ///< #8026 CANCEL ANG., deg; 0 = never
+  double spline_minute_length = 1;        ///< #8030 MINUTE LENGTH, mm; negative = any length
+  double spline_tolerance_inflected = 0;  ///< #8027 Toler-1, mm; 0 = no revision
+  double spline_tolerance_arched = 0;     ///< #8028 Toler-2, mm
+  AccuracyParameters accuracy;            ///< of high-accuracy control, 13.15
   // DGSHAPE settings
   bool calculator = false;
   uint8_t calculator_words = 0;       ///< 0 none, 1 all, 2 F, 3 IJKRXYZA

@@ -95,11 +95,29 @@ struct Repeat {
   uint16_t items = 0;   ///< of the next block that have happened
 };
 
+/// The mode of fine segments in force: which codes may be commanded (M700 13.17; functions/fine_mode.cpp).
+enum class FineMode : uint8_t {
+  none,
+  accuracy1,   ///< high-speed high-accuracy control I: G05.1 Q1
+  accuracy2,   ///< II: G05 P10000
+  smooth       ///< II with SSS control: G05 P10000 while #8090 is on
+};
+
+/// Spline G05.1 Q2 (M700 13.18; functions/spline.cpp).
+struct SplineState {
+  bool on = false;
+  uint8_t axes = 0;          ///< bit i: axis i was named with G05.1 Q2
+  bool joined = false;       ///< the block before ended smoothly into the one to come
+  bool moved = false;        ///< the block before was a movement, by `back`
+  double back[3] = {0, 0, 0};///< way of the block before along the basic axes
+};
+
 /// Bits of State::special.
 enum Special : uint8_t {
   kSpecialMap = 1,         ///< programmed coordinates are not those of the axes
   kSpecialWords = 2,       ///< axis words mean something else (G16)
-  kSpecialFeed = 4         ///< F is more than the speed of every cut, or cutting has a mode of its own (interpret/feed.hpp)
+  kSpecialFeed = 4,        ///< F is more than the speed of every cut, or cutting has a mode of its own (interpret/feed.hpp)
+  kSpecialSpline = 8       ///< G01 goes along a spline
 };
 /// Values of State::high_speed, the P of the last G05.
 inline constexpr uint16_t kHighAccuracy2 = 10000;
@@ -117,6 +135,10 @@ struct State {
   ArcStep arc_step = ArcStep::none;
   uint8_t nurbs_order = 0;    ///< of the last curve, for one that a knot alone begins
   uint16_t high_speed = 0;    ///< P of G05
+  FineMode fine_mode = FineMode::none;
+  bool accuracy_command = false;  ///< between G08 P1 and G08 P0
+  bool high_accuracy = false;     ///< high-accuracy control, whatever has turned it on (13.15)
+  SplineState spline;
   uint32_t arc_points = 0;    ///< start and middle point of the arc in space
   NurbsState nurbs;
   uint32_t held_point = 0;    ///< where the axes of G07 stand (Interpreter::points)
@@ -154,8 +176,9 @@ struct State {
     const bool feed = modal.code[kGroupFeed] == 930 || modal.code[kGroupFeed] == 950 || modal.feed_digit != 0 ||
                       modal.code[kGroupCutting] == 620 || modal.code[kGroupCutting] == 630;
     special = static_cast<uint8_t>((map.active() ? kSpecialMap : 0) | (modal.code[kGroupPolarCommand] == 160 ? kSpecialWords : 0) |
-                                   (feed ? kSpecialFeed : 0));
+                                   (feed ? kSpecialFeed : 0) | (spline.on ? kSpecialSpline : 0));
   }
+  void refresh_accuracy() { high_accuracy = modal.code[kGroupCutting] == 611 || accuracy_command || fine_mode != FineMode::none; }
   // Only the first depth + 1 frames and loop_count loops are meaningful, and only these are copied into checkpoints.
   CallFrame frame[kMaxFrames];
   Loop loop[kMaxLoops];

@@ -114,6 +114,7 @@ double highest_feed(const Segment& s, const MotionLimits& limits) {
 /// Speed that keeps the per-axis velocity limits and the bound on segments per cycle.
 double velocity_limit(const Segment& s, const SegmentShape& g, const MotionLimits& limits) {
   double v = kSegmentsPerCycle * s.curve.length / limits.cycle_s;
+  if (s.accuracy.speed_clamp > 0.0f) v = std::min(v, static_cast<double>(s.accuracy.speed_clamp));  // M700 13.15, 13.18
   for (unsigned i = 0; i < limits.axis_count; ++i) {
     const AxisLimits& a = limits.axis[i];
     const double axis = s.rapid && a.rapid > 0 ? a.rapid : a.velocity;
@@ -177,7 +178,10 @@ SegmentShape shape_of(const Segment& s, const MotionLimits& limits) {
   return g;
 }
 
-Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
+namespace {
+
+/// Joint by the axes' limits alone.
+Joint joint_by_axes(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
                     const MotionLimits& limits) {
   // Largest change of direction, in units of each axis' acceleration: s^2/mm.
   double change = 0;
@@ -200,6 +204,38 @@ Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, 
   // A corner that is passed slower than one cycle of braking is not worth passing: rest, so that its point is
   // hit exactly.
   if (v <= std::min(sa.bare, sb.bare) * dt) joint = {};
+  return joint;
+}
+
+bool is_arc(const Segment& s) { return s.curve.circular && s.curve.shape == nullptr; }
+
+/// M700 13.15: speed that optimum corner deceleration and the control of arc entrance and exit leave.
+double accuracy_speed(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
+                      const MotionLimits& limits) {
+  const double step = static_cast<double>(b.accuracy.corner_step), smooth = static_cast<double>(b.accuracy.smooth_cos);
+  const double arc_joint = static_cast<double>(b.accuracy.arc_joint);
+  double dot = 0, aa = 0, bb = 0;
+  for (unsigned i = 0; i < limits.axis_count; ++i) {
+    dot += sa.exit[i] * sb.entry[i];
+    aa += sa.exit[i] * sa.exit[i];
+    bb += sb.entry[i] * sb.entry[i];
+  }
+  const double length = std::sqrt(aa * bb), cosine = length > 0 ? dot / length : 1;
+  double v = HUGE_VAL;
+  // 2 sin(theta / 2) = sqrt(2 - 2 cos theta): the change of velocity at a speed of 1.
+  if (step > 0 && cosine < smooth) v = step / std::sqrt(2 - 2 * cosine);
+  if (arc_joint > 0 && is_arc(a) != is_arc(b)) v = std::min(v, arc_joint);
+  return v;
+}
+
+}  // namespace
+
+Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
+                    const MotionLimits& limits) {
+  Joint joint = joint_by_axes(a, sa, b, sb, limits);
+  if (b.accuracy.corner_step <= 0 && b.accuracy.arc_joint <= 0) return joint;
+  const double v = accuracy_speed(a, sa, b, sb, limits);
+  if (v * v < joint.speed2) joint.speed2 = v * v;
   return joint;
 }
 

@@ -51,7 +51,13 @@ struct RationalSpan {
   uint8_t degree;
 };
 
-enum class ShapeKind : uint8_t { plain, space_arc, exponential, rational };
+/// One block of a spline: start + c[0] u + ... + c[4] u^5 on up to three axes, u in [0, 1].
+struct SplineSpan {
+  double c[5][3];
+  uint8_t axis[3];
+};
+
+enum class ShapeKind : uint8_t { plain, space_arc, exponential, rational, spline };
 
 /// What a program says of the shape of a move; with `plain` the move's own line or circle under `map`.
 struct MoveShape {
@@ -61,6 +67,7 @@ struct MoveShape {
     SpaceArc arc;
     Exponential exponential;
     RationalSpan span;
+    SplineSpan spline;
   };
   MoveShape() : span{} {}
   bool operator==(const MoveShape& other) const;

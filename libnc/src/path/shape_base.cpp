@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arcs in space, exponential curves and spans of NURBS by their own parameter u:
+// Arcs in space, exponential curves, spans of NURBS and blocks of splines by their own parameter u:
 //
 //     space arc     u in [0, 1], angle = sweep u, all other axes linearly; |dP/du| is constant
 //     exponential   u in [0, end] is the angle of M700 6.11
 //     rational      u in [0, 1] of one knot span
+//     spline        u in [0, 1] of one block
 //
 // With sigma = |dP/du| over the axes that make the length, u' = 1/sigma by the length s; u(s) itself comes from a table of exact
 // values at equal steps of s with quintic interpolation between them.
@@ -122,6 +123,39 @@ double rational_speed(const CurveShape& shape, double u) {
   return std::sqrt(sum);
 }
 
+void spline_at(const CurveShape& shape, double u, unsigned axis_count, ByParameter* q) {
+  const SplineSpan& r = shape.what.spline;
+  for (unsigned i = 0; i < axis_count; ++i) q->p[i] = shape.base.start[i];
+  for (unsigned i = 0; i < 3; ++i) {
+    if (r.axis[i] >= kMaxAxes) continue;
+    const double a = r.c[0][i], b = r.c[1][i], c = r.c[2][i], d = r.c[3][i], e = r.c[4][i];
+    const unsigned axis = r.axis[i];
+    q->p[axis] += ((((e * u + d) * u + c) * u + b) * u + a) * u;
+    q->d1[axis] = (((5 * e * u + 4 * d) * u + 3 * c) * u + 2 * b) * u + a;
+    q->d2[axis] = ((20 * e * u + 12 * d) * u + 6 * c) * u + 2 * b;
+    q->d3[axis] = (60 * e * u + 24 * d) * u + 6 * c;
+  }
+}
+
+AxisVec spline_point(const CurveShape& shape, double u) {
+  const SplineSpan& r = shape.what.spline;
+  AxisVec p = shape.base.start;
+  for (unsigned i = 0; i < 3; ++i)
+    if (r.axis[i] < kMaxAxes) p[r.axis[i]] += ((((r.c[4][i] * u + r.c[3][i]) * u + r.c[2][i]) * u + r.c[1][i]) * u + r.c[0][i]) * u;
+  return p;
+}
+
+double spline_speed(const CurveShape& shape, double u) {
+  const SplineSpan& r = shape.what.spline;
+  double sum = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    if (r.axis[i] >= kMaxAxes) continue;
+    const double d = (((5 * r.c[4][i] * u + 4 * r.c[3][i]) * u + 3 * r.c[2][i]) * u + 2 * r.c[1][i]) * u + r.c[0][i];
+    sum += d * d;
+  }
+  return std::sqrt(sum);
+}
+
 double exponential_speed(const CurveShape& shape, double u) {
   const Exponential& e = shape.what.exponential;
   const double slope = e.k / e.d * std::exp(u / e.d);
@@ -132,6 +166,7 @@ void by_parameter(const CurveShape& shape, double u, unsigned axis_count, ByPara
   switch (shape.what.kind) {
     case ShapeKind::space_arc: space_arc_at(shape, u, axis_count, q); break;
     case ShapeKind::exponential: exponential_at(shape, u, axis_count, q); break;
+    case ShapeKind::spline: spline_at(shape, u, axis_count, q); break;
     default: rational_at(shape, u, axis_count, q); break;
   }
 }
@@ -163,6 +198,7 @@ ByLength by_length(const CurveShape& shape, const ByParameter& q, unsigned axis_
 
 double sigma_at(const CurveShape& shape, double u, unsigned axis_count) {
   if (shape.what.kind == ShapeKind::rational) return rational_speed(shape, u);
+  if (shape.what.kind == ShapeKind::spline) return spline_speed(shape, u);
   if (shape.what.kind == ShapeKind::exponential) return exponential_speed(shape, u);
   ByParameter q;
   by_parameter(shape, u, axis_count, &q);
@@ -292,6 +328,7 @@ double base_parameter(const CurveShape& shape, double s, unsigned axis_count) {
 
 AxisVec base_position(const CurveShape& shape, double u, unsigned axis_count) {
   if (shape.what.kind == ShapeKind::rational) return rational_point(shape, u);
+  if (shape.what.kind == ShapeKind::spline) return spline_point(shape, u);
   ByParameter q;
   by_parameter(shape, u, axis_count, &q);
   return q.p;

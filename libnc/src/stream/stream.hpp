@@ -129,6 +129,7 @@ struct Move {
   Plane plane = Plane::none;     ///< circular only
   uint8_t plane_axis[2] = {0, 1};///< circular only
   bool plane_feed = false;       ///< helix: the feed is the speed in the plane of its arc (M700 6.6)
+  bool high_accuracy = false;    ///< corners and arcs by the rules of high-accuracy control (M700 13.15)
   TransformId transform = 0;
   uint32_t shape = 0;            ///< of the MoveShape, counted from 1; 0 = the line or circle below is all
   AxisVec start, end;            ///< compensation frame; after the offset stage: of the compensated path
@@ -140,6 +141,7 @@ struct Move {
   float feed_end = 0;            ///< exponential: feed at its end, mm/min; 0 = constant
   float thread_angle = 0;        ///< thread: start angle of the spindle, deg
   FeedRule rule;
+  float speed_clamp = 0;         ///< highest speed, whatever the feed and the override, mm/s; 0 = none
   Compensation comp;
 };
 

@@ -107,6 +107,8 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::measure_no_length, "NC-NO-SUCH-CODE", nullptr},
     {C::measure_signal, "NC-NO-SUCH-CODE", nullptr},
     {C::stroke_check, "NC-LIMIT", nullptr},
+    {C::not_accepted, "NC-NO-SUCH-CODE", nullptr},
+    {C::in_high_accuracy, "NC-NO-SUCH-CODE", nullptr},
     // offsets
     {C::g10_l, "NC-DATA", nullptr},
     {C::g10_p, "NC-DATA", nullptr},

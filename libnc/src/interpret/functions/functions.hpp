@@ -54,6 +54,15 @@ Did check_in_space_arc(Interpreter& in, const FunctionRow& row);
 Did check_space_arc_block(Interpreter& in);
 Did check_nurbs_block(Interpreter& in);
 Did do_high_speed(Interpreter& in);         // high_speed.cpp
+Did do_high_speed_accuracy(Interpreter& in);   // high_speed.cpp
+Did do_high_accuracy(Interpreter& in);      // high_accuracy.cpp
+/// A code of group 13 while high-accuracy control is on, and G61.1 (high_accuracy.cpp).
+Did check_cutting_code(Interpreter& in, const FunctionRow& row);
+/// G01 between G05.1 Q2 and G05.1 Q0 (spline.cpp).
+Did move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
+/// What a block may hold in the modes of M700 13.17 (fine_mode.cpp).
+Did check_fine_block(Interpreter& in);
+bool allowed_in_fine_mode(FineMode mode, int16_t code);
 bool means_spiral(const Interpreter& in);                                                // spiral.cpp: a G02/G03 of type 2
 
 /// Rules of a block, and of a move, while cylindrical or polar coordinate interpolation is on (milling.cpp).

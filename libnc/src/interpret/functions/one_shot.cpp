@@ -39,6 +39,8 @@ constexpr Handler kHandlers[] = {
     {Function::hypothetical_axis, do_hypothetical_axis},
     {Function::unidirectional, do_unidirectional},
     {Function::high_speed, do_high_speed},
+    {Function::high_speed_accuracy, do_high_speed_accuracy},
+    {Function::high_accuracy, do_high_accuracy},
 };
 
 }  // namespace

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// G05.1 Q2 (M700 13.18): which blocks become parts of the curve, how the curve is revised, alarms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+Bench spline_bench() {
+  Bench bench;
+  bench.param("1267/bit0", "1").param("8025", "1");
+  return bench;
+}
+
+const std::string kOn = "G5 P10000\nG5.1 Q2 X0 Y0 Z0\nG1 F1000\n", kOff = "G5.1 Q0\nG5 P0\nM30";
+
+/// Kinds of the moves: s a spline, l a line.
+std::string kinds(Bench& bench, const std::string& text) {
+  const Outcome run = bench.at(0, 0, 0).run(kOn + text + kOff);
+  EXPECT_EQ(run.alarm, "") << text;
+  std::string all;
+  for (const nc_move& m : run.moves()) all += m.kind == NC_MOVE_SPLINE ? 's' : m.kind == NC_MOVE_LINE ? 'l' : '?';
+  return all;
+}
+
+TEST(Spline, GoesThroughThePointsBlockByBlock) {
+  Bench bench = spline_bench();
+  const Outcome run = bench.at(0, 0, 0).run(kOn + "X.5 Y.1\nX1. Y.4\nX1.2 Y.9 Z.1\nX1.1 Y1.4\n" + kOff);
+  EXPECT_EQ(run.alarm, "");
+  const std::vector<nc_move> m = run.moves();
+  ASSERT_EQ(m.size(), 4u);
+  const double points[4][3] = {{.5, .1, 0}, {1, .4, 0}, {1.2, .9, .1}, {1.1, 1.4, .1}};
+  for (unsigned i = 0; i < 4; ++i) {
+    EXPECT_EQ(m[i].kind, NC_MOVE_SPLINE);
+    for (unsigned axis = 0; axis < 3; ++axis) EXPECT_NEAR(m[i].machine.v[axis], points[i][axis], 1e-12);
+  }
+  // The first block is the parabola through the first three points: longer than its chord by less than a tenth.
+  EXPECT_GT(m[0].length, std::hypot(.5, .1));
+  EXPECT_LT(m[0].length, 1.1 * std::hypot(.5, .1));
+}
+
+TEST(Spline, CircleOfFineSegmentsComesOutRound) {
+  Bench bench = spline_bench();
+  std::string text;
+  for (int k = 1; k <= 36; ++k)
+    text += "X" + std::to_string(5 * std::sin(k * M_PI / 36)) + " Y" + std::to_string(5 - 5 * std::cos(k * M_PI / 36)) + "\n";
+  const Outcome run = bench.at(0, 0, 0).run(kOn + text + kOff);
+  double length = 0;
+  for (const nc_move& m : run.moves()) length += m.length;
+  EXPECT_NEAR(length, 5 * M_PI, 1e-4);  // 36 chords are 5e-3 shorter
+}
+
+TEST(Spline, ConditionsBreakIt) {  // 13.18 (1)
+  Bench bench = spline_bench();
+  EXPECT_EQ(kinds(bench, "X.5 Y.1\nX1. Y.3\nX1.5 Y.6\n"), "sss");
+  EXPECT_EQ(kinds(bench, "X.5 Y.1\n"), "l");                                     // one block alone
+  EXPECT_EQ(kinds(bench, "X.5\nX1.\nX1.5\n"), "lll");                            // points on a line
+  EXPECT_EQ(kinds(bench, "X.5 Y.1\nX1. Y.3\nX3. Y.6\nX3.5 Y.8\nX4. Y1.2\n"), "sslss");   // longer than 1 mm
+  EXPECT_EQ(kinds(bench, "X.5 Y.1\nX1. Y.3\nM8\nX1.5 Y.6\nX2. Y1.\n"), "ssss");  // no movement: two splines
+  EXPECT_EQ(kinds(bench, "X.5 Y.1\nM8\nX1. Y.3\n"), "ll");
+  EXPECT_EQ(kinds(bench, "X.5 Y.1\n;\nX1. Y.3\n"), "ss");                        // ";" alone is no block
+  EXPECT_EQ(kinds(bench, "X.9 Y.1\nX1. Y.2\nX1.1 Y.4\n"), "sss");
+  EXPECT_EQ(kinds(bench, "X.9 Y.1\nX1. Y.12\nX1.1 Y.2\n"), "lss");               // more than eight times its neighbour
+  bench.param("8030", "-1");
+  EXPECT_EQ(kinds(bench, "X.9 Y.1\nX1. Y.12\nX1.1 Y.2\n"), "sss");
+  EXPECT_EQ(kinds(bench, "X5. Y1.\nX10. Y3.\n"), "ss");
+  bench.param("8030", "6");
+  EXPECT_EQ(kinds(bench, "X5. Y1.\nX10. Y3.\nX17. Y5.\n"), "ssl");
+}
+
+TEST(Spline, OnlyTheNamedAxesTakePart) {  // 13.18 (2)
+  Bench bench = spline_bench();
+  const Outcome run = bench.at(0, 0, 0).run("G5 P10000\nG5.1 Q2 X0 Y0\nG1 F1000\nX.5 Y.1\nX1. Y.3\nX1.5 Y.6 Z.1\nX2. Y.8\nX2.5 Y1.2\n" + kOff);
+  std::string all;
+  for (const nc_move& m : run.moves()) all += m.kind == NC_MOVE_SPLINE ? 's' : 'l';
+  EXPECT_EQ(all, "sslss");
+}
+
+TEST(Spline, CornersLargerThanTheCancelAngle) {  // 13.18 (1) (a)
+  Bench bench = spline_bench();
+  const std::string corner = "X.5 Y.1\nX1. Y.1\nX1. Y.6\nX.9 Y1.\n";
+  EXPECT_EQ(kinds(bench, corner), "ssss");
+  bench.param("8026", "60");
+  EXPECT_EQ(kinds(bench, corner), "ssss");  // two curves that meet at the corner
+  const std::vector<nc_move> split = bench.at(0, 0, 0).run(kOn + corner + kOff).moves();
+  bench.param("8026", "0");
+  const std::vector<nc_move> whole = bench.at(0, 0, 0).run(kOn + corner + kOff).moves();
+  EXPECT_LT(split[1].length, whole[1].length);  // no bulge towards the corner
+  bench.param("8026", "8");
+  EXPECT_EQ(kinds(bench, corner), "llll");
+}
+
+TEST(Spline, ChordErrorIsRevisedOrCancels) {  // 13.18 (2)
+  Bench bench = spline_bench();
+  // Without an inflection: half a millimetre that rises and falls.
+  const std::string arch = "X.5 Y.25\nX1. Y0\n";
+  const double free_length = bench.at(0, 0, 0).run(kOn + arch + kOff).moves()[0].length;
+  bench.param("8027", "0.001");  // not the one of a block without an inflection
+  EXPECT_EQ(bench.at(0, 0, 0).run(kOn + arch + kOff).moves()[0].length, free_length);
+  bench.param("8027", "0").param("8028", "0.03");
+  const nc_move revised = bench.at(0, 0, 0).run(kOn + arch + kOff).moves()[0];
+  EXPECT_EQ(revised.kind, NC_MOVE_SPLINE);
+  EXPECT_LT(revised.length, free_length);
+  bench.param("8028", "0.001");
+  EXPECT_EQ(kinds(bench, arch), "ll");  // more than five times the tolerance
+}
+
+TEST(Spline, Alarms) {
+  Bench bench = spline_bench();
+  EXPECT_EQ(bench.run("G5.1 Q2 X0 Y0 Z0\nM30").alarm, "P34");
+  EXPECT_EQ(bench.run("G5.1 Q1\nG5.1 Q2 X0\nM30").alarm, "P34");
+  EXPECT_EQ(bench.run("G5 P10000\nG5.1 X0\nM30").alarm, "P33");
+  EXPECT_EQ(bench.run("G5 P10000\nG5.1 Q2 X0 F100\nM30").alarm, "P33");
+  EXPECT_EQ(bench.run("G5 P10000\nG5.1 Q2 X0 G1\nM30").alarm, "P33");
+  EXPECT_EQ(bench.run("G5 P10000\nG5.1 Q2 X0\nG5.1 Q0 X0\nM30").alarm, "P33");
+  EXPECT_EQ(bench.run("G5 P10000\nG5.1 Q2 X0\nG16\nM30").alarm, "P34");
+  bench.param("8025", "0");
+  EXPECT_EQ(bench.run("G5 P10000\nG5.1 Q2 X0 Y0 Z0\nM30").alarm, "P34");
+}
+
+TEST(Spline, ReadAgainFromItsMiddleIsTheSameCurve) {
+  Bench bench = spline_bench();
+  const std::string text = kOn + "X.5 Y.1\nX1. Y.4\nX1.2 Y.9 Z.1\nX1.1 Y1.4\nX1. Y2.\n" + kOff;
+  const std::vector<nc_move> all = bench.at(0, 0, 0).run(text).moves();
+  ASSERT_EQ(all.size(), 5u);
+  for (const unsigned back : {4u, 5u, 6u, 7u}) {
+    bench.at(0, 0, 0).start(text);
+    Step step, mark;
+    while (bench.pull(&step) == NC_OK && step.item.source.line < 9)
+      if (step.item.kind == NC_ITEM_MARK && step.item.source.line == back) mark = step;
+    ASSERT_EQ(bench.rewind(mark.item.serial, mark.machine), NC_OK);
+    const std::vector<nc_move> rest = bench.finish().moves();
+    ASSERT_EQ(rest.size(), all.size() - (back - 3));
+    for (size_t i = 0; i < rest.size(); ++i) EXPECT_EQ(rest[i].length, all[all.size() - rest.size() + i].length) << back;
+  }
+}
+
+}  // namespace
+}  // namespace nc::test
