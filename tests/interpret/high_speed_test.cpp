@@ -154,6 +154,13 @@ TEST(HighSpeed, OtherDataIsAFormatError) {  // M700 13.17.2 (2), 13.17.1 note 1 
   EXPECT_EQ(alarm_of("G5.1 Q1\n#100=1\nG1 X#100 F100\nG5.1 Q0"), "");
 }
 
+TEST(HighSpeed, FeedByDigitIsNotForSss) {  // M700 13.17.2 (3)
+  Bench bench;
+  bench.param("1267/bit0", "1").param("8090", "1").param("1079", "1").param("1185", "100");
+  EXPECT_EQ(bench.run("G5 P10000\nG1 X1. F1\nM30").alarm, "P33");
+  EXPECT_EQ(bench.run("G5 P10000\nG1 X1. F100\nM30").alarm, "");
+}
+
 TEST(HighSpeed, TheEndOfTheProgramEndsIt) {
   Bench bench;
   EXPECT_EQ(bench.run("G5 P10000\nG1 X1. F100\nM30").alarm, "");

@@ -2,7 +2,10 @@
 // G05.1 Q2 (M700 13.18): which blocks become parts of the curve, how the curve is revised, alarms.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "support/pull.hpp"
 
@@ -106,6 +109,95 @@ TEST(Spline, ChordErrorIsRevisedOrCancels) {  // 13.18 (2)
   EXPECT_LT(revised.length, free_length);
   bench.param("8028", "0.001");
   EXPECT_EQ(kinds(bench, arch), "ll");  // more than five times the tolerance
+}
+
+using Point = std::array<double, 3>;
+
+/// The path of `text` as many points a move; [move][sample].
+std::vector<std::vector<Point>> sampled(Bench& bench, const std::string& text, unsigned samples) {
+  bench.at(0, 0, 0).start(text);
+  std::vector<std::vector<Point>> all;
+  Step step;
+  while (bench.pull(&step) == NC_OK) {
+    if (step.item.kind != NC_ITEM_MOVE) continue;
+    std::vector<Point>& move = all.emplace_back();
+    for (unsigned k = 0; k <= samples; ++k) {
+      nc_axes at{};
+      const double share = static_cast<double>(k) / samples;
+      if (!step.item.u.move.curved) {
+        for (unsigned i = 0; i < 3; ++i)
+          at.v[i] = step.item.u.move.machine_start.v[i] + share * (step.item.u.move.machine.v[i] - step.item.u.move.machine_start.v[i]);
+      } else {
+        EXPECT_EQ(nc_move_point(bench.control(), 0, share, &at), NC_OK);
+      }
+      move.push_back({at.v[0], at.v[1], at.v[2]});
+    }
+  }
+  return all;
+}
+
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double norm(const Point& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+
+/// Random fine segments that turn a little from one to the next.
+std::string random_text(std::mt19937_64& rng, unsigned blocks) {
+  std::uniform_real_distribution<double> length(0.3, 0.9), turn(-0.5, 0.5);
+  double heading = 0, x = 0, y = 0, z = 0;
+  std::string text;
+  for (unsigned i = 0; i < blocks; ++i) {
+    heading += turn(rng);
+    const double l = length(rng);
+    x += l * std::cos(heading);
+    y += l * std::sin(heading);
+    z += 0.3 * turn(rng);
+    text += "X" + std::to_string(x) + " Y" + std::to_string(y) + " Z" + std::to_string(z) + "\n";
+  }
+  return text;
+}
+
+TEST(Spline, TangentAndCurvatureGoOnAtThePoints) {
+  std::mt19937_64 rng(1);
+  constexpr unsigned kSamples = 400;
+  for (unsigned n = 0; n < 20; ++n) {
+    Bench bench = spline_bench();
+    const auto path = sampled(bench, kOn + random_text(rng, 12) + kOff, kSamples);
+    ASSERT_EQ(path.size(), 12u);
+    for (size_t i = 1; i < path.size(); ++i) {
+      const Point before[3] = {path[i - 1][kSamples - 2], path[i - 1][kSamples - 1], path[i - 1][kSamples]};
+      const Point behind[3] = {path[i][0], path[i][1], path[i][2]};
+      EXPECT_LT(norm(minus(before[2], behind[0])), 1e-12);
+      // One-sided differences by the length, good to the first order in the step.
+      const double ha = norm(minus(before[2], before[1])), hb = norm(minus(behind[1], behind[0]));
+      Point ta, tb, ka, kb;
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        ta[axis] = (3 * before[2][axis] - 4 * before[1][axis] + before[0][axis]) / (2 * ha);
+        tb[axis] = (-3 * behind[0][axis] + 4 * behind[1][axis] - behind[2][axis]) / (2 * hb);
+        ka[axis] = (before[2][axis] - 2 * before[1][axis] + before[0][axis]) / (ha * ha);
+        kb[axis] = (behind[2][axis] - 2 * behind[1][axis] + behind[0][axis]) / (hb * hb);
+      }
+      EXPECT_LT(norm(minus(ta, tb)), 1e-3) << n << " " << i;
+      EXPECT_LT(norm(minus(ka, kb)), 0.1) << n << " " << i;
+    }
+  }
+}
+
+TEST(Spline, RevisedBlocksKeepTheirTolerance) {  // 13.18 (2)
+  std::mt19937_64 rng(2);
+  for (unsigned n = 0; n < 20; ++n) {
+    Bench bench = spline_bench();
+    bench.param("8027", "0.004").param("8028", "0.006");
+    const auto path = sampled(bench, kOn + random_text(rng, 12) + kOff, 200);
+    for (const auto& move : path) {
+      const Point chord = minus(move.back(), move.front());
+      double most = 0;
+      for (const Point& p : move) {
+        const Point q = minus(p, move.front());
+        const double along = (q[0] * chord[0] + q[1] * chord[1] + q[2] * chord[2]) / norm(chord);
+        most = std::max(most, std::sqrt(std::max(0.0, norm(q) * norm(q) - along * along)));
+      }
+      EXPECT_LT(most, 0.006 + 1e-9) << n;
+    }
+  }
 }
 
 TEST(Spline, Alarms) {

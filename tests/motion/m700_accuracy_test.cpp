@@ -142,6 +142,13 @@ TEST(M700Accuracy, ArcEntranceAndExit) {  // 13.15 "arc entrance/exit"
   EXPECT_DOUBLE_EQ(mode_clamp(3000, 8000), 3000);
 }
 
+TEST(M700Accuracy, PathClampIsThatOfTheFirstAxis) {  // #2109, #2110
+  const double clamp[3] = {3000, 2000, 0}, direction[3] = {0.6, -0.8, 0};
+  EXPECT_DOUBLE_EQ(path_clamp(clamp, direction, 3), 2500);  // 3000/0.6 = 5000, 2000/0.8 = 2500
+  const double none[3] = {0, 0, 0};
+  EXPECT_TRUE(std::isinf(path_clamp(none, direction, 3)));
+}
+
 TEST(M700Accuracy, RadiusCompensationGrowsAndFalls) {  // #8107, #8108, #2069
   EXPECT_DOUBLE_EQ(radius_compensation_share(0, 360), 0);
   EXPECT_DOUBLE_EQ(radius_compensation_share(45, 360), 0.5);

@@ -29,20 +29,35 @@ uint32_t extra_turns(double sweep) {
   return turns > 0 ? static_cast<uint32_t>(turns) : 0;
 }
 
-/// M700 13.15: what the mode asks of this segment.
-AccuracyLimits accuracy_limits(const AccuracyParameters& p, const Move& move, const Circle& circle) {
-  AccuracyLimits limits;
-  limits.speed_clamp = move.speed_clamp;
-  if (move.circular) {
-    const double clamp = arc_speed_clamp(p, std::fmin(circle.radius_start, circle.radius_end));
-    if (clamp < HUGE_VAL) limits.speed_clamp = static_cast<float>(clamp / 60);
+/// Largest share of each axis in the path: exact on lines; on any other curve the axes that take part may have the whole.
+AxisVec shares_of(const Curve& curve, unsigned axis_count) {
+  AxisVec share;
+  const bool straight = !curve.circular && curve.shape == nullptr;
+  for (unsigned i = 0; i < axis_count; ++i) {
+    const bool turns = curve.circular && (i == curve.h || i == curve.v);
+    share[i] = straight ? std::fabs(curve.delta[i]) / curve.length : turns || curve.delta[i] != 0 ? 1.0 : 0.0;
   }
+  return share;
+}
+
+/// M700 13.15: what the mode asks of this segment.
+AccuracyLimits accuracy_limits(const AccuracyParameters& p, const Move& move, const Curve& curve, const Circle& circle, unsigned axis_count) {
+  AccuracyLimits limits;
+  const AxisVec share = shares_of(curve, axis_count);
+  const bool rapid = move.kind == NC_MOVE_RAPID;
+  double clamp = path_clamp(rapid ? p.rapid_mm_min : p.clamp_mm_min, share.v, axis_count);
+  if (move.circular) clamp = std::fmin(clamp, arc_speed_clamp(p, std::fmin(circle.radius_start, circle.radius_end)));
+  if (move.speed_clamp > 0.0f) clamp = std::fmin(clamp, 60 * static_cast<double>(move.speed_clamp));
+  if (clamp < HUGE_VAL) limits.speed_clamp = static_cast<float>(clamp / 60);
+  if (rapid) return limits;
   const double step = tolerable_step(p) * (100 - p.corner_coefficient()) / 100;
   if (step > 0) {
     limits.corner_step = static_cast<float>(step / 60);
     limits.smooth_cos = static_cast<float>(std::cos(p.corner_angle_deg * kPi / 180));
+    limits.corner_least = static_cast<float>(corner_speed_at_least(0, share.v, p.corner_least_mm_min, axis_count) / 60);
   }
   limits.arc_joint = static_cast<float>(p.arc_joint_mm_min / 60);
+  if ((move.high_accuracy & kFineSegmentsOn) != 0 && p.acceleration_clamp) limits.bend_acceleration = static_cast<float>(tolerable_acceleration(p));
   return limits;
 }
 
@@ -370,7 +385,7 @@ void Commit::to_record(const Item& item, const Transform& transform, const Accur
       if (item.move.plane_feed && !s.rapid) s.feed_mm_s *= helix_slope();
       s.feed_end_mm_s = static_cast<double>(item.move.feed_end) / 60;
       s.thread_angle = item.move.thread_angle;
-      if (item.move.high_accuracy && !s.rapid) s.accuracy = accuracy_limits(accuracy, item.move, circle_);
+      if (item.move.high_accuracy != 0) s.accuracy = accuracy_limits(accuracy, item.move, curve_, circle_, axis_count_);
       break;
     }
     case ItemKind::action: out->action = item.action; break;

@@ -17,7 +17,9 @@ struct AccuracyLimits {
   float speed_clamp = 0;   ///< by the radius or the curvature, mm/s
   float corner_step = 0;   ///< change of velocity that a corner may make, mm/s
   float smooth_cos = -1;   ///< a corner whose tangents have this cosine or more is none
+  float corner_least = 0;  ///< a corner is not passed slower for `corner_step`, mm/s
   float arc_joint = 0;     ///< speed where an arc meets another kind of path, mm/s
+  float bend_acceleration = 0;  ///< that short lines may cause by turning, mm/s^2
 };
 
 /// Committed geometry and its own speed limits. The plan over it (motion/plan.hpp) may change, this may not.

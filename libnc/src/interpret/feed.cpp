@@ -34,11 +34,6 @@ Did take_inverse_time(Interpreter& in) {
   return Did::done;
 }
 
-/// M700 7.3: F0 to F5 without a point, where #1079 says so.
-bool is_digit(const Interpreter& in, double raw) {
-  return in.settings.feed_by_digit && !in.words.pointed('F') && raw >= 0 && raw <= 5 && raw == std::floor(raw);
-}
-
 double straight_length(const Interpreter& in, const Move& move) {
   double squares = 0;
   for (unsigned i = 0; i < in.axis_count; ++i) squares += (move.end[i] - move.start[i]) * (move.end[i] - move.start[i]);
@@ -75,13 +70,17 @@ void apply_digit(Interpreter& in, Move& move) {
 
 }  // namespace
 
+bool is_feed_digit(const Interpreter& in, double raw) {
+  return in.settings.feed_by_digit && !in.words.pointed('F') && raw >= 0 && raw <= 5 && raw == std::floor(raw);
+}
+
 Did take_feed_word(Interpreter& in) {
   ModalState& modal = in.state.modal;
   if (modal.code[kGroupFeed] == kPerRevolution) return take_feed_per_revolution(in);
   if (modal.code[kGroupFeed] == kInverseTime) return take_inverse_time(in);
   const double raw = in.words.get('F');
   const uint16_t before = modal.feed_digit;
-  if (is_digit(in, raw)) {
+  if (is_feed_digit(in, raw)) {
     modal.feed = raw;
     modal.feed_digit = static_cast<uint16_t>(raw + 1);
   } else {

@@ -7,6 +7,9 @@
 
 namespace nc {
 
+/// M700 7.3: F0 to F5 without a point, where #1079 says so.
+bool is_feed_digit(const Interpreter& in, double raw);
+
 /// The F of the block, by the feed mode in force (7.2 to 7.5).
 Did take_feed_word(Interpreter& in);
 

@@ -155,6 +155,7 @@ void Interpreter::leave_interrupt(bool to_sequence) {
     const int16_t cutting = state.modal.code[kGroupCutting];
     state.modal = interrupted_.modal;
     change_cutting_mode(*this, cutting);
+    state.refresh_accuracy();
     state.modal.m = m;
     state.comp = interrupted_.comp;
     state.length_value = interrupted_.length_value;

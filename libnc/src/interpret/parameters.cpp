@@ -395,6 +395,13 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.accuracy.separate = flag("8021");
   s.accuracy.corner_percent = number("8022", 0);
   s.accuracy.curve_percent = number("8023", 0);
+  s.accuracy.acceleration_clamp = flag("8034");
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    const int axis = static_cast<int>(i);
+    s.accuracy.clamp_mm_min[i] = number("2110", 0, axis);
+    s.accuracy.rapid_mm_min[i] = number("2109", 0, axis);
+    s.accuracy.corner_least_mm_min[i] = number("2096", 0, axis);
+  }
   if (flag("1149")) s.accuracy.arc_joint_mm_min = number("1209", 0);
   for (unsigned i = 0; i < kMaxAxes; ++i) s.creep[i] = number("8209", 0, static_cast<int>(i));
   for (unsigned i = 0; i < kMaxAxes; ++i) axis_settings(static_cast<int>(i), &s);

@@ -137,7 +137,7 @@ struct State {
   uint16_t high_speed = 0;    ///< P of G05
   FineMode fine_mode = FineMode::none;
   bool accuracy_command = false;  ///< between G08 P1 and G08 P0
-  bool high_accuracy = false;     ///< high-accuracy control, whatever has turned it on (13.15)
+  uint8_t high_accuracy = 0;      ///< high-accuracy control, whatever has turned it on (13.15): bits of HighAccuracy
   SplineState spline;
   uint32_t arc_points = 0;    ///< start and middle point of the arc in space
   NurbsState nurbs;
@@ -178,7 +178,10 @@ struct State {
     special = static_cast<uint8_t>((map.active() ? kSpecialMap : 0) | (modal.code[kGroupPolarCommand] == 160 ? kSpecialWords : 0) |
                                    (feed ? kSpecialFeed : 0) | (spline.on ? kSpecialSpline : 0));
   }
-  void refresh_accuracy() { high_accuracy = modal.code[kGroupCutting] == 611 || accuracy_command || fine_mode != FineMode::none; }
+  void refresh_accuracy() {
+    const bool on = modal.code[kGroupCutting] == 611 || accuracy_command || fine_mode != FineMode::none;
+    high_accuracy = static_cast<uint8_t>((on ? kHighAccuracyOn : 0) | (fine_mode > FineMode::accuracy1 ? kFineSegmentsOn : 0));
+  }
   // Only the first depth + 1 frames and loop_count loops are meaningful, and only these are copied into checkpoints.
   CallFrame frame[kMaxFrames];
   Loop loop[kMaxLoops];

@@ -214,16 +214,25 @@ double accuracy_speed(const Segment& a, const SegmentShape& sa, const Segment& b
                       const MotionLimits& limits) {
   const double step = static_cast<double>(b.accuracy.corner_step), smooth = static_cast<double>(b.accuracy.smooth_cos);
   const double arc_joint = static_cast<double>(b.accuracy.arc_joint);
-  double dot = 0, aa = 0, bb = 0;
+  double aa = 0, bb = 0, turn2 = 0;
+  for (unsigned i = 0; i < limits.axis_count; ++i) aa += sa.exit[i] * sa.exit[i], bb += sb.entry[i] * sb.entry[i];
+  if (!(aa > 0) || !(bb > 0)) return HUGE_VAL;
   for (unsigned i = 0; i < limits.axis_count; ++i) {
-    dot += sa.exit[i] * sb.entry[i];
-    aa += sa.exit[i] * sa.exit[i];
-    bb += sb.entry[i] * sb.entry[i];
+    const double change = sb.entry[i] / std::sqrt(bb) - sa.exit[i] / std::sqrt(aa);
+    turn2 += change * change;
   }
-  const double length = std::sqrt(aa * bb), cosine = length > 0 ? dot / length : 1;
+  // The change of velocity at a speed of 1: 2 sin(theta / 2).
+  const double turn = std::sqrt(turn2), cosine = 1 - 0.5 * turn2;
   double v = HUGE_VAL;
-  // 2 sin(theta / 2) = sqrt(2 - 2 cos theta): the change of velocity at a speed of 1.
-  if (step > 0 && cosine < smooth) v = step / std::sqrt(2 - 2 * cosine);
+  if (step > 0 && cosine < smooth) {
+    v = step / turn;
+    const float least = std::min(a.accuracy.corner_least, b.accuracy.corner_least);  // #2096, where every moving axis has one
+    v = std::max(v, static_cast<double>(least));
+  }
+  // 13.17.1 (2): the direction turns while the mean of two lines is gone.
+  const double bend = static_cast<double>(b.accuracy.bend_acceleration);
+  if (bend > 0 && turn > 0 && !a.curve.circular && !b.curve.circular)
+    v = std::min(v, std::sqrt(0.5 * bend * (a.curve.length + b.curve.length) / turn));
   if (arc_joint > 0 && is_arc(a) != is_arc(b)) v = std::min(v, arc_joint);
   return v;
 }
@@ -233,7 +242,7 @@ double accuracy_speed(const Segment& a, const SegmentShape& sa, const Segment& b
 Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
                     const MotionLimits& limits) {
   Joint joint = joint_by_axes(a, sa, b, sb, limits);
-  if (b.accuracy.corner_step <= 0 && b.accuracy.arc_joint <= 0) return joint;
+  if (b.accuracy.corner_step <= 0 && b.accuracy.arc_joint <= 0 && b.accuracy.bend_acceleration <= 0) return joint;
   const double v = accuracy_speed(a, sa, b, sb, limits);
   if (v * v < joint.speed2) joint.speed2 = v * v;
   return joint;

@@ -126,6 +126,13 @@ double arc_joint_speed(const AccuracyParameters& p, double theta_deg) {
 
 double mode_clamp(double high_precision, double normal) { return high_precision > 0 ? high_precision : normal; }
 
+double path_clamp(const double* clamp, const double* direction, unsigned axes) {
+  double speed = kInfinite;
+  for (unsigned i = 0; i < axes; ++i)
+    if (clamp[i] > 0 && direction[i] != 0) speed = std::min(speed, clamp[i] / std::fabs(direction[i]));
+  return speed;
+}
+
 // M700 13.15 "circular error radius compensation control for each axis"
 
 double radius_compensation_share(double angle, double sweep) {

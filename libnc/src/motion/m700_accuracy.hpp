@@ -4,7 +4,7 @@
 // ms where the manual has them, so that its numbers can be put in as they stand.
 #pragma once
 
-#include <cstdint>
+#include "stream/stream.hpp"
 
 namespace nc {
 
@@ -18,6 +18,11 @@ struct AccuracyParameters {
   double corner_percent = 0;     ///< #8022 CORNER COMP
   double curve_percent = 0;      ///< #8023 CURVE COMP
   double arc_joint_mm_min = 0;   ///< #1209 cirdcc, where #1149 cireft is on
+
+  double clamp_mm_min[kMaxAxes] = {};    ///< #2110 Clamp(H-precision)
+  double rapid_mm_min[kMaxAxes] = {};    ///< #2109 Rapid(H-precision)
+  double corner_least_mm_min[kMaxAxes] = {};  ///< #2096 crncsp
+  bool acceleration_clamp = false;       ///< #8034 AccClamp ON, in high-speed high-accuracy control II
 
   double corner_coefficient() const { return separate ? corner_percent : radius_percent; }
   double curve_coefficient() const { return separate ? curve_percent : radius_percent; }
@@ -79,6 +84,8 @@ double acceleration_clamp(const AccuracyParameters& p, double theta_deg, double 
 double arc_joint_speed(const AccuracyParameters& p, double theta_deg);
 /// #2110 or, where that is 0, #2002 (and #2109, #2001 of rapid traverse).
 double mode_clamp(double high_precision_mm_min, double normal_mm_min);
+/// The path speed at which some axis reaches its clamp; infinite without one. `direction` of unit length: its largest shares.
+double path_clamp(const double* clamp_mm_min, const double* direction, unsigned axes);
 
 // ---- circular error radius compensation, #8107, #8108, #2069 ---------------------------------------------------------
 

@@ -115,6 +115,9 @@ struct SkipSpeeds {
   double feed_mm_min[kSignals] = {};
 };
 
+/// What is on of M700 13.15 and 13.17 while a move is made.
+enum HighAccuracy : uint8_t { kHighAccuracyOn = 1, kFineSegmentsOn = 2 /**< high-speed high-accuracy control II */ };
+
 struct Move {
   Move() = default;
   Move(const AxisVec& from, const AxisVec& to, const Compensation& c) : start(from), end(to), work(to), comp(c) {}
@@ -129,7 +132,7 @@ struct Move {
   Plane plane = Plane::none;     ///< circular only
   uint8_t plane_axis[2] = {0, 1};///< circular only
   bool plane_feed = false;       ///< helix: the feed is the speed in the plane of its arc (M700 6.6)
-  bool high_accuracy = false;    ///< corners and arcs by the rules of high-accuracy control (M700 13.15)
+  uint8_t high_accuracy = 0;     ///< corners and arcs by the rules of high-accuracy control: bits of HighAccuracy
   TransformId transform = 0;
   uint32_t shape = 0;            ///< of the MoveShape, counted from 1; 0 = the line or circle below is all
   AxisVec start, end;            ///< compensation frame; after the offset stage: of the compensated path

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What may be commanded in high-speed high-accuracy control I and II and in SSS control: the tables of M700 13.17.1 "relation with
 // other functions" (2) and 13.17.2 (2).
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -87,7 +88,7 @@ Did check_fine_block(Interpreter& in) {
   if (mode != FineMode::accuracy1 && !in.block->code.empty())  // precaution (12): no variables in II
     for (const Word& word : in.block->words)
       if ((word.flags & kWordExpression) != 0) return in.raise(Condition::format_error, word.letter);
-  if (mode == FineMode::smooth && state.modal.feed_digit != 0) return in.raise(Condition::format_error, 'F');  // 13.17.2 (3)
+  if (mode == FineMode::smooth && w.has('F') && is_feed_digit(in, w.get('F'))) return in.raise(Condition::format_error, 'F', w.get('F'));  // 13.17.2 (3)
   state.spline.joined = state.spline.joined && w.any(in.axis_letters);
   if (w.g.empty() && w.m.empty() && !w.any(~(in.axis_letters | letters("F")))) return Did::done;
   for (const FunctionRow* row : w.g) {

@@ -14,7 +14,7 @@ namespace {
 /// Codes of the modes in front of which both are refused: P485, P486.
 Did check_modes_before(Interpreter& in, double code) {
   const State& state = in.state;
-  if (state.high_accuracy) return in.raise(Condition::not_accepted, 'G', code);  // 13.15 (3); appendix 1 has P126
+  if (state.high_accuracy != 0) return in.raise(Condition::not_accepted, 'G', code);  // 13.15 (3); appendix 1 has P126
   if (state.comp.side != 0) return in.raise(Condition::mill_modal, 'G', code);
   if (state.modal.code[kGroupSurfaceSpeed] == 960) return in.raise(Condition::mill_modal, 'G', code);
   if (state.modal.code[kGroupRotation] != 690) return in.raise(Condition::mill_modal, 'G', code);

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// What high-accuracy control does to the limits of segments and joints (M700 13.15, 13.17.1).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "motion/limits.hpp"
+
+namespace nc {
+namespace {
+
+MotionLimits fast_machine() {
+  MotionLimits limits;
+  limits.axis_count = 2;
+  for (unsigned i = 0; i < 2; ++i) limits.axis[i] = AxisLimits{1000, 1000, 50000, 0, 0};
+  return limits;
+}
+
+Segment line(double x, double y) {
+  Segment s;
+  AxisVec end;
+  end[0] = x;
+  end[1] = y;
+  s.curve = make_line(AxisVec{}, end, 2, 0);
+  s.feed_mm_s = 200;
+  return s;
+}
+
+Segment half_circle(double radius) {
+  Segment s;
+  AxisVec end;
+  end[0] = 2 * radius;
+  Circle c;
+  c.center[0] = radius;
+  c.radius_start = c.radius_end = radius;
+  c.angle_start = M_PI;
+  c.sweep = M_PI;
+  s.curve = make_arc(AxisVec{}, end, 0, 1, c, 2, 0);
+  s.feed_mm_s = 200;
+  return s;
+}
+
+double joint_speed(const Segment& a, const Segment& b) {
+  const MotionLimits limits = fast_machine();
+  return std::sqrt(joint_between(a, shape_of(a, limits), b, shape_of(b, limits), limits).speed2);
+}
+
+TEST(M700Limits, CornerStepClampsTheJoint) {
+  const Segment a = line(50, 0);
+  Segment b = line(0, 50);
+  const double free_speed = joint_speed(a, b);
+  b.accuracy.corner_step = 2;
+  b.accuracy.smooth_cos = std::cos(10 * static_cast<float>(M_PI) / 180);
+  EXPECT_NEAR(joint_speed(a, b), 2 / std::sqrt(2.0), 1e-6);  // 90 degrees
+  EXPECT_GT(free_speed, joint_speed(a, b));
+  Segment nearly = line(50, 50 * std::tan(8 * M_PI / 180));  // below #8020
+  const double smooth = joint_speed(a, nearly);
+  nearly.accuracy = b.accuracy;
+  EXPECT_EQ(joint_speed(a, nearly), smooth);
+}
+
+TEST(M700Limits, CornerMinimumNeedsBothSides) {  // #2096
+  Segment a = line(50, 0), b = line(0, 50);
+  b.accuracy.corner_step = 2;
+  b.accuracy.corner_least = 5;
+  EXPECT_NEAR(joint_speed(a, b), 2 / std::sqrt(2.0), 1e-6);
+  a.accuracy.corner_least = 4;
+  EXPECT_NEAR(joint_speed(a, b), 4, 1e-6);
+}
+
+TEST(M700Limits, ArcEntranceAndExit) {  // #1209
+  Segment a = line(0, 50), b = half_circle(10);
+  b.curve.circle.sweep = -M_PI;  // clockwise: it begins upwards, as the line ends
+  EXPECT_GT(joint_speed(a, b), 100);
+  b.accuracy.arc_joint = 30;
+  EXPECT_NEAR(joint_speed(a, b), 30, 1e-6);
+  EXPECT_GT(joint_speed(b, b), 0);
+}
+
+TEST(M700Limits, SpeedClampIsTheSegmentsLimit) {
+  const MotionLimits limits = fast_machine();
+  Segment s = half_circle(10);
+  set_segment_limits(s, shape_of(s, limits), 0, limits);
+  EXPECT_GT(s.speed_limit, 100);
+  s.accuracy.speed_clamp = 70;
+  set_segment_limits(s, shape_of(s, limits), 0, limits);
+  EXPECT_DOUBLE_EQ(s.speed_limit, 70);
+  EXPECT_DOUBLE_EQ(shape_of(s, limits).reach, 70);
+}
+
+TEST(M700Limits, AccelerationClampIsThatOfTheCurve) {  // 13.17.1 (2): 1 mm chords of a circle of 20 mm at 500 mm/s^2: 100 mm/s
+  const double half = std::asin(1 / 40.0);
+  const Segment a = line(std::cos(half), -std::sin(half));
+  Segment b = line(std::cos(half), std::sin(half));
+  const double free_speed = joint_speed(a, b);
+  b.accuracy.bend_acceleration = 500;
+  EXPECT_NEAR(joint_speed(a, b), std::min(free_speed, 100.0), 1e-6);
+  b.accuracy.bend_acceleration = 5;
+  EXPECT_NEAR(joint_speed(a, b), 10, 1e-6);
+}
+
+}  // namespace
+}  // namespace nc
