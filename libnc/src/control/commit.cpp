@@ -385,7 +385,8 @@ void Commit::to_record(const Item& item, const Transform& transform, const Accur
       if (item.move.plane_feed && !s.rapid) s.feed_mm_s *= helix_slope();
       s.feed_end_mm_s = static_cast<double>(item.move.feed_end) / 60;
       s.thread_angle = item.move.thread_angle;
-      if (item.move.high_accuracy != 0) s.accuracy = accuracy_limits(accuracy, item.move, curve_, circle_, axis_count_);
+      if (item.move.high_accuracy != 0 && !s.thread && item.move.kind != NC_MOVE_TAP)  // those go with the spindle
+        s.accuracy = accuracy_limits(accuracy, item.move, curve_, circle_, axis_count_);
       break;
     }
     case ItemKind::action: out->action = item.action; break;

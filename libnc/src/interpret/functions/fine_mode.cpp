@@ -73,6 +73,13 @@ uint32_t addresses(const Interpreter& in) {
   return known;
 }
 
+/// 13.18 (1) (c): anything but a block of G01 breaks the spline.
+bool goes_on_with_spline(const Interpreter& in) {
+  const BlockWords& w = in.words;
+  const int16_t motion = w.motion != nullptr ? w.motion->code : in.state.modal.code[kGroupMotion];
+  return motion == 10 && w.one_shot == nullptr && w.any(in.axis_letters);
+}
+
 }  // namespace
 
 bool allowed_in_fine_mode(FineMode mode, int16_t code) {
@@ -89,7 +96,7 @@ Did check_fine_block(Interpreter& in) {
     for (const Word& word : in.block->words)
       if ((word.flags & kWordExpression) != 0) return in.raise(Condition::format_error, word.letter);
   if (mode == FineMode::smooth && w.has('F') && is_feed_digit(in, w.get('F'))) return in.raise(Condition::format_error, 'F', w.get('F'));  // 13.17.2 (3)
-  state.spline.joined = state.spline.joined && w.any(in.axis_letters);
+  if (state.spline.on && !goes_on_with_spline(in)) state.spline.joined = state.spline.moved = false;
   if (w.g.empty() && w.m.empty() && !w.any(~(in.axis_letters | letters("F")))) return Did::done;
   for (const FunctionRow* row : w.g) {
     const bool allowed = allowed_in_fine_mode(mode, row->code) && (row->function != Function::data_input || data_input_allowed(w));
