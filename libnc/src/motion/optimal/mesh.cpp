@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion/optimal/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nc::optimal {
+namespace {
+
+constexpr double kArc = 0.06;         ///< rad that a cell on an arc may turn
+constexpr double kRatio = 1.25;       ///< of the speeds at both ends of a cell: its jerk goes with the speed
+constexpr double kLaunch = 4;         ///< periods that the cell next to rest takes
+constexpr double kLaunchSpeed = 0.5;  ///< of the speed and acceleration that the path allows
+constexpr double kCurvedLaunch = 0.125;  ///< of its length where the path bends
+constexpr double kShortLaunch = 0.025;   ///< of the window, at most
+constexpr double kGentle = 24;           ///< cells that the guess takes to leave the speed of the start
+constexpr double kFeed = 0.9995;         ///< of feed and axis velocities
+constexpr double kAtStart = 1.004;   ///< a start at speed is given, and rows of other cells have let it pass
+constexpr double kRounding = 1e-12;  ///< of the length of the window
+constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
+
+}  // namespace
+
+/// Speed at which the curvature and its change take all, and what is left along the path at no speed.
+Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
+  Bound b{p.feed, HUGE_VAL, HUGE_VAL, HUGE_VAL, false};
+  const unsigned samples = p.curve != nullptr || p.c[4][0] != 0 || p.c[5][0] != 0 ? 4 : 2;
+  double most[3][kMaxAxes] = {};
+  for (unsigned n = 0; n <= samples; ++n) {
+    const CurvePoint q = evaluate(p, from + (p.length - from) * n / samples, limits_->axis_count);
+    for (unsigned i = 0; i < limits_->axis_count; ++i) {
+      most[0][i] = std::max(most[0][i], std::fabs(q.d1[i]));
+      most[1][i] = std::max(most[1][i], std::fabs(q.d2[i]));
+      most[2][i] = std::max(most[2][i], std::fabs(q.d3[i]));
+    }
+  }
+  double bend2 = 0;
+  for (unsigned i = 0; i < limits_->axis_count; ++i) bend2 += most[1][i] * most[1][i];
+  b.curved = bend2 > 0;
+  if (p.curve != nullptr && b.curved) b.cell = kArc / std::sqrt(bend2);
+  for (unsigned i = 0; i < limits_->axis_count; ++i) {
+    const double v = p.rapid && limits_->rapid[i] > 0 ? limits_->rapid[i] : limits_->velocity[i];
+    const double a = limits_->acceleration[i], j = limits_->jerk[i];
+    if (v > 0 && b.speed * most[0][i] > v) b.speed = v / most[0][i];
+    if (a > 0 && b.speed * b.speed * most[1][i] > a) b.speed = std::sqrt(a / most[1][i]);
+    if (j > 0 && b.speed * b.speed * b.speed * most[2][i] > j) b.speed = std::cbrt(j / most[2][i]);
+    if (a > 0 && b.acceleration * most[0][i] > a) b.acceleration = a / most[0][i];
+    if (j > 0 && b.jerk * most[0][i] > j) b.jerk = j / most[0][i];
+  }
+  return b;
+}
+
+/// Speeds that can be reached from the start, with the acceleration growing by the jerk from 0 wherever the
+/// speed is bounded.
+void Mesher::forward() {
+  const MeshRequest& in = *in_;
+  forward_.count = 0;
+  double u = 0, v = in.from_rest ? 0 : std::sqrt(in.b0), a = in.from_rest ? 0 : 0.5 * in.slope0;
+  double edge = -in.from.x;
+  for (unsigned p = in.from.piece; p < in.count; ++p) {
+    const Bound bound = bound_of(in.piece[p], p == in.from.piece ? in.from.x : 0);
+    if (p == in.from.piece) at_start_ = bound;
+    edge += in.piece[p].length;
+    end_piece_ = p;
+    if (v > bound.speed) v = bound.speed, a = 0;
+    while (u < edge) {
+      if (forward_.count == kNodes) break;
+      forward_.node[forward_.count++] = {u, v};
+      const double t = in.period;
+      const double du = std::max(t * (v + t * (a / 2 + t * bound.jerk / 6)), kSlowest * t);
+      if (u + du >= edge) {
+        const double share = std::max(0.0, (edge - u) / du);
+        v = std::min(bound.speed, v + share * t * (a + bound.jerk * t / 2));
+        a = v >= bound.speed ? 0 : std::min(bound.acceleration, a + share * bound.jerk * t);
+        u = edge;
+        break;
+      }
+      u += du;
+      v = std::max(v + t * (a + bound.jerk * t / 2), kSlowest);
+      a = std::min(bound.acceleration, a + bound.jerk * t);
+      if (v >= bound.speed) v = bound.speed, a = 0;
+    }
+    if (forward_.count == kNodes || u < edge) break;
+  }
+  end_u_ = u;
+  whole_ = end_piece_ + 1 == in.count && u == edge;
+  if (forward_.count < kNodes) forward_.node[forward_.count++] = {u, v};
+}
+
+/// The same from the end back.
+void Mesher::backward(unsigned end_piece, double end) {
+  const MeshRequest& in = *in_;
+  backward_.count = 0;
+  double u = end, v = 0, a = 0, edge = -in.from.x;  // of the last piece, which may reach beyond
+  for (unsigned p = in.from.piece; p <= end_piece; ++p) edge += in.piece[p].length;
+  for (unsigned p = end_piece + 1; p-- > in.from.piece;) {
+    const Bound bound = bound_of(in.piece[p], p == in.from.piece ? in.from.x : 0);
+    if (p == end_piece) at_end_ = bound;
+    edge -= in.piece[p].length;
+    const double stop = std::max(edge, 0.0);
+    if (v > bound.speed) v = bound.speed, a = 0;
+    while (u > stop && backward_.count < kNodes) {
+      backward_.node[backward_.count++] = {u, v};
+      const double t = in.period;
+      const double du = std::max(t * (v + t * (a / 2 + t * bound.jerk / 6)), kSlowest * t);
+      if (u - du <= stop) {
+        const double share = (u - stop) / du;
+        v = std::min(bound.speed, v + share * t * (a + bound.jerk * t / 2));
+        a = v >= bound.speed ? 0 : std::min(bound.acceleration, a + share * bound.jerk * t);
+        u = stop;
+        break;
+      }
+      u -= du;
+      v = v + t * (a + bound.jerk * t / 2);
+      a = std::min(bound.acceleration, a + bound.jerk * t);
+      if (v >= bound.speed) v = bound.speed, a = 0;
+    }
+    if (backward_.count == kNodes) break;
+  }
+  if (backward_.count < kNodes) backward_.node[backward_.count++] = {u, v};
+  std::reverse(backward_.node, backward_.node + backward_.count);
+}
+
+double Mesher::speed_at(const Track& track, double u, unsigned* hint) const {
+  unsigned& k = *hint;
+  while (k + 2 < track.count && track.node[k + 1].u <= u) ++k;
+  if (k + 1 >= track.count) return track.node[k].v;
+  const Node &a = track.node[k], &b = track.node[k + 1];
+  if (u <= a.u) return u < a.u ? HUGE_VAL : a.v;
+  if (u >= b.u) return b.v;
+  return a.v + (b.v - a.v) * (u - a.u) / (b.u - a.u);
+}
+
+double Mesher::estimate(double u) {
+  return std::min(speed_at(forward_, u, &hint_f_), speed_at(backward_, u, &hint_b_));
+}
+
+/// Walks along and sets a knot at every joint of pieces and about every `period` seconds.
+bool Mesher::cells(double end) {
+  const MeshRequest& in = *in_;
+  Mesh& m = *mesh_;
+  const double t = in.period;
+  const auto rest_cell = [&](const Bound& bound) {
+    const double seconds = std::min({kLaunch * t, std::sqrt(kLaunchSpeed * bound.speed / bound.jerk),
+                                     kLaunchSpeed * bound.acceleration / bound.jerk});
+    return std::min({(bound.curved ? kCurvedLaunch : 1) * bound.jerk * seconds * seconds * seconds / 6,
+                     kShortLaunch * end, bound.cell});
+  };
+  double last_edge = -in.from.x;
+  for (unsigned p = in.from.piece; p < end_piece_; ++p) last_edge += in.piece[p].length;
+  const double launch = rest_cell(at_start_),
+               landing = std::min(rest_cell(at_end_), end - std::max(0.0, last_edge));
+  double u = 0, edge = in.piece[in.from.piece].length - in.from.x;
+  PathPlace at = in.from;
+  m.cells = 0;
+  hint_f_ = hint_b_ = 0;
+  const double stop = end - landing;
+  double cell_most = HUGE_VAL;
+  unsigned known = in.count;
+  while (u < end && m.cells < in.most) {
+    const unsigned f = hint_f_, b = hint_b_;
+    double h = launch;
+    if (m.cells > 0 || !in.from_rest) {
+      const double ahead = t * estimate(u);
+      h = t * estimate(std::min(u + 0.5 * ahead, 0.5 * (u + end)));
+      hint_f_ = f;
+      hint_b_ = b;
+      const double v0 = estimate(u), v1 = estimate(std::min(u + h, end - 0.5 * landing)),
+                   ratio = v1 > v0 ? v1 / v0 : v0 / v1;
+      if (ratio > kRatio) h *= std::max(0.3, std::log(kRatio) / std::log(ratio));
+      hint_f_ = f;
+      hint_b_ = b;
+    }
+    if (at.piece != known) cell_most = bound_of(in.piece[at.piece], at.x).cell, known = at.piece;
+    h = std::min(h, cell_most);
+    const bool lands = u >= stop - kRounding * end;
+    const double limit = lands ? end : std::min(edge, stop);
+    if (lands || u + 1.5 * h >= limit) {
+      h = limit - u;
+    } else if (u + 2 * h > limit) {
+      h = 0.5 * (limit - u);
+    }
+    if (m.cells == 0 && in.from_rest && h > 4 * launch) h = launch;
+    const double middle = estimate(u + 0.5 * h);
+    // A start at speed is given: from there the guess goes down gently.
+    const double away = in.from_rest ? 1 : std::min(1.0, m.cells / kGentle);
+    const double share = 1 - (1 - in.guess) * away * away * (3 - 2 * away);
+    place_[m.cells] = at;
+    m.h[m.cells] = h;
+    m.use[m.cells] = !in.from_rest && m.cells < 3 ? kAtStart : 1;
+    m.guess[m.cells] = std::max(share * share * middle * middle, 1e-8);
+    ++m.cells;
+    if (u + h >= edge - kRounding * end && at.piece + 1 < in.count && u + h < end) {
+      u = edge;
+      ++at.piece;
+      at.x = 0;
+      edge += in.piece[at.piece].length;
+    } else {
+      u += h;
+      at.x += h;
+    }
+    if (end - u < kRounding * end) break;
+  }
+  place_[m.cells] = at;
+  return end - u < kRounding * end;
+}
+
+void Mesher::fill_knots() {
+  const MeshRequest& in = *in_;
+  Mesh& m = *mesh_;
+  const unsigned axes = limits_->axis_count;
+  const auto cap_of = [&](const Piece& p, const CurvePoint& q) {
+    double length2 = 0, v = p.feed;
+    for (unsigned i = 0; i < axes; ++i) {
+      length2 += q.d1[i] * q.d1[i];
+      const double axis = p.rapid && limits_->rapid[i] > 0 ? limits_->rapid[i] : limits_->velocity[i];
+      if (axis > 0 && v * std::fabs(q.d1[i]) > axis) v = axis / std::fabs(q.d1[i]);
+    }
+    const double fed = length2 > 1 && p.feed < HUGE_VAL ? p.feed / std::sqrt(length2) : v;
+    v = std::min(v, fed);
+    return kFeed * kFeed * v * v;
+  };
+  for (unsigned k = 0; k <= m.cells; ++k) {
+    Knot& knot = m.knot[k];
+    knot.cap = HUGE_VAL;
+    if (k > 0) {
+      const Piece& p = in.piece[place_[k - 1].piece];
+      const CurvePoint q = evaluate(p, std::min(p.length, place_[k - 1].x + m.h[k - 1]), axes);
+      knot.left3 = knot.right3 = q.d3;
+      knot.d1 = q.d1;
+      knot.d2 = q.d2;
+      knot.cap = cap_of(p, q);
+      m.cap[k - 1] = std::min(m.cap[k - 1], knot.cap);
+    }
+    if (k < m.cells) {
+      const Piece& p = in.piece[place_[k].piece];
+      const CurvePoint q = evaluate(p, place_[k].x, axes);
+      knot.right3 = q.d3;
+      knot.d1 = q.d1;
+      knot.d2 = q.d2;
+      m.cap[k] = cap_of(p, q);
+      knot.cap = std::min(knot.cap, m.cap[k]);
+      const double h = m.h[k];
+      const CurvePoint end = evaluate(p, place_[k].x + h, axes);
+      Inside& inside = m.inside[k];
+      double length2 = 0;
+      inside.d2_start = q.d2;
+      inside.d2_end = end.d2;
+      for (unsigned i = 0; i < axes; ++i) {
+        inside.d1[i] = q.d1[i] + 0.5 * h * q.d2[i];
+        inside.d3[i] = (end.d2[i] - q.d2[i]) / h;
+        length2 += inside.d1[i] * inside.d1[i];
+      }
+      if (length2 > 1 && p.feed < HUGE_VAL)
+        m.cap[k] = std::min(m.cap[k], kFeed * kFeed * p.feed * p.feed / length2);
+    }
+  }
+}
+
+PathPlace Mesher::build(const MeshRequest& request, const Limits& limits, Mesh* mesh) {
+  in_ = &request;
+  limits_ = &limits;
+  mesh_ = mesh;
+  mesh->from_rest = request.from_rest;
+  mesh->b0 = request.b0;
+  mesh->slope0 = request.slope0;
+  forward();
+  for (;;) {
+    backward(end_piece_, end_u_);
+    if (cells(end_u_)) break;
+    // Too long for one window: it ends, at rest, some way before the place where the cells have run out.
+    const unsigned k = mesh->cells - mesh->cells / 4;
+    const PathPlace& at = place_[k];
+    end_u_ = -request.from.x + at.x;
+    for (unsigned p = request.from.piece; p < at.piece; ++p) end_u_ += request.piece[p].length;
+    end_piece_ = at.piece;
+    if (at.x <= 0) --end_piece_;
+    whole_ = false;
+  }
+  fill_knots();
+  return place_[mesh->cells];
+}
+
+}  // namespace nc::optimal

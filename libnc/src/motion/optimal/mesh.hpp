@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cuts pieces of path into the cells of a time law: about `period` seconds each at the speed that is to be
+// expected, which a pass forward and one backward estimate with the limits along the path alone.
+#pragma once
+
+#include "motion/optimal/time_law.hpp"
+
+namespace nc::optimal {
+
+/// A place on the path.
+struct PathPlace {
+  unsigned piece = 0;
+  double x = 0;
+};
+
+struct MeshRequest {
+  const Piece* piece = nullptr;
+  unsigned count = 0;
+  PathPlace from;
+  double period = 0.005;      ///< s
+  double guess = 0.7;         ///< of the estimated speed, to begin with
+  unsigned most = kMaxCells;  ///< cells
+  bool from_rest = true;
+  double b0 = 0, slope0 = 0;
+};
+
+class Mesher {
+ public:
+  /// Fills mesh from `from` to the end of the pieces, or as far as it reaches. @return the place where it
+  /// ends (at rest).
+  PathPlace build(const MeshRequest& request, const Limits& limits, Mesh* mesh);
+  /// Of cell k of the mesh built last.
+  const PathPlace& place(unsigned k) const { return place_[k]; }
+  bool whole() const { return whole_; }  ///< it reaches the end of the pieces
+
+ private:
+  static constexpr unsigned kNodes = 4 * kMaxCells;
+  struct Bound {
+    double speed, acceleration, jerk;
+    double cell;  ///< length: arcs are cut small enough to be nearly cubics
+    bool curved;
+  };
+  struct Node {
+    double u, v;
+  };
+  struct Track {
+    Node node[kNodes];
+    unsigned count = 0;
+  };
+
+  Bound bound_of(const Piece& p, double from) const;
+  void forward();
+  void backward(unsigned end_piece, double end);
+  double speed_at(const Track& track, double u, unsigned* hint) const;
+  double estimate(double u);
+  bool cells(double end);
+  void fill_knots();
+
+  const MeshRequest* in_ = nullptr;
+  const Limits* limits_ = nullptr;
+  Mesh* mesh_ = nullptr;
+  Track forward_, backward_;
+  double end_u_ = 0;
+  Bound at_start_, at_end_;
+  unsigned end_piece_ = 0;
+  unsigned hint_f_ = 0, hint_b_ = 0;
+  bool whole_ = false;
+  PathPlace place_[kMaxCells + 1];
+};
+
+}  // namespace nc::optimal

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The path of the `optimal` mode: pieces with continuous position, first and second derivative by one
+// parameter u, and a bounded third. The parameter is near to the length (|q'| <= 1) but need not be it, so a
+// piece may turn round on the spot.
+#pragma once
+
+#include "path/curve.hpp"
+
+namespace nc::optimal {
+
+/// Axis limits of one part system, mm/s and so on; 0 = no limit.
+struct Limits {
+  unsigned axis_count = 3;
+  double velocity[kMaxAxes] = {}, rapid[kMaxAxes] = {}, acceleration[kMaxAxes] = {}, jerk[kMaxAxes] = {};
+};
+
+/// A polynomial by x = u - u_start of degree 5 at most, or a part of a committed curve.
+struct Piece {
+  double length = 0;             ///< of the parameter, > 0
+  double feed = 0;               ///< mm/s along the path; HUGE_VAL where only the axes limit
+  bool rapid = false;            ///< the rapid rates hold
+  const Curve* curve = nullptr;  ///< then q(x) = curve(curve_from + x)
+  double curve_from = 0;
+  AxisVec c[6];  ///< else q(x) = c[0] + c[1] x + ... + c[5] x^5
+};
+
+/// Position and derivatives at x in [0, length].
+inline CurvePoint evaluate(const Piece& p, double x, unsigned axis_count) NC_RT {
+  if (p.curve != nullptr) return curve_evaluate(*p.curve, p.curve_from + x, axis_count);
+  CurvePoint q;
+  for (unsigned i = 0; i < axis_count; ++i) {
+    const double c2 = p.c[2][i], c3 = p.c[3][i], c4 = p.c[4][i], c5 = p.c[5][i];
+    q.position[i] = p.c[0][i] + x * (p.c[1][i] + x * (c2 + x * (c3 + x * (c4 + x * c5))));
+    q.d1[i] = p.c[1][i] + x * (2 * c2 + x * (3 * c3 + x * (4 * c4 + x * 5 * c5)));
+    q.d2[i] = 2 * c2 + x * (6 * c3 + x * (12 * c4 + x * 20 * c5));
+    q.d3[i] = 6 * c3 + x * (24 * c4 + x * 60 * c5);
+  }
+  return q;
+}
+
+}  // namespace nc::optimal

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+// The `optimal` room: smoothing stays within its tolerance, laws keep every axis' limits, measured on
+// positions at 1 ms and not on the solver's own numbers, and take little more time than the known optimum.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "motion/optimal/profile.hpp"
+#include "motion/optimal/smooth.hpp"
+#include "motion/optimal/windows.hpp"
+
+namespace nc::test {
+namespace {
+
+using optimal::CellState;
+using optimal::Limits;
+using optimal::Piece;
+using optimal::Windows;
+
+constexpr double kCycle = 0.001;
+
+Limits standard_limits() {
+  Limits l;
+  for (unsigned i = 0; i < 3; ++i) {
+    l.velocity[i] = l.rapid[i] = 250;
+    l.acceleration[i] = 2000;
+    l.jerk[i] = 50000;
+  }
+  return l;
+}
+
+/// A polyline with its lengths and feeds, smoothed.
+struct Path {
+  std::vector<AxisVec> vertex;
+  std::vector<double> length, feed;
+  std::vector<Piece> pieces;
+
+  void to(double x, double y, double z = 0, double f = 100) {
+    AxisVec p;
+    p[0] = x;
+    p[1] = y;
+    p[2] = z;
+    if (!vertex.empty()) {
+      const AxisVec& q = vertex.back();
+      length.push_back(
+          std::sqrt((x - q[0]) * (x - q[0]) + (y - q[1]) * (y - q[1]) + (z - q[2]) * (z - q[2])));
+      feed.push_back(f);
+    }
+    vertex.push_back(p);
+  }
+  bool smooth(double tolerance, double spacing) {
+    const unsigned vertices = static_cast<unsigned>(vertex.size()), knots = 64 * vertices + 64;
+    std::vector<double> u(vertices), knot(knots);
+    std::vector<AxisVec> control(knots + 3);
+    std::vector<unsigned> corner(knots);
+    std::vector<unsigned char> split(knots);
+    pieces.resize(knots);
+    optimal::SmoothRequest request;
+    request.line = {vertex.data(), length.data(), feed.data(), vertices};
+    request.tolerance = tolerance;
+    request.spacing = spacing;
+    const optimal::SmoothRoom room{u.data(),      vertices,     knot.data(), control.data(),
+                                   corner.data(), split.data(), knots};
+    pieces.resize(optimal::smooth(request, room, pieces.data(), knots));
+    return !pieces.empty();
+  }
+  double distance_to_edge(const AxisVec& p, size_t e) const {
+    double along = 0, off = 0;
+    for (unsigned i = 0; i < 3; ++i) along += (p[i] - vertex[e][i]) * (vertex[e + 1][i] - vertex[e][i]);
+    along = std::clamp(along / (length[e] * length[e]), 0.0, 1.0);
+    for (unsigned i = 0; i < 3; ++i)
+      off += std::pow(p[i] - vertex[e][i] - along * (vertex[e + 1][i] - vertex[e][i]), 2);
+    return std::sqrt(off);
+  }
+  /// Largest distance of the smoothed path from the polyline.
+  double deviation() const {
+    double worst = 0, at = 0;
+    size_t near = 0;
+    std::vector<double> u{0};
+    for (const double l : length) u.push_back(u.back() + l);
+    for (const Piece& p : pieces) {
+      for (int n = 0; n <= 20; ++n) {
+        const double x = p.length * n / 20;
+        const AxisVec q = evaluate(p, x, 3).position;
+        while (near + 1 < length.size() && u[near + 1] < at + x) ++near;
+        double best = HUGE_VAL;
+        for (size_t e = near > 3 ? near - 3 : 0; e < std::min(length.size(), near + 4); ++e)
+          best = std::min(best, distance_to_edge(q, e));
+        worst = std::max(worst, best);
+      }
+      at += p.length;
+    }
+    return worst;
+  }
+};
+
+/// Largest jump of position, first and second derivative between pieces.
+double worst_joint(const std::vector<Piece>& pieces) {
+  double worst = 0;
+  for (size_t k = 0; k + 1 < pieces.size(); ++k) {
+    const CurvePoint a = evaluate(pieces[k], pieces[k].length, 3), b = evaluate(pieces[k + 1], 0, 3);
+    for (unsigned i = 0; i < 3; ++i) {
+      worst = std::max({worst, std::fabs(a.position[i] - b.position[i]), std::fabs(a.d1[i] - b.d1[i]),
+                        std::fabs(a.d2[i] - b.d2[i]) / (1 + std::fabs(a.d2[i]))});
+    }
+  }
+  return worst;
+}
+
+/// Positions at every cycle from rest to rest.
+struct Motion {
+  std::vector<AxisVec> position;
+  double seconds = 0;
+  bool failed = false;
+  double worst_velocity = 0, worst_acceleration = 0, worst_jerk = 0, worst_feed = 0;
+
+  void measure(const Limits& l, double feed) {
+    for (size_t n = 3; n < position.size(); ++n) {
+      double speed2 = 0;
+      for (unsigned i = 0; i < l.axis_count; ++i) {
+        const double p0 = position[n][i], p1 = position[n - 1][i], p2 = position[n - 2][i],
+                     p3 = position[n - 3][i];
+        const double v = (p0 - p1) / kCycle;
+        speed2 += v * v;
+        worst_velocity = std::max(worst_velocity, std::fabs(v) / l.velocity[i]);
+        worst_acceleration =
+            std::max(worst_acceleration, std::fabs(p0 - 2 * p1 + p2) / (kCycle * kCycle) / l.acceleration[i]);
+        worst_jerk = std::max(worst_jerk,
+                              std::fabs(p0 - 3 * p1 + 3 * p2 - p3) / (kCycle * kCycle * kCycle) / l.jerk[i]);
+      }
+      worst_feed = std::max(worst_feed, std::sqrt(speed2) / feed);
+    }
+  }
+};
+
+Motion run(const std::vector<Piece>& pieces, const Limits& limits, double feed) {
+  static const std::unique_ptr<Windows> windows = std::make_unique<Windows>();
+  Motion m;
+  windows->start(pieces.data(), static_cast<unsigned>(pieces.size()), limits);
+  const AxisVec first = evaluate(pieces.front(), 0, 3).position,
+                last = evaluate(pieces.back(), pieces.back().length, 3).position;
+  m.position.assign(4, first);
+  double due = kCycle;
+  while (windows->next()) {
+    double clock = 0;
+    for (unsigned k = 0; k < windows->keep(); ++k) {
+      const double cell = cell_seconds(windows->law(), windows->mesh(), k);
+      for (; due <= clock + cell; due += kCycle) {
+        const CellState at = cell_state(windows->law(), windows->mesh(), k, due - clock);
+        m.position.push_back(evaluate(windows->piece_of(k), windows->place(k).x + at.x, 3).position);
+      }
+      clock += cell;
+    }
+    m.seconds += clock;
+    due -= clock;
+  }
+  m.failed = windows->failed();
+  m.position.insert(m.position.end(), 4, last);
+  m.measure(limits, feed);
+  return m;
+}
+
+/// Time from rest to rest with constant jerk, acceleration and speed limits: the seven phases.
+double seven_phases(double length, double v, double a, double j) {
+  const auto ramp = [&](double speed) {
+    return speed >= a * a / j ? speed / a + a / j : 2 * std::sqrt(speed / j);
+  };
+  if (v * ramp(v) > length) {
+    double low = 0, high = v;
+    for (int n = 0; n < 100; ++n)
+      (0.5 * (low + high) * ramp(0.5 * (low + high)) > length ? high : low) = 0.5 * (low + high);
+    v = low;
+  }
+  return 2 * ramp(v) + (length - v * ramp(v)) / v;
+}
+
+Piece straight(double length, double feed) {
+  Piece p;
+  p.length = length;
+  p.feed = feed;
+  p.c[1][0] = 1;
+  return p;
+}
+
+TEST(OptimalLaw, OneLineTakesTheTimeOfTheSevenPhases) {
+  for (const double length : {0.002, 0.1, 1.0, 7.0, 50.0, 400.0}) {
+    for (const double feed : {5.0, 50.0, 250.0}) {
+      const Limits limits = standard_limits();
+      const Motion m = run({straight(length, feed)}, limits, feed);
+      ASSERT_FALSE(m.failed) << length << " " << feed;
+      const double optimum = seven_phases(length, feed, 2000, 50000);
+      EXPECT_LE(m.seconds, (length < 0.05 ? 1.03 : 1.012) * optimum) << length << " " << feed;
+      EXPECT_GE(m.seconds, optimum) << length << " " << feed;
+      EXPECT_LE(m.worst_jerk, 1.001) << length << " " << feed;
+      EXPECT_LE(m.worst_acceleration, 1.001) << length << " " << feed;
+      EXPECT_LE(m.worst_feed, 1.001) << length << " " << feed;
+    }
+  }
+}
+
+TEST(OptimalLaw, AFullCircleKeepsTheLimits) {
+  for (const double radius : {0.3, 2.0, 25.0}) {
+    Circle k;
+    k.radius_start = k.radius_end = radius;
+    k.sweep = 2 * std::numbers::pi;
+    AxisVec start;
+    start[0] = radius;
+    const Curve curve = make_arc(start, start, 0, 1, k, 3, 0);
+    Piece p;
+    p.length = curve.length;
+    p.feed = 100;
+    p.curve = &curve;
+    const Motion m = run({p}, standard_limits(), 100);
+    ASSERT_FALSE(m.failed) << radius;
+    EXPECT_LE(m.worst_jerk, 1.001) << radius;
+    EXPECT_LE(m.worst_acceleration, 1.001) << radius;
+    EXPECT_LE(m.worst_feed, 1.001) << radius;
+    for (const AxisVec& q : m.position)
+      EXPECT_NEAR(std::hypot(q[0], q[1]), radius, 1e-9);  // an arc stays an arc
+  }
+}
+
+TEST(OptimalLaw, TheCheckerSeesAStepOfAMicrometre) {
+  const Limits limits = standard_limits();
+  Motion m = run({straight(10, 100)}, limits, 100);
+  ASSERT_LE(m.worst_jerk, 1.001);
+  m.position[m.position.size() / 2][0] += 1e-3;
+  m.measure(limits, 100);
+  EXPECT_GT(m.worst_jerk, 1.1);
+}
+
+TEST(OptimalSmooth, ASquareIsCutByItsToleranceAndStraightBetween) {
+  Path path;
+  path.to(0, 0);
+  path.to(50, 0);
+  path.to(50, 50);
+  path.to(0, 50);
+  ASSERT_TRUE(path.smooth(0.01, 0.5));
+  EXPECT_LE(path.deviation(), 0.01);
+  EXPECT_GE(path.deviation(), 0.9 * 0.01 / std::sqrt(2));  // the corner itself is cut by nearly the tolerance
+  EXPECT_LE(worst_joint(path.pieces), 1e-9);
+  const CurvePoint middle = evaluate(path.pieces.front(), 25, 3);
+  EXPECT_NEAR(middle.position[0], 25, 1e-12);
+  EXPECT_NEAR(middle.position[1], 0, 1e-12);
+}
+
+TEST(OptimalSmooth, APathMayTurnRound) {
+  Path path;
+  path.to(0, 0);
+  path.to(10, 0);
+  path.to(0, 0);
+  ASSERT_TRUE(path.smooth(0.01, 0.5));
+  EXPECT_LE(path.deviation(), 0.01);
+  const Motion m = run(path.pieces, standard_limits(), 100);
+  ASSERT_FALSE(m.failed);
+  EXPECT_LE(m.worst_jerk, 1.001);
+  EXPECT_LE(m.worst_acceleration, 1.001);
+  EXPECT_LE(m.seconds, 2 * seven_phases(10, 100, 2000, 50000));
+}
+
+/// A line, dense or coarse, smooth or with corners, even or not.
+Path random_path(std::mt19937_64& rng) {
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(rng); };
+  Path path;
+  const double step = std::exp(uniform(std::log(0.002), std::log(20.0))),
+               wobble = uniform(0, 1) < 0.5 ? 0.05 : 2.0;
+  const double feed = std::exp(uniform(std::log(5.0), std::log(250.0)));
+  const bool uneven = uniform(0, 1) < 0.5;
+  const int count = 3 + static_cast<int>(uniform(0, 60));
+  double x = 0, y = 0, z = 0, heading = uniform(-3, 3);
+  path.to(0, 0, 0, feed);
+  for (int n = 0; n < count; ++n) {
+    heading += uniform(-1, 1) * wobble;
+    const double l = step * (uneven ? std::exp(uniform(-2, 1)) : 1);
+    x += l * std::cos(heading);
+    y += l * std::sin(heading);
+    z += l * uniform(-0.2, 0.2) * wobble;
+    path.to(x, y, z, feed);
+  }
+  return path;
+}
+
+TEST(OptimalProperty, RandomPolylinesKeepToleranceAndLimits) {
+  for (uint64_t seed = 1; seed <= 120; ++seed) {
+    std::mt19937_64 rng(seed);
+    Path path = random_path(rng);
+    const double feed = path.feed.front();
+    ASSERT_TRUE(path.smooth(0.01, std::max(0.005 * feed, 0.02))) << "seed " << seed;
+    EXPECT_LE(path.deviation(), 0.01 + 1e-9) << "seed " << seed;
+    EXPECT_LE(worst_joint(path.pieces), 1e-7) << "seed " << seed;
+    const AxisVec end = evaluate(path.pieces.back(), path.pieces.back().length, 3).position;
+    for (unsigned i = 0; i < 3; ++i) EXPECT_NEAR(end[i], path.vertex.back()[i], 1e-9) << "seed " << seed;
+    const Motion m = run(path.pieces, standard_limits(), feed);
+    ASSERT_FALSE(m.failed) << "seed " << seed;
+    EXPECT_LE(m.worst_velocity, 1.001) << "seed " << seed;
+    EXPECT_LE(m.worst_acceleration, 1.001) << "seed " << seed;
+    EXPECT_LE(m.worst_jerk, 1.001) << "seed " << seed;
+    EXPECT_LE(m.worst_feed, 1.001) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace nc::test
