@@ -14,7 +14,8 @@ constexpr double kLaunchSpeed = 0.5;  ///< of the speed and acceleration that th
 constexpr double kCurvedLaunch = 0.125;  ///< of its length where the path bends
 constexpr double kShortLaunch = 0.025;   ///< of the window, at most
 constexpr double kGentle = 24;           ///< cells that the guess takes to leave the speed of the start
-constexpr double kFeed = 0.9995;         ///< of feed and axis velocities
+constexpr double kFeed =
+    0.9995;  ///< of feed and axis velocities where the path bends: |q'| changes inside a cell
 constexpr double kAtStart = 1.004;   ///< a start at speed is given, and rows of other cells have let it pass
 constexpr double kRounding = 1e-12;  ///< of the length of the window
 constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
@@ -218,7 +219,10 @@ void Mesher::fill_knots() {
     }
     const double fed = length2 > 1 && p.feed < HUGE_VAL ? p.feed / std::sqrt(length2) : v;
     v = std::min(v, fed);
-    return kFeed * kFeed * v * v;
+    bool bends = p.curve != nullptr;
+    for (unsigned i = 0; i < axes; ++i) bends = bends || q.d2[i] != 0 || q.d3[i] != 0;
+    const double use = bends ? kFeed : 1;
+    return use * use * v * v;
   };
   for (unsigned k = 0; k <= m.cells; ++k) {
     Knot& knot = m.knot[k];

@@ -12,7 +12,9 @@ constexpr double kUseMost = 0.98;   ///< of the tolerance, that any of the place
 constexpr double kUseTurn = 0.975;  ///< the same at a sharp corner, which is cut by a known depth
 constexpr double kSharp = 0.5;      ///< |t2 - t1| of a corner that always has its own knots
 constexpr double kStraight = 1e-9;  ///< |t2 - t1| of no corner
+constexpr double kLongEdge = 8;     ///< in spacings
 constexpr unsigned kLooks = 4;      ///< places in a cell, beside the vertices, where the distance is measured
+constexpr double kRounding = 1e-11;  ///< of q'
 constexpr unsigned kRounds = 16;
 
 // A sharp corner: q'' = (t2 - t1) K(u), K linear between its knots. On the curve x = -c (1 - t)^3, y = c t^3,
@@ -135,7 +137,7 @@ bool Smoother::first_knots() {
       continue;
     }
     const double gap = u[k] - room_.knot[last_];
-    if (gap > 2 * in_.spacing) {
+    if (gap > kLongEdge * in_.spacing) {  // what bends at one end shall not reach the other
       set(room_.knot[last_] + in_.spacing, 0);
       set(u[k] - in_.spacing, 0.3 * in_.spacing);
     }
@@ -227,7 +229,9 @@ void Smoother::pieces() {
     for (unsigned i = 0; i < in_.axis_count; ++i) {
       const double e1 = w1 * (d[k + 1][i] - d[k][i]), e2 = w2 * (d[k + 2][i] - d[k + 1][i]),
                    e3 = w3 * (d[k + 3][i] - d[k + 2][i]);
-      const double f2 = 2 * (e2 - e1) / g0, f3 = 2 * (e3 - e2) / g1;
+      // On a line the differences are rounding and no curvature.
+      const double f2 = std::fabs(e2 - e1) < kRounding ? 0 : 2 * (e2 - e1) / g0;
+      const double f3 = std::fabs(e3 - e2) < kRounding ? 0 : 2 * (e3 - e2) / g1;
       const double slope = (e1 * h + e2 * (t(c) - t(c - 1))) / g0;
       if (k == 0) {
         p.c[0][i] = d[0][i];

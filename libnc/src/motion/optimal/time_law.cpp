@@ -12,13 +12,13 @@ namespace nc::optimal {
 namespace {
 
 constexpr unsigned kIterations = 60;
-constexpr double kGap = 5e-4;      ///< of the time, that the result may be longer than the optimum
-constexpr double kInside = 0.999;  ///< of the limits, that the law may use
+constexpr double kGap = 2e-4;       ///< of the time, that the result may be longer than the optimum
+constexpr double kInside = 0.9998;  ///< of the limits, that the law may use
 constexpr double kInsideCurve =
     0.996;  ///< the same of the jerk where the path bends: between the rows it may be a little more
 constexpr double kToWall = 0.99;  ///< of the way to the nearest wall, that one step may go
 constexpr double kResidual = 0.05;
-constexpr double kSmallestSlack = 1e-2;
+constexpr double kSmallestSlack = 0.5;
 
 }  // namespace
 
@@ -254,39 +254,42 @@ bool TimeLaw::factor_and_solve() {
   return true;
 }
 
+/// The steps of slacks and multipliers that belong to dc_, how far they may be gone, and gone.
 void TimeLaw::directions(double mu, double* step_primal, double* step_dual) {
   double primal = 1, dual = 1;
-  const auto take = [&](double s, double l, double ds) {
-    if (ds < 0 && -ds * primal > kToWall * s) primal = kToWall * s / -ds;
+  const auto take = [&](double s, double l, double ds, double* ds_out, double* dl_out) {
     const double dl = (mu - l * ds) / s - l;
-    if (dl < 0 && -dl * dual > kToWall * l) dual = kToWall * l / -dl;
+    if (-ds * primal > kToWall * s) primal = kToWall * s / -ds;
+    if (-dl * dual > kToWall * l) dual = kToWall * l / -dl;
+    *ds_out = ds;
+    *dl_out = dl;
   };
   each_pair([&](unsigned base, Pair& x) {
-    x.gd = x.g[0] * dc_[base] + x.g[1] * dc_[base + 1] + x.g[2] * dc_[base + 2];
-    take(x.s[0], x.l[0], 1 - x.r - x.s[0] - x.gd);
-    take(x.s[1], x.l[1], 1 + x.r - x.s[1] + x.gd);
+    const double gd = x.g[0] * dc_[base] + x.g[1] * dc_[base + 1] + x.g[2] * dc_[base + 2];
+    take(x.s[0], x.l[0], 1 - x.r - x.s[0] - gd, &x.ds[0], &x.dl[0]);
+    take(x.s[1], x.l[1], 1 + x.r - x.s[1] + gd, &x.ds[1], &x.dl[1]);
   });
   each_single([&](unsigned base, Single& x) {
-    x.gd = x.g[0] * dc_[base] + x.g[1] * dc_[base + 1] + x.g[2] * dc_[base + 2];
-    take(x.s, x.l, 1 - x.r - x.s - x.gd);
+    const double gd = x.g[0] * dc_[base] + x.g[1] * dc_[base + 1] + x.g[2] * dc_[base + 2];
+    take(x.s, x.l, 1 - x.r - x.s - gd, &x.ds, &x.dl);
   });
   for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) {
     if (c_[k] + primal * dc_[k] < 0.2 * c_[k]) primal = -0.8 * c_[k] / dc_[k];
     if (primal * dc_[k] > 4 * c_[k]) primal = 4 * c_[k] / dc_[k];
   }
+  each_pair([&](unsigned, Pair& x) {
+    for (unsigned side = 0; side < 2; ++side) {
+      x.s[side] += primal * x.ds[side];
+      x.l[side] += dual * x.dl[side];
+    }
+  });
+  each_single([&](unsigned, Single& x) {
+    x.s += primal * x.ds;
+    x.l += dual * x.dl;
+  });
+  for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) c_[k] += primal * dc_[k];
   *step_primal = primal;
   *step_dual = dual;
-  const auto go = [&](double& s, double& l, double ds) {
-    const double dl = (mu - l * ds) / s - l;
-    s += primal * ds;
-    l += dual * dl;
-  };
-  each_pair([&](unsigned, Pair& x) {
-    go(x.s[0], x.l[0], 1 - x.r - x.s[0] - x.gd);
-    go(x.s[1], x.l[1], 1 + x.r - x.s[1] + x.gd);
-  });
-  each_single([&](unsigned, Single& x) { go(x.s, x.l, 1 - x.r - x.s - x.gd); });
-  for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) c_[k] += primal * dc_[k];
 }
 
 void TimeLaw::finish(Law* law) {
@@ -317,7 +320,7 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, Law* law) {
   evaluate_rows(true);
   double time = 0;
   for (unsigned k = first_; k < last_; ++k) time += weight_[k] / std::sqrt(c_[k + kPad]);
-  double mu = 0.1 * time / rows_;
+  double mu = 0.4 * time / rows_;
   each_pair([&](unsigned, Pair& x) {
     x.l[0] = mu / x.s[0];
     x.l[1] = mu / x.s[1];

@@ -64,11 +64,11 @@ class TimeLaw {
   static constexpr unsigned kPairs = 3 * kMaxAxes;
   /// r in [-1, 1]: slacks and multipliers of both sides.
   struct Pair {
-    double r, g[3], s[2], l[2], gd;
+    double r, g[3], s[2], l[2], ds[2], dl[2];
   };
   /// r <= 1.
   struct Single {
-    double r, g[3], s, l, gd;
+    double r, g[3], s, l, ds, dl;
   };
   /// A value that is linear in three neighbouring control values.
   struct Form {
