@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time-optimal law on polylines, without a machine around it: smooths them, writes the path that came out as a path file, so that the
-// reference solver can be asked about the same geometry, and prints the time that the law takes.
+// The time-optimal law on polylines, without a machine around it: smooths them, writes the path that came out
+// as a path file, so that the reference solver can be asked about the same geometry, and prints the time that
+// the law takes.
 //
 //   law_of_lines POLYLINES OUT.path [V A J TOLERANCE]
 //
-// POLYLINES: for each stretch between two rests the number of vertices, then for each x y z and the feed of the line to it in mm/s (0 =
-// none; that of the first vertex counts for nothing). Exit status: 0, 1 with a sentence.
+// POLYLINES: for each stretch between two rests the number of vertices, then for each x y z and the feed of
+// the line to it in mm/s (0 = none; that of the first vertex counts for nothing). Exit status: 0, 1 with a
+// sentence.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -77,7 +79,8 @@ std::vector<Piece> smoothed(const Stretch& stretch, double tolerance) {
   request.tolerance = tolerance;
   request.spacing = kSpacing;
   request.axis_count = kAxes;
-  const nc::optimal::SmoothRoom room{u.data(), vertices, knot.data(), control.data(), corner.data(), split.data(), knots};
+  const nc::optimal::SmoothRoom room{u.data(),      vertices,     knot.data(), control.data(),
+                                     corner.data(), split.data(), knots};
   pieces.resize(nc::optimal::smooth(request, room, pieces.data(), knots));
   return pieces;
 }
@@ -121,7 +124,8 @@ int run(std::FILE* in, std::FILE* out, const Limits& limits, double tolerance) {
     write_pieces(pieces, out);
   }
   if (bad) return complain("the polylines are damaged");
-  std::printf("time %.6f s, %zu lines, %zu pieces, %.3f s to find it\n", result.seconds, result.lines, result.pieces, result.wall);
+  std::printf("time %.6f s, %zu lines, %zu pieces, %.3f s to find it\n", result.seconds, result.lines,
+              result.pieces, result.wall);
   return 0;
 }
 

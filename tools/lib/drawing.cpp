@@ -69,7 +69,8 @@ void put_text(cairo_t* c, double x, double y, const std::string& text, double si
   cairo_show_text(c, text.c_str());
 }
 
-bool write_drawing(const DrawingFile& target, const std::function<void(cairo_t*)>& paint, std::string* error) {
+bool write_drawing(const DrawingFile& target, const std::function<void(cairo_t*)>& paint,
+                   std::string* error) {
   std::FILE* file = std::fopen(target.path.c_str(), "wbe");
   if (!file) {
     if (error) *error = target.path + ": cannot be created";
@@ -77,7 +78,8 @@ bool write_drawing(const DrawingFile& target, const std::function<void(cairo_t*)
   }
   cairo_surface_t* surface =
       target.svg ? cairo_svg_surface_create_for_stream(write_stream, file, target.width, target.height)
-                 : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(target.width), static_cast<int>(target.height));
+                 : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(target.width),
+                                              static_cast<int>(target.height));
   cairo_t* context = cairo_create(surface);
   cairo_set_source_rgb(context, 1, 1, 1);
   cairo_paint(context);
@@ -93,7 +95,8 @@ bool write_drawing(const DrawingFile& target, const std::function<void(cairo_t*)
   const bool closed = std::fclose(file) == 0;
   if (status == CAIRO_STATUS_SUCCESS && closed) return true;
   if (error)
-    *error = target.path + ": " + (status == CAIRO_STATUS_SUCCESS ? "write error" : cairo_status_to_string(status));
+    *error = target.path + ": " +
+             (status == CAIRO_STATUS_SUCCESS ? "write error" : cairo_status_to_string(status));
   return false;
 }
 

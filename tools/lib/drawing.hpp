@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the drawings of the tools share: ink, text, ticks, and the way into an SVG or PNG file. Private: needs cairo.
+// What the drawings of the tools share: ink, text, ticks, and the way into an SVG or PNG file. Private: needs
+// cairo.
 #pragma once
 
 #include <cairo.h>

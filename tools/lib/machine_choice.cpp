@@ -37,7 +37,8 @@ std::optional<EveryAxis> parse_every_axis(const std::string& text, std::string* 
     return std::nullopt;
   }
   const auto in_range = [](double v) { return v >= kSlowest && v <= kFastest; };
-  if (in_range(all.velocity) && in_range(all.acceleration) && (all.jerk == 0 || in_range(all.jerk))) return all;
+  if (in_range(all.velocity) && in_range(all.acceleration) && (all.jerk == 0 || in_range(all.jerk)))
+    return all;
   *why = "each must be from 0.001 to 1e9 (jerk 0: no limit), is " + text;
   return std::nullopt;
 }
@@ -52,7 +53,8 @@ std::unique_ptr<rt::Config> load_machine(const std::string& path, std::string* e
   }
   config->nc.system_count = 1;  // the one that a program of the command line runs in
   std::erase_if(config->work_offsets, [](const rt::WorkOffsetSetting& w) { return w.system != 0; });
-  std::erase_if(config->parameters, [](const rt::ParameterSetting& p) { return p.axis != 0 && p.system != 0; });
+  std::erase_if(config->parameters,
+                [](const rt::ParameterSetting& p) { return p.axis != 0 && p.system != 0; });
   return config;
 }
 
@@ -65,7 +67,8 @@ ServoModel servo_of(const rt::Config& machine, double cycle_s) {
   return servo;
 }
 
-bool set_machine_limits(const MachineOptions& options, const rt::Config* machine, nc_config* config, std::string* error) {
+bool set_machine_limits(const MachineOptions& options, const rt::Config* machine, nc_config* config,
+                        std::string* error) {
   nc_system_config& system = config->system[0];
   if (machine) {
     system = machine->nc.system[0];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which machine a program is timed on: a machine configuration (TOML), a limits file (JSON) or a few numbers of the command line.
+// Which machine a program is timed on: a machine configuration (TOML), a limits file (JSON) or a few numbers
+// of the command line.
 #pragma once
 
 #include <memory>
@@ -22,22 +23,24 @@ std::optional<EveryAxis> parse_every_axis(const std::string& text, std::string* 
 
 /** What the command line says of the machine. */
 struct MachineOptions {
-  std::string machine;           // TOML as the runtime reads it; "" = none
-  std::string limits_file;       // JSON (machine_limits.hpp); "" = none
-  std::string every_axis;        // as parse_every_axis(); "" = as the machine has it
+  std::string machine;      // TOML as the runtime reads it; "" = none
+  std::string limits_file;  // JSON (machine_limits.hpp); "" = none
+  std::string every_axis;   // as parse_every_axis(); "" = as the machine has it
   std::optional<unsigned> cycle_us;
 };
 
-/** Reads the TOML file and keeps what concerns its first part system. @return nothing, with every mistake in *error, one a line. */
+/** Reads the TOML file and keeps what concerns its first part system. @return nothing, with every mistake in
+ * *error, one a line. */
 std::unique_ptr<rt::Config> load_machine(const std::string& path, std::string* error);
 
 /** The servos of its first part system, as the runtime simulates them. */
 ServoModel servo_of(const rt::Config& machine, double cycle_s);
 
 /**
- * Rates, limits and cycle of `options` into a configuration whose axes are known; those of `machine` (may be null) first, or the
- * defaults of default_machine_limits().
+ * Rates, limits and cycle of `options` into a configuration whose axes are known; those of `machine` (may be
+ * null) first, or the defaults of default_machine_limits().
  */
-bool set_machine_limits(const MachineOptions& options, const rt::Config* machine, nc_config* config, std::string* error);
+bool set_machine_limits(const MachineOptions& options, const rt::Config* machine, nc_config* config,
+                        std::string* error);
 
 }  // namespace nc::tools

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands of ncsim that run a program on the virtual machine: time, motion, plot --profile; see commands.hpp.
+// The subcommands of ncsim that run a program on the virtual machine: time, motion, plot --profile; see
+// commands.hpp.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -17,15 +18,18 @@
 namespace nc::tools {
 namespace {
 
-bool open_session(Session* session, const SessionOptions& options, const MachineOptions& machine, std::string* error) {
+bool open_session(Session* session, const SessionOptions& options, const MachineOptions& machine,
+                  std::string* error) {
   std::unique_ptr<rt::Config> config;
   if (!machine.machine.empty() && !(config = load_machine(machine.machine, error))) return false;
   return session->configure(options, error, std::move(config)) &&
-         set_machine_limits(machine, session->machine(), &session->config(), error) && session->start(options, error);
+         set_machine_limits(machine, session->machine(), &session->config(), error) &&
+         session->start(options, error);
 }
 
 MachineResult run(Session* session, double limit_s, const CycleObserver& observe = {}) {
-  if (session->machine() == nullptr) return run_machine(session->control(), session->config(), session->setup(), limit_s, observe);
+  if (session->machine() == nullptr)
+    return run_machine(session->control(), session->config(), session->setup(), limit_s, observe);
   const ServoModel servo = servo_of(*session->machine(), session->config().cycle_s);
   return run_machine(session->control(), session->config(), session->setup(), limit_s, observe, &servo);
 }
@@ -33,7 +37,8 @@ MachineResult run(Session* session, double limit_s, const CycleObserver& observe
 // Milliseconds, and as many digits more as the cycle needs.
 int time_decimals(double cycle_s) {
   int count = 3;
-  for (double rest = cycle_s * 1e3; count < 9 && std::fabs(rest - std::round(rest)) > 1e-7; rest *= 10) ++count;
+  for (double rest = cycle_s * 1e3; count < 9 && std::fabs(rest - std::round(rest)) > 1e-7; rest *= 10)
+    ++count;
   return count;
 }
 
@@ -66,7 +71,8 @@ class Descriptor {
 
 }  // namespace
 
-int time_command(const SessionOptions& options, const MachineOptions& machine, double limit_s, std::FILE* out, std::FILE* err) {
+int time_command(const SessionOptions& options, const MachineOptions& machine, double limit_s, std::FILE* out,
+                 std::FILE* err) {
   Session session;
   std::string error;
   if (!open_session(&session, options, machine, &error)) return complain(err, error);
@@ -84,8 +90,8 @@ int time_command(const SessionOptions& options, const MachineOptions& machine, d
   return close_output(out, err, result.how == MachineResult::How::kAlarmed ? kExitAlarm : kExitEnded);
 }
 
-int motion_command(const SessionOptions& options, const MachineOptions& machine, MotionFormat format, const std::string& path,
-                   double limit_s, int out, std::FILE* err) {
+int motion_command(const SessionOptions& options, const MachineOptions& machine, MotionFormat format,
+                   const std::string& path, double limit_s, int out, std::FILE* err) {
   Session session;
   std::string error;
   if (!path.empty() && !can_be_written(path, &error)) return complain(err, error);
@@ -100,18 +106,20 @@ int motion_command(const SessionOptions& options, const MachineOptions& machine,
     return !file.failed();
   });
   if (!file.flush())
-    return complain(err, (path.empty() ? "the motion" : path) + std::string(" cannot be written: ") + file.error_text());
+    return complain(
+        err, (path.empty() ? "the motion" : path) + std::string(" cannot be written: ") + file.error_text());
   if (result.how == MachineResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   if (result.how != MachineResult::How::kAlarmed) return kExitEnded;
   std::fprintf(err, "%s\n", alarm_line(session, result.alarm).c_str());
   return kExitAlarm;
 }
 
-int profile_command(const SessionOptions& options, const MachineOptions& machine, double limit_s, const std::string& base,
-                    std::FILE* out, std::FILE* err) {
+int profile_command(const SessionOptions& options, const MachineOptions& machine, double limit_s,
+                    const std::string& base, std::FILE* out, std::FILE* err) {
   Session session;
   std::string error;
-  if (!can_be_written(base + ".svg", &error) || !can_be_written(base + ".png", &error)) return complain(err, error);
+  if (!can_be_written(base + ".svg", &error) || !can_be_written(base + ".png", &error))
+    return complain(err, error);
   if (!open_session(&session, options, machine, &error)) return complain(err, error);
   ProfilePlot plot(session.config());
   plot.set_title(short_name(options.program));
@@ -122,7 +130,8 @@ int profile_command(const SessionOptions& options, const MachineOptions& machine
   });
   if (result.how == MachineResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   plot.end();
-  if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error)) return complain(err, error);
+  if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error))
+    return complain(err, error);
   const bool alarmed = result.how == MachineResult::How::kAlarmed;
   if (alarmed) std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   std::fprintf(out, "%s.svg %s.png: %s s\n", base.c_str(), base.c_str(),

@@ -41,7 +41,11 @@ bool MotionCycles::counts(const nc_outputs& out) {
 }
 
 MotionWriter::MotionWriter(OutputFile* out, const nc_config& config, MotionFormat format)
-    : out_(*out), system_(config.system[0]), cycle_s_(config.cycle_s), format_(format), cycles_(system_.axis_count) {}
+    : out_(*out),
+      system_(config.system[0]),
+      cycle_s_(config.cycle_s),
+      format_(format),
+      cycles_(system_.axis_count) {}
 
 void MotionWriter::begin(const nc_axes& start) {
   if (format_ == MotionFormat::kCsv) {
@@ -68,7 +72,8 @@ void MotionWriter::row(const nc_axes& position) {
   if (format_ == MotionFormat::kF64) {
     char* const to = out_.reserve(sizeof(double) * (NC_MAX_AXES + 1));
     put_little_endian(to, t);
-    for (unsigned i = 0; i < system_.axis_count; ++i) put_little_endian(to + sizeof(double) * (i + 1), position.v[i]);
+    for (unsigned i = 0; i < system_.axis_count; ++i)
+      put_little_endian(to + sizeof(double) * (i + 1), position.v[i]);
     out_.advance(sizeof(double) * (system_.axis_count + 1));
     return;
   }

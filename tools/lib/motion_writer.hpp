@@ -12,8 +12,8 @@ namespace nc::tools {
 enum class MotionFormat { kCsv, kF64 };
 
 /**
- * Which cycles count: those in which the program's time goes on (nc_outputs::run_s) or an axis moves. The cycles in which a block stop
- * waits for cycle start do not.
+ * Which cycles count: those in which the program's time goes on (nc_outputs::run_s) or an axis moves. The
+ * cycles in which a block stop waits for cycle start do not.
  */
 class MotionCycles {
  public:

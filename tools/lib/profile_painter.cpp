@@ -31,7 +31,10 @@ class ProfilePainter {
   void paint() {
     use(c_, kInk);
     put_text(c_, kLeft, 40, plot_.title_, 22);
-    put_text(c_, kLeft, 62, "finite differences of the commanded positions, cycle " + tick_text(plot_.cycle_s_ * 1e6) + " us", 13);
+    put_text(
+        c_, kLeft, 62,
+        "finite differences of the commanded positions, cycle " + tick_text(plot_.cycle_s_ * 1e6) + " us",
+        13);
     for (size_t i = 0; i < plot_.curves_.size(); ++i) panel(i);
     use(c_, kInk);
     put_text(c_, kWidth - kRight, height(plot_) - 22, "time [s]", 15, 1.0);
@@ -118,10 +121,14 @@ class ProfilePainter {
 };
 
 bool ProfilePlot::write_svg(const std::string& path, std::string* error) const {
-  return write_drawing({path, true, kWidth, ProfilePainter::height(*this)}, [this](cairo_t* c) { ProfilePainter(*this, c).paint(); }, error);
+  return write_drawing(
+      {path, true, kWidth, ProfilePainter::height(*this)},
+      [this](cairo_t* c) { ProfilePainter(*this, c).paint(); }, error);
 }
 bool ProfilePlot::write_png(const std::string& path, std::string* error) const {
-  return write_drawing({path, false, kWidth, ProfilePainter::height(*this)}, [this](cairo_t* c) { ProfilePainter(*this, c).paint(); }, error);
+  return write_drawing(
+      {path, false, kWidth, ProfilePainter::height(*this)},
+      [this](cairo_t* c) { ProfilePainter(*this, c).paint(); }, error);
 }
 
 }  // namespace nc::tools

@@ -70,7 +70,8 @@ void ProfilePlot::halve() {
 
 double ProfilePlot::peak(size_t curve) const {
   double most = 0.0;
-  for (const Range& r : curves_[curve].range) most = std::max({most, std::fabs(double{r.low}), std::fabs(double{r.high})});
+  for (const Range& r : curves_[curve].range)
+    most = std::max({most, std::fabs(double{r.low}), std::fabs(double{r.high})});
   return most;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Path speed, and acceleration and jerk of every axis over time, from the positions of the cycles; as SVG and as PNG.
+// Path speed, and acceleration and jerk of every axis over time, from the positions of the cycles; as SVG and
+// as PNG.
 //
-// All are finite differences of the commanded positions, so they are what a drive gets. Time is kept in at most kBuckets pieces with the
-// lowest and the highest value of each: a peak of one cycle is drawn however long the program runs.
+// All are finite differences of the commanded positions, so they are what a drive gets. Time is kept in at
+// most kBuckets pieces with the lowest and the highest value of each: a peak of one cycle is drawn however
+// long the program runs.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +30,8 @@ class ProfilePlot {
   void end();
 
   uint64_t cycles() const { return cycles_; }
-  /** Largest value of a curve so far: 0 = path speed, 1 + 2 i = acceleration of axis i (either sign), 2 + 2 i = its jerk. */
+  /** Largest value of a curve so far: 0 = path speed, 1 + 2 i = acceleration of axis i (either sign), 2 + 2 i
+   * = its jerk. */
   double peak(size_t curve) const;
 
   /** Write the drawing. @return false with *error when the file cannot be written. */
