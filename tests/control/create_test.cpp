@@ -350,7 +350,9 @@ TEST(Parameters, KeysOfBothDialects) {
   EXPECT_EQ(nc_parameter_set(c, 0, "interpretation", 0, "calculator"), NC_E_NOT_FOUND);
   for (const char* key : {"", "x", "12a", "1267/", "1267/bit", "1267/bit32", "1267/bit1x", "1267/bit123", "1234567", "1267/bat1"})
     EXPECT_EQ(nc_parameter_set(c, 0, key, 0, "1"), NC_E_NOT_FOUND) << key;
-  for (const char* text : {"", "1.2.3", "x1", "1e5", "--1", "-"}) EXPECT_EQ(nc_parameter_set(c, 0, "8999", 0, text), NC_E_ARGUMENT) << text;
+  for (const char* text : {"", "1.2.3", "1e5", "--1", "-"}) EXPECT_EQ(nc_parameter_set(c, 0, "8999", 0, text), NC_E_ARGUMENT) << text;
+  EXPECT_EQ(nc_parameter_set(c, 0, "8999", 0, "x1"), NC_OK);  // a text (M700 13.11)
+  EXPECT_EQ(nc_parameter_set(c, 0, "1078", 0, "x1"), NC_E_ARGUMENT);
   EXPECT_EQ(nc_parameter_set(c, 0, "8999", 0, std::string(400, '9').c_str()), NC_E_ARGUMENT);
   EXPECT_EQ(nc_parameter_set(c, 0, "1003", 0, "F"), NC_E_ARGUMENT);
   EXPECT_EQ(nc_parameter_set(c, 0, "1003", 0, "3"), NC_E_ARGUMENT);
