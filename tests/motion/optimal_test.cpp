@@ -285,7 +285,7 @@ Path random_path(std::mt19937_64& rng) {
 }
 
 TEST(OptimalProperty, RandomPolylinesKeepToleranceAndLimits) {
-  for (uint64_t seed = 1; seed <= 120; ++seed) {
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
     std::mt19937_64 rng(seed);
     Path path = random_path(rng);
     const double feed = path.feed.front();
