@@ -92,7 +92,7 @@ TEST(TraceWriter, TheOtherEvents) {
             "{\"t\":\"dwell\"," + head + "\"revolutions\":3}\n");
   EXPECT_EQ(lines([](TraceWriter& w) { w.sync(kSource, NC_SYNC_INPUT | NC_SYNC_CLOCK); }),
             "{\"t\":\"sync\"," + head + "\"what\":\"input+clock\"}\n");
-  EXPECT_EQ(lines([](TraceWriter& w) { w.message(kSource, 3, "X=\"1\"\t\\"); }),
+  EXPECT_EQ(lines([](TraceWriter& w) { w.message(kSource, 3, nc_text{"X=\"1\"\t\\", 0}); }),
             "{\"t\":\"message\"," + head + "\"port\":3,\"text\":\"X=\\\"1\\\"\\u0009\\\\\"}\n");
   nc_alarm alarm = {};
   std::snprintf(alarm.code, sizeof alarm.code, "P33");
