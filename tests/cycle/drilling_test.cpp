@@ -32,7 +32,7 @@ TEST(Cycle, DrillG81) {  // M700 13.1.1
 
 TEST(Cycle, SpotG82Dwells) {
   EXPECT_EQ(steps(at_ten("G82 X5. Z-8. R2. P500 F100\nM30")),
-            (Path{"rapid 5 0 10", "stop", "rapid 5 0 2", "stop", "line 5 0 -8 F100", "dwell 0.5", "rapid 5 0 10", "end", "end"}));
+            (Path{"rapid 5 0 10", "stop", "rapid 5 0 2", "stop", "line 5 0 -8 F100", "dwell 0.5", "rapid 5 0 10", "end"}));
   EXPECT_EQ(at_ten("G82 X5. Z-8. R2. P500.9 F100\nM30").dwells(), std::vector<double>{0.5});  // decimals of P are ignored
 }
 
@@ -52,7 +52,7 @@ TEST(Cycle, StepG73) {  // M700 13.1.1 with m = #8012
   bench.param("8012", "1").at(0, 0, 10);
   EXPECT_EQ(steps(bench.run("G73 Z-7. R2. Q4. P100 F100\nM30")),
             (Path{"stop", "rapid 0 0 2", "stop", "line 0 0 -2 F100", "dwell 0.1", "rapid 0 0 -1", "line 0 0 -6 F100", "dwell 0.1", "rapid 0 0 -5",
-                  "line 0 0 -7 F100", "dwell 0.1", "rapid 0 0 10", "end", "end"}));
+                  "line 0 0 -7 F100", "dwell 0.1", "rapid 0 0 10", "end"}));
   EXPECT_EQ(bench.at(0, 0, 10).run("G99 G73 Z-1. R2. Q4. F100\nM30").path(), (Path{"rapid 0 0 2", "line 0 0 -1 F100", "rapid 0 0 2"}));
 }
 
@@ -80,7 +80,7 @@ TEST(Cycle, BoreG85AndG89FeedBack) {
   EXPECT_EQ(at_ten("G85 Z-8. R2. F100\nM30").path(), (Path{"rapid 0 0 2", "line 0 0 -8 F100", "line 0 0 2 F100", "rapid 0 0 10"}));
   EXPECT_EQ(at_ten("G99 G85 Z-8. R2. F100\nM30").path(), (Path{"rapid 0 0 2", "line 0 0 -8 F100", "line 0 0 2 F100"}));
   EXPECT_EQ(steps(at_ten("G89 X1. Z-8. R2. P250 F100\nM30")),
-            (Path{"rapid 1 0 10", "stop", "rapid 1 0 2", "stop", "line 1 0 -8 F100", "dwell 0.25", "line 1 0 2 F100", "rapid 1 0 10", "end", "end"}));
+            (Path{"rapid 1 0 10", "stop", "rapid 1 0 2", "stop", "line 1 0 -8 F100", "dwell 0.25", "line 1 0 2 F100", "rapid 1 0 10", "end"}));
 }
 
 // The return of G98 is to the programmed level, which a tool length displaces like every other end point, also one that

@@ -193,7 +193,7 @@ TEST(M700Manual, CodesOfOneFunctionAreBoundAlike) {
 }
 
 TEST(M700Manual, EveryCancelCodeOfAMissingFunctionIsAccepted) {
-  for (int code : {401, 500, 690, 970}) {
+  for (int code : {401, 500, 690}) {
     EXPECT_EQ(find_function(m700(), code)->function, Function::modal_off) << g_text(code);
   }
 }

@@ -417,9 +417,10 @@ TEST(Intervention, InThreads) {
   ASSERT_EQ(runtime->select_program(file), Answer::kDone);
   unsigned jogs = 0;
   for (unsigned press = 0; press < 40 && runtime->info().runs == 0; ++press) {
+    const nc_outputs before = runtime->snapshot().system[0].nc;
     ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
-    // Through RUNNING to the next stop; a stop that is over at once is the last one still.
-    clock.sleep_until(clock.now_ns() + 10'000'000);
+    // The start acts when the feeder has read again behind what was moved by hand; then through RUNNING to the next stop.
+    wait([&](const nc_outputs& out) { return out.state != before.state || out.serial != before.serial || out.blocks != before.blocks; });
     wait([](const nc_outputs& out) { return out.state != NC_STATE_RUNNING && out.distance_zero; });
     if (runtime->snapshot().system[0].nc.state != NC_STATE_STOPPED) break;
     ASSERT_EQ(mode(Mode::kManual), Answer::kDone);

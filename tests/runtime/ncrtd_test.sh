@@ -249,15 +249,15 @@ keep 2
 said err "R16 Alarm of the ladder 1"
 printf 'garbage' >"$work/il/count.retain"
 keep 2
-said err "retained devices are those of the last time but one"
+said err "devices of the ladder are those of the last time but one"
 printf 'garbage' >"$work/il/count.retain"
 printf 'garbage' >"$work/il/count.retain.old"
 keep 0
-said err "retained devices are lost and begin with 0"
+said err "R19 Retained data lost: devices of the ladder are lost and begin with 0"
 [ -e "$work/il/count.retain.damaged" ] || fail "the damaged file is gone"
 sed -i 's#^retain = .*#retain = "/proc/nowhere/x"#' "$work/il/machine.toml"
-keep 0
-said err "retained devices are not kept: /proc/nowhere/x"
+keep 1
+said err "ladder.retain: there is no folder \"/proc/nowhere\""
 
 [ "$failures" = 0 ] && echo "all good"
 exit $((failures > 0))

@@ -289,7 +289,7 @@ TEST_F(RetainLadder, TheScanLeavesACopyWhenItIsAsked) {
   nc::hal::Feedback feedback;
   LadderStatus status;
   LadderRequests requests;
-  LadderImage image{&config_.points, &points, &feedback, out, in, 1, &status, &requests};
+  LadderImage image{&config_.points, &points, &feedback, out, in, 1, &status, &requests, &config_.nc};
   made->scan(&image);
   EXPECT_FALSE(made->take_retained(&rows)) << "nobody had asked";
   made->want_retained();

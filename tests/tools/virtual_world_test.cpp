@@ -49,7 +49,11 @@ TEST(Skip, MissesBesideAndBehind) {
   EXPECT_FALSE(world.answer(NC_SYNC_SKIP).skipped);
   nc_move short_of = skip_move({{0, 0, 0}}, {{20, 0, 0}});
   world.execute(&short_of);
-  EXPECT_FALSE(world.answer(NC_SYNC_SKIP).skipped) << "the surface itself is not inside";
+  EXPECT_TRUE(world.answer(NC_SYNC_SKIP).skipped) << "it ends where it would go in";
+  EXPECT_EQ(short_of.machine.v[0], 20);
+  nc_move beyond = skip_move({{30, 0, 0}}, {{100, 0, 0}});
+  world.execute(&beyond);
+  EXPECT_FALSE(world.answer(NC_SYNC_SKIP).skipped) << "it leaves the surface";
   nc_move other_signal = skip_move({{0, 0, 0}}, {{100, 0, 0}}, 2);
   world.execute(&other_signal);
   EXPECT_FALSE(world.answer(NC_SYNC_SKIP).skipped) << "the move listens to signal 2 only";

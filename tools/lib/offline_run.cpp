@@ -19,8 +19,11 @@ class OfflineRun {
     nc_item item;
     for (;;) {
       const nc_status status = items_.pull(kBudget, &item);
-      if (max_silent_blocks && silent_ >= max_silent_blocks) return endless();
-      if (status == NC_BUDGET) continue;  // lines without a block: every loop has blocks, and so marks
+      // Lines without a block pass in silence, and may be many; every loop of a program has blocks, and so marks.
+      constexpr uint64_t kLinesForABlock = 1000;
+      empty_lines_ = status == NC_BUDGET ? empty_lines_ + kBudget : 0;
+      if (max_silent_blocks && silent_ + empty_lines_ / kLinesForABlock >= max_silent_blocks) return endless();
+      if (status == NC_BUDGET) continue;
       if (status == NC_ENDED || status == NC_ALARMED) break;
       if (status != NC_OK) return fail("the control stopped with status " + std::to_string(status));
       last_ = item.source;
@@ -190,6 +193,7 @@ class OfflineRun {
   nc_source last_ = {};
   nc_axes work_ = {};
   uint64_t silent_ = 0;  // blocks since something happened
+  uint64_t empty_lines_ = 0;  // since the last item
   uint32_t furthest_line_ = 0;  // of the main program that a block was executed on
   uint32_t modal_ = 0, ended_line_ = 0;
   bool ended_ = false, interrupt_ = false;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -255,6 +256,7 @@ void emit_span(Interpreter& in, const MoveFrame& frame, const uint8_t (&axis)[3]
   for (unsigned i = 0; i < 3; ++i) shape.spline.axis[i] = axis[i];
   coefficients(s, &shape.spline);
   Move& move = emit_shaped(in, frame, shape, NC_MOVE_SPLINE);
+  set_modal_feed(in, move, feed_mm_min(in));
   const double radius = std::min(radius_of(s.v0, s.w0), radius_of(s.v1, s.w1));  // (3)
   const double clamp = spline_speed_clamp(in.settings.accuracy, radius);
   if (clamp < HUGE_VAL) move.speed_clamp = static_cast<float>(clamp / 60);
