@@ -252,7 +252,7 @@ keep 2
 said err "devices of the ladder are those of the last time but one"
 printf 'garbage' >"$work/il/count.retain"
 printf 'garbage' >"$work/il/count.retain.old"
-keep 0
+keep 2  # who stands at the machine must know before anything moves
 said err "R19 Retained data lost: devices of the ladder are lost and begin with 0"
 [ -e "$work/il/count.retain.damaged" ] || fail "the damaged file is gone"
 sed -i 's#^retain = .*#retain = "/proc/nowhere/x"#' "$work/il/machine.toml"
