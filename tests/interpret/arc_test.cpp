@@ -87,6 +87,7 @@ TEST(Arc, WordsOfTheOtherPlaneDoNotCount) {  // M700 6.6 example 5: J ignored in
 
 TEST(Arc, PlaneThatTheAxesDoNotHave) {
   EXPECT_EQ(Bench(NC_DIALECT_M700, axes("XZ")).run("G2 X10. I5. F100\nM30").alarm, "P113");
+  EXPECT_EQ(Bench().run("G17 G2 Z10. K5. F100\nM30").alarm, "P113");  // G18 or G19 has been forgotten
 }
 
 TEST(Helix, OtherAxesGoAlong) {  // M700 6.6

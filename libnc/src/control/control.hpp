@@ -10,5 +10,5 @@ struct nc_control {
   nc::ProgramStore store;
   nc::CommonVariables common;
   nc::PartSystem system[NC_MAX_SYSTEMS];
-  char mdi[NC_MAX_SYSTEMS][1024];
+  char mdi[NC_MAX_SYSTEMS][1024 + 6];  // and what is put around the blocks
 };

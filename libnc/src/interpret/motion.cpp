@@ -282,6 +282,9 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
       if (w.has(plane.center[i])) words.center[i] = length_of(in, plane.center[i]);
     if (w.has('P') && (!whole_number(w.get('P'), &words.turns) || words.turns > 9999)) return in.raise(Condition::value_range, 'P', w.get('P'));
   }
+  // M700 P113: nothing of the block is of the plane in force, but its centre of another one: a plane code has been forgotten.
+  const bool of_plane = words.has_radius || w.has(plane.center[0]) || w.has(plane.center[1]) || ((commanded >> h) & 1) != 0 || ((commanded >> v) & 1) != 0;
+  if (!of_plane && w.any(letters("IJK"))) return in.raise(Condition::plane_mismatch, 'G', in.state.modal.code[kGroupMotion] / 10.0);
   if (program_mapped(in)) map_arc(in, h, v, words.center, &ccw);
   const MoveFrame frame = frame_of_move(in, target, commanded);
   const double from[2] = {frame.start[h], frame.start[v]}, to[2] = {frame.end[h], frame.end[v]};

@@ -100,7 +100,10 @@ Did do_data_input(Interpreter& in) {
   if (w.has('L') && !whole_number(w.get('L'), &l)) return in.raise(Condition::g10_l, 'L', w.get('L'));
   switch (l) {
     case 2:
-    case 20: return work_offset(in, l, true);
+    case 20:
+      // A block for a control with other rules (no L: tool offset P of R) would change nothing without a word.
+      if (w.axes == 0) return in.raise(Condition::format_error, w.has('R') ? 'R' : 'G', w.has('R') ? w.get('R') : 10);
+      return work_offset(in, l, true);
     case 10: return tool_offset(in, NC_TOOL_LENGTH, true);
     case 11:
     case 12:
