@@ -103,8 +103,8 @@ Request read_request(Bytes* in, std::int64_t now_ns) {
   r.issued_ns = shape & 4 ? in->value<std::int64_t>() : now_ns;
   r.lifespan_ms = shape & 8 ? in->value<std::uint32_t>() : 1000;
   r.lease_ms = shape & 16 ? in->value<std::uint32_t>() : 0;
-  r.expected_mode = shape & 32 ? static_cast<std::int32_t>(in->number()) - 2 : kAny;
-  r.expected_run_state = shape & 64 ? static_cast<std::int32_t>(in->number()) - 2 : kAny;
+  r.expected_mode = shape & 32 ? static_cast<std::int32_t>(in->number() - 2u) : kAny;
+  r.expected_run_state = shape & 64 ? static_cast<std::int32_t>(in->number() - 2u) : kAny;
   r.system = in->number() & (shape & 128 ? ~0u : 1u);
   r.axis = in->number();
   r.number = in->number();
