@@ -350,6 +350,7 @@ nc_status Interpreter::run_block(uint32_t& budget) {
     if (block->has_n || block->has_o) finish_block(false, false);
     return NC_OK;
   }
+  if (execute_plain_line(*this)) return settle(Did::done);
   const Did did = block->statements.empty() ? execute_words(*this) : execute_statements();
   if (did == Did::sync && next_step == Step::none) {  // read this block again when the answer is there
     state.frame[depth].offset = begin;

@@ -4,6 +4,7 @@
 //   interpreter.cpp       the loop: next block, jobs that go over several calls, checkpoints, rewind, reset
 //   block_words.cpp       words -> values: expressions, units, decimal point rules of the dialect
 //   execute_block.cpp     the order in which the words of one block act
+//   plain_line.cpp        the same for a line in absolute millimetres, in short
 //   functions/*.cpp       what the one-shot and modal functions do, one handler per Function (functions.hpp is the table)
 //   motion.cpp, arc.cpp   moves
 //   flow.cpp              GOTO, WHILE, M98/M99, the ends of programs
@@ -298,6 +299,8 @@ struct Interpreter {
 
 /// interpret/execute_block.cpp: a block of words.
 Did execute_words(Interpreter& in);
+/// interpret/plain_line.cpp: a straight line in absolute millimetres. False: nothing has been done, the block needs execute_words().
+bool execute_plain_line(Interpreter& in);
 /// The G codes of in.words that say how other words are read.
 Did apply_reading_modes(Interpreter& in);
 /// interpret/functions/parameter_input.cpp: a block between G10 L70 and G11.

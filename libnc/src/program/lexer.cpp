@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lexer. Words of the common form (letter, sign, digits) go through words(), which is the inner loop of
-// the whole product; everything else (expressions, statements, comments inside words, missing values) leaves
-// it for the functions behind it.
+// The lexer. Words of the common form (letter, sign, digits) go through words() and short_words(), which is
+// the inner loop of the whole product; everything else (expressions, statements, comments inside words,
+// missing values) leaves it for the functions behind it.
 #include "program/lexer.hpp"
 
 #include <cstddef>
@@ -55,29 +55,6 @@ struct Plain {
     return mantissa >= kPowersOfTen[power < 19 ? power : 19];
   }
 
-  /// Needs kPlainReach characters behind p. nullptr: more characters than it takes.
-  const char* scan_by_eight(const char* p) {
-    const bool minus = *p == '-';
-    p += minus || *p == '+';
-    flags = minus ? kWordNegative : 0;
-    const EightCharacters all(p);
-    const unsigned digits = all.digits();
-    if (digits == 8) return nullptr;
-    integer_digits = digits;
-    if (p[digits] != '.') {
-      mantissa = all.value();
-      good = digits != 0;
-      return p + digits;
-    }
-    flags |= kWordPoint;
-    const unsigned length = all.length_past_point();
-    if (length == 8) return scan_parts(p, all);
-    mantissa = all.value_without(digits, length);
-    fraction_digits = length - 1 - digits;
-    good = length > 1;
-    return p + length;
-  }
-
   const char* scan(const char* p, const char* end) {
     constexpr size_t kMostDigits = 18;  // cannot overflow the mantissa
     *this = Plain{};
@@ -96,22 +73,10 @@ struct Plain {
     good = digits != 0 && digits <= kMostDigits;
     return p;
   }
-
- private:
-  /// A number with its point that does not fit into eight characters: what is before the point and what is behind it.
-  const char* scan_parts(const char* p, const EightCharacters& front) {
-    p += front.digits() + 1;
-    const EightCharacters behind(p);
-    if (behind.digits() == 8) return nullptr;
-    fraction_digits = behind.digits();
-    mantissa = front.value() * kPowersOfTen[fraction_digits] + behind.value();
-    good = front.digits() + fraction_digits != 0;
-    return p + fraction_digits;
-  }
 };
 
-/// Letter, sign, 8 characters, point, 8 characters.
-constexpr ptrdiff_t kPlainReach = 19;
+/// Letter, sign, seven digits, point, eight characters and one behind them.
+constexpr ptrdiff_t kShortReach = 20;
 
 class Lexer {
  public:
@@ -133,6 +98,8 @@ class Lexer {
  private:
   /// Skip sign, O, N. False when the block is over or has a fault.
   bool head() {
+    if (at_.p != at_.end && *at_.p > 'A' && *at_.p <= 'Z' && *at_.p != 'N' && *at_.p != 'O')
+      return true;  // most blocks
     char c = at_.peek();
     if (c == '\0' && at_.p != at_.end && *at_.p == '%') {
       block_.percent = true;
@@ -149,7 +116,8 @@ class Lexer {
     return !block_.has_fault;
   }
 
-  /// Words behind '%' would be lost: letters and numbers up to the end of the line. Comments and plain text lose nothing.
+  /// Words behind '%' would be lost: letters and numbers up to the end of the line. Comments and plain text
+  /// lose nothing.
   void check_percent_alone() {
     ++at_.p;
     const char first = at_.peek();
@@ -193,13 +161,12 @@ class Lexer {
     const char* const end = at_.end;
     while (p != end && is_blank(*p)) ++p;
     for (;;) {
+      p = short_words(p);
       if (p == end) break;
       const unsigned letter = static_cast<unsigned>(static_cast<unsigned char>(*p) | 0x20u) - 'a';
       if (letter >= 26) break;
       Plain plain;
-      const char* q =
-          end - p >= kPlainReach && EightCharacters::kUsable ? plain.scan_by_eight(p + 1) : nullptr;
-      if (q == nullptr) q = plain.scan(p + 1, end);
+      const char* q = plain.scan(p + 1, end);
       Behind next = behind(q, end);
       while (next == Behind::blank) next = behind(++q, end);
       if (!plain.good || next == Behind::more) {
@@ -219,16 +186,75 @@ class Lexer {
       }
       Word* word = new_word(name);
       if (word == nullptr) return false;
-      word->letter = name;
-      word->flags = plain.flags;
-      word->index = 0;
-      word->column = column(p);
-      word->code = kNoCode;
-      word->value = value;
+      fill(word, name, plain.flags, p, value);
       p = q;
     }
     at_.p = p;
-    return p != end;
+    return p != end && *p != '\n';
+  }
+
+  /// The words from here on that are a letter, a sign and at most seven digits on either side of a point;
+  /// these are nearly all there are. Whatever is not plainly so, or not plainly right, is left for words().
+  /// Where it stops.
+  const char* short_words(const char* p) {
+    if (!EightCharacters::kUsable || columns_ != nullptr || !block_.statements.empty()) return p;
+    const char* const end = at_.end;
+    Word* const first = block_.words.begin();
+    Word* const limit = first + decltype(Block::words)::capacity();
+    Word* word = first + block_.words.size();
+    for (; end - p >= kShortReach && word != limit; ++word) {
+      const unsigned letter = static_cast<unsigned>(static_cast<unsigned char>(*p) | 0x20u) - 'a';
+      if (letter >= 26) break;
+      const bool minus = p[1] == '-';
+      const char* q = p + 1 + (minus || p[1] == '+');
+      const EightCharacters all(q);
+      const unsigned digits = all.digits();
+      const WordFormat& format = rules_.word[letter];
+      if (digits > format.integer_digits || digits == 8 || !format.known) break;
+      uint8_t flags = minus ? kWordNegative : 0;
+      unsigned length = digits, fraction = 0;
+      uint64_t mantissa;
+      if (q[digits] == '.') {
+        length = all.length_past_point();
+        fraction = length - 1 - digits;
+        if (length < 8) {
+          mantissa = all.value_without(digits, length);
+        } else {  // longer: what is before the point and what is behind it
+          const EightCharacters tail(q + digits + 1);
+          fraction = tail.digits();
+          if (fraction == 8) break;
+          length = digits + 1 + fraction;
+          mantissa = all.value() * kPowersOfTen[fraction] + tail.value();
+        }
+        if (fraction > format.fraction_digits || format.integer) break;
+        flags |= kWordPoint;
+      } else {
+        mantissa = all.value();
+      }
+      if (digits + fraction == 0) break;
+      q += length;
+      Behind next = kBehindNumber.is[static_cast<unsigned char>(*q)];
+      while (next == Behind::blank) next = behind(++q, end);
+      if (next == Behind::more) break;
+      // At most fourteen digits, so mantissa and power are exact in a double and the division rounds once.
+      const double value = static_cast<double>(static_cast<int64_t>(mantissa)) / kExactPowersOfTen[fraction];
+      fill(word, static_cast<char>('A' + letter), flags, p, minus ? -value : value);
+      p = q;
+    }
+    const auto count = static_cast<unsigned>(word - first);
+    if (count != block_.words.size()) block_.empty = false;
+    block_.words.resize(count);
+    return p;
+  }
+
+  /// In place: a word put together from bytes and then copied whole would wait for the store buffer.
+  void fill(Word* word, char letter, uint8_t flags, const char* at, double value) const {
+    word->letter = letter;
+    word->flags = flags;
+    word->index = 0;
+    word->column = column(at);
+    word->code = kNoCode;
+    word->value = value;
   }
 
   static bool keeps_any_fraction(const WordFormat& format) {
@@ -240,8 +266,7 @@ class Lexer {
            (d.fraction_digits > format.fraction_digits && !keeps_any_fraction(format));
   }
 
-  /// A place for a word; nullptr when there must be none. Filled in place: a word put together from bytes and
-  /// then copied whole would wait for the store buffer.
+  /// A place for a word; nullptr when there must be none.
   Word* new_word(char letter) {
     const unsigned count = block_.words.size();
     if (!block_.statements.empty()) {

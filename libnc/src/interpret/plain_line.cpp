@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The short way for "G1 X1.5 Y2.0 Z-0.25" in absolute millimetres: nearly every block of a program that comes
+// out of a CAM system. It does what execute_words() does with such a block and leaves everything else to it,
+// so a rule that is added there needs nothing here but a condition when it changes what these words mean.
+// tests/interpret/plain_line_test.cpp runs random programs both ways.
+#include <cmath>
+
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+/// Modes in which axis words of a line are its end in work coordinates and nothing else acts in the block.
+bool plain_modes(const Interpreter& in) {
+  const State& s = in.state;
+  const ModalState& m = s.modal;
+  return s.special == 0 && s.modal_call == 0 && !s.mapped && !s.parameter_input &&
+         s.fine_mode == FineMode::none && s.cycle.kind == CycleKind::none && m.code[kGroupDistance] == 900 &&
+         m.code[kGroupUnit] == 210 && m.feed > 0 && !in.code_calls.any && !in.settings.check_cutting;
+}
+
+}  // namespace
+
+bool execute_plain_line(Interpreter& in) {
+  State& s = in.state;
+  const int16_t before = s.modal.code[kGroupMotion];
+  int16_t code = before;
+  uint32_t axes = 0;
+  AxisVec value;
+  for (const Word& word : in.block->words) {
+    const auto at = static_cast<unsigned>(word.letter - 'A');
+    const int axis = in.axis_of[at];
+    if (axis < 0) {  // G1 and nothing else
+      if (word.letter != 'G' || word.value != 1 || (word.flags & ~kWordPoint) != 0) return false;
+      code = 10;
+      continue;
+    }
+    // With its point a word is in millimetres, whatever the unit of words without one.
+    if ((word.flags & ~kWordNegative) != kWordPoint || !(std::fabs(word.value) <= in.settings.last_mm))
+      return false;
+    axes |= 1u << axis;
+    value[static_cast<unsigned>(axis)] = word.value;
+  }
+  if (code != 10 || before > 30 || before % 10 != 0 || axes == 0 ||
+      (axes & (in.rotary | in.settings.index_axes)) != 0 || !plain_modes(in))
+    return false;
+  in.modal_kept = code == before;
+  s.modal.code[kGroupMotion] = code;
+  LinearStyle style;
+  style.feed_mm_min = s.modal.feed;
+  style.exact_stop = s.modal.code[kGroupCutting] == 610;
+  move_linear(in, value, axes, style);
+  s.comp.has_vector = s.comp.cancel_vector = false;
+  return true;
+}
+
+}  // namespace nc
