@@ -10,8 +10,8 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1 -DNDEBUG")
 set(CMAKE_C_FLAGS_DEBUG "-O0 -g3")
 set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g3")
 # Assertions stay on under the sanitizers: they find the same class of error earlier.
-set(CMAKE_C_FLAGS_SANITIZE "-O1 -g -fno-omit-frame-pointer")
-set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g -fno-omit-frame-pointer")
+set(CMAKE_C_FLAGS_SANITIZE "-O1 -g1 -fno-omit-frame-pointer")
+set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1 -fno-omit-frame-pointer")
 
 set(NC_SANITIZE "" CACHE STRING "Sanitizers for the whole tree, as in -fsanitize= (address,undefined or thread)")
 option(NC_COVERAGE "Instrument for gcov" OFF)

@@ -131,14 +131,21 @@ void Parameters::create(unsigned capacity, Arena& arena) {
   capacity_ = capacity;
 }
 
+Parameters::Key Parameters::key_of(const char* text) {
+  Key key;
+  for (unsigned i = 0; i < kKeySize && text[i] != 0; ++i) key.part[i / 8] |= uint64_t{static_cast<unsigned char>(text[i])} << (i % 8 * 8);
+  return key;
+}
+
 Parameters::Entry* Parameters::find(const char* key, int axis) const {
+  const Key wanted = key_of(key);
   for (unsigned i = 0; i < count_; ++i)
-    if (entries_[i].axis == axis && std::strcmp(entries_[i].key, key) == 0) return &entries_[i];
+    if (entries_[i].key == wanted && entries_[i].axis == axis) return &entries_[i];
   return nullptr;
 }
 
 nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, const char* text, unsigned* index, double* old) {
-  if (key == nullptr || text == nullptr || std::strlen(key) >= sizeof(Entry::key)) return NC_E_NOT_FOUND;
+  if (key == nullptr || text == nullptr || std::strlen(key) >= kKeySize) return NC_E_NOT_FOUND;
   double value = 0;
   char whole[24];
   int bit = kWhole;
@@ -175,7 +182,7 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
   if (entry == nullptr) {
     if (count_ == capacity_) return NC_E_MEMORY;
     entry = &entries_[count_++];
-    std::strcpy(entry->key, key);
+    entry->key = key_of(key);
     entry->axis = static_cast<int8_t>(axis);
     entry->value = std::numeric_limits<double>::quiet_NaN();
   }
