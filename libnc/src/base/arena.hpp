@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <new>
 #include <type_traits>
 
@@ -25,7 +26,11 @@ class Arena {
     used_ += sizeof(T) * count;
     if (begin_ == nullptr || used_ > size_) return nullptr;
     T* first = reinterpret_cast<T*>(begin_ + at);
-    for (size_t i = 0; i < count; ++i) new (first + i) T();
+    if constexpr (std::is_integral_v<T>) {
+      std::memset(first, 0, sizeof(T) * count);
+    } else {
+      for (size_t i = 0; i < count; ++i) new (first + i) T();
+    }
     return first;
   }
 
