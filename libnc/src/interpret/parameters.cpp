@@ -131,16 +131,16 @@ void Parameters::create(unsigned capacity, Arena& arena) {
   capacity_ = capacity;
 }
 
-Parameters::Key Parameters::key_of(const char* text) {
-  Key key;
-  for (unsigned i = 0; i < kKeySize && text[i] != 0; ++i) key.part[i / 8] |= uint64_t{static_cast<unsigned char>(text[i])} << (i % 8 * 8);
-  return key;
-}
-
+/// Keys are compared as numbers: a hundred of them are looked for whenever a parameter has changed.
 Parameters::Entry* Parameters::find(const char* key, int axis) const {
-  const Key wanted = key_of(key);
-  for (unsigned i = 0; i < count_; ++i)
-    if (entries_[i].key == wanted && entries_[i].axis == axis) return &entries_[i];
+  uint64_t wanted[kKeySize / 8] = {}, there[kKeySize / 8];
+  const size_t length = std::strlen(key);
+  if (length >= kKeySize) return nullptr;
+  std::memcpy(wanted, key, length);
+  for (unsigned i = 0; i < count_; ++i) {
+    std::memcpy(there, entries_[i].key, kKeySize);
+    if (there[0] == wanted[0] && there[1] == wanted[1] && there[2] == wanted[2] && entries_[i].axis == axis) return &entries_[i];
+  }
   return nullptr;
 }
 
@@ -182,7 +182,8 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
   if (entry == nullptr) {
     if (count_ == capacity_) return NC_E_MEMORY;
     entry = &entries_[count_++];
-    entry->key = key_of(key);
+    std::memset(entry->key, 0, kKeySize);
+    std::strcpy(entry->key, key);
     entry->axis = static_cast<int8_t>(axis);
     entry->value = std::numeric_limits<double>::quiet_NaN();
   }

@@ -128,14 +128,8 @@ class Parameters {
 
  private:
   static constexpr unsigned kKeySize = 24;
-  /// Keys are compared as numbers: a hundred of them are looked for whenever one has changed.
-  struct Key {
-    uint64_t part[kKeySize / 8] = {};
-    bool operator==(const Key& other) const { return part[0] == other.part[0] && part[1] == other.part[1] && part[2] == other.part[2]; }
-  };
-  static Key key_of(const char* text);
   struct Entry {
-    Key key;
+    char key[kKeySize];  ///< zeros behind it
     int8_t axis;   ///< -1 = all axes
     double value;  ///< NaN = not set
   };
