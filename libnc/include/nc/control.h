@@ -92,6 +92,23 @@ NC_API nc_status nc_tool_offset_get(const nc_control*, unsigned number, nc_tool_
 NC_API nc_status nc_variable_set(nc_control*, unsigned system, uint32_t number, double value, bool vacant);
 NC_API nc_status nc_variable_get(const nc_control*, unsigned system, uint32_t number, double* value, bool* vacant);
 
+/**
+ * Parameter `index` of those that have been set, in the order in which they first were; NC_E_NOT_FOUND behind the last. One bit that was set
+ * ("1267/bit0") shows as its whole parameter.
+ * @param axis axis name, 0 = all axes
+ * @param set  false: it was set and that was taken back; *value and text mean nothing
+ * @param text of a parameter that is one of two characters or more, at most 63; else "" and *value holds
+ */
+NC_API nc_status nc_parameter_next(const nc_control*, unsigned system, unsigned index, char key[24], char* axis, bool* set, double* value,
+                                   char text[64]);
+
+/**
+ * Calls `look` while variables, their names, offsets and parameters are as the blocks have left them that the machine has executed: what is to
+ * be kept while the power is off. What was read ahead and is not done shows again behind the call. `look` only reads.
+ */
+typedef void (*nc_look)(void* user, const nc_control*);
+NC_API void nc_look_executed(nc_control*, nc_look look, void* user);
+
 /** First common variable with number >= `from` that is not vacant. NC_E_NOT_FOUND when there is none. */
 NC_API nc_status nc_common_next(const nc_control*, unsigned system, uint32_t from, uint32_t* number, double* value);
 

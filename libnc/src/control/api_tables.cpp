@@ -112,6 +112,36 @@ nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key
   return NC_OK;
 }
 
+nc_status nc_parameter_next(const nc_control* c, unsigned system, unsigned index, char key[24], char* axis, bool* set, double* value,
+                            char text[64]) {
+  if (!known(c, system) || key == nullptr || axis == nullptr || set == nullptr || value == nullptr || text == nullptr) return NC_E_ARGUMENT;
+  const nc::Interpreter& in = c->system[system].interpreter;
+  const char *name = nullptr, *words = nullptr;
+  int place = -1;
+  if (!in.parameters.at(index, &name, &place, value, &words)) return NC_E_NOT_FOUND;
+  std::strcpy(key, name);
+  *axis = place >= 0 ? c->config.system[system].axis[place].name : '\0';
+  *set = !std::isnan(*value);
+  text[0] = 0;
+  if (words != nullptr) std::strcpy(text, words);
+  return NC_OK;
+}
+
+void nc_look_executed(nc_control* c, nc_look look, void* user) {
+  if (c == nullptr || look == nullptr) return;
+  // Part systems share variables: what the last one has taken back it is the first to put back.
+  nc::BlockSeq executed[NC_MAX_SYSTEMS];
+  bool ahead[NC_MAX_SYSTEMS];
+  const unsigned count = c->config.system_count;
+  for (unsigned i = 0; i < count; ++i) {
+    ahead[i] = c->system[i].executed_block(&executed[i]);
+    if (ahead[i]) c->system[i].interpreter.look_back(executed[i], true);
+  }
+  look(user, c);
+  for (unsigned i = count; i-- > 0;)
+    if (ahead[i]) c->system[i].interpreter.look_back(executed[i], false);
+}
+
 nc_status nc_program_edit(nc_control* c, unsigned file, bool editing) {
   if (c == nullptr || c->store.entry(file) == nullptr) return NC_E_ARGUMENT;
   if (editing && kept(c, file)) return NC_E_STATE;

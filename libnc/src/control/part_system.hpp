@@ -26,6 +26,11 @@ class PartSystem {
   nc_status recalculate();
   void set_position(const AxisVec& machine);
   bool busy() const { return online_ && running_; }
+  /// The newest block that the machine has executed; false: it has executed all that was read.
+  bool executed_block(BlockSeq* seq) const {
+    if (busy()) *seq = executor.last_block();
+    return busy();
+  }
   /// The alarm in words, once its item has been given out; false = none.
   bool alarm(nc_alarm* out) const {
     if (alarm_given_) *out = alarm_;

@@ -117,6 +117,22 @@ void Interpreter::undo(void* self, uint32_t key, double old) {
   }
 }
 
+/// The settings stay: whoever looks at the parameters executes nothing.
+double Interpreter::exchange(void* self, uint32_t key, double value) {
+  Interpreter& in = *static_cast<Interpreter*>(self);
+  double old = 0;
+  if (key < kNoteKey) {
+    old = in.frames.get(key - Variables::kForeignKey);
+    in.frames.set(key - Variables::kForeignKey, value);
+  } else if (key < kParameterKey) {
+    old = in.notes.get(key - kNoteKey);
+    in.notes.set(key - kNoteKey, value);
+  } else {
+    old = in.parameters.exchange(key - kParameterKey, value);
+  }
+  return old;
+}
+
 void Interpreter::refresh_settings() {
   settings_stale_ = false;
   settings = parameters.settings(*dialect);

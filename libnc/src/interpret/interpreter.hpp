@@ -93,6 +93,8 @@ struct Interpreter {
   }
   /// Back to right behind the block `seq`; false when it is too old.
   bool rewind(BlockSeq seq);
+  /// Tables, variables and parameters are as block `seq` has left them (back), and again as they were: for a look from outside, without a write.
+  void look_back(BlockSeq seq, bool back) { variables.swap(seq, back, this, exchange); }
   /// rewind(seq) is possible, and still will be when one more block has been executed.
   bool remembers(BlockSeq seq) const { return checkpoints_.keeps(seq) && variables.keeps(seq); }
   /// Forget checkpoints; go on from here (position of the machine).
@@ -287,6 +289,7 @@ struct Interpreter {
   uint32_t waiting_for_ = 0;
   bool settings_stale_ = false;
   static void undo(void* self, uint32_t key, double old);
+  static double exchange(void* self, uint32_t key, double value);
   unsigned made_ = 0;          ///< items of the block in hand so far
   BlockSeq block_seq_ = 0;     ///< the state before it
   Repeat next_repeat_;         ///< from the next mark on

@@ -274,6 +274,16 @@ const char* Parameters::text(const char* key, int axis) const {
   return texts_[static_cast<unsigned>(entry->value - kTextBase)];
 }
 
+bool Parameters::at(unsigned index, const char** key, int* axis, double* value, const char** text) const {
+  if (index >= count_) return false;
+  const Entry& entry = entries_[index];
+  *key = entry.key;
+  *axis = entry.axis;
+  *value = entry.value;
+  *text = entry.value >= kTextBase ? texts_[static_cast<unsigned>(entry.value - kTextBase)] : nullptr;
+  return true;
+}
+
 Settings Parameters::settings(const Dialect& dialect) const {
   Settings s;
   auto number = [this](const char* key, double fallback, int axis = -1) {

@@ -118,6 +118,14 @@ class Parameters {
   /// The same; what was there before can be put back with restore(*index, *old).
   nc_status set(const Dialect& dialect, const char* key, int axis, const char* text, unsigned* index, double* old);
   void restore(unsigned index, double old) { entries_[index].value = old; }
+  /// The same; what stood there.
+  double exchange(unsigned index, double value) {
+    const double old = entries_[index].value;
+    entries_[index].value = value;
+    return old;
+  }
+  /// Those that have been set, from 0 on: key, axis (-1 = all), value (NaN = no longer set) and, where it is one, text; false behind the last.
+  bool at(unsigned index, const char** key, int* axis, double* value, const char** text) const;
   /// Value of "1229/bit2", "1084", a name; a text by the codes of its characters, one byte each, when these are at most six (#100010:
   /// "ASCII codes as decimal"). False = never set, or a longer text.
   bool get(const char* key, int axis, double* value) const;

@@ -295,4 +295,24 @@ bool Variables::rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uin
   return true;
 }
 
+void Variables::swap(BlockSeq seq, bool back, void* self, double (*foreign)(void* self, uint32_t key, double value)) {
+  journal_.swap(seq, back, [&](uint32_t key, Value value) {
+    Value old;
+    if (key >= kForeignKey) {
+      old = Value::of(foreign(self, key, value.number));
+    } else if ((key & kNameKey) != 0) {
+      old = Value::of(common_->name(key & 0xff));
+      common_->set_name(key & 0xff, value.number);
+    } else if ((key & kLocalKey) != 0) {
+      double& slot = local_[key >> 8 & 0xff][key & 0xff];
+      old = from_storage(slot);
+      slot = to_storage(value);
+    } else {
+      old = bank(key)->get(key);
+      bank(key)->set(key, value);
+    }
+    return old;
+  });
+}
+
 }  // namespace nc

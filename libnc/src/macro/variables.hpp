@@ -51,6 +51,10 @@ class Journal {
   /// Takes entries newer than `seq` back, newest first, through `undo`.
   template <class Undo>
   void rewind(BlockSeq seq, Undo&& undo);
+  /// Entries newer than `seq` change places with what they speak of, newest first (back), or oldest first, which undoes exactly that.
+  /// exchange(key, value) puts a value in place and gives what was there.
+  template <class Exchange>
+  void swap(BlockSeq seq, bool back, Exchange&& exchange);
   void clear();
   /// Someone outside the program has changed `key`: whatever is taken back from now on, it keeps this value.
   void replace(uint32_t key, Value value);
@@ -117,6 +121,9 @@ class Variables {
   /// Undo every write made by blocks after `seq`; false when the journal does not reach back that far.
   /// foreign(self, key, old) is called for foreign keys.
   bool rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uint32_t key, double old));
+  /// Everything is as blocks up to `seq` have left it (back), and as it was before that: nothing may be written in between. For foreign
+  /// keys foreign(self, key, value) exchanges.
+  void swap(BlockSeq seq, bool back, void* self, double (*foreign)(void* self, uint32_t key, double value));
 
  private:
   CommonVariables* bank(uint32_t number) const {
@@ -137,6 +144,18 @@ void Journal::rewind(BlockSeq seq, Undo&& undo) {
     --head_;
     const Entry& e = ring_[head_ & mask_];
     undo(e.key, Value{e.number, e.vacant});
+  }
+}
+
+template <class Exchange>
+void Journal::swap(BlockSeq seq, bool back, Exchange&& exchange) {
+  uint64_t first = head_;
+  while (first != tail_ && ring_[(first - 1) & mask_].seq > seq) --first;
+  for (uint64_t n = 0; n < head_ - first; ++n) {
+    Entry& e = ring_[(back ? head_ - 1 - n : first + n) & mask_];
+    const Value old = exchange(e.key, Value{e.number, e.vacant});
+    e.number = old.number;
+    e.vacant = old.vacant;
   }
 }
 
