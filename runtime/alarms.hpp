@@ -57,7 +57,7 @@ constexpr const AlarmRow& alarm_row(AlarmId id) {
 
 // What has gone wrong with retained data (R19, R20): `detail` of the alarm, beside the number of the data.
 enum class RetainTrouble : std::uint8_t { kLost, kOlder, kNotKept, kUnwritable };
-inline constexpr unsigned kRetainedData = 2;  // 0 devices of the ladder, 1 common variables
+inline constexpr unsigned kRetainedData = 3;  // 0 devices of the ladder, 1 common variables, 2 offsets and parameters
 constexpr unsigned retain_detail(unsigned data, RetainTrouble trouble) {
   return data * 4 + static_cast<unsigned>(trouble);
 }

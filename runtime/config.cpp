@@ -116,6 +116,7 @@ std::vector<ConfigError> check_host(const Config& config) {
       errors.add(place.line, place.key, "there is no folder \"" + parent.string() + "\"");
   };
   if (!config.variables.empty()) check_file(config.variables_path(), config.variables_place);
+  if (!config.offsets.empty()) check_file(config.offsets_path(), config.offsets_place);
   if (!config.ladder.retain.empty() && !config.ladder.program.empty()) check_file(config.retain_path(), config.ladder.retain_place);
   return errors.take();
 }

@@ -120,6 +120,8 @@ struct Config {
   std::string external;        // folder of the programs of M198, in the same way; empty = the folder of programs
   std::string variables;       // file of the common variables, relative as `print`; empty = see variables_path()
   ConfigPlace variables_place;
+  std::string offsets;         // file of the offsets and parameters that were changed since the configuration; as `variables`
+  ConfigPlace offsets_place;
   double retain_every_s = 1;   // retained data are looked at so often
   std::string print;           // file that programs print to, relative to the file's folder unless absolute; empty = nowhere
   unsigned cycle_us = 1000;
@@ -152,6 +154,8 @@ struct Config {
   std::string retain_path() const;
   // File of the common variables in the same way.
   std::string variables_path() const;
+  // File of the changed offsets and parameters in the same way.
+  std::string offsets_path() const;
   // An output that follows a signal of the NC.
   bool is_wired_output(unsigned point) const;
 };

@@ -43,6 +43,8 @@ void read_ladder(TableReader* root, Config* config) {
     }
     if (!ladder.retain.empty() && ladder.retain == config->variables)
       reader.error("retain", "is the file of the common variables too: [machine] variables");
+    if (!ladder.retain.empty() && ladder.retain == config->offsets)
+      reader.error("retain", "is the file of the offsets too: [machine] offsets");
     std::vector<std::pair<std::string, unsigned>> texts;
     if (!reader.strings("alarms", &texts)) return;
     if (texts.size() > ladder.alarm.size())
@@ -65,6 +67,11 @@ std::string Config::retain_path() const {
 std::string Config::variables_path() const {
   if (!variables.empty()) return (std::filesystem::path(file).parent_path() / variables).string();
   return state_file(name, ".variables");
+}
+
+std::string Config::offsets_path() const {
+  if (!offsets.empty()) return (std::filesystem::path(file).parent_path() / offsets).string();
+  return state_file(name, ".offsets");
 }
 
 }  // namespace nc::rt

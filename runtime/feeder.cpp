@@ -53,7 +53,7 @@ void Feeder::step() {
   rewind_ended();
   restore_parts();
   follow_ladder();
-  leave_variables();
+  leave_kept();
   Command command;
   while (commands_.pop(&command)) (void)answers_.push({command.ticket, apply(command)});
   PositionSample sample;
@@ -112,22 +112,25 @@ void Feeder::follow_ladder() {
   }
 }
 
-// ---- retained variables ----
+// ---- retained data ----
 
-void Feeder::leave_variables() {
-  if (!variables_wanted_.load(std::memory_order_acquire)) return;
-  std::string bytes = nc_->variables();
-  variables_wanted_.store(false, std::memory_order_relaxed);
-  const std::lock_guard lock(mutex_);
-  variables_ = std::move(bytes);
-  variables_ready_ = true;
+void Feeder::leave_kept() {
+  for (KeptCopy& copy : kept_) {
+    if (!copy.wanted.load(std::memory_order_acquire)) continue;
+    std::string bytes = &copy == &kept_[kVariables] ? nc_->variables() : nc_->tables();
+    copy.wanted.store(false, std::memory_order_relaxed);
+    const std::lock_guard lock(mutex_);
+    copy.bytes = std::move(bytes);
+    copy.ready = true;
+  }
 }
 
-bool Feeder::take_variables(std::string* bytes) {
+bool Feeder::take(Kept what, std::string* bytes) {
   const std::lock_guard lock(mutex_);
-  if (!variables_ready_) return false;
-  *bytes = std::move(variables_);
-  variables_ready_ = false;
+  KeptCopy& copy = kept_[what];
+  if (!copy.ready) return false;
+  *bytes = std::move(copy.bytes);
+  copy.ready = false;
   return true;
 }
 

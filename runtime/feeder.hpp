@@ -81,8 +81,10 @@ class Feeder {
   std::string refusal() const;
 
   // ---- the thread of the retained data ----
-  void want_variables() { variables_wanted_.store(true, std::memory_order_release); }
-  bool take_variables(std::string* bytes);
+  // A copy of what the executed blocks have left is asked for, and taken when it is there.
+  enum Kept { kVariables, kTables, kKeptCount };
+  void want(Kept what) { kept_[what].wanted.store(true, std::memory_order_release); }
+  bool take(Kept what, std::string* bytes);
 
   // Before the threads start.
   void set_sink(EventSink* sink) { sink_ = sink; }
@@ -98,7 +100,7 @@ class Feeder {
   Answer select(unsigned system, std::uint32_t file);
   Answer load_mdi(unsigned system);
   Answer refuse(Answer answer, std::string why);
-  void leave_variables();
+  void leave_kept();
   void follow_ladder();
   void complete_reset();
   void feed();
@@ -140,9 +142,12 @@ class Feeder {
   std::string refusal_;  // under mutex_
   std::uint32_t operator_switches_[NC_MAX_SYSTEMS] = {}, switches_[NC_MAX_SYSTEMS] = {};  // given, and in force
   std::uint32_t recalculated_[NC_MAX_SYSTEMS] = {};  // requests of the ladder that were done
-  std::atomic<bool> variables_wanted_{false};
-  bool variables_ready_ = false;  // under mutex_, with variables_
-  std::string variables_;
+  struct KeptCopy {
+    std::atomic<bool> wanted{false};
+    bool ready = false;  // under mutex_, with bytes
+    std::string bytes;
+  };
+  KeptCopy kept_[kKeptCount];
 };
 
 }  // namespace nc::rt

@@ -30,14 +30,16 @@ class NcPort {
     (void)system;
     return NC_OK;
   }
-  // The common variables, for runtime/retain/variables.hpp.
+  // What the blocks that were executed have left, for the data that are kept while the power is off: the common variables
+  // (runtime/retain/variables.hpp), offsets and parameters (runtime/retain/tables.hpp).
   virtual std::string variables() { return {}; }
+  virtual std::string tables() { return {}; }
 };
 
 // libnc behind the port; `system` counts from 0.
 class LibNc final : public NcPort {
  public:
-  explicit LibNc(nc_control* control) : control_(control) {}
+  LibNc(nc_control* control, const nc_config& config) : control_(control), config_(config) {}
   void cycle(const nc_inputs* in, nc_outputs* out) noexcept override { nc_cycle(control_, in, out); }
   nc_status feed(std::uint32_t budget) override { return nc_feed(control_, budget); }
   nc_status poll_event(unsigned system, nc_event* event, std::uint64_t* dropped) override;
@@ -50,9 +52,11 @@ class LibNc final : public NcPort {
   nc_status text(unsigned system, std::uint32_t id, nc_text* text) override;
   nc_status recalculate(unsigned system) override;
   std::string variables() override;
+  std::string tables() override;
 
  private:
   nc_control* control_;
+  const nc_config& config_;
 };
 
 }  // namespace nc::rt

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "runtime/retain/ladder_data.hpp"
+#include "runtime/retain/tables.hpp"
 #include "runtime/retain/variables.hpp"
 
 namespace nc::rt {
@@ -105,7 +106,7 @@ bool Runtime::make_control(std::vector<ConfigError>* errors) {
   std::vector<ConfigError> refused = apply_config(config_, control_);
   errors->insert(errors->end(), refused.begin(), refused.end());
   if (!refused.empty()) return false;
-  own_nc_ = std::make_unique<LibNc>(control_);
+  own_nc_ = std::make_unique<LibNc>(control_, config_.nc);
   parts_.nc = own_nc_.get();
   return true;
 }
@@ -153,6 +154,8 @@ bool Runtime::start(std::string* error) {
     keeper_->add(0, std::make_unique<LadderData>(own_ladder_.get()), config_.retain_path());
   if (control_ != nullptr && !config_.variables_path().empty())
     keeper_->add(1, std::make_unique<VariableData>(control_, feeder_.get()), config_.variables_path());
+  if (control_ != nullptr && !config_.offsets_path().empty())
+    keeper_->add(2, std::make_unique<TableData>(control_, config_.nc, feeder_.get()), config_.offsets_path());
   keeper_->restore(&warnings_);
   feeder_->step();  // the first blocks are there before the first scan
   if (!feeder_thread_.start([this] { feeder_thread(); }, error)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The common variables of the programs (#100 to #199, #500 to #999 ...) and their names as bytes, and back. They are
-// kept while the power is off (M700 13.4, 13.5.4).
+// kept while the power is off (M700 13.4, 13.5.4): as the blocks have left them that the machine has executed.
 #pragma once
 
 #include <string>
@@ -24,8 +24,8 @@ class VariableData final : public RetainedData {
   const char* start() const override { return "are vacant"; }
   bool restore(const std::string& bytes) override { return restore_variables(control_, bytes); }
   std::string now() override { return encode_variables(control_); }
-  void want() override { feeder_.want_variables(); }
-  bool take(std::string* bytes) override { return feeder_.take_variables(bytes); }
+  void want() override { feeder_.want(Feeder::kVariables); }
+  bool take(std::string* bytes) override { return feeder_.take(Feeder::kVariables, bytes); }
 
  private:
   nc_control* control_;

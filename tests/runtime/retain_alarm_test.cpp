@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "hal/sim/sim_machine.hpp"
+#include "runtime/retain/tables.hpp"
 #include "runtime/retain/variables.hpp"
 #include "runtime/runtime.hpp"
 #include "test_config.hpp"
@@ -40,7 +41,7 @@ class RetainedControl : public testing::Test {
   void configure(const std::string& more = "") {
     std::string text = nc::test::base_toml();
     text.replace(text.find("name = \"test\""), 13,
-                 "name = \"test\"\nvariables = \"" + file("vars") + "\"\nretain_every_s = 0.02");
+                 "name = \"test\"\nvariables = \"" + file("vars") + "\"\noffsets = \"" + file("offsets") + "\"\nretain_every_s = 0.02");
     config = nc::test::parse_or_fail(text + "[ladder]\nprogram = \"" + file("own.il") + "\"\nretain = \"" + file("devices") +
                                      "\"\n[scheduling]\npolicy = \"other\"\nlock_memory = false\noverrun = \"count\"\n" + more);
   }
@@ -75,6 +76,26 @@ class RetainedControl : public testing::Test {
     bool vacant = true;
     EXPECT_EQ(nc_variable_get(runtime->control(), 0, number, &value, &vacant), NC_OK);
     return vacant ? std::nan("") : value;
+  }
+  double work(unsigned index, unsigned axis) const {
+    double value = 0;
+    EXPECT_EQ(nc_work_offset_get(runtime->control(), 0, index, axis, &value), NC_OK);
+    return value;
+  }
+  double tool(unsigned number) const {
+    double value = 0;
+    EXPECT_EQ(nc_tool_offset_get(runtime->control(), number, NC_TOOL_LENGTH, &value), NC_OK);
+    return value;
+  }
+  double parameter(const char* key, char axis = 0) const {
+    double value = 0;
+    EXPECT_EQ(nc_parameter_get(runtime->control(), 0, key, axis, &value), NC_OK);
+    return value;
+  }
+  bool saved(const char* name, std::string* bytes) const {
+    RetainStore store(file(name));
+    std::string error;
+    return store.load(bytes, &error) == RetainStore::Loaded::kWhole;
   }
   std::string alarms() const {
     std::string all;
@@ -205,6 +226,106 @@ TEST_F(RetainedControl, WhatCannotBeWrittenIsAnAlarmThatLetsTheProgramEnd) {
   runtime->stop();
   up();
   EXPECT_EQ(variable(500), 2) << "written as soon as it went";
+}
+
+// What a shop expects of its control in the morning: the offsets that programs have set, and parameters.
+TEST_F(RetainedControl, OffsetsAndParametersComeBack) {
+  configure("[work_offsets]\nG54 = { X = -10.0, Y = -20.0 }\n[tool_offsets]\n1 = 120.0\n2 = 90.0\n[parameters]\n\"8075\" = 0.25\n");
+  up();
+  run("G10 L2 P1 X-11.5 Y0\nG10 L20 P3 Z4.\nG10 L2 P0 X0.125\n#5222=-20.25\nG10 L10 P1 R121.0625\nG10 L10 P7 R0.1\nG10 L10 P2 R0\n"
+      "G10 L70\nP8075 D0.5\nP2037 A2 D-3.\nP1267 H01\nG11\nM30\n");
+  runtime->stop();
+  up();
+  EXPECT_EQ(alarms(), "");
+  EXPECT_EQ(work(1, 0), -11.5);
+  EXPECT_EQ(work(1, 1), -20.25);
+  EXPECT_EQ(work(103, 2), 4);
+  EXPECT_EQ(work(0, 0), 0.125);
+  EXPECT_EQ(tool(1), 121.0625);
+  EXPECT_EQ(tool(7), 0.1);
+  EXPECT_EQ(tool(2), 0) << "taken away is taken away";
+  EXPECT_EQ(parameter("8075"), 0.5);
+  EXPECT_EQ(parameter("2037", 'Y'), -3);
+  EXPECT_EQ(parameter("1267/bit0"), 1);
+  run("#500=[#5221+#10001]\nM30\n");  // and programs see them
+  EXPECT_EQ(variable(500), -11.5 + 121.0625);
+}
+
+// What was measured anew and written into the configuration counts, and what was not keeps what the programs have set.
+TEST_F(RetainedControl, WhatIsChangedInTheConfigurationCountsFromThere) {
+  configure("[work_offsets]\nG54 = { X = -10.0, Y = -20.0 }\n[tool_offsets]\n1 = 120.0\n2 = 90.0\n");
+  up();
+  run("G10 L2 P1 X-11. Y-21.\nG10 L10 P1 R121.\nG10 L10 P2 R91.\nM30\n");
+  runtime->stop();
+  configure("[work_offsets]\nG54 = { X = -10.5, Y = -20.0 }\n[tool_offsets]\n1 = 120.0\n2 = 93.0\n");
+  up();
+  EXPECT_EQ(work(1, 0), -10.5);
+  EXPECT_EQ(work(1, 1), -21);
+  EXPECT_EQ(tool(1), 121);
+  EXPECT_EQ(tool(2), 93);
+  runtime->stop();
+  up();  // and stays so
+  EXPECT_EQ(work(1, 0), -10.5);
+  EXPECT_EQ(work(1, 1), -21);
+}
+
+// A power cut in the middle: what was only read ahead has not happened.
+TEST_F(RetainedControl, WhatIsKeptInTheMiddleIsWhatWasExecuted) {
+  configure("[tool_offsets]\n1 = 120.0\n");
+  up();
+  unsigned number = 0;
+  const std::string& source = texts.emplace_back("#500=1\nG10 L10 P1 R121.\nG4 X600.\n#500=2\nG10 L10 P1 R122.\nG10 L70\nP8075 D0.5\nG11\nM30\n");
+  ASSERT_EQ(nc_program_add_text(runtime->control(), "p", source.data(), source.size(), &number), NC_OK);
+  ASSERT_EQ(runtime->select_program(number), Answer::kDone);
+  ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+  ASSERT_TRUE(until([&] { return runtime->snapshot().system[0].nc.cause == NC_CAUSE_DWELL; }));
+  std::string variables, tables;
+  ASSERT_TRUE(until([&] { return saved("vars", &variables) && saved("offsets", &tables) && tables.find("121") != std::string::npos; }));
+  std::this_thread::sleep_for(100ms);  // several periods of the keeper
+  ASSERT_TRUE(saved("vars", &variables) && saved("offsets", &tables));
+  EXPECT_EQ(tables, "nc tables 1\ntool 1 0\n120\n121\nend\n");
+  for (const char* name : {"vars", "offsets"})  // the next control finds what a power cut would leave now
+    std::filesystem::copy_file(file(name), file(std::string("cut.") + name));
+  runtime->stop();
+  for (const char* name : {"vars", "offsets"})
+    std::filesystem::copy_file(file(std::string("cut.") + name), file(name), std::filesystem::copy_options::overwrite_existing);
+  up();
+  EXPECT_EQ(variable(500), 1);
+  EXPECT_EQ(tool(1), 121);
+}
+
+TEST(RetainedTables, BytesThatMakeNoSenseChangeNothing) {
+  Config config = nc::test::parse_or_fail(nc::test::base_toml());
+  const std::size_t size = nc_memory_required(&config.nc);
+  std::vector<char> memory(size + 64);
+  void* place = memory.data() + (64 - reinterpret_cast<std::uintptr_t>(memory.data()) % 64) % 64;
+  nc_status status = NC_OK;
+  nc_control* control = nc_create(&config.nc, place, size, &status);
+  ASSERT_NE(control, nullptr);
+  const TableRows configured = read_tables(control, config.nc);
+  ASSERT_EQ(nc_tool_offset_set(control, 1, NC_TOOL_LENGTH, 1e-7), NC_OK);
+  ASSERT_EQ(nc_work_offset_set(control, 0, 101, 2, -1.0 / 3), NC_OK);
+  ASSERT_EQ(nc_parameter_set(control, 0, "1326", 0, "SERVER NAME"), NC_OK);
+  const TableRows now = read_tables(control, config.nc);
+  const std::string good = encode_changes(now, configured);
+  TableRows parsed;
+  ASSERT_TRUE(parse_tables(table_text(now), &parsed));
+  EXPECT_EQ(parsed, now);
+  for (std::size_t cut = 0; cut < good.size(); ++cut) EXPECT_FALSE(restore_changes(control, config.nc, configured, good.substr(0, cut))) << cut;
+  EXPECT_FALSE(restore_changes(control, config.nc, configured, good + "x"));
+  EXPECT_FALSE(restore_changes(control, config.nc, configured, good + "x\n"));
+  EXPECT_EQ(read_tables(control, config.nc), now);
+  std::mt19937 chance(1);
+  for (unsigned i = 0; i < 5000; ++i) {
+    std::string noise = good;
+    for (unsigned k = 0; k < 3; ++k) noise[chance() % noise.size()] = static_cast<char>(chance());
+    (void)restore_changes(control, config.nc, configured, noise);
+  }
+  ASSERT_EQ(nc_tool_offset_set(control, 1, NC_TOOL_LENGTH, 0), NC_OK);
+  ASSERT_TRUE(restore_changes(control, config.nc, configured, good));
+  double value = 0;
+  ASSERT_EQ(nc_tool_offset_get(control, 1, NC_TOOL_LENGTH, &value), NC_OK);
+  EXPECT_EQ(value, 1e-7) << "to the last bit";
 }
 
 TEST_F(RetainedControl, AFileOfAnotherControlIsAnAlarm) {

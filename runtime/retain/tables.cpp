@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Offsets and parameters as text. See tables.hpp.
+//
+//   "nc tables 1"; each change: three lines, key, value of the configuration ("" = none), value; "end"
+#include "runtime/retain/tables.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "runtime/nc_system.hpp"
+
+namespace nc::rt {
+namespace {
+
+constexpr char kHead[] = "nc tables 1", kEnd[] = "end";
+constexpr unsigned kColumns = 4;
+constexpr unsigned kPlainSets = 6, kExtended = 100;  // as nc_work_offset_set() counts
+constexpr char kAllAxes = '-';
+
+// Without an exponent: nc_parameter_set() takes none.
+std::string plain(double value) {
+  char text[400];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr;
+  return {text, end};
+}
+
+bool parse(const std::string& text, double* value) {
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, *value);
+  return result.ec == std::errc{} && result.ptr == end && std::isfinite(*value);
+}
+
+void read_work_offsets(const nc_control* control, const nc_config& config, TableRows* rows) {
+  double value = 0;
+  for (unsigned s = 0; s < config.system_count; ++s)
+    for (unsigned set = 0; set <= kPlainSets + config.work_offsets; ++set) {
+      const unsigned index = set <= kPlainSets ? set : kExtended + set - kPlainSets;
+      for (unsigned a = 0; a < config.system[s].axis_count; ++a)
+        if (nc_work_offset_get(control, api_system(s), index, a, &value) == NC_OK && value != 0 && std::isfinite(value))
+          (*rows)["work " + std::to_string(s) + " " + std::to_string(index) + " " + config.system[s].axis[a].name] = plain(value);
+    }
+}
+
+void read_tool_offsets(const nc_control* control, TableRows* rows) {
+  double value = 0;
+  for (unsigned number = 1; nc_tool_offset_get(control, number, NC_TOOL_LENGTH, &value) == NC_OK; ++number)
+    for (unsigned c = 0; c < kColumns; ++c)
+      if (nc_tool_offset_get(control, number, static_cast<nc_tool_column>(c), &value) == NC_OK && value != 0 && std::isfinite(value))
+        (*rows)["tool " + std::to_string(number) + " " + std::to_string(c)] = plain(value);
+}
+
+void read_parameters(const nc_control* control, const nc_config& config, TableRows* rows) {
+  char key[24] = "", text[64] = "", axis = 0;
+  bool set = false;
+  double value = 0;
+  for (unsigned s = 0; s < config.system_count; ++s)
+    for (unsigned i = 0; nc_parameter_next(control, api_system(s), i, key, &axis, &set, &value, text) == NC_OK; ++i)
+      if (set && (text[0] != '\0' || std::isfinite(value)))
+        (*rows)["parameter " + std::to_string(s) + " " + (axis != 0 ? axis : kAllAxes) + " " + key] = text[0] != '\0' ? text : plain(value);
+}
+
+std::string value_of(const TableRows& rows, const std::string& key) {
+  const auto found = rows.find(key);
+  if (found != rows.end()) return found->second;
+  return key.rfind("parameter ", 0) == 0 ? "" : "0";
+}
+
+// What the control does not have is left out.
+void apply(nc_control* control, const nc_config& config, const std::string& key, const std::string& text) {
+  std::istringstream words(key);
+  std::string kind, number;
+  unsigned first = 0, second = 0;
+  char axis = 0;
+  double value = 0;
+  words >> kind >> first;
+  if (kind == "work" && words >> second >> axis && first < config.system_count && parse(text, &value)) {
+    for (unsigned a = 0; a < config.system[first].axis_count; ++a)
+      if (config.system[first].axis[a].name == axis) (void)nc_work_offset_set(control, api_system(first), second, a, value);
+  } else if (kind == "tool" && words >> second && second < kColumns && parse(text, &value)) {
+    (void)nc_tool_offset_set(control, first, static_cast<nc_tool_column>(second), value);
+  } else if (kind == "parameter" && words >> axis >> number) {
+    (void)nc_parameter_set(control, api_system(first), number.c_str(), axis == kAllAxes ? '\0' : axis, text.c_str());
+  }
+}
+
+struct Change {
+  std::string key, configured, value;
+};
+
+bool decode(const std::string& bytes, std::vector<Change>* changes) {
+  std::istringstream lines(bytes);
+  std::string line;
+  if (bytes.empty() || bytes.back() != '\n' || !std::getline(lines, line) || line != kHead) return false;
+  while (std::getline(lines, line)) {
+    if (line == kEnd) return !std::getline(lines, line);
+    Change& change = changes->emplace_back();
+    change.key = line;
+    double number = 0;
+    if (!std::getline(lines, change.configured) || !std::getline(lines, change.value)) return false;
+    const bool parameter = line.rfind("parameter ", 0) == 0;
+    if (!parameter && (line.rfind("work ", 0) != 0 && line.rfind("tool ", 0) != 0)) return false;
+    if (!parameter && !parse(change.value, &number)) return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+TableRows read_tables(const nc_control* control, const nc_config& config) {
+  TableRows rows;
+  read_work_offsets(control, config, &rows);
+  read_tool_offsets(control, &rows);
+  read_parameters(control, config, &rows);
+  return rows;
+}
+
+std::string table_text(const TableRows& rows) {
+  std::string text;
+  for (const auto& [key, value] : rows) text += key + "=" + value + "\n";
+  return text;
+}
+
+bool parse_tables(const std::string& text, TableRows* rows) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t sign = line.find('=');
+    if (sign == std::string::npos) return false;
+    (*rows)[line.substr(0, sign)] = line.substr(sign + 1);
+  }
+  return true;
+}
+
+std::string encode_changes(const TableRows& now, const TableRows& configured) {
+  TableRows all = configured;  // every key of both
+  all.insert(now.begin(), now.end());
+  std::string text = std::string(kHead) + "\n";
+  for (const auto& [key, ignored] : all) {
+    const std::string before = value_of(configured, key), value = value_of(now, key);
+    if (value != before) text += key + "\n" + before + "\n" + value + "\n";
+  }
+  return text + kEnd + "\n";
+}
+
+bool restore_changes(nc_control* control, const nc_config& config, const TableRows& configured, const std::string& bytes) {
+  std::vector<Change> changes;
+  if (!decode(bytes, &changes)) return false;
+  for (const Change& change : changes)
+    if (change.configured == value_of(configured, change.key)) apply(control, config, change.key, change.value);
+  return true;
+}
+
+bool TableData::take(std::string* bytes) {
+  std::string text;
+  TableRows now;
+  if (!feeder_.take(Feeder::kTables, &text) || !parse_tables(text, &now)) return false;
+  *bytes = encode_changes(now, configured_);
+  return true;
+}
+
+}  // namespace nc::rt

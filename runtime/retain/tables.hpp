@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Work offsets, tool offsets and parameters that were changed since the configuration was read (G10, system variables ...), as text
+// and back. They are kept while the power is off, as on a control with a battery.
+//
+// The configuration gives the values of the first start. What is kept is what differs from it, beside the value that the configuration had
+// then: a value that is changed in the configuration afterwards counts from there, and what was kept for it is dropped.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "nc/nc.h"
+#include "runtime/feeder.hpp"
+#include "runtime/retain/retained_data.hpp"
+
+namespace nc::rt {
+
+// "work 0 1 X" (part system, index of nc_work_offset_set(), axis), "tool 3 0" (number, column), "parameter 0 - 8012" (part system, axis, key)
+// -> value. An offset that is not there is 0.
+using TableRows = std::map<std::string, std::string>;
+TableRows read_tables(const nc_control* control, const nc_config& config);
+
+// One row in a line, and back.
+std::string table_text(const TableRows& rows);
+bool parse_tables(const std::string& text, TableRows* rows);
+
+// What of `now` differs from `configured`, for the file.
+std::string encode_changes(const TableRows& now, const TableRows& configured);
+// Into a control that has the tables `configured`. False when the bytes are not such changes; nothing has changed then. What the control does
+// not have (any more), and what the configuration says otherwise now, is left out.
+bool restore_changes(nc_control* control, const nc_config& config, const TableRows& configured, const std::string& bytes);
+
+class TableData final : public RetainedData {
+ public:
+  // While the control is as the configuration has made it.
+  TableData(nc_control* control, const nc_config& config, Feeder* feeder)
+      : control_(control), config_(config), feeder_(*feeder), configured_(read_tables(control, config)) {}
+  const char* name() const override { return "offsets and parameters"; }
+  const char* start() const override { return "are those of the configuration"; }
+  bool restore(const std::string& bytes) override { return restore_changes(control_, config_, configured_, bytes); }
+  std::string now() override { return encode_changes(read_tables(control_, config_), configured_); }
+  void want() override { feeder_.want(Feeder::kTables); }
+  bool take(std::string* bytes) override;
+
+ private:
+  nc_control* control_;
+  const nc_config& config_;
+  Feeder& feeder_;
+  const TableRows configured_;
+};
+
+}  // namespace nc::rt
