@@ -155,5 +155,7 @@ void lower(Code* code, const std::vector<std::uint32_t>& targets, std::uint32_t 
 // The interpreter, with computed goto where the compiler has it, and with a switch. Same rules, same results.
 Outcome execute_threaded(const Code& code, DeviceImage* image) noexcept;
 Outcome execute_portable(const Code& code, DeviceImage* image) noexcept;
+// The portable one, with devices that no instruction changes.
+Outcome execute_held(const Code& code, DeviceImage* image, const Hold* holds, unsigned hold_count) noexcept;
 
 }  // namespace nc::ladder

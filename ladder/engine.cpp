@@ -41,14 +41,14 @@ DeviceImage Engine::make_image() const {
   return image;
 }
 
-void Engine::scan(DeviceImage* image) noexcept {
+void Engine::scan(DeviceImage* image, const Hold* holds, unsigned hold_count) noexcept {
   if (fault_ != kNoFault) return;
   const Layout& at = code_->layout;
   if (image->bit.size() != at.bits || image->word.size() != at.words) {
     fault_ = kImageSize;
     return;
   }
-  const Outcome outcome = execute_threaded(*code_, image);
+  const Outcome outcome = hold_count == 0 ? execute_threaded(*code_, image) : execute_held(*code_, image, holds, hold_count);
   fault_ = outcome.fault;
   fault_step_ = outcome.step;
 }

@@ -1,9 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interpreter's body, included twice: NC_LADDER_THREADED makes every instruction jump to the next one's
+// The interpreter's body, included three times: NC_LADDER_THREADED makes every instruction jump to the next one's
 // code by itself (the processor then predicts each of the jumps on its own), else one switch in a loop does
-// it. NC_RT.
+// it; with NC_LADDER_HELD devices are put back to their value behind each instruction. NC_RT.
 
+#ifdef NC_LADDER_HELD
+Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image, const Hold* holds, unsigned hold_count) noexcept {
+  const auto keep = [=] {
+    for (unsigned i = 0; i < hold_count; ++i) {
+      const Hold& hold = holds[i];
+      if (hold.type == DeviceType::kBit) image->bit[hold.index] = hold.value != 0;
+      else if (hold.type == DeviceType::kWord16) image->word[hold.index] = static_cast<std::int16_t>(hold.value);
+      else image->set_word32(hold.index, hold.value);
+    }
+  };
+#define NC_LADDER_KEEP keep()
+#else
 Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image) noexcept {
+#define NC_LADDER_KEEP (void)0
+#endif
   Machine machine{
       code, code.layout, image->bit.data(), image->word.data(), code.units.data(), code.step_budget};
   machine.begin();
@@ -54,6 +68,7 @@ Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image) noexcept {
 #define NC_LADDER_DISPATCH goto dispatch
 #define NC_LADDER_CASE(name) case Op::name:
 dispatch:
+  NC_LADDER_KEEP;
   switch (static_cast<Op>(ip->head.op)) {
 #define NC_LADDER_OP(name) case Op::name:
     NC_LADDER_OPS_LOGIC(NC_LADDER_OP)  // lower() leaves none of them
@@ -72,6 +87,7 @@ dispatch:
     const std::uint32_t table = in >> kLogicShift >> (2 * (bit[in & (kMaxBits - 1)] & 1u)); \
     rlo = table >> rlo & 1u;                                                                \
     bit[(unit).cell.out] = NC_LADDER_BYTE(rlo);                                             \
+    NC_LADDER_KEEP;                                                                         \
   }
   NC_LADDER_CASE(kCells) {
     const Unit* const end = ip + 1 + ip->head.a;
@@ -347,5 +363,6 @@ watchdog : return {kWatchdog, static_cast<std::uint32_t>(ip - units)};
 #undef NC_LADDER_DISPATCH
 #undef NC_LADDER_CASE
 #undef NC_LADDER_RUN_CELL
+#undef NC_LADDER_KEEP
 #undef NC_LADDER_RISING
 #undef NC_LADDER_FALLING

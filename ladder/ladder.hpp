@@ -75,6 +75,13 @@ enum Fault : unsigned {
 };
 inline constexpr unsigned kMaxCalls = 16;
 
+// A device that keeps a value against every instruction of a scan.
+struct Hold {
+  DeviceType type = DeviceType::kBit;
+  std::uint32_t index = 0;
+  std::int32_t value = 0;
+};
+
 // Places that keep their values over a power cut where the runtime offers that.
 struct RetainedRange {
   std::string name;  // "L", "ST contact", "ST value", "ST rest", "C contact", "C value", "D"
@@ -92,8 +99,9 @@ class Engine {
   // machine of its own: edges, timers and counters live in it.
   DeviceImage make_image() const;
 
-  // One pass through the program. NC_RT. Does nothing once there is a fault.
-  void scan(DeviceImage* image) noexcept;
+  // One pass through the program. NC_RT. Does nothing once there is a fault. Devices that are held have their value
+  // before and behind each instruction, which costs every instruction a store for each of them.
+  void scan(DeviceImage* image, const Hold* holds = nullptr, unsigned hold_count = 0) noexcept;
 
   // The fault belongs to the thread that scans.
   unsigned fault() const { return fault_; }

@@ -111,6 +111,15 @@ void ForceTable::hold_devices(ladder::DeviceImage* image) const noexcept {
   for (unsigned i = 0; i < count_; ++i) set(places_[active_[i].number], active_[i].value, image);
 }
 
+const ladder::Hold* ForceTable::holds(unsigned* count) noexcept {
+  for (unsigned i = 0; i < count_; ++i) {
+    const Place& place = places_[active_[i].number];
+    holds_[i] = {place.type, place.index, active_[i].value};
+  }
+  *count = count_;
+  return holds_.data();
+}
+
 void ForceTable::list(ForceList* list) const noexcept {
   list->count = count_;
   for (unsigned i = 0; i < count_; ++i) list->device[i] = {active_[i].number, active_[i].value};

@@ -2,8 +2,8 @@
 // Forced devices of the ladder: held at a value whatever the machine and the program say, from the command until it
 // is taken back or the control ends.
 //
-// The value stands in the device when the program begins and again when it has ended. Within a scan a coil of the
-// program may change the device between itself and END; what the machine and the NC get is the forced value.
+// The value stands in the device before the program, behind each of its instructions, and in what the machine and the
+// NC get.
 #pragma once
 
 #include <array>
@@ -43,6 +43,8 @@ class ForceTable {
   void hold_inputs(hal::PointImage* points) const noexcept { hold_points(points, false); }
   void hold_outputs(hal::PointImage* points) const noexcept { hold_points(points, true); }
   void hold_devices(ladder::DeviceImage* image) const noexcept;
+  // The same for the engine, to hold them against the program; valid until the next command.
+  const ladder::Hold* holds(unsigned* count) noexcept;
   void list(ForceList* list) const noexcept;
 
  private:
@@ -71,6 +73,7 @@ class ForceTable {
   mutable std::mutex mutex_;  // names_ and the names; not the scan's
   std::array<Active, kMaxForces> active_, released_;
   unsigned count_ = 0, freed_ = 0;  // of them
+  std::array<ladder::Hold, kMaxForces> holds_;
 };
 
 }  // namespace nc::rt

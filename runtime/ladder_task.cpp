@@ -298,9 +298,10 @@ void LadderTask::scan(LadderImage* image) noexcept {
   for (const PointPlace& place : outputs_)
     set(place.type, place.device, static_cast<std::int32_t>(points.value[place.point]));
   for (const PointPlace& place : quality_) devices_.bit[place.device] = points.good[place.point];
+  unsigned held = 0;
+  const ladder::Hold* const holds = forced ? forces_.holds(&held) : nullptr;
   if (forced) forces_.hold_devices(&devices_);
-  engine_->scan(&devices_);
-  if (forced) forces_.hold_devices(&devices_);
+  engine_->scan(&devices_, holds, held);
   answer();
   if (turn_.load(std::memory_order_acquire) == kWanted) {
     copy_retained(devices_, &copied_);

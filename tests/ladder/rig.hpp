@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small machine for the tests: some inputs and outputs, a program, scans. Every scan runs on both
-// interpreters, which have to agree in every bit and word.
+// A small machine for the tests: some inputs and outputs, a program, scans. Every scan runs on all three
+// interpreters, which have to agree in every bit and word: the one that holds devices holds one that never changes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -39,11 +39,12 @@ class Rig {
       : program_(build(text, table, options)),
         engine_(program_),
         image(engine_.make_image()),
-        portable_(engine_.make_image()) {}
+        portable_(engine_.make_image()),
+        held_(engine_.make_image()) {}
 
   void scan(unsigned count = 1) {
     for (unsigned i = 0; i < count; ++i) {
-      portable_ = image;
+      held_ = portable_ = image;
       const bool stopped = engine_.fault() != kNoFault;
       engine_.scan(&image);
       if (stopped) return;
@@ -52,6 +53,12 @@ class Rig {
       ASSERT_EQ(outcome.step, engine_.fault_step());
       ASSERT_EQ(portable_.bit, image.bit);
       ASSERT_EQ(portable_.word, image.word);
+      const Hold off{DeviceType::kBit, program_.code()->layout.sm + kSmOff, 0};
+      const Outcome held = execute_held(*program_.code(), &held_, &off, 1);
+      ASSERT_EQ(held.fault, engine_.fault());
+      ASSERT_EQ(held.step, engine_.fault_step());
+      ASSERT_EQ(held_.bit, image.bit);
+      ASSERT_EQ(held_.word, image.word);
     }
   }
 
@@ -93,7 +100,7 @@ class Rig {
   DeviceImage image;
 
  private:
-  DeviceImage portable_;
+  DeviceImage portable_, held_;
 };
 
 // What compile() says of a program that has errors.

@@ -94,6 +94,35 @@ TEST_F(Force, RelaysRegistersTimersAndSignals) {
   EXPECT_EQ(out().feed_mm_min, 0);
 }
 
+// Whatever the program writes, the next contact reads the forced value, in the same scan.
+TEST_F(Force, NoInstructionOverrulesItWithinTheScan) {
+  const std::pair<const char*, const char*> kBits[] = {
+      {"LD SM401\nOUT M1\n", "OUT"}, {"LD SM400\nRST M1\n", "RST"}, {"LD SM400\nZRST M0 M9\n", "ZRST"}, {"LD SM401\nPLS M1\n", "PLS"},
+      {"LD SM400\nMOV K0 K4M0\n", "K4M0"}, {"LD SM412\nFF M1\n", "FF"}, {"LD SM401\nMC N0 M1\nMCR N0\n", "MC"},
+      {"FOR K2\nLD SM401\nOUT M1\nNEXT\n", "in a loop"}, {"LD SM400\nMPS\nANI SM400\nOUT M1\nMPP\nANI SM400\nOUT M1\n", "branches"}};
+  std::string ladder = "LD SM400\nRST M200\n";
+  for (const auto& [text, name] : kBits) ladder += std::string(text) + "LDI M1\nSET M200\n";  // M200: a contact has read something else
+  const char* const kWords[] = {"MOV K5 D1", "INC D1", "RST D1", "FMOV K3 D0 K4", "BMOV D100 D0 K4", "DMOV K-1 D0", "* K3 K3 D0", "+ K1 D1", "ZRST D0 D9", "XCH D50 D1",
+                                "BSET D1 K0", "ROL D1 K1"};
+  for (const char* text : kWords) ladder += "LD SM400\n" + std::string(text) + "\nLD<> D1 K77\nSET M200\n";
+  ladder += "LD SM400\nSET D1.5\nLDI D1.5\nLD D1.5\nORB\nOUT M201\nLD<> D1 K77\nSET M200\n";
+  ladder += "LD SM401\nOUT T3 K5\nLDI T3\nSET M200\nLD SM400\nCALL P1\nLDI M1\nSET M200\nFEND\nP1\nLD SM400\nRST M1\nRET\nEND\n";
+  run(ladder);
+  ASSERT_EQ(force("M1", 1), Answer::kDone);
+  ASSERT_EQ(force("D1", 77), Answer::kDone);
+  ASSERT_EQ(force("T3", 1), Answer::kDone);
+  steps(2);
+  for (int n = 0; n < 2500; ++n) {  // and over an edge of SM412
+    steps(1);
+    ASSERT_EQ(device("M200"), 0) << n;
+    ASSERT_EQ(device("D1"), 77);
+    ASSERT_EQ(device("M1"), 1);
+  }
+  ASSERT_EQ(runtime->release(""), Answer::kDone);
+  steps(2);
+  EXPECT_EQ(device("M200"), 1) << "the program is such that it would be seen";
+}
+
 TEST_F(Force, IsShownAndReleased) {
   run("ALIAS X0 in0\nLD X0\nOUT M0\nEND\n");
   EXPECT_EQ(runtime->snapshot().forces.count, 0u);
