@@ -118,13 +118,13 @@ int config_failed(const std::vector<nc::rt::ConfigError>& errors) {
 }
 
 // Mistakes of the ladder program, although the configuration has mistakes too: all of them in one go.
-void check_ladder(const nc::rt::Config& config, std::vector<nc::rt::ConfigError>* errors) {
+void check_ladder(const nc::rt::Config& config, bool whole, std::vector<nc::rt::ConfigError>* errors) {
   if (config.ladder.program.empty()) return;
   const std::size_t before = errors->size();
   std::vector<nc::rt::ConfigError> found;
   (void)nc::rt::LadderTask::create(config, &found);
   errors->insert(errors->end(), found.begin(), found.end());
-  if (errors->size() != before)
+  if (errors->size() != before && !whole)
     errors->push_back({config.ladder_file(), 0, "",
                        "its errors may follow from those of the configuration, which says what devices there are"});
 }
@@ -459,8 +459,9 @@ int main(int argc, char** argv) {
   nc::rt::Config config;
   nc::rt::Config partial;
   std::vector<nc::rt::ConfigError> errors = nc::rt::load_config(options.config, &config, &partial);
-  if (errors.empty()) errors = nc::rt::check_host(config);
-  else if (check->parsed()) check_ladder(partial, &errors);
+  const bool whole = errors.empty();  // as a text; what it asks of the computer is another matter
+  if (whole) errors = nc::rt::check_host(config);
+  if (!errors.empty() && check->parsed()) check_ladder(whole ? config : partial, whole, &errors);
   if (!errors.empty()) return config_failed(errors);
   options.commands |= config.share.commands && !options.fast;
   if (options.commands && options.fast) return failed("--commands is for a machine in real time, not for --fast");

@@ -86,6 +86,19 @@ printf 'POPEN\nDPRNT[X1]\nPCLOS\nM30\n' >"$work/main.nc"
 expect 1 "$ncrtd" --config "$work/full.toml" run --fast --no-progress "$work/main.nc"
 said err "No space left"
 
+# Mistakes of the ladder program are told beside those of the configuration, and beside what the computer does not have.
+printf 'LD M9999\nOUT M1\nEND\n' >"$work/wrong.il"
+sed -e "s#^programs = .*#programs = \"$work/nowhere\"#" -e 's#^program = .*#program = "wrong.il"#' "$machine" >"$work/both.toml"
+expect 1 "$ncrtd" --config "$work/both.toml" check
+said err 'machine.programs: there is no folder'
+said err 'wrong.il:1: LD M9999: no such device'
+grep -q 'may follow' "$work/err" && fail "the configuration is whole: it tells which devices there are"
+sed -i 's#^cycle_us = .*#cycle_us = -1#' "$work/both.toml"
+expect 1 "$ncrtd" --config "$work/both.toml" check
+said err 'machine.cycle_us: must be'
+said err 'wrong.il:1: LD M9999: no such device'
+said err 'may follow'
+
 # Usage and configuration.
 expect 1 "$ncrtd"
 expect 1 "$ncrtd" --config "$machine"
