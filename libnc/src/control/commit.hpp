@@ -57,6 +57,28 @@ class Commit {
 
   /// `transform` and `shape` are what the move names (ignored for other items; nullptr = no shape). Fills the geometry members.
   Committed commit(const Item& item, const Transform& transform, const MoveShape* shape);
+  /// What trying changes, to be put back behind it.
+  struct Place {
+    AxisVec machine, start;
+    Circle circle;
+    Curve curve;
+    Serial serial = 0;
+  };
+  Place place() const { return {machine_, start_, circle_, curve_, last_serial_}; }
+  void put_back(const Place& place) {
+    machine_ = place.machine;
+    start_ = place.start;
+    circle_ = place.circle;
+    curve_ = place.curve;
+    last_serial_ = place.serial;
+  }
+  /// What commit() would say; the next one to be tried begins behind it.
+  Committed try_item(const Item& item, const Transform& transform, const MoveShape* shape) {
+    const uint32_t shapes = shape_count_;
+    const Committed committed = commit(item, transform, shape);
+    shape_count_ = shapes;
+    return committed;
+  }
   /// False when every place for a shape is taken by one that the scan may still evaluate: records from `tail` up to `head` are under way.
   bool shape_room(uint32_t tail, uint32_t head) const;
   /// The curve just committed, which is a move, goes into record number `record`.

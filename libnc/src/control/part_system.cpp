@@ -57,18 +57,20 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
 
 /// Part of both loops that take items: a call for each would be felt.
 [[gnu::always_inline]] inline nc_status PartSystem::next(uint32_t& budget, const Item** item) {
-  if (has_staged_) {
+  if (staged_count_ != 0) {
     from_stage_ = true;
-    *item = &staged_;
+    *item = &staged_[staged_head_];
     return NC_OK;
   }
   for (;;) {
     if (!offset_idle_) {
-      const bool any = offset_.pop(staged_);
+      staged_head_ = 0;
+      const bool any = offset_.pop(staged_[0]);
       offset_idle_ = offset_.idle();
       if (any) {
-        has_staged_ = from_stage_ = true;
-        *item = &staged_;
+        staged_count_ = 1;
+        from_stage_ = true;
+        *item = &staged_[0];
         return NC_OK;
       }
     }
@@ -96,7 +98,8 @@ const MoveShape* PartSystem::shape_of_item(const Item& item) const {
 
 void PartSystem::take() {
   if (from_stage_) {
-    has_staged_ = false;
+    ++staged_head_;
+    --staged_count_;
   } else {
     interpreter.pop();
   }
@@ -125,7 +128,7 @@ void PartSystem::stop_on(const Fault& fault, const nc_source& source) {
   // Of the block that stops some moves may have gone; compensated ones do not end where the program says.
   if (!from_stage_) interpreter.state.machine = commit_.machine();
   clear_offset();
-  has_staged_ = false;
+  clear_staged();
   interpreter.abort(fault, source);
 }
 
@@ -159,11 +162,12 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   // M700 13.12, type 1: at once. The item that was given out last is the one that is interrupted, unless it is done already; a contour
   // under compensation and a block that waits for an answer are finished first.
   const bool cuttable = pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate;
-  if (settings.interrupt_type_2 || !cuttable || !offset_idle_ || has_staged_ || open_sync_ != 0) return NC_OK;
+  if (settings.interrupt_type_2 || !cuttable || !offset_idle_ || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
   commit_.take_back(pulled_ == ItemKind::move);
   if (interpreter.interrupt(commit_.machine(), 1, true)) {
     uit_pending_ = false;
     pulled_ = ItemKind::mark;
+    looked_behind_ = kNowhere;
     *take_back = true;
   } else {
     commit_.put_back(pulled_ == ItemKind::move);
@@ -258,6 +262,11 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
       stop_on(item->alarm, item->source);
       continue;
     }
+    if (wants_look_ahead(*item)) [[unlikely]] {
+      const nc_status looked = look_ahead(budget);
+      if (looked != NC_OK) return looked;
+      continue;
+    }
     static constexpr Transform kNone{};
     const Transform& transform = item->kind == ItemKind::move ? interpreter.transforms[item->move.transform] : kNone;
     const Committed committed = commit_.commit(*item, transform, shape_of_item(*item));
@@ -314,7 +323,7 @@ nc_status PartSystem::rewind(Serial serial) {
   if (serial == 0) head.machine = interpreter.state.machine;
   forget_interrupt();
   if (stop_ == Stop::committed) stop_ = Stop::none;  // its block is read again; one that is passed is still to be executed
-  has_staged_ = false;
+  clear_staged();
   open_sync_ = 0;
   finished_ = false;
   alarm_given_ = false;
@@ -332,7 +341,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   interpreter.set_machine(machine);
   forget_interrupt();
   clear_offset();
-  has_staged_ = false;
+  clear_staged();
   open_sync_ = 0;
   finished_ = false;
   alarm_given_ = false;
@@ -377,6 +386,7 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
     stop_on(item->alarm, item->source);
     return NC_OK;
   }
+  if (wants_look_ahead(*item)) [[unlikely]] return look_ahead(budget);
   static constexpr Transform kNone{};
   const Transform& transform = item->kind == ItemKind::move ? interpreter.transforms[item->move.transform] : kNone;
   const Committed committed = commit_.commit(*item, transform, shape_of_item(*item));

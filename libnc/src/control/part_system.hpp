@@ -44,6 +44,24 @@ class PartSystem {
   /// Next item in stream order behind the offset stage; NC_OK, or why there is none. take() removes it.
   nc_status next(uint32_t& budget, const Item** item);
   void take();
+  // look_ahead.cpp
+  nc_status look_ahead(uint32_t& budget);
+  nc_status gather_block(uint32_t& budget);
+  bool try_item(const Item& item, Committed* committed);
+  bool block_fits();
+  bool cycle_fits(Committed* committed);
+  bool staged_fits();
+  bool goes_to_stage() const;
+  /// An item that must not be given out before all of its block has been looked at.
+  bool wants_look_ahead(const Item& item) const {
+    return item.kind == ItemKind::action && item.action.kind <= NC_ACTION_B && looked_behind_ != newest_mark();
+  }
+  Serial newest_mark() const { return commit_.newest() != nullptr ? commit_.newest()->serial : 0; }
+  void clear_staged() {
+    staged_count_ = 0;
+    gathering_ = false;
+    looked_behind_ = kNowhere;
+  }
   const MoveShape* shape_of_item(const Item& item) const;
   void remember_mark(const Item& mark) {
     if (offset_idle_) return commit_.remember(mark, nullptr);
@@ -82,9 +100,14 @@ class PartSystem {
   Commit commit_;
   nc_alarm alarm_{};
   bool alarm_given_ = false;
-  Item staged_;              ///< an item that the offset stage has given out
-  bool has_staged_ = false;
-  bool from_stage_ = false;  ///< the item next() gave is `staged_`, not the interpreter's front
+  /// Items that the offset stage has given out: the next one, or all of a block that begins with M S T B.
+  static constexpr unsigned kStaged = 32;
+  Item staged_[kStaged];
+  unsigned staged_head_ = 0, staged_count_ = 0;
+  bool gathering_ = false;   ///< such a block, and its end has not come yet
+  bool from_stage_ = false;  ///< the item next() gave is one of `staged_`, not the interpreter's front
+  static constexpr Serial kNowhere = ~Serial{0};
+  Serial looked_behind_ = kNowhere;  ///< the block behind this mark has been looked at
   bool online_ = false;      ///< driven by feed()
   bool running_ = false;     ///< a cycle start has been accepted and the end not been executed
   bool finished_ = false;    ///< the end item has been committed

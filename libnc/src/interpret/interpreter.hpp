@@ -75,6 +75,11 @@ struct Interpreter {
     ++head_;
     if (--queued_ == 0) head_ = 0;  // from the front again: a short queue stays in the cache
   }
+  /// All of them; number 0 is the front.
+  unsigned queued() const { return queued_; }
+  const Item& queued(unsigned number) const { return queue_[(head_ + number) % kQueue]; }
+  /// Gives up those from `number` on.
+  void forget_queued(unsigned number) { queued_ = number; }
   /// Makes more items: NC_OK (look at front()), NC_WAITING (a sync is open), NC_BUDGET, NC_ENDED, NC_ALARMED.
   nc_status step(uint32_t& budget);
   void answer(const nc_world& world);

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a block gives out before it moves (M S T B) waits until all of its moves are known to be possible: a block that a stroke limit
+// stops leaves nothing behind. Only blocks that begin with such a code come here; any other block costs one comparison.
+//
+//   Nothing to compensate: the items of the block lie in the interpreter's queue, and the moves are tried where they lie. A fixed
+//   cycle makes its moves bit by bit; what it has still to make is rehearsed, without the pecks, which lie within their hole.
+//
+//   With radius compensation: a move has its geometry only when the offset stage gives it out. All of the block is fetched from there
+//   first. What the stage finds itself (interference, no intersection) then stops the block as a whole, too.
+#include "control/part_system.hpp"
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+namespace {
+
+/// Nothing behind this item belongs to the block, or can be waited for.
+bool ends_look_ahead(const Item& item) {
+  return (item.kind == ItemKind::mark && item.mark.resume) || item.kind == ItemKind::sync || item.kind == ItemKind::alarm ||
+         item.kind == ItemKind::end;
+}
+
+}  // namespace
+
+/// The front of the stream is the first code of its block. NC_OK: all of it has been looked at, or an alarm has taken its place.
+nc_status PartSystem::look_ahead(uint32_t& budget) {
+  if (!gathering_ && !from_stage_ && !goes_to_stage()) {
+    if (block_fits()) looked_behind_ = newest_mark();
+    return NC_OK;
+  }
+  const nc_status status = gather_block(budget);
+  if (status != NC_OK) return status;
+  if (staged_fits()) looked_behind_ = newest_mark();
+  return NC_OK;
+}
+
+/// The block at the front of the interpreter's queue has a move that will be compensated.
+bool PartSystem::goes_to_stage() const {
+  for (unsigned i = 0; i < interpreter.queued(); ++i) {
+    const Item& item = interpreter.queued(i);
+    if (ends_look_ahead(item)) break;
+    if (item.kind == ItemKind::move && item.move.comp.side != 0) return true;
+  }
+  return false;
+}
+
+bool PartSystem::try_item(const Item& item, Committed* committed) {
+  if (item.kind != ItemKind::move) return true;
+  *committed = commit_.try_item(item, interpreter.transforms[item.move.transform], shape_of_item(item));
+  return *committed == Committed::yes || *committed == Committed::nothing;
+}
+
+bool PartSystem::block_fits() {
+  const Commit::Place place = commit_.place();
+  nc_source source{};
+  Committed committed = Committed::yes;
+  bool fits = true, whole = false;
+  for (unsigned i = 0; fits && !whole && i < interpreter.queued(); ++i) {
+    const Item& item = interpreter.queued(i);
+    source = item.source;
+    whole = ends_look_ahead(item);
+    fits = try_item(item, &committed);
+  }
+  if (fits && !whole && interpreter.next_step == Step::cycle) fits = cycle_fits(&committed);
+  commit_.put_back(place);
+  if (!fits) stop_on(refused(committed), source);
+  return fits;
+}
+
+/// What the cycle in hand has still to do, hole by hole and straight to the bottom. The interpreter is afterwards as it was.
+bool PartSystem::cycle_fits(Committed* committed) {
+  Interpreter& in = interpreter;
+  if (in.state.map.active()) return true;  // its moves have shapes, which are few: each is checked when it comes
+  const State state = in.state;
+  const Hole hole = in.hole;
+  const HoleProgress progress = in.progress;
+  const uint32_t holes_left = in.holes_left;
+  const unsigned queued = in.queued();
+  in.state.cycle.kind = in.hole.kind = CycleKind::drill;
+  bool fits = true;
+  Did did = Did::later;
+  while (fits && did == Did::later) {
+    did = continue_cycle(in);
+    if (in.queued() == queued) break;  // codes fill the queue
+    for (unsigned i = queued; fits && i < in.queued(); ++i) fits = try_item(in.queued(i), committed);
+    in.forget_queued(queued);
+  }
+  in.state = state;
+  in.hole = hole;
+  in.progress = progress;
+  in.holes_left = holes_left;
+  return fits;
+}
+
+/// Fetches the rest of the block that begins with staged_[0], or with the interpreter's front.
+nc_status PartSystem::gather_block(uint32_t& budget) {
+  if (!gathering_) {
+    gathering_ = true;
+    if (!from_stage_) {
+      staged_[0] = *interpreter.front();
+      staged_head_ = 0;
+      staged_count_ = 1;
+      interpreter.pop();
+    }
+  }
+  bool whole = false;
+  while (!whole && staged_count_ < kStaged) {  // no block that can be compensated makes more
+    Item& place = staged_[staged_count_];
+    if (!offset_idle_) {
+      const bool any = offset_.pop(place);
+      offset_idle_ = offset_.idle();
+      if (any) {
+        ++staged_count_;
+        whole = ends_look_ahead(place);
+        continue;
+      }
+    }
+    if (interpreter.front() == nullptr) {
+      const nc_status status = interpreter.step(budget);
+      if (status != NC_OK) return status;
+    }
+    const Item& front = *interpreter.front();
+    if (offset_idle_ && !(front.kind == ItemKind::move && front.move.comp.side != 0)) {
+      place = front;
+      ++staged_count_;
+      whole = ends_look_ahead(place);
+    } else {
+      offset_.push(front);
+      offset_idle_ = offset_.idle();
+    }
+    interpreter.pop();
+  }
+  gathering_ = false;
+  return NC_OK;
+}
+
+bool PartSystem::staged_fits() {
+  const Commit::Place place = commit_.place();
+  Committed committed = Committed::yes;
+  const Item* bad = nullptr;
+  for (unsigned i = 0; bad == nullptr && i < staged_count_; ++i) {
+    const Item& item = staged_[i];
+    if (item.kind == ItemKind::alarm || !try_item(item, &committed)) bad = &item;
+  }
+  commit_.put_back(place);
+  if (bad == nullptr) return true;
+  const nc_source source = bad->source;
+  stop_on(bad->kind == ItemKind::alarm ? bad->alarm : refused(committed), source);
+  return false;
+}
+
+}  // namespace nc
