@@ -26,7 +26,9 @@ Did check_modes(Interpreter& in, const FunctionRow& row, double value) {
     const Did did = check_in_space_arc(in, row);
     if (did != Did::done) return did;
   }
-  const unsigned modes = (state.modal.code[kGroupPolarCommand] == 160 ? unsigned{kInPolarCommand} : 0u) | (state.frame[state.depth].figure != 0 ? unsigned{kInFigure} : 0u);
+  const unsigned modes = (state.modal.code[kGroupPolarCommand] == 160 ? unsigned{kInPolarCommand} : 0u) |
+                         (state.frame[state.depth].figure != 0 ? unsigned{kInFigure} : 0u) |
+                         (state.comp.side != 0 && in.dialect->id == NC_DIALECT_DGSHAPE ? unsigned{kInDiameterOffset} : 0u);
   const Condition bad = modes != 0 ? barred(modes, row.code) : Condition::none;
   return bad == Condition::none ? Did::done : in.raise(bad, 'G', value);
 }
@@ -45,7 +47,7 @@ Did take_g(Interpreter& in, double value) {
     row = find_function(*in.dialect, static_cast<int>(code));
   }
   if (row == nullptr) return in.raise(Condition::illegal_g, 'G', value);
-  if (in.state.special != 0 || in.state.mapped || is_space_arc(in.state.modal.code[kGroupMotion])) {
+  if (in.state.special != 0 || in.state.mapped || in.state.comp.side != 0 || is_space_arc(in.state.modal.code[kGroupMotion])) {
     const Did did = check_modes(in, *row, value);
     if (did != Did::done) return did;
   }

@@ -214,15 +214,6 @@ bool only_moves(const Interpreter& in) {
          in.state.modal_call == 0;
 }
 
-/// DGSHAPE G41: fixed cycles and scaling during tool-diameter offset are errors, and so are the codes that end them.
-Did check_compensated_block(Interpreter& in) {
-  for (const FunctionRow* row : in.words.g) {
-    if (row->code == 800) return in.raise(Condition::cycle_in_compensation, 'G', 80);
-    if (row->code == 500) return in.raise(Condition::not_in_compensation, 'G', 50);
-  }
-  return Did::done;
-}
-
 Did execute_move(Interpreter& in) {
   BlockWords& w = in.words;
   in.distance_by_word = false;
@@ -270,7 +261,6 @@ Did execute_words(Interpreter& in) {
   if (w.late_number != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
     return in.raise(Condition::format_error, w.late_number, w.get(w.late_number));
   did = check_company(in);
-  if (did == Did::done && in.state.comp.side != 0 && in.dialect->id == NC_DIALECT_DGSHAPE) did = check_compensated_block(in);
   if (did == Did::done && in.state.map.kind != AxisMap::Kind::none) did = check_mill_block(in);
   if (did != Did::done) return did;
   did = resolve_axes(in);

@@ -35,9 +35,10 @@ const CompanyRow& company_of(Function function);
 inline constexpr uint8_t kInPolarCommand = 1;  ///< G16
 inline constexpr uint8_t kInFigure = 2;        ///< a program called by M98 I J K
 inline constexpr uint8_t kInSpaceArc = 4;      ///< G02.4, G03.4
+inline constexpr uint8_t kInDiameterOffset = 8;  ///< DGSHAPE G41, G42
 
 struct BarredRow {
-  uint8_t mode;          ///< of the three above
+  uint8_t mode;          ///< of those above
   int16_t first, last;   ///< codes, times 10
   Condition condition;
   const char* section;
