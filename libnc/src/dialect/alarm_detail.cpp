@@ -3,7 +3,7 @@
 // The same for all families; the code and the short text beside it are the manual's.
 //
 // A sentence is a template: {word} is the offending word with its value ("X12.5", "G54.1"), {axis} the axis
-// ("axis X"), {value} the value alone. A fault that does not carry what the first sentence of its row needs
+// ("axis X"), {value} the value alone, {function} the function or operator of a formula. A fault that does not carry what the first sentence of its row needs
 // takes the second. A fault whose letter is G or M names the code that is in trouble and its value is that
 // code's number, so it says nothing about {value}.
 #include <cmath>
@@ -163,10 +163,10 @@ constexpr Sentence kSentences[] = {
     {C::bracket_nesting, "Brackets [ ] are nested too deeply.", nullptr},
     {C::bracket_pair, "The block has not as many [ as ].", nullptr},
     {C::calculation,
-     "The formula has no result for {value}, for example a root or a logarithm of a negative number.",
+     "{function} has no result for {value}.",
      "The formula is not written correctly: an operand, an operator or a bracket is missing or stands in the "
      "wrong place."},
-    {C::division_by_zero, "The formula divides by zero.", nullptr},
+    {C::division_by_zero, "{function} {value}: the formula divides by zero.", "The formula divides by zero."},
     {C::if_statement, "The IF statement is not written correctly: IF [condition] GOTO number.", nullptr},
     {C::while_statement,
      "The WHILE statement is not written correctly: WHILE [condition] DO number ... END number.", nullptr},
@@ -258,6 +258,7 @@ bool complete(const char* sentence, const Fault& fault) {
   for (; *sentence != 0; ++sentence) {
     if (*sentence != '{') continue;
     if (sentence[1] == 'w' && !has_letter(fault)) return false;
+    if (sentence[1] == 'f' && fault.function == nullptr) return false;
     if (sentence[1] == 'v' && (!fault.has_value || about_code(fault))) return false;
   }
   return true;
@@ -285,6 +286,9 @@ void alarm_detail(const Fault& fault, const char* axis_name, char* text, size_t 
     switch (at[1]) {
       case 'w':
         put_word(out, fault);
+        break;
+      case 'f':
+        out.put(fault.function);
         break;
       case 'v':
         out.put_number(fault.value);

@@ -183,8 +183,10 @@ double modulo(double a, double b) {
   return std::fabs(b) - std::fabs(r) <= 1e-12 * std::fabs(a) ? 0.0 : r;
 }
 
-Condition binary(Op op, double a, double b, double* result) {
+/// *culprit: the operand that has no result.
+Condition binary(Op op, double a, double b, double* result, double* culprit) {
   int64_t m = 0, n = 0;
+  *culprit = b;
   switch (op) {
     case Op::add:
       *result = a + b;
@@ -206,7 +208,11 @@ Condition binary(Op op, double a, double b, double* result) {
     default:
       break;
   }
-  if (!to_bits(a, &m) || !to_bits(b, &n)) return Condition::calculation;
+  if (!to_bits(a, &m)) {
+    *culprit = a;
+    return Condition::calculation;
+  }
+  if (!to_bits(b, &n)) return Condition::calculation;
   *result = from_bits(op == Op::bit_or ? m | n : op == Op::bit_xor ? m ^ n : m & n);
   return Condition::none;
 }
@@ -230,12 +236,21 @@ bool compare(Op op, const Value& a, const Value& b) {
   }
 }
 
-Eval fail(Fault* fault, Condition condition, double value) {
+Eval fail(Fault* fault, Condition condition, double value, const char* function = nullptr) {
   *fault = Fault{};
   fault->condition = condition;
   fault->has_value = true;
   fault->value = value;
+  fault->function = function;
   return Eval::fault;
+}
+
+/// As it is written.
+const char* name_of(Op op) {
+  static constexpr const char* kNames[] = {"+",    "-",    "OR",  "XOR", "*",   "/",     "MOD", "AND", "SIN", "COS", "TAN", "ASIN",
+                                           "ACOS", "ATAN", "SQRT", "ABS", "BIN", "BCD", "ROUND", "FIX", "FUP", "LN",  "EXP"};
+  static_assert(sizeof kNames / sizeof kNames[0] == static_cast<unsigned>(Op::exp) - static_cast<unsigned>(Op::add) + 1);
+  return kNames[static_cast<unsigned>(op) - static_cast<unsigned>(Op::add)];
 }
 
 /// Room for values that are written before they are read: clearing it would take longer than most formulas.
@@ -333,11 +348,11 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
         const bool two = op <= Op::bit_and;
         if (two) --top;
         const double x = stack[top - 1].or_zero();
-        double result = 0;
+        double result = 0, culprit = x;
         const Condition wrong =
-            two ? binary(op, x, stack[top].or_zero(), &result) : function(op, x, options, &result);
-        if (wrong != Condition::none) return fail(fault, wrong, two ? stack[top].or_zero() : x);
-        if (!std::isfinite(result)) return fail(fault, Condition::calculation, x);
+            two ? binary(op, x, stack[top].or_zero(), &result, &culprit) : function(op, x, options, &result);
+        if (wrong != Condition::none) return fail(fault, wrong, culprit, name_of(op));
+        if (!std::isfinite(result)) return fail(fault, Condition::calculation, x, name_of(op));
         stack[top - 1] = Value::of(result);
         break;
       }

@@ -67,6 +67,7 @@ struct Fault {
   char letter = 0;     ///< address that caused it, 0 = none
   bool has_value = false;
   double value = 0;    ///< its value, or the number of a variable, a program, ...
+  const char* function = nullptr;  ///< function or operator that has no result for `value`; a literal
 };
 
 /// How tool radius compensation acts on a move. side 0 = the move is not compensated.
