@@ -419,6 +419,18 @@ TEST(Mdi, EndsByItself) {
   EXPECT_EQ(dgshape_bench.finish().path(), (Path{"rapid 5 0 0"}));
 }
 
+TEST(Mdi, AMarkInTheBlocksIsNotDoubled) {  // DGSHAPE 2-6, M700 App.1 P36
+  Bench bench(NC_DIALECT_DGSHAPE);
+  const auto mdi = [](Bench& on, const std::string& blocks) {
+    EXPECT_EQ(nc_mdi_load(on.control(), 0, blocks.data(), blocks.size()), NC_OK);
+    return on.finish();
+  };
+  EXPECT_EQ(mdi(bench, " \n%\nG0X5000").path(), (Path{"rapid 5 0 0"}));
+  EXPECT_EQ(mdi(bench, "G0X6000\n%\nG0X7000").alarm, "NC-END");  // what stands behind is not lost without a word
+  Bench m700_bench;
+  EXPECT_EQ(mdi(m700_bench, "G0X6.\n%\nG0X7.").alarm, "P36");
+}
+
 TEST(Mdi, ModalCodesStayFromOneToTheNextUntilResetOrAProgram) {  // M700 5.1
   Bench bench;
   const auto mdi = [&](const std::string& blocks) {

@@ -28,9 +28,9 @@ TEST(Plane, AxesOfAPairAreThoseNamedWithTheCode) {  // M700 6.3
   EXPECT_EQ(from_zero(bench, "G17 G2 U10. X10. Y10." + end).moves()[0].plane_axis[0], 0);      // the basic axis wins
   EXPECT_EQ(from_zero(bench, "G0 G17 U0\nG1 X0 F9\nG2 X10. U10. Y10." + end).moves()[0].plane_axis[0], 3);  // a block without a code changes nothing
   EXPECT_EQ(from_zero(bench, "G0 G17 U0\nG17\nG2 X10. Y10." + end).moves()[0].plane_axis[0], 0);
-  EXPECT_EQ(from_zero(bench, "G41 X5. F9\nG17 U1.\nM30").alarm, "P170");
+  EXPECT_EQ(from_zero(bench, "G1 G41 X5. F9\nG17 U1.\nM30").alarm, "P170");
   bench.tool(1, 2);
-  EXPECT_EQ(from_zero(bench, "G41 D1 X5. F9\nX9.\nG17 U1.\nM30").alarm, "P112");
+  EXPECT_EQ(from_zero(bench, "G1 G41 D1 X5. F9\nX9.\nG17 U1.\nM30").alarm, "P112");
 }
 
 TEST(Helix, FeedInThePlaneOfTheArcIsAskedForByParameter) {  // M700 6.6: the trace shows the F commanded

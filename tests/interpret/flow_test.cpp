@@ -192,7 +192,7 @@ TEST(End, ResetsTheModalStateForTheNextRun) {  // M700 3.7
   bench.run("G91 G0 G55 G43 H1 X1.\n#1=5\nM30");
   const Outcome run = bench.run("#100=#4003 #101=#4001 #102=#4012 #103=#4008 #104=#1\nM30");
   EXPECT_EQ(run.var(100), 90);
-  EXPECT_EQ(run.var(101), 1);
+  EXPECT_EQ(run.var(101), 0);  // 9.1: but for group 01
   EXPECT_EQ(run.var(102), 54);
   EXPECT_EQ(run.var(103), 49);
   EXPECT_TRUE(std::isnan(run.var(104)));  // locals are vacant at the start
@@ -214,6 +214,20 @@ TEST(Start, DgshapeNeedsThePercent) {  // DGSHAPE 2-6
   EXPECT_EQ(run.alarm_line, 1u);
   EXPECT_TRUE(run.moves().empty());
   EXPECT_TRUE(bench.run("%\nO5\nN1G0X1000\nM30\n").ended_ok);
+}
+
+// DGSHAPE 2-6: the first "%" is the start of the data, the second their end.
+TEST(Start, DgshapeEndsAtTheSecondPercent) {
+  for (const char* text : {"%\n%\nG0X1000\nM30\n", "%\n(A)\n%\nG0X1000\nM30\n", "%\n\n%\nO7\nM30\n"}) {
+    const Outcome run = Bench(NC_DIALECT_DGSHAPE).run(text);
+    EXPECT_EQ(run.alarm, "NC-END") << text;
+    EXPECT_TRUE(run.moves().empty()) << text;
+  }
+  const Outcome run = Bench(NC_DIALECT_DGSHAPE).run("%\nG0X1000\n%\nG0X2000\nM30\n");
+  EXPECT_EQ(run.alarm, "NC-END");
+  EXPECT_EQ(run.alarm_line, 3u);
+  EXPECT_EQ(run.path(), Path{"rapid 1 0 0"});
+  EXPECT_TRUE(Bench(NC_DIALECT_DGSHAPE).run("%\nG0X1000\nM30\n%\n%\nG0X5000\nM30\n").ended_ok);
 }
 
 // ---- GOTO -------------------------------------------------------------------------------------------------------------------------
@@ -575,6 +589,47 @@ TEST(CommonVariables, OfSeveralPartSystems) {  // 13.4, #1303 #1304
   double v = 0;
   for (; nc_common_next(bench.control(), 0, number, &number, &v) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(v) + " ";
   EXPECT_EQ(all, "100=5 150=6 500=7 600=8 ");
+}
+
+TEST(Calls, NumbersHaveNoSignAndEightDigits) {  // M700 3.5, App.1 P35
+  for (const char* block : {"M98 P-1", "M98 P100000000", "M98 P1 H-1", "M98 P1 L-1", "M98 H-5", "M98 P-1 ,D1", "M198 P-1", "M198 P1 L-1", "G65 P-1",
+                            "G65 P1 L-1", "G66 P-1", "M96 P-1", "M98 P2", "M98 P99999999 L0 H1"}) {
+    Bench bench;
+    bench.add("O1", "N1 M99\n");
+    bench.add("O2", "M99 P-1\n");
+    const bool good = std::string_view(block).find("L0") != std::string_view::npos;
+    EXPECT_EQ(bench.run(std::string(block) + "\nM30").alarm, good ? "" : "P35") << block;
+  }
+  EXPECT_EQ(m700("M98 P99999999\nM30").alarm, "P232");
+}
+
+// M700 9.1: where the first movement of the next start has coordinate words only, the mode at the end of the program holds.
+TEST(AfterTheEnd, MovementGoesOnInTheModeOfTheEnd) {
+  Bench bench;
+  EXPECT_EQ(bench.run("G91 G0 X10.\nM30").path(), Path{"rapid 10 0 0"});
+  EXPECT_EQ(bench.run("X20.\nG1 Y1. F300\nM2").path(), (Path{"rapid 20 0 0", "line 20 1 0 F300"}));  // absolute again
+  EXPECT_EQ(bench.run("X30.\nM30").path(), Path{"line 30 1 0 F300"});  // 7.2 note 1: F is asked for once after power on
+  EXPECT_EQ(bench.run("G4 X1.\nM30").alarm, "");
+  EXPECT_EQ(bench.run("X40.\nM30").path(), Path{"line 40 1 0 F300"});
+}
+
+TEST(AfterTheEnd, AnotherFeedModeHasNoFeed) {
+  Bench bench;
+  EXPECT_EQ(bench.run("G95 G1 X10. F0.5\nM30").alarm, "");
+  EXPECT_EQ(bench.run("X20.\nM30").alarm, "P62");
+}
+
+TEST(AfterTheEnd, AResetOrAnAlarmBeginsAnew) {
+  Bench bench;
+  EXPECT_EQ(bench.run("G0 X10.\nM30").alarm, "");
+  ASSERT_EQ(nc_reset(bench.control(), 0), NC_OK);
+  EXPECT_EQ(bench.run("X20.\nM30").alarm, "P62");
+  EXPECT_EQ(bench.run("G0 X10.\nM30").alarm, "");
+  EXPECT_EQ(bench.run("G0 X20.\nG999").alarm, "P34");
+  EXPECT_EQ(bench.run("X30.\nM30").alarm, "P62");
+  Bench other(NC_DIALECT_DGSHAPE);
+  EXPECT_EQ(other.run("%\nG1X10000F60000\nM30").path(), Path{"line 10 0 0 F60"});
+  EXPECT_EQ(other.run("%\nX20000\nM30").path(), Path{"rapid 20 0 0"});
 }
 
 }  // namespace

@@ -204,7 +204,10 @@ TEST(SystemVariables, StopSuppression3003) {  // M700 10.5
   Bench bench;
   bench.run("#3003=3 #3004=7\nM30");
   EXPECT_EQ(bench.run("#100=#3003 #101=#3004\nM30").var(100), 0);  // cleared by reset
-  EXPECT_EQ(write_alarm(3003, "8"), "P35");
+  for (const char* bad : {"4", "7", "8", "-1"}) EXPECT_EQ(write_alarm(3003, bad), "P35") << bad;
+  for (const char* bad : {"8", "-1"}) EXPECT_EQ(write_alarm(3004, bad), "P35") << bad;
+  EXPECT_EQ(write_alarm(3003, "3"), "");
+  EXPECT_EQ(write_alarm(3004, "7"), "");
   const std::vector<nc_item> actions = m700("#3004=5\nM30").of(NC_ITEM_ACTION);
   ASSERT_GE(actions.size(), 1u);
   EXPECT_EQ(actions[0].u.action.kind, NC_ACTION_CONTROL);

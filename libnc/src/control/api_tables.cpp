@@ -265,7 +265,9 @@ nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t l
   // The end of the blocks ends them; a start mark stands before them where it is required.
   char* mdi = c->mdi[system];
   size_t at = 0;
-  if (c->dialect->percent_required) {
+  size_t first = 0;
+  while (first < length && std::strchr(" \t\r\n", text[first]) != nullptr) ++first;
+  if (c->dialect->percent_required && (first == length || text[first] != '%')) {
     mdi[at++] = '%';
     mdi[at++] = '\n';
   }

@@ -131,6 +131,11 @@ Did evaluate_here(Interpreter& in, uint16_t code, Value* value) {
   return eval == Eval::need_sync ? Did::sync : Did::done;
 }
 
+/// M700 App.1 P35: P of a program has up to eight digits and no sign (3.5); neither have the numbers of H and of the P of M99.
+Did called_number(Interpreter& in, char letter, double value, uint32_t* number) {
+  return whole_number(value, number) && *number <= 99999999 ? Did::done : in.raise(Condition::value_range, letter, value);
+}
+
 Did find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program) {
   if (in.block->name_length > 0) {
     if (in.block->name_length > 32) return in.raise(Condition::program_missing, '<');  // M700 13.3.1: at most 32 characters
@@ -143,12 +148,12 @@ Did find_called(Interpreter& in, bool has_p, double p, bool own_allowed, Program
     return Did::done;
   }
   uint32_t number = 0;
-  if (!whole_number(p, &number)) return in.raise(Condition::program_missing, 'P', p);
-  return find_number(in, number, program);
+  const Did did = called_number(in, 'P', p, &number);
+  return did == Did::done ? find_number(in, number, program) : did;
 }
 
 Did find_number(Interpreter& in, uint32_t number, ProgramRef* program) {
-  if (number == 0 || number > 99999999) return in.raise(Condition::program_missing, 'P', number);
+  if (number == 0) return in.raise(Condition::program_missing, 'P', number);
   *program = in.reader.find_program(number, top(in).program.file);
   if (!program->valid()) return in.raise(Condition::program_missing, 'P', number);
   program->number = number;
@@ -260,7 +265,9 @@ Did find_start(Interpreter& in, const ProgramRef& program, uint64_t* offset, uin
   if (!w.has('H')) return Did::done;
   uint32_t n = 0;
   bool again = false;
-  if (whole_number(w.get('H'), &n) && in.reader.find_sequence(program.file, n, offset, line, 0, kWholeText, &again)) return Did::done;
+  const Did did = called_number(in, 'H', w.get('H'), &n);
+  if (did != Did::done) return did;
+  if (in.reader.find_sequence(program.file, n, offset, line, 0, kWholeText, &again)) return Did::done;
   return in.raise(Condition::sequence_missing, 'H', w.get('H'));
 }
 
@@ -273,7 +280,8 @@ Did find_on_device(Interpreter& in, ProgramRef* program) {
   const unsigned length = in.block->name_length;
   uint32_t number = 0;
   if (length == 0 && !w.has('P')) return in.raise(Condition::address_missing, 'P');
-  if (length == 0 && !whole_number(w.get('P'), &number)) return in.raise(Condition::program_missing, 'P', w.get('P'));
+  const Did did = length == 0 ? called_number(in, 'P', w.get('P'), &number) : Did::done;
+  if (did != Did::done) return did;
   if (length <= 32) *program = in.reader.find_external(place, in.block->text.begin() + in.block->name, length, number);
   if (!program->valid()) return length != 0 ? in.raise(Condition::program_missing, '<') : in.raise(Condition::program_missing, 'P', number);
   if (number != 0) program->number = number;
@@ -320,8 +328,10 @@ Did call_external(Interpreter& in) {
   Did did = repetitions(in, w.has('L'), w.has('L') ? w.get('L') : 1, &entry.passes);
   if (did != Did::done || entry.passes == 0) return did;
   uint32_t number = 0;
-  if (in.block->name_length == 0 && (!w.has('P') || !whole_number(w.get('P'), &number)))
-    return in.raise(w.has('P') ? Condition::program_missing : Condition::address_missing, 'P');
+  if (in.block->name_length == 0) {
+    did = w.has('P') ? called_number(in, 'P', w.get('P'), &number) : in.raise(Condition::address_missing, 'P');
+    if (did != Did::done) return did;
+  }
   const char* name = in.block->text.begin() + in.block->name;
   if (in.block->name_length <= 32) entry.program = in.reader.find_external("198:", name, in.block->name_length, number);
   const bool outside = entry.program.valid();
@@ -392,7 +402,9 @@ Did return_sub(Interpreter& in) {
     uint32_t line = 0;
     CallFrame& caller = s.frame[s.depth - 1];
     if (s.interrupt_depth == s.depth) in.leave_interrupt(true);
-    if (!whole_number(w.get('P'), &n) || !find_from_here(in, caller, n, &offset, &line)) return in.raise(Condition::sequence_missing, 'P', w.get('P'));
+    const Did did = called_number(in, 'P', w.get('P'), &n);
+    if (did != Did::done) return did;
+    if (!find_from_here(in, caller, n, &offset, &line)) return in.raise(Condition::sequence_missing, 'P', n);
     leave(in);
     leave_loops(in, offset);
     caller.offset = offset;
@@ -410,7 +422,8 @@ Did return_sub(Interpreter& in) {
 Did text_ended(Interpreter& in) {
   // M700 App.1 P36: '%' (or the end of the text, or the next O number) was read without M02, M30 or M99.
   if (in.state.depth > 0) return in.raise(Condition::program_end, 'M', 99);
-  if (in.dialect->end_code_required && !in.mdi) return in.raise(Condition::program_end);
+  // The blocks of MDI end with their text.
+  if (in.dialect->end_code_required && !(in.mdi && in.block->end_of_text)) return in.raise(Condition::program_end);
   in.state.end_seen = true;
   Item& end = in.emit(ItemKind::end);
   end.end.ok = true;

@@ -185,6 +185,11 @@ void Interpreter::reset(bool keep_modal) {
   const FineMode fine_mode = state.fine_mode;
   const bool accuracy_command = state.accuracy_command;
   const int8_t plane_axis[2] = {state.plane_axis[0], state.plane_axis[1]};
+  if (state.end_seen && dialect->id == NC_DIALECT_M700) {
+    left_by_end_ = {modal.code[kGroupMotion], modal.code[kGroupFeed], modal.feed_digit == 0 ? modal.feed : 0};
+  } else if (state.seq != 0) {
+    left_by_end_ = {};
+  }
   state = State{};
   state.machine = machine;
   state.port_open = port_open;
@@ -197,6 +202,10 @@ void Interpreter::reset(bool keep_modal) {
   if (settings.start_synchronous) state.modal.code[kGroupFeed] = 950;  // M700 7.4 note 6, 7.5 (3)
   if (settings.start_high_accuracy) state.modal.code[kGroupCutting] = 611;  // M700 13.15 (4)
   select_basic_plane(*this, dialect->id == NC_DIALECT_M700 ? settings.start_plane : state.modal.code[kGroupPlane]);
+  if (left_by_end_.motion >= 0) {  // M700 9.1: a first movement of coordinate words goes on in the mode of the end; 7.2 note 1
+    state.modal.code[kGroupMotion] = left_by_end_.motion;
+    if (left_by_end_.feed_mode == state.modal.code[kGroupFeed]) state.modal.feed = left_by_end_.feed;
+  }
   if (keep_modal) {
     const ModalState initial = state.modal;
     state.modal = modal;
@@ -331,7 +340,8 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   const bool one_number = dialect->call_depth == 0;
   if (number_again && one_number && frame.program.number != 0) return settle(raise(Condition::format_error, 'O', block->o));  // DGSHAPE 1-1, 2-6
   if (block->percent || block->end_of_text || (number_again && !one_number)) {
-    if (block->percent && !frame.started) {  // the start mark
+    const bool data_end = dialect->percent_required && state.percent_seen;  // DGSHAPE 2-6, also with nothing between the two
+    if (block->percent && !frame.started && !data_end) {  // the start mark
       if (block->has_fault) {
         fault = block->fault;
         return settle(Did::fault);

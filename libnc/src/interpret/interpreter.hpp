@@ -90,8 +90,11 @@ struct Interpreter {
   /// With `keep_modal` (MDI after MDI, M700 5.1) modal codes and words, work system and tool length stay; cycles and radius
   /// compensation do not.
   void reset(bool keep_modal);
-  /// What a reset by the operator clears by parameter: #100 to #199 (M700 13.4, #1128 RstVC1).
+  /// What a reset by the operator clears and the end of a program does not: what the end has left in force, and by parameter #100 to
+  /// #199 (M700 13.4, #1128 RstVC1).
   void clear_by_reset() {
+    state.end_seen = false;
+    left_by_end_ = {};
     if (!settings.reset_clears_common) return;
     for (uint32_t n = 100; n <= 199; ++n)
       if (common->exists(n)) variables.set_from_outside(n, 0, Value{});
@@ -299,6 +302,10 @@ struct Interpreter {
   BlockSeq block_seq_ = 0;     ///< the state before it
   Repeat next_repeat_;         ///< from the next mark on
   InterruptReturn interrupted_;
+  struct {
+    int16_t motion = -1, feed_mode = -1;   ///< codes of groups 1 and 5; -1 = no program has ended since the last reset
+    double feed = 0;
+  } left_by_end_;
   Checkpoints checkpoints_;
   static constexpr ModalId kNoModal = ~ModalId{0};
   ModalId newest_modal_ = kNoModal;  ///< of the newest mark

@@ -229,8 +229,9 @@ Eval read_date(Access& a) {
   return give(a, static_cast<double>(year * 10000 + month * 100 + day));
 }
 
+/// M700 13.5.5: #3003 has the values 0 to 3, #3004 0 to 7.
 Did write_control(Access& a) {
-  if (!(a.written >= 0) || a.written >= 8) return a.in.raise(Condition::value_range, '#', a.written);
+  if (!(a.written >= 0) || a.written >= (a.number == 3003 ? 4 : 8)) return a.in.raise(Condition::value_range, '#', a.written);
   const auto bits = static_cast<uint8_t>(a.written);
   (a.number == 3003 ? a.in.state.control_3003 : a.in.state.control_3004) = bits;
   Action& action = a.in.emit(ItemKind::action).action;
