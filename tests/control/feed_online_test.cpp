@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "support/pull.hpp"
+#include "support/drive.hpp"
 
 namespace nc::test {
 namespace {
@@ -20,17 +20,13 @@ void quick_machine(nc_config& c) {
 
 /// Runs the text to its end; `see` after every cycle.
 void run_online(Bench& bench, const std::string& text, const std::function<void(nc_inputs&, const nc_outputs&)>& see) {
-  bench.start(text);
-  nc_inputs in{};
-  nc_outputs out{};
-  in.feed_override = in.rapid_override = 1;
-  for (unsigned n = 0; n < 200000; ++n) {
-    nc_feed(bench.control(), 100);
-    in.cycle_start = n == 1;
-    in.fin = out.strobe != 0;
-    nc_cycle(bench.control(), &in, &out);
-    see(in, out);
-    if (n > 5 && out.state == NC_STATE_IDLE) {
+  Drive drive(bench, text);
+  drive.in.spindle_rev_per_s = 0;
+  while (drive.cycle < 200000) {
+    drive.in.cycle_start = drive.cycle == 1;
+    drive.step();
+    see(drive.in, drive.out);
+    if (drive.cycle > 6 && drive.out.state == NC_STATE_IDLE) {
       while (nc_feed(bench.control(), 100) == NC_OK) {}
       nc_feed(bench.control(), 100);
       return;

@@ -2,7 +2,7 @@
 // A block that its stroke stops gives out nothing: neither M S T B nor a part of its path that stands before the fault.
 #include <gtest/gtest.h>
 
-#include "support/pull.hpp"
+#include "support/drive.hpp"
 
 namespace nc::test {
 namespace {
@@ -116,6 +116,36 @@ TEST(LookAhead, AProgramAfterTheAlarm) {
   const Outcome again = bench.run("M3 G0 X50.\nM30");
   EXPECT_EQ(again.aux(), "M3 M30");
   EXPECT_EQ(again.path(), Path{"rapid 50 0 0"});
+}
+
+TEST(LookAhead, TheMachineDoesAsTheTrace) {
+  for (const char* text : {"M8 G0 X10.\nS100 M3 X51.\nM30", "G0 X10. Y10.\nG42 D1 M8 G1 X20. F6000\nM9 Y48.\nX0\nM30",
+                           "G0 Z20.\nM8 G81 X10. Z-5. R5. F6000\nM3 X20. Z-11.\nM30"}) {
+    SCOPED_TRACE(text);
+    const Outcome trace = limited(text);
+    EXPECT_EQ(trace.alarm, "M01-0007");
+    Bench bench(NC_DIALECT_M700, limit);
+    bench.tool(1, 5).param("8013", "0.5");
+    Drive drive(bench, text);
+    bool m8 = false, other = false;
+    while (drive.cycle < 20000 && drive.out.state != NC_STATE_ALARM) {
+      drive.press_start();
+      drive.step();
+      const bool m = drive.out.strobe != 0;
+      m8 = m8 || (m && drive.out.m == 8);
+      other = other || (m && drive.out.m != 8);
+    }
+    EXPECT_EQ(drive.alarm(), "M01-0007");
+    EXPECT_EQ(m8, trace.aux().find("M8") != std::string::npos);
+    EXPECT_FALSE(other);
+    // The machine stops at the alarm; the trace has the end behind it.
+    ASSERT_GE(trace.steps.size(), drive.events.size());
+    for (size_t i = 0; i < drive.events.size(); ++i) {
+      EXPECT_EQ(drive.events[i].serial, trace.steps[i].item.serial);
+      EXPECT_EQ(drive.events[i].kind, trace.steps[i].item.kind);
+    }
+    EXPECT_GE(drive.events.size() + 2, trace.steps.size());
+  }
 }
 
 }  // namespace

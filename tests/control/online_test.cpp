@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "support/pull.hpp"
+#include "support/drive.hpp"
 #include "support/random_program.hpp"
 
 namespace nc::test {
@@ -42,43 +42,41 @@ struct Disturbance {
   bool hold = false, single = false, override_changes = false, slow_fin = false, recalculate = false;
 };
 
+/// Tools and common variables as a run has left them, as text.
+std::string left_by(Bench& bench) {
+  std::string all;
+  for (unsigned n = 1; n <= 20; ++n) all += brief(bench.tool_now(n)) + " ";
+  uint32_t number = 0;
+  double value = 0;
+  for (; nc_common_next(bench.control(), 0, number, &number, &value) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(value) + " ";
+  return all;
+}
+
 Executed execute(Bench& bench, const std::string& text, const Disturbance& disturb, uint32_t seed) {
-  bench.start(text);
-  nc_control* control = bench.control();
-  nc_inputs in{};
-  nc_outputs out{};
-  in.feed_override = in.rapid_override = 1;
-  in.spindle_rev_per_s = 50;
+  Drive drive(bench, text);
+  nc_inputs& in = drive.in;
+  if (disturb.slow_fin) drive.fin_cycles = 4;
   std::mt19937 random(seed);
   Executed done;
-  unsigned fin_wait = 0;
   bool asking = false;
-  for (unsigned n = 0; n < 400000 && !done.ended; ++n) {
-    if (random() % 3 != 0 || n < 3) nc_feed(control, 1 + random() % 40);  // the feeder has its own pace
-    if (asking || (disturb.recalculate && out.state == NC_STATE_STOPPED && random() % 3 == 0)) {
-      const nc_status status = nc_recalculate(control, 0);
+  for (unsigned n = 0; n < 400000 && !drive.ended; ++n) {
+    if (random() % 3 != 0 || n < 3) nc_feed(bench.control(), 1 + random() % 40);  // the feeder has its own pace
+    const bool stopped = drive.out.state == NC_STATE_STOPPED;
+    if (asking || (disturb.recalculate && stopped && random() % 3 == 0)) {
+      const nc_status status = nc_recalculate(bench.control(), 0);
       done.recalculated += status == NC_OK;
-      asking = status == NC_WAITING && out.state == NC_STATE_STOPPED;
+      asking = status == NC_WAITING && stopped;
     }
     in.cycle_start = !asking && (n == 2 || (n > 2 && n % 7 == 0));
     if (disturb.hold) in.feed_hold = random() % 40 < 3;
     if (disturb.single) in.single_block = (n / 500) % 2 == 0;
     if (disturb.override_changes && random() % 50 == 0) in.feed_override = 0.2 + static_cast<double>(random() % 18) / 10;
-    fin_wait = out.strobe != 0 ? fin_wait + 1 : 0;
-    in.fin = out.strobe != 0 && (!disturb.slow_fin || fin_wait > 3);
-    nc_cycle(control, &in, &out);
-    nc_event event;
-    uint64_t dropped = 0;
-    while (nc_event_poll(control, 0, &event, &dropped) == NC_OK) {
-      done.events.push_back(event);
-      done.ended = done.ended || event.kind == NC_ITEM_END;
-    }
-    EXPECT_EQ(dropped, 0u);
+    drive.step(0);
   }
-  for (unsigned n = 1; n <= 20; ++n) done.left += brief(bench.tool_now(n)) + " ";
-  uint32_t number = 0;
-  double value = 0;
-  for (; nc_common_next(control, 0, number, &number, &value) == NC_OK; ++number) done.left += std::to_string(number) + "=" + brief(value) + " ";
+  EXPECT_EQ(drive.dropped, 0u);
+  done.events = drive.events;
+  done.ended = drive.ended;
+  done.left = left_by(bench);
   return done;
 }
 
@@ -104,10 +102,7 @@ void compare(const Disturbance& disturb, uint32_t look_ahead) {
       ASSERT_EQ(event.source.line, step.item.source.line) << event.serial;
       for (unsigned axis = 0; axis < 3; ++axis) ASSERT_NEAR(event.machine.v[axis], step.machine.v[axis], 1e-9) << event.serial;
     }
-    std::string left;
-    for (unsigned n = 1; n <= 20; ++n) left += brief(offline.tool_now(n)) + " ";
-    for (const auto& [number, value] : expected.vars) left += std::to_string(number) + "=" + brief(value) + " ";
-    EXPECT_EQ(done.left, left);
+    EXPECT_EQ(done.left, left_by(offline));
     recalculated += done.recalculated;
   }
   if (disturb.recalculate) {
@@ -140,30 +135,17 @@ TEST(Online, InterruptsAtRandomPoints) {
     if (!expected.ended_ok) continue;
     Bench online(NC_DIALECT_M700, machine(seed % 2 == 0 ? 64 : 256));
     prepare(online);
-    online.start(text);
-    nc_control* control = online.control();
-    nc_inputs in{};
-    nc_outputs out{};
-    in.feed_override = in.rapid_override = 1;
-    in.spindle_rev_per_s = 50;
+    Drive drive(online, text);
     std::mt19937 random(seed);
-    std::vector<nc_axes> ends;
-    bool ended = false;
-    for (unsigned n = 0; n < 400000 && !ended; ++n) {
-      if (random() % 3 != 0 || n < 3) nc_feed(control, 1 + random() % 40);
-      in.cycle_start = n == 2 || (n > 2 && n % 7 == 0);
-      in.fin = out.strobe != 0;
-      in.macro_interrupt = random() % 25 == 0;
-      nc_cycle(control, &in, &out);
-      nc_event event;
-      while (nc_event_poll(control, 0, &event, nullptr) == NC_OK) {
-        if (event.kind == NC_ITEM_MOVE) ends.push_back(event.machine);
-        ended = ended || event.kind == NC_ITEM_END;
-      }
+    for (unsigned n = 0; n < 400000 && !drive.ended; ++n) {
+      const unsigned feed = random() % 3 != 0 || n < 3 ? 1 + random() % 40 : 0;
+      drive.in.cycle_start = n == 2 || (n > 2 && n % 7 == 0);
+      drive.in.macro_interrupt = random() % 25 == 0;
+      drive.step(feed);
     }
-    nc_alarm alarm{};
-    nc_alarm_get(control, 0, &alarm);
-    ASSERT_TRUE(ended) << alarm.code << " line " << out.source.line << " state " << int{out.state} << " cause " << int{out.cause};
+    const nc_outputs& out = drive.out;
+    ASSERT_TRUE(drive.ended) << drive.alarm() << " line " << out.source.line << " state " << int{out.state} << " cause " << int{out.cause};
+    const std::vector<nc_axes> ends = drive.ends();
     const std::vector<nc_move> moves = expected.moves();
     ASSERT_EQ(ends.size(), moves.size());
     for (size_t i = 0; i < ends.size(); ++i)
@@ -185,28 +167,17 @@ struct Interrupted {
   bool ended = false;
 };
 Interrupted run_interrupted(Bench& bench, const std::string& text, const std::function<bool(const nc_outputs&)>& wanted, unsigned fin_cycles = 1) {
-  bench.start(text);
-  nc_control* control = bench.control();
-  nc_inputs in{};
-  nc_outputs out{};
-  in.feed_override = in.rapid_override = 1;
-  in.spindle_rev_per_s = 50;
+  Drive drive(bench, text);
+  drive.fin_cycles = fin_cycles;
   Interrupted run;
-  unsigned fin_wait = 0;
-  for (unsigned n = 0; n < 50000 && !run.ended; ++n) {
-    nc_feed(control, 50);
-    in.cycle_start = n == 2;
-    fin_wait = out.strobe != 0 ? fin_wait + 1 : 0;
-    in.fin = fin_wait >= fin_cycles;
-    in.macro_interrupt = wanted(out);
-    nc_cycle(control, &in, &out);
-    run.places.push_back(out.command);
-    nc_event event;
-    while (nc_event_poll(control, 0, &event, nullptr) == NC_OK) {
-      run.events.push_back(event);
-      run.ended = run.ended || event.kind == NC_ITEM_END;
-    }
+  while (drive.cycle < 50000 && !drive.ended) {
+    drive.press_start();
+    drive.in.macro_interrupt = wanted(drive.out);
+    drive.step(50);
+    run.places.push_back(drive.out.command);
   }
+  run.events = drive.events;
+  run.ended = drive.ended;
   return run;
 }
 
@@ -427,28 +398,23 @@ TEST(Online, ResetsAtRandomPoints) {
     for (std::string& sub : program.subs) without_shifts(sub);
     Bench online(NC_DIALECT_M700, machine(seed % 2 == 0 ? 64 : 256));
     set_up(online, program);
-    online.start(program.main);
-    nc_control* control = online.control();
-    nc_inputs in{};
-    nc_outputs out{};
-    in.feed_override = in.rapid_override = 1;
-    in.spindle_rev_per_s = 50;
+    Drive drive(online, program.main);
+    const nc_outputs& out = drive.out;
     std::mt19937 random(seed);
     const unsigned reset_at = 20 + random() % 1500;
     std::optional<Bench> offline;
     Outcome expected;
-    std::vector<nc_event> events;
-    bool ended = false;
     unsigned again = 0;
-    for (unsigned n = 0; n < 400000 && !ended; ++n) {
-      nc_feed(control, 1 + random() % 40);
-      in.reset = n == reset_at;
-      in.cycle_start = (n < reset_at && (n == 2 || n % 7 == 0)) || (again != 0 && (n == again + 2 || n % 7 == 0));
-      in.fin = out.strobe != 0;
-      nc_cycle(control, &in, &out);
+    size_t first = 0;
+    for (unsigned n = 0; n < 400000 && (again == 0 || !drive.ended); ++n) {
+      drive.in.reset = n == reset_at;
+      drive.in.cycle_start = (n < reset_at && (n == 2 || n % 7 == 0)) || (again != 0 && (n == again + 2 || n % 7 == 0));
+      drive.step(1 + random() % 40);
       if (n == reset_at) inside += out.source.line > 3 && out.state == NC_STATE_RUNNING;
       if (n > reset_at + 5 && again == 0 && out.state == NC_STATE_IDLE && out.distance_zero) {
         again = n;
+        first = drive.events.size();
+        drive.ended = false;
         offline.emplace(NC_DIALECT_M700, machine(256));
         set_up(*offline, program);
         for (unsigned k = 1; k <= 9; ++k) offline->tool(k, online.tool_now(k));
@@ -459,14 +425,9 @@ TEST(Online, ResetsAtRandomPoints) {
           if (!std::isnan(online.var_now(v))) offline->var(v, online.var_now(v));
         expected = offline->run(program.main);
       }
-      nc_event event;
-      while (nc_event_poll(control, 0, &event, nullptr) == NC_OK) {
-        if (again == 0 || n <= again) continue;
-        events.push_back(event);
-        ended = ended || event.kind == NC_ITEM_END;
-      }
     }
-    ASSERT_TRUE(ended);
+    const std::vector<nc_event> events(drive.events.begin() + static_cast<std::ptrdiff_t>(first), drive.events.end());
+    ASSERT_TRUE(drive.ended);
     if (!expected.ended_ok) continue;
     ASSERT_EQ(events.size(), expected.steps.size());
     for (size_t i = 0; i < events.size(); ++i) {
@@ -480,70 +441,50 @@ TEST(Online, ResetsAtRandomPoints) {
 
 TEST(Online, ChangedDataActAfterARecalculation) {  // M700 4.2: from the next block
   Bench bench(NC_DIALECT_M700, machine(64));
-  bench.start("G0 X1.\nX2.\nX#100\nM30");
   bench.var(100, 3);
-  nc_control* control = bench.control();
-  nc_inputs in{};
-  nc_outputs out{};
-  in.feed_override = in.rapid_override = 1;
-  in.single_block = true;
+  Drive drive(bench, "G0 X1.\nX2.\nX#100\nM30");
+  const nc_outputs& out = drive.out;
+  drive.in.single_block = true;
   bool changed = false;
-  double last_x = 0;
   for (unsigned n = 0; n < 5000; ++n) {
-    nc_feed(control, 50);
+    nc_feed(bench.control(), 50);
     const bool stopped_behind_first = out.state == NC_STATE_STOPPED && out.blocks == 1;
     if (stopped_behind_first && !changed) {
       bench.var(100, 7);
-      changed = nc_recalculate(control, 0) == NC_OK;
-      in.cycle_start = false;
+      changed = nc_recalculate(bench.control(), 0) == NC_OK;
+      drive.in.cycle_start = false;
     } else {
-      in.cycle_start = n % 5 == 0 && (!stopped_behind_first || changed);
+      drive.in.cycle_start = n % 5 == 0 && (!stopped_behind_first || changed);
     }
-    in.fin = out.strobe != 0;
-    nc_cycle(control, &in, &out);
-    last_x = out.command.v[0];
+    drive.step(0);
     if (out.state == NC_STATE_IDLE && out.blocks > 0) break;  // another cycle start would run it again
   }
   EXPECT_TRUE(changed);
-  EXPECT_NEAR(last_x, 7, 1e-9);
+  EXPECT_NEAR(out.command.v[0], 7, 1e-9);
   EXPECT_EQ(out.state, NC_STATE_IDLE);
 }
 
 /// Tool offsets, work offsets and common variables, as text.
 std::string tables(Bench& bench) {
-  std::string all;
-  for (unsigned n = 1; n <= 20; ++n) all += brief(bench.tool_now(n)) + " ";
+  std::string all = left_by(bench);
   for (unsigned index = 0; index <= 6; ++index)
     for (unsigned axis = 0; axis < 3; ++axis) all += brief(bench.work_offset_now(index, axis)) + " ";
-  uint32_t number = 0;
-  double value = 0;
-  for (; nc_common_next(bench.control(), 0, number, &number, &value) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(value) + " ";
   return all;
 }
 
 /// Runs the program until a reset in cycle `cycles`; serial of the newest block end that was executed, 0: none.
 uint64_t reset_after(Bench& bench, const std::string& text, unsigned cycles) {
-  bench.start(text);
-  nc_control* control = bench.control();
-  nc_inputs in{};
-  nc_outputs out{};
-  in.feed_override = in.rapid_override = 1;
-  in.spindle_rev_per_s = 50;
-  uint64_t last = 0;
-  for (unsigned n = 0; n < cycles + 500; ++n) {
-    nc_feed(control, 100);
-    in.cycle_start = n == 2;
-    in.reset = n >= cycles;
-    in.fin = out.strobe != 0;
-    nc_cycle(control, &in, &out);
-    nc_event event;
-    uint64_t dropped = 0;
-    while (nc_event_poll(control, 0, &event, &dropped) == NC_OK)
-      if (event.kind == NC_ITEM_MARK) last = event.serial;
-    if (in.reset && out.state == NC_STATE_IDLE) break;
+  Drive drive(bench, text);
+  while (drive.cycle < cycles + 500 && !(drive.in.reset && drive.out.state == NC_STATE_IDLE)) {
+    drive.press_start();
+    drive.in.reset = drive.cycle >= cycles;
+    drive.step();
   }
-  EXPECT_EQ(out.state, NC_STATE_IDLE);
-  nc_feed(control, 100);
+  EXPECT_EQ(drive.out.state, NC_STATE_IDLE);
+  nc_feed(bench.control(), 100);
+  uint64_t last = 0;
+  for (const nc_event& event : drive.events)
+    if (event.kind == NC_ITEM_MARK) last = event.serial;
   return last;
 }
 
@@ -593,19 +534,17 @@ TEST(Online, AResetTakesBackWhatWasOnlyReadAhead) {
 TEST(Online, NothingIsReadAheadOfAProgramStop) {
   for (const char* stop : {"M0", "M1"}) {
     Bench bench(NC_DIALECT_M700, machine(64));
-    bench.tool(1, 10).start(std::string("G0 G43 Z0 H1\n") + stop + "\nG43 Z0 H1\nM30");
-    nc_inputs in{};
-    nc_outputs out{};
-    in.feed_override = in.rapid_override = 1;
-    in.optional_stop = true;
+    bench.tool(1, 10);
+    Drive drive(bench, std::string("G0 G43 Z0 H1\n") + stop + "\nG43 Z0 H1\nM30");
+    const nc_outputs& out = drive.out;
+    drive.in.optional_stop = true;
     unsigned stopped = 0;
-    for (unsigned n = 0; n < 3000; ++n) {
+    while (drive.cycle < 3000) {
       nc_feed(bench.control(), 100);
       stopped += out.state == NC_STATE_STOPPED;
       if (stopped == 20) bench.tool(1, 25);
-      in.cycle_start = n == 2 || stopped == 40;
-      in.fin = out.strobe != 0;
-      nc_cycle(bench.control(), &in, &out);
+      drive.in.cycle_start = drive.cycle == 2 || stopped == 40;
+      drive.step(0);
     }
     EXPECT_GE(stopped, 40u);
     EXPECT_EQ(out.state, NC_STATE_IDLE);
@@ -615,22 +554,17 @@ TEST(Online, NothingIsReadAheadOfAProgramStop) {
 
 TEST(Online, SingleBlockNeedsNoStartBehindTheEndOfTheProgram) {
   Bench bench(NC_DIALECT_M700, machine(64));
-  bench.start("G0 X1.\nX2.\nM30");
-  nc_control* control = bench.control();
-  nc_inputs in{};
-  nc_outputs out{};
-  in.feed_override = in.rapid_override = 1;
+  Drive drive(bench, "G0 X1.\nX2.\nM30");
+  nc_inputs& in = drive.in;
   in.single_block = true;
   unsigned starts = 0;
   bool idle = false;
   for (unsigned n = 0; n < 5000 && !idle; ++n) {
-    nc_feed(control, 50);
-    const bool waits = out.state == NC_STATE_STOPPED || starts == 0;
+    const bool waits = drive.out.state == NC_STATE_STOPPED || starts == 0;
     if (waits && !in.cycle_start) ++starts;
     in.cycle_start = waits && !in.cycle_start;
-    in.fin = out.strobe != 0;
-    nc_cycle(control, &in, &out);
-    idle = starts > 0 && n > 10 && out.state == NC_STATE_IDLE;
+    drive.step(50);
+    idle = starts > 0 && n > 10 && drive.out.state == NC_STATE_IDLE;
   }
   EXPECT_TRUE(idle);
   EXPECT_EQ(starts, 3u);  // one for each block
@@ -638,17 +572,13 @@ TEST(Online, SingleBlockNeedsNoStartBehindTheEndOfTheProgram) {
 
 TEST(Online, AnAlarmStopsTheMachineWhereTheBlockBeforeEnded) {
   Bench bench(NC_DIALECT_M700, machine(64));
-  bench.start("G0 X10.\nG1 X20. F6000\nG67\nX30.\nM30");
-  nc_inputs in{};
-  nc_outputs out{};
-  in.feed_override = in.rapid_override = 1;
-  for (unsigned n = 0; n < 3000; ++n) {
-    nc_feed(bench.control(), 50);
-    in.cycle_start = n == 2;
-    nc_cycle(bench.control(), &in, &out);
+  Drive drive(bench, "G0 X10.\nG1 X20. F6000\nG67\nX30.\nM30");
+  while (drive.cycle < 3000) {
+    drive.press_start();
+    drive.step(50);
   }
-  EXPECT_EQ(out.state, NC_STATE_ALARM);
-  EXPECT_NEAR(out.command.v[0], 20, 1e-9);
+  EXPECT_EQ(drive.out.state, NC_STATE_ALARM);
+  EXPECT_NEAR(drive.out.command.v[0], 20, 1e-9);
   nc_alarm alarm{};
   ASSERT_EQ(nc_alarm_get(bench.control(), 0, &alarm), NC_OK);
   EXPECT_STREQ(alarm.code, "P276");

@@ -2,7 +2,7 @@
 // S, T, B and M (M700 9, 10.1, 10.2, 11.1; DGSHAPE 2), and the stops.
 #include <gtest/gtest.h>
 
-#include "support/pull.hpp"
+#include "support/drive.hpp"
 
 namespace nc::test {
 namespace {
@@ -159,18 +159,13 @@ TEST(SurfaceSpeed, OnTheMachine) {
     }
   });
   bench.work_offset(1, {5, 0, 0});
-  bench.start("G0 X50.\nG96 S100 M3\nG92 S1000 Q300\nG1 X10. F6000\nX0\nG97 S700\nX5.\nM30");
-  nc_inputs in{};
-  nc_outputs out{};
-  in.feed_override = in.rapid_override = 1;
-  bool ended = false;
+  Drive drive(bench, "G0 X50.\nG96 S100 M3\nG92 S1000 Q300\nG1 X10. F6000\nX0\nG97 S700\nX5.\nM30");
+  const nc_outputs& out = drive.out;
   unsigned seen = 0;
   double highest = 0, lowest = 1e9;
-  for (unsigned n = 0; n < 20000 && !ended; ++n) {
-    nc_feed(bench.control(), 50);
-    in.cycle_start = n == 2;
-    in.fin = out.strobe != 0;
-    nc_cycle(bench.control(), &in, &out);
+  while (drive.cycle < 20000 && !drive.ended) {
+    drive.press_start();
+    drive.step(50);
     if (out.source.line == 4 || out.source.line == 5) {
       const double free = 1000 * 100 / (2 * 3.14159265358979 * std::max(1e-3, std::fabs(out.command.v[0] - 5)));
       EXPECT_NEAR(out.spindle_rev_min, std::min(1000.0, std::max(300.0, free)), 1e-6);
@@ -181,10 +176,8 @@ TEST(SurfaceSpeed, OnTheMachine) {
     if (out.source.line == 7) {
       EXPECT_EQ(out.spindle_rev_min, 700);
     }
-    nc_event event;
-    while (nc_event_poll(bench.control(), 0, &event, nullptr) == NC_OK) ended = ended || event.kind == NC_ITEM_END;
   }
-  EXPECT_TRUE(ended);
+  EXPECT_TRUE(drive.ended);
   EXPECT_GT(seen, 50u);
   EXPECT_EQ(highest, 1000);
   EXPECT_LT(lowest, 330);
