@@ -21,6 +21,11 @@ using nc::tools::MotionFormat;
 using nc::tools::PlotView;
 using nc::tools::SessionOptions;
 
+void add_tape(CLI::App* command, SessionOptions* options) {
+  command->add_option("--tape", options->tape, "PROGRAM is the image of a tape: iso or eia with parity, text (docs/trace.md)")
+      ->transform(nc::tools::one_of({"text", "iso", "eia"}));
+}
+
 void add_program(CLI::App* command, SessionOptions* options) {
   command->add_option("PROGRAM", options->program, "NC program, - for standard input")->required()->check(nc::tools::given());
   command->add_option("--setup", options->setup, "setup of control and machine, JSON (docs/trace.md)")->check(nc::tools::given());
@@ -28,6 +33,7 @@ void add_program(CLI::App* command, SessionOptions* options) {
   command->add_option("--programs", options->programs, "folder of sub programs (default: PROGRAM's own)")->check(nc::tools::given());
   command->add_option("--external", options->external, "folder of the programs that M198 calls (default: that of sub programs)")
       ->check(nc::tools::given());
+  add_tape(command, options);
 }
 
 void add_print(CLI::App* command, SessionOptions* options) {

@@ -119,7 +119,7 @@ bool Session::start(const SessionOptions& options, std::string* error) {
                                           : options.program == "-" ? "."
                                                                    : folder_of(options.program));
   files_->set_external(options.external);
-  if (!add_main(options, error)) return false;
+  if (!add_main(options, error) || !declare_tape(options, error)) return false;
   files_->attach(control_);
   status = nc_program_select(control_, kPartSystem, main_file_);
   if (status != NC_OK) {
@@ -149,6 +149,15 @@ bool Session::add_main(const SessionOptions& options, std::string* error) {
   main_name_ = options.program;
   if (options.program == "-") return add_standard_input(error);
   return files_->add(control_, options.program, &main_file_, error) == NC_OK;
+}
+
+bool Session::declare_tape(const SessionOptions& options, std::string* error) {
+  if (options.tape.empty()) return true;
+  constexpr unsigned kUnit = 1;  // the first input device: its parameters are #91nn
+  const nc_tape code = options.tape == "iso" ? NC_TAPE_ISO : options.tape == "eia" ? NC_TAPE_EIA : NC_TAPE_TEXT;
+  const nc_status status = nc_program_tape(control_, main_file_, static_cast<uint8_t>(code), kUnit);
+  if (status != NC_OK) *error = main_name_ + ": cannot be read as a tape: " + why_not(status);
+  return status == NC_OK;
 }
 
 // A file redirected to standard input is read in windows like any other; a pipe is taken in whole.

@@ -21,6 +21,7 @@ struct SessionOptions {
   std::string dialect = "m700";
   bool dialect_given = false;  // on the command line; else a machine's own goes before
   std::string print;        // file for what programs print (DPRNT); "" = none
+  std::string tape;         // text, iso or eia: the program is a tape; "" = a text
   std::string external;     // folder of the programs of M198; "" = that of sub programs
   std::optional<std::string> programs;  // folder of sub programs; default: the program's own
 };
@@ -59,6 +60,7 @@ class Session {
     void operator()(void* memory) const;
   };
   bool add_main(const SessionOptions& options, std::string* error);
+  bool declare_tape(const SessionOptions& options, std::string* error);
   bool add_standard_input(std::string* error);
 
   bool apply_machine(std::string* error);

@@ -145,6 +145,24 @@ NC_API void nc_program_on_missing(nc_control*, nc_program_missing callback, void
  */
 NC_API nc_status nc_program_edit(nc_control*, unsigned file, bool editing);
 
+/** What the bytes of a program are. */
+typedef enum nc_tape {
+  NC_TAPE_NONE,  /**< text, all of it significant */
+  NC_TAPE_TEXT,  /**< text with a label in front: up to the first end of block nothing is significant (M700 3.1) */
+  NC_TAPE_ISO,   /**< rows of a punched tape with such a label, ISO code R-840: an even number of holes in each row */
+  NC_TAPE_EIA    /**< the same in EIA code RS-244: an odd number */
+} nc_tape;
+
+/**
+ * The program is an image of a tape, one byte for each row, hole 1 its lowest bit. Every row is checked as its block is read, and the
+ * number of characters of a block where the parity V parameter of the input device says so (M700 3.6: #9115 to #9515). A program that
+ * runs from a tape cannot jump.
+ * @param tape nc_tape
+ * @param unit input device that has read it, 1 to 5
+ * @return NC_E_STATE while the program runs, NC_E_READ when its text cannot be read
+ */
+NC_API nc_status nc_program_tape(nc_control*, unsigned file, uint8_t tape, unsigned unit);
+
 /** Select the main program of a part system and go to its first block. */
 NC_API nc_status nc_program_select(nc_control*, unsigned system, unsigned file);
 

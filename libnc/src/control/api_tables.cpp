@@ -149,6 +149,12 @@ nc_status nc_program_edit(nc_control* c, unsigned file, bool editing) {
   return NC_OK;
 }
 
+nc_status nc_program_tape(nc_control* c, unsigned file, uint8_t tape, unsigned unit) {
+  if (c == nullptr || c->store.entry(file) == nullptr || tape > NC_TAPE_EIA || unit < 1 || unit > 5) return NC_E_ARGUMENT;
+  if (kept(c, file)) return NC_E_STATE;
+  return c->store.set_tape(file, tape, static_cast<uint8_t>(unit)) ? NC_OK : NC_E_READ;
+}
+
 // ---- offsets ----------------------------------------------------------------------------------------------------------------
 
 nc_status nc_work_offset_set(nc_control* c, unsigned system, unsigned index, unsigned axis, double value) {

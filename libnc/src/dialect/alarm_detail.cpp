@@ -48,7 +48,9 @@ constexpr Sentence kSentences[] = {
     {C::too_many_axes, "The block moves more axes than the control can move together.", nullptr},
     {C::index_increment, "{word} is not a multiple of the axis's indexing increment.",
      "{axis} can only go to multiples of its indexing increment."},
-    {C::parity, "The block was read with a parity error. Load the program again.", nullptr},
+    {C::parity, "A row of the tape has a wrong number of holes. Check the tape and its reader.", nullptr},
+    {C::parity_vertical, "The block has an odd number of characters on the tape. Check the tape, or switch the parity check off.",
+     nullptr},
     // G and M codes
     {C::illegal_g, "{word} is not a G code of this control.", "There is no such G code on this control."},
     {C::no_function, "The function that {word} asks for is not fitted.", "This function is not fitted.",
@@ -172,6 +174,7 @@ constexpr Sentence kSentences[] = {
      "The WHILE statement is not written correctly: WHILE [condition] DO number ... END number.", nullptr},
     {C::name_statement, "The SETVN statement is not written correctly.", nullptr},
     {C::loop_nesting, "WHILE or DO loops are nested too deeply.", nullptr},
+    {C::jump_on_tape, "A program that is read from a tape cannot jump: no WHILE, no GOTO.", nullptr},
     {C::loop_pair, "DO{value} and END{value} do not match.", "A DO has no END, or an END has no DO."},
     {C::address_missing, "The call needs the word {word}.", "The call needs a word that is not there."},
     {C::variable_number, "There is no variable #{value}.", "There is no variable with this number."},

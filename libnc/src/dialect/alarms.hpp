@@ -12,7 +12,7 @@ enum class Condition : uint16_t {
   none,
   // words and blocks
   illegal_address, format_error, value_range, illegal_character, block_too_long, number_zero, program_end, no_start_mark,
-  illegal_axis, too_many_axes, index_increment, parity,
+  illegal_axis, too_many_axes, index_increment, parity, parity_vertical,
   // G and M codes
   illegal_g, no_function, must_stand_alone, words_missing,
   // motion
@@ -30,7 +30,7 @@ enum class Condition : uint16_t {
   // programs and macros
   program_missing, sequence_missing, nesting, macro_nesting, no_macro, macro_and_words, macro_argument, cancel_without_call,
   user_alarm, bracket_nesting, bracket_pair, calculation, division_by_zero, if_statement, while_statement, name_statement,
-  loop_nesting, loop_pair, address_missing, variable_number, no_equals, variable_use, variable_name,
+  loop_nesting, loop_pair, jump_on_tape, address_missing, variable_number, no_equals, variable_use, variable_name,
   variable_name_twice, call_in_cycle, print_port, parameter_input, no_such_data,
   program_edited, rotation_in_figure, offset_in_figure, machine_in_figure, surface_axis, surface_speed,
   read_failed, internal,

@@ -223,6 +223,8 @@ void leave(Interpreter& in) {
 }  // namespace
 
 Did execute_statement(Interpreter& in, const Statement& statement) {
+  const bool jumps = statement.kind == StatementKind::if_goto || statement.kind == StatementKind::go_to || statement.kind == StatementKind::while_do;
+  if (jumps && in.reader.is_tape(top(in).program.file)) return in.raise(Condition::jump_on_tape);  // M700 App.1
   switch (statement.kind) {
     case StatementKind::assign: return assign(in, statement);
     case StatementKind::if_goto:
@@ -371,7 +373,7 @@ Did return_sub(Interpreter& in) {
   if (check_loops_closed(in) != Did::done) return Did::fault;
   if (s.depth == 0) {  // M700 13.3.1: M99 in the main program goes to its head
     CallFrame& frame = top(in);
-    if (w.has('P')) return jump_to_sequence(in, w.get('P'));
+    if (w.has('P') && !in.reader.is_tape(frame.program.file)) return jump_to_sequence(in, w.get('P'));
     s.loop_count = 0;
     frame.offset = frame.program.offset;
     frame.line = frame.program.line;
@@ -396,7 +398,7 @@ Did return_sub(Interpreter& in) {
     in.finish_block(!only_calls(in), !only_calls(in));
     return Did::later;
   }
-  if (w.has('P')) {
+  if (w.has('P') && !in.reader.is_tape(s.frame[s.depth - 1].program.file)) {  // M700 13.3.1: no P from a tape
     uint32_t n = 0;
     uint64_t offset = 0;
     uint32_t line = 0;

@@ -138,6 +138,7 @@ void Interpreter::refresh_settings() {
   settings = parameters.settings(*dialect);
   for (uint32_t* axes : {&settings.turning, &settings.short_cut, &settings.machine_turn, &settings.tool_change_axes})
     *axes &= axes == &settings.tool_change_axes ? (1u << axis_count) - 1 : rotary;
+  reader.check_block_parity(settings.parity_units);
   variables.share(settings.shared_100, settings.shared_500);
   code_calls = dialect->lex->macros ? read_code_calls(parameters) : CodeCalls{};
 }
@@ -330,7 +331,10 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   source.line = block->end_of_text ? last_line : block->line;
   if (!block->end_of_text) last_line = block->line;
   if (!frame.started && store->entry(frame.program.file)->edited) return settle(raise(Condition::program_edited));  // M700 P235
-  if (skipped(*block)) {
+  const auto bad_row = [](const Block& b) {  // M700 3.4: parity is checked whether the block is skipped or not
+    return b.has_fault && (b.fault.condition == Condition::parity || b.fault.condition == Condition::parity_vertical);
+  };
+  if (skipped(*block) && !bad_row(*block)) {
     frame.offset = block->next;
     frame.line = block->next_line;
     return NC_OK;

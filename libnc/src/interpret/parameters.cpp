@@ -316,6 +316,8 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.command_unit_inch = cunit > 0 ? cunit * 0.00001 : s.setting_unit_inch;
   s.command_unit_deg = cunit > 0 ? cunit * 0.0001 : s.setting_unit_deg;
   s.decimal_type_2 = flag("1078");
+  const char* const parity[] = {"9115", "9215", "9315", "9415", "9515"};  // 3.6
+  for (unsigned unit = 1; unit <= 5; ++unit) s.parity_units |= flag(parity[unit - 1]) ? 1u << unit : 0;
   s.tenfold = number("UNIT*10", 1);
   if (s.tenfold == 0) s.tenfold = 1;
   s.dwell_p_decimal = flag("8112");

@@ -10,6 +10,7 @@
 #include "program/lexer.hpp"
 #include "program/scan.hpp"
 #include "program/store.hpp"
+#include "program/tape.hpp"
 
 namespace nc {
 namespace {
@@ -196,7 +197,34 @@ bool BlockReader::compile(const TextEntry& entry, unsigned file, uint64_t offset
   block.file = static_cast<uint16_t>(file);
   block.line = line;
   block.next_line = newline ? line + 1 : line;
+  if (!has_parity(entry, offset) || block.percent) return true;  // behind the end of the record nothing is significant
+  const Condition wrong = parity_fault(entry, offset, block.next);
+  if (wrong == Condition::none) return true;
+  block.has_fault = true;
+  block.fault = Fault{};
+  block.fault.condition = wrong;
   return true;
+}
+
+/// M700 3.6: every row of the significant section, and by parameter the number of characters of a block.
+Condition BlockReader::parity_fault(const TextEntry& entry, uint64_t begin, uint64_t end) const {
+  BlockParity parity;
+  bool whole = false;  // the block has its end
+  for (uint64_t at = begin; at < end;) {
+    char rows[128];
+    const uint64_t left = end - at;
+    const long got = TextWindow::read(entry, at, rows, left < sizeof rows ? static_cast<size_t>(left) : sizeof rows);
+    if (got <= 0) break;
+    parity.take(rows, static_cast<size_t>(got));
+    whole = rows[got - 1] == '\n';
+    at += static_cast<uint64_t>(got);
+  }
+  if (parity.bad_row()) return Condition::parity;
+  return whole && parity.odd() && ((parity_units_ >> entry.unit) & 1) != 0 ? Condition::parity_vertical : Condition::none;
+}
+
+bool BlockReader::has_parity(const TextEntry& entry, uint64_t begin) {
+  return entry.tape > NC_TAPE_TEXT && begin >= entry.label;
 }
 
 bool BlockReader::compile_here(const TextEntry& entry, uint64_t offset, Block& block, bool* newline) {

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "dialect/alarms.hpp"
 #include "program/scan.hpp"
 #include "program/store.hpp"
 
@@ -306,6 +307,9 @@ BlockReader::Jump BlockReader::scan_for_sequence(const TextEntry& entry, uint32_
       return jump;
     }
     if (!scanner.next(&head) || (wanted.limit != 0 && head.offset >= wanted.limit)) break;
+    if (has_parity(entry, head.offset) && !head.percent && parity_fault(entry, head.offset, scanner.offset()) != Condition::none) {
+      head.n = wanted.n;  // the search ends here, and whoever reads this block finds the alarm (M700 3.6)
+    }
     if (head.blank && !head.percent) continue;
     if (head.percent) {
       if (at_head && wanted.from == 0 && !o_seen) continue;  // the start mark

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "program/scan.hpp"
+#include "program/tape.hpp"
 
 namespace nc {
 namespace {
@@ -85,6 +86,24 @@ void ProgramStore::on_missing(nc_program_missing callback, void* user, nc_contro
 
 const TextEntry* ProgramStore::entry(unsigned file) const {
   return file < count_ ? &entries_[file] : nullptr;
+}
+
+bool ProgramStore::set_tape(unsigned file, uint8_t code, uint8_t unit) {
+  TextEntry& entry = entries_[file];
+  entry.tape = NC_TAPE_NONE;  // read as it is
+  entry.label = 0;
+  entry.generation = ++generation_;
+  bool in_label = code != NC_TAPE_NONE;
+  while (in_label) {
+    char rows[256];
+    const long got = TextWindow::read(entry, entry.label, rows, sizeof rows);
+    if (got < 0) return false;
+    if (got == 0) break;
+    for (long i = 0; i < got && in_label; ++i, ++entry.label) in_label = !ends_tape_block(code, rows[i]);
+  }
+  entry.tape = code;
+  entry.unit = unit;
+  return true;
 }
 
 int ProgramStore::find_exactly(const char* name) const {

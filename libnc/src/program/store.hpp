@@ -26,6 +26,8 @@ class ProgramStore {
   void on_missing(nc_program_missing callback, void* user, nc_control* control);
   const TextEntry* entry(unsigned file) const;
   void set_edited(unsigned file, bool edited) { entries_[file].edited = edited; }
+  /// The text is a tape in the code of nc_tape, read by `unit`: looks for its label. False: the text cannot be read.
+  bool set_tape(unsigned file, uint8_t code, uint8_t unit);
   /// By the whole name; case is ignored.
   int find_exactly(const char* name) const;
   /// By name without folder; case is ignored; with or without an ending.
@@ -76,6 +78,10 @@ class BlockReader {
   /// respected); false = none.
   bool find_loop_end(unsigned file, uint32_t m, uint64_t* offset, uint32_t* line);
 
+  /// Input devices whose tapes have the number of characters in each block checked, bit n = unit n (M700 3.6 (2)).
+  void check_block_parity(uint32_t units) { parity_units_ = units; }
+  bool is_tape(unsigned file) const { return store_->entry(file)->tape != NC_TAPE_NONE; }
+
   /// Same program text, different content: forget compiled blocks of a file.
   void forget(unsigned file);
 
@@ -117,6 +123,8 @@ class BlockReader {
   bool compile(const TextEntry& entry, unsigned file, uint64_t offset, uint32_t line, Block& block);
   bool compile_here(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
   bool compile_long(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
+  Condition parity_fault(const TextEntry& entry, uint64_t begin, uint64_t end) const;
+  static bool has_parity(const TextEntry& entry, uint64_t begin);
   Seen& seen(uint32_t generation);
   unsigned find_slot(uint32_t generation, uint64_t offset) const;
   static size_t hash(uint32_t generation, uint64_t offset);
@@ -136,6 +144,7 @@ class BlockReader {
   unsigned next_way_ = 0;
   Seen seen_[kSeen];
   unsigned seen_used_ = 0;  ///< entry of seen_ last used
+  uint32_t parity_units_ = 0;
   Index* indexes_ = nullptr;
   Jump* jumps_ = nullptr;
   unsigned index_used_ = 0;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "program/store.hpp"
+#include "program/tape.hpp"
 
 namespace nc {
 
@@ -18,15 +19,18 @@ long TextWindow::read(const TextEntry& entry, uint64_t offset, char* buffer, siz
   if (size > entry.size - offset) size = static_cast<size_t>(entry.size - offset);
   if (entry.read == nullptr) {
     std::memcpy(buffer, entry.memory + offset, size);
+    if (entry.tape != NC_TAPE_NONE) decode_tape(entry, offset, buffer, size);
     return static_cast<long>(size);
   }
   const long got = entry.read(entry.user, offset, buffer, size);
-  return got > static_cast<long>(size) ? -1 : got;
+  if (got > static_cast<long>(size)) return -1;
+  if (entry.tape != NC_TAPE_NONE && got > 0) decode_tape(entry, offset, buffer, static_cast<size_t>(got));
+  return got;
 }
 
 bool TextWindow::load(const TextEntry& entry, uint64_t offset) {
   generation_ = entry.generation;
-  if (entry.read == nullptr) {
+  if (entry.read == nullptr && entry.tape == NC_TAPE_NONE) {
     base_ = entry.memory;
     begin_ = 0;
     length_ = static_cast<size_t>(entry.size);

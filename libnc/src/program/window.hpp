@@ -17,6 +17,9 @@ struct TextEntry {
   const char* memory = nullptr;
   uint64_t size = 0;
   bool edited = false;        ///< someone is changing the text
+  uint8_t tape = NC_TAPE_NONE;  ///< nc_tape: the bytes are rows of a tape (program/tape.hpp)
+  uint8_t unit = 0;             ///< input device of the tape, 1 to 5
+  uint64_t label = 0;           ///< bytes before the significant section of the tape
   uint32_t generation =
       0;  ///< changes when the entry is replaced: compiled blocks of the old text are not used again
 };

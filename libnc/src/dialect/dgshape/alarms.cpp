@@ -53,7 +53,8 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::illegal_axis, "NC-AXIS", nullptr},
     {C::too_many_axes, "NC-AXIS", nullptr},
     {C::index_increment, "NC-RANGE", nullptr},  // does not occur: no indexing axes
-    {C::parity, "NC-CHARACTER", nullptr},       // does not occur: no tape
+    {C::parity, "NC-CHARACTER", nullptr},       // a tape that the host gives all the same
+    {C::parity_vertical, "NC-CHARACTER", nullptr},
     // G and M codes
     {C::illegal_g, "NC-NO-SUCH-CODE", nullptr},
     {C::no_function, "NC-NOT-BUILT", nullptr},
@@ -132,6 +133,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::name_statement, "NC-MACRO", nullptr},
     {C::loop_nesting, "NC-MACRO", nullptr},
     {C::loop_pair, "NC-MACRO", nullptr},
+    {C::jump_on_tape, "NC-MACRO", nullptr},
     {C::address_missing, "NC-MACRO", nullptr},
     {C::variable_number, "NC-MACRO", nullptr},
     {C::no_equals, "NC-MACRO", nullptr},

@@ -22,6 +22,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::too_many_axes, "P10", nullptr},
     {C::index_increment, "P20", nullptr},  // 2.3
     {C::parity, "P30", nullptr},           // 3.6
+    {C::parity_vertical, "P31", nullptr},
     // G and M codes
     {C::illegal_g, "P34", nullptr},
     {C::no_function, "P39", nullptr},       // a code's own row may say something more telling
@@ -101,6 +102,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::name_statement, "P292", nullptr},
     {C::loop_nesting, "P293", nullptr},
     {C::loop_pair, "P294", nullptr},
+    {C::jump_on_tape, "P295", nullptr},
     {C::address_missing, "P296", nullptr},
     {C::variable_number, "P241", nullptr},
     {C::no_equals, "P242", nullptr},
