@@ -247,6 +247,10 @@ TEST(DgshapeWords, NumbersOfThingsHaveNoPoint) {  // DGSHAPE 2: "with no decimal
                             "M03\nG81Z-1.K2.F100."})
     EXPECT_EQ(dgshape(std::string(block) + "\nM02").alarm, "NC-FORMAT") << block;
   EXPECT_EQ(dgshape("G18G2X10.Z0K0.I5.F100.\nM02").alarm, "");  // K of an arc is a length
+  // With digits behind it a point is the same mistake.
+  for (const char* block : {"S1.5", "M3.5", "M06T1.5", "G43H1.5", "N1.5G0X0", "O1.5", "N1.G0X0"})
+    EXPECT_EQ(dgshape(std::string(block) + "\nM02").alarm, "NC-FORMAT") << block;
+  EXPECT_EQ(dgshape("S123456789\nM02").alarm, "NC-RANGE");
 }
 
 TEST(DgshapeWords, OfTwoDimensionCodesTheLastOneCountsForTheBlock) {  // DGSHAPE 1 (296)

@@ -147,8 +147,9 @@ class Lexer {
       return fault(rules_.macros ? Condition::variable_use : Condition::illegal_character, letter);
     const Decimal d = at_.number();
     if (d.digits == 0) return fault(Condition::format_error, letter);
+    if (d.point && format.fraction_digits == 0) return fault(Condition::format_error, letter, d.value);
     if (d.integer > UINT32_MAX || out_of_range(format, d))
-      return fault(Condition::value_range, letter, d.value);
+      return fault(refusal(format, d.fraction_digits), letter, d.value);
     if (d.integer == 0) return fault(Condition::number_zero, letter, 0);  // M700 P37
     *has = true;
     *number = static_cast<uint32_t>(d.integer);
@@ -182,7 +183,7 @@ class Lexer {
       const double value = plain.value(format.integer);
       if (plain.longer_than(format.integer_digits) ||
           (plain.fraction_digits > format.fraction_digits && !keeps_any_fraction(format))) {
-        return fault(Condition::value_range, name, value);
+        return fault(refusal(format, plain.fraction_digits), name, value);
       }
       Word* word = new_word(name);
       if (word == nullptr) return false;
@@ -266,6 +267,11 @@ class Lexer {
            (d.fraction_digits > format.fraction_digits && !keeps_any_fraction(format));
   }
 
+  /// What a number out of range is: where no point may stand (DGSHAPE 2-2 to 2-4) its fraction is not a matter of range.
+  static Condition refusal(const WordFormat& format, unsigned fraction_digits) {
+    return format.fraction_digits == 0 && fraction_digits != 0 ? Condition::format_error : Condition::value_range;
+  }
+
   /// A place for a word; nullptr when there must be none.
   Word* new_word(char letter) {
     const unsigned count = block_.words.size();
@@ -341,7 +347,7 @@ class Lexer {
       return expression_value(word);
     }
     if (next == '=' && may_count) return count_value(format, word, d);
-    if (out_of_range(format, d)) return fault(Condition::value_range, word->letter, d.value);
+    if (out_of_range(format, d)) return fault(refusal(format, d.fraction_digits), word->letter, d.value);
     if (d.point) word->flags |= kWordPoint;
     word->value = format.integer ? static_cast<double>(d.integer) : d.value;
     if ((word->flags & kWordNegative) != 0) word->value = -word->value;
