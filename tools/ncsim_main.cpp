@@ -36,6 +36,12 @@ void add_program(CLI::App* command, SessionOptions* options) {
   add_tape(command, options);
 }
 
+constexpr const char* kMachineHelp = "machine configuration, TOML, as ncrtd reads it";
+
+void add_machine_file(CLI::App* command, SessionOptions* options) {
+  command->add_option("--machine", options->machine, kMachineHelp)->check(nc::tools::given());
+}
+
 void add_print(CLI::App* command, SessionOptions* options) {
   command->add_option("--print", options->print, "file to which DPRNT of user macros is appended")->check(nc::tools::given());
 }
@@ -56,7 +62,7 @@ struct MachineArguments {
 };
 
 void add_machine(CLI::App* command, MachineArguments* machine) {
-  auto* file = command->add_option("--machine", machine->options.machine, "machine configuration, TOML, as ncrtd reads it")->check(nc::tools::given());
+  auto* file = command->add_option("--machine", machine->options.machine, kMachineHelp)->check(nc::tools::given());
   command->add_option("--config", machine->options.limits_file, "limits of the machine, JSON (docs/trace.md)")
       ->check(nc::tools::given())
       ->excludes(file);
@@ -82,11 +88,13 @@ int run(int argc, char** argv) {
 
   CLI::App* trace = app.add_subcommand("trace", "every event of the program as JSON Lines");
   add_program(trace, &options);
+  add_machine_file(trace, &options);
   add_print(trace, &options);
   add_loop_limit(trace, &silent);
 
   CLI::App* check = app.add_subcommand("check", "the alarm that stops the program, if one does");
   add_program(check, &options);
+  add_machine_file(check, &options);
   add_print(check, &options);
   add_loop_limit(check, &silent);
 
@@ -115,9 +123,10 @@ int run(int argc, char** argv) {
   bool profile = false;
   auto* profile_flag = plot->add_flag("--profile", profile, "path speed, acceleration and jerk of every axis over time instead of the path");
   plot->add_option("--view", view, "iso, xy, xz or yz")->capture_default_str()->transform(nc::tools::one_of({"iso", "xy", "xz", "yz"}))->excludes(profile_flag);
-  CLI::App* const profile_machine = plot->add_option_group("machine", "of --profile");
+  CLI::App* const profile_machine = plot->add_option_group("machine", "of --profile, but for --machine");
   add_machine(profile_machine, &machine);
-  for (CLI::Option* option : profile_machine->get_options()) option->needs(profile_flag);
+  for (CLI::Option* option : profile_machine->get_options())
+    if (option->get_name() != "--machine") option->needs(profile_flag);
 
   bool markdown = false;
   CLI::App* functions = app.add_subcommand("functions", "the G and M codes of a dialect");
@@ -145,7 +154,7 @@ int run(int argc, char** argv) {
     return nc::tools::kExitError;
   }
   options.dialect_given = false;
-  for (CLI::App* command : {time, motion, plot})
+  for (CLI::App* command : {trace, check, time, motion, plot})
     if (command->count("--dialect") != 0) options.dialect_given = true;
   if (machine.cycle_us != 0) machine.options.cycle_us = machine.cycle_us;
   if (trace->parsed()) return nc::tools::trace_command(options, silent, STDOUT_FILENO, stderr);
@@ -156,6 +165,7 @@ int run(int argc, char** argv) {
                                      machine.limit_s, STDOUT_FILENO, stderr);
   if (plot->parsed() && profile)
     return nc::tools::profile_command(options, machine.options, machine.limit_s, base.empty() ? "profile" : base, stdout, stderr);
+  options.machine = plot->parsed() ? machine.options.machine : options.machine;
   if (plot->parsed())
     return nc::tools::plot_command(options, silent, views.at(view), base.empty() ? "toolpath" : base, stdout, stderr);
   if (functions->parsed()) return nc::tools::functions_command(options.dialect, markdown, stdout, stderr);

@@ -540,6 +540,28 @@ TEST_F(CommandTest, AMachineConfigurationGivesAxesLimitsAndStart) {
             "ncsim: --dialect dgshape: m.toml is a machine of another dialect\n");
 }
 
+TEST_F(CommandTest, AMachineConfigurationHasItsStrokeLimitsInTheTraceToo) {
+  std::string machine = "[machine]\nname = \"m\"\n";
+  for (const char* axis : {"X", "Y", "Z"})
+    machine += std::string("[[axis]]\nname = \"") + axis + "\"\nrapid = 100.0\nmax_velocity = 100.0\nmax_acceleration = 1000.0\n" +
+               "max_jerk = 50000.0\nin_position = 0.01\nsoft_limits = [-50.0, 50.0]\nstart = -10.0\n";
+  file("m.toml", machine);
+  file("p.nc", "G90 G53 G0 X40.\nM3 X60.\nM30\n");
+  EXPECT_EQ(ncsim("check p.nc").code, 0);
+  const Outcome check = ncsim("check --machine m.toml p.nc");
+  EXPECT_EQ(check.code, 2);
+  EXPECT_EQ(check.out.substr(0, 15), "p.nc:2: M01-000");
+  const Outcome trace = ncsim("trace --machine m.toml p.nc");
+  EXPECT_EQ(trace.code, 2);
+  EXPECT_EQ(trace.events()[0]["machine"]["Y"], -10);
+  for (const Json& event : trace.events()) EXPECT_NE(event["t"], "m");
+  EXPECT_EQ(ncsim("plot --machine m.toml p.nc").code, 2);
+  EXPECT_EQ(ncsim("plot --limits 1,1,1 p.nc").code, 1);  // of --profile
+  EXPECT_EQ(ncsim("check --machine none.toml p.nc").code, 1);
+  EXPECT_EQ(ncsim("trace --dialect dgshape --machine m.toml p.nc").err,
+            "ncsim: --dialect dgshape: m.toml is a machine of another dialect\n");
+}
+
 // The runtime's own machine, with its servos: the same cycles. What its M30 takes, the ladder program's answer, is taken off.
 TEST_F(CommandTest, TimeIsWhatTheRuntimeNeeds) {
   file("end.nc", "M30\n");

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "tools/lib/command_text.hpp"
 #include "tools/lib/item_source.hpp"
+#include "tools/lib/machine_choice.hpp"
 #include "tools/lib/number_text.hpp"
 #include "tools/lib/offline_run.hpp"
 #include "tools/lib/output_check.hpp"
@@ -143,7 +145,11 @@ bool run_printing(Session* session, RunSink* sink, ItemSource* items, uint64_t m
 }
 
 bool open_session(Session* session, const SessionOptions& options, std::string* error) {
-  return session->configure(options, error) && session->start(options, error);
+  std::unique_ptr<rt::Config> machine;
+  if (!options.machine.empty() && !(machine = load_machine(options.machine, error))) return false;
+  if (!session->configure(options, error, std::move(machine))) return false;
+  const bool limited = session->machine() == nullptr || set_machine_limits({}, session->machine(), &session->config(), error);
+  return limited && session->start(options, error);
 }
 
 // A table as tab-separated lines or as Markdown, whose cells need their bars escaped.

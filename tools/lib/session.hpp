@@ -23,6 +23,7 @@ struct SessionOptions {
   std::string print;        // file for what programs print (DPRNT); "" = none
   std::string tape;         // text, iso or eia: the program is a tape; "" = a text
   std::string external;     // folder of the programs of M198; "" = that of sub programs
+  std::string machine;      // configuration of the machine that the program is for (TOML); "" = none
   std::optional<std::string> programs;  // folder of sub programs; default: the program's own
 };
 
