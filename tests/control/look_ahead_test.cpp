@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/drive.hpp"
+#include "support/random_program.hpp"
 
 namespace nc::test {
 namespace {
@@ -146,6 +147,65 @@ TEST(LookAhead, TheMachineDoesAsTheTrace) {
     }
     EXPECT_GE(drive.events.size() + 2, trace.steps.size());
   }
+}
+
+/// M8 in some of the blocks that move.
+std::string with_codes(const std::string& text, uint32_t seed) {
+  std::mt19937 random(seed);
+  std::string all;
+  for (size_t at = 0, end; at < text.size(); at = end + 1) {
+    end = text.find('\n', at);
+    const std::string line = text.substr(at, end - at);
+    const bool moves = line.find_first_of("XYZ") != std::string::npos && line.find_first_of("=MP[O") == std::string::npos;
+    all += line + (moves && random() % 2 == 0 ? " M8\n" : "\n");
+  }
+  return all;
+}
+
+/// Random programs within random limits do what they do without, until a block is stopped; of that one no code has gone out.
+TEST(LookAhead, RandomProgramsWithinLimits) {
+  unsigned stopped = 0, ended = 0, held_back = 0;
+  for (uint32_t seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RandomProgram program = ProgramMaker(seed + 4000, false).make();
+    program.main = with_codes(program.main, seed);
+    for (std::string& sub : program.subs) sub = with_codes(sub, seed);
+    const auto run = [&](double most, uint32_t budget) {
+      Bench bench(NC_DIALECT_M700, [most](nc_config& c) {
+        for (unsigned i = 0; i < 3; ++i) {
+          c.system[0].axis[i].soft_limited = true;
+          c.system[0].axis[i].soft_min = -most;
+          c.system[0].axis[i].soft_max = most;
+        }
+      });
+      for (unsigned n = 1; n <= 9; ++n) bench.tool(n, 0.2 * n);
+      bench.work_offset(1, {1, 2, 3}).param("8103", "1").param("8013", "0.5").param("8012", "0.3");
+      for (size_t i = 0; i < program.subs.size(); ++i) bench.add("O" + std::to_string(i + 1), program.subs[i]);
+      return bench.run(program.main, budget);
+    };
+    const Outcome free = run(1e6, 1000);
+    for (const double most : {20.0, 60.0, 150.0}) {
+      const Outcome limited = run(most, 1 + seed % 7);
+      const bool by_limit = limited.alarm == "M01-0007";
+      const size_t same = by_limit ? limited.steps.size() - 2 : limited.steps.size();  // the alarm and the end
+      ASSERT_LE(same, free.steps.size());
+      for (size_t i = 0; i < same; ++i) ASSERT_EQ(exactly(limited.steps[i]), exactly(free.steps[i])) << i;
+      if (!by_limit) {
+        EXPECT_EQ(limited.alarm, free.alarm);
+        ++ended;
+        continue;
+      }
+      ++stopped;
+      for (size_t i = same; i-- > 0 && limited.steps[i].item.kind != NC_ITEM_MARK;) {
+        const nc_item& item = limited.steps[i].item;
+        EXPECT_FALSE(item.kind == NC_ITEM_ACTION && item.u.action.kind <= NC_ACTION_B) << limited.alarm_line;
+      }
+      held_back += free.steps[same].item.kind == NC_ITEM_ACTION;
+    }
+  }
+  EXPECT_GT(stopped, 50u);
+  EXPECT_GT(ended, 50u);
+  EXPECT_GT(held_back, 5u);
 }
 
 }  // namespace
