@@ -344,6 +344,34 @@ def other_releases_of_status(plant):
     other_release(plant, nc_dds.SignalImage, release(nc_dds.SignalImage, "NewerSignalImage", add=EXTRA), same_signals)
 
 
+def other_clients(plant):
+    """A client of another release gives commands and reads the answers."""
+    reliable = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.History.KeepAll, Policy.Durability.Volatile)
+    where = Qos(Policy.Partition([plant.share]))
+    for age, command, ack in (("older", release(nc_dds.Command, "OlderCommand", drop=2), release(nc_dds.CommandAck, "OlderAck", drop=2)),
+                              ("newer", release(nc_dds.Command, "NewerCommand", add=('remedy: types.bounded_str[31] = "none"', "more: types.uint32 = 7")), release(nc_dds.CommandAck, "NewerAck", add=EXTRA))):
+        participant = DomainParticipant(plant.domain)
+        writer = DataWriter(Publisher(participant, qos=where), Topic(participant, "nc_Command", command), qos=reliable)
+        reader = DataReader(Subscriber(participant, qos=where), Topic(participant, "nc_CommandAck", ack), qos=reliable)
+        name, seq, got = f"{age}-{os.getpid()}", [0], {}
+
+        def ask(kind, program=""):
+            seq[0] += 1
+            writer.write(command(client=name, seq=seq[0], kind=kind, lease_ms=60000, expected_program=program))
+            end = time.monotonic() + (PATIENCE if got else 0.5)  # before the first answer perhaps nobody has heard it
+            while time.monotonic() < end and seq[0] not in got:
+                got.update({a.seq: a for a in reader.take(N=20) if a.sample_info.valid_data and a.client == name and a.state != AckState.ACK_ACCEPTED})
+                time.sleep(0.005)
+            return got.get(seq[0])
+
+        answer = until(lambda: ask(CommandKind.CMD_CYCLE_START), f"a client of an {age} release is answered")
+        check(answer.kind == CommandKind.CMD_CYCLE_START and answer.state == AckState.ACK_REJECTED and answer.reason == AckReason.REASON_NO_CONTROL,
+              f"and its command is understood: {answer.reason.name}")
+        check(ask(CommandKind.CMD_TAKE_CONTROL).state == AckState.ACK_DONE, "it takes control")
+        check(ask(CommandKind.CMD_CYCLE_START, "other.nc").reason == AckReason.REASON_EXPECTED_STATE, "what it expects counts")
+        check(ask(CommandKind.CMD_RELEASE_CONTROL).state == AckState.ACK_DONE, "and gives it back")
+
+
 def alarms(plant, watch, operator):
     operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000)
     check(operator.ask(CommandKind.CMD_SELECT_PROGRAM, text="bad.nc").state == AckState.ACK_DONE, "selects the bad program")
@@ -623,6 +651,7 @@ def main():
             until(lambda: watch.look().status, "the status comes")
             until(lambda: [s for s in core.take(N=5) if s.sample_info.valid_data and s.axis_names == "XY"], "the core status comes")
             until(lambda: answers(operator), "the gateway answers")
+            other_clients(plant)
             commands(plant, watch, operator)
             gateway = program(plant, watch, operator, gateway)
             until(lambda: answers(operator), "the new gateway answers")
