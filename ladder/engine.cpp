@@ -59,10 +59,14 @@ unsigned Engine::fault_line() const {
 }
 
 std::string Engine::fault_text() const {
-  Error error{code_->file, fault_line(), "", ""};
+  return fault_text(fault_, fault_line());
+}
+
+std::string Engine::fault_text(unsigned fault, unsigned line) const {
+  Error error{code_->file, line, "", ""};
   if (error.line != 0 && error.line <= code_->source.size())
     error.instruction = code_->source[error.line - 1];
-  switch (fault_) {
+  switch (fault) {
     case kNoFault:
       return "";
     case kWatchdog:

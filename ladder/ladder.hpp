@@ -108,6 +108,8 @@ class Engine {
   unsigned fault_step() const { return fault_step_; }  // place in the compiled code
   unsigned fault_line() const;                         // line of the source, 0 = none
   std::string fault_text() const;                      // "mill.il:40: CJ P1: ..."; empty = none
+  // The same for a fault that the scan has told: any thread.
+  std::string fault_text(unsigned fault, unsigned line) const;
   void reset_fault() { fault_ = fault_step_ = 0; }
 
   // A device as the program may name it: of the table, an alias, or an internal one (M0, D10, SM402; T0 is

@@ -30,7 +30,7 @@ struct LadderRequests {
   bool mode[3] = {};       // by Mode
   std::uint8_t alarm = 0;  // bit n: the ladder's alarm n+1
   bool stopped = false;    // the program has a fault and does not run
-  unsigned stopped_line = 0;
+  unsigned stopped_line = 0, stopped_fault = 0;  // ladder::Fault
   std::uint32_t macro_input[NC_WORDS] = {};  // beside the points of #1000...
 
   // By part system.

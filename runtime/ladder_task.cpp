@@ -310,6 +310,7 @@ void LadderTask::scan(LadderImage* image) noexcept {
   if (engine_->fault() != ladder::kNoFault) {  // signals as if there were no program; outputs as they are
     image->requests->stopped = true;
     image->requests->stopped_line = engine_->fault_line();
+    image->requests->stopped_fault = engine_->fault();
     for (const SignalPlace& place : to_nc_) place.row->write(place.row->safe, image, place.system, place.index);
     return;
   }

@@ -362,6 +362,15 @@ std::string Runtime::retain_text(const ActiveAlarm& alarm) const {
   return why.empty() ? "" : ": " + why;
 }
 
+// "mill.il:40: CJ P1: watchdog: ...", without the folder.
+std::string Runtime::ladder_fault(const ActiveAlarm& alarm) const {
+  if (own_ladder_ == nullptr) return "line " + std::to_string(alarm.detail);
+  std::string text = own_ladder_->engine().fault_text(alarm.code, alarm.detail);
+  const std::string path = config_.ladder_file();
+  if (text.rfind(path, 0) == 0) text.replace(0, path.size(), config_.ladder.program);
+  return text;
+}
+
 std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kProgram) {
     const FeederInfo now = info();
@@ -381,8 +390,7 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
     text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);
   }
   if (alarm.id == AlarmId::kLinkLost) text += ": " + config_.modbus[alarm.detail % config_.modbus.size()].link.name;
-  if (alarm.id == AlarmId::kLadderStopped)
-    text += ": " + config_.ladder.program + ", line " + std::to_string(alarm.detail);
+  if (alarm.id == AlarmId::kLadderStopped) text += ": " + ladder_fault(alarm);
   if (alarm.axis >= 0) text += std::string(", axis ") + config_.nc.system[alarm.system].axis[alarm.axis].name;
   if (alarm.source.line != 0) text += " (line " + std::to_string(alarm.source.line) + ")";
   return text;

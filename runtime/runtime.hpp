@@ -100,6 +100,7 @@ class Runtime {
   void feeder_thread();
   Answer execute_alone(Command command);
   std::string retain_text(const ActiveAlarm& alarm) const;
+  std::string ladder_fault(const ActiveAlarm& alarm) const;
   static void read_device(void* self, unsigned code, std::uint32_t number, std::uint32_t* value);
   bool find_answer(std::uint64_t ticket, bool from_feeder, Answer* answer);
   void wake_feeder();

@@ -42,7 +42,7 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
   if (modes == 1 && !last_requests_.mode[chosen]) (void)set_mode(static_cast<Mode>(chosen));
   for (unsigned n = 0; n < kLadderAlarms; ++n)
     if ((requests.alarm >> n & 1u) != 0) raise(AlarmId::kLadder, 0, -1, n);
-  if (requests.stopped) raise(AlarmId::kLadderStopped, 0, -1, requests.stopped_line);
+  if (requests.stopped) raise(AlarmId::kLadderStopped, 0, -1, requests.stopped_line, requests.stopped_fault);
   // An alarm that came here stops the machine in this scan.
   for (unsigned s = 0; s < systems_; ++s)
     for (unsigned i = 0; i < alarms_.count; ++i) in_[s].alarm |= stops_the_nc(alarms_.alarm[i]);

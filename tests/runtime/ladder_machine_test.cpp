@@ -220,6 +220,7 @@ TEST_F(OwnLadder, AnEndlessProgramStopsTheMachineAndNamesItsLine) {
   machine->set_input(static_cast<unsigned>(config.points.find("in0")), 1);
   for (int n = 0; n < 500; ++n) runtime->step();
   EXPECT_EQ(alarm().substr(0, 3), "R17") << alarm();
+  EXPECT_NE(alarm().find(":5: CJ P1: watchdog: "), std::string::npos) << alarm();
   EXPECT_EQ(out().feed_mm_min, 0);
 }
 
