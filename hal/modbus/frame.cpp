@@ -13,6 +13,19 @@ constexpr std::uint8_t kWriteOneCoil = 5, kWriteOneRegister = 6, kWriteCoils = 1
 constexpr std::size_t kPdu = 7, kData = 8;  // place of the function, and of what follows it
 constexpr std::uint8_t kExceptionBit = 0x80;
 constexpr unsigned kLastException = 11;  // 7
+// 7, and 7 to 9 as older devices have them.
+constexpr const char* kExceptions[kLastException + 1] = {"exception 0",
+                                                         "Illegal function",
+                                                         "Illegal data address",
+                                                         "Illegal data value",
+                                                         "Slave device or server failure",
+                                                         "Acknowledge",
+                                                         "Slave device or server is busy",
+                                                         "Negative acknowledge",
+                                                         "Memory parity error",
+                                                         "exception 9",
+                                                         "Gateway path unavailable",
+                                                         "Target device failed to respond"};
 
 void put(Frame* frame, unsigned value) {
   frame->bytes[frame->size++] = static_cast<std::uint8_t>(value);
@@ -95,6 +108,7 @@ Verdict check_answer(const Frame& request, const std::uint8_t* answer, std::size
     if (size != kData + 1) return foreign("the exception has a wrong length");
     if (answer[kData] == 0 || answer[kData] > kLastException) return foreign("the answer is an unknown exception");
     *exception = answer[kData];
+    *why = kExceptions[answer[kData]];
     return Verdict::kException;
   }
   if (answer[kPdu] != asked[kPdu]) return foreign("the answer is of another function");

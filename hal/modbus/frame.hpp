@@ -32,7 +32,7 @@ enum class Verdict : std::uint8_t {
   kException,  // of this request; *exception is its code
   kForeign     // the answer of something else, or none
 };
-// `why`: a sentence for kForeign, static.
+// `why`: a sentence for kForeign and the words for kException, static.
 Verdict check_answer(const Frame& request, const std::uint8_t* answer, std::size_t size, unsigned* exception,
                      const char** why);
 

@@ -180,8 +180,7 @@ Result Session::exchange(const Block& block, const Frame& request, std::uint8_t*
   const Verdict verdict = error != 0 ? Verdict::kForeign
                                      : check_answer(request, answer, static_cast<std::size_t>(size), &exception, &why);
   if (verdict == Verdict::kGood) return Result::kOk;
-  if (verdict == Verdict::kException) why = modbus_strerror(MODBUS_ENOBASE + static_cast<int>(exception));
-  else if (error == EMBBADDATA) why = "the answer is no Modbus";
+  if (error == EMBBADDATA) why = "the answer is no Modbus";
   else if (error != 0) why = modbus_strerror(error);
   error_ = place(block, request.function()) + ": " + why;
   if (verdict == Verdict::kException) return Result::kException;

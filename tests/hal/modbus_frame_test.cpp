@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace {
@@ -82,6 +84,23 @@ TEST(ModbusFrame, ExceptionsAreThoseOfTheRequest) {
                              Bytes{0, 7, 0, 0, 0, 3, 4, 0x83, 2}, Bytes{0, 8, 0, 0, 0, 3, 3, 0x83, 2},
                              Bytes{0, 7, 0, 0, 0, 3, 3, 0x84, 2}, Bytes{0, 7, 0, 0, 0, 4, 3, 0x83, 2, 0}})
     EXPECT_EQ(judge(request, wrong), Verdict::kForeign);
+}
+
+// Also one that the protocol does not have, but a device may give.
+TEST(ModbusFrame, EveryExceptionHasWords) {
+  const Frame request = read_request(block(Table::kHolding, 3, 0, 1), 7);
+  std::set<std::string> words;
+  for (std::uint8_t number = 1; number <= 11; ++number) {
+    const Bytes answer = {0, 7, 0, 0, 0, 3, 3, 0x83, number};
+    unsigned code = 0;
+    const char* why = nullptr;
+    ASSERT_EQ(check_answer(request, answer.data(), answer.size(), &code, &why), Verdict::kException);
+    EXPECT_EQ(code, number);
+    ASSERT_NE(why, nullptr);
+    EXPECT_TRUE(words.insert(why).second) << why;
+    EXPECT_EQ(std::string(why).find("Unknown"), std::string::npos) << why;
+  }
+  EXPECT_EQ(words.count("exception 9"), 1u);
 }
 
 // Every single bit of a right answer but those of the values, and every other length.
