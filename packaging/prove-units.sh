@@ -36,7 +36,7 @@ until_true 30 sh -c "[ \"\$(systemctl show -p MainPID --value ncdds)\" != $gatew
 systemctl stop ncrtd || fail "stop"
 [ "$(show ncrtd Result)" = success ] || fail "ncrtd did not end in order: $(show ncrtd Result)"
 ls -l /var/lib/nc
-for kept in retain variables; do [ "$(stat -c %U:%a /var/lib/nc/sim-mill.$kept)" = ncrtd:600 ] || fail "sim-mill.$kept"; done
+for kept in retain variables offsets; do [ "$(stat -c %U:%a /var/lib/nc/sim-mill.$kept)" = ncrtd:600 ] || fail "sim-mill.$kept"; done
 # A configuration with a mistake does not get as far as the machine.
 mkdir -p /run/systemd/system/ncrtd.service.d
 printf '[Service]\nEnvironment=NC_CONFIG=/etc/nc/none.toml\n' >/run/systemd/system/ncrtd.service.d/bad.conf

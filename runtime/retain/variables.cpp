@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Common variables as bytes. See variables.hpp.
 //
-//   u32 number of variables; each: u32 number, f64 value; u32 number of names; each: u32 number, 8 bytes
+//   u32 number of variables; each: u32 number, with the part system from 0 in its highest byte, f64 value; u32 number of names; each:
+//   u32 number, 8 bytes
+//
+// What part systems share stands in the rows of each of them.
 #include "runtime/retain/variables.hpp"
 
 #include <cmath>
@@ -13,7 +16,9 @@
 namespace nc::rt {
 namespace {
 
-constexpr std::uint32_t kMaxVariables = 20000;
+constexpr std::uint32_t kMaxVariables = 80000;
+constexpr unsigned kSystemShift = 24;
+constexpr std::uint32_t kNumber = (1u << kSystemShift) - 1;
 constexpr std::uint32_t kFirstName = 500, kNames = 20;          // M700 13.5.5
 constexpr std::uint32_t kFirstCleared = 100, kLastCleared = 199;  // M700 13.4, #1129 PwrVC1
 constexpr char kClearedAtPowerOff[] = "1129";
@@ -60,10 +65,12 @@ bool decode(const std::string& bytes, std::vector<Variable>* variables, std::vec
 
 std::string encode_variables(const nc_control* control) {
   std::vector<Variable> variables;
-  Variable next;
-  while (nc_common_next(control, api_system(0), next.number, &next.number, &next.value) == NC_OK) {
-    if (std::isfinite(next.value)) variables.push_back(next);
-    ++next.number;
+  for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) {  // one that there is not has none
+    Variable next;
+    while (nc_common_next(control, api_system(s), next.number, &next.number, &next.value) == NC_OK) {
+      if (std::isfinite(next.value)) variables.push_back({s << kSystemShift | next.number, next.value});
+      ++next.number;
+    }
   }
   std::vector<Name> names;
   for (std::uint32_t number = kFirstName; number < kFirstName + kNames; ++number) {
@@ -91,9 +98,11 @@ bool restore_variables(nc_control* control, const std::string& bytes) {
   double cleared = 0;
   (void)nc_parameter_get(control, api_system(0), kClearedAtPowerOff, 0, &cleared);  // a dialect without it clears nothing
   for (const Variable& variable : variables) {
-    const bool common = (variable.number >= kFirstCleared && variable.number <= kLastCleared) || variable.number >= kFirstName;
-    if (!common || (cleared != 0 && variable.number <= kLastCleared)) continue;
-    (void)nc_variable_set(control, api_system(0), variable.number, variable.value, false);
+    const unsigned system = variable.number >> kSystemShift;
+    const std::uint32_t number = variable.number & kNumber;
+    const bool common = (number >= kFirstCleared && number <= kLastCleared) || number >= kFirstName;
+    if (!common || (cleared != 0 && number <= kLastCleared)) continue;
+    (void)nc_variable_set(control, api_system(system), number, variable.value, false);
   }
   for (const Name& name : names) (void)nc_variable_name_set(control, name.number, name.text);
   return true;

@@ -5,11 +5,14 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <deque>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <random>
 #include <thread>
+#include <tuple>
 
 #include "hal/sim/sim_machine.hpp"
 #include "runtime/retain/tables.hpp"
@@ -292,6 +295,36 @@ TEST_F(RetainedControl, WhatIsKeptInTheMiddleIsWhatWasExecuted) {
   up();
   EXPECT_EQ(variable(500), 1);
   EXPECT_EQ(tool(1), 121);
+}
+
+// M700 13.4: #100 to #199 are each part system's own, unless #1303 says otherwise.
+TEST(RetainedVariables, EachPartSystemHasItsOwn) {
+  nc_config config;
+  nc_config_init(&config);
+  config.system_count = 2;
+  config.system[1] = config.system[0];
+  const std::size_t size = nc_memory_required(&config);
+  ASSERT_GT(size, 0u);
+  const std::size_t room = (size + 63) / 64 * 64;
+  const std::unique_ptr<void, decltype(&std::free)> before(std::aligned_alloc(64, room), &std::free), after(std::aligned_alloc(64, room), &std::free);
+  nc_status status = NC_OK;
+  nc_control *one = nc_create(&config, before.get(), size, &status), *two = nc_create(&config, after.get(), size, &status);
+  ASSERT_TRUE(one != nullptr && two != nullptr);
+  ASSERT_EQ(nc_variable_set(one, 0, 150, 1, false), NC_OK);
+  ASSERT_EQ(nc_variable_set(one, 1, 150, 2, false), NC_OK);
+  ASSERT_EQ(nc_variable_set(one, 1, 160, 3, false), NC_OK);
+  ASSERT_EQ(nc_variable_set(one, 1, 500, 4, false), NC_OK);
+  ASSERT_TRUE(restore_variables(two, encode_variables(one)));
+  EXPECT_EQ(encode_variables(two), encode_variables(one));
+  double value = 0;
+  bool vacant = true;
+  for (const auto& [system, number, wanted] : {std::tuple(0u, 150u, 1.0), {1u, 150u, 2.0}, {1u, 160u, 3.0}, {0u, 500u, 4.0}, {1u, 500u, 4.0}}) {
+    ASSERT_EQ(nc_variable_get(two, system, number, &value, &vacant), NC_OK);
+    EXPECT_FALSE(vacant) << number;
+    EXPECT_EQ(value, wanted) << number;
+  }
+  ASSERT_EQ(nc_variable_get(two, 0, 160, &value, &vacant), NC_OK);
+  EXPECT_TRUE(vacant);
 }
 
 TEST(RetainedTables, BytesThatMakeNoSenseChangeNothing) {
