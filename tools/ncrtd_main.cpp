@@ -239,7 +239,7 @@ class Run {
   }
   int stop_by_reset() {
     progress_.finish();
-    std::fprintf(stderr, "reset in line %u, before the end of the program\n", last_line_);
+    std::fprintf(stderr, "reset%s, before the end of the program\n", last_line_ == 0 ? "" : (" in line " + std::to_string(last_line_)).c_str());
     std::printf("%s", nc::rt::summary_text(runtime_, runtime_.snapshot().system[0].nc, options_.since_ns).c_str());
     return kExitAlarm;
   }
