@@ -33,22 +33,10 @@ nc_status LibNc::recalculate(unsigned system) {
   return nc_recalculate(control_, api_system(system));
 }
 std::string LibNc::variables() {
-  std::string bytes;
-  nc_look_executed(
-      control_, [](void* to, const nc_control* control) { *static_cast<std::string*>(to) = encode_variables(control); }, &bytes);
-  return bytes;
+  return executed_variables(control_);
 }
 std::string LibNc::tables() {
-  struct Look {
-    const nc_config& config;
-    std::string text;
-  } look{config_, {}};
-  nc_look_executed(
-      control_, [](void* user, const nc_control* control) {
-        Look& to = *static_cast<Look*>(user);
-        to.text = table_text(read_tables(control, to.config));
-      }, &look);
-  return look.text;
+  return table_text(executed_tables(control_, config_));
 }
 nc_status LibNc::text(unsigned system, std::uint32_t id, nc_text* text) {
   return nc_text_get(control_, api_system(system), id, text);

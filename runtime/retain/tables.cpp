@@ -116,6 +116,21 @@ TableRows read_tables(const nc_control* control, const nc_config& config) {
   return rows;
 }
 
+TableRows executed_tables(nc_control* control, const nc_config& config) {
+  struct Look {
+    const nc_config& config;
+    TableRows rows;
+  } look{config, {}};
+  nc_look_executed(
+      control,
+      [](void* user, const nc_control* seen) {
+        Look& to = *static_cast<Look*>(user);
+        to.rows = read_tables(seen, to.config);
+      },
+      &look);
+  return look.rows;
+}
+
 std::string table_text(const TableRows& rows) {
   std::string text;
   for (const auto& [key, value] : rows) text += key + "=" + value + "\n";

@@ -20,6 +20,9 @@ namespace nc::rt {
 using TableRows = std::map<std::string, std::string>;
 TableRows read_tables(const nc_control* control, const nc_config& config);
 
+// The same as the blocks have left them that the machine has executed.
+TableRows executed_tables(nc_control* control, const nc_config& config);
+
 // One row in a line, and back.
 std::string table_text(const TableRows& rows);
 bool parse_tables(const std::string& text, TableRows* rows);
@@ -38,7 +41,7 @@ class TableData final : public RetainedData {
   const char* name() const override { return "offsets and parameters"; }
   const char* start() const override { return "are those of the configuration"; }
   bool restore(const std::string& bytes) override { return restore_changes(control_, config_, configured_, bytes); }
-  std::string now() override { return encode_changes(read_tables(control_, config_), configured_); }
+  std::string now() override { return encode_changes(executed_tables(control_, config_), configured_); }
   void want() override { feeder_.want(Feeder::kTables); }
   bool take(std::string* bytes) override;
 

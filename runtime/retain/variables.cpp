@@ -91,6 +91,13 @@ std::string encode_variables(const nc_control* control) {
   return bytes;
 }
 
+std::string executed_variables(nc_control* control) {
+  std::string bytes;
+  nc_look_executed(
+      control, [](void* to, const nc_control* seen) { *static_cast<std::string*>(to) = encode_variables(seen); }, &bytes);
+  return bytes;
+}
+
 bool restore_variables(nc_control* control, const std::string& bytes) {
   std::vector<Variable> variables;
   std::vector<Name> names;

@@ -13,6 +13,8 @@ namespace nc::rt {
 
 // What is not vacant. The thread that the control belongs to.
 std::string encode_variables(const nc_control* control);
+// The same as the blocks have left them that the machine has executed.
+std::string executed_variables(nc_control* control);
 // False when the bytes are not such variables; nothing has changed then. Variables that the control does not have (any
 // more) are left out, and so are #100 to #199 when #1129 PwrVC1 is on.
 bool restore_variables(nc_control* control, const std::string& bytes);
@@ -23,7 +25,7 @@ class VariableData final : public RetainedData {
   const char* name() const override { return "common variables"; }
   const char* start() const override { return "are vacant"; }
   bool restore(const std::string& bytes) override { return restore_variables(control_, bytes); }
-  std::string now() override { return encode_variables(control_); }
+  std::string now() override { return executed_variables(control_); }
   void want() override { feeder_.want(Feeder::kVariables); }
   bool take(std::string* bytes) override { return feeder_.take(Feeder::kVariables, bytes); }
 

@@ -264,6 +264,10 @@ const Case kCases[] = {
     {"nul_in_a_text", nullptr, "[ladder]\nprogram = \"x.il\\u0000y\"\n", "ladder.program", "must not hold a NUL"},
     {"retained_twice", "name = \"test\"", "name = \"test\"\nvariables = \"kept\"\n[ladder]\nprogram = \"x.il\"\nretain = \"kept\"",
      "ladder.retain", "common variables too"},
+    {"offsets_and_variables_in_one", "name = \"test\"", "name = \"test\"\nvariables = \"kept\"\noffsets = \"kept\"", "machine.offsets",
+     "common variables too"},
+    {"offsets_and_devices_in_one", "name = \"test\"", "name = \"test\"\noffsets = \"kept\"\n[ladder]\nprogram = \"x.il\"\nretain = \"kept\"",
+     "ladder.retain", "the offsets too"},
     {"retain_every", "name = \"test\"", "name = \"test\"\nretain_every_s = 0.0", "machine.retain_every_s", "from 0.02 to 3600"},
     {"initial_of_a_bit", "name = \"in1\"", "name = \"in1\"\ninitial = -1", "point[2].initial", "from 0 to 1"},
     {"modbus_on_loss_output", nullptr, NC_BIT("output", "link = \"io\", table = \"coil\", address = 0, on_loss = \"off\""),
@@ -500,10 +504,13 @@ TEST(Config, FilesOfRetainedDataNeedTheirFolder) {
   Config config = nc::test::parse_or_fail(nc::test::base_toml() + "[ladder]\nprogram = \"x.il\"\nretain = \"/nowhere/at/all\"\n");
   config.variables = "/";
   config.variables_place = {7, "machine.variables"};
+  config.offsets = "/tmp";
+  config.offsets_place = {8, "machine.offsets"};
   const std::vector<ConfigError> errors = nc::rt::check_host(config);
   std::string all;
   for (const ConfigError& error : errors) all += error.text() + "\n";
   EXPECT_NE(all.find("test.toml:7: machine.variables: \"/\" is a folder, not a file"), std::string::npos) << all;
+  EXPECT_NE(all.find("test.toml:8: machine.offsets: \"/tmp\" is a folder, not a file"), std::string::npos) << all;
   EXPECT_NE(all.find("ladder.retain: there is no folder \"/nowhere/at\""), std::string::npos) << all;
 }
 

@@ -174,8 +174,9 @@ TEST_F(RetainedControl, WhatIsLostIsAnAlarmUntilReset) {
   configure();
   put("vars", "garbage");
   put("devices", "garbage");
+  put("offsets", "garbage");
   up();
-  ASSERT_TRUE(until([&] { return runtime->snapshot().alarms.count == 2; })) << alarms();
+  ASSERT_TRUE(until([&] { return runtime->snapshot().alarms.count == 3; })) << alarms();
   const std::string text = alarms();
   EXPECT_NE(text.find("R19 Retained data lost: devices of the ladder are lost and begin with 0: " + file("devices") +
                       " is damaged\n"),
@@ -183,6 +184,8 @@ TEST_F(RetainedControl, WhatIsLostIsAnAlarmUntilReset) {
       << text;
   EXPECT_NE(text.find("R19 Retained data lost: common variables are lost and are vacant: " + file("vars") + " is damaged\n"),
             std::string::npos)
+      << text;
+  EXPECT_NE(text.find("R19 Retained data lost: offsets and parameters are lost and are those of the configuration: " + file("offsets")), std::string::npos)
       << text;
   EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kAlarmActive) << "nobody starts without having seen it";
   ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
@@ -289,6 +292,10 @@ TEST_F(RetainedControl, WhatIsKeptInTheMiddleIsWhatWasExecuted) {
   EXPECT_EQ(tables, "nc tables 1\ntool 1 0\n120\n121\nend\n");
   for (const char* name : {"vars", "offsets"})  // the next control finds what a power cut would leave now
     std::filesystem::copy_file(file(name), file(std::string("cut.") + name));
+  runtime->stop();
+  up();
+  EXPECT_EQ(variable(500), 1) << "nor when the control is ended in the middle";
+  EXPECT_EQ(tool(1), 121);
   runtime->stop();
   for (const char* name : {"vars", "offsets"})
     std::filesystem::copy_file(file(std::string("cut.") + name), file(name), std::filesystem::copy_options::overwrite_existing);
