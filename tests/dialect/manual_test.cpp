@@ -115,9 +115,7 @@ TEST(M700Manual, MissingFunctionsRaiseTheManualsAlarm) {
       {"P180", {720, 740, 750, 760, 770, 780, 790, 840, 860, 870, 880}},
       {"P220", {340, 350, 360, 371}},
       {"P224", {120, 130}},
-      {"P260", {680}},
       {"P270", {1010, 1100, 2000, 2020}},
-      {"P350", {510}},
       {"P900", {411, 421}},
       {"P930", {431}},
       {"P940", {434, 435}},
@@ -165,6 +163,10 @@ TEST(M700Manual, CodesOfOneFunctionAreBoundAlike) {
       {440, Function::length_minus},
       {540, Function::work_system},
       {541, Function::extended_system},
+      {500, Function::scaling_off},
+      {510, Function::scaling_on},
+      {680, Function::rotation_on},
+      {690, Function::rotation_off},
       {590, Function::work_system},
       {730, Function::cycle_step},
       {810, Function::cycle_drill},
@@ -193,7 +195,7 @@ TEST(M700Manual, CodesOfOneFunctionAreBoundAlike) {
 }
 
 TEST(M700Manual, EveryCancelCodeOfAMissingFunctionIsAccepted) {
-  for (int code : {401, 500, 690}) {
+  for (int code : {401}) {
     EXPECT_EQ(find_function(m700(), code)->function, Function::modal_off) << g_text(code);
   }
 }

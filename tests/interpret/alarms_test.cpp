@@ -223,7 +223,7 @@ TEST(DgshapeAlarm, EveryErrorOfTheManual) {  // DGSHAPE 5
       {"NC-RANGE", "G0X100000."},
       {"NC-NO-SUCH-CODE", "G44"},
       {"NC-NO-SUCH-CODE", "G31X1000"},
-      {"NC-NOT-BUILT", "G51X0Y0P2"},
+      {"NC-WORDS", "G51X0Y0"},
       {"NC-FEED", "G1X1000"},
       {"NC-ADDRESS", "B1000"},
   };

@@ -181,5 +181,36 @@ TEST(ParameterInput, RewindTakesItBack) {
   EXPECT_EQ(bench.finish().path(), (Path{"rapid 7 0 0"}));
 }
 
+// ---- mirror image by switch ---------------------------------------------------------------------------------------------------
+
+TEST(SwitchMirror, AboutWhereTheAxisStandsAtTheHeadOfTheProgram) {
+  Bench bench;
+  bench.at(10, 0, 0).work_offset(1, {4, 0, 0});
+  nc_switches_set(bench.control(), 0, 0, 1);
+  const std::string text = "G0 X16. Y5.\nG91 X1.\nG90 G2 X22. Y10. R5. F100\n#100=#3007\nG51.1 X0\n#101=#3007\nG50.1\nG53 X3.\nM30";
+  const Outcome run = bench.run(text);
+  EXPECT_EQ(run.alarm, "");
+  // X16 of G54 is 20 on the machine, 10 beyond where the axis stood: it goes to 0.
+  EXPECT_EQ(run.path(), (Path{"rapid 0 5 0", "rapid -1 5 0", "ccw -6 10 0 c-6,5 F100", "rapid 3 10 0"}));
+  EXPECT_EQ(run.var(100), 1);
+  nc_switches_set(bench.control(), 0, 0, 0);  // the next program goes without
+  EXPECT_EQ(bench.at(0, 0, 0).run("G0 X16.\nM30").path(), (Path{"rapid 20 0 0"}));
+}
+
+TEST(SwitchMirror, WithMirrorByProgramInTheSameAxisNothingTurnsRound) {
+  Bench bench;
+  nc_switches_set(bench.control(), 0, 0, 1);
+  EXPECT_EQ(bench.run("G51.1 X5.\nG0 X3.\nG3 X13. R5. F100\nM30").path(), (Path{"rapid -7 0 0", "ccw 3 0 0 c-2,0 F100"}));
+}
+
+TEST(SwitchMirror, CompensatesOnTheOtherSide) {
+  Bench bench;
+  bench.tool(1, 2);
+  nc_switches_set(bench.control(), 0, 0, 1);
+  EXPECT_EQ(bench.run("G1 G41 D1 X20. Y0 F100\nX20. Y30.\nX40.\nG40 X50.\nM30").path().at(1), "line -18 32 0 F100");
+  nc_switches_set(bench.control(), 0, 0, 0);
+  EXPECT_EQ(bench.at(0, 0, 0).run("G1 G41 D1 X20. Y0 F100\nX20. Y30.\nX40.\nG40 X50.\nM30").path().at(1), "line 18 32 0 F100");
+}
+
 }  // namespace
 }  // namespace nc::test

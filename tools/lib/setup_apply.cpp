@@ -105,8 +105,7 @@ bool apply_setup(const Setup& setup, nc_dialect dialect, nc_control* control, st
       !apply_tool_offsets(setup, dialect, control, error) || !apply_tables(setup, control, error) ||
       !apply_subprograms(setup, control, error))
     return false;
-  if (setup.mirror_axes != 0) return refuse(setup, {"switches.mirror", 1}, "mirror image is not fitted in this version", error);
-  nc_switches_set(control, kPartSystem, setup.optional_skip, 0);
+  nc_switches_set(control, kPartSystem, setup.optional_skip, setup.mirror_axes);
   if (nc_position_set(control, kPartSystem, &setup.start) != NC_OK)
     return refuse(setup, {"start", 1}, "the control does not take this position", error);
   return true;

@@ -195,7 +195,10 @@ NC_API void nc_device_on_read(nc_control*, nc_device_read callback, void* user);
 /** Macro interface outputs as the interpreter holds them (#1132..#1135), for sinks; the machine's own image is in nc_outputs. */
 NC_API uint32_t nc_interface_output(const nc_control*, unsigned system, unsigned word);
 
-/** Switches that decide before a block is read. `optional_skip` bit n = switch n (1..9), bit 1 is the plain '/'. */
+/**
+ * Switches that decide before a block is read. `optional_skip` bit n = switch n (1..9), bit 1 is the plain '/'. `mirror_axes` bit i: the next
+ * program, from its head on, is mirrored in axis i about where the axis stands then.
+ */
 NC_API void nc_switches_set(nc_control*, unsigned system, uint32_t optional_skip, uint32_t mirror_axes);
 
 /** The alarm that stopped a part system. NC_E_NOT_FOUND when there is none. Copies. */

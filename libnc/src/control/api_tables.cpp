@@ -319,8 +319,10 @@ void nc_position_shown(const nc_control* c, unsigned system, nc_axes* machine, n
 }
 
 void nc_switches_set(nc_control* c, unsigned system, uint32_t optional_skip, uint32_t mirror_axes) {
-  (void)mirror_axes;
-  if (known(c, system)) c->system[system].interpreter.optional_skip = optional_skip;
+  if (!known(c, system)) return;
+  nc::Interpreter& in = c->system[system].interpreter;
+  in.optional_skip = optional_skip;
+  in.mirror_switch = static_cast<uint8_t>(mirror_axes & ((1u << in.axis_count) - 1));
 }
 
 nc_status nc_alarm_get(const nc_control* c, unsigned system, nc_alarm* alarm) {

@@ -68,6 +68,8 @@ constexpr Sentence kSentences[] = {
     {C::helix_option, "The arc moves {axis} too, and helical interpolation is not fitted.", nullptr},
     {C::plane_mismatch, "{word} does not fit the plane that is selected.",
      "The words of the arc do not belong to the plane that is selected."},
+    {C::plane_in_rotation, "The plane cannot be selected while coordinates are rotated, nor in the block of G68. Cancel with G69 first.", nullptr},
+    {C::space_conversion, "G68 with I, J and K is the conversion in space, which this control does not have.", nullptr},
     {C::plane_in_compensation,
      "The plane cannot be changed while tool radius compensation is on. Cancel it with G40 first.", nullptr},
     {C::arc_in_compensation_start,

@@ -45,6 +45,7 @@ enum class Function : uint8_t {
   macro_modal_off,    ///< G67
   surface_on, surface_off,   ///< G96 G97
   mirror_on, mirror_off,   ///< G51.1 G50.1: modal, and they take the axis words of the block
+  scaling_on, scaling_off, rotation_on, rotation_off,   ///< G51 G50, G68 G69
   modal_off           ///< the cancel code of a function that is not built: the state it asks for is the only one there is
 };
 

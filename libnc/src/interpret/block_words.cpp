@@ -66,6 +66,8 @@ Did take_g(Interpreter& in, double value) {
     case Function::macro_modal:
     case Function::macro_every_block:
     case Function::stroke_check_on:
+    case Function::scaling_on:
+    case Function::rotation_on:
       w.one_shot = row;  // takes the words of the block though it is modal
       w.one_shot_code = static_cast<int16_t>(code);
       return Did::done;

@@ -112,6 +112,8 @@ Did apply_reading_modes(Interpreter& in) {
         break;
       }
       case Function::macro_modal_off: cancel_modal_call(in); break;
+      case Function::scaling_off: end_scaling(in); break;
+      case Function::rotation_off: end_rotation(in); break;
       case Function::polar_command_on:
       case Function::polar_command_off: {
         const Did did = select_polar_command(in, *row);

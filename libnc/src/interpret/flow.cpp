@@ -418,6 +418,7 @@ Did return_sub(Interpreter& in) {
   const bool stops = !only_calls(in);
   s.owes_mark = !interrupted;
   in.finish_block(stops, stops);
+  if (interrupted) in.know_world_again();
   return Did::later;
 }
 

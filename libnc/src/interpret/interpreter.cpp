@@ -247,12 +247,18 @@ void Interpreter::reset(bool keep_modal) {
   alarmed = false;
   world_fresh = false;
   alarm_fault = Fault{};
+  answered_ = ~BlockSeq{0};
   checkpoints_.clear();
   checkpoints_.save(state);
 }
 
 void Interpreter::set_machine(const AxisVec& machine) {
   state.machine = machine;
+  if (state.seq == 0 && (mirror_switch | state.switch_mirror) != 0) {  // at the head of a program
+    state.switch_mirror = mirror_switch;
+    for (unsigned i = 0; i < axis_count; ++i) notes.set(Notes::switch_mirror_key(i), machine[i]);
+    program_changed();
+  }
   checkpoints_.clear();
   checkpoints_.save(state);
 }
@@ -274,13 +280,16 @@ bool Interpreter::rewind(BlockSeq seq) {
   alarmed = false;
   world_fresh = false;
   if (state.end_seen) emit_end();  // it comes behind the mark
+  know_world_again();
   return true;
 }
 
 void Interpreter::answer(const nc_world& answered) {
   world = answered;
   waiting_ = false;
-  if ((waiting_for_ & NC_SYNC_SKIP) == 0) world_fresh = true;
+  if ((waiting_for_ & NC_SYNC_SKIP) != 0) return;
+  world_fresh = true;
+  answered_ = state.seq;
 }
 
 // ---- blocks ------------------------------------------------------------------------------------------------------------

@@ -121,9 +121,18 @@ struct Interpreter {
   bool interrupt_inside(const AxisVec& machine, unsigned items);
   /// The next block goes on where it was cut (State::repeat).
   void go_on_inside(unsigned items) {
+    note_world();
     if (!state.repeat.active) state.repeat = Repeat{};
     state.repeat.active = true;
     state.repeat.items = static_cast<uint16_t>(state.repeat.items + items);
+    know_world_again();
+  }
+  /// A block that goes on where it was cut has the answers that it had.
+  void know_world_again() {
+    if (!state.repeat.active || !interrupted_.world_known) return;
+    world = interrupted_.world;
+    world_fresh = true;
+    answered_ = state.seq;
   }
   /// Program and modal state at the interrupt (#4401...).
   const ModalState& interrupted_modal() const { return interrupted_.modal; }
@@ -174,6 +183,7 @@ struct Interpreter {
   ProgramRef main_program;
   bool mdi = false;                ///< the main program is blocks of MDI: their end is no alarm
   uint32_t optional_skip = 0;      ///< switches, bit n = /n
+  uint8_t mirror_switch = 0;       ///< axes that the next program is mirrored in
 
   Fault fault;
   uint32_t sync_needed = 0;
@@ -239,7 +249,7 @@ struct Interpreter {
   void program_changed() {
     const CallFrame& frame = state.frame[state.depth];
     state.modal_call = frame.modal_call;
-    state.mapped = state.mirror != 0 || frame.figure != 0;
+    state.mapped = state.any_mirror() != 0 || frame.figure != 0 || state.scaled != 0 || state.rotated;
   }
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }
 
@@ -276,8 +286,18 @@ struct Interpreter {
     uint16_t work_system = 0;
     uint32_t stroke_box = 0;
     CycleState cycle;
+    uint8_t mirror = 0, scaled = 0;
+    bool rotated = false;
+    bool world_known = false;    ///< the interrupted block has read `world`: it reads the same when it goes on
+    nc_world world{};
+    double map_note[Notes::kMapSize] = {};   ///< where these are centred
   };
   Did enter_interrupt();
+  /// At the head of a block that is going to be cut.
+  void note_world() {
+    interrupted_.world_known = answered_ == state.seq;
+    interrupted_.world = world;
+  }
   bool begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine);
   void note_interrupt_items();
 
@@ -306,6 +326,7 @@ struct Interpreter {
     int16_t motion = -1, feed_mode = -1;   ///< codes of groups 1 and 5; -1 = no program has ended since the last reset
     double feed = 0;
   } left_by_end_;
+  BlockSeq answered_ = ~BlockSeq{0};  ///< the state before the block that the newest answer was for
   Checkpoints checkpoints_;
   static constexpr ModalId kNoModal = ~ModalId{0};
   ModalId newest_modal_ = kNoModal;  ///< of the newest mark

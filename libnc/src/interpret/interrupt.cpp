@@ -76,12 +76,13 @@ Did disable_interrupt(Interpreter& in) {
 bool Interpreter::interruptible() const { return state.interrupt_on && state.interrupt_depth == 0 && !ended && !state.end_seen; }
 
 bool Interpreter::interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block) {
-  if (!interruptible()) return false;
   if (queued_ > 0 || next_step != Step::none || taken_back > 0) {
     if (!cut_block || waiting_) return false;
+    // The block in hand may have ended the program or what M96 began: it counts what was in force at its head.
     const unsigned items = made_ - queued_ - taken_back;
     return rewind(block_seq_) && begin_interrupt(true, items, machine);
   }
+  if (!interruptible()) return false;
   // Between two blocks, the second of which may have begun before another interrupt.
   return begin_interrupt(state.repeat.active, state.repeat.items, machine);
 }
@@ -93,6 +94,7 @@ bool Interpreter::interrupt_inside(const AxisVec& machine, unsigned items) {
 }
 
 bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine) {
+  const BlockSeq head = state.seq, answered = answered_;
   InterruptReturn back;
   back.inside_block = inside_block;
   back.items = items;
@@ -104,6 +106,10 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
   back.work_system = state.work_system;
   back.stroke_box = state.stroke_box;
   back.cycle = state.cycle;
+  back.mirror = state.mirror;
+  back.scaled = state.scaled;
+  back.rotated = state.rotated;
+  for (unsigned i = 0; i < Notes::kMapSize; ++i) back.map_note[i] = notes.get(Notes::mirror_key(0) + i);
   const CallFrame& frame = state.frame[state.depth];  // what has been read ahead is given up: the place is that of the next block
   source.depth = state.depth;
   source.file = frame.program.file;
@@ -115,6 +121,8 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
     return true;
   }
   interrupted_ = back;
+  interrupted_.world = world;
+  interrupted_.world_known = inside_block && answered == head;
   state.repeat = {};
   state.machine = machine;
   state.interrupt_moved = false;
@@ -163,6 +171,11 @@ void Interpreter::leave_interrupt(bool to_sequence) {
     state.work_system = interrupted_.work_system;
     state.stroke_box = interrupted_.stroke_box;
     state.cycle = interrupted_.cycle;
+    state.mirror = interrupted_.mirror;
+    state.scaled = interrupted_.scaled;
+    state.rotated = interrupted_.rotated;
+    for (unsigned i = 0; i < Notes::kMapSize; ++i)
+      if (notes.get(Notes::mirror_key(0) + i) != interrupted_.map_note[i]) set_note(Notes::mirror_key(0) + i, interrupted_.map_note[i]);
     if (interrupted_.inside_block) {
       state.machine = interrupted_.machine;
       next_repeat_.active = true;

@@ -3,6 +3,7 @@
 // (M700 13.5.5).
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "dialect/text.hpp"
 #include "interpret/system_variable_table.hpp"
@@ -55,15 +56,20 @@ uint64_t device_bits(const Interpreter& in, const Device& device, uint32_t numbe
 
 }  // namespace
 
-// ---- #30060-#30068 (10.14): no coordinate rotation is in force ----------------------------------------------------------------
+// ---- #30060-#30068 (10.14): coordinate rotation by program ----------------------------------------------------------------
 
 Eval read_rotation(Access& a) {
   const int16_t plane = a.in.state.modal.code[kGroupPlane];
   const char letter[2] = {plane == 180 ? 'Z' : plane == 190 ? 'Y' : 'X', plane == 180 ? 'X' : plane == 190 ? 'Z' : 'Y'};
+  const double angle = a.in.notes.get(Notes::rotation_key(Notes::kRotationAngle)) * std::numbers::pi / 180;
   switch (a.offset) {
     case 0:
     case 1: return give(a, a.in.axis_of[letter[a.offset] - 'A'] + 1);
-    case 6: return give(a, 1);  // COS of no angle
+    case 6: return give(a, a.in.state.rotated ? std::cos(angle) : 1);
+    case 2:
+    case 3: return give(a, a.in.state.rotated ? a.in.notes.get(Notes::rotation_key(a.offset - 2)) : 0);
+    case 4: return give(a, a.in.state.rotated ? angle * 180 / std::numbers::pi : 0);
+    case 5: return give(a, a.in.state.rotated ? std::sin(angle) : 0);
     default: return give(a, 0);
   }
 }

@@ -37,7 +37,7 @@ Transform transform_in_force(const Interpreter& in) {
 /// What every move has in common.
 Move& begin_move(Interpreter& in, const Transform& transform, const AxisVec& start, const AxisVec& target) {
   Move& move = in.emit_move(start, target);
-  if (in.state.mirror != 0) map_compensation(in, move.comp);
+  if (in.state.any_mirror() != 0) map_compensation(in, move.comp);
   move.high_accuracy = in.state.high_accuracy;
   move.transform = in.transforms.intern(transform);
   in.state.machine = transform.to_machine(target);
@@ -285,7 +285,11 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
   // M700 P113: nothing of the block is of the plane in force, but its centre of another one: a plane code has been forgotten.
   const bool of_plane = words.has_radius || w.has(plane.center[0]) || w.has(plane.center[1]) || ((commanded >> h) & 1) != 0 || ((commanded >> v) & 1) != 0;
   if (!of_plane && w.any(letters("IJK"))) return in.raise(Condition::plane_mismatch, 'G', in.state.modal.code[kGroupMotion] / 10.0);
-  if (program_mapped(in)) map_arc(in, h, v, words.center, &ccw);
+  if (program_mapped(in)) {
+    if (scaled_unevenly(in, h, v)) return in.raise(Condition::arc_deviation, 'G', in.state.modal.code[kGroupMotion] / 10.0);  // 13.19 (4)
+    words.radius *= scale_of(in, h);
+    map_arc(in, h, v, words.center, &ccw);
+  }
   const MoveFrame frame = frame_of_move(in, target, commanded);
   const double from[2] = {frame.start[h], frame.start[v]}, to[2] = {frame.end[h], frame.end[v]};
   Circle circle;

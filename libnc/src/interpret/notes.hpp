@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers that a program leaves for later blocks and that are too many for the state, which is copied at every block: modal macro calls
-// with their arguments, figure rotation, the interrupt program, mirror centres. One flat table like the offsets' (frame/frames.hpp):
+// with their arguments, figure rotation, the interrupt program, centres of mirror,
+// scaling and rotation. One flat table like the offsets' (frame/frames.hpp):
 // every write is journalled under the block that made it, so a rewind takes it back.
 #pragma once
 
@@ -36,10 +37,21 @@ class Notes {
   // ---- mirror image by program (M700 13.6): centre of each axis
   static constexpr unsigned mirror_key(unsigned axis) { return interrupt_key(kInterruptSize) + axis; }
 
+  // ---- scaling (M700 13.19): centre of each axis, then the factor; coordinate rotation (13.20)
+  static constexpr unsigned scaling_key(unsigned what) { return mirror_key(kMaxAxes) + what; }
+  enum Rotation : unsigned { kRotationH, kRotationV, kRotationAngle, kRotationSize };  ///< centre in workpiece coordinates; deg
+  static constexpr unsigned rotation_key(unsigned what) { return scaling_key(kMaxAxes + 1) + what; }
+
+  // ---- mirror image by switch: where each axis stood when the program began, machine coordinates
+  static constexpr unsigned switch_mirror_key(unsigned axis) { return rotation_key(kRotationSize) + axis; }
+
+  /// Keys of the three maps of the program, one behind the other from mirror_key(0) on.
+  static constexpr unsigned kMapSize = kMaxAxes + kMaxAxes + 1 + kRotationSize;
+
   // ---- what #100000-#100002 and #100100-#100103, #60000 select (M700 13.5.5)
   enum Select : unsigned { kParameter, kPart, kAxis, kDevice, kDeviceNumber, kBytes, kBit, kToolGroup, kSelectSize };
-  static constexpr unsigned select_key(unsigned what) { return mirror_key(kMaxAxes) + what; }
-  static constexpr unsigned kSize = kSlots * kSlotSize + kFigureSize + kInterruptSize + kMaxAxes + kSelectSize;
+  static constexpr unsigned select_key(unsigned what) { return switch_mirror_key(kMaxAxes) + what; }
+  static constexpr unsigned kSize = kSlots * kSlotSize + kFigureSize + kInterruptSize + kMapSize + kMaxAxes + kSelectSize;
 
   void create(Arena& arena) { table_ = arena.make<double>(kSize); }
   double get(unsigned key) const { return table_[key]; }

@@ -67,7 +67,7 @@ bool is_text(const char* text) {
 bool is_number(const char* key) {
   for (const char* known : {"1003", "1015", "1025", "1037", "1073", "1078", "1080", "1081", "1084", "1109", "1110", "1111", "1112", "1113", "1121", "1128",
                             "1152", "1074", "1079", "1173", "1174", "1185", "1186", "1187", "1188", "1189", "1193", "1223", "1306", "1503", "1506", "1507", "8007", "8008", "8009", "1181", "1195", "1196", "1197", "1198", "1229", "1235", "1267", "1272", "1273", "1303", "1304", "1517", "2106",
-                            "8012", "8013", "8075", "8101", "8102", "8103", "8105", "8112", "8117", "8209"})
+                            "8012", "8013", "8072", "8075", "8101", "8102", "8103", "8105", "8112", "8117", "8209"})
     if (std::strcmp(key, known) == 0) return true;
   return false;
 }
@@ -316,6 +316,7 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.command_unit_inch = cunit > 0 ? cunit * 0.00001 : s.setting_unit_inch;
   s.command_unit_deg = cunit > 0 ? cunit * 0.0001 : s.setting_unit_deg;
   s.decimal_type_2 = flag("1078");
+  s.scaling_factor = number("8072", 1);
   const char* const parity[] = {"9115", "9215", "9315", "9415", "9515"};  // 3.6
   for (unsigned unit = 1; unit <= 5; ++unit) s.parity_units |= flag(parity[unit - 1]) ? 1u << unit : 0;
   s.tenfold = number("UNIT*10", 1);

@@ -66,6 +66,7 @@ struct Settings {
   bool start_absolute = true;
   bool start_inch = false;            ///< #1152
   uint32_t parity_units = 0;          ///< #9n15: input device n has the characters of a block counted, bit n
+  double scaling_factor = 1;          ///< #8072 SCALING P
   double index_increment[kMaxAxes] = {};  ///< #2106, deg, 0 = not checked
   bool run_time_hours = false;        ///< #1273 bit 1
   bool preset_allowed = true;         ///< #1267 bit 0: G92.1 in list 1

@@ -34,6 +34,7 @@ PlaneAxes plane_axes(const Interpreter& in) {
 
 Did select_plane(Interpreter& in, int16_t code) {
   State& state = in.state;
+  if (state.rotated) return in.raise(Condition::plane_in_rotation, 'G', code / 10.0);  // M700 13.20
   const Pair pair = pair_of(code);
   const int8_t h = axis_of_pair(in, pair.first), v = axis_of_pair(in, pair.second);
   const bool changes = state.modal.code[kGroupPlane] != code || state.plane_axis[0] != h || state.plane_axis[1] != v;

@@ -15,7 +15,7 @@ namespace {
 PlaneAxes plane(const Interpreter& in) { return plane_axes(in); }
 
 double figure(const Interpreter& in, unsigned what) { return in.notes.get(Notes::figure_key(what)); }
-bool rotated(const Interpreter& in) { return in.state.frame[in.state.depth].figure != 0; }
+bool in_figure(const Interpreter& in) { return in.state.frame[in.state.depth].figure != 0; }
 
 void rotate(double angle, double* h, double* v) {
   const double c = std::cos(angle), s = std::sin(angle), x = *h;
@@ -34,18 +34,66 @@ void turn(const Interpreter& in, double angle, AxisVec& p) {
   p[v] = figure(in, Notes::kCenterV) + dv;
 }
 
-void reflect(const Interpreter& in, AxisVec& p) {
-  for (unsigned i = 0; i < in.axis_count; ++i) p[i] = mirrored(in, i, p[i]);
+double rotation_angle(const Interpreter& in) { return in.notes.get(Notes::rotation_key(Notes::kRotationAngle)) * std::numbers::pi / 180; }
+
+/// The plane coordinates of `p` turned about the centre of G68.
+void turn_coordinates(const Interpreter& in, double angle, AxisVec& p) {
+  const PlaneAxes axes = plane(in);
+  if (axes.h < 0 || axes.v < 0) return;
+  const auto h = static_cast<unsigned>(axes.h), v = static_cast<unsigned>(axes.v);
+  const double ch = in.notes.get(Notes::rotation_key(Notes::kRotationH)), cv = in.notes.get(Notes::rotation_key(Notes::kRotationV));
+  double dh = p[h] - ch, dv = p[v] - cv;
+  rotate(angle, &dh, &dv);
+  p[h] = ch + dh;
+  p[v] = cv + dv;
 }
 
-bool odd(const Interpreter& in, unsigned h, unsigned v) { return (((in.state.mirror >> h) ^ (in.state.mirror >> v)) & 1) != 0; }
+double scaled_by(const Interpreter& in, unsigned axis, double value, double factor) {
+  const double center = in.notes.get(Notes::scaling_key(axis));
+  return center + factor * (value - center);
+}
+
+double scaled(const Interpreter& in, unsigned axis, double value) {
+  return ((in.state.scaled >> axis) & 1) != 0 ? scaled_by(in, axis, value, scale_of(in, axis)) : value;
+}
+
+double unscaled(const Interpreter& in, unsigned axis, double value) {
+  return ((in.state.scaled >> axis) & 1) != 0 ? scaled_by(in, axis, value, 1 / scale_of(in, axis)) : value;
+}
+
+double by_program(const Interpreter& in, unsigned axis, double value) {
+  return ((in.state.mirror >> axis) & 1) != 0 ? 2 * in.notes.get(Notes::mirror_key(axis)) - value : value;
+}
+
+/// About where the axis stood on the machine when the program began.
+double by_switch(const Interpreter& in, unsigned axis, double value) {
+  if (((in.state.switch_mirror >> axis) & 1) == 0) return value;
+  return 2 * (in.notes.get(Notes::switch_mirror_key(axis)) - in.zero()[axis]) - value;
+}
+
+/// Axes whose direction is turned round: mirrored by one of the two.
+unsigned turned_axes(const Interpreter& in) { return in.state.mirror ^ in.state.switch_mirror; }
+
+/// Everything behind the figure, and its way back.
+void map_figure(const Interpreter& in, AxisVec& p) {
+  for (unsigned i = 0; in.state.scaled != 0 && i < in.axis_count; ++i) p[i] = scaled(in, i, p[i]);
+  if (in.state.rotated) turn_coordinates(in, rotation_angle(in), p);
+  for (unsigned i = 0; i < in.axis_count; ++i) p[i] = mirrored(in, i, p[i]);
+}
+void unmap_figure(const Interpreter& in, AxisVec& p) {
+  for (unsigned i = 0; i < in.axis_count; ++i) p[i] = unmirrored(in, i, p[i]);
+  if (in.state.rotated) turn_coordinates(in, -rotation_angle(in), p);
+  for (unsigned i = 0; in.state.scaled != 0 && i < in.axis_count; ++i) p[i] = unscaled(in, i, p[i]);
+}
+
+bool odd(const Interpreter& in, unsigned h, unsigned v) { return (((turned_axes(in) >> h) ^ (turned_axes(in) >> v)) & 1) != 0; }
 
 }  // namespace
 
 AxisVec to_program(const Interpreter& in, const AxisVec& work) {
   AxisVec p = work;
-  reflect(in, p);
-  if (!rotated(in)) return p;
+  unmap_figure(in, p);
+  if (!in_figure(in)) return p;
   if (in.state.frame[in.state.depth].figure == kFigureMoved) {
     turn(in, -figure(in, Notes::kAngle), p);
     return p;
@@ -59,17 +107,28 @@ AxisVec to_program(const Interpreter& in, const AxisVec& work) {
 
 AxisVec from_program(const Interpreter& in, const AxisVec& programmed) {
   AxisVec p = programmed;
-  if (rotated(in)) turn(in, figure(in, Notes::kAngle), p);
-  reflect(in, p);
+  if (in_figure(in)) turn(in, figure(in, Notes::kAngle), p);
+  map_figure(in, p);
   return p;
 }
 
 double mirrored(const Interpreter& in, unsigned axis, double value) {
-  return ((in.state.mirror >> axis) & 1) != 0 ? 2 * in.notes.get(Notes::mirror_key(axis)) - value : value;
+  return by_switch(in, axis, by_program(in, axis, value));
 }
 
+double unmirrored(const Interpreter& in, unsigned axis, double value) {
+  return by_program(in, axis, by_switch(in, axis, value));
+}
+
+double scale_of(const Interpreter& in, unsigned axis) {
+  return ((in.state.scaled >> axis) & 1) != 0 ? in.notes.get(Notes::scaling_key(kMaxAxes)) : 1.0;
+}
+
+double mapped_on(const Interpreter& in, unsigned axis, double programmed) { return mirrored(in, axis, scaled(in, axis, programmed)); }
+double programmed_on(const Interpreter& in, unsigned axis, double work) { return unscaled(in, axis, unmirrored(in, axis, work)); }
+
 uint32_t moved_axes(const Interpreter& in, uint32_t axes) {
-  if (!rotated(in)) return axes;
+  if (!in_figure(in) && !in.state.rotated) return axes;
   const PlaneAxes p = plane(in);
   if (p.h < 0 || p.v < 0) return axes;
   const uint32_t both = (1u << p.h) | (1u << p.v);
@@ -77,9 +136,12 @@ uint32_t moved_axes(const Interpreter& in, uint32_t axes) {
 }
 
 void map_arc(const Interpreter& in, unsigned h, unsigned v, double center[2], bool* ccw) {
-  if (rotated(in)) rotate(figure(in, Notes::kAngle), &center[0], &center[1]);
-  if (((in.state.mirror >> h) & 1) != 0) center[0] = -center[0];
-  if (((in.state.mirror >> v) & 1) != 0) center[1] = -center[1];
+  if (in_figure(in)) rotate(figure(in, Notes::kAngle), &center[0], &center[1]);
+  center[0] *= scale_of(in, h);
+  center[1] *= scale_of(in, v);
+  if (in.state.rotated) rotate(rotation_angle(in), &center[0], &center[1]);
+  if (((turned_axes(in) >> h) & 1) != 0) center[0] = -center[0];
+  if (((turned_axes(in) >> v) & 1) != 0) center[1] = -center[1];
   if (odd(in, h, v)) *ccw = !*ccw;
 }
 
@@ -87,7 +149,7 @@ void map_compensation(const Interpreter& in, Compensation& comp) {
   if (!odd(in, comp.axis[0], comp.axis[1])) return;
   comp.side = static_cast<int8_t>(-comp.side);
   for (unsigned i = 0; i < 2; ++i)
-    if (((in.state.mirror >> comp.axis[i]) & 1) != 0) comp.vector[i] = -comp.vector[i];
+    if (((turned_axes(in) >> comp.axis[i]) & 1) != 0) comp.vector[i] = -comp.vector[i];
 }
 
 void begin_figure(Interpreter& in, const double center[2]) {
@@ -112,7 +174,7 @@ void turn_figure(Interpreter& in) {
   double step = figure(in, Notes::kStep);
   if (angle == 0 && step == 0) {  // behind pass 1
     AxisVec end = in.position();
-    reflect(in, end);
+    unmap_figure(in, end);
     const double c[2] = {figure(in, Notes::kCenterH), figure(in, Notes::kCenterV)};
     const double from = std::atan2(figure(in, Notes::kStartV) - c[1], figure(in, Notes::kStartH) - c[0]);
     const double to = std::atan2(end[static_cast<unsigned>(axes.v)] - c[1], end[static_cast<unsigned>(axes.h)] - c[0]);

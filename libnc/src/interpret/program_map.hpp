@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The map from programmed points to the active workpiece coordinates: figure rotation (M700 13.3.3), then mirror image by program
-// (13.6). It lies in front of tool radius compensation: reflecting the path and its side gives the reflected compensated path.
+// The map from programmed points to the active workpiece coordinates: figure rotation (M700 13.3.3), scaling (13.19), coordinate rotation
+// (13.20: it turns the centre of scaling, too), then mirror image by program (13.6) and by switch. It lies in front of tool radius
+// compensation: reflecting the path and its side gives the reflected compensated path.
 #pragma once
 
 #include "interpret/interpreter.hpp"
@@ -12,8 +13,15 @@ inline bool program_mapped(const Interpreter& in) { return in.state.mapped; }
 
 AxisVec to_program(const Interpreter& in, const AxisVec& work);
 AxisVec from_program(const Interpreter& in, const AxisVec& programmed);
-/// One coordinate reflected where its axis is mirrored: from programmed to workpiece coordinates, and back.
+/// One coordinate reflected where its axis is mirrored by program or by switch: to workpiece coordinates, and back.
 double mirrored(const Interpreter& in, unsigned axis, double value);
+double unmirrored(const Interpreter& in, unsigned axis, double value);
+/// One coordinate of an axis outside the plane, scaled and mirrored; and back.
+double mapped_on(const Interpreter& in, unsigned axis, double programmed);
+double programmed_on(const Interpreter& in, unsigned axis, double work);
+/// Factor of scaling of an axis, 1 where there is none; one of two axes of an arc is scaled, or both are.
+double scale_of(const Interpreter& in, unsigned axis);
+inline bool scaled_unevenly(const Interpreter& in, unsigned h, unsigned v) { return (((in.state.scaled >> h) ^ (in.state.scaled >> v)) & 1) != 0; }
 /// Axes that move when `axes` are programmed: a rotated plane moves with both.
 uint32_t moved_axes(const Interpreter& in, uint32_t axes);
 /// The increments of an arc's centre on the axes h, v, and its direction.

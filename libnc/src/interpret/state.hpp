@@ -156,6 +156,9 @@ struct State {
   bool interrupt_moved = false; ///< the interrupt program has moved or given out M S T B
   uint8_t modal_call = 0;       ///< of the program that runs (CallFrame::modal_call), asked in every block
   bool mapped = false;          ///< mirror, or a figure of the program that runs: asked in every move
+  uint8_t scaled = 0;           ///< bit i: axis i is scaled (M700 13.19)
+  bool rotated = false;         ///< coordinates are rotated by program (M700 13.20)
+  uint8_t switch_mirror = 0;    ///< bit i: axis i is mirrored by the switch since the program began
   uint8_t mirror = 0;           ///< bit i: axis i is mirrored by program (M700 13.6)
   uint8_t interrupt_depth = 0;  ///< level of the interrupt program in service, 0 = none
   Repeat repeat;                ///< holds for the next block only
@@ -172,6 +175,7 @@ struct State {
   bool owes_mark = false;     ///< the block that called a program has ended with the return and still needs its mark
   uint8_t depth = 0;
   uint8_t loop_count = 0;
+  uint8_t any_mirror() const { return mirror | switch_mirror; }
   void refresh_special() {
     const bool feed = modal.code[kGroupFeed] == 930 || modal.code[kGroupFeed] == 950 || modal.feed_digit != 0 ||
                       modal.code[kGroupCutting] == 620 || modal.code[kGroupCutting] == 630;

@@ -241,7 +241,7 @@ Did write_control(Access& a) {
   return Did::done;
 }
 Eval read_control(Access& a) { return give(a, a.number == 3003 ? a.in.state.control_3003 : a.in.state.control_3004); }
-Eval read_mirror(Access& a) { return give(a, a.in.state.mirror); }
+Eval read_mirror(Access& a) { return give(a, a.in.state.any_mirror()); }
 
 // ---- modal state ---------------------------------------------------------------------------------------------------------------
 

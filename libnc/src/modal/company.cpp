@@ -60,7 +60,7 @@ constexpr BarredRow kBarred[] = {
     {kInSpaceArc, 760, 760, Condition::space_arc_mode, "6.14"},
     {kInSpaceArc, 810, 890, Condition::space_arc_mode, "6.14"},
     // Fixed cycles and scaling are errors there, and so are the codes that end them. Those that begin them have their own checks.
-    {kInDiameterOffset, 500, 500, Condition::not_in_compensation, "DGSHAPE G41"},
+    {kInDiameterOffset, 500, 510, Condition::not_in_compensation, "DGSHAPE G41"},
     {kInDiameterOffset, 800, 800, Condition::cycle_in_compensation, "DGSHAPE G41"},
 };
 

@@ -67,6 +67,8 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::helix_option, "NC-ARC", nullptr},  // does not occur: helices are standard
     {C::plane_mismatch, "NC-PLANE", nullptr},
     {C::plane_in_compensation, "NC-OFFSET-CODE", nullptr},
+    {C::plane_in_rotation, "NC-NOT-BUILT", nullptr},  // these two do not occur: there is no G68
+    {C::space_conversion, "NC-NOT-BUILT", nullptr},
     {C::arc_in_compensation_start, "NC-OFFSET-START", nullptr},
     {C::no_offset_number, "NC-OFFSET-DATA", nullptr},
     {C::cycle_in_compensation, "NC-OFFSET-CODE", nullptr},

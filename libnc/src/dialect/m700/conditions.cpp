@@ -35,6 +35,8 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::helix_option, "P72", nullptr},   // 6.6
     {C::plane_mismatch, "P113", nullptr},
     {C::plane_in_compensation, "P112", nullptr},
+    {C::plane_in_rotation, "P111", nullptr},  // 13.20
+    {C::space_conversion, "P920", nullptr},   // 13.22
     {C::arc_in_compensation_start, "P151", nullptr},  // 12.4.1
     {C::no_offset_number, "P170", nullptr},
     {C::cycle_in_compensation, "P155", nullptr},

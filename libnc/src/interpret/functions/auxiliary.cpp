@@ -76,12 +76,13 @@ Did check_tool_pair(Interpreter& in) {
   return Did::done;
 }
 
-/// DGSHAPE 2: numbers "with no decimal point": codes, speeds, numbers of things; P and K where they are milliseconds, a number, a count.
+/// DGSHAPE 2: numbers "with no decimal point": codes, speeds, numbers of things; P (but the factor of G51) and K where they are
+/// milliseconds, a number, a count.
 Did check_whole_numbers(Interpreter& in) {
   const BlockWords& w = in.words;
   const bool cycle = w.cycle != nullptr || in.state.cycle.kind != CycleKind::none;
   const bool arc = w.motion != nullptr && w.motion->function != Function::rapid && w.motion->function != Function::linear;
-  const uint32_t whole = letters("MSTDHLP") | (cycle && !arc ? letters("K") : 0);
+  const uint32_t whole = letters("MSTDHL") | (w.one_shot != nullptr && w.one_shot->function == Function::scaling_on ? 0 : letters("P")) | (cycle && !arc ? letters("K") : 0);
   for (const Word& word : in.block->words)
     if (((whole >> (word.letter - 'A')) & 1) != 0 && (word.flags & kWordPoint) != 0)
       return in.raise(Condition::format_error, word.letter, word.value);

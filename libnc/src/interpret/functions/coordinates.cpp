@@ -7,6 +7,7 @@ namespace nc {
 Did select_work_system(Interpreter& in, const FunctionRow& row) {
   State& state = in.state;
   if (in.dialect->id == NC_DIALECT_DGSHAPE && state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', row.code / 10.0);
+  const AxisVec zero_before = in.zero();
   if (row.function == Function::work_system) {
     state.work_system = static_cast<uint16_t>(row.code / 10 - 54);
     state.modal.extended = 0;
@@ -20,6 +21,7 @@ Did select_work_system(Interpreter& in, const FunctionRow& row) {
     state.modal.extended = static_cast<uint16_t>(p);
   }
   state.modal.code[kGroupWork] = row.code;
+  keep_rotation_center(in, zero_before);
   return Did::done;
 }
 
@@ -42,12 +44,14 @@ Did do_coordinate_set(Interpreter& in) {
     const Did did = set_spindle_clamp(in);
     if (did != Did::done) return did;
   }
+  const AxisVec zero_before = in.zero();
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     // M700 14.5: the reading of the axis, compensation included, becomes the value; the shift is common to all systems.
     const double shift = in.frames.get(Frames::shift_key(i)) + in.state.machine[i] - in.frames.zero(in.state.work_system, i) - w.axis[i];
     in.set_table(Frames::shift_key(i), shift);
   }
+  keep_rotation_center(in, zero_before);
   return Did::done;
 }
 
@@ -56,7 +60,7 @@ Did do_coordinate_preset(Interpreter& in) {
   if (!in.settings.preset_allowed) return in.raise(Condition::illegal_g, 'G', 92.1);  // M700 14.12: list 1 only with #1267 bit 0
   // 14.12: not during scaling, coordinate rotation, mirror image by program.
   const int16_t* modal = in.state.modal.code;
-  if (modal[kGroupScaling] == 510 || modal[kGroupRotation] == 680 || in.state.mirror != 0) return in.raise(Condition::illegal_g, 'G', 92.1);
+  if (modal[kGroupScaling] == 510 || in.state.rotated || in.state.mirror != 0) return in.raise(Condition::illegal_g, 'G', 92.1);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     if (w.axis[i] != 0) return in.raise(Condition::value_range, in.system->axis[i].name, w.axis[i]);

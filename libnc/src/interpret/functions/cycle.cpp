@@ -85,7 +85,7 @@ void resolve_hole(Interpreter& in) {
   h.kind = c.kind;
   // As a coordinate of now: the zero point may have changed since the cycle was commanded. A tool length that comes into
   // force in between (also one that is pending, M700 12.2) displaces this level like every other end point.
-  h.initial = mirrored(in, c.drill_axis, c.initial_level - in.zero()[c.drill_axis]);  // levels as programmed; the mirror comes last
+  h.initial = programmed_on(in, c.drill_axis, c.initial_level - in.zero()[c.drill_axis]);  // levels as programmed; the maps come last
   if (!c.has_r) {
     h.r = h.initial;  // DGSHAPE: omitted R = initial level
   } else if (c.r_incremental) {
@@ -96,7 +96,7 @@ void resolve_hole(Interpreter& in) {
     h.r = c.r;
   }
   h.bottom = !c.has_z ? h.r : c.z_incremental ? h.r + c.z : c.z;
-  for (double* level : {&h.initial, &h.r, &h.bottom}) *level = mirrored(in, c.drill_axis, *level);  // M700 13.6
+  for (double* level : {&h.initial, &h.r, &h.bottom}) *level = mapped_on(in, c.drill_axis, *level);  // M700 13.6, 13.19
   h.return_to = in.state.modal.code[kGroupReturn] == 990 ? h.r : h.initial;
   h.q = c.q;
   h.dwell_s = c.dwell_s;

@@ -13,6 +13,12 @@ Did execute_one_shot(Interpreter& in);
 Did do_dwell(Interpreter& in);              // dwell.cpp
 Did do_data_input(Interpreter& in);         // data_input.cpp
 Did do_mirror(Interpreter& in);             // mirror.cpp
+Did do_scaling(Interpreter& in);            // scaling.cpp: G51
+Did do_rotation(Interpreter& in);           // scaling.cpp: G68
+void end_scaling(Interpreter& in);          ///< G50
+void end_rotation(Interpreter& in);         ///< G69
+/// The zero has moved, or another one is in force: the centre of rotation stays on the machine (M700 13.20 (5), (6)).
+void keep_rotation_center(Interpreter& in, const AxisVec& zero_before);
 Did begin_parameter_input(Interpreter& in); // parameter_input.cpp: G10 L70
 Did do_reference_return(Interpreter& in);   // reference.cpp
 Did do_second_reference(Interpreter& in);   // reference.cpp: G30

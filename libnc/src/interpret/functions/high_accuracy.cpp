@@ -14,7 +14,7 @@ bool refuses_command(const Interpreter& in) {
   const State& state = in.state;
   const int16_t* const modal = state.modal.code;
   return state.high_speed != 0 || state.fine_mode != FineMode::none || state.accuracy_command || modal[kGroupPolarCommand] != 150 ||
-         state.comp.side != 0 || modal[kGroupCompensation] != 400 || modal[kGroupLength] != 490 || modal[kGroupMirror] != 501 ||
+         state.comp.side != 0 || modal[kGroupCompensation] != 400 || modal[kGroupLength] != 490 || state.any_mirror() != 0 ||
          has_modal_call(in) || modal[kGroupFeed] != 940 || modal[kGroupSurfaceSpeed] != 970 || state.interrupt_on;
 }
 

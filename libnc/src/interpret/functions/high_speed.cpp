@@ -24,7 +24,7 @@ bool excluded(const State& state) {
 bool wrong_state(const Interpreter& in, FineMode mode) {
   const State& state = in.state;
   const int16_t* const modal = state.modal.code;
-  if (state.comp.side != 0 || modal[kGroupCompensation] != 400 || modal[kGroupMirror] != 501 || has_modal_call(in) ||
+  if (state.comp.side != 0 || modal[kGroupCompensation] != 400 || state.any_mirror() != 0 || has_modal_call(in) ||
       modal[kGroupRotation] != 690 || state.cycle.kind != CycleKind::none || modal[kGroupCycle] != 800 || state.interrupt_on)
     return true;
   if (mode != FineMode::accuracy1) return modal[kGroupCutting] != 640 || modal[kGroupFeed] != 940 || modal[kGroupSurfaceSpeed] != 970;

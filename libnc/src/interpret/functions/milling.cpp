@@ -19,7 +19,7 @@ Did check_modes_before(Interpreter& in, double code) {
   if (state.modal.code[kGroupSurfaceSpeed] == 960) return in.raise(Condition::mill_modal, 'G', code);
   if (state.modal.code[kGroupRotation] != 690) return in.raise(Condition::mill_modal, 'G', code);
   if (is_space_arc(state.modal.code[kGroupMotion])) return in.raise(Condition::mill_modal, 'G', code);  // 6.14 (a)
-  if (state.modal.code[kGroupMirror] != 501) return in.raise(Condition::mill_state, 'G', code);
+  if (state.any_mirror() != 0) return in.raise(Condition::mill_state, 'G', code);
   if (state.modal.code[kGroupNormalLine] != 401) return in.raise(Condition::mill_state, 'G', code);
   return Did::done;
 }

@@ -20,6 +20,8 @@ constexpr Handler kHandlers[] = {
     {Function::data_input_end, end_without_input},
     {Function::mirror_on, do_mirror},
     {Function::mirror_off, do_mirror},
+    {Function::scaling_on, do_scaling},
+    {Function::rotation_on, do_rotation},
     {Function::reference_return, do_reference_return},
     {Function::second_reference, do_second_reference},
     {Function::start_return, do_start_return},

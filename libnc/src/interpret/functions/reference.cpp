@@ -50,6 +50,7 @@ Did go_to_reference(Interpreter& in, unsigned which, AxisVec mid, uint32_t axes)
   const WithoutStrokeCheck from_here(in);
   move_to_place(in, place, axes);
   if (in.dialect->id == NC_DIALECT_M700) cancel_length_of(in, axes);
+  if (in.state.scaled != 0) end_scaling(in);  // M700 13.19, relation (2): at the intermediate point
   return Did::done;
 }
 
@@ -173,6 +174,7 @@ Did compare_reference(Interpreter& in) {
     in.fault.axis = static_cast<int8_t>(i);
     return Did::fault;
   }
+  if (in.state.scaled != 0) end_scaling(in);  // M700 13.19, relation (1)
   return Did::done;
 }
 

@@ -147,7 +147,7 @@ Did check_space_arc_block(Interpreter& in) {
   const int16_t* const modal = state.modal.code;
   const bool refused = modal[kGroupPolarCommand] == 160 || state.comp.side != 0 || modal[kGroupCompensation] != 400 ||
                        modal[kGroupNormalLine] != 401 || modal[kGroupLength] != 490 || modal[kGroupScaling] != 500 ||
-                       modal[kGroupMirror] != 501 || modal[kGroupMacro] != 670 || modal[kGroupRotation] != 690;
+                       state.any_mirror() != 0 || modal[kGroupMacro] != 670 || modal[kGroupRotation] != 690;
   return refused ? in.raise(Condition::space_arc_mode, 'G', code) : Did::done;
 }
 

@@ -106,7 +106,7 @@ Did move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool
   const bool type_2 = in.settings.spiral_type_2;
   if (type_2) {  // G02.1 and G03.1 are codes of type 1; no mirror image, no scaling
     const State& state = in.state;
-    if (state.modal.code[kGroupMotion] % 10 != 0 || state.modal.code[kGroupMirror] != 501 || state.modal.code[kGroupScaling] != 500)
+    if (state.modal.code[kGroupMotion] % 10 != 0 || state.any_mirror() != 0 || state.modal.code[kGroupScaling] != 500)
       return in.raise(Condition::illegal_g, 'G', code);
   }
   if (in.state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', code);
@@ -115,7 +115,10 @@ Did move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool
   for (unsigned i = 0; i < 2; ++i)
     if (w.has(plane.center[i])) center[i] = length_of(in, plane.center[i]);
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
-  if (program_mapped(in)) map_arc(in, h, v, center, &ccw);
+  if (program_mapped(in)) {
+    if (scaled_unevenly(in, h, v)) return in.raise(Condition::arc_deviation, 'G', code);  // 13.19 (4)
+    map_arc(in, h, v, center, &ccw);
+  }
   const MoveFrame frame = frame_of_move(in, target, commanded);
   const double from[2] = {frame.start[h], frame.start[v]}, to[2] = {frame.end[h], frame.end[v]};
   Spiral s = spiral_about(from, to, center, ccw);
