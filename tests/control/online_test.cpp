@@ -5,31 +5,12 @@
 
 #include <algorithm>
 
-#include "support/drive.hpp"
-#include "support/random_program.hpp"
+#include "online_helpers.hpp"
 
 namespace nc::test {
 namespace {
 
 constexpr uint32_t kPrograms = 40;
-
-std::function<void(nc_config&)> machine(uint32_t look_ahead) {
-  return [look_ahead](nc_config& c) {
-    c.look_ahead = look_ahead;
-    c.cycle_s = 0.004;
-    for (unsigned i = 0; i < 3; ++i) {
-      c.system[0].axis[i].rapid = 2000;
-      c.system[0].axis[i].max_velocity = 1500;
-      c.system[0].axis[i].max_acceleration = 50000;
-    }
-  };
-}
-
-void set_up(Bench& bench, const RandomProgram& program) {
-  for (unsigned n = 1; n <= 9; ++n) bench.tool(n, 0.2 * n);
-  bench.work_offset(1, {1, 2, 3}).param("8103", "1").param("8013", "0.5").param("8012", "0.3");
-  for (size_t i = 0; i < program.subs.size(); ++i) bench.add("O" + std::to_string(i + 1), program.subs[i]);
-}
 
 struct Executed {
   std::vector<nc_event> events;
@@ -41,16 +22,6 @@ struct Executed {
 struct Disturbance {
   bool hold = false, single = false, override_changes = false, slow_fin = false, recalculate = false;
 };
-
-/// Tools and common variables as a run has left them, as text.
-std::string left_by(Bench& bench) {
-  std::string all;
-  for (unsigned n = 1; n <= 20; ++n) all += brief(bench.tool_now(n)) + " ";
-  uint32_t number = 0;
-  double value = 0;
-  for (; nc_common_next(bench.control(), 0, number, &number, &value) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(value) + " ";
-  return all;
-}
 
 Executed execute(Bench& bench, const std::string& text, const Disturbance& disturb, uint32_t seed) {
   Drive drive(bench, text);
@@ -229,6 +200,36 @@ TEST(OnlineInterrupt, WithoutMovesTheRestOfTheBlockIsGone) {
   EXPECT_GT(stood_at, 5);
 }
 
+/// A skip move is cut like any other, and measures when it goes on.
+TEST(OnlineInterrupt, ASkipMoveGoesOnWhereItWasCut) {
+  for (const bool touches : {true, false}) {
+    Bench bench(NC_DIALECT_M700, kSlowMachine);
+    bench.add("O1000", "#100=#100+1\nM99\n");
+    bench.start("#100=0\nM96 P1000\nG31 X100. F3000\n#101=#5061\nG1 X0 F3000\nM30");
+    nc_inputs in{};
+    nc_outputs out{};
+    in.feed_override = in.rapid_override = 1;
+    double rested_at = 0, before = -1;
+    bool ended = false;
+    for (unsigned n = 0; n < 50000 && !ended; ++n) {
+      nc_feed(bench.control(), 50);
+      in.cycle_start = n == 2;
+      in.fin = out.strobe != 0;
+      in.macro_interrupt = out.command.v[0] > 20 && out.source.line == 3;
+      in.skip = touches && out.command.v[0] > 50 ? 1 : 0;
+      nc_cycle(bench.control(), &in, &out);
+      if (out.command.v[0] == before && before > 20 && before < 40) rested_at = before;
+      before = out.command.v[0];
+      nc_event event;
+      while (nc_event_poll(bench.control(), 0, &event, nullptr) == NC_OK) ended = ended || event.kind == NC_ITEM_END;
+    }
+    ASSERT_TRUE(ended);
+    EXPECT_EQ(bench.var_now(100), 1);
+    EXPECT_GT(rested_at, 20);
+    EXPECT_NEAR(bench.var_now(101), touches ? 50 : 100, touches ? 1 : 1e-6);
+  }
+}
+
 TEST(OnlineInterrupt, ADwellGoesOnWhereItWasCut) {
   Bench bench(NC_DIALECT_M700, kSlowMachine);
   bench.add("O1000", "#100=#100+1\nM99\n");
@@ -289,26 +290,6 @@ TEST(OnlineInterrupt, TheSameBlockAgainAndAgain) {
   ASSERT_EQ(ends.size(), moves.size());
   for (size_t i = 0; i < ends.size(); ++i)
     for (unsigned axis = 0; axis < 3; ++axis) EXPECT_NEAR(ends[i].v[axis], moves[i].machine.v[axis], 1e-9) << i;
-}
-
-/// The trace with the interrupts that the machine has seen: behind which item each came, and whether it cut the block behind that item.
-struct Seen {
-  uint64_t behind = 0;
-  bool inside = false;
-};
-
-/// The interrupts of a run: the items of the interrupt program (O1000) begin behind another item.
-std::vector<Seen> interrupts_of(const std::vector<nc_event>& events) {
-  std::vector<Seen> all;
-  for (size_t i = 1; i < events.size(); ++i) {
-    // What announces the interrupt has the source of the block before; the program's own items follow.
-    if (events[i].source.program != 1000 || events[i - 1].source.program == 1000 || i < 2) continue;
-    const nc_event &announced = events[i - 1], &before = events[i - 2];
-    bool moved = false;
-    for (unsigned axis = 0; axis < 3; ++axis) moved = moved || std::fabs(announced.machine.v[axis] - before.machine.v[axis]) > 1e-9;
-    all.push_back({before.serial, moved || before.kind != NC_ITEM_MARK});
-  }
-  return all;
 }
 
 Outcome trace_with(Bench& bench, const std::string& text, const std::vector<Seen>& interrupts) {
@@ -462,14 +443,6 @@ TEST(Online, ChangedDataActAfterARecalculation) {  // M700 4.2: from the next bl
   EXPECT_TRUE(changed);
   EXPECT_NEAR(out.command.v[0], 7, 1e-9);
   EXPECT_EQ(out.state, NC_STATE_IDLE);
-}
-
-/// Tool offsets, work offsets and common variables, as text.
-std::string tables(Bench& bench) {
-  std::string all = left_by(bench);
-  for (unsigned index = 0; index <= 6; ++index)
-    for (unsigned axis = 0; axis < 3; ++axis) all += brief(bench.work_offset_now(index, axis)) + " ";
-  return all;
 }
 
 /// Runs the program until a reset in cycle `cycles`; serial of the newest block end that was executed, 0: none.

@@ -156,7 +156,7 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   const bool rises = on && !uit_;
   uit_ = on;
   watch();
-  if (!(settings.interrupt_by_level ? on : rises) || !interpreter.interruptible()) return NC_OK;
+  if (!(settings.interrupt_by_level ? on : rises) || !interruptible()) return NC_OK;
   uit_pending_ = true;
   watch();
   // M700 13.12, type 1: at once. The item that was given out last is the one that is interrupted, unless it is done already; a contour
@@ -166,6 +166,7 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   commit_.take_back(pulled_ == ItemKind::move);
   if (interpreter.interrupt(commit_.machine(), 1, true)) {
     uit_pending_ = false;
+    uit_mode_ |= NC_INTERRUPT_IN_SERVICE;
     pulled_ = ItemKind::mark;
     looked_behind_ = kNowhere;
     *take_back = true;
@@ -182,7 +183,9 @@ bool PartSystem::begin_interrupt() {
   const Serial serial = last->serial;
   if (rewind(serial) != NC_OK) return false;
   uit_pending_ = false;
-  return interrupt_between();
+  if (!interrupt_between()) return false;
+  uit_mode_ |= NC_INTERRUPT_IN_SERVICE;
+  return true;
 }
 
 /// Behind the newest mark. A block that had been cut before may be the next one: then the machine is not where that block begins.
@@ -204,9 +207,10 @@ void PartSystem::interrupt_online() {
     interrupt_between();
     return;
   }
-  const auto items = static_cast<unsigned>(cut.done - commit_.serial());
+  const auto items = static_cast<unsigned>(cut.done - commit_.serial()) - cut.syncs;  // a sync is not executed again, but answered again
   cut_ = cut;
   if (interpreter.interrupt_inside(cut.machine, items)) {
+    forget_interrupt();  // of a block that had been cut before: what it has done is no part of the interrupt program
     commit_.go_on(cut.done, cut.machine);
   } else {  // M97 has come meanwhile: the block goes on
     interpreter.go_on_inside(items);
@@ -251,9 +255,9 @@ void PartSystem::drop_repeated() {
 nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   for (;;) {
     if (watched_) [[unlikely]] {
-      if (!interpreter.state.interrupt_on) uit_pending_ = false;
+      if ((uit_mode_ & NC_INTERRUPT_ENABLED) == 0) uit_pending_ = false;
       const bool wanted = uit_pending_ || (uit_ && interpreter.settings.interrupt_by_level);
-      if (wanted && pulled_ == ItemKind::mark && interpreter.interruptible()) begin_interrupt();
+      if (wanted && pulled_ == ItemKind::mark && interruptible()) begin_interrupt();
     }
     const Item* item = nullptr;
     const nc_status status = next(budget, &item);
@@ -291,6 +295,10 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     }
     if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
     if (item->kind == ItemKind::alarm) describe_alarm();
+    if (item->kind == ItemKind::action && item->action.kind == NC_ACTION_CONTROL && item->action.index == 96) {
+      uit_mode_ = static_cast<uint32_t>(item->action.value);
+      pulled_ = ItemKind::sync;  // M96 itself, and the way into an interrupt program and back: no block that can be cut
+    }
     take();
     return NC_OK;
   }
@@ -327,6 +335,9 @@ nc_status PartSystem::rewind(Serial serial) {
   open_sync_ = 0;
   finished_ = false;
   alarm_given_ = false;
+  uit_mode_ = 0;
+  if (interpreter.state.interrupt_on) uit_mode_ |= NC_INTERRUPT_ENABLED;
+  if (interpreter.state.interrupt_depth != 0) uit_mode_ |= NC_INTERRUPT_IN_SERVICE;
   clear_offset();
   if (point->offset.active) offset_.restore(point->offset);
   offset_idle_ = offset_.idle();
@@ -340,6 +351,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   interpreter.reset(keep_modal);
   interpreter.set_machine(machine);
   forget_interrupt();
+  uit_mode_ = 0;
   clear_offset();
   clear_staged();
   open_sync_ = 0;

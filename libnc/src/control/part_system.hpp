@@ -78,6 +78,8 @@ class PartSystem {
   bool read_again(Serial last);
   void displace(const AxisVec& machine);
   bool begin_interrupt();
+  /// Offline: a signal would be accepted behind what has been given out; what is read ahead of that does not count.
+  bool interruptible() const { return (uit_mode_ & (NC_INTERRUPT_ENABLED | NC_INTERRUPT_IN_SERVICE)) == NC_INTERRUPT_ENABLED && pulled_ < ItemKind::alarm; }
   bool interrupt_between();
   void drop_repeated();
   void interrupt_online();
@@ -114,6 +116,7 @@ class PartSystem {
   void watch() { watched_ = uit_ || uit_pending_ || drop_ != 0; }
   bool watched_ = false;                    ///< one of the three below is on: asked with every item
   bool uit_ = false, uit_pending_ = false;  ///< interrupt signal: level, and a request that waits for its place
+  uint32_t uit_mode_ = 0;                    ///< nc_interrupt_bits as given out
   ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
   unsigned drop_ = 0;                        ///< items to come that have been executed already
   bool resumes_ = false;                     ///< online: the item behind them has been half done, as cut_ says

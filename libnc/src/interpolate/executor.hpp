@@ -27,6 +27,7 @@ class ExecutorState;  ///< all members; defined in interpolate/executor_state.hp
 struct Cut {
   bool inside = false;   ///< a block, else behind the newest mark
   Serial done = 0;       ///< newest record that has been executed
+  unsigned syncs = 0;    ///< among those of the block
   AxisVec machine;
   double length = 0;     ///< of the move behind it that has been gone, mm
   double left = 0;       ///< of the dwell behind it, s or revolutions

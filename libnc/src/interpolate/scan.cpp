@@ -140,22 +140,22 @@ void Scan::interrupt(const nc_inputs& in) {
   cutting_ = interrupt_wanted_ && (interrupt_mode_ & NC_INTERRUPT_AT_ONCE) != 0 && state_ == NC_STATE_RUNNING && may_cut();
 }
 
-/// Type 1 stops at once, but not before FIN has come (M700 13.12), and not in a thread, a skip move, a contour (where blocks are not apart)
-/// or a block that has read something of the machine or changed what is asked here: these are finished first.
+/// Type 1 stops at once, but not before FIN has come (M700 13.12), and not in a thread, a contour (where blocks are not apart), a skip move
+/// whose signal has come, behind a skip move, or in a block that changes what is asked here: these are finished first.
 bool Scan::may_cut() const {
   if (!block_begun_ || block_waits_ || last_staged_ || (fin_wait() != 0 && !(suppress_ & 2))) return false;
   if (tail_ == plan_->end) return true;
   const Record& r = current();
   if (r.epoch != epoch_ || r.staged || r.kind == ItemKind::sync) return false;
   if (r.kind == ItemKind::mark) return false;  // it takes no time
-  return !(moving_ && (r.segment.thread || r.segment.skip));
+  return !(moving_ && (r.segment.thread || skip_braking_));
 }
 
 /// At rest inside the block: what is left of it is given up, and the feeder goes on with the interrupt program.
 void Scan::cut_block() {
   if (!may_cut()) return;  // the end of the block was nearer
   const bool begun = done_ != last_mark_ || law_.s > 0 || gate_begun_;  // else nothing of it has happened
-  cut_ = Cut{begun, done_, wanted_, moving_ ? law_.s : 0, gate_begun_ ? gate_left_ : 0};
+  cut_ = Cut{begun, done_, block_syncs_, wanted_, moving_ ? law_.s : 0, gate_begun_ ? gate_left_ : 0};
   cutting_ = interrupt_wanted_ = moving_ = gate_begun_ = false;
   law_.s = 0;
   interrupt_mode_ |= NC_INTERRUPT_IN_SERVICE;  // before the program says so: a signal in between is none
@@ -227,6 +227,7 @@ void Scan::start(const nc_inputs& in) {
       last_block_ = 0;
       done_ = 0;
       last_staged_ = block_waits_ = false;
+      block_syncs_ = 0;
       shared_->starts.fetch_add(1, std::memory_order_release);
       [[fallthrough]];
     case NC_STATE_STOPPED:
@@ -287,6 +288,7 @@ void Scan::run(const nc_inputs& in) {
       last_mark_ = r.serial;
       last_block_ = r.mark.seq;
       block_waits_ = false;
+      block_syncs_ = 0;
     }
     if (execute(r, in) == Done::no) break;
     leave(r, true);
@@ -305,7 +307,10 @@ void Scan::leave(const Record& r, bool executed) {
     shared_->events.push(event);
     done_ = r.serial;
     last_staged_ = r.staged;
-    if (r.kind == ItemKind::sync) block_waits_ = true;
+    if (r.kind == ItemKind::sync) {
+      ++block_syncs_;
+      block_waits_ = block_waits_ || (r.sync.what & NC_SYNC_SKIP) != 0;
+    }
   }
   if (r.kind == ItemKind::move && r.segment.curve.length > 0) ++ordinal_;
   ++tail_;

@@ -171,7 +171,8 @@ class Scan {
   bool interrupt_last_ = false;      ///< level of the signal
   bool interrupt_wanted_ = false;    ///< accepted: acts at the end of the block in execution, or at once
   bool cutting_ = false;             ///< on the way to rest inside a block
-  bool block_waits_ = false;         ///< the block in execution has read something of the machine
+  bool block_waits_ = false;         ///< the block in execution cannot be cut any more: its skip signal has been asked for, M96 or M97
+  unsigned block_syncs_ = 0;         ///< of the block in execution that have been answered
   bool last_staged_ = false;         ///< the newest record was of a contour
   Serial done_ = 0;                  ///< newest record that has been executed
   Cut cut_;
