@@ -7,6 +7,8 @@
 #include <fstream>
 #include <vector>
 
+#include "runtime/axis_shown.hpp"
+
 namespace nc::rt {
 namespace {
 
@@ -160,7 +162,7 @@ std::string progress_line(const Runtime& runtime, std::uint64_t lines) {
   else
     append(&text, "O%u:%-4u", source.program, source.line);
   for (unsigned a = 0; a < axes.axis_count; ++a)
-    append(&text, " %c%9.3f", axes.axis[a].name, system.nc.work.v[a]);
+    append(&text, " %c%9.3f", axes.axis[a].name, axis_shown(system.nc.work.v[a], info.work_turn[0], a));
   append(&text, "  F%-6.0f S%-6.0f T%-3u ", system.nc.feed_mm_min, system.spindle_rpm, system.nc.t);
   text += state_text(system.nc);
   if (snapshot.alarmed()) text += "  " + runtime.alarm_text(snapshot.alarms.alarm[0]);

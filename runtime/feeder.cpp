@@ -286,9 +286,26 @@ void Feeder::take_messages() {
   }
 }
 
+// Which axes are shown within one turn: those for which a turn more is none.
+void Feeder::take_turns(unsigned system) {
+  nc_axes machine, work;
+  for (unsigned a = 0; a < NC_MAX_AXES; ++a) machine.v[a] = work.v[a] = 360;
+  nc_->shown(system, &machine, &work);
+  std::uint32_t machine_turn = 0, work_turn = 0;
+  for (unsigned a = 0; a < NC_MAX_AXES; ++a) {
+    if (machine.v[a] == 0) machine_turn |= 1u << a;
+    if (work.v[a] == 0) work_turn |= 1u << a;
+  }
+  if (machine_turn == info_.machine_turn[system] && work_turn == info_.work_turn[system]) return;  // only this thread writes them
+  const std::lock_guard lock(mutex_);
+  info_.machine_turn[system] = machine_turn;
+  info_.work_turn[system] = work_turn;
+}
+
 // The modal state of the last finished block, for displays.
 void Feeder::take_modal() {
   for (unsigned s = 0; s < systems_; ++s) {
+    take_turns(s);
     const std::uint32_t id = seen_.system[s].nc.modal;
     if (id == modal_id_[s] && info_.modal_known[s]) continue;  // only this thread writes them
     nc_modal modal;

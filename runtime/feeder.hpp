@@ -52,6 +52,8 @@ struct FeederInfo {
   Selected selected[NC_MAX_SYSTEMS];
   bool modal_known[NC_MAX_SYSTEMS] = {};
   nc_modal modal[NC_MAX_SYSTEMS] = {};
+  // Bit a: axis a is shown within one turn, in machine and in workpiece coordinates (axis_shown.hpp).
+  std::uint32_t machine_turn[NC_MAX_SYSTEMS] = {}, work_turn[NC_MAX_SYSTEMS] = {};
 };
 
 // Enters the program of this name into the store: feeder thread, while nothing runs.
@@ -108,6 +110,7 @@ class Feeder {
   void take_messages();
   void take_alarm();
   void take_modal();
+  void take_turns(unsigned system);
   void rewind_ended();
 
   const unsigned systems_;

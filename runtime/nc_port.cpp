@@ -32,6 +32,9 @@ nc_status LibNc::modal(unsigned system, std::uint32_t id, nc_modal* modal) {
 nc_status LibNc::recalculate(unsigned system) {
   return nc_recalculate(control_, api_system(system));
 }
+void LibNc::shown(unsigned system, nc_axes* machine, nc_axes* work) {
+  nc_position_shown(control_, api_system(system), machine, work);
+}
 std::string LibNc::variables() {
   return executed_variables(control_);
 }

@@ -30,6 +30,10 @@ class NcPort {
     (void)system;
     return NC_OK;
   }
+  // Positions as the counters show them: changes what lies beyond one turn of a rotary axis that has only one.
+  virtual void shown(unsigned system, nc_axes* machine, nc_axes* work) {
+    (void)system, (void)machine, (void)work;
+  }
   // What the blocks that were executed have left, for the data that are kept while the power is off: the common variables
   // (runtime/retain/variables.hpp), offsets and parameters (runtime/retain/tables.hpp).
   virtual std::string variables() { return {}; }
@@ -51,6 +55,7 @@ class LibNc final : public NcPort {
   nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) override;
   nc_status text(unsigned system, std::uint32_t id, nc_text* text) override;
   nc_status recalculate(unsigned system) override;
+  void shown(unsigned system, nc_axes* machine, nc_axes* work) override;
   std::string variables() override;
   std::string tables() override;
 

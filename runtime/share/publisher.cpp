@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "runtime/axis_shown.hpp"
 #include "runtime/console.hpp"
 #include "runtime/share/segment.hpp"
 #include "runtime/share/text.hpp"
@@ -173,7 +174,8 @@ void Publisher::fill_system(unsigned index, const Snapshot& snapshot, const Feed
   out.run_s = nc.run_s;
   set_text(&out.modal, info.modal_known[index] ? modal_text(info.modal[index]) : std::string());
   for (unsigned a = 0; a < out.axis_count; ++a)
-    out.axis[a] = {nc.command.v[a], system.actual.v[a], nc.work.v[a], nc.distance_to_go.v[a], nc.velocity.v[a]};
+    out.axis[a] = {axis_shown(nc.command.v[a], info.machine_turn[index], a), axis_shown(system.actual.v[a], info.machine_turn[index], a),
+                   axis_shown(nc.work.v[a], info.work_turn[index], a), nc.distance_to_go.v[a], nc.velocity.v[a]};
   fill_block(index, nc, info, &out);
 }
 

@@ -115,6 +115,20 @@ TEST_F(SharePublisher, ShowsTheMachine) {
   EXPECT_EQ(text_of(machine.point[1].name), "pallet");
 }
 
+// M700 14.13: the counters of a rotating axis stay within one turn while the axis counts on.
+TEST_F(SharePublisher, ShowsARotatingAxisWithinOneTurn) {
+  select("G90 G0 C350.\nG91 C100.\nM30\n");
+  ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(20000);
+  EXPECT_NEAR(look().system[0].axis[1].commanded, 450, 1e-6);  // #8213 = 3: all linear
+  ASSERT_EQ(nc_parameter_set(runtime_->control(), 0, "8213", 'C', "1"), NC_OK);
+  steps(10);
+  const SystemStatus shown = look().system[0];
+  EXPECT_NEAR(shown.axis[1].commanded, 90, 1e-6);
+  EXPECT_NEAR(shown.axis[1].actual, 90, 1e-3);
+  EXPECT_NEAR(shown.axis[1].work, 90, 1e-6);
+}
+
 TEST_F(SharePublisher, ShowsTheBlockInExecution) {
   select("G90\n#1100=1\nN7 G1 X50. F1200.\nM30\n");
   ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
