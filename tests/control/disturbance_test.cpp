@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Macro interrupts, input changes and resets at random points of random macro programs, all in one run: what the machine has executed
-// until the reset is what the trace with the same events executes, what the reset leaves is the same, and so is the run after it.
+// Macro interrupts, input changes and resets at random points of random macro programs, all in one run: what
+// the machine has executed until the reset is what the trace with the same events executes, what the reset
+// leaves is the same, and so is the run after it.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -25,7 +26,8 @@ std::string with_reads(std::string text) {
   for (size_t at; (at = text.find("#3001")) != std::string::npos;) text.replace(at, 5, "#1033");
   // Blocks that read the machine and move: cut, they must go on with what they have read.
   for (size_t at = 0; (at = text.find("G1 X", at)) != std::string::npos; at += 4)
-    if (text.compare(at, 5, "G1 X[") != 0 && text.find('.', at) < text.find_first_of(" \n", at + 3)) text.insert(text.find_first_of(" \n", at + 3), "+#1000");
+    if (text.compare(at, 5, "G1 X[") != 0 && text.find('.', at) < text.find_first_of(" \n", at + 3))
+      text.insert(text.find_first_of(" \n", at + 3), "+#1000");
   return text;
 }
 
@@ -85,7 +87,8 @@ Outcome trace_machine(Bench& bench, MachineRun& run) {
     if (traced.status == NC_BUDGET) continue;
     if (traced.status != NC_OK) break;
     bool take_back = false, ignored = false;
-    if (next < interrupts.size() && step.item.serial == interrupts[next].behind + (interrupts[next].inside ? 1 : 0)) {
+    if (next < interrupts.size() &&
+        step.item.serial == interrupts[next].behind + (interrupts[next].inside ? 1 : 0)) {
       ++next;
       nc_interrupt_signal(bench.control(), 0, true, &take_back);
       nc_interrupt_signal(bench.control(), 0, false, &ignored);
@@ -103,10 +106,12 @@ std::string around(const MachineRun& run, const Outcome& traced, size_t at) {
   for (size_t i = at < 6 ? 0 : at - 6; i < at + 4 && i < run.events.size() && i < traced.steps.size(); ++i) {
     const nc_event& e = run.events[i];
     const nc_item& t = traced.steps[i].item;
-    text += "\n#" + std::to_string(e.serial) + " kind " + std::to_string(e.kind) + " O" + std::to_string(e.source.program) + " line " +
-            std::to_string(e.source.line) + " X" + brief(e.machine.v[0]) + " Y" + brief(e.machine.v[1]) + " Z" + brief(e.machine.v[2]) +
-            "   traced #" + std::to_string(t.serial) + " kind " + std::to_string(t.kind) + " O" + std::to_string(t.source.program) + " line " +
-            std::to_string(t.source.line) + " X" + brief(traced.steps[i].machine.v[0]);
+    text += "\n#" + std::to_string(e.serial) + " kind " + std::to_string(e.kind) + " O" +
+            std::to_string(e.source.program) + " line " + std::to_string(e.source.line) + " X" +
+            brief(e.machine.v[0]) + " Y" + brief(e.machine.v[1]) + " Z" + brief(e.machine.v[2]) +
+            "   traced #" + std::to_string(t.serial) + " kind " + std::to_string(t.kind) + " O" +
+            std::to_string(t.source.program) + " line " + std::to_string(t.source.line) + " X" +
+            brief(traced.steps[i].machine.v[0]);
   }
   return text;
 }
@@ -120,7 +125,8 @@ void expect_same(const MachineRun& run, const Outcome& traced) {
     ASSERT_EQ(event.source.line, step.item.source.line) << around(run, traced, i);
     ASSERT_EQ(event.source.program, step.item.source.program) << around(run, traced, i);
     if (event.kind != NC_ITEM_MOVE) continue;  // between, the machine stands where it was cut
-    for (unsigned axis = 0; axis < 3; ++axis) ASSERT_NEAR(event.machine.v[axis], step.machine.v[axis], 1e-9) << around(run, traced, i);
+    for (unsigned axis = 0; axis < 3; ++axis)
+      ASSERT_NEAR(event.machine.v[axis], step.machine.v[axis], 1e-9) << around(run, traced, i);
   }
   ASSERT_EQ(run.events.size(), traced.steps.size()) << around(run, traced, traced.steps.size());
 }
@@ -138,7 +144,9 @@ TEST(Disturbance, InterruptsInputsAndResetsTogether) {
       bench.param("1174", "100");
       // Nowhere where a move of the program may have been cut: a move of no length is none.
       bench.add("O1000", std::string("#199=#199+1\n#198=#1000+#1034\nIF[#1001 EQ 1] GOTO 5\n") +
-                             (moves ? "G90 G49 G80 G40 G0 X[#199+0.00037] Y[5+#198] Z30.\nM7\n" : "#197=#1035\nG91 F1\n") + "N5 M99\n");
+                             (moves ? "G90 G49 G80 G40 G0 X[#199+0.00037] Y[5+#198] Z30.\nM7\n"
+                                    : "#197=#1035\nG91 F1\n") +
+                             "N5 M99\n");
       bench.param("1229/bit0", "1").param("1113", seed % 5 == 0 ? "1" : "0");
     };
     Bench online(NC_DIALECT_M700, machine(seed % 2 == 0 ? 64 : 256)), offline(NC_DIALECT_M700, machine(256));

@@ -9,14 +9,20 @@
 namespace nc::test {
 namespace {
 
-double x_of(const Outcome& run, size_t move) { return run.moves().at(move).machine.v[0]; }
-double y_of(const Outcome& run, size_t move) { return run.moves().at(move).machine.v[1]; }
+double x_of(const Outcome& run, size_t move) {
+  return run.moves().at(move).machine.v[0];
+}
+double y_of(const Outcome& run, size_t move) {
+  return run.moves().at(move).machine.v[1];
+}
 
 TEST(Scaling, AxesWithACentreAndTheirArcs) {
   Bench bench;
-  const Outcome run = bench.run("G51 X10. Y-20. P1.5\nG0 X30. Y0 Z5.\nG3 X10. Y20. R20. F100\nG2 X30. Y0 J-20.\nG50\nG0 X30. Y0\nM30");
+  const Outcome run = bench.run(
+      "G51 X10. Y-20. P1.5\nG0 X30. Y0 Z5.\nG3 X10. Y20. R20. F100\nG2 X30. Y0 J-20.\nG50\nG0 X30. Y0\nM30");
   EXPECT_EQ(run.alarm, "");
-  EXPECT_EQ(run.path(), (Path{"rapid 40 10 5", "ccw 10 40 5 c10,10 F100", "cw 40 10 5 c10,10 F100", "rapid 30 0 5"}));
+  EXPECT_EQ(run.path(),
+            (Path{"rapid 40 10 5", "ccw 10 40 5 c10,10 F100", "cw 40 10 5 c10,10 F100", "rapid 30 0 5"}));
 }
 
 TEST(Scaling, FactorByPointByUnitAndByParameter) {
@@ -35,7 +41,8 @@ TEST(Scaling, FactorByPointByUnitAndByParameter) {
 
 TEST(Scaling, IncrementsAndAnIncrementalCentre) {
   Bench bench;
-  EXPECT_EQ(bench.run("G0 X10.\nG91 G51 X5. P2.\nG90 G0 X20.\nG91 X1.\nM30").path(), (Path{"rapid 10 0 0", "rapid 25 0 0", "rapid 27 0 0"}));
+  EXPECT_EQ(bench.run("G0 X10.\nG91 G51 X5. P2.\nG90 G0 X20.\nG91 X1.\nM30").path(),
+            (Path{"rapid 10 0 0", "rapid 25 0 0", "rapid 27 0 0"}));
 }
 
 TEST(Scaling, CyclesAreScaledAlongTheDrillToo) {
@@ -56,7 +63,8 @@ TEST(Scaling, ReferenceReturnEndsIt) {
   Bench bench;
   const Outcome run = bench.run("G51 X0 Y0 P2.\nG28 X15. Y10.\nG0 X3.\nM30");
   EXPECT_EQ(run.path(), (Path{"rapid 30 20 0", "rapid 0 0 0", "rapid 3 0 0"}));
-  EXPECT_EQ(bench.at(5, 0, 0).run("G51 X5. P2.\nG27 X2.5\nG0 X3.\nM30").path(), (Path{"rapid 0 0 0", "rapid 3 0 0"}));
+  EXPECT_EQ(bench.at(5, 0, 0).run("G51 X5. P2.\nG27 X2.5\nG0 X3.\nM30").path(),
+            (Path{"rapid 0 0 0", "rapid 3 0 0"}));
 }
 
 TEST(Scaling, TheCentreFollowsTheZero) {  // (6), relation (4)
@@ -80,10 +88,12 @@ TEST(Scaling, AFigureHasItsCentreAndRadiusScaled) {  // relation (5)
 
 TEST(Scaling, Dgshape) {
   Bench bench(NC_DIALECT_DGSHAPE);
-  EXPECT_EQ(bench.run("%\nG90 G21\nG51 X10. Y10. Z0 P2.5\nG0 X20. Y30. Z-4.\nG50\nX20.\nM02\n%\n").path(), (Path{"rapid 35 60 -10", "rapid 20 60 -10"}));
+  EXPECT_EQ(bench.run("%\nG90 G21\nG51 X10. Y10. Z0 P2.5\nG0 X20. Y30. Z-4.\nG50\nX20.\nM02\n%\n").path(),
+            (Path{"rapid 35 60 -10", "rapid 20 60 -10"}));
   // A centre that is not given is where the tool stands; the factor is held within 0.001 and 999.999.
   EXPECT_EQ(bench.at(10, 0, 0).run("%\nG51 Y0 P2.\nG0 X15. Z1.\nM02\n%\n").path(), (Path{"rapid 20 0 2"}));
-  EXPECT_EQ(bench.at(0, 0, 0).run("%\nG51 X0 P5000.\nG0 X0.5\nM02\n%\n").path(), (Path{"rapid 499.9995 0 0"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("%\nG51 X0 P5000.\nG0 X0.5\nM02\n%\n").path(),
+            (Path{"rapid 499.9995 0 0"}));
   EXPECT_EQ(bench.run("%\nG51 X0\nM02\n%\n").alarm, "NC-WORDS");
   bench.tool(1, 1, NC_TOOL_RADIUS);
   EXPECT_EQ(bench.at(0, 0, 0).run("%\nG41 D1\nG1 X10. F100\nG51 X0 P2.\nM02\n%\n").alarm, "NC-OFFSET-CODE");
@@ -91,9 +101,12 @@ TEST(Scaling, Dgshape) {
 
 TEST(Rotation, AbsoluteIncrementalAndTheModalAngle) {
   Bench bench;
-  Outcome run = bench.run("G68 X10. Y0 R90.\nG0 X20. Y0\nG91 X5.\nG90 G69\nG0 X0 Y0\nG68 X0 Y0\nG0 X1.\nG91 G68 R90.\nG90 G0 X1. Y0\nM30");
+  Outcome run = bench.run(
+      "G68 X10. Y0 R90.\nG0 X20. Y0\nG91 X5.\nG90 G69\nG0 X0 Y0\nG68 X0 Y0\nG0 X1.\nG91 G68 R90.\nG90 G0 X1. "
+      "Y0\nM30");
   EXPECT_EQ(run.alarm, "");
-  EXPECT_EQ(run.path(), (Path{"rapid 10 10 0", "rapid 10 15 0", "rapid 0 0 0", "rapid 0 1 0", "rapid -1 2 0"}));
+  EXPECT_EQ(run.path(),
+            (Path{"rapid 10 10 0", "rapid 10 15 0", "rapid 0 0 0", "rapid 0 1 0", "rapid -1 2 0"}));
 }
 
 TEST(Rotation, ArcsTurnWithTheirCentre) {
@@ -104,7 +117,9 @@ TEST(Rotation, ArcsTurnWithTheirCentre) {
 
 TEST(Rotation, PrintedExample) {  // 13.20: the holes of the sub program, in the local system
   Bench bench;
-  const Outcome run = bench.run("G28 X0 Y0\nG54 G52 X200. Y100.\nG68 X-100. Y0 R60.\nM98 H101\nG69\nG54 G52 X0 Y0\nM2\nN101 G0 X-100. Y-40.\nG0 Y40.\nM99\n");
+  const Outcome run = bench.run(
+      "G28 X0 Y0\nG54 G52 X200. Y100.\nG68 X-100. Y0 R60.\nM98 H101\nG69\nG54 G52 X0 Y0\nM2\nN101 G0 X-100. "
+      "Y-40.\nG0 Y40.\nM99\n");
   ASSERT_EQ(run.alarm, "");
   ASSERT_EQ(run.moves().size(), 2u);
   EXPECT_NEAR(x_of(run, 0), 200 - 65.359, 1e-3);
@@ -116,10 +131,13 @@ TEST(Rotation, PrintedExample) {  // 13.20: the holes of the sub program, in the
 TEST(Rotation, TheCentreFollowsAnOffsetAndNothingElse) {  // (4), (5), (6)
   Bench bench;
   bench.work_offset(2, {100, 0, 0});
-  EXPECT_EQ(bench.run("G68 X10. Y0 R90.\nG55 G0 X0 Y0\nM30").path(), (Path{"rapid 10 90 0"}));   // the machine's 10 is -90 of G55
-  EXPECT_EQ(bench.at(0, 0, 0).run("G68 X10. Y0 R90.\nG10 L2 P1 X5.\nG0 X20. Y0\nM30").path(), (Path{"rapid 15 10 0"}));
+  EXPECT_EQ(bench.run("G68 X10. Y0 R90.\nG55 G0 X0 Y0\nM30").path(),
+            (Path{"rapid 10 90 0"}));  // the machine's 10 is -90 of G55
+  EXPECT_EQ(bench.at(0, 0, 0).run("G68 X10. Y0 R90.\nG10 L2 P1 X5.\nG0 X20. Y0\nM30").path(),
+            (Path{"rapid 15 10 0"}));
   bench.work_offset(1, {0, 0, 0});
-  EXPECT_EQ(bench.at(0, 0, 0).run("G68 X10. Y0 R90.\nG92 X50.\nG0 X60. Y0\nM30").path(), (Path{"rapid 10 0 0"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("G68 X10. Y0 R90.\nG92 X50.\nG0 X60. Y0\nM30").path(),
+            (Path{"rapid 10 0 0"}));
 }
 
 TEST(Rotation, CompensationIsThatOfTheTurnedPath) {
@@ -152,7 +170,10 @@ TEST(Rotation, WhatIsRefused) {
 
 TEST(Rotation, Variables) {  // #30060 to #30066
   Bench bench;
-  const Outcome run = bench.run("G18\nG68 Z3. X4. R30.\n#100=#30060\n#101=#30061\n#102=#30062\n#103=#30063\n#104=#30064\n#105=#30065\n#106=#30066\n#107=#4016\nM30");
+  const Outcome run = bench.run(
+      "G18\nG68 Z3. X4. "
+      "R30.\n#100=#30060\n#101=#30061\n#102=#30062\n#103=#30063\n#104=#30064\n#105=#30065\n#106=#30066\n#107="
+      "#4016\nM30");
   EXPECT_EQ(run.alarm, "");
   const double expected[] = {3, 1, 3, 4, 30, 0.5, std::sqrt(0.75), 68};
   for (uint32_t i = 0; i < 8; ++i) EXPECT_NEAR(run.var(100 + i), expected[i], 1e-9) << i;
@@ -169,7 +190,8 @@ TEST(Rotation, AnInterruptProgramGivesItBack) {  // 13.12: modal state is restor
       bool take_back = false;
       nc_interrupt_signal(bench.control(), 0, true, &take_back);
     }
-    if (step.item.kind == NC_ITEM_MOVE) moved.push_back(brief(step.machine.v[0]) + " " + brief(step.machine.v[1]));
+    if (step.item.kind == NC_ITEM_MOVE)
+      moved.push_back(brief(step.machine.v[0]) + " " + brief(step.machine.v[1]));
   }
   EXPECT_EQ(moved, (Path{"0 2", "0 20"}));
 }

@@ -23,9 +23,10 @@ std::string iso(const std::string& text) {
 
 /// In EIA code, for the characters that the tests use.
 std::string eia(const std::string& text) {
-  static const std::map<char, int> kRows = {
-      {'0', 0x20}, {'1', 0x01}, {'2', 0x02}, {'3', 0x13}, {'4', 0x04}, {'5', 0x15}, {'9', 0x19}, {'F', 0x76}, {'G', 0x67},  {'M', 0x54},
-      {'X', 0x37}, {'Y', 0x38}, {'Z', 0x29}, {'-', 0x40}, {'.', 0x6b}, {'(', 0x1a}, {')', 0x4a}, {' ', 0x10}, {'\n', 0x80}, {'%', 0x0b}};
+  static const std::map<char, int> kRows = {{'0', 0x20}, {'1', 0x01}, {'2', 0x02}, {'3', 0x13},  {'4', 0x04},
+                                            {'5', 0x15}, {'9', 0x19}, {'F', 0x76}, {'G', 0x67},  {'M', 0x54},
+                                            {'X', 0x37}, {'Y', 0x38}, {'Z', 0x29}, {'-', 0x40},  {'.', 0x6b},
+                                            {'(', 0x1a}, {')', 0x4a}, {' ', 0x10}, {'\n', 0x80}, {'%', 0x0b}};
   std::string rows;
   for (const char c : text) rows += static_cast<char>(kRows.at(c));
   return rows;
@@ -45,9 +46,9 @@ TEST(Tape, TheLabelIsNotRead) {
   const Outcome text = run_tape(bench, kText, NC_TAPE_TEXT);
   EXPECT_EQ(text.alarm, "");
   EXPECT_EQ(text.path(), (Path{"rapid 10 -20 0", "line 10 -20 -5 F500"}));
-  EXPECT_EQ(text.lines(), (std::vector<unsigned>{2, 3, 4}));  // lines of the file
+  EXPECT_EQ(text.lines(), (std::vector<unsigned>{2, 3, 4}));                         // lines of the file
   EXPECT_EQ(bench.at(0, 0, 0).run("G00 X1. M30\n%").path(), (Path{"rapid 1 0 0"}));  // a text has no label
-  EXPECT_EQ(run_tape(bench, "G00 X1. M30", NC_TAPE_TEXT).alarm, "P36");  // all of it is the label
+  EXPECT_EQ(run_tape(bench, "G00 X1. M30", NC_TAPE_TEXT).alarm, "P36");              // all of it is the label
 }
 
 TEST(Tape, RowsOfBothCodes) {
@@ -61,14 +62,17 @@ TEST(Tape, RowsOfBothCodes) {
   // Leader and deleted rows are nothing, CR LF is the end of a block as LF is.
   const std::string blanks(40, '\0');
   bench.at(0, 0, 0);
-  const Outcome leader = run_tape(bench, blanks + iso("\r\nG00 X1\r\nG0 Y2.") + "\xff" + blanks + iso("\r\nM30\r\n%") + blanks, NC_TAPE_ISO);
+  const Outcome leader =
+      run_tape(bench, blanks + iso("\r\nG00 X1\r\nG0 Y2.") + "\xff" + blanks + iso("\r\nM30\r\n%") + blanks,
+               NC_TAPE_ISO);
   EXPECT_EQ(leader.alarm, "");
   EXPECT_EQ(leader.path(), (Path{"rapid 0.001 0 0", "rapid 0.001 2 0"}));
 }
 
 TEST(Tape, ARowWithAWrongNumberOfHoles) {
   const std::string good = iso(kText);
-  for (const char* where : {"X10", "CUT", "Z-5"}) {  // in a comment, too: it is part of the significant section
+  for (const char* where :
+       {"X10", "CUT", "Z-5"}) {  // in a comment, too: it is part of the significant section
     std::string bad = good;
     bad[std::string(kText).find(where) + 1] ^= 0x10;
     Bench bench;

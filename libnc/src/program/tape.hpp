@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs that are images of a punched tape, one byte for each row of holes (M700 3.1, 3.6): rows to characters, the label in front
-// of the significant section, the parity of rows and blocks.
+// Programs that are images of a punched tape, one byte for each row of holes (M700 3.1, 3.6): rows to
+// characters, the label in front of the significant section, the parity of rows and blocks.
 //
 // A row becomes exactly one character, so that offsets into the tape are offsets into the text.
 #pragma once
@@ -14,7 +14,8 @@ namespace nc {
 
 /// What a row with a wrong number of holes becomes; no other character of a tape has this code.
 inline constexpr char kBadRow = '\x80';
-/// What a row that is always ignored becomes (codes B of 3.1): blank, and not counted in the parity of a block.
+/// What a row that is always ignored becomes (codes B of 3.1): blank, and not counted in the parity of a
+/// block.
 inline constexpr char kIgnoredRow = '\r';
 
 /// `size` rows from `offset` on, in place.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scaling G50 G51 (M700 13.19) and coordinate rotation by program G68 G69 (13.20). What they make of a point: program_map.cpp.
+// Scaling G50 G51 (M700 13.19) and coordinate rotation by program G68 G69 (13.20). What they make of a point:
+// program_map.cpp.
 #include <cmath>
 #include <numbers>
 
@@ -24,7 +25,8 @@ bool factor_of(const Interpreter& in, double* factor) {
   return true;
 }
 
-/// DGSHAPE G51: one factor for X, Y and Z, held within its range; a centre that is not given is where the tool stands.
+/// DGSHAPE G51: one factor for X, Y and Z, held within its range; a centre that is not given is where the
+/// tool stands.
 Did scale_dgshape(Interpreter& in) {
   const BlockWords& w = in.words;
   if (!w.has('P')) return in.raise(Condition::words_missing, 'P');
@@ -73,10 +75,13 @@ Did do_rotation(Interpreter& in) {
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise(Condition::plane_mismatch, 'G', 68);
   for (const FunctionRow* row : w.g)
-    if (row->group == kGroupPlane) return in.raise(Condition::plane_in_rotation, 'G', row->code / 10.0);  // (13): not in the same block
-  if (w.has('R')) {  // (4), (5)
+    if (row->group == kGroupPlane)
+      return in.raise(Condition::plane_in_rotation, 'G', row->code / 10.0);  // (13): not in the same block
+  if (w.has('R')) {                                                          // (4), (5)
     const double r = length_value(in, w.get('R'), w.flags['R' - 'A'], true, true);
-    const double before = in.state.modal.code[kGroupDistance] == 910 ? in.notes.get(Notes::rotation_key(Notes::kRotationAngle)) : 0;
+    const double before = in.state.modal.code[kGroupDistance] == 910
+                              ? in.notes.get(Notes::rotation_key(Notes::kRotationAngle))
+                              : 0;
     in.set_note(Notes::rotation_key(Notes::kRotationAngle), std::fmod(before + r, 360));
   }
   const AxisVec at = in.position();
