@@ -161,6 +161,8 @@ TEST(Rotation, ScalingInItHasItsCentreTurned) {  // 13.19, relation (7)
 TEST(Rotation, WhatIsRefused) {
   Bench bench;
   EXPECT_EQ(bench.run("G68 X0 Y0 R30.\nG18\nM30").alarm, "P111");
+  for (const char* block : {"G4 X1. G68 X0 Y0 R5.", "G68 X0 Y0 R5. G4 X1.", "G51 X0 P2. G28 X0", "G51 G68 X0 Y0"})
+    EXPECT_EQ(bench.run(std::string(block) + "\nM30").alarm, "P33") << block;
   EXPECT_EQ(bench.run("G17 G68 X0 Y0 R30.\nM30").alarm, "P111");
   EXPECT_EQ(bench.run("G68 X0 Y0 Z0 I1 J0 K0 R30.\nM30").alarm, "P920");
   EXPECT_EQ(bench.run("G68 X0 Y0 R30.\nG92.1 X0\nM30").alarm, "P34");

@@ -33,6 +33,9 @@ Did check_modes(Interpreter& in, const FunctionRow& row, double value) {
   return bad == Condition::none ? Did::done : in.raise(bad, 'G', value);
 }
 
+/// G51, G68: appendix 2 has no row for them, so whose the words would be beside another such code is not said.
+bool shares_no_words(Function function) { return function == Function::scaling_on || function == Function::rotation_on; }
+
 /// Files a G code under what it is.
 Did take_g(Interpreter& in, double value) {
   const FunctionRow* row = nullptr;
@@ -66,9 +69,13 @@ Did take_g(Interpreter& in, double value) {
     case Function::macro_modal:
     case Function::macro_every_block:
     case Function::stroke_check_on:
+      w.one_shot = row;  // takes the words of the block though it is modal
+      w.one_shot_code = static_cast<int16_t>(code);
+      return Did::done;
     case Function::scaling_on:
     case Function::rotation_on:
-      w.one_shot = row;  // takes the words of the block though it is modal
+      if (w.one_shot != nullptr) return in.raise(Condition::format_error, 'G', value);
+      w.one_shot = row;
       w.one_shot_code = static_cast<int16_t>(code);
       return Did::done;
     case Function::mirror_on:
@@ -80,6 +87,7 @@ Did take_g(Interpreter& in, double value) {
     default: break;
   }
   if (row->group == kGroupOneShot || row->group == kGroupInterpolationMode) {
+    if (w.one_shot != nullptr && shares_no_words(w.one_shot->function)) return in.raise(Condition::format_error, 'G', value);
     w.one_shot = row;
     w.one_shot_code = static_cast<int16_t>(code);
   } else if (row->group == kGroupMotion) {
