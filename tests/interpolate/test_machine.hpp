@@ -146,9 +146,16 @@ class LimitChecker {
           const double ratio = std::fabs(a) / l.acceleration;
           if (ratio > worst_acceleration) {
             worst_acceleration = ratio;
-            worst_cycle = count_;
-            worst_axis = i;
+            if (ratio > worst_jerk) worst_cycle = count_, worst_axis = i;
           }
+          if (count_ >= 3 && l.jerk > 0) {
+            const double jerk = std::fabs(a - acceleration_[i]) / dt / l.jerk;
+            if (jerk > worst_jerk) {
+              worst_jerk = jerk;
+              if (jerk > worst_acceleration) worst_cycle = count_, worst_axis = i;
+            }
+          }
+          acceleration_[i] = a;
         }
         velocity_[i] = v;
       }
@@ -157,20 +164,20 @@ class LimitChecker {
     rapid_ = out.rapid;
     ++count_;
   }
-  bool ok() const { return worst_velocity <= 1.001 && worst_acceleration <= 1.001; }
+  bool ok() const { return worst_velocity <= 1.001 && worst_acceleration <= 1.001 && worst_jerk <= 1.001; }
   std::string report() const {
     std::ostringstream s;
-    s << "velocity " << worst_velocity << " x limit, acceleration " << worst_acceleration
+    s << "velocity " << worst_velocity << " x limit, acceleration " << worst_acceleration << " x limit, jerk " << worst_jerk
       << " x limit in cycle " << worst_cycle << " on axis " << worst_axis;
     return s.str();
   }
-  double worst_velocity = 0, worst_acceleration = 0;
+  double worst_velocity = 0, worst_acceleration = 0, worst_jerk = 0;  ///< jerk: of axes that have a limit of it
   uint64_t worst_cycle = 0;
   unsigned worst_axis = 0;
 
  private:
   ExecutorConfig config_;
-  double last_[kMaxAxes] = {}, velocity_[kMaxAxes] = {};
+  double last_[kMaxAxes] = {}, velocity_[kMaxAxes] = {}, acceleration_[kMaxAxes] = {};
   uint64_t count_ = 0;
   bool rapid_ = false;
 };

@@ -37,6 +37,12 @@ typedef struct nc_system_config {
 } nc_system_config;
 
 /** What a control is. Fill with nc_config_init(), then change what differs. */
+/** How the machine moves along the path. */
+typedef enum nc_motion_mode {
+  NC_MOTION_TRAPEZOID = 0, /**< axis velocity and acceleration; jerk is not limited */
+  NC_MOTION_OPTIMAL = 1    /**< the least time that keeps velocity, acceleration and jerk of every axis; each axis needs all three */
+} nc_motion_mode;
+
 typedef struct nc_config {
   uint32_t struct_size;    /**< sizeof(nc_config), set by nc_config_init() */
   uint8_t dialect;         /**< nc_dialect */
@@ -51,6 +57,8 @@ typedef struct nc_config {
   bool extended_variables; /**< #900000-#907399 of later models; default false */
   uint32_t window_bytes;   /**< text window per part system, 512..16777216; default 65536 */
   double max_feed_override; /**< largest value of nc_inputs::feed_override, default 2.0 */
+  uint8_t motion_mode;     /**< nc_motion_mode; default NC_MOTION_TRAPEZOID */
+  double path_tolerance;   /**< NC_MOTION_OPTIMAL: lines leave the programmed path by this at most, mm; default 0.01 */
 } nc_config;
 
 /** Set every field to its default: M700, one part system with X Y Z without limits. */

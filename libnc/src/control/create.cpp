@@ -29,6 +29,19 @@ bool axes_valid(const nc_system_config& system) {
 /// M700 13.4.
 bool is_option(uint32_t variable_sets) { return variable_sets == 100 || variable_sets == 200 || variable_sets == 300 || variable_sets == 600; }
 
+/// The optimal law needs a limit of each kind on every axis.
+bool motion_valid(const nc_config& c) {
+  if (c.motion_mode == NC_MOTION_TRAPEZOID) return true;
+  if (c.motion_mode != NC_MOTION_OPTIMAL || !(c.path_tolerance >= 1e-5) || !(c.path_tolerance <= 10)) return false;
+  for (unsigned i = 0; i < c.system_count; ++i) {
+    for (unsigned k = 0; k < c.system[i].axis_count; ++k) {
+      const nc_axis_config& axis = c.system[i].axis[k];
+      if (!(axis.max_velocity > 0) || !(axis.max_acceleration > 0) || !(axis.max_jerk > 0)) return false;
+    }
+  }
+  return true;
+}
+
 bool valid(const nc_config* c) {
   if (c == nullptr || c->struct_size != sizeof(nc_config)) return false;
   if (c->dialect >= NC_DIALECT_COUNT || c->system_count < 1 || c->system_count > NC_MAX_SYSTEMS) return false;
@@ -37,7 +50,7 @@ bool valid(const nc_config* c) {
   return c->cycle_s > 0 && c->cycle_s <= 0.1 && power_of_two(c->look_ahead) && c->look_ahead >= 64 && c->look_ahead <= 65536 &&
          c->programs >= 1 && c->programs <= 65535 && c->tool_offsets >= 1 && c->tool_offsets <= 999 && c->work_offsets <= 300 &&
          c->window_bytes >= 512 && c->window_bytes <= (1u << 24) && is_option(c->variable_sets) && c->max_feed_override >= 1 &&
-         c->max_feed_override <= 10;
+         c->max_feed_override <= 10 && motion_valid(*c);
 }
 
 /// M700 13.4: which common variables there are by option.
@@ -97,6 +110,7 @@ void nc_config_init(nc_config* config) {
   config->variable_sets = 600;
   config->window_bytes = 65536;
   config->max_feed_override = 2.0;
+  config->path_tolerance = 0.01;
 }
 
 size_t nc_memory_required(const nc_config* config) {

@@ -49,6 +49,8 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.cycle_s = config.cycle_s;
   ex.max_feed_override = config.max_feed_override;
   ex.capacity = config.look_ahead;
+  ex.optimal = config.motion_mode == NC_MOTION_OPTIMAL;
+  ex.tolerance = config.path_tolerance;
   executor.create(ex, arena);
   if (!arena.measuring() && !arena.overflowed()) clear_offset();
 }

@@ -6,6 +6,29 @@
 #include "interpolate/executor_state.hpp"
 
 namespace nc {
+namespace {
+
+optimal::OptimalPlanner* create_optimal(const ExecutorConfig& config, const Record* ring, Arena& arena) {
+  optimal::OptimalPlanner::Setup setup;
+  setup.limits.axis_count = config.axis_count;
+  for (unsigned i = 0; i < config.axis_count; ++i) {
+    const AxisLimits& l = config.limits[i];
+    setup.limits.velocity[i] = l.velocity;
+    setup.limits.rapid[i] = l.rapid;
+    setup.limits.acceleration[i] = l.acceleration;
+    setup.limits.jerk[i] = l.jerk;
+  }
+  setup.limits.linear = ~config.rotary;
+  setup.tolerance = config.tolerance;
+  setup.cycle_s = config.cycle_s;
+  setup.capacity = config.capacity;
+  optimal::OptimalPlanner* const planner = arena.make<optimal::OptimalPlanner>();
+  optimal::OptimalPlanner measured;
+  (planner != nullptr ? *planner : measured).create(setup, ring, arena);
+  return planner;
+}
+
+}  // namespace
 
 void Executor::create(const ExecutorConfig& config, Arena& arena) {
   ExecutorState* const state = arena.make<ExecutorState>();
@@ -18,14 +41,21 @@ void Executor::create(const ExecutorConfig& config, Arena& arena) {
   // While measuring there is no state: the parts are laid out from throw-away ones of the same size.
   Planner measured_planner;
   EventRing measured_events;
-  (state != nullptr ? state->planner : measured_planner).create(limits, ring, config.capacity, arena);
+  // Of the trapezoid nothing is used in the optimal mode, and the other way round.
+  optimal::OptimalPlanner* optimal = nullptr;
+  if (config.optimal) {
+    optimal = create_optimal(config, ring, arena);
+  } else {
+    (state != nullptr ? state->planner : measured_planner).create(limits, ring, config.capacity, arena);
+  }
   (state != nullptr ? state->shared.events : measured_events).create(config.capacity * 2, arena);
   state_ = state;
   if (state == nullptr) return;
   state->config = config;
   state->ring = ring;
   state->mask = config.capacity - 1;
-  state->scan.create(config, ring, &state->planner, &state->shared);
+  state->optimal = optimal;
+  state->scan.create(config, ring, &state->planner, optimal, &state->shared);
 }
 
 Planner::Inputs ExecutorState::scan_said() {
@@ -53,12 +83,17 @@ uint32_t Executor::tail() const {
 void Executor::push(const Record& record) {
   ExecutorState& e = *state_;
   e.ring[e.head & e.mask] = record;
-  e.planner.commit(e.head++);
+  const uint32_t index = e.head++;
+  if (e.optimal == nullptr) e.planner.commit(index);
 }
 
 void Executor::plan() {
   state_->forget_truncate();
-  state_->planner.replan(state_->scan_said());
+  if (state_->optimal != nullptr) {
+    state_->optimal->replan(state_->head);
+  } else {
+    state_->planner.replan(state_->scan_said());
+  }
 }
 
 /// A truncation that was asked for and never fetched must not keep the scan waiting for ever.
@@ -123,7 +158,11 @@ bool Executor::give_up_behind_block(Serial* last) {
     }
   }
   if (complete) {
-    e.planner.truncate(end, in);
+    if (e.optimal != nullptr) {
+      e.optimal->truncate(end);
+    } else {
+      e.planner.truncate(end, in);
+    }
     e.head = end;
   }
   return complete;

@@ -16,6 +16,7 @@ class ExecutorState {
   uint32_t truncate_request = 0;
   bool truncate_open = false;  ///< a request is waiting for its answer
   alignas(64) Planner planner;
+  optimal::OptimalPlanner* optimal = nullptr;  ///< instead of it
   alignas(64) ScanShared shared;
   alignas(64) Scan scan;
 

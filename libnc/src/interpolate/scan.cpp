@@ -12,6 +12,8 @@ namespace {
 /// Records executed in one cycle at most. At speed the planner keeps it below (kSegmentsPerCycle + 1) *
 /// (kRecordsBetween + 1).
 constexpr unsigned kRecordsPerCycle = 256;
+/// The same where the path goes on by itself and records are only counted off: lines of 1 um at full speed.
+constexpr unsigned kRecordsPassed = 2048;
 
 nc_axes to_nc(const AxisVec& a) {
   nc_axes out;
@@ -21,11 +23,13 @@ nc_axes to_nc(const AxisVec& a) {
 
 }  // namespace
 
-void Scan::create(const ExecutorConfig& config, const Record* ring, Planner* planner, ScanShared* shared) {
+void Scan::create(const ExecutorConfig& config, const Record* ring, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared) {
   config_ = config;
   ring_ = ring;
   mask_ = config.capacity - 1;
   planner_ = planner;
+  optimal_ = optimal;
+  if (optimal != nullptr) follower_.create(&optimal->store(), config.axis_count);
   shared_ = shared;
   ManualConfig m;
   m.axis_count = config.axis_count;
@@ -55,7 +59,7 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   answer_truncate();
   ask_for_interrupt();
   await_reread();
-  plan_ = &planner_->newest();
+  take_plan();
   handshake(in);
   messages();
   states(in);
@@ -144,7 +148,7 @@ void Scan::interrupt(const nc_inputs& in) {
 /// whose signal has come, behind a skip move, or in a block that changes what is asked here: these are finished first.
 bool Scan::may_cut() const {
   if (!block_begun_ || block_waits_ || last_staged_ || (fin_wait() != 0 && !(suppress_ & 2))) return false;
-  if (tail_ == plan_->end) return true;
+  if (tail_ == end_) return true;
   const Record& r = current();
   if (r.epoch != epoch_ || r.staged || r.kind == ItemKind::sync) return false;
   if (r.kind == ItemKind::mark) return false;  // it takes no time
@@ -246,6 +250,7 @@ void Scan::start(const nc_inputs& in) {
 void Scan::give_up() {
   ++epoch_;
   law_ = {};
+  follower_.give_up();
   moving_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = displaced_ = false;
   hold_behind_thread_ = block_has_thread_ = tapping_ = false;
   fin1_groups_ = 0;
@@ -260,20 +265,21 @@ void Scan::give_up() {
 
 /// Throws records of an older epoch away.
 void Scan::drop_old() {
-  for (unsigned n = 0; n < kRecordsPerCycle && tail_ != plan_->end && current().epoch != epoch_; ++n)
+  for (unsigned n = 0; n < kRecordsPerCycle && tail_ != end_ && current().epoch != epoch_; ++n)
     leave(current(), false);
 }
 
 void Scan::run(const nc_inputs& in) {
   drop_old();
-  if (state_ == NC_STATE_ALARM && tail_ != plan_->end && current().epoch == epoch_ &&
+  if (state_ == NC_STATE_ALARM && tail_ != end_ && current().epoch == epoch_ &&
       current().kind == ItemKind::end) {
     leave(current(), true);  // the end item that follows an alarm
   }
   if (state_ != NC_STATE_RUNNING && at_rest()) return;
-  for (unsigned n = 0; n < kRecordsPerCycle; ++n) {
+  const unsigned most = optimal_ != nullptr ? kRecordsPassed : kRecordsPerCycle;
+  for (unsigned n = 0; n < most; ++n) {
     if (held() && at_rest()) break;
-    if (tail_ == plan_->end) {
+    if (tail_ == end_) {
       cause_ = NC_CAUSE_STARVED;
       break;
     }
@@ -319,7 +325,7 @@ void Scan::leave(const Record& r, bool executed) {
 /// In a block stop: no move of the block in execution is left, so the next one can begin from anywhere.
 bool Scan::between_blocks() const {
   if (!block_begun_) return true;
-  for (uint32_t at = tail_; at != plan_->end; ++at) {
+  for (uint32_t at = tail_; at != end_; ++at) {
     const Record& r = ring_[at & mask_];
     if (r.kind == ItemKind::mark && r.mark.resume) return true;
     if (r.kind == ItemKind::move || r.kind == ItemKind::sync) return false;
@@ -364,6 +370,7 @@ void Scan::publish(const nc_inputs& in) {
   shared_->ordinal.store(ordinal_, std::memory_order_relaxed);
   shared_->epoch.store(epoch_, std::memory_order_release);
   shared_->tail.store(tail_, std::memory_order_release);
+  if (optimal_ != nullptr) tell_planner(in, status);
 }
 
 /// Override in force, #3004 bit 1 included.

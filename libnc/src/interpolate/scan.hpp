@@ -9,9 +9,11 @@
 #include "interpolate/event_ring.hpp"
 #include "interpolate/exchange.hpp"
 #include "interpolate/executor.hpp"
+#include "interpolate/follower.hpp"
 #include "interpolate/law.hpp"
 #include "interpolate/spindle.hpp"
 #include "manual/manual.hpp"
+#include "motion/optimal/optimal_planner.hpp"
 #include "motion/planner.hpp"
 #include "shape/shape.hpp"
 
@@ -55,7 +57,7 @@ struct ScanShared {
 
 class Scan {
  public:
-  void create(const ExecutorConfig& config, const Record* ring, Planner* planner, ScanShared* shared);
+  void create(const ExecutorConfig& config, const Record* ring, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared);
   void set_position(const AxisVec& machine);
   void cycle(const nc_inputs& in, nc_outputs& out) NC_RT;
 
@@ -85,6 +87,11 @@ class Scan {
   // scan_records.cpp: what each kind of record does
   Done execute(const Record& record, const nc_inputs& in) NC_RT;
   Done move(const Record& record, const nc_inputs& in) NC_RT;
+  void take_plan() NC_RT;
+  Done follow_plan(const Record& record, const nc_inputs& in) NC_RT;
+  bool would_jump() const NC_RT;
+  nc_stop_cause standing(const Segment& segment, const nc_inputs& in) NC_RT;
+  void tell_planner(const nc_inputs& in, const ScanStatus& status) NC_RT;
   bool begin_move(const Record& record, const nc_inputs& in) NC_RT;
   void end_move(const Record& record) NC_RT;
   void change_skip_feed(const SkipSpeeds& speeds, uint32_t signals) NC_RT;
@@ -122,10 +129,12 @@ class Scan {
   const Record* ring_ = nullptr;
   uint32_t mask_ = 0;
   Planner* planner_ = nullptr;
+  optimal::OptimalPlanner* optimal_ = nullptr;  ///< nullptr: the trapezoid
   ScanShared* shared_ = nullptr;
 
   // ---- place in the ring
-  const Plan* plan_ = nullptr;  ///< of this cycle
+  const Plan* plan_ = nullptr;  ///< of this cycle (trapezoid)
+  uint32_t end_ = 0;            ///< ring index behind the last record that may be executed
   uint32_t tail_ = 0, ordinal_ = 0, epoch_ = 0;
   bool frozen_ = false;    ///< the feeder is truncating
   uint32_t answered_ = 0;  ///< truncate request that has its answer
@@ -136,6 +145,9 @@ class Scan {
 
   // ---- motion
   LawState law_;         ///< on the segment in execution; v carries over to the next one
+  Follower follower_;    ///< optimal: makes what is in law_
+  bool no_law_ = false;  ///< optimal: none was found for what follows
+  double turns_ = 0;     ///< optimal: speed of the spindle that the planner knows, rev/s
   bool moving_ = false;  ///< the current record is a segment that has begun
   double time_ = 0;      ///< what is left of this cycle, s
   AxisVec wanted_;       ///< interpolated position

@@ -78,9 +78,11 @@ void Scan::alarm() {
 bool Scan::begin_move(const Record& r, const nc_inputs&) {
   const Segment& s = r.segment;
   if (at_rest()) {
+    // A smoothed line may have been stopped beside it; where its path goes on is looked at when it does.
+    const double most = optimal_ != nullptr ? kSamePlace + 2 * config_.tolerance : kSamePlace;
     const AxisVec from = s.begun > 0 ? curve_position(s.curve, s.begun, config_.axis_count) : s.curve.start;
     for (unsigned i = 0; i < config_.axis_count; ++i) {
-      if (std::fabs(from[i] - wanted_[i]) > kSamePlace) return false;
+      if (std::fabs(from[i] - wanted_[i]) > most) return false;
     }
   }
   law_.s = s.begun;
@@ -223,6 +225,7 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
       return Done::yes;
     }
   }
+  if (optimal_ != nullptr) return follow_plan(r, in);
   const double from = law_.s;
   const LawGoal goal{s.curve.length, plan_->exit2(ordinal_), speed_cap(s, in), s.acceleration};
   time_ = advance(law_, goal, time_);

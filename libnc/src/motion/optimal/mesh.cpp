@@ -22,9 +22,20 @@ constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell
 
 }  // namespace
 
+double WayDown::at(double place) const {
+  if (count == 0 || place > u[count - 1]) return 0;
+  unsigned low = 0, high = count - 1;
+  while (high - low > 1) {
+    const unsigned middle = (low + high) / 2;
+    (u[middle] <= place ? low : high) = middle;
+  }
+  const double share = (place - u[low]) / (u[high] - u[low]);
+  return std::max(b[low] + share * (b[high] - b[low]), 0.0);
+}
+
 /// Speed at which the curvature and its change take all, and what is left along the path at no speed.
 Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
-  Bound b{p.feed, HUGE_VAL, HUGE_VAL, HUGE_VAL, false};
+  Bound b{feed_of(p, *limits_), HUGE_VAL, HUGE_VAL, HUGE_VAL, false};
   const unsigned samples = p.curve != nullptr || p.c[4][0] != 0 || p.c[5][0] != 0 ? 4 : 2;
   double most[3][kMaxAxes] = {};
   for (unsigned n = 0; n <= samples; ++n) {
@@ -40,7 +51,7 @@ Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
   b.curved = bend2 > 0;
   if (p.curve != nullptr && b.curved) b.cell = kArc / std::sqrt(bend2);
   for (unsigned i = 0; i < limits_->axis_count; ++i) {
-    const double v = p.rapid && limits_->rapid[i] > 0 ? limits_->rapid[i] : limits_->velocity[i];
+    const double v = velocity_of(p, *limits_, i);
     const double a = limits_->acceleration[i], j = limits_->jerk[i];
     if (v > 0 && b.speed * most[0][i] > v) b.speed = v / most[0][i];
     if (a > 0 && b.speed * b.speed * most[1][i] > a) b.speed = std::sqrt(a / most[1][i]);
@@ -59,9 +70,9 @@ void Mesher::forward() {
   double u = 0, v = in.from_rest ? 0 : std::sqrt(in.b0), a = in.from_rest ? 0 : 0.5 * in.slope0;
   double edge = -in.from.x;
   for (unsigned p = in.from.piece; p < in.count; ++p) {
-    const Bound bound = bound_of(in.piece[p], p == in.from.piece ? in.from.x : 0);
+    const Bound bound = bound_of(in.at(p), p == in.from.piece ? in.from.x : 0);
     if (p == in.from.piece) at_start_ = bound;
-    edge += in.piece[p].length;
+    edge = std::min(edge + in.at(p).length, in.reach);
     end_piece_ = p;
     if (v > bound.speed) v = bound.speed, a = 0;
     while (u < edge) {
@@ -81,10 +92,10 @@ void Mesher::forward() {
       a = std::min(bound.acceleration, a + bound.jerk * t);
       if (v >= bound.speed) v = bound.speed, a = 0;
     }
-    if (forward_.count == kNodes || u < edge) break;
+    if (forward_.count == kNodes || u < edge || !(u < in.reach)) break;
   }
   end_u_ = u;
-  whole_ = end_piece_ + 1 == in.count && u == edge;
+  whole_ = u == edge && (end_piece_ + 1 == in.count || !(u < in.reach));
   if (forward_.count < kNodes) forward_.node[forward_.count++] = {u, v};
 }
 
@@ -93,11 +104,11 @@ void Mesher::backward(unsigned end_piece, double end) {
   const MeshRequest& in = *in_;
   backward_.count = 0;
   double u = end, v = 0, a = 0, edge = -in.from.x;  // of the last piece, which may reach beyond
-  for (unsigned p = in.from.piece; p <= end_piece; ++p) edge += in.piece[p].length;
+  for (unsigned p = in.from.piece; p <= end_piece; ++p) edge += in.at(p).length;
   for (unsigned p = end_piece + 1; p-- > in.from.piece;) {
-    const Bound bound = bound_of(in.piece[p], p == in.from.piece ? in.from.x : 0);
+    const Bound bound = bound_of(in.at(p), p == in.from.piece ? in.from.x : 0);
     if (p == end_piece) at_end_ = bound;
-    edge -= in.piece[p].length;
+    edge -= in.at(p).length;
     const double stop = std::max(edge, 0.0);
     if (v > bound.speed) v = bound.speed, a = 0;
     while (u > stop && backward_.count < kNodes) {
@@ -148,10 +159,10 @@ bool Mesher::cells(double end) {
                      kShortLaunch * end, bound.cell});
   };
   double last_edge = -in.from.x;
-  for (unsigned p = in.from.piece; p < end_piece_; ++p) last_edge += in.piece[p].length;
+  for (unsigned p = in.from.piece; p < end_piece_; ++p) last_edge += in.at(p).length;
   const double launch = rest_cell(at_start_),
                landing = std::min(rest_cell(at_end_), end - std::max(0.0, last_edge));
-  double u = 0, edge = in.piece[in.from.piece].length - in.from.x;
+  double u = 0, edge = in.at(in.from.piece).length - in.from.x;
   PathPlace at = in.from;
   m.cells = 0;
   hint_f_ = hint_b_ = 0;
@@ -172,7 +183,7 @@ bool Mesher::cells(double end) {
       hint_f_ = f;
       hint_b_ = b;
     }
-    if (at.piece != known) cell_most = bound_of(in.piece[at.piece], at.x).cell, known = at.piece;
+    if (at.piece != known) cell_most = bound_of(in.at(at.piece), at.x).cell, known = at.piece;
     h = std::min(h, cell_most);
     const bool lands = u >= stop - kRounding * end;
     const double limit = lands ? end : std::min(edge, stop);
@@ -190,12 +201,13 @@ bool Mesher::cells(double end) {
     m.h[m.cells] = h;
     m.use[m.cells] = !in.from_rest && m.cells < 3 ? kAtStart : 1;
     m.guess[m.cells] = std::max(share * share * middle * middle, 1e-8);
+    if (in.down != nullptr) m.guess[m.cells] = std::max(m.guess[m.cells], 0.9 * in.down->at(u + 0.5 * h));
     ++m.cells;
     if (u + h >= edge - kRounding * end && at.piece + 1 < in.count && u + h < end) {
       u = edge;
       ++at.piece;
       at.x = 0;
-      edge += in.piece[at.piece].length;
+      edge += in.at(at.piece).length;
     } else {
       u += h;
       at.x += h;
@@ -210,39 +222,42 @@ void Mesher::fill_knots() {
   const MeshRequest& in = *in_;
   Mesh& m = *mesh_;
   const unsigned axes = limits_->axis_count;
-  const auto cap_of = [&](const Piece& p, const CurvePoint& q) {
-    double length2 = 0, v = p.feed;
+  const auto cap_of = [&](const Piece& p, const CurvePoint& q, double u) {
+    double length2 = 0, axes_most = HUGE_VAL, v = feed_of(p, *limits_);
     for (unsigned i = 0; i < axes; ++i) {
-      length2 += q.d1[i] * q.d1[i];
-      const double axis = p.rapid && limits_->rapid[i] > 0 ? limits_->rapid[i] : limits_->velocity[i];
-      if (axis > 0 && v * std::fabs(q.d1[i]) > axis) v = axis / std::fabs(q.d1[i]);
+      if ((limits_->linear >> i & 1) != 0) length2 += q.d1[i] * q.d1[i];
+      const double axis = velocity_of(p, *limits_, i);
+      if (axis > 0 && axes_most * std::fabs(q.d1[i]) > axis) axes_most = axis / std::fabs(q.d1[i]);
     }
-    const double fed = length2 > 1 && p.feed < HUGE_VAL ? p.feed / std::sqrt(length2) : v;
-    v = std::min(v, fed);
+    if (length2 > 1 && v < HUGE_VAL) v /= std::sqrt(length2);
+    if (in.down != nullptr) v = std::max(v, std::sqrt(in.down->at(u)));
+    v = std::min(v, axes_most);
     bool bends = p.curve != nullptr;
     for (unsigned i = 0; i < axes; ++i) bends = bends || q.d2[i] != 0 || q.d3[i] != 0;
     const double use = bends ? kFeed : 1;
     return use * use * v * v;
   };
+  double u = 0;
   for (unsigned k = 0; k <= m.cells; ++k) {
+    if (k > 0) u += m.h[k - 1];
     Knot& knot = m.knot[k];
     knot.cap = HUGE_VAL;
     if (k > 0) {
-      const Piece& p = in.piece[place_[k - 1].piece];
+      const Piece& p = in.at(place_[k - 1].piece);
       const CurvePoint q = evaluate(p, std::min(p.length, place_[k - 1].x + m.h[k - 1]), axes);
       knot.left3 = knot.right3 = q.d3;
       knot.d1 = q.d1;
       knot.d2 = q.d2;
-      knot.cap = cap_of(p, q);
+      knot.cap = cap_of(p, q, u);
       m.cap[k - 1] = std::min(m.cap[k - 1], knot.cap);
     }
     if (k < m.cells) {
-      const Piece& p = in.piece[place_[k].piece];
+      const Piece& p = in.at(place_[k].piece);
       const CurvePoint q = evaluate(p, place_[k].x, axes);
       knot.right3 = q.d3;
       knot.d1 = q.d1;
       knot.d2 = q.d2;
-      m.cap[k] = cap_of(p, q);
+      m.cap[k] = cap_of(p, q, u);
       knot.cap = std::min(knot.cap, m.cap[k]);
       const double h = m.h[k];
       const CurvePoint end = evaluate(p, place_[k].x + h, axes);
@@ -253,10 +268,10 @@ void Mesher::fill_knots() {
       for (unsigned i = 0; i < axes; ++i) {
         inside.d1[i] = q.d1[i] + 0.5 * h * q.d2[i];
         inside.d3[i] = (end.d2[i] - q.d2[i]) / h;
-        length2 += inside.d1[i] * inside.d1[i];
+        if ((limits_->linear >> i & 1) != 0) length2 += inside.d1[i] * inside.d1[i];
       }
-      if (length2 > 1 && p.feed < HUGE_VAL)
-        m.cap[k] = std::min(m.cap[k], kFeed * kFeed * p.feed * p.feed / length2);
+      const double feed = feed_of(p, *limits_);
+      if (length2 > 1 && feed < HUGE_VAL && in.down == nullptr) m.cap[k] = std::min(m.cap[k], kFeed * kFeed * feed * feed / length2);
     }
   }
 }
@@ -276,7 +291,7 @@ PathPlace Mesher::build(const MeshRequest& request, const Limits& limits, Mesh* 
     const unsigned k = mesh->cells - mesh->cells / 4;
     const PathPlace& at = place_[k];
     end_u_ = -request.from.x + at.x;
-    for (unsigned p = request.from.piece; p < at.piece; ++p) end_u_ += request.piece[p].length;
+    for (unsigned p = request.from.piece; p < at.piece; ++p) end_u_ += request.at(p).length;
     end_piece_ = at.piece;
     if (at.x <= 0) --end_piece_;
     whole_ = false;

@@ -13,9 +13,21 @@ struct PathPlace {
   double x = 0;
 };
 
-struct MeshRequest {
-  const Piece* piece = nullptr;
+/// A law that was found before from the same start: where a feed has become lower, no faster than it.
+struct WayDown {
+  const double* u = nullptr;  ///< from the start on, rising
+  const double* b = nullptr;
   unsigned count = 0;
+  double at(double place) const;
+};
+
+struct MeshRequest {
+  const Piece* piece = nullptr;  ///< piece k is piece[(base + k) & mask]
+  uint32_t base = 0, mask = ~0u;
+  unsigned count = 0;
+  const Piece& at(unsigned k) const { return piece[(base + k) & mask]; }
+  double reach = HUGE_VAL;  ///< of the parameter behind `from`: the path ends there at the latest
+  const WayDown* down = nullptr;
   PathPlace from;
   double period = 0.005;      ///< s
   double guess = 0.7;         ///< of the estimated speed, to begin with

@@ -4,6 +4,8 @@
 // piece may turn round on the spot.
 #pragma once
 
+#include <cmath>
+
 #include "path/curve.hpp"
 
 namespace nc::optimal {
@@ -12,17 +14,39 @@ namespace nc::optimal {
 struct Limits {
   unsigned axis_count = 3;
   double velocity[kMaxAxes] = {}, rapid[kMaxAxes] = {}, acceleration[kMaxAxes] = {}, jerk[kMaxAxes] = {};
+  uint32_t linear = ~0u;  ///< bit i: axis i makes the length that a feed is measured by
+  double feed_scale = 1, rapid_scale = 1;  ///< overrides
+  double turns = 0;                        ///< of the spindle, rev/s
 };
+
+/// What the feed of a piece is multiplied by.
+enum class FeedBy : uint8_t { override, constant, turns };
 
 /// A polynomial by x = u - u_start of degree 5 at most, or a part of a committed curve.
 struct Piece {
   double length = 0;             ///< of the parameter, > 0
-  double feed = 0;               ///< mm/s along the path; HUGE_VAL where only the axes limit
+  double feed = 0;               ///< mm/s (mm/rev) along the path; HUGE_VAL where only the axes limit
+  FeedBy by = FeedBy::override;
+  bool rest_behind = false;      ///< the path rests at its end
   bool rapid = false;            ///< the rapid rates hold
   const Curve* curve = nullptr;  ///< then q(x) = curve(curve_from + x)
   double curve_from = 0;
   AxisVec c[6];  ///< else q(x) = c[0] + c[1] x + ... + c[5] x^5
 };
+
+/// Feed of the piece under the present overrides.
+inline double feed_of(const Piece& p, const Limits& limits) {
+  if (p.feed == HUGE_VAL || p.by == FeedBy::constant) return p.feed;
+  return p.feed * limits.feed_scale * (p.by == FeedBy::turns ? limits.turns : 1);
+}
+/// Largest velocity of axis i on the piece.
+inline double velocity_of(const Piece& p, const Limits& limits, unsigned i) {
+  return p.rapid ? (limits.rapid[i] > 0 ? limits.rapid[i] : limits.velocity[i]) * limits.rapid_scale : limits.velocity[i];
+}
+/// Nothing moves on the piece under the present overrides.
+inline bool stands(const Piece& p, const Limits& limits) {
+  return p.rapid ? !(limits.rapid_scale > 0) : !(feed_of(p, limits) > 0);
+}
 
 /// Position and derivatives at x in [0, length].
 inline CurvePoint evaluate(const Piece& p, double x, unsigned axis_count) NC_RT {

@@ -53,6 +53,8 @@ class Smoother {
   void turn_controls(unsigned first);
   double corner(unsigned k) const;
   bool first_knots();
+  unsigned frozen() const { return in_.knot != nullptr ? kGoesOn - 1 : 0; }        ///< knots up to here stay
+  unsigned first_cell() const { return in_.knot != nullptr ? kFirstCell : 0; }
   void controls();
   void pieces();
   bool near_enough();
@@ -113,7 +115,18 @@ bool Smoother::first_knots() {
   room_.corner[0] = 0;
   last_ = 0;
   double keep = 0;  // the knots behind a corner stay clear of what follows up to here
-  for (unsigned k = 1; k + 1 < l.count; ++k) {
+  unsigned first = 1;
+  if (in_.knot != nullptr) {
+    for (unsigned k = 0; k < kGoesOn; ++k) {
+      room_.knot[k] = in_.knot[k];
+      room_.corner[k] = 0;
+    }
+    last_ = kGoesOn - 1;
+    keep = room_.knot[last_];
+    while (first + 1 < l.count && u[first] <= keep) ++first;
+    if (!(end > keep)) return false;
+  }
+  for (unsigned k = first; k + 1 < l.count; ++k) {
     const double turn = corner(k);
     const bool feed = l.feed != nullptr && l.feed[k] != l.feed[k - 1];
     if (turn < kStraight && !feed) continue;
@@ -144,7 +157,7 @@ bool Smoother::first_knots() {
     set(u[k], feed ? 1e-6 : 0.7 * in_.spacing);
   }
   // The end: three knots of their own on the last edge, so that it is straight there.
-  while (last_ > 0 && end - room_.knot[last_] < 1e-9 * end) --last_;
+  while (last_ > frozen() && end - room_.knot[last_] < 1e-9 * end) --last_;
   const double gap = end - room_.knot[last_];
   if (last_ == 0 || gap > 2 * in_.spacing) {
     const double step = std::min(in_.spacing, gap / 4);
@@ -233,8 +246,8 @@ void Smoother::pieces() {
       const double f2 = std::fabs(e2 - e1) < kRounding ? 0 : 2 * (e2 - e1) / g0;
       const double f3 = std::fabs(e3 - e2) < kRounding ? 0 : 2 * (e3 - e2) / g1;
       const double slope = (e1 * h + e2 * (t(c) - t(c - 1))) / g0;
-      if (k == 0) {
-        p.c[0][i] = d[0][i];
+      if (k <= first_cell()) {
+        p.c[0][i] = in_.knot != nullptr ? in_.at[i] : d[0][i];
       } else {
         const Piece& b = out_[k - 1];
         p.c[0][i] = b.c[0][i] + b.length * (b.c[1][i] + b.length * (b.c[2][i] + b.length * b.c[3][i]));
@@ -270,7 +283,8 @@ bool Smoother::near_enough() {
   for (unsigned k = 0; k < last_; ++k) room_.split[k] = 0;
   bool good = true;
   unsigned vertex = 1, edge = 0;
-  for (unsigned k = 0; k < last_; ++k) {
+  while (vertex + 1 < l.count && room_.u[vertex] < room_.knot[first_cell()]) ++vertex;
+  for (unsigned k = first_cell(); k < last_; ++k) {
     const double from = room_.knot[k], to = room_.knot[k + 1];
     bool far = false;
     for (unsigned n = 1; n <= kLooks; ++n) {
@@ -292,7 +306,7 @@ bool Smoother::near_enough() {
 /// Cells are halved, those of a sharp corner are not: they have their shape.
 bool Smoother::split() {
   const auto halved = [&](unsigned k) {
-    return room_.split[k] != 0 && !(room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]);
+    return k >= frozen() && room_.split[k] != 0 && !(room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]);
   };
   unsigned more = 0;
   for (unsigned k = 0; k < last_; ++k) more += halved(k) ? 1u : 0u;
@@ -325,6 +339,17 @@ unsigned Smoother::run() {
 }
 
 }  // namespace
+
+unsigned settled_cells(const SmoothRequest& request, const SmoothRoom& room, unsigned cells) {
+  const unsigned least = request.knot != nullptr ? kFirstCell : 0;
+  // The last three knots belong to the end, and cell k hangs on knots k - 2 to k + 3. No turn lies across the border.
+  for (unsigned k = cells < 6 ? 0 : cells - 5; k > least && k >= kFirstCell; --k) {
+    bool turn = false;
+    for (unsigned n = k - kFirstCell; n < k + kGoesOn - 2; ++n) turn = turn || room.corner[n] != 0;
+    if (!turn) return k;
+  }
+  return 0;
+}
 
 unsigned smooth(const SmoothRequest& request, const SmoothRoom& room, Piece* out, unsigned capacity) {
   return Smoother(request, room, out, capacity).run();

@@ -37,7 +37,16 @@ struct SmoothRequest {
   double tolerance = 0.01;  ///< mm (or deg)
   double spacing = 0.5;     ///< of knots, where the tolerance allows
   unsigned axis_count = 3;
+  /// The line goes on from one that was smoothed before: its knots, kGoesOn of them from u = knot[0] >= 0 on, are these. Cells from
+  /// kFirstCell on are made, which begin at `at`.
+  const double* knot = nullptr;
+  AxisVec at;
 };
+inline constexpr unsigned kGoesOn = 6, kFirstCell = 3;
+
+/// Cells of a line that goes on: those in front of the result do not depend on what follows, and cell `result` is where the next one goes
+/// on (with the knots result - kFirstCell and so on of the room); 0 = none.
+unsigned settled_cells(const SmoothRequest& request, const SmoothRoom& room, unsigned cells);
 
 /// @return pieces written to `out` (exact at both ends, tangent to the first and the last edge, without
 /// curvature there when those are not very short); 0 = no room.

@@ -25,7 +25,6 @@ constexpr unsigned kLooks = 8;      ///< places inside a cell that are looked at
 }  // namespace
 
 void Windows::start(const Piece* piece, unsigned count, const Limits& limits, double period) {
-  limits_ = limits;
   request_ = {};
   request_.piece = piece;
   request_.count = count;
@@ -33,6 +32,11 @@ void Windows::start(const Piece* piece, unsigned count, const Limits& limits, do
   more_ = count > 0;
   failed_ = false;
   iterations_ = solved_ = 0;
+  set_limits(limits);
+}
+
+void Windows::set_limits(const Limits& limits) {
+  limits_ = limits;
   stop_s_ = 0;
   for (unsigned i = 0; i < limits.axis_count; ++i) {
     if (!(limits.acceleration[i] > 0) || !(limits.jerk[i] > 0)) continue;
@@ -77,10 +81,11 @@ double Windows::tighten() {
 }
 
 /// A law that keeps the limits everywhere; false when none was found.
-bool Windows::solve() {
-  for (const Attempt& attempt : kAttempts) {
+bool Windows::solve(unsigned tries) {
+  for (unsigned t = 0; t < tries; ++t) {
+    const Attempt& attempt = kAttempts[t];
     request_.guess = attempt.guess;
-    request_.most = attempt.cells;
+    request_.most = std::min(attempt.cells, most_);
     request_.period = period_ * attempt.period;
     mesher_.build(request_, limits_, &mesh_);
     for (unsigned n = 0; n < kTightened; ++n) {
@@ -94,18 +99,34 @@ bool Windows::solve() {
   return false;
 }
 
+/// What of the law is kept: where its stop at the end has slowed it, the next one will be faster.
+void Windows::settle() {
+  more_ = !mesher_.whole();
+  keep_ = law_.cells;
+  if (!more_) return;
+  double back = 0;
+  while (keep_ > 1 && back < stop_s_) back += cell_seconds(law_, mesh_, --keep_);
+}
+
+bool Windows::law_to(const MeshRequest& request, const Limits& limits, const Goal& goal) {
+  request_ = request;
+  period_ = goal.period;
+  most_ = request.most;
+  set_limits(limits);
+  if (!solve(goal.once ? 1 : sizeof kAttempts / sizeof kAttempts[0])) return false;
+  settle();
+  return true;
+}
+
 bool Windows::next() {
   if (!more_) return false;
-  if (!solve()) {
+  if (!solve(sizeof kAttempts / sizeof kAttempts[0])) {
     failed_ = true;
     more_ = false;
     return false;
   }
-  more_ = !mesher_.whole();
-  keep_ = law_.cells;
+  settle();
   if (!more_) return true;
-  double back = 0;
-  while (keep_ > 1 && back < stop_s_) back += cell_seconds(law_, mesh_, --keep_);
   request_.from = mesher_.place(keep_);
   request_.from_rest = false;
   request_.b0 = law_.b[keep_];

@@ -15,17 +15,29 @@ class Windows {
   bool next();
   bool failed() const { return failed_; }
 
+  /// One law, from the place and the state that the request names to the end of its pieces or as far as its cells reach.
+  struct Goal {
+    double period = 0.005;
+    bool once = false;  ///< without a second try: the caller has other goals
+  };
+  bool law_to(const MeshRequest& request, const Limits& limits, const Goal& goal);
+  /// The last law reaches the end of the pieces (or the reach that was asked).
+  bool whole() const { return !more_; }
+
   const Mesh& mesh() const { return mesh_; }
   const Law& law() const { return law_; }
   /// Cells [0, keep()) of the law are final.
   unsigned keep() const { return keep_; }
-  const Piece& piece_of(unsigned cell) const { return request_.piece[mesher_.place(cell).piece]; }
+  const Piece& piece_of(unsigned cell) const { return request_.at(mesher_.place(cell).piece); }
   const PathPlace& place(unsigned cell) const { return mesher_.place(cell); }
+  double stop_seconds() const { return stop_s_; }
   unsigned iterations() const { return iterations_; }  ///< of all laws so far
   unsigned solved() const { return solved_; }          ///< cells of all laws so far
 
  private:
-  bool solve();
+  void set_limits(const Limits& limits);
+  bool solve(unsigned tries);
+  void settle();
   double tighten();
   double excess(unsigned cell) const;
 
@@ -33,6 +45,7 @@ class Windows {
   Limits limits_;
   double period_ = 0.005;
   double stop_s_ = 0;  ///< the longest time that braking from any speed takes, with some to spare
+  unsigned most_ = kMaxCells;
   unsigned keep_ = 0, iterations_ = 0, solved_ = 0;
   bool more_ = false, failed_ = false;
   Mesher mesher_;

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moves in the optimal mode: the scan follows the chain of cells and counts off the records that it passes.
+#include <algorithm>
+#include <cmath>
+
+#include "interpolate/scan.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kJump = 1e-6;        ///< mm or deg: the path goes on where the axes stand
+constexpr double kAtEnd = 1e-7;       ///< mm: a path at rest has reached the end of a record
+constexpr double kPassed = 1e-9;      ///< mm: and one that moves has passed it
+constexpr double kTurnsChange = 0.002; ///< of the speed of the spindle, that asks for another plan
+
+}  // namespace
+
+void Scan::take_plan() {
+  if (optimal_ == nullptr) {
+    plan_ = &planner_->newest();
+    end_ = plan_->end;
+    return;
+  }
+  const optimal::Proposal& offer = optimal_->newest();
+  end_ = offer.end;
+  follower_.look(offer);
+  no_law_ = offer.failed && offer.generation == follower_.generation();
+}
+
+/// The path that is planned does not begin where the axes stand.
+bool Scan::would_jump() const {
+  const AxisVec from = follower_.start();
+  for (unsigned i = 0; i < config_.axis_count; ++i)
+    if (std::fabs(from[i] - wanted_[i]) > kJump) return true;
+  return false;
+}
+
+/// Why a move does not go on.
+nc_stop_cause Scan::standing(const Segment& s, const nc_inputs& in) {
+  if (s.rapid) return in.rapid_override > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
+  if (s.feed_mm_rev > 0 && in.spindle_rev_per_s == 0) return NC_CAUSE_SPINDLE_STOPPED;
+  if (!(s.feed_mm_rev > 0) && !(s.feed_mm_s > 0)) return NC_CAUSE_FEED_ZERO;  // M700 7.3: operation alarm 104
+  return s.fixed_override || feed_override(in) > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
+}
+
+Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
+  const Segment& s = r.segment;
+  if (follower_.at_rest()) {
+    if (skip_braking_) {
+      end_move(r);
+      follower_.give_up();
+      return Done::yes;
+    }
+    if (braking() || (s.skip && !(feed_override(in) > 0))) {  // M700 15.2: a skip move goes at 100 %, but for an override of 0
+      return wait(braking() ? cause_ : NC_CAUSE_OVERRIDE_ZERO);
+    }
+    if (follower_.idle()) {
+      if (no_law_) alarmed_ = true;
+      return wait(standing(s, in));
+    }
+    if (time_ > 0 && would_jump()) {
+      alarmed_ = true;
+      return Done::no;
+    }
+  }
+  if (time_ > 0) {
+    const double from = follower_.u();
+    time_ = follower_.advance(time_);
+    path_length_ += follower_.u() - from;
+    law_.v = follower_.v();
+    wanted_ = follower_.position();
+  }
+  const double end = optimal_->store().passed[tail_ & mask_], u = follower_.u();
+  law_.s = std::clamp(s.curve.length - (end - u), 0.0, s.curve.length);
+  if (follower_.at_rest() ? u < end - kAtEnd : !(u > end + kPassed)) return Done::no;
+  if (follower_.at_path_end() && u <= end + kAtEnd) wanted_ = s.curve.end;
+  end_move(r);
+  return Done::yes;
+}
+
+/// What the plan depends on.
+void Scan::tell_planner(const nc_inputs& in, const ScanStatus& status) {
+  optimal::Following f;
+  follower_.say(&f);
+  const Segment* s = moving_ ? &current().segment : nullptr;
+  f.brake = braking() || skip_braking_ || (s != nullptr && s->skip && !(status.feed_override > 0));
+  f.feed_scale = status.feed_override;
+  f.rapid_scale = std::clamp(in.rapid_override, 0.0, 1.0);
+  const double turns = std::fabs(in.spindle_rev_per_s);
+  if (std::fabs(turns - turns_) > kTurnsChange * turns_ || turns == 0) turns_ = turns;
+  f.turns = turns_;
+  f.block_rests = status.single_block;
+  f.tail = tail_;
+  f.s = moving_ ? law_.s : 0;
+  f.machine = wanted_;
+  f.epoch = epoch_;
+  optimal_->say(f);
+}
+
+}  // namespace nc

@@ -1,0 +1,516 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion/optimal/optimal_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nc::optimal {
+namespace {
+
+constexpr double kPeriod = 0.005;      ///< s, of a cell
+constexpr double kHungry = 0.5;        ///< s of chain that are left when it is made longer
+constexpr double kEnough = 1.0;        ///< s of chain that are made at once where there are many rests
+constexpr double kNew = 0.1;           ///< of the path that is left, what must have come before a law is solved for it
+constexpr double kLongestLead = 0.2;   ///< s
+constexpr double kDown = 1.06;         ///< of the squared speed of a stop, below which a lower feed is reached
+constexpr unsigned kLawsAtOnce = 8;
+constexpr uint32_t kRetry = 4;         ///< cells that the scan goes until a law is tried again
+constexpr double kSameScale = 1e-9;
+constexpr double kTiny = 1e-9;         ///< mm
+constexpr double kFarther[] = {1.004, 1.02, 1.05, 1.1, 1.2, 1.35, 1.6, 2, 2.7, 4};  ///< of the distance that a stop takes on a line
+constexpr double kSlower[] = {1, 0.5, 0.2};  ///< of all limits, where no law is found from rest
+
+bool same(double a, double b) {
+  return std::fabs(a - b) <= kSameScale * (std::fabs(a) + std::fabs(b));
+}
+
+}  // namespace
+
+void OptimalPlanner::create(const Setup& setup, const Record* records, Arena& arena) {
+  setup_ = setup;
+  limits_ = setup.limits;
+  store_.cell = arena.make<PlanCell>(kCells);
+  store_.next = arena.make<uint32_t>(kCells);
+  store_.cell_mask = kCells - 1;
+  store_.passed = arena.make<double>(setup.capacity);
+  store_.record_mask = setup.capacity - 1;
+  builder_.create(setup.limits, setup.tolerance, kPeriod, records, &store_, arena);
+  windows_ = arena.make<Windows>();
+  chain_next_ = arena.make<uint32_t>(kCells);
+  down_u_ = arena.make<double>(kMaxCells + 1);
+  down_b_ = arena.make<double>(kMaxCells + 1);
+  records_ = records;
+  lead_ = least_lead();
+}
+
+Limits OptimalPlanner::with(const Following& f) const {
+  Limits l = setup_.limits;
+  l.feed_scale = f.feed_scale;
+  l.rapid_scale = f.rapid_scale;
+  l.turns = builder_.uses_turns() ? f.turns : 0;
+  return l;
+}
+
+// ---- what the scan has said
+// ------------------------------------------------------------------------------------------------------------
+
+/// The scan has given everything up: the path begins anew with its records.
+void OptimalPlanner::rebuild(const Following& f) {
+  generation_ = f.generation;
+  fresh_ = true;
+  open_ = false;
+  chain_ = {};
+  builder_.restart(f.tail, f.s, f.machine, 0);
+  fresh_piece_ = builder_.head();
+  offer_.first = offer_.last = offer_.after = kNoCell;
+  offer_.failed = false;
+}
+
+/// False while an offer waits for its answer.
+bool OptimalPlanner::answered(const Following& f) {
+  if (!open_) return true;
+  if (f.answered != offer_.number) return false;
+  open_ = false;
+  if (f.taken) {
+    if (!offer_.fresh) chain_next_[offer_.after & store_.cell_mask] = offer_.first;
+    chain_ = next_chain_;
+    fresh_ = false;
+    lead_ = std::max(0.9 * lead_, least_lead());
+  } else {
+    write_ = offer_.first;
+    lead_ = std::min(2 * lead_, kLongestLead);
+  }
+  return true;
+}
+
+void OptimalPlanner::replan(uint32_t head) {
+  const Following& f = following_.read();
+  const bool idle = head == head_;
+  head_ = head;
+  if (f.generation != generation_) rebuild(f);
+  if (!answered(f)) {
+    publish();
+    return;
+  }
+  if (f.cell != kNoCell && !fresh_) builder_.free_pieces(store_.at(f.cell).piece);
+  free_from_ = f.cell != kNoCell ? f.cell : write_;
+  limits_ = with(f);
+  builder_.take(head);
+  change(f);
+  if (!open_ && !f.brake) go_on(f, idle);
+  publish();
+}
+
+void OptimalPlanner::truncate(uint32_t end) {
+  const Following& f = following_.read();
+  head_ = end;
+  rebuild(f);
+  ++offer_.number;  // void: what the scan has of the chain is given up
+  offer_.fresh = true;
+  limits_ = with(f);
+  builder_.take(end);
+  if (!f.brake) go_on(f, false);
+  publish();
+}
+
+void OptimalPlanner::publish() {
+  if (offer_.end == head_ && offer_.generation == generation_ && published_ == offer_.number && offer_.failed == told_failed_) return;
+  offer_.end = head_;
+  offer_.generation = generation_;
+  published_ = offer_.number;
+  told_failed_ = offer_.failed;
+  offers_.write(offer_);
+}
+
+// ---- places
+// ------------------------------------------------------------------------------------------------------------------------
+
+OptimalPlanner::Start OptimalPlanner::at_end() const {
+  Start s;
+  if (fresh_) {
+    s.fresh = true;
+    s.piece = fresh_piece_;
+    s.u = fresh_piece_ != builder_.head() ? builder_.start_of(fresh_piece_) : 0;
+    return s;
+  }
+  s.after = chain_.last;
+  s.piece = chain_.piece;
+  s.x = chain_.x;
+  s.u = chain_.u;
+  return s;
+}
+
+/// The state behind a cell of the chain.
+OptimalPlanner::Start OptimalPlanner::behind(uint32_t cell) const {
+  if (cell == chain_.last) return at_end();
+  const PlanCell& next = store_.at(chain_next_[cell & store_.cell_mask]);
+  Start s;
+  s.after = cell;
+  s.piece = next.piece;
+  s.x = next.x;
+  s.u = next.u;
+  s.from_rest = next.kind == PlanCell::Kind::launch;
+  s.v = s.from_rest ? 0 : next.v;
+  s.a = next.a;
+  return s;
+}
+
+/// Seconds until the scan leaves the cell, which lies in front of it.
+double OptimalPlanner::ahead(const Following& f, uint32_t cell) const {
+  if (f.cell == kNoCell) return HUGE_VAL;
+  double time = f.at_end ? 0 : store_.at(f.cell).seconds - f.t;
+  for (uint32_t k = f.cell; k != cell;) {
+    if (k == chain_.last) return HUGE_VAL;
+    k = chain_next_[k & store_.cell_mask];
+    time += store_.at(k).seconds;
+  }
+  return time;
+}
+
+/// The first place at least `lead` seconds ahead where a law may begin, or the next rest. False when that is the end of the chain.
+bool OptimalPlanner::find_ahead(const Following& f, double lead, Start* start) const {
+  if (!moving(f)) return false;
+  uint32_t k = f.cell;
+  double time = f.at_end ? 0 : store_.at(k).seconds - f.t;
+  while (k != chain_.last) {
+    const bool rests = store_.at(k).kind == PlanCell::Kind::land;
+    if (time >= lead || (rests && (time > 0 || f.at_end))) {
+      *start = behind(k);
+      return true;
+    }
+    k = chain_next_[k & store_.cell_mask];
+    time += store_.at(k).seconds;
+  }
+  return false;
+}
+
+unsigned OptimalPlanner::pieces_from(uint32_t piece) const {
+  unsigned n = 0;
+  while (piece + n != builder_.head()) {
+    const Piece& p = store_.piece_at(piece + n);
+    if (stands(p, limits_)) break;
+    ++n;
+    if (p.rest_behind) break;
+  }
+  return n;
+}
+
+/// The end of the next block that ends behind u, where single block rests.
+double OptimalPlanner::next_block_end(double u, uint32_t tail) const {
+  double at = -HUGE_VAL;
+  for (uint32_t k = tail; k != builder_.taken(); ++k) {
+    const Record& r = records_[k & store_.record_mask];
+    if (r.kind == ItemKind::move && r.segment.curve.length > 0) at = store_.passed[k & store_.record_mask];
+    if (r.kind == ItemKind::mark && r.mark.stop && at > u + kTiny) return at;
+  }
+  return HUGE_VAL;
+}
+
+// ---- laws
+// --------------------------------------------------------------------------------------------------------------------------
+
+bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* down, bool once, double period) {
+  MeshRequest request;
+  request.piece = store_.piece;
+  request.mask = store_.piece_mask;
+  request.base = start.piece;
+  request.count = pieces_from(start.piece);
+  if (request.count == 0) return false;
+  request.from.x = start.x;
+  request.from_rest = start.from_rest;
+  request.b0 = start.v * start.v;
+  request.slope0 = 2 * start.a;
+  request.reach = reach;
+  request.down = down;
+  Windows::Goal goal;
+  goal.once = once;
+  goal.period = period;
+  return windows_->law_to(request, limits_, goal);
+}
+
+/// What the axes allow along the path at a place.
+OptimalPlanner::Along OptimalPlanner::along(const Start& start) const {
+  const Piece& p = store_.piece_at(start.piece);
+  const CurvePoint q = evaluate(p, std::min(start.x, p.length), limits_.axis_count);
+  Along most{HUGE_VAL, HUGE_VAL};
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    const double d = std::fabs(q.d1[i]);
+    if (most.acceleration * d > limits_.acceleration[i]) most.acceleration = limits_.acceleration[i] / d;
+    if (most.jerk * d > limits_.jerk[i]) most.jerk = limits_.jerk[i] / d;
+  }
+  return most;
+}
+
+/// Length and time of a stop on the straight line ahead.
+double OptimalPlanner::stopping_distance(const Start& start, double* seconds) const {
+  const auto [a, j] = along(start);
+  if (!(a < HUGE_VAL) || !(j < HUGE_VAL)) return 0;
+  // As if the acceleration had been 0 for once: |start.a| / j ago, or as long ahead.
+  const double t = std::fabs(start.a) / j, v = start.v + 0.5 * start.a * start.a / j;
+  const double time = v >= a * a / j ? v / a + a / j : 2 * std::sqrt(v / j);
+  const double whole = 0.5 * v * time;
+  if (start.a > 0) {
+    *seconds = time + t;
+    return whole + t * (start.v + t * (start.a / 2 - t * j / 6));
+  }
+  *seconds = std::max(time - t, 0.2 * time);
+  return std::max(whole - t * (v - t * t * j / 6), 0.05 * whole);
+}
+
+/// The shortest way to rest that is found, shorter than `most`.
+bool OptimalPlanner::stop_law(const Start& start, double most) {
+  double seconds = 0;
+  const double distance = stopping_distance(start, &seconds);
+  if (!(distance > 0)) return false;
+  for (const double farther : kFarther) {
+    const double reach = distance * farther;
+    if (reach > most) return false;
+    if (one_law(start, reach, nullptr, true, std::min(kPeriod, seconds / 14))) return true;
+  }
+  return false;
+}
+
+/// The law that was found last ends where the path rests.
+bool OptimalPlanner::path_ends() const {
+  const PathPlace& place = windows_->place(windows_->law().cells);
+  const Piece& last = windows_->piece_of(windows_->law().cells);
+  return last.rest_behind && place.x >= last.length - kTiny;
+}
+
+/// Writes the cells of the law. False when they have no room.
+bool OptimalPlanner::copy_law(const Start& start, Start* end) {
+  const Law& law = windows_->law();
+  const Mesh& mesh = windows_->mesh();
+  if (write_ + law.cells - free_from_ >= kCells) return false;
+  const bool ends = path_ends();
+  double u = start.u;
+  for (unsigned k = 0; k < law.cells; ++k) {
+    PlanCell& c = store_.cell[write_ & store_.cell_mask];
+    c = plan_cell(law, mesh, k);
+    c.u = u;
+    c.x = windows_->place(k).x;
+    c.piece = start.piece + windows_->place(k).piece;
+    c.path_ends = ends && k + 1 == law.cells;
+    chain_next_[write_ & store_.cell_mask] = write_ + 1;
+    u += mesh.h[k];
+    ++write_;
+  }
+  const PathPlace& place = windows_->place(law.cells);
+  *end = {};
+  end->after = write_ - 1;
+  end->piece = start.piece + place.piece;
+  end->x = place.x;
+  end->u = u;
+  const Piece& p = store_.piece_at(end->piece);
+  if (end->x >= p.length - kTiny) {  // the next law begins with the next piece
+    end->u = builder_.start_of(end->piece) + p.length;
+    ++end->piece;
+    end->x = 0;
+  }
+  return true;
+}
+
+/// A law from `start`, as fast as it is found: from rest with lower limits when nothing else helps.
+bool OptimalPlanner::try_limits(const Start& start, double most, const WayDown* down) {
+  const Limits whole = limits_;
+  bool found = false;
+  for (const double slower : kSlower) {
+    if (slower < 1 && !start.from_rest) break;
+    for (unsigned i = 0; i < limits_.axis_count; ++i) {
+      limits_.velocity[i] = whole.velocity[i] * slower;
+      limits_.rapid[i] = whole.rapid[i] * slower;
+      limits_.acceleration[i] = whole.acceleration[i] * slower;
+      limits_.jerk[i] = whole.jerk[i] * slower;
+    }
+    found = one_law(start, most, down, false, kPeriod);
+    if (found) break;
+  }
+  limits_ = whole;
+  return found;
+}
+
+double OptimalPlanner::block_most(const Following& f, const Start& at) const {
+  return f.block_rests ? next_block_end(at.u, f.tail) - at.u : HUGE_VAL;
+}
+
+/// Laws from `start` on, one behind the other, written and offered. False when there is none.
+bool OptimalPlanner::extend(const Following& f, const Start& start, double most, const WayDown* down) {
+  Start at = start;
+  offer_first_ = write_;
+  next_chain_ = {};
+  double time = 0;
+  bool any = false;
+  for (unsigned n = 0; n < kLawsAtOnce && time < kEnough; ++n) {
+    if (pieces_from(at.piece) == 0) break;
+    if (!try_limits(at, most, down)) {
+      if (!any && at.from_rest) offer_.failed = true;
+      break;
+    }
+    const bool rests = path_ends() || (most < HUGE_VAL && windows_->whole());
+    const uint32_t first = write_;
+    Start end;
+    if (!copy_law(at, &end)) break;
+    any = true;
+    uint32_t keep = end.after;
+    if (!rests) {
+      for (double back = 0; keep != first && back < windows_->stop_seconds(); --keep) back += store_.at(keep).seconds;
+    }
+    for (uint32_t k = first; k != write_; ++k) time += store_.at(k).seconds;
+    next_chain_.keep = keep;
+    next_chain_.last = end.after;
+    next_chain_.piece = end.piece;
+    next_chain_.x = end.x;
+    next_chain_.u = end.u;
+    at = end;
+    down = nullptr;
+    most = HUGE_VAL;
+    if (!rests || f.block_rests) break;
+  }
+  if (!any) {
+    write_ = offer_first_;
+    return false;
+  }
+  next_chain_.block_rests = f.block_rests;
+  offer(start, false);
+  return true;
+}
+
+void OptimalPlanner::offer(const Start& start, bool stops) {
+  chain_next_[(write_ - 1) & store_.cell_mask] = kNoCell;
+  next_chain_.feed_scale = limits_.feed_scale;
+  next_chain_.rapid_scale = limits_.rapid_scale;
+  next_chain_.turns = limits_.turns;
+  next_chain_.stops = stops;
+  ++offer_.number;
+  offer_.after = start.after;
+  offer_.fresh = start.fresh;
+  offer_.first = offer_first_;
+  offer_.last = write_ - 1;
+  offer_.failed = false;
+  open_ = true;
+}
+
+/// Limits under which the feed does not matter on a way down from `start`: what is faster than it, is so already.
+Limits OptimalPlanner::unbound(const Start& start) const {
+  Limits l = limits_;
+  const Piece& p = store_.piece_at(start.piece);
+  l.rapid_scale = 1;
+  if (p.by == FeedBy::turns) l.turns = std::max(l.turns, chain_.turns);
+  l.feed_scale = std::max(l.feed_scale, chain_.feed_scale);
+  const double most = 1.02 * (start.v + (start.a > 0 ? 0.5 * start.a * start.a / along(start).jerk : 0));
+  if (p.by != FeedBy::constant && p.feed < HUGE_VAL && feed_of(p, l) < most) {
+    if (p.by == FeedBy::turns && !(l.turns > 0)) l.turns = 1;
+    l.feed_scale = most / (p.feed * (p.by == FeedBy::turns ? l.turns : 1));
+  }
+  return l;
+}
+
+/// Offers the shortest way to rest, if there is one shorter than the chain.
+bool OptimalPlanner::stop_there(const Start& start) {
+  const Limits now = limits_;
+  limits_ = unbound(start);
+  const bool found = stop_law(start, 0.99 * (chain_.u - start.u));
+  limits_ = now;
+  if (!found) return false;
+  offer_first_ = write_;
+  next_chain_ = {};
+  Start end;
+  if (!copy_law(start, &end)) return false;
+  next_chain_.last = next_chain_.keep = end.after;
+  next_chain_.piece = end.piece;
+  next_chain_.x = end.x;
+  next_chain_.u = end.u;
+  offer(start, true);
+  return true;
+}
+
+// ---- what is to be done
+// ----------------------------------------------------------------------------------------------------------------
+
+/// Another override, a stop, or the end of one, while the scan moves.
+void OptimalPlanner::change(const Following& f) {
+  if (fresh_ || !moving(f)) {
+    chain_.stops = false;
+    return;
+  }
+  const bool scales = !same(f.feed_scale, chain_.feed_scale) || !same(f.rapid_scale, chain_.rapid_scale) || !same(limits_.turns, chain_.turns);
+  const bool blocks = f.block_rests && !chain_.block_rests;
+  if (!(f.brake ? !chain_.stops : scales || blocks || chain_.stops)) return;
+  if (tried_at_ != kNoCell && f.cell - tried_at_ < kRetry) return;
+  Start start;
+  if (!find_ahead(f, lead_, &start)) return;  // it comes to rest before anything could be changed
+  if (start.from_rest) {
+    if (!f.brake) extend(f, start, block_most(f, start), nullptr);
+    return;  // the scan stops there by itself
+  }
+  const bool lower = f.feed_scale < chain_.feed_scale || f.rapid_scale < chain_.rapid_scale || limits_.turns < chain_.turns;
+  if (f.brake || stands(store_.piece_at(start.piece), limits_)) {
+    if (!chain_.stops) stop_there(start);
+  } else if (blocks) {
+    stop_at_block(f, start);
+  } else if (lower) {
+    slow_down(f, start);
+  } else {
+    extend(f, start, block_most(f, start), nullptr);
+  }
+  tried_at_ = open_ ? kNoCell : f.cell;
+}
+
+/// Single block has been switched on: to the first end of a block that can be reached at rest.
+void OptimalPlanner::stop_at_block(const Following& f, const Start& start) {
+  double seconds = 0;
+  const double distance = stopping_distance(start, &seconds);
+  for (const double farther : kFarther) {
+    const double end = next_block_end(start.u + distance * farther, f.tail);
+    if (!(end < chain_.u)) {
+      chain_.block_rests = true;  // the chain itself ends before; what comes behind it rests
+      return;
+    }
+    if (extend(f, start, end - start.u, nullptr)) return;
+  }
+}
+
+/// A lower feed: down to it no faster than a stop would be.
+void OptimalPlanner::slow_down(const Following& f, const Start& start) {
+  const Limits now = limits_;
+  limits_ = unbound(start);
+  const bool stops = stop_law(start, HUGE_VAL);
+  limits_ = now;
+  if (!stops) return;
+  const Law& law = windows_->law();
+  WayDown down;
+  down_u_[0] = 0;
+  for (unsigned k = 0; k <= law.cells; ++k) {
+    down_b_[k] = kDown * law.b[k];
+    if (k > 0) down_u_[k] = down_u_[k - 1] + windows_->mesh().h[k - 1];
+  }
+  down.u = down_u_;
+  down.b = down_b_;
+  down.count = law.cells + 1;
+  if (!extend(f, start, block_most(f, start), &down)) stop_there(start);
+}
+
+/// A longer chain.
+void OptimalPlanner::go_on(const Following& f, bool idle) {
+  const bool rests = fresh_ || !moving(f);
+  const Start end = at_end();
+  if (pieces_from(end.piece) == 0) {
+    if (rests && idle && end.piece == builder_.head()) builder_.finish();
+    return;
+  }
+  if (rests || chain_.keep == chain_.last) {
+    if (rests || ahead(f, chain_.last) < kHungry) extend(f, end, block_most(f, end), nullptr);
+    return;
+  }
+  if (ahead(f, chain_.keep) >= kHungry) return;
+  const double more = builder_.end_u() - chain_.u;
+  const bool whole = store_.piece_at(builder_.head() - 1).rest_behind;
+  if (!(more > kNew * (chain_.u - store_.at(f.cell).u)) && !(whole && more > kTiny)) return;
+  if (tried_at_ != kNoCell && f.cell - tried_at_ < kRetry) return;
+  Start start = behind(chain_.keep);
+  if (ahead(f, chain_.keep) < lead_ && !find_ahead(f, lead_, &start)) return;
+  extend(f, start, block_most(f, start), nullptr);
+  tried_at_ = open_ ? kNoCell : f.cell;
+}
+
+}  // namespace nc::optimal

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// The planner of the optimal mode (feeder thread). It gives the scan one chain of cells, which always ends at rest, and changes it in
+// front of the scan: for more path, for another override, for a stop. What it offers begins with the state that the chain has behind
+// some cell; the scan takes it when it has not left that cell, and else goes on as before (docs/motion-optimal.md).
+#pragma once
+
+#include "interpolate/exchange.hpp"
+#include "motion/optimal/path_builder.hpp"
+#include "motion/optimal/windows.hpp"
+
+namespace nc::optimal {
+
+class OptimalPlanner {
+ public:
+  struct Setup {
+    Limits limits;
+    double tolerance = 0.01, cycle_s = 0.001;
+    uint32_t capacity = 1024;  ///< records
+  };
+  void create(const Setup& setup, const Record* records, Arena& arena);
+
+  /// Brings the plan up to date with the records before `head` and with what the scan has said.
+  void replan(uint32_t head);
+  /// Forgets the records from ring index `end` on. The scan is at rest and waits.
+  void truncate(uint32_t end);
+
+  PlanStore& store() { return store_; }
+  // ---- scan
+  const Proposal& newest() NC_RT { return offers_.read(); }
+  void say(const Following& f) NC_RT { following_.write(f); }
+
+ private:
+  static constexpr uint32_t kCells = 8192;  ///< in the ring
+  /// A place where a law may begin: behind a cell of the chain, or at rest without one.
+  struct Start {
+    uint32_t after = kNoCell;
+    bool fresh = false, from_rest = true;
+    uint32_t piece = 0;
+    double x = 0, u = 0, v = 0, a = 0;
+  };
+  /// What a chain is once the scan has taken it.
+  struct Chain {
+    uint32_t last = kNoCell;
+    uint32_t keep = kNoCell;  ///< behind this cell the stop at the end has slowed it; == last: nothing has
+    uint32_t piece = 0;       ///< where it ends
+    double x = 0, u = 0;
+    double feed_scale = 1, rapid_scale = 1, turns = 0;
+    bool block_rests = false, stops = false;
+  };
+
+  void rebuild(const Following& f);
+  bool answered(const Following& f);
+  void go_on(const Following& f, bool idle);
+  void change(const Following& f);
+  bool find_ahead(const Following& f, double lead, Start* start) const;
+  Start at_end() const;
+  Start behind(uint32_t cell) const;
+  double ahead(const Following& f, uint32_t cell) const;
+  bool moving(const Following& f) const { return f.cell != kNoCell && !(f.at_end && f.cell == chain_.last); }
+  bool extend(const Following& f, const Start& start, double most, const WayDown* down);
+  bool try_limits(const Start& start, double most, const WayDown* down);
+  bool one_law(const Start& start, double reach, const WayDown* down, bool once, double period);
+  bool stop_law(const Start& start, double most);
+  struct Along {
+    double acceleration, jerk;
+  };
+  Along along(const Start& start) const;
+  double stopping_distance(const Start& start, double* seconds) const;
+  double next_block_end(double u, uint32_t tail) const;
+  unsigned pieces_from(uint32_t piece) const;
+  bool path_ends() const;
+  bool copy_law(const Start& start, Start* end);
+  void offer(const Start& start, bool stops);
+  bool stop_there(const Start& start);
+  void stop_at_block(const Following& f, const Start& start);
+  void slow_down(const Following& f, const Start& start);
+  Limits unbound(const Start& start) const;
+  double block_most(const Following& f, const Start& at) const;
+  double least_lead() const { return 4 * setup_.cycle_s; }
+  void publish();
+  Limits with(const Following& f) const;
+
+  Setup setup_;
+  const Record* records_ = nullptr;
+  PlanStore store_;
+  PathBuilder builder_;
+  Windows* windows_ = nullptr;
+  uint32_t* chain_next_ = nullptr;
+  double *down_u_ = nullptr, *down_b_ = nullptr;
+
+  Limits limits_;               ///< with the overrides of this call
+  Chain chain_, next_chain_;    ///< what the scan follows; what it has been offered
+  bool open_ = false;           ///< an offer waits for its answer
+  Proposal offer_;
+  uint32_t offer_first_ = 0, published_ = 0;
+  bool told_failed_ = false;
+  uint32_t write_ = 0;          ///< next free cell
+  uint32_t free_from_ = 0;      ///< cells from here on may be looked at by the scan
+  uint32_t generation_ = 0;
+  bool fresh_ = true;           ///< the scan has no chain
+  uint32_t fresh_piece_ = 0;    ///< where the path begins then
+  double lead_ = 0.004;
+  uint32_t head_ = 0;
+  uint32_t tried_at_ = kNoCell;  ///< cell of the scan when no law was found
+  Latest<Proposal> offers_;
+  Latest<Following> following_;
+};
+
+}  // namespace nc::optimal

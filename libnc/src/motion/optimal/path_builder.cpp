@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion/optimal/path_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nc::optimal {
+namespace {
+
+constexpr double kSamePlace = 1e-7;    ///< mm or deg: a segment starts where the one before has ended
+constexpr double kLeastLength = 1e-6;  ///< mm, of what is left of a record
+constexpr double kLeastSpacing = 0.005; ///< mm, of the knots of a smoothed line
+constexpr double kOfRing = 32;         ///< knots of the lines that the ring of records holds, at least
+constexpr unsigned kWorthwhile = 16;   ///< vertices that are waited for before a line is smoothed again
+constexpr unsigned kGathered = 64;     ///< the same while more records lie in the ring
+constexpr unsigned kMostAtOnce = 512;  ///< pieces of one smoothing
+
+bool demands_rest(const Record& r) {
+  if (r.kind == ItemKind::action) return r.action.kind == NC_ACTION_MESSAGE;
+  return r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm || r.kind == ItemKind::end;
+}
+
+/// Feed of a line under no override, and what it goes with.
+double feed_of_segment(const Segment& s, FeedBy* by) {
+  *by = s.skip || s.fixed_override ? FeedBy::constant : s.feed_mm_rev > 0 ? FeedBy::turns : FeedBy::override;
+  return s.feed_mm_rev > 0 ? s.feed_mm_rev : s.feed_mm_s;
+}
+
+}  // namespace
+
+void PathBuilder::create(const Limits& limits, double tolerance, double period, const Record* records, PlanStore* store, Arena& arena) {
+  limits_ = limits;
+  tolerance_ = tolerance;
+  period_ = period;
+  records_ = records;
+  store_ = store;
+  store->piece = arena.make<Piece>(kPieces);
+  store->piece_mask = kPieces - 1;
+  start_u_ = arena.make<double>(kPieces);
+  vertex_ = arena.make<AxisVec>(kVertices);
+  length_ = arena.make<double>(kVertices);
+  feed_ = arena.make<double>(kVertices);
+  room_.u = arena.make<double>(kVertices);
+  room_.vertices = kVertices;
+  room_.knot = arena.make<double>(kKnots);
+  room_.control = arena.make<AxisVec>(kKnots + 3);
+  room_.corner = arena.make<unsigned>(kKnots);
+  room_.split = arena.make<unsigned char>(kKnots);
+  room_.knots = kKnots;
+  out_ = arena.make<Piece>(kKnots);
+}
+
+void PathBuilder::restart(uint32_t from, double s, const AxisVec& machine, double u) {
+  read_ = from;
+  tail_ = head_;
+  head_u_ = line_u_ = u;
+  count_ = 0;
+  goes_on_ = closing_ = false;
+  resumed_ = true;
+  resumed_s_ = s;
+  resumed_at_ = machine;
+}
+
+void PathBuilder::push_piece(const Piece& piece) {
+  store_->piece[head_ & store_->piece_mask] = piece;
+  start_u_[head_ & store_->piece_mask] = head_u_;
+  head_u_ += piece.length;
+  ++head_;
+}
+
+void PathBuilder::begin_line(const AxisVec& at, double u) {
+  vertex_[0] = at_ = at;
+  count_ = 1;
+  tried_ = 0;
+  line_start_u_ = line_u_ = u;
+  goes_on_ = false;
+}
+
+/// The record goes on where the gathered line ends, at speed.
+bool PathBuilder::joins(const Record& r) const {
+  const Segment& s = r.segment;
+  if (count_ < 2 || !plain(s) || s.rest_before || r.epoch != epoch_) return false;
+  FeedBy by;
+  feed_of_segment(s, &by);
+  if (by != by_) return false;
+  for (unsigned i = 0; i < limits_.axis_count; ++i)
+    if (std::fabs(s.curve.start[i] - vertex_[count_ - 1][i]) > kSamePlace) return false;
+  return true;
+}
+
+void PathBuilder::add_line(const Record& r) {
+  const Segment& s = r.segment;
+  double length = s.curve.length;
+  if (count_ == 0) {
+    const bool from_machine = resumes(s);
+    begin_line(from_machine ? resumed_at_ : s.curve.start, head_u_);
+    epoch_ = r.epoch;
+    if (from_machine) length = std::max(length - resumed_s_, kLeastLength);
+    resumed_ = false;
+  }
+  const double feed = feed_of_segment(s, &by_);
+  uses_turns_ |= by_ == FeedBy::turns;
+  const double zone = s.slow_zone > 0 ? std::min(static_cast<double>(s.slow_zone), length) : 0;
+  const auto add = [&](const AxisVec& to, double l, double f) {
+    vertex_[count_] = to;
+    length_[count_ - 1] = l;
+    feed_[count_ - 1] = f;
+    ++count_;
+    line_u_ += l;
+  };
+  if (zone > 0 && zone < length) {  // M700 7.10: the end of the line has a feed of its own
+    AxisVec middle;
+    for (unsigned i = 0; i < limits_.axis_count; ++i)
+      middle[i] = s.curve.end[i] - (s.curve.end[i] - vertex_[count_ - 1][i]) * (zone / length);
+    add(middle, length - zone, feed);
+    add(s.curve.end, zone, feed * static_cast<double>(s.slow_factor));
+  } else {
+    add(s.curve.end, length, zone > 0 ? feed * static_cast<double>(s.slow_factor) : feed);
+  }
+}
+
+/// The axes stand within the tolerance of where the record goes on.
+bool PathBuilder::resumes(const Segment& s) const {
+  if (!resumed_) return false;
+  const AxisVec at = resumed_s_ > 0 ? curve_position(s.curve, resumed_s_, limits_.axis_count) : s.curve.start;
+  for (unsigned i = 0; i < limits_.axis_count; ++i)
+    if (std::fabs(at[i] - resumed_at_[i]) > 2 * tolerance_) return false;
+  return true;
+}
+
+/// From where the axes stand to where a curve goes on, which is never farther than the tolerance.
+void PathBuilder::go_there(const AxisVec& to, const Piece& curve) {
+  double length2 = 0;
+  for (unsigned i = 0; i < limits_.axis_count; ++i) length2 += (to[i] - resumed_at_[i]) * (to[i] - resumed_at_[i]);
+  if (!(length2 > kSamePlace * kSamePlace)) return;
+  Piece p;
+  p.feed = curve.feed;
+  p.by = curve.by;
+  p.length = std::sqrt(length2);
+  p.rest_behind = true;
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    p.c[0][i] = resumed_at_[i];
+    p.c[1][i] = (to[i] - resumed_at_[i]) / p.length;
+  }
+  push_piece(p);
+}
+
+/// What is not a plain line: one piece (two with a slow zone) from rest to rest.
+void PathBuilder::add_curve(const Record& r) {
+  const Segment& s = r.segment;
+  const bool from_machine = resumes(s);
+  const double from = from_machine && resumed_s_ > 0 ? resumed_s_ : s.begun;
+  const bool line = !s.curve.circular && s.curve.shape == nullptr;
+  Piece p;
+  p.feed = s.rapid ? HUGE_VAL : feed_of_segment(s, &p.by);
+  p.rapid = s.rapid;
+  uses_turns_ |= p.by == FeedBy::turns;
+  const double rest = std::max(s.curve.length - from, kLeastLength);
+  if (line) {
+    const AxisVec start = from_machine ? resumed_at_ : curve_position(s.curve, from, limits_.axis_count);
+    for (unsigned i = 0; i < limits_.axis_count; ++i) {
+      p.c[0][i] = start[i];
+      p.c[1][i] = (s.curve.end[i] - start[i]) / rest;
+    }
+  } else {
+    p.curve = &s.curve;
+    p.curve_from = s.curve.length - rest;
+    if (from_machine) go_there(curve_position(s.curve, p.curve_from, limits_.axis_count), p);
+  }
+  resumed_ = false;
+  const double zone = s.slow_zone > 0 ? std::min(static_cast<double>(s.slow_zone), rest) : 0;
+  if (rest - zone > 1e-9) {
+    p.length = rest - zone;
+    p.rest_behind = !(zone > 0);
+    push_piece(p);
+    if (p.rest_behind) return;
+    p.curve_from += p.length;
+    for (unsigned i = 0; i < limits_.axis_count; ++i) p.c[0][i] += p.length * p.c[1][i];
+  }
+  p.length = zone;
+  p.feed *= static_cast<double>(s.slow_factor);
+  p.rest_behind = true;
+  push_piece(p);
+}
+
+/// Copies pieces [from, to) of the smoothed line into the ring.
+bool PathBuilder::give_out(unsigned from, unsigned to, bool rest) {
+  if (!room(to - from)) return false;
+  for (unsigned k = from; k < to; ++k) {
+    out_[k].by = by_;
+    out_[k].rest_behind = rest && k + 1 == to;
+    push_piece(out_[k]);
+  }
+  return true;
+}
+
+void PathBuilder::drop(unsigned vertices) {
+  for (unsigned k = vertices; k < count_; ++k) {
+    vertex_[k - vertices] = vertex_[k];
+    length_[k - vertices] = length_[k];
+    feed_[k - vertices] = feed_[k];
+  }
+  count_ -= vertices;
+}
+
+/// No smooth path was found: every line for itself, from rest to rest.
+bool PathBuilder::stop_at_vertices() {
+  unsigned k = 0;
+  for (; k + 1 < count_ && room(1); ++k) {
+    Piece p;
+    p.length = length_[k];
+    p.feed = feed_[k];
+    p.by = by_;
+    p.rest_behind = true;
+    for (unsigned i = 0; i < limits_.axis_count; ++i) {
+      p.c[0][i] = vertex_[k][i];
+      p.c[1][i] = (vertex_[k + 1][i] - vertex_[k][i]) / length_[k];
+    }
+    push_piece(p);
+  }
+  drop(k);
+  line_start_u_ = head_u_;
+  if (count_ > 1) return false;
+  count_ = 0;
+  return true;
+}
+
+/// The line behind cell `border`: from the last vertex in front of the knots that it keeps.
+void PathBuilder::go_on(unsigned border) {
+  const Piece& last = out_[border - 1];
+  at_ = evaluate(last, last.length, limits_.axis_count).position;
+  const double* kept = room_.knot + (border - kFirstCell);
+  unsigned gone = 0;
+  while (gone + 2 < count_ && room_.u[gone + 1] <= kept[0]) ++gone;
+  const double shift = room_.u[gone];
+  for (unsigned k = 0; k < kGoesOn; ++k) knot_[k] = kept[k] - shift;
+  drop(gone);
+  line_start_u_ += shift;
+  goes_on_ = true;
+}
+
+bool PathBuilder::smooth_line(bool whole) {
+  if (count_ < 2) return false;
+  if (!room(whole ? 1 : kMostAtOnce)) return false;
+  tried_ = count_;
+  SmoothRequest request;
+  request.line = {vertex_, length_, feed_, count_};
+  request.tolerance = tolerance_;
+  request.axis_count = limits_.axis_count;
+  double slowest = HUGE_VAL;
+  for (unsigned k = 0; k + 1 < count_; ++k) slowest = std::min(slowest, feed_[k]);
+  const double speed = by_ == FeedBy::turns ? slowest * std::max(limits_.turns, 1.0) : slowest;
+  request.spacing = std::max(period_ * std::min(speed, 1e4), kLeastSpacing);
+  // What is not settled yet is some knots long: no more than a part of what the ring of records holds (every other one is a mark).
+  const double in_ring = (line_u_ - line_start_u_) / (count_ - 1) * (store_->record_mask + 1) / 2;
+  request.spacing = std::max(std::min(request.spacing, in_ring / kOfRing), kLeastSpacing / 50);
+  if (goes_on_) {
+    request.knot = knot_;
+    request.at = at_;
+  }
+  const unsigned cells = optimal::smooth(request, room_, out_, kKnots);
+  const unsigned first = goes_on_ ? kFirstCell : 0;
+  if (whole) {
+    if (cells != 0) {
+      if (!give_out(first, cells, true)) return false;
+      count_ = 0;
+      goes_on_ = false;
+      head_u_ = line_u_;
+      return true;
+    }
+    if (goes_on_) rest_here();
+    return stop_at_vertices();
+  }
+  if (cells == 0) return false;
+  const unsigned border = settled_cells(request, room_, cells);
+  if (border <= first || !give_out(first, border, false)) return false;
+  go_on(border);
+  tried_ = count_;
+  return true;
+}
+
+/// The path rests where its pieces end, within the tolerance of the line, and the rest of the line begins there.
+void PathBuilder::rest_here() {
+  store_->piece[(head_ - 1) & store_->piece_mask].rest_behind = true;
+  const double gone = head_u_ - line_start_u_;
+  unsigned k = 0;
+  double u = 0;
+  while (k + 2 < count_ && u + length_[k] <= gone) u += length_[k++];
+  length_[k] = std::max(u + length_[k] - gone, kLeastLength);
+  vertex_[k] = at_;
+  drop(k);
+  line_start_u_ = head_u_;
+  goes_on_ = false;
+}
+
+bool PathBuilder::finish() {
+  return smooth_line(true);
+}
+
+bool PathBuilder::take(uint32_t head) {
+  bool more = false;
+  for (;;) {
+    if (closing_) {
+      if (!smooth_line(true)) return more;
+      closing_ = false;
+      more = true;
+    }
+    if (read_ == head) break;
+    const Record& r = records_[read_ & store_->record_mask];
+    const bool moves = r.kind == ItemKind::move && r.segment.curve.length > 0;
+    if (count_ > 0 && (moves ? !joins(r) : demands_rest(r))) {
+      closing_ = true;
+      continue;
+    }
+    if (moves && plain(r.segment)) {
+      if (count_ + 2 >= kVertices && !smooth_line(false)) return more;
+      if (count_ + 2 >= kVertices) return more;
+      add_line(r);
+      store_->passed[read_ & store_->record_mask] = line_u_;
+      closing_ = r.segment.exact_stop;
+      if (!closing_ && worthwhile(kGathered) && smooth_line(false)) more = true;
+    } else if (moves) {
+      if (!room(3)) return more;
+      add_curve(r);
+      more = true;
+      line_u_ = head_u_;
+      store_->passed[read_ & store_->record_mask] = head_u_;
+    }
+    ++read_;
+  }
+  if (count_ > 1 && worthwhile(kWorthwhile) && smooth_line(false)) more = true;
+  return more;
+}
+
+}  // namespace nc::optimal

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records become path: lines that may be passed at speed are gathered and smoothed as far as what follows cannot change them any more;
+// arcs and other curves stay what they are, from rest to rest. Pieces that lie in the ring are final.
+#pragma once
+
+#include "base/arena.hpp"
+#include "interpolate/record.hpp"
+#include "motion/optimal/plan_cell.hpp"
+#include "motion/optimal/smooth.hpp"
+
+namespace nc::optimal {
+
+class PathBuilder {
+ public:
+  static constexpr unsigned kPieces = 4096;    ///< in the ring
+  static constexpr unsigned kVertices = 8192;  ///< that wait to be smoothed
+
+  void create(const Limits& limits, double tolerance, double period, const Record* records, PlanStore* store, Arena& arena);
+
+  /// Takes records from the ring up to `head`, as far as there is room. @return true when there is more path than before.
+  bool take(uint32_t head);
+  /// Nothing more comes for the time being: what waits ends here, at rest.
+  bool finish();
+  /// From here on anew: nothing is left of the path but the room that records [from, …) take. The first of them is a move that has been gone
+  /// to `s`, and the axes stand at `machine`.
+  void restart(uint32_t from, double s, const AxisVec& machine, double u);
+
+  uint32_t taken() const { return read_; }
+  uint32_t head() const { return head_; }  ///< behind the last piece
+  void free_pieces(uint32_t tail) { tail_ = tail; }
+  double start_of(uint32_t piece) const { return start_u_[piece & store_->piece_mask]; }
+  double end_u() const { return head_u_; }  ///< of all pieces
+  bool uses_turns() const { return uses_turns_; }  ///< a feed per revolution has been met
+  bool waits() const { return count_ > 1; }
+
+ private:
+  bool joins(const Record& r) const;
+  void add_line(const Record& r);
+  void add_curve(const Record& r);
+  bool resumes(const Segment& s) const;
+  void go_there(const AxisVec& to, const Piece& curve);
+  bool smooth_line(bool whole);
+  bool stop_at_vertices();
+  void drop(unsigned vertices);
+  bool worthwhile(unsigned least) const { return count_ >= tried_ + (tried_ / 8 > least ? tried_ / 8 : least); }
+  bool give_out(unsigned from, unsigned to, bool rest);
+  void go_on(unsigned border);
+  void rest_here();
+  void begin_line(const AxisVec& at, double u);
+  void push_piece(const Piece& piece);
+  bool room(unsigned pieces) const { return head_ - tail_ + pieces < kPieces; }
+  static bool plain(const Segment& s) { return !s.curve.circular && s.curve.shape == nullptr && !s.rapid && !s.skip && !(s.begun > 0); }
+
+  Limits limits_;
+  double tolerance_ = 0.01, period_ = 0.005;
+  const Record* records_ = nullptr;
+  PlanStore* store_ = nullptr;
+  double* start_u_ = nullptr;
+
+  uint32_t read_ = 0;        ///< next record to be taken
+  uint32_t head_ = 0, tail_ = 0;
+  double head_u_ = 0;        ///< where the pieces end
+  double line_u_ = 0;        ///< where the gathered line ends
+
+  // the line that is gathered
+  AxisVec* vertex_ = nullptr;
+  double *length_ = nullptr, *feed_ = nullptr;
+  unsigned count_ = 0;       ///< vertices; 0: none is open
+  unsigned tried_ = 0;       ///< vertices when it was smoothed last
+  FeedBy by_ = FeedBy::override;
+  uint32_t epoch_ = 0;
+  bool uses_turns_ = false;
+  bool closing_ = false;     ///< it ends at its last vertex, whatever comes
+  double line_start_u_ = 0;  ///< of vertex 0
+  bool goes_on_ = false;
+  double knot_[kGoesOn] = {};
+  AxisVec at_;               ///< where the pieces of this line end
+  bool resumed_ = false;     ///< the next record has been gone in part
+  double resumed_s_ = 0;
+  AxisVec resumed_at_;
+
+  SmoothRoom room_;
+  Piece* out_ = nullptr;
+  static constexpr unsigned kKnots = 2048;
+};
+
+}  // namespace nc::optimal

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plan of the optimal mode as the scan follows it: a chain of cells in a ring. Each knows its start on the path, its motion and how
+// long it takes; the last one of a chain lands at rest. Positions, velocities and accelerations are continuous from cell to cell.
+#pragma once
+
+#include "motion/optimal/piece.hpp"
+#include "motion/optimal/profile.hpp"
+
+namespace nc::optimal {
+
+inline constexpr uint32_t kNoCell = ~0u;
+
+struct PlanCell {
+  enum class Kind : uint8_t { level, launch, land };
+  double u = 0;  ///< of the whole path, where the cell begins
+  double x = 0;  ///< the same within its piece
+  double h = 0, seconds = 0;
+  double v = 0;       ///< at the start; of a launch at its end
+  double a = 0;       ///< u'' at the start
+  double w = 0;       ///< b''/2
+  uint32_t piece = 0;
+  Kind kind = Kind::level;
+  bool path_ends = false;  ///< the path rests at its end, not the plan alone
+};
+
+/// Motion `t` seconds after the cell was entered; x from its start.
+inline CellState state_in(const PlanCell& c, double t) NC_RT {
+  CellState q;
+  if (c.kind == PlanCell::Kind::launch) {
+    const double j = 2 * c.v / (c.seconds * c.seconds);
+    return {j * t * t * t / 6, j * t * t / 2, j * t};
+  }
+  if (c.kind == PlanCell::Kind::land) {
+    const double j = 2 * c.v / (c.seconds * c.seconds), left = std::fmax(0, c.seconds - t);
+    return {c.h - j * left * left * left / 6, j * left * left / 2, -j * left};
+  }
+  double s, ds, cc;
+  law_functions(c.w, t, &s, &ds, &cc);
+  q.x = c.v * s + c.a * cc;
+  q.v = c.v * ds + c.a * s;
+  q.a = c.a * ds + c.w * c.v * s;
+  return q;
+}
+
+/// Cell k of a law.
+inline PlanCell plan_cell(const Law& law, const Mesh& mesh, unsigned k) {
+  PlanCell c;
+  c.h = mesh.h[k];
+  c.seconds = cell_seconds(law, mesh, k);
+  c.w = law.half2[k];
+  if (k == 0 && mesh.from_rest) {
+    c.kind = PlanCell::Kind::launch;
+    c.v = std::sqrt(law.b[1]);
+  } else {
+    c.v = std::sqrt(law.b[k]);
+    c.a = 0.5 * law.slope[k];
+    if (k + 1 == law.cells) {
+      c.kind = PlanCell::Kind::land;
+      c.a = -2 * c.v / c.seconds;
+    }
+  }
+  return c;
+}
+
+/// Cells and pieces, written by the planner, read by the scan once a proposal has shown them.
+struct PlanStore {
+  PlanCell* cell = nullptr;
+  uint32_t* next = nullptr;  ///< per cell: where the chain goes on; the scan's
+  Piece* piece = nullptr;
+  double* passed = nullptr;  ///< per record: u at its end
+  uint32_t cell_mask = 0, piece_mask = 0, record_mask = 0;
+  const PlanCell& at(uint32_t k) const { return cell[k & cell_mask]; }
+  const Piece& piece_at(uint32_t k) const { return piece[k & piece_mask]; }
+};
+
+/// What the planner offers: cells [first, last] behind cell `after`, or for an axis at rest and without a plan (fresh).
+struct Proposal {
+  uint32_t number = 0;      ///< counts offers
+  uint32_t generation = 0;  ///< for a scan that has given up so often
+  uint32_t after = kNoCell, first = kNoCell, last = kNoCell;
+  bool fresh = false;
+  bool failed = false;      ///< no law was found for what follows
+  uint32_t end = 0;         ///< ring index behind the last record that is committed
+};
+
+/// What the scan says of it.
+struct Following {
+  uint32_t answered = 0;   ///< newest offer that has been looked at
+  bool taken = false;      ///< it was
+  uint32_t generation = 0;
+  uint32_t cell = kNoCell;  ///< in execution, or the last one
+  double t = 0;             ///< s in it
+  bool at_end = true;       ///< it has been gone to its end
+  bool brake = false;       ///< to rest as soon as the limits allow
+  double feed_scale = 1, rapid_scale = 1, turns = 0;
+  bool block_rests = false;  ///< at the ends of blocks
+  uint32_t tail = 0;
+  double s = 0;             ///< of the record at the tail
+  AxisVec machine;
+  uint32_t epoch = 0;
+};
+
+}  // namespace nc::optimal

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// The optimal mode behind the executor: what the interpolator gives out keeps velocity, acceleration and jerk of every axis in every
+// cycle, whatever the operator and the feeder do, and goes where the program says.
+#include <gtest/gtest.h>
+
+#include "interpolate/random_program.hpp"
+#include "interpolate/test_machine.hpp"
+
+namespace nc::test {
+namespace {
+
+ExecutorConfig optimal_config(unsigned axes = 3) {
+  ExecutorConfig c = standard_config(axes);
+  c.optimal = true;
+  for (unsigned i = 0; i < axes; ++i) c.limits[i] = {250, 250, 2000, 50000, 0.01};
+  if (axes > 3) c.limits[3] = {180, 150, 3000, 60000, 0.01};
+  return c;
+}
+
+AxisVec at(double x, double y, double z = 0) {
+  AxisVec p;
+  p[0] = x;
+  p[1] = y;
+  p[2] = z;
+  return p;
+}
+
+TEST(Planned, ASquareWithExactStopsHitsItsCorners) {
+  const ExecutorConfig config = optimal_config();
+  Program p(config);
+  for (const AxisVec& corner : {at(50, 0), at(50, 50), at(0, 50), at(0, 0)}) {
+    p.line(corner, 50).exact_stop = true;
+    p.mark();
+  }
+  p.end();
+  Machine m(config);
+  ASSERT_FALSE(m.overflowed);
+  ASSERT_TRUE(m.run_to_end(p, 20000)) << m.out.cause << " " << m.out.command.v[0];
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  EXPECT_EQ(check_events(p, m.events, 3), "");
+  EXPECT_NEAR(static_cast<double>(m.cycles) * 0.001, 4.256, 0.02);
+}
+
+TEST(Planned, ASquareIsCutWithinItsTolerance) {
+  const ExecutorConfig config = optimal_config();
+  Program p(config);
+  for (const AxisVec& corner : {at(50, 0), at(50, 50), at(0, 50), at(0, 0)}) {
+    p.line(corner, 50);
+    p.mark();
+  }
+  p.end();
+  Machine m(config);
+  ASSERT_TRUE(m.run_to_end(p, 20000)) << m.out.cause << " " << m.out.command.v[0];
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  EXPECT_NEAR(static_cast<double>(m.cycles) * 0.001, 4.225, 0.02);
+  EXPECT_EQ(m.command(), at(0, 0));
+}
+
+TEST(Planned, ALongLineOfShortOnesDoesNotStarve) {
+  ExecutorConfig config = optimal_config();
+  config.capacity = 1024;
+  Program p(config);
+  for (int n = 1; n <= 20000; ++n) {
+    p.line(at(n * 0.01, 0.5 * std::sin(n * 0.001)), 50);
+    p.mark();
+  }
+  p.end();
+  Machine m(config);
+  ASSERT_TRUE(m.run_to_end(p, 20000)) << m.out.cause << " " << m.out.command.v[0];
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  EXPECT_LE(static_cast<double>(m.cycles) * 0.001, 4.2);
+}
+
+TEST(Planned, FeedHoldStopsSoonAndGoesOn) {
+  const ExecutorConfig config = optimal_config();
+  Program p(config);
+  p.line(at(100, 0), 100);
+  p.mark();
+  p.line(at(100, 100), 100);
+  p.mark();
+  p.end();
+  Machine m(config);
+  m.feed(p);
+  m.start();
+  ASSERT_TRUE(m.until(p, [&] { return m.out.command.v[0] > 30; }));
+  m.in.feed_hold = true;
+  uint64_t from = m.cycles;
+  ASSERT_TRUE(m.until(p, [&] { return m.still() && m.out.state == NC_STATE_HOLD; }, 2000));
+  EXPECT_LE(m.cycles - from, 130u);
+  EXPECT_LE(m.out.command.v[0], 40);
+  m.in.feed_hold = false;
+  for (int n = 0; n < 50; ++n) m.feed(p), m.cycle();
+  m.in.cycle_start = true;
+  m.cycle();
+  m.in.cycle_start = false;
+  ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_IDLE && m.executor.drained(); }, 20000));
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  EXPECT_EQ(m.command(), at(100, 100));
+}
+
+TEST(Planned, OverrideChangesTheSpeedWithinTheLimits) {
+  const ExecutorConfig config = optimal_config();
+  Program p(config);
+  p.line(at(200, 20), 60);
+  p.mark();
+  p.line(at(400, 0), 60);
+  p.mark();
+  p.end();
+  Machine m(config);
+  m.feed(p);
+  m.start();
+  ASSERT_TRUE(m.until(p, [&] { return m.out.command.v[0] > 30; }));
+  for (const double now : {0.5, 1.5, 0.2, 2.0, 0.0}) {
+    m.in.feed_override = now;
+    for (int n = 0; n < 400; ++n) m.feed(p), m.cycle();
+    EXPECT_NEAR(m.out.feed_mm_min / 60, 60 * now, 0.01 * 60 * now + 1e-9) << now;
+  }
+  m.in.feed_override = 1;
+  ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_IDLE && m.executor.drained(); }, 20000));
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  EXPECT_EQ(m.command(), at(400, 0));
+}
+
+TEST(Planned, ResetOnTheWayStopsAndForgets) {
+  const ExecutorConfig config = optimal_config();
+  Program p(config);
+  p.line(at(100, 0), 100);
+  p.mark();
+  p.end();
+  Machine m(config);
+  m.feed(p);
+  m.start();
+  ASSERT_TRUE(m.until(p, [&] { return m.out.command.v[0] > 30; }));
+  m.reset();
+  ASSERT_TRUE(m.until(p, [&] { return m.still() && m.out.state == NC_STATE_IDLE; }, 500));
+  EXPECT_LE(m.out.command.v[0], 42);
+  Program again(config, m.command());
+  again.line(at(0, 5), 100);
+  again.mark();
+  again.end();
+  m.next = 0;
+  m.events.clear();
+  ASSERT_TRUE(m.run_to_end(again, 20000));
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  EXPECT_EQ(m.command(), at(0, 5));
+}
+
+}  // namespace
+}  // namespace nc::test
