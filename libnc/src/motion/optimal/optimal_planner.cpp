@@ -155,12 +155,12 @@ OptimalPlanner::Start OptimalPlanner::behind(uint32_t cell) const {
   return s;
 }
 
-/// Seconds until the scan leaves the cell, which lies in front of it.
+/// Seconds until the scan leaves the cell; 0 when it has.
 double OptimalPlanner::ahead(const Following& f, uint32_t cell) const {
-  if (f.cell == kNoCell) return HUGE_VAL;
+  if (f.cell == kNoCell || static_cast<int32_t>(cell - f.cell) < 0) return 0;
   double time = f.at_end ? 0 : store_.at(f.cell).seconds - f.t;
   for (uint32_t k = f.cell; k != cell;) {
-    if (k == chain_.last) return HUGE_VAL;
+    if (k == chain_.last) return 0;
     k = chain_next_[k & store_.cell_mask];
     time += store_.at(k).seconds;
   }
