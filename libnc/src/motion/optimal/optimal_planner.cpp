@@ -14,6 +14,7 @@ constexpr double kNew = 0.1;           ///< of the path that is left, what must 
 constexpr double kLongestLead = 0.2;   ///< s
 constexpr double kDown = 1.06;         ///< of the squared speed of a stop, below which a lower feed is reached
 constexpr unsigned kLawsAtOnce = 8;
+constexpr unsigned kOnTheWay = 400;    ///< cells of a law that begins at speed, so that it is there soon
 constexpr uint32_t kRetry = 4;         ///< cells that the scan goes until a law is tried again
 constexpr double kSameScale = 1e-9;
 constexpr double kTiny = 1e-9;         ///< mm
@@ -221,6 +222,7 @@ bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* do
   request.b0 = start.v * start.v;
   request.slope0 = 2 * start.a;
   request.reach = reach;
+  if (!start.from_rest) request.most = kOnTheWay;
   request.down = down;
   Windows::Goal goal;
   goal.once = once;
@@ -322,7 +324,7 @@ bool OptimalPlanner::try_limits(const Start& start, double most, const WayDown* 
       limits_.acceleration[i] = whole.acceleration[i] * slower;
       limits_.jerk[i] = whole.jerk[i] * slower;
     }
-    found = one_law(start, most, down, false, kPeriod);
+    found = one_law(start, most, down, !start.from_rest, kPeriod);
     if (found) break;
   }
   limits_ = whole;

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// The promise of the optimal mode over random programs, measured on the positions of every cycle: velocity, acceleration and jerk of
+// every axis, the tolerance of the path, the ends that must be hit, every record once and in order, whatever operator and feeder do.
+#include <gtest/gtest.h>
+
+#include "interpolate/random_program.hpp"
+#include "interpolate/test_machine.hpp"
+
+namespace nc::test {
+namespace {
+
+double uniform(std::mt19937_64& rng, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
+bool chance(std::mt19937_64& rng, double p) {
+  return uniform(rng, 0, 1) < p;
+}
+
+struct Disturbance {
+  bool overrides = false, holds = false, single_block = false, dribble = false;
+  double spoil = 0;  ///< a step of this size, mm, that is put into one position
+};
+
+ExecutorConfig random_config(uint64_t seed) {
+  ExecutorConfig config = standard_config(seed % 3 == 0 ? 4 : 3);
+  config.optimal = true;
+  for (unsigned i = 0; i < config.axis_count; ++i) config.limits[i] = {250, 200, 2000, 50000, 0.01};
+  if (config.axis_count > 3) config.limits[3] = {180, 150, 3000, 90000, 0.01};
+  if (seed % 5 == 1) config.limits[1] = {120, 80, 700, 20000, 0.01};  // unequal axes
+  if (seed % 7 == 2) config.cycle_s = 0.0005;
+  if (seed % 11 == 3) config.cycle_s = 0.004;
+  if (seed % 13 == 4) config.capacity = 64;
+  if (seed % 17 == 5) config.tolerance = 0.002;
+  return config;
+}
+
+/// Distance of a point from a record's curve, by a search along it.
+double distance(const Curve& c, const AxisVec& p, unsigned axes) {
+  const auto off = [&](double s) {
+    const AxisVec q = curve_position(c, s, axes);
+    double sum = 0;
+    for (unsigned i = 0; i < axes; ++i) sum += (q[i] - p[i]) * (q[i] - p[i]);
+    return std::sqrt(sum);
+  };
+  if (!c.circular) {
+    double along = 0, length2 = 0;
+    for (unsigned i = 0; i < axes; ++i) along += (p[i] - c.start[i]) * c.delta[i], length2 += c.delta[i] * c.delta[i];
+    return off(std::clamp(along / length2, 0.0, 1.0) * c.length);
+  }
+  constexpr int kPlaces = 64;
+  const double step = c.length / kPlaces;
+  double at[kPlaces + 1], least = HUGE_VAL;
+  for (int n = 0; n <= kPlaces; ++n) least = std::min(least, at[n] = off(step * n));
+  const double coarse = least;
+  for (int n = 0; n <= kPlaces; ++n) {
+    if (at[n] > coarse + step) continue;
+    double low = step * std::max(0, n - 1), high = step * std::min(kPlaces, n + 1);
+    for (int k = 0; k < 60; ++k) {
+      const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+      if (off(a) < off(b)) {
+        high = b;
+      } else {
+        low = a;
+      }
+    }
+    least = std::min(least, off(0.5 * (low + high)));
+  }
+  return least;
+}
+
+/// Distance from the programmed path near the record in execution.
+double distance(const Program& p, const nc_outputs& out, unsigned axes) {
+  AxisVec at;
+  for (unsigned i = 0; i < axes; ++i) at[i] = out.command.v[i];
+  const size_t here = out.serial > 0 ? static_cast<size_t>(out.serial - 1) : 0;
+  double least = HUGE_VAL;
+  const size_t from = here > 200 ? here - 200 : 0, to = std::min(p.records.size(), here + 200);
+  for (size_t k = from; k < to && least > 1e-3; ++k)
+    if (p.records[k].kind == ItemKind::move) least = std::min(least, distance(p.records[k].segment.curve, at, axes));
+  return least;
+}
+
+/// Where the path must rest behind a record: the next one is no plain line, or something waits.
+bool exact(const Program& p, size_t k) {
+  const Segment& s = p.records[k].segment;
+  if (s.rapid || s.exact_stop || s.curve.circular) return true;
+  for (size_t n = k + 1; n < p.records.size(); ++n) {
+    const Record& r = p.records[n];
+    if (r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::end) return true;
+    if (r.kind == ItemKind::move) return r.segment.rapid || r.segment.curve.circular;
+  }
+  return true;
+}
+
+std::string check_ends(const Program& p, const std::vector<nc_event>& events, const ExecutorConfig& config) {
+  std::ostringstream s;
+  if (events.size() != p.records.size()) s << events.size() << " events for " << p.records.size() << " records\n";
+  for (size_t i = 0; i < events.size() && i < p.records.size(); ++i) {
+    const Record& r = p.records[i];
+    if (events[i].serial != r.serial) {
+      s << "event " << i << " is serial " << events[i].serial << ", not " << r.serial << "\n";
+      break;
+    }
+    if (r.kind != ItemKind::move || !exact(p, i)) continue;
+    for (unsigned a = 0; a < config.axis_count; ++a) {
+      const double off = std::fabs(events[i].machine.v[a] - r.segment.curve.end[a]);
+      if (off > 1e-6) s << "serial " << r.serial << " ended " << off << " beside its end on axis " << a << "\n";
+    }
+  }
+  return s.str();
+}
+
+/// Runs one seed to its end and gives back what went wrong.
+std::string run_seed(uint64_t seed, const Disturbance& d, unsigned blocks, LimitChecker* worst, double* farthest) {
+  std::mt19937_64 rng(seed);
+  const ExecutorConfig config = random_config(seed);
+  Program p = random_program(config, rng, blocks);
+  for (Record& r : p.records)  // many short programs tell more than a long wait
+    if (r.kind == ItemKind::move && !r.segment.rapid) r.segment.feed_mm_s = std::max(r.segment.feed_mm_s, 10.0);
+  Machine m(config);
+  if (m.overflowed) return "memory";
+  m.feed(p, d.dribble ? 5 : ~0u);
+  m.start();
+  uint64_t n = 0;
+  const uint64_t spoilt = 20 + rng() % 50;
+  double target_override = 1;
+  for (; n < 1000000; ++n) {
+    if (d.dribble) {
+      if (chance(rng, 0.1)) m.feed(p, 1 + static_cast<unsigned>(rng() % 6));
+    } else if (chance(rng, 0.5)) {
+      m.feed(p);
+    }
+    if (d.overrides) {
+      if (chance(rng, 0.02)) target_override = chance(rng, 0.1) ? 0 : uniform(rng, 0.1, 2);
+      if (chance(rng, 0.5)) m.in.feed_override = target_override;
+      if (chance(rng, 0.02)) m.in.rapid_override = uniform(rng, 0.1, 1);
+    }
+    if (d.holds) {
+      if (chance(rng, 0.01)) m.in.feed_hold = true;
+      if (chance(rng, 0.05)) m.in.feed_hold = false;
+      if (chance(rng, 0.005)) m.in.interlock = true;
+      if (chance(rng, 0.05)) m.in.interlock = false;
+    }
+    if (d.single_block && chance(rng, 0.01)) m.in.single_block = !m.in.single_block;
+    const bool waits = m.out.state == NC_STATE_STOPPED || m.out.state == NC_STATE_HOLD;
+    m.in.cycle_start = waits && chance(rng, 0.2) && !m.in.cycle_start;
+    m.cycle();
+    if (d.spoil > 0 && n == spoilt) {
+      nc_outputs wrong = m.out;
+      wrong.command.v[0] += d.spoil;
+      m.checker.sample(wrong);
+    }
+    if (m.out.state == NC_STATE_ALARM) return "alarm";
+    if (n % 5 == 0) {
+      const double off = distance(p, m.out, config.axis_count);
+      *farthest = std::max(*farthest, off / config.tolerance);
+      if (off > config.tolerance + 1e-9) return "leaves the path by " + std::to_string(off) + " in cycle " + std::to_string(n);
+    }
+    if (m.out.state == NC_STATE_IDLE && m.next == p.records.size() && m.executor.drained()) break;
+  }
+  if (n == 1000000) return "did not end at serial " + std::to_string(m.out.serial);
+  *worst = m.checker;
+  if (!m.checker.ok()) return m.checker.report();
+  if (!(m.command() == p.at())) return "ends beside the last end point";
+  return check_ends(p, m.events, config);
+}
+
+void run_many(uint64_t first, const Disturbance& d) {
+  // A longer soak on request: NC_SEEDS=10000. Under a sanitizer a few are enough to see what it looks for.
+  const char *wish = std::getenv("NC_SEEDS"), *sanitizer = std::getenv("NC_SANITIZE");
+  const uint64_t seeds = wish ? std::strtoull(wish, nullptr, 10) : sanitizer && *sanitizer ? 2 : 12;
+  double velocity = 0, acceleration = 0, jerk = 0, farthest = 0;
+  uint64_t wrong_seeds = 0;
+  for (uint64_t s = first; s < first + seeds; ++s) {
+    LimitChecker worst{random_config(s)};
+    const std::string wrong = run_seed(s, d, 4, &worst, &farthest);
+    EXPECT_EQ(wrong, "") << "seed " << s;
+    if (!wrong.empty() && ++wrong_seeds > 10) break;
+    velocity = std::max(velocity, worst.worst_velocity);
+    acceleration = std::max(acceleration, worst.worst_acceleration);
+    jerk = std::max(jerk, worst.worst_jerk);
+  }
+  std::printf("worst over %llu seeds: velocity %.6f, acceleration %.6f, jerk %.6f of the limit, %.3f of the tolerance\n",
+              static_cast<unsigned long long>(seeds), velocity, acceleration, jerk, farthest);
+}
+
+TEST(PlannedLimits, UndisturbedProgramsKeepThem) {
+  run_many(1, {});
+}
+TEST(PlannedLimits, RandomOverridesKeepThem) {
+  run_many(100000, {.overrides = true});
+}
+TEST(PlannedLimits, HoldsAndInterlocksKeepThem) {
+  run_many(200000, {.holds = true});
+}
+TEST(PlannedLimits, SingleBlockKeepsThem) {
+  run_many(300000, {.single_block = true});
+}
+TEST(PlannedLimits, LateFeedingKeepsThem) {
+  run_many(400000, {.dribble = true});
+}
+TEST(PlannedLimits, EverythingAtOnceKeepsThem) {
+  run_many(500000, {.overrides = true, .holds = true, .single_block = true, .dribble = true});
+}
+TEST(PlannedLimits, TheCheckerSeesAStepOfAMicrometre) {
+  LimitChecker worst{random_config(1)};
+  double farthest = 0;
+  EXPECT_NE(run_seed(1, {.spoil = 0.001}, 4, &worst, &farthest), "");
+}
+
+}  // namespace
+}  // namespace nc::test
