@@ -18,6 +18,7 @@ constexpr double kFeed =
     0.9995;  ///< of feed and axis velocities where the path bends: |q'| changes inside a cell
 constexpr double kAtStart = 1.004;   ///< a start at speed is given, and rows of other cells have let it pass
 constexpr double kRounding = 1e-12;  ///< of the length of the window
+constexpr double kSameReach = 1e-9;   ///< mm: the path ends with a piece
 constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
 
 }  // namespace
@@ -92,10 +93,10 @@ void Mesher::forward() {
       a = std::min(bound.acceleration, a + bound.jerk * t);
       if (v >= bound.speed) v = bound.speed, a = 0;
     }
-    if (forward_.count == kNodes || u < edge || !(u < in.reach)) break;
+    if (forward_.count == kNodes || u < edge || !(u < in.reach - kSameReach)) break;
   }
   end_u_ = u;
-  whole_ = u == edge && (end_piece_ + 1 == in.count || !(u < in.reach));
+  whole_ = u == edge && (end_piece_ + 1 == in.count || !(u < in.reach - kSameReach));
   if (forward_.count < kNodes) forward_.node[forward_.count++] = {u, v};
 }
 
@@ -199,7 +200,7 @@ bool Mesher::cells(double end) {
     const double share = 1 - (1 - in.guess) * away * away * (3 - 2 * away);
     place_[m.cells] = at;
     m.h[m.cells] = h;
-    m.use[m.cells] = !in.from_rest && m.cells < 3 ? kAtStart : 1;
+    m.use[m.cells] = m.use_a[m.cells] = !in.from_rest && m.cells < 3 ? kAtStart : 1;
     m.guess[m.cells] = std::max(share * share * middle * middle, 1e-8);
     if (in.down != nullptr) m.guess[m.cells] = std::max(m.guess[m.cells], 0.9 * in.down->at(u + 0.5 * h));
     ++m.cells;

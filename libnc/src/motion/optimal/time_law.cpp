@@ -90,6 +90,7 @@ void TimeLaw::knot_rows(unsigned k) {
   const Knot& q = mesh_->knot[k];
   Pair* pair = pair_[k];
   used_[k] = 0;
+  const double use_a = std::min(mesh_->use_a[k > 0 ? k - 1 : 0], mesh_->use_a[k < n_ ? k : k - 1]);
   const double per_left = 1 / mesh_->use[k > 0 ? k - 1 : 0], per_right = 1 / mesh_->use[k];
   for (unsigned i = 0; i < limits.axis_count; ++i) {
     const double d1 = q.d1[i], d2 = q.d2[i];
@@ -97,7 +98,7 @@ void TimeLaw::knot_rows(unsigned k) {
     if (!(limits.jerk[i] > 0) || !(limits.acceleration[i] > 0)) continue;
     const bool bends = d2 != 0 || q.left3[i] != 0 || q.right3[i] != 0;
     const double per_j = 1 / ((bends ? kInsideCurve : kInside) * limits.jerk[i]),
-                 per_a = 1 / (kInside * limits.acceleration[i]);
+                 per_a = 1 / (kInside * use_a * limits.acceleration[i]);
     const double common = 1.5 * d2 * slope;
     double scale = root * per_j * per_left;
     Pair &l = pair[0], &r = pair[1], &a = pair[2];

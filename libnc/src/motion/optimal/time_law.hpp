@@ -37,6 +37,7 @@ struct Mesh {
   double cap[kMaxCells];    ///< largest b in the cell
   double guess[kMaxCells];  ///< b to begin with
   double use[kMaxCells];    ///< share of the jerk limits that the cell may use, 1 or a little less
+  double use_a[kMaxCells];  ///< the same of the acceleration limits
   Knot knot[kMaxCells + 1];
   Inside inside[kMaxCells];
   bool from_rest = true;  ///< else b and b' at the start are given

@@ -48,11 +48,11 @@ void Windows::set_limits(const Limits& limits) {
 
 /// Largest share of a limit of acceleration or jerk in a cell, from the path itself and not from the rows of
 /// the solver.
-double Windows::excess(unsigned k) const {
+Windows::Excess Windows::excess(unsigned k) const {
   const Piece& p = piece_of(k);
   const double seconds = cell_seconds(law_, mesh_, k);
   const bool rest = (k == 0 && mesh_.from_rest) || k + 1 == law_.cells;
-  double worst = 0;
+  Excess worst;
   for (unsigned n = 0; n <= kLooks; ++n) {
     const CellState u = cell_state(law_, mesh_, k, seconds * n / kLooks);
     const double v = u.v, j = rest ? 0.5 * std::fabs(law_.slope[k + 1 == law_.cells ? k : 1]) / seconds
@@ -61,8 +61,8 @@ double Windows::excess(unsigned k) const {
     for (unsigned i = 0; i < limits_.axis_count; ++i) {
       const double a = q.d1[i] * u.a + q.d2[i] * v * v,
                    jerk = q.d1[i] * j + 3 * q.d2[i] * v * u.a + q.d3[i] * v * v * v;
-      if (limits_.acceleration[i] > 0) worst = std::max(worst, std::fabs(a) / limits_.acceleration[i]);
-      if (limits_.jerk[i] > 0) worst = std::max(worst, std::fabs(jerk) / limits_.jerk[i]);
+      if (limits_.acceleration[i] > 0) worst.acceleration = std::max(worst.acceleration, std::fabs(a) / limits_.acceleration[i]);
+      if (limits_.jerk[i] > 0) worst.jerk = std::max(worst.jerk, std::fabs(jerk) / limits_.jerk[i]);
     }
   }
   return worst;
@@ -72,10 +72,10 @@ double Windows::excess(unsigned k) const {
 double Windows::tighten() {
   double worst = 0;
   for (unsigned k = 0; k < law_.cells; ++k) {
-    const double share = excess(k);
-    worst = std::max(worst, share);
-    if (!(share > kExcess)) continue;
-    mesh_.use[k] /= 1.001 * share;
+    const Excess share = excess(k);
+    worst = std::max({worst, share.acceleration, share.jerk});
+    if (share.jerk > kExcess) mesh_.use[k] /= 1.001 * share.jerk;
+    if (share.acceleration > kExcess) mesh_.use_a[k] /= 1.001 * share.acceleration;
   }
   return worst;
 }

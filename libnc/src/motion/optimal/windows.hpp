@@ -39,7 +39,10 @@ class Windows {
   bool solve(unsigned tries);
   void settle();
   double tighten();
-  double excess(unsigned cell) const;
+  struct Excess {
+    double acceleration = 0, jerk = 0;
+  };
+  Excess excess(unsigned cell) const;
 
   MeshRequest request_;
   Limits limits_;
