@@ -75,6 +75,7 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   read_machine(&reader, &read);
   read_scheduling(&reader, &read);
   read_axes(&reader, &read);
+  read_motion(&reader, &read);
   read_parameters(&reader, &read);
   read_work_offsets(&reader, &read);
   read_tool_offsets(&reader, &read);

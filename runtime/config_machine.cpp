@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Configuration sections [machine], [scheduling], [[axis]], and the names of axes that the others use.
+// Configuration sections [machine], [scheduling], [[axis]], [motion], and the names of axes that the others use.
 #include <algorithm>
 #include <bit>
 #include <string_view>
@@ -150,6 +150,21 @@ void read_axes(TableReader* root, Config* config) {
   }
   config->sim.system_count = config->nc.system_count;
   config->sim.cycle_s = config->nc.cycle_s;
+}
+
+void read_motion(TableReader* root, Config* config) {
+  root->table("motion", [&](TableReader& reader) {
+    nc_config& nc = config->nc;
+    unsigned word = NC_MOTION_TRAPEZOID;
+    if (reader.choice("mode", {"trapezoid", "optimal"}, &word)) nc.motion_mode = static_cast<std::uint8_t>(word);
+    reader.number("tolerance", &nc.path_tolerance, 1e-4, 1);
+    if (nc.motion_mode != NC_MOTION_OPTIMAL) return;
+    for (unsigned s = 0; s < nc.system_count; ++s) {
+      for (unsigned i = 0; i < nc.system[s].axis_count; ++i)
+        if (!(nc.system[s].axis[i].max_jerk > 0))
+          reader.error("mode", std::string("optimal needs max_jerk of every axis, ") + nc.system[s].axis[i].name + " has none");
+    }
+  });
 }
 
 bool find_axis(const Config& config, std::string_view name, unsigned* system, unsigned* axis) {

@@ -9,6 +9,7 @@ namespace nc::rt {
 
 void read_machine(TableReader* root, Config* config);
 void read_scheduling(TableReader* root, Config* config);
+void read_motion(TableReader* root, Config* config);  // behind the axes
 void read_axes(TableReader* root, Config* config);
 void read_parameters(TableReader* root, Config* config);
 void read_work_offsets(TableReader* root, Config* config);

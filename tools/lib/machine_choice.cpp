@@ -73,6 +73,8 @@ bool set_machine_limits(const MachineOptions& options, const rt::Config* machine
   if (machine) {
     system = machine->nc.system[0];
     config->cycle_s = machine->nc.cycle_s;
+    config->motion_mode = machine->nc.motion_mode;
+    config->path_tolerance = machine->nc.path_tolerance;
   } else {
     default_machine_limits(config);
   }
@@ -84,6 +86,15 @@ bool set_machine_limits(const MachineOptions& options, const rt::Config* machine
       system.axis[i].rapid = system.axis[i].max_velocity = all->velocity;
       system.axis[i].max_acceleration = all->acceleration;
       system.axis[i].max_jerk = all->jerk;
+    }
+  }
+  if (options.tolerance) {
+    config->motion_mode = NC_MOTION_OPTIMAL;
+    config->path_tolerance = *options.tolerance;
+    for (unsigned i = 0; i < system.axis_count; ++i) {
+      if (system.axis[i].max_jerk > 0) continue;
+      *error = std::string("--tolerance: the time-optimal mode needs a limit of the jerk of every axis, ") + system.axis[i].name + " has none";
+      return false;
     }
   }
   if (options.cycle_us) config->cycle_s = *options.cycle_us * kMicro;

@@ -27,6 +27,7 @@ struct MachineOptions {
   std::string limits_file;  // JSON (machine_limits.hpp); "" = none
   std::string every_axis;   // as parse_every_axis(); "" = as the machine has it
   std::optional<unsigned> cycle_us;
+  std::optional<double> tolerance;  // mm: the time-optimal mode with this path tolerance
 };
 
 /** Reads the TOML file and keeps what concerns its first part system. @return nothing, with every mistake in

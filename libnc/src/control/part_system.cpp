@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/part_system.hpp"
 
+#include "control/optimal_mode.hpp"
+
 #include <cmath>
 #include <cstring>
 
@@ -49,6 +51,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.cycle_s = config.cycle_s;
   ex.max_feed_override = config.max_feed_override;
   ex.capacity = config.look_ahead;
+  optimal_ = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.optimal = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.tolerance = config.path_tolerance;
   executor.create(ex, arena);
@@ -419,6 +422,11 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
     record.epoch = epoch_;
     record.staged = from_stage_;
     if (resumes_) [[unlikely]] resume_record(record);
+    if (optimal_ && item->kind == ItemKind::move && !OptimalMode::moves(record.segment)) [[unlikely]] {
+      commit_.take_back(true);
+      stop_on(OptimalMode::refusal(), item->source);
+      return NC_OK;
+    }
     if (item->kind == ItemKind::move) commit_.note_record(executor.head());
     executor.push(record);
     if (item->kind == ItemKind::mark) {

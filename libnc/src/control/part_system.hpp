@@ -111,6 +111,7 @@ class PartSystem {
   static constexpr Serial kNowhere = ~Serial{0};
   Serial looked_behind_ = kNowhere;  ///< the block behind this mark has been looked at
   bool online_ = false;      ///< driven by feed()
+  bool optimal_ = false;     ///< time-optimal motion
   bool running_ = false;     ///< a cycle start has been accepted and the end not been executed
   bool finished_ = false;    ///< the end item has been committed
   void watch() { watched_ = uit_ || uit_pending_ || drop_ != 0; }

@@ -18,6 +18,7 @@ constexpr double kFeed =
     0.9995;  ///< of feed and axis velocities where the path bends: |q'| changes inside a cell
 constexpr double kAtStart = 1.004;   ///< a start at speed is given, and rows of other cells have let it pass
 constexpr double kRounding = 1e-12;  ///< of the length of the window
+constexpr double kBraking = 0.8;      ///< of the length in which a start that brakes would come to rest twice as fast
 constexpr double kSameReach = 1e-9;   ///< mm: the path ends with a piece
 constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
 
@@ -194,6 +195,8 @@ bool Mesher::cells(double end) {
       h = 0.5 * (limit - u);
     }
     if (m.cells == 0 && in.from_rest && h > 4 * launch) h = launch;
+    // The control value of a cell that begins at speed is b0 + b0' h / 2, and it stays above 0.
+    if (m.cells == 0 && !in.from_rest && in.slope0 < 0) h = std::min(h, -kBraking * in.b0 / in.slope0);
     const double middle = estimate(u + 0.5 * h);
     // A start at speed is given: from there the guess goes down gently.
     const double away = in.from_rest ? 1 : std::min(1.0, m.cells / kGentle);

@@ -80,6 +80,16 @@ double Windows::tighten() {
   return worst;
 }
 
+/// Every cell is gone through from end to end.
+bool Windows::goes_through() const {
+  constexpr double kSamePlace = 1e-9;  // mm
+  for (unsigned k = mesh_.from_rest ? 1 : 0; k + 1 < law_.cells; ++k) {
+    const CellState q = cell_state(law_, mesh_, k, cell_seconds(law_, mesh_, k));
+    if (!(std::fabs(q.x - mesh_.h[k]) <= kSamePlace)) return false;
+  }
+  return true;
+}
+
 /// A law that keeps the limits everywhere; false when none was found.
 bool Windows::solve(unsigned tries) {
   for (unsigned t = 0; t < tries; ++t) {
@@ -93,6 +103,7 @@ bool Windows::solve(unsigned tries) {
       iterations_ += law_.iterations;
       solved_ += mesh_.cells;
       if (!law_.ok) break;
+      if (!goes_through()) break;
       if (!(tighten() > kExcess)) return true;
     }
   }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the time-optimal mode does not move, and the alarm that says so before the move begins.
+#pragma once
+
+#include "dialect/alarms.hpp"
+#include "interpolate/record.hpp"
+
+namespace nc {
+
+struct OptimalMode {
+  /// A thread goes with the spindle, a handle (F1 to F5) or signals on the way change the feed: their time law cannot be planned.
+  static bool moves(const Segment& s) {
+    return !s.thread && s.skip_speeds == nullptr && !(s.digit_step_mm_s > 0) && !(s.feed_end_mm_s > 0);
+  }
+  static Fault refusal() {
+    Fault fault;
+    fault.condition = Condition::not_accepted;
+    return fault;
+  }
+};
+
+}  // namespace nc
