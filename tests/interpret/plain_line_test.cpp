@@ -94,7 +94,7 @@ class Maker {
     static constexpr const char* kM700[] = {
         "G61",       "G64",         "G62",      "G63",   "G51.1 X2.", "G50.1 X0.", "G95 F0.2",
         "G94 F300.", "G96 S50",     "G97 S200", "G61.1", "G16",       "G15",       "G33 Z5. F1.",
-        "G9 X3.",    "G1 X3.,I0.1", "#1=#1+1",  "X[#1]", "G5.1 Q1",   "G5.1 Q0",   "G93 F2."};
+        "G9 X3.",    "G1 X3.,I0.1", "#1=#1+1",  "X[#1]", "G5.1 Q1",   "G5.1 Q0",   "G93 F2.", "G68 X1. Y0. R30.", "G69", "G51 X0. Y0. P2.", "G50"};
     if (random_() % 12 == 0) {
       incremental_ = !incremental_;
       both(incremental_ ? "G91" : "G90");
