@@ -102,6 +102,25 @@ TEST(Walls, RandomProgramsExecuteAsTheyTrace) {
   EXPECT_GT(totals.syncs, count / 20);
 }
 
+TEST(Walls, RandomProgramsExecuteAsTheyTraceInTheOptimalMode) {
+  Totals totals;
+  const unsigned count = seeds(40);
+  for (std::uint32_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    nc::test::ProgramGenerator generator(seed);
+    const nc::test::GeneratedProgram program = generator.make(6);
+    nc::rt::Config config = random_config(program.script, seed);
+    config.nc.motion_mode = NC_MOTION_OPTIMAL;
+    compare(config, program.text, random_operator(seed), &totals);
+    if (HasFailure()) {
+      std::ofstream("walls-failed.nc") << program.text;
+      FAIL() << "the program is in walls-failed.nc";
+    }
+  }
+  EXPECT_GT(totals.holds + totals.stops, 0u);
+  EXPECT_LE(totals.acceleration, 1.001);
+}
+
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;

@@ -14,7 +14,7 @@ constexpr double kNew = 0.1;           ///< of the path that is left, what must 
 constexpr double kLongestLead = 0.2;   ///< s
 constexpr double kDown = 1.06;         ///< of the squared speed of a stop, below which a lower feed is reached
 constexpr unsigned kLawsAtOnce = 8;
-constexpr unsigned kOnTheWay = 400;    ///< cells of a law that begins at speed, so that it is there soon
+constexpr unsigned kCellsAtOnce = 320; ///< of a law, so that it is there soon
 constexpr uint32_t kRetry = 4;         ///< cells that the scan goes until a law is tried again
 constexpr double kSameScale = 1e-9;
 constexpr double kTiny = 1e-9;         ///< mm
@@ -222,7 +222,7 @@ bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* do
   request.b0 = start.v * start.v;
   request.slope0 = 2 * start.a;
   request.reach = reach;
-  if (!start.from_rest) request.most = kOnTheWay;
+  request.most = kCellsAtOnce;
   request.down = down;
   Windows::Goal goal;
   goal.once = once;

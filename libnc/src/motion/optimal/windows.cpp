@@ -20,6 +20,7 @@ constexpr Attempt kAttempts[] = {
 constexpr double kSpare = 1.3;
 constexpr unsigned kTightened = 6;  ///< times that a law is corrected
 constexpr double kExcess = 1.0005;  ///< of a limit, that a law may use inside its cells
+constexpr double kSamePlace = 1e-9;   ///< mm: a cell is gone through from end to end
 constexpr unsigned kLooks = 8;      ///< places inside a cell that are looked at
 
 }  // namespace
@@ -55,6 +56,7 @@ Windows::Excess Windows::excess(unsigned k) const {
   Excess worst;
   for (unsigned n = 0; n <= kLooks; ++n) {
     const CellState u = cell_state(law_, mesh_, k, seconds * n / kLooks);
+    if (n == kLooks && !rest && !(std::fabs(u.x - mesh_.h[k]) <= kSamePlace)) worst.jerk = HUGE_VAL;
     const double v = u.v, j = rest ? 0.5 * std::fabs(law_.slope[k + 1 == law_.cells ? k : 1]) / seconds
                                    : law_.half2[k] * v;
     const CurvePoint q = evaluate(p, std::min(p.length, place(k).x + u.x), limits_.axis_count);
@@ -80,16 +82,6 @@ double Windows::tighten() {
   return worst;
 }
 
-/// Every cell is gone through from end to end.
-bool Windows::goes_through() const {
-  constexpr double kSamePlace = 1e-9;  // mm
-  for (unsigned k = mesh_.from_rest ? 1 : 0; k + 1 < law_.cells; ++k) {
-    const CellState q = cell_state(law_, mesh_, k, cell_seconds(law_, mesh_, k));
-    if (!(std::fabs(q.x - mesh_.h[k]) <= kSamePlace)) return false;
-  }
-  return true;
-}
-
 /// A law that keeps the limits everywhere; false when none was found.
 bool Windows::solve(unsigned tries) {
   for (unsigned t = 0; t < tries; ++t) {
@@ -103,8 +95,9 @@ bool Windows::solve(unsigned tries) {
       iterations_ += law_.iterations;
       solved_ += mesh_.cells;
       if (!law_.ok) break;
-      if (!goes_through()) break;
-      if (!(tighten() > kExcess)) return true;
+      const double share = tighten();
+      if (!(share < HUGE_VAL)) break;  // a cell that is not gone through
+      if (!(share > kExcess)) return true;
     }
   }
   return false;

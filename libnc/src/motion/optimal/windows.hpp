@@ -38,7 +38,6 @@ class Windows {
   void set_limits(const Limits& limits);
   bool solve(unsigned tries);
   void settle();
-  bool goes_through() const;
   double tighten();
   struct Excess {
     double acceleration = 0, jerk = 0;
