@@ -104,7 +104,7 @@ TEST(Walls, RandomProgramsExecuteAsTheyTrace) {
 
 TEST(Walls, RandomProgramsExecuteAsTheyTraceInTheOptimalMode) {
   Totals totals;
-  const unsigned count = seeds(40);
+  const unsigned count = seeds(8);
   for (std::uint32_t seed = 1; seed <= count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     nc::test::ProgramGenerator generator(seed);

@@ -146,6 +146,7 @@ class Scan {
   // ---- motion
   LawState law_;         ///< on the segment in execution; v carries over to the next one
   Follower follower_;    ///< optimal: makes what is in law_
+  AxisVec passed_at_;    ///< optimal: end of the newest record that was passed
   bool no_law_ = false;  ///< optimal: none was found for what follows
   double turns_ = 0;     ///< optimal: speed of the spindle that the planner knows, rev/s
   bool moving_ = false;  ///< the current record is a segment that has begun

@@ -74,6 +74,7 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
   law_.s = std::clamp(s.curve.length - (end - u), 0.0, s.curve.length);
   if (follower_.at_rest() ? u < end - kAtEnd : !(u > end + kPassed)) return Done::no;
   if (follower_.at_path_end() && u <= end + kAtEnd) wanted_ = s.curve.end;
+  passed_at_ = s.curve.end;
   end_move(r);
   return Done::yes;
 }
