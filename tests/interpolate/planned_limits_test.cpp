@@ -131,14 +131,14 @@ std::string run_seed(uint64_t seed, const Disturbance& d, unsigned blocks, Limit
       m.feed(p);
     }
     if (d.overrides) {
-      if (chance(rng, 0.02)) target_override = chance(rng, 0.1) ? 0 : uniform(rng, 0.3, 2);
+      if (chance(rng, 0.004)) target_override = chance(rng, 0.1) ? 0 : uniform(rng, 0.3, 2);
       if (chance(rng, 0.5)) m.in.feed_override = target_override;
-      if (chance(rng, 0.02)) m.in.rapid_override = uniform(rng, 0.3, 1);
+      if (chance(rng, 0.004)) m.in.rapid_override = uniform(rng, 0.3, 1);
     }
     if (d.holds) {
-      if (chance(rng, 0.01)) m.in.feed_hold = true;
+      if (chance(rng, 0.004)) m.in.feed_hold = true;
       if (chance(rng, 0.05)) m.in.feed_hold = false;
-      if (chance(rng, 0.005)) m.in.interlock = true;
+      if (chance(rng, 0.002)) m.in.interlock = true;
       if (chance(rng, 0.05)) m.in.interlock = false;
     }
     if (d.single_block && chance(rng, 0.01)) m.in.single_block = !m.in.single_block;
@@ -168,7 +168,7 @@ std::string run_seed(uint64_t seed, const Disturbance& d, unsigned blocks, Limit
 void run_many(uint64_t first, const Disturbance& d) {
   // A longer soak on request: NC_SEEDS=10000. Under a sanitizer a few are enough to see what it looks for.
   const char *wish = std::getenv("NC_SEEDS"), *sanitizer = std::getenv("NC_SANITIZE");
-  const uint64_t seeds = wish ? std::strtoull(wish, nullptr, 10) : sanitizer && *sanitizer ? 1 : 5;
+  const uint64_t seeds = wish ? std::strtoull(wish, nullptr, 10) : sanitizer && *sanitizer ? 1 : 3;
   double velocity = 0, acceleration = 0, jerk = 0, farthest = 0;
   uint64_t wrong_seeds = 0;
   for (uint64_t s = first; s < first + seeds; ++s) {

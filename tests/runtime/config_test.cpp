@@ -553,4 +553,19 @@ TEST(Config, ShippedFilesAreValid) {
   EXPECT_GE(files, 2u);
 }
 
+TEST(Config, TheOptimalModeNeedsTheJerkOfEveryAxis) {
+  const std::string motion = "[motion]\nmode = \"optimal\"\ntolerance = 0.005\n";
+  const Config config = nc::test::parse_or_fail(nc::test::base_toml() + motion);
+  EXPECT_EQ(config.nc.motion_mode, NC_MOTION_OPTIMAL);
+  EXPECT_DOUBLE_EQ(config.nc.path_tolerance, 0.005);
+  EXPECT_EQ(nc::test::parse_or_fail(nc::test::base_toml()).nc.motion_mode, NC_MOTION_TRAPEZOID);
+  std::string text = nc::test::base_toml();
+  const std::string jerk = "max_jerk = 50000.0";
+  text.replace(text.find(jerk), jerk.size(), "max_jerk = 0.0");
+  Config wrong;
+  const std::vector<ConfigError> errors = nc::rt::parse_config(text + motion, "test.toml", &wrong);
+  ASSERT_FALSE(errors.empty());
+  EXPECT_NE(errors.front().text().find("motion.mode"), std::string::npos) << errors.front().text();
+}
+
 }  // namespace
