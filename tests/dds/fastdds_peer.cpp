@@ -155,7 +155,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "fastdds_peer DOMAIN SECONDS\n");
     return 1;
   }
-  DomainParticipant* participant = DomainParticipantFactory::get_instance()->create_participant(static_cast<std::uint32_t>(std::atoi(argv[1])), on_this_computer());
+  DomainParticipant* participant =
+      DomainParticipantFactory::get_instance()->create_participant(static_cast<std::uint32_t>(std::atoi(argv[1])), on_this_computer());
   if (participant == nullptr) return 1;
   SubscriberQos every;
   every.partition().push_back("*");
