@@ -19,6 +19,7 @@ constexpr double kFeed =
 constexpr double kAtStart = 1.004;   ///< a start at speed is given, and rows of other cells have let it pass
 constexpr double kRounding = 1e-12;  ///< of the length of the window
 constexpr double kBraking = 0.8;      ///< of the length in which a start that brakes would come to rest twice as fast
+constexpr unsigned kShorter = 8;      ///< times that a window is made shorter
 constexpr double kSameReach = 1e-9;   ///< mm: the path ends with a piece
 constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
 
@@ -288,9 +289,13 @@ PathPlace Mesher::build(const MeshRequest& request, const Limits& limits, Mesh* 
   mesh->b0 = request.b0;
   mesh->slope0 = request.slope0;
   forward();
-  for (;;) {
+  for (unsigned n = 0;; ++n) {
     backward(end_piece_, end_u_);
     if (cells(end_u_)) break;
+    if (n == kShorter || mesh->cells < 4) {  // no law has so few cells
+      mesh->cells = 0;
+      return request.from;
+    }
     // Too long for one window: it ends, at rest, some way before the place where the cells have run out.
     const unsigned k = mesh->cells - mesh->cells / 4;
     const PathPlace& at = place_[k];

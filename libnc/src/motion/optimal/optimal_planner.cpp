@@ -16,6 +16,7 @@ constexpr double kDown = 1.06;         ///< of the squared speed of a stop, belo
 constexpr unsigned kLawsAtOnce = 8;
 constexpr unsigned kCellsAtOnce = 320; ///< of a law, so that it is there soon
 constexpr uint32_t kRetry = 4;         ///< cells that the scan goes until a law is tried again
+constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
 constexpr double kSameScale = 1e-9;
 constexpr double kTiny = 1e-9;         ///< mm
 constexpr double kFarther[] = {1.004, 1.02, 1.05, 1.1, 1.2, 1.35, 1.6, 2, 2.7, 4};  ///< of the distance that a stop takes on a line
@@ -263,7 +264,7 @@ double OptimalPlanner::stopping_distance(const Start& start, double* seconds) co
 bool OptimalPlanner::stop_law(const Start& start, double most) {
   double seconds = 0;
   const double distance = stopping_distance(start, &seconds);
-  if (!(distance > 0)) return false;
+  if (!(distance > 0) || !(seconds > kAtOnce)) return false;
   for (const double farther : kFarther) {
     const double reach = distance * farther;
     if (reach > most) return false;
