@@ -77,7 +77,7 @@ double distance(const Program& p, const nc_outputs& out, unsigned axes) {
   const size_t from = here > 200 ? here - 200 : 0, to = std::min(p.records.size(), here + 200);
   for (size_t k = from; k < to && least > 1e-3; ++k)
     if (p.records[k].kind == ItemKind::move) least = std::min(least, distance(p.records[k].segment.curve, at, axes));
-  return least;
+  return least < HUGE_VAL ? least : 0;  // a program without a move
 }
 
 /// Where the path must rest behind a record: the next one is no plain line, or something waits.
