@@ -105,7 +105,7 @@ program = "own.il"
 """
 LADDER = "LD nc.m_strobe\nOUT plc.fin2\nLD SM400\nDMOV pallet D0\nEND\n"
 PART = "G90 G54 G17\n#1=0\n#1100=1\nWHILE [#1 LT 5] DO1\nN20 G1 X20. Y10. F3000.\nG3 X20. Y30. J10.\nG1 X0. Y0.\n#1=#1+1\nEND1\nM30\n"
-BAD = "G90 G54\nG1 X10.\nM30\n"
+BAD = "G90 G54\nG1 X10. F1000 G150\nM30\n"
 
 
 def check(condition, text):
@@ -378,7 +378,7 @@ def alarms(plant, watch, operator):
     operator.ask(CommandKind.CMD_CYCLE_START)
     until(lambda: watch.look().active, "an alarm comes")
     alarm = next(iter(watch.active.values()))
-    check(alarm.code == "P62" and alarm.line == 2, f"{alarm.code} {alarm.text} (line {alarm.line})")
+    check(alarm.code == "P34" and alarm.line == 2, f"{alarm.code} {alarm.text} (line {alarm.line})")
     other_releases(plant, alarm)
     check(operator.ask(CommandKind.CMD_RESET).state == AckState.ACK_DONE, "reset")
     until(lambda: not watch.look().active, "the alarm is disposed")
