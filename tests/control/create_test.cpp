@@ -278,6 +278,13 @@ TEST(Misuse, NullPointers) {
   EXPECT_EQ(nc_parameter_get(c, 0, nullptr, 0, nullptr), NC_E_ARGUMENT);
   EXPECT_LT(nc_parameter_set(c, 0, nullptr, 0, "1"), NC_OK);
   EXPECT_LT(nc_parameter_set(c, 0, "1078", 0, nullptr), NC_OK);
+  const nc_inputs in{};
+  nc_outputs out{};
+  out.state = 77;  // nothing is written
+  nc_cycle(nullptr, &in, &out);
+  nc_cycle(c, nullptr, &out);
+  nc_cycle(c, &in, nullptr);
+  EXPECT_EQ(out.state, 77);
 }
 
 TEST(Misuse, NumbersOutOfTheirTables) {

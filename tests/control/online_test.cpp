@@ -558,5 +558,26 @@ TEST(Online, AnAlarmStopsTheMachineWhereTheBlockBeforeEnded) {
   EXPECT_EQ(alarm.source.line, 3u);
 }
 
+/// The two ways exclude each other: what the one takes, the other would miss.
+TEST(Online, TheStreamOfARunningProgramCannotBePulled) {
+  Bench bench(NC_DIALECT_M700, machine(64));
+  std::string text = "G91 F60000\n";
+  for (int i = 0; i < 300; ++i) text += "G1 X1.\n";
+  Drive drive(bench, text + "M30");
+  const nc_world world{};
+  nc_item item;
+  bool take_back = false;
+  while (drive.cycle < 3000 && !drive.ended) {
+    drive.press_start();
+    drive.step(10);
+    if (drive.out.state != NC_STATE_RUNNING || drive.cycle % 8 != 0) continue;
+    EXPECT_EQ(nc_pull(bench.control(), 0, 100, &item), NC_E_STATE);
+    EXPECT_EQ(nc_answer(bench.control(), 0, &world), NC_E_STATE);
+    EXPECT_EQ(nc_interrupt_signal(bench.control(), 0, true, &take_back), NC_E_STATE);
+  }
+  EXPECT_TRUE(drive.ended);
+  EXPECT_NEAR(drive.out.command.v[0], 300, 1e-9);
+}
+
 }  // namespace
 }  // namespace nc::test

@@ -10,6 +10,7 @@ bool known(const nc_control* c, unsigned system) { return c != nullptr && system
 
 nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item) {
   if (!known(c, system) || item == nullptr) return NC_E_ARGUMENT;
+  if (c->system[system].busy()) return NC_E_STATE;  // the machine would miss what is taken here
   return c->system[system].pull(budget, item);
 }
 
@@ -22,6 +23,7 @@ nc_status nc_answer(nc_control* c, unsigned system, const nc_world* world) {
   if (!known(c, system) || world == nullptr) return NC_E_ARGUMENT;
   for (unsigned i = 0; i < c->config.system[system].axis_count; ++i)
     if (!std::isfinite(world->machine.v[i]) || (world->skipped && !std::isfinite(world->skip_machine.v[i]))) return NC_E_ARGUMENT;
+  if (c->system[system].busy()) return NC_E_STATE;  // the scan answers
   return c->system[system].answer(*world);
 }
 
@@ -38,6 +40,7 @@ nc_status nc_recalculate(nc_control* c, unsigned system) {
 
 nc_status nc_interrupt_signal(nc_control* c, unsigned system, bool on, bool* take_back) {
   if (!known(c, system) || take_back == nullptr) return NC_E_ARGUMENT;
+  if (c->system[system].busy()) return NC_E_STATE;  // the signal comes with nc_inputs
   return c->system[system].interrupt_signal(on, take_back);
 }
 
@@ -72,5 +75,6 @@ nc_status nc_event_poll(nc_control* c, unsigned system, nc_event* event, uint64_
 }
 
 void nc_cycle(nc_control* c, const nc_inputs* in, nc_outputs* out) {
+  if (c == nullptr || in == nullptr || out == nullptr) return;
   for (unsigned i = 0; i < c->config.system_count; ++i) c->system[i].executor.cycle(in[i], out[i]);
 }
