@@ -371,15 +371,20 @@ std::string Runtime::ladder_fault(const ActiveAlarm& alarm) const {
   return text;
 }
 
+// A line of a sub program is one of another text than the operator has selected.
+static std::string place_text(const nc_source& source) {
+  if (source.line == 0) return "";
+  const std::string sub = source.program != 0 ? "O" + std::to_string(source.program) : "sub program";
+  return " (" + (source.depth != 0 ? sub + ", " : "") + "line " + std::to_string(source.line) + ")";
+}
+
 std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kProgram) {
     const FeederInfo now = info();
     if (!now.alarm) return "program alarm";
     std::string text = std::string(now.program_alarm.code) + " " + now.program_alarm.message;
     if (now.program_alarm.detail.s[0] != 0) text += std::string(": ") + now.program_alarm.detail.s;
-    const nc_source& source = now.program_alarm.source;
-    if (source.line != 0) text += " (line " + std::to_string(source.line) + ")";
-    return text;
+    return text + place_text(now.program_alarm.source);
   }
   const AlarmRow& row = alarm_row(alarm.id);
   std::string text = std::string(row.code) + " " + row.text;
@@ -392,8 +397,7 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kLinkLost) text += ": " + config_.modbus[alarm.detail % config_.modbus.size()].link.name;
   if (alarm.id == AlarmId::kLadderStopped) text += ": " + ladder_fault(alarm);
   if (alarm.axis >= 0) text += std::string(", axis ") + config_.nc.system[alarm.system].axis[alarm.axis].name;
-  if (alarm.source.line != 0) text += " (line " + std::to_string(alarm.source.line) + ")";
-  return text;
+  return text + place_text(alarm.source);
 }
 
 }  // namespace nc::rt

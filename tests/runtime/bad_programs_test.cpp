@@ -138,6 +138,18 @@ TEST(BadProgram, SoftLimitAheadStopsBeforeItMoves) {
   EXPECT_NEAR(drive.machine().actual(0).v[0], 100, 1e-6);
 }
 
+TEST(BadProgram, TheAlarmNamesTheSubProgramItsLineBelongsTo) {
+  Drive drive(nc::test::parse_or_fail(nc::test::base_toml()));
+  drive.add("O300", "O300\nG91\nG999\nM99\n");
+  drive.start(drive.add("a.nc", "O7\nG90 G0 X1.\nM98 P300\nM30\n"));
+  drive.steps(500);
+  const nc::rt::Snapshot now = drive.runtime->snapshot();
+  ASSERT_EQ(now.alarms.count, 1u);
+  const std::string text = drive.runtime->alarm_text(now.alarms.alarm[0]);
+  EXPECT_NE(text.find("P34"), std::string::npos) << text;
+  EXPECT_NE(text.find(" (O300, line 3)"), std::string::npos) << text;
+}
+
 TEST(BadProgram, AnEndlessGotoIsInterruptedByReset) {
   Drive drive(nc::test::parse_or_fail(nc::test::base_toml()));
   const unsigned endless = drive.add("a.nc", "G90 G0 X1.\nN1 GOTO 1\nM30\n");
