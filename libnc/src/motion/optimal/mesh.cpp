@@ -19,7 +19,7 @@ constexpr double kFeed =
 constexpr double kAtStart = 1.004;   ///< a start at speed is given, and rows of other cells have let it pass
 constexpr double kRounding = 1e-12;  ///< of the length of the window
 constexpr double kBraking = 0.8;      ///< of the length in which a start that brakes would come to rest twice as fast
-constexpr unsigned kShorter = 8;      ///< times that a window is made shorter
+constexpr unsigned kShorter = 100;     ///< times that a window is made shorter
 constexpr double kSameReach = 1e-9;   ///< mm: the path ends with a piece
 constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
 

@@ -90,7 +90,8 @@ void TimeLaw::knot_rows(unsigned k) {
   const Knot& q = mesh_->knot[k];
   Pair* pair = pair_[k];
   used_[k] = 0;
-  const double use_a = std::min(mesh_->use_a[k > 0 ? k - 1 : 0], mesh_->use_a[k < n_ ? k : k - 1]);
+  // The start is given: nothing there can become less.
+  const double use_a = k == 0 ? 1.004 : std::min(mesh_->use_a[k - 1], mesh_->use_a[k < n_ ? k : k - 1]);
   const double per_left = 1 / mesh_->use[k > 0 ? k - 1 : 0], per_right = 1 / mesh_->use[k];
   for (unsigned i = 0; i < limits.axis_count; ++i) {
     const double d1 = q.d1[i], d2 = q.d2[i];

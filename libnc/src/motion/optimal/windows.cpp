@@ -76,7 +76,8 @@ double Windows::tighten() {
   for (unsigned k = 0; k < law_.cells; ++k) {
     const Excess share = excess(k);
     worst = std::max({worst, share.acceleration, share.jerk});
-    if (share.jerk > kExcess) mesh_.use[k] /= 1.001 * share.jerk;
+    const double most = std::max(share.jerk, share.acceleration);
+    if (most > kExcess) mesh_.use[k] /= 1.001 * most;
     if (share.acceleration > kExcess) mesh_.use_a[k] /= 1.001 * share.acceleration;
   }
   return worst;
