@@ -82,6 +82,7 @@ struct SchedulingConfig {
 // The machine's ladder program.
 struct LadderConfig {
   std::string program;      // file, relative to the configuration's folder unless absolute; empty = none
+  ConfigPlace program_place;
   double fin_timeout_s = 0; // FIN that does not come within this time is an alarm; 0 = wait for ever
   std::array<std::string, 8> alarm;  // texts of plc.alarm.1 ... .8
   std::string retain;                // file of the retained devices, relative as `program`; empty = see retain_path()

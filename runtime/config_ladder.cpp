@@ -27,6 +27,7 @@ void read_ladder(TableReader* root, Config* config) {
     LadderConfig& ladder = config->ladder;
     reader.require("program");
     reader.string("program", &ladder.program);
+    ladder.program_place = {reader.line("program"), reader.path("program")};
     reader.number("fin_timeout_s", &ladder.fin_timeout_s, 0, 3600);
     reader.string("retain", &ladder.retain);
     ladder.retain_place = {reader.line("retain"), reader.path("retain")};

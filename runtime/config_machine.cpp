@@ -37,7 +37,14 @@ void read_limits(TableReader* reader, AxisEntry* entry) {
     axis.soft_max = numbers[1];
     if (numbers[0] >= numbers[1]) reader->error("soft_limits", "the first number must be below the second");
   }
-  if (reader->numbers("reference", &numbers, 1, 4)) std::copy(numbers.begin(), numbers.end(), axis.reference);
+  if (reader->numbers("reference", &numbers, 1, 4)) {
+    std::copy(numbers.begin(), numbers.end(), axis.reference);
+    for (const double position : numbers)  // or every G28 would be an alarm
+      if (axis.soft_limited && (position < axis.soft_min || position > axis.soft_max)) {
+        reader->error("reference", "must be inside soft_limits");
+        break;
+      }
+  }
   if (reader->number("start", &entry->start, -kMaxLength, kMaxLength) && axis.soft_limited &&
       (entry->start < axis.soft_min || entry->start > axis.soft_max))
     reader->error("start", "must be inside soft_limits");

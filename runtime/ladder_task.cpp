@@ -98,7 +98,8 @@ bool LadderTask::load(const Config& config, std::vector<ConfigError>* errors) {
   const ladder::DeviceTable table = device_table(config, errors);
   const std::string path = config.ladder_file();
   std::string text, error;
-  if (!read_text(path, &text, &error)) errors->push_back({path, 0, "", error});
+  const ConfigPlace& place = config.ladder.program_place;
+  if (!read_text(path, &text, &error)) errors->push_back({config.file, place.line, place.key, path + ": " + error});
   if (errors->size() != before) return false;
   ladder::CompileOptions options;
   options.scan_s = config.cycle_us * 1e-6;

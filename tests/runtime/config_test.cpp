@@ -116,6 +116,8 @@ const Case kCases[] = {
      "not a boolean"},
     {"start", "soft_limits = [-300.0, 300.0]", "soft_limits = [-3.0, 3.0]\nstart = 4", "axis[3].start",
      "inside"},
+    {"reference", "soft_limits = [-300.0, 300.0]", "soft_limits = [-300.0, 300.0]\nreference = [0.0, 300.5]", "axis[3].reference",
+     "inside"},
     {"system_gap", "name = \"Z\"", "name = \"Z\"\nsystem = 3", "axis", "part system 2 has no axis"},
     {"point_twice", "name = \"in1\"", "name = \"in0\"", "point[2].name", "already there"},
     {"point_device_m", "name = \"in1\"", "name = \"M5\"", "point[2].name", "a device or a constant"},

@@ -240,6 +240,7 @@ said err "mill.il: holds no instruction"
 rm "$work/il/mill.il"
 expect 1 "$ncrtd" --config "$work/il/machine.toml" check
 said err "mill.il: cannot be read"
+said err "ladder.program"
 
 # Retained devices: D0 counts the starts of the control, and the third one is an alarm. The file is as it was after a kill.
 sed -e "s#^programs = .*#programs = \"$work\"#" -e 's#^retain = .*#retain = "count.retain"\nretain_d = [0, 0]#' "$machine" >"$work/il/machine.toml"

@@ -96,7 +96,7 @@ typedef enum nc_tool_column { NC_TOOL_LENGTH = 0, NC_TOOL_LENGTH_WEAR = 1, NC_TO
 NC_API nc_status nc_tool_offset_set(nc_control*, unsigned number, nc_tool_column column, double value);
 NC_API nc_status nc_tool_offset_get(const nc_control*, unsigned number, nc_tool_column column, double* value);
 
-/** Variables by number, as `#number` in a program of part system `system` would read them. A vacant variable gives *vacant = true. */
+/** Local and common variables by number, as part system `system` has them (system variables: NC_E_NOT_FOUND). Vacant: *vacant = true. */
 NC_API nc_status nc_variable_set(nc_control*, unsigned system, uint32_t number, double value, bool vacant);
 NC_API nc_status nc_variable_get(const nc_control*, unsigned system, uint32_t number, double* value, bool* vacant);
 

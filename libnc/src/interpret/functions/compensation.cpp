@@ -65,6 +65,9 @@ Did set_compensation(Interpreter& in, Function function) {
   }
   if (arc) return in.raise(Condition::arc_in_compensation_start, 'G', function == Function::comp_left ? 41 : 42);
   if (state.cycle.kind != CycleKind::none && in.words.motion == nullptr) return in.raise(Condition::cycle_in_compensation, 'G', 41);
+  // DGSHAPE G41 G42: the direction of the shift cannot be changed while the offset is in progress.
+  const int8_t side = function == Function::comp_left ? int8_t{1} : int8_t{-1};
+  if (in.dialect->id == NC_DIALECT_DGSHAPE && comp.side == -side) return in.raise(Condition::not_in_compensation, 'G', side > 0 ? 41 : 42);
   if (in.dialect->id == NC_DIALECT_DGSHAPE && state.modal.code[kGroupPlane] != 170) return in.raise(Condition::plane_mismatch, 'G', 41);
   if (in.words.has('D')) {
     const Did did = offset_number(in, 'D', &state.modal.d);
@@ -79,7 +82,7 @@ Did set_compensation(Interpreter& in, Function function) {
   comp.check = in.settings.interference_check;
   comp.avoid = in.settings.interference_avoid;
   comp.radius = amount(in, state.modal.d, true);
-  comp.side = state.modal.d == 0 ? int8_t{0} : function == Function::comp_left ? int8_t{1} : int8_t{-1};
+  comp.side = state.modal.d == 0 ? int8_t{0} : side;
   comp.has_vector = in.dialect->id == NC_DIALECT_M700 && take_vector(in, letters, comp.vector);
   // M700 12.4.3: the vector is gone to at once, even when the block names no axis; cutting takes a feed (3.2, P62).
   if (comp.has_vector && comp.side != 0 && motion != 0) return check_feed(in, motion);
