@@ -16,6 +16,12 @@ echo '{"skip": [{"signal": 1, "box": {"Z": [-500, -63.5]}}]}' >"$work/button.jso
 "$ncsim" check --setup "$work/button.json" --print "$work/printed" "$parts/tool-length.nc"
 printf '%%\nH1*L-63.500\n%%\n' | cmp - "$work/printed"
 
+# They run on the shipped machine, which has a button.
+for part in bolt-circle tool-length; do
+  "$NC_BINARY_DIR/bin/ncrtd" --config "$NC_SOURCE_DIR/etc/machine.toml" run --fast "$parts/$part.nc" >"$work/run" 2>&1 ||
+    { cat "$work/run"; exit 1; }
+done
+
 # Nothing to touch: the macro's own alarm.
 code=0
 "$ncsim" check "$parts/tool-length.nc" >"$work/alarm" || code=$?
