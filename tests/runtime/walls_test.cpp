@@ -104,8 +104,10 @@ TEST(Walls, RandomProgramsExecuteAsTheyTrace) {
 
 TEST(Walls, RandomProgramsExecuteAsTheyTraceInTheOptimalMode) {
   Totals totals;
+  // From 3 on, because its operator holds and changes the override: even the one program under a sanitizer meets both.
+  const std::uint32_t first = 3;
   const unsigned count = seeds(8);
-  for (std::uint32_t seed = 1; seed <= count; ++seed) {
+  for (std::uint32_t seed = first; seed < first + count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     nc::test::ProgramGenerator generator(seed);
     const nc::test::GeneratedProgram program = generator.make(6);

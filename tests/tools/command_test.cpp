@@ -250,6 +250,19 @@ TEST_F(CommandTest, AnEndlessLoopEndsWithAMessage) {
   }
 }
 
+TEST_F(CommandTest, AProgramThatM99BeginsAgainIsCheckedAndDrawnOnce) {
+  file("p.nc", "G90 G0 X10. (NOT YET: M99)\nM98 P5 L2\n/M99\nG0 X0\nM99\n\nO5\nG91 G0 Y1.\nM99\n");
+  Outcome run = ncsim("check p.nc");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("no alarm in one pass (M99 begins it again); 9 blocks"), std::string::npos) << run.out;
+  EXPECT_EQ(ncsim("plot p.nc -o once").code, 0);
+  // In a sub program it is a return.
+  file("p.nc", "M98 P5\nM30\nO5\nG0 X1.\nM99\n");
+  run = ncsim("check p.nc");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.out.find("one pass"), std::string::npos) << run.out;
+}
+
 TEST_F(CommandTest, TimeSaysThatASpindleIsMissing) {
   file("p.nc", "G95 G1 X10. F0.2\nM30\n");
   const Outcome run = ncsim("time p.nc");

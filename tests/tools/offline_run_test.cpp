@@ -220,7 +220,7 @@ class Calculating final : public ItemSource {
       item->u.sync = {NC_SYNC_CLOCK};
     } else {
       item->kind = NC_ITEM_MARK;
-      item->u.mark = {{}, 0, true, true};
+      item->u.mark = {{}, 0, true, true, false};
     }
     if (count_++ > end_at_) return NC_ENDED;
     return NC_OK;

@@ -80,7 +80,9 @@ class PrintSink final : public RunSink {
  public:
   PrintSink(RunSink* next, PrintFile* file) : next_(*next), file_(*file) {}
   void move(const nc_source& s, const nc_move& m) override { next_.move(s, m); }
-  void block(const nc_source& s, const nc_axes& work, const nc_axes& machine) override { next_.block(s, work, machine); }
+  void block(const nc_source& s, const nc_axes& work, const nc_axes& machine) override {
+    next_.block(s, work, machine);
+  }
   void aux(const nc_source& s, char code, double value) override { next_.aux(s, code, value); }
   void dwell(const nc_source& s, bool turns, double value) override { next_.dwell(s, turns, value); }
   void sync(const nc_source& s, uint32_t what) override { next_.sync(s, what); }
@@ -89,7 +91,8 @@ class PrintSink final : public RunSink {
     next_.message(s, port, text);
   }
   void alarm(const nc_alarm& alarm) override { next_.alarm(alarm); }
-  void end(const nc_source& s, bool ok, const nc_axes& work, const nc_axes& machine, uint32_t modal) override {
+  void end(const nc_source& s, bool ok, const nc_axes& work, const nc_axes& machine,
+           uint32_t modal) override {
     next_.end(s, ok, work, machine, modal);
   }
   bool stop() const override { return next_.stop() || !file_.good(); }
@@ -124,22 +127,24 @@ class PlotSink final : public RunSink {
   ItemSource& items_;
 };
 
-RunResult run_session(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks) {
+RunResult run_session(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks,
+                      bool one_pass) {
   VirtualWorld world(session->setup(), session->config().system[0]);
-  return run_offline(items, &world, sink, session->block_lines(), max_silent_blocks);
+  return run_offline(items, &world, sink, session->block_lines(), max_silent_blocks, one_pass);
 }
 
-/** The run with what it prints in `path` ("" = nowhere). @return false when the file cannot be written: *error says why. */
-bool run_printing(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks, const std::string& path,
-                  RunResult* result, std::string* error) {
+/** The run with what it prints in `path` ("" = nowhere). @return false when the file cannot be written:
+ * *error says why. */
+bool run_printing(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks,
+                  bool one_pass, const std::string& path, RunResult* result, std::string* error) {
   PrintFile file;
   if (path.empty()) {
-    *result = run_session(session, sink, items, max_silent_blocks);
+    *result = run_session(session, sink, items, max_silent_blocks, one_pass);
     return true;
   }
   if (!file.open(path, error)) return false;
   PrintSink printing(sink, &file);
-  *result = run_session(session, &printing, items, max_silent_blocks);
+  *result = run_session(session, &printing, items, max_silent_blocks, one_pass);
   if (!file.good()) *error = path + ": cannot be written";
   return file.good();
 }
@@ -148,7 +153,8 @@ bool open_session(Session* session, const SessionOptions& options, std::string* 
   std::unique_ptr<rt::Config> machine;
   if (!options.machine.empty() && !(machine = load_machine(options.machine, error))) return false;
   if (!session->configure(options, error, std::move(machine))) return false;
-  const bool limited = session->machine() == nullptr || set_machine_limits({}, session->machine(), &session->config(), error);
+  const bool limited =
+      session->machine() == nullptr || set_machine_limits({}, session->machine(), &session->config(), error);
   return limited && session->start(options, error);
 }
 
@@ -184,7 +190,8 @@ int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int
   ControlSource items(session.control());
   TraceSink sink(&file, session.config().system[0], &items);
   RunResult result;
-  if (!run_printing(&session, &sink, &items, max_silent_blocks, options.print, &result, &error)) return complain(err, error);
+  if (!run_printing(&session, &sink, &items, max_silent_blocks, false, options.print, &result, &error))
+    return complain(err, error);
   if (!file.flush()) return complain(err, "the trace cannot be written: " + file.error_text());
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   return exit_code(result.how);
@@ -197,12 +204,14 @@ int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std
   ControlSource items(session.control());
   RunSink nothing;
   RunResult result;
-  if (!run_printing(&session, &nothing, &items, max_silent_blocks, options.print, &result, &error)) return complain(err, error);
+  if (!run_printing(&session, &nothing, &items, max_silent_blocks, true, options.print, &result, &error))
+    return complain(err, error);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   if (result.how == RunResult::How::kAlarmed)
     std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   else
-    std::fprintf(out, "%s: no alarm; %llu blocks, %llu moves, %s mm\n", options.program.c_str(),
+    std::fprintf(out, "%s: no alarm%s; %llu blocks, %llu moves, %s mm\n", options.program.c_str(),
+                 result.one_pass ? " in one pass (M99 begins it again)" : "",
                  static_cast<unsigned long long>(result.blocks),
                  static_cast<unsigned long long>(result.moves), decimals(result.length, 3).c_str());
   return close_output(out, err, exit_code(result.how));
@@ -222,7 +231,7 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, Plot
                                         : options.program.substr(slash == std::string::npos ? 0 : slash + 1));
   ControlSource items(session.control());
   PlotSink sink(&plot, session.config().system[0], &items);
-  const RunResult result = run_session(&session, &sink, &items, max_silent_blocks);
+  const RunResult result = run_session(&session, &sink, &items, max_silent_blocks, true);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error))
     return complain(err, error);
@@ -242,7 +251,12 @@ int functions_command(const std::string& dialect, bool markdown, std::FILE* out,
   nc_function row;
   for (unsigned i = 0; nc_function_get(*id, i, &row) == NC_OK; ++i)
     table.row({row.code, row.name ? row.name : "", std::to_string(row.group), row.section ? row.section : "",
-               !row.supported ? "no" : row.part != nullptr ? "in part" : "yes", !row.supported ? row.alarm : row.part != nullptr ? row.part : ""});
+               !row.supported        ? "no"
+               : row.part != nullptr ? "in part"
+                                     : "yes",
+               !row.supported        ? row.alarm
+               : row.part != nullptr ? row.part
+                                     : ""});
   return close_output(out, err, kExitEnded);
 }
 
@@ -253,7 +267,10 @@ int variables_command(bool markdown, std::FILE* out, std::FILE* err) {
   for (unsigned i = 0; nc_system_variable_get(i, &row) == NC_OK; ++i) {
     std::string numbers = "#" + std::to_string(row.first);
     if (row.last != row.first) numbers += "-#" + std::to_string(row.last);
-    table.row({numbers, row.name, row.unit, !row.readable ? "no" : row.sync != 0 ? "waits for the machine" : "ahead",
+    table.row({numbers, row.name, row.unit,
+               !row.readable   ? "no"
+               : row.sync != 0 ? "waits for the machine"
+                               : "ahead",
                row.writable ? "yes" : "no", row.section});
   }
   return close_output(out, err, kExitEnded);

@@ -12,17 +12,19 @@ constexpr uint32_t kBudget = 4096;  // blocks per pull
 
 class OfflineRun {
  public:
-  OfflineRun(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines)
-      : items_(*items), world_(*world), sink_(*sink), lines_(lines) {}
+  OfflineRun(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines, bool one_pass)
+      : items_(*items), world_(*world), sink_(*sink), lines_(lines), one_pass_(one_pass) {}
 
   RunResult run(uint64_t max_silent_blocks) {
     nc_item item;
     for (;;) {
       const nc_status status = items_.pull(kBudget, &item);
-      // Lines without a block pass in silence, and may be many; every loop of a program has blocks, and so marks.
+      // Lines without a block pass in silence, and may be many; every loop of a program has blocks, and so
+      // marks.
       constexpr uint64_t kLinesForABlock = 1000;
       empty_lines_ = status == NC_BUDGET ? empty_lines_ + kBudget : 0;
-      if (max_silent_blocks && silent_ + empty_lines_ / kLinesForABlock >= max_silent_blocks) return endless();
+      if (max_silent_blocks && silent_ + empty_lines_ / kLinesForABlock >= max_silent_blocks)
+        return endless();
       if (status == NC_BUDGET) continue;
       if (status == NC_ENDED || status == NC_ALARMED) break;
       if (status != NC_OK) return fail("the control stopped with status " + std::to_string(status));
@@ -35,8 +37,8 @@ class OfflineRun {
         if (items_.interrupt(interrupt_)) continue;  // the interrupt program comes before this item
       }
       if (!handle(item)) return result_;
-      if (sink_.stop()) {
-        result_.how = RunResult::How::kStopped;
+      if (result_.one_pass || sink_.stop()) {
+        result_.how = result_.one_pass ? RunResult::How::kEnded : RunResult::How::kStopped;
         return finish();
       }
     }
@@ -45,8 +47,9 @@ class OfflineRun {
   }
 
  private:
-  // What the world sees, or lets time pass, ends a silence, and so does a block of the main program behind all that were executed
-  // before: a program that only runs on comes to its end. Blocks that calculate and jump do not.
+  // What the world sees, or lets time pass, ends a silence, and so does a block of the main program behind
+  // all that were executed before: a program that only runs on comes to its end. Blocks that calculate and
+  // jump do not.
   void count_silence(const nc_item& item) {
     if (item.kind == NC_ITEM_MARK) {
       ++silent_;
@@ -60,11 +63,13 @@ class OfflineRun {
   }
 
   RunResult endless() {
-    const std::string place = last_.line == 0 ? ""
-                              : "line " + std::to_string(last_.line) +
-                                    (last_.program ? " of O" + std::to_string(last_.program) : "") + ": ";
+    const std::string place = last_.line == 0
+                                  ? ""
+                                  : "line " + std::to_string(last_.line) +
+                                        (last_.program ? " of O" + std::to_string(last_.program) : "") + ": ";
     return fail(place + std::to_string(silent_) +
-                " blocks without anything that the machine would do: an endless loop, or too few allowed (--max-silent-blocks)");
+                " blocks without anything that the machine would do: an endless loop, or too few allowed "
+                "(--max-silent-blocks)");
   }
 
   bool handle(nc_item& item) {
@@ -156,6 +161,7 @@ class OfflineRun {
     modal_ = item.u.mark.modal;
     if (!item.u.mark.report) return;
     if (item.source.depth == 0) ended_line_ = item.source.line;
+    result_.one_pass = one_pass_ && item.u.mark.again;
     ++result_.blocks;
     sink_.block(item.source, item.u.mark.work, world_.machine());
   }
@@ -189,11 +195,12 @@ class OfflineRun {
   VirtualWorld& world_;
   RunSink& sink_;
   const BlockLines& lines_;
+  const bool one_pass_;
   RunResult result_;
   nc_source last_ = {};
   nc_axes work_ = {};
-  uint64_t silent_ = 0;  // blocks since something happened
-  uint64_t empty_lines_ = 0;  // since the last item
+  uint64_t silent_ = 0;         // blocks since something happened
+  uint64_t empty_lines_ = 0;    // since the last item
   uint32_t furthest_line_ = 0;  // of the main program that a block was executed on
   uint32_t modal_ = 0, ended_line_ = 0;
   bool ended_ = false, interrupt_ = false;
@@ -226,8 +233,8 @@ uint32_t BlockLines::after(uint32_t line) const {
 }
 
 RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines,
-                      uint64_t max_silent_blocks) {
-  return OfflineRun(items, world, sink, lines).run(max_silent_blocks);
+                      uint64_t max_silent_blocks, bool one_pass) {
+  return OfflineRun(items, world, sink, lines, one_pass).run(max_silent_blocks);
 }
 
 }  // namespace nc::tools

@@ -37,8 +37,9 @@ struct RunResult {
   nc_alarm alarm = {};  // kAlarmed
   std::string error;    // kFailed
   uint64_t blocks = 0, moves = 0;
-  double length = 0.0;   // mm
-  double seconds = 0.0;  // of the trace's clock
+  bool one_pass = false;  // kEnded, because M99 would begin the main program again
+  double length = 0.0;    // mm
+  double seconds = 0.0;   // of the trace's clock
 };
 
 /** Lines of a main program that hold a block: comments, blanks and `%` left out. For events that wait for a
@@ -56,9 +57,10 @@ class BlockLines {
 
 /**
  * Run to the end. A stretch of `max_silent_blocks` blocks that only calculate and jump (GOTO in a circle) is
- * an error; 0 = no limit. Reading the clock is no silence: time passes, so a waiting loop ends.
+ * an error; 0 = no limit. Reading the clock is no silence: time passes, so a waiting loop ends. With
+ * `one_pass` a main program that M99 would begin again is stopped there.
  */
 RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines,
-                      uint64_t max_silent_blocks);
+                      uint64_t max_silent_blocks, bool one_pass = false);
 
 }  // namespace nc::tools

@@ -154,6 +154,7 @@ typedef struct nc_mark {
   uint32_t modal; /**< id of the modal snapshot, see nc_modal_get() */
   bool stop;      /**< single block may stop here */
   bool report;    /**< a whole block has ended (false: a place inside a cycle where single block may stop) */
+  bool again;     /**< this block's M99 begins the main program again (M700 13.3.1) */
 } nc_mark;
 
 /** Payload of an alarm. */

@@ -317,6 +317,7 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       out->u.mark.modal = item.mark.modal;
       out->u.mark.stop = item.mark.stop;
       out->u.mark.report = item.mark.report;
+      out->u.mark.again = item.mark.again;
       break;
     case ItemKind::alarm: out->kind = NC_ITEM_ALARM; break;
     case ItemKind::end:

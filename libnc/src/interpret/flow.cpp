@@ -378,6 +378,7 @@ Did return_sub(Interpreter& in) {
     frame.offset = frame.program.offset;
     frame.line = frame.program.line;
     frame.started = false;
+    in.begins_again = true;
     return Did::done;
   }
   CallFrame& frame = top(in);

@@ -509,6 +509,8 @@ void Interpreter::finish_block(bool stop, bool executable) {
   Item& item = emit(ItemKind::mark);
   item.block_end = executable;
   new (&item.mark) Mark{position(), modal_now(), state.seq, 0, stop, true};
+  item.mark.again = begins_again;
+  begins_again = false;
   modal_unchanged_ = false;
   world_fresh = false;
   if (state.end_seen) emit_end();

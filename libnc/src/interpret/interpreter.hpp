@@ -189,6 +189,7 @@ struct Interpreter {
   uint32_t sync_needed = 0;
   nc_world world{};
   bool world_fresh = false;        ///< `world` is the answer to a sync and nothing has been emitted since
+  bool begins_again = false;       ///< M99 of the main program in this block: its mark says so
   bool ended = false, alarmed = false;
   Fault alarm_fault;
   nc_source alarm_source{};

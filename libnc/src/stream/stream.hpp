@@ -174,6 +174,7 @@ struct Mark {
   TransformId transform = 0;     ///< in force at the end of the block
   bool stop = true, report = true;
   bool resume = true;            ///< what follows can be read again from here: the end of a block, or a call that has been entered
+  bool again = false;            ///< M99 of the main program: the next block is its first
 };
 
 struct End {
