@@ -46,6 +46,8 @@ class Maker {
     static constexpr const char* kOdd[] = {"-0.",        "0.", ".5",   "99999.999", "100000.",
                                            "12.3456789", "7",  "-.25", "1234567.",  "00012.50"};
     if (random_() % 40 == 0) return kOdd[random_() % std::size(kOdd)];
+    static constexpr const char* kVariables[] = {"#1", "#2", "#3", "#1", "#2", "#33", "-#2", "[#1+#2]", "#100", "#1001", "#5001"};
+    if (m700_ && random_() % 8 == 0) return kVariables[random_() % std::size(kVariables)];
     char text[32];
     std::snprintf(text, sizeof text, "%.*f", static_cast<int>(1 + random_() % 4),
                   static_cast<int>(random_() % 4000) / 97.0 - 20);
@@ -94,7 +96,7 @@ class Maker {
     static constexpr const char* kM700[] = {
         "G61",       "G64",         "G62",      "G63",   "G51.1 X2.", "G50.1 X0.", "G95 F0.2",
         "G94 F300.", "G96 S50",     "G97 S200", "G61.1", "G16",       "G15",       "G33 Z5. F1.",
-        "G9 X3.",    "G1 X3.,I0.1", "#1=#1+1",  "X[#1]", "G5.1 Q1",   "G5.1 Q0",   "G93 F2.", "G68 X1. Y0. R30.", "G69", "G51 X0. Y0. P2.", "G50"};
+        "G9 X3.",    "G1 X3.,I0.1", "#1=#1+1",  "X[#1]", "#1=#2/7-#1", "#2=12.75", "#2=-3", "#3=123456", "#3=#0", "#33=#33+.5", "G5.1 Q1",   "G5.1 Q0",   "G93 F2.", "G68 X1. Y0. R30.", "G69", "G51 X0. Y0. P2.", "G50"};
     if (random_() % 12 == 0) {
       incremental_ = !incremental_;
       both(incremental_ ? "G91" : "G90");

@@ -37,7 +37,7 @@ void VirtualWorld::fire(const SetupEvent& event) {
   if (reset != event.signals.end() && reset->second) reset_ = true;
 }
 
-bool VirtualWorld::on_item(const nc_item& item, uint32_t next_line) {
+bool VirtualWorld::fire_due(const nc_item& item, uint32_t next_line) {
   uint32_t began = 0;
   if (item.source.depth == 0) {
     began = item.source.line;

@@ -24,7 +24,9 @@ class VirtualWorld {
    * the line behind the last one that has ended (`next_line`, 0 = not known).
    * @return true when an event commands reset: the run ends here.
    */
-  bool on_item(const nc_item& item, uint32_t next_line);
+  bool on_item(const nc_item& item, uint32_t next_line) {
+    return line_events_.empty() && time_events_.empty() ? reset_ : fire_due(item, next_line);
+  }
 
   /** True while an event waits for a line, so that the caller need not look for `next_line` otherwise. */
   bool waits_for_line() const { return !line_events_.empty(); }
@@ -57,6 +59,7 @@ class VirtualWorld {
   uint32_t signals_at(const nc_axes& machine) const;
 
  private:
+  bool fire_due(const nc_item& item, uint32_t next_line);
   void fire(const SetupEvent& event);
   double first_entry(const nc_move& move) const;
 

@@ -255,6 +255,25 @@ void Commit::space_arc_to_public(nc_move* out) const {
   out->radius = arc.radius;
 }
 
+namespace {
+
+void put_mark(const Item& item, nc_item* out) {
+  out->kind = NC_ITEM_MARK;
+  out->u.mark.work = to_axes(item.mark.work);
+  out->u.mark.modal = item.mark.modal;
+  out->u.mark.stop = item.mark.stop;
+  out->u.mark.report = item.mark.report;
+  out->u.mark.again = item.mark.again;
+}
+
+}  // namespace
+
+void Commit::mark_to_public(const Item& item, nc_item* out) {
+  out->serial = ++last_serial_;
+  out->source = item.source;
+  put_mark(item, out);
+}
+
 void Commit::to_public(const Item& item, nc_item* out) const {
   out->serial = last_serial_;
   out->source = item.source;
@@ -312,12 +331,7 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       out->u.sync.what = item.sync.what;
       break;
     case ItemKind::mark:
-      out->kind = NC_ITEM_MARK;
-      out->u.mark.work = to_axes(item.mark.work);
-      out->u.mark.modal = item.mark.modal;
-      out->u.mark.stop = item.mark.stop;
-      out->u.mark.report = item.mark.report;
-      out->u.mark.again = item.mark.again;
+      put_mark(item, out);
       break;
     case ItemKind::alarm: out->kind = NC_ITEM_ALARM; break;
     case ItemKind::end:

@@ -89,6 +89,8 @@ class Commit {
 
   /// The item just committed, as a sink sees it.
   void to_public(const Item& item, nc_item* out) const;
+  /// commit() and to_public() of a mark.
+  void mark_to_public(const Item& item, nc_item* out);
   /// The same for the ring.
   /// `accuracy`: of the moves made under high-accuracy control.
   void to_record(const Item& item, const Transform& transform, const AccuracyParameters& accuracy, Record* out);

@@ -257,6 +257,15 @@ void PartSystem::drop_repeated() {
   watch();
 }
 
+/// The end of a block, to the host: every second item of a program, and nearly every one of a macro.
+[[gnu::always_inline]] inline void PartSystem::give_mark(const Item& item, nc_item* out) {
+  commit_.mark_to_public(item, out);
+  pulled_ = ItemKind::mark;
+  remember_mark(item);
+  if (item.mark.resume && interpreter.state.repeat.active) drop_repeated();
+  take();
+}
+
 nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   for (;;) {
     if (watched_) [[unlikely]] {
@@ -270,6 +279,10 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     if (item->kind == ItemKind::alarm && from_stage_) {
       stop_on(item->alarm, item->source);
       continue;
+    }
+    if (item->kind == ItemKind::mark && !watched_) [[likely]] {
+      give_mark(*item, out);
+      return NC_OK;
     }
     if (wants_look_ahead(*item)) [[unlikely]] {
       const nc_status looked = look_ahead(budget);

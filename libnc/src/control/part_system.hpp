@@ -44,6 +44,7 @@ class PartSystem {
   /// Next item in stream order behind the offset stage; NC_OK, or why there is none. take() removes it.
   nc_status next(uint32_t& budget, const Item** item);
   void take();
+  void give_mark(const Item& item, nc_item* out);
   // look_ahead.cpp
   nc_status look_ahead(uint32_t& budget);
   nc_status gather_block(uint32_t& budget);

@@ -72,16 +72,11 @@ void Interpreter::refresh_letters() {
   axis_letters |= 1u << (hypothetical - 'A');
 }
 
-AxisVec Interpreter::position() const {
+AxisVec Interpreter::polar_position() const {
   const AxisVec& z = zero();
-  AxisVec p;  // all axes: a count that the compiler knows; those that the machine does not have are zero everywhere
-  for (unsigned i = 0; i < kMaxAxes; ++i) p[i] = state.machine[i] - z[i] - state.applied[i];
-  if (state.map.kind == AxisMap::Kind::polar) {
-    Transform t;
-    for (unsigned i = 0; i < kMaxAxes; ++i) t.offset[i] = z[i] + state.applied[i];
-    return to_programmed(state.map, t.sign, t.offset, state.machine);
-  }
-  return p;
+  Transform t;
+  for (unsigned i = 0; i < kMaxAxes; ++i) t.offset[i] = z[i] + state.applied[i];
+  return to_programmed(state.map, t.sign, t.offset, state.machine);
 }
 
 void Interpreter::set_table(unsigned key, double value) {
@@ -313,6 +308,63 @@ nc_status Interpreter::step(uint32_t& budget) {
 
 bool Interpreter::skipped(const Block& b) const { return b.skip != 0 && ((optional_skip >> b.skip) & 1) != 0; }
 
+/// What a block asks before its words count: where it stands in its program, '%', O, N, optional skip. False: there are none to
+/// execute, and *status is what the step has come to.
+bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
+  *status = NC_OK;
+  const auto settled = [&](Did did) {
+    *status = settle(did);
+    return false;
+  };
+  source.line = block->end_of_text ? last_line : block->line;
+  if (!block->end_of_text) last_line = block->line;
+  if (!frame.started && store->entry(frame.program.file)->edited) return settled(raise(Condition::program_edited));  // M700 P235
+  const auto bad_row = [](const Block& b) {  // M700 3.4: parity is checked whether the block is skipped or not
+    return b.has_fault && (b.fault.condition == Condition::parity || b.fault.condition == Condition::parity_vertical);
+  };
+  if (skipped(*block) && !bad_row(*block)) {
+    frame.offset = block->next;
+    frame.line = block->next_line;
+    return false;
+  }
+  // A further O number begins another program; a family without sub programs has one in a program, and prints it behind a block, too.
+  const bool number_again = block->has_o && frame.started;
+  const bool one_number = dialect->call_depth == 0;
+  if (number_again && one_number && frame.program.number != 0) return settled(raise(Condition::format_error, 'O', block->o));  // DGSHAPE 1-1, 2-6
+  if (block->percent || block->end_of_text || (number_again && !one_number)) {
+    const bool data_end = dialect->percent_required && state.percent_seen;  // DGSHAPE 2-6, also with nothing between the two
+    if (block->percent && !frame.started && !data_end) {  // the start mark
+      if (block->has_fault) {
+        fault = block->fault;
+        return settled(Did::fault);
+      }
+      state.percent_seen = true;
+      frame.offset = block->next;
+      frame.line = block->next_line;
+      return false;
+    }
+    const Did did = text_ended(*this);
+    return did == Did::later ? false : settled(did);
+  }
+  const bool blank = block->empty && !block->has_n && !block->has_o && !block->has_fault;  // comments at most
+  if (dialect->percent_required && state.depth == 0 && !state.percent_seen && !blank) return settled(raise(Condition::no_start_mark));
+  if (block->has_o) {
+    frame.program.number = source.program = block->o;
+    state.modal.o = block->o;
+  }
+  if (block->has_n) state.modal.n = block->n;
+  if (block->has_fault) {
+    fault = block->fault;
+    return settled(Did::fault);
+  }
+  if (!block->empty || block->has_n || block->has_o) frame.started = true;
+  if (!block->empty) return true;
+  frame.offset = block->next;
+  frame.line = block->next_line;
+  if (block->has_n || block->has_o) finish_block(false, false);
+  return false;
+}
+
 nc_status Interpreter::run_block(uint32_t& budget) {
   (void)budget;
   if (next_step != Step::none) return settle(continue_block(*this));
@@ -337,60 +389,20 @@ nc_status Interpreter::run_block(uint32_t& budget) {
     source.line = frame.line;
     return settle(raise(Condition::read_failed));
   }
-  source.line = block->end_of_text ? last_line : block->line;
-  if (!block->end_of_text) last_line = block->line;
-  if (!frame.started && store->entry(frame.program.file)->edited) return settle(raise(Condition::program_edited));  // M700 P235
-  const auto bad_row = [](const Block& b) {  // M700 3.4: parity is checked whether the block is skipped or not
-    return b.has_fault && (b.fault.condition == Condition::parity || b.fault.condition == Condition::parity_vertical);
-  };
-  if (skipped(*block) && !bad_row(*block)) {
-    frame.offset = block->next;
-    frame.line = block->next_line;
-    return NC_OK;
+  if (block->ordinary && frame.started) [[likely]] {
+    source.line = last_line = block->line;
+  } else {
+    nc_status status = NC_OK;
+    if (!enter_block(frame, &status)) return status;
   }
-  // A further O number begins another program; a family without sub programs has one in a program, and prints it behind a block, too.
-  const bool number_again = block->has_o && frame.started;
-  const bool one_number = dialect->call_depth == 0;
-  if (number_again && one_number && frame.program.number != 0) return settle(raise(Condition::format_error, 'O', block->o));  // DGSHAPE 1-1, 2-6
-  if (block->percent || block->end_of_text || (number_again && !one_number)) {
-    const bool data_end = dialect->percent_required && state.percent_seen;  // DGSHAPE 2-6, also with nothing between the two
-    if (block->percent && !frame.started && !data_end) {  // the start mark
-      if (block->has_fault) {
-        fault = block->fault;
-        return settle(Did::fault);
-      }
-      state.percent_seen = true;
-      frame.offset = block->next;
-      frame.line = block->next_line;
-      return NC_OK;
-    }
-    const Did did = text_ended(*this);
-    if (did == Did::later) return NC_OK;
-    return settle(did);
-  }
-  const bool blank = block->empty && !block->has_n && !block->has_o && !block->has_fault;  // comments at most
-  if (dialect->percent_required && state.depth == 0 && !state.percent_seen && !blank) return settle(raise(Condition::no_start_mark));
-  if (block->has_o) {
-    frame.program.number = source.program = block->o;
-    state.modal.o = block->o;
-  }
-  if (block->has_n) state.modal.n = block->n;
-  if (block->has_fault) {
-    fault = block->fault;
-    return settle(Did::fault);
-  }
-  if (!block->empty || block->has_n || block->has_o) frame.started = true;
   const uint64_t begin = block->begin;
   const uint32_t line = block->line;
   const uint8_t depth = state.depth;
   frame.offset = block->next;
   frame.line = block->next_line;
-  if (block->empty) {
-    if (block->has_n || block->has_o) finish_block(false, false);
-    return NC_OK;
-  }
-  if (execute_plain_line(*this)) return settle(Did::done);
-  const Did did = block->statements.empty() ? execute_words(*this) : execute_statements();
+  const bool no_statements = block->statements.empty();
+  if (no_statements && execute_plain_line(*this)) return settle(Did::done);
+  const Did did = no_statements ? execute_words(*this) : execute_statements();
   if (did == Did::sync && next_step == Step::none) {  // read this block again when the answer is there
     state.frame[depth].offset = begin;
     state.frame[depth].line = line;
@@ -404,9 +416,8 @@ Did Interpreter::execute_statements() {
   while (statement < block->statements.size()) {
     jumped = false;
     const Did did = execute_statement(*this, block->statements[statement]);
-    if (did == Did::sync) return did;
     if (did != Did::done) {
-      statement = 0;
+      if (did != Did::sync) statement = 0;
       return did;
     }
     if (jumped) break;
@@ -502,14 +513,17 @@ void Interpreter::finish_block(bool stop, bool executable) {
   state.repeat = next_repeat_;
   next_repeat_ = {};
   if (state.interrupt_depth != 0) note_interrupt_items();
-  if (state.end_seen) stop = false;          // the program is over: nothing is left that a start could go on with
-  if (state.nurbs.active()) stop = false;   // M700 6.15: single block stops at the last control point only
-  if (state.control_3003 & 1) stop = false;  // M700 10.5: single block suppressed
-  if (state.special != 0 && state.modal.code[kGroupCutting] == 630) stop = false;  // M700 7.11 (4)
-  Item& item = emit(ItemKind::mark);
+  if (stop && (state.end_seen ||             // the program is over: nothing is left that a start could go on with
+               state.nurbs.active() ||       // M700 6.15: single block stops at the last control point only
+               (state.control_3003 & 1) ||   // M700 10.5: single block suppressed
+               (state.special != 0 && state.modal.code[kGroupCutting] == 630)))  // M700 7.11 (4)
+    stop = false;
+  Item& item = queue_[(head_ + queued_) % kQueue];
+  ++queued_;
+  item.kind = ItemKind::mark;
   item.block_end = executable;
-  new (&item.mark) Mark{position(), modal_now(), state.seq, 0, stop, true};
-  item.mark.again = begins_again;
+  item.source = source;
+  new (&item.mark) Mark{position(), modal_now(), state.seq, 0, stop, true, true, begins_again};
   begins_again = false;
   modal_unchanged_ = false;
   world_fresh = false;

@@ -256,7 +256,14 @@ struct Interpreter {
 
   /// Active zero and the position in it.
   const AxisVec& zero() const { return frames.zero(state.work_system); }
-  AxisVec position() const;
+  AxisVec position() const {
+    if (state.map.kind == AxisMap::Kind::polar) [[unlikely]] return polar_position();
+    const AxisVec& z = zero();
+    AxisVec p;  // all axes: a count that the compiler knows; those that the machine does not have are zero everywhere
+    for (unsigned i = 0; i < kMaxAxes; ++i) p[i] = state.machine[i] - z[i] - state.applied[i];
+    return p;
+  }
+  AxisVec polar_position() const;
   /// Reference position 1 to 4 (`which` 0 to 3) of an axis, machine coordinates (M700 14.3).
   double reference(unsigned which, unsigned axis) const {
     const double set = settings.reference[which][axis];
@@ -303,6 +310,7 @@ struct Interpreter {
   void note_interrupt_items();
 
   nc_status run_block(uint32_t& budget);
+  bool enter_block(CallFrame& frame, nc_status* status);
   nc_status settle(Did did);
   void stop(const Fault& what, const nc_source& where);
   void take_block_back();

@@ -19,6 +19,14 @@ bool plain_modes(const Interpreter& in) {
          m.code[kGroupUnit] == 210 && m.feed > 0 && !in.code_calls.any && !in.settings.check_cutting;
 }
 
+/// X#3: the value of a local variable that has one.
+[[gnu::noinline]] bool local_number(const Interpreter& in, uint16_t code, double* number) {
+  uint32_t variable = 0;
+  if (!lone_variable(*in.block, code, &variable) || variable - 1 >= kLocals) return false;
+  *number = in.variables.locals(in.macro_level())[variable - 1];
+  return *number == *number;  // NaN = vacant
+}
+
 }  // namespace
 
 bool execute_plain_line(Interpreter& in) {
@@ -35,11 +43,13 @@ bool execute_plain_line(Interpreter& in) {
       code = 10;
       continue;
     }
-    // With its point a word is in millimetres, whatever the unit of words without one.
-    if ((word.flags & ~kWordNegative) != kWordPoint || !(std::fabs(word.value) <= in.settings.last_mm))
+    // With its point a word is in millimetres, whatever the unit of words without one; so is a variable.
+    double number = word.value;
+    if ((word.flags & ~kWordNegative) != kWordPoint && (word.flags != kWordExpression || !local_number(in, word.code, &number)))
       return false;
+    if (!(std::fabs(number) <= in.settings.last_mm)) return false;
     axes |= 1u << axis;
-    value[static_cast<unsigned>(axis)] = word.value;
+    value[static_cast<unsigned>(axis)] = number;
   }
   if (code != 10 || before > 30 || before % 10 != 0 || axes == 0 ||
       (axes & (in.rotary | in.settings.index_axes)) != 0 || !plain_modes(in))

@@ -277,6 +277,13 @@ bool constant_number(const Block& block, uint16_t code, uint32_t* number) {
   return *number <= INT16_MAX;
 }
 
+bool lone_variable(const Block& block, uint16_t code, uint32_t* number) {
+  const uint8_t* p = block.code.begin() + code;
+  if (static_cast<Op>(p[0]) != Op::variable || static_cast<Op>(p[4]) != Op::end) return false;
+  *number = static_cast<uint32_t>(p[1] | p[2] << 8 | p[3] << 16);
+  return true;
+}
+
 Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, const EvalOptions& options,
               Value* value, Fault* fault, uint32_t* sync) {
   ValueStack values;

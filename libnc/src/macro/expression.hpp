@@ -45,6 +45,9 @@ bool compile_expression(Block& block, const char* text, size_t size, size_t* at,
 Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, const EvalOptions& options,
               Value* value, Fault* fault, uint32_t* sync);
 
+/// True when the code is the value of one variable and nothing else: X#3.
+bool lone_variable(const Block& block, uint16_t code, uint32_t* number);
+
 /// True when the code is a small number and nothing else: #1, GOTO 10.
 bool constant_number(const Block& block, uint16_t code, uint32_t* number);
 

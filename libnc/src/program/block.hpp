@@ -82,6 +82,7 @@ struct Block {
   bool has_n = false, has_o = false;
   uint32_t n = 0, o = 0;
   bool empty = true;  ///< no word and no statement (comments do not count)
+  bool ordinary = false;  ///< words or statements and nothing to look at before them: no '%', O, N, skip or fault, not the end
   bool has_fault = false;
   Fault fault{};                ///< first error, raised when the block is executed
   FixedVector<Word, 48> words;  ///< without O, N and the skip
@@ -104,6 +105,7 @@ inline void Block::clear() {
   skip = 0;
   n = o = 0;
   empty = true;
+  ordinary = false;
   fault = Fault{};
   words.clear();
   statements.clear();

@@ -138,6 +138,8 @@ size_t BlockReader::hash(uint32_t generation, uint64_t offset) {
 const Block* BlockReader::read(unsigned file, uint64_t offset, uint32_t line) {
   const TextEntry* entry = store_->entry(file);
   if (entry == nullptr) return nullptr;
+  const Seen& last = seen_[seen_used_];
+  if (offset >= last.end && last.generation == entry->generation) return miss(*entry, file, offset, line);  // never read: not in the cache
   const Block* block = cached(*entry, offset, line);
   return block != nullptr ? block : miss(*entry, file, offset, line);
 }
@@ -154,8 +156,15 @@ unsigned BlockReader::find_slot(uint32_t generation, uint64_t offset) const {
 
 const Block* BlockReader::cached(const TextEntry& entry, uint64_t offset, uint32_t line) {
   if (slots_ == 0) return nullptr;
-  const unsigned at = find_slot(entry.generation, offset);
-  if (at == ~0u) return nullptr;
+  // Where the way has gone on from the block before, it does so nearly always.
+  Tag& before = tags_[last_slot_];
+  unsigned at = before.follower;
+  if (tags_[at].offset != offset || tags_[at].generation != entry.generation) {
+    at = find_slot(entry.generation, offset);
+    if (at == ~0u) return nullptr;
+    before.follower = at;
+  }
+  last_slot_ = at;
   Block& block = cache_[at];
   if (block.line != line) {
     block.next_line += line - block.line;
@@ -174,7 +183,8 @@ const Block* BlockReader::miss(const TextEntry& entry, unsigned file, uint64_t o
   const unsigned at = set + (next_way_++ & (kWays - 1));
   tags_[at].generation = 0;
   if (!compile(entry, file, offset, line, cache_[at])) return nullptr;
-  tags_[at] = Tag{offset, entry.generation};
+  tags_[at].offset = offset;
+  tags_[at].generation = entry.generation;
   return &cache_[at];
 }
 
@@ -197,10 +207,12 @@ bool BlockReader::compile(const TextEntry& entry, unsigned file, uint64_t offset
   block.file = static_cast<uint16_t>(file);
   block.line = line;
   block.next_line = newline ? line + 1 : line;
+  block.ordinary = !block.empty && !block.percent && !block.end_of_text && !block.has_o && !block.has_n && block.skip == 0 && !block.has_fault;
   if (!has_parity(entry, offset) || block.percent) return true;  // behind the end of the record nothing is significant
   const Condition wrong = parity_fault(entry, offset, block.next);
   if (wrong == Condition::none) return true;
   block.has_fault = true;
+  block.ordinary = false;
   block.fault = Fault{};
   block.fault.condition = wrong;
   return true;

@@ -96,6 +96,7 @@ class BlockReader {
   struct Tag {
     uint64_t offset = 0;
     uint32_t generation = 0;  ///< 0 = free
+    uint32_t follower = 0;    ///< slot of the block that was read behind this one: a guess
   };
   /// How far a text has been read. Blocks beyond are read for the first time and most likely the last: they
   /// are not cached.
@@ -142,6 +143,7 @@ class BlockReader {
   Tag* tags_ = nullptr;
   unsigned slots_ = 0;  ///< power of two, at least kWays, or 0
   unsigned next_way_ = 0;
+  unsigned last_slot_ = 0;  ///< of the block read last
   Seen seen_[kSeen];
   unsigned seen_used_ = 0;  ///< entry of seen_ last used
   uint32_t parity_units_ = 0;
