@@ -72,6 +72,10 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
     good = good && runtime->own_ladder_ != nullptr;
   }
   if (!good) return nullptr;
+  for (const ParameterSetting& parameter : config.parameters)
+    if (!nc_parameter_used(static_cast<nc_dialect>(config.nc.dialect), parameter.key.c_str()))
+      runtime->warnings_.push_back(ConfigError{config.file, parameter.place.line, parameter.place.key,
+                                               "nothing in the control asks for this parameter: it is kept for programs that read it"}.text());
   if (runtime->own_ladder_ != nullptr) {
     runtime->parts_.ladder = runtime->own_ladder_.get();
     for (const std::string& warning : runtime->own_ladder_->warnings()) runtime->warnings_.push_back(warning);

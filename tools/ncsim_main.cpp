@@ -135,7 +135,8 @@ int run(int argc, char** argv) {
   CLI::App* alarms = app.add_subcommand("alarms", "the alarms of a dialect");
   CLI::App* variables = app.add_subcommand("variables", "the system variables of the m700 dialect");
   variables->add_flag("--markdown", markdown, "as a Markdown table");
-  for (CLI::App* table : {functions, alarms}) {
+  CLI::App* parameters = app.add_subcommand("parameters", "the parameters of a dialect that the control asks for");
+  for (CLI::App* table : {functions, alarms, parameters}) {
     table->add_option("--dialect", options.dialect, "m700 or dgshape")->capture_default_str()->check(nc::tools::given());
     table->add_flag("--markdown", markdown, "as a Markdown table");
   }
@@ -171,6 +172,7 @@ int run(int argc, char** argv) {
   if (plot->parsed())
     return nc::tools::plot_command(options, silent, views.at(view), base.empty() ? "toolpath" : base, stdout, stderr);
   if (functions->parsed()) return nc::tools::functions_command(options.dialect, markdown, stdout, stderr);
+  if (parameters->parsed()) return nc::tools::parameters_command(options.dialect, markdown, stdout, stderr);
   if (variables->parsed()) return nc::tools::variables_command(markdown, stdout, stderr);
   return nc::tools::alarms_command(options.dialect, markdown, stdout, stderr);
 }

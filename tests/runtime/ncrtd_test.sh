@@ -30,6 +30,14 @@ expect 0 "$ncrtd" --config "$work/twice.toml" check
 said err "OUT plc.fin1: the same coil as in line"
 rm "$work/mill.il"
 
+# So is a parameter that nothing asks for.
+cp "$source"/etc/mill.il "$work/mill.il"
+sed "s#^programs = .*#programs = \"$work\"#; s#^\[parameters\].*#&\n\"8011\" = 1#" "$machine" >"$work/unused.toml"
+expect 0 "$ncrtd" --config "$work/unused.toml" check
+said err "nothing in the control asks for this parameter"
+[ "$(grep -c "nothing in the control" "$work/err")" = 1 ] || fail "parameters that the control asks for are warned of"
+rm "$work/mill.il"
+
 # A whole part on virtual time, with its plots.
 expect 0 "$ncrtd" --config "$machine" run --fast --plot "$work/plot" "$source/examples/parts/flange.nc"
 said out "cycle time"

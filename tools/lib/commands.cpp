@@ -276,6 +276,23 @@ int variables_command(bool markdown, std::FILE* out, std::FILE* err) {
   return close_output(out, err, kExitEnded);
 }
 
+int parameters_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err) {
+  const auto id = dialect_from_name(dialect);
+  if (!id) return complain(err, "--dialect " + dialect + ": this version knows m700 and dgshape");
+  Table table(out, markdown);
+  table.head({"parameter", "what", "unit or values", "by axis", "section"});
+  nc_parameter row;
+  for (unsigned i = 0; nc_parameter_row(*id, i, &row) == NC_OK; ++i) {
+    std::string key = row.key != nullptr ? row.key : "#" + std::to_string(row.first);
+    if (row.last != row.first) key += (row.step > 1 ? ", #" + std::to_string(row.first + row.step) + " ... #" : "-#") + std::to_string(row.last);
+    if (row.bit >= 0) key += "/bit" + std::to_string(row.bit);
+    std::string values = row.values;
+    for (size_t at = 0; (at = values.find('|', at)) != std::string::npos; at += 2) values.replace(at, 1, ", ");
+    table.row({key, row.name, values, row.by_axis ? "yes" : "", row.section});
+  }
+  return close_output(out, err, kExitEnded);
+}
+
 int alarms_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err) {
   const auto id = dialect_from_name(dialect);
   if (!id) return complain(err, "--dialect " + dialect + ": this version knows m700 and dgshape");

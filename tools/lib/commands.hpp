@@ -47,6 +47,9 @@ int functions_command(const std::string& dialect, bool markdown, std::FILE* out,
 /** `ncsim variables`: the table of system variables. */
 int variables_command(bool markdown, std::FILE* out, std::FILE* err);
 
+/** `ncsim parameters`: those of the dialect that the control asks for. */
+int parameters_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err);
+
 /** `ncsim alarms`: the dialect's alarm table. */
 int alarms_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err);
 

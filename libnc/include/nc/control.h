@@ -246,6 +246,22 @@ typedef struct nc_system_variable {
 /** Row `index` of the table; NC_E_NOT_FOUND behind the last. Needs no control. */
 NC_API nc_status nc_system_variable_get(unsigned index, nc_system_variable* row);
 
+/** Parameters that something in the control asks for, for documentation and HMIs. */
+typedef struct nc_parameter {
+  const char* key;            /**< of one with a name of its own ("UNIT*10"), nullptr = numbers */
+  uint32_t first, last, step; /**< numbers: one, or several with the same meaning for one thing after the other */
+  int8_t bit;                 /**< of the parameter, -1 = all of it */
+  bool by_axis;               /**< may differ from axis to axis */
+  const char* values;         /**< unit or values, what holds without it first; words of a parameter are apart by "|" */
+  const char* name;           /**< short English name */
+  const char* section;        /**< of the manual */
+} nc_parameter;
+/** Row `index` of the table of a dialect; NC_E_NOT_FOUND behind the last. Needs no control. */
+NC_API nc_status nc_parameter_row(nc_dialect dialect, unsigned index, nc_parameter* row);
+/** Something in the control asks for the parameter `key` ("1084", "1229/bit2", "UNIT*10"). One that it does not ask for is kept for
+ *  programs that read it, and does nothing. Needs no control. */
+NC_API bool nc_parameter_used(nc_dialect dialect, const char* key);
+
 /** One row of a dialect's alarm table. */
 NC_API nc_status nc_alarm_row(nc_dialect dialect, unsigned index, char code[16], const char** message);
 

@@ -82,6 +82,9 @@ struct ParameterName {
   const char* key;
   double value;          ///< default
   const char* words;     ///< accepted words in the order of their values, "|"-separated ("conventional|calculator"), nullptr = number
+  const char* values;    ///< what holds without it first; nullptr = the words
+  const char* name;
+  const char* section;   ///< of the manual
 };
 
 template <class T>

@@ -6,6 +6,8 @@
 #include <initializer_list>
 #include <limits>
 
+#include "interpret/parameter_table.hpp"
+
 namespace nc {
 namespace {
 
@@ -61,15 +63,6 @@ bool is_text(const char* text) {
   for (; text[length] != 0; ++length)
     if (text[length] < ' ' || text[length] > '~') return false;
   return length <= 63;
-}
-
-/// Parameters in use that are numbers; every other one may be a text.
-bool is_number(const char* key) {
-  for (const char* known : {"1003", "1015", "1025", "1037", "1073", "1078", "1080", "1081", "1084", "1109", "1110", "1111", "1112", "1113", "1121", "1128",
-                            "1152", "1074", "1079", "1173", "1174", "1185", "1186", "1187", "1188", "1189", "1193", "1223", "1306", "1503", "1506", "1507", "8007", "8008", "8009", "1181", "1195", "1196", "1197", "1198", "1229", "1235", "1267", "1272", "1273", "1303", "1304", "1517", "2106",
-                            "8012", "8013", "8072", "8075", "8101", "8102", "8103", "8105", "8112", "8117", "8209"})
-    if (std::strcmp(key, known) == 0) return true;
-  return false;
 }
 
 constexpr int kWhole = -1;   ///< a key without "/bit"
@@ -163,7 +156,7 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
     if (!parse_number(text, &value)) {
       if (bit != kWhole || named != nullptr || !is_text(text)) return NC_E_ARGUMENT;
       const bool letter = text[1] == 0;
-      if (!letter && is_number(key)) return NC_E_ARGUMENT;
+      if (!letter && parameter_used(dialect, key)) return NC_E_ARGUMENT;  // none of these is a text of several characters
       value = letter ? static_cast<unsigned char>(text[0]) : keep_text(text);
     } else if (!(value < kTextBase)) {
       return NC_E_ARGUMENT;

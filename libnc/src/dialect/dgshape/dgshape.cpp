@@ -9,9 +9,9 @@ namespace {
 
 // 1-5 and G40-G42: settings made on the machine, here parameters by name.
 const ParameterName kParameters[] = {
-    {"calculator_words", 1, "none|all|F|IJKRXYZA"},  // which words the calculator type applies to
-    {"interpretation", 0, "conventional|calculator"},
-    {"startup", 0, "A|B"},  // how tool-diameter offset starts and ends
+    {"calculator_words", 1, "none|all|F|IJKRXYZA", nullptr, "words that the calculator type applies to", "1-5"},
+    {"interpretation", 0, "conventional|calculator", nullptr, "type of numbers without a point", "1-5"},
+    {"startup", 0, "A|B", nullptr, "how tool-diameter offset starts and ends", "G40-G42"},
 };
 
 }  // namespace

@@ -11,18 +11,18 @@ namespace {
 // DPRNT are "a parameter" (13.5.8), M codes that prohibit pre-reading and the order of M S T B and motion are the
 // machine's (4.2, 9.1), macro_extensions is the option of later models (docs/macros.md).
 const ParameterName kParameters[] = {
-    {"UNIT*10", 1, nullptr},
-    {"DPRNT_BLANK", 0, nullptr},
-    {"macro_extensions", 0, nullptr},
-    {"MSTB_AFTER_MOTION", 0, nullptr},
-    {"PREREAD_STOP_M1", 0, nullptr},
-    {"PREREAD_STOP_M2", 0, nullptr},
-    {"PREREAD_STOP_M3", 0, nullptr},
-    {"PREREAD_STOP_M4", 0, nullptr},
-    {"PREREAD_STOP_M5", 0, nullptr},
-    {"PREREAD_STOP_M6", 0, nullptr},
-    {"PREREAD_STOP_M7", 0, nullptr},
-    {"PREREAD_STOP_M8", 0, nullptr},
+    {"UNIT*10", 1, nullptr, "1, 10", "tenfold: numbers without a point, times this", "2.2"},
+    {"DPRNT_BLANK", 0, nullptr, "0, 1", "DPRNT prints blanks for leading zeros", "13.5.8"},
+    {"macro_extensions", 0, nullptr, "0, 1", "IF ... THEN of later models", "13.5.7"},
+    {"MSTB_AFTER_MOTION", 0, nullptr, "0, 1", "M S T B of a block come after its movement", "9.1"},
+    {"PREREAD_STOP_M1", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
+    {"PREREAD_STOP_M2", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
+    {"PREREAD_STOP_M3", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
+    {"PREREAD_STOP_M4", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
+    {"PREREAD_STOP_M5", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
+    {"PREREAD_STOP_M6", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
+    {"PREREAD_STOP_M7", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
+    {"PREREAD_STOP_M8", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
 };
 
 }  // namespace
