@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Entry of the compiler: the text in lines, and what is known only when all of it was read.
+#include <algorithm>
 #include <cmath>
 
 #include "ladder/compiler.hpp"
@@ -55,8 +56,9 @@ void Compiler::read_line(std::string_view text) {
     while (i < text.size() && !is_blank(text[i])) ++i;
     if (i == start) break;
     words_.push_back(text.substr(start, i - start));
+    if (shown.size() >= kShown) continue;
     if (!shown.empty()) shown += ' ';
-    if (shown.size() < kShown) shown += words_.back().substr(0, kShown);
+    shown += words_.back().substr(0, kShown);
   }
   printable(&shown);
   code_.source.push_back(shown);
@@ -83,6 +85,11 @@ bool Compiler::run(std::string_view text) {
     return false;
   }
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);  // byte order mark
+  if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
+    const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n');
+    error_at(1 + static_cast<unsigned>(lines), "a byte 0 stands here: a ladder program is text, in ASCII or UTF-8 and not in UTF-16");
+    return false;
+  }
   for (std::size_t at = 0; at < text.size() && errors_.size() < kMaxErrors;) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     ++line_;

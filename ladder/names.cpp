@@ -115,7 +115,9 @@ std::optional<Place> Names::device(std::string_view word, std::string* message) 
       why += " '" + std::string(word) + "'";
       const std::string name = nearest(word), elsewhere = device_elsewhere(word);
       const bool address = word[0] == 'X' || word[0] == 'Y';  // here the names of the machine say more
-      if (!elsewhere.empty() && (name.empty() || !address)) why += ": " + elsewhere;
+      const bool number = is_digit(word[0]) || (word.size() > 1 && (word[0] == '-' || word[0] == '+') && is_digit(word[1]));
+      if (number) why += ": constants are K, decimal, and H, hexadecimal, such as K10 or H1F";
+      else if (!elsewhere.empty() && (name.empty() || !address)) why += ": " + elsewhere;
       else if (!name.empty()) why += "; did you mean '" + name + "'?";
     }
   }

@@ -104,6 +104,8 @@ const Bad kBad[] = {
     // timers and counters
     {"LD X0\nOUT T0", 2, "OUT T0", "needs its set value"},
     {"LD X0\nOUT C0", 2, "OUT C0", "needs its set value"},
+    {"LD X0\nOUT T0 10", 2, "OUT T0 10", "no such device '10': constants are K"},
+    {"LD X0\nMOV -5 D0", 2, "MOV -5 D0", "such as K10 or H1F"},
     {"LD X0\nOUT T0 K-1", 2, "OUT T0 K-1", "K0 to K32767"},
     {"LD X0\nOUT C0 K-1", 2, "OUT C0 K-1", "K0 to K32767"},
     {"LD X0\nOUT T0 X1", 2, "OUT T0 X1", "is a bit; a word is needed"},
@@ -226,6 +228,21 @@ TEST(LadderErrors, ControlCharactersAreNotShown) {
   const std::vector<Error> errors = errors_of(std::string("LD \x1b[31m\x01X0\nOUT Y0\n"));
   ASSERT_EQ(errors.size(), 1u);
   for (const char c : errors[0].text()) EXPECT_GE(static_cast<unsigned char>(c), 0x20);
+}
+
+TEST(LadderErrors, WhatIsNoTextIsSaidOnce) {
+  const std::vector<Error> errors = errors_of(std::string("LD X0\nOUT Y0\nL\0D\0 \0X\0", 21));
+  ASSERT_EQ(errors.size(), 1u) << all_text(errors);
+  EXPECT_EQ(errors[0].line, 3u);
+  EXPECT_NE(errors[0].message.find("not in UTF-16"), std::string::npos);
+}
+
+TEST(LadderErrors, ALongLineIsShownByItsBegin) {
+  std::string text = "LD";
+  for (int i = 0; i < 100000; ++i) text += " M0";
+  const std::vector<Error> errors = errors_of(text);
+  ASSERT_FALSE(errors.empty());
+  EXPECT_LT(errors[0].text().size(), 300u);
 }
 
 TEST(LadderText, CommentsCaseAndSeparators) {
