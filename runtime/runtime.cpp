@@ -153,7 +153,8 @@ bool Runtime::start(std::string* error) {
   if (!bring_up(error)) return false;
   stop_scan_ = stop_feeder_ = false;
   keeper_ = std::make_unique<RetainKeeper>(static_cast<unsigned>(config_.retain_every_s * 1000),
-                                           [this](unsigned detail) { scan_->post_retain_trouble(detail); });
+                                           [this](unsigned detail) { scan_->post_retain_trouble(detail); },
+                                           [this] { return scan_->retain_loss_seen(); });
   if (own_ladder_ != nullptr && !config_.retain_path().empty())
     keeper_->add(0, std::make_unique<LadderData>(own_ladder_.get()), config_.retain_path());
   if (control_ != nullptr && !config_.variables_path().empty())

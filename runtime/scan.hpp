@@ -103,6 +103,8 @@ class Scan {
   void post_retain_trouble(unsigned detail) noexcept {
     retain_trouble_.fetch_or(1u << detail, std::memory_order_release);
   }
+  // R19 was there and has been acknowledged.
+  bool retain_loss_seen() const noexcept { return retain_loss_seen_.load(std::memory_order_acquire); }
 
  private:
   enum class ResetPhase : std::uint8_t { kNone, kStopping, kFeeder };
@@ -193,6 +195,7 @@ class Scan {
   std::atomic<std::uint8_t> loaded_{kNothingLoaded};
   std::atomic<std::uint32_t> skip_switches_[NC_MAX_SYSTEMS] = {}, recalculations_[NC_MAX_SYSTEMS] = {};
   std::atomic<std::uint32_t> retain_trouble_{0};
+  std::atomic<bool> retain_loss_seen_{false};
   std::atomic<std::uint32_t> reset_rest_{0}, reset_done_{0};
   SeqLock<Snapshot> snapshot_;
   Snapshot building_;

@@ -193,9 +193,13 @@ class Run {
     wait();  // the details of a program alarm come from the feeder
     const nc::rt::Snapshot now = runtime_.snapshot();
     progress_.finish();
-    for (unsigned i = 0; i < now.alarms.count; ++i)
+    bool lost = false;
+    for (unsigned i = 0; i < now.alarms.count; ++i) {
       std::fprintf(stderr, "alarm: %s\n", runtime_.alarm_text(now.alarms.alarm[i]).c_str());
+      lost |= now.alarms.alarm[i].id == nc::rt::AlarmId::kRetainedLost;
+    }
     std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc, options_.since_ns).c_str());
+    if (lost) runtime_.execute(CommandKind::kReset);  // whoever started it has read it now; nobody else could acknowledge it
     return kExitAlarm;
   }
 

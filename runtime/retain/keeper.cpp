@@ -43,14 +43,18 @@ void RetainKeeper::restore(Entry* entry, std::vector<std::string>* warnings) {
   entry->usable = entry->store->lock(&error);
   if (!entry->usable) return tell(entry, RetainTrouble::kNotKept, name + " are not kept: " + error, warnings);
   const RetainStore::Loaded loaded = entry->store->load(&bytes, &error);
+  entry->unseen = loaded == RetainStore::Loaded::kDamaged || loaded == RetainStore::Loaded::kOlder;
   if (loaded == RetainStore::Loaded::kDamaged) {
     tell(entry, RetainTrouble::kLost, lost + error, warnings);
   } else if (loaded != RetainStore::Loaded::kNothing) {
-    if (!entry->data->restore(bytes))
+    const bool sense = entry->data->restore(bytes);
+    entry->unseen |= !sense;
+    if (!sense)
       tell(entry, RetainTrouble::kLost, lost + entry->store->path() + " makes no sense", warnings);
     else if (loaded == RetainStore::Loaded::kOlder)
       tell(entry, RetainTrouble::kOlder, name + " are those of the last time but one: " + error, warnings);
   }
+  if (entry->unseen) return;
   entry->saved = entry->data->now();
   entry->failed = !entry->store->save(entry->saved, &error);  // tells now whether it will work later
   if (entry->failed) tell(entry, RetainTrouble::kUnwritable, name + " cannot be written: " + error, warnings);
@@ -79,7 +83,7 @@ void RetainKeeper::stop() {
   thread_.join();
   running_ = false;
   for (const auto& entry : entries_)
-    if (entry->usable) save(entry.get(), entry->data->now());
+    if (entry->usable && may_save(entry.get())) save(entry.get(), entry->data->now());
 }
 
 bool RetainKeeper::pause_ms(unsigned time) {
@@ -91,13 +95,23 @@ void RetainKeeper::run() {
   std::string bytes;
   while (pause_ms(every_ms_)) {
     for (const auto& entry : entries_) {
-      if (!entry->usable) continue;
+      if (!entry->usable || !may_save(entry.get())) continue;
       entry->data->want();
       while (!entry->data->take(&bytes))
         if (!pause_ms(kLookMs)) return;
       save(entry.get(), bytes);
     }
   }
+}
+
+// Who writes over a loss that nobody has seen makes the next control start as if nothing had happened.
+bool RetainKeeper::may_save(Entry* entry) {
+  if (!entry->unseen) return true;
+  if (!seen_()) return false;
+  entry->unseen = false;
+  entry->saved.clear();
+  entry->store->set_aside();
+  return true;
 }
 
 // What could not be written is tried again each time, and told again when it had worked in between.

@@ -26,7 +26,11 @@ class RetainKeeper {
   // Takes retain_detail() of what has gone wrong; called before the first scan and in the keeper's thread.
   using Trouble = std::function<void(unsigned detail)>;
 
-  RetainKeeper(unsigned every_ms, Trouble trouble) : every_ms_(every_ms), trouble_(std::move(trouble)) {}
+  // Whether what was told to be lost has been acknowledged. Any thread.
+  using Seen = std::function<bool()>;
+
+  RetainKeeper(unsigned every_ms, Trouble trouble, Seen seen)
+      : every_ms_(every_ms), trouble_(std::move(trouble)), seen_(std::move(seen)) {}
   ~RetainKeeper() { stop(); }
 
   // `number`: of the data in alarms.
@@ -50,16 +54,19 @@ class RetainKeeper {
     std::unique_ptr<RetainStore> store;
     bool usable = false;
     bool failed = false;  // the last write; told once
+    bool unseen = false;  // a loss that nobody has acknowledged: nothing is written, so that the next start tells it again
     std::string saved, trouble;
   };
   void restore(Entry* entry, std::vector<std::string>* warnings);
   void run();
   bool pause_ms(unsigned time);  // false: it ends
+  bool may_save(Entry* entry);
   void save(Entry* entry, const std::string& bytes);
   void tell(Entry* entry, RetainTrouble what, const std::string& why, std::vector<std::string>* warnings);
 
   const unsigned every_ms_;
   const Trouble trouble_;
+  const Seen seen_;
   std::vector<std::unique_ptr<Entry>> entries_;
   RtThread thread_;
   mutable std::mutex mutex_;

@@ -100,6 +100,15 @@ bool is_whole(const std::string& bytes, std::uint64_t* generation, std::string* 
   return true;
 }
 
+// What is wrong with a file that is not whole.
+const char* trouble_of(const std::string& bytes) {
+  Header header;
+  if (bytes.size() < sizeof header) return " is damaged";
+  std::memcpy(&header, bytes.data(), sizeof header);
+  const bool other = std::memcmp(header.magic, kMagic, sizeof kMagic) == 0 && header.version != kVersion;
+  return other ? " is damaged, or of another version of the control" : " is damaged";
+}
+
 std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
@@ -145,7 +154,7 @@ RetainStore::Loaded RetainStore::load(std::string* payload, std::string* error) 
     if (ending[0] == '\0') last_is_whole = whole;
     if (!whole) {
       if (ending[0] == '\0' || ending[1] != 'n')
-        damaged += (damaged.empty() ? "" : "; ") + (there || errno == 0 ? name + " is damaged" : system_error(name));
+        damaged += (damaged.empty() ? "" : "; ") + (there || errno == 0 ? name + trouble_of(bytes) : system_error(name));
       continue;
     }
     if (found && generation <= generation_) continue;
@@ -154,11 +163,15 @@ RetainStore::Loaded RetainStore::load(std::string* payload, std::string* error) 
     generation_ = generation;
     *payload = std::move(read);
   }
+  // PATH.old alone is a generation back; beside a PATH.new that is newer, the power went between the two renames.
+  if (found && damaged.empty() && !last_is_whole && !newest_is_new_) damaged = path_ + " is missing";
   *error = damaged;
   if (found) return last_is_whole || damaged.empty() ? Loaded::kWhole : Loaded::kOlder;
-  if (!any) return Loaded::kNothing;
-  (void)rename(path_.c_str(), (path_ + ".damaged").c_str());  // for whoever wants to look; not there is no loss
-  return Loaded::kDamaged;
+  return any ? Loaded::kDamaged : Loaded::kNothing;
+}
+
+void RetainStore::set_aside() {
+  (void)rename(path_.c_str(), (path_ + ".damaged").c_str());  // not there is no loss
 }
 
 bool RetainStore::put_in_place() {

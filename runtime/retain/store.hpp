@@ -21,10 +21,12 @@ class RetainStore {
   bool lock(std::string* error);
 
   enum class Loaded { kWhole, kOlder, kNothing, kDamaged };
-  // The newest whole generation. kOlder: the last one is damaged, this is the one before. kNothing: there is
-  // no file yet. kDamaged: there are files, and none is whole; they are kept as PATH.damaged. A sentence in
-  // *error for kOlder and kDamaged.
+  // The newest whole generation. kOlder: the last one is damaged or missing, this is the one before. kNothing: there
+  // is no file yet. kDamaged: there are files, and none is whole. A sentence in *error for kOlder and kDamaged. Changes
+  // nothing: the next one finds the same.
   Loaded load(std::string* payload, std::string* error);
+  // PATH becomes PATH.damaged, for whoever wants to look. Before the first save() behind a loss.
+  void set_aside();
   // False with a sentence in *error; what was there before is there still.
   bool save(const std::string& payload, std::string* error);
 

@@ -197,6 +197,55 @@ TEST_F(RetainedControl, WhatIsLostIsAnAlarmUntilReset) {
   EXPECT_TRUE(std::filesystem::exists(file("vars.damaged")));
 }
 
+// A control that is ended, or killed, before anybody has acknowledged the loss tells it again; nothing is written over.
+TEST_F(RetainedControl, ALossIsToldAtEveryStartUntilSomebodyHasSeenIt) {
+  configure();
+  put("vars", "garbage");
+  for (unsigned start = 0; start < 3; ++start) {
+    up();
+    ASSERT_TRUE(until([&] { return runtime->snapshot().alarms.count == 1; })) << start << ": " << alarms();
+    EXPECT_EQ(alarms().find("R19 Retained data lost: common variables are lost and are vacant: "), 0u) << alarms();
+    std::this_thread::sleep_for(60ms);  // several periods of the keeper
+    runtime->stop();
+    EXPECT_TRUE(std::filesystem::exists(file("vars")));
+    EXPECT_FALSE(std::filesystem::exists(file("vars.damaged")));
+  }
+  up();
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting && alarms().empty(); }));
+  run("#500=7\nM30\n");
+  runtime->stop();
+  EXPECT_TRUE(std::filesystem::exists(file("vars.damaged")));
+  up();
+  EXPECT_EQ(alarms(), "");
+  EXPECT_EQ(variable(500), 7);
+}
+
+TEST_F(RetainedControl, AFileThatWasTakenAwayIsSaid) {
+  configure("[tool_offsets]\n1 = 120.0\n");
+  up();
+  run("G10 L10 P1 R121.\nM30\n");
+  runtime->stop();
+  std::filesystem::remove(file("offsets"));
+  up();
+  ASSERT_TRUE(until([&] { return runtime->snapshot().alarms.count == 1; })) << "an older tool table in silence";
+  EXPECT_EQ(alarms(), "R19 Retained data lost: offsets and parameters are those of the last time but one: " + file("offsets") + " is missing\n");
+}
+
+TEST_F(RetainedControl, BytesOfAnotherKindAreKeptForALook) {
+  configure();
+  up();
+  run("#500=7\nM30\n");
+  runtime->stop();
+  std::filesystem::copy_file(file("vars"), file("offsets"), std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::remove(file("offsets.old"));
+  up();
+  ASSERT_TRUE(until([&] { return runtime->snapshot().alarms.count == 1; })) << alarms();
+  EXPECT_NE(alarms().find(file("offsets") + " makes no sense"), std::string::npos) << alarms();
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(until([&] { return std::filesystem::exists(file("offsets.damaged")); }));
+}
+
 TEST_F(RetainedControl, OneGenerationBackIsSaid) {
   configure();
   up();
