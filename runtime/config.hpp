@@ -96,6 +96,7 @@ struct ModbusLinkConfig {
   hal::modbus::LinkConfig link;
   std::uint8_t unit = 1;  // of points that name none
   bool alarm = false;     // a link that is lost is alarm R18
+  bool named = false;     // by a point, be it a wrong one
   ConfigPlace place;
 };
 

@@ -42,9 +42,9 @@ void read_ladder(TableReader* root, Config* config) {
         ladder.retain_d_count = static_cast<unsigned>(range[1] - range[0]) + 1;
       }
     }
-    if (!ladder.retain.empty() && ladder.retain == config->variables)
+    if (same_file(ladder.retain, config->variables))
       reader.error("retain", "is the file of the common variables too: [machine] variables");
-    if (!ladder.retain.empty() && ladder.retain == config->offsets)
+    if (same_file(ladder.retain, config->offsets))
       reader.error("retain", "is the file of the offsets too: [machine] offsets");
     std::vector<std::pair<std::string, unsigned>> texts;
     if (!reader.strings("alarms", &texts)) return;

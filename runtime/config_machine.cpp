@@ -112,7 +112,7 @@ void read_machine(TableReader* root, Config* config) {
     config->variables_place = {reader.line("variables"), reader.path("variables")};
     reader.string("offsets", &config->offsets);
     config->offsets_place = {reader.line("offsets"), reader.path("offsets")};
-    if (!config->offsets.empty() && config->offsets == config->variables)
+    if (same_file(config->offsets, config->variables))
       reader.error("offsets", "is the file of the common variables too: variables");
     reader.number("retain_every_s", &config->retain_every_s, 0.02, 3600);
     reader.integer("cycle_us", &config->cycle_us, 100, 100000);

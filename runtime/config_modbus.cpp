@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "hal/modbus/codec.hpp"
@@ -166,7 +167,7 @@ void check_initial(TableReader* point_reader, const PointMap& map) {
   if (range.holds(value)) return;
   point_reader->error("initial", std::string(given ? "must be" : "is 0 when it is left out, but must be") + " from " + range_text(range) + ", what " + table_name(map.table) + " " +
                                      std::to_string(map.address) + " can hold with its sign, width and scale, not " +
-                                     std::to_string(value));
+                                     std::to_string(value) + (value > INT32_MAX ? ", which is what " + std::to_string(value - 0x100000000) + " means here" : ""));
 }
 
 // hold | off | a number, as a number or a text.
@@ -244,6 +245,7 @@ std::uint8_t read_point_modbus(TableReader* point_reader, const hal::Point& poin
     const bool found = linked && link != config->modbus.end();
     if (linked && !found) reader.error("link", "no link is named \"" + name + "\": see [[modbus]]");
     if (found) map.unit = link->unit;
+    if (found) link->named = true;
     read_unit(&reader, &map.unit);
     const bool placed = read_table(&reader, &map.table);
     if (placed && map.output && !can_be_written(map.table))
@@ -268,7 +270,7 @@ std::uint8_t read_point_modbus(TableReader* point_reader, const hal::Point& poin
 
 void check_modbus(TableReader* root, const Config& config) {
   for (const ModbusLinkConfig& entry : config.modbus)
-    if (entry.link.points.empty())
+    if (!entry.named)
       root->errors()->add(entry.place.line, entry.place.key,
                           "no point uses the link \"" + entry.link.name + "\"");
 }

@@ -3,6 +3,9 @@
 // ones).
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 #include "runtime/toml_reader.hpp"
 
 namespace nc::rt {
@@ -31,5 +34,10 @@ void read_sim_plant(TableReader* sim, Config* config);
 
 // "X" = axis X of part system 1, "X2" = axis X of part system 2. False when there is none.
 bool find_axis(const Config& config, std::string_view name, unsigned* system, unsigned* axis);
+
+// Two files of the configuration, as they are written there: "a", "./a" and "b/../a" are one. Empty ones are none.
+inline bool same_file(const std::string& one, const std::string& other) {
+  return !one.empty() && std::filesystem::path(one).lexically_normal() == std::filesystem::path(other).lexically_normal();
+}
 
 }  // namespace nc::rt

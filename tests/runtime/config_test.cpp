@@ -268,7 +268,7 @@ const Case kCases[] = {
      "ladder.retain", "common variables too"},
     {"offsets_and_variables_in_one", "name = \"test\"", "name = \"test\"\nvariables = \"kept\"\noffsets = \"kept\"", "machine.offsets",
      "common variables too"},
-    {"offsets_and_devices_in_one", "name = \"test\"", "name = \"test\"\noffsets = \"kept\"\n[ladder]\nprogram = \"x.il\"\nretain = \"kept\"",
+    {"offsets_and_devices_in_one", "name = \"test\"", "name = \"test\"\noffsets = \"kept\"\n[ladder]\nprogram = \"x.il\"\nretain = \"./kept\"",
      "ladder.retain", "the offsets too"},
     {"retain_every", "name = \"test\"", "name = \"test\"\nretain_every_s = 0.0", "machine.retain_every_s", "from 0.02 to 3600"},
     {"initial_of_a_bit", "name = \"in1\"", "name = \"in1\"\ninitial = -1", "point[2].initial", "from 0 to 1"},
