@@ -19,6 +19,7 @@ constexpr std::int64_t kAttachEveryNs = 100 * kMs;
 constexpr std::int64_t kLookEveryNs = 50 * kMs;  // without a new picture
 constexpr std::int64_t kSignalsNs = 100 * kMs;   // at most so often
 constexpr std::int64_t kSignalsForcedNs = 1000 * kMs;
+constexpr std::int64_t kClaimEveryNs = 500 * kMs;
 constexpr int kTaken = 16;
 
 std::int64_t now() {
@@ -99,25 +100,32 @@ bool Gateway::attach() {
     segment_.close();
     return false;
   }
-  may_command_ = options_.commands && segment_.claim_commands(&error);
-  if (options_.commands && !may_command_) std::fprintf(stderr, "ncdds: warning: no commands: %s\n", error.c_str());
-  if (may_command_) {
-    share::Request began{};
-    began.kind = static_cast<std::uint32_t>(share::RequestKind::kGatewayBegan);
-    (void)segment_.get()->commands.push(began);
-    share::wake(&segment_.get()->wake_intake);
-  }
+  if (options_.commands && !claim_commands(&error))
+    std::fprintf(stderr, "ncdds: warning: no commands: %s\n", error.c_str());
   heart_.restart();
   written_any_ = false;
   history_sequence_ = 0;
   MachineSample machine;
-  machine.fill(segment_.get()->machine, partition_.c_str(), may_command_);
+  machine.fill(segment_.get()->machine, partition_.c_str(), may_command_ || another_commands_);
   write(machine_, &machine.info);
   const auto table = std::make_unique<SignalTableSample>();
   table->fill(segment_.get()->machine, partition_.c_str());
   write(signal_table_, &table->table);
   say("publishes \"" + std::string(share::text_of(segment_.get()->machine.machine)) + "\" as " + partition_ +
       " in domain " + std::to_string(options_.domain) + (may_command_ ? ", takes commands" : ""));
+  return true;
+}
+
+// Whether commands come in here: one gateway of a control brings them in, another one waits until that one is gone.
+bool Gateway::claim_commands(std::string* error) {
+  may_command_ = segment_.claim_commands(error);
+  another_commands_ = !may_command_ && segment_.get()->identity.commands != 0;
+  next_claim_ns_ = now() + kClaimEveryNs;
+  if (!may_command_) return false;
+  share::Request began{};
+  began.kind = static_cast<std::uint32_t>(share::RequestKind::kGatewayBegan);
+  (void)segment_.get()->commands.push(began);
+  share::wake(&segment_.get()->wake_intake);
   return true;
 }
 
@@ -142,7 +150,7 @@ void Gateway::detach(const char* why) {
   }
   *history_block_ = {};
   const std::lock_guard lock(segment_mutex_);
-  may_command_ = false;
+  may_command_ = another_commands_ = false;
   segment_.close();
 }
 
@@ -153,6 +161,11 @@ bool Gateway::look() {
       segment_.get()->life.load(std::memory_order_acquire) == static_cast<std::uint32_t>(share::Life::kEnded);
   const bool beats = heart_.alive(segment_.get()->heartbeat.load(std::memory_order_acquire), at);
   publish_acks();
+  if (another_commands_ && at >= next_claim_ns_) {
+    const std::lock_guard lock(segment_mutex_);
+    std::string error;
+    if (claim_commands(&error)) say("takes the commands now: the other gateway is gone");
+  }
   if (ended || (beats && at >= next_status_ns_)) {
     if (publish_status(at)) publish_alarms();
     publish_history();
@@ -344,6 +357,7 @@ void Gateway::take_commands() {
       Client& client = clients_[info.instance_handle];
       client.name = wanted.client;
       client.writer = info.publication_handle;
+      if (another_commands_) continue;  // the other gateway gets it too, and answers
       if (has_hidden_text(command)) refuse(wanted, share::AckReason::kMalformed, "a text has a NUL in its middle");
       else if (open) put(wanted);
       else refuse(wanted, share::AckReason::kRefused, "there is no control that takes commands");

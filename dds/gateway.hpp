@@ -43,6 +43,7 @@ class Gateway {
     std::uint32_t slot = 0;
   };
   bool attach();
+  bool claim_commands(std::string* error);
   void detach(const char* why);
   bool look();
   bool publish_status(std::int64_t now_ns);
@@ -70,6 +71,8 @@ class Gateway {
   std::mutex segment_mutex_;  // the command thread puts commands in while run() may let the segment go
   share::SegmentReader segment_;
   bool may_command_ = false;
+  bool another_commands_ = false;  // another gateway of this control brings the commands in
+  std::int64_t next_claim_ns_ = 0;
   share::HeartbeatWatch heart_{300'000'000};
   std::string said_;
 

@@ -186,19 +186,22 @@ void Monitor::take_status() {
   const int count = dds_take(status_, samples, infos, kTaken, kTaken);
   for (int i = 0; i < count; ++i) {
     const auto& status = *static_cast<const nc_Status*>(samples[i]);
-    if (infos[i].valid_data && infos[i].instance_state == DDS_IST_ALIVE) {
-      if (machine_.empty()) machine_ = status.machine;
-      if (machine_ != status.machine) continue;  // several controls are heard: this monitor shows one
+    const bool alive = infos[i].valid_data && infos[i].instance_state == DDS_IST_ALIVE;
+    if (machine_.empty() && alive) {
+      machine_ = status.machine;
+      view_.systems.clear();
+    }
+    // Several controls are heard: this monitor shows one. The keys are there also without data.
+    if (!machine_.empty() && machine_ != status.machine) continue;
+    if (alive) {
       view_.systems[status.part_system] = view_of(status);
       view_.alive = heard_ = true;
       view_.ended = false;
       latency_ns_ = nc::rt::share::wall_ns() - status.time_ns;
       ++samples_;
       ++changes_;
-    } else if (infos[i].valid_data && (machine_.empty() || machine_ == status.machine)) {
-      // Its last value, read after it was taken back: still worth showing.
-      if (heard_ || infos[i].instance_state == DDS_IST_NOT_ALIVE_DISPOSED)
-        view_.systems[status.part_system] = view_of(status);
+    } else if (infos[i].valid_data && (heard_ || infos[i].instance_state == DDS_IST_NOT_ALIVE_DISPOSED)) {
+      view_.systems[status.part_system] = view_of(status);  // its last value, read after it was taken back
     }
     if (infos[i].instance_state != DDS_IST_ALIVE && heard_) {
       view_.alive = false;
@@ -220,13 +223,16 @@ void Monitor::take_alarms() {
   const int count = dds_take(alarm_, samples, infos, kTaken, kTaken);
   for (int i = 0; i < count; ++i) {
     const auto& alarm = *static_cast<const nc_Alarm*>(samples[i]);
+    if (!machine_.empty() && machine_ != alarm.machine) continue;
+    std::map<unsigned, AlarmView>& alarms = alarms_of_[alarm.machine];
     if (infos[i].instance_state != DDS_IST_ALIVE) {
-      view_.alarms.erase(alarm.slot);  // the key is there also without data
-    } else if (infos[i].valid_data && (machine_.empty() || machine_ == alarm.machine)) {
-      view_.alarms[alarm.slot] = {alarm.id,   alarm.part_system, alarm.code,     alarm.text,
-                                alarm.axis, alarm.line,        alarm.raised_ns};
+      alarms.erase(alarm.slot);  // the keys are there also without data
+    } else if (infos[i].valid_data) {
+      alarms[alarm.slot] = {alarm.id,   alarm.part_system, alarm.code,     alarm.text,
+                            alarm.axis, alarm.line,        alarm.raised_ns};
     }
   }
+  if (!machine_.empty()) view_.alarms = alarms_of_[machine_];
   if (count > 0) (void)dds_return_loan(alarm_, samples, count);
 }
 

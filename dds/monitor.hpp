@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "dds/monitor_view.hpp"
@@ -41,6 +42,7 @@ class Monitor {
   Participant participant_;
   dds_entity_t status_ = 0, alarm_ = 0, waitset_ = 0, signals_ = 0, signal_table_ = 0;
   std::map<std::string, SignalView> signal_rows_;  // what the table says of them, by name
+  std::map<std::string, std::map<unsigned, AlarmView>> alarms_of_;  // by control and slot; of one control as soon as that is known
   MonitorView view_;
   bool heard_ = false;
   std::uint64_t samples_ = 0, changes_ = 0;

@@ -184,6 +184,7 @@ class Status(IdlStruct, typename="nc.Status"):
     part_system: types.uint32
     annotate.key("part_system")
     machine: types.bounded_str[63]
+    annotate.key("machine")
     scan: types.uint64
     time_ns: types.int64
     mode: Mode
@@ -238,6 +239,7 @@ class Alarm(IdlStruct, typename="nc.Alarm"):
     annotate.key("slot")
     id: types.uint64
     machine: types.bounded_str[63]
+    annotate.key("machine")
     part_system: types.uint32
     code: types.bounded_str[15]
     text: types.bounded_str[255]
@@ -254,6 +256,7 @@ class AlarmHistory(IdlStruct, typename="nc.AlarmHistory"):
     annotate.key("slot")
     id: types.uint64
     machine: types.bounded_str[63]
+    annotate.key("machine")
     part_system: types.uint32
     message: bool
     code: types.bounded_str[15]
@@ -353,6 +356,7 @@ class Status_v1(IdlStruct, typename="nc.Status_v1"):
     part_system: types.uint32
     annotate.key("part_system")
     machine: types.bounded_str[63]
+    annotate.key("machine")
     scan: types.uint64
     time_ns: types.int64
     mode: types.uint32
@@ -383,6 +387,7 @@ class Alarm_v1(IdlStruct, typename="nc.Alarm_v1"):
     annotate.key("slot")
     id: types.uint64
     machine: types.bounded_str[63]
+    annotate.key("machine")
     part_system: types.uint32
     code: types.bounded_str[15]
     text: types.bounded_str[255]

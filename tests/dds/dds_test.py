@@ -103,7 +103,7 @@ G54 = { X = 0.0, Y = 0.0 }
 [ladder]
 program = "own.il"
 """
-LADDER = "LD nc.m_strobe\nOUT plc.fin2\nLD SM400\nDMOV pallet D0\nEND\n"
+LADDER = "LD nc.m_strobe\nOUT plc.fin2\nLD SM400\nDMOV pallet D0\nLD M100\nOUT plc.alarm.1\nEND\n"
 PART = "G90 G54 G17\n#1=0\n#1100=1\nWHILE [#1 LT 5] DO1\nN20 G1 X20. Y10. F3000.\nG3 X20. Y30. J10.\nG1 X0. Y0.\n#1=#1+1\nEND1\nM30\n"
 BAD = "G90 G54\nG1 X10. F1000 G150\nM30\n"
 
@@ -457,6 +457,64 @@ def forces(plant, watch, operator, participant):
     check(ask(CommandKind.CMD_FORCE, text="pallet", value=5.0)[0] == AckState.ACK_DONE, "a force that the end of the control ends")
 
 
+def two_controls(plant, participant, operator):
+    """Another control in the same domain: who listens to all of them (partition "*") mixes nothing up."""
+    other = plant.share + "b"
+    control = plant.start("ncrtd", "--config", os.path.join(plant.folder, "machine.toml"), "serve", "--share", other, "--commands")
+    gateway = plant.start("ncdds", "--share", other, "--domain", str(plant.domain), "--commands")
+    all_alarms, all_status = nc_dds.reader(participant, nc_dds.Alarm, "*"), nc_dds.reader(participant, nc_dds.Status, "*")
+    operators = {plant.share: operator, other: Operator(participant, other, f"two-{os.getpid()}")}
+    active, ended = {}, set()
+
+    def look():
+        for sample in filter(lambda each: each.sample_info.valid_data, all_alarms.take(N=50)):
+            if sample.sample_info.instance_state == InstanceState.Alive:
+                active[sample.machine, sample.slot] = sample.text
+            else:
+                active.pop((sample.machine, sample.slot), None)
+        for sample in all_status.take(N=50):
+            if sample.sample_info.valid_data and sample.sample_info.instance_state == InstanceState.NotAliveDisposed:
+                ended.add(sample.machine)
+        return {machine for machine, _ in active}
+
+    until(lambda: answers(operators[other]), "the second control answers")
+    for machine, giver in operators.items():
+        check(giver.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, f"control of {machine}")
+        check(giver.ask(CommandKind.CMD_FORCE, text="M100", value=1.0).state == AckState.ACK_DONE, "an alarm in its ladder")
+    until(lambda: look() == set(operators), "the alarms of both are there, in the same slot")
+    shown = json.loads(plant.monitor("--once", "--json", "--wait", "20").stdout)
+    check([a["code"] for a in shown["alarms"]] == ["R16"] and len(shown["systems"]) == 1, "ncmon without a name shows one of them")
+    for kind, fields in ((CommandKind.CMD_RELEASE_FORCE, {}), (CommandKind.CMD_RESET, {})):
+        check(operators[other].ask(kind, **fields).state == AckState.ACK_DONE, kind.name)
+    until(lambda: look() == {plant.share}, "one is cleared, the other one stays")
+    control.send_signal(signal.SIGTERM)
+    check(control.wait(timeout=60) == 0, "the second control ends")
+    until(lambda: look() and ended == {other}, "and nobody takes it for the first one's end")
+    gateway.terminate()
+    gateway.wait()
+    operator.ask(CommandKind.CMD_RELEASE_FORCE)
+    check(operator.ask(CommandKind.CMD_RESET).state == AckState.ACK_DONE, "reset")
+
+
+def two_gateways(plant, operator, gateway):
+    """A second gateway of the same control keeps quiet about the commands, and takes over. Returns it."""
+    second = plant.gateway("--commands")
+    until(lambda: "no commands: process" in second.stdout.readline(), "the second gateway leaves the commands to the first")
+    time.sleep(1.0)  # its reader of commands is found
+    seqs = [operator.send(CommandKind.CMD_FEED_OVERRIDE, value=1.0) for _ in range(5)]
+    states = []
+    end = time.monotonic() + 2.0
+    while time.monotonic() < end:
+        states += [ack.state for ack in taken(operator.acks) if ack.seq in seqs]
+        time.sleep(0.01)
+    check(states == [AckState.ACK_DONE] * 5, "each command gets one answer")
+    gateway.send_signal(signal.SIGKILL)
+    gateway.wait()
+    until(lambda: answers(operator), "the first one is killed: the second takes the commands")
+    check(operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "control through it")
+    return second
+
+
 def stranger(plant, watch, operator, gateway):
     """A participant that has other types under our names, one of them known to have crashed publishers."""
     participant = DomainParticipant(plant.domain)
@@ -662,6 +720,8 @@ def main():
             forces(plant, watch, operator, participant)
             attack_on_memory(watch, control, gateway)
             until(lambda: operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "commands come through as before")
+            two_controls(plant, participant, operator)
+            gateway = two_gateways(plant, operator, gateway)
             dead_client(plant, operator)
             stranger(plant, watch, operator, gateway)
             hang(watch, operator, control)

@@ -18,6 +18,7 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
+#include <fastrtps/utils/md5.h>
 
 #include <array>
 #include <chrono>
@@ -28,6 +29,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace {
 
@@ -70,7 +72,7 @@ struct Alarm {
   static constexpr std::uint32_t kLargest = 1024;
 };
 
-// Both have an unsigned long first, which is their key.
+// Both have two keys, an unsigned long and the name of the machine.
 template <class T>
 class CoreType final : public TopicDataType {
  public:
@@ -98,14 +100,27 @@ class CoreType final : public TopicDataType {
   void* createData() override { return new T; }
   void deleteData(void* data) override { delete static_cast<T*>(data); }
   bool getKey(void* data, eprosima::fastrtps::rtps::InstanceHandle_t* handle, bool) override {
-    const std::uint32_t key = key_of(*static_cast<T*>(data));  // big-endian, as it is sent
-    for (unsigned i = 0; i < 4; ++i) handle->value[i] = static_cast<unsigned char>(key >> (24 - 8 * i) & 0xff);
+    // Longer than 16 bytes: MD5 of the key members, big-endian, in their order.
+    const T& sample = *static_cast<T*>(data);
+    std::vector<unsigned char> key;
+    const auto put = [&key](std::uint32_t number) {
+      for (unsigned i = 0; i < 4; ++i) key.push_back(static_cast<unsigned char>(number >> (24 - 8 * i) & 0xff));
+    };
+    put(number_of(sample));
+    put(static_cast<std::uint32_t>(sample.machine.size()) + 1);
+    key.insert(key.end(), sample.machine.begin(), sample.machine.end());
+    key.push_back(0);
+    MD5 digest;
+    digest.init();
+    digest.update(key.data(), static_cast<MD5::size_type>(key.size()));
+    digest.finalize();
+    for (unsigned i = 0; i < 16; ++i) handle->value[i] = digest.digest[i];
     return true;
   }
 
  private:
-  static std::uint32_t key_of(const Status& status) { return status.part_system; }
-  static std::uint32_t key_of(const Alarm& alarm) { return alarm.slot; }
+  static std::uint32_t number_of(const Status& status) { return status.part_system; }
+  static std::uint32_t number_of(const Alarm& alarm) { return alarm.slot; }
 };
 
 // This computer alone, without multicast, as ncdds is without a configuration of its own.
