@@ -23,6 +23,7 @@ enum class CommandKind : std::uint8_t {
   kReference,      // axis: go to the first reference position
   kForce,          // number: of LadderTask::force_number(), value: what the device is held at
   kRelease,        // number: the same, kAllForces
+  kEnd,            // the control is being ended: to rest, and nothing starts any more, whatever the ladder asks for
   // for the feeder
   kSelectProgram,  // number: file index of the program store; AUTO
   kLoadMdi,        // the text given to Runtime::load_mdi(); MDI
@@ -51,6 +52,7 @@ enum class Answer : std::uint8_t {
   kNoProgram,        // nothing selected
   kAlarmActive,      // reset first
   kResetting,        // the reset is still going on
+  kEnding,           // the control is being ended
   kAlreadyRunning,
   kOutOfRange,
   kAxisUnknown,
@@ -80,6 +82,8 @@ constexpr const char* answer_text(Answer answer) {
       return "an alarm is active: reset first";
     case Answer::kResetting:
       return "reset in progress";
+    case Answer::kEnding:
+      return "the control is being ended";
     case Answer::kAlreadyRunning:
       return "already running";
     case Answer::kOutOfRange:

@@ -120,6 +120,11 @@ Answer Scan::apply(const Command& command) noexcept {
       if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
       hold_request_ = program_active();
       return Answer::kDone;
+    case CommandKind::kEnd:
+      ending_ = true;
+      if (mode_ == Mode::kManual) request_reset();  // which a feed hold does not stop
+      else hold_request_ = program_active();
+      return Answer::kDone;
     case CommandKind::kReset:
       request_reset();
       return Answer::kDone;
@@ -173,6 +178,7 @@ Answer Scan::set_mode(Mode mode) noexcept {
 }
 
 Answer Scan::start_cycle() noexcept {
+  if (ending_) return Answer::kEnding;
   if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
   if (reset_phase_ != ResetPhase::kNone) return Answer::kResetting;
   // An alarm that does not stop keeps the next program from starting, not one from going on.
@@ -188,6 +194,7 @@ Answer Scan::start_cycle() noexcept {
 }
 
 Answer Scan::manual(const Command& command) noexcept {
+  if (ending_) return Answer::kEnding;
   if (mode_ != Mode::kManual) return Answer::kNotInThisMode;
   if (reset_phase_ != ResetPhase::kNone) return Answer::kResetting;
   if (command.system >= systems_ || command.axis >= config_.nc.system[command.system].axis_count)
@@ -243,7 +250,7 @@ void Scan::build_nc_inputs() noexcept {
     in.clock_ms = local_ms;
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       Jog& jog = jog_[s][a];
-      if (stop || mode_ != Mode::kManual || reset_phase_ != ResetPhase::kNone) jog = {};
+      if (stop || ending_ || mode_ != Mode::kManual || reset_phase_ != ResetPhase::kNone) jog = {};
       in.manual[a].kind = jog.kind;
       in.manual[a].velocity = jog.kind == NC_MANUAL_JOG ? jog.value : 0;
       in.manual[a].distance = jog.kind == NC_MANUAL_STEP ? jog.value : 0;

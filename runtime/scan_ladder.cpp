@@ -58,7 +58,7 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
 // Buttons and handles of the machine, in manual mode; they go before the operator's jogs. Both directions at once
 // are none.
 void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
-  if (mode_ != Mode::kManual || reset_phase_ != ResetPhase::kNone || alarms_.stops()) return;
+  if (ending_ || mode_ != Mode::kManual || reset_phase_ != ResetPhase::kNone || alarms_.stops()) return;
   for (unsigned s = 0; s < systems_; ++s) {
     const LadderRequests::System &now = requests.system[s], &before = last_requests_.system[s];
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {

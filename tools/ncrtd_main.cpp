@@ -250,7 +250,7 @@ class Run {
   int stop_by_signal() {
     const int signal = g_signal;
     note("signal: feed hold");
-    runtime_.execute(CommandKind::kFeedHold);
+    runtime_.execute(CommandKind::kEnd);
     rest();
     const nc_outputs stopped = runtime_.snapshot().system[0].nc;
     runtime_.execute(CommandKind::kReset);

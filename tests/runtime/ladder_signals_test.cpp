@@ -128,6 +128,43 @@ TEST_F(LadderSignals, JogButtons) {
   EXPECT_EQ(alarm(), "");
 }
 
+// A service manager ends the control while a button is stuck: the axis comes to rest at once and stays there, and neither the
+// reset nor a start button brings anything back.
+TEST_F(LadderSignals, AControlThatEndsMovesNothingWhateverTheLadderAsksFor) {
+  run("LD in0\nOUT plc.jog_p.X\nOUT plc.reference.Y\nLD SM400\nDMOV K6000 plc.jog_feed\nLD in1\nOUT plc.cycle_start\n");
+  manual();
+  in("in0", 1);
+  ASSERT_GT(until([&] { return out().velocity.v[0] > 50; }), 0);
+  ASSERT_EQ(runtime->execute(CommandKind::kEnd), Answer::kDone);
+  ASSERT_GE(until([&] { return out().distance_zero; }, 500), 0) << "the button is still pressed";
+  const double there = x();
+  EXPECT_LT(there, 50);
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  ASSERT_GE(until([&] { return !runtime->snapshot().resetting; }, 500), 0);
+  steps(500);
+  EXPECT_EQ(x(), there);
+  nc::rt::Command jog;
+  jog.kind = CommandKind::kJog;
+  jog.value = 5;
+  EXPECT_EQ(runtime->execute(jog), Answer::kEnding);
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kEnding);
+}
+
+TEST_F(LadderSignals, AControlThatEndsDoesNotGoOnWithTheStartButton) {
+  run("LD in1\nOUT plc.cycle_start\n");
+  start("G91 G1 X100. F3000\nM30\n");
+  ASSERT_GT(until([&] { return x() > 5; }), 0);
+  ASSERT_EQ(runtime->execute(CommandKind::kEnd), Answer::kDone);
+  ASSERT_GE(until([&] { return out().distance_zero; }, 500), 0);
+  const double there = x();
+  in("in1", 1);
+  steps(5);
+  in("in1", 0);
+  steps(500);
+  EXPECT_EQ(x(), there);
+  EXPECT_EQ(out().state, NC_STATE_HOLD);
+}
+
 TEST_F(LadderSignals, RapidJog) {
   run("LD in0\nOUT plc.jog_m.Y\nOUT plc.jog_rapid\n");
   manual();

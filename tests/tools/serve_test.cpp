@@ -215,6 +215,33 @@ TEST_F(ServeTest, TheSignalStopsAMotionOnItsPathAndTheOutputsAreSafe) {
   EXPECT_NE(printed().find("end: feed hold\nend: at rest"), std::string::npos) << printed();
 }
 
+// In manual mode there is no feed hold: a reference move, or a jog that the ladder holds, ends all the same.
+TEST_F(ServeTest, TheSignalStopsAMotionByHand) {
+  ASSERT_NE(runtime, nullptr);
+  ASSERT_TRUE(runtime->start(&error)) << error;
+  const auto x = [&] { return runtime->snapshot().system[0].nc.command.v[0]; };
+  double at_signal = 0;
+  bool jogged = false;
+  options.look = [&] {
+    if (at_signal != 0) return;
+    if (!jogged) {
+      (void)runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(nc::rt::Mode::kManual));
+      nc::rt::Command step;
+      step.kind = CommandKind::kStep;
+      step.value = 400;
+      jogged = runtime->execute(step) == Answer::kDone;
+    } else if (x() > 20) {
+      at_signal = x();
+      signal = SIGTERM;
+    }
+  };
+  EXPECT_TRUE(nc::tools::serve(runtime.get(), options));
+  EXPECT_GT(at_signal, 0);
+  EXPECT_TRUE(runtime->snapshot().system[0].nc.distance_zero);
+  EXPECT_LT(x(), 399);
+  runtime->stop();
+}
+
 TEST_F(ServeTest, AnAlarmIsToldOnceAndDoesNotEndTheService) {
   ASSERT_NE(runtime, nullptr);
   ASSERT_TRUE(runtime->start(&error)) << error;

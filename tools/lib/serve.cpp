@@ -94,7 +94,7 @@ class Service {
     say("end: feed hold");
     notify_.send("STOPPING=1\nSTATUS=coming to rest");
     if (options_.leave) options_.leave();
-    runtime_.execute(CommandKind::kFeedHold);
+    runtime_.execute(CommandKind::kEnd);
     const bool rest = wait_for([](const Snapshot& now) {
       for (unsigned s = 0; s < now.system_count; ++s)
         if (!now.system[s].nc.distance_zero) return false;
