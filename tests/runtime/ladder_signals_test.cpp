@@ -76,6 +76,19 @@ TEST_F(LadderSignals, RapidOverride) {
   EXPECT_NEAR(top, 0.25 * 200 * 60, 1);
 }
 
+// A potentiometer whose zero is a little off must not be full speed at its end.
+TEST_F(LadderSignals, AnOverrideBelowZeroIsNoneAndMinusOneIsTheOperators) {
+  run("LD SM400\nMOV D0 plc.feed_override\nMOV D0 plc.rapid_override\nLD in0\nMOV K-1 D0\nLDI in0\nMOV K-2 D0\n");
+  steps(3);
+  start("G91 G1 X100. F3000\nG0 X10.\nM30\n");
+  steps(500);
+  EXPECT_EQ(x(), 0);
+  EXPECT_EQ(out().cause, NC_CAUSE_OVERRIDE_ZERO);
+  in("in0", 1);
+  ASSERT_GE(until_end(), 0);
+  EXPECT_NEAR(x(), 110, 1e-6);
+}
+
 TEST_F(LadderSignals, InputsAndOutputsOfTheMacroInterface) {
   run("LD SM400\nMOV H8001 plc.macro_input.1\nMOV K5 plc.macro_input.3\nMOV nc.macro_output.1 D0\nMOV nc.macro_output.4 D1\n"
       "LD nc.macro_output.1.2\nOUT M7\n");
