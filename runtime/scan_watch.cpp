@@ -181,7 +181,8 @@ void Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, st
 void Scan::acknowledge_alarms() noexcept {
   for (std::uint64_t& scans : fin_scans_) scans = 0;
   for (unsigned i = 0; i < alarms_.count; ++i)
-    if (alarms_.alarm[i].id == AlarmId::kRetainedLost) retain_loss_seen_.store(true, std::memory_order_release);
+    if (alarms_.alarm[i].id == AlarmId::kRetainedLost && !ending_)  // the reset of the end is nobody's look
+      retain_loss_seen_.store(true, std::memory_order_release);
   alarms_.count = 0;
   missed_since_reset_ = 0;
 }
