@@ -279,15 +279,15 @@ Intake::Verdict Intake::execute(const Request& request) {
 }
 
 Intake::Verdict Intake::decide(Client* client, const Request& request, const Machine::State& state,
-                               std::int64_t now_ns) {
+                               const Now& now) {
   const auto kind = static_cast<RequestKind>(request.kind);
   const std::int64_t lifespan_ns = std::int64_t{request.lifespan_ms} * 1'000'000;
   // Compared without a subtraction of what came from outside: that could overflow.
-  if (request.issued_ns < now_ns - lifespan_ns)
+  if (request.issued_ns < now.wall_ns - lifespan_ns)
     return {AckState::kRejected, AckReason::kLate, "older than its lifespan"};
-  if (request.issued_ns > now_ns + kClockSkewNs)
+  if (request.issued_ns > now.wall_ns + kClockSkewNs)
     return {AckState::kRejected, AckReason::kLate, "from the future: the clocks of client and control differ"};
-  if (kind == RequestKind::kTakeControl) return take_control(client, request, now_ns);
+  if (kind == RequestKind::kTakeControl) return take_control(client, request, now.steady_ns);
   const bool has_control = control_ == client;
   if (kind == RequestKind::kReleaseControl) {
     if (!has_control) return {AckState::kRejected, AckReason::kNoControl, "this client has no control"};
@@ -297,17 +297,17 @@ Intake::Verdict Intake::decide(Client* client, const Request& request, const Mac
   if (!has_control && kind != RequestKind::kFeedHold)
     return {AckState::kRejected, AckReason::kNoControl,
             control_ == nullptr ? "take control first" : "client " + controlling() + " has control"};
-  if (has_control) lease_end_ns_ = now_ns + lease_ns_;
+  if (has_control) lease_end_ns_ = now.steady_ns + lease_ns_;
   std::string text;
   if (!expected(request, state, &text)) return {AckState::kRejected, AckReason::kExpectedState, text};
   Verdict verdict = execute(request);
-  if (verdict.state == AckState::kAccepted && !wait_for(request, now_ns, state.runs)) verdict.state = AckState::kDone;
+  if (verdict.state == AckState::kAccepted && !wait_for(request, now.steady_ns, state.runs)) verdict.state = AckState::kDone;
   return verdict;
 }
 
 // ---- one command ----
 
-void Intake::take(const Request& request, std::int64_t now_ns, std::vector<Ack>* acks) {
+void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks) {
   const auto kind = static_cast<RequestKind>(request.kind);
   if (is_from_gateway(kind)) {
     gone(request, kind == RequestKind::kGatewayBegan);
@@ -315,14 +315,14 @@ void Intake::take(const Request& request, std::int64_t now_ns, std::vector<Ack>*
   }
   // Without a name there is nobody to answer, and nothing to remember.
   if (!is_ended(request.client) || text_of(request.client).empty() || !is_graphic(text_of(request.client))) return;
-  Ack ack = make_ack(request, now_ns);
+  Ack ack = make_ack(request, now.wall_ns);
   const auto answer = [&](const Verdict& verdict) {
     ack.state = static_cast<std::uint32_t>(verdict.state);
     ack.reason = static_cast<std::uint32_t>(verdict.reason);
     set_text(&ack.text, verdict.text);
     acks->push_back(ack);
   };
-  Client* client = client_of(request, now_ns);
+  Client* client = client_of(request, now.steady_ns);
   if (client == nullptr) {
     answer({AckState::kRejected, AckReason::kTooManyClients, "too many clients"});
     return;
@@ -331,7 +331,7 @@ void Intake::take(const Request& request, std::int64_t now_ns, std::vector<Ack>*
     answer({AckState::kRejected, AckReason::kClientInUse, "this client id belongs to another participant"});
     return;
   }
-  client->heard_ns = now_ns;
+  client->heard_ns = now.steady_ns;
   for (unsigned i = 0; i < std::min(client->answers, kRemembered); ++i) {
     if (client->answered[i].sequence != request.sequence || request.sequence == 0) continue;
     acks->push_back(client->answered[i]);
@@ -356,7 +356,7 @@ void Intake::take(const Request& request, std::int64_t now_ns, std::vector<Ack>*
     return;
   }
   client->last_sequence = request.sequence;
-  answer(decide(client, request, state, now_ns));
+  answer(decide(client, request, state, now));
   remember(client, ack);
 }
 
@@ -386,8 +386,8 @@ void Intake::settle(Pending* pending, const Verdict& verdict, std::int64_t now_n
   }
 }
 
-void Intake::tick(std::int64_t now_ns, std::vector<Ack>* acks) {
-  if (control_ != nullptr && now_ns > lease_end_ns_) lose_control();
+void Intake::tick(const Now& now, std::vector<Ack>* acks) {
+  if (control_ != nullptr && now.steady_ns > lease_end_ns_) lose_control();
   bool any = false;
   for (const Pending& pending : pending_) any |= pending.used;
   if (!any) return;
@@ -395,11 +395,11 @@ void Intake::tick(std::int64_t now_ns, std::vector<Ack>* acks) {
   for (Pending& pending : pending_) {
     if (!pending.used) continue;
     if (reached(pending.request, state, pending.runs))
-      settle(&pending, {}, now_ns, acks);
+      settle(&pending, {}, now.wall_ns, acks);
     else if (static_cast<RequestKind>(pending.request.kind) == RequestKind::kCycleStart && state.alarmed)
-      settle(&pending, {AckState::kFailed, AckReason::kRefused, "an alarm came"}, now_ns, acks);
-    else if (now_ns - pending.since_ns > kReachNs)
-      settle(&pending, {AckState::kFailed, AckReason::kNotReached, "not reached in time"}, now_ns, acks);
+      settle(&pending, {AckState::kFailed, AckReason::kRefused, "an alarm came"}, now.wall_ns, acks);
+    else if (now.steady_ns - pending.since_ns > kReachNs)
+      settle(&pending, {AckState::kFailed, AckReason::kNotReached, "not reached in time"}, now.wall_ns, acks);
   }
 }
 

@@ -53,14 +53,22 @@ class Machine {
   virtual std::string explain(Answer answer) { return answer_text(answer); }
 };
 
+// Time of day, by which a command is late or not, and a clock that nobody sets, by which a lease ends: a control that
+// gets its time from a server while a client is silent must not keep an axis or a token for it.
+struct Now {
+  Now(std::int64_t both) : wall_ns(both), steady_ns(both) {}
+  Now(std::int64_t wall, std::int64_t steady) : wall_ns(wall), steady_ns(steady) {}
+  std::int64_t wall_ns, steady_ns;
+};
+
 class Intake {
  public:
   explicit Intake(Machine* machine) : machine_(*machine) {}
 
-  // One command at time `now_ns` (time of day). Adds its acknowledgement, and those of what ends because of it.
-  void take(const Request& request, std::int64_t now_ns, std::vector<Ack>* acks);
+  // One command. Adds its acknowledgement, and those of what ends because of it.
+  void take(const Request& request, const Now& now, std::vector<Ack>* acks);
   // Leases, and accepted commands whose state has come. Call it every few ms.
-  void tick(std::int64_t now_ns, std::vector<Ack>* acks);
+  void tick(const Now& now, std::vector<Ack>* acks);
 
   // The client that has control, "" = nobody.
   std::string controlling() const;
@@ -95,7 +103,7 @@ class Intake {
   };
 
   Verdict check_form(const Request& request, const Machine::State& state) const;
-  Verdict decide(Client* client, const Request& request, const Machine::State& state, std::int64_t now_ns);
+  Verdict decide(Client* client, const Request& request, const Machine::State& state, const Now& now);
   Verdict execute(const Request& request);
   Verdict take_control(Client* client, const Request& request, std::int64_t now_ns);
   bool expected(const Request& request, const Machine::State& state, std::string* text) const;

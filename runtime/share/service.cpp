@@ -95,8 +95,8 @@ void Service::intake_thread() {
     const std::uint32_t seen = segment.wake_intake.load(std::memory_order_acquire);
     Request request;
     for (unsigned i = 0; i < kCommandsPerTurn && segment.commands.pop(&request); ++i)
-      intake_.take(request, wall_ns(), &acks);
-    intake_.tick(wall_ns(), &acks);
+      intake_.take(request, {wall_ns(), RealClock().now_ns()}, &acks);
+    intake_.tick({wall_ns(), RealClock().now_ns()}, &acks);
     for (const Ack& ack : acks) (void)segment.acks.push(ack);  // a gateway that never looks loses answers
     if (!acks.empty()) wake(&segment.wake_reader);
     acks.clear();

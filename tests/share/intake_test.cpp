@@ -122,6 +122,24 @@ TEST_F(IntakeRules, ControlEndsWithItsLease) {
   expect_rejected(give(RequestKind::kCycleStart, 3), AckReason::kNoControl);
 }
 
+// The time of day is set back by an hour, and forward again: neither keeps a silent client in control nor ends the lease of one
+// that is there.
+TEST_F(IntakeRules, ALeaseDoesNotFollowTheTimeOfDay) {
+  Request r = request(RequestKind::kTakeControl, 1);
+  r.lease_ms = 500;
+  give(r);
+  const std::int64_t hour = 3'600'000 * kMs;
+  intake_.tick({now_ + hour, now_ + 400 * kMs}, &acks_);
+  EXPECT_EQ(intake_.controlling(), "hmi");
+  intake_.tick({now_ - hour, now_ + 600 * kMs}, &acks_);
+  EXPECT_EQ(intake_.controlling(), "");
+  r.sequence = 2;
+  r.issued_ns = now_ - hour;
+  intake_.take(r, {now_ - hour, now_ + 700 * kMs}, &acks_);
+  EXPECT_EQ(acks_.back().state, state(AckState::kDone)) << "its age is a matter of the time of day";
+  EXPECT_EQ(acks_.back().time_ns, now_ - hour);
+}
+
 TEST_F(IntakeRules, ControlEndsWithItsClient) {
   take_control();
   machine_.now.mode = Mode::kManual;
