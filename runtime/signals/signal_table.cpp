@@ -183,7 +183,7 @@ const SignalRow kSignals[] = {
      NC_WRITE { image->nc_in[s].optional_stop |= value != 0; }},
     {"macro_interrupt", kBit, kTo, kSystem, 0, 0, "the interrupt program of M96 (UIT)", "by level or when it rises; at once or at block end (#1113)", nullptr,
      NC_WRITE { image->nc_in[s].macro_interrupt |= value != 0; }},
-    {"interlock_n", kBit, kTo, kSystem, 0, 1, "0: axes decelerate to rest and none starts: door, chuck, coolant",
+    {"interlock_n", kBit, kTo, kSystem, 0, 1, "0: axes decelerate to rest and none starts: chuck, coolant; they go on by themselves at 1, so a door takes plc.feed_hold_n too",
      "level", nullptr, NC_WRITE { image->nc_in[s].interlock |= value == 0; }},
     {"feed_override", kWord16, kTo, kSystem, 0, -1, "feed override in 0.01 %; -1: the operator's counts, below that 0", "every scan",
      nullptr, NC_WRITE { if (value != -1) image->nc_in[s].feed_override = std::max(value, 0) / 10000.0; }},
