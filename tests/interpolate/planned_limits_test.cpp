@@ -80,14 +80,14 @@ double distance(const Program& p, const nc_outputs& out, unsigned axes) {
   return least < HUGE_VAL ? least : 0;  // a program without a move
 }
 
-/// Where the path must rest behind a record: the next one is no plain line, or something waits.
+/// Where the path must rest behind a record: the next one is a rapid, or something waits.
 bool exact(const Program& p, size_t k) {
   const Segment& s = p.records[k].segment;
-  if (s.rapid || s.exact_stop || s.curve.circular) return true;
+  if (s.rapid || s.exact_stop) return true;
   for (size_t n = k + 1; n < p.records.size(); ++n) {
     const Record& r = p.records[n];
     if (r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::end) return true;
-    if (r.kind == ItemKind::move) return r.segment.rapid || r.segment.curve.circular;
+    if (r.kind == ItemKind::move) return r.segment.rapid;
   }
   return true;
 }

@@ -71,6 +71,47 @@ TEST(Planned, ALongLineOfShortOnesDoesNotStarve) {
   EXPECT_LE(static_cast<double>(m.cycles) * 0.001, 4.2);
 }
 
+/// A slot: lines and half circles that touch them; a gate behind the last but one.
+Program slot(const ExecutorConfig& config, double feed) {
+  Program p(config);
+  p.line(at(30, 0), feed);
+  p.mark();
+  p.arc(0, 1, 6, -std::numbers::pi / 2, std::numbers::pi, feed);
+  p.mark();
+  p.line(at(0, 12), feed);
+  p.mark();
+  p.gate(NC_GATE_IN_POSITION);
+  p.arc(0, 1, 6, std::numbers::pi / 2, std::numbers::pi, feed);
+  p.mark();
+  p.end();
+  return p;
+}
+
+TEST(Planned, ArcsArePassedAtSpeedWhereALineTouchesThem) {
+  const ExecutorConfig config = optimal_config();
+  const Program p = slot(config, 60);
+  Machine m(config);
+  m.feed(p);
+  m.start();
+  double slowest = HUGE_VAL;
+  AxisVec last = m.command();
+  ASSERT_TRUE(m.until(p, [&] {
+    const AxisVec now = m.command();
+    const double speed = std::hypot(now[0] - last[0], now[1] - last[1]) / config.cycle_s;
+    last = now;
+    if (m.cycles > 150 && now[1] < 11.9) slowest = std::min(slowest, speed);  // over the first line and the first arc
+    return now[1] >= 11.99;
+  }));
+  EXPECT_GT(slowest, 50);
+  ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_IDLE && m.executor.drained(); }, 20000));
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  // Where something waits, the end is hit.
+  for (size_t k = 0; k < p.records.size(); ++k) {
+    if (p.records[k].kind != ItemKind::move || k < 4) continue;
+    for (unsigned i = 0; i < 3; ++i) EXPECT_NEAR(m.events[k].machine.v[i], p.records[k].segment.curve.end[i], 1e-6);
+  }
+}
+
 TEST(Planned, FeedHoldStopsSoonAndGoesOn) {
   const ExecutorConfig config = optimal_config();
   Program p(config);

@@ -120,6 +120,10 @@ class Follower {
     const double at = std::fmin(p.length, c.x + x);
     if (p.curve != nullptr) return curve_position(*p.curve, p.curve_from + at, axis_count_);
     AxisVec q;
+    if (!p.quintic) {
+      for (unsigned i = 0; i < axis_count_; ++i) q[i] = p.c[0][i] + at * (p.c[1][i] + at * (p.c[2][i] + at * p.c[3][i]));
+      return q;
+    }
     for (unsigned i = 0; i < axis_count_; ++i)
       q[i] = p.c[0][i] + at * (p.c[1][i] + at * (p.c[2][i] + at * (p.c[3][i] + at * (p.c[4][i] + at * p.c[5][i]))));
     return q;

@@ -39,7 +39,7 @@ double WayDown::at(double place) const {
 /// Speed at which the curvature and its change take all, and what is left along the path at no speed.
 Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
   Bound b{feed_of(p, *limits_), HUGE_VAL, HUGE_VAL, HUGE_VAL, false};
-  const unsigned samples = p.curve != nullptr || p.c[4][0] != 0 || p.c[5][0] != 0 ? 4 : 2;
+  const unsigned samples = p.curve != nullptr || p.quintic ? 4 : 2;
   double most[3][kMaxAxes] = {};
   for (unsigned n = 0; n <= samples; ++n) {
     const CurvePoint q = evaluate(p, from + (p.length - from) * n / samples, limits_->axis_count);
@@ -53,6 +53,7 @@ Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
   for (unsigned i = 0; i < limits_->axis_count; ++i) bend2 += most[1][i] * most[1][i];
   b.curved = bend2 > 0;
   if (p.curve != nullptr && b.curved) b.cell = kArc / std::sqrt(bend2);
+  if (p.cell > 0) b.cell = p.cell;
   for (unsigned i = 0; i < limits_->axis_count; ++i) {
     const double v = velocity_of(p, *limits_, i);
     const double a = limits_->acceleration[i], j = limits_->jerk[i];

@@ -14,6 +14,9 @@ constexpr double kOfRing = 32;         ///< knots of the lines that the ring of 
 constexpr unsigned kWorthwhile = 16;   ///< vertices that are waited for before a line is smoothed again
 constexpr unsigned kGathered = 64;     ///< the same while more records lie in the ring
 constexpr unsigned kMostAtOnce = 512;  ///< pieces of one smoothing
+constexpr unsigned kOfArc = 20;        ///< pieces of an arc and its transition
+constexpr double kLongestReach = 10;   ///< mm, of a transition
+constexpr double kNothing = 1e-12;     ///< mm, of a curve between two transitions
 
 bool demands_rest(const Record& r) {
   if (r.kind == ItemKind::action) return r.action.kind == NC_ACTION_MESSAGE;
@@ -24,6 +27,13 @@ bool demands_rest(const Record& r) {
 double feed_of_segment(const Segment& s, FeedBy* by) {
   *by = s.skip || s.fixed_override ? FeedBy::constant : s.feed_mm_rev > 0 ? FeedBy::turns : FeedBy::override;
   return s.feed_mm_rev > 0 ? s.feed_mm_rev : s.feed_mm_s;
+}
+
+/// The lowest feed of a segment, which may have another one at its end (M700 7.10).
+double least_feed(const Segment& s) {
+  FeedBy by;
+  const double feed = feed_of_segment(s, &by);
+  return s.slow_zone > 0 ? std::min(feed, feed * static_cast<double>(s.slow_factor)) : feed;
 }
 
 }  // namespace
@@ -48,14 +58,18 @@ void PathBuilder::create(const Limits& limits, double tolerance, double period, 
   room_.split = arena.make<unsigned char>(kKnots);
   room_.knots = kKnots;
   out_ = arena.make<Piece>(kKnots);
+  made_ = arena.make<Transition>();
 }
 
 void PathBuilder::restart(uint32_t from, double s, const AxisVec& machine, double u) {
   read_ = from;
   tail_ = head_;
   head_u_ = line_u_ = u;
-  count_ = 0;
-  goes_on_ = closing_ = false;
+  forget_line();
+  closing_ = false;
+  arc_.curve = nullptr;
+  joint_ = {};
+  begins_ = 0;
   resumed_ = true;
   resumed_s_ = s;
   resumed_at_ = machine;
@@ -76,22 +90,27 @@ void PathBuilder::begin_line(const AxisVec& at, double u) {
   goes_on_ = false;
 }
 
-/// The record goes on where the gathered line ends, at speed.
+/// The record goes on where the gathered line or the open arc ends, at speed.
 bool PathBuilder::joins(const Record& r) const {
   const Segment& s = r.segment;
-  if (count_ < 2 || !plain(s) || s.rest_before || r.epoch != epoch_) return false;
+  if ((count_ < 2 && arc_.curve == nullptr) || !passes(s) || s.rest_before || r.epoch != epoch_) return false;
   FeedBy by;
   feed_of_segment(s, &by);
   if (by != by_) return false;
+  const AxisVec& end = arc_.curve != nullptr ? arc_.curve->end : vertex_[count_ - 1];
   for (unsigned i = 0; i < limits_.axis_count; ++i)
-    if (std::fabs(s.curve.start[i] - vertex_[count_ - 1][i]) > kSamePlace) return false;
+    if (std::fabs(s.curve.start[i] - end[i]) > kSamePlace) return false;
   return true;
 }
 
 void PathBuilder::add_line(const Record& r) {
   const Segment& s = r.segment;
   double length = s.curve.length;
-  if (count_ == 0) {
+  if (count_ == 0 && cut_ > 0) {
+    const JointSide line = line_through(s.curve.start, s.curve.start, s.curve.end, length, limits_.axis_count);
+    begin_line(line.at(cut_, limits_.axis_count).position, head_u_);
+    length -= cut_;
+  } else if (count_ == 0) {
     const bool from_machine = resumes(s);
     begin_line(from_machine ? resumed_at_ : s.curve.start, head_u_);
     epoch_ = r.epoch;
@@ -143,6 +162,106 @@ void PathBuilder::go_there(const AxisVec& to, const Piece& curve) {
     p.c[1][i] = (to[i] - resumed_at_[i]) / p.length;
   }
   push_piece(p);
+}
+
+/// Gives out the open arc up to `to`.
+void PathBuilder::push_arc(double to) {
+  Piece p;
+  p.curve = arc_.curve;
+  p.by = by_;
+  for (const double end : {std::min(to, arc_.zone), to}) {
+    p.length = end - arc_.from;
+    if (!(p.length > kNothing)) continue;
+    p.feed = arc_.from < arc_.zone ? arc_.feed : arc_.slow_feed;
+    p.curve_from = arc_.from;
+    push_piece(p);
+    arc_.from = end;
+  }
+}
+
+/// An arc that may be passed at speed at both ends. Its last part waits for what comes behind it.
+void PathBuilder::add_arc(const Record& r) {
+  const Segment& s = r.segment;
+  const double length = s.curve.length;
+  const bool from_machine = begins_ == 0 && resumes(s);
+  arc_.curve = &s.curve;
+  arc_.from = std::min(from_machine ? resumed_s_ : begins_, length - kLeastLength);
+  arc_.feed = feed_of_segment(s, &by_);
+  arc_.slow_feed = s.slow_zone > 0 ? arc_.feed * static_cast<double>(s.slow_factor) : arc_.feed;
+  arc_.zone = s.slow_zone > 0 ? std::max(length - static_cast<double>(s.slow_zone), 0.0) : length;
+  uses_turns_ |= by_ == FeedBy::turns;
+  epoch_ = r.epoch;
+  if (from_machine) {
+    Piece p;
+    p.feed = arc_.feed;
+    p.by = by_;
+    go_there(curve_position(s.curve, arc_.from, limits_.axis_count), p);
+  }
+  resumed_ = false;
+  begins_ = 0;
+  line_u_ = head_u_ + length - arc_.from;
+  push_arc(std::max(arc_.from, length - std::min(0.5 * length, kLongestReach)));
+  if (s.exact_stop) end_arc();
+}
+
+/// The open arc to its end, at rest.
+void PathBuilder::end_arc() {
+  push_arc(arc_.curve->length);
+  store_->piece[(head_ - 1) & store_->piece_mask].rest_behind = true;
+  arc_.curve = nullptr;
+  head_u_ = line_u_;
+}
+
+/// The transition round the end of the newest record.
+void PathBuilder::push_transition(double feed) {
+  for (unsigned k = 0; k < made_->count; ++k) {
+    Piece& p = made_->piece[k];
+    p.feed = feed;
+    p.by = by_;
+    push_piece(p);
+  }
+  head_u_ = line_u_ + joint_.reach;
+}
+
+/// The open arc and the transition into what comes behind it, of which it may take `most`. False when there is none: the path rests.
+bool PathBuilder::leave_arc(const JointSide& after, double most, double feed) {
+  const JointSide before = arc_end(*arc_.curve);
+  const double left = arc_.curve->length - arc_.from;
+  joint_ = find_joint(before, after, std::min(most, left), tolerance_, limits_.axis_count, made_);
+  if (!joint_.found) {
+    end_arc();
+    return false;
+  }
+  push_arc(arc_.curve->length - joint_.reach);
+  head_u_ = line_u_ - joint_.reach;
+  if (joint_.reach > 0) {
+    make_transition(joint_, before.at(-joint_.reach, limits_.axis_count), after, limits_.axis_count, made_);
+    push_transition(std::min({arc_.feed, arc_.slow_feed, feed}));
+  }
+  arc_.curve = nullptr;
+  return true;
+}
+
+/// The gathered line ends where the transition into the arc begins.
+void PathBuilder::meet_arc(const Segment& s) {
+  const double length = length_[count_ - 2];
+  AxisVec& end = vertex_[count_ - 1];
+  joint_line_ = line_through(end, vertex_[count_ - 2], end, length, limits_.axis_count);
+  joint_arc_ = arc_start(s.curve);
+  joint_feed_ = std::min(feed_[count_ - 2], least_feed(s));
+  // Half of the edge; what is final of the smoothed line stays.
+  double most = std::min({0.5 * (count_ == 2 ? length + cut_ : length), 0.5 * s.curve.length, kLongestReach, length});
+  if (goes_on_) most = std::min(most, 0.5 * (line_u_ - line_start_u_ - knot_[kGoesOn - 1]));
+  joint_ = find_joint(joint_line_, joint_arc_, most, tolerance_, limits_.axis_count, made_);
+  length_[count_ - 2] -= joint_.reach;
+  end = joint_line_.at(-joint_.reach, limits_.axis_count).position;
+}
+
+/// The line rests where it meets the arc.
+void PathBuilder::part_at_joint() {
+  length_[count_ - 2] += joint_.reach;
+  vertex_[count_ - 1] = joint_line_.place;
+  joint_ = {};
 }
 
 /// What is not a plain line: one piece (two with a slow zone) from rest to rest.
@@ -221,7 +340,7 @@ bool PathBuilder::stop_at_vertices() {
   drop(k);
   line_start_u_ = head_u_;
   if (count_ > 1) return false;
-  count_ = 0;
+  forget_line();
   return true;
 }
 
@@ -237,36 +356,83 @@ void PathBuilder::go_on(unsigned border) {
   drop(gone);
   line_start_u_ += shift;
   goes_on_ = true;
+  cut_ = 0;
+}
+
+/// A line of one edge is its own smooth path. @return pieces in out_: none where transitions have taken all of it.
+unsigned PathBuilder::straight() {
+  if (!(length_[0] > kNothing)) return 0;
+  Piece p;
+  p.length = length_[0];
+  p.feed = feed_[0];
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    p.c[0][i] = vertex_[0][i];
+    p.c[1][i] = joint_.found ? joint_line_.along[i] : (vertex_[1][i] - vertex_[0][i]) / length_[0];
+  }
+  out_[0] = p;
+  return 1;
+}
+
+/// The smoothed line in out_, 0 = none. `whole`: to its end, where it is straight when a transition follows.
+unsigned PathBuilder::smoothed(bool whole, SmoothRequest* request) {
+  request->line = {vertex_, length_, feed_, count_};
+  request->tolerance = tolerance_;
+  request->axis_count = limits_.axis_count;
+  request->straight_start = joined_start_ && !goes_on_;
+  request->straight_end = whole && joint_.found;
+  double slowest = HUGE_VAL;
+  for (unsigned k = 0; k + 1 < count_; ++k) slowest = std::min(slowest, feed_[k]);
+  const double speed = by_ == FeedBy::turns ? slowest * std::max(limits_.turns, 1.0) : slowest;
+  request->spacing = std::max(period_ * std::min(speed, 1e4), kLeastSpacing);
+  // What is not settled yet is some knots long: no more than a part of what the ring of records holds (every other one is a mark).
+  const double in_ring = (line_u_ - line_start_u_) / (count_ - 1) * (store_->record_mask + 1) / 2;
+  request->spacing = std::max(std::min(request->spacing, in_ring / kOfRing), kLeastSpacing / 50);
+  if (goes_on_) {
+    request->knot = knot_;
+    request->at = at_;
+  }
+  return optimal::smooth(*request, room_, out_, kKnots);
+}
+
+/// Gives out the last pieces of a line, and the transition into the arc behind it. False when there is no room yet.
+bool PathBuilder::close_line(unsigned first, unsigned cells) {
+  if (!room(cells - first + kOfArc)) return false;
+  if (joint_.reach > 0) {
+    const Piece& end = out_[cells > 0 ? cells - 1 : 0];
+    const unsigned axes = limits_.axis_count;
+    make_transition(joint_, cells > 0 ? evaluate(end, end.length, axes) : joint_line_.at(-joint_.reach, axes), joint_arc_, axes, made_);
+    if (transition_distance(*made_, joint_line_, joint_arc_, joint_.reach, axes) > tolerance_) {
+      part_at_joint();
+      return smooth_line(true);
+    }
+  }
+  give_out(first, cells, !joint_.found);
+  head_u_ = line_u_ - joint_.reach;
+  if (joint_.reach > 0) push_transition(joint_feed_);
+  begins_ = joint_.reach;
+  joint_ = {};
+  forget_line();
+  return true;
+}
+
+void PathBuilder::forget_line() {
+  count_ = 0;
+  cut_ = 0;
+  goes_on_ = joined_start_ = false;
 }
 
 bool PathBuilder::smooth_line(bool whole) {
   if (count_ < 2) return false;
   if (!room(whole ? 1 : kMostAtOnce)) return false;
   tried_ = count_;
+  const bool lone = whole && count_ == 2 && !goes_on_;
   SmoothRequest request;
-  request.line = {vertex_, length_, feed_, count_};
-  request.tolerance = tolerance_;
-  request.axis_count = limits_.axis_count;
-  double slowest = HUGE_VAL;
-  for (unsigned k = 0; k + 1 < count_; ++k) slowest = std::min(slowest, feed_[k]);
-  const double speed = by_ == FeedBy::turns ? slowest * std::max(limits_.turns, 1.0) : slowest;
-  request.spacing = std::max(period_ * std::min(speed, 1e4), kLeastSpacing);
-  // What is not settled yet is some knots long: no more than a part of what the ring of records holds (every other one is a mark).
-  const double in_ring = (line_u_ - line_start_u_) / (count_ - 1) * (store_->record_mask + 1) / 2;
-  request.spacing = std::max(std::min(request.spacing, in_ring / kOfRing), kLeastSpacing / 50);
-  if (goes_on_) {
-    request.knot = knot_;
-    request.at = at_;
-  }
-  const unsigned cells = optimal::smooth(request, room_, out_, kKnots);
-  const unsigned first = goes_on_ ? kFirstCell : 0;
+  const unsigned cells = lone ? straight() : smoothed(whole, &request), first = goes_on_ ? kFirstCell : 0;
   if (whole) {
-    if (cells != 0) {
-      if (!give_out(first, cells, true)) return false;
-      count_ = 0;
-      goes_on_ = false;
-      head_u_ = line_u_;
-      return true;
+    if (lone || cells != 0) return close_line(first, cells);
+    if (joint_.found) {
+      part_at_joint();
+      return smooth_line(true);
     }
     if (goes_on_) rest_here();
     return stop_at_vertices();
@@ -290,11 +456,63 @@ void PathBuilder::rest_here() {
   vertex_[k] = at_;
   drop(k);
   line_start_u_ = head_u_;
-  goes_on_ = false;
+  goes_on_ = joined_start_ = false;
 }
 
 bool PathBuilder::finish() {
-  return smooth_line(true);
+  if (arc_.curve != nullptr) {
+    if (!room(kOfArc)) return false;
+    end_arc();
+    return true;
+  }
+  if (!smooth_line(true)) return false;
+  closing_ = false;
+  return true;
+}
+
+/// Closes what the record in front does not go on at speed, as far as there is room.
+bool PathBuilder::part(const Record& r, bool moves) {
+  const bool on = moves && joins(r);
+  if (count_ > 0 && !(on && plain(r.segment))) {
+    if (on) meet_arc(r.segment);
+    closing_ = true;
+  } else if (arc_.curve != nullptr && !on) {
+    if (!room(kOfArc)) return false;
+    end_arc();
+  }
+  return true;
+}
+
+/// One move behind what is open. False when there is no room for it. @param more  there are more pieces than before
+bool PathBuilder::add(const Record& r, bool* more) {
+  const Segment& s = r.segment;
+  if (!passes(s) || s.curve.circular) {
+    if (!room(2 * kOfArc)) return false;
+    if (!passes(s)) {
+      add_curve(r);
+      line_u_ = head_u_;
+    } else {
+      if (arc_.curve != nullptr) begins_ = leave_arc(arc_start(s.curve), 0.5 * s.curve.length, least_feed(s)) ? joint_.reach : 0;
+      joint_ = {};
+      add_arc(r);
+    }
+    *more = true;
+  } else {
+    if (count_ + 2 >= kVertices && smooth_line(false)) *more = true;
+    if (count_ + 2 >= kVertices || !room(kOfArc)) return false;
+    if (arc_.curve != nullptr) {
+      const JointSide line = line_through(s.curve.start, s.curve.start, s.curve.end, s.curve.length, limits_.axis_count);
+      joined_start_ = leave_arc(line, 0.5 * s.curve.length, least_feed(s));
+      cut_ = joint_.reach;
+      joint_ = {};
+      *more = true;
+    }
+    add_line(r);
+    closing_ = s.exact_stop;
+    if (!closing_ && worthwhile(kGathered) && smooth_line(false)) *more = true;
+  }
+  store_->passed[read_ & store_->record_mask] = line_u_;
+  return true;
 }
 
 bool PathBuilder::take(uint32_t head) {
@@ -308,24 +526,11 @@ bool PathBuilder::take(uint32_t head) {
     if (read_ == head) break;
     const Record& r = records_[read_ & store_->record_mask];
     const bool moves = r.kind == ItemKind::move && r.segment.curve.length > 0;
-    if (count_ > 0 && (moves ? !joins(r) : demands_rest(r))) {
-      closing_ = true;
-      continue;
+    if (moves || demands_rest(r)) {
+      if (!part(r, moves)) return more;
+      if (closing_) continue;
     }
-    if (moves && plain(r.segment)) {
-      if (count_ + 2 >= kVertices && !smooth_line(false)) return more;
-      if (count_ + 2 >= kVertices) return more;
-      add_line(r);
-      store_->passed[read_ & store_->record_mask] = line_u_;
-      closing_ = r.segment.exact_stop;
-      if (!closing_ && worthwhile(kGathered) && smooth_line(false)) more = true;
-    } else if (moves) {
-      if (!room(3)) return more;
-      add_curve(r);
-      more = true;
-      line_u_ = head_u_;
-      store_->passed[read_ & store_->record_mask] = head_u_;
-    }
+    if (moves && !add(r, &more)) return more;
     ++read_;
   }
   if (count_ > 1 && worthwhile(kWorthwhile) && smooth_line(false)) more = true;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Records become path: lines that may be passed at speed are gathered and smoothed as far as what follows cannot change them any more;
-// arcs and other curves stay what they are, from rest to rest. Pieces that lie in the ring are final.
+// arcs stay what they are but for a transition where one meets a line or another arc; other curves go from rest to rest. Pieces that lie
+// in the ring are final.
 #pragma once
 
 #include "base/arena.hpp"
 #include "interpolate/record.hpp"
 #include "motion/optimal/plan_cell.hpp"
 #include "motion/optimal/smooth.hpp"
+#include "motion/optimal/transition.hpp"
 
 namespace nc::optimal {
 
@@ -31,14 +33,25 @@ class PathBuilder {
   double start_of(uint32_t piece) const { return start_u_[piece & store_->piece_mask]; }
   double end_u() const { return head_u_; }  ///< of all pieces
   bool uses_turns() const { return uses_turns_; }  ///< a feed per revolution has been met
-  bool waits() const { return count_ > 1; }
 
  private:
   bool joins(const Record& r) const;
+  bool part(const Record& r, bool moves);
+  bool add(const Record& r, bool* more);
   void add_line(const Record& r);
   void add_curve(const Record& r);
+  void add_arc(const Record& r);
+  void end_arc();
+  bool leave_arc(const JointSide& after, double most, double feed);
+  void push_arc(double to);
+  void meet_arc(const Segment& s);
+  void part_at_joint();
   bool resumes(const Segment& s) const;
   void go_there(const AxisVec& to, const Piece& curve);
+  unsigned straight();
+  unsigned smoothed(bool whole, SmoothRequest* request);
+  bool close_line(unsigned first, unsigned cells);
+  void forget_line();
   bool smooth_line(bool whole);
   bool stop_at_vertices();
   void drop(unsigned vertices);
@@ -48,8 +61,10 @@ class PathBuilder {
   void rest_here();
   void begin_line(const AxisVec& at, double u);
   void push_piece(const Piece& piece);
+  void push_transition(double feed);
   bool room(unsigned pieces) const { return head_ - tail_ + pieces < kPieces; }
-  static bool plain(const Segment& s) { return !s.curve.circular && s.curve.shape == nullptr && !s.rapid && !s.skip && !(s.begun > 0); }
+  static bool passes(const Segment& s) { return s.curve.shape == nullptr && !s.rapid && !s.skip && !(s.begun > 0); }
+  static bool plain(const Segment& s) { return !s.curve.circular && passes(s); }
 
   Limits limits_;
   double tolerance_ = 0.01, period_ = 0.005;
@@ -78,6 +93,22 @@ class PathBuilder {
   bool resumed_ = false;     ///< the next record has been gone in part
   double resumed_s_ = 0;
   AxisVec resumed_at_;
+
+  // where curves meet
+  struct Arc {
+    const Curve* curve = nullptr;  ///< the end of this arc is not given out yet
+    double from = 0;               ///< but for what lies in front of this
+    double zone = 0;               ///< from here on it has a feed of its own
+    double feed = 0, slow_feed = 0;
+  };
+  Arc arc_;
+  double begins_ = 0;          ///< so much of the next record, an arc, lies in a transition
+  double cut_ = 0;             ///< the same of the first edge of the gathered line
+  bool joined_start_ = false;  ///< the gathered line begins at speed behind an arc
+  Joint joint_;                ///< the gathered line ends where the transition begins
+  JointSide joint_line_, joint_arc_;
+  Transition* made_ = nullptr;  ///< room for one
+  double joint_feed_ = 0;
 
   SmoothRoom room_;
   Piece* out_ = nullptr;

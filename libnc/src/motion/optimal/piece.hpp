@@ -22,16 +22,18 @@ struct Limits {
 /// What the feed of a piece is multiplied by.
 enum class FeedBy : uint8_t { override, constant, turns };
 
-/// A polynomial by x = u - u_start of degree 5 at most, or a part of a committed curve.
+/// A polynomial by x = u - u_start, of degree 3 or 5, or a part of a committed curve.
 struct Piece {
   double length = 0;             ///< of the parameter, > 0
   double feed = 0;               ///< mm/s (mm/rev) along the path; HUGE_VAL where only the axes limit
   FeedBy by = FeedBy::override;
   bool rest_behind = false;      ///< the path rests at its end
   bool rapid = false;            ///< the rapid rates hold
+  bool quintic = false;          ///< c[4] and c[5] are not 0
+  double cell = 0;               ///< no cell on it is longer; 0 = any
   const Curve* curve = nullptr;  ///< then q(x) = curve(curve_from + x)
   double curve_from = 0;
-  AxisVec c[6];  ///< else q(x) = c[0] + c[1] x + ... + c[5] x^5
+  AxisVec c[6];  ///< else q(x) = c[0] + c[1] x + ...
 };
 
 /// Feed of the piece under the present overrides.
@@ -52,6 +54,16 @@ inline bool stands(const Piece& p, const Limits& limits) {
 inline CurvePoint evaluate(const Piece& p, double x, unsigned axis_count) NC_RT {
   if (p.curve != nullptr) return curve_evaluate(*p.curve, p.curve_from + x, axis_count);
   CurvePoint q;
+  if (!p.quintic) {
+    for (unsigned i = 0; i < axis_count; ++i) {
+      const double c2 = p.c[2][i], c3 = p.c[3][i];
+      q.position[i] = p.c[0][i] + x * (p.c[1][i] + x * (c2 + x * c3));
+      q.d1[i] = p.c[1][i] + x * (2 * c2 + x * 3 * c3);
+      q.d2[i] = 2 * c2 + x * 6 * c3;
+      q.d3[i] = 6 * c3;
+    }
+    return q;
+  }
   for (unsigned i = 0; i < axis_count; ++i) {
     const double c2 = p.c[2][i], c3 = p.c[3][i], c4 = p.c[4][i], c5 = p.c[5][i];
     q.position[i] = p.c[0][i] + x * (p.c[1][i] + x * (c2 + x * (c3 + x * (c4 + x * c5))));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/optimal/turn.hpp"
+
 namespace nc::optimal {
 namespace {
 
@@ -15,31 +17,8 @@ constexpr double kStraight = 1e-9;  ///< |t2 - t1| of no corner
 constexpr double kLongEdge = 8;     ///< in spacings
 constexpr unsigned kLooks = 4;      ///< places in a cell, beside the vertices, where the distance is measured
 constexpr double kRounding = 1e-11;  ///< of q'
+constexpr double kStraightEnd = 0.2; ///< of an edge, up to its first knot
 constexpr unsigned kRounds = 16;
-
-// A sharp corner: q'' = (t2 - t1) K(u), K linear between its knots. On the curve x = -c (1 - t)^3, y = c t^3,
-// u = x + y, it would be K = 2 t (1 - t) / (3 c (t^2 + (1 - t)^2)^3); these are its values at u = c times
-// kTurnAt, so normalised that its integral is 1.
-constexpr unsigned kTurnKnots = 7;  ///< on either side of the corner
-constexpr double kTurnAt[kTurnKnots + 1] = {0, 0.1, 0.2, 0.32, 0.45, 0.6, 0.78, 1};
-constexpr double kTurnK[kTurnKnots + 1] = {1.3333, 1.2431, 1.0217, 0.7089, 0.4312, 0.2172, 0.0784, 0};
-
-/// Integrals of K and of u K over one side.
-struct TurnIntegrals {
-  double whole = 0, moment = 0;
-};
-constexpr TurnIntegrals turn_integrals() {
-  TurnIntegrals sum;
-  for (unsigned n = 0; n < kTurnKnots; ++n) {
-    const double a = kTurnAt[n], b = kTurnAt[n + 1], ka = kTurnK[n], kb = kTurnK[n + 1];
-    sum.whole += (b - a) * (ka + kb) / 2;
-    sum.moment += (b - a) / 6 * (a * (2 * ka + kb) + b * (ka + 2 * kb));
-  }
-  return sum;
-}
-constexpr double kTurnScale = 0.5 / turn_integrals().whole;
-/// The corner is cut by this times c |t2 - t1|.
-constexpr double kTurnDepth = turn_integrals().moment * kTurnScale;
 
 class Smoother {
  public:
@@ -125,6 +104,11 @@ bool Smoother::first_knots() {
     keep = room_.knot[last_];
     while (first + 1 < l.count && u[first] <= keep) ++first;
     if (!(end > keep)) return false;
+  } else if (in_.straight_start) {  // the first three control points lie on the first edge
+    const double step = std::min(kStraightEnd * l.length[0], in_.spacing);
+    set(step, 0);
+    set(2 * step, 0);
+    keep = 2 * step;
   }
   for (unsigned k = first; k + 1 < l.count; ++k) {
     const double turn = corner(k);
@@ -158,6 +142,11 @@ bool Smoother::first_knots() {
   }
   // The end: three knots of their own on the last edge, so that it is straight there.
   while (last_ > frozen() && end - room_.knot[last_] < 1e-9 * end) --last_;
+  if (in_.straight_end) {
+    const double step = std::min(kStraightEnd * l.length[l.count - 2], in_.spacing);
+    set(end - 2 * step, 0.1 * step);
+    set(end - step, 0.1 * step);
+  }
   const double gap = end - room_.knot[last_];
   if (last_ == 0 || gap > 2 * in_.spacing) {
     const double step = std::min(in_.spacing, gap / 4);
@@ -233,7 +222,8 @@ void Smoother::pieces() {
     Piece& p = out_[k];
     p.length = h;
     p.curve = nullptr;
-    p.rapid = false;
+    p.rapid = p.quintic = false;
+    p.cell = 0;
     p.feed = HUGE_VAL;
     // Differences: e_j = 3 (d_j - d_(j-1)) / (t_j - t_(j-3)), f_j = 2 (e_j - e_(j-1)) / (t_(j-1) - t_(j-3));
     // q'' at knot k is f_(k+2).
@@ -255,7 +245,6 @@ void Smoother::pieces() {
       p.c[1][i] = slope;
       p.c[2][i] = f2 / 2;
       p.c[3][i] = (f3 - f2) / (6 * h);
-      p.c[4][i] = p.c[5][i] = 0;
     }
     if (in_.line.feed == nullptr) continue;
     while (edge + 2 < in_.line.count && room_.u[edge + 1] <= t(c) + 1e-9) ++edge;

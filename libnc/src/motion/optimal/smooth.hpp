@@ -37,6 +37,7 @@ struct SmoothRequest {
   double tolerance = 0.01;  ///< mm (or deg)
   double spacing = 0.5;     ///< of knots, where the tolerance allows
   unsigned axis_count = 3;
+  bool straight_start = false, straight_end = false;  ///< without curvature there, however short the edge is
   /// The line goes on from one that was smoothed before: its knots, kGoesOn of them from u = knot[0] >= 0 on, are these. Cells from
   /// kFirstCell on are made, which begin at `at`.
   const double* knot = nullptr;
