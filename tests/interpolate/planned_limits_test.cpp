@@ -17,7 +17,7 @@ bool chance(std::mt19937_64& rng, double p) {
 }
 
 struct Disturbance {
-  bool overrides = false, holds = false, single_block = false, dribble = false;
+  bool overrides = false, holds = false, single_block = false, dribble = false, hangs = false;
   double spoil = 0;  ///< a step of this size, mm, that is put into one position
 };
 
@@ -124,8 +124,11 @@ std::string run_seed(uint64_t seed, const Disturbance& d, unsigned blocks, Limit
   uint64_t n = 0;
   const uint64_t spoilt = 20 + rng() % 50;
   double target_override = 1;
+  uint64_t hangs_until = 0;
   for (; n < 1000000; ++n) {
-    if (d.dribble) {
+    if (d.hangs && n > hangs_until && chance(rng, 0.004)) hangs_until = n + rng() % 600;
+    if (n < hangs_until) {
+    } else if (d.dribble) {
       if (chance(rng, 0.1)) m.feed(p, 1 + static_cast<unsigned>(rng() % 6));
     } else if (chance(rng, 0.5)) {
       m.feed(p);
@@ -201,6 +204,9 @@ TEST(PlannedLimits, LateFeedingKeepsThem) {
 }
 TEST(PlannedLimits, EverythingAtOnceKeepsThem) {
   run_many(500000, {.overrides = true, .holds = true, .single_block = true, .dribble = true});
+}
+TEST(PlannedLimits, HoldsWithoutAFeederKeepThem) {
+  run_many(600000, {.overrides = true, .holds = true, .hangs = true});
 }
 TEST(PlannedLimits, TheCheckerSeesAStepOfAMicrometre) {
   LimitChecker worst{random_config(1)};

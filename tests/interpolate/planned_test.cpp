@@ -71,6 +71,14 @@ TEST(Planned, ALongLineOfShortOnesDoesNotStarve) {
   EXPECT_LE(static_cast<double>(m.cycles) * 0.001, 4.2);
 }
 
+/// Every record once and in its order.
+std::string check_order(const Program& p, const std::vector<nc_event>& events) {
+  if (events.size() != p.records.size()) return std::to_string(events.size()) + " events";
+  for (size_t i = 0; i < events.size(); ++i)
+    if (events[i].serial != p.records[i].serial) return "event " + std::to_string(i);
+  return "";
+}
+
 /// A slot: lines and half circles that touch them; a gate behind the last but one.
 Program slot(const ExecutorConfig& config, double feed) {
   Program p(config);
@@ -137,6 +145,61 @@ TEST(Planned, FeedHoldStopsSoonAndGoesOn) {
   ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_IDLE && m.executor.drained(); }, 20000));
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
   EXPECT_EQ(m.command(), at(100, 100));
+}
+
+/// Hold in cycle `hold` of a program, without a feeder for the next 300 cycles. @return the cycles until the axes stand.
+uint64_t hold_without_feeder(Machine& m, const Program& p, uint64_t hold) {
+  m.feed(p);
+  m.start();
+  while (m.cycles < hold) m.feed(p), m.cycle();
+  m.in.feed_hold = true;
+  uint64_t moved = hold;
+  while (m.cycles < hold + 1000) {
+    m.cycle();
+    if (!m.still()) moved = m.cycles;
+  }
+  EXPECT_EQ(m.out.state, NC_STATE_HOLD);
+  m.in.feed_hold = false;
+  for (int n = 0; n < 20; ++n) m.feed(p), m.cycle();
+  m.start();
+  EXPECT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_IDLE && m.next == p.records.size() && m.executor.drained(); }, 40000)) << m.out.cause;
+  return moved - hold;
+}
+
+TEST(Planned, AHoldNeedsNoFeeder) {
+  const ExecutorConfig config = optimal_config();
+  unsigned holds = 0, late = 0;
+  for (uint64_t hold = 20; hold < 860; hold += 30, ++holds) {
+    const Program p = slot(config, 100);
+    Machine m(config);
+    const uint64_t moved = hold_without_feeder(m, p, hold);
+    late += moved > 220 ? 1u : 0u;  // 30 ms of patience, 100 ms for a stop on a line; a plan that uses all of the jerk leaves less
+    EXPECT_LE(moved, 600u) << hold;
+    EXPECT_TRUE(m.checker.ok()) << hold << ": " << m.checker.report();
+    EXPECT_EQ(check_order(p, m.events), "") << hold;
+    EXPECT_EQ(m.command(), p.at()) << hold;
+  }
+  EXPECT_LE(late * 5, holds);
+}
+
+TEST(Planned, ASilentFeederIsWaitedForAfterTheHold) {
+  const ExecutorConfig config = optimal_config();
+  const Program p = slot(config, 100);
+  Machine m(config);
+  m.feed(p);
+  m.start();
+  while (m.cycles < 200) m.feed(p), m.cycle();
+  m.in.feed_hold = true;
+  while (m.cycles < 500) m.cycle();
+  m.in.feed_hold = false;
+  const AxisVec stands = m.command();
+  for (int n = 0; n < 5; ++n) m.cycle();
+  m.start();
+  for (int n = 0; n < 300; ++n) m.cycle();
+  EXPECT_EQ(m.command(), stands);  // nothing is followed but a plan that begins here
+  EXPECT_NE(m.out.state, NC_STATE_ALARM);
+  ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_IDLE && m.executor.drained(); }, 40000));
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
 TEST(Planned, OverrideChangesTheSpeedWithinTheLimits) {

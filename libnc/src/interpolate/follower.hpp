@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scan's side of the optimal mode: goes along the chain of cells in time. It has no law of its own: what it follows always ends at
-// rest, and where the chain goes on is changed only in front of it (docs/motion-optimal.md, "Changing the plan on the way").
+// rest, and where the chain goes on is changed only in front of it (docs/motion-optimal.md, "Changing the plan on the way"). A stop that
+// the planner is asked for in vain it makes itself, by going through the plan ever slower.
 #pragma once
 
+#include "interpolate/brake.hpp"
 #include "interpolate/exchange.hpp"
 #include "motion/optimal/plan_cell.hpp"
 
@@ -10,9 +12,10 @@ namespace nc {
 
 class Follower {
  public:
-  void create(optimal::PlanStore* store, unsigned axis_count) {
+  void create(optimal::PlanStore* store, const optimal::Limits* limits) {
     store_ = store;
-    axis_count_ = axis_count;
+    limits_ = limits;
+    axis_count_ = limits->axis_count;
   }
 
   /// Looks at the newest offer, once.
@@ -26,6 +29,7 @@ class Follower {
     }
     taken_ = offer.first != optimal::kNoCell && offer.generation == generation_ && fits(offer);
     if (!taken_) return;
+    stops_ = offer.stops;
     for (uint32_t k = offer.first; k != offer.last; ++k) next(k) = k + 1;
     next(offer.last) = optimal::kNoCell;
     if (offer.fresh) {
@@ -47,6 +51,7 @@ class Follower {
   uint32_t generation() const { return generation_; }
   double u() const { return u_; }
   double v() const { return v_; }
+  bool stops() const { return stops_ || braking_; }  ///< what is followed is the way to a rest that was asked for
 
   /// Where the next cell begins; not when idle().
   AxisVec start() const NC_RT {
@@ -54,8 +59,55 @@ class Follower {
     return point(c, 0);
   }
 
+  /// Looks for a way to rest that the plan in front leaves, and takes it. To be called in each cycle until stops().
+  void brake() NC_RT {
+    if (braking_ || at_rest()) return;
+    const double use = ++tries_ % kOfGentle != 0 ? 1 : kGentle[tries_ / kOfGentle % (sizeof kGentle / sizeof kGentle[0])];
+    uint32_t cell = cell_;
+    double begun = -t_;  // time of the plan at which the cell was entered
+    braking_ = brake_.find([&](double tau) NC_RT { return moment(tau, &cell, &begun); }, *limits_, use);
+  }
+
   /// Goes on for `time` seconds or to the next rest. @return what is left of the time.
   double advance(double time) NC_RT {
+    if (!braking_) return follow(time);
+    follow(brake_.advance(time));
+    v_ *= brake_.sigma();
+    if (at_end_) {
+      braking_ = false;
+    } else if (brake_.done()) {
+      halt();
+    }
+    return 0;
+  }
+  AxisVec position() const NC_RT {
+    return cell_ == optimal::kNoCell ? on_piece(halt_piece_, halt_x_) : point(store_->at(cell_), x_);
+  }
+
+  /// Everything that is planned is void: only a plan made for what comes then is followed.
+  void give_up() NC_RT {
+    if (store_ == nullptr) return;
+    let_go();
+    halted_ = false;
+  }
+  void say(optimal::Following* out) const NC_RT {
+    out->answered = answered_;
+    out->taken = taken_;
+    out->generation = generation_;
+    out->cell = cell_;
+    out->t = t_;
+    out->at_end = at_end_;
+    out->halted = halted_;
+    out->piece = halt_piece_;
+    out->x = halt_x_;
+  }
+
+ private:
+  static constexpr unsigned kOfGentle = 8;                ///< tries, one of which is gentle
+  static constexpr double kGentle[] = {0.6, 0.35, 0.15};  ///< of what the limits leave
+
+  /// Time of the plan.
+  double follow(double time) NC_RT {
     if (idle() || !(time > 0)) return time;
     if (at_end_) {
       cell_ = next(cell_);
@@ -87,37 +139,55 @@ class Follower {
       t_ = 0;
     }
   }
-  AxisVec position() const NC_RT { return point(store_->at(cell_), x_); }
-
-  /// Everything that is planned is void: only a plan made for what comes then is followed.
-  void give_up() NC_RT {
-    if (store_ == nullptr) return;
+  void let_go() {
     ++generation_;
     cell_ = optimal::kNoCell;
     at_end_ = true;
-    begins_ = false;
+    begins_ = braking_ = stops_ = false;
     v_ = 0;
   }
-  void say(optimal::Following* out) const NC_RT {
-    out->answered = answered_;
-    out->taken = taken_;
-    out->generation = generation_;
-    out->cell = cell_;
-    out->t = t_;
-    out->at_end = at_end_;
+  /// At rest within a cell: a new plan begins at this place of the same path.
+  void halt() NC_RT {
+    const optimal::PlanCell& c = store_->at(cell_);
+    halt_piece_ = c.piece;
+    halt_x_ = std::fmin(store_->piece_at(c.piece).length, c.x + x_);
+    let_go();
+    halted_ = true;
   }
 
- private:
+  /// The plan `tau` seconds from now; cell and its begin go on from one call to the next.
+  PlanMoment moment(double tau, uint32_t* cell, double* begun) const NC_RT {
+    PlanMoment m;
+    while (tau - *begun >= store_->at(*cell).seconds) {
+      if (store_->at(*cell).kind == optimal::PlanCell::Kind::land) {
+        m.rests = true;
+        return m;
+      }
+      *begun += store_->at(*cell).seconds;
+      *cell = store_->next[*cell & store_->cell_mask];
+    }
+    const optimal::PlanCell& c = store_->at(*cell);
+    const optimal::CellState q = optimal::state_in(c, std::fmax(0, tau - *begun));
+    const optimal::Piece& p = store_->piece_at(c.piece);
+    m.path = evaluate(p, std::fmin(p.length, c.x + std::fmin(c.h, std::fmax(0, q.x))), axis_count_);
+    m.v = q.v;
+    m.a = q.a;
+    m.j = c.kind == optimal::PlanCell::Kind::level ? c.w * q.v : 2 * c.v / (c.seconds * c.seconds);
+    return m;
+  }
+
   uint32_t& next(uint32_t k) { return store_->next[k & store_->cell_mask]; }
   bool fits(const optimal::Proposal& offer) const NC_RT {
+    if (braking_) return false;
     if (offer.fresh) return at_rest();
     if (cell_ == optimal::kNoCell || static_cast<int32_t>(offer.after - cell_) < 0) return false;
     // Behind the end of a plan that rests there, or behind a cell that has not been left.
     return true;
   }
-  AxisVec point(const optimal::PlanCell& c, double x) const NC_RT {
-    const optimal::Piece& p = store_->piece_at(c.piece);
-    const double at = std::fmin(p.length, c.x + x);
+  AxisVec point(const optimal::PlanCell& c, double x) const NC_RT { return on_piece(c.piece, c.x + x); }
+  AxisVec on_piece(uint32_t piece, double x) const NC_RT {
+    const optimal::Piece& p = store_->piece_at(piece);
+    const double at = std::fmin(p.length, x);
     if (p.curve != nullptr) return curve_position(*p.curve, p.curve_from + at, axis_count_);
     AxisVec q;
     if (!p.quintic) {
@@ -134,6 +204,13 @@ class Follower {
   uint32_t cell_ = optimal::kNoCell, generation_ = 0, answered_ = 0;
   double t_ = 0, x_ = 0, u_ = 0, v_ = 0;
   bool at_end_ = true, begins_ = false, taken_ = false;
+  const optimal::Limits* limits_ = nullptr;
+  Brake brake_;
+  unsigned tries_ = 0;
+  bool stops_ = false, braking_ = false;
+  bool halted_ = false;       ///< at rest on the path, not at the end of a plan
+  uint32_t halt_piece_ = 0;
+  double halt_x_ = 0;
 };
 
 }  // namespace nc

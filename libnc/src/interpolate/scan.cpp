@@ -29,7 +29,7 @@ void Scan::create(const ExecutorConfig& config, const Record* ring, Planner* pla
   mask_ = config.capacity - 1;
   planner_ = planner;
   optimal_ = optimal;
-  if (optimal != nullptr) follower_.create(&optimal->store(), config.axis_count);
+  if (optimal != nullptr) follower_.create(&optimal->store(), &optimal->axis_limits());
   shared_ = shared;
   ManualConfig m;
   m.axis_count = config.axis_count;

@@ -90,6 +90,7 @@ class Scan {
   void take_plan() NC_RT;
   Done follow_plan(const Record& record, const nc_inputs& in) NC_RT;
   bool would_jump() const NC_RT;
+  bool path_stops(const nc_inputs& in) const NC_RT;
   nc_stop_cause standing(const Segment& segment, const nc_inputs& in) NC_RT;
   void tell_planner(const nc_inputs& in, const ScanStatus& status) NC_RT;
   bool begin_move(const Record& record, const nc_inputs& in) NC_RT;
@@ -147,6 +148,7 @@ class Scan {
   LawState law_;         ///< on the segment in execution; v carries over to the next one
   Follower follower_;    ///< optimal: makes what is in law_
   AxisVec passed_at_;    ///< optimal: end of the newest record that was passed
+  double silent_ = 0;    ///< optimal: s for which a stop has been asked for
   bool no_law_ = false;  ///< optimal: none was found for what follows
   double turns_ = 0;     ///< optimal: speed of the spindle that the planner knows, rev/s
   bool moving_ = false;  ///< the current record is a segment that has begun

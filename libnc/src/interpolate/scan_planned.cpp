@@ -11,6 +11,7 @@ namespace {
 constexpr double kJump = 1e-6;        ///< mm or deg: the path goes on where the axes stand
 constexpr double kAtEnd = 1e-7;       ///< mm: a path at rest has reached the end of a record
 constexpr double kPassed = 1e-9;      ///< mm: and one that moves has passed it
+constexpr double kPatience = 0.03;     ///< s that the planner has for a stop
 constexpr double kTurnsChange = 0.002; ///< of the speed of the spindle, that asks for another plan
 
 }  // namespace
@@ -43,6 +44,12 @@ nc_stop_cause Scan::standing(const Segment& s, const nc_inputs& in) {
   return s.fixed_override || feed_override(in) > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
 }
 
+/// The path is to rest as soon as the limits allow.
+bool Scan::path_stops(const nc_inputs& in) const {
+  const Segment* s = moving_ ? &current().segment : nullptr;  // M700 15.2: a skip move goes at 100 %, but for an override of 0
+  return braking() || skip_braking_ || (s != nullptr && s->skip && !(feed_override(in) > 0));
+}
+
 Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
   const Segment& s = r.segment;
   if (follower_.at_rest()) {
@@ -63,7 +70,9 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
       return Done::no;
     }
   }
+  silent_ = path_stops(in) && !follower_.at_rest() && !follower_.stops() ? silent_ + time_ : 0;
   if (time_ > 0) {
+    if (silent_ > kPatience) follower_.brake();
     const double from = follower_.u();
     time_ = follower_.advance(time_);
     path_length_ += follower_.u() - from;
@@ -83,8 +92,7 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
 void Scan::tell_planner(const nc_inputs& in, const ScanStatus& status) {
   optimal::Following f;
   follower_.say(&f);
-  const Segment* s = moving_ ? &current().segment : nullptr;
-  f.brake = braking() || skip_braking_ || (s != nullptr && s->skip && !(status.feed_override > 0));
+  f.brake = path_stops(in);
   f.feed_scale = status.feed_override;
   f.rapid_scale = std::clamp(in.rapid_override, 0.0, 1.0);
   const double turns = std::fabs(in.spindle_rev_per_s);

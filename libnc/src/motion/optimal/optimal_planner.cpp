@@ -56,16 +56,24 @@ Limits OptimalPlanner::with(const Following& f) const {
 // ---- what the scan has said
 // ------------------------------------------------------------------------------------------------------------
 
-/// The scan has given everything up: the path begins anew with its records.
-void OptimalPlanner::rebuild(const Following& f) {
+/// The scan follows nothing any more.
+void OptimalPlanner::begin_again(const Following& f) {
   generation_ = f.generation;
   fresh_ = true;
   open_ = false;
   chain_ = {};
-  builder_.restart(f.tail, f.s, f.machine, 0);
-  fresh_piece_ = builder_.head();
+  lead_ = least_lead();
+  tried_at_ = kNoCell;
   offer_.first = offer_.last = offer_.after = kNoCell;
   offer_.failed = false;
+}
+
+/// It has given everything up: the path begins anew with its records.
+void OptimalPlanner::rebuild(const Following& f) {
+  begin_again(f);
+  builder_.restart(f.tail, f.s, f.machine, 0);
+  fresh_piece_ = builder_.head();
+  fresh_x_ = 0;
 }
 
 /// False while an offer waits for its answer.
@@ -89,7 +97,16 @@ void OptimalPlanner::replan(uint32_t head) {
   const Following& f = following_.read();
   const bool idle = head == head_;
   head_ = head;
-  if (f.generation != generation_) rebuild(f);
+  if (f.generation != generation_) {
+    if (f.halted) {  // it rests on the path, which stays as it is
+      begin_again(f);
+      fresh_piece_ = f.piece;
+      fresh_x_ = f.x;
+      if (f.x >= store_.piece_at(f.piece).length - kTiny) ++fresh_piece_, fresh_x_ = 0;
+    } else {
+      rebuild(f);
+    }
+  }
   if (!answered(f)) {
     publish();
     return;
@@ -132,7 +149,8 @@ OptimalPlanner::Start OptimalPlanner::at_end() const {
   if (fresh_) {
     s.fresh = true;
     s.piece = fresh_piece_;
-    s.u = fresh_piece_ != builder_.head() ? builder_.start_of(fresh_piece_) : 0;
+    s.x = fresh_x_;
+    s.u = fresh_piece_ != builder_.head() ? builder_.start_of(fresh_piece_) + fresh_x_ : 0;
     return s;
   }
   s.after = chain_.last;
@@ -390,6 +408,7 @@ void OptimalPlanner::offer(const Start& start, bool stops) {
   offer_.first = offer_first_;
   offer_.last = write_ - 1;
   offer_.failed = false;
+  offer_.stops = stops;
   open_ = true;
 }
 

@@ -25,6 +25,7 @@ class OptimalPlanner {
   void truncate(uint32_t end);
 
   PlanStore& store() { return store_; }
+  const Limits& axis_limits() const { return setup_.limits; }
   // ---- scan
   const Proposal& newest() NC_RT { return offers_.read(); }
   void say(const Following& f) NC_RT { following_.write(f); }
@@ -49,6 +50,7 @@ class OptimalPlanner {
   };
 
   void rebuild(const Following& f);
+  void begin_again(const Following& f);
   bool answered(const Following& f);
   void go_on(const Following& f, bool idle);
   void change(const Following& f);
@@ -98,7 +100,8 @@ class OptimalPlanner {
   uint32_t free_from_ = 0;      ///< cells from here on may be looked at by the scan
   uint32_t generation_ = 0;
   bool fresh_ = true;           ///< the scan has no chain
-  uint32_t fresh_piece_ = 0;    ///< where the path begins then
+  uint32_t fresh_piece_ = 0;    ///< where it begins then
+  double fresh_x_ = 0;
   double lead_ = 0.004;
   uint32_t head_ = 0;
   uint32_t tried_at_ = kNoCell;  ///< cell of the scan when no law was found

@@ -80,6 +80,7 @@ struct Proposal {
   uint32_t after = kNoCell, first = kNoCell, last = kNoCell;
   bool fresh = false;
   bool failed = false;      ///< no law was found for what follows
+  bool stops = false;       ///< the way to rest that was asked for
   uint32_t end = 0;         ///< ring index behind the last record that is committed
 };
 
@@ -94,6 +95,9 @@ struct Following {
   bool brake = false;       ///< to rest as soon as the limits allow
   double feed_scale = 1, rapid_scale = 1, turns = 0;
   bool block_rests = false;  ///< at the ends of blocks
+  bool halted = false;       ///< it rests on the path, at x of `piece`, and not at the end of a plan
+  uint32_t piece = 0;
+  double x = 0;
   uint32_t tail = 0;
   double s = 0;             ///< of the record at the tail
   AxisVec machine;
