@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kArc = 0.06;         ///< rad that a cell on an arc may turn
 constexpr double kRatio = 1.25;       ///< of the speeds at both ends of a cell: its jerk goes with the speed
+constexpr double kRatioAlone = 1.04;  ///< the same on a line from rest to rest, where nothing else asks for cells
 constexpr double kLaunch = 4;         ///< periods that the cell next to rest takes
 constexpr double kLaunchSpeed = 0.5;  ///< of the speed and acceleration that the path allows
 constexpr double kCurvedLaunch = 0.125;  ///< of its length where the path bends
@@ -173,6 +174,7 @@ bool Mesher::cells(double end) {
   const double stop = end - landing;
   double cell_most = HUGE_VAL;
   unsigned known = in.count;
+  const bool alone = in.count == 1 && in.from_rest && in.down == nullptr && !at_start_.curved;
   while (u < end && m.cells < in.most) {
     const unsigned f = hint_f_, b = hint_b_;
     double h = launch;
@@ -183,7 +185,8 @@ bool Mesher::cells(double end) {
       hint_b_ = b;
       const double v0 = estimate(u), v1 = estimate(std::min(u + h, end - 0.5 * landing)),
                    ratio = v1 > v0 ? v1 / v0 : v0 / v1;
-      if (ratio > kRatio) h *= std::max(0.3, std::log(kRatio) / std::log(ratio));
+      const double most = alone ? kRatioAlone : kRatio;
+      if (ratio > most) h *= std::max(alone ? 0.1 : 0.3, std::log(most) / std::log(ratio));
       hint_f_ = f;
       hint_b_ = b;
     }

@@ -19,6 +19,9 @@ constexpr double kInsideCurve =
 constexpr double kToWall = 0.99;  ///< of the way to the nearest wall, that one step may go
 constexpr double kResidual = 0.05;
 constexpr double kSmallestSlack = 0.5;
+constexpr double kGapFirst = 0.4;      ///< of the time
+constexpr double kSlackAgain = 0.003;   ///< the same from a solution of nearly the same rows
+constexpr double kGapAgain = 0.003;
 
 }  // namespace
 
@@ -159,18 +162,19 @@ void TimeLaw::middle_rows(unsigned k) {
   }
 }
 
-void TimeLaw::slacks(Pair& x, bool first) {
+/// `least` > 0: the slacks begin.
+void TimeLaw::slacks(Pair& x, double least) {
   const double s0 = 1 - x.r, s1 = 1 + x.r;
-  x.s[0] = std::max(s0, first ? kSmallestSlack : x.s[0]);
-  x.s[1] = std::max(s1, first ? kSmallestSlack : x.s[1]);
+  x.s[0] = std::max(s0, least > 0 ? least : x.s[0]);
+  x.s[1] = std::max(s1, least > 0 ? least : x.s[1]);
 }
 
-void TimeLaw::slack(Single& x, bool first) {
-  x.s = std::max(1 - x.r, first ? kSmallestSlack : x.s);
+void TimeLaw::slack(Single& x, double least) {
+  x.s = std::max(1 - x.r, least > 0 ? least : x.s);
 }
 
 /// All rows at c. A slack that is smaller than its row leaves is made as large.
-void TimeLaw::evaluate_rows(bool first) {
+void TimeLaw::evaluate_rows(double least) {
   const Mesh& m = *mesh_;
   used_[0] = 0;
   for (unsigned k = m.from_rest ? 1 : 0; k < n_; ++k) knot_rows(k);
@@ -188,11 +192,11 @@ void TimeLaw::evaluate_rows(bool first) {
   }
   rows_ = 0;
   each_pair([&](unsigned, Pair& x) {
-    slacks(x, first);
+    slacks(x, least);
     rows_ += 2;
   });
   each_single([&](unsigned, Single& x) {
-    slack(x, first);
+    slack(x, least);
     ++rows_;
   });
 }
@@ -307,7 +311,7 @@ void TimeLaw::finish(Law* law) {
   for (unsigned k = 0; k < n_; ++k) law->half2[k] = value(half2_[k], k + kPad - 1);
 }
 
-void TimeLaw::solve(const Mesh& mesh, const Limits& limits, Law* law) {
+void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law) {
   mesh_ = &mesh;
   limits_ = &limits;
   law->ok = false;
@@ -316,13 +320,13 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, Law* law) {
   if (mesh.cells < 4 || mesh.cells > kMaxCells) return;
   forms();
   for (unsigned k = 0; k < kPad; ++k) c_[k] = c_[n_ + kPad + k] = 0;
-  for (unsigned k = 0; k < n_; ++k) c_[k + kPad] = mesh.guess[k];
+  for (unsigned k = 0; k < n_ && !again; ++k) c_[k + kPad] = mesh.guess[k];
   c_[kPad] = mesh.from_rest ? 0 : mesh.b0 + 0.5 * mesh.slope0 * mesh.h[0];
   c_[n_ - 1 + kPad] = 0;
-  evaluate_rows(true);
+  evaluate_rows(again ? kSlackAgain : kSmallestSlack);
   double time = 0;
   for (unsigned k = first_; k < last_; ++k) time += weight_[k] / std::sqrt(c_[k + kPad]);
-  double mu = 0.4 * time / rows_;
+  const double mu = (again ? kGapAgain : kGapFirst) * time / rows_;
   each_pair([&](unsigned, Pair& x) {
     x.l[0] = mu / x.s[0];
     x.l[1] = mu / x.s[1];
@@ -361,7 +365,7 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, Law* law) {
     if (!factor_and_solve()) return;
     double primal = 1, dual = 1;
     directions(target, &primal, &dual);
-    evaluate_rows(false);
+    evaluate_rows(0);
   }
 }
 

@@ -58,7 +58,8 @@ struct Law {
 class TimeLaw {
  public:
   /// The law of least time that ends at rest. !law->ok when none was found; nothing may then be done with it.
-  void solve(const Mesh& mesh, const Limits& limits, Law* law);
+  /// `again`: the mesh is that of the last law, some limits are a little lower; it begins with that law.
+  void solve(const Mesh& mesh, const Limits& limits, bool again, Law* law);
 
  private:
   static constexpr unsigned kPad = 2;
@@ -77,11 +78,11 @@ class TimeLaw {
   };
 
   void forms();
-  void evaluate_rows(bool first);
+  void evaluate_rows(double least);
   void knot_rows(unsigned k);
   void middle_rows(unsigned k);
-  void slacks(Pair& x, bool first);
-  void slack(Single& x, bool first);
+  void slacks(Pair& x, double least);
+  void slack(Single& x, double least);
   void assemble(double mu);
   bool factor_and_solve();
   void directions(double mu, double* step_primal, double* step_dual);

@@ -92,7 +92,7 @@ bool Windows::solve(unsigned tries) {
     request_.period = period_ * attempt.period;
     mesher_.build(request_, limits_, &mesh_);
     for (unsigned n = 0; n < kTightened; ++n) {
-      time_law_.solve(mesh_, limits_, &law_);
+      time_law_.solve(mesh_, limits_, n > 0, &law_);
       iterations_ += law_.iterations;
       solved_ += mesh_.cells;
       if (!law_.ok) break;
