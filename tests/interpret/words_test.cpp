@@ -15,6 +15,15 @@ TEST(DecimalPoint, TypeOneTakesTheLeastCommandUnit) {  // M700 5.3
   EXPECT_EQ(Bench().param("1015", "10000").run("G0 X12\nM30").path(), (Path{"rapid 12 0 0"}));
 }
 
+TEST(DecimalPoint, EachAxisMayHaveACommandUnitOfItsOwn) {  // M700 2.1
+  Bench bench;
+  bench.param("1015", "100", 'X').param("1015", "0", 'Y').param("1015", "10000", 'Z');
+  EXPECT_EQ(bench.run("G0 X10 Y10 Z2\nG91 X-5 Y.5\nM30").path(), (Path{"rapid 0.1 0.01 2", "rapid 0.05 0.51 2"}));
+  EXPECT_EQ(bench.run("G20 G90 G0 X10 Y10\nM30").path(), (Path{"rapid 0.254 0.0254 2"}));
+  EXPECT_EQ(bench.param("1015", "1000").run("G21 G90 G0 X10 Y10\nM30").path(), (Path{"rapid 0.1 0.01 2"}));
+  EXPECT_EQ(bench.param("1078", "1").run("G0 X10 Y10\nM30").path(), (Path{"rapid 10 10 2"}));
+}
+
 TEST(DecimalPoint, TypeTwoTakesWholeUnitsWhateverTheCommandUnitIs) {  // M700 5.3
   EXPECT_EQ(Bench().param("1078", "1").run("G0 X12345 Y1.5\nM30").path(), (Path{"rapid 12345 1.5 0"}));
   EXPECT_EQ(Bench().param("1078", "1").param("1015", "100").run("G0 X7\nM30").path(), (Path{"rapid 7 0 0"}));

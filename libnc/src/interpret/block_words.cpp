@@ -261,6 +261,15 @@ double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotar
   return in_inch ? value * 25.4 : value;
 }
 
+double axis_value(const Interpreter& in, unsigned axis, double raw, uint8_t flags, bool rotary) {
+  const Settings& s = in.settings;
+  const bool pointed = (flags & (kWordPoint | kWordExpression)) != 0;
+  if (((s.own_unit_axes >> axis) & 1) == 0 || pointed || s.decimal_type_2) return length_value(in, raw, flags, rotary, false);
+  const bool in_inch = inch(in) && !rotary;
+  const double value = scaled(raw * s.tenfold, in_inch ? s.own_unit[axis] / 10 : s.own_unit[axis]);
+  return in_inch ? value * 25.4 : value;
+}
+
 double length_of(const Interpreter& in, char letter, bool setting_unit) {
   const unsigned at = static_cast<unsigned>(letter - 'A');
   return length_value(in, in.words.raw[at], in.words.flags[at], false, setting_unit);
@@ -330,7 +339,7 @@ Did resolve_axes(Interpreter& in) {
     axes |= 1u << axis;
     // M700 6.10: in the plane of polar coordinate interpolation the rotary axis is commanded in mm or inch.
     const bool turns = ((in.rotary >> axis) & 1) != 0 && !(in.state.map.kind == AxisMap::Kind::polar && axis == in.state.map.rotary);
-    const double value = length_value(in, w.raw[at], w.flags[at], turns, false);
+    const double value = axis_value(in, axis, w.raw[at], w.flags[at], turns);
     const char letter = static_cast<char>('A' + at);
     const bool time = letter == 'X' && w.one_shot != nullptr && w.one_shot->function == Function::dwell;  // seconds: a range of its own
     if (!time && !in_range(in, value, w.flags[at], turns)) return in.raise(Condition::value_range, letter, w.raw[at]);

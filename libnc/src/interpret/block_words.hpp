@@ -55,6 +55,8 @@ Did resolve_axes(Interpreter& in);
 /// `tenfold`: "UNIT*10" acts on it (M700 2.2).
 double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotary, bool setting_unit, bool tenfold = true);
 double length_of(const Interpreter& in, char letter, bool setting_unit = true);
+/// Value of a position word of an axis, by the command unit of this axis (M700 2.1, #1015).
+double axis_value(const Interpreter& in, unsigned axis, double raw, uint8_t flags, bool rotary);
 /// F of the block -> the number that is kept modal.
 Did feed_of(Interpreter& in, double* feed);
 /// A word that must be a whole number; fraction is dropped (M700 5.3). False when it is negative or too large.

@@ -308,6 +308,11 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.command_unit_mm = cunit > 0 ? cunit * 0.0001 : s.setting_unit_mm;
   s.command_unit_inch = cunit > 0 ? cunit * 0.00001 : s.setting_unit_inch;
   s.command_unit_deg = cunit > 0 ? cunit * 0.0001 : s.setting_unit_deg;
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    const double own = number("1015", cunit, static_cast<int>(i));
+    if (own != cunit) s.own_unit_axes |= 1u << i;
+    s.own_unit[i] = own > 0 ? own * 0.0001 : s.setting_unit_mm;
+  }
   s.decimal_type_2 = flag("1078");
   s.scaling_factor = number("8072", 1);
   const char* const parity[] = {"9115", "9215", "9315", "9415", "9515"};  // 3.6

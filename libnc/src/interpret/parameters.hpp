@@ -13,6 +13,8 @@ struct Settings {
   double command_unit_mm = 0.001;     ///< #1015 cunit (0: #1003 iunit): an undotted position word, metric
   double command_unit_inch = 0.0001;  ///< the same in inch
   double command_unit_deg = 0.001;
+  uint32_t own_unit_axes = 0;         ///< #1015 by axis: bit i: axis i has another unit than these ...
+  double own_unit[kMaxAxes] = {};     ///< ... this one, mm or deg; in inch a tenth of the number
   double setting_unit_mm = 0.001;     ///< #1003 iunit: undotted I J K R
   double setting_unit_inch = 0.0001;
   double setting_unit_deg = 0.001;

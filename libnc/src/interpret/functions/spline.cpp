@@ -96,7 +96,7 @@ bool read_block(const Interpreter& in, const Block& block, uint32_t* axes, uint3
     const uint32_t bit = 1u << axis;
     *axes |= bit;
     *incremental = *relative ? *incremental | bit : *incremental & ~bit;
-    (*value)[static_cast<unsigned>(axis)] = length_value(in, word.value, word.flags, false, false);
+    (*value)[static_cast<unsigned>(axis)] = axis_value(in, static_cast<unsigned>(axis), word.value, word.flags, false);
   }
   return *axes != 0;
 }

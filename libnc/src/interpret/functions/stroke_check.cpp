@@ -25,7 +25,7 @@ Did do_stroke_check(Interpreter& in) {
     const auto index = static_cast<unsigned>(axis);
     const bool turns = ((in.rotary >> index) & 1) != 0;
     const double upper_point = w.has(name) ? w.axis[index] : 0;
-    const double lower_point = w.has(lower) ? length_value(in, w.get(lower), w.flags[lower - 'A'], turns, false) : 0;
+    const double lower_point = w.has(lower) ? axis_value(in, index, w.get(lower), w.flags[lower - 'A'], turns) : 0;
     if (upper_point == lower_point) continue;  // (3)
     box.axis[i] = static_cast<int8_t>(axis);
     box.turns[i] = ((in.settings.machine_turn >> index) & 1) != 0;
