@@ -2,6 +2,7 @@
 // Modal macro calls, codes that call programs, names of variables, external output (M700 13.5.1 - 13.5.3, 13.5.5, 13.5.8).
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "support/pull.hpp"
@@ -61,6 +62,40 @@ TEST(ModalMacro, OwnLocalsAtEachCall) {
   EXPECT_EQ(run.var(100), 5);
   EXPECT_EQ(run.var(102), 7);
   EXPECT_TRUE(std::isnan(run.var(101)));
+}
+
+TEST(ModalMacro, ComesBeforeTheProgramThatTheBlockCalls) {  // 13.5.1: behind the movement; 13.3.1: M98 behind all else
+  Bench bench;
+  bench.add("O10", "#100=#100+1\n#[110+#100]=#5001\n#120=20\nM99\n");
+  bench.add("O20", "G0 X5.\nG91 X1. M99\n");
+  Outcome run = bench.run("G66 P10\nG0 X1. M98 P20\nG90 X9.\nG67\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "rapid 5 0 0", "rapid 6 0 0", "rapid 9 0 0"}));
+  EXPECT_EQ(run.var(100), 4);
+  EXPECT_EQ((std::array{run.var(111), run.var(112), run.var(113), run.var(114)}), (std::array{1., 5., 6., 9.}));
+  // The block ends once, behind the return; the rest of its words is evaluated behind the macro.
+  run = bench.at(0, 0, 0).run("#100=0 #120=0\nG90 G66 P10\nG0 X1. M98 P#120 L2\nG67\nM30");
+  EXPECT_EQ(run.var(100), 5);
+  unsigned ends = 0;
+  for (const Step& step : run.steps)
+    ends += step.item.kind == NC_ITEM_MARK && step.item.u.mark.report && step.item.source.depth == 0 && step.item.source.line == 3 ? 1u : 0u;
+  EXPECT_EQ(ends, 1u);
+  // G66 L0 calls nothing.
+  EXPECT_EQ(bench.at(0, 0, 0).run("#100=0\nG90 G66 P10 L0\nG0 X1. M98 P20\nG67\nM30").var(100), 0);
+  // A jump out of the macro forgets the call.
+  bench.add("O11", "#100=#100+1\nM99 P50\n");
+  EXPECT_EQ(bench.at(0, 0, 0).run("#100=0\nG66 P11\nG0 X1. M98 P21\nN50 G67\nM30").var(100), 1);
+}
+
+TEST(ModalMacro, ComesBeforeACodeThatCalls) {  // 13.5.2
+  Bench bench;
+  bench.param("1195", "1").param("7001", "50").param("7002", "0").param("7003", "20");
+  bench.add("O10", "#100=#100+1\nM99\n");
+  bench.add("O20", "#101=#100\nM99\n");
+  const Outcome run = bench.run("G66 P10\nG0 X1. M50\nG67\nM30");
+  EXPECT_EQ(run.var(100), 1);
+  EXPECT_EQ(run.var(101), 1);
+  EXPECT_EQ(run.aux(), "M30");
 }
 
 TEST(ModalMacro, CallsInSubProgramsToo) {

@@ -64,6 +64,14 @@ TEST(FigureRotation, WhatCannotBeUsedInside) {  // (9), appendix 1
   EXPECT_EQ(alarm("G28 Z0"), "");
 }
 
+TEST(FigureRotation, NotWithinCoordinateRotation) {  // precaution (2)
+  Bench bench;
+  bench.add("O1", "G1 X5. F100\nM99\n");
+  EXPECT_EQ(bench.run("G68 X0 Y0 R30.\nG0 X10. Y0\nM98 P1 L2 I-10.\nM30").alarm, "P252");
+  EXPECT_EQ(bench.run("G68 X0 Y0 R30.\nG0 X10. Y0\nM98 P1 L2\nM30").alarm, "");
+  EXPECT_EQ(bench.run("G68 X0 Y0 R30.\nG69\nG0 X10. Y0\nM98 P1 L2 I-10.\nM30").alarm, "");
+}
+
 TEST(FigureRotation, NoCallsInside) {  // (6)
   Bench bench;
   bench.add("O1", "M98 P2\nM99\n");

@@ -2,6 +2,8 @@
 // System variables (M700 13.5.5 and its section 10.x): every range, its direction, its unit, and when it is read.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/pull.hpp"
 
 namespace nc::test {
@@ -160,13 +162,25 @@ TEST(SystemVariables, WorkOffsets) {  // M700 10.2, both printed examples
   EXPECT_EQ(write_alarm(5221, "-100000"), "P35");
 }
 
+TEST(SystemVariables, AnAmountInForceCountsFromTheNextBlockOn) {  // 12.1: a length with the next command of its axis
+  Bench bench;
+  bench.tool(1, 10).tool(2, 2);
+  EXPECT_EQ(bench.run("G0 G43 H1 Z0\n#10001=20\nX1.\nZ0\n#2001=#2001+1\nZ0\nG10 L10 P1 R30.\nG44 Z0\n#10001=5\nZ0\n#10002=99\nZ1.\nG49 Z0\n#10001=1\nZ0\nM30").path(),
+            (Path{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 20", "rapid 1 0 21", "rapid 1 0 -30", "rapid 1 0 -5", "rapid 1 0 -4", "rapid 1 0 0"}));
+  // A radius as if D were given again (12.4.5).
+  const Outcome with_d = bench.tool(1, 10).tool(2, 2).at(0, 0, 0).run("G90 G1 G41 D2 X10. F100\nX20.\n#10002=4\nX30. D2\nX40.\nG40 Y20.\nM30");
+  const Outcome without = bench.tool(2, 2).at(0, 0, 0).run("G90 G1 G41 D2 X10. F100\nX20.\n#10002=4\nX30.\nX40.\nG40 Y20.\nM30");
+  EXPECT_EQ(with_d.alarm, "");
+  EXPECT_EQ(without.path(), with_d.path());
+}
+
 // ---- alarm, message, control ------------------------------------------------------------------------------------------------------
 
 TEST(SystemVariables, Alarm3000) {  // M700 10.3
   const Outcome run = m700("G0 X1.\n#3000=70(CALL#PROGRAMMER#TEL#530)\nG0 X2.\nM30");
   EXPECT_EQ(run.alarm, "P277");
   EXPECT_EQ(run.alarm_line, 2u);
-  EXPECT_EQ(run.alarm_detail, "CALL#PROGRAMMER#TEL#530");
+  EXPECT_EQ(run.alarm_detail, "CALL#PROGRAMMER#TEL#530 70");  // as the manual prints it
   EXPECT_EQ(run.path(), (Path{"rapid 1 0 0"}));
   EXPECT_EQ(m700("#3000=10000(X)\nM30").alarm, "P35");
   EXPECT_EQ(m700("#3000=0(X)\nM30").alarm, "P35");
@@ -250,6 +264,11 @@ TEST(SystemVariables, ParametersByNumber) {  // 10.16
   EXPECT_EQ(run.var(100), 12.5);
   EXPECT_EQ(run.var(101), 'C');  // text as its code
   EXPECT_EQ(run.var(102), 0);
+  // What the configuration says; the manual's example reads the number of axes.
+  const Outcome machine = bench.run("#100000=1002\n#100=#100010\n#100000=1013 #100002=3\n#101=#100010\n#100000=1017\n#102=#100010\nM30");
+  EXPECT_EQ(machine.var(100), 3);
+  EXPECT_EQ(machine.var(101), 'Z');
+  EXPECT_EQ(machine.var(102), 0);
   EXPECT_EQ(write_alarm(100000, "0"), "P39");
   EXPECT_EQ(write_alarm(100001, "5"), "P39");
   EXPECT_EQ(write_alarm(100002, "4"), "P39");
@@ -280,6 +299,8 @@ TEST(SystemVariables, DevicesOfThePlc) {  // 10.17: widths, signs, and what lies
   EXPECT_EQ(read_alarm(100110), "P39");
   EXPECT_EQ(bench.run("#100100=3\nM30").alarm, "P39");
   EXPECT_EQ(bench.run("#100102=3\nM30").alarm, "P39");
+  EXPECT_EQ(bench.run("#100103=16\nM30").alarm, "P39");  // bits 0 to 15
+  EXPECT_EQ(bench.run("#100100=1 #100101=2048 #100102=2\n#100=#100110\nM30").alarm, "P39");  // D0 to D2047
 }
 
 TEST(SystemVariables, ToolLifeWithoutAGroup) {  // 10.15
@@ -364,6 +385,23 @@ TEST(SystemVariables, ModalCodesInExecution) {  // M700 10.9: #42xx belongs to t
   bool waits = false;
   for (const nc_item& item : run.of(NC_ITEM_SYNC)) waits = waits || (item.u.sync.what & NC_SYNC_MODAL) != 0;
   EXPECT_TRUE(waits);
+}
+
+TEST(SystemVariables, CodesBesideACallArePreRead) {  // M700 13.5.5, the example of 22738: #4003 91, #4203 90
+  const Outcome run = m700("G90 G1 X100. F1000\nG91 G65 P300 X100. Y100.\nG1 X1.\n#103=#4203\nM02\nO300\n#101=#4003\n#102=#4203\nG#101 X#24 Y#25\nM99");
+  EXPECT_EQ(run.var(101), 91);
+  EXPECT_EQ(run.var(102), 90);
+  EXPECT_EQ(run.var(103), 91);
+  EXPECT_EQ(run.path(), (Path{"line 100 0 0 F1000", "line 200 100 0 F1000", "line 201 100 0 F1000"}));
+}
+
+TEST(SystemVariables, ProgramNumberOfANameIsBlank) {  // M700 10.10 note 1
+  Bench bench;
+  bench.add("12AB", "#100=#4115\nM99");
+  bench.add("0123", "#101=#4115\nM99");
+  const Outcome run = bench.var(100, 5).run("M98 <12AB>\nM98 <0123>\nM30");
+  EXPECT_TRUE(std::isnan(run.var(100)));
+  EXPECT_EQ(run.var(101), 123);
 }
 
 TEST(SystemVariables, OtherModals) {  // M700 10.10

@@ -2,6 +2,7 @@
 #include "control/part_system.hpp"
 
 #include "control/optimal_mode.hpp"
+#include "dialect/text.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -148,7 +149,8 @@ void PartSystem::describe_alarm() {
   if (fault.axis >= 0) axis_name[0] = interpreter.system->axis[fault.axis].name;
   alarm_detail(fault, axis_name, alarm_.detail.s, sizeof(alarm_.detail.s));
   const nc_text& own_words = interpreter.texts[interpreter.user_alarm_text].text;
-  if (fault.condition == Condition::user_alarm && own_words.s[0] != 0) alarm_.detail = own_words;
+  if (fault.condition == Condition::user_alarm && own_words.s[0] != 0)  // M700 13.5.5: the message and its number, as printed
+    TextWriter(alarm_.detail.s, sizeof alarm_.detail.s).put(own_words.s).put(' ').put_number(fault.value);
   alarm_.axis = fault.axis;
   alarm_.source = interpreter.alarm_source;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "interpret/calls.hpp"
+#include "interpret/functions/functions.hpp"
 
 namespace nc {
 namespace {
@@ -194,6 +195,35 @@ Did dispatch_block(Interpreter& in, bool* taken) {
 }
 
 bool block_is_argument(const Interpreter& in) { return modal_call_takes_blocks(in) && !cancels(in); }
+
+bool goes_on_elsewhere(const Interpreter& in) {
+  if (modal_call_takes_blocks(in) || !moves(in) || cancels(in)) return false;
+  if (in.after_block != nullptr) return true;
+  for (const uint32_t m : in.words.m) {
+    const MiscRow* row = find_misc(*in.dialect, m);
+    if (row == nullptr) continue;
+    if (row->function == MiscFunction::call_sub || row->function == MiscFunction::call_external || row->function == MiscFunction::return_sub) return true;
+  }
+  return false;
+}
+
+/// M700 13.5.1, 13.3.1: the macro of G66 comes behind the movement, the sub program (and the return) behind everything else of the block,
+/// which is read again for that when the macro has ended.
+Did make_modal_call_first(Interpreter& in) {
+  in.emit_stop_point();  // single block may stop behind the move
+  CallFrame& frame = top(in);
+  const uint32_t bit = 1u << in.state.depth;
+  frame.offset = in.block->begin;
+  frame.line = in.block->line;
+  in.state.codes_left |= bit;
+  Did did = make_modal_call(in);
+  if (did != Did::done) return did;
+  in.state.codes_left &= ~bit;  // G66 L0 calls nothing: the block goes on
+  frame.offset = in.block->next;
+  frame.line = in.block->next_line;
+  did = auxiliary_after(in);
+  return did == Did::done && in.after_block != nullptr ? call_behind_block(in) : did;
+}
 
 Did call_behind_block(Interpreter& in) {
   if (in.state.end_seen) return Did::done;

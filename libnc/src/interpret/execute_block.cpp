@@ -200,9 +200,19 @@ Did finish(Interpreter& in, Did did) {
   in.state.comp.has_vector = false;
   in.state.comp.cancel_vector = false;
   if (codes_behind_motion(in)) did = auxiliary_before(in);
-  if (did == Did::done) did = auxiliary_after(in);
+  if (did != Did::done) return did;
+  if (in.state.modal_call != 0 && goes_on_elsewhere(in)) return make_modal_call_first(in);
+  did = auxiliary_after(in);
   if (did != Did::done || (in.after_block == nullptr && in.state.modal_call == 0)) return did;
   return call_behind_block(in);
+}
+
+/// What is left of a block whose motion is done, and the macro behind it: the program that it calls, or the end of its own.
+Did execute_codes_left(Interpreter& in) {
+  in.state.codes_left &= ~(1u << in.state.depth);
+  in.words.axes = 0;
+  const Did did = auxiliary_after(in);
+  return did == Did::done && in.after_block != nullptr ? call_behind_block(in) : did;
 }
 
 /// Nothing in the block but axis words, F and a code of group 1: most blocks of a long program. What the other words would need looked
@@ -244,6 +254,7 @@ Did execute_words(Interpreter& in) {
   Did did = gather_words(in);
   if (did != Did::done) return did;
   BlockWords& w = in.words;
+  if (in.state.codes_left != 0 && (in.state.codes_left >> in.state.depth & 1) != 0) return execute_codes_left(in);
   if (in.state.fine_mode != FineMode::none) {
     did = check_fine_block(in);
     if (did != Did::done) return did;

@@ -215,6 +215,7 @@ void figure_center(const Interpreter& in, double center[2]) {
 void leave(Interpreter& in) {
   State& s = in.state;
   const CallFrame& frame = top(in);
+  s.codes_left &= ~(1u << s.depth);
   if (frame.modal_slot == 0 && frame.origin != CallOrigin::interrupt) s.frame[s.depth - 1].modal_call = frame.modal_call;
   --s.depth;
   show_modal_call(in);
@@ -308,6 +309,7 @@ Did call_sub(Interpreter& in) {
   // M700 13.3.1: single block does not stop at a block that only calls; with other words it may, behind what they do.
   const bool stops = !only_calls(in);
   const bool figure = w.any(letters("IJK"));
+  if (figure && in.state.rotated) return in.raise(Condition::rotation_in_figure, 'M', 98);  // M700 13.3.3 precaution (2)
   double center[2] = {0, 0};
   if (figure) figure_center(in, center);
   did = enter(in, Entry{program, CallKind::sub, CallOrigin::word, passes, offset, line, 0});
@@ -409,6 +411,7 @@ Did return_sub(Interpreter& in) {
     if (did != Did::done) return did;
     if (!find_from_here(in, caller, n, &offset, &line)) return in.raise(Condition::sequence_missing, 'P', n);
     leave(in);
+    s.codes_left &= ~(1u << s.depth);
     leave_loops(in, offset);
     caller.offset = offset;
     caller.line = line;
@@ -417,7 +420,7 @@ Did return_sub(Interpreter& in) {
     leave(in);
   }
   const bool stops = !only_calls(in);
-  s.owes_mark = !interrupted;
+  s.owes_mark = !interrupted && (s.codes_left >> s.depth & 1) == 0;
   in.finish_block(stops, stops);
   if (interrupted) in.know_world_again();
   return Did::later;

@@ -262,6 +262,7 @@ bool Interpreter::rewind(BlockSeq seq) {
   if (!checkpoints_.holds(seq) || !variables.rewind(seq, this, undo)) return false;
   if (settings_stale_) refresh_settings();
   checkpoints_.restore(seq, &state);
+  take_changed_amounts(*this);  // the host may have changed them since
   refresh_letters();
   finished_modal = state.modal;
   newest_modal_ = kNoModal;
@@ -502,9 +503,13 @@ void Interpreter::abort(const Fault& what, const nc_source& where) {
   stop(what, where);
 }
 
-ModalId Interpreter::modal_now() {
+ModalId Interpreter::modal_now(bool executable) {
   // Macro statements command nothing, most moves neither: behind them the modal state is that of the mark before.
-  if (!modal_unchanged_) newest_modal_ = modals.intern(finished_modal = state.modal);
+  if (!modal_unchanged_) newest_modal_ = modals.intern(state.modal);
+  if (modal_unchanged_ && !finished_behind_) return newest_modal_;
+  // M700 13.5.5: G codes beside G65 are pre-read modals; the block in execution is still the one before the call.
+  finished_behind_ = !executable;
+  if (executable) finished_modal = state.modal;
   return newest_modal_;
 }
 
@@ -523,7 +528,7 @@ void Interpreter::finish_block(bool stop, bool executable) {
   item.kind = ItemKind::mark;
   item.block_end = executable;
   item.source = source;
-  new (&item.mark) Mark{position(), modal_now(), state.seq, 0, stop, true, true, begins_again};
+  new (&item.mark) Mark{position(), modal_now(executable), state.seq, 0, stop, true, true, begins_again};
   begins_again = false;
   modal_unchanged_ = false;
   world_fresh = false;

@@ -315,8 +315,8 @@ struct Interpreter {
   void stop(const Fault& what, const nc_source& where);
   void take_block_back();
   void emit_end();
-  /// Id of the modal state for a mark; finished_modal becomes it.
-  ModalId modal_now();
+  /// Id of the modal state for a mark; behind an executable block finished_modal becomes it.
+  ModalId modal_now(bool executable);
   Did execute_statements();
   bool skipped(const Block& b) const;
 
@@ -340,6 +340,7 @@ struct Interpreter {
   static constexpr ModalId kNoModal = ~ModalId{0};
   ModalId newest_modal_ = kNoModal;  ///< of the newest mark
   bool modal_unchanged_ = false;     ///< since the newest mark
+  bool finished_behind_ = false;     ///< macro calls have changed the modal state since the block that finished_modal belongs to
 };
 
 /// interpret/execute_block.cpp: a block of words.
@@ -375,6 +376,11 @@ Did dispatch_block(Interpreter& in, bool* taken);
 bool block_is_argument(const Interpreter& in);
 /// What a block calls behind its own part: a code of type M98, the modal call after a move.
 Did call_behind_block(Interpreter& in);
+/// M700 12.1: an amount that changes while it is in force counts from the next block on: a length with the next command of its axis.
+void take_changed_amounts(Interpreter& in);
+/// The block moves under a modal call (G66), and calls a program or returns from its own.
+bool goes_on_elsewhere(const Interpreter& in);
+Did make_modal_call_first(Interpreter& in);
 
 /// interpret/interrupt.cpp
 bool is_interrupt_on(const Interpreter& in, uint32_t m);   ///< M96, or what stands for it

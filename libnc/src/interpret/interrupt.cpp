@@ -168,6 +168,7 @@ void Interpreter::leave_interrupt(bool to_sequence) {
     state.comp = interrupted_.comp;
     state.length_value = interrupted_.length_value;
     state.length_axis = interrupted_.length_axis;
+    take_changed_amounts(*this);
     state.work_system = interrupted_.work_system;
     state.stroke_box = interrupted_.stroke_box;
     state.cycle = interrupted_.cycle;

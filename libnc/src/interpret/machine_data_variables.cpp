@@ -101,14 +101,26 @@ Did select_parameter(Access& a) {
   return Did::done;
 }
 
+/// What the configuration of the machine says and no parameter repeats; false: nothing of it.
+bool machine_parameter(const Interpreter& in, uint32_t number, unsigned axis, double* value) {
+  switch (number) {
+    case 1002: *value = in.axis_count; return true;                      // axisno, the manual's own example
+    case 1013: *value = in.system->axis[axis].name; return true;         // axname
+    case 1017: *value = (in.rotary >> axis) & 1; return true;            // rot
+    default: return false;
+  }
+}
+
 /// A parameter that nobody has set reads 0. Text of one letter reads as its code.
 Eval read_parameter(Access& a) {
   char key[12];
-  const double number = selected(a.in, Notes::kParameter);
-  TextWriter(key, sizeof key).put_integer(number >= 1 ? static_cast<uint32_t>(number) : 1u);
+  const double selection = selected(a.in, Notes::kParameter);
+  const uint32_t number = selection >= 1 ? static_cast<uint32_t>(selection) : 1u;
+  TextWriter(key, sizeof key).put_integer(number);
   const double axis = selected(a.in, Notes::kAxis);
   double value = 0;
   const int index = axis >= 1 ? static_cast<int>(axis) - 1 : 0;
+  if (machine_parameter(a.in, number, static_cast<unsigned>(index), &value)) return give(a, value);
   if (!a.in.parameters.get(key, index, &value) && a.in.parameters.text(key, index) != nullptr) {  // a long text is no number
     a.in.raise(Condition::no_such_data, '#', a.number);
     return Eval::fault;
@@ -123,7 +135,7 @@ Did select_device(Access& a) {
                     : a.offset == 1 ? whole_between(a.written, 0, 99999)
                     : a.offset == 2 ? a.written == 0 || a.written == 1 || a.written == 101 || a.written == 2 || a.written == 102 ||
                                           a.written == 4 || a.written == 104
-                                    : whole_between(a.written, 0, 31);
+                                    : whole_between(a.written, 0, 15);  // (4) (b): a device has 16
   if (!good) return no_such(a);
   a.in.set_note(Notes::select_key(Notes::kDevice + a.offset), a.written);
   return Did::done;
@@ -137,6 +149,10 @@ Eval read_device(Access& a) {
     return Eval::fault;
   }
   const auto number = static_cast<uint32_t>(selected(a.in, Notes::kDeviceNumber));
+  if (number >= device->count) {  // (2); only what lies behind an existing one reads 0
+    a.in.raise(Condition::no_such_data, '#', number);
+    return Eval::fault;
+  }
   const auto bytes = static_cast<uint32_t>(selected(a.in, Notes::kBytes));
   if (bytes == 0) {  // one bit: of a word its bit #100103
     const auto bit = static_cast<unsigned>(selected(a.in, Notes::kBit));

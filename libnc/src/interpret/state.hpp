@@ -173,6 +173,7 @@ struct State {
   int64_t clock_shift_s = 0;      ///< the program's clock (#3011, #3012) against the machine's
   CycleState cycle;
   bool owes_mark = false;     ///< the block that called a program has ended with the return and still needs its mark
+  uint32_t codes_left = 0;    ///< bit d: the next block of level d has moved, and a modal call has run behind it; its M98 or M99 is left
   uint8_t depth = 0;
   uint8_t loop_count = 0;
   uint8_t any_mirror() const { return mirror | switch_mirror; }

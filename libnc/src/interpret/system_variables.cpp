@@ -97,6 +97,7 @@ Did write_tool(Access& a) {
   if (!tool_key(a, &key)) return a.in.raise(Condition::variable_number, '#', a.number);
   if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, '#', a.written);
   a.in.set_table(key, a.written);
+  take_changed_amounts(a.in);
   return Did::done;
 }
 
@@ -256,6 +257,13 @@ Eval give_group(Access& a, const ModalState& modal) {
 Eval read_group_ahead(Access& a) { return give_group(a, a.in.state.modal); }
 Eval read_group_now(Access& a) { return world_known(a, NC_SYNC_MODAL) ? give_group(a, a.in.finished_modal) : Eval::need_sync; }
 
+/// M700 10.10: the number that the name of the file is, "blank" where it is none.
+Eval give_program(Access& a, uint32_t number) {
+  if (number != 0) return give(a, number);
+  *a.value = Value{};
+  return Eval::ok;
+}
+
 /// #41nn, #43nn: 2 B, 7 D, 9 F, 11 H, 13 M, 14 N, 15 O, 19 S, 20 T (M700 10.10).
 Eval give_word(Access& a, const ModalState& m) {
   switch (a.offset + 1) {
@@ -265,7 +273,7 @@ Eval give_word(Access& a, const ModalState& m) {
     case 11: return give(a, m.h);
     case 13: return give(a, m.m);
     case 14: return give(a, m.n);
-    case 15: return give(a, a.in.source.program);
+    case 15: return give_program(a, a.in.source.program);
     case 19: return give(a, m.spindle);
     case 20: return give(a, m.tool);
     default: return no_variable(a);
@@ -282,7 +290,7 @@ Eval read_word_interrupt(Access& a) {
   if (a.in.state.interrupt_depth == 0) return no_variable(a);
   const ModalState& m = a.in.interrupted_modal();
   if (a.offset + 1 != 15) return give_word(a, m);
-  return give(a, a.in.state.frame[a.in.state.interrupt_depth - 1].program.number);
+  return give_program(a, a.in.state.frame[a.in.state.interrupt_depth - 1].program.number);
 }
 
 // ---- positions -----------------------------------------------------------------------------------------------------------------

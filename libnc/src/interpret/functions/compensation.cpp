@@ -48,6 +48,17 @@ bool take_vector(const Interpreter& in, const char letters[2], double vector[2])
 
 }  // namespace
 
+void take_changed_amounts(Interpreter& in) {
+  State& state = in.state;
+  if (in.dialect->id != NC_DIALECT_M700) return;
+  const int16_t code = state.modal.code[kGroupLength];
+  if (code == 430 || code == 440) {
+    const double value = amount(in, state.modal.h, false);
+    state.length_value = code == 440 ? -value : value;
+  }
+  if (state.comp.side != 0) state.comp.radius = amount(in, state.modal.d, true);
+}
+
 Did set_compensation(Interpreter& in, Function function) {
   State& state = in.state;
   Compensation& comp = state.comp;
