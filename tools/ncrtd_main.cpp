@@ -160,8 +160,8 @@ void change_dialect(const std::string& name, nc::rt::Config* config) {
 // One run from cycle start to the end, an alarm or a signal.
 class Run {
  public:
-  Run(nc::rt::Runtime* runtime, const Options& options, nc::rt::Progress* progress)
-      : runtime_(*runtime), options_(options), progress_(*progress) {}
+  Run(nc::rt::Runtime* runtime, const Options& options, nc::rt::Progress* progress, nc::tools::PrintLines* printed)
+      : runtime_(*runtime), options_(options), progress_(*progress), printed_(*printed) {}
 
   int to_end() {
     const Answer answer = runtime_.execute(CommandKind::kCycleStart);
@@ -174,6 +174,7 @@ class Run {
       const nc::rt::Snapshot now = runtime_.snapshot();
       const nc::rt::FeederInfo info = runtime_.info();
       show_message(info);
+      show_printed();
       if (g_signal != 0) return stop_by_signal();
       if (now.stopped_by_alarm()) return stop_by_alarm();
       if (info.runs > 0 && now.system[0].nc.state == NC_STATE_IDLE) return ended(now);
@@ -191,6 +192,7 @@ class Run {
   int stop_by_alarm() {
     rest();
     wait();  // the details of a program alarm come from the feeder
+    show_printed();
     const nc::rt::Snapshot now = runtime_.snapshot();
     progress_.finish();
     bool lost = false;
@@ -223,6 +225,10 @@ class Run {
     messages_ = info.messages;
     note("message: " + info.last_message);
   }
+  // M700 13.5.8: what programs print, where the configuration names no file for it.
+  void show_printed() {
+    for (const std::string& line : printed_.take()) note("print: " + line);
+  }
   void note(const std::string& text) {
     if (!options_.quiet) progress_.note(text);
   }
@@ -230,6 +236,7 @@ class Run {
     for (unsigned i = 0; i < looks_ && !runtime_.snapshot().system[0].nc.distance_zero; ++i) wait();
   }
   int ended(const nc::rt::Snapshot& now) {
+    show_printed();
     progress_.finish();
     std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc, options_.since_ns).c_str());
     return 0;
@@ -265,6 +272,7 @@ class Run {
   nc::rt::Runtime& runtime_;
   const Options& options_;
   nc::rt::Progress& progress_;
+  nc::tools::PrintLines& printed_;
   std::uint64_t messages_ = 0;
   unsigned idle_looks_ = 0;
   std::uint32_t last_line_ = 0;
@@ -369,7 +377,10 @@ int operate(const Options& options, nc::rt::Config* config) {
   sharing.programs().set_mdi(options.mdi);
   if (!sharing.prepare(runtime.get(), &files, config->programs_folder(), &error)) return failed(error);
   nc::tools::PrintFile print;
-  if (!config->print.empty()) {
+  nc::tools::PrintLines printed;
+  if (config->print.empty()) {
+    if (!options.serve) runtime->set_printer([&printed](const nc_text& text) { printed.write(text); });
+  } else {
     if (!print.open(config->print_file(), &error)) return failed(error);
     runtime->set_printer([&print](const nc_text& text) {
       const bool was_good = print.good();
@@ -402,7 +413,7 @@ int operate(const Options& options, nc::rt::Config* config) {
     answer = runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(nc::rt::Mode::kMdi));
     if (answer == Answer::kDone) answer = runtime->load_mdi(options.mdi + "\n");
   }
-  Run run(runtime.get(), options, &progress);
+  Run run(runtime.get(), options, &progress, &printed);
   int result = answer == Answer::kDone          ? run.to_end()
                : answer == Answer::kAlarmActive ? run.stop_by_alarm()
                                                 : failed(std::string("not started: ") + runtime->explain(answer));

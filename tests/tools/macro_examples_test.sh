@@ -21,6 +21,7 @@ for part in bolt-circle tool-length; do
   "$NC_BINARY_DIR/bin/ncrtd" --config "$NC_SOURCE_DIR/etc/machine.toml" run --fast "$parts/$part.nc" >"$work/run" 2>&1 ||
     { cat "$work/run"; exit 1; }
 done
+grep -q '^print: H1\*L-180\.000$' "$work/run" || { echo "what tool-length.nc prints is not shown"; cat "$work/run"; exit 1; }
 
 # Nothing to touch: the macro's own alarm.
 code=0

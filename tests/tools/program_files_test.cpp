@@ -50,6 +50,15 @@ TEST_F(FolderTest, TheExactNameWinsThenTheFirstInOrder) {
   EXPECT_EQ(found("O7"), "O7");
 }
 
+TEST_F(FolderTest, SeesWhatHasComeSince) {
+  const ProgramFiles files(folder_);
+  EXPECT_EQ(files.find("O9"), "");
+  touch("O9.nc");
+  EXPECT_EQ(files.find("O9"), folder_ + "/O9.nc");
+  std::filesystem::remove(folder_ + "/O9.nc");
+  EXPECT_EQ(files.find("O9"), "");
+}
+
 TEST_F(FolderTest, ByFileName) {
   touch("Flange.nc");
   touch("O5");

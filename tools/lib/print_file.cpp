@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 namespace nc::tools {
 
@@ -21,6 +22,25 @@ void PrintFile::write(const nc_text& text) {
   line += '\n';
   if (std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() && std::fflush(file_.get()) == 0) return;
   if (error_.empty()) error_ = std::generic_category().message(errno);
+}
+
+void PrintLines::write(const nc_text& text) {
+  constexpr std::size_t kMost = 1000;  // a program that prints in a loop while nobody takes the lines
+  std::string line;
+  const std::size_t size = text.size != 0 ? text.size : std::char_traits<char>::length(text.s);
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto byte = static_cast<unsigned char>(text.s[i]);
+    if (byte >= 0x20 && byte != 0x7F) line += text.s[i];
+    else if (text.size != 0) line += '.';  // a value of BPRNT
+  }
+  if (line == "%") return;
+  const std::lock_guard lock(mutex_);
+  if (lines_.size() < kMost) lines_.push_back(std::move(line));
+}
+
+std::vector<std::string> PrintLines::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(lines_, {});
 }
 
 }  // namespace nc::tools

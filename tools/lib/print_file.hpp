@@ -4,10 +4,11 @@
 
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <vector>
 
 #include "nc/nc.h"
-#include <string>
 
 namespace nc::tools {
 
@@ -32,6 +33,18 @@ class PrintFile {
   };
   std::unique_ptr<std::FILE, Close> file_;
   std::string error_;
+};
+
+/** The same where no file is named: lines for a screen, without those that only switch the punch. Safe between two threads. */
+class PrintLines {
+ public:
+  void write(const nc_text& text);
+  /** What has come since the last time. */
+  std::vector<std::string> take();
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> lines_;
 };
 
 }  // namespace nc::tools

@@ -85,6 +85,20 @@ std::string reason(nc_status status) {
   }
 }
 
+// Names in a folder, sorted, so that the choice between two candidates is always the same.
+std::vector<std::string> list_folder(const std::string& path) {
+  std::vector<std::string> listing;
+  DIR* folder = path.empty() ? nullptr : opendir(path.c_str());
+  if (!folder) return listing;
+  while (const dirent* entry =
+             readdir(folder)) {  // NOLINT(concurrency-mt-unsafe): the stream is this function's own
+    if (entry->d_name[0] != '.') listing.emplace_back(entry->d_name);
+  }
+  closedir(folder);
+  std::sort(listing.begin(), listing.end());
+  return listing;
+}
+
 }  // namespace
 
 ProgramFiles::ProgramFiles(std::string folder) : folder_(std::move(folder)) {}
@@ -164,26 +178,12 @@ long ProgramFiles::read_at(void* user, uint64_t offset, char* buffer, size_t siz
   return static_cast<long>(got);
 }
 
-void ProgramFiles::list_folder() {
-  if (listed_) return;
-  listed_ = true;
-  if (folder_.empty()) return;
-  DIR* folder = opendir(folder_.c_str());
-  if (!folder) return;
-  while (const dirent* entry =
-             readdir(folder)) {  // NOLINT(concurrency-mt-unsafe): the stream is this function's own
-    if (entry->d_name[0] != '.') listing_.emplace_back(entry->d_name);
-  }
-  closedir(folder);
-  std::sort(listing_.begin(), listing_.end());
-}
-
-std::string ProgramFiles::find(const std::string& name) {
+std::string ProgramFiles::find(const std::string& name) const {
   if (name.empty() || name[0] == '.' || name.find('/') != std::string::npos) return "";
-  list_folder();
+  const std::vector<std::string> listing = list_folder(folder_);
   const auto number = program_number(name);
   const std::string* loose = nullptr;
-  for (const std::string& candidate : listing_) {
+  for (const std::string& candidate : listing) {
     if (candidate == name) return folder_ + "/" + candidate;
     const bool fits = number ? program_number(candidate) == number : equal_any_case(candidate, name);
     if (fits && !loose) loose = &candidate;

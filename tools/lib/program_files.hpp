@@ -46,20 +46,18 @@ class ProgramFiles {
 
   /**
    * File in the folder for "O1000" (the number decides: `o1000.NC`, `O01000` count, with or without an
-   * ending) or for the name between < > (its own spelling first, then any case). "" when there is none.
+   * ending) or for the name between < > (its own spelling first, then any case). "" when there is none. The folder
+   * is looked at anew each time: a control runs for months, and programs come and go.
    */
-  std::string find(const std::string& name);
+  std::string find(const std::string& name) const;
 
  private:
   struct OpenFile;
   static long read_at(void* user, uint64_t offset, char* buffer, size_t size);
   static bool on_missing(void* user, nc_control* control, const char* name);
   std::string external_;
-  void list_folder();
 
   std::string folder_;
-  std::vector<std::string> listing_;  // sorted, so that the choice between two candidates is always the same
-  bool listed_ = false;
   std::vector<std::unique_ptr<OpenFile>> files_;
 };
 
