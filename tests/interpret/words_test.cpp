@@ -21,7 +21,9 @@ TEST(DecimalPoint, EachAxisMayHaveACommandUnitOfItsOwn) {  // M700 2.1
   EXPECT_EQ(bench.run("G0 X10 Y10 Z2\nG91 X-5 Y.5\nM30").path(), (Path{"rapid 0.1 0.01 2", "rapid 0.05 0.51 2"}));
   EXPECT_EQ(bench.run("G20 G90 G0 X10 Y10\nM30").path(), (Path{"rapid 0.254 0.0254 2"}));
   EXPECT_EQ(bench.param("1015", "1000").run("G21 G90 G0 X10 Y10\nM30").path(), (Path{"rapid 0.1 0.01 2"}));
-  EXPECT_EQ(bench.param("1078", "1").run("G0 X10 Y10\nM30").path(), (Path{"rapid 10 10 2"}));
+  EXPECT_EQ(bench.at(0, 0, 9).run("G21 G90 G81 X10 Z-2 R3 F60\nM30").path(),
+            (Path{"rapid 0.1 0 9", "rapid 0.1 0 3", "line 0.1 0 -2 F60", "rapid 0.1 0 9"}));
+  EXPECT_EQ(bench.at(0, 0, 2).param("1078", "1").run("G0 X10 Y10\nM30").path(), (Path{"rapid 10 10 2"}));
 }
 
 TEST(DecimalPoint, TypeTwoTakesWholeUnitsWhateverTheCommandUnitIs) {  // M700 5.3

@@ -131,6 +131,7 @@ TEST_F(CommandTest, UsageFileAndSetupErrorsAreOneLineAndExitOne) {
   file("p.nc", kPart);
   file("bad.json", "{\n\"axez\": 1}");
   file("param.json", "{\"params\":\n {\"no-such\": 1}}");
+  file("local.json", "{\"vars\":\n {\"1\": 5}}");
   std::filesystem::create_directory(folder_ + "/dir");
   ASSERT_EQ(mkfifo((folder_ + "/fifo").c_str(), 0600), 0);
   const struct {
@@ -145,6 +146,7 @@ TEST_F(CommandTest, UsageFileAndSetupErrorsAreOneLineAndExitOne) {
       {"trace dir", "dir: is a folder, not a program"},
       {"trace --setup bad.json p.nc", "bad.json:2: axez: no such key"},
       {"trace --setup param.json p.nc", "param.json:2: params.no-such: the control has no such parameter"},
+      {"trace --setup local.json p.nc", "local.json:2: vars.1: is a local variable"},
       {"trace --setup none.json p.nc", "none.json: cannot be opened"},
       {"trace --dialect fanuc p.nc", "--dialect fanuc"},
       {"trace --programs nowhere p.nc", "--programs nowhere: not a folder"},

@@ -67,9 +67,12 @@ bool apply_tables(const Setup& setup, nc_control* control, std::string* error) {
     for (const SetupAxisValue& v : table.values)
       if (nc_work_offset_set(control, kPartSystem, table.index, v.axis, v.value) != NC_OK)
         return refuse(setup, v.place, "the control has no such work offset", error);
-  for (const SetupVariable& v : setup.variables)
+  for (const SetupVariable& v : setup.variables) {
+    if (v.number >= 1 && v.number <= 33 && !v.vacant)  // M700 13.5.5
+      return refuse(setup, v.place, "is a local variable: a program begins with vacant ones", error);
     if (nc_variable_set(control, kPartSystem, v.number, v.value, v.vacant) != NC_OK)
       return refuse(setup, v.place, "the control has no such variable, or it cannot be written", error);
+  }
   return true;
 }
 

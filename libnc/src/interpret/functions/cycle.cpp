@@ -66,7 +66,7 @@ Did take_hole_data(Interpreter& in) {
   }
   if (w.has('R')) {
     c.has_r = true;
-    c.r = length_of(in, 'R', false);
+    c.r = axis_value(in, c.drill_axis, w.get('R'), w.flags['R' - 'A'], false);  // M700 2.1: a position of that axis
     c.r_incremental = in.state.modal.code[kGroupDistance] == 910;
   }
   if (w.has('Q')) c.q = std::fabs(length_of(in, 'Q'));
