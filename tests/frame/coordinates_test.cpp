@@ -249,10 +249,19 @@ TEST(Length, IgnoredBesideOneShotFunctions) {  // M700 App.2
   EXPECT_EQ(bench.at(0, 0, 0).run("G0 G43 G53 Z5. H1\nZ1.\nM30").path(), (Path{"rapid 0 0 5", "rapid 0 0 1"}));
 }
 
-TEST(Length, AChangedAmountActsFromTheNextG43) {  // M700 12.7
+TEST(Length, AChangedAmountActsFromTheNextCommandOfItsAxis) {  // M700 12.1: "from the next block or blocks onwards"; 12.7: G10 moves nothing
   Bench bench;
   bench.tool(1, 10);
-  EXPECT_EQ(bench.run("G0 G43 H1 Z0\nG10 L10 P1 R20.\nZ1.\nG43 H1 Z1.\nM30").path(), (Path{"rapid 0 0 10", "rapid 0 0 11", "rapid 0 0 21"}));
+  EXPECT_EQ(bench.run("G0 G43 H1 Z0\nG10 L10 P1 R20.\nX1.\nZ1.\nG43 H1 Z1.\nM30").path(),
+            (Path{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 21"}));
+  EXPECT_EQ(bench.tool(1, 10).at(0, 0, 0).run("G0 G43 H1 Z0\nG49\nG10 L10 P1 R20.\nZ1.\nM30").path(), (Path{"rapid 0 0 10", "rapid 0 0 1"}));
+}
+
+TEST(Length, WhatTheHostChangesActsToo) {  // M700 12.1: "including during single block stop"
+  Bench bench;
+  bench.tool(1, 10);
+  bench.on_sync = [&](const nc_item&) { bench.tool(1, 20); };
+  EXPECT_EQ(bench.run("G0 G43 H1 Z0\n#100=#1000\nX1.\nZ1.\nM30").path(), (Path{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 21"}));
 }
 
 TEST(DgshapeLength, MovesByTheOffsetWithoutAWord) {  // DGSHAPE G43
