@@ -127,6 +127,17 @@ TEST(Arc, TheCentreMovesWithTheCoordinates) {
   EXPECT_EQ(run.work()[1], "cw 10 10 0 c0,10 F100");
 }
 
+TEST(Arc, OfALinearAndARotaryAxis) {  // M700 6.3; 3.2 note 5: in inch a degree would count as a tenth of an inch
+  Bench bench(NC_DIALECT_M700, axes("XYZc"));
+  bench.param("1030", "C");
+  const Outcome metric = bench.run("G17 G0 X0 C0\nG91 G2 X10. C10. R10. F10\nM30");
+  EXPECT_EQ(metric.alarm, "");
+  EXPECT_EQ(metric.moves()[0].plane_axis[1], 3);
+  EXPECT_EQ(bench.at(0, 0, 0).run("G20 G17 G0 X0 C0\nG91 G2 X1. C10. R1. F10\nM30").alarm, "P39");
+  EXPECT_EQ(bench.at(0, 0, 0).run("G20 G17 G0 X0 Y0\nG91 G2 X1. Y1. R1. F10\nM30").alarm, "");
+  EXPECT_EQ(bench.at(0, 0, 0).run("G20 G17 G0 X0 Y0\nG91 G2 X1. Y1. C90. R1. F10\nM30").alarm, "");
+}
+
 TEST(Arc, TogetherWithLengthCompensation) {  // M700 App.2
   EXPECT_EQ(m700("G2 X10. I5. G43 H1 F100\nM30").alarm, "P70");
   EXPECT_EQ(m700("G2 X10. I5. F100\nX0 I-5. G44 H1\nM30").alarm, "P70");

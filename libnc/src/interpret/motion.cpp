@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves: from words to curves in the compensation frame.
+#include <bit>
 #include <cmath>
 
 #include "interpret/feed.hpp"
@@ -272,6 +273,10 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   const BlockWords& w = in.words;
   if (in.dialect->id == NC_DIALECT_DGSHAPE && (commanded & in.rotary) != 0) return in.raise(Condition::illegal_axis, 'A');  // G02/G03: A cannot take part
+  // M700 3.2 note 5: in inch a degree would be a tenth of an inch in the arc, which is not built.
+  const uint32_t turning = in.rotary & (1u << h | 1u << v);
+  if (turning != 0 && turning != (1u << h | 1u << v) && in.state.modal.code[kGroupUnit] == 200 && !in.state.map.active())
+    return in.raise(Condition::no_function, in.system->axis[std::countr_zero(turning)].name);
   ArcWords words;
   words.has_radius = w.has('R');
   if (words.has_radius) {
