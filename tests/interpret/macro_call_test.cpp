@@ -87,6 +87,18 @@ TEST(ModalMacro, ComesBeforeTheProgramThatTheBlockCalls) {  // 13.5.1: behind th
   EXPECT_EQ(bench.at(0, 0, 0).run("#100=0\nG66 P11\nG0 X1. M98 P21\nN50 G67\nM30").var(100), 1);
 }
 
+TEST(ModalMacro, ABlockThatHasMovedIsNotSkippedAnyMore) {  // 3.4: decided when the block is read
+  Bench bench;
+  bench.add("O10", "#100=#1000\n#101=1\nM99\n");
+  bench.add("O20", "#102=1\nM99\n");
+  bench.on_sync = [&](const nc_item&) { nc_switches_set(bench.control(), 0, 1u << 1, 0); };
+  const Outcome run = bench.run("G66 P10\nG0\n/X1. M98 P20\n/X2.\nG67\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0"}));
+  EXPECT_EQ(run.var(101), 1);
+  EXPECT_EQ(run.var(102), 1);
+}
+
 TEST(ModalMacro, ComesBeforeACodeThatCalls) {  // 13.5.2
   Bench bench;
   bench.param("1195", "1").param("7001", "50").param("7002", "0").param("7003", "20");

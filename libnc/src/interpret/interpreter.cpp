@@ -323,7 +323,8 @@ bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
   const auto bad_row = [](const Block& b) {  // M700 3.4: parity is checked whether the block is skipped or not
     return b.has_fault && (b.fault.condition == Condition::parity || b.fault.condition == Condition::parity_vertical);
   };
-  if (skipped(*block) && !bad_row(*block)) {
+  const bool half_done = ((state.codes_left >> state.depth) & 1) != 0;  // it was not skipped when it moved
+  if (skipped(*block) && !bad_row(*block) && !half_done) {
     frame.offset = block->next;
     frame.line = block->next_line;
     return false;
