@@ -3,8 +3,10 @@
 // publication), interpolation per cycle.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <memory>
 #include <vector>
 
@@ -167,6 +169,40 @@ void BM_ReplanOverride(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_ReplanOverride);
+
+/// plan() of the time-optimal mode on an endless path, called every five cycles as a feeder does. Argument: segment length in um.
+void BM_PlanOptimal(benchmark::State& state) {
+  const std::vector<Record> records = surface(static_cast<double>(state.range(0)) * 1e-3, 100);
+  ExecutorConfig config = config_of(4096);
+  config.optimal = true;
+  config.tolerance = 0.01;
+  Machine m(config);
+  uint64_t pushed = 0, cycles = 0;
+  double longest = 0, planning = 0;
+  const auto now = [] {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  for (auto _ : state) {
+    while (m.executor.room() > 0) m.executor.push(records[pushed++ % kPieces]);
+    const double from = now();
+    m.executor.plan();
+    const double took = now() - from;
+    planning += took;
+    longest = std::max(longest, took);
+    state.SetIterationTime(took);
+    for (unsigned n = 0; n < 5; ++n, ++cycles) {
+      m.in.cycle_start = cycles == 5;
+      m.cycle();
+    }
+  }
+  const double gone = static_cast<double>(pushed - (config.capacity - m.executor.room()));  // what waits in the ring is not planned for
+  state.counters["segments/s"] = gone / planning;
+  state.counters["real time x"] = static_cast<double>(cycles) * config.cycle_s / planning;
+  state.counters["longest ms"] = longest * 1e3;
+}
+BENCHMARK(BM_PlanOptimal)->Arg(200)->Arg(50)->Arg(10)->Arg(1)->UseManualTime()->Iterations(3000);
 
 /// One servo cycle on an endless path; feeding is off the clock. Argument: segment length in um.
 void BM_Cycle(benchmark::State& state, bool arcs) {
