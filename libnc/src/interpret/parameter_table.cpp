@@ -14,7 +14,7 @@ constexpr const char* kOffOn = "0, 1";
 // clang-format off
 constexpr ParameterRow kRows[] = {
     {1003, 1003, 1, kAll, false, "B, C, D, E",              "setting unit: 1, 0.1, 0.01, 0.001 um (0.1 um ... inch)", "2.1"},
-    {1015, 1015, 1, kAll, false, "setting unit; 10 ... 10000", "command unit, in 0.1 um", "2.1"},
+    {1015, 1015, 1, kAll, true,  "setting unit; 10 ... 10000", "command unit, in 0.1 um", "2.1"},
     {1025, 1025, 1, kAll, false, "1, 2, 3",                 "plane at power on: G17, G18, G19", "6.3"},
     {1026, 1028, 1, kAll, false, "X, Y, Z",                 "axes of I, J, K in the plane selection", "6.3"},
     {1029, 1031, 1, kAll, false, "none, an axis",           "axes parallel to those", "6.3"},
