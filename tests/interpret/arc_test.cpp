@@ -133,9 +133,34 @@ TEST(Arc, OfALinearAndARotaryAxis) {  // M700 6.3; 3.2 note 5: in inch a degree 
   const Outcome metric = bench.run("G17 G0 X0 C0\nG91 G2 X10. C10. R10. F10\nM30");
   EXPECT_EQ(metric.alarm, "");
   EXPECT_EQ(metric.moves()[0].plane_axis[1], 3);
-  EXPECT_EQ(bench.at(0, 0, 0).run("G20 G17 G0 X0 C0\nG91 G2 X1. C10. R1. F10\nM30").alarm, "P39");
+  EXPECT_EQ(bench.tool(1, 2).at(0, 0, 0).run("G20 G17 G0 X0 C0\nG41 D1 G1 X0.5 F10\nG91 G2 X1. C10. R1.\nM30").alarm, "P39");
   EXPECT_EQ(bench.at(0, 0, 0).run("G20 G17 G0 X0 Y0\nG91 G2 X1. Y1. R1. F10\nM30").alarm, "");
   EXPECT_EQ(bench.at(0, 0, 0).run("G20 G17 G0 X0 Y0\nG91 G2 X1. Y1. C90. R1. F10\nM30").alarm, "");
+}
+
+TEST(Arc, OfALinearAndARotaryAxisInInch) {  // M700 3.2 note 5
+  Bench bench(NC_DIALECT_M700, axes("XYZc"));
+  bench.param("1030", "C");
+  const Outcome run = bench.run("G20 G17 G0 X0 C0\nG91 G3 X1. C10. J1. F10.\nG1 C5.\nG90 G3 X0 C15. R0.5\nM30");
+  ASSERT_EQ(run.alarm, "");
+  const auto moves = run.moves();
+  ASSERT_EQ(moves.size(), 3u);
+  // A quarter of a circle of an inch, whose centre lies ten degrees beside its start.
+  EXPECT_NEAR(moves[0].radius, 25.4, 1e-9);
+  EXPECT_NEAR(moves[0].length, 25.4 * std::numbers::pi / 2, 1e-6);
+  EXPECT_NEAR(moves[0].center[0], 0, 1e-9);
+  EXPECT_NEAR(moves[0].center[1], 10, 1e-9);
+  EXPECT_NEAR(moves[0].machine.v[0], 25.4, 1e-9);
+  EXPECT_NEAR(moves[0].machine.v[3], 10, 1e-9);
+  EXPECT_NEAR(moves[0].feed_mm_min, 254, 1e-9);
+  EXPECT_NEAR(moves[0].work.v[3], 10, 1e-9);
+  // The block behind it is an ordinary one.
+  EXPECT_EQ(moves[1].kind, NC_MOVE_LINE);
+  EXPECT_NEAR(moves[1].machine.v[3], 15, 1e-9);
+  EXPECT_NEAR(moves[1].feed_mm_min, 100, 1e-9);  // note 6
+  EXPECT_NEAR(moves[2].radius, 12.7, 1e-9);  // half a turn back in X, C where it stood
+  EXPECT_NEAR(moves[2].machine.v[3], 15, 1e-9);
+  EXPECT_NEAR(moves[2].length, 12.7 * std::numbers::pi, 1e-6);
 }
 
 TEST(Arc, TogetherWithLengthCompensation) {  // M700 App.2

@@ -267,16 +267,48 @@ Move& emit_shaped(Interpreter& in, const MoveFrame& frame, const MoveShape& shap
   return move;
 }
 
+namespace {
+
+/// M700 3.2 note 5: the arc of a linear and a rotary axis in inch is drawn with a degree as a tenth of an inch, I J K and R in inch. It is
+/// the arc on the cylinder (6.9) where a degree is that long.
+class InchDegrees {
+ public:
+  InchDegrees(Interpreter& in, unsigned h, unsigned v) : state_(in.state), kept_(in.state.map), special_(in.state.special) {
+    const uint32_t plane = 1u << h | 1u << v, turning = in.rotary & plane;
+    on_ = in.dialect->id == NC_DIALECT_M700 && turning != 0 && turning != plane && in.state.modal.code[kGroupUnit] == 200 && !in.state.map.active();
+    if (!on_) return;
+    state_.map.kind = AxisMap::Kind::cylinder;
+    state_.map.rotary = static_cast<uint8_t>(std::countr_zero(turning));
+    state_.map.scale = 2.54;  // mm
+    state_.special |= kSpecialMap;
+  }
+  ~InchDegrees() {
+    if (!on_) return;
+    state_.map = kept_;
+    state_.special = special_;
+  }
+  InchDegrees(const InchDegrees&) = delete;
+  InchDegrees& operator=(const InchDegrees&) = delete;
+  bool on() const { return on_; }
+
+ private:
+  State& state_;
+  const AxisMap kept_;
+  const uint8_t special_;
+  bool on_ = false;
+};
+
+}  // namespace
+
 Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw) {
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise(Condition::plane_mismatch, 'G', in.state.modal.code[kGroupMotion] / 10.0);
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   const BlockWords& w = in.words;
   if (in.dialect->id == NC_DIALECT_DGSHAPE && (commanded & in.rotary) != 0) return in.raise(Condition::illegal_axis, 'A');  // G02/G03: A cannot take part
-  // M700 3.2 note 5: in inch a degree would be a tenth of an inch in the arc, which is not built.
-  const uint32_t turning = in.rotary & (1u << h | 1u << v);
-  if (turning != 0 && turning != (1u << h | 1u << v) && in.state.modal.code[kGroupUnit] == 200 && !in.state.map.active())
-    return in.raise(Condition::no_function, in.system->axis[std::countr_zero(turning)].name);
+  const InchDegrees scope(in, h, v);
+  // The blocks before and behind are not drawn that way: nothing to offset against, nothing to turn.
+  if (scope.on() && (in.state.comp.side != 0 || program_mapped(in))) return in.raise(Condition::no_function, in.system->axis[in.state.map.rotary].name);
   ArcWords words;
   words.has_radius = w.has('R');
   if (words.has_radius) {
