@@ -24,7 +24,7 @@ std::string read(const std::string& path) {
 /// Keys that these sources have as texts.
 std::set<std::string> asked_for() {
   std::set<std::string> keys;
-  for (const char* path : {"libnc/src/interpret/parameters.cpp", "libnc/src/control/api_tables.cpp"}) {
+  for (const char* path : {"libnc/src/interpret/parameters.cpp", "libnc/src/control/api_tables.cpp", "runtime/retain/variables.cpp"}) {
     const std::string text = std::regex_replace(read(path), std::regex("//[^\n]*"), "");
     static const std::regex kKey("\"([0-9]{4}(/bit[0-9]+)?)\"");
     for (std::sregex_iterator at(text.begin(), text.end(), kKey), end; at != end; ++at) keys.insert((*at)[1]);

@@ -62,7 +62,7 @@ class RetainedControl : public testing::Test {
   }
   template <class Done>
   bool until(Done done) {
-    for (int n = 0; n < 5000 && !done(); ++n) std::this_thread::sleep_for(2ms);
+    for (int n = 0; n < 15000 && !done(); ++n) std::this_thread::sleep_for(2ms);
     return done();
   }
   void run(const std::string& text) {

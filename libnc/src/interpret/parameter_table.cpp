@@ -33,6 +33,7 @@ constexpr ParameterRow kRows[] = {
     {1113, 1113, 1, kAll, false, kOffOn,                    "the interrupt comes at the end of the block (type 2)", "13.12"},
     {1121, 1121, 1, kAll, false, kOffOn,                    "programs 9000-9999 are protected", "13.3"},
     {1128, 1128, 1, kAll, false, kOffOn,                    "reset clears the common variables from #100 on", "13.4"},
+    {1129, 1129, 1, kAll, false, kOffOn,                    "power off clears them (in ncrtd)", "13.4"},
     {1146, 1146, 1, kAll, false, kOffOn,                    "G92 S is a clamp in G97, too", "10.4"},
     {1148, 1148, 1, kAll, false, kOffOn,                    "high-accuracy control G61.1 at power on", "13.15"},
     {1149, 1149, 1, kAll, false, kOffOn,                    "speed is clamped where an arc begins or ends (#1209)", "13.15"},
