@@ -109,6 +109,13 @@ TEST(Cycle, RepetitionsInIncremental) {  // M700 13.1.1 precaution 11
   EXPECT_EQ(path[8], "rapid 30 0 10");
 }
 
+TEST(Cycle, RepetitionsByK) {  // M700 5.3: K, "number of drilling cycle repetitions"
+  EXPECT_EQ(at_ten("G91 G81 X10. Z-10. R-20. F100 K3\nM30").path(), at_ten("G91 G81 X10. Z-10. R-20. F100 L3\nM30").path());
+  EXPECT_EQ(at_ten("G91 G81 X10. Z-10. R-20. F100 K3 L2\nM30").path(), at_ten("G91 G81 X10. Z-10. R-20. F100 L2\nM30").path());
+  EXPECT_EQ(at_ten("G81 Z-8. R2. F100 K0\nX5.\nM30").path(), at_ten("G81 Z-8. R2. F100 L0\nX5.\nM30").path());
+  EXPECT_EQ(at_ten("G81 Z-8. R2. F100 K-1\nM30").alarm, "P35");
+}
+
 TEST(Cycle, RepetitionsInAbsoluteDrillTheSameHole) {
   EXPECT_EQ(at_ten("G81 X5. Z-8. R2. F100 L2\nM30").path(),
             (Path{"rapid 5 0 10", "rapid 5 0 2", "line 5 0 -8 F100", "rapid 5 0 10", "rapid 5 0 2", "line 5 0 -8 F100", "rapid 5 0 10"}));

@@ -144,9 +144,9 @@ Did begin_hole(Interpreter& in) {
   return Did::later;
 }
 
-/// Number of holes of this block: M700 L (default 1, 0 = data only), DGSHAPE K.
+/// Number of holes of this block: M700 L (13.1.1; default 1, 0 = data only), or K, which the table of 5.3 has for it; DGSHAPE K.
 Did hole_count(Interpreter& in, uint32_t* count) {
-  const char letter = in.dialect->id == NC_DIALECT_DGSHAPE ? 'K' : 'L';
+  const char letter = in.dialect->id != NC_DIALECT_DGSHAPE && in.words.has('L') ? 'L' : 'K';
   *count = 1;
   if (!in.words.has(letter)) return Did::done;
   if (!whole_number(in.words.get(letter), count) || *count > 9999) return in.raise(Condition::value_range, letter, in.words.get(letter));
