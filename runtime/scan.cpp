@@ -346,6 +346,8 @@ void Scan::publish() noexcept {
   out.single_block = single_block_;
   out.optional_stop = optional_stop_;
   out.resetting = reset_phase_ != ResetPhase::kNone;
+  out.ladder_refusal = ladder_refusal_;
+  out.ladder_refusals = ladder_refusals_;
   out.alarms = alarms_;
   ladder_->list_forces(&out.forces);
   out.overruns = statistics_.overruns.load(std::memory_order_relaxed);

@@ -174,6 +174,8 @@ class Scan {
   std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that the FIN that is on has completed
   bool start_pulse_ = false, hold_request_ = false;
   bool ending_ = false;  // nothing starts any more
+  Answer ladder_refusal_ = Answer::kDone;
+  std::uint32_t ladder_refusals_ = 0;
   // From a fault of the machine to the end of the reset; the commanded position follows the measured one.
   bool drives_off_ = false;
   nc_axes stood_at_[NC_MAX_SYSTEMS] = {};  // measured

@@ -29,7 +29,13 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
   if (requests.cycle_start) {
     if (ladder_start_scans_ < kStartMinScans) ++ladder_start_scans_;
   } else {
-    if (ladder_start_scans_ == kStartMinScans) (void)start_cycle();  // the NC sees it in the next scan
+    if (ladder_start_scans_ == kStartMinScans) {  // the NC sees it in the next scan
+      const Answer answer = start_cycle();
+      if (answer != Answer::kDone && answer != Answer::kAlreadyRunning) {  // the button of a program that runs is nothing to tell of
+        ladder_refusal_ = answer;
+        ++ladder_refusals_;
+      }
+    }
     ladder_start_scans_ = 0;
   }
   if (requests.reset && !last_requests_.reset) request_reset();

@@ -35,6 +35,8 @@ struct Snapshot {
   double feed_override = 1, rapid_override = 1;
   bool single_block = false, optional_stop = false;
   bool resetting = false;
+  Answer ladder_refusal = Answer::kDone;  // why the ladder's cycle start was refused last ...
+  std::uint32_t ladder_refusals = 0;      // ... and how often one was
   AlarmList alarms;
   std::uint64_t overruns = 0;      // scans that ended behind their slot
   std::uint64_t missed_slots = 0;  // slots without a scan

@@ -178,6 +178,22 @@ TEST_F(LadderSignals, AControlThatEndsDoesNotGoOnWithTheStartButton) {
   EXPECT_EQ(out().state, NC_STATE_HOLD);
 }
 
+TEST_F(LadderSignals, AStartThatIsRefusedSaysWhy) {
+  run("LD in1\nOUT plc.cycle_start\n");
+  const auto press = [this] {
+    in("in1", 1);
+    steps(5);
+    in("in1", 0);
+    steps(5);
+    return runtime->snapshot();
+  };
+  EXPECT_EQ(runtime->snapshot().ladder_refusals, 0u);
+  EXPECT_EQ(press().ladder_refusal, nc::rt::Answer::kNoProgram);
+  manual();
+  EXPECT_EQ(press().ladder_refusal, nc::rt::Answer::kNotInThisMode);
+  EXPECT_EQ(runtime->snapshot().ladder_refusals, 2u);
+}
+
 TEST_F(LadderSignals, RapidJog) {
   run("LD in0\nOUT plc.jog_m.Y\nOUT plc.jog_rapid\n");
   manual();

@@ -46,6 +46,8 @@ class Service {
     beat(now);
     tell_state(now);
     tell_alarms(now);
+    if (now.ladder_refusals != refusals_) say(std::string("cycle start by the ladder refused: ") + runtime_.explain(now.ladder_refusal));
+    refusals_ = now.ladder_refusals;
   }
 
   // The watchdog is fed at a third of its interval, and only when the scan has gone on since.
@@ -126,6 +128,7 @@ class Service {
   std::int64_t fed_ns_ = 0;
   std::uint64_t fed_scan_ = 0;
   unsigned state_[NC_MAX_SYSTEMS] = {};
+  std::uint32_t refusals_ = 0;
   std::vector<nc::rt::ActiveAlarm> seen_, told_;
 };
 
