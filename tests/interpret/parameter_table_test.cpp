@@ -77,6 +77,24 @@ TEST(ParameterTable, KnowsWhatDoesNothing) {
   EXPECT_EQ(nc_parameter_row(NC_DIALECT_M700, 100000, &row), NC_E_NOT_FOUND);
 }
 
+TEST(ParameterTable, SaysWhatAValueCanBe) {
+  const auto takes = [](const char* text, double value) {
+    nc::ParameterKey key;
+    return nc::parse_parameter_key(text, &key) && nc::parameter_takes(key, value);
+  };
+  EXPECT_TRUE(takes("1003", 'C'));
+  EXPECT_FALSE(takes("1003", 'A'));
+  EXPECT_TRUE(takes("1015", 100));
+  EXPECT_FALSE(takes("1015", 50));
+  EXPECT_TRUE(takes("1109", 1));
+  EXPECT_FALSE(takes("1109", 2));
+  EXPECT_FALSE(takes("1109", 0.5));
+  EXPECT_FALSE(takes("8213", 1.5));
+  EXPECT_FALSE(takes("1206", -1));
+  EXPECT_TRUE(takes("1229", 5));        // bits
+  EXPECT_TRUE(takes("99999", -123.5));  // nothing asks for it
+}
+
 TEST(ParameterTable, IsSorted) {
   uint32_t last = 0;
   for (const nc::ParameterRow& row : nc::kParameterTable) {

@@ -36,10 +36,12 @@ void PrintLines::write(const nc_text& text) {
   if (line == "%") return;
   const std::lock_guard lock(mutex_);
   if (lines_.size() < kMost) lines_.push_back(std::move(line));
+  else ++left_out_;
 }
 
 std::vector<std::string> PrintLines::take() {
   const std::lock_guard lock(mutex_);
+  if (left_out_ != 0) lines_.push_back(std::to_string(std::exchange(left_out_, 0)) + " more lines, not shown");
   return std::exchange(lines_, {});
 }
 

@@ -39,12 +39,13 @@ class PrintFile {
 class PrintLines {
  public:
   void write(const nc_text& text);
-  /** What has come since the last time. */
+  /** What has come since the last time; of more than 1,000 lines the first ones, and how many are not shown. */
   std::vector<std::string> take();
 
  private:
   std::mutex mutex_;
   std::vector<std::string> lines_;
+  std::size_t left_out_ = 0;
 };
 
 }  // namespace nc::tools

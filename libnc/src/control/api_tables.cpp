@@ -176,7 +176,6 @@ nc_status nc_tool_offset_set(nc_control* c, unsigned number, nc_tool_column colu
   for (unsigned i = 0; i < c->config.system_count; ++i) {  // each part system keeps the common table, journalled by itself
     nc::Interpreter& in = c->system[i].interpreter;
     in.set_table_from_outside(in.frames.tool_key(number, column), value);
-    nc::take_changed_amounts(in);
   }
   return NC_OK;
 }

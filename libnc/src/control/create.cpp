@@ -44,7 +44,7 @@ bool motion_valid(const nc_config& c) {
 
 bool valid(const nc_config* c) {
   if (c == nullptr || c->struct_size != sizeof(nc_config)) return false;
-  if (c->dialect >= NC_DIALECT_COUNT || c->system_count < 1 || c->system_count > NC_MAX_SYSTEMS) return false;
+  if (!nc::known(c->dialect) || c->system_count < 1 || c->system_count > NC_MAX_SYSTEMS) return false;
   for (unsigned i = 0; i < c->system_count; ++i)
     if (!axes_valid(c->system[i])) return false;
   return c->cycle_s > 0 && c->cycle_s <= 0.1 && power_of_two(c->look_ahead) && c->look_ahead >= 64 && c->look_ahead <= 65536 &&

@@ -112,6 +112,9 @@ struct Dialect {
   unsigned call_depth;               ///< levels of sub programs
 };
 
+/// `id` came from outside and names a family.
+constexpr bool known(unsigned id) { return id < NC_DIALECT_COUNT; }
+
 const Dialect& dialect(nc_dialect id);
 
 /// Row of a G code (times 10), nullptr = the manual does not list it (Condition::illegal_g).

@@ -30,10 +30,6 @@ void set(nc_function* out, uint8_t group, const char* missing, const char* name,
   out->part = nullptr;
 }
 
-bool known(nc_dialect id) {
-  return static_cast<unsigned>(id) < NC_DIALECT_COUNT;
-}
-
 }  // namespace
 }  // namespace nc
 

@@ -56,6 +56,7 @@ class Frames {
   unsigned tool_key(unsigned number, unsigned column) const {
     return work_key(6 + config_.extended_systems, 0) + (number - 1) * kToolColumns + column;
   }
+  bool is_tool_key(unsigned key) const { return key >= tool_key(1, 0); }
   unsigned size() const { return tool_key(config_.tool_offsets + 1, 0); }
 
   double get(unsigned key) const { return table_[key]; }

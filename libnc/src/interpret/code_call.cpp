@@ -221,7 +221,11 @@ Did make_modal_call_first(Interpreter& in) {
   in.state.codes_left &= ~bit;  // G66 L0 calls nothing: the block goes on
   frame.offset = in.block->next;
   frame.line = in.block->next_line;
-  did = auxiliary_after(in);
+  return execute_behind_motion(in);
+}
+
+Did execute_behind_motion(Interpreter& in) {
+  const Did did = auxiliary_after(in);
   return did == Did::done && in.after_block != nullptr ? call_behind_block(in) : did;
 }
 

@@ -211,8 +211,7 @@ Did finish(Interpreter& in, Did did) {
 Did execute_codes_left(Interpreter& in) {
   in.state.codes_left &= ~(1u << in.state.depth);
   in.words.axes = 0;
-  const Did did = auxiliary_after(in);
-  return did == Did::done && in.after_block != nullptr ? call_behind_block(in) : did;
+  return execute_behind_motion(in);
 }
 
 /// Nothing in the block but axis words, F and a code of group 1: most blocks of a long program. What the other words would need looked

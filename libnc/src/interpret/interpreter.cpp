@@ -82,6 +82,13 @@ AxisVec Interpreter::polar_position() const {
 void Interpreter::set_table(unsigned key, double value) {
   variables.note(state.seq + 1, Variables::kForeignKey + key, frames.get(key));
   frames.set(key, value);
+  if (frames.is_tool_key(key)) take_changed_amounts(*this);
+}
+
+void Interpreter::set_table_from_outside(unsigned key, double value) {
+  frames.set(key, value);
+  variables.changed_from_outside(Variables::kForeignKey + key, value);
+  if (frames.is_tool_key(key)) take_changed_amounts(*this);
 }
 
 void Interpreter::set_note(unsigned key, double value) {
@@ -138,12 +145,17 @@ void Interpreter::refresh_settings() {
   code_calls = dialect->lex->macros ? read_code_calls(parameters) : CodeCalls{};
 }
 
-Item& Interpreter::emit(ItemKind kind) {
+Item& Interpreter::next_item(ItemKind kind, bool block_end) {
   Item& item = queue_[(head_ + queued_) % kQueue];
   ++queued_;
   item.kind = kind;
-  item.block_end = kind == ItemKind::mark;
+  item.block_end = block_end;
   item.source = source;
+  return item;
+}
+
+Item& Interpreter::emit(ItemKind kind) {
+  Item& item = next_item(kind, kind == ItemKind::mark);
   if (kind != ItemKind::mark) world_fresh = false;
   switch (kind) {
     case ItemKind::move:
@@ -230,6 +242,16 @@ void Interpreter::reset(bool keep_modal) {
   notes.clear();
   // DGSHAPE G28: a midpoint is remembered within a program. M700 14.7: since power-on.
   for (unsigned i = 0; i < axis_count && dialect->id == NC_DIALECT_DGSHAPE; ++i) frames.set(Frames::midpoint_set_key(i), 0);
+  forget_block();
+  ended = !main_program.valid();
+  alarm_fault = Fault{};
+  answered_ = ~BlockSeq{0};
+  checkpoints_.clear();
+  checkpoints_.save(state);
+}
+
+/// What was under way when reading begins at another place.
+void Interpreter::forget_block() {
   finished_modal = state.modal;
   newest_modal_ = kNoModal;
   head_ = queued_ = 0;
@@ -238,13 +260,9 @@ void Interpreter::reset(bool keep_modal) {
   after_block = nullptr;
   next_repeat_ = {};
   statement = 0;
-  ended = !main_program.valid();
+  begins_again = false;
   alarmed = false;
   world_fresh = false;
-  alarm_fault = Fault{};
-  answered_ = ~BlockSeq{0};
-  checkpoints_.clear();
-  checkpoints_.save(state);
 }
 
 void Interpreter::set_machine(const AxisVec& machine) {
@@ -264,17 +282,8 @@ bool Interpreter::rewind(BlockSeq seq) {
   checkpoints_.restore(seq, &state);
   take_changed_amounts(*this);  // the host may have changed them since
   refresh_letters();
-  finished_modal = state.modal;
-  newest_modal_ = kNoModal;
-  head_ = queued_ = 0;
-  waiting_ = false;
-  next_step = Step::none;
-  after_block = nullptr;
-  next_repeat_ = {};
-  statement = 0;
+  forget_block();
   ended = false;
-  alarmed = false;
-  world_fresh = false;
   if (state.end_seen) emit_end();  // it comes behind the mark
   know_world_again();
   return true;
@@ -524,11 +533,7 @@ void Interpreter::finish_block(bool stop, bool executable) {
                (state.control_3003 & 1) ||   // M700 10.5: single block suppressed
                (state.special != 0 && state.modal.code[kGroupCutting] == 630)))  // M700 7.11 (4)
     stop = false;
-  Item& item = queue_[(head_ + queued_) % kQueue];
-  ++queued_;
-  item.kind = ItemKind::mark;
-  item.block_end = executable;
-  item.source = source;
+  Item& item = next_item(ItemKind::mark, executable);
   new (&item.mark) Mark{position(), modal_now(executable), state.seq, 0, stop, true, true, begins_again};
   begins_again = false;
   modal_unchanged_ = false;

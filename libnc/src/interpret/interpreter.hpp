@@ -141,10 +141,7 @@ struct Interpreter {
   void abort(const Fault& what, const nc_source& where);
   void refresh_settings();
   /// The host has changed a number of the frames' table: no rewind brings the old one back.
-  void set_table_from_outside(unsigned key, double value) {
-    frames.set(key, value);
-    variables.changed_from_outside(Variables::kForeignKey + key, value);
-  }
+  void set_table_from_outside(unsigned key, double value);
 
   // ---- for the functions (interpret/ only) --------------------------------------------------------------------------
   const Dialect* dialect = nullptr;
@@ -315,6 +312,8 @@ struct Interpreter {
   void stop(const Fault& what, const nc_source& where);
   void take_block_back();
   void emit_end();
+  Item& next_item(ItemKind kind, bool block_end);
+  void forget_block();
   /// Id of the modal state for a mark; behind an executable block finished_modal becomes it.
   ModalId modal_now(bool executable);
   Did execute_statements();
@@ -376,6 +375,8 @@ Did dispatch_block(Interpreter& in, bool* taken);
 bool block_is_argument(const Interpreter& in);
 /// What a block calls behind its own part: a code of type M98, the modal call after a move.
 Did call_behind_block(Interpreter& in);
+/// M, S, T that come behind the motion, and the call of a code among them; no modal call.
+Did execute_behind_motion(Interpreter& in);
 /// M700 12.1: an amount that changes while it is in force counts from the next block on: a length with the next command of its axis.
 void take_changed_amounts(Interpreter& in);
 /// The block moves under a modal call (G66), and calls a program or returns from its own.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "interpret/parameter_table.hpp"
 
+#include <cmath>
 #include <cstring>
 
 #include "nc/control.h"
@@ -11,164 +12,179 @@ namespace {
 constexpr int8_t kAll = -1;
 constexpr const char* kOffOn = "0, 1";
 
+// What a parameter can be.
+bool any(double) { return true; }
+bool at_least_0(double value) { return value >= 0; }
+template <int low, int high>
+bool between(double value) {
+  return value >= low && value <= high;
+}
+template <int low, int high>
+bool whole(double value) {
+  return between<low, high>(value) && value == std::floor(value);
+}
+bool unit_letter(double value) { return whole<'B', 'E'>(value); }
+bool command_unit(double value) { return value == 0 || value == 10 || value == 100 || value == 1000 || value == 10000; }
+
 // clang-format off
 constexpr ParameterRow kRows[] = {
-    {1003, 1003, 1, kAll, false, "B, C, D, E",              "setting unit: 1, 0.1, 0.01, 0.001 um (0.1 um ... inch)", "2.1"},
-    {1015, 1015, 1, kAll, true,  "setting unit; 10 ... 10000", "command unit, in 0.1 um", "2.1"},
-    {1025, 1025, 1, kAll, false, "1, 2, 3",                 "plane at power on: G17, G18, G19", "6.3"},
-    {1026, 1028, 1, kAll, false, "X, Y, Z",                 "axes of I, J, K in the plane selection", "6.3"},
-    {1029, 1031, 1, kAll, false, "none, an axis",           "axes parallel to those", "6.3"},
-    {1037, 1037, 1, kAll, false, "1, 2",                    "memory type of tool offsets", "12.1"},
-    {1074, 1074, 1, kAll, false, kOffOn,                    "synchronous feed G95 at power on", "7.4"},
-    {1078, 1078, 1, kAll, false, kOffOn,                    "decimal point type II: a number without a point is in mm", "5.3"},
-    {1079, 1079, 1, kAll, false, kOffOn,                    "F1-digit feed", "7.3"},
-    {1080, 1080, 1, kAll, false, kOffOn,                    "drilling axis and length compensation are always Z", "12.2"},
-    {1081, 1081, 1, kAll, false, kOffOn,                    "G codes of the control may call a macro, too", "13.5.2"},
-    {1084, 1084, 1, kAll, false, "mm",                      "difference of an arc's radii that is corrected", "6.4"},
-    {1092, 1092, 1, kAll, true,  kOffOn,                    "the axis takes part in the return to the tool change position", "13.13"},
-    {1109, 1109, 1, kAll, false, kOffOn,                    "#1110 and #1111 hold", "13.12"},
-    {1110, 1110, 1, kAll, false, "96; 3-97",                "M code that allows the macro interrupt", "13.12"},
-    {1111, 1111, 1, kAll, false, "97; 3-97",                "M code that ends it", "13.12"},
-    {1112, 1112, 1, kAll, false, kOffOn,                    "the interrupt signal counts as long as it is on, not when it rises", "13.12"},
-    {1113, 1113, 1, kAll, false, kOffOn,                    "the interrupt comes at the end of the block (type 2)", "13.12"},
-    {1121, 1121, 1, kAll, false, kOffOn,                    "programs 9000-9999 are protected", "13.3"},
-    {1128, 1128, 1, kAll, false, kOffOn,                    "reset clears the common variables from #100 on", "13.4"},
-    {1129, 1129, 1, kAll, false, kOffOn,                    "power off clears them (in ncrtd)", "13.4"},
-    {1146, 1146, 1, kAll, false, kOffOn,                    "G92 S is a clamp in G97, too", "10.4"},
-    {1148, 1148, 1, kAll, false, kOffOn,                    "high-accuracy control G61.1 at power on", "13.15"},
-    {1149, 1149, 1, kAll, false, kOffOn,                    "speed is clamped where an arc begins or ends (#1209)", "13.15"},
-    {1152, 1152, 1, kAll, false, kOffOn,                    "inch at power on", "5.2"},
-    {1173, 1173, 1, kAll, false, "0-255",                   "skip signals that end a dwell, one bit each", "8.1"},
-    {1174, 1174, 1, kAll, false, "mm/min",                  "feed of G31", "15.2"},
-    {1175, 1179, 2, kAll, false, "0-255",                   "skip signals of G31.1, G31.2, G31.3, one bit each", "15.3"},
-    {1176, 1180, 2, kAll, false, "mm/min",                  "feeds of G31.1, G31.2, G31.3", "15.3"},
-    {1181, 1181, 1, kAll, false, "0; 1-3",                  "axis of constant surface speed; 0: always the first", "10.3"},
-    {1185, 1189, 1, kAll, false, "mm/min",                  "feeds F1 to F5", "7.3"},
-    {1193, 1193, 1, kAll, false, kOffOn,                    "deceleration check waits for the position", "7.9"},
-    {1195, 1198, 1, kAll, false, "1, 0",                    "M, S, T, second auxiliary function may call a macro", "13.5.2"},
-    {1206, 1206, 1, kAll, false, "mm/min",                  "speed of the acceleration before interpolation", "13.15"},
-    {1207, 1207, 1, kAll, false, "ms",                      "its time", "13.15"},
-    {1209, 1209, 1, kAll, false, "mm/min",                  "speed where an arc begins or ends (#1149)", "13.15"},
-    {1210, 1210, 1, 19,   false, kOffOn,                    "reset keeps the clamp of the spindle speed", "10.4"},
-    {1223, 1223, 1, 1,    false, kOffOn,                    "G01 with G09 or G61 waits for the position", "7.9"},
-    {1227, 1227, 1, 5,    false, kOffOn,                    "the spindle speed is clamped in G96 only", "10.4"},
-    {1229, 1229, 1, 0,    false, kOffOn,                    "the interrupt program is a sub program, not a macro", "13.12"},
-    {1229, 1229, 1, 1,    false, kOffOn,                    "E of G33 is a lead, not ridges per inch", "6.7"},
-    {1229, 1229, 1, 2,    false, kOffOn,                    "radius compensation starts and ends by type B", "12.4"},
-    {1235, 1235, 1, 0,    false, kOffOn,                    "F of a helix is the speed in the plane of its arc", "6.6"},
-    {1267, 1267, 1, 0,    false, "G61.1 and G92.1, and the high-speed codes, exist; 0, 1", "G code type: G61.1 (0), G05 P10000 and G92.1 (1)", "3.7"},
-    {1272, 1272, 1, 2,    false, kOffOn,                    "spiral of type 2", "6.13"},
-    {1273, 1273, 1, 0,    false, kOffOn,                    "ASIN gives 0 to 360 degrees", "13.5.6"},
-    {1273, 1273, 1, 1,    false, kOffOn,                    "#3002 counts hours", "13.5.5"},
-    {1303, 1303, 1, kAll, false, "none; 100-199",           "last of the variables from #100 that part systems share", "13.4"},
-    {1304, 1304, 1, kAll, false, "all; 500-999",            "last of the variables from #500 that part systems share", "13.4"},
-    {1306, 1306, 1, kAll, false, kOffOn,                    "#1193 holds for cutting, too", "7.9"},
-    {1503, 1503, 1, kAll, false, kOffOn,                    "G01 checks the deceleration where an axis turns back", "7.9"},
-    {1506, 1506, 1, kAll, false, "mm/min",                  "F1-digit: largest feed", "7.3"},
-    {1507, 1507, 1, kAll, false, "1-32767",                 "F1-digit: pulses of the handle from 0 to that", "7.3"},
-    {1514, 1515, 1, kAll, false, "an axis",                 "linear and rotary axis of exponential interpolation", "6.11"},
-    {1516, 1516, 1, kAll, false, "an axis",                 "rotary axis of cylindrical and polar coordinate interpolation", "6.9"},
-    {1517, 1517, 1, kAll, false, kOffOn,                    "the hypothetical axis of G12.1 has the rotary axis' own name", "6.10"},
-    {1533, 1533, 1, kAll, false, "an axis",                 "linear axis of polar coordinate interpolation", "6.10"},
-    {2037, 2040, 1, kAll, true,  "mm",                      "reference positions 1 to 4", "14.3"},
-    {2076, 2076, 1, kAll, true,  kOffOn,                    "axis of an index table", "9.3"},
-    {2096, 2096, 1, kAll, true,  "mm/min",                  "least speed at a corner", "13.15"},
-    {2106, 2106, 1, kAll, true,  "0; deg",                  "indexing increment that positions must be multiples of", "2.3"},
-    {2109, 2110, 1, kAll, true,  "mm/min",                  "rapid rate and clamp of the cutting feed in high-accuracy control", "13.15"},
-    {7001, 7091, 10, kAll, false, "9999; M code",           "M codes that call a macro", "13.5.2"},
-    {7002, 7092, 10, kAll, false, "0; 1-3",                 "how: M98 (0), G65, G66, G66.1", "13.5.2"},
-    {7003, 7093, 10, kAll, false, "program",                "which program", "13.5.2"},
-    {7102, 7103, 1, kAll, false, "0-3, program",            "call by the second auxiliary function", "13.5.2"},
-    {7201, 7291, 10, kAll, false, "9999; G code",           "G codes that call a macro", "13.5.2"},
-    {7202, 7292, 10, kAll, false, "0; 1-3",                 "how: M98 (0), G65, G66, G66.1", "13.5.2"},
-    {7203, 7293, 10, kAll, false, "program",                "which program", "13.5.2"},
-    {7302, 7303, 1, kAll, false, "0-3, program",            "call by S", "13.5.2"},
-    {7312, 7313, 1, kAll, false, "0-3, program",            "call by T", "13.5.2"},
-    {7401, 7411, 10, kAll, false, kOffOn,                   "the ASCII code macro is in force", "13.5.3"},
-    {7402, 7412, 10, kAll, false, "character code",         "its letter", "13.5.3"},
-    {7403, 7413, 10, kAll, false, "0; 1-3",                 "how: M98 (0), G65, G66, G66.1", "13.5.3"},
-    {7404, 7414, 10, kAll, false, "program",                "which program", "13.5.3"},
-    {7405, 7415, 10, kAll, false, "variable",               "where the value goes", "13.5.3"},
-    {8004, 8004, 1, kAll, false, "mm/min",                  "G37: measuring feed", "15.1"},
-    {8005, 8005, 1, kAll, false, "mm",                      "G37: distance from which on it is in force", "15.1"},
-    {8006, 8006, 1, kAll, false, "mm",                      "G37: range around the point where the tool may be", "15.1"},
-    {8007, 8007, 1, kAll, false, "0-100 %",                 "G62: feed in corners", "7.10"},
-    {8008, 8008, 1, kAll, false, "0-180 deg",               "G62: largest inner angle", "7.10"},
-    {8009, 8009, 1, kAll, false, "mm",                      "G62: way in front of the corner", "7.10"},
-    {8012, 8012, 1, kAll, false, "0; mm",                   "G73: way back after each cut", "13.1.1"},
-    {8013, 8013, 1, kAll, false, "0; mm",                   "G83: distance from the last bottom where rapid ends", "13.1.1"},
-    {8019, 8019, 1, kAll, false, "0; %",                    "accuracy coefficient of arcs, or of all", "13.15"},
-    {8020, 8020, 1, kAll, false, "deg",                     "angle from which on a corner is one", "13.15"},
-    {8021, 8021, 1, kAll, false, kOffOn,                    "corners and curves have coefficients of their own", "13.15"},
-    {8022, 8023, 1, kAll, false, "%",                       "accuracy coefficients of corners and of curves", "13.15"},
-    {8025, 8025, 1, kAll, false, kOffOn,                    "spline G05.1 Q2 exists", "13.18"},
-    {8026, 8026, 1, kAll, false, "0; deg",                  "angle at which a spline ends", "13.18"},
-    {8027, 8028, 1, kAll, false, "0; mm",                   "tolerances of its revision", "13.18"},
-    {8030, 8030, 1, kAll, false, "1 mm",                    "length of a block that is too short to end a spline", "13.18"},
-    {8034, 8034, 1, kAll, false, kOffOn,                    "acceleration clamp of fine segments", "13.17"},
-    {8072, 8072, 1, kAll, false, "1",                       "scaling factor of G51 without P", "13.19"},
-    {8075, 8075, 1, kAll, false, "0.1 mm",                  "how far the end of a spiral may lie from its curve", "6.13"},
-    {8090, 8090, 1, kAll, false, kOffOn,                    "SSS control with G05 P10000", "13.17"},
-    {8101, 8101, 1, kAll, false, kOffOn,                    "single block stops at macro statements", "13.5.9"},
-    {8102, 8102, 1, kAll, false, kOffOn,                    "interference of radius compensation is avoided, not an alarm", "12.6"},
-    {8103, 8103, 1, kAll, false, kOffOn,                    "no interference check", "12.6"},
-    {8105, 8105, 1, kAll, false, kOffOn,                    "programs 8000-9999 are protected", "13.3"},
-    {8112, 8112, 1, kAll, false, kOffOn,                    "P of G04 may have a decimal point", "8.1"},
-    {8117, 8117, 1, kAll, false, kOffOn,                    "tool radius offsets are diameters", "12.4"},
-    {8206, 8206, 1, kAll, true,  "mm",                      "tool change position", "13.13"},
-    {8209, 8209, 1, kAll, true,  "mm",                      "G60: way in front of the position; its sign is the direction", "6.8"},
-    {8213, 8213, 1, kAll, true,  "3; 0-3",                  "type of a rotary axis", "14.13"},
-    {9115, 9515, 100, kAll, false, kOffOn,                  "parity V of input devices 1 to 5", "3.6"},
+    {1003, 1003, 1, kAll, false, unit_letter,          "B, C, D, E",              "setting unit: 1, 0.1, 0.01, 0.001 um (0.1 um ... inch)", "2.1"},
+    {1015, 1015, 1, kAll, true,  command_unit,         "setting unit; 10 ... 10000", "command unit, in 0.1 um", "2.1"},
+    {1025, 1025, 1, kAll, false, whole<1, 3>,          "1, 2, 3",                 "plane at power on: G17, G18, G19", "6.3"},
+    {1026, 1028, 1, kAll, false, any,                  "X, Y, Z",                 "axes of I, J, K in the plane selection", "6.3"},
+    {1029, 1031, 1, kAll, false, any,                  "none, an axis",           "axes parallel to those", "6.3"},
+    {1037, 1037, 1, kAll, false, whole<1, 2>,          "1, 2",                    "memory type of tool offsets", "12.1"},
+    {1074, 1074, 1, kAll, false, whole<0, 1>,          kOffOn,                    "synchronous feed G95 at power on", "7.4"},
+    {1078, 1078, 1, kAll, false, whole<0, 1>,          kOffOn,                    "decimal point type II: a number without a point is in mm", "5.3"},
+    {1079, 1079, 1, kAll, false, whole<0, 1>,          kOffOn,                    "F1-digit feed", "7.3"},
+    {1080, 1080, 1, kAll, false, whole<0, 1>,          kOffOn,                    "drilling axis and length compensation are always Z", "12.2"},
+    {1081, 1081, 1, kAll, false, whole<0, 1>,          kOffOn,                    "G codes of the control may call a macro, too", "13.5.2"},
+    {1084, 1084, 1, kAll, false, between<0, 1>,        "mm",                      "difference of an arc's radii that is corrected", "6.4"},
+    {1092, 1092, 1, kAll, true,  whole<0, 1>,          kOffOn,                    "the axis takes part in the return to the tool change position", "13.13"},
+    {1109, 1109, 1, kAll, false, whole<0, 1>,          kOffOn,                    "#1110 and #1111 hold", "13.12"},
+    {1110, 1110, 1, kAll, false, any,                  "96; 3-97",                "M code that allows the macro interrupt", "13.12"},
+    {1111, 1111, 1, kAll, false, any,                  "97; 3-97",                "M code that ends it", "13.12"},
+    {1112, 1112, 1, kAll, false, whole<0, 1>,          kOffOn,                    "the interrupt signal counts as long as it is on, not when it rises", "13.12"},
+    {1113, 1113, 1, kAll, false, whole<0, 1>,          kOffOn,                    "the interrupt comes at the end of the block (type 2)", "13.12"},
+    {1121, 1121, 1, kAll, false, whole<0, 1>,          kOffOn,                    "programs 9000-9999 are protected", "13.3"},
+    {1128, 1128, 1, kAll, false, whole<0, 1>,          kOffOn,                    "reset clears the common variables from #100 on", "13.4"},
+    {1129, 1129, 1, kAll, false, whole<0, 1>,          kOffOn,                    "power off clears them (in ncrtd)", "13.4"},
+    {1146, 1146, 1, kAll, false, whole<0, 1>,          kOffOn,                    "G92 S is a clamp in G97, too", "10.4"},
+    {1148, 1148, 1, kAll, false, whole<0, 1>,          kOffOn,                    "high-accuracy control G61.1 at power on", "13.15"},
+    {1149, 1149, 1, kAll, false, whole<0, 1>,          kOffOn,                    "speed is clamped where an arc begins or ends (#1209)", "13.15"},
+    {1152, 1152, 1, kAll, false, whole<0, 1>,          kOffOn,                    "inch at power on", "5.2"},
+    {1173, 1173, 1, kAll, false, whole<0, 255>,        "0-255",                   "skip signals that end a dwell, one bit each", "8.1"},
+    {1174, 1174, 1, kAll, false, at_least_0,           "mm/min",                  "feed of G31", "15.2"},
+    {1175, 1179, 2, kAll, false, whole<0, 255>,        "0-255",                   "skip signals of G31.1, G31.2, G31.3, one bit each", "15.3"},
+    {1176, 1180, 2, kAll, false, at_least_0,           "mm/min",                  "feeds of G31.1, G31.2, G31.3", "15.3"},
+    {1181, 1181, 1, kAll, false, any,                  "0; 1-3",                  "axis of constant surface speed; 0: always the first", "10.3"},
+    {1185, 1189, 1, kAll, false, between<0, 10000000>, "mm/min",                  "feeds F1 to F5", "7.3"},
+    {1193, 1193, 1, kAll, false, whole<0, 1>,          kOffOn,                    "deceleration check waits for the position", "7.9"},
+    {1195, 1198, 1, kAll, false, any,                  "1, 0",                    "M, S, T, second auxiliary function may call a macro", "13.5.2"},
+    {1206, 1206, 1, kAll, false, at_least_0,           "mm/min",                  "speed of the acceleration before interpolation", "13.15"},
+    {1207, 1207, 1, kAll, false, any,                  "ms",                      "its time", "13.15"},
+    {1209, 1209, 1, kAll, false, at_least_0,           "mm/min",                  "speed where an arc begins or ends (#1149)", "13.15"},
+    {1210, 1210, 1, 19,   false, any,                  kOffOn,                    "reset keeps the clamp of the spindle speed", "10.4"},
+    {1223, 1223, 1, 1,    false, any,                  kOffOn,                    "G01 with G09 or G61 waits for the position", "7.9"},
+    {1227, 1227, 1, 5,    false, any,                  kOffOn,                    "the spindle speed is clamped in G96 only", "10.4"},
+    {1229, 1229, 1, 0,    false, any,                  kOffOn,                    "the interrupt program is a sub program, not a macro", "13.12"},
+    {1229, 1229, 1, 1,    false, any,                  kOffOn,                    "E of G33 is a lead, not ridges per inch", "6.7"},
+    {1229, 1229, 1, 2,    false, any,                  kOffOn,                    "radius compensation starts and ends by type B", "12.4"},
+    {1235, 1235, 1, 0,    false, any,                  kOffOn,                    "F of a helix is the speed in the plane of its arc", "6.6"},
+    {1267, 1267, 1, 0,    false, any,                  "G61.1 and G92.1, and the high-speed codes, exist; 0, 1", "G code type: G61.1 (0), G05 P10000 and G92.1 (1)", "3.7"},
+    {1272, 1272, 1, 2,    false, any,                  kOffOn,                    "spiral of type 2", "6.13"},
+    {1273, 1273, 1, 0,    false, any,                  kOffOn,                    "ASIN gives 0 to 360 degrees", "13.5.6"},
+    {1273, 1273, 1, 1,    false, any,                  kOffOn,                    "#3002 counts hours", "13.5.5"},
+    {1303, 1303, 1, kAll, false, any,                  "none; 100-199",           "last of the variables from #100 that part systems share", "13.4"},
+    {1304, 1304, 1, kAll, false, any,                  "all; 500-999",            "last of the variables from #500 that part systems share", "13.4"},
+    {1306, 1306, 1, kAll, false, whole<0, 1>,          kOffOn,                    "#1193 holds for cutting, too", "7.9"},
+    {1503, 1503, 1, kAll, false, whole<0, 1>,          kOffOn,                    "G01 checks the deceleration where an axis turns back", "7.9"},
+    {1506, 1506, 1, kAll, false, at_least_0,           "mm/min",                  "F1-digit: largest feed", "7.3"},
+    {1507, 1507, 1, kAll, false, whole<1, 32767>,      "1-32767",                 "F1-digit: pulses of the handle from 0 to that", "7.3"},
+    {1514, 1515, 1, kAll, false, any,                  "an axis",                 "linear and rotary axis of exponential interpolation", "6.11"},
+    {1516, 1516, 1, kAll, false, any,                  "an axis",                 "rotary axis of cylindrical and polar coordinate interpolation", "6.9"},
+    {1517, 1517, 1, kAll, false, whole<0, 1>,          kOffOn,                    "the hypothetical axis of G12.1 has the rotary axis' own name", "6.10"},
+    {1533, 1533, 1, kAll, false, any,                  "an axis",                 "linear axis of polar coordinate interpolation", "6.10"},
+    {2037, 2040, 1, kAll, true,  any,                  "mm",                      "reference positions 1 to 4", "14.3"},
+    {2076, 2076, 1, kAll, true,  whole<0, 1>,          kOffOn,                    "axis of an index table", "9.3"},
+    {2096, 2096, 1, kAll, true,  at_least_0,           "mm/min",                  "least speed at a corner", "13.15"},
+    {2106, 2106, 1, kAll, true,  between<0, 360>,      "0; deg",                  "indexing increment that positions must be multiples of", "2.3"},
+    {2109, 2110, 1, kAll, true,  at_least_0,           "mm/min",                  "rapid rate and clamp of the cutting feed in high-accuracy control", "13.15"},
+    {7001, 7091, 10, kAll, false, any,                  "9999; M code",           "M codes that call a macro", "13.5.2"},
+    {7002, 7092, 10, kAll, false, any,                  "0; 1-3",                 "how: M98 (0), G65, G66, G66.1", "13.5.2"},
+    {7003, 7093, 10, kAll, false, any,                  "program",                "which program", "13.5.2"},
+    {7102, 7103, 1, kAll, false, any,                  "0-3, program",            "call by the second auxiliary function", "13.5.2"},
+    {7201, 7291, 10, kAll, false, any,                  "9999; G code",           "G codes that call a macro", "13.5.2"},
+    {7202, 7292, 10, kAll, false, any,                  "0; 1-3",                 "how: M98 (0), G65, G66, G66.1", "13.5.2"},
+    {7203, 7293, 10, kAll, false, any,                  "program",                "which program", "13.5.2"},
+    {7302, 7303, 1, kAll, false, any,                  "0-3, program",            "call by S", "13.5.2"},
+    {7312, 7313, 1, kAll, false, any,                  "0-3, program",            "call by T", "13.5.2"},
+    {7401, 7411, 10, kAll, false, whole<0, 1>,          kOffOn,                   "the ASCII code macro is in force", "13.5.3"},
+    {7402, 7412, 10, kAll, false, any,                  "character code",         "its letter", "13.5.3"},
+    {7403, 7413, 10, kAll, false, any,                  "0; 1-3",                 "how: M98 (0), G65, G66, G66.1", "13.5.3"},
+    {7404, 7414, 10, kAll, false, any,                  "program",                "which program", "13.5.3"},
+    {7405, 7415, 10, kAll, false, any,                  "variable",               "where the value goes", "13.5.3"},
+    {8004, 8004, 1, kAll, false, at_least_0,           "mm/min",                  "G37: measuring feed", "15.1"},
+    {8005, 8005, 1, kAll, false, any,                  "mm",                      "G37: distance from which on it is in force", "15.1"},
+    {8006, 8006, 1, kAll, false, any,                  "mm",                      "G37: range around the point where the tool may be", "15.1"},
+    {8007, 8007, 1, kAll, false, between<0, 100>,      "0-100 %",                 "G62: feed in corners", "7.10"},
+    {8008, 8008, 1, kAll, false, between<0, 180>,      "0-180 deg",               "G62: largest inner angle", "7.10"},
+    {8009, 8009, 1, kAll, false, between<0, 99999>,    "mm",                      "G62: way in front of the corner", "7.10"},
+    {8012, 8012, 1, kAll, false, any,                  "0; mm",                   "G73: way back after each cut", "13.1.1"},
+    {8013, 8013, 1, kAll, false, any,                  "0; mm",                   "G83: distance from the last bottom where rapid ends", "13.1.1"},
+    {8019, 8019, 1, kAll, false, any,                  "0; %",                    "accuracy coefficient of arcs, or of all", "13.15"},
+    {8020, 8020, 1, kAll, false, any,                  "deg",                     "angle from which on a corner is one", "13.15"},
+    {8021, 8021, 1, kAll, false, whole<0, 1>,          kOffOn,                    "corners and curves have coefficients of their own", "13.15"},
+    {8022, 8023, 1, kAll, false, any,                  "%",                       "accuracy coefficients of corners and of curves", "13.15"},
+    {8025, 8025, 1, kAll, false, whole<0, 1>,          kOffOn,                    "spline G05.1 Q2 exists", "13.18"},
+    {8026, 8026, 1, kAll, false, any,                  "0; deg",                  "angle at which a spline ends", "13.18"},
+    {8027, 8028, 1, kAll, false, any,                  "0; mm",                   "tolerances of its revision", "13.18"},
+    {8030, 8030, 1, kAll, false, any,                  "1 mm",                    "length of a block that is too short to end a spline", "13.18"},
+    {8034, 8034, 1, kAll, false, whole<0, 1>,          kOffOn,                    "acceleration clamp of fine segments", "13.17"},
+    {8072, 8072, 1, kAll, false, any,                  "1",                       "scaling factor of G51 without P", "13.19"},
+    {8075, 8075, 1, kAll, false, any,                  "0.1 mm",                  "how far the end of a spiral may lie from its curve", "6.13"},
+    {8090, 8090, 1, kAll, false, whole<0, 1>,          kOffOn,                    "SSS control with G05 P10000", "13.17"},
+    {8101, 8101, 1, kAll, false, whole<0, 1>,          kOffOn,                    "single block stops at macro statements", "13.5.9"},
+    {8102, 8102, 1, kAll, false, whole<0, 1>,          kOffOn,                    "interference of radius compensation is avoided, not an alarm", "12.6"},
+    {8103, 8103, 1, kAll, false, whole<0, 1>,          kOffOn,                    "no interference check", "12.6"},
+    {8105, 8105, 1, kAll, false, whole<0, 1>,          kOffOn,                    "programs 8000-9999 are protected", "13.3"},
+    {8112, 8112, 1, kAll, false, whole<0, 1>,          kOffOn,                    "P of G04 may have a decimal point", "8.1"},
+    {8117, 8117, 1, kAll, false, whole<0, 1>,          kOffOn,                    "tool radius offsets are diameters", "12.4"},
+    {8206, 8206, 1, kAll, true,  any,                  "mm",                      "tool change position", "13.13"},
+    {8209, 8209, 1, kAll, true,  any,                  "mm",                      "G60: way in front of the position; its sign is the direction", "6.8"},
+    {8213, 8213, 1, kAll, true,  whole<0, 3>,          "3; 0-3",                  "type of a rotary axis", "14.13"},
+    {9115, 9515, 100, kAll, false, whole<0, 1>,          kOffOn,                  "parity V of input devices 1 to 5", "3.6"},
 };
 // clang-format on
 
-const char* read_number(const char* at, uint32_t* number) {
-  *number = 0;
-  for (unsigned digits = 0; *at >= '0' && *at <= '9' && digits < 6; ++digits) *number = *number * 10 + static_cast<uint32_t>(*at++ - '0');
-  return at;
-}
-
-/// "1229/bit2" -> 1229 and 2, "1229" -> 1229 and -1.
-bool split(const char* key, uint32_t* number, int* bit) {
-  const char* end = read_number(key, number);
-  *bit = -1;
-  if (end == key) return false;
-  if (*end == 0) return true;
-  if (std::strncmp(end, "/bit", 4) != 0) return false;
-  uint32_t which = 0;
-  const char* const digits = end + 4;
-  end = read_number(digits, &which);
-  *bit = static_cast<int>(which);
-  return end != digits && *end == 0 && which < 32;
+const ParameterRow* find_row(const ParameterKey& key) {
+  for (const ParameterRow& row : kParameterTable) {
+    if (key.number < row.first || key.number > row.last || (key.number - row.first) % row.step != 0) continue;
+    if (row.bit < 0 || key.bit < 0 || row.bit == key.bit) return &row;
+  }
+  return nullptr;
 }
 
 }  // namespace
 
 const Table<ParameterRow> kParameterTable = {kRows, sizeof kRows / sizeof kRows[0]};
 
+bool parse_parameter_key(const char* text, ParameterKey* key) {
+  const auto digits = [](const char* at, unsigned most, uint32_t* number) {
+    unsigned count = 0;
+    for (*number = 0; at[count] >= '0' && at[count] <= '9' && count < most; ++count)
+      *number = *number * 10 + static_cast<uint32_t>(at[count] - '0');
+    return count;
+  };
+  key->digits = digits(text, 6, &key->number);
+  key->bit = -1;
+  if (key->digits == 0) return false;
+  const char* at = text + key->digits;
+  if (*at == 0) return true;
+  if (std::strncmp(at, "/bit", 4) != 0) return false;
+  at += 4;
+  uint32_t bit = 0;
+  const unsigned length = digits(at, 2, &bit);
+  key->bit = static_cast<int>(bit);
+  return length != 0 && at[length] == 0 && bit < 32;
+}
+
+bool parameter_takes(const ParameterKey& key, double value) {
+  const ParameterRow* row = find_row(key);
+  return row == nullptr || row->bit >= 0 || row->takes(value);
+}
+
 bool parameter_used(const Dialect& dialect, const char* key) {
   for (const ParameterName& row : dialect.parameters)
     if (std::strcmp(row.key, key) == 0) return true;
-  uint32_t number = 0;
-  int bit = -1;
-  if (dialect.id != NC_DIALECT_M700 || !split(key, &number, &bit)) return false;
-  for (const ParameterRow& row : kParameterTable) {
-    if (number < row.first || number > row.last || (number - row.first) % row.step != 0) continue;
-    if (row.bit < 0 || bit < 0 || row.bit == bit) return true;
-  }
-  return false;
+  ParameterKey parsed;
+  return dialect.id == NC_DIALECT_M700 && parse_parameter_key(key, &parsed) && find_row(parsed) != nullptr;
 }
 
 }  // namespace nc
 
-namespace {
-
-bool known(nc_dialect dialect) { return dialect == NC_DIALECT_M700 || dialect == NC_DIALECT_DGSHAPE; }
-
-}  // namespace
-
 nc_status nc_parameter_row(nc_dialect dialect, unsigned index, nc_parameter* row) {
-  if (row == nullptr || !known(dialect)) return NC_E_ARGUMENT;
+  if (row == nullptr || !nc::known(dialect)) return NC_E_ARGUMENT;
   const nc::Dialect* d = &nc::dialect(dialect);
   *row = nc_parameter{};
   row->bit = -1;
@@ -188,5 +204,5 @@ nc_status nc_parameter_row(nc_dialect dialect, unsigned index, nc_parameter* row
 }
 
 bool nc_parameter_used(nc_dialect dialect, const char* key) {
-  return key != nullptr && known(dialect) && nc::parameter_used(nc::dialect(dialect), key);
+  return key != nullptr && nc::known(dialect) && nc::parameter_used(nc::dialect(dialect), key);
 }

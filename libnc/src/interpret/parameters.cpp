@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <initializer_list>
 #include <limits>
 
 #include "interpret/parameter_table.hpp"
@@ -65,46 +64,6 @@ bool is_text(const char* text) {
   return length <= 63;
 }
 
-constexpr int kWhole = -1;   ///< a key without "/bit"
-constexpr int kNoKey = -2;
-
-/// Values that the parameters in use can have; everything else that the manual names is only kept.
-bool in_range(const char* key, double value) {
-  if (std::strcmp(key, "1003") == 0) return value >= 'B' && value <= 'E';  // M700 2.1
-  if (std::strcmp(key, "1015") == 0) return value == 0 || value == 10 || value == 100 || value == 1000 || value == 10000;  // 2.1
-  if (std::strcmp(key, "1078") == 0 || std::strcmp(key, "8112") == 0) return value == 0 || value == 1;  // 5.3, 8.1
-  if (std::strcmp(key, "1037") == 0) return value == 1 || value == 2;    // 12.1
-  if (std::strcmp(key, "1084") == 0) return value >= 0 && value <= 1;    // 6.4
-  if (std::strcmp(key, "8213") == 0) return value >= 0 && value <= 3 && value == std::floor(value);  // 14.13
-  if (std::strcmp(key, "2106") == 0) return value >= 0 && value <= 360;  // 2.3
-  if (std::strcmp(key, "1079") == 0 || std::strcmp(key, "1074") == 0) return value == 0 || value == 1;  // 7.3, 7.4
-  if (std::strcmp(key, "1507") == 0) return value >= 1 && value <= 32767;  // 7.3
-  if (std::strcmp(key, "1506") == 0) return value >= 0;
-  for (const char* speed : {"1185", "1186", "1187", "1188", "1189"})
-    if (std::strcmp(key, speed) == 0) return value >= 0 && value <= 1e7;
-  if (std::strcmp(key, "8007") == 0) return value >= 0 && value <= 100;  // 7.10
-  if (std::strcmp(key, "8008") == 0) return value >= 0 && value <= 180;
-  if (std::strcmp(key, "8009") == 0) return value >= 0 && value <= 99999.999;
-  if (std::strcmp(key, "1173") == 0) return value >= 0 && value <= 255 && value == std::floor(value);  // 8.1
-  return true;
-}
-
-/// "1267" or "1267/bit0", the number keys of the M700: its bit 0..31, or what stands above. `whole` becomes the number alone.
-int bit_of_key(const char* key, char (&whole)[24]) {
-  unsigned digits = 0;
-  while (is_digit(key[digits])) ++digits;
-  if (digits == 0 || digits > 6) return kNoKey;
-  std::memcpy(whole, key, digits);
-  whole[digits] = 0;
-  key += digits;
-  if (*key == 0) return kWhole;
-  if (std::strncmp(key, "/bit", 4) != 0 || !is_digit(key[4])) return kNoKey;
-  int bit = key[4] - '0';
-  if (is_digit(key[5])) bit = bit * 10 + (key[5] - '0');
-  const char* end = key + (is_digit(key[5]) ? 6 : 5);
-  return *end == 0 && bit < 32 ? bit : kNoKey;
-}
-
 /// An axis name, 0 = none (blank, 0, or a number that is no letter).
 char axis_letter(double value) {
   if (!(value >= 'A' && value <= 'z')) return 0;
@@ -117,6 +76,13 @@ char axis_letter(double value) {
 uint32_t bits_of(double value) { return value >= 0 && value <= 4294967295.0 ? static_cast<uint32_t>(value) : 0; }
 
 }  // namespace
+
+/// "1229" out of "1229/bit2".
+const char* Parameters::whole_key(const char* key, const ParameterKey& parsed, char (&whole)[kKeySize]) {
+  std::memcpy(whole, key, parsed.digits);
+  whole[parsed.digits] = 0;
+  return whole;
+}
 
 void Parameters::create(unsigned capacity, Arena& arena) {
   entries_ = arena.make<Entry>(capacity);
@@ -140,8 +106,8 @@ Parameters::Entry* Parameters::find(const char* key, int axis) const {
 nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, const char* text, unsigned* index, double* old) {
   if (key == nullptr || text == nullptr || std::strlen(key) >= kKeySize) return NC_E_NOT_FOUND;
   double value = 0;
-  char whole[24];
-  int bit = kWhole;
+  ParameterKey parsed{};
+  parsed.bit = -1;
   const ParameterName* named = nullptr;
   for (const ParameterName& row : dialect.parameters)
     if (std::strcmp(row.key, key) == 0) named = &row;
@@ -149,25 +115,27 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
     const int word = word_index(named->words, text);
     if (word < 0) return NC_E_ARGUMENT;
     value = word;
-  } else if (named == nullptr && (dialect.id != NC_DIALECT_M700 || (bit = bit_of_key(key, whole)) == kNoKey)) {
+  } else if (named == nullptr && (dialect.id != NC_DIALECT_M700 || !parse_parameter_key(key, &parsed))) {
     return NC_E_NOT_FOUND;
   } else {
     // #1003 takes the letters of 2.1; any letter is stored by its code.
     if (!parse_number(text, &value)) {
-      if (bit != kWhole || named != nullptr || !is_text(text)) return NC_E_ARGUMENT;
+      if (parsed.bit >= 0 || named != nullptr || !is_text(text)) return NC_E_ARGUMENT;
       const bool letter = text[1] == 0;
       if (!letter && parameter_used(dialect, key)) return NC_E_ARGUMENT;  // none of these is a text of several characters
       value = letter ? static_cast<unsigned char>(text[0]) : keep_text(text);
     } else if (!(value < kTextBase)) {
       return NC_E_ARGUMENT;
     }
-    if (bit == kWhole && value < kTextBase && !in_range(key, value)) return NC_E_ARGUMENT;
+    if (named == nullptr && parsed.bit < 0 && value < kTextBase && !parameter_takes(parsed, value)) return NC_E_ARGUMENT;
   }
-  if (bit != kWhole) {  // one bit of a parameter: the others stay
+  char whole[kKeySize];
+  if (parsed.bit >= 0) {  // one bit of a parameter: the others stay
     if (value != 0 && value != 1) return NC_E_ARGUMENT;
+    whole_key(key, parsed, whole);
     double before = 0;
     get(whole, axis, &before);
-    const uint32_t mask = uint32_t{1} << bit;
+    const uint32_t mask = uint32_t{1} << parsed.bit;
     value = value != 0 ? bits_of(before) | mask : bits_of(before) & ~mask;
     key = whole;
   }
@@ -187,9 +155,10 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
 }
 
 bool Parameters::get(const char* key, int axis, double* value) const {
-  char whole[24];
-  const int bit = bit_of_key(key, whole);
-  const char* name = bit >= 0 ? whole : key;
+  ParameterKey parsed;
+  char whole[kKeySize];
+  const int bit = parse_parameter_key(key, &parsed) ? parsed.bit : -1;
+  const char* name = bit >= 0 ? whole_key(key, parsed, whole) : key;
   const Entry* entry = find(name, axis);
   if ((entry == nullptr || std::isnan(entry->value)) && axis >= 0) entry = find(name, -1);
   if (entry == nullptr || std::isnan(entry->value)) return false;

@@ -8,6 +8,8 @@
 
 namespace nc {
 
+struct ParameterKey;
+
 /// Parameters as the interpreter uses them. Names say what they do; the manual's number stands beside each.
 struct Settings {
   double command_unit_mm = 0.001;     ///< #1015 cunit (0: #1003 iunit): an undotted position word, metric
@@ -140,6 +142,7 @@ class Parameters {
 
  private:
   static constexpr unsigned kKeySize = 24;
+  static const char* whole_key(const char* key, const ParameterKey& parsed, char (&whole)[kKeySize]);
   struct Entry {
     char key[kKeySize];  ///< zeros behind it
     int8_t axis;   ///< -1 = all axes

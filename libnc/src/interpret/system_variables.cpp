@@ -97,7 +97,6 @@ Did write_tool(Access& a) {
   if (!tool_key(a, &key)) return a.in.raise(Condition::variable_number, '#', a.number);
   if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, '#', a.written);
   a.in.set_table(key, a.written);
-  take_changed_amounts(a.in);
   return Did::done;
 }
 

@@ -51,7 +51,6 @@ Did tool_offset(Interpreter& in, unsigned column, bool accumulate) {
   // M700 12.1: the range of an offset.
   if (std::fabs(amount) >= kOffsetRange) return in.raise(Condition::value_range, 'R', w.get('R'));
   in.set_table(key, amount);
-  take_changed_amounts(in);
   return Did::done;
 }
 

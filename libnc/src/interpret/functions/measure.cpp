@@ -102,8 +102,7 @@ Did measured(Interpreter& in) {
   const unsigned key = in.settings.tool_memory_2 && amount != 0 ? wear : length;
   const double corrected = f.get(key) + longer;
   if (std::fabs(corrected) >= kOffsetRange) return in.raise(Condition::value_range, 'H', corrected);
-  in.set_table(key, corrected);
-  state.length_value += difference;  // (4): from the next command of the axis on
+  in.set_table(key, corrected);  // (4): in force from the next command of the axis on
   return Did::done;
 }
 
