@@ -22,6 +22,7 @@ struct SystemFeedback {
   double spindle_rev_per_s = 0;       // actual speed, signed
   bool spindle_turns_valid = false;   // the spindle has an encoder: see nc_inputs::spindle_turns
   double spindle_turns = 0;
+  std::uint32_t unclamped = 0;        // bit per axis: the index table is unclamped (nc_inputs::unclamped)
   bool fin = false;                   // completion of M, S, T or B (level, FIN1 style handshake)
 };
 
@@ -41,6 +42,7 @@ struct SystemCommand {
   std::uint64_t serial = 0;  // item in execution
   nc_source source{};        // and where it stands
   bool running = false;      // a program is in execution
+  std::uint32_t unclamp = 0;  // bit per axis: the index table is to be unclamped
   std::uint16_t current_limit[NC_MAX_AXES] = {};  // percent of the rated current of each drive, 0 = its own limit
 };
 

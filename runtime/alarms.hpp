@@ -68,7 +68,11 @@ enum FinFault : std::uint32_t {
   kFinStays = 1 << 4,  // it has completed, and does not go off
   kFinEarly = 1 << 5,  // it was on before the strobe
   kFinOne = 1 << 6,    // FIN1 is on
-  kFinTwo = 1 << 7     // FIN2 is on
+  kFinTwo = 1 << 7,    // FIN2 is on
+  // The clamp of an index table (M700 9.3) is waited for, not a FIN:
+  kNotUnclamped = 1 << 8,
+  kNotClamped = 1 << 9,
+  kNoClampHere = 1 << 10  // the axis stands where it cannot be clamped
 };
 
 // One active alarm, as the scan raises it.

@@ -71,6 +71,8 @@ void read_axis(TableReader* reader, Config* config) {
   reader->number("servo_lag_ms", &lag_ms, 0, 1000);
   entry.sim.lag_s = lag_ms / 1000.0;
   reader->number("following_error_limit", &entry.sim.following_error_limit, 0, kMaxLength);
+  reader->number("unclamp_s", &entry.sim.clamp.unclamp_s, 0, 3600);
+  reader->number("clamp_s", &entry.sim.clamp.clamp_s, 0, 3600);
   if (entry.axis.name == 0) return;
 
   const unsigned s = entry.system - 1;

@@ -108,6 +108,7 @@ std::string state_text(const nc_outputs& outputs) {
   }
   switch (outputs.cause) {
     case NC_CAUSE_FIN: {
+      if ((outputs.fin_wait & NC_FIN_WAIT_UNCLAMP) != 0) return "waits for the clamp of an index table";
       std::string text = "waits for FIN of";
       if (outputs.strobe == 0) {  // FIN1 stays on, or one is on before the strobe: its code may not be out yet
         for (unsigned group = 0; group < 4; ++group)

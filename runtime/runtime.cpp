@@ -42,6 +42,9 @@ std::string fin_groups(std::uint32_t groups, std::uint32_t code) {
 
 // What is wrong with the handshake, and what it holds up.
 std::string fin_fault_text(std::uint32_t fault, std::uint32_t code) {
+  if (fault == kNotUnclamped) return "The index table is not unclamped";
+  if (fault == kNotClamped) return "The index table is not clamped";
+  if (fault == kNoClampHere) return "The index table stands where it cannot be clamped: move it on";
   const std::string groups = fin_groups(fault & kFinGroups, code);
   const std::string which = (fault & kFinOne) == 0 ? "FIN2" : (fault & kFinTwo) == 0 ? "FIN1" : "FIN1 and FIN2";
   const bool both = (fault & kFinOne) != 0 && (fault & kFinTwo) != 0;

@@ -238,6 +238,7 @@ void Scan::build_nc_inputs() noexcept {
     in.alarm = false;
     for (unsigned i = 0; i < alarms_.count; ++i) in.alarm |= stops_the_nc(alarms_.alarm[i]);
     in.skip = machine.skip;
+    in.unclamped = machine.unclamped;
     in.feed_override = feed_override_;
     in.rapid_override = rapid_override_;
     in.spindle_rev_per_s = machine.spindle_rev_per_s;
@@ -284,6 +285,7 @@ void Scan::write_outputs() noexcept {
                           out.serial,
                           out.source,
                           out.state == NC_STATE_RUNNING,
+                          out.unclamp,
                           {}};
     std::copy(std::begin(out.current_limit), std::end(out.current_limit), machine_.system[s].current_limit);
     if (out.message && !message_seen_[s])

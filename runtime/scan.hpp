@@ -124,6 +124,7 @@ class Scan {
   void run_ladder() noexcept;
   void follow_ladder(const LadderRequests& requests) noexcept;
   void watch_fin() noexcept;
+  void watch_clamps(std::uint64_t most) noexcept;
   void watch_links() noexcept;
   void watch_retained() noexcept;
   void follow_ladder_manual(const LadderRequests& requests) noexcept;
@@ -170,6 +171,7 @@ class Scan {
   unsigned ladder_start_scans_ = 0;  // the ladder's cycle start has been on for
   std::uint32_t links_seen_ = 0;  // bit n: Modbus link n has answered
   std::uint64_t fin_scans_[NC_MAX_SYSTEMS] = {};  // a part system has waited for FIN for
+  std::uint64_t clamp_scans_[NC_MAX_SYSTEMS] = {};  // for the clamp of an index table
   std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // of the scan before
   std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that the FIN that is on has completed
   bool start_pulse_ = false, hold_request_ = false;

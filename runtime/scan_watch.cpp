@@ -146,9 +146,11 @@ void Scan::watch_fin() noexcept {
   }
   if (config_.ladder.fin_timeout_s <= 0) return;
   const auto most = static_cast<std::uint64_t>(config_.ladder.fin_timeout_s * 1e9 / static_cast<double>(period_ns_));
+  watch_clamps(most);
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
-    const bool waits = out.state == NC_STATE_RUNNING && out.cause == NC_CAUSE_FIN;  // also for a FIN that is stuck on
+    const bool clamps = (out.fin_wait & NC_FIN_WAIT_UNCLAMP) != 0;
+    const bool waits = out.state == NC_STATE_RUNNING && out.cause == NC_CAUSE_FIN && !clamps;  // also for a FIN that is stuck on
     fin_scans_[s] = waits ? fin_scans_[s] + 1 : 0;
     if (fin_scans_[s] <= most) continue;
     std::uint32_t fault = out.fin_wait & kFinGroups;
@@ -157,6 +159,22 @@ void Scan::watch_fin() noexcept {
     if (in_[s].fin2) fault |= kFinTwo;
     if ((fault & (kFinOne | kFinTwo)) != 0) fault |= out.strobe == 0 && given_out ? kFinStays : kFinEarly;
     raise(AlarmId::kFinTimeout, s, -1, fault, !given_out ? ~0u : (fault & 1) != 0 ? out.m : out.t);
+  }
+}
+
+// The same for the clamps of index tables (M700 9.3), also while an axis is moved by hand.
+void Scan::watch_clamps(std::uint64_t most) noexcept {
+  for (unsigned s = 0; s < systems_; ++s) {
+    const nc_outputs& out = out_[s];
+    const bool moves = out.state == NC_STATE_RUNNING || out.state == NC_STATE_MANUAL;
+    clamp_scans_[s] = moves && (out.fin_wait & NC_FIN_WAIT_UNCLAMP) != 0 ? clamp_scans_[s] + 1 : 0;
+    if (clamp_scans_[s] <= most) continue;
+    const std::uint32_t wrong = out.unclamp ^ in_[s].unclamped;
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
+      const bool asked = (out.unclamp >> a & 1u) != 0;
+      if ((wrong >> a & 1u) != 0) raise(AlarmId::kFinTimeout, s, static_cast<int>(a), asked ? kNotUnclamped : kNotClamped);
+      else if (wrong == 0 && asked) raise(AlarmId::kFinTimeout, s, static_cast<int>(a), kNoClampHere);
+    }
   }
 }
 
@@ -180,6 +198,7 @@ void Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, st
 
 void Scan::acknowledge_alarms() noexcept {
   for (std::uint64_t& scans : fin_scans_) scans = 0;
+  for (std::uint64_t& scans : clamp_scans_) scans = 0;
   for (unsigned i = 0; i < alarms_.count; ++i)
     if (alarms_.alarm[i].id == AlarmId::kRetainedLost && !ending_)  // the reset of the end is nobody's look
       retain_loss_seen_.store(true, std::memory_order_release);

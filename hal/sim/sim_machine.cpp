@@ -67,6 +67,11 @@ void SimMachine::block_axis(unsigned system, unsigned axis, bool blocked) {
   system_[system].blocked = blocked ? system_[system].blocked | bit : system_[system].blocked & ~bit;
 }
 
+void SimMachine::fail_unclamp(unsigned system, unsigned axis, bool fault) {
+  const std::uint32_t bit = 1u << axis;
+  system_[system].clamp_failed = fault ? system_[system].clamp_failed | bit : system_[system].clamp_failed & ~bit;
+}
+
 void SimMachine::read(Feedback* feedback, PointImage* image) noexcept {
   feedback->lost = lost_;
   if (lost_) return;  // everything else stays as it was: old
@@ -81,6 +86,7 @@ void SimMachine::read(Feedback* feedback, PointImage* image) noexcept {
     out.spindle_rev_per_s = system.rpm / 60.0;
     out.spindle_turns_valid = true;
     out.spindle_turns = system.turns;
+    out.unclamped = system.unclamped & ~system.clamp_failed;
     out.fin = system.fin;
   }
   for (unsigned p = 0; p < table_.size(); ++p)
@@ -98,6 +104,7 @@ void SimMachine::write(const Command& command, const PointImage& image) noexcept
   plant_.step(config_.cycle_s, image, &input_);
   for (unsigned s = 0; s < config_.system_count; ++s) {
     move_axes(s, command.system[s]);
+    work_clamps(s, command.system[s].unclamp);
     if (!plant_.present()) handshake(&system_[s], command.system[s]);
     if (s == 0 && plant_.turns_spindle())
       system_[s].rpm = plant_.rpm();
@@ -128,6 +135,15 @@ void SimMachine::move_axes(unsigned index, const SystemCommand& command) noexcep
       system.following_fault |= bit;
     else
       system.following_fault &= ~bit;
+  }
+}
+
+void SimMachine::work_clamps(unsigned index, std::uint32_t unclamp) noexcept {
+  System& system = system_[index];
+  for (unsigned a = 0; a < config_.axis_count[index]; ++a) {
+    const std::uint32_t bit = 1u << a;
+    const bool open = system.clamp[a].step(config_.axis[index][a].clamp, (unclamp & bit) != 0, config_.cycle_s);
+    system.unclamped = open ? system.unclamped | bit : system.unclamped & ~bit;
   }
 }
 

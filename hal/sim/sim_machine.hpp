@@ -10,6 +10,7 @@
 //  M00/M01/M02/M30).
 //  * M, S, T, B: FIN comes after the time of the function (tool change, spindle ramp, m_time) and drops with
 //  the strobe. With a plant (sim_plant.hpp) spindle and tools are driven by points, and FIN is the ladder's.
+//  * index tables: the clamp of an axis answers after its times (sim_clamp.hpp); it holds nothing.
 //  * skip: signal n is on while the actual point is inside one of its solids.
 //  * points: inputs are what the script says (else their initial value); outputs are recorded.
 #pragma once
@@ -19,6 +20,7 @@
 
 #include "hal/hal.hpp"
 #include "hal/sim/input_script.hpp"
+#include "hal/sim/sim_clamp.hpp"
 #include "hal/sim/sim_plant.hpp"
 
 namespace nc::hal {
@@ -36,6 +38,7 @@ struct SimAxis {
   double lag_s = 0.0;                // 0 = actual is the command of the cycle before
   double following_error_limit = 0;  // mm or deg; 0 = never faults
   double coast_s = 0.03;             // 0 = stands at once
+  SimClamp clamp;                    // of an index table
 };
 
 struct SimConfig {
@@ -90,6 +93,7 @@ class SimMachine final : public Hal {
   void fail_drive(unsigned system, unsigned axis, bool fault);
   void block_axis(unsigned system, unsigned axis, bool blocked);  // the axis does not follow: following error
   void hold_fin(bool held) { fin_held_ = held; }                  // FIN never comes
+  void fail_unclamp(unsigned system, unsigned axis, bool fault);  // the axis is never unclamped
   void set_input(unsigned point, std::uint32_t value) { input_.value[point] = value; }
 
  private:
@@ -99,6 +103,8 @@ class SimMachine final : public Hal {
     double fade[NC_MAX_AXES] = {};    // exp(-cycle/coast)
     double step[NC_MAX_AXES] = {};    // way of the last cycle
     std::uint32_t following_fault = 0, drive_fault = 0, blocked = 0;
+    std::uint32_t unclamped = 0, clamp_failed = 0;
+    SimClampState clamp[NC_MAX_AXES];
     double rpm = 0, s_rpm = 0;
     double turns = 0;   // of the spindle, as its encoder counts them
     int direction = 0;  // spindle: +1 M03, -1 M04, 0 stopped
@@ -110,6 +116,7 @@ class SimMachine final : public Hal {
   };
 
   void move_axes(unsigned index, const SystemCommand& command) noexcept;
+  void work_clamps(unsigned index, std::uint32_t unclamp) noexcept;
   void coast(System* system, unsigned axis) noexcept;
   void turn_spindle(System* system) noexcept;
   void handshake(System* system, const SystemCommand& command) noexcept;

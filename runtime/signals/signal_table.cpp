@@ -106,8 +106,8 @@ const SignalRow kSignals[] = {
      nullptr},
     {"dm30", kBit, kFrom, kSystem, 0, 0, "decoded M30", "with m_strobe", NC_READ { return decoded(image, s, 30); },
      nullptr},
-    {"fin_wait", kWord16, kFrom, kSystem, 0, 0, "groups that wait for FIN: bit 0 M, 1 S, 2 T, 3 B",
-     "from the strobe until FIN1 has fallen or FIN2 has risen", NC_READ { return out(image, s).fin_wait; }, nullptr},
+    {"fin_wait", kWord16, kFrom, kSystem, 0, 0, "groups that wait for FIN: bit 0 M, 1 S, 2 T, 3 B; bit 11 the clamp of an index table",
+     "from the strobe until FIN1 has fallen or FIN2 has risen; as long as motion waits for plc.unclamped", NC_READ { return out(image, s).fin_wait; }, nullptr},
 
     {"dwell", kBit, kFrom, kSystem, 0, 0, "a dwell is in execution", "level",
      NC_READ { return state(image, s, NC_STATE_RUNNING) && out(image, s).cause == NC_CAUSE_DWELL; }, nullptr},
@@ -160,6 +160,9 @@ const SignalRow kSignals[] = {
               std::abs(out(image, s).command.v[i] - image.nc->system[s].axis[i].reference[0]) <= 1e-6;
      },
      nullptr},
+    {"unclamp", kBit, kFrom, kAxis, 0, 0, "the index table is to be unclamped (#2076)",
+     "before the axis moves, until it stands where the program goes on without it",
+     NC_READ { return static_cast<std::int32_t>(out(image, s).unclamp >> i & 1u); }, nullptr},
     {"drive_fault", kBit, kFrom, kAxis, 0, 0, "the drive reports a fault", "level",
      NC_READ { return static_cast<std::int32_t>(image.feedback->system[s].drive_fault >> i & 1u); }, nullptr},
     {"position", kWord32, kFrom, kAxis, 0, 0, "measured machine position, 0.001 mm or 0.001 deg", "every scan",
@@ -215,6 +218,12 @@ const SignalRow kSignals[] = {
      NC_WRITE { if (value != 0) image->requests->system[s].reference |= 1u << i; }},
     {"skip", kBit, kTo, kNumbered, 8, 0, "skip signal, beside the machine's own", "level, sampled once a scan", nullptr,
      NC_WRITE { image->nc_in[s].skip |= static_cast<std::uint32_t>(value != 0) << i; }},
+    {"unclamped", kBit, kTo, kAxis, 0, 0, "the index table is unclamped, and at 0 clamped",
+     "level: follows nc.unclamp; where it goes off during the movement the axes stop until it is back", nullptr,
+     NC_WRITE {
+       const std::uint32_t bit = 1u << i;
+       image->nc_in[s].unclamped = value != 0 ? image->nc_in[s].unclamped | bit : image->nc_in[s].unclamped & ~bit;
+     }},
     {"mode_auto", kBit, kTo, kControl, 0, 0, "select automatic mode",
      "acts when it rises; refused while a program runs; none or two of the modes: the old one stays", nullptr,
      NC_WRITE { image->requests->mode[0] = value != 0; }},

@@ -80,13 +80,6 @@ TEST(Auxiliary, OrderByParameter) {  // M700 9.1: "after or simultaneously with 
   EXPECT_EQ(order(bench.at(0, 0, 0).run("G0 X1. M0\nX2.\nM30")), "move M0 fin stop move M30 fin");
 }
 
-TEST(Auxiliary, AnIndexAxisIsNotBuilt) {  // M700 9.3
-  Bench bench(NC_DIALECT_M700, axes("XYZb"));
-  bench.param("2076", "1", 'B');
-  EXPECT_EQ(bench.run("G0 X1.\nB90.\nM30").alarm, "P39");
-  EXPECT_EQ(bench.at(0, 0, 0).run("G0 X1.\nM30").alarm, "");
-}
-
 // ---- constant surface speed and clamp (M700 10.3, 10.4) -----------------------------------------------------------------------------
 
 /// Speeds as the machine is told: "G96 X 200, S500".

@@ -62,6 +62,7 @@ ServoModel servo_of(const rt::Config& machine, double cycle_s) {
   ServoModel servo = {};
   for (unsigned i = 0; i < machine.nc.system[0].axis_count; ++i) {
     const double lag = machine.sim.axis[0][i].lag_s;
+    servo.clamp[i] = machine.sim.axis[0][i].clamp;
     servo.follow[i] = lag > 0 ? 1.0 - std::exp(-cycle_s / lag) : 1.0;
   }
   return servo;

@@ -68,6 +68,15 @@ class VirtualMachine {
       actual_.v[i] += (command.v[i] - actual_.v[i]) * servo_->follow[i];
   }
 
+  // Index tables (M700 9.3): like FIN in the next cycle, or in the times of the machine.
+  uint32_t clamps(uint32_t unclamp) {
+    if (servo_ == nullptr) return unclamp;
+    uint32_t unclamped = 0;
+    for (unsigned i = 0; i < config_.system[kPartSystem].axis_count; ++i)
+      if (clamp_[i].step(servo_->clamp[i], (unclamp >> i & 1u) != 0, config_.cycle_s)) unclamped |= 1u << i;
+    return unclamped;
+  }
+
   static std::string reason(uint8_t cause) {
     switch (cause) {
       case NC_CAUSE_SPINDLE_STOPPED: return "a feed per revolution or a thread waits for the spindle: there is no S";
@@ -95,6 +104,7 @@ class VirtualMachine {
     in.actual_valid = servo_ != nullptr;
     in.actual = actual_;
     in.fin = last.strobe != 0;
+    in.unclamped = clamps(last.unclamp);
     in.optional_stop = setup_.optional_stop;
     in.single_block = setup_.single_block;
     in.skip = world_.signals_at(last.command);
@@ -136,6 +146,7 @@ class VirtualMachine {
   const ServoModel* servo_;
   VirtualWorld world_;
   nc_axes actual_;
+  hal::SimClampState clamp_[NC_MAX_AXES];
   nc_inputs in_[NC_MAX_SYSTEMS] = {};
   nc_outputs out_[NC_MAX_SYSTEMS] = {};
   MachineResult result_;

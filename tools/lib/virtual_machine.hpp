@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "hal/sim/sim_clamp.hpp"
 #include "nc/nc.h"
 #include "tools/lib/virtual_world.hpp"
 
@@ -26,9 +27,11 @@ struct MachineResult {
 /** Called once per servo cycle with what the control gave out. @return false when nothing more is wanted. */
 using CycleObserver = std::function<bool(const nc_outputs&)>;
 
-/** How far the axes come in a cycle: this share of the way to the command. The checks of the position wait for them. */
+/** How far the axes come in a cycle: this share of the way to the command. The checks of the position wait for them. And the clamps of
+ *  index tables. */
 struct ServoModel {
   double follow[NC_MAX_AXES];
+  hal::SimClamp clamp[NC_MAX_AXES];
 };
 
 /**

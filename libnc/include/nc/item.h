@@ -121,6 +121,7 @@ typedef struct nc_move {
   bool exact_stop;          /**< comes to rest at its end */
   bool curved;              /**< neither straight nor circular for the axes: nc_move_point() says where it goes */
   uint8_t skip_mask;        /**< skip: which signals end the move, bit n = signal n+1 */
+  uint8_t index_axes;       /**< axes of index tables that it moves, bit n = axis n: they are unclamped for it (M700 9.3) */
 } nc_move;
 
 /** Payload of an action. */

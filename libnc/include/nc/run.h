@@ -104,6 +104,7 @@ typedef struct nc_inputs {
   bool interlock;        /**< level: no axis may start; motion decelerates to rest */
   bool alarm;            /**< level: stop motion, no start until reset (a drive, the PLC) */
   bool macro_interrupt;  /**< UIT, M700 13.12: the interrupt program of M96 comes at once (type 1), or at the end of the block in execution */
+  uint32_t unclamped;    /**< bit n: axis n of an index table is unclamped, as nc_outputs::unclamp asks for; off: clamped (M700 9.3) */
   uint32_t skip;         /**< skip signals, bit n = signal n+1 */
   uint32_t input[NC_WORDS]; /**< macro interface inputs */
   double feed_override;  /**< 0..max_feed_override, 1 = 100 % */
@@ -132,7 +133,7 @@ typedef enum nc_run_state {
 /** Why nothing moves though a program runs; what an operator asks first. */
 typedef enum nc_stop_cause {
   NC_CAUSE_NONE = 0,
-  NC_CAUSE_FIN = 1,         /**< waits for FIN of M/S/T/B */
+  NC_CAUSE_FIN = 1,         /**< waits for FIN of M/S/T/B, or for the clamp of an index table: nc_outputs::fin_wait */
   NC_CAUSE_DWELL = 2,
   NC_CAUSE_IN_POSITION = 3,
   NC_CAUSE_PROGRAM_STOP = 4,
@@ -148,6 +149,11 @@ typedef enum nc_stop_cause {
   NC_CAUSE_SPINDLE_FAST = 14     /**< a thread would need more than the largest cutting feed: it does not begin (M700 6.7.1) */
 } nc_stop_cause;
 
+/** Bits of nc_outputs::fin_wait beside those of the groups. */
+typedef enum nc_fin_wait_bits {
+  NC_FIN_WAIT_UNCLAMP = 0x800 /**< an axis of an index table has to be unclamped or clamped (M700 9.3: T10 FIN WAIT 0800) */
+} nc_fin_wait_bits;
+
 /** What one part system gives out in one cycle. */
 typedef struct nc_outputs {
   nc_axes command;          /**< commanded machine position for this cycle */
@@ -157,7 +163,8 @@ typedef struct nc_outputs {
   uint8_t cause;            /**< nc_stop_cause */
   /* M, S, T, B: the codes stay until the next one; `strobe` bit 0 M, 1 S, 2 T, 3 B is on until FIN. */
   uint8_t strobe;
-  uint8_t fin_wait;         /**< groups (bits as in strobe) whose completion is awaited: on until FIN1 has fallen or FIN2 has risen */
+  uint16_t fin_wait;        /**< groups (bits as in strobe) whose completion is awaited: on until FIN1 has fallen or FIN2 has risen; nc_fin_wait_bits */
+  uint32_t unclamp;         /**< bit n: axis n of an index table is to be unclamped, nc_inputs::unclamped answers (M700 9.3) */
   uint32_t m, t, b;
   double s;
   uint16_t current_limit[NC_MAX_AXES]; /**< percent of the rated current of each drive, 0 = none set (M700 15.6); stays until it is changed */

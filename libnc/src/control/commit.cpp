@@ -289,7 +289,8 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       m.feed_mm_min = move.feed_mm_min;
       m.feed_mm_rev = move.feed_mm_rev;
       m.length = curve_.length;
-      m.exact_stop = move.exact_stop;
+      m.index_axes = index_axes(curve_);
+      m.exact_stop = move.exact_stop || m.index_axes != 0;
       m.skip_mask = move.skip_mask;
       m.plane = move.circular ? static_cast<uint8_t>(move.plane) : static_cast<uint8_t>(NC_PLANE_NONE);
       m.turns = move.circular ? extra_turns(circle_.sweep) : 0;
@@ -341,6 +342,16 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       out->u.end.modal = item.end.modal;
       break;
   }
+}
+
+/// M700 9.3: whatever moves the axis.
+uint8_t Commit::moved_tables(const Curve& curve) const {
+  AxisVec low, high;
+  curve_bounds(curve, axis_count_, &low, &high);
+  uint32_t axes = 0;
+  for (unsigned i = 0; i < axis_count_; ++i)
+    if (((*config_.index_axes >> i) & 1) != 0 && high[i] - low[i] > kNoLength) axes |= 1u << i;
+  return static_cast<uint8_t>(axes);
 }
 
 /// M700 7.9.2: an axis goes back where it has come from. An axis without a movement does not count.
@@ -402,6 +413,8 @@ void Commit::to_record(const Item& item, const Transform& transform, const Accur
       s.thread_angle = item.move.thread_angle;
       if (item.move.high_accuracy != 0 && !s.thread && item.move.kind != NC_MOVE_TAP)  // those go with the spindle
         s.accuracy = accuracy_limits(accuracy, item.move, curve_, circle_, axis_count_);
+      s.unclamps = item.move.unclamps;
+      set_index_axes(&s);
       break;
     }
     case ItemKind::action: out->action = item.action; break;

@@ -16,6 +16,7 @@ namespace nc {
 struct CommitConfig {
   const nc_system_config* system = nullptr;
   const InternPool<StrokeBox>* stroke_boxes = nullptr;  ///< that moves name
+  const uint32_t* index_axes = nullptr;    ///< bit i: axis i is one of an index table (M700 9.3)
   const uint32_t* machine_turn = nullptr;  ///< bit i: machine coordinates of axis i are shown within one turn (M700 14.13)
   uint32_t marks = 1024;      ///< marks that can be rewound to, power of two
   uint32_t records = 1024;    ///< that may be under way behind here
@@ -95,6 +96,12 @@ class Commit {
   /// `accuracy`: of the moves made under high-accuracy control.
   void to_record(const Item& item, const Transform& transform, const AccuracyParameters& accuracy, Record* out);
 
+  /// A segment that has its curve: the index tables that it moves, and that it begins and ends at rest then.
+  void set_index_axes(Segment* segment) const {
+    segment->index_axes = index_axes(segment->curve);
+    if (segment->index_axes != 0) segment->rest_before = segment->exact_stop = true;
+  }
+
   /// The item just committed has not been executed and is given up; `move`: it was one.
   void take_back(bool move) {
     taken_end_ = machine_;
@@ -129,6 +136,8 @@ class Commit {
   bool turns_round(bool checked);
   void space_arc_to_public(nc_move* out) const;
   double helix_slope() const;
+  uint8_t moved_tables(const Curve& curve) const;
+  uint8_t index_axes(const Curve& curve) const { return *config_.index_axes == 0 ? uint8_t{0} : moved_tables(curve); }
 
   CommitConfig config_;
   unsigned axis_count_ = 3;

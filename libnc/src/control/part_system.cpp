@@ -33,6 +33,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   commit.system = &system;
   commit.stroke_boxes = &interpreter.stroke_boxes;
   commit.machine_turn = &interpreter.settings.machine_turn;
+  commit.index_axes = &interpreter.settings.index_axes;
   commit.marks = config.look_ahead;
   commit.records = config.look_ahead;
   commit.rotary_makes_length = dialect.id == NC_DIALECT_M700;
@@ -248,6 +249,7 @@ void PartSystem::resume_record(Record& record) {
     s.begun = cut_.length;
   } else {  // the interrupt program has changed what the block is made of: to its end from where the axes are
     s.curve = make_line(cut_.machine, s.curve.end, interpreter.axis_count, interpreter.rotary);
+    commit_.set_index_axes(&s);
   }
 }
 
@@ -467,8 +469,19 @@ bool PartSystem::may_read_on() {
   return stop_ != Stop::passed && interpreter.remembers(executed_);
 }
 
+/// M700 9.3: axes of index tables, for the clamps of manual motion and of what a reset has stopped.
+void PartSystem::tell_index_axes() {
+  IndexAxes index;
+  index.axes = interpreter.settings.index_axes;
+  for (unsigned i = 0; i < interpreter.axis_count; ++i) index.increment[i] = interpreter.settings.index_increment[i];
+  if (index == told_index_) return;
+  told_index_ = index;
+  executor.set_index_axes(index);
+}
+
 nc_status PartSystem::feed(uint32_t budget) {
   online_ = true;
+  if ((interpreter.settings.index_axes | told_index_.axes) != 0) [[unlikely]] tell_index_axes();
   const uint32_t epoch = executor.epoch();
   if (epoch != epoch_) {  // the scan has given the program up: from its head again, from where the machine stands
     epoch_ = epoch;

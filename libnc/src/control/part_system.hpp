@@ -126,6 +126,8 @@ class PartSystem {
   /// M700 9.1: M00 and M01 suspend pre-reading. committed: the gate is, its block is not yet; passed: nothing more until the machine has done it.
   enum class Stop : uint8_t { none, committed, passed };
   Stop stop_ = Stop::none;
+  void tell_index_axes();
+  IndexAxes told_index_;     ///< online: as the scan knows them
   BlockSeq executed_ = 0;    ///< online: newest block that has been executed, as feed() found it
   Serial open_sync_ = 0;
   uint32_t sync_what_ = 0;

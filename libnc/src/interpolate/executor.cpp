@@ -105,6 +105,10 @@ void ExecutorState::forget_truncate() {
   shared.truncate_release.store(truncate_request, std::memory_order_release);
 }
 
+void Executor::set_index_axes(const IndexAxes& index) {
+  state_->shared.index_axes.write(index);
+}
+
 bool Executor::sync_reached(Serial serial, nc_world* world) const {
   const ScanWorld& reached = state_->shared.world.read();
   if (serial == 0 || reached.serial != serial) return false;

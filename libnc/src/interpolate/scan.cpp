@@ -62,6 +62,7 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   take_plan();
   handshake(in);
   messages();
+  watch_index(in);
   states(in);
   interrupt(in);
   turn_feed_handle(in);
@@ -145,9 +146,9 @@ void Scan::interrupt(const nc_inputs& in) {
 }
 
 /// Type 1 stops at once, but not before FIN has come (M700 13.12), and not in a thread, a contour (where blocks are not apart), a skip move
-/// whose signal has come, behind a skip move, or in a block that changes what is asked here: these are finished first.
+/// whose signal has come, behind a skip move, while a table is unclamped, or in a block that changes what is asked here: these are finished first.
 bool Scan::may_cut() const {
-  if (!block_begun_ || block_waits_ || last_staged_ || (fin_wait() != 0 && !(suppress_ & 2))) return false;
+  if (!block_begun_ || block_waits_ || index_.busy() || last_staged_ || (fin_wait() != 0 && !(suppress_ & 2))) return false;
   if (tail_ == end_) return true;
   const Record& r = current();
   if (r.epoch != epoch_ || r.staged || r.kind == ItemKind::sync) return false;
@@ -288,6 +289,7 @@ void Scan::run(const nc_inputs& in) {
       leave(r, false);
       continue;
     }
+    if (index_.busy() && !clamp_before(r, in)) break;  // M700 9.3
     serial_ = r.serial;
     source_ = r.source;
     if (r.kind == ItemKind::mark && r.mark.resume) {
@@ -340,10 +342,11 @@ void Scan::manual(const nc_inputs& in) {
                     (state_ == NC_STATE_IDLE || (state_ == NC_STATE_STOPPED && between_blocks()));
   if (!manual_allowed_ && !manual_.active()) {
     manual_.idle(in.manual);
+    if (index_.busy()) clamp_at_rest(0, in);
     return;
   }
   const AxisVec before = wanted_;
-  manual_.cycle(in.manual, !manual_allowed_ || in.interlock || in.feed_hold, &wanted_);
+  manual_cycle(in);
   for (unsigned i = 0; i < config_.axis_count; ++i)
     displaced_ |= state_ == NC_STATE_STOPPED && wanted_[i] != before[i];
 }
@@ -402,10 +405,12 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   out.cause = static_cast<uint8_t>(alarmed_                                              ? NC_CAUSE_ALARM
                                    : state_ == NC_STATE_HOLD                             ? NC_CAUSE_FEED_HOLD
                                    : interlock_ && moving_ && state_ == NC_STATE_RUNNING ? NC_CAUSE_INTERLOCK
+                                   : index_waits_ || index_lost_                         ? NC_CAUSE_FIN
                                                                                          : cause_);
   out.tapping = tapping_;
   out.strobe = strobe_;
-  out.fin_wait = static_cast<uint8_t>(fin_wait() | held_);
+  out.fin_wait = static_cast<uint16_t>(fin_wait() | held_ | (index_waits_ || index_lost_ ? NC_FIN_WAIT_UNCLAMP : 0));
+  out.unclamp = index_.unclamp();
   out.m = m_;
   out.t = t_;
   out.b = b_;

@@ -10,6 +10,7 @@
 #include "interpolate/exchange.hpp"
 #include "interpolate/executor.hpp"
 #include "interpolate/follower.hpp"
+#include "interpolate/index_clamp.hpp"
 #include "interpolate/law.hpp"
 #include "interpolate/spindle.hpp"
 #include "manual/manual.hpp"
@@ -52,6 +53,7 @@ struct ScanShared {
   std::atomic<uint32_t> reread_done{0};     ///< feeder: the request that is done
   Latest<ScanStatus> status;
   Latest<ScanWorld> world;
+  Latest<IndexAxes> index_axes;  ///< feeder: as the parameters are
   EventRing events;
 };
 
@@ -106,17 +108,27 @@ class Scan {
   Done sync(const Record& record, const nc_inputs& in) NC_RT;
   Done wait(nc_stop_cause cause) NC_RT;
   void mark(const Mark& mark, const nc_inputs& in) NC_RT;
+  bool stops_at(const Mark& mark, const nc_inputs& in) const NC_RT;
   void alarm() NC_RT;
   void leave(const Record& record, bool executed) NC_RT;
   /// `width` > 0: of the block instead of the axes'.
   bool in_position(const nc_inputs& in, double width = 0) const NC_RT;
 
+  // scan_index.cpp: index tables
+  Done wait_for_clamp() NC_RT;
+  bool unclamp_for(const Segment& segment, const nc_inputs& in) NC_RT;
+  bool clamp_before(const Record& record, const nc_inputs& in) NC_RT;
+  uint32_t may_clamp() NC_RT;
+  void watch_index(const nc_inputs& in) NC_RT;
+  void clamp_at_rest(uint32_t wanted, const nc_inputs& in) NC_RT;
+  void manual_cycle(const nc_inputs& in) NC_RT;
+
   const Record& current() const { return ring_[tail_ & mask_]; }
   bool at_rest() const { return law_.v == 0; }
   bool held() const { return hold_ || reset_ || alarmed_ || cutting_; }  ///< nothing is executed at rest
-  bool braking() const { return held() || interlock_; }      ///< no axis may move
+  bool braking() const { return held() || interlock_ || index_lost_; }      ///< no axis may move
   /// M700 6.7.1: a thread that is being cut is not held, nor is its feed changed.
-  bool thread_braking() const { return reset_ || alarmed_ || interlock_; }
+  bool thread_braking() const { return reset_ || alarmed_ || interlock_ || index_lost_; }
   bool cutting_thread() const { return moving_ && law_.v > 0 && current().segment.thread; }
   double programmed_feed(const Segment& s) const NC_RT;
   void turn_feed_handle(const nc_inputs& in) NC_RT;
@@ -180,6 +192,11 @@ class Scan {
   SpindleSpeed spindle_;
   uint32_t suppress_ = 0;  ///< #3003
   uint32_t disable_ = 0;   ///< #3004
+
+  // ---- index tables (M700 9.3)
+  IndexClamp index_;
+  bool index_waits_ = false;  ///< for a clamp or its release, in this cycle
+  bool index_lost_ = false;   ///< a table that moves is not unclamped any more
 
   // ---- macro interrupt (M700 13.12)
   uint32_t interrupt_mode_ = 0;      ///< nc_interrupt_bits

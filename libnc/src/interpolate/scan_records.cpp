@@ -99,6 +99,7 @@ bool Scan::begin_move(const Record& r, const nc_inputs&) {
 void Scan::end_move(const Record& r) {
   law_.s = 0;
   moving_ = skip_braking_ = false;
+  if (r.segment.index_axes != 0) index_.arrive();
   latest_ = &r.segment;
   block_has_thread_ |= r.segment.thread;
   if (r.segment.skip && !skipped_) skip_position_ = wanted_;
@@ -206,6 +207,10 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
   const Segment& s = r.segment;
   if (!(s.curve.length > 0)) return Done::yes;
   const bool begins = !moving_;
+  if ((s.index_axes | s.unclamps) != 0) {
+    if (begins && !unclamp_for(s, in)) return Done::no;
+    if (law_.s > s.begun) index_.leave(s.index_axes);
+  }
   if (begins && s.thread && at_rest() && !thread_may_begin(s, in)) return Done::no;
   if (begins && !begin_move(r, in)) {
     alarmed_ = true;
@@ -397,15 +402,20 @@ void Scan::mark(const Mark& m, const nc_inputs& in) {
     rereading_ = interrupt_reached_ = true;
     return;
   }
-  if (thread || !m.stop || !at_rest() || state_ != NC_STATE_RUNNING) return;
+  if (thread || !stops_at(m, in)) return;
   if (hold_behind_thread_) {
     hold_behind_thread_ = false;
     state_ = NC_STATE_STOPPED;
     cause_ = NC_CAUSE_FEED_HOLD;
-  } else if (in.single_block && !(suppress_ & 1)) {
+  } else {
     state_ = NC_STATE_STOPPED;
     cause_ = NC_CAUSE_SINGLE_BLOCK;
   }
+}
+
+/// But behind a thread.
+bool Scan::stops_at(const Mark& m, const nc_inputs& in) const {
+  return m.stop && at_rest() && state_ == NC_STATE_RUNNING && (hold_behind_thread_ || (in.single_block && !(suppress_ & 1)));
 }
 
 }  // namespace nc

@@ -347,8 +347,6 @@ Did resolve_axes(Interpreter& in) {
   }
   w.axes = axes;
   w.incremental &= axes;
-  // M700 9.3: the axis of an indexing table has to be unclamped and clamped, which is not built.
-  if ((axes & in.settings.index_axes) != 0) return in.raise(Condition::no_function, in.system->axis[std::countr_zero(axes & in.settings.index_axes)].name);
   if (!w.any(letters("IJKQR"))) return Did::done;
   for (const char letter : {'I', 'J', 'K', 'Q', 'R'})
     if (w.has(letter) && !in_range(in, length_of(in, letter), w.flags[letter - 'A'], false)) return in.raise(Condition::value_range, letter, w.get(letter));

@@ -140,6 +140,7 @@ void Interpreter::refresh_settings() {
   settings = parameters.settings(*dialect);
   for (uint32_t* axes : {&settings.turning, &settings.short_cut, &settings.machine_turn, &settings.tool_change_axes})
     *axes &= axes == &settings.tool_change_axes ? (1u << axis_count) - 1 : rotary;
+  settings.index_axes &= (1u << axis_count) - 1;
   reader.check_block_parity(settings.parity_units);
   variables.share(settings.shared_100, settings.shared_500);
   code_calls = dialect->lex->macros ? read_code_calls(parameters) : CodeCalls{};

@@ -405,6 +405,7 @@ struct LinearStyle {
   bool exact_stop = false;
   bool transparent = false;   ///< radius compensation vectors are away for this move
   uint8_t skip_mask = 0;
+  uint8_t unclamps = 0;       ///< index tables that are unclamped meanwhile (M700 9.3)
   double feed_mm_rev = 0;     ///< thread: lead along the longest axis
   double thread_angle = 0;
   bool special_feed = false;  ///< the modal feed, and it is not the plain one (interpret/feed.hpp)

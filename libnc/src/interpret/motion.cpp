@@ -169,6 +169,7 @@ inline void set_style(Interpreter& in, Move& move, const LinearStyle& style) {
   move.rule.check_reversal = in.settings.check_reversal && style.kind != NC_MOVE_RAPID;
   move.feed_mm_min = style.kind == NC_MOVE_RAPID ? 0 : style.feed_mm_min;
   move.skip_mask = style.skip_mask;
+  move.unclamps = style.unclamps;
   move.skip_speeds = style.skip_speeds;
   move.comp.transparent = style.transparent;
   if (style.special_feed) apply_special_feed(in, move);
@@ -369,6 +370,20 @@ Did move_by_function(Interpreter& in, int16_t code, const AxisVec& target, uint3
   }
 }
 
+/// M700 9.3 (3): without interpolation (#1086) the other axes of the block do not wait until its tables are unclamped. These go behind them.
+void move_rapid(Interpreter& in, const AxisVec& target, uint32_t axes) {
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  const uint32_t tables = axes & in.settings.index_axes;
+  if (tables != 0 && tables != axes && in.settings.rapid_by_axis && in.state.comp.side == 0 && (in.state.special & kSpecialMap) == 0) {
+    style.unclamps = static_cast<uint8_t>(tables);
+    move_linear(in, target, axes & ~tables, style);
+    style.unclamps = 0;
+    axes = tables;
+  }
+  move_linear(in, target, axes, style);
+}
+
 Did move_by_words(Interpreter& in) {
   const BlockWords& w = in.words;
   const int16_t code = in.state.modal.code[kGroupMotion];
@@ -395,9 +410,7 @@ Did move_by_words(Interpreter& in) {
                                                                                       : AxisVec{};
   const AxisVec target = mapped ? target_of_words(in, position) : plain_target(in, position, w.axes, w.axis);
   if (code == 0) {
-    LinearStyle style;
-    style.kind = NC_MOVE_RAPID;
-    move_linear(in, target, w.axes, style);
+    move_rapid(in, target, w.axes);
     if (w.in_position > 0) wait_in_position(in);
     return Did::done;
   }

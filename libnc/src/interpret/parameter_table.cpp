@@ -40,6 +40,7 @@ constexpr ParameterRow kRows[] = {
     {1080, 1080, 1, kAll, false, whole<0, 1>,          kOffOn,                    "drilling axis and length compensation are always Z", "12.2"},
     {1081, 1081, 1, kAll, false, whole<0, 1>,          kOffOn,                    "G codes of the control may call a macro, too", "13.5.2"},
     {1084, 1084, 1, kAll, false, between<0, 1>,        "mm",                      "difference of an arc's radii that is corrected", "6.4"},
+    {1086, 1086, 1, kAll, false, whole<0, 1>,          kOffOn,                    "rapid traverse without interpolation: other axes do not wait for the clamp of a table", "6.1"},
     {1092, 1092, 1, kAll, true,  whole<0, 1>,          kOffOn,                    "the axis takes part in the return to the tool change position", "13.13"},
     {1109, 1109, 1, kAll, false, whole<0, 1>,          kOffOn,                    "#1110 and #1111 hold", "13.12"},
     {1110, 1110, 1, kAll, false, any,                  "96; 3-97",                "M code that allows the macro interrupt", "13.12"},

@@ -52,7 +52,7 @@ bool execute_plain_line(Interpreter& in) {
     value[static_cast<unsigned>(axis)] = number;
   }
   if (code != 10 || before > 30 || before % 10 != 0 || axes == 0 ||
-      (axes & (in.rotary | in.settings.index_axes)) != 0 || !plain_modes(in))
+      (axes & in.rotary) != 0 || !plain_modes(in))
     return false;
   in.modal_kept = code == before;
   s.modal.code[kGroupMotion] = code;

@@ -78,20 +78,20 @@ void Manual::wish(unsigned i, const nc_manual& w, double position) {
 }
 
 /// One cycle towards the target, or to rest. The way to a target behind the axis leads over rest.
-double Manual::move(unsigned i, double position) {
+double Manual::move(unsigned i, bool held, double position) {
   Axis& a = axis_[i];
   const double accel = acceleration(i);
   double time = config_.cycle_s;
   for (int leg = 0; leg < 3 && time > 0; ++leg) {
     const double ahead = a.going ? a.target - position : 0;
-    if (a.velocity == 0 && ahead == 0) {
-      a.going = false;
+    if (a.velocity == 0 && (ahead == 0 || held)) {
+      a.going = ahead != 0;
       break;
     }
     const double direction = a.velocity != 0 ? std::copysign(1.0, a.velocity) : std::copysign(1.0, ahead);
     const double way = direction * ahead, v = std::fabs(a.velocity);
     const double stopping = 0.5 * v * v / accel;
-    const bool brake = !a.going || way < stopping * (1 - 1e-11);
+    const bool brake = !a.going || held || way < stopping * (1 - 1e-11);
     LawState state{0, v};
     const LawGoal goal{brake ? stopping + 1 : way, 0, brake ? 0 : a.cap, accel};
     const double left = advance(state, goal, time);
@@ -112,7 +112,7 @@ void Manual::idle(const nc_manual* wishes) {
   for (unsigned i = 0; i < config_.axis_count; ++i) axis_[i].kind = wishes[i].kind;
 }
 
-void Manual::cycle(const nc_manual* wishes, bool stop, AxisVec* position) {
+void Manual::cycle(const nc_manual* wishes, bool stop, uint32_t clamped, AxisVec* position) {
   active_ = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     if (stop) {
@@ -122,7 +122,7 @@ void Manual::cycle(const nc_manual* wishes, bool stop, AxisVec* position) {
       wish(i, wishes[i], (*position)[i]);
     }
     if (axis_[i].velocity == 0 && !axis_[i].going) continue;
-    (*position)[i] = move(i, (*position)[i]);
+    (*position)[i] = move(i, (clamped >> i & 1) != 0, (*position)[i]);
     if (axis_[i].velocity != 0 || axis_[i].going) active_ |= 1u << i;
   }
 }

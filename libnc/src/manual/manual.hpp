@@ -20,14 +20,15 @@ struct ManualConfig {
 class Manual {
  public:
   void create(const ManualConfig& config) { config_ = config; }
-  /// One cycle. `position` is moved; `stop` brakes every axis to rest and gives targets up. Call it only
-  /// while no program moves.
-  void cycle(const nc_manual* wish, bool stop, AxisVec* position) NC_RT;
+  /// One cycle. `position` is moved; `stop` brakes every axis to rest and gives targets up. The axes of
+  /// `clamped` come to rest and keep their targets until they may move. Call it only while no program moves.
+  void cycle(const nc_manual* wish, bool stop, uint32_t clamped, AxisVec* position) NC_RT;
   /// A cycle in which no manual motion is possible: only remembers what is commanded, so that an edge stays
   /// an edge.
   void idle(const nc_manual* wish) NC_RT;
   /// Some axis moves or has a target before it.
   bool active() const NC_RT { return active_ != 0; }
+  uint32_t active_axes() const NC_RT { return active_; }
 
  private:
   struct Axis {
@@ -38,7 +39,7 @@ class Manual {
     bool going = false;             ///< has a target; otherwise it is braking
   };
   void wish(unsigned axis, const nc_manual& wish, double position) NC_RT;
-  double move(unsigned axis, double position) NC_RT;
+  double move(unsigned axis, bool held, double position) NC_RT;
   double top_speed(unsigned axis) const NC_RT;
   double acceleration(unsigned axis) const NC_RT;
   double within(unsigned axis, double target, double position) const NC_RT;

@@ -133,6 +133,7 @@ struct Move {
   Plane plane = Plane::none;     ///< circular only
   uint8_t plane_axis[2] = {0, 1};///< circular only
   bool plane_feed = false;       ///< helix: the feed is the speed in the plane of its arc (M700 6.6)
+  uint8_t unclamps = 0;          ///< bit i: axis i of an index table is unclamped meanwhile, for the move behind (M700 9.3 (3))
   uint8_t high_accuracy = 0;     ///< corners and arcs by the rules of high-accuracy control: bits of HighAccuracy
   TransformId transform = 0;
   uint32_t shape = 0;            ///< of the MoveShape, counted from 1; 0 = the line or circle below is all

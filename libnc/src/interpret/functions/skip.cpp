@@ -2,6 +2,8 @@
 // G31: a straight feed that a signal ends (M700 15.2, 15.4), or that signals change (15.5); G31.1 to G31.3 with signals and feeds by
 // parameter (15.3). Where it ended is known only when it has happened, so the block goes on
 // behind a sync.
+#include <bit>
+
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -39,6 +41,11 @@ Did take_speeds(Interpreter& in, uint32_t* stops) {
 
 Did do_skip(Interpreter& in) {
   const BlockWords& w = in.words;
+  // M700 9.3 (8): where the signal comes a table that has places of its own (#2106) cannot be clamped.
+  for (uint32_t tables = w.axes & in.settings.index_axes; tables != 0; tables &= tables - 1) {
+    const auto axis = static_cast<unsigned>(std::countr_zero(tables));
+    if (in.settings.index_increment[axis] > 0) return in.raise(Condition::no_function, in.system->axis[axis].name);
+  }
   const unsigned step = static_cast<unsigned>(w.one_shot_code - 310);  // 0 G31, 1 to 3 G31.1 to G31.3
   if (in.state.comp.side != 0) return in.raise(Condition::skip_in_compensation, 'G', w.one_shot_code / 10.0);
   uint32_t mask = step == 0 ? 1u : in.settings.multi_skip_mask[step - 1];  // M700 15.3 (5)

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Index tables in the scan (M700 9.3). A segment says which of them it moves; it begins when they are unclamped. Behind it they stay so
+// until it is known what follows: another move of the same axes goes on without a clamp (7), before anything else they are clamped.
+#include <cmath>
+
+#include "interpolate/scan.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kStands = 1e-4;  ///< mm or deg in one cycle: noise of an encoder while the drives are off
+
+/// Moves of these axes do without a clamp.
+uint32_t stay_open(const Record& r) {
+  const bool moves = r.kind == ItemKind::move && r.segment.curve.length > 0;
+  return moves ? uint32_t{r.segment.index_axes} | r.segment.unclamps : 0;
+}
+
+}  // namespace
+
+Scan::Done Scan::wait_for_clamp() {
+  index_waits_ = true;
+  return wait(NC_CAUSE_FIN);
+}
+
+/// 9.3 (3), (4): the whole path waits. What moves by itself only asks for it ("the movement of other axes ... is carried out for
+/// non-interpolation commands").
+bool Scan::unclamp_for(const Segment& s, const nc_inputs& in) {
+  law_.v = 0;
+  if (interlock_) {  // nothing may move: the table stays clamped
+    wait(NC_CAUSE_INTERLOCK);
+    return false;
+  }
+  index_.open(s.unclamps, in.unclamped);
+  if (index_.open(s.index_axes, in.unclamped)) return true;
+  wait_for_clamp();
+  return false;
+}
+
+/// 9.3 (5), (6): the next record is executed when the tables that it does not move are clamped. The end of a block is passed, unless
+/// single block stops there (7); so is the deceleration check, which comes before the clamp.
+bool Scan::clamp_before(const Record& r, const nc_inputs& in) {
+  if (r.kind == ItemKind::move && !(r.segment.curve.length > 0)) return true;
+  if (r.kind == ItemKind::mark && !stops_at(r.mark, in)) return true;
+  if (r.kind == ItemKind::gate && r.gate.kind == NC_GATE_IN_POSITION) return true;
+  const uint32_t off = index_.unclamp() & ~stay_open(r);
+  if (off == 0 && index_.clamping() == 0) return true;
+  law_.v = 0;
+  if (off != 0 && !in_position(in)) {
+    wait(NC_CAUSE_IN_POSITION);
+    return false;
+  }
+  if ((off & ~may_clamp()) == 0 && index_.close(off, in.unclamped)) return true;
+  wait_for_clamp();
+  return false;
+}
+
+/// Axes that stand where they can be clamped.
+uint32_t Scan::may_clamp() {
+  const IndexAxes& index = shared_->index_axes.read();
+  uint32_t axes = 0;
+  for (unsigned i = 0; i < config_.axis_count; ++i)
+    if (index_.may_clamp(i, index, wanted_[i], config_.reference[i])) axes |= 1u << i;
+  return axes;
+}
+
+/// 9.3 (5): a table that is not unclamped any more stops, with what moves together with it; the command stays, and the move goes on when
+/// the answer is back.
+void Scan::watch_index(const nc_inputs& in) {
+  index_waits_ = false;
+  index_lost_ = index_.busy() && moving_ && (current().segment.index_axes & ~in.unclamped) != 0;
+}
+
+/// No program moves: what manual motion does not need (`wanted`) and what was stopped where it can be clamped. A move that is interrupted
+/// keeps its tables unclamped (6).
+void Scan::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
+  if (state_ == NC_STATE_RUNNING || moving_ || !at_rest() || frozen_ || rereading_) return;
+  uint32_t off = index_.unclamp() & ~wanted;
+  if (state_ == NC_STATE_HOLD && tail_ != end_ && current().epoch == epoch_) off &= ~stay_open(current());
+  if (off != 0) off &= may_clamp();
+  for (unsigned i = 0; i < config_.axis_count; ++i) {
+    const double width = config_.limits[i].in_position;
+    const bool stands = wanted_[i] == command_[i] && std::fabs(command_[i] - last_command_[i]) <= kStands &&
+                        (!in.actual_valid || !(width > 0) || std::fabs(in.actual.v[i] - wanted_[i]) <= width);
+    if (!stands) off &= ~(1u << i);
+  }
+  index_.close(off, in.unclamped);
+}
+
+/// Manual motion of a table: unclamped before it, clamped behind it.
+void Scan::manual_cycle(const nc_inputs& in) {
+  const bool stop = !manual_allowed_ || in.interlock || in.feed_hold;
+  const uint32_t tables = shared_->index_axes.read().axes;
+  if (tables == 0 && !index_.busy()) {
+    manual_.cycle(in.manual, stop, 0, &wanted_);
+    return;
+  }
+  const AxisVec before = wanted_;
+  const uint32_t open = index_.unclamp() & in.unclamped;
+  manual_.cycle(in.manual, stop, tables & ~open, &wanted_);
+  const uint32_t wanted = manual_.active_axes() & tables;
+  uint32_t moved = 0;
+  for (unsigned i = 0; i < config_.axis_count; ++i) moved |= wanted_[i] != before[i] ? 1u << i : 0;
+  index_.leave(moved & tables);
+  index_waits_ = !index_.open(wanted, in.unclamped);
+  clamp_at_rest(wanted, in);
+}
+
+}  // namespace nc
