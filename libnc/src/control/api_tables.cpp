@@ -99,8 +99,10 @@ nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char
     index = in.axis_of[axis - 'A'];
   }
   const nc_status status = in.parameters.set(*c->dialect, key, index, text);
-  if (status == NC_OK) in.refresh_settings();
-  return status;
+  if (status != NC_OK) return status;
+  in.refresh_settings();
+  c->system[system].tell_index_axes();
+  return NC_OK;
 }
 
 nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key, char axis, double* value) {
