@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
+#include <iterator>
+#include <random>
 
 #include "support/drive.hpp"
 
@@ -572,6 +573,60 @@ TEST(IndexTable, AMacroInterruptWaitsForTheTable) {
   EXPECT_EQ(m.drive.out.command.v[0], 5) << "the interrupt has come";
   EXPECT_EQ(m.b(), 90);
   EXPECT_EQ(m.diary.substr(0, 17), "+B b B -B b- X Y ") << m.diary;
+}
+
+/// Moves of the table and of others, codes, dwells, calculations, reads.
+std::string random_text(std::mt19937& random) {
+  static constexpr const char* kBlocks[] = {"G0 B%d.",          "G1 B%d. F9000",   "G0 X%d.", "G1 X%d. B%d. F9000", "M8", "G4 P10", "#1=%d", "#100=#5044",
+                                            "G2 X%d. I%d. F9000", "G91 G0 B%d.\nG90", "G0 C%d.", "#1100=1",            "G53 G0 B%d.", "G0 B%d. C%d."};
+  std::string text = "G17 G90\n";
+  for (unsigned n = 0; n < 25; ++n) {
+    std::string block = kBlocks[random() % std::size(kBlocks)];
+    if (block[0] == 'G' && block[1] == '2') {
+      text += "G1 X0 F9000\nG2 X20. I10. B" + std::to_string(random() % 90) + ". F9000\n";
+      continue;
+    }
+    for (size_t at; (at = block.find("%d")) != std::string::npos;) block.replace(at, 2, std::to_string(random() % 90));
+    text += block + "\n";
+  }
+  return text + "M30\n";
+}
+
+/// Under holds, interlocks, single block, slow feeders and slow clamps: all of the program is executed in its order, and no table is
+/// driven while it is clamped.
+TEST_P(IndexTableInMode, UnderDisturbance) {
+  for (uint32_t seed = 1; seed <= 25; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const std::string text = random_text(random);
+    Bench offline(NC_DIALECT_M700, five_axes), bench(NC_DIALECT_M700, GetParam() ? five_axes_optimal : five_axes);
+    for (Bench* each : {&offline, &bench}) each->param("2076", "1", 'B').param("2076", "1", 'C');
+    const Outcome expected = offline.run(text);
+    ASSERT_EQ(expected.alarm, "") << text;
+    TableMachine m(bench, text);
+    m.tables = 0b11000;
+    m.slow_feeder = 1 + random() % 9;
+    m.clamp_cycles = 1 + random() % 30;
+    m.press_start();
+    for (unsigned n = 0; n < 200000 && !m.drive.ended; ++n) {
+      nc_inputs& in = m.drive.in;
+      const unsigned phase = n % 200;
+      if (phase == 0) in.single_block = random() % 2 != 0;
+      in.feed_hold = seed % 3 == 0 && phase > 50 && phase < 70;
+      in.interlock = seed % 3 == 1 && phase > 100 && phase < 140;
+      in.cycle_start = n % 11 == 0;
+      m.step();
+    }
+    ASSERT_TRUE(m.drive.ended) << text << m.diary;
+    EXPECT_EQ(m.diary.find("MOVES"), std::string::npos) << text << m.diary;
+    EXPECT_FALSE((m.drive.out.unclamp & m.tables) != 0 || m.drive.in.unclamped != 0);
+    ASSERT_EQ(m.drive.events.size(), expected.steps.size()) << text;
+    for (size_t i = 0; i < expected.steps.size(); ++i) {
+      ASSERT_EQ(m.drive.events[i].serial, expected.steps[i].item.serial);
+      ASSERT_EQ(m.drive.events[i].kind, expected.steps[i].item.kind);
+    }
+    for (unsigned i = 0; i < 5; ++i) EXPECT_NEAR(m.drive.out.command.v[i], expected.steps.back().machine.v[i], 1e-9);
+  }
 }
 
 }  // namespace

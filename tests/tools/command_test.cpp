@@ -595,6 +595,23 @@ TEST_F(CommandTest, TimeIsWhatTheRuntimeNeeds) {
   EXPECT_NEAR(runtime("p.nc") - runtime("end.nc"), seconds, 0.001 + 1e-9);
 }
 
+// Index tables (M700 9.3): the clamps take the times of the machine, there and on the runtime's; a trace knows nothing of them.
+TEST_F(CommandTest, TimeCountsTheClampsOfAnIndexTable) {
+  const auto machine = [](const std::string& table) {
+    return "[machine]\nname = \"t\"\n[[axis]]\nname = \"X\"\nmax_velocity = 100.0\nmax_acceleration = 1000.0\n"
+           "[[axis]]\nname = \"B\"\nrotary = true\nmax_velocity = 90.0\nmax_acceleration = 900.0\n" + table;
+  };
+  file("table.toml", machine("unclamp_s = 0.7\nclamp_s = 0.4\n[parameters]\n\"2076\" = { B = 1 }\n"));
+  file("plain.toml", machine(""));
+  file("p.nc", "G0 X5.\nB45.\nB90.\nX10.\nB0 X0\nM30\n");
+  const double plain = seconds_of(ncsim("time --machine plain.toml p.nc").out), table = seconds_of(ncsim("time --machine table.toml p.nc").out);
+  EXPECT_NEAR(table - plain, 2 * (0.7 + 0.4), 0.15) << "two of three moves follow each other; the axes settle before a clamp";
+  const std::string command = "cd " + folder_ + " && " NC_BINARY_DIR "/bin/ncrtd --config table.toml run --fast --no-progress p.nc > run.txt 2> /dev/null";
+  EXPECT_EQ(std::system(command.c_str()), 0);  // NOLINT(concurrency-mt-unsafe,cert-env33-c): a test's own command
+  EXPECT_NEAR(seconds_of(content(folder_ + "/run.txt")), table, 0.02) << "but for what M30 takes";
+  EXPECT_EQ(ncsim("trace --machine table.toml p.nc").out, ncsim("trace --machine plain.toml p.nc").out);
+}
+
 TEST_F(CommandTest, ProfileIsDrawnForEveryAxis) {
   file("p.nc", kPart);
   const Outcome run = ncsim("plot --profile --limits 100,1000,50000 -o drawing p.nc");
