@@ -3,8 +3,8 @@
 """Moves of `ncsim trace --dialect m700` against LinuxCNC's interpreter (rs274, Debian linuxcnc-uspace) on generated programs.
 
 The programs use what both families mean the same by: G0 G1 G2 G3 (centre and radius form, helices, several turns), G17-G19, G20 G21,
-G53, G54-G59 with G10 L2, G90 G91, G92, G81 G82 G85 with G98 G99. Two words differ and are written for each: P of an arc counts extra turns
-here and all turns there, P of a dwell is in ms here and in s there. Kinds, end points, arc centres, direction, turns and feed must agree.
+G53, G54-G59 with G10 L2, G90 G91, G92, G81 G82 G85 with G98 G99. Two words differ and are written for each: P of an arc that ends
+elsewhere than it starts counts extra turns here and all turns there, P of a dwell is in ms here and in s there. Kinds, end points, arc centres, direction, turns and feed must agree.
 rs274 prints four decimals, so the generated numbers have at most four, and end points and centres are compared to 1e-6; only the
 centres of radius arcs, which are no such numbers, are compared to the last digit printed.
 
@@ -104,7 +104,8 @@ class Maker:
                 return
             radius = math.hypot(*centre)
             angle = math.atan2(-centre[1], -centre[0])
-            if self.random.random() < 0.8:  # else a full circle
+            closed = self.random.random() >= 0.8
+            if not closed:
                 angle += self.random.uniform(0.1, 6.1)
                 target[first] = round(self.at[first] + centre[0] + radius * math.cos(angle), 4)
                 target[second] = round(self.at[second] + centre[1] + radius * math.sin(angle), 4)
@@ -112,7 +113,7 @@ class Maker:
             words += [CENTRE[first] + text(centre[0]), CENTRE[second] + text(centre[1])]
             turns = self.random.choice([0, 0, 0, 1, 2])
             if turns:
-                both = [f"P{turns}", f"P{turns + 1}"]
+                both = [f"P{turns}", f"P{turns if closed else turns + 1}"]
         if self.random.random() < 0.3:
             target[third] = round(self.at[third] + self.number(5), 4)
             words.append(self.word(third, target[third]))

@@ -105,6 +105,10 @@ TEST(Helix, TurnsAreExtra) {  // M700 6.6: total turn = 2 pi P + theta
   EXPECT_EQ(move.turns, 2u);
   EXPECT_NEAR(move.sweep_deg, 90 + 720, 1e-9);
   EXPECT_EQ(m700("G3 X-10. Y10. I-10. P0 F100\nM30").moves()[0].turns, 0u);
+  // theta of a closed one is 0: the printed sine of 6.16 has two periods with P2
+  EXPECT_EQ(m700("G2 X0 Y0 Z40. J-10. P2 F100\nM30").moves()[0].sweep_deg, -720);
+  EXPECT_EQ(m700("G3 J-10. Z40. P1 F100\nM30").moves()[0].sweep_deg, 360);
+  EXPECT_EQ(m700("G3 J-10. Z40. P0 F100\nM30").moves()[0].sweep_deg, 360);  // 6.4
   EXPECT_EQ(m700("G3 X10. Y10. R10. P1 F100\nM30").alarm, "P33");  // P is not allowed with R
   EXPECT_EQ(m700("G3 X-10. Y10. I-10. P10000 F100\nM30").alarm, "P35");
 }
