@@ -178,6 +178,16 @@ TEST(Measure, Alarms) {
   EXPECT_EQ(bench.run("G1 G41 D1 X10. F100\nX20.\nG43 H2\nG37 Z-50. R5. D1.\nM30").alarm, "P608");
 }
 
+TEST(Measure, ItsRangeIsNoOffsetNumber) {
+  Bench bench;
+  bench.tool(1, 2).tool(50, 9);
+  sensor_at(bench, -100);
+  const Outcome run = bench.run("G1 G41 D1 X5. F100\nX9.\nG40 X0\nG43 H5\nG37 Z-100. R60. D50. F10\nG1 G41 X5. F9\nX9.\nX20.\nG40 X30.\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.last_modal().d, 1u);
+  EXPECT_EQ(bench.run("G43 H5\nG37 Z-100. R90. D999. F10\nM30").alarm, "P35");  // (7), and no P170
+}
+
 TEST(Measure, SharesItsBlock) {  // App. 2: groups 1, 7 and 8 are ignored, and the F is not modal
   Bench bench;
   bench.tool(1, 2);

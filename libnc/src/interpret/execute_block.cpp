@@ -155,7 +155,7 @@ Did apply_systems(Interpreter& in) {
     const Did did = set_compensation(in, radius->function);
     in.words.comp_command = side != 0 || in.state.comp.side != 0;
     if (did != Did::done) return did;
-  } else if (in.words.has('D')) {
+  } else if (in.words.has('D') && !(one_shot != nullptr && one_shot->function == Function::measure_length)) {  // there D is a range (15.1)
     const Did did = change_radius(in);
     if (did != Did::done) return did;
   }
