@@ -174,7 +174,16 @@ TEST(Dwell, XBeforeTheCodeIsALength) {  // M700 8.1 note 3
   EXPECT_EQ(m700("G04 X100000.\nM30").alarm, "P35");
   EXPECT_EQ(m700("G04 X-1.\nM30").alarm, "P35");
   EXPECT_EQ(m700("G04 P99999999\nM30").alarm, "");
-  EXPECT_EQ(m700("G04\nM30").alarm, "P33");
+}
+
+TEST(Dwell, AloneItWaitsForRest) {  // M700 15.2 prints G04 behind G31: "machine stop check"
+  const Outcome run = m700("G1 X1. F100\nG04\nX2.\nM30");
+  EXPECT_EQ(run.alarm, "");
+  const std::vector<nc_item> gates = run.of(NC_ITEM_GATE);
+  ASSERT_EQ(gates.size(), 2u);  // and the FIN of M30
+  EXPECT_EQ(gates[0].u.gate.kind, NC_GATE_DWELL_SECONDS);
+  EXPECT_EQ(gates[0].u.gate.value, 0);
+  EXPECT_FALSE(gates[0].u.gate.announce);
 }
 
 TEST(Dwell, BeginsWithTheFunctionsOfItsBlock) {  // M700 8.1 (5)

@@ -80,7 +80,6 @@ TEST(Dwell, RangeAndWords) {
   EXPECT_EQ(m700("G4 X99999.999\nM30").dwells(), std::vector<double>{99999.999});
   EXPECT_EQ(m700("G4 X100000.\nM30").alarm, "P35");
   EXPECT_EQ(m700("G4 X-1.\nM30").alarm, "P35");
-  EXPECT_EQ(m700("G4\nM30").alarm, "P33");
   EXPECT_EQ(Bench().param("UNIT*10", "10").run("G4 X500\nM30").dwells(), std::vector<double>{0.5});  // M700 2.2
 }
 

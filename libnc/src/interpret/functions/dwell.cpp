@@ -41,14 +41,15 @@ double dgshape_seconds(const Interpreter& in, char letter) {
 Did do_dwell(Interpreter& in) {
   const BlockWords& w = in.words;
   const char letter = w.has('X') ? 'X' : 'P';
-  if (!w.has(letter)) return in.raise(Condition::words_missing, 'G', 4);
   const bool m700 = in.dialect->id == NC_DIALECT_M700;
-  const double seconds = m700 ? m700_seconds(in, letter) : dgshape_seconds(in, letter);
+  if (!w.has(letter) && !m700) return in.raise(Condition::words_missing, 'G', 4);
+  // M700 15.2 prints "G04" alone behind G31, "machine stop check": the axes come to rest, and that is all.
+  const double seconds = !w.has(letter) ? 0 : m700 ? m700_seconds(in, letter) : dgshape_seconds(in, letter);
   const double longest = m700 ? 99999.999 : 3600;  // M700 8.1; DGSHAPE G04
   if (!(seconds >= 0) || seconds > longest) return in.raise(Condition::value_range, letter, w.get(letter));
   Gate& gate = in.emit(ItemKind::gate).gate;
   gate.kind = NC_GATE_DWELL_SECONDS;
-  gate.announce = true;
+  gate.announce = w.has(letter);
   gate.value = seconds;
   gate.skip_mask = in.settings.dwell_skip;
   if (in.words.fin_behind_dwell) await_fin(in);
