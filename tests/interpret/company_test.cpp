@@ -97,6 +97,8 @@ TEST(Company, AlarmCells) {
   EXPECT_EQ(run("G0 X1.\nG1 G41 D1 X5. F100\nG18 X9.\nX10.\nX11.\nX12.").out.alarm, "P112");
   EXPECT_EQ(run("G1 G41 D1 X5. F100\nX9.\nG31 X20. F10\nX10.").out.alarm, "P608");
   EXPECT_EQ(run("G1 G41 D1 X5. F100\nX9.\nG81 X20. Z-1. R1.\nX10.").out.alarm, "P155");
+  EXPECT_EQ(run("G65 G66 P1").out.alarm, "P33");
+  EXPECT_EQ(run("G66 G65 P1").out.alarm, "P33");
 }
 
 TEST(Company, BarredByModes) {  // 6.12, 6.14 (a), 13.3.3

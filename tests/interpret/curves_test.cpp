@@ -76,6 +76,23 @@ TEST(Thread, LeadAndItsModal) {  // M700 6.7
   EXPECT_EQ(from_zero(bench, "G33 Z-20. X10. E1.25\nX20. Z-40.\nM30").moves().size(), 2u);  // modal: the next block is a thread too
 }
 
+TEST(Thread, RidgesAreALeadInItsRange) {  // M700 6.7.1 table, 6.7.2 (3)
+  Bench bench;
+  EXPECT_EQ(from_zero(bench, "G33 Z-20. E0.03\nM30").alarm, "");
+  EXPECT_EQ(from_zero(bench, "G33 Z-20. E0.02\nM30").alarm, "P93");  // 1270 mm
+  EXPECT_EQ(from_zero(bench, "G33 Z-20. E999.99\nM30").alarm, "");
+  EXPECT_EQ(from_zero(bench, "G33 Z-20. E1000.\nM30").alarm, "P93");
+  EXPECT_EQ(from_zero(bench, "G20 G33 Z-1. E1000.\nM30").alarm, "");
+  EXPECT_EQ(from_zero(bench, "G20 G33 Z-1. E0.0101\nM30").alarm, "");
+  EXPECT_EQ(from_zero(bench, "G20 G33 Z-1. E0.0099\nM30").alarm, "P93");  // 101 inch
+}
+
+TEST(Thread, NoLeadIsMissingWhereNothingIsCut) {
+  Bench bench;
+  EXPECT_EQ(from_zero(bench, "G33 G28 X3.\nM8\nM30").alarm, "");
+  EXPECT_EQ(from_zero(bench, "G33\nZ-3.\nM30").alarm, "P62");
+}
+
 TEST(PolarCommand, RadiusAndAngle) {  // M700 6.12
   EXPECT_EQ(m700("G16 G0 X100. Y30.\nG91 Y60.\nM30").path().back(), "rapid 0 100 0");
   const nc_move pole = m700("G0 X30. Y40.\nG16 G91 X25. Y90.\nM30").moves().back();  // from where it stands; 90 more than its angle
@@ -136,6 +153,13 @@ TEST(Cylinder, DegreesOnTheSurface) {  // M700 6.9
   EXPECT_EQ(from_zero(bench, "G0 G19 Z0 C0\nG7.1 C30.\nG7.1 C20.\nM30").alarm, "P481");
 }
 
+TEST(Cylinder, PlaneByTheNamesOfItsAxes) {  // M700 6.9 (4) prints G19 Z C
+  Bench bench = rotary_bench();
+  const Outcome run = from_zero(bench, "G0 G19 Z C\nG7.1 C20.\nG1 Z-5. C90. F100\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_NEAR(run.moves()[0].machine.v[3], 90, 1e-9);
+}
+
 TEST(Polar, AxesGoToRadiusAndAngle) {  // M700 6.10
   Bench bench = rotary_bench();
   bench.param("1517", "1");
@@ -160,6 +184,32 @@ TEST(Polar, AxesGoToRadiusAndAngle) {  // M700 6.10
   EXPECT_NEAR(run.moves()[0].machine.v[3], 50 + 45, 1e-9);
   EXPECT_NEAR(run.moves()[0].machine.v[0], std::hypot(20, 20), 1e-9);
   EXPECT_EQ(run.moves()[1].machine.v[1], 3);
+}
+
+TEST(Polar, ItsHypotheticalAxisIsALength) {
+  Bench bench = rotary_bench();
+  bench.param("1517", "1").param("2106", "5", 'C').param("8213", "0", 'C');
+  const auto from_start = [&bench](const std::string& text) { return bench.at(30, 0, 0, 0).run(text); };
+  // F is inch/min on the plane also where the hypothetical axis alone goes (6.10 (5)); alone a rotary axis has a unit of 10 deg (3.2 note 6).
+  Outcome run = from_start("G20\nG12.1\nG1 C0.25 F10\n#101=#5004\nC-0.25\n#102=#5004\nG13.1\nG1 C5.\nM30");
+  EXPECT_EQ(run.alarm, "");  // nor is 0.25 a position that #2106 knows
+  EXPECT_EQ(run.moves()[0].feed_mm_min, 254);
+  EXPECT_EQ(run.moves()[2].feed_mm_min, 100);
+  EXPECT_NEAR(run.var(102), -6.35, 1e-9);  // no angle within one turn (14.13)
+  EXPECT_EQ(from_start("G12.1\nG16\nM30").alarm, "P485");  // (7) (b): "G16 to G19"
+  Bench cylinder = rotary_bench();
+  run = cylinder.at(0, 0, 0, 0).run("G0 G19 Z0 C0\nG20\nG7.1 C1.\nG1 C90. F10\nM30");
+  EXPECT_EQ(run.moves()[0].feed_mm_min, 254);  // 6.9 (6)
+}
+
+TEST(Exponential, ExcludesOtherCodes) {  // M700 6.11, precaution (3)
+  Bench bench = rotary_bench();
+  bench.tool(1, 2);
+  const std::string curve = "G91 G2.3 X10. I50. J80. R105. F500\n";
+  for (const char* code : {"G41 D1", "G42 D1", "G51 X0 P2.", "G51.1 X0", "G68 X0 Y0 R10."})
+    EXPECT_EQ(from_zero(bench, curve + code + "\nM30").alarm, "P612") << code;
+  EXPECT_EQ(from_zero(bench, curve + "G41 D1 G0 X5.\nX9.\nG40 X1.\nM30").alarm, "");  // the block leaves the curve
+  EXPECT_EQ(from_zero(bench, "M98 H5 I1. J1.\nM30\nN5 " + curve + "M99").alarm, "P612");  // figure rotation
 }
 
 TEST(Exponential, AngleOfTheRotaryAxis) {  // M700 6.11: i 50, j 80, r 105, x 100: 206.802 deg
@@ -197,6 +247,16 @@ TEST(SpaceArc, ThreePointsOverTwoBlocks) {  // M700 6.14
   EXPECT_EQ(from_zero(bench, "G2.4 X10. Y5. F100\nM30").alarm, "P74");
   EXPECT_EQ(from_zero(bench, "G91 G2.4 X10. Y10. F100\nX10. Y-10.\nM30").moves()[1].machine.v[0], 20);
   EXPECT_EQ(from_zero(bench, "G16\nG2.4 X10. Y5. F100\nM30").alarm, "P75");
+}
+
+TEST(SpaceArc, ABlockThatLeavesItMayHaveAnyCode) {
+  Bench bench;
+  bench.tool(1, 2);
+  const std::string arc = "G2.4 X10. Y10. F100\nX20. Y0\n";
+  EXPECT_EQ(from_zero(bench, arc + "G43 H1 G0 Z50.\nM30").alarm, "");  // whatever the order of its words
+  EXPECT_EQ(from_zero(bench, arc + "G0 G43 H1 Z50.\nM30").alarm, "");
+  EXPECT_EQ(from_zero(bench, arc + "G43 H1 Z50.\nM30").alarm, "P75");
+  EXPECT_EQ(from_zero(bench, "G66.1 P5\n" + arc + "G67\nM30\nO5\nM99").alarm, "P75");  // 6.14 (b)
 }
 
 TEST(SpaceArc, GoesOnFromItsMiddle) {
@@ -277,6 +337,12 @@ TEST(Hypothetical, TheAxisStaysAndComesBackToItself) {  // M700 6.16
   EXPECT_EQ(m[2].machine.v[1], 3);
 }
 
+TEST(Hypothetical, TheNameOfAnAxisAloneIsOn) {  // M700 6.16 (4)
+  Bench bench;
+  EXPECT_EQ(from_zero(bench, "G7 Y\nG1 X5. Y5. F100\nM30").moves()[0].machine.v[1], 0);
+  EXPECT_EQ(from_zero(bench, "G1 Y F100\nM30").alarm, "P33");
+}
+
 TEST(Unidirectional, TheLastStretchHasItsDirection) {  // M700 6.8
   Bench bench;
   bench.param("8209", "-2", 'X');
@@ -288,7 +354,7 @@ TEST(Unidirectional, TheLastStretchHasItsDirection) {  // M700 6.8
 TEST(Curves, ResetEndsEveryMode) {
   Bench bench = rotary_bench();
   bench.param("1517", "1").at(30, 0, 0, 0);
-  EXPECT_EQ(bench.run("G12.1\nG1 X20. C5. F100\nG16").alarm, "P481");
+  EXPECT_EQ(bench.run("G12.1\nG1 X20. C5. F100\nG16").alarm, "P485");
   EXPECT_EQ(bench.run("G1 C90. F100\nM30").path().back().substr(0, 4), "line");
   EXPECT_NEAR(bench.run("G0 C45.\nM30").moves().back().machine.v[3], 45, 1e-12);
 }

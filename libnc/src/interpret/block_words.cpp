@@ -19,15 +19,41 @@ bool near_integer(double value, double* integer) {
   return std::fabs(value - *integer) < 1e-6;
 }
 
-/// Codes that a mode in force does not bear.
+/// Row of a G code as it is written, nullptr = there is none; `code` is its number times 10.
+const FunctionRow* row_of(const Interpreter& in, double value, double* code) {
+  const bool direct = value >= 0 && value < Interpreter::kDirectCodes;
+  const int whole = direct ? static_cast<int>(value) : 0;
+  if (direct && whole == value) {
+    *code = whole * 10;
+    return in.direct_function[whole];
+  }
+  if (!near_integer(value * 10, code) || *code < 0 || *code > 9999) return nullptr;
+  return find_function(*in.dialect, static_cast<int>(*code));
+}
+
+/// The code of group 1 that will be in force when the whole block has been read, as far as its codes are plain numbers.
+int16_t motion_of_block(const Interpreter& in) {
+  int16_t motion = in.state.modal.code[kGroupMotion];
+  for (const Word& word : in.block->words) {
+    if (word.letter != 'G' || (word.flags & kWordExpression) != 0) continue;
+    double code = 0;
+    const FunctionRow* const row = row_of(in, word.value, &code);
+    if (row != nullptr && row->group == kGroupMotion) motion = row->code;
+  }
+  return motion;
+}
+
+/// Codes that a mode in force does not bear. A curve that the block itself leaves bears everything.
 Did check_modes(Interpreter& in, const FunctionRow& row, double value) {
   const State& state = in.state;
-  if (is_space_arc(state.modal.code[kGroupMotion])) {
+  const int16_t motion = bars_codes(state.modal.code[kGroupMotion]) ? motion_of_block(in) : int16_t{0};
+  if (is_space_arc(state.modal.code[kGroupMotion]) && is_space_arc(motion)) {
     const Did did = check_in_space_arc(in, row);
     if (did != Did::done) return did;
   }
   const unsigned modes = (state.modal.code[kGroupPolarCommand] == 160 ? unsigned{kInPolarCommand} : 0u) |
                          (state.frame[state.depth].figure != 0 ? unsigned{kInFigure} : 0u) |
+                         (is_exponential(state.modal.code[kGroupMotion]) && is_exponential(motion) ? unsigned{kInExponential} : 0u) |
                          (state.comp.side != 0 && in.dialect->id == NC_DIALECT_DGSHAPE ? unsigned{kInDiameterOffset} : 0u);
   const Condition bad = modes != 0 ? barred(modes, row.code) : Condition::none;
   return bad == Condition::none ? Did::done : in.raise(bad, 'G', value);
@@ -38,19 +64,10 @@ bool shares_no_words(Function function) { return function == Function::scaling_o
 
 /// Files a G code under what it is.
 Did take_g(Interpreter& in, double value) {
-  const FunctionRow* row = nullptr;
   double code = 0;
-  const bool direct = value >= 0 && value < Interpreter::kDirectCodes;
-  const int whole = direct ? static_cast<int>(value) : 0;
-  if (direct && whole == value) {
-    code = whole * 10;
-    row = in.direct_function[whole];
-  } else {
-    if (!near_integer(value * 10, &code) || code < 0 || code > 9999) return in.raise(Condition::illegal_g, 'G', value);
-    row = find_function(*in.dialect, static_cast<int>(code));
-  }
+  const FunctionRow* const row = row_of(in, value, &code);
   if (row == nullptr) return in.raise(Condition::illegal_g, 'G', value);
-  if (in.state.special != 0 || in.state.mapped || in.state.comp.side != 0 || is_space_arc(in.state.modal.code[kGroupMotion])) {
+  if (in.state.special != 0 || in.state.mapped || in.state.comp.side != 0 || bars_codes(in.state.modal.code[kGroupMotion])) {
     const Did did = check_modes(in, *row, value);
     if (did != Did::done) return did;
   }
@@ -111,6 +128,26 @@ Did take_m(Interpreter& in, double value) {
 bool calls_program(const BlockWords& w) {
   for (const uint32_t m : w.m)
     if (m == 98) return true;
+  return false;
+}
+
+/// M700 14.10 prints "G28 XYZ", 6.9 "G19 Z C", and 6.16 (4) has "G07 Y": zeros. A word of any other block is a letter and a number (3.2 (1)).
+bool takes_bare_axes(const BlockWords& w) {
+  if (w.one_shot != nullptr) return w.one_shot->function == Function::reference_return || w.one_shot->function == Function::hypothetical_axis;
+  for (const FunctionRow* row : w.g)
+    if (row->group == kGroupPlane) return true;
+  return false;
+}
+
+/// Behind the macro call that is word `first` there is one of another kind.
+bool calls_another(const Interpreter& in, unsigned first) {
+  for (unsigned i = first + 1; i < in.block->words.size(); ++i) {
+    const Word& word = in.block->words[i];
+    if (word.letter != 'G' || (word.flags & kWordExpression) != 0) continue;
+    double code = 0;
+    const FunctionRow* const row = row_of(in, word.value, &code);
+    if (row != nullptr && is_macro_call(row->function) && row->code != in.words.one_shot->code) return true;
+  }
   return false;
 }
 
@@ -191,7 +228,11 @@ Did gather_words(Interpreter& in) {
       if (did != Did::done) return did;
       if (w.g.back()->function == Function::absolute) w.absolute_at |= uint64_t{1} << i;
       if (w.g.back()->function == Function::incremental) w.incremental_at |= uint64_t{1} << i;
-      if (in.words.one_shot != nullptr && is_macro_call(in.words.one_shot->function)) break;  // the rest are arguments
+      if (in.words.one_shot != nullptr && is_macro_call(in.words.one_shot->function)) {
+        // The rest are arguments. M700 App.2: G65 beside G66 is an error.
+        if (calls_another(in, i)) return in.raise(Condition::format_error, 'G', value);
+        break;
+      }
       continue;
     }
     if (word.letter == 'M') {
@@ -211,9 +252,7 @@ Did gather_words(Interpreter& in) {
   }
   w.present = present;
   if (w.device != 0 && !calls_program(w)) return in.raise(Condition::no_function, 'D', w.device);
-  // M700 14.10 prints "G28 XYZ" and means zeros; a word of any other block is a letter and a number (3.2 (1)).
-  if (bare_axis != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::reference_return))
-    return in.raise(Condition::format_error, bare_axis);
+  if (bare_axis != 0 && !takes_bare_axes(w)) return in.raise(Condition::format_error, bare_axis);
   // M700 15.5: feeds behind a skip signal belong to G31.
   if (w.counted_feeds != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::skip)) return in.raise(Condition::format_error, 'F');
   return Did::done;

@@ -429,6 +429,9 @@ void emit_circular(Interpreter& in, const MoveFrame& frame, const PlaneAxes& pla
 /// A move of any other shape; its feed is the caller's.
 Move& emit_shaped(Interpreter& in, const MoveFrame& frame, const MoveShape& shape, nc_move_kind kind);
 inline bool is_space_arc(int16_t motion) { return motion == 24 || motion == 34; }
+inline bool is_exponential(int16_t motion) { return motion == 23 || motion == 33; }
+/// Modal curves that do not bear some other codes.
+inline bool bars_codes(int16_t motion) { return is_space_arc(motion) || is_exponential(motion); }
 /// A compensation command in a block that does not move: a move without length carries it to the offset stage (offset/offset.hpp).
 void move_nowhere(Interpreter& in);
 /// The motion that the words of the block ask for by the modal group 1.

@@ -161,8 +161,10 @@ Did make_modal_call(Interpreter& in) {
 /// the modal state all the same.
 Did call_with_block(Interpreter& in) {
   MacroCall call;
-  for (const FunctionRow* row : in.words.g)
+  for (const FunctionRow* row : in.words.g) {
+    if (row->function == Function::space_arc) return in.raise(Condition::space_arc_mode, 'G', row->code / 10.0);  // 6.14 (b)
     if (row->function == Function::work_system && select_work_system(in, *row) != Did::done) return Did::fault;
+  }
   const Did did = gather_arguments(in, true, call);
   return did == Did::done ? enter_modal(in, top(in).modal_call, call.argument) : did;
 }

@@ -73,10 +73,11 @@ void finish_mapped(Interpreter& in, const MoveFrame& frame, const AxisVec& befor
   finish_shaped(in, shape, frame, before, move);
 }
 
-/// M700 2.3: a rotary position must be a multiple of #2106.
+/// M700 2.3: a rotary position must be a multiple of #2106; in the plane of G12.1 the word is a length (6.10).
 bool off_increment(const Interpreter& in, unsigned axis, double value) {
   const double unit = in.settings.index_increment[axis];
   if (unit <= 0 || ((in.rotary >> axis) & 1) == 0) return false;
+  if (in.state.map.kind == AxisMap::Kind::polar && axis == in.state.map.rotary) return false;
   return std::fabs(value - unit * std::nearbyint(value / unit)) > 1e-6;
 }
 
@@ -89,12 +90,15 @@ double feed_mm_min(const Interpreter& in) {
 
 namespace {
 
-/// When only rotary axes move F is deg/min; in inch its unit is 10 deg (M700 3.2 note 6).
+/// When only rotary axes move F is deg/min; in inch its unit is 10 deg (M700 3.2 note 6). On a cylinder and in the plane of G12.1 F is
+/// inch/min along the curve that is programmed there, whatever axis goes (6.9 (6), 6.10 (5)).
 double feed_for(const Interpreter& in, const AxisVec& start, const AxisVec& end) {
   const bool inch = in.state.modal.code[kGroupUnit] == 200;
   if (!inch || in.rotary == 0 || in.dialect->id != NC_DIALECT_M700) return feed_mm_min(in);
+  const AxisMap& map = in.state.map;
+  const uint32_t turning = map.kind == AxisMap::Kind::none ? in.rotary : in.rotary & ~(1u << map.rotary);
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((in.rotary >> i) & 1) == 0 && std::fabs(end[i] - start[i]) > kNoMotion) return feed_mm_min(in);
+    if (((turning >> i) & 1) == 0 && std::fabs(end[i] - start[i]) > kNoMotion) return feed_mm_min(in);
   return in.state.modal.feed * 10;
 }
 

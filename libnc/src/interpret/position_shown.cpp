@@ -15,7 +15,11 @@ AxisVec shown(const Interpreter& in, uint32_t axes, const AxisVec& position) {
 
 }  // namespace
 
-AxisVec work_shown(const Interpreter& in, const AxisVec& work) { return shown(in, in.settings.turning, work); }
+AxisVec work_shown(const Interpreter& in, const AxisVec& work) {
+  // In the plane of G12.1 the rotary axis holds a length (M700 6.10).
+  const uint32_t lengths = in.state.map.kind == AxisMap::Kind::polar ? 1u << in.state.map.rotary : 0u;
+  return shown(in, in.settings.turning & ~lengths, work);
+}
 AxisVec machine_shown(const Interpreter& in, const AxisVec& machine) { return shown(in, in.settings.machine_turn, machine); }
 
 }  // namespace nc

@@ -59,6 +59,11 @@ constexpr BarredRow kBarred[] = {
     {kInSpaceArc, 730, 740, Condition::space_arc_mode, "6.14"},
     {kInSpaceArc, 760, 760, Condition::space_arc_mode, "6.14"},
     {kInSpaceArc, 810, 890, Condition::space_arc_mode, "6.14"},
+    {kInExponential, 410, 410, Condition::exponential_mode, "6.11"},
+    {kInExponential, 420, 420, Condition::exponential_mode, "6.11"},
+    {kInExponential, 431, 431, Condition::exponential_mode, "6.11"},
+    {kInExponential, 510, 511, Condition::exponential_mode, "6.11"},
+    {kInExponential, 680, 680, Condition::exponential_mode, "6.11"},
     // Fixed cycles and scaling are errors there, and so are the codes that end them. Those that begin them have their own checks.
     {kInDiameterOffset, 500, 510, Condition::not_in_compensation, "DGSHAPE G41"},
     {kInDiameterOffset, 800, 800, Condition::cycle_in_compensation, "DGSHAPE G41"},

@@ -36,6 +36,7 @@ inline constexpr uint8_t kInPolarCommand = 1;  ///< G16
 inline constexpr uint8_t kInFigure = 2;        ///< a program called by M98 I J K
 inline constexpr uint8_t kInSpaceArc = 4;      ///< G02.4, G03.4
 inline constexpr uint8_t kInDiameterOffset = 8;  ///< DGSHAPE G41, G42
+inline constexpr uint8_t kInExponential = 16;  ///< G02.3, G03.3
 
 struct BarredRow {
   uint8_t mode;          ///< of those above

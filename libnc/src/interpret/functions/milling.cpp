@@ -171,6 +171,8 @@ Did check_mill_block(Interpreter& in) {
         if (polar) return in.raise(Condition::mill_modal, 'G', row->code / 10.0);
         if (in.state.mill.moved) return in.raise(Condition::mill_code, 'G', row->code / 10.0);
         continue;
+      case Function::polar_command_on:  // 6.10 (7) (b): "G16 to G19"
+        return in.raise(polar ? Condition::mill_modal : Condition::mill_code, 'G', row->code / 10.0);
       default:
         if (!allowed_inside(row->code)) return in.raise(Condition::mill_code, 'G', row->code / 10.0);
     }

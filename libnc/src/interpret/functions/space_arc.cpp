@@ -129,7 +129,6 @@ bool names_centre(const Block& block) {
 }  // namespace
 
 Did check_in_space_arc(Interpreter& in, const FunctionRow& row) {
-  if (in.words.motion != nullptr && !is_space_arc(in.words.motion->code)) return Did::done;  // the block leaves the modal
   Condition bad = barred(kInSpaceArc, row.code);  // 6.14 (a)
   if (row.code == 680 && names_centre(*in.block)) bad = Condition::space_conversion_code;  // with I J K it converts in space
   return bad == Condition::none ? Did::done : in.raise(bad, 'G', row.code / 10.0);

@@ -25,10 +25,9 @@ Did take_lead(Interpreter& in) {
     if (in.settings.precision_lead) {
       lead = w.get('E') * unit;
       if (inch) limit = 39.370079 * kMillimetresPerInch;
-    } else if (w.get('E') > 0) {
+    } else if (w.get('E') > 0 && w.get('E') < (inch ? 10000 : 1000)) {
       lead = kMillimetresPerInch / w.get('E');
-      limit = HUGE_VAL;
-      if (w.get('E') >= 10000) lead = 0;
+      if (inch) limit = 100 * kMillimetresPerInch;  // 6.7.2 (3): within the range of the lead that it is
     }
   } else if (w.has('F')) {
     lead = w.get('F') * unit;  // M700 6.7.1: F1 = 1.000
@@ -45,6 +44,7 @@ Did take_lead(Interpreter& in) {
 
 Did move_thread(Interpreter& in, const AxisVec& target, uint32_t commanded) {
   const BlockWords& w = in.words;
+  if (commanded == 0 && !w.any(letters("EF"))) return Did::done;  // nothing is cut, so no lead is missing
   const Did did = take_lead(in);
   if (did != Did::done) return did;
   double angle = 0;  // M700 6.7.1: not modal
