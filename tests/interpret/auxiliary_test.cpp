@@ -123,7 +123,7 @@ TEST(SurfaceSpeed, NeedsASpeed) {  // P132
 TEST(SpindleClamp, WhatG92SIs) {  // 10.4 (Note 1)
   EXPECT_EQ(speeds(m700("G92 S1000\nM30")), "S1000");  // Sclamp 0, G97: a speed
   EXPECT_EQ(speeds(m700("G96 S100\nG92 S1000 Q200\nM30")), "axis1:100 S100 200..1000 off 0..0");
-  EXPECT_EQ(speeds(m700("G92 Q200\nM30")), "0..200 0..0");  // Q is always one; S0 < Q: they change places
+  EXPECT_EQ(speeds(m700("G92 Q200\nM30")), "200..0 0..0");  // Q is always one, the lower one until there is an S
   Bench bench;
   bench.param("1146", "1");
   EXPECT_EQ(speeds(bench.run("G92 S1000\nM30")), "0..1000!1 0..0");

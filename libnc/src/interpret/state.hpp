@@ -85,7 +85,7 @@ struct NurbsState {
 /// Constant surface speed and the clamp of the spindle (M700 10.3, 10.4).
 struct SpindleControl {
   double surface = 0;          ///< S of G96, m/min
-  uint32_t clamp_s = 0, clamp_q = 0;  ///< S and Q of G92 as programmed, r/min
+  uint32_t clamp_s = 0, clamp_q = 0;  ///< S of G92 and 1 (0 = there was none), and its Q, r/min
   uint8_t axis = 0;            ///< of G96, from 1; 0 = G97
 };
 

@@ -76,7 +76,9 @@ Did set_spindle_clamp(Interpreter& in) {
   SpindleControl& spindle = in.state.spindle;
   const bool s = w.has('S') && is_clamp_command(in);
   if (!s && !w.has('Q')) return Did::done;
-  Did did = s ? speed_word(in, 'S', &spindle.clamp_s) : Did::done;
+  uint32_t largest = 0;
+  Did did = s ? speed_word(in, 'S', &largest) : Did::done;
+  if (s) spindle.clamp_s = largest + 1;
   if (did == Did::done && w.has('Q')) did = speed_word(in, 'Q', &spindle.clamp_q);
   if (did != Did::done) return did;
   announce_spindle_clamp(in);
@@ -85,10 +87,13 @@ Did set_spindle_clamp(Interpreter& in) {
 
 void announce_spindle_clamp(Interpreter& in) {
   const SpindleControl& spindle = in.state.spindle;
-  // 10.4, precaution (1): where S is smaller than Q the two change places.
-  const bool both = spindle.clamp_q != 0;
-  const uint32_t high = both && spindle.clamp_s < spindle.clamp_q ? spindle.clamp_q : spindle.clamp_s;
-  const uint32_t low = both && spindle.clamp_s < spindle.clamp_q ? spindle.clamp_s : spindle.clamp_q;
+  // 10.4, precaution (1): where the S that was commanded, if only S0, is smaller than Q the two change places. Without an S there is no
+  // upper clamp, and Q is the lower one.
+  uint32_t high = spindle.clamp_s != 0 ? spindle.clamp_s - 1 : 0, low = spindle.clamp_q;
+  if (spindle.clamp_s != 0 && high < low) {
+    high = spindle.clamp_q;
+    low = spindle.clamp_s - 1;
+  }
   // In G97 only with Sclamp = 1 and aux11 bit 5 = 0.
   const bool always = in.settings.clamp_command_always && !in.settings.clamp_in_g96_only;
   emit_control(in, NC_CONTROL_SPINDLE_CLAMP, (always ? 1 : 0) + (in.settings.keeps_clamp ? 2 : 0), low, high);
