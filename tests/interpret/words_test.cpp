@@ -86,6 +86,14 @@ TEST(Inch, OffsetsKeepTheSettingUnit) {  // M700 5.2: setting units do not chang
   EXPECT_EQ(bench.run("G20 G43 H1 G0 Z1.\nM30").path(), (Path{"rapid 0 0 35.4"}));
 }
 
+TEST(Distance, PowerOnModeIsAParameter) {  // M700 5.1 (4) #1073
+  Bench bench;
+  EXPECT_EQ(bench.at(5, 0, 0).run("G0 X3.\nM30").path(), (Path{"rapid 3 0 0"}));
+  bench.param("1073", "0");
+  EXPECT_EQ(bench.at(5, 0, 0).run("G0 X3.\nG90 X1.\nM30").path(), (Path{"rapid 8 0 0", "rapid 1 0 0"}));
+  EXPECT_EQ(bench.at(5, 0, 0).run("G0 X3.\nM30").path(), (Path{"rapid 8 0 0"}));  // and again behind the end
+}
+
 TEST(Inch, PowerOnUnitIsAParameter) {  // M700 5.2 #1152
   Bench bench;
   bench.param("1152", "1");

@@ -34,6 +34,7 @@ constexpr ParameterRow kRows[] = {
     {1026, 1028, 1, kAll, false, any,                  "X, Y, Z",                 "axes of I, J, K in the plane selection", "6.3"},
     {1029, 1031, 1, kAll, false, any,                  "none, an axis",           "axes parallel to those", "6.3"},
     {1037, 1037, 1, kAll, false, whole<1, 2>,          "1, 2",                    "memory type of tool offsets", "12.1"},
+    {1073, 1073, 1, kAll, false, whole<0, 1>,          "0 G91, 1 G90",            "absolute values at power on", "5.1"},
     {1074, 1074, 1, kAll, false, whole<0, 1>,          kOffOn,                    "synchronous feed G95 at power on", "7.4"},
     {1078, 1078, 1, kAll, false, whole<0, 1>,          kOffOn,                    "decimal point type II: a number without a point is in mm", "5.3"},
     {1079, 1079, 1, kAll, false, whole<0, 1>,          kOffOn,                    "F1-digit feed", "7.3"},

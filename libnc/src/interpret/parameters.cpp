@@ -349,6 +349,7 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.preset_allowed = number("1267/bit0", 1) != 0;
   s.run_time_hours = flag("1273/bit1");
   s.start_inch = flag("1152");
+  s.start_absolute = number("1073", 1) != 0;
   for (unsigned i = 0; i < 3; ++i) {
     const char basic[5] = {'1', '0', '2', static_cast<char>('6' + i), 0};
     const char parallel[5] = {'1', '0', i == 0 ? '2' : '3', i == 0 ? '9' : static_cast<char>('0' + i - 1), 0};
