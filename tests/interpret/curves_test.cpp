@@ -259,6 +259,17 @@ TEST(SpaceArc, ABlockThatLeavesItMayHaveAnyCode) {
   EXPECT_EQ(from_zero(bench, "G66.1 P5\n" + arc + "G67\nM30\nO5\nM99").alarm, "P75");  // 6.14 (b)
 }
 
+TEST(SpaceArc, EachBlockHasItsFeed) {
+  Bench bench;
+  const std::vector<nc_move> m = from_zero(bench, "G2.4 X10. Y10. F100\nX20. Y0 F200\nX30. Y10.\nX40. Y0\nM30").moves();
+  ASSERT_EQ(m.size(), 4u);
+  EXPECT_EQ(m[0].feed_mm_min, 100);
+  EXPECT_EQ(m[1].feed_mm_min, 200);
+  EXPECT_EQ(m[2].feed_mm_min, 200);
+  bench.param("1079", "1").param("1185", "70");
+  EXPECT_EQ(from_zero(bench, "G2.4 X10. Y10. F1\nX20. Y0 F200\nM30").moves()[0].feed_mm_min, 70);
+}
+
 TEST(SpaceArc, GoesOnFromItsMiddle) {
   Bench bench;
   const std::string text = "G2.4 X10. Y10. F100\nX20. Y0\nM30";

@@ -106,8 +106,17 @@ void emit_half(Interpreter& in, const AxisVec& to, const SpaceArc* arc) {
 void emit_first_half(Interpreter& in, const AxisVec& middle, const SpaceArc* arc) {
   State& state = in.state;
   const nc_source second = in.source;
-  in.source = in.points[state.arc_points].source;
+  const PathPoint& first = in.points[state.arc_points];
+  in.source = first.source;
+  const double feed = state.modal.feed;
+  const uint16_t digit = state.modal.feed_digit;
+  state.modal.feed = first.weight;  // F of its own block
+  state.modal.feed_digit = static_cast<uint16_t>(first.knot);
+  state.refresh_special();
   emit_half(in, middle, arc);
+  state.modal.feed = feed;
+  state.modal.feed_digit = digit;
+  state.refresh_special();
   state.arc_step = ArcStep::halfway;
   CallFrame& frame = state.frame[state.depth];
   const uint64_t next = frame.offset;
@@ -155,6 +164,8 @@ Did move_space_arc(Interpreter& in, const AxisVec& target) {
   if (state.arc_step == ArcStep::none) {  // the first block: the point on the way
     PathPoint start{in.position()}, middle{target};
     start.source = middle.source = in.source;
+    start.weight = state.modal.feed;
+    start.knot = state.modal.feed_digit;
     state.arc_points = in.points.intern(start);
     in.points.intern(middle);
     state.arc_step = ArcStep::middle_given;
