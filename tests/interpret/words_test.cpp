@@ -182,6 +182,9 @@ TEST(Words, IndexingIncrement) {  // M700 2.3
   EXPECT_EQ(run("G0 C101.").alarm, "P20");
   EXPECT_EQ(run("G1 C102 F10").alarm, "P20");  // 0.102 deg in type I
   EXPECT_EQ(run("G0 X1.001").alarm, "");       // linear axes are not checked
+  for (const char* block : {"G28 C5.", "G30 C5.", "G53 C5.", "G31 C5. F10", "G60 C5.", "G27 C5.", "G81 X1. C5. Z-1. R1. F10", "G33 C5. F1."})
+    EXPECT_EQ(run(block).alarm, "P20") << block;
+  for (const char* block : {"G92 C5.", "G52 C5.", "G10 L2 P1 C5.", "G28 C4."}) EXPECT_EQ(run(block).alarm, "") << block;
 }
 
 TEST(Words, UnknownOnesAreAlarms) {

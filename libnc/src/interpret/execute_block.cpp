@@ -182,9 +182,26 @@ Did update_beside_call(Interpreter& in) {
   return Did::done;
 }
 
+/// One-shot functions whose axis words are positions to go to.
+bool goes_to_position(Function function) {
+  switch (function) {
+    case Function::tool_change_return:
+    case Function::skip:
+    case Function::multi_skip:
+    case Function::measure_length:
+    case Function::machine_move:
+    case Function::unidirectional: return true;
+    default: return is_reference_move(function);
+  }
+}
+
 /// 4: what moves.
 Did execute_motion(Interpreter& in) {
   const BlockWords& w = in.words;
+  if ((w.axes & in.rotary) != 0 && (w.one_shot == nullptr || goes_to_position(w.one_shot->function))) {
+    const Did did = check_index_positions(in);
+    if (did != Did::done) return did;
+  }
   if (w.motion != nullptr) {
     cancel_cycle(in);  // M700 13.1.1 (4): G00-G03 cancel the cycle, and win over a cycle code in the same block
   } else if (w.cycle != nullptr && !ignores_cycle(w.one_shot)) {

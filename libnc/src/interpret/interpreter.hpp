@@ -434,6 +434,8 @@ inline bool is_exponential(int16_t motion) { return motion == 23 || motion == 33
 inline bool bars_codes(int16_t motion) { return is_space_arc(motion) || is_exponential(motion); }
 /// A compensation command in a block that does not move: a move without length carries it to the offset stage (offset/offset.hpp).
 void move_nowhere(Interpreter& in);
+/// P20: a rotary axis commanded to a position that is no multiple of #2106 (M700 2.3).
+Did check_index_positions(Interpreter& in);
 /// The motion that the words of the block ask for by the modal group 1.
 Did move_by_words(Interpreter& in);
 /// F in force as mm/min, 0 = none.

@@ -388,6 +388,17 @@ void move_rapid(Interpreter& in, const AxisVec& target, uint32_t axes) {
   move_linear(in, target, axes, style);
 }
 
+Did check_index_positions(Interpreter& in) {
+  const BlockWords& w = in.words;
+  for (unsigned i = 0; (w.axes & in.rotary) != 0 && i < in.axis_count; ++i) {
+    if (((w.axes >> i) & 1) == 0 || !off_increment(in, i, w.axis[i])) continue;
+    in.raise(Condition::index_increment, in.system->axis[i].name, w.axis[i]);
+    in.fault.axis = static_cast<int8_t>(i);
+    return Did::fault;
+  }
+  return Did::done;
+}
+
 Did move_by_words(Interpreter& in) {
   const BlockWords& w = in.words;
   const int16_t code = in.state.modal.code[kGroupMotion];
@@ -399,12 +410,7 @@ Did move_by_words(Interpreter& in) {
     const Did did = check_mill_move(in, w.axes);
     if (did != Did::done) return did;
   }
-  for (unsigned i = 0; in.rotary != 0 && i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0 || !off_increment(in, i, w.axis[i])) continue;
-    in.raise(Condition::index_increment, in.system->axis[i].name, w.axis[i]);
-    in.fault.axis = static_cast<int8_t>(i);
-    return Did::fault;
-  }
+  if (const Did did = check_index_positions(in); did != Did::done) return did;
   // Where the block starts is asked only by words that count from there (an axis without a word stays), by the feed of rotary axes,
   // by a turned figure, in which one word moves two axes, and by curves. The end of an arc in space counts from its middle point.
   const bool mapped = program_mapped(in);
