@@ -22,6 +22,8 @@ constexpr double kRounding = 1e-12;  ///< of the length of the window
 constexpr double kBraking = 0.8;      ///< of the length in which a start that brakes would come to rest twice as fast
 constexpr unsigned kShorter = 100;     ///< times that a window is made shorter
 constexpr double kSameReach = 1e-9;   ///< mm: the path ends with a piece
+constexpr unsigned kNodesPerCell = 2;  ///< a cell has one period of the estimate, or a half more
+constexpr unsigned kShare = 8;         ///< one part of a window that has too many cells is left away
 constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
 
 }  // namespace
@@ -42,8 +44,9 @@ Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
   Bound b{feed_of(p, *limits_), HUGE_VAL, HUGE_VAL, HUGE_VAL, false};
   const unsigned samples = p.curve != nullptr || p.quintic ? 4 : 2;
   double most[3][kMaxAxes] = {};
+  CurvePoint q;
   for (unsigned n = 0; n <= samples; ++n) {
-    const CurvePoint q = evaluate(p, from + (p.length - from) * n / samples, limits_->axis_count);
+    derivatives(p, from + (p.length - from) * n / samples, limits_->axis_count, &q);
     for (unsigned i = 0; i < limits_->axis_count; ++i) {
       most[0][i] = std::max(most[0][i], std::fabs(q.d1[i]));
       most[1][i] = std::max(most[1][i], std::fabs(q.d2[i]));
@@ -72,16 +75,16 @@ Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
 void Mesher::forward() {
   const MeshRequest& in = *in_;
   forward_.count = 0;
+  const unsigned nodes = std::min(kNodes, kNodesPerCell * in.most + kNodesPerCell);
   double u = 0, v = in.from_rest ? 0 : std::sqrt(in.b0), a = in.from_rest ? 0 : 0.5 * in.slope0;
   double edge = -in.from.x;
   for (unsigned p = in.from.piece; p < in.count; ++p) {
-    const Bound bound = bound_of(in.at(p), p == in.from.piece ? in.from.x : 0);
-    if (p == in.from.piece) at_start_ = bound;
+    const Bound bound = bound_[p - in.from.piece] = bound_of(in.at(p), p == in.from.piece ? in.from.x : 0);
     edge = std::min(edge + in.at(p).length, in.reach);
     end_piece_ = p;
     if (v > bound.speed) v = bound.speed, a = 0;
     while (u < edge) {
-      if (forward_.count == kNodes) break;
+      if (forward_.count == nodes) break;
       forward_.node[forward_.count++] = {u, v};
       const double t = in.period;
       const double du = std::max(t * (v + t * (a / 2 + t * bound.jerk / 6)), kSlowest * t);
@@ -97,7 +100,7 @@ void Mesher::forward() {
       a = std::min(bound.acceleration, a + bound.jerk * t);
       if (v >= bound.speed) v = bound.speed, a = 0;
     }
-    if (forward_.count == kNodes || u < edge || !(u < in.reach - kSameReach)) break;
+    if (forward_.count == nodes || u < edge || !(u < in.reach - kSameReach) || p - in.from.piece == in.most) break;
   }
   end_u_ = u;
   whole_ = u == edge && (end_piece_ + 1 == in.count || !(u < in.reach - kSameReach));
@@ -111,8 +114,7 @@ void Mesher::backward(unsigned end_piece, double end) {
   double u = end, v = 0, a = 0, edge = -in.from.x;  // of the last piece, which may reach beyond
   for (unsigned p = in.from.piece; p <= end_piece; ++p) edge += in.at(p).length;
   for (unsigned p = end_piece + 1; p-- > in.from.piece;) {
-    const Bound bound = bound_of(in.at(p), p == in.from.piece ? in.from.x : 0);
-    if (p == end_piece) at_end_ = bound;
+    const Bound& bound = this->bound(p);
     edge -= in.at(p).length;
     const double stop = std::max(edge, 0.0);
     if (v > bound.speed) v = bound.speed, a = 0;
@@ -165,16 +167,14 @@ bool Mesher::cells(double end) {
   };
   double last_edge = -in.from.x;
   for (unsigned p = in.from.piece; p < end_piece_; ++p) last_edge += in.at(p).length;
-  const double launch = rest_cell(at_start_),
-               landing = std::min(rest_cell(at_end_), end - std::max(0.0, last_edge));
+  const double launch = rest_cell(bound(in.from.piece)),
+               landing = std::min(rest_cell(bound(end_piece_)), end - std::max(0.0, last_edge));
   double u = 0, edge = in.at(in.from.piece).length - in.from.x;
   PathPlace at = in.from;
   m.cells = 0;
   hint_f_ = hint_b_ = 0;
   const double stop = end - landing;
-  double cell_most = HUGE_VAL;
-  unsigned known = in.count;
-  const bool alone = in.count == 1 && in.from_rest && in.down == nullptr && !at_start_.curved;
+  const bool alone = in.count == 1 && in.from_rest && in.down == nullptr && !bound(in.from.piece).curved;
   while (u < end && m.cells < in.most) {
     const unsigned f = hint_f_, b = hint_b_;
     double h = launch;
@@ -190,8 +190,7 @@ bool Mesher::cells(double end) {
       hint_f_ = f;
       hint_b_ = b;
     }
-    if (at.piece != known) cell_most = bound_of(in.at(at.piece), at.x).cell, known = at.piece;
-    h = std::min(h, cell_most);
+    h = std::min(h, bound(at.piece).cell);
     const bool lands = u >= stop - kRounding * end;
     const double limit = lands ? end : std::min(edge, stop);
     if (lands || u + 1.5 * h >= limit) {
@@ -200,8 +199,12 @@ bool Mesher::cells(double end) {
       h = 0.5 * (limit - u);
     }
     if (m.cells == 0 && in.from_rest && h > 4 * launch) h = launch;
-    // The control value of a cell that begins at speed is b0 + b0' h / 2, and it stays above 0.
-    if (m.cells == 0 && !in.from_rest && in.slope0 < 0) h = std::min(h, -kBraking * in.b0 / in.slope0);
+    const double given = m.cells < in.first_cells ? in.first_h[m.cells] : HUGE_VAL;
+    if (u + given <= limit + kRounding * end) {
+      h = limit - u < given + kSameReach ? limit - u : given;
+    } else if (m.cells == 0 && !in.from_rest && in.slope0 < 0) {
+      h = std::min(h, -kBraking * in.b0 / in.slope0);  // the control value of the first cell, b0 + b0' h / 2, stays above 0
+    }
     const double middle = estimate(u + 0.5 * h);
     // A start at speed is given: from there the guess goes down gently.
     const double away = in.from_rest ? 1 : std::min(1.0, m.cells / kGentle);
@@ -301,7 +304,7 @@ PathPlace Mesher::build(const MeshRequest& request, const Limits& limits, Mesh* 
       return request.from;
     }
     // Too long for one window: it ends, at rest, some way before the place where the cells have run out.
-    const unsigned k = mesh->cells - mesh->cells / 4;
+    const unsigned k = mesh->cells - mesh->cells / kShare - 1;
     const PathPlace& at = place_[k];
     end_u_ = -request.from.x + at.x;
     for (unsigned p = request.from.piece; p < at.piece; ++p) end_u_ += request.at(p).length;

@@ -21,6 +21,8 @@ struct WayDown {
   double at(double place) const;
 };
 
+inline constexpr unsigned kFirstCells = 12;
+
 struct MeshRequest {
   const Piece* piece = nullptr;  ///< piece k is piece[(base + k) & mask]
   uint32_t base = 0, mask = ~0u;
@@ -34,6 +36,9 @@ struct MeshRequest {
   unsigned most = kMaxCells;  ///< cells
   bool from_rest = true;
   double b0 = 0, slope0 = 0;
+  /// Lengths of the first cells: those of the law that the start is taken from, which is feasible on them.
+  double first_h[kFirstCells] = {};
+  unsigned first_cells = 0;
 };
 
 class Mesher {
@@ -61,6 +66,7 @@ class Mesher {
   };
 
   Bound bound_of(const Piece& p, double from) const;
+  const Bound& bound(unsigned piece) const { return bound_[piece - in_->from.piece]; }
   void forward();
   void backward(unsigned end_piece, double end);
   double speed_at(const Track& track, double u, unsigned* hint) const;
@@ -73,7 +79,7 @@ class Mesher {
   Mesh* mesh_ = nullptr;
   Track forward_, backward_;
   double end_u_ = 0;
-  Bound at_start_, at_end_;
+  Bound bound_[kMaxCells + 1];  ///< of the pieces that forward() has met
   unsigned end_piece_ = 0;
   unsigned hint_f_ = 0, hint_b_ = 0;
   bool whole_ = false;

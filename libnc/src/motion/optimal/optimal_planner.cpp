@@ -39,6 +39,7 @@ void OptimalPlanner::create(const Setup& setup, const Record* records, Arena& ar
   builder_.create(setup.limits, setup.tolerance, kPeriod, records, &store_, arena);
   windows_ = arena.make<Windows>();
   chain_next_ = arena.make<uint32_t>(kCells);
+  chain_end_ = arena.make<double>(kCells);
   down_u_ = arena.make<double>(kMaxCells + 1);
   down_b_ = arena.make<double>(kMaxCells + 1);
   records_ = records;
@@ -175,16 +176,11 @@ OptimalPlanner::Start OptimalPlanner::behind(uint32_t cell) const {
   return s;
 }
 
-/// Seconds until the scan leaves the cell; 0 when it has.
+/// Seconds until the scan leaves the cell of the chain; 0 when it has.
 double OptimalPlanner::ahead(const Following& f, uint32_t cell) const {
   if (f.cell == kNoCell || static_cast<int32_t>(cell - f.cell) < 0) return 0;
-  double time = f.at_end ? 0 : store_.at(f.cell).seconds - f.t;
-  for (uint32_t k = f.cell; k != cell;) {
-    if (k == chain_.last) return 0;
-    k = chain_next_[k & store_.cell_mask];
-    time += store_.at(k).seconds;
-  }
-  return time;
+  const double time = f.at_end ? 0 : store_.at(f.cell).seconds - f.t;
+  return time + chain_end_[cell & store_.cell_mask] - chain_end_[f.cell & store_.cell_mask];
 }
 
 /// The first place at least `lead` seconds ahead where a law may begin, or the next rest. False when that is the end of the chain.
@@ -204,9 +200,10 @@ bool OptimalPlanner::find_ahead(const Following& f, double lead, Start* start) c
   return false;
 }
 
-unsigned OptimalPlanner::pieces_from(uint32_t piece) const {
+/// Pieces from `piece` on that one law may go through, to the next rest; no more than `most`.
+unsigned OptimalPlanner::pieces_from(uint32_t piece, unsigned most) const {
   unsigned n = 0;
-  while (piece + n != builder_.head()) {
+  while (n != most && piece + n != builder_.head()) {
     const Piece& p = store_.piece_at(piece + n);
     if (stands(p, limits_)) break;
     ++n;
@@ -234,12 +231,20 @@ bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* do
   request.piece = store_.piece;
   request.mask = store_.piece_mask;
   request.base = start.piece;
-  request.count = pieces_from(start.piece);
+  request.count = pieces_from(start.piece, kCellsAtOnce + 1);  // each has a cell at least
   if (request.count == 0) return false;
   request.from.x = start.x;
   request.from_rest = start.from_rest;
   request.b0 = start.v * start.v;
   request.slope0 = 2 * start.a;
+  if (!start.fresh && !start.from_rest && period >= kPeriod) {  // the cells that the chain has there
+    uint32_t k = start.after;
+    while (request.first_cells < kFirstCells) {
+      k = chain_next_[k & store_.cell_mask];
+      if (k == kNoCell || store_.at(k).kind != PlanCell::Kind::level) break;
+      request.first_h[request.first_cells++] = store_.at(k).h;
+    }
+  }
   request.reach = reach;
   request.most = kCellsAtOnce;
   request.down = down;
@@ -304,7 +309,7 @@ bool OptimalPlanner::copy_law(const Start& start, Start* end) {
   const Mesh& mesh = windows_->mesh();
   if (write_ + law.cells - free_from_ >= kCells) return false;
   const bool ends = path_ends();
-  double u = start.u;
+  double u = start.u, time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
   for (unsigned k = 0; k < law.cells; ++k) {
     PlanCell& c = store_.cell[write_ & store_.cell_mask];
     c = plan_cell(law, mesh, k);
@@ -313,6 +318,7 @@ bool OptimalPlanner::copy_law(const Start& start, Start* end) {
     c.piece = start.piece + windows_->place(k).piece;
     c.path_ends = ends && k + 1 == law.cells;
     chain_next_[write_ & store_.cell_mask] = write_ + 1;
+    chain_end_[write_ & store_.cell_mask] = time += c.seconds;
     u += mesh.h[k];
     ++write_;
   }
@@ -362,7 +368,7 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
   double time = 0;
   bool any = false;
   for (unsigned n = 0; n < kLawsAtOnce && time < kEnough; ++n) {
-    if (pieces_from(at.piece) == 0) break;
+    if (pieces_from(at.piece, 1) == 0) break;
     if (!try_limits(at, most, down)) {
       if (!any && at.from_rest) offer_.failed = true;
       break;
@@ -516,7 +522,7 @@ void OptimalPlanner::slow_down(const Following& f, const Start& start) {
 void OptimalPlanner::go_on(const Following& f, bool idle) {
   const bool rests = fresh_ || !moving(f);
   const Start end = at_end();
-  if (pieces_from(end.piece) == 0) {
+  if (pieces_from(end.piece, 1) == 0) {
     if (rests && idle && end.piece == builder_.head()) builder_.finish();
     return;
   }

@@ -69,7 +69,7 @@ class OptimalPlanner {
   Along along(const Start& start) const;
   double stopping_distance(const Start& start, double* seconds) const;
   double next_block_end(double u, uint32_t tail) const;
-  unsigned pieces_from(uint32_t piece) const;
+  unsigned pieces_from(uint32_t piece, unsigned most) const;
   bool path_ends() const;
   bool copy_law(const Start& start, Start* end);
   void offer(const Start& start, bool stops);
@@ -88,6 +88,7 @@ class OptimalPlanner {
   PathBuilder builder_;
   Windows* windows_ = nullptr;
   uint32_t* chain_next_ = nullptr;
+  double* chain_end_ = nullptr;  ///< s from the start of the chain to the end of the cell
   double *down_u_ = nullptr, *down_b_ = nullptr;
 
   Limits limits_;               ///< with the overrides of this call

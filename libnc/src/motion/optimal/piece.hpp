@@ -50,27 +50,37 @@ inline bool stands(const Piece& p, const Limits& limits) {
   return p.rapid ? !(limits.rapid_scale > 0) : !(feed_of(p, limits) > 0);
 }
 
+/// Derivatives at x in [0, length]; the position is left as it was (but for a curve's).
+inline void derivatives(const Piece& p, double x, unsigned axis_count, CurvePoint* q) NC_RT {
+  if (p.curve != nullptr) {
+    *q = curve_evaluate(*p.curve, p.curve_from + x, axis_count);
+    return;
+  }
+  for (unsigned i = 0; i < axis_count; ++i) {
+    const double c2 = p.c[2][i], c3 = p.c[3][i];
+    q->d1[i] = p.c[1][i] + x * (2 * c2 + x * 3 * c3);
+    q->d2[i] = 2 * c2 + x * 6 * c3;
+    q->d3[i] = 6 * c3;
+  }
+  if (!p.quintic) return;
+  const double x2 = x * x;
+  for (unsigned i = 0; i < axis_count; ++i) {
+    const double c4 = p.c[4][i], c5 = p.c[5][i];
+    q->d1[i] += x2 * x * (4 * c4 + x * 5 * c5);
+    q->d2[i] += x2 * (12 * c4 + x * 20 * c5);
+    q->d3[i] += x * (24 * c4 + x * 60 * c5);
+  }
+}
+
 /// Position and derivatives at x in [0, length].
 inline CurvePoint evaluate(const Piece& p, double x, unsigned axis_count) NC_RT {
   if (p.curve != nullptr) return curve_evaluate(*p.curve, p.curve_from + x, axis_count);
   CurvePoint q;
-  if (!p.quintic) {
-    for (unsigned i = 0; i < axis_count; ++i) {
-      const double c2 = p.c[2][i], c3 = p.c[3][i];
-      q.position[i] = p.c[0][i] + x * (p.c[1][i] + x * (c2 + x * c3));
-      q.d1[i] = p.c[1][i] + x * (2 * c2 + x * 3 * c3);
-      q.d2[i] = 2 * c2 + x * 6 * c3;
-      q.d3[i] = 6 * c3;
-    }
-    return q;
-  }
   for (unsigned i = 0; i < axis_count; ++i) {
-    const double c2 = p.c[2][i], c3 = p.c[3][i], c4 = p.c[4][i], c5 = p.c[5][i];
-    q.position[i] = p.c[0][i] + x * (p.c[1][i] + x * (c2 + x * (c3 + x * (c4 + x * c5))));
-    q.d1[i] = p.c[1][i] + x * (2 * c2 + x * (3 * c3 + x * (4 * c4 + x * 5 * c5)));
-    q.d2[i] = 2 * c2 + x * (6 * c3 + x * (12 * c4 + x * 20 * c5));
-    q.d3[i] = 6 * c3 + x * (24 * c4 + x * 60 * c5);
+    const double high = p.quintic ? x * (p.c[4][i] + x * p.c[5][i]) : 0;
+    q.position[i] = p.c[0][i] + x * (p.c[1][i] + x * (p.c[2][i] + x * (p.c[3][i] + high)));
   }
+  derivatives(p, x, axis_count, &q);
   return q;
 }
 

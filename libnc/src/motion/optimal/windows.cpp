@@ -20,7 +20,6 @@ constexpr Attempt kAttempts[] = {
 constexpr double kSpare = 1.3;
 constexpr unsigned kTightened = 6;  ///< times that a law is corrected
 constexpr double kExcess = 1.0005;  ///< of a limit, that a law may use inside its cells
-constexpr double kSamePlace = 1e-9;   ///< mm: a cell is gone through from end to end
 constexpr unsigned kLooks = 8;      ///< places inside a cell that are looked at
 
 }  // namespace
@@ -38,33 +37,61 @@ void Windows::start(const Piece* piece, unsigned count, const Limits& limits, do
 
 void Windows::set_limits(const Limits& limits) {
   limits_ = limits;
-  stop_s_ = 0;
   for (unsigned i = 0; i < limits.axis_count; ++i) {
-    if (!(limits.acceleration[i] > 0) || !(limits.jerk[i] > 0)) continue;
-    const double v = std::max(limits.velocity[i], limits.rapid[i]);
-    stop_s_ =
-        std::max(stop_s_, kSpare * (v / limits.acceleration[i] + limits.acceleration[i] / limits.jerk[i]));
+    per_acceleration_[i] = limits.acceleration[i] > 0 ? 1 / limits.acceleration[i] : 0;
+    per_jerk_[i] = limits.jerk[i] > 0 ? 1 / limits.jerk[i] : 0;
   }
+}
+
+/// The longest time that braking takes, with some to spare, from any speed that feed and axes allow: the law itself may be slow because it
+/// ends soon, and the next one shall not be.
+double Windows::stopping_time() const {
+  double b[kMaxAxes] = {};
+  for (unsigned k = 1; k < law_.cells; ++k) {
+    const Knot& q = mesh_.knot[k];
+    for (unsigned i = 0; i < limits_.axis_count; ++i) b[i] = std::max(b[i], q.d1[i] != 0 ? q.cap * q.d1[i] * q.d1[i] : 0);
+  }
+  double longest = 0;
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    if (!(limits_.acceleration[i] > 0) || !(limits_.jerk[i] > 0)) continue;
+    const double v = std::min(std::sqrt(b[i]), std::max(limits_.velocity[i], limits_.rapid[i]));
+    longest = std::max(longest, v / limits_.acceleration[i] + limits_.acceleration[i] / limits_.jerk[i]);
+  }
+  return kSpare * longest;
 }
 
 /// Largest share of a limit of acceleration or jerk in a cell, from the path itself and not from the rows of
 /// the solver.
 Windows::Excess Windows::excess(unsigned k) const {
   const Piece& p = piece_of(k);
-  const double seconds = cell_seconds(law_, mesh_, k);
-  const bool rest = (k == 0 && mesh_.from_rest) || k + 1 == law_.cells;
+  const bool launch = k == 0 && mesh_.from_rest, land = k + 1 == law_.cells;
+  const double h = mesh_.h[k], from = place(k).x;
+  // Beside rest with t the share of the time: x = h t^3 from there, v = v1 t^2, a = 2 v1 t / T, j = 2 v1 / T^2.
+  const double v1 = std::sqrt(launch ? law_.b[1] : law_.b[k]), per = v1 / (3 * h);
   Excess worst;
+  CurvePoint q;
   for (unsigned n = 0; n <= kLooks; ++n) {
-    const CellState u = cell_state(law_, mesh_, k, seconds * n / kLooks);
-    if (n == kLooks && !rest && !(std::fabs(u.x - mesh_.h[k]) <= kSamePlace)) worst.jerk = HUGE_VAL;
-    const double v = u.v, j = rest ? 0.5 * std::fabs(law_.slope[k + 1 == law_.cells ? k : 1]) / seconds
-                                   : law_.half2[k] * v;
-    const CurvePoint q = evaluate(p, std::min(p.length, place(k).x + u.x), limits_.axis_count);
+    const double t = static_cast<double>(n) / kLooks;
+    double x, v, a, j;
+    if (launch || land) {
+      x = h * t * t * t;
+      v = v1 * t * t;
+      a = 2 * v1 * per * t;
+      j = 2 * v1 * per * per;
+      if (!launch) x = h - x, a = -a;
+    } else {
+      x = h * t;
+      a = 0.5 * law_.slope[k] + law_.half2[k] * x;
+      const double b = law_.b[k] + x * (0.5 * law_.slope[k] + a);
+      if (!(b > 0)) return {HUGE_VAL, HUGE_VAL};  // it is not gone through
+      v = std::sqrt(b);
+      j = law_.half2[k] * v;
+    }
+    const double v2 = v * v, v3 = v * v2, va = 3 * v * a;
+    derivatives(p, std::min(p.length, from + x), limits_.axis_count, &q);
     for (unsigned i = 0; i < limits_.axis_count; ++i) {
-      const double a = q.d1[i] * u.a + q.d2[i] * v * v,
-                   jerk = q.d1[i] * j + 3 * q.d2[i] * v * u.a + q.d3[i] * v * v * v;
-      if (limits_.acceleration[i] > 0) worst.acceleration = std::max(worst.acceleration, std::fabs(a) / limits_.acceleration[i]);
-      if (limits_.jerk[i] > 0) worst.jerk = std::max(worst.jerk, std::fabs(jerk) / limits_.jerk[i]);
+      worst.acceleration = std::max(worst.acceleration, std::fabs(q.d1[i] * a + q.d2[i] * v2) * per_acceleration_[i]);
+      worst.jerk = std::max(worst.jerk, std::fabs(q.d1[i] * j + q.d2[i] * va + q.d3[i] * v3) * per_jerk_[i]);
     }
   }
   return worst;
@@ -108,6 +135,7 @@ bool Windows::solve(unsigned tries) {
 void Windows::settle() {
   more_ = !mesher_.whole();
   keep_ = law_.cells;
+  stop_s_ = stopping_time();
   if (!more_) return;
   double back = 0;
   while (keep_ > 1 && back < stop_s_) back += cell_seconds(law_, mesh_, --keep_);
@@ -134,6 +162,8 @@ bool Windows::next() {
   if (!more_) return true;
   request_.from = mesher_.place(keep_);
   request_.from_rest = false;
+  request_.first_cells = 0;
+  for (unsigned k = keep_; k + 1 < law_.cells && request_.first_cells < kFirstCells; ++k) request_.first_h[request_.first_cells++] = mesh_.h[k];
   request_.b0 = law_.b[keep_];
   request_.slope0 = law_.slope[keep_];
   return true;

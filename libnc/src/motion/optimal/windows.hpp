@@ -38,6 +38,7 @@ class Windows {
   void set_limits(const Limits& limits);
   bool solve(unsigned tries);
   void settle();
+  double stopping_time() const;
   double tighten();
   struct Excess {
     double acceleration = 0, jerk = 0;
@@ -47,7 +48,8 @@ class Windows {
   MeshRequest request_;
   Limits limits_;
   double period_ = 0.005;
-  double stop_s_ = 0;  ///< the longest time that braking from any speed takes, with some to spare
+  double per_acceleration_[kMaxAxes] = {}, per_jerk_[kMaxAxes] = {};  ///< 1 / limit, 0 without one
+  double stop_s_ = 0;  ///< so long before its end the last law may have been slowed by its stop
   unsigned most_ = kMaxCells;
   unsigned keep_ = 0, iterations_ = 0, solved_ = 0;
   bool more_ = false, failed_ = false;
