@@ -3,6 +3,9 @@
 //     (H + sum l/s g g') dc = -grad T - sum g (mu/s + l/s rho),   rho = r + s - 1,   g = grad r,
 // H the (diagonal, positive) second derivative of the time. The second derivative of the jerk rows (their
 // root) is left out: that changes the way, not the goal, because rho is always that of the true row.
+//
+// A step goes through the rows twice: rows() ends the last one, finds r and adds up matrix and right side; directions() finds the steps
+// of slacks and multipliers. Everything that a row needs lies together, two rows to a vector.
 #include "motion/optimal/time_law.hpp"
 
 #include <algorithm>
@@ -22,28 +25,28 @@ constexpr double kSmallestSlack = 0.5;
 constexpr double kGapFirst = 0.4;      ///< of the time
 constexpr double kSlackAgain = 0.003;   ///< the same from a solution of nearly the same rows
 constexpr double kGapAgain = 0.003;
+constexpr double kStartUse = 1.004;    ///< of the acceleration at a given start: nothing there can become less
+
+inline Two both(double x) {
+  return Two{x, x};
+}
+inline Two larger(Two a, Two b) {
+  return a > b ? a : b;
+}
+inline Two smaller(Two a, Two b) {
+  return a < b ? a : b;
+}
+inline double sum(Two a) {
+  return a[0] + a[1];
+}
+inline double largest(Two a) {
+  return std::max(a[0], a[1]);
+}
+inline double smallest(Two a) {
+  return std::min(a[0], a[1]);
+}
 
 }  // namespace
-
-/// Base index (padded) of a form of knot k: c_(k-2), c_(k-1), c_k for the left side, one more for the right
-/// side.
-template <class F>
-void TimeLaw::each_pair(F&& f) {
-  for (unsigned k = 0; k < n_; ++k) {
-    for (unsigned p = 0; p < used_[k]; p += 3) {
-      f(k + kPad - 2, pair_[k][p]);
-      f(k + kPad - 1, pair_[k][p + 1]);
-      f(k + kPad - 1, pair_[k][p + 2]);
-    }
-    for (unsigned p = 0; p < inside_[k]; ++p) f(k + kPad - 1, middle_[k][p]);
-  }
-}
-
-template <class F>
-void TimeLaw::each_single(F&& f) {
-  for (unsigned k = 1; k < n_; ++k) f(k + kPad - 1, knot_cap_[k]);
-  for (unsigned k = first_; k < last_; ++k) f(k + kPad - 1, cell_cap_[k]);
-}
 
 /// b, b' and b''/2 by the control values.
 void TimeLaw::forms() {
@@ -52,183 +55,208 @@ void TimeLaw::forms() {
   first_ = 1;
   last_ = n_ - 1;
   for (unsigned k = 1; k < n_; ++k) {
-    const double sum = m.h[k - 1] + m.h[k];
-    at_[k] = {{m.h[k] / sum, m.h[k - 1] / sum, 0}, 0};
-    slope_[k] = {{-2 / sum, 2 / sum, 0}, 0};
+    const double per = 1 / (m.h[k - 1] + m.h[k]);
+    at_[k] = {{m.h[k] * per, m.h[k - 1] * per, 0}};
+    slope_[k] = {{-2 * per, 2 * per, 0}};
   }
-  at_[0] = {{0, 0, 0}, m.from_rest ? 0 : m.b0};
-  slope_[0] = {{0, 0, 0}, m.from_rest ? 0 : m.slope0};
+  // At a given start as if a cell as long lay in front of it.
+  at_[0] = m.from_rest ? Form{} : Form{{0.5, 0.5, 0}};
+  slope_[0] = m.from_rest ? Form{} : Form{{-1 / m.h[0], 1 / m.h[0], 0}};
   at_[n_] = slope_[n_] = {};
   const double share_end = 1 / (1 + 2 * m.h[n_ - 2] / (3 * m.h[n_ - 1]));
-  at_[n_ - 1] = {{share_end, 0, 0}, 0};
-  slope_[n_ - 1] = {{-share_end * 4 / (3 * m.h[n_ - 1]), 0, 0}, 0};
+  at_[n_ - 1] = {{share_end, 0, 0}};
+  slope_[n_ - 1] = {{-share_end * 4 / (3 * m.h[n_ - 1]), 0, 0}};
   double share_start = 0;
   if (m.from_rest) {
     share_start = 1 / (1 + 2 * m.h[1] / (3 * m.h[0]));
-    at_[1] = {{0, share_start, 0}, 0};
-    slope_[1] = {{0, share_start * 4 / (3 * m.h[0]), 0}, 0};
+    at_[1] = {{0, share_start, 0}};
+    slope_[1] = {{0, share_start * 4 / (3 * m.h[0]), 0}};
   }
   for (unsigned k = 0; k < n_; ++k) {
     const double per = 0.5 / m.h[k];
     const Form &a = slope_[k], &b = slope_[k + 1];
-    half2_[k] = {{-per * a.g[0], per * (b.g[0] - a.g[1]), per * b.g[1]}, per * (b.constant - a.constant)};
+    half2_[k] = {{-per * a.g[0], per * (b.g[0] - a.g[1]), per * b.g[1]}};
   }
-  if (m.from_rest) half2_[0] = {{0, 0, share_start * (2.0 / 9) / (m.h[0] * m.h[0])}, 0};
-  half2_[n_ - 1] = {{share_end * (2.0 / 9) / (m.h[n_ - 1] * m.h[n_ - 1]), 0, 0}, 0};
+  if (m.from_rest) half2_[0] = {{0, 0, share_start * (2.0 / 9) / (m.h[0] * m.h[0])}};
+  half2_[n_ - 1] = {{share_end * (2.0 / 9) / (m.h[n_ - 1] * m.h[n_ - 1]), 0, 0}};
   for (unsigned k = 0; k < n_; ++k) weight_[k] = m.h[k];
   if (m.from_rest) weight_[1] += 3 * m.h[0] / std::sqrt(share_start);
   weight_[n_ - 2] += 3 * m.h[n_ - 1] / std::sqrt(share_end);
 }
 
-/// Pairs of a knot come in threes: jerk on its left, jerk on its right, acceleration.
-void TimeLaw::knot_rows(unsigned k) {
-  const Limits& limits = *limits_;
-  const Form &fb = at_[k], &fs = slope_[k], &right = half2_[k];
-  const double b = value(fb, k + kPad - 1), slope = value(fs, k + kPad - 1);
-  const double right2 = value(right, k + kPad - 1);
-  static constexpr Form kNone{};
-  const Form& left = k > 0 ? half2_[k - 1] : kNone;
-  const double left2 = k > 0 ? value(left, k + kPad - 2) : 0;
-  const double root = std::sqrt(b), per_root = b > 0 ? 0.5 / root : 0;
-  const Knot& q = mesh_->knot[k];
-  Pair* pair = pair_[k];
-  used_[k] = 0;
-  // The start is given: nothing there can become less.
-  const double use_a = k == 0 ? 1.004 : std::min(mesh_->use_a[k - 1], mesh_->use_a[k < n_ ? k : k - 1]);
-  const double per_left = 1 / mesh_->use[k > 0 ? k - 1 : 0], per_right = 1 / mesh_->use[k];
-  for (unsigned i = 0; i < limits.axis_count; ++i) {
-    const double d1 = q.d1[i], d2 = q.d2[i];
-    if (d1 == 0 && d2 == 0 && q.left3[i] == 0 && q.right3[i] == 0) continue;
-    if (!(limits.jerk[i] > 0) || !(limits.acceleration[i] > 0)) continue;
-    const bool bends = d2 != 0 || q.left3[i] != 0 || q.right3[i] != 0;
-    const double per_j = 1 / ((bends ? kInsideCurve : kInside) * limits.jerk[i]),
-                 per_a = 1 / (kInside * use_a * limits.acceleration[i]);
-    const double common = 1.5 * d2 * slope;
-    double scale = root * per_j * per_left;
-    Pair &l = pair[0], &r = pair[1], &a = pair[2];
-    double y = d1 * left2 + common + q.left3[i] * b,
-           bend = y * per_root * per_j * per_left + scale * q.left3[i];
-    if (k > 0) {  // on c_(k-2), c_(k-1), c_k; b and b' of the knot are on the last two of them
-      l.r = scale * y;
-      l.g[0] = scale * d1 * left.g[0];
-      l.g[1] = scale * (d1 * left.g[1] + 1.5 * d2 * fs.g[0]) + bend * fb.g[0];
-      l.g[2] = scale * (d1 * left.g[2] + 1.5 * d2 * fs.g[1]) + bend * fb.g[1];
-    } else {
-      l.r = l.g[0] = l.g[1] = l.g[2] = 0;
+void TimeLaw::moving_axes() {
+  axes_ = 0;
+  for (unsigned i = 0; i < limits_->axis_count; ++i) {
+    bool moves = false;
+    for (unsigned k = 0; k <= n_ && !moves; ++k) {
+      const Knot& q = mesh_->knot[k];
+      moves = q.d1[i] != 0 || q.d2[i] != 0 || q.left3[i] != 0 || q.right3[i] != 0;
     }
-    y = d1 * right2 + common + q.right3[i] * b;
-    scale = root * per_j * per_right;
-    bend = y * per_root * per_j * per_right + scale * q.right3[i];
-    r.r = scale * y;
-    r.g[0] = scale * (d1 * right.g[0] + 1.5 * d2 * fs.g[0]) + bend * fb.g[0];
-    r.g[1] = scale * (d1 * right.g[1] + 1.5 * d2 * fs.g[1]) + bend * fb.g[1];
-    r.g[2] = scale * d1 * right.g[2];
-    a.r = per_a * (0.5 * d1 * slope + d2 * b);
-    a.g[0] = per_a * (0.5 * d1 * fs.g[0] + d2 * fb.g[0]);
-    a.g[1] = per_a * (0.5 * d1 * fs.g[1] + d2 * fb.g[1]);
-    a.g[2] = 0;
-    pair += 3;
-    used_[k] += 3;
+    if (moves && (limits_->jerk[i] > 0 || limits_->acceleration[i] > 0)) axis_[axes_++] = i;
   }
 }
 
-/// Jerk inside a cell, on c_(k-1), c_k, c_(k+1). Without its root it is a quadratic of u where the path is a
-/// cubic, so it stays below the largest of its ends, which the knots look after, and its middle Bezier
-/// coefficient; the root is largest where b is.
-void TimeLaw::middle_rows(unsigned k) {
-  inside_[k] = 0;
-  const Inside& q = mesh_->inside[k];
-  if (k + 1 == n_ || (k == 0 && mesh_->from_rest)) return;
-  const Limits& limits = *limits_;
-  const Form &s0 = slope_[k], &s1 = slope_[k + 1], &half = half2_[k];
-  const unsigned base = k + kPad - 1;
-  const double c = c_[k + kPad], slope0 = value(s0, base), slope1 = value(s1, base + 1),
-               half2 = value(half, base);
-  const double b0 = value(at_[k], base), b1 = value(at_[k + 1], base + 1);
-  const bool peaks = slope0 > 0 && slope1 < 0;
-  const double root =
-      std::sqrt(peaks ? b0 + 0.5 * mesh_->h[k] * slope0 * slope0 / (slope0 - slope1) : std::max(b0, b1));
-  for (unsigned i = 0; i < limits.axis_count; ++i) {
-    const bool bends = q.d2_start[i] != 0 || q.d2_end[i] != 0 || q.d3[i] != 0;
-    if ((q.d1[i] == 0 && !bends) || !(limits.jerk[i] > 0)) continue;
-    Pair& x = middle_[k][inside_[k]++];
-    const double scale = root / ((bends ? kInsideCurve : kInside) * mesh_->use[k] * limits.jerk[i]),
-                 w0 = 0.75 * q.d2_end[i], w1 = 0.75 * q.d2_start[i];
-    const double y = q.d1[i] * half2 + w0 * slope0 + w1 * slope1 + q.d3[i] * c;
-    x.r = scale * y;
-    x.g[0] = scale * (q.d1[i] * half.g[0] + w0 * s0.g[0]);
-    x.g[1] = scale * (q.d1[i] * half.g[1] + w0 * s0.g[1] + w1 * s1.g[0] + q.d3[i] + 0.5 * y / c);
-    x.g[2] = scale * (q.d1[i] * half.g[2] + w1 * s1.g[1]);
-  }
-}
-
-/// `least` > 0: the slacks begin.
-void TimeLaw::slacks(Pair& x, double least) {
-  const double s0 = 1 - x.r, s1 = 1 + x.r;
-  x.s[0] = std::max(s0, least > 0 ? least : x.s[0]);
-  x.s[1] = std::max(s1, least > 0 ? least : x.s[1]);
-}
-
-void TimeLaw::slack(Single& x, double least) {
-  x.s = std::max(1 - x.r, least > 0 ? least : x.s);
-}
-
-/// All rows at c. A slack that is smaller than its row leaves is made as large.
-void TimeLaw::evaluate_rows(double least) {
+/// The rows without their roots. Jerk inside a cell: without its root it is a quadratic of u where the path is a cubic, so it stays below
+/// the largest of its ends, which have rows of their own, and its middle Bezier coefficient; the root is largest where b is.
+void TimeLaw::fill_rows() {
   const Mesh& m = *mesh_;
-  used_[0] = 0;
-  for (unsigned k = m.from_rest ? 1 : 0; k < n_; ++k) knot_rows(k);
-  for (unsigned k = 0; k < n_; ++k) middle_rows(k);
-  for (unsigned k = 1; k < n_; ++k) {
-    Single& cap = knot_cap_[k];
-    cap.r = value(at_[k], k + kPad - 1) / m.knot[k].cap;
-    for (unsigned e = 0; e < 3; ++e) cap.g[e] = at_[k].g[e] / m.knot[k].cap;
+  static constexpr Form kNone{};
+  for (unsigned k = 0; k < n_; ++k) {
+    const bool launch = k == 0 && m.from_rest, land = k + 1 == n_;
+    const Form &b0 = at_[k], &b1 = at_[k + 1], &half = half2_[k];
+    const Form s0 = slope_[k], s1{{0, slope_[k + 1].g[0], slope_[k + 1].g[1]}};
+    for (unsigned e = 0; e < 3; ++e) {
+      root_[k][0].at[e] = Two{b0.g[e], e > 0 && !land ? b1.g[e - 1] : 0};
+      root_[k][1].at[e] = Two{e == 1 ? 1.0 : 0.0, 0};
+    }
+    const Knot &left = m.knot[k], &right = m.knot[k + 1];
+    const Inside& in = m.inside[k];
+    const double use_a = k == 0 ? kStartUse : std::min(m.use_a[k - 1], m.use_a[k]);
+    for (unsigned n = 0; n < axes_; ++n) {
+      const unsigned i = axis_[n];
+      const double per_j = limits_->jerk[i] > 0 ? 1 / (m.use[k] * limits_->jerk[i]) : 0;
+      const auto jerk = [&](bool bends) { return per_j * (bends ? 1 / kInsideCurve : 1 / kInside); };
+      const double j0 = launch ? 0 : jerk(left.d2[i] != 0 || left.left3[i] != 0 || left.right3[i] != 0),
+                   j1 = land ? 0 : jerk(right.d2[i] != 0 || right.left3[i] != 0 || right.right3[i] != 0),
+                   jm = launch || land ? 0 : jerk(in.d2_start[i] != 0 || in.d2_end[i] != 0 || in.d3[i] != 0),
+                   a = launch || !(limits_->acceleration[i] > 0) ? 0 : 1 / (kInside * use_a * limits_->acceleration[i]);
+      Rows* x = row_ + 2 * (k * axes_ + n);
+      for (unsigned e = 0; e < 3; ++e) {
+        const double at1 = (e > 0 ? b1 : kNone).g[e > 0 ? e - 1 : 0];
+        x[0].g[e] = Two{j0 * (left.d1[i] * half.g[e] + 1.5 * left.d2[i] * s0.g[e] + left.right3[i] * b0.g[e]),
+                        j1 * (right.d1[i] * half.g[e] + 1.5 * right.d2[i] * s1.g[e] + right.left3[i] * at1)};
+        x[1].g[e] = Two{jm * (in.d1[i] * half.g[e] + 0.75 * (in.d2_end[i] * s0.g[e] + in.d2_start[i] * s1.g[e]) + (e == 1 ? in.d3[i] : 0)),
+                        a * (0.5 * left.d1[i] * s0.g[e] + left.d2[i] * b0.g[e])};
+      }
+    }
+    const double knot = k > 0 ? 1 / m.knot[k].cap : 0, cell = k >= first_ && k < last_ ? 1 / m.cap[k] : 0;
+    cap_[k].g[0] = Two{knot * b0.g[0], 0};
+    cap_[k].g[1] = Two{knot * b0.g[1], cell};
   }
-  for (unsigned k = first_; k < last_; ++k) {
-    Single& cap = cell_cap_[k];
-    cap.r = c_[k + kPad] / m.cap[k];
-    cap.g[0] = cap.g[2] = 0;
-    cap.g[1] = 1 / m.cap[k];
-  }
-  rows_ = 0;
-  each_pair([&](unsigned, Pair& x) {
-    slacks(x, least);
-    rows_ += 2;
-  });
-  each_single([&](unsigned, Single& x) {
-    slack(x, least);
-    ++rows_;
-  });
+  rows_ = n_ * (8 * axes_ + 2);
 }
 
-void TimeLaw::assemble(double mu) {
-  for (unsigned k = 0; k < n_ + 2 * kPad; ++k) diag_[k] = off1_[k] = off2_[k] = dc_[k] = 0;
-  for (unsigned k = first_; k < last_; ++k) {
-    const double c = c_[k + kPad], root = std::sqrt(c), w = weight_[k] / (c * root);
-    dc_[k + kPad] = 0.5 * w;         // minus the gradient of the time
-    diag_[k + kPad] = 0.75 * w / c;  // its second derivative
+/// The roots of cell k: b at its ends and the largest b inside.
+void TimeLaw::roots(unsigned k) {
+  const unsigned base = k + kPad - 1;
+  const double b0 = value(at_[k], base), b1 = value(at_[k + 1], base + 1);
+  const double slope0 = value(slope_[k], base), slope1 = value(slope_[k + 1], base + 1), c = c_[k + kPad];
+  const double peak = slope0 > 0 && slope1 < 0 ? b0 + 0.5 * mesh_->h[k] * slope0 * slope0 / (slope0 - slope1) : std::max(b0, b1);
+  Roots &ends = root_[k][0], &middle = root_[k][1];
+  ends.root = Two{std::sqrt(b0), std::sqrt(b1)};
+  ends.half_per = Two{b0 > 0 ? 0.5 / b0 : 0, b1 > 0 ? 0.5 / b1 : 0};
+  middle.root = Two{std::sqrt(peak), 1};
+  middle.half_per = Two{c > 0 ? 0.5 / c : 0, 0};
+}
+
+/// All rows at c, and what they give to the matrix and the right side. A slack that is smaller than its row leaves is made as large.
+/// kFirst: slacks of at least `least` begin, with multipliers of mu / s; else the last step is gone first.
+template <bool kFirst>
+TimeLaw::Sums TimeLaw::rows(double mu, double least) {
+  for (unsigned k = 0; k < n_ + 2 * kPad; ++k) diag_[k] = off1_[k] = off2_[k] = side_[k] = side_mu_[k] = 0;
+  const Two one = both(1), primal = both(primal_), dual = both(dual_), first_mu = both(mu), first_least = both(least);
+  Two gap{}, residual{}, worst{};
+  for (unsigned k = 0; k < n_; ++k) {
+    const unsigned base = k + kPad - 1;
+    const Two c0 = both(c_[base]), c1 = both(c_[base + 1]), c2 = both(c_[base + 2]);
+    roots(k);
+    Two m00{}, m01{}, m02{}, m11{}, m12{}, m22{}, a0{}, a1{}, a2{}, d0{}, d1{}, d2{};
+    Rows* const cell = row_ + 2 * k * axes_;
+    for (unsigned half = 0; half < 2; ++half) {
+      const Roots& q = root_[k][half];
+      for (unsigned n = 0; n < axes_; ++n) {
+        Rows& x = cell[2 * n + half];
+        const Two r = q.root * (x.g[0] * c0 + x.g[1] * c1 + x.g[2] * c2), bend = r * q.half_per;
+        const Two low = one - r, high = one + r;
+        Two s0, s1, l0, l1;
+        if constexpr (kFirst) {
+          s0 = larger(low, first_least);
+          s1 = larger(high, first_least);
+          l0 = first_mu / s0;
+          l1 = first_mu / s1;
+        } else {
+          s0 = larger(low, x.s[0] + primal * x.ds[0]);
+          s1 = larger(high, x.s[1] + primal * x.ds[1]);
+          l0 = x.l[0] + dual * x.dl[0];
+          l1 = x.l[1] + dual * x.dl[1];
+        }
+        x.r = r;
+        x.s[0] = s0;
+        x.s[1] = s1;
+        x.l[0] = l0;
+        x.l[1] = l1;
+        gap += s0 * l0 + s1 * l1;
+        const Two rho0 = s0 - low, rho1 = s1 - high;
+        residual = larger(residual, larger(rho0, rho1));
+        worst = larger(worst, larger(r, -r));
+        const Two per = one / (s0 * s1), per0 = per * s1, per1 = per * s0, w0 = l0 * per0, w1 = l1 * per1, w = w0 + w1;
+        const Two t = w0 * rho0 - w1 * rho1, t_mu = per0 - per1;
+        const Two g0 = q.root * x.g[0] + bend * q.at[0], g1 = q.root * x.g[1] + bend * q.at[1], g2 = q.root * x.g[2] + bend * q.at[2];
+        const Two w0g = w * g0, w1g = w * g1;
+        m00 += w0g * g0;
+        m01 += w0g * g1;
+        m02 += w0g * g2;
+        m11 += w1g * g1;
+        m12 += w1g * g2;
+        m22 += w * g2 * g2;
+        a0 += g0 * t;
+        a1 += g1 * t;
+        a2 += g2 * t;
+        d0 += g0 * t_mu;
+        d1 += g1 * t_mu;
+        d2 += g2 * t_mu;
+      }
+    }
+    Caps& x = cap_[k];
+    const Two r = x.g[0] * c0 + x.g[1] * c1, low = one - r;
+    if constexpr (kFirst) {
+      x.s = larger(low, first_least);
+      x.l = first_mu / x.s;
+    } else {
+      x.s = larger(low, x.s + primal * x.ds);
+      x.l += dual * x.dl;
+    }
+    x.r = r;
+    gap += x.s * x.l;
+    const Two rho = x.s - low, per = one / x.s, w = x.l * per, t = w * rho;
+    residual = larger(residual, rho);
+    worst = larger(worst, r);
+    m00 += w * x.g[0] * x.g[0];
+    m01 += w * x.g[0] * x.g[1];
+    m11 += w * x.g[1] * x.g[1];
+    a0 += x.g[0] * t;
+    a1 += x.g[1] * t;
+    d0 += x.g[0] * per;
+    d1 += x.g[1] * per;
+    diag_[base] += sum(m00);
+    diag_[base + 1] += sum(m11);
+    diag_[base + 2] += sum(m22);
+    off1_[base] += sum(m01);
+    off1_[base + 1] += sum(m12);
+    off2_[base] += sum(m02);
+    side_[base] -= sum(a0);
+    side_[base + 1] -= sum(a1);
+    side_[base + 2] -= sum(a2);
+    side_mu_[base] -= sum(d0);
+    side_mu_[base + 1] -= sum(d1);
+    side_mu_[base + 2] -= sum(d2);
   }
-  const auto add = [&](unsigned base, const double* g, double w, double t) {
-    const double w0 = w * g[0], w1 = w * g[1], w2 = w * g[2];
-    diag_[base] += w0 * g[0];
-    diag_[base + 1] += w1 * g[1];
-    diag_[base + 2] += w2 * g[2];
-    off1_[base] += w0 * g[1];
-    off1_[base + 1] += w1 * g[2];
-    off2_[base] += w0 * g[2];
-    dc_[base] -= g[0] * t;
-    dc_[base + 1] -= g[1] * t;
-    dc_[base + 2] -= g[2] * t;
-  };
-  each_pair([&](unsigned base, Pair& x) {
-    const double per0 = 1 / x.s[0], per1 = 1 / x.s[1], w0 = x.l[0] * per0, w1 = x.l[1] * per1;
-    const double t0 = mu * per0 + w0 * (x.r + x.s[0] - 1), t1 = mu * per1 + w1 * (-x.r + x.s[1] - 1);
-    add(base, x.g, w0 + w1, t0 - t1);
-  });
-  each_single([&](unsigned base, Single& x) {
-    const double per = 1 / x.s, w = x.l * per;
-    add(base, x.g, w, mu * per + w * (x.r + x.s - 1));
-  });
+  return {sum(gap), largest(residual), largest(worst)};
+}
+
+double TimeLaw::time() const {
+  double seconds = 0;
+  for (unsigned k = first_; k < last_; ++k) seconds += weight_[k] / std::sqrt(c_[k + kPad]);
+  return seconds;
+}
+
+/// Of the step towards mu; the second derivative of the time goes into the matrix.
+void TimeLaw::right_side(double mu) {
+  for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) {
+    const double per = 1 / c_[k], w = weight_[k - kPad] * per * std::sqrt(per);
+    diag_[k] += 0.75 * w * per;
+    dc_[k] = 0.5 * w + side_[k] + mu * side_mu_[k];  // minus the gradient of the time
+  }
 }
 
 /// L D L' of the band; what is not free stays where it is. dc_ holds the right side and then the step.
@@ -260,42 +288,60 @@ bool TimeLaw::factor_and_solve() {
   return true;
 }
 
-/// The steps of slacks and multipliers that belong to dc_, how far they may be gone, and gone.
-void TimeLaw::directions(double mu, double* step_primal, double* step_dual) {
-  double primal = 1, dual = 1;
-  const auto take = [&](double s, double l, double ds, double* ds_out, double* dl_out) {
-    const double dl = (mu - l * ds) / s - l;
-    if (-ds * primal > kToWall * s) primal = kToWall * s / -ds;
-    if (-dl * dual > kToWall * l) dual = kToWall * l / -dl;
-    *ds_out = ds;
-    *dl_out = dl;
-  };
-  each_pair([&](unsigned base, Pair& x) {
-    const double gd = x.g[0] * dc_[base] + x.g[1] * dc_[base + 1] + x.g[2] * dc_[base + 2];
-    take(x.s[0], x.l[0], 1 - x.r - x.s[0] - gd, &x.ds[0], &x.dl[0]);
-    take(x.s[1], x.l[1], 1 + x.r - x.s[1] + gd, &x.ds[1], &x.dl[1]);
-  });
-  each_single([&](unsigned base, Single& x) {
-    const double gd = x.g[0] * dc_[base] + x.g[1] * dc_[base + 1] + x.g[2] * dc_[base + 2];
-    take(x.s, x.l, 1 - x.r - x.s - gd, &x.ds, &x.dl);
-  });
-  for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) {
-    if (c_[k] + primal * dc_[k] < 0.2 * c_[k]) primal = -0.8 * c_[k] / dc_[k];
-    if (primal * dc_[k] > 4 * c_[k]) primal = 4 * c_[k] / dc_[k];
-  }
-  each_pair([&](unsigned, Pair& x) {
-    for (unsigned side = 0; side < 2; ++side) {
-      x.s[side] += primal * x.ds[side];
-      x.l[side] += dual * x.dl[side];
+/// No step reaches the wall of these rows.
+void TimeLaw::shorten(const Rows& x) {
+  for (unsigned side = 0; side < 2; ++side) {
+    for (unsigned lane = 0; lane < 2; ++lane) {
+      const double s = x.s[side][lane], l = x.l[side][lane], ds = x.ds[side][lane], dl = x.dl[side][lane];
+      if (-ds * primal_ > kToWall * s) primal_ = kToWall * s / -ds;
+      if (-dl * dual_ > kToWall * l) dual_ = kToWall * l / -dl;
     }
-  });
-  each_single([&](unsigned, Single& x) {
-    x.s += primal * x.ds;
-    x.l += dual * x.dl;
-  });
-  for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) c_[k] += primal * dc_[k];
-  *step_primal = primal;
-  *step_dual = dual;
+  }
+}
+
+/// The steps of slacks and multipliers that belong to dc_, how far they may be gone, and the one of c gone.
+void TimeLaw::directions(double target) {
+  const Two one = both(1), mu = both(target), wall = both(kToWall);
+  primal_ = dual_ = 1;
+  for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) {
+    if (c_[k] + primal_ * dc_[k] < 0.2 * c_[k]) primal_ = -0.8 * c_[k] / dc_[k];
+    if (primal_ * dc_[k] > 4 * c_[k]) primal_ = 4 * c_[k] / dc_[k];
+  }
+  for (unsigned k = 0; k < n_; ++k) {
+    const unsigned base = k + kPad - 1;
+    const Two d0 = both(dc_[base]), d1 = both(dc_[base + 1]), d2 = both(dc_[base + 2]);
+    const Two primal = both(primal_), dual = both(dual_);
+    Two room = one;
+    Rows* const cell = row_ + 2 * k * axes_;
+    for (unsigned half = 0; half < 2; ++half) {
+      const Roots& q = root_[k][half];
+      const Two bend = q.half_per * (q.at[0] * d0 + q.at[1] * d1 + q.at[2] * d2);
+      for (unsigned n = 0; n < axes_; ++n) {
+        Rows& x = cell[2 * n + half];
+        const Two s0 = x.s[0], s1 = x.s[1], l0 = x.l[0], l1 = x.l[1];
+        const Two gd = q.root * (x.g[0] * d0 + x.g[1] * d1 + x.g[2] * d2) + x.r * bend, r = x.r + gd;
+        const Two ds0 = (one - r) - s0, ds1 = (one + r) - s1, per = one / (s0 * s1);
+        const Two dl0 = (mu - l0 * ds0) * (per * s1) - l0, dl1 = (mu - l1 * ds1) * (per * s0) - l1;
+        x.ds[0] = ds0;
+        x.ds[1] = ds1;
+        x.dl[0] = dl0;
+        x.dl[1] = dl1;
+        room = smaller(room, smaller(ds0 * primal + wall * s0, ds1 * primal + wall * s1));
+        room = smaller(room, smaller(dl0 * dual + wall * l0, dl1 * dual + wall * l1));
+      }
+    }
+    if (smallest(room) < 0) {
+      for (unsigned n = 0; n < 2 * axes_; ++n) shorten(cell[n]);
+    }
+    Caps& x = cap_[k];
+    x.ds = one - x.r - x.s - (x.g[0] * d0 + x.g[1] * d1);
+    x.dl = (mu - x.l * x.ds) / x.s - x.l;
+    for (unsigned lane = 0; lane < 2; ++lane) {
+      if (-x.ds[lane] * primal_ > kToWall * x.s[lane]) primal_ = kToWall * x.s[lane] / -x.ds[lane];
+      if (-x.dl[lane] * dual_ > kToWall * x.l[lane]) dual_ = kToWall * x.l[lane] / -x.dl[lane];
+    }
+  }
+  for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) c_[k] += primal_ * dc_[k];
 }
 
 void TimeLaw::finish(Law* law) {
@@ -319,53 +365,35 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law
   law->iterations = 0;
   if (mesh.cells < 4 || mesh.cells > kMaxCells) return;
   forms();
+  moving_axes();
+  fill_rows();
   for (unsigned k = 0; k < kPad; ++k) c_[k] = c_[n_ + kPad + k] = 0;
   for (unsigned k = 0; k < n_ && !again; ++k) c_[k + kPad] = mesh.guess[k];
   c_[kPad] = mesh.from_rest ? 0 : mesh.b0 + 0.5 * mesh.slope0 * mesh.h[0];
+  c_[kPad - 1] = mesh.from_rest ? 0 : mesh.b0 - 0.5 * mesh.slope0 * mesh.h[0];
   c_[n_ - 1 + kPad] = 0;
-  evaluate_rows(again ? kSlackAgain : kSmallestSlack);
-  double time = 0;
-  for (unsigned k = first_; k < last_; ++k) time += weight_[k] / std::sqrt(c_[k + kPad]);
-  const double mu = (again ? kGapAgain : kGapFirst) * time / rows_;
-  each_pair([&](unsigned, Pair& x) {
-    x.l[0] = mu / x.s[0];
-    x.l[1] = mu / x.s[1];
-  });
-  each_single([&](unsigned, Single& x) { x.l = mu / x.s; });
+  Sums sums = rows<true>((again ? kGapAgain : kGapFirst) * time() / rows_, again ? kSlackAgain : kSmallestSlack);
   for (unsigned n = 0; n < kIterations; ++n) {
-    double gap = 0, residual = 0, worst = 0;
-    each_pair([&](unsigned, Pair& x) {
-      gap += x.s[0] * x.l[0] + x.s[1] * x.l[1];
-      residual = std::max({residual, x.r + x.s[0] - 1, x.s[1] - x.r - 1});
-      worst = std::max(worst, std::fabs(x.r));
-    });
-    each_single([&](unsigned, Single& x) {
-      gap += x.s * x.l;
-      residual = std::max(residual, x.r + x.s - 1);
-      worst = std::max(worst, x.r);
-    });
-    time = 0;
-    for (unsigned k = first_; k < last_; ++k) time += weight_[k] / std::sqrt(c_[k + kPad]);
+    const double seconds = time();
     law->iterations = n;
-    law->seconds = time;
-    law->worst = worst * kInside;
-    if (gap < kGap * time && worst < 1.0005) {
+    law->seconds = seconds;
+    law->worst = sums.worst * kInside;
+    if (sums.gap < kGap * seconds && sums.worst < 1.0005) {
       law->ok = true;
       finish(law);
       return;
     }
-    const double average = gap / rows_;
+    const double average = sums.gap / rows_;
     // Not nearer to the walls than the rows are to being kept: else the steps become short.
-    const double target = std::max((residual > 0.3    ? 0.5
-                                    : residual > 1e-3 ? 0.3
-                                                      : 0.1) *
+    const double target = std::max((sums.residual > 0.3    ? 0.5
+                                    : sums.residual > 1e-3 ? 0.3
+                                                           : 0.1) *
                                        average,
-                                   kResidual * residual * time / rows_);
-    assemble(target);
+                                   kResidual * sums.residual * seconds / rows_);
+    right_side(target);
     if (!factor_and_solve()) return;
-    double primal = 1, dual = 1;
-    directions(target, &primal, &dual);
-    evaluate_rows(0);
+    directions(target);
+    sums = rows<false>(0, 0);
   }
 }
 

@@ -55,6 +55,9 @@ struct Law {
   bool ok = false;
 };
 
+/// Two rows at once: whatever the processor has for that.
+using Two __attribute__((vector_size(16))) = double;
+
 class TimeLaw {
  public:
   /// The law of least time that ends at rest. !law->ok when none was found; nothing may then be done with it.
@@ -63,54 +66,61 @@ class TimeLaw {
 
  private:
   static constexpr unsigned kPad = 2;
-  static constexpr unsigned kPairs = 3 * kMaxAxes;
-  /// r in [-1, 1]: slacks and multipliers of both sides.
-  struct Pair {
-    double r, g[3], s[2], l[2], ds[2], dl[2];
-  };
-  /// r <= 1.
-  struct Single {
-    double r, g[3], s, l, ds, dl;
-  };
   /// A value that is linear in three neighbouring control values.
   struct Form {
-    double g[3] = {0, 0, 0}, constant = 0;
+    double g[3] = {0, 0, 0};
+  };
+  /// Rows of cell k, all on c_(k-1), c_k, c_(k+1). For each axis there are four, by pairs
+  ///     jerk behind knot k, jerk in front of knot k + 1          jerk in the middle, acceleration at knot k
+  /// and r = root (g c) in [-1, 1]: slacks and multipliers of both sides.
+  struct Rows {
+    Two g[3], r, s[2], l[2], ds[2], dl[2];
+  };
+  /// What the rows of all axes of a cell have in common: the root, b under it by the control values, and 1 / 2b.
+  struct Roots {
+    Two root, half_per, at[3];
+  };
+  /// b at knot k and c_k below feed and axis velocities: r = g c <= 1.
+  struct Caps {
+    Two g[2], r, s, l, ds, dl;
+  };
+  struct Sums {
+    double gap = 0, residual = 0, worst = 0;
   };
 
   void forms();
-  void evaluate_rows(double least);
-  void knot_rows(unsigned k);
-  void middle_rows(unsigned k);
-  void slacks(Pair& x, double least);
-  void slack(Single& x, double least);
-  void assemble(double mu);
+  void moving_axes();
+  void fill_rows();
+  template <bool kFirst>
+  Sums rows(double mu, double least);
+  double time() const;
+  void roots(unsigned k);
+  void right_side(double mu);
   bool factor_and_solve();
-  void directions(double mu, double* step_primal, double* step_dual);
+  void directions(double mu);
+  void shorten(const Rows& x);
   void finish(Law* law);
   double value(const Form& f, unsigned base) const {
-    return f.g[0] * c_[base] + f.g[1] * c_[base + 1] + f.g[2] * c_[base + 2] + f.constant;
+    return f.g[0] * c_[base] + f.g[1] * c_[base + 1] + f.g[2] * c_[base + 2];
   }
-  template <class F>
-  void each_pair(F&& f);
-  template <class F>
-  void each_single(F&& f);
 
   const Mesh* mesh_ = nullptr;
   const Limits* limits_ = nullptr;
   unsigned n_ = 0;                 ///< cells
   unsigned first_ = 0, last_ = 0;  ///< free control values: [first_, last_)
+  unsigned axes_ = 0, axis_[kMaxAxes];  ///< that move
   unsigned rows_ = 0;
+  double primal_ = 0, dual_ = 0;   ///< how far the last step goes
   double weight_[kMaxCells];
   // Padded by kPad on either side: control value k is c_[k + kPad].
   double c_[kMaxCells + 2 * kPad], dc_[kMaxCells + 2 * kPad];
+  double side_[kMaxCells + 2 * kPad], side_mu_[kMaxCells + 2 * kPad];  ///< the right side is the one and mu times the other
   double diag_[kMaxCells + 2 * kPad], off1_[kMaxCells + 2 * kPad], off2_[kMaxCells + 2 * kPad];
   Form at_[kMaxCells + 1], slope_[kMaxCells + 1];  ///< of knot k, on c_(k-1), c_k
   Form half2_[kMaxCells];                          ///< of cell k, on c_(k-1), c_k, c_(k+1)
-  unsigned used_[kMaxCells + 1];                   ///< pairs of knot k
-  unsigned inside_[kMaxCells];                     ///< pairs of the middle of cell k
-  Pair pair_[kMaxCells + 1][kPairs];
-  Pair middle_[kMaxCells][kMaxAxes];
-  Single knot_cap_[kMaxCells + 1], cell_cap_[kMaxCells];
+  Roots root_[kMaxCells][2];
+  Caps cap_[kMaxCells];
+  Rows row_[2 * kMaxAxes * kMaxCells];  ///< 2 of each moving axis, cell by cell
 };
 
 }  // namespace nc::optimal
