@@ -4,12 +4,25 @@
 // H the (diagonal, positive) second derivative of the time. The second derivative of the jerk rows (their
 // root) is left out: that changes the way, not the goal, because rho is always that of the true row.
 //
-// A step goes through the rows twice: rows() ends the last one, finds r and adds up matrix and right side; directions() finds the steps
-// of slacks and multipliers. Everything that a row needs lies together, two rows to a vector.
+// Steps are not cut short as a whole where one row comes to its wall: a slack or a multiplier keeps a share of itself at least, and the
+// rho that this leaves is the next step's. So one pass through the rows ends a step, finds r and adds up the next matrix and right side.
+// Everything that a row needs lies together, four rows to a vector.
 #include "motion/optimal/time_law.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+// Where the processor is known only at run time there are two of one function, with the same results: no product is added in one
+// rounding (-ffp-contract=off). Not in builds whose instruments do not know such functions.
+#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__clang__) && !defined(__AVX2__)
+#define NC_FOR_WIDE_VECTORS [[gnu::target_clones("avx2", "default")]]
+#else
+#define NC_FOR_WIDE_VECTORS
+#endif
+
+// Vectors are passed between functions that are inlined, so nobody asks how.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace nc::optimal {
 namespace {
@@ -19,31 +32,26 @@ constexpr double kGap = 2e-4;       ///< of the time, that the result may be lon
 constexpr double kInside = 0.9998;  ///< of the limits, that the law may use
 constexpr double kInsideCurve =
     0.996;  ///< the same of the jerk where the path bends: between the rows it may be a little more
-constexpr double kToWall = 0.99;  ///< of the way to the nearest wall, that one step may go
-constexpr double kResidual = 0.05;
+constexpr double kLeft = 0.2;     ///< of a slack or a multiplier, at least, after a step
+constexpr double kFall = 0.2, kRise = 5;  ///< of a control value, after a step
+constexpr double kResidual = 0.02;
 constexpr double kSmallestSlack = 0.5;
 constexpr double kGapFirst = 0.4;      ///< of the time
 constexpr double kSlackAgain = 0.003;   ///< the same from a solution of nearly the same rows
 constexpr double kGapAgain = 0.003;
 constexpr double kStartUse = 1.004;    ///< of the acceleration at a given start: nothing there can become less
 
-inline Two both(double x) {
-  return Two{x, x};
+[[gnu::always_inline]] inline Four all(double x) {
+  return Four{x, x, x, x};
 }
-inline Two larger(Two a, Two b) {
+[[gnu::always_inline]] inline Four larger(const Four& a, const Four& b) {
   return a > b ? a : b;
 }
-inline Two smaller(Two a, Two b) {
-  return a < b ? a : b;
+[[gnu::always_inline]] inline double sum(const Four& a) {
+  return (a[0] + a[1]) + (a[2] + a[3]);
 }
-inline double sum(Two a) {
-  return a[0] + a[1];
-}
-inline double largest(Two a) {
-  return std::max(a[0], a[1]);
-}
-inline double smallest(Two a) {
-  return std::min(a[0], a[1]);
+[[gnu::always_inline]] inline double largest(const Four& a) {
+  return std::max(std::max(a[0], a[1]), std::max(a[2], a[3]));
 }
 
 }  // namespace
@@ -105,10 +113,7 @@ void TimeLaw::fill_rows() {
     const bool launch = k == 0 && m.from_rest, land = k + 1 == n_;
     const Form &b0 = at_[k], &b1 = at_[k + 1], &half = half2_[k];
     const Form s0 = slope_[k], s1{{0, slope_[k + 1].g[0], slope_[k + 1].g[1]}};
-    for (unsigned e = 0; e < 3; ++e) {
-      root_[k][0].at[e] = Two{b0.g[e], e > 0 && !land ? b1.g[e - 1] : 0};
-      root_[k][1].at[e] = Two{e == 1 ? 1.0 : 0.0, 0};
-    }
+    for (unsigned e = 0; e < 3; ++e) root_[k].at[e] = Four{b0.g[e], e > 0 && !land ? b1.g[e - 1] : 0, e == 1 ? 1.0 : 0.0, 0};
     const Knot &left = m.knot[k], &right = m.knot[k + 1];
     const Inside& in = m.inside[k];
     const double use_a = k == 0 ? kStartUse : std::min(m.use_a[k - 1], m.use_a[k]);
@@ -120,114 +125,98 @@ void TimeLaw::fill_rows() {
                    j1 = land ? 0 : jerk(right.d2[i] != 0 || right.left3[i] != 0 || right.right3[i] != 0),
                    jm = launch || land ? 0 : jerk(in.d2_start[i] != 0 || in.d2_end[i] != 0 || in.d3[i] != 0),
                    a = launch || !(limits_->acceleration[i] > 0) ? 0 : 1 / (kInside * use_a * limits_->acceleration[i]);
-      Rows* x = row_ + 2 * (k * axes_ + n);
+      Rows& x = row_[k * axes_ + n];
       for (unsigned e = 0; e < 3; ++e) {
         const double at1 = (e > 0 ? b1 : kNone).g[e > 0 ? e - 1 : 0];
-        x[0].g[e] = Two{j0 * (left.d1[i] * half.g[e] + 1.5 * left.d2[i] * s0.g[e] + left.right3[i] * b0.g[e]),
-                        j1 * (right.d1[i] * half.g[e] + 1.5 * right.d2[i] * s1.g[e] + right.left3[i] * at1)};
-        x[1].g[e] = Two{jm * (in.d1[i] * half.g[e] + 0.75 * (in.d2_end[i] * s0.g[e] + in.d2_start[i] * s1.g[e]) + (e == 1 ? in.d3[i] : 0)),
-                        a * (0.5 * left.d1[i] * s0.g[e] + left.d2[i] * b0.g[e])};
+        x.g[e] = Four{j0 * (left.d1[i] * half.g[e] + 1.5 * left.d2[i] * s0.g[e] + left.right3[i] * b0.g[e]),
+                      j1 * (right.d1[i] * half.g[e] + 1.5 * right.d2[i] * s1.g[e] + right.left3[i] * at1),
+                      jm * (in.d1[i] * half.g[e] + 0.75 * (in.d2_end[i] * s0.g[e] + in.d2_start[i] * s1.g[e]) + (e == 1 ? in.d3[i] : 0)),
+                      a * (0.5 * left.d1[i] * s0.g[e] + left.d2[i] * b0.g[e])};
       }
     }
     const double knot = k > 0 ? 1 / m.knot[k].cap : 0, cell = k >= first_ && k < last_ ? 1 / m.cap[k] : 0;
-    cap_[k].g[0] = Two{knot * b0.g[0], 0};
-    cap_[k].g[1] = Two{knot * b0.g[1], cell};
+    cap_[k].g[0] = knot * b0.g[0];
+    cap_[k].g[1] = knot * b0.g[1];
+    cap_[k].g[2] = cell;
   }
   rows_ = n_ * (8 * axes_ + 2);
 }
 
 /// The roots of cell k: b at its ends and the largest b inside.
-void TimeLaw::roots(unsigned k) {
+[[gnu::always_inline]] inline void TimeLaw::roots(unsigned k) {
   const unsigned base = k + kPad - 1;
-  const double b0 = value(at_[k], base), b1 = value(at_[k + 1], base + 1);
-  const double slope0 = value(slope_[k], base), slope1 = value(slope_[k + 1], base + 1), c = c_[k + kPad];
+  const Form &f0 = at_[k], &f1 = at_[k + 1], &e0 = slope_[k], &e1 = slope_[k + 1];
+  const double c0 = c_[base], c = c_[base + 1], c2 = c_[base + 2];
+  const double b0 = f0.g[0] * c0 + f0.g[1] * c, b1 = f1.g[0] * c + f1.g[1] * c2;
+  const double slope0 = e0.g[0] * c0 + e0.g[1] * c, slope1 = e1.g[0] * c + e1.g[1] * c2;
   const double peak = slope0 > 0 && slope1 < 0 ? b0 + 0.5 * mesh_->h[k] * slope0 * slope0 / (slope0 - slope1) : std::max(b0, b1);
-  Roots &ends = root_[k][0], &middle = root_[k][1];
-  ends.root = Two{std::sqrt(b0), std::sqrt(b1)};
-  ends.half_per = Two{b0 > 0 ? 0.5 / b0 : 0, b1 > 0 ? 0.5 / b1 : 0};
-  middle.root = Two{std::sqrt(peak), 1};
-  middle.half_per = Two{c > 0 ? 0.5 / c : 0, 0};
+  Roots& q = root_[k];
+  q.root = Four{std::sqrt(b0), std::sqrt(b1), std::sqrt(peak), 1};
+  q.half_per = Four{b0 > 0 ? 0.5 / b0 : 0, b1 > 0 ? 0.5 / b1 : 0, c > 0 ? 0.5 / c : 0, 0};
 }
 
 /// All rows at c, and what they give to the matrix and the right side. A slack that is smaller than its row leaves is made as large.
-/// kFirst: slacks of at least `least` begin, with multipliers of mu / s; else the last step is gone first.
-template <bool kFirst>
-TimeLaw::Sums TimeLaw::rows(double mu, double least) {
+/// `first`: slacks of at least `least` begin, with multipliers of mu / s; else the step dc towards mu, which c has gone, is theirs, too.
+NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, double smallest) {
   for (unsigned k = 0; k < n_ + 2 * kPad; ++k) diag_[k] = off1_[k] = off2_[k] = side_[k] = side_mu_[k] = 0;
-  const Two one = both(1), primal = both(primal_), dual = both(dual_), first_mu = both(mu), first_least = both(least);
-  Two gap{}, residual{}, worst{};
+  const Four one = all(1), mu = all(target), least = all(smallest), left = all(kLeft);
+  Four gap{}, residual{}, worst{};
+  double cap_gap = 0, cap_residual = 0, cap_worst = 0;
   for (unsigned k = 0; k < n_; ++k) {
     const unsigned base = k + kPad - 1;
-    const Two c0 = both(c_[base]), c1 = both(c_[base + 1]), c2 = both(c_[base + 2]);
+    Roots& q = root_[k];
+    const Four c0 = all(c_[base]), c1 = all(c_[base + 1]), c2 = all(c_[base + 2]);
+    const Four e0 = all(dc_[base]), e1 = all(dc_[base + 1]), e2 = all(dc_[base + 2]);
+    const Four old = q.root, old_bend = q.half_per * (q.at[0] * e0 + q.at[1] * e1 + q.at[2] * e2);
     roots(k);
-    Two m00{}, m01{}, m02{}, m11{}, m12{}, m22{}, a0{}, a1{}, a2{}, d0{}, d1{}, d2{};
-    Rows* const cell = row_ + 2 * k * axes_;
-    for (unsigned half = 0; half < 2; ++half) {
-      const Roots& q = root_[k][half];
-      for (unsigned n = 0; n < axes_; ++n) {
-        Rows& x = cell[2 * n + half];
-        const Two r = q.root * (x.g[0] * c0 + x.g[1] * c1 + x.g[2] * c2), bend = r * q.half_per;
-        const Two low = one - r, high = one + r;
-        Two s0, s1, l0, l1;
-        if constexpr (kFirst) {
-          s0 = larger(low, first_least);
-          s1 = larger(high, first_least);
-          l0 = first_mu / s0;
-          l1 = first_mu / s1;
-        } else {
-          s0 = larger(low, x.s[0] + primal * x.ds[0]);
-          s1 = larger(high, x.s[1] + primal * x.ds[1]);
-          l0 = x.l[0] + dual * x.dl[0];
-          l1 = x.l[1] + dual * x.dl[1];
-        }
-        x.r = r;
-        x.s[0] = s0;
-        x.s[1] = s1;
-        x.l[0] = l0;
-        x.l[1] = l1;
-        gap += s0 * l0 + s1 * l1;
-        const Two rho0 = s0 - low, rho1 = s1 - high;
-        residual = larger(residual, larger(rho0, rho1));
-        worst = larger(worst, larger(r, -r));
-        const Two per = one / (s0 * s1), per0 = per * s1, per1 = per * s0, w0 = l0 * per0, w1 = l1 * per1, w = w0 + w1;
-        const Two t = w0 * rho0 - w1 * rho1, t_mu = per0 - per1;
-        const Two g0 = q.root * x.g[0] + bend * q.at[0], g1 = q.root * x.g[1] + bend * q.at[1], g2 = q.root * x.g[2] + bend * q.at[2];
-        const Two w0g = w * g0, w1g = w * g1;
-        m00 += w0g * g0;
-        m01 += w0g * g1;
-        m02 += w0g * g2;
-        m11 += w1g * g1;
-        m12 += w1g * g2;
-        m22 += w * g2 * g2;
-        a0 += g0 * t;
-        a1 += g1 * t;
-        a2 += g2 * t;
-        d0 += g0 * t_mu;
-        d1 += g1 * t_mu;
-        d2 += g2 * t_mu;
+    Four m00{}, m01{}, m02{}, m11{}, m12{}, m22{}, a0{}, a1{}, a2{}, d0{}, d1{}, d2{};
+    for (Rows *p = row_ + k * axes_, *end = p + axes_; p != end; ++p) {
+      Rows& x = *p;
+      const Four g0 = x.g[0], g1 = x.g[1], g2 = x.g[2];
+      const Four r = q.root * (g0 * c0 + g1 * c1 + g2 * c2), low = one - r, high = one + r;
+      Four s0, s1, l0, l1;
+      if (first) {
+        s0 = larger(low, least);
+        s1 = larger(high, least);
+        l0 = mu / s0;
+        l1 = mu / s1;
+      } else {
+        const Four line = x.r + old * (g0 * e0 + g1 * e1 + g2 * e2) + x.r * old_bend;  // what the step was to make of r
+        const Four line0 = one - line, line1 = one + line;
+        s0 = larger(low, larger(left * x.s[0], line0));
+        s1 = larger(high, larger(left * x.s[1], line1));
+        l0 = larger(left * x.l[0], (mu - x.l[0] * (line0 - x.s[0])) * x.per[0]);
+        l1 = larger(left * x.l[1], (mu - x.l[1] * (line1 - x.s[1])) * x.per[1]);
       }
+      const Four per = one / (s0 * s1), per0 = per * s1, per1 = per * s0;
+      x.r = r;
+      x.s[0] = s0;
+      x.s[1] = s1;
+      x.l[0] = l0;
+      x.l[1] = l1;
+      x.per[0] = per0;
+      x.per[1] = per1;
+      const Four rho0 = s0 - low, rho1 = s1 - high;
+      gap += s0 * l0 + s1 * l1;
+      residual = larger(residual, larger(rho0, rho1));
+      worst = larger(worst, larger(r, -r));
+      const Four w0 = l0 * per0, w1 = l1 * per1, w = w0 + w1;
+      const Four t = w0 * rho0 - w1 * rho1, t_mu = per0 - per1, bend = r * q.half_per;
+      const Four h0 = q.root * g0 + bend * q.at[0], h1 = q.root * g1 + bend * q.at[1], h2 = q.root * g2 + bend * q.at[2];
+      const Four w0h = w * h0, w1h = w * h1;
+      m00 += w0h * h0;
+      m01 += w0h * h1;
+      m02 += w0h * h2;
+      m11 += w1h * h1;
+      m12 += w1h * h2;
+      m22 += w * h2 * h2;
+      a0 += h0 * t;
+      a1 += h1 * t;
+      a2 += h2 * t;
+      d0 += h0 * t_mu;
+      d1 += h1 * t_mu;
+      d2 += h2 * t_mu;
     }
-    Caps& x = cap_[k];
-    const Two r = x.g[0] * c0 + x.g[1] * c1, low = one - r;
-    if constexpr (kFirst) {
-      x.s = larger(low, first_least);
-      x.l = first_mu / x.s;
-    } else {
-      x.s = larger(low, x.s + primal * x.ds);
-      x.l += dual * x.dl;
-    }
-    x.r = r;
-    gap += x.s * x.l;
-    const Two rho = x.s - low, per = one / x.s, w = x.l * per, t = w * rho;
-    residual = larger(residual, rho);
-    worst = larger(worst, r);
-    m00 += w * x.g[0] * x.g[0];
-    m01 += w * x.g[0] * x.g[1];
-    m11 += w * x.g[1] * x.g[1];
-    a0 += x.g[0] * t;
-    a1 += x.g[1] * t;
-    d0 += x.g[0] * per;
-    d1 += x.g[1] * per;
     diag_[base] += sum(m00);
     diag_[base + 1] += sum(m11);
     diag_[base + 2] += sum(m22);
@@ -240,22 +229,46 @@ TimeLaw::Sums TimeLaw::rows(double mu, double least) {
     side_mu_[base] -= sum(d0);
     side_mu_[base + 1] -= sum(d1);
     side_mu_[base + 2] -= sum(d2);
+    Caps& x = cap_[k];
+    for (unsigned n = 0; n < 2; ++n) {
+      const double g0 = n == 0 ? x.g[0] : 0, g1 = x.g[n + 1];
+      const double r = g0 * c_[base] + g1 * c_[base + 1], low = 1 - r;
+      if (first) {
+        x.s[n] = std::max(low, smallest);
+        x.l[n] = target / x.s[n];
+      } else {
+        const double line0 = low;  // linear
+        x.l[n] = std::max(kLeft * x.l[n], (target - x.l[n] * (line0 - x.s[n])) / x.s[n]);
+        x.s[n] = std::max(low, kLeft * x.s[n]);
+      }
+      const double rho = x.s[n] - low, per = 1 / x.s[n], w = x.l[n] * per, t = w * rho;
+      cap_gap += x.s[n] * x.l[n];
+      cap_residual = std::max(cap_residual, rho);
+      cap_worst = std::max(cap_worst, r);
+      diag_[base] += w * g0 * g0;
+      off1_[base] += w * g0 * g1;
+      diag_[base + 1] += w * g1 * g1;
+      side_[base] -= g0 * t;
+      side_[base + 1] -= g1 * t;
+      side_mu_[base] -= g0 * per;
+      side_mu_[base + 1] -= g1 * per;
+    }
   }
-  return {sum(gap), largest(residual), largest(worst)};
+  return {sum(gap) + cap_gap, std::max(largest(residual), cap_residual), std::max(largest(worst), cap_worst)};
 }
 
-double TimeLaw::time() const {
-  double seconds = 0;
-  for (unsigned k = first_; k < last_; ++k) seconds += weight_[k] / std::sqrt(c_[k + kPad]);
-  return seconds;
+void TimeLaw::find_time() {
+  time_ = 0;
+  for (unsigned k = first_; k < last_; ++k) per_root_[k] = 1 / std::sqrt(c_[k + kPad]);
+  for (unsigned k = first_; k < last_; ++k) time_ += weight_[k] * per_root_[k];
 }
 
 /// Of the step towards mu; the second derivative of the time goes into the matrix.
 void TimeLaw::right_side(double mu) {
-  for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) {
-    const double per = 1 / c_[k], w = weight_[k - kPad] * per * std::sqrt(per);
-    diag_[k] += 0.75 * w * per;
-    dc_[k] = 0.5 * w + side_[k] + mu * side_mu_[k];  // minus the gradient of the time
+  for (unsigned k = first_; k < last_; ++k) {
+    const double per = per_root_[k] * per_root_[k], w = weight_[k] * per * per_root_[k];
+    diag_[k + kPad] += 0.75 * w * per;
+    dc_[k + kPad] = 0.5 * w + side_[k + kPad] + mu * side_mu_[k + kPad];  // minus the gradient of the time
   }
 }
 
@@ -288,62 +301,6 @@ bool TimeLaw::factor_and_solve() {
   return true;
 }
 
-/// No step reaches the wall of these rows.
-void TimeLaw::shorten(const Rows& x) {
-  for (unsigned side = 0; side < 2; ++side) {
-    for (unsigned lane = 0; lane < 2; ++lane) {
-      const double s = x.s[side][lane], l = x.l[side][lane], ds = x.ds[side][lane], dl = x.dl[side][lane];
-      if (-ds * primal_ > kToWall * s) primal_ = kToWall * s / -ds;
-      if (-dl * dual_ > kToWall * l) dual_ = kToWall * l / -dl;
-    }
-  }
-}
-
-/// The steps of slacks and multipliers that belong to dc_, how far they may be gone, and the one of c gone.
-void TimeLaw::directions(double target) {
-  const Two one = both(1), mu = both(target), wall = both(kToWall);
-  primal_ = dual_ = 1;
-  for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) {
-    if (c_[k] + primal_ * dc_[k] < 0.2 * c_[k]) primal_ = -0.8 * c_[k] / dc_[k];
-    if (primal_ * dc_[k] > 4 * c_[k]) primal_ = 4 * c_[k] / dc_[k];
-  }
-  for (unsigned k = 0; k < n_; ++k) {
-    const unsigned base = k + kPad - 1;
-    const Two d0 = both(dc_[base]), d1 = both(dc_[base + 1]), d2 = both(dc_[base + 2]);
-    const Two primal = both(primal_), dual = both(dual_);
-    Two room = one;
-    Rows* const cell = row_ + 2 * k * axes_;
-    for (unsigned half = 0; half < 2; ++half) {
-      const Roots& q = root_[k][half];
-      const Two bend = q.half_per * (q.at[0] * d0 + q.at[1] * d1 + q.at[2] * d2);
-      for (unsigned n = 0; n < axes_; ++n) {
-        Rows& x = cell[2 * n + half];
-        const Two s0 = x.s[0], s1 = x.s[1], l0 = x.l[0], l1 = x.l[1];
-        const Two gd = q.root * (x.g[0] * d0 + x.g[1] * d1 + x.g[2] * d2) + x.r * bend, r = x.r + gd;
-        const Two ds0 = (one - r) - s0, ds1 = (one + r) - s1, per = one / (s0 * s1);
-        const Two dl0 = (mu - l0 * ds0) * (per * s1) - l0, dl1 = (mu - l1 * ds1) * (per * s0) - l1;
-        x.ds[0] = ds0;
-        x.ds[1] = ds1;
-        x.dl[0] = dl0;
-        x.dl[1] = dl1;
-        room = smaller(room, smaller(ds0 * primal + wall * s0, ds1 * primal + wall * s1));
-        room = smaller(room, smaller(dl0 * dual + wall * l0, dl1 * dual + wall * l1));
-      }
-    }
-    if (smallest(room) < 0) {
-      for (unsigned n = 0; n < 2 * axes_; ++n) shorten(cell[n]);
-    }
-    Caps& x = cap_[k];
-    x.ds = one - x.r - x.s - (x.g[0] * d0 + x.g[1] * d1);
-    x.dl = (mu - x.l * x.ds) / x.s - x.l;
-    for (unsigned lane = 0; lane < 2; ++lane) {
-      if (-x.ds[lane] * primal_ > kToWall * x.s[lane]) primal_ = kToWall * x.s[lane] / -x.ds[lane];
-      if (-x.dl[lane] * dual_ > kToWall * x.l[lane]) dual_ = kToWall * x.l[lane] / -x.dl[lane];
-    }
-  }
-  for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) c_[k] += primal_ * dc_[k];
-}
-
 void TimeLaw::finish(Law* law) {
   const Mesh& m = *mesh_;
   law->cells = n_;
@@ -372,13 +329,14 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law
   c_[kPad] = mesh.from_rest ? 0 : mesh.b0 + 0.5 * mesh.slope0 * mesh.h[0];
   c_[kPad - 1] = mesh.from_rest ? 0 : mesh.b0 - 0.5 * mesh.slope0 * mesh.h[0];
   c_[n_ - 1 + kPad] = 0;
-  Sums sums = rows<true>((again ? kGapAgain : kGapFirst) * time() / rows_, again ? kSlackAgain : kSmallestSlack);
+  for (unsigned k = 0; k < n_ + 2 * kPad; ++k) dc_[k] = 0;
+  find_time();
+  Sums sums = rows(true, (again ? kGapAgain : kGapFirst) * time_ / rows_, again ? kSlackAgain : kSmallestSlack);
   for (unsigned n = 0; n < kIterations; ++n) {
-    const double seconds = time();
     law->iterations = n;
-    law->seconds = seconds;
+    law->seconds = time_;
     law->worst = sums.worst * kInside;
-    if (sums.gap < kGap * seconds && sums.worst < 1.0005) {
+    if (sums.gap < kGap * time_ && sums.worst < 1.0005) {
       law->ok = true;
       finish(law);
       return;
@@ -389,11 +347,16 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law
                                     : sums.residual > 1e-3 ? 0.3
                                                            : 0.1) *
                                        average,
-                                   kResidual * sums.residual * seconds / rows_);
+                                   kResidual * sums.residual * time_ / rows_);
     right_side(target);
     if (!factor_and_solve()) return;
-    directions(target);
-    sums = rows<false>(0, 0);
+    for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) {
+      const double to = std::clamp(c_[k] + dc_[k], kFall * c_[k], kRise * c_[k]);
+      dc_[k] = to - c_[k];
+      c_[k] = to;
+    }
+    find_time();
+    sums = rows(false, target, 0);
   }
 }
 

@@ -55,8 +55,8 @@ struct Law {
   bool ok = false;
 };
 
-/// Two rows at once: whatever the processor has for that.
-using Two __attribute__((vector_size(16))) = double;
+/// Four rows at once, by whatever the processor has for that.
+using Four __attribute__((vector_size(32), aligned(16))) = double;
 
 class TimeLaw {
  public:
@@ -70,19 +70,19 @@ class TimeLaw {
   struct Form {
     double g[3] = {0, 0, 0};
   };
-  /// Rows of cell k, all on c_(k-1), c_k, c_(k+1). For each axis there are four, by pairs
-  ///     jerk behind knot k, jerk in front of knot k + 1          jerk in the middle, acceleration at knot k
-  /// and r = root (g c) in [-1, 1]: slacks and multipliers of both sides.
+  /// The rows of one axis in cell k, all on c_(k-1), c_k, c_(k+1):
+  ///     jerk behind knot k, jerk in front of knot k + 1, jerk in the middle, acceleration at knot k
+  /// with r = root (g c) in [-1, 1]. Slacks, multipliers and 1 / slack of both sides.
   struct Rows {
-    Two g[3], r, s[2], l[2], ds[2], dl[2];
+    Four g[3], r, s[2], l[2], per[2];
   };
   /// What the rows of all axes of a cell have in common: the root, b under it by the control values, and 1 / 2b.
   struct Roots {
-    Two root, half_per, at[3];
+    Four root, half_per, at[3];
   };
   /// b at knot k and c_k below feed and axis velocities: r = g c <= 1.
   struct Caps {
-    Two g[2], r, s, l, ds, dl;
+    double g[3], s[2], l[2];  ///< the knot's by c_(k-1), c_k; the cell's by c_k
   };
   struct Sums {
     double gap = 0, residual = 0, worst = 0;
@@ -91,14 +91,11 @@ class TimeLaw {
   void forms();
   void moving_axes();
   void fill_rows();
-  template <bool kFirst>
-  Sums rows(double mu, double least);
-  double time() const;
+  Sums rows(bool first, double mu, double least);
   void roots(unsigned k);
+  void find_time();
   void right_side(double mu);
   bool factor_and_solve();
-  void directions(double mu);
-  void shorten(const Rows& x);
   void finish(Law* law);
   double value(const Form& f, unsigned base) const {
     return f.g[0] * c_[base] + f.g[1] * c_[base + 1] + f.g[2] * c_[base + 2];
@@ -110,17 +107,17 @@ class TimeLaw {
   unsigned first_ = 0, last_ = 0;  ///< free control values: [first_, last_)
   unsigned axes_ = 0, axis_[kMaxAxes];  ///< that move
   unsigned rows_ = 0;
-  double primal_ = 0, dual_ = 0;   ///< how far the last step goes
-  double weight_[kMaxCells];
+  double time_ = 0;
+  double weight_[kMaxCells], per_root_[kMaxCells];  ///< per_root: 1 / sqrt(c)
   // Padded by kPad on either side: control value k is c_[k + kPad].
   double c_[kMaxCells + 2 * kPad], dc_[kMaxCells + 2 * kPad];
   double side_[kMaxCells + 2 * kPad], side_mu_[kMaxCells + 2 * kPad];  ///< the right side is the one and mu times the other
   double diag_[kMaxCells + 2 * kPad], off1_[kMaxCells + 2 * kPad], off2_[kMaxCells + 2 * kPad];
   Form at_[kMaxCells + 1], slope_[kMaxCells + 1];  ///< of knot k, on c_(k-1), c_k
   Form half2_[kMaxCells];                          ///< of cell k, on c_(k-1), c_k, c_(k+1)
-  Roots root_[kMaxCells][2];
+  Roots root_[kMaxCells];
   Caps cap_[kMaxCells];
-  Rows row_[2 * kMaxAxes * kMaxCells];  ///< 2 of each moving axis, cell by cell
+  Rows row_[kMaxAxes * kMaxCells];  ///< of each moving axis, cell by cell
 };
 
 }  // namespace nc::optimal
