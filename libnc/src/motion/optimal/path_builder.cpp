@@ -11,7 +11,8 @@ constexpr double kSamePlace = 1e-7;    ///< mm or deg: a segment starts where th
 constexpr double kLeastLength = 1e-6;  ///< mm, of what is left of a record
 constexpr double kLeastSpacing = 0.005; ///< mm, of the knots of a smoothed line
 constexpr double kOfRing = 32;         ///< knots of the lines that the ring of records holds, at least
-constexpr unsigned kWorthwhile = 16;   ///< vertices that are waited for before a line is smoothed again
+constexpr unsigned kWorthwhile = 16;   ///< vertices that are waited for, at least, before a line is smoothed again
+constexpr unsigned kOfWaiting = 5;     ///< and that part of those that wait
 constexpr unsigned kGathered = 64;     ///< the same while more records lie in the ring
 constexpr unsigned kMostAtOnce = 512;  ///< pieces of one smoothing
 constexpr unsigned kOfArc = 20;        ///< pieces of an arc and its transition
@@ -101,6 +102,11 @@ bool PathBuilder::joins(const Record& r) const {
   for (unsigned i = 0; i < limits_.axis_count; ++i)
     if (std::fabs(s.curve.start[i] - end[i]) > kSamePlace) return false;
   return true;
+}
+
+/// What waits is smoothed again each time, so more of it has to come before that pays.
+bool PathBuilder::worthwhile(unsigned least) const {
+  return count_ >= tried_ + std::max(tried_ / kOfWaiting, least);
 }
 
 void PathBuilder::add_line(const Record& r) {

@@ -55,7 +55,7 @@ class PathBuilder {
   bool smooth_line(bool whole);
   bool stop_at_vertices();
   void drop(unsigned vertices);
-  bool worthwhile(unsigned least) const { return count_ >= tried_ + (tried_ / 8 > least ? tried_ / 8 : least); }
+  bool worthwhile(unsigned least) const;
   bool give_out(unsigned from, unsigned to, bool rest);
   void go_on(unsigned border);
   void rest_here();

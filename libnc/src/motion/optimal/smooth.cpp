@@ -39,7 +39,7 @@ class Smoother {
   bool near_enough();
   bool split();
   AxisVec on_line(double u, unsigned* edge) const;
-  double distance(unsigned cell, double u, const AxisVec& p) const;
+  double distance2(unsigned cell, double u, const AxisVec& p) const;
   double t(int k) const {
     return room_.knot[k < 0 ? 0 : k > static_cast<int>(last_) ? last_ : static_cast<unsigned>(k)];
   }
@@ -50,6 +50,7 @@ class Smoother {
   unsigned capacity_;
   unsigned last_ = 0;  ///< index of the last knot
   bool full_ = false;
+  bool one_feed_ = true;
 };
 
 /// A knot at u, unless it lies less than `apart` behind the last one.
@@ -89,6 +90,7 @@ bool Smoother::first_knots() {
   double* u = room_.u;
   u[0] = 0;
   for (unsigned k = 1; k < l.count; ++k) u[k] = u[k - 1] + l.length[k - 1];
+  for (unsigned k = 1; k + 1 < l.count && l.feed != nullptr; ++k) one_feed_ = one_feed_ && l.feed[k] == l.feed[0];
   const double end = u[l.count - 1];
   room_.knot[0] = 0;
   room_.corner[0] = 0;
@@ -247,6 +249,10 @@ void Smoother::pieces() {
       p.c[3][i] = (f3 - f2) / (6 * h);
     }
     if (in_.line.feed == nullptr) continue;
+    if (one_feed_) {
+      p.feed = in_.line.feed[0];
+      continue;
+    }
     while (edge + 2 < in_.line.count && room_.u[edge + 1] <= t(c) + 1e-9) ++edge;
     p.feed = in_.line.feed[edge];
     for (unsigned e = edge; e + 1 < in_.line.count && room_.u[e] < t(c + 1) - 1e-9; ++e)
@@ -254,7 +260,8 @@ void Smoother::pieces() {
   }
 }
 
-double Smoother::distance(unsigned cell, double u, const AxisVec& p) const {
+/// Squared.
+double Smoother::distance2(unsigned cell, double u, const AxisVec& p) const {
   const Piece& q = out_[cell];
   const double x = u - room_.knot[cell];
   double sum = 0;
@@ -262,13 +269,13 @@ double Smoother::distance(unsigned cell, double u, const AxisVec& p) const {
     const double off = q.c[0][i] + x * (q.c[1][i] + x * (q.c[2][i] + x * q.c[3][i])) - p[i];
     sum += off * off;
   }
-  return std::sqrt(sum);
+  return sum;
 }
 
 /// Marks the cells to be split where the spline is too far from the polyline.
 bool Smoother::near_enough() {
   const Polyline& l = in_.line;
-  const double most = kUseMost * in_.tolerance;
+  const double most = kUseMost * in_.tolerance * kUseMost * in_.tolerance;
   for (unsigned k = 0; k < last_; ++k) room_.split[k] = 0;
   bool good = true;
   unsigned vertex = 1, edge = 0;
@@ -278,10 +285,10 @@ bool Smoother::near_enough() {
     bool far = false;
     for (unsigned n = 1; n <= kLooks; ++n) {
       const double u = n == kLooks ? to : from + (to - from) * n / kLooks;
-      far = far || distance(k, u, on_line(u, &edge)) > most;
+      far = far || distance2(k, u, on_line(u, &edge)) > most;
     }
     for (; vertex + 1 < l.count && room_.u[vertex] <= to; ++vertex) {
-      if (room_.u[vertex] >= from && distance(k, room_.u[vertex], l.vertex[vertex]) > most) far = true;
+      if (!far && room_.u[vertex] >= from && distance2(k, room_.u[vertex], l.vertex[vertex]) > most) far = true;
     }
     if (!far) continue;
     good = false;
