@@ -250,41 +250,38 @@ void Mesher::fill_knots() {
     return use * use * v * v;
   };
   double u = 0;
+  CurvePoint q;  // at the end of the last cell, from inside
   for (unsigned k = 0; k <= m.cells; ++k) {
-    if (k > 0) u += m.h[k - 1];
     Knot& knot = m.knot[k];
     knot.cap = HUGE_VAL;
     if (k > 0) {
-      const Piece& p = in.at(place_[k - 1].piece);
-      const CurvePoint q = evaluate(p, std::min(p.length, place_[k - 1].x + m.h[k - 1]), axes);
       knot.left3 = knot.right3 = q.d3;
-      knot.d1 = q.d1;
-      knot.d2 = q.d2;
-      knot.cap = cap_of(p, q, u);
+      knot.cap = cap_of(in.at(place_[k - 1].piece), q, u);
       m.cap[k - 1] = std::min(m.cap[k - 1], knot.cap);
     }
-    if (k < m.cells) {
-      const Piece& p = in.at(place_[k].piece);
-      const CurvePoint q = evaluate(p, place_[k].x, axes);
-      knot.right3 = q.d3;
-      knot.d1 = q.d1;
-      knot.d2 = q.d2;
-      m.cap[k] = cap_of(p, q, u);
-      knot.cap = std::min(knot.cap, m.cap[k]);
-      const double h = m.h[k];
-      const CurvePoint end = evaluate(p, place_[k].x + h, axes);
-      Inside& inside = m.inside[k];
-      double length2 = 0;
-      inside.d2_start = q.d2;
-      inside.d2_end = end.d2;
-      for (unsigned i = 0; i < axes; ++i) {
-        inside.d1[i] = q.d1[i] + 0.5 * h * q.d2[i];
-        inside.d3[i] = (end.d2[i] - q.d2[i]) / h;
-        if ((limits_->linear >> i & 1) != 0) length2 += inside.d1[i] * inside.d1[i];
-      }
-      const double feed = feed_of(p, *limits_);
-      if (length2 > 1 && feed < HUGE_VAL && in.down == nullptr) m.cap[k] = std::min(m.cap[k], kFeed * kFeed * feed * feed / length2);
+    const bool cell = k < m.cells;
+    if (cell && (k == 0 || place_[k].piece != place_[k - 1].piece)) derivatives(in.at(place_[k].piece), place_[k].x, axes, &q);
+    knot.d1 = q.d1;
+    knot.d2 = q.d2;
+    if (!cell) break;
+    const Piece& p = in.at(place_[k].piece);
+    knot.right3 = q.d3;
+    m.cap[k] = cap_of(p, q, u);
+    knot.cap = std::min(knot.cap, m.cap[k]);
+    const double h = m.h[k];
+    derivatives(p, std::min(p.length, place_[k].x + h), axes, &q);
+    Inside& inside = m.inside[k];
+    double length2 = 0;
+    inside.d2_start = knot.d2;
+    inside.d2_end = q.d2;
+    for (unsigned i = 0; i < axes; ++i) {
+      inside.d1[i] = knot.d1[i] + 0.5 * h * knot.d2[i];
+      inside.d3[i] = (q.d2[i] - knot.d2[i]) / h;
+      if ((limits_->linear >> i & 1) != 0) length2 += inside.d1[i] * inside.d1[i];
     }
+    const double feed = feed_of(p, *limits_);
+    if (length2 > 1 && feed < HUGE_VAL && in.down == nullptr) m.cap[k] = std::min(m.cap[k], kFeed * kFeed * feed * feed / length2);
+    u += h;
   }
 }
 

@@ -28,7 +28,7 @@ namespace nc::optimal {
 namespace {
 
 constexpr unsigned kIterations = 60;
-constexpr double kGap = 2e-4;       ///< of the time, that the result may be longer than the optimum
+constexpr double kGap = 4e-4;       ///< of the time, that the result may be longer than the optimum
 constexpr double kInside = 0.9998;  ///< of the limits, that the law may use
 constexpr double kInsideCurve =
     0.996;  ///< the same of the jerk where the path bends: between the rows it may be a little more
@@ -158,10 +158,11 @@ void TimeLaw::fill_rows() {
 /// All rows at c, and what they give to the matrix and the right side. A slack that is smaller than its row leaves is made as large.
 /// `first`: slacks of at least `least` begin, with multipliers of mu / s; else the step dc towards mu, which c has gone, is theirs, too.
 NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, double smallest) {
-  for (unsigned k = 0; k < n_ + 2 * kPad; ++k) diag_[k] = off1_[k] = off2_[k] = side_[k] = side_mu_[k] = 0;
   const Four one = all(1), mu = all(target), least = all(smallest), left = all(kLeft);
   Four gap{}, residual{}, worst{};
   double cap_gap = 0, cap_residual = 0, cap_worst = 0;
+  // What belongs to c_(k-1), c_k and c_(k+1) in matrix and right side: the first is done with behind cell k, the others go on.
+  Four m00{}, m01{}, m11{}, a0{}, a1{}, d0{}, d1{};
   for (unsigned k = 0; k < n_; ++k) {
     const unsigned base = k + kPad - 1;
     Roots& q = root_[k];
@@ -169,7 +170,7 @@ NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, doubl
     const Four e0 = all(dc_[base]), e1 = all(dc_[base + 1]), e2 = all(dc_[base + 2]);
     const Four old = q.root, old_bend = q.half_per * (q.at[0] * e0 + q.at[1] * e1 + q.at[2] * e2);
     roots(k);
-    Four m00{}, m01{}, m02{}, m11{}, m12{}, m22{}, a0{}, a1{}, a2{}, d0{}, d1{}, d2{};
+    Four m02{}, m12{}, m22{}, a2{}, d2{};
     for (Rows *p = row_ + k * axes_, *end = p + axes_; p != end; ++p) {
       Rows& x = *p;
       const Four g0 = x.g[0], g1 = x.g[1], g2 = x.g[2];
@@ -217,18 +218,6 @@ NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, doubl
       d1 += h1 * t_mu;
       d2 += h2 * t_mu;
     }
-    diag_[base] += sum(m00);
-    diag_[base + 1] += sum(m11);
-    diag_[base + 2] += sum(m22);
-    off1_[base] += sum(m01);
-    off1_[base + 1] += sum(m12);
-    off2_[base] += sum(m02);
-    side_[base] -= sum(a0);
-    side_[base + 1] -= sum(a1);
-    side_[base + 2] -= sum(a2);
-    side_mu_[base] -= sum(d0);
-    side_mu_[base + 1] -= sum(d1);
-    side_mu_[base + 2] -= sum(d2);
     Caps& x = cap_[k];
     for (unsigned n = 0; n < 2; ++n) {
       const double g0 = n == 0 ? x.g[0] : 0, g1 = x.g[n + 1];
@@ -245,15 +234,28 @@ NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, doubl
       cap_gap += x.s[n] * x.l[n];
       cap_residual = std::max(cap_residual, rho);
       cap_worst = std::max(cap_worst, r);
-      diag_[base] += w * g0 * g0;
-      off1_[base] += w * g0 * g1;
-      diag_[base + 1] += w * g1 * g1;
-      side_[base] -= g0 * t;
-      side_[base + 1] -= g1 * t;
-      side_mu_[base] -= g0 * per;
-      side_mu_[base + 1] -= g1 * per;
+      m00[n] += w * g0 * g0;
+      m01[n] += w * g0 * g1;
+      m11[n] += w * g1 * g1;
+      a0[n] += g0 * t;
+      a1[n] += g1 * t;
+      d0[n] += g0 * per;
+      d1[n] += g1 * per;
     }
+    diag_[base] = sum(m00);
+    off1_[base] = sum(m01);
+    off2_[base] = sum(m02);
+    side_[base] = -sum(a0);
+    side_mu_[base] = -sum(d0);
+    m00 = m11;
+    m01 = m12;
+    m11 = m22;
+    a0 = a1;
+    a1 = a2;
+    d0 = d1;
+    d1 = d2;
   }
+  for (unsigned k = n_ + kPad - 1; k < n_ + 2 * kPad; ++k) diag_[k] = off1_[k] = off2_[k] = side_[k] = side_mu_[k] = 0;  // none of them is free
   return {sum(gap) + cap_gap, std::max(largest(residual), cap_residual), std::max(largest(worst), cap_worst)};
 }
 
