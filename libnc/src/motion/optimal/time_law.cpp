@@ -113,7 +113,10 @@ void TimeLaw::fill_rows() {
     const bool launch = k == 0 && m.from_rest, land = k + 1 == n_;
     const Form &b0 = at_[k], &b1 = at_[k + 1], &half = half2_[k];
     const Form s0 = slope_[k], s1{{0, slope_[k + 1].g[0], slope_[k + 1].g[1]}};
-    for (unsigned e = 0; e < 3; ++e) root_[k].at[e] = Four{b0.g[e], e > 0 && !land ? b1.g[e - 1] : 0, e == 1 ? 1.0 : 0.0, 0};
+    for (unsigned e = 0; e < 3; ++e) {  // beside rest the jerk is the same all over the cell, and so is its root
+      const double start = b0.g[e], end = e > 0 ? b1.g[e - 1] : 0;
+      root_[k].at[e] = Four{launch ? end : start, land ? start : end, e == 1 ? 1.0 : 0.0, 0};
+    }
     const Knot &left = m.knot[k], &right = m.knot[k + 1];
     const Inside& in = m.inside[k];
     const double use_a = k == 0 ? kStartUse : std::min(m.use_a[k - 1], m.use_a[k]);
@@ -121,8 +124,8 @@ void TimeLaw::fill_rows() {
       const unsigned i = axis_[n];
       const double per_j = limits_->jerk[i] > 0 ? 1 / (m.use[k] * limits_->jerk[i]) : 0;
       const auto jerk = [&](bool bends) { return per_j * (bends ? 1 / kInsideCurve : 1 / kInside); };
-      const double j0 = launch ? 0 : jerk(left.d2[i] != 0 || left.left3[i] != 0 || left.right3[i] != 0),
-                   j1 = land ? 0 : jerk(right.d2[i] != 0 || right.left3[i] != 0 || right.right3[i] != 0),
+      const double j0 = jerk(left.d2[i] != 0 || left.left3[i] != 0 || left.right3[i] != 0),
+                   j1 = jerk(right.d2[i] != 0 || right.left3[i] != 0 || right.right3[i] != 0),
                    jm = launch || land ? 0 : jerk(in.d2_start[i] != 0 || in.d2_end[i] != 0 || in.d3[i] != 0),
                    a = launch || !(limits_->acceleration[i] > 0) ? 0 : 1 / (kInside * use_a * limits_->acceleration[i]);
       Rows& x = row_[k * axes_ + n];
@@ -149,10 +152,12 @@ void TimeLaw::fill_rows() {
   const double c0 = c_[base], c = c_[base + 1], c2 = c_[base + 2];
   const double b0 = f0.g[0] * c0 + f0.g[1] * c, b1 = f1.g[0] * c + f1.g[1] * c2;
   const double slope0 = e0.g[0] * c0 + e0.g[1] * c, slope1 = e1.g[0] * c + e1.g[1] * c2;
+  const bool launch = k == 0 && mesh_->from_rest, land = k + 1 == n_;
+  const double left = launch ? b1 : b0, right = land ? b0 : b1;
   const double peak = slope0 > 0 && slope1 < 0 ? b0 + 0.5 * mesh_->h[k] * slope0 * slope0 / (slope0 - slope1) : std::max(b0, b1);
   Roots& q = root_[k];
-  q.root = Four{std::sqrt(b0), std::sqrt(b1), std::sqrt(peak), 1};
-  q.half_per = Four{b0 > 0 ? 0.5 / b0 : 0, b1 > 0 ? 0.5 / b1 : 0, c > 0 ? 0.5 / c : 0, 0};
+  q.root = Four{std::sqrt(left), std::sqrt(right), std::sqrt(peak), 1};
+  q.half_per = Four{0.5 / left, 0.5 / right, c > 0 ? 0.5 / c : 0, 0};
 }
 
 /// All rows at c, and what they give to the matrix and the right side. A slack that is smaller than its row leaves is made as large.
