@@ -165,7 +165,6 @@ void TimeLaw::fill_rows() {
 NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, double smallest) {
   const Four one = all(1), mu = all(target), least = all(smallest), left = all(kLeft);
   Four gap{}, residual{}, worst{};
-  double cap_gap = 0, cap_residual = 0, cap_worst = 0;
   // What belongs to c_(k-1), c_k and c_(k+1) in matrix and right side: the first is done with behind cell k, the others go on.
   Four m00{}, m01{}, m11{}, a0{}, a1{}, d0{}, d1{};
   for (unsigned k = 0; k < n_; ++k) {
@@ -223,30 +222,6 @@ NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, doubl
       d1 += h1 * t_mu;
       d2 += h2 * t_mu;
     }
-    Caps& x = cap_[k];
-    for (unsigned n = 0; n < 2; ++n) {
-      const double g0 = n == 0 ? x.g[0] : 0, g1 = x.g[n + 1];
-      const double r = g0 * c_[base] + g1 * c_[base + 1], low = 1 - r;
-      if (first) {
-        x.s[n] = std::max(low, smallest);
-        x.l[n] = target / x.s[n];
-      } else {
-        const double line0 = low;  // linear
-        x.l[n] = std::max(kLeft * x.l[n], (target - x.l[n] * (line0 - x.s[n])) / x.s[n]);
-        x.s[n] = std::max(low, kLeft * x.s[n]);
-      }
-      const double rho = x.s[n] - low, per = 1 / x.s[n], w = x.l[n] * per, t = w * rho;
-      cap_gap += x.s[n] * x.l[n];
-      cap_residual = std::max(cap_residual, rho);
-      cap_worst = std::max(cap_worst, r);
-      m00[n] += w * g0 * g0;
-      m01[n] += w * g0 * g1;
-      m11[n] += w * g1 * g1;
-      a0[n] += g0 * t;
-      a1[n] += g1 * t;
-      d0[n] += g0 * per;
-      d1[n] += g1 * per;
-    }
     diag_[base] = sum(m00);
     off1_[base] = sum(m01);
     off2_[base] = sum(m02);
@@ -261,7 +236,44 @@ NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, doubl
     d1 = d2;
   }
   for (unsigned k = n_ + kPad - 1; k < n_ + 2 * kPad; ++k) diag_[k] = off1_[k] = off2_[k] = side_[k] = side_mu_[k] = 0;  // none of them is free
-  return {sum(gap) + cap_gap, std::max(largest(residual), cap_residual), std::max(largest(worst), cap_worst)};
+  Sums sums{sum(gap), largest(residual), largest(worst)};
+  caps(first, target, smallest, &sums);
+  return sums;
+}
+
+/// The same with the rows of b and c below feed and axis velocities, which are linear: a step keeps them but for what it cuts.
+void TimeLaw::caps(bool first, double mu, double least, Sums* sums) {
+  for (unsigned k = 0; k < n_; ++k) {
+    const unsigned base = k + kPad - 1;
+    Caps& x = cap_[k];
+    const double c = c_[base + 1], low[2] = {1 - (x.g[0] * c_[base] + x.g[1] * c), 1 - x.g[2] * c};
+    double w[2], t[2], per[2];
+    for (unsigned n = 0; n < 2; ++n) {
+      double &s = x.s[n], &l = x.l[n];
+      if (first) {
+        s = std::max(low[n], least);
+        l = mu / s;
+      } else {
+        l = std::max(kLeft * l, (mu - l * (low[n] - s)) / s);
+        s = std::max(low[n], kLeft * s);
+      }
+      const double rho = s - low[n];
+      per[n] = 1 / s;
+      w[n] = l * per[n];
+      t[n] = w[n] * rho;
+      sums->gap += s * l;
+      sums->residual = std::max(sums->residual, rho);
+      sums->worst = std::max(sums->worst, 1 - low[n]);
+    }
+    const double g0 = x.g[0], g1 = x.g[1], g = x.g[2];
+    diag_[base] += w[0] * g0 * g0;
+    off1_[base] += w[0] * g0 * g1;
+    diag_[base + 1] += w[0] * g1 * g1 + w[1] * g * g;
+    side_[base] -= g0 * t[0];
+    side_[base + 1] -= g1 * t[0] + g * t[1];
+    side_mu_[base] -= g0 * per[0];
+    side_mu_[base + 1] -= g1 * per[0] + g * per[1];
+  }
 }
 
 void TimeLaw::find_time() {

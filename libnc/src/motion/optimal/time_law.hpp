@@ -92,6 +92,7 @@ class TimeLaw {
   void moving_axes();
   void fill_rows();
   Sums rows(bool first, double mu, double least);
+  void caps(bool first, double mu, double least, Sums* sums);
   void roots(unsigned k);
   void find_time();
   void right_side(double mu);
