@@ -3,6 +3,7 @@
 // every axis, the tolerance of the path, the ends that must be hit, every record once and in order, whatever operator and feeder do.
 #include <gtest/gtest.h>
 
+#include "interpolate/path_distance.hpp"
 #include "interpolate/random_program.hpp"
 #include "interpolate/test_machine.hpp"
 
@@ -34,40 +35,6 @@ ExecutorConfig random_config(uint64_t seed) {
   return config;
 }
 
-/// Distance of a point from a record's curve, by a search along it.
-double distance(const Curve& c, const AxisVec& p, unsigned axes) {
-  const auto off = [&](double s) {
-    const AxisVec q = curve_position(c, s, axes);
-    double sum = 0;
-    for (unsigned i = 0; i < axes; ++i) sum += (q[i] - p[i]) * (q[i] - p[i]);
-    return std::sqrt(sum);
-  };
-  if (!c.circular) {
-    double along = 0, length2 = 0;
-    for (unsigned i = 0; i < axes; ++i) along += (p[i] - c.start[i]) * c.delta[i], length2 += c.delta[i] * c.delta[i];
-    return off(std::clamp(along / length2, 0.0, 1.0) * c.length);
-  }
-  constexpr int kPlaces = 64;
-  const double step = c.length / kPlaces;
-  double at[kPlaces + 1], least = HUGE_VAL;
-  for (int n = 0; n <= kPlaces; ++n) least = std::min(least, at[n] = off(step * n));
-  const double coarse = least;
-  for (int n = 0; n <= kPlaces; ++n) {
-    if (at[n] > coarse + step) continue;
-    double low = step * std::max(0, n - 1), high = step * std::min(kPlaces, n + 1);
-    for (int k = 0; k < 60; ++k) {
-      const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-      if (off(a) < off(b)) {
-        high = b;
-      } else {
-        low = a;
-      }
-    }
-    least = std::min(least, off(0.5 * (low + high)));
-  }
-  return least;
-}
-
 /// Distance from the programmed path near the record in execution.
 double distance(const Program& p, const nc_outputs& out, unsigned axes) {
   AxisVec at;
@@ -76,7 +43,7 @@ double distance(const Program& p, const nc_outputs& out, unsigned axes) {
   double least = HUGE_VAL;
   const size_t from = here > 200 ? here - 200 : 0, to = std::min(p.records.size(), here + 200);
   for (size_t k = from; k < to && least > 1e-3; ++k)
-    if (p.records[k].kind == ItemKind::move) least = std::min(least, distance(p.records[k].segment.curve, at, axes));
+    if (p.records[k].kind == ItemKind::move) least = std::min(least, distance_to(p.records[k].segment.curve, at, axes));
   return least < HUGE_VAL ? least : 0;  // a program without a move
 }
 

@@ -42,7 +42,7 @@ double WayDown::at(double place) const {
 /// Speed at which the curvature and its change take all, and what is left along the path at no speed.
 Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
   Bound b{feed_of(p, *limits_), HUGE_VAL, HUGE_VAL, HUGE_VAL, false};
-  const unsigned samples = p.curve != nullptr || p.quintic ? 4 : 2;
+  const unsigned samples = p.curve != nullptr || p.quintic ? 4 : 2;  // other curves than arcs come in pieces that are nearly even
   double most[3][kMaxAxes] = {};
   CurvePoint q;
   for (unsigned n = 0; n <= samples; ++n) {

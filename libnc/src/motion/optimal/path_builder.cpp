@@ -15,7 +15,10 @@ constexpr unsigned kWorthwhile = 16;   ///< vertices that are waited for, at lea
 constexpr unsigned kOfWaiting = 5;     ///< and that part of those that wait
 constexpr unsigned kGathered = 64;     ///< the same while more records lie in the ring
 constexpr unsigned kMostAtOnce = 512;  ///< pieces of one smoothing
-constexpr unsigned kOfArc = 20;        ///< pieces of an arc and its transition
+constexpr unsigned kOfArc = 52;        ///< pieces of a curve and its transition
+constexpr unsigned kParts = 32;        ///< pieces of a curve that is no arc, at most
+constexpr double kSpread = 1.5;        ///< of the speeds that such a piece allows along it
+constexpr double kMostOverride = 2;    ///< that a feed is expected to have
 constexpr double kLongestReach = 10;   ///< mm, of a transition
 constexpr double kNothing = 1e-12;     ///< mm, of a curve between two transitions
 
@@ -180,12 +183,54 @@ void PathBuilder::push_arc(double to) {
     if (!(p.length > kNothing)) continue;
     p.feed = arc_.from < arc_.zone ? arc_.feed : arc_.slow_feed;
     p.curve_from = arc_.from;
-    push_piece(p);
+    push_curve(p);
     arc_.from = end;
   }
 }
 
-/// An arc that may be passed at speed at both ends. Its last part waits for what comes behind it.
+/// What the bends alone let a curve be gone through with between two places.
+double PathBuilder::own_speed(const Curve& curve, double from, double to) const {
+  double speed = HUGE_VAL;
+  for (unsigned n = 0; n <= 2; ++n) {
+    const CurvePoint q = curve_evaluate(curve, from + 0.5 * n * (to - from), limits_.axis_count);
+    for (unsigned i = 0; i < limits_.axis_count; ++i) {
+      const double v = limits_.velocity[i], a = limits_.acceleration[i], j = limits_.jerk[i];
+      if (v > 0 && speed * std::fabs(q.d1[i]) > v) speed = v / std::fabs(q.d1[i]);
+      if (a > 0 && speed * speed * std::fabs(q.d2[i]) > a) speed = std::sqrt(a / std::fabs(q.d2[i]));
+      if (j > 0 && speed * speed * speed * std::fabs(q.d3[i]) > j) speed = std::cbrt(j / std::fabs(q.d3[i]));
+    }
+  }
+  return speed;
+}
+
+/// A part of a curve. An arc is the same everywhere; where another curve bends less or more begins a piece of its own, because the cells
+/// of a time law and what is expected of its speed go by pieces.
+void PathBuilder::push_curve(const Piece& whole) {
+  const Curve& curve = *whole.curve;
+  Piece p = whole;
+  const double end = whole.curve_from + whole.length, step = curve.length / kParts;
+  if (curve.shape != nullptr) {
+    p.rest_behind = false;
+    const double feed = whole.by == FeedBy::turns ? HUGE_VAL : kMostOverride * whole.feed;
+    double low = 0, high = 0;
+    for (double at = whole.curve_from; at + 1.5 * step < end; at += step) {
+      const double speed = std::min(own_speed(curve, at, at + step), feed);
+      if (high > 0 && std::max(high, speed) > kSpread * std::min(low, speed)) {
+        p.length = at - p.curve_from;
+        push_piece(p);
+        p.curve_from = at;
+        high = 0;
+      }
+      low = high > 0 ? std::min(low, speed) : speed;
+      high = std::max(high, speed);
+    }
+    p.length = end - p.curve_from;
+    p.rest_behind = whole.rest_behind;
+  }
+  push_piece(p);
+}
+
+/// An arc, or another curve, that may be passed at speed at both ends. Its last part waits for what comes behind it.
 void PathBuilder::add_arc(const Record& r) {
   const Segment& s = r.segment;
   const double length = s.curve.length;
@@ -270,12 +315,12 @@ void PathBuilder::part_at_joint() {
   joint_ = {};
 }
 
-/// What is not a plain line: one piece (two with a slow zone) from rest to rest.
+/// What is not passed at speed: from rest to rest (two pieces with a slow zone).
 void PathBuilder::add_curve(const Record& r) {
   const Segment& s = r.segment;
   const bool from_machine = resumes(s);
   const double from = from_machine && resumed_s_ > 0 ? resumed_s_ : s.begun;
-  const bool line = !s.curve.circular && s.curve.shape == nullptr;
+  const bool line = straight_line(s);
   Piece p;
   p.feed = s.rapid ? HUGE_VAL : feed_of_segment(s, &p.by);
   p.rapid = s.rapid;
@@ -294,10 +339,11 @@ void PathBuilder::add_curve(const Record& r) {
   }
   resumed_ = false;
   const double zone = s.slow_zone > 0 ? std::min(static_cast<double>(s.slow_zone), rest) : 0;
+  const auto push = [&] { line ? push_piece(p) : push_curve(p); };
   if (rest - zone > 1e-9) {
     p.length = rest - zone;
     p.rest_behind = !(zone > 0);
-    push_piece(p);
+    push();
     if (p.rest_behind) return;
     p.curve_from += p.length;
     for (unsigned i = 0; i < limits_.axis_count; ++i) p.c[0][i] += p.length * p.c[1][i];
@@ -305,7 +351,7 @@ void PathBuilder::add_curve(const Record& r) {
   p.length = zone;
   p.feed *= static_cast<double>(s.slow_factor);
   p.rest_behind = true;
-  push_piece(p);
+  push();
 }
 
 /// Copies pieces [from, to) of the smoothed line into the ring.
@@ -479,7 +525,7 @@ bool PathBuilder::finish() {
 /// Closes what the record in front does not go on at speed, as far as there is room.
 bool PathBuilder::part(const Record& r, bool moves) {
   const bool on = moves && joins(r);
-  if (count_ > 0 && !(on && plain(r.segment))) {
+  if (count_ > 0 && !(on && straight_line(r.segment))) {
     if (on) meet_arc(r.segment);
     closing_ = true;
   } else if (arc_.curve != nullptr && !on) {
@@ -492,7 +538,7 @@ bool PathBuilder::part(const Record& r, bool moves) {
 /// One move behind what is open. False when there is no room for it. @param more  there are more pieces than before
 bool PathBuilder::add(const Record& r, bool* more) {
   const Segment& s = r.segment;
-  if (!passes(s) || s.curve.circular) {
+  if (!passes(s) || !straight_line(s)) {
     if (!room(2 * kOfArc)) return false;
     if (!passes(s)) {
       add_curve(r);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Records become path: lines that may be passed at speed are gathered and smoothed as far as what follows cannot change them any more;
-// arcs stay what they are but for a transition where one meets a line or another arc; other curves go from rest to rest. Pieces that lie
-// in the ring are final.
+// arcs and all other curves stay what they are but for a transition where one meets a line or another curve. Pieces that lie in the ring
+// are final.
 #pragma once
 
 #include "base/arena.hpp"
@@ -44,6 +44,8 @@ class PathBuilder {
   void end_arc();
   bool leave_arc(const JointSide& after, double most, double feed);
   void push_arc(double to);
+  void push_curve(const Piece& whole);
+  double own_speed(const Curve& curve, double from, double to) const;
   void meet_arc(const Segment& s);
   void part_at_joint();
   bool resumes(const Segment& s) const;
@@ -63,8 +65,8 @@ class PathBuilder {
   void push_piece(const Piece& piece);
   void push_transition(double feed);
   bool room(unsigned pieces) const { return head_ - tail_ + pieces < kPieces; }
-  static bool passes(const Segment& s) { return s.curve.shape == nullptr && !s.rapid && !s.skip && !(s.begun > 0); }
-  static bool plain(const Segment& s) { return !s.curve.circular && passes(s); }
+  static bool passes(const Segment& s) { return !s.rapid && !s.skip && !(s.begun > 0); }
+  static bool straight_line(const Segment& s) { return !s.curve.circular && s.curve.shape == nullptr; }
 
   Limits limits_;
   double tolerance_ = 0.01, period_ = 0.005;
