@@ -77,7 +77,8 @@ struct MoveShape {
 struct ParameterTable {
   static constexpr unsigned kSteps = 32;
   double u[kSteps + 1], du[kSteps + 1], ddu[kSteps + 1];  ///< and its derivatives by the length
-  bool refine = false;  ///< between the steps one Newton step is needed
+  uint8_t newton[kSteps];  ///< steps of Newton's method that are needed inside a step of length
+  uint8_t panels[kSteps];  ///< and parts of it in which the length is measured for that: more where the curve all but has a cusp
 };
 
 /// A committed shape.

@@ -205,13 +205,28 @@ double sigma_at(const CurveShape& shape, double u, unsigned axis_count) {
   return std::sqrt(dot(shape, q.d1, q.d1, axis_count));
 }
 
-/// Length from `from` to `to` by Gauss-Legendre with five points.
-double length_between(const CurveShape& shape, double from, double to, unsigned axis_count) {
+/// Length from `from` to `to` by Gauss-Legendre with five points in each of so many parts.
+double length_between(const CurveShape& shape, double from, double to, unsigned panels, unsigned axis_count) {
   constexpr double kNode[5] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155, 0.95308992296933200};
   constexpr double kWeight[5] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
+  const double part = (to - from) / panels;
   double sum = 0;
-  for (int i = 0; i < 5; ++i) sum += kWeight[i] * sigma_at(shape, from + (to - from) * kNode[i], axis_count);
-  return sum * (to - from);
+  for (unsigned n = 0; n < panels; ++n)
+    for (int i = 0; i < 5; ++i) sum += kWeight[i] * sigma_at(shape, from + part * (n + kNode[i]), axis_count);
+  return sum * part;
+}
+
+/// The parts that are needed for an error below `fine`, of which more would not help any more.
+unsigned panels_for(const CurveShape& shape, double from, double to, double fine, unsigned axis_count) {
+  constexpr unsigned kMost = 16;
+  unsigned panels = 1;
+  double coarse = length_between(shape, from, to, 1, axis_count);
+  for (; panels < kMost; panels *= 2) {
+    const double finer = length_between(shape, from, to, 2 * panels, axis_count);
+    if (std::fabs(finer - coarse) <= fine) break;
+    coarse = finer;
+  }
+  return panels;
 }
 
 double last_parameter(const CurveShape& shape) { return shape.what.kind == ShapeKind::exponential ? shape.what.exponential.end : 1.0; }
@@ -233,6 +248,7 @@ constexpr unsigned kPieces = 64;  ///< of the parameter, for the length of the w
 /// Length up to the beginning of each piece.
 struct PieceLengths {
   double at[kPieces + 1];
+  unsigned panels[kPieces];
 };
 
 /// The parameter at the length s: the piece, then Newton's method inside it.
@@ -246,22 +262,54 @@ double solve_parameter(const CurveShape& shape, const PieceLengths& pieces, doub
   for (int i = 0; i < 20; ++i) {
     const double sigma = sigma_at(shape, u, axis_count);
     if (!(sigma > 0)) break;
-    const double step = (pieces.at[k] + length_between(shape, from, u, axis_count) - s) / sigma;
+    const double step = (pieces.at[k] + length_between(shape, from, u, pieces.panels[k], axis_count) - s) / sigma;
     u = std::clamp(u - step, from, to);
     if (std::fabs(step) < 1e-15 * last) break;
   }
   return u;
 }
 
+/// One step of Newton's method from u towards the place `behind` the beginning of step k.
+double towards(const CurveShape& shape, unsigned k, double behind, double u, unsigned axis_count) {
+  const double sigma = sigma_at(shape, u, axis_count);
+  if (!(sigma > 0)) return u;
+  const double over = length_between(shape, shape.table.u[k], u, shape.table.panels[k], axis_count) - behind;
+  return std::clamp(u - over / sigma, 0.0, last_parameter(shape));
+}
+
+/// What it takes to find a place in step k.
+void set_effort(const CurveShape& shape, unsigned k, double fine, unsigned axis_count, ParameterTable* table) {
+  constexpr unsigned kMost = 4, kLooks = 4;
+  const double h = shape.base.length / ParameterTable::kSteps;
+  table->panels[k] = static_cast<uint8_t>(panels_for(shape, table->u[k], table->u[k + 1], fine, axis_count));
+  unsigned steps = 0;
+  for (unsigned n = 1; n < kLooks; ++n) {
+    const double behind = h * n / kLooks;
+    double u = quintic(*table, k, h, static_cast<double>(n) / kLooks);
+    for (unsigned done = 0; done <= kMost; ++done) {
+      const double error = length_between(shape, table->u[k], u, table->panels[k], axis_count) - behind;
+      if (std::fabs(error) <= fine) break;
+      steps = std::max(steps, std::min(done + 1, kMost));
+      u = towards(shape, k, behind, u, axis_count);
+    }
+  }
+  table->newton[k] = static_cast<uint8_t>(steps);
+}
+
 /// Fills length and table.
 void make_table(unsigned axis_count, CurveShape* shape) {
   constexpr unsigned kSteps = ParameterTable::kSteps;
-  constexpr double kFine = 1e-10;  // of the length: nobody sees an error of the parameter below this
+  constexpr double kFine = 1e-11;     // of the length: nobody sees an error of the parameter below this, not in third differences either
+  constexpr double kMeasured = 1e-13; // of the length: the error of measuring it
   PieceLengths pieces;
   const double last = last_parameter(*shape);
+  const double about = length_between(*shape, 0, last, kPieces, axis_count);
   pieces.at[0] = 0;
-  for (unsigned k = 0; k < kPieces; ++k)
-    pieces.at[k + 1] = pieces.at[k] + length_between(*shape, last * k / kPieces, last * (k + 1) / kPieces, axis_count);
+  for (unsigned k = 0; k < kPieces; ++k) {
+    const double from = last * k / kPieces, to = last * (k + 1) / kPieces;
+    pieces.panels[k] = panels_for(*shape, from, to, kMeasured * about, axis_count);
+    pieces.at[k + 1] = pieces.at[k] + length_between(*shape, from, to, pieces.panels[k], axis_count);
+  }
   shape->base.length = pieces.at[kPieces];
   if (!(shape->base.length > 0)) return;
   ParameterTable& table = shape->table;
@@ -274,13 +322,7 @@ void make_table(unsigned axis_count, CurveShape* shape) {
     table.du[k] = d.u1;
     table.ddu[k] = d.u2;
   }
-  table.refine = false;
-  const double h = shape->base.length / kSteps;
-  for (unsigned k = 0; k < kSteps && !table.refine; ++k) {
-    const double middle = quintic(table, k, h, 0.5);
-    const double error = length_between(*shape, table.u[k], middle, axis_count) - 0.5 * h;
-    table.refine = std::fabs(error) > kFine * shape->base.length;
-  }
+  for (unsigned k = 0; k < kSteps; ++k) set_effort(*shape, k, kFine * shape->base.length, axis_count, &table);
 }
 
 }  // namespace
@@ -318,11 +360,8 @@ double base_parameter(const CurveShape& shape, double s, unsigned axis_count) {
   const double place = s / length * kSteps;
   const unsigned k = std::min(kSteps - 1, static_cast<unsigned>(place));
   double u = quintic(shape.table, k, length / kSteps, place - k);
-  if (shape.table.refine) {
-    const double over = length_between(shape, shape.table.u[k], u, axis_count) - (place - k) * length / kSteps;
-    const double sigma = sigma_at(shape, u, axis_count);
-    if (sigma > 0) u = std::clamp(u - over / sigma, 0.0, last_parameter(shape));
-  }
+  const double behind = (place - k) * length / kSteps;
+  for (unsigned n = 0; n < shape.table.newton[k]; ++n) u = towards(shape, k, behind, u, axis_count);
   return u;
 }
 
