@@ -35,18 +35,6 @@ ExecutorConfig random_config(uint64_t seed) {
   return config;
 }
 
-/// Distance from the programmed path near the record in execution.
-double distance(const Program& p, const nc_outputs& out, unsigned axes) {
-  AxisVec at;
-  for (unsigned i = 0; i < axes; ++i) at[i] = out.command.v[i];
-  const size_t here = out.serial > 0 ? static_cast<size_t>(out.serial - 1) : 0;
-  double least = HUGE_VAL;
-  const size_t from = here > 200 ? here - 200 : 0, to = std::min(p.records.size(), here + 200);
-  for (size_t k = from; k < to && least > 1e-3; ++k)
-    if (p.records[k].kind == ItemKind::move) least = std::min(least, distance_to(p.records[k].segment.curve, at, axes));
-  return least < HUGE_VAL ? least : 0;  // a program without a move
-}
-
 /// Where the path must rest behind a record: the next one is a rapid, or something waits.
 bool exact(const Program& p, size_t k) {
   const Segment& s = p.records[k].segment;
@@ -84,6 +72,8 @@ std::string run_seed(uint64_t seed, const Disturbance& d, unsigned blocks, Limit
   Program p = random_program(config, rng, blocks);
   for (Record& r : p.records)  // many short programs tell more than a long wait
     if (r.kind == ItemKind::move && !r.segment.rapid) r.segment.feed_mm_s = std::max(r.segment.feed_mm_s, 40.0);
+  const bool moves = std::any_of(p.records.begin(), p.records.end(), [](const Record& r) { return r.kind == ItemKind::move; });
+  const PathDistance path(p, config.axis_count);
   Machine m(config);
   if (m.overflowed) return "memory";
   m.feed(p, d.dribble ? 5 : ~0u);
@@ -121,8 +111,8 @@ std::string run_seed(uint64_t seed, const Disturbance& d, unsigned blocks, Limit
       m.checker.sample(wrong);
     }
     if (m.out.state == NC_STATE_ALARM) return "alarm";
-    if (n % 5 == 0) {
-      const double off = distance(p, m.out, config.axis_count);
+    if (moves && n % 5 == 0) {
+      const double off = path.near(m.out.serial, m.command(), config.tolerance * std::max(0.1, *farthest));
       *farthest = std::max(*farthest, off / config.tolerance);
       if (off > config.tolerance + 1e-9) return "leaves the path by " + std::to_string(off) + " in cycle " + std::to_string(n);
     }

@@ -138,19 +138,13 @@ Curves random_curves(uint64_t seed) {
   return c;
 }
 
-double distance(const Program& p, const AxisVec& at, unsigned axes) {
-  double least = HUGE_VAL;
-  for (const Record& r : p.records)
-    if (r.kind == ItemKind::move) least = std::min(least, distance_to(r.segment.curve, at, axes));
-  return least;
-}
-
 TEST(PlannedShapes, RandomCurvesKeepLimitsAndTolerance) {
   const char *wish = std::getenv("NC_SEEDS"), *sanitizer = std::getenv("NC_SANITIZE");
   const uint64_t seeds = wish ? std::strtoull(wish, nullptr, 10) : sanitizer && *sanitizer ? 2 : 20;
   for (uint64_t seed = 0; seed < seeds; ++seed) {
     const Curves c = random_curves(seed);
     std::mt19937_64 rng(seed);
+    const PathDistance path(c.program, c.config.axis_count);
     Machine m(c.config);
     m.feed(c.program);
     m.start();
@@ -162,7 +156,7 @@ TEST(PlannedShapes, RandomCurvesKeepLimitsAndTolerance) {
       if (seed % 4 == 3) m.in.feed_hold = rng() % 300 == 0 || (m.in.feed_hold && rng() % 50 != 0);
       m.in.cycle_start = m.out.state == NC_STATE_HOLD && rng() % 5 == 0 && !m.in.cycle_start;
       m.cycle();
-      if (n % 40 == 0) farthest = std::max(farthest, distance(c.program, m.command(), c.config.axis_count));
+      if (n % 5 == 0) farthest = std::max(farthest, path.near(m.out.serial, m.command(), std::max(0.001, farthest)));
     }
     EXPECT_LT(n, 60000u) << "seed " << seed << " does not end, serial " << m.out.serial << " " << m.out.cause;
     EXPECT_TRUE(m.checker.ok()) << "seed " << seed << ": " << m.checker.report();
