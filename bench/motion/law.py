@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The time-optimal law by itself against the reference on the same geometry: the path that it made of the lines of a program.
 
-usage: "$(bench/motion/setup)" bench/motion/law.py [--law PATH] [--ncsim PATH] [--step-ms S] PROGRAM ...
+usage: "$(bench/motion/setup)" bench/motion/law.py [--law PATH] [--ncsim PATH] [--step-ms S] [--random N] [PROGRAM ...]
 
-PROGRAM: rapids and straight feeds. `law_of_lines` (a program of the benches, NC_BENCH=ON) smooths each stretch between two rests and finds the
+PROGRAM: rapids and straight feeds. --random N: N programs of random lines, the same ones each time, besides. `law_of_lines` (a program of the benches, NC_BENCH=ON) smooths each stretch between two rests and finds the
 law; reference.py gets what it smoothed. Exit status: 0, 1 when a law takes more than --most of the reference or there is none.
 """
 import argparse
@@ -18,6 +18,7 @@ import tempfile
 import path_file
 import path_from_program
 import peer_path
+import programs
 import reference
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -41,15 +42,20 @@ def write_polylines(program, ncsim, name):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("programs", nargs="+", metavar="PROGRAM")
-    parser.add_argument("--law", default=os.path.join(HERE, "..", "..", "build", "release", "bench", "law_of_lines"))
+    parser.add_argument("programs", nargs="*", metavar="PROGRAM")
+    parser.add_argument("--law", default=os.path.join(HERE, "..", "..", "build", "release", "bin", "law_of_lines"))
     parser.add_argument("--ncsim")
+    parser.add_argument("--random", type=int, default=0, metavar="N")
     parser.add_argument("--limits", type=reference.parse_limits, default=(250.0, 2000.0, 50000.0), metavar="V,A,J")
     parser.add_argument("--tolerance", type=float, default=0.01)
     parser.add_argument("--step-ms", type=float, default=2.0)
     parser.add_argument("--most", type=float, default=1.03)
     options = parser.parse_args()
     ncsim = peer_path.ncsim(options.ncsim)
+    if not options.programs and options.random == 0:
+        parser.error("no PROGRAM and no --random")
+    drawn = tempfile.TemporaryDirectory()
+    options.programs += programs.write_random(drawn.name, options.random)
     ratios, failed = [], False
     print(f"{'program':24} {'law s':>10} {'reference s':>12} {'x':>7} {'lines':>8} {'pieces':>8}")
     for program in options.programs:

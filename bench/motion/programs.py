@@ -210,6 +210,22 @@ def write(folder):
     return out
 
 
+def write_random(folder, count):
+    """Short random walks of lines: edges from some um to some mm, turns from smooth to sharp, slow and fast."""
+    os.makedirs(folder, exist_ok=True)
+    out = []
+    for seed in range(count):
+        draw = random.Random(f"lines {seed}")
+        shortest = 10 ** draw.uniform(-2.5, 0.5)
+        walk = random_walk(1000 + seed, draw.randrange(6, 60), shortest, shortest * 10 ** draw.uniform(0, 1), draw.choice((2000, 6000, 12000)),
+                           sharpest=draw.choice((0.05, 0.3, 1.0, 3.0)))
+        path = os.path.join(folder, f"lines_{seed}.nc")
+        with open(path, "w", encoding="ascii") as file:
+            file.write(walk)
+        out.append(path)
+    return out
+
+
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__.split("\n\n")[1])
