@@ -239,6 +239,7 @@ void Scan::build_nc_inputs() noexcept {
     for (unsigned i = 0; i < alarms_.count; ++i) in.alarm |= stops_the_nc(alarms_.alarm[i]);
     in.skip = machine.skip;
     in.unclamped = machine.unclamped;
+    in.mirror = 0;
     in.feed_override = feed_override_;
     in.rapid_override = rapid_override_;
     in.spindle_rev_per_s = machine.spindle_rev_per_s;

@@ -198,6 +198,8 @@ const SignalRow kSignals[] = {
      NC_WRITE { if (value != -1) image->nc_in[s].rapid_override = std::clamp(value, 0, 10000) / 10000.0; }},
     {"block_skip", kBit, kTo, kNumbered, 9, 0, "optional block skip: blocks with / or /1, /2 ... /9 are left out", "level, as a block is read ahead; or the operator's",
      nullptr, NC_WRITE { if (value != 0) image->requests->system[s].skip_switches |= 2u << i; }},
+    {"mirror", kBit, kTo, kAxis, 0, 0, "mirror image of the axis, about where it stands at the start", "level, when a program is started", nullptr,
+     NC_WRITE { image->nc_in[s].mirror |= static_cast<std::uint32_t>(value != 0) << i; }},
     {"recalculate", kBit, kTo, kSystem, 0, 0, "what was read ahead is given up and read again: switches and variables act from the next block",
      "acts when it rises, in a block stop or a feed hold at rest", nullptr,
      NC_WRITE { image->requests->system[s].recalculate = value != 0; }},

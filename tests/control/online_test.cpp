@@ -558,6 +558,42 @@ TEST(Online, AnAlarmStopsTheMachineWhereTheBlockBeforeEnded) {
   EXPECT_EQ(alarm.source.line, 3u);
 }
 
+/// M700 13.6: the signals count when a program is started, and the axes are mirrored about where they stand then.
+TEST(Online, MirrorImageBySignal) {
+  Bench bench(NC_DIALECT_M700, machine(64));
+  Drive drive(bench, "G0 X10. Y5.\n#100=#3007\nG91 X2.\nM30");
+  const auto run = [&] {
+    drive.ended = false;
+    drive.cycle = 0;
+    while (drive.cycle < 3000 && !drive.ended) {
+      drive.press_start();
+      if (drive.cycle > 3) drive.in.mirror = 2;  // too late for this program
+      drive.step();
+    }
+    EXPECT_TRUE(drive.ended);
+  };
+  drive.in.mirror = 1;
+  run();
+  EXPECT_NEAR(drive.out.command.v[0], -12, 1e-9);
+  EXPECT_NEAR(drive.out.command.v[1], 5, 1e-9);
+  EXPECT_EQ(bench.var_now(100), 1);
+  run();  // Y about 5
+  EXPECT_NEAR(drive.out.command.v[0], 12, 1e-9);
+  EXPECT_NEAR(drive.out.command.v[1], 5, 1e-9);
+  EXPECT_EQ(bench.var_now(100), 2);
+  drive.in.mirror = 0;
+  for (int n = 0; n < 5; ++n) drive.step();  // the feeder sees the end
+  bench.start("G91 G0 X-2. Y1.\nM30");
+  drive.cycle = 0;
+  drive.ended = false;
+  while (drive.cycle < 3000 && !drive.ended) {
+    drive.press_start();
+    drive.step();
+  }
+  EXPECT_NEAR(drive.out.command.v[0], 10, 1e-9);
+  EXPECT_NEAR(drive.out.command.v[1], 6, 1e-9);
+}
+
 /// The two ways exclude each other: what the one takes, the other would miss.
 TEST(Online, TheStreamOfARunningProgramCannotBePulled) {
   Bench bench(NC_DIALECT_M700, machine(64));

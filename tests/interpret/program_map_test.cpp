@@ -205,6 +205,17 @@ TEST(SwitchMirror, AboutWhereTheAxisStandsAtTheHeadOfTheProgram) {
   EXPECT_EQ(bench.at(0, 0, 0).run("G0 X16.\nM30").path(), (Path{"rapid 20 0 0"}));
 }
 
+TEST(SwitchMirror, ByParameter) {  // #8211
+  Bench bench;
+  bench.param("8211", "1", 'Y').at(0, 10, 0);
+  const Outcome run = bench.run("G0 Y16.\n#100=#3007\nG10 L70\nN8211 P2 R0\nG11\nY17.\nM30");
+  EXPECT_EQ(run.path().at(0), "rapid 0 4 0");
+  EXPECT_EQ(run.var(100), 2);
+  EXPECT_EQ(bench.param("8211", "0", 'Y').at(0, 10, 0).run("G0 Y16.\nM30").path(), (Path{"rapid 0 16 0"}));
+  nc_switches_set(bench.control(), 0, 0, 2);
+  EXPECT_EQ(bench.param("8211", "1", 'Y').at(0, 10, 0).run("G0 Y16.\nM30").path(), (Path{"rapid 0 4 0"})) << "either, not one against the other";
+}
+
 TEST(SwitchMirror, WithMirrorByProgramInTheSameAxisNothingTurnsRound) {
   Bench bench;
   nc_switches_set(bench.control(), 0, 0, 1);

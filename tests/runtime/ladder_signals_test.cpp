@@ -65,6 +65,22 @@ TEST_F(LadderSignals, OptionalBlockSkips) {
   EXPECT_EQ(variable(101), 1);
 }
 
+// M700 13.6: by signal, about where the axis stands at the start.
+TEST_F(LadderSignals, MirrorImage) {
+  run("LD in0\nOUT plc.mirror.X\n");
+  in("in0", 1);
+  steps(3);
+  start("G0 X10. Y10.\nM30\n");
+  in("in0", 0);
+  ASSERT_GE(until_end(), 0);
+  EXPECT_NEAR(x(), -10, 1e-9);
+  EXPECT_NEAR(out().command.v[1], 10, 1e-9);
+  steps(3);
+  start("G0 X10.\nM30\n");
+  ASSERT_GE(until_end(), 0);
+  EXPECT_NEAR(x(), 10, 1e-9);
+}
+
 TEST_F(LadderSignals, RapidOverride) {
   run("LD SM400\nMOV K2500 plc.rapid_override\n");
   start("G91 G0 X100.\nM30\n");

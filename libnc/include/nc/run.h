@@ -104,6 +104,7 @@ typedef struct nc_inputs {
   bool interlock;        /**< level: no axis may start; motion decelerates to rest */
   bool alarm;            /**< level: stop motion, no start until reset (a drive, the PLC) */
   bool macro_interrupt;  /**< UIT, M700 13.12: the interrupt program of M96 comes at once (type 1), or at the end of the block in execution */
+  uint32_t mirror;       /**< bit n: a program that is started now is mirrored in axis n about where the axis stands, beside nc_switches_set() and #8211 */
   uint32_t unclamped;    /**< bit n: axis n of an index table is unclamped, as nc_outputs::unclamp asks for; off: clamped (M700 9.3) */
   uint32_t skip;         /**< skip signals, bit n = signal n+1 */
   uint32_t input[NC_WORDS]; /**< macro interface inputs */

@@ -495,6 +495,7 @@ nc_status PartSystem::feed(uint32_t budget) {
   const uint32_t starts = executor.starts();
   if (starts != starts_) {
     starts_ = starts;
+    interpreter.mirror_signal = static_cast<uint8_t>(executor.mirror() & ((1u << interpreter.axis_count) - 1));
     if (!running_ && interpreter.main_program.valid()) {
       restart(executor.commanded(), interpreter.mdi);
       commit_.restart();

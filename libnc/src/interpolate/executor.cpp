@@ -128,6 +128,10 @@ uint32_t Executor::starts() const {
   return state_->shared.starts.load(std::memory_order_acquire);
 }
 
+uint32_t Executor::mirror() const {
+  return state_->shared.mirror.load(std::memory_order_relaxed);
+}
+
 bool Executor::truncate(Serial* last) {
   ExecutorState& e = *state_;
   ScanShared& shared = e.shared;

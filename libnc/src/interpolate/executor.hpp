@@ -66,6 +66,8 @@ class Executor {
   uint32_t epoch() const;
   /// Cycle starts accepted from IDLE so far: each is a program from its head.
   uint32_t starts() const;
+  /// Axes that the signals of the machine mirror since the newest of them.
+  uint32_t mirror() const;
   /// At rest in a block stop or hold: give up every committed record behind the block in execution. On
   /// success *last is the mark of that block, which will still be executed, or where no block has been begun
   /// the newest that has been (0: none in this run). The first call asks and returns false, a later one finds

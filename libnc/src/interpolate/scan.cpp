@@ -233,6 +233,7 @@ void Scan::start(const nc_inputs& in) {
       done_ = 0;
       last_staged_ = block_waits_ = false;
       block_syncs_ = 0;
+      shared_->mirror.store(in.mirror, std::memory_order_relaxed);
       shared_->starts.fetch_add(1, std::memory_order_release);
       [[fallthrough]];
     case NC_STATE_STOPPED:

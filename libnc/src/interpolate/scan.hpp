@@ -43,6 +43,7 @@ struct ScanShared {
   std::atomic<uint32_t> ordinal{0};           ///< of the segment in execution or the next one
   std::atomic<uint32_t> epoch{0};
   std::atomic<uint32_t> starts{0};  ///< cycle starts accepted from IDLE
+  std::atomic<uint32_t> mirror{0};  ///< nc_inputs::mirror of the newest of them
   std::atomic<uint32_t> truncate_answer{0};
   std::atomic<uint32_t> block_begun{
       0};  ///< some of the block in execution has been executed (valid with the answer)

@@ -141,6 +141,7 @@ void Interpreter::refresh_settings() {
   for (uint32_t* axes : {&settings.turning, &settings.short_cut, &settings.machine_turn, &settings.tool_change_axes})
     *axes &= axes == &settings.tool_change_axes ? (1u << axis_count) - 1 : rotary;
   settings.index_axes &= (1u << axis_count) - 1;
+  settings.mirror_axes &= (1u << axis_count) - 1;
   reader.check_block_parity(settings.parity_units);
   variables.share(settings.shared_100, settings.shared_500);
   code_calls = dialect->lex->macros ? read_code_calls(parameters) : CodeCalls{};
@@ -269,8 +270,9 @@ void Interpreter::forget_block() {
 
 void Interpreter::set_machine(const AxisVec& machine) {
   state.machine = machine;
-  if (state.seq == 0 && (mirror_switch | state.switch_mirror) != 0) {  // at the head of a program
-    state.switch_mirror = mirror_switch;
+  const auto mirrored = static_cast<uint8_t>(mirror_switch | mirror_signal | settings.mirror_axes);
+  if (state.seq == 0 && (mirrored | state.switch_mirror) != 0) {  // at the head of a program
+    state.switch_mirror = mirrored;
     for (unsigned i = 0; i < axis_count; ++i) notes.set(Notes::switch_mirror_key(i), machine[i]);
     program_changed();
   }

@@ -181,6 +181,7 @@ struct Interpreter {
   bool mdi = false;                ///< the main program is blocks of MDI: their end is no alarm
   uint32_t optional_skip = 0;      ///< switches, bit n = /n
   uint8_t mirror_switch = 0;       ///< axes that the next program is mirrored in
+  uint8_t mirror_signal = 0;       ///< the same by the signals of the machine when it was started
 
   Fault fault;
   uint32_t sync_needed = 0;

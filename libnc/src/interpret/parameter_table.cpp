@@ -134,6 +134,7 @@ constexpr ParameterRow kRows[] = {
     {8117, 8117, 1, kAll, false, whole<0, 1>,          kOffOn,                    "tool radius offsets are diameters", "12.4"},
     {8206, 8206, 1, kAll, true,  any,                  "mm",                      "tool change position", "13.13"},
     {8209, 8209, 1, kAll, true,  any,                  "mm",                      "G60: way in front of the position; its sign is the direction", "6.8"},
+    {8211, 8211, 1, kAll, true,  whole<0, 1>,          kOffOn,                    "programs are mirrored in the axis, about where it stands at their start", "13.6"},
     {8213, 8213, 1, kAll, true,  whole<0, 3>,          "3; 0-3",                  "type of a rotary axis", "14.13"},
     {9115, 9515, 100, kAll, false, whole<0, 1>,          kOffOn,                  "parity V of input devices 1 to 5", "3.6"},
 };

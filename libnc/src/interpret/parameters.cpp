@@ -325,6 +325,8 @@ Settings Parameters::settings(const Dialect& dialect) const {
   for (unsigned i = 0; i < kMaxAxes; ++i)
     if (number("2076", 0, static_cast<int>(i)) != 0) s.index_axes |= 1u << i;
   s.rapid_by_axis = flag("1086");
+  for (unsigned i = 0; i < kMaxAxes; ++i)
+    if (number("8211", 0, static_cast<int>(i)) != 0) s.mirror_axes |= 1u << i;
   s.macro_extensions = flag("macro_extensions");
   if (flag("1109")) {  // M700 13.12: M codes 03 to 97 but 30
     const auto m_code = [&number](const char* key, uint32_t fallback) {

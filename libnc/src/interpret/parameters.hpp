@@ -56,6 +56,7 @@ struct Settings {
   bool clamp_command_always = false;  ///< #1146 Sclamp
   bool clamp_in_g96_only = false;     ///< #1227 bit 5, with Sclamp 1
   bool keeps_clamp = false;           ///< #1210 bit 19
+  uint32_t mirror_axes = 0;           ///< #8211, bit = axis
   uint32_t index_axes = 0;            ///< #2076 index_x, bit = axis
   bool rapid_by_axis = false;         ///< #1086 G0Intp: rapid traverse without interpolation
   bool macro_single = false;          ///< #8101
