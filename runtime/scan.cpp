@@ -257,8 +257,7 @@ void Scan::build_nc_inputs() noexcept {
       in.manual[a].velocity = jog.kind == NC_MANUAL_JOG ? jog.value : 0;
       in.manual[a].distance = jog.kind == NC_MANUAL_STEP ? jog.value : 0;
       if (jog.remaining == ~0u) {
-        const bool there = std::abs(out_[s].command.v[a] - config_.nc.system[s].axis[a].reference[0]) < 1e-9;
-        if (there) jog = {};
+        if ((out_[s].at_reference >> a & 1u) != 0) jog = {};
       } else if (jog.remaining > 0 && --jog.remaining == 0) {
         jog = {};
       }

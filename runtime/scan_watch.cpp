@@ -87,7 +87,12 @@ void Scan::watch_soft_limits() noexcept {
     for (unsigned a = 0; a < system.axis_count; ++a) {
       const nc_axis_config& axis = system.axis[a];
       if (!axis.soft_limited) continue;
-      const double now = out_[s].command.v[a], before = last_command_[s].v[a];
+      double now = out_[s].command.v[a], before = last_command_[s].v[a];
+      if ((out_[s].turning >> a & 1u) != 0) {  // the limits hold within the turn in which the axis stands
+        const double turns = 360 * std::floor((before - axis.soft_min) / 360);
+        now -= turns;
+        before -= turns;
+      }
       const bool above = now > axis.soft_max + kSoftLimitSlack && now > before;
       const bool below = now < axis.soft_min - kSoftLimitSlack && now < before;
       if (above || below) raise(AlarmId::kSoftLimit, s, static_cast<int>(a));

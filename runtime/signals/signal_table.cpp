@@ -155,11 +155,7 @@ const SignalRow kSignals[] = {
      },
      nullptr},
     {"at_reference", kBit, kFrom, kAxis, 0, 0, "the axis is commanded to its first reference position and stands (ZP1)", "every scan",
-     NC_READ {
-       return out(image, s).velocity.v[i] == 0 &&
-              std::abs(out(image, s).command.v[i] - image.nc->system[s].axis[i].reference[0]) <= 1e-6;
-     },
-     nullptr},
+     NC_READ { return out(image, s).velocity.v[i] == 0 && (out(image, s).at_reference >> i & 1u) != 0; }, nullptr},
     {"unclamp", kBit, kFrom, kAxis, 0, 0, "the index table is to be unclamped (#2076)",
      "before the axis moves, until it stands where the program goes on without it",
      NC_READ { return static_cast<std::int32_t>(out(image, s).unclamp >> i & 1u); }, nullptr},

@@ -250,5 +250,74 @@ TEST(Manual, WithTheDrivesOffTheCommandFollowsWhatIsMeasured) {
   EXPECT_EQ(m.out.command.v[0], 9) << "also in an alarm";
 }
 
+// ---- rotary axes that count on over their turns (M700 14.13) -------------------------------------------------------------------
+
+ExecutorConfig turning_config() {
+  ExecutorConfig c = manual_config();
+  c.rotary = 1u;
+  c.soft_min[0] = 0;
+  c.soft_max[0] = 350;
+  c.reference[0] = 30;
+  return c;
+}
+
+AxisParameters turning(bool short_cut) {
+  AxisParameters p;
+  p.turning = 1;
+  p.short_cut = short_cut ? 1u : 0u;
+  return p;
+}
+
+AxisVec first(double x) {
+  AxisVec a;
+  a[0] = x;
+  return a;
+}
+
+TEST(ManualTurning, TheLimitsHoldInTheTurnInWhichTheAxisStands) {
+  Machine m(turning_config());
+  m.executor.set_axis_parameters(turning(false));
+  m.executor.set_position(first(720 + 300));
+  m.in.manual[0] = jog(200);
+  run(m, 3000);
+  EXPECT_EQ(m.out.command.v[0], 720 + 350);
+  m.in.manual[0] = jog(-200);
+  run(m, 4000);
+  EXPECT_EQ(m.out.command.v[0], 720);
+  EXPECT_EQ(m.out.turning, 1u);
+  Machine linear(turning_config());  // an axis of type 3 has them once
+  linear.executor.set_position(first(720 + 300));
+  linear.in.manual[0] = jog(200);
+  run(linear, 1000);
+  EXPECT_EQ(linear.out.command.v[0], 720 + 300);
+}
+
+TEST(ManualTurning, ReferenceReturnDoesNotWindItBack) {
+  for (const bool short_cut : {false, true}) {
+    Machine m(turning_config());
+    m.executor.set_axis_parameters(turning(short_cut));
+    m.executor.set_position(first(720 + 340));
+    m.in.manual[0] = {NC_MANUAL_REFERENCE, 0, 0};
+    run(m, 4000);
+    EXPECT_EQ(m.out.command.v[0], 720 + 30) << "by the difference of the coordinates: the shorter way leads over the limit";
+    EXPECT_EQ(m.out.at_reference & 1u, 1u);
+  }
+}
+
+TEST(ManualTurning, TheShorterWayToTheReferencePosition) {
+  ExecutorConfig c = turning_config();
+  c.soft_limited = 0;
+  for (const bool short_cut : {false, true}) {
+    Machine m(c);
+    m.executor.set_axis_parameters(turning(short_cut));
+    m.executor.set_position(first(720 + 340));
+    m.in.manual[0] = {NC_MANUAL_REFERENCE, 0, 0};
+    run(m, 4000);
+    EXPECT_EQ(m.out.command.v[0], short_cut ? 1080 + 30 : 720 + 30);
+    EXPECT_EQ(m.out.at_reference & 1u, 1u);
+    EXPECT_TRUE(m.still());
+  }
+}
+
 }  // namespace
 }  // namespace nc::test

@@ -175,6 +175,8 @@ typedef struct nc_outputs {
   bool feed_digit_on;       /**< the move in execution has a feed of one digit, `feed_digit` (M700 7.3) */
   uint8_t feed_digit;       /**< 0 to 5 */
   bool distance_zero;       /**< no axis is commanded to move */
+  uint32_t at_reference;    /**< bit n: axis n is commanded to its first reference position, in whatever turn */
+  uint32_t turning;         /**< bit n: the machine position of axis n counts within one turn, and its limits hold in each (#8213) */
   bool manual_allowed;      /**< nc_inputs::manual acts: no program, or one that is stopped between two blocks */
   bool message;             /**< rising edge: `message_text` has a new operator message */
   uint32_t message_text;    /**< id for nc_text_get() */

@@ -101,7 +101,7 @@ nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char
   const nc_status status = in.parameters.set(*c->dialect, key, index, text);
   if (status != NC_OK) return status;
   in.refresh_settings();
-  c->system[system].tell_index_axes();
+  c->system[system].tell_axis_parameters();
   return NC_OK;
 }
 

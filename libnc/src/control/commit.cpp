@@ -5,6 +5,8 @@
 #include <cstring>
 #include <numbers>
 
+#include "frame/rotary.hpp"
+
 namespace nc {
 namespace {
 
@@ -106,17 +108,6 @@ void Commit::add_held_axes(const Curve& curve, AxisVec* from, AxisVec* low, Axis
   }
 }
 
-namespace {
-
-/// M700 14.13: an axis that counts on over its turns has its limits within one. The turns that it stands away from them.
-double whole_turns(double from, const nc_axis_config& axis) {
-  const double turns = std::floor((from - axis.soft_min) / 360);
-  const double inside = from - 360 * turns;
-  return inside <= axis.soft_max ? turns : std::floor(from / 360);
-}
-
-}  // namespace
-
 /// Stored stroke limits, checked over the whole curve before it moves.
 bool Commit::inside_limits(const Curve& curve) {
   constexpr double kOnTheLimit = 1e-6;  // mm: standing on a limit is inside
@@ -125,7 +116,8 @@ bool Commit::inside_limits(const Curve& curve) {
   if (curve.shape != nullptr && curve.shape->what.map.frozen != 0) add_held_axes(curve, &start, &low, &high);
   for (unsigned i = 0; i < axis_count_ && *config_.machine_turn != 0; ++i) {
     if (((*config_.machine_turn >> i) & 1) == 0 || !config_.system->axis[i].soft_limited) continue;
-    const double away = 360 * whole_turns(start[i], config_.system->axis[i]);
+    const nc_axis_config& axis = config_.system->axis[i];
+    const double away = 360 * turns_outside(start[i], axis.soft_min, axis.soft_max);
     start[i] -= away;
     low[i] -= away;
     high[i] -= away;

@@ -469,19 +469,21 @@ bool PartSystem::may_read_on() {
   return stop_ != Stop::passed && interpreter.remembers(executed_);
 }
 
-/// M700 9.3: axes of index tables, for the clamps of manual motion and of what a reset has stopped.
-void PartSystem::tell_index_axes() {
-  IndexAxes index;
-  index.axes = interpreter.settings.index_axes;
-  for (unsigned i = 0; i < interpreter.axis_count; ++i) index.increment[i] = interpreter.settings.index_increment[i];
-  if (index == told_index_) return;
-  told_index_ = index;
-  executor.set_index_axes(index);
+void PartSystem::tell_axis_parameters() {
+  const Settings& settings = interpreter.settings;
+  AxisParameters axes;
+  axes.index = settings.index_axes;
+  axes.turning = settings.machine_turn;
+  axes.short_cut = settings.short_cut;
+  for (unsigned i = 0; i < interpreter.axis_count; ++i) axes.increment[i] = settings.index_increment[i];
+  if (axes == told_axes_) return;
+  told_axes_ = axes;
+  executor.set_axis_parameters(axes);
 }
 
 nc_status PartSystem::feed(uint32_t budget) {
   online_ = true;
-  if ((interpreter.settings.index_axes | told_index_.axes) != 0) [[unlikely]] tell_index_axes();
+  tell_axis_parameters();  // a program may have changed them
   const uint32_t epoch = executor.epoch();
   if (epoch != epoch_) {  // the scan has given the program up: from its head again, from where the machine stands
     epoch_ = epoch;

@@ -23,8 +23,8 @@ class PartSystem {
   /// Offline: level of the interrupt signal (M700 13.12). *take_back: the item pulled last must not be executed.
   nc_status interrupt_signal(bool on, bool* take_back);
   nc_status feed(uint32_t budget);
-  /// To the scan, which has to know them before anything is moved by hand.
-  void tell_index_axes();
+  /// To the scan, which has to know them before anything is moved by hand; nothing while they are as before.
+  void tell_axis_parameters();
   nc_status recalculate();
   void set_position(const AxisVec& machine);
   bool busy() const { return online_ && running_; }
@@ -128,7 +128,7 @@ class PartSystem {
   /// M700 9.1: M00 and M01 suspend pre-reading. committed: the gate is, its block is not yet; passed: nothing more until the machine has done it.
   enum class Stop : uint8_t { none, committed, passed };
   Stop stop_ = Stop::none;
-  IndexAxes told_index_;     ///< online: as the scan knows them
+  AxisParameters told_axes_; ///< online: as the scan knows them
   BlockSeq executed_ = 0;    ///< online: newest block that has been executed, as feed() found it
   Serial open_sync_ = 0;
   uint32_t sync_what_ = 0;

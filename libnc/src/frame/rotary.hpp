@@ -29,4 +29,10 @@ inline double turn_to(double target, double shown, bool short_cut) {
   return way > 180 ? way - 360 : way <= -180 ? way + 360 : way;
 }
 
+/// Limits of an axis whose machine position counts within one turn hold in each of them: the turns that `from` stands away from them.
+inline double turns_outside(double from, double low, double high) {
+  const double turns = std::floor((from - low) / 360);
+  return from - 360 * turns <= high ? turns : std::floor(from / 360);
+}
+
 }  // namespace nc

@@ -105,8 +105,8 @@ void ExecutorState::forget_truncate() {
   shared.truncate_release.store(truncate_request, std::memory_order_release);
 }
 
-void Executor::set_index_axes(const IndexAxes& index) {
-  state_->shared.index_axes.write(index);
+void Executor::set_axis_parameters(const AxisParameters& axes) {
+  state_->shared.axes.write(axes);
 }
 
 bool Executor::sync_reached(Serial serial, nc_world* world) const {

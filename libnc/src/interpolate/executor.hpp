@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/arena.hpp"
-#include "interpolate/index_clamp.hpp"
+#include "interpolate/axis_parameters.hpp"
 #include "interpolate/record.hpp"
 #include "nc/run.h"
 
@@ -55,8 +55,7 @@ class Executor {
   /// the scan last saw, and swaps it in. Cheap when nothing changed. Call after pushing, and once per feeder
   /// period.
   void plan();
-  /// Which axes have clamps.
-  void set_index_axes(const IndexAxes& index);
+  void set_axis_parameters(const AxisParameters& axes);
   /// The scan has reached the sync `serial`, is at rest and in position: copies the world and returns true.
   bool sync_reached(Serial serial, nc_world* world) const;
   /// The scan has executed everything that was pushed and is at rest.

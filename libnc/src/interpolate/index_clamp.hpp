@@ -5,16 +5,9 @@
 
 #include <cmath>
 
-#include "stream/stream.hpp"
+#include "interpolate/axis_parameters.hpp"
 
 namespace nc {
-
-/// What the parameters say of the axes.
-struct IndexAxes {
-  uint32_t axes = 0;                ///< #2076, bit i = axis i
-  double increment[kMaxAxes] = {};  ///< #2106: a table that stands by hand or by chance can be clamped at its multiples; 0 = anywhere
-  bool operator==(const IndexAxes&) const = default;
-};
 
 class IndexClamp {
  public:
@@ -35,9 +28,9 @@ class IndexClamp {
   /// A move of the program has brought all of them where they can be clamped (9.3 (8)).
   void arrive() { away_ = 0; }
   /// An axis that has been moved by hand, or was stopped on its way, stands where it can be clamped.
-  bool may_clamp(unsigned axis, const IndexAxes& index, double position, double reference) const {
+  bool may_clamp(unsigned axis, const AxisParameters& parameters, double position, double reference) const {
     constexpr double kSamePlace = 1e-6;  // deg or mm
-    const double unit = index.increment[axis];
+    const double unit = parameters.increment[axis];
     return (away_ >> axis & 1) == 0 || !(unit > 0) || std::fabs(position - reference) < kSamePlace ||
            std::fabs(position - unit * std::nearbyint(position / unit)) < kSamePlace;
   }

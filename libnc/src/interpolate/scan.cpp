@@ -15,6 +15,8 @@ constexpr unsigned kRecordsPerCycle = 256;
 /// The same where the path goes on by itself and records are only counted off: lines of 1 um at full speed.
 constexpr unsigned kRecordsPassed = 2048;
 
+constexpr double kSamePlace = 1e-9;  ///< mm or deg: what adding up leaves
+
 nc_axes to_nc(const AxisVec& a) {
   nc_axes out;
   for (unsigned i = 0; i < kMaxAxes; ++i) out.v[i] = a[i];
@@ -386,7 +388,9 @@ double Scan::feed_override(const nc_inputs& in) const {
 
 void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   const double per_s = 1 / config_.cycle_s;
+  const uint32_t turning = shared_->axes.read().turning;
   out = {};
+  out.turning = turning;
   out.distance_zero = true;
   if (latest_ != nullptr) {
     to_work_ = latest_->to_work;
@@ -399,6 +403,9 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
     if (command_[i] != last_command_[i]) out.distance_zero = false;
     out.work.v[i] = work_sign_[i] * command_[i] + to_work_[i];
     out.distance_to_go.v[i] = moving_ ? target_[i] - command_[i] : 0;
+    double away = command_[i] - config_.reference[i];
+    if ((turning >> i & 1) != 0) away -= 360 * std::nearbyint(away / 360);
+    if (std::fabs(away) <= kSamePlace) out.at_reference |= 1u << i;
   }
   for (unsigned i = 0; i < NC_WORDS; ++i) out.output[i] = output_[i];
   for (unsigned i = 0; i < kMaxAxes; ++i) out.current_limit[i] = current_limit_[i];

@@ -54,7 +54,7 @@ struct ScanShared {
   std::atomic<uint32_t> reread_done{0};     ///< feeder: the request that is done
   Latest<ScanStatus> status;
   Latest<ScanWorld> world;
-  Latest<IndexAxes> index_axes;  ///< feeder: as the parameters are
+  Latest<AxisParameters> axes;  ///< feeder: as the parameters are
   EventRing events;
 };
 

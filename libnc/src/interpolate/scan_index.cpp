@@ -57,10 +57,10 @@ bool Scan::clamp_before(const Record& r, const nc_inputs& in) {
 
 /// Axes that stand where they can be clamped.
 uint32_t Scan::may_clamp() {
-  const IndexAxes& index = shared_->index_axes.read();
+  const AxisParameters& parameters = shared_->axes.read();
   uint32_t axes = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i)
-    if (index_.may_clamp(i, index, wanted_[i], config_.reference[i])) axes |= 1u << i;
+    if (index_.may_clamp(i, parameters, wanted_[i], config_.reference[i])) axes |= 1u << i;
   return axes;
 }
 
@@ -87,21 +87,24 @@ void Scan::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
   index_.close(off, in.unclamped);
 }
 
-/// Manual motion of a table: unclamped before it, clamped behind it.
+/// Manual motion; a table is unclamped before it and clamped behind it.
 void Scan::manual_cycle(const nc_inputs& in) {
-  const bool stop = !manual_allowed_ || in.interlock || in.feed_hold;
-  const uint32_t tables = shared_->index_axes.read().axes;
-  if (tables == 0 && !index_.busy()) {
-    manual_.cycle(in.manual, stop, 0, &wanted_);
+  const AxisParameters& parameters = shared_->axes.read();
+  Manual::Rules rules;
+  rules.stop = !manual_allowed_ || in.interlock || in.feed_hold;
+  rules.turning = parameters.turning;
+  rules.short_cut = parameters.short_cut;
+  if (parameters.index == 0 && !index_.busy()) {
+    manual_.cycle(in.manual, rules, &wanted_);
     return;
   }
   const AxisVec before = wanted_;
-  const uint32_t open = index_.unclamp() & in.unclamped;
-  manual_.cycle(in.manual, stop, tables & ~open, &wanted_);
-  const uint32_t wanted = manual_.active_axes() & tables;
+  rules.held = parameters.index & ~(index_.unclamp() & in.unclamped);
+  manual_.cycle(in.manual, rules, &wanted_);
+  const uint32_t wanted = manual_.active_axes() & parameters.index;
   uint32_t moved = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) moved |= wanted_[i] != before[i] ? 1u << i : 0;
-  index_.leave(moved & tables);
+  index_.leave(moved & parameters.index);
   index_waits_ = !index_.open(wanted, in.unclamped);
   clamp_at_rest(wanted, in);
 }

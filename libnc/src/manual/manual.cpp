@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/rotary.hpp"
+
 #include "interpolate/law.hpp"
 
 namespace nc {
@@ -31,14 +33,16 @@ double Manual::acceleration(unsigned i) const {
 }
 
 /// A target inside the soft limits. An axis that stands outside may go inward but not further out.
-double Manual::within(unsigned i, double target, double position) const {
+double Manual::within(unsigned i, bool turning, double target, double position) const {
   if (!(config_.soft_limited >> i & 1)) return target;
-  const double low = std::min(config_.soft_min[i], position), high = std::max(config_.soft_max[i], position);
+  const double turns = turning ? 360 * turns_outside(position, config_.soft_min[i], config_.soft_max[i]) : 0;
+  const double low = std::min(config_.soft_min[i] + turns, position), high = std::max(config_.soft_max[i] + turns, position);
   return std::min(high, std::max(low, target));
 }
 
-void Manual::wish(unsigned i, const nc_manual& w, double position) {
+void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double position) {
   Axis& a = axis_[i];
+  const bool turning = (rules.turning >> i & 1) != 0;
   const bool edge = w.kind != a.kind;
   const bool was = a.kind == NC_MANUAL_JOG || a.kind == NC_MANUAL_REFERENCE;
   a.kind = w.kind;
@@ -46,12 +50,12 @@ void Manual::wish(unsigned i, const nc_manual& w, double position) {
     case NC_MANUAL_JOG:
       a.going = w.velocity != 0;
       a.cap = std::min(std::fabs(w.velocity), top_speed(i));
-      a.target = within(i, position + std::copysign(kFar, w.velocity), position);
+      a.target = within(i, turning, position + std::copysign(kFar, w.velocity), position);
       break;
     case NC_MANUAL_STEP:
       if (!edge || w.distance == 0) break;
       // A step goes from where the axis would come to rest: from its target when it still has one.
-      a.target = within(i, (a.going && !was ? a.target : position) + w.distance, position);
+      a.target = within(i, turning, (a.going && !was ? a.target : position) + w.distance, position);
       a.cap = top_speed(i);
       if (w.velocity != 0) a.cap = std::min(a.cap, std::fabs(w.velocity));
       a.going = true;
@@ -61,13 +65,17 @@ void Manual::wish(unsigned i, const nc_manual& w, double position) {
       const double top = top_speed(i), ahead = top * kHandleLag_s + 0.5 * top * top / acceleration(i);
       double target = (a.going && !was ? a.target : position) + w.distance;
       target = std::min(position + ahead, std::max(position - ahead, target));
-      a.target = within(i, target, position);
+      a.target = within(i, turning, target, position);
       a.cap = top;
       a.going = true;
       break;
     }
     case NC_MANUAL_REFERENCE:
-      a.target = within(i, config_.reference[i], position);
+      if (!edge && a.going) break;
+      a.target = config_.reference[i];
+      // Within its limits an axis has one way only, whatever is shorter.
+      if (turning) a.target = position + turn_to(a.target, within_one_turn(position), ((rules.short_cut & ~config_.soft_limited) >> i & 1) != 0);
+      a.target = within(i, turning, a.target, position);
       a.cap = top_speed(i);
       a.going = true;
       break;
@@ -112,17 +120,17 @@ void Manual::idle(const nc_manual* wishes) {
   for (unsigned i = 0; i < config_.axis_count; ++i) axis_[i].kind = wishes[i].kind;
 }
 
-void Manual::cycle(const nc_manual* wishes, bool stop, uint32_t clamped, AxisVec* position) {
+void Manual::cycle(const nc_manual* wishes, const Rules& rules, AxisVec* position) {
   active_ = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
-    if (stop) {
+    if (rules.stop) {
       axis_[i].going = false;
       axis_[i].kind = wishes[i].kind;
     } else {
-      wish(i, wishes[i], (*position)[i]);
+      wish(i, wishes[i], rules, (*position)[i]);
     }
     if (axis_[i].velocity == 0 && !axis_[i].going) continue;
-    (*position)[i] = move(i, (clamped >> i & 1) != 0, (*position)[i]);
+    (*position)[i] = move(i, (rules.held >> i & 1) != 0, (*position)[i]);
     if (axis_[i].velocity != 0 || axis_[i].going) active_ |= 1u << i;
   }
 }

@@ -20,9 +20,14 @@ struct ManualConfig {
 class Manual {
  public:
   void create(const ManualConfig& config) { config_ = config; }
-  /// One cycle. `position` is moved; `stop` brakes every axis to rest and gives targets up. The axes of
-  /// `clamped` come to rest and keep their targets until they may move. Call it only while no program moves.
-  void cycle(const nc_manual* wish, bool stop, uint32_t clamped, AxisVec* position) NC_RT;
+  struct Rules {
+    bool stop = false;       ///< every axis brakes to rest and its target is given up
+    uint32_t held = 0;       ///< these come to rest and keep their targets until they may move
+    uint32_t turning = 0;    ///< the positions of these count within one turn (M700 14.13) ...
+    uint32_t short_cut = 0;  ///< ... and they go to one by the shorter way
+  };
+  /// One cycle: `position` is moved. Call it only while no program moves.
+  void cycle(const nc_manual* wish, const Rules& rules, AxisVec* position) NC_RT;
   /// A cycle in which no manual motion is possible: only remembers what is commanded, so that an edge stays
   /// an edge.
   void idle(const nc_manual* wish) NC_RT;
@@ -38,11 +43,11 @@ class Manual {
     uint8_t kind = NC_MANUAL_NONE;  ///< kind commanded in the last cycle
     bool going = false;             ///< has a target; otherwise it is braking
   };
-  void wish(unsigned axis, const nc_manual& wish, double position) NC_RT;
+  void wish(unsigned axis, const nc_manual& wish, const Rules& rules, double position) NC_RT;
   double move(unsigned axis, bool held, double position) NC_RT;
   double top_speed(unsigned axis) const NC_RT;
   double acceleration(unsigned axis) const NC_RT;
-  double within(unsigned axis, double target, double position) const NC_RT;
+  double within(unsigned axis, bool turning, double target, double position) const NC_RT;
 
   ManualConfig config_;
   Axis axis_[kMaxAxes];
