@@ -109,6 +109,14 @@ TEST(PolarCommand, RadiusAndAngle) {  // M700 6.12
   EXPECT_EQ(m700("G5\nM30").alarm, "P33");
 }
 
+TEST(PolarCommand, AResetKeepsItByParameter) {  // M700 6.12 (3) #1210 bit 11
+  Bench bench;
+  bench.at(0, 0, 0).run("G16 G0 X10. Y90.\nM30");
+  EXPECT_EQ(bench.run("G0 X20. Y5.\nM30").path(), (Path{"rapid 20 5 0"}));
+  bench.param("1210/bit11", "1").run("G16\nM30");
+  EXPECT_EQ(bench.run("G0 X10. Y90.\nM30").path(), (Path{"rapid 0 10 0"}));
+}
+
 TEST(Spiral, TurnsOfBothTypes) {  // M700 6.13
   Bench bench;
   nc_move m = from_zero(bench, "G2.1 X60. I100. P2 F300\nM30").moves()[0];
@@ -151,6 +159,8 @@ TEST(Cylinder, DegreesOnTheSurface) {  // M700 6.9
   EXPECT_EQ(from_zero(bench, "G0 G19 Z0 C0\nG7.1 C30.\nG54\nM30").alarm, "P481");
   EXPECT_EQ(from_zero(bench, "G0 G19 Z0 C0\nG7.1 C30.\nT3\nM30").alarm, "P485");
   EXPECT_EQ(from_zero(bench, "G0 G19 Z0 C0\nG7.1 C30.\nG7.1 C20.\nM30").alarm, "P481");
+  EXPECT_EQ(from_zero(bench, "G0 G19 Z0 C0\nG7.1 C30. Z5.\nM30").alarm, "P33");  // an independent block
+  EXPECT_EQ(from_zero(bench, "G12.1 X5.\nM30").alarm, "P33");
 }
 
 TEST(Cylinder, PlaneByTheNamesOfItsAxes) {  // M700 6.9 (4) prints G19 Z C
@@ -346,6 +356,12 @@ TEST(Hypothetical, TheAxisStaysAndComesBackToItself) {  // M700 6.16
   EXPECT_EQ(m[1].machine.v[1], 0);
   EXPECT_NEAR(m[1].length, 15, 1e-12);  // it takes part as if it moved
   EXPECT_EQ(m[2].machine.v[1], 3);
+}
+
+TEST(Hypothetical, AResetLeavesTheAxisWhereItIs) {
+  Bench bench;
+  bench.at(0, 0, 0).run("G7 Y0\nG1 Y5. X2. F100\nM30");
+  EXPECT_EQ(bench.run("G91 G0 Y1. X1.\nM30").path(), (Path{"rapid 3 1 0"}));
 }
 
 TEST(Hypothetical, TheNameOfAnAxisAloneIsOn) {  // M700 6.16 (4)

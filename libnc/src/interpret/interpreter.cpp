@@ -208,6 +208,7 @@ void Interpreter::reset(bool keep_modal) {
     state.spindle.clamp_q = spindle.clamp_q;
   }
   for (unsigned i = 0; i < NC_GROUPS; ++i) state.modal.code[i] = dialect->initial[i];
+  if (settings.keeps_polar_command && modal.code[kGroupPolarCommand] == 160) state.modal.code[kGroupPolarCommand] = 160;  // M700 6.12 (3)
   if (!settings.start_absolute) state.modal.code[kGroupDistance] = 910;  // M700 5.1 (4)
   if (settings.start_inch) state.modal.code[kGroupUnit] = 200;
   if (settings.start_synchronous) state.modal.code[kGroupFeed] = 950;  // M700 7.4 note 6, 7.5 (3)

@@ -66,6 +66,7 @@ constexpr ParameterRow kRows[] = {
     {1206, 1206, 1, kAll, false, at_least_0,           "mm/min",                  "speed of the acceleration before interpolation", "13.15"},
     {1207, 1207, 1, kAll, false, any,                  "ms",                      "its time", "13.15"},
     {1209, 1209, 1, kAll, false, at_least_0,           "mm/min",                  "speed where an arc begins or ends (#1149)", "13.15"},
+    {1210, 1210, 1, 11,   false, any,                  kOffOn,                    "reset keeps the polar coordinate command G16", "6.12"},
     {1210, 1210, 1, 19,   false, any,                  kOffOn,                    "reset keeps the clamp of the spindle speed", "10.4"},
     {1223, 1223, 1, 1,    false, any,                  kOffOn,                    "G01 with G09 or G61 waits for the position", "7.9"},
     {1227, 1227, 1, 5,    false, any,                  kOffOn,                    "the spindle speed is clamped in G96 only", "10.4"},

@@ -322,6 +322,7 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.clamp_command_always = flag("1146");
   s.clamp_in_g96_only = flag("1227/bit5");
   s.keeps_clamp = flag("1210/bit19");
+  s.keeps_polar_command = flag("1210/bit11");
   for (unsigned i = 0; i < kMaxAxes; ++i)
     if (number("2076", 0, static_cast<int>(i)) != 0) s.index_axes |= 1u << i;
   s.rapid_by_axis = flag("1086");

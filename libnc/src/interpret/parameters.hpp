@@ -57,6 +57,7 @@ struct Settings {
   bool clamp_in_g96_only = false;     ///< #1227 bit 5, with Sclamp 1
   bool keeps_clamp = false;           ///< #1210 bit 19
   uint32_t mirror_axes = 0;           ///< #8211, bit = axis
+  bool keeps_polar_command = false;   ///< #1210 bit 11
   uint32_t index_axes = 0;            ///< #2076 index_x, bit = axis
   bool rapid_by_axis = false;         ///< #1086 G0Intp: rapid traverse without interpolation
   bool macro_single = false;          ///< #8101

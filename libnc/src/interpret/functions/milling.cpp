@@ -31,6 +31,13 @@ int rotary_axis(const Interpreter& in) {
   return axis >= 0 && ((in.rotary >> axis) & 1) != 0 ? axis : -1;
 }
 
+/// M700 6.9 (1), 6.10 (1): an independent block. An axis word in it would go nowhere; `own` is the axis that the code itself names.
+Did stands_alone(Interpreter& in, uint32_t own) {
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((in.words.axes & ~own) >> i & 1) != 0) return in.raise(Condition::format_error, in.system->axis[i].name, in.words.axis[i]);
+  return Did::done;
+}
+
 /// What both starts have in common: the feed per minute is forced, the state of before is kept, and a tool length that was
 /// commanded without a movement is in force from now on (6.9, 6.10 "tool length compensation").
 void begin_mode(Interpreter& in, int16_t code) {
@@ -91,6 +98,7 @@ Did do_cylinder(Interpreter& in) {
   const int axis = rotary_axis(in);
   if (axis < 0) return in.raise(Condition::mill_axis, name);
   if (!w.has(name)) return in.raise(Condition::format_error, name);
+  if (const Did did = stands_alone(in, 1u << axis); did != Did::done) return did;
   const double radius = length_of(in, name, false);
   if (radius < 0) return in.raise(Condition::value_range, name, w.get(name));
   if (radius == 0) {
@@ -120,6 +128,7 @@ Did do_polar_on(Interpreter& in) {
   State& state = in.state;
   const double code = in.words.one_shot_code / 10.0;
   if (in.words.g.size() > 1) return in.raise(Condition::format_error, 'G', code);
+  if (const Did did = stands_alone(in, 0); did != Did::done) return did;
   if (state.map.kind == AxisMap::Kind::polar) return in.raise(Condition::mill_state, 'G', code);
   if (state.map.kind == AxisMap::Kind::cylinder) return in.raise(Condition::mill_code, 'G', code);
   const Did did = check_modes_before(in, code);
@@ -151,6 +160,7 @@ Did do_polar_off(Interpreter& in) {
   const double code = in.words.one_shot_code / 10.0;
   if (state.map.kind == AxisMap::Kind::none) return Did::done;
   if (in.words.g.size() > 1) return in.raise(Condition::format_error, 'G', code);
+  if (const Did did = stands_alone(in, 0); did != Did::done) return did;
   if (state.map.kind != AxisMap::Kind::polar) return in.raise(Condition::mill_code, 'G', code);
   if (state.comp.side != 0) return in.raise(Condition::mill_modal, 'G', code);
   end_mode(in);
