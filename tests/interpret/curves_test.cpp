@@ -269,6 +269,27 @@ TEST(SpaceArc, ABlockThatLeavesItMayHaveAnyCode) {
   EXPECT_EQ(from_zero(bench, "G66.1 P5\n" + arc + "G67\nM30\nO5\nM99").alarm, "P75");  // 6.14 (b)
 }
 
+TEST(SpaceArc, NoLineStandsBetweenItsBlocks) {  // P74
+  Bench bench;
+  for (const char* line : {"G1 X5.", "G0 X5. Y2.", "G1 X5. F300", "G2 X9. R9.", "M8", "G54"}) {
+    const Outcome run = from_zero(bench, std::string("G2.4 X10. Y10. F100\n") + line + "\nX20. Y0\nM30");
+    EXPECT_EQ(run.alarm, "P74") << line;
+    EXPECT_EQ(run.alarm_line, 2u) << line;
+    EXPECT_EQ(run.moves().size(), 0u) << line;
+  }
+}
+
+TEST(Nurbs, NoLineStandsInsideOfIt) {  // 6.15, relation with other functions (1)
+  Bench bench;
+  bench.param("1267/bit0", "1");
+  const std::string head = "G5 P10000\nG1 X0 Y0 Z0 F300\nG6.2 P2 X0 Y0 R1. K0\n";
+  for (const char* line : {"G1 X5.", "G0 X5. Y2.", "G1 X5. F300"}) {
+    const Outcome run = from_zero(bench, head + line + "\nX10. R1. K0\nK1\nK1\nG5 P0\nM30");
+    EXPECT_EQ(run.alarm, "P33") << line;
+    EXPECT_EQ(run.alarm_line, 4u) << line;
+  }
+}
+
 TEST(SpaceArc, EachBlockHasItsFeed) {
   Bench bench;
   const std::vector<nc_move> m = from_zero(bench, "G2.4 X10. Y10. F100\nX20. Y0 F200\nX30. Y10.\nX40. Y0\nM30").moves();

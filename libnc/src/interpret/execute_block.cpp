@@ -236,7 +236,8 @@ Did execute_codes_left(Interpreter& in) {
 bool only_moves(const Interpreter& in) {
   const BlockWords& w = in.words;
   // Codes of group 1 with words of their own, and modes that change what words mean, take the long way.
-  if (in.state.special != 0 || !plain_motion(w.motion != nullptr ? w.motion->code : in.state.modal.code[kGroupMotion])) return false;
+  // A block that leaves a curve over several blocks (G02.4, G06.2) is one of its own, too.
+  if (in.state.special != 0 || !plain_motion(in.state.modal.code[kGroupMotion]) || (w.motion != nullptr && !plain_motion(w.motion->code))) return false;
   const bool codes = w.g.empty() || (w.g.size() == 1 && w.motion != nullptr);
   return codes && w.m.empty() && (w.present & ~(in.axis_letters | letters("F"))) == 0 && in.state.cycle.kind == CycleKind::none &&
          in.state.modal_call == 0;
