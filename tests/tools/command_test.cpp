@@ -274,6 +274,16 @@ TEST_F(CommandTest, TimeSaysThatASpindleIsMissing) {
   EXPECT_EQ(ncsim("time p.nc").code, 0);
 }
 
+TEST_F(CommandTest, TheOptimalModeRefusesALineOfHeldAxes) {  // M700 6.16: it moves nothing, and takes its time in the other mode
+  file("p.nc", "G7 Y0\nG1 Y10. F600\nM30\n");
+  const Outcome run = ncsim("time --limits 250,2000,50000 --tolerance 0.01 p.nc");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.out.find("P29"), std::string::npos) << run.out;
+  EXPECT_EQ(ncsim("time --limits 250,2000,50000 p.nc").code, 0);
+  file("p.nc", "G7 Y0\nG1 X5. Y10. F600\nG2 J5. F600\nM30\n");
+  EXPECT_EQ(ncsim("time --limits 250,2000,50000 --tolerance 0.01 p.nc").code, 0);
+}
+
 TEST_F(CommandTest, AProgramThatOnlyRunsOnIsNoEndlessLoop) {
   std::string blanks = "O1\n", standing = "O1 G1 F100 X0\n";
   for (unsigned i = 0; i < 30000; ++i) blanks += "\n", standing += "X0\n";
