@@ -91,7 +91,7 @@ struct Curves {
     program.segment(make(what, end), feed);
     program.mark();
   }
-  void exponential(std::mt19937_64& rng, double feed) {
+  Segment& exponential(std::mt19937_64& rng, double feed) {
     const double tan_i = std::tan(uniform(rng, 15, 60) * kPi / 180), tan_j = std::tan(uniform(rng, 40, 80) * kPi / 180);
     const double r = uniform(rng, 20, 100), x = uniform(rng, 5, 40), d = tan_j / tan_i, turn = d * std::log(x * tan_i / r + 1);
     MoveShape what;
@@ -100,8 +100,7 @@ struct Curves {
     AxisVec end = program.at();
     end[0] += x;
     end[3] += turn * 180 / kPi;
-    program.segment(make(what, end), feed);
-    program.mark();
+    return program.segment(make(what, end), feed);
   }
   void line(const AxisVec& along, double length, double feed) {
     AxisVec end = program.at();
@@ -129,7 +128,12 @@ Curves random_curves(uint64_t seed) {
       case 0:
       case 1: c.random_span(rng, along, feed); break;
       case 2: c.space_arc(rng, along, feed); break;
-      case 3: c.exponential(rng, feed); break;
+      case 3: {
+        Segment& s = c.exponential(rng, feed);
+        if (rng() % 2 == 0) s.feed_end_mm_s = uniform(rng, 10, 200);
+        c.program.mark();
+        break;
+      }
       case 4: c.line(along, uniform(rng, 0.2, 20), feed); break;
       default: c.program.arc(0, 1, uniform(rng, 1, 15), std::atan2(along[1], along[0]) - kPi / 2, uniform(rng, 0.3, 3), feed); c.program.mark();
     }
@@ -196,6 +200,34 @@ TEST(PlannedShapes, TangentSpansAndLinesDoNotRest) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
   EXPECT_GT(slowest, 40);
   EXPECT_LE(static_cast<double>(m.cycles) * c.config.cycle_s, length / 60 + 0.2);
+}
+
+/// M700 6.11: the feed goes from F to Q with the linear axis; it is never exceeded and nearly reached.
+TEST(PlannedShapes, AnExponentialCurveGoesFromFToQ) {
+  Curves c(config_of());
+  std::mt19937_64 rng(3);
+  Segment& s = c.exponential(rng, 20);
+  s.feed_end_mm_s = 60;
+  const Curve curve = s.curve;
+  c.program.mark();
+  c.program.end();
+  Machine m(c.config);
+  m.feed(c.program);
+  m.start();
+  double most = 0, reached = 0, last = 0;
+  for (int n = 0; n < 20000 && !(m.out.state == NC_STATE_IDLE && n > 0); ++n) {
+    m.feed(c.program);
+    m.cycle();
+    const double speed = (m.out.path_length - last) / c.config.cycle_s;
+    last = m.out.path_length;
+    const double share = (m.command()[0] - curve.start[0]) / curve.delta[0], feed = 20 + 40 * share;
+    most = std::max(most, speed / feed);
+    if (share > 0.2 && share < 0.8) reached = std::max(reached, 1 - speed / feed);
+  }
+  EXPECT_EQ(m.command(), c.program.at());
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  EXPECT_LE(most, 1.001);
+  EXPECT_LE(reached, 0.1);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "path/shape.hpp"
+
 namespace nc::optimal {
 namespace {
 
@@ -33,10 +35,10 @@ double feed_of_segment(const Segment& s, FeedBy* by) {
   return s.feed_mm_rev > 0 ? s.feed_mm_rev : s.feed_mm_s;
 }
 
-/// The lowest feed of a segment, which may have another one at its end (M700 7.10).
+/// The lowest feed of a segment, which may have another one at its end (M700 6.11, 7.10).
 double least_feed(const Segment& s) {
   FeedBy by;
-  const double feed = feed_of_segment(s, &by);
+  const double feed = s.feed_end_mm_s > 0 ? std::min(s.feed_mm_s, s.feed_end_mm_s) : feed_of_segment(s, &by);
   return s.slow_zone > 0 ? std::min(feed, feed * static_cast<double>(s.slow_factor)) : feed;
 }
 
@@ -183,7 +185,7 @@ void PathBuilder::push_arc(double to) {
     if (!(p.length > kNothing)) continue;
     p.feed = arc_.from < arc_.zone ? arc_.feed : arc_.slow_feed;
     p.curve_from = arc_.from;
-    push_curve(p);
+    push_curve(p, *arc_.segment);
     arc_.from = end;
   }
 }
@@ -203,29 +205,45 @@ double PathBuilder::own_speed(const Curve& curve, double from, double to) const 
   return speed;
 }
 
-/// A part of a curve. An arc is the same everywhere; where another curve bends less or more begins a piece of its own, because the cells
-/// of a time law and what is expected of its speed go by pieces.
-void PathBuilder::push_curve(const Piece& whole) {
+/// The part of a curve between two places has the lower feed of its ends where the feed goes from F to Q with the linear axis (M700 6.11).
+double PathBuilder::feed_between(const Segment& s, double from, double to) const {
+  const unsigned axis = s.curve.shape->what.exponential.linear;
+  const auto at = [&](double place) {
+    const double share = (curve_position(s.curve, place, limits_.axis_count)[axis] - s.curve.start[axis]) / s.curve.delta[axis];
+    return s.feed_mm_s + (s.feed_end_mm_s - s.feed_mm_s) * std::clamp(share, 0.0, 1.0);
+  };
+  return std::min(at(from), at(to));
+}
+
+/// A part of a curve. An arc is the same everywhere; where another curve bends less or more, or has another feed, begins a piece of its
+/// own, because the cells of a time law and what is expected of its speed go by pieces.
+void PathBuilder::push_curve(const Piece& whole, const Segment& s) {
   const Curve& curve = *whole.curve;
   Piece p = whole;
   const double end = whole.curve_from + whole.length, step = curve.length / kParts;
+  const bool fades = s.feed_end_mm_s > 0;
   if (curve.shape != nullptr) {
     p.rest_behind = false;
     const double feed = whole.by == FeedBy::turns ? HUGE_VAL : kMostOverride * whole.feed;
+    const auto push_to = [&](double to) {
+      p.length = to - p.curve_from;
+      if (fades) p.feed = feed_between(s, p.curve_from, to);
+      push_piece(p);
+      p.curve_from = to;
+    };
     double low = 0, high = 0;
     for (double at = whole.curve_from; at + 1.5 * step < end; at += step) {
       const double speed = std::min(own_speed(curve, at, at + step), feed);
-      if (high > 0 && std::max(high, speed) > kSpread * std::min(low, speed)) {
-        p.length = at - p.curve_from;
-        push_piece(p);
-        p.curve_from = at;
+      if (at > p.curve_from && (fades || std::max(high, speed) > kSpread * std::min(low, speed))) {
+        push_to(at);
         high = 0;
       }
       low = high > 0 ? std::min(low, speed) : speed;
       high = std::max(high, speed);
     }
-    p.length = end - p.curve_from;
     p.rest_behind = whole.rest_behind;
+    push_to(end);
+    return;
   }
   push_piece(p);
 }
@@ -236,6 +254,7 @@ void PathBuilder::add_arc(const Record& r) {
   const double length = s.curve.length;
   const bool from_machine = begins_ == 0 && resumes(s);
   arc_.curve = &s.curve;
+  arc_.segment = &s;
   arc_.from = std::min(from_machine ? resumed_s_ : begins_, length - kLeastLength);
   arc_.feed = feed_of_segment(s, &by_);
   arc_.slow_feed = s.slow_zone > 0 ? arc_.feed * static_cast<double>(s.slow_factor) : arc_.feed;
@@ -339,7 +358,7 @@ void PathBuilder::add_curve(const Record& r) {
   }
   resumed_ = false;
   const double zone = s.slow_zone > 0 ? std::min(static_cast<double>(s.slow_zone), rest) : 0;
-  const auto push = [&] { line ? push_piece(p) : push_curve(p); };
+  const auto push = [&] { line ? push_piece(p) : push_curve(p, s); };
   if (rest - zone > 1e-9) {
     p.length = rest - zone;
     p.rest_behind = !(zone > 0);

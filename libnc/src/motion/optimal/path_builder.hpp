@@ -44,7 +44,8 @@ class PathBuilder {
   void end_arc();
   bool leave_arc(const JointSide& after, double most, double feed);
   void push_arc(double to);
-  void push_curve(const Piece& whole);
+  void push_curve(const Piece& whole, const Segment& s);
+  double feed_between(const Segment& s, double from, double to) const;
   double own_speed(const Curve& curve, double from, double to) const;
   void meet_arc(const Segment& s);
   void part_at_joint();
@@ -99,6 +100,7 @@ class PathBuilder {
   // where curves meet
   struct Arc {
     const Curve* curve = nullptr;  ///< the end of this arc is not given out yet
+    const Segment* segment = nullptr;
     double from = 0;               ///< but for what lies in front of this
     double zone = 0;               ///< from here on it has a feed of its own
     double feed = 0, slow_feed = 0;
