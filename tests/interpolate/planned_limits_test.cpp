@@ -165,6 +165,15 @@ TEST(PlannedLimits, EverythingAtOnceKeepsThem) {
 TEST(PlannedLimits, HoldsWithoutAFeederKeepThem) {
   run_many(600000, {.overrides = true, .holds = true, .hangs = true});
 }
+/// Seeds that have found something: a stop without a feeder at the end of the plan, where records were still to be counted off; jerk 0.5 %
+/// over its limit in such a stop, in a cell of the plan that lies between two places which the scan looks at.
+TEST(PlannedLimits, SeedsThatOnceFailedKeepThem) {
+  for (const uint64_t seed : {600735u, 600275u, 600364u}) {
+    LimitChecker worst{random_config(seed)};
+    double farthest = 0;
+    EXPECT_EQ(run_seed(seed, {.overrides = true, .holds = true, .hangs = true}, 3, &worst, &farthest), "") << "seed " << seed;
+  }
+}
 TEST(PlannedLimits, TheCheckerSeesAStepOfAMicrometre) {
   LimitChecker worst{random_config(1)};
   double farthest = 0;

@@ -71,7 +71,8 @@ class Brake {
  private:
   static constexpr unsigned kSteps = 512;
   static constexpr double kStep = 0.00125;  ///< s
-  static constexpr double kShare = 1.0005;  ///< of a limit, which the plan may use, too
+  static constexpr double kShare = 1.0005;  ///< of the acceleration, which the plan may use, too
+  static constexpr double kJerk = 0.995;    ///< of the jerk: between the places that are looked at a cell of the plan may begin and end
   static constexpr double kLanding = 0.5;   ///< of the jerk limits, where there is nothing else
   static constexpr double kTiny = 1e-9;     ///< of velocity
 
@@ -106,7 +107,7 @@ class Brake {
     for (unsigned i = 0; i < limits.axis_count; ++i) {
       if (!(limits.jerk[i] > 0)) continue;
       r->keep(p.path.d1[i] * u3 + 3 * p.path.d2[i] * u1 * u2 + p.path.d3[i] * u1 * u1 * u1,
-              p.path.d1[i] * p.v + 3 * behind * sigma * (p.path.d1[i] * p.a + p.path.d2[i] * p.v * p.v), kShare * limits.jerk[i]);
+              p.path.d1[i] * p.v + 3 * behind * sigma * (p.path.d1[i] * p.a + p.path.d2[i] * p.v * p.v), kJerk * limits.jerk[i]);
     }
   }
   /// What acceleration at the end of the step allows it to be.

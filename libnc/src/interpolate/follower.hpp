@@ -22,6 +22,7 @@ class Follower {
   void look(const optimal::Proposal& offer) NC_RT {
     if (offer.number == answered_) return;
     answered_ = offer.number;
+    taken_to_ = offer.taken;
     if (offer.fresh && offer.first == optimal::kNoCell && offer.generation == generation_ && at_rest()) {  // void
       cell_ = optimal::kNoCell;
       at_end_ = true;
@@ -48,6 +49,8 @@ class Follower {
   bool at_rest() const { return at_end_ || begins_; }
   /// The path, not the plan alone, rests here.
   bool at_path_end() const { return at_end_ && cell_ != optimal::kNoCell && store_->at(cell_).path_ends; }
+  /// At rest at the end of what it has followed, and the record at ring index k has its place on that path.
+  bool rests_behind(uint32_t k) const { return at_end_ && cell_ != optimal::kNoCell && static_cast<int32_t>(k - taken_to_) < 0; }
   uint32_t generation() const { return generation_; }
   double u() const { return u_; }
   double v() const { return v_; }
@@ -202,6 +205,7 @@ class Follower {
   optimal::PlanStore* store_ = nullptr;
   unsigned axis_count_ = 3;
   uint32_t cell_ = optimal::kNoCell, generation_ = 0, answered_ = 0;
+  uint32_t taken_to_ = 0;
   double t_ = 0, x_ = 0, u_ = 0, v_ = 0;
   bool at_end_ = true, begins_ = false, taken_ = false;
   const optimal::Limits* limits_ = nullptr;

@@ -92,6 +92,7 @@ class Scan {
   Done move(const Record& record, const nc_inputs& in) NC_RT;
   void take_plan() NC_RT;
   Done follow_plan(const Record& record, const nc_inputs& in) NC_RT;
+  Done passed(const Record& record) NC_RT;
   bool would_jump() const NC_RT;
   bool path_stops(const nc_inputs& in) const NC_RT;
   nc_stop_cause standing(const Segment& segment, const nc_inputs& in) NC_RT;

@@ -61,6 +61,8 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
     if (braking() || (s.skip && !(feed_override(in) > 0))) {  // M700 15.2: a skip move goes at 100 %, but for an override of 0
       return wait(braking() ? cause_ : NC_CAUSE_OVERRIDE_ZERO);
     }
+    // A hold may have come while several records that end here were counted off.
+    if (follower_.rests_behind(tail_) && follower_.u() >= optimal_->store().passed[tail_ & mask_] - kAtEnd) return passed(r);
     if (follower_.idle()) {
       if (no_law_) alarmed_ = true;
       return wait(standing(s, in));
@@ -82,7 +84,13 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
   const double end = optimal_->store().passed[tail_ & mask_], u = follower_.u();
   law_.s = std::clamp(s.curve.length - (end - u), 0.0, s.curve.length);
   if (follower_.at_rest() ? u < end - kAtEnd : !(u > end + kPassed)) return Done::no;
-  if (follower_.at_path_end() && u <= end + kAtEnd) wanted_ = s.curve.end;
+  return passed(r);
+}
+
+/// The path has come to the end of the record.
+Scan::Done Scan::passed(const Record& r) {
+  const Segment& s = r.segment;
+  if (follower_.at_path_end() && follower_.u() <= optimal_->store().passed[tail_ & mask_] + kAtEnd) wanted_ = s.curve.end;
   passed_at_ = s.curve.end;
   end_move(r);
   return Done::yes;

@@ -136,6 +136,7 @@ void OptimalPlanner::truncate(uint32_t end) {
 void OptimalPlanner::publish() {
   if (offer_.end == head_ && offer_.generation == generation_ && published_ == offer_.number && offer_.failed == told_failed_) return;
   offer_.end = head_;
+  offer_.taken = builder_.taken();
   offer_.generation = generation_;
   published_ = offer_.number;
   told_failed_ = offer_.failed;

@@ -82,6 +82,7 @@ struct Proposal {
   bool failed = false;      ///< no law was found for what follows
   bool stops = false;       ///< the way to rest that was asked for
   uint32_t end = 0;         ///< ring index behind the last record that is committed
+  uint32_t taken = 0;       ///< and behind the last one of which it is known where on the path it ends
 };
 
 /// What the scan says of it.
