@@ -19,10 +19,8 @@ struct SystemFeedback {
   std::uint32_t following_fault = 0;  // bit per axis: following error beyond its limit
   std::uint32_t drive_fault = 0;      // bit per axis: the drive reports a fault
   std::uint32_t skip = 0;             // skip signals, bit n = signal n+1
-  double spindle_rev_per_s = 0;       // actual speed, signed
-  bool spindle_turns_valid = false;   // the spindle has an encoder: see nc_inputs::spindle_turns
-  double spindle_turns = 0;
   std::uint32_t unclamped = 0;        // bit per axis: the index table is unclamped (nc_inputs::unclamped)
+  nc_spindle_inputs spindle[NC_MAX_SPINDLES] = {};
   bool fin = false;                   // completion of M, S, T or B (level, FIN1 style handshake)
 };
 
@@ -38,7 +36,10 @@ struct SystemCommand {
   nc_axes velocity{};       // mm/s or deg/s
   std::uint8_t strobe = 0;  // bit 0 M, 1 S, 2 T, 3 B
   std::uint32_t m = 0, t = 0, b = 0;
-  double s = 0;
+  double spindle_rev_min[NC_MAX_SPINDLES] = {};  // speed that each is wanted at
+  std::uint8_t spindle_selected = 0;             // bit n: spindle n+1 is the one of the S command
+  std::uint8_t servo_on = 0;                     // bit i: axis i, which is a spindle too, is to hold its position (C axis)
+  std::uint8_t servo_ready = 0;                  // bit i: and `position` is what it follows
   std::uint64_t serial = 0;  // item in execution
   nc_source source{};        // and where it stands
   bool running = false;      // a program is in execution

@@ -128,6 +128,8 @@ struct Config {
   std::string print;           // file that programs print to, relative to the file's folder unless absolute; empty = nowhere
   unsigned cycle_us = 1000;
   nc_config nc;  // everything that libnc is created with
+  unsigned spindles_given = 0;  // part systems whose spindles are counted
+  ConfigPlace spindles_place;
   SchedulingConfig scheduling;
   std::array<nc_axes, NC_MAX_SYSTEMS> start = {};  // where the axes stand at start-up
   std::vector<ParameterSetting> parameters;

@@ -60,12 +60,29 @@ char read_axis_name(TableReader* reader) {
   return 0;
 }
 
+// M700 10.5: the spindle that is this axis, too.
+void read_spindle_of_axis(TableReader* reader, const Config& config, unsigned system_number, nc_axis_config* axis) {
+  unsigned spindle = 0;
+  if (!reader->integer("spindle", &spindle, 1, NC_MAX_SPINDLES)) return;
+  const nc_system_config& system = config.nc.system[system_number - 1];
+  const unsigned count = std::max<unsigned>(system.spindle_count, 1);
+  if (!axis->rotary) return reader->error("spindle", "is for rotary axes: rotary = true");
+  if (spindle > count)
+    return reader->error("spindle", "part system " + std::to_string(system_number) + " has " +
+                                        (count == 1 ? std::string("one spindle") : std::to_string(count) + " spindles") + ": see machine.spindles");
+  for (unsigned a = 0; a < system.axis_count; ++a)
+    if (system.axis[a].spindle == spindle)
+      return reader->error("spindle", "spindle " + std::to_string(spindle) + " is axis " + system.axis[a].name + " already");
+  axis->spindle = static_cast<std::uint8_t>(spindle);
+}
+
 void read_axis(TableReader* reader, Config* config) {
   AxisEntry entry;
   entry.axis.in_position = 0.01;
   entry.axis.name = read_axis_name(reader);
   reader->integer("system", &entry.system, 1, NC_MAX_SYSTEMS);
   reader->boolean("rotary", &entry.axis.rotary);
+  read_spindle_of_axis(reader, *config, entry.system, &entry.axis);
   read_limits(reader, &entry);
   double lag_ms = 5.0;
   reader->number("servo_lag_ms", &lag_ms, 0, 1000);
@@ -94,6 +111,25 @@ void read_axis(TableReader* reader, Config* config) {
   config->sim.axis[s][a] = entry.sim;
   config->nc.system_count =
       static_cast<std::uint8_t>(std::max<unsigned>(config->nc.system_count, entry.system));
+}
+
+}  // namespace
+
+namespace {
+
+// M700 10.6: spindles of each part system.
+void read_spindles(TableReader* reader, Config* config) {
+  std::vector<double> numbers;
+  for (nc_system_config& system : config->nc.system) system.spindle_count = 1;
+  if (!reader->numbers("spindles", &numbers, 1, NC_MAX_SYSTEMS)) return;
+  for (std::size_t s = 0; s < numbers.size(); ++s) {
+    if (!(numbers[s] >= 1 && numbers[s] <= NC_MAX_SPINDLES) || numbers[s] != static_cast<int>(numbers[s]))
+      return reader->error("spindles", "each part system has 1 to " + std::to_string(NC_MAX_SPINDLES) + " spindles, not " + number_text(numbers[s]));
+    config->nc.system[s].spindle_count = static_cast<std::uint8_t>(numbers[s]);
+    config->sim.spindle_count[s] = static_cast<unsigned>(numbers[s]);
+  }
+  config->spindles_given = static_cast<unsigned>(numbers.size());
+  config->spindles_place = {reader->line("spindles"), reader->path("spindles")};
 }
 
 }  // namespace
@@ -128,6 +164,7 @@ void read_machine(TableReader* root, Config* config) {
         nc.variable_sets != 200 && nc.variable_sets != 300 && nc.variable_sets != 600)
       reader.error("variable_sets", "must be 100, 200, 300 or 600");  // M700 13.4
     reader.integer("window_bytes", &nc.window_bytes, 4096, 1 << 24);
+    read_spindles(&reader, config);
     reader.number("max_feed_override", &nc.max_feed_override, 1.0, 3.0);
   });
 }
@@ -156,7 +193,12 @@ void read_axes(TableReader* root, Config* config) {
       root->error("axis", "part system " + std::to_string(s + 1) + " has no axis");
     config->sim.axis_count[s] = config->nc.system[s].axis_count;
     config->sim.start[s] = config->start[s];
+    for (unsigned a = 0; a < config->nc.system[s].axis_count; ++a) config->sim.axis_spindle[s][a] = config->nc.system[s].axis[a].spindle;
   }
+  if (config->spindles_given > config->nc.system_count)
+    root->errors()->add(config->spindles_place.line, config->spindles_place.key,
+                        "counts the spindles of " + std::to_string(config->spindles_given) + " part systems, and the axes belong to " +
+                            std::to_string(config->nc.system_count));
   config->sim.system_count = config->nc.system_count;
   config->sim.cycle_s = config->nc.cycle_s;
 }

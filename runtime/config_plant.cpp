@@ -55,16 +55,21 @@ void read_sim_plant(TableReader* sim, Config* config) {
     if (config->ladder.program.empty())
       reader.errors()->add(reader.line(), reader.path(), "needs a ladder program: see [ladder]");
   };
-  sim->table("spindle", [&](TableReader& reader) {
-    plant.spindle = true;
-    for (const PointKey& key : {PointKey{"forward", kBit, kOut, true, &plant.forward},
-                                {"reverse", kBit, kOut, false, &plant.reverse},
-                                {"speed", kWord, kOut, true, &plant.speed},
-                                {"at_speed", kBit, kIn, false, &plant.at_speed},
-                                {"stopped", kBit, kIn, false, &plant.stopped}})
-      read_point_key(&reader, *config, key, &wires);
-    needs_ladder(reader);
-  });
+  for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {  // those of part system 1
+    sim->table(n == 0 ? "spindle" : "spindle" + std::to_string(n + 1), [&](TableReader& reader) {
+      hal::SimSpindlePoints& spindle = plant.spindle[n];
+      spindle.driven = true;
+      for (const PointKey& key : {PointKey{"forward", kBit, kOut, true, &spindle.forward},
+                                  {"reverse", kBit, kOut, false, &spindle.reverse},
+                                  {"speed", kWord, kOut, true, &spindle.speed},
+                                  {"at_speed", kBit, kIn, false, &spindle.at_speed},
+                                  {"stopped", kBit, kIn, false, &spindle.stopped}})
+        read_point_key(&reader, *config, key, &wires);
+      needs_ladder(reader);
+      if (n >= config->sim.spindle_count[0])
+        reader.errors()->add(reader.line(), reader.path(), "part system 1 has no spindle " + std::to_string(n + 1) + ": see machine.spindles");
+    });
+  }
   sim->table("tool_changer", [&](TableReader& reader) {
     plant.tool_changer = true;
     for (const PointKey& key : {PointKey{"prepare", kBit, kOut, true, &plant.prepare},

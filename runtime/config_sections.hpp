@@ -29,7 +29,7 @@ void read_ladder(TableReader* root, Config* config);
 void read_signals(TableReader* root, Config* config);  // after points, macro interface and ladder
 void read_sim(TableReader* root, Config* config);
 void read_share(TableReader* root, Config* config);  // runtime/share/config_share.cpp
-// [sim.spindle] and [sim.tool_changer]; called by read_sim() with the reader of [sim].
+// [sim.spindle], [sim.spindle2] ... and [sim.tool_changer]; called by read_sim() with the reader of [sim].
 void read_sim_plant(TableReader* sim, Config* config);
 
 // "X" = axis X of part system 1, "X2" = axis X of part system 2. False when there is none.

@@ -143,6 +143,10 @@ std::string state_text(const nc_outputs& outputs) {
       return "waits for the spindle";
     case NC_CAUSE_SPINDLE_FAST:
       return "thread feed too high";
+    case NC_CAUSE_SERVO_OFF:
+      return "C axis without its servo";
+    case NC_CAUSE_TAP_SPINDLE:
+      return "1026 spindle of a tap";
     default:
       return outputs.state == NC_STATE_STOPPED ? "stopped" : outputs.rapid ? "rapid" : "running";
   }
@@ -164,7 +168,7 @@ std::string progress_line(const Runtime& runtime, std::uint64_t lines) {
     append(&text, "O%u:%-4u", source.program, source.line);
   for (unsigned a = 0; a < axes.axis_count; ++a)
     append(&text, " %c%9.3f", axes.axis[a].name, axis_shown(system.nc.work.v[a], info.work_turn[0], a));
-  append(&text, "  F%-6.0f S%-6.0f T%-3u ", system.nc.feed_mm_min, system.spindle_rpm, system.nc.t);
+  append(&text, "  F%-6.0f S%-6.0f T%-3u ", system.nc.feed_mm_min, system.shown_spindle().rev_per_s * 60, system.nc.t);
   text += state_text(system.nc);
   if (snapshot.alarmed()) text += "  " + runtime.alarm_text(snapshot.alarms.alarm[0]);
   return text;

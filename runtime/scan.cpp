@@ -7,12 +7,21 @@
 #include <iterator>
 
 #include "runtime/rt_scope.hpp"
+#include "runtime/signals/signal_table.hpp"
 
 namespace nc::rt {
 namespace {
 
 // A reset is held for some scans, so that its edge is seen whatever the state.
 constexpr unsigned kResetMinScans = 2;
+
+// M700 10.6: the ladder selects the spindles, or points that the selection signals are wired to.
+bool selects_spindles(const Config& config) {
+  const std::vector<Signal> signals = machine_signals(config.nc);
+  return !config.ladder.program.empty() || std::any_of(config.wires.begin(), config.wires.end(), [&](const SignalWire& wire) {
+    return signals[wire.signal].name.find(".spindle_select.") != std::string::npos;
+  });
+}
 
 // Time for the execution histogram; clock_gettime() of the monotonic clock does not enter the kernel.
 std::int64_t processor_ns() noexcept {
@@ -34,6 +43,7 @@ Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder
       ladder_(ladder),
       nc_(nc),
       systems_(config.nc.system_count),
+      selects_spindles_(selects_spindles(config)),
       period_ns_(static_cast<std::int64_t>(config.cycle_us) * 1000),
       macro_(config.macro),
       snapshot_(Snapshot::bytes(config.nc.system_count)) {
@@ -242,9 +252,10 @@ void Scan::build_nc_inputs() noexcept {
     in.mirror = 0;
     in.feed_override = feed_override_;
     in.rapid_override = rapid_override_;
-    in.spindle_rev_per_s = machine.spindle_rev_per_s;
-    in.spindle_turns_valid = machine.spindle_turns_valid;
-    in.spindle_turns = machine.spindle_turns;
+    std::copy(std::begin(machine.spindle), std::end(machine.spindle), in.spindle);
+    in.spindle_select = selects_spindles_ ? 0 : 1;
+    in.spindle_encoder = 0;
+    in.servo_on = 0;
     in.feed_pulses = 0;
     in.actual_valid = machine.actual_valid;
     in.actual = machine.actual;
@@ -274,20 +285,23 @@ void Scan::write_outputs() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
     macro_.distribute(s, out.output, &points_);
-    machine_.system[s] = {!drives_off_,
-                          out.command,
-                          out.velocity,
-                          out.strobe,
-                          out.m,
-                          out.t,
-                          out.b,
-                          out.s,
-                          out.serial,
-                          out.source,
-                          out.state == NC_STATE_RUNNING,
-                          out.unclamp,
-                          {}};
-    std::copy(std::begin(out.current_limit), std::end(out.current_limit), machine_.system[s].current_limit);
+    hal::SystemCommand& machine = machine_.system[s];
+    machine.enable = !drives_off_;
+    machine.position = out.command;
+    machine.velocity = out.velocity;
+    machine.strobe = out.strobe;
+    machine.m = out.m;
+    machine.t = out.t;
+    machine.b = out.b;
+    std::copy(std::begin(out.spindle_rev_min), std::end(out.spindle_rev_min), machine.spindle_rev_min);
+    machine.spindle_selected = out.spindle_selected;
+    machine.servo_on = out.servo_on;
+    machine.servo_ready = out.servo_ready;
+    machine.serial = out.serial;
+    machine.source = out.source;
+    machine.running = out.state == NC_STATE_RUNNING;
+    machine.unclamp = out.unclamp;
+    std::copy(std::begin(out.current_limit), std::end(out.current_limit), machine.current_limit);
     if (out.message && !message_seen_[s])
       (void)messages_.push({s, out.message_text, out.message_port});  // full: the oldest stay
     message_seen_[s] = out.message;
@@ -340,8 +354,7 @@ void Scan::publish() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     out.system[s].nc = out_[s];
     out.system[s].actual = feedback_.system[s].actual;
-    out.system[s].spindle_rpm = feedback_.system[s].spindle_rev_per_s * 60.0;
-    out.system[s].spindle_turns = feedback_.system[s].spindle_turns;
+    std::copy(std::begin(feedback_.system[s].spindle), std::end(feedback_.system[s].spindle), out.system[s].spindle);
   }
   out.feed_override = feed_override_;
   out.rapid_override = rapid_override_;

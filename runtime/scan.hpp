@@ -151,6 +151,7 @@ class Scan {
   LadderHook* ladder_;
   NcPort* nc_;
   const unsigned systems_;
+  const bool selects_spindles_;  // somebody gives the selection signals
   const std::int64_t period_ns_;
   std::int64_t next_ns_ = 0;
 

@@ -57,6 +57,7 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
     const LadderRequests::System &now = requests.system[s], &before = last_requests_.system[s];
     skip_switches_[s].store(now.skip_switches, std::memory_order_relaxed);
     if (now.recalculate && !before.recalculate) recalculations_[s].fetch_add(1, std::memory_order_release);
+    in_[s].recalculate = now.recalculate;  // of a program that runs; in a stop it is the feeder's
   }
   last_requests_ = requests;
 }

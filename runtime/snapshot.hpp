@@ -23,8 +23,10 @@ struct ForceList {
 struct SystemSnapshot {
   nc_outputs nc{};         // commanded side, from libnc
   nc_axes actual{};        // measured
-  double spindle_rpm = 0;  // measured
-  double spindle_turns = 0;  // of its encoder, 0 without one
+  nc_spindle_inputs spindle[NC_MAX_SPINDLES] = {};  // measured
+
+  // The spindle that displays show: the one whose encoder counts.
+  const nc_spindle_inputs& shown_spindle() const { return spindle[nc.spindle_encoder == 0 ? 0 : nc.spindle_encoder - 1]; }
 };
 
 struct Snapshot {

@@ -46,13 +46,12 @@ bool SimMachine::start(const PointImage& initial, std::string* error) {
 
 void SimMachine::stop() noexcept {
   for (unsigned s = 0; s < config_.system_count; ++s) {
-    system_[s].direction = 0;
+    for (int& direction : system_[s].direction) direction = 0;
     system_[s].fin = system_[s].busy = false;
   }
   for (unsigned p = 0; p < table_.size(); ++p)
     if (table_.at(p).bus == 0 && table_.at(p).direction == PointDirection::kOutput)
       output_.value[p] = table_.at(p).initial;
-  plant_.stop();
   stopped_ = true;
 }
 
@@ -83,9 +82,10 @@ void SimMachine::read(Feedback* feedback, PointImage* image) noexcept {
     out.following_fault = system.following_fault;
     out.drive_fault = system.drive_fault;
     out.skip = skip_signals(s);
-    out.spindle_rev_per_s = system.rpm / 60.0;
-    out.spindle_turns_valid = true;
-    out.spindle_turns = system.turns;
+    for (unsigned n = 0; n < config_.spindle_count[s]; ++n) {
+      const SimSpindle& turning = spindle(s, n);
+      out.spindle[n] = {turning.rpm() / 60.0, turning.turns(), true, turning.ready(), turning.ready()};
+    }
     out.unclamped = system.unclamped & ~system.clamp_failed;
     out.fin = system.fin;
   }
@@ -101,16 +101,13 @@ void SimMachine::write(const Command& command, const PointImage& image) noexcept
       for (unsigned a = 0; a < config_.axis_count[s]; ++a) coast(&system_[s], a);
     return;
   }
+  for (unsigned s = 0; s < config_.system_count; ++s) switch_servos(s, command.system[s]);
   plant_.step(config_.cycle_s, image, &input_);
   for (unsigned s = 0; s < config_.system_count; ++s) {
+    if (!plant_.present()) handshake(&system_[s], command.system[s]);
+    turn_spindles(s, command.system[s]);
     move_axes(s, command.system[s]);
     work_clamps(s, command.system[s].unclamp);
-    if (!plant_.present()) handshake(&system_[s], command.system[s]);
-    if (s == 0 && plant_.turns_spindle())
-      system_[s].rpm = plant_.rpm();
-    else
-      turn_spindle(&system_[s]);
-    system_[s].turns += system_[s].rpm / 60.0 * config_.cycle_s;
   }
   const SystemCommand& first = command.system[0];
   script_.step(scan_, first.source, (first.strobe & kStrobeM) != 0, first.m, &input_);
@@ -122,6 +119,12 @@ void SimMachine::move_axes(unsigned index, const SystemCommand& command) noexcep
   for (unsigned a = 0; a < config_.axis_count[index]; ++a) {
     const std::uint32_t bit = 1u << a;
     system.command.v[a] = command.position.v[a];
+    if (is_spindle_now(index, a, command)) {  // it turns under the axis
+      system.actual.v[a] = spindle(index, config_.axis_spindle[index][a] - 1u).angle_deg();
+      system.step[a] = 0;
+      system.following_fault &= ~bit;
+      continue;
+    }
     if (!command.enable) {  // the command of a disabled drive is not followed
       coast(&system, a);
       system.following_fault &= ~bit;
@@ -130,6 +133,8 @@ void SimMachine::move_axes(unsigned index, const SystemCommand& command) noexcep
     system.step[a] =
         (system.blocked & bit) != 0 ? 0 : (system.command.v[a] - system.actual.v[a]) * system.follow[a];
     system.actual.v[a] += system.step[a];
+    if (config_.axis_spindle[index][a] != 0)
+      spindle(index, config_.axis_spindle[index][a] - 1u).turn_axis(system.step[a], config_.cycle_s);
     const double limit = config_.axis[index][a].following_error_limit;
     if (limit > 0 && std::abs(system.command.v[a] - system.actual.v[a]) > limit)
       system.following_fault |= bit;
@@ -152,33 +157,64 @@ void SimMachine::coast(System* system, unsigned axis) noexcept {
   system->actual.v[axis] += system->step[axis];
 }
 
-void SimMachine::turn_spindle(System* system) noexcept {
-  const double target = system->direction * std::min(system->s_rpm, config_.spindle_max_rpm);
-  const double step = config_.spindle_ramp_rpm_per_s * config_.cycle_s;
-  system->rpm += std::clamp(target - system->rpm, -step, step);
+// Not, or not yet, the axis that the NC positions.
+bool SimMachine::is_spindle_now(unsigned system, unsigned axis, const SystemCommand& command) const noexcept {
+  const unsigned number = config_.axis_spindle[system][axis];
+  return number != 0 && !(spindle(system, number - 1).ready() && (command.servo_ready >> axis & 1) != 0);
+}
+
+void SimMachine::switch_servos(unsigned index, const SystemCommand& command) noexcept {
+  for (unsigned a = 0; a < config_.axis_count[index]; ++a) {
+    const unsigned number = config_.axis_spindle[index][a];
+    if (number == 0) continue;
+    const bool on = command.enable && (command.servo_on >> a & 1) != 0;
+    if (on) system_[index].direction[number - 1] = 0;  // it turns again with the next M03 or M04
+    spindle(index, number - 1).set_servo(on);
+  }
+}
+
+double SimMachine::target_rpm(const System& system, unsigned number) const noexcept {
+  return system.direction[number] * std::min(system.wanted_rpm[number], config_.spindle_max_rpm);
+}
+
+void SimMachine::turn_spindles(unsigned index, const SystemCommand& command) noexcept {
+  System& system = system_[index];
+  for (unsigned n = 0; n < config_.spindle_count[index]; ++n) {
+    if (index == 0 && plant_.turns_spindle(n)) continue;
+    if (system.direction[n] != 0) system.wanted_rpm[n] = std::abs(command.spindle_rev_min[n]);  // constant surface speed
+    system.spindle[n].step(config_.cycle_s, target_rpm(system, n), config_.spindle_ramp_rpm_per_s);
+  }
+}
+
+// M03, M04 and M05 are for the spindles that the NC has selected; the end of the program stops all of them.
+void SimMachine::direct_spindles(System* system, const SystemCommand& command) noexcept {
+  const bool ends = command.m == 2 || command.m == 30;
+  if (command.m != 3 && command.m != 4 && command.m != 5 && !ends) return;
+  for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n)
+    if (ends || (command.spindle_selected >> n & 1) != 0) system->direction[n] = command.m == 3 ? 1 : command.m == 4 ? -1 : 0;
 }
 
 // Starts the functions whose strobes are in `strobe`; returns the time until FIN.
 double SimMachine::begin_function(System* system, const SystemCommand& command,
                                   std::uint8_t strobe) noexcept {
   double time = config_.m_time_s;
-  if (strobe & kStrobeS) system->s_rpm = std::abs(command.s);
   if (strobe & kStrobeT) {
     system->selected = command.t;
     time = std::max(time, config_.tool_select_s);
   }
   if (strobe & kStrobeM) {
-    if (command.m == 3) system->direction = 1;
-    if (command.m == 4) system->direction = -1;
-    if (command.m == 5 || command.m == 2 || command.m == 30) system->direction = 0;
+    direct_spindles(system, command);
     if (command.m == 6) {
       system->tool = system->selected;
       time = std::max(time, config_.tool_change_s);
     }
   }
   // A spindle function is complete when the speed is reached.
-  const double target = system->direction * std::min(system->s_rpm, config_.spindle_max_rpm);
-  return std::max(time, std::abs(target - system->rpm) / config_.spindle_ramp_rpm_per_s);
+  for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {
+    if ((command.spindle_selected >> n & 1) != 0) system->wanted_rpm[n] = std::abs(command.spindle_rev_min[n]);
+    time = std::max(time, std::abs(target_rpm(*system, n) - system->spindle[n].rpm()) / config_.spindle_ramp_rpm_per_s);
+  }
+  return time;
 }
 
 // FIN1 style: strobe on -> function -> FIN on -> strobe off -> FIN off. A strobe that drops early (reset)

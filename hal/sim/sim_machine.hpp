@@ -6,8 +6,8 @@
 //  lag:
 //      actual += (command - actual) * (1 - exp(-cycle/lag)).  Beyond following_error_limit the axis faults.
 //      Without its drive (switched off, bus lost) it coasts: its speed fades with the time constant coast_s.
-//  * spindle: speed follows the commanded S with a fixed ramp, direction by M03/M04, stop by M05 (and
-//  M00/M01/M02/M30).
+//  * spindles: their speed follows the commanded one with a fixed ramp; M03/M04 turn those that the NC has selected,
+//  M05 (and M02/M30) stops them. One that is an axis too becomes that axis with its servo (sim_spindle.hpp).
 //  * M, S, T, B: FIN comes after the time of the function (tool change, spindle ramp, m_time) and drops with
 //  the strobe. With a plant (sim_plant.hpp) spindle and tools are driven by points, and FIN is the ladder's.
 //  * index tables: the clamp of an axis answers after its times (sim_clamp.hpp); it holds nothing.
@@ -47,6 +47,8 @@ struct SimConfig {
   unsigned axis_count[NC_MAX_SYSTEMS] = {3, 0, 0, 0};
   SimAxis axis[NC_MAX_SYSTEMS][NC_MAX_AXES];
   nc_axes start[NC_MAX_SYSTEMS] = {};
+  unsigned spindle_count[NC_MAX_SYSTEMS] = {1, 1, 1, 1};
+  std::uint8_t axis_spindle[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};  // number of the spindle that is this axis, 0 = none
   double spindle_ramp_rpm_per_s = 3000.0;
   double spindle_max_rpm = 12000.0;
   double tool_change_s = 1.0;   // M06
@@ -75,7 +77,7 @@ class SimMachine final : public Hal {
 
   // For tests and the terminal. Same thread as the scan, or after it has stopped.
   const nc_axes& actual(unsigned system) const { return system_[system].actual; }
-  double spindle_rpm(unsigned system) const { return system_[system].rpm; }
+  double spindle_rpm(unsigned system, unsigned number = 0) const { return spindle(system, number).rpm(); }
   unsigned tool(unsigned system) const {
     return system == 0 && plant_.present() ? plant_.tool() : system_[system].tool;
   }
@@ -105,9 +107,9 @@ class SimMachine final : public Hal {
     std::uint32_t following_fault = 0, drive_fault = 0, blocked = 0;
     std::uint32_t unclamped = 0, clamp_failed = 0;
     SimClampState clamp[NC_MAX_AXES];
-    double rpm = 0, s_rpm = 0;
-    double turns = 0;   // of the spindle, as its encoder counts them
-    int direction = 0;  // spindle: +1 M03, -1 M04, 0 stopped
+    SimSpindle spindle[NC_MAX_SPINDLES];
+    double wanted_rpm[NC_MAX_SPINDLES] = {};  // without a sign
+    int direction[NC_MAX_SPINDLES] = {};      // +1 M03, -1 M04, 0 stopped
     unsigned tool = 0, selected = 0;
     bool busy = false, fin = false;
     double remaining_s = 0;
@@ -118,7 +120,17 @@ class SimMachine final : public Hal {
   void move_axes(unsigned index, const SystemCommand& command) noexcept;
   void work_clamps(unsigned index, std::uint32_t unclamp) noexcept;
   void coast(System* system, unsigned axis) noexcept;
-  void turn_spindle(System* system) noexcept;
+  const SimSpindle& spindle(unsigned system, unsigned number) const noexcept {
+    return system == 0 && plant_.turns_spindle(number) ? plant_.spindle(number) : system_[system].spindle[number];
+  }
+  SimSpindle& spindle(unsigned system, unsigned number) noexcept {
+    return system == 0 && plant_.turns_spindle(number) ? plant_.spindle(number) : system_[system].spindle[number];
+  }
+  bool is_spindle_now(unsigned system, unsigned axis, const SystemCommand& command) const noexcept;
+  void switch_servos(unsigned index, const SystemCommand& command) noexcept;
+  void turn_spindles(unsigned index, const SystemCommand& command) noexcept;
+  double target_rpm(const System& system, unsigned number) const noexcept;
+  void direct_spindles(System* system, const SystemCommand& command) noexcept;
   void handshake(System* system, const SystemCommand& command) noexcept;
   double begin_function(System* system, const SystemCommand& command, std::uint8_t strobe) noexcept;
   std::uint32_t skip_signals(unsigned index) const noexcept;

@@ -20,20 +20,21 @@ void set(PointImage* image, int point, std::uint32_t value) noexcept {
 }  // namespace
 
 void SimPlant::step(double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept {
-  if (config_.spindle) turn(cycle_s, outputs, inputs);
+  for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n)
+    if (config_.spindle[n].driven) turn(n, cycle_s, outputs, inputs);
   if (config_.tool_changer) change_tools(cycle_s, outputs, inputs);
 }
 
-void SimPlant::turn(double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept {
-  const bool forward = on(outputs, config_.forward), reverse = on(outputs, config_.reverse);
-  const double speed = config_.speed < 0 ? 0 : outputs.value[config_.speed];
+void SimPlant::turn(unsigned number, double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept {
+  const SimSpindlePoints& points = config_.spindle[number];
+  const bool forward = on(outputs, points.forward), reverse = on(outputs, points.reverse);
+  const double speed = points.speed < 0 ? 0 : outputs.value[points.speed];
   const double direction = forward == reverse ? 0 : forward ? 1 : -1;
-  command_rpm_ = direction * std::min(speed, config_.max_rpm);
-  const double step = config_.ramp_rpm_per_s * cycle_s;
-  rpm_ += std::clamp(command_rpm_ - rpm_, -step, step);
-  const bool there = std::abs(command_rpm_ - rpm_) <= kAtSpeed * std::abs(command_rpm_);
-  set(inputs, config_.at_speed, command_rpm_ != 0 && there);
-  set(inputs, config_.stopped, std::abs(rpm_) < kStanding);
+  const double wanted = direction * std::min(speed, config_.max_rpm);
+  spindle_[number].step(cycle_s, wanted, config_.ramp_rpm_per_s);
+  const double rpm = spindle_[number].rpm();
+  set(inputs, points.at_speed, wanted != 0 && std::abs(wanted - rpm) <= kAtSpeed * std::abs(wanted));
+  set(inputs, points.stopped, std::abs(rpm) < kStanding);
 }
 
 void SimPlant::change_tools(double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept {
@@ -53,7 +54,7 @@ void SimPlant::change_tools(double cycle_s, const PointImage& outputs, PointImag
     change_left_s_ = config_.change_s;
     exchanged_ = false;
   }
-  const bool jammed = !waiting_ || std::abs(rpm_) >= kStanding;
+  const bool jammed = !waiting_ || std::abs(rpm()) >= kStanding;
   if (change && !exchanged_ && !jammed) {
     change_left_s_ -= cycle_s;
     if (change_left_s_ <= 0) {

@@ -2,7 +2,7 @@
 // The part of the simulated machine that a ladder program drives through points: a spindle with a drive and a
 // tool changer. It knows nothing of M, S and T codes; making commands of these is the ladder's business.
 //
-//  * spindle: `forward` and `reverse` (bits) and `speed` (r/min) command it; it ramps. `at_speed` is on while it
+//  * spindles: `forward` and `reverse` (bits) and `speed` (r/min) command it; it ramps. `at_speed` is on while it
 //    turns within 3 % of what is commanded, `stopped` while it stands. Both directions at once stop it.
 //  * tool changer: `prepare` with `pocket` brings that tool to the change position, `prepared` answers as long
 //    as `prepare` is on; `change` exchanges it with the one in the spindle, `changed` answers in the same way.
@@ -10,14 +10,21 @@
 #pragma once
 
 #include "hal/points.hpp"
+#include "hal/sim/sim_spindle.hpp"
+#include "nc/types.h"
 
 namespace nc::hal {
 
 // Indices of points, -1 = not there. Outputs of the control first.
-struct SimPlantConfig {
-  bool spindle = false, tool_changer = false;
+struct SimSpindlePoints {
+  bool driven = false;
   int forward = -1, reverse = -1, speed = -1;
   int at_speed = -1, stopped = -1;
+};
+
+struct SimPlantConfig {
+  SimSpindlePoints spindle[NC_MAX_SPINDLES];
+  bool tool_changer = false;
   int prepare = -1, pocket = -1, change = -1;
   int prepared = -1, changed = -1, tool = -1;
   double ramp_rpm_per_s = 3000, max_rpm = 12000;
@@ -28,21 +35,24 @@ class SimPlant {
  public:
   explicit SimPlant(const SimPlantConfig& config) : config_(config) {}
 
-  bool present() const { return config_.spindle || config_.tool_changer; }
-  bool turns_spindle() const { return config_.spindle; }
-  double rpm() const { return rpm_; }  // signed, + is forward
+  bool present() const {
+    bool any = config_.tool_changer;
+    for (const SimSpindlePoints& points : config_.spindle) any |= points.driven;
+    return any;
+  }
+  bool turns_spindle(unsigned number = 0) const { return config_.spindle[number].driven; }
+  SimSpindle& spindle(unsigned number) { return spindle_[number]; }
+  const SimSpindle& spindle(unsigned number) const { return spindle_[number]; }
+  double rpm(unsigned number = 0) const { return spindle_[number].rpm(); }  // signed, + is forward
   unsigned tool() const { return tool_; }
   // One cycle: takes the outputs of the control, sets its inputs.
   void step(double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept;
-  // Everything is switched off.
-  void stop() noexcept { command_rpm_ = 0; }
-
  private:
-  void turn(double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept;
+  void turn(unsigned number, double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept;
   void change_tools(double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept;
 
   SimPlantConfig config_;
-  double rpm_ = 0, command_rpm_ = 0;
+  SimSpindle spindle_[NC_MAX_SPINDLES];
   unsigned tool_ = 0, waiting_tool_ = 0;
   bool waiting_ = false, was_preparing_ = false, was_changing_ = false, exchanged_ = false;
   double prepare_left_s_ = 0, change_left_s_ = 0;

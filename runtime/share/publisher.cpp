@@ -165,7 +165,7 @@ void Publisher::fill_system(unsigned index, const Snapshot& snapshot, const Feed
   out.t = nc.t;
   out.b = nc.b;
   out.s_commanded = nc.s;
-  out.spindle_rpm = system.spindle_rpm;
+  out.spindle_rpm = system.shown_spindle().rev_per_s * 60;
   out.feed_mm_min = nc.feed_mm_min;
   out.feed_command_mm_min = nc.feed_command_mm_min;
   out.serial = nc.serial;

@@ -20,6 +20,10 @@ constexpr auto kNumberedControl = SignalScope::kNumberedControl;
 constexpr auto kSystem = SignalScope::kSystem;
 constexpr auto kAxis = SignalScope::kAxis;
 constexpr auto kNumbered = SignalScope::kNumbered;
+constexpr auto kSpindle = SignalScope::kSpindle;
+constexpr auto kSpindleAxis = SignalScope::kSpindleAxis;
+
+constexpr double kAtSpeed = 0.03;  // of the speed that a spindle is wanted at
 
 enum : std::uint8_t { kStrobeM = 1, kStrobeS = 2, kStrobeT = 4, kStrobeB = 8 };
 
@@ -76,9 +80,8 @@ const SignalRow kSignals[] = {
     {"block_stop", kBit, kFrom, kSystem, 0, 0, "stopped between two blocks: single block, M00, M01", "level",
      NC_READ { return state(image, s, NC_STATE_STOPPED); }, nullptr},
     {"stop_cause", kWord16, kFrom, kSystem, 0, 0,
-     "why nothing moves though a program runs: 0 moves, 1 FIN, 2 dwell, 3 in position, 4 program stop, 5 single "
-     "block, 6 feed hold, 7 interlock, 8 override 0, 9 look-ahead empty, 10 alarm, 11 F1-F5 is 0, 12 no spindle, "
-     "13 spindle angle, 14 thread too fast",
+     "why a program does not move: 1 FIN, 2 dwell, 3 in position, 4 program stop, 5 single block, 6 feed hold, 7 interlock, "
+     "8 override 0, 9 look-ahead, 10 alarm, 11 F1-F5 is 0, 12 no spindle, 13 spindle angle, 14 thread too fast, 15 servo off, 16 tap",
      "level", NC_READ { return out(image, s).cause; }, nullptr},
 
     // ---- M, S, T, B ----
@@ -137,8 +140,24 @@ const SignalRow kSignals[] = {
      NC_READ { return out(image, s).feed_digit; }, nullptr},
     {"feed", kWord32, kFrom, kSystem, 0, 0, "actual path speed, mm/min", "every scan",
      NC_READ { return to_int(out(image, s).feed_mm_min); }, nullptr},
-    {"spindle_speed", kWord32, kFrom, kSystem, 0, 0, "measured spindle speed, r/min, signed", "every scan",
-     NC_READ { return to_int(image.feedback->system[s].spindle_rev_per_s * 60); }, nullptr},
+    {"spindle_speed", kWord32, kFrom, kSystem, 0, 0, "measured spindle speed, r/min, signed; of several spindles the one whose encoder counts", "every scan",
+     NC_READ {
+       const unsigned number = out(image, s).spindle_encoder;
+       return number == 0 ? 0 : to_int(image.feedback->system[s].spindle[number - 1].rev_per_s * 60);
+     },
+     nullptr},
+    {"spindle_command", kWord32, kFrom, kSpindle, 0, 0, "speed that the spindle is wanted at, r/min", "kept while it is not selected; 0 while it is a C axis",
+     NC_READ { return to_int(out(image, s).spindle_rev_min[i]); }, nullptr},
+    {"spindle_actual", kWord32, kFrom, kSpindle, 0, 0, "its measured speed, r/min, signed", "every scan",
+     NC_READ { return to_int(image.feedback->system[s].spindle[i].rev_per_s * 60); }, nullptr},
+    {"spindle_at_speed", kBit, kFrom, kSpindle, 0, 0, "it turns within 3 % of the speed that it is wanted at", "level",
+     NC_READ {
+       const double wanted = out(image, s).spindle_rev_min[i];
+       return wanted > 0 && std::abs(std::abs(image.feedback->system[s].spindle[i].rev_per_s) * 60 - wanted) <= kAtSpeed * wanted;
+     },
+     nullptr},
+    {"spindle_selected", kBit, kFrom, kSpindle, 0, 0, "it follows the S command", "level; kept during a thread and in the tapping mode",
+     NC_READ { return out(image, s).spindle_selected >> i & 1; }, nullptr},
     {"line", kWord32, kFrom, kSystem, 0, 0, "line of the block in execution", "every scan",
      NC_READ { return static_cast<std::int32_t>(out(image, s).source.line); }, nullptr},
     {"program", kWord32, kFrom, kSystem, 0, 0, "O number of the program in execution", "every scan",
@@ -159,6 +178,10 @@ const SignalRow kSignals[] = {
     {"unclamp", kBit, kFrom, kAxis, 0, 0, "the index table is to be unclamped (#2076)",
      "before the axis moves, until it stands where the program goes on without it",
      NC_READ { return static_cast<std::int32_t>(out(image, s).unclamp >> i & 1u); }, nullptr},
+    {"servo_ready", kBit, kFrom, kSpindleAxis, 0, 0, "the spindle is this axis and holds its position", "level",
+     NC_READ { return out(image, s).servo_ready >> i & 1; }, nullptr},
+    {"referenced", kBit, kFrom, kSpindleAxis, 0, 0, "its reference position return is complete: the Z phase has been passed", "level, with servo_ready",
+     NC_READ { return out(image, s).referenced >> i & 1; }, nullptr},
     {"drive_fault", kBit, kFrom, kAxis, 0, 0, "the drive reports a fault", "level",
      NC_READ { return static_cast<std::int32_t>(image.feedback->system[s].drive_fault >> i & 1u); }, nullptr},
     {"position", kWord32, kFrom, kAxis, 0, 0, "measured machine position, 0.001 mm or 0.001 deg", "every scan",
@@ -197,11 +220,19 @@ const SignalRow kSignals[] = {
     {"mirror", kBit, kTo, kAxis, 0, 0, "mirror image of the axis, about where it stands at the start", "level, when a program is started", nullptr,
      NC_WRITE { image->nc_in[s].mirror |= static_cast<std::uint32_t>(value != 0) << i; }},
     {"recalculate", kBit, kTo, kSystem, 0, 0, "what was read ahead is given up and read again: switches and variables act from the next block",
-     "acts when it rises, in a block stop or a feed hold at rest", nullptr,
+     "acts when it rises: in a block stop or a feed hold at rest, else at the end of the block in execution", nullptr,
      NC_WRITE { image->requests->system[s].recalculate = value != 0; }},
     {"macro_input", kWord16, kTo, kNumberedControl, 2 * NC_WORDS, 0,
      "inputs of the macro interface, 16 bits each, beside the points: word 1 is #1000 to #1015, word 3 #1200 to #1215", "every scan", nullptr,
      NC_WRITE { image->requests->macro_input[i / 2] |= static_cast<std::uint32_t>(value & 0xffff) << 16 * (i % 2); }},
+    {"spindle_select", kBit, kTo, kSpindle, 0, 0, "the spindle follows the S command (SWS); at 0 it keeps its speed",
+     "level; not taken over during a thread and in the tapping mode", nullptr,
+     NC_WRITE { if (value != 0) image->nc_in[s].spindle_select = static_cast<std::uint8_t>(image->nc_in[s].spindle_select | 1u << i); }},
+    {"spindle_encoder", kWord16, kTo, kSystem, 0, 0,
+     "number of the spindle whose encoder counts for threads, feed per revolution and dwell; 0: the selected one's; one that there is not: none", "as spindle_select", nullptr,
+     NC_WRITE { image->nc_in[s].spindle_encoder = static_cast<std::uint8_t>(std::clamp(value, -1, 255)); }},
+    {"servo_on", kBit, kTo, kSpindleAxis, 0, 0, "1: the spindle is this axis (C axis), 0: a spindle", "level; a turning spindle stops first", nullptr,
+     NC_WRITE { if (value != 0) image->nc_in[s].servo_on = static_cast<std::uint8_t>(image->nc_in[s].servo_on | 1u << i); }},
     {"jog_p", kBit, kTo, kAxis, 0, 0, "the axis goes in + as long as it is on", "level, in manual mode", nullptr,
      NC_WRITE { if (value != 0) image->requests->system[s].jog_p |= 1u << i; }},
     {"jog_m", kBit, kTo, kAxis, 0, 0, "the axis goes in -; with jog_p it stands", "level, in manual mode", nullptr,
@@ -251,9 +282,11 @@ std::vector<Signal> machine_signals(const nc_config& nc) {
       const auto add = [&](unsigned index, const std::string& name) {
         all.push_back({&row, static_cast<std::uint8_t>(s), static_cast<std::uint8_t>(index), name});
       };
-      if (row.scope == SignalScope::kAxis) {
+      if (row.scope == SignalScope::kSpindle) {
+        for (unsigned n = 0; nc.system[s].spindle_count > 1 && n < nc.system[s].spindle_count; ++n) add(n, base + "." + std::to_string(n + 1));
+      } else if (row.scope == SignalScope::kAxis || row.scope == SignalScope::kSpindleAxis) {
         for (unsigned a = 0; a < nc.system[s].axis_count; ++a)
-          add(a, base + "." + std::string(1, nc.system[s].axis[a].name));
+          if (row.scope == SignalScope::kAxis || nc.system[s].axis[a].spindle != 0) add(a, base + "." + std::string(1, nc.system[s].axis[a].name));
       } else if (row.scope == SignalScope::kNumbered || row.scope == SignalScope::kNumberedControl) {
         for (unsigned n = 0; n < row.count; ++n) add(n, base + "." + std::to_string(n + 1));
       } else {
@@ -273,6 +306,8 @@ const char* type_text(ladder::DeviceType type) {
 std::string shown_name(const SignalRow& row) {
   std::string name = std::string(row.direction == SignalDirection::kFromNc ? "nc." : "plc.") + row.name;
   if (row.scope == SignalScope::kAxis) name += ".X";
+  if (row.scope == SignalScope::kSpindleAxis) name += ".C";
+  if (row.scope == SignalScope::kSpindle) name += ".1 ... ." + std::to_string(NC_MAX_SPINDLES);
   if (row.scope == SignalScope::kNumbered || row.scope == SignalScope::kNumberedControl)
     name += ".1 ... ." + std::to_string(row.count);
   return name;

@@ -18,8 +18,9 @@
 namespace nc::rt {
 
 enum class SignalDirection : std::uint8_t { kFromNc, kToNc };
-// kControl: once for the machine; the others once for each part system, its axes, or the numbers 1...count.
-enum class SignalScope : std::uint8_t { kControl, kNumberedControl, kSystem, kAxis, kNumbered };
+// kControl: once for the machine; the others once for each part system, its axes, or the numbers 1...count. kSpindle: the spindles of a
+// part system that has more than one; kSpindleAxis: its axes that are a spindle, too.
+enum class SignalScope : std::uint8_t { kControl, kNumberedControl, kSystem, kAxis, kNumbered, kSpindle, kSpindleAxis };
 
 struct SignalRow {
   const char* name;  // without the prefix

@@ -157,7 +157,7 @@ TEST(Disturbance, InterruptsInputsAndResetsTogether) {
     std::mt19937 random(seed);
     nc_inputs in{};
     in.feed_override = in.rapid_override = 1;
-    in.spindle_rev_per_s = 50;
+    in.spindle[0].rev_per_s = 50;
     for (unsigned pass = 0; pass < 3; ++pass) {
       SCOPED_TRACE("pass " + std::to_string(pass));
       MachineRun run = run_machine(online, random, in, pass < 2 ? 20 + random() % 1200 : 0);

@@ -61,7 +61,7 @@ uint64_t run_for(Bench& bench, const std::string& text, unsigned cycles, nc_outp
   nc_control* control = bench.control();
   nc_inputs in{};
   in.feed_override = in.rapid_override = 1;
-  in.spindle_rev_per_s = 50;
+  in.spindle[0].rev_per_s = 50;
   uint64_t last = 0;
   for (unsigned n = 0; n < cycles; ++n) {
     nc_feed(control, 100);

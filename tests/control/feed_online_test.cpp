@@ -21,7 +21,7 @@ void quick_machine(nc_config& c) {
 /// Runs the text to its end; `see` after every cycle.
 void run_online(Bench& bench, const std::string& text, const std::function<void(nc_inputs&, const nc_outputs&)>& see) {
   Drive drive(bench, text);
-  drive.in.spindle_rev_per_s = 0;
+  drive.in.spindle[0].rev_per_s = 0;
   while (drive.cycle < 200000) {
     drive.in.cycle_start = drive.cycle == 1;
     drive.step();
@@ -40,7 +40,7 @@ std::map<unsigned, double> speeds(Bench& bench, const std::string& text) {
   std::map<unsigned, std::vector<double>> all;
   bench.at(0, 0, 0);
   run_online(bench, text, [&](nc_inputs& in, const nc_outputs& out) {
-    in.spindle_rev_per_s = 10;
+    in.spindle[0].rev_per_s = 10;
     if (!out.distance_zero) all[out.source.line].push_back(out.feed_mm_min);
   });
   std::map<unsigned, double> middle;
@@ -109,6 +109,23 @@ TEST(FeedOnline, CornerOverrideActsInsideOnly) {  // M700 7.10
   EXPECT_EQ(slowest_part("G62 G42 D1\n", 3), 0);      // 90 degrees is not sharp enough
 }
 
+TEST(FeedOnline, CornerOverrideReachesBackOverShortBlocks) {  // M700 7.10
+  const auto slow_way = [](const char* zone) {  // along Y before the corner at Y50, which the tool centre passes at Y48
+    Bench bench(NC_DIALECT_M700, quick_machine);
+    bench.tool(1, 2).param("8103", "1").param("8007", "50").param("8008", "120").param("8009", zone);
+    bench.at(0, 0, 0);
+    double first = 1e9;
+    run_online(bench, "G62 G42 D1\nG1 X0 Y5. F1200\nX0 Y40.\nY44.\nY47.\nY50.\nX50.\nG40 G0 X0 Y0\nM30", [&](nc_inputs&, const nc_outputs& out) {
+      if (out.distance_zero || out.source.line > 6 || out.command.v[1] < 10) return;
+      if (std::fabs(out.feed_mm_min - 600) < 1) first = std::min(first, out.command.v[1]);
+    });
+    return 48 - first;
+  };
+  EXPECT_NEAR(slow_way("0.5"), 0.5, 0.1);
+  EXPECT_NEAR(slow_way("3"), 3, 0.1) << "of the block before";
+  EXPECT_NEAR(slow_way("6"), 6, 0.1) << "and the one before that";
+}
+
 TEST(FeedOnline, ReversalsRestByParameter) {  // M700 7.9.2, the printed examples (1), (3), (4), (5)
   const auto rests = [](const char* value, const std::string& text) {
     Bench bench(NC_DIALECT_M700, [](nc_config& c) {
@@ -149,12 +166,12 @@ TEST(FeedOnline, ThreadsOfOneProgramLieInOneGroove) {  // M700 6.7.1
   std::map<unsigned, double> phase;
   run_online(bench, "S600 M3\nG33 Z-20. F2.\nG0 Z0\nG4 P33\nG33 Z-20. F2.\nG0 Z0\nG4 P77\nG33 Z-20. F2. Q180.\nM30",
              [&](nc_inputs& in, const nc_outputs& out) {
-               const double turns = in.spindle_turns + (in.spindle_rev_per_s * 0.001);
+               const double turns = in.spindle[0].turns + (in.spindle[0].rev_per_s * 0.001);
                const double place = turns + out.command.v[2] / 2;
                if (out.command.v[2] < -9 && out.command.v[2] > -12 && out.velocity.v[2] < 0) phase[out.source.line] = place - std::floor(place);
-               in.spindle_rev_per_s = 10;
-               in.spindle_turns_valid = true;
-               in.spindle_turns = turns;
+               in.spindle[0].rev_per_s = 10;
+               in.spindle[0].turns_valid = true;
+               in.spindle[0].turns = turns;
              });
   ASSERT_EQ(phase.size(), 3u);
   EXPECT_NEAR(phase[2], phase[5], 1e-6);

@@ -186,7 +186,7 @@ void cycle(nc_control* control, const Chosen& chosen) {
     in.reset = (chosen.world & 4) != 0 && n == kCycles / 2;
     in.feed_override = 0.5 + 0.25 * ((n >> 5) % 5);
     in.rapid_override = 1;
-    in.spindle_rev_per_s = 20;
+    in.spindle[0].rev_per_s = 20;
     in.skip = n % 97 == 50 ? 1 : 0;
     in.input[0] = n;
     nc_feed(control, 64);

@@ -190,7 +190,8 @@ TEST(SimMachine, SpindleRampsAndFinWaitsForTheSpeed) {
   config.m_time_s = 0.001;
   Bench bench(config);
   auto& command = bench.command.system[0];
-  command.s = 3000;
+  command.spindle_rev_min[0] = 3000;
+  command.spindle_selected = 1;
   command.strobe = 2;
   EXPECT_LE(bench.until_fin(20), 4u) << "a standing spindle has nothing to wait for";
   command.strobe = 0;
@@ -200,18 +201,89 @@ TEST(SimMachine, SpindleRampsAndFinWaitsForTheSpeed) {
   const unsigned scans = bench.until_fin(1000);
   EXPECT_NEAR(scans, 300u, 3);
   EXPECT_NEAR(bench.machine.spindle_rpm(0), 3000, 1e-6);
-  const double turns = bench.feedback.system[0].spindle_turns;  // its encoder counts with the speed
-  EXPECT_TRUE(bench.feedback.system[0].spindle_turns_valid);
+  const double turns = bench.feedback.system[0].spindle[0].turns;  // its encoder counts with the speed
+  EXPECT_TRUE(bench.feedback.system[0].spindle[0].turns_valid);
   EXPECT_GT(turns, 0);
   for (unsigned n = 0; n < 100; ++n) bench.scan();
   bench.machine.read(&bench.feedback, &bench.image);
-  EXPECT_NEAR(bench.feedback.system[0].spindle_turns - turns, 50 * kCycle * 100, 1e-9);
+  EXPECT_NEAR(bench.feedback.system[0].spindle[0].turns - turns, 50 * kCycle * 100, 1e-9);
   command.strobe = 0;
   bench.scan();
   command.m = 5;
   command.strobe = 1;
   bench.until_fin(1000);
   EXPECT_NEAR(bench.machine.spindle_rpm(0), 0, 1e-6);
+}
+
+// Each spindle ramps to its own speed; M03 and M05 are for those that the NC has selected.
+TEST(SimMachine, SpindlesTurnApart) {
+  SimConfig config;
+  config.spindle_count[0] = 2;
+  config.spindle_ramp_rpm_per_s = 100000;
+  config.m_time_s = 0.001;
+  Bench bench(config);
+  auto& command = bench.command.system[0];
+  const auto code = [&](unsigned m, std::uint8_t selected) {
+    command.spindle_selected = selected;
+    command.m = m;
+    command.strobe = 0;
+    bench.scan();
+    command.strobe = 1;
+    bench.until_fin(1000);
+  };
+  command.spindle_rev_min[0] = 3000;
+  code(3, 1);
+  command.spindle_rev_min[1] = 500;
+  code(4, 2);
+  EXPECT_NEAR(bench.machine.spindle_rpm(0, 0), 3000, 1e-6);
+  EXPECT_NEAR(bench.machine.spindle_rpm(0, 1), -500, 1e-6);
+  code(5, 1);
+  EXPECT_NEAR(bench.machine.spindle_rpm(0, 0), 0, 1e-6);
+  EXPECT_NEAR(bench.machine.spindle_rpm(0, 1), -500, 1e-6);
+  command.spindle_rev_min[1] = 800;  // constant surface speed
+  for (unsigned n = 0; n < 10; ++n) bench.scan();
+  EXPECT_NEAR(bench.machine.spindle_rpm(0, 1), -800, 1e-6);
+  code(30, 1);
+  EXPECT_NEAR(bench.machine.spindle_rpm(0, 1), 0, 1e-6) << "the end stops all of them";
+}
+
+// M700 10.5: servo ON stops the spindle at its zero mark, and it is an axis until servo OFF.
+TEST(SimMachine, ASpindleIsAnAxisWithItsServo) {
+  SimConfig config;
+  config.axis_count[0] = 4;
+  config.axis_spindle[0][3] = 1;
+  config.spindle_ramp_rpm_per_s = 100000;
+  config.m_time_s = 0.001;
+  Bench bench(config);
+  auto& command = bench.command.system[0];
+  command.spindle_rev_min[0] = 1234;
+  command.spindle_selected = 1;
+  command.m = 3;
+  command.strobe = 1;
+  bench.until_fin(1000);
+  command.strobe = 0;
+  for (unsigned n = 0; n < 77; ++n) bench.scan();
+  const auto& spindle = bench.feedback.system[0].spindle[0];
+  bench.machine.read(&bench.feedback, &bench.image);
+  EXPECT_NEAR(bench.machine.actual(0).v[3], 360 * (spindle.turns - std::floor(spindle.turns)), 1e-9) << "the axis is where the spindle is";
+  EXPECT_FALSE(spindle.servo_ready || spindle.zero_passed);
+  command.servo_on = 1 << 3;
+  for (unsigned n = 0; n < 1000 && !spindle.servo_ready; ++n) bench.scan();
+  EXPECT_TRUE(spindle.zero_passed);
+  EXPECT_EQ(spindle.turns, std::floor(spindle.turns));
+  const double mark = spindle.turns;
+  EXPECT_EQ(bench.machine.actual(0).v[3], 0);
+  command.position.v[3] = 70;  // not before the NC says that this is for the axis
+  bench.scan();
+  EXPECT_EQ(bench.machine.actual(0).v[3], 0);
+  command.servo_ready = 1 << 3;
+  for (unsigned n = 0; n < 3; ++n) bench.scan();
+  EXPECT_NEAR(bench.machine.actual(0).v[3], 70, 1e-9);
+  EXPECT_NEAR(spindle.turns - mark, 70.0 / 360, 1e-9);
+  command.servo_on = command.servo_ready = 0;
+  for (unsigned n = 0; n < 3; ++n) bench.scan();
+  EXPECT_FALSE(spindle.servo_ready);
+  EXPECT_NEAR(bench.machine.spindle_rpm(0), 0, 1e-6) << "it turns again with the next M03";
 }
 
 TEST(SimMachine, ToolChangeTakesItsTime) {

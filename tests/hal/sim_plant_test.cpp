@@ -16,8 +16,8 @@ class SimPlantTest : public testing::Test {
  protected:
   static SimPlantConfig config() {
     SimPlantConfig c;
-    c.spindle = c.tool_changer = true;
-    c.forward = kForward, c.reverse = kReverse, c.speed = kSpeed, c.at_speed = kAtSpeed, c.stopped = kStopped;
+    c.spindle[0] = {true, kForward, kReverse, kSpeed, kAtSpeed, kStopped};
+    c.tool_changer = true;
     c.prepare = kPrepare, c.pocket = kPocket, c.change = kChange;
     c.prepared = kPrepared, c.changed = kChanged, c.tool = kTool;
     c.ramp_rpm_per_s = 1000, c.max_rpm = 6000, c.prepare_s = 0.1, c.change_s = 0.5;

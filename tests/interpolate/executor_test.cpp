@@ -280,7 +280,7 @@ TEST(Executor, DwellTakesItsTimeAndTurnsTheirTurns) {
   p.gate(NC_GATE_DWELL_TURNS, 3);
   p.end();
   Machine m(c);
-  m.in.spindle_rev_per_s = -20;
+  m.in.spindle[0].rev_per_s = -20;
   m.feed(p);
   m.start();
   uint64_t first = 0;

@@ -16,7 +16,7 @@ AxisVec at(double x, double z = 0) {
 }
 
 /// A spindle with an encoder, turned by whoever runs the machine.
-void turn(Machine& m) { m.in.spindle_turns += m.in.spindle_rev_per_s * m.config.cycle_s; }
+void turn(Machine& m) { m.in.spindle[0].turns += m.in.spindle[0].rev_per_s * m.config.cycle_s; }
 
 TEST(DigitFeed, TheHandleChangesItWithinItsLimits) {  // M700 7.3
   const ExecutorConfig c = standard_config();
@@ -81,6 +81,33 @@ TEST(CornerOverride, SlowsDownBeforeTheEnd) {  // M700 7.10
   EXPECT_NEAR(speed[2], 5, 1e-6);
   EXPECT_NEAR(speed[3], 5, 1e-6);
   EXPECT_NEAR(speed[4], 10, 1e-6);
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+}
+
+// The corner is at the end of a block that is shorter than the zone.
+TEST(CornerOverride, ReachesBackOverShortBlocks) {  // M700 7.10
+  const ExecutorConfig c = standard_config();
+  Program p(c);
+  for (const double end : {20.0, 40.0, 44.0, 47.0, 50.0, 80.0, 82.0}) {
+    Segment& s = p.line(at(end), 20);
+    s.corner_reach = 10;
+    if (end == 50 || end == 82) s.slow_zone = 10;
+    s.slow_factor = end == 50 ? 0.5F : 0.25F;
+    p.mark();
+  }
+  p.line(at(100), 20);
+  p.mark();
+  p.end();
+  Machine m(c);
+  m.feed(p);
+  m.start();
+  std::vector<double> speed;
+  for (const double x : {15.0, 38.0, 43.0, 46.0, 49.5, 60.0, 75.0, 81.5, 90.0}) {
+    ASSERT_TRUE(m.until(p, [&] { return m.out.command.v[0] >= x; }));
+    speed.push_back(m.out.feed_mm_min / 60);
+  }
+  const double wanted[] = {20, 20, 10, 10, 10, 20, 5, 5, 20};
+  for (unsigned i = 0; i < speed.size(); ++i) EXPECT_NEAR(speed[i], wanted[i], 1e-6) << i;
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
@@ -149,11 +176,11 @@ TEST(PerRevolution, GoesWithTheSpindleAndWaitsForIt) {  // M700 7.4
   for (int i = 0; i < 50; ++i) m.cycle();
   EXPECT_EQ(m.out.command.v[0], 0);
   EXPECT_EQ(m.out.cause, NC_CAUSE_SPINDLE_STOPPED);  // operation alarm 105
-  m.in.spindle_rev_per_s = -20;
+  m.in.spindle[0].rev_per_s = -20;
   m.in.feed_override = 1.5;
   for (int i = 0; i < 50; ++i) m.cycle();
   EXPECT_NEAR(m.out.feed_mm_min, 900, 1e-6);  // FC = F N OVR
-  m.in.spindle_rev_per_s = 10000;
+  m.in.spindle[0].rev_per_s = 10000;
   for (int i = 0; i < 400; ++i) m.cycle();
   EXPECT_NEAR(m.out.feed_mm_min / 60, c.limits[0].velocity, 1e-6);  // the clamp
 }
@@ -196,9 +223,9 @@ double phase_of_cut(double rev_per_s, double first_turns, float angle) {
   const ExecutorConfig c = standard_config();
   const Program p = thread_program(c, angle);
   Machine m(c);
-  m.in.spindle_rev_per_s = rev_per_s;
-  m.in.spindle_turns = first_turns;
-  m.in.spindle_turns_valid = true;
+  m.in.spindle[0].rev_per_s = rev_per_s;
+  m.in.spindle[0].turns = first_turns;
+  m.in.spindle[0].turns_valid = true;
   m.feed(p);
   m.start();
   for (int i = 0; i < 20000 && m.out.command.v[2] > -10; ++i) {
@@ -206,7 +233,7 @@ double phase_of_cut(double rev_per_s, double first_turns, float angle) {
     m.cycle();
   }
   turn(m);  // the command holds at the end of its cycle
-  const double phase = m.in.spindle_turns * (rev_per_s > 0 ? 1 : -1) + m.out.command.v[2] / 2;
+  const double phase = m.in.spindle[0].turns * (rev_per_s > 0 ? 1 : -1) + m.out.command.v[2] / 2;
   return phase - std::floor(phase);
 }
 
@@ -223,19 +250,19 @@ TEST(Thread, KeepsItsPlaceWhenTheSpindleIsUneven) {
   const ExecutorConfig c = standard_config();
   const Program p = thread_program(c, 0);
   Machine m(c);
-  m.in.spindle_rev_per_s = 8;
-  m.in.spindle_turns_valid = true;
+  m.in.spindle[0].rev_per_s = 8;
+  m.in.spindle[0].turns_valid = true;
   m.feed(p);
   m.start();
   double low = 1e9, high = -1e9;
   for (int i = 0; i < 20000 && m.out.command.v[2] > -18; ++i) {
-    m.in.spindle_rev_per_s = 8 * (1 + 0.1 * std::sin(i * 0.01));
+    m.in.spindle[0].rev_per_s = 8 * (1 + 0.1 * std::sin(i * 0.01));
     turn(m);
-    m.in.spindle_rev_per_s *= 1.01;  // the speed is measured one per cent wrong
+    m.in.spindle[0].rev_per_s *= 1.01;  // the speed is measured one per cent wrong
     m.cycle();
-    m.in.spindle_rev_per_s /= 1.01;
+    m.in.spindle[0].rev_per_s /= 1.01;
     if (m.out.command.v[2] > -4) continue;
-    const double place = 2 * (m.in.spindle_turns + m.in.spindle_rev_per_s * c.cycle_s) + m.out.command.v[2];
+    const double place = 2 * (m.in.spindle[0].turns + m.in.spindle[0].rev_per_s * c.cycle_s) + m.out.command.v[2];
     low = std::min(low, place), high = std::max(high, place);
   }
   EXPECT_LT(high - low, 0.01);  // mm over seven turns
@@ -246,12 +273,12 @@ TEST(Thread, WaitsForItsAngleAndThenCannotBeHeld) {
   const ExecutorConfig c = standard_config();
   const Program p = thread_program(c, 180);
   Machine m(c);
-  m.in.spindle_turns_valid = true;
+  m.in.spindle[0].turns_valid = true;
   m.feed(p);
   m.start();
   for (int i = 0; i < 20; ++i) m.cycle();
   EXPECT_EQ(m.out.cause, NC_CAUSE_SPINDLE_STOPPED);
-  m.in.spindle_rev_per_s = 0.5;
+  m.in.spindle[0].rev_per_s = 0.5;
   for (int i = 0; i < 900; ++i) turn(m), m.cycle();
   EXPECT_EQ(m.out.cause, NC_CAUSE_SPINDLE_ANGLE);
   EXPECT_EQ(m.out.command.v[2], 0);
@@ -268,8 +295,8 @@ TEST(Thread, DoesNotBeginBeyondTheLargestFeed) {
   const ExecutorConfig c = standard_config();
   const Program p = thread_program(c, 0);
   Machine m(c);
-  m.in.spindle_rev_per_s = 101;  // 202 mm/s; the clamp is 200
-  m.in.spindle_turns_valid = true;
+  m.in.spindle[0].rev_per_s = 101;  // 202 mm/s; the clamp is 200
+  m.in.spindle[0].turns_valid = true;
   m.feed(p);
   m.start();
   for (int i = 0; i < 100; ++i) turn(m), m.cycle();

@@ -169,13 +169,13 @@ TEST(Thread, GoesWithTheSpindleWhateverTheOverride) {  // M700 6.7.1
   const ExecutorConfig c = rotary_config();
   const Program p = thread_program(c);
   Machine m(c);
-  m.in.spindle_rev_per_s = 5;
+  m.in.spindle[0].rev_per_s = 5;
   m.in.feed_override = 0.5;
   m.feed(p);
   m.start();
   for (int i = 0; i < 500; ++i) m.cycle();
   EXPECT_NEAR(m.out.feed_mm_min, 600, 1e-6);
-  m.in.spindle_rev_per_s = 2;
+  m.in.spindle[0].rev_per_s = 2;
   for (int i = 0; i < 50; ++i) m.cycle();
   EXPECT_NEAR(m.out.feed_mm_min, 240, 1e-6);
 }
@@ -184,7 +184,7 @@ TEST(Thread, FeedHoldActsBehindTheBlockAfterIt) {  // M700 6.7.1 (6)
   const ExecutorConfig c = rotary_config();
   const Program p = thread_program(c);
   Machine m(c);
-  m.in.spindle_rev_per_s = 5;
+  m.in.spindle[0].rev_per_s = 5;
   m.feed(p);
   m.start();
   for (int i = 0; i < 300; ++i) m.cycle();
@@ -204,7 +204,7 @@ TEST(Thread, SingleBlockStopsBehindTheFirstBlockThatIsNone) {  // M700 6.7.1
   const ExecutorConfig c = rotary_config();
   const Program p = thread_program(c);
   Machine m(c);
-  m.in.spindle_rev_per_s = 5;
+  m.in.spindle[0].rev_per_s = 5;
   m.in.single_block = true;
   m.cycle();
   m.feed(p);

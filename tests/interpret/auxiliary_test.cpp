@@ -82,6 +82,15 @@ TEST(Auxiliary, OrderByParameter) {  // M700 9.1: "after or simultaneously with 
 
 // ---- constant surface speed and clamp (M700 10.3, 10.4) -----------------------------------------------------------------------------
 
+/// "G92 S1000 Q200!1": S and Q as far as they are commanded, and how they clamp; "free" = no clamp any more.
+std::string clamp_text(const nc_action& a) {
+  const auto how = static_cast<unsigned>(a.value);
+  std::string text = (how & (NC_CLAMP_S | NC_CLAMP_Q)) == 0 ? "free" : "clamp";
+  if ((how & NC_CLAMP_S) != 0) text += "S" + std::to_string(a.bits);
+  if ((how & NC_CLAMP_Q) != 0) text += "Q" + std::to_string(a.mask);
+  return (how & 3) == 0 ? text : text + "!" + std::to_string(how & 3);
+}
+
 /// Speeds as the machine is told: "G96 X 200, S500".
 std::string speeds(const Outcome& run) {
   std::string all;
@@ -92,7 +101,7 @@ std::string speeds(const Outcome& run) {
     if (a.kind == NC_ACTION_S) word = "S" + brief(a.value);
     if (a.kind == NC_ACTION_CONTROL && a.index == NC_CONTROL_SURFACE_SPEED) word = a.bits == 0 ? "off" : "axis" + std::to_string(a.bits) + ":" + brief(a.value);
     if (a.kind == NC_ACTION_CONTROL && a.index == NC_CONTROL_SPINDLE_CLAMP)
-      word = std::to_string(a.mask) + ".." + std::to_string(a.bits) + (a.value == 0 ? "" : "!" + brief(a.value));
+      word = clamp_text(a);
     if (!word.empty()) all += (all.empty() ? "" : " ") + word;
   }
   return all;
@@ -122,18 +131,18 @@ TEST(SurfaceSpeed, NeedsASpeed) {  // P132
 
 TEST(SpindleClamp, WhatG92SIs) {  // 10.4 (Note 1)
   EXPECT_EQ(speeds(m700("G92 S1000\nM30")), "S1000");  // Sclamp 0, G97: a speed
-  EXPECT_EQ(speeds(m700("G96 S100\nG92 S1000 Q200\nM30")), "axis1:100 S100 200..1000 off 0..0");
-  EXPECT_EQ(speeds(m700("G92 Q200\nM30")), "200..0 0..0");  // Q is always one, the lower one until there is an S
+  EXPECT_EQ(speeds(m700("G96 S100\nG92 S1000 Q200\nM30")), "axis1:100 S100 clampS1000Q200 off free");
+  EXPECT_EQ(speeds(m700("G92 Q200\nM30")), "clampQ200 free");  // Q is always one
   Bench bench;
   bench.param("1146", "1");
-  EXPECT_EQ(speeds(bench.run("G92 S1000\nM30")), "0..1000!1 0..0");
+  EXPECT_EQ(speeds(bench.run("G92 S1000\nM30")), "clampS1000!1 free");
   bench.param("1227/bit5", "1");
-  EXPECT_EQ(speeds(bench.run("G92 S1000\nM30")), "0..1000 0..0");
-  EXPECT_EQ(speeds(bench.run("G92 S1000 Q200\nG92 S0\nM30")), "200..1000 0..200 0..0");
+  EXPECT_EQ(speeds(bench.run("G92 S1000\nM30")), "clampS1000 free");
+  EXPECT_EQ(speeds(bench.run("G92 S1000 Q200\nG92 S0\nM30")), "clampS1000Q200 clampS0 free");
   Bench keeping;
   keeping.param("1146", "1").param("1210/bit19", "1");
-  EXPECT_EQ(speeds(keeping.run("G92 S1000\nM30")), "0..1000!3");
-  EXPECT_EQ(speeds(keeping.run("G92 Q200\nM30")), "200..1000!3");  // a reset has not cleared the S
+  EXPECT_EQ(speeds(keeping.run("G92 S1000\nM30")), "clampS1000!3");
+  EXPECT_EQ(speeds(keeping.run("G92 Q200\nM30")), "clampQ200!3");  // the S is the machine's
   EXPECT_EQ(m700("G92 Q-1\nM30").alarm, "P35");
 }
 
@@ -161,13 +170,13 @@ TEST(SurfaceSpeed, OnTheMachine) {
     drive.step(50);
     if (out.source.line == 4 || out.source.line == 5) {
       const double free = 1000 * 100 / (2 * 3.14159265358979 * std::max(1e-3, std::fabs(out.command.v[0] - 5)));
-      EXPECT_NEAR(out.spindle_rev_min, std::min(1000.0, std::max(300.0, free)), 1e-6);
-      highest = std::max(highest, out.spindle_rev_min);
-      lowest = std::min(lowest, out.spindle_rev_min);
+      EXPECT_NEAR(out.spindle_rev_min[0], std::min(1000.0, std::max(300.0, free)), 1e-6);
+      highest = std::max(highest, out.spindle_rev_min[0]);
+      lowest = std::min(lowest, out.spindle_rev_min[0]);
       ++seen;
     }
     if (out.source.line == 7) {
-      EXPECT_EQ(out.spindle_rev_min, 700);
+      EXPECT_EQ(out.spindle_rev_min[0], 700);
     }
   }
   EXPECT_TRUE(drive.ended);

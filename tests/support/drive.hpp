@@ -15,7 +15,7 @@ class Drive {
   Drive(Bench& bench, const std::string& text) : control_(bench.control()) {
     bench.start(text);
     in.feed_override = in.rapid_override = 1;
-    in.spindle_rev_per_s = 50;
+    in.spindle[0].rev_per_s = 50;
   }
 
   nc_inputs in{};                ///< of the next cycle

@@ -544,7 +544,7 @@ TEST_F(CommandTest, AMachineConfigurationGivesAxesLimitsAndStart) {
   file("p.nc", "G90 G53 G00 X-100. C90.\nM30\n");
   std::string machine = "[machine]\nname = \"m\"\ncycle_us = 500\n";
   for (const char* axis : {"X", "C"})
-    machine += std::string("[[axis]]\nname = \"") + axis + "\"\n" + (*axis == 'C' ? "rotary = true\n" : "") +
+    machine += std::string("[[axis]]\nname = \"") + axis + "\"\n" + (*axis == 'C' ? "rotary = true\nspindle = 1\n" : "") +
                "rapid = 100.0\nmax_velocity = 100.0\nmax_acceleration = 1000.0\nmax_jerk = 50000.0\nin_position = 0.01\nstart = -10.0\n";
   file("m.toml", machine);
   const Outcome run = ncsim("motion --machine m.toml p.nc");

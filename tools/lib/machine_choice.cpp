@@ -52,6 +52,9 @@ std::unique_ptr<rt::Config> load_machine(const std::string& path, std::string* e
     return nullptr;
   }
   config->nc.system_count = 1;  // the one that a program of the command line runs in
+  // No PLC selects spindles here or makes one an axis: there is one spindle, and a C axis is always an axis.
+  config->nc.system[0].spindle_count = 1;
+  for (nc_axis_config& axis : config->nc.system[0].axis) axis.spindle = 0;
   std::erase_if(config->work_offsets, [](const rt::WorkOffsetSetting& w) { return w.system != 0; });
   std::erase_if(config->parameters,
                 [](const rt::ParameterSetting& p) { return p.axis != 0 && p.system != 0; });

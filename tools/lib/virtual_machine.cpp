@@ -110,9 +110,9 @@ class VirtualMachine {
     in.skip = world_.signals_at(last.command);
     in.feed_override = 1.0;
     in.rapid_override = 1.0;
-    in.spindle_rev_per_s = last.s / 60.0;
-    in.spindle_turns_valid = true;
-    in.spindle_turns += in.spindle_rev_per_s * config_.cycle_s;
+    in.spindle[0].rev_per_s = last.s / 60.0;
+    in.spindle[0].turns_valid = true;
+    in.spindle[0].turns += in.spindle[0].rev_per_s * config_.cycle_s;
     // Events of the setup: by the block in execution and by the machine's own time.
     nc_item now = {};
     now.source = last.source;

@@ -28,12 +28,14 @@ typedef struct nc_axis_config {
   bool soft_limited;       /**< the two limits below hold */
   double soft_min, soft_max; /**< stored stroke limits, machine coordinates */
   double reference[4];     /**< 1st to 4th reference position, machine coordinates */
+  uint8_t spindle;         /**< number of the spindle that is this axis while its servo is on (M700 10.5: C axis; rotary), 0 = none */
 } nc_axis_config;
 
 /** One part system. */
 typedef struct nc_system_config {
   uint8_t axis_count;
   nc_axis_config axis[NC_MAX_AXES];
+  uint8_t spindle_count;   /**< 1..NC_MAX_SPINDLES; 0 = one */
 } nc_system_config;
 
 /** What a control is. Fill with nc_config_init(), then change what differs. */

@@ -62,8 +62,16 @@ typedef enum nc_action_kind {
 typedef enum nc_control_index {
   NC_CONTROL_TAPPING = 63,       /**< tapping mode G63 begins (`value` 1) or ends (M700 7.11) */
   NC_CONTROL_SURFACE_SPEED = 17, /**< constant surface speed G96: `value` m/min, `bits` the axis from 1, 0 = G97 */
-  NC_CONTROL_SPINDLE_CLAMP = 92  /**< G92 S Q: `mask` smallest, `bits` largest speed, r/min, 0 = none; `value` bit 0: in G97 too, bit 1: a reset keeps it */
+  NC_CONTROL_SPINDLE_CLAMP = 92  /**< G92 S Q of the selected spindles: `bits` S, `mask` Q as programmed, r/min; `value` nc_clamp_bits */
 } nc_control_index;
+
+/** How speeds are clamped (M700 10.4): bits. */
+typedef enum nc_clamp_bits {
+  NC_CLAMP_ALWAYS = 1,    /**< in G97, too */
+  NC_CLAMP_OVER_RESET = 2, /**< a reset keeps it */
+  NC_CLAMP_S = 4,         /**< S has been commanded, else the spindle keeps its own */
+  NC_CLAMP_Q = 8          /**< Q has */
+} nc_clamp_bits;
 
 /** State of the macro interrupt (M700 13.12): bits. */
 typedef enum nc_interrupt_bits {

@@ -91,6 +91,15 @@ typedef struct nc_manual {
   double distance; /**< mm or deg, signed */
 } nc_manual;
 
+/** What a spindle measures. */
+typedef struct nc_spindle_inputs {
+  double rev_per_s;  /**< actual speed, signed: feed per revolution, threads, dwell in revolutions */
+  double turns;      /**< its encoder, revolutions, counting on with the sign of the speed; whole numbers are its zero mark (Z phase) */
+  bool turns_valid;  /**< `turns` is measured; without it threads begin at any angle */
+  bool servo_ready;  /**< it holds its position and follows the command of its C axis (M700 10.5: servo READY) */
+  bool zero_passed;  /**< the Z phase has been passed since the servo was switched on: reference position return complete */
+} nc_spindle_inputs;
+
 /** What the scan gives to one part system in one cycle. */
 typedef struct nc_inputs {
   bool cycle_start;      /**< rising edge starts or continues */
@@ -103,6 +112,7 @@ typedef struct nc_inputs {
   bool fin2;             /**< FIN2: when it rises the strobes go off and the program goes on */
   bool interlock;        /**< level: no axis may start; motion decelerates to rest */
   bool alarm;            /**< level: stop motion, no start until reset (a drive, the PLC) */
+  bool recalculate;      /**< rising edge while a program runs: what was read beyond the block in execution is read again at its end (M700 4.2, 10.5) */
   bool macro_interrupt;  /**< UIT, M700 13.12: the interrupt program of M96 comes at once (type 1), or at the end of the block in execution */
   uint32_t mirror;       /**< bit n: a program that is started now is mirrored in axis n about where the axis stands, beside nc_switches_set() and #8211 */
   uint32_t unclamped;    /**< bit n: axis n of an index table is unclamped, as nc_outputs::unclamp asks for; off: clamped (M700 9.3) */
@@ -110,9 +120,10 @@ typedef struct nc_inputs {
   uint32_t input[NC_WORDS]; /**< macro interface inputs */
   double feed_override;  /**< 0..max_feed_override, 1 = 100 % */
   double rapid_override; /**< 0..1 */
-  double spindle_rev_per_s; /**< actual speed, signed: feed per revolution, threads, dwell in revolutions */
-  bool spindle_turns_valid; /**< `spindle_turns` is measured; without it threads begin at any angle */
-  double spindle_turns;     /**< encoder of the spindle, revolutions, counting on with the sign of the speed; whole numbers are its zero mark */
+  nc_spindle_inputs spindle[NC_MAX_SPINDLES];
+  uint8_t spindle_select;   /**< SWS, M700 10.6: bit n: spindle n+1 follows the S command; where there is one spindle it always does */
+  uint8_t spindle_encoder;  /**< number of the spindle whose encoder counts for feed per revolution, threads and dwell; 0 = the selected one's */
+  uint8_t servo_on;         /**< M700 10.5: bit i: axis i, which is a spindle too, is to be a C axis */
   int32_t feed_pulses;      /**< pulses of the first handle in this cycle: they change the feed of F1 to F5 (M700 7.3) */
   bool actual_valid;     /**< `actual` holds measured positions; otherwise commanded = actual */
   nc_axes actual;        /**< measured machine position */
@@ -147,7 +158,9 @@ typedef enum nc_stop_cause {
   NC_CAUSE_FEED_ZERO = 11,       /**< F1 to F5 is 0 (M700 operation alarm 104) */
   NC_CAUSE_SPINDLE_STOPPED = 12, /**< synchronous feed without a turning spindle (M700 operation alarm 105) */
   NC_CAUSE_SPINDLE_ANGLE = 13,   /**< a thread waits for its start angle */
-  NC_CAUSE_SPINDLE_FAST = 14     /**< a thread would need more than the largest cutting feed: it does not begin (M700 6.7.1) */
+  NC_CAUSE_SPINDLE_FAST = 14,    /**< a thread would need more than the largest cutting feed: it does not begin (M700 6.7.1) */
+  NC_CAUSE_SERVO_OFF = 15,       /**< a C axis that is a spindle now is commanded (M700 10.5) */
+  NC_CAUSE_TAP_SPINDLE = 16      /**< in the tapping mode its spindle is to be a C axis (M700 10.6: operation error M01 1026) */
 } nc_stop_cause;
 
 /** Bits of nc_outputs::fin_wait beside those of the groups. */
@@ -167,9 +180,15 @@ typedef struct nc_outputs {
   uint16_t fin_wait;        /**< groups (bits as in strobe) whose completion is awaited: on until FIN1 has fallen or FIN2 has risen; nc_fin_wait_bits */
   uint32_t unclamp;         /**< bit n: axis n of an index table is to be unclamped, nc_inputs::unclamped answers (M700 9.3) */
   uint32_t m, t, b;
-  double s;
+  double s;                 /**< speed that the S command stands for now, r/min: as spindle_rev_min of the selected spindle */
   uint16_t current_limit[NC_MAX_AXES]; /**< percent of the rated current of each drive, 0 = none set (M700 15.6); stays until it is changed */
-  double spindle_rev_min;   /**< speed that is wanted now: `s`, or what constant surface speed asks for, within the clamp (G96, G92 S Q) */
+  double spindle_rev_min[NC_MAX_SPINDLES]; /**< speed that is wanted now: the S code, or what constant surface speed asks for, within the clamp
+                                                (G96, G92 S Q); kept while the spindle is not selected, 0 while it is a C axis */
+  uint8_t spindle_selected; /**< bit n: spindle n+1 follows the S command */
+  uint8_t spindle_encoder;  /**< number of the spindle whose encoder counts, 0 = none */
+  uint8_t servo_on;         /**< bit i: axis i, which is a spindle too, is to hold its position */
+  uint8_t servo_ready;      /**< bit i: and does: `command` is what it follows */
+  uint8_t referenced;       /**< bit i: and its reference position return is complete */
   bool rapid;               /**< a rapid move is in execution */
   bool tapping;             /**< tapping mode G63 (M700 7.11) */
   bool feed_digit_on;       /**< the move in execution has a feed of one digit, `feed_digit` (M700 7.3) */

@@ -29,6 +29,7 @@ extern "C" {
 
 #define NC_MAX_AXES 8       /**< axes of one part system */
 #define NC_MAX_SYSTEMS 4    /**< part systems of one control */
+#define NC_MAX_SPINDLES 4   /**< spindles of one part system (M700 10.6) */
 #define NC_GROUPS 22        /**< modal groups, numbered as in the manual (index 0 unused) */
 #define NC_WORDS 4          /**< 32-bit words of the macro interface, each direction: #1032-#1035, #1132-#1135 */
 #define NC_MAX_TEXT 128     /**< bytes of a text carried by an item, with its terminating NUL */

@@ -368,6 +368,7 @@ void Commit::set_rule(const FeedRule& rule, Segment* s) {
   s->digit_most_mm_s = rule.digit_most / 60;
   s->digit_step_mm_s = rule.digit_step / 60;
   if (rule.scale > 0) s->feed_mm_s *= rule.scale;
+  s->corner_reach = rule.corner_reach;
   if (rule.slow_zone > 0) {
     s->slow_zone = rule.slow_zone;
     s->slow_factor = rule.corner_override;

@@ -11,7 +11,7 @@ namespace {
 bool power_of_two(uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
 
 bool axes_valid(const nc_system_config& system) {
-  if (system.axis_count < 1 || system.axis_count > NC_MAX_AXES) return false;
+  if (system.axis_count < 1 || system.axis_count > NC_MAX_AXES || system.spindle_count > NC_MAX_SPINDLES) return false;
   for (unsigned i = 0; i < system.axis_count; ++i) {
     const nc_axis_config& axis = system.axis[i];
     if (std::strchr("ABCUVWXYZ", axis.name) == nullptr || axis.name == 0) return false;
@@ -22,6 +22,11 @@ bool axes_valid(const nc_system_config& system) {
     for (const double place : axis.reference)
       if (!std::isfinite(place)) return false;
     if (axis.soft_limited && !(axis.soft_min < axis.soft_max)) return false;
+    // M700 10.5: a C axis turns with a spindle that there is, and with no other axis.
+    if (axis.spindle == 0) continue;
+    if (!axis.rotary || axis.spindle > (system.spindle_count == 0 ? 1 : system.spindle_count)) return false;
+    for (unsigned j = 0; j < i; ++j)
+      if (system.axis[j].spindle == axis.spindle) return false;
   }
   return true;
 }

@@ -49,7 +49,10 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
     ex.soft_min[i] = axis.soft_min;
     ex.soft_max[i] = axis.soft_max;
     ex.reference[i] = axis.reference[0];
+    ex.axis_spindle[i] = axis.spindle;
+    if (axis.spindle != 0) spindle_axes_ |= 1u << i;
   }
+  ex.spindle_count = system.spindle_count == 0 ? 1u : system.spindle_count;
   ex.cycle_s = config.cycle_s;
   ex.max_feed_override = config.max_feed_override;
   ex.capacity = config.look_ahead;
@@ -523,6 +526,10 @@ nc_status PartSystem::feed(uint32_t budget) {
   nc_status status = NC_OK;
   unsigned committed = 0;
   executed_ = executor.last_block();
+  if (spindle_axes_ != 0) {  // M700 10.5: a C command needs its servo, and the reference position return unless #2031 says so
+    const uint32_t referenced = executor.referenced() | interpreter.settings.no_reference;
+    interpreter.closed_axes = spindle_axes_ & ~(executor.servo_ready() & referenced);
+  }
   while (status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1 && commit_.shape_room(executor.tail(), executor.head()) &&
          may_read_on()) {
     status = commit_online(budget);
@@ -530,7 +537,10 @@ nc_status PartSystem::feed(uint32_t budget) {
   }
   if (open_sync_ != 0) {
     nc_world world{};
-    if (executor.sync_reached(open_sync_, &world)) answer(world);
+    if (executor.sync_reached(open_sync_, &world)) {
+      answer(world);
+      if (spindle_axes_ != 0) take_spindle_axes(world.machine);
+    }
   }
   executor.plan();
   if (finished_) {
@@ -539,6 +549,14 @@ nc_status PartSystem::feed(uint32_t budget) {
   }
   if (status == NC_BUDGET) return status;
   return committed > 0 ? NC_OK : NC_WAITING;
+}
+
+/// Behind a sync: axes that are spindles too have turned without the program (M700 10.5 (1)).
+void PartSystem::take_spindle_axes(const nc_axes& machine) {
+  AxisVec here = commit_.machine();
+  for (unsigned i = 0; i < interpreter.axis_count; ++i)
+    if ((spindle_axes_ >> i & 1) != 0) interpreter.state.machine[i] = here[i] = machine.v[i];
+  commit_.set_machine(here);
 }
 
 /// M700 4.2 "recalculation request": what was read beyond the block in execution is read again.

@@ -213,6 +213,14 @@ BlockSeq Executor::last_block() const {
   return state_->shared.status.read().last_block;
 }
 
+uint8_t Executor::servo_ready() const {
+  return state_->shared.status.read().servo_ready;
+}
+
+uint8_t Executor::referenced() const {
+  return state_->shared.status.read().referenced;
+}
+
 AxisVec Executor::commanded() const {
   return state_->shared.status.read().command;
 }

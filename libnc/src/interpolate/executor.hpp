@@ -17,6 +17,8 @@ struct ExecutorConfig {
   AxisVec soft_min, soft_max;  ///< for manual motion; commits are checked before they come here
   uint32_t soft_limited = 0;   ///< bit i: axis i has soft limits
   AxisVec reference;           ///< first reference position
+  unsigned spindle_count = 1;
+  uint8_t axis_spindle[kMaxAxes] = {};  ///< number of the spindle that is this axis (M700 10.5), 0 = none
   double cycle_s = 0.001;
   double max_feed_override = 2.0;
   uint32_t capacity = 1024;  ///< records in the ring, power of two
@@ -89,6 +91,9 @@ class Executor {
   /// End of the newest block that has been executed in this run, 0: none. Right behind a new epoch(): as of when the program was given up.
   Serial last_mark() const;
   BlockSeq last_block() const;
+  /// Bit i: axis i is a spindle, too (M700 10.5), and holds its position; and its reference position return is complete.
+  uint8_t servo_ready() const;
+  uint8_t referenced() const;
   /// Commanded machine position as of the last scan (consistent snapshot).
   AxisVec commanded() const;
   /// Set position; only while idle, before the scan runs.

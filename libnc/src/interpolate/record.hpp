@@ -43,6 +43,7 @@ struct Segment {
   bool rest_before = false;     ///< the path comes to rest where it begins
   float digit_most_mm_s = 0, digit_step_mm_s = 0;  ///< F1 to F5: what the handle may make of the feed, and by one pulse
   float slow_zone = 0, slow_factor = 1;            ///< the feed over this length before the end (M700 7.10)
+  float corner_reach = 0;                          ///< so far behind the corner may lie that the feed is for, mm
   uint8_t index_axes = 0;    ///< bit i: axis i of an index table is moved and has to be unclamped (M700 9.3)
   uint8_t unclamps = 0;      ///< and these are unclamped meanwhile, for the move behind
   double begun = 0;          ///< so much of its length has been gone before an interrupt (M700 13.12), mm

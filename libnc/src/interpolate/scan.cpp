@@ -33,6 +33,9 @@ void Scan::create(const ExecutorConfig& config, const Record* ring, Planner* pla
   optimal_ = optimal;
   if (optimal != nullptr) follower_.create(&optimal->store(), &optimal->axis_limits());
   shared_ = shared;
+  spindles_.create(config.spindle_count);
+  for (unsigned i = 0; i < config.axis_count; ++i)
+    if (config.axis_spindle[i] != 0) c_axes_ = static_cast<uint8_t>(c_axes_ | 1u << i);
   ManualConfig m;
   m.axis_count = config.axis_count;
   for (unsigned i = 0; i < kMaxAxes; ++i) m.limits[i] = config.limits[i];
@@ -65,6 +68,8 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   handshake(in);
   messages();
   watch_index(in);
+  take_recalculation(in);
+  follow_spindles(in);
   states(in);
   interrupt(in);
   turn_feed_handle(in);
@@ -73,6 +78,9 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   manual(in);
   last_command_ = command_;
   command_ = shape_.filter(wanted_);
+  if (stale_ != 0) [[unlikely]] {
+    for (unsigned i = 0; i < config_.axis_count; ++i) command_[i] += turned_[i];
+  }
   follow(in);
   if (state_ == NC_STATE_RUNNING) {
     ++run_cycles_;
@@ -131,6 +139,12 @@ void Scan::messages() {
   }
 }
 
+/// M700 4.2, 10.5 (2): the recalculation request of an M code acts when that is complete.
+void Scan::take_recalculation(const nc_inputs& in) {
+  if (in.recalculate && !recalculate_last_ && state_ == NC_STATE_RUNNING) recalculate_ = true;
+  recalculate_last_ = in.recalculate;
+}
+
 /// M700 13.12: by level or by rising edge, between M96 and M97, not while an interrupt is in service, and only while a program runs.
 void Scan::interrupt(const nc_inputs& in) {
   const bool rises = in.macro_interrupt && !interrupt_last_;
@@ -161,20 +175,21 @@ bool Scan::may_cut() const {
 /// At rest inside the block: what is left of it is given up, and the feeder goes on with the interrupt program.
 void Scan::cut_block() {
   if (!may_cut()) return;  // the end of the block was nearer
+  if (stale_ != 0) settle_axes();
   const bool begun = done_ != last_mark_ || law_.s > 0 || gate_begun_;  // else nothing of it has happened
   cut_ = Cut{begun, done_, block_syncs_, wanted_, moving_ ? law_.s : 0, gate_begun_ ? gate_left_ : 0};
   cutting_ = interrupt_wanted_ = moving_ = gate_begun_ = false;
   law_.s = 0;
   interrupt_mode_ |= NC_INTERRUPT_IN_SERVICE;  // before the program says so: a signal in between is none
-  rereading_ = interrupt_reached_ = true;
+  rereading_ = reread_reached_ = reread_interrupt_ = true;
 }
 
 /// A cycle after the mark, so that what the feeder reads of the scan's place is as of the mark.
 void Scan::ask_for_interrupt() {
-  if (!interrupt_reached_) return;
-  interrupt_reached_ = false;
+  if (!reread_reached_) return;
+  reread_reached_ = false;
   shared_->block_begun.store(0, std::memory_order_relaxed);
-  shared_->reread_interrupt.store(1, std::memory_order_relaxed);
+  shared_->reread_interrupt.store(reread_interrupt_ ? 1 : 0, std::memory_order_relaxed);
   shared_->reread_request.store(++reread_, std::memory_order_release);
 }
 
@@ -262,7 +277,9 @@ void Scan::give_up() {
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
   interrupt_mode_ = 0;
   interrupt_wanted_ = false;
-  spindle_.reset();
+  recalculate_ = false;
+  spindles_.reset();
+  settle_axes();
   messages_.clear();
   shared_->world.write({});
 }
@@ -349,7 +366,13 @@ void Scan::manual(const nc_inputs& in) {
     return;
   }
   const AxisVec before = wanted_;
-  manual_cycle(in);
+  nc_manual own[NC_MAX_AXES];
+  const nc_manual* wish = in.manual;
+  if ((c_axes_ & ~servo_ready_) != 0) {  // M700 10.5 (1): a spindle is not moved as an axis
+    for (unsigned i = 0; i < config_.axis_count; ++i) own[i] = ((c_axes_ & ~servo_ready_) >> i & 1) == 0 ? in.manual[i] : nc_manual{};
+    wish = own;
+  }
+  manual_cycle(in, wish);
   for (unsigned i = 0; i < config_.axis_count; ++i)
     displaced_ |= state_ == NC_STATE_STOPPED && wanted_[i] != before[i];
 }
@@ -359,7 +382,8 @@ void Scan::manual(const nc_inputs& in) {
 void Scan::follow(const nc_inputs& in) {
   const bool given_up = state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM;
   if (!in.follow_up || !in.actual_valid || !given_up || !at_rest() || manual_.active() || frozen_) return;
-  for (unsigned i = 0; i < config_.axis_count; ++i) wanted_[i] = in.actual.v[i];
+  for (unsigned i = 0; i < config_.axis_count; ++i)
+    if (((c_axes_ & ~servo_ready_) >> i & 1) == 0) wanted_[i] = in.actual.v[i];
   command_ = last_command_ = target_ = wanted_;
   shape_.reset(wanted_);
 }
@@ -368,8 +392,10 @@ void Scan::publish(const nc_inputs& in) {
   ScanStatus status;
   status.command = command_;
   status.feed_override = feed_override(in);
-  // The plan rests at the ends of blocks where an interrupt waits or a hold that was pressed in a thread.
-  status.single_block = (in.single_block && !(suppress_ & 1)) || interrupt_wanted_ || hold_behind_thread_;
+  // The plan rests at the ends of blocks where an interrupt waits, a hold that was pressed in a thread, or what is read again from there.
+  status.single_block = (in.single_block && !(suppress_ & 1)) || interrupt_wanted_ || hold_behind_thread_ || stale_ != 0 || recalculate_;
+  status.servo_ready = servo_ready_;
+  status.referenced = referenced_;
   status.last_mark = last_mark_;
   status.last_block = last_block_;
   status.cut = cut_;
@@ -402,7 +428,7 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
     out.velocity.v[i] = (command_[i] - last_command_[i]) * per_s;
     if (command_[i] != last_command_[i]) out.distance_zero = false;
     out.work.v[i] = work_sign_[i] * command_[i] + to_work_[i];
-    out.distance_to_go.v[i] = moving_ ? target_[i] - command_[i] : 0;
+    out.distance_to_go.v[i] = moving_ ? target_[i] + turned_[i] - command_[i] : 0;
     double away = command_[i] - config_.reference[i];
     if ((turning >> i & 1) != 0) away -= 360 * std::nearbyint(away / 360);
     if (std::fabs(away) <= kSamePlace) out.at_reference |= 1u << i;
@@ -423,7 +449,16 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   out.t = t_;
   out.b = b_;
   // Constant surface speed asks for the coordinate of its axis.
-  out.s = out.spindle_rev_min = spindle_.now([this](unsigned axis) { return work_sign_[axis] * command_[axis] + to_work_[axis]; });
+  spindles_.update([this](unsigned axis) { return work_sign_[axis] * command_[axis] + to_work_[axis]; });
+  out.s = spindles_.commanded();
+  for (unsigned i = 0; i < config_.spindle_count; ++i) out.spindle_rev_min[i] = spindles_.now(i);
+  for (unsigned i = 0; c_axes_ != 0 && i < config_.axis_count; ++i)
+    if ((servo_on_ >> i & 1) != 0) out.spindle_rev_min[config_.axis_spindle[i] - 1] = 0;  // M700 10.5 (1): spindle control is not possible
+  out.spindle_selected = spindles_.selected();
+  out.spindle_encoder = static_cast<uint8_t>(encoder_);
+  out.servo_on = servo_on_;
+  out.servo_ready = servo_ready_;
+  out.referenced = referenced_;
   out.manual_allowed = manual_allowed_;
   out.message = message_;
   out.message_text = message_text_.id;
@@ -431,7 +466,7 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   if (moving_) {
     const Segment& s = current().segment;
     out.rapid = s.rapid;
-    out.feed_command_mm_min = (s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(in.spindle_rev_per_s) : programmed_feed(s)) * 60;
+    out.feed_command_mm_min = (s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(encoder(in).rev_per_s) : programmed_feed(s)) * 60;
     out.feed_digit_on = s.feed_digit != 0;
     out.feed_digit = s.feed_digit != 0 ? static_cast<uint8_t>(s.feed_digit - 1) : uint8_t{0};
   }

@@ -25,6 +25,7 @@ struct ScanStatus {
   AxisVec command;
   double feed_override = 1;
   bool single_block = false;
+  uint8_t servo_ready = 0, referenced = 0;  ///< of axes that are spindles, too (M700 10.5)
   Serial last_mark = 0;  ///< newest block end that has been executed in this run
   BlockSeq last_block = 0;  ///< of that block
   Cut cut;
@@ -70,6 +71,7 @@ class Scan {
   // scan.cpp: states
   void handshake(const nc_inputs& in) NC_RT;
   void messages() NC_RT;
+  void take_recalculation(const nc_inputs& in) NC_RT;
   void interrupt(const nc_inputs& in) NC_RT;
   void ask_for_interrupt() NC_RT;
   bool may_cut() const NC_RT;
@@ -87,6 +89,16 @@ class Scan {
   void outputs(const nc_inputs& in, nc_outputs& out) NC_RT;
   void publish(const nc_inputs& in) NC_RT;
 
+  // scan_spindle.cpp: spindles, and axes that are one
+  void follow_spindles(const nc_inputs& in) NC_RT;
+  void take_position(unsigned axis, const nc_inputs& in) NC_RT;
+  void settle_axes() NC_RT;
+  bool moves_any(const Segment& segment, uint8_t axes) const NC_RT;
+  bool lost_move(const Record& record, Done* done) NC_RT;
+  bool may_read_again() const NC_RT;
+  bool tap_disturbed(const nc_inputs& in) const NC_RT;
+  const nc_spindle_inputs& encoder(const nc_inputs& in) const NC_RT;
+
   // scan_records.cpp: what each kind of record does
   Done execute(const Record& record, const nc_inputs& in) NC_RT;
   Done move(const Record& record, const nc_inputs& in) NC_RT;
@@ -101,6 +113,7 @@ class Scan {
   void end_move(const Record& record) NC_RT;
   void change_skip_feed(const SkipSpeeds& speeds, uint32_t signals) NC_RT;
   double speed_cap(const Segment& segment, const nc_inputs& in) NC_RT;
+  double corner_factor(const Segment& segment) const NC_RT;
   double feed_override(const nc_inputs& in) const NC_RT;
   Done action(const Action& action) NC_RT;
   Done strobe(const Action& action) NC_RT;
@@ -123,12 +136,12 @@ class Scan {
   uint32_t may_clamp() NC_RT;
   void watch_index(const nc_inputs& in) NC_RT;
   void clamp_at_rest(uint32_t wanted, const nc_inputs& in) NC_RT;
-  void manual_cycle(const nc_inputs& in) NC_RT;
+  void manual_cycle(const nc_inputs& in, const nc_manual* wish) NC_RT;
 
   const Record& current() const { return ring_[tail_ & mask_]; }
   bool at_rest() const { return law_.v == 0; }
   bool held() const { return hold_ || reset_ || alarmed_ || cutting_; }  ///< nothing is executed at rest
-  bool braking() const { return held() || interlock_ || index_lost_; }      ///< no axis may move
+  bool braking() const { return held() || interlock_ || index_lost_ || losing_; }  ///< no axis may move
   /// M700 6.7.1: a thread that is being cut is not held, nor is its feed changed.
   bool thread_braking() const { return reset_ || alarmed_ || interlock_ || index_lost_; }
   bool cutting_thread() const { return moving_ && law_.v > 0 && current().segment.thread; }
@@ -137,7 +150,7 @@ class Scan {
   bool thread_may_begin(const Segment& segment, const nc_inputs& in) NC_RT;
   double thread_speed(const Segment& segment, const nc_inputs& in) NC_RT;
   /// Of the spindle at this moment of the cycle.
-  double spindle_turns(const nc_inputs& in) const { return in.spindle_turns + (config_.cycle_s - time_) * in.spindle_rev_per_s; }
+  double spindle_turns(const nc_inputs& in) const { return encoder(in).turns + (config_.cycle_s - time_) * encoder(in).rev_per_s; }
 
   // ---- set once
   ExecutorConfig config_;
@@ -191,7 +204,6 @@ class Scan {
   uint8_t fin1_groups_ = 0;  ///< completed by the FIN1 that is on
   bool fin_low_ = true;  ///< was low since a strobe rose
   uint32_t m_ = 0, t_ = 0, b_ = 0;
-  SpindleSpeed spindle_;
   uint32_t suppress_ = 0;  ///< #3003
   uint32_t disable_ = 0;   ///< #3004
 
@@ -210,7 +222,9 @@ class Scan {
   bool last_staged_ = false;         ///< the newest record was of a contour
   Serial done_ = 0;                  ///< newest record that has been executed
   Cut cut_;
-  bool interrupt_reached_ = false;   ///< that end has been reached: the feeder is asked with the next cycle
+  bool recalculate_ = false, recalculate_last_ = false;  ///< asked for: at the end of the block; level of the signal
+  bool reread_reached_ = false;      ///< the place has been reached from where it is read again: the feeder is asked with the next cycle
+  bool reread_interrupt_ = false;    ///< and begins with the interrupt program
 
   // ---- gates
   bool gate_begun_ = false;
@@ -226,6 +240,16 @@ class Scan {
   // ---- feed (M700 7)
   bool tapping_ = false;             ///< between G63 and what ends it
   double digit_pulses_[5] = {};      ///< what the handle has made of F1 to F5
+
+  // ---- spindles (M700 10.6), and axes that are one (M700 10.5)
+  SpindleSpeeds spindles_;
+  unsigned encoder_ = 1;       ///< number of the spindle whose encoder counts
+  uint8_t c_axes_ = 0;         ///< bit i: axis i is a spindle, too; the three below are of these
+  uint8_t servo_on_ = 0, servo_ready_ = 0, referenced_ = 0;
+  AxisVec turned_;             ///< by which such axes stand beside the committed path, which does not know of it yet
+  uint8_t stale_ = 0;          ///< bit i: axis i does; what is committed is read again before it moves
+  bool losing_ = false;        ///< the move in execution has lost its C axis: to rest
+  bool dropping_ = false;      ///< the rest of the block is not executed
 
   // ---- skip
   bool skipped_ = false;       ///< the last skip move ended by its signal

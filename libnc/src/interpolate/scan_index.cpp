@@ -88,19 +88,19 @@ void Scan::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
 }
 
 /// Manual motion; a table is unclamped before it and clamped behind it.
-void Scan::manual_cycle(const nc_inputs& in) {
+void Scan::manual_cycle(const nc_inputs& in, const nc_manual* wish) {
   const AxisParameters& parameters = shared_->axes.read();
   Manual::Rules rules;
   rules.stop = !manual_allowed_ || in.interlock || in.feed_hold;
   rules.turning = parameters.turning;
   rules.short_cut = parameters.short_cut;
   if (parameters.index == 0 && !index_.busy()) {
-    manual_.cycle(in.manual, rules, &wanted_);
+    manual_.cycle(wish, rules, &wanted_);
     return;
   }
   const AxisVec before = wanted_;
   rules.held = parameters.index & ~(index_.unclamp() & in.unclamped);
-  manual_.cycle(in.manual, rules, &wanted_);
+  manual_.cycle(wish, rules, &wanted_);
   const uint32_t wanted = manual_.active_axes() & parameters.index;
   uint32_t moved = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) moved |= wanted_[i] != before[i] ? 1u << i : 0;

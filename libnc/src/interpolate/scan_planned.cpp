@@ -39,7 +39,7 @@ bool Scan::would_jump() const {
 /// Why a move does not go on.
 nc_stop_cause Scan::standing(const Segment& s, const nc_inputs& in) {
   if (s.rapid) return in.rapid_override > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
-  if (s.feed_mm_rev > 0 && in.spindle_rev_per_s == 0) return NC_CAUSE_SPINDLE_STOPPED;
+  if (s.feed_mm_rev > 0 && encoder(in).rev_per_s == 0) return NC_CAUSE_SPINDLE_STOPPED;
   if (!(s.feed_mm_rev > 0) && !(s.feed_mm_s > 0)) return NC_CAUSE_FEED_ZERO;  // M700 7.3: operation alarm 104
   return s.fixed_override || feed_override(in) > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
 }
@@ -103,7 +103,7 @@ void Scan::tell_planner(const nc_inputs& in, const ScanStatus& status) {
   f.brake = path_stops(in);
   f.feed_scale = status.feed_override;
   f.rapid_scale = std::clamp(in.rapid_override, 0.0, 1.0);
-  const double turns = std::fabs(in.spindle_rev_per_s);
+  const double turns = std::fabs(encoder(in).rev_per_s);
   if (std::fabs(turns - turns_) > kTurnsChange * turns_ || turns == 0) turns_ = turns;
   f.turns = turns_;
   f.block_rests = status.single_block;

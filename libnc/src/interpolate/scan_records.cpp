@@ -47,6 +47,8 @@ Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
     case ItemKind::end:
       if (!messages_.empty()) return wait(NC_CAUSE_NONE);
       modal_ = r.end.modal;
+      settle_axes();
+      recalculate_ = false;
       interrupt_mode_ = 0;
       interrupt_wanted_ = tapping_ = false;
       suppress_ = disable_ = 0;  // M700 9.1: the end of the program resets
@@ -131,12 +133,12 @@ void Scan::turn_feed_handle(const nc_inputs& in) {
 /// M700 6.7.1: a thread that is cut from rest begins at its angle of the spindle, within the cycle. At the start its feed must not
 /// exceed the largest one.
 bool Scan::thread_may_begin(const Segment& s, const nc_inputs& in) {
-  const double speed = in.spindle_rev_per_s;
+  const double speed = encoder(in).rev_per_s;
   if (speed != 0 && s.feed_mm_rev * std::fabs(speed) > s.speed_limit * (1 + 1e-9)) {
     wait(NC_CAUSE_SPINDLE_FAST);
     return false;
   }
-  if (!in.spindle_turns_valid) return true;
+  if (!encoder(in).turns_valid) return true;
   if (speed == 0) {
     wait(NC_CAUSE_SPINDLE_STOPPED);
     return false;
@@ -155,13 +157,13 @@ bool Scan::thread_may_begin(const Segment& s, const nc_inputs& in) {
 /// spindle: where its measured speed and its angle differ, the angle counts.
 double Scan::thread_speed(const Segment& s, const nc_inputs& in) {
   constexpr double kReturn = 0.2;  // share of an error that is made good in one cycle
-  const double pace = s.feed_mm_rev * std::fabs(in.spindle_rev_per_s);
-  if (!in.spindle_turns_valid) return pace;
+  const double pace = s.feed_mm_rev * std::fabs(encoder(in).rev_per_s);
+  if (!encoder(in).turns_valid) return pace;
   const double turns = spindle_turns(in);
   if (!thread_locked_) {
     if (law_.v >= pace && pace > 0) {
       thread_locked_ = true;
-      thread_origin_ = turns - std::copysign(law_.s / s.feed_mm_rev, in.spindle_rev_per_s);
+      thread_origin_ = turns - std::copysign(law_.s / s.feed_mm_rev, encoder(in).rev_per_s);
     }
     return pace;
   }
@@ -179,6 +181,21 @@ void Scan::change_skip_feed(const SkipSpeeds& speeds, uint32_t signals) {
   if (feed < HUGE_VAL) skip_feed_ = feed;
 }
 
+/// M700 7.10: what the feed is lowered by before an inner corner, which may lie behind blocks that are shorter than the zone.
+double Scan::corner_factor(const Segment& s) const {
+  constexpr unsigned kRecordsAhead = 128;  // looked at in one cycle
+  if (s.slow_zone > 0) return law_.s >= s.curve.length - static_cast<double>(s.slow_zone) ? static_cast<double>(s.slow_factor) : 1;
+  double way = s.curve.length - law_.s;
+  for (uint32_t at = tail_ + 1; at != end_ && at - tail_ < kRecordsAhead && way < static_cast<double>(s.corner_reach); ++at) {
+    const Record& r = ring_[at & mask_];
+    if (r.kind != ItemKind::move) continue;
+    if (!(r.segment.corner_reach > 0)) break;  // rapid traverse, or the mode has ended
+    way += r.segment.curve.length;
+    if (r.segment.slow_zone > 0) return way <= static_cast<double>(r.segment.slow_zone) ? static_cast<double>(r.segment.slow_factor) : 1;
+  }
+  return 1;
+}
+
 /// Path speed that is wanted now; 0 brakes.
 double Scan::speed_cap(const Segment& s, const nc_inputs& in) {
   if ((s.thread ? thread_braking() : braking()) || skip_braking_) return 0;
@@ -191,11 +208,11 @@ double Scan::speed_cap(const Segment& s, const nc_inputs& in) {
     cause = NC_CAUSE_SPINDLE_STOPPED;
   } else {
     const double override_now = s.fixed_override ? 1 : feed_override(in);
-    double feed = s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(in.spindle_rev_per_s) : programmed_feed(s);
+    double feed = s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(encoder(in).rev_per_s) : programmed_feed(s);
     // M700 7.3, 7.4 note 3: operation alarms 104 and 105.
     if (feed <= 0) cause = s.feed_mm_rev > 0 ? NC_CAUSE_SPINDLE_STOPPED : NC_CAUSE_FEED_ZERO;
     // M700 7.10: on top of the override, below the clamp.
-    if (s.slow_zone > 0 && law_.s >= s.curve.length - static_cast<double>(s.slow_zone)) feed *= static_cast<double>(s.slow_factor);
+    if (s.slow_zone > 0 || s.corner_reach > 0) feed *= corner_factor(s);
     // M700 15.2: a skip move goes at 100 %, but for an override of 0.
     cap = std::min(cap, s.skip && override_now > 0 ? feed : feed * override_now);
   }
@@ -207,6 +224,9 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
   const Segment& s = r.segment;
   if (!(s.curve.length > 0)) return Done::yes;
   const bool begins = !moving_;
+  Done lost = Done::yes;
+  if (c_axes_ != 0 && lost_move(r, &lost)) return lost;
+  if (begins && tapping_ && at_rest() && tap_disturbed(in)) return wait(NC_CAUSE_TAP_SPINDLE);
   if ((s.index_axes | s.unclamps) != 0) {
     if (begins && !unclamp_for(s, in)) return Done::no;
     if (law_.s > s.begun) index_.leave(s.index_axes);
@@ -223,7 +243,8 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
     skipped_ = skip_braking_ = true;
     skip_position_ = wanted_;
     if (in.actual_valid) {
-      for (unsigned i = 0; i < config_.axis_count; ++i) skip_position_[i] = in.actual.v[i];
+      for (unsigned i = 0; i < config_.axis_count; ++i)
+        if (((c_axes_ & ~servo_ready_) >> i & 1) == 0) skip_position_[i] = in.actual.v[i];
     }
     if (begins) {  // M700 15.2: on already at the start, no movement
       end_move(r);
@@ -261,8 +282,8 @@ Scan::Done Scan::action(const Action& a) {
     case NC_ACTION_CONTROL:
       if (a.index == 3003) suppress_ = code_number(a.value);
       if (a.index == 3004) disable_ = code_number(a.value);
-      if (a.index == NC_CONTROL_SURFACE_SPEED) spindle_.surface(a.value, a.bits);
-      if (a.index == NC_CONTROL_SPINDLE_CLAMP) spindle_.clamp(a.mask, a.bits, code_number(a.value));
+      if (a.index == NC_CONTROL_SURFACE_SPEED) spindles_.surface(a.value, a.bits);
+      if (a.index == NC_CONTROL_SPINDLE_CLAMP) spindles_.clamp(a.bits, a.mask, code_number(a.value));
       if (a.index == 96) {
         interrupt_mode_ = code_number(a.value);
         block_waits_ = true;  // a block that changes this is finished first
@@ -291,7 +312,7 @@ Scan::Done Scan::strobe(const Action& a) {
       m_ = code_number(a.value);
       break;
     case NC_ACTION_S:
-      spindle_.command(a.value);
+      spindles_.command(a.value);
       break;
     case NC_ACTION_T:
       t_ = code_number(a.value);
@@ -313,7 +334,8 @@ bool Scan::in_position(const nc_inputs& in, double width_of_block) const {
   if (!in.actual_valid) return true;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     const double width = width_of_block > 0 ? width_of_block : config_.limits[i].in_position;
-    if (width > 0 && std::fabs(in.actual.v[i] - wanted_[i]) > width) return false;
+    if (((c_axes_ & ~servo_ready_) >> i & 1) != 0) continue;  // a spindle
+    if (width > 0 && std::fabs(in.actual.v[i] - wanted_[i] - turned_[i]) > width) return false;
   }
   return true;
 }
@@ -358,7 +380,7 @@ Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
         gate_begun_ = false;
         return Done::yes;
       }
-      return g.kind == NC_GATE_DWELL_SECONDS ? dwell(1.0, g.value) : dwell(std::fabs(in.spindle_rev_per_s), g.value);
+      return g.kind == NC_GATE_DWELL_SECONDS ? dwell(1.0, g.value) : dwell(std::fabs(encoder(in).rev_per_s), g.value);
     case NC_GATE_IN_POSITION:
       return in_position(in, g.value) ? Done::yes : wait(NC_CAUSE_IN_POSITION);
     case NC_GATE_OPTIONAL_STOP:
@@ -373,6 +395,8 @@ Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
 
 Scan::Done Scan::sync(const Record& r, const nc_inputs& in) {
   if (!in_position(in)) return wait(NC_CAUSE_IN_POSITION);
+  if (stale_ != 0) settle_axes();  // nothing is committed beyond a sync, and its answer says where the axes are
+  recalculate_ = false;
   ScanWorld w;
   w.serial = r.serial;
   for (unsigned i = 0; i < kMaxAxes; ++i) {
@@ -399,8 +423,15 @@ void Scan::mark(const Mark& m, const nc_inputs& in) {
     // What lies behind this block is given up and the feeder goes on with the interrupt program.
     interrupt_wanted_ = false;
     cut_.inside = false;
-    rereading_ = interrupt_reached_ = true;
+    if (stale_ != 0) settle_axes();
+    rereading_ = reread_reached_ = reread_interrupt_ = true;
     return;
+  }
+  if (m.resume && at_rest() && (recalculate_ || (stale_ != 0 && may_read_again()))) {
+    settle_axes();
+    recalculate_ = false;
+    rereading_ = reread_reached_ = true;
+    reread_interrupt_ = false;
   }
   if (thread || !stops_at(m, in)) return;
   if (hold_behind_thread_) {

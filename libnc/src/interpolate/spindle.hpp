@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed that the spindle is wanted at: the S code, or so many revolutions that the surface at the tool goes with a constant speed,
-// within the clamp (M700 10.3, 10.4).
+// The speeds that the spindles of a part system are wanted at: the S code, or so many revolutions that the surface at the tool goes with
+// a constant speed, within the clamp (M700 10.3, 10.4); and which of the spindles that is for (M700 10.6.1).
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -11,46 +12,86 @@
 
 namespace nc {
 
-class SpindleSpeed {
+class SpindleSpeeds {
  public:
+  void create(unsigned count) { count_ = count; }
+  unsigned count() const { return count_; }
+
+  /// M700 10.6.1 (1): bit n: spindle n+1 follows what is commanded; the others keep the speed that they have.
+  void select(uint8_t selected) {
+    selected_ = selected;
+    if (selected != 0) lead_ = static_cast<unsigned>(std::countr_zero(selected));
+  }
+  uint8_t selected() const { return selected_; }
+  /// The selected spindle, the first of several; while none is, the one that was.
+  unsigned lead() const { return lead_; }
+
   void command(double rev_min) { code_ = rev_min; }
   /// m/min around the coordinate of `axis` (from 1); 0 = the speed stays what it is until the next code.
   void surface(double m_min, unsigned axis) {
-    if (axis == 0 && axis_ != 0) code_ = now_;
+    if (axis == 0 && axis_ != 0) code_ = spindle_[lead_].now;
     m_min_ = m_min;
     axis_ = axis;
   }
-  /// `how`: bit 0 in G97 too, bit 1 a reset keeps it.
-  void clamp(uint32_t low, uint32_t high, uint32_t how) {
-    low_ = low;
-    high_ = high;
-    how_ = how;
+  /// G92 S Q of the selected spindles (M700 10.6.1, relation (1)); `how`: nc_clamp_bits. Without S and Q no spindle is clamped any more.
+  void clamp(uint32_t s, uint32_t q, uint32_t how) {
+    const bool any = (how & (NC_CLAMP_S | NC_CLAMP_Q)) != 0;
+    for (unsigned i = 0; i < count_; ++i) {
+      if (any && (selected_ >> i & 1) == 0) continue;
+      Spindle& spindle = spindle_[i];
+      if (!any) spindle = {.now = spindle.now};
+      if ((how & NC_CLAMP_S) != 0) {
+        spindle.s = s;
+        spindle.has_s = true;
+      }
+      if ((how & NC_CLAMP_Q) != 0) spindle.q = q;
+      spindle.how = how;
+    }
   }
   /// G97 and no clamp; what turns goes on turning.
   void reset() {
     surface(0, 0);
-    if ((how_ & 2) == 0) clamp(0, 0, 0);
+    for (Spindle& spindle : spindle_)
+      if ((spindle.how & NC_CLAMP_OVER_RESET) == 0) spindle = {.now = spindle.now};
   }
 
   /// `coordinate(axis)`: workpiece coordinate in mm of an axis counted from 0. No speed is as high as one around the centre.
   template <class Coordinate>
-  double now(const Coordinate& coordinate) NC_RT {
-    double speed = code_;
-    if (axis_ != 0) speed = 1000 * m_min_ / (2 * std::numbers::pi * std::max(std::fabs(coordinate(axis_ - 1)), kSmallestRadius));
-    if (axis_ != 0 || (how_ & 1) != 0) {
-      if (high_ != 0) speed = std::min(speed, static_cast<double>(high_));
-      if (speed > 0) speed = std::max(speed, static_cast<double>(low_));
-    }
-    return now_ = speed;
+  void update(const Coordinate& coordinate) NC_RT {
+    double wanted = code_;
+    if (axis_ != 0) wanted = 1000 * m_min_ / (2 * std::numbers::pi * std::max(std::fabs(coordinate(axis_ - 1)), kSmallestRadius));
+    for (unsigned i = 0; i < count_; ++i)
+      if ((selected_ >> i & 1) != 0) spindle_[i].now = clamped(spindle_[i], wanted);
   }
+  /// r/min of a spindle, counted from 0.
+  double now(unsigned spindle) const { return spindle_[spindle].now; }
+  /// What the S command stands for: the speed of the selected spindle; of none the code.
+  double commanded() const { return selected_ != 0 ? spindle_[lead_].now : code_; }
 
  private:
   static constexpr double kSmallestRadius = 1e-3;  // mm
 
-  double code_ = 0, m_min_ = 0, now_ = 0;
+  struct Spindle {
+    double now = 0;
+    bool has_s = false;
+    uint32_t s = 0, q = 0, how = 0;  ///< clamp as programmed
+  };
+
+  double clamped(const Spindle& spindle, double speed) const {
+    if (axis_ == 0 && (spindle.how & NC_CLAMP_ALWAYS) == 0) return speed;
+    // M700 10.4, precaution (1): where the S that was commanded, if only S0, is smaller than Q the two change places. Without an S there is
+    // no upper clamp, and Q is the lower one.
+    const uint32_t high = spindle.has_s ? std::max(spindle.s, spindle.q) : 0;
+    const uint32_t low = spindle.has_s ? std::min(spindle.s, spindle.q) : spindle.q;
+    if (high != 0) speed = std::min(speed, static_cast<double>(high));
+    return speed > 0 ? std::max(speed, static_cast<double>(low)) : speed;
+  }
+
+  unsigned count_ = 1, lead_ = 0;
+  uint8_t selected_ = 1;
+  double code_ = 0, m_min_ = 0;
   unsigned axis_ = 0;
-  uint32_t low_ = 0, high_ = 0;
-  uint32_t how_ = 0;
+  Spindle spindle_[NC_MAX_SPINDLES];
 };
 
 }  // namespace nc

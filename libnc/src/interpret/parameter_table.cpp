@@ -88,6 +88,7 @@ constexpr ParameterRow kRows[] = {
     {1516, 1516, 1, kAll, false, any,                  "an axis",                 "rotary axis of cylindrical and polar coordinate interpolation", "6.9"},
     {1517, 1517, 1, kAll, false, whole<0, 1>,          kOffOn,                    "the hypothetical axis of G12.1 has the rotary axis' own name", "6.10"},
     {1533, 1533, 1, kAll, false, any,                  "an axis",                 "linear axis of polar coordinate interpolation", "6.10"},
+    {2031, 2031, 1, kAll, true,  whole<0, 1>,          kOffOn,                    "an axis that is a spindle too needs no reference position return", "10.5"},
     {2037, 2040, 1, kAll, true,  any,                  "mm",                      "reference positions 1 to 4", "14.3"},
     {2076, 2076, 1, kAll, true,  whole<0, 1>,          kOffOn,                    "axis of an index table", "9.3"},
     {2096, 2096, 1, kAll, true,  at_least_0,           "mm/min",                  "least speed at a corner", "13.15"},

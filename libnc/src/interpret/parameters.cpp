@@ -325,6 +325,8 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.keeps_polar_command = flag("1210/bit11");
   for (unsigned i = 0; i < kMaxAxes; ++i)
     if (number("2076", 0, static_cast<int>(i)) != 0) s.index_axes |= 1u << i;
+  for (unsigned i = 0; i < kMaxAxes; ++i)
+    if (number("2031", 0, static_cast<int>(i)) != 0) s.no_reference |= 1u << i;
   s.rapid_by_axis = flag("1086");
   for (unsigned i = 0; i < kMaxAxes; ++i)
     if (number("8211", 0, static_cast<int>(i)) != 0) s.mirror_axes |= 1u << i;

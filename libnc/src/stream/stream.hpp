@@ -106,7 +106,8 @@ struct FeedRule {
   float digit_most = 0, digit_step = 0;  ///< F1 to F5: limit of the handle, change by one pulse of it, mm/min
   float corner_override = 0;   ///< G62: factor before an inner corner (M700 7.10), 0 = none
   float corner_angle = 0;      ///< at corners that are sharper than this, rad
-  float slow_zone = 0;         ///< over this length before the end, mm
+  float slow_zone = 0;         ///< over this length before the end, which is such a corner, mm
+  float corner_reach = 0;      ///< the same for a corner at the end of a block behind, mm
 };
 
 /// Feeds that the skip signals of a G31 call for (M700 15.5). One such move is under way at a time: it is followed by a sync.

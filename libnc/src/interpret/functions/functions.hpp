@@ -100,7 +100,6 @@ Did set_surface_speed(Interpreter& in);               ///< G96 G97 of the block
 Did surface_word(Interpreter& in);                    ///< S while G96 is in force
 bool is_clamp_command(const Interpreter& in);         ///< the S of this block is one of G92
 Did set_spindle_clamp(Interpreter& in);               ///< G92 S Q
-void announce_spindle_clamp(Interpreter& in);
 void end_spindle_control(Interpreter& in);            ///< M02, M30
 /// M S T B of this block go out behind its motion.
 bool codes_behind_motion(const Interpreter& in);

@@ -81,22 +81,12 @@ Did set_spindle_clamp(Interpreter& in) {
   if (s) spindle.clamp_s = largest + 1;
   if (did == Did::done && w.has('Q')) did = speed_word(in, 'Q', &spindle.clamp_q);
   if (did != Did::done) return did;
-  announce_spindle_clamp(in);
-  return Did::done;
-}
-
-void announce_spindle_clamp(Interpreter& in) {
-  const SpindleControl& spindle = in.state.spindle;
-  // 10.4, precaution (1): where the S that was commanded, if only S0, is smaller than Q the two change places. Without an S there is no
-  // upper clamp, and Q is the lower one.
-  uint32_t high = spindle.clamp_s != 0 ? spindle.clamp_s - 1 : 0, low = spindle.clamp_q;
-  if (spindle.clamp_s != 0 && high < low) {
-    high = spindle.clamp_q;
-    low = spindle.clamp_s - 1;
-  }
-  // In G97 only with Sclamp = 1 and aux11 bit 5 = 0.
+  // 10.4, Sclamp and aux11 bit 5: in G97 only with Sclamp = 1 and bit 5 = 0.
   const bool always = in.settings.clamp_command_always && !in.settings.clamp_in_g96_only;
-  emit_control(in, NC_CONTROL_SPINDLE_CLAMP, (always ? 1 : 0) + (in.settings.keeps_clamp ? 2 : 0), low, high);
+  emit_control(in, NC_CONTROL_SPINDLE_CLAMP,
+               (always ? NC_CLAMP_ALWAYS : 0) + (in.settings.keeps_clamp ? NC_CLAMP_OVER_RESET : 0) + (s ? NC_CLAMP_S : 0) + (w.has('Q') ? NC_CLAMP_Q : 0),
+               spindle.clamp_q, spindle.clamp_s != 0 ? spindle.clamp_s - 1 : 0);
+  return Did::done;
 }
 
 void end_spindle_control(Interpreter& in) {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hal/sim/sim_spindle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nc::hal {
+namespace {
+
+constexpr double kOrientRpm = 300;
+
+}  // namespace
+
+void SimSpindle::set_servo(bool on) noexcept {
+  if (on == (phase_ != Phase::kTurning)) return;
+  phase_ = on ? Phase::kStopping : Phase::kTurning;
+}
+
+void SimSpindle::step(double cycle_s, double wanted_rpm, double ramp_rpm_per_s) noexcept {
+  if (phase_ == Phase::kHolding) return;
+  if (phase_ == Phase::kOrienting) {
+    rpm_ = kOrientRpm;
+    turns_ += rpm_ / 60.0 * cycle_s;
+    if (turns_ < mark_) return;
+    turns_ = mark_;
+    rpm_ = 0;
+    phase_ = Phase::kHolding;
+    return;
+  }
+  const double target = phase_ == Phase::kStopping ? 0 : wanted_rpm;
+  const double step = ramp_rpm_per_s * cycle_s;
+  rpm_ += std::clamp(target - rpm_, -step, step);
+  turns_ += rpm_ / 60.0 * cycle_s;
+  if (phase_ != Phase::kStopping || rpm_ != 0) return;
+  phase_ = Phase::kOrienting;
+  mark_ = std::floor(turns_) + 1;
+}
+
+void SimSpindle::turn_axis(double degrees, double cycle_s) noexcept {
+  turns_ += degrees / 360;
+  rpm_ = degrees / 360 / cycle_s * 60;
+}
+
+double SimSpindle::angle_deg() const noexcept { return 360 * (turns_ - std::floor(turns_)); }
+
+}  // namespace nc::hal

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// One spindle of the simulated machine. It ramps to the speed that it is wanted at, and its encoder counts. With its servo on it comes
+// to rest, turns on to its zero mark (orientation) and holds its position from then on: it is a C axis (M700 10.5).
+#pragma once
+
+namespace nc::hal {
+
+class SimSpindle {
+ public:
+  void set_servo(bool on) noexcept;
+  // One cycle towards `wanted_rpm` (signed), or what the servo asks for.
+  void step(double cycle_s, double wanted_rpm, double ramp_rpm_per_s) noexcept;
+  // The axis that it is has turned it by so many degrees.
+  void turn_axis(double degrees, double cycle_s) noexcept;
+
+  double rpm() const { return rpm_; }
+  double turns() const { return turns_; }
+  double angle_deg() const noexcept;  // 0 <= angle < 360
+  bool ready() const { return phase_ == Phase::kHolding; }
+
+ private:
+  enum class Phase { kTurning, kStopping, kOrienting, kHolding };
+  Phase phase_ = Phase::kTurning;
+  double rpm_ = 0, turns_ = 0;
+  double mark_ = 0;  // turns at which it is oriented
+};
+
+}  // namespace nc::hal

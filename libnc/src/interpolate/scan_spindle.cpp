@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which spindles the program commands (M700 10.6), and axes that are a spindle, too (M700 10.5): the C axis.
+//
+// While its servo is off such an axis is a spindle: its position counter is held, and the spindle turns away under it. When the servo is
+// ready the counter takes the position that the axis really has. What has been committed meanwhile knows nothing of it, so the axis then
+// stands beside that path by `turned_`: it goes along beside it, which is right for every move that does not turn it. A move that does is
+// not executed. What is committed is read again from the end of the block on, from where the axes are; nothing is to be done where the
+// interpreter has waited for this moment (a sync: an M code that prohibits reading ahead).
+#include <cmath>
+
+#include "interpolate/scan.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kSamePlace = 1e-6;  ///< deg
+
+uint8_t with(uint8_t bits, uint8_t bit, bool on) { return static_cast<uint8_t>(on ? bits | bit : bits & ~bit); }
+
+}  // namespace
+
+/// The measured spindle of feed per revolution, threads and dwells.
+const nc_spindle_inputs& Scan::encoder(const nc_inputs& in) const {
+  static constexpr nc_spindle_inputs kNone{};
+  return encoder_ != 0 ? in.spindle[encoder_ - 1] : kNone;
+}
+
+void Scan::follow_spindles(const nc_inputs& in) {
+  losing_ = false;
+  // M700 10.6.1, relation (3) to (5): the selection is not to be changed while the spindle cuts a thread. What is in the work goes on.
+  const bool engaged = tapping_ || cutting_thread();
+  if (!engaged) {
+    const unsigned count = spindles_.count();
+    if (count > 1) spindles_.select(static_cast<uint8_t>(in.spindle_select & ((1u << count) - 1)));
+    encoder_ = in.spindle_encoder == 0 ? spindles_.lead() + 1 : in.spindle_encoder <= count ? in.spindle_encoder : 0;
+  }
+  if (c_axes_ == 0) return;
+  for (unsigned i = 0; i < config_.axis_count; ++i) {
+    const auto bit = static_cast<uint8_t>(1u << i);
+    if ((c_axes_ & bit) == 0) continue;
+    const unsigned spindle = config_.axis_spindle[i] - 1u;
+    const bool kept = engaged && ((spindles_.selected() >> spindle & 1) != 0 || encoder_ == spindle + 1);
+    if (!kept) servo_on_ = with(servo_on_, bit, (in.servo_on & bit) != 0);
+    const bool ready = (servo_on_ & bit) != 0 && in.spindle[spindle].servo_ready;
+    if (ready && (servo_ready_ & bit) == 0) take_position(i, in);
+    servo_ready_ = with(servo_ready_, bit, ready);
+    referenced_ = with(referenced_, bit, ready && in.spindle[spindle].zero_passed);
+  }
+}
+
+/// M700 10.5 (1): at servo READY the counter is updated for the way of the spindle.
+void Scan::take_position(unsigned axis, const nc_inputs& in) {
+  const nc_spindle_inputs& spindle = in.spindle[config_.axis_spindle[axis] - 1];
+  double place = command_[axis];
+  if (in.actual_valid) place = in.actual.v[axis];
+  else if (spindle.turns_valid) place = 360 * (spindle.turns - std::floor(spindle.turns));
+  turned_[axis] = place - wanted_[axis];
+  command_[axis] = last_command_[axis] = place;
+  stale_ = static_cast<uint8_t>(stale_ | 1u << axis);
+  if (!at_rest() || frozen_ || rereading_) return;
+  if (state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM) return settle_axes();
+  if (state_ != NC_STATE_STOPPED || !between_blocks()) return;
+  settle_axes();
+  displaced_ = true;  // as by hand: what follows is read again at the start
+}
+
+/// Whoever makes the path goes on from where the axes are.
+void Scan::settle_axes() {
+  dropping_ = false;
+  if (stale_ == 0) return;
+  for (unsigned i = 0; i < config_.axis_count; ++i) {
+    wanted_[i] += turned_[i];
+    target_[i] += turned_[i];
+    turned_[i] = 0;
+  }
+  stale_ = 0;
+  shape_.reset(wanted_);
+}
+
+bool Scan::moves_any(const Segment& s, uint8_t axes) const {
+  if (axes == 0) return false;
+  AxisVec low, high;
+  const bool curved = s.curve.circular || s.curve.shape != nullptr;
+  if (curved) curve_bounds(s.curve, config_.axis_count, &low, &high);
+  for (unsigned i = 0; i < config_.axis_count; ++i)
+    if ((axes >> i & 1) != 0 && (curved ? high[i] > low[i] : s.curve.delta[i] != 0)) return true;
+  return false;
+}
+
+/// M700 10.5, precaution (3): without its servo the C axis stops, and at the next servo ON the rest of its command is dropped: here all that
+/// the block has left, because the other axes of the move go on with it. True: `done` says what becomes of the move.
+bool Scan::lost_move(const Record& r, Done* done) {
+  *done = Done::yes;
+  if (dropping_) return true;
+  if (stale_ != 0 && !moving_ && at_rest()) {  // it may have been made when the axis stood there already
+    bool known = true;
+    for (unsigned i = 0; i < config_.axis_count; ++i)
+      known = known && std::fabs(r.segment.curve.start[i] - wanted_[i] - turned_[i]) <= kSamePlace;
+    if (known) settle_axes();
+  }
+  const auto closed = static_cast<uint8_t>(c_axes_ & ~servo_ready_);
+  if (!moves_any(r.segment, static_cast<uint8_t>(closed | stale_))) return false;
+  losing_ = true;
+  if (!at_rest()) return false;
+  if (moves_any(r.segment, closed)) {
+    *done = wait(NC_CAUSE_SERVO_OFF);
+    return true;
+  }
+  losing_ = moving_ = false;
+  dropping_ = true;
+  law_.s = 0;
+  follower_.give_up();
+  return true;
+}
+
+/// At the end of a block, a C axis being elsewhere. An alarm that has been read stays: that is how the reference check made as the block is
+/// read shows (M700 10.5 (2), note), unless a move that would be dropped comes before it.
+bool Scan::may_read_again() const {
+  if (dropping_) return true;
+  for (uint32_t at = tail_ + 1; at != end_; ++at) {
+    const Record& r = ring_[at & mask_];
+    if (r.kind == ItemKind::alarm) return false;
+    if (r.kind == ItemKind::move && moves_any(r.segment, stale_)) return true;
+  }
+  return true;
+}
+
+/// M700 10.6.1, relation (4), (5): in the tapping mode another selection is wanted, or its spindle as a C axis. The axes wait until that
+/// is taken back (operation error M01 1026).
+bool Scan::tap_disturbed(const nc_inputs& in) const {
+  const unsigned count = spindles_.count();
+  if (count > 1 && (in.spindle_select & ((1u << count) - 1)) != spindles_.selected()) return true;
+  for (unsigned i = 0; i < config_.axis_count; ++i) {
+    if ((c_axes_ & in.servo_on & ~servo_on_) >> i & 1) return true;
+  }
+  return false;
+}
+
+}  // namespace nc
