@@ -33,7 +33,7 @@ constexpr FunctionRow kListed[] = {
     {80, 0, F::high_accuracy, nullptr, "high-accuracy control on and off", "13.15",
      "speed clamps only: S-pattern filters and radius error compensation are not built"},
     {90, 0, F::exact_stop_once, nullptr, "exact stop check in this block", "7.7"},
-    {100, 0, F::data_input, nullptr, "data input by program", "12.7", "L3 (tool life): P172"},
+    {100, 0, F::data_input, nullptr, "data input by program", "12.7", "L3 (tool life): P39"},
     {110, 0, F::data_input_end, nullptr, "data input end", "12.7, 13.11"},
     {120, 0, F::missing, "P224", "circle cutting clockwise", "13.10"},
     {121, 21, F::polar_on, nullptr, "polar coordinate interpolation", "6.10"},
