@@ -170,10 +170,9 @@ void BM_ReplanOverride(benchmark::State& state) {
 }
 BENCHMARK(BM_ReplanOverride);
 
-/// plan() of the time-optimal mode on an endless path, called every five cycles as a feeder does. Argument: segment length in um.
-void BM_PlanOptimal(benchmark::State& state) {
-  const std::vector<Record> records = surface(static_cast<double>(state.range(0)) * 1e-3, 100);
-  ExecutorConfig config = config_of(4096);
+/// plan() of the time-optimal mode on an endless path, called every five cycles as a feeder does.
+void plan_optimal(benchmark::State& state, const std::vector<Record>& records, uint32_t capacity) {
+  ExecutorConfig config = config_of(capacity);
   config.optimal = true;
   config.tolerance = 0.01;
   Machine m(config);
@@ -185,7 +184,7 @@ void BM_PlanOptimal(benchmark::State& state) {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
   };
   for (auto _ : state) {
-    while (m.executor.room() > 0) m.executor.push(records[pushed++ % kPieces]);
+    while (m.executor.room() > 0) m.executor.push(records[pushed++ % records.size()]);
     const double from = now();
     m.executor.plan();
     const double took = now() - from;
@@ -200,9 +199,36 @@ void BM_PlanOptimal(benchmark::State& state) {
   const double gone = static_cast<double>(pushed - (config.capacity - m.executor.room()));  // what waits in the ring is not planned for
   state.counters["segments/s"] = gone / planning;
   state.counters["real time x"] = static_cast<double>(cycles) * config.cycle_s / planning;
+  state.counters["path_mm/s"] = m.out.path_length / (static_cast<double>(cycles) * config.cycle_s);
   state.counters["longest ms"] = longest * 1e3;
 }
+/// A wave of 126 lines, whatever their length: short lines make small bends. Argument: segment length in um.
+void BM_PlanOptimal(benchmark::State& state) {
+  plan_optimal(state, surface(static_cast<double>(state.range(0)) * 1e-3, 100), 4096);
+}
 BENCHMARK(BM_PlanOptimal)->Arg(200)->Arg(50)->Arg(10)->Arg(1)->UseManualTime()->Iterations(3000);
+
+/// A circle of 10 mm in lines, which is gone at full feed. Argument: segment length in um.
+void BM_PlanOptimalCircle(benchmark::State& state) {
+  constexpr double kRadius = 10;
+  const unsigned count = static_cast<unsigned>(2 * 3.14159265358979 * kRadius * 1e3 / static_cast<double>(state.range(0)));
+  std::vector<Record> records;
+  AxisVec at;
+  for (unsigned i = 1; i <= count; ++i) {
+    AxisVec end;
+    const double angle = 2 * 3.14159265358979 * i / count;
+    if (i < count) end[0] = kRadius * (std::cos(angle) - 1), end[1] = kRadius * std::sin(angle);
+    Record r;
+    r.kind = ItemKind::move;
+    r.segment = Segment{};
+    r.segment.curve = make_line(at, end, 3, 0);
+    r.segment.feed_mm_s = 100;
+    records.push_back(r);
+    at = end;
+  }
+  plan_optimal(state, records, 65536);
+}
+BENCHMARK(BM_PlanOptimalCircle)->Arg(200)->Arg(50)->Arg(10)->Arg(1)->UseManualTime()->Iterations(3000);
 
 /// One servo cycle on an endless path; feeding is off the clock. Argument: segment length in um.
 void BM_Cycle(benchmark::State& state, bool arcs) {

@@ -71,6 +71,21 @@ TEST(Planned, ALongLineOfShortOnesDoesNotStarve) {
   EXPECT_LE(static_cast<double>(m.cycles) * 0.001, 4.2);
 }
 
+/// More lines in the ring than there is room for pieces and knots: what cannot be smoothed at once waits and does not rest.
+TEST(Planned, ALargeRingOfLinesIsGoneAtFullFeed) {
+  ExecutorConfig config = optimal_config();
+  config.capacity = 16384;
+  Program p(config);
+  for (int n = 1; n <= 8000; ++n) p.line(at(n, 20 * std::sin(n * 0.01)), 200);
+  p.end();
+  Machine m(config);
+  ASSERT_TRUE(m.run_to_end(p, 60000)) << m.out.cause << " " << m.out.command.v[0];
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  double length = 0;
+  for (const Record& r : p.records) length += r.kind == ItemKind::move ? r.segment.curve.length : 0;
+  EXPECT_LE(static_cast<double>(m.cycles) * 0.001, length / 200 + 0.3);
+}
+
 /// Every record once and in its order.
 std::string check_order(const Program& p, const std::vector<nc_event>& events) {
   if (events.size() != p.records.size()) return std::to_string(events.size()) + " events";

@@ -16,6 +16,8 @@ constexpr double kOfRing = 32;         ///< knots of the lines that the ring of 
 constexpr unsigned kWorthwhile = 16;   ///< vertices that are waited for, at least, before a line is smoothed again
 constexpr unsigned kOfWaiting = 5;     ///< and that part of those that wait
 constexpr unsigned kGathered = 64;     ///< the same while more records lie in the ring
+constexpr unsigned kFewest = 64;       ///< vertices that are smoothed at once, where less would do
+constexpr unsigned kAhead = 128;       ///< vertices that are gathered while there is no room for their pieces
 constexpr unsigned kMostAtOnce = 512;  ///< pieces of one smoothing
 constexpr unsigned kOfArc = 52;        ///< pieces of a curve and its transition
 constexpr unsigned kParts = 32;        ///< pieces of a curve that is no arc, at most
@@ -444,9 +446,9 @@ unsigned PathBuilder::straight() {
   return 1;
 }
 
-/// The smoothed line in out_, 0 = none. `whole`: to its end, where it is straight when a transition follows.
-unsigned PathBuilder::smoothed(bool whole, SmoothRequest* request) {
-  request->line = {vertex_, length_, feed_, count_};
+/// The first `count` vertices of the line smoothed in out_, 0 = none. `whole`: to its end, where it is straight when a transition follows.
+unsigned PathBuilder::smoothed(bool whole, unsigned count, SmoothRequest* request) {
+  request->line = {vertex_, length_, feed_, count};
   request->tolerance = tolerance_;
   request->axis_count = limits_.axis_count;
   request->straight_start = joined_start_ && !goes_on_;
@@ -496,11 +498,12 @@ bool PathBuilder::smooth_line(bool whole) {
   if (count_ < 2) return false;
   if (!room(whole ? 1 : kMostAtOnce)) return false;
   tried_ = count_;
-  const bool lone = whole && count_ == 2 && !goes_on_;
-  SmoothRequest request;
-  const unsigned cells = lone ? straight() : smoothed(whole, &request), first = goes_on_ ? kFirstCell : 0;
   if (whole) {
+    const bool lone = count_ == 2 && !goes_on_;
+    SmoothRequest request;
+    const unsigned cells = lone ? straight() : smoothed(true, count_, &request), first = goes_on_ ? kFirstCell : 0;
     if (lone || cells != 0) return close_line(first, cells);
+    if (count_ > kFewest && room(kMostAtOnce) && give_settled()) return smooth_line(true);
     if (joint_.found) {
       part_at_joint();
       return smooth_line(true);
@@ -508,12 +511,22 @@ bool PathBuilder::smooth_line(bool whole) {
     if (goes_on_) rest_here();
     return stop_at_vertices();
   }
-  if (cells == 0) return false;
-  const unsigned border = settled_cells(request, room_, cells);
-  if (border <= first || !give_out(first, border, false)) return false;
-  go_on(border);
-  tried_ = count_;
-  return true;
+  return give_settled();
+}
+
+/// What is settled of the gathered line. Where it would take more knots than there is room for, only the first part of it is looked at.
+bool PathBuilder::give_settled() {
+  for (unsigned n = count_; n >= kFewest; n /= 2) {
+    SmoothRequest request;
+    const unsigned cells = smoothed(false, n, &request), first = goes_on_ ? kFirstCell : 0;
+    if (cells == 0) continue;
+    const unsigned border = settled_cells(request, room_, cells);
+    if (border <= first || !give_out(first, border, false)) return false;
+    go_on(border);
+    tried_ = count_;
+    return true;
+  }
+  return false;
 }
 
 /// The path rests where its pieces end, within the tolerance of the line, and the rest of the line begins there.
@@ -570,7 +583,7 @@ bool PathBuilder::add(const Record& r, bool* more) {
     *more = true;
   } else {
     if (count_ + 2 >= kVertices && smooth_line(false)) *more = true;
-    if (count_ + 2 >= kVertices || !room(kOfArc)) return false;
+    if (count_ + 2 >= kVertices || !room(count_ < kAhead ? kOfArc : kMostAtOnce)) return false;
     if (arc_.curve != nullptr) {
       const JointSide line = line_through(s.curve.start, s.curve.start, s.curve.end, s.curve.length, limits_.axis_count);
       joined_start_ = leave_arc(line, 0.5 * s.curve.length, least_feed(s));

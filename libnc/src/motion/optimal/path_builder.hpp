@@ -52,7 +52,8 @@ class PathBuilder {
   bool resumes(const Segment& s) const;
   void go_there(const AxisVec& to, const Piece& curve);
   unsigned straight();
-  unsigned smoothed(bool whole, SmoothRequest* request);
+  unsigned smoothed(bool whole, unsigned count, SmoothRequest* request);
+  bool give_settled();
   bool close_line(unsigned first, unsigned cells);
   void forget_line();
   bool smooth_line(bool whole);
