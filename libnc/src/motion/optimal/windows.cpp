@@ -18,6 +18,7 @@ struct Attempt {
 constexpr Attempt kAttempts[] = {
     {0.7, kMaxCells, 1}, {0.4, kMaxCells, 0.7}, {0.7, kMaxCells / 2, 0.5}, {0.3, kMaxCells / 2, 1.2}};
 constexpr double kSpare = 1.3;
+constexpr unsigned kFiner = 2;      ///< a short path from rest to rest has cells of this part, which it gains some percent by
 constexpr unsigned kTightened = 6;  ///< times that a law is corrected
 constexpr double kExcess = 1.0005;  ///< of a limit, that a law may use inside its cells
 constexpr unsigned kLooks = 8;      ///< places inside a cell that are looked at
@@ -118,6 +119,10 @@ bool Windows::solve(unsigned tries) {
     request_.most = std::min(attempt.cells, most_);
     request_.period = period_ * attempt.period;
     mesher_.build(request_, limits_, &mesh_);
+    if (request_.from_rest && mesher_.whole() && kFiner * mesh_.cells <= request_.most) {
+      request_.period /= kFiner;
+      mesher_.build(request_, limits_, &mesh_);
+    }
     for (unsigned n = 0; n < kTightened; ++n) {
       time_law_.solve(mesh_, limits_, n > 0, &law_);
       iterations_ += law_.iterations;
