@@ -119,7 +119,7 @@ bool Windows::solve(unsigned tries) {
     request_.most = std::min(attempt.cells, most_);
     request_.period = period_ * attempt.period;
     mesher_.build(request_, limits_, &mesh_);
-    if (request_.from_rest && mesher_.whole() && kFiner * mesh_.cells <= request_.most) {
+    if (request_.from_rest && request_.count > 1 && mesher_.whole() && kFiner * mesh_.cells <= request_.most) {
       request_.period /= kFiner;
       mesher_.build(request_, limits_, &mesh_);
     }
