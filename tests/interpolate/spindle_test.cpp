@@ -73,6 +73,15 @@ TEST_F(Speeds, WhereSIsSmallerThanQTheyChangePlaces) {  // M700 10.4, precaution
   EXPECT_EQ(now(0), 100);
 }
 
+TEST_F(Speeds, QAloneIsTheLowerClamp) {  // M700 10.4: until an S is given
+  speeds.select(1);
+  speeds.clamp(0, 200, NC_CLAMP_Q | NC_CLAMP_ALWAYS);
+  speeds.command(100);
+  EXPECT_EQ(now(0), 200);
+  speeds.command(5000);
+  EXPECT_EQ(now(0), 5000);
+}
+
 TEST_F(Speeds, ConstantSurfaceSpeedOfWhoeverIsSelected) {
   speeds.select(1);
   speeds.surface(100, 1);
