@@ -19,7 +19,7 @@ std::function<void(nc_config&)> turning_machine(bool optimal) {
     c.system[0].axis[kC].rotary = true;
     c.system[0].axis[kC].spindle = 1;
     for (unsigned i = 0; i < 4; ++i) {
-      c.system[0].axis[i].rapid = 100;
+      c.system[0].axis[i].rapid = 200;
       c.system[0].axis[i].max_velocity = 100;
       c.system[0].axis[i].max_acceleration = 1000;
       c.system[0].axis[i].max_jerk = optimal ? 100000 : 0;

@@ -3,6 +3,9 @@
 // cycle, whatever the operator and the feeder do, and goes where the program says.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "interpolate/random_program.hpp"
 #include "interpolate/test_machine.hpp"
 
@@ -39,6 +42,28 @@ TEST(Planned, ASquareWithExactStopsHitsItsCorners) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
   EXPECT_EQ(check_events(p, m.events, 3), "");
   EXPECT_NEAR(static_cast<double>(m.cycles) * 0.001, 4.256, 0.02);
+}
+
+/// A line by itself under limits that make its cells few or many, and more of them than one law may have.
+TEST(Planned, ALineByItselfIsGoneUnderAnyLimits) {
+  for (const double velocity : {50.0, 200.0, 1000.0})
+    for (const double acceleration : {500.0, 2000.0, 20000.0})
+      for (const double jerk : {5000.0, 100000.0, 2000000.0})
+        for (const double length : {0.3, 2 * velocity}) {
+          SCOPED_TRACE(testing::Message() << velocity << " " << acceleration << " " << jerk << " " << length);
+          ExecutorConfig config = optimal_config();
+          config.limits[0] = {velocity, velocity, acceleration, jerk, 0.01};
+          Program p(config);
+          p.line(at(length, 0), velocity);
+          p.mark();
+          p.end();
+          Machine m(config);
+          ASSERT_TRUE(m.run_to_end(p, 60000)) << m.out.cause << " " << m.out.command.v[0];
+          EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+          // Somewhat more than a ramp and the way at full speed, which it need not come to.
+          const double ramp = std::max(velocity / acceleration + acceleration / jerk, 2 * std::sqrt(velocity / jerk));
+          EXPECT_LE(static_cast<double>(m.cycles) * 0.001, 1.05 * (length / velocity + ramp) + 0.02);
+        }
 }
 
 TEST(Planned, ASquareIsCutWithinItsTolerance) {

@@ -154,8 +154,9 @@ double Mesher::estimate(double u) {
   return std::min(speed_at(forward_, u, &hint_f_), speed_at(backward_, u, &hint_b_));
 }
 
-/// Walks along and sets a knot at every joint of pieces and about every `period` seconds.
-bool Mesher::cells(double end) {
+/// Walks along and sets a knot at every joint of pieces and about every `period` seconds. `fine`: a straight line by itself may have
+/// shorter cells where its speed changes.
+bool Mesher::cells(double end, bool fine) {
   const MeshRequest& in = *in_;
   Mesh& m = *mesh_;
   const double t = in.period;
@@ -174,7 +175,7 @@ bool Mesher::cells(double end) {
   m.cells = 0;
   hint_f_ = hint_b_ = 0;
   const double stop = end - landing;
-  const bool alone = in.count == 1 && in.from_rest && in.down == nullptr && !bound(in.from.piece).curved;
+  const bool alone = fine && in.count == 1 && in.from_rest && in.down == nullptr && !bound(in.from.piece).curved;
   while (u < end && m.cells < in.most) {
     const unsigned f = hint_f_, b = hint_b_;
     double h = launch;
@@ -295,7 +296,7 @@ PathPlace Mesher::build(const MeshRequest& request, const Limits& limits, Mesh* 
   forward();
   for (unsigned n = 0;; ++n) {
     backward(end_piece_, end_u_);
-    if (cells(end_u_)) break;
+    if (cells(end_u_, n == 0)) break;
     if (n == kShorter || mesh->cells < 4) {  // no law has so few cells
       mesh->cells = 0;
       return request.from;

@@ -71,7 +71,7 @@ class Mesher {
   void backward(unsigned end_piece, double end);
   double speed_at(const Track& track, double u, unsigned* hint) const;
   double estimate(double u);
-  bool cells(double end);
+  bool cells(double end, bool fine);
   void fill_knots();
 
   const MeshRequest* in_ = nullptr;
