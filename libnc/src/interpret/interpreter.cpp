@@ -203,10 +203,7 @@ void Interpreter::reset(bool keep_modal) {
   state = State{};
   state.machine = machine;
   state.port_open = port_open;
-  if (settings.keeps_clamp) {  // M700 10.4 (3): #1210 bit 19
-    state.spindle.clamp_s = spindle.clamp_s;
-    state.spindle.clamp_q = spindle.clamp_q;
-  }
+  state.spindle.clamped = settings.keeps_clamp && spindle.clamped;  // M700 10.4 (3): #1210 bit 19
   for (unsigned i = 0; i < NC_GROUPS; ++i) state.modal.code[i] = dialect->initial[i];
   if (settings.keeps_polar_command && modal.code[kGroupPolarCommand] == 160) state.modal.code[kGroupPolarCommand] = 160;  // M700 6.12 (3)
   if (!settings.start_absolute) state.modal.code[kGroupDistance] = 910;  // M700 5.1 (4)

@@ -50,7 +50,9 @@ struct Message {
 /// A point that blocks to come need: of an axis that is held, on the way of an arc in space, a control point.
 struct PathPoint {
   AxisVec at;
-  double weight = 1, knot = 0;  ///< of a control point; where an arc in space starts, the feed of its first block and the digit of F
+  double weight = 1, knot = 0;  ///< of a control point
+  double feed = 0;              ///< of the block where an arc in space starts, ...
+  uint16_t feed_digit = 0;      ///< ... and the digit of its F
   nc_source source{};
   bool operator==(const PathPoint&) const { return false; }  // each is one of its own
 };

@@ -82,11 +82,11 @@ struct NurbsState {
   bool active() const { return knots != 0; }
 };
 
-/// Constant surface speed and the clamp of the spindle (M700 10.3, 10.4).
+/// Constant surface speed and the clamp of the spindle (M700 10.3, 10.4): what it is clamped at is known where it is executed.
 struct SpindleControl {
   double surface = 0;          ///< S of G96, m/min
-  uint32_t clamp_s = 0, clamp_q = 0;  ///< S of G92 and 1 (0 = there was none), and its Q, r/min
   uint8_t axis = 0;            ///< of G96, from 1; 0 = G97
+  bool clamped = false;        ///< by G92 S Q
 };
 
 /// A block that a macro interrupt has cut and that goes on: what it has done already is not done again (M700 13.12).

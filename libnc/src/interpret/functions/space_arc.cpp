@@ -110,8 +110,8 @@ void emit_first_half(Interpreter& in, const AxisVec& middle, const SpaceArc* arc
   in.source = first.source;
   const double feed = state.modal.feed;
   const uint16_t digit = state.modal.feed_digit;
-  state.modal.feed = first.weight;  // F of its own block
-  state.modal.feed_digit = static_cast<uint16_t>(first.knot);
+  state.modal.feed = first.feed;  // F of its own block
+  state.modal.feed_digit = first.feed_digit;
   state.refresh_special();
   emit_half(in, middle, arc);
   state.modal.feed = feed;
@@ -164,8 +164,8 @@ Did move_space_arc(Interpreter& in, const AxisVec& target) {
   if (state.arc_step == ArcStep::none) {  // the first block: the point on the way
     PathPoint start{in.position()}, middle{target};
     start.source = middle.source = in.source;
-    start.weight = state.modal.feed;
-    start.knot = state.modal.feed_digit;
+    start.feed = state.modal.feed;
+    start.feed_digit = state.modal.feed_digit;
     state.arc_points = in.points.intern(start);
     in.points.intern(middle);
     state.arc_step = ArcStep::middle_given;

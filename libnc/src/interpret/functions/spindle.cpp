@@ -73,26 +73,25 @@ Did surface_word(Interpreter& in) {
 
 Did set_spindle_clamp(Interpreter& in) {
   const BlockWords& w = in.words;
-  SpindleControl& spindle = in.state.spindle;
   const bool s = w.has('S') && is_clamp_command(in);
   if (!s && !w.has('Q')) return Did::done;
-  uint32_t largest = 0;
+  uint32_t largest = 0, smallest = 0;
   Did did = s ? speed_word(in, 'S', &largest) : Did::done;
-  if (s) spindle.clamp_s = largest + 1;
-  if (did == Did::done && w.has('Q')) did = speed_word(in, 'Q', &spindle.clamp_q);
+  if (did == Did::done && w.has('Q')) did = speed_word(in, 'Q', &smallest);
   if (did != Did::done) return did;
+  in.state.spindle.clamped = true;
   // 10.4, Sclamp and aux11 bit 5: in G97 only with Sclamp = 1 and bit 5 = 0.
   const bool always = in.settings.clamp_command_always && !in.settings.clamp_in_g96_only;
   emit_control(in, NC_CONTROL_SPINDLE_CLAMP,
                (always ? NC_CLAMP_ALWAYS : 0) + (in.settings.keeps_clamp ? NC_CLAMP_OVER_RESET : 0) + (s ? NC_CLAMP_S : 0) + (w.has('Q') ? NC_CLAMP_Q : 0),
-               spindle.clamp_q, spindle.clamp_s != 0 ? spindle.clamp_s - 1 : 0);
+               smallest, largest);
   return Did::done;
 }
 
 void end_spindle_control(Interpreter& in) {
   const SpindleControl& spindle = in.state.spindle;
   if (spindle.axis != 0) emit_control(in, NC_CONTROL_SURFACE_SPEED, 0, 0, 0);
-  if ((spindle.clamp_s != 0 || spindle.clamp_q != 0) && !in.settings.keeps_clamp) emit_control(in, NC_CONTROL_SPINDLE_CLAMP, 0, 0, 0);
+  if (spindle.clamped && !in.settings.keeps_clamp) emit_control(in, NC_CONTROL_SPINDLE_CLAMP, 0, 0, 0);
 }
 
 }  // namespace nc
