@@ -61,6 +61,7 @@ enum class Answer : std::uint8_t {
   kNoDevice,          // no such device, or one that cannot be forced
   kTooManyForces,
   kNoLadder,
+  kSpindleNow,        // the axis is a spindle as long as its servo is off
   kNoAnswer           // the runtime does not run
 };
 
@@ -100,6 +101,8 @@ constexpr const char* answer_text(Answer answer) {
       return "32 devices are forced already";
     case Answer::kNoLadder:
       return "there is no ladder program";
+    case Answer::kSpindleNow:
+      return "the axis is a spindle now: its servo is off";
     case Answer::kNoAnswer:
       return "the runtime does not answer";
   }

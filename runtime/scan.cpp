@@ -210,6 +210,7 @@ Answer Scan::manual(const Command& command) noexcept {
   if (command.system >= systems_ || command.axis >= config_.nc.system[command.system].axis_count)
     return Answer::kAxisUnknown;
   const nc_axis_config& axis = config_.nc.system[command.system].axis[command.axis];
+  if (is_spindle_now(command.system, command.axis)) return Answer::kSpindleNow;
   Jog& jog = jog_[command.system][command.axis];
   if (command.kind == CommandKind::kJog) {
     if (!(command.value >= -axis.max_velocity && command.value <= axis.max_velocity))
@@ -227,6 +228,11 @@ Answer Scan::manual(const Command& command) noexcept {
     jog = {NC_MANUAL_REFERENCE, 0, ~0u};  // until the axis is there or reset
   }
   return Answer::kDone;
+}
+
+// M700 10.5: an axis that is a spindle as long as its servo is off.
+bool Scan::is_spindle_now(unsigned system, unsigned axis) const noexcept {
+  return config_.nc.system[system].axis[axis].spindle != 0 && (out_[system].servo_ready >> axis & 1u) == 0;
 }
 
 void Scan::build_nc_inputs() noexcept {
@@ -263,7 +269,7 @@ void Scan::build_nc_inputs() noexcept {
     in.clock_ms = local_ms;
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       Jog& jog = jog_[s][a];
-      if (stop || ending_ || mode_ != Mode::kManual || reset_phase_ != ResetPhase::kNone) jog = {};
+      if (stop || ending_ || mode_ != Mode::kManual || reset_phase_ != ResetPhase::kNone || is_spindle_now(s, a)) jog = {};
       in.manual[a].kind = jog.kind;
       in.manual[a].velocity = jog.kind == NC_MANUAL_JOG ? jog.value : 0;
       in.manual[a].distance = jog.kind == NC_MANUAL_STEP ? jog.value : 0;

@@ -141,6 +141,7 @@ class Scan {
   void acknowledge_alarms() noexcept;
   bool program_active() const noexcept;
   bool at_rest() const noexcept;
+  bool is_spindle_now(unsigned system, unsigned axis) const noexcept;
   bool machine_faulty() const noexcept;
   bool axes_stand() const noexcept;
   void watch_standstill() noexcept;

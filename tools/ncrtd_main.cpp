@@ -181,9 +181,11 @@ class Run {
       if (given_up(now)) return stop_by_reset();
       // Someone who gives commands continues it himself.
       if (now.system[0].nc.state == NC_STATE_STOPPED && !options_.commands) {
-        note("stop in line " + std::to_string(now.system[0].nc.source.line) + " (" +
-                       nc::rt::state_text(now.system[0].nc) + "): continued");
-        runtime_.execute(CommandKind::kCycleStart);
+        const Answer again = runtime_.execute(CommandKind::kCycleStart);
+        if (again != refused_ || again == Answer::kDone)  // not again and again that it is not
+          note("stop in line " + std::to_string(now.system[0].nc.source.line) + " (" + nc::rt::state_text(now.system[0].nc) + "): " +
+               (again == Answer::kDone ? "continued" : std::string("waits: ") + runtime_.explain(again)));
+        refused_ = again;
       }
     }
   }
@@ -275,6 +277,7 @@ class Run {
   nc::tools::PrintLines& printed_;
   std::uint64_t messages_ = 0;
   unsigned idle_looks_ = 0;
+  Answer refused_ = Answer::kDone;  // the last continuation of a stop
   std::uint32_t last_line_ = 0;
   const unsigned looks_ =
       options_.fast ? 100000 : 400;  // for the machine to come to rest; a look may be one scan

@@ -257,6 +257,54 @@ TEST_P(CAxis, OnlyAsAnAxisItIsMovedByHand) {
   EXPECT_GT(c(), 41);
 }
 
+/// Precaution (3) by hand: what was wanted of the axis before its servo went off, or while it was off, does not happen when it comes on.
+TEST_P(CAxis, ByHandNothingIsLeftOverTheServo) {
+  for (const nc_manual_kind kind : {NC_MANUAL_STEP, NC_MANUAL_HANDLE, NC_MANUAL_REFERENCE}) {
+    servo = true;
+    stands_at = 40;
+    start("M30");
+    ASSERT_TRUE(until_end());
+    ASSERT_TRUE(until([&] { return (drive->out.servo_ready & kServoC) != 0 && drive->out.state == NC_STATE_IDLE; }));
+    nc_manual& hand = drive->in.manual[kC];
+    hand = {static_cast<uint8_t>(kind), 0, 60};
+    step();
+    if (kind != NC_MANUAL_REFERENCE) hand = {};
+    ASSERT_TRUE(until([&] { return std::fabs(c() - 40) > 2; }));
+    servo = false;
+    for (unsigned n = 0; n < 5; ++n) step();
+    hand = {NC_MANUAL_STEP, 0, 25};  // pressed while it is a spindle
+    for (unsigned n = 0; n < 5; ++n) step();
+    hand = {};
+    stands_at = 200;
+    servo = true;
+    ASSERT_TRUE(until([&] { return (drive->out.servo_ready & kServoC) != 0; }));
+    for (unsigned n = 0; n < 300; ++n) step();
+    EXPECT_NEAR(c(), 200, 1e-9) << static_cast<int>(kind);
+    servo = false;
+    for (unsigned n = 0; n < 30; ++n) step();
+  }
+}
+
+/// Precaution (3): of a skip move, too; the other axes are not at its end then.
+TEST_P(CAxis, TheServoGoesOffDuringASkipMove) {
+  start("M80\nG31 X50. C360. F3000\n#100=#5061\nG90 G0 X60. C5.\nM30");
+  ASSERT_TRUE(until([&] { return drive->out.source.line == 2 && x() > 20; }));
+  servo = false;
+  ASSERT_TRUE(until([&] { return drive->out.cause == NC_CAUSE_SERVO_OFF; }));
+  const double stopped_at = x();
+  EXPECT_LT(stopped_at, 30);
+  stands_at = 300;
+  servo = true;
+  ASSERT_TRUE(until_end());
+  EXPECT_EQ(drive->alarm(), "");
+  EXPECT_NEAR(x(), 60, 1e-9);
+  EXPECT_NEAR(c(), 5, 1e-9);
+  double value = 0;
+  bool vacant = true;
+  ASSERT_EQ(nc_variable_get(bench.control(), 0, 100, &value, &vacant), NC_OK);
+  EXPECT_NEAR(value, stopped_at, 1e-6);
+}
+
 TEST_P(CAxis, TheServoDoesNotComeOnInTheTappingMode) {  // 10.6.1, relation (4): operation error M01 1026
   start("S600\nG63 G1 Z-5. F300\nG4 P8\nZ-10.\nG64\nM30");
   ASSERT_TRUE(until([&] { return drive->out.tapping && drive->out.command.v[2] < -1; }));

@@ -408,6 +408,37 @@ TEST(IndexTable, ATableThatWasStoppedGoesOnWithItsNextCommand) {
   EXPECT_EQ(m.diary, "+B b B B -B b- X M30");
 }
 
+/// (8), 2.3: by a whole number of places it comes to none of them.
+TEST(IndexTable, FromBetweenItsPlacesItDoesNotGoOnInG91) {
+  for (const char* block : {"G91 G0 B30.", "G91 G28 B30.", "G91 G31 B30. F100"}) {
+    Bench bench(NC_DIALECT_M700, five_axes);
+    bench.param("2076", "1", 'B').param("2106", "5", 'B');
+    TableMachine m(bench, "G1 F3600 B90.\nM30");
+    m.press_start();
+    ASSERT_TRUE(m.until([&] { return m.b() > 31; }));
+    reset(&m);
+    const double stopped = m.b();
+    bench.start(std::string(block) + "\nX10.\nM30");
+    m.press_start();
+    m.steps(300);
+    EXPECT_EQ(m.b(), stopped) << block;
+    EXPECT_EQ(m.drive.out.state, NC_STATE_ALARM) << block;
+    EXPECT_TRUE(m.unclamp()) << block;
+  }
+}
+
+/// 2.3: "is not checked with other axes".
+TEST(IndexTable, ALinearOneHasNoPlaces) {
+  Bench bench(NC_DIALECT_M700, five_axes);
+  bench.param("2076", "1", 'X').param("2106", "5", 'X');
+  TableMachine m(bench, "G1 F3600 X90.\nM30");
+  m.press_start();
+  ASSERT_TRUE(m.until([&] { return m.drive.out.command.v[0] > 31; }));
+  reset(&m);
+  m.steps(60);
+  EXPECT_EQ(m.drive.out.unclamp, 0u) << "clamped where it stands";
+}
+
 TEST(IndexTable, AResetWhileItIsClampedIsOne) {
   Bench bench(NC_DIALECT_M700, five_axes);
   bench.param("2076", "1", 'B');

@@ -478,7 +478,8 @@ void PartSystem::tell_axis_parameters() {
   axes.index = settings.index_axes;
   axes.turning = settings.machine_turn;
   axes.short_cut = settings.short_cut;
-  for (unsigned i = 0; i < interpreter.axis_count; ++i) axes.increment[i] = settings.index_increment[i];
+  for (unsigned i = 0; i < interpreter.axis_count; ++i)  // M700 2.3: of rotary axes only
+    axes.increment[i] = (interpreter.rotary >> i & 1) != 0 ? settings.index_increment[i] : 0;
   if (axes == told_axes_) return;
   told_axes_ = axes;
   executor.set_axis_parameters(axes);
@@ -539,7 +540,7 @@ nc_status PartSystem::feed(uint32_t budget) {
     nc_world world{};
     if (executor.sync_reached(open_sync_, &world)) {
       answer(world);
-      if (spindle_axes_ != 0) take_spindle_axes(world.machine);
+      if (spindle_axes_ != 0) take_spindle_axes(world);
     }
   }
   executor.plan();
@@ -551,11 +552,14 @@ nc_status PartSystem::feed(uint32_t budget) {
   return committed > 0 ? NC_OK : NC_WAITING;
 }
 
-/// Behind a sync: axes that are spindles too have turned without the program (M700 10.5 (1)).
-void PartSystem::take_spindle_axes(const nc_axes& machine) {
+/// Behind a sync: axes that are spindles too have turned without the program (M700 10.5 (1)); where a skip move has been dropped with its
+/// servo (precaution (3)) the others are not at its end either.
+void PartSystem::take_spindle_axes(const nc_world& world) {
+  const bool skip = (sync_what_ & NC_SYNC_SKIP) != 0 && !world.skipped;
+  const uint32_t axes = (skip ? ~uint32_t{0} : spindle_axes_) & ~uint32_t{interpreter.state.map.frozen};
   AxisVec here = commit_.machine();
   for (unsigned i = 0; i < interpreter.axis_count; ++i)
-    if ((spindle_axes_ >> i & 1) != 0) interpreter.state.machine[i] = here[i] = machine.v[i];
+    if ((axes >> i & 1) != 0) interpreter.state.machine[i] = here[i] = world.machine.v[i];
   commit_.set_machine(here);
 }
 

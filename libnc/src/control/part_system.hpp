@@ -80,7 +80,7 @@ class PartSystem {
   static bool stops(const Gate& gate) { return gate.kind == NC_GATE_STOP || gate.kind == NC_GATE_OPTIONAL_STOP; }
   bool read_again(Serial last);
   void displace(const AxisVec& machine);
-  void take_spindle_axes(const nc_axes& machine);
+  void take_spindle_axes(const nc_world& world);
   bool begin_interrupt();
   /// Offline: a signal would be accepted behind what has been given out; what is read ahead of that does not count.
   bool interruptible() const { return (uit_mode_ & (NC_INTERRUPT_ENABLED | NC_INTERRUPT_IN_SERVICE)) == NC_INTERRUPT_ENABLED && pulled_ < ItemKind::alarm; }

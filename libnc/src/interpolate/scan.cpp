@@ -366,13 +366,7 @@ void Scan::manual(const nc_inputs& in) {
     return;
   }
   const AxisVec before = wanted_;
-  nc_manual own[NC_MAX_AXES];
-  const nc_manual* wish = in.manual;
-  if ((c_axes_ & ~servo_ready_) != 0) {  // M700 10.5 (1): a spindle is not moved as an axis
-    for (unsigned i = 0; i < config_.axis_count; ++i) own[i] = ((c_axes_ & ~servo_ready_) >> i & 1) == 0 ? in.manual[i] : nc_manual{};
-    wish = own;
-  }
-  manual_cycle(in, wish);
+  manual_cycle(in);
   for (unsigned i = 0; i < config_.axis_count; ++i)
     displaced_ |= state_ == NC_STATE_STOPPED && wanted_[i] != before[i];
 }

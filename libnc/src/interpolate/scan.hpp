@@ -136,7 +136,7 @@ class Scan {
   uint32_t may_clamp() NC_RT;
   void watch_index(const nc_inputs& in) NC_RT;
   void clamp_at_rest(uint32_t wanted, const nc_inputs& in) NC_RT;
-  void manual_cycle(const nc_inputs& in, const nc_manual* wish) NC_RT;
+  void manual_cycle(const nc_inputs& in) NC_RT;
 
   const Record& current() const { return ring_[tail_ & mask_]; }
   bool at_rest() const { return law_.v == 0; }

@@ -43,7 +43,8 @@ bool Scan::clamp_before(const Record& r, const nc_inputs& in) {
   if (r.kind == ItemKind::move && !(r.segment.curve.length > 0)) return true;
   if (r.kind == ItemKind::mark && !stops_at(r.mark, in)) return true;
   if (r.kind == ItemKind::gate && r.gate.kind == NC_GATE_IN_POSITION) return true;
-  const uint32_t off = index_.unclamp() & ~stay_open(r);
+  uint32_t off = index_.unclamp() & ~stay_open(r);
+  if (r.kind == ItemKind::alarm && off != 0) off &= may_clamp();  // it comes whether they can be clamped or not
   if (off == 0 && index_.clamping() == 0) return true;
   law_.v = 0;
   if (off != 0 && !in_position(in)) {
@@ -88,19 +89,20 @@ void Scan::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
 }
 
 /// Manual motion; a table is unclamped before it and clamped behind it.
-void Scan::manual_cycle(const nc_inputs& in, const nc_manual* wish) {
+void Scan::manual_cycle(const nc_inputs& in) {
   const AxisParameters& parameters = shared_->axes.read();
   Manual::Rules rules;
   rules.stop = !manual_allowed_ || in.interlock || in.feed_hold;
+  rules.dropped = c_axes_ & ~uint32_t{servo_ready_};  // M700 10.5 (1): a spindle is not moved as an axis, nor behind that (precaution (3))
   rules.turning = parameters.turning;
   rules.short_cut = parameters.short_cut;
   if (parameters.index == 0 && !index_.busy()) {
-    manual_.cycle(wish, rules, &wanted_);
+    manual_.cycle(in.manual, rules, &wanted_);
     return;
   }
   const AxisVec before = wanted_;
   rules.held = parameters.index & ~(index_.unclamp() & in.unclamped);
-  manual_.cycle(wish, rules, &wanted_);
+  manual_.cycle(in.manual, rules, &wanted_);
   const uint32_t wanted = manual_.active_axes() & parameters.index;
   uint32_t moved = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) moved |= wanted_[i] != before[i] ? 1u << i : 0;

@@ -127,6 +127,7 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
     } else if (!(value < kTextBase)) {
       return NC_E_ARGUMENT;
     }
+    if (named != nullptr && value < 0) return NC_E_ARGUMENT;
     if (named == nullptr && parsed.bit < 0 && value < kTextBase && !parameter_takes(parsed, value)) return NC_E_ARGUMENT;
   }
   char whole[kKeySize];

@@ -123,6 +123,10 @@ void Manual::idle(const nc_manual* wishes) {
 void Manual::cycle(const nc_manual* wishes, const Rules& rules, AxisVec* position) {
   active_ = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
+    if ((rules.dropped >> i & 1) != 0) {
+      axis_[i] = {.kind = wishes[i].kind};
+      continue;
+    }
     if (rules.stop) {
       axis_[i].going = false;
       axis_[i].kind = wishes[i].kind;

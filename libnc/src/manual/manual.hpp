@@ -23,6 +23,7 @@ class Manual {
   struct Rules {
     bool stop = false;       ///< every axis brakes to rest and its target is given up
     uint32_t held = 0;       ///< these come to rest and keep their targets until they may move
+    uint32_t dropped = 0;    ///< these stand at once, and what was wanted of them is given up: they are no axes now
     uint32_t turning = 0;    ///< the positions of these count within one turn (M700 14.13) ...
     uint32_t short_cut = 0;  ///< ... and they go to one by the shorter way
   };

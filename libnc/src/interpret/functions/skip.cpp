@@ -42,7 +42,7 @@ Did take_speeds(Interpreter& in, uint32_t* stops) {
 Did do_skip(Interpreter& in) {
   const BlockWords& w = in.words;
   // M700 9.3 (8): where the signal comes a table that has places of its own (#2106) cannot be clamped.
-  for (uint32_t tables = w.axes & in.settings.index_axes; tables != 0; tables &= tables - 1) {
+  for (uint32_t tables = w.axes & in.settings.index_axes & in.rotary; tables != 0; tables &= tables - 1) {
     const auto axis = static_cast<unsigned>(std::countr_zero(tables));
     if (in.settings.index_increment[axis] > 0) return in.raise(Condition::no_function, in.system->axis[axis].name);
   }
