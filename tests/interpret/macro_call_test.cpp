@@ -28,6 +28,14 @@ TEST(ModalMacro, CallsBehindEachMove) {  // 13.5.1: the G66 block stores, moves 
   EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "line 1 1 0 F100", "line 5 1 0 F100"}));
 }
 
+TEST(ModalMacro, CallsBehindAnUnidirectionalMove) {  // G60 (6.8) is not modal, and a movement all the same
+  Bench bench;
+  bench.add("O10", "#100=#100+1\nM99\n");
+  const Outcome run = bench.run("#100=0\nG66 P10\nG60 X10.\nG67\nG60 X20.\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(100), 1);
+}
+
 TEST(ModalMacro, MoveFirstThenLTimes) {
   Bench bench;
   bench.add("O10", "G0 G91 Z-#26\nZ#26 G90\nM99\n");

@@ -49,6 +49,15 @@ enum class Function : uint8_t {
   modal_off           ///< the cancel code of a function that is not built: the state it asks for is the only one there is
 };
 
+/// G27 to G30.
+constexpr bool is_reference_move(Function f) {
+  return f == Function::reference_check || f == Function::reference_return || f == Function::start_return || f == Function::second_reference;
+}
+/// One-shot functions whose axis words are positions to go to; those of the others are data.
+constexpr bool goes_to_position(Function f) {
+  return is_reference_move(f) || f == Function::tool_change_return || f == Function::skip || f == Function::multi_skip ||
+         f == Function::measure_length || f == Function::machine_move || f == Function::unidirectional;
+}
 constexpr bool is_macro_call(Function f) { return f == Function::macro_call || f == Function::macro_modal || f == Function::macro_every_block; }
 
 struct FunctionRow {

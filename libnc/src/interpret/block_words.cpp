@@ -365,27 +365,6 @@ uint32_t incremental_axes(const Interpreter& in) {
   return axes;
 }
 
-/// Axis words of the block are positions to go to, and no data.
-bool commands_axes(const BlockWords& w) {
-  if (w.one_shot == nullptr) return true;
-  switch (w.one_shot->function) {
-    case Function::data_input:
-    case Function::local_system:
-    case Function::coordinate_set:
-    case Function::coordinate_preset:
-    case Function::stroke_check_on: return false;
-    default: return true;
-  }
-}
-
-/// M700 10.5, precaution (2), and (2), note: checked as the block is read.
-Did no_reference(Interpreter& in, uint32_t axes) {
-  const auto axis = static_cast<unsigned>(std::countr_zero(axes));
-  in.raise(Condition::no_reference, in.system->axis[axis].name);
-  in.fault.axis = static_cast<int8_t>(axis);
-  return Did::fault;
-}
-
 }  // namespace
 
 Did resolve_axes(Interpreter& in) {
@@ -407,7 +386,9 @@ Did resolve_axes(Interpreter& in) {
   }
   w.axes = axes;
   w.incremental &= axes;
-  if ((axes & in.closed_axes) != 0 && commands_axes(w)) return no_reference(in, axes & in.closed_axes);
+  // M700 10.5, precaution (2), and (2), note: checked as the block is read.
+  if ((axes & in.closed_axes) != 0 && (w.one_shot == nullptr || goes_to_position(w.one_shot->function)))
+    return in.raise_axis(Condition::no_reference, static_cast<unsigned>(std::countr_zero(axes & in.closed_axes)));
   if (!w.any(letters("IJKQR"))) return Did::done;
   for (const char letter : {'I', 'J', 'K', 'Q', 'R'})
     if (w.has(letter) && !in_range(in, length_of(in, letter), w.flags[letter - 'A'], false)) return in.raise(Condition::value_range, letter, w.get(letter));

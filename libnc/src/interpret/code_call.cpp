@@ -150,19 +150,7 @@ Did call_with_arguments(Interpreter& in, const Caller& caller) {
 bool moves(const Interpreter& in) {
   const BlockWords& w = in.words;
   if (w.axes == 0) return in.state.modal.code[kGroupMotion] >= 20 && w.any(letters("IJKR")) && w.one_shot == nullptr;
-  if (w.one_shot == nullptr) return true;
-  switch (w.one_shot->function) {
-    case Function::reference_return:
-    case Function::second_reference:
-    case Function::start_return:
-    case Function::reference_check:
-    case Function::tool_change_return:
-    case Function::skip:
-    case Function::multi_skip:
-    case Function::measure_length:
-    case Function::machine_move: return true;
-    default: return false;
-  }
+  return w.one_shot == nullptr || goes_to_position(w.one_shot->function);
 }
 
 bool cancels(const Interpreter& in) {

@@ -26,12 +26,6 @@ bool keeps_its_feed(Function one_shot) {
 
 bool is_arc(int16_t code) { return code == 20 || code == 30; }
 
-/// G27 to G30.
-bool is_reference_move(Function function) {
-  return function == Function::reference_check || function == Function::reference_return || function == Function::start_return ||
-         function == Function::second_reference;
-}
-
 /// M700 App.2: codes of groups 7 and 8 beside the one-shot function (G49 beside a reference return counts all the same, 12.2).
 bool ignores_compensation(const FunctionRow* one_shot, const FunctionRow& modal) {
   if (one_shot == nullptr) return false;
@@ -180,19 +174,6 @@ Did update_beside_call(Interpreter& in) {
     if (did != Did::done) return did;
   }
   return Did::done;
-}
-
-/// One-shot functions whose axis words are positions to go to.
-bool goes_to_position(Function function) {
-  switch (function) {
-    case Function::tool_change_return:
-    case Function::skip:
-    case Function::multi_skip:
-    case Function::measure_length:
-    case Function::machine_move:
-    case Function::unidirectional: return true;
-    default: return is_reference_move(function);
-  }
 }
 
 /// 4: what moves.

@@ -234,6 +234,17 @@ struct Interpreter {
     fault.value = value;
     return Did::fault;
   }
+  /// Of an axis, by its index.
+  Did raise_axis(Condition condition, unsigned axis) {
+    raise(condition, system->axis[axis].name);
+    fault.axis = static_cast<int8_t>(axis);
+    return Did::fault;
+  }
+  Did raise_axis(Condition condition, unsigned axis, double value) {
+    raise(condition, system->axis[axis].name, value);
+    fault.axis = static_cast<int8_t>(axis);
+    return Did::fault;
+  }
   Did need(uint32_t what) {
     sync_needed = what;
     return Did::sync;

@@ -395,9 +395,7 @@ Did check_index_positions(Interpreter& in) {
     // M700 9.3 (8): a table that stands between two places (by hand, behind a reset) comes to none by a whole number of them.
     const bool between = ((w.incremental & in.settings.index_axes) >> i & 1) != 0 && off_increment(in, i, in.position()[i] + w.axis[i]);
     if (!between && !off_increment(in, i, w.axis[i])) continue;
-    in.raise(Condition::index_increment, in.system->axis[i].name, w.axis[i]);
-    in.fault.axis = static_cast<int8_t>(i);
-    return Did::fault;
+    return in.raise_axis(Condition::index_increment, i, w.axis[i]);
   }
   return Did::done;
 }
