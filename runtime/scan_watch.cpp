@@ -42,7 +42,7 @@ void Scan::watch_standstill() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     if (!feedback_.system[s].actual_valid) continue;
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
-      if (config_.nc.system[s].axis[a].spindle != 0 && (out_[s].servo_ready >> a & 1u) == 0) continue;  // a spindle turns
+      if (is_spindle_now(s, a)) continue;  // a spindle turns
       stands &= std::abs(feedback_.system[s].actual.v[a] - stood_at_[s].v[a]) <= kStandstill;
     }
   }

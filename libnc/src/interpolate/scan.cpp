@@ -377,7 +377,7 @@ void Scan::follow(const nc_inputs& in) {
   const bool given_up = state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM;
   if (!in.follow_up || !in.actual_valid || !given_up || !at_rest() || manual_.active() || frozen_) return;
   for (unsigned i = 0; i < config_.axis_count; ++i)
-    if (((c_axes_ & ~servo_ready_) >> i & 1) == 0) wanted_[i] = in.actual.v[i];
+    if ((spindles_now() >> i & 1) == 0) wanted_[i] = in.actual.v[i];
   command_ = last_command_ = target_ = wanted_;
   shape_.reset(wanted_);
 }

@@ -140,6 +140,7 @@ class Scan {
 
   const Record& current() const { return ring_[tail_ & mask_]; }
   bool at_rest() const { return law_.v == 0; }
+  uint32_t spindles_now() const { return c_axes_ & ~uint32_t{servo_ready_}; }  ///< axes that are spindles at present (M700 10.5)
   bool held() const { return hold_ || reset_ || alarmed_ || cutting_; }  ///< nothing is executed at rest
   bool braking() const { return held() || interlock_ || index_lost_ || losing_; }  ///< no axis may move
   /// M700 6.7.1: a thread that is being cut is not held, nor is its feed changed.

@@ -93,7 +93,7 @@ void Scan::manual_cycle(const nc_inputs& in) {
   const AxisParameters& parameters = shared_->axes.read();
   Manual::Rules rules;
   rules.stop = !manual_allowed_ || in.interlock || in.feed_hold;
-  rules.dropped = c_axes_ & ~uint32_t{servo_ready_};  // M700 10.5 (1): a spindle is not moved as an axis, nor behind that (precaution (3))
+  rules.dropped = spindles_now();  // M700 10.5 (1): a spindle is not moved as an axis, nor behind that (precaution (3))
   rules.turning = parameters.turning;
   rules.short_cut = parameters.short_cut;
   if (parameters.index == 0 && !index_.busy()) {

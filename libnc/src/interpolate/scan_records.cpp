@@ -244,7 +244,7 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
     skip_position_ = wanted_;
     if (in.actual_valid) {
       for (unsigned i = 0; i < config_.axis_count; ++i)
-        if (((c_axes_ & ~servo_ready_) >> i & 1) == 0) skip_position_[i] = in.actual.v[i];
+        if ((spindles_now() >> i & 1) == 0) skip_position_[i] = in.actual.v[i];
     }
     if (begins) {  // M700 15.2: on already at the start, no movement
       end_move(r);
@@ -334,7 +334,7 @@ bool Scan::in_position(const nc_inputs& in, double width_of_block) const {
   if (!in.actual_valid) return true;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     const double width = width_of_block > 0 ? width_of_block : config_.limits[i].in_position;
-    if (((c_axes_ & ~servo_ready_) >> i & 1) != 0) continue;  // a spindle
+    if ((spindles_now() >> i & 1) != 0) continue;  // a spindle
     if (width > 0 && std::fabs(in.actual.v[i] - wanted_[i] - turned_[i]) > width) return false;
   }
   return true;

@@ -98,7 +98,7 @@ bool Scan::lost_move(const Record& r, Done* done) {
       known = known && std::fabs(r.segment.curve.start[i] - wanted_[i] - turned_[i]) <= kSamePlace;
     if (known) settle_axes();
   }
-  const auto closed = static_cast<uint8_t>(c_axes_ & ~servo_ready_);
+  const auto closed = static_cast<uint8_t>(spindles_now());
   if (!moves_any(r.segment, static_cast<uint8_t>(closed | stale_))) return false;
   losing_ = true;
   if (!at_rest()) return false;

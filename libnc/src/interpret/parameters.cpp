@@ -324,13 +324,15 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.clamp_in_g96_only = flag("1227/bit5");
   s.keeps_clamp = flag("1210/bit19");
   s.keeps_polar_command = flag("1210/bit11");
-  for (unsigned i = 0; i < kMaxAxes; ++i)
-    if (number("2076", 0, static_cast<int>(i)) != 0) s.index_axes |= 1u << i;
-  for (unsigned i = 0; i < kMaxAxes; ++i)
-    if (number("2031", 0, static_cast<int>(i)) != 0) s.no_reference |= 1u << i;
+  const auto axes = [&number](const char* key) {
+    uint32_t mask = 0;
+    for (unsigned i = 0; i < kMaxAxes; ++i) mask |= number(key, 0, static_cast<int>(i)) != 0 ? 1u << i : 0;
+    return mask;
+  };
+  s.index_axes = axes("2076");
+  s.no_reference = axes("2031");
+  s.mirror_axes = axes("8211");
   s.rapid_by_axis = flag("1086");
-  for (unsigned i = 0; i < kMaxAxes; ++i)
-    if (number("8211", 0, static_cast<int>(i)) != 0) s.mirror_axes |= 1u << i;
   s.macro_extensions = flag("macro_extensions");
   if (flag("1109")) {  // M700 13.12: M codes 03 to 97 but 30
     const auto m_code = [&number](const char* key, uint32_t fallback) {

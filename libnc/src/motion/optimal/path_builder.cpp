@@ -221,33 +221,30 @@ double PathBuilder::feed_between(const Segment& s, double from, double to) const
 /// own, because the cells of a time law and what is expected of its speed go by pieces.
 void PathBuilder::push_curve(const Piece& whole, const Segment& s) {
   const Curve& curve = *whole.curve;
+  if (curve.shape == nullptr) return push_piece(whole);
   Piece p = whole;
+  p.rest_behind = false;
   const double end = whole.curve_from + whole.length, step = curve.length / kParts;
   const bool fades = s.feed_end_mm_s > 0;
-  if (curve.shape != nullptr) {
-    p.rest_behind = false;
-    const double feed = whole.by == FeedBy::turns ? HUGE_VAL : kMostOverride * whole.feed;
-    const auto push_to = [&](double to) {
-      p.length = to - p.curve_from;
-      if (fades) p.feed = feed_between(s, p.curve_from, to);
-      push_piece(p);
-      p.curve_from = to;
-    };
-    double low = 0, high = 0;
-    for (double at = whole.curve_from; at + 1.5 * step < end; at += step) {
-      const double speed = std::min(own_speed(curve, at, at + step), feed);
-      if (at > p.curve_from && (fades || std::max(high, speed) > kSpread * std::min(low, speed))) {
-        push_to(at);
-        high = 0;
-      }
-      low = high > 0 ? std::min(low, speed) : speed;
-      high = std::max(high, speed);
+  const double feed = whole.by == FeedBy::turns ? HUGE_VAL : kMostOverride * whole.feed;
+  const auto push_to = [&](double to) {
+    p.length = to - p.curve_from;
+    if (fades) p.feed = feed_between(s, p.curve_from, to);
+    push_piece(p);
+    p.curve_from = to;
+  };
+  double low = 0, high = 0;
+  for (double at = whole.curve_from; at + 1.5 * step < end; at += step) {
+    const double speed = std::min(own_speed(curve, at, at + step), feed);
+    if (at > p.curve_from && (fades || std::max(high, speed) > kSpread * std::min(low, speed))) {
+      push_to(at);
+      high = 0;
     }
-    p.rest_behind = whole.rest_behind;
-    push_to(end);
-    return;
+    low = high > 0 ? std::min(low, speed) : speed;
+    high = std::max(high, speed);
   }
-  push_piece(p);
+  p.rest_behind = whole.rest_behind;
+  push_to(end);
 }
 
 /// An arc, or another curve, that may be passed at speed at both ends. Its last part waits for what comes behind it.
