@@ -8,9 +8,9 @@
 namespace nc {
 
 struct OptimalMode {
-  /// A thread goes with the spindle, a handle (F1 to F5) or signals on the way change the feed: their time law cannot be planned.
+  /// A handle (F1 to F5) or signals on the way change the feed: their time law cannot be planned.
   static bool moves(const Segment& s) {
-    return !s.thread && s.skip_speeds == nullptr && !(s.digit_step_mm_s > 0) && !stands(s.curve);
+    return s.skip_speeds == nullptr && !(s.digit_step_mm_s > 0) && !stands(s.curve);
   }
   /// A line of nothing but axes that G07 holds (M700 6.16): no axis goes a way that a time law could be planned for.
   static bool stands(const Curve& curve) {

@@ -17,13 +17,19 @@ struct PlanMoment {
   bool rests = false;  ///< behind its end
 };
 
+/// How fast the time of the plan goes, and how that changes.
+struct PlanPace {
+  double sigma = 1, slope = 0;
+};
+
 class Brake {
  public:
-  /// Finds a way to rest. `plan(tau)` tells of ever later moments, 0 = now. @param use  of what the limits leave
+  /// Finds a way to rest from `pace`. `plan(tau)` tells of ever later moments, 0 = now. @param use  of what the limits leave
   template <class Plan>
-  bool find(Plan&& plan, const optimal::Limits& limits, double use) NC_RT {
+  bool find(Plan&& plan, const optimal::Limits& limits, double use, PlanPace pace = {}) NC_RT {
     count_ = 0;
-    State x;
+    from_ = pace;
+    State x{0, pace.sigma, pace.slope};
     PlanMoment now = plan(0.0);
     while (count_ < kSteps) {
       const double ahead = kStep * (x.sigma + 0.5 * kStep * x.slope);
@@ -151,7 +157,7 @@ class Brake {
     return false;
   }
   bool begin() {
-    now_ = {};
+    now_ = {0, from_.sigma, from_.slope};
     at_ = 0;
     in_step_ = 0;
     lands_ = false;
@@ -164,6 +170,7 @@ class Brake {
   double in_step_ = 0;
   bool lands_ = false;      ///< it ends at rest, else with the plan
   State now_;
+  PlanPace from_;
 };
 
 }  // namespace nc

@@ -28,16 +28,28 @@ optimal::OptimalPlanner* create_optimal(const ExecutorConfig& config, const Reco
   return planner;
 }
 
-}  // namespace
-
-void Executor::create(const ExecutorConfig& config, Arena& arena) {
-  ExecutorState* const state = arena.make<ExecutorState>();
-  Record* const ring = arena.make<Record>(config.capacity);
+MotionLimits motion_limits(const ExecutorConfig& config) {
   MotionLimits limits;
   limits.axis_count = config.axis_count;
   for (unsigned i = 0; i < kMaxAxes; ++i) limits.axis[i] = config.limits[i];
   limits.cycle_s = config.cycle_s;
   limits.max_feed_override = config.max_feed_override;
+  return limits;
+}
+
+/// The speed from which on a thread of the optimal mode would not keep its place on the spindle.
+void limit_thread(Segment& s, const ExecutorConfig& config) {
+  const MotionLimits limits = motion_limits(config);
+  set_segment_limits(s, shape_of(s, limits), 0, limits);
+  s.speed_limit /= optimal::ThreadShare::kFaster;
+}
+
+}  // namespace
+
+void Executor::create(const ExecutorConfig& config, Arena& arena) {
+  ExecutorState* const state = arena.make<ExecutorState>();
+  Record* const ring = arena.make<Record>(config.capacity);
+  const MotionLimits limits = motion_limits(config);
   // While measuring there is no state: the parts are laid out from throw-away ones of the same size.
   Planner measured_planner;
   EventRing measured_events;
@@ -84,7 +96,12 @@ void Executor::push(const Record& record) {
   ExecutorState& e = *state_;
   e.ring[e.head & e.mask] = record;
   const uint32_t index = e.head++;
-  if (e.optimal == nullptr) e.planner.commit(index);
+  Record& pushed = e.ring[index & e.mask];
+  if (e.optimal == nullptr) {
+    e.planner.commit(index);
+  } else if (pushed.kind == ItemKind::move && pushed.segment.thread && pushed.segment.curve.length > 0) {
+    limit_thread(pushed.segment, e.config);
+  }
 }
 
 void Executor::plan() {

@@ -47,6 +47,10 @@ class Follower {
   /// At rest, and nothing is left to follow.
   bool idle() const { return cell_ == optimal::kNoCell || (at_end_ && store_->next[cell_ & store_->cell_mask] == optimal::kNoCell); }
   bool at_rest() const { return at_end_ || begins_; }
+  /// Speed of the spindle, rev/s, for which the next cell was planned; not when idle().
+  double planned_turns() const NC_RT {
+    return static_cast<double>(store_->at(at_end_ ? store_->next[cell_ & store_->cell_mask] : cell_).turns);
+  }
   /// The path, not the plan alone, rests here.
   bool at_path_end() const { return at_end_ && cell_ != optimal::kNoCell && store_->at(cell_).path_ends; }
   /// At rest at the end of what it has followed, and the record at ring index k has its place on that path.
@@ -54,6 +58,7 @@ class Follower {
   uint32_t generation() const { return generation_; }
   double u() const { return u_; }
   double v() const { return v_; }
+  double planned_v() const { return planned_v_; }  ///< by the time of the plan
   bool stops() const { return stops_ || braking_; }  ///< what is followed is the way to a rest that was asked for
 
   /// Where the next cell begins; not when idle().
@@ -63,13 +68,14 @@ class Follower {
   }
 
   /// Looks for a way to rest that the plan in front leaves, and takes it. To be called in each cycle until stops().
-  void brake() NC_RT {
+  void brake(PlanPace pace = {}) NC_RT {
     if (braking_ || at_rest()) return;
     const double use = ++tries_ % kOfGentle != 0 ? 1 : kGentle[tries_ / kOfGentle % (sizeof kGentle / sizeof kGentle[0])];
     uint32_t cell = cell_;
     double begun = -t_;  // time of the plan at which the cell was entered
-    braking_ = brake_.find([&](double tau) NC_RT { return moment(tau, &cell, &begun); }, *limits_, use);
+    braking_ = brake_.find([&](double tau) NC_RT { return moment(tau, &cell, &begun); }, *limits_, use, pace);
   }
+  bool braking() const { return braking_; }
 
   /// Goes on for `time` seconds or to the next rest. @return what is left of the time.
   double advance(double time) NC_RT {
@@ -82,6 +88,13 @@ class Follower {
       halt();
     }
     return 0;
+  }
+  /// Goes on by `plan_time` seconds of the plan, whose time goes `sigma` times as fast as that of the machine at the end of it.
+  /// @return what is left of the plan's time behind a rest.
+  double advance_plan(double plan_time, double sigma) NC_RT {
+    const double left = follow(plan_time);
+    v_ *= sigma;
+    return left;
   }
   AxisVec position() const NC_RT {
     return cell_ == optimal::kNoCell ? on_piece(halt_piece_, halt_x_) : point(store_->at(cell_), x_);
@@ -100,6 +113,7 @@ class Follower {
     out->cell = cell_;
     out->t = t_;
     out->at_end = at_end_;
+    out->waits = begins_;
     out->halted = halted_;
     out->piece = halt_piece_;
     out->x = halt_x_;
@@ -126,7 +140,7 @@ class Follower {
         const optimal::CellState q = optimal::state_in(c, t_);
         x_ = std::fmin(c.h, std::fmax(0, q.x));
         u_ = c.u + x_;
-        v_ = q.v;
+        v_ = planned_v_ = q.v;
         return 0;
       }
       time -= left;
@@ -134,7 +148,7 @@ class Follower {
         t_ = c.seconds;
         x_ = c.h;
         u_ = c.u + c.h;
-        v_ = 0;
+        v_ = planned_v_ = 0;
         at_end_ = true;
         return time;
       }
@@ -147,7 +161,7 @@ class Follower {
     cell_ = optimal::kNoCell;
     at_end_ = true;
     begins_ = braking_ = stops_ = false;
-    v_ = 0;
+    v_ = planned_v_ = 0;
   }
   /// At rest within a cell: a new plan begins at this place of the same path.
   void halt() NC_RT {
@@ -206,7 +220,7 @@ class Follower {
   unsigned axis_count_ = 3;
   uint32_t cell_ = optimal::kNoCell, generation_ = 0, answered_ = 0;
   uint32_t taken_to_ = 0;
-  double t_ = 0, x_ = 0, u_ = 0, v_ = 0;
+  double t_ = 0, x_ = 0, u_ = 0, v_ = 0, planned_v_ = 0;
   bool at_end_ = true, begins_ = false, taken_ = false;
   const optimal::Limits* limits_ = nullptr;
   Brake brake_;

@@ -32,6 +32,7 @@ void Scan::create(const ExecutorConfig& config, const Record* ring, Planner* pla
   planner_ = planner;
   optimal_ = optimal;
   if (optimal != nullptr) follower_.create(&optimal->store(), &optimal->axis_limits());
+  sync_.create(config.cycle_s);
   shared_ = shared;
   spindles_.create(config.spindle_count);
   for (unsigned i = 0; i < config.axis_count; ++i)

@@ -13,6 +13,7 @@
 #include "interpolate/index_clamp.hpp"
 #include "interpolate/law.hpp"
 #include "interpolate/spindle.hpp"
+#include "interpolate/spindle_sync.hpp"
 #include "manual/manual.hpp"
 #include "motion/optimal/optimal_planner.hpp"
 #include "motion/planner.hpp"
@@ -104,6 +105,8 @@ class Scan {
   Done move(const Record& record, const nc_inputs& in) NC_RT;
   void take_plan() NC_RT;
   Done follow_plan(const Record& record, const nc_inputs& in) NC_RT;
+  bool begin_thread(const Segment& segment, const nc_inputs& in) NC_RT;
+  void follow_spindle(const Segment& segment, const nc_inputs& in) NC_RT;
   Done passed(const Record& record) NC_RT;
   bool would_jump() const NC_RT;
   bool path_stops(const nc_inputs& in) const NC_RT;
@@ -145,7 +148,9 @@ class Scan {
   bool braking() const { return held() || interlock_ || index_lost_ || losing_; }  ///< no axis may move
   /// M700 6.7.1: a thread that is being cut is not held, nor is its feed changed.
   bool thread_braking() const { return reset_ || alarmed_ || interlock_ || index_lost_; }
-  bool cutting_thread() const { return moving_ && law_.v > 0 && current().segment.thread; }
+  bool cutting_thread() const {
+    return moving_ && (optimal_ != nullptr ? !follower_.at_rest() : law_.v > 0) && current().segment.thread;
+  }
   double programmed_feed(const Segment& s) const NC_RT;
   void turn_feed_handle(const nc_inputs& in) NC_RT;
   bool thread_may_begin(const Segment& segment, const nc_inputs& in) NC_RT;
@@ -179,6 +184,8 @@ class Scan {
   double silent_ = 0;    ///< optimal: s for which a stop has been asked for
   bool no_law_ = false;  ///< optimal: none was found for what follows
   double turns_ = 0;     ///< optimal: speed of the spindle that the planner knows, rev/s
+  double feed_scale_ = 1;  ///< optimal: and the override
+  SpindleSync sync_;     ///< optimal: of the thread in execution
   bool moving_ = false;  ///< the current record is a segment that has begun
   double time_ = 0;      ///< what is left of this cycle, s
   AxisVec wanted_;       ///< interpolated position

@@ -13,6 +13,7 @@ constexpr double kAtEnd = 1e-7;       ///< mm: a path at rest has reached the en
 constexpr double kPassed = 1e-9;      ///< mm: and one that moves has passed it
 constexpr double kPatience = 0.03;     ///< s that the planner has for a stop
 constexpr double kTurnsChange = 0.002; ///< of the speed of the spindle, that asks for another plan
+constexpr double kPlannedTurns = 0.02; ///< of it, by which the plan of a thread may differ when it begins
 
 }  // namespace
 
@@ -47,6 +48,7 @@ nc_stop_cause Scan::standing(const Segment& s, const nc_inputs& in) {
 /// The path is to rest as soon as the limits allow.
 bool Scan::path_stops(const nc_inputs& in) const {
   const Segment* s = moving_ ? &current().segment : nullptr;  // M700 15.2: a skip move goes at 100 %, but for an override of 0
+  if (s != nullptr && s->thread && !follower_.at_rest()) return false;  // it stops by itself: follow_spindle()
   return braking() || skip_braking_ || (s != nullptr && s->skip && !(feed_override(in) > 0));
 }
 
@@ -71,12 +73,17 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
       alarmed_ = true;
       return Done::no;
     }
+    if (s.thread && time_ > 0 && !begin_thread(s, in)) return Done::no;
   }
   silent_ = path_stops(in) && !follower_.at_rest() && !follower_.stops() ? silent_ + time_ : 0;
   if (time_ > 0) {
     if (silent_ > kPatience) follower_.brake();
     const double from = follower_.u();
-    time_ = follower_.advance(time_);
+    if (s.thread) {
+      follow_spindle(s, in);
+    } else {
+      time_ = follower_.advance(time_);
+    }
     path_length_ += follower_.u() - from;
     law_.v = follower_.v();
     wanted_ = follower_.position();
@@ -85,6 +92,44 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
   law_.s = std::clamp(s.curve.length - (end - u), 0.0, s.curve.length);
   if (follower_.at_rest() ? u < end - kAtEnd : !(u > end + kPassed)) return Done::no;
   return passed(r);
+}
+
+/// M700 6.7.1: a thread begins at its angle of the spindle, with a plan that was made for about the speed that the spindle has.
+bool Scan::begin_thread(const Segment& s, const nc_inputs& in) {
+  const double planned = follower_.planned_turns(), turns = std::fabs(encoder(in).rev_per_s);
+  if (std::fabs(turns - planned) > kPlannedTurns * planned) {
+    wait(turns > 0 ? NC_CAUSE_SPINDLE_ANGLE : NC_CAUSE_SPINDLE_STOPPED);
+    return false;
+  }
+  if (law_.s > s.begun) {  // an interlock has stopped it: it goes on, and its groove is lost
+    if (s.feed_mm_rev * turns > s.speed_limit) {
+      wait(NC_CAUSE_SPINDLE_FAST);
+      return false;
+    }
+  } else if (!thread_may_begin(s, in)) {
+    return false;
+  }
+  sync_.begin(spindle_turns(in), planned);
+  return true;
+}
+
+/// One step along a thread; an interlock, a reset or an alarm stops it along its plan, as fast as the axes can.
+void Scan::follow_spindle(const Segment& s, const nc_inputs& in) {
+  if (thread_braking()) follower_.brake(sync_.pace());
+  if (follower_.braking()) {
+    time_ = follower_.advance(time_);
+    return;
+  }
+  const nc_spindle_inputs& spindle = encoder(in);
+  SpindleSync::Sample sample;
+  sample.rev_per_s = spindle.rev_per_s;
+  sample.turns = spindle_turns(in) + time_ * spindle.rev_per_s;
+  sample.u = follower_.u();
+  sample.v = follower_.planned_v();
+  sample.lead = s.feed_mm_rev;
+  const double planned = sync_.advance(time_, sample, SpindleSync::reach_of(s, sync_.planned(), optimal_->axis_limits()));
+  const double left = follower_.advance_plan(planned, sync_.sigma());
+  time_ = left > 0 && sync_.sigma() > 0 ? std::min(time_, left / sync_.sigma()) : 0;
 }
 
 /// The path has come to the end of the record.
@@ -101,10 +146,11 @@ void Scan::tell_planner(const nc_inputs& in, const ScanStatus& status) {
   optimal::Following f;
   follower_.say(&f);
   f.brake = path_stops(in);
-  f.feed_scale = status.feed_override;
+  if (!cutting_thread()) feed_scale_ = status.feed_override;
+  f.feed_scale = feed_scale_;
   f.rapid_scale = std::clamp(in.rapid_override, 0.0, 1.0);
   const double turns = std::fabs(encoder(in).rev_per_s);
-  if (std::fabs(turns - turns_) > kTurnsChange * turns_ || turns == 0) turns_ = turns;
+  if (!cutting_thread() && (std::fabs(turns - turns_) > kTurnsChange * turns_ || turns == 0)) turns_ = turns;
   f.turns = turns_;
   f.block_rests = status.single_block;
   f.tail = tail_;

@@ -231,7 +231,7 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
     if (begins && !unclamp_for(s, in)) return Done::no;
     if (law_.s > s.begun) index_.leave(s.index_axes);
   }
-  if (begins && s.thread && at_rest() && !thread_may_begin(s, in)) return Done::no;
+  if (begins && s.thread && at_rest() && optimal_ == nullptr && !thread_may_begin(s, in)) return Done::no;
   if (begins && !begin_move(r, in)) {
     alarmed_ = true;
     return Done::no;

@@ -60,7 +60,7 @@ Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
   if (p.cell > 0) b.cell = p.cell;
   for (unsigned i = 0; i < limits_->axis_count; ++i) {
     const double v = velocity_of(p, *limits_, i);
-    const double a = limits_->acceleration[i], j = limits_->jerk[i];
+    const double a = acceleration_share(p) * limits_->acceleration[i], j = jerk_share(p) * limits_->jerk[i];
     if (v > 0 && b.speed * most[0][i] > v) b.speed = v / most[0][i];
     if (a > 0 && b.speed * b.speed * most[1][i] > a) b.speed = std::sqrt(a / most[1][i]);
     if (j > 0 && b.speed * b.speed * b.speed * most[2][i] > j) b.speed = std::cbrt(j / most[2][i]);
@@ -212,7 +212,9 @@ bool Mesher::cells(double end, bool fine) {
     const double share = 1 - (1 - in.guess) * away * away * (3 - 2 * away);
     place_[m.cells] = at;
     m.h[m.cells] = h;
-    m.use[m.cells] = m.use_a[m.cells] = !in.from_rest && m.cells < 3 ? kAtStart : 1;
+    const double use = !in.from_rest && m.cells < 3 ? kAtStart : 1;
+    m.use[m.cells] = use * jerk_share(in.at(at.piece));
+    m.use_a[m.cells] = use * acceleration_share(in.at(at.piece));
     m.guess[m.cells] = std::max(share * share * middle * middle, 1e-8);
     if (in.down != nullptr) m.guess[m.cells] = std::max(m.guess[m.cells], 0.9 * in.down->at(u + 0.5 * h));
     ++m.cells;

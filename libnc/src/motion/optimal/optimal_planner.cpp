@@ -216,10 +216,14 @@ unsigned OptimalPlanner::pieces_from(uint32_t piece, unsigned most) const {
 /// The end of the next block that ends behind u, where single block rests.
 double OptimalPlanner::next_block_end(double u, uint32_t tail) const {
   double at = -HUGE_VAL;
+  bool thread = false;  // M700 6.7.1: the stop is behind the first block that is none
   for (uint32_t k = tail; k != builder_.taken(); ++k) {
     const Record& r = records_[k & store_.record_mask];
-    if (r.kind == ItemKind::move && r.segment.curve.length > 0) at = store_.passed[k & store_.record_mask];
-    if (r.kind == ItemKind::mark && r.mark.stop && at > u + kTiny) return at;
+    if (r.kind == ItemKind::move && r.segment.curve.length > 0) {
+      at = store_.passed[k & store_.record_mask];
+      thread = r.segment.thread;
+    }
+    if (r.kind == ItemKind::mark && r.mark.stop && at > u + kTiny && !thread) return at;
   }
   return HUGE_VAL;
 }
@@ -318,6 +322,7 @@ bool OptimalPlanner::copy_law(const Start& start, Start* end) {
     c.x = windows_->place(k).x;
     c.piece = start.piece + windows_->place(k).piece;
     c.path_ends = ends && k + 1 == law.cells;
+    c.turns = static_cast<float>(limits_.turns);
     chain_next_[write_ & store_.cell_mask] = write_ + 1;
     chain_end_[write_ & store_.cell_mask] = time += c.seconds;
     u += mesh.h[k];
@@ -424,10 +429,12 @@ Limits OptimalPlanner::unbound(const Start& start) const {
   Limits l = limits_;
   const Piece& p = store_.piece_at(start.piece);
   l.rapid_scale = 1;
-  if (p.by == FeedBy::turns) l.turns = std::max(l.turns, chain_.turns);
+  if (p.by == FeedBy::turns || p.by == FeedBy::spindle) l.turns = std::max(l.turns, chain_.turns);
   l.feed_scale = std::max(l.feed_scale, chain_.feed_scale);
   const double most = 1.02 * (start.v + (start.a > 0 ? 0.5 * start.a * start.a / along(start).jerk : 0));
-  if (p.by != FeedBy::constant && p.feed < HUGE_VAL && feed_of(p, l) < most) {
+  if (p.by == FeedBy::spindle) {
+    l.turns = std::max(l.turns, most / p.feed);
+  } else if (p.by != FeedBy::constant && p.feed < HUGE_VAL && feed_of(p, l) < most) {
     if (p.by == FeedBy::turns && !(l.turns > 0)) l.turns = 1;
     l.feed_scale = most / (p.feed * (p.by == FeedBy::turns ? l.turns : 1));
   }
@@ -465,10 +472,21 @@ void OptimalPlanner::change(const Following& f) {
   const bool scales = !same(f.feed_scale, chain_.feed_scale) || !same(f.rapid_scale, chain_.rapid_scale) || !same(limits_.turns, chain_.turns);
   const bool blocks = f.block_rests && !chain_.block_rests;
   if (!(f.brake ? !chain_.stops : scales || blocks || chain_.stops)) return;
+  if (f.waits) {  // none of the chain has been gone: it is made anew as a whole
+    if (f.brake) return;
+    Start first;
+    first.fresh = true;
+    first.piece = store_.at(f.cell).piece;
+    first.x = store_.at(f.cell).x;
+    first.u = store_.at(f.cell).u;
+    extend(f, first, block_most(f, first), nullptr);
+    return;
+  }
   if (tried_at_ != kNoCell && f.cell - tried_at_ < kRetry) return;
   Start start;
   if (!find_ahead(f, lead_, &start)) return;  // it comes to rest before anything could be changed
   if (start.from_rest) {
+    reuse_cells(f);
     if (!f.brake) extend(f, start, block_most(f, start), nullptr);
     return;  // the scan stops there by itself
   }
@@ -483,6 +501,14 @@ void OptimalPlanner::change(const Following& f) {
     extend(f, start, block_most(f, start), nullptr);
   }
   tried_at_ = open_ ? kNoCell : f.cell;
+}
+
+/// The scan rests behind a cell and may do so for long while what follows is planned again and again: cells between that one and those
+/// that it would go on with have been replaced and are free.
+void OptimalPlanner::reuse_cells(const Following& f) {
+  if (!f.at_end) return;
+  const uint32_t next = chain_next_[f.cell & store_.cell_mask];
+  if (next != kNoCell && next - f.cell > kLawsAtOnce * kCellsAtOnce) write_ = f.cell + 1;
 }
 
 /// Single block has been switched on: to the first end of a block that can be reached at rest.

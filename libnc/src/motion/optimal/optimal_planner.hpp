@@ -74,6 +74,7 @@ class OptimalPlanner {
   bool copy_law(const Start& start, Start* end);
   void offer(const Start& start, bool stops);
   bool stop_there(const Start& start);
+  void reuse_cells(const Following& f);
   void stop_at_block(const Following& f, const Start& start);
   void slow_down(const Following& f, const Start& start);
   Limits unbound(const Start& start) const;

@@ -19,8 +19,14 @@ struct Limits {
   double turns = 0;                        ///< of the spindle, rev/s
 };
 
-/// What the feed of a piece is multiplied by.
-enum class FeedBy : uint8_t { override, constant, turns };
+/// What the feed of a piece is multiplied by. `spindle` is a thread: by the turns and by nothing else, and the plan leaves a part of the
+/// limits to what keeps it with the spindle (interpolate/spindle_sync.hpp).
+enum class FeedBy : uint8_t { override, constant, turns, spindle };
+
+/// Of a thread: how much faster than planned the spindle may turn, and what the plan may use of the axes' acceleration and jerk.
+struct ThreadShare {
+  static constexpr double kFaster = 1.15, kAcceleration = 0.7, kJerk = 0.52;
+};
 
 /// A polynomial by x = u - u_start, of degree 3 or 5, or a part of a committed curve.
 struct Piece {
@@ -39,11 +45,20 @@ struct Piece {
 /// Feed of the piece under the present overrides.
 inline double feed_of(const Piece& p, const Limits& limits) {
   if (p.feed == HUGE_VAL || p.by == FeedBy::constant) return p.feed;
+  if (p.by == FeedBy::spindle) return p.feed * limits.turns;
   return p.feed * limits.feed_scale * (p.by == FeedBy::turns ? limits.turns : 1);
 }
 /// Largest velocity of axis i on the piece.
 inline double velocity_of(const Piece& p, const Limits& limits, unsigned i) {
+  if (p.by == FeedBy::spindle) return limits.velocity[i] / ThreadShare::kFaster;
   return p.rapid ? (limits.rapid[i] > 0 ? limits.rapid[i] : limits.velocity[i]) * limits.rapid_scale : limits.velocity[i];
+}
+/// What a plan may use of the limits of acceleration and of jerk.
+inline double acceleration_share(const Piece& p) {
+  return p.by == FeedBy::spindle ? ThreadShare::kAcceleration : 1;
+}
+inline double jerk_share(const Piece& p) {
+  return p.by == FeedBy::spindle ? ThreadShare::kJerk : 1;
 }
 /// Nothing moves on the piece under the present overrides.
 inline bool stands(const Piece& p, const Limits& limits) {

@@ -18,6 +18,7 @@ struct PlanCell {
   double v = 0;       ///< at the start; of a launch at its end
   double a = 0;       ///< u'' at the start
   double w = 0;       ///< b''/2
+  float turns = 0;    ///< rev/s of the spindle for which it was planned
   uint32_t piece = 0;
   Kind kind = Kind::level;
   bool path_ends = false;  ///< the path rests at its end, not the plan alone
@@ -93,6 +94,7 @@ struct Following {
   uint32_t cell = kNoCell;  ///< in execution, or the last one
   double t = 0;             ///< s in it
   bool at_end = true;       ///< it has been gone to its end
+  bool waits = false;       ///< at the start of its first cell, for the spindle
   bool brake = false;       ///< to rest as soon as the limits allow
   double feed_scale = 1, rapid_scale = 1, turns = 0;
   bool block_rests = false;  ///< at the ends of blocks

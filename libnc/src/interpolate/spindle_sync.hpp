@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Threads of the optimal mode: the time of their plan goes with the spindle instead of the clock. With tau the time of the plan and
+// sigma = tau' the motion of an axis Q(tau) has
+//
+//     velocity Q' sigma      acceleration Q'' sigma^2 + Q' sigma'      jerk Q''' sigma^3 + 3 Q'' sigma sigma' + Q' sigma''
+//
+// The plan leaves a part of the limits (ThreadShare); what sigma' and sigma'' may be follows from the rest (docs/motion-optimal.md,
+// "Threads"). The same angle of the spindle is the same place on the path, also while the axes speed up and brake.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpolate/brake.hpp"
+#include "interpolate/record.hpp"
+#include "motion/optimal/piece.hpp"
+
+namespace nc {
+
+class SpindleSync {
+ public:
+  /// The spindle and the path at the beginning of a step.
+  struct Sample {
+    double turns = 0;      ///< of the spindle at its end
+    double rev_per_s = 0;  ///< its speed, both signed
+    double u = 0, v = 0;   ///< on the path, mm; by the time of the plan, mm/s
+    double lead = 0;       ///< mm of path per revolution
+  };
+  /// What sigma' (1/s) and sigma'' (1/s^2) may be.
+  struct Reach {
+    double slope = HUGE_VAL, bend = HUGE_VAL;
+  };
+
+  void create(double cycle_s) { pole_ = std::min(kPole, kPolePerCycle / cycle_s); }
+
+  /// The plan begins now: at this angle of the spindle, planned for `planned` rev/s.
+  void begin(double turns, double planned) NC_RT {
+    turns_ = turns;
+    planned_ = planned;
+    tau_ = wanted_ = slope_ = 0;
+    sigma_ = 1;
+    locked_ = false;
+  }
+
+  /// Goes on for `time` seconds. @return seconds of the plan.
+  double advance(double time, const Sample& s, const Reach& reach) NC_RT {
+    if (s.v >= kAtPace * s.lead * planned_) {  // at speed the place counts: the plan may be slower by what its law is not exact
+      if (!locked_) origin_ = turns_ - std::copysign(s.u / s.lead, s.rev_per_s);
+      locked_ = true;
+      wanted_ = tau_ + (s.lead * std::fabs(turns_ - origin_) - s.u) / s.v;
+    } else {
+      locked_ = false;
+    }
+    const double rate = std::fabs(s.rev_per_s) / planned_, p = pole_;
+    double bend = p * p * p * (wanted_ - tau_) + 3 * p * p * (rate - sigma_) - 3 * p * slope_;
+    bend = std::clamp(bend, -reach.bend, reach.bend);
+    // No farther than from where it can come to a steady sigma within its range.
+    const double up = std::min(reach.slope, std::sqrt(2 * reach.bend * std::max(0.0, optimal::ThreadShare::kFaster - sigma_)));
+    const double down = std::min(reach.slope, std::sqrt(2 * reach.bend * std::max(0.0, sigma_)));
+    const double slope = std::clamp(slope_ + bend * time, -down, up);
+    bend = (slope - slope_) / time;
+    const double gone = time * (sigma_ + time * (slope_ / 2 + time * bend / 6));
+    sigma_ = std::clamp(sigma_ + time * (slope_ + time * bend / 2), 0.0, optimal::ThreadShare::kFaster);
+    slope_ = slope;
+    tau_ += std::max(0.0, gone);
+    wanted_ += std::fabs(s.turns - turns_) / planned_;
+    turns_ = s.turns;
+    return std::max(0.0, gone);
+  }
+  double sigma() const { return sigma_; }
+  double planned() const { return planned_; }
+  PlanPace pace() const { return {sigma_, slope_}; }
+
+  /// What a thread leaves of the limits, which the plan uses by ThreadShare at most.
+  static Reach reach_of(const Segment& s, double planned, const optimal::Limits& limits) NC_RT {
+    using Share = optimal::ThreadShare;
+    constexpr double f = Share::kFaster;
+    constexpr double kOfAcceleration = 0.99 - Share::kAcceleration * f * f;  // left for Q' sigma'
+    constexpr double kOfJerk = 0.5 * (0.99 - Share::kJerk * f * f * f);      // for each of 3 Q'' sigma sigma' and Q' sigma''
+    const bool line = !s.curve.circular && s.curve.shape == nullptr;
+    Reach r;
+    for (unsigned i = 0; i < limits.axis_count; ++i) {
+      const double most = limits.velocity[i] > 0 ? limits.velocity[i] / f : HUGE_VAL;
+      const double v = line ? std::min(most, s.feed_mm_rev * planned * std::fabs(s.curve.delta[i]) / s.curve.length) : most;
+      const double a = limits.acceleration[i], j = limits.jerk[i];
+      if (a > 0 && v > 0) r.slope = std::min(r.slope, kOfAcceleration * a / v);
+      if (j > 0 && v > 0) r.bend = std::min(r.bend, kOfJerk * j / v);
+      if (a > 0 && j > 0) r.slope = std::min(r.slope, kOfJerk * j / (3 * Share::kAcceleration * a * f));
+    }
+    r.slope = std::min(r.slope, kMostSlope);
+    r.bend = std::min(r.bend, kMostBend);
+    return r;
+  }
+
+ private:
+  static constexpr double kPole = 120;           ///< 1/s, of the three of the loop that keeps tau with the spindle
+  static constexpr double kPolePerCycle = 0.15;  ///< of a cycle
+  static constexpr double kAtPace = 0.999;
+  static constexpr double kMostSlope = 1e3, kMostBend = 1e6;  ///< where no axis has limits
+
+  double pole_ = kPole;
+  double turns_ = 0;    ///< of the spindle, at the end of the last step
+  double planned_ = 1;  ///< rev/s
+  double tau_ = 0, sigma_ = 1, slope_ = 0;
+  double wanted_ = 0;   ///< what tau should be
+  double origin_ = 0;   ///< turns where u would be 0 at speed
+  bool locked_ = false;
+};
+
+}  // namespace nc
