@@ -8,10 +8,7 @@
 namespace nc {
 
 struct OptimalMode {
-  /// A handle (F1 to F5) or signals on the way change the feed: their time law cannot be planned.
-  static bool moves(const Segment& s) {
-    return s.skip_speeds == nullptr && !(s.digit_step_mm_s > 0) && !stands(s.curve);
-  }
+  static bool moves(const Segment& s) { return !stands(s.curve); }
   /// A line of nothing but axes that G07 holds (M700 6.16): no axis goes a way that a time law could be planned for.
   static bool stands(const Curve& curve) {
     if (curve.shape == nullptr || curve.shape->what.map.frozen == 0) return false;

@@ -41,7 +41,7 @@ bool Scan::would_jump() const {
 nc_stop_cause Scan::standing(const Segment& s, const nc_inputs& in) {
   if (s.rapid) return in.rapid_override > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
   if (s.feed_mm_rev > 0 && encoder(in).rev_per_s == 0) return NC_CAUSE_SPINDLE_STOPPED;
-  if (!(s.feed_mm_rev > 0) && !(s.feed_mm_s > 0)) return NC_CAUSE_FEED_ZERO;  // M700 7.3: operation alarm 104
+  if (!(s.feed_mm_rev > 0) && !(programmed_feed(s) > 0)) return NC_CAUSE_FEED_ZERO;  // M700 7.3: operation alarm 104
   return s.fixed_override || feed_override(in) > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
 }
 
@@ -147,11 +147,13 @@ void Scan::tell_planner(const nc_inputs& in, const ScanStatus& status) {
   follower_.say(&f);
   f.brake = path_stops(in);
   if (!cutting_thread()) feed_scale_ = status.feed_override;
-  f.feed_scale = feed_scale_;
-  f.rapid_scale = std::clamp(in.rapid_override, 0.0, 1.0);
+  f.scale.feed = feed_scale_;
+  f.scale.rapid = std::clamp(in.rapid_override, 0.0, 1.0);
+  for (unsigned i = 0; i < sizeof digit_pulses_ / sizeof digit_pulses_[0]; ++i) f.scale.pulses[i] = digit_pulses_[i];
+  if (moving_ && current().segment.skip_speeds != nullptr && skip_feed_ != current().segment.start_feed_mm_s) f.scale.skip_feed = skip_feed_;
   const double turns = std::fabs(encoder(in).rev_per_s);
   if (!cutting_thread() && (std::fabs(turns - turns_) > kTurnsChange * turns_ || turns == 0)) turns_ = turns;
-  f.turns = turns_;
+  f.scale.turns = turns_;
   f.block_rests = status.single_block;
   f.tail = tail_;
   f.s = moving_ ? law_.s : 0;

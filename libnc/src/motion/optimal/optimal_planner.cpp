@@ -26,6 +26,19 @@ bool same(double a, double b) {
   return std::fabs(a - b) <= kSameScale * (std::fabs(a) + std::fabs(b));
 }
 
+bool same(const Scales& a, const Scales& b) {
+  bool all = same(a.feed, b.feed) && same(a.rapid, b.rapid) && same(a.turns, b.turns) && a.skip_feed == b.skip_feed;
+  for (unsigned i = 0; i < sizeof a.pulses / sizeof a.pulses[0]; ++i) all = all && a.pulses[i] == b.pulses[i];
+  return all;
+}
+
+/// Some feed is lower under `a` than under `b`. A skip signal may call for a feed that is lower than the first one.
+bool lower(const Scales& a, const Scales& b) {
+  bool any = a.feed < b.feed || a.rapid < b.rapid || a.turns < b.turns || (a.skip_feed != b.skip_feed && (a.skip_feed < b.skip_feed || b.skip_feed == 0));
+  for (unsigned i = 0; i < sizeof a.pulses / sizeof a.pulses[0]; ++i) any = any || a.pulses[i] < b.pulses[i];
+  return any;
+}
+
 }  // namespace
 
 void OptimalPlanner::create(const Setup& setup, const Record* records, Arena& arena) {
@@ -48,9 +61,8 @@ void OptimalPlanner::create(const Setup& setup, const Record* records, Arena& ar
 
 Limits OptimalPlanner::with(const Following& f) const {
   Limits l = setup_.limits;
-  l.feed_scale = f.feed_scale;
-  l.rapid_scale = f.rapid_scale;
-  l.turns = builder_.uses_turns() ? f.turns : 0;
+  l.scale = f.scale;
+  if (!builder_.uses_turns()) l.scale.turns = 0;
   return l;
 }
 
@@ -322,7 +334,7 @@ bool OptimalPlanner::copy_law(const Start& start, Start* end) {
     c.x = windows_->place(k).x;
     c.piece = start.piece + windows_->place(k).piece;
     c.path_ends = ends && k + 1 == law.cells;
-    c.turns = static_cast<float>(limits_.turns);
+    c.turns = static_cast<float>(limits_.scale.turns);
     chain_next_[write_ & store_.cell_mask] = write_ + 1;
     chain_end_[write_ & store_.cell_mask] = time += c.seconds;
     u += mesh.h[k];
@@ -410,9 +422,7 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
 
 void OptimalPlanner::offer(const Start& start, bool stops) {
   chain_next_[(write_ - 1) & store_.cell_mask] = kNoCell;
-  next_chain_.feed_scale = limits_.feed_scale;
-  next_chain_.rapid_scale = limits_.rapid_scale;
-  next_chain_.turns = limits_.turns;
+  next_chain_.scale = limits_.scale;
   next_chain_.stops = stops;
   ++offer_.number;
   offer_.after = start.after;
@@ -428,15 +438,21 @@ void OptimalPlanner::offer(const Start& start, bool stops) {
 Limits OptimalPlanner::unbound(const Start& start) const {
   Limits l = limits_;
   const Piece& p = store_.piece_at(start.piece);
-  l.rapid_scale = 1;
-  if (p.by == FeedBy::turns || p.by == FeedBy::spindle) l.turns = std::max(l.turns, chain_.turns);
-  l.feed_scale = std::max(l.feed_scale, chain_.feed_scale);
   const double most = 1.02 * (start.v + (start.a > 0 ? 0.5 * start.a * start.a / along(start).jerk : 0));
-  if (p.by == FeedBy::spindle) {
-    l.turns = std::max(l.turns, most / p.feed);
-  } else if (p.by != FeedBy::constant && p.feed < HUGE_VAL && feed_of(p, l) < most) {
-    if (p.by == FeedBy::turns && !(l.turns > 0)) l.turns = 1;
-    l.feed_scale = most / (p.feed * (p.by == FeedBy::turns ? l.turns : 1));
+  Scales& by = l.scale;
+  by.rapid = 1;
+  by.feed = std::max(by.feed, chain_.scale.feed);
+  switch (p.by) {
+    case FeedBy::constant: return l;
+    case FeedBy::signals: by.skip_feed = std::max(feed_of(p, l), most); return l;
+    case FeedBy::spindle: by.turns = std::max({by.turns, chain_.scale.turns, most / p.feed}); return l;
+    case FeedBy::turns: by.turns = std::max({by.turns, chain_.scale.turns, by.turns > 0 ? 0.0 : 1.0}); break;
+    case FeedBy::digit: by.pulses[p.digit.digit] = HUGE_VAL; break;
+    case FeedBy::override: break;
+  }
+  if (p.feed < HUGE_VAL && feed_of(p, l) < most) {
+    by.feed = 1;
+    by.feed = most / feed_of(p, l);
   }
   return l;
 }
@@ -469,7 +485,7 @@ void OptimalPlanner::change(const Following& f) {
     chain_.stops = false;
     return;
   }
-  const bool scales = !same(f.feed_scale, chain_.feed_scale) || !same(f.rapid_scale, chain_.rapid_scale) || !same(limits_.turns, chain_.turns);
+  const bool scales = !same(limits_.scale, chain_.scale);
   const bool blocks = f.block_rests && !chain_.block_rests;
   if (!(f.brake ? !chain_.stops : scales || blocks || chain_.stops)) return;
   if (f.waits) {  // none of the chain has been gone: it is made anew as a whole
@@ -490,12 +506,11 @@ void OptimalPlanner::change(const Following& f) {
     if (!f.brake) extend(f, start, block_most(f, start), nullptr);
     return;  // the scan stops there by itself
   }
-  const bool lower = f.feed_scale < chain_.feed_scale || f.rapid_scale < chain_.rapid_scale || limits_.turns < chain_.turns;
   if (f.brake || stands(store_.piece_at(start.piece), limits_)) {
     if (!chain_.stops) stop_there(start);
   } else if (blocks) {
     stop_at_block(f, start);
-  } else if (lower) {
+  } else if (lower(limits_.scale, chain_.scale)) {
     slow_down(f, start);
   } else {
     extend(f, start, block_most(f, start), nullptr);

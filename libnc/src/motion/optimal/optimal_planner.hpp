@@ -45,7 +45,7 @@ class OptimalPlanner {
     uint32_t keep = kNoCell;  ///< behind this cell the stop at the end has slowed it; == last: nothing has
     uint32_t piece = 0;       ///< where it ends
     double x = 0, u = 0;
-    double feed_scale = 1, rapid_scale = 1, turns = 0;
+    Scales scale;
     bool block_rests = false, stops = false;
   };
 

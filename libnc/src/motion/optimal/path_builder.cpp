@@ -34,10 +34,19 @@ bool demands_rest(const Record& r) {
 /// Feed of a line under no override, and what it goes with.
 double feed_of_segment(const Segment& s, FeedBy* by) {
   *by = s.thread                       ? FeedBy::spindle
+        : s.skip_speeds != nullptr     ? FeedBy::signals
         : s.skip || s.fixed_override   ? FeedBy::constant
         : s.feed_mm_rev > 0            ? FeedBy::turns
+        : s.digit_step_mm_s > 0        ? FeedBy::digit
                                        : FeedBy::override;
+  if (s.skip_speeds != nullptr) return s.start_feed_mm_s;
   return s.feed_mm_rev > 0 ? s.feed_mm_rev : s.feed_mm_s;
+}
+
+/// F1 to F5: what the handle does to the feed of a segment.
+DigitFeed digit_of(const Segment& s) {
+  if (!(s.digit_step_mm_s > 0)) return {};
+  return {static_cast<uint8_t>(s.feed_digit - 2), s.digit_step_mm_s, s.digit_most_mm_s};
 }
 
 /// The lowest feed of a segment, which may have another one at its end (M700 6.11, 7.10).
@@ -107,7 +116,7 @@ bool PathBuilder::joins(const Record& r) const {
   if ((count_ < 2 && arc_.curve == nullptr) || !passes(s) || s.rest_before || r.epoch != epoch_) return false;
   FeedBy by;
   feed_of_segment(s, &by);
-  if (by != by_) return false;
+  if (by != by_ || !(digit_of(s) == digit_)) return false;
   const AxisVec& end = arc_.curve != nullptr ? arc_.curve->end : vertex_[count_ - 1];
   for (unsigned i = 0; i < limits_.axis_count; ++i)
     if (std::fabs(s.curve.start[i] - end[i]) > kSamePlace) return false;
@@ -134,6 +143,7 @@ void PathBuilder::add_line(const Record& r) {
     resumed_ = false;
   }
   const double feed = feed_of_segment(s, &by_);
+  digit_ = digit_of(s);
   uses_turns_ |= by_ == FeedBy::turns || by_ == FeedBy::spindle;
   const double zone = s.slow_zone > 0 ? std::min(static_cast<double>(s.slow_zone), length) : 0;
   const auto add = [&](const AxisVec& to, double l, double f) {
@@ -171,6 +181,7 @@ void PathBuilder::go_there(const AxisVec& to, const Piece& curve) {
   Piece p;
   p.feed = curve.feed;
   p.by = curve.by;
+  p.digit = curve.digit;
   p.length = std::sqrt(length2);
   p.rest_behind = true;
   for (unsigned i = 0; i < limits_.axis_count; ++i) {
@@ -185,6 +196,7 @@ void PathBuilder::push_arc(double to) {
   Piece p;
   p.curve = arc_.curve;
   p.by = by_;
+  p.digit = digit_;
   for (const double end : {std::min(to, arc_.zone), to}) {
     p.length = end - arc_.from;
     if (!(p.length > kNothing)) continue;
@@ -259,6 +271,7 @@ void PathBuilder::add_arc(const Record& r) {
   arc_.segment = &s;
   arc_.from = std::min(from_machine ? resumed_s_ : begins_, length - kLeastLength);
   arc_.feed = feed_of_segment(s, &by_);
+  digit_ = digit_of(s);
   arc_.slow_feed = s.slow_zone > 0 ? arc_.feed * static_cast<double>(s.slow_factor) : arc_.feed;
   arc_.zone = s.slow_zone > 0 ? std::max(length - static_cast<double>(s.slow_zone), 0.0) : length;
   uses_turns_ |= by_ == FeedBy::turns || by_ == FeedBy::spindle;
@@ -267,6 +280,7 @@ void PathBuilder::add_arc(const Record& r) {
     Piece p;
     p.feed = arc_.feed;
     p.by = by_;
+    p.digit = digit_;
     go_there(curve_position(s.curve, arc_.from, limits_.axis_count), p);
   }
   resumed_ = false;
@@ -290,6 +304,7 @@ void PathBuilder::push_transition(double feed) {
     Piece& p = made_->piece[k];
     p.feed = feed;
     p.by = by_;
+    p.digit = digit_;
     push_piece(p);
   }
   head_u_ = line_u_ + joint_.reach;
@@ -344,6 +359,7 @@ void PathBuilder::add_curve(const Record& r) {
   const bool line = straight_line(s);
   Piece p;
   p.feed = s.rapid ? HUGE_VAL : feed_of_segment(s, &p.by);
+  p.digit = digit_of(s);
   p.rapid = s.rapid;
   uses_turns_ |= p.by == FeedBy::turns || p.by == FeedBy::spindle;
   const double rest = std::max(s.curve.length - from, kLeastLength);
@@ -380,6 +396,7 @@ bool PathBuilder::give_out(unsigned from, unsigned to, bool rest) {
   if (!room(to - from)) return false;
   for (unsigned k = from; k < to; ++k) {
     out_[k].by = by_;
+    out_[k].digit = digit_;
     out_[k].rest_behind = rest && k + 1 == to;
     push_piece(out_[k]);
   }
@@ -403,6 +420,7 @@ bool PathBuilder::stop_at_vertices() {
     p.length = length_[k];
     p.feed = feed_[k];
     p.by = by_;
+    p.digit = digit_;
     p.rest_behind = true;
     for (unsigned i = 0; i < limits_.axis_count; ++i) {
       p.c[0][i] = vertex_[k][i];
@@ -455,7 +473,7 @@ unsigned PathBuilder::smoothed(bool whole, unsigned count, SmoothRequest* reques
   request->straight_end = whole && joint_.found;
   double slowest = HUGE_VAL;
   for (unsigned k = 0; k + 1 < count_; ++k) slowest = std::min(slowest, feed_[k]);
-  const double speed = by_ == FeedBy::turns || by_ == FeedBy::spindle ? slowest * std::max(limits_.turns, 1.0) : slowest;
+  const double speed = by_ == FeedBy::turns || by_ == FeedBy::spindle ? slowest * std::max(limits_.scale.turns, 1.0) : slowest;
   request->spacing = std::max(period_ * std::min(speed, 1e4), kLeastSpacing);
   // What is not settled yet is some knots long: no more than a part of what the ring of records holds (every other one is a mark).
   const double in_ring = (line_u_ - line_start_u_) / (count_ - 1) * (store_->record_mask + 1) / 2;

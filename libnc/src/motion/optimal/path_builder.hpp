@@ -87,6 +87,7 @@ class PathBuilder {
   unsigned count_ = 0;       ///< vertices; 0: none is open
   unsigned tried_ = 0;       ///< vertices when it was smoothed last
   FeedBy by_ = FeedBy::override;
+  DigitFeed digit_;
   uint32_t epoch_ = 0;
   bool uses_turns_ = false;
   bool closing_ = false;     ///< it ends at its last vertex, whatever comes

@@ -10,18 +10,35 @@
 
 namespace nc::optimal {
 
+/// What feeds are multiplied by, or replaced by, while the path is gone.
+struct Scales {
+  double feed = 1, rapid = 1;  ///< overrides
+  double turns = 0;            ///< of the spindle, rev/s
+  double pulses[5] = {};       ///< what the handle has made of F1 to F5 (M700 7.3)
+  double skip_feed = 0;        ///< mm/s that the newest skip signal calls for (M700 15.5); 0 = none has come
+
+  bool operator==(const Scales&) const = default;
+};
+
 /// Axis limits of one part system, mm/s and so on; 0 = no limit.
 struct Limits {
   unsigned axis_count = 3;
   double velocity[kMaxAxes] = {}, rapid[kMaxAxes] = {}, acceleration[kMaxAxes] = {}, jerk[kMaxAxes] = {};
   uint32_t linear = ~0u;  ///< bit i: axis i makes the length that a feed is measured by
-  double feed_scale = 1, rapid_scale = 1;  ///< overrides
-  double turns = 0;                        ///< of the spindle, rev/s
+  Scales scale;
 };
 
-/// What the feed of a piece is multiplied by. `spindle` is a thread: by the turns and by nothing else, and the plan leaves a part of the
-/// limits to what keeps it with the spindle (interpolate/spindle_sync.hpp).
-enum class FeedBy : uint8_t { override, constant, turns, spindle };
+/// What the feed of a piece goes by. `spindle` is a thread: by the turns and by nothing else, and the plan leaves a part of the limits to
+/// what keeps it with the spindle (interpolate/spindle_sync.hpp). `digit`: F1 to F5 with their handle. `signals`: a skip move whose signals
+/// change its feed.
+enum class FeedBy : uint8_t { override, constant, turns, spindle, digit, signals };
+
+/// F1 to F5: what the handle does to a feed.
+struct DigitFeed {
+  uint8_t digit = 0;        ///< 0 = F1
+  float step = 0, most = 0; ///< mm/s by one pulse, and the limit
+  bool operator==(const DigitFeed&) const = default;
+};
 
 /// Of a thread: how much faster than planned the spindle may turn, and what the plan may use of the axes' acceleration and jerk.
 struct ThreadShare {
@@ -33,6 +50,7 @@ struct Piece {
   double length = 0;             ///< of the parameter, > 0
   double feed = 0;               ///< mm/s (mm/rev) along the path; HUGE_VAL where only the axes limit
   FeedBy by = FeedBy::override;
+  DigitFeed digit;               ///< where `by` says so; `feed` is then that without pulses
   bool rest_behind = false;      ///< the path rests at its end
   bool rapid = false;            ///< the rapid rates hold
   bool quintic = false;          ///< c[4] and c[5] are not 0
@@ -44,14 +62,23 @@ struct Piece {
 
 /// Feed of the piece under the present overrides.
 inline double feed_of(const Piece& p, const Limits& limits) {
-  if (p.feed == HUGE_VAL || p.by == FeedBy::constant) return p.feed;
-  if (p.by == FeedBy::spindle) return p.feed * limits.turns;
-  return p.feed * limits.feed_scale * (p.by == FeedBy::turns ? limits.turns : 1);
+  if (p.feed == HUGE_VAL) return p.feed;
+  const Scales& by = limits.scale;
+  switch (p.by) {
+    case FeedBy::constant: return p.feed;
+    case FeedBy::turns: return p.feed * by.feed * by.turns;
+    case FeedBy::spindle: return p.feed * by.turns;
+    case FeedBy::signals: return by.skip_feed > 0 ? by.skip_feed : p.feed;
+    case FeedBy::digit:
+      return by.feed * std::fmin(std::fmax(p.feed + by.pulses[p.digit.digit] * static_cast<double>(p.digit.step), 0), static_cast<double>(p.digit.most));
+    case FeedBy::override: break;
+  }
+  return p.feed * by.feed;
 }
 /// Largest velocity of axis i on the piece.
 inline double velocity_of(const Piece& p, const Limits& limits, unsigned i) {
   if (p.by == FeedBy::spindle) return limits.velocity[i] / ThreadShare::kFaster;
-  return p.rapid ? (limits.rapid[i] > 0 ? limits.rapid[i] : limits.velocity[i]) * limits.rapid_scale : limits.velocity[i];
+  return p.rapid ? (limits.rapid[i] > 0 ? limits.rapid[i] : limits.velocity[i]) * limits.scale.rapid : limits.velocity[i];
 }
 /// What a plan may use of the limits of acceleration and of jerk.
 inline double acceleration_share(const Piece& p) {
@@ -62,7 +89,7 @@ inline double jerk_share(const Piece& p) {
 }
 /// Nothing moves on the piece under the present overrides.
 inline bool stands(const Piece& p, const Limits& limits) {
-  return p.rapid ? !(limits.rapid_scale > 0) : !(feed_of(p, limits) > 0);
+  return p.rapid ? !(limits.scale.rapid > 0) : !(feed_of(p, limits) > 0);
 }
 
 /// Derivatives at x in [0, length]; the position is left as it was (but for a curve's).

@@ -96,7 +96,7 @@ struct Following {
   bool at_end = true;       ///< it has been gone to its end
   bool waits = false;       ///< at the start of its first cell, for the spindle
   bool brake = false;       ///< to rest as soon as the limits allow
-  double feed_scale = 1, rapid_scale = 1, turns = 0;
+  Scales scale;
   bool block_rests = false;  ///< at the ends of blocks
   bool halted = false;       ///< it rests on the path, at x of `piece`, and not at the end of a plan
   uint32_t piece = 0;
