@@ -31,8 +31,6 @@ class Follower {
     taken_ = offer.first != optimal::kNoCell && offer.generation == generation_ && fits(offer);
     if (!taken_) return;
     stops_ = offer.stops;
-    for (uint32_t k = offer.first; k != offer.last; ++k) next(k) = k + 1;
-    next(offer.last) = optimal::kNoCell;
     if (offer.fresh) {
       cell_ = offer.first;
       t_ = 0;

@@ -78,7 +78,14 @@ struct ParameterTable {
   static constexpr unsigned kSteps = 32;
   double u[kSteps + 1], du[kSteps + 1], ddu[kSteps + 1];  ///< and its derivatives by the length
   uint8_t newton[kSteps];  ///< steps of Newton's method that are needed inside a step of length
-  uint8_t panels[kSteps];  ///< and parts of it in which the length is measured for that: more where the curve all but has a cusp
+  uint8_t panels[kSteps];  ///< and parts of it in which the length is measured for that
+  // A step in which the curve all but has a cusp is divided by the parameter, finer towards that place, so that one part is enough
+  // everywhere. Places [first, first + graded] belong to step k.
+  static constexpr unsigned kGraded = 128;
+  uint8_t first[kSteps], graded[kSteps];  ///< graded: intervals, 0 = the step is not divided
+  uint8_t places;                         ///< in use
+  uint8_t effort[kGraded];                ///< steps of Newton's method in the interval that begins here
+  double graded_u[kGraded], behind[kGraded];  ///< the parameter, and the length behind the beginning of the step
 };
 
 /// A committed shape.

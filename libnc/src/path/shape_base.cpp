@@ -296,11 +296,83 @@ void set_effort(const CurveShape& shape, unsigned k, double fine, unsigned axis_
   table->newton[k] = static_cast<uint8_t>(steps);
 }
 
+/// Newton's method inside an interval of a divided step: `steps` of it.
+double inside_interval(const CurveShape& shape, unsigned n, double behind, unsigned steps, unsigned axis_count) {
+  const ParameterTable& t = shape.table;
+  const double from = t.graded_u[n], to = t.graded_u[n + 1], whole = t.behind[n + 1] - t.behind[n], wanted = behind - t.behind[n];
+  double u = from + (to - from) * (whole > 0 ? wanted / whole : 0);
+  for (unsigned k = 0; k < steps; ++k) {
+    const double sigma = sigma_at(shape, u, axis_count);
+    if (!(sigma > 0)) break;
+    u = std::clamp(u - (length_between(shape, from, u, 1, axis_count) - wanted) / sigma, from, to);
+  }
+  return u;
+}
+
+/// Halves intervals of step k until one part measures each of them well enough. False, and nothing has changed, where they have no room.
+bool divide_step(const CurveShape& shape, unsigned k, double fine, unsigned axis_count, ParameterTable* table) {
+  constexpr unsigned kDeepest = 40;
+  ParameterTable& t = *table;
+  const unsigned first = t.places;
+  double ends[kDeepest + 1] = {t.u[k + 1]};  // of the intervals that are still to be looked at
+  unsigned open = 1, n = first;
+  if (first + 2 > ParameterTable::kGraded) return false;
+  t.graded_u[n] = t.u[k];
+  t.behind[n] = 0;
+  while (open > 0) {
+    const double from = t.graded_u[n], to = ends[open - 1], middle = 0.5 * (from + to);
+    const double coarse = length_between(shape, from, to, 1, axis_count), finer = length_between(shape, from, to, 2, axis_count);
+    if (std::fabs(coarse - finer) > fine && open <= kDeepest && middle > from && middle < to) {
+      ends[open++] = middle;
+      continue;
+    }
+    if (n + 2 > ParameterTable::kGraded) return false;
+    --open;
+    ++n;
+    t.graded_u[n] = to;
+    t.behind[n] = t.behind[n - 1] + finer;
+  }
+  t.first[k] = static_cast<uint8_t>(first);
+  t.graded[k] = static_cast<uint8_t>(n - first);
+  t.places = static_cast<uint8_t>(n + 1);
+  return true;
+}
+
+/// How many steps of Newton's method the intervals of a divided step take.
+void set_interval_effort(const CurveShape& shape, unsigned k, double fine, unsigned axis_count, ParameterTable* table) {
+  constexpr unsigned kMost = 8, kLooks = 4;
+  ParameterTable& t = *table;
+  for (unsigned n = t.first[k]; n < unsigned{t.first[k]} + t.graded[k]; ++n) {
+    t.effort[n] = 1;
+    for (unsigned look = 1; look < kLooks; ++look) {
+      const double wanted = (t.behind[n + 1] - t.behind[n]) * look / kLooks;
+      for (unsigned steps = t.effort[n]; steps <= kMost; ++steps) {
+        t.effort[n] = static_cast<uint8_t>(steps);
+        const double u = inside_interval(shape, n, t.behind[n] + wanted, steps, axis_count);
+        if (std::fabs(length_between(shape, t.graded_u[n], u, 1, axis_count) - wanted) <= fine) break;
+      }
+    }
+  }
+}
+
+/// The parameter in a divided step.
+double graded_parameter(const CurveShape& shape, unsigned k, double behind, unsigned axis_count) {
+  const ParameterTable& t = shape.table;
+  unsigned low = t.first[k], high = low + t.graded[k];
+  while (high - low > 1) {
+    const unsigned middle = (low + high) / 2;
+    (t.behind[middle] <= behind ? low : high) = middle;
+  }
+  return inside_interval(shape, low, behind, t.effort[low], axis_count);
+}
+
 /// Fills length and table.
 void make_table(unsigned axis_count, CurveShape* shape) {
   constexpr unsigned kSteps = ParameterTable::kSteps;
   constexpr double kFine = 1e-11;     // of the length: nobody sees an error of the parameter below this, not in third differences either
   constexpr double kMeasured = 1e-13; // of the length: the error of measuring it
+  constexpr unsigned kAtOnce = 4;     // parts measured for one point, above which a step is divided
+  constexpr unsigned kNear = 2;       // steps of Newton's method, above which the quintic is no guess
   PieceLengths pieces;
   const double last = last_parameter(*shape);
   const double about = length_between(*shape, 0, last, kPieces, axis_count);
@@ -322,7 +394,14 @@ void make_table(unsigned axis_count, CurveShape* shape) {
     table.du[k] = d.u1;
     table.ddu[k] = d.u2;
   }
-  for (unsigned k = 0; k < kSteps; ++k) set_effort(*shape, k, kFine * shape->base.length, axis_count, &table);
+  table.places = 0;
+  for (unsigned k = 0; k < kSteps; ++k) {
+    set_effort(*shape, k, kFine * shape->base.length, axis_count, &table);
+    table.graded[k] = 0;
+    if (table.newton[k] <= kNear && table.newton[k] * table.panels[k] <= kAtOnce) continue;
+    if (divide_step(*shape, k, kMeasured * shape->base.length, axis_count, &table))
+      set_interval_effort(*shape, k, kFine * shape->base.length, axis_count, &table);
+  }
 }
 
 }  // namespace
@@ -359,8 +438,9 @@ double base_parameter(const CurveShape& shape, double s, unsigned axis_count) {
   constexpr unsigned kSteps = ParameterTable::kSteps;
   const double place = s / length * kSteps;
   const unsigned k = std::min(kSteps - 1, static_cast<unsigned>(place));
-  double u = quintic(shape.table, k, length / kSteps, place - k);
   const double behind = (place - k) * length / kSteps;
+  if (shape.table.graded[k] != 0) return graded_parameter(shape, k, behind, axis_count);
+  double u = quintic(shape.table, k, length / kSteps, place - k);
   for (unsigned n = 0; n < shape.table.newton[k]; ++n) u = towards(shape, k, behind, u, axis_count);
   return u;
 }

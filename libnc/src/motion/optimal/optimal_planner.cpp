@@ -422,6 +422,7 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
 
 void OptimalPlanner::offer(const Start& start, bool stops) {
   chain_next_[(write_ - 1) & store_.cell_mask] = kNoCell;
+  for (uint32_t k = offer_first_; k != write_; ++k) store_.next[k & store_.cell_mask] = chain_next_[k & store_.cell_mask];
   next_chain_.scale = limits_.scale;
   next_chain_.stops = stops;
   ++offer_.number;

@@ -66,7 +66,7 @@ inline PlanCell plan_cell(const Law& law, const Mesh& mesh, unsigned k) {
 /// Cells and pieces, written by the planner, read by the scan once a proposal has shown them.
 struct PlanStore {
   PlanCell* cell = nullptr;
-  uint32_t* next = nullptr;  ///< per cell: where the chain goes on; the scan's
+  uint32_t* next = nullptr;  ///< per cell: where the chain goes on; written with the cells, and by the scan where it takes an offer
   Piece* piece = nullptr;
   double* passed = nullptr;  ///< per record: u at its end
   uint32_t cell_mask = 0, piece_mask = 0, record_mask = 0;
