@@ -155,8 +155,8 @@ void read_machine(TableReader* root, Config* config) {
     reader.number("retain_every_s", &config->retain_every_s, 0.02, 3600);
     reader.integer("cycle_us", &config->cycle_us, 100, 100000);
     nc.cycle_s = config->cycle_us * 1e-6;
-    if (reader.integer("look_ahead", &nc.look_ahead, 64, 65536) && !std::has_single_bit(nc.look_ahead))
-      reader.error("look_ahead", "must be a power of two");
+    config->look_ahead_given = reader.integer("look_ahead", &nc.look_ahead, 64, 65536);
+    if (config->look_ahead_given && !std::has_single_bit(nc.look_ahead)) reader.error("look_ahead", "must be a power of two");
     reader.integer("program_entries", &nc.programs, 1, 4096);
     reader.integer("tool_offset_sets", &nc.tool_offsets, 1, 999);
     reader.integer("work_offset_sets", &nc.work_offsets, 1, 300);
@@ -210,6 +210,7 @@ void read_motion(TableReader* root, Config* config) {
     if (reader.choice("mode", {"trapezoid", "optimal"}, &word)) nc.motion_mode = static_cast<std::uint8_t>(word);
     reader.number("tolerance", &nc.path_tolerance, 1e-4, 1);
     if (nc.motion_mode != NC_MOTION_OPTIMAL) return;
+    if (!config->look_ahead_given) nc.look_ahead = kLookAheadOptimal;
     for (unsigned s = 0; s < nc.system_count; ++s) {
       for (unsigned i = 0; i < nc.system[s].axis_count; ++i)
         if (!(nc.system[s].axis[i].max_jerk > 0))

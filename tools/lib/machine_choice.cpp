@@ -95,6 +95,7 @@ bool set_machine_limits(const MachineOptions& options, const rt::Config* machine
   if (options.tolerance) {
     config->motion_mode = NC_MOTION_OPTIMAL;
     config->path_tolerance = *options.tolerance;
+    if (machine == nullptr || !machine->look_ahead_given) config->look_ahead = rt::kLookAheadOptimal;
     for (unsigned i = 0; i < system.axis_count; ++i) {
       if (system.axis[i].max_jerk > 0) continue;
       *error = std::string("--tolerance: the time-optimal mode needs a limit of the jerk of every axis, ") + system.axis[i].name + " has none";
