@@ -63,6 +63,28 @@ TEST(M700Limits, CornerStepClampsTheJoint) {
   EXPECT_EQ(joint_speed(a, nearly), smooth);
 }
 
+TEST(M700Limits, AJudgedCornerCountsInsteadOfTheRealOne) {  // 13.17.1 (3)
+  const Segment a = line(50, 0);
+  Segment b = turned();
+  const double free_speed = joint_speed(a, b);
+  b.accuracy.corner_step = 2;
+  b.accuracy.smooth_cos = std::cos(10 * static_cast<float>(M_PI) / 180);
+  b.accuracy.judged_turn = std::sqrt(2.0f);  // a right angle
+  EXPECT_NEAR(joint_speed(a, b), 1.414213562, 1e-6);  // 2 / (2 sin 45)
+  b.accuracy.judged_turn = 1;  // 60 degrees
+  EXPECT_NEAR(joint_speed(a, b), 2, 1e-6);
+  for (const float turn : {0.0f, 0.17f}) {  // straight on, and 9.8 degrees
+    b.accuracy.judged_turn = turn;
+    EXPECT_EQ(joint_speed(a, b), free_speed);
+  }
+  // However it is judged, what the axes can do is the limit.
+  Segment back = line(0, 50);
+  const double limit = joint_speed(a, back);
+  back.accuracy = b.accuracy;
+  back.accuracy.judged_turn = 0;
+  EXPECT_EQ(joint_speed(a, back), limit);
+}
+
 TEST(M700Limits, CornerMinimumNeedsBothSides) {  // #2096
   Segment a = line(50, 0), b = turned();
   b.accuracy.corner_step = 2;

@@ -57,6 +57,7 @@ AccuracyLimits accuracy_limits(const AccuracyParameters& p, const Move& move, co
     limits.corner_step = static_cast<float>(step / 60);
     limits.smooth_cos = static_cast<float>(std::cos(p.corner_angle_deg * kPi / 180));
     limits.corner_least = static_cast<float>(corner_speed_at_least(0, share.v, p.corner_least_mm_min, axis_count) / 60);
+    limits.judged_turn = move.judged_turn;
   }
   limits.arc_joint = static_cast<float>(p.arc_joint_mm_min / 60);
   if ((move.high_accuracy & kFineSegmentsOn) != 0 && p.acceleration_clamp) limits.bend_acceleration = static_cast<float>(tolerable_acceleration(p));
@@ -206,17 +207,14 @@ double Commit::helix_slope() const {
   return in_plane > 0 ? curve_.length / in_plane : 1.0;
 }
 
-void Commit::remember(const Item& mark, const OffsetResume* offset) {
+void Commit::remember(const Item& mark, const StagesResume* stages) {
   if (!mark.mark.resume) return;
   MarkPoint& point = marks_[mark_count_++ & mark_mask_];
   point.serial = last_serial_;
   point.seq = mark.mark.seq;
   point.machine = machine_;
-  if (offset != nullptr) {
-    point.offset = *offset;
-  } else {
-    point.offset.active = false;
-  }
+  point.held_back = stages != nullptr;
+  if (stages != nullptr) point.stages = *stages;
 }
 
 const MarkPoint* Commit::find(Serial serial) const {

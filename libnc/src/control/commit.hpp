@@ -8,6 +8,7 @@
 #include "nc/control.h"
 #include "interpolate/record.hpp"
 #include "motion/m700_accuracy.hpp"
+#include "fairing/fairing.hpp"
 #include "offset/offset.hpp"
 #include "path/shape.hpp"
 
@@ -23,12 +24,19 @@ struct CommitConfig {
   bool rotary_makes_length = false;  ///< F of a line is composite: a degree counts as a millimetre (M700 7.6)
 };
 
-/// A place to rewind to: what the stages must know to go on right behind a mark.
+/// What the stages that hold items back must know to go on right behind a mark.
+struct StagesResume {
+  OffsetResume offset;
+  FairingResume fairing;
+};
+
+/// A place to rewind to.
 struct MarkPoint {
   Serial serial = 0;
   BlockSeq seq = 0;
   AxisVec machine;
-  OffsetResume offset;
+  bool held_back = false;  ///< a stage was not idle: `stages` holds
+  StagesResume stages;
 };
 
 enum class Committed : uint8_t {
@@ -50,6 +58,10 @@ class Commit {
   void displace(const AxisVec& machine) {
     machine_ = machine;
     if (mark_count_ != 0) marks_[(mark_count_ - 1) & mark_mask_].machine = machine;
+  }
+  /// The machine does not stand where fairing has brought it at the newest mark.
+  void forget_fairing() {
+    if (mark_count_ != 0) marks_[(mark_count_ - 1) & mark_mask_].stages.fairing = {};
   }
   void restart() {
     last_serial_ = 0;
@@ -85,8 +97,8 @@ class Commit {
   /// The curve just committed, which is a move, goes into record number `record`.
   void note_record(uint32_t record);
   const Curve& curve() const { return curve_; }
-  /// `offset`: where the compensation stage is, nullptr while it is idle.
-  void remember(const Item& mark, const OffsetResume* offset);
+  /// `stages`: where those that hold items back are, nullptr while they are idle.
+  void remember(const Item& mark, const StagesResume* stages);
 
   /// The item just committed, as a sink sees it.
   void to_public(const Item& item, nc_item* out) const;

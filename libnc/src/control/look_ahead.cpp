@@ -6,7 +6,8 @@
 //   cycle makes its moves bit by bit; what it has still to make is rehearsed, without the pecks, which lie within their hole.
 //
 //   With radius compensation: a move has its geometry only when the offset stage gives it out. All of the block is fetched from there
-//   first. What the stage finds itself (interference, no intersection) then stops the block as a whole, too.
+//   first. What the stage finds itself (interference, no intersection) then stops the block as a whole, too. So it is behind lines that
+//   fairing has held back; elsewhere the ends that fairing moves stay between programmed points, which are tried as they are.
 #include "control/part_system.hpp"
 #include "interpret/functions/functions.hpp"
 
@@ -105,27 +106,22 @@ nc_status PartSystem::gather_block(uint32_t& budget) {
   bool whole = false;
   while (!whole && staged_count_ < kStaged) {  // no block that can be compensated makes more
     Item& place = staged_[staged_count_];
-    if (!offset_idle_) {
-      const bool any = offset_.pop(place);
-      offset_idle_ = offset_.idle();
-      if (any) {
-        ++staged_count_;
-        whole = ends_look_ahead(place);
-        continue;
-      }
+    if (!idle_ && pop_held(place)) {
+      ++staged_count_;
+      whole = ends_look_ahead(place);
+      continue;
     }
     if (interpreter.front() == nullptr) {
       const nc_status status = interpreter.step(budget);
       if (status != NC_OK) return status;
     }
     const Item& front = *interpreter.front();
-    if (offset_idle_ && !(front.kind == ItemKind::move && front.move.comp.side != 0)) {
+    const Intake intake = idle_ && !may_be_held(front) ? Intake::straight : take_in(front);
+    if (intake == Intake::later) continue;
+    if (intake == Intake::straight) {
       place = front;
       ++staged_count_;
       whole = ends_look_ahead(place);
-    } else {
-      offset_.push(front);
-      offset_idle_ = offset_.idle();
     }
     interpreter.pop();
   }

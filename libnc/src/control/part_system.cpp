@@ -60,7 +60,9 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.optimal = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.tolerance = config.path_tolerance;
   executor.create(ex, arena);
-  if (!arena.measuring() && !arena.overflowed()) clear_offset();
+  if (arena.measuring() || arena.overflowed()) return;
+  fairing_.create(interpreter.axis_count, interpreter.rotary);
+  clear_stages();
 }
 
 // ---- the stream behind the stages ----------------------------------------------------------------------------------------
@@ -73,11 +75,9 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
     return NC_OK;
   }
   for (;;) {
-    if (!offset_idle_) {
+    if (!idle_) {
       staged_head_ = 0;
-      const bool any = offset_.pop(staged_[0]);
-      offset_idle_ = offset_.idle();
-      if (any) {
+      if (pop_held(staged_[0])) {
         staged_count_ = 1;
         from_stage_ = true;
         *item = &staged_[0];
@@ -86,20 +86,67 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
     }
     Item* front = interpreter.front();
     if (front == nullptr) {
+      if (!idle_ && too_far_ahead()) return NC_WAITING;
       const nc_status status = interpreter.step(budget);
       if (status != NC_OK) return status;
       front = interpreter.front();
     }
-    const bool compensated = front->kind == ItemKind::move && front->move.comp.side != 0;
-    if (offset_idle_ && !compensated) {  // nothing to compensate: straight through
-      from_stage_ = false;
-      *item = front;
-      return NC_OK;
+    if (!(idle_ && !may_be_held(*front))) {
+      const bool through = idle_ && front->move.comp.side == 0 && !interpreter.settings.fairing.any();
+      const Intake intake = through ? Intake::straight : take_in(*front);
+      if (intake == Intake::taken) interpreter.pop();
+      if (intake != Intake::straight) continue;
     }
-    offset_.push(*front);
-    offset_idle_ = offset_.idle();
-    interpreter.pop();
+    from_stage_ = false;  // nothing to hold back: straight through
+    *item = front;
+    return NC_OK;
   }
+}
+
+/// A stage that wants to see more blocks gets none while the one in execution might be forgotten for them.
+bool PartSystem::too_far_ahead() const { return online_ && !executor.drained() && !interpreter.remembers(executed_); }
+
+/// Next item behind both stages, false when they must see more first.
+[[gnu::noinline]] bool PartSystem::pop_held(Item& out) {
+  for (;;) {
+    if (!offset_idle_) {
+      const bool any = offset_.pop(out);
+      offset_idle_ = offset_.idle();
+      see_idle();
+      if (any) return true;
+    }
+    const bool any = fairing_.pop(out);
+    see_idle();
+    if (!any) return false;
+    if (offset_idle_ && !(out.kind == ItemKind::move && out.move.comp.side != 0)) return true;
+    offset_.push(out);
+    offset_idle_ = offset_.idle();
+  }
+}
+
+/// The stages have been emptied as far as they can be. Fairing holds nothing while a contour is compensated: its figure is what is
+/// compensated there (docs/decisions.md).
+[[gnu::noinline]] PartSystem::Intake PartSystem::take_in(const Item& front) {
+  if (held_settings_ != interpreter.settings_count) {
+    if (!fairing_.empty()) {
+      fairing_.close();
+      return Intake::later;
+    }
+    held_settings_ = interpreter.settings_count;
+    held_accuracy_ = interpreter.settings.accuracy;
+  }
+  const FairingRule& rule = interpreter.settings.fairing;
+  Intake intake = Intake::taken;
+  if (!fairing_.idle() || (offset_idle_ && rule.any() && fairing_.takes(front))) {
+    if (!fairing_.push(front, rule)) intake = Intake::later;
+  } else if (offset_idle_ && !(front.kind == ItemKind::move && front.move.comp.side != 0)) {
+    return Intake::straight;
+  } else {
+    offset_.push(front);
+    offset_idle_ = offset_.idle();
+  }
+  see_idle();
+  return intake;
 }
 
 const MoveShape* PartSystem::shape_of_item(const Item& item) const {
@@ -137,7 +184,7 @@ void PartSystem::stop_on(const Fault& fault, const nc_source& source) {
   interpreter.rewind(last != nullptr ? last->seq : 0);
   // Of the block that stops some moves may have gone; compensated ones do not end where the program says.
   if (!from_stage_) interpreter.state.machine = commit_.machine();
-  clear_offset();
+  clear_stages();
   clear_staged();
   interpreter.abort(fault, source);
 }
@@ -173,7 +220,7 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   // M700 13.12, type 1: at once. The item that was given out last is the one that is interrupted, unless it is done already; a contour
   // under compensation and a block that waits for an answer are finished first.
   const bool cuttable = pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate;
-  if (settings.interrupt_type_2 || !cuttable || !offset_idle_ || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
+  if (settings.interrupt_type_2 || !cuttable || !idle_ || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
   commit_.take_back(pulled_ == ItemKind::move);
   if (interpreter.interrupt(commit_.machine(), 1, true)) {
     uit_pending_ = false;
@@ -363,9 +410,13 @@ nc_status PartSystem::rewind(Serial serial) {
   uit_mode_ = 0;
   if (interpreter.state.interrupt_on) uit_mode_ |= NC_INTERRUPT_ENABLED;
   if (interpreter.state.interrupt_depth != 0) uit_mode_ |= NC_INTERRUPT_IN_SERVICE;
-  clear_offset();
-  if (point->offset.active) offset_.restore(point->offset);
-  offset_idle_ = offset_.idle();
+  clear_stages();
+  if (point->held_back) {
+    if (point->stages.offset.active) offset_.restore(point->stages.offset);
+    fairing_.restore(point->stages.fairing);
+    offset_idle_ = offset_.idle();
+    see_idle();
+  }
   commit_.rewind_to(*point);
   if (interpreter.state.repeat.active) drop_repeated();
   return NC_OK;
@@ -377,7 +428,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   interpreter.set_machine(machine);
   forget_interrupt();
   uit_mode_ = 0;
-  clear_offset();
+  clear_stages();
   clear_staged();
   open_sync_ = 0;
   finished_ = false;
@@ -387,7 +438,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
 
 nc_status PartSystem::reset() {
   if (busy()) return NC_E_STATE;
-  if (!online_ && !interpreter.ended) {  // blocks that the offset stage holds back have not happened
+  if (!online_ && !interpreter.ended) {  // blocks that the stages hold back have not happened
     const MarkPoint* last = commit_.newest();
     rewind(last != nullptr ? last->serial : 0);
   }
@@ -438,7 +489,7 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
   }
   if (committed == Committed::yes) {
     Record record;
-    commit_.to_record(*item, transform, interpreter.settings.accuracy, &record);
+    commit_.to_record(*item, transform, from_stage_ ? held_accuracy_ : interpreter.settings.accuracy, &record);
     record.epoch = epoch_;
     record.staged = from_stage_;
     if (resumes_) [[unlikely]] resume_record(record);
@@ -586,10 +637,17 @@ bool PartSystem::read_again(Serial last) {
 /// compensation the vector in force is carried along.
 void PartSystem::displace(const AxisVec& machine) {
   AxisVec programmed = interpreter.state.machine;
+  bool any = false;
   for (unsigned i = 0; i < interpreter.axis_count; ++i) {
     const double moved = machine[i] - commit_.machine()[i];
     if (moved == 0) continue;
-    programmed[i] = offset_idle_ ? machine[i] : programmed[i] + moved;
+    any = true;
+    programmed[i] = idle_ ? machine[i] : programmed[i] + moved;
+  }
+  if (any) {  // what fairing has joined is no more: every line from here to its own end
+    fairing_.reset();
+    see_idle();
+    commit_.forget_fairing();
   }
   interpreter.move_to(programmed);
   commit_.displace(machine);

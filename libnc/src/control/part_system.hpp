@@ -43,9 +43,18 @@ class PartSystem {
   Executor executor;
 
  private:
-  /// Next item in stream order behind the offset stage; NC_OK, or why there is none. take() removes it.
+  /// Next item in stream order behind the stages; NC_OK, or why there is none. take() removes it.
   nc_status next(uint32_t& budget, const Item** item);
   void take();
+  bool pop_held(Item& out);
+  bool too_far_ahead() const;
+  /// What became of the front of the interpreter's queue: it is in a stage, nothing has to hold it back, or what is held goes first.
+  enum class Intake : uint8_t { taken, straight, later };
+  Intake take_in(const Item& front);
+  /// Radius compensation, or fine segments that fairing may be about.
+  static bool may_be_held(const Item& item) {
+    return item.kind == ItemKind::move && (item.move.comp.side != 0 || (item.move.high_accuracy & kFineSegmentsOn) != 0);
+  }
   void give_mark(const Item& item, nc_item* out);
   // look_ahead.cpp
   nc_status look_ahead(uint32_t& budget);
@@ -67,8 +76,10 @@ class PartSystem {
   }
   const MoveShape* shape_of_item(const Item& item) const;
   void remember_mark(const Item& mark) {
-    if (offset_idle_) return commit_.remember(mark, nullptr);
-    const OffsetResume resume = offset_.resume_point();
+    if (idle_) return commit_.remember(mark, nullptr);
+    StagesResume resume;
+    if (!offset_idle_) resume.offset = offset_.resume_point();
+    resume.fairing = fairing_.resume_point();
     commit_.remember(mark, &resume);
   }
   Fault refused(Committed committed) const;
@@ -97,16 +108,23 @@ class PartSystem {
     watch();
   }
 
+  FairingStage fairing_;
   OffsetStage offset_;
-  bool offset_idle_ = true;  ///< offset_.idle(), which every item asks
-  void clear_offset() {
+  bool offset_idle_ = true;  ///< offset_.idle()
+  bool idle_ = true;         ///< that of both stages, which every item asks
+  void see_idle() { idle_ = offset_idle_ && fairing_.idle(); }
+  void clear_stages() {
+    fairing_.reset();
     offset_.reset();
-    offset_idle_ = true;
+    offset_idle_ = idle_ = true;
   }
+  /// As they were when what the stages hold was read: a program may change parameters behind it.
+  AccuracyParameters held_accuracy_;
+  uint32_t held_settings_ = 0;  ///< Interpreter::settings_count of these
   Commit commit_;
   nc_alarm alarm_{};
   bool alarm_given_ = false;
-  /// Items that the offset stage has given out: the next one, or all of a block that begins with M S T B.
+  /// Items that the stages have given out: the next one, or all of a block that begins with M S T B.
   static constexpr unsigned kStaged = 32;
   Item staged_[kStaged];
   unsigned staged_head_ = 0, staged_count_ = 0;

@@ -19,6 +19,7 @@ struct AccuracyLimits {
   float smooth_cos = -1;   ///< a corner whose tangents have this cosine or more is none
   float corner_least = 0;  ///< a corner is not passed slower for `corner_step`, mm/s
   float arc_joint = 0;     ///< speed where an arc meets another kind of path, mm/s
+  float judged_turn = -1;  ///< |change of direction| that the corner at its start counts as; negative: what it is
   float bend_acceleration = 0;  ///< that short lines may cause by turning, mm/s^2
 };
 

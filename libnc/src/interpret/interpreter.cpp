@@ -137,6 +137,7 @@ double Interpreter::exchange(void* self, uint32_t key, double value) {
 
 void Interpreter::refresh_settings() {
   settings_stale_ = false;
+  ++settings_count;
   settings = parameters.settings(*dialect);
   for (uint32_t* axes : {&settings.turning, &settings.short_cut, &settings.machine_turn, &settings.tool_change_axes})
     *axes &= axes == &settings.tool_change_axes ? (1u << axis_count) - 1 : rotary;

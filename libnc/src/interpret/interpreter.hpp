@@ -158,6 +158,7 @@ struct Interpreter {
 
   State state;
   Settings settings;
+  uint32_t settings_count = 0;     ///< how often they have been made: another number, other settings
   Parameters parameters;
   Frames frames;
   Variables variables;

@@ -23,6 +23,7 @@ template <int low, int high>
 bool whole(double value) {
   return between<low, high>(value) && value == std::floor(value);
 }
+bool below_100000(double value) { return value >= 0 && value < 100000; }
 bool unit_letter(double value) { return whole<'B', 'E'>(value); }
 bool command_unit(double value) { return value == 0 || value == 10 || value == 100 || value == 1000 || value == 10000; }
 
@@ -123,8 +124,12 @@ constexpr ParameterRow kRows[] = {
     {8025, 8025, 1, kAll, false, whole<0, 1>,          kOffOn,                    "spline G05.1 Q2 exists", "13.18"},
     {8026, 8026, 1, kAll, false, any,                  "0; deg",                  "angle at which a spline ends", "13.18"},
     {8027, 8028, 1, kAll, false, any,                  "0; mm",                   "tolerances of its revision", "13.18"},
+    {8029, 8029, 1, kAll, false, between<0, 100>,      "0; mm",                   "fairing: lines that are shorter are left out where they protrude", "13.17"},
     {8030, 8030, 1, kAll, false, any,                  "1 mm",                    "length of a block that is too short to end a spline", "13.18"},
+    {8033, 8033, 1, kAll, false, whole<0, 1>,          kOffOn,                    "fairing in high-speed high-accuracy control II (#8029)", "13.17"},
     {8034, 8034, 1, kAll, false, whole<0, 1>,          kOffOn,                    "acceleration clamp of fine segments", "13.17"},
+    {8036, 8036, 1, kAll, false, whole<0, 1>,          kOffOn,                    "corners are judged without short lines (#8037)", "13.17"},
+    {8037, 8037, 1, kAll, false, below_100000,         "0; mm",                   "lines that are shorter do not count there", "13.17"},
     {8072, 8072, 1, kAll, false, any,                  "1",                       "scaling factor of G51 without P", "13.19"},
     {8075, 8075, 1, kAll, false, any,                  "0.1 mm",                  "how far the end of a spiral may lie from its curve", "6.13"},
     {8090, 8090, 1, kAll, false, whole<0, 1>,          kOffOn,                    "SSS control with G05 P10000", "13.17"},

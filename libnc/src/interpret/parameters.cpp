@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 
 #include "interpret/parameter_table.hpp"
 
@@ -247,6 +248,23 @@ bool Parameters::at(unsigned index, const char** key, int* axis, double* value, 
   return true;
 }
 
+/// 13.17.1, additional functions (1) and (3).
+void Parameters::fairing_settings(Settings& s) const {
+  auto number = [this](const char* key) {
+    double value = 0;
+    get(key, -1, &value);
+    return value;
+  };
+  constexpr double kStandardAngle = 10;  // deg: #8020 in the standard values of 13.17.2
+  constexpr double kDegree = std::numbers::pi / 180;
+  const double angle = s.accuracy.corner_angle_deg > 0 ? std::fmin(s.accuracy.corner_angle_deg, 180) : kStandardAngle;
+  s.fairing.length_mm = number("8029");
+  s.fairing.fairing = number("8033") != 0 && s.fairing.length_mm > 0;
+  s.fairing.corner_cos = std::cos(angle * kDegree);
+  s.fairing.judge_length_mm = number("8037");
+  s.fairing.judge = number("8036") != 0 && s.fairing.judge_length_mm > 0;
+}
+
 Settings Parameters::settings(const Dialect& dialect) const {
   Settings s;
   auto number = [this](const char* key, double fallback, int axis = -1) {
@@ -401,6 +419,7 @@ Settings Parameters::settings(const Dialect& dialect) const {
     s.accuracy.corner_least_mm_min[i] = number("2096", 0, axis);
   }
   if (flag("1149")) s.accuracy.arc_joint_mm_min = number("1209", 0);
+  fairing_settings(s);
   for (unsigned i = 0; i < kMaxAxes; ++i) s.creep[i] = number("8209", 0, static_cast<int>(i));
   for (unsigned i = 0; i < kMaxAxes; ++i) axis_settings(static_cast<int>(i), &s);
   for (unsigned i = 0; i < kMaxAxes; ++i) s.index_increment[i] = number("2106", 0, static_cast<int>(i));

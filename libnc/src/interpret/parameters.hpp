@@ -4,6 +4,7 @@
 
 #include "base/arena.hpp"
 #include "dialect/dialect.hpp"
+#include "fairing/rule.hpp"
 #include "motion/m700_accuracy.hpp"
 
 namespace nc {
@@ -112,6 +113,7 @@ struct Settings {
   double spline_tolerance_inflected = 0;  ///< #8027 Toler-1, mm; 0 = no revision
   double spline_tolerance_arched = 0;     ///< #8028 Toler-2, mm
   AccuracyParameters accuracy;            ///< of high-accuracy control, 13.15
+  FairingRule fairing;                    ///< #8033, #8029, #8036, #8037 (13.17.1)
   // DGSHAPE settings
   bool calculator = false;
   uint8_t calculator_words = 0;       ///< 0 none, 1 all, 2 F, 3 IJKRXYZA
@@ -154,6 +156,7 @@ class Parameters {
   };
   Entry* find(const char* key, int axis) const;
   void feed_settings(Settings& settings) const;
+  void fairing_settings(Settings& settings) const;
   void axis_settings(int axis, Settings* s) const;
   double keep_text(const char* text);
   static constexpr unsigned kTexts = 128, kTextSize = 64;  ///< M700 13.11: at most 63 characters; the oldest place is used again

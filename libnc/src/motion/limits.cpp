@@ -222,10 +222,11 @@ double accuracy_speed(const Segment& a, const SegmentShape& sa, const Segment& b
     turn2 += change * change;
   }
   // The change of velocity at a speed of 1: 2 sin(theta / 2).
-  const double turn = std::sqrt(turn2), cosine = 1 - 0.5 * turn2;
+  const double turn = std::sqrt(turn2);
+  const double judged = b.accuracy.judged_turn < 0.0f ? turn : static_cast<double>(b.accuracy.judged_turn);  // 13.17.1 (3)
   double v = HUGE_VAL;
-  if (step > 0 && cosine < smooth) {
-    v = step / turn;
+  if (step > 0 && 1 - 0.5 * judged * judged < smooth) {
+    v = step / judged;
     const float least = std::min(a.accuracy.corner_least, b.accuracy.corner_least);  // #2096, where every moving axis has one
     v = std::max(v, static_cast<double>(least));
   }

@@ -2,7 +2,7 @@
 //
 // THE STREAM: the contract between the stages of libnc. Read this header first; everything else fills it.
 //
-//   text -> block -> [interpret] -> ITEMS -> [contour] -> [offset] -> [commit] -> ring -> [motion plan] -> [interpolate] -> set-points
+//   text -> block -> [interpret] -> ITEMS -> [contour] -> [fairing] -> [offset] -> [commit] -> ring -> [motion plan] -> [interpolate] -> set-points
 //
 // Everything that a program causes is an Item in one ordered stream. There are seven kinds:
 //
@@ -18,6 +18,8 @@
 // What the stages do with them
 //   interpret  makes items, one block at a time. After a sync it makes nothing until it is answered.
 //   contour    (corners between blocks; a pass-through as yet) may hold moves back.
+//   fairing    leaves out protruding lines of high-speed high-accuracy control II and moves the ends of their neighbours; judges corners.
+//              Holds a row of lines back with the marks between; any other item closes the row.
 //   offset     replaces the geometry of moves by their compensated geometry and may insert moves. It holds items back while it
 //              looks ahead, never reorders them, and closes its contour perpendicular when it meets an item for which
 //              `inhibits_read_ahead` is true, because nothing beyond such an item can be waited for.
@@ -136,6 +138,7 @@ struct Move {
   bool plane_feed = false;       ///< helix: the feed is the speed in the plane of its arc (M700 6.6)
   uint8_t unclamps = 0;          ///< bit i: axis i of an index table is unclamped meanwhile, for the move behind (M700 9.3 (3))
   uint8_t high_accuracy = 0;     ///< corners and arcs by the rules of high-accuracy control: bits of HighAccuracy
+  float judged_turn = -1;        ///< |change of direction| that the corner at its start counts as (M700 #8036); negative: its own
   TransformId transform = 0;
   uint32_t shape = 0;            ///< of the MoveShape, counted from 1; 0 = the line or circle below is all
   AxisVec start, end;            ///< compensation frame; after the offset stage: of the compensated path

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fairing/fairing.hpp"
+
+#include <cmath>
+
+namespace nc {
+namespace {
+
+constexpr double kNoLength = 1e-9;  // mm: as in commit
+constexpr double kSlack = 1e-9;     // of the bound, for a restart
+
+double distance(const AxisVec& a, const AxisVec& b, unsigned axis_count) {
+  double squares = 0;
+  for (unsigned i = 0; i < axis_count; ++i) squares += (b[i] - a[i]) * (b[i] - a[i]);
+  return std::sqrt(squares);
+}
+
+/// The end of a block, with nothing but lines before and behind it. Where the program begins again it is another one.
+bool plain_mark(const Item& item) { return item.kind == ItemKind::mark && !item.mark.again; }
+
+}  // namespace
+
+// M700 13.17.1 precaution (13): consecutive G01 and nothing else.
+bool FairingStage::takes(const Item& item) const {
+  if (item.kind != ItemKind::move) return false;
+  const Move& m = item.move;
+  const bool line = m.kind == NC_MOVE_LINE && !m.circular && m.shape == 0 && m.skip_mask == 0 && !m.exact_stop && !m.connecting;
+  if (!line || (m.high_accuracy & kFineSegmentsOn) == 0 || m.comp.side != 0) return false;
+  for (unsigned i = 0; rotary_ >> i != 0 && i < axis_count_; ++i)
+    if ((rotary_ >> i & 1) != 0 && m.end[i] != m.start[i]) return false;  // a degree is no millimetre
+  return true;
+}
+
+/// The line goes on where the one before it ends, in the same coordinates.
+bool FairingStage::follows(const Move& move) const {
+  return move.transform == last_.transform && move.stroke_box == last_.stroke_box && distance(last_.end, move.start, axis_count_) <= kNoLength;
+}
+
+bool FairingStage::push(const Item& item, const FairingRule& rule) {
+  if (closing_ || count_ == kHeld) return false;
+  const bool line = takes(item);
+  if (line && lines_ != 0 && (!(rule == rule_) || !follows(item.move))) {
+    close();
+    return false;
+  }
+  if (line) {
+    if (distance(item.move.start, item.move.end, axis_count_) <= kNoLength) return true;  // it would vanish at commit
+    rule_ = rule;
+    last_ = item.move;
+    ++lines_;
+  }
+  held_[(first_ + count_++) % kHeld] = item;
+  if (!line && !plain_mark(item)) closing_ = true;
+  return true;
+}
+
+bool FairingStage::pop(Item& out) {
+  while (count_ != 0) {
+    Item& front = held(0);
+    if (!takes(front)) {
+      out = front;
+      drop_front();
+      return true;
+    }
+    if (state_.left_out != 0 && drop_line(front.move)) continue;
+    if (!closing_ && lines_ <= kFairingAhead && count_ < kMostHeld) return false;
+    decide(&front.move);
+    out = front;
+    drop_front();
+    return true;
+  }
+  return false;
+}
+
+/// A line that is left out. False: it is not the one that was meant; behind a restart the text may be another one (a switch of optional
+/// block skip).
+bool FairingStage::drop_line(const Move& move) {
+  if (distance(move.end, state_.joint, axis_count_) > rule_.length_mm + kSlack) {
+    state_.left_out = 0;
+    return false;
+  }
+  --state_.left_out;
+  drop_front();
+  return true;
+}
+
+void FairingStage::drop_front() {
+  if (takes(held(0))) --lines_;
+  first_ = (first_ + 1) % kHeld;
+  if (--count_ != 0 || !closing_) return;
+  closing_ = false;  // a row of lines is over: the next one knows nothing of it
+  state_ = {};
+}
+
+/// Where the line in front begins and ends, how many behind it are left out, and how sharp its first corner is.
+void FairingStage::decide(Move* move) {
+  const AxisVec from = state_.moved && distance(move->start, state_.joint, axis_count_) <= rule_.length_mm + kSlack ? state_.joint : move->start;
+  LineChain chain(axis_count_);
+  chain.begin(from);
+  chain.add(move->end);
+  for (unsigned i = 1; i < count_ && chain.lines() <= kFairingAhead; ++i)
+    if (takes(held(i))) chain.add(held(i).move.end);
+  chain.fair(rule_);
+  move->start = from;
+  state_.left_out = static_cast<uint8_t>(chain.left_out());
+  state_.moved = state_.left_out != 0;
+  if (state_.moved) state_.joint = move->end = chain.first_end();
+  if (rule_.judge) judge(chain, move);
+}
+
+/// M700 13.17.1 (3): between the nearest lines before and behind that are not too short.
+void FairingStage::judge(const LineChain& chain, Move* move) {
+  const double least = rule_.judge_length_mm;
+  const bool is_short = chain.length(0) < least;
+  if (state_.long_known && (state_.short_before || is_short)) {
+    unsigned behind = 0;
+    while (behind < chain.lines() && chain.length(behind) < least) ++behind;
+    if (behind < chain.lines()) move->judged_turn = static_cast<float>(turn_between(state_.long_before, chain.direction(behind), axis_count_));
+  }
+  state_.judging = true;
+  state_.short_before = is_short;
+  if (is_short) return;
+  state_.long_known = true;
+  state_.long_before = chain.direction(0);
+}
+
+void FairingStage::reset() {
+  first_ = count_ = lines_ = 0;
+  closing_ = false;
+  state_ = {};
+}
+
+}  // namespace nc
