@@ -76,7 +76,7 @@ class PartSystem {
   }
   const MoveShape* shape_of_item(const Item& item) const;
   void remember_mark(const Item& mark) {
-    if (idle_) return commit_.remember(mark, nullptr);
+    if (idle_ || (offset_idle_ && !fairing_.resume_point().active())) return commit_.remember(mark, nullptr);
     StagesResume resume;
     if (!offset_idle_) resume.offset = offset_.resume_point();
     resume.fairing = fairing_.resume_point();

@@ -33,7 +33,7 @@ bool FairingStage::takes(const Item& item) const {
 
 /// The line goes on where the one before it ends, in the same coordinates.
 bool FairingStage::follows(const Move& move) const {
-  return move.transform == last_.transform && move.stroke_box == last_.stroke_box && distance(last_.end, move.start, axis_count_) <= kNoLength;
+  return move.transform == transform_ && move.stroke_box == stroke_box_ && distance(end_, move.start, axis_count_) <= kNoLength;
 }
 
 bool FairingStage::push(const Item& item, const FairingRule& rule) {
@@ -43,29 +43,33 @@ bool FairingStage::push(const Item& item, const FairingRule& rule) {
     close();
     return false;
   }
+  Held& place = held(count_);
   if (line) {
-    if (distance(item.move.start, item.move.end, axis_count_) <= kNoLength) return true;  // it would vanish at commit
+    place.length = distance(item.move.start, item.move.end, axis_count_);
+    if (place.length <= kNoLength) return true;  // it would vanish at commit
     rule_ = rule;
-    last_ = item.move;
+    end_ = item.move.end;
+    transform_ = item.move.transform;
+    stroke_box_ = item.move.stroke_box;
     ++lines_;
+    if (place.length < rule.length_mm) ++short_;
   }
-  held_[(first_ + count_++) % kHeld] = item;
+  place.item = item;
+  place.line = line;
+  ++count_;
   if (!line && !plain_mark(item)) closing_ = true;
   return true;
 }
 
 bool FairingStage::pop(Item& out) {
   while (count_ != 0) {
-    Item& front = held(0);
-    if (!takes(front)) {
-      out = front;
-      drop_front();
-      return true;
+    Held& front = held(0);
+    if (front.line) {
+      if (state_.left_out != 0 && drop_line(front.item.move)) continue;
+      if (!closing_ && lines_ <= kFairingAhead && count_ < kMostHeld) return false;
+      decide(&front.item.move);
     }
-    if (state_.left_out != 0 && drop_line(front.move)) continue;
-    if (!closing_ && lines_ <= kFairingAhead && count_ < kMostHeld) return false;
-    decide(&front.move);
-    out = front;
+    out = front.item;
     drop_front();
     return true;
   }
@@ -85,7 +89,11 @@ bool FairingStage::drop_line(const Move& move) {
 }
 
 void FairingStage::drop_front() {
-  if (takes(held(0))) --lines_;
+  const Held& front = held(0);
+  if (front.line) {
+    --lines_;
+    if (front.length < rule_.length_mm) --short_;
+  }
   first_ = (first_ + 1) % kHeld;
   if (--count_ != 0 || !closing_) return;
   closing_ = false;  // a row of lines is over: the next one knows nothing of it
@@ -94,14 +102,20 @@ void FairingStage::drop_front() {
 
 /// Where the line in front begins and ends, how many behind it are left out, and how sharp its first corner is.
 void FairingStage::decide(Move* move) {
-  const AxisVec from = state_.moved && distance(move->start, state_.joint, axis_count_) <= rule_.length_mm + kSlack ? state_.joint : move->start;
+  if (state_.moved && distance(move->start, state_.joint, axis_count_) <= rule_.length_mm + kSlack) move->start = state_.joint;
+  const bool joins = rule_.fairing && short_ahead();
+  if (!joins && !(rule_.judge && (state_.short_before || distance(move->start, move->end, axis_count_) < rule_.judge_length_mm))) {
+    state_.left_out = 0;
+    state_.moved = false;
+    if (rule_.judge) judge_long(*move);
+    return;
+  }
   LineChain chain(axis_count_);
-  chain.begin(from);
+  chain.begin(move->start);
   chain.add(move->end);
   for (unsigned i = 1; i < count_ && chain.lines() <= kFairingAhead; ++i)
-    if (takes(held(i))) chain.add(held(i).move.end);
-  chain.fair(rule_);
-  move->start = from;
+    if (held(i).line) chain.add(held(i).item.move.end);
+  if (joins) chain.fair(rule_);
   state_.left_out = static_cast<uint8_t>(chain.left_out());
   state_.moved = state_.left_out != 0;
   if (state_.moved) state_.joint = move->end = chain.first_end();
@@ -124,8 +138,16 @@ void FairingStage::judge(const LineChain& chain, Move* move) {
   state_.long_before = chain.direction(0);
 }
 
+/// The same where both lines at the joint are long enough: it is what it is.
+void FairingStage::judge_long(const Move& move) {
+  state_.judging = state_.long_known = true;
+  state_.short_before = false;
+  const double length = distance(move.start, move.end, axis_count_);
+  for (unsigned i = 0; i < axis_count_; ++i) state_.long_before[i] = (move.end[i] - move.start[i]) / length;
+}
+
 void FairingStage::reset() {
-  first_ = count_ = lines_ = 0;
+  first_ = count_ = lines_ = short_ = 0;
   closing_ = false;
   state_ = {};
 }

@@ -59,18 +59,28 @@ class FairingStage {
  private:
   static constexpr unsigned kHeld = 32;  ///< items; a power of two, so that their numbers may wrap
   static constexpr unsigned kMostHeld = 24;  ///< with so many the line in front waits for no more
-  Item& held(unsigned number) { return held_[(first_ + number) % kHeld]; }
+  struct Held {
+    Item item;
+    bool line = false;
+    double length = 0;  ///< of a line, as programmed, mm
+  };
+  Held& held(unsigned number) { return held_[(first_ + number) % kHeld]; }
   bool follows(const Move& move) const;
+  bool short_ahead() const { return short_ > (held_[first_].length < rule_.length_mm ? 1u : 0u); }
   void decide(Move* move);
   void judge(const LineChain& chain, Move* move);
+  void judge_long(const Move& move);
   bool drop_line(const Move& move);
   void drop_front();
 
-  Item held_[kHeld];
+  Held held_[kHeld];
   unsigned first_ = 0, count_ = 0;
   unsigned lines_ = 0;     ///< of those held
+  unsigned short_ = 0;     ///< of these, shorter than rule_.length_mm as programmed
   bool closing_ = false;
-  Move last_;              ///< the line pushed last, as programmed
+  AxisVec end_;            ///< of the line pushed last, as programmed
+  TransformId transform_ = 0;  ///< and what it stands in
+  uint32_t stroke_box_ = 0;
   FairingRule rule_;
   FairingResume state_;    ///< in front of the item in front
   unsigned axis_count_ = 3;
