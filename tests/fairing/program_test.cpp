@@ -365,6 +365,22 @@ TEST(CornerJudgementOnline, AShortStepIsNoCorner) {
   EXPECT_LT(slowest_around_ten([](Bench&) {}, "G5 P10000\n" + on + off + "G1 X10. F300.\nX10.047 Y.017\nX30.\n" + kEnd), 3);
 }
 
+/// Parameters that a program changes behind lines which are still held back are not those of the lines.
+TEST(CornerJudgementOnline, ParametersBehindTheLinesAreNotTheirs) {
+  const std::string lines = "G5 P10000\nG1 X10. F300.\nX10.047 Y.017\nX30.\n", faster = "G10 L70\nP1206 D600000\nG11\n";
+  const auto held = [](Bench& bench) { faired(bench, "0.01"); };
+  EXPECT_LT(slowest_around_ten(held, lines + faster + kEnd), 3);
+  EXPECT_NEAR(slowest_around_ten(held, faster + lines + kEnd), 5, 0.08);
+}
+
+/// An interrupt program never comes between lines that are held back: both modes exclude each other (M700 13.17.1).
+TEST(FairingProgram, NoMacroInterruptInTheMode) {
+  Bench bench;
+  bench.param("1109", "1").add("O1", "M99\n");
+  EXPECT_EQ(faired(bench).run("M96 P1\nG5 P10000\nM30").alarm, "P34");
+  EXPECT_EQ(bench.run("G5 P10000\nG1 X10. F1000.\nM96 P1\nM30").alarm, "P33");
+}
+
 /// A sharp corner that hides in short lines is still passed within the limits of the axes.
 TEST(CornerJudgementOnline, TheAxesKeepTheirLimits) {
   const std::string text = "G5 P10000\nG1 X10. F300.\nY.05\nX10.05\nX30.\n" + kEnd;

@@ -207,14 +207,27 @@ double Commit::helix_slope() const {
   return in_plane > 0 ? curve_.length / in_plane : 1.0;
 }
 
-void Commit::remember(const Item& mark, const StagesResume* stages) {
+void Commit::remember(const Item& mark) {
   if (!mark.mark.resume) return;
   MarkPoint& point = marks_[mark_count_++ & mark_mask_];
   point.serial = last_serial_;
   point.seq = mark.mark.seq;
   point.machine = machine_;
-  point.held_back = stages != nullptr;
-  if (stages != nullptr) point.stages = *stages;
+  point.held = MarkPoint::Held::nothing;
+}
+
+void Commit::remember(const Item& mark, const OffsetResume& offset) {
+  remember(mark);
+  if (!mark.mark.resume) return;
+  newest_point()->held = MarkPoint::Held::contour;
+  newest_point()->offset = offset;
+}
+
+void Commit::remember(const Item& mark, const FairingResume& fairing) {
+  remember(mark);
+  if (!mark.mark.resume) return;
+  newest_point()->held = MarkPoint::Held::lines;
+  newest_point()->fairing = fairing;
 }
 
 const MarkPoint* Commit::find(Serial serial) const {

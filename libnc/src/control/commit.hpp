@@ -24,19 +24,18 @@ struct CommitConfig {
   bool rotary_makes_length = false;  ///< F of a line is composite: a degree counts as a millimetre (M700 7.6)
 };
 
-/// What the stages that hold items back must know to go on right behind a mark.
-struct StagesResume {
-  OffsetResume offset;
-  FairingResume fairing;
-};
-
-/// A place to rewind to.
+/// A place to rewind to: what the stages must know to go on right behind a mark. One stage at most holds items back.
 struct MarkPoint {
+  enum class Held : uint8_t { nothing, contour, lines };
   Serial serial = 0;
   BlockSeq seq = 0;
   AxisVec machine;
-  bool held_back = false;  ///< a stage was not idle: `stages` holds
-  StagesResume stages;
+  Held held = Held::nothing;
+  union {
+    OffsetResume offset;    ///< contour
+    FairingResume fairing;  ///< lines
+  };
+  MarkPoint() : offset() {}
 };
 
 enum class Committed : uint8_t {
@@ -61,7 +60,8 @@ class Commit {
   }
   /// The machine does not stand where fairing has brought it at the newest mark.
   void forget_fairing() {
-    if (mark_count_ != 0) marks_[(mark_count_ - 1) & mark_mask_].stages.fairing = {};
+    MarkPoint* point = newest_point();
+    if (point != nullptr && point->held == MarkPoint::Held::lines) point->held = MarkPoint::Held::nothing;
   }
   void restart() {
     last_serial_ = 0;
@@ -97,8 +97,11 @@ class Commit {
   /// The curve just committed, which is a move, goes into record number `record`.
   void note_record(uint32_t record);
   const Curve& curve() const { return curve_; }
-  /// `stages`: where those that hold items back are, nullptr while they are idle.
-  void remember(const Item& mark, const StagesResume* stages);
+  /// The item just committed is `mark`: a place to go back to, if it is one. Nothing is held back there.
+  void remember(const Item& mark);
+  /// The same where compensation or fairing holds items back.
+  void remember(const Item& mark, const OffsetResume& offset);
+  void remember(const Item& mark, const FairingResume& fairing);
 
   /// The item just committed, as a sink sees it.
   void to_public(const Item& item, nc_item* out) const;
@@ -140,6 +143,7 @@ class Commit {
   void rewind_to(const MarkPoint& point);
 
  private:
+  MarkPoint* newest_point() { return mark_count_ == 0 ? nullptr : &marks_[(mark_count_ - 1) & mark_mask_]; }
   bool inside_limits(const Curve& curve);
   void add_held_axes(const Curve& curve, AxisVec* from, AxisVec* low, AxisVec* high);
   void commit_shape(const Move& move, const Transform& transform, const MoveShape& shape);

@@ -411,12 +411,10 @@ nc_status PartSystem::rewind(Serial serial) {
   if (interpreter.state.interrupt_on) uit_mode_ |= NC_INTERRUPT_ENABLED;
   if (interpreter.state.interrupt_depth != 0) uit_mode_ |= NC_INTERRUPT_IN_SERVICE;
   clear_stages();
-  if (point->held_back) {
-    if (point->stages.offset.active) offset_.restore(point->stages.offset);
-    fairing_.restore(point->stages.fairing);
-    offset_idle_ = offset_.idle();
-    see_idle();
-  }
+  if (point->held == MarkPoint::Held::contour && point->offset.active) offset_.restore(point->offset);
+  if (point->held == MarkPoint::Held::lines) fairing_.restore(point->fairing);
+  offset_idle_ = offset_.idle();
+  see_idle();
   commit_.rewind_to(*point);
   if (interpreter.state.repeat.active) drop_repeated();
   return NC_OK;

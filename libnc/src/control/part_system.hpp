@@ -76,11 +76,10 @@ class PartSystem {
   }
   const MoveShape* shape_of_item(const Item& item) const;
   void remember_mark(const Item& mark) {
-    if (idle_ || (offset_idle_ && !fairing_.resume_point().active())) return commit_.remember(mark, nullptr);
-    StagesResume resume;
-    if (!offset_idle_) resume.offset = offset_.resume_point();
-    resume.fairing = fairing_.resume_point();
-    commit_.remember(mark, &resume);
+    if (idle_) return commit_.remember(mark);
+    if (!offset_idle_) return commit_.remember(mark, offset_.resume_point());
+    if (!fairing_.resume_point().active()) return commit_.remember(mark);
+    commit_.remember(mark, fairing_.resume_point());
   }
   Fault refused(Committed committed) const;
   void stop_on(const Fault& fault, const nc_source& source);
