@@ -127,6 +127,15 @@ TEST_F(CommandTest, CheckSaysWhatAGoodProgramDoes) {
   EXPECT_EQ(check.out.rfind("p.nc: no alarm; 5 blocks, 4 moves, ", 0), 0u) << check.out;
 }
 
+TEST_F(CommandTest, CheckNotesParametersThatDoNothing) {
+  file("p.nc", kPart);
+  file("s.json", "{\"params\":\n {\"8033\": 1,\n  \"8092\": 1}}");
+  const Outcome check = ncsim("check --setup s.json p.nc");
+  EXPECT_EQ(check.code, 0);
+  EXPECT_EQ(check.err, "note: s.json:3: params.8092: nothing in the control asks for this parameter: it is kept for programs that read it\n");
+  EXPECT_EQ(ncsim("trace --setup s.json p.nc").err, "");
+}
+
 TEST_F(CommandTest, UsageFileAndSetupErrorsAreOneLineAndExitOne) {
   file("p.nc", kPart);
   file("bad.json", "{\n\"axez\": 1}");

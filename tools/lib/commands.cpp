@@ -197,6 +197,22 @@ int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int
   return exit_code(result.how);
 }
 
+namespace {
+
+/** Parameters that are set and do nothing: a note for each, on standard error. */
+void note_parameters(const Session& session, nc_dialect dialect, std::FILE* err) {
+  constexpr const char* kNote = "nothing in the control asks for this parameter: it is kept for programs that read it";
+  for (const SetupParameter& p : session.setup().parameters)
+    if (!nc_parameter_used(dialect, p.key.c_str()))
+      std::fprintf(err, "note: %s:%u: %s: %s\n", session.setup().name.c_str(), p.place.line, p.place.path.c_str(), kNote);
+  if (session.machine() == nullptr) return;
+  for (const rt::ParameterSetting& p : session.machine()->parameters)
+    if (!nc_parameter_used(dialect, p.key.c_str()))
+      std::fprintf(err, "note: %s:%u: %s: %s\n", session.machine()->file.c_str(), p.place.line, p.place.key.c_str(), kNote);
+}
+
+}  // namespace
+
 int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std::FILE* out, std::FILE* err) {
   Session session;
   std::string error;
@@ -207,6 +223,7 @@ int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std
   if (!run_printing(&session, &nothing, &items, max_silent_blocks, true, options.print, &result, &error))
     return complain(err, error);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  note_parameters(session, static_cast<nc_dialect>(session.config().dialect), err);
   if (result.how == RunResult::How::kAlarmed)
     std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   else
