@@ -115,7 +115,7 @@ TEST(FairingProgram, AStrokeLimitStopsBeforeItsBlock) {
 // ---- random programs -------------------------------------------------------------------------------------------------------
 
 /// Fine segments with protrusions, and all that may lie between them. Numbers rounded to micrometres.
-std::string random_program(uint32_t seed) {
+std::string random_program(uint32_t seed, bool splines = true) {
   std::mt19937 random(seed);
   const auto real = [&random](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   const auto coordinate = [](double value) {
@@ -135,9 +135,17 @@ std::string random_program(uint32_t seed) {
       case 2: text += "\n"; break;
       case 3: text += "F" + std::to_string(1000 + random() % 5000) + ".\n"; break;
       case 4: text += "M98 H10\n"; break;
-      case 5: text += "G10 L70\nP8029 D" + std::string(random() % 2 != 0 ? "0.05" : "0.15") + "\nP8020 D" + std::to_string(random() % 20) + "\nG11\n"; break;
+      case 5:
+        text += "G10 L70\nP8029 D" + std::string(random() % 2 != 0 ? "0.05" : "0.15") + "\nP8020 D" + std::to_string(random() % 20) + "\nG11\n";
+        break;
       case 6: text += "M0\n"; break;
       case 7: text += "S" + std::to_string(i) + " "; break;
+      case 8:
+        for (unsigned n = 0; random() % 4 == 0 && n < 50; ++n) text += "N1\n";
+        break;
+      case 9:
+        if (splines) text += "G5.1 Q" + std::string(random() % 2 != 0 ? "2 X0 Y0 Z0" : "0") + "\n";
+        break;
       default: break;
     }
     text += "G1 X" + coordinate(x) + " Y" + coordinate(y) + "\n";
@@ -146,7 +154,7 @@ std::string random_program(uint32_t seed) {
 }
 
 Bench& fine_parameters(Bench& bench, uint32_t seed) {
-  faired(bench).param("8036", seed % 2 != 0 ? "1" : "0").param("8037", "0.1").param("1206", "6000").param("1207", "100");
+  faired(bench).param("8025", "1").param("8030", "0.5").param("8036", seed % 2 != 0 ? "1" : "0").param("8037", "0.1").param("1206", "6000").param("1207", "100");
   return bench;
 }
 
@@ -187,7 +195,7 @@ void compare(const Disturbance& disturb) {
   unsigned recalculated = 0;
   for (uint32_t seed = 0; seed < kPrograms; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const std::string text = random_program(seed);
+    const std::string text = random_program(seed, !disturb.optimal);
     Bench offline;
     const Outcome expected = fine_parameters(offline, seed).run(text);
     Bench online(NC_DIALECT_M700, [&disturb](nc_config& c) {

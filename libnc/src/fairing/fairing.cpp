@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fairing/fairing.hpp"
 
-#include <cmath>
-
 namespace nc {
 namespace {
 
 constexpr double kNoLength = 1e-9;  // mm: as in commit
 constexpr double kSlack = 1e-9;     // of the bound, for a restart
-
-double distance(const AxisVec& a, const AxisVec& b, unsigned axis_count) {
-  double squares = 0;
-  for (unsigned i = 0; i < axis_count; ++i) squares += (b[i] - a[i]) * (b[i] - a[i]);
-  return std::sqrt(squares);
-}
 
 /// The end of a block, with nothing but lines before and behind it. Where the program begins again it is another one.
 bool plain_mark(const Item& item) { return item.kind == ItemKind::mark && !item.mark.again; }
@@ -33,7 +25,7 @@ bool FairingStage::takes(const Item& item) const {
 
 /// The line goes on where the one before it ends, in the same coordinates.
 bool FairingStage::follows(const Move& move) const {
-  return move.transform == transform_ && move.stroke_box == stroke_box_ && distance(end_, move.start, axis_count_) <= kNoLength;
+  return move.transform == transform_ && move.stroke_box == stroke_box_ && distance(end_, move.start) <= kNoLength;
 }
 
 bool FairingStage::push(const Item& item, const FairingRule& rule) {
@@ -45,7 +37,7 @@ bool FairingStage::push(const Item& item, const FairingRule& rule) {
   }
   Held& place = held(count_);
   if (line) {
-    place.length = distance(item.move.start, item.move.end, axis_count_);
+    place.length = distance(item.move.start, item.move.end);
     if (place.length <= kNoLength) return true;  // it would vanish at commit
     rule_ = rule;
     end_ = item.move.end;
@@ -79,7 +71,7 @@ bool FairingStage::pop(Item& out) {
 /// A line that is left out. False: it is not the one that was meant; behind a restart the text may be another one (a switch of optional
 /// block skip).
 bool FairingStage::drop_line(const Move& move) {
-  if (distance(move.end, state_.joint, axis_count_) > rule_.length_mm + kSlack) {
+  if (distance(move.end, state_.joint) > rule_.length_mm + kSlack) {
     state_.left_out = 0;
     return false;
   }
@@ -102,9 +94,9 @@ void FairingStage::drop_front() {
 
 /// Where the line in front begins and ends, how many behind it are left out, and how sharp its first corner is.
 void FairingStage::decide(Move* move) {
-  if (state_.moved && distance(move->start, state_.joint, axis_count_) <= rule_.length_mm + kSlack) move->start = state_.joint;
+  if (state_.moved && distance(move->start, state_.joint) <= rule_.length_mm + kSlack) move->start = state_.joint;
   const bool joins = rule_.fairing && short_ahead();
-  if (!joins && !(rule_.judge && (state_.short_before || distance(move->start, move->end, axis_count_) < rule_.judge_length_mm))) {
+  if (!joins && !(rule_.judge && (state_.short_before || distance(move->start, move->end) < rule_.judge_length_mm))) {
     state_.left_out = 0;
     state_.moved = false;
     if (rule_.judge) judge_long(*move);
@@ -129,7 +121,7 @@ void FairingStage::judge(const LineChain& chain, Move* move) {
   if (state_.long_known && (state_.short_before || is_short)) {
     unsigned behind = 0;
     while (behind < chain.lines() && chain.length(behind) < least) ++behind;
-    if (behind < chain.lines()) move->judged_turn = static_cast<float>(turn_between(state_.long_before, chain.direction(behind), axis_count_));
+    if (behind < chain.lines()) move->judged_turn = static_cast<float>(distance(state_.long_before, chain.direction(behind)));
   }
   state_.judging = true;
   state_.short_before = is_short;
@@ -142,7 +134,7 @@ void FairingStage::judge(const LineChain& chain, Move* move) {
 void FairingStage::judge_long(const Move& move) {
   state_.judging = state_.long_known = true;
   state_.short_before = false;
-  const double length = distance(move.start, move.end, axis_count_);
+  const double length = distance(move.start, move.end);
   for (unsigned i = 0; i < axis_count_; ++i) state_.long_before[i] = (move.end[i] - move.start[i]) / length;
 }
 

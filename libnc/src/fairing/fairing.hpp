@@ -65,6 +65,7 @@ class FairingStage {
     double length = 0;  ///< of a line, as programmed, mm
   };
   Held& held(unsigned number) { return held_[(first_ + number) % kHeld]; }
+  double distance(const AxisVec& a, const AxisVec& b) const { return distance_of(a, b, axis_count_); }
   bool follows(const Move& move) const;
   bool short_ahead() const { return short_ > (held_[first_].length < rule_.length_mm ? 1u : 0u); }
   void decide(Move* move);

@@ -17,13 +17,7 @@ double LineChain::dot(const AxisVec& a, const AxisVec& b) const {
   return sum;
 }
 
-double LineChain::distance(const AxisVec& a, const AxisVec& b) const {
-  double squares = 0;
-  for (unsigned i = 0; i < axis_count_; ++i) squares += (b[i] - a[i]) * (b[i] - a[i]);
-  return std::sqrt(squares);
-}
-
-double turn_between(const AxisVec& a, const AxisVec& b, unsigned axis_count) {
+double distance_of(const AxisVec& a, const AxisVec& b, unsigned axis_count) {
   double squares = 0;
   for (unsigned i = 0; i < axis_count; ++i) squares += (b[i] - a[i]) * (b[i] - a[i]);
   return std::sqrt(squares);

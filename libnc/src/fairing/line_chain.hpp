@@ -14,6 +14,9 @@ namespace nc {
 /// to 8 blocks ahead.
 inline constexpr unsigned kFairingAhead = 8;
 
+/// |b - a|; of two directions 2 sin(angle / 2), the change of velocity at a speed of 1.
+double distance_of(const AxisVec& a, const AxisVec& b, unsigned axis_count);
+
 class LineChain {
  public:
   explicit LineChain(unsigned axis_count) : axis_count_(axis_count) {}
@@ -49,7 +52,7 @@ class LineChain {
   Line line_between(const AxisVec& from, const AxisVec& to) const;
   double cosine(unsigned a, unsigned b) const { return dot(line_[a].direction, line_[b].direction); }
   double dot(const AxisVec& a, const AxisVec& b) const;
-  double distance(const AxisVec& a, const AxisVec& b) const;
+  double distance(const AxisVec& a, const AxisVec& b) const { return distance_of(a, b, axis_count_); }
 
   static constexpr unsigned kMost = kFairingAhead + 2;
   unsigned axis_count_;
@@ -58,8 +61,5 @@ class LineChain {
   Joint joint_[kMost];
   Line line_[kMost];      ///< line i leads from joint i to joint i + 1
 };
-
-/// |b - a| of two directions: the change of velocity at a speed of 1, 2 sin(angle / 2).
-double turn_between(const AxisVec& a, const AxisVec& b, unsigned axis_count);
 
 }  // namespace nc
