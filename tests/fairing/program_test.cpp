@@ -267,6 +267,30 @@ TEST(FairingOnline, SingleBlockStopsAtTheJoint) {
   EXPECT_EQ(stops, (std::vector<std::string>{"1: 0 0", "2: 10 0.04", "3: 10 0.04", "4: 20 0.08", "5: 20 0.08"}));
 }
 
+/// Lines that are held back are not read so far ahead that the block at which the machine has stopped is forgotten.
+TEST(FairingOnline, ALongWayAheadOfAStop) {
+  for (unsigned empty = 30; empty < 60; ++empty) {
+    Bench bench(NC_DIALECT_M700, [](nc_config& c) { c.look_ahead = 64; });
+    std::string text = "G5 P10000\nG1 X1. F1000.\n";
+    for (unsigned n = 0; n < empty; ++n) text += "N1\n";
+    for (unsigned n = 2; n < 25; ++n) text += "G1 X" + std::to_string(n) + ".\nN1\n";
+    Drive drive(faired(bench), text + kEnd);
+    bool asked = false;
+    for (unsigned n = 0; n < 100000 && !drive.ended && drive.alarm().empty(); ++n) {
+      drive.in.single_block = !asked;
+      const bool there = drive.out.state == NC_STATE_STOPPED && drive.out.blocks >= 2;
+      if (there && !asked) {
+        for (unsigned k = 0; k < 50; ++k) nc_feed(bench.control(), 100);
+        asked = nc_recalculate(bench.control(), 0) == NC_OK;
+      }
+      drive.in.cycle_start = n % 10 == 2 && (!there || asked);
+      drive.step();
+    }
+    ASSERT_TRUE(asked && drive.ended) << empty << " " << drive.alarm();
+    ASSERT_NEAR(drive.out.command.v[0], 24, 1e-9);
+  }
+}
+
 /// Moved by hand while it stands at a joint: every line from there goes to its own end, and incremental ones keep their length.
 TEST(FairingOnline, MovedByHandAtTheJoint) {
   for (const unsigned stop_behind : {2u, 3u}) {

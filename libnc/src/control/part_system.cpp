@@ -86,7 +86,6 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
     }
     Item* front = interpreter.front();
     if (front == nullptr) {
-      if (!idle_ && too_far_ahead()) return NC_WAITING;
       const nc_status status = interpreter.step(budget);
       if (status != NC_OK) return status;
       front = interpreter.front();
@@ -102,9 +101,6 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
     return NC_OK;
   }
 }
-
-/// A stage that wants to see more blocks gets none while the one in execution might be forgotten for them.
-bool PartSystem::too_far_ahead() const { return online_ && !executor.drained() && !interpreter.remembers(executed_); }
 
 /// Next item behind both stages, false when they must see more first.
 [[gnu::noinline]] bool PartSystem::pop_held(Item& out) {

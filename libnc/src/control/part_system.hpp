@@ -47,7 +47,6 @@ class PartSystem {
   nc_status next(uint32_t& budget, const Item** item);
   void take();
   bool pop_held(Item& out);
-  bool too_far_ahead() const;
   /// What became of the front of the interpreter's queue: it is in a stage, nothing has to hold it back, or what is held goes first.
   enum class Intake : uint8_t { taken, straight, later };
   Intake take_in(const Item& front);
