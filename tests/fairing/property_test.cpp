@@ -136,8 +136,7 @@ TEST(FairingProperty, GoingOnFromAnyMarkGivesTheSameAgain) {
       inside += run.resume[i].left_out != 0;
       size_t behind = 0;  // in the program
       while (!(items[behind].kind == ItemKind::mark && items[behind].mark.seq == run.items[i].mark.seq)) ++behind;
-      FairingStage stage;
-      stage.create(3, 0);
+      Stage stage;
       stage.restore(run.resume[i]);
       const Passed rest = pass(stage, items, rule, behind + 1);
       ASSERT_EQ(rest.items.size(), run.items.size() - i - 1) << "mark " << run.items[i].mark.seq;

@@ -72,6 +72,16 @@ inline FairingRule fairing_rule(double length, double angle_deg = 10) {
   return rule;
 }
 
+/// A stage with its memory, for three axes.
+struct Stage : FairingStage {
+  explicit Stage(uint32_t rotary = 0) : memory(32768) {
+    Arena arena(memory.data(), memory.size());
+    create(3, rotary, arena);
+    if (arena.overflowed()) std::abort();
+  }
+  std::vector<char> memory;
+};
+
 struct Passed {
   std::vector<Item> items;
   std::vector<FairingResume> resume;  ///< behind each of them
@@ -99,8 +109,7 @@ inline Passed pass(FairingStage& stage, const std::vector<Item>& items, const Fa
 }
 
 inline Passed pass(const std::vector<Item>& items, const FairingRule& rule) {
-  FairingStage stage;
-  stage.create(3, 0);
+  Stage stage;
   return pass(stage, items, rule);
 }
 

@@ -116,8 +116,7 @@ TEST(Fairing, NothingIsLeftOutAcrossAnotherItem) {  // precaution (13)
 }
 
 TEST(Fairing, LinesOfRotaryAxesAreNotFaired) {
-  FairingStage stage;
-  stage.create(3, 4);  // the third axis turns
+  Stage stage(4);  // the third axis turns
   const std::vector<Item> flat = polyline({{0, 0}, {10, 0}, {10, 0.08}, {20, 0.08}});
   EXPECT_EQ(moves_of(pass(stage, flat, fairing_rule(0.1)).items).size(), 2u);
   const std::vector<Item> turned = polyline({{0, 0}, {10, 0}, {10, 0.08, 0.01}, {20, 0.08, 0.01}});
@@ -126,8 +125,7 @@ TEST(Fairing, LinesOfRotaryAxesAreNotFaired) {
 
 TEST(Fairing, AnotherRuleClosesTheRow) {  // G10 L70 in between
   const std::vector<Item> items = polyline({{0, 0}, {10, 0}, {10, 0.08}, {20, 0.08}, {20, 0.16}, {30, 0.16}});
-  FairingStage stage;
-  stage.create(3, 0);
+  Stage stage;
   std::vector<Item> out;
   Item item;
   for (size_t i = 0; i < items.size();) {

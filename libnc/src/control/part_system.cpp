@@ -60,9 +60,8 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.optimal = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.tolerance = config.path_tolerance;
   executor.create(ex, arena);
-  if (arena.measuring() || arena.overflowed()) return;
-  fairing_.create(interpreter.axis_count, interpreter.rotary);
-  clear_stages();
+  fairing_.create(interpreter.axis_count, interpreter.rotary, arena);
+  if (!arena.measuring() && !arena.overflowed()) clear_stages();
 }
 
 // ---- the stream behind the stages ----------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@
 // item ends the row of lines: nothing is left out across it, and the line in front of it ends where it is programmed.
 #pragma once
 
+#include "base/arena.hpp"
 #include "fairing/line_chain.hpp"
 
 namespace nc {
@@ -31,9 +32,10 @@ struct FairingResume {
 class FairingStage {
  public:
   /// `rotary`: bit i: axis i turns. A line that moves one is not faired.
-  void create(unsigned axis_count, uint32_t rotary) {
+  void create(unsigned axis_count, uint32_t rotary, Arena& arena) {
     axis_count_ = axis_count;
     rotary_ = rotary;
+    held_ = arena.make<Held>(kHeld);
   }
   /// A line that fairing or the judgement may be about.
   bool takes(const Item& item) const;
@@ -74,7 +76,7 @@ class FairingStage {
   bool drop_line(const Move& move);
   void drop_front();
 
-  Held held_[kHeld];
+  Held* held_ = nullptr;
   unsigned first_ = 0, count_ = 0;
   unsigned lines_ = 0;     ///< of those held
   unsigned short_ = 0;     ///< of these, shorter than rule_.length_mm as programmed
