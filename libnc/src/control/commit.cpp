@@ -52,6 +52,7 @@ AccuracyLimits accuracy_limits(const AccuracyParameters& p, const Move& move, co
   if (move.speed_clamp > 0.0f) clamp = std::fmin(clamp, 60 * static_cast<double>(move.speed_clamp));
   if (clamp < HUGE_VAL) limits.speed_clamp = static_cast<float>(clamp / 60);
   if (rapid) return limits;
+  limits.acceleration = static_cast<float>(tolerable_acceleration(p));
   const double step = tolerable_step(p) * (100 - p.corner_coefficient()) / 100;
   if (step > 0) {
     limits.corner_step = static_cast<float>(step / 60);
@@ -78,6 +79,7 @@ void Commit::create(const CommitConfig& config, Arena& arena) {
   axis_count_ = config.system->axis_count;
   for (unsigned i = 0; i < axis_count_; ++i) {
     if (config.system->axis[i].rotary) rotary_ |= 1u << i;
+    if (config.system->axis[i].max_acceleration > 0) limited_ |= 1u << i;
     any_limit_ = any_limit_ || config.system->axis[i].soft_limited;
   }
   if (!config.rotary_makes_length) line_rotary_ = rotary_;
@@ -386,7 +388,28 @@ void Commit::set_rule(const FeedRule& rule, Segment* s) {
   }
 }
 
-void Commit::to_record(const Item& item, const Transform& transform, const AccuracyParameters& accuracy, Record* out) {
+/// What acts behind interpolation. A thread and a tap keep their relation to the spindle.
+void Commit::set_filter(const Move& move, const FilterParameters& filters, Segment* s) const {
+  if (!config_.filters || !filters.any || move.kind == NC_MOVE_THREAD || move.kind == NC_MOVE_TAP || move.rule.tapping) return;
+  FilteredMove filtered;
+  filtered.kind = move.kind == NC_MOVE_RAPID  ? FilteredMove::Kind::rapid
+                  : move.kind == NC_MOVE_SKIP ? FilteredMove::Kind::skip
+                                              : FilteredMove::Kind::cut;
+  filtered.high_accuracy = move.high_accuracy != 0;
+  filtered.straight = !curve_.circular && curve_.shape == nullptr;
+  filtered.limited = limited_;
+  AxisVec low, high;
+  curve_bounds(curve_, axis_count_, &low, &high);
+  for (unsigned i = 0; i < axis_count_; ++i)
+    if (high[i] > low[i]) filtered.moving |= 1u << i;
+  s->filter = filter_times(filters, filtered, config_.cycle_s);
+  // M700 13.15: arcs of the axes themselves.
+  if (!curve_.circular || curve_.shape != nullptr || filtered.kind != FilteredMove::Kind::cut) return;
+  s->round_mm[0] = static_cast<float>(filters.round_mm[curve_.h]);
+  s->round_mm[1] = static_cast<float>(filters.round_mm[curve_.v]);
+}
+
+void Commit::to_record(const Item& item, const Transform& transform, const AccuracyParameters& accuracy, const FilterParameters& filters, Record* out) {
   out->serial = last_serial_;
   out->source = item.source;
   out->kind = item.kind;
@@ -417,6 +440,7 @@ void Commit::to_record(const Item& item, const Transform& transform, const Accur
       s.thread_angle = item.move.thread_angle;
       if (item.move.high_accuracy != 0 && !s.thread && item.move.kind != NC_MOVE_TAP)  // those go with the spindle
         s.accuracy = accuracy_limits(accuracy, item.move, curve_, circle_, axis_count_);
+      set_filter(item.move, filters, &s);
       s.unclamps = item.move.unclamps;
       set_index_axes(&s);
       break;

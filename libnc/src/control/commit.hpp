@@ -9,6 +9,7 @@
 #include "interpolate/record.hpp"
 #include "motion/m700_accuracy.hpp"
 #include "fairing/fairing.hpp"
+#include "motion/m700_filters.hpp"
 #include "offset/offset.hpp"
 #include "path/shape.hpp"
 
@@ -21,6 +22,8 @@ struct CommitConfig {
   const uint32_t* machine_turn = nullptr;  ///< bit i: machine coordinates of axis i are shown within one turn (M700 14.13)
   uint32_t marks = 1024;      ///< marks that can be rewound to, power of two
   uint32_t records = 1024;    ///< that may be under way behind here
+  double cycle_s = 0.001;
+  bool filters = false;       ///< there are filters behind interpolation
   bool rotary_makes_length = false;  ///< F of a line is composite: a degree counts as a millimetre (M700 7.6)
 };
 
@@ -109,7 +112,7 @@ class Commit {
   void mark_to_public(const Item& item, nc_item* out);
   /// The same for the ring.
   /// `accuracy`: of the moves made under high-accuracy control.
-  void to_record(const Item& item, const Transform& transform, const AccuracyParameters& accuracy, Record* out);
+  void to_record(const Item& item, const Transform& transform, const AccuracyParameters& accuracy, const FilterParameters& filters, Record* out);
 
   /// A segment that has its curve: the index tables that it moves, and that it begins and ends at rest then.
   void set_index_axes(Segment* segment) const {
@@ -149,6 +152,7 @@ class Commit {
   void commit_shape(const Move& move, const Transform& transform, const MoveShape& shape);
   double along_longest() const;
   void set_rule(const FeedRule& rule, Segment* segment);
+  void set_filter(const Move& move, const FilterParameters& filters, Segment* segment) const;
   bool turns_round(bool checked);
   void space_arc_to_public(nc_move* out) const;
   double helix_slope() const;
@@ -158,6 +162,7 @@ class Commit {
   CommitConfig config_;
   unsigned axis_count_ = 3;
   uint32_t rotary_ = 0, line_rotary_ = 0;
+  uint32_t limited_ = 0;     ///< bit i: axis i has a limit of acceleration
   bool any_limit_ = false;
   AxisVec machine_;
   AxisVec start_;            ///< of the move just committed

@@ -3,6 +3,7 @@
 
 #include "control/optimal_mode.hpp"
 #include "dialect/text.hpp"
+#include "shape/shape.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -37,6 +38,8 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   commit.marks = config.look_ahead;
   commit.records = config.look_ahead;
   commit.rotary_makes_length = dialect.id == NC_DIALECT_M700;
+  commit.cycle_s = config.cycle_s;
+  commit.filters = dialect.id == NC_DIALECT_M700 && config.motion_mode != NC_MOTION_OPTIMAL;
   commit_.create(commit, arena);
 
   ExecutorConfig ex;
@@ -56,6 +59,8 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.cycle_s = config.cycle_s;
   ex.max_feed_override = config.max_feed_override;
   ex.capacity = config.look_ahead;
+  ex.filters = commit.filters;
+  interpreter.parameters.set_filter_room(Shape::places(kLongestMean, config.cycle_s) * config.cycle_s * 1000, index == 0);
   optimal_ = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.optimal = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.tolerance = config.path_tolerance;
@@ -129,6 +134,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
     }
     held_settings_ = interpreter.settings_count;
     held_accuracy_ = interpreter.settings.accuracy;
+    held_filters_ = interpreter.settings.filters;
   }
   const FairingRule& rule = interpreter.settings.fairing;
   Intake intake = Intake::taken;
@@ -294,6 +300,7 @@ void PartSystem::resume_record(Record& record) {
     s.begun = cut_.length;
   } else {  // the interrupt program has changed what the block is made of: to its end from where the axes are
     s.curve = make_line(cut_.machine, s.curve.end, interpreter.axis_count, interpreter.rotary);
+    s.round_mm[0] = s.round_mm[1] = 0;
     commit_.set_index_axes(&s);
   }
 }
@@ -482,7 +489,9 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
   }
   if (committed == Committed::yes) {
     Record record;
-    commit_.to_record(*item, transform, from_stage_ ? held_accuracy_ : interpreter.settings.accuracy, &record);
+    const AccuracyParameters& accuracy = from_stage_ ? held_accuracy_ : interpreter.settings.accuracy;
+    const FilterParameters& filters = from_stage_ ? held_filters_ : interpreter.settings.filters;
+    commit_.to_record(*item, transform, accuracy, filters, &record);
     record.epoch = epoch_;
     record.staged = from_stage_;
     if (resumes_) [[unlikely]] resume_record(record);

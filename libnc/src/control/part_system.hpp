@@ -118,6 +118,7 @@ class PartSystem {
   }
   /// As they were when what the stages hold was read: a program may change parameters behind it.
   AccuracyParameters held_accuracy_;
+  FilterParameters held_filters_;
   uint32_t held_settings_ = 0;  ///< Interpreter::settings_count of these
   Commit commit_;
   nc_alarm alarm_{};

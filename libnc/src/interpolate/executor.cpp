@@ -49,6 +49,7 @@ void limit_thread(Segment& s, const ExecutorConfig& config) {
 void Executor::create(const ExecutorConfig& config, Arena& arena) {
   ExecutorState* const state = arena.make<ExecutorState>();
   Record* const ring = arena.make<Record>(config.capacity);
+  double* const filters = config.filters ? arena.make<double>(size_t{Shape::places(kLongestMean, config.cycle_s)} * config.axis_count) : nullptr;
   const MotionLimits limits = motion_limits(config);
   // While measuring there is no state: the parts are laid out from throw-away ones of the same size.
   Planner measured_planner;
@@ -67,7 +68,7 @@ void Executor::create(const ExecutorConfig& config, Arena& arena) {
   state->ring = ring;
   state->mask = config.capacity - 1;
   state->optimal = optimal;
-  state->scan.create(config, ring, &state->planner, optimal, &state->shared);
+  state->scan.create(config, ring, &state->planner, optimal, &state->shared, filters);
 }
 
 Planner::Inputs ExecutorState::scan_said() {

@@ -22,6 +22,7 @@ struct ExecutorConfig {
   double cycle_s = 0.001;
   double max_feed_override = 2.0;
   uint32_t capacity = 1024;  ///< records in the ring, power of two
+  bool filters = false;      ///< there may be filters behind interpolation, each mean up to kLongestMean
   bool optimal = false;      ///< time-optimal jerk-limited law instead of the trapezoid
   double tolerance = 0.01;   ///< optimal: by which lines may leave the programmed path, mm
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "path/curve.hpp"
+#include "shape/filter_times.hpp"
 #include "stream/stream.hpp"
 
 namespace nc {
@@ -21,6 +22,7 @@ struct AccuracyLimits {
   float arc_joint = 0;     ///< speed where an arc meets another kind of path, mm/s
   float judged_turn = -1;  ///< |change of direction| that the corner at its start counts as; negative: what it is
   float bend_acceleration = 0;  ///< that short lines may cause by turning, mm/s^2
+  float acceleration = 0;  ///< along the path, mm/s^2
 };
 
 /// Committed geometry and its own speed limits. The plan over it (motion/plan.hpp) may change, this may not.
@@ -49,6 +51,9 @@ struct Segment {
   uint8_t unclamps = 0;      ///< and these are unclamped meanwhile, for the move behind
   double begun = 0;          ///< so much of its length has been gone before an interrupt (M700 13.12), mm
   AccuracyLimits accuracy;   ///< of high-accuracy control
+  FilterTimes filter;        ///< behind interpolation
+  float round_mm[2] = {};    ///< arc: radius compensation of its two axes (M700 13.15, #2069), mm outwards
+  bool rounds() const { return round_mm[0] != 0.0f || round_mm[1] != 0.0f; }
   // filled by the planner when it is committed
   double speed_limit = 0;  ///< path speed at which some axis reaches its velocity limit, or the curvature its
                            ///< acceleration limit

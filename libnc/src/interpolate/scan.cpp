@@ -25,7 +25,8 @@ nc_axes to_nc(const AxisVec& a) {
 
 }  // namespace
 
-void Scan::create(const ExecutorConfig& config, const Record* ring, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared) {
+void Scan::create(const ExecutorConfig& config, const Record* ring, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared,
+                  double* filters) {
   config_ = config;
   ring_ = ring;
   mask_ = config.capacity - 1;
@@ -34,6 +35,7 @@ void Scan::create(const ExecutorConfig& config, const Record* ring, Planner* pla
   if (optimal != nullptr) follower_.create(&optimal->store(), &optimal->axis_limits());
   sync_.create(config.cycle_s);
   shared_ = shared;
+  shape_.create(config.axis_count, config.cycle_s, filters, Shape::places(kLongestMean, config.cycle_s));
   spindles_.create(config.spindle_count);
   for (unsigned i = 0; i < config.axis_count; ++i)
     if (config.axis_spindle[i] != 0) c_axes_ = static_cast<uint8_t>(c_axes_ | 1u << i);
@@ -75,10 +77,10 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   interrupt(in);
   turn_feed_handle(in);
   if (!frozen_ && !rereading_) run(in);  // the ring from here on may be the feeder's
-  if (cutting_ && at_rest() && !frozen_ && !rereading_) cut_block();
+  if (cutting_ && stands() && !frozen_ && !rereading_) cut_block();
   manual(in);
   last_command_ = command_;
-  command_ = shape_.filter(wanted_);
+  command_ = shape_.filter(place(), at_rest());
   if (stale_ != 0) [[unlikely]] {
     for (unsigned i = 0; i < config_.axis_count; ++i) command_[i] += turned_[i];
   }
@@ -101,7 +103,7 @@ void Scan::answer_truncate() {
   const uint32_t request = shared_->truncate_request.load(std::memory_order_acquire);
   if (request == answered_) return;
   answered_ = request;
-  frozen_ = at_rest() && !manual_.active() && !reset_ &&
+  frozen_ = stands() && !manual_.active() && !reset_ &&
             (state_ == NC_STATE_STOPPED || state_ == NC_STATE_HOLD || state_ == NC_STATE_IDLE ||
              state_ == NC_STATE_ALARM);
   shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
@@ -162,7 +164,7 @@ void Scan::interrupt(const nc_inputs& in) {
   cutting_ = interrupt_wanted_ && (interrupt_mode_ & NC_INTERRUPT_AT_ONCE) != 0 && state_ == NC_STATE_RUNNING && may_cut();
 }
 
-/// Type 1 stops at once, but not before FIN has come (M700 13.12), and not in a thread, a contour (where blocks are not apart), a skip move
+/// Type 1 stops at once, but not before FIN has come (M700 13.12), and not in a thread, an arc with radius compensation, a contour (where blocks are not apart), a skip move
 /// whose signal has come, behind a skip move, while a table is unclamped, or in a block that changes what is asked here: these are finished first.
 bool Scan::may_cut() const {
   if (!block_begun_ || block_waits_ || index_.busy() || last_staged_ || (fin_wait() != 0 && !(suppress_ & 2))) return false;
@@ -170,7 +172,7 @@ bool Scan::may_cut() const {
   const Record& r = current();
   if (r.epoch != epoch_ || r.staged || r.kind == ItemKind::sync) return false;
   if (r.kind == ItemKind::mark) return false;  // it takes no time
-  return !(moving_ && (r.segment.thread || skip_braking_));
+  return !(moving_ && (r.segment.thread || skip_braking_ || r.segment.rounds()));
 }
 
 /// At rest inside the block: what is left of it is given up, and the feeder goes on with the interrupt program.
@@ -202,7 +204,7 @@ void Scan::states(const nc_inputs& in) {
   interlock_ = in.interlock;
   if (in.alarm) alarmed_ = true;
 
-  const bool still = at_rest() && !manual_.active();
+  const bool still = stands() && !manual_.active();
   if (reset_) {
     start_ = false;
     if (!still || frozen_ || rereading_) return;
@@ -270,6 +272,8 @@ void Scan::start(const nc_inputs& in) {
 void Scan::give_up() {
   ++epoch_;
   law_ = {};
+  end_rounding();
+  check_ = false;
   follower_.give_up();
   moving_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = displaced_ = false;
   hold_behind_thread_ = block_has_thread_ = tapping_ = false;
@@ -311,6 +315,7 @@ void Scan::run(const nc_inputs& in) {
       continue;
     }
     if (index_.busy() && !clamp_before(r, in)) break;  // M700 9.3
+    if (shape_.active() && waits_for_filters(r, in)) break;
     serial_ = r.serial;
     source_ = r.source;
     if (r.kind == ItemKind::mark && r.mark.resume) {
@@ -359,7 +364,7 @@ bool Scan::between_blocks() const {
 
 /// Jog, step, handle and reference return, while no program moves.
 void Scan::manual(const nc_inputs& in) {
-  manual_allowed_ = at_rest() && !alarmed_ && !reset_ && !frozen_ && !rereading_ &&
+  manual_allowed_ = stands() && !alarmed_ && !reset_ && !frozen_ && !rereading_ &&
                     (state_ == NC_STATE_IDLE || (state_ == NC_STATE_STOPPED && between_blocks()));
   if (!manual_allowed_ && !manual_.active()) {
     manual_.idle(in.manual);
@@ -367,6 +372,7 @@ void Scan::manual(const nc_inputs& in) {
     return;
   }
   const AxisVec before = wanted_;
+  if (manual_allowed_) shape_.use({});  // by hand each axis has an acceleration of its own
   manual_cycle(in);
   for (unsigned i = 0; i < config_.axis_count; ++i)
     displaced_ |= state_ == NC_STATE_STOPPED && wanted_[i] != before[i];
@@ -376,7 +382,7 @@ void Scan::manual(const nc_inputs& in) {
 /// the drives come on again.
 void Scan::follow(const nc_inputs& in) {
   const bool given_up = state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM;
-  if (!in.follow_up || !in.actual_valid || !given_up || !at_rest() || manual_.active() || frozen_) return;
+  if (!in.follow_up || !in.actual_valid || !given_up || !stands() || manual_.active() || frozen_) return;
   for (unsigned i = 0; i < config_.axis_count; ++i)
     if ((spindles_now() >> i & 1) == 0) wanted_[i] = in.actual.v[i];
   command_ = last_command_ = target_ = wanted_;
@@ -418,12 +424,13 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
     work_sign_ = latest_->work_sign;
     target_ = latest_->curve.end;
   }
+  const bool on_the_way = moving_ || !drained();
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     out.command.v[i] = command_[i];
     out.velocity.v[i] = (command_[i] - last_command_[i]) * per_s;
     if (command_[i] != last_command_[i]) out.distance_zero = false;
     out.work.v[i] = work_sign_[i] * command_[i] + to_work_[i];
-    out.distance_to_go.v[i] = moving_ ? target_[i] + turned_[i] - command_[i] : 0;
+    out.distance_to_go.v[i] = on_the_way ? target_[i] + turned_[i] - command_[i] : 0;
     double away = command_[i] - config_.reference[i];
     if ((turning >> i & 1) != 0) away -= 360 * std::nearbyint(away / 360);
     if (std::fabs(away) <= kSamePlace) out.at_reference |= 1u << i;
@@ -465,7 +472,8 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
     out.feed_digit_on = s.feed_digit != 0;
     out.feed_digit = s.feed_digit != 0 ? static_cast<uint8_t>(s.feed_digit - 1) : uint8_t{0};
   }
-  out.feed_mm_min = law_.v * 60;
+  if (!moving_ && rapid_behind_ && on_the_way) out.rapid = true;
+  out.feed_mm_min = (shape_.active() ? feed_of_axes() : law_.v) * 60;
   out.serial = serial_;
   out.source = source_;
   out.modal = modal_;

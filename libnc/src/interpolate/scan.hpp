@@ -62,7 +62,8 @@ struct ScanShared {
 
 class Scan {
  public:
-  void create(const ExecutorConfig& config, const Record* ring, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared);
+  void create(const ExecutorConfig& config, const Record* ring, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared,
+              double* filters);
   void set_position(const AxisVec& machine);
   void cycle(const nc_inputs& in, nc_outputs& out) NC_RT;
 
@@ -124,6 +125,12 @@ class Scan {
   Done optional_stop(const nc_inputs& in) NC_RT;
   Done dwell(double rate, double amount) NC_RT;
   Done sync(const Record& record, const nc_inputs& in) NC_RT;
+  // scan_filter.cpp: what waits for the filters, and what is added behind interpolation
+  bool waits_for_filters(const Record& record, const nc_inputs& in) NC_RT;
+  bool filters_ready(const Segment& segment) NC_RT;
+  void round_arc(const Segment& segment) NC_RT;
+  void end_rounding() NC_RT;
+  double feed_of_axes() const NC_RT;
   Done wait(nc_stop_cause cause) NC_RT;
   void mark(const Mark& mark, const nc_inputs& in) NC_RT;
   bool stops_at(const Mark& mark, const nc_inputs& in) const NC_RT;
@@ -142,7 +149,17 @@ class Scan {
   void manual_cycle(const nc_inputs& in) NC_RT;
 
   const Record& current() const { return ring_[tail_ & mask_]; }
-  bool at_rest() const { return law_.v == 0; }
+  bool at_rest() const { return law_.v == 0; }  ///< the path: the axes may still be on their way through the filters
+  /// Nothing is on its way to the axes any more.
+  bool drained() const NC_RT { return shape_.drained(place()); }
+  bool stands() const NC_RT { return at_rest() && drained(); }
+  /// The interpolated place with the compensation of the arc.
+  AxisVec place() const NC_RT {
+    AxisVec at = wanted_;
+    if (rounding_)
+      for (unsigned i = 0; i < 2; ++i) at[round_axis_[i]] += round_[i];
+    return at;
+  }
   uint32_t spindles_now() const { return c_axes_ & ~uint32_t{servo_ready_}; }  ///< axes that are spindles at present (M700 10.5)
   bool held() const { return hold_ || reset_ || alarmed_ || cutting_; }  ///< nothing is executed at rest
   bool braking() const { return held() || interlock_ || index_lost_ || losing_; }  ///< no axis may move
@@ -189,6 +206,11 @@ class Scan {
   bool moving_ = false;  ///< the current record is a segment that has begun
   double time_ = 0;      ///< what is left of this cycle, s
   AxisVec wanted_;       ///< interpolated position
+  bool rounding_ = false;  ///< on an arc with radius compensation (M700 13.15)
+  uint8_t round_axis_[2] = {0, 1};
+  double round_[2] = {};   ///< what it adds to these axes
+  bool rapid_behind_ = false;  ///< the move that has ended was rapid traverse
+  bool check_ = false;     ///< the block that has ended ends with a deceleration check (M700 7.9)
   AxisVec command_, last_command_;
   const Segment* latest_ = nullptr;                        ///< segment that was executed last in this cycle
   AxisVec to_work_, work_sign_{{1, 1, 1, 1, 1, 1, 1, 1}};  ///< of the segment executed last

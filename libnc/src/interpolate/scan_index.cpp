@@ -75,7 +75,7 @@ void Scan::watch_index(const nc_inputs& in) {
 /// No program moves: what manual motion does not need (`wanted`) and what was stopped where it can be clamped. A move that is interrupted
 /// keeps its tables unclamped (6).
 void Scan::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
-  if (state_ == NC_STATE_RUNNING || moving_ || !at_rest() || frozen_ || rereading_) return;
+  if (state_ == NC_STATE_RUNNING || moving_ || !stands() || frozen_ || rereading_) return;
   uint32_t off = index_.unclamp() & ~wanted;
   if (state_ == NC_STATE_HOLD && tail_ != end_ && current().epoch == epoch_) off &= ~stay_open(current());
   if (off != 0) off &= may_clamp();

@@ -100,7 +100,9 @@ bool Scan::begin_move(const Record& r, const nc_inputs&) {
 
 void Scan::end_move(const Record& r) {
   law_.s = 0;
-  moving_ = skip_braking_ = false;
+  moving_ = skip_braking_ = rounding_ = false;
+  rapid_behind_ = r.segment.rapid;
+  check_ = r.segment.rapid || r.segment.exact_stop || r.segment.skip;
   if (r.segment.index_axes != 0) index_.arrive();
   latest_ = &r.segment;
   block_has_thread_ |= r.segment.thread;
@@ -226,6 +228,7 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
   const bool begins = !moving_;
   Done lost = Done::yes;
   if (c_axes_ != 0 && lost_move(r, &lost)) return lost;
+  if ((shape_.active() || s.filter.kind != FilterTimes::Kind::none) && !filters_ready(s)) return alarmed_ ? Done::no : wait(NC_CAUSE_IN_POSITION);
   if (begins && tapping_ && at_rest() && tap_disturbed(in)) return wait(NC_CAUSE_TAP_SPINDLE);
   if ((s.index_axes | s.unclamps) != 0) {
     if (begins && !unclamp_for(s, in)) return Done::no;
@@ -241,7 +244,7 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
   if (s.skip && !skipped_ && (in.skip & s.skip_mask)) {
     // The signal was sampled with the position that the axes had when this cycle began.
     skipped_ = skip_braking_ = true;
-    skip_position_ = wanted_;
+    skip_position_ = shape_.active() ? shape_.position() : wanted_;
     if (in.actual_valid) {
       for (unsigned i = 0; i < config_.axis_count; ++i)
         if ((spindles_now() >> i & 1) == 0) skip_position_[i] = in.actual.v[i];
@@ -262,6 +265,7 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
     return Done::yes;
   }
   wanted_ = curve_position(s.curve, law_.s, config_.axis_count);
+  if (s.rounds()) round_arc(s);
   if (skip_braking_ && at_rest()) {
     end_move(r);
     return Done::yes;

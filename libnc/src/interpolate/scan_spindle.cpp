@@ -57,7 +57,7 @@ void Scan::take_position(unsigned axis, const nc_inputs& in) {
   turned_[axis] = place - wanted_[axis];
   command_[axis] = last_command_[axis] = place;
   stale_ = static_cast<uint8_t>(stale_ | 1u << axis);
-  if (!at_rest() || frozen_ || rereading_) return;
+  if (!stands() || frozen_ || rereading_) return;
   if (state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM) return settle_axes();
   if (state_ != NC_STATE_STOPPED || !between_blocks()) return;
   settle_axes();
@@ -74,7 +74,7 @@ void Scan::settle_axes() {
     turned_[i] = 0;
   }
   stale_ = 0;
-  shape_.reset(wanted_);
+  shape_.relocate(place());
 }
 
 bool Scan::moves_any(const Segment& s, uint8_t axes) const {
@@ -107,6 +107,7 @@ bool Scan::lost_move(const Record& r, Done* done) {
     return true;
   }
   losing_ = moving_ = false;
+  end_rounding();
   dropping_ = true;
   law_.s = 0;
   follower_.give_up();

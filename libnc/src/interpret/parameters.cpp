@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 
@@ -130,6 +131,7 @@ nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, con
     }
     if (named != nullptr && value < 0) return NC_E_ARGUMENT;
     if (named == nullptr && parsed.bit < 0 && value < kTextBase && !parameter_takes(parsed, value)) return NC_E_ARGUMENT;
+    if (named == nullptr && parsed.bit < 0 && value < kTextBase && !machine_takes(parsed.number, value)) return NC_E_ARGUMENT;
   }
   char whole[kKeySize];
   if (parsed.bit >= 0) {  // one bit of a parameter: the others stay
@@ -174,6 +176,54 @@ bool Parameters::get(const char* key, int axis, double* value) const {
   }
   *value = bit >= 0 ? (bits_of(entry->value) >> bit) & 1 : entry->value;
   return true;
+}
+
+/// What the table cannot know.
+bool Parameters::machine_takes(uint32_t number, double value) const {
+  switch (number) {
+    case 1205:  // M700 13.15, precaution (5): with one part system only, else Y51 parameter error 17
+      return value == 0 || first_system_;
+    case 2004:
+    case 2007:
+    case 2102:
+      return value <= longest_filter_ms_;
+    case 1568:
+    case 1569:
+    case 1570:  // two of them stand one behind the other
+      return value <= 0.5 * longest_filter_ms_;
+    default:
+      return true;
+  }
+}
+
+/// M700 7.7, 13.15, 15.5.
+void Parameters::filter_settings(FilterParameters* filters) const {
+  const auto number = [this](const char* key, int axis = -1) {
+    double value = 0;
+    get(key, axis, &value);
+    return value;
+  };
+  const bool rounds = number("8107") != 0 && number("8108") != 0;  // #8108 holds only with #8107
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    const int axis = static_cast<int>(i);
+    filters->rapid.linear_ms[i] = number("2004", axis);
+    filters->rapid.exponential_ms[i] = number("2005", axis);
+    filters->cut.linear_ms[i] = number("2007", axis);
+    filters->cut.exponential_ms[i] = number("2008", axis);
+    filters->skip.linear_ms[i] = number("2102", axis);
+    filters->skip.exponential_ms[i] = number("2103", axis);
+    filters->round_mm[i] = rounds ? number("2069", axis) : 0;
+  }
+  filters->rapid_before = number("1205") != 0;
+  filters->pattern_cut_ms = number("1568");
+  filters->pattern_rapid_ms = number("1569");
+  filters->pattern_second_ms = number("1570");
+  filters->any = filters->pattern_cut_ms > 0 || filters->pattern_rapid_ms > 0 || filters->pattern_second_ms > 0;
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    for (const TimeConstants* constants : {&filters->cut, &filters->rapid, &filters->skip})
+      filters->any = filters->any || constants->linear_ms[i] > 0 || constants->exponential_ms[i] > 0;
+    filters->any = filters->any || filters->round_mm[i] != 0;
+  }
 }
 
 /// M700 7, 8.1.
@@ -420,6 +470,7 @@ Settings Parameters::settings(const Dialect& dialect) const {
   }
   if (flag("1149")) s.accuracy.arc_joint_mm_min = number("1209", 0);
   fairing_settings(s);
+  filter_settings(&s.filters);
   for (unsigned i = 0; i < kMaxAxes; ++i) s.creep[i] = number("8209", 0, static_cast<int>(i));
   for (unsigned i = 0; i < kMaxAxes; ++i) axis_settings(static_cast<int>(i), &s);
   for (unsigned i = 0; i < kMaxAxes; ++i) s.index_increment[i] = number("2106", 0, static_cast<int>(i));

@@ -6,6 +6,7 @@
 #include "dialect/dialect.hpp"
 #include "fairing/rule.hpp"
 #include "motion/m700_accuracy.hpp"
+#include "motion/m700_filters.hpp"
 
 namespace nc {
 
@@ -114,6 +115,7 @@ struct Settings {
   double spline_tolerance_arched = 0;     ///< #8028 Toler-2, mm
   AccuracyParameters accuracy;            ///< of high-accuracy control, 13.15
   FairingRule fairing;                    ///< #8033, #8029, #8036, #8037 (13.17.1)
+  FilterParameters filters;               ///< behind interpolation, 7.7, 13.15
   // DGSHAPE settings
   bool calculator = false;
   uint8_t calculator_words = 0;       ///< 0 none, 1 all, 2 F, 3 IJKRXYZA
@@ -143,6 +145,11 @@ class Parameters {
   bool get(const char* key, int axis, double* value) const;
   /// The text of a parameter that has been set to one of two characters or more; nullptr = it has none.
   const char* text(const char* key, int axis) const;
+  /// What the machine leaves to the filters behind interpolation: the longest mean that fits, and whether it is the first part system.
+  void set_filter_room(double longest_ms, bool first_system) {
+    longest_filter_ms_ = longest_ms;
+    first_system_ = first_system;
+  }
   /// Typed view; call after changes.
   Settings settings(const Dialect& dialect) const;
 
@@ -155,14 +162,18 @@ class Parameters {
     double value;  ///< NaN = not set
   };
   Entry* find(const char* key, int axis) const;
+  bool machine_takes(uint32_t number, double value) const;
   void feed_settings(Settings& settings) const;
   void fairing_settings(Settings& settings) const;
+  void filter_settings(FilterParameters* filters) const;
   void axis_settings(int axis, Settings* s) const;
   double keep_text(const char* text);
   static constexpr unsigned kTexts = 128, kTextSize = 64;  ///< M700 13.11: at most 63 characters; the oldest place is used again
   Entry* entries_ = nullptr;
   char (*texts_)[kTextSize] = nullptr;
   unsigned capacity_ = 0, count_ = 0, text_count_ = 0;
+  double longest_filter_ms_ = kLongestMean;
+  bool first_system_ = true;
 };
 
 }  // namespace nc

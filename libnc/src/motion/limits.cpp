@@ -3,6 +3,7 @@
 // smoothing".
 #include "motion/limits.hpp"
 
+#include "motion/m700_filters.hpp"
 #include "path/shape.hpp"
 
 #include <algorithm>
@@ -12,6 +13,12 @@ namespace nc {
 namespace {
 
 constexpr double kHalfPi = 1.57079632679489661923;
+
+/// Radius compensation k by the angle: its share grows by 2/pi in a radian, and what it moves by turns with the angle. First and second
+/// derivative are at most k times these.
+constexpr double kRoundSpeed = 1 + 2 / (2 * kHalfPi), kRoundBend = 1 + 4 / (2 * kHalfPi);
+/// Steps of its derivative, in 2 k / pi, that fall into one window where an arc takes at least a cycle.
+constexpr double kRoundSteps = 4;
 
 /// Of what is left for braking on a spiral, the part that its uneven parameter may take.
 constexpr double kBendShare = 0.2;
@@ -50,6 +57,11 @@ void shape_arc(const Segment& s, const MotionLimits& limits, SegmentShape& g) {
   // On a spiral the parameter itself speeds up and slows down along the path: u'' = sweep^2 R R' / sigma^4,
   // with R' = dr.
   if (slowest > 0) g.bend = turn * turn * r_max * dr / (slowest * slowest * slowest);
+  if (s.rounds() && r_min > 0) {
+    g.round = std::fmax(std::fabs(static_cast<double>(s.round_mm[0])), std::fabs(static_cast<double>(s.round_mm[1]))) / r_min;
+    g.most[c.h] += kRoundSpeed * g.round * g.in_plane;
+    g.most[c.v] += kRoundSpeed * g.round * g.in_plane;
+  }
 }
 
 /// Near the pole radius and angle change over a stretch as short as the distance from it, which samples may miss. With |z'| <= 1 and
@@ -98,11 +110,11 @@ void shape_general(const Segment& s, const MotionLimits& limits, SegmentShape& g
   if (across < HUGE_VAL && along < HUGE_VAL) g.bend = along / across;
 }
 
-/// Acceleration limit of the plane: the weaker of its two axes.
-double plane_acceleration(const Curve& c, const MotionLimits& limits) {
+/// Acceleration limit of the plane: the weaker of its two axes, less what radius compensation adds to everything.
+double plane_acceleration(const Curve& c, const SegmentShape& g, const MotionLimits& limits) {
   const double h = limits.axis[c.h].acceleration, v = limits.axis[c.v].acceleration;
   const double ah = h > 0 ? h : kUnlimitedAcceleration, av = v > 0 ? v : kUnlimitedAcceleration;
-  return std::min(ah, av);
+  return std::min(ah, av) / (1 + kRoundBend * g.round);
 }
 
 double highest_feed(const Segment& s, const MotionLimits& limits) {
@@ -119,6 +131,8 @@ double velocity_limit(const Segment& s, const SegmentShape& g, const MotionLimit
     const AxisLimits& a = limits.axis[i];
     const double axis = s.rapid && a.rapid > 0 ? a.rapid : a.velocity;
     if (axis > 0 && g.most[i] * v > axis) v = axis / g.most[i];
+    const double kept = filter_speed(s.filter, i, a.acceleration, limits.cycle_s);
+    if (g.most[i] * v > kept) v = kept / g.most[i];
   }
   return v;
 }
@@ -129,29 +143,37 @@ double path_acceleration(const Segment& s, const SegmentShape& g, double keep, d
                          const MotionLimits& limits) {
   const Curve& c = s.curve;
   double a = kUnlimitedAcceleration;
+  if (s.filter.kind == FilterTimes::Kind::after) return a;
   for (unsigned i = 0; i < limits.axis_count; ++i) {
     const double axis = limits.axis[i].acceleration;
     if (axis <= 0 || (c.circular && (i == c.h || i == c.v))) continue;
     if (g.most[i] * a > keep * axis) a = keep * axis / g.most[i];
   }
   if (c.circular && g.in_plane > 0) {
-    const double whole = keep * plane_acceleration(c, limits), centripetal = v * v * g.curvature;
+    const double whole = keep * plane_acceleration(c, g, limits), centripetal = v * v * g.curvature;
     const double rest = std::sqrt(std::max(0.0, whole * whole - centripetal * centripetal));
     if (g.in_plane * a > rest) a = rest / g.in_plane;
   }
-  return a - v * v * g.bend;
+  a -= v * v * g.bend;
+  const double slope = static_cast<double>(s.accuracy.acceleration);  // M700 13.15: one for all axes
+  return slope > 0 ? std::min(a, slope) : a;
 }
 
 /// Speed at which centripetal acceleration takes kArcShare of `keep`, and what goes along unevenly
 /// kBendShare.
 double arc_speed(const Segment& s, const SegmentShape& g, double keep, const MotionLimits& limits) {
+  if (s.filter.kind == FilterTimes::Kind::after) return HUGE_VAL;
   if (s.curve.shape != nullptr) {
     return g.bend > 0 ? std::sqrt(kArcShare * path_acceleration(s, g, keep, 0, limits) / g.bend) : HUGE_VAL;
   }
   if (!s.curve.circular || g.curvature <= 0) return HUGE_VAL;
-  double v2 = kArcShare * keep * plane_acceleration(s.curve, limits) / g.curvature;
+  const double plane = plane_acceleration(s.curve, g, limits);
+  double v2 = kArcShare * keep * plane / g.curvature;
   if (g.bend > 0) v2 = std::min(v2, kBendShare * path_acceleration(s, g, keep, 0, limits) / g.bend);
-  return std::sqrt(v2);
+  if (!(g.round > 0)) return std::sqrt(v2);
+  // The derivative of radius compensation steps where its share begins, stops growing, begins to fall and ends.
+  const double step = kRoundSteps * g.round / kHalfPi * g.in_plane;
+  return std::min({std::sqrt(v2), s.curve.length / limits.cycle_s, kRoundShare * plane * limits.cycle_s / step});
 }
 
 }  // namespace
@@ -172,9 +194,10 @@ SegmentShape shape_of(const Segment& s, const MotionLimits& limits) {
       }
     }
   }
-  const double v = std::min(velocity_limit(s, g, limits), arc_speed(s, g, 1.0, limits));
+  const double whole = g.round > 0 ? 1 - kRoundShare : 1.0;
+  const double v = std::min(velocity_limit(s, g, limits), arc_speed(s, g, whole, limits));
   g.reach = std::min(v, highest_feed(s, limits));
-  g.bare = path_acceleration(s, g, 1.0, g.reach, limits);
+  g.bare = path_acceleration(s, g, whole, g.reach, limits);
   return g;
 }
 
@@ -191,14 +214,20 @@ Joint joint_by_axes(const Segment& a, const SegmentShape& sa, const Segment& b, 
   }
   const double dt = limits.cycle_s;
   const double reach = std::min(sa.reach, sb.reach);
+  // The filters round the corner: what they make of any step keeps the limits.
+  if (a.filter.kind == FilterTimes::Kind::after) return {reach * reach, 0};
+  const double rounding = sa.round > 0 || sb.round > 0 ? kRoundShare : 0, most = kCornerShare - rounding;
   const double shortest = std::min(a.curve.length, b.curve.length);
   Joint joint;
   joint.share = reach * (reach * dt / shortest + 1) * change / dt;
   joint.speed2 = reach * reach;
-  if (joint.share <= kCornerShare) return joint;
+  if (joint.share <= most) {
+    joint.share += rounding;
+    return joint;
+  }
   // v (v dt/L + 1) change = share dt, solved for v without cancellation.
-  joint.share = kCornerShare;
-  const double p = dt / shortest, q = kCornerShare * dt / change;
+  joint.share = most + rounding;
+  const double p = dt / shortest, q = most * dt / change;
   const double v = 2 * q / (1 + std::sqrt(1 + 4 * p * q));
   joint.speed2 = v * v;
   // A corner that is passed slower than one cycle of braking is not worth passing: rest, so that its point is
@@ -257,7 +286,7 @@ double reserve_towards(const Joint& joint, const Segment& neighbour, const Segme
 }
 
 void set_segment_limits(Segment& s, const SegmentShape& g, double share, const MotionLimits& limits) {
-  const double keep = 1 - share;
+  const double keep = 1 - (g.round > 0 ? std::max(share, kRoundShare) : share);
   s.speed_limit = std::min(velocity_limit(s, g, limits), arc_speed(s, g, keep, limits));
   s.acceleration = path_acceleration(s, g, keep, std::min(s.speed_limit, highest_feed(s, limits)), limits);
 }

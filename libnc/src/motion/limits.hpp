@@ -17,6 +17,8 @@ inline constexpr double kCornerShare = 0.75;
 /// Largest share that centripetal acceleration may take on an arc; the rest (in quadrature) is left for
 /// speeding up and braking.
 inline constexpr double kArcShare = 0.9;
+/// Share that the beginning and the end of circular error radius compensation may take, of kCornerShare where they meet a corner.
+inline constexpr double kRoundShare = 0.2;
 /// Path acceleration where no axis is limited, mm/s^2.
 inline constexpr double kUnlimitedAcceleration = 1e9;
 
@@ -36,6 +38,7 @@ struct SegmentShape {
   double bend = 0;       ///< spiral: |d2| of the axes that go along is at most `most` times this, 1/mm
   double reach = 0;      ///< no speed on this segment is ever higher, mm/s
   double bare = 0;       ///< path acceleration without any reserve for corners, mm/s^2
+  double round = 0;      ///< radius compensation by the radius: the larger of its two axes
 };
 
 /// Geometry and the highest speed of a segment.

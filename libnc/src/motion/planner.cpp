@@ -37,6 +37,7 @@ void Planner::create(const MotionLimits& limits, Record* ring, uint32_t capacity
 bool Planner::must_rest(const Record& from, const Record& to) const {
   const Segment &a = from.segment, &b = to.segment;
   if (a.rapid || b.rapid || a.exact_stop || a.skip || b.skip || b.rest_before) return true;
+  if (!a.filter.same(b.filter)) return true;
   if (from.epoch != to.epoch || tip_.between > kRecordsBetween) return true;
   for (unsigned i = 0; i < limits_.axis_count; ++i) {
     if (std::fabs(a.curve.end[i] - b.curve.start[i]) > kSamePlace) return true;
