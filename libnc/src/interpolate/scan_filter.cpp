@@ -34,6 +34,8 @@ bool Scan::filters_ready(const Segment& s) {
   const bool check = !moving_ && (s.rapid || s.skip || s.rest_before);
   if (same && !check && shape_.goes_on()) return true;
   if (!drained()) return false;
+  if (same) return true;
+  if (!shape_.settled(place())) return false;  // what was gone in this cycle is not for the new ones
   if (!shape_.use(s.filter)) {  // commit lets none through that does not fit
     alarmed_ = true;
     return false;
