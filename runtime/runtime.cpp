@@ -12,6 +12,7 @@
 #include <cstring>
 #include <thread>
 
+#include "runtime/nc_system.hpp"
 #include "runtime/retain/ladder_data.hpp"
 #include "runtime/retain/tables.hpp"
 #include "runtime/retain/variables.hpp"
@@ -79,6 +80,10 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
     if (!nc_parameter_used(static_cast<nc_dialect>(config.nc.dialect), parameter.key.c_str()))
       runtime->warnings_.push_back(ConfigError{config.file, parameter.place.line, parameter.place.key,
                                                "nothing in the control asks for this parameter: it is kept for programs that read it"}.text());
+  char note[200];
+  for (unsigned s = 0; runtime->control_ != nullptr && s < config.nc.system_count; ++s)
+    for (unsigned i = 0; nc_parameter_note(runtime->control_, api_system(s), i, note, sizeof note) == NC_OK; ++i)
+      runtime->warnings_.push_back(ConfigError{config.file, 0, "parameters", note}.text());
   if (runtime->own_ladder_ != nullptr) {
     runtime->parts_.ladder = runtime->own_ladder_.get();
     for (const std::string& warning : runtime->own_ladder_->warnings()) runtime->warnings_.push_back(warning);

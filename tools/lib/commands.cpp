@@ -222,6 +222,9 @@ int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std
   RunResult result;
   if (!run_printing(&session, &nothing, &items, max_silent_blocks, true, options.print, &result, &error))
     return complain(err, error);
+  char note[200];
+  for (unsigned i = 0; nc_parameter_note(session.control(), kPartSystem, i, note, sizeof note) == NC_OK; ++i)
+    std::fprintf(err, "note: %s\n", note);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   note_parameters(session, static_cast<nc_dialect>(session.config().dialect), err);
   if (result.how == RunResult::How::kAlarmed)

@@ -115,6 +115,13 @@ NC_API nc_status nc_parameter_next(const nc_control*, unsigned system, unsigned 
                                    char text[64]);
 
 /**
+ * What parameters that are set do not do on this machine, and where a time constant and not the feed is what limits it (docs/motion.md,
+ * "Behind interpolation"): sentence `index`, in the order of their numbers, then of the axes; NC_E_NOT_FOUND behind the last.
+ * @param text receives the sentence, cut to `size` bytes with its NUL; 200 are enough
+ */
+NC_API nc_status nc_parameter_note(const nc_control*, unsigned system, unsigned index, char* text, size_t size);
+
+/**
  * Calls `look` while variables, their names, offsets and parameters are as the blocks have left them that the machine has executed: what is to
  * be kept while the power is off. What was read ahead and is not done shows again behind the call. `look` only reads.
  */
