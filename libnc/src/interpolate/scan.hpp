@@ -151,7 +151,7 @@ class Scan {
   const Record& current() const { return ring_[tail_ & mask_]; }
   bool at_rest() const { return law_.v == 0; }  ///< the path: the axes may still be on their way through the filters
   /// Nothing is on its way to the axes any more.
-  bool drained() const NC_RT { return shape_.drained(place()); }
+  bool drained() const NC_RT { return !shape_.active() || shape_.drained(place()); }
   bool stands() const NC_RT { return at_rest() && drained(); }
   /// The interpolated place with the compensation of the arc.
   AxisVec place() const NC_RT {
