@@ -426,6 +426,46 @@ TEST(Rounding, ShortArc) {  // 60 degrees: the smaller of both shares, a third o
   EXPECT_NEAR(outwards(places, 10, 60), 0, 2e-4);
 }
 
+/// Tangent lines and arcs of all sizes: where the compensation begins and ends the derivative of the path steps, and the path may be
+/// speeding up there.
+TEST(Rounding, KeepsTheLimitsAtTangentJoints) {
+  const auto log_uniform = [](std::mt19937_64& rng, double low, double high) {
+    return std::exp(std::uniform_real_distribution<double>(std::log(low), std::log(high))(rng));
+  };
+  double worst = 0;
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    std::mt19937_64 rng(seed);
+    ExecutorConfig c = standard_config();
+    if (seed % 3 == 0) c.cycle_s = 0.004;
+    Program p(c);
+    double heading = 0;
+    const double k = log_uniform(rng, 0.01, 1);
+    for (unsigned n = 0; n < 40; ++n) {
+      const double feed = log_uniform(rng, 5, 300);
+      if (rng() % 2 == 0) {
+        const double length = log_uniform(rng, 0.05, 20);
+        AxisVec end = p.at();
+        end[0] += length * std::cos(heading);
+        end[1] += length * std::sin(heading);
+        p.line(end, feed);
+      } else {
+        const double sweep = (rng() % 2 == 0 ? 1 : -1) * log_uniform(rng, 0.1, 7);
+        Segment& s = p.arc(0, 1, log_uniform(rng, 0.1, 30), heading + (sweep > 0 ? -1 : 1) * std::numbers::pi / 2, sweep, feed);
+        s.round_mm[0] = static_cast<float>(k);
+        s.round_mm[1] = static_cast<float>(rng() % 2 == 0 ? k : -k);
+        heading += sweep;
+      }
+      p.mark();
+    }
+    p.end();
+    Machine m(c);
+    ASSERT_TRUE(m.run_to_end(p)) << seed;
+    ASSERT_TRUE(m.checker.ok()) << seed << ": " << m.checker.report();
+    worst = std::max(worst, m.checker.worst_acceleration);
+  }
+  EXPECT_GT(worst, 0.9);
+}
+
 TEST(Rounding, StopInsideAnArcAndResetKeepThePlace) {
   const ExecutorConfig c = filtered_config();
   Machine m(c);
