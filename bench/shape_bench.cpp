@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a point of every shape costs (set-point of one cycle), with derivatives, and making one at commit.
+// What a point of every shape costs (set-point of one cycle), with derivatives, and making one at commit; and what the filters behind
+// interpolation take for five axes in a cycle.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "path/shape.hpp"
+#include "shape/shape.hpp"
 
 namespace {
 
@@ -152,5 +155,34 @@ NC_SHAPE(cylinder_line, mapped(AxisMap::Kind::cylinder, false));
 NC_SHAPE(cylinder_arc, mapped(AxisMap::Kind::cylinder, true));
 NC_SHAPE(polar_line, mapped(AxisMap::Kind::polar, false));
 NC_SHAPE(polar_arc, mapped(AxisMap::Kind::polar, true));
+
+/// One cycle of five axes: means of `linear_ms` and lags behind them, or two means for all axes.
+void filters(benchmark::State& state, FilterTimes::Kind kind, double first_ms, double second_ms) {
+  constexpr unsigned kFilteredAxes = 5;
+  constexpr uint32_t kPlaces = 4000;
+  std::vector<double> rings(size_t{kFilteredAxes} * kPlaces);
+  nc::Shape shape;
+  shape.create(kFilteredAxes, 0.001, rings.data(), kPlaces);
+  FilterTimes times;
+  times.kind = kind;
+  const bool after = kind == FilterTimes::Kind::after;
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    times.mean[i] = static_cast<uint16_t>(filter_cycles(first_ms, 0.001));
+    times.lag_s[i] = after ? static_cast<float>(second_ms / 1000) : 0;
+  }
+  if (!after) times.second = static_cast<uint16_t>(filter_cycles(second_ms, 0.001));
+  if (!shape.use(times)) state.SkipWithError("too long");
+  AxisVec at;
+  for (auto _ : state) {
+    for (unsigned i = 0; i < kFilteredAxes; ++i) at[i] += 0.01 * (i + 1);
+    benchmark::DoNotOptimize(shape.filter(at, false));
+  }
+}
+BENCHMARK_CAPTURE(filters, none, FilterTimes::Kind::none, 0, 0);
+BENCHMARK_CAPTURE(filters, linear, FilterTimes::Kind::after, 100, 0);
+BENCHMARK_CAPTURE(filters, exponential, FilterTimes::Kind::after, 0, 50);
+BENCHMARK_CAPTURE(filters, linear_exponential, FilterTimes::Kind::after, 100, 50);
+BENCHMARK_CAPTURE(filters, longest, FilterTimes::Kind::after, 4000, 5000);
+BENCHMARK_CAPTURE(filters, s_pattern, FilterTimes::Kind::before, 50, 30);
 
 }  // namespace
