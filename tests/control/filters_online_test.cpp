@@ -276,7 +276,7 @@ TEST(FiltersOnline, TheOptimalModeHasNoneAndSaysSo) {
   const Course a = run(plain, text), b = run(set, text);
   EXPECT_EQ(a.seconds, b.seconds);
   EXPECT_EQ(a.acceleration, b.acceleration);
-  EXPECT_EQ(notes(set).size(), 5u);
+  EXPECT_EQ(notes(set).size(), 6u);
   EXPECT_EQ(notes(set).front(), "#1568: no effect in the time-optimal mode, which keeps acceleration and jerk by itself");
 }
 

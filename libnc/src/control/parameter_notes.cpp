@@ -46,9 +46,11 @@ class ParameterNotes {
       const char* key;
       bool by_axis;
     };
-    // M700 13.15, 15.5: what acts behind interpolation, or before it on rapid traverse.
-    static constexpr Row kRows[] = {{"1205", false}, {"1568", false}, {"1569", false}, {"1570", false}, {"2004", true}, {"2005", true},
-                                    {"2007", true},  {"2008", true},  {"2102", true},  {"2103", true},  {"8107", false}, {"8108", false}};
+    // M700 13.15, 15.5: what acts behind interpolation, and the speeds and the slope of high-accuracy control.
+    static constexpr Row kRows[] = {{"1205", false}, {"1206", false}, {"1207", false}, {"1209", false}, {"1568", false}, {"1569", false},
+                                    {"1570", false}, {"2004", true},  {"2005", true},  {"2007", true},  {"2008", true},  {"2069", true},
+                                    {"2096", true},  {"2102", true},  {"2103", true},  {"2109", true},  {"2110", true},  {"8019", false},
+                                    {"8020", false}, {"8022", false}, {"8023", false}, {"8034", false}, {"8107", false}, {"8108", false}};
     const bool optimal = config_.motion_mode == NC_MOTION_OPTIMAL;
     for (const Row& row : kRows) {
       if (!(row.by_axis ? on_some_axis(row.key) : value(row.key) != 0)) continue;
