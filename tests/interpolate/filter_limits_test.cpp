@@ -65,7 +65,7 @@ void set_filters(Program& p, const FilterParameters& constants, const ExecutorCo
 }
 
 struct Disturbance {
-  bool overrides = false, holds = false, single_block = false, dribble = false, resets = false, manual = false;
+  bool overrides = false, holds = false, single_block = false, dribble = false, resets = false;
 };
 
 /// The record behind a block with a deceleration check is executed when the axes stand at its end.

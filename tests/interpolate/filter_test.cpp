@@ -159,6 +159,28 @@ TEST(Filtered, EverythingBehindACheckWaits) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
+/// A code that is awaited finds the axes where its block is, behind a cut too; one that nobody waits for goes out on the way.
+TEST(Filtered, CodesGoOutWhenTheAxesStandWhereThePathRestsForThem) {
+  const ExecutorConfig c = filtered_config();
+  for (const bool awaited : {true, false}) {
+    Program p(c);
+    p.line(xyz(20, 0, 0), 50).filter = after(100);
+    p.mark();
+    p.action(NC_ACTION_M, 8);
+    if (awaited) p.gate(NC_GATE_FIN);
+    p.mark();
+    p.line(xyz(40, 0, 0), 50).filter = after(100);
+    p.mark();
+    p.end();
+    Machine m(c);
+    m.feed(p);
+    m.start();
+    ASSERT_TRUE(m.until(p, [&] { return m.out.strobe != 0; }));
+    EXPECT_NEAR(m.out.command.v[0], awaited ? 20 : 20 - 50 * 0.1 / 2, awaited ? 0 : 0.06);
+    EXPECT_NEAR(m.out.velocity.v[0], awaited ? 0 : 50, 1e-6);
+  }
+}
+
 TEST(Filtered, RapidSpeedIsWhatTheConstantAllows) {  // A T, from rest to rest; a cut of any shape A T / 2
   ExecutorConfig c = filtered_config();
   Program p(c);

@@ -9,7 +9,8 @@
 namespace nc {
 
 /// The next record is executed when the filters are empty: behind a deceleration check every one is (7.9, "XX expresses all commands"),
-/// what needs standing axes always, and the end of a block where something stops or is read again there.
+/// what needs standing axes always, M, S, T and B where the path rests for them, and the end of a block where something stops or is read
+/// again there.
 bool Scan::waits_for_filters(const Record& r, const nc_inputs& in) {
   const bool stands_there = r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm || r.kind == ItemKind::end;
   if (stands_there) law_.v = 0;  // the plan rests in front of these: what is left of the speed is rounding
@@ -19,7 +20,7 @@ bool Scan::waits_for_filters(const Record& r, const nc_inputs& in) {
     return false;
   }
   bool waits = check_ || stands_there;
-  if (r.kind == ItemKind::action) waits = waits || r.action.kind == NC_ACTION_MESSAGE;
+  if (r.kind == ItemKind::action) waits = waits || r.action.kind <= NC_ACTION_B || r.action.kind == NC_ACTION_MESSAGE;
   if (r.kind == ItemKind::mark) waits = waits || stops_at(r.mark, in) || interrupt_wanted_ || recalculate_ || stale_ != 0;
   if (waits) wait(NC_CAUSE_IN_POSITION);
   return waits;

@@ -101,7 +101,7 @@ bool Scan::lost_move(const Record& r, Done* done) {
   const auto closed = static_cast<uint8_t>(spindles_now());
   if (!moves_any(r.segment, static_cast<uint8_t>(closed | stale_))) return false;
   losing_ = true;
-  if (!at_rest()) return false;
+  if (!stands()) return false;
   if (moves_any(r.segment, closed)) {
     *done = wait(NC_CAUSE_SERVO_OFF);
     return true;
