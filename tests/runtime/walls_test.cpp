@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 
 #include "program_generator.hpp"
@@ -100,6 +101,59 @@ TEST(Walls, RandomProgramsExecuteAsTheyTrace) {
   EXPECT_GT(totals.overrides, count / 20);
   EXPECT_GT(totals.skips, count / 20);
   EXPECT_GT(totals.syncs, count / 20);
+}
+
+/// Time constants, S patterns and radius compensation; by seed some axes or kinds of moves have none.
+void add_time_constants(std::uint32_t seed, nc::rt::Config* config) {
+  const auto set = [config](const char* key, char axis, unsigned value) {
+    nc::rt::ParameterSetting parameter;
+    parameter.key = key;
+    parameter.axis = axis;
+    parameter.text = std::to_string(value);
+    config->parameters.push_back(parameter);
+  };
+  std::mt19937 random(seed);
+  for (const char axis : {'X', 'Y', 'Z'}) {
+    if (seed % 7 == 3 && axis == 'Y') continue;
+    if (seed % 4 != 0) set("2007", axis, 20 + random() % 80);
+    if (seed % 4 == 1) set("2008", axis, 10 + random() % 40);
+    if (seed % 3 != 0) set("2004", axis, 20 + random() % 80);
+    if (seed % 3 == 2) set("2005", axis, 10 + random() % 40);
+    if (seed % 5 == 0) set("2102", axis, 40);
+  }
+  set("1568", 0, random() % 60);
+  set("1569", 0, random() % 60);
+  set("1570", 0, random() % 30);
+  set("1206", 0, 6000);
+  set("1207", 0, 100);
+  if (seed % 6 == 0) set("1205", 0, 1);
+  if (seed % 2 == 0) set("1148", 0, 1);
+  set("8107", 0, 1);
+  set("8108", 0, 1);
+  config->parameters.push_back(config->parameters.back());
+  config->parameters.back().key = "2069";
+  config->parameters.back().text = "0.02";
+}
+
+TEST(Walls, RandomProgramsWithTimeConstantsExecuteAsTheyTrace) {
+  Totals totals;
+  const unsigned count = seeds(40);
+  for (std::uint32_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    nc::test::ProgramGenerator generator(seed + 1000);
+    const nc::test::GeneratedProgram program = generator.make(6);
+    nc::rt::Config config = random_config(program.script, seed);
+    add_time_constants(seed, &config);
+    compare(config, program.text, random_operator(seed), &totals);
+    if (HasFailure()) {
+      std::ofstream("walls-failed.nc") << program.text;
+      FAIL() << "the program is in walls-failed.nc";
+    }
+  }
+  EXPECT_LE(totals.velocity, 1.001);
+  EXPECT_LE(totals.acceleration, 1.001);
+  EXPECT_GT(totals.acceleration, 0.99);
+  EXPECT_GT(totals.holds + totals.stops, count / 20);
 }
 
 TEST(Walls, RandomProgramsExecuteAsTheyTraceInTheOptimalMode) {
