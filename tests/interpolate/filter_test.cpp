@@ -347,6 +347,41 @@ TEST(Filtered, SkipPositionIsThatOfTheAxes) {  // 15.5 (12): #2102
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
+/// The signal counts as long as the axes move: in a hold, and behind the end of the path.
+TEST(Filtered, SkipSignalWhileTheAxesDrain) {
+  for (const bool held : {true, false}) {
+    const ExecutorConfig c = filtered_config();
+    Program p(c);
+    Segment& s = p.line(xyz(0, 0, -20), 40);
+    s.skip = true;
+    s.skip_mask = 2;
+    s.filter = after(100, 0, true);
+    p.mark();
+    p.sync(NC_SYNC_SKIP);
+    Machine m(c);
+    m.feed(p);
+    m.start();
+    const double from = held ? -8 : -19;
+    ASSERT_TRUE(m.until(p, [&] { return m.out.command.v[2] <= from; }));
+    m.in.feed_hold = held;
+    for (unsigned n = 0; n < 30; ++n) m.cycle();
+    EXPECT_FALSE(m.still());
+    const double z = m.out.command.v[2];
+    m.in.skip = 2;
+    m.cycle();
+    m.in.skip = 0;
+    for (unsigned n = 0; n < 150; ++n) m.cycle();
+    m.in.feed_hold = false;
+    if (held) m.start();
+    nc_world w{};
+    ASSERT_TRUE(m.until(p, [&] { return m.executor.sync_reached(3, &w); }, 500)) << held;
+    EXPECT_TRUE(w.skipped) << held;
+    EXPECT_EQ(w.skip_machine.v[2], z) << held;
+    EXPECT_EQ(w.machine.v[2], m.out.command.v[2]) << held;
+    EXPECT_TRUE(held ? w.machine.v[2] > -13 : w.machine.v[2] == -20);
+  }
+}
+
 TEST(Filtered, DwellBeginsWhenTheAxesStand) {
   const ExecutorConfig c = filtered_config();
   Program p(c);

@@ -76,6 +76,7 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   states(in);
   interrupt(in);
   turn_feed_handle(in);
+  if (shape_.active()) watch_skip(in);
   if (!frozen_ && !rereading_) run(in);  // the ring from here on may be the feeder's
   if (cutting_ && stands() && !frozen_ && !rereading_) cut_block();
   manual(in);
@@ -274,6 +275,7 @@ void Scan::give_up() {
   law_ = {};
   end_rounding();
   check_ = false;
+  skip_behind_ = 0;
   follower_.give_up();
   moving_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = displaced_ = false;
   hold_behind_thread_ = block_has_thread_ = tapping_ = false;

@@ -128,6 +128,8 @@ class Scan {
   // scan_filter.cpp: what waits for the filters, and what is added behind interpolation
   bool waits_for_filters(const Record& record, const nc_inputs& in) NC_RT;
   bool filters_ready(const Segment& segment) NC_RT;
+  void note_skip(const nc_inputs& in) NC_RT;
+  void watch_skip(const nc_inputs& in) NC_RT;
   void round_arc(const Segment& segment) NC_RT;
   void end_rounding() NC_RT;
   double feed_of_axes() const NC_RT;
@@ -284,6 +286,7 @@ class Scan {
   // ---- skip
   bool skipped_ = false;       ///< the last skip move ended by its signal
   bool skip_braking_ = false;  ///< on the way to rest after the signal
+  uint8_t skip_behind_ = 0;    ///< signals of a skip move whose path has ended before its axes have
   AxisVec skip_position_;
   double skip_feed_ = 0;       ///< of a move whose signals change it (M700 15.5), mm/s
   uint32_t skip_last_ = 0;     ///< signals of the cycle before, for their rising edges

@@ -44,6 +44,29 @@ bool Scan::filters_ready(const Segment& s) {
   return true;
 }
 
+/// The position that the axes had when the cycle began, at which the signal was sampled.
+void Scan::note_skip(const nc_inputs& in) {
+  skipped_ = true;
+  skip_position_ = shape_.active() ? shape_.position() : wanted_;
+  if (!in.actual_valid) return;
+  for (unsigned i = 0; i < config_.axis_count; ++i)
+    if ((spindles_now() >> i & 1) == 0) skip_position_[i] = in.actual.v[i];
+}
+
+/// The path of a skip move rests, or has come to its end, and the axes are still on their way: the signal counts as long as they are.
+void Scan::watch_skip(const nc_inputs& in) {
+  if (drained()) {
+    skip_behind_ = 0;
+    return;
+  }
+  const bool inside = moving_ && at_rest() && current().segment.skip;
+  const uint32_t mask = inside ? current().segment.skip_mask : moving_ ? uint32_t{0} : skip_behind_;
+  if (skipped_ || (in.skip & mask) == 0) return;
+  skip_braking_ = inside;
+  skip_behind_ = 0;
+  note_skip(in);
+}
+
 /// M700 13.15 "circular error radius compensation control for each axis": outwards from the centre, growing over the first quarter turn and
 /// falling over the last.
 void Scan::round_arc(const Segment& s) {

@@ -106,7 +106,10 @@ void Scan::end_move(const Record& r) {
   if (r.segment.index_axes != 0) index_.arrive();
   latest_ = &r.segment;
   block_has_thread_ |= r.segment.thread;
-  if (r.segment.skip && !skipped_) skip_position_ = wanted_;
+  if (r.segment.skip && !skipped_) {
+    skip_position_ = wanted_;
+    skip_behind_ = shape_.active() ? r.segment.skip_mask : uint8_t{0};
+  }
 }
 
 /// Feed of the segment at 100 %. M700 6.11: that of an exponential curve goes from F to Q evenly with its linear axis. 7.3: that of F1 to
@@ -228,6 +231,10 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
   const bool begins = !moving_;
   Done lost = Done::yes;
   if (c_axes_ != 0 && lost_move(r, &lost)) return lost;
+  if (moving_ && skip_braking_ && at_rest()) {  // the signal came while the axes were still on their way
+    end_move(r);
+    return Done::yes;
+  }
   if ((shape_.active() || s.filter.kind != FilterTimes::Kind::none) && !filters_ready(s)) return alarmed_ ? Done::no : wait(NC_CAUSE_IN_POSITION);
   if (begins && tapping_ && at_rest() && tap_disturbed(in)) return wait(NC_CAUSE_TAP_SPINDLE);
   if ((s.index_axes | s.unclamps) != 0) {
@@ -243,12 +250,8 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
   if (s.skip_speeds != nullptr) change_skip_feed(*s.skip_speeds, in.skip);
   if (s.skip && !skipped_ && (in.skip & s.skip_mask)) {
     // The signal was sampled with the position that the axes had when this cycle began.
-    skipped_ = skip_braking_ = true;
-    skip_position_ = shape_.active() ? shape_.position() : wanted_;
-    if (in.actual_valid) {
-      for (unsigned i = 0; i < config_.axis_count; ++i)
-        if ((spindles_now() >> i & 1) == 0) skip_position_[i] = in.actual.v[i];
-    }
+    skip_braking_ = true;
+    note_skip(in);
     if (begins) {  // M700 15.2: on already at the start, no movement
       end_move(r);
       return Done::yes;
