@@ -189,7 +189,7 @@ typedef struct nc_outputs {
   uint8_t servo_on;         /**< bit i: axis i, which is a spindle too, is to hold its position */
   uint8_t servo_ready;      /**< bit i: and does: `command` is what it follows */
   uint8_t referenced;       /**< bit i: and its reference position return is complete */
-  bool rapid;               /**< a rapid move is in execution */
+  bool rapid;               /**< a rapid move is in execution, or its axes are still on their way */
   bool tapping;             /**< tapping mode G63 (M700 7.11) */
   bool feed_digit_on;       /**< the move in execution has a feed of one digit, `feed_digit` (M700 7.3) */
   uint8_t feed_digit;       /**< 0 to 5 */
@@ -200,7 +200,7 @@ typedef struct nc_outputs {
   bool message;             /**< rising edge: `message_text` has a new operator message */
   uint32_t message_text;    /**< id for nc_text_get() */
   uint32_t message_port;    /**< where it goes: 0 the operator, 1 the external output (POPEN, DPRNT, PCLOS) */
-  double feed_mm_min;       /**< actual path speed */
+  double feed_mm_min;       /**< actual path speed; behind time constants and S patterns that of the axes */
   double feed_command_mm_min; /**< of the move in execution, without override */
   uint64_t serial;          /**< item in execution: "the block in execution" */
   nc_source source;
