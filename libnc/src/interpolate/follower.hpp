@@ -187,7 +187,8 @@ class Follower {
     m.path = evaluate(p, std::fmin(p.length, c.x + std::fmin(c.h, std::fmax(0, q.x))), axis_count_);
     m.v = q.v;
     m.a = q.a;
-    m.j = c.kind == optimal::PlanCell::Kind::level ? c.w * q.v : 2 * c.v / (c.seconds * c.seconds);
+    using Kind = optimal::PlanCell::Kind;
+    m.j = c.kind == Kind::level ? c.w * q.v : c.kind == Kind::ramp ? c.w : 2 * c.v / (c.seconds * c.seconds);
     return m;
   }
 

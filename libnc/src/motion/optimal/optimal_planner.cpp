@@ -305,6 +305,8 @@ bool OptimalPlanner::stop_law(const Start& start, double most) {
   double seconds = 0;
   const double distance = stopping_distance(start, &seconds);
   if (!(distance > 0) || !(seconds > kAtOnce)) return false;
+  by_line_ = find_line_stop(start, most);
+  if (by_line_) return true;
   for (const double farther : kFarther) {
     const double reach = distance * farther;
     if (reach > most) return false;
@@ -320,8 +322,25 @@ bool OptimalPlanner::path_ends() const {
   return last.rest_behind && place.x >= last.length - kTiny;
 }
 
+/// Where the next law begins behind one that ends in piece `piece`.
+OptimalPlanner::Start OptimalPlanner::behind_law(uint32_t piece, double x, double u) const {
+  Start s;
+  s.after = write_ - 1;
+  s.piece = piece;
+  s.x = x;
+  s.u = u;
+  const Piece& p = store_.piece_at(piece);
+  if (x >= p.length - kTiny) {
+    s.u = builder_.start_of(piece) + p.length;
+    ++s.piece;
+    s.x = 0;
+  }
+  return s;
+}
+
 /// Writes the cells of the law. False when they have no room.
 bool OptimalPlanner::copy_law(const Start& start, Start* end) {
+  if (by_line_) return copy_line(start, end);
   const Law& law = windows_->law();
   const Mesh& mesh = windows_->mesh();
   if (write_ + law.cells - free_from_ >= kCells) return false;
@@ -341,22 +360,14 @@ bool OptimalPlanner::copy_law(const Start& start, Start* end) {
     ++write_;
   }
   const PathPlace& place = windows_->place(law.cells);
-  *end = {};
-  end->after = write_ - 1;
-  end->piece = start.piece + place.piece;
-  end->x = place.x;
-  end->u = u;
-  const Piece& p = store_.piece_at(end->piece);
-  if (end->x >= p.length - kTiny) {  // the next law begins with the next piece
-    end->u = builder_.start_of(end->piece) + p.length;
-    ++end->piece;
-    end->x = 0;
-  }
+  *end = behind_law(start.piece + place.piece, place.x, u);
   return true;
 }
 
 /// A law from `start`, as fast as it is found: from rest with lower limits when nothing else helps.
 bool OptimalPlanner::try_limits(const Start& start, double most, const WayDown* down) {
+  by_line_ = find_line_law(start, most);
+  if (by_line_) return true;
   const Limits whole = limits_;
   bool found = false;
   for (const double slower : kSlower) {
@@ -391,13 +402,15 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
       if (!any && at.from_rest) offer_.failed = true;
       break;
     }
-    const bool rests = path_ends() || (most < HUGE_VAL && windows_->whole());
     const uint32_t first = write_;
     Start end;
     if (!copy_law(at, &end)) break;
     any = true;
+    const bool rests = store_.at(end.after).path_ends || (most < HUGE_VAL && (by_line_ ? line_.whole() : windows_->whole()));
     uint32_t keep = end.after;
-    if (!rests) {
+    if (!rests && by_line_) {
+      keep = line_keep_;
+    } else if (!rests) {
       for (double back = 0; keep != first && back < windows_->stop_seconds(); --keep) back += store_.at(keep).seconds;
     }
     for (uint32_t k = first; k != write_; ++k) time += store_.at(k).seconds;
@@ -541,24 +554,30 @@ void OptimalPlanner::stop_at_block(const Following& f, const Start& start) {
   }
 }
 
-/// A lower feed: down to it no faster than a stop would be.
-void OptimalPlanner::slow_down(const Following& f, const Start& start) {
-  const Limits now = limits_;
-  limits_ = unbound(start);
-  const bool stops = stop_law(start, HUGE_VAL);
-  limits_ = now;
-  if (!stops) return;
+/// Somewhat faster than the stop that was found last.
+void OptimalPlanner::way_down(WayDown* down) {
+  if (by_line_) return line_way_down(kDown, down);
   const Law& law = windows_->law();
-  WayDown down;
   down_u_[0] = 0;
   for (unsigned k = 0; k <= law.cells; ++k) {
     down_b_[k] = kDown * law.b[k];
     if (k > 0) down_u_[k] = down_u_[k - 1] + windows_->mesh().h[k - 1];
   }
-  down.u = down_u_;
-  down.b = down_b_;
-  down.count = law.cells + 1;
-  if (!extend(f, start, block_most(f, start), &down)) stop_there(start);
+  *down = {down_u_, down_b_, law.cells + 1};
+}
+
+/// A lower feed: down to it no faster than a stop would be.
+void OptimalPlanner::slow_down(const Following& f, const Start& start) {
+  const double most = block_most(f, start);
+  if (find_line_law(start, most) && extend(f, start, most, nullptr)) return;
+  const Limits now = limits_;
+  limits_ = unbound(start);
+  const bool stops = stop_law(start, HUGE_VAL);
+  limits_ = now;
+  if (!stops) return;
+  WayDown down;
+  way_down(&down);
+  if (!extend(f, start, most, &down)) stop_there(start);
 }
 
 /// A longer chain.

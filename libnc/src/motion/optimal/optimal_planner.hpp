@@ -5,6 +5,7 @@
 #pragma once
 
 #include "interpolate/exchange.hpp"
+#include "motion/optimal/line_law.hpp"
 #include "motion/optimal/path_builder.hpp"
 #include "motion/optimal/windows.hpp"
 
@@ -72,6 +73,15 @@ class OptimalPlanner {
   unsigned pieces_from(uint32_t piece, unsigned most) const;
   bool path_ends() const;
   bool copy_law(const Start& start, Start* end);
+  Start behind_law(uint32_t piece, double x, double u) const;
+  void way_down(WayDown* down);
+  // planner_lines.cpp
+  bool line_limits(const Piece& p, LineLimits* most) const;
+  bool straight(const Start& start, double reach, bool feed, LineLimits* most, double* length) const;
+  bool find_line_law(const Start& start, double reach);
+  bool find_line_stop(const Start& start, double most);
+  void line_way_down(double share, WayDown* down);
+  bool copy_line(const Start& start, Start* end);
   void offer(const Start& start, bool stops);
   bool stop_there(const Start& start);
   void reuse_cells(const Following& f);
@@ -88,6 +98,9 @@ class OptimalPlanner {
   PlanStore store_;
   PathBuilder builder_;
   Windows* windows_ = nullptr;
+  LineLaw line_;
+  bool by_line_ = false;          ///< the law found last is line_, not that of windows_
+  uint32_t line_keep_ = kNoCell;  ///< cell of it behind which a law to a farther end would be another one
   uint32_t* chain_next_ = nullptr;
   double* chain_end_ = nullptr;  ///< s from the start of the chain to the end of the cell
   double *down_u_ = nullptr, *down_b_ = nullptr;

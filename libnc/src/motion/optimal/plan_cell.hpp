@@ -11,13 +11,14 @@ namespace nc::optimal {
 inline constexpr uint32_t kNoCell = ~0u;
 
 struct PlanCell {
-  enum class Kind : uint8_t { level, launch, land };
+  /// level: u'' is linear in u. ramp: constant u''', as in the cells from rest and to rest.
+  enum class Kind : uint8_t { level, launch, land, ramp };
   double u = 0;  ///< of the whole path, where the cell begins
   double x = 0;  ///< the same within its piece
   double h = 0, seconds = 0;
   double v = 0;       ///< at the start; of a launch at its end
   double a = 0;       ///< u'' at the start
-  double w = 0;       ///< b''/2
+  double w = 0;       ///< b''/2; of a ramp u'''
   float turns = 0;    ///< rev/s of the spindle for which it was planned
   uint32_t piece = 0;
   Kind kind = Kind::level;
@@ -35,6 +36,7 @@ inline CellState state_in(const PlanCell& c, double t) NC_RT {
     const double j = 2 * c.v / (c.seconds * c.seconds), left = std::fmax(0, c.seconds - t);
     return {c.h - j * left * left * left / 6, j * left * left / 2, -j * left};
   }
+  if (c.kind == PlanCell::Kind::ramp) return {t * (c.v + t * (c.a / 2 + t * c.w / 6)), c.v + t * (c.a + t * c.w / 2), c.a + t * c.w};
   double s, ds, cc;
   law_functions(c.w, t, &s, &ds, &cc);
   q.x = c.v * s + c.a * cc;

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Straight stretches of the plan: their laws in closed form, cut into cells as short as those of other laws, because only between cells
+// can the plan be changed.
+#include <algorithm>
+#include <cmath>
+
+#include "motion/optimal/optimal_planner.hpp"
+
+namespace nc::optimal {
+namespace {
+
+constexpr double kPeriod = 0.005;       ///< s, of a cell
+constexpr double kMostSeconds = 2;      ///< of one law, where constant speed can be left away
+constexpr unsigned kMostCells = 1024;   ///< of one law; where it takes longer, they do
+constexpr unsigned kMostPieces = 512;
+constexpr double kSame = 1e-9;          ///< of directions and speeds
+constexpr double kEdge = 1e-9;          ///< mm: a cell ends with its piece
+constexpr unsigned kHalvings = 60;
+constexpr unsigned kSamples = kMaxCells / LineLaw::kPhases;  ///< of each phase
+
+/// When the motion has come to s, in [from, to] after the state.
+double when(const LineState& state, double jerk, double s, double from, double to) {
+  for (unsigned n = 0; n < kHalvings; ++n) {
+    const double middle = 0.5 * (from + to);
+    (state.behind(jerk, middle).s < s ? from : to) = middle;
+  }
+  return to;
+}
+
+}  // namespace
+
+/// The limits along a straight piece. False on any other one.
+bool OptimalPlanner::line_limits(const Piece& p, LineLimits* most) const {
+  if (p.curve != nullptr || p.quintic) return false;
+  double length2 = 0;
+  *most = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    if (p.c[2][i] != 0 || p.c[3][i] != 0) return false;
+    const double d = std::fabs(p.c[1][i]), v = velocity_of(p, limits_, i);
+    if ((limits_.linear >> i & 1) != 0) length2 += d * d;
+    if (most->speed * d > v && v > 0) most->speed = v / d;
+    const double acceleration = acceleration_share(p) * limits_.acceleration[i], jerk = jerk_share(p) * limits_.jerk[i];
+    if (most->acceleration * d > acceleration) most->acceleration = acceleration / d;
+    if (most->jerk * d > jerk) most->jerk = jerk / d;
+  }
+  most->speed = std::min(most->speed, feed_of(p, limits_) / std::sqrt(std::max(1.0, length2)));
+  return most->speed > 0 && most->acceleration < HUGE_VAL && most->jerk < HUGE_VAL && most->acceleration > 0 && most->jerk > 0;
+}
+
+/// From `start` to the end of the pieces, or as far as `reach`, lies one straight line, with one limit for the speed if `feed` asks for it.
+bool OptimalPlanner::straight(const Start& start, double reach, bool feed, LineLimits* most, double* length) const {
+  const unsigned count = pieces_from(start.piece, kMostPieces);
+  *length = -start.x;
+  for (unsigned n = 0; n < count && *length < reach - kEdge; ++n) {
+    const Piece &first = store_.piece_at(start.piece), &p = store_.piece_at(start.piece + n);
+    LineLimits here;
+    if (!line_limits(p, n == 0 ? most : &here)) return false;
+    if (n > 0) {
+      if (feed && std::fabs(here.speed - most->speed) > kSame * most->speed) return false;
+      for (unsigned i = 0; i < limits_.axis_count; ++i)
+        if (std::fabs(p.c[1][i] - first.c[1][i]) > kSame) return false;
+    }
+    *length += p.length;
+  }
+  *length = std::min(*length, reach);
+  return *length > 0;
+}
+
+/// The law of a straight line from `start` on.
+bool OptimalPlanner::find_line_law(const Start& start, double reach) {
+  LineLimits most;
+  double length = 0;
+  return straight(start, reach, true, &most, &length) && line_.reach(length, start.v, start.a, most, kMostSeconds);
+}
+
+/// The stop on the straight line ahead, in less than `most`. @return whether there is a line
+bool OptimalPlanner::find_line_stop(const Start& start, double most) {
+  LineLimits limits;
+  double length = 0;
+  if (!line_limits(store_.piece_at(start.piece), &limits) || !line_.stop(start.v, start.a, limits)) return false;
+  const double way = line_.distance();
+  return way <= most && straight(start, way, false, &limits, &length) && length >= way - kEdge;
+}
+
+/// The speed along the stop that was found last.
+void OptimalPlanner::line_way_down(double share, WayDown* down) {
+  LineState from = line_.start();
+  unsigned n = 0;
+  for (unsigned k = 0; k < line_.count(); ++k) {
+    const Phase& phase = line_.phase(k);
+    for (unsigned i = 0; i < kSamples; ++i, ++n) {
+      const LineState q = from.behind(phase.jerk, phase.seconds * i / kSamples);
+      down_u_[n] = q.s;
+      down_b_[n] = share * q.v * q.v;
+    }
+    from = from.behind(phase.jerk, phase.seconds);
+  }
+  down_u_[n] = line_.distance();
+  down_b_[n] = 0;
+  *down = {down_u_, down_b_, n + 1};
+}
+
+/// Writes the law as cells of about a period each, none of which lies on two pieces. False when they have no room.
+bool OptimalPlanner::copy_line(const Start& start, Start* end) {
+  const uint32_t first = write_;
+  const double period = std::max(kPeriod, line_.seconds() / kMostCells);
+  double time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
+  uint32_t piece = start.piece;
+  double begun = -start.x;  // where the piece begins on the line
+  LineState from = line_.start();
+  line_keep_ = first;
+  for (unsigned k = 0; k < line_.count(); ++k) {
+    const Phase& phase = line_.phase(k);
+    const bool last = k + 1 == line_.count();
+    const auto state = [&](double t) {
+      LineState q = from.behind(phase.jerk, t);
+      if (last && t == phase.seconds) q = {line_.distance(), 0, 0};
+      return q;
+    };
+    if (k == line_.last_part() && write_ != first) line_keep_ = write_ - 1;
+    const double cells = std::max(1.0, std::ceil(phase.seconds / period - kSame));
+    LineState at = from;
+    double t = 0;
+    for (double n = 1; n <= cells;) {
+      double to = n < cells ? phase.seconds * n / cells : phase.seconds;
+      LineState then = state(to);
+      const double edge = begun + store_.piece_at(piece).length;
+      const bool crosses = then.s > edge + kEdge && piece + 1 != builder_.head();
+      if (crosses) {
+        to = when(from, phase.jerk, edge, t, to);
+        then = state(to);
+      } else {
+        ++n;
+      }
+      if (write_ + 1 - free_from_ >= kCells) {
+        write_ = first;
+        return false;
+      }
+      PlanCell& c = store_.cell[write_ & store_.cell_mask];
+      c = {};
+      c.kind = PlanCell::Kind::ramp;
+      c.u = start.u + at.s;
+      c.x = at.s - begun;
+      c.piece = piece;
+      c.h = then.s - at.s;
+      c.seconds = to - t;
+      c.v = at.v;
+      c.a = at.a;
+      c.w = phase.jerk;
+      c.turns = static_cast<float>(limits_.scale.turns);
+      if (write_ == first && start.from_rest) {
+        c.kind = PlanCell::Kind::launch;
+        c.v = then.v;
+      }
+      if (last && n > cells) {
+        c.kind = PlanCell::Kind::land;
+        c.a = -2 * c.v / c.seconds;
+      }
+      chain_next_[write_ & store_.cell_mask] = write_ + 1;
+      chain_end_[write_ & store_.cell_mask] = time += c.seconds;
+      ++write_;
+      if (then.s >= edge - kEdge && !(last && n > cells) && piece + 1 != builder_.head()) {
+        begun = edge;
+        ++piece;
+      }
+      at = then;
+      t = to;
+    }
+    from = state(phase.seconds);
+  }
+  const Piece& p = store_.piece_at(piece);
+  const double x = line_.distance() - begun;
+  store_.cell[(write_ - 1) & store_.cell_mask].path_ends = p.rest_behind && x >= p.length - kEdge;
+  *end = behind_law(piece, x, start.u + line_.distance());
+  return true;
+}
+
+}  // namespace nc::optimal
