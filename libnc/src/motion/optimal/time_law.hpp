@@ -13,6 +13,7 @@
 // follows: the cell there has constant jerk instead.
 #pragma once
 
+#include "motion/optimal/four.hpp"
 #include "motion/optimal/piece.hpp"
 
 namespace nc::optimal {
@@ -54,9 +55,6 @@ struct Law {
   double worst = 0;  ///< largest share of a limit that is used at a knot
   bool ok = false;
 };
-
-/// Four rows at once, by whatever the processor has for that.
-using Four __attribute__((vector_size(32), aligned(16))) = double;
 
 class TimeLaw {
  public:

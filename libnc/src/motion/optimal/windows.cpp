@@ -21,7 +21,6 @@ constexpr double kSpare = 1.3;
 constexpr unsigned kFiner = 2;      ///< a short path from rest to rest has cells of this part, which it gains some percent by
 constexpr unsigned kTightened = 6;  ///< times that a law is corrected
 constexpr double kExcess = 1.0005;  ///< of a limit, that a law may use inside its cells
-constexpr unsigned kLooks = 8;      ///< places inside a cell that are looked at
 
 }  // namespace
 
@@ -61,45 +60,78 @@ double Windows::stopping_time() const {
   return kSpare * longest;
 }
 
-/// Largest share of a limit of acceleration or jerk in a cell, from the path itself and not from the rows of
-/// the solver.
-Windows::Excess Windows::excess(unsigned k) const {
-  const Piece& p = piece_of(k);
+/// The motion in a cell at kLooks places, first and last of them its ends: x, v^2, v^3, 3 v a, a and j.
+struct Windows::Moments {
+  Four x[kFours], v2[kFours], v3[kFours], va[kFours], a[kFours], j[kFours];
+};
+
+/// False where the cell is not gone through.
+[[gnu::always_inline]] inline bool Windows::moments(unsigned k, Moments* m) const {
   const bool launch = k == 0 && mesh_.from_rest, land = k + 1 == law_.cells;
-  const double h = mesh_.h[k], from = place(k).x;
+  const double h = mesh_.h[k];
   // Beside rest with t the share of the time: x = h t^3 from there, v = v1 t^2, a = 2 v1 t / T, j = 2 v1 / T^2.
   const double v1 = std::sqrt(launch ? law_.b[1] : law_.b[k]), per = v1 / (3 * h);
+  for (unsigned n = 0; n < kFours; ++n) {
+    const double first = 4 * n;
+    const Four t = Four{first, first + 1, first + 2, first + 3} / all(kLooks - 1);
+    Four v;
+    if (launch || land) {
+      v = all(v1) * t * t;
+      m->x[n] = launch ? all(h) * t * t * t : all(h) - all(h) * t * t * t;
+      m->a[n] = (launch ? all(2 * v1 * per) : all(-2 * v1 * per)) * t;
+      m->j[n] = all(2 * v1 * per * per);
+    } else {
+      const Four x = all(h) * t, a = all(0.5 * law_.slope[k]) + all(law_.half2[k]) * x;
+      const Four b = all(law_.b[k]) + x * (all(0.5 * law_.slope[k]) + a);
+      if (!(std::min(std::min(b[0], b[1]), std::min(b[2], b[3])) > 0)) return false;
+      v = root_of(b);
+      m->x[n] = x;
+      m->a[n] = a;
+      m->j[n] = all(law_.half2[k]) * v;
+    }
+    m->v2[n] = v * v;
+    m->v3[n] = m->v2[n] * v;
+    m->va[n] = all(3) * v * m->a[n];
+  }
+  return true;
+}
+
+/// Largest share of a limit of acceleration or jerk in a cell, from the path itself and not from the rows of
+/// the solver.
+[[gnu::always_inline]] inline Windows::Excess Windows::excess(unsigned k) const {
+  const Piece& p = piece_of(k);
+  Moments m;
+  if (!moments(k, &m)) return {HUGE_VAL, HUGE_VAL};
+  if (p.curve != nullptr || p.quintic) return excess_on_curve(k, m);
+  Four acceleration{}, jerk{};
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    const Four per_a = all(per_acceleration_[i]), per_j = all(per_jerk_[i]), c1 = all(p.c[1][i]), c2 = all(2 * p.c[2][i]), d3 = all(6 * p.c[3][i]);
+    for (unsigned n = 0; n < kFours; ++n) {
+      const Four x = all(place(k).x) + m.x[n], d2 = c2 + d3 * x, d1 = c1 + x * (c2 + all(0.5) * d3 * x);
+      acceleration = larger(acceleration, size_of(d1 * m.a[n] + d2 * m.v2[n]) * per_a);
+      jerk = larger(jerk, size_of(d1 * m.j[n] + d2 * m.va[n] + d3 * m.v3[n]) * per_j);
+    }
+  }
+  return {largest(acceleration), largest(jerk)};
+}
+
+[[gnu::noinline]] Windows::Excess Windows::excess_on_curve(unsigned k, const Moments& m) const {
+  const Piece& p = piece_of(k);
   Excess worst;
   CurvePoint q;
-  for (unsigned n = 0; n <= kLooks; ++n) {
-    const double t = static_cast<double>(n) / kLooks;
-    double x, v, a, j;
-    if (launch || land) {
-      x = h * t * t * t;
-      v = v1 * t * t;
-      a = 2 * v1 * per * t;
-      j = 2 * v1 * per * per;
-      if (!launch) x = h - x, a = -a;
-    } else {
-      x = h * t;
-      a = 0.5 * law_.slope[k] + law_.half2[k] * x;
-      const double b = law_.b[k] + x * (0.5 * law_.slope[k] + a);
-      if (!(b > 0)) return {HUGE_VAL, HUGE_VAL};  // it is not gone through
-      v = std::sqrt(b);
-      j = law_.half2[k] * v;
-    }
-    const double v2 = v * v, v3 = v * v2, va = 3 * v * a;
-    derivatives(p, std::min(p.length, from + x), limits_.axis_count, &q);
+  for (unsigned n = 0; n < kLooks; ++n) {
+    const unsigned f = n / 4, e = n % 4;
+    derivatives(p, std::min(p.length, place(k).x + m.x[f][e]), limits_.axis_count, &q);
     for (unsigned i = 0; i < limits_.axis_count; ++i) {
-      worst.acceleration = std::max(worst.acceleration, std::fabs(q.d1[i] * a + q.d2[i] * v2) * per_acceleration_[i]);
-      worst.jerk = std::max(worst.jerk, std::fabs(q.d1[i] * j + q.d2[i] * va + q.d3[i] * v3) * per_jerk_[i]);
+      worst.acceleration = std::max(worst.acceleration, std::fabs(q.d1[i] * m.a[f][e] + q.d2[i] * m.v2[f][e]) * per_acceleration_[i]);
+      worst.jerk = std::max(worst.jerk, std::fabs(q.d1[i] * m.j[f][e] + q.d2[i] * m.va[f][e] + q.d3[i] * m.v3[f][e]) * per_jerk_[i]);
     }
   }
   return worst;
 }
 
 /// Where a cell uses more than a limit between the rows, it may use less of it. @return the largest share.
-double Windows::tighten() {
+NC_FOR_WIDE_VECTORS double Windows::tighten() {
   double worst = 0;
   for (unsigned k = 0; k < law_.cells; ++k) {
     const Excess share = excess(k);

@@ -43,7 +43,11 @@ class Windows {
   struct Excess {
     double acceleration = 0, jerk = 0;
   };
+  static constexpr unsigned kFours = 2, kLooks = 4 * kFours;  ///< places of a cell that are looked at
+  struct Moments;
+  bool moments(unsigned cell, Moments* m) const;
   Excess excess(unsigned cell) const;
+  Excess excess_on_curve(unsigned cell, const Moments& m) const;
 
   MeshRequest request_;
   Limits limits_;
