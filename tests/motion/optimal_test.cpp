@@ -224,6 +224,52 @@ TEST(OptimalLaw, AFullCircleKeepsTheLimits) {
   }
 }
 
+/// Where the path can be gone at the feed the law is known and not solved for: with and without that it takes the same time.
+TEST(OptimalLaw, CellsThatStayAtTheFeedChangeNothing) {
+  for (const double radius : {8.0, 40.0}) {
+    Path path;
+    for (int n = 0; n <= 250; ++n) path.to(radius * (std::cos(n * 0.4 / radius) - 1), radius * std::sin(n * 0.4 / radius));
+    ASSERT_TRUE(path.smooth(0.01, 0.5));
+    const Limits limits = standard_limits();
+    optimal::MeshRequest request;
+    request.piece = path.pieces.data();
+    request.count = static_cast<unsigned>(path.pieces.size());
+    const auto mesher = std::make_unique<optimal::Mesher>();
+    const auto mesh = std::make_unique<optimal::Mesh>();
+    const auto solver = std::make_unique<optimal::TimeLaw>();
+    const auto law = std::make_unique<optimal::Law>(), whole = std::make_unique<optimal::Law>();
+    mesher->build(request, limits, mesh.get());
+    ASSERT_GT(mesh->levels, mesh->cells / 2);
+    solver->solve(*mesh, limits, false, law.get());
+    ASSERT_TRUE(law->ok);
+    std::fill(mesh->level, mesh->level + mesh->cells, false);
+    mesh->levels = 0;
+    solver->solve(*mesh, limits, false, whole.get());
+    ASSERT_TRUE(whole->ok);
+    EXPECT_NEAR(law->seconds, whole->seconds, 6e-4 * whole->seconds) << radius;
+    EXPECT_LE(law->seconds, whole->seconds * (1 + 1e-4)) << radius;
+  }
+}
+
+/// Level cells that are too near to a rest are seen: beside them less speed would make the whole faster, or there is no law at all.
+TEST(OptimalLaw, CellsThatCannotStayAtTheFeedAreNoLaw) {
+  const Limits limits = standard_limits();
+  const Piece line = straight(100, 100);
+  optimal::MeshRequest request;
+  request.piece = &line;
+  request.count = 1;
+  const auto mesher = std::make_unique<optimal::Mesher>();
+  const auto mesh = std::make_unique<optimal::Mesh>();
+  const auto solver = std::make_unique<optimal::TimeLaw>();
+  const auto law = std::make_unique<optimal::Law>();
+  mesher->build(request, limits, mesh.get());
+  unsigned k = 1;
+  for (double u = 0; u < 2; ++k) u += mesh->h[k - 1];  // the ramp takes 4.5 mm
+  for (; !mesh->level[k]; ++k) mesh->level[k] = true, ++mesh->levels;
+  solver->solve(*mesh, limits, false, law.get());
+  EXPECT_FALSE(law->ok);
+}
+
 TEST(OptimalLaw, TheCheckerSeesAStepOfAMicrometre) {
   const Limits limits = standard_limits();
   Motion m = run({straight(10, 100)}, limits, 100);

@@ -24,6 +24,11 @@ constexpr unsigned kShorter = 100;     ///< times that a window is made shorter
 constexpr double kSameReach = 1e-9;   ///< mm: the path ends with a piece
 constexpr unsigned kNodesPerCell = 2;  ///< a cell has one period of the estimate, or a half more
 constexpr unsigned kShare = 8;         ///< one part of a window that has too many cells is left away
+constexpr double kSameCap = 1e-7;      ///< of a squared speed
+constexpr double kLevelUse = 0.9;      ///< of a limit, that the path itself may take where the speed is known to stay
+constexpr double kRampUse = 0.6;       ///< of the limits, with which such a speed is reached
+constexpr double kGentleLevel = 10;    ///< cells that the guess takes to come to it
+constexpr unsigned kFewestLevel = 8;   ///< cells in a row
 constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
 
 }  // namespace
@@ -288,6 +293,63 @@ void Mesher::fill_knots() {
   }
 }
 
+/// The speed can be the cap all along the cell, with something left to reach it.
+bool Mesher::can_be_level(unsigned k) const {
+  const Mesh& m = *mesh_;
+  const Piece& p = in_->at(place_[k].piece);
+  const Knot &left = m.knot[k], &right = m.knot[k + 1];
+  const double cap = m.cap[k];
+  if (p.quintic || (p.curve != nullptr && !p.curve->circular)) return false;
+  if (std::fabs(left.cap - cap) > kSameCap * cap || std::fabs(right.cap - cap) > kSameCap * cap) return false;
+  const double v3 = cap * std::sqrt(cap);
+  for (unsigned i = 0; i < limits_->axis_count; ++i) {
+    const double d2 = std::max(std::fabs(left.d2[i]), std::fabs(right.d2[i])), d3 = std::max(std::fabs(left.right3[i]), std::fabs(right.left3[i]));
+    if (d2 * cap > kLevelUse * limits_->acceleration[i] || d3 * v3 > kLevelUse * limits_->jerk[i]) return false;
+  }
+  return true;
+}
+
+/// Cells [from, to) can be gone at one speed: those are that are so far from both ends that it is reached from rest with a part of the limits.
+void Mesher::level_between(unsigned from, unsigned to) {
+  Mesh& m = *mesh_;
+  double a = HUGE_VAL, j = HUGE_VAL;
+  for (unsigned k = from; k <= to; ++k)
+    for (unsigned i = 0; i < limits_->axis_count; ++i) {
+      const double d = std::fabs(m.knot[k].d1[i]);
+      if (a * d > kRampUse * limits_->acceleration[i]) a = kRampUse * limits_->acceleration[i] / d;
+      if (j * d > kRampUse * limits_->jerk[i]) j = kRampUse * limits_->jerk[i] / d;
+    }
+  const double v = std::sqrt(m.cap[from]), ramp = 0.5 * v * (v > a * a / j ? v / a + a / j : 2 * std::sqrt(v / j));
+  const bool goes_on = from == 0 && !in_->from_rest && std::fabs(in_->b0 - m.cap[0]) <= kSameCap * m.cap[0] &&
+                       std::fabs(in_->slope0) * m.h[0] <= kSameCap * m.cap[0];
+  double way = goes_on ? ramp : 0;
+  while (from < to && way < ramp) way += m.h[from++];
+  for (way = 0; from < to && way < ramp;) way += m.h[--to];
+  if (to < from + kFewestLevel) return;
+  for (unsigned k = from; k < to; ++k) m.level[k] = true;
+  m.levels += to - from;
+  // The guess goes gently to it from both sides.
+  const auto near = [&](unsigned k, unsigned apart) {
+    const double away = apart / kGentleLevel;
+    m.guess[k] += (m.cap[k] - m.guess[k]) * (1 - away) * (1 - away) * (1 + 2 * away);
+  };
+  for (unsigned n = 1; n < kGentleLevel && n <= from; ++n) near(from - n, n);
+  for (unsigned n = 1; n < kGentleLevel && to + n <= m.cells; ++n) near(to + n - 1, n);
+}
+
+void Mesher::find_levels() {
+  Mesh& m = *mesh_;
+  m.levels = 0;
+  std::fill(m.level, m.level + m.cells, false);
+  if (in_->down != nullptr) return;
+  unsigned from = 0;
+  for (unsigned k = 0; k <= m.cells; ++k) {
+    if (k < m.cells && can_be_level(k) && (k == from || std::fabs(m.cap[k] - m.cap[from]) <= kSameCap * m.cap[k])) continue;
+    if (k > from + kFewestLevel) level_between(from, k);
+    from = k + 1;
+  }
+}
+
 PathPlace Mesher::build(const MeshRequest& request, const Limits& limits, Mesh* mesh) {
   in_ = &request;
   limits_ = &limits;
@@ -313,6 +375,7 @@ PathPlace Mesher::build(const MeshRequest& request, const Limits& limits, Mesh* 
     whole_ = false;
   }
   fill_knots();
+  find_levels();
   return place_[mesh->cells];
 }
 

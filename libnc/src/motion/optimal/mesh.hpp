@@ -73,6 +73,9 @@ class Mesher {
   double estimate(double u);
   bool cells(double end, bool fine);
   void fill_knots();
+  bool can_be_level(unsigned cell) const;
+  void find_levels();
+  void level_between(unsigned from, unsigned to);
 
   const MeshRequest* in_ = nullptr;
   const Limits* limits_ = nullptr;

@@ -35,8 +35,6 @@ constexpr double kStartUse = 1.004;    ///< of the acceleration at a given start
 void TimeLaw::forms() {
   const Mesh& m = *mesh_;
   n_ = m.cells;
-  first_ = 1;
-  last_ = n_ - 1;
   for (unsigned k = 1; k < n_; ++k) {
     const double per = 1 / (m.h[k - 1] + m.h[k]);
     at_[k] = {{m.h[k] * per, m.h[k - 1] * per, 0}};
@@ -67,6 +65,17 @@ void TimeLaw::forms() {
   weight_[n_ - 2] += 3 * m.h[n_ - 1] / std::sqrt(share_end);
 }
 
+/// The first and the last control value are given, and those of level cells.
+void TimeLaw::find_runs() {
+  runs_ = 0;
+  for (unsigned k = 1; k + 1 < n_; ++k) {
+    if (mesh_->level[k]) continue;
+    const unsigned from = k;
+    while (k + 1 < n_ && !mesh_->level[k]) ++k;
+    run_[runs_++] = {from, std::min(k, n_ - 1)};
+  }
+}
+
 void TimeLaw::moving_axes() {
   axes_ = 0;
   for (unsigned i = 0; i < limits_->axis_count; ++i) {
@@ -84,40 +93,43 @@ void TimeLaw::moving_axes() {
 void TimeLaw::fill_rows() {
   const Mesh& m = *mesh_;
   static constexpr Form kNone{};
-  for (unsigned k = 0; k < n_; ++k) {
-    const bool launch = k == 0 && m.from_rest, land = k + 1 == n_;
-    const Form &b0 = at_[k], &b1 = at_[k + 1], &half = half2_[k];
-    const Form s0 = slope_[k], s1{{0, slope_[k + 1].g[0], slope_[k + 1].g[1]}};
-    for (unsigned e = 0; e < 3; ++e) {  // beside rest the jerk is the same all over the cell, and so is its root
-      const double start = b0.g[e], end = e > 0 ? b1.g[e - 1] : 0;
-      root_[k].at[e] = Four{launch ? end : start, land ? start : end, e == 1 ? 1.0 : 0.0, 0};
-    }
-    const Knot &left = m.knot[k], &right = m.knot[k + 1];
-    const Inside& in = m.inside[k];
-    const double use_a = k == 0 ? kStartUse : std::min(m.use_a[k - 1], m.use_a[k]);
-    for (unsigned n = 0; n < axes_; ++n) {
-      const unsigned i = axis_[n];
-      const double per_j = limits_->jerk[i] > 0 ? 1 / (m.use[k] * limits_->jerk[i]) : 0;
-      const auto jerk = [&](bool bends) { return per_j * (bends ? 1 / kInsideCurve : 1 / kInside); };
-      const double j0 = jerk(left.d2[i] != 0 || left.left3[i] != 0 || left.right3[i] != 0),
-                   j1 = jerk(right.d2[i] != 0 || right.left3[i] != 0 || right.right3[i] != 0),
-                   jm = launch || land ? 0 : jerk(in.d2_start[i] != 0 || in.d2_end[i] != 0 || in.d3[i] != 0),
-                   a = launch || !(limits_->acceleration[i] > 0) ? 0 : 1 / (kInside * use_a * limits_->acceleration[i]);
-      Rows& x = row_[k * axes_ + n];
-      for (unsigned e = 0; e < 3; ++e) {
-        const double at1 = (e > 0 ? b1 : kNone).g[e > 0 ? e - 1 : 0];
-        x.g[e] = Four{j0 * (left.d1[i] * half.g[e] + 1.5 * left.d2[i] * s0.g[e] + left.right3[i] * b0.g[e]),
-                      j1 * (right.d1[i] * half.g[e] + 1.5 * right.d2[i] * s1.g[e] + right.left3[i] * at1),
-                      jm * (in.d1[i] * half.g[e] + 0.75 * (in.d2_end[i] * s0.g[e] + in.d2_start[i] * s1.g[e]) + (e == 1 ? in.d3[i] : 0)),
-                      a * (0.5 * left.d1[i] * s0.g[e] + left.d2[i] * b0.g[e])};
+  rows_ = 0;
+  for (const Run* run = run_; run != run_ + runs_; ++run) rows_ += (run->to - run->from + 2) * (8 * axes_ + 2);
+  for (const Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run)
+    for (unsigned k = run->from - 1; k <= run->to; ++k) {
+      const bool launch = k == 0 && m.from_rest, land = k + 1 == n_;
+      const Form &b0 = at_[k], &b1 = at_[k + 1], &half = half2_[k];
+      const Form s0 = slope_[k], s1{{0, slope_[k + 1].g[0], slope_[k + 1].g[1]}};
+      for (unsigned e = 0; e < 3; ++e) {  // beside rest the jerk is the same all over the cell, and so is its root
+        const double start = b0.g[e], end = e > 0 ? b1.g[e - 1] : 0;
+        root_[k].at[e] = Four{launch ? end : start, land ? start : end, e == 1 ? 1.0 : 0.0, 0};
       }
+      const Knot &left = m.knot[k], &right = m.knot[k + 1];
+      const Inside& in = m.inside[k];
+      const double use_a = k == 0 ? kStartUse : std::min(m.use_a[k - 1], m.use_a[k]);
+      for (unsigned n = 0; n < axes_; ++n) {
+        const unsigned i = axis_[n];
+        const double per_j = limits_->jerk[i] > 0 ? 1 / (m.use[k] * limits_->jerk[i]) : 0;
+        const auto jerk = [&](bool bends) { return per_j * (bends ? 1 / kInsideCurve : 1 / kInside); };
+        const double j0 = jerk(left.d2[i] != 0 || left.left3[i] != 0 || left.right3[i] != 0),
+                     j1 = jerk(right.d2[i] != 0 || right.left3[i] != 0 || right.right3[i] != 0),
+                     jm = launch || land ? 0 : jerk(in.d2_start[i] != 0 || in.d2_end[i] != 0 || in.d3[i] != 0),
+                     a = launch || !(limits_->acceleration[i] > 0) ? 0 : 1 / (kInside * use_a * limits_->acceleration[i]);
+        Rows& x = row_[k * axes_ + n];
+        for (unsigned e = 0; e < 3; ++e) {
+          const double at1 = (e > 0 ? b1 : kNone).g[e > 0 ? e - 1 : 0];
+          x.g[e] = Four{j0 * (left.d1[i] * half.g[e] + 1.5 * left.d2[i] * s0.g[e] + left.right3[i] * b0.g[e]),
+                        j1 * (right.d1[i] * half.g[e] + 1.5 * right.d2[i] * s1.g[e] + right.left3[i] * at1),
+                        jm * (in.d1[i] * half.g[e] + 0.75 * (in.d2_end[i] * s0.g[e] + in.d2_start[i] * s1.g[e]) + (e == 1 ? in.d3[i] : 0)),
+                        a * (0.5 * left.d1[i] * s0.g[e] + left.d2[i] * b0.g[e])};
+        }
+      }
+      const bool free = k >= run->from && k < run->to;
+      const double knot = k >= run->from ? 1 / m.knot[k].cap : 0, cell = free ? 1 / m.cap[k] : 0;
+      cap_[k].g[0] = knot * b0.g[0];
+      cap_[k].g[1] = knot * b0.g[1];
+      cap_[k].g[2] = cell;
     }
-    const double knot = k > 0 ? 1 / m.knot[k].cap : 0, cell = k >= first_ && k < last_ ? 1 / m.cap[k] : 0;
-    cap_[k].g[0] = knot * b0.g[0];
-    cap_[k].g[1] = knot * b0.g[1];
-    cap_[k].g[2] = cell;
-  }
-  rows_ = n_ * (8 * axes_ + 2);
 }
 
 /// The roots of cell k: b at its ends and the largest b inside.
@@ -140,77 +152,80 @@ void TimeLaw::fill_rows() {
 NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, double smallest) {
   const Four one = all(1), mu = all(target), least = all(smallest), left = all(kLeft);
   Four gap{}, residual{}, worst{};
-  // What belongs to c_(k-1), c_k and c_(k+1) in matrix and right side: the first is done with behind cell k, the others go on.
-  Four m00{}, m01{}, m11{}, a0{}, a1{}, d0{}, d1{};
-  for (unsigned k = 0; k < n_; ++k) {
-    const unsigned base = k + kPad - 1;
-    Roots& q = root_[k];
-    const Four c0 = all(c_[base]), c1 = all(c_[base + 1]), c2 = all(c_[base + 2]);
-    const Four e0 = all(dc_[base]), e1 = all(dc_[base + 1]), e2 = all(dc_[base + 2]);
-    const Four old = q.root, old_bend = q.half_per * (q.at[0] * e0 + q.at[1] * e1 + q.at[2] * e2);
-    roots(k);
-    Four m02{}, m12{}, m22{}, a2{}, d2{};
-    for (Rows *p = row_ + k * axes_, *end = p + axes_; p != end; ++p) {
-      Rows& x = *p;
-      const Four g0 = x.g[0], g1 = x.g[1], g2 = x.g[2];
-      const Four r = q.root * (g0 * c0 + g1 * c1 + g2 * c2), low = one - r, high = one + r;
-      Four s0, s1, l0, l1;
-      if (first) {
-        s0 = larger(low, least);
-        s1 = larger(high, least);
-        l0 = mu / s0;
-        l1 = mu / s1;
-      } else {
-        const Four line = x.r + old * (g0 * e0 + g1 * e1 + g2 * e2) + x.r * old_bend;  // what the step was to make of r
-        const Four line0 = one - line, line1 = one + line;
-        s0 = larger(low, larger(left * x.s[0], line0));
-        s1 = larger(high, larger(left * x.s[1], line1));
-        l0 = larger(left * x.l[0], (mu - x.l[0] * (line0 - x.s[0])) * x.per[0]);
-        l1 = larger(left * x.l[1], (mu - x.l[1] * (line1 - x.s[1])) * x.per[1]);
+  for (const Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run) {
+    // What belongs to c_(k-1), c_k and c_(k+1) in matrix and right side: the first is done with behind cell k, the others go on.
+    Four m00{}, m01{}, m11{}, a0{}, a1{}, d0{}, d1{};
+    for (unsigned k = run->from - 1; k <= run->to; ++k) {
+      const unsigned base = k + kPad - 1;
+      Roots& q = root_[k];
+      const Four c0 = all(c_[base]), c1 = all(c_[base + 1]), c2 = all(c_[base + 2]);
+      const Four e0 = all(dc_[base]), e1 = all(dc_[base + 1]), e2 = all(dc_[base + 2]);
+      const Four old = q.root, old_bend = q.half_per * (q.at[0] * e0 + q.at[1] * e1 + q.at[2] * e2);
+      roots(k);
+      Four m02{}, m12{}, m22{}, a2{}, d2{};
+      for (Rows *p = row_ + k * axes_, *end = p + axes_; p != end; ++p) {
+        Rows& x = *p;
+        const Four g0 = x.g[0], g1 = x.g[1], g2 = x.g[2];
+        const Four r = q.root * (g0 * c0 + g1 * c1 + g2 * c2), low = one - r, high = one + r;
+        Four s0, s1, l0, l1;
+        if (first) {
+          s0 = larger(low, least);
+          s1 = larger(high, least);
+          l0 = mu / s0;
+          l1 = mu / s1;
+        } else {
+          const Four line = x.r + old * (g0 * e0 + g1 * e1 + g2 * e2) + x.r * old_bend;  // what the step was to make of r
+          const Four line0 = one - line, line1 = one + line;
+          s0 = larger(low, larger(left * x.s[0], line0));
+          s1 = larger(high, larger(left * x.s[1], line1));
+          l0 = larger(left * x.l[0], (mu - x.l[0] * (line0 - x.s[0])) * x.per[0]);
+          l1 = larger(left * x.l[1], (mu - x.l[1] * (line1 - x.s[1])) * x.per[1]);
+        }
+        const Four per = one / (s0 * s1), per0 = per * s1, per1 = per * s0;
+        x.r = r;
+        x.s[0] = s0;
+        x.s[1] = s1;
+        x.l[0] = l0;
+        x.l[1] = l1;
+        x.per[0] = per0;
+        x.per[1] = per1;
+        const Four rho0 = s0 - low, rho1 = s1 - high;
+        gap += s0 * l0 + s1 * l1;
+        residual = larger(residual, larger(rho0, rho1));
+        worst = larger(worst, larger(r, -r));
+        const Four w0 = l0 * per0, w1 = l1 * per1, w = w0 + w1;
+        const Four t = w0 * rho0 - w1 * rho1, t_mu = per0 - per1, bend = r * q.half_per;
+        const Four h0 = q.root * g0 + bend * q.at[0], h1 = q.root * g1 + bend * q.at[1], h2 = q.root * g2 + bend * q.at[2];
+        const Four w0h = w * h0, w1h = w * h1;
+        m00 += w0h * h0;
+        m01 += w0h * h1;
+        m02 += w0h * h2;
+        m11 += w1h * h1;
+        m12 += w1h * h2;
+        m22 += w * h2 * h2;
+        a0 += h0 * t;
+        a1 += h1 * t;
+        a2 += h2 * t;
+        d0 += h0 * t_mu;
+        d1 += h1 * t_mu;
+        d2 += h2 * t_mu;
       }
-      const Four per = one / (s0 * s1), per0 = per * s1, per1 = per * s0;
-      x.r = r;
-      x.s[0] = s0;
-      x.s[1] = s1;
-      x.l[0] = l0;
-      x.l[1] = l1;
-      x.per[0] = per0;
-      x.per[1] = per1;
-      const Four rho0 = s0 - low, rho1 = s1 - high;
-      gap += s0 * l0 + s1 * l1;
-      residual = larger(residual, larger(rho0, rho1));
-      worst = larger(worst, larger(r, -r));
-      const Four w0 = l0 * per0, w1 = l1 * per1, w = w0 + w1;
-      const Four t = w0 * rho0 - w1 * rho1, t_mu = per0 - per1, bend = r * q.half_per;
-      const Four h0 = q.root * g0 + bend * q.at[0], h1 = q.root * g1 + bend * q.at[1], h2 = q.root * g2 + bend * q.at[2];
-      const Four w0h = w * h0, w1h = w * h1;
-      m00 += w0h * h0;
-      m01 += w0h * h1;
-      m02 += w0h * h2;
-      m11 += w1h * h1;
-      m12 += w1h * h2;
-      m22 += w * h2 * h2;
-      a0 += h0 * t;
-      a1 += h1 * t;
-      a2 += h2 * t;
-      d0 += h0 * t_mu;
-      d1 += h1 * t_mu;
-      d2 += h2 * t_mu;
+      diag_[base] = sum(m00);
+      off1_[base] = sum(m01);
+      off2_[base] = sum(m02);
+      side_[base] = -sum(a0);
+      side_mu_[base] = -sum(d0);
+      m00 = m11;
+      m01 = m12;
+      m11 = m22;
+      a0 = a1;
+      a1 = a2;
+      d0 = d1;
+      d1 = d2;
     }
-    diag_[base] = sum(m00);
-    off1_[base] = sum(m01);
-    off2_[base] = sum(m02);
-    side_[base] = -sum(a0);
-    side_mu_[base] = -sum(d0);
-    m00 = m11;
-    m01 = m12;
-    m11 = m22;
-    a0 = a1;
-    a1 = a2;
-    d0 = d1;
-    d1 = d2;
+    side_[run->to + kPad] = -sum(a0);
+    side_mu_[run->to + kPad] = -sum(d0);
   }
-  for (unsigned k = n_ + kPad - 1; k < n_ + 2 * kPad; ++k) diag_[k] = off1_[k] = off2_[k] = side_[k] = side_mu_[k] = 0;  // none of them is free
   Sums sums{sum(gap), largest(residual), largest(worst)};
   caps(first, target, smallest, &sums);
   return sums;
@@ -218,48 +233,51 @@ NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, doubl
 
 /// The same with the rows of b and c below feed and axis velocities, which are linear: a step keeps them but for what it cuts.
 void TimeLaw::caps(bool first, double mu, double least, Sums* sums) {
-  for (unsigned k = 0; k < n_; ++k) {
-    const unsigned base = k + kPad - 1;
-    Caps& x = cap_[k];
-    const double c = c_[base + 1], low[2] = {1 - (x.g[0] * c_[base] + x.g[1] * c), 1 - x.g[2] * c};
-    double w[2], t[2], per[2];
-    for (unsigned n = 0; n < 2; ++n) {
-      double &s = x.s[n], &l = x.l[n];
-      if (first) {
-        s = std::max(low[n], least);
-        l = mu / s;
-      } else {
-        l = std::max(kLeft * l, (mu - l * (low[n] - s)) / s);
-        s = std::max(low[n], kLeft * s);
+  for (const Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run)
+    for (unsigned k = run->from - 1; k <= run->to; ++k) {
+      const unsigned base = k + kPad - 1;
+      Caps& x = cap_[k];
+      const double c = c_[base + 1], low[2] = {1 - (x.g[0] * c_[base] + x.g[1] * c), 1 - x.g[2] * c};
+      double w[2], t[2], per[2];
+      for (unsigned n = 0; n < 2; ++n) {
+        double &s = x.s[n], &l = x.l[n];
+        if (first) {
+          s = std::max(low[n], least);
+          l = mu / s;
+        } else {
+          l = std::max(kLeft * l, (mu - l * (low[n] - s)) / s);
+          s = std::max(low[n], kLeft * s);
+        }
+        const double rho = s - low[n];
+        per[n] = 1 / s;
+        w[n] = l * per[n];
+        t[n] = w[n] * rho;
+        sums->gap += s * l;
+        sums->residual = std::max(sums->residual, rho);
+        sums->worst = std::max(sums->worst, 1 - low[n]);
       }
-      const double rho = s - low[n];
-      per[n] = 1 / s;
-      w[n] = l * per[n];
-      t[n] = w[n] * rho;
-      sums->gap += s * l;
-      sums->residual = std::max(sums->residual, rho);
-      sums->worst = std::max(sums->worst, 1 - low[n]);
+      const double g0 = x.g[0], g1 = x.g[1], g = x.g[2];
+      diag_[base] += w[0] * g0 * g0;
+      off1_[base] += w[0] * g0 * g1;
+      diag_[base + 1] += w[0] * g1 * g1 + w[1] * g * g;
+      side_[base] -= g0 * t[0];
+      side_[base + 1] -= g1 * t[0] + g * t[1];
+      side_mu_[base] -= g0 * per[0];
+      side_mu_[base + 1] -= g1 * per[0] + g * per[1];
     }
-    const double g0 = x.g[0], g1 = x.g[1], g = x.g[2];
-    diag_[base] += w[0] * g0 * g0;
-    off1_[base] += w[0] * g0 * g1;
-    diag_[base + 1] += w[0] * g1 * g1 + w[1] * g * g;
-    side_[base] -= g0 * t[0];
-    side_[base + 1] -= g1 * t[0] + g * t[1];
-    side_mu_[base] -= g0 * per[0];
-    side_mu_[base + 1] -= g1 * per[0] + g * per[1];
-  }
 }
 
 void TimeLaw::find_time() {
   time_ = 0;
-  for (unsigned k = first_; k < last_; ++k) per_root_[k] = 1 / std::sqrt(c_[k + kPad]);
-  for (unsigned k = first_; k < last_; ++k) time_ += weight_[k] * per_root_[k];
+  for (const Run *run = run_, *end = run_ + runs_; run != end; ++run) {
+    for (unsigned k = run->from; k < run->to; ++k) per_root_[k] = 1 / std::sqrt(c_[k + kPad]);
+    for (unsigned k = run->from; k < run->to; ++k) time_ += weight_[k] * per_root_[k];
+  }
 }
 
 /// Of the step towards mu; the second derivative of the time goes into the matrix.
-void TimeLaw::right_side(double mu) {
-  for (unsigned k = first_; k < last_; ++k) {
+void TimeLaw::right_side(const Run& run, double mu) {
+  for (unsigned k = run.from; k < run.to; ++k) {
     const double per = per_root_[k] * per_root_[k], w = weight_[k] * per * per_root_[k];
     diag_[k + kPad] += 0.75 * w * per;
     dc_[k + kPad] = 0.5 * w + side_[k + kPad] + mu * side_mu_[k + kPad];  // minus the gradient of the time
@@ -267,17 +285,10 @@ void TimeLaw::right_side(double mu) {
 }
 
 /// L D L' of the band; what is not free stays where it is. dc_ holds the right side and then the step.
-bool TimeLaw::factor_and_solve() {
-  for (unsigned k = 0; k < n_ + 2 * kPad; ++k) {
-    if (k >= first_ + kPad && k < last_ + kPad) continue;
-    diag_[k] = 1;
-    dc_[k] = 0;
-    off1_[k] = off2_[k] = 0;
-    if (k >= 1) off1_[k - 1] = 0;
-    if (k >= 2) off2_[k - 2] = 0;
-  }
-  const unsigned end = last_ + kPad;
-  for (unsigned k = first_ + kPad; k < end; ++k) {
+bool TimeLaw::factor_and_solve(const Run& run) {
+  const unsigned begin = run.from + kPad, end = run.to + kPad;
+  off1_[end - 1] = off2_[end - 1] = off2_[end - 2] = 0;
+  for (unsigned k = begin; k < end; ++k) {
     const double d = diag_[k];
     if (!(d > 0)) return false;
     const double per = 1 / d, l1 = off1_[k] * per, l2 = off2_[k] * per;
@@ -290,8 +301,36 @@ bool TimeLaw::factor_and_solve() {
     off2_[k] = l2;
     dc_[k] *= per;
   }
-  for (unsigned k = end; k < n_ + 2 * kPad; ++k) dc_[k] = 0;
-  for (unsigned k = end; k-- > first_ + kPad;) dc_[k] -= off1_[k] * dc_[k + 1] + off2_[k] * dc_[k + 2];
+  dc_[end] = dc_[end + 1] = 0;
+  for (unsigned k = end; k-- > begin;) dc_[k] -= off1_[k] * dc_[k + 1] + off2_[k] * dc_[k + 2];
+  return true;
+}
+
+/// One step towards mu.
+bool TimeLaw::step(double mu) {
+  for (const Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run) {
+    right_side(*run, mu);
+    if (!factor_and_solve(*run)) return false;
+    for (unsigned k = run->from + kPad; k < run->to + kPad; ++k) {
+      const double to = std::clamp(c_[k] + dc_[k], kFall * c_[k], kRise * c_[k]);
+      dc_[k] = to - c_[k];
+      c_[k] = to;
+    }
+  }
+  find_time();
+  return true;
+}
+
+/// No law is shorter whose level cells are slower: beside them less speed there would not let the others be faster.
+bool TimeLaw::levels_hold(double mu) const {
+  const auto gain = [&](unsigned k) {
+    const double c = c_[k + kPad];
+    return 0.5 * weight_[k] / (c * std::sqrt(c)) + side_[k + kPad] + mu * side_mu_[k + kPad];
+  };
+  for (const Run *run = run_, *end = run_ + runs_; run != end; ++run) {
+    if (run->from > 1 && gain(run->from - 1) < 0) return false;
+    if (run->to + 1 < n_ && gain(run->to) < 0) return false;
+  }
   return true;
 }
 
@@ -306,6 +345,8 @@ void TimeLaw::finish(Law* law) {
     law->slope[k] = value(slope_[k], k + kPad - 1);
   }
   for (unsigned k = 0; k < n_; ++k) law->half2[k] = value(half2_[k], k + kPad - 1);
+  law->seconds = time_;
+  for (unsigned k = 1; k + 1 < n_; ++k) law->seconds += m.level[k] ? weight_[k] / std::sqrt(c_[k + kPad]) : 0;
 }
 
 void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law) {
@@ -316,10 +357,11 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law
   law->iterations = 0;
   if (mesh.cells < 4 || mesh.cells > kMaxCells) return;
   forms();
+  find_runs();
   moving_axes();
   fill_rows();
   for (unsigned k = 0; k < kPad; ++k) c_[k] = c_[n_ + kPad + k] = 0;
-  for (unsigned k = 0; k < n_ && !again; ++k) c_[k + kPad] = mesh.guess[k];
+  for (unsigned k = 0; k < n_ && !again; ++k) c_[k + kPad] = mesh.level[k] ? mesh.cap[k] : mesh.guess[k];
   c_[kPad] = mesh.from_rest ? 0 : mesh.b0 + 0.5 * mesh.slope0 * mesh.h[0];
   c_[kPad - 1] = mesh.from_rest ? 0 : mesh.b0 - 0.5 * mesh.slope0 * mesh.h[0];
   c_[n_ - 1 + kPad] = 0;
@@ -328,11 +370,10 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law
   Sums sums = rows(true, (again ? kGapAgain : kGapFirst) * time_ / rows_, again ? kSlackAgain : kSmallestSlack);
   for (unsigned n = 0; n < kIterations; ++n) {
     law->iterations = n;
-    law->seconds = time_;
     law->worst = sums.worst * kInside;
     if (sums.gap < kGap * time_ && sums.worst < 1.0005) {
-      law->ok = true;
-      finish(law);
+      law->ok = levels_hold(sums.gap / rows_);
+      if (law->ok) finish(law);
       return;
     }
     const double average = sums.gap / rows_;
@@ -342,14 +383,7 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law
                                                            : 0.1) *
                                        average,
                                    kResidual * sums.residual * time_ / rows_);
-    right_side(target);
-    if (!factor_and_solve()) return;
-    for (unsigned k = first_ + kPad; k < last_ + kPad; ++k) {
-      const double to = std::clamp(c_[k] + dc_[k], kFall * c_[k], kRise * c_[k]);
-      dc_[k] = to - c_[k];
-      c_[k] = to;
-    }
-    find_time();
+    if (!step(target)) return;
     sums = rows(false, target, 0);
   }
 }

@@ -39,6 +39,8 @@ struct Mesh {
   double guess[kMaxCells];  ///< b to begin with
   double use[kMaxCells];    ///< share of the jerk limits that the cell may use, 1 or a little less
   double use_a[kMaxCells];  ///< the same of the acceleration limits
+  bool level[kMaxCells];    ///< the control value of the cell is its cap: it is known that the speed stays there
+  unsigned levels = 0;      ///< cells that are level
   Knot knot[kMaxCells + 1];
   Inside inside[kMaxCells];
   bool from_rest = true;  ///< else b and b' at the start are given
@@ -86,15 +88,23 @@ class TimeLaw {
     double gap = 0, residual = 0, worst = 0;
   };
 
+  /// Free control values next to each other. The rows of cells [from - 1, to] hang on them.
+  struct Run {
+    unsigned from, to;
+  };
+
   void forms();
+  void find_runs();
   void moving_axes();
   void fill_rows();
   Sums rows(bool first, double mu, double least);
   void caps(bool first, double mu, double least, Sums* sums);
   void roots(unsigned k);
   void find_time();
-  void right_side(double mu);
-  bool factor_and_solve();
+  void right_side(const Run& run, double mu);
+  bool factor_and_solve(const Run& run);
+  bool step(double mu);
+  bool levels_hold(double mu) const;
   void finish(Law* law);
   double value(const Form& f, unsigned base) const {
     return f.g[0] * c_[base] + f.g[1] * c_[base + 1] + f.g[2] * c_[base + 2];
@@ -103,7 +113,8 @@ class TimeLaw {
   const Mesh* mesh_ = nullptr;
   const Limits* limits_ = nullptr;
   unsigned n_ = 0;                 ///< cells
-  unsigned first_ = 0, last_ = 0;  ///< free control values: [first_, last_)
+  Run run_[kMaxCells / 2];
+  unsigned runs_ = 0;
   unsigned axes_ = 0, axis_[kMaxAxes];  ///< that move
   unsigned rows_ = 0;
   double time_ = 0;

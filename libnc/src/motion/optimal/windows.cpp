@@ -134,6 +134,7 @@ struct Windows::Moments {
 NC_FOR_WIDE_VECTORS double Windows::tighten() {
   double worst = 0;
   for (unsigned k = 0; k < law_.cells; ++k) {
+    if (k > 0 && mesh_.level[k - 1] && mesh_.level[k] && mesh_.level[k + 1]) continue;  // the mesh has looked at it
     const Excess share = excess(k);
     worst = std::max({worst, share.acceleration, share.jerk});
     const double most = std::max(share.jerk, share.acceleration);
@@ -141,6 +142,20 @@ NC_FOR_WIDE_VECTORS double Windows::tighten() {
     if (share.acceleration > kExcess) mesh_.use_a[k] /= 1.001 * share.acceleration;
   }
   return worst;
+}
+
+/// The law of the mesh, with less of the limits where it uses more than all of them.
+bool Windows::corrected() {
+  for (unsigned n = 0; n < kTightened; ++n) {
+    time_law_.solve(mesh_, limits_, n > 0, &law_);
+    iterations_ += law_.iterations;
+    solved_ += mesh_.cells;
+    if (!law_.ok) return false;
+    const double share = tighten();
+    if (!(share < HUGE_VAL)) return false;  // a cell that is not gone through
+    if (!(share > kExcess)) return true;
+  }
+  return false;
 }
 
 /// A law that keeps the limits everywhere; false when none was found.
@@ -155,15 +170,11 @@ bool Windows::solve(unsigned tries) {
       request_.period /= kFiner;
       mesher_.build(request_, limits_, &mesh_);
     }
-    for (unsigned n = 0; n < kTightened; ++n) {
-      time_law_.solve(mesh_, limits_, n > 0, &law_);
-      iterations_ += law_.iterations;
-      solved_ += mesh_.cells;
-      if (!law_.ok) break;
-      const double share = tighten();
-      if (!(share < HUGE_VAL)) break;  // a cell that is not gone through
-      if (!(share > kExcess)) return true;
-    }
+    if (corrected()) return true;
+    if (mesh_.levels == 0) continue;
+    std::fill(mesh_.level, mesh_.level + mesh_.cells, false);
+    mesh_.levels = 0;
+    if (corrected()) return true;
   }
   return false;
 }

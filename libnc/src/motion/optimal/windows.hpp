@@ -37,6 +37,7 @@ class Windows {
  private:
   void set_limits(const Limits& limits);
   bool solve(unsigned tries);
+  bool corrected();
   void settle();
   double stopping_time() const;
   double tighten();
