@@ -15,6 +15,7 @@ constexpr double kLongestLead = 0.2;   ///< s
 constexpr double kDown = 1.06;         ///< of the squared speed of a stop, below which a lower feed is reached
 constexpr unsigned kLawsAtOnce = 8;
 constexpr unsigned kCellsAtOnce = 320; ///< of a law, so that it is there soon
+constexpr unsigned kBack = 7;          ///< cells farther back, from which a law is tried that was not found
 constexpr uint32_t kRetry = 4;         ///< cells that the scan goes until a law is tried again
 constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
 constexpr double kSameScale = 1e-9;
@@ -211,6 +212,15 @@ bool OptimalPlanner::find_ahead(const Following& f, double lead, Start* start) c
     time += store_.at(k).seconds;
   }
   return false;
+}
+
+/// The cell of the chain that lies `count` cells before another one, not before the one in execution.
+uint32_t OptimalPlanner::before(const Following& f, uint32_t cell, unsigned count) const {
+  unsigned between = 0;
+  for (uint32_t k = f.cell; k != cell && k != chain_.last; k = chain_next_[k & store_.cell_mask]) ++between;
+  uint32_t k = f.cell;
+  for (; between > count; --between) k = chain_next_[k & store_.cell_mask];
+  return k;
 }
 
 /// Pieces from `piece` on that one law may go through, to the next rest; no more than `most`.
@@ -598,9 +608,11 @@ void OptimalPlanner::go_on(const Following& f, bool idle) {
   if (!(more > kNew * (chain_.u - store_.at(f.cell).u)) && !(whole && more > kTiny)) return;
   if (tried_at_ != kNoCell && f.cell - tried_at_ < kRetry) return;
   Start start = behind(chain_.keep);
-  if (ahead(f, chain_.keep) < lead_ && !find_ahead(f, lead_, &start)) return;
+  if (failed_ > 0) start = behind(before(f, chain_.keep, kBack * failed_));
+  if (ahead(f, start.after) < lead_ && !find_ahead(f, lead_, &start)) return;
   extend(f, start, block_most(f, start), nullptr);
   tried_at_ = open_ ? kNoCell : f.cell;
+  failed_ = open_ ? 0 : failed_ + 1;
 }
 
 }  // namespace nc::optimal

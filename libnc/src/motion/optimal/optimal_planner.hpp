@@ -55,6 +55,7 @@ class OptimalPlanner {
   bool answered(const Following& f);
   void go_on(const Following& f, bool idle);
   void change(const Following& f);
+  uint32_t before(const Following& f, uint32_t cell, unsigned count) const;
   bool find_ahead(const Following& f, double lead, Start* start) const;
   Start at_end() const;
   Start behind(uint32_t cell) const;
@@ -119,6 +120,7 @@ class OptimalPlanner {
   double fresh_x_ = 0;
   double lead_ = 0.004;
   uint32_t head_ = 0;
+  unsigned failed_ = 0;          ///< laws from the chain on that were not found
   uint32_t tried_at_ = kNoCell;  ///< cell of the scan when no law was found
   Latest<Proposal> offers_;
   Latest<Following> following_;
