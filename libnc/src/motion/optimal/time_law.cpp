@@ -22,7 +22,7 @@ constexpr double kInsideCurve =
     0.996;  ///< the same of the jerk where the path bends: between the rows it may be a little more
 constexpr double kLeft = 0.2;     ///< of a slack or a multiplier, at least, after a step
 constexpr double kFall = 0.2, kRise = 5;  ///< of a control value, after a step
-constexpr double kResidual = 0.02;
+constexpr double kResidual = 0.003;
 constexpr double kSmallestSlack = 0.5;
 constexpr double kGapFirst = 0.4;      ///< of the time
 constexpr double kSlackAgain = 0.003;   ///< the same from a solution of nearly the same rows

@@ -16,7 +16,7 @@ struct Attempt {
   double period;  ///< of the one asked for
 };
 constexpr Attempt kAttempts[] = {
-    {0.7, kMaxCells, 1}, {0.4, kMaxCells, 0.7}, {0.7, kMaxCells / 2, 0.5}, {0.3, kMaxCells / 2, 1.2}};
+    {0.85, kMaxCells, 1}, {0.4, kMaxCells, 0.7}, {0.7, kMaxCells / 2, 0.5}, {0.3, kMaxCells / 2, 1.2}};
 constexpr double kSpare = 1.3;
 constexpr unsigned kFiner = 2;      ///< a short path from rest to rest has cells of this part, which it gains some percent by
 constexpr unsigned kTightened = 6;  ///< times that a law is corrected
