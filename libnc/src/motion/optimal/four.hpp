@@ -36,6 +36,10 @@ using Four __attribute__((vector_size(32), aligned(16))) = double;
 [[gnu::always_inline]] inline double sum(const Four& a) {
   return (a[0] + a[1]) + (a[2] + a[3]);
 }
+/// Of the first two.
+[[gnu::always_inline]] inline double sum2(const Four& a) {
+  return a[0] + a[1];
+}
 [[gnu::always_inline]] inline double largest(const Four& a) {
   return std::max(std::max(a[0], a[1]), std::max(a[2], a[3]));
 }

@@ -72,7 +72,9 @@ void TimeLaw::find_runs() {
     if (mesh_->level[k]) continue;
     const unsigned from = k;
     while (k + 1 < n_ && !mesh_->level[k]) ++k;
-    run_[runs_++] = {from, std::min(k, n_ - 1)};
+    Run& run = run_[runs_++];
+    run.from = from;
+    run.to = std::min(k, n_ - 1);
   }
 }
 
@@ -126,42 +128,72 @@ void TimeLaw::fill_rows() {
       }
       const bool free = k >= run->from && k < run->to;
       const double knot = k >= run->from ? 1 / m.knot[k].cap : 0, cell = free ? 1 / m.cap[k] : 0;
-      cap_[k].g[0] = knot * b0.g[0];
-      cap_[k].g[1] = knot * b0.g[1];
-      cap_[k].g[2] = cell;
+      cap_[k].g0 = Four{knot * b0.g[0], 0, 0, 0};
+      cap_[k].g1 = Four{knot * b0.g[1], cell, 0, 0};
     }
 }
 
-/// The roots of cell k: b at its ends and the largest b inside.
-[[gnu::always_inline]] inline void TimeLaw::roots(unsigned k) {
+/// L D L' of the band, each row as soon as it is known, for two right sides: what the second is multiplied by is known later.
+struct TimeLaw::Elimination {
+  struct Row {
+    double lower1 = 0, lower2 = 0, off1 = 0, off2 = 0, side = 0, side_mu = 0;
+  };
+  Row last, before;
+  bool possible = true;
+
+  [[gnu::always_inline]] inline double add(double diag, Row r) {  // @return 1 / D
+    diag -= last.lower1 * last.off1 + before.lower2 * before.off2;
+    r.off1 -= last.lower1 * last.off2;
+    r.side -= last.lower1 * last.side + before.lower2 * before.side;
+    r.side_mu -= last.lower1 * last.side_mu + before.lower2 * before.side_mu;
+    const double per = 1 / diag;
+    possible = possible && diag > 0;
+    r.lower1 = r.off1 * per;
+    r.lower2 = r.off2 * per;
+    before = last;
+    last = r;
+    return per;
+  }
+};
+
+/// The roots of cell k: b at its ends and the largest b inside. @return 1 / root(c_k)
+[[gnu::always_inline]] inline double TimeLaw::roots(unsigned k) {
   const unsigned base = k + kPad - 1;
   const Form &f0 = at_[k], &f1 = at_[k + 1], &e0 = slope_[k], &e1 = slope_[k + 1];
   const double c0 = c_[base], c = c_[base + 1], c2 = c_[base + 2];
   const double b0 = f0.g[0] * c0 + f0.g[1] * c, b1 = f1.g[0] * c + f1.g[1] * c2;
   const double slope0 = e0.g[0] * c0 + e0.g[1] * c, slope1 = e1.g[0] * c + e1.g[1] * c2;
   const bool launch = k == 0 && mesh_->from_rest, land = k + 1 == n_;
-  const double left = launch ? b1 : b0, right = land ? b0 : b1;
+  const double left = launch ? b1 : b0, right = land ? b0 : b1, any = c > 0 ? c : 1;
   const double peak = slope0 > 0 && slope1 < 0 ? b0 + 0.5 * mesh_->h[k] * slope0 * slope0 / (slope0 - slope1) : std::max(b0, b1);
   Roots& q = root_[k];
-  q.root = Four{std::sqrt(left), std::sqrt(right), std::sqrt(peak), 1};
-  q.half_per = Four{0.5 / left, 0.5 / right, c > 0 ? 0.5 / c : 0, 0};
+  const Four root = root_of(Four{left, right, peak, any});
+  const Four half_per = all(0.5) / Four{left, right, any, 1};
+  q.root = Four{root[0], root[1], root[2], 1};
+  q.half_per = Four{half_per[0], half_per[1], c > 0 ? half_per[2] : 0, 0};
+  return 2 * half_per[2] * root[3];
 }
 
-/// All rows at c, and what they give to the matrix and the right side. A slack that is smaller than its row leaves is made as large.
+/// All rows at c, and what they give to the matrix and the right side, which is eliminated forward. A slack that is smaller than its row
+/// leaves is made as large.
 /// `first`: slacks of at least `least` begin, with multipliers of mu / s; else the step dc towards mu, which c has gone, is theirs, too.
 NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, double smallest) {
   const Four one = all(1), mu = all(target), least = all(smallest), left = all(kLeft);
+  const Four kIsCap = {1, 1, 0, 0};
   Four gap{}, residual{}, worst{};
-  for (const Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run) {
+  time_ = 0;
+  for (Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run) {
     // What belongs to c_(k-1), c_k and c_(k+1) in matrix and right side: the first is done with behind cell k, the others go on.
     Four m00{}, m01{}, m11{}, a0{}, a1{}, d0{}, d1{};
+    double diag = 0, side = 0, side_mu = 0;  // of c_(k-1): what the time and the rows of cell k - 1 give it
+    Elimination band;
     for (unsigned k = run->from - 1; k <= run->to; ++k) {
       const unsigned base = k + kPad - 1;
       Roots& q = root_[k];
       const Four c0 = all(c_[base]), c1 = all(c_[base + 1]), c2 = all(c_[base + 2]);
       const Four e0 = all(dc_[base]), e1 = all(dc_[base + 1]), e2 = all(dc_[base + 2]);
       const Four old = q.root, old_bend = q.half_per * (q.at[0] * e0 + q.at[1] * e1 + q.at[2] * e2);
-      roots(k);
+      const double per_root = roots(k);
       Four m02{}, m12{}, m22{}, a2{}, d2{};
       for (Rows *p = row_ + k * axes_, *end = p + axes_; p != end; ++p) {
         Rows& x = *p;
@@ -210,11 +242,49 @@ NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, doubl
         d1 += h1 * t_mu;
         d2 += h2 * t_mu;
       }
-      diag_[base] = sum(m00);
-      off1_[base] = sum(m01);
-      off2_[base] = sum(m02);
-      side_[base] = -sum(a0);
-      side_mu_[base] = -sum(d0);
+      Caps& x = cap_[k];
+      const Four low = one - (x.g0 * c0 + x.g1 * c1);
+      Four s, l;
+      if (first) {
+        s = larger(low, least);
+        l = mu / s;
+      } else {
+        s = larger(low, left * x.s);
+        l = larger(left * x.l, (mu - x.l * (low - x.s)) * x.per);
+      }
+      const Four per_s = one / s, rho = s - low, w = l * per_s, t = w * rho;
+      x.s = s;
+      x.l = l;
+      x.per = per_s;
+      gap += s * l * kIsCap;
+      residual = larger(residual, rho);
+      worst = larger(worst, one - low);
+      const Four w0 = w * x.g0, w1 = w * x.g1;
+      const Four of = Four{sum2(w0 * x.g0), sum2(w0 * x.g1), sum2(w1 * x.g1), 0};
+      const double side_k = side - sum(a0) - sum2(x.g0 * t), side_mu_k = side_mu - sum(d0) - sum2(x.g0 * per_s);
+      if (k > run->from) {  // c_(k-1) is free; beside the last one of them nothing is
+        const bool next = k < run->to, next2 = k + 1 < run->to;
+        const double per = band.add(diag + sum(m00) + of[0], {.off1 = next ? sum(m01) + of[1] : 0,
+                                                                         .off2 = next2 ? sum(m02) : 0,
+                                                                         .side = side_k,
+                                                                         .side_mu = side_mu_k});
+        lower1_[base] = band.last.lower1;
+        lower2_[base] = band.last.lower2;
+        side_[base] = band.last.side * per;
+        side_mu_[base] = band.last.side_mu * per;
+      } else if (k == run->from) {
+        run->side[0] = side_k;
+        run->side_mu[0] = side_mu_k;
+      }
+      diag = of[2];
+      side = -sum2(x.g1 * t);
+      side_mu = -sum2(x.g1 * per_s);
+      if (k >= run->from && k < run->to) {
+        const double per = per_root * per_root, slope = weight_[k] * per * per_root;
+        time_ += weight_[k] * per_root;
+        diag += 0.75 * slope * per;
+        side += 0.5 * slope;  // minus the gradient of the time
+      }
       m00 = m11;
       m01 = m12;
       m11 = m22;
@@ -223,113 +293,45 @@ NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, doubl
       d0 = d1;
       d1 = d2;
     }
-    side_[run->to + kPad] = -sum(a0);
-    side_mu_[run->to + kPad] = -sum(d0);
+    run->side[1] = side - sum(a0);
+    run->side_mu[1] = side_mu - sum(d0);
+    run->possible = band.possible;
   }
-  Sums sums{sum(gap), largest(residual), largest(worst)};
-  caps(first, target, smallest, &sums);
-  return sums;
-}
-
-/// The same with the rows of b and c below feed and axis velocities, which are linear: a step keeps them but for what it cuts.
-void TimeLaw::caps(bool first, double mu, double least, Sums* sums) {
-  for (const Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run)
-    for (unsigned k = run->from - 1; k <= run->to; ++k) {
-      const unsigned base = k + kPad - 1;
-      Caps& x = cap_[k];
-      const double c = c_[base + 1], low[2] = {1 - (x.g[0] * c_[base] + x.g[1] * c), 1 - x.g[2] * c};
-      double w[2], t[2], per[2];
-      for (unsigned n = 0; n < 2; ++n) {
-        double &s = x.s[n], &l = x.l[n];
-        if (first) {
-          s = std::max(low[n], least);
-          l = mu / s;
-        } else {
-          l = std::max(kLeft * l, (mu - l * (low[n] - s)) / s);
-          s = std::max(low[n], kLeft * s);
-        }
-        const double rho = s - low[n];
-        per[n] = 1 / s;
-        w[n] = l * per[n];
-        t[n] = w[n] * rho;
-        sums->gap += s * l;
-        sums->residual = std::max(sums->residual, rho);
-        sums->worst = std::max(sums->worst, 1 - low[n]);
-      }
-      const double g0 = x.g[0], g1 = x.g[1], g = x.g[2];
-      diag_[base] += w[0] * g0 * g0;
-      off1_[base] += w[0] * g0 * g1;
-      diag_[base + 1] += w[0] * g1 * g1 + w[1] * g * g;
-      side_[base] -= g0 * t[0];
-      side_[base + 1] -= g1 * t[0] + g * t[1];
-      side_mu_[base] -= g0 * per[0];
-      side_mu_[base + 1] -= g1 * per[0] + g * per[1];
-    }
+  return {sum(gap), largest(residual), largest(worst)};
 }
 
 void TimeLaw::find_time() {
   time_ = 0;
-  for (const Run *run = run_, *end = run_ + runs_; run != end; ++run) {
-    for (unsigned k = run->from; k < run->to; ++k) per_root_[k] = 1 / std::sqrt(c_[k + kPad]);
-    for (unsigned k = run->from; k < run->to; ++k) time_ += weight_[k] * per_root_[k];
-  }
+  for (const Run *run = run_, *end = run_ + runs_; run != end; ++run)
+    for (unsigned k = run->from; k < run->to; ++k) time_ += weight_[k] / std::sqrt(c_[k + kPad]);
 }
 
-/// Of the step towards mu; the second derivative of the time goes into the matrix.
-void TimeLaw::right_side(const Run& run, double mu) {
-  for (unsigned k = run.from; k < run.to; ++k) {
-    const double per = per_root_[k] * per_root_[k], w = weight_[k] * per * per_root_[k];
-    diag_[k + kPad] += 0.75 * w * per;
-    dc_[k + kPad] = 0.5 * w + side_[k + kPad] + mu * side_mu_[k + kPad];  // minus the gradient of the time
-  }
-}
-
-/// L D L' of the band; what is not free stays where it is. dc_ holds the right side and then the step.
-bool TimeLaw::factor_and_solve(const Run& run) {
-  const unsigned begin = run.from + kPad, end = run.to + kPad;
-  off1_[end - 1] = off2_[end - 1] = off2_[end - 2] = 0;
-  for (unsigned k = begin; k < end; ++k) {
-    const double d = diag_[k];
-    if (!(d > 0)) return false;
-    const double per = 1 / d, l1 = off1_[k] * per, l2 = off2_[k] * per;
-    diag_[k + 1] -= l1 * off1_[k];
-    off1_[k + 1] -= l1 * off2_[k];
-    diag_[k + 2] -= l2 * off2_[k];
-    dc_[k + 1] -= l1 * dc_[k];
-    dc_[k + 2] -= l2 * dc_[k];
-    off1_[k] = l1;
-    off2_[k] = l2;
-    dc_[k] *= per;
-  }
-  dc_[end] = dc_[end + 1] = 0;
-  for (unsigned k = end; k-- > begin;) dc_[k] -= off1_[k] * dc_[k + 1] + off2_[k] * dc_[k + 2];
-  return true;
-}
-
-/// One step towards mu.
+/// One step towards mu; what is not free stays where it is.
 bool TimeLaw::step(double mu) {
   for (const Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run) {
-    right_side(*run, mu);
-    if (!factor_and_solve(*run)) return false;
-    for (unsigned k = run->from + kPad; k < run->to + kPad; ++k) {
-      const double to = std::clamp(c_[k] + dc_[k], kFall * c_[k], kRise * c_[k]);
+    if (!run->possible) return false;
+    double step1 = 0, step2 = 0;  // of the next two, in full
+    for (unsigned k = run->to + kPad; k-- > run->from + kPad;) {
+      const double whole = side_[k] + mu * side_mu_[k] - lower1_[k] * step1 - lower2_[k] * step2;
+      const double to = std::clamp(c_[k] + whole, kFall * c_[k], kRise * c_[k]);
       dc_[k] = to - c_[k];
       c_[k] = to;
+      step2 = step1;
+      step1 = whole;
     }
   }
-  find_time();
   return true;
 }
 
 /// No law is shorter whose level cells are slower: beside them less speed there would not let the others be faster.
 bool TimeLaw::levels_hold(double mu) const {
-  const auto gain = [&](unsigned k) {
-    const double c = c_[k + kPad];
-    return 0.5 * weight_[k] / (c * std::sqrt(c)) + side_[k + kPad] + mu * side_mu_[k + kPad];
-  };
   for (const Run *run = run_, *end = run_ + runs_; run != end; ++run) {
-    if (run->from > 1 && gain(run->from - 1) < 0) return false;
-    if (run->to + 1 < n_ && gain(run->to) < 0) return false;
+    const auto gain = [&](unsigned side, unsigned k) {
+      const double c = c_[k + kPad];
+      return 0.5 * weight_[k] / (c * std::sqrt(c)) + run->side[side] + mu * run->side_mu[side];
+    };
+    if (run->from > 1 && gain(0, run->from - 1) < 0) return false;
+    if (run->to + 1 < n_ && gain(1, run->to) < 0) return false;
   }
   return true;
 }

@@ -80,17 +80,20 @@ class TimeLaw {
   struct Roots {
     Four root, half_per, at[3];
   };
-  /// b at knot k and c_k below feed and axis velocities: r = g c <= 1.
+  /// b at knot k and c_k below feed and axis velocities: r = g0 c_(k-1) + g1 c_k <= 1. Two rows, the other two places are none.
   struct Caps {
-    double g[3], s[2], l[2];  ///< the knot's by c_(k-1), c_k; the cell's by c_k
+    Four g0, g1, s, l, per;
   };
+  struct Elimination;
   struct Sums {
     double gap = 0, residual = 0, worst = 0;
   };
 
   /// Free control values next to each other. The rows of cells [from - 1, to] hang on them.
   struct Run {
-    unsigned from, to;
+    unsigned from = 0, to = 0;
+    bool possible = true;                    ///< a step can be found
+    double side[2] = {}, side_mu[2] = {};    ///< right side beside its ends, of what is given there
   };
 
   void forms();
@@ -98,11 +101,8 @@ class TimeLaw {
   void moving_axes();
   void fill_rows();
   Sums rows(bool first, double mu, double least);
-  void caps(bool first, double mu, double least, Sums* sums);
-  void roots(unsigned k);
+  double roots(unsigned k);
   void find_time();
-  void right_side(const Run& run, double mu);
-  bool factor_and_solve(const Run& run);
   bool step(double mu);
   bool levels_hold(double mu) const;
   void finish(Law* law);
@@ -118,11 +118,11 @@ class TimeLaw {
   unsigned axes_ = 0, axis_[kMaxAxes];  ///< that move
   unsigned rows_ = 0;
   double time_ = 0;
-  double weight_[kMaxCells], per_root_[kMaxCells];  ///< per_root: 1 / sqrt(c)
+  double weight_[kMaxCells];
   // Padded by kPad on either side: control value k is c_[k + kPad].
   double c_[kMaxCells + 2 * kPad], dc_[kMaxCells + 2 * kPad];
-  double side_[kMaxCells + 2 * kPad], side_mu_[kMaxCells + 2 * kPad];  ///< the right side is the one and mu times the other
-  double diag_[kMaxCells + 2 * kPad], off1_[kMaxCells + 2 * kPad], off2_[kMaxCells + 2 * kPad];
+  double side_[kMaxCells + 2 * kPad], side_mu_[kMaxCells + 2 * kPad];  ///< eliminated: the right side is the one and mu times the other
+  double lower1_[kMaxCells + 2 * kPad], lower2_[kMaxCells + 2 * kPad];
   Form at_[kMaxCells + 1], slope_[kMaxCells + 1];  ///< of knot k, on c_(k-1), c_k
   Form half2_[kMaxCells];                          ///< of cell k, on c_(k-1), c_k, c_(k+1)
   Roots root_[kMaxCells];
