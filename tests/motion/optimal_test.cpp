@@ -270,6 +270,24 @@ TEST(OptimalLaw, CellsThatCannotStayAtTheFeedAreNoLaw) {
   EXPECT_FALSE(law->ok);
 }
 
+/// Rows are left away for an axis that goes along a little, and not when its limits are as little.
+TEST(OptimalLaw, AnAxisThatGoesAlongALittleKeepsItsLimits) {
+  for (const double share : {1.0, 0.1, 0.03, 0.01, 0.001}) {
+    Limits limits = standard_limits();
+    limits.acceleration[2] *= share;
+    limits.jerk[2] *= share;
+    Path path;
+    for (int n = 0; n <= 120; ++n) path.to(0.3 * n, 2 * std::sin(0.09 * n), 0.02 * std::sin(0.21 * n));
+    ASSERT_TRUE(path.smooth(0.01, 0.5));
+    const Motion m = run(path.pieces, limits, 100);
+    ASSERT_FALSE(m.failed) << share;
+    EXPECT_LE(m.worst_velocity, 1.001) << share;
+    EXPECT_LE(m.worst_acceleration, 1.001) << share;
+    EXPECT_LE(m.worst_jerk, 1.001) << share;
+    EXPECT_LE(m.worst_feed, 1.001) << share;
+  }
+}
+
 TEST(OptimalLaw, TheCheckerSeesAStepOfAMicrometre) {
   const Limits limits = standard_limits();
   Motion m = run({straight(10, 100)}, limits, 100);

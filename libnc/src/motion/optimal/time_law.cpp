@@ -27,6 +27,8 @@ constexpr double kSmallestSlack = 0.5;
 constexpr double kGapFirst = 0.4;      ///< of the time
 constexpr double kSlackAgain = 0.003;   ///< the same from a solution of nearly the same rows
 constexpr double kGapAgain = 0.003;
+constexpr double kAlong = 2.5;         ///< times the acceleration and jerk that an axis would allow, at most, along the path
+constexpr double kLittle = 0.5;        ///< of a limit
 constexpr double kStartUse = 1.004;    ///< of the acceleration at a given start: nothing there can become less
 
 }  // namespace
@@ -90,13 +92,39 @@ void TimeLaw::moving_axes() {
   }
 }
 
+/// Of a cell: the largest share of a limit per unit of acceleration and jerk along the path.
+TimeLaw::Share TimeLaw::share_of(unsigned k) const {
+  const Knot &left = mesh_->knot[k], &right = mesh_->knot[k + 1];
+  Share most;
+  for (unsigned n = 0; n < axes_; ++n) {
+    const unsigned i = axis_[n];
+    const double d = std::max(std::fabs(left.d1[i]), std::fabs(right.d1[i]));
+    if (limits_->acceleration[i] > 0) most.acceleration = std::max(most.acceleration, d / limits_->acceleration[i]);
+    if (limits_->jerk[i] > 0) most.jerk = std::max(most.jerk, d / limits_->jerk[i]);
+  }
+  most.speed = std::sqrt(mesh_->cap[k]);
+  return most;
+}
+
+/// False for an axis that has so little part in a cell that the limits of others are met before one of its own. The look at the law is at
+/// all axes; where it has found something, they have rows.
+bool TimeLaw::matters(unsigned k, unsigned i, const Share& most) const {
+  if (mesh_->use[k] != 1 || mesh_->use_a[k] != 1 || !(most.speed < HUGE_VAL) || !(most.acceleration > 0) || !(most.jerk > 0)) return true;
+  const Knot &left = mesh_->knot[k], &right = mesh_->knot[k + 1];
+  const double d1 = std::max(std::fabs(left.d1[i]), std::fabs(right.d1[i])), d2 = std::max(std::fabs(left.d2[i]), std::fabs(right.d2[i])),
+               d3 = std::max(std::fabs(left.right3[i]), std::fabs(right.left3[i])), v = most.speed;
+  return kAlong * d1 + most.acceleration * d2 * v * v > kLittle * most.acceleration * limits_->acceleration[i] ||
+         kAlong * d1 * most.acceleration + most.jerk * (3 * d2 * v + most.acceleration * d3 * v * v * v) >
+             kLittle * most.jerk * most.acceleration * limits_->jerk[i];
+}
+
 /// The rows without their roots. Jerk inside a cell: without its root it is a quadratic of u where the path is a cubic, so it stays below
 /// the largest of its ends, which have rows of their own, and its middle Bezier coefficient; the root is largest where b is.
 void TimeLaw::fill_rows() {
   const Mesh& m = *mesh_;
   static constexpr Form kNone{};
+  Rows* row = row_;
   rows_ = 0;
-  for (const Run* run = run_; run != run_ + runs_; ++run) rows_ += (run->to - run->from + 2) * (8 * axes_ + 2);
   for (const Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run)
     for (unsigned k = run->from - 1; k <= run->to; ++k) {
       const bool launch = k == 0 && m.from_rest, land = k + 1 == n_;
@@ -109,15 +137,18 @@ void TimeLaw::fill_rows() {
       const Knot &left = m.knot[k], &right = m.knot[k + 1];
       const Inside& in = m.inside[k];
       const double use_a = k == 0 ? kStartUse : std::min(m.use_a[k - 1], m.use_a[k]);
+      const Share most = share_of(k);
+      Rows* const first = row;
       for (unsigned n = 0; n < axes_; ++n) {
         const unsigned i = axis_[n];
+        if (!matters(k, i, most)) continue;
         const double per_j = limits_->jerk[i] > 0 ? 1 / (m.use[k] * limits_->jerk[i]) : 0;
         const auto jerk = [&](bool bends) { return per_j * (bends ? 1 / kInsideCurve : 1 / kInside); };
         const double j0 = jerk(left.d2[i] != 0 || left.left3[i] != 0 || left.right3[i] != 0),
                      j1 = jerk(right.d2[i] != 0 || right.left3[i] != 0 || right.right3[i] != 0),
                      jm = launch || land ? 0 : jerk(in.d2_start[i] != 0 || in.d2_end[i] != 0 || in.d3[i] != 0),
                      a = launch || !(limits_->acceleration[i] > 0) ? 0 : 1 / (kInside * use_a * limits_->acceleration[i]);
-        Rows& x = row_[k * axes_ + n];
+        Rows& x = *row++;
         for (unsigned e = 0; e < 3; ++e) {
           const double at1 = (e > 0 ? b1 : kNone).g[e > 0 ? e - 1 : 0];
           x.g[e] = Four{j0 * (left.d1[i] * half.g[e] + 1.5 * left.d2[i] * s0.g[e] + left.right3[i] * b0.g[e]),
@@ -126,6 +157,8 @@ void TimeLaw::fill_rows() {
                         a * (0.5 * left.d1[i] * s0.g[e] + left.d2[i] * b0.g[e])};
         }
       }
+      in_cell_[k] = static_cast<unsigned char>(row - first);
+      rows_ += 8 * in_cell_[k] + 2u;
       const bool free = k >= run->from && k < run->to;
       const double knot = k >= run->from ? 1 / m.knot[k].cap : 0, cell = free ? 1 / m.cap[k] : 0;
       cap_[k].g0 = Four{knot * b0.g[0], 0, 0, 0};
@@ -181,6 +214,7 @@ NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, doubl
   const Four one = all(1), mu = all(target), least = all(smallest), left = all(kLeft);
   const Four kIsCap = {1, 1, 0, 0};
   Four gap{}, residual{}, worst{};
+  Rows* row = row_;
   time_ = 0;
   for (Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run) {
     // What belongs to c_(k-1), c_k and c_(k+1) in matrix and right side: the first is done with behind cell k, the others go on.
@@ -195,8 +229,8 @@ NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, doubl
       const Four old = q.root, old_bend = q.half_per * (q.at[0] * e0 + q.at[1] * e1 + q.at[2] * e2);
       const double per_root = roots(k);
       Four m02{}, m12{}, m22{}, a2{}, d2{};
-      for (Rows *p = row_ + k * axes_, *end = p + axes_; p != end; ++p) {
-        Rows& x = *p;
+      for (const Rows* end = row + in_cell_[k]; row != end; ++row) {
+        Rows& x = *row;
         const Four g0 = x.g[0], g1 = x.g[1], g2 = x.g[2];
         const Four r = q.root * (g0 * c0 + g1 * c1 + g2 * c2), low = one - r, high = one + r;
         Four s0, s1, l0, l1;

@@ -99,6 +99,11 @@ class TimeLaw {
   void forms();
   void find_runs();
   void moving_axes();
+  struct Share {
+    double acceleration = 0, jerk = 0, speed = 0;
+  };
+  Share share_of(unsigned cell) const;
+  bool matters(unsigned cell, unsigned axis, const Share& most) const;
   void fill_rows();
   Sums rows(bool first, double mu, double least);
   double roots(unsigned k);
@@ -127,7 +132,8 @@ class TimeLaw {
   Form half2_[kMaxCells];                          ///< of cell k, on c_(k-1), c_k, c_(k+1)
   Roots root_[kMaxCells];
   Caps cap_[kMaxCells];
-  Rows row_[kMaxAxes * kMaxCells];  ///< of each moving axis, cell by cell
+  unsigned char in_cell_[kMaxCells];  ///< axes that have rows there
+  Rows row_[kMaxAxes * kMaxCells];    ///< of these, cell by cell
 };
 
 }  // namespace nc::optimal
