@@ -304,7 +304,7 @@ bool Mesher::can_be_level(unsigned k) const {
   const double v3 = cap * std::sqrt(cap);
   for (unsigned i = 0; i < limits_->axis_count; ++i) {
     const double d2 = std::max(std::fabs(left.d2[i]), std::fabs(right.d2[i])), d3 = std::max(std::fabs(left.right3[i]), std::fabs(right.left3[i]));
-    if (d2 * cap > kLevelUse * limits_->acceleration[i] || d3 * v3 > kLevelUse * limits_->jerk[i]) return false;
+    if (d2 * cap > kLevelUse * acceleration_share(p) * limits_->acceleration[i] || d3 * v3 > kLevelUse * jerk_share(p) * limits_->jerk[i]) return false;
   }
   return true;
 }
@@ -312,12 +312,14 @@ bool Mesher::can_be_level(unsigned k) const {
 /// Cells [from, to) can be gone at one speed: those are that are so far from both ends that it is reached from rest with a part of the limits.
 void Mesher::level_between(unsigned from, unsigned to) {
   Mesh& m = *mesh_;
+  const Piece& p = in_->at(place_[from].piece);  // threads and other moves have a rest between them
+  const double use_a = kRampUse * acceleration_share(p), use_j = kRampUse * jerk_share(p);
   double a = HUGE_VAL, j = HUGE_VAL;
   for (unsigned k = from; k <= to; ++k)
     for (unsigned i = 0; i < limits_->axis_count; ++i) {
-      const double d = std::fabs(m.knot[k].d1[i]);
-      if (a * d > kRampUse * limits_->acceleration[i]) a = kRampUse * limits_->acceleration[i] / d;
-      if (j * d > kRampUse * limits_->jerk[i]) j = kRampUse * limits_->jerk[i] / d;
+      const double d = std::fabs(m.knot[k].d1[i]), acceleration = use_a * limits_->acceleration[i], jerk = use_j * limits_->jerk[i];
+      if (a * d > acceleration) a = acceleration / d;
+      if (j * d > jerk) j = jerk / d;
     }
   const double v = std::sqrt(m.cap[from]), ramp = 0.5 * v * (v > a * a / j ? v / a + a / j : 2 * std::sqrt(v / j));
   const bool goes_on = from == 0 && !in_->from_rest && std::fabs(in_->b0 - m.cap[0]) <= kSameCap * m.cap[0] &&
