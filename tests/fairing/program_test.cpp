@@ -58,6 +58,10 @@ TEST(FairingProgram, ProgramsSwitchIt) {  // G10 L70: from the next block on
   Path second = kProgrammed;
   for (const char* move : {"line 30 0.12 0 F1000", "line 40 0.16 0 F1000"}) second.push_back(move);
   EXPECT_EQ(path_of("G5 P10000\n" + kStep + on + more + kEnd, [](Bench&) {}), second);
+  // What does not matter here ends nothing.
+  const std::string other = "G1 X10. F1000.\nG10 L70\nP8004 D5\nG11\nY.08\nX20.\n", angle = "G1 X10. F1000.\nG10 L70\nP8020 D5\nG11\nY.08\nX20.\n";
+  EXPECT_EQ(path_of("G5 P10000\n" + other + kEnd), kFaired);
+  EXPECT_EQ(path_of("G5 P10000\n" + angle + kEnd), kProgrammed);
 }
 
 TEST(FairingProgram, WhatLiesBetween) {  // precaution (13), and whatever acts at its own place

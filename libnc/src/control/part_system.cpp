@@ -128,13 +128,16 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
 /// compensated there (docs/decisions.md).
 [[gnu::noinline]] PartSystem::Intake PartSystem::take_in(const Item& front) {
   if (held_settings_ != interpreter.settings_count) {
-    if (!fairing_.empty()) {
-      fairing_.close();
-      return Intake::later;
+    const Settings& now = interpreter.settings;
+    if (!(held_accuracy_ == now.accuracy) || !(held_filters_ == now.filters)) {
+      if (!fairing_.empty()) {
+        fairing_.close();
+        return Intake::later;
+      }
+      held_accuracy_ = now.accuracy;
+      held_filters_ = now.filters;
     }
     held_settings_ = interpreter.settings_count;
-    held_accuracy_ = interpreter.settings.accuracy;
-    held_filters_ = interpreter.settings.filters;
   }
   const FairingRule& rule = interpreter.settings.fairing;
   Intake intake = Intake::taken;

@@ -26,6 +26,7 @@ struct AccuracyParameters {
 
   double corner_coefficient() const { return separate ? corner_percent : radius_percent; }
   double curve_coefficient() const { return separate ? curve_percent : radius_percent; }
+  bool operator==(const AccuracyParameters&) const = default;
 };
 
 // ---- acceleration before interpolation: one slope for all axes (13.15 "pre-interpolation acceleration") -------------

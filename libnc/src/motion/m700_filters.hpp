@@ -11,6 +11,7 @@ namespace nc {
 struct TimeConstants {
   double linear_ms[kMaxAxes] = {};
   double exponential_ms[kMaxAxes] = {};
+  bool operator==(const TimeConstants&) const = default;
 };
 
 /// What the parameters say.
@@ -24,6 +25,7 @@ struct FilterParameters {
   double pattern_second_ms = 0; ///< #1570 Sfilt2
   bool rapid_before = false;    ///< #1205 G0bdcc: rapid traverse is accelerated before interpolation, too
   double round_mm[kMaxAxes] = {};  ///< #2069 Rcoeff where #8107 and #8108 are on: by which arcs are moved outwards
+  bool operator==(const FilterParameters&) const = default;
 };
 
 /// What asks for the filters.
