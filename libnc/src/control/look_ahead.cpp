@@ -116,7 +116,7 @@ nc_status PartSystem::gather_block(uint32_t& budget) {
       if (status != NC_OK) return status;
     }
     const Item& front = *interpreter.front();
-    const Intake intake = idle_ && !may_be_held(front) ? Intake::straight : take_in(front);
+    const Intake intake = take_in(front);
     if (intake == Intake::later) continue;
     if (intake == Intake::straight) {
       place = front;
