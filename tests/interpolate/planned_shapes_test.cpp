@@ -230,5 +230,27 @@ TEST(PlannedShapes, AnExponentialCurveGoesFromFToQ) {
   EXPECT_LE(reached, 0.1);
 }
 
+/// What a spline through points that go back and forth has: a place where it all but stands, or a way that turns round on the spot.
+TEST(PlannedShapes, CuspsArePassedWithinTheLimits) {
+  const double weight[4] = {1, 1, 1, 1};
+  for (const double gap : {1.0, 0.1, 1e-2, 1e-3, 1e-5, 1e-8, 0.0})
+    for (const double size : {0.01, 0.1, 1.0, 10.0}) {
+      SCOPED_TRACE(testing::Message() << gap << " " << size);
+      Curves c(config_of());
+      const double a = size * (1 + gap), b = size * (1 + 2 * gap);
+      const double leg[3][3] = {{a, size, 0}, {-b, 0, 0.1 * gap}, {a, -size, 0}};
+      const double back[3][3] = {{-size, 0, 0}, {0.5 * size, 0, 0}, {-2 * size, 0, 0}};  // along one line
+      c.span({}, leg, weight, 100);
+      c.span({}, back, weight, 100);
+      c.span({}, leg, weight, 100);
+      c.program.end();
+      Machine m(c.config);
+      EXPECT_TRUE(m.run_to_end(c.program, 3000)) << int{m.out.cause} << " " << int{m.out.state} << " " << m.out.command.v[0] << " " << m.out.command.v[1];
+      EXPECT_EQ(m.out.state, NC_STATE_IDLE);
+      EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+      EXPECT_EQ(m.command(), c.program.at());
+    }
+}
+
 }  // namespace
 }  // namespace nc::test

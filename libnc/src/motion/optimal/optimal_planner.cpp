@@ -392,6 +392,7 @@ bool OptimalPlanner::try_limits(const Start& start, double most, const WayDown* 
     if (found) break;
   }
   limits_ = whole;
+  if (!found) found = by_line_ = find_creep(start, most);
   return found;
 }
 

@@ -80,6 +80,9 @@ class OptimalPlanner {
   bool line_limits(const Piece& p, LineLimits* most) const;
   bool straight(const Start& start, double reach, bool feed, LineLimits* most, double* length) const;
   bool find_line_law(const Start& start, double reach);
+  bool find_creep(const Start& start, double reach);
+  void bound_creep(const Piece& p, double x, LineLimits* most) const;
+  bool keeps_limits(const Piece& p, double x) const;
   bool find_line_stop(const Start& start, double most);
   void line_way_down(double share, WayDown* down);
   bool copy_line(const Start& start, Start* end);

@@ -19,7 +19,12 @@ constexpr unsigned kGathered = 64;     ///< the same while more records lie in t
 constexpr unsigned kFewest = 64;       ///< vertices that are smoothed at once, where less would do
 constexpr unsigned kAhead = 128;       ///< vertices that are gathered while there is no room for their pieces
 constexpr unsigned kMostAtOnce = 512;  ///< pieces of one smoothing
-constexpr unsigned kOfArc = 52;        ///< pieces of a curve and its transition
+constexpr unsigned kPiecesOfCurve = 100;
+constexpr unsigned kOfArc = kPiecesOfCurve + 20;  ///< pieces of a curve and its transition
+constexpr unsigned kHalvings = 24;     ///< of a part of a curve, at most
+constexpr double kShortest = 2e-8;     ///< mm, and of the length: such a part is not halved any more
+constexpr double kUneven = 2;          ///< of the speeds that the bends allow at the ends and in the middle of such a part
+constexpr double kFarTurn = 0.94;      ///< cosine: and between its ends
 constexpr unsigned kParts = 32;        ///< pieces of a curve that is no arc, at most
 constexpr double kSpread = 1.5;        ///< of the speeds that such a piece allows along it
 constexpr double kMostOverride = 2;    ///< that a feed is expected to have
@@ -222,6 +227,43 @@ double PathBuilder::own_speed(const Curve& curve, double from, double to) const 
   return speed;
 }
 
+/// The bends allow very different speeds at the ends and in the middle of a part, or it turns so far that a place in between may be slower:
+/// next to a cusp all of that happens within some um.
+bool PathBuilder::uneven(const Curve& curve, double from, double to, double feed) const {
+  double slowest = feed, fastest = 0;
+  for (unsigned n = 0; n <= 2; ++n) {
+    const double at = from + 0.5 * n * (to - from), speed = std::min(own_speed(curve, at, at), feed);
+    slowest = std::min(slowest, speed);
+    fastest = std::max(fastest, speed);
+  }
+  return fastest > kUneven * slowest || turns_far(curve, from, to);
+}
+
+bool PathBuilder::turns_far(const Curve& curve, double from, double to) const {
+  double first2 = 0, last2 = 0, both = 0;
+  const AxisVec a = curve_evaluate(curve, from, limits_.axis_count).d1, b = curve_evaluate(curve, to, limits_.axis_count).d1;
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    first2 += a[i] * a[i];
+    last2 += b[i] * b[i];
+    both += a[i] * b[i];
+  }
+  return both < kFarTurn * std::sqrt(first2 * last2);
+}
+
+/// A part of a curve as a straight line, to rest.
+void PathBuilder::push_straight(const Curve& curve, double from, double to, const Piece& like) {
+  const AxisVec a = curve_position(curve, from, limits_.axis_count), b = curve_position(curve, to, limits_.axis_count);
+  Piece p = like;
+  p.curve = nullptr;
+  p.length = to - from;
+  p.rest_behind = true;
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    p.c[0][i] = a[i];
+    p.c[1][i] = (b[i] - a[i]) / p.length;
+  }
+  push_piece(p);
+}
+
 /// The part of a curve between two places has the lower feed of its ends where the feed goes from F to Q with the linear axis (M700 6.11).
 double PathBuilder::feed_between(const Segment& s, double from, double to) const {
   const unsigned axis = s.curve.shape->what.exponential.linear;
@@ -248,16 +290,43 @@ void PathBuilder::push_curve(const Piece& whole, const Segment& s) {
     push_piece(p);
     p.curve_from = to;
   };
-  double low = 0, high = 0;
-  for (double at = whole.curve_from; at + 1.5 * step < end; at += step) {
-    const double speed = std::min(own_speed(curve, at, at + step), feed);
-    if (at > p.curve_from && (fades || std::max(high, speed) > kSpread * std::min(low, speed))) {
+  const double shortest = std::max(curve.length, 1.0) * kShortest;
+  double low = 0, high = 0, at = whole.curve_from, part = at;
+  double ends[kHalvings + 1];  // of the parts that are still to be looked at
+  unsigned open = 0, pieces = 0;
+  while (at + kNothing < end) {
+    if (open == 0) {
+      part = part + 1.5 * step < end ? part + step : end;
+      ends[open++] = part;
+    }
+    const double to = ends[open - 1];
+    const bool whole_part = to - at <= shortest || open > kHalvings || pieces >= kPiecesOfCurve;
+    if (!whole_part && uneven(curve, at, to, feed)) {
+      ends[open++] = 0.5 * (at + to);
+      continue;
+    }
+    --open;
+    if (to - at <= shortest && turns_far(curve, at, to)) {  // a cusp: the path turns round at rest
+      p.rest_behind = true;
+      if (at > p.curve_from) push_to(at);
+      push_straight(curve, at, to, p);
+      p.rest_behind = false;
+      p.curve_from = at = to;
+      pieces += 2;
+      high = 0;
+      continue;
+    }
+    const double speed = std::min(own_speed(curve, at, to), feed);
+    if (at > p.curve_from && pieces < kPiecesOfCurve && (fades || std::max(high, speed) > kSpread * std::min(low, speed))) {
       push_to(at);
+      ++pieces;
       high = 0;
     }
     low = high > 0 ? std::min(low, speed) : speed;
     high = std::max(high, speed);
+    at = to;
   }
+  if (!(end > p.curve_from + kNothing)) return;  // it ends with such a turn, at rest
   p.rest_behind = whole.rest_behind;
   push_to(end);
 }

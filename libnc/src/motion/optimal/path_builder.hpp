@@ -47,6 +47,9 @@ class PathBuilder {
   void push_curve(const Piece& whole, const Segment& s);
   double feed_between(const Segment& s, double from, double to) const;
   double own_speed(const Curve& curve, double from, double to) const;
+  bool turns_far(const Curve& curve, double from, double to) const;
+  void push_straight(const Curve& curve, double from, double to, const Piece& like);
+  bool uneven(const Curve& curve, double from, double to, double feed) const;
   void meet_arc(const Segment& s);
   void part_at_joint();
   bool resumes(const Segment& s) const;

@@ -17,6 +17,9 @@ constexpr double kSame = 1e-9;          ///< of directions and speeds
 constexpr double kEdge = 1e-9;          ///< mm: a cell ends with its piece
 constexpr unsigned kHalvings = 60;
 constexpr unsigned kSamples = kMaxCells / LineLaw::kPhases;  ///< of each phase
+constexpr unsigned kBends = 32;         ///< places of a piece where its bends are looked at
+constexpr unsigned kCreepLooks = 16;    ///< and of each phase of a law along it
+constexpr unsigned kSlowerStill = 24;   ///< times that such a law is made twice as slow
 
 /// When the motion has come to s, in [from, to] after the state.
 double when(const LineState& state, double jerk, double s, double from, double to) {
@@ -80,6 +83,64 @@ bool OptimalPlanner::find_line_stop(const Start& start, double most) {
   if (!line_limits(store_.piece_at(start.piece), &limits) || !line_.stop(start.v, start.a, limits)) return false;
   const double way = line_.distance();
   return way <= most && straight(start, way, false, &limits, &length) && length >= way - kEdge;
+}
+
+/// Where no other law is found: from rest to rest over one piece of any kind, with one limit for all of it, twice as slow until every place that
+/// is looked at keeps the limits of the axes. Time stretched by 2 leaves 1/4 of each acceleration and 1/8 of each jerk, so this ends.
+bool OptimalPlanner::find_creep(const Start& start, double reach) {
+  const Piece& p = store_.piece_at(start.piece);
+  const double length = std::min(p.length - start.x, reach);
+  if (!start.from_rest || !(length > kEdge) || stands(p, limits_)) return false;
+  LineLimits most{feed_of(p, limits_), HUGE_VAL, HUGE_VAL};
+  for (unsigned n = 0; n < kBends; ++n) bound_creep(p, start.x + length * (n + 0.5) / kBends, &most);
+  if (!(most.speed > 0) || !(most.acceleration < HUGE_VAL) || !(most.jerk < HUGE_VAL)) return false;
+  for (unsigned n = 0; n < kSlowerStill; ++n) {
+    if (line_.reach(length, 0, 0, most, HUGE_VAL) && keeps_limits(p, start.x)) return true;
+    most.speed *= 0.5;
+    most.acceleration *= 0.25;
+    most.jerk *= 0.125;
+  }
+  return false;
+}
+
+/// Half of what the axes allow at a place, for the bends and for the way along it.
+void OptimalPlanner::bound_creep(const Piece& p, double x, LineLimits* most) const {
+  CurvePoint q;
+  derivatives(p, x, limits_.axis_count, &q);
+  double length2 = 0;
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    const double v = velocity_of(p, limits_, i), d1 = std::fabs(q.d1[i]), d2 = std::fabs(q.d2[i]), d3 = std::fabs(q.d3[i]);
+    const double a = 0.5 * acceleration_share(p) * limits_.acceleration[i], j = 0.5 * jerk_share(p) * limits_.jerk[i];
+    if ((limits_.linear >> i & 1) != 0) length2 += d1 * d1;
+    if (v > 0 && most->speed * d1 > v) most->speed = v / d1;
+    if (a > 0 && most->speed * most->speed * d2 > a) most->speed = std::sqrt(a / d2);
+    if (j > 0 && most->speed * most->speed * most->speed * d3 > j) most->speed = std::cbrt(j / d3);
+    if (a > 0 && most->acceleration * d1 > a) most->acceleration = a / d1;
+    if (j > 0 && most->jerk * d1 > j) most->jerk = j / d1;
+  }
+  if (length2 > 1) most->speed = std::min(most->speed, feed_of(p, limits_) / std::sqrt(length2));
+}
+
+/// The law that was found last, along a piece from x on.
+bool OptimalPlanner::keeps_limits(const Piece& p, double x) const {
+  LineState from = line_.start();
+  CurvePoint q;
+  for (unsigned k = 0; k < line_.count(); ++k) {
+    const Phase& phase = line_.phase(k);
+    for (unsigned n = 0; n <= kCreepLooks; ++n) {
+      const LineState s = from.behind(phase.jerk, phase.seconds * n / kCreepLooks);
+      if (!(s.v > 0)) continue;  // at rest nothing bends
+      derivatives(p, std::min(p.length, x + s.s), limits_.axis_count, &q);
+      for (unsigned i = 0; i < limits_.axis_count; ++i) {
+        const double a = q.d1[i] * s.a + q.d2[i] * s.v * s.v;
+        const double j = q.d1[i] * phase.jerk + 3 * q.d2[i] * s.v * s.a + q.d3[i] * s.v * s.v * s.v;
+        if (limits_.acceleration[i] > 0 && !(std::fabs(a) <= acceleration_share(p) * limits_.acceleration[i])) return false;
+        if (limits_.jerk[i] > 0 && !(std::fabs(j) <= jerk_share(p) * limits_.jerk[i])) return false;
+      }
+    }
+    from = from.behind(phase.jerk, phase.seconds);
+  }
+  return true;
 }
 
 /// The speed along the stop that was found last.
