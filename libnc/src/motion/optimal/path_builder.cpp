@@ -22,6 +22,7 @@ constexpr unsigned kMostAtOnce = 512;  ///< pieces of one smoothing
 constexpr unsigned kPiecesOfCurve = 100;
 constexpr unsigned kOfArc = kPiecesOfCurve + 20;  ///< pieces of a curve and its transition
 constexpr unsigned kHalvings = 24;     ///< of a part of a curve, at most
+constexpr double kBeside = 1e-6;       ///< mm, and of the length: from a cusp
 constexpr double kShortest = 2e-8;     ///< mm, and of the length: such a part is not halved any more
 constexpr double kUneven = 2;          ///< of the speeds that the bends allow at the ends and in the middle of such a part
 constexpr double kFarTurn = 0.94;      ///< cosine: and between its ends
@@ -355,7 +356,10 @@ void PathBuilder::add_arc(const Record& r) {
   resumed_ = false;
   begins_ = 0;
   line_u_ = head_u_ + length - arc_.from;
-  push_arc(std::max(arc_.from, length - std::min(0.5 * length, kLongestReach)));
+  double settled = length - std::min(0.5 * length, kLongestReach);
+  const double beside = kBeside * std::max(length, 1.0);
+  if (s.curve.shape != nullptr && turns_far(s.curve, settled - beside, settled + beside)) settled -= 4 * beside;  // not on a cusp
+  push_arc(std::max(arc_.from, settled));
   if (s.exact_stop) end_arc();
 }
 
