@@ -36,6 +36,10 @@ sed "s#^programs = .*#programs = \"$work\"#; s#^\[parameters\].*#&\n\"8011\" = 1
 expect 0 "$ncrtd" --config "$work/unused.toml" check
 said err "nothing in the control asks for this parameter"
 [ "$(grep -c "nothing in the control" "$work/err")" = 1 ] || fail "parameters that the control asks for are warned of"
+# And a time constant that makes an axis slower than it could be.
+sed "s#^programs = .*#programs = \"$work\"#; s#^\[parameters\].*#&\n\"2007\" = 60#" "$machine" >"$work/slow.toml"
+expect 0 "$ncrtd" --config "$work/slow.toml" check
+said err "parameters: X: #2007 #2008 let cuts go at 9000 mm/min, the axis could go at 30000"
 rm "$work/mill.il"
 
 # A whole part on virtual time, with its plots.

@@ -596,6 +596,23 @@ TEST_F(CommandTest, AMachineConfigurationHasItsStrokeLimitsInTheTraceToo) {
             "ncsim: --dialect dgshape: m.toml is a machine of another dialect\n");
 }
 
+TEST_F(CommandTest, CheckNotesWhatLimitsTheMachineAndWhatHasNoEffect) {
+  std::string machine = "[machine]\nname = \"m\"\n";
+  for (const char* axis : {"X", "Y", "Z"})
+    machine += std::string("[[axis]]\nname = \"") + axis + "\"\nrapid = 100.0\nmax_velocity = 100.0\nmax_acceleration = 1000.0\n" +
+               "max_jerk = 50000.0\nin_position = 0.01\n";
+  file("m.toml", machine + "[parameters]\n\"2007\" = { X = 100.0, Y = 200.0, Z = 200.0 }\n\"2069\" = 0.01\n");
+  file("p.nc", "G1 X10. F1000\nM30\n");
+  const Outcome check = ncsim("check --machine m.toml p.nc");
+  EXPECT_EQ(check.code, 0);
+  EXPECT_EQ(check.err,
+            "note: #2069: no effect while #8107 and #8108 are not both 1\n"
+            "note: X: #2007 #2008 let cuts go at 3000 mm/min, the axis could go at 6000: faster would break its limit of acceleration\n");
+  // L / F, the constant, and the end of the program.
+  const Outcome time = ncsim("time --machine m.toml p.nc");
+  EXPECT_NEAR(std::stod(time.out.substr(13)), 0.7, 0.01) << time.out;
+}
+
 // The runtime's own machine, with its servos: the same cycles. What its M30 takes, the ladder program's answer, is taken off.
 TEST_F(CommandTest, TimeIsWhatTheRuntimeNeeds) {
   file("end.nc", "M30\n");
