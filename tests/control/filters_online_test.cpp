@@ -197,6 +197,59 @@ TEST(FiltersOnline, InPositionWaitsForTheAxesBehindTheFilters) {  // 7.9: #1193 
   EXPECT_TRUE(checked);
 }
 
+TEST(FiltersOnline, AMacroInterruptCutsWhereTheAxesStand) {  // 13.12 type 1
+  Bench bench(NC_DIALECT_M700, machine);
+  bench.param("2007", "100").param("1229/bit0", "1");
+  bench.add("O1000", "G91 G1 Y5. F3000\nY-5.\nG90\nM99\n");
+  double stood_at = 0, aside = 0, acceleration = 0, last = 0;
+  Drive drive(bench, "M96 P1000\nG1 X100. F3000\nM30");
+  while (drive.cycle < 20000 && !drive.ended) {
+    drive.press_start();
+    drive.in.macro_interrupt = drive.out.command.v[0] > 30 && drive.out.command.v[0] < 31;
+    drive.step();
+    if (drive.out.velocity.v[1] != 0 && stood_at == 0) stood_at = drive.out.command.v[0];
+    if (drive.out.velocity.v[1] != 0) aside = std::max(aside, std::fabs(drive.out.command.v[0] - stood_at));
+    acceleration = std::max(acceleration, std::fabs(drive.out.velocity.v[0] - last) * 1000);
+    last = drive.out.velocity.v[0];
+  }
+  ASSERT_TRUE(drive.ended) << drive.alarm();
+  EXPECT_NEAR(stood_at, 30 + 50 * 0.1 / 2, 0.2);  // what was on its way
+  EXPECT_EQ(aside, 0);
+  EXPECT_NEAR(acceleration, 500, 1);
+  EXPECT_EQ(drive.out.command.v[0], stood_at);  // its moves are there in the place of the rest of the block
+  EXPECT_EQ(drive.out.command.v[1], 0);
+}
+
+TEST(FiltersOnline, ByHandInABlockStop) {  // and the program goes on from there
+  Bench bench(NC_DIALECT_M700, machine);
+  bench.param("2007", "100").param("2004", "60");
+  Drive drive(bench, "G1 X20. F3000\nG1 Y10.\nM30");
+  drive.in.single_block = true;
+  double acceleration = 0;
+  nc_axes last{};
+  unsigned stops = 0, waited = 0;
+  while (drive.cycle < 20000 && !drive.ended) {
+    const bool stopped = drive.out.state == NC_STATE_STOPPED;
+    waited = stopped ? waited + 1 : 0;
+    if (waited == 1 && drive.out.source.line > stops) {  // not the end of the manual motion
+      ++stops;
+      EXPECT_TRUE(drive.out.distance_zero);
+      EXPECT_EQ(drive.out.command.v[0], stops == 1 ? 20 : 25);
+    }
+    drive.in.manual[0] = {};
+    if (stops == 1 && waited == 3 && drive.out.command.v[0] == 20) drive.in.manual[0] = {.kind = NC_MANUAL_STEP, .velocity = 0, .distance = 5};
+    drive.in.cycle_start = drive.cycle == 2 || waited == 200;
+    drive.step();
+    for (unsigned i = 0; i < 2; ++i) acceleration = std::max(acceleration, std::fabs(drive.out.velocity.v[i] - last.v[i]) * 1000);
+    last = drive.out.velocity;
+  }
+  ASSERT_TRUE(drive.ended) << drive.alarm();
+  EXPECT_EQ(stops, 2u);
+  EXPECT_EQ(drive.out.command.v[0], 25);
+  EXPECT_EQ(drive.out.command.v[1], 10);
+  EXPECT_LE(acceleration, 2000 * 1.001);
+}
+
 // ---- what is refused, and what is noted --------------------------------------------------------------------------------------
 
 TEST(FiltersOnline, ValuesOutOfRangeAreRefused) {
