@@ -147,7 +147,7 @@ constexpr ParameterRow kRows[] = {
     {8102, 8102, 1, kAll, false, whole<0, 1>,          kOffOn,                    "interference of radius compensation is avoided, not an alarm", "12.6"},
     {8103, 8103, 1, kAll, false, whole<0, 1>,          kOffOn,                    "no interference check", "12.6"},
     {8105, 8105, 1, kAll, false, whole<0, 1>,          kOffOn,                    "programs 8000-9999 are protected", "13.3"},
-    {8107, 8107, 1, kAll, false, whole<0, 1>,          kOffOn,                    "#8108 holds", "13.15"},
+    {8107, 8107, 1, kAll, false, whole<0, 1>,          kOffOn,                    "circular error radius compensation in every mode: #8108 is asked for", "13.15"},
     {8108, 8108, 1, kAll, false, whole<0, 1>,          kOffOn,                    "circular error radius compensation for each axis (#2069), with #8107", "13.15"},
     {8112, 8112, 1, kAll, false, whole<0, 1>,          kOffOn,                    "P of G04 may have a decimal point", "8.1"},
     {8117, 8117, 1, kAll, false, whole<0, 1>,          kOffOn,                    "tool radius offsets are diameters", "12.4"},

@@ -3,6 +3,8 @@
 // docs/motion.md, "Behind interpolation"). The filters change only while nothing is in them.
 #pragma once
 
+#include <cstddef>
+
 #include "shape/axis_filter.hpp"
 #include "shape/filter_times.hpp"
 
