@@ -208,6 +208,7 @@ TEST(Filters, ConstantsAreWholeCycles) {
   EXPECT_EQ(filter_cycles(100.4, 0.001), 100u);
   EXPECT_EQ(filter_cycles(100, 0.004), 25u);
   EXPECT_EQ(filter_cycles(30, 0.0004), 75u);
+  EXPECT_EQ(filter_cycles(4000, 1e-9), kMostFilterCycles);
 }
 
 }  // namespace

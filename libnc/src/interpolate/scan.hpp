@@ -63,7 +63,7 @@ struct ScanShared {
 class Scan {
  public:
   void create(const ExecutorConfig& config, const Record* ring, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared,
-              double* filters);
+              double* filters = nullptr);
   void set_position(const AxisVec& machine);
   void cycle(const nc_inputs& in, nc_outputs& out) NC_RT;
 

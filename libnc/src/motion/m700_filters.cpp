@@ -7,7 +7,7 @@
 namespace nc {
 namespace {
 
-uint16_t whole_cycles(double ms, double cycle_s) { return static_cast<uint16_t>(std::min(filter_cycles(ms, cycle_s), kMostFilterCycles)); }
+uint16_t whole_cycles(double ms, double cycle_s) { return static_cast<uint16_t>(filter_cycles(ms, cycle_s)); }
 
 /// M700 13.15: in the normal mode each axis has constants of its own, linear, exponential, or one behind the other.
 FilterTimes after(const TimeConstants& constants, const FilteredMove& move, double cycle_s) {

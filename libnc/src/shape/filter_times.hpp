@@ -34,10 +34,11 @@ inline constexpr double kLongestMean = 4000, kLongestLag = 5000, kLongestSPatter
 /// Most cycles that a mean goes over.
 inline constexpr uint32_t kMostFilterCycles = 65535;
 
-/// A time constant in whole cycles: the nearest, and at least one where there is a constant at all.
+/// A time constant in whole cycles: the nearest, at least one where there is a constant at all, and at most kMostFilterCycles.
 inline uint32_t filter_cycles(double ms, double cycle_s) {
   if (!(ms > 0)) return 0;
   const double cycles = ms / (cycle_s * 1000);
+  if (!(cycles < kMostFilterCycles)) return kMostFilterCycles;
   return cycles < 1 ? 1 : static_cast<uint32_t>(cycles + 0.5);
 }
 

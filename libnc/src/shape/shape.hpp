@@ -14,8 +14,7 @@ class Shape {
  public:
   /// Places for each axis' filters.
   static uint32_t places(double longest_ms, double cycle_s) {
-    const uint32_t cycles = filter_cycles(longest_ms, cycle_s);
-    return cycles < kMostFilterCycles ? cycles : kMostFilterCycles;
+    return filter_cycles(longest_ms, cycle_s);
   }
   /// @param rings  `places` values for each axis, the filters' alone; 0 places: there are no filters
   void create(unsigned axis_count, double cycle_s, double* rings, uint32_t places) {
