@@ -231,7 +231,7 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
   const bool begins = !moving_;
   Done lost = Done::yes;
   if (c_axes_ != 0 && lost_move(r, &lost)) return lost;
-  if (moving_ && skip_braking_ && at_rest()) {  // the signal came while the axes were still on their way
+  if (shape_.active() && moving_ && skip_braking_ && at_rest()) {  // the signal came while the axes were still on their way
     end_move(r);
     return Done::yes;
   }
