@@ -403,8 +403,9 @@ void Commit::set_filter(const Move& move, const FilterParameters& filters, Segme
   for (unsigned i = 0; i < axis_count_; ++i)
     if (high[i] > low[i]) filtered.moving |= 1u << i;
   s->filter = filter_times(filters, filtered, config_.cycle_s);
-  // M700 13.15: arcs of the axes themselves.
+  // M700 13.15: arcs of two linear axes themselves; roundness is nothing that a rotary axis has a part in.
   if (!curve_.circular || curve_.shape != nullptr || filtered.kind != FilteredMove::Kind::cut) return;
+  if (((rotary_ >> curve_.h | rotary_ >> curve_.v) & 1) != 0) return;
   s->round_mm[0] = static_cast<float>(filters.round_mm[curve_.h]);
   s->round_mm[1] = static_cast<float>(filters.round_mm[curve_.v]);
 }
