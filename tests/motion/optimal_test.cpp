@@ -270,6 +270,18 @@ TEST(OptimalLaw, CellsThatCannotStayAtTheFeedAreNoLaw) {
   EXPECT_FALSE(law->ok);
 }
 
+/// The next law begins where the speed has begun to rise, if that is near, else where it does not fall, else where it was asked to.
+TEST(OptimalLaw, TheNextLawBeginsWhereTheSpeedRises) {
+  const auto from = [](std::vector<int> slopes, unsigned k) {
+    return optimal::better_start(k, [&](unsigned n) { return static_cast<double>(slopes[n]); });
+  };
+  EXPECT_EQ(from({0, 1, 1, -1, -1, 1, 1, -1, -1}, 8), 5u);
+  EXPECT_EQ(from({0, 1, 1, 1, 1, 1, 1, -1, -1}, 8), 6u);
+  EXPECT_EQ(from({0, 1, 0, 0, 0, 0, 0, 0, 0}, 8), 8u);
+  EXPECT_EQ(from({0, -1, -1, -1, -1, -1, -1, -1, -1}, 8), 8u);
+  EXPECT_EQ(from({0, 1}, 1), 1u);
+}
+
 /// Rows are left away for an axis that goes along a little, and not when its limits are as little.
 TEST(OptimalLaw, AnAxisThatGoesAlongALittleKeepsItsLimits) {
   for (const double share : {1.0, 0.1, 0.03, 0.01, 0.001}) {

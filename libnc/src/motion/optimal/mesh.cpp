@@ -8,10 +8,11 @@ namespace nc::optimal {
 namespace {
 
 constexpr double kArc = 0.06;         ///< rad that a cell on an arc may turn
-constexpr double kRatio = 1.25;       ///< of the speeds at both ends of a cell: its jerk goes with the speed
+constexpr double kRatio = 1.12;       ///< of the speeds at both ends of a cell: its jerk goes with the speed
 constexpr double kRatioAlone = 1.04;  ///< the same on a line from rest to rest, where nothing else asks for cells
 constexpr double kLaunch = 4;         ///< periods that the cell next to rest takes
 constexpr double kLaunchSpeed = 0.5;  ///< of the speed and acceleration that the path allows
+constexpr unsigned kShorterLaunch = 12;  ///< times that it is made shorter
 constexpr double kCurvedLaunch = 0.125;  ///< of its length where the path bends
 constexpr double kShortLaunch = 0.025;   ///< of the window, at most
 constexpr double kGentle = 24;           ///< cells that the guess takes to leave the speed of the start
@@ -159,6 +160,17 @@ double Mesher::estimate(double u) {
   return std::min(speed_at(forward_, u, &hint_f_), speed_at(backward_, u, &hint_b_));
 }
 
+/// The length of a cell of constant jerk beside rest, or less, so that it is no faster at its end than a part of what a bend nearby lets be.
+double Mesher::slow_enough(double h, const Bound& bound, bool starts) const {
+  for (unsigned n = 0; n < kShorterLaunch; ++n) {
+    unsigned hint = 0;
+    const double speed = 0.5 * bound.jerk * std::pow(6 * h / bound.jerk, 2.0 / 3);
+    if (!(speed > kLaunchSpeed * (starts ? speed_at(backward_, h, &hint) : speed_at(forward_, end_u_ - h, &hint)))) break;
+    h *= 0.7;
+  }
+  return h;
+}
+
 /// Walks along and sets a knot at every joint of pieces and about every `period` seconds. `fine`: a straight line by itself may have
 /// shorter cells where its speed changes.
 bool Mesher::cells(double end, bool fine) {
@@ -173,8 +185,8 @@ bool Mesher::cells(double end, bool fine) {
   };
   double last_edge = -in.from.x;
   for (unsigned p = in.from.piece; p < end_piece_; ++p) last_edge += in.at(p).length;
-  const double launch = rest_cell(bound(in.from.piece)),
-               landing = std::min(rest_cell(bound(end_piece_)), end - std::max(0.0, last_edge));
+  const double launch = slow_enough(rest_cell(bound(in.from.piece)), bound(in.from.piece), true),
+               landing = slow_enough(std::min(rest_cell(bound(end_piece_)), end - std::max(0.0, last_edge)), bound(end_piece_), false);
   double u = 0, edge = in.at(in.from.piece).length - in.from.x;
   PathPlace at = in.from;
   m.cells = 0;

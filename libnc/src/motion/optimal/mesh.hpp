@@ -71,6 +71,7 @@ class Mesher {
   void backward(unsigned end_piece, double end);
   double speed_at(const Track& track, double u, unsigned* hint) const;
   double estimate(double u);
+  double slow_enough(double h, const Bound& bound, bool starts) const;
   bool cells(double end, bool fine);
   void fill_knots();
   bool can_be_level(unsigned cell) const;

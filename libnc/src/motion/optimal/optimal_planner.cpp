@@ -14,7 +14,7 @@ constexpr double kNew = 0.1;           ///< of the path that is left, what must 
 constexpr double kLongestLead = 0.2;   ///< s
 constexpr double kDown = 1.06;         ///< of the squared speed of a stop, below which a lower feed is reached
 constexpr unsigned kLawsAtOnce = 8;
-constexpr unsigned kCellsAtOnce = 320; ///< of a law, so that it is there soon
+constexpr unsigned kCellsAtOnce = 480; ///< of a law, so that it is there soon
 constexpr unsigned kBack = 7;          ///< cells farther back, from which a law is tried that was not found
 constexpr uint32_t kRetry = 4;         ///< cells that the scan goes until a law is tried again
 constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
@@ -423,6 +423,8 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
       keep = line_keep_;
     } else if (!rests) {
       for (double back = 0; keep != first && back < windows_->stop_seconds(); --keep) back += store_.at(keep).seconds;
+      // Behind cell keep: at the start of the cell that follows.
+      keep = first - 1 + better_start(keep + 1 - first, [&](unsigned k) { return store_.at(first + k).a; });
     }
     for (uint32_t k = first; k != write_; ++k) time += store_.at(k).seconds;
     next_chain_.keep = keep;

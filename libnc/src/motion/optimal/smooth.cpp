@@ -18,6 +18,7 @@ constexpr double kLongEdge = 8;     ///< in spacings
 constexpr unsigned kLooks = 4;      ///< places in a cell, beside the vertices, where the distance is measured
 constexpr double kRounding = 1e-11;  ///< of q'
 constexpr double kStraightEnd = 0.2; ///< of an edge, up to its first knot
+constexpr double kCornerCell = 0.55;  ///< of a cell of a sharp corner: there the speed changes much, so a law has two cells in it
 constexpr unsigned kRounds = 16;
 
 class Smoother {
@@ -225,7 +226,7 @@ void Smoother::pieces() {
     p.length = h;
     p.curve = nullptr;
     p.rapid = p.quintic = false;
-    p.cell = 0;
+    p.cell = room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1] ? kCornerCell * h : 0;
     p.feed = HUGE_VAL;
     // Differences: e_j = 3 (d_j - d_(j-1)) / (t_j - t_(j-3)), f_j = 2 (e_j - e_(j-1)) / (t_(j-1) - t_(j-3));
     // q'' at knot k is f_(k+2).

@@ -18,7 +18,8 @@ struct Attempt {
 constexpr Attempt kAttempts[] = {
     {0.85, kMaxCells, 1}, {0.4, kMaxCells, 0.7}, {0.7, kMaxCells / 2, 0.5}, {0.3, kMaxCells / 2, 1.2}};
 constexpr double kSpare = 1.3;
-constexpr unsigned kFiner = 2;      ///< a short path from rest to rest has cells of this part, which it gains some percent by
+constexpr double kFiner = 2;        ///< a short path from rest to rest has cells of this part, which it gains some percent by
+constexpr double kOfMost = 0.95;    ///< of the cells that a law may have, which it has then at most
 constexpr unsigned kTightened = 6;  ///< times that a law is corrected
 constexpr double kExcess = 1.0005;  ///< of a limit, that a law may use inside its cells
 
@@ -166,8 +167,9 @@ bool Windows::solve(unsigned tries) {
     request_.most = std::min(attempt.cells, most_);
     request_.period = period_ * attempt.period;
     mesher_.build(request_, limits_, &mesh_);
-    if (request_.from_rest && request_.count > 1 && mesher_.whole() && kFiner * mesh_.cells <= request_.most) {
-      request_.period /= kFiner;
+    const double finer = std::min(kFiner, kOfMost * request_.most / (mesh_.cells + 1));
+    if (request_.from_rest && request_.count > 1 && mesher_.whole() && finer > 1) {
+      request_.period /= finer;
       mesher_.build(request_, limits_, &mesh_);
     }
     if (corrected()) return true;
@@ -187,6 +189,7 @@ void Windows::settle() {
   if (!more_) return;
   double back = 0;
   while (keep_ > 1 && back < stop_s_) back += cell_seconds(law_, mesh_, --keep_);
+  keep_ = better_start(keep_, [this](unsigned k) { return law_.slope[k]; });
 }
 
 bool Windows::law_to(const MeshRequest& request, const Limits& limits, const Goal& goal) {

@@ -7,6 +7,20 @@
 
 namespace nc::optimal {
 
+/// Where the next law begins, at cell k or some cells in front of it: where the speed has begun to rise it is found more easily than where
+/// braking takes all that the limits leave. `slope(k)` has the sign of the acceleration at the start of cell k > 0.
+template <class Slope>
+unsigned better_start(unsigned k, Slope&& slope) {
+  constexpr unsigned kSearch = 40;
+  unsigned rising = k;
+  for (unsigned n = k; n > 1 && n + kSearch > k; --n) {
+    if (slope(n) < 0) continue;
+    if (slope(n - 1) < 0) return n;
+    if (slope(rising) < 0) rising = n;
+  }
+  return rising;
+}
+
 class Windows {
  public:
   /// Pieces from rest to rest. They stay where they are as long as this is used.
