@@ -171,6 +171,38 @@ TEST(PlannedShapes, RandomCurvesKeepLimitsAndTolerance) {
 }
 
 /// Two spans with one tangent, and a line in front of and behind them that touches them.
+/// Near the pole of a polar plane the rotary axis turns by many degrees in a mm (M700 6.10). Cells go by the turn of the path and not by such numbers:
+/// ones that are too small end a window before it can become fast.
+TEST(PlannedShapes, ALinePassesThePoleSoon) {
+  for (const auto& [aside, most] : {std::pair{5.0, 1.0}, {0.3, 1.8}, {0.05, 2.3}, {0.01, 5.5}}) {
+    const ExecutorConfig c = config_of();
+    MoveShape what;
+    what.map.kind = AxisMap::Kind::polar;
+    what.map.linear = 0;
+    what.map.rotary = 3;
+    AxisVec start, end, machine;
+    start[0] = 10;
+    start[3] = end[3] = aside;
+    end[0] = -10;
+    machine[0] = std::hypot(10, aside);
+    machine[3] = std::atan2(aside, 10) * 180 / kPi;
+    CurveShape shape;
+    Curve curve;
+    const AxisVec plus{{1, 1, 1, 1, 1, 1, 1, 1}};
+    make_shaped(what, PlainMove{&start, &end, nullptr, 0, 1}, plus, AxisVec{}, machine, c.axis_count, c.rotary, &shape, &curve);
+    Program p(c, machine);
+    p.segment(curve, 50);
+    p.mark();
+    p.end();
+    Machine m(c);
+    m.executor.set_position(machine);
+    ASSERT_TRUE(m.run_to_end(p, 40000)) << aside;
+    EXPECT_TRUE(m.checker.ok()) << aside << ": " << m.checker.report();
+    EXPECT_LE(static_cast<double>(m.cycles) * 0.001, most) << aside;
+    EXPECT_NEAR(m.out.command.v[3], 180 - machine[3], 1e-9);
+  }
+}
+
 TEST(PlannedShapes, TangentSpansAndLinesDoNotRest) {
   Curves c(config_of());
   AxisVec x;

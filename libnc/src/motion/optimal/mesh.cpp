@@ -32,6 +32,11 @@ constexpr double kGentleLevel = 10;    ///< cells that the guess takes to come t
 constexpr unsigned kFewestLevel = 8;   ///< cells in a row
 constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
 
+/// What the derivatives of an axis are measured by.
+double measure(const Limits& limits, unsigned i) {
+  return limits.jerk[i] > 0 ? limits.jerk[i] : 1;
+}
+
 }  // namespace
 
 double WayDown::at(double place) const {
@@ -49,20 +54,26 @@ double WayDown::at(double place) const {
 Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
   Bound b{feed_of(p, *limits_), HUGE_VAL, HUGE_VAL, HUGE_VAL, false};
   const unsigned samples = p.curve != nullptr || p.quintic ? 4 : 2;  // other curves than arcs come in pieces that are nearly even
-  double most[3][kMaxAxes] = {};
+  double most[3][kMaxAxes] = {}, along2 = 0, bend2 = 0;  // along, bend: in the measure of the jerk limits, whatever the units of the axes
   CurvePoint q;
   for (unsigned n = 0; n <= samples; ++n) {
     derivatives(p, from + (p.length - from) * n / samples, limits_->axis_count, &q);
+    double here2 = 0;
     for (unsigned i = 0; i < limits_->axis_count; ++i) {
       most[0][i] = std::max(most[0][i], std::fabs(q.d1[i]));
       most[1][i] = std::max(most[1][i], std::fabs(q.d2[i]));
       most[2][i] = std::max(most[2][i], std::fabs(q.d3[i]));
+      const double share = q.d1[i] / measure(*limits_, i);
+      here2 += share * share;
     }
+    along2 = std::max(along2, here2);
   }
-  double bend2 = 0;
-  for (unsigned i = 0; i < limits_->axis_count; ++i) bend2 += most[1][i] * most[1][i];
+  for (unsigned i = 0; i < limits_->axis_count; ++i) {
+    const double share = most[1][i] / measure(*limits_, i);
+    bend2 += share * share;
+  }
   b.curved = bend2 > 0;
-  if (p.curve != nullptr && b.curved) b.cell = kArc / std::sqrt(bend2);
+  if (p.curve != nullptr && b.curved) b.cell = kArc * std::sqrt(along2 / bend2);
   if (p.cell > 0) b.cell = p.cell;
   for (unsigned i = 0; i < limits_->axis_count; ++i) {
     const double v = velocity_of(p, *limits_, i);

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kPeriod = 0.005;      ///< s, of a cell
 constexpr double kHungry = 0.5;        ///< s of chain that are left when it is made longer
+constexpr double kPartLeft = 0.5;      ///< of what was made, where no more of the path could be gone through at once
 constexpr double kEnough = 1.0;        ///< s of chain that are made at once where there are many rests
 constexpr double kNew = 0.1;           ///< of the path that is left, what must have come before a law is solved for it
 constexpr double kLongestLead = 0.2;   ///< s
@@ -442,6 +443,8 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
     return false;
   }
   next_chain_.block_rests = f.block_rests;
+  const bool all = by_line_ ? line_.whole() : windows_->whole();
+  next_chain_.enough_s = all ? kHungry : kPartLeft * (chain_end_[next_chain_.keep & store_.cell_mask] - (start.fresh ? 0 : chain_end_[start.after & store_.cell_mask]));
   offer(start, false);
   return true;
 }
@@ -605,7 +608,7 @@ void OptimalPlanner::go_on(const Following& f, bool idle) {
     if (rests || ahead(f, chain_.last) < kHungry) extend(f, end, block_most(f, end), nullptr);
     return;
   }
-  if (ahead(f, chain_.keep) >= kHungry) return;
+  if (ahead(f, chain_.keep) >= std::min(kHungry, chain_.enough_s)) return;
   const double more = builder_.end_u() - chain_.u;
   const bool whole = store_.piece_at(builder_.head() - 1).rest_behind;
   if (!(more > kNew * (chain_.u - store_.at(f.cell).u)) && !(whole && more > kTiny)) return;

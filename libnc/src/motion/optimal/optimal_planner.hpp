@@ -44,6 +44,7 @@ class OptimalPlanner {
   struct Chain {
     uint32_t last = kNoCell;
     uint32_t keep = kNoCell;  ///< behind this cell the stop at the end has slowed it; == last: nothing has
+    double enough_s = 0;      ///< s up to there, with which it need not be longer
     uint32_t piece = 0;       ///< where it ends
     double x = 0, u = 0;
     Scales scale;
