@@ -174,6 +174,12 @@ TEST(PlannedLimits, SeedsThatOnceFailedKeepThem) {
     EXPECT_EQ(run_seed(seed, {.overrides = true, .holds = true, .hangs = true}, 3, &worst, &farthest), "") << "seed " << seed;
   }
 }
+/// A way of 2 um to the end of a block, on the last pieces of a corner: with cells of half the time it had more than a law may have.
+TEST(PlannedLimits, ASeedWithAWayToTheEndOfABlockThatIsVeryShort) {
+  LimitChecker worst{random_config(301044)};
+  double farthest = 0;
+  EXPECT_EQ(run_seed(301044, {.single_block = true}, 3, &worst, &farthest), "");
+}
 TEST(PlannedLimits, TheCheckerSeesAStepOfAMicrometre) {
   LimitChecker worst{random_config(1)};
   double farthest = 0;

@@ -382,6 +382,7 @@ PathPlace Mesher::build(const MeshRequest& request, const Limits& limits, Mesh* 
   mesh->from_rest = request.from_rest;
   mesh->b0 = request.b0;
   mesh->slope0 = request.slope0;
+  mesh->levels = 0;
   forward();
   for (unsigned n = 0;; ++n) {
     backward(end_piece_, end_u_);

@@ -18,7 +18,8 @@ struct Attempt {
 constexpr Attempt kAttempts[] = {
     {0.85, kMaxCells, 1}, {0.4, kMaxCells, 0.7}, {0.7, kMaxCells / 2, 0.5}, {0.3, kMaxCells / 2, 1.2}};
 constexpr double kSpare = 1.3;
-constexpr double kFiner = 2;        ///< a short path from rest to rest has cells of this part, which it gains some percent by
+constexpr double kFiner = 4;        ///< a short path from rest to rest has cells of this part, which it gains some percent by
+constexpr double kFinerAgain = 2;   ///< the same where a law was not found
 constexpr double kOfMost = 0.95;    ///< of the cells that a law may have, which it has then at most
 constexpr unsigned kTightened = 6;  ///< times that a law is corrected
 constexpr double kExcess = 1.0005;  ///< of a limit, that a law may use inside its cells
@@ -167,10 +168,15 @@ bool Windows::solve(unsigned tries) {
     request_.most = std::min(attempt.cells, most_);
     request_.period = period_ * attempt.period;
     mesher_.build(request_, limits_, &mesh_);
-    const double finer = std::min(kFiner, kOfMost * request_.most / (mesh_.cells + 1));
+    const double finer = std::min(t == 0 ? kFiner : kFinerAgain, kOfMost * request_.most / (mesh_.cells + 1));
     if (request_.from_rest && request_.count > 1 && mesher_.whole() && finer > 1) {
+      const double plain = request_.period;
       request_.period /= finer;
       mesher_.build(request_, limits_, &mesh_);
+      if (mesh_.cells == 0 || !mesher_.whole()) {  // too many of them
+        request_.period = plain;
+        mesher_.build(request_, limits_, &mesh_);
+      }
     }
     if (corrected()) return true;
     if (mesh_.levels == 0) continue;
