@@ -188,7 +188,7 @@ TEST(Create, SmallestAndLargest) {
     const Memory memory = exact_memory(size);
     EXPECT_NE(nc_create(&config, memory.get(), size, nullptr), nullptr);
   }
-  EXPECT_LT(nc_memory_required(&small), size_t{1} << 20);
+  EXPECT_LT(nc_memory_required(&small), size_t{1100000});
 }
 
 // ---- misuse --------------------------------------------------------------------------------------------------------------------
