@@ -148,7 +148,7 @@ TEST(Reversal, TheJointIsPassedAtRest) {  // M700 7.9.2
     p.line(end, 20);
     p.mark();
     end[0] = 20;
-    end[1] = 1;  // hardly a corner
+    end[1] = 0.02;  // hardly a corner
     p.line(end, 20).rest_before = check;
     p.mark();
     p.end();

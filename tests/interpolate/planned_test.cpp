@@ -136,6 +136,74 @@ TEST(Planned, AHoldOnALineIsTheShortestStop) {
   }
 }
 
+/// Feeds that are reached within some um: the cells there go by the speed and not by the distance to the next guess.
+TEST(Planned, SlowFeedsAreKeptRoundArcsAndCorners) {
+  struct {
+    double feed, size, acceleration, jerk;
+  } const cases[] = {{1, 1, 1000, 1e7}, {0.0083, 0.05, 2000, 5e4}, {0.0017, 0.005, 2000, 5e4}, {0.05, 0.1, 5000, 1e6}, {1, 1, 300, 1e7}};
+  for (const auto& x : cases)
+    for (const bool arc : {false, true}) {
+      SCOPED_TRACE(testing::Message() << x.feed << " " << x.size << " " << x.acceleration << " " << x.jerk << " " << arc);
+      ExecutorConfig config = optimal_config();
+      for (unsigned i = 0; i < 3; ++i) config.limits[i] = {250, 250, x.acceleration, x.jerk, 0.01};
+      Program p(config);
+      double length = 2 * x.size;
+      if (arc) {
+        p.arc(0, 1, x.size, 0, std::numbers::pi, x.feed);
+        length = std::numbers::pi * x.size;
+      } else {
+        p.line(at(x.size, 0), x.feed);
+        p.line(at(x.size, x.size), x.feed);
+      }
+      p.mark();
+      p.end();
+      Machine m(config);
+      ASSERT_TRUE(m.run_to_end(p, 60000)) << int{m.out.cause} << " " << m.out.command.v[0];
+      EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+      EXPECT_LE(static_cast<double>(m.cycles) * 0.001, 1.03 * length / x.feed + 0.06);
+    }
+}
+
+/// Sharp corners close together on an axis at its velocity limit: inside of a cell the path may go along the axis more than at its ends.
+TEST(Planned, NoAxisIsFasterThanItsLimitBetweenCloseCorners) {
+  const AxisVec corners[] = {at(-8.161, 0.881), at(-8.120, 0.964), at(-8.079, 0.960), at(-8.038, 1.043), at(-7.997, 1.002)};
+  for (const double tolerance : {0.0686, 0.01}) {
+    ExecutorConfig config = optimal_config();
+    for (unsigned i = 0; i < 3; ++i) config.limits[i] = {5, 5, 7141.28, 1929690, 0.01};
+    config.tolerance = tolerance;
+    Program p(config);
+    for (const AxisVec& corner : corners) p.line(corner, 157.8);
+    p.mark();
+    p.end();
+    Machine m(config);
+    ASSERT_TRUE(m.run_to_end(p, 20000));
+    EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  }
+}
+
+/// Of a stop some cycle gives out the place, whatever the cycle is.
+TEST(Planned, ExactStopsAreGivenOut) {
+  for (const double cycle : {0.0005, 0.001, 0.002, 0.004}) {
+    ExecutorConfig config = optimal_config();
+    config.cycle_s = cycle;
+    Program p(config);
+    const AxisVec stops[] = {at(0.5, 0), at(1, 0), at(1.5, 0.2), at(2, 0.2), at(2.011, 0.21)};
+    for (const AxisVec& stop : stops) p.line(stop, 50).exact_stop = true;
+    p.mark();
+    p.end();
+    Machine m(config);
+    double nearest[5] = {1, 1, 1, 1, 1};
+    m.feed(p);
+    m.start();
+    ASSERT_TRUE(m.until(p, [&] {
+      for (unsigned k = 0; k < 5; ++k) nearest[k] = std::min(nearest[k], std::hypot(m.out.command.v[0] - stops[k][0], m.out.command.v[1] - stops[k][1]));
+      return m.out.state == NC_STATE_IDLE;
+    }, 20000));
+    for (unsigned k = 0; k < 5; ++k) EXPECT_LE(nearest[k], 1.5e-6) << k << " " << cycle;
+    EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  }
+}
+
 TEST(Planned, ASquareIsCutWithinItsTolerance) {
   const ExecutorConfig config = optimal_config();
   Program p(config);

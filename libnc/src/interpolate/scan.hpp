@@ -108,6 +108,7 @@ class Scan {
   Done follow_plan(const Record& record, const nc_inputs& in) NC_RT;
   bool begin_thread(const Segment& segment, const nc_inputs& in) NC_RT;
   void follow_spindle(const Segment& segment, const nc_inputs& in) NC_RT;
+  bool misses(const AxisVec& stop) const NC_RT;
   Done passed(const Record& record) NC_RT;
   bool would_jump() const NC_RT;
   bool path_stops(const nc_inputs& in) const NC_RT;

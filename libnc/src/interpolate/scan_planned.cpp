@@ -11,6 +11,7 @@ namespace {
 constexpr double kJump = 1e-6;        ///< mm or deg: the path goes on where the axes stand
 constexpr double kAtEnd = 1e-7;       ///< mm: a path at rest has reached the end of a record
 constexpr double kPassed = 1e-9;      ///< mm: and one that moves has passed it
+constexpr double kHit = 1e-6;         ///< mm or deg: in some cycle an exact stop is as near
 constexpr double kPatience = 0.03;     ///< s that the planner has for a stop
 constexpr double kTurnsChange = 0.002; ///< of the speed of the spindle, that asks for another plan
 constexpr double kPlannedTurns = 0.02; ///< of it, by which the plan of a thread may differ when it begins
@@ -132,10 +133,23 @@ void Scan::follow_spindle(const Segment& s, const nc_inputs& in) {
   time_ = left > 0 && sync_.sigma() > 0 ? std::min(time_, left / sync_.sigma()) : 0;
 }
 
+/// Neither the cycle before nor this one, when the path goes on, gives out a place as near to an exact stop as it is to be hit (M700 7.7).
+bool Scan::misses(const AxisVec& stop) const {
+  double before = 0, behind = 0;
+  for (unsigned i = 0; i < config_.axis_count; ++i) {
+    before = std::max(before, std::fabs(command_[i] - stop[i]));
+    behind = std::max(behind, config_.limits[i].jerk * time_ * time_ * time_ / 6);
+  }
+  return before > kHit && behind > kHit;
+}
+
 /// The path has come to the end of the record.
 Scan::Done Scan::passed(const Record& r) {
   const Segment& s = r.segment;
-  if (follower_.at_path_end() && follower_.u() <= optimal_->store().passed[tail_ & mask_] + kAtEnd) wanted_ = s.curve.end;
+  if (follower_.at_path_end() && follower_.u() <= optimal_->store().passed[tail_ & mask_] + kAtEnd) {
+    wanted_ = s.curve.end;
+    if (s.exact_stop && !s.rapid && time_ > 0 && misses(s.curve.end)) time_ = 0;
+  }
   passed_at_ = s.curve.end;
   end_move(r);
   return Done::yes;

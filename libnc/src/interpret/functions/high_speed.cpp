@@ -65,6 +65,7 @@ Did high_speed_machining(Interpreter& in, uint32_t p) {
   if (in_mode_2(state)) return in.raise(Condition::illegal_g, 'G', kHighSpeed);  // not in the list of 13.17
   const int16_t motion = state.modal.code[kGroupMotion];
   if (motion == 23 || motion == 33) return in.raise(Condition::illegal_g, 'G', kHighSpeed);  // 6.11
+  if (state.high_speed != p) slow_down(in);
   state.high_speed = static_cast<uint16_t>(p);
   return Did::done;
 }

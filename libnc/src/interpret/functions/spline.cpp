@@ -294,8 +294,10 @@ Did move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, cons
   if (!has_next) next = Chord{};
   if (!has_after) after = Chord{};
   if (!length_fits(in, now.length, before.length, next.length)) return straight();
-  const double cancel = in.settings.spline_cancel_angle;
-  const bool joins = has_next && length_fits(in, next.length, now.length, after.length) && (cancel <= 0 || angle_deg(now, next) <= cancel);
+  // A curve through a turn back on itself has a cusp, whatever #8026 says (docs/decisions.md).
+  constexpr double kTurnsBack = 150;
+  const double cancel = in.settings.spline_cancel_angle, most = cancel > 0 ? std::fmin(cancel, kTurnsBack) : kTurnsBack;
+  const bool joins = has_next && length_fits(in, next.length, now.length, after.length) && angle_deg(now, next) <= most;
   const bool begins = joined && before.length > 0;
   if (!begins && !joins) return straight();
 

@@ -87,6 +87,15 @@ Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
   return b;
 }
 
+/// Seconds of the next step of an estimate: a period, or less where most of the speed is gained in that, because between two steps the
+/// estimate is a straight line and the cells go by it.
+double Mesher::step_time(double v, double a, const Bound& bound, double period) {
+  constexpr double kMost = 0.5, kPart = 0.125;
+  if (v >= bound.speed || !(bound.speed < HUGE_VAL) || !(bound.jerk < HUGE_VAL)) return period;
+  if (period * (a + 0.5 * bound.jerk * period) <= kMost * bound.speed) return period;
+  return std::min(period, (std::sqrt(a * a + 2 * bound.jerk * kPart * bound.speed) - a) / bound.jerk);
+}
+
 /// Speeds that can be reached from the start, with the acceleration growing by the jerk from 0 wherever the
 /// speed is bounded.
 void Mesher::forward() {
@@ -103,7 +112,7 @@ void Mesher::forward() {
     while (u < edge) {
       if (forward_.count == nodes) break;
       forward_.node[forward_.count++] = {u, v};
-      const double t = in.period;
+      const double t = step_time(v, a, bound, in.period);
       const double du = std::max(t * (v + t * (a / 2 + t * bound.jerk / 6)), kSlowest * t);
       if (u + du >= edge) {
         const double share = std::max(0.0, (edge - u) / du);
@@ -137,7 +146,7 @@ void Mesher::backward(unsigned end_piece, double end) {
     if (v > bound.speed) v = bound.speed, a = 0;
     while (u > stop && backward_.count < kNodes) {
       backward_.node[backward_.count++] = {u, v};
-      const double t = in.period;
+      const double t = step_time(v, a, bound, in.period);
       const double du = std::max(t * (v + t * (a / 2 + t * bound.jerk / 6)), kSlowest * t);
       if (u - du <= stop) {
         const double share = (u - stop) / du;

@@ -73,6 +73,7 @@ class Mesher {
   double estimate(double u);
   double slow_enough(double h, const Bound& bound, bool starts) const;
   bool cells(double end, bool fine);
+  static double step_time(double v, double a, const Bound& bound, double period);
   void fill_knots();
   bool can_be_level(unsigned cell) const;
   void find_levels();

@@ -62,9 +62,9 @@ double Windows::stopping_time() const {
   return kSpare * longest;
 }
 
-/// The motion in a cell at kLooks places, first and last of them its ends: x, v^2, v^3, 3 v a, a and j.
+/// The motion in a cell at kLooks places, first and last of them its ends: x, v, v^2, v^3, 3 v a, a and j.
 struct Windows::Moments {
-  Four x[kFours], v2[kFours], v3[kFours], va[kFours], a[kFours], j[kFours];
+  Four x[kFours], v[kFours], v2[kFours], v3[kFours], va[kFours], a[kFours], j[kFours];
 };
 
 /// False where the cell is not gone through.
@@ -91,6 +91,7 @@ struct Windows::Moments {
       m->a[n] = a;
       m->j[n] = all(law_.half2[k]) * v;
     }
+    m->v[n] = v;
     m->v2[n] = v * v;
     m->v3[n] = m->v2[n] * v;
     m->va[n] = all(3) * v * m->a[n];
@@ -103,18 +104,20 @@ struct Windows::Moments {
 [[gnu::always_inline]] inline Windows::Excess Windows::excess(unsigned k) const {
   const Piece& p = piece_of(k);
   Moments m;
-  if (!moments(k, &m)) return {HUGE_VAL, HUGE_VAL};
+  if (!moments(k, &m)) return {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   if (p.curve != nullptr || p.quintic) return excess_on_curve(k, m);
-  Four acceleration{}, jerk{};
+  Four velocity{}, acceleration{}, jerk{};
   for (unsigned i = 0; i < limits_.axis_count; ++i) {
-    const Four per_a = all(per_acceleration_[i]), per_j = all(per_jerk_[i]), c1 = all(p.c[1][i]), c2 = all(2 * p.c[2][i]), d3 = all(6 * p.c[3][i]);
+    const double most = velocity_of(p, limits_, i);
+    const Four per_v = all(most > 0 ? 1 / most : 0), per_a = all(per_acceleration_[i]), per_j = all(per_jerk_[i]), c1 = all(p.c[1][i]), c2 = all(2 * p.c[2][i]), d3 = all(6 * p.c[3][i]);
     for (unsigned n = 0; n < kFours; ++n) {
       const Four x = all(place(k).x) + m.x[n], d2 = c2 + d3 * x, d1 = c1 + x * (c2 + all(0.5) * d3 * x);
+      velocity = larger(velocity, size_of(d1 * m.v[n]) * per_v);
       acceleration = larger(acceleration, size_of(d1 * m.a[n] + d2 * m.v2[n]) * per_a);
       jerk = larger(jerk, size_of(d1 * m.j[n] + d2 * m.va[n] + d3 * m.v3[n]) * per_j);
     }
   }
-  return {largest(acceleration), largest(jerk)};
+  return {largest(acceleration), largest(jerk), largest(velocity)};
 }
 
 [[gnu::noinline]] Windows::Excess Windows::excess_on_curve(unsigned k, const Moments& m) const {
@@ -125,11 +128,21 @@ struct Windows::Moments {
     const unsigned f = n / 4, e = n % 4;
     derivatives(p, std::min(p.length, place(k).x + m.x[f][e]), limits_.axis_count, &q);
     for (unsigned i = 0; i < limits_.axis_count; ++i) {
+      const double most = velocity_of(p, limits_, i);
+      if (most > 0) worst.velocity = std::max(worst.velocity, std::fabs(q.d1[i] * m.v[f][e]) / most);
       worst.acceleration = std::max(worst.acceleration, std::fabs(q.d1[i] * m.a[f][e] + q.d2[i] * m.v2[f][e]) * per_acceleration_[i]);
       worst.jerk = std::max(worst.jerk, std::fabs(q.d1[i] * m.j[f][e] + q.d2[i] * m.va[f][e] + q.d3[i] * m.v3[f][e]) * per_jerk_[i]);
     }
   }
   return worst;
+}
+
+/// The cell is gone through so many times slower.
+void Windows::lower_caps(unsigned k, double times) {
+  const double part = 1 / (times * times);
+  mesh_.cap[k] *= part;
+  mesh_.knot[k].cap = std::min(mesh_.knot[k].cap, mesh_.cap[k]);
+  mesh_.knot[k + 1].cap = std::min(mesh_.knot[k + 1].cap, mesh_.cap[k]);
 }
 
 /// Where a cell uses more than a limit between the rows, it may use less of it. @return the largest share.
@@ -138,7 +151,8 @@ NC_FOR_WIDE_VECTORS double Windows::tighten() {
   for (unsigned k = 0; k < law_.cells; ++k) {
     if (k > 0 && mesh_.level[k - 1] && mesh_.level[k] && mesh_.level[k + 1]) continue;  // the mesh has looked at it
     const Excess share = excess(k);
-    worst = std::max({worst, share.acceleration, share.jerk});
+    worst = std::max({worst, share.acceleration, share.jerk, share.velocity});
+    if (share.velocity > kExcess) lower_caps(k, 1.001 * share.velocity);
     const double most = std::max(share.jerk, share.acceleration);
     if (most > kExcess) mesh_.use[k] /= 1.001 * most;
     if (share.acceleration > kExcess) mesh_.use_a[k] /= 1.001 * share.acceleration;

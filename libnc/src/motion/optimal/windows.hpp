@@ -55,10 +55,11 @@ class Windows {
   void settle();
   double stopping_time() const;
   double tighten();
+  void lower_caps(unsigned cell, double times);
   struct Excess {
-    double acceleration = 0, jerk = 0;
+    double acceleration = 0, jerk = 0, velocity = 0;
   };
-  static constexpr unsigned kFours = 2, kLooks = 4 * kFours;  ///< places of a cell that are looked at
+  static constexpr unsigned kFours = 3, kLooks = 4 * kFours;  ///< places of a cell that are looked at
   struct Moments;
   bool moments(unsigned cell, Moments* m) const;
   Excess excess(unsigned cell) const;
