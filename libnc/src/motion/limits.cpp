@@ -214,19 +214,19 @@ double time_of(const Segment& s, const SegmentShape& g, double v, double share, 
 }
 
 /// What is kept for a corner slows both of its neighbours all along: of some shares the one by which both, at rest at their other ends, take the
-/// least time. A rest would have to save a good part of that: cuts run on (M700 7.12). `speed(share)` is that of the corner, above `slowest`.
+/// least time. A slower corner has to save a part of that, and a rest a larger one: cuts run on (M700 7.12). `speed(share)` is that of the corner, above `slowest`.
 template <class Speed>
 Joint quickest_joint(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb, double most, double rounding,
                      const MotionLimits& limits, double slowest, Speed&& speed) {
   constexpr double kShares[] = {1, 0.6, 0.35, 0.2, 0.1};
-  constexpr double kRest = 1.05;
+  constexpr double kRest = 1.05, kSlower = 0.97;
   Joint best;
   double least = kRest * (time_of(a, sa, 0, 0, limits) + time_of(b, sb, 0, 0, limits));
   for (const double part : kShares) {
     const double share = part * most, v = speed(share);
     if (v <= slowest) break;
     const double time = time_of(a, sa, v, share + rounding, limits) + time_of(b, sb, v, share + rounding, limits);
-    if (!(time < least)) continue;
+    if (!(time < (best.speed2 > 0 ? kSlower : 1) * least)) continue;
     least = time;
     best = {v * v, share + rounding};
   }
