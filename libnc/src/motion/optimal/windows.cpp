@@ -22,7 +22,7 @@ constexpr double kFiner = 4;        ///< a short path from rest to rest has cell
 constexpr double kFinerAgain = 2;   ///< the same where a law was not found
 constexpr double kOfMost = 0.95;    ///< of the cells that a law may have, which it has then at most
 constexpr unsigned kTightened = 6;  ///< times that a law is corrected
-constexpr double kExcess = 1.0005;  ///< of a limit, that a law may use inside its cells
+constexpr double kExcess = 1.0003;  ///< of a limit, that a law may use inside its cells
 
 }  // namespace
 

@@ -59,7 +59,7 @@ class Windows {
   struct Excess {
     double acceleration = 0, jerk = 0, velocity = 0;
   };
-  static constexpr unsigned kFours = 3, kLooks = 4 * kFours;  ///< places of a cell that are looked at
+  static constexpr unsigned kFours = 4, kLooks = 4 * kFours;  ///< places of a cell that are looked at
   struct Moments;
   bool moments(unsigned cell, Moments* m) const;
   Excess excess(unsigned cell) const;
