@@ -262,6 +262,27 @@ TEST(PlannedShapes, AnExponentialCurveGoesFromFToQ) {
   EXPECT_LE(reached, 0.1);
 }
 
+/// The same by trapezoids: as slow as the tightest place asks for.
+TEST(TrapezoidShapes, NearCuspsKeepTheLimits) {
+  const double weight[4] = {1, 1.37, 1, 1};  // not where equal steps would find it
+  for (const double gap : {0.3, 0.1, 0.05, 0.02})
+    for (const double size : {0.1, 1.0, 10.0}) {
+      SCOPED_TRACE(testing::Message() << gap << " " << size);
+      ExecutorConfig config = config_of();
+      config.optimal = false;
+      for (AxisLimits& axis : config.limits) axis.jerk = 0;
+      Curves c(config);
+      const double a = size * (1 + gap), b = size * (1 + 2 * gap);
+      const double leg[3][3] = {{a, size, 0}, {-b, 0, 0.1 * gap}, {a, -size, 0}};
+      c.span({}, leg, weight, 100);
+      c.program.end();
+      Machine m(c.config);
+      m.run_to_end(c.program, 20000);  // or as far as it comes
+      EXPECT_GT(m.out.path_length, 0);
+      EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+    }
+}
+
 /// What a spline through points that go back and forth has: a place where it all but stands, or a way that turns round on the spot.
 TEST(PlannedShapes, CuspsArePassedWithinTheLimits) {
   const double weight[4] = {1, 1, 1, 1};

@@ -78,6 +78,22 @@ void bound_near_pole(const CurveShape& shape, SegmentShape& g, AxisVec& bend) {
   bend[map.rotary] = kDegrees * near * (reach.curvature + near);
 }
 
+/// Where a curve all but has a cusp, equal steps miss how much it bends: its table is divided there, and so are the places looked at.
+void look_beside_cusp(const Curve& c, const MotionLimits& limits, SegmentShape& g, AxisVec& bend) {
+  constexpr unsigned kInside = 4;
+  const ParameterTable& t = c.shape->table;
+  for (unsigned k = 0; k < ParameterTable::kSteps; ++k)
+    for (unsigned n = 0; n < t.graded[k] * kInside; ++n) {
+      const unsigned at = t.first[k] + n / kInside;
+      const double behind = t.behind[at] + (t.behind[at + 1] - t.behind[at]) * (n % kInside) / kInside;
+      const CurvePoint q = curve_evaluate(c, c.length * k / ParameterTable::kSteps + behind, limits.axis_count);
+      for (unsigned i = 0; i < limits.axis_count; ++i) {
+        g.most[i] = std::max(g.most[i], std::fabs(q.d1[i]));
+        bend[i] = std::max(bend[i], std::fabs(q.d2[i]));
+      }
+    }
+}
+
 /// Any other curve: tangents at the ends, the largest |d1| of each axis, and as `bend` what its curvature takes from the path
 /// acceleration at a speed of 1 mm/s. Between the samples d3 bounds how far d1 and d2 may go beyond them.
 void shape_general(const Segment& s, const MotionLimits& limits, SegmentShape& g) {
@@ -99,6 +115,7 @@ void shape_general(const Segment& s, const MotionLimits& limits, SegmentShape& g
     g.most[i] += h * h / 8 * twist[i];
     bend[i] += h / 2 * twist[i];
   }
+  if (c.shape->what.kind == ShapeKind::rational || c.shape->what.kind == ShapeKind::spline) look_beside_cusp(c, limits, g, bend);
   if (c.shape->what.map.kind == AxisMap::Kind::polar) bound_near_pole(*c.shape, g, bend);
   double along = HUGE_VAL, across = HUGE_VAL;
   for (unsigned i = 0; i < limits.axis_count; ++i) {
