@@ -214,7 +214,6 @@ SegmentShape shape_of(const Segment& s, const MotionLimits& limits) {
   const double whole = g.round > 0 ? 1 - kRoundShare : 1.0;
   const double v = std::min(velocity_limit(s, g, limits), arc_speed(s, g, whole, limits));
   g.reach = std::min(v, highest_feed(s, limits));
-  g.bare = path_acceleration(s, g, whole, g.reach, limits);
   return g;
 }
 

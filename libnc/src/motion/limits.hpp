@@ -37,7 +37,6 @@ struct SegmentShape {
   double in_plane = 0;   ///< largest |d1| in the plane of an arc
   double bend = 0;       ///< spiral: |d2| of the axes that go along is at most `most` times this, 1/mm
   double reach = 0;      ///< no speed on this segment is ever higher, mm/s
-  double bare = 0;       ///< path acceleration without any reserve for corners, mm/s^2
   double round = 0;      ///< radius compensation by the radius: the larger of its two axes
 };
 

@@ -150,7 +150,7 @@ void PathBuilder::add_line(const Record& r) {
   }
   const double feed = feed_of_segment(s, &by_);
   digit_ = digit_of(s);
-  uses_turns_ |= by_ == FeedBy::turns || by_ == FeedBy::spindle;
+  uses_turns_ |= goes_by_spindle(by_);
   const double zone = s.slow_zone > 0 ? std::min(static_cast<double>(s.slow_zone), length) : 0;
   const auto add = [&](const AxisVec& to, double l, double f) {
     vertex_[count_] = to;
@@ -284,7 +284,7 @@ void PathBuilder::push_curve(const Piece& whole, const Segment& s) {
   p.rest_behind = false;
   const double end = whole.curve_from + whole.length, step = curve.length / kParts;
   const bool fades = s.feed_end_mm_s > 0;
-  const double feed = whole.by == FeedBy::turns || whole.by == FeedBy::spindle ? HUGE_VAL : kMostOverride * whole.feed;
+  const double feed = goes_by_spindle(whole.by) ? HUGE_VAL : kMostOverride * whole.feed;
   const auto push_to = [&](double to) {
     p.length = to - p.curve_from;
     if (fades) p.feed = feed_between(s, p.curve_from, to);
@@ -344,7 +344,7 @@ void PathBuilder::add_arc(const Record& r) {
   digit_ = digit_of(s);
   arc_.slow_feed = s.slow_zone > 0 ? arc_.feed * static_cast<double>(s.slow_factor) : arc_.feed;
   arc_.zone = s.slow_zone > 0 ? std::max(length - static_cast<double>(s.slow_zone), 0.0) : length;
-  uses_turns_ |= by_ == FeedBy::turns || by_ == FeedBy::spindle;
+  uses_turns_ |= goes_by_spindle(by_);
   epoch_ = r.epoch;
   if (from_machine) {
     Piece p;
@@ -434,7 +434,7 @@ void PathBuilder::add_curve(const Record& r) {
   p.feed = s.rapid ? HUGE_VAL : feed_of_segment(s, &p.by);
   p.digit = digit_of(s);
   p.rapid = s.rapid;
-  uses_turns_ |= p.by == FeedBy::turns || p.by == FeedBy::spindle;
+  uses_turns_ |= goes_by_spindle(p.by);
   const double rest = std::max(s.curve.length - from, kLeastLength);
   if (line) {
     const AxisVec start = from_machine ? resumed_at_ : curve_position(s.curve, from, limits_.axis_count);
@@ -546,7 +546,7 @@ unsigned PathBuilder::smoothed(bool whole, unsigned count, SmoothRequest* reques
   request->straight_end = whole && joint_.found;
   double slowest = HUGE_VAL;
   for (unsigned k = 0; k + 1 < count_; ++k) slowest = std::min(slowest, feed_[k]);
-  const double speed = by_ == FeedBy::turns || by_ == FeedBy::spindle ? slowest * std::max(limits_.scale.turns, 1.0) : slowest;
+  const double speed = goes_by_spindle(by_) ? slowest * std::max(limits_.scale.turns, 1.0) : slowest;
   request->spacing = std::max(period_ * std::min(speed, 1e4), kLeastSpacing);
   // What is not settled yet is some knots long: no more than a part of what the ring of records holds (every other one is a mark).
   const double in_ring = (line_u_ - line_start_u_) / (count_ - 1) * (store_->record_mask + 1) / 2;

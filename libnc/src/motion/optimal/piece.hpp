@@ -33,6 +33,9 @@ struct Limits {
 /// change its feed.
 enum class FeedBy : uint8_t { override, constant, turns, spindle, digit, signals };
 
+/// The feed is one per revolution.
+inline bool goes_by_spindle(FeedBy by) { return by == FeedBy::turns || by == FeedBy::spindle; }
+
 /// F1 to F5: what the handle does to a feed.
 struct DigitFeed {
   uint8_t digit = 0;        ///< 0 = F1
