@@ -136,6 +136,21 @@ TEST(Planned, AHoldOnALineIsTheShortestStop) {
   }
 }
 
+/// Lines of 1 um with rounded ends round a circle, as fast as its radius lets be: laws that are not found at first do not end in rests.
+TEST(Planned, ACircleInLinesOfOneMicrometreIsGoneAtItsLimit) {
+  ExecutorConfig config = optimal_config();
+  config.capacity = 65536;
+  Program p(config);
+  constexpr int kLines = 200000;
+  const auto rounded = [](double x) { return std::round(x * 1e4) / 1e4; };
+  for (int n = 1; n <= kLines; ++n) p.line(at(rounded(10 * std::cos(n * 1e-4) - 10), rounded(10 * std::sin(n * 1e-4))), 250);
+  p.end();
+  Machine m(config);
+  ASSERT_TRUE(m.run_to_end(p, 20000)) << int{m.out.cause};
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  EXPECT_LE(static_cast<double>(m.cycles) * 0.001, 1.03 * (kLines * 1e-3 / std::sqrt(10 * 2000.0) + 0.12));
+}
+
 /// Feeds that are reached within some um: the cells there go by the speed and not by the distance to the next guess.
 TEST(Planned, SlowFeedsAreKeptRoundArcsAndCorners) {
   struct {

@@ -614,7 +614,8 @@ void OptimalPlanner::go_on(const Following& f, bool idle) {
   if (!(more > kNew * (chain_.u - store_.at(f.cell).u)) && !(whole && more > kTiny)) return;
   if (tried_at_ != kNoCell && f.cell - tried_at_ < kRetry) return;
   Start start = behind(chain_.keep);
-  if (failed_ > 0) start = behind(before(f, chain_.keep, kBack * failed_));
+  // Farther back and, each other time, from the end again, which has become another one where there is more path.
+  if (failed_ % 2 != 0) start = behind(before(f, chain_.keep, kBack * (failed_ / 2 + 1)));
   if (ahead(f, start.after) < lead_ && !find_ahead(f, lead_, &start)) return;
   extend(f, start, block_most(f, start), nullptr);
   tried_at_ = open_ ? kNoCell : f.cell;
