@@ -191,7 +191,8 @@ void read_points(TableReader* root, Config* config) {
     reader.integer("initial", &point.initial, bit ? 0 : -0x80000000ll, bit ? 1 : 0xFFFFFFFFll);
     if (reader.string("meaning", &point.meaning) && point.meaning.size() > kMaxMeaning)
       reader.error("meaning", "is longer than " + std::to_string(kMaxMeaning) + " bytes");
-    point.bus = read_point_modbus(&reader, point, config);
+    const PointModbus modbus = read_point_modbus(&reader, point, config);
+    point.bus = modbus.bus;
     if (!named) return;
     if (!valid_point_name(point.name))
       reader.error("name", "must be 1 to 55 letters, digits, '_', '-' or '.'");
@@ -207,6 +208,8 @@ void read_points(TableReader* root, Config* config) {
       reader.error("name", "point \"" + point.name + "\" is already there");
     else if (!config->points.add(point))
       reader.error("name", "there are more than " + std::to_string(hal::kMaxPoints) + " points");
+    else
+      add_point_modbus(modbus, config);
   });
 }
 

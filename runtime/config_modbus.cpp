@@ -230,11 +230,10 @@ void read_modbus(TableReader* root, Config* config) {
   root->tables("modbus", [&](TableReader& reader, std::size_t) { read_link(&reader, config); });
 }
 
-std::uint8_t read_point_modbus(TableReader* point_reader, const hal::Point& point, Config* config) {
-  std::uint8_t bus = 0;
+PointModbus read_point_modbus(TableReader* point_reader, const hal::Point& point, Config* config) {
+  PointModbus result;
   point_reader->table("modbus", [&](TableReader& reader) {
     PointMap map;
-    map.point = config->points.size();
     map.output = point.direction == hal::PointDirection::kOutput;
     map.initial = point.initial;
     for (const char* key : {"link", "address"}) reader.require(key);
@@ -262,10 +261,17 @@ std::uint8_t read_point_modbus(TableReader* point_reader, const hal::Point& poin
     if (placed && addressed) check_initial(point_reader, map);
     if (!found || !placed || !addressed) return;
     check_collisions(&reader, *config, link->link, map);
-    link->link.points.push_back(map);
-    bus = static_cast<std::uint8_t>(link - config->modbus.begin() + 1);
+    result.bus = static_cast<std::uint8_t>(link - config->modbus.begin() + 1);
+    result.map = map;
   });
-  return bus;
+  return result;
+}
+
+void add_point_modbus(const PointModbus& place, Config* config) {
+  if (place.bus == 0) return;
+  PointMap map = place.map;
+  map.point = config->points.size() - 1;
+  config->modbus[place.bus - 1u].link.points.push_back(map);
 }
 
 void check_modbus(TableReader* root, const Config& config) {

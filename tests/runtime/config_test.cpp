@@ -81,6 +81,24 @@ TEST_P(ConfigErrors, NameFileLineAndKey) {
 #define NC_BIT(direction, modbus) NC_LINK NC_POINT("p", "bit", direction, modbus)
 #define NC_WORD(direction, modbus) NC_LINK NC_POINT("p", "word", direction, modbus)
 
+// A point that is refused leaves no place behind on its link: whoever has the same address collides with nobody.
+TEST(ModbusConfig, PointsThatAreRefusedTakeNoAddress) {
+  const std::string same = "link = \"io\", table = \"coil\", address = 7";
+  const auto point = [&](const std::string& name) {
+    return "[[point]]\nname = \"" + name + "\"\ntype = \"bit\"\ndirection = \"output\"\nmodbus = { " + same + " }\n";
+  };
+  for (const char* refused : {"cool ant", "M100", "nc.x", "in1"}) {
+    Config config, partial;
+    const auto errors =
+        nc::rt::parse_config(nc::test::base_toml() + NC_LINK + point(refused) + point("coolant"), "m.toml", &config, &partial);
+    ASSERT_EQ(errors.size(), 1u) << refused;
+    EXPECT_EQ(errors[0].key, "point[6].name");
+    ASSERT_EQ(partial.modbus.size(), 1u);
+    ASSERT_EQ(partial.modbus[0].link.points.size(), 1u);
+    EXPECT_EQ(partial.points.at(partial.modbus[0].link.points[0].point).name, "coolant");
+  }
+}
+
 const Case kCases[] = {
     {"unknown_top", nullptr, "\n[spindel]\nx = 1\n", "spindel", "unknown key"},
     {"unknown_key", "name = \"test\"", "nmae = \"test\"", "machine.nmae", "unknown key"},
