@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <memory>
 
+#include "dds/loopback_bind.hpp"
+
 namespace nc::dds {
 namespace {
 
@@ -123,6 +125,7 @@ Participant::~Participant() {
 bool Participant::open(unsigned domain, std::string* error) {
   const char* uri = std::getenv("CYCLONEDDS_URI");
   if (uri == nullptr || uri[0] == 0) {
+    bind_to_loopback_only();
     domain_ = dds_create_domain(domain, loopback_config().c_str());
     if (domain_ < 0) {
       *error = "DDS domain " + std::to_string(domain) + ": " + dds_strretcode(domain_);
