@@ -9,7 +9,7 @@
 //                                                      takes commands from it
 //
 // Exit status: 0 the program ended, 2 it stopped on an alarm, 1 usage, configuration or output that cannot be
-// written, 128+n ended by signal n (130 SIGINT, 143 SIGTERM): the machine is brought to rest and the summary
+// written, 3 another process runs this machine, 128+n ended by signal n (130 SIGINT, 143 SIGTERM): the machine is brought to rest and the summary
 // printed. `serve` ends with 0 when the axes stood before the outputs went off, else with 2.
 #include <unistd.h>
 
@@ -22,6 +22,7 @@
 #include "hal/composite.hpp"
 #include "hal/modbus/link.hpp"
 #include "runtime/console.hpp"
+#include "runtime/machine_lock.hpp"
 #include "runtime/runtime.hpp"
 #include "runtime/share/service.hpp"
 #include "tools/lib/option_values.hpp"
@@ -36,7 +37,7 @@ namespace {
 using nc::rt::Answer;
 using nc::rt::CommandKind;
 
-constexpr int kExitUsage = 1, kExitAlarm = 2, kExitSignal = 128;
+constexpr int kExitUsage = 1, kExitAlarm = 2, kExitInUse = 3, kExitSignal = 128;
 constexpr auto kPeriod = std::chrono::milliseconds(50);  // of the display
 constexpr unsigned kStepsPerLook = 500;                  // virtual time: scans between two looks
 
@@ -346,9 +347,21 @@ class Sharing final : public nc::rt::EventSink {
   std::unique_ptr<nc::rt::share::Service> service_;
 };
 
+// One control for one machine, for as long as the lock lives. On virtual time a machine without a bus has no outputs: whoever
+// wants may simulate it as often as he likes.
+bool lock_machine(const Options& options, const nc::rt::Config& config, nc::rt::MachineLock* lock, std::string* error) {
+  if (options.fast && config.modbus.empty()) return true;
+  return lock->take(nc::rt::machine_resources(config, !options.fast), error) && lock->take_file(config.file, error);
+}
+
 // The machine, its control and the program, brought up and taken down.
 int operate(const Options& options, nc::rt::Config* config) {
   std::string error;
+  nc::rt::MachineLock lock;  // first, so that it is given back last: behind the safe values of the outputs
+  if (!lock_machine(options, *config, &lock, &error)) {
+    std::fprintf(stderr, "ncrtd: %s\n", error.c_str());
+    return kExitInUse;
+  }
   if (!options.plot.empty())
     for (const char* ending : {".svg", ".png"})
       if (!nc::tools::can_be_written(options.plot + ending, &error)) return failed(error);

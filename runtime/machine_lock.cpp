@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// One control for one machine. See machine_lock.hpp.
+#include "runtime/machine_lock.hpp"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netdb.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <thread>
+
+namespace nc::rt {
+namespace {
+
+// ---- what is one thing ----
+
+// An address as a number in its one spelling; IPv4 in the clothes of IPv6 is IPv4.
+std::string address_text(const sockaddr* address) {
+  char text[INET6_ADDRSTRLEN] = "";
+  if (address->sa_family == AF_INET) {
+    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(address)->sin_addr, text, sizeof text);
+  } else if (address->sa_family == AF_INET6) {
+    const auto* six = reinterpret_cast<const sockaddr_in6*>(address);
+    if (IN6_IS_ADDR_V4MAPPED(&six->sin6_addr)) {
+      inet_ntop(AF_INET, six->sin6_addr.s6_addr + 12, text, sizeof text);
+    } else {
+      inet_ntop(AF_INET6, &six->sin6_addr, text, sizeof text);
+      return std::string(text) + (six->sin6_scope_id != 0 ? "%" + std::to_string(six->sin6_scope_id) : "");
+    }
+  }
+  return text;
+}
+
+// All addresses of a host; of one that nobody knows now, the name, so that at least the same name is the same host.
+std::set<std::string> addresses_of(const std::string& host) {
+  addrinfo hints{};
+  hints.ai_family = AF_UNSPEC;
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  if (getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) return {host};
+  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> list(found, freeaddrinfo);
+  std::set<std::string> addresses;
+  for (const addrinfo* entry = found; entry != nullptr; entry = entry->ai_next)
+    addresses.insert(address_text(entry->ai_addr));
+  return addresses;
+}
+
+void add_file(const std::string& path, const std::string& meaning, std::vector<MachineResource>* resources) {
+  std::error_code ignored;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, ignored);
+  if (!whole.empty()) resources->push_back({"path " + whole.string(), meaning + " " + path});
+}
+
+void add_modbus(const ModbusLinkConfig& entry, std::vector<MachineResource>* resources) {
+  std::set<unsigned> units;
+  for (const hal::modbus::PointMap& map : entry.link.points)
+    if (map.output) units.insert(map.unit);
+  if (units.empty()) return;  // who only reads takes nothing away from anybody
+  const std::string port = std::to_string(entry.link.port);
+  for (const std::string& address : addresses_of(entry.link.host))
+    for (const unsigned unit : units)
+      resources->push_back({"modbus " + address + " " + port + " " + std::to_string(unit),
+                            "Modbus unit " + std::to_string(unit) + " of " + entry.link.host + " port " + port});
+}
+
+// ---- names of sockets ----
+
+// Names are short and keys are not: 64 bits of FNV-1a of the key.
+std::string socket_name(const std::string& key) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : key) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  char name[40];
+  std::snprintf(name, sizeof name, "nc-machine-%016llx", static_cast<unsigned long long>(hash));
+  return name;
+}
+
+socklen_t abstract_address(const std::string& name, sockaddr_un* address) {
+  *address = {};
+  address->sun_family = AF_UNIX;
+  std::memcpy(address->sun_path + 1, name.data(), name.size());
+  return static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+}
+
+// ---- who has it ----
+
+std::string process_text(long pid) {
+  if (pid <= 0) return "another process";
+  std::string name;
+  std::ifstream("/proc/" + std::to_string(pid) + "/comm") >> name;
+  return "process " + std::to_string(pid) + (name.empty() ? "" : " (" + name + ")");
+}
+
+// The process that listens on a name. 0 = not known (another process namespace), -1 = nobody listens.
+long listener_of(const sockaddr_un& address, socklen_t length) {
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (fd < 0) return 0;
+  long pid = 0;
+  ucred owner{};
+  socklen_t size = sizeof owner;
+  if (connect(fd, reinterpret_cast<const sockaddr*>(&address), length) != 0)
+    pid = errno == ECONNREFUSED ? -1 : 0;
+  else if (getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &owner, &size) == 0)
+    pid = owner.pid;
+  close(fd);
+  return pid;
+}
+
+// The holder of a flock(), out of the kernel's list: "1: FLOCK  ADVISORY  WRITE 1234 08:01:5678 0 EOF".
+long flock_holder(const struct stat& file) {
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    long pid = 0;
+    unsigned major_number = 0, minor_number = 0;
+    unsigned long long inode = 0;
+    if (std::sscanf(line.c_str(), "%*s FLOCK %*s WRITE %ld %x:%x:%llu", &pid, &major_number, &minor_number, &inode) == 4 &&
+        inode == file.st_ino && major_number == major(file.st_dev) && minor_number == minor(file.st_dev))
+      return pid;
+  }
+  return 0;
+}
+
+std::string taken_text(const std::string& meaning, long pid) {
+  return meaning + " is in use: " + process_text(pid) + " runs this machine";
+}
+
+// The descriptor, or -1 with a sentence.
+int take_one(const MachineResource& resource, std::string* error) {
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) {
+    *error = std::string("no lock of the machine: ") + std::strerror(errno);
+    return -1;
+  }
+  sockaddr_un address;
+  const socklen_t length = abstract_address(socket_name(resource.key), &address);
+  constexpr int kAttempts = 50;  // of one that is being ended, or has not come to listen yet
+  for (int i = 0; i < kAttempts; ++i) {
+    if (bind(fd, reinterpret_cast<const sockaddr*>(&address), length) == 0 && listen(fd, SOMAXCONN) == 0) return fd;
+    const int problem = errno;
+    const long pid = problem == EADDRINUSE ? listener_of(address, length) : 0;
+    *error = problem == EADDRINUSE ? taken_text(resource.meaning, pid)
+                                   : std::string("no lock of the machine: ") + std::strerror(problem);
+    if (pid >= 0) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  close(fd);
+  return -1;
+}
+
+}  // namespace
+
+std::vector<MachineResource> machine_resources(const Config& config, bool retained) {
+  std::vector<MachineResource> resources;
+  const std::string meaning = "the configuration";
+  add_file(config.file, meaning, &resources);
+  struct stat status {};
+  if (stat(config.file.c_str(), &status) == 0)
+    resources.push_back({"file " + std::to_string(status.st_dev) + " " + std::to_string(status.st_ino), meaning + " " + config.file});
+  for (const ModbusLinkConfig& entry : config.modbus) add_modbus(entry, &resources);
+  if (retained)
+    for (const std::string& path : {config.retain_path(), config.variables_path(), config.offsets_path()})
+      if (!path.empty()) add_file(path, "the file of retained data", &resources);
+  // Always in the same order, so that two that come at once do not take each other's; and each once, also where two links
+  // lead to one unit.
+  const auto before = [](const MachineResource& a, const MachineResource& b) { return a.key < b.key; };
+  const auto same = [](const MachineResource& a, const MachineResource& b) { return a.key == b.key; };
+  std::stable_sort(resources.begin(), resources.end(), before);
+  resources.erase(std::unique(resources.begin(), resources.end(), same), resources.end());
+  return resources;
+}
+
+MachineLock::~MachineLock() {
+  release();
+}
+
+void MachineLock::release() {
+  for (const int fd : held_) close(fd);
+  held_.clear();
+}
+
+bool MachineLock::take(const std::vector<MachineResource>& resources, std::string* error) {
+  for (const MachineResource& resource : resources) {
+    const int fd = take_one(resource, error);
+    if (fd < 0) {
+      release();
+      return false;
+    }
+    held_.push_back(fd);
+  }
+  return true;
+}
+
+bool MachineLock::take_file(const std::string& path, std::string* error) {
+  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) {
+    *error = path + ": " + std::strerror(errno);
+    return false;
+  }
+  if (flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    struct stat status {};
+    *error = taken_text("the configuration " + path, fstat(fd, &status) == 0 ? flock_holder(status) : 0);
+    close(fd);
+    return false;
+  }
+  held_.push_back(fd);
+  return true;
+}
+
+}  // namespace nc::rt

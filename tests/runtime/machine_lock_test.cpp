@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// What makes a machine, and that one lock at a time has it.
+#include "runtime/machine_lock.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "test_config.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nc::rt::Config;
+using nc::rt::machine_resources;
+using nc::rt::MachineLock;
+using nc::rt::MachineResource;
+
+class Folder : public testing::Test {
+ protected:
+  void SetUp() override {
+    char name[] = "/tmp/nc-lock-XXXXXX";
+    ASSERT_NE(mkdtemp(name), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  // A configuration of its own, with a Modbus link to a unit where a host is named.
+  std::string write(const std::string& name, const std::string& host = "", unsigned unit = 1, const char* direction = "output") {
+    std::string text = nc::test::base_toml();
+    if (!host.empty())
+      text += "[[modbus]]\nname = \"io\"\nhost = \"" + host + "\"\nport = 5020\nunit = " + std::to_string(unit) +
+              "\n[[point]]\nname = \"valve\"\ndirection = \"" + direction +
+              "\"\nmodbus = { link = \"io\", table = \"coil\", address = 0 }\n";
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  static Config load(const std::string& path) {
+    Config config;
+    const auto errors = nc::rt::load_config(path, &config);
+    for (const auto& error : errors) ADD_FAILURE() << error.text();
+    return config;
+  }
+  static bool can_run_beside(const Config& one, const Config& other, std::string* error) {
+    MachineLock first, second;
+    EXPECT_TRUE(first.take(machine_resources(one, true), error)) << *error;
+    return second.take(machine_resources(other, true), error);
+  }
+  fs::path folder_;
+};
+
+TEST_F(Folder, OneFileIsOneMachineUnderEveryName) {
+  const std::string path = write("a.toml");
+  fs::create_symlink(path, folder_ / "link.toml");
+  fs::create_hard_link(path, folder_ / "hard.toml");
+  std::string error;
+  for (const char* name : {"a.toml", "link.toml", "hard.toml", "../" /* and back, below */}) {
+    const std::string other = std::string(name) == "../" ? folder_ / ".." / folder_.filename() / "a.toml" : folder_ / name;
+    error.clear();
+    EXPECT_FALSE(can_run_beside(load(path), load(other), &error)) << other;
+    EXPECT_NE(error.find("process " + std::to_string(getpid())), std::string::npos) << error;
+    EXPECT_NE(error.find("configuration"), std::string::npos) << error;
+  }
+  const std::string other = write("b.toml");
+  EXPECT_TRUE(can_run_beside(load(path), load(other), &error)) << error;
+}
+
+// An editor that writes a new file under the old name does not make a second machine of it.
+TEST_F(Folder, AFileThatWasReplacedIsTheSameMachine) {
+  const std::string path = write("a.toml");
+  const Config before = load(path);
+  std::string error;
+  MachineLock first, second;
+  ASSERT_TRUE(first.take(machine_resources(before, true), &error)) << error;
+  fs::rename(write("new.toml"), path);
+  EXPECT_FALSE(second.take(machine_resources(load(path), true), &error));
+}
+
+TEST_F(Folder, OneModbusUnitIsOneMachineInEverySpelling) {
+  const Config one = load(write("a.toml", "127.0.0.1"));
+  std::string error;
+  for (const char* host : {"127.0.0.1", "::ffff:127.0.0.1", "127.1", "0x7f000001"}) {
+    error.clear();
+    EXPECT_FALSE(can_run_beside(one, load(write("b.toml", host)), &error)) << host;
+    EXPECT_NE(error.find("Modbus unit 1 of "), std::string::npos) << error;
+  }
+  EXPECT_TRUE(can_run_beside(one, load(write("c.toml", "127.0.0.1", 2)), &error)) << error;
+  EXPECT_TRUE(can_run_beside(one, load(write("d.toml", "127.0.0.2")), &error)) << error;
+  EXPECT_TRUE(can_run_beside(one, load(write("e.toml", "127.0.0.1", 1, "input")), &error)) << "who only reads: " << error;
+}
+
+TEST_F(Folder, OneFileOfRetainedDataIsOneMachine) {
+  Config one = load(write("a.toml")), other = load(write("b.toml"));
+  one.variables = "kept.variables";
+  other.variables = (folder_ / "." / "kept.variables").string();
+  std::string error;
+  EXPECT_FALSE(can_run_beside(one, other, &error));
+  EXPECT_NE(error.find("retained data"), std::string::npos) << error;
+  // On virtual time they are left alone.
+  MachineLock first, second;
+  EXPECT_TRUE(first.take(machine_resources(one, true), &error)) << error;
+  EXPECT_TRUE(second.take(machine_resources(other, false), &error)) << error;
+}
+
+// Whoever is refused gives back what he had already taken.
+TEST_F(Folder, AllOrNothing) {
+  const std::vector<MachineResource> common = {{"test " + folder_.string() + " 2", "two"}};
+  std::vector<MachineResource> more = {{"test " + folder_.string() + " 1", "one"}, common[0]};
+  std::string error;
+  MachineLock first, second, third;
+  ASSERT_TRUE(first.take(common, &error)) << error;
+  EXPECT_FALSE(second.take(more, &error));
+  EXPECT_TRUE(third.take({more[0]}, &error)) << error;
+  first.release();
+  third.release();
+  EXPECT_TRUE(second.take(more, &error)) << error;
+}
+
+TEST_F(Folder, TheFileItselfIsUnderALock) {
+  const std::string path = write("a.toml");
+  std::string error;
+  MachineLock first, second;
+  ASSERT_TRUE(first.take_file(path, &error)) << error;
+  EXPECT_FALSE(second.take_file(path, &error));
+  EXPECT_NE(error.find("process " + std::to_string(getpid())), std::string::npos) << error;
+  first.release();
+  EXPECT_TRUE(second.take_file(path, &error)) << error;
+}
+
+}  // namespace
