@@ -2,7 +2,7 @@
 // ncdds: the DDS gateway of a control. Reads the shared memory of ncrtd and publishes it; brings commands in
 // when it is told to. It waits for ncrtd, and finds it again after a restart.
 //
-//   ncdds --config FILE | --share NAME [--domain N] [--rate HZ] [--commands] [--ready-file FILE]
+//   ncdds --machine FILE | --share NAME [--domain N] [--rate HZ] [--commands] [--ready-file FILE]
 //
 // It talks on this computer only (interface lo, no multicast) unless CYCLONEDDS_URI says otherwise.
 // Exit status: 0 ended by SIGTERM or SIGINT, 1 usage, configuration, or DDS that does not come up.
@@ -14,6 +14,7 @@
 #include <fstream>
 
 #include "dds/gateway.hpp"
+#include "nc/control.h"
 #include "runtime/config.hpp"
 #include "runtime/share/text.hpp"
 #include "tools/lib/option_values.hpp"
@@ -46,7 +47,8 @@ int main(int argc, char** argv) {
   CLI::App app{"ncdds: publishes a control over DDS"};
   nc::dds::GatewayOptions options;
   std::string config, ready_file;
-  app.add_option("--config", config, "machine configuration: takes the name from it")->check(nc::tools::given());
+  app.set_version_flag("--version", std::string("ncdds ") + nc_version());
+  app.add_option("--machine,--config", config, "machine configuration (TOML), as of ncrtd: takes the name from it")->check(nc::tools::given());
   app.add_option("--share", options.share, "name of the control, as ncrtd --share")->check(nc::tools::given());
   app.add_option("--domain", options.domain, "DDS domain")->transform(nc::tools::whole(0, 230));
   app.add_option("--rate", options.rate_hz, "status per second")->transform(nc::tools::whole(1, 100));
@@ -58,7 +60,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 1;
   }
   if (!config.empty() && !read_config(config, &options)) return 1;
-  if (options.share.empty()) return failed("which control? --config FILE or --share NAME");
+  if (options.share.empty()) return failed("which control? --machine FILE or --share NAME");
 
   nc::dds::Gateway gateway(options);
   std::string error;

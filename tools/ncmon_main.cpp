@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ncmon: a monitor on the terminal. Nothing but a DDS subscriber: it shows what ncdds publishes.
 //
-//   ncmon [--machine NAME] [--domain N]      full screen; q ends it, s shows the signals, space their next page
+//   ncmon [--control NAME] [--domain N]      full screen; q ends it, s shows the signals, space their next page
 //   ncmon --view signals                     begins with them; also for --once and --json
 //   ncmon --once [--json] [--wait SECONDS]   one status
 //   ncmon --json                             a line of JSON for each status
@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "dds/monitor.hpp"
+#include "nc/control.h"
 #include "runtime/clock.hpp"
 #include "tools/lib/option_values.hpp"
 
@@ -279,7 +280,8 @@ int full_screen(nc::dds::Monitor* monitor, const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"ncmon: shows a control that ncdds publishes"};
   Options options;
-  app.add_option("--machine", options.machine, "name of the control (ncdds --share); default: the first that is heard")
+  app.set_version_flag("--version", std::string("ncmon ") + nc_version());
+  app.add_option("--control,--machine", options.machine, "name of the control (ncdds --share); default: the first that is heard")
       ->check(nc::tools::given());
   app.add_option("--domain", options.domain, "DDS domain")->transform(nc::tools::whole(0, 230));
   CLI::Option* once_flag = app.add_flag("--once", options.once, "one status, then end");

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ncrtd: the runtime as a program. Runs an NC program (or MDI blocks) on the configured machine.
 //
-//   ncrtd --config FILE check
-//   ncrtd --config FILE run [--fast] [--dialect D] [--plot BASE] [--no-progress] PROGRAM
-//   ncrtd --config FILE mdi [--fast] "G0 X10"
-//   ncrtd --config FILE serve                       up until SIGTERM or SIGINT, for a service manager
+//   ncrtd --machine FILE check                        --machine may stand behind the command, too; --config is the same
+//   ncrtd --machine FILE run [--fast] [--dialect D] [--plot BASE] [--no-progress] PROGRAM
+//   ncrtd --machine FILE mdi [--fast] "G0 X10"
+//   ncrtd --machine FILE serve                       up until SIGTERM or SIGINT, for a service manager
 //   run, mdi and serve:  [--share NAME] [--commands]   shared memory for ncdds (serve has it anyway);
 //                                                      takes commands from it
 //
@@ -458,8 +458,10 @@ int main(int argc, char** argv) {
   nc::rt::limit_allocator();
   CLI::App app{"ncrtd: runs NC programs on a machine, or on a simulated one"};
   Options options;
-  app.add_option("--config", options.config, "machine configuration (TOML)")->required()->check(nc::tools::given());
+  app.set_version_flag("--version", std::string("ncrtd ") + nc_version());
+  app.add_option("--machine,--config", options.config, "machine configuration (TOML)")->required()->check(nc::tools::given());
   app.require_subcommand(1);
+  app.fallthrough();  // --machine FILE before or behind the command
   CLI::App* check = app.add_subcommand("check", "read the configuration, report every error, do nothing");
   CLI::App* run = app.add_subcommand("run", "run a program from cycle start to its end");
   run->add_option("PROGRAM", options.program, "NC program")->required()->check(nc::tools::given());

@@ -63,7 +63,7 @@ struct MachineArguments {
 
 void add_machine(CLI::App* command, MachineArguments* machine) {
   auto* file = command->add_option("--machine", machine->options.machine, kMachineHelp)->check(nc::tools::given());
-  command->add_option("--config", machine->options.limits_file, "limits of the machine, JSON (docs/trace.md)")
+  command->add_option("--limits-file,--config", machine->options.limits_file, "limits of the machine, JSON (docs/trace.md)")
       ->check(nc::tools::given())
       ->excludes(file);
   const auto every_axis = [](std::string& text) {

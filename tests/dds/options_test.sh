@@ -5,6 +5,7 @@ set -u
 bin=${NC_BINARY_DIR:?}/bin
 [ -x "$bin/ncdds" ] && [ -x "$bin/ncmon" ] || { echo "ncdds and ncmon are not built: skipped"; exit 77; }
 failures=0
+version=$(sed -n 's/^project(libnc VERSION \([0-9.]*\).*/\1/p' "${NC_SOURCE_DIR:?}/CMakeLists.txt")
 # refuses TEXT COMMAND...: exit status 1, and TEXT on standard error.
 refuses() {
   local text=$1 err; shift
@@ -19,10 +20,14 @@ for program in ncdds ncmon; do
   refuses "not expected" "$bin/$program" --nosuch
 done
 for value in 0 101 -5 2.5; do refuses "--rate: must be a whole number from 1 to 100, is $value" "$bin/ncdds" "--rate=$value"; done
-for option in --share --config --ready-file; do refuses "$option: must not be empty" "$bin/ncdds" "$option" ""; done
+for option in --share --machine --ready-file; do refuses "$option: must not be empty" "$bin/ncdds" "$option" ""; done
 refuses "which control?" "$bin/ncdds"
 for value in nan inf -1 86401 x; do refuses "--wait: must be at least 0 and at most 86400" "$bin/ncmon" "--wait=$value"; done
 for value in 0 -1 1000001 nan; do refuses "--latency: must be a whole number from 1 to 1000000, is $value" "$bin/ncmon" "--latency=$value"; done
-refuses "--machine: must not be empty" "$bin/ncmon" --machine ""
+for option in --control --machine; do refuses "--control: must not be empty" "$bin/ncmon" "$option" ""; done
+refuses "--machine: must not be empty" "$bin/ncdds" --config ""
+for program in ncdds ncmon; do
+  [ "$("$bin/$program" --version)" = "$program $version" ] || { echo "FAILED: $program --version"; failures=$((failures + 1)); }
+done
 refuses "" "$bin/ncmon" --once --progress
 exit $((failures != 0))

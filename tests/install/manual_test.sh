@@ -28,7 +28,7 @@ for page in "$man"/*.[18]; do
   "$program" --help >"$work/help"
   commands=$(awk '/^Subcommands:/ {on = 1; next} /^[^ ]/ {on = 0} on && NF {print $1}' "$work/help")
   for command in $commands; do
-    if grep -q -- '--config.*REQUIRED' "$work/help"; then "$program" --config x "$command" --help; else "$program" "$command" --help; fi
+    if grep -q -- '--machine.*REQUIRED' "$work/help"; then "$program" --machine x "$command" --help; else "$program" "$command" --help; fi
   done >>"$work/help"
   grep -E '^  -' "$work/help" | awk '{print $1}' | tr , '\n' | grep '^-' | sort -u >"$work/options"
   sed -e 's/\\-/-/g' -e 's/\\f[A-Z]//g' "$page" >"$work/page"

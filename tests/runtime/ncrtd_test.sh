@@ -19,9 +19,20 @@ expect() {
 }
 said() { grep -qF -- "$2" "$work/$1" || { fail "no '$2' on $1"; cat "$work/$1"; }; }
 
-machine=$source/etc/machine.toml
+# A machine is run by one process at a time: this test has its own.
+mkdir "$work/own"
+cp -r "$source/etc" "$source/examples" "$work/own"
+machine=$work/own/etc/machine.toml
 expect 0 "$ncrtd" --config "$machine" check
 said out "no errors"
+# The file before the command or behind it, under either name.
+expect 0 "$ncrtd" check --config "$machine"
+expect 0 "$ncrtd" check --machine "$machine"
+expect 0 "$ncrtd" --machine "$machine" check
+said out "no errors"
+expect 0 "$ncrtd" run --fast --no-progress "$source/examples/parts/flange.nc" --machine "$machine"
+expect 0 "$ncrtd" --version
+said out "ncrtd $(sed -n 's/^project(libnc VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")"
 expect 0 "$ncrtd" --config "$source/etc/modelling-machine.toml" check
 # Warnings of the ladder program are told, and are no errors.
 { sed '/^END$/d' "$source/etc/mill.il"; printf 'LD M0\nOUT plc.fin1\nEND\n'; } >"$work/mill.il"
@@ -122,7 +133,7 @@ for option in --plot --share --dialect; do
   said err "$option: must"
 done
 expect 1 "$ncrtd" --config "" check
-said err "--config: must not be empty"
+said err "--machine: must not be empty"
 expect 1 "$ncrtd" --config "$machine" mdi --fast ""
 said err "BLOCKS: must not be empty"
 expect 1 "$ncrtd" --config "$machine" run --fast "$work/none.nc"
