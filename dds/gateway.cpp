@@ -21,6 +21,7 @@ constexpr std::int64_t kSignalsNs = 100 * kMs;   // at most so often
 constexpr std::int64_t kSignalsForcedNs = 1000 * kMs;
 constexpr std::int64_t kClaimEveryNs = 500 * kMs;
 constexpr int kTaken = 16;
+constexpr std::size_t kAnswersWaiting = 256;  // so many, and no further command is taken
 
 std::int64_t now() {
   return nc::rt::RealClock().now_ns();
@@ -304,26 +305,40 @@ void Gateway::publish_signals(std::int64_t now_ns) {
 
 // ---- commands ----
 
+// No answer is lost because a reader is slow: what the writer does not take stays here, then in the ring of the segment, and no
+// command is taken meanwhile that would make more of them. A reader that is dead leaves the writer after its lease.
+void Gateway::answer(const share::Ack& ack) {
+  const std::lock_guard lock(answers_mutex_);
+  answers_.push_back(ack);
+}
+
+// Whether so many wait that there is no room. Publishes what goes out now. Both threads.
+bool Gateway::answers_wait() {
+  const std::lock_guard lock(answers_mutex_);
+  while (!answers_.empty()) {
+    const nc_CommandAck sample = ack(answers_.front());
+    if (dds_write(ack_, &sample) == DDS_RETCODE_TIMEOUT) break;
+    answers_.pop_front();
+  }
+  return answers_.size() >= kAnswersWaiting;
+}
+
 void Gateway::publish_acks() {
   if (!may_command_) return;
-  share::Ack answer;
-  while (segment_.get()->acks.pop(&answer)) {
-    const nc_CommandAck sample = ack(answer);
-    write(ack_, &sample);
-  }
+  share::Ack one;
+  while (!answers_wait() && segment_.get()->acks.pop(&one)) answer(one);
 }
 
 void Gateway::refuse(const share::Request& request, share::AckReason reason, const char* text) {
-  share::Ack answer{};
-  answer.client = request.client;
-  answer.sequence = request.sequence;
-  answer.kind = request.kind;
-  answer.state = static_cast<std::uint32_t>(share::AckState::kRejected);
-  answer.reason = static_cast<std::uint32_t>(reason);
-  answer.time_ns = share::wall_ns();
-  share::set_text(&answer.text, text);
-  const nc_CommandAck sample = ack(answer);
-  write(ack_, &sample);
+  share::Ack refusal{};
+  refusal.client = request.client;
+  refusal.sequence = request.sequence;
+  refusal.kind = request.kind;
+  refusal.state = static_cast<std::uint32_t>(share::AckState::kRejected);
+  refusal.reason = static_cast<std::uint32_t>(reason);
+  refusal.time_ns = share::wall_ns();
+  share::set_text(&refusal.text, text);
+  answer(refusal);
 }
 
 void Gateway::put(const share::Request& request) {
@@ -378,7 +393,12 @@ void Gateway::take_commands() {
 void Gateway::command_thread() {
   while (!stop_) {
     dds_attach_t triggered[1];
-    if (dds_waitset_wait(waitset_, triggered, 1, DDS_MSECS(100)) > 0) take_commands();
+    if (answers_wait()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    } else if (dds_waitset_wait(waitset_, triggered, 1, DDS_MSECS(100)) > 0) {
+      take_commands();
+      (void)answers_wait();
+    }
   }
 }
 

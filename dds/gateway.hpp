@@ -6,6 +6,7 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -52,6 +53,8 @@ class Gateway {
   void publish_history();
   void publish_signals(std::int64_t now_ns);
   void publish_acks();
+  void answer(const share::Ack& ack);
+  bool answers_wait();
   void take_commands();
   void command_thread();
   void put(const share::Request& request);
@@ -87,6 +90,9 @@ class Gateway {
   std::unique_ptr<share::SignalsBlock> control_signals_, last_control_signals_;
   std::unique_ptr<SignalSample> signal_sample_;
   std::vector<nc_Command> received_;
+
+  std::mutex answers_mutex_;
+  std::deque<share::Ack> answers_;  // not published yet, in their order
 
   struct Client {
     share::Text<32> name{};

@@ -415,7 +415,7 @@ def reader(participant, kind, machine="*"):
     """A reader of one of the types above with the QoS of its topic, in the partition of a machine ("*" = all)."""
     policies = [Policy.Reliability.Reliable(duration(milliseconds=100))]
     policies.append(Policy.Durability.TransientLocal if kind in _DURABLE else Policy.Durability.Volatile)
-    policies.append(Policy.History.KeepLast(16 if kind is CommandAck else 1))
+    policies.append(Policy.History.KeepAll if kind is CommandAck else Policy.History.KeepLast(1))
     if kind is Status:
         policies.append(Policy.Liveliness.ManualByTopic(duration(seconds=1)))
     topic = Topic(participant, TOPICS[kind], kind)

@@ -14,6 +14,7 @@ namespace {
 constexpr dds_duration_t kBlocking = DDS_MSECS(100);  // a writer waits at most so long for a slow reader
 constexpr dds_duration_t kLiveliness = DDS_SECS(1);
 constexpr dds_duration_t kAckLifespan = DDS_SECS(10);
+constexpr dds_duration_t kAckBlocking = DDS_MSECS(5);  // an answer that does not go out is kept and tried again
 
 struct Row {
   Topic topic;
@@ -30,7 +31,7 @@ const Row kTopics[] = {
     {Topic::kSignalTable, "nc_SignalTable", &nc_SignalTable_desc, true, 1},
     {Topic::kSignalImage, "nc_SignalImage", &nc_SignalImage_desc, false, 1},
     {Topic::kCommand, "nc_Command", &nc_Command_desc, false, 0},
-    {Topic::kCommandAck, "nc_CommandAck", &nc_CommandAck_desc, false, 16},
+    {Topic::kCommandAck, "nc_CommandAck", &nc_CommandAck_desc, false, 0},
     {Topic::kStatusCore, "nc_Status_v1", &nc_Status_v1_desc, true, 1},
     {Topic::kAlarmCore, "nc_Alarm_v1", &nc_Alarm_v1_desc, true, 1},
 };
@@ -156,7 +157,10 @@ dds_entity_t make_writer(dds_entity_t participant, Topic topic, const std::strin
     dds_qset_deadline(qos.get(), static_cast<dds_duration_t>(3e9 * period_s));
     dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, kLiveliness);
   }
-  if (topic == Topic::kCommandAck) dds_qset_lifespan(qos.get(), kAckLifespan);
+  if (topic == Topic::kCommandAck) {
+    dds_qset_lifespan(qos.get(), kAckLifespan);
+    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kAckBlocking);
+  }
   // Disposed means gone from the control; an end of the gateway alone leaves instances without a writer.
   dds_qset_writer_data_lifecycle(qos.get(), false);
   const Listener listener(dds_create_listener(const_cast<char*>(row.name)));

@@ -94,13 +94,15 @@ void Service::intake_thread() {
   while (!stop_) {
     const std::uint32_t seen = segment.wake_intake.load(std::memory_order_acquire);
     Request request;
-    for (unsigned i = 0; i < kCommandsPerTurn && segment.commands.pop(&request); ++i)
+    // No answer is lost: while some wait for room, no command is taken that would make more of them.
+    for (unsigned i = 0; acks.size() < kCommandsPerTurn && i < kCommandsPerTurn && segment.commands.pop(&request); ++i)
       intake_.take(request, {wall_ns(), RealClock().now_ns()}, &acks);
     intake_.tick({wall_ns(), RealClock().now_ns()}, &acks);
-    for (const Ack& ack : acks) (void)segment.acks.push(ack);  // a gateway that never looks loses answers
-    if (!acks.empty()) wake(&segment.wake_reader);
-    acks.clear();
-    if (segment.commands.size() == 0) wait_for_change(&segment.wake_intake, seen, kIntakeNs);
+    std::size_t given = 0;
+    while (given < acks.size() && segment.acks.push(acks[given])) ++given;
+    if (given != 0) wake(&segment.wake_reader);
+    acks.erase(acks.begin(), acks.begin() + static_cast<std::ptrdiff_t>(given));
+    if (segment.commands.size() == 0 || !acks.empty()) wait_for_change(&segment.wake_intake, seen, kIntakeNs);
   }
 }
 

@@ -256,6 +256,22 @@ def commands(plant, watch, operator):
     check(watch.fresh().run_state == RunState.RUN_IDLE and watch.status.runs == 0, "nothing of all this has moved anything")
 
 
+def burst(operator):
+    """A thousand commands as fast as they go out, and nobody looks at the answers meanwhile: each has its own in the end."""
+    check(operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "has control")
+    seqs = {operator.send(CommandKind.CMD_FEED_OVERRIDE, value=1.0) for _ in range(1000)}
+    time.sleep(1.0)
+    answered = []
+    end = time.monotonic() + PATIENCE
+    while len(answered) < len(seqs) and time.monotonic() < end:
+        answered += [ack for ack in operator.acks.take(N=100) if ack.sample_info.valid_data and ack.seq in seqs]
+        time.sleep(0.01)
+    check({ack.seq for ack in answered} == seqs and len(answered) == len(seqs), f"{len(answered)} answers to 1000 commands")
+    done = sum(ack.state == AckState.ACK_DONE for ack in answered)
+    check(all(ack.state == AckState.ACK_DONE or ack.reason == AckReason.REASON_OVERFLOW for ack in answered) and done > 0,
+          f"{done} of them executed, the others refused because there were too many at once")
+
+
 def program(plant, watch, operator, gateway):
     """A program with the gateway killed in its middle. Returns the new gateway."""
     ack = operator.ask(CommandKind.CMD_CYCLE_START, expected_program="part.nc", expected_mode=Mode.MODE_AUTO.value,
@@ -460,7 +476,7 @@ def forces(plant, watch, operator, participant):
 def two_controls(plant, participant, operator):
     """Another control in the same domain: who listens to all of them (partition "*") mixes nothing up."""
     other = plant.share + "b"
-    control = plant.start("ncrtd", "--config", os.path.join(plant.folder, "machine.toml"), "serve", "--share", other, "--commands")
+    control = plant.start("ncrtd", "--config", os.path.join(plant.folder, "other.toml"), "serve", "--share", other, "--commands")
     gateway = plant.start("ncdds", "--share", other, "--domain", str(plant.domain), "--commands")
     all_alarms, all_status = nc_dds.reader(participant, nc_dds.Alarm, "*"), nc_dds.reader(participant, nc_dds.Status, "*")
     operators = {plant.share: operator, other: Operator(participant, other, f"two-{os.getpid()}")}
@@ -643,6 +659,9 @@ def restart(plant, watch, operator, info, control):
     """Another control under the same name, this one without commands."""
     second = plant.control()
     text = second.communicate(timeout=60)[0]
+    check(second.returncode == 3 and f"process {control.pid} (ncrtd) runs this machine" in text, "a second control of the same machine is refused")
+    second = plant.start("ncrtd", "--config", os.path.join(plant.folder, "other.toml"), "serve", "--share", plant.share)
+    text = second.communicate(timeout=60)[0]
     check(second.returncode == 1 and "belongs to a control that is running" in text, "a second control of the same name is refused")
     check(taken(info)[-1].commands, "the machine's description says that commands are taken")
     control.send_signal(signal.SIGKILL)
@@ -695,7 +714,7 @@ def main():
         return
     with tempfile.TemporaryDirectory() as folder:
         os.mkdir(os.path.join(folder, "folder"))
-        for name, text in (("machine.toml", MACHINE), ("part.nc", PART), ("bad.nc", BAD), ("own.il", LADDER)):
+        for name, text in (("machine.toml", MACHINE), ("other.toml", MACHINE), ("part.nc", PART), ("bad.nc", BAD), ("own.il", LADDER)):
             with open(os.path.join(folder, name), "w", encoding="ascii") as file:
                 file.write(text)
         plant = Plant(folder)
@@ -711,6 +730,7 @@ def main():
             until(lambda: answers(operator), "the gateway answers")
             other_clients(plant)
             commands(plant, watch, operator)
+            burst(operator)
             gateway = program(plant, watch, operator, gateway)
             until(lambda: answers(operator), "the new gateway answers")
             alarms(plant, watch, operator)

@@ -242,6 +242,29 @@ TEST_F(ServeTest, TheSignalStopsAMotionByHand) {
   runtime->stop();
 }
 
+// A handwheel is turned by thousands of detents a shift: a journal has other things to say.
+TEST_F(ServeTest, DetentsOfAHandwheelAreNoEvents) {
+  ASSERT_NE(runtime, nullptr);
+  ASSERT_TRUE(runtime->start(&error)) << error;
+  unsigned detents = 0, seen = 0;
+  bool moving = false;
+  options.look = [&] {
+    const bool moves = runtime->snapshot().system[0].nc.state == NC_STATE_MANUAL;
+    seen += moves && !moving;
+    moving = moves;
+    if (moves) return;
+    (void)runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(nc::rt::Mode::kManual));
+    nc::rt::Command step;
+    step.kind = CommandKind::kStep;
+    step.value = 0.5;
+    if (detents < 20 && runtime->execute(step) == Answer::kDone) ++detents;
+    if (detents == 20 && seen >= 5) signal = SIGTERM;
+  };
+  EXPECT_TRUE(nc::tools::serve(runtime.get(), options));
+  runtime->stop();
+  EXPECT_EQ(printed(), "up: served, cycle 1000 us\nend: feed hold\nend: at rest\n");
+}
+
 TEST_F(ServeTest, AnAlarmIsToldOnceAndDoesNotEndTheService) {
   ASSERT_NE(runtime, nullptr);
   ASSERT_TRUE(runtime->start(&error)) << error;

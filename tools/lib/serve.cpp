@@ -58,10 +58,11 @@ class Service {
     fed_scan_ = now.scan;
   }
 
+  // Motion by hand begins and ends with each detent of a handwheel: it is seen on a monitor and is no event of a journal.
   void tell_state(const Snapshot& now) {
     for (unsigned s = 0; s < now.system_count; ++s) {
       const unsigned state = now.system[s].nc.state;
-      if (state == state_[s]) continue;
+      if (state == state_[s] || state == NC_STATE_MANUAL) continue;
       state_[s] = state;
       std::string text = now.system_count > 1 ? "part system " + std::to_string(s + 1) + ": " : "";
       text += nc::rt::state_text(now.system[s].nc);
