@@ -594,6 +594,40 @@ TEST(Online, MirrorImageBySignal) {
   EXPECT_NEAR(drive.out.command.v[1], 6, 1e-9);
 }
 
+/// The counters of the workpiece while nothing runs: from power on, when an offset is changed, and behind a program.
+TEST(Online, WorkPositionsKnowTheOffsetsWhileNoProgramRuns) {
+  Bench bench(NC_DIALECT_M700, machine(64));
+  bench.work_offset(1, {1, 2, 3}).work_offset(2, {10, 20, 30});
+  const nc_axes stand{{5, 5, 5}};
+  ASSERT_EQ(nc_position_set(bench.control(), 0, &stand), NC_OK);
+  Drive drive(bench, "G55 G0 X1. Y1. Z1.\nM30");
+  const auto expect_work = [&](double x, double y, double z) {
+    const double expected[] = {x, y, z};
+    for (unsigned i = 0; i < 3; ++i) EXPECT_NEAR(drive.out.work.v[i], expected[i], 1e-9) << "axis " << i << " in cycle " << drive.cycle;
+  };
+  drive.step();
+  EXPECT_EQ(drive.out.state, NC_STATE_IDLE);
+  expect_work(4, 3, 2);  // G54 at power on
+  bench.work_offset(1, {2, 2, 3});
+  drive.step();
+  expect_work(3, 3, 2);  // of the host, between programs
+  drive.cycle = 0;
+  while (drive.cycle < 3000 && !drive.ended) {
+    drive.press_start();
+    drive.step();
+  }
+  ASSERT_TRUE(drive.ended);
+  EXPECT_NEAR(drive.out.command.v[0], 11, 1e-9);
+  expect_work(1, 1, 1);  // as the last block has left it
+  drive.in.reset = true;
+  for (int n = 0; n < 10; ++n) drive.step();
+  drive.in.reset = false;
+  drive.step();
+  double zero = 0;
+  ASSERT_EQ(nc_work_offset_get(bench.control(), 0, 1, 0, &zero), NC_OK);
+  EXPECT_NEAR(drive.out.work.v[0], 11 - zero, 1e-9);  // which the reset chooses again
+}
+
 /// The two ways exclude each other: what the one takes, the other would miss.
 TEST(Online, TheStreamOfARunningProgramCannotBePulled) {
   Bench bench(NC_DIALECT_M700, machine(64));

@@ -417,7 +417,8 @@ double Scan::feed_override(const nc_inputs& in) const {
 
 void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   const double per_s = 1 / config_.cycle_s;
-  const uint32_t turning = shared_->axes.read().turning;
+  const AxisParameters& axes = shared_->axes.read();
+  const uint32_t turning = axes.turning;
   out = {};
   out.turning = turning;
   out.distance_zero = true;
@@ -425,6 +426,11 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
     to_work_ = latest_->to_work;
     work_sign_ = latest_->work_sign;
     target_ = latest_->curve.end;
+  } else if (state_ == NC_STATE_IDLE && axes.idle) {
+    for (unsigned i = 0; i < config_.axis_count; ++i) {
+      to_work_[i] = -axes.zero[i];
+      work_sign_[i] = 1;
+    }
   }
   const bool on_the_way = moving_ || !drained();
   for (unsigned i = 0; i < config_.axis_count; ++i) {

@@ -9,7 +9,6 @@ namespace nc {
 namespace {
 
 constexpr int16_t kInverseTime = 930, kPerMinute = 940, kPerRevolution = 950;
-constexpr double kMillimetresPerInch = 25.4;
 constexpr double kNoise = 1e-9;
 
 bool inch(const Interpreter& in) { return in.state.modal.code[kGroupUnit] == 200; }
