@@ -65,7 +65,8 @@ const Row kRows[] = {
     {"P435", "G27 X0 M9", 1},
     {"P430", "G29 X1.", 1},
     {"P436", "G29 X0 M9", 1},
-    {"P39", "G5 P3", 1},
+    {"P39", "G54.1 P97", 1},
+    {"P65", "G5 P3", 1},
     {"P62", "F0\nX8.", 2},
     {"P62", "F0\nG41 D1 I-20.", 2},  // no axis word, but the vector is a movement
     {"P70", "G2 X20. I3.", 1},

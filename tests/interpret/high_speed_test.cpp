@@ -64,7 +64,7 @@ TEST(HighSpeed, WordsOfG05) {  // M700 13.16, 13.17.1
   EXPECT_EQ(alarm_of("G5"), "P33");
   EXPECT_EQ(alarm_of("G5 P1."), "P33");
   EXPECT_EQ(alarm_of("G5 P4"), "P35");
-  EXPECT_EQ(alarm_of("G5 P3"), "P39");
+  EXPECT_EQ(alarm_of("G5 P3"), "P65");
   EXPECT_EQ(alarm_of("G5 P1 X1."), "P35");
   EXPECT_EQ(alarm_of("G5 P0 X1."), "P35");
   EXPECT_EQ(alarm_of("G5 P10000 X1."), "P33");

@@ -172,6 +172,28 @@ TEST(ParameterInput, WhatIsNotPossibleIsP421) {
   EXPECT_EQ(m700("G81 X1. Z-1. R1. F100\nG10 L70\nM30").alarm, "P421");
 }
 
+TEST(ParameterInput, EndsWithG11AndG11Point1) {  // 13.11 prints G11.1 in its format and its example, note 7 has G11
+  for (const char* end : {"G11", "G11.1"}) {
+    const Outcome run = m700(std::string("G10 L70\nP8204 A2 D1.5\n") + end + "\nG0 X7.\nM30");
+    EXPECT_EQ(run.alarm, "") << end;
+    EXPECT_EQ(run.path().size(), 1U) << end;
+    EXPECT_EQ(m700(std::string("G10 L70\n") + end + " X1.\nM30").alarm, "P421") << end;  // note 7
+    EXPECT_EQ(m700(std::string("G10 L70\n") + end + " M8\nM30").alarm, "P421") << end;
+    EXPECT_EQ(m700(std::string(end) + "\nG0 X7.\nM30").alarm, "") << end;
+  }
+  EXPECT_EQ(m700("G10 L70\nG11.2\nM30").alarm, "P34");
+}
+
+TEST(ParameterInput, SequenceOfTheWords) {  // note 1
+  const auto alarm_of = [](const std::string& data) { return m700("G10 L70\n" + data + "\nG11\nM30").alarm; };
+  EXPECT_EQ(alarm_of("P8204 S1 A2 D1.5"), "");
+  EXPECT_EQ(alarm_of("P8204 S1 A1 A2 D1.5 D2.5"), "");  // the last one counts
+  EXPECT_EQ(alarm_of("D1.5 P8204"), "P421");
+  EXPECT_EQ(alarm_of("P8204 A2 S1 D1.5"), "P421");
+  EXPECT_EQ(alarm_of("P8204 D1.5 A2"), "P421");
+  EXPECT_EQ(alarm_of("H71 P6401"), "P421");
+}
+
 TEST(ParameterInput, RewindTakesItBack) {
   Bench bench;
   bench.start("#100=1\nG10 L70\nP1078 D1\nG11\nG0 X7\nM30");

@@ -145,6 +145,7 @@ constexpr Sentence kSentences[] = {
     {C::not_accepted, "{word} is not accepted in the mode that is on.", "This is not accepted in the mode that is on."},
     {C::in_high_accuracy, "{word} is not possible between G08 P1 and G08 P0. Command G08 P0 first.",
      "This is not possible between G08 P1 and G08 P0. Command G08 P0 first."},
+    {C::high_speed_3, "High-speed machining mode III (G05 P3) is not fitted. P0 ends the modes, P1 and P2 are I and II.", nullptr},
     // offsets
     {C::g10_l, "G10 does not know L{value}.", "G10 does not know this L."},
     {C::g10_p, "G10: there is no data set P{value}.",

@@ -24,7 +24,7 @@ enum class Condition : uint16_t {
   nurbs_knot, nurbs_start, space_conversion_code, inverse_time_code, arc_feed_zero,
   reference_compare, reference_check_m, start_return_m,
   measure_axis, measure_h, measure_no_length, measure_signal, stroke_check,
-  not_accepted, in_high_accuracy,
+  not_accepted, in_high_accuracy, high_speed_3,
   // offsets
   g10_l, g10_p, local_in_extended,
   // programs and macros

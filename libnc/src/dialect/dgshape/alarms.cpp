@@ -112,6 +112,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::stroke_check, "NC-LIMIT", nullptr},
     {C::not_accepted, "NC-NO-SUCH-CODE", nullptr},
     {C::in_high_accuracy, "NC-NO-SUCH-CODE", nullptr},
+    {C::high_speed_3, "NC-NOT-BUILT", nullptr},
     // offsets
     {C::g10_l, "NC-DATA", nullptr},
     {C::g10_p, "NC-DATA", nullptr},

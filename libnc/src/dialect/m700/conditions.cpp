@@ -81,6 +81,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::stroke_check, "P452", nullptr},        // 15.7 prints no number; that of the family's later manuals
     {C::not_accepted, "P29", nullptr},         // 13.15
     {C::in_high_accuracy, "P126", nullptr},    // 13.15, appendix 1
+    {C::high_speed_3, "P65", nullptr},         // appendix 1
     // offsets
     {C::g10_l, "P172", nullptr},
     {C::g10_p, "P173", nullptr},  // appendix 1; 12.7 prints P170 for the same thing

@@ -8,7 +8,7 @@
 
 namespace nc::m700 {
 
-inline constexpr unsigned kFunctionRows = 285;
+inline constexpr unsigned kFunctionRows = 286;
 inline constexpr unsigned kMiscRows = 9;
 inline constexpr unsigned kAlarmRows = 188;
 inline constexpr unsigned kConditionRows = static_cast<unsigned>(Condition::count_) - 1;

@@ -37,7 +37,7 @@ constexpr Allowed kAllowed[] = {
     {530, 530, kBoth},      // machine coordinates
     {540, 540, kBoth},
     {550, 590, kBoth},
-    {100, 110, kBoth},      // G10 L50, L10; G11 ends the first
+    {100, 111, kBoth},      // G10 L50, L10; G11 (G11.1, 13.11) ends the first
     {50, 51, kAll},         // cancel, spline: rules of their own
     {650, 670, kMode1},     // precaution (12): user macros cannot be used in II
 };

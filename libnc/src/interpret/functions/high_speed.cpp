@@ -61,7 +61,7 @@ Did high_speed_machining(Interpreter& in, uint32_t p) {
   State& state = in.state;
   // 13.20: mode III is refused in a rotation; it is in no part of the manual but that and the list of P.
   if (p == 3 && state.modal.code[kGroupRotation] != 690) return in.raise(Condition::illegal_g, 'G', kHighSpeed);
-  if (p == 3) return in.raise(Condition::no_function, 'P', p);
+  if (p == 3) return in.raise(Condition::high_speed_3, 'P', p);  // App.1 P65
   if (in_mode_2(state)) return in.raise(Condition::illegal_g, 'G', kHighSpeed);  // not in the list of 13.17
   const int16_t motion = state.modal.code[kGroupMotion];
   if (motion == 23 || motion == 33) return in.raise(Condition::illegal_g, 'G', kHighSpeed);  // 6.11

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters by program: G10 L70 (L50), data blocks, G11 (M700 13.11). A change is journalled like an offset: reading ahead may be
+// Parameters by program: G10 L70 (L50), data blocks, G11 or G11.1 (M700 13.11 prints both). A change is journalled like an offset: reading ahead may be
 // taken back.
 #include <cmath>
+#include <initializer_list>
 
 #include "dialect/text.hpp"
 #include "interpret/functions/functions.hpp"
@@ -32,6 +33,22 @@ void put_data(TextWriter& out, double value, double unit) {
 
 bool ends_input(const Interpreter& in) {
   return in.words.g.size() == 1 && in.words.g[0]->function == Function::data_input_end && in.block->words.size() == 1;
+}
+
+/// Note 1: the data stand behind the number, the part system and the axis, in the order of the format; of a word that comes twice the
+/// last one counts.
+bool in_sequence(const Interpreter& in) {
+  unsigned place_of[26] = {};
+  unsigned place = 0;
+  for (const Word& word : in.block->words) place_of[word.letter - 'A'] = ++place;
+  unsigned before = 0;
+  for (const char letter : {'P', 'S', 'A', 'H', 'D'}) {
+    const unsigned at = place_of[letter - 'A'];
+    if (at == 0) continue;
+    if (at < before) return false;
+    before = at;
+  }
+  return true;
 }
 
 /// The text to store and, for a bit, the end of the key.
@@ -75,6 +92,7 @@ Did parameter_block(Interpreter& in) {
   }
   uint32_t number = 0, system = 0, axis = 1;
   if ((w.present & ~letters("PSAHD")) != 0 || !w.has('P') || !whole_number(w.get('P'), &number)) return refuse(in, 'P');
+  if (!in_sequence(in)) return refuse(in, 'P');
   if (w.has('S') && (!whole_number(w.get('S'), &system) || system != in.system_number)) return refuse(in, 'S');
   if (w.has('A') && (!whole_number(w.get('A'), &axis) || axis < 1 || axis > in.axis_count)) return refuse(in, 'A');
   char key_text[24], data_text[64];
