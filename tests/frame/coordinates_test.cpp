@@ -215,10 +215,51 @@ TEST(Length, WaitsForTheAxisToBeCommanded) {  // M700 12.2
   EXPECT_EQ(bench.run("G0 G43 H1\nX5.\nZ0\nG49\nX6.\nZ0\nM30").path(), (Path{"rapid 5 0 0", "rapid 5 0 10", "rapid 6 0 10", "rapid 6 0 0"}));
 }
 
-TEST(Length, TheNumberStaysForLater) {  // M700 12.2, example 3
+TEST(Length, TheNumberStaysForLater) {  // M700 12.1 (2)
   Bench bench;
   bench.tool(1, 10).tool(6, 99);
-  EXPECT_EQ(bench.run("G0 G43 Z0 H1\nG49 Z0\nH6\nG43 Z0\nG43 H0 Z0\nM30").path(), (Path{"rapid 0 0 10", "rapid 0 0 0", "rapid 0 0 10", "rapid 0 0 0"}));
+  EXPECT_EQ(bench.run("G0 G43 Z0 H1\nG49 Z0\nG43 Z0\nG43 H0 Z0\nM30").path(), (Path{"rapid 0 0 10", "rapid 0 0 0", "rapid 0 0 10", "rapid 0 0 0"}));
+}
+
+TEST(Length, TheNumberMayStandInAnyBlock) {  // M700 12.1 (2), as D does
+  Bench bench;
+  bench.tool(1, 10).tool(2, 20);
+  const auto path = [&](const char* text) { return bench.at(0, 0, 0).run(std::string(text) + "\nM30").path(); };
+  EXPECT_EQ(path("G0 H2\nG43 Z1."), (Path{"rapid 0 0 21"}));
+  EXPECT_EQ(path("G0 X1. H1 H2\nG44 Z1."), (Path{"rapid 1 0 0", "rapid 1 0 -19"}));  // (3): the last one counts
+  EXPECT_EQ(path("G0 G43 Z1. H1\nG49 Z0\nH2\nG43 Z1."), (Path{"rapid 0 0 11", "rapid 0 0 0", "rapid 0 0 21"}));
+  EXPECT_EQ(path("G0 G43 Z1. H1\nG49 H2 Z0\nG43 Z1."), (Path{"rapid 0 0 11", "rapid 0 0 0", "rapid 0 0 21"}));
+  EXPECT_EQ(path("G0 G4 X1. H2\nG43 Z1."), (Path{"rapid 0 0 21"}));
+  // In G43, G44 the amount changes with the next command of the axis.
+  EXPECT_EQ(path("G0 G43 Z1. H1\nH2\nX1.\nZ1."), (Path{"rapid 0 0 11", "rapid 1 0 11", "rapid 1 0 21"}));
+  EXPECT_EQ(path("G0 G44 Z1. H1\nZ1. H2"), (Path{"rapid 0 0 -9", "rapid 0 0 -19"}));
+  EXPECT_EQ(path("G0 G43 Z1. H1\nH0\nZ1."), (Path{"rapid 0 0 11", "rapid 0 0 1"}));  // 12.2 (2) (d)
+}
+
+TEST(Length, HOfACallIsASequenceNumber) {  // M700 13.3.1, 13.12
+  Bench bench;
+  bench.add("O9", "O9\nN7 X5.\nM99\n");
+  for (const char* call : {"M98 P9 H7", "M96 P9 H7"}) {
+    const Outcome run = bench.run("G0 H3\n" + std::string(call) + "\n#100=#4111\nM30");
+    EXPECT_EQ(run.alarm, "") << call;
+    EXPECT_EQ(run.var(100), 3) << call;
+  }
+}
+
+TEST(Length, ReadWithTheModalData) {  // M700 13.5.5, #4111: "up to the block immediately before"
+  const Outcome run = m700("#100=#4111\nG0 H3\n#101=#4111\nG43 Z1. H4\n#102=#4111\nH5\n#103=#4111\nM30");
+  EXPECT_EQ(run.var(100), 0);
+  EXPECT_EQ(run.var(101), 3);
+  EXPECT_EQ(run.var(102), 4);
+  EXPECT_EQ(run.var(103), 5);
+}
+
+TEST(Length, NoNumberAtAll) {  // M700 App.1 P170
+  EXPECT_EQ(m700("G0 G43 Z1.\nM30").alarm, "P170");
+  EXPECT_EQ(m700("G0 G44 Z1.\nM30").alarm, "P170");
+  EXPECT_EQ(m700("G0 G43 Z1. H0\nM30").alarm, "");  // 12.2 (2) (d)
+  EXPECT_EQ(m700("G0 H0\nG43 Z1.\nM30").alarm, "");
+  EXPECT_EQ(m700("G0 G49 Z1.\nM30").alarm, "");
 }
 
 TEST(Length, AxisOfTheBlock) {  // M700 12.2: Z before Y before X; #1080 Z always
@@ -231,6 +272,30 @@ TEST(Length, AxisOfTheBlock) {  // M700 12.2: Z before Y before X; #1080 Z alway
   EXPECT_EQ(bench.at(0, 0, 0).run("G0 G43 X1. H1\nZ0\nM30").path(), (Path{"rapid 1 0 0", "rapid 1 0 10"}));
 }
 
+TEST(Length, AdditionalAxes) {  // M700 12.2 (3) (b): by #1029 to #1031, Zp before Yp before Xp
+  Bench bench(NC_DIALECT_M700, axes("XYZWVa"));
+  bench.tool(1, 10).tool(2, 20).param("1031", "W").param("1030", "V").param("1029", "A");
+  const auto path = [&](const char* text) { return bench.at(0, 0, 0).run(std::string("G0 ") + text + "\nM30").path(); };
+  EXPECT_EQ(path("G43 W1. H1\nW2.\nZ1.\nG49 W3."),
+            (Path{"rapid 0 0 0 11 0 0", "rapid 0 0 0 12 0 0", "rapid 0 0 1 12 0 0", "rapid 0 0 1 3 0 0"}));
+  EXPECT_EQ(path("G44 V1. H1"), (Path{"rapid 0 0 0 0 -9 0"}));
+  EXPECT_EQ(path("G43 A90. H2"), (Path{"rapid 0 0 0 0 0 110"}));                      // a rotary axis: deg
+  EXPECT_EQ(path("G43 X1. V1. H1"), (Path{"rapid 1 0 0 0 11 0"}));                    // Yp before Xp
+  EXPECT_EQ(path("G43 W1. Y1. H1"), (Path{"rapid 0 1 0 11 0 0"}));                    // Zp before Yp
+  EXPECT_EQ(path("G43 W1. Z1. H1"), (Path{"rapid 0 0 11 1 0 0"}));                    // both of a pair: the basic one, as for planes (6.3)
+  EXPECT_EQ(path("G43 W1. H1\nG43 Z1. H2\nW1."), (Path{"rapid 0 0 0 11 0 0", "rapid 0 0 21 11 0 0", "rapid 0 0 21 1 0 0"}));
+  EXPECT_EQ(path("G91 G43 W1. H1\nG43 W1. H2"), (Path{"rapid 0 0 0 11 0 0", "rapid 0 0 0 22 0 0"}));
+  EXPECT_EQ(path("G43 W1. H1\nG28 W2.\nW1."), (Path{"rapid 0 0 0 11 0 0", "rapid 0 0 0 12 0 0", "rapid 0 0 0 0 0 0", "rapid 0 0 0 1 0 0"}));
+  bench.param("1080", "1");
+  EXPECT_EQ(path("G43 W1. H1\nZ0"), (Path{"rapid 0 0 0 1 0 0", "rapid 0 0 10 1 0 0"}));
+}
+
+TEST(Length, AxesThatAreNoParallelOnesAreNotCompensated) {  // M700 12.2 (3) (b)
+  Bench bench(NC_DIALECT_M700, axes("XYZW"));
+  bench.tool(1, 10);
+  EXPECT_EQ(bench.run("G0 G43 W1. H1\nZ0\nM30").path(), (Path{"rapid 0 0 0 1", "rapid 0 0 10 1"}));
+}
+
 TEST(Length, TypeTwoAddsWear) {  // M700 12.1
   Bench bench;
   bench.param("1037", "2").tool(1, 10).tool(1, 0.5, NC_TOOL_LENGTH_WEAR).tool(1, 77, NC_TOOL_RADIUS);
@@ -240,6 +305,7 @@ TEST(Length, TypeTwoAddsWear) {  // M700 12.1
 TEST(Length, NumbersOutOfTheTable) {
   EXPECT_EQ(m700("G43 H201 G0 Z1.\nM30").alarm, "P170");
   EXPECT_EQ(m700("G43 H200 G0 Z1.\nM30").alarm, "");
+  for (const char* block : {"H201", "G0 X1. H201", "G49 H201"}) EXPECT_EQ(m700(std::string(block) + "\nM30").alarm, "P170") << block;
 }
 
 TEST(Length, IgnoredBesideOneShotFunctions) {  // M700 App.2

@@ -148,6 +148,9 @@ TEST(HighSpeed, AllowedCodesOfEachMode) {  // M700 13.17.1 (2), 13.17.2 (2)
 TEST(HighSpeed, OtherDataIsAFormatError) {  // M700 13.17.2 (2), 13.17.1 note 1 and precaution (12)
   EXPECT_EQ(alarm_of("G5 P10000\nG1 X1. F100 E5"), "P33");
   EXPECT_EQ(alarm_of("G5 P10000\nM96 P1"), "P33");
+  EXPECT_EQ(alarm_of("G5 P10000\nH1"), "");
+  EXPECT_EQ(alarm_of("G5.1 Q1\nH1"), "");
+  EXPECT_EQ(alarm_of("G5 P10000\nH1", "8090"), "P33");  // no length compensation in SSS control
   EXPECT_EQ(alarm_of("G5 P10000\nG65 P1"), "P34");
   EXPECT_EQ(alarm_of("G5 P10000\n#100=1"), "P33");
   EXPECT_EQ(alarm_of("#100=1\nG5 P10000\nG1 X#100 F100"), "P33");

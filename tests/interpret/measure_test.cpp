@@ -69,11 +69,11 @@ TEST(SpeedChange, Words) {
 
 // ---- tool length measurement (15.1) ----------------------------------------------------------------------------------------
 
-/// The sensor answers when Z is at this machine coordinate.
-void sensor_at(Bench& bench, double z) {
-  bench.skip_at = [z](const nc_item& item) -> std::optional<double> {
+/// The sensor answers when the axis (Z) is at this machine coordinate.
+void sensor_at(Bench& bench, double place, unsigned axis = 2) {
+  bench.skip_at = [place, axis](const nc_item& item) -> std::optional<double> {
     const nc_move& m = item.u.move;
-    const double part = (z - m.machine_start.v[2]) / (m.machine.v[2] - m.machine_start.v[2]);
+    const double part = (place - m.machine_start.v[axis]) / (m.machine.v[axis] - m.machine_start.v[axis]);
     if (part > 1 + 1e-9) return std::nullopt;
     return part < 0 ? 0 : part;
   };
@@ -118,6 +118,15 @@ TEST(Measure, CountedTheOtherWayByG44) {
   const Outcome run = bench.run("G0 G44 Z0 H1\nG37 Z-400. R200. D50. F10\nG0 Z0\nM30");
   EXPECT_NEAR(bench.tool_now(1), -95, 1e-9);
   EXPECT_EQ(run.path().back(), "rapid 0 0 95");
+}
+
+TEST(Measure, AnAdditionalAxis) {  // "X, Y, Z, a (where a is the additional axis)"; its offset by 12.2 (3)
+  Bench bench(NC_DIALECT_M700, axes("XYZW"));
+  bench.param("1031", "W");
+  sensor_at(bench, 49, 3);
+  EXPECT_EQ(bench.run("G0 G43 W0 H1\nG37 W50. R10. D5. F10\nM30").alarm, "");
+  EXPECT_NEAR(bench.tool_now(1), -1, 1e-9);
+  EXPECT_EQ(bench.at(0, 0, 0).run("G0 G43 W0 H1\nG37 Z50. R10. D5. F10\nM30").alarm, "P606");
 }
 
 TEST(Measure, Parameters) {  // #8004 to #8006, and 1 mm/min

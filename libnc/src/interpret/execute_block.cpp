@@ -155,10 +155,10 @@ Did apply_systems(Interpreter& in) {
   }
   if (length != nullptr) {
     in.state.modal.code[kGroupLength] = length->code;
-    const Did did = set_length(in, length->function);
-    if (did != Did::done) return did;
+    return set_length(in, length->function);
   }
-  return Did::done;
+  const bool own_number = in.words.has('H') && in.dialect->id == NC_DIALECT_M700;
+  return own_number && !(one_shot != nullptr && one_shot->function == Function::measure_length) ? change_length(in) : Did::done;  // P605 (15.1)
 }
 
 /// M700 App.2: the codes of groups 8 and 12 before a macro call become modal and do no more.

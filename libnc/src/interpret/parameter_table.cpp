@@ -33,7 +33,7 @@ constexpr ParameterRow kRows[] = {
     {1015, 1015, 1, kAll, true,  command_unit,         "setting unit; 10 ... 10000", "command unit, in 0.1 um", "2.1"},
     {1025, 1025, 1, kAll, false, whole<1, 3>,          "1, 2, 3",                 "plane at power on: G17, G18, G19", "6.3"},
     {1026, 1028, 1, kAll, false, any,                  "X, Y, Z",                 "axes of I, J, K in the plane selection", "6.3"},
-    {1029, 1031, 1, kAll, false, any,                  "none, an axis",           "axes parallel to those", "6.3"},
+    {1029, 1031, 1, kAll, false, any,                  "none, an axis",           "axes parallel to those, also for drilling and length compensation", "6.3"},
     {1037, 1037, 1, kAll, false, whole<1, 2>,          "1, 2",                    "memory type of tool offsets", "12.1"},
     {1073, 1073, 1, kAll, false, whole<0, 1>,          "0 G91, 1 G90",            "absolute values at power on", "5.1"},
     {1074, 1074, 1, kAll, false, whole<0, 1>,          kOffOn,                    "synchronous feed G95 at power on", "7.4"},

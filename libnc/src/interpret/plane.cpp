@@ -18,14 +18,13 @@ Pair pair_of(int16_t code) {
 
 int8_t index_of(const Interpreter& in, char letter) { return letter == 0 ? int8_t{-1} : in.axis_of[letter - 'A']; }
 
-/// Which axis of one pair the block means.
+}  // namespace
+
 int8_t axis_of_pair(const Interpreter& in, unsigned pair) {
   const char basic = in.settings.plane_basic[pair], parallel = in.settings.plane_parallel[pair];
   const bool second = parallel != 0 && in.words.has(parallel) && !(basic != 0 && in.words.has(basic));
   return index_of(in, second ? parallel : basic);
 }
-
-}  // namespace
 
 PlaneAxes plane_axes(const Interpreter& in) {
   const Pair pair = pair_of(in.state.modal.code[kGroupPlane]);

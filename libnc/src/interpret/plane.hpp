@@ -12,6 +12,10 @@ struct PlaneAxes {
   char center[2];  ///< addresses of the centre words
 };
 
+/// Which axis of the pair I, J or K (0, 1, 2) the block in hand means: the parallel one of #1029 to #1031 where the block names it and
+/// not the basic one (#1026 to #1028), else that; -1 = the machine has none.
+int8_t axis_of_pair(const Interpreter& in, unsigned pair);
+
 /// The plane in force.
 PlaneAxes plane_axes(const Interpreter& in);
 

@@ -24,7 +24,7 @@ struct ModalState {
   double feed = 0;                ///< F as programmed (its unit is that of the block that moves: M700 5.2 note 1); 0 = none yet
   double spindle = 0;
   uint32_t tool = 0, d = 0, h = 0, m = 0, n = 0, o = 0, b = 0;
-  uint32_t unused_2_ = 0;
+  uint32_t h_given = 0;           ///< 1: an H has been commanded, be it H0
 
   bool operator==(const ModalState& other) const { return std::memcmp(this, &other, sizeof(*this)) == 0; }
 };

@@ -29,6 +29,31 @@ Did offset_number(Interpreter& in, char letter, uint32_t* number) {
   return Did::done;
 }
 
+/// Tool length compensation of the H in force, with the sign of G43 or G44.
+double length_amount(const Interpreter& in) {
+  const double value = amount(in, in.state.modal.h, false);
+  return in.state.modal.code[kGroupLength] == 440 ? -value : value;
+}
+
+/// M700 12.1 (2), (3): an H holds until the next one, whatever block it stands in.
+Did take_length_number(Interpreter& in) {
+  const Did did = offset_number(in, 'H', &in.state.modal.h);
+  if (did == Did::done) in.state.modal.h_given = 1;
+  return did;
+}
+
+/// M700 12.2 (3): the axis that G43 or G44 compensates, by the words of its block: Zp before Yp before Xp, each the basic axis or the
+/// parallel axis of #1029 to #1031; Z with #1080 and when none of them is named.
+int length_axis_of_block(const Interpreter& in) {
+  const int z = in.axis_of['Z' - 'A'];
+  if (in.dialect->id != NC_DIALECT_M700 || in.settings.drilling_axis_z) return z;
+  for (const unsigned pair : {2u, 1u, 0u}) {
+    const int axis = axis_of_pair(in, pair);
+    if (axis >= 0 && ((in.words.axes >> axis) & 1) != 0) return axis;
+  }
+  return z;
+}
+
 /// Letters of the compensation vector on the plane (h, v).
 void plane_of(const Interpreter& in, Compensation& comp, char letters[2]) {
   const PlaneAxes plane = plane_axes(in);
@@ -52,10 +77,7 @@ void take_changed_amounts(Interpreter& in) {
   State& state = in.state;
   if (in.dialect->id != NC_DIALECT_M700) return;
   const int16_t code = state.modal.code[kGroupLength];
-  if (code == 430 || code == 440) {
-    const double value = amount(in, state.modal.h, false);
-    state.length_value = code == 440 ? -value : value;
-  }
+  if (code == 430 || code == 440) state.length_value = length_amount(in);
   if (state.comp.side != 0) state.comp.radius = amount(in, state.modal.d, true);
 }
 
@@ -111,31 +133,35 @@ Did change_radius(Interpreter& in) {
   return Did::done;
 }
 
+Did change_length(Interpreter& in) {
+  for (const uint32_t m : in.words.m) {  // a sequence number (M700 13.3.1, 13.12)
+    const MiscRow* row = find_misc(*in.dialect, m);
+    if (is_interrupt_on(in, m) || (row != nullptr && (row->function == MiscFunction::call_sub || row->function == MiscFunction::call_external)))
+      return Did::done;
+  }
+  const Did did = take_length_number(in);
+  const int16_t code = in.state.modal.code[kGroupLength];
+  // Like a changed amount it acts from the next command of the axis on (12.1).
+  if (did == Did::done && (code == 430 || code == 440)) in.state.length_value = length_amount(in);
+  return did;
+}
+
 Did set_length(Interpreter& in, Function function) {
   State& state = in.state;
   const bool m700 = in.dialect->id == NC_DIALECT_M700;
+  if (in.words.has('H') && (m700 || function != Function::length_off)) {
+    const Did did = take_length_number(in);
+    if (did != Did::done) return did;
+  }
   if (function == Function::length_off) {
     state.length_value = 0;
   } else {
-    if (in.words.has('H')) {
-      const Did did = offset_number(in, 'H', &state.modal.h);
-      if (did != Did::done) return did;
-    } else if (!m700 && state.modal.h == 0) {
-      return in.raise(Condition::no_offset_number, 'H');  // DGSHAPE G43: the format is G43 H n
-    }
-    // M700 12.2: the axis named in the block, Z before Y before X; Z with #1080 and when none is named.
-    const int z = in.axis_of['Z' - 'A'];
-    int axis = z;
-    if (m700 && !in.settings.drilling_axis_z) {
-      for (const char letter : {'X', 'Y', 'Z'}) {
-        const int candidate = in.axis_of[letter - 'A'];
-        if (candidate >= 0 && ((in.words.axes >> candidate) & 1) != 0) axis = candidate;
-      }
-    }
+    // M700 App.1 P170: no number has been commanded, and H0 is one (12.2 (2) (d)). DGSHAPE G43: the format is G43 H n.
+    if (m700 ? state.modal.h_given == 0 : state.modal.h == 0 && !in.words.has('H')) return in.raise(Condition::no_offset_number, 'H');
+    const int axis = length_axis_of_block(in);
     if (axis < 0) return in.raise(Condition::illegal_axis, 'Z');
     state.length_axis = static_cast<uint8_t>(axis);
-    const double value = amount(in, state.modal.h, false);
-    state.length_value = function == Function::length_minus ? -value : value;
+    state.length_value = length_amount(in);
   }
   if (m700) return Did::done;
   // DGSHAPE G43: without a Z word the block itself moves Z by the offset, together with the axes that it names.

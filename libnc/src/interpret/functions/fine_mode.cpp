@@ -58,11 +58,11 @@ uint32_t addresses(const Interpreter& in) {
   const BlockWords& w = in.words;
   // Axis movement, F, M S T B with what stands for B, I J K R of arcs, D of radius compensation; O and a late N have errors of their own.
   uint32_t known = in.axis_letters | letters("ABCDFIJKNORST");
+  if (allowed_in_fine_mode(in.state.fine_mode, 430)) known |= letters("H");  // of length compensation, in any block (12.1 (2))
   const int16_t motion = in.state.modal.code[kGroupMotion];
   const int16_t own = w.motion != nullptr ? w.motion->code : motion;
   if (is_arc(own) || own == 21 || own == 31 || own == 62) known |= letters("PQL");
   for (const FunctionRow* row : w.g) {
-    if (row->function == Function::length_plus || row->function == Function::length_minus) known |= letters("H");
     if (row->function == Function::high_speed || row->function == Function::high_speed_accuracy || row->function == Function::data_input)
       known = ~uint32_t{0};
   }

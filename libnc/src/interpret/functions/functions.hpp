@@ -84,6 +84,7 @@ Did select_work_system(Interpreter& in, const FunctionRow& row);   // coordinate
 Did set_compensation(Interpreter& in, Function function);          // compensation.cpp
 Did change_radius(Interpreter& in);                                // compensation.cpp: a D word in the mode
 Did set_length(Interpreter& in, Function function);                // compensation.cpp
+Did change_length(Interpreter& in);                                // compensation.cpp: an H without G43, G44, G49
 
 /// Fixed cycles (cycle.cpp): the block's cycle code and words; the holes go on in continue_cycle.
 Did do_cycle(Interpreter& in);
