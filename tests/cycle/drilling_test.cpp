@@ -165,9 +165,82 @@ TEST(Cycle, PlaneChoosesTheDrillingAxis) {  // M700 13.1.1
             (Path{"rapid 5 6 10", "rapid 5 6 2", "line 5 6 -8 F100", "rapid 5 6 10"}));
 }
 
-TEST(Cycle, AnotherAxisMovesFirst) {  // M700 13.1.1 precaution 6
-  EXPECT_EQ(Bench(NC_DIALECT_M700, axes("XYZc")).at(0, 0, 10).run("G81 X5. C90. Z-8. R2. F100\nM30").path(),
+TEST(Cycle, AParallelAxisDrillsWhereTheBlockNamesIt) {  // M700 13.1.1, example 1 of "positioning plane and hole drilling axis"
+  Bench bench(NC_DIALECT_M700, axes("XYZWVU"));
+  bench.param("1031", "W").param("1030", "V").param("1029", "U");
+  const auto path = [&](const char* text) { return bench.at(0, 0, 0).run(std::string("G0 ") + text + "\nG80\nM30").path(); };
+  EXPECT_EQ(path("W10.\nG81 X5. W-8. R2. F100"),
+            (Path{"rapid 0 0 0 10 0 0", "rapid 5 0 0 10 0 0", "rapid 5 0 0 2 0 0", "line 5 0 0 -8 0 0 F100", "rapid 5 0 0 10 0 0"}));
+  EXPECT_EQ(path("Z10.\nG81 X5. Z-8. R2. F100").back(), "rapid 5 0 10 0 0 0");
+  EXPECT_EQ(path("Z10.\nG81 X5. R2. F100\nZ-8."), path("Z10.\nG81 X5. R2. Z10. F100 L0\nX5. Z2.\nZ-8."));  // neither Z nor W: Z drills
+  EXPECT_EQ(path("W10.\nG81 X5. W-8. R2. F100 L0\nG82 X6."), path("W10.\nG82 X6. W-8. R2. F100"));  // note 2: it stays in the mode
+  EXPECT_EQ(path("Z10. W9.\nG81 X5. Z-8. W7. R2. F100").back(), "rapid 5 0 10 7 0 0");                    // both of the pair: the basic one
+  EXPECT_EQ(path("G18 V10.\nG81 X5. V-8. R2. F100").back(), "rapid 5 0 0 0 10 0");
+  EXPECT_EQ(path("G18 V10.\nG81 X5. V-8. R2. F100").size(), 5U);
+  EXPECT_EQ(path("G19 U10.\nG81 Y5. U-8. R2. F100").back(), "rapid 0 5 0 0 0 10");
+  EXPECT_EQ(path("W10.\nG91 G81 X5. W-8. R-2. F100 L2"),
+            (Path{"rapid 0 0 0 10 0 0", "rapid 5 0 0 10 0 0", "rapid 5 0 0 8 0 0", "line 5 0 0 0 0 0 F100", "rapid 5 0 0 10 0 0",
+                  "rapid 10 0 0 10 0 0", "rapid 10 0 0 8 0 0", "line 10 0 0 0 0 0 F100", "rapid 10 0 0 10 0 0"}));
+  bench.param("1080", "1");  // note 1
+  EXPECT_EQ(path("Z10.\nG81 X5. W-8. Z-9. R2. F100").back(), "rapid 5 0 10 -8 0 0");
+}
+
+TEST(Cycle, AnotherAxisMovesFirst) {  // M700 13.1.1 precaution 6, 13.1.2 example 2 (N012): by the code of group 1 from before the cycle
+  const auto path = [](const char* text) {
+    return Bench(NC_DIALECT_M700, axes("XYZc")).at(0, 0, 10).run(std::string(text) + "\nG80\nM30").path();
+  };
+  EXPECT_EQ(path("G0\nG81 X5. C90. Z-8. R2. F100"),
             (Path{"rapid 0 0 10 90", "rapid 5 0 10 90", "rapid 5 0 2 90", "line 5 0 -8 90 F100", "rapid 5 0 10 90"}));
+  EXPECT_EQ(path("G1 F50\nG81 X5. Z-8. R2. F100 L0\nC90."),
+            (Path{"line 0 0 10 90 F100", "rapid 0 0 2 90", "line 0 0 -8 90 F100", "rapid 0 0 10 90"}));
+  EXPECT_EQ(path("G1 F50\nG81 X5. C90. Z-8. R2. F100"),
+            (Path{"line 0 0 10 90 F100", "rapid 5 0 10 90", "rapid 5 0 2 90", "line 5 0 -8 90 F100", "rapid 5 0 10 90"}));
+  EXPECT_EQ(path("G2 X0 F50\nG81 C90. Z-8. R2.").front(), "line 0 0 10 90 F50");  // beside an arc such an axis goes along a line
+  EXPECT_EQ(path("G1 F50\nG91 G81 C30. Z-8. R-2. L2"),
+            (Path{"line 0 0 10 30 F50", "rapid 0 0 8 30", "line 0 0 0 30 F50", "rapid 0 0 10 30", "line 0 0 10 60 F50", "rapid 0 0 8 60",
+                  "line 0 0 0 60 F50", "rapid 0 0 10 60"}));
+}
+
+/// Moves with the in-position widths that are waited for behind them, mm; -1 = by the parameters.
+Path widths(const Outcome& run) {
+  Path all;
+  size_t next_move = 0;
+  const Path moves = run.path();
+  for (const Step& step : run.steps) {
+    if (step.item.kind == NC_ITEM_MOVE) all.push_back(moves[next_move++]);
+    if (step.item.kind == NC_ITEM_GATE && step.item.u.gate.kind == NC_GATE_IN_POSITION) all.back() += " ," + brief(step.item.u.gate.value);
+  }
+  return all;
+}
+
+TEST(Cycle, InPositionWidths) {  // M700 13.1.1, "programmable in-position width command in fixed cycle", figures 1 and 2
+  EXPECT_EQ(widths(m700("G91 G0\nG81 X-50. Z-50. R-50. L2 F2000 ,I0.2 ,J0.3\nG80\nM30")),
+            (Path{"rapid -50 0 0 ,0.2", "rapid -50 0 -50", "line -50 0 -100 F2000", "rapid -50 0 0 ,0.3", "rapid -100 0 0 ,0.2",
+                  "rapid -100 0 -50", "line -100 0 -100 F2000", "rapid -100 0 0 ,0.3"}));
+  EXPECT_EQ(widths(m700("G91 G0\nG81 X-50. Z-50. R-50. F2000 ,I0.2 ,J0.3\nX-10.\nX-10. ,I0.2\nG80\nM30")),
+            (Path{"rapid -50 0 0 ,0.2", "rapid -50 0 -50", "line -50 0 -100 F2000", "rapid -50 0 0 ,0.3", "rapid -60 0 0", "rapid -60 0 -50",
+                  "line -60 0 -100 F2000", "rapid -60 0 0 ,0.3", "rapid -70 0 0 ,0.2", "rapid -70 0 -50", "line -70 0 -100 F2000",
+                  "rapid -70 0 0 ,0.3"}));
+  // Where the parameters ask for a check, too, the other moves have theirs (0).
+  Bench bench;
+  bench.param("1193", "1");
+  EXPECT_EQ(widths(bench.run("G0 G81 X5. Z-8. R-2. F100 ,I0.2 ,J0.3\nG80\nM30")), (Path{"rapid 5 0 -8 ,0.2"}));  // precaution (4)
+  EXPECT_EQ(widths(bench.at(0, 0, 0).run("G0\nG81 X5. Z-8. R-2. F100 ,I0.2 ,J0.3\nG80\nM30")),
+            (Path{"rapid 5 0 0 ,0.2", "rapid 5 0 -2 ,0", "line 5 0 -8 F100", "rapid 5 0 0 ,0.3"}));
+  // Behind the return that ends the hole.
+  EXPECT_EQ(widths(m700("G0\nG83 Z-8. R-2. Q4. F100 ,J0.3\nG80\nM30")),
+            (Path{"rapid 0 0 -2", "line 0 0 -6 F100", "rapid 0 0 -2", "rapid 0 0 -6", "line 0 0 -8 F100", "rapid 0 0 0 ,0.3"}));
+  EXPECT_EQ(widths(m700("G0\nG99 G85 Z-8. R-2. F100 ,J0.3\nG80\nM30")),
+            (Path{"rapid 0 0 -2", "line 0 0 -8 F100", "line 0 0 -2 F100 ,0.3"}));
+}
+
+TEST(Cycle, RangeOfTheInPositionWidths) {  // M700 13.1.1: 0.001 to 999.999 mm, P35
+  for (const char* word : {",I0", ",J0", ",I0.0005", ",J0.0005", ",I1000.", ",J1000.", ",I1000000", ",J-1."})
+    EXPECT_EQ(at_ten(std::string("G81 X1. Z-5. R1. F100 ") + word + "\nM30").alarm, "P35") << word;
+  for (const char* word : {",I1", ",J1", ",I999.999", ",J999.999"})
+    EXPECT_EQ(at_ten(std::string("G81 X1. Z-5. R1. F100 ") + word + "\nM30").alarm, "") << word;
+  for (const char* block : {"G0 X1. ,J0.1", "G1 X1. F100 ,J0.1", "G28 X0 ,I0.1", "G53 X0 ,J0.1"})  // of cycles (6.1, 6.2: ,I of G00, G01)
+    EXPECT_EQ(m700(std::string(block) + "\nM30").alarm, "P32") << block;
 }
 
 TEST(Cycle, MGoesOutAtTheFirstPositioningOnly) {  // M700 13.1.1 precaution 5

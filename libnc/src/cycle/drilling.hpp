@@ -19,6 +19,7 @@ struct CycleState {
   bool z_incremental = false, r_incremental = false;
   double q = 0;              ///< peck depth, > 0
   double dwell_s = 0;        ///< P
+  double in_position = 0;    ///< ,J: in-position width behind the return from the bottom, mm; 0 = by the parameters
   double initial_level = 0;  ///< level of the drilling axis when the cycle was commanded, machine coordinates without tool length: a
                              ///< shift of the coordinates in the cycle mode (M700 13.1.2, 13.1.3) does not move it
 };

@@ -124,6 +124,9 @@ Did take_m(Interpreter& in, double value) {
   return Did::done;
 }
 
+/// M700 13.1.1: "0.001 to 999.999 (mm)"; 6.1 and 6.2 print no range for the same word.
+bool in_position_range(double mm) { return mm > 0.001 - 1e-9 && mm < 999.999 + 1e-9; }
+
 /// M98: what ,D belongs to.
 bool calls_program(const BlockWords& w) {
   for (const uint32_t m : w.m)
@@ -171,7 +174,7 @@ Did gather_words(Interpreter& in) {
   w.one_shot = w.motion = w.cycle = nullptr;
   w.one_shot_code = 0;
   w.exact_stop = w.fin_behind_dwell = false;
-  w.in_position = 0;
+  w.in_position = w.in_position_drill = 0;
   w.counted_feeds = 0;
   w.device = 0;
   w.absolute_at = w.incremental_at = 0;
@@ -200,9 +203,10 @@ Did gather_words(Interpreter& in) {
       if (v.vacant) continue;  // M700 13.5.4: a word with only a vacant variable is ignored
       value = v.number;
     }
-    if ((word.flags & kWordComma) != 0 && word.letter == 'I' && in.dialect->id == NC_DIALECT_M700) {
-      w.in_position = length_value(in, value, word.flags, false, true);
-      if (!(w.in_position > 0)) return in.raise(Condition::value_range, 'I', value);
+    if ((word.flags & kWordComma) != 0 && (word.letter == 'I' || word.letter == 'J') && in.dialect->id == NC_DIALECT_M700) {
+      const double width = length_value(in, value, word.flags, false, true);
+      if (!in_position_range(width)) return in.raise(Condition::value_range, word.letter, value);
+      (word.letter == 'I' ? w.in_position : w.in_position_drill) = width;
       continue;
     }
     if ((word.flags & kWordComma) != 0 && word.letter == 'D' && in.dialect->id == NC_DIALECT_M700) {
@@ -211,7 +215,7 @@ Did gather_words(Interpreter& in) {
       w.device = static_cast<int8_t>(device);
       continue;
     }
-    if ((word.flags & kWordComma) != 0) {  // M700 13.7 ,C ,R; 13.8 ,A; in-position widths ,I ,J, device ,D, tap ,S
+    if ((word.flags & kWordComma) != 0) {  // M700 13.7 ,C ,R; 13.8 ,A; 13.1.1 ,S of a tap
       const bool corner = word.letter == 'C' || word.letter == 'R';
       return in.raise(corner ? Condition::corner_option : word.letter == 'A' ? Condition::geometric_option : Condition::no_function, word.letter, value);
     }

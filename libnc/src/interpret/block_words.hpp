@@ -34,7 +34,8 @@ struct BlockWords {
   char late_number = 0;            ///< N or O behind other words, 0 = none
   uint8_t counted_feeds = 0;       ///< F1= to F8=, bit n - 1 (M700 15.5); their values stand in counted_feed
   double counted_feed[8];
-  double in_position = 0;          ///< ,I: in-position width of this block, mm (M700 6.1, 6.2); 0 = none
+  double in_position = 0;          ///< ,I: in-position width of this block, mm (M700 6.1, 6.2, 13.1.1); 0 = none
+  double in_position_drill = 0;    ///< ,J: that of the drilling axis in a fixed cycle, mm (M700 13.1.1); 0 = none
   int8_t device = 0;               ///< ,D: where a sub program is looked for (M700 13.3.1), 0 = the memory
   bool comp_command = false;       ///< G40-G42 that means something here
   uint64_t absolute_at = 0, incremental_at = 0;  ///< bit i: word i of the block is G90, G91

@@ -425,6 +425,7 @@ struct LinearStyle {
   double feed_mm_rev = 0;     ///< thread: lead along the longest axis
   double thread_angle = 0;
   bool special_feed = false;  ///< the modal feed, and it is not the plain one (interpret/feed.hpp)
+  double in_position = 0;     ///< ,I ,J: what comes behind waits until each axis is as near to its end as this, mm; 0 = by the parameters
 };
 /// A straight move to `target` in the active coordinates; `commanded` = axes named in the block (tool length is applied to them).
 void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
@@ -456,6 +457,8 @@ Did check_index_positions(Interpreter& in);
 Did move_by_words(Interpreter& in);
 /// F in force as mm/min, 0 = none.
 double feed_mm_min(const Interpreter& in);
+/// The same for a line between these points, of which rotary axes alone may be moved.
+double feed_for(const Interpreter& in, const AxisVec& start, const AxisVec& end);
 /// The end point that the words ask for.
 AxisVec target_of_words(const Interpreter& in);
 /// The same from values by axis; `axes` of them are programmed.

@@ -88,8 +88,6 @@ double feed_mm_min(const Interpreter& in) {
   return in.state.modal.feed * (inch ? 25.4 : 1.0);
 }
 
-namespace {
-
 /// When only rotary axes move F is deg/min; in inch its unit is 10 deg (M700 3.2 note 6). On a cylinder and in the plane of G12.1 F is
 /// inch/min along the curve that is programmed there, whatever axis goes (6.9 (6), 6.10 (5)).
 double feed_for(const Interpreter& in, const AxisVec& start, const AxisVec& end) {
@@ -101,8 +99,6 @@ double feed_for(const Interpreter& in, const AxisVec& start, const AxisVec& end)
     if (((turning >> i) & 1) == 0 && std::fabs(end[i] - start[i]) > kNoMotion) return feed_mm_min(in);
   return in.state.modal.feed * 10;
 }
-
-}  // namespace
 
 AxisVec target_of_words(const Interpreter& in) { return target_of_words(in, in.position()); }
 
@@ -160,11 +156,14 @@ MoveFrame frame_of_move(Interpreter& in, const AxisVec& target, uint32_t command
 namespace {
 
 /// M700 7.9: behind rapid traverse, and behind cutting with G09 or in G61, the next block waits until the axes are in position where the
-/// parameters ask for more than that the command has come to rest. A width of the block itself (,I) has its own gate.
-inline void check_deceleration(Interpreter& in, nc_move_kind kind) {
-  if (!in.settings.check_rapid && !in.settings.check_cutting) return;
+/// parameters ask for more than that the command has come to rest. A width of the block itself (,I ,J: 6.1, 6.2, 13.1.1) goes before.
+inline void check_deceleration(Interpreter& in, nc_move_kind kind, double width = 0) {
+  if (!in.settings.check_rapid && !in.settings.check_cutting && width == 0) [[likely]] return;
   const bool check = kind == NC_MOVE_RAPID ? in.settings.check_rapid : in.settings.check_cutting && asks_exact_stop(in);
-  if (check && in.words.in_position == 0) in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION;
+  if (!check && width == 0) return;
+  Gate& gate = in.emit(ItemKind::gate).gate;
+  gate.kind = NC_GATE_IN_POSITION;
+  gate.value = width;
 }
 
 inline void set_style(Interpreter& in, Move& move, const LinearStyle& style) {
@@ -189,7 +188,7 @@ void move_linear_mapped(Interpreter& in, const AxisVec& target, uint32_t command
   Move& move = begin_move(in, frame.transform, frame.start, frame.end);
   set_style(in, move, style);
   finish_mapped(in, frame, before, move);
-  check_deceleration(in, move.kind);
+  check_deceleration(in, style.kind, style.in_position);
 }
 
 }  // namespace
@@ -210,7 +209,7 @@ void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, con
   if (same_place(start, end, in.axis_count)) return;
   Move& move = begin_move(in, transform, start, end);
   set_style(in, move, style);
-  check_deceleration(in, move.kind);
+  check_deceleration(in, style.kind, style.in_position);
 }
 
 void move_nowhere(Interpreter& in) {
@@ -352,13 +351,6 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
   return Did::done;
 }
 
-/// M700 6.1, 6.2: the next block begins when every axis is nearer to its end than the width that the block gives with ,I.
-void wait_in_position(Interpreter& in) {
-  Gate& gate = in.emit(ItemKind::gate).gate;
-  gate.kind = NC_GATE_IN_POSITION;
-  gate.value = in.words.in_position;
-}
-
 /// Motions of group 1 beside G00 to G03.
 Did move_by_function(Interpreter& in, int16_t code, const AxisVec& target, uint32_t commanded) {
   switch (code) {
@@ -385,6 +377,7 @@ void move_rapid(Interpreter& in, const AxisVec& target, uint32_t axes) {
     style.unclamps = 0;
     axes = tables;
   }
+  style.in_position = in.words.in_position;
   move_linear(in, target, axes, style);
 }
 
@@ -412,6 +405,8 @@ Did move_by_words(Interpreter& in) {
     if (did != Did::done) return did;
   }
   if (const Did did = check_index_positions(in); did != Did::done) return did;
+  // M700 13.1.1: of fixed cycles, whose words are ignored beside a code of group 1 (precaution (4)).
+  if (w.in_position_drill > 0 && w.cycle == nullptr) return in.raise(Condition::illegal_address, 'J', w.in_position_drill);
   // Where the block starts is asked only by words that count from there (an axis without a word stays), by the feed of rotary axes,
   // by a turned figure, in which one word moves two axes, and by curves. The end of an arc in space counts from its middle point.
   const bool mapped = program_mapped(in);
@@ -422,7 +417,6 @@ Did move_by_words(Interpreter& in) {
   const AxisVec target = mapped ? target_of_words(in, position) : plain_target(in, position, w.axes, w.axis);
   if (code == 0) {
     move_rapid(in, target, w.axes);
-    if (w.in_position > 0) wait_in_position(in);
     return Did::done;
   }
   if (w.in_position > 0 && code != 10) return in.raise(Condition::illegal_address, 'I', w.in_position);
@@ -441,9 +435,9 @@ Did move_by_words(Interpreter& in) {
   style.feed_mm_min = feed_for(in, position, target);
   style.special_feed = special_feed(in);
   style.exact_stop = asks_exact_stop(in);
+  style.in_position = style.exact_stop ? w.in_position : 0;  // only where there is a deceleration check
   if ((in.state.special & kSpecialSpline) != 0) return move_spline(in, target, w.axes, style);
   move_linear(in, target, w.axes, style);
-  if (w.in_position > 0 && style.exact_stop) wait_in_position(in);  // only where there is a deceleration check
   return Did::done;
 }
 

@@ -5,6 +5,7 @@
 
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
 
 namespace nc {
@@ -22,13 +23,32 @@ CycleKind kind_of(Function function) {
   }
 }
 
-/// Drilling axis: the axis normal to the plane (M700 13.1.1 "Plane and drilling axis"; DGSHAPE: Z).
-int drilling_axis(const Interpreter& in) {
+/// The pair of axes, I J or K, that is normal to the plane in force.
+unsigned normal_pair(const Interpreter& in) {
   const int16_t plane = in.state.modal.code[kGroupPlane];
-  char letter = 'Z';
-  if (!in.settings.drilling_axis_z && plane == 180) letter = 'Y';
-  if (!in.settings.drilling_axis_z && plane == 190) letter = 'X';
-  return in.axis_of[letter - 'A'];
+  return plane == 180 ? 1 : plane == 190 ? 0 : 2;
+}
+
+/// Drilling axis: the axis normal to the plane, the parallel one where the block of the cycle names it; Z with #1080 (M700 13.1.1
+/// "Positioning plane and hole drilling axis"; DGSHAPE: Z).
+int drilling_axis(const Interpreter& in) {
+  if (in.dialect->id == NC_DIALECT_DGSHAPE || in.settings.drilling_axis_z) return in.axis_of['Z' - 'A'];
+  return axis_of_pair(in, normal_pair(in));
+}
+
+/// Axes that are positioned over the hole: those of the plane that is selected, and the basic axes that are not parallel to the
+/// drilling axis.
+uint32_t positioning_axes(const Interpreter& in) {
+  const char drills = in.system->axis[in.state.cycle.drill_axis].name;
+  uint32_t axes = 0;
+  for (const int axis : in.state.plane_axis)
+    if (axis >= 0) axes |= 1u << axis;
+  for (unsigned pair = 0; pair < 3; ++pair) {
+    const char basic = in.settings.plane_basic[pair];
+    if (basic == 0 || basic == drills || in.settings.plane_parallel[pair] == drills || in.axis_of[basic - 'A'] < 0) continue;
+    axes |= 1u << in.axis_of[basic - 'A'];
+  }
+  return axes;
 }
 
 Did select_cycle(Interpreter& in, const FunctionRow& row) {
@@ -43,7 +63,7 @@ Did select_cycle(Interpreter& in, const FunctionRow& row) {
   if (dgshape && state.modal.code[kGroupPlane] != 170) return in.raise(Condition::cycle_wrong_plane, 'G', row.code / 10.0);
   const int axis = drilling_axis(in);
   if (axis < 0) return in.raise(Condition::illegal_axis, 'Z');
-  if (state.cycle.kind == CycleKind::none) {
+  if (state.cycle.kind == CycleKind::none) {  // note 2: in the mode the drilling axis does not change
     state.cycle = CycleState{};
     state.cycle.drill_axis = static_cast<uint8_t>(axis);
     state.cycle.initial_level = state.machine[static_cast<unsigned>(axis)] - state.applied[static_cast<unsigned>(axis)];
@@ -69,6 +89,7 @@ Did take_hole_data(Interpreter& in) {
     c.r = axis_value(in, c.drill_axis, w.get('R'), w.flags['R' - 'A'], false);  // M700 2.1: a position of that axis
     c.r_incremental = in.state.modal.code[kGroupDistance] == 910;
   }
+  if (w.in_position_drill > 0) c.in_position = w.in_position_drill;  // "Programmable in-position width": it stays, ,I does not
   if (w.has('Q')) c.q = std::fabs(length_of(in, 'Q'));
   if (w.has('P')) {
     const double ms = dgshape ? w.get('P') : std::trunc(w.get('P'));  // decimals are ignored
@@ -76,6 +97,14 @@ Did take_hole_data(Interpreter& in) {
     c.dwell_s = ms / 1000;
   }
   return Did::done;
+}
+
+/// `start`, but where `axes` go.
+AxisVec plain_end(const AxisVec& start, const AxisVec& target, uint32_t axes) {
+  AxisVec end = start;
+  for (unsigned i = 0; i < kMaxAxes; ++i)
+    if (((axes >> i) & 1) != 0) end[i] = target[i];
+  return end;
 }
 
 /// Levels of this hole from the hole data (M700 13.1.1 "Absolute/incremental").
@@ -107,24 +136,28 @@ void resolve_hole(Interpreter& in) {
   }
 }
 
-/// The move to the hole: axes outside the plane first (M700 13.1.1 (6)), then the plane, both rapid.
+/// The move to the hole. Axes that neither drill nor are of the plane go first (M700 13.1.1 precaution (6)), by the code of group 1 from
+/// before the cycle (13.1.2, example 2, N012): rapid by G00, else a line with the feed, which is what such an axis does beside an arc, too.
+/// Then the plane in rapid traverse, which ,I of the block belongs to.
 void position_over_hole(Interpreter& in) {
-  const uint32_t drill_bit = 1u << in.state.cycle.drill_axis;
-  const int x = in.axis_of['X' - 'A'], y = in.axis_of['Y' - 'A'], z = in.axis_of['Z' - 'A'];
-  uint32_t geometric = 0;
-  for (const int axis : {x, y, z})
-    if (axis >= 0) geometric |= 1u << axis;
-  for (const int axis : in.state.plane_axis)
-    if (axis >= 0) geometric |= 1u << axis;
-  const uint32_t axes = in.hole_axes & ~drill_bit;
-  const AxisVec target = target_of(in, in.position(), axes, in.hole_increment);
+  const uint32_t axes = in.hole_axes & ~(1u << in.state.cycle.drill_axis);
+  const uint32_t over_hole = positioning_axes(in);
+  const AxisVec start = in.position(), target = target_of(in, start, axes, in.hole_increment);
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
-  move_linear(in, target, axes & ~geometric, style);
-  move_linear(in, target, axes & geometric, style);
+  LinearStyle other = style;
+  if (in.state.modal.code[kGroupMotion] != 0 && in.dialect->id == NC_DIALECT_M700) {
+    other.kind = NC_MOVE_LINE;
+    other.feed_mm_min = feed_for(in, start, plain_end(start, target, axes & ~over_hole));
+    other.special_feed = special_feed(in);
+    other.exact_stop = true;  // the cycle begins behind it
+  }
+  move_linear(in, target, axes & ~over_hole, other);
+  style.in_position = in.words.in_position;
+  move_linear(in, target, axes & over_hole, style);
 }
 
-void emit_cycle_move(Interpreter& in, const CycleStep& step) {
+void emit_cycle_move(Interpreter& in, const CycleStep& step, bool last) {
   AxisVec target = in.position();
   target[in.state.cycle.drill_axis] = step.to;
   LinearStyle style;
@@ -132,6 +165,7 @@ void emit_cycle_move(Interpreter& in, const CycleStep& step) {
   style.feed_mm_min = feed_mm_min(in);
   style.special_feed = style.kind != NC_MOVE_RAPID && special_feed(in);
   style.exact_stop = true;  // every level of a hole is reached
+  if (last) style.in_position = in.state.cycle.in_position;
   move_linear(in, target, 1u << in.state.cycle.drill_axis, style);
 }
 
@@ -198,7 +232,11 @@ Did continue_cycle(Interpreter& in) {
     const CycleStep step = next_step(in.hole, in.progress);
     switch (step.kind) {
       case CycleStep::Kind::rapid:
-      case CycleStep::Kind::feed: emit_cycle_move(in, step); break;
+      case CycleStep::Kind::feed: {
+        HoleProgress ahead = in.progress;
+        emit_cycle_move(in, step, next_step(in.hole, ahead).kind == CycleStep::Kind::done);
+        break;
+      }
       case CycleStep::Kind::stop_point: in.emit_stop_point(); break;
       case CycleStep::Kind::dwell: {
         Gate& gate = in.emit(ItemKind::gate).gate;

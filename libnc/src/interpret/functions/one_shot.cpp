@@ -71,6 +71,9 @@ bool machine_in_figure(const Interpreter& in) {
 }  // namespace
 
 Did execute_one_shot(Interpreter& in) {
+  // M700 6.1, 6.2, 13.1.1: G00, G01 and fixed cycles have an in-position width.
+  if (in.words.in_position > 0) return in.raise(Condition::illegal_address, 'I', in.words.in_position);
+  if (in.words.in_position_drill > 0) return in.raise(Condition::illegal_address, 'J', in.words.in_position_drill);
   if (machine_in_figure(in)) return in.raise(Condition::machine_in_figure, 'G', in.words.one_shot_code / 10.0);
   for (const Handler& handler : kHandlers)
     if (handler.function == in.words.one_shot->function) return handler.run(in);
