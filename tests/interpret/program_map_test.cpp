@@ -47,6 +47,87 @@ TEST(FigureRotation, NotOnOneCircle) {  // (4): the first move of a pass goes to
             (Path{"rapid 10 0 0", "line 20 0 0 F100", "line 0 20 0 F100", "line -20 0 0 F100"}));
 }
 
+/// Ends of the moves of the sub program in the passes of a figure about X0 Y0 that begins at X20 Y0; each pass is a quarter turn on.
+/// Every pass must be the first one turned.
+std::vector<nc_move> quarter_turns(Bench& bench, const char* sub, unsigned passes = 3) {
+  bench.add("O1", std::string(sub) + "\nM99\n");
+  const Outcome run = bench.at(20, 0, 0).run("G90 F100\nM98 P1 L" + std::to_string(passes) + " I-20.\nM30");
+  EXPECT_EQ(run.alarm, "") << sub;
+  const std::vector<nc_move> moves = run.moves();
+  const size_t each = moves.size() / passes;
+  EXPECT_EQ(moves.size(), each * passes) << sub;
+  for (size_t i = each; i < each * passes; ++i) {
+    const nc_move& before = moves[i - each];
+    EXPECT_NEAR(moves[i].machine.v[0], -before.machine.v[1], 1e-9) << sub << " " << i;
+    EXPECT_NEAR(moves[i].machine.v[1], before.machine.v[0], 1e-9) << sub << " " << i;
+    EXPECT_NEAR(moves[i].machine.v[2], before.machine.v[2], 1e-9) << sub << " " << i;
+    EXPECT_EQ(moves[i].plane, before.plane) << sub << " " << i;
+    if (moves[i].plane == NC_PLANE_NONE) continue;
+    EXPECT_EQ(moves[i].ccw, before.ccw) << sub << " " << i;
+    EXPECT_NEAR(moves[i].machine_center[0], -before.machine_center[1], 1e-9) << sub << " " << i;
+    EXPECT_NEAR(moves[i].machine_center[1], before.machine_center[0], 1e-9) << sub << " " << i;
+  }
+  return moves;
+}
+
+TEST(FigureRotation, WhatTheSubProgramScalesIsTheShape) {  // 13.19, relation (6)
+  Bench bench;
+  EXPECT_EQ(quarter_turns(bench, "G51 X20. Y0 P0.5\nG1 X24.\nX20.\nG50\nX0 Y20.")[0].machine.v[0], 22);
+  EXPECT_EQ(quarter_turns(bench, "G91 G51 X0 Y0 P3.\nG1 X4.\nX-4.\nG50\nG90 X0 Y20.")[0].machine.v[0], 32);
+  const nc_move arc = quarter_turns(bench, "G51 X20. Y0 P2.\nG1 X22.\nG3 X20. Y2. I-2.\nX18. Y0 R2.\nG1 X20.\nG50\nX0 Y20.")[1];
+  EXPECT_NEAR(arc.machine.v[1], 4, 1e-9);
+  EXPECT_NEAR(arc.radius, 4, 1e-9);
+  quarter_turns(bench, "G51 X20. P2.\nG1 X22. Y3.\nG50\nX0 Y20.");         // one axis
+  quarter_turns(bench, "G51 X20. Y0 Z1. P2.\nG1 X21. Z-2.\nZ0\nG50\nX0 Y20. Z0");
+  bench.add("O1", "G51 X20. P2.\nG3 X20. Y4. J2. F100\nM99\n");
+  EXPECT_EQ(bench.at(20, 0, 0).run("G90 F100\nM98 P1 L2 I-20.\nM30").alarm, "P70");  // 13.19 (4)
+}
+
+TEST(FigureRotation, WhatTheSubProgramMirrorsIsTheShape) {  // 13.3.3 (3): all blocks in the sub program are turned
+  Bench bench;
+  const std::vector<nc_move> moves = quarter_turns(bench, "G51.1 X20.\nG1 X24. Y3.\nX20. Y0\nG50.1 X0\nX0 Y20.");
+  EXPECT_NEAR(moves[0].machine.v[0], 16, 1e-9);
+  EXPECT_NEAR(moves[0].machine.v[1], 3, 1e-9);
+  const nc_move arc = quarter_turns(bench, "G51.1 X20.\nG1 X24.\nG3 X22. Y2. I-2.\nG1 X20. Y0\nG50.1\nX0 Y20.")[1];
+  EXPECT_EQ(arc.ccw, 0);
+  EXPECT_NEAR(arc.machine_center[0], 18, 1e-9);
+  quarter_turns(bench, "G91 G51.1 X1.\nG90 G1 X24. Y3.\nX22. Y0\nG50.1\nX0 Y20.");
+  quarter_turns(bench, "G51.1 X20. Y0\nG1 X24. Y3.\nX20. Y0\nG50.1 X0\nY1.\nG50.1\nX0 Y20.");
+  quarter_turns(bench, "G51 X20. Y0 P2.\nG51.1 Y0\nG1 X24. Y3.\nX20. Y0\nG50 G50.1\nX0 Y20.");
+}
+
+TEST(FigureRotation, TheSideOfCompensationInAMirroredShape) {
+  const auto sub = [](const char* vector) {
+    return std::string("G0 G41 D1 X21. Y1.") + vector + "\nG1 X24.\nY3.\nX21.\nG0 G40 X20. Y0\nG50.1\nX0 Y20.";
+  };
+  for (const char* mirror : {"G51.1 X20.\n", "G51.1 Y0\n", "G51.1 X20. Y0\n", ""})
+    for (const char* vector : {"", " I5. J1."}) {
+      Bench bench;
+      bench.tool(1, 0.5);
+      quarter_turns(bench, (mirror + sub(vector)).c_str());
+    }
+}
+
+TEST(FigureRotation, WhatTheCallerScalesAndMirrorsIsCentreAndRadius) {  // 13.19, relation (5), and both at once
+  Bench bench;
+  bench.add("O1", "G1 X24. Y3.\nX0 Y20.\nM99\n");
+  EXPECT_EQ(bench.at(40, 0, 0).run("G51 X0 Y0 P2.\nF100\nM98 P1 L2 I-20.\nM30").path(),
+            (Path{"line 48 6 0 F100", "line 0 40 0 F100", "line -6 48 0 F100", "line -40 0 0 F100"}));
+  EXPECT_EQ(bench.at(-20, 0, 0).run("G51.1 X0\nF100\nM98 P1 L2 I-20.\nM30").path(),
+            (Path{"line -24 3 0 F100", "line 0 20 0 F100", "line 3 24 0 F100", "line 20 0 0 F100"}));
+  // The caller's mirror behind the turn, the shape's scaling in front of it.
+  bench.add("O1", "G51 X20. Y0 P0.5\nG1 X24. Y3.\nG50\nX0 Y20.\nM99\n");
+  EXPECT_EQ(bench.at(-20, 0, 0).run("G51.1 X0\nF100\nM98 P1 L2 I-20.\nM30").path(),
+            (Path{"line -22 1.5 0 F100", "line 0 20 0 F100", "line 1.5 22 0 F100", "line 20 0 0 F100"}));
+}
+
+TEST(FigureRotation, WhatTheSubProgramLeavesInForceIsTheCallers) {
+  Bench bench;
+  bench.add("O1", "G51 X20. Y0 P2.\nG1 X10. Y10.\nM99\n");  // ends at X0 Y20
+  EXPECT_EQ(bench.at(20, 0, 0).run("G90 F100\nM98 P1 L2 I-20.\nX21. Y0\nG50\nX21.\nM30").path(),
+            (Path{"line 0 20 0 F100", "line -20 0 0 F100", "line 22 0 0 F100", "line 21 0 0 F100"}));
+}
+
 TEST(FigureRotation, WhatCannotBeUsedInside) {  // (9), appendix 1
   const auto alarm = [](const char* block) {
     Bench bench;

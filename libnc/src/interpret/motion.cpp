@@ -38,7 +38,7 @@ Transform transform_in_force(const Interpreter& in) {
 /// What every move has in common.
 Move& begin_move(Interpreter& in, const Transform& transform, const AxisVec& start, const AxisVec& target) {
   Move& move = in.emit_move(start, target);
-  if (in.state.any_mirror() != 0) map_compensation(in, move.comp);
+  if (in.state.mapped) map_compensation(in, move.comp);
   move.high_accuracy = in.state.high_accuracy;
   move.transform = in.transforms.intern(transform);
   in.state.machine = transform.to_machine(target);

@@ -2,6 +2,9 @@
 // Pass n of a rotated figure is pass 1 turned about the centre c by (n - 1) a, where a is the angle from the start to the end of pass 1
 // as seen from c:  p = c + R((n - 1) a) (q - c).  The radius is not scaled: when start and end are not on one circle, the first move of
 // a pass leads from where the last one ended to the end point of its turned block (M700 13.3.3 (4)).
+//
+// Scaling and mirror image that are in force when the figure is called act on its centre and radius, too: they lie behind the turn
+// (13.19 (5)). What the sub program commands is part of the shape, and all of its blocks are turned: it lies in front (13.19 (6), 13.3.3 (3)).
 #include "interpret/program_map.hpp"
 
 #include "interpret/plane.hpp"
@@ -15,7 +18,6 @@ namespace {
 PlaneAxes plane(const Interpreter& in) { return plane_axes(in); }
 
 double figure(const Interpreter& in, unsigned what) { return in.notes.get(Notes::figure_key(what)); }
-bool in_figure(const Interpreter& in) { return in.state.frame[in.state.depth].figure != 0; }
 
 void rotate(double angle, double* h, double* v) {
   const double c = std::cos(angle), s = std::sin(angle), x = *h;
@@ -53,6 +55,12 @@ double scaled_by(const Interpreter& in, unsigned axis, double value, double fact
   return center + factor * (value - center);
 }
 
+/// Axes that are scaled and mirrored by program in front of the turn of a figure, and behind it.
+unsigned scaled_in_figure(const Interpreter& in) { return in_figure(in) ? in.state.scaled & in.state.figure_scaled : 0u; }
+unsigned mirror_in_figure(const Interpreter& in) { return in_figure(in) ? in.state.mirror & in.state.figure_mirror : 0u; }
+unsigned scaled_behind(const Interpreter& in) { return in.state.scaled ^ scaled_in_figure(in); }
+unsigned mirror_behind(const Interpreter& in) { return in.state.mirror ^ mirror_in_figure(in); }
+
 double scaled(const Interpreter& in, unsigned axis, double value) {
   return ((in.state.scaled >> axis) & 1) != 0 ? scaled_by(in, axis, value, scale_of(in, axis)) : value;
 }
@@ -61,8 +69,10 @@ double unscaled(const Interpreter& in, unsigned axis, double value) {
   return ((in.state.scaled >> axis) & 1) != 0 ? scaled_by(in, axis, value, 1 / scale_of(in, axis)) : value;
 }
 
+double reflected(const Interpreter& in, unsigned axis, double value) { return 2 * in.notes.get(Notes::mirror_key(axis)) - value; }
+
 double by_program(const Interpreter& in, unsigned axis, double value) {
-  return ((in.state.mirror >> axis) & 1) != 0 ? 2 * in.notes.get(Notes::mirror_key(axis)) - value : value;
+  return ((in.state.mirror >> axis) & 1) != 0 ? reflected(in, axis, value) : value;
 }
 
 /// About where the axis stood on the machine when the program began.
@@ -74,16 +84,41 @@ double by_switch(const Interpreter& in, unsigned axis, double value) {
 /// Axes whose direction is turned round: mirrored by one of the two.
 unsigned turned_axes(const Interpreter& in) { return in.state.mirror ^ in.state.switch_mirror; }
 
+bool has(unsigned axes, unsigned axis) { return ((axes >> axis) & 1) != 0; }
+
+/// In front of the turn of a figure, and the way back.
+void map_shape(const Interpreter& in, AxisVec& p) {
+  const unsigned scaled_axes = scaled_in_figure(in), mirrored_axes = mirror_in_figure(in);
+  for (unsigned i = 0; (scaled_axes | mirrored_axes) != 0 && i < in.axis_count; ++i) {
+    if (has(scaled_axes, i)) p[i] = scaled(in, i, p[i]);
+    if (has(mirrored_axes, i)) p[i] = reflected(in, i, p[i]);
+  }
+}
+void unmap_shape(const Interpreter& in, AxisVec& p) {
+  const unsigned scaled_axes = scaled_in_figure(in), mirrored_axes = mirror_in_figure(in);
+  for (unsigned i = 0; (scaled_axes | mirrored_axes) != 0 && i < in.axis_count; ++i) {
+    if (has(mirrored_axes, i)) p[i] = reflected(in, i, p[i]);
+    if (has(scaled_axes, i)) p[i] = unscaled(in, i, p[i]);
+  }
+}
+
 /// Everything behind the figure, and its way back.
 void map_figure(const Interpreter& in, AxisVec& p) {
-  for (unsigned i = 0; in.state.scaled != 0 && i < in.axis_count; ++i) p[i] = scaled(in, i, p[i]);
+  const unsigned scaled_axes = scaled_behind(in), mirrored_axes = mirror_behind(in);
+  for (unsigned i = 0; scaled_axes != 0 && i < in.axis_count; ++i)
+    if (has(scaled_axes, i)) p[i] = scaled(in, i, p[i]);
   if (in.state.rotated) turn_coordinates(in, rotation_angle(in), p);
-  for (unsigned i = 0; i < in.axis_count; ++i) p[i] = mirrored(in, i, p[i]);
+  for (unsigned i = 0; i < in.axis_count; ++i) p[i] = by_switch(in, i, has(mirrored_axes, i) ? reflected(in, i, p[i]) : p[i]);
 }
 void unmap_figure(const Interpreter& in, AxisVec& p) {
-  for (unsigned i = 0; i < in.axis_count; ++i) p[i] = unmirrored(in, i, p[i]);
+  const unsigned scaled_axes = scaled_behind(in), mirrored_axes = mirror_behind(in);
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    p[i] = by_switch(in, i, p[i]);
+    if (has(mirrored_axes, i)) p[i] = reflected(in, i, p[i]);
+  }
   if (in.state.rotated) turn_coordinates(in, -rotation_angle(in), p);
-  for (unsigned i = 0; in.state.scaled != 0 && i < in.axis_count; ++i) p[i] = unscaled(in, i, p[i]);
+  for (unsigned i = 0; scaled_axes != 0 && i < in.axis_count; ++i)
+    if (has(scaled_axes, i)) p[i] = unscaled(in, i, p[i]);
 }
 
 bool odd(const Interpreter& in, unsigned h, unsigned v) { return (((turned_axes(in) >> h) ^ (turned_axes(in) >> v)) & 1) != 0; }
@@ -96,18 +131,21 @@ AxisVec to_program(const Interpreter& in, const AxisVec& work) {
   if (!in_figure(in)) return p;
   if (in.state.frame[in.state.depth].figure == kFigureMoved) {
     turn(in, -figure(in, Notes::kAngle), p);
-    return p;
+  } else {  // nothing of this pass has moved yet: its increments count from where the figure began
+    const PlaneAxes axes = plane(in);
+    if (axes.h >= 0) p[static_cast<unsigned>(axes.h)] = figure(in, Notes::kStartH);
+    if (axes.v >= 0) p[static_cast<unsigned>(axes.v)] = figure(in, Notes::kStartV);
   }
-  // Nothing of this pass has moved yet: its increments count from where the figure began.
-  const PlaneAxes axes = plane(in);
-  if (axes.h >= 0) p[static_cast<unsigned>(axes.h)] = figure(in, Notes::kStartH);
-  if (axes.v >= 0) p[static_cast<unsigned>(axes.v)] = figure(in, Notes::kStartV);
+  unmap_shape(in, p);
   return p;
 }
 
 AxisVec from_program(const Interpreter& in, const AxisVec& programmed) {
   AxisVec p = programmed;
-  if (in_figure(in)) turn(in, figure(in, Notes::kAngle), p);
+  if (in_figure(in)) {
+    map_shape(in, p);
+    turn(in, figure(in, Notes::kAngle), p);
+  }
   map_figure(in, p);
   return p;
 }
@@ -124,6 +162,11 @@ double scale_of(const Interpreter& in, unsigned axis) {
   return ((in.state.scaled >> axis) & 1) != 0 ? in.notes.get(Notes::scaling_key(kMaxAxes)) : 1.0;
 }
 
+bool scaled_unevenly(const Interpreter& in, unsigned h, unsigned v) {
+  const unsigned shape = scaled_in_figure(in), behind = scaled_behind(in);
+  return has(shape, h) != has(shape, v) || has(behind, h) != has(behind, v);
+}
+
 double mapped_on(const Interpreter& in, unsigned axis, double programmed) { return mirrored(in, axis, scaled(in, axis, programmed)); }
 double programmed_on(const Interpreter& in, unsigned axis, double work) { return unscaled(in, axis, unmirrored(in, axis, work)); }
 
@@ -136,20 +179,24 @@ uint32_t moved_axes(const Interpreter& in, uint32_t axes) {
 }
 
 void map_arc(const Interpreter& in, unsigned h, unsigned v, double center[2], bool* ccw) {
+  const unsigned shape = mirror_in_figure(in), behind = mirror_behind(in) ^ in.state.switch_mirror;
+  center[0] *= scale_of(in, h) * (has(shape, h) ? -1 : 1);  // both by the same factor, so it does not matter where
+  center[1] *= scale_of(in, v) * (has(shape, v) ? -1 : 1);
   if (in_figure(in)) rotate(figure(in, Notes::kAngle), &center[0], &center[1]);
-  center[0] *= scale_of(in, h);
-  center[1] *= scale_of(in, v);
   if (in.state.rotated) rotate(rotation_angle(in), &center[0], &center[1]);
-  if (((turned_axes(in) >> h) & 1) != 0) center[0] = -center[0];
-  if (((turned_axes(in) >> v) & 1) != 0) center[1] = -center[1];
+  if (has(behind, h)) center[0] = -center[0];
+  if (has(behind, v)) center[1] = -center[1];
   if (odd(in, h, v)) *ccw = !*ccw;
 }
 
 void map_compensation(const Interpreter& in, Compensation& comp) {
-  if (!odd(in, comp.axis[0], comp.axis[1])) return;
-  comp.side = static_cast<int8_t>(-comp.side);
+  const unsigned shape = mirror_in_figure(in), behind = mirror_behind(in) ^ in.state.switch_mirror;
   for (unsigned i = 0; i < 2; ++i)
-    if (((turned_axes(in) >> comp.axis[i]) & 1) != 0) comp.vector[i] = -comp.vector[i];
+    if (has(shape, comp.axis[i])) comp.vector[i] = -comp.vector[i];
+  if (in_figure(in)) rotate(figure(in, Notes::kAngle), &comp.vector[0], &comp.vector[1]);
+  for (unsigned i = 0; i < 2; ++i)
+    if (has(behind, comp.axis[i])) comp.vector[i] = -comp.vector[i];
+  if (odd(in, comp.axis[0], comp.axis[1])) comp.side = static_cast<int8_t>(-comp.side);
 }
 
 void begin_figure(Interpreter& in, const double center[2]) {
@@ -157,6 +204,7 @@ void begin_figure(Interpreter& in, const double center[2]) {
   const AxisVec at = to_program(in, in.position());
   const double start[2] = {axes.h >= 0 ? at[static_cast<unsigned>(axes.h)] : 0, axes.v >= 0 ? at[static_cast<unsigned>(axes.v)] : 0};
   in.state.frame[in.state.depth].figure = kFigureStarts;
+  in.state.figure_scaled = in.state.figure_mirror = 0;
   in.program_changed();
   in.set_note(Notes::figure_key(Notes::kStartH), start[0]);
   in.set_note(Notes::figure_key(Notes::kStartV), start[1]);
@@ -164,6 +212,10 @@ void begin_figure(Interpreter& in, const double center[2]) {
   in.set_note(Notes::figure_key(Notes::kCenterV), start[1] + center[1]);
   in.set_note(Notes::figure_key(Notes::kStep), 0);
   in.set_note(Notes::figure_key(Notes::kAngle), 0);
+}
+
+double shape_scaled(const Interpreter& in, unsigned axis, double value) {
+  return has(scaled_in_figure(in), axis) ? scaled(in, axis, value) : value;
 }
 
 void turn_figure(Interpreter& in) {

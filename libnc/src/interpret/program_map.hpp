@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map from programmed points to the active workpiece coordinates: figure rotation (M700 13.3.3), scaling (13.19), coordinate rotation
-// (13.20: it turns the centre of scaling, too), then mirror image by program (13.6) and by switch. It lies in front of tool radius
-// compensation: reflecting the path and its side gives the reflected compensated path.
+// (13.20: it turns the centre of scaling, too), then mirror image by program (13.6) and by switch. Scaling and mirror image that a rotated
+// program commands itself come before its rotation (13.19 (6)). The map lies in front of tool radius compensation: reflecting the path and its side gives the reflected compensated path.
 #pragma once
 
 #include "interpret/interpreter.hpp"
@@ -21,17 +21,20 @@ double mapped_on(const Interpreter& in, unsigned axis, double programmed);
 double programmed_on(const Interpreter& in, unsigned axis, double work);
 /// Factor of scaling of an axis, 1 where there is none; one of two axes of an arc is scaled, or both are.
 double scale_of(const Interpreter& in, unsigned axis);
-inline bool scaled_unevenly(const Interpreter& in, unsigned h, unsigned v) { return (((in.state.scaled >> h) ^ (in.state.scaled >> v)) & 1) != 0; }
+bool scaled_unevenly(const Interpreter& in, unsigned h, unsigned v);
 /// Axes that move when `axes` are programmed: a rotated plane moves with both.
 uint32_t moved_axes(const Interpreter& in, uint32_t axes);
 /// The increments of an arc's centre on the axes h, v, and its direction.
 void map_arc(const Interpreter& in, unsigned h, unsigned v, double center[2], bool* ccw);
-/// A mirrored path is compensated on its other side.
+/// A mirrored path is compensated on its other side, and the vectors of G40 to G42 (I J K) turn with their blocks.
 void map_compensation(const Interpreter& in, Compensation& comp);
 
 /// Figure rotation: M98 with I J K begins it with the frame just entered, each further pass turns on.
 void begin_figure(Interpreter& in, const double center[2]);
 void turn_figure(Interpreter& in);
+/// A coordinate as the scaling makes it that the rotated program has commanded.
+double shape_scaled(const Interpreter& in, unsigned axis, double value);
+inline bool in_figure(const Interpreter& in) { return in.state.frame[in.state.depth].figure != 0; }
 inline void figure_has_moved(Interpreter& in) {
   uint8_t& figure = in.state.frame[in.state.depth].figure;
   if (figure != 0) figure = kFigureMoved;

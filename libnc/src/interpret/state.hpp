@@ -160,6 +160,8 @@ struct State {
   bool rotated = false;         ///< coordinates are rotated by program (M700 13.20)
   uint8_t switch_mirror = 0;    ///< bit i: axis i is mirrored by the switch since the program began
   uint8_t mirror = 0;           ///< bit i: axis i is mirrored by program (M700 13.6)
+  uint8_t figure_scaled = 0;    ///< of `scaled` and `mirror`: commanded in the program that is being rotated (13.3.3, 13.19 (6));
+  uint8_t figure_mirror = 0;    ///< they mean something in that program only
   uint8_t interrupt_depth = 0;  ///< level of the interrupt program in service, 0 = none
   Repeat repeat;                ///< holds for the next block only
   bool stop_reading = false;    ///< an M code that prohibits reading ahead was in the block before

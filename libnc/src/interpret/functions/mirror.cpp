@@ -11,12 +11,16 @@ Did do_mirror(Interpreter& in) {
   if (on && w.axes == 0) return in.raise(Condition::words_missing, 'G', 51.1);
   uint32_t mirror = in.state.mirror;
   if (on) {
-    const AxisVec centre = target_of_words(in);  // by G90 or G91 like any position
+    // By G90 or G91 like any position; in a rotated program it is one of the shape that is turned.
+    const bool shape = in_figure(in);
+    const AxisVec at = shape ? to_program(in, in.position()) : target_of_words(in);
     for (unsigned i = 0; i < in.axis_count; ++i) {
       if (((w.axes >> i) & 1) == 0) continue;
-      in.set_note(Notes::mirror_key(i), ((w.incremental >> i) & 1) != 0 ? centre[i] : w.axis[i]);
+      const double counted = shape ? shape_scaled(in, i, at[i] + w.axis[i]) : at[i];
+      in.set_note(Notes::mirror_key(i), ((w.incremental >> i) & 1) != 0 ? counted : w.axis[i]);
     }
     mirror |= w.axes;
+    if (shape) in.state.figure_mirror |= static_cast<uint8_t>(w.axes);  // M700 13.3.3 (3): all blocks are turned
   } else {
     mirror = w.axes == 0 ? 0 : mirror & ~w.axes;  // of the named axes, whatever the value
   }

@@ -58,6 +58,7 @@ Did do_scaling(Interpreter& in) {
   }
   in.set_note(Notes::scaling_key(kMaxAxes), factor);  // (8): the newest counts for all axes
   in.state.scaled |= static_cast<uint8_t>(w.axes);
+  if (in_figure(in)) in.state.figure_scaled |= static_cast<uint8_t>(w.axes);  // (6)
   in.program_changed();
   in.state.modal.code[kGroupScaling] = 510;
   return Did::done;
