@@ -264,7 +264,7 @@ TEST(Executor, ResetWhileWaitingForFinTakesTheStrobeAway) {
   m.reset();
   EXPECT_EQ(m.out.strobe, 0);
   EXPECT_EQ(m.out.state, NC_STATE_IDLE);
-  EXPECT_EQ(m.executor.epoch(), 1u);
+  EXPECT_EQ(m.epoch(), 1u);
   m.in.fin = true;  // late
   for (int i = 0; i < 20; ++i) m.cycle();
   EXPECT_TRUE(m.executor.drained()) << "records of the old epoch are gone";
@@ -554,10 +554,10 @@ TEST(Executor, ResetStopsOnThePathAndGivesEverythingUp) {
   m.start();
   for (int i = 0; i < 300; ++i) m.cycle();
   m.reset();
-  EXPECT_EQ(m.executor.epoch(), 0u) << "not before it is at rest";
+  EXPECT_EQ(m.epoch(), 0u) << "not before it is at rest";
   for (int i = 0; i < 40; ++i) m.cycle();
   EXPECT_EQ(m.out.state, NC_STATE_IDLE);
-  EXPECT_EQ(m.executor.epoch(), 1u);
+  EXPECT_EQ(m.epoch(), 1u);
   EXPECT_TRUE(m.still());
   EXPECT_TRUE(m.executor.drained());
   // A record that the feeder had made before it knew is thrown away too.

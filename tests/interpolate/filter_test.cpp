@@ -242,10 +242,10 @@ TEST(Filtered, ResetIsDoneWhenTheAxesStand) {
   m.feed(p);
   m.start();
   ASSERT_TRUE(m.until(p, [&] { return m.out.command.v[0] > 40; }));
-  const uint32_t epoch = m.executor.epoch();
+  const uint32_t epoch = m.epoch();
   m.reset();
   unsigned n = 0;
-  for (; m.executor.epoch() == epoch && n < 500; ++n) {
+  for (; m.epoch() == epoch && n < 500; ++n) {
     EXPECT_FALSE(m.out.manual_allowed);
     m.cycle();
   }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "interpolate/executor.hpp"
+#include "interpolate/run_word.hpp"
 
 namespace nc::test {
 
@@ -210,7 +211,9 @@ class Machine {
     while (executor.poll_event(&e, &dropped)) events.push_back(e);
     ++cycles;
   }
+  uint32_t epoch() const { return RunWord(executor.run()).epoch(); }
   void start() {
+    executor.run_taken(executor.run());
     in.cycle_start = true;
     cycle();
     in.cycle_start = false;
@@ -223,9 +226,10 @@ class Machine {
   /// Pushes up to `most` records of the program; returns how many.
   unsigned feed(const Program& p, unsigned most = ~0u) {
     unsigned n = 0;
+    executor.run_taken(executor.run());
     while (n < most && next < p.records.size() && executor.room() > 0) {
       Record r = p.records[next++];
-      r.epoch = executor.epoch();
+      r.epoch = epoch();
       executor.push(r);
       ++n;
     }

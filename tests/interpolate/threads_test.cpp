@@ -88,7 +88,7 @@ TEST(Threads, ResetsAndTruncationLeaveTheMachineUsable) {
   std::thread scan([&] { op.run(m, 6, true); });
   std::mt19937_64 rng(12);
   Serial serial = 0;
-  uint32_t epoch = m.executor.epoch();
+  uint32_t epoch = m.epoch();
   AxisVec at = m.executor.commanded();
   unsigned cuts = 0;
   bool waiting = false;
@@ -98,7 +98,8 @@ TEST(Threads, ResetsAndTruncationLeaveTheMachineUsable) {
     m.executor.push(r);
   };
   for (uint64_t round = 0; round < 20000000 && (op.resets.load() < 60 || cuts < 12); ++round) {
-    const uint32_t now = m.executor.epoch();
+    m.executor.run_taken(m.executor.run());
+    const uint32_t now = m.epoch();
     if (now != epoch) {  // begin again from where the machine stands
       epoch = now;
       at = m.executor.commanded();

@@ -269,7 +269,7 @@ nc_status nc_program_select(nc_control* c, unsigned system, unsigned file) {
 nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t length) {
   if (!known(c, system) || text == nullptr || length + 6 > sizeof(c->mdi[0])) return NC_E_ARGUMENT;
   nc::PartSystem& part = c->system[system];
-  if (part.busy()) return NC_E_STATE;
+  if (part.occupied()) return NC_E_STATE;
   // The end of the blocks ends them; a start mark stands before them where it is required.
   char* mdi = c->mdi[system];
   size_t at = 0;
@@ -296,7 +296,7 @@ nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t l
 
 nc_status nc_position_set(nc_control* c, unsigned system, const nc_axes* machine) {
   if (!known(c, system) || machine == nullptr) return NC_E_ARGUMENT;
-  if (c->system[system].busy()) return NC_E_STATE;
+  if (c->system[system].occupied()) return NC_E_STATE;
   nc::AxisVec position;
   for (unsigned i = 0; i < c->config.system[system].axis_count; ++i) {
     if (!sane(machine->v[i])) return NC_E_ARGUMENT;

@@ -440,7 +440,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
 }
 
 nc_status PartSystem::reset() {
-  if (busy()) return NC_E_STATE;
+  if (occupied()) return NC_E_STATE;
   if (!online_ && !interpreter.ended) {  // blocks that the stages hold back have not happened
     const MarkPoint* last = commit_.newest();
     rewind(last != nullptr ? last->serial : 0);
@@ -452,7 +452,7 @@ nc_status PartSystem::reset() {
 }
 
 nc_status PartSystem::select(const ProgramRef& program, bool mdi) {
-  if (busy()) return NC_E_STATE;
+  if (occupied()) return NC_E_STATE;
   const bool keep_modal = mdi && interpreter.mdi;
   interpreter.mdi = mdi;
   interpreter.main_program = program;
@@ -495,7 +495,7 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
     const AccuracyParameters& accuracy = from_stage_ ? held_accuracy_ : interpreter.settings.accuracy;
     const FilterParameters& filters = from_stage_ ? held_filters_ : interpreter.settings.filters;
     commit_.to_record(*item, transform, accuracy, filters, &record);
-    record.epoch = epoch_;
+    record.epoch = run_.epoch();
     record.staged = from_stage_;
     if (resumes_) [[unlikely]] resume_record(record);
     if (optimal_ && item->kind == ItemKind::move && !OptimalMode::moves(record.segment)) [[unlikely]] {
@@ -545,30 +545,33 @@ void PartSystem::tell_axis_parameters() {
   executor.set_axis_parameters(axes);
 }
 
-nc_status PartSystem::feed(uint32_t budget) {
+/// What has become of the run (interpolate/run_word.hpp).
+void PartSystem::follow_run() {
+  const RunWord now(executor.run()), before = run_;
+  if (now.word() == before.word()) return;
   online_ = true;
-  tell_axis_parameters();  // a program may have changed them
-  const uint32_t epoch = executor.epoch();
-  if (epoch != epoch_) {  // the scan has given the program up: from its head again, from where the machine stands
-    epoch_ = epoch;
+  run_ = now;
+  if (now.epoch() != before.epoch()) {
     // What was read beyond the last block that was executed has not happened: offsets, variables and outputs are as before it.
-    if (running_) rewind(executor.last_mark());
-    running_ = false;
+    if (before.active() && !executor.ended()) rewind(executor.last_mark());
     interpreter.clear_by_reset();
     restart(executor.commanded());
     commit_.restart();
   }
-  const uint32_t starts = executor.starts();
-  if (starts != starts_) {
-    starts_ = starts;
+  if (now.active()) {
     interpreter.mirror_signal = static_cast<uint8_t>(executor.mirror() & ((1u << interpreter.axis_count) - 1));
-    if (!running_ && interpreter.main_program.valid()) {
-      restart(executor.commanded(), interpreter.mdi);
-      commit_.restart();
-      running_ = true;
-    }
+    restart(executor.commanded(), interpreter.mdi);
+    commit_.restart();
   }
-  if (!running_) {
+  executor.run_taken(now.word());
+}
+
+nc_status PartSystem::feed(uint32_t budget) {
+  online_ = true;
+  tell_axis_parameters();  // a program may have changed them
+  follow_run();
+  if (!run_.active() || !interpreter.main_program.valid()) {
+    if (executor.reread_asked()) executor.reread_done();  // there is nothing left to be read again
     executor.plan();
     if (!finished_) return NC_WAITING;
     return interpreter.alarmed ? NC_ALARMED : NC_ENDED;
@@ -604,10 +607,7 @@ nc_status PartSystem::feed(uint32_t budget) {
     }
   }
   executor.plan();
-  if (finished_) {
-    if (executor.drained()) running_ = false;
-    return interpreter.alarmed ? NC_ALARMED : NC_ENDED;
-  }
+  if (finished_) return interpreter.alarmed ? NC_ALARMED : NC_ENDED;
   if (status == NC_BUDGET) return status;
   return committed > 0 ? NC_OK : NC_WAITING;
 }
@@ -625,7 +625,7 @@ void PartSystem::take_spindle_axes(const nc_world& world) {
 
 /// M700 4.2 "recalculation request": what was read beyond the block in execution is read again.
 nc_status PartSystem::recalculate() {
-  if (!running_) return NC_OK;
+  if (!occupied()) return NC_OK;
   Serial last = 0;
   if (!executor.truncate(&last)) return NC_WAITING;
   read_again(last);

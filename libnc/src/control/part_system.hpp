@@ -4,6 +4,7 @@
 
 #include "control/commit.hpp"
 #include "interpolate/executor.hpp"
+#include "interpolate/run_word.hpp"
 #include "interpret/interpreter.hpp"
 #include "offset/offset.hpp"
 
@@ -27,7 +28,13 @@ class PartSystem {
   void tell_axis_parameters();
   nc_status recalculate();
   void set_position(const AxisVec& machine);
-  bool busy() const { return online_ && running_; }
+  /// A program is in execution or interrupted, as far as the feeder has taken notice.
+  bool busy() const { return online_ && run_.active(); }
+  /// The same as of now: what the scan has done is taken notice of first.
+  bool occupied() {
+    follow_run();
+    return busy();
+  }
   /// The newest block that the machine has executed; false: it has executed all that was read.
   bool executed_block(BlockSeq* seq) const {
     if (busy()) *seq = executor.last_block();
@@ -84,6 +91,7 @@ class PartSystem {
   void stop_on(const Fault& fault, const nc_source& source);
   void describe_alarm();
   void restart(const AxisVec& machine, bool keep_modal = false);
+  void follow_run();
   nc_status commit_online(uint32_t& budget);
   bool may_read_on();
   static bool stops(const Gate& gate) { return gate.kind == NC_GATE_STOP || gate.kind == NC_GATE_OPTIONAL_STOP; }
@@ -133,7 +141,7 @@ class PartSystem {
   Serial looked_behind_ = kNowhere;  ///< the block behind this mark has been looked at
   bool online_ = false;      ///< driven by feed()
   bool optimal_ = false;     ///< time-optimal motion
-  bool running_ = false;     ///< a cycle start has been accepted and the end not been executed
+  RunWord run_;              ///< that the feeder has acted upon
   bool finished_ = false;    ///< the end item has been committed
   void watch() { watched_ = uit_ || uit_pending_ || drop_ != 0; }
   bool watched_ = false;                    ///< one of the three below is on: asked with every item
@@ -150,8 +158,6 @@ class PartSystem {
   BlockSeq executed_ = 0;    ///< online: newest block that has been executed, as feed() found it
   Serial open_sync_ = 0;
   uint32_t sync_what_ = 0;
-  uint32_t epoch_ = 0;
-  uint32_t starts_ = 0;
   uint32_t spindle_axes_ = 0;   ///< bit i: axis i is a spindle, too (M700 10.5)
 };
 

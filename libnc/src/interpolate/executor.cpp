@@ -106,7 +106,7 @@ void Executor::push(const Record& record) {
 }
 
 void Executor::plan() {
-  state_->forget_truncate();
+  state_->forget_truncation();
   if (state_->optimal != nullptr) {
     state_->optimal->replan(state_->head);
   } else {
@@ -115,12 +115,11 @@ void Executor::plan() {
 }
 
 /// A truncation that was asked for and never fetched must not keep the scan waiting for ever.
-void ExecutorState::forget_truncate() {
+void ExecutorState::forget_truncation() {
   constexpr unsigned kPatience = 1000;
-  if (!truncate_open || ++truncate_age < kPatience) return;
-  if (shared.truncate_answer.load(std::memory_order_acquire) >> 1 != (truncate_request & 0x7fffffffu)) return;
+  if (!truncate_open || ++truncate_age < kPatience || !shared.truncation.answered()) return;
   truncate_open = false;
-  shared.truncate_release.store(truncate_request, std::memory_order_release);
+  if (shared.truncation.claim()) shared.truncation.release();
 }
 
 void Executor::set_axis_parameters(const AxisParameters& axes) {
@@ -138,12 +137,16 @@ bool Executor::drained() const {
   return state_->shared.tail.load(std::memory_order_acquire) == state_->head;
 }
 
-uint32_t Executor::epoch() const {
-  return state_->shared.epoch.load(std::memory_order_acquire);
+uint32_t Executor::run() const {
+  return state_->shared.run.load(std::memory_order_acquire);
 }
 
-uint32_t Executor::starts() const {
-  return state_->shared.starts.load(std::memory_order_acquire);
+void Executor::run_taken(uint32_t word) {
+  state_->shared.run_taken.store(word, std::memory_order_release);
+}
+
+bool Executor::ended() const {
+  return state_->shared.status.read().ended;
 }
 
 uint32_t Executor::mirror() const {
@@ -152,20 +155,18 @@ uint32_t Executor::mirror() const {
 
 bool Executor::truncate(Serial* last) {
   ExecutorState& e = *state_;
-  ScanShared& shared = e.shared;
+  Truncation& truncation = e.shared.truncation;
   if (!e.truncate_open) {
-    shared.truncate_request.store(++e.truncate_request, std::memory_order_release);
+    truncation.ask();
     e.truncate_open = true;
     e.truncate_age = 0;
     return false;
   }
-  const uint32_t answer = shared.truncate_answer.load(std::memory_order_acquire);
-  if (answer >> 1 != (e.truncate_request & 0x7fffffffu)) return false;
+  if (!truncation.answered()) return false;
   e.truncate_open = false;
-  if (!(answer & 1)) return false;
-  // The scan is at rest and waits for the release: the ring from its tail on is the feeder's alone.
+  if (!truncation.claim()) return false;
   const bool complete = give_up_behind_block(last);
-  shared.truncate_release.store(e.truncate_request, std::memory_order_release);
+  truncation.release();
   return complete;
 }
 

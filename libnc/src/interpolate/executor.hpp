@@ -63,12 +63,13 @@ class Executor {
   bool sync_reached(Serial serial, nc_world* world) const;
   /// The scan has executed everything that was pushed and is at rest.
   bool drained() const;
-  /// The scan gave the program up (reset, alarm input): increments each time. Records that were made before
-  /// are thrown away by their Record::epoch.
-  uint32_t epoch() const;
-  /// Cycle starts accepted from IDLE so far: each is a program from its head.
-  uint32_t starts() const;
-  /// Axes that the signals of the machine mirror since the newest of them.
+  /// The run that the scan is in (interpolate/run_word.hpp). Records of another epoch are thrown away.
+  uint32_t run() const;
+  /// The feeder has acted upon this word; the next start waits for that.
+  void run_taken(uint32_t word);
+  /// The newest run has come to its end item; it need not be taken back.
+  bool ended() const;
+  /// Axes that the signals of the machine mirror since the newest start.
   uint32_t mirror() const;
   /// At rest in a block stop or hold: give up every committed record behind the block in execution. On
   /// success *last is the mark of that block, which will still be executed, or where no block has been begun
@@ -89,7 +90,7 @@ class Executor {
   void reread_done();
   /// Next executed record for the host.
   bool poll_event(nc_event* event, uint64_t* dropped);
-  /// End of the newest block that has been executed in this run, 0: none. Right behind a new epoch(): as of when the program was given up.
+  /// End of the newest block that has been executed in this run, 0: none. Right behind a new run(): as of when the program was given up.
   Serial last_mark() const;
   BlockSeq last_block() const;
   /// Bit i: axis i is a spindle, too (M700 10.5), and holds its position; and its reference position return is complete.

@@ -13,7 +13,6 @@ class ExecutorState {
   uint32_t mask = 0;
   // feeder's
   alignas(64) uint32_t head = 0;  ///< ring index behind the last record pushed
-  uint32_t truncate_request = 0;
   bool truncate_open = false;  ///< a request is waiting for its answer
   alignas(64) Planner planner;
   optimal::OptimalPlanner* optimal = nullptr;  ///< instead of it
@@ -23,7 +22,7 @@ class ExecutorState {
   unsigned truncate_age = 0;  ///< plan() calls since the request
 
   Planner::Inputs scan_said();
-  void forget_truncate();
+  void forget_truncation();
 };
 
 }  // namespace nc

@@ -66,7 +66,7 @@ struct Record {
   nc_source source{};
   ItemKind kind = ItemKind::mark;
   bool staged = false;  ///< it has come out of the offset stage, where blocks are not apart
-  uint32_t epoch = 0;   ///< records of an epoch before a reset are thrown away by the scan
+  uint32_t epoch = 0;   ///< RunWord::epoch(): records of another one are thrown away by the scan
   union {
     Segment segment;
     Action action;

@@ -97,18 +97,15 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
 /// The feeder wants to give up records that are committed: agree only at rest in a stop, and touch none until
 /// it is done.
 void Scan::answer_truncate() {
-  if (frozen_) {
-    if (shared_->truncate_release.load(std::memory_order_acquire) != answered_) return;
-    frozen_ = false;
-  }
-  const uint32_t request = shared_->truncate_request.load(std::memory_order_acquire);
-  if (request == answered_) return;
-  answered_ = request;
+  Truncation& truncation = shared_->truncation;
+  if (frozen_ && truncation.holds()) return;
+  frozen_ = false;
+  if (!truncation.open()) return;
   frozen_ = stands() && !manual_.active() && !reset_ &&
             (state_ == NC_STATE_STOPPED || state_ == NC_STATE_HOLD || state_ == NC_STATE_IDLE ||
              state_ == NC_STATE_ALARM);
   shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
-  shared_->truncate_answer.store(request * 2 + (frozen_ ? 1 : 0), std::memory_order_release);
+  truncation.answer(frozen_);
 }
 
 /// The feeder has read again from where the axes are; before the plan of this cycle is taken, because the one
@@ -171,7 +168,7 @@ bool Scan::may_cut() const {
   if (!block_begun_ || block_waits_ || index_.busy() || last_staged_ || (fin_wait() != 0 && !(suppress_ & 2))) return false;
   if (tail_ == end_) return true;
   const Record& r = current();
-  if (r.epoch != epoch_ || r.staged || r.kind == ItemKind::sync) return false;
+  if (!is_current(r) || r.staged || r.kind == ItemKind::sync) return false;
   if (r.kind == ItemKind::mark) return false;  // it takes no time
   return !(moving_ && (r.segment.thread || skip_braking_ || r.segment.rounds()));
 }
@@ -208,6 +205,7 @@ void Scan::states(const nc_inputs& in) {
   const bool still = stands() && !manual_.active();
   if (reset_) {
     start_ = false;
+    if (frozen_ && shared_->truncation.withdraw()) frozen_ = false;
     if (!still || frozen_ || rereading_) return;
     give_up();
     reset_ = false;
@@ -216,6 +214,7 @@ void Scan::states(const nc_inputs& in) {
   }
   if (alarmed_) {
     start_ = false;
+    if (frozen_ && shared_->truncation.withdraw()) frozen_ = false;
     if (state_ != NC_STATE_ALARM && still && !frozen_ && !rereading_) {
       give_up();
       state_ = NC_STATE_ALARM;
@@ -237,6 +236,7 @@ void Scan::states(const nc_inputs& in) {
       shared_->reread_request.store(++reread_, std::memory_order_release);
       return;
     }
+    if (state_ == NC_STATE_IDLE && shared_->run_taken.load(std::memory_order_acquire) != run_.word()) return;  // acts when it is
     start_ = false;
     if (still || state_ == NC_STATE_HOLD) start(in);
   }
@@ -255,7 +255,8 @@ void Scan::start(const nc_inputs& in) {
       last_staged_ = block_waits_ = false;
       block_syncs_ = 0;
       shared_->mirror.store(in.mirror, std::memory_order_relaxed);
-      shared_->starts.fetch_add(1, std::memory_order_release);
+      run_.start();
+      run_ended_ = false;
       [[fallthrough]];
     case NC_STATE_STOPPED:
     case NC_STATE_HOLD:
@@ -271,7 +272,7 @@ void Scan::start(const nc_inputs& in) {
 /// At rest: everything that is committed, and whatever comes with the same epoch, is void. Macro outputs and
 /// codes stay.
 void Scan::give_up() {
-  ++epoch_;
+  run_.give_up();
   law_ = {};
   end_rounding();
   check_ = false;
@@ -293,15 +294,17 @@ void Scan::give_up() {
 
 /// Throws records of an older epoch away.
 void Scan::drop_old() {
-  for (unsigned n = 0; n < kRecordsPerCycle && tail_ != end_ && current().epoch != epoch_; ++n)
+  for (unsigned n = 0; n < kRecordsPerCycle && tail_ != end_ && !is_current(current()); ++n)
     leave(current(), false);
 }
 
 void Scan::run(const nc_inputs& in) {
   drop_old();
-  if (state_ == NC_STATE_ALARM && tail_ != end_ && current().epoch == epoch_ &&
+  if (state_ == NC_STATE_ALARM && tail_ != end_ && is_current(current()) &&
       current().kind == ItemKind::end) {
     leave(current(), true);  // the end item that follows an alarm
+    run_.end();
+    run_ended_ = true;
   }
   if (state_ != NC_STATE_RUNNING && at_rest()) return;
   const unsigned most = optimal_ != nullptr ? kRecordsPassed : kRecordsPerCycle;
@@ -309,10 +312,11 @@ void Scan::run(const nc_inputs& in) {
     if (held() && at_rest()) break;
     if (tail_ == end_) {
       cause_ = NC_CAUSE_STARVED;
+      come_to_rest();
       break;
     }
     const Record& r = current();
-    if (r.epoch != epoch_) {
+    if (!is_current(r)) {
       leave(r, false);
       continue;
     }
@@ -330,6 +334,14 @@ void Scan::run(const nc_inputs& in) {
     leave(r, true);
     if (rereading_ || (state_ != NC_STATE_RUNNING && at_rest())) break;
   }
+}
+
+/// Every record is passed. The path ends at rest where the last one does, but by rounding it may have been passed before that.
+void Scan::come_to_rest() {
+  if (optimal_ == nullptr || follower_.at_rest()) return;
+  (void)follower_.advance(time_);
+  law_.v = follower_.v();
+  wanted_ = follower_.position();
 }
 
 /// Goes on to the next record; the host is told when this one has been executed.
@@ -399,12 +411,13 @@ void Scan::publish(const nc_inputs& in) {
   status.single_block = (in.single_block && !(suppress_ & 1)) || interrupt_wanted_ || hold_behind_thread_ || stale_ != 0 || recalculate_;
   status.servo_ready = servo_ready_;
   status.referenced = referenced_;
+  status.ended = run_ended_;
   status.last_mark = last_mark_;
   status.last_block = last_block_;
   status.cut = cut_;
   shared_->status.write(status);
   shared_->ordinal.store(ordinal_, std::memory_order_relaxed);
-  shared_->epoch.store(epoch_, std::memory_order_release);
+  shared_->run.store(run_.word(), std::memory_order_release);
   shared_->tail.store(tail_, std::memory_order_release);
   if (optimal_ != nullptr) tell_planner(in, status);
 }

@@ -12,8 +12,10 @@
 #include "interpolate/follower.hpp"
 #include "interpolate/index_clamp.hpp"
 #include "interpolate/law.hpp"
+#include "interpolate/run_word.hpp"
 #include "interpolate/spindle.hpp"
 #include "interpolate/spindle_sync.hpp"
+#include "interpolate/truncation.hpp"
 #include "manual/manual.hpp"
 #include "motion/optimal/optimal_planner.hpp"
 #include "motion/planner.hpp"
@@ -27,6 +29,7 @@ struct ScanStatus {
   double feed_override = 1;
   bool single_block = false;
   uint8_t servo_ready = 0, referenced = 0;  ///< of axes that are spindles, too (M700 10.5)
+  bool ended = true;     ///< the newest run has come to its end item
   Serial last_mark = 0;  ///< newest block end that has been executed in this run
   BlockSeq last_block = 0;  ///< of that block
   Cut cut;
@@ -38,19 +41,16 @@ struct ScanWorld {
   nc_world world{};
 };
 
-/// Truncation: the feeder asks, the scan answers once; while it has agreed it executes nothing until it is
-/// released. The answer is request * 2 + 1 when it agrees, request * 2 when it does not.
+/// Runs (interpolate/run_word.hpp) and truncation (interpolate/truncation.hpp) are protocols of their own.
 struct ScanShared {
   alignas(64) std::atomic<uint32_t> tail{0};  ///< ring index of the record in execution
   std::atomic<uint32_t> ordinal{0};           ///< of the segment in execution or the next one
-  std::atomic<uint32_t> epoch{0};
-  std::atomic<uint32_t> starts{0};  ///< cycle starts accepted from IDLE
-  std::atomic<uint32_t> mirror{0};  ///< nc_inputs::mirror of the newest of them
-  std::atomic<uint32_t> truncate_answer{0};
+  std::atomic<uint32_t> run{0};     ///< RunWord
+  std::atomic<uint32_t> mirror{0};  ///< nc_inputs::mirror of the newest start
   std::atomic<uint32_t> block_begun{
-      0};  ///< some of the block in execution has been executed (valid with the answer)
-  alignas(64) std::atomic<uint32_t> truncate_request{0};
-  std::atomic<uint32_t> truncate_release{0};
+      0};  ///< some of the block in execution has been executed (valid with the answer to a truncation)
+  Truncation truncation;
+  alignas(64) std::atomic<uint32_t> run_taken{0};  ///< feeder: the newest run word that it has acted upon
   std::atomic<uint32_t> reread_request{0};  ///< scan: read again from where the axes are; it waits for
   std::atomic<uint32_t> reread_interrupt{0};  ///< 1: and begin with the interrupt program
   std::atomic<uint32_t> reread_done{0};     ///< feeder: the request that is done
@@ -81,6 +81,7 @@ class Scan {
   void states(const nc_inputs& in) NC_RT;
   void start(const nc_inputs& in) NC_RT;
   void drop_old() NC_RT;
+  void come_to_rest() NC_RT;
   void give_up() NC_RT;
   void answer_truncate() NC_RT;
   void await_reread() NC_RT;
@@ -152,6 +153,8 @@ class Scan {
   void manual_cycle(const nc_inputs& in) NC_RT;
 
   const Record& current() const { return ring_[tail_ & mask_]; }
+  /// Of this run; others are thrown away.
+  bool is_current(const Record& r) const { return r.epoch == run_.epoch(); }
   bool at_rest() const { return law_.v == 0; }  ///< the path: the axes may still be on their way through the filters
   /// Nothing is on its way to the axes any more.
   bool drained() const NC_RT { return !shape_.active() || shape_.drained(place()); }
@@ -189,9 +192,10 @@ class Scan {
   // ---- place in the ring
   const Plan* plan_ = nullptr;  ///< of this cycle (trapezoid)
   uint32_t end_ = 0;            ///< ring index behind the last record that may be executed
-  uint32_t tail_ = 0, ordinal_ = 0, epoch_ = 0;
-  bool frozen_ = false;    ///< the feeder is truncating
-  uint32_t answered_ = 0;  ///< truncate request that has its answer
+  uint32_t tail_ = 0, ordinal_ = 0;
+  RunWord run_;
+  bool run_ended_ = true;  ///< the newest run has come to its end item
+  bool frozen_ = false;    ///< the feeder may be truncating
   bool block_begun_ = false;
   bool displaced_ = false;  ///< moved by hand since the block stop
   bool rereading_ = false;  ///< the feeder reads again from here; nothing is executed, moved or given up

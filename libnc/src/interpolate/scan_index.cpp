@@ -77,7 +77,7 @@ void Scan::watch_index(const nc_inputs& in) {
 void Scan::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
   if (state_ == NC_STATE_RUNNING || moving_ || !stands() || frozen_ || rereading_) return;
   uint32_t off = index_.unclamp() & ~wanted;
-  if (state_ == NC_STATE_HOLD && tail_ != end_ && current().epoch == epoch_) off &= ~stay_open(current());
+  if (state_ == NC_STATE_HOLD && tail_ != end_ && is_current(current())) off &= ~stay_open(current());
   if (off != 0) off &= may_clamp();
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     const double width = config_.limits[i].in_position;

@@ -172,7 +172,7 @@ void Scan::tell_planner(const nc_inputs& in, const ScanStatus& status) {
   f.tail = tail_;
   f.s = moving_ ? law_.s : 0;
   f.machine = wanted_;
-  f.epoch = epoch_;
+  f.epoch = run_.epoch();
   optimal_->say(f);
 }
 

@@ -53,6 +53,8 @@ Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
       interrupt_wanted_ = tapping_ = false;
       suppress_ = disable_ = 0;  // M700 9.1: the end of the program resets
       block_begun_ = false;
+      run_.end();
+      run_ended_ = true;
       state_ = NC_STATE_IDLE;
       shared_->world.write({});  // serials begin anew with the next run
       return Done::yes;
