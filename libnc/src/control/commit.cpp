@@ -233,7 +233,7 @@ void Commit::remember(const Item& mark, const FairingResume& fairing) {
 }
 
 const MarkPoint* Commit::find(Serial serial) const {
-  for (uint32_t i = 0; i < mark_count_ && i <= mark_mask_; ++i) {
+  for (uint64_t i = 0; i < mark_count_ && i <= mark_mask_; ++i) {
     const MarkPoint& point = marks_[(mark_count_ - 1 - i) & mark_mask_];
     if (point.serial == serial) return &point;
     if (point.serial < serial) break;

@@ -90,7 +90,7 @@ class Commit {
   }
   /// What commit() would say; the next one to be tried begins behind it.
   Committed try_item(const Item& item, const Transform& transform, const MoveShape* shape) {
-    const uint32_t shapes = shape_count_;
+    const uint64_t shapes = shape_count_;
     const Committed committed = commit(item, transform, shape);
     shape_count_ = shapes;
     return committed;
@@ -173,14 +173,14 @@ class Commit {
   CurveShape* shapes_ = nullptr;
   uint32_t* shape_record_ = nullptr;
   uint32_t shape_mask_ = 0;
-  uint32_t shape_count_ = 0;
+  uint64_t shape_count_ = 0;
   AxisVec exit_;             ///< tangent at the end of the last move put into the ring, where reversals are checked
   bool exit_known_ = false;
   Serial last_serial_ = 0;
   int8_t limit_axis_ = -1;
   MarkPoint* marks_ = nullptr;
   uint32_t mark_mask_ = 0;
-  uint32_t mark_count_ = 0;
+  uint64_t mark_count_ = 0;
 };
 
 }  // namespace nc

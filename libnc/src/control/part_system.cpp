@@ -69,6 +69,12 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   if (!arena.measuring() && !arena.overflowed()) clear_stages();
 }
 
+void PartSystem::count_from(uint32_t first) {
+  interpreter.count_from(first);
+  executor.count_from(first);
+  run_ = RunWord(executor.run());
+}
+
 // ---- the stream behind the stages ----------------------------------------------------------------------------------------
 
 /// Part of both loops that take items: a call for each would be felt.

@@ -27,6 +27,8 @@ class PartSystem {
   /// To the scan, which has to know them before anything is moved by hand; nothing while they are as before.
   void tell_axis_parameters();
   nc_status recalculate();
+  /// For tests of what becomes of counters after years (docs/counters.md). Right behind create().
+  void count_from(uint32_t first);
   void set_position(const AxisVec& machine);
   /// A program is in execution or interrupted, as far as the feeder has taken notice.
   bool busy() const { return online_ && run_.active(); }

@@ -248,6 +248,22 @@ void Executor::set_position(const AxisVec& machine) {
   state_->scan.set_position(machine);
 }
 
+void Executor::count_from(uint32_t first) {
+  ExecutorState& e = *state_;
+  e.head = first;
+  e.planner.count_from(first);
+  if (e.optimal != nullptr) e.optimal->count_from(uint64_t{first});
+  e.shared.tail.store(first);
+  e.shared.ordinal.store(first);
+  e.shared.run.store(first & ~1u);
+  e.shared.run_taken.store(first & ~1u);
+  e.shared.reread_request.store(first);
+  e.shared.reread_done.store(first);
+  e.shared.truncation.count_from(first);
+  e.shared.events.count_from(first);
+  e.scan.count_from(first);
+}
+
 void Executor::cycle(const nc_inputs& in, nc_outputs& out) {
   state_->scan.cycle(in, out);
 }

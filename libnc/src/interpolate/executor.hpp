@@ -98,6 +98,8 @@ class Executor {
   uint8_t referenced() const;
   /// Commanded machine position as of the last scan (consistent snapshot).
   AxisVec commanded() const;
+  /// For tests of what becomes of counters after years (docs/counters.md): everything that is counted begins here. Before anything else.
+  void count_from(uint32_t first);
   /// Set position; only while idle, before the scan runs.
   void set_position(const AxisVec& machine);
 

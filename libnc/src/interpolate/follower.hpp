@@ -69,7 +69,7 @@ class Follower {
   void brake(PlanPace pace = {}) NC_RT {
     if (braking_ || at_rest()) return;
     const double use = ++tries_ % kOfGentle != 0 ? 1 : kGentle[tries_ / kOfGentle % (sizeof kGentle / sizeof kGentle[0])];
-    uint32_t cell = cell_;
+    optimal::CellIndex cell = cell_;
     double begun = -t_;  // time of the plan at which the cell was entered
     braking_ = brake_.find([&](double tau) NC_RT { return moment(tau, &cell, &begun); }, *limits_, use, pace);
   }
@@ -104,6 +104,8 @@ class Follower {
     let_go();
     halted_ = false;
   }
+  /// For tests: generations, offers and records are counted from here.
+  void count_from(uint32_t first) { generation_ = answered_ = taken_to_ = first; }
   void say(optimal::Following* out) const NC_RT {
     out->answered = answered_;
     out->taken = taken_;
@@ -171,7 +173,7 @@ class Follower {
   }
 
   /// The plan `tau` seconds from now; cell and its begin go on from one call to the next.
-  PlanMoment moment(double tau, uint32_t* cell, double* begun) const NC_RT {
+  PlanMoment moment(double tau, optimal::CellIndex* cell, double* begun) const NC_RT {
     PlanMoment m;
     while (tau - *begun >= store_->at(*cell).seconds) {
       if (store_->at(*cell).kind == optimal::PlanCell::Kind::land) {
@@ -192,11 +194,11 @@ class Follower {
     return m;
   }
 
-  uint32_t& next(uint32_t k) { return store_->next[k & store_->cell_mask]; }
+  optimal::CellIndex& next(optimal::CellIndex k) { return store_->next[k & store_->cell_mask]; }
   bool fits(const optimal::Proposal& offer) const NC_RT {
     if (braking_) return false;
     if (offer.fresh) return at_rest();
-    if (cell_ == optimal::kNoCell || static_cast<int32_t>(offer.after - cell_) < 0) return false;
+    if (cell_ == optimal::kNoCell || offer.after < cell_) return false;
     // Behind the end of a plan that rests there, or behind a cell that has not been left.
     return true;
   }
@@ -217,7 +219,8 @@ class Follower {
 
   optimal::PlanStore* store_ = nullptr;
   unsigned axis_count_ = 3;
-  uint32_t cell_ = optimal::kNoCell, generation_ = 0, answered_ = 0;
+  optimal::CellIndex cell_ = optimal::kNoCell;
+  uint32_t generation_ = 0, answered_ = 0;
   uint32_t taken_to_ = 0;
   double t_ = 0, x_ = 0, u_ = 0, v_ = 0, planned_v_ = 0;
   bool at_end_ = true, begins_ = false, taken_ = false;

@@ -58,6 +58,12 @@ void Scan::set_position(const AxisVec& machine) {
   shared_->status.write(status);
 }
 
+void Scan::count_from(uint32_t first) {
+  tail_ = ordinal_ = end_ = reread_ = first;
+  run_ = RunWord(first & ~1u);
+  follower_.count_from(first);
+}
+
 void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   ++power_cycles_;
   time_ = config_.cycle_s;
@@ -257,6 +263,7 @@ void Scan::start(const nc_inputs& in) {
       shared_->mirror.store(in.mirror, std::memory_order_relaxed);
       run_.start();
       run_ended_ = false;
+      follower_.give_up();  // the path is measured from here on: its length must not grow with the years
       [[fallthrough]];
     case NC_STATE_STOPPED:
     case NC_STATE_HOLD:

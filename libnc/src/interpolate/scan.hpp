@@ -65,6 +65,7 @@ class Scan {
   void create(const ExecutorConfig& config, const Record* ring, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared,
               double* filters = nullptr);
   void set_position(const AxisVec& machine);
+  void count_from(uint32_t first);  ///< for tests
   void cycle(const nc_inputs& in, nc_outputs& out) NC_RT;
 
  private:

@@ -9,12 +9,16 @@ namespace nc {
 namespace {
 
 constexpr double kJump = 1e-6;        ///< mm or deg: the path goes on where the axes stand
-constexpr double kAtEnd = 1e-7;       ///< mm: a path at rest has reached the end of a record
+constexpr double kAtEnd = 1e-7;       ///< mm: a path at rest has reached the end of a record ...
+constexpr double kRounding = 1e-13;   ///< ... but for this share of its length: what adding up some hundred cells leaves
 constexpr double kPassed = 1e-9;      ///< mm: and one that moves has passed it
 constexpr double kHit = 1e-6;         ///< mm or deg: in some cycle an exact stop is as near
 constexpr double kPatience = 0.03;     ///< s that the planner has for a stop
 constexpr double kTurnsChange = 0.002; ///< of the speed of the spindle, that asks for another plan
 constexpr double kPlannedTurns = 0.02; ///< of it, by which the plan of a thread may differ when it begins
+
+/// Where a path at rest counts as having come to u.
+double nearly(double u) { return u - kAtEnd - kRounding * std::fabs(u); }
 
 }  // namespace
 
@@ -65,7 +69,7 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
       return wait(braking() ? cause_ : NC_CAUSE_OVERRIDE_ZERO);
     }
     // A hold may have come while several records that end here were counted off.
-    if (follower_.rests_behind(tail_) && follower_.u() >= optimal_->store().passed[tail_ & mask_] - kAtEnd) return passed(r);
+    if (follower_.rests_behind(tail_) && follower_.u() >= nearly(optimal_->store().passed[tail_ & mask_])) return passed(r);
     if (follower_.idle()) {
       if (no_law_) alarmed_ = true;
       return wait(standing(s, in));
@@ -91,7 +95,7 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
   }
   const double end = optimal_->store().passed[tail_ & mask_], u = follower_.u();
   law_.s = std::clamp(s.curve.length - (end - u), 0.0, s.curve.length);
-  if (follower_.at_rest() ? u < end - kAtEnd : !(u > end + kPassed)) return Done::no;
+  if (follower_.at_rest() ? u < nearly(end) : !(u > end + kPassed)) return Done::no;
   return passed(r);
 }
 
@@ -146,7 +150,7 @@ bool Scan::misses(const AxisVec& stop) const {
 /// The path has come to the end of the record.
 Scan::Done Scan::passed(const Record& r) {
   const Segment& s = r.segment;
-  if (follower_.at_path_end() && follower_.u() <= optimal_->store().passed[tail_ & mask_] + kAtEnd) {
+  if (follower_.at_path_end() && nearly(follower_.u()) <= optimal_->store().passed[tail_ & mask_]) {
     wanted_ = s.curve.end;
     if (s.exact_stop && !s.rapid && time_ > 0 && misses(s.curve.end)) time_ = 0;
   }

@@ -22,6 +22,13 @@ class Truncation {
   }
   void release() { answer_.store(word(asked_, kOver), std::memory_order_release); }
 
+  /// For tests: requests are counted from here.
+  void count_from(uint32_t first) {
+    asked_ = seen_ = first & kNumber;
+    request_.store(asked_);
+    answer_.store(word(asked_, kOver));
+  }
+
   // ---- scan
   /// A request that has no answer yet.
   bool open() const { return request_.load(std::memory_order_acquire) != seen_; }

@@ -171,6 +171,16 @@ struct Interpreter {
   CommonVariables* common = nullptr;
   ProgramStore* store = nullptr;
   BlockReader reader;
+  /// For tests: what is named by a number is counted from here.
+  void count_from(uint32_t first) {
+    settings_count = first;
+    transforms.count_from(first);
+    modals.count_from(first);
+    texts.count_from(first);
+    shapes.count_from(first);
+    points.count_from(first);
+    stroke_boxes.count_from(first);
+  }
   InternPool<Transform> transforms;
   InternPool<ModalState> modals;
   InternPool<Message> texts;

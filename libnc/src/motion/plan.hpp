@@ -47,6 +47,12 @@ class PlanExchange {
   }
   uint32_t version() const { return version_; }
 
+  void count_from(uint32_t first) {
+    for (Plan& plan : plan_) plan.end = first;
+    for (uint32_t& dirty : dirty_from_) dirty = first;
+    version_ = first;
+  }
+
   /// Scan: the newest plan.
   const Plan& newest() NC_RT {
     index_.refresh();

@@ -40,6 +40,12 @@ class Planner {
   /// waits.
   void truncate(uint32_t end, const Inputs& in);
 
+  /// For tests: records and segments are counted from here. Before anything is committed.
+  void count_from(uint32_t first) {
+    head_ = next_ordinal_ = planned_ = shown_ = seen_head_ = first;
+    exchange_.count_from(first);
+  }
+
   const Plan& newest() NC_RT { return exchange_.newest(); }
 
  private:

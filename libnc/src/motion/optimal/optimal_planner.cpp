@@ -47,18 +47,31 @@ void OptimalPlanner::create(const Setup& setup, const Record* records, Arena& ar
   setup_ = setup;
   limits_ = setup.limits;
   store_.cell = arena.make<PlanCell>(kCells);
-  store_.next = arena.make<uint32_t>(kCells);
+  store_.next = arena.make<CellIndex>(kCells);
   store_.cell_mask = kCells - 1;
   store_.passed = arena.make<double>(setup.capacity);
   store_.record_mask = setup.capacity - 1;
   builder_.create(setup.limits, setup.tolerance, kPeriod, records, &store_, arena);
   windows_ = arena.make<Windows>();
-  chain_next_ = arena.make<uint32_t>(kCells);
+  chain_next_ = arena.make<CellIndex>(kCells);
   chain_end_ = arena.make<double>(kCells);
   down_u_ = arena.make<double>(kMaxCells + 1);
   down_b_ = arena.make<double>(kMaxCells + 1);
   records_ = records;
   lead_ = least_lead();
+}
+
+void OptimalPlanner::count_from(uint64_t first) {
+  write_ = offer_first_ = free_from_ = first;
+  const auto narrow = static_cast<uint32_t>(first);
+  head_ = generation_ = offer_.number = published_ = narrow;
+  offer_.end = offer_.taken = offer_.generation = narrow;
+  builder_.count_from(narrow);
+  fresh_piece_ = narrow;
+  Following f;
+  f.generation = f.tail = f.answered = narrow;
+  following_.write(f);
+  offers_.write(offer_);
 }
 
 Limits OptimalPlanner::with(const Following& f) const {
@@ -177,7 +190,7 @@ OptimalPlanner::Start OptimalPlanner::at_end() const {
 }
 
 /// The state behind a cell of the chain.
-OptimalPlanner::Start OptimalPlanner::behind(uint32_t cell) const {
+OptimalPlanner::Start OptimalPlanner::behind(CellIndex cell) const {
   if (cell == chain_.last) return at_end();
   const PlanCell& next = store_.at(chain_next_[cell & store_.cell_mask]);
   Start s;
@@ -192,8 +205,8 @@ OptimalPlanner::Start OptimalPlanner::behind(uint32_t cell) const {
 }
 
 /// Seconds until the scan leaves the cell of the chain; 0 when it has.
-double OptimalPlanner::ahead(const Following& f, uint32_t cell) const {
-  if (f.cell == kNoCell || static_cast<int32_t>(cell - f.cell) < 0) return 0;
+double OptimalPlanner::ahead(const Following& f, CellIndex cell) const {
+  if (f.cell == kNoCell || cell < f.cell) return 0;
   const double time = f.at_end ? 0 : store_.at(f.cell).seconds - f.t;
   return time + chain_end_[cell & store_.cell_mask] - chain_end_[f.cell & store_.cell_mask];
 }
@@ -201,7 +214,7 @@ double OptimalPlanner::ahead(const Following& f, uint32_t cell) const {
 /// The first place at least `lead` seconds ahead where a law may begin, or the next rest. False when that is the end of the chain.
 bool OptimalPlanner::find_ahead(const Following& f, double lead, Start* start) const {
   if (!moving(f)) return false;
-  uint32_t k = f.cell;
+  CellIndex k = f.cell;
   double time = f.at_end ? 0 : store_.at(k).seconds - f.t;
   while (k != chain_.last) {
     const bool rests = store_.at(k).kind == PlanCell::Kind::land;
@@ -216,10 +229,10 @@ bool OptimalPlanner::find_ahead(const Following& f, double lead, Start* start) c
 }
 
 /// The cell of the chain that lies `count` cells before another one, not before the one in execution.
-uint32_t OptimalPlanner::before(const Following& f, uint32_t cell, unsigned count) const {
+CellIndex OptimalPlanner::before(const Following& f, CellIndex cell, unsigned count) const {
   unsigned between = 0;
-  for (uint32_t k = f.cell; k != cell && k != chain_.last; k = chain_next_[k & store_.cell_mask]) ++between;
-  uint32_t k = f.cell;
+  for (CellIndex k = f.cell; k != cell && k != chain_.last; k = chain_next_[k & store_.cell_mask]) ++between;
+  CellIndex k = f.cell;
   for (; between > count; --between) k = chain_next_[k & store_.cell_mask];
   return k;
 }
@@ -266,7 +279,7 @@ bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* do
   request.b0 = start.v * start.v;
   request.slope0 = 2 * start.a;
   if (!start.fresh && !start.from_rest && period >= kPeriod) {  // the cells that the chain has there
-    uint32_t k = start.after;
+    CellIndex k = start.after;
     while (request.first_cells < kFirstCells) {
       k = chain_next_[k & store_.cell_mask];
       if (k == kNoCell || store_.at(k).kind != PlanCell::Kind::level) break;
@@ -414,20 +427,20 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
       if (!any && at.from_rest) offer_.failed = true;
       break;
     }
-    const uint32_t first = write_;
+    const CellIndex first = write_;
     Start end;
     if (!copy_law(at, &end)) break;
     any = true;
     const bool rests = store_.at(end.after).path_ends || (most < HUGE_VAL && (by_line_ ? line_.whole() : windows_->whole()));
-    uint32_t keep = end.after;
+    CellIndex keep = end.after;
     if (!rests && by_line_) {
       keep = line_keep_;
     } else if (!rests) {
       for (double back = 0; keep != first && back < windows_->stop_seconds(); --keep) back += store_.at(keep).seconds;
       // Behind cell keep: at the start of the cell that follows.
-      keep = first - 1 + better_start(keep + 1 - first, [&](unsigned k) { return store_.at(first + k).a; });
+      keep = first - 1 + better_start(static_cast<unsigned>(keep + 1 - first), [&](unsigned k) { return store_.at(first + k).a; });
     }
-    for (uint32_t k = first; k != write_; ++k) time += store_.at(k).seconds;
+    for (CellIndex k = first; k != write_; ++k) time += store_.at(k).seconds;
     next_chain_.keep = keep;
     next_chain_.last = end.after;
     next_chain_.piece = end.piece;
@@ -451,7 +464,7 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
 
 void OptimalPlanner::offer(const Start& start, bool stops) {
   chain_next_[(write_ - 1) & store_.cell_mask] = kNoCell;
-  for (uint32_t k = offer_first_; k != write_; ++k) store_.next[k & store_.cell_mask] = chain_next_[k & store_.cell_mask];
+  for (CellIndex k = offer_first_; k != write_; ++k) store_.next[k & store_.cell_mask] = chain_next_[k & store_.cell_mask];
   next_chain_.scale = limits_.scale;
   next_chain_.stops = stops;
   ++offer_.number;
@@ -552,7 +565,7 @@ void OptimalPlanner::change(const Following& f) {
 /// that it would go on with have been replaced and are free.
 void OptimalPlanner::reuse_cells(const Following& f) {
   if (!f.at_end) return;
-  const uint32_t next = chain_next_[f.cell & store_.cell_mask];
+  const CellIndex next = chain_next_[f.cell & store_.cell_mask];
   if (next != kNoCell && next - f.cell > kLawsAtOnce * kCellsAtOnce) write_ = f.cell + 1;
 }
 

@@ -25,6 +25,9 @@ class OptimalPlanner {
   /// Forgets the records from ring index `end` on. The scan is at rest and waits.
   void truncate(uint32_t end);
 
+  /// For tests: cells, pieces and records are counted from here. Before anything else.
+  void count_from(uint64_t first);
+
   PlanStore& store() { return store_; }
   const Limits& axis_limits() const { return setup_.limits; }
   // ---- scan
@@ -35,15 +38,15 @@ class OptimalPlanner {
   static constexpr uint32_t kCells = 8192;  ///< in the ring
   /// A place where a law may begin: behind a cell of the chain, or at rest without one.
   struct Start {
-    uint32_t after = kNoCell;
+    CellIndex after = kNoCell;
     bool fresh = false, from_rest = true;
     uint32_t piece = 0;
     double x = 0, u = 0, v = 0, a = 0;
   };
   /// What a chain is once the scan has taken it.
   struct Chain {
-    uint32_t last = kNoCell;
-    uint32_t keep = kNoCell;  ///< behind this cell the stop at the end has slowed it; == last: nothing has
+    CellIndex last = kNoCell;
+    CellIndex keep = kNoCell;  ///< behind this cell the stop at the end has slowed it; == last: nothing has
     double enough_s = 0;      ///< s up to there, with which it need not be longer
     uint32_t piece = 0;       ///< where it ends
     double x = 0, u = 0;
@@ -56,11 +59,11 @@ class OptimalPlanner {
   bool answered(const Following& f);
   void go_on(const Following& f, bool idle);
   void change(const Following& f);
-  uint32_t before(const Following& f, uint32_t cell, unsigned count) const;
+  CellIndex before(const Following& f, CellIndex cell, unsigned count) const;
   bool find_ahead(const Following& f, double lead, Start* start) const;
   Start at_end() const;
-  Start behind(uint32_t cell) const;
-  double ahead(const Following& f, uint32_t cell) const;
+  Start behind(CellIndex cell) const;
+  double ahead(const Following& f, CellIndex cell) const;
   bool moving(const Following& f) const { return f.cell != kNoCell && !(f.at_end && f.cell == chain_.last); }
   bool extend(const Following& f, const Start& start, double most, const WayDown* down);
   bool try_limits(const Start& start, double most, const WayDown* down);
@@ -105,8 +108,8 @@ class OptimalPlanner {
   Windows* windows_ = nullptr;
   LineLaw line_;
   bool by_line_ = false;          ///< the law found last is line_, not that of windows_
-  uint32_t line_keep_ = kNoCell;  ///< cell of it behind which a law to a farther end would be another one
-  uint32_t* chain_next_ = nullptr;
+  CellIndex line_keep_ = kNoCell;  ///< cell of it behind which a law to a farther end would be another one
+  CellIndex* chain_next_ = nullptr;
   double* chain_end_ = nullptr;  ///< s from the start of the chain to the end of the cell
   double *down_u_ = nullptr, *down_b_ = nullptr;
 
@@ -114,10 +117,11 @@ class OptimalPlanner {
   Chain chain_, next_chain_;    ///< what the scan follows; what it has been offered
   bool open_ = false;           ///< an offer waits for its answer
   Proposal offer_;
-  uint32_t offer_first_ = 0, published_ = 0;
+  CellIndex offer_first_ = 0;
+  uint32_t published_ = 0;
   bool told_failed_ = false;
-  uint32_t write_ = 0;          ///< next free cell
-  uint32_t free_from_ = 0;      ///< cells from here on may be looked at by the scan
+  CellIndex write_ = 0;         ///< next free cell
+  CellIndex free_from_ = 0;     ///< cells from here on may be looked at by the scan
   uint32_t generation_ = 0;
   bool fresh_ = true;           ///< the scan has no chain
   uint32_t fresh_piece_ = 0;    ///< where it begins then
@@ -125,7 +129,7 @@ class OptimalPlanner {
   double lead_ = 0.004;
   uint32_t head_ = 0;
   unsigned failed_ = 0;          ///< laws from the chain on that were not found
-  uint32_t tried_at_ = kNoCell;  ///< cell of the scan when no law was found
+  CellIndex tried_at_ = kNoCell; ///< cell of the scan when no law was found
   Latest<Proposal> offers_;
   Latest<Following> following_;
 };

@@ -29,6 +29,8 @@ class PathBuilder {
 
   uint32_t taken() const { return read_; }
   uint32_t head() const { return head_; }  ///< behind the last piece
+  /// For tests: records and pieces are counted from here.
+  void count_from(uint32_t first) { read_ = head_ = tail_ = first; }
   void free_pieces(uint32_t tail) { tail_ = tail; }
   double start_of(uint32_t piece) const { return start_u_[piece & store_->piece_mask]; }
   double end_u() const { return head_u_; }  ///< of all pieces

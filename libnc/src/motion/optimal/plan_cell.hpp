@@ -8,7 +8,10 @@
 
 namespace nc::optimal {
 
-inline constexpr uint32_t kNoCell = ~0u;
+/// Cells are counted and never begin again: with a thousand a second for as long as there are suns (docs/counters.md). The ring takes its
+/// lower bits.
+using CellIndex = uint64_t;
+inline constexpr CellIndex kNoCell = ~CellIndex{0};
 
 struct PlanCell {
   /// level: u'' is linear in u. ramp: constant u''', as in the cells from rest and to rest.
@@ -68,11 +71,11 @@ inline PlanCell plan_cell(const Law& law, const Mesh& mesh, unsigned k) {
 /// Cells and pieces, written by the planner, read by the scan once a proposal has shown them.
 struct PlanStore {
   PlanCell* cell = nullptr;
-  uint32_t* next = nullptr;  ///< per cell: where the chain goes on; written with the cells, and by the scan where it takes an offer
+  CellIndex* next = nullptr;  ///< per cell: where the chain goes on; written with the cells, and by the scan where it takes an offer
   Piece* piece = nullptr;
   double* passed = nullptr;  ///< per record: u at its end
   uint32_t cell_mask = 0, piece_mask = 0, record_mask = 0;
-  const PlanCell& at(uint32_t k) const { return cell[k & cell_mask]; }
+  const PlanCell& at(CellIndex k) const { return cell[k & cell_mask]; }
   const Piece& piece_at(uint32_t k) const { return piece[k & piece_mask]; }
 };
 
@@ -80,7 +83,7 @@ struct PlanStore {
 struct Proposal {
   uint32_t number = 0;      ///< counts offers
   uint32_t generation = 0;  ///< for a scan that has given up so often
-  uint32_t after = kNoCell, first = kNoCell, last = kNoCell;
+  CellIndex after = kNoCell, first = kNoCell, last = kNoCell;
   bool fresh = false;
   bool failed = false;      ///< no law was found for what follows
   bool stops = false;       ///< the way to rest that was asked for
@@ -93,7 +96,7 @@ struct Following {
   uint32_t answered = 0;   ///< newest offer that has been looked at
   bool taken = false;      ///< it was
   uint32_t generation = 0;
-  uint32_t cell = kNoCell;  ///< in execution, or the last one
+  CellIndex cell = kNoCell;  ///< in execution, or the last one
   double t = 0;             ///< s in it
   bool at_end = true;       ///< it has been gone to its end
   bool waits = false;       ///< at the start of its first cell, for the spindle

@@ -163,7 +163,7 @@ void OptimalPlanner::line_way_down(double share, WayDown* down) {
 
 /// Writes the law as cells of about a period each, none of which lies on two pieces. False when they have no room.
 bool OptimalPlanner::copy_line(const Start& start, Start* end) {
-  const uint32_t first = write_;
+  const CellIndex first = write_;
   const double period = std::max(kPeriod, line_.seconds() / kMostCells);
   double time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
   uint32_t piece = start.piece;
