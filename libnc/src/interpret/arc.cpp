@@ -29,13 +29,13 @@ Condition center_from_radius(const double start[2], const double end[2], double 
 }  // namespace
 
 Condition make_circle(const double start[2], const double end[2], const ArcWords& words, bool ccw, double tolerance, Circle* circle,
-                      bool* no_motion) {
-  *no_motion = false;
+                      bool* straight) {
+  *straight = false;
   const bool closed = std::fabs(end[0] - start[0]) < kSamePoint && std::fabs(end[1] - start[1]) < kSamePoint;
   Circle c;
   if (words.has_radius) {
     if (closed || words.radius == 0) {  // M700 6.5: a circle that is finished already
-      *no_motion = closed;
+      *straight = closed;
       return closed ? Condition::none : Condition::arc_center;
     }
     const Condition bad = center_from_radius(start, end, words.radius, ccw, tolerance, c.center);
@@ -46,19 +46,21 @@ Condition make_circle(const double start[2], const double end[2], const ArcWords
   }
   c.radius_start = std::hypot(start[0] - c.center[0], start[1] - c.center[1]);
   c.radius_end = std::hypot(end[0] - c.center[0], end[1] - c.center[1]);
-  if (c.radius_start < kSamePoint && c.radius_end < kSamePoint) {
-    *no_motion = true;
-    return Condition::none;
-  }
   // M700 6.4: greater than the tolerance is P70; the guard keeps 5.0 - 4.9 from being more than 0.1.
   *circle = c;
   if (std::fabs(c.radius_end - c.radius_start) > tolerance + 1e-9) return Condition::arc_deviation;
+  // Within the tolerance it is a spiral "in the direction of the commanded end point". One that begins or ends in its centre has no angle
+  // there that it could turn from: the straight line is all of it that is programmed.
+  *straight = c.radius_start < kNoRadius_mm || c.radius_end < kNoRadius_mm;
+  if (*straight) return Condition::none;
   c.angle_start = std::atan2(start[1] - c.center[1], start[0] - c.center[0]);
   double sweep = 0;
   if (!closed) {
     sweep = std::atan2(end[1] - c.center[1], end[0] - c.center[0]) - c.angle_start;
-    if (ccw && sweep <= 0) sweep += 2 * kPi;
-    if (!ccw && sweep >= 0) sweep -= 2 * kPi;
+    // An end on the ray of the start is a whole turn away, on whichever side of that ray rounding puts it.
+    const double none = kSamePoint / std::fmax(c.radius_start, c.radius_end);
+    if (ccw && sweep <= none) sweep += 2 * kPi;
+    if (!ccw && sweep >= -none) sweep -= 2 * kPi;
   } else {
     sweep = ccw ? 2 * kPi : -2 * kPi;  // M700 6.4: end equal to the start is a full circle
   }

@@ -482,8 +482,9 @@ struct ArcWords {
   double center[2] = {0, 0};   ///< increments from the start, plane axes
   uint32_t turns = 0;
 };
-/// Circle through start and end on the plane axes; Condition::none when it exists.
+/// Circle through start and end on the plane axes; Condition::none when it exists. *straight: nothing goes round, the path is the straight
+/// line to the end, or nothing where that is the start.
 Condition make_circle(const double start[2], const double end[2], const ArcWords& words, bool ccw, double tolerance, Circle* circle,
-                      bool* no_motion);
+                      bool* straight);
 
 }  // namespace nc

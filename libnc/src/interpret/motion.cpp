@@ -334,14 +334,15 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
   const MoveFrame frame = frame_of_move(in, target, commanded);
   const double from[2] = {frame.start[h], frame.start[v]}, to[2] = {frame.end[h], frame.end[v]};
   Circle circle;
-  bool no_motion = false;
-  const Condition bad = make_circle(from, to, words, ccw, in.settings.arc_tolerance, &circle, &no_motion);
+  bool straight = false;
+  const Condition bad = make_circle(from, to, words, ccw, in.settings.arc_tolerance, &circle, &straight);
   if (bad != Condition::none) return in.raise(bad, words.has_radius ? 'R' : plane.center[0], words.has_radius ? words.radius : circle.radius_end);
-  if (no_motion) {
-    // Nothing goes round; axes outside the plane still go along a line.
+  if (straight) {
+    // Nothing goes round: the axes go along a line, those outside of the plane, too.
     LinearStyle style;
     style.feed_mm_min = feed_mm_min(in);
     style.special_feed = special_feed(in);
+    style.exact_stop = asks_exact_stop(in);
     move_linear(in, target, commanded, style);
     return Did::done;
   }

@@ -10,9 +10,6 @@ namespace {
 constexpr double kSmallTurn = 1e-6;   // rad: below it two tangents count as one direction
 constexpr double kRightAngle = 1e-6;  // 90 degrees belongs to the obtuse corners (M700 12.4.1)
 constexpr double kNoLength_mm = 1e-9;
-// "Extremely large" (M700 12.4.2, G40 I J K) has no number in the manual: chosen as ten times the amount, a
-// turn of 168.5 degrees.
-constexpr double kExtremelyLarge = 10;
 
 Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) {
   return {p[axis[0]], p[axis[1]]};
@@ -61,15 +58,20 @@ ContourJoint ContourJoint::single(Vec2 w) {
   return joint;
 }
 
+bool goes_round(const Move& move) {
+  const Vec2 center{move.circle.center[0], move.circle.center[1]};
+  return move.circle.sweep != 0 && norm(in_plane(move.start, move.plane_axis) - center) >= kNoRadius_mm &&
+         norm(in_plane(move.end, move.plane_axis) - center) >= kNoRadius_mm;
+}
+
 bool make_legs(const Move& move, Leg* begin, Leg* end) {
   const uint8_t* axis = move.comp.axis;
   const Vec2 start = in_plane(move.start, axis), finish = in_plane(move.end, axis);
-  if (move.circular) {
-    if (move.plane_axis[0] != axis[0] || move.plane_axis[1] != axis[1]) return false;
+  if (move.circular && (move.plane_axis[0] != axis[0] || move.plane_axis[1] != axis[1])) return false;
+  if (move.circular && goes_round(move)) {
     const Vec2 center{move.circle.center[0], move.circle.center[1]};
     const double turning = move.circle.sweep < 0 ? -1 : 1;
     const double r0 = norm(start - center), r1 = norm(finish - center);
-    if (move.circle.sweep == 0 || r0 < kNoLength_mm || r1 < kNoLength_mm) return false;
     *begin = {(turning / r0) * left_of(start - center), turning / r0};
     *end = {(turning / r1) * left_of(finish - center), turning / r1};
     return true;

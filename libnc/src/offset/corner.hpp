@@ -30,6 +30,10 @@ struct Leg {
   double curvature = 0;  ///< 1/mm, counter-clockwise positive, 0 = line
 };
 
+/// A circular move has a radius at both of its ends. One that begins or ends in its centre has no tangent there; it
+/// counts as the straight line between its ends, which is what it is programmed as (interpret/arc.cpp).
+bool goes_round(const Move& move);
+
 /// The legs of a move at its start and at its end. False when the move does not go anywhere in the plane of
 /// compensation.
 bool make_legs(const Move& move, Leg* begin, Leg* end);
@@ -46,6 +50,10 @@ struct ContourJoint {
 
   static ContourJoint single(Vec2 w);
 };
+
+/// "Extremely large" (M700 12.4.2, G40 I J K) has no number in the manual: chosen as ten times the amount, a turn of
+/// 168.5 degrees.
+inline constexpr double kExtremelyLarge = 10;
 
 enum class Turn : uint8_t { straight, inner, obtuse, acute };
 

@@ -106,6 +106,8 @@ bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
   if (hits == 0) return false;
   const Vec2 middle = 0.5 * d;
   const Vec2 x = hits == 2 && norm(hit[1] - middle) < norm(hit[0] - middle) ? hit[1] : hit[0];
+  // Blocks that run all but back beside each other meet far from both: no avoidance vector (12.4.8 alarm (2)(b)).
+  if (norm(x) > kExtremelyLarge * std::abs(before.offset) + norm(d)) return false;
   if (runs_backwards(before, start_vector(*chain, i, first_vector), x)) return false;
   const Vec2 leave = behind.jointed ? behind.joint.v[0] : perpendicular(behind.end, behind.offset);
   if (runs_backwards(behind, x - d, leave)) return false;

@@ -40,17 +40,25 @@ double turned_by(Vec2 from, Vec2 to) {
   return std::atan2(cross(from, to), dot(from, to));
 }
 
+// How far the radius turns at one end of an arc. Where the tool passes through the centre itself (its radius is
+// that of the arc) nothing is left that could point anywhere: what remains is rounding, and the angle stays.
+double radius_turned_by(Vec2 from, Vec2 to) {
+  return norm(to) > kNoLength_mm ? turned_by(from, to) : 0;
+}
+
 // The centre stays; radii and angles follow the vectors at both ends. Vectors that are not along the radius
 // (I J K, a changed amount) make a spiral. M700 12.4.2 "Arc exceeding 360 degrees": with `trim` only what is
-// beyond the full circle is travelled.
+// beyond the full circle is travelled. The radii of `circle` are not 0 (goes_round()); those of the result may
+// be, so its angles are counted from the programmed ones and lead to `end` whatever the radius at its start.
 void shift_circle(Circle* circle, Vec2 start, Vec2 end, Vec2 w_start, Vec2 w_end, bool trim) {
   if (w_start == Vec2{} && w_end == Vec2{}) return;
   const Vec2 center{circle->center[0], circle->center[1]};
   const Vec2 from = start + w_start - center, to = end + w_end - center;
-  const double sweep = circle->sweep + turned_by(end - center, to) - turned_by(start - center, from);
+  const double turn_start = radius_turned_by(start - center, from);
+  const double sweep = circle->sweep + radius_turned_by(end - center, to) - turn_start;
   circle->radius_start = norm(from);
   circle->radius_end = norm(to);
-  circle->angle_start = std::atan2(from.v, from.h);
+  circle->angle_start += turn_start;
   const double full = 2 * kPi;
   const bool exceeds = trim && std::abs(circle->sweep) <= full + 1e-9 && std::abs(sweep) > full + 1e-9;
   circle->sweep = exceeds ? sweep - std::copysign(full, sweep) : sweep;
@@ -187,12 +195,13 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
   Move& move = out.move;
   move.start = joined(shifted(programmed.start, axis_, vector_), compensated_);
   move.end = shifted(programmed.end, axis_, end_vector);
-  if (held.dead && move.circular) {  // only axes off the plane still move
+  const bool in_plane = move.circular && move.plane_axis[0] == axis_[0] && move.plane_axis[1] == axis_[1];
+  if (in_plane && (held.dead || !goes_round(programmed))) {  // only axes off the plane still move; a straight line
     move.circular = false;
     move.kind = NC_MOVE_LINE;
     move.plane = Plane::none;
-  }
-  if (move.circular && move.plane_axis[0] == axis_[0] && move.plane_axis[1] == axis_[1]) {
+    move.circle = Circle{};
+  } else if (in_plane) {
     const Vec2 start{programmed.start[axis_[0]], programmed.start[axis_[1]]};
     const Vec2 end{programmed.end[axis_[0]], programmed.end[axis_[1]]};
     shift_circle(&move.circle, start, end, vector_, end_vector, held.trim);

@@ -88,6 +88,10 @@ struct Compensation {
   double vector[2] = {0, 0};
 };
 
+/// An arc with less than this from its centre begins or ends in it: a tenth of the smallest command unit there is, far above what
+/// rounding leaves of two equal positions.
+inline constexpr double kNoRadius_mm = 1e-7;
+
 /// Geometry of a move on the plane (h, v) = plane_axis; all other axes go linearly along.
 struct Circle {
   double center[2] = {0, 0};
