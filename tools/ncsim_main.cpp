@@ -33,6 +33,7 @@ void add_program(CLI::App* command, SessionOptions* options) {
   command->add_option("--programs", options->programs, "folder of sub programs (default: PROGRAM's own)")->check(nc::tools::given());
   command->add_option("--external", options->external, "folder of the programs that M198 calls (default: that of sub programs)")
       ->check(nc::tools::given());
+  command->add_flag("--semicolon-comments", options->semicolon_comments, "what stands behind ';' in a line is a comment (m700; else P33)");
   add_tape(command, options);
 }
 

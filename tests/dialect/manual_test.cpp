@@ -315,7 +315,7 @@ TEST(DgshapeManual, WordsAreThoseOf27) {
     EXPECT_EQ(dgshape().lex->word[letter - 'A'].known, known.find(letter) != std::string::npos) << letter;
   }
   EXPECT_FALSE(dgshape().lex->macros);
-  EXPECT_FALSE(dgshape().lex->semicolon_ends);
+  EXPECT_EQ(dgshape().lex->semicolon, Semicolon::unknown);
   EXPECT_TRUE(dgshape().percent_required);
   EXPECT_TRUE(dgshape().end_code_required);
 }

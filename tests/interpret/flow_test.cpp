@@ -481,7 +481,7 @@ TEST(ExternalProgram, FirstLineIsNotRunUnlessItIsAnONumber) {  // M700 13.3.2
   Bench bench;
   bench.add("198:O7", "#100=1\n#101=1\nM99\n");
   bench.add("198:O8", "O8\n#102=1\nM99\n");
-  bench.add("198:PART.NC", "G0 X9.;#103=1\n#104=1\nM99\n");
+  bench.add("198:PART.NC", "#103=1;\n#104=1\nM99\n");
   const Outcome run = bench.run("M198 P7\nM198 P8\nM198 <PART.NC>\nM30");
   EXPECT_EQ(run.alarm, "");
   EXPECT_TRUE(std::isnan(run.var(100)));

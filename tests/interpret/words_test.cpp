@@ -154,7 +154,7 @@ TEST(Words, VacantVariablesLeaveTheirWordOut) {  // M700 13.5.4
 
 TEST(Words, LowerCaseBlanksAndComments) {
   EXPECT_EQ(m700("g0 x1 0. (to the right) y 2.\nm30").path(), (Path{"rapid 10 2 0"}));
-  EXPECT_EQ(m700("G0 X1.;Y2.;M30;").path(), (Path{"rapid 1 0 0", "rapid 1 2 0"}));  // ';' ends a block
+  EXPECT_EQ(m700("G0 X1.;\nY2.;\nM30;").path(), (Path{"rapid 1 0 0", "rapid 1 2 0"}));  // ';' ends a block
 }
 
 TEST(Words, OfSeveralCodesOfAGroupTheLastCounts) {  // M700 3.7

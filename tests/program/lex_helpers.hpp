@@ -21,7 +21,8 @@ namespace nc::test {
 
 inline LexRules m700_rules() {
   LexRules rules;
-  rules.macros = rules.semicolon_ends = rules.skip_numbers = rules.comma_words = rules.angle_names = true;
+  rules.macros = rules.skip_numbers = rules.comma_words = rules.angle_names = true;
+  rules.semicolon = rules.mdi_semicolon = Semicolon::ends_block;
   rules.slash_only_at_head = false;
   for (WordFormat& f : rules.word) f.known = true;
   for (char c : {'D', 'H', 'L', 'M', 'N', 'O', 'S', 'T'}) rules.word[c - 'A'].integer = true;
@@ -41,12 +42,18 @@ inline LexRules dgshape_rules() {
   return rules;
 }
 
+inline LexRules with_semicolon(Semicolon semicolon) {
+  LexRules rules = m700_rules();
+  rules.semicolon = semicolon;
+  return rules;
+}
+
 inline std::unique_ptr<Block> lex(const std::string& text, const LexRules& rules = m700_rules(),
                                   LexResult* result = nullptr) {
   auto block = std::make_unique<Block>();
   // A copy of exactly this size: a sanitizer sees a byte read beyond it.
   const std::vector<char> exact(text.begin(), text.end());
-  const LexResult r = lex_block(exact.data(), exact.size(), rules, nullptr, *block);
+  const LexResult r = lex_block(exact.data(), exact.size(), rules, rules.semicolon, nullptr, *block);
   if (result != nullptr) *result = r;
   return block;
 }

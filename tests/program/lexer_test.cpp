@@ -23,7 +23,7 @@ TEST(Lexer, WordsOfALine) {
   }
   EXPECT_EQ(b->words[0].flags, 0);
   EXPECT_EQ(b->words[1].flags, kWordPoint | kWordNegative);
-  EXPECT_EQ(b->words[2].flags, 0);
+  EXPECT_EQ(b->words[2].flags, kWordPlus);
   EXPECT_EQ(b->words[3].flags, kWordPoint);
   EXPECT_EQ(b->words[0].column, 5);
   EXPECT_EQ(b->words[4].column, 25);

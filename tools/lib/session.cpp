@@ -115,6 +115,10 @@ bool Session::start(const SessionOptions& options, std::string* error) {
     return false;
   }
   if (!apply_machine(error) || !apply_setup(setup_, dialect_, control_, error)) return false;
+  if (options.semicolon_comments && nc_parameter_set(control_, kPartSystem, "semicolon_comments", 0, "1") != NC_OK) {
+    *error = "--semicolon-comments: ';' is no character of this dialect";
+    return false;
+  }
   files_ = std::make_unique<ProgramFiles>(options.programs         ? *options.programs
                                           : options.program == "-" ? "."
                                                                    : folder_of(options.program));

@@ -19,6 +19,7 @@ struct SessionOptions {
   std::string program;  // "-" = standard input
   std::string setup;    // "" = all defaults
   std::string dialect = "m700";
+  bool semicolon_comments = false;  // what stands behind ';' is a comment
   bool dialect_given = false;  // on the command line; else a machine's own goes before
   std::string print;        // file for what programs print (DPRNT); "" = none
   std::string tape;         // text, iso or eia: the program is a tape; "" = a text

@@ -287,6 +287,7 @@ nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t l
   name[3] = static_cast<char>('0' + system);
   const nc_status status = nc_program_add_text(c, name, mdi, at, &file);
   if (status != NC_OK) return status;
+  c->store.set_mdi(file);
   nc::ProgramRef program;
   program.file = static_cast<uint16_t>(file);
   return part.select(program, true);

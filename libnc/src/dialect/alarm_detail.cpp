@@ -28,10 +28,13 @@ constexpr Sentence kSentences[] = {
     // words and blocks
     {C::illegal_address, "The word {word} is not possible in this block.",
      "A word of the block is not possible in it."},
+    {C::exponent, "{word} has no meaning in this block. If it is meant as an exponent: numbers have none, write 0.00001 for 1E-5.",
+     "Numbers have no exponent: write 0.00001 for 1E-5."},
     {C::format_error,
      "The word {word} is not written correctly, or does not fit the other words of the block.",
      "The block is not written correctly: a number, a letter or a sign is missing or stands in the wrong "
      "place."},
+    {C::behind_semicolon, "Text behind ';', the end of the block. Give a block its own line, a comment ( ), or set semicolon_comments.", nullptr},
     {C::value_range, "The value of {word} is outside its range.",
      "A value in the block is outside its range."},
     {C::illegal_character, "The character {word} has no meaning here.",

@@ -11,7 +11,7 @@ namespace nc {
 enum class Condition : uint16_t {
   none,
   // words and blocks
-  illegal_address, format_error, value_range, illegal_character, block_too_long, number_zero, program_end, no_start_mark,
+  illegal_address, exponent, format_error, behind_semicolon, value_range, illegal_character, block_too_long, number_zero, program_end, no_start_mark,
   illegal_axis, too_many_axes, index_increment, parity, parity_vertical,
   // G and M codes
   illegal_g, no_function, must_stand_alone, words_missing,

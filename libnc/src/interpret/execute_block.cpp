@@ -24,6 +24,16 @@ bool keeps_its_feed(Function one_shot) {
   return one_shot == Function::skip || one_shot == Function::multi_skip || one_shot == Function::measure_length;
 }
 
+/// E is the lead of a thread (M700 6.7) or an argument of a macro. What looks like X1E-05 elsewhere would be X1 and a word that nobody reads;
+/// a lead has no sign.
+Did check_lead_word(Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (!w.has('E')) return Did::done;
+  const bool thread = in.state.modal.code[kGroupMotion] == 330 && w.one_shot == nullptr && w.cycle == nullptr;
+  const bool is_signed = (w.flags['E' - 'A'] & (kWordNegative | kWordPlus)) != 0;
+  return thread && !is_signed ? Did::done : in.raise(Condition::exponent, 'E', w.get('E'));
+}
+
 bool is_arc(int16_t code) { return code == 20 || code == 30; }
 
 /// M700 App.2: codes of groups 7 and 8 beside the one-shot function (G49 beside a reference return counts all the same, 12.2).
@@ -268,6 +278,8 @@ Did execute_words(Interpreter& in) {
   }
   if (w.g.size() > 1) drop_beside_cancel(in);
   if (in.state.modal_call != 0 && block_is_argument(in)) return call_with_block(in);
+  did = check_lead_word(in);
+  if (did != Did::done) return did;
   // M700 3.2 note 9, DGSHAPE 1-1: N and O begin a block. Behind other words nothing would find them (N of G10 is something else).
   if (w.late_number != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
     return in.raise(Condition::format_error, w.late_number, w.get(w.late_number));

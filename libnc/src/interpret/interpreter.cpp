@@ -144,6 +144,7 @@ void Interpreter::refresh_settings() {
   settings.index_axes &= (1u << axis_count) - 1;
   settings.mirror_axes &= (1u << axis_count) - 1;
   reader.check_block_parity(settings.parity_units);
+  reader.semicolon_begins_comment(settings.semicolon_comments);
   variables.share(settings.shared_100, settings.shared_500);
   code_calls = dialect->lex->macros ? read_code_calls(parameters) : CodeCalls{};
 }

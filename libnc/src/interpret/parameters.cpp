@@ -401,6 +401,7 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.no_reference = axes("2031");
   s.mirror_axes = axes("8211");
   s.rapid_by_axis = flag("1086");
+  s.semicolon_comments = flag("semicolon_comments");
   s.macro_extensions = flag("macro_extensions");
   if (flag("1109")) {  // M700 13.12: M codes 03 to 97 but 30
     const auto m_code = [&number](const char* key, uint32_t fallback) {

@@ -64,6 +64,7 @@ struct Settings {
   uint32_t no_reference = 0;          ///< #2031 noref, bit = axis
   bool rapid_by_axis = false;         ///< #1086 G0Intp: rapid traverse without interpolation
   bool macro_single = false;          ///< #8101
+  bool semicolon_comments = false;    ///< ';' begins a comment in program texts
   bool macro_extensions = false;      ///< IF THEN of later models
   uint32_t interrupt_on_m = 96, interrupt_off_m = 97;  ///< #1109: #1110, #1111 instead
   bool interrupt_by_level = false;    ///< #1112 S_TRG

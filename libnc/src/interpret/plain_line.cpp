@@ -45,7 +45,7 @@ bool execute_plain_line(Interpreter& in) {
     }
     // With its point a word is in millimetres, whatever the unit of words without one; so is a variable.
     double number = word.value;
-    if ((word.flags & ~kWordNegative) != kWordPoint && (word.flags != kWordExpression || !local_number(in, word.code, &number)))
+    if ((word.flags & ~(kWordNegative | kWordPlus)) != kWordPoint && (word.flags != kWordExpression || !local_number(in, word.code, &number)))
       return false;
     if (!(std::fabs(number) <= in.settings.last_mm)) return false;
     axes |= 1u << axis;

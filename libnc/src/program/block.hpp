@@ -16,9 +16,18 @@ struct WordFormat {
   uint8_t fraction_digits = 8;  ///< more is accepted and kept when 8
 };
 
+/// What ';' is in a text.
+enum class Semicolon : uint8_t {
+  unknown,     ///< no character of the family
+  ends_line,   ///< the end of the block, last in its line: blanks and comments in ( ) may follow, anything else is a fault
+  comment,     ///< the rest of the line is a comment
+  ends_block   ///< the end of the block; the next one may follow in the line
+};
+
 struct LexRules {
   bool macros = false;             ///< '#', '[ ]', statements (IF, WHILE, ...) exist
-  bool semicolon_ends = false;     ///< ';' ends a block (M700), not only the line end
+  Semicolon semicolon = Semicolon::unknown;      ///< in program texts; a machine may have made it a comment
+  Semicolon mdi_semicolon = Semicolon::unknown;  ///< in blocks of MDI
   bool skip_numbers = false;       ///< "/3": switches 1..9; else only "/"
   bool slash_only_at_head = true;  ///< elsewhere '/' is an error (dgshape) or division (with macros)
   bool comma_words = false;        ///< ",R" ",C" ",A" ",I" ",J" ",S" ",D"
@@ -33,7 +42,8 @@ enum WordFlag : uint8_t {
   kWordComma = 4,       ///< ",R"
   kWordNegative = 8,    ///< written with '-': X-0 differs from X0 (M700 12.6)
   kWordNoValue = 16,    ///< letter alone: "G28 XYZ"
-  kWordCount = 32       ///< S1=, F1=: `index` holds the number before '='
+  kWordCount = 32,      ///< S1=, F1=: `index` holds the number before '='
+  kWordPlus = 64        ///< written with '+'
 };
 
 struct Word {

@@ -58,7 +58,7 @@ struct Plain {
   const char* scan(const char* p, const char* end) {
     constexpr size_t kMostDigits = 18;  // cannot overflow the mantissa
     *this = Plain{};
-    if (p != end && (*p == '-' || *p == '+')) flags = *p++ == '-' ? kWordNegative : 0;
+    if (p != end && (*p == '-' || *p == '+')) flags = *p++ == '-' ? kWordNegative : kWordPlus;
     const char* from = p;
     for (; p != end && is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<uint64_t>(*p - '0');
     size_t digits = static_cast<size_t>(p - from);
@@ -80,11 +80,12 @@ constexpr ptrdiff_t kShortReach = 20;
 
 class Lexer {
  public:
-  Lexer(const char* text, size_t size, const LexRules& rules, const uint8_t* columns, Block& block)
-      : rules_(rules), block_(block), text_(text), columns_(columns) {
+  Lexer(const char* text, size_t size, const LexRules& rules, Semicolon semicolon, const uint8_t* columns,
+        Block& block)
+      : rules_(rules), block_(block), text_(text), columns_(columns), semicolon_(semicolon) {
     at_.p = text;
     at_.end = text + size;
-    at_.semicolon_ends = rules.semicolon_ends;
+    at_.semicolon_ends = semicolon != Semicolon::unknown;
   }
 
   LexResult run() {
@@ -206,13 +207,13 @@ class Lexer {
     for (; end - p >= kShortReach && word != limit; ++word) {
       const unsigned letter = static_cast<unsigned>(static_cast<unsigned char>(*p) | 0x20u) - 'a';
       if (letter >= 26) break;
-      const bool minus = p[1] == '-';
-      const char* q = p + 1 + (minus || p[1] == '+');
+      const bool minus = p[1] == '-', plus = p[1] == '+';
+      const char* q = p + 1 + (minus || plus);
       const EightCharacters all(q);
       const unsigned digits = all.digits();
       const WordFormat& format = rules_.word[letter];
       if (digits > format.integer_digits || digits == 8 || !format.known) break;
-      uint8_t flags = minus ? kWordNegative : 0;
+      uint8_t flags = static_cast<uint8_t>((minus ? kWordNegative : 0) | (plus ? kWordPlus : 0));
       unsigned length = digits, fraction = 0;
       uint64_t mantissa;
       if (q[digits] == '.') {
@@ -318,7 +319,7 @@ class Lexer {
     char c = at_.peek();
     const bool sign = c == '-' || c == '+';
     if (sign) {
-      if (c == '-') word->flags |= kWordNegative;
+      word->flags |= c == '-' ? kWordNegative : kWordPlus;
       ++at_.p;
       c = at_.peek();
     }
@@ -368,7 +369,7 @@ class Lexer {
   bool expression_value(Word* word) {
     if (word->letter == 'N' || word->letter == 'O')
       return fault(Condition::variable_use, word->letter);  // M700 13.4 (3)
-    word->flags = static_cast<uint8_t>((word->flags & ~kWordNegative) | kWordExpression);
+    word->flags = static_cast<uint8_t>((word->flags & ~(kWordNegative | kWordPlus)) | kWordExpression);
     ExpressionCompiler compiler(block_, &at_);
     if (!compiler.word_value(&word->code)) return fault(compiler.fault(), word->letter);
     if (at_.peek() == '=') return fault(Condition::macro_and_words, word->letter);  // X#1=#3+100
@@ -605,10 +606,10 @@ class Lexer {
   /// Passes over what is left of the block (after a fault), its end included.
   LexResult finish() {
     if (block_.percent) {
-      const void* line_end = std::memchr(at_.p, '\n', static_cast<size_t>(at_.end - at_.p));
-      at_.p = line_end != nullptr ? static_cast<const char*>(line_end) : at_.end;
+      to_line_end();
     } else {
       for (at_.skip(); !at_.at_end(); at_.skip()) ++at_.p;
+      if (at_.p != at_.end && *at_.p == ';') pass_semicolon();
     }
     LexResult result;
     if (at_.p == at_.end) {
@@ -621,6 +622,26 @@ class Lexer {
     }
     result.used = static_cast<size_t>(at_.p - text_);
     return result;
+  }
+
+  void to_line_end() {
+    const void* line_end = std::memchr(at_.p, '\n', static_cast<size_t>(at_.end - at_.p));
+    at_.p = line_end != nullptr ? static_cast<const char*>(line_end) : at_.end;
+  }
+
+  /// At the ';' behind the words. What follows it in the line is never executed by accident: it is another block
+  /// only where a text may have several in a line.
+  void pass_semicolon() {
+    if (semicolon_ == Semicolon::ends_block) return;
+    if (semicolon_ == Semicolon::ends_line) {
+      while (at_.p != at_.end && *at_.p == ';') {
+        ++at_.p;
+        at_.skip();
+      }
+      if (at_.at_end()) return;
+      if (!block_.has_fault) fault(Condition::behind_semicolon);
+    }
+    to_line_end();
   }
 
   uint8_t column(const char* p) const {
@@ -652,15 +673,16 @@ class Lexer {
   Block& block_;
   const char* const text_;
   const uint8_t* const columns_;
+  const Semicolon semicolon_;
   Cursor at_;
 };
 
 }  // namespace
 
-LexResult lex_block(const char* text, size_t size, const LexRules& rules, const uint8_t* columns,
-                    Block& block) {
+LexResult lex_block(const char* text, size_t size, const LexRules& rules, Semicolon semicolon,
+                    const uint8_t* columns, Block& block) {
   block.clear();
-  return Lexer(text, size, rules, columns, block).run();
+  return Lexer(text, size, rules, semicolon, columns, block).run();
 }
 
 }  // namespace nc

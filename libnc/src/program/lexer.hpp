@@ -15,8 +15,8 @@ struct LexResult {
 
 /// Compiles the block at text[0]. `columns`, when given, holds the column of text[i] for i < 256 (the text
 /// has been condensed). Sets everything of `block` but file, begin, next, line, next_line and end_of_text.
-/// Never reads beyond text[size - 1].
-LexResult lex_block(const char* text, size_t size, const LexRules& rules, const uint8_t* columns,
-                    Block& block);
+/// Never reads beyond text[size - 1]. `semicolon` is what ';' is in this text (LexRules has that of a family).
+LexResult lex_block(const char* text, size_t size, const LexRules& rules, Semicolon semicolon,
+                    const uint8_t* columns, Block& block);
 
 }  // namespace nc

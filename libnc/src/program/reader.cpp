@@ -19,8 +19,8 @@ namespace {
 /// comment that may be a message. Columns are kept beside it.
 class Condenser {
  public:
-  Condenser(char* buffer, size_t capacity, const LexRules& rules)
-      : rules_(rules), out_(buffer), capacity_(capacity) {}
+  Condenser(char* buffer, size_t capacity, const LexRules& rules, Semicolon semicolon)
+      : rules_(rules), semicolon_(semicolon), out_(buffer), capacity_(capacity) {}
 
   /// Takes one character of the source. False when the block ended in front of it (*consumed = false) or with
   /// it.
@@ -28,6 +28,7 @@ class Condenser {
     *consumed = true;
     if (source_column_ < UINT8_MAX) ++source_column_;
     if (state_ == State::percent) return c != '\n';
+    if (state_ == State::behind_semicolon || state_ == State::comment_behind) return take_behind(c, consumed);
     if (state_ == State::comment) {
       if (c == '\n') return put_spare(c), false;
       if (c == ')') {
@@ -47,11 +48,17 @@ class Condenser {
   const uint8_t* columns() const { return columns_; }
 
  private:
-  enum class State : uint8_t { words, comment, name, percent };
+  /// percent: the rest of the line is passed over.
+  enum class State : uint8_t { words, comment, name, percent, behind_semicolon, comment_behind };
   static constexpr unsigned kKeptComment = 127;
 
   bool take_outside(char c, bool* consumed) {
-    if (c == '\n' || (c == ';' && rules_.semicolon_ends)) return put_spare(c), false;
+    if (c == '\n') return put_spare(c), false;
+    if (c == ';' && semicolon_ != Semicolon::unknown) {
+      if (semicolon_ == Semicolon::ends_line) state_ = State::behind_semicolon;
+      if (semicolon_ == Semicolon::comment) state_ = State::percent;
+      return put_spare(c), semicolon_ != Semicolon::ends_block;
+    }
     if (c == '%') {
       if (significant_) {
         *consumed = false;
@@ -81,6 +88,20 @@ class Condenser {
     return put(c), true;
   }
 
+  /// Of what stands behind the ';' that ends the line one character is enough to tell that there is something.
+  bool take_behind(char c, bool* consumed) {
+    if (c == '\n') return false;
+    if (state_ == State::comment_behind) {
+      if (c == ')') state_ = State::behind_semicolon;
+      return true;
+    }
+    if (c == '(') return state_ = State::comment_behind, true;
+    if (is_blank(c) || c == ';') return true;
+    if (c == '%') return *consumed = false, false;
+    state_ = State::percent;
+    return put_spare(c), true;
+  }
+
   void put(char c) {
     if (size_ == capacity_) overflowed_ = true;
     put_spare(c);
@@ -95,6 +116,7 @@ class Condenser {
 
   static constexpr size_t kNone = SIZE_MAX;
   const LexRules& rules_;
+  const Semicolon semicolon_;
   char* const out_;
   const size_t capacity_;
   size_t size_ = 0;
@@ -247,11 +269,12 @@ bool BlockReader::compile_here(const TextEntry& entry, uint64_t offset, Block& b
     block.end_of_text = true;
     return true;
   }
-  LexResult result = lex_block(window_.text(), window_.size(), *rules_, nullptr, block);
+  const Semicolon semicolon = semicolon_of(entry);
+  LexResult result = lex_block(window_.text(), window_.size(), *rules_, semicolon, nullptr, block);
   if (result.ran_out && !window_.last()) {
     if (!window_.at_front()) {
       if (!window_.advance(entry)) return false;
-      result = lex_block(window_.text(), window_.size(), *rules_, nullptr, block);
+      result = lex_block(window_.text(), window_.size(), *rules_, semicolon, nullptr, block);
     }
     if (result.ran_out && !window_.last()) return compile_long(entry, offset, block, newline);
   }
@@ -264,7 +287,7 @@ bool BlockReader::compile_here(const TextEntry& entry, uint64_t offset, Block& b
 bool BlockReader::compile_long(const TextEntry& entry, uint64_t offset, Block& block, bool* newline) {
   char chunk[512];
   char* const buffer = window_.take_buffer();
-  Condenser condenser(buffer, window_.capacity(), *rules_);
+  Condenser condenser(buffer, window_.capacity(), *rules_, semicolon_of(entry));
   uint64_t at = offset;
   *newline = false;
   for (bool open = true; open;) {
@@ -278,7 +301,7 @@ bool BlockReader::compile_long(const TextEntry& entry, uint64_t offset, Block& b
       *newline = !open && chunk[i] == '\n';
     }
   }
-  lex_block(buffer, condenser.size(), *rules_, condenser.columns(), block);
+  lex_block(buffer, condenser.size(), *rules_, semicolon_of(entry), condenser.columns(), block);
   if (condenser.overflowed()) {  // what else seems wrong may come from the cut
     block.has_fault = true;
     block.fault = Fault{};
@@ -287,6 +310,19 @@ bool BlockReader::compile_long(const TextEntry& entry, uint64_t offset, Block& b
   block.begin = offset;
   block.next = at;
   return true;
+}
+
+Semicolon BlockReader::semicolon_of(const TextEntry& entry) const {
+  if (entry.mdi) return rules_->mdi_semicolon;
+  return comments_ && rules_->semicolon != Semicolon::unknown ? Semicolon::comment : rules_->semicolon;
+}
+
+void BlockReader::semicolon_begins_comment(bool comments) {
+  if (comments == comments_) return;
+  comments_ = comments;
+  for (unsigned i = 0; i < slots_; ++i) tags_[i].generation = 0;  // compiled by the other rule
+  for (unsigned i = 0; i < kIndexes; ++i) indexes_[i].generation = 0;
+  for (unsigned i = 0; i < kJumps; ++i) jumps_[i].generation = 0;
 }
 
 void BlockReader::forget(unsigned file) {

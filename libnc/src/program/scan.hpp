@@ -71,7 +71,7 @@ class EightCharacters {
 struct Cursor {
   const char* p = nullptr;
   const char* end = nullptr;
-  bool semicolon_ends = false;
+  bool semicolon_ends = false;    ///< ';' ends the words of a block, whatever may follow it
   const char* comment = nullptr;  ///< text of the last comment passed over
   const char* comment_end = nullptr;
 

@@ -32,9 +32,9 @@ struct Head {
 /// Goes from block to block of a text through a window of its reader.
 class HeadScanner {
  public:
-  HeadScanner(TextWindow& window, const TextEntry& entry, const LexRules& rules, uint64_t offset,
-              uint32_t line)
-      : window_(window), entry_(entry), rules_(rules), next_(offset), line_(line) {}
+  HeadScanner(TextWindow& window, const TextEntry& entry, const LexRules& rules, Semicolon semicolon,
+              uint64_t offset, uint32_t line)
+      : window_(window), entry_(entry), rules_(rules), semicolon_(semicolon), next_(offset), line_(line) {}
 
   /// The next block. False at the end of the text, or when reading failed.
   bool next(Head* head) {
@@ -78,7 +78,7 @@ class HeadScanner {
   int look() { return p_ != end_ || more() ? static_cast<unsigned char>(*p_) : -1; }
   void take() { ++p_; }
 
-  bool ends(int c) const { return c < 0 || c == '\n' || c == '%' || (c == ';' && rules_.semicolon_ends); }
+  bool ends(int c) const { return c < 0 || c == '\n' || c == '%' || (c == ';' && semicolon_ != Semicolon::unknown); }
 
   /// The character behind blanks and comments, capital.
   int significant() {
@@ -119,6 +119,13 @@ class HeadScanner {
     }
   }
 
+  /// Behind the ';' that ends a line: is there anything in the line that makes it a fault?
+  bool more_in_line() {
+    int c = significant();
+    for (; c == ';'; c = significant()) take();
+    return !ends(c);
+  }
+
   /// Over the rest of the block and its end.
   void pass_over(bool whole_line) {
     for (;;) {
@@ -142,7 +149,8 @@ class HeadScanner {
         return;
       } else {
         take();
-        if (rules_.semicolon_ends) return;
+        if (semicolon_ == Semicolon::ends_block) return;
+        whole_line = semicolon_ == Semicolon::comment || (semicolon_ == Semicolon::ends_line && more_in_line());
       }
     }
   }
@@ -150,6 +158,7 @@ class HeadScanner {
   TextWindow& window_;
   const TextEntry& entry_;
   const LexRules& rules_;
+  const Semicolon semicolon_;
   const char* p_ = nullptr;
   const char* end_ = nullptr;
   uint64_t next_;  ///< offset of end_
@@ -184,7 +193,7 @@ ProgramRef BlockReader::find_o_line(uint32_t number, unsigned file) {
     if (known.at[i].number == number) return known.at[i];
   }
   if (known.complete) return {};
-  HeadScanner scanner(window_, *entry, *rules_, known.scanned, known.scanned_line);
+  HeadScanner scanner(window_, *entry, *rules_, semicolon_of(*entry), known.scanned, known.scanned_line);
   ProgramRef found;
   for (Head head; !found.valid() && scanner.next(&head);) {
     if (head.o == 0 || head.o > UINT32_MAX) continue;
@@ -296,7 +305,7 @@ bool BlockReader::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uin
 BlockReader::Jump BlockReader::scan_for_sequence(const TextEntry& entry, uint32_t line, const Jump& wanted,
                                                  uint64_t budget, bool* again, bool* failed) {
   Jump jump = wanted;
-  HeadScanner scanner(window_, entry, *rules_, wanted.from, line);
+  HeadScanner scanner(window_, entry, *rules_, semicolon_of(entry), wanted.from, line);
   bool at_head = wanted.from_head;  // nothing but what may stand before a program has been seen
   bool o_seen = false;
   for (Head head;;) {

@@ -26,6 +26,8 @@ class ProgramStore {
   void on_missing(nc_program_missing callback, void* user, nc_control* control);
   const TextEntry* entry(unsigned file) const;
   void set_edited(unsigned file, bool edited) { entries_[file].edited = edited; }
+  /// The text is that of MDI: it may have several blocks in a line.
+  void set_mdi(unsigned file) { entries_[file].mdi = true; }
   /// The text is a tape in the code of nc_tape, read by `unit`: looks for its label. False: the text cannot be read.
   bool set_tape(unsigned file, uint8_t code, uint8_t unit);
   /// By the whole name; case is ignored.
@@ -80,6 +82,8 @@ class BlockReader {
 
   /// Input devices whose tapes have the number of characters in each block checked, bit n = unit n (M700 3.6 (2)).
   void check_block_parity(uint32_t units) { parity_units_ = units; }
+  /// By parameter ';' begins a comment, in families that know it and in texts that are not MDI.
+  void semicolon_begins_comment(bool comments);
   bool is_tape(unsigned file) const { return store_->entry(file)->tape != NC_TAPE_NONE; }
 
   /// Same program text, different content: forget compiled blocks of a file.
@@ -126,6 +130,7 @@ class BlockReader {
   bool compile_long(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
   Condition parity_fault(const TextEntry& entry, uint64_t begin, uint64_t end) const;
   static bool has_parity(const TextEntry& entry, uint64_t begin);
+  Semicolon semicolon_of(const TextEntry& entry) const;
   Seen& seen(uint32_t generation);
   unsigned find_slot(uint32_t generation, uint64_t offset) const;
   static size_t hash(uint32_t generation, uint64_t offset);
@@ -136,6 +141,7 @@ class BlockReader {
 
   ProgramStore* store_ = nullptr;
   const LexRules* rules_ = nullptr;
+  bool comments_ = false;  ///< semicolon_begins_comment()
   TextWindow window_;
   Block* first_time_ = nullptr;  ///< block that is being read for the first time
   Block* searched_ = nullptr;    ///< block that a search looks at

@@ -16,6 +16,7 @@ struct TextEntry {
   void* user = nullptr;
   const char* memory = nullptr;
   uint64_t size = 0;
+  bool mdi = false;           ///< blocks of MDI
   bool edited = false;        ///< someone is changing the text
   uint8_t tape = NC_TAPE_NONE;  ///< nc_tape: the bytes are rows of a tape (program/tape.hpp)
   uint8_t unit = 0;             ///< input device of the tape, 1 to 5

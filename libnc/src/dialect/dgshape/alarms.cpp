@@ -43,7 +43,9 @@ const AlarmText kAlarms[] = {
 const AlarmRow kConditions[kConditionRows] = {
     // words and blocks
     {C::illegal_address, "NC-ADDRESS", nullptr},
+    {C::exponent, "NC-ADDRESS", nullptr},         // does not occur: E is no address
     {C::format_error, "NC-FORMAT", nullptr},
+    {C::behind_semicolon, "NC-FORMAT", nullptr},  // does not occur: ';' is no character
     {C::value_range, "NC-RANGE", nullptr},
     {C::illegal_character, "NC-CHARACTER", nullptr},
     {C::block_too_long, "NC-LENGTH", nullptr},

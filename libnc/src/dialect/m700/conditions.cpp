@@ -11,7 +11,9 @@ using C = Condition;
 const AlarmRow kConditions[kConditionRows] = {
     // words and blocks
     {C::illegal_address, "P32", nullptr},
+    {C::exponent, "P32", nullptr},  // appendix 1: an address that the block does not take
     {C::format_error, "P33", nullptr},
+    {C::behind_semicolon, "P33", nullptr},  // appendix 1: "the command format of the block"
     {C::value_range, "P35", nullptr},
     {C::illegal_character, "P32", nullptr},  // 3.1: a code outside the tape code table
     {C::block_too_long, "P33", nullptr},     // 3.2 gives no length of a block: it is a matter of its format

@@ -22,7 +22,9 @@ constexpr WordFormat kWhole8{.known = true, .integer = true, .integer_digits = 8
 constexpr LexRules make_rules() {
   LexRules rules{};
   rules.macros = true;          // 13.4, 13.5
-  rules.semicolon_ends = true;  // 3.2 (2)
+  // 3.2 (2): it is printed for the end of the block. Behind it in a line no block begins: comments of other families stand there.
+  rules.semicolon = Semicolon::ends_line;
+  rules.mdi_semicolon = Semicolon::ends_block;  // blocks of MDI are typed one behind the other
   rules.skip_numbers = true;    // 3.4 prints "/" alone; "/2" is the family's second switch and means nothing
                                 // else at a block's head
   rules.slash_only_at_head = true;  // 3.4 (1): elsewhere it is a division
