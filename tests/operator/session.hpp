@@ -164,7 +164,7 @@ class Session {
     nc_cycle(machine_, &in_, &out_);
     blocks_ += out_.blocks != last_blocks_;
     last_blocks_ = out_.blocks;
-    watch_.cycle(out_);
+    watch_.cycle(in_, out_);
     if (log_) show();
     nc_event event;
     while (nc_event_poll(machine_, 0, &event, nullptr) == NC_OK) {

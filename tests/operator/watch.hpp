@@ -20,10 +20,11 @@ class Watch {
   /// The axes have been put elsewhere by the host: the next difference is none.
   void forget() { samples_ = 0; }
 
-  /// Looks at the outputs of one cycle; false: what() says what does not hold.
-  bool cycle(const nc_outputs& out) {
+  /// Looks at the outputs of one cycle; what() says what does not hold.
+  void cycle(const nc_inputs& in, const nc_outputs& out) {
     ++cycles_;
-    if (out.state == NC_STATE_MANUAL) hand_ = 4;
+    const bool hand_now = out.state == NC_STATE_MANUAL || std::any_of(in.manual, in.manual + NC_MAX_AXES, [](const nc_manual& m) { return m.kind != NC_MANUAL_NONE; });
+    if (hand_now) hand_ = 4;
     const nc_system_config& system = config_.system[0];
     rapid_ = out.rapid ? 4 : rapid_ > 0 ? rapid_ - 1 : 0;
     if (out.state > NC_STATE_MANUAL) fail("state", out.state, 0, 0);
@@ -43,14 +44,15 @@ class Watch {
     }
     ++samples_;
     // Axes that are moved by hand have no limit of jerk, and come to rest by hand in whatever state follows.
-    hand_ = out.state == NC_STATE_MANUAL || (hand_ > 0 && moved) ? 4 : hand_ > 0 ? hand_ - 1 : 0;
-    // In these states the axes stand; the cycle in which the state comes may still carry the end of the move.
+    hand_ = hand_now || (hand_ > 0 && moved) ? 4 : hand_ > 0 ? hand_ - 1 : 0;
+    // In these states the axes stand; the cycle in which the state comes may still carry the end of the move, and a block may be so short that
+    // it begins and ends in one.
     const bool rests = out.state == NC_STATE_IDLE || out.state == NC_STATE_STOPPED;
-    if (rests && out.state == state_ && moved && hand_ == 0) fail("moves at rest in state", out.state, 0, 0);
+    if (rests && out.state == state_ && out.serial == item_ && moved && hand_ == 0) fail("moves at rest in state", out.state, 0, 0);
     alarm_cycles_ = out.state == NC_STATE_ALARM && moved ? alarm_cycles_ + 1 : 0;
     if (alarm_cycles_ > 20 / config_.cycle_s) fail("moves 20 s in an alarm", 0, 0, 0);
     state_ = out.state;
-    return what_.empty();
+    item_ = out.serial;
   }
 
   /// Serials of what has been executed: one after the other, until the program begins again or is read again.
@@ -97,7 +99,7 @@ class Watch {
 
   nc_config config_;
   double last_[NC_MAX_AXES] = {}, v_[NC_MAX_AXES] = {}, a_[NC_MAX_AXES] = {};
-  uint64_t samples_ = 0, cycles_ = 0, serial_ = 0;
+  uint64_t samples_ = 0, cycles_ = 0, serial_ = 0, item_ = 0;
   unsigned hand_ = 0, rapid_ = 0;  ///< cycles for which what was manual or rapid still shows in differences
   uint8_t state_ = 0;
   double alarm_cycles_ = 0;
