@@ -70,6 +70,7 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   latest_ = nullptr;
   if (state_ != NC_STATE_STOPPED) cause_ = NC_CAUSE_NONE;
   held_ = 0;
+  const AxisVec began = wanted_;
   answer_truncate();
   ask_for_interrupt();
   await_reread();
@@ -85,7 +86,7 @@ void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
   if (shape_.active()) watch_skip(in);
   if (!frozen_ && !rereading_) run(in);  // the ring from here on may be the feeder's
   if (cutting_ && stands() && !frozen_ && !rereading_) cut_block();
-  manual(in);
+  manual(in, wanted_ == began);
   last_command_ = command_;
   command_ = shape_.filter(place(), at_rest());
   if (stale_ != 0) [[unlikely]] {
@@ -383,9 +384,10 @@ bool Scan::between_blocks() const {
   return false;  // its end is not committed yet
 }
 
-/// Jog, step, handle and reference return, while no program moves.
-void Scan::manual(const nc_inputs& in) {
-  manual_allowed_ = stands() && !alarmed_ && !reset_ && !frozen_ && !rereading_ &&
+/// Jog, step, handle and reference return, while no program moves. The path may come to its end within a cycle: what is left of that cycle is
+/// rest, because an axis that braked in it and set off by hand as well would use its acceleration twice.
+void Scan::manual(const nc_inputs& in, bool rested) {
+  manual_allowed_ = rested && stands() && !alarmed_ && !reset_ && !frozen_ && !rereading_ &&
                     (state_ == NC_STATE_IDLE || (state_ == NC_STATE_STOPPED && between_blocks()));
   if (!manual_allowed_ && !manual_.active()) {
     manual_.idle(in.manual);

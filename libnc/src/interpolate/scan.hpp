@@ -89,7 +89,7 @@ class Scan {
   bool between_blocks() const NC_RT;
   void follow(const nc_inputs& in) NC_RT;
   void run(const nc_inputs& in) NC_RT;
-  void manual(const nc_inputs& in) NC_RT;
+  void manual(const nc_inputs& in, bool rested) NC_RT;
   void outputs(const nc_inputs& in, nc_outputs& out) NC_RT;
   void publish(const nc_inputs& in) NC_RT;
 
