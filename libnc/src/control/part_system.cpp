@@ -543,7 +543,7 @@ void PartSystem::tell_axis_parameters() {
   for (unsigned i = 0; i < interpreter.axis_count; ++i)  // M700 2.3: of rotary axes only
     axes.increment[i] = (interpreter.rotary >> i & 1) != 0 ? settings.index_increment[i] : 0;
   // A mirror that is still on turns the counters as the last block has left them.
-  axes.idle = !running_ && interpreter.state.any_mirror() == 0;
+  axes.idle = !run_.active() && interpreter.state.any_mirror() == 0;
   axes.zero = axes.idle ? interpreter.zero() : told_axes_.zero;
   for (unsigned i = 0; axes.idle && i < interpreter.axis_count; ++i) axes.zero[i] += interpreter.state.applied[i];
   if (axes == told_axes_) return;
