@@ -185,27 +185,21 @@ Move& Interpreter::emit_move(const AxisVec& start, const AxisVec& end) {
 
 /// M700 3.7 "reset 2": modal state to its initial values; positions, offsets and G92 shifts stay (M700 9.1).
 void Interpreter::reset(bool keep_modal) {
-  const AxisVec machine = state.machine, applied = state.applied;
-  const ModalState modal = state.modal;
-  const double length_value = state.length_value;
-  const uint8_t length_axis = state.length_axis;
-  const uint16_t work_system = state.work_system;
-  const bool spindle_on = state.spindle_on, port_open = state.port_open;
-  const uint32_t stroke_box = state.stroke_box;
-  const SpindleControl spindle = state.spindle;
-  const uint16_t high_speed = state.high_speed;
-  const FineMode fine_mode = state.fine_mode;
-  const bool accuracy_command = state.accuracy_command;
-  const int8_t plane_axis[2] = {state.plane_axis[0], state.plane_axis[1]};
+  const State before = state;
+  const ModalState& modal = before.modal;
+  double maps[Notes::kMapSize];
+  for (unsigned i = 0; i < Notes::kMapSize; ++i) maps[i] = notes.get(Notes::mirror_key(0) + i);
   if (state.end_seen && dialect->id == NC_DIALECT_M700) {
     left_by_end_ = {modal.code[kGroupMotion], modal.code[kGroupFeed], modal.feed_digit == 0 ? modal.feed : 0};
   } else if (state.seq != 0) {
     left_by_end_ = {};
   }
   state = State{};
-  state.machine = machine;
-  state.port_open = port_open;
-  state.spindle.clamped = settings.keeps_clamp && spindle.clamped;  // M700 10.4 (3): #1210 bit 19
+  state.machine = before.machine;
+  state.port_open = before.port_open;
+  for (unsigned i = 0; i < 2; ++i) state.clock_base[i] = before.clock_base[i];  // M700 13.5.5: only writing them changes the clocks
+  state.clock_shift_s = before.clock_shift_s;
+  state.spindle.clamped = settings.keeps_clamp && before.spindle.clamped;  // M700 10.4 (3): #1210 bit 19
   for (unsigned i = 0; i < NC_GROUPS; ++i) state.modal.code[i] = dialect->initial[i];
   if (settings.keeps_polar_command && modal.code[kGroupPolarCommand] == 160) state.modal.code[kGroupPolarCommand] = 160;  // M700 6.12 (3)
   if (!settings.start_absolute) state.modal.code[kGroupDistance] = 910;  // M700 5.1 (4)
@@ -222,17 +216,29 @@ void Interpreter::reset(bool keep_modal) {
     state.modal = modal;
     for (const Group group : {kGroupCompensation, kGroupCycle, kGroupMacro}) state.modal.code[group] = initial.code[group];
     if (state.modal.code[kGroupCutting] == 630) state.modal.code[kGroupCutting] = initial.code[kGroupCutting];  // it ends with its program
-    state.work_system = work_system;
-    state.applied = applied;
-    state.length_value = length_value;
-    state.length_axis = length_axis;
-    state.spindle_on = spindle_on;
-    state.stroke_box = stroke_box;
-    state.spindle = spindle;
-    state.high_speed = high_speed;
-    state.fine_mode = fine_mode;
-    state.accuracy_command = accuracy_command;
-    for (unsigned i = 0; i < 2; ++i) state.plane_axis[i] = plane_axis[i];
+    state.work_system = before.work_system;
+    state.applied = before.applied;
+    state.length_value = before.length_value;
+    state.length_axis = before.length_axis;
+    state.spindle_on = before.spindle_on;
+    state.stroke_box = before.stroke_box;
+    state.spindle = before.spindle;
+    state.high_speed = before.high_speed;
+    state.fine_mode = before.fine_mode;
+    state.accuracy_command = before.accuracy_command;
+    state.spline.on = before.spline.on;
+    state.spline.axes = before.spline.axes;
+    state.thread_lead = before.thread_lead;
+    state.last_feed = before.last_feed;
+    state.polar_angle = before.polar_angle;
+    state.polar_angle_known = before.polar_angle_known;
+    state.map = before.map;
+    state.mill = before.mill;
+    state.held_point = before.held_point;
+    state.mirror = before.mirror;
+    state.scaled = before.scaled;
+    state.rotated = before.rotated;
+    for (unsigned i = 0; i < 2; ++i) state.plane_axis[i] = before.plane_axis[i];
   }
   state.refresh_accuracy();
   state.frame[0].program = main_program;
@@ -243,6 +249,10 @@ void Interpreter::reset(bool keep_modal) {
   variables.clear_locals(1);
   variables.forget();
   notes.clear();
+  if (keep_modal) {
+    for (unsigned i = 0; i < Notes::kMapSize; ++i) notes.set(Notes::mirror_key(0) + i, maps[i]);
+    program_changed();
+  }
   // DGSHAPE G28: a midpoint is remembered within a program. M700 14.7: since power-on.
   for (unsigned i = 0; i < axis_count && dialect->id == NC_DIALECT_DGSHAPE; ++i) frames.set(Frames::midpoint_set_key(i), 0);
   forget_block();

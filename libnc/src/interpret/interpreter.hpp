@@ -137,7 +137,7 @@ struct Interpreter {
     answered_ = state.seq;
   }
   /// Program and modal state at the interrupt (#4401...).
-  const ModalState& interrupted_modal() const { return interrupted_.modal; }
+  const ModalState& interrupted_modal() const { return interrupted_.state.modal; }
   void leave_interrupt(bool to_sequence);
   /// A stage behind has found a fault: what is queued is void, the alarm and the end take its place.
   void abort(const Fault& what, const nc_source& where);
@@ -307,18 +307,9 @@ struct Interpreter {
 
   /// What an interrupt program goes back to.
   struct InterruptReturn {
-    AxisVec machine;             ///< at the head of the interrupted block
+    State state;                 ///< at the head of the interrupted block, or behind the block that came before
     unsigned items = 0;          ///< of that block that have happened
     bool inside_block = false;
-    ModalState modal;
-    Compensation comp;
-    double length_value = 0;
-    uint8_t length_axis = 2;
-    uint16_t work_system = 0;
-    uint32_t stroke_box = 0;
-    CycleState cycle;
-    uint8_t mirror = 0, scaled = 0;
-    bool rotated = false;
     bool world_known = false;    ///< the interrupted block has read `world`: it reads the same when it goes on
     nc_world world{};
     double map_note[Notes::kMapSize] = {};   ///< where these are centred
@@ -330,6 +321,7 @@ struct Interpreter {
     interrupted_.world = world;
   }
   bool begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine);
+  void restore_modal();
   void note_interrupt_items();
 
   nc_status run_block(uint32_t& budget);
@@ -355,7 +347,7 @@ struct Interpreter {
   unsigned made_ = 0;          ///< items of the block in hand so far
   BlockSeq block_seq_ = 0;     ///< the state before it
   Repeat next_repeat_;         ///< from the next mark on
-  InterruptReturn interrupted_;
+  InterruptReturn interrupted_, interrupt_begins_;
   struct {
     int16_t motion = -1, feed_mode = -1;   ///< codes of groups 1 and 5; -1 = no program has ended since the last reset
     double feed = 0;

@@ -8,8 +8,9 @@
 // A block is interrupted at one of its items. The interpreter goes back to where the block began and enters the interrupt program from
 // there, with the machine where it stands. On return either the rest of the block is lost (type 1, when the interrupt program moved or
 // gave out M S T B), or the block is read again and the items that have happened already are dropped.
-#include "interpret/feed.hpp"
 #include "interpret/calls.hpp"
+#include "interpret/feed.hpp"
+#include "interpret/functions/functions.hpp"
 
 namespace nc {
 namespace {
@@ -95,20 +96,10 @@ bool Interpreter::interrupt_inside(const AxisVec& machine, unsigned items) {
 
 bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine) {
   const BlockSeq head = state.seq, answered = answered_;
-  InterruptReturn back;
+  InterruptReturn& back = interrupt_begins_;  // beside the one that holds, which stays when this one is not entered
   back.inside_block = inside_block;
   back.items = items;
-  back.machine = state.machine;
-  back.modal = state.modal;
-  back.comp = state.comp;
-  back.length_value = state.length_value;
-  back.length_axis = state.length_axis;
-  back.work_system = state.work_system;
-  back.stroke_box = state.stroke_box;
-  back.cycle = state.cycle;
-  back.mirror = state.mirror;
-  back.scaled = state.scaled;
-  back.rotated = state.rotated;
+  back.state = state;
   for (unsigned i = 0; i < Notes::kMapSize; ++i) back.map_note[i] = notes.get(Notes::mirror_key(0) + i);
   const CallFrame& frame = state.frame[state.depth];  // what has been read ahead is given up: the place is that of the next block
   source.depth = state.depth;
@@ -120,12 +111,13 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
     stop(fault, source);
     return true;
   }
-  interrupted_ = back;
+  interrupted_ = interrupt_begins_;
   interrupted_.world = world;
   interrupted_.world_known = inside_block && answered == head;
   state.repeat = {};
   state.machine = machine;
   state.interrupt_moved = false;
+  state.parameter_input = false;  // G10 L70 of the program that is interrupted: the blocks to come are no parameters
   announce(*this);
   checkpoints_.save(state);
   return true;
@@ -151,34 +143,61 @@ Did Interpreter::enter_interrupt() {
   return Did::later;
 }
 
+/// M700 13.12: modal information is restored. All of the state is, but for what is no information of the program: what has been given out
+/// or has happened on the machine, and the stack of programs, which the return itself works off.
+void Interpreter::restore_modal() {
+  const State now = state;
+  state = interrupted_.state;
+  state.seq = now.seq;
+  if (!interrupted_.inside_block) {  // else the block is read again from its head, from where it began
+    for (unsigned i = 0; i < axis_count; ++i)
+      if ((state.map.frozen >> i & 1) == 0) state.machine[i] = now.machine[i];  // G07: beside the axis
+    state.applied = now.applied;
+  }
+  state.modal.m = now.modal.m;
+  state.spindle_on = now.spindle_on;
+  state.spindle.clamped = now.spindle.clamped;  // speeds of G92 are data, as its coordinates are
+  state.port_open = now.port_open;
+  state.percent_seen = now.percent_seen;
+  state.control_3003 = now.control_3003;
+  state.control_3004 = now.control_3004;
+  for (unsigned i = 0; i < 2; ++i) state.clock_base[i] = now.clock_base[i];
+  state.clock_shift_s = now.clock_shift_s;
+  state.interrupt_on = now.interrupt_on;  // M97 in the interrupt program
+  state.interrupt_moved = now.interrupt_moved;
+  state.interrupt_depth = now.interrupt_depth;
+  state.stop_reading = now.stop_reading;
+  state.repeat = now.repeat;
+  state.owes_mark = now.owes_mark;
+  state.codes_left = now.codes_left;
+  state.modal_call = now.modal_call;
+  state.depth = now.depth;
+  state.loop_count = now.loop_count;
+  for (unsigned i = 0; i <= now.depth; ++i) state.frame[i] = now.frame[i];
+  for (unsigned i = 0; i < now.loop_count; ++i) state.loop[i] = now.loop[i];
+  if (now.interrupt_moved) state.spline.joined = state.spline.moved = false;  // the curve begins again where the axes are
+  if (now.moves_since_comp_off != 0) state.moves_since_comp_off = 1;
+  change_cutting_mode(*this, now.modal.code[kGroupCutting]);
+  if (now.spindle.axis != state.spindle.axis || (state.spindle.axis != 0 && now.spindle.surface != state.spindle.surface)) announce_surface(*this);
+  state.refresh_accuracy();
+  state.refresh_special();
+  refresh_letters();
+  take_changed_amounts(*this);
+}
+
 /// M99 of the interrupt program; its frame is still there. `to_sequence`: M99 P, which has its own place to go to.
 void Interpreter::leave_interrupt(bool to_sequence) {
   CallFrame& caller = state.frame[state.depth - 1];
   const bool cut = settings.interrupt_type_2 ? false : state.interrupt_moved;
   state.interrupt_depth = 0;
+  state.parameter_input = interrupted_.state.parameter_input;
   if (to_sequence) {
     if (interrupted_.inside_block) pass_over_block(*this, caller);
-  } else if (!cut) {  // M700 13.12: modal information is restored
-    const uint32_t m = state.modal.m;
-    const int16_t cutting = state.modal.code[kGroupCutting];
-    state.modal = interrupted_.modal;
-    change_cutting_mode(*this, cutting);
-    state.refresh_accuracy();
-    state.modal.m = m;
-    state.comp = interrupted_.comp;
-    state.length_value = interrupted_.length_value;
-    state.length_axis = interrupted_.length_axis;
-    take_changed_amounts(*this);
-    state.work_system = interrupted_.work_system;
-    state.stroke_box = interrupted_.stroke_box;
-    state.cycle = interrupted_.cycle;
-    state.mirror = interrupted_.mirror;
-    state.scaled = interrupted_.scaled;
-    state.rotated = interrupted_.rotated;
+  } else if (!cut) {
+    restore_modal();
     for (unsigned i = 0; i < Notes::kMapSize; ++i)
       if (notes.get(Notes::mirror_key(0) + i) != interrupted_.map_note[i]) set_note(Notes::mirror_key(0) + i, interrupted_.map_note[i]);
     if (interrupted_.inside_block) {
-      state.machine = interrupted_.machine;
       next_repeat_.active = true;
       next_repeat_.items = static_cast<uint16_t>(interrupted_.items);
     }

@@ -97,6 +97,7 @@ Did auxiliary_after(Interpreter& in);
 /// The program goes on when what has been given out is complete.
 void await_fin(Interpreter& in);
 /// Constant surface speed and clamp speeds (spindle.cpp).
+void announce_surface(Interpreter& in);                ///< to the scan: what of G96, G97 is in force
 Did set_surface_speed(Interpreter& in);               ///< G96 G97 of the block
 Did surface_word(Interpreter& in);                    ///< S while G96 is in force
 bool is_clamp_command(const Interpreter& in);         ///< the S of this block is one of G92

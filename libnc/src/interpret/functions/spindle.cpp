@@ -23,12 +23,12 @@ Did speed_word(Interpreter& in, char letter, uint32_t* speed) {
   return in.raise(Condition::value_range, letter, raw);
 }
 
+}  // namespace
+
 void announce_surface(Interpreter& in) {
   const SpindleControl& spindle = in.state.spindle;
   emit_control(in, NC_CONTROL_SURFACE_SPEED, spindle.axis != 0 ? spindle.surface : 0, 0, spindle.axis);
 }
-
-}  // namespace
 
 bool is_clamp_command(const Interpreter& in) {
   const BlockWords& w = in.words;

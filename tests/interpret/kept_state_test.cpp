@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of the interpreter's state outlives an interrupt program (M700 13.12) and the way from one block of MDI to the next (5.1): every mode
+// that a program can set is in force as it says, whatever an interrupt program has done to it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+void milling(nc_config& config) {
+  axes("XYZc")(config);
+  config.extended_variables = false;
+}
+
+std::unique_ptr<Bench> machine() {
+  auto bench = std::make_unique<Bench>(NC_DIALECT_M700, milling);
+  bench->param("1516", "C").param("8025", "1").param("1229/bit1", "1").param("1272/bit2", "0").at(20, 0, 0);
+  bench->work_offset(2, {10, 0, 0}).work_offset(101, {7, 0, 0});
+  for (unsigned n = 1; n <= 5; ++n) bench->tool(n, n);
+  return bench;
+}
+
+struct Result {
+  Path path;
+  std::string alarm, events;
+};
+
+/// Runs the text; where `interrupt` is given that program runs behind the block of line 2, without a move of its own.
+Result run(const std::string& text, const char* interrupt, bool type_2) {
+  const std::unique_ptr<Bench> bench = machine();
+  bench->param("1113", type_2 ? "1" : "0");
+  bench->add("O1000", std::string(interrupt == nullptr ? "" : interrupt) + "\nM99\n");
+  bench->start("M96 P1000\n" + text + "\nM30");
+  Outcome all;
+  all.axis_count = 4;
+  Step step;
+  bool done = interrupt == nullptr;
+  bool in_service = false;
+  Result result;
+  unsigned head = static_cast<unsigned>(std::count(text.begin(), text.begin() + static_cast<long>(text.find("(HERE)")), '\n')) + 2;
+  for (nc_status status; all.steps.size() < 500 && ((status = bench->pull(&step)) == NC_OK || status == NC_BUDGET);) {
+    if (status != NC_OK) continue;
+    in_service = step.item.source.depth > 0;
+    if (!in_service) all.steps.push_back(step);
+    const bool mark = step.item.kind == NC_ITEM_MARK && step.item.u.mark.report;
+    if (!done && !in_service && mark && step.item.source.line == head) {
+      done = true;
+      bool back = false;
+      EXPECT_EQ(nc_interrupt_signal(bench->control(), 0, true, &back), NC_OK);
+      EXPECT_FALSE(back);
+      nc_interrupt_signal(bench->control(), 0, false, &back);
+    }
+  }
+  EXPECT_TRUE(done) << text;
+  result.path = all.path();
+  nc_alarm alarm{};
+  if (nc_alarm_get(bench->control(), 0, &alarm) == NC_OK) result.alarm = alarm.code;
+  for (const Step& s : all.steps) {
+    if (s.item.kind != NC_ITEM_MOVE) continue;
+    const nc_move& m = s.item.u.move;
+    result.events += " k" + std::to_string(m.kind) + (m.curved ? "c" : "") + " F" + brief(m.feed_mm_min) + "/" + brief(m.feed_mm_rev) + " L" + brief(m.length);
+  }
+  return result;
+}
+
+struct Case {
+  const char* what;
+  const char* text;       ///< the interrupt comes behind the block that has (HERE) in it
+  const char* interrupt;  ///< changes the mode without a move
+};
+
+const Case kCases[] = {
+    {"plane", "G1 G17 X0 F100 (HERE)\nG2 X30. R15.", "G18"},
+    {"length", "G43 H2 Z5. G0 (HERE)\nZ1.", "G43 H5"},
+    {"length off", "G43 H2 Z5. G0 (HERE)\nZ1.", "G49"},
+    {"work system", "G54 G0 X1. (HERE)\nX2.", "G55"},
+    {"extended work system", "G54.1 P1 G0 X1. (HERE)\nX2.", "G54"},
+    {"distance and unit", "G90 G21 G0 X1. (HERE)\nX2.", "G91 G20"},
+    {"feed", "G94 G1 X1. F100 (HERE)\nX2.", "G95 F2."},
+    {"inverse time", "G93 G1 X1. F10. (HERE)\nX2. F5.", "G94 F9."},
+    {"thread", "G33 Z-10. F2. (HERE)\nZ-20.", "G33 F3.\nG1"},
+    {"polar command", "G16 G0 X10. Y30. (HERE)\nG91 Y30.", "G15"},
+    {"cylinder off", "G19 Z0 C0 G0\nG07.1 C10.\nG1 Z5. F100 (HERE)\nC90.", "G07.1 C0"},
+    {"polar interpolation off", "G12.1\nG1 X10. F100 (HERE)\nY5.", "G13.1"},
+    {"polar interpolation on", "G0 X10. (HERE)\nX5. C30.", "G12.1"},
+    {"mirror", "G51.1 X5. (HERE)\nG0 X10.", "G50.1 X0"},
+    {"scaling", "G51 X0 Y0 P2. (HERE)\nG0 X10.", "G50"},
+    {"rotation", "G68 X0 Y0 R90. (HERE)\nG0 X10. Y0", "G69"},
+    {"rotation on", "G0 X10. (HERE)\nX5. Y5.", "G68 X0 Y0 R90."},
+    {"cycle", "G99 G81 X1. Z-1. R1. F100 (HERE)\nX2.", "G80"},
+    {"return level", "G0 Z20.\nG99 G81 X1. Z-1. R1. F100 (HERE)\nX2.", "G98"},
+    {"hypothetical axis", "G07 X0\nG1 X25. Y5. F100 (HERE)\nX30. Y10.", "G07 X1"},
+    {"parameter input", "G10 L70 (HERE)\nP1084 D0.5\nG11\nG17 G1 X0 F100\nG2 X0.4 Y0.4 I0.3", "#100=1"},
+    {"high speed", "G05 P2 (HERE)\nG1 X1. F100\nG05 P0", "G05 P0"},
+    {"prohibited area", "G22 X50. Y50. Z50. I40. J-10. K-10. (HERE)\nG0 X45.\nG23", "G23"},
+};
+
+class KeptState : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Fields, KeptState, testing::ValuesIn(kCases), [](const auto& row) {
+  std::string name = row.param.what;
+  for (char& c : name)
+    if (c == ' ') c = '_';
+  return name;
+});
+
+TEST_P(KeptState, AnInterruptProgramChangesNothing) {
+  const Result plain = run(GetParam().text, nullptr, false);
+  for (const bool type_2 : {false, true}) {
+    const Result interrupted = run(GetParam().text, GetParam().interrupt, type_2);
+    EXPECT_EQ(interrupted.alarm, plain.alarm) << type_2;
+    EXPECT_EQ(interrupted.path, plain.path) << type_2;
+    EXPECT_EQ(interrupted.events, plain.events) << type_2;
+  }
+}
+
+TEST(KeptStateOfTheSpindle, SurfaceSpeedIsAnnouncedAgain) {
+  Bench bench;
+  bench.add("O1000", "G97\nM99\n");
+  bench.start("M96 P1000\nG96 S100 M3 (HERE)\nG0 X1.\nM30");
+  Step step;
+  double surface = 0;
+  bool done = false;
+  for (nc_status status; (status = bench.pull(&step)) == NC_OK || status == NC_BUDGET;) {
+    if (status != NC_OK) continue;
+    const nc_item& item = step.item;
+    if (item.kind == NC_ITEM_ACTION && item.u.action.kind == NC_ACTION_CONTROL && item.u.action.index == NC_CONTROL_SURFACE_SPEED)
+      surface = item.u.action.value;
+    if (item.kind == NC_ITEM_MOVE) break;
+    if (done || item.kind != NC_ITEM_MARK || item.source.line != 2) continue;
+    done = true;
+    bool back = false;
+    nc_interrupt_signal(bench.control(), 0, true, &back);
+    nc_interrupt_signal(bench.control(), 0, false, &back);
+  }
+  EXPECT_EQ(surface, 100);
+}
+
+/// Blocks of MDI one after the other give the path of a program that has them all.
+TEST_P(KeptState, BlocksOfMdiGoOnFromEachOther) {
+  const std::string text = GetParam().text;
+  if (std::string(GetParam().what) == "parameter input" ||
+      text.find("G81") != std::string::npos)
+    return;  // these belong to one run: cycles and parameter input end with it
+  const Result whole = run(text, nullptr, false);
+  const std::unique_ptr<Bench> bench = machine();
+  Path path;
+  std::string alarm;
+  for (size_t at = 0; at < text.size() && alarm.empty();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    const std::string block = text.substr(at, end - at);
+    ASSERT_EQ(nc_mdi_load(bench->control(), 0, block.data(), block.size()), NC_OK);
+    Outcome one = bench->finish();
+    one.axis_count = 4;
+    for (const std::string& move : one.path()) path.push_back(move);
+    alarm = one.alarm;
+    at = end + 1;
+  }
+  EXPECT_EQ(path, whole.path);
+  EXPECT_EQ(alarm, whole.alarm);
+}
+
+TEST(KeptStateOfTheClocks, AnotherStartDoesNotSetThemBack) {  // M700 13.5.5: the program's own date and counters
+  Bench bench;
+  EXPECT_EQ(bench.run("#3011=20300102\n#3012=030405\nM30").alarm, "");
+  const Outcome later = bench.run("#100=#3011\n#101=#3012\nM30");
+  EXPECT_EQ(later.var(100), 20300102);
+  EXPECT_EQ(later.var(101), 30405);
+  bench.run("G4 X1.\n#3001=50000\nM30");
+  EXPECT_GE(bench.run("#102=#3001\nM30").var(102), 49000);
+}
+
+}  // namespace
+}  // namespace nc::test
