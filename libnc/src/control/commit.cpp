@@ -163,6 +163,16 @@ void Commit::commit_shape(const Move& move, const Transform& transform, const Mo
   make_shaped(shape, plain, transform.sign, transform.offset, machine_, axis_count_, rotary_, &shapes_[shape_count_ & shape_mask_], &curve_);
 }
 
+/// Geometry that does not lead away from where the axes are would make them jump. Lines are made from there; a curve is what its block
+/// says, and the axes may have been moved since by hand, or be carried along beside a path that is not theirs (radius compensation).
+bool Commit::begins_elsewhere(const Move& move) const {  // a shape, or an arc
+  constexpr double kNoJump = 1e-4;  // mm or deg: far above rounding, far below a step of any cycle
+  if (curve_.shape != nullptr) return leaves_from(curve_, axis_count_) > kNoJump;
+  const double h = circle_.center[0] + circle_.radius_start * std::cos(circle_.angle_start) - machine_[move.plane_axis[0]];
+  const double v = circle_.center[1] + circle_.radius_start * std::sin(circle_.angle_start) - machine_[move.plane_axis[1]];
+  return std::fabs(h) > kNoJump || std::fabs(v) > kNoJump;
+}
+
 Committed Commit::commit(const Item& item, const Transform& transform, const MoveShape* shape) {
   if (item.kind == ItemKind::move) {
     const Move& move = item.move;
@@ -171,9 +181,12 @@ Committed Commit::commit(const Item& item, const Transform& transform, const Mov
     if (shape != nullptr) {
       commit_shape(move, transform, *shape);
       if (jumps_at_pole(curve_)) return Committed::at_pole;
+      if (begins_elsewhere(move)) return Committed::displaced;
       end = curve_.end;
     } else if (move.circular) {
       circle_ = map_circle(move.circle, transform, move.plane_axis[0], move.plane_axis[1]);
+      curve_.shape = nullptr;
+      if (begins_elsewhere(move)) return Committed::displaced;
       curve_ = make_arc(machine_, end, move.plane_axis[0], move.plane_axis[1], circle_, axis_count_, rotary_);
     } else {
       circle_ = Circle{};

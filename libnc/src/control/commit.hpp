@@ -45,6 +45,7 @@ enum class Committed : uint8_t {
   yes,
   nothing,       ///< the item vanishes: a move without length
   prohibited,    ///< it starts or ends in the area of G22: nothing was committed
+  displaced,     ///< the axes are not where its curve begins: nothing was committed
   at_pole,       ///< the rotary axis of polar coordinate interpolation would jump: nothing was committed
   soft_limit     ///< the move would leave the stroke: nothing was committed, `limit_axis()` says which axis
 };
@@ -147,6 +148,7 @@ class Commit {
 
  private:
   MarkPoint* newest_point() { return mark_count_ == 0 ? nullptr : &marks_[(mark_count_ - 1) & mark_mask_]; }
+  bool begins_elsewhere(const Move& move) const;
   bool inside_limits(const Curve& curve);
   void add_held_axes(const Curve& curve, AxisVec* from, AxisVec* low, AxisVec* high);
   void commit_shape(const Move& move, const Transform& transform, const MoveShape& shape);

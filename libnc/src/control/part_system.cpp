@@ -179,6 +179,12 @@ Fault PartSystem::refused(Committed committed) const {
     fault.condition = Condition::mill_state;
     return fault;
   }
+  if (committed == Committed::displaced) {
+    const Curve& curve = commit_.curve();
+    const bool mapped = curve.shape != nullptr && curve.shape->what.map.kind != AxisMap::Kind::none;
+    fault.condition = mapped ? Condition::mill_state : curve.shape != nullptr ? Condition::displaced : Condition::arc_deviation;
+    return fault;
+  }
   if (committed == Committed::prohibited) {
     fault.condition = Condition::stroke_check;
     return fault;

@@ -129,6 +129,7 @@ constexpr Sentence kSentences[] = {
     {C::nurbs_knot, "The knot {word} is smaller than the one before.",
      "A knot is smaller than the one before."},
     {C::nurbs_start, "The first control point is not where the axes are.", nullptr},
+    {C::displaced, "The axes are not where this curve begins: they were moved by hand. Start the program again.", nullptr},
     {C::space_conversion_code, "{word} and the conversion of coordinates in space exclude each other.",
      "This and the conversion of coordinates in space exclude each other."},
     {C::inverse_time_code, "{word} and inverse time feed (G93) exclude each other.",

@@ -21,7 +21,7 @@ enum class Condition : uint16_t {
   cycle_wrong_plane, not_in_compensation, code_in_incremental, tool_pair,
   comp_no_intersection, comp_interference, corner_option, geometric_option, second_aux, space_compensation,
   thread_lead, mill_code, mill_axis, mill_modal, mill_state, space_arc_blocks, space_arc_mode, exponential_mode, exponential_axes,
-  nurbs_knot, nurbs_start, space_conversion_code, inverse_time_code, arc_feed_zero,
+  nurbs_knot, nurbs_start, displaced, space_conversion_code, inverse_time_code, arc_feed_zero,
   reference_compare, reference_check_m, start_return_m,
   measure_axis, measure_h, measure_no_length, measure_signal, stroke_check,
   not_accepted, in_high_accuracy, high_speed_3,

@@ -278,8 +278,22 @@ void Interpreter::forget_block() {
   world_fresh = false;
 }
 
+/// The axes do not stand where the program has left them. In the plane of G12.1 a point belongs to two places of the axes: the program
+/// goes on from the one where they really are (M700 6.10). What a curve had of the way before is no more.
+void Interpreter::moved_by_hand() {
+  if (state.map.kind == AxisMap::Kind::polar) {
+    const unsigned linear = state.map.linear;
+    const double radius = state.machine[linear] - zero()[linear] - state.applied[linear];
+    if (radius != 0) state.map.side = radius < 0 ? -1 : 1;
+  }
+  state.spline.joined = state.spline.moved = false;
+  state.polar_angle_known = false;
+}
+
 void Interpreter::set_machine(const AxisVec& machine) {
+  const bool moved = !(machine == state.machine);
   state.machine = machine;
+  if (moved) moved_by_hand();
   const auto mirrored = static_cast<uint8_t>(mirror_switch | mirror_signal | settings.mirror_axes);
   if (state.seq == 0 && (mirrored | state.switch_mirror) != 0) {  // at the head of a program
     state.switch_mirror = mirrored;

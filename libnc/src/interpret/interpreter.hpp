@@ -112,6 +112,7 @@ struct Interpreter {
   /// The axes have been moved behind the newest block; whoever goes back there finds them so.
   void move_to(const AxisVec& machine) {
     state.machine = machine;
+    moved_by_hand();
     checkpoints_.save(state);
   }
   /// Macro interrupt (M700 13.12): an interrupt signal would be accepted.
@@ -322,6 +323,7 @@ struct Interpreter {
   }
   bool begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine);
   void restore_modal();
+  void moved_by_hand();
   void note_interrupt_items();
 
   nc_status run_block(uint32_t& budget);
@@ -347,7 +349,7 @@ struct Interpreter {
   unsigned made_ = 0;          ///< items of the block in hand so far
   BlockSeq block_seq_ = 0;     ///< the state before it
   Repeat next_repeat_;         ///< from the next mark on
-  InterruptReturn interrupted_, interrupt_begins_;
+  InterruptReturn interrupted_;
   struct {
     int16_t motion = -1, feed_mode = -1;   ///< codes of groups 1 and 5; -1 = no program has ended since the last reset
     double feed = 0;

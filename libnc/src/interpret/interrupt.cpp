@@ -96,7 +96,7 @@ bool Interpreter::interrupt_inside(const AxisVec& machine, unsigned items) {
 
 bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine) {
   const BlockSeq head = state.seq, answered = answered_;
-  InterruptReturn& back = interrupt_begins_;  // beside the one that holds, which stays when this one is not entered
+  InterruptReturn& back = interrupted_;
   back.inside_block = inside_block;
   back.items = items;
   back.state = state;
@@ -111,7 +111,6 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
     stop(fault, source);
     return true;
   }
-  interrupted_ = interrupt_begins_;
   interrupted_.world = world;
   interrupted_.world_known = inside_block && answered == head;
   state.repeat = {};

@@ -184,6 +184,21 @@ bool jumps_at_pole(const Curve& curve) {
   return reach.distance < kThroughPole;
 }
 
+double leaves_from(const Curve& curve, unsigned axis_count) {
+  const CurveShape& shape = *curve.shape;
+  const AxisMap& map = shape.what.map;
+  const AxisVec first = shape_position(curve, 0, axis_count);
+  double off = 0;
+  for (unsigned i = 0; i < axis_count; ++i)
+    if (((map.frozen >> i) & 1) == 0) off = std::max(off, std::fabs(first[i] - curve.start[i]));
+  if (map.kind != AxisMap::Kind::polar || ((map.frozen >> map.rotary) & 1) != 0) return off;
+  // The angle is counted on from the axis: it has to be that of the point, or it would be lost at the end of the move.
+  const double x = shape.base.start[map.linear], y = shape.base.start[map.rotary], radius = std::hypot(x, y);
+  if (radius < kAtPole) return off;
+  const double angle = map.angle + std::atan2(map.side * y, map.side * x) * kDegrees;
+  return std::max(off, std::fabs(std::remainder(angle - curve.start[map.rotary], 360.0)) * std::min(1.0, radius / kDegrees));
+}
+
 double polar_turn(const Curve& base, const AxisMap& map) {
   if (!base.circular) {
     if (std::hypot(base.start[map.linear], base.start[map.rotary]) < kAtPole) return 0;

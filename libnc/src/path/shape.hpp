@@ -129,6 +129,8 @@ struct PolarReach {
   bool radial = false;  ///< a straight way from or to the pole: the angle does not change
 };
 PolarReach polar_reach(const CurveShape& shape);
+/// How far the curve itself begins from where the axes stand at its start: mm or deg, of the axis that is farthest away.
+double leaves_from(const Curve& curve, unsigned axis_count);
 /// The angle would jump: a polar shape goes through the pole, or leaves it in another direction than the axis stands.
 bool jumps_at_pole(const Curve& curve);
 

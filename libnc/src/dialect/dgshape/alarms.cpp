@@ -101,6 +101,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::exponential_axes, "NC-NO-SUCH-CODE", nullptr},
     {C::nurbs_knot, "NC-NO-SUCH-CODE", nullptr},
     {C::nurbs_start, "NC-NO-SUCH-CODE", nullptr},
+    {C::displaced, "NC-ARC", nullptr},  // does not occur: no curves over several blocks
     {C::space_conversion_code, "NC-NO-SUCH-CODE", nullptr},
     {C::inverse_time_code, "NC-NO-SUCH-CODE", nullptr},
     {C::arc_feed_zero, "NC-NO-SUCH-CODE", nullptr},

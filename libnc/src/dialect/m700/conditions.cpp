@@ -70,6 +70,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::exponential_axes, "P610", nullptr},
     {C::nurbs_knot, "P551", nullptr},          // 6.15
     {C::nurbs_start, "P552", nullptr},
+    {C::displaced, "P554", nullptr},           // 6.15 note 3; other curves over several blocks have no number of their own
     {C::space_conversion_code, "P921", nullptr},
     {C::inverse_time_code, "P125", nullptr},   // 7.5
     {C::arc_feed_zero, "P121", nullptr},       // 7.3

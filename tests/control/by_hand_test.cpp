@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Axes moved by hand in a block stop, blocks of MDI and resets in between, in every map and beside every curve: the program goes on from where
+// the axes really are, or is refused with an alarm. No axis is ever asked for more than it can do in one cycle.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/drive.hpp"
+
+namespace nc::test {
+namespace {
+
+constexpr double kVelocity[4] = {100, 100, 100, 360};
+constexpr double kCycle = 0.001;
+
+std::function<void(nc_config&)> machine(bool optimal) {
+  return [optimal](nc_config& c) {
+    axes("XYZc")(c);
+    c.cycle_s = kCycle;
+    c.look_ahead = 128;
+    c.motion_mode = optimal ? NC_MOTION_OPTIMAL : NC_MOTION_TRAPEZOID;
+    for (unsigned i = 0; i < 4; ++i) {
+      nc_axis_config& axis = c.system[0].axis[i];
+      axis.rapid = axis.max_velocity = kVelocity[i];
+      axis.max_acceleration = 20 * kVelocity[i];
+      axis.max_jerk = optimal ? 400 * kVelocity[i] : 0;
+    }
+  };
+}
+
+/// A machine, and the largest step of an axis that it was ever given, in parts of what its velocity allows.
+class HandMachine {
+ public:
+  explicit HandMachine(bool optimal, double x = 20) : bench(NC_DIALECT_M700, machine(optimal)) {
+    bench.param("1516", "C").param("8025", "1").param("1084", "0.1").tool(4, 1.5).at(x, 0, 0);
+  }
+  void start(const std::string& text) {
+    drive = std::make_unique<Drive>(bench, text);
+    drive->in.single_block = true;
+    first_ = true;
+    press();
+  }
+  void press() {
+    drive->in.cycle_start = true;
+    step(2);
+    drive->in.cycle_start = false;
+  }
+  void step(unsigned cycles = 1) {
+    for (; cycles > 0; --cycles) {
+      drive->step(20);
+      for (unsigned i = 0; i < 4 && !first_; ++i) {
+        const double way = std::fabs(drive->out.command.v[i] - last_.v[i]);
+        const double part = std::isfinite(way) ? way / (kVelocity[i] * kCycle) : INFINITY;
+        if (part > worst) worst = part, worst_axis = i, worst_line = drive->out.source.line;
+      }
+      last_ = drive->out.command;
+      first_ = false;
+    }
+  }
+  bool until_stop() {
+    for (unsigned n = 0; n < 200000; ++n) {
+      step();
+      if (n > 15 && (drive->out.state == NC_STATE_STOPPED || drive->out.state == NC_STATE_IDLE || drive->out.state == NC_STATE_ALARM)) return true;
+    }
+    return false;
+  }
+  /// By hand to a place `by` away; the manual motion of the machine, nothing else.
+  void move(unsigned axis, double by) {
+    drive->in.manual[axis] = {NC_MANUAL_STEP, 0, by};
+    step();
+    drive->in.manual[axis] = {};
+    const unsigned settle = static_cast<unsigned>(std::fabs(by) / kVelocity[axis] / kCycle) + 400;
+    step(settle);
+  }
+  double at(unsigned axis) const { return drive->out.command.v[axis]; }
+
+  Bench bench;
+  std::unique_ptr<Drive> drive;
+  double worst = 0;
+  unsigned worst_axis = 0, worst_line = 0;
+
+ private:
+  nc_axes last_{};
+  bool first_ = true;
+};
+
+class ByHand : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(BothLaws, ByHand, testing::Bool(), [](const auto& law) { return law.param ? "Optimal" : "Trapezoid"; });
+
+TEST_P(ByHand, AcrossThePoleOfG12) {
+  HandMachine m(GetParam());
+  m.start("G12.1\nG1 X9. Y0 F3000\nX9. Y1.\nX5. Y5.\nG13.1\nM30");
+  for (unsigned block = 0; block < 4; ++block) {
+    ASSERT_TRUE(m.until_stop());
+    if (std::fabs(m.at(0) - 9) < 0.01) break;
+    m.press();
+  }
+  ASSERT_NEAR(m.at(0), 9, 0.01);
+  m.move(0, -17.9);
+  ASSERT_NEAR(m.at(0), -8.9, 0.01);
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  EXPECT_LT(m.worst, 1.001) << "axis " << m.worst_axis << " line " << m.worst_line;
+  if (m.drive->alarm().empty()) {
+    EXPECT_LT(m.at(0), 0) << "on the side where the axis is";
+    EXPECT_NEAR(std::fabs(m.at(0)), std::hypot(9, 1), 0.01);
+  } else {
+    EXPECT_EQ(m.drive->alarm(), "P486");
+  }
+}
+
+struct Program {
+  const char* name;
+  const char* text;
+};
+const Program kPrograms[] = {
+    {"polar", "G12.1\nG1 X12. Y4. F6000\nX-3. Y9.\nG3 X-9. Y-3. R12.\nG1 X5. Y-8.\nX14. Y2.\nG13.1\nG0 X30.\nM30"},
+    {"polar with radius compensation", "G12.1\nG41 D4 G1 X12. Y4. F6000\nX-3. Y9.\nX-9. Y-3.\nG3 X5. Y-8. R12.\nG1 X14. Y2.\nG40 X20. Y0\nG13.1\nM30"},
+    {"cylinder", "G19 Z0 C0 G0\nG07.1 C15.\nG1 Z5. F6000\nC60.\nG2 Z10. C80. R9.\nG1 Z2. C-40.\nG07.1 C0\nG0 X25.\nM30"},
+    {"cylinder with radius compensation", "G19 Z0 C0 G0\nG07.1 C15.\nG41 D4 G1 Z5. F6000\nC60.\nZ10. C90.\nZ2. C-40.\nG40 C-60.\nG07.1 C0\nM30"},
+    {"arc in space", "G1 X20. F6000\nG02.4 X25. Y5. Z3.\nX30. Y0. Z6.\nG1 X20. Z0\nG02.4 X25. Y5. Z3.\nX30. Y0. Z6.\nG1 X10.\nM30"},
+    {"arcs with radius compensation", "G41 D4 G1 X25. Y5. F6000\nG3 X35. Y15. R10.\nG2 X45. Y25. I10.\nG1 X50. Y30.\nG3 X40. Y40. I-5. J5.\nG40 G1 X30. Y45.\nM30"},
+    {"hypothetical axis", "G07 Z0\nG17 G2 X20. Y0 Z10. I-5. F6000\nG1 X30. Z12.\nG07 Z1\nG1 X10. Y5.\nM30"},
+    {"nurbs", "G1 X20. Y0 F6000\nG06.2 P4 K0 X20. Y0\nK0 X25. Y5.\nK0 X30. Y-5.\nK0 X35. Y0\nK1\nK1\nK1\nK1\nG1 X20.\nM30"},
+};
+
+TEST_P(ByHand, NothingJumpsWhateverIsDone) {
+  unsigned hands = 0, alarms = 0, ends = 0;
+  for (unsigned seed = 0; seed < 160; ++seed) {
+    std::mt19937 random(seed);
+    const Program& program = kPrograms[seed % std::size(kPrograms)];
+    HandMachine m(GetParam());
+    m.start(program.text);
+    for (unsigned stops = 0; stops < 25; ++stops) {
+      ASSERT_TRUE(m.until_stop()) << program.name << " seed " << seed;
+      if (m.drive->out.state == NC_STATE_ALARM || !m.drive->alarm().empty()) {
+        ++alarms;
+        m.drive->in.reset = true;
+        m.step(5);
+        m.drive->in.reset = false;
+        break;
+      }
+      if (m.drive->ended) {
+        ++ends;
+        break;
+      }
+      const unsigned what = random() % 8;
+      if (what < 3 && m.drive->out.manual_allowed) {
+        ++hands;
+        const unsigned axis = random() % 4;
+        const double most = axis == 3 ? 250 : axis == 0 ? 45 : 15;
+        m.move(axis, std::uniform_real_distribution<>(-most, most)(random));
+      } else if (what == 7 && random() % 4 == 0) {
+        m.drive->in.reset = true;
+        m.step(5);
+        m.drive->in.reset = false;
+        m.step(5);
+        break;
+      }
+      m.press();
+    }
+    ASSERT_LT(m.worst, 1.001) << program.name << " seed " << seed << " axis " << m.worst_axis << " line " << m.worst_line;
+    // MDI and the program once more, from wherever the axes are.
+    m.drive->in.single_block = false;
+    m.step(20);
+    if (m.drive->out.state != NC_STATE_IDLE) continue;
+    const std::string mdi = "G90 G0 X20. Y0 Z0 C0";
+    if (nc_mdi_load(m.bench.control(), 0, mdi.data(), mdi.size()) != NC_OK) continue;
+    m.drive->ended = false;
+    m.press();
+    for (unsigned n = 0; n < 4000 && !m.drive->ended; ++n) m.step();
+    ASSERT_LT(m.worst, 1.001) << program.name << " seed " << seed << " MDI";
+  }
+  EXPECT_GT(hands, 100u);
+  EXPECT_GT(ends, 20u);
+  EXPECT_GT(alarms, 5u);
+}
+
+/// MDI keeps its modes from block to block; between two of them the axes are moved by hand.
+TEST_P(ByHand, BetweenBlocksOfMdi) {
+  for (const char* on : {"G12.1", "G19;G07.1 C15."}) {
+    for (unsigned seed = 0; seed < 12; ++seed) {
+      std::mt19937 random(seed);
+      HandMachine m(GetParam());
+      m.start("M30");
+      m.step(20);
+      for (const std::string& block : {std::string(on), std::string("G1 F6000 Z1."), std::string("Z4."), std::string("Z2.")}) {
+        const std::string text = block + (block[0] == 'Z' && on[1] == '1' && on[2] == '2' ? " X9. Y3." : "");
+        if (nc_mdi_load(m.bench.control(), 0, text.data(), text.size()) != NC_OK) continue;
+        m.drive->ended = false;
+        m.drive->in.single_block = false;
+        m.press();
+        for (unsigned n = 0; n < 3000 && !m.drive->ended; ++n) m.step();
+        if (!m.drive->alarm().empty()) break;
+        m.move(random() % 2 == 0 ? 0 : 3, std::uniform_real_distribution<>(-40, 40)(random));
+      }
+      ASSERT_LT(m.worst, 1.001) << on << " seed " << seed << " axis " << m.worst_axis;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nc::test
