@@ -93,7 +93,9 @@ unsigned percent_done(std::uint32_t main_line, std::uint64_t lines) {
   return static_cast<unsigned>(std::min<std::uint64_t>(100, std::uint64_t{main_line} * 100 / lines));
 }
 
-std::string state_text(const nc_outputs& outputs) {
+namespace {
+
+std::string state_alone(const nc_outputs& outputs) {
   switch (outputs.state) {
     case NC_STATE_IDLE:
       return "idle";
@@ -150,6 +152,14 @@ std::string state_text(const nc_outputs& outputs) {
     default:
       return outputs.state == NC_STATE_STOPPED ? "stopped" : outputs.rapid ? "rapid" : "running";
   }
+}
+
+}  // namespace
+
+std::string state_text(const nc_outputs& outputs) {
+  std::string text = state_alone(outputs);
+  if (outputs.moved_by_hand != 0) text += outputs.manual_absolute ? ", moved by hand" : ", by hand: coordinates shift";
+  return text;
 }
 
 std::string progress_line(const Runtime& runtime, std::uint64_t lines) {

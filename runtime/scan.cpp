@@ -250,6 +250,7 @@ void Scan::build_nc_inputs() noexcept {
     in.fin2 = false;
     in.interlock = false;
     in.macro_interrupt = false;
+    in.manual_absolute_off = false;
     // A program alarm is libnc's own state; the level is for what the machine does wrong.
     in.alarm = false;
     for (unsigned i = 0; i < alarms_.count; ++i) in.alarm |= stops_the_nc(alarms_.alarm[i]);

@@ -173,6 +173,8 @@ const SignalRow kSignals[] = {
        return !machine.actual_valid || std::abs(machine.actual.v[i] - out(image, s).command.v[i]) <= width;
      },
      nullptr},
+    {"moved_by_hand", kBit, kFrom, kAxis, 0, 0, "the axis was moved by hand in a block stop, and stays there until a block names it",
+     "until the program moves it, or has ended", NC_READ { return (out(image, s).moved_by_hand >> i & 1u) != 0; }, nullptr},
     {"at_reference", kBit, kFrom, kAxis, 0, 0, "the axis is commanded to its first reference position and stands (ZP1)", "every scan",
      NC_READ { return out(image, s).velocity.v[i] == 0 && (out(image, s).at_reference >> i & 1u) != 0; }, nullptr},
     {"unclamp", kBit, kFrom, kAxis, 0, 0, "the index table is to be unclamped (#2076)",
@@ -203,6 +205,8 @@ const SignalRow kSignals[] = {
      nullptr, NC_WRITE { image->nc_in[s].single_block |= value != 0; }},
     {"optional_stop", kBit, kTo, kSystem, 0, 0, "M01 stops", "level, when M01 is reached; or the operator's", nullptr,
      NC_WRITE { image->nc_in[s].optional_stop |= value != 0; }},
+    {"manual_absolute_n", kBit, kTo, kSystem, 0, 1, "0: manual absolute is off: what is moved by hand in a block stop takes the coordinate systems along",
+     "level, when cycle start goes on from a block stop", nullptr, NC_WRITE { image->nc_in[s].manual_absolute_off |= value == 0; }},
     {"macro_interrupt", kBit, kTo, kSystem, 0, 0, "the interrupt program of M96 (UIT)", "by level or when it rises; at once or at block end (#1113)", nullptr,
      NC_WRITE { image->nc_in[s].macro_interrupt |= value != 0; }},
     {"interlock_n", kBit, kTo, kSystem, 0, 1, "0: axes decelerate to rest and none starts: chuck, coolant; they go on by themselves at 1, so a door takes plc.feed_hold_n too",

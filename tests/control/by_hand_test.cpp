@@ -147,6 +147,7 @@ TEST_P(ByHand, NothingJumpsWhateverIsDone) {
       const unsigned what = random() % 8;
       if (what < 3 && m.drive->out.manual_allowed) {
         ++hands;
+        m.drive->in.manual_absolute_off = random() % 3 == 0;
         const unsigned axis = random() % 4;
         const double most = axis == 3 ? 250 : axis == 0 ? 45 : 15;
         m.move(axis, std::uniform_real_distribution<>(-most, most)(random));
@@ -174,6 +175,86 @@ TEST_P(ByHand, NothingJumpsWhateverIsDone) {
   EXPECT_GT(hands, 100u);
   EXPECT_GT(ends, 20u);
   EXPECT_GT(alarms, 5u);
+}
+
+/// Runs with single block to the stop behind line 2, moves Z by 37.5 there, and goes on block by block.
+std::vector<nc_axes> with_z_raised(HandMachine& m, const std::string& text, bool off, std::vector<uint32_t>* marked) {
+  m.start(text);
+  std::vector<nc_axes> stops;
+  for (unsigned stop = 0; stop < 12; ++stop) {
+    EXPECT_TRUE(m.until_stop());
+    stops.push_back(m.drive->out.command);
+    marked->push_back(m.drive->out.moved_by_hand);
+    EXPECT_EQ(m.drive->out.manual_absolute, !m.drive->in.manual_absolute_off);
+    if (m.drive->ended || m.drive->out.state != NC_STATE_STOPPED) break;
+    if (stop == 1) {
+      m.move(2, 37.5);
+      EXPECT_EQ(m.drive->out.moved_by_hand, 4u);
+      m.drive->in.manual_absolute_off = off;
+    }
+    m.press();
+  }
+  EXPECT_EQ(m.drive->alarm(), "");
+  EXPECT_LT(m.worst, 1.001);
+  return stops;
+}
+
+constexpr const char* kRaised = "G90 G1 Z-2. F6000\nX25.\nX30.\nG91 Z-1.\nG90 Z5.\n#100=#5003\nM30";
+
+TEST_P(ByHand, ManualAbsoluteOnAnAbsoluteWordGoesToItsPlace) {  // M700 12.4.4 (2)
+  HandMachine m(GetParam());
+  std::vector<uint32_t> marked;
+  const std::vector<nc_axes> stops = with_z_raised(m, kRaised, false, &marked);
+  ASSERT_GE(stops.size(), 5u);
+  EXPECT_NEAR(stops[2].v[2], 35.5, 0.011);  // an axis that is not named stays, and that is said
+  EXPECT_EQ(marked[2], 4u);
+  EXPECT_NEAR(stops[3].v[2], 34.5, 0.011);  // incremental: from there
+  EXPECT_EQ(marked[3], 0u);
+  EXPECT_NEAR(stops[4].v[2], 5, 1e-3);
+  EXPECT_NEAR(m.bench.var_now(100), 5, 1e-3);
+}
+
+TEST_P(ByHand, ManualAbsoluteOffTheCoordinatesGoAlong) {  // M700 12.4.4 (1), 14.12
+  HandMachine m(GetParam());
+  std::vector<uint32_t> marked;
+  const std::vector<nc_axes> stops = with_z_raised(m, kRaised, true, &marked);
+  ASSERT_GE(stops.size(), 5u);
+  EXPECT_NEAR(stops[2].v[2], 35.5, 0.011);
+  EXPECT_EQ(marked[2], 0u);
+  EXPECT_NEAR(stops[3].v[2], 34.5, 0.011);
+  EXPECT_NEAR(stops[4].v[2], 42.5, 1e-3);
+  EXPECT_NEAR(m.bench.var_now(100), 5, 1e-3);  // Z5 in the system that has moved
+  // Until it is preset (G92.1).
+  m.drive->in.single_block = false;
+  const std::string mdi = "G92.1 Z0;G90 G0 Z5.";
+  m.step(50);
+  ASSERT_EQ(nc_mdi_load(m.bench.control(), 0, mdi.data(), mdi.size()), NC_OK);
+  m.drive->ended = false;
+  m.press();
+  for (unsigned n = 0; n < 3000 && !m.drive->ended; ++n) m.step();
+  EXPECT_NEAR(m.at(2), 5, 1e-3);
+}
+
+TEST_P(ByHand, RadiusCompensationWithManualAbsolute) {  // M700 12.4.4: back on the path at the end of the next block, or shifted
+  for (const bool off : {false, true}) {
+    HandMachine m(GetParam());
+    m.start("G17 G90 G41 D4 G1 X25. Y5. F6000\nY20.\nY40.\nX60.\nG40 X70. Y50.\nM30");
+    std::vector<nc_axes> stops;
+    for (unsigned stop = 0; stop < 8 && !m.drive->ended; ++stop) {
+      ASSERT_TRUE(m.until_stop());
+      stops.push_back(m.drive->out.command);
+      if (m.drive->out.state != NC_STATE_STOPPED) break;
+      if (stop == 1) {
+        m.move(0, -6);
+        m.drive->in.manual_absolute_off = off;
+      }
+      m.press();
+    }
+    EXPECT_EQ(m.drive->alarm(), "") << off;
+    ASSERT_GE(stops.size(), 4u);
+    EXPECT_NEAR(stops[3].v[0], off ? 54 : 60, 0.01) << off;
+    EXPECT_LT(m.worst, 1.001) << off;
+  }
 }
 
 /// MDI keeps its modes from block to block; between two of them the axes are moved by hand.

@@ -129,6 +129,8 @@ typedef struct nc_inputs {
   nc_axes actual;        /**< measured machine position */
   bool follow_up;        /**< level, while drives are off: with no program the commanded position follows `actual` */
   nc_manual manual[NC_MAX_AXES]; /**< acts while nc_outputs::manual_allowed; a program in a block stop goes on from there */
+  bool manual_absolute_off; /**< level, when cycle start goes on from a block stop: axes that were moved by hand in it take the coordinate systems along.
+                                 Off, manual absolute is on: the systems stay, and an absolute command goes to its programmed place (M700 12.4.4, 14.12) */
   int64_t clock_ms;      /**< wall clock (see nc_world) */
 } nc_inputs;
 
@@ -196,6 +198,9 @@ typedef struct nc_outputs {
   bool distance_zero;       /**< no axis is commanded to move */
   uint32_t at_reference;    /**< bit n: axis n is commanded to its first reference position, in whatever turn */
   uint32_t turning;         /**< bit n: the machine position of axis n counts within one turn, and its limits hold in each (#8213) */
+  uint32_t moved_by_hand;   /**< bit n: axis n was moved by hand in a block stop and the program has not moved it since: it does not stand where the program
+                                 has left it, and stays there until a block names it. Off with a start that takes the coordinate systems along */
+  bool manual_absolute;     /**< in force: not nc_inputs::manual_absolute_off */
   bool manual_allowed;      /**< nc_inputs::manual acts: no program, or one that is stopped between two blocks */
   bool message;             /**< rising edge: `message_text` has a new operator message */
   uint32_t message_text;    /**< id for nc_text_get() */

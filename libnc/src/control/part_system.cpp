@@ -595,7 +595,7 @@ nc_status PartSystem::feed(uint32_t budget) {
     } else if (interrupt) {
       interrupt_online();
     } else {
-      displace(executor.commanded());
+      displace(executor.commanded(), executor.shift_asked());
     }
     executor.reread_done();
   }
@@ -653,16 +653,18 @@ bool PartSystem::read_again(Serial last) {
   return false;
 }
 
-/// The axes were moved by hand in a block stop ("manual absolute on"): the coordinate systems stay, and what follows starts where the
-/// machine is. An axis that the next block does not name stays there, an incremental word counts from there; under radius
-/// compensation the vector in force is carried along.
-void PartSystem::displace(const AxisVec& machine) {
+/// The axes were moved by hand in a block stop; what follows starts where the machine is. An axis that the next block does not name stays
+/// there, an incremental word counts from there; under radius compensation the vector in force is carried along.
+/// M700 12.4.4, 14.12: with manual absolute on the coordinate systems stay, and an absolute word goes to its programmed place. With it off
+/// (`shift`, bit i: axis i) they go along: the rest of the program is shifted, until G92.1.
+void PartSystem::displace(const AxisVec& machine, uint32_t shift) {
   AxisVec programmed = interpreter.state.machine;
   bool any = false;
   for (unsigned i = 0; i < interpreter.axis_count; ++i) {
     const double moved = machine[i] - commit_.machine()[i];
     if (moved == 0) continue;
     any = true;
+    if ((shift >> i & 1) != 0) interpreter.shift_coordinates(i, moved);
     programmed[i] = idle_ ? machine[i] : programmed[i] + moved;
   }
   if (any) {  // what fairing has joined is no more: every line from here to its own end

@@ -98,7 +98,7 @@ class PartSystem {
   bool may_read_on();
   static bool stops(const Gate& gate) { return gate.kind == NC_GATE_STOP || gate.kind == NC_GATE_OPTIONAL_STOP; }
   bool read_again(Serial last);
-  void displace(const AxisVec& machine);
+  void displace(const AxisVec& machine, uint32_t shift);
   void take_spindle_axes(const nc_world& world);
   bool begin_interrupt();
   /// Offline: a signal would be accepted behind what has been given out; what is read ahead of that does not count.

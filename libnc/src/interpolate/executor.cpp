@@ -205,6 +205,10 @@ bool Executor::interrupt_asked() const {
   return state_->shared.reread_interrupt.load(std::memory_order_relaxed) != 0;
 }
 
+uint32_t Executor::shift_asked() const {
+  return state_->shared.reread_shift.load(std::memory_order_relaxed);
+}
+
 Cut Executor::cut() const {
   return state_->shared.status.read().cut;
 }

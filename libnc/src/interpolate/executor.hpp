@@ -87,6 +87,8 @@ class Executor {
   Cut cut() const;
   /// Gives up every committed record behind the block stop; the mark to go on behind, as truncate().
   Serial give_up_ahead();
+  /// Axes that were moved by hand and take the coordinate systems along.
+  uint32_t shift_asked() const;
   void reread_done();
   /// Next executed record for the host.
   bool poll_event(nc_event* event, uint64_t* dropped);

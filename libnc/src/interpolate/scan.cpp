@@ -240,6 +240,8 @@ void Scan::states(const nc_inputs& in) {
       rereading_ = true;
       shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
       shared_->reread_interrupt.store(0, std::memory_order_relaxed);
+      shared_->reread_shift.store(in.manual_absolute_off ? by_hand_ : 0, std::memory_order_relaxed);
+      if (in.manual_absolute_off) by_hand_ = 0;
       shared_->reread_request.store(++reread_, std::memory_order_release);
       return;
     }
@@ -261,6 +263,7 @@ void Scan::start(const nc_inputs& in) {
       done_ = 0;
       last_staged_ = block_waits_ = false;
       block_syncs_ = 0;
+      by_hand_ = 0;
       shared_->mirror.store(in.mirror, std::memory_order_relaxed);
       run_.start();
       run_ended_ = false;
@@ -288,6 +291,7 @@ void Scan::give_up() {
   follower_.give_up();
   moving_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = displaced_ = false;
   hold_behind_thread_ = block_has_thread_ = tapping_ = false;
+  by_hand_ = 0;
   fin1_groups_ = 0;
   strobe_ = 0;               // a FIN that comes now is late and completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
@@ -397,8 +401,11 @@ void Scan::manual(const nc_inputs& in, bool rested) {
   const AxisVec before = wanted_;
   if (manual_allowed_) shape_.use({});  // by hand each axis has an acceleration of its own
   manual_cycle(in);
-  for (unsigned i = 0; i < config_.axis_count; ++i)
-    displaced_ |= state_ == NC_STATE_STOPPED && wanted_[i] != before[i];
+  for (unsigned i = 0; i < config_.axis_count; ++i) {
+    if (state_ != NC_STATE_STOPPED || wanted_[i] == before[i]) continue;
+    displaced_ = true;
+    by_hand_ |= 1u << i;
+  }
 }
 
 /// Drives off: the axes are where they are, and the command goes there with them, so that nothing jumps when
@@ -492,6 +499,8 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   out.servo_ready = servo_ready_;
   out.referenced = referenced_;
   out.manual_allowed = manual_allowed_;
+  out.moved_by_hand = by_hand_;
+  out.manual_absolute = !in.manual_absolute_off;
   out.message = message_;
   out.message_text = message_text_.id;
   out.message_port = message_text_.port;

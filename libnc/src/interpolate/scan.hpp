@@ -53,6 +53,7 @@ struct ScanShared {
   alignas(64) std::atomic<uint32_t> run_taken{0};  ///< feeder: the newest run word that it has acted upon
   std::atomic<uint32_t> reread_request{0};  ///< scan: read again from where the axes are; it waits for
   std::atomic<uint32_t> reread_interrupt{0};  ///< 1: and begin with the interrupt program
+  std::atomic<uint32_t> reread_shift{0};  ///< bit i: and the coordinate systems go along with axis i
   std::atomic<uint32_t> reread_done{0};     ///< feeder: the request that is done
   Latest<ScanStatus> status;
   Latest<ScanWorld> world;
@@ -199,6 +200,7 @@ class Scan {
   bool frozen_ = false;    ///< the feeder may be truncating
   bool block_begun_ = false;
   bool displaced_ = false;  ///< moved by hand since the block stop
+  uint32_t by_hand_ = 0;    ///< bit i: axis i was, and the program has not moved it since
   bool rereading_ = false;  ///< the feeder reads again from here; nothing is executed, moved or given up
   uint32_t reread_ = 0;     ///< requests so far
 

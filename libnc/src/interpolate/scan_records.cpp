@@ -89,6 +89,8 @@ bool Scan::begin_move(const Record& r, const nc_inputs&) {
       if (std::fabs(from[i] - wanted_[i]) > most) return false;
     }
   }
+  for (unsigned i = 0; by_hand_ != 0 && i < config_.axis_count; ++i)
+    if (s.curve.delta[i] != 0) by_hand_ &= ~(1u << i);
   law_.s = s.begun;
   moving_ = true;
   block_begun_ = true;

@@ -290,6 +290,14 @@ void Interpreter::moved_by_hand() {
   state.polar_angle_known = false;
 }
 
+void Interpreter::shift_coordinates(unsigned axis, double by) {
+  if (state.map.kind == AxisMap::Kind::polar && axis == state.map.rotary) {
+    state.map.angle += by;  // the plane turns with the axis
+    return;
+  }
+  set_table_from_outside(Frames::shift_key(axis), frames.get(Frames::shift_key(axis)) + by);
+}
+
 void Interpreter::set_machine(const AxisVec& machine) {
   const bool moved = !(machine == state.machine);
   state.machine = machine;

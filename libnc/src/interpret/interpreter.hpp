@@ -115,6 +115,8 @@ struct Interpreter {
     moved_by_hand();
     checkpoints_.save(state);
   }
+  /// All coordinate systems go along with an axis that is moved by hand.
+  void shift_coordinates(unsigned axis, double by);
   /// Macro interrupt (M700 13.12): an interrupt signal would be accepted.
   bool interruptible() const;
   /// The interrupt program runs next, the machine stands at `machine`. Everything made before has happened but for the newest
