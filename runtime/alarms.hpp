@@ -21,6 +21,7 @@ enum class AlarmId : std::uint8_t {
   kLinkLost,       // of a Modbus link with alarm = true
   kRetainedLost,   // not found again at the start
   kRetainedUnwritable,
+  kBadInput,  // detail: nc_input_bits
   kProgram,  // an alarm of libnc; code and text come from there
   kCount
 };
@@ -46,6 +47,7 @@ inline constexpr AlarmRow kAlarmTable[] = {
     {AlarmId::kLinkLost, "R18", "Modbus link lost"},
     {AlarmId::kRetainedLost, "R19", "Retained data lost", false},
     {AlarmId::kRetainedUnwritable, "R20", "Retained data are not kept", false},
+    {AlarmId::kBadInput, "R21", "The machine gives a value that is no number or out of its range"},
     {AlarmId::kProgram, "", "Program alarm"},
 };
 
@@ -82,7 +84,7 @@ struct ActiveAlarm {
   std::uint8_t system = 0;  // index of the part system
   std::uint64_t scan = 0;   // when it came
   nc_source source{};       // block in execution at that moment
-  std::uint32_t detail = 0; // R15: FinFault; R16: number; R17: line; R18: link; R19, R20: retain_detail()
+  std::uint32_t detail = 0; // R15: FinFault; R16: number; R17: line; R18: link; R19, R20: retain_detail(); R21: nc_input_bits
   std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M; ~0 = not given out yet; R17: ladder::Fault
 };
 

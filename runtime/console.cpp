@@ -149,6 +149,8 @@ std::string state_alone(const nc_outputs& outputs) {
       return "C axis without its servo";
     case NC_CAUSE_TAP_SPINDLE:
       return "1026 spindle of a tap";
+    case NC_CAUSE_SPINDLE_UNMEASURED:
+      return "105 spindle speed not measured";
     default:
       return outputs.state == NC_STATE_STOPPED ? "stopped" : outputs.rapid ? "rapid" : "running";
   }

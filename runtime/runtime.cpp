@@ -391,6 +391,21 @@ static std::string place_text(const nc_source& source) {
   return " (" + (source.depth != 0 ? sub + ", " : "") + "line " + std::to_string(source.line) + ")";
 }
 
+// ": spindle, actual position"
+static std::string bad_input_text(std::uint32_t bits) {
+  struct Row {
+    std::uint32_t bit;
+    const char* name;
+  };
+  static constexpr Row kRows[] = {{NC_INPUT_FEED_OVERRIDE, "feed override"}, {NC_INPUT_RAPID_OVERRIDE, "rapid override"},
+                                  {NC_INPUT_SPINDLE, "spindle"},             {NC_INPUT_ACTUAL, "measured position"},
+                                  {NC_INPUT_MANUAL, "manual motion"}};
+  std::string text;
+  for (const Row& row : kRows)
+    if ((bits & row.bit) != 0) text += (text.empty() ? ": " : ", ") + std::string(row.name);
+  return text;
+}
+
 std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kProgram) {
     const FeederInfo now = info();
@@ -408,6 +423,7 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
     text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);
   }
   if (alarm.id == AlarmId::kLinkLost) text += ": " + config_.modbus[alarm.detail % config_.modbus.size()].link.name;
+  if (alarm.id == AlarmId::kBadInput) text += bad_input_text(alarm.detail);
   if (alarm.id == AlarmId::kLadderStopped) text += ": " + ladder_fault(alarm);
   if (alarm.axis >= 0) text += std::string(", axis ") + config_.nc.system[alarm.system].axis[alarm.axis].name;
   return text + place_text(alarm.source);

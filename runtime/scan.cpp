@@ -334,6 +334,7 @@ void Scan::follow_requests() noexcept {
     // The NC's own alarm, not the one that it was given.
     const bool alarm = out_[s].state == NC_STATE_ALARM;
     alarm_was_given_[s] = alarm && (alarm_was_given_[s] || in_[s].alarm);
+    if (out_[s].inputs_refused != 0) raise(AlarmId::kBadInput, s, -1, out_[s].inputs_refused);
     if (alarm && !alarm_was_given_[s] && reset_phase_ == ResetPhase::kNone) raise(AlarmId::kProgram, s, -1);
   }
   if (!running) hold_request_ = false;

@@ -84,7 +84,7 @@ void SimMachine::read(Feedback* feedback, PointImage* image) noexcept {
     out.skip = skip_signals(s);
     for (unsigned n = 0; n < config_.spindle_count[s]; ++n) {
       const SimSpindle& turning = spindle(s, n);
-      out.spindle[n] = {turning.rpm() / 60.0, turning.turns(), true, turning.ready(), turning.ready()};
+      out.spindle[n] = {turning.rpm() / 60.0, turning.turns(), true, turning.ready(), turning.ready(), false};
     }
     out.unclamped = system.unclamped & ~system.clamp_failed;
     out.fin = system.fin;

@@ -81,7 +81,7 @@ const SignalRow kSignals[] = {
      NC_READ { return state(image, s, NC_STATE_STOPPED); }, nullptr},
     {"stop_cause", kWord16, kFrom, kSystem, 0, 0,
      "why a program does not move: 1 FIN, 2 dwell, 3 in position, 4 program stop, 5 single block, 6 feed hold, 7 interlock, "
-     "8 override 0, 9 look-ahead, 10 alarm, 11 F1-F5 is 0, 12 no spindle, 13 spindle angle, 14 thread too fast, 15 servo off, 16 tap",
+     "8 override 0, 9 look-ahead, 10 alarm, 11 F1-F5 is 0, 12 no spindle, 13 spindle angle, 14 thread too fast, 15 servo off, 16 tap, 17 spindle not measured",
      "level", NC_READ { return out(image, s).cause; }, nullptr},
 
     // ---- M, S, T, B ----

@@ -16,7 +16,8 @@
 extern "C" {
 #endif
 
-/** One axis. Zero means "no limit" for the limits, so a control that only traces needs a name and nothing else. */
+/** One axis. Zero means "no limit" for the limits, so a control that only traces needs a name and nothing else. Limits are at most 1e12, places
+ *  between -1e9 and 1e9. */
 typedef struct nc_axis_config {
   char name;               /**< address letter, A B C U V W X Y Z */
   bool rotary;             /**< degrees instead of mm */
@@ -50,7 +51,7 @@ typedef struct nc_config {
   uint8_t dialect;         /**< nc_dialect */
   uint8_t system_count;    /**< 1..NC_MAX_SYSTEMS */
   nc_system_config system[NC_MAX_SYSTEMS];
-  double cycle_s;          /**< servo cycle, s; default 0.001 */
+  double cycle_s;          /**< servo cycle, s, 1e-6..0.1; default 0.001 */
   uint32_t look_ahead;     /**< records in the ring between feeder and scan, power of two 64..65536; default 1024 (13 MB).
                                 Time-optimal: short lines run at full speed where those in the ring, two records each, are longer than a stop:
                                 16384 (75 MB) for lines of 1 um */

@@ -87,20 +87,35 @@ typedef enum nc_manual_kind {
 
 typedef struct nc_manual {
   uint8_t kind;    /**< nc_manual_kind */
-  double velocity; /**< mm/s or deg/s, signed */
-  double distance; /**< mm or deg, signed */
+  double velocity; /**< mm/s or deg/s, signed, -1e6..1e6 */
+  double distance; /**< mm or deg, signed, -1e6..1e6 */
 } nc_manual;
 
 /** What a spindle measures. */
 typedef struct nc_spindle_inputs {
-  double rev_per_s;  /**< actual speed, signed: feed per revolution, threads, dwell in revolutions */
-  double turns;      /**< its encoder, revolutions, counting on with the sign of the speed; whole numbers are its zero mark (Z phase) */
+  double rev_per_s;  /**< actual speed, signed, -10000..10000, nearer to 0 than 0.00001 it stands: feed per revolution, threads, dwell in
+                          revolutions */
+  double turns;      /**< its encoder, revolutions, -1e12..1e12, counting on with the sign of the speed; whole numbers are its zero mark (Z phase) */
   bool turns_valid;  /**< `turns` is measured; without it threads begin at any angle */
   bool servo_ready;  /**< it holds its position and follows the command of its C axis (M700 10.5: servo READY) */
   bool zero_passed;  /**< the Z phase has been passed since the servo was switched on: reference position return complete */
+  bool unmeasured;   /**< nothing measures it, or not now: the speed counts as 0, and what needs it waits with NC_CAUSE_SPINDLE_UNMEASURED */
 } nc_spindle_inputs;
 
-/** What the scan gives to one part system in one cycle. */
+/** Bits of nc_outputs::inputs_refused. */
+typedef enum nc_input_bits {
+  NC_INPUT_FEED_OVERRIDE = 1,  /**< the last good one holds */
+  NC_INPUT_RAPID_OVERRIDE = 2, /**< the last good one holds */
+  NC_INPUT_SPINDLE = 4,        /**< it goes on as it was for 20 ms, then it is `unmeasured` until it is good again */
+  NC_INPUT_ACTUAL = 8,         /**< the axis is where it was last; in position it is not */
+  NC_INPUT_MANUAL = 16         /**< the axis is as if nothing was commanded by hand; a kind that there is not, too */
+} nc_input_bits;
+
+/**
+ * What the scan gives to one part system in one cycle. A number that is none (NaN, infinite) or out of the range that stands beside it never
+ * acts: what does instead stands at nc_input_bits, and that it was so in nc_outputs::inputs_refused. All fields without a range may have
+ * any value of their type.
+ */
 typedef struct nc_inputs {
   bool cycle_start;      /**< rising edge starts or continues */
   bool feed_hold;        /**< level: decelerate on the path and stay */
@@ -118,15 +133,15 @@ typedef struct nc_inputs {
   uint32_t unclamped;    /**< bit n: axis n of an index table is unclamped, as nc_outputs::unclamp asks for; off: clamped (M700 9.3) */
   uint32_t skip;         /**< skip signals, bit n = signal n+1 */
   uint32_t input[NC_WORDS]; /**< macro interface inputs */
-  double feed_override;  /**< 0..max_feed_override, 1 = 100 % */
-  double rapid_override; /**< 0..1 */
+  double feed_override;  /**< 0..max_feed_override, 1 = 100 %; what is nearer to 0 than 0.0001 is 0 */
+  double rapid_override; /**< 0..1, in the same way */
   nc_spindle_inputs spindle[NC_MAX_SPINDLES];
   uint8_t spindle_select;   /**< SWS, M700 10.6: bit n: spindle n+1 follows the S command; where there is one spindle it always does */
   uint8_t spindle_encoder;  /**< number of the spindle whose encoder counts for feed per revolution, threads and dwell; 0 = the selected one's */
   uint8_t servo_on;         /**< M700 10.5: bit i: axis i, which is a spindle too, is to be a C axis */
   int32_t feed_pulses;      /**< pulses of the first handle in this cycle: they change the feed of F1 to F5 (M700 7.3) */
   bool actual_valid;     /**< `actual` holds measured positions; otherwise commanded = actual */
-  nc_axes actual;        /**< measured machine position */
+  nc_axes actual;        /**< measured machine position, -1e9..1e9; asked for while `actual_valid` */
   bool follow_up;        /**< level, while drives are off: with no program the commanded position follows `actual` */
   nc_manual manual[NC_MAX_AXES]; /**< acts while nc_outputs::manual_allowed; a program in a block stop goes on from there */
   bool manual_absolute_off; /**< level, when cycle start goes on from a block stop: axes that were moved by hand in it take the coordinate systems along.
@@ -162,13 +177,20 @@ typedef enum nc_stop_cause {
   NC_CAUSE_SPINDLE_ANGLE = 13,   /**< a thread waits for its start angle */
   NC_CAUSE_SPINDLE_FAST = 14,    /**< a thread would need more than the largest cutting feed: it does not begin (M700 6.7.1) */
   NC_CAUSE_SERVO_OFF = 15,       /**< a C axis that is a spindle now is commanded (M700 10.5) */
-  NC_CAUSE_TAP_SPINDLE = 16      /**< in the tapping mode its spindle is to be a C axis (M700 10.6: operation error M01 1026) */
+  NC_CAUSE_TAP_SPINDLE = 16,     /**< in the tapping mode its spindle is to be a C axis (M700 10.6: operation error M01 1026) */
+  NC_CAUSE_SPINDLE_UNMEASURED = 17 /**< as SPINDLE_STOPPED, because its speed is not measured */
 } nc_stop_cause;
 
 /** Bits of nc_outputs::fin_wait beside those of the groups. */
 typedef enum nc_fin_wait_bits {
   NC_FIN_WAIT_UNCLAMP = 0x800 /**< an axis of an index table has to be unclamped or clamped (M700 9.3: T10 FIN WAIT 0800) */
 } nc_fin_wait_bits;
+
+/** Whose nc_outputs::feed_override is. */
+typedef enum nc_override_source {
+  NC_OVERRIDE_INPUT = 0,  /**< that of nc_inputs */
+  NC_OVERRIDE_PROGRAM = 1 /**< none acts: #3004 bit 1 (M700 13.5.10), a thread (6.7.1), the tapping mode (7.11), a skip move (15.2) */
+} nc_override_source;
 
 /** What one part system gives out in one cycle. */
 typedef struct nc_outputs {
@@ -212,6 +234,10 @@ typedef struct nc_outputs {
   uint32_t modal;           /**< snapshot of the last finished block */
   nc_axes work;             /**< command in the workpiece coordinates of the block in execution; see nc_position_shown() */
   nc_axes distance_to_go;
+  uint32_t inputs_refused;  /**< nc_input_bits: what of nc_inputs was no number or out of its range in this cycle */
+  double feed_override;     /**< in force now: that of nc_inputs as it acts, or 1 where the program says so (`override_source`) */
+  double rapid_override;
+  uint8_t override_source;  /**< nc_override_source of feed_override */
   double path_length;       /**< mm travelled since cycle start */
   double run_s;             /**< seconds in state RUNNING since cycle start */
   uint64_t blocks;          /**< blocks finished since cycle start */

@@ -10,6 +10,12 @@ namespace {
 
 bool power_of_two(uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
 
+constexpr double kMostLimit = 1e12;  ///< mm/s and so on: what is multiplied with it stays a number
+constexpr double kMostPlace = 1e9;   ///< mm or deg
+
+/// False for NaN, too.
+bool is_place(double value) { return std::fabs(value) <= kMostPlace; }
+
 bool axes_valid(const nc_system_config& system) {
   if (system.axis_count < 1 || system.axis_count > NC_MAX_AXES || system.spindle_count > NC_MAX_SPINDLES) return false;
   for (unsigned i = 0; i < system.axis_count; ++i) {
@@ -18,10 +24,10 @@ bool axes_valid(const nc_system_config& system) {
     for (unsigned j = 0; j < i; ++j)
       if (system.axis[j].name == axis.name) return false;
     for (const double limit : {axis.rapid, axis.max_velocity, axis.max_acceleration, axis.max_jerk, axis.in_position})
-      if (!(limit >= 0) || !std::isfinite(limit)) return false;
+      if (!(limit >= 0 && limit <= kMostLimit)) return false;
     for (const double place : axis.reference)
-      if (!std::isfinite(place)) return false;
-    if (axis.soft_limited && !(axis.soft_min < axis.soft_max)) return false;
+      if (!is_place(place)) return false;
+    if (axis.soft_limited && !(axis.soft_min < axis.soft_max && is_place(axis.soft_min) && is_place(axis.soft_max))) return false;
     // M700 10.5: a C axis turns with a spindle that there is, and with no other axis.
     if (axis.spindle == 0) continue;
     if (!axis.rotary || axis.spindle > (system.spindle_count == 0 ? 1 : system.spindle_count)) return false;
@@ -52,7 +58,7 @@ bool valid(const nc_config* c) {
   if (!nc::known(c->dialect) || c->system_count < 1 || c->system_count > NC_MAX_SYSTEMS) return false;
   for (unsigned i = 0; i < c->system_count; ++i)
     if (!axes_valid(c->system[i])) return false;
-  return c->cycle_s > 0 && c->cycle_s <= 0.1 && power_of_two(c->look_ahead) && c->look_ahead >= 64 && c->look_ahead <= 65536 &&
+  return c->cycle_s >= 1e-6 && c->cycle_s <= 0.1 && power_of_two(c->look_ahead) && c->look_ahead >= 64 && c->look_ahead <= 65536 &&
          c->programs >= 1 && c->programs <= 65535 && c->tool_offsets >= 1 && c->tool_offsets <= 999 && c->work_offsets <= 300 &&
          c->window_bytes >= 512 && c->window_bytes <= (1u << 24) && is_option(c->variable_sets) && c->max_feed_override >= 1 &&
          c->max_feed_override <= 10 && motion_valid(*c);

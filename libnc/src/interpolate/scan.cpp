@@ -39,6 +39,7 @@ void Scan::create(const ExecutorConfig& config, const Record* ring, Planner* pla
   spindles_.create(config.spindle_count);
   for (unsigned i = 0; i < config.axis_count; ++i)
     if (config.axis_spindle[i] != 0) c_axes_ = static_cast<uint8_t>(c_axes_ | 1u << i);
+  border_.create(config.axis_count, config.max_feed_override, config.cycle_s);
   ManualConfig m;
   m.axis_count = config.axis_count;
   for (unsigned i = 0; i < kMaxAxes; ++i) m.limits[i] = config.limits[i];
@@ -64,7 +65,8 @@ void Scan::count_from(uint32_t first) {
   follower_.count_from(first);
 }
 
-void Scan::cycle(const nc_inputs& in, nc_outputs& out) {
+void Scan::cycle(const nc_inputs& given, nc_outputs& out) {
+  const nc_inputs& in = border_.check(given);
   ++power_cycles_;
   time_ = config_.cycle_s;
   latest_ = nullptr;
@@ -440,8 +442,15 @@ void Scan::publish(const nc_inputs& in) {
 
 /// Override in force, #3004 bit 1 included.
 double Scan::feed_override(const nc_inputs& in) const {
-  if (disable_ & 2) return 1;
-  return std::min(config_.max_feed_override, std::max(0.0, in.feed_override));
+  return (disable_ & 2) != 0 ? 1 : in.feed_override;
+}
+
+/// For displays, of the move in execution: M700 6.7.1, 7.11, 15.2 (where an override of 0 holds all the same).
+double Scan::override_in_force(const nc_inputs& in, nc_override_source* source) const {
+  const Segment* s = moving_ ? &current().segment : nullptr;
+  const bool fixed = s != nullptr && (s->thread || s->fixed_override || (s->skip && feed_override(in) > 0));
+  *source = (disable_ & 2) != 0 || fixed ? NC_OVERRIDE_PROGRAM : NC_OVERRIDE_INPUT;
+  return *source == NC_OVERRIDE_PROGRAM ? 1 : in.feed_override;
 }
 
 void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
@@ -516,6 +525,11 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   out.serial = serial_;
   out.source = source_;
   out.modal = modal_;
+  out.inputs_refused = border_.refused();
+  nc_override_source source = NC_OVERRIDE_INPUT;
+  out.feed_override = override_in_force(in, &source);
+  out.override_source = static_cast<uint8_t>(source);
+  out.rapid_override = in.rapid_override;
   out.path_length = path_length_;
   out.run_s = static_cast<double>(start_cycles_) * config_.cycle_s;
   out.blocks = blocks_;

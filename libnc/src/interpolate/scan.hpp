@@ -11,6 +11,7 @@
 #include "interpolate/executor.hpp"
 #include "interpolate/follower.hpp"
 #include "interpolate/index_clamp.hpp"
+#include "interpolate/input_border.hpp"
 #include "interpolate/law.hpp"
 #include "interpolate/run_word.hpp"
 #include "interpolate/spindle.hpp"
@@ -123,11 +124,14 @@ class Scan {
   double speed_cap(const Segment& segment, const nc_inputs& in) NC_RT;
   double corner_factor(const Segment& segment) const NC_RT;
   double feed_override(const nc_inputs& in) const NC_RT;
+  double override_in_force(const nc_inputs& in, nc_override_source* source) const NC_RT;
+  nc_stop_cause no_spindle(const nc_inputs& in) const NC_RT;
   Done action(const Action& action) NC_RT;
   Done strobe(const Action& action) NC_RT;
   Done gate(const Gate& gate, const nc_inputs& in) NC_RT;
   Done optional_stop(const nc_inputs& in) NC_RT;
   Done dwell(double rate, double amount) NC_RT;
+  Done dwell_turns(double turns, const nc_inputs& in) NC_RT;
   Done sync(const Record& record, const nc_inputs& in) NC_RT;
   // scan_filter.cpp: what waits for the filters, and what is added behind interpolation
   bool waits_for_filters(const Record& record, const nc_inputs& in) NC_RT;
@@ -203,6 +207,8 @@ class Scan {
   uint32_t by_hand_ = 0;    ///< bit i: axis i was, and the program has not moved it since
   bool rereading_ = false;  ///< the feeder reads again from here; nothing is executed, moved or given up
   uint32_t reread_ = 0;     ///< requests so far
+
+  InputBorder border_;
 
   // ---- motion
   LawState law_;         ///< on the segment in execution; v carries over to the next one

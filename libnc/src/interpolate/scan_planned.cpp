@@ -45,7 +45,7 @@ bool Scan::would_jump() const {
 /// Why a move does not go on.
 nc_stop_cause Scan::standing(const Segment& s, const nc_inputs& in) {
   if (s.rapid) return in.rapid_override > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
-  if (s.feed_mm_rev > 0 && encoder(in).rev_per_s == 0) return NC_CAUSE_SPINDLE_STOPPED;
+  if (s.feed_mm_rev > 0 && encoder(in).rev_per_s == 0) return no_spindle(in);
   if (!(s.feed_mm_rev > 0) && !(programmed_feed(s) > 0)) return NC_CAUSE_FEED_ZERO;  // M700 7.3: operation alarm 104
   return s.fixed_override || feed_override(in) > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
 }
@@ -103,7 +103,7 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
 bool Scan::begin_thread(const Segment& s, const nc_inputs& in) {
   const double planned = follower_.planned_turns(), turns = std::fabs(encoder(in).rev_per_s);
   if (std::fabs(turns - planned) > kPlannedTurns * planned) {
-    wait(turns > 0 ? NC_CAUSE_SPINDLE_ANGLE : NC_CAUSE_SPINDLE_STOPPED);
+    wait(turns > 0 ? NC_CAUSE_SPINDLE_ANGLE : no_spindle(in));
     return false;
   }
   if (law_.s > s.begun) {  // an interlock has stopped it: it goes on, and its groove is lost
@@ -166,7 +166,7 @@ void Scan::tell_planner(const nc_inputs& in, const ScanStatus& status) {
   f.brake = path_stops(in);
   if (!cutting_thread()) feed_scale_ = status.feed_override;
   f.scale.feed = feed_scale_;
-  f.scale.rapid = std::clamp(in.rapid_override, 0.0, 1.0);
+  f.scale.rapid = in.rapid_override;
   for (unsigned i = 0; i < sizeof digit_pulses_ / sizeof digit_pulses_[0]; ++i) f.scale.pulses[i] = digit_pulses_[i];
   if (moving_ && current().segment.skip_speeds != nullptr && skip_feed_ != current().segment.start_feed_mm_s) f.scale.skip_feed = skip_feed_;
   const double turns = std::fabs(encoder(in).rev_per_s);

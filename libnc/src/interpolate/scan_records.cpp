@@ -139,6 +139,11 @@ void Scan::turn_feed_handle(const nc_inputs& in) {
   pulses = std::clamp(pulses + in.feed_pulses, -s.feed_mm_s / step, (most - s.feed_mm_s) / step);
 }
 
+/// Why what goes by the spindle does not.
+nc_stop_cause Scan::no_spindle(const nc_inputs& in) const {
+  return encoder(in).unmeasured ? NC_CAUSE_SPINDLE_UNMEASURED : NC_CAUSE_SPINDLE_STOPPED;
+}
+
 /// M700 6.7.1: a thread that is cut from rest begins at its angle of the spindle, within the cycle. At the start its feed must not
 /// exceed the largest one.
 bool Scan::thread_may_begin(const Segment& s, const nc_inputs& in) {
@@ -147,9 +152,9 @@ bool Scan::thread_may_begin(const Segment& s, const nc_inputs& in) {
     wait(NC_CAUSE_SPINDLE_FAST);
     return false;
   }
-  if (!encoder(in).turns_valid) return true;
+  if (!encoder(in).turns_valid && !encoder(in).unmeasured) return true;
   if (speed == 0) {
-    wait(NC_CAUSE_SPINDLE_STOPPED);
+    wait(no_spindle(in));
     return false;
   }
   const double ahead = (static_cast<double>(s.thread_angle) / 360 - spindle_turns(in)) * (speed > 0 ? 1 : -1);
@@ -211,15 +216,15 @@ double Scan::speed_cap(const Segment& s, const nc_inputs& in) {
   double cap = s.speed_limit;
   nc_stop_cause cause = NC_CAUSE_OVERRIDE_ZERO;
   if (s.rapid) {
-    cap *= std::min(1.0, std::max(0.0, in.rapid_override));
+    cap *= in.rapid_override;
   } else if (s.thread) {
     cap = std::min(cap, thread_speed(s, in));
-    cause = NC_CAUSE_SPINDLE_STOPPED;
+    cause = no_spindle(in);
   } else {
     const double override_now = s.fixed_override ? 1 : feed_override(in);
     double feed = s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(encoder(in).rev_per_s) : programmed_feed(s);
     // M700 7.3, 7.4 note 3: operation alarms 104 and 105.
-    if (feed <= 0) cause = s.feed_mm_rev > 0 ? NC_CAUSE_SPINDLE_STOPPED : NC_CAUSE_FEED_ZERO;
+    if (feed <= 0) cause = s.feed_mm_rev > 0 ? no_spindle(in) : NC_CAUSE_FEED_ZERO;
     // M700 7.10: on top of the override, below the clamp.
     if (s.slow_zone > 0 || s.corner_reach > 0) feed *= corner_factor(s);
     // M700 15.2: a skip move goes at 100 %, but for an override of 0.
@@ -343,6 +348,7 @@ Scan::Done Scan::strobe(const Action& a) {
 bool Scan::in_position(const nc_inputs& in, double width_of_block) const {
   if (!shape_.settled(wanted_)) return false;
   if (!in.actual_valid) return true;
+  if ((border_.lost_axes() & ~spindles_now()) != 0) return false;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     const double width = width_of_block > 0 ? width_of_block : config_.limits[i].in_position;
     if ((spindles_now() >> i & 1) != 0) continue;  // a spindle
@@ -363,6 +369,13 @@ Scan::Done Scan::dwell(double rate, double amount) {
   if (gate_left_ > 0) time_ -= gate_left_ / rate;  // the rest of the cycle is the next record's
   gate_begun_ = false;
   return Done::yes;
+}
+
+/// By the revolutions of a spindle that stands it never ends.
+Scan::Done Scan::dwell_turns(double turns, const nc_inputs& in) {
+  const Done done = dwell(std::fabs(encoder(in).rev_per_s), turns);
+  if (done == Done::no && encoder(in).unmeasured) cause_ = NC_CAUSE_SPINDLE_UNMEASURED;
+  return done;
 }
 
 /// M700 9.1: M01 is an M code with strobe and completion, and a stop, when its switch is on as it is reached.
@@ -391,7 +404,7 @@ Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
         gate_begun_ = false;
         return Done::yes;
       }
-      return g.kind == NC_GATE_DWELL_SECONDS ? dwell(1.0, g.value) : dwell(std::fabs(encoder(in).rev_per_s), g.value);
+      return g.kind == NC_GATE_DWELL_SECONDS ? dwell(1.0, g.value) : dwell_turns(g.value, in);
     case NC_GATE_IN_POSITION:
       return in_position(in, g.value) ? Done::yes : wait(NC_CAUSE_IN_POSITION);
     case NC_GATE_OPTIONAL_STOP:

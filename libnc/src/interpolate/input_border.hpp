@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The border of the scan: every number of nc_inputs passes it once in each cycle. What is none, or out of the range that nc/run.h gives,
+// does not come in; what acts instead stands there at nc_input_bits. Behind here nobody has to ask.
+#pragma once
+
+#include "nc/run.h"
+
+namespace nc {
+
+class InputBorder {
+ public:
+  void create(unsigned axis_count, double max_feed_override, double cycle_s);
+
+  /// The inputs of this cycle as they act; valid until the next call.
+  const nc_inputs& check(const nc_inputs& in) NC_RT;
+  uint32_t refused() const { return refused_; }  ///< nc_input_bits of this cycle
+  uint32_t lost_axes() const { return lost_axes_; }  ///< bit i: where axis i is, is not measured
+
+ private:
+  void override_of(double* value, double most, double* last, uint32_t bit) NC_RT;
+  void spindle(unsigned n) NC_RT;
+  void actual() NC_RT;
+  void manual() NC_RT;
+
+  unsigned axis_count_ = 0;
+  double most_ = 2, cycle_s_ = 0.001;
+  nc_inputs now_{};
+  uint32_t refused_ = 0, lost_axes_ = 0;
+  // the last good ones
+  double feed_ = 0, rapid_ = 0;
+  nc_axes actual_{};
+  struct Spindle {
+    double rev_per_s = 0, turns = 0;
+    double bad_s = 0;  ///< so long has it been none
+  };
+  Spindle spindle_[NC_MAX_SPINDLES];
+};
+
+}  // namespace nc
