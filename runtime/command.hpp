@@ -61,6 +61,7 @@ enum class Answer : std::uint8_t {
   kNoDevice,          // no such device, or one that cannot be forced
   kTooManyForces,
   kNoLadder,
+  kMachineSwitch,     // a switch of the machine (plc.feed_override, plc.rapid_override) is in force
   kSpindleNow,        // the axis is a spindle as long as its servo is off
   kNoAnswer           // the runtime does not run
 };
@@ -101,6 +102,8 @@ constexpr const char* answer_text(Answer answer) {
       return "32 devices are forced already";
     case Answer::kNoLadder:
       return "there is no ladder program";
+    case Answer::kMachineSwitch:
+      return "the override switch of the machine is in force";
     case Answer::kSpindleNow:
       return "the axis is a spindle now: its servo is off";
     case Answer::kNoAnswer:

@@ -86,6 +86,7 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   read_ladder(&reader, &read);
   read_signals(&reader, &read);
   read_sim(&reader, &read);
+  read_spindle_feedback(&reader, &read);
   read_share(&reader, &read);
   reader.finish();
   if (errors.empty() && nc_memory_required(&read.nc) == 0)

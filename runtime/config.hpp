@@ -68,6 +68,15 @@ struct MacroMap {
   MacroMap();
 };
 
+// What measures the speed of a spindle.
+struct SpindleFeedback {
+  enum class By : std::uint8_t { kSimulation, kPoint, kNothing };
+  By by = By::kSimulation;
+  bool given = false;       // by the file; else see read_spindle_feedback()
+  int point = -1;           // word input: speed, signed
+  double rpm_per_count = 1;
+};
+
 struct SchedulingConfig {
   ConfigPlace cpu_place;
   bool fifo = true;         // SCHED_FIFO, else SCHED_OTHER
@@ -145,6 +154,7 @@ struct Config {
   std::vector<ModbusLinkConfig> modbus;
   LadderConfig ladder;
   std::vector<SignalWire> wires;
+  std::array<std::array<SpindleFeedback, NC_MAX_SPINDLES>, NC_MAX_SYSTEMS> spindle_feedback;
   hal::SimConfig sim;
   ShareConfig share;
 

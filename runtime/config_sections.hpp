@@ -34,6 +34,7 @@ void read_macro_interface(TableReader* root, Config* config);
 void read_ladder(TableReader* root, Config* config);
 void read_signals(TableReader* root, Config* config);  // after points, macro interface and ladder
 void read_sim(TableReader* root, Config* config);
+void read_spindle_feedback(TableReader* root, Config* config);  // behind [sim] and the points: runtime/config_spindles.cpp
 void read_share(TableReader* root, Config* config);  // runtime/share/config_share.cpp
 // [sim.spindle], [sim.spindle2] ... and [sim.tool_changer]; called by read_sim() with the reader of [sim].
 void read_sim_plant(TableReader* sim, Config* config);

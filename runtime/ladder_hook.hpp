@@ -38,6 +38,7 @@ struct LadderRequests {
     std::uint32_t skip_switches = 0;  // bit n: optional block skip n
     bool recalculate = false;
     bool rapid = false;          // of jogs
+    std::int32_t feed_override = -1, rapid_override = -1;  // 0.01 %; -1: none, the operator's holds
     std::int32_t jog_feed = 0;   // mm/min or deg/min
     std::uint32_t jog_p = 0, jog_m = 0, reference = 0;  // bit n: axis n
     std::int16_t handle[NC_MAX_AXES] = {};              // increments in this scan

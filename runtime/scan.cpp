@@ -49,6 +49,7 @@ Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder
       snapshot_(Snapshot::bytes(config.nc.system_count)) {
   for (unsigned p = 0; p < config.points.size(); ++p) points_.value[p] = config.points.at(p).initial;
   for (unsigned s = 0; s < systems_; ++s) {
+    in_[s].feed_override = in_[s].rapid_override = 1;
     last_command_[s] = config.start[s];
     out_[s].command = config.start[s];
     out_[s].distance_zero = true;
@@ -99,6 +100,7 @@ void Scan::run_once() noexcept {
 
 void Scan::read_inputs() noexcept {
   hal_->read(&feedback_, &points_);
+  bind_spindles();
   take_commands();
   watch_machine();
   watch_standstill();
@@ -107,6 +109,21 @@ void Scan::read_inputs() noexcept {
   watch_links();
   watch_retained();
   build_nc_inputs();
+}
+
+// What the machine says of spindles that it does not turn is not believed ([[spindle]]); a point whose bus is silent measures nothing.
+void Scan::bind_spindles() noexcept {
+  for (unsigned s = 0; s < systems_; ++s) {
+    for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {
+      const SpindleFeedback& by = config_.spindle_feedback[s][n];
+      if (by.by == SpindleFeedback::By::kSimulation) continue;
+      nc_spindle_inputs& spindle = feedback_.system[s].spindle[n];
+      spindle = {};
+      const bool silent = by.point >= 0 && (config_.points.at(static_cast<unsigned>(by.point)).bus == 0 ? feedback_.lost : points_.good[by.point] == 0);
+      spindle.unmeasured = by.by == SpindleFeedback::By::kNothing || silent;
+      if (!spindle.unmeasured) spindle.rev_per_s = static_cast<std::int32_t>(points_.value[by.point]) * by.rpm_per_count / 60;
+    }
+  }
 }
 
 void Scan::take_commands() noexcept {
@@ -139,13 +156,9 @@ Answer Scan::apply(const Command& command) noexcept {
       request_reset();
       return Answer::kDone;
     case CommandKind::kFeedOverride:
-      if (!(command.value >= 0 && command.value <= config_.nc.max_feed_override)) return Answer::kOutOfRange;
-      feed_override_ = command.value;
-      return Answer::kDone;
+      return set_override(command.value, config_.nc.max_feed_override, machine_feeds_, &feed_override_);
     case CommandKind::kRapidOverride:
-      if (!(command.value >= 0 && command.value <= 1)) return Answer::kOutOfRange;
-      rapid_override_ = command.value;
-      return Answer::kDone;
+      return set_override(command.value, 1, machine_rapids_, &rapid_override_);
     case CommandKind::kSingleBlock:
       single_block_ = command.number != 0;
       return Answer::kDone;
@@ -257,7 +270,7 @@ void Scan::build_nc_inputs() noexcept {
     in.skip = machine.skip;
     in.unclamped = machine.unclamped;
     in.mirror = 0;
-    in.feed_override = feed_override_;
+    in.feed_override = feed_override_;  // but for decide_overrides()
     in.rapid_override = rapid_override_;
     std::copy(std::begin(machine.spindle), std::end(machine.spindle), in.spindle);
     in.spindle_select = selects_spindles_ ? 0 : 1;
@@ -364,8 +377,12 @@ void Scan::publish() noexcept {
     out.system[s].actual = feedback_.system[s].actual;
     std::copy(std::begin(feedback_.system[s].spindle), std::end(feedback_.system[s].spindle), out.system[s].spindle);
   }
-  out.feed_override = feed_override_;
-  out.rapid_override = rapid_override_;
+  const bool program = out_[0].override_source == NC_OVERRIDE_PROGRAM;
+  const auto given = [](bool machine) { return machine ? OverrideSource::kMachine : OverrideSource::kOperator; };
+  out.feed_override = program ? out_[0].feed_override : in_[0].feed_override;
+  out.feed_override_source = program ? OverrideSource::kProgram : given(machine_feeds_[0]);
+  out.rapid_override = in_[0].rapid_override;
+  out.rapid_override_source = given(machine_rapids_[0]);
   out.single_block = single_block_;
   out.optional_stop = optional_stop_;
   out.resetting = reset_phase_ != ResetPhase::kNone;

@@ -115,6 +115,7 @@ class Scan {
   };
 
   void read_inputs() noexcept;
+  void bind_spindles() noexcept;
   void take_commands() noexcept;
   Answer apply(const Command& command) noexcept;
   Answer start_cycle() noexcept;
@@ -127,6 +128,8 @@ class Scan {
   void watch_clamps(std::uint64_t most) noexcept;
   void watch_links() noexcept;
   void watch_retained() noexcept;
+  void decide_overrides(const LadderRequests& requests) noexcept;
+  Answer set_override(double value, double most, const bool* machines, double* operators) noexcept;
   void follow_ladder_manual(const LadderRequests& requests) noexcept;
   void request_reset() noexcept;
   void write_outputs() noexcept;
@@ -167,7 +170,8 @@ class Scan {
 
   Mode mode_ = Mode::kAuto;
   Mode program_mode_ = Mode::kAuto;  // in which the program that is active was started
-  double feed_override_ = 1, rapid_override_ = 1;
+  double feed_override_ = 1, rapid_override_ = 1;  // the operator's
+  bool machine_feeds_[NC_MAX_SYSTEMS] = {}, machine_rapids_[NC_MAX_SYSTEMS] = {};  // a switch of the machine gives it
   bool single_block_ = false, optional_stop_ = false;
   LadderRequests last_requests_;     // of the scan before
   unsigned ladder_start_scans_ = 0;  // the ladder's cycle start has been on for

@@ -21,6 +21,7 @@ void Scan::run_ladder() noexcept {
   LadderRequests requests;
   LadderImage image{&config_.points, &points_, &feedback_, out_, in_, systems_, &status, &requests, &config_.nc};
   ladder_->scan(&image);
+  decide_overrides(requests);
   follow_ladder(requests);
 }
 
@@ -60,6 +61,27 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
     in_[s].recalculate = now.recalculate;  // of a program that runs; in a stop it is the feeder's
   }
   last_requests_ = requests;
+}
+
+// The one place where it is decided which override acts. A switch of the machine wins: it is under the operator's hand beside the tool, and
+// what it says must be so; whoever is somewhere else is told that his does not act. What a program says of itself (#3004) is libnc's.
+void Scan::decide_overrides(const LadderRequests& requests) noexcept {
+  constexpr double kHundredth = 1e-4;  // 0.01 %
+  for (unsigned s = 0; s < systems_; ++s) {
+    const LadderRequests::System& asked = requests.system[s];
+    machine_feeds_[s] = asked.feed_override != -1;
+    machine_rapids_[s] = asked.rapid_override != -1;
+    if (machine_feeds_[s]) in_[s].feed_override = std::min(std::max(asked.feed_override, 0) * kHundredth, config_.nc.max_feed_override);
+    if (machine_rapids_[s]) in_[s].rapid_override = std::min(std::max(asked.rapid_override, 0) * kHundredth, 1.0);
+  }
+}
+
+// The operator's; refused where it would act in no part system.
+Answer Scan::set_override(double value, double most, const bool* machines, double* operators) noexcept {
+  if (!(value >= 0 && value <= most)) return Answer::kOutOfRange;
+  if (std::all_of(machines, machines + systems_, [](bool machine) { return machine; })) return Answer::kMachineSwitch;
+  *operators = value;
+  return Answer::kDone;
 }
 
 // Buttons and handles of the machine, in manual mode; they go before the operator's jogs. Both directions at once

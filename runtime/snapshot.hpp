@@ -29,12 +29,20 @@ struct SystemSnapshot {
   const nc_spindle_inputs& shown_spindle() const { return spindle[nc.spindle_encoder == 0 ? 0 : nc.spindle_encoder - 1]; }
 };
 
+// Who has given the override that is in force (docs/signals.md, "Overrides").
+enum class OverrideSource : std::uint8_t { kOperator = 0, kMachine = 1, kProgram = 2 };
+
+constexpr const char* override_source_text(OverrideSource source) {
+  return source == OverrideSource::kMachine ? "machine" : source == OverrideSource::kProgram ? "program" : "operator";
+}
+
 struct Snapshot {
   std::uint64_t scan = 0;    // number of the scan, from 1
   std::int64_t time_ns = 0;  // clock at its start
   Mode mode = Mode::kAuto;
   unsigned system_count = 1;
-  double feed_override = 1, rapid_override = 1;
+  double feed_override = 1, rapid_override = 1;  // in force in part system 1 ...
+  OverrideSource feed_override_source = OverrideSource::kOperator, rapid_override_source = OverrideSource::kOperator;  // ... and whose they are
   bool single_block = false, optional_stop = false;
   bool resetting = false;
   Answer ladder_refusal = Answer::kDone;  // why the ladder's cycle start was refused last ...

@@ -22,7 +22,7 @@
 namespace nc::rt::share {
 
 inline constexpr std::uint64_t kMagic = 0x3165'7261'6873'636e;  // "ncshare1" in memory
-inline constexpr std::uint32_t kLayoutVersion = 3;
+inline constexpr std::uint32_t kLayoutVersion = 4;
 inline constexpr unsigned kHistory = 256;  // alarms and messages kept
 inline constexpr unsigned kAlarms = 16;
 inline constexpr unsigned kMaxSignals = 1024;  // between NC and ladder
@@ -48,7 +48,8 @@ struct SystemStatus {
   std::uint32_t axis_count;
   std::uint32_t rapid, manual_allowed, strobe;  // strobe: bit 0 M, 1 S, 2 T, 3 B waits for FIN
   std::uint32_t m, t, b;
-  double s_commanded, spindle_rpm;
+  double s_commanded, spindle_rpm;  // spindle_rpm: measured, 0 when it is not
+  std::uint32_t spindle_measured, reserved;
   double feed_mm_min, feed_command_mm_min;
   Text<192> modal;     // "G01 G17 G90 ...", of the last finished block
   Text<128> program;   // file of the main program, "" none, "MDI"
@@ -96,7 +97,8 @@ struct StatusBlock {
   std::uint32_t mode;          // nc::rt::Mode
   std::uint32_t system_count;
   std::uint32_t single_block, optional_stop, resetting, program_ready;
-  double feed_override, rapid_override;
+  double feed_override, rapid_override;  // in force in part system 1
+  std::uint32_t feed_override_source, rapid_override_source;  // nc::rt::OverrideSource
   std::uint64_t runs;          // programs that came to their end
   std::uint32_t main_line;     // line of the main program that was finished last
   std::uint32_t program_lines; // of the main program, 0 = not known

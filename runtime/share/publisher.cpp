@@ -129,6 +129,8 @@ void Publisher::fill_machine(const Snapshot& snapshot, const FeederInfo& info) {
   status_.program_ready = info.program_ready;
   status_.feed_override = snapshot.feed_override;
   status_.rapid_override = snapshot.rapid_override;
+  status_.feed_override_source = static_cast<std::uint32_t>(snapshot.feed_override_source);
+  status_.rapid_override_source = static_cast<std::uint32_t>(snapshot.rapid_override_source);
   status_.runs = info.runs;
   status_.last_run_ok = info.ended_ok;
   const FeederInfo::Selected& selected = info.selected[0];
@@ -166,6 +168,7 @@ void Publisher::fill_system(unsigned index, const Snapshot& snapshot, const Feed
   out.b = nc.b;
   out.s_commanded = nc.s;
   out.spindle_rpm = system.shown_spindle().rev_per_s * 60;
+  out.spindle_measured = !system.shown_spindle().unmeasured;
   out.feed_mm_min = nc.feed_mm_min;
   out.feed_command_mm_min = nc.feed_command_mm_min;
   out.serial = nc.serial;

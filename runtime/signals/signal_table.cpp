@@ -80,8 +80,8 @@ const SignalRow kSignals[] = {
     {"block_stop", kBit, kFrom, kSystem, 0, 0, "stopped between two blocks: single block, M00, M01", "level",
      NC_READ { return state(image, s, NC_STATE_STOPPED); }, nullptr},
     {"stop_cause", kWord16, kFrom, kSystem, 0, 0,
-     "why a program does not move: 1 FIN, 2 dwell, 3 in position, 4 program stop, 5 single block, 6 feed hold, 7 interlock, "
-     "8 override 0, 9 look-ahead, 10 alarm, 11 F1-F5 is 0, 12 no spindle, 13 spindle angle, 14 thread too fast, 15 servo off, 16 tap, 17 spindle not measured",
+     "why nothing moves: 1 FIN, 2 dwell, 3 in position, 4 program stop, 5 single block, 6 feed hold, 7 interlock, "
+     "8 override 0, 9 look-ahead, 10 alarm, 11 F1-F5 is 0, 12 no spindle, 13 spindle angle, 14 thread too fast, 15 servo off, 16 tap, 17 speed unknown",
      "level", NC_READ { return out(image, s).cause; }, nullptr},
 
     // ---- M, S, T, B ----
@@ -146,6 +146,12 @@ const SignalRow kSignals[] = {
        return number == 0 ? 0 : to_int(image.feedback->system[s].spindle[number - 1].rev_per_s * 60);
      },
      nullptr},
+    {"spindle_measured", kBit, kFrom, kSystem, 0, 0, "something measures that speed; without it what needs it waits", "level",
+     NC_READ {
+       const unsigned number = out(image, s).spindle_encoder;
+       return number != 0 && !image.feedback->system[s].spindle[number - 1].unmeasured;
+     },
+     nullptr},
     {"spindle_command", kWord32, kFrom, kSpindle, 0, 0, "speed that the spindle is wanted at, r/min", "kept while it is not selected; 0 while it is a C axis",
      NC_READ { return to_int(out(image, s).spindle_rev_min[i]); }, nullptr},
     {"spindle_actual", kWord32, kFrom, kSpindle, 0, 0, "its measured speed, r/min, signed", "every scan",
@@ -153,7 +159,7 @@ const SignalRow kSignals[] = {
     {"spindle_at_speed", kBit, kFrom, kSpindle, 0, 0, "it turns within 3 % of the speed that it is wanted at", "level",
      NC_READ {
        const double wanted = out(image, s).spindle_rev_min[i];
-       return wanted > 0 && std::abs(std::abs(image.feedback->system[s].spindle[i].rev_per_s) * 60 - wanted) <= kAtSpeed * wanted;
+       return wanted > 0 && !image.feedback->system[s].spindle[i].unmeasured && std::abs(std::abs(image.feedback->system[s].spindle[i].rev_per_s) * 60 - wanted) <= kAtSpeed * wanted;
      },
      nullptr},
     {"spindle_selected", kBit, kFrom, kSpindle, 0, 0, "it follows the S command", "level; kept during a thread and in the tapping mode",
@@ -211,14 +217,13 @@ const SignalRow kSignals[] = {
      NC_WRITE { image->nc_in[s].macro_interrupt |= value != 0; }},
     {"interlock_n", kBit, kTo, kSystem, 0, 1, "0: axes decelerate to rest and none starts: chuck, coolant; they go on by themselves at 1, so a door takes plc.feed_hold_n too",
      "level", nullptr, NC_WRITE { image->nc_in[s].interlock |= value == 0; }},
-    {"feed_override", kWord16, kTo, kSystem, 0, -1, "feed override in 0.01 %; -1: the operator's counts, below that 0", "every scan",
-     nullptr, NC_WRITE { if (value != -1) image->nc_in[s].feed_override = std::max(value, 0) / 10000.0; }},
+    {"feed_override", kWord16, kTo, kSystem, 0, -1, "feed override in 0.01 %, at most the machine's; -1: the operator's counts, below that 0",
+     "every scan; while it is not -1 the operator's commands for it are refused", nullptr, NC_WRITE { image->requests->system[s].feed_override = value; }},
     {"f_digit_pulses", kWord16, kTo, kSystem, 0, 0,
      "pulses of the first handle since the last scan: they change F1 to F5 (#1506, #1507)", "every scan, during a cut with F1 to F5",
      nullptr, NC_WRITE { image->nc_in[s].feed_pulses = value; }},
     {"rapid_override", kWord16, kTo, kSystem, 0, -1, "rapid override in 0.01 %, at most 10000; -1: the operator's counts, below that 0",
-     "every scan", nullptr,
-     NC_WRITE { if (value != -1) image->nc_in[s].rapid_override = std::clamp(value, 0, 10000) / 10000.0; }},
+     "as feed_override", nullptr, NC_WRITE { image->requests->system[s].rapid_override = value; }},
     {"block_skip", kBit, kTo, kNumbered, 9, 0, "optional block skip: blocks with / or /1, /2 ... /9 are left out", "level, as a block is read ahead; or the operator's",
      nullptr, NC_WRITE { if (value != 0) image->requests->system[s].skip_switches |= 2u << i; }},
     {"mirror", kBit, kTo, kAxis, 0, 0, "mirror image of the axis, about where it stands at the start", "level, when a program is started", nullptr,

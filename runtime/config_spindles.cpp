@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configuration section [[spindle]]: what measures the speed of a spindle.
+#include "runtime/config_sections.hpp"
+
+namespace nc::rt {
+namespace {
+
+constexpr double kMostRpm = 6e5;  // as nc_spindle_inputs takes
+
+void read_feedback(TableReader* reader, const Config& config, SpindleFeedback* feedback) {
+  std::string by;
+  if (!reader->string("feedback", &by)) return;
+  if (by == "simulated" || by == "none") {
+    feedback->by = by == "none" ? SpindleFeedback::By::kNothing : SpindleFeedback::By::kSimulation;
+    if (reader->find("rpm_per_count") != nullptr) reader->error("rpm_per_count", "is for a speed that a point gives");
+    return;
+  }
+  const int index = config.points.find(by);
+  if (index < 0) return reader->error("feedback", "no point is named \"" + by + "\"; else it is \"simulated\" or \"none\"");
+  const hal::Point& point = config.points.at(static_cast<unsigned>(index));
+  if (point.direction != hal::PointDirection::kInput || point.type != hal::PointType::kWord)
+    return reader->error("feedback", "point \"" + by + "\" must be an input and a word: the measured speed");
+  feedback->by = SpindleFeedback::By::kPoint;
+  feedback->point = index;
+  reader->number("rpm_per_count", &feedback->rpm_per_count, -kMostRpm, kMostRpm);
+  if (feedback->rpm_per_count == 0) reader->error("rpm_per_count", "must not be 0");
+}
+
+}  // namespace
+
+// Where the file says nothing a spindle is simulated if the whole machine is, or if [sim.spindle] drives it. On a machine with a bus it turns
+// outside, and nothing measures it until a point does.
+void read_spindle_feedback(TableReader* root, Config* config) {
+  root->tables("spindle", [&](TableReader& reader, std::size_t) {
+    unsigned system = 1, number = 1;
+    reader.require("feedback");
+    reader.integer("system", &system, 1, config->nc.system_count);
+    const unsigned count = config->nc.system[system - 1].spindle_count;
+    reader.integer("number", &number, 1, count == 0 ? 1 : count);
+    SpindleFeedback& feedback = config->spindle_feedback[system - 1][number - 1];
+    if (feedback.given) return reader.errors()->add(reader.line(), reader.path(), "this spindle is there already");
+    feedback.given = true;
+    read_feedback(&reader, *config, &feedback);
+    const nc_system_config& axes = config->nc.system[system - 1];
+    for (unsigned a = 0; a < axes.axis_count; ++a)
+      if (axes.axis[a].spindle == number && feedback.by != SpindleFeedback::By::kSimulation)
+        reader.error("feedback", std::string("axis ") + axes.axis[a].name + " is this spindle: where it stands only the simulation tells");
+  });
+  for (unsigned s = 0; s < config->nc.system_count; ++s)
+    for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {
+      SpindleFeedback& feedback = config->spindle_feedback[s][n];
+      const bool driven = s == 0 && config->sim.plant.spindle[n].driven;
+      if (!feedback.given && !driven && !config->modbus.empty()) feedback.by = SpindleFeedback::By::kNothing;
+    }
+}
+
+}  // namespace nc::rt
