@@ -234,10 +234,11 @@ TEST(ParameterInput, TextsOfSeveralCharacters) {  // "up to 63 characters"; #100
     return m700(std::string("G10 L70\nP") + number + " <" + text + ">\nG11\n#100000=" + number + "\n#100001=0\n#101=#100010\nM30");
   };
   EXPECT_EQ(read("X", "8621").var(101), 'X');
-  EXPECT_EQ(read("X1", "8621").var(101), 'X' * 256 + '1');
+  EXPECT_EQ(read("X1", "8880").var(101), 'X' * 256 + '1');
   EXPECT_EQ(read("PART-A", "8880").alarm, "");
   EXPECT_EQ(read("LONGER-THAN-6", "8880").alarm, "P39");  // kept, and no number
   EXPECT_EQ(read("AB", "1078").alarm, "P421");             // a number
+  EXPECT_EQ(read("X1", "8621").alarm, "P421");             // an axis
   EXPECT_EQ(read("1A", "8880").alarm, "P421");
 }
 

@@ -7,6 +7,7 @@
 //     word      = as programmed; G91: + the programmed position of before         interpret/block_words.cpp, motion.cpp
 //     turned    = an angle of G90 as a way on an axis that turns                  frame/rotary.hpp
 //     work      = mirror(figure(turned))    program maps, in front of compensation     interpret/program_map.hpp
+//                 turned about a point of the machine where #8627 or G10 K says so     interpret/work_rotation.hpp
 //     path      = work + radius vector                                            offset/
 //     machine   = path + zero(k) + T        T tool length compensation *as applied* to each axis   frame/transform.hpp
 //     zero(k)   = E + O(k) + S + L(k)       E external offset, O offset of work system k, S common shift made by G92,

@@ -9,6 +9,7 @@
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
+#include "interpret/work_rotation.hpp"
 #include "modal/company.hpp"
 
 namespace nc {
@@ -193,6 +194,10 @@ Did execute_motion(Interpreter& in) {
     const Did did = check_index_positions(in);
     if (did != Did::done) return did;
   }
+  if (in.state.work_turned && (w.axes != 0 || w.any(letters("IJKR")))) {
+    const Did did = check_work_rotation(in);
+    if (did != Did::done) return did;
+  }
   if (w.motion != nullptr) {
     cancel_cycle(in);  // M700 13.1.1 (4): G00-G03 cancel the cycle, and win over a cycle code in the same block
   } else if (w.cycle != nullptr && !ignores_cycle(w.one_shot)) {
@@ -227,8 +232,8 @@ Did execute_codes_left(Interpreter& in) {
 bool only_moves(const Interpreter& in) {
   const BlockWords& w = in.words;
   // Codes of group 1 with words of their own, and modes that change what words mean, take the long way.
-  // A block that leaves a curve over several blocks (G02.4, G06.2) is one of its own, too.
-  if (in.state.special != 0 || !plain_motion(in.state.modal.code[kGroupMotion]) || (w.motion != nullptr && !plain_motion(w.motion->code))) return false;
+  // A block that leaves a curve over several blocks (G02.4, G06.2) is one of its own, too; a rotation by parameter has rules (13.21).
+  if (in.state.special != 0 || in.state.work_turned || !plain_motion(in.state.modal.code[kGroupMotion]) || (w.motion != nullptr && !plain_motion(w.motion->code))) return false;
   const bool codes = w.g.empty() || (w.g.size() == 1 && w.motion != nullptr);
   return codes && w.m.empty() && (w.present & ~(in.axis_letters | letters("F"))) == 0 && in.state.cycle.kind == CycleKind::none &&
          in.state.modal_call == 0;

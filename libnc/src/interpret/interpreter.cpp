@@ -8,6 +8,7 @@
 #include <new>
 
 #include "interpret/plane.hpp"
+#include "interpret/work_rotation.hpp"
 
 namespace nc {
 namespace {
@@ -253,6 +254,7 @@ void Interpreter::reset(bool keep_modal) {
     for (unsigned i = 0; i < Notes::kMapSize; ++i) notes.set(Notes::mirror_key(0) + i, maps[i]);
     program_changed();
   }
+  take_work_rotation(*this, true);  // M700 13.21 (4): parameters hold from the cycle start on
   // DGSHAPE G28: a midpoint is remembered within a program. M700 14.7: since power-on.
   for (unsigned i = 0; i < axis_count && dialect->id == NC_DIALECT_DGSHAPE; ++i) frames.set(Frames::midpoint_set_key(i), 0);
   forget_block();
@@ -308,6 +310,7 @@ void Interpreter::set_machine(const AxisVec& machine) {
     for (unsigned i = 0; i < axis_count; ++i) notes.set(Notes::switch_mirror_key(i), machine[i]);
     program_changed();
   }
+  if (state.seq == 0) take_work_rotation(*this, true);
   checkpoints_.clear();
   checkpoints_.save(state);
 }

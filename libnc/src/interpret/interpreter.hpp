@@ -276,7 +276,8 @@ struct Interpreter {
   void program_changed() {
     const CallFrame& frame = state.frame[state.depth];
     state.modal_call = frame.modal_call;
-    state.mapped = state.any_mirror() != 0 || frame.figure != 0 || state.scaled != 0 || state.rotated;
+    state.mapped = state.any_mirror() != 0 || frame.figure != 0 || state.scaled != 0 || state.rotated ||
+                   state.work_turned;
   }
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }
 

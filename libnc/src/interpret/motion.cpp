@@ -8,6 +8,7 @@
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
+#include "interpret/work_rotation.hpp"
 
 namespace nc {
 namespace {
@@ -135,10 +136,7 @@ AxisVec target_of(const Interpreter& in, const AxisVec& position, uint32_t axes,
 }
 
 MoveFrame frame_of_move(Interpreter& in, const AxisVec& target, uint32_t commanded) {
-  if (program_mapped(in) && commanded != 0) {
-    commanded = moved_axes(in, commanded);
-    figure_has_moved(in);
-  }
+  if (program_mapped(in) && commanded != 0) commanded = begin_mapped_move(in, commanded);
   apply_length(in, commanded);
   MoveFrame frame{transform_in_force(in), {}, target};
   if ((in.state.special & kSpecialMap) != 0) {
@@ -194,10 +192,7 @@ void move_linear_mapped(Interpreter& in, const AxisVec& target, uint32_t command
 }  // namespace
 
 void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
-  if (program_mapped(in) && commanded != 0) {
-    commanded = moved_axes(in, commanded);
-    figure_has_moved(in);
-  }
+  if (program_mapped(in) && commanded != 0) commanded = begin_mapped_move(in, commanded);
   if ((in.state.special & kSpecialMap) != 0) return move_linear_mapped(in, target, commanded, style);
   // One for nearly every block: what frame_of_move() does, without carrying it about.
   apply_length(in, commanded);
@@ -327,6 +322,7 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
   const bool of_plane = words.has_radius || w.has(plane.center[0]) || w.has(plane.center[1]) || ((commanded >> h) & 1) != 0 || ((commanded >> v) & 1) != 0;
   if (!of_plane && w.any(letters("IJK"))) return in.raise(Condition::plane_mismatch, 'G', in.state.modal.code[kGroupMotion] / 10.0);
   if (program_mapped(in)) {
+    if (tilts_plane(in, h, v)) return in.raise(Condition::plane_mismatch, 'G', in.state.modal.code[kGroupMotion] / 10.0);  // 13.21
     if (scaled_unevenly(in, h, v)) return in.raise(Condition::arc_deviation, 'G', in.state.modal.code[kGroupMotion] / 10.0);  // 13.19 (4)
     words.radius *= scale_of(in, h);
     map_arc(in, h, v, words.center, &ccw);
@@ -437,7 +433,8 @@ Did move_by_words(Interpreter& in) {
   style.special_feed = special_feed(in);
   style.exact_stop = asks_exact_stop(in);
   style.in_position = style.exact_stop ? w.in_position : 0;  // only where there is a deceleration check
-  if ((in.state.special & kSpecialSpline) != 0) return move_spline(in, target, w.axes, style);
+  // The line that takes the axes into another rotation (13.21) is no part of a curve.
+  if ((in.state.special & kSpecialSpline) != 0 && !in.state.work_turn_pending) return move_spline(in, target, w.axes, style);
   move_linear(in, target, w.axes, style);
   return Did::done;
 }

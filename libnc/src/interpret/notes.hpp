@@ -51,7 +51,12 @@ class Notes {
   // ---- what #100000-#100002 and #100100-#100103, #60000 select (M700 13.5.5)
   enum Select : unsigned { kParameter, kPart, kAxis, kDevice, kDeviceNumber, kBytes, kBit, kToolGroup, kSelectSize };
   static constexpr unsigned select_key(unsigned what) { return switch_mirror_key(kMaxAxes) + what; }
-  static constexpr unsigned kSize = kSlots * kSlotSize + kFigureSize + kInterruptSize + kMapSize + kMaxAxes + kSelectSize;
+
+  // ---- rotation by parameter (M700 13.21): as commanded, and the one that the axes have reached
+  enum WorkRotation : unsigned { kTurnCommanded, kTurnReached };
+  enum Turn : unsigned { kTurnAngle, kTurnH, kTurnV, kTurnAxisH, kTurnAxisV, kTurnSize };  ///< deg; centre in machine coordinates; axes, -1 = none
+  static constexpr unsigned work_rotation_key(unsigned which, unsigned what) { return select_key(kSelectSize) + which * kTurnSize + what; }
+  static constexpr unsigned kSize = kSlots * kSlotSize + kFigureSize + kInterruptSize + kMapSize + kMaxAxes + kSelectSize + 2u * kTurnSize;
 
   void create(Arena& arena) { table_ = arena.make<double>(kSize); }
   double get(unsigned key) const { return table_[key]; }

@@ -24,6 +24,7 @@ bool whole(double value) {
   return between<low, high>(value) && value == std::floor(value);
 }
 bool below_100000(double value) { return value >= 0 && value < 100000; }
+bool below_million(double value) { return std::fabs(value) < 1000000; }
 bool unit_letter(double value) { return whole<'B', 'E'>(value); }
 bool command_unit(double value) { return value == 0 || value == 10 || value == 100 || value == 1000 || value == 10000; }
 
@@ -155,6 +156,10 @@ constexpr ParameterRow kRows[] = {
     {8209, 8209, 1, kAll, true,  any,                  "mm",                      "G60: way in front of the position; its sign is the direction", "6.8"},
     {8211, 8211, 1, kAll, true,  whole<0, 1>,          kOffOn,                    "programs are mirrored in the axis, about where it stands at their start", "13.6"},
     {8213, 8213, 1, kAll, true,  whole<0, 3>,          "3; 0-3",                  "type of a rotary axis", "14.13"},
+    {8621, 8622, 1, kAll, false, any,                  "first, second axis; an axis", "rotation of the workpiece coordinates: its plane", "13.21"},
+    {8623, 8624, 1, kAll, false, below_million,        "0; mm",                   "its centre, machine coordinates", "13.21"},
+    {8625, 8626, 1, kAll, false, below_million,        "0; mm",                   "its direction as G10 I J gave it; the angle is what counts", "13.21"},
+    {8627, 8627, 1, kAll, false, between<-360, 360>,   "0; deg",                  "its angle, from the next cycle start on", "13.21"},
     {9115, 9515, 100, kAll, false, whole<0, 1>,          kOffOn,                  "parity V of input devices 1 to 5", "3.6"},
 };
 // clang-format on

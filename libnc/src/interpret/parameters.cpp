@@ -353,6 +353,13 @@ Settings Parameters::settings(const Dialect& dialect) const {
   }
   s.decimal_type_2 = flag("1078");
   s.scaling_factor = number("8072", 1);
+  s.work_turn_axis[0] = axis_letter(number("8621", 0));
+  s.work_turn_axis[1] = axis_letter(number("8622", 0));
+  s.work_turn_center[0] = number("8623", 0);
+  s.work_turn_center[1] = number("8624", 0);
+  s.work_turn_vector[0] = number("8625", 0);
+  s.work_turn_vector[1] = number("8626", 0);
+  s.work_turn_deg = number("8627", 0);
   const char* const parity[] = {"9115", "9215", "9315", "9415", "9515"};  // 3.6
   for (unsigned unit = 1; unit <= 5; ++unit) s.parity_units |= flag(parity[unit - 1]) ? 1u << unit : 0;
   s.tenfold = number("UNIT*10", 1);

@@ -78,6 +78,10 @@ struct Settings {
   bool start_inch = false;            ///< #1152
   uint32_t parity_units = 0;          ///< #9n15: input device n has the characters of a block counted, bit n
   double scaling_factor = 1;          ///< #8072 SCALING P
+  char work_turn_axis[2] = {};        ///< #8621, #8622: plane of the rotation of 13.21, 0 = the first and the second axis
+  double work_turn_center[2] = {};    ///< #8623, #8624, machine coordinates
+  double work_turn_vector[2] = {};    ///< #8625, #8626
+  double work_turn_deg = 0;           ///< #8627
   double index_increment[kMaxAxes] = {};  ///< #2106, deg, 0 = not checked
   bool run_time_hours = false;        ///< #1273 bit 1
   bool preset_allowed = true;         ///< #1267 bit 0: G92.1 in list 1

@@ -8,6 +8,7 @@
 #include "interpret/program_map.hpp"
 
 #include "interpret/plane.hpp"
+#include "interpret/work_rotation.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -109,9 +110,11 @@ void map_figure(const Interpreter& in, AxisVec& p) {
     if (has(scaled_axes, i)) p[i] = scaled(in, i, p[i]);
   if (in.state.rotated) turn_coordinates(in, rotation_angle(in), p);
   for (unsigned i = 0; i < in.axis_count; ++i) p[i] = by_switch(in, i, has(mirrored_axes, i) ? reflected(in, i, p[i]) : p[i]);
+  if (in.state.work_turned) turn_work(in, p);
 }
 void unmap_figure(const Interpreter& in, AxisVec& p) {
   const unsigned scaled_axes = scaled_behind(in), mirrored_axes = mirror_behind(in);
+  if (in.state.work_turned) unturn_work(in, p);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     p[i] = by_switch(in, i, p[i]);
     if (has(mirrored_axes, i)) p[i] = reflected(in, i, p[i]);
@@ -171,11 +174,19 @@ double mapped_on(const Interpreter& in, unsigned axis, double programmed) { retu
 double programmed_on(const Interpreter& in, unsigned axis, double work) { return unscaled(in, axis, unmirrored(in, axis, work)); }
 
 uint32_t moved_axes(const Interpreter& in, uint32_t axes) {
-  if (!in_figure(in) && !in.state.rotated) return axes;
   const PlaneAxes p = plane(in);
-  if (p.h < 0 || p.v < 0) return axes;
-  const uint32_t both = (1u << p.h) | (1u << p.v);
-  return (axes & both) != 0 ? axes | both : axes;
+  if ((in_figure(in) || in.state.rotated) && p.h >= 0 && p.v >= 0) {
+    const uint32_t both = (1u << p.h) | (1u << p.v);
+    if ((axes & both) != 0) axes |= both;
+  }
+  return in.state.work_turned ? moved_by_work_rotation(in, axes) : axes;
+}
+
+uint32_t begin_mapped_move(Interpreter& in, uint32_t commanded) {
+  commanded = moved_axes(in, commanded);
+  figure_has_moved(in);
+  if (in.state.work_turn_pending) work_rotation_reached(in, commanded);
+  return commanded;
 }
 
 void map_arc(const Interpreter& in, unsigned h, unsigned v, double center[2], bool* ccw) {
@@ -186,6 +197,7 @@ void map_arc(const Interpreter& in, unsigned h, unsigned v, double center[2], bo
   if (in.state.rotated) rotate(rotation_angle(in), &center[0], &center[1]);
   if (has(behind, h)) center[0] = -center[0];
   if (has(behind, v)) center[1] = -center[1];
+  if (in.state.work_turned) turn_work_direction(in, h, v, center);
   if (odd(in, h, v)) *ccw = !*ccw;
 }
 
@@ -196,6 +208,7 @@ void map_compensation(const Interpreter& in, Compensation& comp) {
   if (in_figure(in)) rotate(figure(in, Notes::kAngle), &comp.vector[0], &comp.vector[1]);
   for (unsigned i = 0; i < 2; ++i)
     if (has(behind, comp.axis[i])) comp.vector[i] = -comp.vector[i];
+  if (in.state.work_turned) turn_work_direction(in, comp.axis[0], comp.axis[1], comp.vector);
   if (odd(in, comp.axis[0], comp.axis[1])) comp.side = static_cast<int8_t>(-comp.side);
 }
 

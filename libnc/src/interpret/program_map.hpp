@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map from programmed points to the active workpiece coordinates: figure rotation (M700 13.3.3), scaling (13.19), coordinate rotation
-// (13.20: it turns the centre of scaling, too), then mirror image by program (13.6) and by switch. Scaling and mirror image that a rotated
+// (13.20: it turns the centre of scaling, too), then mirror image by program (13.6) and by switch, and the rotation by parameter (13.21,
+// interpret/work_rotation.hpp). Scaling and mirror image that a rotated
 // program commands itself come before its rotation (13.19 (6)). The map lies in front of tool radius compensation: reflecting the path and its side gives the reflected compensated path.
 #pragma once
 
@@ -24,6 +25,8 @@ double scale_of(const Interpreter& in, unsigned axis);
 bool scaled_unevenly(const Interpreter& in, unsigned h, unsigned v);
 /// Axes that move when `axes` are programmed: a rotated plane moves with both.
 uint32_t moved_axes(const Interpreter& in, uint32_t axes);
+/// A move of these axes begins: all that it moves, and what changes with it.
+uint32_t begin_mapped_move(Interpreter& in, uint32_t commanded);
 /// The increments of an arc's centre on the axes h, v, and its direction.
 void map_arc(const Interpreter& in, unsigned h, unsigned v, double center[2], bool* ccw);
 /// A mirrored path is compensated on its other side, and the vectors of G40 to G42 (I J K) turn with their blocks.

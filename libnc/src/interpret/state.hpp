@@ -155,7 +155,9 @@ struct State {
   bool interrupt_on = false;  ///< M96 in force (M700 13.12)
   bool interrupt_moved = false; ///< the interrupt program has moved or given out M S T B
   uint8_t modal_call = 0;       ///< of the program that runs (CallFrame::modal_call), asked in every block
-  bool mapped = false;          ///< mirror, or a figure of the program that runs: asked in every move
+  bool mapped = false;          ///< a map of interpret/program_map.hpp is in force: asked in every move
+  bool work_turned = false;     ///< workpiece coordinates are rotated by parameter (13.21), as commanded or as reached ...
+  bool work_turn_pending = false;  ///< ... and these two differ
   uint8_t scaled = 0;           ///< bit i: axis i is scaled (M700 13.19)
   bool rotated = false;         ///< coordinates are rotated by program (M700 13.20)
   uint8_t switch_mirror = 0;    ///< bit i: axis i is mirrored by the switch since the program began

@@ -6,6 +6,7 @@
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
+#include "interpret/work_rotation.hpp"
 
 namespace nc {
 namespace {
@@ -111,6 +112,7 @@ Did set_compensation(Interpreter& in, Function function) {
   // M700 12.5: I, J and K together start the three-dimensional compensation.
   if (in.words.has('I') && in.words.has('J') && in.words.has('K')) return in.raise(Condition::space_compensation, 'K');
   plane_of(in, comp, letters);
+  if (tilts_plane(in, comp.axis[0], comp.axis[1])) return in.raise(Condition::plane_mismatch, 'G', function == Function::comp_left ? 41 : 42);  // 13.21
   comp.type_b = in.settings.comp_type_b;
   comp.check = in.settings.interference_check;
   comp.avoid = in.settings.interference_avoid;

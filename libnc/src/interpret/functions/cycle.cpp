@@ -7,6 +7,7 @@
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
+#include "interpret/work_rotation.hpp"
 
 namespace nc {
 namespace {
@@ -219,6 +220,7 @@ Did do_cycle(Interpreter& in) {
   }
   if (dgshape && (w.axes & in.rotary) != 0) return in.raise(Condition::illegal_axis, 'A');
   if (dgshape && !in.state.spindle_on) return in.raise(Condition::spindle_not_turning, 'G', in.state.modal.code[kGroupCycle] / 10.0);
+  if (turns_axis(in, c.drill_axis)) return in.raise(Condition::plane_mismatch, in.system->axis[c.drill_axis].name);  // 13.21: not an axis alone
   did = check_feed(in, 10);
   if (did != Did::done) return did;
   // A peck below the finest unit of the control (M700 2.1 E) is none: the hole would never be done.

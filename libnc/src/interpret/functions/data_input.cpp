@@ -96,6 +96,7 @@ Did do_data_input(Interpreter& in) {
   const BlockWords& w = in.words;
   if (two_kinds(in)) return in.raise(Condition::g10_l, 'L', w.get('L'));
   if (in.dialect->id == NC_DIALECT_DGSHAPE) return dgshape_data_input(in);
+  if (!w.has('L') && w.any(letters("IJK"))) return do_work_rotation(in);  // 13.21
   uint32_t l = 2;  // no L is judged as L2
   if (w.has('L') && !whole_number(w.get('L'), &l)) return in.raise(Condition::g10_l, 'L', w.get('L'));
   switch (l) {

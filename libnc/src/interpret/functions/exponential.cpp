@@ -50,7 +50,7 @@ Did check_modes(Interpreter& in) {
   if (state.high_speed == kHighAccuracy2) return in.raise(Condition::illegal_g, 'G', state.modal.code[kGroupMotion] / 10.0);
   const int16_t* const modal = state.modal.code;
   const bool length_starts = state.length_value != 0 && in.words.any(letters("H"));
-  if (modal[kGroupScaling] != 500 || state.any_mirror() != 0 || modal[kGroupRotation] != 690 || state.comp.side != 0 || length_starts ||
+  if (modal[kGroupScaling] != 500 || state.any_mirror() != 0 || modal[kGroupRotation] != 690 || state.work_turned || state.comp.side != 0 || length_starts ||
       state.frame[state.depth].figure != 0)
     return in.raise(Condition::exponential_mode);
   return Did::done;

@@ -19,6 +19,7 @@ void end_scaling(Interpreter& in);          ///< G50
 void end_rotation(Interpreter& in);         ///< G69
 /// The zero has moved, or another one is in force: the centre of rotation stays on the machine (M700 13.20 (5), (6)).
 void keep_rotation_center(Interpreter& in, const AxisVec& zero_before);
+Did do_work_rotation(Interpreter& in);      // work_rotation.cpp: G10 I J K
 Did begin_parameter_input(Interpreter& in); // parameter_input.cpp: G10 L70
 Did do_reference_return(Interpreter& in);   // reference.cpp
 Did do_second_reference(Interpreter& in);   // reference.cpp: G30

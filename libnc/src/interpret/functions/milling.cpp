@@ -17,7 +17,7 @@ Did check_modes_before(Interpreter& in, double code) {
   if (state.high_accuracy != 0) return in.raise(Condition::not_accepted, 'G', code);  // 13.15 (3); appendix 1 has P126
   if (state.comp.side != 0) return in.raise(Condition::mill_modal, 'G', code);
   if (state.modal.code[kGroupSurfaceSpeed] == 960) return in.raise(Condition::mill_modal, 'G', code);
-  if (state.modal.code[kGroupRotation] != 690) return in.raise(Condition::mill_modal, 'G', code);
+  if (state.modal.code[kGroupRotation] != 690 || state.work_turned) return in.raise(Condition::mill_modal, 'G', code);
   if (is_space_arc(state.modal.code[kGroupMotion])) return in.raise(Condition::mill_modal, 'G', code);  // 6.14 (a)
   if (state.any_mirror() != 0) return in.raise(Condition::mill_state, 'G', code);
   if (state.modal.code[kGroupNormalLine] != 401) return in.raise(Condition::mill_state, 'G', code);

@@ -6,6 +6,7 @@
 
 #include "dialect/text.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/work_rotation.hpp"
 
 namespace nc {
 namespace {
@@ -100,7 +101,9 @@ Did parameter_block(Interpreter& in) {
   key.put_integer(number);
   did = read_data(in, key, data);
   if (did != Did::done) return did;
-  return in.set_parameter(key_text, per_axis(number) ? static_cast<int>(axis) - 1 : -1, data_text) ? Did::done : refuse(in, 'P');
+  if (!in.set_parameter(key_text, per_axis(number) ? static_cast<int>(axis) - 1 : -1, data_text)) return refuse(in, 'P');
+  if (number >= 8621 && number <= 8627) take_work_rotation(in, false);  // 13.21 (4): what a program sets holds at once
+  return Did::done;
 }
 
 }  // namespace nc

@@ -7,6 +7,7 @@
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
+#include "interpret/work_rotation.hpp"
 
 namespace nc {
 namespace {
@@ -85,7 +86,8 @@ Did do_rotation(Interpreter& in) {
                               : 0;
     in.set_note(Notes::rotation_key(Notes::kRotationAngle), std::fmod(before + r, 360));
   }
-  const AxisVec at = in.position();
+  AxisVec at = in.position();
+  if (in.state.work_turned) unturn_work(in, at);  // 13.21 comes behind this rotation
   const int axes[2] = {plane.h, plane.v};
   for (unsigned i = 0; i < 2; ++i) {
     const auto axis = static_cast<unsigned>(axes[i]);

@@ -7,6 +7,7 @@
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
+#include "interpret/work_rotation.hpp"
 
 namespace nc {
 namespace {
@@ -116,6 +117,7 @@ Did move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool
     if (w.has(plane.center[i])) center[i] = length_of(in, plane.center[i]);
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   if (program_mapped(in)) {
+    if (tilts_plane(in, h, v)) return in.raise(Condition::plane_mismatch, 'G', code);  // 13.21
     if (scaled_unevenly(in, h, v)) return in.raise(Condition::arc_deviation, 'G', code);  // 13.19 (4)
     map_arc(in, h, v, center, &ccw);
   }
