@@ -270,6 +270,22 @@ TEST(OnlineInterrupt, TypeTwoEndsTheBlockFirst) {  // #1113
   EXPECT_EQ(x_when_z_moves(run), 100);
 }
 
+// #1112 = 1: a signal that stays on lets a block of the program through between two runs of the interrupt program.
+TEST(OnlineInterrupt, ASignalThatStaysOnLetsTheProgramEnd) {
+  for (const char* type_2 : {"0", "1"})
+    for (const char* moves : {"", "G91 Z0.1\n"}) {
+      Bench bench(NC_DIALECT_M700, kSlowMachine);
+      bench.add("O1000", std::string("#100=#100+1\n") + moves + "M99\n");
+      bench.param("1112", "1").param("1113", type_2);
+      const Interrupted run = run_interrupted(bench, "#100=0\nG0\nM96 P1000\nG90 X1.\nG90 X2.\nG90 X3.\nM97\nG90 X4.\nM30",
+                                              [](const nc_outputs&) { return true; });
+      ASSERT_TRUE(run.ended) << type_2 << moves;
+      EXPECT_EQ(run.places.back().v[0], 4) << type_2 << moves;
+      EXPECT_GE(bench.var_now(100), 2) << type_2 << moves;  // type 2 accepts it in the block behind and comes at its end
+      EXPECT_LE(bench.var_now(100), 6) << type_2 << moves;
+    }
+}
+
 TEST(OnlineInterrupt, TheSameBlockAgainAndAgain) {
   Bench bench(NC_DIALECT_M700, kSlowMachine);
   bench.add("O1000", "#100=#100+1\nM99\n");

@@ -114,6 +114,47 @@ TEST(MacroInterrupt, EdgeOnceLevelAgainAndAgain) {  // #1112
   EXPECT_EQ(interrupted(bench.at(0, 0, 0), text, 3, is_mark, false).var(100), 3);  // M97 ends it
 }
 
+/// #1112 = 1 and a signal that stays on: "the interrupt program can be executed repeatedly", and the program comes to its end.
+TEST(MacroInterrupt, ASignalThatStaysOnLetsABlockThroughEachTime) {
+  const auto run = [](const char* interrupt, const char* type_2, unsigned line, const std::function<bool(const nc_item&)>& wanted) {
+    Bench bench;
+    bench.param("1112", "1").param("1113", type_2);
+    bench.add("O1000", std::string("#100=#100+1\n") + interrupt + "M99\n");
+    const Outcome outcome = interrupted(bench, "#100=0\nM96 P1000\nG0 X1.\nX2.\nX3.\nM97\nX4.\nM30", line, wanted, false);
+    EXPECT_TRUE(outcome.ended_ok) << interrupt << type_2;
+    return outcome;
+  };
+  for (const char* type_2 : {"0", "1"}) {
+    const Outcome silent = run("", type_2, 3, is_mark);
+    EXPECT_EQ(silent.var(100), 3) << type_2;  // behind X1, X2 and X3
+    EXPECT_EQ(silent.path(), (Path{"rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0", "rapid 4 0 0"})) << type_2;
+    const Outcome moves = run("G91 Z1.\n", type_2, 3, is_mark);
+    EXPECT_EQ(moves.var(100), 3) << type_2;
+    EXPECT_EQ(moves.path().back(), type_2[0] == '0' ? "rapid 10 0 3" : "rapid 4 0 3") << type_2;  // type 1 with moves keeps G91
+  }
+  EXPECT_EQ(run("", "0", 3, is_move).var(100), 4);  // in X1, and behind each of the three
+}
+
+TEST(MacroInterrupt, AnotherSignalCountsAtOnce) {  // it has gone off in between
+  Bench bench;
+  bench.param("1112", "1");
+  bench.add("O1000", "#100=#100+1\nM99\n");
+  bench.start("#100=0\nM96 P1000\nG0 X1.\nX2.\nM30");
+  Step step;
+  unsigned returns = 0;
+  for (nc_status status = NC_OK; (status = bench.pull(&step)) == NC_OK || status == NC_BUDGET;) {
+    if (status == NC_BUDGET || step.item.kind != NC_ITEM_MARK) continue;
+    const bool behind_x1 = step.item.source.line == 3 && step.item.source.depth == 0;
+    const bool returned = step.item.source.depth == 1 && step.item.source.line == 2 && ++returns < 3;
+    if (!behind_x1 && !returned) continue;
+    bool ignored = false;
+    nc_interrupt_signal(bench.control(), 0, false, &ignored);
+    nc_interrupt_signal(bench.control(), 0, true, &ignored);
+    nc_interrupt_signal(bench.control(), 0, false, &ignored);
+  }
+  EXPECT_EQ(bench.var_now(100), 3);
+}
+
 TEST(MacroInterrupt, IgnoredWhileOffAndInService) {
   Bench bench;
   bench.add("O1000", "#100=#100+1\nG0 Z1.\nM99\n");

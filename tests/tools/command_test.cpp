@@ -261,6 +261,22 @@ TEST_F(CommandTest, AnEndlessLoopEndsWithAMessage) {
   }
 }
 
+// M700 13.12, #1112 = 1: a block goes through between two runs of the interrupt program, which moves nothing.
+TEST_F(CommandTest, AnInterruptSignalThatStaysOnEndsWithTheProgram) {
+  file("s.json", R"({"params": {"1112": 1}, "subprograms": {"1000": "O1000\n#100=#100+1\nM99\n%"},
+                     "events": [{"when": {"line": 3}, "signals": {"macro_interrupt": 1}}]})");
+  file("p.nc", "#100=0\nM96 P1000\nG0 X1.\nX2.\nX3.\nM97\nX4.\nM30\n");
+  const Outcome run = ncsim("trace --setup s.json p.nc");
+  EXPECT_EQ(run.code, 0) << run.err;
+  ASSERT_FALSE(run.events().empty());
+  EXPECT_EQ(run.events().back()["vars"]["100"], 4);
+  EXPECT_EQ(run.events().back()["work"]["X"], 4);
+  file("p.nc", "#100=0\nM96 P1000\nN1 GOTO 1\nM30\n");  // its comings and goings are nothing that the machine does
+  const Outcome loop = ncsim("check --setup s.json --max-silent-blocks 10000 p.nc");
+  EXPECT_EQ(loop.code, 1);
+  EXPECT_NE(loop.err.find("endless loop"), std::string::npos) << loop.err;
+}
+
 TEST_F(CommandTest, AProgramThatM99BeginsAgainIsCheckedAndDrawnOnce) {
   file("p.nc", "G90 G0 X10. (NOT YET: M99)\nM98 P5 L2\n/M99\nG0 X0\nM99\n\nO5\nG91 G0 Y1.\nM99\n");
   Outcome run = ncsim("check p.nc");

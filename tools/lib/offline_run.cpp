@@ -9,6 +9,7 @@ namespace nc::tools {
 namespace {
 
 constexpr uint32_t kBudget = 4096;  // blocks per pull
+constexpr uint32_t kMacroInterrupt = 96;  // index of the action that M96, M97 and the interrupt program give out
 
 class OfflineRun {
  public:
@@ -57,7 +58,10 @@ class OfflineRun {
         furthest_line_ = item.source.line;
         silent_ = 0;
       }
-    } else if (item.kind != NC_ITEM_SYNC || (item.u.sync.what & NC_SYNC_CLOCK)) {
+    } else if (item.kind == NC_ITEM_SYNC) {
+      if (item.u.sync.what & NC_SYNC_CLOCK) silent_ = 0;
+    } else if (item.kind != NC_ITEM_ACTION || item.u.action.kind != NC_ACTION_CONTROL ||
+               item.u.action.index != kMacroInterrupt) {
       silent_ = 0;
     }
   }

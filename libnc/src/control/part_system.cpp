@@ -229,8 +229,10 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   const Settings& settings = interpreter.settings;
   const bool rises = on && !uit_;
   uit_ = on;
+  if (!on) uit_rest_.forget();
   watch();
-  if (!(settings.interrupt_by_level ? on : rises) || !interruptible()) return NC_OK;
+  const bool stays = on && settings.interrupt_by_level && uit_rest_.over();
+  if (!(rises || stays) || !interruptible()) return NC_OK;
   uit_pending_ = true;
   watch();
   // M700 13.12, type 1: at once. The item that was given out last is the one that is interrupted, unless it is done already; a contour
@@ -341,7 +343,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   for (;;) {
     if (watched_) [[unlikely]] {
       if ((uit_mode_ & NC_INTERRUPT_ENABLED) == 0) uit_pending_ = false;
-      const bool wanted = uit_pending_ || (uit_ && interpreter.settings.interrupt_by_level);
+      const bool wanted = uit_pending_ || (uit_ && interpreter.settings.interrupt_by_level && uit_rest_.over());
       if (wanted && pulled_ == ItemKind::mark && interruptible()) begin_interrupt();
     }
     const Item* item = nullptr;
@@ -379,13 +381,16 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     commit_.to_public(*item, out);
     pulled_ = item->kind;
     if (item->kind == ItemKind::mark) {
+      if (item->mark.report) uit_rest_.block_ended();
       remember_mark(*item);
       if (item->mark.resume && interpreter.state.repeat.active) drop_repeated();
     }
     if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
     if (item->kind == ItemKind::alarm) describe_alarm();
     if (item->kind == ItemKind::action && item->action.kind == NC_ACTION_CONTROL && item->action.index == 96) {
-      uit_mode_ = static_cast<uint32_t>(item->action.value);
+      const auto mode = static_cast<uint32_t>(item->action.value);
+      uit_rest_.change(uit_mode_, mode);
+      uit_mode_ = mode;
       pulled_ = ItemKind::sync;  // M96 itself, and the way into an interrupt program and back: no block that can be cut
     }
     take();
@@ -443,6 +448,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   interpreter.set_machine(machine);
   forget_interrupt();
   uit_mode_ = 0;
+  uit_rest_.forget();
   clear_stages();
   clear_staged();
   open_sync_ = 0;

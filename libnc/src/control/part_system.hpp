@@ -7,6 +7,7 @@
 #include "interpolate/run_word.hpp"
 #include "interpret/interpreter.hpp"
 #include "offset/offset.hpp"
+#include "stream/interrupt_rest.hpp"
 
 namespace nc {
 
@@ -149,6 +150,7 @@ class PartSystem {
   bool watched_ = false;                    ///< one of the three below is on: asked with every item
   bool uit_ = false, uit_pending_ = false;  ///< interrupt signal: level, and a request that waits for its place
   uint32_t uit_mode_ = 0;                    ///< nc_interrupt_bits as given out
+  InterruptRest uit_rest_;                   ///< of a signal that stays on
   ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
   unsigned drop_ = 0;                        ///< items to come that have been executed already
   bool resumes_ = false;                     ///< online: the item behind them has been half done, as cut_ says

@@ -159,6 +159,7 @@ void Scan::take_recalculation(const nc_inputs& in) {
 void Scan::interrupt(const nc_inputs& in) {
   const bool rises = in.macro_interrupt && !interrupt_last_;
   interrupt_last_ = in.macro_interrupt;
+  if (!in.macro_interrupt) interrupt_rest_.forget();
   cutting_ = false;
   if (interrupt_mode_ == 0) return;
   const bool accepted = (interrupt_mode_ & (NC_INTERRUPT_ENABLED | NC_INTERRUPT_IN_SERVICE)) == NC_INTERRUPT_ENABLED &&
@@ -167,7 +168,8 @@ void Scan::interrupt(const nc_inputs& in) {
     interrupt_wanted_ = false;
     return;
   }
-  if ((interrupt_mode_ & NC_INTERRUPT_BY_LEVEL) != 0 ? in.macro_interrupt : rises) interrupt_wanted_ = true;
+  const bool stays = (interrupt_mode_ & NC_INTERRUPT_BY_LEVEL) != 0 && in.macro_interrupt && interrupt_rest_.over();
+  if (rises || stays) interrupt_wanted_ = true;
   cutting_ = interrupt_wanted_ && (interrupt_mode_ & NC_INTERRUPT_AT_ONCE) != 0 && state_ == NC_STATE_RUNNING && may_cut();
 }
 
@@ -298,6 +300,7 @@ void Scan::give_up() {
   strobe_ = 0;               // a FIN that comes now is late and completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
   interrupt_mode_ = 0;
+  interrupt_rest_.forget();
   interrupt_wanted_ = false;
   recalculate_ = false;
   spindles_.reset();

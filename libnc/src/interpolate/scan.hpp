@@ -21,6 +21,7 @@
 #include "motion/optimal/optimal_planner.hpp"
 #include "motion/planner.hpp"
 #include "shape/shape.hpp"
+#include "stream/interrupt_rest.hpp"
 
 namespace nc {
 
@@ -261,6 +262,7 @@ class Scan {
   // ---- macro interrupt (M700 13.12)
   uint32_t interrupt_mode_ = 0;      ///< nc_interrupt_bits
   bool interrupt_last_ = false;      ///< level of the signal
+  InterruptRest interrupt_rest_;     ///< of a signal that stays on
   bool interrupt_wanted_ = false;    ///< accepted: acts at the end of the block in execution, or at once
   bool cutting_ = false;             ///< on the way to rest inside a block
   bool block_waits_ = false;         ///< the block in execution cannot be cut any more: its skip signal has been asked for, M96 or M97

@@ -50,6 +50,7 @@ Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
       settle_axes();
       recalculate_ = false;
       interrupt_mode_ = 0;
+      interrupt_rest_.forget();
       interrupt_wanted_ = tapping_ = false;
       suppress_ = disable_ = 0;  // M700 9.1: the end of the program resets
       block_begun_ = false;
@@ -301,7 +302,9 @@ Scan::Done Scan::action(const Action& a) {
       if (a.index == NC_CONTROL_SURFACE_SPEED) spindles_.surface(a.value, a.bits);
       if (a.index == NC_CONTROL_SPINDLE_CLAMP) spindles_.clamp(a.bits, a.mask, code_number(a.value));
       if (a.index == 96) {
-        interrupt_mode_ = code_number(a.value);
+        const uint32_t mode = code_number(a.value);
+        interrupt_rest_.change(interrupt_mode_, mode);
+        interrupt_mode_ = mode;
         block_waits_ = true;  // a block that changes this is finished first
       }
       if (a.index == NC_CONTROL_TAPPING) tapping_ = a.value != 0;
@@ -439,7 +442,10 @@ Scan::Done Scan::sync(const Record& r, const nc_inputs& in) {
 /// The end of a block, or a place inside a cycle where single block may stop.
 void Scan::mark(const Mark& m, const nc_inputs& in) {
   modal_ = m.modal;
-  if (m.report) ++blocks_;
+  if (m.report) {
+    ++blocks_;
+    interrupt_rest_.block_ended();
+  }
   block_begun_ = !m.resume;  // a block that stops at one of its places has begun, even when nothing moved yet
   const bool thread = block_has_thread_;
   if (m.report) block_has_thread_ = false;
