@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <random>
+#include <string>
 
 #include "support/pull.hpp"
 
@@ -120,6 +123,57 @@ TEST(WorkRotation, PrintedExample) {  // pallet: the shape of each system stands
     EXPECT_NEAR(moves[i].machine.v[0], c * x - s * y, 1e-6) << i;
     EXPECT_NEAR(moves[i].machine.v[1], s * x + c * y, 1e-6) << i;
   }
+}
+
+/// Pieces of programs; '%' is a number, '$' another.
+constexpr const char* kPieces[] = {
+    "G0 X% Y$", "G1 X% Y$", "G91 X%\nG90", "G1 X0 Y%\nG2 X20. Y% I10.", "G1 X0 Y0\nG3 X12. Y9. R10.",
+    "G0\nG41 D1 X% Y$\nG1 X40. Y$\nX40. Y60.\nG40 X80. Y9.", "G0 Z10.\nG81 X% Y$ Z-5. R1.\nX9.\nG80",
+    "G68 X% Y$ R33.\nG0 X$\nG69", "G51 X% Y$ P1.5\nG1 X5. Y%\nG50", "G51.1 X%\nG1 X$ Y%\nG50.1",
+    "G55 G0 X% Y$\nG54 X0 Y0", "G52 X%\nG1 X$ Y%\nG52 X0", "G0 X20. Y0\nM98 P1 L3 I-20. J0"};
+
+std::string random_program(std::mt19937& random) {
+  const auto number = [&random] {
+    const std::string text = brief(static_cast<double>(random() % 60000) / 1000 - 30);
+    return text.find('.') == std::string::npos ? text + '.' : text;
+  };
+  std::string program = "G90 G0 X1. Y1.\nF100\n";
+  for (unsigned piece = 0; piece < 8; ++piece) {
+    const std::string first = number(), second = number();
+    for (const char* c = kPieces[random() % std::size(kPieces)]; *c != 0; ++c)
+      program += *c == '%' ? first : *c == '$' ? second : std::string(1, *c);
+    program += '\n';
+  }
+  return program + "M30";
+}
+
+TEST(WorkRotation, WholeProgramsAreTurned) {
+  std::mt19937 random(13);
+  size_t compared = 0;
+  for (unsigned n = 0; n < 100; ++n) {
+    const std::string text = random_program(random);
+    const auto run = [&](const char* angle) {
+      Bench bench;
+      bench.add("O1", "G51 X20. Y0 P0.5\nG1 X24. Y3.\nX20. Y0\nG50\nG51.1 Y1.\nX22. Y3.\nG50.1\nX0 Y20.\nM99\n");
+      bench.tool(1, 1.5).work_offset(1, {2, 0, 0}).work_offset(2, {7, -3, 0});
+      bench.param("8623", "5").param("8624", "-8").param("8627", angle);
+      return bench.run(text);
+    };
+    const Outcome plain = run("0"), turned = run("37");
+    ASSERT_EQ(plain.alarm, turned.alarm) << text << turned.alarm_detail;
+    const std::vector<nc_move> before = plain.moves(), after = turned.moves();
+    ASSERT_EQ(before.size(), after.size()) << text;
+    const double c = std::cos(37 * std::numbers::pi / 180), s = std::sin(37 * std::numbers::pi / 180);
+    for (size_t i = 0; i < before.size(); ++i, ++compared) {
+      const double x = before[i].machine.v[0] - 5, y = before[i].machine.v[1] + 8;
+      ASSERT_NEAR(after[i].machine.v[0], 5 + c * x - s * y, 1e-6) << text << i;
+      ASSERT_NEAR(after[i].machine.v[1], -8 + s * x + c * y, 1e-6) << text << i;
+      ASSERT_NEAR(after[i].machine.v[2], before[i].machine.v[2], 1e-9) << text << i;
+      ASSERT_EQ(after[i].kind, before[i].kind) << text << i;
+      ASSERT_EQ(after[i].ccw, before[i].ccw) << text << i;
+    }
+  }
+  EXPECT_GT(compared, 1000U);
 }
 
 TEST(WorkRotation, ParametersOfTheFamily) {
