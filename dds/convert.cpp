@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "nc/run.h"
+#include "runtime/refusal.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::dds {
@@ -33,10 +34,18 @@ double us(std::uint64_t ns) {
   return static_cast<double>(ns) / 1000.0;
 }
 
+// Those that stop the machine; the others are warnings.
+std::uint32_t alarms_in(const share::StatusBlock& block) {
+  return static_cast<std::uint32_t>(std::count_if(block.alarm.begin(), block.alarm.begin() + block.alarm_count,
+                                                  [](const share::Entry& entry) { return entry.is_warning == 0; }));
+}
+
 static_assert(static_cast<int>(nc_RUN_MANUAL) == NC_STATE_MANUAL && static_cast<int>(nc_RUN_ALARM) == NC_STATE_ALARM);
 static_assert(static_cast<int>(nc_CAUSE_ALARM) == NC_CAUSE_ALARM && static_cast<int>(nc_CAUSE_FIN) == NC_CAUSE_FIN);
 static_assert(static_cast<int>(nc_CMD_SELECT_PROGRAM) == static_cast<int>(share::RequestKind::kSelectProgram) &&
               static_cast<int>(nc_CMD_JOG) == static_cast<int>(share::RequestKind::kJog));
+static_assert(static_cast<int>(nc_REFUSED_OTHER) == static_cast<int>(rt::RefusalCause::kOther) &&
+              static_cast<int>(nc_REFUSED_SOFT_LIMIT) == static_cast<int>(rt::RefusalCause::kSoftLimit));
 static_assert(static_cast<int>(nc_ACK_FAILED) == static_cast<int>(share::AckState::kFailed));
 static_assert(static_cast<int>(nc_REASON_CLIENT_IN_USE) == static_cast<int>(share::AckReason::kClientInUse));
 
@@ -85,7 +94,8 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   to.optional_stop = block.optional_stop != 0;
   to.program_ready = block.program_ready != 0;
   to.rapid = from.rapid != 0;
-  to.alarm = block.alarm_count != 0;
+  to.alarm = alarms_in(block) != 0;
+  to.warning = alarms_in(block) != block.alarm_count;
   to.feed_override = block.feed_override;
   to.rapid_override = block.rapid_override;
   set(to.program, from.program);
@@ -143,6 +153,9 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
     forced[i].value = block.forced[i].value;
   }
   to.forced = {share::kForced, block.forced_count, forced, false};
+  to.refusals = from.refusals;
+  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_OTHER, nc_REFUSED_OTHER);
+  set(to.refusal_text, from.refusal_text);
 }
 
 namespace {
@@ -239,7 +252,7 @@ nc_Status_v1 core_status(const share::MachineBlock& machine, const share::Status
     to.distance_to_go[a] = from.axis[a].distance_to_go;
   }
   set(to.axis_names, names);
-  to.alarm_count = block.alarm_count;
+  to.alarm_count = alarms_in(block);
   return to;
 }
 
@@ -266,6 +279,7 @@ nc_Alarm alarm(const share::Entry& entry, std::uint32_t slot, const char* partit
   nc_Alarm to = entry_as<nc_Alarm>(entry, partition);
   to.slot = slot;
   to.program_number = entry.program_number;
+  to.warning = entry.is_warning != 0;
   return to;
 }
 
@@ -281,6 +295,7 @@ nc_AlarmHistory history(const share::Entry& entry, const char* partition) {
   to.message = entry.is_message != 0;
   to.program_number = entry.program_number;
   to.cleared_ns = entry.cleared_ns;
+  to.warning = entry.is_warning != 0;
   return to;
 }
 

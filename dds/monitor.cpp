@@ -49,6 +49,24 @@ const char* cause_name(nc_StopCause cause) {
   }
 }
 
+const char* refusal_name(nc_RefusalCause cause) {
+  switch (cause) {
+    case nc_REFUSED_NOT: return "none";
+    case nc_REFUSED_MODE: return "mode";
+    case nc_REFUSED_RUNNING: return "running";
+    case nc_REFUSED_MIDDLE_OF_BLOCK: return "middle of block";
+    case nc_REFUSED_NO_PROGRAM: return "no program";
+    case nc_REFUSED_ALARM: return "alarm";
+    case nc_REFUSED_RESETTING: return "resetting";
+    case nc_REFUSED_ENDING: return "ending";
+    case nc_REFUSED_SPINDLE: return "spindle";
+    case nc_REFUSED_SOFT_LIMIT: return "soft limit";
+    case nc_REFUSED_NOT_REPEATED: return "not repeated";
+    case nc_REFUSED_NO_FEED: return "no feed";
+    default: return "other";
+  }
+}
+
 const char* direction_name(nc_SignalDirection direction) {
   switch (direction) {
     case nc_SIGNAL_FROM_NC: return "from NC";
@@ -84,6 +102,10 @@ StatusView view_of(const nc_Status& s) {
   v.program_ready = s.program_ready;
   v.rapid = s.rapid;
   v.alarm = s.alarm;
+  v.warning = s.warning;
+  v.refusals = s.refusals;
+  v.refusal_cause = refusal_name(s.refusal_cause);
+  v.refusal_text = s.refusal_text;
   v.feed_override = s.feed_override;
   v.rapid_override = s.rapid_override;
   v.program = s.program;
@@ -229,7 +251,7 @@ void Monitor::take_alarms() {
       alarms.erase(alarm.slot);  // the keys are there also without data
     } else if (infos[i].valid_data) {
       alarms[alarm.slot] = {alarm.id,   alarm.part_system, alarm.code,     alarm.text,
-                            alarm.axis, alarm.line,        alarm.raised_ns};
+                            alarm.axis, alarm.line,        alarm.raised_ns, alarm.warning};
     }
   }
   if (!machine_.empty()) view_.alarms = alarms_of_[machine_];

@@ -55,6 +55,10 @@ nlohmann::json status_json(const StatusView& s) {
           {"program_ready", s.program_ready},
           {"rapid", s.rapid},
           {"alarm", s.alarm},
+          {"warning", s.warning},
+          {"refusals", s.refusals},
+          {"refusal_cause", s.refusal_cause},
+          {"refusal_text", s.refusal_text},
           {"feed_override", s.feed_override},
           {"rapid_override", s.rapid_override},
           {"program", s.program},
@@ -178,8 +182,10 @@ std::string page(const MonitorView& view) {
   if (view.ended) text += "  THE CONTROL HAS ENDED: these are its last values\n";
   else if (!view.alive && !view.systems.empty())
     text += "  NO STATUS ANY MORE: ncdds is gone, or the scan stands still; these values are old\n";
+  for (const auto& [number, status] : view.systems)
+    if (!status.refusal_text.empty()) text += "  REFUSED  " + printable(status.refusal_text) + "\n";
   for (const auto& [slot, alarm] : view.alarms)
-    text += "  ALARM    " + time_text(alarm.raised_ns) + "  " + alarm_line(alarm) + "\n";
+    text += (alarm.warning ? "  WARNING  " : "  ALARM    ") + time_text(alarm.raised_ns) + "  " + alarm_line(alarm) + "\n";
   if (view.alarms.empty()) text += "  no alarms\n";
   return text;
 }
@@ -218,7 +224,8 @@ std::string json_line(const MonitorView& view) {
                       {"text", alarm.text},
                       {"axis", alarm.axis},
                       {"line", alarm.line},
-                      {"raised_ns", alarm.raised_ns}});
+                      {"raised_ns", alarm.raised_ns},
+                      {"warning", alarm.warning}});
   nlohmann::json all = {{"alive", view.alive}, {"ended", view.ended}, {"systems", systems}, {"alarms", alarms}};
   if (!view.signals.empty()) all["signals"] = signals_json(view);
   return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

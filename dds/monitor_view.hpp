@@ -22,7 +22,9 @@ struct StatusView {
   std::int64_t time_ns = 0;
   std::string mode, run_state, stop_cause, state_text;
   bool resetting = false, single_block = false, optional_stop = false, program_ready = false, rapid = false;
-  bool alarm = false;
+  bool alarm = false, warning = false;
+  unsigned refusals = 0;
+  std::string refusal_cause = "none", refusal_text;
   double feed_override = 1, rapid_override = 1;
   std::string program, file, block, modal;
   unsigned program_number = 0, sequence_number = 0, line = 0, depth = 0;
@@ -48,6 +50,7 @@ struct AlarmView {
   std::string code, text, axis;
   unsigned line = 0;
   std::int64_t raised_ns = 0;
+  bool warning = false;
 };
 
 // One row of the table of signals, with its value.

@@ -61,6 +61,23 @@ class StopCause(IdlEnum, typename="nc.StopCause", default="CAUSE_NONE"):
 
 
 @annotate.appendable
+class RefusalCause(IdlEnum, typename="nc.RefusalCause", default="REFUSED_NOT"):
+    REFUSED_NOT = 0
+    REFUSED_MODE = 1
+    REFUSED_RUNNING = 2
+    REFUSED_MIDDLE_OF_BLOCK = 3
+    REFUSED_NO_PROGRAM = 4
+    REFUSED_ALARM = 5
+    REFUSED_RESETTING = 6
+    REFUSED_ENDING = 7
+    REFUSED_SPINDLE = 8
+    REFUSED_SOFT_LIMIT = 9
+    REFUSED_NOT_REPEATED = 10
+    REFUSED_NO_FEED = 11
+    REFUSED_OTHER = 12
+
+
+@annotate.appendable
 class CommandKind(IdlEnum, typename="nc.CommandKind", default="CMD_TAKE_CONTROL"):
     CMD_TAKE_CONTROL = 0
     CMD_RELEASE_CONTROL = 1
@@ -230,6 +247,10 @@ class Status(IdlStruct, typename="nc.Status"):
     message_count: types.uint64
     message: types.bounded_str[127]
     forced: types.sequence[ForcedDevice, 32]
+    warning: bool
+    refusals: types.uint32
+    refusal_cause: RefusalCause
+    refusal_text: types.bounded_str[127]
 
 
 @dataclass
@@ -247,6 +268,7 @@ class Alarm(IdlStruct, typename="nc.Alarm"):
     program_number: types.uint32
     line: types.uint32
     raised_ns: types.int64
+    warning: bool
 
 
 @dataclass
@@ -266,6 +288,7 @@ class AlarmHistory(IdlStruct, typename="nc.AlarmHistory"):
     line: types.uint32
     raised_ns: types.int64
     cleared_ns: types.int64
+    warning: bool
 
 
 @dataclass

@@ -57,6 +57,9 @@ constexpr const AlarmRow& alarm_row(AlarmId id) {
   return kAlarmTable[0];
 }
 
+// A warning lets a program go on to its end; an alarm stops the machine. Both keep the next start until a reset acknowledges them.
+constexpr bool is_warning(AlarmId id) { return !alarm_row(id).stops; }
+
 // What has gone wrong with retained data (R19, R20): `detail` of the alarm, beside the number of the data.
 enum class RetainTrouble : std::uint8_t { kLost, kOlder, kNotKept, kUnwritable };
 inline constexpr unsigned kRetainedData = 3;  // 0 devices of the ladder, 1 common variables, 2 offsets and parameters

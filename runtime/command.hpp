@@ -63,6 +63,9 @@ enum class Answer : std::uint8_t {
   kNoLadder,
   kMachineSwitch,     // a switch of the machine (plc.feed_override, plc.rapid_override) is in force
   kSpindleNow,        // the axis is a spindle as long as its servo is off
+  kSoftLimit,         // the axis stands at its soft limit
+  kNotRepeated,       // a jog that nobody has asked for again
+  kNoJogFeed,         // a jog at no speed
   kNoAnswer           // the runtime does not run
 };
 
@@ -106,6 +109,12 @@ constexpr const char* answer_text(Answer answer) {
       return "the override switch of the machine is in force";
     case Answer::kSpindleNow:
       return "the axis is a spindle now: its servo is off";
+    case Answer::kSoftLimit:
+      return "the axis stands at its soft limit";
+    case Answer::kNotRepeated:
+      return "it was not asked for again in time";
+    case Answer::kNoJogFeed:
+      return "the jog feed is 0";
     case Answer::kNoAnswer:
       return "the runtime does not answer";
   }

@@ -213,6 +213,7 @@ Answer Scan::start_cycle() noexcept {
   if (!program_active()) program_mode_ = mode_;
   start_pulse_ = true;
   hold_request_ = false;
+  for (unsigned s = 0; s < systems_; ++s) happened(s, Asked::kCycleStart);
   return Answer::kDone;
 }
 
@@ -283,6 +284,7 @@ void Scan::build_nc_inputs() noexcept {
     in.clock_ms = local_ms;
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       Jog& jog = jog_[s][a];
+      jog_asked_[s][a] = static_cast<std::int8_t>(jog.kind != NC_MANUAL_JOG ? 0 : jog.value > 0 ? 1 : -1);
       if (stop || ending_ || mode_ != Mode::kManual || reset_phase_ != ResetPhase::kNone || is_spindle_now(s, a)) jog = {};
       in.manual[a].kind = jog.kind;
       in.manual[a].velocity = jog.kind == NC_MANUAL_JOG ? jog.value : 0;
@@ -290,6 +292,8 @@ void Scan::build_nc_inputs() noexcept {
       if (jog.remaining == ~0u) {
         if ((out_[s].at_reference >> a & 1u) != 0) jog = {};
       } else if (jog.remaining > 0 && --jog.remaining == 0) {
+        if (jog.kind == NC_MANUAL_JOG) refuse(s, Asked::kJog, Answer::kNotRepeated, static_cast<int>(a), true);
+        jog_asked_[s][a] = 0;
         jog = {};
       }
     }
@@ -351,6 +355,7 @@ void Scan::follow_requests() noexcept {
     if (alarm && !alarm_was_given_[s] && reset_phase_ == ResetPhase::kNone) raise(AlarmId::kProgram, s, -1);
   }
   if (!running) hold_request_ = false;
+  watch_jogs();
   if (reset_phase_ == ResetPhase::kStopping) {
     ++reset_scans_;
     if (reset_scans_ >= kResetMinScans && !program_active() && at_rest() && axes_stand()) {
@@ -375,6 +380,7 @@ void Scan::publish() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     out.system[s].nc = out_[s];
     out.system[s].actual = feedback_.system[s].actual;
+    out.system[s].refusal = refusal_[s];
     std::copy(std::begin(feedback_.system[s].spindle), std::end(feedback_.system[s].spindle), out.system[s].spindle);
   }
   const bool program = out_[0].override_source == NC_OVERRIDE_PROGRAM;
@@ -386,8 +392,6 @@ void Scan::publish() noexcept {
   out.single_block = single_block_;
   out.optional_stop = optional_stop_;
   out.resetting = reset_phase_ != ResetPhase::kNone;
-  out.ladder_refusal = ladder_refusal_;
-  out.ladder_refusals = ladder_refusals_;
   out.alarms = alarms_;
   ladder_->list_forces(&out.forces);
   out.overruns = statistics_.overruns.load(std::memory_order_relaxed);

@@ -144,6 +144,12 @@ class Scan {
   void acknowledge_alarms() noexcept;
   bool program_active() const noexcept;
   bool at_rest() const noexcept;
+  void refuse(unsigned system, Asked asked, Answer why, int axis = -1, bool stopped = false) noexcept;
+  void settle(Asked asked, Answer answer) noexcept;
+  void happened(unsigned system, Asked asked) noexcept;
+  bool at_soft_limit(unsigned system, unsigned axis, int direction) const noexcept;
+  Answer jog_hindrance(unsigned system, unsigned axis, int direction) const noexcept;
+  void watch_jogs() noexcept;
   bool is_spindle_now(unsigned system, unsigned axis) const noexcept;
   bool machine_faulty() const noexcept;
   bool axes_stand() const noexcept;
@@ -182,8 +188,14 @@ class Scan {
   std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that the FIN that is on has completed
   bool start_pulse_ = false, hold_request_ = false;
   bool ending_ = false;  // nothing starts any more
-  Answer ladder_refusal_ = Answer::kDone;
-  std::uint32_t ladder_refusals_ = 0;
+  Refusal refusal_[NC_MAX_SYSTEMS];
+  struct JogWatch {
+    Answer why = Answer::kDone;  // as noted last
+    bool went = false;
+  };
+  JogWatch jog_watch_[NC_MAX_SYSTEMS][NC_MAX_AXES];
+  std::int8_t jog_asked_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};  // direction in this scan, whether or not it acts
+  std::uint8_t jog_without_feed_[NC_MAX_SYSTEMS] = {};       // bit per axis
   // From a fault of the machine to the end of the reset; the commanded position follows the measured one.
   bool drives_off_ = false;
   nc_axes stood_at_[NC_MAX_SYSTEMS] = {};  // measured

@@ -7,6 +7,7 @@
 #include "nc/run.h"
 #include "runtime/alarms.hpp"
 #include "runtime/command.hpp"
+#include "runtime/refusal.hpp"
 
 namespace nc::rt {
 
@@ -24,6 +25,7 @@ struct SystemSnapshot {
   nc_outputs nc{};         // commanded side, from libnc
   nc_axes actual{};        // measured
   nc_spindle_inputs spindle[NC_MAX_SPINDLES] = {};  // measured
+  Refusal refusal;         // of what was asked for at the panel last
 
   // The spindle that displays show: the one whose encoder counts.
   const nc_spindle_inputs& shown_spindle() const { return spindle[nc.spindle_encoder == 0 ? 0 : nc.spindle_encoder - 1]; }
@@ -45,8 +47,6 @@ struct Snapshot {
   OverrideSource feed_override_source = OverrideSource::kOperator, rapid_override_source = OverrideSource::kOperator;  // ... and whose they are
   bool single_block = false, optional_stop = false;
   bool resetting = false;
-  Answer ladder_refusal = Answer::kDone;  // why the ladder's cycle start was refused last ...
-  std::uint32_t ladder_refusals = 0;      // ... and how often one was
   AlarmList alarms;
   std::uint64_t overruns = 0;      // scans that ended behind their slot
   std::uint64_t missed_slots = 0;  // slots without a scan

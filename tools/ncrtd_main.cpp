@@ -200,7 +200,7 @@ class Run {
     progress_.finish();
     bool lost = false;
     for (unsigned i = 0; i < now.alarms.count; ++i) {
-      std::fprintf(stderr, "alarm: %s\n", runtime_.alarm_text(now.alarms.alarm[i]).c_str());
+      std::fprintf(stderr, "%s: %s\n", nc::rt::is_warning(now.alarms.alarm[i].id) ? "warning" : "alarm", runtime_.alarm_text(now.alarms.alarm[i]).c_str());
       lost |= now.alarms.alarm[i].id == nc::rt::AlarmId::kRetainedLost;
     }
     std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc, options_.since_ns).c_str());

@@ -61,6 +61,8 @@ struct SystemStatus {
   std::uint64_t blocks;  // finished since cycle start
   double path_length;    // mm since cycle start
   double run_s;          // s in execution since cycle start
+  std::uint32_t refusals, refusal_cause;  // nc::rt::RefusalCause
+  Text<128> refusal_text;  // why what was asked for at the panel did not happen, "" = nothing was refused since
   std::array<AxisStatus, NC_MAX_AXES> axis;
 };
 
@@ -73,6 +75,8 @@ struct Entry {
   std::uint32_t system;       // index
   std::uint32_t line;         // of the block in execution when it came, 0 = none
   std::uint32_t program_number;
+  std::uint32_t is_warning;   // lets a program end
+  std::uint32_t reserved;
   Text<16> code;
   Text<8> axis;  // "X", "" none
   Text<256> text;

@@ -175,6 +175,9 @@ void Publisher::fill_system(unsigned index, const Snapshot& snapshot, const Feed
   out.blocks = nc.blocks;
   out.path_length = nc.path_length;
   out.run_s = nc.run_s;
+  out.refusals = system.refusal.count;
+  out.refusal_cause = static_cast<std::uint32_t>(refusal_cause(system.refusal));
+  set_text(&out.refusal_text, refusal_text(config_, index, system.refusal));
   set_text(&out.modal, info.modal_known[index] ? modal_text(info.modal[index]) : std::string());
   for (unsigned a = 0; a < out.axis_count; ++a)
     out.axis[a] = {axis_shown(nc.command.v[a], info.machine_turn[index], a), axis_shown(system.actual.v[a], info.machine_turn[index], a),
@@ -241,6 +244,7 @@ bool Publisher::describe(const ActiveAlarm& alarm, Entry* entry) {
       set_text(&entry->axis, std::string(1, config_.nc.system[alarm.system].axis[axis].name));
   };
   const AlarmRow& row = alarm_row(alarm.id);
+  entry->is_warning = is_warning(alarm.id);
   if (alarm.id != AlarmId::kProgram) {
     set_text(&entry->code, row.code);
     axis_name(alarm.axis);

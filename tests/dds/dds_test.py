@@ -394,11 +394,28 @@ def alarms(plant, watch, operator):
     operator.ask(CommandKind.CMD_CYCLE_START)
     until(lambda: watch.look().active, "an alarm comes")
     alarm = next(iter(watch.active.values()))
-    check(alarm.code == "P34" and alarm.line == 2, f"{alarm.code} {alarm.text} (line {alarm.line})")
+    until(lambda: watch.look().status.alarm and not watch.status.warning, "the status has it")
+    check(alarm.code == "P34" and alarm.line == 2 and not alarm.warning, f"{alarm.code} {alarm.text} (line {alarm.line})")
     other_releases(plant, alarm)
     check(operator.ask(CommandKind.CMD_RESET).state == AckState.ACK_DONE, "reset")
     until(lambda: not watch.look().active, "the alarm is disposed")
     until(lambda: alarm.id in watch.look().past and watch.past[alarm.id].cleared_ns >= alarm.raised_ns, "the history has its end")
+
+
+def warnings(plant, watch, operator):
+    """What lets a program end is a warning and no alarm."""
+    blocked = os.path.join(plant.folder, "kept.new")
+    os.mkdir(blocked)  # beside the file of the common variables: it cannot be written any more
+    check(operator.ask(CommandKind.CMD_SET_MODE, number=Mode.MODE_MDI.value).state == AckState.ACK_DONE, "mode MDI")
+    check(operator.ask(CommandKind.CMD_MDI, text="#500=3").state == AckState.ACK_DONE, "a variable that is kept")
+    operator.ask(CommandKind.CMD_CYCLE_START)
+    until(lambda: watch.look().status.warning and watch.active, "a warning comes")
+    warning = next(iter(watch.active.values()))
+    check(warning.code == "R20" and warning.warning and not watch.status.alarm, f"and no alarm: {warning.code} {warning.text}")
+    os.rmdir(blocked)
+    check(operator.ask(CommandKind.CMD_RESET).state == AckState.ACK_DONE, "reset")
+    until(lambda: not watch.look().active and not watch.status.warning, "it is gone")
+    check(operator.ask(CommandKind.CMD_SET_MODE, number=Mode.MODE_AUTO.value).state == AckState.ACK_DONE, "mode auto")
 
 
 def manual(watch, operator):
@@ -412,6 +429,7 @@ def manual(watch, operator):
         operator.ask(CommandKind.CMD_JOG, axis="X", value=10.0)
     until(lambda: watch.look().status.axes[0].commanded > 5.01, "the axis jogs")
     until(lambda: watch.look().status.axes[0].velocity == 0, "and stops when nobody asks for it any more")
+    until(lambda: watch.look().status.refusal_cause == nc_dds.RefusalCause.REFUSED_NOT_REPEATED, f"and says so: {watch.status.refusal_text}")
     check(operator.ask(CommandKind.CMD_SET_MODE, number=Mode.MODE_AUTO.value).state == AckState.ACK_DONE, "mode auto")
 
 
@@ -714,7 +732,7 @@ def main():
         return
     with tempfile.TemporaryDirectory() as folder:
         os.mkdir(os.path.join(folder, "folder"))
-        for name, text in (("machine.toml", MACHINE), ("other.toml", MACHINE), ("part.nc", PART), ("bad.nc", BAD), ("own.il", LADDER)):
+        for name, text in (("machine.toml", MACHINE.replace('programs = "."', 'programs = "."\nvariables = "kept"')), ("other.toml", MACHINE), ("part.nc", PART), ("bad.nc", BAD), ("own.il", LADDER)):
             with open(os.path.join(folder, name), "w", encoding="ascii") as file:
                 file.write(text)
         plant = Plant(folder)
@@ -734,6 +752,7 @@ def main():
             gateway = program(plant, watch, operator, gateway)
             until(lambda: answers(operator), "the new gateway answers")
             alarms(plant, watch, operator)
+            warnings(plant, watch, operator)
             manual(watch, operator)
             signals(plant, participant)
             monitor(plant)

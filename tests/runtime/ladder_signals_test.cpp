@@ -203,11 +203,71 @@ TEST_F(LadderSignals, AStartThatIsRefusedSaysWhy) {
     steps(5);
     return runtime->snapshot();
   };
-  EXPECT_EQ(runtime->snapshot().ladder_refusals, 0u);
-  EXPECT_EQ(press().ladder_refusal, nc::rt::Answer::kNoProgram);
+  const auto refusal = [this] { return runtime->snapshot().system[0].refusal; };
+  EXPECT_EQ(refusal().count, 0u);
+  press();
+  EXPECT_EQ(refusal().asked, nc::rt::Asked::kCycleStart);
+  EXPECT_EQ(refusal().why, nc::rt::Answer::kNoProgram);
   manual();
-  EXPECT_EQ(press().ladder_refusal, nc::rt::Answer::kNotInThisMode);
-  EXPECT_EQ(runtime->snapshot().ladder_refusals, 2u);
+  press();
+  EXPECT_EQ(refusal().why, nc::rt::Answer::kNotInThisMode);
+  EXPECT_EQ(refusal().count, 2u);
+  EXPECT_EQ(nc::rt::refusal_text(config, 0, refusal()), "cycle start refused: not in this mode");
+  // What has happened since is not refused any more.
+  ASSERT_EQ(runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(nc::rt::Mode::kMdi)), Answer::kDone);
+  ASSERT_EQ(runtime->load_mdi("G4 X0.5\n"), Answer::kDone);
+  press();
+  EXPECT_EQ(out().state, NC_STATE_RUNNING);
+  EXPECT_EQ(refusal().asked, nc::rt::Asked::kNothing);
+  EXPECT_EQ(refusal().count, 2u);
+}
+
+// Each reason once, however long the button is held.
+TEST_F(LadderSignals, AJogThatDoesNotBeginOrEndsByItselfSaysWhy) {
+  run("LD in0\nOUT plc.jog_p.X\nLD SM400\nDMOV word_in plc.jog_feed\nLD in1\nOUT plc.alarm.2\n");
+  const auto refusal = [this] { return runtime->snapshot().system[0].refusal; };
+  const auto text = [&] { return nc::rt::refusal_text(config, 0, refusal()); };
+  const auto hold = [&](std::int64_t button, unsigned scans) {
+    in("in0", button);
+    steps(scans);
+  };
+  hold(1, 50);
+  EXPECT_EQ(text(), "jog X refused: not in this mode");
+  EXPECT_EQ(refusal().count, 1u);
+  hold(0, 5);
+  manual();
+  hold(1, 50);
+  EXPECT_EQ(text(), "jog X refused: the jog feed is 0");
+  EXPECT_EQ(nc::rt::refusal_cause(refusal()), nc::rt::RefusalCause::kNoFeed);
+  in("word_in", 6000);
+  steps(50);
+  EXPECT_EQ(text(), "") << "it goes";
+  ASSERT_GT(until([&] { return x() > 499.99; }, 20000), 0);
+  steps(200);
+  EXPECT_EQ(text(), "jog X stopped: the axis stands at its soft limit");
+  EXPECT_EQ(refusal().count, 3u);
+  hold(0, 5);
+  hold(1, 50);
+  EXPECT_EQ(text(), "jog X refused: the axis stands at its soft limit");
+  EXPECT_EQ(refusal().count, 4u);
+  hold(0, 5);
+  // A client's jog the other way, and an alarm in its middle; then one that is not repeated.
+  nc::rt::Command jog;
+  jog.kind = CommandKind::kJog;
+  jog.value = -20;
+  ASSERT_EQ(runtime->execute(jog), Answer::kDone);
+  steps(50);
+  EXPECT_EQ(text(), "");
+  in("in1", 1);
+  steps(50);
+  EXPECT_EQ(text(), "jog X stopped: an alarm is active: reset first");
+  in("in1", 0);
+  steps(2);
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  ASSERT_GE(until([&] { return !runtime->snapshot().resetting; }, 500), 0);
+  ASSERT_EQ(runtime->execute(jog), Answer::kDone);
+  steps(nc::rt::kJogDeadManScans + 100);
+  EXPECT_EQ(text(), "jog X stopped: it was not asked for again in time");
 }
 
 TEST_F(LadderSignals, RapidJog) {

@@ -46,8 +46,15 @@ class Service {
     beat(now);
     tell_state(now);
     tell_alarms(now);
-    if (now.ladder_refusals != refusals_) say(std::string("cycle start by the ladder refused: ") + runtime_.explain(now.ladder_refusal));
-    refusals_ = now.ladder_refusals;
+    tell_refusals(now);
+  }
+
+  // Starts; a jog button says why on a monitor.
+  void tell_refusals(const Snapshot& now) {
+    const nc::rt::Refusal& refusal = now.system[0].refusal;
+    if (refusal.count != refusals_ && refusal.asked == nc::rt::Asked::kCycleStart)
+      say(std::string("cycle start by the ladder refused: ") + runtime_.explain(refusal.why));
+    refusals_ = refusal.count;
   }
 
   // The watchdog is fed at a third of its interval, and only when the scan has gone on since.
@@ -77,7 +84,7 @@ class Service {
     for (const nc::rt::ActiveAlarm& alarm : active) {
       const bool seen = contains(seen_, alarm);
       if (seen && !contains(told_, alarm)) {
-        say("alarm: " + runtime_.alarm_text(alarm));
+        say((nc::rt::is_warning(alarm.id) ? "warning: " : "alarm: ") + runtime_.alarm_text(alarm));
         told_.push_back(alarm);
       }
     }
