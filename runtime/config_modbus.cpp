@@ -15,6 +15,7 @@ namespace {
 using hal::modbus::Format;
 using hal::modbus::LinkConfig;
 using hal::modbus::OnLoss;
+using hal::modbus::OnStop;
 using hal::modbus::PointMap;
 using hal::modbus::Table;
 using hal::modbus::WordOrder;
@@ -170,18 +171,11 @@ void check_initial(TableReader* point_reader, const PointMap& map) {
                                      std::to_string(value) + (value > INT32_MAX ? ", which is what " + std::to_string(value - 0x100000000) + " means here" : ""));
 }
 
-// hold | off | a number, as a number or a text.
-void read_on_loss(TableReader* reader, PointMap* map) {
-  const toml::node* node = reader->find("on_loss");
-  if (node == nullptr) return;
-  if (map->output) {
-    reader->error(
-        "on_loss",
-        "is for inputs; an output has its safe value in `initial`, and what the device does without "
-        "the link is set in the device");
-    return;
-  }
-  const hal::modbus::ValueRange range = value_range(*map);
+// hold | off | a number, as a number or a text. What the value is, where it is one.
+enum class Kept { kNothing, kHold, kOff, kValue };
+Kept read_kept(TableReader* reader, const char* key, const PointMap& map, std::uint32_t* kept) {
+  const toml::node* node = reader->find(key);
+  const hal::modbus::ValueRange range = value_range(map);
   std::int64_t value = 0;
   bool number = false;
   if (const auto* integer = node->as_integer()) {
@@ -191,15 +185,42 @@ void read_on_loss(TableReader* reader, PointMap* map) {
     const std::string& word = text->get();
     const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
     number = !word.empty() && read.ec == std::errc{} && read.ptr == word.data() + word.size();
-    if (word == "hold") map->on_loss = OnLoss::kHold;
-    if (word == "hold" || word == "off") return;
+    if (word == "hold") return Kept::kHold;
+    if (word == "off") return Kept::kOff;
   }
   if (!number || !range.holds(value)) {
-    reader->error("on_loss", "must be \"hold\", \"off\" or a number from " + range_text(range));
+    reader->error(key, "must be \"hold\", \"off\" or a number from " + range_text(range));
+    return Kept::kNothing;
+  }
+  *kept = static_cast<std::uint32_t>(value);
+  return Kept::kValue;
+}
+
+void read_on_loss(TableReader* reader, PointMap* map) {
+  if (reader->find("on_loss") == nullptr) return;
+  if (map->output) {
+    reader->error(
+        "on_loss",
+        "is for inputs; an output has on_stop for the end of the control, and what the device does without "
+        "the link is set in the device");
     return;
   }
-  map->on_loss = OnLoss::kValue;
-  map->loss_value = static_cast<std::uint32_t>(value);
+  const Kept kept = read_kept(reader, "on_loss", *map, &map->loss_value);
+  if (kept == Kept::kHold) map->on_loss = OnLoss::kHold;
+  if (kept == Kept::kValue) map->on_loss = OnLoss::kValue;
+}
+
+void read_on_stop(TableReader* reader, PointMap* map) {
+  if (reader->find("on_stop") == nullptr) return;
+  if (!map->output) {
+    reader->error("on_stop", "is for outputs; an input has on_loss");
+    return;
+  }
+  const Kept kept = read_kept(reader, "on_stop", *map, &map->stop_value);
+  if (kept == Kept::kHold) map->on_stop = OnStop::kHold;
+  if (kept == Kept::kValue || kept == Kept::kOff) map->on_stop = OnStop::kValue;
+  if (kept == Kept::kOff && !value_range(*map).holds(0))
+    reader->error("on_stop", "\"off\" is 0, and the register can only hold " + range_text(value_range(*map)));
 }
 
 // Two outputs may share a register only as different bits of it; and nothing else.
@@ -210,11 +231,20 @@ bool collide(const PointMap& a, const PointMap& b) {
   return !bits || a.bit == b.bit;
 }
 
+// Bits of one register go out together: at the end all of them are written, or none.
+bool share_a_register(const PointMap& a, const PointMap& b) {
+  return a.output && b.output && a.unit == b.unit && a.table == b.table && !is_bit_table(a.table) && a.address < b.end() && b.address < a.end();
+}
+
 void check_collisions(TableReader* reader, const Config& config, const LinkConfig& link,
                       const PointMap& map) {
   for (const ModbusLinkConfig& other : config.modbus) {
     if (other.link.host != link.host || other.link.port != link.port) continue;
     for (const PointMap& taken : other.link.points) {
+      if (share_a_register(map, taken) && map.holds() != taken.holds() && !collide(map, taken)) {
+        reader->error("on_stop", "\"hold\" is for all bits of a register or for none: \"" + config.points.at(taken.point).name + "\" is one, too");
+        return;
+      }
       if (!collide(map, taken)) continue;
       reader->error("address", "point \"" + config.points.at(taken.point).name + "\" writes " +
                                    table_name(map.table) + " " + std::to_string(taken.address) + " of unit " +
@@ -258,6 +288,7 @@ PointModbus read_point_modbus(TableReader* point_reader, const hal::Point& point
     if (addressed && map.end() > kLastAddress + 1)
       reader.error("address", "a 32-bit value needs two registers, the second would be 65536");
     read_on_loss(&reader, &map);
+    read_on_stop(&reader, &map);
     if (placed && addressed) check_initial(point_reader, map);
     if (!found || !placed || !addressed) return;
     check_collisions(&reader, *config, link->link, map);

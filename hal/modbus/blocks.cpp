@@ -26,11 +26,11 @@ std::vector<Block> merge(const std::vector<PointMap>& points, bool write, unsign
   for (const unsigned i : order) {
     const PointMap& map = points[i];
     Block* last = blocks.empty() ? nullptr : &blocks.back();
-    const bool joins = last != nullptr && last->unit == map.unit && last->table == map.table &&
+    const bool joins = last != nullptr && last->unit == map.unit && last->table == map.table && last->holds == map.holds() &&
                        map.address <= last->end() + gap &&
                        std::max(map.end(), last->end()) - last->first <= largest(map.table, write);
     if (!joins) {
-      blocks.push_back({map.table, map.unit, write, map.address, 0, {}});
+      blocks.push_back({map.table, map.unit, write, map.holds(), map.address, 0, {}});
       last = &blocks.back();
     }
     last->count = static_cast<std::uint16_t>(std::max(map.end(), last->end()) - last->first);

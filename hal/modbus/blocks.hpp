@@ -17,6 +17,7 @@ struct Block {
   Table table = Table::kHolding;
   std::uint8_t unit = 1;
   bool write = false;
+  bool holds = false;  // outputs that nothing is written to at the end, PointMap::holds()
   std::uint16_t first = 0;
   std::uint16_t count = 0;
   std::vector<unsigned> maps;  // indices into the points of the link
@@ -31,7 +32,7 @@ std::string place_text(const Block& block);
 // point has; a 32-bit value is never split.
 std::vector<Block> read_blocks(const std::vector<PointMap>& points, unsigned merge_gap);
 
-// Outputs. Only neighbours share a block: a cell that is not configured is never written.
+// Outputs. Only neighbours share a block: a cell that is not configured is never written. Those that hold have blocks of their own.
 std::vector<Block> write_blocks(const std::vector<PointMap>& points);
 
 }  // namespace nc::hal::modbus

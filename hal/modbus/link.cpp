@@ -33,9 +33,11 @@ void ModbusLink::prepare(const PointImage& initial) {
       jobs_.push_back(std::move(job));
     }
   for (std::size_t i = 0; i < config_.points.size(); ++i) {
-    value_[i] = sent_[i] = initial.value[config_.points[i].point];
+    value_[i] = found_[i] = start_[i] = sent_.value[i] = initial.value[config_.points[i].point];
+    sent_.own[i] = config_.points[i].holds() ? 0 : 1;
     valid_[i] = 1;
   }
+  taken_over_ = false;
   outputs_.back() = sent_;
   outputs_.publish();
   cursor_ = 0;
@@ -171,20 +173,26 @@ void ModbusLink::round() {
 // False when the connection is gone.
 bool ModbusLink::serve(Job* job) {
   if (job->bad && !lost_ && steady_clock::now() < job->retry_at) return true;
+  const bool writes = job->block.write && !finds(*job);
   std::vector<std::uint16_t> cells;
-  if (job->block.write) {
+  if (writes) {
     outputs_.take();
-    cells = output_cells(*job, outputs_.front());
+    if (waits_for_scan(*job, outputs_.front())) return true;
+    cells = output_cells(*job, outputs_.front().value);
     if (!write_due(*job, cells)) return true;
   }
   const Time sent = steady_clock::now();
-  const Result result = job->block.write ? session_->write(job->block, cells.data())
-                                         : session_->read(job->block, scratch_.data());
+  const Result result = writes ? session_->write(job->block, cells.data()) : session_->read(job->block, scratch_.data());
   alive();
   account(result, sent, true);
   if (result == Result::kTimeout || result == Result::kFailed) {
     unanswered(job);
     return false;
+  }
+  if (job->block.write && !writes) {
+    find_outputs(job, result);
+    answered(job, Result::kOk);
+    return true;
   }
   if (result == Result::kOk && job->block.write) {
     job->written = true;
@@ -195,6 +203,26 @@ bool ModbusLink::serve(Job* job) {
   }
   answered(job, result);
   return true;
+}
+
+// What outputs that hold have before this control writes to them. A partner that does not let them be read is said, and they
+// begin as others do.
+void ModbusLink::find_outputs(Job* job, Result result) {
+  job->known = true;
+  for (const unsigned i : job->block.maps) {
+    const PointMap& map = config_.points[i];
+    if (result != Result::kOk || !decode(map, &scratch_[map.address - job->block.first], &found_[i])) found_[i] = map.initial;
+  }
+  if (result != Result::kOk) report("on_stop = \"hold\" begins with the initial values, because they cannot be read back: " + session_->error());
+}
+
+bool ModbusLink::finds(const Job& job) const {
+  return job.block.holds && !job.known;
+}
+
+// Between the answer and the first scan that has seen it.
+bool ModbusLink::waits_for_scan(const Job& job, const Wanted& wanted) const {
+  return std::any_of(job.block.maps.begin(), job.block.maps.end(), [&](unsigned i) { return wanted.own[i] == 0; });
 }
 
 bool ModbusLink::write_due(const Job& job, const std::vector<std::uint16_t>& cells) const {
@@ -290,12 +318,13 @@ void ModbusLink::postpone(Job* job) {
 // ---- stop ----
 
 void ModbusLink::write_safe_values() {
-  if (std::none_of(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.block.write; })) return;
+  const auto is_written = [](const Job& job) { return job.block.write && !job.block.holds; };
+  if (std::none_of(jobs_.begin(), jobs_.end(), is_written)) return;
   if (!session_->is_open() && !lost_) connect();
   std::vector<std::uint32_t> safe;
-  for (const PointMap& map : config_.points) safe.push_back(map.initial);
+  for (const PointMap& map : config_.points) safe.push_back(map.on_stop == OnStop::kValue ? map.stop_value : map.initial);
   for (const Job& job : jobs_) {
-    if (!job.block.write) continue;
+    if (!is_written(job)) continue;
     const Time sent = steady_clock::now();
     Result result = Result::kFailed;
     if (session_->is_open()) {

@@ -10,6 +10,10 @@
 // time-outs after lost_after of its own (a dead unit behind a living gateway), with the link in any case. The
 // thread itself is watched by the scan: when it has been stuck in one call for longer than a request may take
 // and a second, its values count as lost.
+//
+// An output that holds (OnStop::kHold) belongs to the partner until the control has taken it over: its block is read before anything
+// is written to it, the scan begins with what was found, and at the end nothing is written. So a clamp stays closed from one
+// control to the next, whether the first one ended in order or not.
 #pragma once
 
 #include <pthread.h>
@@ -79,12 +83,21 @@ class ModbusLink final : public PointBus {
     bool written = false;  // outputs: since the connection came about
     std::vector<std::uint16_t> cells;
     Time written_at{};
+    bool known = false;    // outputs that hold: what the partner had at the start has been read
   };
   // By place in config_.points.
   struct Shown {
     std::vector<std::uint32_t> value;
     std::vector<std::uint8_t> good;
     bool ok = false;
+    std::vector<std::uint32_t> found;  // outputs that hold: what they had at the start, where `known`
+    std::vector<std::uint8_t> known;
+  };
+  // Outputs as the scan wants them. One that holds is the scan's own, and written, when the scan has taken over what was found,
+  // or has given it another value before that was known.
+  struct Wanted {
+    std::vector<std::uint32_t> value;
+    std::vector<std::uint8_t> own;
   };
 
   bool make_thread(std::string* error);
@@ -96,6 +109,9 @@ class ModbusLink final : public PointBus {
   bool write_due(const Job& job, const std::vector<std::uint16_t>& cells) const;
   std::vector<std::uint16_t> output_cells(const Job& job, const std::vector<std::uint32_t>& values) const;
   void take_inputs(const Job& job);
+  bool finds(const Job& job) const;
+  void find_outputs(Job* job, Result result);
+  bool waits_for_scan(const Job& job, const Wanted& wanted) const;
   void account(Result result, Time sent, bool request);
   void answered(Job* job, Result result);
   void unanswered(Job* job);
@@ -117,8 +133,10 @@ class ModbusLink final : public PointBus {
 
   // ---- scan ----
   TripleBuffer<Shown> inputs_;
-  TripleBuffer<std::vector<std::uint32_t>> outputs_;
-  std::vector<std::uint32_t> sent_;  // outputs as last published
+  TripleBuffer<Wanted> outputs_;
+  Wanted sent_;                       // outputs as last published
+  std::vector<std::uint32_t> start_;  // as the control began
+  bool taken_over_ = false;           // since then
   std::atomic<std::int64_t> alive_ns_{0};
 
   // ---- link's thread ----
@@ -126,6 +144,7 @@ class ModbusLink final : public PointBus {
   std::size_t cursor_ = 0;            // where the next round begins: behind the job that broke the last one
   std::vector<std::uint32_t> value_;  // last valid input values
   std::vector<std::uint8_t> valid_;   // the answer held a number
+  std::vector<std::uint32_t> found_;  // of outputs that hold
   std::vector<std::uint16_t> scratch_;
   unsigned errors_ = 0;  // in a row
   bool lost_ = true;

@@ -33,11 +33,14 @@ ModbusLink::ModbusLink(const LinkConfig& config, Report report)
       report_(std::move(report)),
       stuck_ns_((config.response_timeout_ms + config.byte_timeout_ms + kStuckMarginMs) * 1'000'000LL),
       inputs_({std::vector<std::uint32_t>(config.points.size()),
-               std::vector<std::uint8_t>(config.points.size()), false}),
-      outputs_(std::vector<std::uint32_t>(config.points.size())),
-      sent_(config.points.size()),
+               std::vector<std::uint8_t>(config.points.size()), false, std::vector<std::uint32_t>(config.points.size()),
+               std::vector<std::uint8_t>(config.points.size())}),
+      outputs_({std::vector<std::uint32_t>(config.points.size()), std::vector<std::uint8_t>(config.points.size())}),
+      sent_({std::vector<std::uint32_t>(config.points.size()), std::vector<std::uint8_t>(config.points.size())}),
+      start_(config.points.size()),
       value_(config.points.size()),
       valid_(config.points.size()),
+      found_(config.points.size()),
       scratch_(kMaxReadBits),
       backoff_ms_(config.backoff_min_ms),
       random_(std::random_device{}()) {}
@@ -56,21 +59,29 @@ void ModbusLink::read(PointImage* image) noexcept {
     const PointMap& map = config_.points[i];
     image->good[map.point] = stuck ? 0 : shown.good[i];
     if (!map.output) image->value[map.point] = stuck ? value_on_loss(map, shown.value[i]) : shown.value[i];
+    if (map.output && sent_.own[i] == 0 && shown.known[i] != 0) {
+      image->value[map.point] = shown.found[i];
+      sent_.own[i] = 1;
+      taken_over_ = true;
+    }
   }
   image->value[config_.ok_point] = shown.ok && !stuck ? 1 : 0;
   image->good[config_.ok_point] = 1;
 }
 
 void ModbusLink::write(const PointImage& image) noexcept {
-  bool changed = false;
+  bool changed = taken_over_;
+  taken_over_ = false;
   for (std::size_t i = 0; i < config_.points.size(); ++i) {
     if (!config_.points[i].output) continue;
     const std::uint32_t value = image.value[config_.points[i].point];
-    changed |= value != sent_[i];
-    sent_[i] = value;
+    changed |= value != sent_.value[i];
+    sent_.value[i] = value;
+    if (value != start_[i]) sent_.own[i] = 1;
   }
   if (!changed) return;
-  std::copy(sent_.begin(), sent_.end(), outputs_.back().begin());
+  std::copy(sent_.value.begin(), sent_.value.end(), outputs_.back().value.begin());
+  std::copy(sent_.own.begin(), sent_.own.end(), outputs_.back().own.begin());
   outputs_.publish();
 }
 
@@ -90,6 +101,8 @@ void ModbusLink::publish() {
       const bool good = !lost_ && !job.bad && (map.output ? job.written : valid_[i] != 0);
       shown.good[i] = good ? 1 : 0;
       shown.value[i] = good ? value_[i] : value_on_loss(map, value_[i]);
+      shown.found[i] = found_[i];
+      shown.known[i] = job.known ? 1 : 0;
     }
   }
   shown.ok = !lost_;

@@ -22,6 +22,9 @@ enum class WordOrder : std::uint8_t { kAbcd, kCdab, kBadc, kDcba };
 // What an input shows while nobody knows what the partner says.
 enum class OnLoss : std::uint8_t { kOff, kHold, kValue };
 
+// What is written to an output when the control ends in order. kHold: nothing, and the next control goes on with what it finds.
+enum class OnStop : std::uint8_t { kInitial, kHold, kValue };
+
 constexpr bool is_bit_table(Table table) {
   return table == Table::kCoil || table == Table::kDiscrete;
 }
@@ -46,7 +49,10 @@ struct PointMap {
   OnLoss on_loss = OnLoss::kOff;
   std::uint32_t loss_value = 0;  // for OnLoss::kValue
   std::uint32_t initial = 0;     // of the point; the safe value of an output
+  OnStop on_stop = OnStop::kInitial;
+  std::uint32_t stop_value = 0;  // for OnStop::kValue
 
+  bool holds() const { return output && on_stop == OnStop::kHold; }
   unsigned width() const { return format >= Format::kU32 ? 2 : 1; }  // coils or registers
   unsigned end() const { return address + width(); }
 };

@@ -233,6 +233,108 @@ TEST(ModbusLink, StopWritesTheSafeValues) {
   EXPECT_TRUE(rig.until([&] { return rig.there(); }));
 }
 
+// Three coils in a row and two registers: what each is when its control ends, and what the next control begins with.
+class HoldRig : public LinkRig {
+ public:
+  HoldRig() {
+    using nc::hal::modbus::OnStop;
+    clamp = add(Table::kCoil, 10, Format::kBit, true);
+    map().on_stop = OnStop::kHold;
+    lamp = add(Table::kCoil, 11, Format::kBit, true);
+    door = add(Table::kCoil, 12, Format::kBit, true);
+    map().on_stop = OnStop::kValue;
+    map().stop_value = 1;
+    pressure = add(Table::kHolding, 20, Format::kU16, true);
+    map().on_stop = OnStop::kHold;
+    map().scale = 0.1;
+  }
+  static void fill(LoopbackServer* server, std::uint16_t clamped, std::uint16_t raw_pressure) {
+    server->with([&](auto& units) {
+      units[1].coil = {{10, clamped}, {11, 0}, {12, 0}};
+      units[1].holding = {{20, raw_pressure}};
+    });
+  }
+  // Writes to the coil of the clamp that would open it, counted by the partner.
+  static void count_openings(LoopbackServer* server, std::atomic<unsigned>* openings) {
+    server->set_fault([openings](const Bytes& request, Answer right) {
+      const unsigned function = request[7], first = request[8] * 256u + request[9];
+      if (function == 5 && first == 10 && request[10] == 0) ++*openings;
+      if (function == 15 && first <= 10 && (request[13] >> (10 - first) & 1) == 0) ++*openings;
+      return right;
+    });
+  }
+  unsigned clamp, lamp, door, pressure;
+};
+
+TEST(ModbusLink, AtTheEndAnOutputHoldsOrHasItsValue) {
+  LoopbackServer server;
+  HoldRig::fill(&server, 0, 5);
+  HoldRig rig;
+  rig.start(server.port());
+  ASSERT_TRUE(rig.until([&] { return rig.good(rig.clamp) && rig.good(rig.pressure); }));
+  for (const unsigned point : {rig.clamp, rig.lamp}) rig.image.value[point] = 1;
+  rig.image.value[rig.pressure] = 7;
+  ASSERT_TRUE(rig.until([&] { return server.coil(1, 10) == 1 && server.coil(1, 11) == 1 && server.holding(1, 20) == 70; }));
+  rig.link->stop();
+  EXPECT_EQ(server.coil(1, 10), 1) << "hold";
+  EXPECT_EQ(server.coil(1, 11), 0) << "initial";
+  EXPECT_EQ(server.coil(1, 12), 1) << "a value";
+  EXPECT_EQ(server.holding(1, 20), 70) << "hold";
+}
+
+// Behind a crash as behind an orderly end: nothing is written to it before the control knows what it has.
+TEST(ModbusLink, AnOutputThatHoldsIsTakenOverAsItIsFound) {
+  LoopbackServer server;
+  HoldRig::fill(&server, 1, 70);
+  std::atomic<unsigned> openings{0};
+  HoldRig::count_openings(&server, &openings);
+  HoldRig rig;
+  rig.start(server.port());
+  ASSERT_TRUE(rig.until([&] { return rig.good(rig.clamp) && rig.good(rig.pressure); }));
+  EXPECT_EQ(rig.value(rig.clamp), 1u) << "the scan begins with it";
+  EXPECT_EQ(rig.value(rig.pressure), 7u) << "in units of the point";
+  rig.config.refresh_ms = 10;
+  for (int n = 0; n < 100; ++n) rig.scan();
+  EXPECT_EQ(openings, 0u);
+  EXPECT_EQ(server.coil(1, 10), 1);
+  EXPECT_EQ(server.holding(1, 20), 70);
+  rig.image.value[rig.clamp] = 0;  // and from then on it is the control's
+  EXPECT_TRUE(rig.until([&] { return server.coil(1, 10) == 0; }));
+}
+
+// The partner comes up later than the control, which has meanwhile been asked to open.
+TEST(ModbusLink, WhatTheControlWantsGoesBeforeWhatIsFound) {
+  LoopbackServer server;
+  HoldRig::fill(&server, 1, 70);
+  HoldRig rig;
+  rig.config.points[0].initial = 1;
+  rig.start(server.port());
+  rig.image.value[rig.clamp] = 0;
+  rig.link->write(rig.image);  // before the first look at what has been read
+  EXPECT_TRUE(rig.until([&] { return server.coil(1, 10) == 0; }));
+  EXPECT_EQ(rig.value(rig.clamp), 0u);
+  EXPECT_EQ(server.holding(1, 20), 70) << "nobody has asked for anything else";
+}
+
+TEST(ModbusLink, OutputsThatCannotBeReadBackBeginAsOthersAndThatIsSaid) {
+  LoopbackServer server;
+  HoldRig::fill(&server, 1, 70);
+  server.set_fault([](const Bytes& request, Answer right) {
+    if (request[7] == 1) {  // read coils: illegal function
+      right.bytes.resize(9);
+      right.bytes[5] = 3;
+      right.bytes[7] = 0x81;
+      right.bytes[8] = 1;
+    }
+    return right;
+  });
+  HoldRig rig;
+  rig.start(server.port());
+  EXPECT_TRUE(rig.until([&] { return server.coil(1, 10) == 0 && rig.good(rig.clamp); }));
+  EXPECT_NE(rig.log().find("cannot be read back: coil 10 unit 1, function 1"), std::string::npos) << rig.log();
+  EXPECT_EQ(server.holding(1, 20), 70);
+}
+
 TEST(ModbusLink, StopEndsWithAPartnerThatIsSilent) {
   LoopbackServer server;
   LossRig::fill(&server);
