@@ -7,6 +7,11 @@ endif()
 # -g1 keeps function names and lines for backtraces of a release at a fraction of the size of -g.
 set(CMAKE_C_FLAGS_RELEASE "-O2 -g1 -DNDEBUG")
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1 -DNDEBUG")
+# What is shipped is hardened as Debian hardens its own packages: it reads files and sockets that others write. Executables are
+# position-independent by the default of the compilers; relro and binding at the start are in nc_program() and libnc.so. A firmware,
+# which configures libnc/ alone, chooses for itself. tests/install/package_test.sh looks at the packaged binaries.
+set(NC_HARDENING "-fstack-protector-strong;-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2" CACHE STRING "Compiler options of a release against overflows of buffers")
+add_compile_options("$<$<CONFIG:Release>:${NC_HARDENING}>")
 set(CMAKE_C_FLAGS_DEBUG "-O0 -g3")
 set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g3")
 # Assertions stay on under the sanitizers: they find the same class of error earlier.
@@ -20,6 +25,10 @@ option(NC_WERROR "Warnings are errors" ON)
 if(NC_SANITIZE)
   add_compile_options(-fsanitize=${NC_SANITIZE} -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${NC_SANITIZE})
+  # The examples are linked by the C compiler, and libnc.a in them wants the part of clang's sanitizers that is for C++.
+  if(CMAKE_C_COMPILER_ID MATCHES "Clang")
+    add_link_options(-fsanitize-link-c++-runtime)
+  endif()
 endif()
 if(NC_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")

@@ -10,7 +10,7 @@ namespace nc::hal {
 namespace {
 
 constexpr std::size_t kRecordedChanges = 4096;
-constexpr std::uint8_t kStrobeM = 1, kStrobeS = 2, kStrobeT = 4;
+constexpr std::uint8_t kStrobeM = 1, kStrobeT = 4;
 
 }  // namespace
 

@@ -77,6 +77,7 @@ field ncrtd Depends 'adduser, .*libc6 \(.*'
 field ncrtd Recommends nc-tools
 holds ncrtd -rwxr-xr-x usr/bin/ncrtd
 holds ncrtd -rw-r--r-- lib/systemd/system/ncrtd.service usr/share/man/man8/ncrtd.8.gz usr/share/man/man5/ncrtd.toml.5.gz usr/share/nc/parts/flange.nc
+for name in packaging ladder signals modbus dds macros parameters system-variables functions; do holds ncrtd -rw-r--r-- "usr/share/doc/ncrtd/$name.md"; done
 if [ -x "$NC_BINARY_DIR/bin/ncdds" ]; then
   holds ncrtd -rwxr-xr-x usr/bin/ncdds
   holds ncrtd -rw-r--r-- lib/systemd/system/ncdds.service usr/share/man/man8/ncdds.8.gz
@@ -87,6 +88,23 @@ for script in postinst prerm postrm; do
   sh -n "$work/ncrtd.control/$script" || fail "ncrtd: $script"
   [ "$(stat -c %a "$work/ncrtd.control/$script")" = 755 ] || fail "ncrtd: mode of $script"
   grep -q '@' "$work/ncrtd.control/$script" && fail "ncrtd: a placeholder is left in $script"
+done
+
+# Programs and library are hardened: position-independent, relocations read-only and all of them at the start, no executable stack,
+# the stack protected, and the checked functions of the C library used.
+for package in libnc0 nc-tools ncrtd; do dpkg-deb -x "$work/debs/${package}_$version-1_$arch.deb" "$work/all"; done
+binaries=("$work"/all/usr/bin/* "$work/all/$lib/libnc.so.$version")
+[ ${#binaries[@]} -ge 3 ] || fail "only ${#binaries[@]} binaries"
+for binary in "${binaries[@]}"; do
+  name=$(basename "$binary")
+  readelf -hW "$binary" | grep -qE 'Type: +DYN' || fail "$name: not position-independent"
+  readelf -lW "$binary" >"$work/segments"
+  grep -q GNU_RELRO "$work/segments" || fail "$name: no relro"
+  grep -E 'GNU_STACK' "$work/segments" | grep -q 'RWE' && fail "$name: an executable stack"
+  readelf -dW "$binary" | grep -qE 'BIND_NOW|FLAGS_1.*NOW' || fail "$name: symbols are looked up late"
+  readelf --dyn-syms -W "$binary" >"$work/symbols"
+  grep -q '__stack_chk_fail' "$work/symbols" || fail "$name: no stack protector"
+  grep -qE '__[a-z]+_chk(@|$)' "$work/symbols" || fail "$name: no fortified functions"
 done
 
 # Every configuration of the source is a configuration file, and finds its part programs.
