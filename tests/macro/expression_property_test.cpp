@@ -231,6 +231,59 @@ RC_GTEST_PROP(ExpressionProperty, RunsLikeItsTree, ()) {
   RC_ASSERT(checked > 0);
 }
 
+/// What a comparison of #1 with #2 says.
+bool holds(const char* comparison, double x, double y) {
+  double values[2] = {x, y};
+  const VariableReader reader{values,
+                              [](void* self, uint32_t number, Value* value, Fault*, uint32_t*) {
+                                *value = Value::of(static_cast<double*>(self)[number - 1]);
+                                return Eval::ok;
+                              },
+                              nullptr};
+  const std::string source = std::string("[#1 ") + comparison + " #2]";
+  Block block;
+  block.clear();
+  size_t at = 0;
+  uint16_t code = 0;
+  Fault fault;
+  Value value;
+  uint32_t sync = 0;
+  RC_ASSERT(compile_expression(block, source.data(), source.size(), &at, true, &code, &fault));
+  RC_ASSERT(evaluate(block, code, reader, {}, &value, &fault, &sync) == Eval::ok);
+  return value.or_zero() != 0;
+}
+
+/// Numbers of every size, often a few units in the last place, or about the tolerance, apart.
+double near_number(double x) {
+  const int kind = *rc::gen::inRange(0, 4);
+  if (kind == 0) return *rc::gen::inRange(-2000000, 2000000) * 0.001;
+  if (kind == 1) return x + *rc::gen::inRange(-3000, 3000) * 1e-12;
+  const double share = kind == 2 ? 0x1p-40 : 0x1p-52;
+  return x + x * share * (*rc::gen::inRange(-3000, 3000) / 1000.0);
+}
+
+RC_GTEST_PROP(ComparisonProperty, AreConsistent, ()) {
+  for (int i = 0; i < 20; ++i) {
+    const double size = std::pow(10.0, *rc::gen::inRange(-12, 13));
+    const double x = *rc::gen::inRange(-99999, 99999) * 0.001 * size, y = near_number(x);
+    const bool lt = holds("LT", x, y), eq = holds("EQ", x, y), gt = holds("GT", x, y);
+    RC_ASSERT(lt + eq + gt == 1);
+    RC_ASSERT(holds("GE", x, y) == !lt);
+    RC_ASSERT(holds("LE", x, y) == !gt);
+    RC_ASSERT(holds("NE", x, y) == !eq);
+    // The same seen from the other side, and of the negative numbers.
+    RC_ASSERT(holds("EQ", y, x) == eq);
+    RC_ASSERT(holds("GT", y, x) == lt);
+    RC_ASSERT(holds("LT", -y, -x) == lt);
+    RC_ASSERT(holds("EQ", x, x));
+    // Never against the order of the numbers, and what lies between two equal numbers is equal to both.
+    RC_ASSERT(!(lt && x >= y));
+    RC_ASSERT(!(gt && x <= y));
+    const double between = x + (y - x) / 2;
+    if (eq) RC_ASSERT(holds("EQ", x, between) && holds("EQ", between, y));
+  }
+}
+
 /// A block printed from random words is read back as these words.
 RC_GTEST_PROP(LexerProperty, RoundTrip, ()) {
   struct Printed {

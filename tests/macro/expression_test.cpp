@@ -359,5 +359,29 @@ TEST(Expression, TheDeepestStack) {
   EXPECT_EQ(run("[1+2*[1+2*[1+2*[1+2*3]]] LT 1+2*[1+2*[1+2*[1+2*[#1+2*3]]]]]", m, true).value.number, 1);
 }
 
+TEST(Expression, ComparisonsDoNotSeeTheLastDigits) {
+  Memory m;
+  m.values = {{1, 0.1 + 0.2}, {2, 1149.974 + 0.2 - 1149.974}, {3, 99999.999999}, {4, 99999.999998}, {5, 9999.9999999}, {6, 9999.9999998}, {7, 99999.9 - 99999.8 - 0.1}};
+  const auto holds = [&](const char* text) { return run(text, m, true).value.number == 1; };
+  EXPECT_TRUE(holds("[#1 EQ 0.3]"));
+  EXPECT_FALSE(holds("[#1 NE 0.3]"));
+  EXPECT_FALSE(holds("[#1 GT 0.3]"));
+  EXPECT_TRUE(holds("[#1 LE 0.3]"));
+  EXPECT_TRUE(holds("[#2 EQ 0.2]"));
+  EXPECT_TRUE(holds("[#7 EQ 0]"));  // nothing is left but noise
+  EXPECT_TRUE(holds("[#7 GE 0]"));
+  EXPECT_FALSE(holds("[#7 LT 0]"));
+  // The finest units at the ends of their ranges are numbers of their own.
+  EXPECT_TRUE(holds("[#3 NE #4]"));
+  EXPECT_TRUE(holds("[#3 GT #4]"));
+  EXPECT_TRUE(holds("[#5 GT #6]"));
+  EXPECT_TRUE(holds("[0.0000001 GT 0]"));
+  EXPECT_TRUE(holds("[12345678.001 GT 12345678]"));
+  // Vacant is not 0 for EQ and NE, and is for the others (M700 13.5.4).
+  EXPECT_FALSE(holds("[#9 EQ 0]"));
+  EXPECT_FALSE(holds("[#9 EQ #7]"));
+  EXPECT_TRUE(holds("[#9 GE #7]"));
+}
+
 }  // namespace
 }  // namespace nc::test

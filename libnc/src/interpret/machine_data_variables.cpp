@@ -61,14 +61,15 @@ uint64_t device_bits(const Interpreter& in, const Device& device, uint32_t numbe
 Eval read_rotation(Access& a) {
   const int16_t plane = a.in.state.modal.code[kGroupPlane];
   const char letter[2] = {plane == 180 ? 'Z' : plane == 190 ? 'Y' : 'X', plane == 180 ? 'X' : plane == 190 ? 'Z' : 'Y'};
-  const double angle = a.in.notes.get(Notes::rotation_key(Notes::kRotationAngle)) * std::numbers::pi / 180;
+  const double degrees = a.in.notes.get(Notes::rotation_key(Notes::kRotationAngle)), angle = degrees * std::numbers::pi / 180;
   switch (a.offset) {
     case 0:
     case 1: return give(a, a.in.axis_of[letter[a.offset] - 'A'] + 1);
     case 6: return give(a, a.in.state.rotated ? std::cos(angle) : 1);
     case 2:
-    case 3: return give(a, a.in.state.rotated ? a.in.notes.get(Notes::rotation_key(a.offset - 2)) : 0);
-    case 4: return give(a, a.in.state.rotated ? angle * 180 / std::numbers::pi : 0);
+    case 3:  // a position: it was where the program stood, or has moved with an offset
+      return give(a, a.in.state.rotated ? whole_units(a.in.notes.get(Notes::rotation_key(a.offset - 2)), a.in.settings.setting_unit_mm) : 0);
+    case 4: return give(a, a.in.state.rotated ? degrees : 0);
     case 5: return give(a, a.in.state.rotated ? std::sin(angle) : 0);
     default: return give(a, 0);
   }

@@ -2,6 +2,8 @@
 // What a row of the table of system variables is (M700 13.5.5), for the files that hold its readers and writers.
 #pragma once
 
+#include <cmath>
+
 #include "interpret/interpreter.hpp"
 
 namespace nc {
@@ -46,6 +48,15 @@ inline bool world_known(Access& a, uint32_t what) {
   if (a.in.world_fresh) return true;
   *a.sync = what;
   return false;
+}
+
+/// The whole number of units nearest to `value`, the half away from 0, whatever noise adding up has left on it. `unit` is a power of ten
+/// below 1: dividing by its inverse gives the double next to the decimal number, so that it compares and prints as that.
+inline double whole_units(double value, double unit) {
+  constexpr double kNoise = 1e-9;  // mm, inch, deg: a hundredth of the finest unit
+  const double per_one = std::nearbyint(1 / unit);
+  const double whole = std::floor((std::fabs(value) + kNoise) * per_one + 0.5) / per_one;
+  return value < 0 ? 0 - whole : whole;
 }
 
 // machine_data_variables.cpp

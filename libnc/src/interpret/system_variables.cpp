@@ -12,7 +12,21 @@ namespace {
 bool reads_inch(const Interpreter& in, unsigned axis) {
   return in.state.modal.code[kGroupUnit] == 200 && ((in.rotary >> axis) & 1) == 0;
 }
-double in_program_unit(const Interpreter& in, unsigned axis, double mm) { return reads_inch(in, axis) ? mm / 25.4 : mm; }
+
+/// A position as a program reads it. It is a whole number of the setting unit #1003, the finest step that an axis can be commanded to or
+/// be read at (M700 2.1): what is left of sums of offsets, of maps and of the division by 25.4 is no place of the machine.
+double position_read(const Interpreter& in, unsigned axis, double mm) {
+  const Settings& s = in.settings;
+  if (reads_inch(in, axis)) return whole_units(mm / 25.4, s.setting_unit_inch);
+  return whole_units(mm, ((in.rotary >> axis) & 1) != 0 ? s.setting_unit_deg : s.setting_unit_mm);
+}
+
+/// The same of an axis that may count within one turn: 359.9999 is 0 where the unit is 0.001.
+using Shown = AxisVec (*)(const Interpreter&, const AxisVec&);
+double shown_position(const Interpreter& in, unsigned axis, AxisVec position, Shown shown) {
+  if (((in.rotary >> axis) & 1) != 0) position[axis] = position_read(in, axis, position[axis]);
+  return position_read(in, axis, shown(in, position)[axis]);
+}
 
 // ---- macro interface (M700 13.5.5, tables 21036-22098) ------------------------------------------------------------------
 
@@ -304,29 +318,29 @@ bool axis_ok(Access& a) { return a.offset < a.in.axis_count; }
 
 Eval read_end_point(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
-  return give(a, in_program_unit(a.in, a.offset, work_shown(a.in, a.in.position())[a.offset]));
+  return give(a, shown_position(a.in, a.offset, a.in.position(), work_shown));
 }
 Eval read_machine(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
-  return give(a, in_program_unit(a.in, a.offset, machine_shown(a.in, axes_of(a.in.world.machine))[a.offset]));
+  return give(a, shown_position(a.in, a.offset, axes_of(a.in.world.machine), machine_shown));
 }
 Eval read_work_position(Access& a) {  // with tool compensation in it (M700 10.11)
   if (!axis_ok(a)) return no_variable(a);
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
   AxisVec work = axes_of(a.in.world.machine);
   work[a.offset] -= a.in.zero()[a.offset];
-  return give(a, in_program_unit(a.in, a.offset, work_shown(a.in, work)[a.offset]));
+  return give(a, shown_position(a.in, a.offset, work, work_shown));
 }
 Eval read_skip(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
   AxisVec skip;
   skip[a.offset] = a.in.frames.get(Frames::skip_key(a.offset));
-  return give(a, in_program_unit(a.in, a.offset, work_shown(a.in, skip)[a.offset]));
+  return give(a, shown_position(a.in, a.offset, skip, work_shown));
 }
 Eval read_compensation(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
-  return give(a, in_program_unit(a.in, a.offset, a.in.state.applied[a.offset]));
+  return give(a, position_read(a.in, a.offset, a.in.state.applied[a.offset]));
 }
 /// Behind a sync the machine is in position: the deviation that is left is below the in-position width.
 Eval read_deviation(Access& a) {

@@ -217,22 +217,41 @@ Condition binary(Op op, double a, double b, double* result, double* culprit) {
   return Condition::none;
 }
 
+/// Numbers that differ by this or less compare as equal. What a program compares are decimal numbers of at most 12 digits (M700 5.3: below
+/// 100000 in units of 1e-6 mm, below 10000 in units of 1e-7 inch), and what calculating with them leaves:
+///   * the difference of two positions, of whatever size: a few units in the last place of 100000, 1.5e-11 each. Where it should be 0 its
+///     own size says nothing, so there is a floor: 1e-9 is 68 of them, and a hundredth of the finest unit.
+///   * a chain of calculations: half a unit in the last place for each step, 2^-53 of the value. 2^-40 is 8192 steps, and still less than a
+///     tenth of the finest unit at the end of the range of positions (9.1e-8 of 1e-6 mm, 9.1e-9 of 1e-7 inch).
+/// FIX and FUP see at least as much as whole: what EQ finds equal to a whole number has that number as its FIX and FUP.
+double sameness(double x, double y) {
+  constexpr double kFloor = 1e-9, kShare = 0x1p-40;
+  const double width = kShare * std::fmax(std::fabs(x), std::fabs(y));
+  return width < kFloor ? kFloor : width < kLargestNoise ? width : kLargestNoise;
+}
+
+/// -1, 0, 1: exactly one of LT, EQ and GT holds, and the other three are what their names say of these.
+int order(double x, double y) {
+  if (x == y || std::fabs(x - y) <= sameness(x, y)) return 0;
+  return x < y ? -1 : 1;
+}
+
 /// M700 13.5.4 (3): vacant and 0 differ for EQ and NE only.
 bool compare(Op op, const Value& a, const Value& b) {
-  const double x = a.or_zero(), y = b.or_zero();
+  const int is = order(a.or_zero(), b.or_zero());
   switch (op) {
     case Op::equal:
-      return a.vacant == b.vacant && x == y;
+      return a.vacant == b.vacant && is == 0;
     case Op::not_equal:
-      return a.vacant != b.vacant || x != y;
+      return a.vacant != b.vacant || is != 0;
     case Op::greater:
-      return x > y;
+      return is > 0;
     case Op::less:
-      return x < y;
+      return is < 0;
     case Op::greater_equal:
-      return x >= y;
+      return is >= 0;
     default:
-      return x <= y;
+      return is <= 0;
   }
 }
 
