@@ -123,6 +123,11 @@ struct SignalWire {
   unsigned point = 0;
 };
 
+// Common variables from the first to the last.
+struct VariableRangeSetting {
+  std::uint32_t first = 0, last = 0;
+};
+
 /// Records between feeder and scan in the time-optimal mode, where nothing else is given: lines of 1 um with their marks as far as a stop from
 /// 100 mm/s at 1,000 mm/s^2 takes.
 inline constexpr std::uint32_t kLookAheadOptimal = 16384;
@@ -139,6 +144,9 @@ struct Config {
   ConfigPlace offsets_place;
   double retain_every_s = 1;   // retained data are looked at so often
   std::string print;           // file that programs print to, relative to the file's folder unless absolute; empty = nowhere
+  bool macro_extensions = false, negative_count = false;  // options of macros (docs/macros.md)
+  ConfigPlace macro_extensions_place, negative_count_place;
+  std::vector<VariableRangeSetting> not_kept;  // ranges of common variables that begin vacant with the power
   unsigned cycle_us = 1000;
   nc_config nc;  // everything that libnc is created with
   bool look_ahead_given = false;

@@ -26,6 +26,18 @@ std::vector<ConfigError> apply_config(const Config& config, nc_control* control)
   auto check = [&](nc_status status, const ConfigPlace& place, const char* what) {
     if (status < 0) errors.push_back({config.file, place.line, place.key, reason(status, what)});
   };
+  const struct {
+    bool on;
+    const char* key;
+    const ConfigPlace& place;
+  } options[] = {{config.macro_extensions, "macro_extensions", config.macro_extensions_place},
+                 {config.negative_count, "negative_count", config.negative_count_place}};
+  for (const auto& option : options)  // a dialect may not have them
+    for (unsigned s = 0; option.on && s < config.nc.system_count; ++s) {
+      const nc_status status = nc_parameter_set(control, api_system(s), option.key, 0, "1");
+      check(status, option.place, "option");
+      if (status < 0) break;
+    }
   for (const ParameterSetting& parameter : config.parameters) {
     for (unsigned s = 0; s < config.nc.system_count; ++s) {
       if (parameter.axis != 0 && parameter.system != s) continue;

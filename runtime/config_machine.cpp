@@ -132,6 +132,31 @@ void read_spindles(TableReader* reader, Config* config) {
   config->spindles_place = {reader->line("spindles"), reader->path("spindles")};
 }
 
+// Common variables beside those of variable_sets; behind the other options of variables, which say what is there already.
+void read_variable_ranges(TableReader* machine, Config* config) {
+  nc_config& nc = config->nc;
+  machine->tables("variable_ranges", [&](TableReader& reader, std::size_t index) {
+    std::uint32_t first = 0, last = 0;
+    bool kept = true;
+    reader.require("first");
+    reader.require("last");
+    const bool whole = reader.integer("first", &first, 34, 999999) && reader.integer("last", &last, 34, 999999);
+    reader.boolean("kept", &kept);
+    if (index >= NC_VARIABLE_RANGES)
+      return reader.error("first", "there can be " + std::to_string(NC_VARIABLE_RANGES) + " further ranges of common variables");
+    if (!whole) return;
+    nc.variable_ranges[index] = {first, last};
+    std::uint32_t taken = 0;
+    if (nc_variable_range_check(&nc, static_cast<unsigned>(index), &taken) == NC_OK) {
+      if (!kept) config->not_kept.push_back({first, last});
+      return;
+    }
+    nc.variable_ranges[index] = {};
+    if (taken != 0) reader.error("first", "#" + std::to_string(taken) + " is another variable already");
+    else reader.error("last", "must be from first on, at most 10000 variables");
+  });
+}
+
 }  // namespace
 
 void read_machine(TableReader* root, Config* config) {
@@ -163,6 +188,12 @@ void read_machine(TableReader* root, Config* config) {
     if (reader.integer("variable_sets", &nc.variable_sets, 100, 600) && nc.variable_sets != 100 &&
         nc.variable_sets != 200 && nc.variable_sets != 300 && nc.variable_sets != 600)
       reader.error("variable_sets", "must be 100, 200, 300 or 600");  // M700 13.4
+    reader.boolean("extended_variables", &nc.extended_variables);
+    read_variable_ranges(&reader, config);
+    reader.boolean("macro_extensions", &config->macro_extensions);
+    config->macro_extensions_place = {reader.line("macro_extensions"), reader.path("macro_extensions")};
+    reader.boolean("negative_count", &config->negative_count);
+    config->negative_count_place = {reader.line("negative_count"), reader.path("negative_count")};
     reader.integer("window_bytes", &nc.window_bytes, 4096, 1 << 24);
     read_spindles(&reader, config);
     reader.number("max_feed_override", &nc.max_feed_override, 1.0, 3.0);

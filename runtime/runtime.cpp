@@ -174,7 +174,7 @@ bool Runtime::start(std::string* error) {
   if (own_ladder_ != nullptr && !config_.retain_path().empty())
     keeper_->add(0, std::make_unique<LadderData>(own_ladder_.get()), config_.retain_path());
   if (control_ != nullptr && !config_.variables_path().empty())
-    keeper_->add(1, std::make_unique<VariableData>(control_, feeder_.get()), config_.variables_path());
+    keeper_->add(1, std::make_unique<VariableData>(control_, feeder_.get(), config_.not_kept), config_.variables_path());
   if (control_ != nullptr && !config_.offsets_path().empty())
     keeper_->add(2, std::make_unique<TableData>(control_, config_.nc, feeder_.get()), config_.offsets_path());
   keeper_->restore(&warnings_);

@@ -7,6 +7,7 @@
 // What part systems share stands in the rows of each of them.
 #include "runtime/retain/variables.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -16,11 +17,12 @@
 namespace nc::rt {
 namespace {
 
-constexpr std::uint32_t kMaxVariables = 80000;
+constexpr std::uint32_t kMaxVariables = 200000;  // every part system with all that there can be
 constexpr unsigned kSystemShift = 24;
 constexpr std::uint32_t kNumber = (1u << kSystemShift) - 1;
 constexpr std::uint32_t kFirstName = 500, kNames = 20;          // M700 13.5.5
 constexpr std::uint32_t kFirstCleared = 100, kLastCleared = 199;  // M700 13.4, #1129 PwrVC1
+constexpr std::uint32_t kLastLocal = 33;                          // M700 13.5.5
 constexpr char kClearedAtPowerOff[] = "1129";
 
 template <class T>
@@ -98,7 +100,7 @@ std::string executed_variables(nc_control* control) {
   return bytes;
 }
 
-bool restore_variables(nc_control* control, const std::string& bytes) {
+bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept) {
   std::vector<Variable> variables;
   std::vector<Name> names;
   if (!decode(bytes, &variables, &names)) return false;
@@ -107,8 +109,9 @@ bool restore_variables(nc_control* control, const std::string& bytes) {
   for (const Variable& variable : variables) {
     const unsigned system = variable.number >> kSystemShift;
     const std::uint32_t number = variable.number & kNumber;
-    const bool common = (number >= kFirstCleared && number <= kLastCleared) || number >= kFirstName;
-    if (!common || (cleared != 0 && number <= kLastCleared)) continue;
+    const auto holds_number = [number](const VariableRangeSetting& range) { return number >= range.first && number <= range.last; };
+    if (number <= kLastLocal || (cleared != 0 && number >= kFirstCleared && number <= kLastCleared)) continue;
+    if (std::any_of(not_kept.begin(), not_kept.end(), holds_number)) continue;
     (void)nc_variable_set(control, api_system(system), number, variable.value, false);
   }
   for (const Name& name : names) (void)nc_variable_name_set(control, name.number, name.text);

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "nc/nc.h"
+#include "runtime/config.hpp"
 #include "runtime/feeder.hpp"
 #include "runtime/retain/retained_data.hpp"
 
@@ -16,15 +19,16 @@ std::string encode_variables(const nc_control* control);
 // The same as the blocks have left them that the machine has executed.
 std::string executed_variables(nc_control* control);
 // False when the bytes are not such variables; nothing has changed then. Variables that the control does not have (any
-// more) are left out, and so are #100 to #199 when #1129 PwrVC1 is on.
-bool restore_variables(nc_control* control, const std::string& bytes);
+// more) are left out, and so are those of `not_kept`, and #100 to #199 when #1129 PwrVC1 is on.
+bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept = {});
 
 class VariableData final : public RetainedData {
  public:
-  VariableData(nc_control* control, Feeder* feeder) : control_(control), feeder_(*feeder) {}
+  VariableData(nc_control* control, Feeder* feeder, std::vector<VariableRangeSetting> not_kept)
+      : control_(control), feeder_(*feeder), not_kept_(std::move(not_kept)) {}
   const char* name() const override { return "common variables"; }
   const char* start() const override { return "are vacant"; }
-  bool restore(const std::string& bytes) override { return restore_variables(control_, bytes); }
+  bool restore(const std::string& bytes) override { return restore_variables(control_, bytes, not_kept_); }
   std::string now() override { return executed_variables(control_); }
   void want() override { feeder_.want(Feeder::kVariables); }
   bool take(std::string* bytes) override { return feeder_.take(Feeder::kVariables, bytes); }
@@ -32,6 +36,7 @@ class VariableData final : public RetainedData {
  private:
   nc_control* control_;
   Feeder& feeder_;
+  std::vector<VariableRangeSetting> not_kept_;
 };
 
 }  // namespace nc::rt

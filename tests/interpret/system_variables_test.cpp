@@ -362,6 +362,110 @@ TEST(SystemVariables, Counters) {  // M700 10.13
   EXPECT_EQ(bench.run("#3901=#3901+1\n#100=#3901\nM30").var(100), 2);
   EXPECT_EQ(write_alarm(3901, "1000000"), "P35");
   EXPECT_EQ(write_alarm(3901, "-1"), "P35");
+  // An option: macros of the maker write -1.
+  EXPECT_EQ(Bench().param("negative_count", "1").run("#3901=-1\n#100=#3901 #3901=#3901+1 #101=#3901\nM30").var(100), -1);
+  EXPECT_EQ(Bench().param("negative_count", "1").run("#3901=-1\n#3901=#3901+1 #101=#3901\nM30").var(101), 0);
+  EXPECT_EQ(Bench().param("negative_count", "1").run("#3901=-1000000\nM30").alarm, "P35");
+  EXPECT_EQ(Bench().param("negative_count", "1").run("#3902=-1\nM30").alarm, "P35");
+}
+
+TEST(SystemVariables, ExtendedWorkSystemInForce) {
+  const Outcome run = m700("#100=#4130\nG54.1 P48\n#101=#4130\nG55\n#102=#4130\nG54.1 P1\n#103=#4130\nM30");
+  EXPECT_EQ(run.alarm, "") << run.alarm_detail;
+  EXPECT_EQ(run.var(100), 0);
+  EXPECT_EQ(run.var(101), 48);
+  EXPECT_EQ(run.var(102), 0);
+  EXPECT_EQ(run.var(103), 1);
+  EXPECT_EQ(write_alarm(4130), "P243");
+  EXPECT_EQ(read_alarm(4129), "P241");
+}
+
+TEST(CommonVariables, FurtherRangesOfTheMachine) {
+  const auto ranges = [](std::vector<nc_variable_range> all) {
+    return [all](nc_config& config) {
+      for (size_t i = 0; i < all.size(); ++i) config.variable_ranges[i] = all[i];
+    };
+  };
+  EXPECT_EQ(write_alarm(400), "P241");
+  Bench bench(NC_DIALECT_M700, ranges({{400, 499}, {}, {34, 40}, {990000, 999999}}));
+  const Outcome run = bench.run("#400=1 #499=#400+1 #34=3 #999999=4\nG1 X#499 F100\n#[398+2]=#0\n#100=#400\nM30");
+  EXPECT_EQ(run.alarm, "") << run.alarm_detail;
+  EXPECT_TRUE(std::isnan(run.var(400)));
+  EXPECT_TRUE(std::isnan(run.var(100)));
+  EXPECT_EQ(run.var(499), 2);
+  EXPECT_EQ(run.var(34), 3);
+  EXPECT_EQ(run.var(999999), 4);
+  EXPECT_EQ(run.path(), Path({"line 2 0 0 F100"}));
+  for (const char* none : {"#399=1\nM30", "#41=1\nM30", "#989999=1\nM30"}) EXPECT_EQ(bench.run(none).alarm, "P241") << none;
+  // A rewind gives back what they were.
+  bench.start("#450=1\nG1 X1. F100\n#450=2\nG1 X2.\nM30");
+  Step step;
+  uint64_t serial = 0;
+  while (bench.pull(&step) == NC_OK && serial == 0)
+    if (step.item.kind == NC_ITEM_MARK && step.item.source.line == 2) serial = step.item.serial;
+  while (bench.pull(&step) == NC_OK) {
+  }
+  EXPECT_EQ(bench.var_now(450), 2);
+  nc_axes at{};
+  at.v[0] = 1;
+  EXPECT_EQ(bench.rewind(serial, at), NC_OK);
+  EXPECT_EQ(bench.var_now(450), 1);
+}
+
+TEST(CommonVariables, RangesThatCannotBe) {
+  nc_config config;
+  const auto check = [&](uint32_t first, uint32_t last, uint32_t* taken) {
+    nc_config_init(&config);
+    config.variable_ranges[1] = {first, last};
+    const bool built = nc_memory_required(&config) != 0;
+    const nc_status status = nc_variable_range_check(&config, 1, taken);
+    EXPECT_EQ(built, status == NC_OK) << first << ' ' << last;
+    return status == NC_OK;
+  };
+  uint32_t taken = 99;
+  EXPECT_TRUE(check(200, 499, &taken));
+  EXPECT_EQ(taken, 0u);
+  const struct {
+    uint32_t first, last, taken;
+  } wrong[] = {{150, 250, 150}, {400, 500, 500}, {33, 40, 0}, {499, 400, 0}, {400, 0, 0}, {990000, 1000000, 0}, {200000, 210000, 0}, {990, 1000, 990},
+               {5000, 5000, 0}, {4990, 5010, 5001}, {12000, 15999, 0}, {0, 40, 0}};
+  for (const auto& w : wrong) {
+    const bool good = check(w.first, w.last, &taken);
+    const bool free = (w.first == 5000 && w.last == 5000) || w.first == 12000;
+    EXPECT_EQ(good, free) << w.first;
+    if (!free) {
+      EXPECT_EQ(taken, w.taken) << w.first << ' ' << w.last;
+    }
+  }
+  nc_config_init(&config);
+  config.variable_ranges[0] = {400, 450};
+  config.variable_ranges[3] = {450, 460};
+  EXPECT_EQ(nc_variable_range_check(&config, 0, &taken), NC_E_ARGUMENT);
+  EXPECT_EQ(taken, 450u);
+  EXPECT_EQ(nc_memory_required(&config), 0u);
+  nc_config_init(&config);
+  config.extended_variables = true;
+  config.variable_ranges[0] = {907000, 908000};
+  EXPECT_EQ(nc_variable_range_check(&config, 0, &taken), NC_E_ARGUMENT);
+  EXPECT_EQ(taken, 907000u);
+  EXPECT_EQ(nc_variable_range_check(&config, NC_VARIABLE_RANGES, nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_variable_range_check(nullptr, 0, nullptr), NC_E_ARGUMENT);
+}
+
+TEST(CommonVariables, FurtherRangesAreSharedByAllPartSystems) {
+  Bench bench(NC_DIALECT_M700, [](nc_config& config) {
+    config.system_count = 2;
+    config.system[1] = config.system[0];
+    config.variable_ranges[0] = {400, 499};
+  });
+  ASSERT_EQ(nc_variable_set(bench.control(), 0, 400, 7, false), NC_OK);
+  double value = 0;
+  bool vacant = true;
+  ASSERT_EQ(nc_variable_get(bench.control(), 1, 400, &value, &vacant), NC_OK);
+  EXPECT_EQ(value, 7);
+  uint32_t number = 0;
+  ASSERT_EQ(nc_common_next(bench.control(), 1, 0, &number, &value), NC_OK);
+  EXPECT_EQ(number, 400u);
 }
 
 // ---- modal state ---------------------------------------------------------------------------------------------------------------------

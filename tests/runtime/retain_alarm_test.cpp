@@ -388,6 +388,37 @@ TEST(RetainedVariables, EachPartSystemHasItsOwn) {
   EXPECT_TRUE(vacant);
 }
 
+// A machine with #400 to #499, of which #450 and up begin vacant.
+TEST(RetainedVariables, FurtherRangesAreKeptUnlessTheConfigurationSaysNot) {
+  std::string text = nc::test::base_toml();
+  const std::string name = "name = \"test\"";
+  text.replace(text.find(name), name.size(),
+               name + "\nvariable_ranges = [{first = 400, last = 449}, {first = 450, last = 499, kept = false}]\nmacro_extensions = true\nextended_variables = true");
+  const Config config = nc::test::parse_or_fail(text);
+  ASSERT_EQ(config.not_kept.size(), 1u);
+  EXPECT_EQ(config.not_kept[0].first, 450u);
+  const std::size_t size = nc_memory_required(&config.nc);
+  ASSERT_GT(size, 0u);
+  const std::size_t room = (size + 63) / 64 * 64;
+  const std::unique_ptr<void, decltype(&std::free)> before(std::aligned_alloc(64, room), &std::free), after(std::aligned_alloc(64, room), &std::free);
+  nc_status status = NC_OK;
+  nc_control *one = nc_create(&config.nc, before.get(), size, &status), *two = nc_create(&config.nc, after.get(), size, &status);
+  ASSERT_TRUE(one != nullptr && two != nullptr);
+  for (const ConfigError& error : apply_config(config, one)) ADD_FAILURE() << error.text();
+  double on = 0;
+  ASSERT_EQ(nc_parameter_get(one, 0, "macro_extensions", 0, &on), NC_OK);
+  EXPECT_EQ(on, 1);
+  for (const unsigned number : {400u, 449u, 450u, 499u, 900000u}) ASSERT_EQ(nc_variable_set(one, 0, number, number, false), NC_OK) << number;
+  ASSERT_TRUE(restore_variables(two, encode_variables(one), config.not_kept));
+  double value = 0;
+  bool vacant = false;
+  for (const unsigned number : {400u, 449u, 450u, 499u, 900000u}) {
+    ASSERT_EQ(nc_variable_get(two, 0, number, &value, &vacant), NC_OK) << number;
+    EXPECT_EQ(vacant, number == 450 || number == 499) << number;
+    EXPECT_TRUE(vacant || value == number) << number;
+  }
+}
+
 TEST(RetainedTables, BytesThatMakeNoSenseChangeNothing) {
   Config config = nc::test::parse_or_fail(nc::test::base_toml());
   const std::size_t size = nc_memory_required(&config.nc);

@@ -145,6 +145,14 @@ TEST(Setup, MistakesAreNamedWithKeyAndLine) {
       {"{\"options\": {\"variable_sets\": 150}}", "options.variable_sets: must be 100, 200, 300 or 600"},
       {"{\"options\": {\"tool_offsets\": 0}}", "options.tool_offsets: must be a whole number from 1 to 999"},
       {"{\"options\": {\"mcaro\": 0}}", "options.mcaro: no such key"},
+      {"{\"options\": {\"negative_count\": 1}}", "options.negative_count: must be true or false"},
+      {"{\"options\": {\"variable_ranges\": [[400, 499]]}}", "options.variable_ranges[0]: must be an object"},
+      {"{\"options\": {\"variable_ranges\": [{\"first\": 400}]}}", "options.variable_ranges[0]: the key last is missing"},
+      {"{\"options\": {\"variable_ranges\": [{\"first\": 400, \"last\": 500}]}}", "options.variable_ranges[0]: #500 is another variable already"},
+      {"{\"options\": {\"variable_ranges\": [{\"first\": 400, \"last\": 399}]}}", "options.variable_ranges[0]: last must be from first on"},
+      {"{\"options\": {\"variable_ranges\": [{\"first\": 20, \"last\": 40}]}}", "options.variable_ranges[0].first: must be a whole number from 34"},
+      {"{\"options\": {\"variable_ranges\": [{\"first\": 400, \"last\": 449}, {\"first\": 449, \"last\": 460}]}}",
+       "options.variable_ranges[1]: #449 is another variable already"},
       {"{\"clock\": \"2026-02-29T00:00:00\"}", "clock: must be a date and time"},
       {"{\"clock\": \"2026-01-01T00:00:00Z\"}", "clock: must be a date and time"},
       {"{\"kinematics\": {}}", "kinematics: the key type is missing"},
@@ -164,6 +172,21 @@ TEST(Setup, MistakesAreNamedWithKeyAndLine) {
     EXPECT_EQ(error.rfind("s.json:", 0), 0u) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << "one line only: " << error;
   }
+}
+
+// The option that is written behind says what is there already.
+TEST(Setup, VariableRanges) {
+  const tools::Setup s = good(R"({"options": {"variable_ranges": [{"first": 400, "last": 499}, {"first": 700, "last": 799, "kept": false}],
+                                  "variable_sets": 300, "negative_count": true}})");
+  EXPECT_EQ(s.option_variable_ranges[0].first, 400u);
+  EXPECT_EQ(s.option_variable_ranges[1].last, 799u);
+  EXPECT_EQ(s.option_variable_ranges[2].last, 0u);
+  EXPECT_TRUE(s.option_negative_count);
+  nc_config config;
+  nc_config_init(&config);
+  apply_setup(s, &config);
+  EXPECT_EQ(config.variable_ranges[1].first, 700u);
+  EXPECT_NE(nc_memory_required(&config), 0u);
 }
 
 TEST(Setup, DeepNestingIsAnErrorNotACrash) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -38,6 +39,7 @@ Setup setup_of(const rt::Config& machine) {
   setup.option_tool_offsets = machine.nc.tool_offsets;
   setup.option_work_offsets = machine.nc.work_offsets;
   setup.option_extended_variables = machine.nc.extended_variables;
+  std::copy(std::begin(machine.nc.variable_ranges), std::end(machine.nc.variable_ranges), setup.option_variable_ranges);
   return setup;
 }
 

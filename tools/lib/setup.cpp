@@ -381,7 +381,7 @@ class SetupReader {
   void options(const JsonNode& node) {
     const std::string path = "options";
     check_keys(object(node, path), path,
-               {"variable_sets", "extended_variables", "tool_offsets", "work_offsets", "macro_extensions"});
+               {"variable_sets", "variable_ranges", "extended_variables", "tool_offsets", "work_offsets", "macro_extensions", "negative_count"});
     for (const auto& [key, value] : node.members) {
       const std::string key_path = join(path, key);
       if (key == "variable_sets") {
@@ -396,10 +396,41 @@ class SetupReader {
         s_.option_extended_variables = boolean(value, key_path);
         s_.extended_variables_place = {key_path, value.line};
       }
+      if (key == "negative_count") {
+        s_.option_negative_count = boolean(value, key_path);
+        s_.negative_count_place = {key_path, value.line};
+      }
       if (key == "macro_extensions") {
         s_.option_macro_extensions = boolean(value, key_path);
         s_.macro_extensions_place = {key_path, value.line};
       }
+    }
+    if (const JsonNode* ranges = member(node, "variable_ranges")) variable_ranges(*ranges, path + ".variable_ranges");
+  }
+
+  // Behind the options that say which common variables there are.
+  void variable_ranges(const JsonNode& node, const std::string& path) {
+    list(node, path);
+    if (node.items.size() > NC_VARIABLE_RANGES)
+      fail(node, path, "there can be " + std::to_string(NC_VARIABLE_RANGES) + " further ranges of common variables");
+    nc_config config;
+    nc_config_init(&config);
+    config.variable_sets = s_.option_variable_sets;
+    config.extended_variables = s_.option_extended_variables;
+    for (unsigned i = 0; i < NC_VARIABLE_RANGES; ++i) s_.option_variable_ranges[i] = {};
+    for (unsigned i = 0; i < node.items.size(); ++i) {
+      const JsonNode& item = node.items[i];
+      const std::string at = item_path(path, i);
+      check_keys(object(item, at), at, {"first", "last", "kept"});
+      const JsonNode *first = member(item, "first"), *last = member(item, "last");
+      if (!first || !last) fail(item, at, std::string("the key ") + (first ? "last" : "first") + " is missing");
+      if (const JsonNode* kept = member(item, "kept")) boolean(*kept, at + ".kept");  // power stays on in a trace
+      config.variable_ranges[i] = {whole(*first, at + ".first", 34, 999'999), whole(*last, at + ".last", 34, 999'999)};
+      uint32_t taken = 0;
+      if (nc_variable_range_check(&config, i, &taken) != NC_OK)
+        fail(item, at, taken ? "#" + std::to_string(taken) + " is another variable already"
+                             : "last must be from first on, at most 10000 variables");
+      s_.option_variable_ranges[i] = config.variable_ranges[i];
     }
   }
 

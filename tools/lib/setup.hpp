@@ -110,8 +110,9 @@ struct Setup {
   std::vector<SetupEvent> events;
   int64_t clock_ms = 0;  // local time, ms since 1970-01-01
   uint32_t option_variable_sets = 600, option_tool_offsets = 200, option_work_offsets = 96;
-  bool option_extended_variables = false, option_macro_extensions = false;
-  SetupPlace extended_variables_place, macro_extensions_place;
+  bool option_extended_variables = false, option_macro_extensions = false, option_negative_count = false;
+  SetupPlace extended_variables_place, macro_extensions_place, negative_count_place;
+  nc_variable_range option_variable_ranges[NC_VARIABLE_RANGES] = {};
 
   Setup();
   int axis_index(char axis_name) const;

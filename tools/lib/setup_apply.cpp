@@ -31,7 +31,8 @@ bool apply_parameters(const Setup& setup, nc_control* control, std::string* erro
 
 bool apply_option(const Setup& setup, nc_control* control, bool on, const SetupPlace& place, const char* key,
                   std::string* error) {
-  if (!on || nc_parameter_set(control, kPartSystem, key, 0, "1") == NC_OK) return true;
+  if (!on && place.line == 0) return true;  // nothing is said: as the machine has it
+  if (nc_parameter_set(control, kPartSystem, key, 0, on ? "1" : "0") == NC_OK || !on) return true;
   return refuse(setup, place, "this control does not have the option", error);
 }
 
@@ -97,6 +98,7 @@ void apply_setup(const Setup& setup, nc_config* config) {
   }
   config->variable_sets = setup.option_variable_sets;
   config->extended_variables = setup.option_extended_variables;
+  for (unsigned i = 0; i < NC_VARIABLE_RANGES; ++i) config->variable_ranges[i] = setup.option_variable_ranges[i];
   config->tool_offsets = setup.option_tool_offsets;
   config->work_offsets = setup.option_work_offsets;
 }
@@ -105,6 +107,7 @@ bool apply_setup(const Setup& setup, nc_dialect dialect, nc_control* control, st
   if (!apply_parameters(setup, control, error) ||
       !apply_option(setup, control, setup.option_macro_extensions, setup.macro_extensions_place,
                     "macro_extensions", error) ||
+      !apply_option(setup, control, setup.option_negative_count, setup.negative_count_place, "negative_count", error) ||
       !apply_tool_offsets(setup, dialect, control, error) || !apply_tables(setup, control, error) ||
       !apply_subprograms(setup, control, error))
     return false;

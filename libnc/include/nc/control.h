@@ -39,13 +39,18 @@ typedef struct nc_system_config {
   uint8_t spindle_count;   /**< 1..NC_MAX_SPINDLES; 0 = one */
 } nc_system_config;
 
-/** What a control is. Fill with nc_config_init(), then change what differs. */
 /** How the machine moves along the path. */
 typedef enum nc_motion_mode {
   NC_MOTION_TRAPEZOID = 0, /**< axis velocity and acceleration; jerk is not limited */
   NC_MOTION_OPTIMAL = 1    /**< the least time that keeps velocity, acceleration and jerk of every axis; each axis needs all three */
 } nc_motion_mode;
 
+/** Common variables that a machine has beside those of its option: #400 to #499. */
+typedef struct nc_variable_range {
+  uint32_t first, last;    /**< 34 to 999999, at most 10000 of them; both 0 = none */
+} nc_variable_range;
+
+/** What a control is. Fill with nc_config_init(), then change what differs. */
 typedef struct nc_config {
   uint32_t struct_size;    /**< sizeof(nc_config), set by nc_config_init() */
   uint8_t dialect;         /**< nc_dialect */
@@ -64,10 +69,19 @@ typedef struct nc_config {
   double max_feed_override; /**< largest value of nc_inputs::feed_override, default 2.0 */
   uint8_t motion_mode;     /**< nc_motion_mode; default NC_MOTION_TRAPEZOID */
   double path_tolerance;   /**< NC_MOTION_OPTIMAL: lines leave the programmed path by this at most, mm; default 0.01 */
+  nc_variable_range variable_ranges[NC_VARIABLE_RANGES]; /**< shared by all part systems; apart from one another, from those of the options
+                                and from local and system variables */
 } nc_config;
 
 /** Set every field to its default: M700, one part system with X Y Z without limits. */
 NC_API void nc_config_init(nc_config* config);
+
+/**
+ * Whether nc_config::variable_ranges[index] can be had.
+ * @param taken receives the first number of it that is another variable's already; 0 when the range itself is wrong. May be NULL.
+ * @return NC_OK, also for no range; NC_E_ARGUMENT
+ */
+NC_API nc_status nc_variable_range_check(const nc_config* config, unsigned index, uint32_t* taken);
 
 /** Bytes that nc_create() needs for this configuration; 0 when the configuration is not valid. */
 NC_API size_t nc_memory_required(const nc_config* config);

@@ -32,6 +32,8 @@ extern "C" {
 #define NC_MAX_SPINDLES 4   /**< spindles of one part system (M700 10.6) */
 #define NC_GROUPS 22        /**< modal groups, numbered as in the manual (index 0 unused) */
 #define NC_WORDS 4          /**< 32-bit words of the macro interface, each direction: #1032-#1035, #1132-#1135 */
+#define NC_VARIABLE_RANGES 4 /**< further ranges of common variables that a machine can have */
+#define NC_MAX_CALLS 16     /**< programs that can be open at once, the main program among them: entries of nc_alarm_calls() */
 #define NC_MAX_TEXT 128     /**< bytes of a text carried by an item, with its terminating NUL */
 
 /** A control: opaque, lives wholly in the memory the caller gave to nc_create(). */

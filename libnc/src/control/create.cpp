@@ -53,6 +53,28 @@ bool motion_valid(const nc_config& c) {
   return true;
 }
 
+/// M700 13.4: which common variables there are by option, and those that the machine has beside them.
+nc::CommonRanges ranges_of(const nc_config& c) {
+  const uint32_t sets = c.variable_sets;
+  nc::CommonRanges r;
+  r.first[0] = 100;
+  r.last[0] = sets <= 100 ? 149 : 199;
+  r.first[1] = 500;
+  r.last[1] = sets <= 100 ? 549 : sets <= 200 ? 599 : sets <= 300 ? 699 : 999;
+  if (c.extended_variables) r.last[nc::CommonRanges::kExtended] = 907399;
+  for (unsigned i = 0; i < NC_VARIABLE_RANGES; ++i) {
+    r.first[nc::CommonRanges::kExtended + 1 + i] = c.variable_ranges[i].first;
+    r.last[nc::CommonRanges::kExtended + 1 + i] = c.variable_ranges[i].last;
+  }
+  return r;
+}
+
+bool ranges_valid(const nc_config& c) {
+  for (unsigned i = 0; i < NC_VARIABLE_RANGES; ++i)
+    if (nc_variable_range_check(&c, i, nullptr) != NC_OK) return false;
+  return true;
+}
+
 bool valid(const nc_config* c) {
   if (c == nullptr || c->struct_size != sizeof(nc_config)) return false;
   if (!nc::known(c->dialect) || c->system_count < 1 || c->system_count > NC_MAX_SYSTEMS) return false;
@@ -61,25 +83,14 @@ bool valid(const nc_config* c) {
   return c->cycle_s >= 1e-6 && c->cycle_s <= 0.1 && power_of_two(c->look_ahead) && c->look_ahead >= 64 && c->look_ahead <= 65536 &&
          c->programs >= 1 && c->programs <= 65535 && c->tool_offsets >= 1 && c->tool_offsets <= 999 && c->work_offsets <= 300 &&
          c->window_bytes >= 512 && c->window_bytes <= (1u << 24) && is_option(c->variable_sets) && c->max_feed_override >= 1 &&
-         c->max_feed_override <= 10 && motion_valid(*c);
-}
-
-/// M700 13.4: which common variables there are by option.
-nc::CommonRanges ranges_of(uint32_t sets, bool extended) {
-  nc::CommonRanges r;
-  r.first[0] = 100;
-  r.last[0] = sets <= 100 ? 149 : 199;
-  r.first[1] = 500;
-  r.last[1] = sets <= 100 ? 549 : sets <= 200 ? 599 : sets <= 300 ? 699 : 999;
-  if (extended) r.last[2] = 907399;
-  return r;
+         c->max_feed_override <= 10 && motion_valid(*c) && ranges_valid(*c);
 }
 
 /// Lays a control out; with a measuring arena only its size comes out.
 nc_control* lay_out(const nc_config& config, nc::Arena& arena) {
   nc_control* control = arena.make<nc_control>();
   const nc::Dialect& dialect = nc::dialect(static_cast<nc_dialect>(config.dialect));
-  const nc::CommonRanges ranges = ranges_of(config.variable_sets, config.extended_variables);
+  const nc::CommonRanges ranges = ranges_of(config);
   if (control == nullptr) {
     // The rooms lay themselves out through the same calls; a throw-away store and part system stand in for the real ones.
     nc::ProgramStore store;
@@ -122,6 +133,28 @@ void nc_config_init(nc_config* config) {
   config->window_bytes = 65536;
   config->max_feed_override = 2.0;
   config->path_tolerance = 0.01;
+}
+
+nc_status nc_variable_range_check(const nc_config* config, unsigned index, uint32_t* taken) {
+  constexpr uint32_t kFirst = nc::kLocals + 1, kLast = 999999, kMost = 10000;
+  uint32_t ignored = 0;
+  if (taken == nullptr) taken = &ignored;
+  *taken = 0;
+  if (config == nullptr || index >= NC_VARIABLE_RANGES) return NC_E_ARGUMENT;
+  const uint32_t first = config->variable_ranges[index].first, last = config->variable_ranges[index].last;
+  if (first == 0 && last == 0) return NC_OK;
+  if (first < kFirst || last < first || last > kLast || last - first >= kMost) return NC_E_ARGUMENT;
+  const nc::CommonRanges all = ranges_of(*config);
+  const auto overlap = [&](uint32_t other_first, uint32_t other_last) {
+    if (other_last < first || other_first > last) return;
+    const uint32_t from = other_first > first ? other_first : first;
+    if (*taken == 0 || from < *taken) *taken = from;
+  };
+  for (unsigned i = 0; i < nc::CommonRanges::kCount; ++i)
+    if (i != nc::CommonRanges::kExtended + 1 + index && all.size(i) != 0) overlap(all.first[i], all.last[i]);
+  nc_system_variable row;
+  for (unsigned i = 0; nc_system_variable_get(i, &row) == NC_OK; ++i) overlap(row.first, row.last);
+  return *taken == 0 ? NC_OK : NC_E_ARGUMENT;
 }
 
 size_t nc_memory_required(const nc_config* config) {

@@ -410,6 +410,7 @@ Settings Parameters::settings(const Dialect& dialect) const {
   s.rapid_by_axis = flag("1086");
   s.semicolon_comments = flag("semicolon_comments");
   s.macro_extensions = flag("macro_extensions");
+  s.negative_count = flag("negative_count");
   if (flag("1109")) {  // M700 13.12: M codes 03 to 97 but 30
     const auto m_code = [&number](const char* key, uint32_t fallback) {
       const double m = number(key, fallback);

@@ -66,6 +66,7 @@ struct Settings {
   bool macro_single = false;          ///< #8101
   bool semicolon_comments = false;    ///< ';' begins a comment in program texts
   bool macro_extensions = false;      ///< IF THEN of later models
+  bool negative_count = false;        ///< #3901 may be below 0
   uint32_t interrupt_on_m = 96, interrupt_off_m = 97;  ///< #1109: #1110, #1111 instead
   bool interrupt_by_level = false;    ///< #1112 S_TRG
   bool interrupt_type_2 = false;      ///< #1113 INT_2

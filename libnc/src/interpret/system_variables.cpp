@@ -225,10 +225,12 @@ Did write_date(Access& a) {
   return Did::done;
 }
 
-/// #3901 machinings, #3902 their maximum (M700 10.13).
+/// #3901 machinings, #3902 their maximum (M700 10.13: positive). Macros of the maker write #3901 = -1, which is an option.
 Eval read_count(Access& a) { return give(a, a.in.frames.get(Frames::count_key(a.offset))); }
 Did write_count(Access& a) {
-  if (!(a.written >= 0) || a.written > 999999) return a.in.raise(Condition::value_range, '#', a.written);
+  constexpr double kMost = 999999;
+  const double least = a.number == 3901 && a.in.settings.negative_count ? -kMost : 0;
+  if (!(a.written >= least) || a.written > kMost) return a.in.raise(Condition::value_range, '#', a.written);
   a.in.set_table(Frames::count_key(a.offset), std::trunc(a.written));
   return Did::done;
 }
@@ -291,6 +293,12 @@ Eval give_word(Access& a, const ModalState& m) {
     case 20: return give(a, m.tool);
     default: return no_variable(a);
   }
+}
+/// #4130: P of the G54.1 that is selected, 0 while none is.
+Eval read_extended_work(Access& a) {
+  constexpr unsigned kStandard = 6;  // G54 to G59
+  const unsigned system = a.in.state.work_system;
+  return give(a, system < kStandard ? 0 : system - kStandard + 1);
 }
 Eval read_word_ahead(Access& a) { return give_word(a, a.in.state.modal); }
 Eval read_word_now(Access& a) { return world_known(a, NC_SYNC_MODAL) ? give_word(a, a.in.finished_modal) : Eval::need_sync; }
@@ -370,6 +378,7 @@ constexpr SystemVariableRow kRows[] = {
     {3901, 3902, read_count, write_count, 0, "count", "workpieces machined, #3902 their maximum", "13.5.5"},
     {4001, 4021, read_group_ahead, nullptr, 0, "G code", "active G code of groups 1 to 21, as read", "13.5.5"},
     {4101, 4120, read_word_ahead, nullptr, 0, "as programmed", "B D F H M N O S T (#4102 07 09 11 13 14 15 19 20), as read", "13.5.5"},
+    {4130, 4130, read_extended_work, nullptr, 0, "as programmed", "P of the G54.1 in force, as read; 0 = G54 to G59", "14.10"},
     {4201, 4221, read_group_now, nullptr, kModal, "G code", "active G code of groups 1 to 21, block in execution", "13.5.5"},
     {4301, 4320, read_word_now, nullptr, kModal, "as programmed", "B D F H M N O S T, block in execution", "13.5.5"},
     {4401, 4421, read_group_interrupt, nullptr, 0, "G code", "active G code of groups 1 to 21 at a macro interrupt", "13.12"},

@@ -51,41 +51,45 @@ double name_code(const char* name, size_t length) {
 
 void CommonVariables::create(const CommonRanges& ranges, Arena& arena) {
   ranges_ = ranges;
-  for (unsigned i = 0; i < 3; ++i) {
+  used_ = 0;
+  for (unsigned i = 0; i < CommonRanges::kCount; ++i) {
     slot_[i] = nullptr;
-    if (ranges.last[i] < ranges.first[i]) continue;
-    const size_t count = ranges.last[i] - ranges.first[i] + 1;
-    slot_[i] = arena.make<double>(count);
-    fill_vacant(slot_[i], count);
+    size_[i] = ranges.size(i);
+    if (size_[i] == 0) continue;
+    used_ = i + 1;
+    slot_[i] = arena.make<double>(size_[i]);
+    fill_vacant(slot_[i], size_[i]);
   }
 }
 
 bool CommonVariables::exists(uint32_t number) const {
-  for (unsigned i = 0; i < 3; ++i) {
-    if (number >= ranges_.first[i] && number <= ranges_.last[i]) return true;
+  for (unsigned i = 0; i < used_; ++i) {
+    if (number - ranges_.first[i] < size_[i]) return true;
   }
   return false;
 }
 
 Value CommonVariables::get(uint32_t number) const {
-  for (unsigned i = 0; i < 3; ++i) {
-    if (number >= ranges_.first[i] && number <= ranges_.last[i])
-      return from_storage(slot_[i][number - ranges_.first[i]]);
+  for (unsigned i = 0; i < used_; ++i) {
+    const uint32_t at = number - ranges_.first[i];
+    if (at < size_[i]) return from_storage(slot_[i][at]);
   }
   return {};
 }
 
 void CommonVariables::set(uint32_t number, Value value) {
-  for (unsigned i = 0; i < 3; ++i) {
-    if (number < ranges_.first[i] || number > ranges_.last[i]) continue;
-    slot_[i][number - ranges_.first[i]] = to_storage(value);
+  for (unsigned i = 0; i < used_; ++i) {
+    const uint32_t at = number - ranges_.first[i];
+    if (at >= size_[i]) continue;
+    slot_[i][at] = to_storage(value);
     return;
   }
 }
 
 bool CommonVariables::next(uint32_t from, uint32_t* number, double* value) const {
   bool found = false;
-  for (unsigned i = 0; i < 3; ++i) {
+  for (unsigned i = 0; i < used_; ++i) {
+    if (size_[i] == 0) continue;
     const uint32_t first = from > ranges_.first[i] ? from : ranges_.first[i];
     for (uint32_t n = first; n <= ranges_.last[i] && !(found && n >= *number); ++n) {
       const double stored = slot_[i][n - ranges_.first[i]];
@@ -163,7 +167,7 @@ void Variables::create_own(const CommonRanges& ranges, Arena& arena) {
   own_ = arena.make<CommonVariables>();
   CommonVariables measured;
   CommonRanges own = ranges;
-  own.last[2] = own.first[2] - 1;  // those of later models are shared
+  for (unsigned i = CommonRanges::kExtended; i < CommonRanges::kCount; ++i) own.first[i] = own.last[i] = 0;  // shared by all
   (own_ != nullptr ? *own_ : measured).create(own, arena);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/arena.hpp"
 #include "macro/expression.hpp"
+#include "nc/types.h"
 
 namespace nc {
 
@@ -12,14 +13,16 @@ inline constexpr unsigned kNames = 20;       ///< #500..#519 can have a name (M7
 inline constexpr unsigned kNameLength = 7;
 inline constexpr unsigned kLocalLevels = 5;  ///< main program and four macro levels (M700 13.5.2)
 
-/// Which common variables exist (M700 13.4).
+/// Which common variables exist (M700 13.4): those of the option `variable_sets`, #900000 up of later models, and what else the machine has.
+/// They are apart from one another.
 struct CommonRanges {
-  uint32_t first[3] = {100, 500, 900000};
-  uint32_t last[3] = {199, 999, 899999};  ///< the third range is empty unless it is set (option: 907399)
+  static constexpr unsigned kCount = 3 + NC_VARIABLE_RANGES, kExtended = 2;
+  uint32_t first[kCount] = {100, 500, 900000};
+  uint32_t last[kCount] = {199, 999, 899999};  ///< the third range is empty unless it is set (option: 907399)
+  uint32_t size(unsigned i) const { return first[i] == 0 || last[i] < first[i] ? 0 : last[i] - first[i] + 1; }
 };
 
-/// Common variables of a control, shared by its part systems. Storage for 100..199, 500..999 and, where it is
-/// configured, 900000..907399.
+/// Common variables of a control, shared by its part systems, with storage for those that are configured.
 class CommonVariables {
  public:
   void create(const CommonRanges& ranges, Arena& arena);
@@ -35,7 +38,9 @@ class CommonVariables {
 
  private:
   CommonRanges ranges_;
-  double* slot_[3] = {};
+  unsigned used_ = 0;      ///< no range behind these has a variable
+  uint32_t size_[CommonRanges::kCount] = {};
+  double* slot_[CommonRanges::kCount] = {};
   double name_[kNames] = {};
 };
 
@@ -77,7 +82,7 @@ class Variables {
  public:
   void create(CommonVariables* common, unsigned journal_capacity, Arena& arena);
   /// Of several part systems: this one has common variables of its own, beside those up to `last_100` and `last_500` (M700 13.4, #1303,
-  /// #1304), which all share.
+  /// #1304), which all share, as they do those of later models and of further ranges.
   void create_own(const CommonRanges& ranges, Arena& arena);
   void share(uint32_t last_100, uint32_t last_500) {
     shared_100_ = last_100;
@@ -127,8 +132,8 @@ class Variables {
 
  private:
   CommonVariables* bank(uint32_t number) const {
-    if (own_ == nullptr) return common_;
-    return number <= (number < 500 ? shared_100_ : number < 900000 ? shared_500_ : number) ? common_ : own_;
+    if (own_ == nullptr || !own_->exists(number)) return common_;
+    return number <= (number < 500 ? shared_100_ : shared_500_) ? common_ : own_;
   }
 
   CommonVariables* common_ = nullptr;

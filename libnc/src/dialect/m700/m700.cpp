@@ -9,12 +9,13 @@ namespace {
 
 // Every parameter has a number; these have none in the manual: UNIT*10 is only named (2.2), the blanks of
 // DPRNT are "a parameter" (13.5.8), M codes that prohibit pre-reading and the order of M S T B and motion are the
-// machine's (4.2, 9.1), macro_extensions is the option of later models (docs/macros.md), and ';' begins comments in other families only.
+// machine's (4.2, 9.1), macro_extensions and negative_count are options (docs/macros.md), and ';' begins comments in other families only.
 const ParameterName kParameters[] = {
     {"UNIT*10", 1, nullptr, "1, 10", "tenfold: numbers without a point, times this", "2.2"},
     {"DPRNT_BLANK", 0, nullptr, "0, 1", "DPRNT prints blanks for leading zeros", "13.5.8"},
     {"macro_extensions", 0, nullptr, "0, 1", "IF ... THEN of later models", "13.5.7"},
     {"semicolon_comments", 0, nullptr, "0, 1", "what stands behind ';' in a line is a comment, not P33", "3.2"},
+    {"negative_count", 0, nullptr, "0, 1", "#3901 can be set below 0", "13.5.5"},
     {"MSTB_AFTER_MOTION", 0, nullptr, "0, 1", "M S T B of a block come after its movement", "9.1"},
     {"PREREAD_STOP_M1", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
     {"PREREAD_STOP_M2", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
