@@ -323,9 +323,13 @@ void Feeder::take_alarm() {
     if (seen_.system[s].nc.state != NC_STATE_ALARM) continue;
     nc_alarm alarm;
     if (nc_->alarm(s, &alarm) != NC_OK) continue;
+    nc_source calls[NC_MAX_CALLS] = {};
+    const unsigned count = std::min(nc_->alarm_calls(s, calls, NC_MAX_CALLS), unsigned{NC_MAX_CALLS});
     const std::lock_guard lock(mutex_);
     info_.alarm = true;
     info_.program_alarm = alarm;
+    info_.alarm_calls = count;
+    std::copy(calls, calls + count, info_.alarm_call);
     return;
   }
 }

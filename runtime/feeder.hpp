@@ -42,6 +42,8 @@ struct FeederInfo {
   std::uint32_t main_line = 0;  // line of the main program that was finished last
   bool alarm = false;           // program_alarm holds
   nc_alarm program_alarm{};
+  std::uint32_t alarm_calls = 0;  // blocks that led there, outermost first
+  nc_source alarm_call[NC_MAX_CALLS] = {};
   std::uint64_t messages = 0;  // so far
   std::string last_message;
   // By part system: what is selected, and the modal state that the last finished block left.

@@ -23,6 +23,8 @@ class NcPort {
   virtual nc_status reset(unsigned system) = 0;
   virtual void switches(unsigned system, std::uint32_t optional_skip) = 0;
   virtual nc_status alarm(unsigned system, nc_alarm* alarm) = 0;
+  // The blocks that led to it (nc_alarm_calls).
+  virtual unsigned alarm_calls(unsigned /*system*/, nc_source* /*calls*/, unsigned /*capacity*/) { return 0; }
   virtual nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) = 0;
   virtual nc_status text(unsigned system, std::uint32_t id, nc_text* text) = 0;
   // What is read beyond the block in execution is given up and read again; NC_WAITING: call again.
@@ -52,6 +54,7 @@ class LibNc final : public NcPort {
   nc_status reset(unsigned system) override;
   void switches(unsigned system, std::uint32_t optional_skip) override;
   nc_status alarm(unsigned system, nc_alarm* alarm) override;
+  unsigned alarm_calls(unsigned system, nc_source* calls, unsigned capacity) override;
   nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) override;
   nc_status text(unsigned system, std::uint32_t id, nc_text* text) override;
   nc_status recalculate(unsigned system) override;

@@ -393,10 +393,18 @@ std::string Runtime::ladder_fault(const ActiveAlarm& alarm) const {
 }
 
 // A line of a sub program is one of another text than the operator has selected.
-static std::string place_text(const nc_source& source) {
-  if (source.line == 0) return "";
+static std::string line_text(const nc_source& source) {
   const std::string sub = source.program != 0 ? "O" + std::to_string(source.program) : "sub program";
-  return " (" + (source.depth != 0 ? sub + ", " : "") + "line " + std::to_string(source.line) + ")";
+  return (source.depth != 0 ? sub + ", " : "") + "line " + std::to_string(source.line);
+}
+
+static std::string place_text(const nc_source& source) { return source.line == 0 ? "" : " (" + line_text(source) + ")"; }
+
+// The blocks that called the program of the alarm, outermost first: ", called by line 12 > O9001, line 4".
+static std::string callers_text(const FeederInfo& info) {
+  std::string text;
+  for (std::uint32_t i = 0; i + 1 < info.alarm_calls; ++i) text += (i == 0 ? ", called by " : " > ") + line_text(info.alarm_call[i]);
+  return text;
 }
 
 // ": spindle, actual position"
@@ -420,7 +428,7 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
     if (!now.alarm) return "program alarm";
     std::string text = std::string(now.program_alarm.code) + " " + now.program_alarm.message;
     if (now.program_alarm.detail.s[0] != 0) text += std::string(": ") + now.program_alarm.detail.s;
-    return text + place_text(now.program_alarm.source);
+    return text + place_text(now.program_alarm.source) + callers_text(now);
   }
   const AlarmRow& row = alarm_row(alarm.id);
   std::string text = std::string(row.code) + " " + row.text;

@@ -147,7 +147,7 @@ TEST(BadProgram, TheAlarmNamesTheSubProgramItsLineBelongsTo) {
   ASSERT_EQ(now.alarms.count, 1u);
   const std::string text = drive.runtime->alarm_text(now.alarms.alarm[0]);
   EXPECT_NE(text.find("P34"), std::string::npos) << text;
-  EXPECT_NE(text.find(" (O300, line 3)"), std::string::npos) << text;
+  EXPECT_NE(text.find(" (O300, line 3), called by line 3"), std::string::npos) << text;
 }
 
 TEST(BadProgram, AnEndlessGotoIsInterruptedByReset) {

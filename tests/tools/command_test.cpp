@@ -212,6 +212,7 @@ TEST_F(CommandTest, AnAlarmInASubProgramNamesItsFile) {
   const Outcome check = ncsim("check main.nc");
   EXPECT_EQ(check.code, 2);
   EXPECT_EQ(check.out.rfind("./O3000.nc:2: P62 ", 0), 0u) << check.out;
+  EXPECT_NE(check.out.find("\n  main.nc:1: calls O3000\n"), std::string::npos) << check.out;
 }
 
 TEST_F(CommandTest, SkipEndsAtTheSolid) {

@@ -2,9 +2,11 @@
 // See command_text.hpp.
 #include "tools/lib/command_text.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "tools/lib/commands.hpp"
+#include "tools/lib/item_source.hpp"
 
 namespace nc::tools {
 namespace {
@@ -35,7 +37,18 @@ std::string alarm_line(const Session& session, const nc_alarm& alarm) {
       session.file_name(alarm.source) + ":" + std::to_string(alarm.source.line) + ": " + alarm.code;
   if (alarm.message[0] && std::strcmp(alarm.message, alarm.code) != 0) line += " " + printable(alarm.message);
   if (alarm.detail.s[0]) line += " - " + printable(alarm.detail.s);
+  nc_source calls[NC_MAX_CALLS];
+  const unsigned count = std::min(nc_alarm_calls(session.control(), kPartSystem, calls, NC_MAX_CALLS), unsigned{NC_MAX_CALLS});
+  for (unsigned i = 0; i + 1 < count; ++i) {
+    const nc_source& called = calls[i + 1];
+    line += "\n  " + session.file_name(calls[i]) + ":" + std::to_string(calls[i].line) + ": calls ";
+    line += called.program ? "O" + std::to_string(called.program) : session.file_name(called);
+  }
   return line;
+}
+
+void note_unused(const std::vector<std::string>& sentences, std::FILE* err) {
+  for (const std::string& sentence : sentences) std::fprintf(err, "note: %s\n", sentence.c_str());
 }
 
 int close_output(std::FILE* out, std::FILE* err, int code) {

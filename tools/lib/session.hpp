@@ -51,7 +51,7 @@ class Session {
   /** What configure() was given. */
   const rt::Config* machine() const { return machine_.get(); }
   const Setup& setup() const { return setup_; }
-  nc_control* control() { return control_; }
+  nc_control* control() const { return control_; }
   /** Block lines of the main program; empty unless an event of the setup waits for a line. */
   BlockLines block_lines() const;
   /** "FILE" of a source, as a person would name it. */

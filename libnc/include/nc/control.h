@@ -238,6 +238,14 @@ NC_API void nc_switches_set(nc_control*, unsigned system, uint32_t optional_skip
 /** The alarm that stopped a part system. NC_E_NOT_FOUND when there is none. Copies. */
 NC_API nc_status nc_alarm_get(const nc_control*, unsigned system, nc_alarm* alarm);
 
+/**
+ * The blocks that led to that alarm, outermost first: each of them called the program of the next one, the last is the block of the alarm
+ * (nc_alarm::source). An interrupt program counts as called by the block that it interrupted.
+ * @param calls receives the first `capacity` of them; NC_MAX_CALLS are all
+ * @return their number; 0 when there is no alarm, or its place is not known
+ */
+NC_API unsigned nc_alarm_calls(const nc_control*, unsigned system, nc_source* calls, unsigned capacity);
+
 /** Modal snapshot of a mark. Snapshots stay readable for at least `look_ahead` marks. */
 NC_API nc_status nc_modal_get(const nc_control*, unsigned system, uint32_t id, nc_modal* modal);
 

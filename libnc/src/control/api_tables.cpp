@@ -333,6 +333,12 @@ nc_status nc_alarm_get(const nc_control* c, unsigned system, nc_alarm* alarm) {
   return c->system[system].alarm(alarm) ? NC_OK : NC_E_NOT_FOUND;
 }
 
+unsigned nc_alarm_calls(const nc_control* c, unsigned system, nc_source* calls, unsigned capacity) {
+  static_assert(nc::kMaxFrames <= NC_MAX_CALLS);
+  if (!known(c, system) || (calls == nullptr && capacity != 0)) return 0;
+  return c->system[system].alarm_calls(calls, capacity);
+}
+
 nc_status nc_modal_get(const nc_control* c, unsigned system, uint32_t id, nc_modal* modal) {
   if (!known(c, system) || modal == nullptr) return NC_E_ARGUMENT;
   const auto& modals = c->system[system].interpreter.modals;

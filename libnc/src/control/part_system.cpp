@@ -197,12 +197,23 @@ Fault PartSystem::refused(Committed committed) const {
 /// A stage behind the interpreter has found what is wrong: everything that was read beyond is void.
 void PartSystem::stop_on(const Fault& fault, const nc_source& source) {
   const MarkPoint* last = commit_.newest();
+  interpreter.note_calls(source, last != nullptr ? last->seq : 0);
   interpreter.rewind(last != nullptr ? last->seq : 0);
   // Of the block that stops some moves may have gone; compensated ones do not end where the program says.
   if (!from_stage_) interpreter.state.machine = commit_.machine();
   clear_stages();
   clear_staged();
   interpreter.abort(fault, source);
+}
+
+/// Behind the sentence of the fault where there is room for both, else in its place.
+static void put_cause(const AlarmStory& story, nc_text* detail) {
+  const size_t sentence = std::strlen(detail->s), cause = std::strlen(story.cause.s);
+  if (cause == 0) return;
+  const bool both = !story.instead && sentence != 0 && sentence + 1 + cause < sizeof detail->s;
+  TextWriter out(detail->s + (both ? sentence : 0), sizeof detail->s - (both ? sentence : 0));
+  if (both) out.put(' ');
+  out.put(story.cause.s);
 }
 
 void PartSystem::describe_alarm() {
@@ -218,6 +229,7 @@ void PartSystem::describe_alarm() {
   const nc_text& own_words = interpreter.texts[interpreter.user_alarm_text].text;
   if (fault.condition == Condition::user_alarm && own_words.s[0] != 0)  // M700 13.5.5: the message and its number, as printed
     TextWriter(alarm_.detail.s, sizeof alarm_.detail.s).put(own_words.s).put(' ').put_number(fault.value);
+  put_cause(interpreter.alarm_story, &alarm_.detail);
   alarm_.axis = fault.axis;
   alarm_.source = interpreter.alarm_source;
 }

@@ -49,6 +49,13 @@ class PartSystem {
     return alarm_given_;
   }
 
+  unsigned alarm_calls(nc_source* out, unsigned capacity) const {
+    if (!alarm_given_) return 0;
+    const AlarmStory& story = interpreter.alarm_story;
+    for (unsigned i = 0; i < story.count && i < capacity; ++i) out[i] = story.calls[i];
+    return story.count;
+  }
+
   Interpreter interpreter;
   Executor executor;
 

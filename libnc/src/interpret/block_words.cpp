@@ -154,6 +154,15 @@ bool calls_another(const Interpreter& in, unsigned first) {
   return false;
 }
 
+/// For the alarm of the move that has no feed because of it (alarm_cause.cpp).
+[[gnu::cold, gnu::noinline]] void note_vacant_feed(Interpreter& in, const Word& word) {
+  uint32_t number = 0;
+  if (!lone_variable(*in.block, word.code, &number)) return;
+  in.state.vacant_feed = number;
+  in.state.vacant_feed_line = in.source.line;
+  in.state.vacant_feed_file = in.source.file;
+}
+
 }  // namespace
 
 bool whole_number(double raw, uint32_t* number) {
@@ -200,7 +209,10 @@ Did gather_words(Interpreter& in) {
                                  &in.sync_needed);
       if (eval == Eval::fault) return Did::fault;
       if (eval == Eval::need_sync) return Did::sync;
-      if (v.vacant) continue;  // M700 13.5.4: a word with only a vacant variable is ignored
+      if (v.vacant) {  // M700 13.5.4: a word with only a vacant variable is ignored
+        if (word.letter == 'F') note_vacant_feed(in, word);
+        continue;
+      }
       value = v.number;
     }
     if ((word.flags & kWordComma) != 0 && (word.letter == 'I' || word.letter == 'J') && in.dialect->id == NC_DIALECT_M700) {

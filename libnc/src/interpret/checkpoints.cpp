@@ -55,6 +55,15 @@ bool Checkpoints::keeps(BlockSeq seq) const {
   return begin >= end ? begin - end >= kRoom : begin >= kRoom || capacity_ - end >= kRoom;
 }
 
+bool Checkpoints::frames(BlockSeq seq, unsigned count, CallFrame* out) const {
+  const char* const kept = bytes_ + entry(seq).begin;
+  uint8_t depth = 0;
+  std::memcpy(&depth, kept + offsetof(State, depth), sizeof depth);
+  if (depth + 1u < count) return false;
+  std::memcpy(static_cast<void*>(out), kept + offsetof(State, frame), count * sizeof(CallFrame));
+  return true;
+}
+
 void Checkpoints::restore(BlockSeq seq, State* state) {
   const Entry& e = entry(seq);
   // The frames in use are known once the fixed part is there.

@@ -21,6 +21,10 @@ class Checkpoints {
   /// Restores the state behind block `seq`, which must be kept. Later states are forgotten.
   void restore(BlockSeq seq, State* state);
   void clear();
+  /// The newest kept state is that behind this block; holds() is false for it when none is kept.
+  BlockSeq newest() const { return next_ - 1; }
+  /// The outermost `count` frames of the state behind block `seq`, which must be kept; false when it has fewer.
+  bool frames(BlockSeq seq, unsigned count, CallFrame* out) const;
 
  private:
   struct Entry {

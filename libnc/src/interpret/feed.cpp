@@ -75,6 +75,7 @@ bool is_feed_digit(const Interpreter& in, double raw) {
 
 Did take_feed_word(Interpreter& in) {
   ModalState& modal = in.state.modal;
+  in.state.vacant_feed = 0;
   if (modal.code[kGroupFeed] == kPerRevolution) return take_feed_per_revolution(in);
   if (modal.code[kGroupFeed] == kInverseTime) return take_inverse_time(in);
   const double raw = in.words.get('F');
@@ -97,6 +98,7 @@ Did change_feed_mode(Interpreter& in, int16_t before) {
   // M700 7.5, precaution (4)
   if (before == kInverseTime && !in.words.has('F')) return in.raise(Condition::no_feed, 'F');
   if (now == kInverseTime) state.last_feed = before == kPerMinute ? feed_mm_min(in) : 0;
+  state.vacant_feed = 0;
   state.modal.feed = 0;  // an F of one mode means nothing in another one
   state.modal.feed_digit = 0;
   state.refresh_special();

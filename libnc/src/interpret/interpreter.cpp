@@ -467,7 +467,7 @@ Did Interpreter::execute_statements() {
     jumped = false;
     const Did did = execute_statement(*this, block->statements[statement]);
     if (did != Did::done) {
-      if (did != Did::sync) statement = 0;
+      if (did != Did::sync && did != Did::fault) statement = 0;  // the one that is wrong is looked at once more (note_cause)
       return did;
     }
     if (jumped) break;
@@ -501,6 +501,8 @@ nc_status Interpreter::settle(Did did) {
     }
     case Did::fault: break;
   }
+  note_calls(source, state.frame);
+  note_cause(*this);
   // Nothing of the block that alarms has happened, unless parts of it have gone already.
   if (next_step == Step::none) take_block_back();
   stop(fault, source);
@@ -545,6 +547,34 @@ void Interpreter::stop(const Fault& what, const nc_source& where) {
   end.end.work = position();
   end.end.modal = modals.intern(state.modal);
   ended = alarmed = true;
+}
+
+void Interpreter::note_calls(const nc_source& where, const CallFrame* levels) {
+  AlarmStory& story = alarm_story;
+  story = AlarmStory{};
+  for (; story.count < where.depth; ++story.count) {
+    const CallFrame& frame = levels[story.count];
+    nc_source& call = story.calls[story.count];
+    call = where;
+    call.line = frame.call_line;
+    call.program = frame.program.number;
+    call.file = frame.program.file;
+    call.depth = story.count;
+  }
+  story.calls[story.count++] = where;
+}
+
+void Interpreter::note_calls(const nc_source& where, BlockSeq seq) {
+  // Behind the last block that has gone out come calls, which have no mark yet, and then the block of the alarm: the first state that is
+  // as deep as that block has its callers.
+  CallFrame levels[kMaxFrames];
+  const unsigned count = where.depth + 1u;
+  for (; checkpoints_.holds(seq); ++seq) {
+    if (!checkpoints_.frames(seq, count, levels)) continue;
+    const ProgramRef& program = levels[where.depth].program;
+    if (program.file == where.file && program.number == where.program) return note_calls(where, levels);
+  }
+  note_calls(where, state.frame);
 }
 
 void Interpreter::abort(const Fault& what, const nc_source& where) {

@@ -57,6 +57,14 @@ struct PathPoint {
   bool operator==(const PathPoint&) const { return false; }  // each is one of its own
 };
 
+/// What stands behind an alarm, noted when the block is given up.
+struct AlarmStory {
+  nc_text cause{};        ///< a sentence more than the fault has; "" = none
+  bool instead = false;   ///< it says all that there is to say
+  uint8_t count = 0;      ///< of calls
+  nc_source calls[kMaxFrames]{};  ///< the blocks that led there, outermost first, the last one that of the alarm
+};
+
 struct InterpreterConfig {
   const Dialect* dialect = nullptr;
   const nc_system_config* system = nullptr;
@@ -144,6 +152,8 @@ struct Interpreter {
   void leave_interrupt(bool to_sequence);
   /// A stage behind has found a fault: what is queued is void, the alarm and the end take its place.
   void abort(const Fault& what, const nc_source& where);
+  /// For abort(), before the blocks from `seq` on are given up: which of them called the program of `where`.
+  void note_calls(const nc_source& where, BlockSeq seq);
   void refresh_settings();
   /// The host has changed a number of the frames' table: no rewind brings the old one back.
   void set_table_from_outside(unsigned key, double value);
@@ -208,6 +218,7 @@ struct Interpreter {
   bool ended = false, alarmed = false;
   Fault alarm_fault;
   nc_source alarm_source{};
+  AlarmStory alarm_story;
   ModalState finished_modal;       ///< as the last finished block left it: the block in execution, at a sync (#4201...)
   uint32_t last_line = 1;          ///< of the last block read
   uint32_t user_alarm_text = 0;    ///< text of the last #3000
@@ -333,6 +344,7 @@ struct Interpreter {
   bool enter_block(CallFrame& frame, nc_status* status);
   nc_status settle(Did did);
   void stop(const Fault& what, const nc_source& where);
+  void note_calls(const nc_source& where, const CallFrame* levels);
   void take_block_back();
   void emit_end();
   Item& next_item(ItemKind kind, bool block_end);
@@ -411,6 +423,9 @@ bool is_interrupt_on(const Interpreter& in, uint32_t m);   ///< M96, or what sta
 bool is_interrupt_off(const Interpreter& in, uint32_t m);  ///< M97
 Did enable_interrupt(Interpreter& in);
 Did disable_interrupt(Interpreter& in);
+
+/// interpret/alarm_cause.cpp: why the block in hand has raised Interpreter::fault, as far as the fault itself does not say so.
+void note_cause(Interpreter& in);
 
 /// interpret/system_variables.cpp
 Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault* fault, uint32_t* sync);

@@ -108,6 +108,7 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
   source.line = frame.line;
   const Did did = enter_interrupt();
   if (did == Did::fault) {
+    note_calls(source, state.frame);
     stop(fault, source);
     return true;
   }

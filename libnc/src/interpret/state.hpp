@@ -177,6 +177,9 @@ struct State {
   int64_t clock_shift_s = 0;      ///< the program's clock (#3011, #3012) against the machine's
   CycleState cycle;
   bool owes_mark = false;     ///< the block that called a program has ended with the return and still needs its mark
+  uint32_t vacant_feed = 0;       ///< variable of the last F, which was vacant and so gave no feed (M700 13.5.4); 0 = F has been given since
+  uint32_t vacant_feed_line = 0;
+  uint16_t vacant_feed_file = 0;
   uint32_t codes_left = 0;    ///< bit d: the next block of level d has moved, and a modal call has run behind it; its M98 or M99 is left
   uint8_t depth = 0;
   uint8_t loop_count = 0;

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an alarm says beside its code: who called the program that alarms, which variable was vacant, which option is off, and what a code
+// of another control is called here.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+/// "2 > O9001:3 > O9002:1": the blocks that led to the alarm.
+std::string calls(Bench& bench) {
+  nc_source all[NC_MAX_CALLS];
+  const unsigned count = nc_alarm_calls(bench.control(), 0, all, NC_MAX_CALLS);
+  std::string text;
+  for (unsigned i = 0; i < count; ++i) {
+    EXPECT_EQ(all[i].depth, i);
+    EXPECT_EQ(all[i].system, 1);
+    if (i != 0) text += " > ";
+    if (all[i].program != 0) text += "O" + std::to_string(all[i].program) + ":";
+    text += std::to_string(all[i].line);
+  }
+  return text;
+}
+
+TEST(AlarmCalls, OutermostFirst) {
+  Bench bench;
+  bench.add("O9001", "O9001\nG90\nG65 P9002 A1.\nM99\n");
+  bench.add("O9002", "O9002\nM98 P9003\nM99\n");
+  bench.add("O9003", "O9003\nG4 P1\nG123\nM99\n");
+  EXPECT_EQ(bench.run("G21\n\nM98 P9001\nM30").alarm, "P34");
+  EXPECT_EQ(calls(bench), "3 > O9001:3 > O9002:2 > O9003:3");
+  nc_source two[2];
+  EXPECT_EQ(nc_alarm_calls(bench.control(), 0, two, 2), 4u);  // as many as there are, as many as there is room for
+  EXPECT_EQ(two[1].program, 9001u);
+  EXPECT_EQ(nc_alarm_calls(bench.control(), 0, nullptr, 0), 4u);
+  EXPECT_EQ(nc_alarm_calls(bench.control(), 0, nullptr, 2), 0u);
+  EXPECT_EQ(nc_alarm_calls(bench.control(), 1, two, 2), 0u);
+  EXPECT_EQ(nc_alarm_calls(nullptr, 0, two, 2), 0u);
+  EXPECT_TRUE(bench.run("M30").ended_ok);
+  EXPECT_EQ(nc_alarm_calls(bench.control(), 0, two, 2), 0u);
+}
+
+TEST(AlarmCalls, OfTheMainProgram) {
+  Bench bench;
+  bench.run("G21\nG123\nM30");
+  EXPECT_EQ(calls(bench), "2");
+}
+
+/// A block that calls or returns and alarms itself is the last one.
+TEST(AlarmCalls, OfABlockThatCannotCall) {
+  Bench bench;
+  bench.add("O9001", "M98 P7777\nM99\n");
+  bench.run("M98 P9001\nM30");
+  EXPECT_EQ(calls(bench), "1 > O9001:1");
+  bench.add("O9002", "M99 P50\n");
+  bench.run("M98 P9002\nM30");
+  EXPECT_EQ(calls(bench), "1 > O9002:1");
+  bench.add("O9003", "M98 P9003\nM99\n");
+  EXPECT_EQ(bench.run("M98 P9003\nM30").alarm, "P230");
+  EXPECT_EQ(calls(bench), "1 > O9003:1 > O9003:1 > O9003:1 > O9003:1 > O9003:1 > O9003:1 > O9003:1 > O9003:1");
+}
+
+TEST(AlarmCalls, OfModalCallsCodesAndCycles) {
+  Bench bench;
+  bench.add("O9001", "G4 P1\nG123\nM99\n");
+  bench.run("G0 X1.\nG66 P9001\nG0 X2.\nM30");
+  EXPECT_EQ(calls(bench), "3 > O9001:2");
+  bench.param("7201", "201").param("7202", "1").param("7203", "9001");
+  bench.run("G201\nM30");
+  EXPECT_EQ(calls(bench), "1 > O9001:2");
+}
+
+/// What a stage behind the interpreter finds, when more has been read already: limits on the finished path, compensation.
+TEST(AlarmCalls, OfAlarmsThatTheFinishedPathShows) {
+  const auto limited = [](nc_config& c) {
+    c.system[0].axis[0].soft_limited = true;
+    c.system[0].axis[0].soft_min = -50;
+    c.system[0].axis[0].soft_max = 50;
+  };
+  for (const char* first : {"", "G0 Y1.\n", "M3 S100\n"}) {  // the first block of the program is the wrong one, or a later one
+    Bench bench(NC_DIALECT_M700, limited);
+    bench.add("O9001", std::string("O9001\n") + first + "M98 P9002\nM99\n");
+    bench.add("O9002", std::string("O9002\n") + first + "G0 X60.\nG0 X0\nM99\n");
+    bench.run("G0 X1.\nM98 P9001\nG0 X2.\nM30");
+    const unsigned at = *first == 0 ? 2 : 3;
+    EXPECT_EQ(calls(bench), "2 > O9001:" + std::to_string(at) + " > O9002:" + std::to_string(at)) << first;
+    bench.run("G0 X1.\nM98 P9001\nG0 X60.\nM30");
+    bench.add("O9002", "O9002\nG0 X2.\nM99\n");
+    bench.run("G0 X1.\nM98 P9001\nG0 X60.\nM30");  // back in the main program
+    EXPECT_EQ(calls(bench), "3") << first;
+  }
+  Bench bench;
+  bench.tool(1, 5);
+  bench.add("O9001", "G41 D1 G1 X10. F100\nX20.\nY1.\nX10.\nY20.\nG40 X0\nM99\n");
+  EXPECT_EQ(bench.run("G0 X1.\nM98 P9001\nM30").alarm, "P153");
+  EXPECT_EQ(calls(bench).substr(0, 10), "2 > O9001:");
+}
+
+TEST(AlarmCalls, OfAnInterrupt) {
+  Bench bench;
+  bench.add("O9001", "G4 P1\nG123\nM99\n");
+  bench.start("M96 P9001\nG1 X10. F100\nG1 X20.\nM97\nM30");
+  Step step;
+  while (bench.pull(&step) == NC_OK)
+    if (step.item.kind == NC_ITEM_MOVE && step.item.source.line == 3) break;
+  bool take_back = false;
+  ASSERT_EQ(nc_interrupt_signal(bench.control(), 0, true, &take_back), NC_OK);
+  bench.finish();
+  EXPECT_EQ(calls(bench), "3 > O9001:2");
+}
+
+std::string detail(const std::string& program, Bench&& bench = Bench()) {
+  const Outcome run = bench.run(program);
+  EXPECT_NE(run.alarm, "") << program;
+  return run.alarm_detail;
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(AlarmCause, TheVacantVariable) {
+  const struct {
+    const char *program, *alarm, *cause;
+  } rows[] = {
+      {"G1 X10. F#650\nM30", "P62", "F#650 is vacant."},
+      {"F#650\nG1 X10.\nM30", "P62", "F#650 was vacant in line 1."},
+      {"G1 X10. F[#650*1]\nM30", "P62", "In the value of F, #650 is vacant."},
+      {"G1 X10. F[#0+0]\nM30", "P62", ""},
+      {"#650=0\nG1 X10. F#650\nM30", "P62", ""},
+      {"#9=5\nG1 X10. F#10\nM30", "P62", "F#10 is vacant."},
+      {"#1=650\nG1 X10. F##1\nM30", "P62", "In the value of F, #650 is vacant."},
+      {"G2 X10. I#4 F100\nM30", "P70", "I#4 is vacant."},
+      {"M98 P#600\nM30", "P230", "P#600 is vacant."},
+      {"G65 P#600\nM30", "", "P#600 is vacant."},
+      {"#2=10/#1\nM30", "P283", "In the value for #2, #1 is vacant, which counts as 0."},
+      {"#2=LN[#1]\nM30", "P282", "In the value for #2, #1 is vacant, which counts as 0."},
+      {"IF [10/#7 GT 1] GOTO 5\nM30", "P283", "In the condition, #7 is vacant, which counts as 0."},
+      {"GOTO#5\nM30", "P231", "In the number behind GOTO, #5 is vacant."},
+      {"X[10/#7]\nM30", "P283", "In the value of X, #7 is vacant."},
+      {"#3=1 #4=#3/#5\nM30", "P283", "In the value for #4, #5 is vacant"},
+      {"G10 L2 P[#8-3] X1.\nM30", "", "In the value of P, #8 is vacant."},
+  };
+  for (const auto& row : rows) {
+    Bench bench;
+    const Outcome run = bench.run(row.program);
+    EXPECT_TRUE(*row.alarm == 0 || run.alarm == row.alarm) << row.program << ": " << run.alarm;
+    EXPECT_EQ(says(run.alarm_detail, "vacant"), *row.cause != 0) << row.program << ": " << run.alarm_detail;
+    EXPECT_TRUE(says(run.alarm_detail, row.cause)) << row.program << ": " << run.alarm_detail;
+  }
+}
+
+/// A variable that is vacant beside the point is not blamed.
+TEST(AlarmCause, NotAVariableThatHasNothingToDoWithIt) {
+  for (const char* program : {"IF [#5 EQ #0] GOTO 10\nM30", "G123 X#5\nM30", "#5=#6\nG1 X1.\nM30", "G1 X#5 Y1.\nM30", "#6=1\nG1 X1. F#6\nG95 X5.\nM30",
+                              "F#650\nF100\nG1 X1.\nG95 X5.\nM30", "G0 X1. Y#7 U5.\nM30"}) {
+    const std::string text = detail(program);
+    EXPECT_FALSE(says(text, "vacant")) << program << ": " << text;
+  }
+}
+
+TEST(AlarmCause, TheOptionThatIsOff) {
+  const auto sets = [](uint32_t n) { return [n](nc_config& c) { c.variable_sets = n; }; };
+  EXPECT_TRUE(says(detail("#900000=1\nM30"), "#900000. The option extended_variables is off."));
+  EXPECT_TRUE(says(detail("#1=#907399\nM30"), "The option extended_variables is off."));
+  EXPECT_TRUE(says(detail("#150=1\nM30", Bench(NC_DIALECT_M700, sets(100))), "variable_sets = 200 or more."));
+  EXPECT_TRUE(says(detail("X#560\nM30", Bench(NC_DIALECT_M700, sets(100))), "variable_sets = 200 or more."));
+  EXPECT_TRUE(says(detail("#650=1\nM30", Bench(NC_DIALECT_M700, sets(200))), "variable_sets = 300 or more."));
+  EXPECT_TRUE(says(detail("#700=1\nM30", Bench(NC_DIALECT_M700, sets(300))), "variable_sets = 600 or more."));
+  EXPECT_TRUE(says(detail("#450=1\nM30"), "The option variable_ranges"));
+  EXPECT_TRUE(says(detail("#2050=1\nM30", Bench(NC_DIALECT_M700, [](nc_config& c) { c.tool_offsets = 40; })), "The option tool_offsets is 40."));
+  EXPECT_TRUE(says(detail("#16001=1\nM30"), "type II (#1037 = 2)"));
+  EXPECT_TRUE(says(detail("#7021=1\nM30", Bench(NC_DIALECT_M700, [](nc_config& c) { c.work_offsets = 0; })), "The option work_offsets is 0."));
+  EXPECT_TRUE(says(detail("IF [1 EQ 1] THEN #1=2\nM30"), "macro_extensions, which is off."));
+  // What no option gives, or what an option gives already.
+  for (const char* program : {"#5004=1\nM30", "#1=#4129\nM30", "#1=#999999\nM30", "IF [1 EQ] GOTO 5\nM30", "SETVN 520[ABC]\nM30"})
+    EXPECT_FALSE(says(detail(program), "option")) << program << ": " << detail(program);
+  EXPECT_FALSE(says(detail("IF [1 EQ 1] THEN\nGOTO 77\nM30", std::move(Bench().param("macro_extensions", "1"))), "option"));
+}
+
+TEST(AlarmCause, CodesOfOtherControls) {
+  for (const char* program : {"o100 sub\nM30", "O<finish> call [1] [2]\nM30", "N5 o101 if [#1 GT 2]\nM30", "o102 while [#1 LT 5]\nM30", "o100 endsub\nM30",
+                              "o103 repeat [5]\nM30", " O 104 ENDIF\nM30", "o105 return\nM30", "o106 do\nM30", "o[#1] call\nM30"}) {
+    EXPECT_TRUE(says(detail(program), "O-words of LinuxCNC")) << program << ": " << detail(program);
+  }
+  EXPECT_TRUE(says(detail("G90.1\nM30"), "absolute arc centres"));
+  EXPECT_TRUE(says(detail("G21 G91.1\nM30"), "Leave it out."));
+  EXPECT_FALSE(says(detail("G92.7\nM30"), "arc"));
+  EXPECT_FALSE(says(detail("O100 X\nM30"), "LinuxCNC"));
+  EXPECT_FALSE(says(detail("X5 &\nM30"), "LinuxCNC"));
+}
+
+/// Never cut in the middle of a sentence.
+TEST(AlarmCause, IsAWholeSentence) {
+  for (const char* program : {"IF [1 EQ 1] THEN #1=2\nM30", "o100 sub\nM30", "G91.1\nM30", "G1 X10. F#650\nM30", "G2 X10. I#4 F100\nM30",
+                              "G10 L2 P[#123456+1] X1.\nM30", "#2=LN[#1]\nM30"}) {
+    const std::string text = detail(program);
+    EXPECT_LT(text.size(), size_t{NC_MAX_TEXT});
+    EXPECT_EQ(text.back(), '.') << text;
+  }
+}
+
+}  // namespace
+}  // namespace nc::test
