@@ -177,6 +177,122 @@ TEST(Events, ALineThatCallsBeginsWithItsSubProgram) {
   EXPECT_EQ(world.input(0), 1u);
 }
 
+TEST(Hits, AreTakenBySkipMovesInTheirOrder) {
+  const tools::Setup setup = setup_of(R"({"hits": [{"at": {"X": 30}}, null, {"at": {"Z": 5}}, {"at": {"X": 12}, "when": {"line": 9}}, {"at": {"X": 999}}]})");
+  VirtualWorld world(setup, xyz());
+  FakeItems items;
+  const auto at_line = [&](uint32_t line, uint8_t depth = 0) {
+    items.mark(line, {}, depth);
+    world.on_item(items.items.back(), 0);
+  };
+  at_line(1);
+  nc_move first = skip_move({{0, 0, 0}}, {{100, 10, 0}});  // work X is machine X + 10
+  ASSERT_TRUE(world.execute(&first));
+  EXPECT_TRUE(world.skipped());
+  EXPECT_DOUBLE_EQ(first.work.v[0], 30);
+  EXPECT_DOUBLE_EQ(first.machine.v[0], 20);
+  EXPECT_DOUBLE_EQ(first.machine.v[1], 2);
+  EXPECT_DOUBLE_EQ(world.answer(NC_SYNC_SKIP).skip_machine.v[0], 20);
+  at_line(9);  // the entry for this line, not the next one in order
+  nc_move named = skip_move({{0, 0, 0}}, {{100, 0, 0}});
+  world.execute(&named);
+  EXPECT_DOUBLE_EQ(named.work.v[0], 12);
+  at_line(10);
+  nc_move second = skip_move({{0, 0, 0}}, {{100, 0, 0}});
+  world.execute(&second);
+  EXPECT_FALSE(world.skipped());
+  EXPECT_EQ(second.machine.v[0], 100);
+  EXPECT_EQ(world.unused().size(), 2u);
+  nc_move third = skip_move({{0, 0, 10}}, {{0, 0, -50}});
+  world.execute(&third);
+  EXPECT_DOUBLE_EQ(third.machine.v[2], -5);
+  at_line(12);
+  nc_move off = skip_move({{0, 0, 0}}, {{100, 0, 0}});
+  world.execute(&off);
+  EXPECT_FALSE(world.skipped());
+  ASSERT_EQ(world.unused().size(), 1u);
+  EXPECT_NE(world.unused()[0].find("s.json:1: hits[4]: the skip move on line 12 does not pass this place"), std::string::npos) << world.unused()[0];
+}
+
+TEST(Hits, BelongToASignal) {
+  const tools::Setup setup = setup_of(R"({"hits": [{"signal": 2, "at": {"X": 30}}, {"signal": 2, "at": {"X": 30}}]})");
+  VirtualWorld world(setup, xyz());
+  nc_move other = skip_move({{0, 0, 0}}, {{100, 0, 0}}, 1);
+  world.execute(&other);
+  EXPECT_FALSE(world.skipped());
+  nc_move both = skip_move({{0, 0, 0}}, {{100, 0, 0}}, 3);
+  world.execute(&both);
+  EXPECT_TRUE(world.skipped());
+}
+
+TEST(Skip, SolidsOfTheWorkpieceAndABall) {
+  // In workpiece coordinates, 10 beside those of the machine (skip_move); a box with holes; a ball.
+  const tools::Setup setup = setup_of(R"({"skip": [{"coordinates": "work", "ball": {"radius": 3}, "box": {"X": [50, 90], "Y": [0, 60], "Z": [-30, 8]},
+      "holes": [{"cylinder": {"axis": "Z", "center": {"X": 70, "Y": 30}, "radius": 15}}]}]})");
+  VirtualWorld world(setup, xyz());
+  nc_move side = skip_move({{0, 20, -5}}, {{100, 20, -5}});
+  ASSERT_TRUE(world.execute(&side));
+  EXPECT_NEAR(side.work.v[0], 47, 1e-9);
+  EXPECT_NEAR(side.machine.v[0], 37, 1e-9);
+  nc_move bore = skip_move({{60, 20, -5}}, {{60, 100, -5}});  // the middle of the hole is at machine 60, 20
+  ASSERT_TRUE(world.execute(&bore));
+  EXPECT_NEAR(bore.work.v[1], 42, 1e-9);
+  EXPECT_EQ(world.signals_at({{60, 20, -5}}), 0u);
+  EXPECT_EQ(world.signals_at({{60, 40, -5}}), 1u);
+}
+
+TEST(Events, SwitchTheSkipSignal) {
+  const tools::Setup setup = setup_of(R"({"events": [{"when": {"line": 3}, "signals": {"skip": 1}}, {"when": {"line": 4}, "signals": {"skip": 0}},
+      {"when": {"seconds": 2.5}, "signals": {"skip2": 1}}]})");
+  VirtualWorld world(setup, xyz());
+  FakeItems items;
+  items.mark(3, {});
+  items.mark(4, {});
+  world.on_item(items.items[0], 0);
+  nc_move none = skip_move({{0, 0, 0}}, {{10, 0, 0}});
+  EXPECT_FALSE(world.execute(&none));  // it is on already: nothing moves
+  EXPECT_TRUE(world.skipped());
+  world.on_item(items.items[1], 0);
+  nc_move all = skip_move({{0, 0, 0}}, {{2, 0, 0}}, 3);  // 100 mm/min: 1.2 s
+  ASSERT_TRUE(world.execute(&all));
+  EXPECT_FALSE(world.skipped());
+  nc_move cut = skip_move({{2, 0, 0}}, {{12, 0, 0}}, 2);  // from 1.2 s to 7.2 s: the signal comes at 2.5 s
+  ASSERT_TRUE(world.execute(&cut));
+  EXPECT_TRUE(world.skipped());
+  EXPECT_NEAR(cut.machine.v[0], 2 + 1.3 / 0.6, 1e-9);
+  EXPECT_EQ(world.seconds(), 2.5);
+  world.on_item(items.items[1], 0);
+  EXPECT_EQ(world.signals_at({}), 2u);
+  EXPECT_TRUE(world.unused().empty());
+}
+
+TEST(Events, OfMCodesAndLinesOfSubPrograms) {
+  const tools::Setup setup = setup_of(R"({"events": [{"when": {"m": 6}, "inputs": {"1000": 1}}, {"when": {"line": 2, "program": 1000}, "inputs": {"1001": 1}},
+      {"when": {"m": 7}, "inputs": {"1002": 1}},
+      {"when": {"line": 2, "program": 1001}, "inputs": {"1003": 1}}, {"when": {"line": 77}, "inputs": {"1004": 1}}, {"when": {"seconds": 900}}]})");
+  VirtualWorld world(setup, xyz());
+  FakeItems items;
+  items.mark(2, {});     // of the main program
+  items.mark(2, {}, 1);  // of O1000
+  nc_item& m = items.add(NC_ITEM_ACTION, 3);
+  m.u.action.kind = NC_ACTION_M;
+  m.u.action.value = 6;
+  world.on_item(items.items[0], 0);
+  EXPECT_EQ(world.input(0), 0u);
+  world.on_item(items.items[1], 0);
+  EXPECT_EQ(world.input(0), 2u);
+  world.on_item(items.items[2], 0);
+  EXPECT_EQ(world.input(0), 3u);
+  const std::vector<std::string> unused = world.unused();
+  ASSERT_EQ(unused.size(), 4u);
+  EXPECT_NE(unused[0].find("events[2]: has not fired: M7 was not given out"), std::string::npos) << unused[0];
+  EXPECT_NE(unused[1].find("events[3]: has not fired: line 2 of O1001"), std::string::npos) << unused[1];
+  EXPECT_NE(unused[2].find("events[4]: has not fired: line 77 of the main program"), std::string::npos) << unused[2];
+  EXPECT_NE(unused[3].find("events[5]: has not fired: the program ended"), std::string::npos) << unused[3];
+  world.on_m(7);
+  EXPECT_EQ(world.input(0), 7u);
+}
+
 TEST(Events, ResetEndsTheRun) {
   const tools::Setup setup =
       setup_of(R"({"events": [{"when": {"line": 1}, "signals": {"feed_hold": 1, "reset": 1}}]})");

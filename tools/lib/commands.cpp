@@ -49,6 +49,11 @@ class TraceSink final : public RunSink {
     items_->shown(&shown.machine, &shown.work);
     writer_.move(s, shown);
   }
+  void skip_move(const nc_source& s, const nc_move& m, bool skipped) override {
+    nc_move shown = m;
+    items_->shown(&shown.machine, &shown.work);
+    writer_.move(s, shown, &skipped);
+  }
   void block(const nc_source& s, const nc_axes& work, const nc_axes& machine) override {
     nc_axes work_shown = work, machine_shown = machine;
     items_->shown(&machine_shown, &work_shown);
@@ -80,6 +85,7 @@ class PrintSink final : public RunSink {
  public:
   PrintSink(RunSink* next, PrintFile* file) : next_(*next), file_(*file) {}
   void move(const nc_source& s, const nc_move& m) override { next_.move(s, m); }
+  void skip_move(const nc_source& s, const nc_move& m, bool skipped) override { next_.skip_move(s, m, skipped); }
   void block(const nc_source& s, const nc_axes& work, const nc_axes& machine) override {
     next_.block(s, work, machine);
   }
@@ -128,23 +134,25 @@ class PlotSink final : public RunSink {
 };
 
 RunResult run_session(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks,
-                      bool one_pass) {
+                      bool one_pass, std::FILE* err) {
   VirtualWorld world(session->setup(), session->config().system[0]);
-  return run_offline(items, &world, sink, session->block_lines(), max_silent_blocks, one_pass);
+  const RunResult result = run_offline(items, &world, sink, session->block_lines(), max_silent_blocks, one_pass);
+  if (result.how != RunResult::How::kFailed) note_unused(world.unused(), err);
+  return result;
 }
 
 /** The run with what it prints in `path` ("" = nowhere). @return false when the file cannot be written:
  * *error says why. */
 bool run_printing(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks,
-                  bool one_pass, const std::string& path, RunResult* result, std::string* error) {
+                  bool one_pass, const std::string& path, RunResult* result, std::string* error, std::FILE* err) {
   PrintFile file;
   if (path.empty()) {
-    *result = run_session(session, sink, items, max_silent_blocks, one_pass);
+    *result = run_session(session, sink, items, max_silent_blocks, one_pass, err);
     return true;
   }
   if (!file.open(path, error)) return false;
   PrintSink printing(sink, &file);
-  *result = run_session(session, &printing, items, max_silent_blocks, one_pass);
+  *result = run_session(session, &printing, items, max_silent_blocks, one_pass, err);
   if (!file.good()) *error = path + ": cannot be written";
   return file.good();
 }
@@ -190,7 +198,7 @@ int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int
   ControlSource items(session.control());
   TraceSink sink(&file, session.config().system[0], &items);
   RunResult result;
-  if (!run_printing(&session, &sink, &items, max_silent_blocks, false, options.print, &result, &error))
+  if (!run_printing(&session, &sink, &items, max_silent_blocks, false, options.print, &result, &error, err))
     return complain(err, error);
   if (!file.flush()) return complain(err, "the trace cannot be written: " + file.error_text());
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
@@ -220,7 +228,7 @@ int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std
   ControlSource items(session.control());
   RunSink nothing;
   RunResult result;
-  if (!run_printing(&session, &nothing, &items, max_silent_blocks, true, options.print, &result, &error))
+  if (!run_printing(&session, &nothing, &items, max_silent_blocks, true, options.print, &result, &error, err))
     return complain(err, error);
   char note[200];
   for (unsigned i = 0; nc_parameter_note(session.control(), kPartSystem, i, note, sizeof note) == NC_OK; ++i)
@@ -251,7 +259,7 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, Plot
                                         : options.program.substr(slash == std::string::npos ? 0 : slash + 1));
   ControlSource items(session.control());
   PlotSink sink(&plot, session.config().system[0], &items);
-  const RunResult result = run_session(&session, &sink, &items, max_silent_blocks, true);
+  const RunResult result = run_session(&session, &sink, &items, max_silent_blocks, true, err);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error))
     return complain(err, error);

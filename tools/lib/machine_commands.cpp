@@ -22,8 +22,14 @@ bool open_session(Session* session, const SessionOptions& options, const Machine
                   std::string* error) {
   std::unique_ptr<rt::Config> config;
   if (!machine.machine.empty() && !(config = load_machine(machine.machine, error))) return false;
-  return session->configure(options, error, std::move(config)) &&
-         set_machine_limits(machine, session->machine(), &session->config(), error) &&
+  if (!session->configure(options, error, std::move(config))) return false;
+  if (!session->setup().hits.empty()) {
+    const SetupPlace& place = session->setup().hits.front().place;
+    *error = session->setup().name + ":" + std::to_string(place.line) + ": " + place.path +
+             ": hits are for trace, check and plot; on the virtual machine a probe needs a solid (skip)";
+    return false;
+  }
+  return set_machine_limits(machine, session->machine(), &session->config(), error) &&
          session->start(options, error);
 }
 
@@ -78,6 +84,7 @@ int time_command(const SessionOptions& options, const MachineOptions& machine, d
   if (!open_session(&session, options, machine, &error)) return complain(err, error);
   const MachineResult result = run(&session, limit_s);
   if (result.how == MachineResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  note_unused(result.unused, err);
   if (result.how == MachineResult::How::kAlarmed)
     std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   const uint64_t whole = static_cast<uint64_t>(result.seconds);
@@ -109,6 +116,7 @@ int motion_command(const SessionOptions& options, const MachineOptions& machine,
     return complain(
         err, (path.empty() ? "the motion" : path) + std::string(" cannot be written: ") + file.error_text());
   if (result.how == MachineResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  note_unused(result.unused, err);
   if (result.how != MachineResult::How::kAlarmed) return kExitEnded;
   std::fprintf(err, "%s\n", alarm_line(session, result.alarm).c_str());
   return kExitAlarm;
@@ -129,6 +137,7 @@ int profile_command(const SessionOptions& options, const MachineOptions& machine
     return true;
   });
   if (result.how == MachineResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  note_unused(result.unused, err);
   plot.end();
   if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error))
     return complain(err, error);

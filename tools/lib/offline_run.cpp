@@ -118,7 +118,8 @@ class OfflineRun {
     work_ = item.u.move.work;
     ++result_.moves;
     result_.length += item.u.move.length;
-    sink_.move(item.source, item.u.move);
+    if (item.u.move.kind == NC_MOVE_SKIP) sink_.skip_move(item.source, item.u.move, world_.skipped());
+    else sink_.move(item.source, item.u.move);
   }
 
   void action(const nc_item& item) {

@@ -18,6 +18,8 @@ class RunSink {
  public:
   virtual ~RunSink() = default;
   virtual void move(const nc_source&, const nc_move&) {}
+  /** A skip move as it was done; `skipped`: its signal ended it. */
+  virtual void skip_move(const nc_source& source, const nc_move& done, bool /*skipped*/) { move(source, done); }
   virtual void block(const nc_source&, const nc_axes& /*work*/, const nc_axes& /*machine*/) {}
   virtual void aux(const nc_source&, char /*code*/, double /*value*/) {}
   virtual void dwell(const nc_source&, bool /*turns*/, double /*value*/) {}

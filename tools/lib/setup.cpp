@@ -35,7 +35,7 @@ class SetupReader {
     if (root.type != Type::kObject)
       fail(root, "", std::string("a setup must be an object, is ") + root.type_name());
     check_keys(root, "",
-               {"axes", "params", "kinematics", "start", "work_offsets", "offsets", "vars", "inputs", "skip",
+               {"axes", "params", "kinematics", "start", "work_offsets", "offsets", "vars", "inputs", "skip", "hits",
                 "switches", "subprograms", "events", "options", "clock"});
     // Axes first: all that follows may name them.
     if (const JsonNode* node = member(root, "axes")) axes(*node);
@@ -48,6 +48,7 @@ class SetupReader {
       if (key == "vars") variables(node);
       if (key == "inputs") s_.inputs = inputs(node, "inputs");
       if (key == "skip") skip(node);
+      if (key == "hits") hits(node);
       if (key == "switches") switches(node);
       if (key == "subprograms") subprograms(node);
       if (key == "events") events(node);
@@ -291,7 +292,8 @@ class SetupReader {
     for (size_t i = 0; i < node.items.size(); ++i) {
       const JsonNode& item = node.items[i];
       const std::string path = item_path("skip", i);
-      check_keys(object(item, path), path, {"signal", "box"});
+      check_keys(object(item, path), path,
+                 {"signal", "box", "cylinder", "sphere", "plane", "holes", "turns_with", "ball", "coordinates"});
       SkipSolid solid;
       for (unsigned a = 0; a < NC_MAX_AXES; ++a) {
         solid.low[a] = -std::numeric_limits<double>::infinity();
@@ -299,6 +301,11 @@ class SetupReader {
       }
       if (const JsonNode* signal = member(item, "signal"))
         solid.signal = whole(*signal, path + ".signal", 1, 8);
+      if (is_probed(item)) {
+        solid.probe = probe_solid(item, path);
+        s_.skip.push_back(solid);
+        continue;
+      }
       const JsonNode* box = member(item, "box");
       if (!box) fail(item, path, "the key box is missing");
       if (object(*box, path + ".box").members.empty()) fail(*box, path + ".box", "a box without a side");
@@ -314,6 +321,172 @@ class SetupReader {
       }
       s_.skip.push_back(solid);
     }
+  }
+
+  // More than a plain box of machine coordinates.
+  static bool is_probed(const JsonNode& item) {
+    for (const auto& [key, value] : item.members)
+      if (key != "signal" && key != "box") return true;
+    return false;
+  }
+
+  ProbeSolid probe_solid(const JsonNode& item, const std::string& path) {
+    ProbeSolid solid;
+    solid.shape = shape_of(item, path);
+    if (const JsonNode* holes = member(item, "holes")) {
+      const std::string at = path + ".holes";
+      for (size_t i = 0; i < list(*holes, at).items.size(); ++i) {
+        check_keys(object(holes->items[i], item_path(at, i)), item_path(at, i), {"box", "cylinder", "sphere", "plane"});
+        solid.holes.push_back(shape_of(holes->items[i], item_path(at, i)));
+      }
+    }
+    if (const JsonNode* turns = member(item, "turns_with")) {
+      const std::string at = path + ".turns_with";
+      for (size_t i = 0; i < list(*turns, at).items.size(); ++i) solid.turns.push_back(turn(turns->items[i], item_path(at, i)));
+    }
+    if (const JsonNode* ball = member(item, "ball")) {
+      const std::string at = path + ".ball";
+      check_keys(object(*ball, at), at, {"radius", "center"});
+      solid.ball_radius = positive(*ball, at, "radius");
+      if (const JsonNode* center = member(*ball, "center")) solid.ball_center = point(*center, at + ".center");
+    }
+    if (const JsonNode* coordinates = member(item, "coordinates"))
+      solid.work = one_of(*coordinates, path + ".coordinates", {"machine", "work"}) == "work";
+    if (solid.work && !solid.turns.empty()) fail(item, path + ".turns_with", "a solid that turns with an axis is given in machine coordinates");
+    return solid;
+  }
+
+  // The one shape among the keys of an object.
+  ProbeShape shape_of(const JsonNode& item, const std::string& path) {
+    const JsonNode *found = nullptr, *node = nullptr;
+    std::string name;
+    for (const char* key : {"box", "cylinder", "sphere", "plane"}) {
+      if (!(node = member(item, key))) continue;
+      if (found) fail(*node, join(path, key), "stands beside " + name + ": one shape each");
+      found = node;
+      name = key;
+    }
+    if (!found) fail(item, path, "the key box, cylinder, sphere or plane is missing");
+    const std::string at = join(path, name);
+    object(*found, at);
+    ProbeShape shape;
+    shape.low.fill(-std::numeric_limits<double>::infinity());
+    shape.high.fill(std::numeric_limits<double>::infinity());
+    if (name == "box") {
+      shape.kind = ProbeShape::Kind::kBox;
+      if (found->members.empty()) fail(*found, at, "a box without a side");
+      for (const auto& [letter, value] : found->members) range(value, join(at, letter), letter, &shape);
+    } else if (name == "cylinder") {
+      shape.kind = ProbeShape::Kind::kCylinder;
+      check_keys(*found, at, {"axis", "center", "radius", "range"});
+      if (const JsonNode* axis_name = member(*found, "axis")) shape.axis = one_of(*axis_name, at + ".axis", {"X", "Y", "Z"})[0] - 'X';
+      shape.center = required_point(*found, at, "center");
+      shape.radius = positive(*found, at, "radius");
+      if (const JsonNode* ends = member(*found, "range")) range(*ends, at + ".range", std::string(1, static_cast<char>('X' + shape.axis)), &shape);
+    } else if (name == "sphere") {
+      shape.kind = ProbeShape::Kind::kSphere;
+      check_keys(*found, at, {"center", "radius"});
+      shape.center = required_point(*found, at, "center");
+      shape.radius = positive(*found, at, "radius");
+    } else {
+      shape.kind = ProbeShape::Kind::kHalfSpace;
+      check_keys(*found, at, {"point", "normal"});
+      shape.center = required_point(*found, at, "point");
+      shape.normal = required_point(*found, at, "normal");
+      const double size = std::hypot(shape.normal[0], shape.normal[1], shape.normal[2]);
+      if (!(size > 1e-6)) fail(*found, at + ".normal", "is the direction out of the solid, and not 0");
+      for (double& v : shape.normal) v /= size;
+    }
+    return shape;
+  }
+
+  ProbeTurn turn(const JsonNode& node, const std::string& path) {
+    check_keys(object(node, path), path, {"axis", "about", "center"});
+    ProbeTurn turn;
+    const JsonNode *name = member(node, "axis"), *about = member(node, "about");
+    if (!name || !about) fail(node, path, std::string("the key ") + (name ? "about" : "axis") + " is missing");
+    turn.axis_index = axis(*name, path + ".axis", text(*name, path + ".axis"));
+    if (!s_.axes[turn.axis_index].rotary) fail(*name, path + ".axis", "must be a rotary axis of the setup");
+    turn.about = one_of(*about, path + ".about", {"X", "Y", "Z"})[0] - 'X';
+    if (const JsonNode* center = member(node, "center")) turn.center = point(*center, path + ".center");
+    return turn;
+  }
+
+  void range(const JsonNode& node, const std::string& path, const std::string& letter, ProbeShape* shape) {
+    const size_t a = linear(node, path, letter);
+    if (list(node, path).items.size() != 2) fail(node, path, "must be [low, high]");
+    shape->low[a] = number(node.items[0], item_path(path, 0));
+    shape->high[a] = number(node.items[1], item_path(path, 1));
+    if (!(shape->low[a] < shape->high[a])) fail(node, path, "low must be less than high");
+  }
+
+  // X, Y or Z, of which a shape knows nothing but that.
+  size_t linear(const JsonNode& node, const std::string& path, const std::string& letter) {
+    if (letter.size() != 1 || letter[0] < 'X' || letter[0] > 'Z') fail(node, path, "no such key: a shape has X, Y and Z");
+    axis(node, path, letter);
+    return static_cast<size_t>(letter[0] - 'X');
+  }
+
+  Point3 point(const JsonNode& node, const std::string& path) {
+    Point3 p{};
+    for (const auto& [letter, value] : object(node, path).members) {
+      const size_t a = linear(value, join(path, letter), letter);
+      p[a] = number(value, join(path, letter));
+    }
+    return p;
+  }
+
+  Point3 required_point(const JsonNode& node, const std::string& path, const char* key) {
+    const JsonNode* found = member(node, key);
+    if (!found) fail(node, path, std::string("the key ") + key + " is missing");
+    return point(*found, join(path, key));
+  }
+
+  double positive(const JsonNode& node, const std::string& path, const char* key) {
+    const JsonNode* found = member(node, key);
+    if (!found) fail(node, path, std::string("the key ") + key + " is missing");
+    const double value = number(*found, join(path, key));
+    if (!(value > 0)) fail(*found, join(path, key), "must be more than 0");
+    return value;
+  }
+
+  void hits(const JsonNode& node) {
+    list(node, "hits");
+    for (size_t i = 0; i < node.items.size(); ++i) {
+      const JsonNode& item = node.items[i];
+      const std::string path = item_path("hits", i);
+      SkipHit hit;
+      hit.place = {path, item.line};
+      hit.none = item.type == Type::kNull;
+      if (!hit.none) {
+        check_keys(object(item, path), path, {"when", "signal", "at"});
+        if (const JsonNode* signal = member(item, "signal")) hit.signal = whole(*signal, path + ".signal", 1, 8);
+        if (const JsonNode* when = member(item, "when")) {
+          check_keys(object(*when, path + ".when"), path + ".when", {"line", "program"});
+          place_of(*when, path + ".when", &hit.line, &hit.program);
+        }
+        const JsonNode* at = member(item, "at");
+        if (!at) fail(item, path, "the key at is missing");
+        if (at->type == Type::kNull) {
+          hit.none = true;
+        } else {
+          for (const SetupAxisValue& v : axis_values(*at, path + ".at")) {
+            hit.at[v.axis] = v.value;
+            hit.named[v.axis] = true;
+          }
+          if (at->members.empty()) fail(*at, path + ".at", "names no axis");
+        }
+      }
+      s_.hits.push_back(hit);
+    }
+  }
+
+  // A line of the main program or, with the O number, of another one.
+  void place_of(const JsonNode& when, const std::string& path, std::optional<uint32_t>* line, std::optional<uint32_t>* program) {
+    const JsonNode *line_node = member(when, "line"), *program_node = member(when, "program");
+    if (program_node && !line_node) fail(when, path, "the key line is missing beside program");
+    if (line_node) *line = whole(*line_node, path + ".line", 1, std::numeric_limits<uint32_t>::max());
+    if (program_node) *program = whole(*program_node, path + ".program", 1, 99'999'999);
   }
 
   void switches(const JsonNode& node) {
@@ -358,10 +531,12 @@ class SetupReader {
       SetupEvent event;
       const JsonNode* when = member(item, "when");
       if (!when) fail(item, path, "the key when is missing");
-      check_keys(object(*when, path + ".when"), path + ".when", {"line", "seconds"});
-      if (when->members.size() != 1) fail(*when, path + ".when", "must have one of line and seconds");
-      if (const JsonNode* line = member(*when, "line"))
-        event.line = whole(*line, path + ".when.line", 1, std::numeric_limits<uint32_t>::max());
+      event.place = {path, item.line};
+      check_keys(object(*when, path + ".when"), path + ".when", {"line", "program", "seconds", "m"});
+      const size_t kinds = (member(*when, "line") ? 1u : 0u) + (member(*when, "seconds") ? 1u : 0u) + (member(*when, "m") ? 1u : 0u);
+      if (kinds != 1) fail(*when, path + ".when", "must have one of line and seconds, or m");
+      place_of(*when, path + ".when", &event.line, &event.program);
+      if (const JsonNode* m = member(*when, "m")) event.m = whole(*m, path + ".when.m", 0, 99'999'999);
       if (const JsonNode* seconds = member(*when, "seconds")) {
         event.seconds = number(*seconds, path + ".when.seconds");
         if (*event.seconds < 0) fail(*seconds, path + ".when.seconds", "must not be negative");
@@ -369,7 +544,7 @@ class SetupReader {
       if (const JsonNode* change = member(item, "inputs")) event.inputs = inputs(*change, path + ".inputs");
       if (const JsonNode* signals = member(item, "signals")) {
         check_keys(object(*signals, path + ".signals"), path + ".signals",
-                   {"macro_interrupt", "feed_hold", "reset"});
+                   {"macro_interrupt", "feed_hold", "reset", "skip", "skip2", "skip3", "skip4", "skip5", "skip6", "skip7", "skip8"});
         const std::string signals_path = path + ".signals";
         for (const auto& [name, value] : signals->members)
           event.signals[name] = static_cast<int>(whole(value, join(signals_path, name), 0, 1));
@@ -462,6 +637,13 @@ int Setup::axis_index(char axis_name) const {
   for (size_t i = 0; i < axes.size(); ++i)
     if (axes[i].name == axis_name) return static_cast<int>(i);
   return -1;
+}
+
+Point3 Setup::linear(const nc_axes& position) const {
+  Point3 p{};
+  for (size_t i = 0; i < axes.size(); ++i)
+    if (axes[i].name >= 'X') p[static_cast<size_t>(axes[i].name - 'X')] = position.v[i];
+  return p;
 }
 
 std::optional<int64_t> parse_clock(const std::string& value) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "nc/nc.h"
+#include "tools/lib/probe_solid.hpp"
 
 namespace nc::tools {
 
@@ -63,9 +64,11 @@ struct SetupVariable {
   double value = 0.0;
 };
 
-/** A solid in machine coordinates; its signal is on while the controlled point is inside. */
+/** A solid; its signal is on while the controlled point, or the ball there, is inside. A plain box holds for every axis, by machine
+ * coordinates; all others have a `probe` and hold for X, Y and Z. */
 struct SkipSolid {
   unsigned signal = 1;
+  std::optional<ProbeSolid> probe;
   double low[NC_MAX_AXES], high[NC_MAX_AXES];  // +-infinity where the box says nothing
   bool bounded[NC_MAX_AXES] = {};
 };
@@ -76,9 +79,23 @@ struct InputChange {
   uint32_t bits[NC_WORDS] = {0, 0, 0, 0};
 };
 
+/** Where the signal comes in one skip move: where its path passes the place, workpiece coordinates. */
+struct SkipHit {
+  SetupPlace place;
+  std::optional<uint32_t> line;   // of the move; without it the entries are taken by the skip moves in their order
+  std::optional<uint32_t> program;
+  unsigned signal = 1;
+  bool none = false;              // this move meets nothing
+  double at[NC_MAX_AXES] = {};
+  bool named[NC_MAX_AXES] = {};
+};
+
 /** A change from outside. */
 struct SetupEvent {
-  std::optional<uint32_t> line;   // of the main program, when it begins to execute
+  SetupPlace place;
+  std::optional<uint32_t> line;   // when it begins to execute: of the main program, or of `program`
+  std::optional<uint32_t> program;
+  std::optional<uint32_t> m;      // when this M code is given out
   std::optional<double> seconds;  // of the trace's clock since the start
   InputChange inputs;
   std::map<std::string, int> signals;
@@ -103,6 +120,7 @@ struct Setup {
   std::vector<SetupVariable> variables;
   InputChange inputs;
   std::vector<SkipSolid> skip;
+  std::vector<SkipHit> hits;
   uint32_t optional_skip = 0;  // bit n = switch n
   bool optional_stop = false, single_block = false, dry_run = false;
   uint32_t mirror_axes = 0;                                      // bit = axis index
@@ -116,6 +134,8 @@ struct Setup {
 
   Setup();
   int axis_index(char axis_name) const;
+  /** X, Y and Z of a position; one that there is not is 0. */
+  Point3 linear(const nc_axes& position) const;
 };
 
 /** Parse the text of a setup file; what it does not say is as in `defaults`. @return false with "NAME:LINE: key.path: why" in

@@ -153,7 +153,7 @@ void TraceWriter::put_circular(const nc_move& move) {
   put_number(move.radius);
 }
 
-void TraceWriter::move(const nc_source& source, const nc_move& move) {
+void TraceWriter::move(const nc_source& source, const nc_move& move, const bool* skipped) {
   begin("move", source);
   put(",\"kind\":\"");
   put(move.kind < std::size(kMoveKinds) ? kMoveKinds[move.kind] : std::string_view("unknown"));
@@ -170,6 +170,7 @@ void TraceWriter::move(const nc_source& source, const nc_move& move) {
     put_number(move.feed_mm_min);
   }
   if (circular(move)) put_circular(move);
+  if (skipped) put(*skipped ? ",\"skipped\":true" : ",\"skipped\":false");
   finish();
 }
 

@@ -17,7 +17,7 @@ class TraceWriter {
  public:
   TraceWriter(OutputFile* out, const nc_system_config& system);
 
-  void move(const nc_source& source, const nc_move& move);
+  void move(const nc_source& source, const nc_move& move, const bool* skipped = nullptr);  // skipped: of a skip move
   void block(const nc_source& source, const nc_axes& work, const nc_axes& machine);
   void aux(const nc_source& source, char code, double value);
   void dwell(const nc_source& source, bool turns, double value);

@@ -107,7 +107,7 @@ class VirtualMachine {
     in.unclamped = clamps(last.unclamp);
     in.optional_stop = setup_.optional_stop;
     in.single_block = setup_.single_block;
-    in.skip = world_.signals_at(last.command);
+    in.skip = world_.signals_at(last.command, last.work);
     in.feed_override = 1.0;
     in.rapid_override = 1.0;
     in.spindle[0].rev_per_s = last.s / 60.0;
@@ -117,6 +117,8 @@ class VirtualMachine {
     nc_item now = {};
     now.source = last.source;
     world_.set_seconds(static_cast<double>(cycle) * config_.cycle_s);
+    if ((last.strobe & 1) != 0 && !m_strobe_) world_.on_m(last.m);
+    m_strobe_ = (last.strobe & 1) != 0;
     in.reset = started_ && world_.on_item(now, 0);
     for (int w = 0; w < NC_WORDS; ++w) in.input[w] = world_.input(static_cast<unsigned>(w));
     in.clock_ms = setup_.clock_ms +
@@ -129,6 +131,7 @@ class VirtualMachine {
     result_.seconds = out.run_s;
     result_.path_length = out.path_length;
     result_.blocks = out.blocks;
+    if (how != MachineResult::How::kFailed) result_.unused = world_.unused();
     return result_;
   }
   MachineResult alarmed() {
@@ -152,7 +155,7 @@ class VirtualMachine {
   MachineResult result_;
   double progress_length_ = 0.0;
   uint64_t progress_blocks_ = 0, blocks_before_ = 0;
-  bool started_ = false;
+  bool started_ = false, m_strobe_ = false;
 };
 
 }  // namespace

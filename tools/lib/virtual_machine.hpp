@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "hal/sim/sim_clamp.hpp"
 #include "nc/nc.h"
@@ -22,6 +23,7 @@ struct MachineResult {
   double seconds = 0.0;      // running, from cycle start to the end
   double path_length = 0.0;  // mm
   uint64_t blocks = 0, cycles = 0;
+  std::vector<std::string> unused;  // of the setup (VirtualWorld::unused)
 };
 
 /** Called once per servo cycle with what the control gave out. @return false when nothing more is wanted. */

@@ -18,13 +18,22 @@ namespace {
 constexpr double kTouch = 1e-9;           // mm
 constexpr double kRapidMmMin = 10'000.0;  // the trace's clock takes rapids at 10 m/min
 constexpr double kClockReadSeconds = 0.001;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// "skip" is signal 1, "skip2" to "skip8" the others; 0 = another signal.
+uint32_t skip_bit(const std::string& name) {
+  if (name.compare(0, 4, "skip") != 0) return 0;
+  return name.size() == 4 ? 1u : 1u << (name[4] - '1');
+}
 
 }  // namespace
 
 VirtualWorld::VirtualWorld(const Setup& setup, const nc_system_config& system)
     : setup_(setup), axis_count_(system.axis_count), machine_(setup.start), skip_machine_(setup.start) {
   for (int w = 0; w < NC_WORDS; ++w) input_[w] = setup.inputs.bits[w];
-  for (const SetupEvent& event : setup.events) (event.line ? line_events_ : time_events_).push_back(&event);
+  for (const SetupEvent& event : setup.events)
+    (event.program || event.m ? other_events_ : event.line ? line_events_ : time_events_).push_back(&event);
+  for (const SkipHit& hit : setup.hits) hits_.push_back({&hit});
 }
 
 void VirtualWorld::fire(const SetupEvent& event) {
@@ -35,6 +44,16 @@ void VirtualWorld::fire(const SetupEvent& event) {
   if (interrupt != event.signals.end()) interrupt_ = interrupt->second != 0;
   const auto reset = event.signals.find("reset");
   if (reset != event.signals.end() && reset->second) reset_ = true;
+  for (const auto& [name, on] : event.signals)
+    if (const uint32_t bit = skip_bit(name)) skip_level_ = on ? skip_level_ | bit : skip_level_ & ~bit;
+}
+
+void VirtualWorld::on_m(double code) {
+  std::erase_if(other_events_, [&](const SetupEvent* event) {
+    if (!event->m || *event->m != code) return false;
+    fire(*event);
+    return true;
+  });
 }
 
 bool VirtualWorld::fire_due(const nc_item& item, uint32_t next_line) {
@@ -58,50 +77,135 @@ bool VirtualWorld::fire_due(const nc_item& item, uint32_t next_line) {
       fire(*event);
       return true;
     });
+  if (!other_events_.empty()) {
+    if (item.kind == NC_ITEM_ACTION && item.u.action.kind == NC_ACTION_M) on_m(item.u.action.value);
+    std::erase_if(other_events_, [&](const SetupEvent* event) {
+      if (!event->program || *event->program != item.source.program || *event->line != item.source.line) return false;
+      fire(*event);
+      return true;
+    });
+  }
   return reset_;
 }
 
 uint32_t VirtualWorld::signals_at(const nc_axes& machine) const {
-  uint32_t on = 0;
+  nc_axes work = machine;
+  for (unsigned a = 0; a < axis_count_; ++a) work.v[a] += work_offset_.v[a];
+  return signals_at(machine, work);
+}
+
+uint32_t VirtualWorld::signals_at(const nc_axes& machine, const nc_axes& work) const {
+  uint32_t on = skip_level_;
   for (const SkipSolid& solid : setup_.skip) {
     bool inside = true;
-    for (unsigned a = 0; a < axis_count_; ++a)
-      inside = inside && machine.v[a] > solid.low[a] && machine.v[a] < solid.high[a];
+    if (solid.probe)
+      inside = solid.probe->clearance(setup_.linear(solid.probe->work ? work : machine), machine.v) < -kTouch;
+    else
+      for (unsigned a = 0; a < axis_count_; ++a) inside = inside && machine.v[a] > solid.low[a] && machine.v[a] < solid.high[a];
     if (inside) on |= 1u << (solid.signal - 1);
   }
   return on;
 }
 
+// Smallest path parameter inside of a plain box; infinity when there is none.
+double VirtualWorld::first_box(const nc_move& move, const SkipSolid& solid, double length) const {
+  const double end = length > 0.0 ? 1.0 + 2.0 * kTouch / length : 1.0;  // the last place is looked at as well
+  double in = 0.0, out = end;
+  for (unsigned a = 0; a < axis_count_ && in < out; ++a) {
+    if (!solid.bounded[a]) continue;
+    const double from = move.machine_start.v[a], by = move.machine.v[a] - from;
+    if (by == 0.0) {
+      if (!(from > solid.low[a] && from < solid.high[a])) out = in;
+      continue;
+    }
+    const double t0 = (solid.low[a] - from) / by, t1 = (solid.high[a] - from) / by;
+    in = std::max(in, std::min(t0, t1));
+    out = std::min(out, std::max(t0, t1));
+  }
+  return (out - in) * length > kTouch ? std::min(in, 1.0) : kNever;
+}
+
+double VirtualWorld::first_probe(const nc_move& move, const SkipSolid& solid) const {
+  nc_axes from = move.machine_start, to = move.machine;
+  for (unsigned a = 0; a < axis_count_ && solid.probe->work; ++a) {
+    const double offset = move.work.v[a] - move.machine.v[a];
+    from.v[a] += offset;
+    to.v[a] += offset;
+  }
+  return solid.probe->first_entry({setup_.linear(from), setup_.linear(to), move.machine_start.v, move.machine.v});
+}
+
+// The place of the hit that belongs to this move, as a part of its way; infinity when there is none.
+double VirtualWorld::take_hit(const nc_move& move) {
+  HitState* mine = nullptr;
+  for (HitState& state : hits_) {
+    if (state.taken) continue;
+    const SkipHit& hit = *state.hit;
+    const bool here = hit.line && *hit.line == now_.line && (hit.program ? *hit.program == now_.program : now_.depth == 0);
+    if (here) {
+      mine = &state;
+      break;
+    }
+    if (!hit.line && mine == nullptr) mine = &state;  // the next in order, unless one is for this line
+  }
+  if (mine == nullptr) return kNever;
+  mine->taken = true;
+  mine->line = now_.line;
+  const SkipHit& hit = *mine->hit;
+  if (hit.none) return kNever;
+  double along = 0.0, square = 0.0;
+  for (unsigned a = 0; a < axis_count_; ++a) {
+    if (!hit.named[a]) continue;
+    const double by = move.machine.v[a] - move.machine_start.v[a];
+    const double start = move.work.v[a] - by;
+    along += (hit.at[a] - start) * by;
+    square += by * by;
+  }
+  const double part = square > 0.0 ? along / square : kNever, slack = square > 0.0 ? kTouch / std::sqrt(square) : 0.0;
+  mine->missed = !(part >= -slack && part <= 1.0 + slack) || !(move.skip_mask & (1u << (hit.signal - 1)));
+  return mine->missed ? kNever : std::clamp(part, 0.0, 1.0);
+}
+
+// The first event within the next `seconds` that switches a signal of the mask on.
+const SetupEvent* VirtualWorld::signal_within(double seconds, uint32_t mask) const {
+  const SetupEvent* first = nullptr;
+  for (const SetupEvent* event : time_events_) {
+    if (!(*event->seconds < seconds_ + seconds) || (first && *event->seconds >= *first->seconds)) continue;
+    for (const auto& [name, on] : event->signals)
+      if (on && (skip_bit(name) & mask)) first = event;
+  }
+  return first;
+}
+
 // Smallest path parameter at which a signal of the move's mask is on; infinity when there is none.
 double VirtualWorld::first_entry(const nc_move& move) const {
-  double entry = std::numeric_limits<double>::infinity();
+  if (skip_level_ & move.skip_mask) return 0.0;
+  double entry = kNever;
   double length = 0.0;
   for (unsigned a = 0; a < axis_count_; ++a)
     length = std::hypot(length, move.machine.v[a] - move.machine_start.v[a]);
   for (const SkipSolid& solid : setup_.skip) {
     if (!(move.skip_mask & (1u << (solid.signal - 1)))) continue;
-    const double end = length > 0.0 ? 1.0 + 2.0 * kTouch / length : 1.0;  // the last place is looked at as well
-    double in = 0.0, out = end;
-    for (unsigned a = 0; a < axis_count_ && in < out; ++a) {
-      if (!solid.bounded[a]) continue;
-      const double from = move.machine_start.v[a], by = move.machine.v[a] - from;
-      if (by == 0.0) {
-        if (!(from > solid.low[a] && from < solid.high[a])) out = in;
-        continue;
-      }
-      const double t0 = (solid.low[a] - from) / by, t1 = (solid.high[a] - from) / by;
-      in = std::max(in, std::min(t0, t1));
-      out = std::min(out, std::max(t0, t1));
-    }
-    if ((out - in) * length > kTouch) entry = std::min(entry, std::min(in, 1.0));
+    entry = std::min(entry, solid.probe ? first_probe(move, solid) : first_box(move, solid, length));
   }
   return entry;
 }
 
+double VirtualWorld::duration(const nc_move& move) const {
+  double feed = move.feed_mm_min;
+  if (move.kind == NC_MOVE_RAPID) feed = kRapidMmMin;
+  if (move.feed_mm_rev > 0.0) feed = move.feed_mm_rev * spindle_rev_min_;
+  return feed > 0.0 ? move.length / feed * 60.0 : 0.0;
+}
+
 bool VirtualWorld::execute(nc_move* move) {
   double part = 1.0;
+  const SetupEvent* switched_on = nullptr;
   if (move->kind == NC_MOVE_SKIP) {
-    const double entry = first_entry(*move);
+    double entry = std::min(first_entry(*move), take_hit(*move));
+    const double all = duration(*move);
+    switched_on = signal_within(all * std::min(entry, 1.0), move->skip_mask);
+    if (switched_on) entry = std::clamp((*switched_on->seconds - seconds_) / all, 0.0, 1.0);
     skipped_ = entry <= 1.0;
     if (skipped_) {
       part = entry;
@@ -116,19 +220,39 @@ bool VirtualWorld::execute(nc_move* move) {
     move->length *= part;
   }
   machine_ = move->machine;
-  double feed = move->feed_mm_min;
-  if (move->kind == NC_MOVE_RAPID) feed = kRapidMmMin;
-  if (move->feed_mm_rev > 0.0) feed = move->feed_mm_rev * spindle_rev_min_;
-  if (feed > 0.0) seconds_ += move->length / feed * 60.0;
+  for (unsigned a = 0; a < axis_count_; ++a) work_offset_.v[a] = move->work.v[a] - move->machine.v[a];
+  seconds_ = switched_on ? std::max(seconds_, *switched_on->seconds) : seconds_ + duration(*move);
   return part > 0.0;
 }
 
 void VirtualWorld::dwell(bool turns, double value, uint32_t skip_mask) {
   if (skip_mask && (signals_at(machine_) & skip_mask)) return;
-  if (!turns)
-    seconds_ += value;
-  else if (spindle_rev_min_ > 0.0)
-    seconds_ += value / spindle_rev_min_ * 60.0;
+  const double seconds = !turns ? value : spindle_rev_min_ > 0.0 ? value / spindle_rev_min_ * 60.0 : 0.0;
+  const SetupEvent* const switched_on = signal_within(seconds, skip_mask);
+  seconds_ = switched_on ? std::max(seconds_, *switched_on->seconds) : seconds_ + seconds;
+}
+
+std::vector<std::string> VirtualWorld::unused() const {
+  std::vector<std::string> all;
+  const auto add = [&](const SetupPlace& place, const std::string& why) {
+    all.push_back(setup_.name + ":" + std::to_string(place.line) + ": " + place.path + ": " + why);
+  };
+  for (const SetupEvent& event : setup_.events) {
+    for (const auto* waiting : {&line_events_, &time_events_, &other_events_}) {
+      if (std::find(waiting->begin(), waiting->end(), &event) == waiting->end()) continue;
+      if (event.m) add(event.place, "has not fired: M" + std::to_string(*event.m) + " was not given out");
+      else if (event.seconds) add(event.place, "has not fired: the program ended before that time");
+      else
+        add(event.place, "has not fired: line " + std::to_string(*event.line) + " of " +
+                             (event.program ? "O" + std::to_string(*event.program) : "the main program") + " was not executed, or holds no block");
+    }
+  }
+  for (const HitState& state : hits_) {
+    if (!state.taken) add(state.hit->place, "no skip move came to take it");
+    if (state.missed)
+      add(state.hit->place, "the skip move on line " + std::to_string(state.line) + " does not pass this place, or listens to another signal");
+  }
+  return all;
 }
 
 nc_world VirtualWorld::answer(uint32_t what) {
