@@ -164,6 +164,7 @@ TEST(Manual, DoesNothingWhileAProgramRunsAndActsInABlockStop) {
   m.start();
   m.in.manual[1] = jog(50);
   ASSERT_TRUE(m.until(p, [&] { return m.out.cause == NC_CAUSE_PROGRAM_STOP; }));
+  m.cycle();  // manual motion begins in a cycle of its own
   EXPECT_LE(m.out.command.v[1], 0.001);
   EXPECT_TRUE(m.out.manual_allowed);
   run(m, 100);
