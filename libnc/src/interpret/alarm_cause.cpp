@@ -128,10 +128,9 @@ bool put_foreign(const Interpreter& in, TextWriter& out) {
   // Letters without numbers: an O number in front of a block that makes sense is none of these.
   const bool unreadable = in.block != nullptr && (in.block->has_fault || fault.condition == Condition::format_error);
   if (!unreadable) return false;
-  char text[80];
+  char text[80] = {};
   const TextEntry* const entry = in.store->entry(in.source.file);
-  const long got = entry != nullptr ? TextWindow::read(*entry, in.block->begin, text, sizeof text - 1) : 0;
-  text[got > 0 ? got : 0] = 0;
+  if (entry == nullptr || TextWindow::read(*entry, in.block->begin, text, sizeof text - 1) <= 0) return false;
   for (char& c : text)
     if (c == '\n' || c == '\r') c = 0;
   if (!is_o_word(text)) return false;
