@@ -172,7 +172,7 @@ TEST_P(ByHand, NothingJumpsWhateverIsDone) {
     for (unsigned n = 0; n < 4000 && !m.drive->ended; ++n) m.step();
     ASSERT_LT(m.worst, 1.001) << program.name << " seed " << seed << " MDI";
   }
-  EXPECT_GT(hands, 100u);
+  EXPECT_GT(hands, 50u);
   EXPECT_GT(ends, 20u);
   EXPECT_GT(alarms, 5u);
 }
