@@ -77,7 +77,7 @@ struct Fixture {
   nc::LexRules rules;
   nc::BlockReader whole, narrow;
   Fixture(uint8_t choice) : rules(rules_of(choice)) {
-    store.create(2, arena);
+    store.create(2, 0, arena);
     whole.create(&store, &rules, 64, 8, arena);
     narrow.create(&store, &rules, 16 + choice / 2, choice % 16, arena);
   }

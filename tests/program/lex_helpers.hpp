@@ -119,7 +119,7 @@ class Texts {
       : rules(lex_rules),
         memory_(std::make_unique_for_overwrite<char[]>(kMemory)),
         arena_(memory_.get(), kMemory) {
-    store.create(16, arena_);
+    store.create(16, 0, arena_);
     reader.create(&store, &rules, window, cached, arena_);
   }
 

@@ -193,13 +193,54 @@ TEST(Lexer, RangesOfWords) {
   EXPECT_EQ(fault_of("X99999999999999999999999999999999"), Condition::value_range);
 }
 
+/// M700 3.1: blank tape and rows that were punched out, wherever they stand.
+TEST(Lexer, NulAndDeleteAreIgnored) {
+  const std::string plain = "/2N10 G1 X-12.5 Y#1 ,R[#2+1.] F100\n", other = "IF[#100EQ5]GOTO20\n", third = "#3000=12(STOP)\n";
+  for (const std::string& text : {plain, other, third}) {
+    const std::string expected = [&] {
+      const auto block = lex(text);
+      std::string all;
+      for (const Word& w : block->words) all += w.letter + std::to_string(w.value) + std::to_string(w.flags) + " ";
+      for (const Statement& t : block->statements) all += std::to_string(static_cast<int>(t.kind)) + text_of(*block, t.text, t.text_length);
+      return all + std::to_string(block->n) + std::to_string(block->skip) + std::to_string(block->code.size());
+    }();
+    for (const char ignored : {'\0', '\x7f'}) {
+      for (size_t at = 0; at <= text.size(); ++at) {
+        std::string changed = text;
+        changed.insert(at, 1, ignored);
+        const auto block = lex(changed);
+        std::string all;
+        for (const Word& w : block->words) all += w.letter + std::to_string(w.value) + std::to_string(w.flags) + " ";
+        for (const Statement& t : block->statements) all += std::to_string(static_cast<int>(t.kind)) + text_of(*block, t.text, t.text_length);
+        all += std::to_string(block->n) + std::to_string(block->skip) + std::to_string(block->code.size());
+        EXPECT_EQ(all, expected) << at;
+        EXPECT_FALSE(block->has_fault) << at;
+      }
+    }
+  }
+}
+
+/// A message that is cut is cut between two characters.
+TEST(Lexer, LongMessagesAreCutBetweenCharacters) {
+  for (size_t before = 120; before < 128; ++before) {
+    const std::string text = "#3000=1(" + std::string(before, 'A') + "\u00d8\u5de5\U0001f527\u00d8\u00d8\u00d8)\n";
+    const auto block = lex(text);
+    ASSERT_EQ(block->statements.size(), 1u);
+    const std::string kept = text_of(*block, block->statements[0].text, block->statements[0].text_length);
+    EXPECT_LE(kept.size(), 127u);
+    EXPECT_GE(kept.size(), 124u);
+    EXPECT_EQ(text.find(kept), 8u);
+    EXPECT_NE(static_cast<unsigned char>(text[8 + kept.size()]) & 0xc0, 0x80) << before;
+  }
+}
+
 TEST(Lexer, UnknownLettersAndCharacters) {
   EXPECT_EQ(fault_of("G1 U1", dgshape_rules()), Condition::illegal_address);
   EXPECT_EQ(lex("G1 U1", dgshape_rules())->fault.letter, 'U');
   EXPECT_EQ(fault_of("U", dgshape_rules()), Condition::illegal_address);
   EXPECT_EQ(fault_of("V#", dgshape_rules()), Condition::illegal_address);
   for (char c : {'!', '"', '$', '&', '\'', ')', ':',    '>',    '?',    '@',    '\\', '^',
-                 '_', '`', '{', '|', '}',  '~', '\x01', '\x7f', '\x80', '\xff', '\0'}) {
+                 '_', '`', '{', '|', '}',  '~', '\x01', '\x80', '\xff'}) {
     EXPECT_EQ(fault_of(std::string("G1 ") + c + "X1\n"), Condition::illegal_character) << static_cast<int>(c);
     EXPECT_EQ(fault_of(std::string(1, c)), Condition::illegal_character) << static_cast<int>(c);
     EXPECT_NE(fault_of(std::string("G1 X") + c + "\n"), Condition::none) << static_cast<int>(c);

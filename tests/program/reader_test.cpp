@@ -250,6 +250,48 @@ TEST(BlockReader, ReadFailures) {
   EXPECT_EQ(t.reader.read(99, 0, 1), nullptr);
 }
 
+/// A search that could not see the text finds nothing and says so: neither what stands elsewhere under the same number nor a program of
+/// the host takes its place.
+TEST(BlockReader, SearchesInATextThatHasChanged) {
+  struct Host {
+    std::string text;
+    uint64_t changed_from = UINT64_MAX;
+  } host;
+  host.text = "N1 G1 X1\nWHILE[1]DO1\n" + std::string(600, ' ') + "\nEND1\nN7 X2\nM30\nO55\nM99\n";
+  Texts t(64, 0);
+  TextEntry entry;
+  entry.user = &host;
+  entry.size = host.text.size();
+  entry.read = [](void* user, uint64_t offset, char* buffer, size_t size) -> long {
+    const Host& h = *static_cast<Host*>(user);
+    if (offset + size > h.changed_from) return NC_READ_CHANGED;
+    std::memcpy(buffer, h.text.data() + offset, size);
+    return static_cast<long>(size);
+  };
+  unsigned file = 0;
+  ASSERT_EQ(t.store.add(entry, "a", &file), NC_OK);
+  t.add_memory("O7", "M99\n");
+  uint64_t offset = 0;
+  uint32_t line = 1;
+  bool again = false;
+  host.changed_from = 300;
+  EXPECT_FALSE(t.reader.find_sequence(file, 7, &offset, &line, 0, 0, &again));
+  EXPECT_EQ(t.reader.failure(), Condition::program_changed);
+  offset = host.text.find("   ");
+  EXPECT_FALSE(t.reader.find_loop_end(file, 1, &offset, &line));
+  EXPECT_EQ(t.reader.failure(), Condition::program_changed);
+  bool asked = false;
+  t.store.on_missing([](void* user, nc_control*, const char*) { return *static_cast<bool*>(user) = true, false; }, &asked, nullptr);
+  EXPECT_FALSE(t.reader.find_program(55, file).valid());
+  EXPECT_EQ(t.reader.failure(), Condition::program_changed);
+  EXPECT_FALSE(asked);
+  host.changed_from = UINT64_MAX;
+  offset = 0;
+  EXPECT_TRUE(t.reader.find_sequence(file, 7, &offset, &line, 0, 0, &again));
+  EXPECT_EQ(t.reader.failure(), Condition::none);
+  EXPECT_TRUE(t.reader.find_program(55, file).valid());
+}
+
 TEST(BlockReader, TextThatIsShorterThanPromised) {
   Texts t(64);
   TextEntry entry;

@@ -62,7 +62,7 @@ TEST(ProgramStore, Refuses) {
   EXPECT_EQ(t.store.add(entry, nullptr, nullptr), NC_E_ARGUMENT);
   EXPECT_EQ(t.store.add(entry, "", nullptr), NC_E_ARGUMENT);
   EXPECT_EQ(t.store.add(entry, "dir/", nullptr), NC_E_ARGUMENT);
-  EXPECT_EQ(t.store.add(entry, std::string(64, 'a').c_str(), nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(t.store.add(entry, std::string(NC_MAX_NAME, 'a').c_str(), nullptr), NC_E_ARGUMENT);
   entry.memory = nullptr;
   EXPECT_EQ(t.store.add(entry, "a", nullptr), NC_E_ARGUMENT);
   for (int i = 0; i < 16; ++i) t.add_memory("p" + std::to_string(i), "G1\n");
@@ -100,7 +100,7 @@ TEST(ProgramStore, AsksTheHost) {
   EXPECT_FALSE(t.reader.find_program(0, main).valid());
   EXPECT_TRUE(t.reader.find_program("TOOL.NC", 7).valid());
   EXPECT_FALSE(t.reader.find_program("OTHER", 5).valid());
-  EXPECT_FALSE(t.reader.find_program(std::string(100, 'A').c_str(), 100).valid());
+  EXPECT_FALSE(t.reader.find_program(std::string(NC_MAX_NAME, 'A').c_str(), NC_MAX_NAME).valid());  // longer than any file's name
   EXPECT_EQ(host.asked, "O5 O6 O7 TOOL.NC OTHER ");
 }
 

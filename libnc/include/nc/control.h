@@ -150,20 +150,50 @@ NC_API nc_status nc_common_next(const nc_control*, unsigned system, uint32_t fro
 
 /**
  * Reads up to `size` bytes of a text at byte `offset` into `buffer`.
- * @return bytes read; 0 at the end; negative on failure (becomes an alarm on the block that needed it).
+ * @return bytes read; 0 at the end; negative on failure: NC_READ_FAILED, or NC_READ_CHANGED. Either becomes an alarm on the block that
+ *         needed it; nothing of what is in `buffer` then acts.
  */
 typedef long (*nc_read_at)(void* user, uint64_t offset, char* buffer, size_t size);
 
+/** The text cannot be read (any negative number but the one below means the same). */
+#define NC_READ_FAILED (-1L)
+/** The text is no longer the one that was entered: somebody has written into its file. */
+#define NC_READ_CHANGED (-2L)
+
 /**
- * Enter a text into the program store. The text must stay unchanged while a program runs; it is read in windows, never whole.
- * @param name file name without folder; "O1000", "1000", "1000.nc" make it program 1000 even when the text has no O line. Copied.
+ * Enter a text into the program store. It is read in windows, never whole, and again wherever a program jumps: the text behind `read`
+ * must stay unchanged from here until its entry is replaced or removed. What comes from a file, which anybody may overwrite meanwhile, is
+ * therefore copied by the host, or watched: this library's own hosts (ncrtd, ncsim) keep a copy of a file of up to 16 MiB, and of a
+ * larger one compare size, time, place and a hash of each part with what they were; their `read` then gives NC_READ_CHANGED.
+ * @param name file name without folder, at most NC_MAX_NAME - 1 bytes; "O1000", "1000", "1000.nc" make it program 1000 even when the text
+ *             has no O line. Copied.
  * @param file receives its index (nc_source::file). An entry of the same name is replaced, unless it runs (online)
  *             or is protected (M700 #8105: O8000 to O9999, #1121: O9000 to O9999): NC_E_STATE.
+ * @return NC_E_MEMORY when all places (nc_config::programs) are taken: nc_program_remove() frees one. MDI needs none of them.
  */
 NC_API nc_status nc_program_add(nc_control*, const char* name, nc_read_at read, void* user, uint64_t size, unsigned* file);
 
 /** The same for a text in memory, which the caller keeps. */
 NC_API nc_status nc_program_add_text(nc_control*, const char* name, const char* text, size_t length, unsigned* file);
+
+/** What a place of the program store holds. */
+typedef struct nc_program_info {
+  char name[NC_MAX_NAME];
+  uint32_t number;      /**< O number of the name, 0 = none */
+  uint64_t size;        /**< bytes of the text */
+  uint64_t used;        /**< counts when it was entered, selected or called last: of two entries the larger one was so later */
+  bool in_use;          /**< something refers to it: see nc_program_remove() */
+  bool is_protected;    /**< M700 #8105, #1121 */
+} nc_program_info;
+/** Of the entry with this index. NC_E_NOT_FOUND when the place is free. */
+NC_API nc_status nc_program_get(const nc_control*, unsigned file, nc_program_info* info);
+
+/**
+ * Take a text out of the program store: nothing of it is read any more, and its index may come back for another one.
+ * @return NC_E_STATE while something refers to it: it is selected in a part system, in a call stack (also one that comes back when blocks
+ *         that were read ahead are taken back), the program of a modal call or of the macro interrupt; or it is protected
+ */
+NC_API nc_status nc_program_remove(nc_control*, unsigned file);
 
 /**
  * Asked when a sub program is not in the store: the host may add it with nc_program_add() from inside this call.

@@ -34,6 +34,7 @@ extern "C" {
 #define NC_WORDS 4          /**< 32-bit words of the macro interface, each direction: #1032-#1035, #1132-#1135 */
 #define NC_VARIABLE_RANGES 4 /**< further ranges of common variables that a machine can have */
 #define NC_MAX_CALLS 16     /**< programs that can be open at once, the main program among them: entries of nc_alarm_calls() */
+#define NC_MAX_NAME 260     /**< bytes of the name of a program in the store: of a file, the place before it ("198:"), its NUL */
 #define NC_MAX_TEXT 128     /**< bytes of a text carried by an item, with its terminating NUL */
 
 /** A control: opaque, lives wholly in the memory the caller gave to nc_create(). */

@@ -36,7 +36,7 @@ bool tool_number(const nc_control* c, unsigned number, nc_tool_column column) {
 }
 
 struct Name {
-  char text[64] = {};
+  char text[NC_MAX_NAME] = {};
   uint32_t number = 0;
 };
 
@@ -57,14 +57,8 @@ bool parse_name(const char* name, Name* out) {
   return true;
 }
 
-/// A program whose text must stay: one that runs, or one of the protected numbers (#8105: 8000 to 9999, #1121: 9000 to 9999).
-bool kept(const nc_control* c, unsigned file) {
-  for (unsigned i = 0; i < c->config.system_count; ++i) {
-    const nc::PartSystem& system = c->system[i];
-    const nc::State& state = system.interpreter.state;
-    for (unsigned level = 0; system.busy() && level <= state.depth; ++level)
-      if (state.frame[level].program.file == file) return true;
-  }
+/// One of the protected numbers (#8105: 8000 to 9999, #1121: 9000 to 9999).
+bool is_protected(const nc_control* c, unsigned file) {
   const uint32_t number = c->store.entry(file)->number;
   const auto locked = [c](const char* key) {
     double value = 0;
@@ -74,14 +68,23 @@ bool kept(const nc_control* c, unsigned file) {
   return number >= 8000 && number <= 9999 && locked("8105");
 }
 
-nc_status add_entry(nc_control* c, const char* name, nc::TextEntry entry, unsigned* file) {
+bool is_referred_to(const nc_control* c, unsigned file, bool only_busy) {
+  for (unsigned i = 0; i < c->config.system_count; ++i)
+    if ((!only_busy || c->system[i].busy()) && c->system[i].interpreter.refers_to(file)) return true;
+  return false;
+}
+
+/// A program whose text must stay: one that runs, or a protected one.
+bool kept(const nc_control* c, unsigned file) { return is_referred_to(c, file, true) || is_protected(c, file); }
+
+nc_status add_entry(nc_control* c, const char* name, nc::TextEntry entry, unsigned* file, bool own = false) {
   Name parsed;
   if (c == nullptr || !parse_name(name, &parsed)) return NC_E_ARGUMENT;
   const int before = c->store.find_exactly(parsed.text);
   if (before >= 0 && kept(c, static_cast<unsigned>(before))) return NC_E_STATE;
   entry.number = parsed.number;
   unsigned index = 0;
-  const nc_status status = c->store.add(entry, parsed.text, &index);
+  const nc_status status = c->store.add(entry, parsed.text, &index, own);
   if (status == NC_OK && file != nullptr) *file = index;
   return status;
 }
@@ -254,6 +257,28 @@ nc_status nc_program_add_text(nc_control* c, const char* name, const char* text,
   return add_entry(c, name, entry, file);
 }
 
+nc_status nc_program_get(const nc_control* c, unsigned file, nc_program_info* info) {
+  if (c == nullptr || info == nullptr) return NC_E_ARGUMENT;
+  const nc::TextEntry* entry = c->store.entry(file);
+  if (entry == nullptr) return NC_E_NOT_FOUND;
+  *info = nc_program_info{};
+  std::memcpy(info->name, entry->name, sizeof info->name);
+  info->number = entry->number;
+  info->size = entry->size;
+  info->used = entry->used;
+  info->in_use = entry->own || is_referred_to(c, file, false);
+  info->is_protected = is_protected(c, file);
+  return NC_OK;
+}
+
+nc_status nc_program_remove(nc_control* c, unsigned file) {
+  if (c == nullptr) return NC_E_ARGUMENT;
+  if (c->store.entry(file) == nullptr) return NC_E_NOT_FOUND;
+  if (c->store.entry(file)->own || is_referred_to(c, file, false) || is_protected(c, file)) return NC_E_STATE;
+  c->store.remove(file);
+  return NC_OK;
+}
+
 void nc_program_on_missing(nc_control* c, nc_program_missing callback, void* user) {
   if (c != nullptr) c->store.on_missing(callback, user, c);
 }
@@ -263,6 +288,7 @@ nc_status nc_program_select(nc_control* c, unsigned system, unsigned file) {
   if (c->store.entry(file) == nullptr) return NC_E_NOT_FOUND;
   nc::ProgramRef program;
   program.file = static_cast<uint16_t>(file);
+  c->store.touch(file);
   return c->system[system].select(program);
 }
 
@@ -285,7 +311,10 @@ nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t l
   unsigned file = 0;
   char name[] = "MDI0";
   name[3] = static_cast<char>('0' + system);
-  const nc_status status = nc_program_add_text(c, name, mdi, at, &file);
+  nc::TextEntry entry;
+  entry.memory = mdi;
+  entry.size = at;
+  const nc_status status = add_entry(c, name, entry, &file, true);
   if (status != NC_OK) return status;
   c->store.set_mdi(file);
   nc::ProgramRef program;

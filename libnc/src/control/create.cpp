@@ -95,7 +95,7 @@ nc_control* lay_out(const nc_config& config, nc::Arena& arena) {
     // The rooms lay themselves out through the same calls; a throw-away store and part system stand in for the real ones.
     nc::ProgramStore store;
     nc::CommonVariables common;
-    store.create(config.programs, arena);
+    store.create(config.programs, config.system_count, arena);
     common.create(ranges, arena);
     for (unsigned i = 0; i < config.system_count; ++i) {
       nc::PartSystem system;
@@ -105,7 +105,7 @@ nc_control* lay_out(const nc_config& config, nc::Arena& arena) {
   }
   control->config = config;
   control->dialect = &dialect;
-  control->store.create(config.programs, arena);
+  control->store.create(config.programs, config.system_count, arena);
   control->common.create(ranges, arena);
   for (unsigned i = 0; i < config.system_count; ++i) {
     control->system[i].create(control->config, i, dialect, &control->store, &control->common, arena);

@@ -208,6 +208,7 @@ constexpr Sentence kSentences[] = {
     {C::no_such_data, "There is no parameter, part system, axis or device {value} to read.",
      "The data that is to be read does not exist."},
     {C::read_failed, "The program could not be read any further.", nullptr},
+    {C::program_changed, "The file of the program has changed since it was selected: reset, and select it again.", nullptr},
     {C::internal,
      "The control has met a state that should not exist. Please report the program that led to it.", nullptr},
 };

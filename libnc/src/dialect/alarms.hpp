@@ -33,7 +33,7 @@ enum class Condition : uint16_t {
   loop_nesting, loop_pair, jump_on_tape, address_missing, variable_number, no_equals, variable_use, variable_name,
   variable_name_twice, call_in_cycle, print_port, parameter_input, no_such_data,
   program_edited, rotation_in_figure, offset_in_figure, machine_in_figure, surface_axis, surface_speed,
-  read_failed, internal,
+  read_failed, program_changed, internal,
   count_
 };
 

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "base/utf8.hpp"
+
 namespace nc {
 
 class TextWriter {
@@ -20,8 +22,13 @@ class TextWriter {
     }
     return *this;
   }
+  /// Cut between two characters (base/utf8.hpp).
   TextWriter& put(const char* s) {
-    for (; *s != 0; ++s) put(*s);
+    const size_t room = size_ > used_ ? size_ - used_ - 1 : 0;
+    size_t length = 0;
+    while (length < room && s[length] != 0) ++length;
+    if (length == room && length != 0 && s[length] != 0) length = whole_characters(s, length);
+    for (size_t i = 0; i < length; ++i) put(s[i]);
     return *this;
   }
   /// At least `digits` digits, filled with zeros.

@@ -23,6 +23,21 @@ void Checkpoints::create(unsigned count, Arena& arena) {
   mask_ = count - 1;
 }
 
+bool Checkpoints::call(unsigned file) const {
+  for (BlockSeq seq = oldest_; seq < next_; ++seq) {
+    const char* const kept = bytes_ + entry(seq).begin;
+    uint8_t depth = 0;
+    std::memcpy(&depth, kept + offsetof(State, depth), sizeof depth);
+    for (unsigned level = 0; level <= depth; ++level) {
+      uint16_t program = 0;
+      std::memcpy(&program, kept + offsetof(State, frame) + level * sizeof(CallFrame) + offsetof(CallFrame, program) + offsetof(ProgramRef, file),
+                  sizeof program);
+      if (program == file) return true;
+    }
+  }
+  return false;
+}
+
 void Checkpoints::clear() { oldest_ = next_ = 0; }
 
 void Checkpoints::save(const State& state) {

@@ -25,6 +25,8 @@ class Checkpoints {
   BlockSeq newest() const { return next_ - 1; }
   /// The outermost `count` frames of the state behind block `seq`, which must be kept; false when it has fewer.
   bool frames(BlockSeq seq, unsigned count, CallFrame* out) const;
+  /// The program is in the call stack of a state that is kept.
+  bool call(unsigned file) const;
 
  private:
   struct Entry {

@@ -17,6 +17,7 @@ bool find_from_here(Interpreter& in, const CallFrame& frame, uint32_t n, uint64_
   *offset = frame.offset;
   *line = frame.line;
   if (in.reader.find_sequence(frame.program.file, n, offset, line, 0, kWholeText, &again, false)) return true;
+  if (in.reader.failure() != Condition::none) return false;
   *offset = frame.program.offset;
   *line = frame.program.line;
   return in.reader.find_sequence(frame.program.file, n, offset, line, frame.offset, kWholeText, &again);
@@ -56,6 +57,7 @@ Did jump_to_sequence(Interpreter& in, double number) {
   uint32_t line = 0;
   if (!whole_number(number, &n) || !find_from_here(in, top(in), n, &offset, &line)) return in.raise(Condition::sequence_missing, 'N', number);
   leave_loops(in, offset);
+  if (in.reader.failure() != Condition::none) return in.raise(Condition::read_failed);
   top(in).offset = offset;
   top(in).line = line;
   in.jumped = true;
@@ -413,6 +415,7 @@ Did return_sub(Interpreter& in) {
     leave(in);
     s.codes_left &= ~(1u << s.depth);
     leave_loops(in, offset);
+    if (in.reader.failure() != Condition::none) return in.raise(Condition::read_failed);
     caller.offset = offset;
     caller.line = line;
   } else {

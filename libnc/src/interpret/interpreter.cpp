@@ -255,6 +255,7 @@ void Interpreter::reset(bool keep_modal) {
     program_changed();
   }
   take_work_rotation(*this, true);  // M700 13.21 (4): parameters hold from the cycle start on
+  store->forget_notes(system_number - 1u);
   // DGSHAPE G28: a midpoint is remembered within a program. M700 14.7: since power-on.
   for (unsigned i = 0; i < axis_count && dialect->id == NC_DIALECT_DGSHAPE; ++i) frames.set(Frames::midpoint_set_key(i), 0);
   forget_block();
@@ -298,6 +299,13 @@ void Interpreter::shift_coordinates(unsigned axis, double by) {
     return;
   }
   set_table_from_outside(Frames::shift_key(axis), frames.get(Frames::shift_key(axis)) + by);
+}
+
+bool Interpreter::refers_to(unsigned file) const {
+  if (main_program.valid() && main_program.file == file) return true;
+  for (unsigned level = 0; level <= state.depth; ++level)
+    if (state.frame[level].program.file == file) return true;
+  return (store->entry(file)->noted >> (system_number - 1) & 1) != 0 || checkpoints_.call(file);
 }
 
 void Interpreter::set_machine(const AxisVec& machine) {

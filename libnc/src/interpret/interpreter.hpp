@@ -114,6 +114,8 @@ struct Interpreter {
   /// Tables, variables and parameters are as block `seq` has left them (back), and again as they were: for a look from outside, without a write.
   void look_back(BlockSeq seq, bool back) { variables.swap(seq, back, this, exchange); }
   /// rewind(seq) is possible, and still will be when one more block has been executed.
+  /// The program is selected, in the call stack now or after a rewind, in a modal call or the interrupt program.
+  bool refers_to(unsigned file) const;
   bool remembers(BlockSeq seq) const { return checkpoints_.keeps(seq) && variables.keeps(seq); }
   /// Forget checkpoints; go on from here (position of the machine).
   void set_machine(const AxisVec& machine);
@@ -247,9 +249,10 @@ struct Interpreter {
   /// A move with the compensation in force; transform and kind are left to the caller.
   Move& emit_move(const AxisVec& start, const AxisVec& end);
   bool queue_has_room() const { return queued_ < kQueue - kReserve; }
+  /// What is missing because the text could not be read is not missing: then that is the alarm.
   Did raise(Condition condition, char letter = 0) {
     fault = Fault{};
-    fault.condition = condition;
+    fault.condition = reader.failure() != Condition::none ? reader.failure() : condition;
     fault.letter = letter;
     return Did::fault;
   }

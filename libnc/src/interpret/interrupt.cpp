@@ -63,6 +63,7 @@ Did enable_interrupt(Interpreter& in) {
                                                 static_cast<double>(program.offset), static_cast<double>(program.line),
                                                 static_cast<double>(offset), static_cast<double>(line)};
   for (unsigned i = 0; i < Notes::kInterruptSize; ++i) in.set_note(Notes::interrupt_key(i), values[i]);
+  in.store->note(program.file, in.system_number - 1u);
   in.state.interrupt_on = true;
   announce(in);
   return Did::done;

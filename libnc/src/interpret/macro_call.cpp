@@ -142,6 +142,7 @@ Did store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall
     const Value& value = call.argument[i];
     in.set_note(Notes::slot_key(slot, Notes::kArgument + i), value.vacant ? std::numeric_limits<double>::quiet_NaN() : value.number);
   }
+  in.store->note(program.file, in.system_number - 1u);
   top(in).modal_call = static_cast<uint8_t>(slot);
   show_modal_call(in);
   return Did::done;

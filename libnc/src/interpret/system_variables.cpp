@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/utf8.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/system_variable_table.hpp"
 
@@ -143,8 +144,9 @@ Did write_work(Access& a) {
 uint32_t keep_text(Access& a) {
   Message message;
   const size_t room = sizeof(message.text.s) - 1;
-  const size_t length = a.statement->text_length < room ? a.statement->text_length : room;
-  std::memcpy(message.text.s, a.in.block->text.begin() + a.statement->text, length);
+  const char* const text = a.in.block->text.begin() + a.statement->text;
+  const size_t length = a.statement->text_length <= room ? a.statement->text_length : whole_characters(text, room);
+  std::memcpy(message.text.s, text, length);
   return a.in.texts.intern(message);
 }
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "base/utf8.hpp"
 #include "dialect/alarms.hpp"
 #include "macro/compile.hpp"
 #include "program/scan.hpp"
@@ -25,7 +26,7 @@ struct BehindNumber {
   constexpr BehindNumber() {
     for (char c = '0'; c <= '9'; ++c) is[static_cast<unsigned char>(c)] = Behind::more;
     for (char c : {'.', '+', '-', '*', '/', '='}) is[static_cast<unsigned char>(c)] = Behind::more;
-    for (char c : {' ', '\t', '\r'}) is[static_cast<unsigned char>(c)] = Behind::blank;
+    for (char c : {' ', '\t', '\r', '\0', '\x7f'}) is[static_cast<unsigned char>(c)] = Behind::blank;
   }
 };
 constexpr BehindNumber kBehindNumber;
@@ -381,7 +382,7 @@ class Lexer {
     const char c = at_.peek();
     switch (c) {
       case '\0':
-        return at_.at_end() ? false : fault(Condition::illegal_character);
+        return false;
       case '#':
       case '[':
         if (!rules_.macros) return fault(Condition::illegal_character, c);
@@ -450,8 +451,8 @@ class Lexer {
   bool message(Statement* s) {
     const size_t room = decltype(Block::text)::capacity() - block_.text.size();
     size_t length = static_cast<size_t>(at_.comment_end - at_.comment);
-    if (length > kMaxMessage) length = kMaxMessage;
-    if (length > room) length = room;
+    if (length > kMaxMessage) length = whole_characters(at_.comment, kMaxMessage);
+    if (length > room) length = whole_characters(at_.comment, room);
     if (!keep_text(at_.comment, at_.comment + length, &s->text, &s->text_length)) return false;
     block_.comment = s->text;
     block_.comment_length = s->text_length;
@@ -593,10 +594,10 @@ class Lexer {
 
   bool keep_text(const char* from, const char* to, uint16_t* at, uint16_t* length) {
     *at = static_cast<uint16_t>(block_.text.size());
-    *length = static_cast<uint16_t>(to - from);
     for (; from != to; ++from) {
-      if (!block_.text.push_back(*from)) return fault(Condition::block_too_long);
+      if (!is_ignored(*from) && !block_.text.push_back(*from)) return fault(Condition::block_too_long);
     }
+    *length = static_cast<uint16_t>(block_.text.size() - *at);
     return true;
   }
 

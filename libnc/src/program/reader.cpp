@@ -50,7 +50,7 @@ class Condenser {
  private:
   /// percent: the rest of the line is passed over.
   enum class State : uint8_t { words, comment, name, percent, behind_semicolon, comment_behind };
-  static constexpr unsigned kKeptComment = 127;
+  static constexpr unsigned kKeptComment = 127 + 4;  ///< what the lexer keeps, and enough to see where its last character ends
 
   bool take_outside(char c, bool* consumed) {
     if (c == '\n') return put_spare(c), false;
@@ -225,6 +225,7 @@ BlockReader::Seen& BlockReader::seen(uint32_t generation) {
 bool BlockReader::compile(const TextEntry& entry, unsigned file, uint64_t offset, uint32_t line,
                           Block& block) {
   bool newline = false;
+  failure_ = 0;
   if (!compile_here(entry, offset, block, &newline)) return false;
   block.file = static_cast<uint16_t>(file);
   block.line = line;
@@ -257,12 +258,18 @@ Condition BlockReader::parity_fault(const TextEntry& entry, uint64_t begin, uint
   return whole && parity.odd() && ((parity_units_ >> entry.unit) & 1) != 0 ? Condition::parity_vertical : Condition::none;
 }
 
+/// A read through the window came to nothing.
+bool BlockReader::failed() {
+  failure_ = window_.failure();
+  return false;
+}
+
 bool BlockReader::has_parity(const TextEntry& entry, uint64_t begin) {
   return entry.tape > NC_TAPE_TEXT && begin >= entry.label;
 }
 
 bool BlockReader::compile_here(const TextEntry& entry, uint64_t offset, Block& block, bool* newline) {
-  if (!window_.seek(entry, offset)) return false;
+  if (!window_.seek(entry, offset)) return failed();
   if (window_.size() == 0) {
     block.clear();
     block.begin = block.next = offset;
@@ -273,7 +280,7 @@ bool BlockReader::compile_here(const TextEntry& entry, uint64_t offset, Block& b
   LexResult result = lex_block(window_.text(), window_.size(), *rules_, semicolon, nullptr, block);
   if (result.ran_out && !window_.last()) {
     if (!window_.at_front()) {
-      if (!window_.advance(entry)) return false;
+      if (!window_.advance(entry)) return failed();
       result = lex_block(window_.text(), window_.size(), *rules_, semicolon, nullptr, block);
     }
     if (result.ran_out && !window_.last()) return compile_long(entry, offset, block, newline);
@@ -292,7 +299,10 @@ bool BlockReader::compile_long(const TextEntry& entry, uint64_t offset, Block& b
   *newline = false;
   for (bool open = true; open;) {
     const long got = TextWindow::read(entry, at, chunk, sizeof chunk);
-    if (got < 0) return false;
+    if (got < 0) {
+      failure_ = got;
+      return false;
+    }
     if (got == 0) break;
     for (long i = 0; i < got && open; ++i) {
       bool consumed = true;

@@ -10,8 +10,12 @@
 
 namespace nc {
 
+/// NUL and DEL are blank tape and a row that was punched out (M700 3.1): editors and transmissions leave them in files.
+inline bool is_ignored(char c) {
+  return c == '\0' || c == '\x7f';
+}
 inline bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r';
+  return c == ' ' || c == '\t' || c == '\r' || is_ignored(c);
 }
 inline bool is_digit(char c) {
   return static_cast<unsigned char>(c - '0') < 10;

@@ -208,16 +208,18 @@ ProgramRef BlockReader::find_o_line(uint32_t number, unsigned file) {
     known.scanned = scanner.offset();
     known.scanned_line = scanner.line();
   }
+  if (scanner.failed()) failed();
   known.complete = !found.valid() && !scanner.failed() && known.count < kIndexed;
   return found;
 }
 
 ProgramRef BlockReader::find_program(uint32_t number, unsigned own_file) {
+  failure_ = 0;
   if (number == 0) return {};
   int file = store_->find_number(number);
   if (file < 0) {
     const ProgramRef own = find_o_line(number, own_file);
-    if (own.valid()) return own;
+    if (own.valid() || failure_ != 0) return own;  // what could not be read may be it: no other program stands in for it
     char name[16] = "O";
     unsigned length = 1;
     char digits[10];
@@ -228,6 +230,7 @@ ProgramRef BlockReader::find_program(uint32_t number, unsigned own_file) {
     file = store_->find_number(number);
     if (file < 0) return {};
   }
+  store_->touch(static_cast<unsigned>(file));
   ProgramRef ref;
   ref.file = static_cast<uint16_t>(file);
   ref.number = number;
@@ -245,6 +248,7 @@ ProgramRef BlockReader::find_program(const char* name, size_t length) {
     file = store_->find_name(name, length);
     if (file < 0) return {};
   }
+  store_->touch(static_cast<unsigned>(file));
   ProgramRef ref;
   ref.file = static_cast<uint16_t>(file);
   ref.number = store_->entry(static_cast<unsigned>(file))->number;
@@ -271,7 +275,9 @@ ProgramRef BlockReader::find_external(const char* place, const char* name, size_
   if (store_->find_name(text, used) < 0 && !store_->ask_host(text)) return {};
   const int file = store_->find_name(text, used);
   ProgramRef ref;
-  if (file >= 0) ref.file = static_cast<uint16_t>(file);
+  if (file < 0) return ref;
+  store_->touch(static_cast<unsigned>(file));
+  ref.file = static_cast<uint16_t>(file);
   return ref;
 }
 
@@ -283,6 +289,7 @@ const Block* BlockReader::peek(unsigned file, uint64_t offset, uint32_t line) {
 bool BlockReader::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t limit,
                                 uint64_t budget, bool* again, bool from_head) {
   *again = false;
+  failure_ = 0;
   const TextEntry* entry = store_->entry(file);
   if (entry == nullptr || n == 0) return false;
   Jump& known = jumps_[(hash(entry->generation, *offset) ^ n) & (kJumps - 1)];
@@ -293,7 +300,8 @@ bool BlockReader::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uin
     jump = Jump{*offset, limit, 0, entry->generation, n, 0, from_head, false};
     bool failed = false;
     jump = scan_for_sequence(*entry, *line, jump, budget, again, &failed);
-    if (!*again && !failed) known = jump;
+    if (failed) return this->failed();
+    if (!*again) known = jump;
   }
   if (!jump.found && !*again) return false;
   *offset = jump.offset;
@@ -345,6 +353,7 @@ bool BlockReader::find_loop_end(unsigned file, uint32_t m, uint64_t* offset, uin
   const TextEntry* entry = store_->entry(file);
   if (entry == nullptr) return false;
   FixedVector<uint32_t, kMaxLoops> open;
+  failure_ = 0;
   for (uint64_t at = *offset;;) {
     const Block* block = cached(*entry, at, *line);
     if (block == nullptr && compile(*entry, file, at, *line, *searched_)) block = searched_;

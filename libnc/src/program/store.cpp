@@ -53,29 +53,48 @@ bool same_name(const char* a, size_t a_length, const char* b, size_t b_length) {
 
 }  // namespace
 
-void ProgramStore::create(unsigned capacity, Arena& arena) {
-  entries_ = arena.make<TextEntry>(capacity);
+void ProgramStore::create(unsigned capacity, unsigned reserved, Arena& arena) {
+  entries_ = arena.make<TextEntry>(capacity + reserved);
   capacity_ = capacity;
-  count_ = 0;
+  reserved_ = reserved;
+  count_ = given_ = 0;
 }
 
-nc_status ProgramStore::add(const TextEntry& entry, const char* name, unsigned* file) {
+nc_status ProgramStore::add(const TextEntry& entry, const char* name, unsigned* file, bool own) {
   if (name == nullptr || (entry.read == nullptr && entry.memory == nullptr && entry.size != 0))
     return NC_E_ARGUMENT;
   const char* base = without_folder(name);
   const size_t length = std::strlen(base);
   if (length == 0 || length >= sizeof entry.name) return NC_E_ARGUMENT;
-  unsigned at = 0;
-  while (at < count_ && !same_name(entries_[at].name, std::strlen(entries_[at].name), base, length)) ++at;
-  if (at == capacity_ || at >= UINT16_MAX) return NC_E_MEMORY;
-  if (at == count_) ++count_;
+  unsigned at = 0, free = count_;
+  for (; at < count_ && !same_name(entries_[at].name, std::strlen(entries_[at].name), base, length); ++at)
+    if (free == count_ && entries_[at].name[0] == '\0') free = at;
+  if (at == count_) {
+    if ((!own && given_ == capacity_) || free == capacity_ + reserved_ || free >= UINT16_MAX) return NC_E_MEMORY;
+    at = free;
+    if (at == count_) ++count_;
+    if (!own) ++given_;
+    entries_[at].own = own;
+  }
   TextEntry& place = entries_[at];
+  const bool was_own = place.own;
   place = entry;
+  place.own = was_own;
   std::memcpy(place.name, base, length + 1);
   if (place.number == 0) place.number = number_of_name(base);
   place.generation = ++generation_;
+  touch(at);
   if (file != nullptr) *file = at;
   return NC_OK;
+}
+
+void ProgramStore::remove(unsigned file) {
+  if (!entries_[file].own) --given_;
+  entries_[file] = TextEntry{};
+}
+
+void ProgramStore::forget_notes(unsigned system) {
+  for (unsigned i = 0; i < count_; ++i) entries_[i].noted &= static_cast<uint8_t>(~(1u << system));
 }
 
 void ProgramStore::on_missing(nc_program_missing callback, void* user, nc_control* control) {
@@ -85,7 +104,7 @@ void ProgramStore::on_missing(nc_program_missing callback, void* user, nc_contro
 }
 
 const TextEntry* ProgramStore::entry(unsigned file) const {
-  return file < count_ ? &entries_[file] : nullptr;
+  return file < count_ && entries_[file].name[0] != '\0' ? &entries_[file] : nullptr;
 }
 
 bool ProgramStore::set_tape(unsigned file, uint8_t code, uint8_t unit) {
@@ -127,6 +146,7 @@ int ProgramStore::find_name(const char* name, size_t length) const {
   const size_t stem = stem_length(name, length);
   for (unsigned i = 0; i < count_; ++i) {
     const size_t entry_length = std::strlen(entries_[i].name);
+    if (entry_length == 0) continue;
     const size_t entry_stem = stem_length(entries_[i].name, entry_length);
     if (stem != length && entry_stem != entry_length) continue;
     if (same_name(entries_[i].name, entry_stem, name, stem)) return static_cast<int>(i);

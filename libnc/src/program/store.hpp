@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/arena.hpp"
+#include "dialect/alarms.hpp"
 #include "nc/control.h"
 #include "program/block.hpp"
 #include "program/window.hpp"
@@ -21,8 +22,16 @@ struct ProgramRef {
 /// Shared by all part systems of a control.
 class ProgramStore {
  public:
-  void create(unsigned capacity, Arena& arena);
-  nc_status add(const TextEntry& entry, const char* name, unsigned* file);
+  /// `reserved` places more are for texts of the control's own (MDI), whatever the host has entered.
+  void create(unsigned capacity, unsigned reserved, Arena& arena);
+  nc_status add(const TextEntry& entry, const char* name, unsigned* file, bool own = false);
+  /// Frees the place of an entry that nothing refers to.
+  void remove(unsigned file);
+  /// It is used now.
+  void touch(unsigned file) { entries_[file].used = ++uses_; }
+  /// A part system (counted from 0) keeps a reference beside its state, until forget_notes().
+  void note(unsigned file, unsigned system) { entries_[file].noted |= static_cast<uint8_t>(1u << system); }
+  void forget_notes(unsigned system);
   void on_missing(nc_program_missing callback, void* user, nc_control* control);
   const TextEntry* entry(unsigned file) const;
   void set_edited(unsigned file, bool edited) { entries_[file].edited = edited; }
@@ -40,7 +49,9 @@ class ProgramStore {
 
  private:
   TextEntry* entries_ = nullptr;
-  unsigned capacity_ = 0, count_ = 0;
+  unsigned capacity_ = 0, reserved_ = 0, count_ = 0;  ///< places behind count_ have never been used
+  unsigned given_ = 0;                                ///< entries of the host
+  uint64_t uses_ = 0;
   uint32_t generation_ = 0;  ///< of the newest entry; unique in the store
   nc_program_missing missing_ = nullptr;
   void* missing_user_ = nullptr;
@@ -86,6 +97,11 @@ class BlockReader {
   void semicolon_begins_comment(bool comments);
   bool is_tape(unsigned file) const { return store_->entry(file)->tape != NC_TAPE_NONE; }
 
+  /// Why the last read or search came to nothing: read_failed or program_changed; none where the text could be read.
+  Condition failure() const {
+    return failure_ == 0 ? Condition::none : failure_ == NC_READ_CHANGED ? Condition::program_changed : Condition::read_failed;
+  }
+
   /// Same program text, different content: forget compiled blocks of a file.
   void forget(unsigned file);
 
@@ -128,6 +144,7 @@ class BlockReader {
   bool compile(const TextEntry& entry, unsigned file, uint64_t offset, uint32_t line, Block& block);
   bool compile_here(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
   bool compile_long(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
+  bool failed();
   Condition parity_fault(const TextEntry& entry, uint64_t begin, uint64_t end) const;
   static bool has_parity(const TextEntry& entry, uint64_t begin);
   Semicolon semicolon_of(const TextEntry& entry) const;
@@ -142,6 +159,7 @@ class BlockReader {
   ProgramStore* store_ = nullptr;
   const LexRules* rules_ = nullptr;
   bool comments_ = false;  ///< semicolon_begins_comment()
+  long failure_ = 0;  ///< what the read callback gave in the last read or search; 0 = the text
   TextWindow window_;
   Block* first_time_ = nullptr;  ///< block that is being read for the first time
   Block* searched_ = nullptr;    ///< block that a search looks at

@@ -57,6 +57,7 @@ bool TextWindow::fill(const TextEntry& entry) {
   while (length_ < capacity_) {
     const long got = read(entry, begin_ + length_, buffer_ + length_, capacity_ - length_);
     if (got < 0) {
+      failure_ = got;
       forget();
       return false;
     }

@@ -10,7 +10,7 @@ namespace nc {
 
 /// A text of the program store.
 struct TextEntry {
-  char name[64] = {};
+  char name[NC_MAX_NAME] = {};  ///< "" = the place is free
   uint32_t number = 0;        ///< from the name, 0 = none
   nc_read_at read = nullptr;  ///< null: `memory`
   void* user = nullptr;
@@ -18,9 +18,12 @@ struct TextEntry {
   uint64_t size = 0;
   bool mdi = false;           ///< blocks of MDI
   bool edited = false;        ///< someone is changing the text
+  bool own = false;           ///< of the control itself: blocks of MDI
   uint8_t tape = NC_TAPE_NONE;  ///< nc_tape: the bytes are rows of a tape (program/tape.hpp)
   uint8_t unit = 0;             ///< input device of the tape, 1 to 5
   uint64_t label = 0;           ///< bytes before the significant section of the tape
+  uint8_t noted = 0;            ///< bit n: part system n + 1 has the program in a modal call or as interrupt program, or had since its reset
+  uint64_t used = 0;            ///< when it was entered, selected or called last, counted over the store
   uint32_t generation =
       0;  ///< changes when the entry is replaced: compiled blocks of the old text are not used again
 };
@@ -47,6 +50,8 @@ class TextWindow {
   /// Moves the window so that it begins at the cursor, and reads on behind. False: the read callback failed.
   bool advance(const TextEntry& entry);
   void forget() { generation_ = 0, length_ = at_ = 0; }
+  /// What the read callback gave when seek() or advance() failed.
+  long failure() const { return failure_; }
 
   /// The buffer for other use; what was seen through the window is gone.
   char* take_buffer() {
@@ -65,6 +70,7 @@ class TextWindow {
   char* buffer_ = nullptr;
   size_t capacity_ = 0;
   const char* base_ = nullptr;
+  long failure_ = 0;
   uint64_t begin_ = 0;  ///< offset of base_[0]
   size_t length_ = 0, at_ = 0;
   uint32_t generation_ = 0;  ///< of the entry; 0 = none

@@ -157,6 +157,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::surface_axis, "NC-AXIS", nullptr},
     {C::surface_speed, "NC-SPINDLE", nullptr},
     {C::read_failed, "NC-READ", nullptr},
+    {C::program_changed, "NC-READ", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

@@ -126,6 +126,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::surface_axis, "P133", nullptr},      // 10.3
     {C::surface_speed, "P132", nullptr},     // 10.3
     {C::read_failed, "P461", nullptr},
+    {C::program_changed, "P461", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };
 
