@@ -17,6 +17,7 @@
 #include "hal/points.hpp"
 #include "hal/sim/sim_machine.hpp"
 #include "nc/control.h"
+#include "runtime/programs/program_text.hpp"
 
 namespace nc::rt {
 
@@ -137,6 +138,7 @@ struct Config {
   std::string name = "machine";
   std::string programs = ".";  // folder of programs, relative to the file's folder unless absolute
   ConfigPlace programs_place;
+  ProgramText::Options program_text;  // encoding of programs, and up to which size they are copied
   std::string external;        // folder of the programs of M198, in the same way; empty = the folder of programs
   std::string variables;       // file of the common variables, relative as `print`; empty = see variables_path()
   ConfigPlace variables_place;

@@ -170,6 +170,9 @@ void read_machine(TableReader* root, Config* config) {
     reader.string("programs", &config->programs);
     config->programs_place = {reader.line("programs"), reader.path("programs")};
     reader.string("external", &config->external);
+    if (reader.choice("program_encoding", {"utf-8", "latin-1", "shift-jis"}, &word)) config->program_text.encoding = static_cast<Encoding>(word);
+    unsigned copy_mb = 0;
+    if (reader.integer("program_copy_mb", &copy_mb, 0, 1024)) config->program_text.copy_bytes = std::uint64_t{copy_mb} << 20;
     reader.string("print", &config->print);
     reader.string("variables", &config->variables);
     config->variables_place = {reader.line("variables"), reader.path("variables")};

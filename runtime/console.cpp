@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdarg>
-#include <fstream>
 #include <vector>
 
 #include "runtime/axis_shown.hpp"
@@ -65,22 +64,16 @@ void append_histogram(std::string* text, const char* name, const Histogram& hist
 
 }  // namespace
 
-std::uint64_t estimate_lines(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary | std::ios::ate);
-  if (!stream) return 0;
-  const std::streamoff end = stream.tellg();
-  if (end <= 0) return 0;
-  const auto size = static_cast<std::uint64_t>(end);
+std::uint64_t estimate_lines(ProgramText* program) {
+  const std::uint64_t size = program->size();
   const std::uint64_t wanted = size <= kCountedBytes ? size : 1u << 20;
-  stream.seekg(0);
   std::vector<char> block(kBlock);
   std::uint64_t read = 0;
   EndFinder finder;
   while (read < wanted) {
-    stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-    const std::streamsize got = stream.gcount();
+    const long got = program->read(read, block.data(), block.size());
     if (got <= 0) break;
-    for (std::streamsize i = 0; i < got; ++i)
+    for (long i = 0; i < got; ++i)
       if (finder.take(block[static_cast<std::size_t>(i)])) return finder.line();
     read += static_cast<std::uint64_t>(got);
   }

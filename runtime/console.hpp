@@ -13,7 +13,7 @@ namespace nc::rt {
 
 // Lines of a program up to its end code (M02, M30), for the percentage: counted in small files, estimated
 // from the first megabyte in large ones. 0 = cannot be read.
-std::uint64_t estimate_lines(const std::string& path);
+std::uint64_t estimate_lines(ProgramText* program);
 
 // Share of the program that is done, 0..100, by the line of the main program.
 unsigned percent_done(std::uint32_t main_line, std::uint64_t lines);

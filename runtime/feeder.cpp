@@ -35,6 +35,12 @@ FeederInfo Feeder::info() const {
   return info_;
 }
 
+bool Feeder::remembers(unsigned file) const {
+  return std::any_of(system_, system_ + systems_, [&](const System& system) {
+    return (system.selected && !system.mdi && system.file == file) || (system.part && system.part_file == file);
+  });
+}
+
 void Feeder::set_mdi_text(const std::string& text) {
   const std::lock_guard lock(mutex_);
   mdi_text_ = text;

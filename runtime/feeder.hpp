@@ -79,6 +79,9 @@ class Feeder {
   void set_mdi_text(const std::string& text);  // before kLoadMdi
   void set_program_name(const std::string& name);  // before kSelectProgram with kProgramByName
 
+  // ---- feeder thread ----
+  bool remembers(unsigned file) const;
+
   // ---- any thread ----
   FeederInfo info() const;
   // Why the last command was refused, where there is more to say than its answer says; "" = nothing.

@@ -3,6 +3,7 @@
 #include "runtime/nc_port.hpp"
 
 #include "runtime/nc_system.hpp"
+#include "runtime/programs/encoding.hpp"
 #include "runtime/retain/tables.hpp"
 #include "runtime/retain/variables.hpp"
 
@@ -28,7 +29,9 @@ unsigned LibNc::alarm_calls(unsigned system, nc_source* calls, unsigned capacity
 }
 
 nc_status LibNc::alarm(unsigned system, nc_alarm* alarm) {
-  return nc_alarm_get(control_, api_system(system), alarm);
+  const nc_status status = nc_alarm_get(control_, api_system(system), alarm);
+  if (status == NC_OK) make_valid(alarm->detail.s, sizeof alarm->detail.s);
+  return status;
 }
 nc_status LibNc::modal(unsigned system, std::uint32_t id, nc_modal* modal) {
   return nc_modal_get(control_, api_system(system), id, modal);
@@ -46,7 +49,9 @@ std::string LibNc::tables() {
   return table_text(executed_tables(control_, config_));
 }
 nc_status LibNc::text(unsigned system, std::uint32_t id, nc_text* text) {
-  return nc_text_get(control_, api_system(system), id, text);
+  const nc_status status = nc_text_get(control_, api_system(system), id, text);
+  if (status == NC_OK && text->size == 0) make_valid(text->s, sizeof text->s);  // a line of BPRNT is bytes
+  return status;
 }
 
 }  // namespace nc::rt

@@ -131,7 +131,7 @@ void check_ladder(const nc::rt::Config& config, bool whole, std::vector<nc::rt::
 }
 
 int failed(const std::string& text) {
-  std::fprintf(stderr, "ncrtd: %s\n", text.c_str());
+  std::fprintf(stderr, "ncrtd: %s\n", nc::rt::valid_utf8(text).c_str());
   return kExitUsage;
 }
 
@@ -313,7 +313,7 @@ class Sharing final : public nc::rt::EventSink {
         if (why->rfind(folder + "/", 0) == 0) why->erase(0, folder.size() + 1);
         return false;
       }
-      programs_.add(*file, path);
+      programs_.add(*file, path, files_->text_of(*file));
       return true;
     });
     service_ = std::make_unique<nc::rt::share::Service>(runtime, &programs_, &tap_, share_);
@@ -331,10 +331,12 @@ class Sharing final : public nc::rt::EventSink {
 
   // Feeder thread, to which the files belong: a sub program gets its name when its first block is done.
   void executed(unsigned, const nc_event& event) override {
-    if (event.source.file == last_file_) return;
+    // A place may have got another program since: of that it says the number of texts entered.
+    if (event.source.file == last_file_ && files_->entered() == last_entered_) return;
     last_file_ = event.source.file;
+    last_entered_ = files_->entered();
     const std::string path = files_->path_of(event.source.file);
-    if (!path.empty()) programs_.add_name(event.source.file, path);
+    if (!path.empty()) programs_.add_name(event.source.file, path, files_->text_of(event.source.file));
   }
 
  private:
@@ -344,6 +346,7 @@ class Sharing final : public nc::rt::EventSink {
   nc::rt::share::ProgramTable programs_;
   nc::tools::ProgramFiles* files_ = nullptr;
   unsigned last_file_ = ~0u;
+  std::uint64_t last_entered_ = 0;
   std::unique_ptr<nc::rt::share::Service> service_;
 };
 
@@ -383,13 +386,15 @@ int operate(const Options& options, nc::rt::Config* config) {
   const auto runtime = nc::rt::Runtime::create(*config, parts, &errors);
   if (runtime == nullptr) return config_failed(errors);
 
-  nc::tools::ProgramFiles files(config->programs_folder());
+  nc::tools::ProgramFiles files(config->programs_folder(), config->program_text);
   files.set_external(config->external_folder());
+  files.set_remembered([&runtime](unsigned file) { return runtime->remembers(file); });
+  files.set_report([](const std::string& why) { std::fprintf(stderr, "warning: %s\n", nc::rt::valid_utf8(why).c_str()); });
   files.attach(runtime->control());
   unsigned file = 0;
   if (!options.program.empty() && files.add(runtime->control(), options.program, &file, &error) != NC_OK)
     return failed(error);
-  if (!options.program.empty()) sharing.programs().add(file, options.program);
+  if (!options.program.empty()) sharing.programs().add(file, options.program, files.text_of(file));
   sharing.programs().set_mdi(options.mdi);
   if (!sharing.prepare(runtime.get(), &files, config->programs_folder(), &error)) return failed(error);
   nc::tools::PrintFile print;
@@ -406,7 +411,7 @@ int operate(const Options& options, nc::rt::Config* config) {
   }
   PlotSink path(*config);
   if (!options.plot.empty()) runtime->set_path_sink(&path);
-  nc::rt::Progress progress(stdout, isatty(STDOUT_FILENO) != 0, nc::rt::estimate_lines(options.program));
+  nc::rt::Progress progress(stdout, isatty(STDOUT_FILENO) != 0, options.program.empty() ? 0 : nc::rt::estimate_lines(files.text_of(file).get()));
 
   std::signal(SIGPIPE, SIG_IGN);  // a reader of the progress that goes away must not stop a machine in motion
   for (const int ending : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(ending, on_signal);  // HUP: a terminal that goes away

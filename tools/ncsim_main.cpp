@@ -34,6 +34,12 @@ void add_program(CLI::App* command, SessionOptions* options) {
   command->add_option("--external", options->external, "folder of the programs that M198 calls (default: that of sub programs)")
       ->check(nc::tools::given());
   command->add_flag("--semicolon-comments", options->semicolon_comments, "what stands behind ';' in a line is a comment (m700; else P33)");
+  command->add_option("--encoding", "of PROGRAM and its sub programs: utf-8, latin-1 or shift-jis (default: the machine's, else utf-8)")
+      ->transform(nc::tools::one_of({"utf-8", "latin-1", "shift-jis"}))
+      ->each([options](const std::string& name) {
+        options->encoding = *nc::rt::encoding_from_name(name);
+        options->encoding_given = true;
+      });
   add_tape(command, options);
 }
 

@@ -13,12 +13,10 @@ namespace nc::rt::share {
 namespace {
 
 constexpr std::size_t kShown = 127;
-constexpr std::size_t kLongest = 4096;  // of a line that is read at once
 
 std::string shown(std::string text) {
   while (!text.empty() && (text.back() == '\r' || text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  if (text.size() > kShown) text.resize(kShown);
-  return text;
+  return std::string(cut_utf8(valid_utf8(text), kShown));
 }
 
 }  // namespace
@@ -28,38 +26,45 @@ std::string file_name(const std::string& path) {
   return slash == std::string::npos ? path : path.substr(slash + 1);
 }
 
-void ProgramTable::add(unsigned file, const std::string& path) {
-  const std::uint64_t lines = estimate_lines(path);
+void ProgramTable::add(unsigned file, const std::string& path, const Text& text) {
+  const std::uint64_t lines = text == nullptr ? 0 : estimate_lines(text.get());
   const std::lock_guard lock(mutex_);
-  programs_[file] = {path, lines};
+  programs_[file] = {path, lines, text};
 }
 
-std::string BlockText::line(const std::string& path, std::uint32_t line) {
-  if (line == 0 || path.empty()) return "";
-  if (path == path_ && line == have_) return text_;
-  if (path != path_ || line < next_) {
-    path_ = path;
-    stream_.close();
-    stream_.clear();
-    stream_.open(path, std::ios::binary);
+std::string BlockText::line(const std::shared_ptr<ProgramText>& program, std::uint32_t line) {
+  if (line == 0 || program == nullptr) return "";
+  const bool same = program == program_.lock();
+  if (same && line == have_) return text_;
+  if (!same || line < next_) {
+    program_ = program;
+    buffer_.clear();
+    begun_.clear();
+    offset_ = 0;
     next_ = 1;
     have_ = 0;
   }
-  std::size_t budget = kBytesPerCall;
-  char buffer[kLongest];
-  while (stream_ && next_ <= line) {
-    std::string text;
-    do {  // getline() of a part of a long line sets failbit
-      stream_.clear(stream_.rdstate() & ~std::ios::failbit);
-      stream_.getline(buffer, sizeof buffer);
-      const auto got = static_cast<std::size_t>(stream_.gcount());
-      if (text.size() < kShown) text += buffer;
-      budget -= std::min(budget, got);
-      if (got == 0) return "";
-    } while (stream_.fail() && !stream_.eof());
+  constexpr std::size_t kPiece = 4096;
+  for (std::size_t passed = 0; next_ <= line;) {
+    if (buffer_.empty()) {
+      if (passed >= kBytesPerCall) return "";
+      buffer_.resize(kPiece);
+      const long got = program->read(offset_, buffer_.data(), kPiece);
+      buffer_.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+      if (got < 0 || (got == 0 && begun_.empty())) return "";
+      passed += buffer_.size();
+    }
+    const std::size_t end = buffer_.find('\n');
+    const bool ended = end != std::string::npos || buffer_.empty();  // by its end, or with the text
+    const std::size_t length = std::min(end, buffer_.size());
+    if (begun_.size() <= kShown) begun_.append(buffer_, 0, length);  // more than is shown, so that it is cut at a character
+    const std::size_t used = end != std::string::npos ? length + 1 : length;
+    buffer_.erase(0, used);
+    offset_ += used;
+    if (!ended) continue;
     have_ = next_++;
-    text_ = shown(std::move(text));
-    if (budget == 0 && have_ != line) return "";
+    text_ = shown(std::move(begun_));
+    begun_.clear();
   }
   return have_ == line ? text_ : "";
 }

@@ -1,27 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which file a place in the program store is, for those who show it. Any thread.
+// Which file a place in the program store is, for those who show it: its name, and its text as it runs. Any thread.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
+
+#include "runtime/programs/program_text.hpp"
 
 namespace nc::rt::share {
 
 class ProgramTable {
  public:
+  using Text = std::shared_ptr<ProgramText>;
   struct Program {
     std::string path;
-    std::uint64_t lines = 0;  // up to its end code, 0 = not known
+    std::uint64_t lines = 0;          // up to its end code, 0 = not known
+    std::weak_ptr<ProgramText> text;  // gone when the program is
   };
 
   // Counts the lines: call it where that time is at hand.
-  void add(unsigned file, const std::string& path);
+  void add(unsigned file, const std::string& path, const Text& text);
   // Without counting.
-  void add_name(unsigned file, const std::string& path) {
+  void add_name(unsigned file, const std::string& path, const Text& text) {
     const std::lock_guard lock(mutex_);
-    if (programs_[file].path != path) programs_[file] = {path, 0};
+    Program& program = programs_[file];
+    if (program.path != path || program.text.lock() != text) program = {path, 0, text};
   }
   Program at(unsigned file) const {
     const std::lock_guard lock(mutex_);

@@ -198,9 +198,9 @@ void Publisher::fill_block(unsigned index, const nc_outputs& nc, const FeederInf
   } else if (selected.any) {
     program = file_name(programs_.at(selected.file).path);
     if (nc.source.line != 0) {
-      const std::string path = programs_.at(nc.source.file).path;
-      file = file_name(path);
-      block = text_[index].line(path, nc.source.line);
+      const ProgramTable::Program running = programs_.at(nc.source.file);
+      file = file_name(running.path);
+      block = text_[index].line(running.text.lock(), nc.source.line);
     }
   }
   out->sequence_number = sequence_number(block);

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts in fixed arrays: always ended by a NUL, cut at a whole UTF-8 character.
+// Texts in fixed arrays: always ended by a NUL, valid UTF-8, cut at a whole character.
 #pragma once
 
 #include <cstring>
 #include <string>
 #include <string_view>
 
+#include "runtime/programs/encoding.hpp"
 #include "runtime/share/layout.hpp"
 
 namespace nc::rt::share {
 
 template <std::size_t kSize>
 void set_text(Text<kSize>* text, std::string_view value) {
-  std::size_t length = value.size() < kSize ? value.size() : kSize - 1;
-  if (length < value.size())
-    while (length > 0 && (static_cast<unsigned char>(value[length]) & 0xC0) == 0x80) --length;
+  const std::string valid = valid_utf8(value);
+  const std::string_view kept = cut_utf8(valid, kSize - 1);
   text->fill(0);
-  std::memcpy(text->data(), value.data(), length);
+  std::memcpy(text->data(), kept.data(), kept.size());
 }
 
 // Up to the NUL, or all of it when there is none.

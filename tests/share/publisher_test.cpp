@@ -71,7 +71,10 @@ class SharePublisher : public testing::Test {
     text_ = text;
     unsigned file = 0;
     ASSERT_EQ(nc_program_add_text(runtime_->control(), "unit.nc", text_.data(), text_.size(), &file), NC_OK);
-    programs_.add(file, path_);
+    std::string error;
+    shown_ = ProgramText::open_file(path_, {}, &error);
+    ASSERT_NE(shown_, nullptr) << error;
+    programs_.add(file, path_, shown_);
     ASSERT_EQ(runtime_->select_program(file), Answer::kDone);
   }
   void steps(unsigned count) {
@@ -97,6 +100,7 @@ class SharePublisher : public testing::Test {
   std::unique_ptr<hal::SimMachine> sim_;
   std::unique_ptr<PointTap> tap_;
   std::unique_ptr<Runtime> runtime_;
+  std::shared_ptr<ProgramText> shown_;
   ProgramTable programs_;
   SegmentOwner owner_;
   SegmentReader reader_;
@@ -355,20 +359,50 @@ TEST(ShareAlarmLog, WaitsForTheTextsButNotForEver) {
 
 // ---- block texts ----
 
-TEST(ShareBlockText, FindsLinesForwardsAndBackwards) {
+std::shared_ptr<ProgramText> program_of(const std::string& bytes, const ProgramText::Options& options = {}) {
   const std::string path = (std::filesystem::temp_directory_path() / ("nc-text-" + std::to_string(getpid()))).string();
-  std::ofstream(path, std::ios::binary) << "G90\r\n" << std::string(10000, 'X') << "\n\n/N12 G1\nlast";
-  BlockText text;
-  EXPECT_EQ(text.line(path, 1), "G90");
-  EXPECT_EQ(text.line(path, 4), "/N12 G1");
-  EXPECT_EQ(text.line(path, 2), std::string(127, 'X'));
-  EXPECT_EQ(text.line(path, 3), "");
-  EXPECT_EQ(text.line(path, 5), "last");
-  EXPECT_EQ(text.line(path, 6), "");
-  EXPECT_EQ(text.line(path, 7), "");
-  EXPECT_EQ(text.line(path, 5), "last");
-  EXPECT_EQ(text.line("/nowhere", 1), "");
+  std::ofstream(path, std::ios::binary) << bytes;
+  std::string error;
+  const auto program = ProgramText::open_file(path, options, &error);
+  EXPECT_NE(program, nullptr) << error;
   std::filesystem::remove(path);
+  return program;
+}
+
+TEST(ShareBlockText, FindsLinesForwardsAndBackwards) {
+  const auto program = program_of("G90\r\n" + std::string(10000, 'X') + "\n\n/N12 G1\nlast");
+  BlockText text;
+  EXPECT_EQ(text.line(program, 1), "G90");
+  EXPECT_EQ(text.line(program, 4), "/N12 G1");
+  EXPECT_EQ(text.line(program, 2), std::string(127, 'X'));
+  EXPECT_EQ(text.line(program, 3), "");
+  EXPECT_EQ(text.line(program, 5), "last");
+  EXPECT_EQ(text.line(program, 6), "");
+  EXPECT_EQ(text.line(program, 7), "");
+  EXPECT_EQ(text.line(program, 5), "last");
+  EXPECT_EQ(text.line(nullptr, 1), "");
+}
+
+TEST(ShareBlockText, LongLinesTakeSeveralCalls) {
+  const auto program = program_of(std::string(3 * BlockText::kBytesPerCall, 'X') + "\nG1\n");
+  BlockText text;
+  unsigned calls = 1;
+  for (; text.line(program, 2).empty() && calls < 10; ++calls) {
+  }
+  EXPECT_EQ(text.line(program, 2), "G1");
+  EXPECT_EQ(calls, 4u);
+}
+
+TEST(ShareBlockText, IsCutBetweenCharactersAndAlwaysUtf8) {
+  for (std::size_t before = 122; before < 130; ++before) {
+    ProgramText::Options options;
+    options.encoding = Encoding::kLatin1;
+    const auto program = program_of("(" + std::string(before, 'A') + "\xC4\xD6\xDC)\n", options);
+    BlockText text;
+    const std::string line = text.line(program, 1);
+    EXPECT_LE(line.size(), 127u);
+    EXPECT_EQ(valid_utf8(line), line);
+  }
 }
 
 TEST(ShareBlockText, SequenceNumbers) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/programs/encoding.hpp"
 #include "tools/lib/commands.hpp"
 #include "tools/lib/item_source.hpp"
 
@@ -22,7 +23,7 @@ std::string printable(const char* text) {
 }  // namespace
 
 int complain(std::FILE* err, const std::string& what) {
-  std::fprintf(err, "ncsim: %s\n", what.c_str());
+  std::fprintf(err, "ncsim: %s\n", rt::valid_utf8(what).c_str());
   return kExitError;
 }
 
@@ -44,7 +45,7 @@ std::string alarm_line(const Session& session, const nc_alarm& alarm) {
     line += "\n  " + session.file_name(calls[i]) + ":" + std::to_string(calls[i].line) + ": calls ";
     line += called.program ? "O" + std::to_string(called.program) : session.file_name(called);
   }
-  return line;
+  return rt::valid_utf8(line);  // a file's name may be anything
 }
 
 void note_unused(const std::vector<std::string>& sentences, std::FILE* err) {

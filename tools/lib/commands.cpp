@@ -256,7 +256,7 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, Plot
   plot.set_view(view);
   const size_t slash = options.program.find_last_of('/');
   plot.set_title(options.program == "-" ? "standard input"
-                                        : options.program.substr(slash == std::string::npos ? 0 : slash + 1));
+                                        : rt::valid_utf8(options.program.substr(slash == std::string::npos ? 0 : slash + 1)));
   ControlSource items(session.control());
   PlotSink sink(&plot, session.config().system[0], &items);
   const RunResult result = run_session(&session, &sink, &items, max_silent_blocks, true, err);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nc/nc.h"
+#include "runtime/programs/encoding.hpp"
 
 namespace nc::tools {
 
@@ -50,9 +51,15 @@ class ControlSource final : public ItemSource {
     nc_position_shown(control_, kPartSystem, machine, work);
   }
   nc_status reset() override { return nc_reset(control_, kPartSystem); }
-  bool alarm(nc_alarm* alarm) override { return nc_alarm_get(control_, kPartSystem, alarm) == NC_OK; }
+  bool alarm(nc_alarm* alarm) override {
+    if (nc_alarm_get(control_, kPartSystem, alarm) != NC_OK) return false;
+    rt::make_valid(alarm->detail.s, sizeof alarm->detail.s);
+    return true;
+  }
   bool text(uint32_t id, nc_text* text) override {
-    return nc_text_get(control_, kPartSystem, id, text) == NC_OK;
+    if (nc_text_get(control_, kPartSystem, id, text) != NC_OK) return false;
+    if (text->size == 0) rt::make_valid(text->s, sizeof text->s);  // a line of BPRNT is bytes
+    return true;
   }
   unsigned modal_codes(uint32_t id, char (*codes)[8], unsigned capacity) override {
     nc_modal modal;

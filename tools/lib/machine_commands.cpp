@@ -50,7 +50,7 @@ int time_decimals(double cycle_s) {
 
 std::string short_name(const std::string& program) {
   const size_t slash = program.find_last_of('/');
-  return program == "-" ? "standard input" : program.substr(slash == std::string::npos ? 0 : slash + 1);
+  return program == "-" ? "standard input" : rt::valid_utf8(program.substr(slash == std::string::npos ? 0 : slash + 1));
 }
 
 // A file for rows; closed at the end.

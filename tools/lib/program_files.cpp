@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cerrno>
 #include <cstring>
 #include <optional>
@@ -17,22 +18,16 @@
 
 namespace nc::tools {
 
-struct ProgramFiles::OpenFile {
-  int descriptor = -1;
+struct ProgramFiles::Entry {
   unsigned index = 0;
-  uint64_t begin = 0;  // of the text, behind a byte order mark
   std::string path;
-
-  OpenFile() = default;
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  ~OpenFile() {
-    if (descriptor >= 0) close(descriptor);
-  }
+  Text text;
 };
 
 namespace {
 
+// With a sub program that is being written: the machine may be moving, and comes to rest when nothing is read for longer than it has room.
+constexpr std::chrono::milliseconds kPatienceInMotion{300};
 constexpr char kExternal[] = "198:";  // before the names of programs that M198 calls
 
 char lower(char c) {
@@ -61,6 +56,11 @@ std::optional<unsigned long> program_number(const std::string& name) {
 std::string base_name(const std::string& path) {
   const size_t slash = path.find_last_of('/');
   return slash == std::string::npos || slash + 1 == path.size() ? path : path.substr(slash + 1);
+}
+
+// Non-blocking: a FIFO must give an error, not hang here.
+int open_file(const std::string& path) {
+  return open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
 }
 
 const char* not_a_program(mode_t mode) {
@@ -101,81 +101,113 @@ std::vector<std::string> list_folder(const std::string& path) {
 
 }  // namespace
 
-ProgramFiles::ProgramFiles(std::string folder) : folder_(std::move(folder)) {}
+ProgramFiles::ProgramFiles(std::string folder, const rt::ProgramText::Options& options)
+    : folder_(std::move(folder)), options_(options) {}
 ProgramFiles::~ProgramFiles() = default;
 
-nc_status ProgramFiles::add(nc_control* control, const std::string& path, unsigned* file,
-                            std::string* error) {
-  // Non-blocking open: a FIFO must give an error below, not hang here.
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+nc_status ProgramFiles::add(nc_control* control, const std::string& path, unsigned* file, std::string* error, bool tape) {
+  give_up_unused(control);
+  const int descriptor = open_file(path);
   if (descriptor < 0) {
     if (error) *error = path + ": " + std::generic_category().message(errno);
     return NC_E_READ;
   }
-  const nc_status status = add_descriptor(control, descriptor, base_name(path), file, error);
-  if (status == NC_OK) files_.back()->path = path;
-  return status;
+  rt::ProgramText::Options options = options_;
+  options.as_it_is = tape;
+  return enter(control, descriptor, path, base_name(path), options, file, error);
 }
 
-nc_status ProgramFiles::add_descriptor(nc_control* control, int descriptor, const std::string& name,
-                                       unsigned* file, std::string* error) {
-  auto entry = std::make_unique<OpenFile>();
-  entry->descriptor = descriptor;
-  entry->path = name;
+nc_status ProgramFiles::add_descriptor(nc_control* control, int descriptor, const std::string& name, unsigned* file,
+                                       std::string* error, bool tape) {
+  give_up_unused(control);
+  rt::ProgramText::Options options = options_;
+  options.as_it_is = tape;
+  return enter(control, descriptor, "", name, options, file, error);
+}
+
+nc_status ProgramFiles::enter(nc_control* control, int descriptor, const std::string& path, const std::string& name,
+                              const rt::ProgramText::Options& options, unsigned* file, std::string* error) {
+  const std::string& shown = path.empty() ? name : path;
+  std::string why;
   struct stat info = {};
-  if (fstat(descriptor, &info) != 0) {
-    if (error) *error = name + ": " + std::generic_category().message(errno);
+  const char* unfit = fstat(descriptor, &info) == 0 && !S_ISREG(info.st_mode) ? not_a_program(info.st_mode) : nullptr;
+  if (unfit) close(descriptor);
+  auto made = std::make_unique<Entry>();
+  made->path = shown;
+  if (!unfit) made->text = rt::ProgramText::open(descriptor, path, options, &why);
+  if (!made->text) {
+    if (error) *error = shown + ": " + (unfit ? unfit : why);
     return NC_E_READ;
   }
-  if (!S_ISREG(info.st_mode)) {
-    if (error) *error = name + ": " + not_a_program(info.st_mode);
-    return NC_E_READ;
-  }
-  char head[3];
-  const long got = read_at(entry.get(), 0, head, sizeof head);
-  if (got < 0) {
-    if (error) *error = name + ": cannot be read";
-    return NC_E_READ;
-  }
-  entry->begin = mark_length(head, static_cast<size_t>(got));
-  const nc_status status = nc_program_add(control, name.c_str(), &ProgramFiles::read_at, entry.get(),
-                                          static_cast<uint64_t>(info.st_size) - entry->begin, &entry->index);
+  nc_status status = NC_E_MEMORY;
+  do {
+    status = nc_program_add(control, name.c_str(), &ProgramFiles::read_at, made.get(), made->text->size(), &made->index);
+  } while (status == NC_E_MEMORY && make_room(control));
   if (status != NC_OK) {
-    if (error) *error = name + ": " + reason(status);
+    // A protected program that is there already, and is the file asked for.
+    for (const auto& there : entries_) {
+      if (status != NC_E_STATE || there->path != shown || !there->text->is_file(info)) continue;
+      if (file) *file = there->index;
+      return NC_OK;
+    }
+    if (error) *error = shown + ": " + reason(status);
     return status;
   }
-  if (file) *file = entry->index;
-  files_.push_back(std::move(entry));
+  forget(made->index);  // what it has replaced
+  if (file) *file = made->index;
+  entries_.push_back(std::move(made));
+  ++entered_;
   return NC_OK;
 }
 
-size_t ProgramFiles::mark_length(const char* text, size_t size) {
-  return size >= 3 && std::memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+void ProgramFiles::forget(unsigned file) {
+  std::erase_if(entries_, [&](const std::unique_ptr<Entry>& entry) { return entry->index == file; });
+}
+
+void ProgramFiles::give_up_unused(nc_control* control) {
+  std::erase_if(entries_, [&](const std::unique_ptr<Entry>& entry) {
+    return !(remembered_ && remembered_(entry->index)) && nc_program_remove(control, entry->index) == NC_OK;
+  });
+}
+
+// One place, of the entry whose last use is longest ago among those that nothing refers to.
+bool ProgramFiles::make_room(nc_control* control) {
+  const Entry* oldest = nullptr;
+  uint64_t used = 0;
+  for (const auto& entry : entries_) {
+    nc_program_info info;
+    if (nc_program_get(control, entry->index, &info) != NC_OK || info.in_use || info.is_protected) continue;
+    if ((remembered_ && remembered_(entry->index)) || (oldest && info.used > used)) continue;
+    oldest = entry.get();
+    used = info.used;
+  }
+  if (!oldest || nc_program_remove(control, oldest->index) != NC_OK) return false;
+  forget(oldest->index);
+  return true;
 }
 
 void ProgramFiles::attach(nc_control* control) {
   nc_program_on_missing(control, &ProgramFiles::on_missing, this);
 }
 
+const ProgramFiles::Entry* ProgramFiles::entry(unsigned file) const {
+  for (const auto& entry : entries_)
+    if (entry->index == file) return entry.get();
+  return nullptr;
+}
+
 std::string ProgramFiles::path_of(unsigned file) const {
-  // Backwards: an entry that replaced another of the same name has the same index and stands behind it.
-  for (auto entry = files_.rbegin(); entry != files_.rend(); ++entry)
-    if ((*entry)->index == file) return (*entry)->path;
-  return "";
+  const Entry* found = entry(file);
+  return found ? found->path : "";
+}
+
+ProgramFiles::Text ProgramFiles::text_of(unsigned file) const {
+  const Entry* found = entry(file);
+  return found ? found->text : nullptr;
 }
 
 long ProgramFiles::read_at(void* user, uint64_t offset, char* buffer, size_t size) {
-  const auto* file = static_cast<const OpenFile*>(user);
-  size_t got = 0;
-  while (got < size) {
-    const ssize_t n =
-        pread(file->descriptor, buffer + got, size - got, static_cast<off_t>(file->begin + offset + got));
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return -1;
-    if (n == 0) break;
-    got += static_cast<size_t>(n);
-  }
-  return static_cast<long>(got);
+  return static_cast<const Entry*>(user)->text->read(offset, buffer, size);
 }
 
 std::string ProgramFiles::find(const std::string& name) const {
@@ -191,23 +223,28 @@ std::string ProgramFiles::find(const std::string& name) const {
   return loose ? folder_ + "/" + *loose : "";
 }
 
+std::string ProgramFiles::find_called(const std::string& name) const {
+  // M700 13.3.2: a program of the data server.
+  const size_t external = sizeof kExternal - 1;
+  if (name.compare(0, external, kExternal) == 0)
+    return external_.empty() ? find(name.substr(external)) : ProgramFiles(external_).find(name.substr(external));
+  // M700 13.3.1, M98 ,D1 to ,D4: a folder of its own for each device, in that of the programs.
+  const bool device = name.size() > 3 && name[0] == 'D' && name[1] >= '1' && name[1] <= '4' && name[2] == ':';
+  return device ? ProgramFiles(folder_ + "/device" + name[1]).find(name.substr(3)) : find(name);
+}
+
 bool ProgramFiles::on_missing(void* user, nc_control* control, const char* name) {
   auto* self = static_cast<ProgramFiles*>(user);
-  // M700 13.3.2: a program of the data server.
-  const bool external = std::strncmp(name, kExternal, sizeof kExternal - 1) == 0;
-  // M700 13.3.1, M98 ,D1 to ,D4: a folder of its own for each device, in that of the programs.
-  const bool device = name[0] == 'D' && name[1] >= '1' && name[1] <= '4' && name[2] == ':';
-  const std::string wanted = external ? name + sizeof kExternal - 1 : device ? name + 3 : name;
-  const std::string path = device                                 ? ProgramFiles(self->folder_ + "/device" + name[1]).find(wanted)
-                           : external && !self->external_.empty() ? ProgramFiles(self->external_).find(wanted)
-                                                                  : self->find(wanted);
-  if (path.empty()) return false;
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  const std::string path = self->find_called(name);
+  const int descriptor = path.empty() ? -1 : open_file(path);
   if (descriptor < 0) return false;
+  rt::ProgramText::Options options = self->options_;
+  options.patience = std::min(options.patience, kPatienceInMotion);
   // Entered under the name that was asked for, whatever the file's spelling.
-  if (self->add_descriptor(control, descriptor, name, nullptr, nullptr) != NC_OK) return false;
-  self->files_.back()->path = path;
-  return true;
+  std::string error;
+  const nc_status status = self->enter(control, descriptor, path, name, options, nullptr, &error);
+  if (status != NC_OK && self->report_) self->report_(error);
+  return status == NC_OK;
 }
 
 }  // namespace nc::tools

@@ -3,6 +3,7 @@
 #include "tools/lib/session.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,6 +27,37 @@ std::string folder_of(const std::string& path) {
   const size_t slash = path.find_last_of('/');
   if (slash == std::string::npos) return ".";
   return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+bool write_all(int descriptor, const char* bytes, size_t size) {
+  for (size_t done = 0; done < size;) {
+    const ssize_t n = write(descriptor, bytes + done, size - done);
+    if (n < 0 && errno != EINTR) return false;
+    if (n > 0) done += static_cast<size_t>(n);
+  }
+  return true;
+}
+
+// What comes through standard input, in a file in memory; negative on failure.
+int spool_standard_input(std::string* error) {
+  const int file = memfd_create("stdin", MFD_CLOEXEC);
+  const auto failed = [&](const std::string& why) {
+    *error = why;
+    if (file >= 0) close(file);
+    return -1;
+  };
+  if (file < 0) return failed(std::generic_category().message(errno));
+  char buffer[65536];
+  size_t size = 0;
+  for (;;) {
+    const ssize_t n = read(STDIN_FILENO, buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return failed(std::generic_category().message(errno));
+    if (n == 0) return file;
+    size += static_cast<size_t>(n);
+    if (size > kMaxStandardInput) return failed("more than 1 GiB through a pipe; give a file");
+    if (!write_all(file, buffer, static_cast<size_t>(n))) return failed(std::generic_category().message(errno));
+  }
 }
 
 // What a machine is where a setup says nothing.
@@ -121,9 +153,12 @@ bool Session::start(const SessionOptions& options, std::string* error) {
     *error = "--semicolon-comments: ';' is no character of this dialect";
     return false;
   }
+  if (machine_) text_ = machine_->program_text;
+  if (!machine_ || options.encoding_given) text_.encoding = options.encoding;
   files_ = std::make_unique<ProgramFiles>(options.programs         ? *options.programs
                                           : options.program == "-" ? "."
-                                                                   : folder_of(options.program));
+                                                                   : folder_of(options.program),
+                                          text_);
   files_->set_external(options.external);
   if (!add_main(options, error) || !declare_tape(options, error)) return false;
   files_->attach(control_);
@@ -153,8 +188,8 @@ bool Session::add_main(const SessionOptions& options, std::string* error) {
     }
   }
   main_name_ = options.program;
-  if (options.program == "-") return add_standard_input(error);
-  return files_->add(control_, options.program, &main_file_, error) == NC_OK;
+  if (options.program == "-") return add_standard_input(!options.tape.empty(), error);
+  return files_->add(control_, options.program, &main_file_, error, !options.tape.empty()) == NC_OK;
 }
 
 bool Session::declare_tape(const SessionOptions& options, std::string* error) {
@@ -166,44 +201,27 @@ bool Session::declare_tape(const SessionOptions& options, std::string* error) {
   return status == NC_OK;
 }
 
-// A file redirected to standard input is read in windows like any other; a pipe is taken in whole.
-bool Session::add_standard_input(std::string* error) {
+// A file redirected to standard input is read like any other; a pipe is taken in whole, into a file that has no name.
+bool Session::add_standard_input(bool tape, std::string* error) {
   main_name_ = "<stdin>";
   struct stat info = {};
-  if (fstat(STDIN_FILENO, &info) == 0 && S_ISREG(info.st_mode) && lseek(STDIN_FILENO, 0, SEEK_CUR) == 0) {
-    const int copy = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3);
-    if (copy >= 0) return files_->add_descriptor(control_, copy, "stdin", &main_file_, error) == NC_OK;
+  int descriptor = -1;
+  if (fstat(STDIN_FILENO, &info) == 0 && S_ISREG(info.st_mode) && lseek(STDIN_FILENO, 0, SEEK_CUR) == 0)
+    descriptor = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (descriptor < 0 && (descriptor = spool_standard_input(error)) < 0) {
+    *error = main_name_ + ": " + *error;
+    return false;
   }
-  char buffer[65536];
-  for (;;) {
-    const ssize_t n = read(STDIN_FILENO, buffer, sizeof buffer);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) {
-      *error = main_name_ + ": " + std::generic_category().message(errno);
-      return false;
-    }
-    if (n == 0) break;
-    text_.append(buffer, static_cast<size_t>(n));
-    if (text_.size() > kMaxStandardInput) {
-      *error = main_name_ + ": more than 1 GiB through a pipe; give a file";
-      return false;
-    }
-  }
-  text_.erase(0, ProgramFiles::mark_length(text_.data(), text_.size()));
-  if (nc_program_add_text(control_, "stdin", text_.data(), text_.size(), &main_file_) == NC_OK) return true;
-  *error = main_name_ + ": the program store refused it";
-  return false;
+  return files_->add_descriptor(control_, descriptor, "stdin", &main_file_, error, tape) == NC_OK;
 }
 
 BlockLines Session::block_lines() const {
-  bool wanted = false;
-  for (const SetupEvent& event : setup_.events) wanted = wanted || event.line;
-  if (!wanted) return {};
-  if (!text_.empty()) return BlockLines(text_);
-  std::string content, error;
-  const std::string path = files_->path_of(main_file_);
-  if (!json::read_text_file(path == "stdin" ? "/dev/stdin" : path, &content, &error)) return {};
-  content.erase(0, ProgramFiles::mark_length(content.data(), content.size()));
+  const bool wanted = std::any_of(setup_.events.begin(), setup_.events.end(), [](const SetupEvent& event) { return event.line.has_value(); });
+  const ProgramFiles::Text text = files_->text_of(main_file_);
+  if (!wanted || text == nullptr) return {};
+  std::string content(static_cast<size_t>(text->size()), '\0');
+  const long got = text->read(0, content.data(), content.size());
+  content.resize(got > 0 ? static_cast<size_t>(got) : 0);
   return BlockLines(content);
 }
 

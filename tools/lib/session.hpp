@@ -23,6 +23,8 @@ struct SessionOptions {
   bool dialect_given = false;  // on the command line; else a machine's own goes before
   std::string print;        // file for what programs print (DPRNT); "" = none
   std::string tape;         // text, iso or eia: the program is a tape; "" = a text
+  rt::Encoding encoding = rt::Encoding::kUtf8;
+  bool encoding_given = false;  // on the command line; else a machine's own
   std::string external;     // folder of the programs of M198; "" = that of sub programs
   std::string machine;      // configuration of the machine that the program is for (TOML); "" = none
   std::optional<std::string> programs;  // folder of sub programs; default: the program's own
@@ -63,7 +65,7 @@ class Session {
   };
   bool add_main(const SessionOptions& options, std::string* error);
   bool declare_tape(const SessionOptions& options, std::string* error);
-  bool add_standard_input(std::string* error);
+  bool add_standard_input(bool tape, std::string* error);
 
   bool apply_machine(std::string* error);
 
@@ -74,7 +76,7 @@ class Session {
   std::unique_ptr<void, Release> memory_;
   std::unique_ptr<ProgramFiles> files_;
   nc_control* control_ = nullptr;
-  std::string text_;       // of standard input when it is no file
+  rt::ProgramText::Options text_;
   std::string main_name_;  // for messages
   unsigned main_file_ = 0;
 };

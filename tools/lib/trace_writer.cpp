@@ -7,6 +7,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "runtime/programs/encoding.hpp"
 #include "tools/lib/number_text.hpp"
 
 namespace nc::tools {
@@ -28,26 +29,6 @@ constexpr SyncName kSyncNames[] = {{NC_SYNC_POSITION, "position"}, {NC_SYNC_INPU
                                    {NC_SYNC_CLOCK, "clock"},       {NC_SYNC_SKIP, "skip"},
                                    {NC_SYNC_MODAL, "modal"},       {NC_SYNC_STOPPED, "stopped"}};
 
-// Length of the well-formed UTF-8 sequence at the start of `s`, 0 when there is none (overlong, surrogate,
-// cut off).
-size_t utf8_length(std::string_view s) {
-  const auto byte = [&](size_t i) { return static_cast<unsigned char>(s[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return 1;
-  const size_t n = lead >= 0xC2 && lead <= 0xDF   ? 2
-                   : (lead & 0xF0) == 0xE0        ? 3
-                   : lead >= 0xF0 && lead <= 0xF4 ? 4
-                                                  : 0;
-  if (n == 0 || s.size() < n) return 0;
-  for (size_t i = 1; i < n; ++i)
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  const unsigned char next = byte(1);
-  if ((lead == 0xE0 && next < 0xA0) || (lead == 0xED && next > 0x9F) || (lead == 0xF0 && next < 0x90) ||
-      (lead == 0xF4 && next > 0x8F))
-    return 0;
-  return n;
-}
-
 bool circular(const nc_move& move) {
   return move.center_axes != 0;
 }
@@ -59,7 +40,7 @@ std::string json_escaped(std::string_view text) {
   std::string out;
   while (!text.empty()) {
     const unsigned char c = static_cast<unsigned char>(text[0]);
-    size_t n = utf8_length(text);
+    size_t n = rt::utf8_length(text);
     if (c == '"' || c == '\\') {
       out += '\\';
       out += text[0];

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texts of program files. See program_text.hpp.
+#include "runtime/programs/program_text.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <system_error>
+#include <thread>
+
+#include "nc/control.h"
+#include "runtime/programs/open_for_writing.hpp"
+
+namespace nc::rt {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+nanoseconds time_of(const struct timespec& t) { return std::chrono::seconds(t.tv_sec) + nanoseconds(t.tv_nsec); }
+
+// The clock that the kernel stamps files with.
+nanoseconds stamp_now() {
+  struct timespec now = {};
+  clock_gettime(CLOCK_REALTIME_COARSE, &now);
+  return time_of(now);
+}
+
+// The time of the last change of the inode is among it: unlike that of the content nobody can set it back (cp -p, touch).
+bool same_content(const struct stat& a, const struct stat& b) {
+  return a.st_size == b.st_size && time_of(a.st_mtim) == time_of(b.st_mtim) && time_of(a.st_ctim) == time_of(b.st_ctim) &&
+         a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+// How long to wait until the file has been left alone for kQuiet. A time in the future says nothing.
+nanoseconds unrest(const struct stat& info) {
+  const nanoseconds age = stamp_now() - std::max(time_of(info.st_mtim), time_of(info.st_ctim));
+  return age >= nanoseconds(0) && age < ProgramText::kQuiet ? ProgramText::kQuiet - age : nanoseconds(0);
+}
+
+// Up to `size` bytes from `offset`; fewer only at the end. False: errno says why.
+bool read_file(int descriptor, std::uint64_t offset, std::size_t size, std::string* bytes) {
+  bytes->resize(size);
+  std::size_t got = 0;
+  while (got < size) {
+    const ssize_t n = pread(descriptor, bytes->data() + got, size - got, static_cast<off_t>(offset + got));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return false;
+    if (n == 0) break;
+    got += static_cast<std::size_t>(n);
+  }
+  bytes->resize(got);
+  return true;
+}
+
+// Tells changed texts apart, not attackers: eight bytes at a time, each multiplied into the next (the constants are those of splitmix64).
+std::uint64_t hash_of(std::string_view bytes) {
+  std::uint64_t h = 0x9e3779b97f4a7c15u ^ bytes.size();
+  const auto mix = [&h](std::uint64_t word) {
+    h = (h ^ word) * 0xbf58476d1ce4e5b9u;
+    h ^= h >> 29;
+  };
+  std::size_t at = 0;
+  for (; at + sizeof(std::uint64_t) <= bytes.size(); at += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, sizeof word);
+    mix(word);
+  }
+  std::uint64_t rest = 0;
+  std::memcpy(&rest, bytes.data() + at, bytes.size() - at);
+  mix(rest);
+  return h * 0x94d049bb133111ebu;
+}
+
+}  // namespace
+
+ProgramText::ProgramText(int descriptor, std::string path, const Options& options)
+    : path_(std::move(path)), options_(options), descriptor_(descriptor) {}
+
+ProgramText::~ProgramText() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+std::shared_ptr<ProgramText> ProgramText::open(int descriptor, const std::string& path, const Options& options, std::string* error) {
+  std::shared_ptr<ProgramText> text(new ProgramText(descriptor, path, options));
+  if (!options.as_it_is && !Decoder(options.encoding).usable()) {
+    *error = "this computer's C library does not know the encoding of the programs";
+    return nullptr;
+  }
+  const auto deadline = std::chrono::steady_clock::now() + options.patience;
+  for (bool again = false; !again || std::chrono::steady_clock::now() < deadline; again = true) {
+    if (again) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (is_open_for_writing(descriptor)) continue;
+    if (fstat(descriptor, &text->info_) != 0) {
+      *error = std::generic_category().message(errno);
+      return nullptr;
+    }
+    if (const nanoseconds wait = unrest(text->info_); wait > nanoseconds(0)) {
+      std::this_thread::sleep_for(wait);
+      continue;
+    }
+    error->clear();
+    const bool small = static_cast<std::uint64_t>(text->info_.st_size) <= options.copy_bytes;
+    if (small ? text->copy(error) : text->divide()) return text;
+    if (!error->empty()) return nullptr;
+  }
+  *error = "is being written: select it when that is done";
+  return nullptr;
+}
+
+std::shared_ptr<ProgramText> ProgramText::open_file(const std::string& path, const Options& options, std::string* error) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor >= 0) return open(descriptor, path, options, error);
+  *error = std::generic_category().message(errno);
+  return nullptr;
+}
+
+// False with an empty *error: it was written meanwhile.
+bool ProgramText::copy(std::string* error) {
+  std::string bytes, again;
+  const auto size = static_cast<std::size_t>(info_.st_size);
+  const bool whole = read_file(descriptor_, 0, size + 1, &bytes);
+  if (!whole) *error = std::generic_category().message(errno);
+  if (!whole || bytes.size() != size) return false;
+  for (std::size_t at = 0; at < size; at += kPart) {
+    const std::size_t length = std::min(kPart, size - at);
+    if (!read_file(descriptor_, at, length, &again) || bytes.compare(at, length, again) != 0) return false;
+  }
+  struct stat after = {};
+  if (fstat(descriptor_, &after) != 0 || !same_content(info_, after) || is_open_for_writing(descriptor_)) return false;
+  look_at_head(bytes.substr(0, kPart));
+  if (options_.as_it_is) {
+    text_ = std::move(bytes);
+  } else {
+    Decoder decoder(options_.encoding);
+    text_.clear();
+    text_.reserve(size);
+    decoder.take(std::string_view(bytes).substr(mark_), true, &text_);
+    finish(&text_);
+  }
+  size_ = text_.size();
+  close(descriptor_);
+  descriptor_ = -1;
+  return true;
+}
+
+// A byte order mark, as editors write it, is no part of a program. Where no line feed is, lines end with carriage returns, as on machines
+// of old; elsewhere a carriage return is a blank.
+void ProgramText::look_at_head(const std::string& head) {
+  if (options_.as_it_is) return;
+  mark_ = head.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  cr_ends_line_ = head.find('\r') != std::string::npos && head.find('\n') == std::string::npos;
+}
+
+void ProgramText::finish(std::string* text) const {
+  if (cr_ends_line_) std::replace(text->begin(), text->end(), '\r', '\n');
+}
+
+// The parts of a large file. UTF-8 stays as it is, so nothing need be read for that; what is converted has another length, and where each
+// part begins in the text comes from reading all of it once.
+bool ProgramText::divide() {
+  const auto end = static_cast<std::uint64_t>(info_.st_size);
+  std::string bytes, text;
+  parts_.clear();
+  loaded_ = SIZE_MAX;
+  if (!read_file(descriptor_, 0, kPart, &bytes)) return false;
+  look_at_head(bytes);
+  const bool converts = !options_.as_it_is && options_.encoding != Encoding::kUtf8;
+  Decoder decoder(options_.encoding);
+  std::uint64_t in_text = 0;
+  for (std::uint64_t at = mark_; at < end;) {
+    Part part;
+    part.file_begin = at;
+    part.text_begin = in_text;
+    std::size_t used = static_cast<std::size_t>(std::min<std::uint64_t>(kPart, end - at));
+    std::size_t length = used;
+    if (converts) {
+      if (!read_file(descriptor_, at, used, &bytes)) return false;
+      text.clear();
+      used = decoder.take(bytes, at + bytes.size() >= end, &text);
+      if (used == 0) return false;
+      bytes.resize(used);
+      part.hash = hash_of(bytes);
+      part.hashed = true;
+      length = text.size();
+    }
+    parts_.push_back(part);
+    at += used;
+    in_text += length;
+  }
+  size_ = in_text;
+  return is_unchanged();
+}
+
+bool ProgramText::is_file(const struct stat& info) const { return same_content(info_, info); }
+
+bool ProgramText::is_unchanged() const {
+  struct stat now = {};
+  if (fstat(descriptor_, &now) != 0 || !same_content(info_, now)) return false;
+  return path_.empty() || (stat(path_.c_str(), &now) == 0 && same_content(info_, now));
+}
+
+long ProgramText::give_up(long code) {
+  failure_ = code;
+  loaded_ = SIZE_MAX;
+  return code;
+}
+
+bool ProgramText::load(std::size_t index) {
+  if (index == loaded_) return true;
+  Part& part = parts_[index];
+  const std::uint64_t end = index + 1 < parts_.size() ? parts_[index + 1].file_begin : static_cast<std::uint64_t>(info_.st_size);
+  std::string bytes;
+  loaded_ = SIZE_MAX;
+  if (!read_file(descriptor_, part.file_begin, static_cast<std::size_t>(end - part.file_begin), &bytes)) {
+    give_up(NC_READ_FAILED);
+    return false;
+  }
+  // The time of a file is set before what is written gets into it: bytes that are new have a new time by now.
+  const std::uint64_t hash = hash_of(bytes);
+  if (bytes.size() != end - part.file_begin || !is_unchanged() || (part.hashed && part.hash != hash)) {
+    give_up(NC_READ_CHANGED);
+    return false;
+  }
+  part.hash = hash;
+  part.hashed = true;
+  if (options_.as_it_is || options_.encoding == Encoding::kUtf8) {
+    text_ = std::move(bytes);
+  } else {
+    text_.clear();
+    Decoder(options_.encoding).take(bytes, true, &text_);
+  }
+  finish(&text_);
+  loaded_ = index;
+  return true;
+}
+
+long ProgramText::read(std::uint64_t offset, char* buffer, std::size_t size) {
+  if (offset >= size_) return 0;
+  size = static_cast<std::size_t>(std::min<std::uint64_t>(size, size_ - offset));
+  if (copied()) {
+    std::memcpy(buffer, text_.data() + offset, size);
+    return static_cast<long>(size);
+  }
+  const std::lock_guard lock(mutex_);
+  if (failure_ != 0) return failure_;
+  auto index = static_cast<std::size_t>(
+      std::upper_bound(parts_.begin(), parts_.end(), offset, [](std::uint64_t at, const Part& part) { return at < part.text_begin; }) -
+      parts_.begin() - 1);
+  std::size_t got = 0;
+  for (; got < size; ++index) {
+    if (!load(index)) return failure_;
+    const auto from = static_cast<std::size_t>(offset + got - parts_[index].text_begin);
+    const std::size_t length = std::min(size - got, text_.size() - from);
+    std::memcpy(buffer + got, text_.data() + from, length);
+    got += length;
+  }
+  return static_cast<long>(got);
+}
+
+}  // namespace nc::rt
