@@ -13,6 +13,7 @@
 #include "tools/lib/commands.hpp"
 #include "tools/lib/option_values.hpp"
 #include "tools/lib/output_check.hpp"
+#include "tools/lib/variable_use.hpp"
 
 namespace {
 
@@ -26,10 +27,7 @@ void add_tape(CLI::App* command, SessionOptions* options) {
       ->transform(nc::tools::one_of({"text", "iso", "eia"}));
 }
 
-void add_program(CLI::App* command, SessionOptions* options) {
-  command->add_option("PROGRAM", options->program, "NC program, - for standard input")->required()->check(nc::tools::given());
-  command->add_option("--setup", options->setup, "setup of control and machine, JSON (docs/trace.md)")->check(nc::tools::given());
-  command->add_option("--dialect", options->dialect, "m700 or dgshape")->capture_default_str()->check(nc::tools::given());
+void add_program_texts(CLI::App* command, SessionOptions* options) {
   command->add_option("--programs", options->programs, "folder of sub programs (default: PROGRAM's own)")->check(nc::tools::given());
   command->add_option("--external", options->external, "folder of the programs that M198 calls (default: that of sub programs)")
       ->check(nc::tools::given());
@@ -40,6 +38,13 @@ void add_program(CLI::App* command, SessionOptions* options) {
         options->encoding = *nc::rt::encoding_from_name(name);
         options->encoding_given = true;
       });
+}
+
+void add_program(CLI::App* command, SessionOptions* options) {
+  command->add_option("PROGRAM", options->program, "NC program, - for standard input")->required()->check(nc::tools::given());
+  command->add_option("--setup", options->setup, "setup of control and machine, JSON (docs/trace.md)")->check(nc::tools::given());
+  command->add_option("--dialect", options->dialect, "m700 or dgshape")->capture_default_str()->check(nc::tools::given());
+  add_program_texts(command, options);
   add_tape(command, options);
 }
 
@@ -141,7 +146,14 @@ int run(int argc, char** argv) {
   CLI::App* functions = app.add_subcommand("functions", "the G and M codes of a dialect");
   CLI::App* alarms = app.add_subcommand("alarms", "the alarms of a dialect");
   CLI::App* variables = app.add_subcommand("variables", "the system variables of the m700 dialect");
-  variables->add_flag("--markdown", markdown, "as a Markdown table");
+  auto* variables_markdown = variables->add_flag("--markdown", markdown, "as a Markdown table");
+  auto* of = variables->add_option("--of", options.program, "instead: the variables that this program and those that it calls read and write")
+                 ->type_name("PROGRAM")
+                 ->check(nc::tools::given())
+                 ->excludes(variables_markdown);
+  auto* const of_texts = variables->add_option_group("texts", "of --of");
+  add_program_texts(of_texts, &options);
+  for (CLI::Option* option : of_texts->get_options()) option->needs(of);
   CLI::App* parameters = app.add_subcommand("parameters", "the parameters of a dialect that the control asks for");
   for (CLI::App* table : {functions, alarms, parameters}) {
     table->add_option("--dialect", options.dialect, "m700 or dgshape")->capture_default_str()->check(nc::tools::given());
@@ -180,6 +192,7 @@ int run(int argc, char** argv) {
     return nc::tools::plot_command(options, silent, views.at(view), base.empty() ? "toolpath" : base, stdout, stderr);
   if (functions->parsed()) return nc::tools::functions_command(options.dialect, markdown, stdout, stderr);
   if (parameters->parsed()) return nc::tools::parameters_command(options.dialect, markdown, stdout, stderr);
+  if (variables->parsed() && !options.program.empty()) return nc::tools::variable_use_command(options, stdout, stderr);
   if (variables->parsed()) return nc::tools::variables_command(markdown, stdout, stderr);
   return nc::tools::alarms_command(options.dialect, markdown, stdout, stderr);
 }

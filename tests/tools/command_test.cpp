@@ -333,6 +333,113 @@ TEST_F(CommandTest, AProgramThatM99BeginsAgainIsCheckedAndDrawnOnce) {
   EXPECT_EQ(run.out.find("one pass"), std::string::npos) << run.out;
 }
 
+// Trace, time and motion, too; but where the passes differ the program may end itself.
+TEST_F(CommandTest, AProgramThatM99BeginsAgainRunsOnce) {
+  file("p.nc", "G91 G1 X10. F6000\n#500=#500+1\n/M99\nM30\n");
+  file("s.json", R"({"optional_skip": []})");
+  Outcome run = ncsim("trace p.nc");
+  EXPECT_EQ(run.code, 0) << run.err;
+  ASSERT_FALSE(run.events().empty());
+  EXPECT_EQ(run.events().back()["t"], "end");
+  EXPECT_EQ(run.events().back()["work"]["X"], 10);
+  run = ncsim("time p.nc");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("of one pass (M99 begins it again)"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("path length  10."), std::string::npos) << run.out;  // and what the cycle has of the next pass
+  file("p.nc", "#500=#500+1\nIF[#500GT4]GOTO9\nG91 G1 X10. F6000\nM99\nN9 M30\n");
+  run = ncsim("trace p.nc");
+  EXPECT_EQ(run.events().back()["work"]["X"], 40);
+  run = ncsim("time p.nc");
+  EXPECT_EQ(run.out.find("one pass"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("path length  40.000 mm"), std::string::npos) << run.out;
+}
+
+// An event at a line that calls comes before the first block of the program called, in every subcommand.
+TEST_F(CommandTest, EventsOfLinesAreTheSameInEverySubcommand) {
+  file("p.nc", "G90 G0 X0 Y0\nM98 P1\nG0 X3.\n#101=#1000\nG1 X[4.+#101] F1000\nM98 P1\nM30\n"
+               "O1\nIF[#1000EQ1]GOTO20\nG1 Y-1. F1000\nM99\nN20 G1 Y1. F1000\nM99\n");
+  for (const int line : {2, 3, 4, 5, 6, 7}) {
+    file("s.json", R"({"events": [{"when": {"line": )" + std::to_string(line) + R"(}, "inputs": {"1000": 1}}]})");
+    std::string expected;
+    for (const Json& event : ncsim("trace --setup s.json p.nc").events())
+      if (event["t"] == "move") expected += event["work"]["X"].dump() + "," + event["work"]["Y"].dump() + " ";
+    const std::string first = line == 2 ? "0,1 3,1 5,1 " : line == 3 || line == 4 ? "0,-1 3,-1 5,-1 5,1 " : line < 7 ? "0,-1 3,-1 4,-1 4,1 " : "0,-1 3,-1 4,-1 ";
+    EXPECT_EQ(expected, first) << line;
+    ASSERT_EQ(ncsim("motion --setup s.json p.nc -o m.csv").code, 0);
+    // Where the axes were highest on the way, and where they end.
+    std::ifstream rows(folder_ + "/m.csv");
+    double top = 0, x = 0, y = 0;
+    std::string row;
+    for (std::getline(rows, row); std::getline(rows, row);) {
+      ASSERT_EQ(std::sscanf(row.c_str(), "%*[^,],%lf,%lf", &x, &y), 2) << row;
+      top = std::max(top, y);
+    }
+    EXPECT_NEAR(top, line < 7 ? 1 : 0, 1e-6) << line;
+    EXPECT_NEAR(x, line < 5 ? 5 : 4, 1e-6) << line;
+    EXPECT_NEAR(y, line < 7 ? 1 : -1, 1e-6) << line;
+  }
+}
+
+TEST_F(CommandTest, EncodingsOfPrograms) {
+  file("l.nc", "#3006=1(FR\xC4SER \xD8" "20)\nM30\n");
+  Outcome run = ncsim("trace --encoding latin-1 l.nc");
+  EXPECT_EQ(run.events()[0]["text"], "FR\u00c4SER \u00d8" "20") << run.out;
+  run = ncsim("trace l.nc");
+  EXPECT_EQ(run.events()[0]["text"], "FR\ufffdSER \ufffd" "20") << run.out;
+  // The second bytes of these characters are a backslash, a bracket and a letter.
+  file("j.nc", "#3006=1(\x95\x5C \x83\x5B \x83\x41)\nG0 X1.\nM30\n");
+  run = ncsim("trace --encoding shift-jis j.nc");
+  EXPECT_EQ(run.events()[0]["text"], "\u8868 \u30bc \u30a2") << run.out;
+  EXPECT_EQ(ncsim("check --encoding ebcdic l.nc").code, 1);
+  file("a.nc", "#3000=5(FR\xC4SER)\nM30\n");
+  run = ncsim("check --encoding latin-1 a.nc");
+  EXPECT_NE(run.out.find("FR\u00c4SER"), std::string::npos) << run.out;
+}
+
+TEST_F(CommandTest, FilesAsTheyComeFromOldMachines) {
+  file("cr.nc", std::string("\0\0\0%\rO1\rG0 X1.\rN5\x7f G0 X2.\rM30\r%\r", 36));
+  Outcome run = ncsim("trace cr.nc");
+  EXPECT_EQ(run.code, 0) << run.out;
+  EXPECT_EQ(run.events().back()["work"]["X"], 2);
+  EXPECT_EQ(run.events().back()["line"], 5);
+  const std::string name(252, 'n');
+  file(name + ".nc", "G0 X7.\nM30\n");
+  run = ncsim("trace " + name + ".nc");
+  EXPECT_EQ(run.events().back()["work"]["X"], 7) << run.err;
+}
+
+TEST_F(CommandTest, CheckNotesNumbersThatWereHardlyMeant) {
+  const auto notes = [&](const std::string& text, const std::string& setup = "{}") {
+    file("p.nc", text);
+    file("s.json", setup);
+    const Outcome run = ncsim("check --setup s.json p.nc");
+    EXPECT_EQ(run.code, 0) << run.out;
+    return run.err;
+  };
+  std::string note = notes("G90 G1 X1.5 F100\nG1 X10 Y20\nZ0\nM30\n");
+  EXPECT_NE(note.find("note: p.nc:2: X10 and 1 more numbers without a decimal point"), std::string::npos) << note;
+  EXPECT_EQ(notes("G90 G1 X1.5 F100\nG1 X10 Y20\nM30\n", R"({"params": {"1078": 1}})"), "");
+  EXPECT_EQ(notes("G90 G1 X10000 F100\nG1 X10 Y20\nM30\n"), "") << "thousandths throughout";
+  EXPECT_NE(notes("G90 G1 X10 F100\nG1 X50 Y20\nM30\n"), "") << "a part of 0.05 mm";
+  EXPECT_EQ(notes("G90 G1 X1. F100 (X10)\nX0 Y-0\nG65 P9 X10\nM30\nO9\nM99\n"), "") << "an argument";
+  note = notes("G4 P1.00000\nG04 P2.5\nG04 P500\nG04 X1.\nM30\n");
+  EXPECT_NE(note.find("note: p.nc:1: G04 P1.00000: P counts milliseconds"), std::string::npos) << note;
+  EXPECT_NE(note.find("1 more"), std::string::npos) << note;
+  EXPECT_EQ(notes("G4 P1.00000\nM30\n", R"({"params": {"8112": 1}})"), "");
+}
+
+TEST_F(CommandTest, VariablesOfAProgram) {
+  file("p.nc", "#500=#5001\nM98 P7\nM98 P8\nM98 P#500\nO7 #1100=1\nM99\n");
+  file("O8", "#[#1+2]=#1000\n#500=1\nM99\n");
+  const Outcome run = ncsim("variables --of p.nc");
+  EXPECT_EQ(run.code, 0) << run.err;
+  for (const char* line : {"#500\tcommon variable\tp.nc:4\tp.nc:1\n", "#5001\t", "#1000\t", "\t\tp.nc:5\n", "#[#1+2]\tcomputed\t\t./O8:1\n"})
+    EXPECT_NE(run.out.find(line), std::string::npos) << line << run.out;
+  EXPECT_NE(run.err.find("p.nc:4: the number of the program called is computed"), std::string::npos) << run.err;
+  EXPECT_EQ(ncsim("variables --of nowhere.nc").code, 1);
+  EXPECT_EQ(ncsim("variables --programs .").code, 1);
+}
+
 TEST_F(CommandTest, TimeSaysThatASpindleIsMissing) {
   file("p.nc", "G95 G1 X10. F0.2\nM30\n");
   const Outcome run = ncsim("time p.nc");

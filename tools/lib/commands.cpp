@@ -10,6 +10,7 @@
 #include "tools/lib/command_text.hpp"
 #include "tools/lib/item_source.hpp"
 #include "tools/lib/machine_choice.hpp"
+#include "tools/lib/number_hints.hpp"
 #include "tools/lib/number_text.hpp"
 #include "tools/lib/offline_run.hpp"
 #include "tools/lib/output_check.hpp"
@@ -235,6 +236,7 @@ int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std
     std::fprintf(err, "note: %s\n", note);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   note_parameters(session, static_cast<nc_dialect>(session.config().dialect), err);
+  if (options.tape.empty()) note_numbers(session, err);
   if (result.how == RunResult::How::kAlarmed)
     std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   else

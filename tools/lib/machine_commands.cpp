@@ -34,10 +34,11 @@ bool open_session(Session* session, const SessionOptions& options, const Machine
 }
 
 MachineResult run(Session* session, double limit_s, const CycleObserver& observe = {}) {
+  const BlockLines lines = session->block_lines();
   if (session->machine() == nullptr)
-    return run_machine(session->control(), session->config(), session->setup(), limit_s, observe);
+    return run_machine(session->control(), session->config(), session->setup(), lines, limit_s, observe);
   const ServoModel servo = servo_of(*session->machine(), session->config().cycle_s);
-  return run_machine(session->control(), session->config(), session->setup(), limit_s, observe, &servo);
+  return run_machine(session->control(), session->config(), session->setup(), lines, limit_s, observe, &servo);
 }
 
 // Milliseconds, and as many digits more as the cycle needs.
@@ -88,10 +89,11 @@ int time_command(const SessionOptions& options, const MachineOptions& machine, d
   if (result.how == MachineResult::How::kAlarmed)
     std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   const uint64_t whole = static_cast<uint64_t>(result.seconds);
-  std::fprintf(out, "cycle time   %s s (%llu:%02llu:%02llu)\n",
+  std::fprintf(out, "cycle time   %s s (%llu:%02llu:%02llu)%s\n",
                decimals(result.seconds, time_decimals(session.config().cycle_s)).c_str(),
                static_cast<unsigned long long>(whole / 3600),
-               static_cast<unsigned long long>(whole / 60 % 60), static_cast<unsigned long long>(whole % 60));
+               static_cast<unsigned long long>(whole / 60 % 60), static_cast<unsigned long long>(whole % 60),
+               result.one_pass ? " of one pass (M99 begins it again)" : "");
   std::fprintf(out, "path length  %s mm\n", decimals(result.path_length, 3).c_str());
   std::fprintf(out, "blocks       %llu\n", static_cast<unsigned long long>(result.blocks));
   return close_output(out, err, result.how == MachineResult::How::kAlarmed ? kExitAlarm : kExitEnded);

@@ -14,10 +14,11 @@ constexpr uint32_t kMacroInterrupt = 96;  // index of the action that M96, M97 a
 class OfflineRun {
  public:
   OfflineRun(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines, bool one_pass)
-      : items_(*items), world_(*world), sink_(*sink), lines_(lines), one_pass_(one_pass) {}
+      : items_(*items), world_(*world), sink_(*sink), lines_(lines), one_pass_(one_pass), passes_(lines.decides()) {}
 
   RunResult run(uint64_t max_silent_blocks) {
     nc_item item;
+    passes_differ();
     for (;;) {
       const nc_status status = items_.pull(kBudget, &item);
       // Lines without a block pass in silence, and may be many; every loop of a program has blocks, and so
@@ -40,6 +41,7 @@ class OfflineRun {
       if (!handle(item)) return result_;
       if (result_.one_pass || sink_.stop()) {
         result_.how = result_.one_pass ? RunResult::How::kEnded : RunResult::How::kStopped;
+        if (result_.one_pass) sink_.end(last_, true, work_, world_.machine(), modal_);
         return finish();
       }
     }
@@ -166,9 +168,13 @@ class OfflineRun {
     modal_ = item.u.mark.modal;
     if (!item.u.mark.report) return;
     if (item.source.depth == 0) ended_line_ = item.source.line;
-    result_.one_pass = one_pass_ && item.u.mark.again;
+    if (item.u.mark.again) result_.one_pass = one_pass_ || !passes_differ();
     ++result_.blocks;
     sink_.block(item.source, item.u.mark.work, world_.machine());
+  }
+
+  bool passes_differ() {
+    return passes_.differ([this](uint32_t from, uint32_t* number, double* value) { return items_.next_common(from, number, value); });
   }
 
   void end(const nc_item& item) {
@@ -201,6 +207,7 @@ class OfflineRun {
   RunSink& sink_;
   const BlockLines& lines_;
   const bool one_pass_;
+  Passes passes_;
   RunResult result_;
   nc_source last_ = {};
   nc_axes work_ = {};
@@ -226,8 +233,14 @@ BlockLines::BlockLines(const std::string& text) {
       comment = true;
     } else if (c == ')') {
       comment = false;
-    } else if (!comment && c != ' ' && c != '\t' && c != '\r' && c != '%' && c != ';') {
+    } else if (!comment && c != ' ' && c != '\t' && c != '\r' && c != '%' && c != ';' && c != '\0' && c != '\x7f') {
       code = true;
+      const auto is = [&](const char* word, size_t length) {  // the lexer takes small letters, too
+        for (size_t k = 0; k < length; ++k)
+          if (i + k >= text.size() || (text[i + k] & ~0x20) != word[k]) return false;
+        return true;
+      };
+      decides_ = decides_ || is("IF", 2) || is("WHILE", 5);
     }
   }
 }

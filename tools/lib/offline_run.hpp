@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nc/nc.h"
@@ -50,17 +51,44 @@ class BlockLines {
  public:
   BlockLines() = default;
   explicit BlockLines(const std::string& text);
+  /** The text has an IF or a WHILE outside of comments. */
+  bool decides() const { return decides_; }
   /** First block line behind `line`; 0 when there is none. */
   uint32_t after(uint32_t line) const;
 
  private:
   std::vector<uint32_t> lines_;
+  bool decides_ = false;
+};
+
+/**
+ * Whether a main program that M99 begins again may come to an end by itself: it decides something, and the
+ * common variables are not what they were at its head. One that only turns round would run for ever.
+ */
+class Passes {
+ public:
+  explicit Passes(bool decides) : decides_(decides) {}
+  /** To be asked at the head of the first pass, and of each to come. `next` as nc_common_next(). */
+  template <typename Next>
+  bool differ(const Next& next) {
+    std::vector<std::pair<uint32_t, double>> now;
+    uint32_t number = 0;
+    double value = 0.0;
+    for (uint32_t from = 0; decides_ && next(from, &number, &value); from = number + 1) now.emplace_back(number, value);
+    const bool differs = decides_ && now != before_;
+    before_ = std::move(now);
+    return differs;
+  }
+
+ private:
+  const bool decides_;
+  std::vector<std::pair<uint32_t, double>> before_;
 };
 
 /**
  * Run to the end. A stretch of `max_silent_blocks` blocks that only calculate and jump (GOTO in a circle) is
- * an error; 0 = no limit. Reading the clock is no silence: time passes, so a waiting loop ends. With
- * `one_pass` a main program that M99 would begin again is stopped there.
+ * an error; 0 = no limit. Reading the clock is no silence: time passes, so a waiting loop ends. Where M99
+ * would begin the main program again the run ends, with `one_pass` always, else unless the passes differ.
  */
 RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines,
                       uint64_t max_silent_blocks, bool one_pass = false);

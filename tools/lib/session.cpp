@@ -60,6 +60,13 @@ int spool_standard_input(std::string* error) {
   }
 }
 
+std::string whole_text(rt::ProgramText* text) {
+  std::string content(static_cast<size_t>(text->size()), '\0');
+  const long got = text->read(0, content.data(), content.size());
+  content.resize(got > 0 ? static_cast<size_t>(got) : 0);
+  return content;
+}
+
 // What a machine is where a setup says nothing.
 Setup setup_of(const rt::Config& machine) {
   Setup setup;
@@ -215,14 +222,16 @@ bool Session::add_standard_input(bool tape, std::string* error) {
   return files_->add_descriptor(control_, descriptor, "stdin", &main_file_, error, tape) == NC_OK;
 }
 
+std::string Session::main_text() const {
+  const ProgramFiles::Text text = files_->text_of(main_file_);
+  return text == nullptr || !text->copied() ? "" : whole_text(text.get());
+}
+
 BlockLines Session::block_lines() const {
   const bool wanted = std::any_of(setup_.events.begin(), setup_.events.end(), [](const SetupEvent& event) { return event.line.has_value(); });
   const ProgramFiles::Text text = files_->text_of(main_file_);
-  if (!wanted || text == nullptr) return {};
-  std::string content(static_cast<size_t>(text->size()), '\0');
-  const long got = text->read(0, content.data(), content.size());
-  content.resize(got > 0 ? static_cast<size_t>(got) : 0);
-  return BlockLines(content);
+  if (text == nullptr || (!wanted && !text->copied())) return {};
+  return BlockLines(whole_text(text.get()));
 }
 
 std::string Session::file_name(const nc_source& source) const {

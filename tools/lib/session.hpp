@@ -50,11 +50,15 @@ class Session {
   bool start(const SessionOptions& options, std::string* error);
 
   nc_config& config() { return config_; }
+  const nc_config& config() const { return config_; }
   /** What configure() was given. */
   const rt::Config* machine() const { return machine_.get(); }
   const Setup& setup() const { return setup_; }
   nc_control* control() const { return control_; }
-  /** Block lines of the main program; empty unless an event of the setup waits for a line. */
+  /** Text of the main program; "" for one that is not copied. */
+  std::string main_text() const;
+  unsigned main_file() const { return main_file_; }
+  /** Block lines of the main program; empty for one that is not copied, unless an event of the setup waits for a line. */
   BlockLines block_lines() const;
   /** "FILE" of a source, as a person would name it. */
   std::string file_name(const nc_source& source) const;

@@ -16,14 +16,15 @@ constexpr double kPatience = 10.0;  // s; a program that neither runs nor stops 
 
 class VirtualMachine {
  public:
-  VirtualMachine(nc_control* control, const nc_config& config, const Setup& setup, const ServoModel* servo)
-      : control_(control), config_(config), setup_(setup), servo_(servo), world_(setup, config.system[0]), actual_(setup.start) {
+  VirtualMachine(nc_control* control, const nc_config& config, const Setup& setup, const BlockLines& lines, const ServoModel* servo)
+      : control_(control), config_(config), setup_(setup), lines_(lines), servo_(servo), passes_(lines.decides()), world_(setup, config.system[0]), actual_(setup.start) {
     out_[kPartSystem].command = setup.start;
   }
 
   MachineResult run(double limit_s, const CycleObserver& observe) {
     nc_outputs& out = out_[kPartSystem];
     double waiting = 0.0;
+    passes_differ();
     const uint64_t limit = static_cast<uint64_t>(limit_s / config_.cycle_s);
     for (uint64_t cycle = 0; cycle < limit; ++cycle) {
       if (!feed()) return fail("nothing happens any more: an endless loop in the program");
@@ -34,6 +35,8 @@ class VirtualMachine {
       if (observe && !observe(out)) return take(MachineResult::How::kStopped);
       if (out.state != NC_STATE_IDLE) started_ = true;
       if (out.state == NC_STATE_ALARM) return alarmed();
+      take_events();
+      if (result_.one_pass) return take(MachineResult::How::kEnded);
       if (started_ && out.state == NC_STATE_IDLE) return take(MachineResult::How::kEnded);
       // A stopped spindle, a feed of 0 and a thread that is too fast stay as they are.
       const bool stuck = out.cause == NC_CAUSE_SPINDLE_STOPPED || out.cause == NC_CAUSE_FEED_ZERO || out.cause == NC_CAUSE_SPINDLE_FAST;
@@ -119,10 +122,48 @@ class VirtualMachine {
     world_.set_seconds(static_cast<double>(cycle) * config_.cycle_s);
     if ((last.strobe & 1) != 0 && !m_strobe_) world_.on_m(last.m);
     m_strobe_ = (last.strobe & 1) != 0;
-    in.reset = started_ && world_.on_item(now, 0);
+    foresee();
+    in.reset = (started_ && world_.on_item(now, line_to_come())) || reset_;
+    reset_ = false;
     for (int w = 0; w < NC_WORDS; ++w) in.input[w] = world_.input(static_cast<unsigned>(w));
     in.clock_ms = setup_.clock_ms +
                   static_cast<int64_t>(std::floor(static_cast<double>(cycle) * config_.cycle_s * 1000.0));
+  }
+
+  uint32_t line_to_come() const { return world_.waits_for_line() ? lines_.after(ended_line_) : 0; }
+
+  // What the cycle has done, block by block: several may have ended in it.
+  void take_events() {
+    nc_event event = {};
+    while (nc_event_poll(control_, kPartSystem, &event, nullptr) == NC_OK) {
+      if (event.again && !passes_differ()) result_.one_pass = true;
+      nc_item done = {};
+      done.source = event.source;
+      if (world_.waits_for_line() && world_.on_item(done, line_to_come())) reset_ = true;
+      if (event.kind == NC_ITEM_MARK && event.source.depth == 0) ended_line_ = event.source.line;
+    }
+  }
+
+  bool passes_differ() {
+    struct Look {
+      Passes* passes;
+      bool differ;
+    } look = {&passes_, false};
+    const auto at_executed = [](void* user, const nc_control* control) {
+      Look& l = *static_cast<Look*>(user);
+      l.differ = l.passes->differ([control](uint32_t from, uint32_t* number, double* value) {
+        return nc_common_next(control, kPartSystem, from, number, value) == NC_OK;
+      });
+    };
+    nc_look_executed(control_, at_executed, &look);  // what was read ahead belongs to passes to come
+    return look.differ;
+  }
+
+  // An input is read in the cycle in which the program gets there: it has its value before.
+  void foresee() {
+    nc_source source = {};
+    uint32_t line = 0;
+    if (world_.waits_for_line() && nc_sync_get(control_, kPartSystem, &source, &line) == NC_OK) world_.foresee(line);
   }
 
   MachineResult take(MachineResult::How how) {
@@ -146,7 +187,9 @@ class VirtualMachine {
   nc_control* control_;
   const nc_config& config_;
   const Setup& setup_;
+  const BlockLines& lines_;
   const ServoModel* servo_;
+  Passes passes_;
   VirtualWorld world_;
   nc_axes actual_;
   hal::SimClampState clamp_[NC_MAX_AXES];
@@ -155,14 +198,15 @@ class VirtualMachine {
   MachineResult result_;
   double progress_length_ = 0.0;
   uint64_t progress_blocks_ = 0, blocks_before_ = 0;
-  bool started_ = false, m_strobe_ = false;
+  uint32_t ended_line_ = 0;  // of the main program
+  bool started_ = false, reset_ = false, m_strobe_ = false;
 };
 
 }  // namespace
 
-MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, double limit_s,
+MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, const BlockLines& lines, double limit_s,
                           const CycleObserver& observe, const ServoModel* servo) {
-  return VirtualMachine(control, config, setup, servo).run(limit_s, observe);
+  return VirtualMachine(control, config, setup, lines, servo).run(limit_s, observe);
 }
 
 }  // namespace nc::tools

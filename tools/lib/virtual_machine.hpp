@@ -10,6 +10,7 @@
 
 #include "hal/sim/sim_clamp.hpp"
 #include "nc/nc.h"
+#include "tools/lib/offline_run.hpp"
 #include "tools/lib/virtual_world.hpp"
 
 namespace nc::tools {
@@ -24,6 +25,7 @@ struct MachineResult {
   double path_length = 0.0;  // mm
   uint64_t blocks = 0, cycles = 0;
   std::vector<std::string> unused;  // of the setup (VirtualWorld::unused)
+  bool one_pass = false;     // kEnded, because M99 would begin the main program again
 };
 
 /** Called once per servo cycle with what the control gave out. @return false when nothing more is wanted. */
@@ -37,11 +39,13 @@ struct ServoModel {
 };
 
 /**
- * Run the selected program of a control made with `config`.
+ * Run the selected program of a control made with `config`, as run_offline(): a main
+ * program that M99 would begin again ends there unless its passes differ.
+ * @param lines for events that wait for a line; see VirtualWorld::on_item().
  * @param limit_s virtual seconds after which the run is given up with an error.
  * @param servo null: the axes are always where they are commanded to be.
  */
-MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, double limit_s,
+MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, const BlockLines& lines, double limit_s,
                           const CycleObserver& observe = {}, const ServoModel* servo = nullptr);
 
 }  // namespace nc::tools

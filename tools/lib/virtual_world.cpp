@@ -36,9 +36,21 @@ VirtualWorld::VirtualWorld(const Setup& setup, const nc_system_config& system)
   for (const SkipHit& hit : setup.hits) hits_.push_back({&hit});
 }
 
-void VirtualWorld::fire(const SetupEvent& event) {
+void VirtualWorld::set_inputs(const SetupEvent& event) {
   for (int w = 0; w < NC_WORDS; ++w)
     input_[w] = (input_[w] & ~event.inputs.mask[w]) | (event.inputs.bits[w] & event.inputs.mask[w]);
+}
+
+void VirtualWorld::foresee(uint32_t line) {
+  for (const SetupEvent* event : line_events_) {
+    if (*event->line != line || std::find(foreseen_.begin(), foreseen_.end(), event) != foreseen_.end()) continue;
+    set_inputs(*event);
+    foreseen_.push_back(event);
+  }
+}
+
+void VirtualWorld::fire(const SetupEvent& event) {
+  if (std::erase(foreseen_, &event) == 0) set_inputs(event);
   // feed_hold delays and is continued at once; macro_interrupt without M96 does nothing. // M700 13.12
   const auto interrupt = event.signals.find("macro_interrupt");
   if (interrupt != event.signals.end()) interrupt_ = interrupt->second != 0;

@@ -33,6 +33,12 @@ class VirtualWorld {
   /** The same for an M code where another executor gives it out. */
   void on_m(double code);
 
+  /**
+   * This line of the main program will read inputs when it is executed: the events that wait for it set theirs now, and give their
+   * signals when the line begins. For an executor that reads an input in the cycle in which it gets there.
+   */
+  void foresee(uint32_t line);
+
   /** True while an event waits for a line, so that the caller need not look for `next_line` otherwise. */
   bool waits_for_line() const { return !line_events_.empty(); }
 
@@ -83,6 +89,7 @@ class VirtualWorld {
   const SetupEvent* signal_within(double seconds, uint32_t mask) const;
   bool fire_due(const nc_item& item, uint32_t next_line);
   void fire(const SetupEvent& event);
+  void set_inputs(const SetupEvent& event);
   double first_entry(const nc_move& move) const;
 
   const Setup& setup_;
@@ -102,6 +109,7 @@ class VirtualWorld {
   bool called_ = false;  // a sub program has begun since the last item of the main program
   // Not yet fired; the other ones are those of a program with a number, and of M codes.
   std::vector<const SetupEvent*> line_events_, time_events_, other_events_;
+  std::vector<const SetupEvent*> foreseen_;  // their inputs are set
 };
 
 }  // namespace nc::tools

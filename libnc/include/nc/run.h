@@ -68,11 +68,20 @@ typedef struct nc_event {
   uint64_t serial;
   nc_source source;
   uint8_t kind;    /**< nc_item_kind of the item that has been executed to its end */
+  bool again;      /**< a mark: its block's M99 begins the main program again (M700 13.3.1) */
   nc_axes machine; /**< commanded position at that moment */
 } nc_event;
 
 /** Next executed item. Events are kept for at least `look_ahead` items; when they are not fetched the oldest are dropped and counted. */
 NC_API nc_status nc_event_poll(nc_control*, unsigned system, nc_event* event, uint64_t* dropped);
+
+/**
+ * The block at which reading stands because it asks for what exists only when everything before it has been executed (a position, an
+ * input). A simulated machine learns from it what it has to give before the scan gets there.
+ * @param main_line line of the main program: of the block, or of the one that has called the program in which it stands
+ * @return NC_E_NOT_FOUND when reading does not stand at such a block
+ */
+NC_API nc_status nc_sync_get(const nc_control*, unsigned system, nc_source* source, uint32_t* main_line);
 
 /* ---- online: scan ------------------------------------------------------------------------------------------------- */
 

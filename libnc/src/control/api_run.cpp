@@ -75,6 +75,11 @@ nc_status nc_event_poll(nc_control* c, unsigned system, nc_event* event, uint64_
   return any ? NC_OK : NC_E_NOT_FOUND;
 }
 
+nc_status nc_sync_get(const nc_control* c, unsigned system, nc_source* source, uint32_t* main_line) {
+  if (!known(c, system) || source == nullptr || main_line == nullptr) return NC_E_ARGUMENT;
+  return c->system[system].sync_place(source, main_line) ? NC_OK : NC_E_NOT_FOUND;
+}
+
 void nc_cycle(nc_control* c, const nc_inputs* in, nc_outputs* out) {
   if (c == nullptr || in == nullptr || out == nullptr) return;
   for (unsigned i = 0; i < c->config.system_count; ++i) c->system[i].executor.cycle(in[i], out[i]);

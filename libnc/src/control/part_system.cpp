@@ -397,7 +397,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
       remember_mark(*item);
       if (item->mark.resume && interpreter.state.repeat.active) drop_repeated();
     }
-    if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
+    if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, sync_source_ = item->source, open_sync_ = commit_.serial();
     if (item->kind == ItemKind::alarm) describe_alarm();
     if (item->kind == ItemKind::action && item->action.kind == NC_ACTION_CONTROL && item->action.index == 96) {
       const auto mode = static_cast<uint32_t>(item->action.value);
@@ -541,12 +541,19 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
       if (item->mark.resume && interpreter.state.repeat.active) [[unlikely]] drop_repeated();
     }
     if (item->kind == ItemKind::gate && stops(item->gate)) stop_ = Stop::committed;
-    if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, open_sync_ = commit_.serial();
+    if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, sync_source_ = item->source, open_sync_ = commit_.serial();
     if (item->kind == ItemKind::alarm) describe_alarm();
     if (item->kind == ItemKind::end) finished_ = true;
   }
   take();
   return NC_OK;
+}
+
+bool PartSystem::sync_place(nc_source* source, uint32_t* main_line) const {
+  if (open_sync_ == 0) return false;
+  *source = sync_source_;
+  *main_line = sync_source_.depth == 0 ? sync_source_.line : interpreter.state.frame[0].call_line;
+  return true;
 }
 
 /// Whether the next block may be read before the machine has done more.

@@ -31,6 +31,8 @@ class PartSystem {
   /// For tests of what becomes of counters after years (docs/counters.md). Right behind create().
   void count_from(uint32_t first);
   void set_position(const AxisVec& machine);
+  /// The block that waits for the answer to a sync, and the line of the main program that it belongs to; false: none does.
+  bool sync_place(nc_source* source, uint32_t* main_line) const;
   /// A program is in execution or interrupted, as far as the feeder has taken notice.
   bool busy() const { return online_ && run_.active(); }
   /// The same as of now: what the scan has done is taken notice of first.
@@ -167,6 +169,7 @@ class PartSystem {
   Stop stop_ = Stop::none;
   AxisParameters told_axes_; ///< online: as the scan knows them
   BlockSeq executed_ = 0;    ///< online: newest block that has been executed, as feed() found it
+  nc_source sync_source_{};
   Serial open_sync_ = 0;
   uint32_t sync_what_ = 0;
   uint32_t spindle_axes_ = 0;   ///< bit i: axis i is a spindle, too (M700 10.5)

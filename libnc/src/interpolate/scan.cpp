@@ -368,6 +368,7 @@ void Scan::leave(const Record& r, bool executed) {
     event.serial = r.serial;
     event.source = r.source;
     event.kind = static_cast<uint8_t>(r.kind);
+    event.again = r.kind == ItemKind::mark && r.mark.again;
     // Passed at speed, within the cycle: where the record ends.
     event.machine = to_nc(optimal_ != nullptr && !follower_.at_rest() ? passed_at_ : wanted_);
     shared_->events.push(event);
