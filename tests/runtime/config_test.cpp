@@ -593,6 +593,26 @@ TEST(Config, ProgramsFolderIsRelativeToTheFile) {
   EXPECT_EQ(config.programs_folder(), "/srv/nc");
 }
 
+TEST(Config, HowProgramsAreRead) {
+  const std::string axis = "[[axis]]\nname = \"X\"\nrapid = 100.0\nmax_velocity = 100.0\nmax_acceleration = 100.0\n";
+  const auto with = [&](const std::string& keys, Config* config) {
+    return nc::rt::parse_config("[machine]\n" + keys + axis, "machine.toml", config);
+  };
+  Config config;
+  EXPECT_EQ(config.program_text.copy_bytes, 16u << 20);
+  EXPECT_EQ(config.program_text.encoding, nc::rt::Encoding::kUtf8);
+  (void)with("program_encoding = \"shift-jis\"\nprogram_copy_mb = 3\n", &config);
+  Config wrong;
+  const auto errors = with("program_encoding = \"ebcdic\"\nprogram_copy_mb = 2000\n", &wrong);
+  unsigned found = 0;
+  for (const auto& error : errors) found += error.key.find("program_encoding") != std::string::npos || error.key.find("program_copy_mb") != std::string::npos;
+  EXPECT_EQ(found, 2u);
+  Config partial;
+  (void)nc::rt::parse_config("[machine]\nprogram_encoding = \"latin-1\"\nprogram_copy_mb = 3\n" + axis, "machine.toml", &config, &partial);
+  EXPECT_EQ(partial.program_text.encoding, nc::rt::Encoding::kLatin1);
+  EXPECT_EQ(partial.program_text.copy_bytes, 3u << 20);
+}
+
 TEST(Config, ShippedFilesAreValid) {
   unsigned files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(NC_SOURCE_DIR) + "/etc")) {

@@ -296,5 +296,27 @@ sed -i 's#^retain = .*#retain = "/proc/nowhere/x"#' "$work/il/machine.toml"
 keep 1
 said err "ladder.retain: there is no folder \"/proc/nowhere\""
 
+# A program that is overwritten while it runs: wholly the old one, or an alarm where it is too large to be copied.
+part() { for _ in $(seq 200); do printf 'G91 G1 X-%s F600 (%1000s)\n' "$1" ""; done; echo M30; }
+for mb in 16 0; do
+  sed "s#^programs = .*#programs = \"$work\"\nprogram_copy_mb = $mb\nlook_ahead = 64#; s#^program = .*##" "$machine" >"$work/copy.toml"
+  part 0.1 >"$work/part.nc"
+  part 0.2 >"$work/other.nc"
+  "$ncrtd" --config "$work/copy.toml" run --no-progress "$work/part.nc" >"$work/out" 2>"$work/err" &
+  running=$!
+  sleep 0.7
+  cp "$work/other.nc" "$work/part.nc"
+  wait "$running"
+  status=$?
+  if [ "$mb" = 16 ]; then
+    [ "$status" = 0 ] || { fail "a copied program ends with $status"; cat "$work/err"; }
+    said out "path length  20.000 mm"
+  else
+    [ "$status" = 2 ] || fail "a program that has changed ends with $status"
+    said err "P461"
+    said err "has changed since it was selected"
+  fi
+done
+
 [ "$failures" = 0 ] && echo "all good"
 exit $((failures > 0))
