@@ -298,8 +298,9 @@ said err "ladder.retain: there is no folder \"/proc/nowhere\""
 
 # A program that is overwritten while it runs: wholly the old one, or an alarm where it is too large to be copied.
 part() { for _ in $(seq 200); do printf 'G91 G1 X-%s F600 (%1000s)\n' "$1" ""; done; echo M30; }
+cp "$source"/etc/mill.il "$work/mill.il"
 for mb in 16 0; do
-  sed "s#^programs = .*#programs = \"$work\"\nprogram_copy_mb = $mb\nlook_ahead = 64#; s#^program = .*##" "$machine" >"$work/copy.toml"
+  sed "s#^programs = .*#programs = \"$work\"\nprogram_copy_mb = $mb\nlook_ahead = 64#" "$machine" >"$work/copy.toml"
   part 0.1 >"$work/part.nc"
   part 0.2 >"$work/other.nc"
   "$ncrtd" --config "$work/copy.toml" run --no-progress "$work/part.nc" >"$work/out" 2>"$work/err" &
