@@ -5,8 +5,6 @@
 
 #include <cstddef>
 
-#include "base/utf8.hpp"
-
 namespace nc {
 
 class TextWriter {
@@ -22,13 +20,11 @@ class TextWriter {
     }
     return *this;
   }
-  /// Cut between two characters (base/utf8.hpp).
+  /// Cut between two characters of UTF-8.
   TextWriter& put(const char* s) {
-    const size_t room = size_ > used_ ? size_ - used_ - 1 : 0;
-    size_t length = 0;
-    while (length < room && s[length] != 0) ++length;
-    if (length == room && length != 0 && s[length] != 0) length = whole_characters(s, length);
-    for (size_t i = 0; i < length; ++i) put(s[i]);
+    for (; *s != 0 && used_ + 1 < size_; ++s) put(*s);
+    // Left out: from a byte on that belongs to the character before it.
+    for (int i = 0; i < 3 && used_ > 0 && (static_cast<unsigned char>(*s) & 0xc0) == 0x80; ++i, --s) text_[--used_] = 0;
     return *this;
   }
   /// At least `digits` digits, filled with zeros.
