@@ -22,9 +22,10 @@ class TextWriter {
   }
   /// Cut between two characters of UTF-8.
   TextWriter& put(const char* s) {
+    const char* const begin = s;
     for (; *s != 0 && used_ + 1 < size_; ++s) put(*s);
     // Left out: from a byte on that belongs to the character before it.
-    for (int i = 0; i < 3 && used_ > 0 && (static_cast<unsigned char>(*s) & 0xc0) == 0x80; ++i, --s) text_[--used_] = 0;
+    for (int i = 0; i < 3 && s != begin && (static_cast<unsigned char>(*s) & 0xc0) == 0x80; ++i, --s) text_[--used_] = 0;
     return *this;
   }
   /// At least `digits` digits, filled with zeros.
