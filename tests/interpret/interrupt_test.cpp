@@ -135,6 +135,15 @@ TEST(MacroInterrupt, ASignalThatStaysOnLetsABlockThroughEachTime) {
   EXPECT_EQ(run("", "0", 3, is_move).var(100), 4);  // in X1, and behind each of the three
 }
 
+TEST(MacroInterrupt, TheRotationByParameterIsWhatItHasMadeIt) {  // M700 13.21: data like offsets, no modal state
+  Bench bench;
+  bench.add("O1000", "G10 K90.\nM99\n");
+  const char* const text = "M96 P1000\nG0 X1.\nX2.\nX3. Y0\nM30";
+  EXPECT_EQ(interrupted(bench, text, 2, is_mark).path(), (Path{"rapid 1 0 0", "rapid 0 2 0", "rapid 0 3 0"}));
+  bench.add("O1000", "G10 K0\nM99\n");  // it was 90 still
+  EXPECT_EQ(interrupted(bench.at(0, 0, 0), text, 2, is_mark).path(), (Path{"rapid 0 1 0", "rapid 2 0 0", "rapid 3 0 0"}));
+}
+
 TEST(MacroInterrupt, AnotherSignalCountsAtOnce) {  // it has gone off in between
   Bench bench;
   bench.param("1112", "1");

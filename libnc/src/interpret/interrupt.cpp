@@ -9,6 +9,7 @@
 // there, with the machine where it stands. On return either the rest of the block is lost (type 1, when the interrupt program moved or
 // gave out M S T B), or the block is read again and the items that have happened already are dropped.
 #include "interpret/calls.hpp"
+#include "interpret/work_rotation.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 
@@ -183,6 +184,7 @@ void Interpreter::restore_modal() {
   state.refresh_accuracy();
   state.refresh_special();
   refresh_letters();
+  refresh_work_rotation(*this);  // a parameter, which is data, too (13.21)
   take_changed_amounts(*this);
 }
 

@@ -63,7 +63,9 @@ uint32_t plane_bits(const Interpreter& in) {
   return plane_bits(in, Notes::kTurnCommanded) | plane_bits(in, Notes::kTurnReached);
 }
 
-void refresh(Interpreter& in) {
+}  // namespace
+
+void refresh_work_rotation(Interpreter& in) {
   State& state = in.state;
   state.work_turned = turns(in, Notes::kTurnCommanded) || turns(in, Notes::kTurnReached);
   bool same = true;
@@ -72,8 +74,6 @@ void refresh(Interpreter& in) {
   state.work_turn_pending = state.work_turned && !same;
   in.program_changed();
 }
-
-}  // namespace
 
 void take_work_rotation(Interpreter& in, bool at_head) {
   const Settings& s = in.settings;
@@ -95,7 +95,7 @@ void take_work_rotation(Interpreter& in, bool at_head) {
       in.set_note(Notes::work_rotation_key(Notes::kTurnCommanded, what), values[what]);
     }
   }
-  refresh(in);
+  refresh_work_rotation(in);
 }
 
 void turn_work(const Interpreter& in, AxisVec& p) { apply(in, Notes::kTurnCommanded, 1, p); }
@@ -120,7 +120,7 @@ void work_rotation_reached(Interpreter& in, uint32_t commanded) {
   if (!in.state.work_turn_pending || (commanded & plane_bits(in)) == 0) return;
   for (unsigned what = 0; what < Notes::kTurnSize; ++what)
     in.set_note(Notes::work_rotation_key(Notes::kTurnReached, what), note(in, Notes::kTurnCommanded, what));
-  refresh(in);
+  refresh_work_rotation(in);
 }
 
 bool turns_axis(const Interpreter& in, unsigned axis) {

@@ -20,6 +20,9 @@ namespace nc {
 /// count from where they stand.
 void take_work_rotation(Interpreter& in, bool at_head);
 
+/// What the state says of it is made again from the notes, which outlive a state that is put back.
+void refresh_work_rotation(Interpreter& in);
+
 /// A point in workpiece coordinates as the rotation commanded makes it, and back out of the one reached.
 void turn_work(const Interpreter& in, AxisVec& p);
 void unturn_work(const Interpreter& in, AxisVec& p);
