@@ -22,7 +22,6 @@ constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
 constexpr double kSameScale = 1e-9;
 constexpr double kTiny = 1e-9;         ///< mm
 constexpr double kFarther[] = {1.004, 1.02, 1.05, 1.1, 1.2, 1.35, 1.6, 2, 2.7, 4};  ///< of the distance that a stop takes on a line
-constexpr double kSlower[] = {1, 0.5, 0.2};  ///< of all limits, where no law is found from rest
 
 bool same(double a, double b) {
   return std::fabs(a - b) <= kSameScale * (std::fabs(a) + std::fabs(b));
@@ -267,17 +266,25 @@ double OptimalPlanner::next_block_end(double u, uint32_t tail) const {
 // ---- laws
 // --------------------------------------------------------------------------------------------------------------------------
 
-bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* down, bool once, double period) {
+MeshRequest OptimalPlanner::request_from(const Start& start, double reach, const WayDown* down) const {
   MeshRequest request;
   request.piece = store_.piece;
   request.mask = store_.piece_mask;
   request.base = start.piece;
   request.count = pieces_from(start.piece, kCellsAtOnce + 1);  // each has a cell at least
-  if (request.count == 0) return false;
   request.from.x = start.x;
   request.from_rest = start.from_rest;
   request.b0 = start.v * start.v;
   request.slope0 = 2 * start.a;
+  request.reach = reach;
+  request.most = kCellsAtOnce;
+  request.down = down;
+  return request;
+}
+
+bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* down, bool once, double period) {
+  MeshRequest request = request_from(start, reach, down);
+  if (request.count == 0) return false;
   if (!start.fresh && !start.from_rest && period >= kPeriod) {  // the cells that the chain has there
     CellIndex k = start.after;
     while (request.first_cells < kFirstCells) {
@@ -286,13 +293,21 @@ bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* do
       request.first_h[request.first_cells++] = store_.at(k).h;
     }
   }
-  request.reach = reach;
-  request.most = kCellsAtOnce;
-  request.down = down;
   Windows::Goal goal;
   goal.once = once;
   goal.period = period;
   return windows_->law_to(request, limits_, goal);
+}
+
+/// The law in phases, which always is one from rest.
+bool OptimalPlanner::phase_law(const Start& start, double reach) {
+  const MeshRequest request = request_from(start, reach, nullptr);
+  return request.count > 0 && windows_->phases_to(request, limits_);
+}
+
+/// The law found last reaches the end of the pieces, or of what was asked for.
+bool OptimalPlanner::whole() const {
+  return found_ == Found::cells ? windows_->whole() : found_ == Found::line ? line_.whole() : windows_->phases().whole();
 }
 
 /// What the axes allow along the path at a place.
@@ -329,8 +344,11 @@ bool OptimalPlanner::stop_law(const Start& start, double most) {
   double seconds = 0;
   const double distance = stopping_distance(start, &seconds);
   if (!(distance > 0) || !(seconds > kAtOnce)) return false;
-  by_line_ = find_line_stop(start, most);
-  if (by_line_) return true;
+  if (find_line_stop(start, most)) {
+    found_ = Found::line;
+    return true;
+  }
+  found_ = Found::cells;
   for (const double farther : kFarther) {
     const double reach = distance * farther;
     if (reach > most) return false;
@@ -364,7 +382,8 @@ OptimalPlanner::Start OptimalPlanner::behind_law(uint32_t piece, double x, doubl
 
 /// Writes the cells of the law. False when they have no room.
 bool OptimalPlanner::copy_law(const Start& start, Start* end) {
-  if (by_line_) return copy_line(start, end);
+  if (found_ == Found::line) return copy_phases(line_, start, end);
+  if (found_ == Found::phases) return copy_phases(windows_->phases(), start, end);
   const Law& law = windows_->law();
   const Mesh& mesh = windows_->mesh();
   if (write_ + law.cells - free_from_ >= kCells) return false;
@@ -388,26 +407,16 @@ bool OptimalPlanner::copy_law(const Start& start, Start* end) {
   return true;
 }
 
-/// A law from `start`, as fast as it is found: from rest with lower limits when nothing else helps.
+/// A law from `start`, as fast as it is found: in phases where nothing else is.
 bool OptimalPlanner::try_limits(const Start& start, double most, const WayDown* down) {
-  by_line_ = find_line_law(start, most);
-  if (by_line_) return true;
-  const Limits whole = limits_;
-  bool found = false;
-  for (const double slower : kSlower) {
-    if (slower < 1 && !start.from_rest) break;
-    for (unsigned i = 0; i < limits_.axis_count; ++i) {
-      limits_.velocity[i] = whole.velocity[i] * slower;
-      limits_.rapid[i] = whole.rapid[i] * slower;
-      limits_.acceleration[i] = whole.acceleration[i] * slower;
-      limits_.jerk[i] = whole.jerk[i] * slower;
-    }
-    found = one_law(start, most, down, !start.from_rest, kPeriod);
-    if (found) break;
-  }
-  limits_ = whole;
-  if (!found) found = by_line_ = find_creep(start, most);
-  return found;
+  found_ = Found::line;
+  if (find_line_law(start, most)) return true;
+  found_ = Found::cells;
+  if (one_law(start, most, down, !start.from_rest, kPeriod)) return true;
+  found_ = Found::phases;
+  if (phase_law(start, most)) return true;
+  found_ = Found::line;
+  return find_creep(start, most);
 }
 
 double OptimalPlanner::block_most(const Following& f, const Start& at) const {
@@ -431,9 +440,9 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
     Start end;
     if (!copy_law(at, &end)) break;
     any = true;
-    const bool rests = store_.at(end.after).path_ends || (most < HUGE_VAL && (by_line_ ? line_.whole() : windows_->whole()));
+    const bool rests = store_.at(end.after).path_ends || (most < HUGE_VAL && whole());
     CellIndex keep = end.after;
-    if (!rests && by_line_) {
+    if (!rests && found_ != Found::cells) {
       keep = line_keep_;
     } else if (!rests) {
       for (double back = 0; keep != first && back < windows_->stop_seconds(); --keep) back += store_.at(keep).seconds;
@@ -456,8 +465,7 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
     return false;
   }
   next_chain_.block_rests = f.block_rests;
-  const bool all = by_line_ ? line_.whole() : windows_->whole();
-  next_chain_.enough_s = all ? kHungry : kPartLeft * (chain_end_[next_chain_.keep & store_.cell_mask] - (start.fresh ? 0 : chain_end_[start.after & store_.cell_mask]));
+  next_chain_.enough_s = whole() ? kHungry : kPartLeft * (chain_end_[next_chain_.keep & store_.cell_mask] - (start.fresh ? 0 : chain_end_[start.after & store_.cell_mask]));
   offer(start, false);
   return true;
 }
@@ -585,7 +593,7 @@ void OptimalPlanner::stop_at_block(const Following& f, const Start& start) {
 
 /// Somewhat faster than the stop that was found last.
 void OptimalPlanner::way_down(WayDown* down) {
-  if (by_line_) return line_way_down(kDown, down);
+  if (found_ == Found::line) return phase_way_down(line_, kDown, down);
   const Law& law = windows_->law();
   down_u_[0] = 0;
   for (unsigned k = 0; k <= law.cells; ++k) {

@@ -67,7 +67,10 @@ class OptimalPlanner {
   bool moving(const Following& f) const { return f.cell != kNoCell && !(f.at_end && f.cell == chain_.last); }
   bool extend(const Following& f, const Start& start, double most, const WayDown* down);
   bool try_limits(const Start& start, double most, const WayDown* down);
+  MeshRequest request_from(const Start& start, double reach, const WayDown* down) const;
   bool one_law(const Start& start, double reach, const WayDown* down, bool once, double period);
+  bool phase_law(const Start& start, double reach);
+  bool whole() const;
   bool stop_law(const Start& start, double most);
   struct Along {
     double acceleration, jerk;
@@ -88,8 +91,10 @@ class OptimalPlanner {
   void bound_creep(const Piece& p, double x, LineLimits* most) const;
   bool keeps_limits(const Piece& p, double x) const;
   bool find_line_stop(const Start& start, double most);
-  void line_way_down(double share, WayDown* down);
-  bool copy_line(const Start& start, Start* end);
+  template <class PhasesOf>
+  void phase_way_down(const PhasesOf& law, double share, WayDown* down);
+  template <class PhasesOf>
+  bool copy_phases(const PhasesOf& law, const Start& start, Start* end);
   void offer(const Start& start, bool stops);
   bool stop_there(const Start& start);
   void reuse_cells(const Following& f);
@@ -107,7 +112,8 @@ class OptimalPlanner {
   PathBuilder builder_;
   Windows* windows_ = nullptr;
   LineLaw line_;
-  bool by_line_ = false;          ///< the law found last is line_, not that of windows_
+  enum class Found : uint8_t { cells, line, phases };
+  Found found_ = Found::cells;    ///< what the law found last is: that of windows_, line_, or the phases of windows_
   CellIndex line_keep_ = kNoCell;  ///< cell of it behind which a law to a farther end would be another one
   CellIndex* chain_next_ = nullptr;
   double* chain_end_ = nullptr;  ///< s from the start of the chain to the end of the cell

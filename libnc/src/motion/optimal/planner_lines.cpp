@@ -144,11 +144,12 @@ bool OptimalPlanner::keeps_limits(const Piece& p, double x) const {
 }
 
 /// The speed along the stop that was found last.
-void OptimalPlanner::line_way_down(double share, WayDown* down) {
-  LineState from = line_.start();
+template <class PhasesOf>
+void OptimalPlanner::phase_way_down(const PhasesOf& law, double share, WayDown* down) {
+  LineState from = law.start();
   unsigned n = 0;
-  for (unsigned k = 0; k < line_.count(); ++k) {
-    const Phase& phase = line_.phase(k);
+  for (unsigned k = 0; k < law.count(); ++k) {
+    const Phase& phase = law.phase(k);
     for (unsigned i = 0; i < kSamples; ++i, ++n) {
       const LineState q = from.behind(phase.jerk, phase.seconds * i / kSamples);
       down_u_[n] = q.s;
@@ -156,29 +157,30 @@ void OptimalPlanner::line_way_down(double share, WayDown* down) {
     }
     from = from.behind(phase.jerk, phase.seconds);
   }
-  down_u_[n] = line_.distance();
+  down_u_[n] = law.distance();
   down_b_[n] = 0;
   *down = {down_u_, down_b_, n + 1};
 }
 
 /// Writes the law as cells of about a period each, none of which lies on two pieces. False when they have no room.
-bool OptimalPlanner::copy_line(const Start& start, Start* end) {
+template <class PhasesOf>
+bool OptimalPlanner::copy_phases(const PhasesOf& law, const Start& start, Start* end) {
   const CellIndex first = write_;
-  const double period = std::max(kPeriod, line_.seconds() / kMostCells);
+  const double period = std::max(kPeriod, law.seconds() / kMostCells);
   double time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
   uint32_t piece = start.piece;
   double begun = -start.x;  // where the piece begins on the line
-  LineState from = line_.start();
+  LineState from = law.start();
   line_keep_ = first;
-  for (unsigned k = 0; k < line_.count(); ++k) {
-    const Phase& phase = line_.phase(k);
-    const bool last = k + 1 == line_.count();
+  for (unsigned k = 0; k < law.count(); ++k) {
+    const Phase& phase = law.phase(k);
+    const bool last = k + 1 == law.count();
     const auto state = [&](double t) {
       LineState q = from.behind(phase.jerk, t);
-      if (last && t == phase.seconds) q = {line_.distance(), 0, 0};
+      if (last && t == phase.seconds) q = {law.distance(), 0, 0};
       return q;
     };
-    if (k == line_.last_part() && write_ != first) line_keep_ = write_ - 1;
+    if (k == law.last_part() && write_ != first) line_keep_ = write_ - 1;
     const double cells = std::max(1.0, std::ceil(phase.seconds / period - kSame));
     LineState at = from;
     double t = 0;
@@ -230,10 +232,14 @@ bool OptimalPlanner::copy_line(const Start& start, Start* end) {
     from = state(phase.seconds);
   }
   const Piece& p = store_.piece_at(piece);
-  const double x = line_.distance() - begun;
+  const double x = law.distance() - begun;
   store_.cell[(write_ - 1) & store_.cell_mask].path_ends = p.rest_behind && x >= p.length - kEdge;
-  *end = behind_law(piece, x, start.u + line_.distance());
+  *end = behind_law(piece, x, start.u + law.distance());
   return true;
 }
+
+template void OptimalPlanner::phase_way_down(const LineLaw& law, double share, WayDown* down);
+template bool OptimalPlanner::copy_phases(const LineLaw& law, const Start& start, Start* end);
+template bool OptimalPlanner::copy_phases(const PhaseLaw& law, const Start& start, Start* end);
 
 }  // namespace nc::optimal

@@ -23,6 +23,9 @@ constexpr double kFinerAgain = 2;   ///< the same where a law was not found
 constexpr double kOfMost = 0.95;    ///< of the cells that a law may have, which it has then at most
 constexpr unsigned kTightened = 6;  ///< times that a law is corrected
 constexpr double kExcess = 1.0003;  ///< of a limit, that a law may use inside its cells
+constexpr double kLonger = 1.02;    ///< of the time of the law in phases, that another one may take
+constexpr double kPhaseShares[] = {1, 0.9, 0.75, 0.5, 0.3, 0.1};  ///< of the limits, for the law in phases
+constexpr unsigned kPhaseLooks = 8;  ///< at a phase, for every 5 ms and piece
 
 }  // namespace
 
@@ -174,6 +177,58 @@ bool Windows::corrected() {
   return false;
 }
 
+/// The law takes no longer than the one in phases over the same way, where there is that.
+bool Windows::soon_enough() {
+  MeshRequest same = request_;
+  double length = 0;
+  for (unsigned k = 0; k < law_.cells; ++k) length += mesh_.h[k];
+  same.reach = std::min(same.reach, length);
+  return !phases_.find(same, limits_) || !phases_.whole() || law_.seconds <= kLonger * phases_.seconds();
+}
+
+/// The law in phases, at some places of every 5 ms and of each piece that it lies on.
+bool Windows::phases_keep_limits(const MeshRequest& request) const {
+  LineState from = phases_.start();
+  unsigned piece = request.from.piece;
+  double begun = -request.from.x;
+  CurvePoint q;
+  for (unsigned k = 0; k < phases_.count(); ++k) {
+    const Phase& phase = phases_.phase(k);
+    const LineState end = from.behind(phase.jerk, phase.seconds);
+    unsigned pieces = 1;
+    double edge = begun;
+    for (unsigned n = piece; n + 1 < request.count && (edge += request.at(n).length) < end.s; ++n) ++pieces;
+    const unsigned looks = kPhaseLooks * (pieces + static_cast<unsigned>(std::min(phase.seconds / period_, 1000.0)));
+    for (unsigned n = 0; n <= looks; ++n) {
+      const LineState s = from.behind(phase.jerk, phase.seconds * n / looks);
+      while (piece + 1 < request.count && s.s > begun + request.at(piece).length) begun += request.at(piece++).length;
+      const Piece& p = request.at(piece);
+      derivatives(p, std::clamp(s.s - begun, 0.0, p.length), limits_.axis_count, &q);
+      for (unsigned i = 0; i < limits_.axis_count; ++i) {
+        const double most = velocity_of(p, limits_, i), a = q.d1[i] * s.a + q.d2[i] * s.v * s.v,
+                     j = q.d1[i] * phase.jerk + 3 * q.d2[i] * s.v * s.a + q.d3[i] * s.v * s.v * s.v;
+        if (most > 0 && !(std::fabs(q.d1[i] * s.v) <= kExcess * most)) return false;
+        if (!(std::fabs(a) * per_acceleration_[i] <= kExcess * acceleration_share(p))) return false;
+        if (!(std::fabs(j) * per_jerk_[i] <= kExcess * jerk_share(p))) return false;
+      }
+    }
+    from = end;
+  }
+  return true;
+}
+
+bool Windows::phases_to(const MeshRequest& request, const Limits& limits) {
+  set_limits(limits);
+  for (const double share : kPhaseShares) {
+    if (!phases_.find(request, limits_, share)) {
+      if (request.from_rest) continue;
+      return false;  // with less of the limits there is none, too
+    }
+    if (phases_keep_limits(request)) return true;
+  }
+  return false;
+}
+
 /// A law that keeps the limits everywhere; false when none was found.
 bool Windows::solve(unsigned tries) {
   for (unsigned t = 0; t < tries; ++t) {
@@ -192,11 +247,11 @@ bool Windows::solve(unsigned tries) {
         mesher_.build(request_, limits_, &mesh_);
       }
     }
-    if (corrected()) return true;
+    if (corrected() && soon_enough()) return true;
     if (mesh_.levels == 0) continue;
     std::fill(mesh_.level, mesh_.level + mesh_.cells, false);
     mesh_.levels = 0;
-    if (corrected()) return true;
+    if (corrected() && soon_enough()) return true;
   }
   return false;
 }

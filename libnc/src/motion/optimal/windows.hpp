@@ -3,7 +3,7 @@
 // which only the part is kept that the artificial stop at its end has not slowed.
 #pragma once
 
-#include "motion/optimal/mesh.hpp"
+#include "motion/optimal/phase_law.hpp"
 
 namespace nc::optimal {
 
@@ -35,6 +35,9 @@ class Windows {
     bool once = false;  ///< without a second try: the caller has other goals
   };
   bool law_to(const MeshRequest& request, const Limits& limits, const Goal& goal);
+  /// The law in phases from the same place, which is looked at in the same way.
+  bool phases_to(const MeshRequest& request, const Limits& limits);
+  const PhaseLaw& phases() const { return phases_; }
   /// The last law reaches the end of the pieces (or the reach that was asked).
   bool whole() const { return !more_; }
 
@@ -51,6 +54,8 @@ class Windows {
  private:
   void set_limits(const Limits& limits);
   bool solve(unsigned tries);
+  bool soon_enough();
+  bool phases_keep_limits(const MeshRequest& request) const;
   bool corrected();
   void settle();
   double stopping_time() const;
@@ -76,6 +81,7 @@ class Windows {
   Mesher mesher_;
   Mesh mesh_;
   TimeLaw time_law_;
+  PhaseLaw phases_;
   Law law_;
 };
 

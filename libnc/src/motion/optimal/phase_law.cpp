@@ -1,0 +1,502 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion/optimal/phase_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nc::optimal {
+namespace {
+
+constexpr double kBend = 0.6;         ///< of the limits, that the bends may take where the speed changes
+constexpr double kHold = 0.98;        ///< and where it does not
+constexpr double kBendOfRest = 0.5;   ///< of the jerk that is left, that 3 q'' u' u'' may take
+constexpr double kTurn = 0.15;        ///< rad, of a stretch of a curve
+constexpr unsigned kMostParts = 64;   ///< of a piece
+constexpr unsigned kLooks = 4;        ///< parts of a stretch, between which its derivatives are looked at
+constexpr double kSameSpeed = 1.03;   ///< within that speeds are not worth a change
+constexpr double kNear = 1e-9;        ///< mm
+constexpr double kNearSpeed = 1e-9;   ///< of a speed
+constexpr unsigned kHalvings = 24;
+constexpr double kStart = 1.004;      ///< of the limits, that a start may use
+constexpr double kSlowerStart[] = {1, 0.8, 0.6, 0.4, 0.2, 0.1, 0.05};  ///< of the speed that a start comes to by itself
+constexpr double kWorthIt = 1.5;      ///< a speed that is higher by less is not gone to for a moment
+
+double ramp_seconds(double v0, double v1, double a, double j) {
+  const double change = std::fabs(v1 - v0);
+  return change * j >= a * a ? change / a + a / j : 2 * std::sqrt(change / j);
+}
+
+}  // namespace
+
+// ---- the path
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// The largest derivatives between two places of a piece.
+bool PhaseLaw::measure(const Piece& p, double from, double to, unsigned samples, Stretch* out) const {
+  const unsigned axes = limits_->axis_count;
+  for (unsigned i = 0; i < axes; ++i) out->d1[i] = out->d2[i] = out->d3[i] = 0;
+  CurvePoint q, last;
+  const double step = (to - from) / samples;
+  for (unsigned n = 0; n <= samples; ++n) {
+    derivatives(p, from + step * n, axes, &q);
+    for (unsigned i = 0; i < axes; ++i) {
+      // Between two places each derivative is off its chord by no more than an eighth of step^2 times the second one after it; the next
+      // one changes by step times that at most, so a quarter of its change is enough for a parabola and stands for other curves.
+      const double more1 = n > 0 ? 0.125 * step * std::fabs(q.d2[i] - last.d2[i]) : 0,
+                   more2 = n > 0 ? 0.125 * step * std::fabs(q.d3[i] - last.d3[i]) : 0,
+                   more3 = n > 0 && (p.quintic || p.curve != nullptr) ? 0.125 * std::fabs(q.d3[i] - last.d3[i]) : 0;
+      const double before1 = n > 0 ? std::fabs(last.d1[i]) : 0, before2 = n > 0 ? std::fabs(last.d2[i]) : 0, before3 = n > 0 ? std::fabs(last.d3[i]) : 0;
+      out->d1[i] = std::max(out->d1[i], std::max(std::fabs(q.d1[i]), before1) + more1);
+      out->d2[i] = std::max(out->d2[i], std::max(std::fabs(q.d2[i]), before2) + more2);
+      out->d3[i] = std::max(out->d3[i], std::max(std::fabs(q.d3[i]), before3) + more3);
+    }
+    last = q;
+  }
+  out->from = from;
+  out->to = to;
+  bound(p, out);
+  return out->cap > 0;
+}
+
+/// The speeds of a stretch. Bends alone take |q''| v^2 of the acceleration and |q'''| v^3 of the jerk.
+void PhaseLaw::bound(const Piece& p, Stretch* s) const {
+  s->use_a = share_ * acceleration_share(p);
+  s->use_j = share_ * jerk_share(p);
+  double length2 = 0, axes = HUGE_VAL, bends = HUGE_VAL, hold = HUGE_VAL;
+  for (unsigned i = 0; i < limits_->axis_count; ++i) {
+    const double v = velocity_of(p, *limits_, i), a = s->use_a * limits_->acceleration[i], j = s->use_j * limits_->jerk[i];
+    if ((limits_->linear >> i & 1) != 0) length2 += s->d1[i] * s->d1[i];
+    if (v > 0 && axes * s->d1[i] > v) axes = v / s->d1[i];
+    if (a > 0 && s->d2[i] > 0) {
+      bends = std::min(bends, std::sqrt(kBend * a / s->d2[i]));
+      hold = std::min(hold, std::sqrt(kHold * a / s->d2[i]));
+    }
+    if (j > 0 && s->d3[i] > 0) {
+      bends = std::min(bends, std::cbrt(kBend * j / s->d3[i]));
+      hold = std::min(hold, std::cbrt(kHold * j / s->d3[i]));
+    }
+  }
+  s->hold = std::min(axes, hold);
+  s->cap = std::min({axes, bends, feed_of(p, *limits_) / std::sqrt(std::max(1.0, length2))});
+}
+
+bool PhaseLaw::stretches(const MeshRequest& request) {
+  const unsigned axes = limits_->axis_count;
+  stretches_ = 0;
+  whole_ = true;
+  double begun = 0, x = request.from.x;
+  CurvePoint q;
+  for (unsigned k = request.from.piece; k < request.count && begun < request.reach - kNear; ++k, x = 0) {
+    const Piece& p = request.at(k);
+    const double length = std::min(p.length - x, request.reach - begun);
+    if (!(length > 0)) continue;
+    unsigned parts = 1, samples = 1;
+    if (p.curve != nullptr || p.quintic) {
+      samples = kLooks;
+      double most1 = 0, most2 = 0;
+      for (unsigned n = 0; n <= 2 * kLooks; ++n) {
+        derivatives(p, x + length * n / (2 * kLooks), axes, &q);
+        double here1 = 0, here2 = 0;
+        for (unsigned i = 0; i < axes; ++i) {
+          here1 += q.d1[i] * q.d1[i];
+          here2 += q.d2[i] * q.d2[i];
+        }
+        most1 = std::max(most1, here1);
+        most2 = std::max(most2, here2);
+      }
+      const double turn = most1 > 0 ? length * std::sqrt(most2 / most1) : 0;
+      parts = static_cast<unsigned>(std::clamp(std::ceil(turn / kTurn), 1.0, static_cast<double>(kMostParts)));
+    }
+    for (unsigned n = 0; n < parts; ++n) {
+      if (stretches_ == kStretches) {
+        whole_ = false;
+        return true;
+      }
+      Stretch& s = stretch_[stretches_];
+      if (!measure(p, x + length * n / parts, x + length * (n + 1) / parts, samples, &s)) return stretches_ > 0 && !(whole_ = false);
+      s.from = begun + length * n / parts;
+      s.to = n + 1 < parts ? begun + length * (n + 1) / parts : begun + length;
+      ++stretches_;
+    }
+    begun += length;
+  }
+  return stretches_ > 0;
+}
+
+/// With no more than `speed` on the stretch, for each axis
+///     |q'| a + |q''| v^2 <= A,    |q'| j + 3 |q''| v a + |q'''| v^3 <= J.
+PhaseLaw::Budget PhaseLaw::budget(unsigned stretch, double speed) const {
+  const Stretch& s = stretch_[stretch];
+  Budget most;
+  const double v2 = speed * speed, v3 = v2 * speed;
+  for (unsigned i = 0; i < limits_->axis_count; ++i) {
+    if (limits_->acceleration[i] > 0) {
+      const double left = s.use_a * limits_->acceleration[i] - s.d2[i] * v2;
+      if (most.acceleration * s.d1[i] > left) most.acceleration = left / s.d1[i];
+    }
+    if (limits_->jerk[i] > 0) {
+      const double left = kBendOfRest * (s.use_j * limits_->jerk[i] - s.d3[i] * v3), bend = 3 * s.d2[i] * speed;
+      if (bend > 0 && most.acceleration * bend > left) most.acceleration = left / bend;
+    }
+  }
+  if (!(most.acceleration > 0)) return {0, 0};
+  for (unsigned i = 0; i < limits_->axis_count; ++i) {
+    if (!(limits_->jerk[i] > 0)) continue;
+    const double bend = s.d2[i] > 0 ? 3 * s.d2[i] * speed * most.acceleration : 0, left = s.use_j * limits_->jerk[i] - s.d3[i] * v3 - bend;
+    if (most.jerk * s.d1[i] > left) most.jerk = left / s.d1[i];
+  }
+  return most;
+}
+
+/// The stretch that goes on from a place.
+unsigned PhaseLaw::behind(double s) const {
+  unsigned low = 0, high = stretches_ - 1;
+  while (low < high) {
+    const unsigned middle = (low + high) / 2;
+    if (stretch_[middle].to > s + kNear) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return low;
+}
+
+/// The stretch that leads to a place.
+unsigned PhaseLaw::in_front(double s) const {
+  unsigned low = 0, high = stretches_ - 1;
+  while (low < high) {
+    const unsigned middle = (low + high + 1) / 2;
+    if (stretch_[middle].from < s - kNear) {
+      low = middle;
+    } else {
+      high = middle - 1;
+    }
+  }
+  return low;
+}
+
+// ---- from one speed to another
+// -----------------------------------------------------------------------------------------------------
+
+/// The way from one constant speed to another that begins at a place, with what all the stretches leave that it takes; HUGE_VAL where that
+/// is nothing, or more than there is room.
+double PhaseLaw::up(double from, double v0, double v1, double room, Budget* most) const {
+  *most = {};
+  if (std::fabs(v1 - v0) <= kNearSpeed * v1) return 0;
+  const double speed = std::max(v0, v1);
+  double way = 0;
+  for (unsigned k = behind(from); k < stretches_; ++k) {
+    const Budget here = budget(k, speed);
+    most->acceleration = std::min(most->acceleration, here.acceleration);
+    most->jerk = std::min(most->jerk, here.jerk);
+    if (!(here.acceleration > 0) || !(here.jerk > 0)) return HUGE_VAL;
+    if (most->acceleration < HUGE_VAL && most->jerk < HUGE_VAL) {
+      way = 0.5 * (v0 + v1) * ramp_seconds(v0, v1, most->acceleration, most->jerk);
+      if (way > room) return HUGE_VAL;
+      if (from + way <= stretch_[k].to + kNear) return way;
+    }
+  }
+  return HUGE_VAL;
+}
+
+/// The same for a way that ends at a place.
+double PhaseLaw::down(double to, double v0, double v1, double room, Budget* most) const {
+  *most = {};
+  if (std::fabs(v1 - v0) <= kNearSpeed * v0) return 0;
+  const double speed = std::max(v0, v1);
+  double way = 0;
+  for (unsigned k = in_front(to) + 1; k-- > 0;) {
+    const Budget here = budget(k, speed);
+    most->acceleration = std::min(most->acceleration, here.acceleration);
+    most->jerk = std::min(most->jerk, here.jerk);
+    if (!(here.acceleration > 0) || !(here.jerk > 0)) return HUGE_VAL;
+    if (most->acceleration < HUGE_VAL && most->jerk < HUGE_VAL) {
+      way = 0.5 * (v0 + v1) * ramp_seconds(v0, v1, most->acceleration, most->jerk);
+      if (way > room) return HUGE_VAL;
+      if (to - way >= stretch_[k].from - kNear) return way;
+    }
+  }
+  return HUGE_VAL;
+}
+
+/// Behind a place that is passed at v0 the stretches that are soon over and allow little more are gone at that speed, too: the next ramp
+/// would be as gentle as their bends make it. @return where they end
+double PhaseLaw::stay_from(const Range& r) const {
+  if (!(r.v0 > 0)) return r.from;
+  const unsigned first = behind(r.from);
+  const Budget free = budget(first, 0);
+  if (!free.ok()) return r.from;
+  const double look = r.from + r.v0 * std::sqrt(r.v0 / free.jerk);
+  double end = r.from;
+  for (unsigned k = first; k < stretches_ && stretch_[k].from < look && stretch_[k].to < r.to; ++k)
+    if (stretch_[k].cap < kWorthIt * r.v0) end = stretch_[k].to;
+  Budget most;
+  if (end > r.from && r.v1 > r.v0 && !(up(end, r.v0, r.v1, r.to - end, &most) <= r.to - end)) return r.from;
+  if (end > r.from && r.v1 < r.v0 && !(down(r.to, r.v0, r.v1, r.to - end, &most) <= r.to - end)) return r.from;
+  return end;
+}
+
+double PhaseLaw::stay_to(const Range& r) const {
+  if (!(r.v1 > 0)) return r.to;
+  const unsigned first = in_front(r.to);
+  const Budget free = budget(first, 0);
+  if (!free.ok()) return r.to;
+  const double look = r.to - r.v1 * std::sqrt(r.v1 / free.jerk);
+  double end = r.to;
+  for (unsigned k = first + 1; k-- > 0 && stretch_[k].to > look && stretch_[k].from > r.from;)
+    if (stretch_[k].cap < kWorthIt * r.v1) end = stretch_[k].from;
+  Budget most;
+  if (end < r.to && r.v1 > r.v0 && !(up(r.from, r.v0, r.v1, end - r.from, &most) <= end - r.from)) return r.to;
+  if (end < r.to && r.v1 < r.v0 && !(down(end, r.v0, r.v1, end - r.from, &most) <= end - r.from)) return r.to;
+  return end;
+}
+
+// ---- the law
+// ------------------------------------------------------------------------------------------------------------------------
+
+bool PhaseLaw::push(const Range& r) {
+  if (depth_ == sizeof stack_ / sizeof stack_[0]) return false;
+  stack_[depth_++] = r;
+  return true;
+}
+
+/// To one speed between, no more than `most`, as high as the way leaves room for, and to the speed at the end.
+bool PhaseLaw::hill(const Range& r, double most) {
+  const double way = r.to - r.from;
+  double low = std::max(r.v0, r.v1), high = most;
+  Budget rise, fall;
+  const auto fits = [&](double w) {
+    const double first = up(r.from, r.v0, w, way, &rise);
+    return first <= way && down(r.to, w, r.v1, way - first, &fall) <= way - first;
+  };
+  for (unsigned n = 0; n < kHalvings || (low == 0 && n < 4 * kHalvings); ++n) {
+    const double middle = low > 0.5 * high ? 0.5 * (low + high) : low > 0 ? std::sqrt(low * high) : 0.25 * high;
+    (fits(middle) ? low : high) = middle;
+    if (high - low < 0.005 * high) break;
+  }
+  if (!(low > 0)) return false;
+  const double first = up(r.from, r.v0, low, way, &rise), last = down(r.to, low, r.v1, way - first, &fall);
+  if (!(first + last <= way)) return false;
+  return push({r.to - last, r.to, low, r.v1, true, fall}) && push({r.from + first, r.to - last, low, low, true, {}}) &&
+         push({r.from, r.from + first, r.v0, low, true, rise});
+}
+
+/// A range whose speeds at the ends are no higher than what all its stretches allow: at its slowest stretch that is the speed, if there is
+/// way enough to come to it and to leave it; on either side there is a smaller range.
+bool PhaseLaw::divide(const Range& all) {
+  const Range& r = all;
+  const double fastest = std::max(r.v0, r.v1);
+  if (!(r.to - r.from > kNear)) return !(fastest > 0) || push({r.from, r.to, fastest, fastest, true, {}});
+  const double from = stay_from(r);
+  if (from > r.from) {
+    return push({from, r.to, r.v0, r.v1, false, {}}) && push({r.from, from, r.v0, r.v0, true, {}});
+  }
+  const double to = stay_to(r);
+  if (to < r.to) return push({to, r.to, r.v1, r.v1, true, {}}) && push({r.from, to, r.v0, r.v1, false, {}});
+  const unsigned first = behind(r.from), last = in_front(r.to);
+  unsigned least = first;
+  for (unsigned k = first; k <= last; ++k)
+    if (stretch_[k].cap < stretch_[least].cap) least = k;
+  const double most = std::max({stretch_[least].cap, r.v0, r.v1}), way = r.to - r.from;
+  Budget rise, fall;
+  const double one = up(r.from, r.v0, most, way, &rise), other = one <= way ? down(r.to, most, r.v1, way - one, &fall) : HUGE_VAL;
+  if (!(one + other <= way)) return hill(r, most);
+  unsigned a = least, b = least;
+  while (a > first && stretch_[a - 1].cap <= kSameSpeed * most) --a;
+  while (b < last && stretch_[b + 1].cap <= kSameSpeed * most) ++b;
+  const double edge0 = std::max(r.from, stretch_[a].from), edge1 = std::min(r.to, stretch_[b].to);
+  if (r.from + one > edge0 + kNear)  // it comes to that speed behind the place only
+    return one > 0 ? push({r.from + one, r.to, most, r.v1, false, {}}) && push({r.from, r.from + one, r.v0, most, true, rise}) : hill(r, most);
+  if (r.to - other < edge1 - kNear)
+    return other > 0 ? push({r.to - other, r.to, most, r.v1, true, fall}) && push({r.from, r.to - other, r.v0, most, false, {}}) : hill(r, most);
+  return push({edge1, r.to, most, r.v1, false, {}}) && push({edge0, edge1, most, most, true, {}}) && push({r.from, edge0, r.v0, most, false, {}});
+}
+
+/// A range that begins faster than what some stretch allows: that one is passed at its own speed, or slower where the way behind it asks
+/// for that; then its left part is such a range, and its right part is not.
+bool PhaseLaw::descend(const Range& all) {
+  Range r = all;
+  for (unsigned n = 0; n < kStretches; ++n) {
+    const unsigned first = behind(r.from), last = in_front(r.to);
+    unsigned least = first;
+    for (unsigned k = first; k <= last; ++k)
+      if (stretch_[k].cap <= stretch_[least].cap) least = k;
+    Budget most;
+    const double way = r.to - r.from;
+    if (r.v0 <= stretch_[least].cap * (1 + kNearSpeed)) {
+      if (r.v0 > r.v1 ? !(down(r.to, r.v0, r.v1, way, &most) <= way) : !(up(r.from, r.v0, r.v1, way, &most) <= way)) return false;
+      return push(r);
+    }
+    const double edge = std::max(r.from, stretch_[least].from), rest = r.to - edge;
+    if (!(edge > r.from + kNear)) {
+      // Faster than the feed or than what bends should take here: down at once, if they let it.
+      for (unsigned k = first; k <= last && stretch_[k].from < r.from + kNear; ++k)
+        if (r.v0 > stretch_[k].hold) return false;
+      const double speed = std::max(std::min(stretch_[least].cap, r.v0), r.v1);
+      const double ramp = up(r.from, r.v0, speed, way, &most);
+      if (!(ramp <= way)) return false;
+      for (unsigned k = first; k <= last && stretch_[k].from < r.from + ramp; ++k)
+        if (r.v0 > stretch_[k].hold) return false;
+      Budget end;
+      if (!(down(r.to, speed, r.v1, way - ramp, &end) <= way - ramp)) return false;
+      return push({r.from + ramp, r.to, speed, r.v1, false, {}}) && push({r.from, r.from + ramp, r.v0, speed, true, most});
+    }
+    double speed = std::max(stretch_[least].cap, r.v1);
+    if (!(down(r.to, speed, r.v1, rest, &most) <= rest)) {
+      double low = r.v1, high = speed;
+      for (unsigned m = 0; m < kHalvings; ++m) {
+        const double middle = 0.5 * (low + high);
+        (down(r.to, middle, r.v1, rest, &most) <= rest ? low : high) = middle;
+      }
+      speed = low;
+    }
+    if (!(speed > 0) || !push({edge, r.to, speed, r.v1, false, {}})) return false;
+    r = {r.from, edge, r.v0, speed, false, {}};
+    if (!(r.v1 <= r.v0)) r.v1 = r.v0;
+  }
+  return false;
+}
+
+bool PhaseLaw::solve(const Range& whole) {
+  depth_ = moves_ = 0;
+  if (!descend(whole)) return false;
+  while (depth_ > 0) {
+    const Range r = stack_[--depth_];
+    if (!r.is_move) {
+      if (!divide(r)) return false;
+      continue;
+    }
+    if (!(r.to > r.from)) continue;
+    if (moves_ == kMoves) return false;
+    move_[moves_++] = {r.v0, r.v1, r.to - r.from, r.most};
+  }
+  return true;
+}
+
+bool PhaseLaw::add(double seconds, double jerk) {
+  if (!(seconds > 0)) return true;
+  if (count_ == kPhases) return false;
+  phase_[count_++] = {seconds, jerk};
+  seconds_ += seconds;
+  at_ = at_.behind(jerk, seconds);
+  return true;
+}
+
+/// From a state to constant speed, LineLaw::to_speed() with what the stretches leave on the way. @return the way, HUGE_VAL where there is
+/// none
+double PhaseLaw::first_move(double v, double a, double speed) {
+  double top = std::max(v, speed);
+  Budget most;
+  const double change = speed - v;
+  for (unsigned pass = 0, last = 0; pass < 64; ++pass) {
+    if (a > 0) top = std::max(top, pass == 0 ? v : v + 0.5 * a * a / most.jerk);
+    for (unsigned k = 0; k <= last; ++k) {
+      const Budget here = budget(k, top);
+      most.acceleration = std::min(most.acceleration, here.acceleration);
+      most.jerk = std::min(most.jerk, here.jerk);
+      if (top > kStart * stretch_[k].hold) return HUGE_VAL;
+    }
+    if (!most.ok() || std::fabs(a) > kStart * most.acceleration) return HUGE_VAL;
+    const double j = most.jerk, sign = change >= a * std::fabs(a) / (2 * j) ? 1 : -1, a0 = sign * a, dv = sign * change;
+    const double peak_most = std::max(most.acceleration, a0);
+    double peak = std::sqrt(std::max(0.0, j * dv + 0.5 * a * a)), hold = 0;
+    if (peak > peak_most) {
+      peak = peak_most;
+      hold = dv / peak - (2 * peak * peak - a * a) / (2 * j * peak);
+    }
+    if (peak < a0) {
+      peak = a0;
+      hold = 0;
+    }
+    count_ = 0;
+    seconds_ = 0;
+    at_ = {0, v, a};
+    add((peak - a0) / j, sign * j);
+    add(hold, 0);
+    add(peak / j, -sign * j);
+    if (std::fabs(at_.v - speed) > 1e-6 * top) return HUGE_VAL;
+    if (at_.s <= stretch_[last].to + kNear && (a <= 0 || top >= v + 0.5 * a * a / j)) return at_.s;
+    while (last + 1 < stretches_ && at_.s > stretch_[last].to + kNear) ++last;
+    if (at_.s > stretch_[last].to + kNear) return HUGE_VAL;
+  }
+  return HUGE_VAL;
+}
+
+/// From a state to constant speed, and from there on.
+bool PhaseLaw::begin(const MeshRequest& request) {
+  const double end = stretch_[stretches_ - 1].to, v = request.from_rest ? 0 : std::sqrt(request.b0), a = request.from_rest ? 0 : 0.5 * request.slope0;
+  distance_ = end;
+  start_ = at_ = {0, v, a};
+  count_ = 0;
+  seconds_ = 0;
+  const Budget here = budget(0, v);
+  if (request.from_rest || std::fabs(a) <= 1e-6 * here.acceleration) {
+    if (!request.from_rest && solve({0, end, v, 0, false, {}})) return true;
+    if (request.from_rest) return solve({0, end, 0, 0, false, {}});
+  }
+  if (!here.ok()) return false;
+  const double level = std::max(0.0, v + 0.5 * a * std::fabs(a) / here.jerk);
+  for (const double slower : kSlowerStart) {
+    const double speed = slower * std::min(level, std::max(v, stretch_[0].cap));
+    if (!(speed > 0)) break;
+    const double way = first_move(v, a, speed);
+    if (!(way < end)) continue;
+    if (solve({way, end, speed, 0, false, {}})) {
+      at_.s = way;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The moves as phases of constant jerk.
+bool PhaseLaw::make_phases() {
+  bool brakes = false;
+  last_part_ = 0;
+  for (unsigned k = 0; k < moves_; ++k) {
+    const Move& m = move_[k];
+    const double change = std::fabs(m.v1 - m.v0);
+    const bool slower = m.v1 < m.v0 * (1 - kNearSpeed);
+    if (slower && !brakes) last_part_ = count_;
+    brakes = slower;
+    if (m.v0 == m.v1 || change <= kNearSpeed * std::max(m.v0, m.v1)) {
+      if (!add(m.length / std::max(m.v0, m.v1), 0)) return false;
+      continue;
+    }
+    // The way is given, and the speeds are: so is the time. With less than the limits where it is longer than they ask for.
+    const double time = 2 * m.length / (m.v0 + m.v1), sign = m.v1 > m.v0 ? 1 : -1;
+    const double a = m.most.acceleration, j = m.most.jerk;
+    const double first = change * j >= a * a ? a / j : std::sqrt(change / j), whole = change * j >= a * a ? change / a + a / j : 2 * first;
+    const double stretched = time / whole, t = first * stretched, jerk = change / (t * (time - t));
+    if (!add(t, sign * jerk) || !add(std::max(0.0, time - 2 * t), 0) || !add(t, -sign * jerk)) return false;
+  }
+  return count_ > 0;
+}
+
+bool PhaseLaw::find(const MeshRequest& request, const Limits& limits, double share) {
+  limits_ = &limits;
+  share_ = share;
+  count_ = 0;
+  if (!stretches(request)) return false;
+  return begin(request) && make_phases();
+}
+
+double PhaseLaw::squared_speed(double s) {
+  while (at_phase_ < count_) {
+    const LineState next = at_.behind(phase_[at_phase_].jerk, phase_[at_phase_].seconds);
+    if (next.s > s || at_phase_ + 1 == count_) break;
+    at_ = next;
+    ++at_phase_;
+  }
+  if (at_phase_ >= count_) return 0;
+  double low = 0, high = phase_[at_phase_].seconds;
+  for (unsigned n = 0; n < 30; ++n) {
+    const double t = 0.5 * (low + high);
+    (at_.behind(phase_[at_phase_].jerk, t).s < s ? low : high) = t;
+  }
+  const double v = at_.behind(phase_[at_phase_].jerk, high).v;
+  return v * v;
+}
+
+}  // namespace nc::optimal

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// A law in closed form along any path: phases of constant jerk that keep velocity, acceleration and jerk of every axis, found in one go.
+// It is not the shortest one. It says how long another law may take at most, it is where that begins, and it goes where no other is found
+// (docs/motion-optimal.md, "The law in phases").
+#pragma once
+
+#include "motion/optimal/line_law.hpp"
+#include "motion/optimal/mesh.hpp"
+
+namespace nc::optimal {
+
+class PhaseLaw {
+ public:
+  /// From the place and the state that the request names to rest at the end of its pieces, or as far as it reaches, with `share` of the
+  /// limits. False where there is none; from rest there always is one, and only for want of room it ends earlier (whole()).
+  bool find(const MeshRequest& request, const Limits& limits, double share = 1);
+
+  unsigned count() const { return count_; }
+  const Phase& phase(unsigned k) const { return phase_[k]; }
+  /// From this phase on a law to a farther end would be another one.
+  unsigned last_part() const { return last_part_; }
+  const LineState& start() const { return start_; }
+  double distance() const { return distance_; }
+  double seconds() const { return seconds_; }
+  bool whole() const { return whole_; }  ///< it reaches the end of the pieces, or of the reach
+  /// Squared speed at ever farther places; begin with rewind().
+  void rewind() {
+    at_phase_ = 0;
+    at_ = start_;
+  }
+  double squared_speed(double s);
+
+ private:
+  static constexpr unsigned kStretches = 1024, kMoves = 2 * kStretches, kPhases = 3 * kMoves;
+
+  /// A piece or a part of it: the largest size of each derivative of each axis.
+  struct Stretch {
+    double d1[kMaxAxes], d2[kMaxAxes], d3[kMaxAxes];
+    double from, to;
+    double use_a, use_j;  ///< of the limits
+    double cap;           ///< speed: feed, axes, and the bends with their share of the limits
+    double hold;          ///< the same with all of them and without the feed: what may be kept, and left
+  };
+  /// What is left along the path beside the bends.
+  struct Budget {
+    double acceleration = HUGE_VAL, jerk = HUGE_VAL;
+    bool ok() const { return acceleration > 0 && jerk > 0 && acceleration < HUGE_VAL && jerk < HUGE_VAL; }
+  };
+  /// From one constant speed to another, or along one.
+  struct Move {
+    double v0, v1, length;
+    Budget most;
+  };
+  /// Between two places that are passed at constant speed: to be divided, or one move.
+  struct Range {
+    double from, to, v0, v1;
+    bool is_move;
+    Budget most;
+  };
+
+  bool measure(const Piece& p, double from, double to, unsigned samples, Stretch* out) const;
+  void bound(const Piece& p, Stretch* s) const;
+  bool stretches(const MeshRequest& request);
+  Budget budget(unsigned stretch, double speed) const;
+  unsigned behind(double s) const;
+  unsigned in_front(double s) const;
+  double up(double from, double v0, double v1, double room, Budget* most) const;
+  double down(double to, double v0, double v1, double room, Budget* most) const;
+  double stay_from(const Range& r) const;
+  double stay_to(const Range& r) const;
+  double first_move(double v, double a, double speed);
+  bool begin(const MeshRequest& request);
+  bool solve(const Range& whole);
+  bool descend(const Range& r);
+  bool divide(const Range& r);
+  bool hill(const Range& r, double most);
+  bool push(const Range& r);
+  bool make_phases();
+  bool add(double seconds, double jerk);
+
+  const Limits* limits_ = nullptr;
+  double share_ = 1;
+  Stretch stretch_[kStretches];
+  unsigned stretches_ = 0;
+  Range stack_[2 * kStretches];
+  unsigned depth_ = 0;
+  Move move_[kMoves];
+  unsigned moves_ = 0;
+  Phase phase_[kPhases];
+  unsigned count_ = 0, last_part_ = 0;
+  LineState start_, at_;
+  unsigned at_phase_ = 0;
+  double distance_ = 0, seconds_ = 0;
+  bool whole_ = true;
+};
+
+}  // namespace nc::optimal
