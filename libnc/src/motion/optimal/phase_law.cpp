@@ -19,6 +19,7 @@ constexpr double kNearSpeed = 1e-9;   ///< of a speed
 constexpr unsigned kHalvings = 24;
 constexpr double kStart = 1.004;      ///< of the limits, that a start may use
 constexpr double kSlowerStart[] = {1, 0.8, 0.6, 0.4, 0.2, 0.1, 0.05};  ///< of the speed that a start comes to by itself
+constexpr double kTurnsBack = 1.001;  ///< of the speed that is lost while the acceleration goes to 0
 constexpr double kWorthIt = 1.5;      ///< a speed that is higher by less is not gone to for a moment
 
 double ramp_seconds(double v0, double v1, double a, double j) {
@@ -398,7 +399,9 @@ double PhaseLaw::first_move(double v, double a, double speed) {
       if (top > kStart * stretch_[k].hold) return HUGE_VAL;
     }
     if (!most.ok() || std::fabs(a) > kStart * most.acceleration) return HUGE_VAL;
-    const double j = most.jerk, sign = change >= a * std::fabs(a) / (2 * j) ? 1 : -1, a0 = sign * a, dv = sign * change;
+    const double j = most.jerk;
+    if (a < 0 && !(v > kTurnsBack * 0.5 * a * a / j)) return HUGE_VAL;  // it would stand or go back before the acceleration is 0
+    const double sign = change >= a * std::fabs(a) / (2 * j) ? 1 : -1, a0 = sign * a, dv = sign * change;
     const double peak_most = std::max(most.acceleration, a0);
     double peak = std::sqrt(std::max(0.0, j * dv + 0.5 * a * a)), hold = 0;
     if (peak > peak_most) {
@@ -415,7 +418,7 @@ double PhaseLaw::first_move(double v, double a, double speed) {
     add((peak - a0) / j, sign * j);
     add(hold, 0);
     add(peak / j, -sign * j);
-    if (std::fabs(at_.v - speed) > 1e-6 * top) return HUGE_VAL;
+    if (std::fabs(at_.v - speed) > kNearSpeed * top) return HUGE_VAL;
     if (at_.s <= stretch_[last].to + kNear && (a <= 0 || top >= v + 0.5 * a * a / j)) return at_.s;
     while (last + 1 < stretches_ && at_.s > stretch_[last].to + kNear) ++last;
     if (at_.s > stretch_[last].to + kNear) return HUGE_VAL;
@@ -430,11 +433,8 @@ bool PhaseLaw::begin(const MeshRequest& request) {
   start_ = at_ = {0, v, a};
   count_ = 0;
   seconds_ = 0;
+  if (a == 0 && (solve({0, end, v, 0, false, {}}) || request.from_rest)) return moves_ > 0;
   const Budget here = budget(0, v);
-  if (request.from_rest || std::fabs(a) <= 1e-6 * here.acceleration) {
-    if (!request.from_rest && solve({0, end, v, 0, false, {}})) return true;
-    if (request.from_rest) return solve({0, end, 0, 0, false, {}});
-  }
   if (!here.ok()) return false;
   const double level = std::max(0.0, v + 0.5 * a * std::fabs(a) / here.jerk);
   for (const double slower : kSlowerStart) {

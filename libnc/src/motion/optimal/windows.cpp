@@ -25,6 +25,8 @@ constexpr unsigned kTightened = 6;  ///< times that a law is corrected
 constexpr double kExcess = 1.0003;  ///< of a limit, that a law may use inside its cells
 constexpr double kLonger = 1.02;    ///< of the time of the law in phases, that another one may take
 constexpr double kPhaseShares[] = {1, 0.9, 0.75, 0.5, 0.3, 0.1};  ///< of the limits, for the law in phases
+constexpr double kTurning = 1e-9;    ///< mm/s: rounding
+constexpr double kAtEnd = 1e-10;     ///< mm: the same
 constexpr unsigned kPhaseLooks = 8;  ///< at a phase, for every 5 ms and piece
 
 }  // namespace
@@ -204,6 +206,7 @@ bool Windows::phases_keep_limits(const MeshRequest& request) const {
       while (piece + 1 < request.count && s.s > begun + request.at(piece).length) begun += request.at(piece++).length;
       const Piece& p = request.at(piece);
       derivatives(p, std::clamp(s.s - begun, 0.0, p.length), limits_.axis_count, &q);
+      if (!(s.v >= -kTurning)) return false;
       for (unsigned i = 0; i < limits_.axis_count; ++i) {
         const double most = velocity_of(p, limits_, i), a = q.d1[i] * s.a + q.d2[i] * s.v * s.v,
                      j = q.d1[i] * phase.jerk + 3 * q.d2[i] * s.v * s.a + q.d3[i] * s.v * s.v * s.v;
@@ -214,7 +217,7 @@ bool Windows::phases_keep_limits(const MeshRequest& request) const {
     }
     from = end;
   }
-  return true;
+  return std::fabs(from.s - phases_.distance()) <= kAtEnd && std::fabs(from.v) <= kTurning;
 }
 
 bool Windows::phases_to(const MeshRequest& request, const Limits& limits) {
