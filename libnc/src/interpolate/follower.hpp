@@ -20,6 +20,7 @@ class Follower {
 
   /// Looks at the newest offer, once.
   void look(const optimal::Proposal& offer) NC_RT {
+    rests_ = offer.generation == generation_ ? offer.rests : optimal::kNoCell;
     if (offer.number == answered_) return;
     answered_ = offer.number;
     taken_to_ = offer.taken;
@@ -57,7 +58,8 @@ class Follower {
   double u() const { return u_; }
   double v() const { return v_; }
   double planned_v() const { return planned_v_; }  ///< by the time of the plan
-  bool stops() const { return stops_ || braking_; }  ///< what is followed is the way to a rest that was asked for
+  /// What is followed is the way to a rest that was asked for.
+  bool stops() const { return stops_ || braking_ || (rests_ != optimal::kNoCell && !at_end_ && static_cast<int32_t>(rests_ - cell_) >= 0); }
 
   /// Where the next cell begins; not when idle().
   AxisVec start() const NC_RT {
@@ -228,6 +230,7 @@ class Follower {
   Brake brake_;
   unsigned tries_ = 0;
   bool stops_ = false, braking_ = false;
+  uint32_t rests_ = optimal::kNoCell;
   bool halted_ = false;       ///< at rest on the path, not at the end of a plan
   uint32_t halt_piece_ = 0;
   double halt_x_ = 0;

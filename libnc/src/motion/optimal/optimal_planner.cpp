@@ -19,6 +19,9 @@ constexpr unsigned kCellsAtOnce = 480; ///< of a law, so that it is there soon
 constexpr unsigned kBack = 7;          ///< cells farther back, from which a law is tried that was not found
 constexpr uint32_t kRetry = 4;         ///< cells that the scan goes until a law is tried again
 constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
+constexpr double kFartherPhases[] = {1.02, 1.2, 1.6, 2.5, 4, 8};  ///< the same for laws in phases
+constexpr double kHardlyLonger = 3;    ///< times as long as a stop on a line
+constexpr double kMostJerk = 8;        ///< of an acceleration by a cycle: more cannot be seen in one position a cycle, and only makes laws hard to find
 constexpr double kSameScale = 1e-9;
 constexpr double kTiny = 1e-9;         ///< mm
 constexpr double kFarther[] = {1.004, 1.02, 1.05, 1.1, 1.2, 1.35, 1.6, 2, 2.7, 4};  ///< of the distance that a stop takes on a line
@@ -44,13 +47,17 @@ bool lower(const Scales& a, const Scales& b) {
 
 void OptimalPlanner::create(const Setup& setup, const Record* records, Arena& arena) {
   setup_ = setup;
-  limits_ = setup.limits;
+  for (unsigned i = 0; i < setup.limits.axis_count; ++i) {
+    const double seen = kMostJerk * setup.limits.acceleration[i] / setup.cycle_s;
+    if (setup.limits.acceleration[i] > 0 && setup_.limits.jerk[i] > seen) setup_.limits.jerk[i] = seen;
+  }
+  limits_ = setup_.limits;
   store_.cell = arena.make<PlanCell>(kCells);
   store_.next = arena.make<CellIndex>(kCells);
   store_.cell_mask = kCells - 1;
   store_.passed = arena.make<double>(setup.capacity);
   store_.record_mask = setup.capacity - 1;
-  builder_.create(setup.limits, setup.tolerance, kPeriod, records, &store_, arena);
+  builder_.create(setup_.limits, setup.tolerance, kPeriod, records, &store_, arena);
   windows_ = arena.make<Windows>();
   chain_next_ = arena.make<CellIndex>(kCells);
   chain_end_ = arena.make<double>(kCells);
@@ -91,7 +98,7 @@ void OptimalPlanner::begin_again(const Following& f) {
   chain_ = {};
   lead_ = least_lead();
   tried_at_ = kNoCell;
-  offer_.first = offer_.last = offer_.after = kNoCell;
+  offer_.first = offer_.last = offer_.after = offer_.rests = kNoCell;
   offer_.failed = false;
 }
 
@@ -160,12 +167,15 @@ void OptimalPlanner::truncate(uint32_t end) {
 }
 
 void OptimalPlanner::publish() {
-  if (offer_.end == head_ && offer_.generation == generation_ && published_ == offer_.number && offer_.failed == told_failed_) return;
+  if (offer_.end == head_ && offer_.generation == generation_ && published_ == offer_.number && offer_.failed == told_failed_ &&
+      offer_.rests == told_rests_)
+    return;
   offer_.end = head_;
   offer_.taken = builder_.taken();
   offer_.generation = generation_;
   published_ = offer_.number;
   told_failed_ = offer_.failed;
+  told_rests_ = offer_.rests;
   offers_.write(offer_);
 }
 
@@ -343,7 +353,8 @@ double OptimalPlanner::stopping_distance(const Start& start, double* seconds) co
 bool OptimalPlanner::stop_law(const Start& start, double most) {
   double seconds = 0;
   const double distance = stopping_distance(start, &seconds);
-  if (!(distance > 0) || !(seconds > kAtOnce)) return false;
+  no_room_ = false;
+  if (!(distance > 0)) return false;
   if (find_line_stop(start, most)) {
     found_ = Found::line;
     return true;
@@ -351,10 +362,24 @@ bool OptimalPlanner::stop_law(const Start& start, double most) {
   found_ = Found::cells;
   for (const double farther : kFarther) {
     const double reach = distance * farther;
-    if (reach > most) return false;
-    if (one_law(start, reach, nullptr, true, std::min(kPeriod, seconds / 14))) return true;
+    if (reach > most) {
+      no_room_ = ahead_of_end(start) < kHardlyLonger * seconds + kAtOnce;
+      break;
+    }
+    if (seconds > kAtOnce && one_law(start, reach, nullptr, true, std::min(kPeriod, seconds / 14))) return true;
+  }
+  found_ = Found::phases;
+  for (const double farther : kFartherPhases) {
+    const double reach = distance * farther;
+    if (reach > most) break;
+    if (phase_law(start, reach)) return true;
   }
   return false;
+}
+
+/// Seconds of the chain behind a place of it.
+double OptimalPlanner::ahead_of_end(const Start& start) const {
+  return start.fresh ? 0 : chain_end_[chain_.last & store_.cell_mask] - chain_end_[start.after & store_.cell_mask];
 }
 
 /// The law that was found last ends where the path rests.
@@ -482,6 +507,7 @@ void OptimalPlanner::offer(const Start& start, bool stops) {
   offer_.last = write_ - 1;
   offer_.failed = false;
   offer_.stops = stops;
+  offer_.rests = kNoCell;
   open_ = true;
 }
 
@@ -538,7 +564,8 @@ void OptimalPlanner::change(const Following& f) {
   }
   const bool scales = !same(limits_.scale, chain_.scale);
   const bool blocks = f.block_rests && !chain_.block_rests;
-  if (!(f.brake ? !chain_.stops : scales || blocks || chain_.stops)) return;
+  if (!f.brake) offer_.rests = kNoCell;
+  if (!(f.brake ? !chain_.stops && offer_.rests == kNoCell : scales || blocks || chain_.stops)) return;
   if (f.waits) {  // none of the chain has been gone: it is made anew as a whole
     if (f.brake) return;
     Start first;
@@ -549,16 +576,20 @@ void OptimalPlanner::change(const Following& f) {
     extend(f, first, block_most(f, first), nullptr);
     return;
   }
-  if (tried_at_ != kNoCell && f.cell - tried_at_ < kRetry) return;
+  if (tried_at_ != kNoCell && f.cell - tried_at_ < (f.brake ? 1 : kRetry)) return;
   Start start;
-  if (!find_ahead(f, lead_, &start)) return;  // it comes to rest before anything could be changed
+  if (!find_ahead(f, lead_, &start)) {  // it comes to rest before anything could be changed
+    if (f.brake) offer_.rests = chain_.last;
+    return;
+  }
   if (start.from_rest) {
+    if (f.brake) offer_.rests = start.after;
     reuse_cells(f);
     if (!f.brake) extend(f, start, block_most(f, start), nullptr);
     return;  // the scan stops there by itself
   }
   if (f.brake || stands(store_.piece_at(start.piece), limits_)) {
-    if (!chain_.stops) stop_there(start);
+    if (!chain_.stops && !stop_there(start) && f.brake && no_room_) offer_.rests = chain_.last;
   } else if (blocks) {
     stop_at_block(f, start);
   } else if (lower(limits_.scale, chain_.scale)) {

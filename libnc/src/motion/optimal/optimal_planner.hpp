@@ -72,6 +72,7 @@ class OptimalPlanner {
   bool phase_law(const Start& start, double reach);
   bool whole() const;
   bool stop_law(const Start& start, double most);
+  double ahead_of_end(const Start& start) const;
   struct Along {
     double acceleration, jerk;
   };
@@ -126,6 +127,8 @@ class OptimalPlanner {
   CellIndex offer_first_ = 0;
   uint32_t published_ = 0;
   bool told_failed_ = false;
+  CellIndex told_rests_ = kNoCell;
+  bool no_room_ = false;  ///< the stop that was not found last would hardly have been shorter than the chain
   CellIndex write_ = 0;         ///< next free cell
   CellIndex free_from_ = 0;     ///< cells from here on may be looked at by the scan
   uint32_t generation_ = 0;

@@ -289,12 +289,10 @@ bool PhaseLaw::divide(const Range& all) {
   const Range& r = all;
   const double fastest = std::max(r.v0, r.v1);
   if (!(r.to - r.from > kNear)) return !(fastest > 0) || push({r.from, r.to, fastest, fastest, true, {}});
-  const double from = stay_from(r);
-  if (from > r.from) {
-    return push({from, r.to, r.v0, r.v1, false, {}}) && push({r.from, from, r.v0, r.v0, true, {}});
+  if (!r.stayed) {
+    const double from = stay_from(r), to = stay_to({from, r.to, r.v0, r.v1, false, {}});
+    return push({to, r.to, r.v1, r.v1, true, {}}) && push({from, to, r.v0, r.v1, false, {}, true}) && push({r.from, from, r.v0, r.v0, true, {}});
   }
-  const double to = stay_to(r);
-  if (to < r.to) return push({to, r.to, r.v1, r.v1, true, {}}) && push({r.from, to, r.v0, r.v1, false, {}});
   const unsigned first = behind(r.from), last = in_front(r.to);
   unsigned least = first;
   for (unsigned k = first; k <= last; ++k)

@@ -56,6 +56,7 @@ class PhaseLaw {
     double from, to, v0, v1;
     bool is_move;
     Budget most;
+    bool stayed = false;  ///< stay_from() and stay_to() have been asked
   };
 
   bool measure(const Piece& p, double from, double to, unsigned samples, Stretch* out) const;
