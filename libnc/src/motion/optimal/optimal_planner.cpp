@@ -21,6 +21,7 @@ constexpr uint32_t kRetry = 4;         ///< cells that the scan goes until a law
 constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
 constexpr double kFartherPhases[] = {1.02, 1.2, 1.6, 2.5, 4, 8};  ///< the same for laws in phases
 constexpr double kHardlyLonger = 3;    ///< times as long as a stop on a line
+constexpr unsigned kStopStarts = 24;   ///< cells behind which such a law is looked for, one after the other
 constexpr double kMostJerk = 8;        ///< of an acceleration by a cycle: more cannot be seen in one position a cycle, and only makes laws hard to find
 constexpr double kSameScale = 1e-9;
 constexpr double kTiny = 1e-9;         ///< mm
@@ -350,7 +351,7 @@ double OptimalPlanner::stopping_distance(const Start& start, double* seconds) co
 }
 
 /// The shortest way to rest that is found, shorter than `most`.
-bool OptimalPlanner::stop_law(const Start& start, double most) {
+bool OptimalPlanner::stop_law(const Start& start, double most, bool closed) {
   double seconds = 0;
   const double distance = stopping_distance(start, &seconds);
   no_room_ = false;
@@ -361,6 +362,7 @@ bool OptimalPlanner::stop_law(const Start& start, double most) {
   }
   found_ = Found::cells;
   for (const double farther : kFarther) {
+    if (closed) break;
     const double reach = distance * farther;
     if (reach > most) {
       no_room_ = ahead_of_end(start) < kHardlyLonger * seconds + kAtOnce;
@@ -534,11 +536,28 @@ Limits OptimalPlanner::unbound(const Start& start) const {
   return l;
 }
 
-/// Offers the shortest way to rest, if there is one shorter than the chain.
-bool OptimalPlanner::stop_there(const Start& start) {
+/// Where the plan uses all of the limits no way to rest may begin: one in closed form from one of the next cells. In front of a rest of the
+/// path nothing is to be done.
+bool OptimalPlanner::stop_later(const Start& from) {
+  Start start = from;
+  for (unsigned n = 0; n < kStopStarts; ++n) {
+    const CellIndex next = chain_next_[start.after & store_.cell_mask];
+    if (next == chain_.last || next == kNoCell) return false;
+    start = behind(next);
+    if (start.from_rest) {
+      offer_.rests = start.after;
+      return false;
+    }
+    if (stop_there(start, true)) return true;
+  }
+  return false;
+}
+
+/// Offers the shortest way to rest, if there is one shorter than the chain. `closed`: of those in closed form.
+bool OptimalPlanner::stop_there(const Start& start, bool closed) {
   const Limits now = limits_;
   limits_ = unbound(start);
-  const bool found = stop_law(start, 0.99 * (chain_.u - start.u));
+  const bool found = stop_law(start, 0.99 * (chain_.u - start.u), closed);
   limits_ = now;
   if (!found) return false;
   offer_first_ = write_;
@@ -589,7 +608,13 @@ void OptimalPlanner::change(const Following& f) {
     return;  // the scan stops there by itself
   }
   if (f.brake || stands(store_.piece_at(start.piece), limits_)) {
-    if (!chain_.stops && !stop_there(start) && f.brake && no_room_) offer_.rests = chain_.last;
+    if (!chain_.stops && !stop_there(start, false)) {
+      if (f.brake && no_room_) {
+        offer_.rests = chain_.last;
+      } else {
+        stop_later(start);
+      }
+    }
   } else if (blocks) {
     stop_at_block(f, start);
   } else if (lower(limits_.scale, chain_.scale)) {
@@ -640,12 +665,12 @@ void OptimalPlanner::slow_down(const Following& f, const Start& start) {
   if (find_line_law(start, most) && extend(f, start, most, nullptr)) return;
   const Limits now = limits_;
   limits_ = unbound(start);
-  const bool stops = stop_law(start, HUGE_VAL);
+  const bool stops = stop_law(start, HUGE_VAL, false);
   limits_ = now;
   if (!stops) return;
   WayDown down;
   way_down(&down);
-  if (!extend(f, start, most, &down)) stop_there(start);
+  if (!extend(f, start, most, &down)) stop_there(start, false);
 }
 
 /// A longer chain.

@@ -71,7 +71,7 @@ class OptimalPlanner {
   bool one_law(const Start& start, double reach, const WayDown* down, bool once, double period);
   bool phase_law(const Start& start, double reach);
   bool whole() const;
-  bool stop_law(const Start& start, double most);
+  bool stop_law(const Start& start, double most, bool closed);
   double ahead_of_end(const Start& start) const;
   struct Along {
     double acceleration, jerk;
@@ -97,7 +97,8 @@ class OptimalPlanner {
   template <class PhasesOf>
   bool copy_phases(const PhasesOf& law, const Start& start, Start* end);
   void offer(const Start& start, bool stops);
-  bool stop_there(const Start& start);
+  bool stop_there(const Start& start, bool closed);
+  bool stop_later(const Start& from);
   void reuse_cells(const Following& f);
   void stop_at_block(const Following& f, const Start& start);
   void slow_down(const Following& f, const Start& start);
