@@ -24,35 +24,35 @@ struct PlanPace {
 
 class Brake {
  public:
-  /// Finds a way to rest from `pace`. `plan(tau)` tells of ever later moments, 0 = now. @param use  of what the limits leave
+  /// Finds a way to rest from `pace`. `plan` tells of ever later moments (PlanAhead). @param use  of what the limits leave
   template <class Plan>
   bool find(Plan&& plan, const optimal::Limits& limits, double use, PlanPace pace = {}) NC_RT {
     count_ = 0;
     from_ = pace;
     State x{0, pace.sigma, pace.slope};
-    PlanMoment now = plan(0.0);
+    look_[0].plan = plan.at(0.0);
+    step_ = step_for(look_[0].plan, limits, pace.sigma);
     while (count_ < kSteps) {
-      const double ahead = kStep * (x.sigma + 0.5 * kStep * x.slope);
-      const PlanMoment middle = plan(x.tau + 0.5 * ahead), then = plan(x.tau + ahead);
-      if (now.rests || then.rests) return begin();  // it stands there anyway
-      if (lands(x, now, limits, use)) return land(plan, limits, x);
+      if (!gather(plan, x, step_)) return false;
+      if (rests_) return begin();  // it stands there anyway
+      if (lands(x, look_[0].plan, limits, use)) return land(plan, limits, x);
       Range r;
       double bend = 0;
       for (unsigned pass = 0; pass < 2; ++pass) {  // the second one knows how sigma goes on
         r = {};
-        jerk_range(now, limits, x, 0, &r);
-        jerk_range(middle, limits, x.behind(bend, 0.5 * kStep), 0.5 * kStep, &r);
-        const State end = x.behind(bend, kStep);
-        jerk_range(then, limits, end, kStep, &r);
-        acceleration_range(then, limits, end.sigma, x.slope, use, &r);
+        for (unsigned n = 0; n < looks_; ++n) {
+          const State then = x.behind(bend, look_[n].t);
+          jerk_range(look_[n].plan, limits, then, look_[n].t, &r);
+          acceleration_range(look_[n].plan, limits, then, look_[n].t, use, &r);
+        }
         bend = std::fmin(r.low < 0 ? use * r.low : r.low, r.high);
       }
-      if (x.slope + bend * kStep > 0) bend = -x.slope / kStep;
+      if (x.slope + bend * step_ > 0) bend = -x.slope / step_;
       if (!(bend >= r.low) || !(bend <= r.high)) return false;
       bend_[count_++] = bend;
-      x.step(bend, kStep);
+      x.step(bend, step_);
       if (!(x.sigma > 0)) return false;
-      now = plan(x.tau);
+      look_[0].plan = plan.at(x.tau);
     }
     return false;
   }
@@ -61,7 +61,7 @@ class Brake {
   double advance(double time) NC_RT {
     const double from = now_.tau;
     while (time > 0 && at_ < count_) {
-      const double left = (at_ + 1 == count_ ? last_ : kStep) - in_step_, part = std::fmin(time, left);
+      const double left = (at_ + 1 == count_ ? last_ : step_) - in_step_, part = std::fmin(time, left);
       now_.step(bend_[at_], part);
       time -= part;
       in_step_ += part;
@@ -76,11 +76,15 @@ class Brake {
 
  private:
   static constexpr unsigned kSteps = 512;
-  static constexpr double kStep = 0.00125;  ///< s
+  static constexpr unsigned kLooks = 16;    ///< in a step
+  static constexpr double kLongest = 0.00125, kShortest = 0.00025;  ///< s, of a step
+  static constexpr double kOfRise = 0.25;   ///< of the time in which the acceleration goes to its limit
+  static constexpr double kSteady = 0.75;   ///< of the steps, for a stop on a line
   static constexpr double kShare = 1.0005;  ///< of the acceleration, which the plan may use, too
   static constexpr double kJerk = 0.995;    ///< of the jerk: between the places that are looked at a cell of the plan may begin and end
   static constexpr double kLanding = 0.5;   ///< of the jerk limits, where there is nothing else
   static constexpr double kTiny = 1e-9;     ///< of velocity
+  static constexpr double kAtOnce = 1e-6;   ///< s
 
   struct State {
     double tau = 0, sigma = 1, slope = 0;
@@ -106,6 +110,50 @@ class Brake {
     }
   };
 
+  /// Seconds of a step: some in the time in which the acceleration of an axis can go to its limit, and no more than there are until it is
+  /// at rest.
+  static double step_for(const PlanMoment& now, const optimal::Limits& limits, double sigma) NC_RT {
+    double rise = HUGE_VAL, stop = 0;
+    for (unsigned i = 0; i < limits.axis_count; ++i) {
+      if (!(limits.acceleration[i] > 0) || !(limits.jerk[i] > 0)) continue;
+      const double t = limits.acceleration[i] / limits.jerk[i];
+      rise = std::fmin(rise, t);
+      stop = std::fmax(stop, std::fabs(now.path.d1[i] * now.v * sigma) / limits.acceleration[i] + 2 * t);
+    }
+    return std::fmin(std::fmax(std::fmin(kOfRise * rise, kLongest), std::fmax(kShortest, stop / (kSteady * kSteps))), std::fmax(kLongest, stop / (kSteady * kSteps)));
+  }
+  struct Look {
+    PlanMoment plan;
+    double t = 0;  ///< s behind the start of the step
+  };
+
+  /// The moments of the plan in the step that begins with the first of them: its middle and end, and both sides of each place where a cell
+  /// of the plan ends, because there its jerk changes. False where there are too many.
+  template <class Plan>
+  bool gather(Plan&& plan, const State& x, double step) NC_RT {
+    const double ahead = step * (x.sigma + 0.5 * step * x.slope), end = x.tau + ahead;
+    rests_ = look_[0].plan.rests;
+    looks_ = 1;
+    look_[0].t = 0;
+    for (double to = x.tau + 0.5 * ahead; !rests_;) {
+      const double edge = plan.cell_end();
+      if (edge < to) {
+        if (looks_ + 2 > kLooks) return false;
+        const double t = step * std::fmax(0, (edge - x.tau) / ahead);
+        look_[looks_++] = {plan.at_cell_end(), t};
+        look_[looks_++] = {plan.at_next_cell(), t};
+        rests_ = look_[looks_ - 1].plan.rests;
+        continue;
+      }
+      if (looks_ + 1 > kLooks) return false;
+      look_[looks_++] = {plan.at(to), step * (to - x.tau) / ahead};
+      rests_ = look_[looks_ - 1].plan.rests;
+      if (to == end) break;
+      to = end;
+    }
+    return true;
+  }
+
   /// What jerk allows sigma'' to be, `behind` seconds after sigma' was `slope`.
   static void jerk_range(const PlanMoment& p, const optimal::Limits& limits, const State& x, double behind, Range* r) NC_RT {
     const double sigma = x.sigma, slope = x.slope;
@@ -116,17 +164,21 @@ class Brake {
               p.path.d1[i] * p.v + 3 * behind * sigma * (p.path.d1[i] * p.a + p.path.d2[i] * p.v * p.v), kJerk * limits.jerk[i]);
     }
   }
-  /// What acceleration at the end of the step allows it to be.
-  static void acceleration_range(const PlanMoment& p, const optimal::Limits& limits, double sigma, double slope, double use, Range* r) NC_RT {
+  /// What acceleration allows it to be, `behind` seconds after sigma' was x.slope.
+  static void acceleration_range(const PlanMoment& p, const optimal::Limits& limits, const State& x, double behind, double use, Range* r) NC_RT {
     Range slopes;
+    const double sigma2 = x.sigma * x.sigma;
     for (unsigned i = 0; i < limits.axis_count; ++i) {
       if (!(limits.acceleration[i] > 0)) continue;
-      slopes.keep(p.path.d1[i] * p.a * sigma * sigma + p.path.d2[i] * p.v * p.v * sigma * sigma, p.path.d1[i] * p.v,
-                  kShare * limits.acceleration[i]);
+      slopes.keep(p.path.d1[i] * p.a * sigma2 + p.path.d2[i] * p.v * p.v * sigma2, p.path.d1[i] * p.v, kShare * limits.acceleration[i]);
+    }
+    if (behind < kAtOnce) {  // nothing can change any more
+      if (!(x.slope >= slopes.low) || !(x.slope <= slopes.high)) r->low = HUGE_VAL;
+      return;
     }
     const double low = slopes.low < 0 ? use * slopes.low : slopes.low;
-    r->low = std::fmax(r->low, (low - slope) / kStep);
-    r->high = std::fmin(r->high, (slopes.high - slope) / kStep);
+    r->low = std::fmax(r->low, (low - x.slope) / behind);
+    r->high = std::fmin(r->high, (slopes.high - x.slope) / behind);
   }
   /// sigma'' that ends at rest from here is as much as the axes can have.
   static bool lands(const State& x, const PlanMoment& p, const optimal::Limits& limits, double use) NC_RT {
@@ -140,17 +192,20 @@ class Brake {
     const double bend = x.slope * x.slope / (2 * x.sigma);
     double left = -2 * x.sigma / x.slope;
     while (count_ < kSteps) {
-      last_ = std::fmin(left, kStep);
+      last_ = std::fmin(left, step_);
       bend_[count_++] = bend;
-      for (unsigned n = 0; n < 3; ++n) {
-        const PlanMoment p = plan(x.tau);
-        if (p.rests) return begin();
-        Range jerks, slopes;
-        jerk_range(p, limits, x, 0, &jerks);
-        acceleration_range(p, limits, x.sigma, x.slope, 1, &slopes);
-        if (!(bend >= jerks.low) || !(bend <= jerks.high) || !(slopes.low <= 0) || !(slopes.high >= 0)) return false;
-        if (n < 2) x.step(bend, 0.5 * last_);
+      look_[0].plan = plan.at(x.tau);
+      if (!gather(plan, x, last_)) return false;
+      if (rests_) return begin();
+      for (unsigned n = 0; n < looks_; ++n) {
+        State then = x;
+        then.step(bend, look_[n].t);
+        Range bends;
+        jerk_range(look_[n].plan, limits, then, 0, &bends);
+        acceleration_range(look_[n].plan, limits, then, 0, 1, &bends);
+        if (!(bend >= bends.low) || !(bend <= bends.high)) return false;
       }
+      x.step(bend, last_);
       left -= last_;
       if (!(left > 0)) return begin() && (lands_ = true);
     }
@@ -164,9 +219,13 @@ class Brake {
     return true;
   }
 
+  Look look_[kLooks];
+  unsigned looks_ = 0;
+  bool rests_ = false;      ///< the plan does, in the step that is looked at
   double bend_[kSteps] = {};
   unsigned count_ = 0, at_ = 0;
-  double last_ = kStep;     ///< s, of the last step
+  double step_ = kLongest;
+  double last_ = kLongest;  ///< s, of the last step
   double in_step_ = 0;
   bool lands_ = false;      ///< it ends at rest, else with the plan
   State now_;

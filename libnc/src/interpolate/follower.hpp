@@ -59,7 +59,7 @@ class Follower {
   double v() const { return v_; }
   double planned_v() const { return planned_v_; }  ///< by the time of the plan
   /// What is followed is the way to a rest that was asked for.
-  bool stops() const { return stops_ || braking_ || (rests_ != optimal::kNoCell && !at_end_ && static_cast<int32_t>(rests_ - cell_) >= 0); }
+  bool stops() const { return stops_ || braking_ || (rests_ != optimal::kNoCell && !at_end_ && rests_ >= cell_); }
 
   /// Where the next cell begins; not when idle().
   AxisVec start() const NC_RT {
@@ -71,9 +71,7 @@ class Follower {
   void brake(PlanPace pace = {}) NC_RT {
     if (braking_ || at_rest()) return;
     const double use = ++tries_ % kOfGentle != 0 ? 1 : kGentle[tries_ / kOfGentle % (sizeof kGentle / sizeof kGentle[0])];
-    optimal::CellIndex cell = cell_;
-    double begun = -t_;  // time of the plan at which the cell was entered
-    braking_ = brake_.find([&](double tau) NC_RT { return moment(tau, &cell, &begun); }, *limits_, use, pace);
+    braking_ = brake_.find(PlanAhead{*this, cell_, -t_}, *limits_, use, pace);
   }
   bool braking() const { return braking_; }
 
@@ -174,19 +172,37 @@ class Follower {
     halted_ = true;
   }
 
-  /// The plan `tau` seconds from now; cell and its begin go on from one call to the next.
-  PlanMoment moment(double tau, optimal::CellIndex* cell, double* begun) const NC_RT {
-    PlanMoment m;
-    while (tau - *begun >= store_->at(*cell).seconds) {
-      if (store_->at(*cell).kind == optimal::PlanCell::Kind::land) {
-        m.rests = true;
-        return m;
-      }
-      *begun += store_->at(*cell).seconds;
-      *cell = store_->next[*cell & store_->cell_mask];
+  /// The plan as Brake looks through it, in the direction of time: `begun` is the plan's time at which `cell` is entered, 0 = now.
+  struct PlanAhead {
+    const Follower& of;
+    optimal::CellIndex cell;
+    double begun;
+
+    double cell_end() const NC_RT { return begun + of.store_->at(cell).seconds; }
+    PlanMoment at(double tau) NC_RT {
+      while (tau >= cell_end())
+        if (!enter()) return rest();
+      return of.moment(of.store_->at(cell), std::fmax(0, tau - begun));
     }
-    const optimal::PlanCell& c = store_->at(*cell);
-    const optimal::CellState q = optimal::state_in(c, std::fmax(0, tau - *begun));
+    PlanMoment at_cell_end() const NC_RT { return of.moment(of.store_->at(cell), of.store_->at(cell).seconds); }
+    PlanMoment at_next_cell() NC_RT { return enter() ? of.moment(of.store_->at(cell), 0) : rest(); }
+
+   private:
+    bool enter() NC_RT {
+      if (of.store_->at(cell).kind == optimal::PlanCell::Kind::land) return false;
+      begun = cell_end();
+      cell = of.store_->next[cell & of.store_->cell_mask];
+      return true;
+    }
+    static PlanMoment rest() {
+      PlanMoment m;
+      m.rests = true;
+      return m;
+    }
+  };
+  PlanMoment moment(const optimal::PlanCell& c, double t) const NC_RT {
+    PlanMoment m;
+    const optimal::CellState q = optimal::state_in(c, t);
     const optimal::Piece& p = store_->piece_at(c.piece);
     m.path = evaluate(p, std::fmin(p.length, c.x + std::fmin(c.h, std::fmax(0, q.x))), axis_count_);
     m.v = q.v;
@@ -230,7 +246,7 @@ class Follower {
   Brake brake_;
   unsigned tries_ = 0;
   bool stops_ = false, braking_ = false;
-  uint32_t rests_ = optimal::kNoCell;
+  optimal::CellIndex rests_ = optimal::kNoCell;
   bool halted_ = false;       ///< at rest on the path, not at the end of a plan
   uint32_t halt_piece_ = 0;
   double halt_x_ = 0;

@@ -87,7 +87,7 @@ struct Proposal {
   bool fresh = false;
   bool failed = false;      ///< no law was found for what follows
   bool stops = false;       ///< the way to rest that was asked for
-  uint32_t rests = kNoCell; ///< of the chain that is followed: no way to the rest that was asked for is shorter than up to the end of this cell
+  CellIndex rests = kNoCell; ///< of the chain that is followed: no way to the rest that was asked for is shorter than up to the end of this cell
   uint32_t end = 0;         ///< ring index behind the last record that is committed
   uint32_t taken = 0;       ///< and behind the last one of which it is known where on the path it ends
 };
