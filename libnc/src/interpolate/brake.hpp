@@ -67,7 +67,11 @@ class Brake {
       in_step_ += part;
       if (part == left) ++at_, in_step_ = 0;
     }
-    if (at_ == count_ && !lands_) now_.step(0, time);
+    if (at_ == count_ && !lands_ && time > 0) {  // to the end of the plan, which is there before sigma is 0
+      const double most = now_.slope < 0 ? -now_.sigma / now_.slope : time;
+      now_.step(0, std::fmin(time, most));
+      if (now_.slope < 0 && !(time < most)) now_.tau += kRounding;
+    }
     return std::fmax(0, now_.tau - from);
   }
   /// At rest.
@@ -85,6 +89,7 @@ class Brake {
   static constexpr double kLanding = 0.5;   ///< of the jerk limits, where there is nothing else
   static constexpr double kTiny = 1e-9;     ///< of velocity
   static constexpr double kAtOnce = 1e-6;   ///< s
+  static constexpr double kRounding = 1e-9; ///< s
 
   struct State {
     double tau = 0, sigma = 1, slope = 0;
@@ -110,8 +115,8 @@ class Brake {
     }
   };
 
-  /// Seconds of a step: some in the time in which the acceleration of an axis can go to its limit, and no more than there are until it is
-  /// at rest.
+  /// Seconds of a step: some in the time in which the acceleration of an axis can go to its limit, where there are enough until it is at
+  /// rest.
   static double step_for(const PlanMoment& now, const optimal::Limits& limits, double sigma) NC_RT {
     double rise = HUGE_VAL, stop = 0;
     for (unsigned i = 0; i < limits.axis_count; ++i) {
@@ -120,7 +125,7 @@ class Brake {
       rise = std::fmin(rise, t);
       stop = std::fmax(stop, std::fabs(now.path.d1[i] * now.v * sigma) / limits.acceleration[i] + 2 * t);
     }
-    return std::fmin(std::fmax(std::fmin(kOfRise * rise, kLongest), std::fmax(kShortest, stop / (kSteady * kSteps))), std::fmax(kLongest, stop / (kSteady * kSteps)));
+    return std::fmin(kLongest, std::fmax(std::fmin(kOfRise * rise, kLongest), std::fmax(kShortest, stop / (kSteady * kSteps))));
   }
   struct Look {
     PlanMoment plan;
