@@ -210,6 +210,7 @@ bool Mesher::cells(double end, bool fine) {
   double u = 0, edge = in.at(in.from.piece).length - in.from.x;
   PathPlace at = in.from;
   m.cells = 0;
+  least_s_ = 0;
   hint_f_ = hint_b_ = 0;
   const double stop = end - landing;
   const bool alone = fine && in.count == 1 && in.from_rest && in.down == nullptr && !bound(in.from.piece).curved;
@@ -244,6 +245,7 @@ bool Mesher::cells(double end, bool fine) {
       h = std::min(h, -kBraking * in.b0 / in.slope0);  // the control value of the first cell, b0 + b0' h / 2, stays above 0
     }
     const double middle = estimate(u + 0.5 * h);
+    least_s_ += h / std::max(middle, kSlowest);
     // A start at speed is given: from there the guess goes down gently.
     const double away = in.from_rest ? 1 : std::min(1.0, m.cells / kGentle);
     const double share = 1 - (1 - in.guess) * away * away * (3 - 2 * away);

@@ -49,6 +49,7 @@ class Mesher {
   /// Of cell k of the mesh built last.
   const PathPlace& place(unsigned k) const { return place_[k]; }
   bool whole() const { return whole_; }  ///< it reaches the end of the pieces
+  double least_seconds() const { return least_s_; }  ///< of the mesh built last, at the speeds that were estimated: no law is faster
 
  private:
   static constexpr unsigned kNodes = 4 * kMaxCells;
@@ -88,6 +89,7 @@ class Mesher {
   unsigned end_piece_ = 0;
   unsigned hint_f_ = 0, hint_b_ = 0;
   bool whole_ = false;
+  double least_s_ = 0;
   PathPlace place_[kMaxCells + 1];
 };
 

@@ -22,6 +22,7 @@ constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
 constexpr double kFartherPhases[] = {1.02, 1.2, 1.6, 2.5, 4, 8};  ///< the same for laws in phases
 constexpr double kHardlyLonger = 3;    ///< times as long as a stop on a line
 constexpr unsigned kStopStarts = 24;   ///< cells behind which such a law is looked for, one after the other
+constexpr double kUrgent = 0.15;       ///< s of chain that are left when a law in phases goes where no other has been found so far
 constexpr double kMostJerk = 8;        ///< of an acceleration by a cycle: more cannot be seen in one position a cycle, and only makes laws hard to find
 constexpr double kSameScale = 1e-9;
 constexpr double kTiny = 1e-9;         ///< mm
@@ -439,9 +440,9 @@ bool OptimalPlanner::try_limits(const Start& start, double most, const WayDown* 
   found_ = Found::line;
   if (find_line_law(start, most)) return true;
   found_ = Found::cells;
-  if (one_law(start, most, down, !start.from_rest, kPeriod)) return true;
+  if (one_law(start, most, down, !start.from_rest && !urgent_, kPeriod)) return true;
   found_ = Found::phases;
-  if (phase_law(start, most)) return true;
+  if ((start.from_rest || urgent_) && phase_law(start, most)) return true;
   found_ = Found::line;
   return find_creep(start, most);
 }
@@ -596,6 +597,7 @@ void OptimalPlanner::change(const Following& f) {
     return;
   }
   if (tried_at_ != kNoCell && f.cell - tried_at_ < (f.brake ? 1 : kRetry)) return;
+  urgent_ = f.brake || blocks || chain_.stops || lower(limits_.scale, chain_.scale);
   Start start;
   if (!find_ahead(f, lead_, &start)) {  // it comes to rest before anything could be changed
     if (f.brake) offer_.rests = chain_.last;
@@ -694,6 +696,7 @@ void OptimalPlanner::go_on(const Following& f, bool idle) {
   // Farther back and, each other time, from the end again, which has become another one where there is more path.
   if (failed_ % 2 != 0) start = behind(before(f, chain_.keep, kBack * (failed_ / 2 + 1)));
   if (ahead(f, start.after) < lead_ && !find_ahead(f, lead_, &start)) return;
+  urgent_ = ahead(f, chain_.keep) < kUrgent;
   extend(f, start, block_most(f, start), nullptr);
   tried_at_ = open_ ? kNoCell : f.cell;
   failed_ = open_ ? 0 : failed_ + 1;

@@ -129,6 +129,7 @@ class OptimalPlanner {
   uint32_t published_ = 0;
   bool told_failed_ = false;
   CellIndex told_rests_ = kNoCell;
+  bool urgent_ = false;   ///< any law is better than what the chain does
   bool no_room_ = false;  ///< the stop that was not found last would hardly have been shorter than the chain
   CellIndex write_ = 0;         ///< next free cell
   CellIndex free_from_ = 0;     ///< cells from here on may be looked at by the scan

@@ -24,6 +24,8 @@ constexpr double kOfMost = 0.95;    ///< of the cells that a law may have, which
 constexpr unsigned kTightened = 6;  ///< times that a law is corrected
 constexpr double kExcess = 1.0003;  ///< of a limit, that a law may use inside its cells
 constexpr double kLonger = 1.02;    ///< of the time of the law in phases, that another one may take
+constexpr double kOfPhases = 0.9;   ///< of the squared speed of the law in phases, where another one begins with it
+constexpr double kMuchLonger = 4;   ///< the same of the estimate, where there is none
 constexpr double kPhaseShares[] = {1, 0.9, 0.75, 0.5, 0.3, 0.1};  ///< of the limits, for the law in phases
 constexpr double kTurning = 1e-9;    ///< mm/s: rounding
 constexpr double kAtEnd = 1e-10;     ///< mm: the same
@@ -179,13 +181,16 @@ bool Windows::corrected() {
   return false;
 }
 
-/// The law takes no longer than the one in phases over the same way, where there is that.
+/// The law takes no longer than the one in phases over the same way. That one need not be made where the law is as fast as the estimate that
+/// the cells go by, which knows of no way up and down between neighbouring places; where there is none, no more than a few times as long.
 bool Windows::soon_enough() {
+  if (law_.seconds <= kLonger * mesher_.least_seconds()) return true;
   MeshRequest same = request_;
   double length = 0;
   for (unsigned k = 0; k < law_.cells; ++k) length += mesh_.h[k];
   same.reach = std::min(same.reach, length);
-  return !phases_.find(same, limits_) || !phases_.whole() || law_.seconds <= kLonger * phases_.seconds();
+  if (phases_.find(same, limits_) && phases_.whole()) return law_.seconds <= kLonger * phases_.seconds();
+  return law_.seconds <= kMuchLonger * mesher_.least_seconds();
 }
 
 /// The law in phases, at some places of every 5 ms and of each piece that it lies on.
@@ -232,6 +237,30 @@ bool Windows::phases_to(const MeshRequest& request, const Limits& limits) {
   return false;
 }
 
+/// The law of cells that begins with the one in phases: where feeds of several sizes lie side by side, what the estimate gives breaks
+/// limits so many times that the solver never comes back from there.
+bool Windows::from_phases() {
+  request_.guess = kAttempts[0].guess;
+  request_.most = most_;
+  request_.period = period_;
+  mesher_.build(request_, limits_, &mesh_);
+  if (mesh_.cells == 0) return false;
+  MeshRequest same = request_;
+  double length = 0;
+  for (unsigned k = 0; k < mesh_.cells; ++k) length += mesh_.h[k];
+  same.reach = std::min(same.reach, length);
+  if (!phases_.find(same, limits_) || !phases_.whole()) return false;
+  phases_.rewind();
+  double u = 0;
+  for (unsigned k = 0; k < mesh_.cells; ++k) {
+    mesh_.guess[k] = std::max(kOfPhases * phases_.squared_speed(u + 0.5 * mesh_.h[k]), 1e-8);
+    u += mesh_.h[k];
+  }
+  std::fill(mesh_.level, mesh_.level + mesh_.cells, false);
+  mesh_.levels = 0;
+  return corrected() && soon_enough();
+}
+
 /// A law that keeps the limits everywhere; false when none was found.
 bool Windows::solve(unsigned tries) {
   for (unsigned t = 0; t < tries; ++t) {
@@ -251,10 +280,12 @@ bool Windows::solve(unsigned tries) {
       }
     }
     if (corrected() && soon_enough()) return true;
-    if (mesh_.levels == 0) continue;
-    std::fill(mesh_.level, mesh_.level + mesh_.cells, false);
-    mesh_.levels = 0;
-    if (corrected() && soon_enough()) return true;
+    if (mesh_.levels > 0) {
+      std::fill(mesh_.level, mesh_.level + mesh_.cells, false);
+      mesh_.levels = 0;
+      if (corrected() && soon_enough()) return true;
+    }
+    if (t == 0 && from_phases()) return true;
   }
   return false;
 }

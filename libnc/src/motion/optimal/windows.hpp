@@ -55,6 +55,7 @@ class Windows {
   void set_limits(const Limits& limits);
   bool solve(unsigned tries);
   bool soon_enough();
+  bool from_phases();
   bool phases_keep_limits(const MeshRequest& request) const;
   bool corrected();
   void settle();
