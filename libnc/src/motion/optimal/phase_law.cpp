@@ -395,6 +395,7 @@ double PhaseLaw::first_move(double v, double a, double speed) {
       most.acceleration = std::min(most.acceleration, here.acceleration);
       most.jerk = std::min(most.jerk, here.jerk);
       if (top > kStart * stretch_[k].hold) return HUGE_VAL;
+      if (k > 0 && top > stretch_[k].cap && v <= stretch_[0].cap) return HUGE_VAL;  // only what begins too fast may be so for a while
     }
     if (!most.ok() || std::fabs(a) > kStart * most.acceleration) return HUGE_VAL;
     const double j = most.jerk;
@@ -454,20 +455,23 @@ bool PhaseLaw::make_phases() {
   last_part_ = 0;
   for (unsigned k = 0; k < moves_; ++k) {
     const Move& m = move_[k];
-    const double change = std::fabs(m.v1 - m.v0);
-    const bool slower = m.v1 < m.v0 * (1 - kNearSpeed);
+    const double v0 = k == 0 && count_ == 0 ? m.v0 : at_.v, change = std::fabs(m.v1 - v0);  // what has been come to, to the last bit
+    const bool level = std::fabs(m.v1 - m.v0) <= kNearSpeed * std::max(m.v0, m.v1), slower = !level && m.v1 < m.v0;
     if (slower && !brakes) last_part_ = count_;
     brakes = slower;
-    if (m.v0 == m.v1 || change <= kNearSpeed * std::max(m.v0, m.v1)) {
-      if (!add(m.length / std::max(m.v0, m.v1), 0)) return false;
+    if (level) {
+      if (!add(m.length / v0, 0)) return false;
+      at_.a = 0;
       continue;
     }
     // The way is given, and the speeds are: so is the time. With less than the limits where it is longer than they ask for.
-    const double time = 2 * m.length / (m.v0 + m.v1), sign = m.v1 > m.v0 ? 1 : -1;
+    const double time = 2 * m.length / (v0 + m.v1), sign = m.v1 > v0 ? 1 : -1;
     const double a = m.most.acceleration, j = m.most.jerk;
     const double first = change * j >= a * a ? a / j : std::sqrt(change / j), whole = change * j >= a * a ? change / a + a / j : 2 * first;
-    const double stretched = time / whole, t = first * stretched, jerk = change / (t * (time - t));
+    const double t = first * time / whole, jerk = change / (t * (time - t));
     if (!add(t, sign * jerk) || !add(std::max(0.0, time - 2 * t), 0) || !add(t, -sign * jerk)) return false;
+    at_.v = m.v1;
+    at_.a = 0;
   }
   return count_ > 0;
 }

@@ -29,6 +29,7 @@ constexpr double kMuchLonger = 4;   ///< the same of the estimate, where there i
 constexpr double kPhaseShares[] = {1, 0.9, 0.75, 0.5, 0.3, 0.1};  ///< of the limits, for the law in phases
 constexpr double kTurning = 1e-9;    ///< mm/s: rounding
 constexpr double kAtEnd = 1e-10;     ///< mm: the same
+constexpr double kEnds = 1e-4;       ///< of the distance of two looks
 constexpr unsigned kPhaseLooks = 8;  ///< at a phase, for every 5 ms and piece
 
 }  // namespace
@@ -206,8 +207,8 @@ bool Windows::phases_keep_limits(const MeshRequest& request) const {
     double edge = begun;
     for (unsigned n = piece; n + 1 < request.count && (edge += request.at(n).length) < end.s; ++n) ++pieces;
     const unsigned looks = kPhaseLooks * (pieces + static_cast<unsigned>(std::min(phase.seconds / period_, 1000.0)));
-    for (unsigned n = 0; n <= looks; ++n) {
-      const LineState s = from.behind(phase.jerk, phase.seconds * n / looks);
+    for (unsigned n = 0; n <= looks; ++n) {  // hardly inside of its ends, where pieces may meet
+      const LineState s = from.behind(phase.jerk, phase.seconds * (n + kEnds) / (looks + 2 * kEnds));
       while (piece + 1 < request.count && s.s > begun + request.at(piece).length) begun += request.at(piece++).length;
       const Piece& p = request.at(piece);
       derivatives(p, std::clamp(s.s - begun, 0.0, p.length), limits_.axis_count, &q);
