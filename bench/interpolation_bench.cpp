@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "interpolate/executor.hpp"
+#include "interpolate/run_word.hpp"
 #include "path/shape.hpp"
 
 namespace {
@@ -148,7 +149,7 @@ void run(const Program& p, bool optimal, std::vector<double>* best) {
   for (unsigned n = 0; n < kMostCycles; ++n) {
     while (next < p.records.size() && m.executor.room() > 0) {
       Record r = p.records[next++];
-      r.epoch = m.executor.epoch();
+      r.epoch = nc::RunWord(m.executor.run()).epoch();
       m.executor.push(r);
     }
     m.executor.plan();

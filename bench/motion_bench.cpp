@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "interpolate/executor.hpp"
+#include "interpolate/run_word.hpp"
 
 namespace {
 
@@ -140,7 +141,7 @@ void BM_Plan(benchmark::State& state) {
       m.executor.plan();
       m.cycle();
     }
-    const uint32_t epoch = m.executor.epoch();
+    const uint32_t epoch = nc::RunWord(m.executor.run()).epoch();
     std::vector<Record> now = records;
     for (Record& r : now) r.epoch = epoch;
     state.ResumeTiming();
