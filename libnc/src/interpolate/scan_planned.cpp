@@ -34,11 +34,10 @@ void Scan::take_plan() {
   no_law_ = offer.failed && offer.generation == follower_.generation();
 }
 
-/// The path that is planned does not begin where the axes stand.
-bool Scan::would_jump() const {
-  const AxisVec from = follower_.start();
+/// The axes do not stand at `place`.
+bool Scan::would_jump(const AxisVec& place) const {
   for (unsigned i = 0; i < config_.axis_count; ++i)
-    if (std::fabs(from[i] - wanted_[i]) > kJump) return true;
+    if (std::fabs(place[i] - wanted_[i]) > kJump) return true;
   return false;
 }
 
@@ -74,7 +73,7 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
       if (no_law_) alarmed_ = true;
       return wait(standing(s, in));
     }
-    if (time_ > 0 && would_jump()) {
+    if (time_ > 0 && would_jump(follower_.start())) {
       alarmed_ = true;
       return Done::no;
     }
@@ -150,7 +149,7 @@ bool Scan::misses(const AxisVec& stop) const {
 /// The path has come to the end of the record.
 Scan::Done Scan::passed(const Record& r) {
   const Segment& s = r.segment;
-  if (follower_.at_path_end() && nearly(follower_.u()) <= optimal_->store().passed[tail_ & mask_]) {
+  if (follower_.at_path_end() && nearly(follower_.u()) <= optimal_->store().passed[tail_ & mask_] && !would_jump(s.curve.end)) {
     wanted_ = s.curve.end;
     if (s.exact_stop && !s.rapid && time_ > 0 && misses(s.curve.end)) time_ = 0;
   }
