@@ -416,22 +416,21 @@ bool OptimalPlanner::copy_law(const Start& start, Start* end) {
   const Mesh& mesh = windows_->mesh();
   if (write_ + law.cells - free_from_ >= kCells) return false;
   const bool ends = path_ends();
-  double u = start.u, time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
+  double time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
   for (unsigned k = 0; k < law.cells; ++k) {
     PlanCell& c = store_.cell[write_ & store_.cell_mask];
     c = plan_cell(law, mesh, k);
-    c.u = u;
     c.x = windows_->place(k).x;
     c.piece = start.piece + windows_->place(k).piece;
+    c.u = builder_.start_of(c.piece) + c.x;  // not by the cells' lengths, whose rounding adds up
     c.path_ends = ends && k + 1 == law.cells;
     c.turns = static_cast<float>(limits_.scale.turns);
     chain_next_[write_ & store_.cell_mask] = write_ + 1;
     chain_end_[write_ & store_.cell_mask] = time += c.seconds;
-    u += mesh.h[k];
     ++write_;
   }
   const PathPlace& place = windows_->place(law.cells);
-  *end = behind_law(start.piece + place.piece, place.x, u);
+  *end = behind_law(start.piece + place.piece, place.x, builder_.start_of(start.piece + place.piece) + place.x);
   return true;
 }
 

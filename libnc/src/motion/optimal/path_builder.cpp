@@ -11,12 +11,11 @@ namespace {
 
 constexpr double kSamePlace = 1e-7;    ///< mm or deg: a segment starts where the one before has ended
 constexpr double kLeastLength = 1e-6;  ///< mm, of what is left of a record
-constexpr double kLeastSpacing = 0.005; ///< mm, of the knots of a smoothed line
-constexpr double kOfRing = 32;         ///< knots of the lines that the ring of records holds, at least
+constexpr unsigned kOfRing = 32;        ///< knots of the lines that the ring of records holds, at least
 constexpr unsigned kWorthwhile = 16;   ///< vertices that are waited for, at least, before a line is smoothed again
 constexpr unsigned kOfWaiting = 5;     ///< and that part of those that wait
 constexpr unsigned kGathered = 64;     ///< the same while more records lie in the ring
-constexpr unsigned kFewest = 64;       ///< vertices that are smoothed at once, where less would do
+constexpr unsigned kFewest = 3;        ///< vertices that are smoothed at once, where more need too many knots
 constexpr unsigned kAhead = 128;       ///< vertices that are gathered while there is no room for their pieces
 constexpr unsigned kMostAtOnce = 512;  ///< pieces of one smoothing
 constexpr unsigned kPiecesOfCurve = 100;
@@ -31,6 +30,11 @@ constexpr double kSpread = 1.5;        ///< of the speeds that such a piece allo
 constexpr double kMostOverride = 2;    ///< that a feed is expected to have
 constexpr double kLongestReach = 10;   ///< mm, of a transition
 constexpr double kNothing = 1e-12;     ///< mm, of a curve between two transitions
+constexpr double kMostSpeed = 1e4;     ///< mm/s, whose knots are the farthest apart
+constexpr double kCollinear = 1e-9;    ///< |t2 - t1| of no corner, where lines are followed exactly
+constexpr double kSameSlope = 1e-6;    ///< of q' and of q'', by which pieces may differ where they meet
+constexpr double kRounding = 1e-14;    ///< of a place, which q'' has by the squared length of a piece
+constexpr double kLeastBend = 1;       ///< 1/mm, which the difference of q'' is measured by at least
 
 bool demands_rest(const Record& r) {
   if (r.kind == ItemKind::action) return r.action.kind == NC_ACTION_MESSAGE;
@@ -101,7 +105,25 @@ void PathBuilder::restart(uint32_t from, double s, const AxisVec& machine, doubl
   resumed_at_ = machine;
 }
 
+/// Pieces that do not go on in one another have a rest between them. The last piece may be known to the planner already; but what it has
+/// planned ends at rest there, because nothing lay behind.
+void PathBuilder::join_piece(const Piece& piece) {
+  Piece& last = store_->piece[(head_ - 1) & store_->piece_mask];
+  if (last.rest_behind) return;
+  const CurvePoint a = evaluate(last, last.length, limits_.axis_count), b = evaluate(piece, 0, limits_.axis_count);
+  const double shorter = std::min(last.length, piece.length);
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    const double bend = std::max(std::fabs(a.d2[i]) + std::fabs(b.d2[i]), kLeastBend);
+    const double most = kSameSlope * bend + kRounding * (1 + std::fabs(a.position[i])) / (shorter * shorter);
+    if (std::fabs(a.position[i] - b.position[i]) > kSamePlace || std::fabs(a.d1[i] - b.d1[i]) > kSameSlope || std::fabs(a.d2[i] - b.d2[i]) > most) {
+      last.rest_behind = true;
+      return;
+    }
+  }
+}
+
 void PathBuilder::push_piece(const Piece& piece) {
+  if (head_ != tail_) join_piece(piece);
   store_->piece[head_ & store_->piece_mask] = piece;
   start_u_[head_ & store_->piece_mask] = head_u_;
   head_u_ += piece.length;
@@ -109,7 +131,8 @@ void PathBuilder::push_piece(const Piece& piece) {
 }
 
 void PathBuilder::begin_line(const AxisVec& at, double u) {
-  vertex_[0] = at_ = at;
+  vertex_[0] = at;
+  hidden_ = 0;
   count_ = 1;
   tried_ = 0;
   line_start_u_ = line_u_ = u;
@@ -175,7 +198,7 @@ bool PathBuilder::resumes(const Segment& s) const {
   if (!resumed_) return false;
   const AxisVec at = resumed_s_ > 0 ? curve_position(s.curve, resumed_s_, limits_.axis_count) : s.curve.start;
   for (unsigned i = 0; i < limits_.axis_count; ++i)
-    if (std::fabs(at[i] - resumed_at_[i]) > 2 * tolerance_) return false;
+    if (std::fabs(at[i] - resumed_at_[i]) > kSamePlace + 2 * tolerance_) return false;
   return true;
 }
 
@@ -410,8 +433,7 @@ void PathBuilder::meet_arc(const Segment& s) {
   joint_arc_ = arc_start(s.curve);
   joint_feed_ = std::min(feed_[count_ - 2], least_feed(s));
   // Half of the edge; what is final of the smoothed line stays.
-  double most = std::min({0.5 * (count_ == 2 ? length + cut_ : length), 0.5 * s.curve.length, kLongestReach, length});
-  if (goes_on_) most = std::min(most, 0.5 * (line_u_ - line_start_u_ - knot_[kGoesOn - 1]));
+  const double most = std::min({0.5 * (count_ == 2 ? length + cut_ : length), 0.5 * s.curve.length, kLongestReach, length});
   joint_ = find_joint(joint_line_, joint_arc_, most, tolerance_, limits_.axis_count, made_);
   length_[count_ - 2] -= joint_.reach;
   end = joint_line_.at(-joint_.reach, limits_.axis_count).position;
@@ -464,16 +486,14 @@ void PathBuilder::add_curve(const Record& r) {
   push();
 }
 
-/// Copies pieces [from, to) of the smoothed line into the ring.
-bool PathBuilder::give_out(unsigned from, unsigned to, bool rest) {
-  if (!room(to - from)) return false;
-  for (unsigned k = from; k < to; ++k) {
+/// Copies the first pieces of the smoothed line into the ring.
+void PathBuilder::give_out(unsigned count, bool rest) {
+  for (unsigned k = 0; k < count; ++k) {
     out_[k].by = by_;
     out_[k].digit = digit_;
-    out_[k].rest_behind = rest && k + 1 == to;
+    out_[k].rest_behind = rest && k + 1 == count;
     push_piece(out_[k]);
   }
-  return true;
 }
 
 void PathBuilder::drop(unsigned vertices) {
@@ -485,16 +505,26 @@ void PathBuilder::drop(unsigned vertices) {
   count_ -= vertices;
 }
 
-/// No smooth path was found: every line for itself, from rest to rest.
-bool PathBuilder::stop_at_vertices() {
+/// The path goes round a corner at a vertex of the line.
+bool PathBuilder::turns_at(unsigned k) const {
+  double sum = 0;
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    const double d = (vertex_[k + 1][i] - vertex_[k][i]) / length_[k] - (vertex_[k][i] - vertex_[k - 1][i]) / length_[k - 1];
+    sum += d * d;
+  }
+  return !(std::sqrt(sum) <= kCollinear);
+}
+
+/// Without a tolerance a line is what it is, with a rest at each of its corners. An edge is final when it is known what follows.
+bool PathBuilder::exact_line(bool whole) {
   unsigned k = 0;
-  for (; k + 1 < count_ && room(1); ++k) {
+  for (; k + (whole ? 1 : 2) < count_ && room(1); ++k) {
     Piece p;
     p.length = length_[k];
     p.feed = feed_[k];
     p.by = by_;
     p.digit = digit_;
-    p.rest_behind = true;
+    p.rest_behind = k + 2 == count_ ? !joint_.found : turns_at(k + 1);
     for (unsigned i = 0; i < limits_.axis_count; ++i) {
       p.c[0][i] = vertex_[k][i];
       p.c[1][i] = (vertex_[k + 1][i] - vertex_[k][i]) / length_[k];
@@ -503,22 +533,52 @@ bool PathBuilder::stop_at_vertices() {
   }
   drop(k);
   line_start_u_ = head_u_;
+  if (!whole) return k > 0;
   if (count_ > 1) return false;
+  begins_ = 0;
+  joint_ = {};
   forget_line();
   return true;
 }
 
-/// The line behind cell `border`: from the last vertex in front of the knots that it keeps.
-void PathBuilder::go_on(unsigned border) {
-  const Piece& last = out_[border - 1];
-  at_ = evaluate(last, last.length, limits_.axis_count).position;
-  const double* kept = room_.knot + (border - kFirstCell);
+/// Where the rest of a line is not smoothed after all: straight to its next vertex, from rest to rest.
+bool PathBuilder::one_edge() {
+  if (!room(1)) return false;
+  Piece p;
+  p.length = std::max(length_[0], kLeastLength);
+  p.feed = feed_[0];
+  p.by = by_;
+  p.digit = digit_;
+  p.rest_behind = true;
+  const AxisVec& from = goes_on_ ? at_.position : vertex_[0];
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    p.c[0][i] = from[i];
+    p.c[1][i] = (vertex_[1][i] - from[i]) / p.length;
+  }
+  if (goes_on_) store_->piece[(head_ - 1) & store_->piece_mask].rest_behind = true;
+  push_piece(p);
+  line_start_u_ += length_[0];
+  drop(1);
+  goes_on_ = joined_start_ = false;
+  hidden_ = cut_ = 0;
+  if (count_ == 1) forget_line();
+  return true;
+}
+
+/// The line behind the border, from the place on it that the border lies beside.
+void PathBuilder::go_on(const Border& border) {
+  const Piece& last = out_[border.cells - 1];
+  at_ = evaluate(last, last.length, limits_.axis_count);
+  const double u = border.u;
   unsigned gone = 0;
-  while (gone + 2 < count_ && room_.u[gone + 1] <= kept[0]) ++gone;
-  const double shift = room_.u[gone];
-  for (unsigned k = 0; k < kGoesOn; ++k) knot_[k] = kept[k] - shift;
+  while (gone + 2 < count_ && room_.u[gone + 1] <= u) ++gone;
+  const double cut = u - room_.u[gone], share = cut / length_[gone];
+  hidden_ = cut + (gone == 0 ? hidden_ : 0);
+  for (unsigned i = 0; i < limits_.axis_count; ++i) vertex_[gone][i] += share * (vertex_[gone + 1][i] - vertex_[gone][i]);
+  length_[gone] -= cut;
   drop(gone);
-  line_start_u_ += shift;
+  line_start_u_ += u;
+  border_ = border;
   goes_on_ = true;
   cut_ = 0;
 }
@@ -543,24 +603,24 @@ unsigned PathBuilder::smoothed(bool whole, unsigned count, SmoothRequest* reques
   request->tolerance = tolerance_;
   request->axis_count = limits_.axis_count;
   request->straight_start = joined_start_ && !goes_on_;
+  request->open = !whole;
   request->straight_end = whole && joint_.found;
-  double slowest = HUGE_VAL;
-  for (unsigned k = 0; k + 1 < count_; ++k) slowest = std::min(slowest, feed_[k]);
-  const double speed = goes_by_spindle(by_) ? slowest * std::max(limits_.scale.turns, 1.0) : slowest;
-  request->spacing = std::max(period_ * std::min(speed, 1e4), kLeastSpacing);
+  request->spacing = period_ * kMostSpeed;
+  request->seconds = period_ * (goes_by_spindle(by_) ? std::max(limits_.scale.turns, 1.0) : 1);
   // What is not settled yet is some knots long: no more than a part of what the ring of records holds (every other one is a mark).
-  const double in_ring = (line_u_ - line_start_u_) / (count_ - 1) * (store_->record_mask + 1) / 2;
-  request->spacing = std::max(std::min(request->spacing, in_ring / kOfRing), kLeastSpacing / 50);
+  request->edges = std::max((store_->record_mask + 1) / 2 / kOfRing, 2u);
   if (goes_on_) {
-    request->knot = knot_;
-    request->at = at_;
+    request->from = &at_;
+    request->hidden = hidden_;
+    std::copy(border_.kept, border_.kept + kKept, request->kept);
+    request->kept_count = border_.kept_count;
   }
   return optimal::smooth(*request, room_, out_, kKnots);
 }
 
 /// Gives out the last pieces of a line, and the transition into the arc behind it. False when there is no room yet.
-bool PathBuilder::close_line(unsigned first, unsigned cells) {
-  if (!room(cells - first + kOfArc)) return false;
+bool PathBuilder::close_line(unsigned cells) {
+  if (!room(cells + kOfArc)) return false;
   if (joint_.reach > 0) {
     const Piece& end = out_[cells > 0 ? cells - 1 : 0];
     const unsigned axes = limits_.axis_count;
@@ -570,7 +630,7 @@ bool PathBuilder::close_line(unsigned first, unsigned cells) {
       return smooth_line(true);
     }
   }
-  give_out(first, cells, !joint_.found);
+  give_out(cells, !joint_.found);
   head_u_ = line_u_ - joint_.reach;
   if (joint_.reach > 0) push_transition(joint_feed_);
   begins_ = joint_.reach;
@@ -581,57 +641,51 @@ bool PathBuilder::close_line(unsigned first, unsigned cells) {
 
 void PathBuilder::forget_line() {
   count_ = 0;
-  cut_ = 0;
+  cut_ = hidden_ = 0;
   goes_on_ = joined_start_ = false;
 }
 
 bool PathBuilder::smooth_line(bool whole) {
   if (count_ < 2) return false;
+  if (tolerance_ == 0) return exact_line(whole);
   if (!room(whole ? 1 : kMostAtOnce)) return false;
   tried_ = count_;
-  if (whole) {
+  if (!whole) return give_settled();
+  for (;;) {
     const bool lone = count_ == 2 && !goes_on_;
     SmoothRequest request;
-    const unsigned cells = lone ? straight() : smoothed(true, count_, &request), first = goes_on_ ? kFirstCell : 0;
-    if (lone || cells != 0) return close_line(first, cells);
-    if (count_ > kFewest && room(kMostAtOnce) && give_settled()) return smooth_line(true);
+    const unsigned cells = lone ? straight() : smoothed(true, count_, &request);
+    if (lone || cells != 0) return close_line(cells);
+    if (!room(kMostAtOnce)) return false;
+    if (give_settled()) continue;
     if (joint_.found) {
       part_at_joint();
-      return smooth_line(true);
+    } else if (!one_edge()) {
+      return false;
+    } else if (count_ == 0) {
+      return true;
     }
-    if (goes_on_) rest_here();
-    return stop_at_vertices();
   }
-  return give_settled();
 }
 
 /// What is settled of the gathered line. Where it would take more knots than there is room for, only the first part of it is looked at.
 bool PathBuilder::give_settled() {
-  for (unsigned n = count_; n >= kFewest; n /= 2) {
+  const unsigned count = count_;
+  for (unsigned n = count; n >= kFewest; n /= 2) {
     SmoothRequest request;
-    const unsigned cells = smoothed(false, n, &request), first = goes_on_ ? kFirstCell : 0;
+    const unsigned cells = smoothed(false, n, &request);
     if (cells == 0) continue;
-    const unsigned border = settled_cells(request, room_, cells);
-    if (border <= first || !give_out(first, border, false)) return false;
+    const unsigned most = kPieces - kOfArc - (head_ - tail_);
+    const Border border = find_border(request, room_, out_, cells, most);
+    if (border.cells == 0) return false;
+    Piece& last = out_[border.cells - 1];
+    last.length = border.u - room_.knot[border.cells - 1];
+    give_out(border.cells, false);
     go_on(border);
-    tried_ = count_;
+    tried_ = n < count || cells > most ? 0 : count_;  // where there was more to be had, nothing need come before it is tried again
     return true;
   }
   return false;
-}
-
-/// The path rests where its pieces end, within the tolerance of the line, and the rest of the line begins there.
-void PathBuilder::rest_here() {
-  store_->piece[(head_ - 1) & store_->piece_mask].rest_behind = true;
-  const double gone = head_u_ - line_start_u_;
-  unsigned k = 0;
-  double u = 0;
-  while (k + 2 < count_ && u + length_[k] <= gone) u += length_[k++];
-  length_[k] = std::max(u + length_[k] - gone, kLeastLength);
-  vertex_[k] = at_;
-  drop(k);
-  line_start_u_ = head_u_;
-  goes_on_ = joined_start_ = false;
 }
 
 bool PathBuilder::finish() {

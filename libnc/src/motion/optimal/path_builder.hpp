@@ -59,17 +59,19 @@ class PathBuilder {
   unsigned straight();
   unsigned smoothed(bool whole, unsigned count, SmoothRequest* request);
   bool give_settled();
-  bool close_line(unsigned first, unsigned cells);
+  bool close_line(unsigned cells);
   void forget_line();
   bool smooth_line(bool whole);
-  bool stop_at_vertices();
+  bool exact_line(bool whole);
+  bool one_edge();
+  bool turns_at(unsigned vertex) const;
   void drop(unsigned vertices);
   bool worthwhile(unsigned least) const;
-  bool give_out(unsigned from, unsigned to, bool rest);
-  void go_on(unsigned border);
-  void rest_here();
+  void give_out(unsigned count, bool rest);
+  void go_on(const Border& border);
   void begin_line(const AxisVec& at, double u);
   void push_piece(const Piece& piece);
+  void join_piece(const Piece& piece);
   void push_transition(double feed);
   bool room(unsigned pieces) const { return head_ - tail_ + pieces < kPieces; }
   static bool passes(const Segment& s) { return !s.rapid && !s.skip && !(s.begun > 0); }
@@ -98,8 +100,9 @@ class PathBuilder {
   bool closing_ = false;     ///< it ends at its last vertex, whatever comes
   double line_start_u_ = 0;  ///< of vertex 0
   bool goes_on_ = false;
-  double knot_[kGoesOn] = {};
-  AxisVec at_;               ///< where the pieces of this line end
+  CurvePoint at_;            ///< where the pieces of this line end, when it goes on
+  Border border_;
+  double hidden_ = 0;        ///< of the first edge, in front of it
   bool resumed_ = false;     ///< the next record has been gone in part
   double resumed_s_ = 0;
   AxisVec resumed_at_;

@@ -13,13 +13,36 @@ constexpr double kUse = 0.94;       ///< of the tolerance, that one corner is gi
 constexpr double kUseMost = 0.98;   ///< of the tolerance, that any of the places may use
 constexpr double kUseTurn = 0.975;  ///< the same at a sharp corner, which is cut by a known depth
 constexpr double kSharp = 0.5;      ///< |t2 - t1| of a corner that always has its own knots
+constexpr double kAlone = 1.7;      ///< of its room, that a corner may ask for and is still one by itself, with what there is
 constexpr double kStraight = 1e-9;  ///< |t2 - t1| of no corner
 constexpr double kLongEdge = 8;     ///< in spacings
 constexpr unsigned kLooks = 4;      ///< places in a cell, beside the vertices, where the distance is measured
+constexpr unsigned kFine = 8;       ///< more of them, where they leave it open
 constexpr double kRounding = 1e-11;  ///< of q'
 constexpr double kStraightEnd = 0.2; ///< of an edge, up to its first knot
 constexpr double kCornerCell = 0.55;  ///< of a cell of a sharp corner: there the speed changes much, so a law has two cells in it
-constexpr unsigned kRounds = 16;
+constexpr unsigned kRounds = 40;
+constexpr double kLeastSpacing = 0.005;  ///< mm, that a slow feed asks for
+constexpr double kShortestSpacing = 1e-4;  ///< mm, that short lines do
+constexpr double kUseStart = 0.998; ///< of the tolerance, that the cells behind a border may use: they have to come back to the line
+constexpr unsigned kStartCells = 3;
+constexpr double kUseBorder = 0.9;  ///< of the tolerance, which a border is preferably no farther away from the line than
+constexpr unsigned kLast = 3;       ///< knots that belong to the end
+constexpr unsigned kFinal = 5;      ///< cells at the end that hang on the end
+constexpr unsigned kBorders = 24;   ///< places that are looked at for such a one
+constexpr double kShortRest = 1e-6; ///< mm, of an edge: it is not cut so near to its end
+
+/// Of the knots about an edge: it goes by the lines there and by nothing that lies farther away.
+double spacing_of(const SmoothRequest& in, const SmoothRoom& room, unsigned edge) {
+  const Polyline& l = in.line;
+  double most = in.spacing;
+  if (in.seconds > 0) most = std::min(most, std::max(in.seconds * l.feed[edge], kLeastSpacing));
+  if (in.edges > 0) {
+    const unsigned from = edge > in.edges / 2 ? edge - in.edges / 2 : 0, to = std::min(edge + in.edges / 2 + 1, l.count - 1);
+    most = std::min(most, std::max((room.u[to] - room.u[from]) * in.edges / (to - from), kShortestSpacing));
+  }
+  return most;
+}
 
 class Smoother {
  public:
@@ -33,10 +56,11 @@ class Smoother {
   void turn_controls(unsigned first);
   double corner(unsigned k) const;
   bool first_knots();
-  unsigned frozen() const { return in_.knot != nullptr ? kGoesOn - 1 : 0; }        ///< knots up to here stay
-  unsigned first_cell() const { return in_.knot != nullptr ? kFirstCell : 0; }
+  double spacing(unsigned edge) const { return spacing_of(in_, room_, edge); }
+  void start_controls();
   void controls();
   void pieces();
+  bool far(unsigned cell, double most, unsigned* vertex, unsigned* edge) const;
   bool near_enough();
   bool split();
   AxisVec on_line(double u, unsigned* edge) const;
@@ -98,27 +122,24 @@ bool Smoother::first_knots() {
   last_ = 0;
   double keep = 0;  // the knots behind a corner stay clear of what follows up to here
   unsigned first = 1;
-  if (in_.knot != nullptr) {
-    for (unsigned k = 0; k < kGoesOn; ++k) {
-      room_.knot[k] = in_.knot[k];
-      room_.corner[k] = 0;
-    }
-    last_ = kGoesOn - 1;
+  if (in_.from != nullptr) {
+    for (unsigned n = 0; n < in_.kept_count && in_.kept[n] < end; ++n) set(in_.kept[n], 0);
     keep = room_.knot[last_];
     while (first + 1 < l.count && u[first] <= keep) ++first;
-    if (!(end > keep)) return false;
   } else if (in_.straight_start) {  // the first three control points lie on the first edge
-    const double step = std::min(kStraightEnd * l.length[0], in_.spacing);
+    const double step = std::min(kStraightEnd * l.length[0], spacing(0));
     set(step, 0);
     set(2 * step, 0);
     keep = 2 * step;
   }
+  double apart = 0;
+  unsigned valid = 0;  // up to this vertex the spacing is as good as the same
   for (unsigned k = first; k + 1 < l.count; ++k) {
     const double turn = corner(k);
     const bool feed = l.feed != nullptr && l.feed[k] != l.feed[k - 1];
     if (turn < kStraight && !feed) continue;
     const double reach = turn < kStraight ? HUGE_VAL : 6 * kUse * in_.tolerance / turn;
-    const double before = l.length[k - 1], behind = l.length[k];
+    const double before = l.length[k - 1] + (k == 1 ? in_.hidden : 0), behind = l.length[k];
     const double turn_most = kUseTurn * in_.tolerance / (kTurnDepth * turn);
     const double turn_reach = std::min(turn_most, 0.4999 * std::min(before, behind));
     if (turn > kSharp && turn_reach > 0.6 * turn_most && u[k] - turn_reach > keep) {
@@ -126,9 +147,9 @@ bool Smoother::first_knots() {
       keep = u[k] + turn_reach;
       continue;
     }
-    const bool alone = 2 * reach <= std::min(before, behind);
+    const bool alone = 2 * reach <= kAlone * std::min(before, behind);
     if (alone || turn > kSharp) {
-      const double h = std::min({reach, end - u[k], u[k]});
+      const double h = std::min({reach, alone ? 0.5 * std::min(before, behind) : reach, end - u[k], u[k]});
       const double from = std::max(room_.knot[last_], keep);
       if (u[k] - from > 1.2 * h) set(u[k] - h, 0.1 * h);
       set(u[k], 0.1 * h);
@@ -137,23 +158,28 @@ bool Smoother::first_knots() {
       continue;
     }
     const double gap = u[k] - room_.knot[last_];
-    if (gap > kLongEdge * in_.spacing) {  // what bends at one end shall not reach the other
-      set(room_.knot[last_] + in_.spacing, 0);
-      set(u[k] - in_.spacing, 0.3 * in_.spacing);
+    if (k >= valid) apart = spacing(k - 1), valid = k + 1 + in_.edges / 8;
+    if (feed) valid = k + 1;
+    if (gap > kLongEdge * apart) {  // what bends at one end shall not reach the other
+      set(room_.knot[last_] + apart, 0);
+      set(u[k] - apart, 0.3 * apart);
     }
-    set(u[k], feed ? 1e-6 : 0.7 * in_.spacing);
+    set(u[k], feed ? 1e-6 : 0.7 * apart);
   }
   // The end: three knots of their own on the last edge, so that it is straight there.
-  while (last_ > frozen() && end - room_.knot[last_] < 1e-9 * end) --last_;
+  apart = spacing(l.count - 2);
+  while (last_ > 0 && end - room_.knot[last_] < 1e-9 * end) --last_;
   if (in_.straight_end) {
-    const double step = std::min(kStraightEnd * l.length[l.count - 2], in_.spacing);
+    const double step = std::min(kStraightEnd * l.length[l.count - 2], apart);
     set(end - 2 * step, 0.1 * step);
     set(end - step, 0.1 * step);
   }
   const double gap = end - room_.knot[last_];
-  if (last_ == 0 || gap > 2 * in_.spacing) {
-    const double step = std::min(in_.spacing, gap / 4);
-    set(room_.knot[last_] + step, 0);
+  if (last_ == 0 || gap > 2 * apart) {
+    const double step = std::min(apart, gap / 4);
+    const double bent = room_.knot[last_];
+    set(bent + step, 0);
+    if (in_.open && gap > kLongEdge * apart) set(bent + 2 * step, 0);  // straight from there on, so that it can be cut
     set(end - step, 0);
   }
   set(end, 0);
@@ -184,7 +210,21 @@ void Smoother::controls() {
     if (room_.corner[k] != 0 && room_.corner[k + 2 * kTurnKnots] == room_.corner[k]) turn_controls(k);
   }
   room_.control[0] = in_.line.vertex[0];
+  if (in_.from != nullptr) start_controls();
   room_.control[last_ + 2] = in_.line.vertex[in_.line.count - 1];
+}
+
+/// The control points that make the position q and the derivatives q', q'' at the start, where the knots count three times: values of the
+/// polar form f(0, 0, 0), f(0, 0, t1) and f(0, t1, t2), of which f(0, b, c) = q + q' (b + c) / 3 + q'' b c / 6. What follows is free, so a
+/// curve can go on from any place of another one, whatever its knots were.
+void Smoother::start_controls() {
+  const CurvePoint& q = *in_.from;
+  const double b = t(1), c = t(2);
+  for (unsigned i = 0; i < in_.axis_count; ++i) {
+    room_.control[0][i] = q.position[i];
+    room_.control[1][i] = q.position[i] + q.d1[i] * b / 3;
+    room_.control[2][i] = q.position[i] + q.d1[i] * (b + c) / 3 + q.d2[i] * b * c / 6;
+  }
 }
 
 /// A sharp corner whose first knot is `first`. With q'' = (t2 - t1) K(u) the control values of the part that
@@ -239,8 +279,8 @@ void Smoother::pieces() {
       const double f2 = std::fabs(e2 - e1) < kRounding ? 0 : 2 * (e2 - e1) / g0;
       const double f3 = std::fabs(e3 - e2) < kRounding ? 0 : 2 * (e3 - e2) / g1;
       const double slope = (e1 * h + e2 * (t(c) - t(c - 1))) / g0;
-      if (k <= first_cell()) {
-        p.c[0][i] = in_.knot != nullptr ? in_.at[i] : d[0][i];
+      if (k == 0) {
+        p.c[0][i] = d[0][i];
       } else {
         const Piece& b = out_[k - 1];
         p.c[0][i] = b.c[0][i] + b.length * (b.c[1][i] + b.length * (b.c[2][i] + b.length * b.c[3][i]));
@@ -273,37 +313,61 @@ double Smoother::distance2(unsigned cell, double u, const AxisVec& p) const {
   return sum;
 }
 
+/// A cell is no farther from the polyline than `most` (squared), at its places that are looked at and at the vertices. Between two of them the
+/// polyline is straight and the distance bends by q'' alone: with d the places' distance it may be larger by d^2 / 8 max|q''|.
+bool Smoother::far(unsigned k, double most, unsigned* vertex, unsigned* edge) const {
+  const Polyline& l = in_.line;
+  const double from = room_.knot[k], to = room_.knot[k + 1], h = to - from;
+  double worst = 0;
+  for (unsigned n = 1; n <= kLooks; ++n) {
+    const double u = n == kLooks ? to : from + h * n / kLooks;
+    worst = std::max(worst, distance2(k, u, on_line(u, edge)));
+  }
+  for (; *vertex + 1 < l.count && room_.u[*vertex] <= to; ++*vertex)
+    if (room_.u[*vertex] >= from) worst = std::max(worst, distance2(k, room_.u[*vertex], l.vertex[*vertex]));
+  if (worst > most) return true;
+  const Piece& p = out_[k];
+  double bend2 = 0;
+  for (unsigned i = 0; i < in_.axis_count; ++i) {
+    const double bend = 2 * std::max(std::fabs(p.c[2][i]), std::fabs(p.c[2][i] + 3 * h * p.c[3][i]));
+    bend2 += bend * bend;
+  }
+  const double between = h / kLooks * h / kLooks / 8 * std::sqrt(bend2);
+  if (std::sqrt(worst) + between <= in_.tolerance) return false;
+  const double fine2 = std::max(in_.tolerance - between / (kFine * kFine), 0.0) * std::max(in_.tolerance - between / (kFine * kFine), 0.0);
+  for (unsigned n = 1; n < kFine * kLooks; ++n) {
+    const double u = from + h * n / (kFine * kLooks);
+    if (distance2(k, u, on_line(u, edge)) > fine2) return true;
+  }
+  return false;
+}
+
 /// Marks the cells to be split where the spline is too far from the polyline.
 bool Smoother::near_enough() {
-  const Polyline& l = in_.line;
-  const double most = kUseMost * in_.tolerance * kUseMost * in_.tolerance;
   for (unsigned k = 0; k < last_; ++k) room_.split[k] = 0;
   bool good = true;
   unsigned vertex = 1, edge = 0;
-  while (vertex + 1 < l.count && room_.u[vertex] < room_.knot[first_cell()]) ++vertex;
-  for (unsigned k = first_cell(); k < last_; ++k) {
+  const double kept = in_.from != nullptr && in_.kept_count > 0 ? in_.kept[in_.kept_count - 1] : 0;  // up to here only where it must be
+  for (unsigned k = 0; k < last_; ++k) {
+    const double use = in_.from != nullptr && k < kStartCells ? kUseStart : kUseMost;
+    if (!far(k, use * in_.tolerance * use * in_.tolerance, &vertex, &edge)) continue;
     const double from = room_.knot[k], to = room_.knot[k + 1];
-    bool far = false;
-    for (unsigned n = 1; n <= kLooks; ++n) {
-      const double u = n == kLooks ? to : from + (to - from) * n / kLooks;
-      far = far || distance2(k, u, on_line(u, &edge)) > most;
-    }
-    for (; vertex + 1 < l.count && room_.u[vertex] <= to; ++vertex) {
-      if (!far && room_.u[vertex] >= from && distance2(k, room_.u[vertex], l.vertex[vertex]) > most) far = true;
-    }
-    if (!far) continue;
     good = false;
     room_.split[k] = 1;
-    if (k > 0 && from - room_.knot[k - 1] > 0.6 * (to - from)) room_.split[k - 1] = 1;
-    if (k + 1 < last_ && room_.knot[k + 2] - to > 0.6 * (to - from)) room_.split[k + 1] = 1;
+    if (k > 0 && room_.knot[k - 1] >= kept && from - room_.knot[k - 1] > 0.6 * (to - from)) room_.split[k - 1] = 1;
+    if (k + 1 < last_ && to >= kept && room_.knot[k + 2] - to > 0.6 * (to - from)) room_.split[k + 1] = 1;
   }
+  // They were near enough when they were followed by finer cells.
+  bool others = false;
+  for (unsigned k = 0; k < last_; ++k) others = others || (room_.knot[k] >= kept && room_.split[k] != 0);
+  for (unsigned k = 0; others && k < last_ && room_.knot[k] < kept; ++k) room_.split[k] = 0;
   return good;
 }
 
 /// Cells are halved, those of a sharp corner are not: they have their shape.
 bool Smoother::split() {
   const auto halved = [&](unsigned k) {
-    return k >= frozen() && room_.split[k] != 0 && !(room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]);
+    return room_.split[k] != 0 && !(room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]);
   };
   unsigned more = 0;
   for (unsigned k = 0; k < last_; ++k) more += halved(k) ? 1u : 0u;
@@ -337,15 +401,63 @@ unsigned Smoother::run() {
 
 }  // namespace
 
-unsigned settled_cells(const SmoothRequest& request, const SmoothRoom& room, unsigned cells) {
-  const unsigned least = request.knot != nullptr ? kFirstCell : 0;
-  // The last three knots belong to the end, and cell k hangs on knots k - 2 to k + 3. No turn lies across the border.
-  for (unsigned k = cells < 6 ? 0 : cells - 5; k > least && k >= kFirstCell; --k) {
-    bool turn = false;
-    for (unsigned n = k - kFirstCell; n < k + kGoesOn - 2; ++n) turn = turn || room.corner[n] != 0;
-    if (!turn) return k;
+namespace {
+
+/// The cell is a straight part of the line.
+bool straight(const Piece& p, unsigned axis_count) {
+  for (unsigned i = 0; i < axis_count; ++i)
+    if (p.c[2][i] != 0 || p.c[3][i] != 0) return false;
+  return true;
+}
+
+/// The end of the line is straight for more than its knots need: it is cut there, wherever its knots lie.
+bool cut_straight(const SmoothRequest& request, const SmoothRoom& room, const Piece* pieces, unsigned cells, unsigned most, Border* border) {
+  const Polyline& l = request.line;
+  const double u = room.knot[cells] - (kFinal + 1) * spacing_of(request, room, l.count - 2);
+  unsigned k = std::min(cells, most);
+  while (k > 0 && room.knot[k] > u) --k;
+  if (k == 0 || k >= most || k == cells || !(u > room.knot[k]) || !straight(pieces[k], request.axis_count)) return false;
+  unsigned edge = l.count - 2;
+  while (edge > 0 && room.u[edge] > u) --edge;
+  if (room.u[edge + 1] - u < kShortRest || u - room.knot[k] < kShortRest) return false;
+  border->cells = k + 1;
+  border->u = u;
+  border->kept_count = 0;
+  return true;
+}
+
+}  // namespace
+
+Border find_border(const SmoothRequest& request, const SmoothRoom& room, const Piece* pieces, unsigned cells, unsigned most) {
+  const Polyline& l = request.line;
+  unsigned edge = l.count - 2;
+  double least = HUGE_VAL;
+  Border best;
+  if (cut_straight(request, room, pieces, cells, most, &best)) return best;
+  // The last three knots belong to the end, and cell k - 1 hangs on knots up to k + 2. Two places of kinds that are left out never follow one
+  // another but inside of a turn, which has 2 kTurnKnots cells: so there is a border wherever there are more cells than that.
+  for (unsigned k = cells < kFinal + 1 ? 0 : std::min(cells - kFinal, most), n = 0; k > 0 && (n < kBorders || best.cells == 0); --k, ++n) {
+    if (room.corner[k] != 0 && room.corner[k] == room.corner[k + 1]) continue;  // a turn is made as a whole
+    const double u = room.knot[k];
+    while (edge > 0 && room.u[edge] > u) --edge;
+    if (room.u[edge + 1] - u < kShortRest) continue;
+    double off2 = 0;
+    for (unsigned i = 0; i < request.axis_count; ++i) {
+      const double line = l.vertex[edge][i] + (u - room.u[edge]) / l.length[edge] * (l.vertex[edge + 1][i] - l.vertex[edge][i]);
+      off2 += (pieces[k].c[0][i] - line) * (pieces[k].c[0][i] - line);
+    }
+    if (!(off2 < least)) continue;
+    least = off2;
+    best.cells = k;
+    best.u = u;
+    best.kept_count = 0;
+    while (best.kept_count < kKept && k + best.kept_count + kLast < cells && room.corner[k + 1 + best.kept_count] == 0) {
+      best.kept[best.kept_count] = room.knot[k + 1 + best.kept_count] - u;
+      ++best.kept_count;
+    }
+    if (off2 <= kUseBorder * request.tolerance * kUseBorder * request.tolerance) break;
   }
-  return 0;
+  return best;
 }
 
 unsigned smooth(const SmoothRequest& request, const SmoothRoom& room, Piece* out, unsigned capacity) {

@@ -32,22 +32,36 @@ struct SmoothRoom {
   unsigned knots = 0;
 };
 
+inline constexpr unsigned kKept = 16;  ///< knots behind the place where a line goes on, at most
+
 struct SmoothRequest {
   Polyline line;
   double tolerance = 0.01;  ///< mm (or deg)
   double spacing = 0.5;     ///< of knots, where the tolerance allows
+  /// > 0: a spacing is what the feed of the line there goes in so many seconds, kLeastSpacing at least, and no more than `spacing`.
+  double seconds = 0;
+  unsigned edges = 0;       ///< > 0: nor more than so many of the lines about there are long
   unsigned axis_count = 3;
+  bool open = false;        ///< it goes on behind its last vertex
   bool straight_start = false, straight_end = false;  ///< without curvature there, however short the edge is
-  /// The line goes on from one that was smoothed before: its knots, kGoesOn of them from u = knot[0] >= 0 on, are these. Cells from
-  /// kFirstCell on are made, which begin at `at`.
-  const double* knot = nullptr;
-  AxisVec at;
+  /// The line goes on from one that was smoothed before, which ended with this position, first and second derivative, on its first edge and
+  /// beside vertex 0 by no more than the tolerance.
+  const CurvePoint* from = nullptr;
+  double hidden = 0;         ///< so much of that edge lies in front of vertex 0
+  double kept[kKept] = {};   ///< the first knots, which the one before had there
+  unsigned kept_count = 0;
 };
-inline constexpr unsigned kGoesOn = 6, kFirstCell = 3;
 
-/// Cells of a line that goes on: those in front of the result do not depend on what follows, and cell `result` is where the next one goes
-/// on (with the knots result - kFirstCell and so on of the room); 0 = none.
-unsigned settled_cells(const SmoothRequest& request, const SmoothRoom& room, unsigned cells);
+/// Where a line that goes on is cut: behind so many of its cells, the last of which ends there.
+struct Border {
+  unsigned cells = 0;       ///< 0 = there is none
+  double u = 0;
+  double kept[kKept] = {};  ///< the next knots, from there on
+  unsigned kept_count = 0;
+};
+
+/// A border so far from the end of the line that what follows changes nothing in front of it, behind `most` cells at most.
+Border find_border(const SmoothRequest& request, const SmoothRoom& room, const Piece* pieces, unsigned cells, unsigned most);
 
 /// @return pieces written to `out` (exact at both ends, tangent to the first and the last edge, without
 /// curvature there when those are not very short); 0 = no room.

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random programs of lines alone, as post-processors make them, and a simple law for them that is feasible: what the optimal mode is measured
+// by. It shares nothing with the planner.
+#pragma once
+
+#include "interpolate/random_program.hpp"
+
+namespace nc::test {
+
+enum class LineShape : unsigned { walk, right_angles, hatch, cut_hatch, waves, squares, zigzag, circle_then_hatch, mixed_feeds, count };
+inline const char* name_of(LineShape s) {
+  static constexpr const char* kName[] = {"walk", "right_angles", "hatch", "cut_hatch", "waves", "squares", "zigzag", "circle_then_hatch", "mixed_feeds"};
+  return kName[static_cast<unsigned>(s)];
+}
+
+/// Points of a polyline with the feed, mm/s, of the line that leads to each.
+struct LineProgram {
+  std::vector<AxisVec> point{AxisVec{}};
+  std::vector<double> feed{0};
+
+  void to(double x, double y, double z, double f) {
+    AxisVec p;
+    p[0] = x;
+    p[1] = y;
+    p[2] = z;
+    if (p == point.back()) return;
+    point.push_back(p);
+    feed.push_back(f);
+  }
+  void by(double x, double y, double f) { to(point.back()[0] + x, point.back()[1] + y, point.back()[2], f); }
+  double length(size_t k) const {
+    double sum = 0;
+    for (unsigned i = 0; i < 3; ++i) sum += (point[k][i] - point[k - 1][i]) * (point[k][i] - point[k - 1][i]);
+    return std::sqrt(sum);
+  }
+  AxisVec direction(size_t k) const {
+    AxisVec d;
+    for (unsigned i = 0; i < 3; ++i) d[i] = (point[k][i] - point[k - 1][i]) / length(k);
+    return d;
+  }
+  /// |t2 - t1| at a point between two lines.
+  double turn(size_t k) const {
+    const AxisVec a = direction(k), b = direction(k + 1);
+    double sum = 0;
+    for (unsigned i = 0; i < 3; ++i) sum += (b[i] - a[i]) * (b[i] - a[i]);
+    return std::sqrt(sum);
+  }
+};
+
+namespace line_program_detail {
+using random_program_detail::log_uniform;
+using random_program_detail::pick;
+using random_program_detail::uniform;
+
+/// A line in parts of about `part`; 0 = in one.
+inline void in_parts(LineProgram& p, double x, double y, double part, double f) {
+  const unsigned parts = part > 0 ? 1 + static_cast<unsigned>(std::hypot(x, y) / part) : 1;
+  const double x0 = p.point.back()[0], y0 = p.point.back()[1], z = p.point.back()[2];
+  for (unsigned n = 1; n <= parts; ++n) p.to(x0 + x * n / parts, y0 + y * n / parts, z, f);
+}
+inline void hatch(LineProgram& p, std::mt19937_64& rng, unsigned rows, double part, double f) {
+  const double wide = log_uniform(rng, 0.5, 30), pitch = log_uniform(rng, 0.05, 1);
+  for (unsigned n = 0; n < rows; ++n) {
+    in_parts(p, n % 2 == 0 ? wide : -wide, 0, part, f);
+    p.by(0, pitch, f);
+  }
+}
+}  // namespace line_program_detail
+
+inline LineProgram line_program(LineShape shape, std::mt19937_64& rng) {
+  using namespace line_program_detail;
+  LineProgram p;
+  const double f = log_uniform(rng, 10, 250);
+  const unsigned lines = 20 + static_cast<unsigned>(log_uniform(rng, 5, 1500));
+  double heading = uniform(rng, -3, 3);
+  switch (shape) {
+    case LineShape::walk: {
+      const double step = log_uniform(rng, 0.01, 3), bend = log_uniform(rng, 0.01, 1);
+      for (unsigned n = 0; n < lines; ++n) {
+        heading += uniform(rng, -bend, bend);
+        const double l = step * log_uniform(rng, 0.3, 3);
+        p.by(l * std::cos(heading), l * std::sin(heading), f);
+      }
+      break;
+    }
+    case LineShape::right_angles: {
+      const double step = log_uniform(rng, 0.02, 3);
+      unsigned side = 0;
+      for (unsigned n = 0; n < lines; ++n) {
+        side += pick(rng, 2) ? 1 : 3;
+        const double l = step * log_uniform(rng, 0.5, 4), angle = side % 4 * std::numbers::pi / 2;
+        p.by(l * std::cos(angle), l * std::sin(angle), f);
+      }
+      break;
+    }
+    case LineShape::hatch: hatch(p, rng, 1 + pick(rng, 300), 0, f); break;
+    case LineShape::cut_hatch: hatch(p, rng, 1 + pick(rng, 120), uniform(rng, 0.5, 2), f); break;
+    case LineShape::waves: {
+      const double step = log_uniform(rng, 0.02, 1), high = log_uniform(rng, 0.01, 5), long_ = log_uniform(rng, 1, 30);
+      for (unsigned n = 1; n <= lines; ++n) p.to(step * n, high * std::sin(6.283 * step * n / long_), 0, f);
+      break;
+    }
+    case LineShape::squares: {
+      const double pitch = log_uniform(rng, 0.1, 2), part = pick(rng, 2) ? uniform(rng, 0.5, 2) : 0;
+      for (unsigned n = 0; n < std::min(lines, 160u); ++n) {
+        const double l = pitch * (n / 2 + 1), angle = n % 4 * std::numbers::pi / 2;
+        in_parts(p, l * std::cos(angle), l * std::sin(angle), part, f);
+      }
+      break;
+    }
+    case LineShape::zigzag: {
+      const double wide = log_uniform(rng, 0.05, 10), pitch = log_uniform(rng, 0.02, 1);
+      for (unsigned n = 0; n < std::min(lines, 400u); ++n) p.by(n % 2 ? -wide : wide, pitch, f);
+      break;
+    }
+    case LineShape::circle_then_hatch: {
+      const double radius = log_uniform(rng, 0.5, 20);
+      const unsigned n = 20 + pick(rng, 200);
+      for (unsigned k = 1; k <= n; ++k) {
+        const double angle = 2 * std::numbers::pi * k / n;
+        p.to(radius * std::sin(angle), radius * (1 - std::cos(angle)), 0, f);
+      }
+      hatch(p, rng, 1 + pick(rng, 120), 0, f);
+      break;
+    }
+    default: {
+      for (unsigned n = 0; n < std::min(lines, 300u); ++n) {
+        if (pick(rng, 3)) heading += uniform(rng, -1.6, 1.6);
+        const double l = log_uniform(rng, 0.02, 10);
+        p.by(l * std::cos(heading), l * std::sin(heading), log_uniform(rng, 5, 250));
+      }
+    }
+  }
+  return p;
+}
+
+/// Time of a law that keeps the limits: each corner is rounded by the parabola-like curve of a hat of q'' (half width h, cut turn h / 6) at
+/// constant speed, and what is left of each line is gone with seven phases of constant jerk between those speeds.
+class SimpleLaw {
+ public:
+  SimpleLaw(double velocity, double acceleration, double jerk, double tolerance) : v_(velocity), a_(acceleration), j_(jerk), tolerance_(tolerance) {}
+
+  double seconds(const LineProgram& p) const {
+    const size_t n = p.point.size();
+    if (n < 2) return 0;
+    std::vector<double> reach(n, 0), speed(n, 0), straight(n, 0), most(n, 0), a(n, 0), j(n, 0);
+    for (size_t k = 1; k < n; ++k) {
+      const AxisVec d = p.direction(k);
+      const double share = std::max({std::fabs(d[0]), std::fabs(d[1]), std::fabs(d[2])});
+      most[k] = std::min(p.feed[k], v_ / share);
+      a[k] = a_ / share;
+      j[k] = j_ / share;
+    }
+    for (size_t k = 1; k + 1 < n; ++k) {
+      const double turn = p.turn(k), feed = std::min(most[k], most[k + 1]);
+      if (turn < 1e-9) {
+        speed[k] = feed;
+        continue;
+      }
+      const double h = reach[k] = std::min({0.9 * 6 * tolerance_ / turn, 0.45 * p.length(k), 0.45 * p.length(k + 1)});
+      speed[k] = std::min({feed, std::sqrt(a_ * h / turn), std::cbrt(j_ * h * h / turn)});
+    }
+    for (size_t k = 1; k < n; ++k) straight[k] = p.length(k) - reach[k] - reach[k - 1];
+    for (size_t k = 1; k < n; ++k) speed[k] = std::min(speed[k], reachable(speed[k - 1], straight[k], a[k], j[k]));
+    for (size_t k = n - 1; k > 0; --k) speed[k - 1] = std::min(speed[k - 1], reachable(speed[k], straight[k], a[k], j[k]));
+    double sum = 0;
+    for (size_t k = 1; k < n; ++k) {
+      if (reach[k] > 0) sum += 2 * reach[k] / speed[k];
+      sum += line(speed[k - 1], speed[k], straight[k], most[k], a[k], j[k]);
+    }
+    return sum;
+  }
+
+ private:
+  static double change_seconds(double from, double to, double a, double j) {
+    const double by = std::fabs(to - from);
+    return by > a * a / j ? by / a + a / j : 2 * std::sqrt(by / j);
+  }
+  static double change_length(double from, double to, double a, double j) { return 0.5 * (from + to) * change_seconds(from, to, a, j); }
+  static double bisect(double low, double high, const std::function<bool(double)>& fits) {
+    for (int n = 0; n < 60; ++n) {
+      const double middle = 0.5 * (low + high);
+      (fits(middle) ? low : high) = middle;
+    }
+    return low;
+  }
+  double reachable(double from, double length, double a, double j) const {
+    return bisect(from, from + v_ * 2, [&](double v) { return change_length(from, v, a, j) <= length; });
+  }
+  static double line(double from, double to, double length, double most, double a, double j) {
+    const double peak = bisect(std::max(from, to), std::max({from, to, most}),
+                               [&](double v) { return change_length(from, v, a, j) + change_length(v, to, a, j) <= length; });
+    const double rest = length - change_length(from, peak, a, j) - change_length(peak, to, a, j);
+    return change_seconds(from, peak, a, j) + change_seconds(peak, to, a, j) + (peak > 0 ? std::max(rest, 0.0) / peak : 0);
+  }
+
+  double v_, a_, j_, tolerance_;
+};
+
+}  // namespace nc::test

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random lines become pieces: whatever the corners are, the pieces go on in one another with position, first and second derivative, stay
+// within the tolerance, and rest where the lines turn back and nowhere else.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "interpolate/line_program.hpp"
+#include "motion/optimal/path_builder.hpp"
+
+namespace nc::test {
+namespace {
+
+using optimal::PathBuilder;
+using optimal::Piece;
+
+constexpr double kPeriod = 0.005;
+
+struct Found {
+  std::string wrong;
+  unsigned pieces = 0, rests = 0;
+  double off = 0;  ///< of the tolerance
+};
+
+/// The builder with a ring of records that is filled as the pieces are gone through.
+class Bench {
+ public:
+  Bench(const LineProgram& lines, double tolerance, uint32_t capacity) : lines_(lines), tolerance_(tolerance) {
+    config_ = standard_config(3);
+    Program p(config_);
+    for (size_t k = 1; k < lines.point.size(); ++k) p.line(lines.point[k], lines.feed[k]);
+    p.end();
+    all_ = std::move(p.records);
+    u_.push_back(0);
+    for (size_t k = 1; k < lines.point.size(); ++k) u_.push_back(u_.back() + all_[k - 1].segment.curve.length);
+    ring_.resize(capacity);
+    passed_.resize(capacity);
+    store_.passed = passed_.data();
+    store_.record_mask = capacity - 1;
+    for (unsigned i = 0; i < 3; ++i) {
+      limits_.velocity[i] = limits_.rapid[i] = 250;
+      limits_.acceleration[i] = 2000;
+      limits_.jerk[i] = 50000;
+    }
+    memory_.resize(8u << 20);
+    Arena arena(memory_.data(), memory_.size());
+    builder_.create(limits_, tolerance, kPeriod, ring_.data(), &store_, arena);
+    if (arena.overflowed()) found_.wrong = "memory";
+    AxisVec start;
+    builder_.restart(0, 0, start, 0);
+  }
+
+  Found run() {
+    uint32_t tail = 0, head = 0;
+    for (unsigned still = 0; found_.wrong.empty() && still < 3;) {
+      while (head != all_.size() && head - tail < ring_.size()) ring_[head % ring_.size()] = all_[head], ++head;
+      const bool more = builder_.take(head);
+      look();
+      // The axes go through what there is and the records that they pass are free.
+      while (tail != builder_.taken() && passed_[tail % passed_.size()] <= gone_) ++tail;
+      still = more || seen_ != before_ ? 0 : still + 1;
+      before_ = seen_;
+      if (still == 2 && head != all_.size()) {
+        found_.wrong = "stands with " + std::to_string(head - tail) + " records before it";
+      }
+    }
+    if (found_.wrong.empty() && !(std::fabs(gone_ - u_.back()) <= 1e-6)) found_.wrong = "ends at " + std::to_string(gone_) + " of " + std::to_string(u_.back());
+    return found_;
+  }
+
+ private:
+  /// Looks at new pieces, and frees those in front of the last one.
+  void look() {
+    for (; seen_ != builder_.head() && found_.wrong.empty(); ++seen_) {
+      const Piece& p = store_.piece_at(seen_);
+      if (found_.pieces++ > 0) meets(p);
+      if (std::fabs(builder_.start_of(seen_) - gone_) > 1e-6) found_.wrong = "piece begins elsewhere";
+      near(p);
+      gone_ = builder_.start_of(seen_) + p.length;
+      found_.rests += p.rest_behind ? 1u : 0u;
+      last_ = p;
+    }
+    builder_.free_pieces(seen_);
+  }
+  void meets(const Piece& p) {
+    const CurvePoint a = evaluate(last_, last_.length, 3), b = evaluate(p, 0, 3);
+    const double shorter = std::min(last_.length, p.length);
+    for (unsigned i = 0; i < 3; ++i) {
+      if (std::fabs(a.position[i] - b.position[i]) > 1e-9) found_.wrong = "a jump";
+      if (last_.rest_behind) continue;
+      if (std::fabs(a.d1[i] - b.d1[i]) > 1e-6) found_.wrong = "a corner of " + std::to_string(a.d1[i] - b.d1[i]);
+      if (std::fabs(a.d2[i] - b.d2[i]) > 1e-6 * (1 + std::fabs(a.d2[i])) + 1e-11 / (shorter * shorter)) found_.wrong = "a step of the curvature";
+    }
+  }
+  /// By the place of the same u, which is not nearer than the nearest one.
+  void near(const Piece& p) {
+    constexpr int kPlaces = 24;
+    for (int n = 1; n <= kPlaces; ++n) {
+      const double x = p.length * n / kPlaces, u = gone_ + x;
+      while (edge_ + 2 < u_.size() && u_[edge_ + 1] < u) ++edge_;
+      const double share = (u - u_[edge_]) / (u_[edge_ + 1] - u_[edge_]);
+      const AxisVec q = evaluate(p, x, 3).position;
+      double off2 = 0;
+      for (unsigned i = 0; i < 3; ++i) {
+        const double d = q[i] - lines_.point[edge_][i] - share * (lines_.point[edge_ + 1][i] - lines_.point[edge_][i]);
+        off2 += d * d;
+      }
+      if (tolerance_ > 0) found_.off = std::max(found_.off, std::sqrt(off2) / tolerance_);
+      if (std::sqrt(off2) > tolerance_ + 1e-9) found_.wrong = "is " + std::to_string(1e3 * std::sqrt(off2)) + " um off at " + std::to_string(u);
+    }
+  }
+
+  const LineProgram& lines_;
+  double tolerance_;
+  ExecutorConfig config_;
+  std::vector<Record> all_, ring_;
+  std::vector<double> passed_, u_;
+  std::vector<std::byte> memory_;
+  optimal::Limits limits_;
+  optimal::PlanStore store_;
+  PathBuilder builder_;
+  Found found_;
+  Piece last_;
+  uint32_t seen_ = 0, before_ = 0;
+  double gone_ = 0;
+  size_t edge_ = 0;
+};
+
+constexpr double kTolerance[] = {0.01, 0.001, 0.1, 1e-4, 1, 0.01, 1e-5, 0};
+constexpr uint32_t kCapacity[] = {256, 1024, 16384};
+
+std::string wrong_in(const LineProgram& lines, double tolerance, uint32_t capacity, Found* found) {
+  auto bench = std::make_unique<Bench>(lines, tolerance, capacity);
+  *found = bench->run();
+  unsigned rests = 1;  // the end
+  for (size_t k = 1; k + 1 < lines.point.size(); ++k) rests += lines.turn(k) > (tolerance > 0 ? 1.99 : 1e-9) ? 1u : 0u;
+  if (found->wrong.empty() && found->rests > rests) return std::to_string(found->rests) + " rests instead of " + std::to_string(rests);
+  return found->wrong;
+}
+
+/// NC_SEEDS=100000 runs so many, NC_FIRST=7 from the seventh on.
+uint64_t wish(const char* name, uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+TEST(PathBuilder, PiecesOfRandomLinesGoOnInOneAnother) {
+  const char* sanitizer = std::getenv("NC_SANITIZE");
+  const uint64_t from = wish("NC_FIRST", 0), seeds = wish("NC_SEEDS", sanitizer && *sanitizer ? 18 : 1000);
+  const unsigned shapes = static_cast<unsigned>(LineShape::count);
+  uint64_t wrong = 0, pieces = 0;
+  double off = 0;
+  for (uint64_t seed = from; seed < from + seeds && wrong < 20; ++seed) {
+    std::mt19937_64 rng(seed);
+    const LineShape shape = static_cast<LineShape>(seed % shapes);
+    const LineProgram lines = line_program(shape, rng);
+    const double tolerance = kTolerance[seed / shapes % 8];
+    const uint32_t capacity = kCapacity[seed / shapes / 8 % 3];
+    Found found;
+    const std::string text = wrong_in(lines, tolerance, capacity, &found);
+    EXPECT_TRUE(text.empty()) << text << "; seed " << seed << ": " << name_of(shape) << ", " << lines.point.size() - 1 << " lines, tolerance " << tolerance
+                              << ", capacity " << capacity;
+    wrong += text.empty() ? 0 : 1;
+    pieces += found.pieces;
+    off = std::max(off, found.off);
+  }
+  std::printf("%llu programs, %llu pieces, %llu wrong, %.4f of the tolerance\n", static_cast<unsigned long long>(seeds), static_cast<unsigned long long>(pieces),
+              static_cast<unsigned long long>(wrong), off);
+}
+
+/// Sharp corners alone: the places where a hatch can be cut are the straight lines between them, however many rows wait.
+TEST(PathBuilder, AHatchOfAnyNumberOfRowsRestsNowhere) {
+  for (const unsigned rows : {67u, 68u, 69u, 70u, 100u, 137u, 300u, 2000u}) {
+    for (const double part : {0.0, 1.0}) {
+      LineProgram lines;
+      for (unsigned n = 0; n < rows; ++n) {
+        line_program_detail::in_parts(lines, n % 2 == 0 ? 20 : -20, 0, part, 200);
+        lines.by(0, 0.3, 200);
+      }
+      Found found;
+      EXPECT_EQ(wrong_in(lines, 0.01, 16384, &found), "") << rows << " rows in lines of " << part;
+      EXPECT_EQ(found.rests, 1u) << rows << " rows in lines of " << part;
+    }
+  }
+}
+
+/// Knots lie as far apart as the feed of the lines about them asks for: a slow line far away makes none.
+TEST(PathBuilder, ASlowLineDoesNotSpoilWhatLiesFarAway) {
+  const auto pieces_with = [](double slow) {
+    LineProgram lines;
+    lines.to(0, 0, 5, slow);
+    for (unsigned n = 1; n <= 400; ++n) lines.to(0.5 * n, 20 * (1 - std::cos(0.005 * n)), 5, 130);
+    Found found;
+    EXPECT_EQ(wrong_in(lines, 0.01, 16384, &found), "");
+    return found.pieces;
+  };
+  EXPECT_LT(pieces_with(1), pieces_with(130) + 12);
+}
+
+/// Without a tolerance the lines are what they are: collinear ones are one line, at every corner is a rest.
+TEST(PathBuilder, WithoutAToleranceOnlyCornersAreRests) {
+  LineProgram lines;
+  for (unsigned n = 0; n < 20; ++n) {
+    for (unsigned k = 0; k < 10; ++k) lines.by(n % 2 == 0 ? 1 : 0, n % 2 == 0 ? 0 : 1, 100);
+  }
+  Found found;
+  EXPECT_EQ(wrong_in(lines, 0, 1024, &found), "");
+  EXPECT_EQ(found.pieces, 200u);
+  EXPECT_EQ(found.rests, 20u);
+}
+
+}  // namespace
+}  // namespace nc::test
