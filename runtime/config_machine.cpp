@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kMaxLength = 1e6;  // mm or deg; anything beyond is a slip of the keyboard
 constexpr double kMaxRate = 1e9;
+constexpr double kLeastTolerance = 1e-4;  // mm, of a path that is smoothed
 constexpr std::string_view kAxisLetters = "XYZABCUVW";
 
 struct AxisEntry {
@@ -242,7 +243,9 @@ void read_motion(TableReader* root, Config* config) {
     nc_config& nc = config->nc;
     unsigned word = NC_MOTION_TRAPEZOID;
     if (reader.choice("mode", {"trapezoid", "optimal"}, &word)) nc.motion_mode = static_cast<std::uint8_t>(word);
-    reader.number("tolerance", &nc.path_tolerance, 1e-4, 1);
+    reader.number("tolerance", &nc.path_tolerance, 0, 1);
+    if (nc.path_tolerance > 0 && nc.path_tolerance < kLeastTolerance)
+      reader.error("tolerance", "is 0 (a rest at each corner) or at least 0.0001 mm");
     if (nc.motion_mode != NC_MOTION_OPTIMAL) return;
     if (!config->look_ahead_given) nc.look_ahead = kLookAheadOptimal;
     for (unsigned s = 0; s < nc.system_count; ++s) {

@@ -82,8 +82,8 @@ void add_machine(CLI::App* command, MachineArguments* machine) {
     std::string why;
     return nc::tools::parse_every_axis(text, &why) ? std::string() : why;
   };
-  command->add_option("--tolerance", machine->options.tolerance, "the time-optimal mode, mm that lines may leave the path by")
-      ->check(CLI::Range(1e-4, 1.0));
+  command->add_option("--tolerance", machine->options.tolerance, "the time-optimal mode, mm that lines may leave the path by; 0: with a rest at each corner")
+      ->check(CLI::Range(0.0, 0.0) | CLI::Range(1e-4, 1.0));
   command->add_option("--limits", machine->options.every_axis, "velocity, acceleration, jerk of every axis, as 250,2000,50000")
       ->check(CLI::Validator(every_axis, "V,A,J"));
   command->add_option("--cycle-us", machine->cycle_us, "servo cycle in microseconds (default: the machine's, else 1000)")

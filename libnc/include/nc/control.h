@@ -68,7 +68,8 @@ typedef struct nc_config {
   uint32_t window_bytes;   /**< text window per part system, 512..16777216; default 65536 */
   double max_feed_override; /**< largest value of nc_inputs::feed_override, default 2.0 */
   uint8_t motion_mode;     /**< nc_motion_mode; default NC_MOTION_TRAPEZOID */
-  double path_tolerance;   /**< NC_MOTION_OPTIMAL: lines leave the programmed path by this at most, mm; default 0.01 */
+  double path_tolerance;   /**< NC_MOTION_OPTIMAL: lines leave the programmed path by this at most, mm, 1e-5..10;
+                                0: not at all, with a rest at each corner; default 0.01 */
   nc_variable_range variable_ranges[NC_VARIABLE_RANGES]; /**< shared by all part systems; apart from one another, from those of the options
                                 and from local and system variables */
 } nc_config;

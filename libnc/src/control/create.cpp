@@ -43,7 +43,8 @@ bool is_option(uint32_t variable_sets) { return variable_sets == 100 || variable
 /// The optimal law needs a limit of each kind on every axis.
 bool motion_valid(const nc_config& c) {
   if (c.motion_mode == NC_MOTION_TRAPEZOID) return true;
-  if (c.motion_mode != NC_MOTION_OPTIMAL || !(c.path_tolerance >= 1e-5) || !(c.path_tolerance <= 10)) return false;
+  const bool tolerance = c.path_tolerance == 0 || (c.path_tolerance >= 1e-5 && c.path_tolerance <= 10);
+  if (c.motion_mode != NC_MOTION_OPTIMAL || !tolerance) return false;
   for (unsigned i = 0; i < c.system_count; ++i) {
     for (unsigned k = 0; k < c.system[i].axis_count; ++k) {
       const nc_axis_config& axis = c.system[i].axis[k];

@@ -147,6 +147,7 @@ Joint find_joint(const JointSide& before, const JointSide& after, double most, d
     joint.found = true;
     return joint;
   }
+  if (!(tolerance > 0)) return joint;
   for (unsigned i = 0; i < axis_count; ++i) joint.step[i] = b.d1[i] - a.d1[i];
   // turn h + bend h^2 = what is allowed, in the form that bend may vanish in.
   const double allowed = kUse * tolerance, sharp = std::min(most, allowed / (kTurnDepth * step));
