@@ -24,10 +24,10 @@ const Dialect& dgshape() {
 
 using Groups = std::map<unsigned, std::vector<int>>;  // group -> codes times 10
 
-// M700 3.7, row by row as the list prints them.
+// M700 3.7, row by row as the list prints them; G11.1, which it leaves out, is that of 13.11.
 const Groups kM700List = {
     {0,
-     {40,  50,  51,  70,  80,  90,  100, 110, 120, 130, 270, 280, 290, 300, 301, 302, 303, 304, 305, 306, 310,
+     {40,  50,  51,  70,  80,  90,  100, 110, 111, 120, 130, 270, 280, 290, 300, 301, 302, 303, 304, 305, 306, 310,
       311, 312, 313, 340, 350, 360, 370, 371, 380, 390, 450, 460, 470, 480, 520, 530, 600, 650, 920, 921}},
     {1, {0, 10, 20, 30, 21, 31, 23, 33, 24, 34, 62, 330}},
     {2, {170, 180, 190}},

@@ -484,6 +484,16 @@ bool PhaseLaw::find(const MeshRequest& request, const Limits& limits, double sha
   return begin(request) && make_phases();
 }
 
+double PhaseLaw::way_after(double seconds) const {
+  LineState at = start_;
+  for (unsigned k = 0; k < count_ && seconds > 0; ++k) {
+    const double part = std::min(seconds, phase_[k].seconds);
+    at = at.behind(phase_[k].jerk, part);
+    seconds -= part;
+  }
+  return at.s;
+}
+
 double PhaseLaw::squared_speed(double s) {
   while (at_phase_ < count_) {
     const LineState next = at_.behind(phase_[at_phase_].jerk, phase_[at_phase_].seconds);

@@ -23,6 +23,10 @@ class PhaseLaw {
   double distance() const { return distance_; }
   double seconds() const { return seconds_; }
   bool whole() const { return whole_; }  ///< it reaches the end of the pieces, or of the reach
+  /// The reach was shortened by the caller: the path goes on behind it.
+  void ends_early() { whole_ = false; }
+  /// How far it has come after so many seconds, from its start.
+  double way_after(double seconds) const;
   /// Squared speed at ever farther places; begin with rewind().
   void rewind() {
     at_phase_ = 0;

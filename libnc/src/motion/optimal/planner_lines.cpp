@@ -95,7 +95,7 @@ bool OptimalPlanner::find_creep(const Start& start, double reach) {
   for (unsigned n = 0; n < kBends; ++n) bound_creep(p, start.x + length * (n + 0.5) / kBends, &most);
   if (!(most.speed > 0) || !(most.acceleration < HUGE_VAL) || !(most.jerk < HUGE_VAL)) return false;
   for (unsigned n = 0; n < kSlowerStill; ++n) {
-    if (line_.reach(length, 0, 0, most, HUGE_VAL) && keeps_limits(p, start.x)) return true;
+    if (line_.reach(length, 0, 0, most, kMostSeconds) && keeps_limits(p, start.x)) return true;
     most.speed *= 0.5;
     most.acceleration *= 0.25;
     most.jerk *= 0.125;

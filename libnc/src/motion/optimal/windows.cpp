@@ -30,6 +30,7 @@ constexpr double kPhaseShares[] = {1, 0.9, 0.75, 0.5, 0.3, 0.1};  ///< of the li
 constexpr double kTurning = 1e-9;    ///< mm/s: rounding
 constexpr double kAtEnd = 1e-10;     ///< mm: the same
 constexpr double kEnds = 1e-4;       ///< of the distance of two looks
+constexpr double kLongestPhases = 2;  ///< s, of a law in phases
 constexpr unsigned kPhaseLooks = 8;  ///< at a phase, for every 5 ms and piece
 
 }  // namespace
@@ -233,9 +234,20 @@ bool Windows::phases_to(const MeshRequest& request, const Limits& limits) {
       if (request.from_rest) continue;
       return false;  // with less of the limits there is none, too
     }
-    if (phases_keep_limits(request)) return true;
+    if (phases_keep_limits(request)) return phases_.seconds() <= kLongestPhases || rest_earlier(request, share);
   }
   return false;
+}
+
+/// A plan is changed between cells, and there are so many of them at most: those of a law that takes hours would take seconds each, and an
+/// override that is raised meanwhile would wait for the end of one. So it rests earlier, and what is kept of it is what comes before
+/// that stop.
+bool Windows::rest_earlier(const MeshRequest& request, double share) {
+  MeshRequest nearer = request;
+  nearer.reach = phases_.way_after(kLongestPhases);
+  if (!phases_.find(nearer, limits_, share) || !phases_keep_limits(nearer)) return phases_.find(request, limits_, share);
+  phases_.ends_early();
+  return true;
 }
 
 /// The law of cells that begins with the one in phases: where feeds of several sizes lie side by side, what the estimate gives breaks

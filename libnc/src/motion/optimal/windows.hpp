@@ -57,6 +57,7 @@ class Windows {
   bool soon_enough();
   bool from_phases();
   bool phases_keep_limits(const MeshRequest& request) const;
+  bool rest_earlier(const MeshRequest& request, double share);
   bool corrected();
   void settle();
   double stopping_time() const;
