@@ -45,6 +45,18 @@ TEST(ProfilePlot, DifferencesOfOneStep) {
   EXPECT_EQ(plot.cycles(), 4u);
 }
 
+TEST(ProfilePlot, ALimitIsNamedOnlyWhereTheModeKeepsIt) {
+  nc_config config = two_axes();
+  config.system[0].axis[0].max_acceleration = 1000;
+  config.system[0].axis[0].max_jerk = 50000;
+  config.motion_mode = NC_MOTION_TRAPEZOID;
+  EXPECT_EQ(ProfilePlot(config).limit(1), 1000.0);
+  EXPECT_EQ(ProfilePlot(config).limit(2), 0.0) << "the trapezoid changes its acceleration at once";
+  config.motion_mode = NC_MOTION_OPTIMAL;
+  EXPECT_EQ(ProfilePlot(config).limit(1), 1000.0);
+  EXPECT_EQ(ProfilePlot(config).limit(2), 50000.0);
+}
+
 TEST(ProfilePlot, AStopThatWaitsIsNoCycle) {
   const nc_config config = two_axes();
   ProfilePlot plot(config);

@@ -9,13 +9,15 @@ namespace nc::tools {
 
 ProfilePlot::ProfilePlot(const nc_config& config)
     : system_(config.system[0]), cycle_s_(config.cycle_s), rows_(system_.axis_count) {
+  // The trapezoid has no law for the jerk: what an axis may have of it stands in the configuration, and nobody keeps it.
+  const bool keeps_jerk = config.motion_mode == NC_MOTION_OPTIMAL;
   for (unsigned i = 0; i < system_.axis_count; ++i) linear_ = linear_ || !system_.axis[i].rotary;
   curves_.push_back({"path speed", linear_ ? "mm/s" : "deg/s", 0.0, {}});
   for (unsigned i = 0; i < system_.axis_count; ++i) {
     const nc_axis_config& axis = system_.axis[i];
     const std::string unit = axis.rotary ? "deg/s" : "mm/s";
     curves_.push_back({std::string(1, axis.name) + " acceleration", unit + "2", axis.max_acceleration, {}});
-    curves_.push_back({std::string(1, axis.name) + " jerk", unit + "3", axis.max_jerk, {}});
+    curves_.push_back({std::string(1, axis.name) + " jerk", unit + "3", keeps_jerk ? axis.max_jerk : 0.0, {}});
   }
 }
 

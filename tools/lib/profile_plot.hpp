@@ -34,6 +34,9 @@ class ProfilePlot {
    * = its jerk. */
   double peak(size_t curve) const;
 
+  /** The limit that the mode keeps of this curve; 0 = it keeps none. */
+  double limit(size_t curve) const { return curves_[curve].limit; }
+
   /** Write the drawing. @return false with *error when the file cannot be written. */
   bool write_svg(const std::string& path, std::string* error) const;
   bool write_png(const std::string& path, std::string* error) const;
