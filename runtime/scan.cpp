@@ -339,7 +339,7 @@ void Scan::write_outputs() noexcept {
 void Scan::record_position(unsigned system) noexcept {
   const nc_outputs& out = out_[system];
   if (out.distance_zero && scan_ > 1) return;
-  (void)positions_.push({static_cast<std::uint8_t>(system), out.rapid, out.command});
+  (void)positions_.push({static_cast<std::uint8_t>(system), out.rapid, out.command, out.work});
 }
 
 // What was asked for and has happened now: a hold is released when the path is at rest, a reset goes to the

@@ -48,6 +48,7 @@ struct PositionSample {
   std::uint8_t system = 0;
   bool rapid = false;
   nc_axes command{};
+  nc_axes work{};  // the same place in workpiece coordinates, tool length out of it
 };
 
 class Scan {

@@ -61,7 +61,7 @@ struct Options {
   std::int64_t since_ns = nc::rt::RealClock().now_ns();  // start of the process, for the start-up time
 };
 
-// The executed path for the plot: a vertex where the direction changes by more than two degrees, or the kind
+// The executed path for the plot, in workpiece coordinates: a vertex where the direction changes by more than two degrees, or the kind
 // of move.
 class PlotSink final : public nc::rt::PathSink {
  public:
@@ -72,18 +72,28 @@ class PlotSink final : public nc::rt::PathSink {
   }
   void moved(const nc::rt::PositionSample& sample) override {
     if (sample.system != 0) return;
-    Point point;
-    for (unsigned k = 0; k < 3; ++k) point.x[k] = index_[k] < 0 ? 0 : sample.command.v[index_[k]];
-    point.rapid = sample.rapid;
+    // Which workpiece coordinates those of the start are is known with the first move.
     if (count_++ == 0) {
-      emit(point);
+      start_ = sample.command;
+      return;
+    }
+    Point point;
+    for (unsigned k = 0; k < 3; ++k) point.x[k] = index_[k] < 0 ? 0 : sample.work.v[index_[k]];
+    point.rapid = sample.rapid;
+    if (count_ == 2) {
+      Point start = point;
+      for (unsigned k = 0; k < 3; ++k)
+        if (index_[k] >= 0) start.x[k] += start_.v[index_[k]] - sample.command.v[index_[k]];
+      emit(start);
     } else {
       const bool turned = !straight(point) || point.rapid != last_.rapid;
       if (turned) emit(last_);
     }
     last_ = point;
   }
-  void finish() { emit(last_); }
+  void finish() {
+    if (count_ > 1) emit(last_);
+  }
   nc::tools::ToolpathPlot plot;
 
  private:
@@ -109,6 +119,7 @@ class PlotSink final : public nc::rt::PathSink {
     vertex_ = point;
   }
   int index_[3] = {-1, -1, -1};
+  nc_axes start_{};
   Point last_, vertex_;
   std::uint64_t count_ = 0;
 };

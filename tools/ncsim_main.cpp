@@ -19,6 +19,7 @@ namespace {
 
 using nc::tools::MachineOptions;
 using nc::tools::MotionFormat;
+using nc::tools::PlotCoordinates;
 using nc::tools::PlotView;
 using nc::tools::SessionOptions;
 
@@ -137,6 +138,12 @@ int run(int argc, char** argv) {
   bool profile = false;
   auto* profile_flag = plot->add_flag("--profile", profile, "path speed, acceleration and jerk of every axis over time instead of the path");
   plot->add_option("--view", view, "iso, xy, xz or yz")->capture_default_str()->transform(nc::tools::one_of({"iso", "xy", "xz", "yz"}))->excludes(profile_flag);
+  std::string coordinates = "work";
+  const std::map<std::string, PlotCoordinates> coordinate_names = {{"work", PlotCoordinates::kWork}, {"machine", PlotCoordinates::kMachine}};
+  plot->add_option("--coordinates", coordinates, "work: of the tool's tip on the workpiece; machine: where the axes go")
+      ->capture_default_str()
+      ->transform(nc::tools::one_of({"work", "machine"}))
+      ->excludes(profile_flag);
   CLI::App* const profile_machine = plot->add_option_group("machine", "of --profile, but for --machine");
   add_machine(profile_machine, &machine);
   for (CLI::Option* option : profile_machine->get_options())
@@ -189,7 +196,7 @@ int run(int argc, char** argv) {
     return nc::tools::profile_command(options, machine.options, machine.limit_s, base.empty() ? "profile" : base, stdout, stderr);
   options.machine = plot->parsed() ? machine.options.machine : options.machine;
   if (plot->parsed())
-    return nc::tools::plot_command(options, silent, views.at(view), base.empty() ? "toolpath" : base, stdout, stderr);
+    return nc::tools::plot_command(options, silent, {views.at(view), coordinate_names.at(coordinates)}, base.empty() ? "toolpath" : base, stdout, stderr);
   if (functions->parsed()) return nc::tools::functions_command(options.dialect, markdown, stdout, stderr);
   if (parameters->parsed()) return nc::tools::parameters_command(options.dialect, markdown, stdout, stderr);
   if (variables->parsed() && !options.program.empty()) return nc::tools::variable_use_command(options, stdout, stderr);

@@ -514,6 +514,7 @@ TEST_F(CommandTest, OptionsRefuseBadValuesWithASentence) {
       {"plot p.nc --view foo", "--view: must be one of iso, xy, xz, yz, is foo"},
       {"plot p.nc --view 2", "--view: must be one of iso, xy, xz, yz, is 2"},
       {"plot p.nc --view ''", "--view: must be one of iso, xy, xz, yz, is empty"},
+      {"plot p.nc --coordinates part", "--coordinates: must be one of work, machine, is part"},
       {"plot p.nc -o ''", "--output: must not be empty"},
       {"trace p.nc --setup ''", "--setup: must not be empty"},
       {"trace p.nc --programs ''", "--programs: must not be empty"},
@@ -538,6 +539,7 @@ TEST_F(CommandTest, OptionsRefuseBadValuesWithASentence) {
       {"motion p.nc --machine m.toml --config m.json", "--machine excludes --limits-file"},
       {"plot p.nc --limits 1,1,1", "--limits requires --profile"},
       {"plot p.nc --profile --view xy", "--profile excludes --view"},
+      {"plot p.nc --profile --coordinates work", "--profile excludes --coordinates"},
       {"trace ''", "PROGRAM: must not be empty"},
       {"functions --dialect foo", "--dialect foo: this version knows"},
   };
@@ -610,6 +612,28 @@ TEST_F(CommandTest, PlotWritesBothFiles) {
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
   EXPECT_EQ(ncsim("plot -o again --view xy p.nc").code, 0);
   EXPECT_EQ(svg == content(folder_ + "/again.svg"), true) << "two runs give the same bytes";
+}
+
+// Where a part is clamped and how long the tools are moves nothing in a drawing of the part, and much in one of the machine.
+TEST_F(CommandTest, APlotShowsThePartWhereverItIsClamped) {
+  const std::string cuts = "G54 G0 X0 Y0\nG43 H1 Z5.\nG1 Z-5. F500\nX30.\nG2 X40. Y10. R10.\nG0 Z5.\nG43 H2 Z4.\nG1 Z-5.\nY20.\nM30\n";
+  file("near.nc", "G10 L2 P1 X0 Y0 Z0\nG10 L10 P1 R0\nG10 L10 P2 R0\n" + cuts);
+  file("near.json", "{\"start\": {\"X\": 10, \"Y\": 0, \"Z\": 20}}");
+  file("far.nc", "G10 L2 P1 X-300. Y-200. Z-150.\nG10 L10 P1 R50.\nG10 L10 P2 R68.\n" + cuts);
+  file("far.json", "{\"start\": {\"X\": -290, \"Y\": -200, \"Z\": -130}}");
+  const auto drawing = [this](const std::string& name, const std::string& coordinates) {
+    EXPECT_EQ(ncsim("plot -o " + name + " --view xz --setup " + name + ".json --coordinates " + coordinates + " " + name + ".nc").code, 0);
+    const std::string svg = content(folder_ + "/" + name + ".svg");
+    std::string lines;  // the path and the frame, not the title and the numbers
+    for (size_t at = svg.find("<path"); at != std::string::npos; at = svg.find("<path", at + 1)) {
+      const std::string path = svg.substr(at, svg.find("/>", at) - at);
+      if (path.find("stroke:rgb(") != std::string::npos) lines += path + "\n";
+    }
+    EXPECT_GT(lines.size(), 500u);
+    return lines;
+  };
+  EXPECT_TRUE(drawing("near", "work") == drawing("far", "work"));
+  EXPECT_FALSE(drawing("near", "machine") == drawing("far", "machine"));
 }
 
 // A row of a motion: t and the axes.

@@ -5,6 +5,7 @@
 #include <cairo/cairo.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -148,6 +149,21 @@ TEST_F(PlotTest, HelixOfSeveralTurnsEndsWhereItShould) {
   ToolpathPlot plot;
   plot.add_move(helix, xyz());
   EXPECT_EQ(plot.size(), 1 + 810 / 3u);
+}
+
+TEST_F(PlotTest, AMoveIsDrawnFromItsZero) {
+  nc_move move = {};
+  move.plane = NC_PLANE_NONE;
+  move.kind = NC_MOVE_LINE;
+  move.machine_start = {{-300, -200, -50}};
+  move.machine = {{-280, -190, -60}};
+  ToolpathPlot plot;
+  plot.add_move(move, xyz(), {{-300, -200, -82}});
+  EXPECT_EQ(plot.point(0), (std::array<double, 3>{0, 0, 32}));
+  EXPECT_EQ(plot.point(1), (std::array<double, 3>{20, 10, 22}));
+  ToolpathPlot machine;
+  machine.add_move(move, xyz());
+  EXPECT_EQ(machine.point(1), (std::array<double, 3>{-280, -190, -60}));
 }
 
 TEST_F(PlotTest, NothingAndOnePointStillGiveADrawing) {

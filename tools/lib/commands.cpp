@@ -115,15 +115,17 @@ class PlotSink final : public RunSink {
   PlotSink(ToolpathPlot* plot, const nc_system_config& system, ItemSource* items)
       : plot_(*plot), system_(system), items_(*items) {}
   void move(const nc_source&, const nc_move& move) override {
-    if (!move.curved) return plot_.add_move(move, system_);
+    nc_axes zero = {};
+    if (plot_.coordinates() == PlotCoordinates::kWork) items_.move_zero(&zero);
+    if (!move.curved) return plot_.add_move(move, system_, zero);
     // In short pieces: what no line and no circle is.
     constexpr double kPieceMm = 0.2, kMost = 4000;
     const double pieces = std::ceil(std::min(kMost, std::max(32.0, move.length / kPieceMm)));
     nc_move piece = move;
     piece.plane = NC_PLANE_NONE;
     for (double k = 1; k <= pieces; ++k) {
-      if (!items_.move_point(k / pieces, &piece.machine)) return plot_.add_move(move, system_);
-      plot_.add_move(piece, system_);
+      if (!items_.move_point(k / pieces, &piece.machine)) return plot_.add_move(move, system_, zero);
+      plot_.add_move(piece, system_, zero);
       piece.machine_start = piece.machine;
     }
   }
@@ -247,7 +249,7 @@ int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std
   return close_output(out, err, exit_code(result.how));
 }
 
-int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, PlotView view,
+int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, const PlotOptions& how,
                  const std::string& base, std::FILE* out, std::FILE* err) {
   Session session;
   std::string error;
@@ -255,7 +257,8 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, Plot
     return complain(err, error);
   if (!open_session(&session, options, &error)) return complain(err, error);
   ToolpathPlot plot;
-  plot.set_view(view);
+  plot.set_view(how.view);
+  plot.set_coordinates(how.coordinates);
   const size_t slash = options.program.find_last_of('/');
   plot.set_title(options.program == "-" ? "standard input"
                                         : rt::valid_utf8(options.program.substr(slash == std::string::npos ? 0 : slash + 1)));

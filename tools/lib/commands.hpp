@@ -37,8 +37,14 @@ int motion_command(const SessionOptions& options, const MachineOptions& machine,
 int profile_command(const SessionOptions& options, const MachineOptions& machine, double limit_s, const std::string& base,
                     std::FILE* out, std::FILE* err);
 
+/** How `ncsim plot` draws. */
+struct PlotOptions {
+  PlotView view = PlotView::kIsometric;
+  PlotCoordinates coordinates = PlotCoordinates::kWork;
+};
+
 /** `ncsim plot`: BASE.svg and BASE.png. What was reached before an alarm is drawn too. */
-int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, PlotView view,
+int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, const PlotOptions& how,
                  const std::string& base, std::FILE* out, std::FILE* err);
 
 /** `ncsim functions`: the dialect's table, tab-separated or as Markdown. */

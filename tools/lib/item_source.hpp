@@ -22,6 +22,8 @@ class ItemSource {
   virtual bool interrupt(bool /*on*/) { return false; }
   /** A point of the move pulled last; false when the source knows none. */
   virtual bool move_point(double /*share*/, nc_axes* /*machine*/) { return false; }
+  /** Workpiece zero of the move pulled last, tool length in it (nc_move_zero); false when the source knows none. */
+  virtual bool move_zero(nc_axes* /*zero*/) { return false; }
   /** Positions as the counters show them (nc_position_shown). */
   virtual void shown(nc_axes* /*machine*/, nc_axes* /*work*/) {}
   virtual bool alarm(nc_alarm* alarm) = 0;
@@ -47,6 +49,7 @@ class ControlSource final : public ItemSource {
   bool move_point(double share, nc_axes* machine) override {
     return nc_move_point(control_, kPartSystem, share, machine) == NC_OK;
   }
+  bool move_zero(nc_axes* zero) override { return nc_move_zero(control_, kPartSystem, zero) == NC_OK; }
   void shown(nc_axes* machine, nc_axes* work) override {
     nc_position_shown(control_, kPartSystem, machine, work);
   }

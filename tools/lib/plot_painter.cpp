@@ -217,7 +217,10 @@ class PlotPainter {
     put_text(c_, kLeft, 40, plot_.title_, 22);
     static constexpr const char* kViews[] = {"isometric", "XY", "XZ", "YZ"};
     put_text(c_, kLeft, 62,
-             std::string("view ") + kViews[static_cast<int>(plot_.view_)] + ", machine coordinates, mm", 13);
+             std::string("view ") + kViews[static_cast<int>(plot_.view_)] +
+                 (plot_.coordinates_ == PlotCoordinates::kWork ? ", workpiece coordinates of the tool's tip, mm"
+                                                               : ", machine coordinates, mm"),
+             13);
     const double x = kWidth - kRight - 130;
     const double dash[] = {6.0, 4.0};
     cairo_set_line_width(c_, 2);

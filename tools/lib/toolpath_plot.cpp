@@ -80,9 +80,9 @@ void ToolpathPlot::thin() {
   }
 }
 
-void ToolpathPlot::add_move(const nc_move& move, const nc_system_config& system) {
+void ToolpathPlot::add_move(const nc_move& move, const nc_system_config& system, const nc_axes& zero) {
   const LinearAxes linear(system);
-  const auto at = [&](const nc_axes& axes, int i) { return linear.get(axes, i); };
+  const auto at = [&](const nc_axes& axes, int i) { return linear.get(axes, i) - linear.get(zero, i); };
   if (vertices_.empty())
     add_point(true, at(move.machine_start, 0), at(move.machine_start, 1), at(move.machine_start, 2));
   const bool rapid = move.kind == NC_MOVE_RAPID;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drawing of a tool path: rapid and feed told apart, axes with ticks in mm, a scale bar; as SVG and as PNG.
 //
-// The path is the machine's (all compensation included) on the linear axes X, Y, Z. Arcs and helices are
+// The path is that of the tool's tip in workpiece coordinates, so that the drawing shows the part: radius
+// compensation is in it, work offset and tool length are not. Machine coordinates, where all of these are in
+// it, are the other choice. Drawn are the linear axes X, Y, Z. Arcs and helices are
 // drawn from their geometry in steps of at most 3 degrees. Vertices are thinned when there are more than a
 // drawing can show, so the memory is bounded whatever the program's length.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -18,20 +21,29 @@ namespace nc::tools {
 /** From where the path is looked at. Isometric: from +X -Y +Z, Z up. */
 enum class PlotView { kIsometric, kXY, kXZ, kYZ };
 
+/** Whose coordinates are drawn; whoever adds the points gives them in these. */
+enum class PlotCoordinates { kWork, kMachine };
+
 /** Collects a tool path and draws it. */
 class ToolpathPlot {
  public:
   void set_title(std::string title) { title_ = std::move(title); }
   void set_view(PlotView view) { view_ = view; }
 
-  /** A move of the item stream, machine coordinates. */
-  void add_move(const nc_move& move, const nc_system_config& system);
+  void set_coordinates(PlotCoordinates coordinates) { coordinates_ = coordinates; }
+  PlotCoordinates coordinates() const { return coordinates_; }
+
+  /** A move of the item stream, drawn from `zero`: all zeros give machine coordinates (see nc_move_zero). */
+  void add_move(const nc_move& move, const nc_system_config& system, const nc_axes& zero = {});
 
   /** A straight piece from the point before to this one, mm; the first point only sets the start. */
   void add_point(bool rapid, double x, double y, double z);
 
   /** Vertices that are kept. */
   size_t size() const { return vertices_.size(); }
+
+  /** A vertex that is kept, mm. */
+  std::array<double, 3> point(size_t i) const { return {vertices_[i].x, vertices_[i].y, vertices_[i].z}; }
 
   /** Write the drawing. @return false with *error when the file cannot be written. */
   bool write_svg(const std::string& path, std::string* error) const;
@@ -51,6 +63,7 @@ class ToolpathPlot {
   double low_[3] = {0, 0, 0}, high_[3] = {0, 0, 0};
   std::string title_ = "Tool path";
   PlotView view_ = PlotView::kIsometric;
+  PlotCoordinates coordinates_ = PlotCoordinates::kWork;
 };
 
 }  // namespace nc::tools

@@ -29,6 +29,12 @@ NC_API nc_status nc_pull(nc_control*, unsigned system, uint32_t budget, nc_item*
 /** Offline: a point of the move that nc_pull() gave last, where `share` (0 to 1) of its length is done. Machine coordinates. */
 NC_API nc_status nc_move_point(const nc_control*, unsigned system, double share, nc_axes* machine);
 
+/**
+ * Offline: zero of the workpiece coordinates of the move that nc_pull() gave last, with the tool length that the move applies in it, in machine
+ * coordinates. A point of the move less this is where the tip of the tool is on the workpiece; radius compensation stays in the path.
+ */
+NC_API nc_status nc_move_zero(const nc_control*, unsigned system, nc_axes* zero);
+
 /** Answer the open sync of a part system. After NC_SYNC_SKIP the interpreter continues from world->machine. */
 NC_API nc_status nc_answer(nc_control*, unsigned system, const nc_world* world);
 

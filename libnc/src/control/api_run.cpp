@@ -19,6 +19,11 @@ nc_status nc_move_point(const nc_control* c, unsigned system, double share, nc_a
   return c->system[system].move_point(share, machine);
 }
 
+nc_status nc_move_zero(const nc_control* c, unsigned system, nc_axes* zero) {
+  if (!known(c, system) || zero == nullptr) return NC_E_ARGUMENT;
+  return c->system[system].move_zero(zero);
+}
+
 nc_status nc_answer(nc_control* c, unsigned system, const nc_world* world) {
   if (!known(c, system) || world == nullptr) return NC_E_ARGUMENT;
   for (unsigned i = 0; i < c->config.system[system].axis_count; ++i)

@@ -392,6 +392,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     }
     commit_.to_public(*item, out);
     pulled_ = item->kind;
+    if (item->kind == ItemKind::move) move_zero_ = transform.offset;
     if (item->kind == ItemKind::mark) {
       if (item->mark.report) uit_rest_.block_ended();
       remember_mark(*item);
@@ -415,6 +416,12 @@ nc_status PartSystem::move_point(double share, nc_axes* machine) const {
   if (online_ || !(curve.length > 0)) return NC_E_STATE;
   const AxisVec at = curve_position(curve, share * curve.length, interpreter.axis_count);
   std::memcpy(machine->v, at.v, sizeof machine->v);
+  return NC_OK;
+}
+
+nc_status PartSystem::move_zero(nc_axes* zero) const {
+  if (online_ || pulled_ != ItemKind::move) return NC_E_STATE;
+  std::memcpy(zero->v, move_zero_.v, sizeof zero->v);
   return NC_OK;
 }
 

@@ -20,6 +20,7 @@ class PartSystem {
   nc_status reset();
   nc_status pull(uint32_t budget, nc_item* item);
   nc_status move_point(double share, nc_axes* machine) const;
+  nc_status move_zero(nc_axes* zero) const;
   nc_status answer(const nc_world& world);
   nc_status rewind(Serial serial);
   /// Offline: level of the interrupt signal (M700 13.12). *take_back: the item pulled last must not be executed.
@@ -161,6 +162,7 @@ class PartSystem {
   uint32_t uit_mode_ = 0;                    ///< nc_interrupt_bits as given out
   InterruptRest uit_rest_;                   ///< of a signal that stays on
   ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
+  AxisVec move_zero_;                        ///< of the move given out last: its workpiece zero with the tool length
   unsigned drop_ = 0;                        ///< items to come that have been executed already
   bool resumes_ = false;                     ///< online: the item behind them has been half done, as cut_ says
   Cut cut_;
