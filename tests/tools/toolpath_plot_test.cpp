@@ -12,6 +12,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <map>
 
 #include "fake_items.hpp"
 
@@ -42,7 +43,9 @@ struct Pixels {
 };
 
 // Pixels of a PNG below the head (where the legend shows every colour) for which `is` holds.
-Pixels pixels(const std::string& file, const std::function<bool(int r, int g, int b)>& is) {
+// `column`: how many of them each column has.
+Pixels pixels(const std::string& file, const std::function<bool(int r, int g, int b)>& is,
+              std::map<int, int>* column = nullptr) {
   cairo_surface_t* image = cairo_image_surface_create_from_png(file.c_str());
   Pixels found;
   EXPECT_EQ(cairo_surface_status(image), CAIRO_STATUS_SUCCESS);
@@ -53,6 +56,7 @@ Pixels pixels(const std::string& file, const std::function<bool(int r, int g, in
       const unsigned char* p = data + y * stride + 4 * x;  // B G R X
       if (!is(p[2], p[1], p[0])) continue;
       ++found.count;
+      if (column != nullptr) ++(*column)[x];
       found.left = std::min(found.left, x);
       found.right = std::max(found.right, x);
       found.top = std::min(found.top, y);
@@ -164,6 +168,61 @@ TEST_F(PlotTest, AMoveIsDrawnFromItsZero) {
   ToolpathPlot machine;
   machine.add_move(move, xyz());
   EXPECT_EQ(machine.point(1), (std::array<double, 3>{-280, -190, -60}));
+}
+
+bool is_start(int r, int g, int b) {
+  return g > 120 && r < 60 && b < 80;
+}
+bool is_alarm(int r, int g, int b) {
+  return r > 180 && g < 40 && b > 110;
+}
+bool is_ink(int r, int g, int b) {
+  return r < 60 && g < 60 && b < 60;
+}
+
+TEST_F(PlotTest, StartEndAndAlarmStandWhereTheyAre) {
+  ToolpathPlot plot;
+  plot.set_view(PlotView::kXY);
+  plot.add_point(true, 0, 0, 0);
+  plot.add_point(false, 200, 0, 0);
+  plot.add_point(false, 200, 100, 0);
+  std::string error;
+  ASSERT_TRUE(plot.write_png(path("a.png"), &error)) << error;
+  const Pixels feed = pixels(path("a.png"), is_feed), start = pixels(path("a.png"), is_start);
+  EXPECT_NEAR((start.left + start.right) / 2.0, feed.left, 6.0);
+  EXPECT_NEAR((start.top + start.bottom) / 2.0, feed.bottom, 6.0);
+  EXPECT_EQ(pixels(path("a.png"), is_alarm).count, 0);
+  plot.set_alarm("P33");
+  ASSERT_TRUE(plot.write_png(path("b.png"), &error)) << error;
+  const Pixels alarm = pixels(path("b.png"), is_alarm);
+  EXPECT_GT(alarm.count, 40);
+  EXPECT_NEAR((alarm.left + alarm.right) / 2.0, feed.right, 6.0);
+  EXPECT_NEAR((alarm.top + alarm.bottom) / 2.0, feed.top, 6.0);
+  EXPECT_NE(pixels(path("a.png"), is_ink).count, pixels(path("b.png"), is_ink).count) << "the mark of the end goes, the code comes";
+}
+
+TEST_F(PlotTest, ArrowsPointTheWayTheToolGoes) {
+  // How the height of the feed's pixels changes from a column to the next: an arrow to the right begins at once and tapers.
+  const auto steepest_rise_is_left = [this](double from, double to) {
+    ToolpathPlot plot;
+    plot.set_view(PlotView::kXY);
+    plot.add_point(true, from, 0, 0);
+    plot.add_point(false, to, 0, 0);
+    std::string error;
+    EXPECT_TRUE(plot.write_png(path("a.png"), &error)) << error;
+    std::map<int, int> height;
+    pixels(path("a.png"), is_feed, &height);
+    int rise = 0, fall = 0;
+    for (const auto& [x, count] : height) {
+      if (height.count(x - 1) == 0 || height.count(x + 1) == 0) continue;
+      rise = std::max(rise, count - height.at(x - 1));
+      fall = std::max(fall, count - height.at(x + 1));
+    }
+    EXPECT_GE(std::max(rise, fall), 3) << "there are arrows";
+    return rise > fall;
+  };
+  EXPECT_TRUE(steepest_rise_is_left(0, 100));
+  EXPECT_FALSE(steepest_rise_is_left(100, 0));
 }
 
 TEST_F(PlotTest, NothingAndOnePointStillGiveADrawing) {

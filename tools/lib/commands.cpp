@@ -266,6 +266,7 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, cons
   PlotSink sink(&plot, session.config().system[0], &items);
   const RunResult result = run_session(&session, &sink, &items, max_silent_blocks, true, err);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  if (result.how == RunResult::How::kAlarmed) plot.set_alarm(result.alarm.code);
   if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error))
     return complain(err, error);
   if (result.how == RunResult::How::kAlarmed)

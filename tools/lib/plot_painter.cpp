@@ -25,7 +25,12 @@ constexpr double kMinPixels = 0.3;  // vertices nearer than this to the last one
 constexpr int kStrokeChunk = 500;   // cairo's time for one stroke grows faster than its length
 constexpr double kIsoShortening = 0.81649658092772603;  // sqrt(2/3)
 
-constexpr Color kRapid{0.85, 0.20, 0.10}, kFeed{0.05, 0.30, 0.75}, kStart{0.10, 0.55, 0.20};
+constexpr Color kRapid{0.85, 0.20, 0.10}, kFeed{0.05, 0.30, 0.75}, kStart{0.10, 0.55, 0.20}, kEnd{0.15, 0.15, 0.15},
+    kAlarm{0.80, 0.00, 0.55};
+constexpr double kMark = 4.5;            // px: half of a mark's width
+constexpr double kArrow = 7.0;           // px
+constexpr double kArrowDistance = 120;   // px of path from one arrow to the next ...
+constexpr double kMostArrows = 60;       // ... or more: so many are read as directions, more hide the path
 
 struct Page {
   double u, v;  // to the right and up, mm
@@ -46,7 +51,8 @@ class PlotPainter {
       frame();
     path(true);
     path(false);
-    start_mark();
+    directions();
+    marks();
     head();
     scale_bar();
   }
@@ -203,13 +209,73 @@ class PlotPainter {
     cairo_set_dash(c_, nullptr, 0, 0);
   }
 
-  void start_mark() {
-    if (plot_.vertices_.empty()) return;
-    const auto& v = plot_.vertices_.front();
-    const Page p = project(v.x, v.y, v.z);
-    use(c_, kStart);
-    cairo_arc(c_, px(p), py(p), 4.5, 0, 2 * M_PI);
+  // Arrows along the path at like distances, the first in the middle of the first one.
+  void directions() {
+    const auto& all = plot_.vertices_;
+    const auto at = [&](size_t i) {
+      const Page p = project(all[i].x, all[i].y, all[i].z);
+      return Page{px(p), py(p)};
+    };
+    double total = 0;
+    for (size_t i = 1; i < all.size(); ++i) total += std::hypot(at(i).u - at(i - 1).u, at(i).v - at(i - 1).v);
+    const double distance = std::max(kArrowDistance, total / kMostArrows);
+    double due = std::min(distance, total) / 2;
+    for (size_t i = 1; i < all.size(); ++i) {
+      const Page from = at(i - 1), to = at(i);
+      const double length = std::hypot(to.u - from.u, to.v - from.v);
+      for (; due < length; due += distance)
+        arrow(all[i].rapid ? kRapid : kFeed, {from.u + (to.u - from.u) * due / length, from.v + (to.v - from.v) * due / length},
+              {(to.u - from.u) / length, (to.v - from.v) / length});
+      due -= length;
+    }
+  }
+
+  // Its point is `tip`; `way` is a unit vector. Both on the page.
+  void arrow(const Color& color, const Page& tip, const Page& way) {
+    constexpr double kSlim = 0.45;  // half of its width to its length
+    use(c_, color);
+    cairo_move_to(c_, tip.u, tip.v);
+    cairo_line_to(c_, tip.u - kArrow * (way.u + kSlim * way.v), tip.v - kArrow * (way.v - kSlim * way.u));
+    cairo_line_to(c_, tip.u - kArrow * (way.u - kSlim * way.v), tip.v - kArrow * (way.v + kSlim * way.u));
+    cairo_close_path(c_);
     cairo_fill(c_);
+  }
+
+  // Where the path begins, and where it ends: at the end of the program, or in an alarm.
+  void marks() {
+    if (plot_.vertices_.empty()) return;
+    const auto at = [&](const ToolpathPlot::Vertex& v) {
+      const Page p = project(v.x, v.y, v.z);
+      return Page{px(p), py(p)};
+    };
+    const Page last = at(plot_.vertices_.back());
+    if (plot_.alarm_.empty()) end_mark(last);
+    start_mark(at(plot_.vertices_.front()));
+    if (plot_.alarm_.empty()) return;
+    alarm_mark(last);
+    use(c_, kInk);
+    const bool left = last.u > kWidth - 3 * kRight;  // there is no room to the right of it
+    put_text(c_, last.u + (left ? -3 : 3) * kMark, last.v - 2 * kMark, "alarm " + plot_.alarm_, 14, left ? 1.0 : 0.0);
+  }
+
+  void start_mark(const Page& at) {
+    use(c_, kStart);
+    cairo_arc(c_, at.u, at.v, kMark, 0, 2 * M_PI);
+    cairo_fill(c_);
+  }
+
+  // Hollow and larger than that of the start, so that both are seen where a path comes back.
+  void end_mark(const Page& at) {
+    use(c_, kEnd);
+    cairo_set_line_width(c_, 1.6);
+    cairo_rectangle(c_, at.u - 1.5 * kMark, at.v - 1.5 * kMark, 3 * kMark, 3 * kMark);
+    cairo_stroke(c_);
+  }
+
+  void alarm_mark(const Page& at) {
+    cairo_set_line_width(c_, 3);
+    line(kAlarm, at.u - 2 * kMark, at.v - 2 * kMark, at.u + 2 * kMark, at.v + 2 * kMark);
+    line(kAlarm, at.u - 2 * kMark, at.v + 2 * kMark, at.u + 2 * kMark, at.v - 2 * kMark);
   }
 
   void head() {
@@ -228,13 +294,15 @@ class PlotPainter {
     cairo_set_dash(c_, dash, 2, 0);
     line(kRapid, x, 50, x + 40, 50);
     cairo_set_dash(c_, nullptr, 0, 0);
-    use(c_, kStart);
-    cairo_arc(c_, x + 20, 68, 4.5, 0, 2 * M_PI);
-    cairo_fill(c_);
+    start_mark({x + 8, 69});
+    const bool alarmed = !plot_.alarm_.empty();
+    if (alarmed) alarm_mark({x + 76, 69});
+    else end_mark({x + 76, 69});
     use(c_, kInk);
     put_text(c_, x + 50, 35, "feed", 14);
     put_text(c_, x + 50, 55, "rapid", 14);
-    put_text(c_, x + 50, 73, "start", 14);
+    put_text(c_, x + 20, 74, "start", 14);
+    put_text(c_, x + 92, 74, alarmed ? "alarm " + plot_.alarm_ : "end", 14);
   }
 
   void scale_bar() {

@@ -33,6 +33,9 @@ class ToolpathPlot {
   void set_coordinates(PlotCoordinates coordinates) { coordinates_ = coordinates; }
   PlotCoordinates coordinates() const { return coordinates_; }
 
+  /** The path ends in an alarm of this code. */
+  void set_alarm(std::string code) { alarm_ = std::move(code); }
+
   /** A move of the item stream, drawn from `zero`: all zeros give machine coordinates (see nc_move_zero). */
   void add_move(const nc_move& move, const nc_system_config& system, const nc_axes& zero = {});
 
@@ -61,7 +64,7 @@ class ToolpathPlot {
   std::vector<Vertex> vertices_;
   double min_step_ = 0.0;  // mm; shorter feed pieces are merged
   double low_[3] = {0, 0, 0}, high_[3] = {0, 0, 0};
-  std::string title_ = "Tool path";
+  std::string title_ = "Tool path", alarm_;
   PlotView view_ = PlotView::kIsometric;
   PlotCoordinates coordinates_ = PlotCoordinates::kWork;
 };
