@@ -19,6 +19,7 @@ namespace {
 
 using nc::tools::MachineOptions;
 using nc::tools::MotionFormat;
+using nc::tools::PlotColor;
 using nc::tools::PlotCoordinates;
 using nc::tools::PlotView;
 using nc::tools::SessionOptions;
@@ -144,6 +145,13 @@ int run(int argc, char** argv) {
       ->capture_default_str()
       ->transform(nc::tools::one_of({"work", "machine"}))
       ->excludes(profile_flag);
+  std::string color = "kind";
+  const std::map<std::string, PlotColor> colors = {
+      {"kind", PlotColor::kKind}, {"tool", PlotColor::kTool}, {"feed", PlotColor::kFeed}, {"z", PlotColor::kZ}};
+  plot->add_option("--color", color, "what the colour of a feed says: kind (none but that it is one), tool, feed or z")
+      ->capture_default_str()
+      ->transform(nc::tools::one_of({"kind", "tool", "feed", "z"}))
+      ->excludes(profile_flag);
   CLI::App* const profile_machine = plot->add_option_group("machine", "of --profile, but for --machine");
   add_machine(profile_machine, &machine);
   for (CLI::Option* option : profile_machine->get_options())
@@ -196,7 +204,7 @@ int run(int argc, char** argv) {
     return nc::tools::profile_command(options, machine.options, machine.limit_s, base.empty() ? "profile" : base, stdout, stderr);
   options.machine = plot->parsed() ? machine.options.machine : options.machine;
   if (plot->parsed())
-    return nc::tools::plot_command(options, silent, {views.at(view), coordinate_names.at(coordinates)}, base.empty() ? "toolpath" : base, stdout, stderr);
+    return nc::tools::plot_command(options, silent, {views.at(view), coordinate_names.at(coordinates), colors.at(color)}, base.empty() ? "toolpath" : base, stdout, stderr);
   if (functions->parsed()) return nc::tools::functions_command(options.dialect, markdown, stdout, stderr);
   if (parameters->parsed()) return nc::tools::parameters_command(options.dialect, markdown, stdout, stderr);
   if (variables->parsed() && !options.program.empty()) return nc::tools::variable_use_command(options, stdout, stderr);

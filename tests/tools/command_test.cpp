@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -514,6 +515,7 @@ TEST_F(CommandTest, OptionsRefuseBadValuesWithASentence) {
       {"plot p.nc --view foo", "--view: must be one of iso, xy, xz, yz, is foo"},
       {"plot p.nc --view 2", "--view: must be one of iso, xy, xz, yz, is 2"},
       {"plot p.nc --view ''", "--view: must be one of iso, xy, xz, yz, is empty"},
+      {"plot p.nc --color red", "--color: must be one of kind, tool, feed, z, is red"},
       {"plot p.nc --coordinates part", "--coordinates: must be one of work, machine, is part"},
       {"plot p.nc -o ''", "--output: must not be empty"},
       {"trace p.nc --setup ''", "--setup: must not be empty"},
@@ -612,6 +614,25 @@ TEST_F(CommandTest, PlotWritesBothFiles) {
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
   EXPECT_EQ(ncsim("plot -o again --view xy p.nc").code, 0);
   EXPECT_EQ(svg == content(folder_ + "/again.svg"), true) << "two runs give the same bytes";
+}
+
+TEST_F(CommandTest, APlotSaysToolFeedAndZByItsColour) {
+  file("p.nc", "T1 M06\nT2\nG0 X0 Y0 Z0\nG1 X10. F100\nM06\nX20. Z-5. F200\nM30\n");
+  const auto colors = [this](const std::string& color) {
+    EXPECT_EQ(ncsim("plot -o drawing --color " + color + " p.nc").code, 0);
+    const std::string svg = content(folder_ + "/drawing.svg");
+    std::set<std::string> all;
+    for (size_t at = svg.find("stroke:rgb("); at != std::string::npos; at = svg.find("stroke:rgb(", at + 1))
+      all.insert(svg.substr(at, svg.find(')', at) - at + 1));
+    return all;
+  };
+  const std::set<std::string> kind = colors("kind"), tool = colors("tool"), feed = colors("feed"), z = colors("z");
+  EXPECT_EQ(kind.count("stroke:rgb(5%,30%,75%)"), 1u);
+  EXPECT_EQ(tool.count("stroke:rgb(0%,55%,30%)"), 1u) << "the second tool cuts behind its M06";
+  EXPECT_EQ(feed.count("stroke:rgb(27%,0%,33%)"), 1u) << "the lowest feed";
+  EXPECT_EQ(feed.count("stroke:rgb(90%,80%,10%)"), 1u) << "the highest feed";
+  EXPECT_EQ(z.count("stroke:rgb(90%,80%,10%)"), 1u);
+  EXPECT_EQ(z.count("stroke:rgb(5%,30%,75%)"), 0u);
 }
 
 // Where a part is clamped and how long the tools are moves nothing in a drawing of the part, and much in one of the machine.

@@ -129,8 +129,18 @@ class PlotSink final : public RunSink {
       piece.machine_start = piece.machine;
     }
   }
+  // T selects, M06 changes: behind the first M06 a T alone is the tool that is fetched for later. Without any, T is the change.
+  void aux(const nc_source&, char code, double value) override {
+    constexpr double kToolChange = 6;
+    if (code == 'T') selected_ = value;
+    const bool changes = code == 'M' && value == kToolChange;
+    changer_ = changer_ || changes;
+    if (changes || (code == 'T' && !changer_)) plot_.set_tool(selected_);
+  }
 
  private:
+  double selected_ = 0.0;
+  bool changer_ = false;
   ToolpathPlot& plot_;
   const nc_system_config& system_;
   ItemSource& items_;
@@ -259,6 +269,7 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, cons
   ToolpathPlot plot;
   plot.set_view(how.view);
   plot.set_coordinates(how.coordinates);
+  plot.set_color(how.color);
   const size_t slash = options.program.find_last_of('/');
   plot.set_title(options.program == "-" ? "standard input"
                                         : rt::valid_utf8(options.program.substr(slash == std::string::npos ? 0 : slash + 1)));

@@ -41,6 +41,7 @@ int profile_command(const SessionOptions& options, const MachineOptions& machine
 struct PlotOptions {
   PlotView view = PlotView::kIsometric;
   PlotCoordinates coordinates = PlotCoordinates::kWork;
+  PlotColor color = PlotColor::kKind;
 };
 
 /** `ncsim plot`: BASE.svg and BASE.png. What was reached before an alarm is drawn too. */

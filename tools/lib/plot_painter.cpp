@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,11 @@ constexpr double kIsoShortening = 0.81649658092772603;  // sqrt(2/3)
 
 constexpr Color kRapid{0.85, 0.20, 0.10}, kFeed{0.05, 0.30, 0.75}, kStart{0.10, 0.55, 0.20}, kEnd{0.15, 0.15, 0.15},
     kAlarm{0.80, 0.00, 0.55};
+constexpr unsigned kShades = 16;
+// From low to high; neither end is as light as the page nor red as the rapids.
+constexpr Color kRamp[] = {{0.27, 0.00, 0.33}, {0.23, 0.32, 0.55}, {0.13, 0.57, 0.55}, {0.37, 0.79, 0.38}, {0.90, 0.80, 0.10}};
+constexpr Color kTools[] = {{0.05, 0.30, 0.75}, {0.00, 0.55, 0.30}, {0.90, 0.55, 0.00}, {0.50, 0.20, 0.65},
+                            {0.00, 0.60, 0.70}, {0.45, 0.30, 0.15}, {0.85, 0.35, 0.60}, {0.40, 0.40, 0.40}};
 constexpr double kMark = 4.5;            // px: half of a mark's width
 constexpr double kArrow = 7.0;           // px
 constexpr double kArrowDistance = 120;   // px of path from one arrow to the next ...
@@ -45,6 +52,7 @@ class PlotPainter {
 
   void paint() {
     fit();
+    read_values();
     if (plot_.view_ == PlotView::kIsometric)
       box();
     else
@@ -54,6 +62,7 @@ class PlotPainter {
     directions();
     marks();
     head();
+    color_legend();
     scale_bar();
   }
 
@@ -168,6 +177,70 @@ class PlotPainter {
     cairo_stroke(c_);
   }
 
+  // Lowest and highest value of the feed pieces, and for tools all that there are.
+  void read_values() {
+    bool any = false;
+    for (size_t i = 1; i < plot_.vertices_.size(); ++i) {
+      const auto& v = plot_.vertices_[i];
+      if (v.rapid) continue;
+      low_value_ = any ? std::min(low_value_, v.value) : v.value;
+      high_value_ = any ? std::max(high_value_, v.value) : v.value;
+      any = true;
+      if (plot_.color_ == PlotColor::kTool) tools_.insert(v.value);
+    }
+  }
+
+  // Values of a range share kShades colours: pieces of one colour are one line of the drawing.
+  unsigned shade(const ToolpathPlot::Vertex& v) const {
+    if (plot_.color_ == PlotColor::kKind || v.rapid) return 0;
+    if (plot_.color_ == PlotColor::kTool)
+      return static_cast<unsigned>(std::distance(tools_.begin(), tools_.find(v.value))) % std::size(kTools);
+    if (!(high_value_ > low_value_)) return 0;
+    const float share = (v.value - low_value_) / (high_value_ - low_value_);
+    return std::min(kShades - 1, static_cast<unsigned>(share * kShades));
+  }
+
+  Color feed_color(unsigned shade) const {
+    if (plot_.color_ == PlotColor::kKind) return kFeed;
+    if (plot_.color_ == PlotColor::kTool) return kTools[shade];
+    const double place = shade / (kShades - 1.0) * (std::size(kRamp) - 1);
+    const size_t i = std::min(std::size(kRamp) - 2, static_cast<size_t>(place));
+    const double t = place - static_cast<double>(i);
+    const Color &a = kRamp[i], &b = kRamp[i + 1];
+    return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b)};
+  }
+
+  // What the colours mean, at the right edge below the head.
+  void color_legend() {
+    const double x = kWidth - kRight - 130;
+    double y = kTop + 20;
+    if (plot_.color_ == PlotColor::kKind || plot_.vertices_.empty()) return;
+    cairo_set_line_width(c_, 3);
+    if (plot_.color_ == PlotColor::kTool) {
+      for (const float tool : tools_) {
+        if (y > kHeight - kBottom) {
+          put_text(c_, x, y, "and more", 14);
+          return;
+        }
+        line(feed_color(static_cast<unsigned>(std::distance(tools_.begin(), tools_.find(tool))) % std::size(kTools)), x, y - 5, x + 40, y - 5);
+        use(c_, kInk);
+        put_text(c_, x + 50, y, tool == 0 ? "no tool" : "T" + tick_text(double{tool}), 14);
+        y += 20;
+      }
+      return;
+    }
+    put_text(c_, x, y, plot_.color_ == PlotColor::kFeed ? "feed [mm/min]" : "Z [mm]", 14);
+    constexpr double kBar = 8;  // px, height of a shade
+    for (unsigned k = 0; k < kShades; ++k) {
+      use(c_, feed_color(kShades - 1 - k));
+      cairo_rectangle(c_, x, y + 10 + k * kBar, 40, kBar);
+      cairo_fill(c_);
+    }
+    use(c_, kInk);
+    put_text(c_, x + 50, y + 20, tick_text(std::round(double{high_value_} * 1e3) / 1e3), 14);
+    put_text(c_, x + 50, y + 10 + kShades * kBar, tick_text(std::round(double{low_value_} * 1e3) / 1e3), 14);
+  }
+
   // All pieces of one kind; rapids first and dashed, feed over them.
   void path(bool rapid) {
     const double dash[] = {6.0, 4.0};
@@ -178,6 +251,7 @@ class PlotPainter {
     bool open = false;
     int pieces = 0;
     double last_x = 0, last_y = 0;
+    unsigned shade_now = 0;
     const auto& all = plot_.vertices_;
     for (size_t i = 1; i < all.size(); ++i) {
       if (all[i].rapid != rapid) {
@@ -187,13 +261,19 @@ class PlotPainter {
       }
       const Page to = project(all[i].x, all[i].y, all[i].z);
       const double x = px(to), y = py(to);
+      if (open && shade(all[i]) != shade_now) {
+        cairo_stroke(c_);
+        open = false;
+      }
       if (!open) {
+        shade_now = shade(all[i]);
+        if (!rapid) use(c_, feed_color(shade_now));
         const Page from = project(all[i - 1].x, all[i - 1].y, all[i - 1].z);
         cairo_move_to(c_, last_x = px(from), last_y = py(from));
         open = true;
         pieces = 0;
       }
-      const bool run_ends = i + 1 == all.size() || all[i + 1].rapid != rapid;
+      const bool run_ends = i + 1 == all.size() || all[i + 1].rapid != rapid || shade(all[i + 1]) != shade_now;
       if (!run_ends && std::hypot(x - last_x, y - last_y) < kMinPixels) continue;
       cairo_line_to(c_, x, y);
       last_x = x;
@@ -224,7 +304,7 @@ class PlotPainter {
       const Page from = at(i - 1), to = at(i);
       const double length = std::hypot(to.u - from.u, to.v - from.v);
       for (; due < length; due += distance)
-        arrow(all[i].rapid ? kRapid : kFeed, {from.u + (to.u - from.u) * due / length, from.v + (to.v - from.v) * due / length},
+        arrow(all[i].rapid ? kRapid : feed_color(shade(all[i])), {from.u + (to.u - from.u) * due / length, from.v + (to.v - from.v) * due / length},
               {(to.u - from.u) / length, (to.v - from.v) / length});
       due -= length;
     }
@@ -290,7 +370,7 @@ class PlotPainter {
     const double x = kWidth - kRight - 130;
     const double dash[] = {6.0, 4.0};
     cairo_set_line_width(c_, 2);
-    line(kFeed, x, 30, x + 40, 30);
+    line(plot_.color_ == PlotColor::kKind ? kFeed : kInk, x, 30, x + 40, 30);
     cairo_set_dash(c_, dash, 2, 0);
     line(kRapid, x, 50, x + 40, 50);
     cairo_set_dash(c_, nullptr, 0, 0);
@@ -323,6 +403,8 @@ class PlotPainter {
   cairo_t* c_;
   double lo_[3] = {0, 0, 0}, hi_[3] = {0, 0, 0};
   Page low_{0, 0}, high_{0, 0};
+  float low_value_ = 0, high_value_ = 0;
+  std::set<float> tools_;
   double scale_ = 1, offset_x_ = 0, offset_y_ = 0;
 };
 

@@ -9,7 +9,7 @@
 namespace nc::tools {
 namespace {
 
-constexpr size_t kMaxVertices = 2'000'000;  // 32 MB; a drawing of 2000 x 1500 px shows far fewer
+constexpr size_t kMaxVertices = 2'000'000;  // 40 MB; a drawing of 2000 x 1500 px shows far fewer
 constexpr double kStepDeg = 3.0;            // an arc of radius r is then at most 0.00034 r off its chord
 constexpr double kFarthest = 1e9;           // mm
 constexpr unsigned kMaxTurnsDrawn = 2000;
@@ -55,7 +55,8 @@ void ToolpathPlot::push(bool rapid, double x, double y, double z) {
     low_[i] = vertices_.empty() ? p[i] : std::min(low_[i], p[i]);
     high_[i] = vertices_.empty() ? p[i] : std::max(high_[i], p[i]);
   }
-  vertices_.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), rapid});
+  const double value = color_ == PlotColor::kTool ? tool_ : color_ == PlotColor::kFeed ? feed_mm_min_ : color_ == PlotColor::kZ ? z : 0.0;
+  vertices_.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), static_cast<float>(value), rapid});
 }
 
 // Doubles the smallest step kept until half of the room is free again.
@@ -86,6 +87,7 @@ void ToolpathPlot::add_move(const nc_move& move, const nc_system_config& system,
   if (vertices_.empty())
     add_point(true, at(move.machine_start, 0), at(move.machine_start, 1), at(move.machine_start, 2));
   const bool rapid = move.kind == NC_MOVE_RAPID;
+  feed_mm_min_ = move.feed_mm_min;
   if (!is_circular(move)) {
     add_point(rapid, at(move.machine, 0), at(move.machine, 1), at(move.machine, 2));
     return;

@@ -24,6 +24,9 @@ enum class PlotView { kIsometric, kXY, kXZ, kYZ };
 /** Whose coordinates are drawn; whoever adds the points gives them in these. */
 enum class PlotCoordinates { kWork, kMachine };
 
+/** What the colour of a feed piece says. */
+enum class PlotColor { kKind, kTool, kFeed, kZ };
+
 /** Collects a tool path and draws it. */
 class ToolpathPlot {
  public:
@@ -32,6 +35,10 @@ class ToolpathPlot {
 
   void set_coordinates(PlotCoordinates coordinates) { coordinates_ = coordinates; }
   PlotCoordinates coordinates() const { return coordinates_; }
+
+  void set_color(PlotColor color) { color_ = color; }
+  /** The tool that cuts from here on. */
+  void set_tool(double number) { tool_ = number; }
 
   /** The path ends in an alarm of this code. */
   void set_alarm(std::string code) { alarm_ = std::move(code); }
@@ -56,7 +63,8 @@ class ToolpathPlot {
   friend class PlotPainter;
   struct Vertex {
     float x, y, z;
-    bool rapid;  // of the piece that ends here
+    float value;  // of the piece that ends here: what its colour says
+    bool rapid;   // of the same piece
   };
   void push(bool rapid, double x, double y, double z);
   void thin();
@@ -66,6 +74,8 @@ class ToolpathPlot {
   double low_[3] = {0, 0, 0}, high_[3] = {0, 0, 0};
   std::string title_ = "Tool path", alarm_;
   PlotView view_ = PlotView::kIsometric;
+  PlotColor color_ = PlotColor::kKind;
+  double tool_ = 0.0, feed_mm_min_ = 0.0;
   PlotCoordinates coordinates_ = PlotCoordinates::kWork;
 };
 
