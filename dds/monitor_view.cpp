@@ -8,16 +8,21 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "runtime/programs/encoding.hpp"
+
 namespace nc::dds {
 namespace {
 
 __attribute__((format(printf, 2, 3))) void append(std::string* text, const char* format, ...) {
-  char buffer[512];
-  va_list arguments;
+  va_list arguments, again;
   va_start(arguments, format);
-  std::vsnprintf(buffer, sizeof buffer, format, arguments);
+  va_copy(again, arguments);
+  const int length = std::vsnprintf(nullptr, 0, format, arguments);  // 1e308 with three decimals has 313 characters
   va_end(arguments);
-  *text += buffer;
+  const std::size_t begin = text->size();
+  text->resize(begin + static_cast<std::size_t>(std::max(length, 0)));
+  std::vsnprintf(text->data() + begin, text->size() - begin + 1, format, again);
+  va_end(again);
 }
 
 std::string time_text(std::int64_t ns) {
@@ -150,9 +155,14 @@ nlohmann::json signals_json(const MonitorView& view) {
 
 }  // namespace
 
+// ECMA-48: a terminal obeys C0, DEL and C1 (U+0080 to U+009F, in UTF-8 behind C2; one of 8 bits takes the lone byte for it).
 std::string printable(const std::string& text) {
-  std::string clean;
-  for (const char c : text) clean += static_cast<unsigned char>(c) < ' ' || c == 0x7f ? ' ' : c;
+  std::string clean = rt::valid_utf8(text);
+  for (std::size_t at = 0; at < clean.size(); ++at) {
+    const auto byte = static_cast<unsigned char>(clean[at]);
+    if (byte < ' ' || byte == 0x7f) clean[at] = ' ';
+    if (byte == 0xc2 && static_cast<unsigned char>(clean[at + 1]) < 0xa0) clean.replace(at, 2, " ");
+  }
   return clean;
 }
 
@@ -206,8 +216,8 @@ std::string signal_page(const MonitorView& view, unsigned columns) {
         append(&text, "%-32s %-12s %-6s %11lld%s  %s\n", name.c_str(), s.direction.c_str(), s.type.c_str(),
                static_cast<long long>(s.value), s.good ? " " : "!", printable(s.meaning).c_str());
       else
-        append(&text, "%-*.*s %*lld%s  ", kName, kName, name.c_str(), kValue, static_cast<long long>(s.value),
-               s.good ? " " : "!");
+        append(&text, "%-*s %*lld%s  ", kName, std::string(rt::cut_utf8(name, kName)).c_str(), kValue,
+               static_cast<long long>(s.value), s.good ? " " : "!");
     }
     if (columns != 0) text += '\n';
   }
