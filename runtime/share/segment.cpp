@@ -69,7 +69,7 @@ bool entry_is_sound(const Entry& entry) {
 
 bool system_is_sound(const SystemStatus& system) {
   return system.axis_count <= NC_MAX_AXES && is_ended(system.state_text) && is_ended(system.modal) &&
-         is_ended(system.program) && is_ended(system.file) && is_ended(system.block);
+         is_ended(system.program) && is_ended(system.file) && is_ended(system.block) && is_ended(system.refusal_text);
 }
 
 bool status_is_sound(const StatusBlock& block, unsigned systems) {

@@ -382,6 +382,9 @@ TEST_F(Share, ValuesThatMakeNoSenseAreRefused) {
   bad.system[0].axis_count = NC_MAX_AXES + 1;
   EXPECT_TRUE(refused(bad));
   bad = good;
+  bad.system[0].refusal_text.fill('R');
+  EXPECT_TRUE(refused(bad));
+  bad = good;
   bad.system[0].block.fill('G');
   EXPECT_TRUE(refused(bad));
   HistoryBlock history{};
