@@ -334,7 +334,9 @@ share::Request request(const nc_Command& command, const share::MachineBlock& mac
   to.sequence = command.seq;
   to.writer = writer;
   to.issued_ns = issued_ns;
-  to.kind = static_cast<std::uint32_t>(command.kind);
+  // As the number that it is: an enumerator that there is not must not be read as one.
+  static_assert(sizeof to.kind == sizeof command.kind);
+  std::memcpy(&to.kind, &command.kind, sizeof to.kind);
   // The kinds of the gateway itself cannot be asked for from outside.
   if (to.kind > static_cast<std::uint32_t>(nc_CMD_RELEASE_FORCE))
     to.kind = static_cast<std::uint32_t>(share::RequestKind::kCount);
