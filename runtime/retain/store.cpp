@@ -29,6 +29,8 @@ struct Header {
 };
 static_assert(sizeof(Header) == 32);
 constexpr std::size_t kChecked = offsetof(Header, generation);
+// No file is written so often; the one behind it would count as the oldest, and be lost.
+constexpr std::uint64_t kNoGeneration = ~std::uint64_t{0};
 
 // CRC-32 of IEEE 802.3, reflected.
 std::uint32_t crc32(const char* data, std::size_t size) {
@@ -92,7 +94,7 @@ bool is_whole(const std::string& bytes, std::uint64_t* generation, std::string* 
   if (bytes.size() < sizeof header) return false;
   std::memcpy(&header, bytes.data(), sizeof header);
   if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0 || header.version != kVersion ||
-      header.length != bytes.size() - sizeof header ||
+      header.length != bytes.size() - sizeof header || header.generation == kNoGeneration ||
       header.check != crc32(bytes.data() + kChecked, bytes.size() - kChecked))
     return false;
   *generation = header.generation;

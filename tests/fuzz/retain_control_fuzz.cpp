@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any bytes as the payload of retained variables and of retained tables. Refused they change nothing; taken, what the control then has is
+// finite, and written and read again it is the same.
+#include "fuzz/small_control.hpp"
+#include "runtime/retain/tables.hpp"
+#include "runtime/retain/variables.hpp"
+
+namespace {
+
+using namespace nc::fuzz;
+
+void variables(const std::string& bytes) {
+  SmallControl control;
+  const std::string before = nc::rt::encode_variables(control.get());
+  const bool taken = nc::rt::restore_variables(control.get(), bytes);
+  const std::string after = nc::rt::encode_variables(control.get());
+  require(taken || after == before);
+  std::uint32_t number = 0;
+  for (double value = 0; nc_common_next(control.get(), 0, number, &number, &value) == NC_OK; ++number) require(std::isfinite(value));
+  SmallControl next;
+  require(nc::rt::restore_variables(next.get(), after) && nc::rt::encode_variables(next.get()) == after);
+}
+
+void tables(const std::string& bytes) {
+  SmallControl control;
+  const nc::rt::TableRows configured = nc::rt::read_tables(control.get(), control.config());
+  const bool taken = nc::rt::restore_changes(control.get(), control.config(), configured, bytes);
+  const nc::rt::TableRows after = nc::rt::read_tables(control.get(), control.config());
+  require(taken || after == configured);
+  for (const auto& [key, value] : after)
+    require(key.find('\n') == std::string::npos && value.find('\n') == std::string::npos && value.find("nan") == std::string::npos);
+  SmallControl next;
+  const std::string kept = nc::rt::encode_changes(after, configured);
+  require(nc::rt::restore_changes(next.get(), next.config(), configured, kept));
+  require(nc::rt::encode_changes(nc::rt::read_tables(next.get(), next.config()), configured) == kept);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Bytes in(data, size);
+  const bool text = (in.byte() & 1) != 0;
+  (text ? tables : variables)(in.rest());
+  return 0;
+}
