@@ -16,7 +16,8 @@ namespace {
 
 nc::LexRules m700_like() {
   nc::LexRules rules;
-  rules.macros = rules.semicolon_ends = rules.skip_numbers = rules.comma_words = rules.angle_names = true;
+  rules.semicolon = nc::Semicolon::ends_line;
+  rules.macros = rules.skip_numbers = rules.comma_words = rules.angle_names = true;
   rules.slash_only_at_head = false;
   for (nc::WordFormat& f : rules.word) f.known = true;
   for (char c : {'D', 'H', 'L', 'M', 'N', 'O', 'S', 'T'}) rules.word[c - 'A'].integer = true;
@@ -42,7 +43,7 @@ struct Reader {
   nc::ProgramStore store;
   nc::BlockReader reader;
   Reader() {
-    store.create(8, arena);
+    store.create(8, 0, arena);
     reader.create(&store, &rules, 65536, 256, arena);
   }
 };
