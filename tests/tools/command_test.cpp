@@ -398,7 +398,8 @@ TEST_F(CommandTest, EncodingsOfPrograms) {
 }
 
 TEST_F(CommandTest, FilesAsTheyComeFromOldMachines) {
-  file("cr.nc", std::string("\0\0\0%\rO1\rG0 X1.\rN5\x7f G0 X2.\rM30\r%\r", 36));
+  constexpr char kTape[] = "\0\0\0%\rO1\rG0 X1.\rN5\x7f G0 X2.\rM30\r%\r";
+  file("cr.nc", std::string(kTape, sizeof kTape - 1));
   Outcome run = ncsim("trace cr.nc");
   EXPECT_EQ(run.code, 0) << run.out;
   EXPECT_EQ(run.events().back()["work"]["X"], 2);
