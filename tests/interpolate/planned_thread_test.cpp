@@ -237,5 +237,33 @@ TEST(PlannedThread, RandomThreadsKeepTheLimits) {
   }
 }
 
+/// Single block came in the last cells of the line before, where nothing can be changed any more; at rest no cell went by, so nothing was planned
+/// again for the speed to which the spindle had come, and the thread waited for its angle for ever.
+TEST(PlannedThread, BeginsWhereSingleBlockCameInTheLastCellsOfTheLineBefore) {
+  for (unsigned n = 0; n < 60; ++n) {
+    const ExecutorConfig c = thread_config();
+    Program p(c);
+    p.line(place(5, 0), 60);
+    p.mark();
+    thread(&p, place(5, -10), 1);
+    p.end();
+    Machine m(c);
+    m.feed(p);
+    m.start();
+    const double last = 0.0005 * n * n;  // mm of the line that are left when it comes
+    int rests = 0;
+    for (int i = 0; i < 4000 && m.out.command.v[2] > -10; ++i) {
+      rests += m.out.command.v[0] > 5 - 1e-9;
+      turn(m, rests > 0 ? 20 : 2);
+      m.in.single_block = m.out.command.v[0] >= 5 - last;
+      m.in.cycle_start = rests == 20;
+      m.feed(p);
+      m.cycle();
+    }
+    EXPECT_NEAR(m.out.command.v[2], -10, 1e-6) << last << " mm before its end, cause " << int{m.out.cause};
+    EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  }
+}
+
 }  // namespace
 }  // namespace nc::test

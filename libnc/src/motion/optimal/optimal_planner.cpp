@@ -595,7 +595,8 @@ void OptimalPlanner::change(const Following& f) {
     extend(f, first, block_most(f, first), nullptr);
     return;
   }
-  if (tried_at_ != kNoCell && f.cell - tried_at_ < (f.brake ? 1 : kRetry)) return;
+  // At rest no cell goes by, and what was tried in vain from a moving start may be found from here: a thread waits for it.
+  if (!f.at_end && tried_at_ != kNoCell && f.cell - tried_at_ < (f.brake ? 1 : kRetry)) return;
   urgent_ = f.brake || blocks || chain_.stops || lower(limits_.scale, chain_.scale);
   Start start;
   if (!find_ahead(f, lead_, &start)) {  // it comes to rest before anything could be changed
