@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "interpolate/spindle_sync.hpp"
 #include "interpolate/test_machine.hpp"
 
 namespace nc::test {
@@ -213,7 +214,7 @@ TEST(PlannedThread, RandomThreadsKeepTheLimits) {
     }
     p.end();
     Machine m(c);
-    const double speed = number(0.5, 20) * (random() % 2 != 0 ? 1 : -1), wave = number(0, 0.12), pace = number(0.001, 0.02);
+    const double speed = number(0.5, 20) * (random() % 2 != 0 ? 1 : -1), wave = number(0, 0.4), pace = number(0.001, 0.02);
     const bool stops = random() % 4 == 0, reset = random() % 3 == 0;
     m.in.spindle[0].rev_per_s = speed;
     m.feed(p);
@@ -262,6 +263,39 @@ TEST(PlannedThread, BeginsWhereSingleBlockCameInTheLastCellsOfTheLineBefore) {
     }
     EXPECT_NEAR(m.out.command.v[2], -10, 1e-6) << last << " mm before its end, cause " << int{m.out.cause};
     EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  }
+}
+
+/// sigma came to the end of its range by the slope of one cycle before, so that the last steps took twice what sigma'' may be.
+TEST(PlannedThread, TheSynchronizerKeepsItsReachAtTheEndsOfItsRange) {
+  std::mt19937_64 rng(5);
+  const auto log_uniform = [&](double low, double high) { return low * std::pow(high / low, std::uniform_real_distribution<double>()(rng)); };
+  for (int n = 0; n < 500; ++n) {
+    const double cycle = log_uniform(0.00025, 0.004), slower = log_uniform(0.01, 0.5);
+    SpindleSync::Reach reach;
+    reach.slope = log_uniform(0.2, 50);
+    reach.bend = log_uniform(10, 20000);
+    SpindleSync sync;
+    sync.create(cycle);
+    sync.begin(0, 10);
+    SpindleSync::Sample s;
+    s.lead = 1;
+    double slope = 0, sigma = 1;
+    for (int i = 0; i < 4000; ++i) {
+      const double rate = i < 2000 ? std::min(1.4, 1 + i * cycle * slower) : std::max(0.0, 1.4 - (i - 2000) * cycle * slower * 4);
+      s.rev_per_s = 10 * rate;
+      s.turns += s.rev_per_s * cycle;
+      const double gone = sync.advance(cycle, s, reach);
+      const PlanPace now = sync.pace();
+      ASSERT_LE(std::fabs(now.slope - slope), reach.bend * cycle * (1 + 1e-9)) << n << ", cycle " << i << ", sigma " << now.sigma;
+      ASSERT_LE(std::fabs(now.slope), reach.slope * (1 + 1e-9));
+      ASSERT_NEAR(now.sigma - sigma, cycle * (slope + now.slope) / 2, 1e-12) << n << ", cycle " << i;
+      ASSERT_NEAR(gone, cycle * sigma, cycle * cycle * (reach.slope + reach.bend * cycle));
+      ASSERT_LE(now.sigma, optimal::ThreadShare::kFaster);
+      ASSERT_GE(now.sigma, 0);
+      slope = now.slope;
+      sigma = now.sigma;
+    }
   }
 }
 

@@ -54,9 +54,8 @@ class SpindleSync {
     const double rate = std::fabs(s.rev_per_s) / planned_, p = pole_;
     double bend = p * p * p * (wanted_ - tau_) + 3 * p * p * (rate - sigma_) - 3 * p * slope_;
     bend = std::clamp(bend, -reach.bend, reach.bend);
-    // No farther than from where it can come to a steady sigma within its range.
-    const double up = std::min(reach.slope, std::sqrt(2 * reach.bend * std::max(0.0, optimal::ThreadShare::kFaster - sigma_)));
-    const double down = std::min(reach.slope, std::sqrt(2 * reach.bend * std::max(0.0, sigma_)));
+    const double up = std::min(reach.slope, most_slope(optimal::ThreadShare::kFaster - sigma_, slope_, reach.bend, time));
+    const double down = std::min(reach.slope, most_slope(sigma_, -slope_, reach.bend, time));
     const double slope = std::clamp(slope_ + bend * time, -down, up);
     bend = (slope - slope_) / time;
     const double gone = time * (sigma_ + time * (slope_ / 2 + time * bend / 6));
@@ -93,6 +92,14 @@ class SpindleSync {
   }
 
  private:
+  /// The largest slope at the end of a step from where sigma still comes to a steady value within its range, of which `left` was there when the
+  /// step began with `slope`. Going down by bend T in each step of T a slope s takes s^2 / (2 bend) + s T / 2 at most, the step itself T times
+  /// the mean of both slopes; what keeps to it goes down by no more than bend T, because sqrt(x^2 + y^2) >= x.
+  static double most_slope(double left, double slope, double bend, double time) NC_RT {
+    const double by = bend * time;
+    return std::max(0.0, std::sqrt(std::max(0.0, by * by + 2 * bend * (left - 0.5 * time * slope))) - by);
+  }
+
   static constexpr double kPole = 120;           ///< 1/s, of the three of the loop that keeps tau with the spindle
   static constexpr double kPolePerCycle = 0.15;  ///< of a cycle
   static constexpr double kAtPace = 0.999;
