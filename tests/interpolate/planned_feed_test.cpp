@@ -155,5 +155,28 @@ TEST(PlannedFeed, AnOverrideTurnedThroughALongDwellActsBehindIt) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
+/// Where a stop takes less than a nanometre the law in phases had none at its end, so the plan was the one of the whole path, in cells of as
+/// many minutes as the override made it long, and an override that was raised waited for the end of one.
+TEST(PlannedFeed, AnOverrideIsRaisedWhereTheFeedIsNearlyNothing) {
+  for (const double slow : {1e-2, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
+    const ExecutorConfig c = feed_config();
+    Program p(c);
+    p.line(at(-20), 0.08);
+    p.line(at(-20, 5), 90);  // with a corner ahead the law is not that of one straight line
+    p.mark();
+    p.end();
+    Machine m(c);
+    m.feed(p);
+    m.start();
+    for (const double feed : {1.0, slow, 1.0, 0.1 * slow, 1.0}) {
+      m.in.feed_override = feed;
+      for (int i = 0; i < 1500; ++i) m.feed(p), m.cycle();
+      if (feed < 1) continue;
+      EXPECT_NEAR(m.out.feed_mm_min / 60, 0.08, 1e-3 * 0.08) << slow;
+    }
+    EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  }
+}
+
 }  // namespace
 }  // namespace nc::test

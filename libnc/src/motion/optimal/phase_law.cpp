@@ -305,9 +305,10 @@ bool PhaseLaw::divide(const Range& all) {
   while (a > first && stretch_[a - 1].cap <= kSameSpeed * most) --a;
   while (b < last && stretch_[b + 1].cap <= kSameSpeed * most) ++b;
   const double edge0 = std::max(r.from, stretch_[a].from), edge1 = std::min(r.to, stretch_[b].to);
-  if (r.from + one > edge0 + kNear)  // it comes to that speed behind the place only
+  // Rounding, but never a whole move: a stop from 1e-5 mm/s takes less way than that.
+  if (r.from + one > edge0 + std::min(kNear, 0.5 * one))  // it comes to that speed behind the place only
     return one > 0 ? push({r.from + one, r.to, most, r.v1, false, {}}) && push({r.from, r.from + one, r.v0, most, true, rise}) : hill(r, most);
-  if (r.to - other < edge1 - kNear)
+  if (r.to - other < edge1 - std::min(kNear, 0.5 * other))
     return other > 0 ? push({r.to - other, r.to, most, r.v1, true, fall}) && push({r.from, r.to - other, r.v0, most, false, {}}) : hill(r, most);
   return push({edge1, r.to, most, r.v1, false, {}}) && push({edge0, edge1, most, most, true, {}}) && push({r.from, edge0, r.v0, most, false, {}});
 }
