@@ -226,6 +226,8 @@ class Session {
         serial = out_.serial;
         blocks = out_.blocks;
         since = n;
+      } else if (out_.cause == NC_CAUSE_DWELL) {
+        since = n;  // G4 takes as long as it says
       } else if (n - since > ten_seconds) {
         return Ended::stuck;
       }
