@@ -61,7 +61,10 @@ void Feeder::step() {
   follow_ladder();
   leave_kept();
   Command command;
-  while (commands_.pop(&command)) (void)answers_.push({command.ticket, apply(command)});
+  while (commands_.pop(&command)) {
+    seen_ = scan_->snapshot();  // the command before it, which may have been the scan's, has been answered: it shows
+    (void)answers_.push({command.ticket, apply(command)});
+  }
   PositionSample sample;
   while (scan_->poll_position(&sample))
     if (path_sink_ != nullptr) path_sink_->moved(sample);

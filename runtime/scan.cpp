@@ -94,6 +94,7 @@ void Scan::run_once() noexcept {
   write_outputs();
   follow_requests();
   publish();
+  answer_commands();
 }
 
 // ---- 1 inputs ----
@@ -128,12 +129,14 @@ void Scan::bind_spindles() noexcept {
 
 void Scan::take_commands() noexcept {
   Command command;
-  while (commands_.pop(&command)) {
-    const Answer answer = apply(command);
-    // The ring of answers is larger than the ring of commands; an operator who never looks loses answers, not
-    // commands.
-    (void)answers_.push({command.ticket, answer});
-  }
+  while (answered_count_ < std::size(answered_) && commands_.pop(&command)) answered_[answered_count_++] = {command.ticket, apply(command)};
+}
+
+// Behind the snapshot: who has an answer finds what the command has done, and so does the feeder in front of the next command.
+void Scan::answer_commands() noexcept {
+  // The ring of answers is larger than the ring of commands; an operator who never looks loses answers, not commands.
+  for (unsigned n = 0; n < answered_count_; ++n) (void)answers_.push(answered_[n]);
+  answered_count_ = 0;
 }
 
 Answer Scan::apply(const Command& command) noexcept {

@@ -140,6 +140,7 @@ class Scan {
   void follow_requests() noexcept;
   void record_position(unsigned system) noexcept;
   void publish() noexcept;
+  void answer_commands() noexcept;
 
   void raise(AlarmId id, unsigned system, int axis, std::uint32_t detail = 0, std::uint32_t code = 0) noexcept;
   void acknowledge_alarms() noexcept;
@@ -213,6 +214,8 @@ class Scan {
 
   SpscQueue<Command, 64> commands_;
   SpscQueue<CommandAnswer, 128> answers_;
+  CommandAnswer answered_[64];  // of this scan
+  unsigned answered_count_ = 0;
   SpscQueue<Message, 64> messages_;
   bool recording_ = false;
   SpscQueue<PositionSample, 4096> positions_;

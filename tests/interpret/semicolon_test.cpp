@@ -67,7 +67,7 @@ TEST(Semicolon, IsNoCharacterOfDgshape) { EXPECT_EQ(dgshape("G0 X1. ;\nM30").ala
 
 TEST(Exponent, IsAnAlarm) {
   for (const char* text : {"G0 X1e-05\nM30", "G0 X1E-05\nM30", "G1 X1.5E+3 F100\nM30", "G1 X1. F1e3\nM30", "G0 X1. E5\nM30", "G4 P1E3\nM30", "S1E3 M3\nM30",
-                           "G28 X0 E1\nM30", "G81 X1. Z-1. R1. F100 E2\nM30", "G33 Z-10. F1E+05\nM30", "G33 Z-1e-05 F1.\nM30", "G0 X1.E#1\nM30"}) {
+                           "G28 X0 E1\nM30", "G81 X1. Z-1. R1. F100 E2\nM30", "G33 Z-10. F1E+05\nM30", "G33 Z-1e-05 F1.\nM30", "G33 Z1e1 F2.\nM30", "g33 z-1.e2.\nM30", "G0 X1.E#1\nM30"}) {
     const Outcome run = m700(std::string("#1=3\n") + text);
     EXPECT_EQ(run.alarm, "P32") << text;
     EXPECT_EQ(run.path(), Path{}) << text;
@@ -82,6 +82,8 @@ TEST(Exponent, TheLeadOfAThreadAndArgumentsStay) {
   EXPECT_EQ(thread.alarm, "");
   ASSERT_EQ(thread.moves().size(), 1u);
   EXPECT_DOUBLE_EQ(thread.moves()[0].feed_mm_rev, 2);
+  EXPECT_EQ(m700("S100 M3\nG33 Z-10.E12.7\nM30").alarm, "");
+  EXPECT_EQ(m700("s100 m3\ng33 z-10. e12.7\nm30").alarm, "");
   Bench bench;
   bench.add("O9", "#100=#8\nM99");
   EXPECT_EQ(bench.run("G65 P9 A1.E-5.\nM30").var(100), -5);

@@ -26,13 +26,13 @@ bool keeps_its_feed(Function one_shot) {
 }
 
 /// E is the lead of a thread (M700 6.7) or an argument of a macro. What looks like X1E-05 elsewhere would be X1 and a word that nobody reads;
-/// a lead has no sign.
+/// a lead has no sign, and no programmer writes its letter small behind another number (Z1e1).
 Did check_lead_word(Interpreter& in) {
   const BlockWords& w = in.words;
   if (!w.has('E')) return Did::done;
   const bool thread = in.state.modal.code[kGroupMotion] == 330 && w.one_shot == nullptr && w.cycle == nullptr;
-  const bool is_signed = (w.flags['E' - 'A'] & (kWordNegative | kWordPlus)) != 0;
-  return thread && !is_signed ? Did::done : in.raise(Condition::exponent, 'E', w.get('E'));
+  const bool exponent = (w.flags['E' - 'A'] & (kWordNegative | kWordPlus | kWordExponent)) != 0;
+  return thread && !exponent ? Did::done : in.raise(Condition::exponent, 'E', w.get('E'));
 }
 
 bool is_arc(int16_t code) { return code == 20 || code == 30; }

@@ -43,7 +43,8 @@ enum WordFlag : uint8_t {
   kWordNegative = 8,    ///< written with '-': X-0 differs from X0 (M700 12.6)
   kWordNoValue = 16,    ///< letter alone: "G28 XYZ"
   kWordCount = 32,      ///< S1=, F1=: `index` holds the number before '='
-  kWordPlus = 64        ///< written with '+'
+  kWordPlus = 64,       ///< written with '+'
+  kWordExponent = 128   ///< a lower-case e directly behind a number: X1e2
 };
 
 struct Word {

@@ -305,6 +305,7 @@ class Lexer {
     const char letter = upper(*at_.p);
     const WordFormat& format = rules_.word[letter - 'A'];
     if (!format.known && (flags & kWordComma) == 0) return fault(Condition::illegal_address, letter);
+    if (*at_.p == 'e' && at_.p != text_ && (is_digit(at_.p[-1]) || at_.p[-1] == '.')) flags |= kWordExponent;
     Word word{letter, flags, 0, column(at_.p), kNoCode, 0};
     ++at_.p;
     if (!value(format, &word, true)) return false;

@@ -608,7 +608,7 @@ unsigned PathBuilder::smoothed(bool whole, unsigned count, SmoothRequest* reques
   request->spacing = period_ * kMostSpeed;
   request->seconds = period_ * (goes_by_spindle(by_) ? std::max(limits_.scale.turns, 1.0) : 1);
   // What is not settled yet is some knots long: no more than a part of what the ring of records holds (every other one is a mark).
-  request->edges = std::max((store_->record_mask + 1) / 2 / kOfRing, 2u);
+  request->edges = std::max<unsigned>((store_->record_mask + 1) / 2 / kOfRing, 2);
   if (goes_on_) {
     request->from = &at_;
     request->hidden = hidden_;
