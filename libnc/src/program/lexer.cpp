@@ -172,7 +172,7 @@ class Lexer {
       const char* q = plain.scan(p + 1, end);
       Behind next = behind(q, end);
       while (next == Behind::blank) next = behind(++q, end);
-      if (!plain.good || next == Behind::more) {
+      if (!plain.good || next == Behind::more || *p == 'e') {  // what a small e is goes by what stands before it: word()
         at_.p = p;
         if (!slow_word()) return false;
         p = at_.p;
@@ -207,7 +207,7 @@ class Lexer {
     Word* word = first + block_.words.size();
     for (; end - p >= kShortReach && word != limit; ++word) {
       const unsigned letter = static_cast<unsigned>(static_cast<unsigned char>(*p) | 0x20u) - 'a';
-      if (letter >= 26) break;
+      if (letter >= 26 || *p == 'e') break;
       const bool minus = p[1] == '-', plus = p[1] == '+';
       const char* q = p + 1 + (minus || plus);
       const EightCharacters all(q);
@@ -305,6 +305,7 @@ class Lexer {
     const char letter = upper(*at_.p);
     const WordFormat& format = rules_.word[letter - 'A'];
     if (!format.known && (flags & kWordComma) == 0) return fault(Condition::illegal_address, letter);
+    // "X1e2", and no address E.
     if (*at_.p == 'e' && at_.p != text_ && (is_digit(at_.p[-1]) || at_.p[-1] == '.')) flags |= kWordExponent;
     Word word{letter, flags, 0, column(at_.p), kNoCode, 0};
     ++at_.p;
