@@ -50,7 +50,7 @@ def main():
         shown = control(folder, "--share", share)
         try:
             time.sleep(1)
-            shown_by = subprocess.run([program("ncmon"), "--machine", share, "--domain", domain, "--latency", str(samples)],
+            shown_by = subprocess.run([program("ncmon"), "--control", share, "--domain", domain, "--latency", str(samples)],
                                       capture_output=True, text=True)
             print(shown_by.stdout + shown_by.stderr, end="")
             with_reader = shown.communicate()[0]

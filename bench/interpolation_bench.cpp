@@ -89,8 +89,8 @@ Program spans(double gap) {
     for (unsigned n = 0; n < 3; ++n) end[n] = what.span.point[3][n];
     p.shapes.push_back(std::make_unique<CurveShape>());
     Curve curve;
-    const AxisVec start = p.at, plus{{1, 1, 1, 1, 1, 1, 1, 1}};
-    make_shaped(what, PlainMove{&start, &end, nullptr, 0, 1}, plus, AxisVec{}, start, kAxes, kRotary, p.shapes.back().get(), &curve);
+    const AxisVec start = p.at;
+    make_shaped(what, PlainMove{&start, &end, nullptr, 0, 1}, Affine{}, start, kAxes, kRotary, p.shapes.back().get(), &curve);
     p.add(curve, 100);
   }
   return p;
@@ -110,8 +110,7 @@ Program polar(double distance) {
   p.at[4] = machine[4] = std::atan2(distance, 20) * 57.29577951308232;
   p.shapes.push_back(std::make_unique<CurveShape>());
   Curve curve;
-  const AxisVec plus{{1, 1, 1, 1, 1, 1, 1, 1}};
-  make_shaped(what, PlainMove{&start, &end, nullptr, 0, 4}, plus, AxisVec{}, machine, kAxes, kRotary, p.shapes.back().get(), &curve);
+  make_shaped(what, PlainMove{&start, &end, nullptr, 0, 4}, Affine{}, machine, kAxes, kRotary, p.shapes.back().get(), &curve);
   p.at = curve.start;
   p.add(curve, 100);
   return p;

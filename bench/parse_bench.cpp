@@ -8,14 +8,14 @@
 #include <memory>
 #include <string>
 
+#include "dialect/iso_lexer.hpp"
 #include "macro/expression.hpp"
-#include "program/lexer.hpp"
 #include "program/store.hpp"
 
 namespace {
 
 nc::LexRules m700_like() {
-  nc::LexRules rules;
+  nc::LexRules rules = nc::iso_rules();
   rules.semicolon = nc::Semicolon::ends_line;
   rules.macros = rules.skip_numbers = rules.comma_words = rules.angle_names = true;
   rules.slash_only_at_head = false;

@@ -17,7 +17,6 @@ using namespace nc;
 
 constexpr unsigned kAxes = 4;
 constexpr uint32_t kRotary = 0b1000;
-const AxisVec kPlus{{1, 1, 1, 1, 1, 1, 1, 1}};
 
 struct Program {
   MoveShape what;
@@ -84,7 +83,7 @@ Program mapped(AxisMap::Kind kind, bool circular) {
 }
 
 void make(const Program& p, CurveShape* shape, Curve* curve) {
-  make_shaped(p.what, PlainMove{&p.start, &p.end, p.circular ? &p.circle : nullptr, 0, 3}, kPlus, AxisVec{}, p.machine, kAxes, kRotary, shape,
+  make_shaped(p.what, PlainMove{&p.start, &p.end, p.circular ? &p.circle : nullptr, 0, 3}, Affine{}, p.machine, kAxes, kRotary, shape,
               curve);
 }
 

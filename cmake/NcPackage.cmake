@@ -2,6 +2,7 @@
 # The Debian packages libnc0, libnc-dev, ncrtd and nc-tools, one CPack component each:
 #   cd build/release && cpack            (docs/packaging.md; scripts/prove-packages installs and uses them)
 # What only a package has (units, /etc/nc, man pages) is EXCLUDE_FROM_ALL: `cmake --install` writes below its prefix alone.
+include(${CMAKE_SOURCE_DIR}/libnc/cmake/abi.cmake)  # NC_ABI
 find_program(NC_DPKG_DEB dpkg-deb)
 if(NOT NC_DPKG_DEB OR NOT TARGET nc_shared OR NOT TARGET ncrtd OR NOT TARGET ncsim)
   return()
@@ -38,7 +39,8 @@ endforeach()
 # ---- the other files ----
 file(GLOB nc_parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/examples/parts/*)
 nc_package_file(ncrtd share/nc/parts ${nc_parts})
-nc_package_file(libnc_dev share/doc/libnc-dev/examples ${CMAKE_SOURCE_DIR}/examples/embed.c)
+file(GLOB nc_examples CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/examples/*.c)
+nc_package_file(libnc_dev share/doc/libnc-dev/examples ${nc_examples})
 nc_package_file(libnc_dev share/doc/libnc-dev ${CMAKE_SOURCE_DIR}/docs/embedding.md)
 
 nc_package_file(ncrtd /lib/systemd/system ${nc_packaging}/systemd/ncrtd.service)
@@ -74,8 +76,9 @@ foreach(script postinst prerm postrm)
 endforeach()
 file(WRITE ${nc_staged}/ncrtd/conffiles "${nc_conffiles}")
 # Who is linked against this version needs at least this version.
-file(WRITE ${nc_staged}/libnc0/shlibs "libnc ${PROJECT_VERSION_MAJOR} libnc${PROJECT_VERSION_MAJOR} (>= ${PROJECT_VERSION})\n")
-file(WRITE ${nc_staged}/libnc0/triggers "activate-noawait ldconfig\n")
+set(nc_library_package libnc${NC_ABI})
+file(WRITE ${nc_staged}/${nc_library_package}/shlibs "libnc ${NC_ABI} ${nc_library_package} (>= ${PROJECT_VERSION})\n")
+file(WRITE ${nc_staged}/${nc_library_package}/triggers "activate-noawait ldconfig\n")
 
 # ---- CPack ----
 set(CPACK_GENERATOR DEB)
@@ -86,7 +89,7 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")    # every package has its own
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL libnc0 libnc_dev ncrtd nc_tools)
+set(CPACK_COMPONENTS_ALL ${nc_library_package} libnc_dev ncrtd nc_tools)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -100,12 +103,12 @@ set(CPACK_NC_PACKAGING ${nc_packaging})
 set(CPACK_NC_SOURCE ${CMAKE_SOURCE_DIR})
 set(CPACK_NC_STRIP ${CMAKE_STRIP})
 
-set(CPACK_DEBIAN_LIBNC0_PACKAGE_NAME libnc${PROJECT_VERSION_MAJOR})
-set(CPACK_DEBIAN_LIBNC0_PACKAGE_SECTION libs)
-set(CPACK_NC_MULTIARCH_libnc${PROJECT_VERSION_MAJOR} same)
-set(CPACK_DEBIAN_LIBNC0_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_LIBNC0_PACKAGE_CONTROL_EXTRA ${nc_staged}/libnc0/shlibs ${nc_staged}/libnc0/triggers)
-set(CPACK_DEBIAN_LIBNC0_DESCRIPTION "open CNC control - shared library
+set(CPACK_DEBIAN_LIBNC${NC_ABI}_PACKAGE_NAME ${nc_library_package})
+set(CPACK_DEBIAN_LIBNC${NC_ABI}_PACKAGE_SECTION libs)
+set(CPACK_NC_MULTIARCH_${nc_library_package} same)
+set(CPACK_DEBIAN_LIBNC${NC_ABI}_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_LIBNC${NC_ABI}_PACKAGE_CONTROL_EXTRA ${nc_staged}/${nc_library_package}/shlibs ${nc_staged}/${nc_library_package}/triggers)
+set(CPACK_DEBIAN_LIBNC${NC_ABI}_DESCRIPTION "open CNC control - shared library
 libnc reads the NC programs of CNC machines as their controllers' manuals
 say, and turns them into one set of axis positions per servo cycle. It
 allocates nothing and calls no operating system, so that it can run in a
@@ -114,7 +117,7 @@ hard real-time scan.")
 set(CPACK_DEBIAN_LIBNC_DEV_PACKAGE_NAME libnc-dev)
 set(CPACK_DEBIAN_LIBNC_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_NC_MULTIARCH_libnc-dev same)
-set(CPACK_DEBIAN_LIBNC_DEV_PACKAGE_DEPENDS "libnc${PROJECT_VERSION_MAJOR} (= ${nc_package_version})")
+set(CPACK_DEBIAN_LIBNC_DEV_PACKAGE_DEPENDS "${nc_library_package} (= ${nc_package_version})")
 set(CPACK_DEBIAN_LIBNC_DEV_DESCRIPTION "open CNC control - development files
 libnc reads the NC programs of CNC machines as their controllers' manuals
 say, and turns them into one set of axis positions per servo cycle.

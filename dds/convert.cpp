@@ -8,6 +8,7 @@
 #include "nc/run.h"
 #include "runtime/refusal.hpp"
 #include "runtime/share/text.hpp"
+#include "runtime/snapshot.hpp"
 
 namespace nc::dds {
 namespace {
@@ -45,7 +46,19 @@ static_assert(static_cast<int>(nc_CAUSE_ALARM) == NC_CAUSE_ALARM && static_cast<
 static_assert(static_cast<int>(nc_CMD_SELECT_PROGRAM) == static_cast<int>(share::RequestKind::kSelectProgram) &&
               static_cast<int>(nc_CMD_JOG) == static_cast<int>(share::RequestKind::kJog));
 static_assert(static_cast<int>(nc_REFUSED_OTHER) == static_cast<int>(rt::RefusalCause::kOther) &&
+              static_cast<int>(nc_REFUSED_INTERLOCK) == static_cast<int>(rt::RefusalCause::kInterlock) &&
+              static_cast<int>(nc_REFUSED_NOT_LOADED) == static_cast<int>(rt::RefusalCause::kNotLoaded) &&
+              static_cast<int>(nc_REFUSED_NO_ANSWER) == static_cast<int>(rt::RefusalCause::kLast) &&
               static_cast<int>(nc_REFUSED_SOFT_LIMIT) == static_cast<int>(rt::RefusalCause::kSoftLimit));
+// 0 is what a subscriber reads of a control that does not say it, so that the enumerators begin one behind those of the runtime.
+static_assert(static_cast<int>(nc_OVERRIDE_OPERATOR) == static_cast<int>(rt::OverrideSource::kOperator) + 1 &&
+              static_cast<int>(nc_OVERRIDE_MACHINE) == static_cast<int>(rt::OverrideSource::kMachine) + 1 &&
+              static_cast<int>(nc_OVERRIDE_PROGRAM) == static_cast<int>(rt::OverrideSource::kProgram) + 1);
+nc_OverrideSource source_of(std::uint32_t source) {
+  return source > static_cast<std::uint32_t>(rt::OverrideSource::kProgram) ? nc_OVERRIDE_NOT_KNOWN
+                                                                           : static_cast<nc_OverrideSource>(source + 1);
+}
+
 static_assert(static_cast<int>(nc_ACK_FAILED) == static_cast<int>(share::AckState::kFailed));
 static_assert(static_cast<int>(nc_REASON_CLIENT_IN_USE) == static_cast<int>(share::AckReason::kClientInUse));
 
@@ -55,7 +68,8 @@ void MachineSample::fill(const share::MachineBlock& machine, const char* partiti
   set(info.machine, partition);
   set(info.name, machine.machine);
   set(info.version, machine.version);
-  set(info.dialect, machine.dialect == NC_DIALECT_DGSHAPE ? "dgshape" : "m700");
+  const char* const dialect = nc_dialect_name(static_cast<nc_dialect>(machine.dialect));
+  set(info.dialect, dialect != nullptr ? dialect : "");  // "": of a later version
   info.part_systems = machine.system_count;
   info.cycle_us = machine.cycle_us;
   info.max_feed_override = machine.max_feed_override;
@@ -96,8 +110,8 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   to.rapid = from.rapid != 0;
   to.alarm = alarms_in(block) != 0;
   to.warning = alarms_in(block) != block.alarm_count;
-  to.feed_override = block.feed_override;
-  to.rapid_override = block.rapid_override;
+  to.feed_override = from.feed_override;
+  to.rapid_override = from.rapid_override;
   set(to.program, from.program);
   set(to.file, from.file);
   to.program_number = from.program_number;
@@ -154,8 +168,11 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   }
   to.forced = {share::kForced, block.forced_count, forced, false};
   to.refusals = from.refusals;
-  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_OTHER, nc_REFUSED_OTHER);
+  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_NO_ANSWER, nc_REFUSED_OTHER);
   set(to.refusal_text, from.refusal_text);
+  to.feed_override_source = source_of(from.feed_override_source);
+  to.rapid_override_source = source_of(from.rapid_override_source);
+  to.spindle_measured = from.spindle_measured != 0;
 }
 
 namespace {
@@ -237,8 +254,8 @@ nc_Status_v1 core_status(const share::MachineBlock& machine, const share::Status
   to.program_number = from.program_number;
   to.line = from.line;
   to.percent = block.percent;
-  to.feed_override = block.feed_override;
-  to.rapid_override = block.rapid_override;
+  to.feed_override = from.feed_override;
+  to.rapid_override = from.rapid_override;
   to.feed = from.feed_mm_min;
   to.spindle = from.spindle_rpm;
   to.tool = from.t;
@@ -309,6 +326,7 @@ nc_CommandAck ack(const share::Ack& ack) {
   to.repeated = ack.repeated != 0;
   to.time_ns = ack.time_ns;
   set(to.text, ack.text);
+  to.refusal = as_enum(ack.refusal, nc_REFUSED_NO_ANSWER, nc_REFUSED_OTHER);
   return to;
 }
 

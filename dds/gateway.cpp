@@ -9,6 +9,7 @@
 #include <set>
 
 #include "runtime/clock.hpp"
+#include "runtime/refusal.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::dds {
@@ -336,6 +337,7 @@ void Gateway::refuse(const share::Request& request, share::AckReason reason, con
   refusal.kind = request.kind;
   refusal.state = static_cast<std::uint32_t>(share::AckState::kRejected);
   refusal.reason = static_cast<std::uint32_t>(reason);
+  if (reason == share::AckReason::kRefused) refusal.refusal = static_cast<std::uint32_t>(rt::RefusalCause::kNoAnswer);
   refusal.time_ns = share::wall_ns();
   share::set_text(&refusal.text, text);
   answer(refusal);

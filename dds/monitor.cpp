@@ -63,7 +63,29 @@ const char* refusal_name(nc_RefusalCause cause) {
     case nc_REFUSED_SOFT_LIMIT: return "soft limit";
     case nc_REFUSED_NOT_REPEATED: return "not repeated";
     case nc_REFUSED_NO_FEED: return "no feed";
+    case nc_REFUSED_FEED_HOLD: return "feed hold";
+    case nc_REFUSED_INTERLOCK: return "interlock";
+    case nc_REFUSED_RESET_HELD: return "reset held";
+    case nc_REFUSED_WARNING: return "warning";
+    case nc_REFUSED_MACHINE_SWITCH: return "machine switch";
+    case nc_REFUSED_RANGE: return "range";
+    case nc_REFUSED_AXIS: return "axis";
+    case nc_REFUSED_CONTROL: return "control";
+    case nc_REFUSED_NOT_LOADED: return "not loaded";
+    case nc_REFUSED_NO_DEVICE: return "no device";
+    case nc_REFUSED_TOO_MANY: return "too many";
+    case nc_REFUSED_NO_LADDER: return "no ladder";
+    case nc_REFUSED_NO_ANSWER: return "no answer";
     default: return "other";
+  }
+}
+
+const char* source_name(nc_OverrideSource source) {
+  switch (source) {
+    case nc_OVERRIDE_OPERATOR: return "operator";
+    case nc_OVERRIDE_MACHINE: return "machine";
+    case nc_OVERRIDE_PROGRAM: return "program";
+    default: return "not known";
   }
 }
 
@@ -108,6 +130,9 @@ StatusView view_of(const nc_Status& s) {
   v.refusal_text = s.refusal_text;
   v.feed_override = s.feed_override;
   v.rapid_override = s.rapid_override;
+  v.feed_override_source = source_name(s.feed_override_source);
+  v.rapid_override_source = source_name(s.rapid_override_source);
+  v.spindle_measured = s.spindle_measured;
   v.program = s.program;
   v.file = s.file;
   v.block = s.block;

@@ -66,6 +66,8 @@ nlohmann::json status_json(const StatusView& s) {
           {"refusal_text", s.refusal_text},
           {"feed_override", s.feed_override},
           {"rapid_override", s.rapid_override},
+          {"feed_override_source", s.feed_override_source},
+          {"rapid_override_source", s.rapid_override_source},
           {"program", s.program},
           {"file", s.file},
           {"program_number", s.program_number},
@@ -81,6 +83,7 @@ nlohmann::json status_json(const StatusView& s) {
           {"feed_command", s.feed_command},
           {"spindle", s.spindle},
           {"spindle_command", s.spindle_command},
+          {"spindle_measured", s.spindle_measured},
           {"m", s.m},
           {"t", s.t},
           {"b", s.b},
@@ -114,6 +117,11 @@ void append_place(std::string* text, const StatusView& s) {
   append(text, "  Modal    %s\n", printable(s.modal).c_str());
 }
 
+// " (machine)": whose an override is, where it is not the operator's own.
+std::string by(const std::string& source) {
+  return source == "machine" || source == "program" ? " (" + source + ")" : "";
+}
+
 void append_system(std::string* text, const StatusView& s) {
   append(text, "%s  part system %u  %s  %s (%s)%s%s%s\n", printable(s.machine).c_str(), s.part_system, s.mode.c_str(),
          s.run_state.c_str(), printable(s.state_text).c_str(), s.resetting ? "  RESET" : "",
@@ -123,9 +131,11 @@ void append_system(std::string* text, const StatusView& s) {
   for (const AxisView& axis : s.axes)
     append(text, "  %-4s %s %12.3f %12.3f %12.3f %12.3f\n", printable(axis.name).c_str(), axis.rotary ? "°" : " ",
            axis.work, axis.commanded, axis.actual, axis.distance_to_go);
-  append(text, "  F %.0f of %.0f mm/min x %.0f %%   rapid %.0f %%   S %.0f of %.0f 1/min   T%u   M%u%s\n", s.feed,
-         s.feed_command, 100 * s.feed_override, 100 * s.rapid_override, s.spindle, s.spindle_command, s.t, s.m,
-         s.strobe != 0 ? "   waits for FIN" : "");
+  append(text, "  F %.0f of %.0f mm/min x %.0f %%%s   rapid %.0f %%%s   S ", s.feed, s.feed_command, 100 * s.feed_override,
+         by(s.feed_override_source).c_str(), 100 * s.rapid_override, by(s.rapid_override_source).c_str());
+  if (s.spindle_measured) append(text, "%.0f", s.spindle);
+  else *text += "not measured";
+  append(text, " of %.0f 1/min   T%u   M%u%s\n", s.spindle_command, s.t, s.m, s.strobe != 0 ? "   waits for FIN" : "");
   append(text, "  Run      %.1f s   %llu blocks   %.1f mm\n", s.run_s, static_cast<unsigned long long>(s.blocks),
          s.path_length);
   append(text, "  Scan     %llu   overruns %llu   slots missed %llu   execution p50 %.1f p99.9 %.1f max %.1f us\n",

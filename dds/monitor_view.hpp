@@ -26,6 +26,8 @@ struct StatusView {
   unsigned refusals = 0;
   std::string refusal_cause = "none", refusal_text;
   double feed_override = 1, rapid_override = 1;
+  std::string feed_override_source = "not known", rapid_override_source = "not known";
+  bool spindle_measured = true;
   std::string program, file, block, modal;
   unsigned program_number = 0, sequence_number = 0, line = 0, depth = 0;
   unsigned main_line = 0, program_lines = 0, percent = 0;

@@ -75,6 +75,27 @@ class RefusalCause(IdlEnum, typename="nc.RefusalCause", default="REFUSED_NOT"):
     REFUSED_NOT_REPEATED = 10
     REFUSED_NO_FEED = 11
     REFUSED_OTHER = 12
+    REFUSED_FEED_HOLD = 13
+    REFUSED_INTERLOCK = 14
+    REFUSED_RESET_HELD = 15
+    REFUSED_WARNING = 16
+    REFUSED_MACHINE_SWITCH = 17
+    REFUSED_RANGE = 18
+    REFUSED_AXIS = 19
+    REFUSED_CONTROL = 20
+    REFUSED_NOT_LOADED = 21
+    REFUSED_NO_DEVICE = 22
+    REFUSED_TOO_MANY = 23
+    REFUSED_NO_LADDER = 24
+    REFUSED_NO_ANSWER = 25
+
+
+@annotate.appendable
+class OverrideSource(IdlEnum, typename="nc.OverrideSource", default="OVERRIDE_NOT_KNOWN"):
+    OVERRIDE_NOT_KNOWN = 0
+    OVERRIDE_OPERATOR = 1
+    OVERRIDE_MACHINE = 2
+    OVERRIDE_PROGRAM = 3
 
 
 @annotate.appendable
@@ -251,6 +272,9 @@ class Status(IdlStruct, typename="nc.Status"):
     refusals: types.uint32
     refusal_cause: RefusalCause
     refusal_text: types.bounded_str[127]
+    feed_override_source: OverrideSource
+    rapid_override_source: OverrideSource
+    spindle_measured: bool
 
 
 @dataclass
@@ -371,6 +395,7 @@ class CommandAck(IdlStruct, typename="nc.CommandAck"):
     repeated: bool
     time_ns: types.int64
     text: types.bounded_str[127]
+    refusal: RefusalCause
 
 
 @dataclass

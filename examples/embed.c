@@ -36,12 +36,15 @@ int main(void) {
   if (nc != NULL) status = nc_program_add_text(nc, "PART", program, strlen(program), &file);
   if (status == NC_OK) status = nc_program_select(nc, 0, file);
   if (status != NC_OK) {
-    fprintf(stderr, "cannot start: %d\n", status);
+    fprintf(stderr, "cannot start: %s\n", nc_status_text(status));
     return 1;
   }
 
-  nc_inputs in = {.cycle_start = true, .feed_override = 1, .rapid_override = 1};
-  nc_outputs out = {0};
+  nc_inputs in;
+  nc_outputs out;
+  nc_inputs_init(&in); /* nothing pressed, overrides of 100 % */
+  nc_outputs_init(&out);
+  in.cycle_start = true;
   long cycle = 0;
   do {
     nc_feed(nc, 100);

@@ -61,7 +61,7 @@ Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image) noexcept {
       NC_LADDER_OPS_SHORT(NC_LADDER_OP) NC_LADDER_OPS_LONG(NC_LADDER_OP)
 #undef NC_LADDER_OP
   };
-#define NC_LADDER_DISPATCH goto* kTargets[ip->head.op]
+#define NC_LADDER_DISPATCH goto* kTargets[ip->head.op]  // NOLINT(bugprone-macro-parentheses): a statement, not a value
 #define NC_LADDER_CASE(name) l_##name:
   NC_LADDER_DISPATCH;
 #else

@@ -61,7 +61,7 @@ void Compiler::note_coil(const Place& place) {
 void Compiler::note_rising() {
   if (rung_.always && masters_.empty())
     warning("its condition is SM400, SM401 or SM402 alone, which never rises: for once at the start take LD SM402 and "
-            "the form without an edge");
+        "the form without an edge");
 }
 
 namespace {

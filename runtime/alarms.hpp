@@ -57,12 +57,16 @@ constexpr const AlarmRow& alarm_row(AlarmId id) {
   return kAlarmTable[0];
 }
 
-// A warning lets a program go on to its end; an alarm stops the machine. Both keep the next start until a reset acknowledges them.
+// A warning lets a program go on to its end; an alarm stops the machine. Both keep the next start until a reset acknowledges them. An alarm
+// whose cause is still there comes back at once; a warning stays in the list as acknowledged until its cause has gone, so that who comes
+// later sees it as well, and the machine can be used.
 constexpr bool is_warning(AlarmId id) { return !alarm_row(id).stops; }
 
 // What has gone wrong with retained data (R19, R20): `detail` of the alarm, beside the number of the data.
 enum class RetainTrouble : std::uint8_t { kLost, kOlder, kNotKept, kUnwritable };
 inline constexpr unsigned kRetainedData = 3;  // 0 devices of the ladder, 1 common variables, 2 offsets and parameters
+// R20 says what is so now, R19 what has happened.
+constexpr bool is_lost(RetainTrouble trouble) { return trouble == RetainTrouble::kLost || trouble == RetainTrouble::kOlder; }
 constexpr unsigned retain_detail(unsigned data, RetainTrouble trouble) {
   return data * 4 + static_cast<unsigned>(trouble);
 }
@@ -89,6 +93,7 @@ struct ActiveAlarm {
   nc_source source{};       // block in execution at that moment
   std::uint32_t detail = 0; // R15: FinFault; R16: number; R17: line; R18: link; R19, R20: retain_detail(); R21: nc_input_bits
   std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M; ~0 = not given out yet; R17: ladder::Fault
+  bool acknowledged = false;  // a warning whose cause goes on: a reset has been made since, and it keeps nothing from starting
 };
 
 inline constexpr unsigned kMaxActiveAlarms = 16;
@@ -96,6 +101,13 @@ inline constexpr unsigned kMaxActiveAlarms = 16;
 struct AlarmList {
   unsigned count = 0;
   ActiveAlarm alarm[kMaxActiveAlarms];
+
+  // Nobody has acknowledged one of them: nothing new starts.
+  bool waits_for_reset() const {
+    for (unsigned i = 0; i < count; ++i)
+      if (!alarm[i].acknowledged) return true;
+    return false;
+  }
 
   // One of them stops the machine.
   bool stops() const {

@@ -51,7 +51,7 @@ enum class Answer : std::uint8_t {
   kMiddleOfBlock,    // the program stands in the middle of a block: manual motion is possible at its end
   kNoProgram,        // nothing selected
   kAlarmActive,      // reset first
-  kResetting,        // the reset is still going on
+  kResetting,        // a reset is still going on
   kEnding,           // the control is being ended
   kAlreadyRunning,
   kOutOfRange,
@@ -66,8 +66,15 @@ enum class Answer : std::uint8_t {
   kSoftLimit,         // the axis stands at its soft limit
   kNotRepeated,       // a jog that nobody has asked for again
   kNoJogFeed,         // a jog at no speed
+  kLetGoFirst,        // the button was on in a reset
+  kFeedHold,          // the machine's
+  kInterlock,
+  kAxesMove,
+  kWarningActive,     // R19, R20: reset first
+  kResetHeld,         // a reset is done, and plc.reset is still on
   kNoAnswer           // the runtime does not run
 };
+inline constexpr unsigned kAnswers = static_cast<unsigned>(Answer::kNoAnswer) + 1;
 
 constexpr const char* answer_text(Answer answer) {
   switch (answer) {
@@ -86,7 +93,7 @@ constexpr const char* answer_text(Answer answer) {
     case Answer::kAlarmActive:
       return "an alarm is active: reset first";
     case Answer::kResetting:
-      return "reset in progress";
+      return "a reset is in progress";
     case Answer::kEnding:
       return "the control is being ended";
     case Answer::kAlreadyRunning:
@@ -115,6 +122,18 @@ constexpr const char* answer_text(Answer answer) {
       return "it was not asked for again in time";
     case Answer::kNoJogFeed:
       return "the jog feed is 0";
+    case Answer::kLetGoFirst:
+      return "the button was on in a reset: let it go first";
+    case Answer::kFeedHold:
+      return "the feed hold of the machine is on";
+    case Answer::kInterlock:
+      return "the interlock of the machine is on";
+    case Answer::kResetHeld:
+      return "the reset of the machine is still on: let it go first";
+    case Answer::kWarningActive:
+      return "a warning (R19, R20) is to be acknowledged: reset first";
+    case Answer::kAxesMove:
+      return "an axis moves: wait until it stands";
     case Answer::kNoAnswer:
       return "the runtime does not answer";
   }

@@ -89,8 +89,9 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   read_spindle_feedback(&reader, &read);
   read_share(&reader, &read);
   reader.finish();
-  if (errors.empty() && nc_memory_required(&read.nc) == 0)
-    errors.add(0, "", "the control refuses this combination of axes and sizes");
+  nc_config_fault fault;
+  if (errors.empty() && nc_config_check(&read.nc, &fault) != NC_OK)
+    errors.add(0, "", std::string("the control refuses ") + fault.field + ": " + fault.reason);
   std::vector<ConfigError> found = errors.take();
   if (partial != nullptr) *partial = read;
   if (found.empty()) *config = std::move(read);

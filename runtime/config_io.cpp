@@ -62,36 +62,52 @@ bool is_signal_name(std::string_view name, const nc_config& nc) {
   return false;
 }
 
-// One number of the macro interface. M700 13.5.5.
+// One number of the macro interface.
 struct InterfaceNumber {
   bool output = false;
-  bool word = false;  // #1032..#1035, #1132..#1135
+  bool word = false;
   unsigned bank = 0;  // word 0..3
   unsigned bit = 0;
 };
 
-std::optional<InterfaceNumber> interface_number(std::string_view key) {
+constexpr unsigned kBits = 32;  // of a word
+
+// Every range of the macro interface that the dialect has.
+template <class Use>
+void each_interface_range(nc_dialect dialect, const Use& use) {
+  nc_system_variable row{};
+  for (unsigned i = 0; nc_system_variable_row(dialect, i, &row) == NC_OK; ++i)
+    if (row.role != NC_VARIABLE_OTHER) use(row);
+}
+
+std::optional<InterfaceNumber> interface_number(nc_dialect dialect, std::string_view key) {
   if (key.empty() || key[0] != '#') return {};
   key.remove_prefix(1);
   unsigned n = 0;
   const auto result = std::from_chars(key.data(), key.data() + key.size(), n);
   if (result.ec != std::errc{} || result.ptr != key.data() + key.size()) return {};
-  struct Row {
-    unsigned first, last;
-    bool output, word;
-    unsigned bank;
-  };
-  static constexpr Row kRows[] = {
-      {1000, 1031, false, false, 0}, {1032, 1035, false, true, 0}, {1200, 1295, false, false, 1},
-      {1100, 1131, true, false, 0},  {1132, 1135, true, true, 0},  {1300, 1395, true, false, 1},
-  };
-  for (const Row& row : kRows) {
-    if (n < row.first || n > row.last) continue;
+  std::optional<InterfaceNumber> found;
+  each_interface_range(dialect, [&](const nc_system_variable& row) {
+    if (n < row.first || n > row.last) return;
+    const bool output = row.role == NC_VARIABLE_OUTPUT_BIT || row.role == NC_VARIABLE_OUTPUT_WORD;
+    const bool word = row.role == NC_VARIABLE_INPUT_WORD || row.role == NC_VARIABLE_OUTPUT_WORD;
     const unsigned offset = n - row.first;
-    if (row.word) return InterfaceNumber{row.output, true, offset, 0};
-    return InterfaceNumber{row.output, false, row.bank + offset / 32, offset % 32};
-  }
-  return {};
+    found = word ? InterfaceNumber{output, true, row.word + offset, 0} : InterfaceNumber{output, false, row.word + offset / kBits, offset % kBits};
+  });
+  return found;
+}
+
+// What is wrong with a number that is none of them: the ranges that there are, those that join as one.
+std::string no_interface_number(nc_dialect dialect) {
+  std::string text;
+  std::uint32_t last = 0;
+  each_interface_range(dialect, [&](const nc_system_variable& row) {
+    if (last != 0 && row.first == last + 1) text.resize(text.rfind('-'));
+    else text += (text.empty() ? "#" : ", #") + std::to_string(row.first);
+    text += "-#" + std::to_string(row.last);
+    last = row.last;
+  });
+  return text.empty() ? "is not possible: this dialect has no macro interface" : "is not a number of the macro interface (" + text + ")";
 }
 
 // Place of a number in the map.
@@ -112,10 +128,10 @@ void map_number(TableReader* reader, const std::string& key, Config* config,
                 std::vector<std::string>* mapped_by) {
   std::string name;
   if (!reader->string(key, &name)) return;
-  const auto number = interface_number(key);
+  const auto dialect = static_cast<nc_dialect>(config->nc.dialect);
+  const auto number = interface_number(dialect, key);
   if (!number) {
-    reader->error(
-        key, "is not a number of the macro interface (#1000-#1035, #1100-#1135, #1200-#1295, #1300-#1395)");
+    reader->error(key, no_interface_number(dialect));
     return;
   }
   const int index = config->points.find(name);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <string_view>
+#include <vector>
 
 #include "runtime/config_sections.hpp"
 
@@ -160,13 +161,24 @@ void read_variable_ranges(TableReader* machine, Config* config) {
 
 }  // namespace
 
+namespace {
+
+// Names of the dialects, in the order of nc_dialect.
+std::vector<std::string_view> dialects() {
+  std::vector<std::string_view> names;
+  for (int id = 0; nc_dialect_name(static_cast<nc_dialect>(id)) != nullptr; ++id) names.emplace_back(nc_dialect_name(static_cast<nc_dialect>(id)));
+  return names;
+}
+
+}  // namespace
+
 void read_machine(TableReader* root, Config* config) {
   root->require("machine");
   root->table("machine", [&](TableReader& reader) {
     nc_config& nc = config->nc;
     unsigned word = 0;
     reader.string("name", &config->name);
-    if (reader.choice("dialect", {"m700", "dgshape"}, &word)) nc.dialect = static_cast<std::uint8_t>(word);
+    if (reader.choice("dialect", dialects(), &word)) nc.dialect = static_cast<std::uint8_t>(word);
     reader.choice("hal", {"sim"}, &word);
     reader.string("programs", &config->programs);
     config->programs_place = {reader.line("programs"), reader.path("programs")};
@@ -236,6 +248,7 @@ void read_axes(TableReader* root, Config* config) {
                             std::to_string(config->nc.system_count));
   config->sim.system_count = config->nc.system_count;
   config->sim.cycle_s = config->nc.cycle_s;
+  config->sim.dialect = config->nc.dialect;
 }
 
 void read_motion(TableReader* root, Config* config) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdarg>
+#include <filesystem>
 #include <vector>
 
 #include "runtime/axis_shown.hpp"
@@ -23,9 +24,10 @@ __attribute__((format(printf, 2, 3))) void append(std::string* text, const char*
   *text += buffer;
 }
 
-// Counts lines up to the first M02 or M30 outside of comments, behind which sub programs may stand.
+// Counts lines up to the first code that ends a program outside of comments, behind which sub programs may stand.
 class EndFinder {
  public:
+  explicit EndFinder(nc_dialect dialect) : dialect_(dialect) {}
   // True when the end code is complete.
   bool take(char c) {
     const bool digit = c >= '0' && c <= '9';
@@ -34,7 +36,7 @@ class EndFinder {
       digits_ = true;
       return false;
     }
-    const bool found = in_m_ && digits_ && (number_ == 2 || number_ == 30);
+    const bool found = in_m_ && digits_ && nc_code_role_get(dialect_, 'M', number_) == NC_CODE_PROGRAM_END;
     in_m_ = !comment_ && (c == 'M' || c == 'm');
     number_ = 0;
     digits_ = false;
@@ -47,6 +49,7 @@ class EndFinder {
   std::uint64_t line() const { return line_; }
 
  private:
+  nc_dialect dialect_;
   std::uint64_t line_ = 1;
   unsigned number_ = 0;
   bool comment_ = false, in_m_ = false, digits_ = false;
@@ -64,12 +67,12 @@ void append_histogram(std::string* text, const char* name, const Histogram& hist
 
 }  // namespace
 
-std::uint64_t estimate_lines(ProgramText* program) {
+std::uint64_t estimate_lines(ProgramText* program, nc_dialect dialect) {
   const std::uint64_t size = program->size();
   const std::uint64_t wanted = size <= kCountedBytes ? size : 1u << 20;
   std::vector<char> block(kBlock);
   std::uint64_t read = 0;
-  EndFinder finder;
+  EndFinder finder(dialect);
   while (read < wanted) {
     const long got = program->read(read, block.data(), block.size());
     if (got <= 0) break;
@@ -144,6 +147,8 @@ std::string state_alone(const nc_outputs& outputs) {
       return "1026 spindle of a tap";
     case NC_CAUSE_SPINDLE_UNMEASURED:
       return "105 spindle speed not measured";
+    case NC_CAUSE_NO_LAW:
+      return "no motion within the limits of the axes";
     default:
       return outputs.state == NC_STATE_STOPPED ? "stopped" : outputs.rapid ? "rapid" : "running";
   }
@@ -177,6 +182,18 @@ std::string progress_line(const Runtime& runtime, std::uint64_t lines) {
   text += state_text(system.nc);
   if (snapshot.alarmed()) text += "  " + runtime.alarm_text(snapshot.alarms.alarm[0]);
   return text;
+}
+
+std::string not_read_text(const Config& config) {
+  std::string files;
+  for (const std::string& path : {config.retain_path(), config.variables_path(), config.offsets_path()}) {
+    std::error_code ignored;
+    if (path.empty() || !(std::filesystem::exists(path, ignored) || std::filesystem::exists(path + ".old", ignored))) continue;
+    files += (files.empty() ? "" : ", ") + path;
+  }
+  return files.empty() ? ""
+                       : "virtual time: retained data is neither read nor written (" + files +
+                             "): devices begin with 0, common variables vacant, offsets and parameters as configured";
 }
 
 std::string summary_text(const Runtime& runtime, const nc_outputs& last_run, std::int64_t since_ns) {

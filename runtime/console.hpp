@@ -11,9 +11,12 @@
 
 namespace nc::rt {
 
-// Lines of a program up to its end code (M02, M30), for the percentage: counted in small files, estimated
+// "virtual time: retained data is neither read nor written (FILE, FILE): ...", "" = there is none. Which file is damaged does not show then.
+std::string not_read_text(const Config& config);
+
+// Lines of a program up to its end code (M02, M30 of the m700), for the percentage: counted in small files, estimated
 // from the first megabyte in large ones. 0 = cannot be read.
-std::uint64_t estimate_lines(ProgramText* program);
+std::uint64_t estimate_lines(ProgramText* program, nc_dialect dialect);
 
 // Share of the program that is done, 0..100, by the line of the main program.
 unsigned percent_done(std::uint32_t main_line, std::uint64_t lines);

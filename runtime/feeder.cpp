@@ -59,11 +59,14 @@ void Feeder::step() {
   rewind_ended();
   restore_parts();
   follow_ladder();
+  follow_outputs();
   leave_kept();
+  CommandAnswer answered[kCommands];
+  unsigned answered_count = 0;
   Command command;
-  while (commands_.pop(&command)) {
+  while (answered_count < kCommands && commands_.pop(&command)) {
     seen_ = scan_->snapshot();  // the command before it, which may have been the scan's, has been answered: it shows
-    (void)answers_.push({command.ticket, apply(command)});
+    answered[answered_count++] = {command.ticket, apply(command)};
   }
   PositionSample sample;
   while (scan_->poll_position(&sample))
@@ -72,12 +75,14 @@ void Feeder::step() {
   take_alarm();
   take_modal();
   tell_what_is_loaded();
+  // Last: who is told that a program is selected may start it at once, and the scan must know of it then.
+  for (unsigned n = 0; n < answered_count; ++n) (void)answers_.push(answered[n]);
 }
 
 void Feeder::tell_what_is_loaded() {
-  std::uint8_t loaded = Scan::kNothingLoaded;
+  std::uint32_t loaded = Scan::kNothingLoaded;
   for (unsigned s = 0; s < systems_; ++s)
-    if (system_[s].selected) loaded |= system_[s].mdi ? Scan::kMdiLoaded : Scan::kPartLoaded;
+    if (system_[s].selected) loaded |= std::uint32_t{system_[s].mdi ? Scan::kMdiLoaded : Scan::kPartLoaded} << Scan::kLoadedBits * s;
   scan_->set_loaded(loaded);
   const std::lock_guard lock(mutex_);
   info_.program_ready = loaded != Scan::kNothingLoaded;
@@ -119,6 +124,35 @@ void Feeder::follow_ladder() {
     const bool rests = seen_.system[s].nc.distance_zero && (state == NC_STATE_STOPPED || state == NC_STATE_HOLD);
     if (!rests || nc_->recalculate(s) != NC_WAITING) recalculated_[s] = asked;
   }
+}
+
+// Macro outputs that the machine has had by itself (Scan::take_found_outputs). What lies ready may have read them already: it is read again from
+// its head. A program in execution goes on with what it has read.
+void Feeder::follow_outputs() {
+  std::uint32_t any = 0;
+  for (unsigned w = 0; w < NC_WORDS; ++w) {
+    std::uint32_t bits = 0;
+    const std::uint32_t mask = scan_->take_found_outputs(w, &bits);
+    found_bits_[w] = (found_bits_[w] & ~mask) | (bits & mask);
+    any |= found_[w] |= mask;
+  }
+  if (any == 0 || seen_.program_active() || scan_->reset_waits()) return;
+  std::string blocks;
+  {
+    const std::lock_guard lock(mutex_);
+    blocks = mdi_text_;
+  }
+  for (unsigned s = 0; s < systems_; ++s) {
+    System& system = system_[s];
+    for (unsigned w = 0; w < NC_WORDS; ++w)
+      if (found_[w] != 0) nc_->outputs(s, w, found_[w], found_bits_[w]);
+    if (!system.selected || system.ended) continue;
+    scan_->set_loaded(Scan::kNothingLoaded);  // until tell_what_is_loaded()
+    const nc_status status = system.mdi ? nc_->load_mdi(s, blocks.data(), blocks.size()) : nc_->select(s, system.file);
+    if (status == NC_E_STATE) return;  // not yet: the next step tries again
+    if (status < 0) system = {};
+  }
+  std::fill_n(found_, NC_WORDS, 0u);
 }
 
 // ---- retained data ----
@@ -164,15 +198,25 @@ Answer Feeder::apply(const Command& command) {
     follow_ladder();
     return Answer::kDone;
   }
-  if (seen_.resetting || scan_->reset_waits()) return Answer::kResetting;
+  if (seen_.resetting || scan_->reset_waits()) return seen_.reset_held ? Answer::kResetHeld : Answer::kResetting;
   if (seen_.program_active()) return Answer::kNotWhileRunning;
-  if (seen_.alarmed()) return Answer::kAlarmActive;
-  if (command.kind == CommandKind::kSelectProgram) return select(command.system, command.number);
-  if (command.kind == CommandKind::kLoadMdi) return load_mdi(command.system);
+  if (seen_.stopped_by_alarm()) return Answer::kAlarmActive;
+  if (seen_.alarms.waits_for_reset()) return Answer::kWarningActive;
+  if (command.kind == CommandKind::kSelectProgram) return select(command);
+  if (command.kind == CommandKind::kLoadMdi) return load_mdi(command);
   return Answer::kOutOfRange;
 }
 
-Answer Feeder::select(unsigned system, std::uint32_t file) {
+// Who acts on a command, or gives it up, claims it first; only one of the two gets it.
+bool Feeder::claim(std::uint64_t ticket) {
+  std::uint64_t last = claimed_.load(std::memory_order_acquire);
+  return last < ticket && claimed_.compare_exchange_strong(last, ticket, std::memory_order_acq_rel);
+}
+
+// To find and read a program may take a while; what nobody waits for any more must not be selected behind his back.
+Answer Feeder::select(const Command& command) {
+  const unsigned system = command.system;
+  std::uint32_t file = command.number;
   if (seen_.mode != Mode::kAuto) return Answer::kNotInThisMode;
   if (file == kProgramByName) {
     std::string name;
@@ -185,23 +229,28 @@ Answer Feeder::select(unsigned system, std::uint32_t file) {
     if (!loader_ || !loader_(name, &loaded, &error)) return refuse(Answer::kNotLoaded, error);
     file = loaded;
   }
+  if (!claim(command.ticket)) return Answer::kNoAnswer;
   scan_->set_loaded(Scan::kNothingLoaded);  // until this step has ended: what lies in the control changes now
   if (const nc_status status = nc_->select(system, file); status < 0)
     return refuse(Answer::kRefusedByControl, status_text(status));
   system_[system] = {true, false, file, false, false, true, file};
   const std::lock_guard lock(mutex_);
   info_.main_line = 0;
+  info_.begun_again = 0;
   info_.ended = false;
   return Answer::kDone;
 }
 
-Answer Feeder::load_mdi(unsigned system) {
+Answer Feeder::load_mdi(const Command& command) {
   if (seen_.mode != Mode::kMdi) return Answer::kNotInThisMode;
+  if (!claim(command.ticket)) return Answer::kNoAnswer;
+  const unsigned system = command.system;
   std::string text;
   {
     const std::lock_guard lock(mutex_);
     text = mdi_text_;
     info_.main_line = 0;
+    info_.begun_again = 0;
     info_.ended = false;
   }
   scan_->set_loaded(Scan::kNothingLoaded);
@@ -250,11 +299,9 @@ void Feeder::rewind_ended() {
   }
 }
 
-// Also while a reset waits: the control notices it here.
+// Also while a reset waits, and while nothing is selected: here the control notices a reset, and tells the scan the offsets in force, by which
+// it counts the workpiece's coordinates.
 void Feeder::feed() {
-  bool any = false;
-  for (unsigned s = 0; s < systems_; ++s) any |= system_[s].selected;
-  if (!any) return;
   for (unsigned i = 0; i < kCallsPerStep; ++i)
     if (nc_->feed(kBlocksPerCall) != NC_OK) return;
 }
@@ -272,7 +319,12 @@ void Feeder::take_events() {
       if (event.kind == NC_ITEM_END) system_[s].ended = true;
       if (s != 0) continue;
       const std::lock_guard lock(mutex_);
-      if (event.kind == NC_ITEM_MARK && event.source.depth == 0) info_.main_line = event.source.line;
+      if (event.kind != NC_ITEM_MARK) continue;
+      if (event.source.depth == 0) info_.main_line = event.source.line;
+      if (event.again) {  // M700 13.3.1: M99 of a main program
+        ++info_.begun_again;
+        info_.again_line = event.source.line;
+      }
     }
   }
   const std::lock_guard lock(mutex_);

@@ -40,6 +40,8 @@ struct FeederInfo {
   std::uint64_t events = 0;     // items executed
   std::uint64_t dropped = 0;    // events that were not fetched in time
   std::uint32_t main_line = 0;  // line of the main program that was finished last
+  std::uint64_t begun_again = 0;  // passes that M99 of the main program has begun, since it was selected or loaded
+  std::uint32_t again_line = 0;   // where that M99 stands
   bool alarm = false;           // program_alarm holds
   nc_alarm program_alarm{};
   std::uint32_t alarm_calls = 0;  // blocks that led there, outermost first
@@ -76,6 +78,8 @@ class Feeder {
   // ---- operator's thread (the same as Scan::post) ----
   bool post(const Command& command) { return commands_.push(command); }
   bool poll_answer(CommandAnswer* answer) { return answers_.pop(answer); }
+  // Gives a command up that takes too long: from then on it does nothing. False: it acts already, and its answer comes at once.
+  bool take_back(std::uint64_t ticket) { return claim(ticket); }
   void set_mdi_text(const std::string& text);  // before kLoadMdi
   void set_program_name(const std::string& name);  // before kSelectProgram with kProgramByName
 
@@ -104,11 +108,13 @@ class Feeder {
 
  private:
   Answer apply(const Command& command);
-  Answer select(unsigned system, std::uint32_t file);
-  Answer load_mdi(unsigned system);
+  Answer select(const Command& command);
+  Answer load_mdi(const Command& command);
+  bool claim(std::uint64_t ticket);
   Answer refuse(Answer answer, std::string why);
   void leave_kept();
   void follow_ladder();
+  void follow_outputs();
   void complete_reset();
   void feed();
   void take_events();
@@ -140,8 +146,10 @@ class Feeder {
   System system_[NC_MAX_SYSTEMS];
   Snapshot seen_;  // of this step
 
-  SpscQueue<Command, 64> commands_;
-  SpscQueue<CommandAnswer, 128> answers_;
+  static constexpr unsigned kCommands = 64;  // of one step
+  SpscQueue<Command, kCommands> commands_;
+  SpscQueue<CommandAnswer, 2 * kCommands> answers_;
+  std::atomic<std::uint64_t> claimed_{0};  // the newest command that acts, or that was given up; tickets rise from 1
   mutable std::mutex mutex_;  // guards info_ and mdi_text_; never taken by the scan
   FeederInfo info_;
   std::string mdi_text_, program_name_;
@@ -149,6 +157,7 @@ class Feeder {
   std::uint32_t modal_id_[NC_MAX_SYSTEMS] = {};
   std::string refusal_;  // under mutex_
   std::uint32_t operator_switches_[NC_MAX_SYSTEMS] = {}, switches_[NC_MAX_SYSTEMS] = {};  // given, and in force
+  std::uint32_t found_[NC_WORDS] = {}, found_bits_[NC_WORDS] = {};  // of the macro outputs, not yet told to the control
   std::uint32_t recalculated_[NC_MAX_SYSTEMS] = {};  // requests of the ladder that were done
   struct KeptCopy {
     std::atomic<bool> wanted{false};

@@ -4,6 +4,8 @@
 //   out  #1100..#1131 = bits of #1132    #1300..#1331 = #1133    #1332..#1363 = #1134    #1364..#1395 = #1135
 #include "runtime/macro_interface.hpp"
 
+#include <algorithm>
+
 namespace nc::rt {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr std::uint8_t kWholeWord = 255;
 
 }  // namespace
 
-MacroInterface::MacroInterface(const MacroMap& map) {
+MacroInterface::MacroInterface(const MacroMap& map, const hal::PointImage& initial) {
   for (unsigned w = 0; w < NC_WORDS; ++w) {
     const auto word = static_cast<std::uint8_t>(w);
     if (map.input_word[w] >= 0)
@@ -26,6 +28,8 @@ MacroInterface::MacroInterface(const MacroMap& map) {
         outputs_.push_back({word, bit, static_cast<std::uint16_t>(map.output_bit[w][b])});
     }
   }
+  leave(initial);
+  for (const Entry& entry : outputs_) take(entry);
 }
 
 void MacroInterface::gather(const hal::PointImage& points, std::uint32_t input[NC_WORDS]) const noexcept {
@@ -36,23 +40,48 @@ void MacroInterface::gather(const hal::PointImage& points, std::uint32_t input[N
   }
 }
 
-void MacroInterface::distribute(unsigned system, const std::uint32_t output[NC_WORDS],
+std::uint32_t MacroInterface::bits(const Entry& entry) noexcept {
+  return entry.bit == kWholeWord ? ~0u : 1u << entry.bit;
+}
+
+void MacroInterface::mapped(std::uint32_t outputs[NC_WORDS]) const {
+  std::fill_n(outputs, NC_WORDS, 0u);
+  for (const Entry& entry : outputs_) outputs[entry.word] |= bits(entry);
+}
+
+void MacroInterface::take(const Entry& entry) noexcept {
+  std::uint32_t& word = image_[entry.word];
+  word = entry.bit == kWholeWord ? entry.left : (word & ~(1u << entry.bit)) | (entry.left & 1u) << entry.bit;
+}
+
+bool MacroInterface::take_over(const hal::PointImage& points, std::uint32_t found[NC_WORDS]) noexcept {
+  std::fill_n(found, NC_WORDS, 0u);
+  bool any = false;
+  for (Entry& entry : outputs_) {
+    if (points.value[entry.point] == entry.left) continue;
+    entry.left = points.value[entry.point];
+    take(entry);
+    found[entry.word] |= bits(entry);
+    any = true;
+  }
+  return any;
+}
+
+void MacroInterface::leave(const hal::PointImage& points) noexcept {
+  for (Entry& entry : outputs_) entry.left = points.value[entry.point];
+}
+
+void MacroInterface::distribute(const std::uint32_t output[NC_WORDS], const std::uint32_t written[NC_WORDS],
                                 hal::PointImage* points) noexcept {
-  std::uint32_t changed[NC_WORDS];
   std::uint32_t any = 0;
   for (unsigned w = 0; w < NC_WORDS; ++w) {
-    changed[w] = output[w] ^ last_[system][w];
-    last_[system][w] = output[w];
-    image_[w] = (image_[w] & ~changed[w]) | (output[w] & changed[w]);
-    any |= changed[w];
+    image_[w] = (image_[w] & ~written[w]) | (output[w] & written[w]);
+    any |= written[w];
   }
   if (any == 0) return;
   for (const Entry& entry : outputs_) {
-    if (entry.bit == kWholeWord) {
-      if (changed[entry.word] != 0) points->value[entry.point] = image_[entry.word];
-    } else if ((changed[entry.word] >> entry.bit & 1u) != 0) {
-      points->value[entry.point] = image_[entry.word] >> entry.bit & 1u;
-    }
+    if ((written[entry.word] & bits(entry)) == 0) continue;
+    points->value[entry.point] = entry.bit == kWholeWord ? image_[entry.word] : image_[entry.word] >> entry.bit & 1u;
   }
 }
 

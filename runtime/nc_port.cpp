@@ -39,6 +39,9 @@ nc_status LibNc::modal(unsigned system, std::uint32_t id, nc_modal* modal) {
 nc_status LibNc::recalculate(unsigned system) {
   return nc_recalculate(control_, api_system(system));
 }
+void LibNc::outputs(unsigned system, unsigned word, std::uint32_t mask, std::uint32_t bits) {
+  (void)nc_interface_output_set(control_, api_system(system), word, mask, bits);
+}
 void LibNc::shown(unsigned system, nc_axes* machine, nc_axes* work) {
   nc_position_shown(control_, api_system(system), machine, work);
 }

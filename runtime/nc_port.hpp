@@ -32,6 +32,8 @@ class NcPort {
     (void)system;
     return NC_OK;
   }
+  // What the bits `mask` of #1132..#1135 read until a block writes them; in front of select() and load_mdi().
+  virtual void outputs(unsigned system, unsigned word, std::uint32_t mask, std::uint32_t bits) { (void)system, (void)word, (void)mask, (void)bits; }
   // Positions as the counters show them: changes what lies beyond one turn of a rotary axis that has only one.
   virtual void shown(unsigned system, nc_axes* machine, nc_axes* work) {
     (void)system, (void)machine, (void)work;
@@ -58,6 +60,7 @@ class LibNc final : public NcPort {
   nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) override;
   nc_status text(unsigned system, std::uint32_t id, nc_text* text) override;
   nc_status recalculate(unsigned system) override;
+  void outputs(unsigned system, unsigned word, std::uint32_t mask, std::uint32_t bits) override;
   void shown(unsigned system, nc_axes* machine, nc_axes* work) override;
   std::string variables() override;
   std::string tables() override;

@@ -7,19 +7,6 @@
 namespace nc::rt {
 namespace {
 
-struct Row {
-  Answer why;
-  RefusalCause cause;
-};
-constexpr Row kRows[] = {
-    {Answer::kNotInThisMode, RefusalCause::kMode},         {Answer::kNotWhileRunning, RefusalCause::kRunning},
-    {Answer::kAlreadyRunning, RefusalCause::kRunning},     {Answer::kMiddleOfBlock, RefusalCause::kMiddleOfBlock},
-    {Answer::kNoProgram, RefusalCause::kNoProgram},        {Answer::kAlarmActive, RefusalCause::kAlarm},
-    {Answer::kResetting, RefusalCause::kResetting},        {Answer::kEnding, RefusalCause::kEnding},
-    {Answer::kSpindleNow, RefusalCause::kSpindle},         {Answer::kSoftLimit, RefusalCause::kSoftLimit},
-    {Answer::kNotRepeated, RefusalCause::kNotRepeated},    {Answer::kNoJogFeed, RefusalCause::kNoFeed},
-};
-
 const char* asked_text(Asked asked) {
   switch (asked) {
     case Asked::kNothing: return "";
@@ -33,11 +20,44 @@ const char* asked_text(Asked asked) {
 
 }  // namespace
 
-RefusalCause refusal_cause(const Refusal& refusal) {
-  if (refusal.asked == Asked::kNothing) return RefusalCause::kNone;
-  for (const Row& row : kRows)
-    if (row.why == refusal.why) return row.cause;
+// Without a default, so that a reason that is new is not forgotten here: the compiler asks for it.
+RefusalCause refusal_cause(Answer why) {
+  switch (why) {
+    case Answer::kDone: return RefusalCause::kNone;
+    case Answer::kNotInThisMode: return RefusalCause::kMode;
+    case Answer::kNotWhileRunning:
+    case Answer::kAlreadyRunning:
+    case Answer::kAxesMove: return RefusalCause::kRunning;
+    case Answer::kMiddleOfBlock: return RefusalCause::kMiddleOfBlock;
+    case Answer::kNoProgram: return RefusalCause::kNoProgram;
+    case Answer::kAlarmActive: return RefusalCause::kAlarm;
+    case Answer::kResetting:
+    case Answer::kLetGoFirst: return RefusalCause::kResetting;
+    case Answer::kEnding: return RefusalCause::kEnding;
+    case Answer::kSpindleNow: return RefusalCause::kSpindle;
+    case Answer::kSoftLimit: return RefusalCause::kSoftLimit;
+    case Answer::kNotRepeated: return RefusalCause::kNotRepeated;
+    case Answer::kNoJogFeed: return RefusalCause::kNoFeed;
+    case Answer::kFeedHold: return RefusalCause::kFeedHold;
+    case Answer::kInterlock: return RefusalCause::kInterlock;
+    case Answer::kResetHeld: return RefusalCause::kResetHeld;
+    case Answer::kWarningActive: return RefusalCause::kWarning;
+    case Answer::kMachineSwitch: return RefusalCause::kMachineSwitch;
+    case Answer::kOutOfRange: return RefusalCause::kRange;
+    case Answer::kAxisUnknown: return RefusalCause::kAxis;
+    case Answer::kRefusedByControl: return RefusalCause::kControl;
+    case Answer::kNotLoaded: return RefusalCause::kNotLoaded;
+    case Answer::kNoDevice: return RefusalCause::kNoDevice;
+    case Answer::kQueueFull:
+    case Answer::kTooManyForces: return RefusalCause::kTooMany;
+    case Answer::kNoLadder: return RefusalCause::kNoLadder;
+    case Answer::kNoAnswer: return RefusalCause::kNoAnswer;
+  }
   return RefusalCause::kOther;
+}
+
+RefusalCause refusal_cause(const Refusal& refusal) {
+  return refusal.asked == Asked::kNothing ? RefusalCause::kNone : refusal_cause(refusal.why);
 }
 
 std::string refusal_text(const Config& config, unsigned system, const Refusal& refusal) {

@@ -23,10 +23,14 @@ struct Refusal {
   std::int8_t axis = -1;           // index, -1 = none
 };
 
-// What monitors know the reason by; numbers never change. The names are those of RefusalCause in dds/nc_dds.idl.
+// What monitors know the reason by; numbers never change, new ones come at the end. The names are those of RefusalCause in dds/nc_dds.idl.
 enum class RefusalCause : std::uint8_t {
-  kNone, kMode, kRunning, kMiddleOfBlock, kNoProgram, kAlarm, kResetting, kEnding, kSpindle, kSoftLimit, kNotRepeated, kNoFeed, kOther
+  kNone, kMode, kRunning, kMiddleOfBlock, kNoProgram, kAlarm, kResetting, kEnding, kSpindle, kSoftLimit, kNotRepeated, kNoFeed, kOther,
+  kFeedHold, kInterlock, kResetHeld, kWarning, kMachineSwitch, kRange, kAxis, kControl, kNotLoaded, kNoDevice, kTooMany, kNoLadder, kNoAnswer,
+  kLast = kNoAnswer
 };
+// kNone for what has been done. Every other answer has one, and none is kOther: that is for what a later control may say.
+RefusalCause refusal_cause(Answer why);
 RefusalCause refusal_cause(const Refusal& refusal);
 
 // "jog X refused: an alarm is active: reset first"; "" when there is none.

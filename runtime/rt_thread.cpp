@@ -11,10 +11,12 @@
 #include <cerrno>
 #include <cstring>
 
+#include "runtime/sanitizer.hpp"
+
 namespace nc::rt {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(NC_UNDER_SANITIZER)
 constexpr std::size_t kStackBytes = 8 << 20;  // a sanitizer keeps its own data there
 #else
 constexpr std::size_t kStackBytes = 256 * 1024;

@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <thread>
 
@@ -23,7 +23,8 @@ namespace {
 constexpr std::size_t kControlAlignment = 64;
 constexpr std::uint32_t kNoCode = ~0u;
 constexpr unsigned kAnswerSteps = 100;  // virtual time: scans until an answer must be there
-constexpr auto kAnswerTime = std::chrono::milliseconds(500);  // real time
+constexpr auto kAnswerTime = std::chrono::milliseconds(500);  // real time: of the scan
+constexpr auto kFeederTime = std::chrono::seconds(10);  // of the feeder, which waits for files that are written (ProgramText::Options) and reads them
 
 // "M6", "M3 S": the groups that wait; the code of the first of M and T, where it has been given out.
 std::string fin_groups(std::uint32_t groups, std::uint32_t code) {
@@ -82,7 +83,7 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
                                                "nothing in the control asks for this parameter: it is kept for programs that read it"}.text());
   char note[200];
   for (unsigned s = 0; runtime->control_ != nullptr && s < config.nc.system_count; ++s)
-    for (unsigned i = 0; nc_parameter_note(runtime->control_, api_system(s), i, note, sizeof note) == NC_OK; ++i)
+    for (unsigned i = 0; nc_parameter_note_row(runtime->control_, api_system(s), i, note, sizeof note) == NC_OK; ++i)
       runtime->warnings_.push_back(ConfigError{config.file, 0, "parameters", note}.text());
   for (unsigned s = 0; s < config.nc.system_count; ++s) {
     const unsigned spindles = config.nc.system[s].spindle_count;
@@ -108,19 +109,19 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
 }
 
 bool Runtime::make_control(std::vector<ConfigError>* errors) {
-  const std::size_t size = nc_memory_required(&config_.nc);
-  if (size == 0) {
-    errors->push_back({config_.file, 0, "", "the control refuses this combination of axes and sizes"});
+  nc_config_fault fault;
+  if (nc_config_check(&config_.nc, &fault) != NC_OK) {
+    errors->push_back({config_.file, 0, "", std::string("the control refuses ") + fault.field + ": " + fault.reason});
     return false;
   }
+  const std::size_t size = nc_memory_required(&config_.nc);
   const std::size_t rounded = (size + kControlAlignment - 1) / kControlAlignment * kControlAlignment;
   memory_.reset(std::aligned_alloc(kControlAlignment, rounded));
   nc_status status = NC_E_MEMORY;
   if (memory_ != nullptr) control_ = nc_create(&config_.nc, memory_.get(), rounded, &status);
   if (control_ == nullptr) {
     errors->push_back({config_.file, 0, "",
-                       "the control cannot be made (status " + std::to_string(status) + ", " +
-                           std::to_string(rounded) + " bytes)"});
+                       "the control cannot be made in " + std::to_string(rounded) + " bytes: " + nc_status_text(status)});
     return false;
   }
   std::vector<ConfigError> refused = apply_config(config_, control_);
@@ -169,8 +170,11 @@ bool Runtime::start(std::string* error) {
   if (!bring_up(error)) return false;
   stop_scan_ = stop_feeder_ = false;
   keeper_ = std::make_unique<RetainKeeper>(static_cast<unsigned>(config_.retain_every_s * 1000),
-                                           [this](unsigned detail) { scan_->post_retain_trouble(detail); },
-                                           [this] { return scan_->retain_loss_seen(); });
+      [this](unsigned detail, bool begins) {
+        if (begins) scan_->post_retain_trouble(detail);
+        else scan_->end_retain_trouble(detail);
+      },
+      [this] { return scan_->retain_loss_seen(); });
   if (own_ladder_ != nullptr && !config_.retain_path().empty())
     keeper_->add(0, std::make_unique<LadderData>(own_ladder_.get()), config_.retain_path());
   if (control_ != nullptr && !config_.variables_path().empty())
@@ -281,9 +285,14 @@ Answer Runtime::execute_alone(Command command) {
     return answer;
   }
   wake_feeder();
-  const auto give_up = std::chrono::steady_clock::now() + kAnswerTime;
+  auto give_up = std::chrono::steady_clock::now() + (feeder ? kFeederTime : kAnswerTime);
+  bool taken_back = false;
   while (!find_answer(command.ticket, feeder, &answer)) {
-    if (std::chrono::steady_clock::now() > give_up) return Answer::kNoAnswer;
+    if (std::chrono::steady_clock::now() > give_up) {
+      if (!feeder || taken_back || feeder_->take_back(command.ticket)) return Answer::kNoAnswer;
+      taken_back = true;  // too late for that: what it does it does now
+      give_up += kAnswerTime;
+    }
     std::this_thread::sleep_for(std::chrono::microseconds(200));
   }
   return answer;

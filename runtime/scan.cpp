@@ -12,6 +12,12 @@
 namespace nc::rt {
 namespace {
 
+hal::PointImage initial_image(const hal::PointTable& points) {
+  hal::PointImage image;
+  for (unsigned p = 0; p < points.size(); ++p) image.value[p] = points.at(p).initial;
+  return image;
+}
+
 // A reset is held for some scans, so that its edge is seen whatever the state.
 constexpr unsigned kResetMinScans = 2;
 
@@ -45,15 +51,26 @@ Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder
       systems_(config.nc.system_count),
       selects_spindles_(selects_spindles(config)),
       period_ns_(static_cast<std::int64_t>(config.cycle_us) * 1000),
-      macro_(config.macro),
+      points_(initial_image(config.points)),
+      macro_(config.macro, points_),
       snapshot_(Snapshot::bytes(config.nc.system_count)) {
-  for (unsigned p = 0; p < config.points.size(); ++p) points_.value[p] = config.points.at(p).initial;
   for (unsigned s = 0; s < systems_; ++s) {
     in_[s].feed_override = in_[s].rapid_override = 1;
     last_command_[s] = config.start[s];
     out_[s].command = config.start[s];
     out_[s].distance_zero = true;
     feedback_.system[s].actual = config.start[s];
+  }
+  std::uint32_t mapped[NC_WORDS];
+  macro_.mapped(mapped);
+  tell_found_outputs(mapped);  // their points may begin with another value than 0
+}
+
+// What a program reads of its outputs is the feeder's: it is told of those that the bus has found.
+void Scan::tell_found_outputs(const std::uint32_t found[NC_WORDS]) noexcept {
+  for (unsigned w = 0; w < NC_WORDS; ++w) {
+    output_value_[w].store(macro_.output()[w], std::memory_order_relaxed);
+    output_found_[w].fetch_or(found[w], std::memory_order_release);
   }
 }
 
@@ -101,6 +118,8 @@ void Scan::run_once() noexcept {
 
 void Scan::read_inputs() noexcept {
   hal_->read(&feedback_, &points_);
+  std::uint32_t found[NC_WORDS];
+  if (macro_.take_over(points_, found)) tell_found_outputs(found);
   bind_spindles();
   take_commands();
   watch_machine();
@@ -188,11 +207,12 @@ Answer Scan::apply(const Command& command) noexcept {
 // started.
 Answer Scan::set_mode(Mode mode) noexcept {
   if (mode == mode_) return Answer::kDone;
-  if (!at_rest()) return Answer::kNotWhileRunning;
   const bool active = program_active();
+  if (!at_rest()) return active ? Answer::kNotWhileRunning : Answer::kAxesMove;
   for (unsigned s = 0; s < systems_; ++s) {
     const std::uint8_t state = out_[s].state;
-    if (state == NC_STATE_RUNNING || state == NC_STATE_MANUAL) return Answer::kNotWhileRunning;
+    if (state == NC_STATE_RUNNING) return Answer::kNotWhileRunning;
+    if (state == NC_STATE_MANUAL) return Answer::kAxesMove;
     if (!active) continue;
     if (mode == Mode::kManual && (state == NC_STATE_HOLD || state == NC_STATE_STOPPED) &&
         !out_[s].manual_allowed)
@@ -203,27 +223,46 @@ Answer Scan::set_mode(Mode mode) noexcept {
   return Answer::kDone;
 }
 
+// What a start acts on: the programs that are interrupted go on, and one that has ended meanwhile does not begin again beside them; else
+// what lies ready for this mode begins.
+std::uint32_t Scan::ready_systems() const noexcept {
+  const std::uint32_t loaded = loaded_.load(std::memory_order_acquire), wanted = mode_ == Mode::kMdi ? kMdiLoaded : kPartLoaded;
+  const bool goes_on = program_active();
+  std::uint32_t ready = 0;
+  for (unsigned s = 0; s < systems_; ++s) {
+    const bool interrupted = out_[s].state == NC_STATE_HOLD || out_[s].state == NC_STATE_STOPPED;
+    const bool acts = goes_on ? interrupted : (loaded >> kLoadedBits * s & wanted) != 0;
+    ready |= acts ? 1u << s : 0;
+  }
+  return ready;
+}
+
 Answer Scan::start_cycle() noexcept {
   if (ending_) return Answer::kEnding;
   if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
-  if (reset_phase_ != ResetPhase::kNone) return Answer::kResetting;
+  if (reset_phase_ != ResetPhase::kNone) return in_reset();
   // An alarm that does not stop keeps the next program from starting, not one from going on.
-  if (program_active() ? alarms_.stops() : alarms_.count != 0) return Answer::kAlarmActive;
+  if (alarms_.stops()) return Answer::kAlarmActive;
+  if (!program_active() && alarms_.waits_for_reset()) return Answer::kWarningActive;
   for (unsigned s = 0; s < systems_; ++s)
     if (out_[s].state == NC_STATE_RUNNING) return Answer::kAlreadyRunning;
-  const std::uint8_t wanted = mode_ == Mode::kMdi ? kMdiLoaded : kPartLoaded;
-  if (!program_active() && (loaded_.load(std::memory_order_acquire) & wanted) == 0) return Answer::kNoProgram;
+  const std::uint32_t ready = ready_systems();
+  if (std::all_of(machine_holds_, machine_holds_ + systems_, [](bool holds) { return holds; })) return Answer::kFeedHold;
+  if (ready == 0) return Answer::kNoProgram;
   if (!program_active()) program_mode_ = mode_;
-  start_pulse_ = true;
+  start_pulse_ = ready;
   hold_request_ = false;
-  for (unsigned s = 0; s < systems_; ++s) happened(s, Asked::kCycleStart);
+  for (unsigned s = 0; s < systems_; ++s) {
+    if (machine_holds_[s]) refuse(s, Asked::kCycleStart, Answer::kFeedHold);
+    else happened(s, Asked::kCycleStart);
+  }
   return Answer::kDone;
 }
 
 Answer Scan::manual(const Command& command) noexcept {
   if (ending_) return Answer::kEnding;
   if (mode_ != Mode::kManual) return Answer::kNotInThisMode;
-  if (reset_phase_ != ResetPhase::kNone) return Answer::kResetting;
+  if (reset_phase_ != ResetPhase::kNone) return in_reset();
   if (command.system >= systems_ || command.axis >= config_.nc.system[command.system].axis_count)
     return Answer::kAxisUnknown;
   const nc_axis_config& axis = config_.nc.system[command.system].axis[command.axis];
@@ -237,7 +276,9 @@ Answer Scan::manual(const Command& command) noexcept {
     return Answer::kDone;
   }
   if (alarms_.stops()) return Answer::kAlarmActive;
-  if (!at_rest()) return Answer::kNotWhileRunning;
+  if (!at_rest()) return Answer::kAxesMove;
+  // Else it would begin by itself when they end, with nobody's hand on a button.
+  if (const Answer hindrance = machine_hindrance(command.system); hindrance != Answer::kDone) return hindrance;
   if (command.kind == CommandKind::kStep) {
     if (!(command.value >= -1e6 && command.value <= 1e6)) return Answer::kOutOfRange;
     jog = {NC_MANUAL_STEP, command.value, 2};  // the distance is taken at the rising edge
@@ -258,8 +299,8 @@ void Scan::build_nc_inputs() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     nc_inputs& in = in_[s];
     const hal::SystemFeedback& machine = feedback_.system[s];
-    in.cycle_start = start_pulse_;
-    in.feed_hold = hold_request_;
+    in.cycle_start = (start_pulse_ >> s & 1u) != 0;
+    in.feed_hold = hold_request_;  // or the machine's: run_ladder()
     in.reset = reset_phase_ == ResetPhase::kStopping;
     in.single_block = single_block_;
     in.optional_stop = optional_stop_;
@@ -301,7 +342,7 @@ void Scan::build_nc_inputs() noexcept {
       }
     }
   }
-  start_pulse_ = false;
+  start_pulse_ = 0;
 }
 
 // ---- 4 outputs ----
@@ -311,7 +352,7 @@ void Scan::write_outputs() noexcept {
   drives_off_ |= machine_faulty();
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
-    macro_.distribute(s, out.output, &points_);
+    macro_.distribute(out.output, out.output_written, &points_);
     hal::SystemCommand& machine = machine_.system[s];
     machine.enable = !drives_off_;
     machine.position = out.command;
@@ -335,6 +376,7 @@ void Scan::write_outputs() noexcept {
     if (recording_) record_position(s);
   }
   ladder_->hold_outputs(&points_);
+  macro_.leave(points_);
   hal_->write(machine_, points_);
 }
 
@@ -367,12 +409,23 @@ void Scan::follow_requests() noexcept {
     }
   } else if (reset_phase_ == ResetPhase::kFeeder &&
              reset_done_.load(std::memory_order_acquire) == reset_rest_.load(std::memory_order_relaxed)) {
-    reset_phase_ = ResetPhase::kNone;
+    reset_phase_ = ResetPhase::kHeld;
     drives_off_ = machine_faulty();
   }
+  // Where the control is being ended nothing starts anyhow, and nobody waits for the button.
+  if (reset_phase_ == ResetPhase::kHeld && (!last_requests_.reset || ending_)) reset_phase_ = ResetPhase::kNone;
 }
 
 // ---- 5 snapshot ----
+
+void Scan::publish_overrides(unsigned s, SystemSnapshot* out) const noexcept {
+  const bool program = out_[s].override_source == NC_OVERRIDE_PROGRAM;
+  const auto given = [](bool machine) { return machine ? OverrideSource::kMachine : OverrideSource::kOperator; };
+  out->feed_override = program ? out_[s].feed_override : in_[s].feed_override;
+  out->feed_override_source = program ? OverrideSource::kProgram : given(machine_feeds_[s]);
+  out->rapid_override = in_[s].rapid_override;
+  out->rapid_override_source = given(machine_rapids_[s]);
+}
 
 void Scan::publish() noexcept {
   Snapshot& out = building_;
@@ -384,17 +437,13 @@ void Scan::publish() noexcept {
     out.system[s].nc = out_[s];
     out.system[s].actual = feedback_.system[s].actual;
     out.system[s].refusal = refusal_[s];
+    publish_overrides(s, &out.system[s]);
     std::copy(std::begin(feedback_.system[s].spindle), std::end(feedback_.system[s].spindle), out.system[s].spindle);
   }
-  const bool program = out_[0].override_source == NC_OVERRIDE_PROGRAM;
-  const auto given = [](bool machine) { return machine ? OverrideSource::kMachine : OverrideSource::kOperator; };
-  out.feed_override = program ? out_[0].feed_override : in_[0].feed_override;
-  out.feed_override_source = program ? OverrideSource::kProgram : given(machine_feeds_[0]);
-  out.rapid_override = in_[0].rapid_override;
-  out.rapid_override_source = given(machine_rapids_[0]);
   out.single_block = single_block_;
   out.optional_stop = optional_stop_;
   out.resetting = reset_phase_ != ResetPhase::kNone;
+  out.reset_held = reset_phase_ == ResetPhase::kHeld;
   out.alarms = alarms_;
   ladder_->list_forces(&out.forces);
   out.overruns = statistics_.overruns.load(std::memory_order_relaxed);

@@ -72,9 +72,11 @@ class Scan {
   const ScanStatistics& statistics() const { return statistics_; }
 
   // ---- feeder thread ----
-  // What lies in the control, ready to start: each belongs to its mode, so that nothing forgotten starts in the other.
+  // What lies in the control, ready to start, two bits for each part system: each belongs to its mode, so that nothing forgotten starts in the
+  // other, be it the part program of one part system with the MDI blocks of another.
   enum Loaded : std::uint8_t { kNothingLoaded = 0, kPartLoaded = 1, kMdiLoaded = 2 };
-  void set_loaded(std::uint8_t loaded) noexcept { loaded_.store(loaded, std::memory_order_release); }
+  static constexpr unsigned kLoadedBits = 2;
+  void set_loaded(std::uint32_t loaded) noexcept { loaded_.store(loaded, std::memory_order_release); }
   // A reset came to rest: the feeder resets the interpreter and says so.
   bool reset_waits() const noexcept {
     return reset_rest_.load(std::memory_order_acquire) != reset_done_.load(std::memory_order_relaxed);
@@ -99,16 +101,26 @@ class Scan {
     return recalculations_[system].load(std::memory_order_acquire);
   }
 
+  // Bits of #1132 to #1135 that the machine has had by itself since the last call: at the start, and as a bus finds them (on_stop = "hold").
+  std::uint32_t take_found_outputs(unsigned word, std::uint32_t* bits) noexcept {
+    const std::uint32_t mask = output_found_[word].exchange(0, std::memory_order_acquire);
+    *bits = output_value_[word].load(std::memory_order_relaxed);
+    return mask;
+  }
+
   // ---- the thread of the retained data ----
-  // Alarm R19 or R20, with the next scan; reset acknowledges it. `detail`: retain_detail().
+  // Alarm R19 or R20, with the next scan; reset acknowledges it. `detail`: retain_detail(). R20 holds until end_retain_trouble().
   void post_retain_trouble(unsigned detail) noexcept {
+    if (!is_lost(static_cast<RetainTrouble>(detail % 4))) retain_holds_.fetch_or(1u << detail, std::memory_order_relaxed);
     retain_trouble_.fetch_or(1u << detail, std::memory_order_release);
   }
+  void end_retain_trouble(unsigned detail) noexcept { retain_holds_.fetch_and(~(1u << detail), std::memory_order_relaxed); }
   // R19 was there and has been acknowledged.
   bool retain_loss_seen() const noexcept { return retain_loss_seen_.load(std::memory_order_acquire); }
 
  private:
-  enum class ResetPhase : std::uint8_t { kNone, kStopping, kFeeder };
+  // kHeld: it is done, and plc.reset is still on.
+  enum class ResetPhase : std::uint8_t { kNone, kStopping, kFeeder, kHeld };
   struct Jog {
     std::uint8_t kind = NC_MANUAL_NONE;
     double value = 0;
@@ -116,10 +128,12 @@ class Scan {
   };
 
   void read_inputs() noexcept;
+  void tell_found_outputs(const std::uint32_t found[NC_WORDS]) noexcept;
   void bind_spindles() noexcept;
   void take_commands() noexcept;
   Answer apply(const Command& command) noexcept;
   Answer start_cycle() noexcept;
+  std::uint32_t ready_systems() const noexcept;
   Answer set_mode(Mode mode) noexcept;
   Answer manual(const Command& command) noexcept;
   void build_nc_inputs() noexcept;
@@ -140,15 +154,26 @@ class Scan {
   void follow_requests() noexcept;
   void record_position(unsigned system) noexcept;
   void publish() noexcept;
+  void publish_overrides(unsigned system, SystemSnapshot* out) const noexcept;
   void answer_commands() noexcept;
 
   void raise(AlarmId id, unsigned system, int axis, std::uint32_t detail = 0, std::uint32_t code = 0) noexcept;
   void acknowledge_alarms() noexcept;
+  bool holds_still(const ActiveAlarm& alarm) const noexcept;
+  template <class Gone>
+  void remove_alarms(Gone gone) noexcept {
+    unsigned kept = 0;
+    for (unsigned i = 0; i < alarms_.count; ++i)
+      if (!gone(alarms_.alarm[i])) alarms_.alarm[kept++] = alarms_.alarm[i];
+    alarms_.count = kept;
+  }
   bool program_active() const noexcept;
   bool at_rest() const noexcept;
   void refuse(unsigned system, Asked asked, Answer why, int axis = -1, bool stopped = false) noexcept;
   void settle(Asked asked, Answer answer) noexcept;
   void happened(unsigned system, Asked asked) noexcept;
+  Answer in_reset() const noexcept { return reset_phase_ == ResetPhase::kHeld ? Answer::kResetHeld : Answer::kResetting; }
+  Answer machine_hindrance(unsigned system) const noexcept;
   bool at_soft_limit(unsigned system, unsigned axis, int direction) const noexcept;
   Answer jog_hindrance(unsigned system, unsigned axis, int direction) const noexcept;
   void watch_jogs() noexcept;
@@ -168,7 +193,7 @@ class Scan {
   std::int64_t next_ns_ = 0;
 
   hal::Feedback feedback_{};
-  hal::PointImage points_{};
+  hal::PointImage points_;
   MacroInterface macro_;
   nc_inputs in_[NC_MAX_SYSTEMS] = {};
   nc_outputs out_[NC_MAX_SYSTEMS] = {};
@@ -179,6 +204,7 @@ class Scan {
   Mode mode_ = Mode::kAuto;
   Mode program_mode_ = Mode::kAuto;  // in which the program that is active was started
   double feed_override_ = 1, rapid_override_ = 1;  // the operator's
+  bool machine_holds_[NC_MAX_SYSTEMS] = {};  // plc.feed_hold_n is 0
   bool machine_feeds_[NC_MAX_SYSTEMS] = {}, machine_rapids_[NC_MAX_SYSTEMS] = {};  // a switch of the machine gives it
   bool single_block_ = false, optional_stop_ = false;
   LadderRequests last_requests_;     // of the scan before
@@ -188,16 +214,19 @@ class Scan {
   std::uint64_t clamp_scans_[NC_MAX_SYSTEMS] = {};  // for the clamp of an index table
   std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // of the scan before
   std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that the FIN that is on has completed
-  bool start_pulse_ = false, hold_request_ = false;
+  std::uint32_t start_pulse_ = 0;  // bit per part system: its program starts or goes on
+  bool hold_request_ = false;
   bool ending_ = false;  // nothing starts any more
   Refusal refusal_[NC_MAX_SYSTEMS];
   struct JogWatch {
     Answer why = Answer::kDone;  // as noted last
     bool went = false;
+    bool held = false;  // a reference return, by the machine's hold or interlock
   };
   JogWatch jog_watch_[NC_MAX_SYSTEMS][NC_MAX_AXES];
   std::int8_t jog_asked_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};  // direction in this scan, whether or not it acts
   std::uint8_t jog_without_feed_[NC_MAX_SYSTEMS] = {};       // bit per axis
+  std::uint32_t jog_over_reset_[NC_MAX_SYSTEMS] = {};        // bit per axis: its button was on in a reset, and is still
   // From a fault of the machine to the end of the reset; the commanded position follows the measured one.
   bool drives_off_ = false;
   nc_axes stood_at_[NC_MAX_SYSTEMS] = {};  // measured
@@ -219,11 +248,13 @@ class Scan {
   SpscQueue<Message, 64> messages_;
   bool recording_ = false;
   SpscQueue<PositionSample, 4096> positions_;
-  std::atomic<std::uint8_t> loaded_{kNothingLoaded};
+  std::atomic<std::uint32_t> loaded_{kNothingLoaded};
   std::atomic<std::uint32_t> skip_switches_[NC_MAX_SYSTEMS] = {}, recalculations_[NC_MAX_SYSTEMS] = {};
-  std::atomic<std::uint32_t> retain_trouble_{0};
+  std::atomic<std::uint32_t> retain_trouble_{0};  // has come since the last scan
+  std::atomic<std::uint32_t> retain_holds_{0};    // of these, what is still so
   std::atomic<bool> retain_loss_seen_{false};
   std::atomic<std::uint32_t> reset_rest_{0}, reset_done_{0};
+  std::atomic<std::uint32_t> output_found_[NC_WORDS] = {}, output_value_[NC_WORDS] = {};
   SeqLock<Snapshot> snapshot_;
   Snapshot building_;
   ScanStatistics statistics_;

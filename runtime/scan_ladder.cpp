@@ -20,12 +20,17 @@ void Scan::run_ladder() noexcept {
                             !drives_off_, scan_,   macro_.output()};
   LadderRequests requests;
   LadderImage image{&config_.points, &points_, &feedback_, out_, in_, systems_, &status, &requests, &config_.nc};
+  for (unsigned s = 0; s < systems_; ++s) in_[s].feed_hold = false;
   ladder_->scan(&image);
+  for (unsigned s = 0; s < systems_; ++s) {
+    machine_holds_[s] = in_[s].feed_hold;
+    in_[s].feed_hold |= hold_request_;
+  }
   decide_overrides(requests);
   follow_ladder(requests);
 }
 
-// Cycle start acts when it falls, reset and modes when they rise, alarms while they are on.
+// Cycle start acts when it falls, reset and modes when they rise, alarms while they are on. While reset is on nothing starts.
 void Scan::follow_ladder(const LadderRequests& requests) noexcept {
   if (requests.cycle_start) {
     if (ladder_start_scans_ < kStartMinScans) ++ladder_start_scans_;
@@ -37,6 +42,7 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
     ladder_start_scans_ = 0;
   }
   if (requests.reset && !last_requests_.reset) request_reset();
+  for (unsigned s = 0; s < systems_; ++s) in_[s].reset = reset_phase_ == ResetPhase::kStopping;  // goes before a start of this scan
   unsigned modes = 0, chosen = 0;
   for (unsigned m = 0; m < 3; ++m) {
     if (!requests.mode[m]) continue;
@@ -82,12 +88,15 @@ Answer Scan::set_override(double value, double most, const bool* machines, doubl
 }
 
 // Buttons and handles of the machine, in manual mode; they go before the operator's jogs. Both directions at once
-// are none.
+// are none. A reset ends a jog for good: a button that was on in it does nothing until it is let go, else the axis would go on by itself.
 void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
   const bool acts = !ending_ && mode_ == Mode::kManual && reset_phase_ == ResetPhase::kNone && !alarms_.stops();
   for (unsigned s = 0; s < systems_; ++s) {
     const LadderRequests::System &now = requests.system[s], &before = last_requests_.system[s];
     jog_without_feed_[s] = 0;
+    const std::uint32_t buttons = now.jog_p | now.jog_m;
+    if (reset_phase_ != ResetPhase::kNone) jog_over_reset_[s] |= buttons;
+    jog_over_reset_[s] &= buttons;
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       const nc_axis_config& axis = config_.nc.system[s].axis[a];
       const int direction = static_cast<int>(now.jog_p >> a & 1u) - static_cast<int>(now.jog_m >> a & 1u);
@@ -102,6 +111,7 @@ void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
         if (reference) refuse(s, Asked::kReference, jog_hindrance(s, a, 0), static_cast<int>(a));
         continue;
       }
+      if (direction != 0 && (jog_over_reset_[s] >> a & 1u) != 0) continue;
       if (direction != 0) {
         manual = {NC_MANUAL_JOG, direction * std::min(asked, axis.max_velocity), 0};
       } else if (now.handle[a] != 0) {
@@ -116,7 +126,7 @@ void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
 }
 
 void Scan::request_reset() noexcept {
-  if (reset_phase_ != ResetPhase::kNone) return;
+  if (reset_phase_ == ResetPhase::kStopping || reset_phase_ == ResetPhase::kFeeder) return;
   reset_phase_ = ResetPhase::kStopping;
   reset_scans_ = 0;
   for (unsigned i = 0; i < alarms_.count; ++i)  // the program gets its next try; the same fault comes back as R17

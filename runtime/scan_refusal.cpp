@@ -37,14 +37,21 @@ bool Scan::at_soft_limit(unsigned system, unsigned axis, int direction) const no
   return direction > 0 ? now >= limits.soft_max - kAtLimit : now <= limits.soft_min + kAtLimit;
 }
 
+// Level signals of the machine in which no axis moves by hand.
+Answer Scan::machine_hindrance(unsigned system) const noexcept {
+  return in_[system].interlock ? Answer::kInterlock : machine_holds_[system] ? Answer::kFeedHold : Answer::kDone;
+}
+
 Answer Scan::jog_hindrance(unsigned system, unsigned axis, int direction) const noexcept {
   if (ending_) return Answer::kEnding;
   if (alarms_.stops()) return Answer::kAlarmActive;
-  if (reset_phase_ != ResetPhase::kNone) return Answer::kResetting;
+  if (reset_phase_ != ResetPhase::kNone) return in_reset();
   if (mode_ != Mode::kManual) return Answer::kNotInThisMode;
   if (is_spindle_now(system, axis)) return Answer::kSpindleNow;
   if (at_soft_limit(system, axis, direction)) return Answer::kSoftLimit;
   if (!out_[system].manual_allowed) return Answer::kMiddleOfBlock;
+  if ((jog_over_reset_[system] >> axis & 1u) != 0) return Answer::kLetGoFirst;
+  if (const Answer hindrance = machine_hindrance(system); hindrance != Answer::kDone) return hindrance;
   return (jog_without_feed_[system] >> axis & 1u) != 0 ? Answer::kNoJogFeed : Answer::kDone;
 }
 
@@ -54,13 +61,16 @@ void Scan::watch_jogs() noexcept {
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       JogWatch& watch = jog_watch_[s][a];
       const int direction = jog_asked_[s][a];
+      const Answer held = jog_[s][a].kind == NC_MANUAL_REFERENCE ? machine_hindrance(s) : Answer::kDone;
+      if (held != Answer::kDone && !watch.held) refuse(s, Asked::kReference, held, static_cast<int>(a), true);
+      watch.held = held != Answer::kDone;
       if (direction == 0) {
-        watch = {};
+        watch = {Answer::kDone, false, watch.held};
         continue;
       }
       const Answer why = jog_hindrance(s, a, direction);
       const bool moves = out_[s].velocity.v[a] * direction > 0;
-      watch.went |= moves;
+      watch.went |= moves && why == Answer::kDone;  // a program may move it, too
       if (why == Answer::kDone) {
         if (moves) happened(s, Asked::kJog);
       } else if (why != watch.why) {

@@ -129,15 +129,23 @@ void Scan::watch_links() noexcept {
   }
 }
 
-// What the thread of the retained data has found.
+// What the thread of the retained data has found. What comes again behind a reset, having gone in between, waits for one of its own.
 void Scan::watch_retained() noexcept {
-  if (retain_trouble_.load(std::memory_order_relaxed) == 0) return;
-  const std::uint32_t found = retain_trouble_.exchange(0, std::memory_order_acquire);
-  for (unsigned detail = 0; detail < 4 * kRetainedData; ++detail) {
+  std::uint32_t found = 0;
+  if (retain_trouble_.load(std::memory_order_relaxed) != 0) found = retain_trouble_.exchange(0, std::memory_order_acquire);
+  const auto comes_again = [found](const ActiveAlarm& alarm) {
+    return alarm.id == AlarmId::kRetainedUnwritable && (found >> alarm.detail & 1u) != 0;
+  };
+  remove_alarms([&](const ActiveAlarm& alarm) { return alarm.acknowledged && (!holds_still(alarm) || comes_again(alarm)); });
+  for (unsigned detail = 0; found != 0 && detail < 4 * kRetainedData; ++detail) {
     if ((found >> detail & 1u) == 0) continue;
-    const bool lost = detail % 4 <= static_cast<unsigned>(RetainTrouble::kOlder);
-    raise(lost ? AlarmId::kRetainedLost : AlarmId::kRetainedUnwritable, 0, -1, detail);
+    raise(is_lost(static_cast<RetainTrouble>(detail % 4)) ? AlarmId::kRetainedLost : AlarmId::kRetainedUnwritable, 0, -1, detail);
   }
+}
+
+// The causes of alarms are looked at in every scan, and raise them again. That of a warning is told once, by a thread of its own.
+bool Scan::holds_still(const ActiveAlarm& alarm) const noexcept {
+  return alarm.id == AlarmId::kRetainedUnwritable && (retain_holds_.load(std::memory_order_relaxed) >> alarm.detail & 1u) != 0;
 }
 
 // A completion that does not come is named with what it is waited for. Time in a hold does not count. FIN is what
@@ -199,6 +207,7 @@ void Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, st
   alarm.scan = scan_;
   alarm.detail = detail;
   alarm.code = code;
+  alarm.acknowledged = false;
   if (id != AlarmId::kRetainedLost && id != AlarmId::kRetainedUnwritable) alarm.source = out_[system].source;
 }
 
@@ -208,7 +217,8 @@ void Scan::acknowledge_alarms() noexcept {
   for (unsigned i = 0; i < alarms_.count; ++i)
     if (alarms_.alarm[i].id == AlarmId::kRetainedLost && !ending_)  // the reset of the end is nobody's look
       retain_loss_seen_.store(true, std::memory_order_release);
-  alarms_.count = 0;
+  remove_alarms([this](const ActiveAlarm& alarm) { return !holds_still(alarm); });
+  for (unsigned i = 0; i < alarms_.count; ++i) alarms_.alarm[i].acknowledged = true;
   missed_since_reset_ = 0;
 }
 

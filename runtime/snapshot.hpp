@@ -21,16 +21,6 @@ struct ForceList {
   ForcedDevice device[kMaxForces];
 };
 
-struct SystemSnapshot {
-  nc_outputs nc{};         // commanded side, from libnc
-  nc_axes actual{};        // measured
-  nc_spindle_inputs spindle[NC_MAX_SPINDLES] = {};  // measured
-  Refusal refusal;         // of what was asked for at the panel last
-
-  // The spindle that displays show: the one whose encoder counts.
-  const nc_spindle_inputs& shown_spindle() const { return spindle[nc.spindle_encoder == 0 ? 0 : nc.spindle_encoder - 1]; }
-};
-
 // Who has given the override that is in force (docs/signals.md, "Overrides").
 enum class OverrideSource : std::uint8_t { kOperator = 0, kMachine = 1, kProgram = 2 };
 
@@ -38,15 +28,26 @@ constexpr const char* override_source_text(OverrideSource source) {
   return source == OverrideSource::kMachine ? "machine" : source == OverrideSource::kProgram ? "program" : "operator";
 }
 
+struct SystemSnapshot {
+  nc_outputs nc{};         // commanded side, from libnc
+  nc_axes actual{};        // measured
+  nc_spindle_inputs spindle[NC_MAX_SPINDLES] = {};  // measured
+  Refusal refusal;         // of what was asked for at the panel last
+  double feed_override = 1, rapid_override = 1;  // in force: a machine may have a switch for each part system ...
+  OverrideSource feed_override_source = OverrideSource::kOperator, rapid_override_source = OverrideSource::kOperator;  // ... and whose they are
+
+  // The spindle that displays show: the one whose encoder counts.
+  const nc_spindle_inputs& shown_spindle() const { return spindle[nc.spindle_encoder == 0 ? 0 : nc.spindle_encoder - 1]; }
+};
+
 struct Snapshot {
   std::uint64_t scan = 0;    // number of the scan, from 1
   std::int64_t time_ns = 0;  // clock at its start
   Mode mode = Mode::kAuto;
   unsigned system_count = 1;
-  double feed_override = 1, rapid_override = 1;  // in force in part system 1 ...
-  OverrideSource feed_override_source = OverrideSource::kOperator, rapid_override_source = OverrideSource::kOperator;  // ... and whose they are
   bool single_block = false, optional_stop = false;
   bool resetting = false;
+  bool reset_held = false;  // the reset is done, and the machine's reset is still on
   AlarmList alarms;
   std::uint64_t overruns = 0;      // scans that ended behind their slot
   std::uint64_t missed_slots = 0;  // slots without a scan

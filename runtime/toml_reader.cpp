@@ -172,8 +172,7 @@ bool TableReader::string(std::string_view key, std::string* value) {
   return true;
 }
 
-bool TableReader::choice(std::string_view key, std::initializer_list<std::string_view> words,
-                         unsigned* index) {
+bool TableReader::choice(std::string_view key, std::span<const std::string_view> words, unsigned* index) {
   std::string word;
   if (!string(key, &word)) return false;
   unsigned i = 0;

@@ -8,7 +8,9 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -59,7 +61,10 @@ class TableReader {
   bool boolean(std::string_view key, bool* value);
   bool string(std::string_view key, std::string* value);
   // One word of a list; *index is its place.
-  bool choice(std::string_view key, std::initializer_list<std::string_view> words, unsigned* index);
+  bool choice(std::string_view key, std::span<const std::string_view> words, unsigned* index);
+  bool choice(std::string_view key, std::initializer_list<std::string_view> words, unsigned* index) {
+    return choice(key, std::span(words.begin(), words.size()), index);
+  }
   // An array of numbers with a length from min_size to max_size.
   bool numbers(std::string_view key, std::vector<double>* values, std::size_t min_size, std::size_t max_size);
   bool strings(std::string_view key, std::vector<std::pair<std::string, unsigned>>* values_and_lines);

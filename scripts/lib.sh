@@ -38,7 +38,7 @@ ensure_packages() {
 }
 
 # build_preset PRESET [-DVAR=VALUE...] [-- TARGET...]: configure where needed, and build, quietly. The build tool itself
-# configures again when a CMake file changes or a source file comes or goes.
+# configures again when a CMake file changes or a source file comes or goes, but it does not know of the presets.
 build_preset() {
   local preset=$1 log=$top/build/$1.log defines=() targets=()
   shift
@@ -46,7 +46,8 @@ build_preset() {
   [ $# -eq 0 ] || { shift; [ $# -eq 0 ] || targets=(--target "$@"); }
   mkdir -p "$top/build"
   : >"$log"
-  if [ ${#defines[@]} -gt 0 ] || [ $installed_something = yes ] || [ ! -f "$top/build/$preset/build.ninja" ]; then
+  if [ ${#defines[@]} -gt 0 ] || [ $installed_something = yes ] || [ ! -f "$top/build/$preset/build.ninja" ] ||
+     [ "$top/CMakePresets.json" -nt "$top/build/$preset/build.ninja" ]; then
     (cd "$top" && cmake --preset "$preset" "${defines[@]}") >>"$log" 2>&1 || { build_failed "$log"; return 1; }
   fi
   [ -e "$top/build/$preset/.ninja_log" ] || say "Building preset $preset (log: build/$preset.log) ..."

@@ -281,8 +281,11 @@ int main(int argc, char** argv) {
   CLI::App app{"ncmon: shows a control that ncdds publishes"};
   Options options;
   app.set_version_flag("--version", std::string("ncmon ") + nc_version());
-  app.add_option("--control,--machine", options.machine, "name of the control (ncdds --share); default: the first that is heard")
-      ->check(nc::tools::given());
+  app.add_option("--control", options.machine, "name of the control (ncdds --share); default: the first that is heard")->check(nc::tools::given());
+  std::string file;  // neither stands in --help
+  app.add_option("--machine,--config", file)->group("")->check([](const std::string&) {
+    return std::string("is the file of a machine, which ncmon does not read: the name of a control is --control NAME");
+  });
   app.add_option("--domain", options.domain, "DDS domain")->transform(nc::tools::whole(0, 230));
   CLI::Option* once_flag = app.add_flag("--once", options.once, "one status, then end");
   app.add_flag("--json", options.json, "as JSON, one object in a line");

@@ -2,7 +2,7 @@
 // ncrtd: the runtime as a program. Runs an NC program (or MDI blocks) on the configured machine.
 //
 //   ncrtd --machine FILE check                        --machine may stand behind the command, too; --config is the same
-//   ncrtd --machine FILE run [--fast] [--dialect D] [--plot BASE] [--no-progress] PROGRAM
+//   ncrtd --machine FILE run [--fast] [--dialect D] [--plot BASE [--view V] [--coordinates C] [--color C]] [--no-progress] PROGRAM
 //   ncrtd --machine FILE mdi [--fast] "G0 X10"
 //   ncrtd --machine FILE serve                       up until SIGTERM or SIGINT, for a service manager
 //   run, mdi and serve:  [--share NAME] [--commands]   shared memory for ncdds (serve has it anyway);
@@ -14,10 +14,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <memory>
+#include <thread>
+#include <vector>
 
 #include "hal/composite.hpp"
 #include "hal/modbus/link.hpp"
@@ -25,12 +28,14 @@
 #include "runtime/machine_lock.hpp"
 #include "runtime/runtime.hpp"
 #include "runtime/share/service.hpp"
+#include "tools/lib/dialect_names.hpp"
 #include "tools/lib/option_values.hpp"
 #include "tools/lib/output_check.hpp"
+#include "tools/lib/plot_options.hpp"
 #include "tools/lib/print_file.hpp"
 #include "tools/lib/program_files.hpp"
+#include "tools/lib/run_plot.hpp"
 #include "tools/lib/serve.hpp"
-#include "tools/lib/toolpath_plot.hpp"
 
 namespace {
 
@@ -57,71 +62,9 @@ const char* signal_name(int number) {
 
 struct Options {
   std::string config, program, mdi, dialect, plot, share;
+  std::string view = "iso", coordinates = "work", color = "kind";  // of the plot
   bool fast = false, no_progress = false, quiet = false, serve = false, commands = false;
   std::int64_t since_ns = nc::rt::RealClock().now_ns();  // start of the process, for the start-up time
-};
-
-// The executed path for the plot, in workpiece coordinates: a vertex where the direction changes by more than two degrees, or the kind
-// of move.
-class PlotSink final : public nc::rt::PathSink {
- public:
-  explicit PlotSink(const nc::rt::Config& config) {
-    for (unsigned a = 0; a < config.nc.system[0].axis_count; ++a)
-      for (unsigned k = 0; k < 3; ++k)
-        if (config.nc.system[0].axis[a].name == "XYZ"[k]) index_[k] = static_cast<int>(a);
-  }
-  void moved(const nc::rt::PositionSample& sample) override {
-    if (sample.system != 0) return;
-    // Which workpiece coordinates those of the start are is known with the first move.
-    if (count_++ == 0) {
-      start_ = sample.command;
-      return;
-    }
-    Point point;
-    for (unsigned k = 0; k < 3; ++k) point.x[k] = index_[k] < 0 ? 0 : sample.work.v[index_[k]];
-    point.rapid = sample.rapid;
-    if (count_ == 2) {
-      Point start = point;
-      for (unsigned k = 0; k < 3; ++k)
-        if (index_[k] >= 0) start.x[k] += start_.v[index_[k]] - sample.command.v[index_[k]];
-      emit(start);
-    } else {
-      const bool turned = !straight(point) || point.rapid != last_.rapid;
-      if (turned) emit(last_);
-    }
-    last_ = point;
-  }
-  void finish() {
-    if (count_ > 1) emit(last_);
-  }
-  nc::tools::ToolpathPlot plot;
-
- private:
-  struct Point {
-    double x[3] = {0, 0, 0};
-    bool rapid = false;
-  };
-  // Does `next` go on in the direction in which the path left the last vertex?
-  bool straight(const Point& next) const {
-    double dot = 0, a = 0, b = 0;
-    for (unsigned k = 0; k < 3; ++k) {
-      const double u = last_.x[k] - vertex_.x[k], v = next.x[k] - last_.x[k];
-      dot += u * v;
-      a += u * u;
-      b += v * v;
-    }
-    if (a < 1e-12 || b < 1e-12) return true;
-    constexpr double kCos2Deg = 0.99939;
-    return dot > kCos2Deg * std::sqrt(a * b);
-  }
-  void emit(const Point& point) {
-    plot.add_point(point.rapid, point.x[0], point.x[1], point.x[2]);
-    vertex_ = point;
-  }
-  int index_[3] = {-1, -1, -1};
-  nc_axes start_{};
-  Point last_, vertex_;
-  std::uint64_t count_ = 0;
 };
 
 int config_failed(const std::vector<nc::rt::ConfigError>& errors) {
@@ -146,6 +89,20 @@ int failed(const std::string& text) {
   return kExitUsage;
 }
 
+// A program that begins at once would read its outputs that hold (on_stop = "hold") before they were read back. A partner that does not
+// answer so soon is no reason to wait for ever: the link says what it lacks.
+void wait_for_outputs(const std::vector<std::unique_ptr<nc::hal::modbus::ModbusLink>>& links) {
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  const auto waits = [](const std::unique_ptr<nc::hal::modbus::ModbusLink>& link) {
+    const auto& points = link->config().points;
+    return std::any_of(points.begin(), points.end(), [](const nc::hal::modbus::PointMap& map) { return map.holds(); }) &&
+           link->statistics().state != nc::hal::modbus::LinkState::kOk;
+  };
+  while (g_signal == 0 && std::any_of(links.begin(), links.end(), waits) && std::chrono::steady_clock::now() < patience)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  std::this_thread::sleep_for(std::chrono::milliseconds(links.empty() ? 0 : 20));  // some scans and a turn of the feeder
+}
+
 // Called in the threads of the links.
 void report_link(const std::string& line) {
   std::fprintf(stderr, "modbus: %s\n", line.c_str());
@@ -160,13 +117,18 @@ int written(int status) {
 
 // Parameters are numbers of one manual: with another dialect they would mean something else, or nothing.
 void change_dialect(const std::string& name, nc::rt::Config* config) {
-  const std::uint8_t dialect = name == "dgshape" ? NC_DIALECT_DGSHAPE : NC_DIALECT_M700;
-  if (dialect == config->nc.dialect) return;
-  config->nc.dialect = dialect;
+  const std::uint8_t dialect = static_cast<std::uint8_t>(*nc::tools::dialect_from_name(name));  // the option takes no other word
+  if (config->nc.dialect == dialect) return;
+  config->nc.dialect = config->sim.dialect = dialect;
   if (config->parameters.empty()) return;
   std::fprintf(stderr, "warning: [parameters] of %s are those of another dialect: not used\n",
                config->file.c_str());
   config->parameters.clear();
+}
+
+// An alarm or a warning that the operator has to see first.
+bool by_alarm(Answer answer) {
+  return answer == Answer::kAlarmActive || answer == Answer::kWarningActive;
 }
 
 // One run from cycle start to the end, an alarm or a signal.
@@ -177,7 +139,7 @@ class Run {
 
   int to_end() {
     const Answer answer = runtime_.execute(CommandKind::kCycleStart);
-    if (answer == Answer::kAlarmActive) return stop_by_alarm();
+    if (by_alarm(answer)) return stop_by_alarm();
     if (answer != Answer::kDone)
       return failed(std::string("cycle start: ") + runtime_.explain(answer));
     for (;;) {
@@ -187,6 +149,7 @@ class Run {
       const nc::rt::FeederInfo info = runtime_.info();
       show_message(info);
       show_printed();
+      show_again(info);
       if (g_signal != 0) return stop_by_signal();
       if (now.stopped_by_alarm()) return stop_by_alarm();
       if (info.runs > 0 && now.system[0].nc.state == NC_STATE_IDLE) return ended(now);
@@ -202,6 +165,9 @@ class Run {
     }
   }
 
+  // That has stopped the run; empty when none has.
+  const std::string& alarm_code() const { return alarm_code_; }
+
   // Prints the active alarms and the summary.
   int stop_by_alarm() {
     rest();
@@ -211,7 +177,10 @@ class Run {
     progress_.finish();
     bool lost = false;
     for (unsigned i = 0; i < now.alarms.count; ++i) {
-      std::fprintf(stderr, "%s: %s\n", nc::rt::is_warning(now.alarms.alarm[i].id) ? "warning" : "alarm", runtime_.alarm_text(now.alarms.alarm[i]).c_str());
+      const std::string text = runtime_.alarm_text(now.alarms.alarm[i]);
+      const bool warning = nc::rt::is_warning(now.alarms.alarm[i].id);
+      std::fprintf(stderr, "%s: %s\n", warning ? "warning" : "alarm", text.c_str());
+      if (!warning && alarm_code_.empty()) alarm_code_ = text.substr(0, text.find(' '));
       lost |= now.alarms.alarm[i].id == nc::rt::AlarmId::kRetainedLost;
     }
     std::printf("%s", nc::rt::summary_text(runtime_, now.system[0].nc, options_.since_ns).c_str());
@@ -238,6 +207,12 @@ class Run {
     if (info.messages == messages_) return;
     messages_ = info.messages;
     note("message: " + info.last_message);
+  }
+  // M700 13.3.1: M99 of a main program, also of MDI, begins it again. That has no end of its own, which is said once.
+  void show_again(const nc::rt::FeederInfo& info) {
+    if (info.begun_again == 0 || said_again_) return;
+    said_again_ = true;
+    note("M99 in line " + std::to_string(info.again_line) + ": begins again from the head, until a reset or a signal (Ctrl-C) ends it");
   }
   // M700 13.5.8: what programs print, where the configuration names no file for it.
   void show_printed() {
@@ -288,8 +263,10 @@ class Run {
   nc::rt::Progress& progress_;
   nc::tools::PrintLines& printed_;
   std::uint64_t messages_ = 0;
+  bool said_again_ = false;
   unsigned idle_looks_ = 0;
   Answer refused_ = Answer::kDone;  // the last continuation of a stop
+  std::string alarm_code_;
   std::uint32_t last_line_ = 0;
   const unsigned looks_ =
       options_.fast ? 100000 : 400;  // for the machine to come to rest; a look may be one scan
@@ -301,7 +278,8 @@ class Sharing final : public nc::rt::EventSink {
   Sharing(const Options& options, const nc::rt::Config& config, nc::hal::Hal* machine)
       : asked_(config.share.enabled || !options.share.empty()),
         wanted_(asked_ || options.serve),
-        tap_(machine, config.points.size()) {
+        tap_(machine, config.points.size()),
+        programs_(static_cast<nc_dialect>(config.nc.dialect)) {
     share_.name = !options.share.empty()        ? options.share
                   : !config.share.name.empty() ? config.share.name
                                                : config.name;
@@ -420,15 +398,23 @@ int operate(const Options& options, nc::rt::Config* config) {
       if (was_good && !print.good()) std::fprintf(stderr, "warning: external output: %s\n", print.error().c_str());
     });
   }
-  PlotSink path(*config);
+  nc::tools::RunPlot path(config->nc, nc::tools::plot_views().at(options.view), nc::tools::plot_coordinates().at(options.coordinates),
+                          nc::tools::plot_colors().at(options.color));
+  path.set_modal([&runtime](nc_modal* modal) {
+    const nc::rt::FeederInfo info = runtime->info();
+    *modal = info.modal[0];
+    return info.modal_known[0];
+  });
   if (!options.plot.empty()) runtime->set_path_sink(&path);
-  nc::rt::Progress progress(stdout, isatty(STDOUT_FILENO) != 0, options.program.empty() ? 0 : nc::rt::estimate_lines(files.text_of(file).get()));
+  nc::rt::Progress progress(stdout, isatty(STDOUT_FILENO) != 0, options.program.empty() ? 0 : nc::rt::estimate_lines(files.text_of(file).get(), static_cast<nc_dialect>(config->nc.dialect)));
 
   std::signal(SIGPIPE, SIG_IGN);  // a reader of the progress that goes away must not stop a machine in motion
   for (const int ending : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(ending, on_signal);  // HUP: a terminal that goes away
   if (!(options.fast ? runtime->start_stepping(&error) : runtime->start(&error))) return failed(error);
   for (const std::string& warning : runtime->warnings())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  if (const std::string kept = options.fast ? nc::rt::not_read_text(*config) : ""; !kept.empty())
+    std::fprintf(stderr, "note: %s\n", nc::rt::valid_utf8(kept).c_str());
   if (!sharing.start(&error)) return failed(error);
   if (options.serve) {
     nc::tools::ServeOptions service;
@@ -438,6 +424,7 @@ int operate(const Options& options, nc::rt::Config* config) {
     runtime->stop();
     return rest ? 0 : kExitAlarm;
   }
+  wait_for_outputs(links);
   Answer answer = Answer::kDone;
   if (!options.program.empty()) {
     answer = runtime->select_program(file);
@@ -447,8 +434,8 @@ int operate(const Options& options, nc::rt::Config* config) {
   }
   Run run(runtime.get(), options, &progress, &printed);
   int result = answer == Answer::kDone          ? run.to_end()
-               : answer == Answer::kAlarmActive ? run.stop_by_alarm()
-                                                : failed(std::string("not started: ") + runtime->explain(answer));
+               : by_alarm(answer)             ? run.stop_by_alarm()
+                                              : failed(std::string("not started: ") + runtime->explain(answer));
   sharing.stop();
   runtime->stop();
   if (!print.good()) {
@@ -458,6 +445,7 @@ int operate(const Options& options, nc::rt::Config* config) {
   if (options.plot.empty() || result == kExitUsage) return result;
   path.finish();
   path.plot.set_title(options.program);
+  path.plot.set_alarm(run.alarm_code());
   for (const char* ending : {".svg", ".png"}) {
     const std::string name = options.plot + ending;
     const bool written =
@@ -482,14 +470,15 @@ int main(int argc, char** argv) {
   CLI::App* run = app.add_subcommand("run", "run a program from cycle start to its end");
   run->add_option("PROGRAM", options.program, "NC program")->required()->check(nc::tools::given());
   run->add_option("--dialect", options.dialect, "instead of the configured one")
-      ->transform(nc::tools::one_of({"m700", "dgshape"}));
+      ->transform(nc::tools::one_of(nc::tools::dialect_names()));
   run->add_option("--plot", options.plot, "write BASE.svg and BASE.png of the executed path")
       ->type_name("BASE")
       ->check(nc::tools::given());
+  nc::tools::add_plot_options(run, &options.view, &options.coordinates, &options.color, [run](CLI::Option* option) { option->needs(run->get_option("--plot")); });
   CLI::App* mdi = app.add_subcommand("mdi", "execute blocks");
   mdi->add_option("BLOCKS", options.mdi, "blocks, separated by line ends")->required()->check(nc::tools::given());
   for (CLI::App* sub : {run, mdi}) {
-    sub->add_flag("--fast", options.fast, "virtual time: as fast as the processor");
+    sub->add_flag("--fast", options.fast, "virtual time: as fast as the processor; retained data is neither read nor written");
     sub->add_flag("--no-progress", options.no_progress, "no live line");
     sub->add_flag("--quiet", options.quiet, "only the summary: no messages, no stops");
   }

@@ -7,21 +7,20 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <map>
 #include <string>
 
 #include "tools/lib/commands.hpp"
+#include "tools/lib/dialect_names.hpp"
 #include "tools/lib/option_values.hpp"
 #include "tools/lib/output_check.hpp"
+#include "tools/lib/plot_options.hpp"
 #include "tools/lib/variable_use.hpp"
 
 namespace {
 
 using nc::tools::MachineOptions;
 using nc::tools::MotionFormat;
-using nc::tools::PlotColor;
-using nc::tools::PlotCoordinates;
-using nc::tools::PlotView;
+using nc::tools::RunLimits;
 using nc::tools::SessionOptions;
 
 void add_tape(CLI::App* command, SessionOptions* options) {
@@ -45,7 +44,7 @@ void add_program_texts(CLI::App* command, SessionOptions* options) {
 void add_program(CLI::App* command, SessionOptions* options) {
   command->add_option("PROGRAM", options->program, "NC program, - for standard input")->required()->check(nc::tools::given());
   command->add_option("--setup", options->setup, "setup of control and machine, JSON (docs/trace.md)")->check(nc::tools::given());
-  command->add_option("--dialect", options->dialect, "m700 or dgshape")->capture_default_str()->check(nc::tools::given());
+  command->add_option("--dialect", options->dialect, nc::tools::dialect_list("or"))->capture_default_str()->check(nc::tools::given());
   add_program_texts(command, options);
   add_tape(command, options);
 }
@@ -60,9 +59,18 @@ void add_print(CLI::App* command, SessionOptions* options) {
   command->add_option("--print", options->print, "file to which DPRNT of user macros is appended")->check(nc::tools::given());
 }
 
-void add_loop_limit(CLI::App* command, uint64_t* limit) {
+void add_pass_limit(CLI::App* command, RunLimits* limits) {
   command
-      ->add_option("--max-silent-blocks", *limit,
+      ->add_option_function<uint64_t>(
+          "--max-passes", [limits](const uint64_t& passes) { limits->loops = nc::tools::LoopLimits::all(passes); },
+          "passes in a row after which a loop is given up, 0 = no limit (default: 10000000, and 100 in which nothing changes, 10000 in sub programs)")
+      ->transform(nc::tools::whole(0, 1'000'000'000'000'000'000));
+}
+
+void add_loop_limit(CLI::App* command, RunLimits* limits) {
+  add_pass_limit(command, limits);
+  command
+      ->add_option("--max-silent-blocks", limits->silent_blocks,
                    "blocks that only calculate after which it is an endless loop, 0 = no limit")
       ->capture_default_str()
       ->transform(nc::tools::whole(0, 1'000'000'000'000'000'000));
@@ -72,10 +80,9 @@ void add_loop_limit(CLI::App* command, uint64_t* limit) {
 struct MachineArguments {
   MachineOptions options;
   unsigned cycle_us = 0;
-  double limit_s = 30 * 86400.0;
 };
 
-void add_machine(CLI::App* command, MachineArguments* machine) {
+void add_machine(CLI::App* command, MachineArguments* machine, RunLimits* limits) {
   auto* file = command->add_option("--machine", machine->options.machine, kMachineHelp)->check(nc::tools::given());
   command->add_option("--limits-file,--config", machine->options.limits_file, "limits of the machine, JSON (docs/trace.md)")
       ->check(nc::tools::given())
@@ -90,7 +97,7 @@ void add_machine(CLI::App* command, MachineArguments* machine) {
       ->check(CLI::Validator(every_axis, "V,A,J"));
   command->add_option("--cycle-us", machine->cycle_us, "servo cycle in microseconds (default: the machine's, else 1000)")
       ->transform(nc::tools::whole(10, 100'000));
-  command->add_option("--max-seconds", machine->limit_s, "machine time after which the run is given up")
+  command->add_option("--max-seconds", limits->seconds, "machine time after which the run is given up")
       ->capture_default_str()
       ->check(nc::tools::seconds(false, "1e9"));
 }
@@ -100,67 +107,55 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string("ncsim ") + nc_version());
   app.require_subcommand(1);
   SessionOptions options;
-  uint64_t silent = nc::tools::kDefaultSilentBlocks;
+  RunLimits limits;
 
   CLI::App* trace = app.add_subcommand("trace", "every event of the program as JSON Lines");
   add_program(trace, &options);
   add_machine_file(trace, &options);
   add_print(trace, &options);
-  add_loop_limit(trace, &silent);
+  add_loop_limit(trace, &limits);
 
   CLI::App* check = app.add_subcommand("check", "the alarm that stops the program, if one does");
   add_program(check, &options);
   add_machine_file(check, &options);
   add_print(check, &options);
-  add_loop_limit(check, &silent);
+  add_loop_limit(check, &limits);
 
   MachineArguments machine;
   CLI::App* time = app.add_subcommand("time", "cycle time on a simulated machine");
   add_program(time, &options);
-  add_machine(time, &machine);
+  add_machine(time, &machine, &limits);
+  add_pass_limit(time, &limits);
 
   std::string rows, format = "csv";
   CLI::App* motion = app.add_subcommand("motion", "commanded position of every axis in every servo cycle");
   add_program(motion, &options);
-  add_machine(motion, &machine);
+  add_machine(motion, &machine, &limits);
+  add_pass_limit(motion, &limits);
   motion->add_option("--format", format, "csv, or f64: raw little-endian doubles, t and the axes")
       ->capture_default_str()
       ->transform(nc::tools::one_of({"csv", "f64"}));
   motion->add_option("-o,--output", rows, "file for the rows (default: standard output)")->check(nc::tools::given());
 
   std::string base, view = "iso";
-  const std::map<std::string, PlotView> views = {
-      {"iso", PlotView::kIsometric}, {"xy", PlotView::kXY}, {"xz", PlotView::kXZ}, {"yz", PlotView::kYZ}};
   CLI::App* plot = app.add_subcommand("plot", "the tool path as SVG and PNG");
   add_program(plot, &options);
-  add_loop_limit(plot, &silent);
+  add_loop_limit(plot, &limits);
   plot->add_option("-o,--output", base, "writes OUTPUT.svg and OUTPUT.png (default: toolpath; with --profile: profile)")
       ->check(nc::tools::given());
   bool profile = false;
   auto* profile_flag = plot->add_flag("--profile", profile, "path speed, acceleration and jerk of every axis over time instead of the path");
-  plot->add_option("--view", view, "iso, xy, xz or yz")->capture_default_str()->transform(nc::tools::one_of({"iso", "xy", "xz", "yz"}))->excludes(profile_flag);
-  std::string coordinates = "work";
-  const std::map<std::string, PlotCoordinates> coordinate_names = {{"work", PlotCoordinates::kWork}, {"machine", PlotCoordinates::kMachine}};
-  plot->add_option("--coordinates", coordinates, "work: of the tool's tip on the workpiece; machine: where the axes go")
-      ->capture_default_str()
-      ->transform(nc::tools::one_of({"work", "machine"}))
-      ->excludes(profile_flag);
-  std::string color = "kind";
-  const std::map<std::string, PlotColor> colors = {
-      {"kind", PlotColor::kKind}, {"tool", PlotColor::kTool}, {"feed", PlotColor::kFeed}, {"z", PlotColor::kZ}};
-  plot->add_option("--color", color, "what the colour of a feed says: kind (none but that it is one), tool, feed or z")
-      ->capture_default_str()
-      ->transform(nc::tools::one_of({"kind", "tool", "feed", "z"}))
-      ->excludes(profile_flag);
+  std::string coordinates = "work", color = "kind";
+  nc::tools::add_plot_options(plot, &view, &coordinates, &color, [profile_flag](CLI::Option* option) { option->excludes(profile_flag); });
   CLI::App* const profile_machine = plot->add_option_group("machine", "of --profile, but for --machine");
-  add_machine(profile_machine, &machine);
+  add_machine(profile_machine, &machine, &limits);
   for (CLI::Option* option : profile_machine->get_options())
     if (option->get_name() != "--machine") option->needs(profile_flag);
 
   bool markdown = false;
   CLI::App* functions = app.add_subcommand("functions", "the G and M codes of a dialect");
   CLI::App* alarms = app.add_subcommand("alarms", "the alarms of a dialect");
-  CLI::App* variables = app.add_subcommand("variables", "the system variables of the m700 dialect");
+  CLI::App* variables = app.add_subcommand("variables", "the system variables of a dialect");
   auto* variables_markdown = variables->add_flag("--markdown", markdown, "as a Markdown table");
   auto* of = variables->add_option("--of", options.program, "instead: the variables that this program and those that it calls read and write")
                  ->type_name("PROGRAM")
@@ -168,10 +163,11 @@ int run(int argc, char** argv) {
                  ->excludes(variables_markdown);
   auto* const of_texts = variables->add_option_group("texts", "of --of");
   add_program_texts(of_texts, &options);
+  variables->add_option("--dialect", options.dialect, nc::tools::dialect_list("or"))->capture_default_str()->check(nc::tools::given());
   for (CLI::Option* option : of_texts->get_options()) option->needs(of);
   CLI::App* parameters = app.add_subcommand("parameters", "the parameters of a dialect that the control asks for");
   for (CLI::App* table : {functions, alarms, parameters}) {
-    table->add_option("--dialect", options.dialect, "m700 or dgshape")->capture_default_str()->check(nc::tools::given());
+    table->add_option("--dialect", options.dialect, nc::tools::dialect_list("or"))->capture_default_str()->check(nc::tools::given());
     table->add_flag("--markdown", markdown, "as a Markdown table");
   }
 
@@ -194,21 +190,22 @@ int run(int argc, char** argv) {
   for (CLI::App* command : {trace, check, time, motion, plot})
     if (command->count("--dialect") != 0) options.dialect_given = true;
   if (machine.cycle_us != 0) machine.options.cycle_us = machine.cycle_us;
-  if (trace->parsed()) return nc::tools::trace_command(options, silent, STDOUT_FILENO, stderr);
-  if (check->parsed()) return nc::tools::check_command(options, silent, stdout, stderr);
-  if (time->parsed()) return nc::tools::time_command(options, machine.options, machine.limit_s, stdout, stderr);
+  if (trace->parsed()) return nc::tools::trace_command(options, limits, STDOUT_FILENO, stderr);
+  if (check->parsed()) return nc::tools::check_command(options, limits, stdout, stderr);
+  if (time->parsed()) return nc::tools::time_command(options, machine.options, limits, stdout, stderr);
   if (motion->parsed())
     return nc::tools::motion_command(options, machine.options, format == "f64" ? MotionFormat::kF64 : MotionFormat::kCsv, rows,
-                                     machine.limit_s, STDOUT_FILENO, stderr);
+                                     limits, STDOUT_FILENO, stderr);
   if (plot->parsed() && profile)
-    return nc::tools::profile_command(options, machine.options, machine.limit_s, base.empty() ? "profile" : base, stdout, stderr);
+    return nc::tools::profile_command(options, machine.options, limits, base.empty() ? "profile" : base, stdout, stderr);
   options.machine = plot->parsed() ? machine.options.machine : options.machine;
   if (plot->parsed())
-    return nc::tools::plot_command(options, silent, {views.at(view), coordinate_names.at(coordinates), colors.at(color)}, base.empty() ? "toolpath" : base, stdout, stderr);
+    return nc::tools::plot_command(options, limits, {nc::tools::plot_views().at(view), nc::tools::plot_coordinates().at(coordinates), nc::tools::plot_colors().at(color)},
+                                   base.empty() ? "toolpath" : base, stdout, stderr);
   if (functions->parsed()) return nc::tools::functions_command(options.dialect, markdown, stdout, stderr);
   if (parameters->parsed()) return nc::tools::parameters_command(options.dialect, markdown, stdout, stderr);
   if (variables->parsed() && !options.program.empty()) return nc::tools::variable_use_command(options, stdout, stderr);
-  if (variables->parsed()) return nc::tools::variables_command(markdown, stdout, stderr);
+  if (variables->parsed()) return nc::tools::variables_command(options.dialect, markdown, stdout, stderr);
   return nc::tools::alarms_command(options.dialect, markdown, stdout, stderr);
 }
 

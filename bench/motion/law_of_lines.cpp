@@ -72,7 +72,7 @@ std::vector<Piece> smoothed(const Stretch& stretch, double tolerance) {
   std::vector<double> u(vertices), knot(knots);
   std::vector<AxisVec> control(knots + 3);
   std::vector<unsigned> corner(knots);
-  std::vector<unsigned char> split(knots);
+  std::vector<nc::optimal::SmoothCell> cell(knots);
   std::vector<Piece> pieces(knots);
   nc::optimal::SmoothRequest request;
   request.line = {stretch.vertex.data(), stretch.length.data(), stretch.feed.data(), vertices};
@@ -80,7 +80,7 @@ std::vector<Piece> smoothed(const Stretch& stretch, double tolerance) {
   request.spacing = kSpacing;
   request.axis_count = kAxes;
   const nc::optimal::SmoothRoom room{u.data(),      vertices,     knot.data(), control.data(),
-                                     corner.data(), split.data(), knots};
+                                     corner.data(), cell.data(), knots};
   pieces.resize(nc::optimal::smooth(request, room, pieces.data(), knots));
   return pieces;
 }

@@ -89,7 +89,7 @@ class Move:
 
 def moves_of(events, axes, exact, start):
     """[[Move, ...] between rests], and of the rest behind each [seconds, whether it is exact]."""
-    groups, rests, at = [[]], [[0.0, False]], np.array(start, dtype=float)
+    groups, rests, at, turns = [[]], [[0.0, False]], np.array(start, dtype=float), 0.0  # turns: of the spindle, rev/min
 
     def rest(seconds=0.0, exact_there=True):
         if groups[-1]:
@@ -102,6 +102,8 @@ def moves_of(events, axes, exact, start):
     for event in events:
         if event["t"] in ("aux", "sync"):
             rest()
+            if event.get("code") == "S":
+                turns = event["value"]
         elif event["t"] == "dwell":
             rest(event.get("seconds", 0.0))
         if event["t"] != "move":
@@ -125,7 +127,7 @@ def moves_of(events, axes, exact, start):
                 sweep = sweep if sweep < -1e-9 else sweep - 2 * math.pi
                 sweep -= 2 * math.pi * event.get("turns", 0) * (1 if sweep > -2 * math.pi + 1e-9 else 0)
             arc = (a, b, ca, cb, sweep)
-        feed = 0.0 if rapid else event["feed"] / 60.0
+        feed = 0.0 if rapid else (event["feed_rev"] * turns if event["feed"] is None else event["feed"]) / 60.0
         if rapid:
             rest(exact_there=False)
         groups[-1].append(Move(feed, at, end, arc))
@@ -136,6 +138,23 @@ def moves_of(events, axes, exact, start):
         groups.pop()
         rests.pop()
     return groups, rests
+
+
+def without_reversals(groups, rests):
+    """The same with a rest where a line turns back: no speed passes it."""
+    out, between = [], []
+    for moves, rest in zip(groups, rests):
+        first = 0
+        for k in range(1, len(moves)):
+            if moves[k - 1].arc is None and moves[k].arc is None:
+                a, b = moves[k - 1].end - moves[k - 1].start, moves[k].end - moves[k].start
+                if a @ b < -(1 - 1e-9) * np.linalg.norm(a) * np.linalg.norm(b):
+                    out.append(moves[first:k])
+                    between.append([0.0, False])
+                    first = k
+        out.append(moves[first:])
+        between.append(rest)
+    return out, between
 
 
 class Polyline:
@@ -376,7 +395,7 @@ def path_of(program, ncsim, tolerance=0.01, blend="cubic", limits=None, setup=No
     axes = list(end["machine"])
     groups, rests = moves_of(events, axes, exact_stop_lines(program), [0.0] * len(axes))
     path = path_file.Path(axes, {a: limits for a in axes} if limits else None, tolerance)
-    for moves, (dwell, exact) in zip(groups, rests):
+    for moves, (dwell, exact) in zip(*without_reversals(groups, rests)):
         if blend == "none" or len(moves) == 1:
             for move in moves:
                 if move.arc is None:

@@ -198,11 +198,11 @@ PROGRAMS = {
 }
 
 
-def write(folder):
-    """All programs; their paths in the order of the table."""
+def write(folder, chosen=None):
+    """All programs; their paths in the order of the table. `chosen`: those of another set."""
     os.makedirs(folder, exist_ok=True)
     out = []
-    for name, text in PROGRAMS.items():
+    for name, text in (PROGRAMS if chosen is None else chosen).items():
         path = os.path.join(folder, name + ".nc")
         with open(path, "w", encoding="ascii") as file:
             file.write(text())

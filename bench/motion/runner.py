@@ -21,6 +21,8 @@ import sys
 import tempfile
 import time
 
+import numpy as np
+
 import motion_check
 import path_file
 import path_from_program
@@ -31,6 +33,21 @@ import reference
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 SHARED = os.path.join(ROOT, "..", "shared", "bench")
+
+
+AWAY = 300  # rows beside a rest that do not count for the least speed
+
+
+def slowest_of_mean(rows):
+    """The least distance of two rows over the mean one, away from rests; 0 where there is no such row."""
+    steps = np.linalg.norm(np.diff(rows, axis=0), axis=1)
+    moving = np.concatenate([[0], steps > 0, [0]]).astype(int)
+    edges = np.flatnonzero(np.diff(moving))
+    inner = [steps[a + AWAY:b - AWAY] for a, b in zip(edges[::2], edges[1::2]) if b - a > 2 * AWAY]
+    if not inner:
+        return 0.0
+    inner = np.concatenate(inner)
+    return float(inner.min() / inner.mean())
 
 
 def measured(program, options):
@@ -52,6 +69,7 @@ def measured(program, options):
     row["cycle_time"] = (len(rows) - 1) * cycle_s
     row["time"] = float((still[-1] - still[0] + 1) * cycle_s) if len(still) else 0.0
     limits = [options.limits] * len(axes)
+    row["slowest"] = slowest_of_mean(rows)
     row["worst"] = {name: max((ratio, axis, seconds) for axis, (ratio, seconds) in zip(axes, values))
                     for name, values in motion_check.worst_ratios(rows, cycle_s, limits).items()}
     path = path_from_program.path_of(program, options.ncsim, options.tolerance, "none")
@@ -147,8 +165,9 @@ def summary(rows, options):
     return "\n".join(out)
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def common_arguments(description):
+    """A parser with the arguments that every set of programs has."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("programs", nargs="*", metavar="PROGRAM")
     parser.add_argument("--ncsim")
     parser.add_argument("--limits", type=reference.parse_limits, default=(250.0, 2000.0, 50000.0), metavar="V,A,J")
@@ -156,11 +175,27 @@ def arguments():
     parser.add_argument("--cycle-us", type=int, default=1000)
     parser.add_argument("--factor", type=float, default=1.001, help="of a limit that is still kept")
     parser.add_argument("--option", action="append", default=[], metavar="TEXT", help="one more argument of ncsim motion; --option=--word")
+    parser.add_argument("--markdown", action="store_true")
+    parser.add_argument("--breaches", action="store_true", help="list everything that is not kept")
+    return parser
+
+
+def finish(rows, options):
+    """Says what is not kept, and ends with 1 where there is any."""
+    bad = [r for r in rows if "failed" in r or r["breaches"]]
+    if options.breaches:
+        for r in bad:
+            for text in [r["failed"]] if "failed" in r else r["breaches"]:
+                print(f"{r['program']}: {text}")
+    print(f"{len(rows) - len(bad)} of {len(rows)} programs keep everything")
+    sys.exit(1 if bad else 0)
+
+
+def arguments():
+    parser = common_arguments(__doc__)
     parser.add_argument("--reference", action="store_true", help="solve for the shortest possible times too (minutes)")
     parser.add_argument("--path", metavar="FOLDER", help="paths for the reference, NAME.path for NAME.nc")
     parser.add_argument("--step-ms", type=float, default=1.0, help="time between the nodes of the reference")
-    parser.add_argument("--markdown", action="store_true")
-    parser.add_argument("--breaches", action="store_true", help="list everything that is not kept")
     return parser.parse_args()
 
 
@@ -191,13 +226,7 @@ def main():
     print(table(rows, options))
     print()
     print(summary(rows, options))
-    bad = [r for r in rows if "failed" in r or r["breaches"]]
-    if options.breaches:
-        for r in bad:
-            for text in [r["failed"]] if "failed" in r else r["breaches"]:
-                print(f"{r['program']}: {text}")
-    print(f"{len(rows) - len(bad)} of {len(rows)} programs keep everything")
-    sys.exit(1 if bad else 0)
+    finish(rows, options)
 
 
 if __name__ == "__main__":

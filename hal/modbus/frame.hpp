@@ -16,6 +16,9 @@ namespace nc::hal::modbus {
 
 constexpr std::size_t kMaxFrame = 260;  // 7 bytes of header, 253 of PDU
 
+// Exceptions that mean that the partner never does what was asked of it; every other one may pass. V1.1b3, 7.
+constexpr unsigned kIllegalFunction = 1, kIllegalAddress = 2;
+
 struct Frame {
   std::array<std::uint8_t, kMaxFrame> bytes{};
   std::size_t size = 0;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "hal/modbus/codec.hpp"
+#include "hal/modbus/frame.hpp"
 
 namespace nc::hal::modbus {
 namespace {
@@ -173,10 +174,11 @@ void ModbusLink::round() {
 // False when the connection is gone.
 bool ModbusLink::serve(Job* job) {
   if (job->bad && !lost_ && steady_clock::now() < job->retry_at) return true;
-  const bool writes = job->block.write && !finds(*job);
+  if (job->block.write) outputs_.take();
+  const bool finds = job->block.holds && !job->known && waits_for_scan(*job, outputs_.front());
+  const bool writes = job->block.write && !finds;
   std::vector<std::uint16_t> cells;
   if (writes) {
-    outputs_.take();
     if (waits_for_scan(*job, outputs_.front())) return true;
     cells = output_cells(*job, outputs_.front().value);
     if (!write_due(*job, cells)) return true;
@@ -189,9 +191,8 @@ bool ModbusLink::serve(Job* job) {
     unanswered(job);
     return false;
   }
-  if (job->block.write && !writes) {
-    find_outputs(job, result);
-    answered(job, Result::kOk);
+  if (finds) {
+    answered(job, find_outputs(job, result));
     return true;
   }
   if (result == Result::kOk && job->block.write) {
@@ -205,22 +206,21 @@ bool ModbusLink::serve(Job* job) {
   return true;
 }
 
-// What outputs that hold have before this control writes to them. A partner that does not let them be read is said, and they
-// begin as others do.
-void ModbusLink::find_outputs(Job* job, Result result) {
+// What outputs that hold have before this control writes to them. A partner that never lets them be read is said, and they begin as
+// others do; one that is busy, or whose gateway does not reach it yet, is asked again: a device that has just got power answers so.
+Result ModbusLink::find_outputs(Job* job, Result result) {
+  const bool never = result == Result::kException && (session_->exception() == kIllegalFunction || session_->exception() == kIllegalAddress);
+  if (result != Result::kOk && !never) return result;
   job->known = true;
   for (const unsigned i : job->block.maps) {
     const PointMap& map = config_.points[i];
-    if (result != Result::kOk || !decode(map, &scratch_[map.address - job->block.first], &found_[i])) found_[i] = map.initial;
+    if (never || !decode(map, &scratch_[map.address - job->block.first], &found_[i])) found_[i] = map.initial;
   }
-  if (result != Result::kOk) report("on_stop = \"hold\" begins with the initial values, because they cannot be read back: " + session_->error());
+  if (never) report("on_stop = \"hold\" begins with the initial values, because they cannot be read back: " + session_->error());
+  return Result::kOk;
 }
 
-bool ModbusLink::finds(const Job& job) const {
-  return job.block.holds && !job.known;
-}
-
-// Between the answer and the first scan that has seen it.
+// An output of the block is still the partner's: it has not been read, or no scan has seen the answer yet.
 bool ModbusLink::waits_for_scan(const Job& job, const Wanted& wanted) const {
   return std::any_of(job.block.maps.begin(), job.block.maps.end(), [&](unsigned i) { return wanted.own[i] == 0; });
 }

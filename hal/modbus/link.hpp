@@ -109,8 +109,7 @@ class ModbusLink final : public PointBus {
   bool write_due(const Job& job, const std::vector<std::uint16_t>& cells) const;
   std::vector<std::uint16_t> output_cells(const Job& job, const std::vector<std::uint32_t>& values) const;
   void take_inputs(const Job& job);
-  bool finds(const Job& job) const;
-  void find_outputs(Job* job, Result result);
+  Result find_outputs(Job* job, Result result);
   bool waits_for_scan(const Job& job, const Wanted& wanted) const;
   void account(Result result, Time sent, bool request);
   void answered(Job* job, Result result);

@@ -133,6 +133,7 @@ void Session::abort() {
 // Before a request nothing may be there to read.
 bool Session::ready(const Block& block) {
   error_.clear();
+  exception_ = 0;
   if (fd_ < 0) {
     error_ = "not connected";
     return false;
@@ -175,10 +176,9 @@ Result Session::exchange(const Block& block, const Frame& request, std::uint8_t*
   int error = send_all(request);
   int size = 0;
   if (error == 0 && (size = modbus_receive_confirmation(context_.get(), answer)) <= 0) error = size < 0 ? errno : EMBBADDATA;
-  unsigned exception = 0;
   const char* why = "";
   const Verdict verdict = error != 0 ? Verdict::kForeign
-                                     : check_answer(request, answer, static_cast<std::size_t>(size), &exception, &why);
+                                     : check_answer(request, answer, static_cast<std::size_t>(size), &exception_, &why);
   if (verdict == Verdict::kGood) return Result::kOk;
   if (error == EMBBADDATA) why = "the answer is no Modbus";
   else if (error != 0) why = modbus_strerror(error);

@@ -47,6 +47,9 @@ class Session {
   // What went wrong in the last call: "holding 10..13 unit 1, function 3: illegal data address".
   const std::string& error() const { return error_; }
 
+  // Code of the exception that the last call has brought, 0 = none.
+  unsigned exception() const { return exception_; }
+
   // ---- any thread ----
   // Ends a call that blocks. The session cannot be used afterwards.
   void abort();
@@ -64,6 +67,7 @@ class Session {
   const LinkConfig& config_;
   std::unique_ptr<_modbus, FreeContext> context_;
   std::string error_;
+  unsigned exception_ = 0;
   std::mutex mutex_;  // fd_ while it changes, against abort()
   int fd_ = -1;
   std::uint16_t transaction_ = 0;

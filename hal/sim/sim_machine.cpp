@@ -168,10 +168,12 @@ void SimMachine::switch_servos(unsigned index, const SystemCommand& command) noe
     const unsigned number = config_.axis_spindle[index][a];
     if (number == 0) continue;
     const bool on = command.enable && (command.servo_on >> a & 1) != 0;
-    if (on) system_[index].direction[number - 1] = 0;  // it turns again with the next M03 or M04
+    if (on) system_[index].direction[number - 1] = 0;  // it turns again with the next code that starts it
     spindle(index, number - 1).set_servo(on);
   }
 }
+
+nc_code_role SimMachine::role_of(std::uint32_t m) const noexcept { return nc_code_role_get(static_cast<nc_dialect>(config_.dialect), 'M', m); }
 
 double SimMachine::target_rpm(const System& system, unsigned number) const noexcept {
   return system.direction[number] * std::min(system.wanted_rpm[number], config_.spindle_max_rpm);
@@ -186,12 +188,13 @@ void SimMachine::turn_spindles(unsigned index, const SystemCommand& command) noe
   }
 }
 
-// M03, M04 and M05 are for the spindles that the NC has selected; the end of the program stops all of them.
+// The codes for turning and stopping are for the spindles that the NC has selected; the end of the program stops all of them.
 void SimMachine::direct_spindles(System* system, const SystemCommand& command) noexcept {
-  const bool ends = command.m == 2 || command.m == 30;
-  if (command.m != 3 && command.m != 4 && command.m != 5 && !ends) return;
+  const nc_code_role role = role_of(command.m);
+  const bool ends = role == NC_CODE_PROGRAM_END, forward = role == NC_CODE_SPINDLE_FORWARD, reverse = role == NC_CODE_SPINDLE_REVERSE;
+  if (!forward && !reverse && role != NC_CODE_SPINDLE_STOP && !ends) return;
   for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n)
-    if (ends || (command.spindle_selected >> n & 1) != 0) system->direction[n] = command.m == 3 ? 1 : command.m == 4 ? -1 : 0;
+    if (ends || (command.spindle_selected >> n & 1) != 0) system->direction[n] = forward ? 1 : reverse ? -1 : 0;
 }
 
 // Starts the functions whose strobes are in `strobe`; returns the time until FIN.
@@ -204,7 +207,7 @@ double SimMachine::begin_function(System* system, const SystemCommand& command,
   }
   if (strobe & kStrobeM) {
     direct_spindles(system, command);
-    if (command.m == 6) {
+    if (role_of(command.m) == NC_CODE_TOOL_CHANGE) {
       system->tool = system->selected;
       time = std::max(time, config_.tool_change_s);
     }

@@ -43,6 +43,7 @@ struct SimAxis {
 
 struct SimConfig {
   double cycle_s = 0.001;
+  std::uint8_t dialect = 0;  // nc_dialect: what M codes are for
   unsigned system_count = 1;
   unsigned axis_count[NC_MAX_SYSTEMS] = {3, 0, 0, 0};
   SimAxis axis[NC_MAX_SYSTEMS][NC_MAX_AXES];
@@ -51,7 +52,7 @@ struct SimConfig {
   std::uint8_t axis_spindle[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};  // number of the spindle that is this axis, 0 = none
   double spindle_ramp_rpm_per_s = 3000.0;
   double spindle_max_rpm = 12000.0;
-  double tool_change_s = 1.0;   // M06
+  double tool_change_s = 1.0;   // of the M code for it
   double tool_select_s = 0.02;  // T
   double m_time_s = 0.01;       // every other M, S and B
   SimPlantConfig plant;         // spindle and tool changer driven by points instead of codes
@@ -129,6 +130,7 @@ class SimMachine final : public Hal {
   bool is_spindle_now(unsigned system, unsigned axis, const SystemCommand& command) const noexcept;
   void switch_servos(unsigned index, const SystemCommand& command) noexcept;
   void turn_spindles(unsigned index, const SystemCommand& command) noexcept;
+  nc_code_role role_of(std::uint32_t m) const noexcept;
   double target_rpm(const System& system, unsigned number) const noexcept;
   void direct_spindles(System* system, const SystemCommand& command) noexcept;
   void handshake(System* system, const SystemCommand& command) noexcept;

@@ -47,6 +47,7 @@ class SimPlant {
   unsigned tool() const { return tool_; }
   // One cycle: takes the outputs of the control, sets its inputs.
   void step(double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept;
+
  private:
   void turn(unsigned number, double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept;
   void change_tools(double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept;

@@ -15,19 +15,20 @@
 
 namespace nc::rt {
 
-bool is_open_for_writing(int descriptor) {
-  if ((fcntl(descriptor, F_GETFL) & O_ACCMODE) != O_RDONLY) return false;  // it would find itself
+OpenForWriting open_for_writing(int descriptor) {
+  if ((fcntl(descriptor, F_GETFL) & O_ACCMODE) != O_RDONLY) return OpenForWriting::kNo;  // it would find itself
   sigset_t io, before;
   sigemptyset(&io);
   sigaddset(&io, SIGIO);
-  if (pthread_sigmask(SIG_BLOCK, &io, &before) != 0) return false;
-  bool open = false;
+  if (pthread_sigmask(SIG_BLOCK, &io, &before) != 0) return OpenForWriting::kNotTold;
+  OpenForWriting open = OpenForWriting::kNotTold;
   const f_owner_ex owner = {F_OWNER_TID, gettid()};
   if (fcntl(descriptor, F_SETOWN_EX, &owner) == 0) {
     if (fcntl(descriptor, F_SETLEASE, F_RDLCK) == 0) {
       fcntl(descriptor, F_SETLEASE, F_UNLCK);
-    } else {
-      open = errno == EAGAIN;
+      open = OpenForWriting::kNo;
+    } else if (errno == EAGAIN) {
+      open = OpenForWriting::kYes;
     }
   }
   if (sigismember(&before, SIGIO) == 0) {

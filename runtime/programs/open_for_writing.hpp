@@ -4,7 +4,10 @@
 
 namespace nc::rt {
 
-// `descriptor` is open for reading only. False also where the system does not tell: files of another user, some network file systems.
-bool is_open_for_writing(int descriptor);
+// kNotTold: the file belongs to another user and this process has no CAP_LEASE, or the file system knows no leases (some network ones).
+enum class OpenForWriting : unsigned char { kNo, kYes, kNotTold };
+
+// A descriptor that is open for writing too is one's own: a file without a name, and kNo.
+OpenForWriting open_for_writing(int descriptor);
 
 }  // namespace nc::rt

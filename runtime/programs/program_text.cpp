@@ -38,10 +38,10 @@ bool same_content(const struct stat& a, const struct stat& b) {
          a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-// How long to wait until the file has been left alone for kQuiet. A time in the future says nothing.
-nanoseconds unrest(const struct stat& info) {
+// How long to wait until the file has been left alone for `quiet`. A time in the future says nothing.
+nanoseconds unrest(const struct stat& info, nanoseconds quiet) {
   const nanoseconds age = stamp_now() - std::max(time_of(info.st_mtim), time_of(info.st_ctim));
-  return age >= nanoseconds(0) && age < ProgramText::kQuiet ? ProgramText::kQuiet - age : nanoseconds(0);
+  return age >= nanoseconds(0) && age < quiet ? quiet - age : nanoseconds(0);
 }
 
 // Up to `size` bytes from `offset`; fewer only at the end. False: errno says why.
@@ -96,13 +96,15 @@ std::shared_ptr<ProgramText> ProgramText::open(int descriptor, const std::string
   const auto deadline = std::chrono::steady_clock::now() + options.patience;
   for (bool again = false; !again || std::chrono::steady_clock::now() < deadline; again = true) {
     if (again) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    if (is_open_for_writing(descriptor)) continue;
+    const OpenForWriting writer = open_for_writing(descriptor);
+    if (writer == OpenForWriting::kYes) continue;
     if (fstat(descriptor, &text->info_) != 0) {
       *error = std::generic_category().message(errno);
       return nullptr;
     }
-    if (const nanoseconds wait = unrest(text->info_); wait > nanoseconds(0)) {
-      std::this_thread::sleep_for(wait);
+    const nanoseconds wait = unrest(text->info_, writer == OpenForWriting::kNo ? kQuiet : kQuietNotTold);
+    if (wait > nanoseconds(0)) {
+      std::this_thread::sleep_for(std::min<nanoseconds>(wait, deadline - std::chrono::steady_clock::now()));
       continue;
     }
     error->clear();
@@ -133,7 +135,7 @@ bool ProgramText::copy(std::string* error) {
     if (!read_file(descriptor_, at, length, &again) || bytes.compare(at, length, again) != 0) return false;
   }
   struct stat after = {};
-  if (fstat(descriptor_, &after) != 0 || !same_content(info_, after) || is_open_for_writing(descriptor_)) return false;
+  if (fstat(descriptor_, &after) != 0 || !same_content(info_, after) || open_for_writing(descriptor_) == OpenForWriting::kYes) return false;
   look_at_head(bytes.substr(0, kPart));
   if (options_.as_it_is) {
     text_ = std::move(bytes);

@@ -7,8 +7,9 @@
 // that it had, or the text counts as changed from then on and nothing more of it can be read. Nothing is mapped: a mapped file that is
 // truncated ends the process.
 //
-// A file that is being written just now is no program yet: it is taken when nobody has it open for writing (where the system tells), it
-// has been left alone for kQuiet, and two readings of it are the same. A writer of another user who pauses for longer than that in the
+// A file that is being written just now is no program yet: it is taken when nobody has it open for writing, it has been left alone for
+// kQuiet, and two readings of it are the same. Where the system does not tell who has it open (another user's file without CAP_LEASE, which the
+// service has; some network file systems) it must have been left alone for kQuietNotTold: a writer who pauses for longer than that in the
 // middle of the file cannot be told from one who has finished.
 #pragma once
 
@@ -33,7 +34,7 @@ class ProgramText {
     bool as_it_is = false;                        // the image of a tape: no text, nothing is converted
     std::chrono::milliseconds patience{2000};     // with a file that is being written
   };
-  static constexpr std::chrono::milliseconds kQuiet{20};
+  static constexpr std::chrono::milliseconds kQuiet{20}, kQuietNotTold{1000};
   static constexpr std::size_t kPart = 65536;     // bytes of the file that are read and hashed together
 
   // Takes the descriptor over, also on failure. `path`: where the file was found; "" = it has no place that could be looked at (standard

@@ -25,7 +25,7 @@ void RetainKeeper::tell(Entry* entry, RetainTrouble what, const std::string& why
     const std::lock_guard lock(mutex_);
     entry->trouble = why;
   }
-  trouble_(retain_detail(entry->number, what));
+  trouble_(retain_detail(entry->number, what), true);
   if (warnings != nullptr) warnings->push_back("retained data: " + why);
   else std::fprintf(stderr, "warning: retained data: %s\n", why.c_str());
 }
@@ -120,6 +120,7 @@ void RetainKeeper::save(Entry* entry, const std::string& bytes) {
   std::string error;
   if (entry->store->save(bytes, &error)) {
     entry->saved = bytes;
+    if (entry->failed) trouble_(retain_detail(entry->number, RetainTrouble::kUnwritable), false);
     entry->failed = false;
     return;
   }

@@ -23,8 +23,8 @@ namespace nc::rt {
 
 class RetainKeeper {
  public:
-  // Takes retain_detail() of what has gone wrong; called before the first scan and in the keeper's thread.
-  using Trouble = std::function<void(unsigned detail)>;
+  // Takes retain_detail() of what has gone wrong, or is right again; called before the first scan and in the keeper's thread.
+  using Trouble = std::function<void(unsigned detail, bool begins)>;
 
   // Whether what was told to be lost has been acknowledged. Any thread.
   using Seen = std::function<bool()>;

@@ -53,11 +53,10 @@ void read_tool_offsets(const nc_control* control, TableRows* rows) {
 
 void read_parameters(const nc_control* control, const nc_config& config, TableRows* rows) {
   char key[24] = "", text[64] = "", axis = 0;
-  bool set = false;
   double value = 0;
   for (unsigned s = 0; s < config.system_count; ++s)
-    for (unsigned i = 0; nc_parameter_next(control, api_system(s), i, key, &axis, &set, &value, text) == NC_OK; ++i)
-      if (set && (text[0] != '\0' || std::isfinite(value)))
+    for (unsigned place = 0; nc_parameter_next(control, api_system(s), place, &place, key, &axis, &value, text) == NC_OK; ++place)
+      if (text[0] != '\0' || std::isfinite(value))
         (*rows)["parameter " + std::to_string(s) + " " + (axis != 0 ? axis : kAllAxes) + " " + key] = text[0] != '\0' ? text : plain(value);
 }
 

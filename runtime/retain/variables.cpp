@@ -23,7 +23,6 @@ constexpr std::uint32_t kNumber = (1u << kSystemShift) - 1;
 constexpr std::uint32_t kFirstName = 500, kNames = 20;          // M700 13.5.5
 constexpr std::uint32_t kFirstCleared = 100, kLastCleared = 199;  // M700 13.4, #1129 PwrVC1
 constexpr std::uint32_t kLastLocal = 33;                          // M700 13.5.5
-constexpr char kClearedAtPowerOff[] = "1129";
 
 template <class T>
 void put(std::string* bytes, const T& value) {
@@ -69,7 +68,7 @@ std::string encode_variables(const nc_control* control) {
   std::vector<Variable> variables;
   for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) {  // one that there is not has none
     Variable next;
-    while (nc_common_next(control, api_system(s), next.number, &next.number, &next.value) == NC_OK) {
+    while (nc_variable_next(control, api_system(s), next.number, &next.number, &next.value) == NC_OK) {
       if (std::isfinite(next.value)) variables.push_back({s << kSystemShift | next.number, next.value});
       ++next.number;
     }
@@ -105,7 +104,9 @@ bool restore_variables(nc_control* control, const std::string& bytes, const std:
   std::vector<Name> names;
   if (!decode(bytes, &variables, &names)) return false;
   double cleared = 0;
-  (void)nc_parameter_get(control, api_system(0), kClearedAtPowerOff, 0, &cleared);  // a dialect without it clears nothing
+  char key[24];
+  if (nc_parameter_key(control, NC_PARAMETER_POWER_OFF_CLEARS, key) == NC_OK)  // a dialect without it clears nothing
+    (void)nc_parameter_get(control, api_system(0), key, 0, &cleared);
   for (const Variable& variable : variables) {
     const unsigned system = variable.number >> kSystemShift;
     const std::uint32_t number = variable.number & kNumber;

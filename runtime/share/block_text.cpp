@@ -27,7 +27,7 @@ std::string file_name(const std::string& path) {
 }
 
 void ProgramTable::add(unsigned file, const std::string& path, const Text& text) {
-  const std::uint64_t lines = text == nullptr ? 0 : estimate_lines(text.get());
+  const std::uint64_t lines = text == nullptr ? 0 : estimate_lines(text.get(), dialect_);
   const std::lock_guard lock(mutex_);
   programs_[file] = {path, lines, text};
 }

@@ -274,7 +274,7 @@ Intake::Verdict Intake::execute(const Request& request) {
     if (kind == RequestKind::kJog && answer == Answer::kDone)
       jogging_[request.system][request.axis] = request.value != 0;
   }
-  if (answer != Answer::kDone) return {AckState::kRejected, AckReason::kRefused, machine_.explain(answer)};
+  if (answer != Answer::kDone) return {AckState::kRejected, AckReason::kRefused, machine_.explain(answer), refusal_cause(answer)};
   return {takes_time ? AckState::kAccepted : AckState::kDone, AckReason::kNone, ""};
 }
 
@@ -319,6 +319,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
   const auto answer = [&](const Verdict& verdict) {
     ack.state = static_cast<std::uint32_t>(verdict.state);
     ack.reason = static_cast<std::uint32_t>(verdict.reason);
+    ack.refusal = static_cast<std::uint32_t>(verdict.refusal);
     set_text(&ack.text, verdict.text);
     acks->push_back(ack);
   };
@@ -376,6 +377,7 @@ void Intake::settle(Pending* pending, const Verdict& verdict, std::int64_t now_n
   Ack ack = make_ack(pending->request, now_ns);
   ack.state = static_cast<std::uint32_t>(verdict.state);
   ack.reason = static_cast<std::uint32_t>(verdict.reason);
+  ack.refusal = static_cast<std::uint32_t>(verdict.refusal);
   set_text(&ack.text, verdict.text);
   acks->push_back(ack);
   pending->used = false;
@@ -397,7 +399,7 @@ void Intake::tick(const Now& now, std::vector<Ack>* acks) {
     if (reached(pending.request, state, pending.runs))
       settle(&pending, {}, now.wall_ns, acks);
     else if (static_cast<RequestKind>(pending.request.kind) == RequestKind::kCycleStart && state.alarmed)
-      settle(&pending, {AckState::kFailed, AckReason::kRefused, "an alarm came"}, now.wall_ns, acks);
+      settle(&pending, {AckState::kFailed, AckReason::kRefused, "an alarm came", RefusalCause::kAlarm}, now.wall_ns, acks);
     else if (now.steady_ns - pending.since_ns > kReachNs)
       settle(&pending, {AckState::kFailed, AckReason::kNotReached, "not reached in time"}, now.wall_ns, acks);
   }

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "runtime/command.hpp"
+#include "runtime/refusal.hpp"
 #include "runtime/share/layout.hpp"
 
 namespace nc::rt::share {
@@ -100,6 +101,7 @@ class Intake {
     AckState state = AckState::kDone;
     AckReason reason = AckReason::kNone;
     std::string text;
+    RefusalCause refusal = RefusalCause::kNone;  // which of them, when the runtime refuses
   };
 
   Verdict check_form(const Request& request, const Machine::State& state) const;

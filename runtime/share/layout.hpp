@@ -22,7 +22,7 @@
 namespace nc::rt::share {
 
 inline constexpr std::uint64_t kMagic = 0x3165'7261'6873'636e;  // "ncshare1" in memory
-inline constexpr std::uint32_t kLayoutVersion = 4;
+inline constexpr std::uint32_t kLayoutVersion = 5;
 inline constexpr unsigned kHistory = 256;  // alarms and messages kept
 inline constexpr unsigned kAlarms = 16;
 inline constexpr unsigned kMaxSignals = 1024;  // between NC and ladder
@@ -51,6 +51,8 @@ struct SystemStatus {
   double s_commanded, spindle_rpm;  // spindle_rpm: measured, 0 when it is not
   std::uint32_t spindle_measured, reserved;
   double feed_mm_min, feed_command_mm_min;
+  double feed_override, rapid_override;                       // in force
+  std::uint32_t feed_override_source, rapid_override_source;  // nc::rt::OverrideSource
   Text<192> modal;     // "G01 G17 G90 ...", of the last finished block
   Text<128> program;   // file of the main program, "" none, "MDI"
   Text<128> file;      // file of the block in execution
@@ -101,8 +103,6 @@ struct StatusBlock {
   std::uint32_t mode;          // nc::rt::Mode
   std::uint32_t system_count;
   std::uint32_t single_block, optional_stop, resetting, program_ready;
-  double feed_override, rapid_override;  // in force in part system 1
-  std::uint32_t feed_override_source, rapid_override_source;  // nc::rt::OverrideSource
   std::uint64_t runs;          // programs that came to their end
   std::uint32_t main_line;     // line of the main program that was finished last
   std::uint32_t program_lines; // of the main program, 0 = not known
@@ -245,6 +245,7 @@ struct Ack {
   std::uint32_t reason;  // AckReason
   std::uint32_t repeated;  // answer to a duplicate: nothing was executed
   std::int64_t time_ns;
+  std::uint32_t refusal, reserved;  // nc::rt::RefusalCause: which reason of the runtime kRefused is
   Text<128> text;
 };
 

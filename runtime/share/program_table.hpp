@@ -8,12 +8,15 @@
 #include <mutex>
 #include <string>
 
+#include "nc/types.h"
 #include "runtime/programs/program_text.hpp"
 
 namespace nc::rt::share {
 
 class ProgramTable {
  public:
+  // `dialect` says which code ends a program.
+  explicit ProgramTable(nc_dialect dialect) : dialect_(dialect) {}
   using Text = std::shared_ptr<ProgramText>;
   struct Program {
     std::string path;
@@ -44,6 +47,7 @@ class ProgramTable {
   }
 
  private:
+  const nc_dialect dialect_;
   mutable std::mutex mutex_;
   std::map<unsigned, Program> programs_;
   std::string mdi_;

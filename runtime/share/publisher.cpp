@@ -127,10 +127,6 @@ void Publisher::fill_machine(const Snapshot& snapshot, const FeederInfo& info) {
   status_.optional_stop = snapshot.optional_stop;
   status_.resetting = snapshot.resetting;
   status_.program_ready = info.program_ready;
-  status_.feed_override = snapshot.feed_override;
-  status_.rapid_override = snapshot.rapid_override;
-  status_.feed_override_source = static_cast<std::uint32_t>(snapshot.feed_override_source);
-  status_.rapid_override_source = static_cast<std::uint32_t>(snapshot.rapid_override_source);
   status_.runs = info.runs;
   status_.last_run_ok = info.ended_ok;
   const FeederInfo::Selected& selected = info.selected[0];
@@ -171,6 +167,10 @@ void Publisher::fill_system(unsigned index, const Snapshot& snapshot, const Feed
   out.spindle_measured = !system.shown_spindle().unmeasured;
   out.feed_mm_min = nc.feed_mm_min;
   out.feed_command_mm_min = nc.feed_command_mm_min;
+  out.feed_override = system.feed_override;
+  out.rapid_override = system.rapid_override;
+  out.feed_override_source = static_cast<std::uint32_t>(system.feed_override_source);
+  out.rapid_override_source = static_cast<std::uint32_t>(system.rapid_override_source);
   out.serial = nc.serial;
   out.blocks = nc.blocks;
   out.path_length = nc.path_length;

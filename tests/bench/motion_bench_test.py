@@ -28,12 +28,15 @@ if os.environ.get("NC_MOTION_INSIDE") is None:
 
 sys.path.insert(0, BENCH)
 import numpy as np  # noqa: E402
+import free_optimum  # noqa: E402
 import motion_check  # noqa: E402
 import path_file  # noqa: E402
 import path_from_program  # noqa: E402
 import peer_path  # noqa: E402
 import programs  # noqa: E402
 import reference  # noqa: E402
+import runner  # noqa: E402
+import shop_programs  # noqa: E402
 
 V, A, J = LIMITS = (250.0, 2000.0, 50000.0)
 CYCLE = 0.001
@@ -110,6 +113,46 @@ class PathFiles(unittest.TestCase):
             for low, high in ((0, 1), (1, 2), (2, 3)):
                 self.assertLess(np.abs((q[low][2] - q[low][0]) / (2 * h) - q[high][1]).max(), 1e-6)
             self.assertLess(np.abs(np.linalg.norm(q[1], axis=1) - 1).max(), 1e-12)
+
+
+class FreeOptimum(unittest.TestCase):
+    """Without a limit of jerk, by toppra."""
+
+    def test_a_line_is_a_trapezoid(self):
+        for length, feed in ((50, 50), (1, 200), (300, 200)):
+            ramp = min(feed, math.sqrt(A * length)) / A
+            want = 2 * ramp if A * ramp < feed * (1 - 1e-9) else length / feed + feed / A
+            self.assertAlmostEqual(free_optimum.seconds(straight(length, feed), LIMITS) / want, 1, delta=2e-3, msg=f"{length} {feed}")
+
+    def test_a_circle_is_as_fast_as_its_acceleration_lets_it_be(self):
+        path = path_file.Path("XY")
+        path.arc(0, 0, 1, 0, 0, 20 * math.pi, [4, 0], [4, 0])
+        round_in = 20 * math.pi * 4 / math.sqrt(A * 4)
+        self.assertAlmostEqual(free_optimum.seconds(path, LIMITS) / round_in, 1, delta=0.02)
+
+    def test_it_agrees_with_the_linear_program(self):
+        path = path_file.Path("XY")
+        path.poly(80, [[0, 20, 10, -30], [0, 5, -20, 30]])
+        self.assertAlmostEqual(free_optimum.seconds(path, LIMITS) / solve(path, jerk=False).seconds, 1, delta=3e-3)
+
+    def test_a_rest_is_counted_and_divides(self):
+        path = straight(10, 50)
+        path.stop(0.3)
+        path.line(50, [10, 0, 0], [0, 0, 0])
+        self.assertAlmostEqual(free_optimum.seconds(path, LIMITS), 0.3 + 2 * free_optimum.seconds(straight(10, 50), LIMITS), delta=1e-3)
+
+
+class MeasuredSet(unittest.TestCase):
+    def test_programs_are_the_same_bytes_each_time(self):
+        for name, text in shop_programs.PROGRAMS.items():
+            self.assertEqual(text(), text(), name)
+            self.assertTrue(text().endswith("M30\n"), name)
+
+    def test_the_least_speed_is_looked_for_away_from_rests(self):
+        ramp = np.linspace(0, 1, 100)
+        speed = np.concatenate([ramp, np.ones(800), [0.5], np.ones(800), ramp[::-1]])
+        rows = np.stack([np.concatenate([[0], np.cumsum(speed)]), np.zeros(len(speed) + 1)], axis=1)
+        self.assertAlmostEqual(runner.slowest_of_mean(rows), 0.5, delta=1e-3)
 
 
 class Reference(unittest.TestCase):

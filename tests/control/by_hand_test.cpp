@@ -280,5 +280,50 @@ TEST_P(ByHand, BetweenBlocksOfMdi) {
   }
 }
 
+/// An axis that was moved by hand says so until the program moves it, whatever is left of its place behind the coordinate systems.
+TEST_P(ByHand, SaysSoUntilTheProgramMovesTheAxis) {
+  std::mt19937 random(7);
+  for (unsigned n = 0; n < 30; ++n) {
+    const auto any = [&random] { return std::round(std::uniform_real_distribution<>(-9, 9)(random) * 1000) / 1000; };
+    HandMachine m(GetParam());
+    m.bench.work_offset(1, {any(), any(), any()});
+    m.start("G54 G91 G0 X1. Z1.\nY2.\nX1.\nG90 Z0\nX0\nM30");
+    ASSERT_TRUE(m.until_stop());
+    m.move(2, any());
+    for (const uint32_t marked : {4u, 4u, 0u}) {  // Y, X, Z
+      m.press();
+      ASSERT_TRUE(m.until_stop());
+      EXPECT_EQ(m.drive->out.moved_by_hand, marked) << n << " line " << m.drive->out.source.line;
+    }
+  }
+}
+
+/// A block stop at a corner that the optimal mode rounds lies beside the corner; with manual absolute off the coordinate systems go along with
+/// the hand alone. What a stop lies beside would add up, stop by stop.
+TEST_P(ByHand, ManualAbsoluteOffShiftsByTheHandAlone) {
+  HandMachine m(GetParam());
+  std::string text = "G90 G1 F3000\n";
+  for (unsigned n = 1; n <= 12; ++n) text += "X" + std::to_string(20 + n) + ". Y" + std::to_string(n % 2) + ". Z" + std::to_string(n % 2 == 0 ? 3 : 0) + ".\n";
+  m.start(text + "G9 X40. Y7. Z5.\nM30");
+  m.drive->in.manual_absolute_off = true;
+  double by_hand = 0;
+  bool beside = false;
+  for (unsigned stop = 0; stop < 20 && !m.drive->ended; ++stop) {
+    ASSERT_TRUE(m.until_stop());
+    if (m.drive->ended) break;
+    beside = beside || std::fabs(m.at(1) - std::nearbyint(m.at(1))) > 1e-4;
+    if (stop > 0 && stop < 12) {
+      m.move(2, 0.25);
+      by_hand += 0.25;
+    }
+    m.press();
+  }
+  EXPECT_EQ(beside, GetParam());
+  EXPECT_EQ(m.drive->alarm(), "");
+  EXPECT_NEAR(m.at(2), 5 + by_hand, 1e-9);
+  EXPECT_NEAR(m.at(0), 40, 1e-9);
+  EXPECT_NEAR(m.at(1), 7, 1e-9);
+}
+
 }  // namespace
 }  // namespace nc::test

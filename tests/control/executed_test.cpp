@@ -39,13 +39,12 @@ std::string tables(const nc_control* control) {
     for (unsigned axis = 0; axis < 3; ++axis)
       if (nc_work_offset_get(control, 0, index, axis, &value) == NC_OK) all += brief(value) + " ";
   uint32_t number = 0;
-  for (; nc_common_next(control, 0, number, &number, &value) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(value) + " ";
+  for (; nc_variable_next(control, 0, number, &number, &value) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(value) + " ";
   char name[8] = "", key[24] = "", text[64] = "", axis = 0;
   for (number = 500; number < 520; ++number)
     if (nc_variable_name_get(control, number, name) == NC_OK && name[0] != 0) all += std::to_string(number) + name + " ";
-  bool set = false;
-  for (unsigned i = 0; nc_parameter_next(control, 0, i, key, &axis, &set, &value, text) == NC_OK; ++i)
-    if (set) all += std::string(key) + (axis != 0 ? std::string(1, axis) : "") + "=" + brief(text[0] != 0 ? 0 : value) + text + " ";
+  for (unsigned place = 0; nc_parameter_next(control, 0, place, &place, key, &axis, &value, text) == NC_OK; ++place)
+    all += std::string(key) + (axis != 0 ? std::string(1, axis) : "") + "=" + brief(text[0] != 0 ? 0 : value) + text + " ";
   return all;
 }
 
@@ -134,11 +133,28 @@ TEST(Executed, WithoutARunItIsWhatIsThere) {
   nc_look_executed(nullptr, [](void*, const nc_control*) { FAIL(); }, nullptr);
   nc_look_executed(bench.control(), nullptr, nullptr);
   char key[24] = "", text[64] = "", axis = 0;
-  bool set = false;
+  unsigned place = 7;
   double value = 0;
-  EXPECT_EQ(nc_parameter_next(bench.control(), 0, 100000, key, &axis, &set, &value, text), NC_E_NOT_FOUND);
-  EXPECT_EQ(nc_parameter_next(bench.control(), 9, 0, key, &axis, &set, &value, text), NC_E_ARGUMENT);
-  EXPECT_EQ(nc_parameter_next(bench.control(), 0, 0, nullptr, &axis, &set, &value, text), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_parameter_next(bench.control(), 0, 100000, &place, key, &axis, &value, text), NC_E_NOT_FOUND);
+  EXPECT_EQ(nc_parameter_next(bench.control(), 9, 0, &place, key, &axis, &value, text), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_parameter_next(bench.control(), 0, 0, &place, nullptr, &axis, &value, text), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_parameter_next(bench.control(), 0, 0, nullptr, key, &axis, &value, text), NC_E_ARGUMENT);
+  EXPECT_EQ(place, 7u);
+}
+
+TEST(Executed, TheNextParameterIsOneThatIsSet) {
+  Bench bench;
+  bench.param("8075", "0.25");
+  EXPECT_EQ(bench.run("G10 L70\nP8013 D2\nG11\nM30").alarm, "");
+  ASSERT_EQ(bench.rewind(0, nc_axes{}), NC_OK);  // #8013 was set, and that is taken back
+  bench.param("1037", "2");
+  char key[24] = "", text[64] = "", axis = 0;
+  unsigned place = 0;
+  double value = 0;
+  std::string keys;
+  for (; nc_parameter_next(bench.control(), 0, place, &place, key, &axis, &value, text) == NC_OK; ++place)
+    keys += std::string(key) + "=" + brief(value) + " ";
+  EXPECT_EQ(keys, "8075=0.25 1037=2 ");
 }
 
 }  // namespace

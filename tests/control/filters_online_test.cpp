@@ -294,7 +294,7 @@ TEST(FiltersOnline, RapidBeforeInterpolationIsForTheFirstPartSystem) {  // 13.15
 std::vector<std::string> notes(Bench& bench) {
   std::vector<std::string> all;
   char text[200];
-  for (unsigned i = 0; nc_parameter_note(bench.control(), 0, i, text, sizeof text) == NC_OK; ++i) all.push_back(text);
+  for (unsigned i = 0; nc_parameter_note_row(bench.control(), 0, i, text, sizeof text) == NC_OK; ++i) all.push_back(text);
   return all;
 }
 

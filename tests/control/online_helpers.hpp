@@ -56,7 +56,7 @@ inline std::string left_by(Bench& bench) {
   for (unsigned n = 1; n <= 20; ++n) all += brief(bench.tool_now(n)) + " ";
   uint32_t number = 0;
   double value = 0;
-  for (; nc_common_next(bench.control(), 0, number, &number, &value) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(value) + " ";
+  for (; nc_variable_next(bench.control(), 0, number, &number, &value) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(value) + " ";
   return all;
 }
 

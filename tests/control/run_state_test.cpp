@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "online_helpers.hpp"
+#include "support/drive.hpp"
 
 namespace nc::test {
 namespace {
@@ -215,6 +216,38 @@ TEST_P(RunState, AlarmsAnywhere) {
 
 INSTANTIATE_TEST_SUITE_P(Both, RunState, ::testing::Values(NC_MOTION_TRAPEZOID, NC_MOTION_OPTIMAL),
                          [](const auto& mode) { return mode.param == NC_MOTION_OPTIMAL ? "Optimal" : "Trapezoid"; });
+
+/// Cycle start while the reset button is held starts nothing, then or when it is let go.
+TEST(ResetHeld, NothingIsStarted) {
+  for (const nc_motion_mode mode : {NC_MOTION_TRAPEZOID, NC_MOTION_OPTIMAL}) {
+    Bench bench(NC_DIALECT_M700, [mode](nc_config& c) {
+      machine(64)(c);
+      c.motion_mode = static_cast<uint8_t>(mode);
+      for (unsigned i = 0; i < 3; ++i) c.system[0].axis[i].max_acceleration = 5000, c.system[0].axis[i].max_jerk = 500000;
+    });
+    Drive drive(bench, "G90 G0 X4.\nM30\n");
+    const auto steps = [&drive](unsigned n) {
+      for (; n > 0; --n) drive.step();
+    };
+    drive.in.reset = true;
+    steps(3);
+    drive.in.cycle_start = true;
+    steps(3);
+    drive.in.cycle_start = false;
+    steps(3);
+    drive.in.reset = false;
+    steps(300);
+    EXPECT_EQ(drive.out.state, NC_STATE_IDLE);
+    EXPECT_EQ(drive.out.command.v[0], 0);
+    EXPECT_TRUE(drive.events.empty());
+    drive.in.cycle_start = true;
+    steps(2);
+    drive.in.cycle_start = false;
+    steps(2000);
+    EXPECT_TRUE(drive.ended);
+    EXPECT_EQ(drive.out.command.v[0], 4);
+  }
+}
 
 }  // namespace
 }  // namespace nc::test

@@ -31,11 +31,15 @@ std::string leavings(Bench& bench) {
   std::string all;
   uint32_t number = 0;
   double value = 0;
-  for (; nc_common_next(bench.control(), 0, number, &number, &value) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(value) + " ";
+  for (; nc_variable_next(bench.control(), 0, number, &number, &value) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(value) + " ";
   for (unsigned n = 1; n <= 20; ++n) all += "T" + brief(bench.tool_now(n)) + " ";
   for (unsigned k = 0; k <= 6; ++k)
     for (unsigned axis = 0; axis < 3; ++axis) all += "W" + brief(bench.work_offset_now(k, axis)) + " ";
-  for (unsigned word = 0; word < NC_WORDS; ++word) all += "O" + std::to_string(nc_interface_output(bench.control(), 0, word)) + " ";
+  for (unsigned word = 0; word < NC_WORDS; ++word) {
+    uint32_t bits = 0;
+    nc_interface_output_get(bench.control(), 0, word, &bits);
+    all += "O" + std::to_string(bits) + " ";
+  }
   return all;
 }
 
@@ -319,7 +323,7 @@ TEST(Stream, APartSystemKeepsToItself) {  // two part systems of one control: co
     for (unsigned system = 0; system < 2; ++system) {
       if (nc_pull(bench.control(), system, 10, &item) != NC_OK) continue;
       more = true;
-      EXPECT_EQ(item.source.system, system + 1);
+      EXPECT_EQ(item.source.system, system);
       if (item.kind == NC_ITEM_MOVE) seen += std::to_string(system) + ":" + brief(item.u.move.machine.v[0]) + " ";
     }
   }

@@ -224,11 +224,15 @@ def commands(plant, watch, operator):
     refused(AckReason.REASON_NO_CONTROL, CommandKind.CMD_CYCLE_START, "start without control")
     check(operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "takes control")
     refused(AckReason.REASON_REFUSED, CommandKind.CMD_CYCLE_START, "start without a program")
+    check(operator.ask(CommandKind.CMD_CYCLE_START).refusal == nc_dds.RefusalCause.REFUSED_NO_PROGRAM, "and for which reason of the control")
     refused(AckReason.REASON_REFUSED, CommandKind.CMD_SELECT_PROGRAM, "program that is not there", text="none.nc")
     ack = operator.ask(CommandKind.CMD_SELECT_PROGRAM, text="none.nc")
     check(ack.text == "none.nc: No such file or directory", f"and why: {ack.text}")
     ack = operator.ask(CommandKind.CMD_SELECT_PROGRAM, text="folder")
     check(ack.text == "folder: is a folder, not a program", f"a folder: {ack.text}")
+    with open(os.path.join(plant.folder, "held.nc"), "w", encoding="ascii"):  # somebody writes it
+        ack = operator.ask(CommandKind.CMD_SELECT_PROGRAM, text="held.nc")
+    check(ack.state == AckState.ACK_REJECTED and "held.nc: is being written" in ack.text, f"a file that is being written: {ack.text}")
     refused(AckReason.REASON_MALFORMED, CommandKind.CMD_MDI, "a text with a NUL in its middle", text="G0 X5.\0G0 Y5.")
     refused(AckReason.REASON_MALFORMED, CommandKind.CMD_SELECT_PROGRAM, "a name with a NUL in its middle", text="part.nc\0x")
     refused(AckReason.REASON_MALFORMED, CommandKind.CMD_JOG, "an axis with a NUL in its middle", axis="X\0Y", value=1.0)
@@ -240,6 +244,7 @@ def commands(plant, watch, operator):
     refused(AckReason.REASON_MALFORMED, CommandKind.CMD_SET_MODE, "mode that is not there", number=9)
     check(operator.ask(CommandKind.CMD_FEED_OVERRIDE, value=0.5).state == AckState.ACK_DONE, "feed override 50 %")
     until(lambda: watch.look().status.feed_override == 0.5, "the status shows it")
+    check(watch.status.feed_override_source == nc_dds.OverrideSource.OVERRIDE_OPERATOR and watch.status.spindle_measured, "as the operator's")
     operator.ask(CommandKind.CMD_FEED_OVERRIDE, value=1.0)
     check(operator.ask(CommandKind.CMD_SELECT_PROGRAM, text="part.nc").state == AckState.ACK_DONE, "selects a program")
     refused(AckReason.REASON_EXPECTED_STATE, CommandKind.CMD_CYCLE_START, "start of another program", expected_program="old.nc")
@@ -482,10 +487,16 @@ def forces(plant, watch, operator, participant):
     check(ask(CommandKind.CMD_FORCE, text="clamp", value=1.0)[0] == AckState.ACK_DONE, "force of an output")
     until(lambda: [(f.device, f.value) for f in watch.look().status.forced] == [("pallet", 99), ("clamp", 1)], "the status shows them")
     until(lambda: any({s.name: s.value for s in i.signals}["clamp"] == 1 for i in taken(image)), "the machine gets it")
-    shown = plant.monitor("--once", "--machine", plant.share, "--wait", "20")
+    shown = plant.monitor("--once", "--control", plant.share, "--wait", "20")
     check("FORCED   pallet = 99 clamp = 1" in shown.stdout, "ncmon shows them")
     check(ask(CommandKind.CMD_RELEASE_FORCE, text="pallet")[0] == AckState.ACK_DONE, "release of one")
     until(lambda: [f.device for f in watch.look().status.forced] == ["clamp"], "the other stays")
+    check(ask(CommandKind.CMD_FORCE, text="plc.feed_override", value=3000.0)[0] == AckState.ACK_DONE, "a switch of the machine gives an override")
+    until(lambda: (watch.look().status.feed_override, watch.status.feed_override_source) == (0.3, nc_dds.OverrideSource.OVERRIDE_MACHINE),
+          "the status shows whose it is")
+    check(watch.status.rapid_override_source == nc_dds.OverrideSource.OVERRIDE_OPERATOR, "the other one is the operator's as before")
+    shown = plant.monitor("--once", "--control", plant.share, "--wait", "20")
+    check("x 30 % (machine)   rapid 100 %   S 0 of" in shown.stdout, "ncmon shows it")
     check(ask(CommandKind.CMD_RELEASE_FORCE, text="")[0] == AckState.ACK_DONE, "release of all")
     until(lambda: watch.look().status.forced == [], "nothing is forced any more")
     check(ask(CommandKind.CMD_FORCE, text="pallet", value=5.0)[0] == AckState.ACK_DONE, "a force that the end of the control ends")
@@ -518,6 +529,10 @@ def two_controls(plant, participant, operator):
     until(lambda: look() == set(operators), "the alarms of both are there, in the same slot")
     shown = json.loads(plant.monitor("--once", "--json", "--wait", "20").stdout)
     check([a["code"] for a in shown["alarms"]] == ["R16"] and len(shown["systems"]) == 1, "ncmon without a name shows one of them")
+    shown = plant.monitor("--once", "--json", "--control", other, "--wait", "20")
+    system = json.loads(shown.stdout)["systems"][0]
+    check(not system["spindle_measured"] and system["spindle"] == 0 and system["feed_override_source"] == "operator", "its spindle is not measured")
+    check("S not measured of" in plant.monitor("--once", "--control", other, "--wait", "20").stdout, "ncmon says so")
     for kind, fields in ((CommandKind.CMD_RELEASE_FORCE, {}), (CommandKind.CMD_RESET, {})):
         check(operators[other].ask(kind, **fields).state == AckState.ACK_DONE, kind.name)
     until(lambda: look() == {plant.share}, "one is cleared, the other one stays")
@@ -655,20 +670,20 @@ def attack_on_memory(watch, control, gateway):
 
 
 def monitor(plant):
-    shown = plant.monitor("--once", "--json", "--machine", plant.share, "--wait", "20")
+    shown = plant.monitor("--once", "--json", "--control", plant.share, "--wait", "20")
     check(shown.returncode == 0 and json.loads(shown.stdout)["systems"][0]["machine"] == plant.share, "ncmon --once --json")
-    shown = plant.monitor("--once", "--json", "--view", "signals", "--machine", plant.share, "--wait", "20")
+    shown = plant.monitor("--once", "--json", "--view", "signals", "--control", plant.share, "--wait", "20")
     signals = json.loads(shown.stdout)["signals"]["values"] if shown.returncode == 0 else []
     signals = {signal["name"]: signal for signal in signals}
     check(signals["plc.interlock_n"]["value"] == 1 and signals["plc.interlock_n"]["direction"] == "to NC" and
           "decelerate" in signals["plc.interlock_n"]["meaning"] and signals["pallet"]["value"] == 7, "ncmon --view signals --json")
-    shown = plant.monitor("--once", "--view", "signals", "--machine", plant.share, "--wait", "20")
+    shown = plant.monitor("--once", "--view", "signals", "--control", plant.share, "--wait", "20")
     check(shown.returncode == 0 and any(line.split()[:1] == ["nc.position.X"] for line in shown.stdout.split("\n")), "ncmon --view signals")
-    stream = plant.start("ncmon", "--domain", str(plant.domain), "--machine", plant.share, "--json", "--view", "signals")
+    stream = plant.start("ncmon", "--domain", str(plant.domain), "--control", plant.share, "--json", "--view", "signals")
     until(lambda: "signals" in json.loads(stream.stdout.readline()), "ncmon --json --view signals")
     stream.terminate()
     stream.communicate()
-    nobody = plant.monitor("--once", "--machine", "nobody", "--wait", "0.5")
+    nobody = plant.monitor("--once", "--control", "nobody", "--wait", "0.5")
     check(nobody.returncode == 2 and "nobody publishes" in nobody.stderr, "ncmon without a publisher")
     check("QoS" not in nobody.stderr and "warning" not in nobody.stderr, "another partition is no other QoS")
 
@@ -689,7 +704,7 @@ def restart(plant, watch, operator, info, control):
     until(lambda: not watch.look().gone and watch.status.runs == 0, "a new one takes over the name, and they see it")
     check(watch.fresh().forced == [], "nothing is forced in it")
     ack = operator.ask(CommandKind.CMD_TAKE_CONTROL)
-    check(ack.state == AckState.ACK_REJECTED and ack.reason == AckReason.REASON_REFUSED, f"without --commands: {ack.text}")
+    check(ack.state == AckState.ACK_REJECTED and ack.reason == AckReason.REASON_REFUSED and ack.refusal == nc_dds.RefusalCause.REFUSED_NO_ANSWER, f"without --commands: {ack.text}")
     until(lambda: any(not i.commands for i in taken(info)), "and the description says so")
     return control
 
@@ -700,13 +715,13 @@ def end(plant, watch, gateway, control):
     until(lambda: watch.look().gone, "subscribers see it")
     check(not watch.ended and control.poll() is None, "the control does not care")
     gateway = plant.gateway()
-    progress = plant.start("ncmon", "--domain", str(plant.domain), "--machine", plant.share, "--progress", "--wait", "30")
+    progress = plant.start("ncmon", "--domain", str(plant.domain), "--control", plant.share, "--progress", "--wait", "30")
     check("idle" in progress.stdout.readline(), "ncmon --progress begins")
     control.send_signal(signal.SIGTERM)
     check(control.wait(timeout=60) == 0, "the control ends in order")
     text = progress.communicate(timeout=60)[0]
     check(progress.returncode == 0 and "the control has ended" in text, "ncmon says that it has ended")
-    shown = plant.monitor("--once", "--machine", plant.share, "--wait", "1")
+    shown = plant.monitor("--once", "--control", plant.share, "--wait", "1")
     check(shown.returncode == 2 and "its control is not" in shown.stderr, f"also who comes later: {shown.stderr.strip()}")
     gateway.send_signal(signal.SIGTERM)
     check(gateway.wait(timeout=60) == 0, "the gateway ends in order without a control")
@@ -732,7 +747,7 @@ def main():
         return
     with tempfile.TemporaryDirectory() as folder:
         os.mkdir(os.path.join(folder, "folder"))
-        for name, text in (("machine.toml", MACHINE.replace('programs = "."', 'programs = "."\nvariables = "kept"')), ("other.toml", MACHINE), ("part.nc", PART), ("bad.nc", BAD), ("own.il", LADDER)):
+        for name, text in (("machine.toml", MACHINE.replace('programs = "."', 'programs = "."\nvariables = "kept"')), ("other.toml", MACHINE + '[[spindle]]\nfeedback = "none"\n'), ("part.nc", PART), ("bad.nc", BAD), ("own.il", LADDER)):
             with open(os.path.join(folder, name), "w", encoding="ascii") as file:
                 file.write(text)
         plant = Plant(folder)

@@ -24,7 +24,12 @@ for option in --share --machine --ready-file; do refuses "$option: must not be e
 refuses "which control?" "$bin/ncdds"
 for value in nan inf -1 86401 x; do refuses "--wait: must be at least 0 and at most 86400" "$bin/ncmon" "--wait=$value"; done
 for value in 0 -1 1000001 nan; do refuses "--latency: must be a whole number from 1 to 1000000, is $value" "$bin/ncmon" "--latency=$value"; done
-for option in --control --machine; do refuses "--control: must not be empty" "$bin/ncmon" "$option" ""; done
+refuses "--control: must not be empty" "$bin/ncmon" --control ""
+# One word for the file of a machine in all programs; who gives it here is told the word for a name.
+for option in --machine --config; do
+  for value in mill3 etc/machine.toml ""; do refuses "the name of a control is --control NAME" "$bin/ncmon" --once "$option" "$value"; done
+  "$bin/ncmon" --help | grep -q -e "$option" && { echo "FAILED: ncmon --help names $option"; failures=$((failures + 1)); }
+done
 refuses "--machine: must not be empty" "$bin/ncdds" --config ""
 for program in ncdds ncmon; do
   [ "$("$bin/$program" --version)" = "$program $version" ] || { echo "FAILED: $program --version"; failures=$((failures + 1)); }

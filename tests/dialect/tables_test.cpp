@@ -3,11 +3,15 @@
 // family's alarm list.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <set>
 #include <string>
 
+#include "dialect/code_index.hpp"
 #include "dialect/dialect.hpp"
 #include "dialect/function_table.hpp"
+#include "modal/modal_state.hpp"
 
 namespace nc {
 namespace {
@@ -24,7 +28,7 @@ class Tables : public ::testing::TestWithParam<nc_dialect> {
 
 std::string g_text(int code) {
   char text[8];
-  g_code_text(code, text, sizeof text);
+  g_code_text('G', code, text, sizeof text);
   return text;
 }
 
@@ -68,6 +72,19 @@ TEST_P(Tables, EveryRowIsFoundByItsCodeAndNoOtherIs) {
   }
 }
 
+// The row that stands for a function is the one that is numbered 0, not the one with the smallest code.
+TEST_P(Tables, RowsOfAFunctionAreNumberedFromZeroOn) {
+  std::map<Function, std::set<unsigned>> numbers;
+  for (const FunctionRow& row : family().functions)
+    EXPECT_TRUE(numbers[row.function].insert(row.number).second) << g_text(row.code) << " has the number of another row";
+  for (const auto& [function, of_rows] : numbers) {
+    const FunctionRow* const row = find_function(family(), function);
+    ASSERT_NE(row, nullptr) << static_cast<unsigned>(function);
+    EXPECT_EQ(row->function, function);
+    EXPECT_EQ(row->number, 0u) << g_text(row->code);
+  }
+}
+
 TEST_P(Tables, RowsAreFilledIn) {
   for (const FunctionRow& row : family().functions) {
     const std::string code = g_text(row.code);
@@ -76,11 +93,10 @@ TEST_P(Tables, RowsAreFilledIn) {
     EXPECT_NE(row.name[0], 0) << code;
     ASSERT_NE(row.section, nullptr) << code;
     EXPECT_NE(row.section[0], 0) << code;
-    EXPECT_EQ(row.function == Function::missing, row.missing != nullptr)
-        << code << ": a missing function names its alarm, no other does";
+    EXPECT_LT(row.function, Function::count_) << code;
   }
   for (const MiscRow& row : family().misc) {
-    EXPECT_EQ(row.function == MiscFunction::missing, row.missing != nullptr) << "M" << row.code;
+    EXPECT_FALSE(goes_out(row.function) && row.missing != nullptr) << "M" << row.code;
     EXPECT_NE(row.name, nullptr) << "M" << row.code;
     EXPECT_NE(row.section, nullptr) << "M" << row.code;
   }
@@ -128,19 +144,86 @@ TEST_P(Tables, EveryAlarmNamedIsInTheList) {
   }
 }
 
-TEST_P(Tables, InitialCodesBelongToTheirGroups) {
-  std::set<unsigned> groups;
-  for (const FunctionRow& row : family().functions) groups.insert(row.group);
-  EXPECT_EQ(family().initial[0], -1);
-  for (unsigned group = 1; group < NC_GROUPS; ++group) {
-    const int code = family().initial[group];
-    EXPECT_EQ(code >= 0, groups.count(group) == 1) << "group " << group;
-    if (code < 0) continue;
-    const FunctionRow* row = find_function(family(), code);
-    ASSERT_NE(row, nullptr) << g_text(code);
-    EXPECT_EQ(row->group, group) << g_text(code);
-    EXPECT_NE(row->function, Function::missing) << g_text(code) << " is on at power on, so it must exist";
+// What is in force of a mode is shown in its group: both must divide the codes alike.
+TEST_P(Tables, AGroupIsAMode) {
+  std::map<unsigned, Mode> mode_of_group;
+  std::map<Mode, unsigned> group_of_mode;
+  for (const FunctionRow& row : family().functions) {
+    const Mode mode = mode_of(row.function);
+    EXPECT_EQ(row.group == 0, mode == Mode::none) << g_text(row.code);
+    EXPECT_EQ(mode_of_group.emplace(row.group, mode).first->second, mode) << g_text(row.code);
+    EXPECT_EQ(group_of_mode.emplace(mode, row.group).first->second, row.group) << g_text(row.code);
   }
+}
+
+TEST_P(Tables, OneFunctionOfEachModeIsInForceAtPowerOn) {
+  std::set<Mode> modes, given;
+  for (const FunctionRow& row : family().functions)
+    if (mode_of(row.function) != Mode::none) modes.insert(mode_of(row.function));
+  for (const Function function : family().initial) {
+    const FunctionRow* row = find_function(family(), function);
+    ASSERT_NE(row, nullptr) << "initial function number " << static_cast<unsigned>(function);
+    EXPECT_EQ(row->missing, nullptr) << g_text(row->code) << " is on at power on, so it must exist";
+    EXPECT_TRUE(given.insert(mode_of(function)).second) << g_text(row->code);
+  }
+  EXPECT_EQ(given, modes);
+  const ModalState state = initial_modal(family());
+  for (unsigned i = 0; i < kModes; ++i) EXPECT_EQ(mode_of(state.in_force[i]), static_cast<Mode>(i));
+  for (const FunctionRow& row : family().functions)
+    if (&row == find_function(family(), row.function) && mode_of(row.function) != Mode::none) {
+      EXPECT_EQ(state.is(row.function), state.holds(row)) << g_text(row.code);
+    }
+}
+
+TEST_P(Tables, CodesAreFoundAsTheyAreWrittenAndByWhatTheyMean) {
+  CodeIndex index;
+  index.create(family());
+  for (const FunctionRow& row : family().functions) {
+    EXPECT_EQ(index.find(row.code / 10.0), &row) << g_text(row.code);
+    EXPECT_EQ(index.find(row.code / 10.0 + 1e-9), &row) << g_text(row.code) << " out of an expression";
+    EXPECT_EQ(index.find(row.code / 10.0 + 0.03), nullptr) << g_text(row.code);
+    const FunctionRow* first = index.row(row.function);
+    ASSERT_NE(first, nullptr) << g_text(row.code);
+    EXPECT_LE(first->code, row.code);
+    EXPECT_EQ(first->function, row.function);
+  }
+  for (const double number : {-1.0, 1e9, 0.05, std::nan("")}) EXPECT_EQ(index.find(number), nullptr) << number;
+  EXPECT_EQ(index.linear().function, Function::linear);
+  EXPECT_EQ(index.find(index.linear_number()), &index.linear());
+}
+
+// The number tells G55 from G54, and G107 from G07.1 where the code in force is shown.
+TEST_P(Tables, CodesOfOneFunctionCountFromZero) {
+  std::map<Function, unsigned> rows;
+  for (const FunctionRow& row : family().functions)
+    if (row.function != Function::user_macro) {
+      EXPECT_EQ(row.number, rows[row.function]++) << g_text(row.code);
+    }
+}
+
+TEST_P(Tables, EveryModalCodeIsShownInItsGroup) {
+  for (const FunctionRow& row : family().functions) {
+    if (row.group == 0) continue;
+    ModalState state = initial_modal(family());
+    state.set(row);
+    const nc_modal shown = to_public(family(), state), before = to_public(family(), initial_modal(family()));
+    for (unsigned group = 0; group < NC_GROUPS; ++group) {
+      EXPECT_EQ(shown.code[group], group == row.group ? row.code : before.code[group]) << g_text(row.code);
+      EXPECT_EQ(shown.code[group], code_in_force(family(), state, group)) << g_text(row.code);
+    }
+    EXPECT_EQ(row_in_force(family(), state, mode_of(row.function)), &row);
+  }
+}
+
+TEST_P(Tables, OutputsAreNoCodesOfTheControl) {
+  for (const OutputRow& row : family().outputs) {
+    EXPECT_EQ(find_misc(family(), row.code), nullptr) << "M" << row.code;
+    EXPECT_TRUE(goes_out(row.function)) << "M" << row.code;
+    EXPECT_EQ(misc_function(family(), row.code), row.function);
+    EXPECT_EQ(misc_code(family(), row.function), row.code);
+  }
+  for (const MiscRow& row : family().misc) EXPECT_EQ(misc_function(family(), row.code), row.function) << "M" << row.code;
+  EXPECT_EQ(misc_function(family(), 777), MiscFunction::output);
 }
 
 TEST_P(Tables, AlarmTextsOfEveryConditionAreThere) {
@@ -158,13 +241,13 @@ TEST_P(Tables, AlarmTextsOfEveryConditionAreThere) {
 
 TEST_P(Tables, MissingFunctionRaisesTheAlarmOfItsOwnRow) {
   for (const FunctionRow& row : family().functions) {
-    if (row.function != Function::missing) continue;
-    const Fault fault{Condition::no_function, -1, 'G', true, static_cast<double>(row.code)};
+    if (row.missing == nullptr) continue;
+    const Fault fault{Condition::no_function, -1, family().addresses.letter(Role::code), true, static_cast<double>(row.code)};
     EXPECT_STREQ(alarm_text(family(), fault).code, row.missing) << g_text(row.code);
   }
   for (const MiscRow& row : family().misc) {
-    if (row.function != MiscFunction::missing) continue;
-    const Fault fault{Condition::no_function, -1, 'M', true, static_cast<double>(row.code)};
+    if (row.missing == nullptr) continue;
+    const Fault fault{Condition::no_function, -1, family().addresses.letter(Role::misc_code), true, static_cast<double>(row.code)};
     EXPECT_STREQ(alarm_text(family(), fault).code, row.missing) << "M" << row.code;
   }
 }
@@ -176,16 +259,16 @@ TEST_P(Tables, FaultWithoutARowOfItsOwnFallsBackToTheCondition) {
   }
   ASSERT_NE(general, nullptr);
   for (const double value : {-1.0, 10.0, 39990.0, 1e300}) {
-    const Fault fault{Condition::no_function, -1, 'G', true, value};
+    const Fault fault{Condition::no_function, -1, family().addresses.letter(Role::code), true, value};
     EXPECT_STREQ(alarm_text(family(), fault).code, general) << value;
   }
   EXPECT_STREQ(alarm_text(family(), Fault{Condition::no_function, -1, 'X', true, 50.0}).code, general);
-  EXPECT_STREQ(alarm_text(family(), Fault{Condition::no_function, -1, 'G', false, 330.0}).code, general);
+  EXPECT_STREQ(alarm_text(family(), Fault{Condition::no_function, -1, family().addresses.letter(Role::code), false, 330.0}).code, general);
 }
 
 TEST_P(Tables, ParametersHaveUniqueKeysAndADefaultAmongTheirWords) {
   std::set<std::string> seen;
-  for (const ParameterName& row : family().parameters) {
+  for (const ParameterName& row : family().parameters->names) {
     EXPECT_TRUE(seen.insert(row.key).second) << row.key;
     if (row.words == nullptr) continue;
     const std::string words = row.words;

@@ -27,7 +27,7 @@ std::string number(double value) {
 
 std::string detail(const Fault& fault, const char* axis = nullptr) {
   char text[NC_MAX_TEXT];
-  alarm_detail(fault, axis, text, sizeof text);
+  alarm_detail(dialect(NC_DIALECT_M700), fault, axis, text, sizeof text);
   return text;
 }
 
@@ -59,7 +59,7 @@ TEST(TextWriter, NeverWritesBehindItsBuffer) {
 TEST(CodeText, IsWrittenAsTheManualsPrintIt) {
   const auto g = [](int code) {
     char text[8];
-    g_code_text(code, text, sizeof text);
+    g_code_text('G', code, text, sizeof text);
     return std::string(text);
   };
   EXPECT_EQ(g(0), "G00");
@@ -68,11 +68,11 @@ TEST(CodeText, IsWrittenAsTheManualsPrintIt) {
   EXPECT_EQ(g(1070), "G107");
   EXPECT_EQ(g(-1), "");
   char m[8];
-  m_code_text(3, m, sizeof m);
+  m_code_text('M', 3, m, sizeof m);
   EXPECT_STREQ(m, "M03");
-  m_code_text(198, m, sizeof m);
+  m_code_text('M', 198, m, sizeof m);
   EXPECT_STREQ(m, "M198");
-  m_code_text(99999999, m, sizeof m);  // longer than the buffer: cut, not overrun
+  m_code_text('M', 99999999, m, sizeof m);  // longer than the buffer: cut, not overrun
   EXPECT_EQ(std::strlen(m), 7u);
 }
 
@@ -118,6 +118,23 @@ TEST(AlarmDetail, WritesCodesAsCodes) {
             "G1000000000 is not a G code of this control.");
 }
 
+TEST(AlarmDetail, CodesHaveTheLettersOfTheirFamily) {
+  Dialect family = dialect(NC_DIALECT_M700);
+  family.addresses.bind(Role::code, 'P');
+  family.addresses.bind(Role::misc_code, 'A');
+  const auto sentence = [&](const Fault& fault) {
+    char text[NC_MAX_TEXT];
+    alarm_detail(family, fault, nullptr, text, sizeof text);
+    return std::string(text);
+  };
+  EXPECT_EQ(sentence({Condition::no_function, -1, 'P', true, 340}), "P34 is not available on this control.");
+  EXPECT_STREQ(alarm_text(family, {Condition::no_function, -1, 'P', true, 340}).code, "P220");
+  EXPECT_EQ(sentence({Condition::words_missing, -1, 'A', true, 3}), "A03 needs a word that is not there.");
+  EXPECT_EQ(sentence({Condition::cycle_in_compensation}),
+            "Fixed cycles and tool radius compensation exclude each other. Cancel with P80 or P40 first.");
+  EXPECT_EQ(sentence({Condition::value_range, -1, 'G', true, 340}), "The value of G340 is outside its range.");
+}
+
 TEST(AlarmDetail, EveryConditionHasASentenceHoweverLittleTheFaultCarries) {
   std::set<std::string> sentences;
   for (unsigned i = 1; i < static_cast<unsigned>(Condition::count_); ++i) {
@@ -126,7 +143,7 @@ TEST(AlarmDetail, EveryConditionHasASentenceHoweverLittleTheFaultCarries) {
       for (const bool has_value : {false, true}) {
         for (const char* axis : {static_cast<const char*>(nullptr), "", "X"}) {
           char text[1024];
-          alarm_detail({condition, -1, letter, has_value, 12.5}, axis, text, sizeof text);
+          alarm_detail(dialect(NC_DIALECT_M700), {condition, -1, letter, has_value, 12.5}, axis, text, sizeof text);
           const std::string sentence = text;
           ASSERT_FALSE(sentence.empty())
               << "Condition number " << i << " (in the order of dialect/alarms.hpp)";
@@ -143,12 +160,30 @@ TEST(AlarmDetail, EveryConditionHasASentenceHoweverLittleTheFaultCarries) {
       << "two conditions have the same sentence";
 }
 
+TEST(AlarmDetail, NamesTheCodesThatTheFamilyHas) {
+  const FunctionRow functions[] = {{70, 1, Function::comp_off, nullptr, "off", "1"}, {995, 1, Function::comp_left, nullptr, "left", "1"}};
+  const VariableRow variables[] = {{1717, 1717, SystemVariable::alarm, 0, 0, "-", "alarm", "1"}};
+  FamilyVariables numbers;
+  numbers.rows = {variables, 1};
+  Dialect family = dialect(NC_DIALECT_M700);
+  family.functions = {functions, 2};
+  family.variables = &numbers;
+  const auto sentence = [&](Condition condition) {
+    char text[NC_MAX_TEXT];
+    alarm_detail(family, {condition}, nullptr, text, sizeof text);
+    return std::string(text);
+  };
+  EXPECT_EQ(sentence(Condition::skip_in_compensation), "Skip is not possible while tool radius compensation is on. Cancel it with G07 first.");
+  EXPECT_EQ(sentence(Condition::space_compensation), "Three-dimensional radius compensation (G99.5/its code with I, J and K) is not fitted.");
+  EXPECT_EQ(sentence(Condition::user_alarm), "The program has raised an alarm itself (#1717).");
+}
+
 TEST(AlarmDetail, NeverOverrunsASmallBuffer) {
   for (unsigned i = 0; i <= static_cast<unsigned>(Condition::count_); ++i) {
     const Fault fault{static_cast<Condition>(i), 1, 'X', true, -99999.9999};
     for (size_t size = 0; size < 140; ++size) {
       std::vector<char> text(size + 8, '\x7f');
-      alarm_detail(fault, "X", text.data(), size);
+      alarm_detail(dialect(NC_DIALECT_M700), fault, "X", text.data(), size);
       for (size_t k = size; k < text.size(); ++k) ASSERT_EQ(text[k], '\x7f') << i << " size " << size;
       if (size > 0) {
         ASSERT_LT(std::strlen(text.data()), size);
@@ -164,15 +199,22 @@ TEST(PublicTables, ShowEveryRowOnce) {
     std::set<std::string> codes;
     nc_function row;
     unsigned count = 0;
-    while (nc_function_get(family, count, &row) == NC_OK) {
+    while (nc_function_row(family, count, &row) == NC_OK) {
       EXPECT_TRUE(codes.insert(row.code).second) << row.code;
       EXPECT_EQ(row.supported, row.alarm[0] == 0) << row.code;
       ++count;
     }
     EXPECT_EQ(count, tables.functions.size + tables.misc.size);
-    EXPECT_EQ(nc_function_get(family, count, &row), NC_E_NOT_FOUND);
-    EXPECT_EQ(codes.count("G01"), 1u);
-    EXPECT_EQ(codes.count("M30"), 1u);
+    EXPECT_EQ(nc_function_row(family, count, &row), NC_E_NOT_FOUND);
+    char text[12];
+    for (const FunctionRow& code : tables.functions) {
+      g_code_text(tables.addresses.letter(Role::code), code.code, text, sizeof text);
+      EXPECT_EQ(codes.count(text), 1u) << text;
+    }
+    for (const MiscRow& code : tables.misc) {
+      m_code_text(tables.addresses.letter(Role::misc_code), code.code, text, sizeof text);
+      EXPECT_EQ(codes.count(text), 1u) << text;
+    }
 
     char code[16];
     const char* message = nullptr;
@@ -189,7 +231,7 @@ TEST(PublicTables, ShowEveryRowOnce) {
 
 TEST(PublicTables, SayWhatAMissingFunctionRaises) {
   nc_function row;
-  for (unsigned i = 0; nc_function_get(NC_DIALECT_M700, i, &row) == NC_OK; ++i) {
+  for (unsigned i = 0; nc_function_row(NC_DIALECT_M700, i, &row) == NC_OK; ++i) {
     if (std::string(row.code) == "G74") {
       EXPECT_FALSE(row.supported);
       EXPECT_STREQ(row.alarm, "P180");
@@ -205,12 +247,58 @@ TEST(PublicTables, RefuseWhatIsNoDialect) {
   nc_function row;
   char code[16];
   const char* message = nullptr;
-  EXPECT_EQ(nc_function_get(NC_DIALECT_COUNT, 0, &row), NC_E_ARGUMENT);
-  EXPECT_EQ(nc_function_get(static_cast<nc_dialect>(-1), 0, &row), NC_E_ARGUMENT);
-  EXPECT_EQ(nc_function_get(NC_DIALECT_M700, 0, nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_function_row(NC_DIALECT_COUNT, 0, &row), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_function_row(static_cast<nc_dialect>(-1), 0, &row), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_function_row(NC_DIALECT_M700, 0, nullptr), NC_E_ARGUMENT);
   EXPECT_EQ(nc_alarm_row(NC_DIALECT_COUNT, 0, code, &message), NC_E_ARGUMENT);
   EXPECT_EQ(nc_alarm_row(NC_DIALECT_M700, 0, nullptr, &message), NC_E_ARGUMENT);
   EXPECT_EQ(nc_alarm_row(NC_DIALECT_M700, 0, code, nullptr), NC_E_ARGUMENT);
+}
+
+TEST(PublicTables, DialectsHaveANameEach) {
+  std::set<std::string> names;
+  for (int id = 0; id < NC_DIALECT_COUNT; ++id) {
+    const auto family = static_cast<nc_dialect>(id);
+    const char* const name = nc_dialect_name(family);
+    ASSERT_NE(name, nullptr);
+    EXPECT_TRUE(names.insert(name).second) << name;
+    nc_dialect back = NC_DIALECT_COUNT;
+    EXPECT_EQ(nc_dialect_get(name, &back), NC_OK);
+    EXPECT_EQ(back, family);
+  }
+  EXPECT_EQ(names.count("m700"), 1u);
+  EXPECT_EQ(nc_dialect_name(NC_DIALECT_COUNT), nullptr);
+  EXPECT_EQ(nc_dialect_name(static_cast<nc_dialect>(-1)), nullptr);
+  nc_dialect kept = NC_DIALECT_DGSHAPE;
+  EXPECT_EQ(nc_dialect_get("M700", &kept), NC_E_NOT_FOUND);
+  EXPECT_EQ(nc_dialect_get("", &kept), NC_E_NOT_FOUND);
+  EXPECT_EQ(nc_dialect_get(nullptr, &kept), NC_E_ARGUMENT);
+  EXPECT_EQ(kept, NC_DIALECT_DGSHAPE);
+  EXPECT_EQ(nc_dialect_get("m700", nullptr), NC_E_ARGUMENT);
+}
+
+TEST(PublicTables, SayWhatACodeIsFor) {
+  const auto role = [](char letter, uint32_t number) { return nc_code_role_get(NC_DIALECT_M700, letter, number); };
+  EXPECT_EQ(role('M', 0), NC_CODE_PROGRAM_STOP);
+  EXPECT_EQ(role('M', 1), NC_CODE_OPTIONAL_STOP);
+  EXPECT_EQ(role('M', 2), NC_CODE_PROGRAM_END);
+  EXPECT_EQ(role('M', 30), NC_CODE_PROGRAM_END);
+  EXPECT_EQ(role('M', 3), NC_CODE_SPINDLE_FORWARD);
+  EXPECT_EQ(role('M', 4), NC_CODE_SPINDLE_REVERSE);
+  EXPECT_EQ(role('M', 5), NC_CODE_SPINDLE_STOP);
+  EXPECT_EQ(role('M', 98), NC_CODE_CALL);
+  EXPECT_EQ(role('M', 198), NC_CODE_CALL);
+  EXPECT_EQ(role('M', 99), NC_CODE_RETURN);
+  EXPECT_EQ(role('M', 8), NC_CODE_OTHER);
+  EXPECT_EQ(role('M', 4294967295u), NC_CODE_OTHER);
+  EXPECT_EQ(role('G', 40), NC_CODE_DWELL);
+  EXPECT_EQ(role('G', 100), NC_CODE_DATA_INPUT);
+  EXPECT_EQ(role('G', 661), NC_CODE_MACRO_CALL);
+  EXPECT_EQ(role('G', 10), NC_CODE_OTHER);
+  EXPECT_EQ(role('G', 4294967295u), NC_CODE_OTHER);
+  EXPECT_EQ(role('X', 30), NC_CODE_OTHER);
+  EXPECT_EQ(nc_code_role_get(NC_DIALECT_DGSHAPE, 'M', 6), NC_CODE_TOOL_CHANGE);
+  EXPECT_EQ(nc_code_role_get(NC_DIALECT_COUNT, 'M', 30), NC_CODE_OTHER);
 }
 
 TEST(PublicTables, VersionIsThreeNumbers) {

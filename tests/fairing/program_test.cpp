@@ -304,7 +304,7 @@ TEST(FairingOnline, MovedByHandAtTheJoint) {
     bool jogged = false;
     unsigned jogging = 0;
     for (unsigned n = 0; n < 100000 && !drive.ended; ++n) {
-      const bool here = drive.out.state == NC_STATE_STOPPED && drive.out.blocks == stop_behind + 1;
+      const bool here = (drive.out.state == NC_STATE_STOPPED || drive.out.state == NC_STATE_MANUAL) && drive.out.blocks == stop_behind + 1;
       if (here && !jogged && jogging < 40) {
         ++jogging;
         drive.in.cycle_start = false;

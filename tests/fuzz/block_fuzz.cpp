@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 
+#include "dialect/iso_lexer.hpp"
 #include "macro/expression.hpp"
 #include "program/store.hpp"
 
@@ -32,7 +33,7 @@ long read_at(void* user, uint64_t offset, char* buffer, size_t size) {
 }
 
 nc::LexRules rules_of(uint8_t choice) {
-  nc::LexRules rules;
+  nc::LexRules rules = nc::iso_rules();
   const bool macros = (choice & 1) == 0;
   rules.macros = rules.skip_numbers = rules.comma_words = rules.angle_names = macros;
   rules.semicolon = macros ? static_cast<nc::Semicolon>(choice >> 1 & 3) : nc::Semicolon::unknown;

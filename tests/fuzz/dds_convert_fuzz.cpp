@@ -106,7 +106,9 @@ void report(const share::MachineBlock& machine, Bytes* in) {
     require_enum(status.mode, nc_MODE_MANUAL);
     require_enum(status.run_state, nc_RUN_MANUAL);
     require_enum(status.stop_cause, nc_CAUSE_OTHER);
-    require_enum(status.refusal_cause, nc_REFUSED_OTHER);
+    require_enum(status.refusal_cause, nc_REFUSED_NO_ANSWER);
+    require_enum(status.feed_override_source, nc_OVERRIDE_PROGRAM);
+    require_enum(status.rapid_override_source, nc_OVERRIDE_PROGRAM);
     require_text(status.machine);
     require_text(status.state_text);
     require_text(status.program);
@@ -179,6 +181,7 @@ void answer(const share::MachineBlock&, Bytes* in) {
   share::Ack from{};
   damage(&from, in);
   const nc_CommandAck to = ack(from);
+  require_enum(to.refusal, nc_REFUSED_NO_ANSWER);
   require_text(to.client);
   require_text(to.text);
   require_enum(to.kind, nc_CMD_RELEASE_FORCE);

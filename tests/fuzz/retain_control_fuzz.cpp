@@ -16,7 +16,7 @@ void variables(const std::string& bytes) {
   const std::string after = nc::rt::encode_variables(control.get());
   require(taken || after == before);
   std::uint32_t number = 0;
-  for (double value = 0; nc_common_next(control.get(), 0, number, &number, &value) == NC_OK; ++number) require(std::isfinite(value));
+  for (double value = 0; nc_variable_next(control.get(), 0, number, &number, &value) == NC_OK; ++number) require(std::isfinite(value));
   SmallControl next;
   require(nc::rt::restore_variables(next.get(), after) && nc::rt::encode_variables(next.get()) == after);
 }

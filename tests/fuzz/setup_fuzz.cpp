@@ -41,7 +41,7 @@ void apply(const nc::tools::Setup& setup, nc_dialect dialect) {
   nc_control* control = nc_create(&config, memory.get(), size, &status);
   require(control != nullptr);
   std::string error;
-  if (!nc::tools::apply_setup(setup, dialect, control, &error)) require_message(error);
+  if (!nc::tools::apply_setup(setup, control, &error)) require_message(error);
 }
 
 }  // namespace

@@ -101,6 +101,22 @@ TEST_P(Border, DuringAProgram) {
   }
 }
 
+/// A step with next to no speed does not keep the machine in manual mode for ever.
+TEST_P(Border, AStepThatWouldNeverArrive) {
+  for (const double slow : kTiny) {
+    if (slow > 1e-6 || slow == 0) continue;
+    SCOPED_TRACE(slow);
+    Machine m(config);
+    m.in.manual[0] = {NC_MANUAL_STEP, slow, 3};
+    m.cycle();
+    EXPECT_EQ(m.out.inputs_refused, uint32_t{NC_INPUT_MANUAL});
+    m.in.manual[0] = {};
+    m.cycle();
+    EXPECT_EQ(m.out.state, NC_STATE_IDLE);
+    EXPECT_EQ(m.out.inputs_refused, 0u);
+  }
+}
+
 /// A spindle that says infinity for one cycle while a feed per revolution is read ahead.
 TEST_P(Border, AnInfiniteSpindleDoesNotMakeTheFeed) {
   Machine m(config);

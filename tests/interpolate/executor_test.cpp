@@ -359,12 +359,15 @@ TEST(Executor, OutputsAreWrittenWhenThePathGetsThereAndDoNotStopIt) {
   m.feed(p);
   m.start();
   double slowest = 1e9;
+  unsigned writes = 0;
   while (m.out.command.v[0] < 15 && m.cycles < 1000) {
     m.cycle();
     const double x = m.out.command.v[0];
     EXPECT_EQ(m.out.output[2], x >= 10 ? 0x50u : 0u) << x;
+    writes += m.out.output_written[2] == 0xf0 ? 1 : 0;
     if (x > 8 && x < 12) slowest = std::min(slowest, m.out.velocity.v[0]);
   }
+  EXPECT_EQ(writes, 1u) << "in the cycle of the block alone";
   EXPECT_NEAR(slowest, 100, 1e-6);
   ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_IDLE; }));
   EXPECT_EQ(m.out.output[2], 0x40u);
@@ -605,6 +608,45 @@ TEST(Executor, AlarmInputStopsAndNeedsReset) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
+/// A move that does not begin where the axes are is in no record as an alarm: the feeder learns which one it was, until reset.
+TEST(Executor, AMoveThatCannotBeginIsAnAlarmOfTheScansOwn) {
+  for (const bool optimal : {false, true}) {
+    SCOPED_TRACE(optimal);
+    ExecutorConfig c = standard_config();
+    c.optimal = optimal;
+    for (unsigned i = 0; i < 3; ++i) c.limits[i].jerk = optimal ? 50000 : 0;
+    Program p(c);
+    p.line(xyz(4), 50);
+    p.mark();
+    p.gate(NC_GATE_IN_POSITION);
+    Program elsewhere(c, xyz(9));
+    elsewhere.line(xyz(9, 3), 50);
+    p.records.push_back(elsewhere.records[0]);
+    p.records.back().source.line = 7;
+    p.mark();
+    p.end();
+    Machine m(c);
+    nc_source place{};
+    m.feed(p);
+    m.start();
+    EXPECT_FALSE(m.executor.faulted(&place));
+    ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_ALARM; }, 5000));
+    ASSERT_TRUE(m.executor.faulted(&place)) << "in the cycle that shows the alarm";
+    EXPECT_EQ(place.line, 7u);
+    for (int i = 0; i < 5; ++i) m.cycle();
+    EXPECT_TRUE(m.executor.faulted(&place));
+    EXPECT_EQ(m.command(), xyz(4)) << "nothing has jumped";
+    m.reset();
+    m.cycle();
+    EXPECT_EQ(m.out.state, NC_STATE_IDLE);
+    EXPECT_FALSE(m.executor.faulted(&place));
+    m.in.alarm = true;  // that of the machine has its text elsewhere
+    for (int i = 0; i < 3; ++i) m.cycle();
+    EXPECT_EQ(m.out.state, NC_STATE_ALARM);
+    EXPECT_FALSE(m.executor.faulted(&place));
+  }
+}
+
 TEST(Executor, AlarmRecordStopsAfterEverythingBefore) {
   const ExecutorConfig c = standard_config();
   Program p(c);
@@ -830,8 +872,8 @@ TEST(Executor, WorkCoordinatesAndDistanceToGo) {
   const ExecutorConfig c = standard_config();
   Program p(c);
   Segment& s = p.line(xyz(8, 4), 50);
-  s.to_work[0] = -100;
-  s.work_sign[1] = -1;
+  s.to_work = Affine::stretch(1, -1, 0);
+  ASSERT_TRUE(s.to_work.then(Affine::translation(xyz(-100, 0))));
   p.end();
   Machine m(c);
   m.feed(p);

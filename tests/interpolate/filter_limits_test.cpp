@@ -4,9 +4,9 @@
 // to rest where the program says.
 #include <gtest/gtest.h>
 
+#include "dialect/m700/filters.hpp"
 #include "interpolate/random_program.hpp"
 #include "interpolate/test_machine.hpp"
-#include "motion/m700_filters.hpp"
 
 namespace nc::test {
 namespace {
@@ -55,7 +55,7 @@ void set_filters(Program& p, const FilterParameters& constants, const ExecutorCo
       if (high[i] > low[i]) move.moving |= 1u << i;
       if (config.limits[i].acceleration > 0) move.limited |= 1u << i;
     }
-    s.filter = filter_times(constants, move, config.cycle_s);
+    s.filter = m700::filter_times(constants, move, config.cycle_s);
     if (high_accuracy && !s.rapid) s.accuracy.acceleration = 900;
     if (s.curve.circular && move.kind == FilteredMove::Kind::cut) {
       s.round_mm[0] = static_cast<float>(constants.round_mm[s.curve.h]);

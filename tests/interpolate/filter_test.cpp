@@ -2,8 +2,8 @@
 // Acceleration after interpolation, S-pattern filters and radius compensation on the machine, one promise per test (M700 7.7, 7.9, 13.15).
 #include <gtest/gtest.h>
 
+#include "dialect/m700/accuracy.hpp"
 #include "interpolate/test_machine.hpp"
-#include "motion/m700_accuracy.hpp"
 
 namespace nc::test {
 namespace {
@@ -82,7 +82,7 @@ TEST(Filtered, RiseIsThatOfTheFormula) {
   m.feed(p);
   m.start();
   for (double t = 1; t < 400; ++t) {
-    ASSERT_NEAR(m.out.velocity.v[0] / 50, combined_rise(t - 0.5, 80, 30), 1e-3) << t;
+    ASSERT_NEAR(m.out.velocity.v[0] / 50, m700::combined_rise(t - 0.5, 80, 30), 1e-3) << t;
     m.cycle();
   }
 }
@@ -130,7 +130,7 @@ TEST(Filtered, CircleComesOutAsMuchTooSmallAsTheManualSays) {  // 13.15 (2) with
       m.start();
       while (m.cycles < 3500) m.cycle();  // in the middle, where the rise is long over
       const double shrunk = radius - std::hypot(m.out.command.v[0], m.out.command.v[1]);
-      const double wanted = linear ? radius_error_linear(feed * 60, radius, {ts, 0, 0}) : radius_error_exponential(feed * 60, radius, {ts / 2, 0, 0});
+      const double wanted = linear ? m700::radius_error_linear(feed * 60, radius, {ts, 0, 0}) : m700::radius_error_exponential(feed * 60, radius, {ts / 2, 0, 0});
       EXPECT_NEAR(shrunk / wanted, 1, 0.04) << ts << (linear ? " linear" : " exponential");
     }
   }

@@ -104,7 +104,7 @@ TEST(PlannedLines, NothingStopsThemAndNothingIsBroken) {
     const ExecutorConfig config = config_of(seed);
     const Seen seen = run(lines, config, 5);
     EXPECT_TRUE(seen.wrong.empty()) << seen.wrong << "; seed " << seed << ": " << name_of(shape) << ", " << lines.point.size() - 1 << " lines, tolerance " << config.tolerance
-                              << ", capacity " << config.capacity;
+                                    << ", capacity " << config.capacity;
     wrong += seen.wrong.empty() ? 0 : 1;
     worst.velocity = std::max(worst.velocity, seen.velocity);
     worst.acceleration = std::max(worst.acceleration, seen.acceleration);
@@ -157,6 +157,21 @@ TEST(PlannedLines, ASlowFeedSlowsItsOwnLinesOnly) {
     return seen.seconds - 0.01 / slow;
   };
   EXPECT_LT(seconds(1.6), seconds(130) + 0.1);
+}
+
+/// Gentle corners that have just the room for their rounding: the knot in front of each was that of the corner before, up to a fifth farther away than
+/// the one behind it, so it was cut by more than the tolerance, all cells were halved, and it took 1.3 times as long.
+TEST(PlannedLines, CornersWithJustTheirRoomAreGoneAsFastAsOthers) {
+  const ExecutorConfig config = config_of(0);
+  constexpr double kTurn = 0.428, kReach = 6 * 0.94 * 0.01 / kTurn;
+  for (const double share : {0.89, 0.915, 0.93, 0.945}) {  // of a line, that the roundings at its ends take
+    LineProgram lines;
+    const double length = 2 * kReach / share;
+    for (unsigned n = 0; n < 100; ++n) lines.by((n % 2 == 0 ? 0.5 : -0.5) * kTurn * length, std::sqrt(1 - 0.25 * kTurn * kTurn) * length, 80);
+    const Seen seen = run(lines, config, 5);
+    EXPECT_EQ(seen.wrong, "") << share;
+    EXPECT_LT(seen.seconds, 1.01 * seen.simple) << share;
+  }
 }
 
 }  // namespace

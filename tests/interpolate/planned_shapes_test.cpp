@@ -38,8 +38,8 @@ struct Curves {
   Curve make(const MoveShape& what, const AxisVec& end) {
     shapes.push_back(std::make_unique<CurveShape>());
     Curve curve;
-    const AxisVec start = program.at(), plus{{1, 1, 1, 1, 1, 1, 1, 1}};
-    make_shaped(what, PlainMove{&start, &end, nullptr, 0, 1}, plus, AxisVec{}, start, config.axis_count, config.rotary, shapes.back().get(), &curve);
+    const AxisVec start = program.at();
+    make_shaped(what, PlainMove{&start, &end, nullptr, 0, 1}, Affine{}, start, config.axis_count, config.rotary, shapes.back().get(), &curve);
     return curve;
   }
   /// One span whose first leg goes along `along`.
@@ -188,8 +188,7 @@ TEST(PlannedShapes, ALinePassesThePoleSoon) {
     machine[3] = std::atan2(aside, 10) * 180 / kPi;
     CurveShape shape;
     Curve curve;
-    const AxisVec plus{{1, 1, 1, 1, 1, 1, 1, 1}};
-    make_shaped(what, PlainMove{&start, &end, nullptr, 0, 1}, plus, AxisVec{}, machine, c.axis_count, c.rotary, &shape, &curve);
+    make_shaped(what, PlainMove{&start, &end, nullptr, 0, 1}, Affine{}, machine, c.axis_count, c.rotary, &shape, &curve);
     Program p(c, machine);
     p.segment(curve, 50);
     p.mark();

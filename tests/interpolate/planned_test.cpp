@@ -44,6 +44,76 @@ TEST(Planned, ASquareWithExactStopsHitsItsCorners) {
   EXPECT_NEAR(static_cast<double>(m.cycles) * 0.001, 4.253, 0.01);
 }
 
+/// There is a law from rest however short the way is, so that the axes never wait for one: lines and arcs of 1e-12 to 1e-3 mm, each with a stop,
+/// alone and one behind the other.
+TEST(Planned, NoWayIsTooShortForALaw) {
+  const ExecutorConfig config = optimal_config();
+  for (const bool arcs : {false, true}) {
+    Program p(config);
+    for (double length = 1e-12; length < 2e-3; length *= 3) {
+      if (arcs) {
+        p.arc(0, 1, 0.5, 1, length / 0.5, 10).exact_stop = true;
+      } else {
+        AxisVec end = p.at();
+        end[0] += length;
+        p.line(end, 10).exact_stop = true;
+      }
+      p.mark();
+    }
+    p.end();
+    Machine m(config);
+    m.feed(p);
+    m.start();
+    uint64_t n = 0;
+    for (; n < 20000 && m.out.state != NC_STATE_IDLE; ++n) {
+      m.feed(p);
+      m.cycle();
+      ASSERT_NE(m.out.state, NC_STATE_ALARM) << arcs;
+      ASSERT_NE(m.out.cause, NC_CAUSE_NO_LAW) << arcs;
+    }
+    EXPECT_LT(n, 20000u) << arcs;
+    EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+    for (unsigned i = 0; i < 2; ++i) EXPECT_NEAR(m.command()[i], p.at()[i], 1e-6) << arcs;
+  }
+}
+
+/// An axis without a limit of jerk, which the configuration refuses, has no law. What lies before it is gone, the axes then wait with the cause and
+/// not in an alarm, and a reset makes an end of it.
+TEST(Planned, WithoutALawTheAxesWaitAndSaySo) {
+  ExecutorConfig config = optimal_config();
+  config.limits[1].jerk = 0;
+  Program p(config);
+  AxisVec end;
+  end[0] = 5;
+  p.line(end, 50).exact_stop = true;
+  p.mark();
+  end[1] = 5;
+  p.line(end, 50);
+  p.mark();
+  p.end();
+  Machine m(config);
+  m.feed(p);
+  m.start();
+  for (unsigned n = 0; n < 2000 && m.out.cause != NC_CAUSE_NO_LAW; ++n) {
+    m.feed(p);
+    m.cycle();
+  }
+  ASSERT_EQ(m.out.cause, NC_CAUSE_NO_LAW);
+  for (unsigned n = 0; n < 500; ++n) {
+    m.feed(p);
+    m.cycle();
+    ASSERT_EQ(m.out.cause, NC_CAUSE_NO_LAW) << n;
+    ASSERT_EQ(m.out.state, NC_STATE_RUNNING) << n;
+    ASSERT_EQ(m.command()[1], 0) << n;
+  }
+  EXPECT_NEAR(m.command()[0], 5, 1e-9);
+  m.reset();
+  for (unsigned n = 0; n < 100 && m.out.state != NC_STATE_IDLE; ++n) m.cycle();
+  EXPECT_EQ(m.out.state, NC_STATE_IDLE);
+  EXPECT_NEAR(m.command()[0], 5, 1e-9);
+  EXPECT_EQ(m.command()[1], 0);
+}
+
 /// Seconds from rest to rest along a line: the seven phases.
 double seven_phases(double length, double v, double a, double j) {
   const auto ramp = [&](double speed) { return speed >= a * a / j ? speed / a + a / j : 2 * std::sqrt(speed / j); };
@@ -61,9 +131,9 @@ double moving_seconds(Machine& m, const Program& p) {
   m.feed(p);
   m.start();
   const bool ended = m.until(p, [&] {
-    if (!m.still()) last = m.cycles, first = first == 0 ? m.cycles : first;
-    return m.out.state == NC_STATE_IDLE && m.next == p.records.size() && m.executor.drained();
-  }, 60000);
+        if (!m.still()) last = m.cycles, first = first == 0 ? m.cycles : first;
+        return m.out.state == NC_STATE_IDLE && m.next == p.records.size() && m.executor.drained();
+      }, 60000);
   EXPECT_TRUE(ended) << m.out.cause << " " << m.out.command.v[0];
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
   return 0.001 * static_cast<double>(last - first + 1);
@@ -211,9 +281,9 @@ TEST(Planned, ExactStopsAreGivenOut) {
     m.feed(p);
     m.start();
     ASSERT_TRUE(m.until(p, [&] {
-      for (unsigned k = 0; k < 5; ++k) nearest[k] = std::min(nearest[k], std::hypot(m.out.command.v[0] - stops[k][0], m.out.command.v[1] - stops[k][1]));
-      return m.out.state == NC_STATE_IDLE;
-    }, 20000));
+          for (unsigned k = 0; k < 5; ++k) nearest[k] = std::min(nearest[k], std::hypot(m.out.command.v[0] - stops[k][0], m.out.command.v[1] - stops[k][1]));
+          return m.out.state == NC_STATE_IDLE;
+        }, 20000));
     for (unsigned k = 0; k < 5; ++k) EXPECT_LE(nearest[k], 1.5e-6) << k << " " << cycle;
     EXPECT_TRUE(m.checker.ok()) << m.checker.report();
   }

@@ -143,6 +143,57 @@ Trial random_trial(uint64_t seed) {
   return t;
 }
 
+/// The limits that the programs of slow lines below have.
+ExecutorConfig plain_config(double tolerance) {
+  ExecutorConfig c = standard_config();
+  c.optimal = true;
+  c.capacity = 1024;
+  c.cycle_s = 0.001;
+  c.tolerance = tolerance;
+  for (unsigned i = 0; i < c.axis_count; ++i) c.limits[i] = {250, 250, 2000, 50000, 0.01};
+  return c;
+}
+
+/// A line by `way` behind those of the trial, at `feed` in mm/min.
+void add_line(Trial* t, const AxisVec& way, double feed) {
+  AxisVec end = t->program.at();
+  for (unsigned i = 0; i < t->config.axis_count; ++i) end[i] += way[i];
+  const Segment& s = t->program.line(end, feed / 60);
+  add_to_law(t, s, 0);
+  std::ostringstream text;
+  text << (t->blocks > 1 ? ", (" : " (") << way[0] << ' ' << way[1] << ' ' << way[2] << ") F" << feed;
+  t->text += text.str();
+  t->program.mark();
+}
+
+Trial plain_trial(double tolerance) {
+  Trial t;
+  t.config = plain_config(tolerance);
+  t.program = Program(t.config);
+  return t;
+}
+
+/// Long fast lines along the axes, and between them lines that are short beside the tolerance, or about as long as it, and up to a hundred
+/// thousand times as slow.
+Trial slow_lines(uint64_t seed) {
+  std::mt19937_64 rng(seed);
+  Trial t = plain_trial(log_uniform(rng, 0.001, 0.05));
+  const unsigned groups = 2 + pick(rng, 4);
+  for (unsigned n = 0; n <= groups; ++n) {
+    AxisVec way;
+    way[pick(rng, 3)] = (pick(rng, 2) != 0 ? 1 : -1) * log_uniform(rng, 1, 100);
+    add_line(&t, way, log_uniform(rng, 600, 10000));
+    for (unsigned k = n < groups ? pick(rng, 4) : 0; k > 0; --k) {
+      const double feed = log_uniform(rng, 0.08, 100), step = log_uniform(rng, 0.0005, 0.02);
+      AxisVec small;
+      for (unsigned axes = 1 + pick(rng, 3); axes > 0; --axes) small[pick(rng, 3)] = (pick(rng, 2) != 0 ? 1 : -1) * step;
+      add_line(&t, small, feed);
+    }
+  }
+  t.program.end();
+  return t;
+}
+
 struct Outcome {
   double seconds = 0, jerk = 0, acceleration = 0, velocity = 0;
   unsigned rests = 0;
@@ -226,6 +277,55 @@ TEST(PlannedTime, NoProgramTakesLongerThanBlockByBlock) {
     jerk = std::max(jerk, o.jerk);
   }
   std::printf("%llu programs: %.3f of the law at most, jerk %.5f\n", static_cast<unsigned long long>(seeds), slowest, jerk);
+}
+
+/// A line shorter than the tolerance has its own feed and gives it to no other line.
+TEST(PlannedTime, AShortSlowLineBetweenLongOnesHasItsFeedAlone) {
+  struct Line {
+    double way[3], feed;
+  };
+  const std::vector<std::vector<Line>> programs = {
+      {{{10, 0, 0}, 3000}, {{0, 0, -0.002}, 60}, {{90, 0, 0}, 3000}, {{0, 50, 0}, 3000}},
+      {{{10, 0, 0}, 3000}, {{0, 0.002, 0}, 60}, {{90, 0, 0}, 3000}, {{0, 50, 0}, 3000}},
+      {{{0, 0, 3}, 600}, {{0.001, 0, 0}, 0.08}, {{0, 0, 3}, 2680}},
+      {{{0, 0, 3}, 600}, {{0.001, 0.001, 0}, 0.0035}, {{0, 0, 3}, 2680}},
+      {{{6.0105, 0, 0}, 10000}, {{0, 0, 0.0209}, 0.095}},
+      {{{0, 66, 0}, 10000}, {{0, -0.0117, 0.0117}, 0.127}, {{-3.6, 0, 0}, 1000}, {{0, 0, -3}, 3000}},
+  };
+  for (const auto& program : programs)
+    for (const double tolerance : {0.001, 0.005, 0.01, 0.02, 0.05}) {
+      Trial t = plain_trial(tolerance);
+      for (const Line& line : program) {
+        AxisVec way;
+        for (unsigned i = 0; i < 3; ++i) way[i] = line.way[i];
+        add_line(&t, way, line.feed);
+      }
+      t.program.end();
+      const Outcome o = run(t, ~uint64_t{0});
+      EXPECT_TRUE(o.ended && !o.alarm && o.seconds <= 1.05 * t.law_s) << about(t, o);
+      EXPECT_LE(std::max({o.velocity, o.acceleration, o.jerk}), 1.001) << about(t, o);
+    }
+}
+
+TEST(PlannedTime, NoProgramOfShortSlowLinesTakesLongerThanLineByLine) {
+  // One law in some thousands goes in phases for a while and not by the solver, which has found none there: a long soak meets such ones.
+  constexpr double kMost = 1.05, kMostInPhases = 1.15;
+  constexpr uint64_t kOneInPhasesOf = 500;
+  double slowest = 0;
+  unsigned wrong = 0;
+  uint64_t in_phases = 0;
+  const uint64_t seeds = seeds_of(200);
+  for (uint64_t seed = first_seed(); seed <= seeds && wrong < 20; ++seed) {
+    const Trial t = slow_lines(seed);
+    const Outcome o = run(t, ~uint64_t{0});
+    in_phases += o.seconds > kMost * t.law_s ? 1 : 0;
+    const double most = in_phases > seeds / kOneInPhasesOf ? kMost : kMostInPhases;
+    const bool ok = o.ended && !o.alarm && o.seconds <= most * t.law_s && o.velocity <= 1.001 && o.acceleration <= 1.001 && o.jerk <= 1.001;
+    EXPECT_TRUE(ok) << "seed " << seed << (o.alarm ? " alarm " : o.ended ? " " : " not ended ") << about(t, o);
+    wrong += ok ? 0 : 1;
+    slowest = std::max(slowest, o.seconds / t.law_s);
+  }
+  std::printf("%llu programs: %.3f of the law at most\n", static_cast<unsigned long long>(seeds), slowest);
 }
 
 void hold_anywhere(uint64_t first, bool hangs) {

@@ -28,12 +28,10 @@ ExecutorConfig rotary_config() {
 /// Shapes outlive the curves that name them.
 using Shapes = std::vector<std::unique_ptr<CurveShape>>;
 
-const AxisVec kPlus{{1, 1, 1, 1, 1, 1, 1, 1}};
-
 Curve shaped(Shapes& shapes, const ExecutorConfig& c, const MoveShape& what, const AxisVec& start, const AxisVec& end, const AxisVec& machine) {
   shapes.push_back(std::make_unique<CurveShape>());
   Curve curve;
-  make_shaped(what, PlainMove{&start, &end, nullptr, 0, 1}, kPlus, AxisVec{}, machine, c.axis_count, c.rotary, shapes.back().get(), &curve);
+  make_shaped(what, PlainMove{&start, &end, nullptr, 0, 1}, Affine{}, machine, c.axis_count, c.rotary, shapes.back().get(), &curve);
   return curve;
 }
 

@@ -54,7 +54,6 @@ class Program {
     r.segment = Segment{};
     r.segment.curve = curve;
     r.segment.feed_mm_s = feed_mm_s;
-    for (unsigned i = 0; i < kMaxAxes; ++i) r.segment.work_sign[i] = 1;
     at_ = curve.end;
     return r.segment;
   }

@@ -18,7 +18,7 @@ std::string calls(Bench& bench) {
   std::string text;
   for (unsigned i = 0; i < count; ++i) {
     EXPECT_EQ(all[i].depth, i);
-    EXPECT_EQ(all[i].system, 1);
+    EXPECT_EQ(all[i].system, 0);
     if (i != 0) text += " > ";
     if (all[i].program != 0) text += "O" + std::to_string(all[i].program) + ":";
     text += std::to_string(all[i].line);
@@ -121,6 +121,12 @@ std::string detail(const std::string& program, Bench&& bench = Bench()) {
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+TEST(AlarmDetail, NamesTheCompensationThatWasCommanded) {
+  for (const std::string code : {"G41", "G42"}) {
+    EXPECT_TRUE(says(detail("%\nG18\n" + code + " D1\nM02\n", Bench(NC_DIALECT_DGSHAPE)), code)) << code;
+  }
+}
+
 TEST(AlarmCause, TheVacantVariable) {
   const struct {
     const char *program, *alarm, *cause;
@@ -185,6 +191,20 @@ TEST(AlarmCause, CodesOfOtherControls) {
                               "o103 repeat [5]\nM30", " O 104 ENDIF\nM30", "o105 return\nM30", "o106 do\nM30", "o[#1] call\nM30"}) {
     EXPECT_TRUE(says(detail(program), "O-words of LinuxCNC")) << program << ": " << detail(program);
   }
+  // Behind blocks of the program an O begins another one; and it may stand behind other words.
+  for (const char* word : {"sub", "ENDSUB", "call", "call [1] [2]", "return", "return [#1]", "if [#1 EQ 0]", "elseif [#1 EQ 0]", "else", "endif",
+                           "while [#1 LT 3]", "endwhile", "do", "break", "continue", "repeat [5]", "endrepeat"})
+    for (const char* before : {"o100 ", "O1", "o<name> ", "O <my sub> ", "N10 o100 ", "N10 O<x> ", "G0 X1. o100 ", "X1 O<abc> ", "(o) o100 ", "/ o100 ", "/2 O<a> ", "o#1 "}) {
+      const std::string program = std::string("G90\n") + before + word + "\nM30";
+      EXPECT_TRUE(says(detail(program.c_str()), "O-words of LinuxCNC")) << program << ": " << detail(program.c_str());
+    }
+  for (const char* program : {"G1 X10. F#<feed>\nM30", "#<feed>=100\nM30", "G90\nN5 X[#<_global> + 1]\nM30", "#1=# <x>\nM30", "IF [#<a> GT 1] GOTO 5\nM30",
+                              "WHILE [#<a> LT 1] DO1\nM30", "G1 X1. (#2) Y#<y>\nM30"})
+    EXPECT_TRUE(says(detail(program), "Named parameters of LinuxCNC")) << program << ": " << detail(program);
+  EXPECT_FALSE(says(detail("G90\nX1. & (#<x>)\nM30"), "LinuxCNC"));
+  EXPECT_FALSE(says(detail("G90\nO100 (call)\nM30"), "LinuxCNC"));
+  EXPECT_FALSE(says(detail("G90\nX1. & (o100 call)\nM30"), "LinuxCNC"));
+  EXPECT_FALSE(says(detail("G90\nO100\nM30"), "LinuxCNC"));
   EXPECT_TRUE(says(detail("G90.1\nM30"), "absolute arc centres"));
   EXPECT_TRUE(says(detail("G21 G91.1\nM30"), "Leave it out."));
   EXPECT_FALSE(says(detail("G92.7\nM30"), "arc"));

@@ -2,6 +2,8 @@
 // S, T, B and M (M700 9, 10.1, 10.2, 11.1; DGSHAPE 2), and the stops.
 #include <gtest/gtest.h>
 
+#include <bit>
+
 #include "support/drive.hpp"
 
 namespace nc::test {
@@ -99,7 +101,7 @@ std::string speeds(const Outcome& run) {
     const nc_action& a = step.item.u.action;
     std::string word;
     if (a.kind == NC_ACTION_S) word = "S" + brief(a.value);
-    if (a.kind == NC_ACTION_CONTROL && a.index == NC_CONTROL_SURFACE_SPEED) word = a.bits == 0 ? "off" : "axis" + std::to_string(a.bits) + ":" + brief(a.value);
+    if (a.kind == NC_ACTION_CONTROL && a.index == NC_CONTROL_SURFACE_SPEED) word = a.bits == 0 ? "off" : "axis" + std::to_string(std::countr_zero(a.bits) + 1) + ":" + brief(a.value);
     if (a.kind == NC_ACTION_CONTROL && a.index == NC_CONTROL_SPINDLE_CLAMP)
       word = clamp_text(a);
     if (!word.empty()) all += (all.empty() ? "" : " ") + word;

@@ -102,15 +102,15 @@ TEST(Company, AlarmCells) {
 }
 
 TEST(Company, BarredByModes) {  // 6.12, 6.14 (a), 13.3.3
-  EXPECT_EQ(barred(kInPolarCommand, 51), Condition::illegal_g);
-  EXPECT_EQ(barred(kInPolarCommand, 50), Condition::none);
-  EXPECT_EQ(barred(kInSpaceArc, 50), Condition::illegal_g);
-  EXPECT_EQ(barred(kInSpaceArc, 670), Condition::cancel_without_call);
-  EXPECT_EQ(barred(kInSpaceArc, 800), Condition::none);
-  EXPECT_EQ(barred(kInSpaceArc, 860), Condition::space_arc_mode);
-  EXPECT_EQ(barred(kInFigure, 690), Condition::rotation_in_figure);
-  EXPECT_EQ(barred(kInFigure | kInSpaceArc, 451), Condition::none);
-  EXPECT_EQ(barred(0, 680), Condition::none);
+  EXPECT_EQ(barred(kInPolarCommand, Function::high_speed_accuracy), Condition::illegal_g);
+  EXPECT_EQ(barred(kInPolarCommand, Function::high_speed), Condition::none);
+  EXPECT_EQ(barred(kInSpaceArc, Function::high_speed), Condition::illegal_g);
+  EXPECT_EQ(barred(kInSpaceArc, Function::macro_modal_off), Condition::cancel_without_call);
+  EXPECT_EQ(barred(kInSpaceArc, Function::cycle_off), Condition::none);
+  EXPECT_EQ(barred(kInSpaceArc, Function::cycle_bore_stop), Condition::space_arc_mode);
+  EXPECT_EQ(barred(kInFigure, Function::rotation_off), Condition::rotation_in_figure);
+  EXPECT_EQ(barred(kInFigure | kInSpaceArc, Function::linear), Condition::none);
+  EXPECT_EQ(barred(0, Function::rotation_on), Condition::none);
 }
 
 }  // namespace

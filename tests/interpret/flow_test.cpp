@@ -587,7 +587,7 @@ TEST(CommonVariables, OfSeveralPartSystems) {  // 13.4, #1303 #1304
   std::string all;
   uint32_t number = 0;
   double v = 0;
-  for (; nc_common_next(bench.control(), 0, number, &number, &v) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(v) + " ";
+  for (; nc_variable_next(bench.control(), 0, number, &number, &v) == NC_OK; ++number) all += std::to_string(number) + "=" + brief(v) + " ";
   EXPECT_EQ(all, "100=5 150=6 500=7 600=8 ");
 }
 

@@ -33,7 +33,7 @@ Outcome interrupted(Bench& bench, const std::string& text, unsigned line, const 
   nc_alarm alarm{};
   if (nc_alarm_get(bench.control(), 0, &alarm) == NC_OK) run.alarm = alarm.code, run.alarm_line = alarm.source.line;
   double value = 0;
-  for (uint32_t n = 0; nc_common_next(bench.control(), 0, n, &n, &value) == NC_OK; ++n) run.vars[n] = value;
+  for (uint32_t n = 0; nc_variable_next(bench.control(), 0, n, &n, &value) == NC_OK; ++n) run.vars[n] = value;
   return run;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the interpreter's state outlives an interrupt program (M700 13.12) and the way from one block of MDI to the next (5.1): every mode
-// that a program can set is in force as it says, whatever an interrupt program has done to it.
+// What of the interpreter's state outlives an interrupt program (M700 13.12), a call (13.3.1), the way from one block of MDI to the next (5.1), an end
+// and a reset (3.7, 9.1): every mode that a program can set is in force as it says. The groups behind that: lifetimes_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "support/pull.hpp"
 
@@ -28,11 +29,14 @@ struct Result {
   std::string alarm, events;
 };
 
+std::string called;  ///< O2000
+
 /// Runs the text; where `interrupt` is given that program runs behind the block of line 2, without a move of its own.
 Result run(const std::string& text, const char* interrupt, bool type_2) {
   const std::unique_ptr<Bench> bench = machine();
   bench->param("1113", type_2 ? "1" : "0");
   bench->add("O1000", std::string(interrupt == nullptr ? "" : interrupt) + "\nM99\n");
+  if (!called.empty()) bench->add("O2000", called);
   bench->start("M96 P1000\n" + text + "\nM30");
   Outcome all;
   all.axis_count = 4;
@@ -74,6 +78,7 @@ struct Case {
 
 const Case kCases[] = {
     {"plane", "G1 G17 X0 F100 (HERE)\nG2 X30. R15.", "G18"},
+    {"plane of a wrong radius", "G1 G17 X0 F100 (HERE)\nG2 X30. R5.", "G18"},
     {"length", "G43 H2 Z5. G0 (HERE)\nZ1.", "G43 H5"},
     {"length off", "G43 H2 Z5. G0 (HERE)\nZ1.", "G49"},
     {"work system", "G54 G0 X1. (HERE)\nX2.", "G55"},
@@ -160,6 +165,71 @@ TEST_P(KeptState, BlocksOfMdiGoOnFromEachOther) {
   }
   EXPECT_EQ(path, whole.path);
   EXPECT_EQ(alarm, whole.alarm);
+}
+
+/// M700 13.3.1, 13.5.1: the modes of a program that is called are those of the one that calls it, there and back.
+TEST_P(KeptState, ACalledProgramChangesTheModesOfItsCaller) {
+  if (std::string(GetParam().what) == "parameter input") return;  // what stands between G10 L70 and G11 is no call
+  const std::string text = GetParam().text;
+  const size_t end = text.find('\n', text.find("(HERE)"));
+  const auto with = [&](const std::string& between) { return run(text.substr(0, end) + "\n" + between + text.substr(end), nullptr, false); };
+  const Result in_line = with(GetParam().interrupt);
+  for (const char* call : {"M98 P2000", "G65 P2000"}) {
+    called = std::string(GetParam().interrupt) + "\nM99\n";
+    const Result result = with(call);
+    called.clear();
+    EXPECT_EQ(result.alarm, in_line.alarm) << call;
+    EXPECT_EQ(result.path, in_line.path) << call;
+    EXPECT_EQ(result.events, in_line.events) << call;
+  }
+}
+
+/// What a program finds that moves in every way that needs a mode.
+Outcome found_by_the_next(Bench& bench) {
+  Outcome next = bench.run("G0 X1. Y2. Z3.\nG1 X5. F100\nG2 X7. Y4. R10.\nG1 X8.\nG0 Z1.\nX2.\nM30");
+  next.axis_count = 4;
+  return next;
+}
+
+void expect_same_start(Outcome& next, Outcome& first) {
+  EXPECT_EQ(first.alarm, "");
+  EXPECT_EQ(next.alarm, "");
+  EXPECT_EQ(next.path(), first.path());
+  const nc_modal a = next.last_modal(), b = first.last_modal();
+  EXPECT_EQ(std::memcmp(a.code, b.code, sizeof a.code), 0);
+  EXPECT_EQ(a.feed, b.feed);
+  EXPECT_EQ(a.d, b.d);
+  EXPECT_EQ(a.h, b.h);
+  EXPECT_EQ(a.tool, b.tool);
+}
+
+/// M700 3.7, 9.1: behind M30, and behind a reset in the middle, a program begins as behind power on.
+TEST_P(KeptState, AnEndAndAResetLeaveTheModesOfPowerOn) {
+  const std::string text = GetParam().text;
+  const std::string part = text.substr(0, text.find('\n', text.find("(HERE)"))) + "\n";
+  for (const char* close : {"M30", "M2", "reset"}) {
+    const std::unique_ptr<Bench> bench = machine();
+    const bool reset = std::string(close) == "reset";
+    nc_axes at{};
+    if (part.find("G10 L70") != std::string::npos && !reset) continue;  // M30 would be a parameter
+    if (reset) {
+      bench->start(part + "G4 X1.\nM30");
+      Step step;
+      for (bool dwell = false; !dwell && bench->pull(&step) == NC_OK;) dwell = step.item.kind == NC_ITEM_GATE;
+      at = step.machine;
+      ASSERT_EQ(nc_reset(bench->control(), 0), NC_OK);
+    } else {
+      const Outcome ended = bench->run(part + close);
+      EXPECT_EQ(ended.alarm, "");
+      at = ended.steps.back().machine;
+    }
+    Outcome next = found_by_the_next(*bench);
+    const std::unique_ptr<Bench> fresh = machine();
+    fresh->at(at.v[0], at.v[1], at.v[2], at.v[3]);
+    Outcome first = found_by_the_next(*fresh);
+    SCOPED_TRACE(close);
+    expect_same_start(next, first);
+  }
 }
 
 TEST(KeptStateOfTheClocks, AnotherStartDoesNotSetThemBack) {  // M700 13.5.5: the program's own date and counters

@@ -2,6 +2,13 @@
 // Figure rotation (M700 13.3.3), mirror image by program (13.6), parameters by program (13.11).
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
 #include "support/pull.hpp"
 
 namespace nc::test {
@@ -119,6 +126,13 @@ TEST(FigureRotation, WhatTheCallerScalesAndMirrorsIsCentreAndRadius) {  // 13.19
   bench.add("O1", "G51 X20. Y0 P0.5\nG1 X24. Y3.\nG50\nX0 Y20.\nM99\n");
   EXPECT_EQ(bench.at(-20, 0, 0).run("G51.1 X0\nF100\nM98 P1 L2 I-20.\nM30").path(),
             (Path{"line -22 1.5 0 F100", "line 0 20 0 F100", "line 1.5 22 0 F100", "line 20 0 0 F100"}));
+}
+
+TEST(FigureRotation, AHoleIsAsDeepAsALineGoes) {  // mirrored in the shape, scaled behind it, about different centres
+  Bench bench;
+  bench.add("O1", "G51.1 Z3.\nG1 Z-4. F100\nZ9.\nG99 G81 X5. Y5. Z-4. R-1.\nG80\nG50.1\nM99\n");
+  EXPECT_EQ(bench.at(10, 0, 0).run("G90 G51 X0 Y0 Z0 P2.\nM98 P1 I-5.\nG50\nM30").path(),
+            (Path{"line 10 0 20 F100", "line 10 0 -6 F100", "rapid 10 10 -6", "rapid 10 10 14", "line 10 10 20 F100", "rapid 10 10 14"}));
 }
 
 TEST(FigureRotation, WhatTheSubProgramLeavesInForceIsTheCallers) {
@@ -333,6 +347,134 @@ TEST(SwitchMirror, CompensatesOnTheOtherSide) {
   EXPECT_EQ(bench.run("G1 G41 D1 X20. Y0 F100\nX20. Y30.\nX40.\nG40 X50.\nM30").path().at(1), "line -18 32 0 F100");
   nc_switches_set(bench.control(), 0, 0, 0);
   EXPECT_EQ(bench.at(0, 0, 0).run("G1 G41 D1 X20. Y0 F100\nX20. Y30.\nX40.\nG40 X50.\nM30").path().at(1), "line 18 32 0 F100");
+}
+
+// ---- all of them ----------------------------------------------------------------------------------------------------------------
+
+/// A program with any of scaling, rotation, mirror by program and by switch, and rotation by parameter, and its end points by the
+/// formulas of the manual one behind the other.
+class Maps {
+ public:
+  explicit Maps(uint32_t seed) : random_(seed) {
+    for (double& value : zero) value = number(50);
+    for (double& value : stood) value = number(50);
+    for (double& value : mirror_) value = number(20);
+    for (double& value : scale_) value = number(20);
+    for (double& value : rotate_) value = number(20);
+    for (double& value : turn_) value = number(100);
+    factor = coin() ? 0.25 + 0.125 * static_cast<double>(random_() % 30) : 1;
+    scales = factor != 1;
+    angle_ = coin() ? number(180) : 0;
+    turn_angle_ = coin() ? number(180) : 0;
+    for (bool& on : mirrored_) on = coin();
+    for (unsigned i = 0; i < 3; ++i) switched |= coin() ? 1u << i : 0u;
+  }
+  double number(double most) { return std::round(std::uniform_real_distribution<double>(-most, most)(random_) * 1000) / 1000; }
+
+  std::string head() const {
+    std::string text = "G90 G17\n";
+    if (turn_angle_ != 0) text += "G10 K" + word(turn_angle_) + "\n";
+    if (scales) text += "G51 X" + word(scale_[0]) + " Y" + word(scale_[1]) + " Z" + word(scale_[2]) + " P" + word(factor) + "\n";
+    if (angle_ != 0) text += "G68 X" + word(rotate_[0]) + " Y" + word(rotate_[1]) + " R" + word(angle_) + "\n";
+    for (unsigned i = 0; i < 3; ++i)
+      if (mirrored_[i]) text += std::string("G51.1 ") + "XYZ"[i] + word(mirror_[i]) + "\n";
+    return text;
+  }
+  void set_up(Bench& bench) const {
+    bench.at(stood[0], stood[1], stood[2]).work_offset(1, {zero[0], zero[1], zero[2]});
+    bench.param("8623", word(turn_[0]).c_str()).param("8624", word(turn_[1]).c_str());
+    nc_switches_set(bench.control(), 0, 0, static_cast<uint8_t>(switched));
+  }
+  static std::string word(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3f", value);
+    return text;
+  }
+  /// Machine coordinates of a programmed point.
+  std::array<double, 3> machine(std::array<double, 3> p) const {
+    for (unsigned i = 0; scales && i < 3; ++i) p[i] = scale_[i] + factor * (p[i] - scale_[i]);
+    turn(p, angle_, rotate_[0], rotate_[1]);
+    for (unsigned i = 0; i < 3; ++i) {
+      if (mirrored_[i]) p[i] = 2 * mirror_[i] - p[i];
+      if ((switched >> i & 1) != 0) p[i] = 2 * (stood[i] - zero[i]) - p[i];
+    }
+    turn(p, turn_angle_, turn_[0] - zero[0], turn_[1] - zero[1]);
+    for (unsigned i = 0; i < 3; ++i) p[i] += zero[i];
+    return p;
+  }
+  bool turned_over() const { return (mirrored_[0] != ((switched & 1) != 0)) != (mirrored_[1] != ((switched & 2) != 0)); }
+
+  double zero[3], stood[3], factor = 1;
+  bool scales = false;
+  unsigned switched = 0;
+
+ private:
+  bool coin() { return random_() % 2 == 0; }
+  static void turn(std::array<double, 3>& p, double deg, double h, double v) {
+    const double c = std::cos(deg * std::numbers::pi / 180), s = std::sin(deg * std::numbers::pi / 180), x = p[0] - h, y = p[1] - v;
+    p[0] = h + c * x - s * y;
+    p[1] = v + s * x + c * y;
+  }
+  std::mt19937 random_;
+  double mirror_[3], scale_[3], rotate_[2], turn_[2], angle_ = 0, turn_angle_ = 0;
+  bool mirrored_[3];
+};
+
+TEST(EveryMap, OneBehindTheOtherAsTheManualHasThem) {  // 13.19, 13.20, 13.6, 13.21
+  for (uint32_t seed = 0; seed < 400; ++seed) {
+    Maps maps(seed);
+    Bench bench;
+    maps.set_up(bench);
+    const double x = maps.number(100), y = maps.number(100), z = maps.number(30), dx = maps.number(50), i = maps.number(20), j = 3 + std::fabs(maps.number(20));
+    const auto word = Maps::word;
+    const std::string text = maps.head() + "G1 X" + word(x) + " Y" + word(y) + " Z" + word(z) + " F100\nG91 X" + word(dx) + "\nG3 I" + word(i) + " J" + word(j) +
+                             "\nG90 G1 Y" + word(y + 1) + "\nM30";
+    const Outcome run = bench.run(text);
+    ASSERT_EQ(run.alarm, "") << text;
+    const std::vector<nc_move> moves = run.moves();
+    ASSERT_EQ(moves.size(), 4u) << text;
+    const std::array<double, 3> ends[] = {{x, y, z}, {x + dx, y, z}, {x + dx, y, z}, {x + dx, y + 1, z}};
+    for (unsigned n = 0; n < 4; ++n) {
+      const std::array<double, 3> wanted = maps.machine(ends[n]);
+      for (unsigned a = 0; a < 3; ++a) EXPECT_NEAR(moves[n].machine.v[a], wanted[a], 1e-9) << text << " move " << n << " axis " << a;
+    }
+    const std::array<double, 3> center = maps.machine({x + dx + i, y + j, z});
+    EXPECT_NEAR(moves[2].machine_center[0], center[0], 1e-9) << text;
+    EXPECT_NEAR(moves[2].machine_center[1], center[1], 1e-9) << text;
+    EXPECT_NEAR(moves[2].radius, maps.factor * std::hypot(i, j), 1e-9) << text;
+    EXPECT_EQ(moves[2].ccw, !maps.turned_over()) << text;
+  }
+}
+
+TEST(EveryMap, CompensatesOnTheSideThatTheMirrorsLeave) {
+  for (uint32_t seed = 0; seed < 60; ++seed) {
+    Maps maps(seed);
+    Bench bench;
+    maps.set_up(bench);
+    bench.tool(1, 1);
+    const Outcome run = bench.run(maps.head() + "G0 X0 Y0 Z0\nG1 G41 D1 X10. F100\nX40.\nY30.\nG40 X0\nM30");
+    ASSERT_EQ(run.alarm, "") << maps.head();
+    // Left of X40. as it is programmed lies its Y+, wherever the maps lead that: a radius of the tool away from the corner, which is an inner one.
+    const std::vector<nc_move> moves = run.moves();
+    ASSERT_GE(moves.size(), 4u) << maps.head();
+    const double r = 1 / maps.factor;  // the radius is not scaled
+    const std::array<double, 3> wanted = maps.machine({40 - r, r, 0});
+    for (unsigned a = 0; a < 3; ++a) EXPECT_NEAR(moves[2].machine.v[a], wanted[a], 1e-9) << maps.head() << " axis " << a;
+  }
+}
+
+TEST(EveryMap, QuartersAreExact) {
+  const auto exact = [](const std::string& text, double x, double y) {
+    const std::vector<nc_move> moves = m700(text + "\nM30").moves();
+    ASSERT_FALSE(moves.empty()) << text;
+    EXPECT_EQ(moves.back().machine.v[0], x) << text;
+    EXPECT_EQ(moves.back().machine.v[1], y) << text;
+  };
+  exact("G68 X0 Y0 R90.\nG0 X12.345 Y6.789", -6.789, 12.345);
+  exact("G68 X0 Y0 R180.\nG0 X12.345 Y6.789", -12.345, -6.789);
+  exact("G68 X0 Y0 R-90.\nG0 X12.345 Y6.789", 6.789, -12.345);
+  exact("G10 K270.\nG0 X12.345 Y6.789", 6.789, -12.345);
+  exact("G10 K90.\nG68 X0 Y0 R-90.\nG0 X12.345 Y6.789", 12.345, 6.789);
 }
 
 }  // namespace

@@ -23,6 +23,12 @@ struct Bank {
 constexpr Bank kInputs[] = {{1032, 1000}, {1033, 1200}, {1034, 1232}, {1035, 1264}};
 constexpr Bank kOutputs[] = {{1132, 1100}, {1133, 1300}, {1134, 1332}, {1135, 1364}};
 
+uint32_t output_of(Bench& bench, unsigned word) {
+  uint32_t bits = ~0u;
+  EXPECT_EQ(nc_interface_output_get(bench.control(), 0, word, &bits), NC_OK);
+  return bits;
+}
+
 TEST(MacroInterface, EveryInputBitAndWord) {
   for (unsigned w = 0; w < 4; ++w) {
     for (unsigned bit = 0; bit < 32; ++bit) {
@@ -78,7 +84,7 @@ TEST(MacroInterface, EveryOutputBitReadsBackAndIsOneOfTheWord) {
       EXPECT_EQ(actions[0].u.action.index, w);
       EXPECT_EQ(actions[0].u.action.mask, 1u << bit);
       EXPECT_EQ(actions[0].u.action.bits, 1u << bit);
-      EXPECT_EQ(nc_interface_output(bench.control(), 0, w), 1u << bit);
+      EXPECT_EQ(output_of(bench, w), 1u << bit);
     }
   }
 }
@@ -90,8 +96,8 @@ TEST(MacroInterface, WordsChangeAllBitsAtOnce) {
   EXPECT_EQ(run.var(101), 4294967295.0);
   EXPECT_EQ(run.var(102), 1);
   EXPECT_EQ(run.var(103), 1);
-  EXPECT_EQ(nc_interface_output(bench.control(), 0, 0), 0xfffffffeu);
-  EXPECT_EQ(nc_interface_output(bench.control(), 0, 2), 5u);
+  EXPECT_EQ(output_of(bench, 0), 0xfffffffeu);
+  EXPECT_EQ(output_of(bench, 2), 5u);
 }
 
 TEST(MacroInterface, WhatABitTakes) {  // vacant = 0, any other number than 0 = 1
@@ -104,7 +110,18 @@ TEST(MacroInterface, OutputsOutliveTheProgram) {
   bench.run("#1105=1\nM30");
   EXPECT_EQ(bench.run("#100=#1105\nM30").var(100), 1);
   nc_reset(bench.control(), 0);
-  EXPECT_EQ(nc_interface_output(bench.control(), 0, 0), 32u);
+  EXPECT_EQ(output_of(bench, 0), 32u);
+}
+
+TEST(MacroInterface, OutputsBeginAsTheMachineHasThem) {
+  Bench bench;
+  ASSERT_EQ(nc_interface_output_set(bench.control(), 0, 0, 0b0110, 0b1111), NC_OK);
+  ASSERT_EQ(nc_interface_output_set(bench.control(), 0, 3, ~0u, 0xfffffffe), NC_OK);
+  EXPECT_EQ(output_of(bench, 0), 0b0110u) << "only what the mask names";
+  const Outcome run = bench.run("#100=#1100+#1101*10\n#103=#1135\n#1101=0\n#102=#1132\nM30");
+  EXPECT_EQ(run.var(100), 10);
+  EXPECT_EQ(run.var(103), 4294967294.0);
+  EXPECT_EQ(run.var(102), 0b0100);
 }
 
 TEST(MacroInterface, AnOutputOfABlockThatAlarmsIsNotSet) {
@@ -112,7 +129,7 @@ TEST(MacroInterface, AnOutputOfABlockThatAlarmsIsNotSet) {
   const Outcome run = bench.run("#1100=1 #101=1/0\nM30");
   EXPECT_EQ(run.alarm, "P283");
   EXPECT_TRUE(run.of(NC_ITEM_ACTION).empty());
-  EXPECT_EQ(nc_interface_output(bench.control(), 0, 0), 0u);
+  EXPECT_EQ(output_of(bench, 0), 0u);
 }
 
 TEST(MacroInterface, WrongUses) {
@@ -234,7 +251,7 @@ TEST(SystemVariables, TheTableSaysWhatIsTrue) {
   nc_system_variable row{};
   uint32_t last = 0;
   unsigned index = 0;
-  for (; nc_system_variable_get(index, &row) == NC_OK; ++index) {
+  for (; nc_system_variable_row(NC_DIALECT_M700, index, &row) == NC_OK; ++index) {
     EXPECT_GT(row.first, last) << row.name;
     EXPECT_LE(row.first, row.last);
     last = row.last;
@@ -253,7 +270,7 @@ TEST(SystemVariables, TheTableSaysWhatIsTrue) {
     EXPECT_EQ(written == "P243", !row.writable) << row.first << ' ' << written;
   }
   EXPECT_GT(index, 40u);
-  EXPECT_EQ(nc_system_variable_get(index, &row), NC_E_NOT_FOUND);
+  EXPECT_EQ(nc_system_variable_row(NC_DIALECT_M700, index, &row), NC_E_NOT_FOUND);
 }
 
 TEST(SystemVariables, ParametersByNumber) {  // 10.16
@@ -464,7 +481,7 @@ TEST(CommonVariables, FurtherRangesAreSharedByAllPartSystems) {
   ASSERT_EQ(nc_variable_get(bench.control(), 1, 400, &value, &vacant), NC_OK);
   EXPECT_EQ(value, 7);
   uint32_t number = 0;
-  ASSERT_EQ(nc_common_next(bench.control(), 1, 0, &number, &value), NC_OK);
+  ASSERT_EQ(nc_variable_next(bench.control(), 1, 0, &number, &value), NC_OK);
   EXPECT_EQ(number, 400u);
 }
 

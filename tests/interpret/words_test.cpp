@@ -191,7 +191,7 @@ TEST(Words, UnknownOnesAreAlarms) {
   EXPECT_EQ(m700("G0 X1. $\nM30").alarm, "P32");
   EXPECT_EQ(m700("G0 A1.\nM30").alarm, "P130");   // another second auxiliary address than the one in use
   EXPECT_EQ(m700("G0 U1.\nM30").alarm, "P11");
-  EXPECT_EQ(m700("G0 X1. ,C5.\nM30").alarm, "P380");
+  EXPECT_EQ(m700("G0 X1. ,C5.\nM30").alarm, "P385");
   EXPECT_EQ(m700("G0 X1. ,A5.\nM30").alarm, "P390");
 }
 

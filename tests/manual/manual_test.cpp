@@ -71,6 +71,28 @@ TEST(Manual, AxisOutsideItsLimitsMayOnlyComeBack) {
   EXPECT_LT(m.out.command.v[1], 119);
 }
 
+/// Motion by hand shows in the state, be it as short as a detent of a handle that an axis goes within one cycle: whoever watches the state
+/// must not see an axis move in IDLE.
+TEST(Manual, EveryCycleInWhichAnAxisMovesByHandSaysSo) {
+  for (const uint8_t kind : {uint8_t{NC_MANUAL_JOG}, uint8_t{NC_MANUAL_STEP}, uint8_t{NC_MANUAL_HANDLE}, uint8_t{NC_MANUAL_REFERENCE}}) {
+    for (const double distance : {0.0005, 0.001, 0.02, 0.7}) {
+      SCOPED_TRACE(std::to_string(kind) + " " + std::to_string(distance));
+      ExecutorConfig c = manual_config();
+      c.reference[0] = distance;
+      Machine m(c);
+      unsigned moved = 0;
+      for (int n = 0; n < 400; ++n) {
+        m.in.manual[0] = n % 40 < 2 ? nc_manual{kind, kind == NC_MANUAL_JOG ? distance * 500 : 0, n % 40 == 0 ? distance : 0} : nc_manual{};
+        m.cycle();
+        const bool moves = m.out.velocity.v[0] != 0;
+        moved += moves;
+        ASSERT_EQ(m.out.state, moves ? NC_STATE_MANUAL : NC_STATE_IDLE) << "in cycle " << n;
+      }
+      EXPECT_GT(moved, 0u);
+    }
+  }
+}
+
 TEST(Manual, StepGoesOncePerEdge) {
   Machine m(manual_config());
   m.in.manual[0] = {NC_MANUAL_STEP, 0, 0.1};
@@ -317,6 +339,58 @@ TEST(ManualTurning, TheShorterWayToTheReferencePosition) {
     EXPECT_EQ(m.out.command.v[0], short_cut ? 1080 + 30 : 720 + 30);
     EXPECT_EQ(m.out.at_reference & 1u, 1u);
     EXPECT_TRUE(m.still());
+  }
+}
+
+/// A jog that is held while a block stop comes, or a program ends: the path comes to rest somewhere within a cycle, and what is left of that
+/// cycle is rest, too. An axis that braked in it and set off by hand would use its acceleration twice.
+TEST(Manual, AHeldJogBeginsACycleBehindTheStop) {
+  for (const bool optimal : {false, true}) {
+    for (const bool stops : {false, true}) {
+      for (unsigned n = 0; n < 40; ++n) {
+        SCOPED_TRACE(std::string(optimal ? "optimal " : "trapezoid ") + (stops ? "block stop " : "end ") + std::to_string(n));
+        ExecutorConfig config = manual_config();
+        config.optimal = optimal;
+        if (optimal)
+          for (unsigned i = 0; i < 3; ++i) config.limits[i].jerk = 200000;
+        Machine m(config);
+        Program p(config);
+        AxisVec to;
+        to[0] = 3 + 0.0037 * n;
+        p.line(to, 100);
+        p.mark();
+        if (stops) {
+          to[0] = 20;
+          p.line(to, 100);
+          p.mark();
+        }
+        p.end();
+        m.in.single_block = stops;
+        m.in.manual[0] = jog(n % 2 == 0 ? -200 : 200);
+        m.in.manual[1] = jog(50);
+        m.feed(p);
+        m.start();
+        const double end = 3 + 0.0037 * n;
+        unsigned moved = 0, allowed = 0;
+        for (unsigned k = 1; k < 300 && m.out.state != NC_STATE_MANUAL; ++k) {
+          const double before = m.out.command.v[0];
+          m.feed(p);
+          m.cycle();
+          if (allowed == 0 && !m.out.manual_allowed && m.out.command.v[0] != before) moved = k;
+          if (allowed == 0 && m.out.manual_allowed) allowed = k;
+          if (m.out.state == NC_STATE_MANUAL) {
+            EXPECT_NEAR(before, end, 1e-12);
+          } else {
+            EXPECT_EQ(m.out.command.v[1], 0);
+          }
+        }
+        ASSERT_EQ(m.out.state, NC_STATE_MANUAL);
+        EXPECT_GT(moved, 0u);
+        EXPECT_EQ(allowed, moved + 1);
+        run(m, 50);
+        EXPECT_LE(m.checker.worst_acceleration, 1.001) << m.checker.report();
+      }
+    }
   }
 }
 

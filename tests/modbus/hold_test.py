@@ -55,6 +55,9 @@ modbus = { link = "io", table = "coil", address = 2, on_stop = 1 }
 program = "own.il"
 """
 # The clamp holds itself until it is opened; lamp and vent are on while it is closed.
+# The same outputs, worked by a program: it copies what it reads of the clamp to the lamp, and opens the clamp.
+MACRO = MACHINE.replace('[ladder]\nprogram = "own.il"\n', '[macro_interface]\n"#1100" = "clamp"\n"#1101" = "lamp"\n')
+BLOCKS = "#1101=#1100 ; G4 X0.3 ; #1100=0 ; G4 X0.3"
 LADDER = "LD close\nOR clamp\nANI open\nOUT clamp\nLD clamp\nOUT lamp\nLD SM400\nRST vent\nLD nc.m_strobe\nOUT plc.fin2\nEND\n"
 
 
@@ -64,6 +67,7 @@ class Device:
     def __init__(self):
         self.coils, self.inputs = [0] * 3, [0, 0]
         self.clamp_writes = []
+        self.lamp_was_on = False
         self.lock = threading.Lock()
         self.listener = socket.create_server(("127.0.0.1", 0))
         self.port = self.listener.getsockname()[1]
@@ -95,6 +99,7 @@ class Device:
 
     def put(self, first, values):
         self.coils[first:first + len(values)] = values
+        self.lamp_was_on |= self.coils[1] == 1
         if first == 0:
             self.clamp_writes.append(values[0])
 
@@ -135,7 +140,8 @@ def main():
         return running[-1]
 
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in (("machine.toml", MACHINE.replace("PORT", str(device.port))), ("own.il", LADDER)):
+        for name, text in (("machine.toml", MACHINE.replace("PORT", str(device.port))), ("own.il", LADDER),
+                           ("macro.toml", MACRO.replace("PORT", str(device.port)))):
             with open(os.path.join(folder, name), "w", encoding="ascii") as file:
                 file.write(text)
         try:
@@ -162,6 +168,11 @@ def main():
             control.send_signal(signal.SIGTERM)
             assert control.wait(PATIENCE) == 0
             assert device.coils == [0, 0, 1], device.coils
+            device.coils, device.lamp_was_on = [1, 0, 0], False
+            subprocess.run([NCRTD, "--machine", os.path.join(folder, "macro.toml"), "mdi", BLOCKS], stdout=subprocess.DEVNULL, timeout=PATIENCE, check=True)
+            assert device.lamp_was_on, "a program reads the clamp as it was found"
+            assert device.coils[0] == 0, "and opens it"
+            print("ok: #1100 reads the clamp as it was found, and #1100=0 opens it")
         finally:
             for child in running:
                 if child.poll() is None:

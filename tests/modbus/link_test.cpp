@@ -335,6 +335,53 @@ TEST(ModbusLink, OutputsThatCannotBeReadBackBeginAsOthersAndThatIsSaid) {
   EXPECT_EQ(server.holding(1, 20), 70);
 }
 
+// A partner with this exception instead of the first `times` answers to "read coils".
+void refuse_reading_coils(LoopbackServer* server, std::uint8_t exception, unsigned times, std::atomic<unsigned>* openings) {
+  server->set_fault([=, left = times](const Bytes& request, Answer right) mutable {
+    if (request[7] == 5 && request[9] == 10 && request[10] == 0) ++*openings;
+    if (request[7] == 15 && request[9] == 10 && (request[13] & 1) == 0) ++*openings;
+    if (request[7] != 1 || left == 0) return right;
+    --left;
+    right.bytes.resize(9);
+    right.bytes[5] = 3;
+    right.bytes[7] = 0x81;
+    right.bytes[8] = exception;
+    return right;
+  });
+}
+
+// A station that has just got power is busy, or its gateway does not reach it yet: that passes, and says nothing of the clamp.
+TEST(ModbusLink, AnExceptionThatPassesDoesNotOpenWhatHolds) {
+  for (const std::uint8_t exception : {3, 4, 5, 6, 7, 8, 10, 11}) {
+    LoopbackServer server;
+    HoldRig::fill(&server, 1, 70);
+    std::atomic<unsigned> openings{0};
+    refuse_reading_coils(&server, exception, 2, &openings);
+    HoldRig rig;
+    rig.start(server.port());
+    EXPECT_TRUE(rig.until([&] { return rig.good(rig.clamp); })) << int{exception};
+    EXPECT_EQ(rig.value(rig.clamp), 1u) << int{exception};
+    EXPECT_EQ(openings, 0u) << int{exception};
+    EXPECT_NE(rig.log().find("io: coil 10 unit 1, function 1: "), std::string::npos) << rig.log();
+    EXPECT_NE(rig.log().find("io: again good: coil 10 unit 1"), std::string::npos) << rig.log();
+    EXPECT_EQ(rig.log().find("initial values"), std::string::npos) << rig.log();
+  }
+}
+
+TEST(ModbusLink, WhatTheControlWantsDoesNotWaitForAReadThatNeverSucceeds) {
+  LoopbackServer server;
+  HoldRig::fill(&server, 0, 70);
+  std::atomic<unsigned> openings{0};
+  refuse_reading_coils(&server, 4, ~0u, &openings);
+  HoldRig rig;
+  rig.start(server.port());
+  ASSERT_TRUE(rig.until([&] { return rig.log().find("coil 10 unit 1, function 1: ") != std::string::npos; }));
+  EXPECT_FALSE(rig.good(rig.clamp));
+  rig.image.value[rig.clamp] = 1;
+  EXPECT_TRUE(rig.until([&] { return server.coil(1, 10) == 1 && rig.good(rig.clamp); }));
+  EXPECT_EQ(openings, 0u);
+}
+
 TEST(ModbusLink, StopEndsWithAPartnerThatIsSilent) {
   LoopbackServer server;
   LossRig::fill(&server);

@@ -4,8 +4,9 @@
 // dispatch), while the flag of the scan is up.
 #include "modbus/link_rig.hpp"
 #include "runtime/rt_scope.hpp"
+#include "runtime/sanitizer.hpp"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(NC_UNDER_SANITIZER)
 
 TEST(ModbusPromise, NeedsTheOrdinaryAllocator) {
   GTEST_SKIP() << "a sanitizer has replaced the allocator";

@@ -2,124 +2,14 @@
 # ncrtd with three Modbus links while a program runs: two servers made of pymodbus (an independent implementation) and
 # one that answers wrongly on purpose. The program copies what it reads (#1000...) to outputs (#1100...) that stand on
 # the second server, the panel: there the test sees what the program sees. Loopback only.
-import json
 import os
-import pathlib
-import signal
 import socket
 import struct
 import subprocess
-import sys
-import tempfile
 import threading
 import time
 
-PYMODBUS = "pymodbus==3.16.1"
-SKIPPED = 77
-LONG = 60  # seconds: far more than anything here takes
-HERE = pathlib.Path(__file__).resolve().parent
-BUILD = pathlib.Path(os.environ["NC_BINARY_DIR"])
-NCRTD = BUILD / "bin" / "ncrtd"
-
-
-def skip(why):
-    print(why + ": skipped")
-    sys.exit(SKIPPED)
-
-
-def environment():
-    """The interpreter of a virtual environment that holds the pinned pymodbus; made when it is not there."""
-    folder = BUILD / "modbus-venv"
-    python = folder / "bin" / "python"
-    stamp = folder / "installed"
-    if stamp.exists() and stamp.read_text() == PYMODBUS:
-        return python
-    made = subprocess.run([sys.executable, "-m", "venv", "--clear", folder], capture_output=True, text=True)
-    if made.returncode != 0:
-        skip("no virtual environment (Debian: python3-venv): " + (made.stdout + made.stderr).strip()[-300:])
-    pip = [python, "-m", "pip", "install", "-q", "--disable-pip-version-check", "--timeout", "15", "--retries", "1"]
-    try:
-        installed = subprocess.run(pip + [PYMODBUS], capture_output=True, text=True, timeout=300)
-    except subprocess.TimeoutExpired:
-        skip("pip did not come to an end")
-    if installed.returncode != 0:
-        skip(f"pip could not install {PYMODBUS}: " + installed.stderr.strip()[-300:])
-    stamp.write_text(PYMODBUS)
-    return python
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
-def until(what, condition):
-    end = time.monotonic() + LONG
-    while time.monotonic() < end:
-        if condition():
-            return
-        time.sleep(0.01)
-    raise AssertionError("did not come about: " + what)
-
-
-class Client:
-    """Just enough of a Modbus client."""
-
-    def __init__(self, port):
-        self.socket = socket.create_connection(("127.0.0.1", port), timeout=LONG)
-        self.lock = threading.Lock()
-
-    def request(self, unit, pdu):
-        with self.lock:
-            self.socket.sendall(struct.pack(">HHHB", 1, 0, len(pdu) + 1, unit) + pdu)
-            head = self.exactly(7)
-            return self.exactly(struct.unpack(">H", head[4:6])[0] - 1)
-
-    def exactly(self, size):
-        data = b""
-        while len(data) < size:
-            piece = self.socket.recv(size - len(data))
-            assert piece, "closed"
-            data += piece
-        return data
-
-    def coils(self, first, count):
-        data = self.request(1, struct.pack(">BHH", 1, first, count))[2:]
-        return [data[i // 8] >> i % 8 & 1 for i in range(count)]
-
-    def registers(self, first, count):
-        return list(struct.unpack(f">{count}H", self.request(1, struct.pack(">BHH", 3, first, count))[2:]))
-
-    def set_coil(self, address, value):
-        assert self.request(1, struct.pack(">BHH", 5, address, 0xFF00 if value else 0))[0] == 5
-
-    def set_register(self, address, value):
-        assert self.request(1, struct.pack(">BHH", 6, address, value))[0] == 6
-
-
-class Server:
-    """pymodbus in a process of its own."""
-
-    def __init__(self, python, port, units):
-        self.port = port
-        self.process = subprocess.Popen([python, HERE / "pymodbus_server.py", str(port), json.dumps(units)],
-                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        until("server", self.listens)
-        self.client = Client(port)
-
-    def listens(self):
-        assert self.process.poll() is None, "the server ended"
-        try:
-            socket.create_connection(("127.0.0.1", self.port), timeout=1).close()
-            return True
-        except OSError:
-            return False
-
-    def kill(self):
-        self.client.socket.close()
-        self.process.kill()
-        self.process.wait()
+from pymodbus_rig import LONG, NCRTD, Server, free_port, run, until
 
 
 class FaultyServer:
@@ -341,26 +231,4 @@ def exercise(python, folder, running):
     assert "alarm" not in log, log
 
 
-def main():
-    if not os.access(NCRTD, os.X_OK):
-        skip("ncrtd is not built")
-    python = environment()
-    running = []
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        try:
-            exercise(python, folder, running)
-        except BaseException:
-            for file in ("out", "err"):
-                if (folder / file).exists():
-                    print(f"--- {file} of ncrtd\n" + (folder / file).read_text()[-3000:])
-            raise
-        finally:
-            for process in running:
-                if process.poll() is None:
-                    process.send_signal(signal.SIGKILL)
-                    process.wait()
-    print("all good")
-
-
-main()
+run(exercise)

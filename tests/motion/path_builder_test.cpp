@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "interpolate/line_program.hpp"
@@ -28,12 +29,13 @@ struct Found {
 /// The builder with a ring of records that is filled as the pieces are gone through.
 class Bench {
  public:
-  Bench(const LineProgram& lines, double tolerance, uint32_t capacity) : lines_(lines), tolerance_(tolerance) {
+  Bench(const LineProgram& lines, double tolerance, uint32_t capacity, double feed_mm_rev) : lines_(lines), tolerance_(tolerance) {
     config_ = standard_config(3);
     Program p(config_);
     for (size_t k = 1; k < lines.point.size(); ++k) p.line(lines.point[k], lines.feed[k]);
     p.end();
     all_ = std::move(p.records);
+    for (Record& r : all_) r.segment.feed_mm_rev = feed_mm_rev;
     u_.push_back(0);
     for (size_t k = 1; k < lines.point.size(); ++k) u_.push_back(u_.back() + all_[k - 1].segment.curve.length);
     ring_.resize(capacity);
@@ -53,6 +55,7 @@ class Bench {
     builder_.restart(0, 0, start, 0);
   }
 
+  const std::vector<Piece>& pieces() const { return pieces_; }
   Found run() {
     uint32_t tail = 0, head = 0;
     for (unsigned still = 0; found_.wrong.empty() && still < 3;) {
@@ -82,6 +85,7 @@ class Bench {
       gone_ = builder_.start_of(seen_) + p.length;
       found_.rests += p.rest_behind ? 1u : 0u;
       last_ = p;
+      pieces_.push_back(p);
     }
     builder_.free_pieces(seen_);
   }
@@ -124,6 +128,7 @@ class Bench {
   PathBuilder builder_;
   Found found_;
   Piece last_;
+  std::vector<Piece> pieces_;
   uint32_t seen_ = 0, before_ = 0;
   double gone_ = 0;
   size_t edge_ = 0;
@@ -132,9 +137,10 @@ class Bench {
 constexpr double kTolerance[] = {0.01, 0.001, 0.1, 1e-4, 1, 0.01, 1e-5, 0};
 constexpr uint32_t kCapacity[] = {256, 1024, 16384};
 
-std::string wrong_in(const LineProgram& lines, double tolerance, uint32_t capacity, Found* found) {
-  auto bench = std::make_unique<Bench>(lines, tolerance, capacity);
+std::string wrong_in(const LineProgram& lines, double tolerance, uint32_t capacity, Found* found, std::vector<Piece>* pieces = nullptr, double feed_mm_rev = 0) {
+  auto bench = std::make_unique<Bench>(lines, tolerance, capacity, feed_mm_rev);
   *found = bench->run();
+  if (pieces != nullptr) *pieces = bench->pieces();
   unsigned rests = 1;  // the end
   for (size_t k = 1; k + 1 < lines.point.size(); ++k) rests += lines.turn(k) > (tolerance > 0 ? 1.99 : 1e-9) ? 1u : 0u;
   if (found->wrong.empty() && found->rests > rests) return std::to_string(found->rests) + " rests instead of " + std::to_string(rests);
@@ -171,6 +177,77 @@ TEST(PathBuilder, PiecesOfRandomLinesGoOnInOneAnother) {
               static_cast<unsigned long long>(wrong), off);
 }
 
+/// Lines of a curve with the noise of what made them, of any amount beside the tolerance.
+LineProgram noisy_program(std::mt19937_64& rng) {
+  using namespace random_program_detail;
+  using std::numbers::pi;
+  LineProgram lines;
+  const double step = log_uniform(rng, 0.005, 0.5), noise = log_uniform(rng, 1e-4, 0.03), high = log_uniform(rng, 0.01, 3), wave = log_uniform(rng, 1, 30);
+  const double radius = log_uniform(rng, 2, 50), f = log_uniform(rng, 10, 250);
+  const bool round = pick(rng, 2) != 0, jumps = pick(rng, 4) == 0;
+  std::normal_distribution<double> draw(0, noise);
+  const unsigned count = 50 + static_cast<unsigned>(log_uniform(rng, 10, 1500));
+  for (unsigned n = 1; n <= count; ++n) {
+    const double u = step * n, edge = jumps && n % 97 == 0 ? 20 * noise : 0;
+    const double z = high * std::sin(2 * pi * u / wave) + draw(rng) + edge;
+    if (round) {
+      lines.to(radius * std::sin(u / radius) + draw(rng), radius * (1 - std::cos(u / radius)) + draw(rng), z, f);
+    } else {
+      lines.to(u, draw(rng), z, f);
+    }
+  }
+  return lines;
+}
+
+TEST(PathBuilder, PiecesOfNoisyLinesGoOnInOneAnother) {
+  const char* sanitizer = std::getenv("NC_SANITIZE");
+  const uint64_t from = wish("NC_FIRST", 0), seeds = wish("NC_SEEDS", sanitizer && *sanitizer ? 18 : 600);
+  uint64_t wrong = 0;
+  for (uint64_t seed = from; seed < from + seeds && wrong < 20; ++seed) {
+    std::mt19937_64 rng(seed);
+    const LineProgram lines = noisy_program(rng);
+    const double tolerance = kTolerance[seed % 8];
+    const uint32_t capacity = kCapacity[seed / 8 % 3];
+    Found found;
+    const std::string text = wrong_in(lines, tolerance, capacity, &found);
+    EXPECT_TRUE(text.empty()) << text << "; seed " << seed << ": " << lines.point.size() - 1 << " lines, tolerance " << tolerance << ", capacity " << capacity;
+    wrong += text.empty() ? 0 : 1;
+  }
+}
+
+/// Lines that follow a circle within the tolerance are gone as that circle: nothing of them is left in the curvature.
+TEST(PathBuilder, LinesOfACircleBendAsTheCircleDoes) {
+  constexpr double kRadius = 20;
+  for (const double step : {0.05, 0.5, 1.0, 1.4}) {  // at 1.4 mm they are 12 um away from it in the middle
+    LineProgram lines;
+    for (unsigned n = 1; n * step < 60; ++n) lines.to(kRadius * std::sin(n * step / kRadius), kRadius * (1 - std::cos(n * step / kRadius)), 0, 100);
+    Found found;
+    std::vector<Piece> pieces;
+    EXPECT_EQ(wrong_in(lines, 0.01, 16384, &found, &pieces), "") << step;
+    double u = 0, off = 0, bend = 0;
+    for (const Piece& p : pieces) {
+      if (u > 10 && u < 45) {
+        const CurvePoint q = evaluate(p, 0, 3);
+        off = std::max(off, std::fabs(std::hypot(q.d2[0], q.d2[1]) * kRadius - 1));
+        bend = std::max(bend, kRadius * kRadius * std::hypot(q.d3[0], q.d3[1]));
+      }
+      u += p.length;
+    }
+    EXPECT_LT(off, 0.03) << step;
+    EXPECT_LT(bend, 1.5) << step;  // 1 on the circle itself
+  }
+}
+
+/// A feed per revolution says nothing about the way in a second; knots are as far apart as those of a feed of that size by the minute.
+TEST(PathBuilder, AFeedPerRevolutionMakesNoMoreKnots) {
+  LineProgram lines;
+  for (unsigned n = 1; n <= 300; ++n) lines.to(0.5 * n, 4 * std::sin(0.12 * n), 0, 60);
+  Found by_minute, by_turns;
+  EXPECT_EQ(wrong_in(lines, 0.01, 16384, &by_minute), "");
+  EXPECT_EQ(wrong_in(lines, 0.01, 16384, &by_turns, nullptr, 1.2), "");
+  EXPECT_LT(by_turns.pieces, 1.1 * by_minute.pieces);
+}
+
 /// Sharp corners alone: the places where a hatch can be cut are the straight lines between them, however many rows wait.
 TEST(PathBuilder, AHatchOfAnyNumberOfRowsRestsNowhere) {
   for (const unsigned rows : {67u, 68u, 69u, 70u, 100u, 137u, 300u, 2000u}) {
@@ -184,6 +261,22 @@ TEST(PathBuilder, AHatchOfAnyNumberOfRowsRestsNowhere) {
       EXPECT_EQ(wrong_in(lines, 0.01, 16384, &found), "") << rows << " rows in lines of " << part;
       EXPECT_EQ(found.rests, 1u) << rows << " rows in lines of " << part;
     }
+  }
+}
+
+/// The place where a straight line is cut is seven spacings before its end, each of four of its equal parts: at a vertex, but for rounding.
+TEST(PathBuilder, AStraightLineInEqualPartsIsCutBesideItsVertices) {
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    std::mt19937_64 rng(seed);
+    LineProgram lines;
+    const double part = random_program_detail::uniform(rng, 0.05, 2), feed = random_program_detail::log_uniform(rng, 50, 250);
+    for (unsigned k = 0; k < 900; ++k) {
+      const double angle = k / 300 * std::numbers::pi / 2;
+      lines.by(part * std::cos(angle), part * std::sin(angle), feed);
+    }
+    Found found;
+    EXPECT_EQ(wrong_in(lines, 0.01, 256, &found), "") << seed;
+    EXPECT_EQ(found.rests, 1u) << seed;
   }
 }
 

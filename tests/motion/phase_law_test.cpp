@@ -54,7 +54,7 @@ std::vector<Piece> smoothed(const std::vector<Vertex>& corner) {
   std::vector<AxisVec> vertex(count), control(room + 3);
   std::vector<double> length(count - 1), feed(count - 1), u(count), knot(room);
   std::vector<unsigned> at(room);
-  std::vector<unsigned char> split(room);
+  std::vector<optimal::SmoothCell> cell(room);
   for (unsigned k = 0; k < count; ++k) {
     vertex[k][0] = corner[k].x;
     vertex[k][1] = corner[k].y;
@@ -66,7 +66,7 @@ std::vector<Piece> smoothed(const std::vector<Vertex>& corner) {
   request.line = {vertex.data(), length.data(), feed.data(), count};
   request.tolerance = 0.01;
   request.spacing = 0.5;
-  const optimal::SmoothRoom rooms{u.data(), count, knot.data(), control.data(), at.data(), split.data(), room};
+  const optimal::SmoothRoom rooms{u.data(), count, knot.data(), control.data(), at.data(), cell.data(), room};
   std::vector<Piece> pieces(room);
   pieces.resize(optimal::smooth(request, rooms, pieces.data(), room));
   return pieces;

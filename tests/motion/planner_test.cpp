@@ -31,7 +31,7 @@ struct Rig {
     scan = arena.make<Scan>();
     planner->create(limits_of(plan_config), ring, scan_config.capacity, arena);
     shared->events.create(scan_config.capacity, arena);
-    scan->create(scan_config, ring, planner, nullptr, shared, nullptr);
+    scan->create(scan_config, ring, nullptr, planner, nullptr, shared, nullptr);
     in.feed_override = in.rapid_override = 1;
   }
   void push(const Program& p) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random sessions by seed. More on request: NC_SEEDS=100000 NC_FIRST_SEED=1; NC_SHOW=1 prints the program of a
-// seed that does not hold, NC_LOG=1 every cycle.
+// Random sessions by seed. More on request: NC_SEEDS=100000 NC_FIRST_SEED=1; shorter ones, and so more programs in the time, by NC_PASSAGES,
+// NC_CYCLES and NC_PATIENCE (Session::Size). NC_SHOW=1 prints the program of a seed that does not hold, NC_LOG=1 every cycle.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -16,14 +16,28 @@ uint64_t wish(const char* name, uint64_t otherwise) {
   return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
+/// In every fourth session counters pass the end of their 31 or 32 bits in front of their first or some later item.
+uint32_t count_from(uint64_t seed) {
+  if (seed % 4 != 0) return 0;
+  return (seed % 8 == 0 ? 0u : 0x80000000u) - static_cast<uint32_t>(1 + seed / 8 % 200);
+}
+
+using Count = unsigned long long;
+
 TEST(Operator, DoesAnything) {
   const char* sanitizer = std::getenv("NC_SANITIZE");
   const uint64_t first = wish("NC_FIRST_SEED", 1), count = wish("NC_SEEDS", sanitizer != nullptr && *sanitizer != 0 ? 20 : 150);
+  Session::Size size;
+  size.passages = static_cast<unsigned>(wish("NC_PASSAGES", size.passages));
+  size.cycles = static_cast<unsigned>(wish("NC_CYCLES", size.cycles));
+  size.patience = static_cast<unsigned>(wish("NC_PATIENCE", size.patience));
   uint64_t wrong = 0, wild = 0, blocks = 0;
+  Programs programs;
   double velocity = 0, acceleration = 0, jerk = 0;
   for (uint64_t seed = first; seed < first + count; ++seed) {
     Dice dice(seed);
-    Session session(dice, {});
+    size.count_from = count_from(seed);
+    Session session(dice, size);
     const std::string what = session.run();
     EXPECT_EQ(what, "") << "seed " << seed << (session.wild() ? " wild " : " quiet ")
                         << (session.config().motion_mode == NC_MOTION_OPTIMAL ? "optimal" : "trapezoid")
@@ -31,14 +45,17 @@ TEST(Operator, DoesAnything) {
     wrong += !what.empty();
     wild += session.wild();
     blocks += session.blocks();
+    programs += session.tally().programs();
     velocity = std::max(velocity, session.watch().worst_velocity);
     acceleration = std::max(acceleration, session.watch().worst_acceleration);
     jerk = std::max(jerk, session.watch().worst_jerk);
   }
-  std::printf("%llu sessions (%llu wild), %llu blocks: velocity %.4f, acceleration %.4f, jerk %.4f of the limits; %llu wrong\n",
-              static_cast<unsigned long long>(count), static_cast<unsigned long long>(wild), static_cast<unsigned long long>(blocks), velocity,
-              acceleration, jerk, static_cast<unsigned long long>(wrong));
-  EXPECT_GT(blocks, count);  // the programs come somewhere
+  std::printf("%llu sessions (%llu wild), %llu programs (%llu selected, %llu restarted, %llu MDI, %llu interrupt), %llu blocks: "
+      "velocity %.4f, acceleration %.4f, jerk %.4f of the limits; %llu wrong\n",
+      Count{count}, Count{wild}, Count{programs.all()}, Count{programs.selected}, Count{programs.restarted}, Count{programs.mdi},
+      Count{programs.interrupts}, Count{blocks}, velocity, acceleration, jerk, Count{wrong});
+  EXPECT_GT(blocks, count);           // the programs come somewhere
+  EXPECT_GT(programs.all(), count);  // and several of them in each session
 }
 
 }  // namespace

@@ -70,10 +70,13 @@ class Control {
   nc_control* handle_ = nullptr;
 };
 
-/// Parameters and tables that change what programs mean and how the machine moves, the same in two controls.
-inline void random_settings(Dice& dice, std::initializer_list<nc_control*> controls) {
+/// Parameters and tables that change what programs mean and how the machine moves, the same in both controls, of which
+/// the second one may be missing.
+inline void random_settings(Dice& dice, nc_control* machine, nc_control* traced) {
+  const std::initializer_list<nc_control*> both = {machine, traced};
   const auto set = [&](const char* key, const char* text) {
-    for (nc_control* control : controls) nc_parameter_set(control, 0, key, 0, text);
+    for (nc_control* control : both)
+      if (control != nullptr) nc_parameter_set(control, 0, key, 0, text);
   };
   static constexpr const char* kSwitches[] = {"1078", "8102", "8103", "1112", "1113", "1229/bit0", "1229/bit2", "1223/bit1", "1080", "1205"};
   for (const char* key : kSwitches)
@@ -87,7 +90,8 @@ inline void random_settings(Dice& dice, std::initializer_list<nc_control*> contr
   }
   for (unsigned n = 1; n <= 20; ++n) {
     const double length = dice.uniform(-5, 5), radius = dice.chance(0.3) ? dice.uniform(0, 0.3) : dice.uniform(0, 4);
-    for (nc_control* control : controls) {
+    for (nc_control* control : both) {
+      if (control == nullptr) continue;
       nc_tool_offset_set(control, n, NC_TOOL_LENGTH, length);
       nc_tool_offset_set(control, n, NC_TOOL_RADIUS, radius);
     }

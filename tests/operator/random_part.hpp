@@ -119,6 +119,7 @@ inline constexpr const char* kPassages[] = {
 };
 
 /// What stands behind the main program and is called from it.
+inline constexpr uint32_t kInterruptProgram = 9005;
 inline constexpr const char* kSubPrograms =
     "O9001\nG91 G1 X1.5 Y-0.75 F3000\nG2 X2. R4.\nG0 X-3.5 Y0.75\nG90\nM99\n"
     "O9002\nG91\nM98 P9001\nG1 X0.3 F2000\nM98 P9001\nG90\nM99\n"

@@ -5,16 +5,20 @@
 // signals, and calls what is refused. At the end everything is let go: the machine must come to an end, and go through a part again.
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "control/control.hpp"
 #include "operator/dice.hpp"
 #include "operator/random_machine.hpp"
 #include "operator/random_part.hpp"
+#include "operator/tally.hpp"
 #include "operator/watch.hpp"
 
 namespace nc::test {
@@ -24,21 +28,28 @@ class Session {
   struct Size {
     unsigned passages = 6;        ///< of the program, at most
     unsigned cycles = 4000;       ///< with the operator at work
-    unsigned patience = 400000;   ///< cycles in which a program that nobody disturbs has come to its end
+    unsigned patience = 400000;   ///< cycles for which a program that nobody disturbs is waited for
+    uint32_t count_from = 0;      ///< where what is counted for years begins (docs/counters.md)
   };
 
-  Session(Dice& dice, Size size) : dice_(dice), size_(size), config_(random_machine(dice)), machine_(config_), traced_(config_), watch_(config_), wild_(dice.chance(0.6)) {}
+  Session(Dice& dice, Size size) : dice_(dice), size_(size), config_(random_machine(dice)), machine_(config_), watch_(config_), wild_(dice.chance(0.6)) {
+    if (!wild_) traced_.emplace(config_);
+  }
 
   /// Runs it; "" or what did not hold.
   std::string run() {
     if (machine_ == nullptr) return "no control for this configuration";
-    random_settings(dice_, {machine_, traced_});
+    if (size_.count_from != 0) {
+      for (nc_control* control : {static_cast<nc_control*>(machine_), traced_ ? static_cast<nc_control*>(*traced_) : nullptr})
+        if (control != nullptr) control->system[0].count_from(size_.count_from);
+    }
+    random_settings(dice_, machine_, traced_ ? static_cast<nc_control*>(*traced_) : nullptr);
     text_ = PartMaker(dice_, 25).make(1 + dice_.draw(size_.passages));
     nc_program_on_missing(machine_, nullptr, nullptr);
     if (nc_program_add_text(machine_, "O1", text_.data(), text_.size(), &file_) != NC_OK) return "a program is not taken";
     place_ = start_place();
     nc_position_set(machine_, 0, &place_);
-    nc_program_select(machine_, 0, file_);
+    if (nc_program_select(machine_, 0, file_) == NC_OK) tally_.selected();
     spindle_.turns_valid = dice_.chance(0.8);
     lag_ = dice_.chance(0.3);
     for (unsigned n = 0; n < size_.cycles && what_.empty(); ++n) {
@@ -56,6 +67,7 @@ class Session {
   const Watch& watch() const { return watch_; }
   bool wild() const { return wild_; }
   uint64_t blocks() const { return blocks_; }
+  const Tally& tally() const { return tally_; }
 
  private:
   nc_axes start_place() {
@@ -91,16 +103,16 @@ class Session {
 
   /// What only the wild operator does.
   void interfere() {
-    in_.cycle_start = in_.cycle_start || dice_.chance(0.001);
-    toggle(in_.reset, 0.001, 0.3);
+    in_.cycle_start = in_.cycle_start || dice_.chance(haste_ * 0.001);
+    toggle(in_.reset, haste_ * 0.001, 0.3);
     toggle(in_.alarm, 0.0003, 0.1);
     toggle(in_.optional_stop, 0.001, 0.01);
-    toggle(in_.macro_interrupt, 0.002, 0.1);
-    toggle(in_.recalculate, 0.001, 0.2);
+    toggle(in_.macro_interrupt, haste_ * 0.002, 0.1);
+    toggle(in_.recalculate, haste_ * 0.001, 0.2);
     if (dice_.chance(0.002)) in_.skip ^= 1u << dice_.draw(4);
     if (dice_.chance(0.01)) in_.input[0] ^= 1u << dice_.draw(3);
     by_hand();
-    if (dice_.chance(0.004)) call();
+    if (dice_.chance(haste_ * 0.004)) call();
   }
 
   void by_hand() {
@@ -125,10 +137,12 @@ class Session {
       case 1: nc_work_offset_set(machine_, 0, dice_.draw(8), axis, any_number(dice_.uniform(-5, 5))); break;
       case 2: nc_variable_set(machine_, 0, 100 + dice_.draw(12), any_number(dice_.uniform(-5, 5)), dice_.chance(0.1)); break;
       case 3: nc_parameter_set(machine_, 0, "8204", 0, dice_.chance(0.5) ? "2" : "0.3"); break;
-      case 4: nc_program_select(machine_, 0, dice_.draw(3)); break;
+      case 4:
+        if (nc_program_select(machine_, 0, dice_.draw(3)) == NC_OK) tally_.selected();
+        break;
       case 5: {
         mdi_ = PartMaker(dice_, 20).mdi();
-        nc_mdi_load(machine_, 0, mdi_.data(), mdi_.size());
+        if (nc_mdi_load(machine_, 0, mdi_.data(), mdi_.size()) == NC_OK) tally_.mdi();
         break;
       }
       case 6: nc_recalculate(machine_, 0); break;
@@ -143,7 +157,9 @@ class Session {
       case 11: {
         second_ = PartMaker(dice_, 25).make(1 + dice_.draw(3));
         unsigned file = 0;
-        if (nc_program_add_text(machine_, "O2", kept_.emplace_back(second_).data(), second_.size(), &file) == NC_OK) nc_program_select(machine_, 0, file);
+        if (nc_program_add_text(machine_, "O2", kept_.emplace_back(second_).data(), second_.size(), &file) == NC_OK &&
+            nc_program_select(machine_, 0, file) == NC_OK)
+          tally_.selected();
         break;
       }
       case 12: nc_parameter_set(machine_, 0, "1084", 0, "0.05"); break;
@@ -165,14 +181,16 @@ class Session {
     blocks_ += out_.blocks != last_blocks_;
     last_blocks_ = out_.blocks;
     watch_.cycle(in_, out_);
+    tally_.cycle(out_);
     if (log_) show();
     nc_event event;
     while (nc_event_poll(machine_, 0, &event, nullptr) == NC_OK) {
       watch_.event(event, wild_);
+      tally_.event(event);
       if (collects_) executed_.push_back(event);
       collects_ = collects_ && event.kind != NC_ITEM_END && event.kind != NC_ITEM_ALARM;
     }
-    if (what_.empty()) what_ = watch_.what();
+    if (what_.empty() && !watch_.what().empty()) what_ = watch_.what();
   }
 
   /// One line for each cycle: the switches, the state, the axes.
@@ -208,21 +226,25 @@ class Session {
   enum class Ended : uint8_t { there, slow, stuck };
 
   /// Feeds and cycles until the state is one of these (bits). A program that runs gets on: in any ten seconds it executes something, or goes
-  /// a twentieth of a millimetre.
-  Ended until(unsigned states) {
+  /// a twentieth of a millimetre, or a tenth of what its feed asks for: a program may ask for 0.06 mm/min.
+  Ended until(unsigned states, unsigned patience) {
     const unsigned ten_seconds = static_cast<unsigned>(10 / config_.cycle_s);
-    double length = out_.path_length;
+    constexpr double kFar = 0.05;  // mm
+    double length = out_.path_length, far = kFar;
     uint64_t serial = out_.serial, blocks = out_.blocks;
     unsigned since = 0;
-    for (unsigned n = 0; n < size_.patience && what_.empty(); ++n) {
+    for (unsigned n = 0; n < patience && what_.empty(); ++n) {
       nc_feed(machine_, 200);
       cycle();
       in_.cycle_start = false;
       if ((states >> out_.state & 1) != 0 && n > 3) return Ended::there;
       if (out_.state == NC_STATE_STOPPED || out_.state == NC_STATE_HOLD) in_.cycle_start = n % 2 == 0;
-      if (out_.cause == NC_CAUSE_SPINDLE_FAST) return Ended::slow;  // the operator would have to choose a lower speed
-      if (std::fabs(out_.path_length - length) > 0.05 || out_.serial != serial || out_.blocks != blocks) {
+      // The operator would have to choose another speed.
+      if (out_.cause == NC_CAUSE_SPINDLE_FAST || out_.cause == NC_CAUSE_SPINDLE_STOPPED) return Ended::slow;
+      if (out_.feed_command_mm_min > 0) far = std::min(far, 0.1 * out_.feed_command_mm_min / 60 * 10);
+      if (std::fabs(out_.path_length - length) > far || out_.serial != serial || out_.blocks != blocks) {
         length = out_.path_length;
+        far = kFar;
         serial = out_.serial;
         blocks = out_.blocks;
         since = n;
@@ -241,9 +263,10 @@ class Session {
   /// Nobody disturbs any more: what runs comes to its end, a reset to rest, and a part is gone through to where it ends.
   void let_go() {
     release();
+    cycle();  // a reset that was held is let go
     constexpr unsigned kIdle = 1u << NC_STATE_IDLE, kAlarm = 1u << NC_STATE_ALARM;
     in_.cycle_start = out_.state == NC_STATE_HOLD || out_.state == NC_STATE_STOPPED;
-    if (dice_.chance(0.5) && until(kIdle | kAlarm) == Ended::stuck) {
+    if (dice_.chance(0.5) && until(kIdle | kAlarm, size_.patience) == Ended::stuck) {
       say("does not come to an end" + place());
       return;
     }
@@ -252,7 +275,7 @@ class Session {
     in_.reset = true;
     cycle();
     in_.reset = false;
-    if (until(kIdle) != Ended::there) {
+    if (until(kIdle, Size{}.patience) != Ended::there) {
       say("a reset does not come to rest" + place());
       return;
     }
@@ -260,6 +283,7 @@ class Session {
   }
 
   void again() {
+    tally_.close();  // what follows is always the same part
     static constexpr char kPart[] = "G90 G53 G0 X5. Y5.\nG91 G1 X1. F600\nY1.\nG90 G53 G0 X7.\nM30\n";
     unsigned file = 0;
     nc_status status = NC_E_STATE;
@@ -276,7 +300,7 @@ class Session {
     in_.cycle_start = true;
     cycle();
     in_.cycle_start = false;
-    const Ended ended = until(1u << NC_STATE_IDLE | 1u << NC_STATE_ALARM);
+    const Ended ended = until(1u << NC_STATE_IDLE | 1u << NC_STATE_ALARM, Size{}.patience);
     nc_alarm alarm{};
     if (nc_alarm_get(machine_, 0, &alarm) == NC_OK || out_.state == NC_STATE_ALARM) {
       say(std::string("alarm ") + alarm.code + " (" + alarm.detail.s + ") in the part behind the reset, line " + std::to_string(alarm.source.line));
@@ -289,14 +313,14 @@ class Session {
   /// What the machine has executed is, item by item, what the trace of the program says.
   void compare() {
     unsigned file = 0;
-    nc_program_add_text(traced_, "O1", text_.data(), text_.size(), &file);
-    nc_position_set(traced_, 0, &place_);
-    nc_program_select(traced_, 0, file);
+    nc_program_add_text(*traced_, "O1", text_.data(), text_.size(), &file);
+    nc_position_set(*traced_, 0, &place_);
+    nc_program_select(*traced_, 0, file);
     nc_axes machine = place_;
     for (const nc_event& event : executed_) {
       nc_item item;
       nc_status status = NC_BUDGET;
-      for (unsigned n = 0; n < 10000 && status == NC_BUDGET; ++n) status = nc_pull(traced_, 0, 100, &item);
+      for (unsigned n = 0; n < 10000 && status == NC_BUDGET; ++n) status = nc_pull(*traced_, 0, 100, &item);
       if (status != NC_OK) return say("the trace ends with status " + std::to_string(status) + " before serial " + std::to_string(event.serial));
       if (item.serial != event.serial || item.kind != event.kind || item.source.line != event.source.line)
         return say("executed: serial " + std::to_string(event.serial) + " kind " + std::to_string(event.kind) + " line " + std::to_string(event.source.line) +
@@ -312,7 +336,7 @@ class Session {
       } else if (item.kind == NC_ITEM_SYNC) {
         nc_world world{};
         world.machine = machine;
-        nc_answer(traced_, 0, &world);
+        nc_answer(*traced_, 0, &world);
       }
     }
   }
@@ -322,9 +346,12 @@ class Session {
 
   Dice& dice_;
   Size size_;
+  double haste_ = std::clamp(Size{}.cycles / std::max(1.0, static_cast<double>(size_.cycles)), 1.0, 4.0);  ///< in a shorter session more is done
   nc_config config_;
-  Control machine_, traced_;  ///< the one that moves, and one that only says what the program means
+  Control machine_;                ///< the one that moves ...
+  std::optional<Control> traced_;  ///< ... and for the quiet operator one that only says what the program means
   Watch watch_;
+  Tally tally_;
   bool wild_, lag_ = false;
   std::string text_, second_, mdi_;
   std::deque<std::string> kept_;  ///< texts that the store may still read

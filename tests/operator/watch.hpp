@@ -45,12 +45,16 @@ class Watch {
     ++samples_;
     // Axes that are moved by hand have no limit of jerk, and come to rest by hand in whatever state follows.
     hand_ = hand_now || (hand_ > 0 && moved) ? 4 : hand_ > 0 ? hand_ - 1 : 0;
-    // In these states the axes stand; the cycle in which the state comes may still carry the end of the move, and a block may be so short that
-    // it begins and ends in one.
+    // In these states the axes stand, whatever is wished by hand: motion by hand is a state of its own. The cycle in which the state comes may
+    // still carry the end of the move, and a block may be so short that it begins and ends in one.
     const bool rests = out.state == NC_STATE_IDLE || out.state == NC_STATE_STOPPED;
-    if (rests && out.state == state_ && out.serial == item_ && moved && hand_ == 0) fail("moves at rest in state", out.state, 0, 0);
+    const bool stood = out.state == state_ || state_ == NC_STATE_MANUAL;
+    if (rests && stood && out.serial == item_ && moved) fail("moves at rest in state", out.state, 0, 0);
+    // An alarm finds the axes on their way, and they may turn round on it; when they have come to rest they stay there.
     alarm_cycles_ = out.state == NC_STATE_ALARM && moved ? alarm_cycles_ + 1 : 0;
     if (alarm_cycles_ > 20 / config_.cycle_s) fail("moves 20 s in an alarm", 0, 0, 0);
+    alarm_rest_ = out.state != NC_STATE_ALARM ? 0 : moved ? alarm_rest_ : alarm_rest_ + 1;
+    if (moved && alarm_rest_ > kAlarmRest) fail("moves again in an alarm", 0, 0, 0);
     state_ = out.state;
     item_ = out.serial;
   }
@@ -97,12 +101,15 @@ class Watch {
     what_ = text.str();
   }
 
+  static constexpr unsigned kAlarmRest = 10;  ///< cycles: longer than the filters hold back what has been reached
+
   nc_config config_;
   double last_[NC_MAX_AXES] = {}, v_[NC_MAX_AXES] = {}, a_[NC_MAX_AXES] = {};
   uint64_t samples_ = 0, cycles_ = 0, serial_ = 0, item_ = 0;
   unsigned hand_ = 0, rapid_ = 0;  ///< cycles for which what was manual or rapid still shows in differences
   uint8_t state_ = 0;
   double alarm_cycles_ = 0;
+  unsigned alarm_rest_ = 0;  ///< cycles in which the axes stood in the alarm
   std::string what_;
 };
 

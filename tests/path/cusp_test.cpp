@@ -11,7 +11,6 @@ namespace nc::test {
 namespace {
 
 constexpr unsigned kAxes = 5;
-const AxisVec kPlus{{1, 1, 1, 1, 1, 1, 1, 1}};
 
 /// A cubic whose derivative is `gap` / 10 of its mean at its slowest place; 0: a cusp. Everything moved by `shift` of the control points' weights.
 void make_cusp(double gap, double weight, CurveShape* shape, Curve* curve) {
@@ -20,7 +19,7 @@ void make_cusp(double gap, double weight, CurveShape* shape, Curve* curve) {
   what.span = RationalSpan{{{0, 0, 0}, {10 + gap, 10, 1e-3 * gap}, {-gap, 10, 1e-3 * gap}, {10, 0, 0}}, {1, weight, 1, 1}, {0, 1, 2}, 3};
   AxisVec start, end;
   for (unsigned i = 0; i < 3; ++i) end[i] = what.span.point[3][i];
-  make_shaped(what, PlainMove{&start, &end, nullptr, 0, 1}, kPlus, AxisVec{}, start, kAxes, 0, shape, curve);
+  make_shaped(what, PlainMove{&start, &end, nullptr, 0, 1}, Affine{}, start, kAxes, 0, shape, curve);
 }
 
 constexpr double kGaps[] = {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-9, 0};

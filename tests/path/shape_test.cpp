@@ -24,11 +24,9 @@ struct Made {
   Curve curve;
 };
 
-const AxisVec kPlus{{1, 1, 1, 1, 1, 1, 1, 1}};
-
 void make(const MoveShape& what, const AxisVec& start, const AxisVec& end, const Circle* circle, uint8_t h, uint8_t v, const AxisVec& machine,
           const AxisVec& offset, Made* made) {
-  make_shaped(what, PlainMove{&start, &end, circle, h, v}, kPlus, offset, machine, kAxes, kRotary, &made->shape, &made->curve);
+  make_shaped(what, PlainMove{&start, &end, circle, h, v}, Affine::translation(offset), machine, kAxes, kRotary, &made->shape, &made->curve);
 }
 
 void random_space_arc(std::mt19937_64& rng, Made* made) {
@@ -280,10 +278,10 @@ TEST(Shape, PolarAxesLeadBackToThePlane) {
     random_mapped(rng, AxisMap::Kind::polar, &m);
     const double s = uniform(rng, 0, m.curve.length);
     const AxisVec axes = curve_position(m.curve, s, kAxes);
-    const AxisVec plane = to_programmed(m.shape.what.map, kPlus, m.shape.offset, axes);
+    const AxisVec plane = to_programmed(m.shape.what.map, m.shape.to_machine, axes);
     const AxisVec wanted = shape_programmed(m.shape, s, kAxes).position;
     for (unsigned i = 0; i < kAxes; ++i) EXPECT_NEAR(plane[i], wanted[i], 1e-9);
-    const AxisVec end = to_programmed(m.shape.what.map, kPlus, m.shape.offset, m.curve.end);
+    const AxisVec end = to_programmed(m.shape.what.map, m.shape.to_machine, m.curve.end);
     for (unsigned i = 0; i < kAxes; ++i) EXPECT_NEAR(end[i], m.shape.base.end[i], 1e-9);
   }
 }
@@ -295,7 +293,7 @@ TEST(Shape, ArcsOnACylinderAreArcsOfItsSurface) {
     random_mapped(rng, AxisMap::Kind::cylinder, &m);
     if (!m.shape.base.circular) continue;
     const AxisVec p = curve_position(m.curve, uniform(rng, 0, m.curve.length), kAxes);
-    const double x = p[0] - m.shape.offset[0], y = (p[3] - m.shape.offset[3]) * m.shape.what.map.scale;
+    const double x = p[0] - m.shape.to_machine.offset()[0], y = (p[3] - m.shape.to_machine.offset()[3]) * m.shape.what.map.scale;
     EXPECT_NEAR(std::hypot(x - m.shape.base.circle.center[0], y - m.shape.base.circle.center[1]), m.shape.base.circle.radius_start, 1e-9);
   }
 }

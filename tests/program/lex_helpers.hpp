@@ -14,13 +14,13 @@
 #include <vector>
 
 #include "dialect/alarms.hpp"
-#include "program/lexer.hpp"
+#include "dialect/iso_lexer.hpp"
 #include "program/store.hpp"
 
 namespace nc::test {
 
 inline LexRules m700_rules() {
-  LexRules rules;
+  LexRules rules = iso_rules();
   rules.macros = rules.skip_numbers = rules.comma_words = rules.angle_names = true;
   rules.semicolon = rules.mdi_semicolon = Semicolon::ends_block;
   rules.slash_only_at_head = false;
@@ -33,7 +33,7 @@ inline LexRules m700_rules() {
 }
 
 inline LexRules dgshape_rules() {
-  LexRules rules;
+  LexRules rules = iso_rules();
   for (char c :
        {'A', 'D', 'F', 'G', 'H', 'I', 'J', 'K', 'L', 'M', 'N', 'O', 'P', 'Q', 'R', 'S', 'T', 'X', 'Y', 'Z'}) {
     rules.word[c - 'A'].known = true;

@@ -153,6 +153,24 @@ TEST(Lexer, OptionalSkip) {  // M700 3.4
   EXPECT_EQ(fault_of("N20 G1 X25./Y25."), Condition::calculation);
 }
 
+TEST(Lexer, NumbersAtTheHeadHaveTheLettersOfTheFamily) {
+  LexRules rules = m700_rules();
+  rules.program_letter = 'L';
+  rules.sequence_letter = 'Q';
+  const auto both = lex("L5 Q7 G3\n", rules);
+  EXPECT_TRUE(both->has_o);
+  EXPECT_EQ(both->o, 5u);
+  EXPECT_EQ(both->n, 7u);
+  EXPECT_EQ(both->words.size(), 1u);
+  const auto words = lex("O5 N7 G3\n", rules);  // ordinary words
+  EXPECT_FALSE(words->has_o || words->has_n || words->has_fault);
+  EXPECT_EQ(words->words.size(), 3u);
+  EXPECT_EQ(fault_of("Q#1", rules), Condition::variable_use);
+  rules.program_letter = rules.sequence_letter = 0;  // no such numbers at all
+  EXPECT_EQ(lex("O5 N7 G3\n", rules)->words.size(), 3u);
+  EXPECT_TRUE(lex("\n", rules)->empty);
+}
+
 TEST(Lexer, ProgramAndSequenceNumbers) {  // M700 3.5
   const auto o = lex("O12345678 (MAIN)\n");
   EXPECT_TRUE(o->has_o);

@@ -90,6 +90,30 @@ TEST(BlockReader, TheCutOfATooLongBlockIsNotTakenForAnotherFault) {
   EXPECT_EQ(t.reader.read(file, b->next, 2)->words.size(), 1u);
 }
 
+TEST(BlockReader, WhatStandsBehindASemicolonIsSeenThroughEveryWindow) {
+  // The words of the first block alone are as long as the first of these windows: in no window is the text behind them passed over.
+  const std::string text = "G1X1Y10G01X25F50; " + std::string(600, ' ') + "Y2\nM30\n";
+  for (unsigned window = 16; window < 40; ++window) {
+    Texts t(window, 32, with_semicolon(Semicolon::ends_line));
+    const Block* b = t.reader.read(t.add_callback("a", text), 0, 1);
+    ASSERT_NE(b, nullptr);
+    EXPECT_TRUE(b->has_fault) << window;
+    EXPECT_EQ(b->fault.condition, window < 18 ? Condition::block_too_long : Condition::behind_semicolon) << window;
+    EXPECT_EQ(b->next_line, 2u) << window;
+  }
+}
+
+TEST(BlockReader, ALongCommentDoesNotJoinWhatItParts) {
+  const std::string text = "G1 X1(" + std::string(700, 'c') + ") 0 Z3\nM30\n";
+  Texts memory, t(64);
+  const Block* whole = memory.reader.read(memory.add_memory("a", text), 0, 1);
+  const Block* b = t.reader.read(t.add_callback("a", text), 0, 1);
+  ASSERT_TRUE(whole != nullptr && b != nullptr);
+  EXPECT_TRUE(whole->has_fault);
+  EXPECT_TRUE(b->has_fault);  // and not X10
+  EXPECT_EQ(b->fault.condition, whole->fault.condition);
+}
+
 class ReaderOfRandomTexts : public testing::TestWithParam<Semicolon> {};
 INSTANTIATE_TEST_SUITE_P(Semicolons, ReaderOfRandomTexts,
                          testing::Values(Semicolon::unknown, Semicolon::ends_line, Semicolon::comment, Semicolon::ends_block));

@@ -170,7 +170,7 @@ const Case kCases[] = {
     {"no_point", "\"#1001\" = \"in1\"", "\"#1001\" = \"in9\"", "macro_interface.\"#1001\"",
      "no point is named"},
     {"not_interface", "\"#1001\" = \"in1\"", "\"#1036\" = \"in1\"", "macro_interface.\"#1036\"",
-     "is not a number of"},
+     "is not a number of the macro interface (#1000-#1035, #1100-#1135, #1200-#1295, #1300-#1395)"},
     {"not_interface2", "\"#1001\" = \"in1\"", "\"1001\" = \"in1\"", "macro_interface.1001",
      "is not a number of"},
     {"parameter", nullptr, "\n[parameters]\n\"1078\" = []\n", "parameters.1078", "not an array"},
@@ -391,7 +391,7 @@ TEST(Config, APointIsOneWireOfTheSimulatedMachine) {
   EXPECT_EQ(errors[0].key, "sim.spindle.reverse");
   EXPECT_NE(errors[0].message.find("sim.spindle.forward already"), std::string::npos) << errors[0].text();
   const auto across = nc::rt::parse_config(text + spindle + "[sim.tool_changer]\nprepare = \"out0\"\npocket = \"word_out\"\n"
-      "prepared = \"in0\"\nchange = \"out0\"\nchanged = \"in1\"\n", "m.toml", &config);
+                                               "prepared = \"in0\"\nchange = \"out0\"\nchanged = \"in1\"\n", "m.toml", &config);
   ASSERT_EQ(across.size(), 3u) << "prepare, pocket, change";
 }
 
@@ -524,6 +524,17 @@ TEST(Config, EveryInterfaceNumberHasItsPlace) {
                                     : map.input_bit)[static_cast<unsigned>(word)][static_cast<unsigned>(bit)];
     EXPECT_EQ(point, 0) << number;
   }
+}
+
+TEST(Config, ADialectWithoutVariablesHasNoMacroInterface) {
+  Config config;
+  const std::vector<ConfigError> errors = nc::rt::parse_config(
+      "[machine]\ndialect=\"dgshape\"\n[[axis]]\nname=\"X\"\nmax_velocity=1\nmax_acceleration=1\n[[point]]\nname=\"p\"\ndirection=\"input\"\n"
+      "[macro_interface]\n\"#1000\"=\"p\"\n",
+      "m.toml", &config);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].key, "macro_interface.\"#1000\"");
+  EXPECT_EQ(errors[0].message, "is not possible: this dialect has no macro interface");
 }
 
 // What the file asks of the computer is looked at where it is used, not where it is read.

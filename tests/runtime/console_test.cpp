@@ -16,7 +16,7 @@ std::uint64_t lines_of(const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
   std::string error;
   const auto program = nc::rt::ProgramText::open_file(path.string(), {}, &error);
-  const std::uint64_t lines = program == nullptr ? 0 : nc::rt::estimate_lines(program.get());
+  const std::uint64_t lines = program == nullptr ? 0 : nc::rt::estimate_lines(program.get(), NC_DIALECT_M700);
   std::filesystem::remove(path);
   return lines;
 }

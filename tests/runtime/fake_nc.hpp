@@ -11,7 +11,7 @@
 
 namespace nc::test {
 
-class FakeNc final : public rt::NcPort {
+class FakeNc : public rt::NcPort {
  public:
   std::vector<std::string>* log = nullptr;
   nc_inputs last_in{};

@@ -160,7 +160,7 @@ TEST_F(IndexTables, AJogThatGetsNoAnswerIsAnAlarmToo) {
 
 TEST_F(IndexTables, AWireAnswersWithoutALadder) {
   wire("", "[signals]\n\"plc.unclamped.B\" = \"in0\"\n\"nc.unclamp.B\" = \"table_release\"\n"
-           "[[point]]\nname = \"table_release\"\ndirection = \"output\"\n");
+       "[[point]]\nname = \"table_release\"\ndirection = \"output\"\n");
   build();
   start("G0 B45.\nM30\n");
   ASSERT_GT(until([&] { return point("table_release") == 1; }), 0);

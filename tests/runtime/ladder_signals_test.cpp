@@ -23,6 +23,12 @@ class LadderSignals : public nc::test::OwnLadder {
     ASSERT_EQ(runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(Mode::kManual)), Answer::kDone);
     steps(2);
   }
+  void load(const std::string& text) {
+    unsigned file = 0;
+    const std::string& kept = texts.emplace_back(text);
+    ASSERT_EQ(nc_program_add_text(runtime->control(), "p", kept.data(), kept.size(), &file), NC_OK);
+    ASSERT_EQ(runtime->select_program(file), Answer::kDone);
+  }
   double x() const { return out().command.v[0]; }
 };
 
@@ -222,6 +228,192 @@ TEST_F(LadderSignals, AStartThatIsRefusedSaysWhy) {
   EXPECT_EQ(refusal().count, 2u);
 }
 
+TEST_F(LadderSignals, WhileResetIsHeldNothingStarts) {
+  run("LD in1\nOUT plc.cycle_start\nLD in0\nOUT plc.reset\n");
+  const auto refusal = [this] { return runtime->snapshot().system[0].refusal; };
+  load("G1 X100. F600\nM30\n");
+  const auto press = [this] {
+    in("in1", 1);
+    steps(5);
+    in("in1", 0);
+    steps(5);
+  };
+  press();
+  steps(100);
+  ASSERT_EQ(out().state, NC_STATE_RUNNING);
+  in("in0", 1);
+  steps(200);
+  ASSERT_EQ(out().state, NC_STATE_IDLE);
+  EXPECT_TRUE(runtime->snapshot().resetting);
+  const double stood = x();
+  press();
+  steps(50);
+  EXPECT_EQ(x(), stood) << "the button of the panel";
+  EXPECT_EQ(refusal().why, Answer::kResetHeld);
+  EXPECT_EQ(nc::rt::refusal_cause(refusal()), nc::rt::RefusalCause::kResetHeld);
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kResetHeld) << "an operator's program";
+  EXPECT_EQ(runtime->execute(CommandKind::kSelectProgram, 0, 1), Answer::kResetHeld);
+  EXPECT_EQ(runtime->load_mdi("G0 X1.\n"), Answer::kResetHeld);
+  steps(50);
+  EXPECT_EQ(x(), stood);
+  in("in0", 0);
+  steps(3);
+  EXPECT_FALSE(runtime->snapshot().resetting);
+  EXPECT_EQ(x(), stood) << "what was pressed meanwhile is not kept";
+  press();
+  steps(50);
+  EXPECT_GT(x(), stood);
+}
+
+// Both in one scan: the reset is the one that counts.
+TEST_F(LadderSignals, AStartInTheScanOfAResetDoesNotMove) {
+  run("LD in0\nOUT plc.reset\nLDI in0\nOUT plc.cycle_start\n");
+  load("G0 X100.\nM30\n");
+  steps(20);
+  const double stood = x();
+  in("in0", 1);
+  for (int n = 0; n < 50; ++n) {
+    steps(1);
+    ASSERT_EQ(x(), stood) << n;
+  }
+}
+
+TEST_F(LadderSignals, AResetEndsAJogUntilItsButtonWasLetGo) {
+  run("LD in0\nOUT plc.jog_p.X\nLD SM400\nDMOV K600 plc.jog_feed\nLD in1\nOUT plc.reset\n");
+  const auto text = [this] { return nc::rt::refusal_text(config, 0, runtime->snapshot().system[0].refusal); };
+  manual();
+  in("in0", 1);
+  steps(200);
+  EXPECT_GT(x(), 0.5);
+  for (const int held : {500, 2}) {
+    in("in1", 1);
+    steps(held);
+    in("in1", 0);
+    steps(100);
+    const double stood = x();
+    steps(200);
+    EXPECT_EQ(x(), stood) << "held for " << held << " scans: the button alone does not begin it again";
+    EXPECT_EQ(out().state, NC_STATE_IDLE);
+    EXPECT_EQ(text().substr(0, 15), "jog X stopped: ");
+    in("in0", 0);
+    steps(3);
+    in("in0", 1);
+    steps(100);
+    EXPECT_GT(x(), stood + 0.2);
+    EXPECT_EQ(text(), "");
+  }
+  in("in0", 0);
+  steps(100);
+  in("in1", 1);
+  steps(50);
+  const double stood = x();
+  in("in0", 1);
+  steps(200);
+  EXPECT_EQ(x(), stood) << "one that is pressed while reset is held";
+}
+
+TEST_F(LadderSignals, AStartInFeedHoldSaysWhy) {
+  run("LD in1\nOUT plc.cycle_start\nLDI in0\nOUT plc.feed_hold_n\n");
+  const auto text = [this] { return nc::rt::refusal_text(config, 0, runtime->snapshot().system[0].refusal); };
+  const auto press = [this] {
+    in("in1", 1);
+    steps(5);
+    in("in1", 0);
+    steps(5);
+  };
+  load("G1 X100. F600\nM30\n");
+  in("in0", 1);
+  steps(3);
+  press();
+  EXPECT_EQ(text(), "cycle start refused: the feed hold of the machine is on");
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kFeedHold);
+  EXPECT_EQ(out().state, NC_STATE_IDLE);
+  in("in0", 0);
+  steps(50);
+  EXPECT_EQ(out().state, NC_STATE_IDLE) << "it is not kept";
+  press();
+  EXPECT_EQ(out().state, NC_STATE_RUNNING);
+  EXPECT_EQ(text(), "");
+  ASSERT_EQ(runtime->execute(CommandKind::kFeedHold), Answer::kDone) << "the operator's is released by his start";
+  steps(100);
+  EXPECT_EQ(out().state, NC_STATE_HOLD);
+  ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(5);
+  EXPECT_EQ(out().state, NC_STATE_RUNNING);
+}
+
+TEST_F(LadderSignals, AJogInInterlockOrHoldOrBesideAProgramSaysWhy) {
+  run("LD in0\nOUT plc.jog_p.X\nLD SM400\nDMOV K600 plc.jog_feed\nLDD<> word_in K1\nOUT plc.interlock_n\nLDI in1\nOUT plc.feed_hold_n\n");
+  const auto text = [this] { return nc::rt::refusal_text(config, 0, runtime->snapshot().system[0].refusal); };
+  manual();
+  in("in0", 1);
+  steps(100);
+  EXPECT_EQ(text(), "");
+  EXPECT_EQ(runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(Mode::kAuto)), Answer::kAxesMove);
+  in("word_in", 1);
+  steps(100);
+  EXPECT_EQ(text(), "jog X stopped: the interlock of the machine is on");
+  in("word_in", 0);
+  steps(100);
+  EXPECT_EQ(text(), "") << "it goes on, as the signal says";
+  in("in1", 1);
+  steps(100);
+  EXPECT_EQ(text(), "jog X stopped: the feed hold of the machine is on");
+  const double stood = x();
+  in("in0", 0);
+  steps(3);
+  in("in0", 1);
+  steps(100);
+  EXPECT_EQ(text(), "jog X refused: the feed hold of the machine is on");
+  EXPECT_EQ(x(), stood);
+  in("in0", 0);
+  in("in1", 0);
+  steps(5);
+  ASSERT_EQ(runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(Mode::kAuto)), Answer::kDone);
+  start("G1 X100. F600\nM30\n");
+  steps(100);
+  ASSERT_GT(x(), stood);
+  in("in0", 1);
+  steps(10);
+  EXPECT_EQ(text(), "jog X refused: not in this mode") << "it was the program that moved";
+}
+
+// Nothing begins by itself when they end.
+TEST_F(LadderSignals, AReferenceReturnInInterlockIsRefusedAndOneOnItsWaySaysThatItStands) {
+  run("LD in0\nOUT plc.reference.X\nLDI in1\nOUT plc.interlock_n\n");
+  const auto text = [this] { return nc::rt::refusal_text(config, 0, runtime->snapshot().system[0].refusal); };
+  start("G0 X20.\nM30\n");
+  ASSERT_GE(until_end(), 0);
+  manual();
+  const auto press = [this] {
+    in("in0", 1);
+    steps(3);
+    in("in0", 0);
+    steps(3);
+  };
+  in("in1", 1);
+  steps(3);
+  press();
+  EXPECT_EQ(text(), "reference return X refused: the interlock of the machine is on");
+  nc::rt::Command step;
+  step.kind = CommandKind::kStep;
+  step.value = 1;
+  EXPECT_EQ(runtime->execute(step), Answer::kInterlock);
+  in("in1", 0);
+  steps(500);
+  EXPECT_EQ(x(), 20);
+  press();
+  steps(20);
+  ASSERT_LT(x(), 20);
+  EXPECT_EQ(text(), "");
+  in("in1", 1);
+  steps(100);
+  EXPECT_EQ(text(), "reference return X stopped: the interlock of the machine is on");
+  EXPECT_GT(x(), 0);
+  in("in1", 0);
+  ASSERT_GT(until([&] { return x() == 0; }, 20000), 0);
+}
+
 // Each reason once, however long the button is held.
 TEST_F(LadderSignals, AJogThatDoesNotBeginOrEndsByItselfSaysWhy) {
   run("LD in0\nOUT plc.jog_p.X\nLD SM400\nDMOV word_in plc.jog_feed\nLD in1\nOUT plc.alarm.2\n");
@@ -338,8 +530,8 @@ TEST_F(LadderSignals, ProgramsReadDevices) {
   in("in0", 1);
   steps(3);
   start("#100100=1 #100101=5 #100102=102\n#100=#100110\n#100100=0 #100101=20 #100102=0\n#101=#100110\n"
-        "#100100=4 #100101=31\n#102=#100110\n#100100=6 #100101=300 #100102=2\n#103=#100110\n"
-        "#100100=5 #100101=3 #100102=0\n#104=#100110\nM30\n");
+      "#100100=4 #100101=31\n#102=#100110\n#100100=6 #100101=300 #100102=2\n#103=#100110\n"
+      "#100100=5 #100101=3 #100102=0\n#104=#100110\nM30\n");
   ASSERT_GE(until_end(), 0) << alarm();
   EXPECT_EQ(variable(100), -2) << "D5";
   EXPECT_EQ(variable(101), 1) << "M20";

@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "hal/sim/sim_machine.hpp"
+#include "ladder_machine.hpp"
+
 namespace {
 
 using nc::hal::PointImage;
@@ -21,7 +26,7 @@ nc::rt::MacroMap map_all() {
 }
 
 TEST(MacroInterface, InputsAreGatheredIntoWords) {
-  const nc::rt::MacroInterface macro(map_all());
+  const nc::rt::MacroInterface macro(map_all(), {});
   PointImage points;
   points.value[0] = points.value[31] = points.value[7] = 1;
   points.value[40] = 0xDEADBEEF;
@@ -33,36 +38,176 @@ TEST(MacroInterface, InputsAreGatheredIntoWords) {
   EXPECT_EQ(input[3], 0u);
 }
 
-TEST(MacroInterface, OnlyChangedBitsAreWritten) {
-  nc::rt::MacroInterface macro(map_all());
+TEST(MacroInterface, OnlyBitsThatABlockWritesReachTheirPoints) {
+  nc::rt::MacroInterface macro(map_all(), {});
   PointImage points;
   points.value[101] = 1;  // set by someone else
-  std::uint32_t output[NC_WORDS] = {1, 0, 0, 0};
-  macro.distribute(0, output, &points);
+  const std::uint32_t none[NC_WORDS] = {};
+  std::uint32_t output[NC_WORDS] = {1, 0, 0, 0}, written[NC_WORDS] = {1, 0, 0, 0};
+  macro.distribute(output, written, &points);
   EXPECT_EQ(points.value[100], 1u);
-  EXPECT_EQ(points.value[101], 1u) << "bit 1 was 0 before and after: not the program's to write";
+  EXPECT_EQ(points.value[101], 1u) << "bit 1 is not the program's to write";
   points.value[100] = 0;
-  macro.distribute(0, output, &points);
-  EXPECT_EQ(points.value[100], 0u) << "nothing changed, nothing written";
+  macro.distribute(output, none, &points);
+  EXPECT_EQ(points.value[100], 0u) << "nothing written";
+  macro.distribute(output, written, &points);
+  EXPECT_EQ(points.value[100], 1u) << "the same value again is a command, too";
   output[0] = 2;
   output[3] = 0x12345678;
-  macro.distribute(0, output, &points);
+  written[0] = 2;
+  written[3] = ~0u;
+  macro.distribute(output, written, &points);
   EXPECT_EQ(points.value[101], 1u);
   EXPECT_EQ(points.value[140], 0x12345678u);
-  EXPECT_EQ(macro.output()[0], 2u);
+  EXPECT_EQ(macro.output()[0], 3u);
 }
 
 TEST(MacroInterface, PartSystemsShareOneImage) {
-  nc::rt::MacroInterface macro(map_all());
+  nc::rt::MacroInterface macro(map_all(), {});
   PointImage points;
   const std::uint32_t first[NC_WORDS] = {1, 0, 0, 0}, second[NC_WORDS] = {4, 0, 0, 0}, none[NC_WORDS] = {};
-  macro.distribute(0, first, &points);
-  macro.distribute(1, second, &points);
+  macro.distribute(first, first, &points);
+  macro.distribute(second, second, &points);
   EXPECT_EQ(macro.output()[0], 5u) << "system 2 writes its bit, it does not clear the other's";
   EXPECT_EQ(points.value[100], 1u);
   EXPECT_EQ(points.value[102], 1u);
-  macro.distribute(0, none, &points);
+  macro.distribute(none, first, &points);
   EXPECT_EQ(macro.output()[0], 4u);
+}
+
+TEST(MacroInterface, OutputsBeginWithTheirPointsAndWithWhatTheBusFinds) {
+  PointImage points;
+  points.value[101] = 1;  // `initial` of the point
+  nc::rt::MacroInterface macro(map_all(), points);
+  EXPECT_EQ(macro.output()[0], 2u);
+  std::uint32_t found[NC_WORDS];
+  EXPECT_FALSE(macro.take_over(points, found));
+  points.value[100] = 1;  // read back
+  points.value[140] = 0xABCD0000;
+  EXPECT_TRUE(macro.take_over(points, found));
+  EXPECT_EQ(found[0], 1u);
+  EXPECT_EQ(found[3], ~0u);
+  EXPECT_FALSE(macro.take_over(points, found)) << "once";
+  EXPECT_EQ(macro.output()[0], 3u);
+  EXPECT_EQ(macro.output()[3], 0xABCD0000u);
+  points.value[102] = 1;  // the ladder's, in the middle of the scan
+  macro.leave(points);
+  EXPECT_FALSE(macro.take_over(points, found));
+  const std::uint32_t off[NC_WORDS] = {}, written[NC_WORDS] = {1, 0, 0, 0};
+  macro.distribute(off, written, &points);
+  EXPECT_EQ(points.value[100], 0u) << "#1100 = 0 opens what was found closed";
+  EXPECT_EQ(points.value[101], 1u);
+}
+
+// A machine whose output `out0` (#1100) is found closed, as a bus finds it that reads it back.
+class ClosedMachine final : public nc::hal::Hal {
+ public:
+  explicit ClosedMachine(const nc::rt::Config& config)
+      : sim(config.sim, config.points), out0_(static_cast<unsigned>(config.points.find("out0"))) {}
+  bool start(const PointImage& initial, std::string* error) override { return sim.start(initial, error); }
+  void read(nc::hal::Feedback* feedback, PointImage* image) noexcept override {
+    sim.read(feedback, image);
+    if (++reads == found_at) image->value[out0_] = 1;
+  }
+  void write(const nc::hal::Command& command, const PointImage& image) noexcept override {
+    closed = image.value[out0_] != 0;
+    sim.write(command, image);
+  }
+  void stop() noexcept override { sim.stop(); }
+  nc::hal::SimMachine sim;
+  unsigned reads = 0, found_at = 1;
+  bool closed = false;
+
+ private:
+  unsigned out0_;
+};
+
+class FoundOutput : public testing::Test {
+ protected:
+  void build(unsigned found_at, const char* initial = "") {
+    std::string toml = nc::test::base_toml();
+    toml.insert(toml.find("name = \"out0\"\n"), initial);
+    config = nc::test::parse_or_fail(toml);
+    machine = std::make_unique<ClosedMachine>(config);
+    machine->found_at = found_at;
+    std::vector<nc::rt::ConfigError> errors;
+    runtime = nc::rt::Runtime::create(config, {&clock, machine.get(), nullptr, nullptr}, &errors);
+    ASSERT_NE(runtime, nullptr);
+    std::string error;
+    ASSERT_TRUE(runtime->start_stepping(&error)) << error;
+  }
+  void steps(int n) {
+    while (n-- > 0) runtime->step();
+  }
+  double variable(std::uint32_t number) const {
+    double value = 0;
+    bool vacant = true;
+    EXPECT_EQ(nc_variable_get(runtime->control(), 0, number, &value, &vacant), NC_OK);
+    return vacant ? -1 : value;
+  }
+  void mode(nc::rt::Mode mode) { ASSERT_EQ(runtime->execute(nc::rt::CommandKind::kSetMode, 0, static_cast<std::uint32_t>(mode)), nc::rt::Answer::kDone); }
+  void run() {
+    const std::uint64_t runs = runtime->info().runs;
+    ASSERT_EQ(runtime->execute(nc::rt::CommandKind::kCycleStart), nc::rt::Answer::kDone);
+    for (int n = 0; n < 10000 && runtime->info().runs == runs; ++n) runtime->step();
+    ASSERT_GT(runtime->info().runs, runs);
+  }
+  nc::rt::Config config;
+  nc::rt::VirtualClock clock;
+  std::unique_ptr<ClosedMachine> machine;
+  std::unique_ptr<nc::rt::Runtime> runtime;
+};
+
+constexpr char kOpens[] = "#101=#1100\n#102=#1132\n#1100=0\n#103=#1100\nM30\n";
+
+TEST_F(FoundOutput, AProgramReadsItAndOpensIt) {
+  build(3);
+  steps(10);
+  EXPECT_TRUE(machine->closed);
+  EXPECT_EQ(runtime->snapshot().interface_output[0], 1u);
+  unsigned file = 0;
+  ASSERT_EQ(nc_program_add_text(runtime->control(), "p", kOpens, sizeof kOpens - 1, &file), NC_OK);
+  ASSERT_EQ(runtime->select_program(file), nc::rt::Answer::kDone);
+  run();
+  EXPECT_EQ(variable(101), 1);
+  EXPECT_EQ(variable(102), 1);
+  EXPECT_EQ(variable(103), 0);
+  EXPECT_FALSE(machine->closed);
+  run();
+  EXPECT_EQ(variable(101), 0) << "what the program has left, not what was found once";
+}
+
+// What lies ready has read ahead before the partner answered.
+TEST_F(FoundOutput, WhatIsSelectedBeforeReadsItAllTheSame) {
+  build(100);
+  unsigned file = 0;
+  ASSERT_EQ(nc_program_add_text(runtime->control(), "p", kOpens, sizeof kOpens - 1, &file), NC_OK);
+  ASSERT_EQ(runtime->select_program(file), nc::rt::Answer::kDone);
+  steps(200);
+  ASSERT_TRUE(machine->closed);
+  run();
+  EXPECT_EQ(variable(101), 1);
+  EXPECT_FALSE(machine->closed);
+}
+
+TEST_F(FoundOutput, BlocksOfMdiToo) {
+  build(100);
+  mode(nc::rt::Mode::kMdi);
+  ASSERT_EQ(runtime->load_mdi(kOpens), nc::rt::Answer::kDone);
+  steps(200);
+  ASSERT_TRUE(machine->closed);
+  run();
+  EXPECT_EQ(variable(101), 1);
+  EXPECT_FALSE(machine->closed);
+}
+
+TEST_F(FoundOutput, AnOutputThatBeginsOnReadsOn) {
+  build(0, "initial = 1\n");
+  mode(nc::rt::Mode::kMdi);
+  ASSERT_EQ(runtime->load_mdi(kOpens), nc::rt::Answer::kDone);
+  run();
+  EXPECT_EQ(variable(101), 1);
+  EXPECT_FALSE(machine->closed);
 }
 
 }  // namespace

@@ -59,6 +59,15 @@ said out "cycle time"
 said out "execution time"
 head -c 8 "$work/plot.png" 2>/dev/null | grep -q PNG || fail "no PNG"
 grep -q "<svg" "$work/plot.svg" 2>/dev/null || fail "no SVG"
+# The drawing as in ncsim: other places, colours, and a cross (magenta) where an alarm has stopped the run.
+expect 0 "$ncrtd" --config "$machine" run --fast --plot "$work/other" --coordinates machine --color tool --view xy "$source/examples/parts/flange.nc"
+cmp -s "$work/plot.svg" "$work/other.svg" && fail "--coordinates and --color change nothing"
+grep -q "stroke:rgb(80%,0%,55%)" "$work/plot.svg" && fail "a cross without an alarm"
+printf 'G91 G1 X5. F600\nG2 X3. R1.\nM30\n' >"$work/crossed.nc"
+expect 2 "$ncrtd" --config "$machine" run --fast --plot "$work/crossed" "$work/crossed.nc"
+grep -q "stroke:rgb(80%,0%,55%)" "$work/crossed.svg" || fail "no cross where the alarm is"
+expect 1 "$ncrtd" --config "$machine" run --fast --color tool "$source/examples/parts/flange.nc"
+said err "--plot"
 
 # Virtual time is deterministic: two runs print the same cycle time and path length.
 for n in 1 2; do
@@ -181,6 +190,21 @@ said out "interrupted  by SIGTERM in line"
 said out "cycle time"
 said out "execution time"
 
+# M99 of a main program, be it MDI, has no end (M700 13.3.1): it says so, and a signal ends it.
+for command in "mdi M99" "mdi --fast M99" "run --fast $work/endless.nc"; do
+  printf 'G91 G0 X1.\nX-1.\nM99\n' >"$work/endless.nc"
+  # shellcheck disable=SC2086
+  "$ncrtd" --config "$machine" $command --no-progress >"$work/out" 2>"$work/err" &
+  child=$!
+  until_listening "$child"
+  for ((i = 0; i < 600; ++i)); do grep -q "begins again" "$work/out" && break; sleep 0.1; done
+  kill -TERM "$child"
+  wait "$child"
+  status=$?
+  [ "$status" = 143 ] || { fail "M99: exit $status instead of 143: $command"; cat "$work/out" "$work/err"; }
+  [ "$(grep -c "M99 in line [13]: begins again from the head" "$work/out")" = 1 ] || { fail "M99 without a word, or with many: $command"; cat "$work/out"; }
+done
+
 # The same on virtual time, with the other signal and a plot of what was executed. (An interactive shell ignores
 # SIGINT for what it puts into the background; python3 gives it back.)
 python3 -c 'import os, signal, sys
@@ -292,6 +316,14 @@ printf 'garbage' >"$work/il/count.retain.old"
 keep 2  # who stands at the machine must know before anything moves
 said err "R19 Retained data lost: devices of the ladder are lost and begin with 0"
 [ -e "$work/il/count.retain.damaged" ] || fail "the damaged file is gone"
+# On virtual time it is not looked at, damaged or not, and that is said; without such a file there is nothing to say.
+printf 'garbage' >"$work/il/count.retain"
+expect 0 "$ncrtd" --config "$work/il/machine.toml" run --fast --no-progress "$work/short.nc"
+said err "note: virtual time: retained data is neither read nor written ($work/il/count.retain): devices begin with 0"
+[ "$(cat "$work/il/count.retain")" = garbage ] || fail "--fast has written retained data"
+rm -f "$work"/il/count.retain*
+expect 0 "$ncrtd" --config "$work/il/machine.toml" run --fast --no-progress "$work/short.nc"
+grep -q "retained data" "$work/err" && fail "a note on files that are not there"
 sed -i 's#^retain = .*#retain = "/proc/nowhere/x"#' "$work/il/machine.toml"
 keep 1
 said err "ladder.retain: there is no folder \"/proc/nowhere\""

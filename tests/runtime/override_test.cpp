@@ -33,10 +33,10 @@ class Overrides : public testing::Test {
     for (unsigned n = 0; n < count; ++n) runtime->step();
   }
   void expect(double feed, OverrideSource source, double feed_mm_min) {
-    const nc::rt::Snapshot now = runtime->snapshot();
+    const nc::rt::SystemSnapshot now = runtime->snapshot().system[0];
     EXPECT_DOUBLE_EQ(now.feed_override, feed);
     EXPECT_EQ(now.feed_override_source, source);
-    EXPECT_NEAR(now.system[0].nc.feed_mm_min, feed_mm_min, 1);
+    EXPECT_NEAR(now.nc.feed_mm_min, feed_mm_min, 1);
   }
   nc::rt::Config config;
   nc::rt::VirtualClock clock;
@@ -78,8 +78,8 @@ TEST_F(Overrides, ASwitchOfTheMachineWinsAndIsShown) {
   // The rapid override is another one.
   EXPECT_EQ(runtime->execute(CommandKind::kRapidOverride, 0.25), Answer::kDone);
   steps(2);
-  EXPECT_DOUBLE_EQ(runtime->snapshot().rapid_override, 0.25);
-  EXPECT_EQ(runtime->snapshot().rapid_override_source, OverrideSource::kOperator);
+  EXPECT_DOUBLE_EQ(runtime->snapshot().system[0].rapid_override, 0.25);
+  EXPECT_EQ(runtime->snapshot().system[0].rapid_override_source, OverrideSource::kOperator);
 }
 
 TEST_F(Overrides, AProgramThatForbidsItSaysSo) {

@@ -55,6 +55,7 @@ GeneratedProgram ProgramGenerator::make(unsigned groups) {
       &ProgramGenerator::tool_length, &ProgramGenerator::exact_stop,
       &ProgramGenerator::stops,       &ProgramGenerator::optional_blocks,
       &ProgramGenerator::goto_loop,   &ProgramGenerator::input_macro,
+      &ProgramGenerator::corners,
   };
   line("%");
   line("O1");
@@ -120,6 +121,16 @@ void ProgramGenerator::lines() {
         break;
     }
   }
+}
+
+// Round and back to where it began, with chamfers and roundings at the corners.
+void ProgramGenerator::corners() {
+  line("G17 G91 G1 X9. ,C" + number(draw(0.5, 3.0)) + feed());
+  if (draw(2u) != 0) line("#501=#501+1");
+  line("Y8. ,R" + number(draw(0.5, 3.0)));
+  line(std::string(draw(2u) != 0 ? "M50 " : "") + "X-9. ,R" + number(draw(0.5, 3.0)) + feed());
+  line("Y-8.");
+  line("G90");
 }
 
 // Arcs given by their centre: the end lies on the circle to the last digit that a program has.

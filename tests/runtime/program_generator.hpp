@@ -58,6 +58,7 @@ class ProgramGenerator {
   void stops();
   void optional_blocks();
   void goto_loop();
+  void corners();
 
   std::mt19937 random_;
   GeneratedProgram program_;

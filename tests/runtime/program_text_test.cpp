@@ -3,7 +3,10 @@
 #include "runtime/programs/program_text.hpp"
 
 #include <fcntl.h>
+#include <grp.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -138,6 +141,40 @@ TEST_P(ProgramTextTest, AFileThatIsBeingWrittenIsNotTaken) {
   EXPECT_NE(error_.find("is being written"), std::string::npos) << error_;
   close(writer);
   EXPECT_NE(open(), nullptr) << error_;
+}
+
+// Runs `action` as another user, without capabilities; false when it said so, or there is no other user.
+bool as_another_user(const std::function<bool()>& action) {
+  constexpr uid_t kOther = 65534;
+  const pid_t child = fork();
+  if (child == 0) {
+    const bool other = setgroups(0, nullptr) == 0 && setresgid(kOther, kOther, kOther) == 0 && setresuid(kOther, kOther, kOther) == 0;
+    _exit(other && action() ? 0 : 1);
+  }
+  int status = 1;
+  return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+// The system tells only the owner of a file, and who has CAP_LEASE, that it is open for writing: for others it must have been left alone for longer.
+TEST_P(ProgramTextTest, AWriterOfAnotherUserMayPause) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can be somebody else";
+  ASSERT_EQ(chmod(folder_.c_str(), 0755), 0);
+  const auto opens = [this](std::chrono::milliseconds patience) {
+    return as_another_user([&] {
+      ProgramText::Options options;
+      options.copy_bytes = GetParam();
+      options.patience = patience;
+      return ProgramText::open_file(path_, options, &error_) != nullptr;
+    });
+  };
+  const std::string text = version(1, 2000);
+  const int writer = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  ASSERT_GE(writer, 0);
+  ASSERT_EQ(::write(writer, text.data(), 1000), 1000);  // and then it pauses
+  EXPECT_FALSE(opens(10 * ProgramText::kQuiet)) << "half of a program";
+  ASSERT_EQ(::write(writer, text.data() + 1000, 1000), 1000);
+  close(writer);
+  EXPECT_TRUE(opens(std::chrono::seconds(30))) << "left alone for long enough";
 }
 
 // Somebody rewrites the file at any moment, in the ways in which files are rewritten; every reader sees one version, whole, or an error.

@@ -187,7 +187,7 @@ TEST_F(RetainedControl, WhatIsLostIsAnAlarmUntilReset) {
       << text;
   EXPECT_NE(text.find("R19 Retained data lost: offsets and parameters are lost and are those of the configuration: " + file("offsets")), std::string::npos)
       << text;
-  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kAlarmActive) << "nobody starts without having seen it";
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kWarningActive) << "nobody starts without having seen it";
   ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
   ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting && alarms().empty(); }));
   run("#500=1\nM30\n");
@@ -279,13 +279,31 @@ TEST_F(RetainedControl, WhatCannotBeWrittenIsAnAlarmThatLetsTheProgramEnd) {
   EXPECT_FALSE(runtime->snapshot().stopped_by_alarm());
   ASSERT_TRUE(until([&] { return runtime->info().runs == 1; })) << "the part is finished";
   EXPECT_TRUE(runtime->info().ended_ok);
-  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kAlarmActive) << "the next one is not begun";
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kWarningActive) << "the next one is not begun";
   ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
-  ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting && alarms().empty(); })) << "acknowledged: it does not come back";
+  ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting; }));
+  EXPECT_EQ(alarms().find("R20 "), 0u) << "its cause is still there, and so is the warning: " << alarms();
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting; }));
+  EXPECT_EQ(alarms().find("R20 "), 0u) << "whoever resets how often: " << alarms();
+  ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone) << "it has been acknowledged, and the machine can be used";
+  ASSERT_TRUE(until([&] { return runtime->info().runs == 2; }));
+  EXPECT_EQ(alarms().find("R20 "), 0u) << alarms();
   std::filesystem::remove(file("vars.new"));
+  ASSERT_TRUE(until([&] { return alarms().empty(); })) << "it has gone with its cause: " << alarms();
+  std::filesystem::create_directory(file("vars.new"));
+  run("#500=1\nM30\n");
+  ASSERT_TRUE(until([&] { return !alarms().empty(); })) << "it comes again";
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kWarningActive) << "and nobody has acknowledged that";
+  std::filesystem::remove(file("vars.new"));
+  std::string kept;
+  ASSERT_TRUE(until([&] { return saved("vars", &kept) && kept == encode_variables(runtime->control()); }));
+  EXPECT_EQ(alarms().find("R20 "), 0u) << "what has gone by itself has been, and is there until somebody has seen it: " << alarms();
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting && alarms().empty(); })) << alarms();
   runtime->stop();
   up();
-  EXPECT_EQ(variable(500), 2) << "written as soon as it went";
+  EXPECT_EQ(variable(500), 1) << "written as soon as it went";
 }
 
 // What a shop expects of its control in the morning: the offsets that programs have set, and parameters.
@@ -461,6 +479,9 @@ TEST_F(RetainedControl, AFileOfAnotherControlIsAnAlarm) {
   up();
   ASSERT_TRUE(until([&] { return runtime->snapshot().alarms.count == 1; }));
   EXPECT_EQ(alarms().find("R20 Retained data are not kept: common variables are not kept: "), 0u) << alarms();
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting; }));
+  EXPECT_EQ(alarms().find("R20 Retained data are not kept: common variables are not kept: "), 0u) << "as long as this control runs: " << alarms();
 }
 
 TEST(RetainedVariables, BytesThatMakeNoSenseChangeNothing) {

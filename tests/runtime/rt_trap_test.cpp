@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "runtime/rt_scope.hpp"
+#include "runtime/sanitizer.hpp"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(NC_UNDER_SANITIZER)
 
 TEST(RtTrap, NeedsTheOrdinaryAllocator) {
   GTEST_SKIP() << "a sanitizer has replaced the allocator";

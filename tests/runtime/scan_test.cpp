@@ -163,6 +163,8 @@ TEST_F(ScanTest, OutputsOfTheNcReachTheirPoints) {
   build();
   nc.out.output[0] = 1;
   nc.out.output[1] = 77;
+  nc.out.output_written[0] = 1;
+  nc.out.output_written[1] = ~0u;
   runtime->step();
   EXPECT_EQ(hal->image_written.value[3], 1u);
   EXPECT_EQ(hal->image_written.value[4], 77u);

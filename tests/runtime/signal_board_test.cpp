@@ -94,8 +94,8 @@ class Board : public testing::Test {
 
 TEST_F(Board, PointsAreSignalsWhereTheConfigurationSaysSo) {
   build("[signals]\n\"plc.feed_hold_n\" = \"in0\"\n"
-        "\"nc.hold_lamp\" = \"lamp\"\n\"nc.line\" = \"word_lamp\"\n\"plc.feed_override\" = \"word_in\"\n[[point]]\nname = \"lamp\"\n"
-        "direction = \"output\"\n[[point]]\nname = \"word_lamp\"\ntype = \"word\"\ndirection = \"output\"\n");
+      "\"nc.hold_lamp\" = \"lamp\"\n\"nc.line\" = \"word_lamp\"\n\"plc.feed_override\" = \"word_in\"\n[[point]]\nname = \"lamp\"\n"
+      "direction = \"output\"\n[[point]]\nname = \"word_lamp\"\ntype = \"word\"\ndirection = \"output\"\n");
   machine->set_input(point("in0"), 1);
   machine->set_input(point("word_in"), 5000);
   start("G91 G1 X400. F1200\nM30\n");
@@ -172,7 +172,7 @@ TEST_F(Board, AStoppedLadderBeginsAgainByReset) {
 
 TEST_F(Board, ALinkWithAnAlarmStopsTheMachineWhenItIsLost) {
   build("[[modbus]]\nname = \"io\"\nhost = \"127.0.0.1\"\nport = 1\nalarm = true\n[[point]]\nname = \"p\"\ndirection = \"input\"\n"
-        "modbus = { link = \"io\", table = \"coil\", address = 0 }\n");
+      "modbus = { link = \"io\", table = \"coil\", address = 0 }\n");
   const auto alarm = [&] {
     const Snapshot now = runtime->snapshot();
     return now.alarms.count == 0 ? std::string() : runtime->alarm_text(now.alarms.alarm[0]);
@@ -194,7 +194,7 @@ TEST_F(Board, ALinkWithAnAlarmStopsTheMachineWhenItIsLost) {
 
 TEST_F(Board, ALinkThatNeverComesIsAnAlarmAfterAWhile) {
   build("[[modbus]]\nname = \"io\"\nhost = \"127.0.0.1\"\nport = 1\nalarm = true\n[[point]]\nname = \"p\"\ndirection = \"input\"\n"
-        "modbus = { link = \"io\", table = \"coil\", address = 0 }\n");
+      "modbus = { link = \"io\", table = \"coil\", address = 0 }\n");
   steps(10010);
   EXPECT_EQ(runtime->snapshot().alarms.count, 1u);
 }

@@ -204,7 +204,7 @@ Recording run_online(const rt::Config& config, const std::string& text, const Op
   note_end(*runtime, &recording);
   std::uint32_t number = 0;
   double value = 0;
-  for (std::uint32_t from = 0; nc_common_next(runtime->control(), 0, from, &number, &value) == NC_OK;
+  for (std::uint32_t from = 0; nc_variable_next(runtime->control(), 0, from, &number, &value) == NC_OK;
        from = number + 1)
     recording.variables[number] = value;
   return recording;

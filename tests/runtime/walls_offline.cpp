@@ -30,7 +30,7 @@ double distance(const nc_axes& a, const nc_axes& b) {
 class World {
  public:
   World(const rt::Config& config, const Recording& machine)
-      : macro_(config.macro), script_(config.sim.script), machine_(machine) {
+      : macro_(config.macro, {}), script_(config.sim.script), machine_(machine) {
     for (unsigned p = 0; p < config.points.size(); ++p) points_.value[p] = config.points.at(p).initial;
   }
   // An item is being executed.
@@ -113,10 +113,10 @@ Listing pull_offline(const rt::Config& config, const std::string& text, const Op
     listing.items.push_back(pulled);
   }
   EXPECT_EQ(status, listing.alarm.empty() ? NC_ENDED : NC_ALARMED);
-  for (unsigned w = 0; w < NC_WORDS; ++w) listing.interface_output[w] = nc_interface_output(control, 0, w);
+  for (unsigned w = 0; w < NC_WORDS; ++w) nc_interface_output_get(control, 0, w, &listing.interface_output[w]);
   std::uint32_t number = 0;
   double value = 0;
-  for (std::uint32_t from = 0; nc_common_next(control, 0, from, &number, &value) == NC_OK; from = number + 1)
+  for (std::uint32_t from = 0; nc_variable_next(control, 0, from, &number, &value) == NC_OK; from = number + 1)
     listing.variables[number] = value;
   return listing;
 }

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "motion/m700_accuracy.hpp"
+#include "dialect/m700/accuracy.hpp"
 #include "shape/shape.hpp"
 
 namespace nc {
@@ -69,17 +69,17 @@ void expect_rise(const FilterTimes& times, unsigned cycles, double tolerance, co
 }
 
 TEST(Filters, LinearRise) {
-  expect_rise(after(50, 0), 120, 1e-9, [](double t) { return linear_rise(t, 50); });
+  expect_rise(after(50, 0), 120, 1e-9, [](double t) { return m700::linear_rise(t, 50); });
 }
 TEST(Filters, ExponentialRise) {
-  expect_rise(after(0, 40), 400, 1e-5, [](double t) { return exponential_rise(t, 40); });
+  expect_rise(after(0, 40), 400, 1e-5, [](double t) { return m700::exponential_rise(t, 40); });
 }
 TEST(Filters, LinearAndExponentialRise) {
-  expect_rise(after(50, 30), 400, 2e-4, [](double t) { return combined_rise(t, 50, 30); });
+  expect_rise(after(50, 30), 400, 2e-4, [](double t) { return m700::combined_rise(t, 50, 30); });
 }
 TEST(Filters, SPattern) {
-  expect_rise(before(30, 20), 80, 2e-4, [](double t) { return s_filter(t, 30, 20); });
-  expect_rise(before(0, 20), 80, 1e-9, [](double t) { return s_filter(t, 0, 20); });
+  expect_rise(before(30, 20), 80, 2e-4, [](double t) { return m700::s_filter(t, 30, 20); });
+  expect_rise(before(0, 20), 80, 1e-9, [](double t) { return m700::s_filter(t, 0, 20); });
 }
 
 TEST(Filters, LagAtConstantSpeedIsThatOfTheManual) {
@@ -87,7 +87,7 @@ TEST(Filters, LagAtConstantSpeedIsThatOfTheManual) {
   ASSERT_TRUE(f.shape.use(after(80, 25)));
   double x = 0;
   for (unsigned n = 0; n < 2000; ++n) x = f.shape.filter(at((n + 1) * 0.1), false)[0];
-  EXPECT_NEAR(200 - x, smoothing_lag_mm(6000, 80, 25), 1e-6);  // 0.1 mm in a cycle: 6000 mm/min
+  EXPECT_NEAR(200 - x, m700::smoothing_lag_mm(6000, 80, 25), 1e-6);  // 0.1 mm in a cycle: 6000 mm/min
 }
 
 /// M700 7.7: Td = Ts, 2 Ts, and one behind the other; the axis is then where the path is, to the last bit.

@@ -88,6 +88,35 @@ class IntakeRules : public testing::Test {
   std::vector<Ack> acks_;
 };
 
+// "Other" is for a control of a later release: what this one says has a number of its own, in the answer as in the status.
+TEST_F(IntakeRules, EveryReasonOfTheRuntimeIsNamedInTheAnswer) {
+  take_control();
+  std::uint64_t sequence = 1;
+  for (unsigned n = 0; n < kAnswers; ++n) {
+    const auto why = static_cast<Answer>(n);
+    SCOPED_TRACE(answer_text(why));
+    ASSERT_STRNE(answer_text(why), "?");
+    const RefusalCause cause = refusal_cause(why);
+    EXPECT_NE(cause, RefusalCause::kOther);
+    EXPECT_LE(cause, RefusalCause::kLast);
+    EXPECT_EQ(cause == RefusalCause::kNone, why == Answer::kDone);
+    EXPECT_EQ(refusal_cause(Refusal{1, Asked::kCycleStart, why}), cause);
+    machine_.answer = why;
+    const std::pair<RequestKind, const char*> kinds[] = {{RequestKind::kSingleBlock, ""}, {RequestKind::kMdi, "G0 X1."}, {RequestKind::kSelectProgram, "part.nc"}};
+    for (const auto& [kind, text] : kinds) {
+      Request r = request(kind, ++sequence);
+      set_text(&r.text, text);
+      const Ack ack = give(r);
+      EXPECT_EQ(ack.reason, reason(why == Answer::kDone ? AckReason::kNone : AckReason::kRefused)) << text;
+      EXPECT_EQ(ack.refusal, static_cast<std::uint32_t>(cause)) << text;
+    }
+  }
+  EXPECT_EQ(refusal_cause(Answer::kFeedHold), RefusalCause::kFeedHold);
+  EXPECT_EQ(refusal_cause(Answer::kInterlock), RefusalCause::kInterlock);
+  EXPECT_EQ(refusal_cause(Answer::kAlarmActive), RefusalCause::kAlarm) << "an emergency stop is one of the ladder";
+  EXPECT_EQ(refusal_cause(Answer::kResetHeld), RefusalCause::kResetHeld);
+}
+
 TEST_F(IntakeRules, NothingActsWithoutControlButAHold) {
   expect_rejected(give(RequestKind::kCycleStart, 1), AckReason::kNoControl);
   EXPECT_EQ(machine_.total(), 0u);

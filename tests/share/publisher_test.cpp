@@ -101,7 +101,7 @@ class SharePublisher : public testing::Test {
   std::unique_ptr<PointTap> tap_;
   std::unique_ptr<Runtime> runtime_;
   std::shared_ptr<ProgramText> shown_;
-  ProgramTable programs_;
+  ProgramTable programs_{NC_DIALECT_M700};
   SegmentOwner owner_;
   SegmentReader reader_;
   std::unique_ptr<Publisher> publisher_;

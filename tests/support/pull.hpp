@@ -277,7 +277,7 @@ class Bench {
       run.alarm_line = alarm.source.line;
     }
     double value = 0;
-    for (uint32_t n = 0; nc_common_next(control_, 0, n, &n, &value) == NC_OK; ++n) run.vars[n] = value;
+    for (uint32_t n = 0; nc_variable_next(control_, 0, n, &n, &value) == NC_OK; ++n) run.vars[n] = value;
     return run;
   }
   /// Next item; a sync is answered at once.

@@ -16,8 +16,8 @@ struct RandomProgram {
 
 class ProgramMaker {
  public:
-  /// Without `reads_world` nothing depends on inputs, clocks and skip signals.
-  explicit ProgramMaker(uint32_t seed, bool reads_world = true) : random_(seed), reads_world_(reads_world) {}
+  /// Without `reads_world` nothing depends on inputs, clocks and skip signals. With `corners` there are chamfers and roundings.
+  explicit ProgramMaker(uint32_t seed, bool reads_world = true, bool corners = true) : random_(seed), reads_world_(reads_world), corners_(corners) {}
 
   RandomProgram make() {
     RandomProgram p;
@@ -53,7 +53,7 @@ class ProgramMaker {
   }
 
   void block(int depth) {
-    const int kind = number(0, 24);
+    const int kind = number(0, corners_ ? 25 : 24);
     const bool reads = kind == 16 || kind == 17 || kind == 23;
     switch (reads && !reads_world_ ? 1 : kind) {
       case 0: text_ += "G0 X" + coordinate() + " Y" + coordinate() + "\n"; break;
@@ -84,6 +84,12 @@ class ProgramMaker {
       case 21: text_ += "M" + std::to_string(number(10, 40)) + " T" + std::to_string(number(1, 99)) + "\n"; break;
       case 22: text_ += number(0, 1) ? "G4 P" + std::to_string(number(1, 900)) + "\n" : "M1\n"; break;
       case 23: text_ += "#3006=1(NOTE " + std::to_string(number(1, 99)) + ")\n" + common() + "=#3001\n"; break;
+      case 24:
+        if (corners_) {
+          corners();
+          break;
+        }
+        [[fallthrough]];
       default: text_ += "/G" + std::to_string(number(0, 1)) + " X" + coordinate() + "\n(comment)\n#" + std::to_string(2000 + number(1, 9)) + "=" + coordinate(3) + "\n"; break;
     }
   }
@@ -108,6 +114,17 @@ class ProgramMaker {
     text_ += "Y30.\nX0 Y25.\nG40 X-20. Y-20.\n";
   }
 
+  /// Lines with chamfers and roundings between them (M700 13.7), once with compensation.
+  void corners() {
+    const bool compensated = number(0, 2) == 0;
+    if (compensated) text_ += "G0 X0 Y0\nG91 G1 G41 D" + std::to_string(number(1, 9)) + " X20.\n";
+    text_ += "G91 G1 F3000 Y3. X15. ,R" + std::to_string(number(1, 4)) + ".\n";
+    if (number(0, 1)) text_ += common() + "=" + common() + "+1\n";
+    text_ += (number(0, 1) ? "M" + std::to_string(number(50, 60)) + " " : "") + "X-3. Y18. ,C" + std::to_string(number(1, 4)) + ".\n";
+    text_ += "/X-24. Z1. ,R" + std::to_string(number(0, 3)) + ".5\nX-15. Y4.\n";
+    text_ += compensated ? "G40 X-10. Y-20.\nG90\n" : "G90\n";
+  }
+
   void loop(int depth) {
     if (depth > 2) return;
     const int mine = ++loop_;
@@ -128,7 +145,7 @@ class ProgramMaker {
   }
 
   std::mt19937 random_;
-  bool reads_world_;
+  bool reads_world_, corners_;
   std::string text_;
   int first_sub_ = 1, last_sub_ = 4;
   int loop_ = 0;

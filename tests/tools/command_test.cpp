@@ -17,54 +17,10 @@
 #include <string>
 #include <vector>
 
+#include "tools/command_fixture.hpp"
+
 namespace nc::tools {
 namespace {
-
-using Json = nlohmann::json;
-
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-  std::vector<Json> events() const {
-    std::vector<Json> list;
-    for (size_t at = 0; at < out.size();) {
-      const size_t end = out.find('\n', at);
-      list.push_back(Json::parse(out.substr(at, end - at)));
-      at = end + 1;
-    }
-    return list;
-  }
-};
-
-class CommandTest : public testing::Test {
- protected:
-  void SetUp() override {
-    char pattern[] = "/tmp/nc-command-XXXXXX";
-    ASSERT_NE(mkdtemp(pattern), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string file(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ + "/" + name, std::ios::binary) << text;
-    return folder_ + "/" + name;
-  }
-  static std::string content(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
-  // `line` is everything behind "ncsim ", for the shell; standard output may be redirected in it.
-  Outcome ncsim(const std::string& line) {
-    const std::string command =
-        "cd " + folder_ + " && { " NC_BINARY_DIR "/bin/ncsim " + line + " ; } > out.txt 2> err.txt";
-    const int status =
-        std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe,cert-env33-c): a test's own command
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ + "/out.txt"),
-            content(folder_ + "/err.txt")};
-  }
-
-  std::string folder_;
-};
 
 constexpr const char* kPart =
     "G90 G54 G00 X0 Y0 Z5.\nG01 Z-1. F100.\nX10. Y5. F250.\nG02 X20. Y-5. I0 J-10.\nM30\n";
@@ -279,106 +235,15 @@ TEST_F(CommandTest, AProbeMeasuresABore) {
 TEST_F(CommandTest, WhatASetupGivesInVainIsNoted) {
   file("p.nc", "G31 X10. F100\nM30\n");
   file("s.json", "{\"hits\": [{\"at\": {\"X\": 4}},\n {\"at\": {\"X\": 5}}],\n \"events\": [{\"when\": {\"m\": 6}, \"inputs\": {\"1000\": 1}}]}");
-  for (const char* command : {"trace", "check"}) {
+  for (const char* command : {"trace", "check", "time", "motion"}) {
     const Outcome run = ncsim(std::string(command) + " --setup s.json p.nc");
     EXPECT_EQ(run.code, 0);
     EXPECT_EQ(run.err, "note: s.json:3: events[0]: has not fired: M6 was not given out\nnote: s.json:2: hits[1]: no skip move came to take it\n");
   }
-  const Outcome time = ncsim("time --setup s.json p.nc");
-  EXPECT_EQ(time.code, 1);
-  EXPECT_NE(time.err.find("s.json:1: hits[0]: hits are for trace, check and plot"), std::string::npos) << time.err;
   file("e.json", R"({"events": [{"when": {"m": 6}, "inputs": {"1000": 1}}, {"when": {"m": 30}, "inputs": {"1001": 1}}]})");
   const Outcome events = ncsim("time --setup e.json p.nc");
   EXPECT_EQ(events.code, 0) << events.err;
   EXPECT_EQ(events.err, "note: e.json:1: events[0]: has not fired: M6 was not given out\n");
-}
-
-TEST_F(CommandTest, AnEndlessLoopEndsWithAMessage) {
-  for (const char* loop :
-       {"N1 GOTO 1\nM30\n", "N1\n#1=1\nGOTO 1\nM30\n", "WHILE [#1000 EQ 0] DO1\nEND1\nM30\n"}) {
-    file("p.nc", loop);
-    for (const char* command : {"check --max-silent-blocks 100000 p.nc", "time p.nc"}) {
-      const Outcome run = ncsim(command);
-      EXPECT_EQ(run.code, 1) << command << "\n" << loop;
-      EXPECT_NE(run.err.find("endless loop"), std::string::npos) << run.err;
-    }
-  }
-}
-
-// M700 13.12, #1112 = 1: a block goes through between two runs of the interrupt program, which moves nothing.
-TEST_F(CommandTest, AnInterruptSignalThatStaysOnEndsWithTheProgram) {
-  file("s.json", R"({"params": {"1112": 1}, "subprograms": {"1000": "O1000\n#100=#100+1\nM99\n%"},
-                     "events": [{"when": {"line": 3}, "signals": {"macro_interrupt": 1}}]})");
-  file("p.nc", "#100=0\nM96 P1000\nG0 X1.\nX2.\nX3.\nM97\nX4.\nM30\n");
-  const Outcome run = ncsim("trace --setup s.json p.nc");
-  EXPECT_EQ(run.code, 0) << run.err;
-  ASSERT_FALSE(run.events().empty());
-  EXPECT_EQ(run.events().back()["vars"]["100"], 4);
-  EXPECT_EQ(run.events().back()["work"]["X"], 4);
-  file("p.nc", "#100=0\nM96 P1000\nN1 GOTO 1\nM30\n");  // its comings and goings are nothing that the machine does
-  const Outcome loop = ncsim("check --setup s.json --max-silent-blocks 10000 p.nc");
-  EXPECT_EQ(loop.code, 1);
-  EXPECT_NE(loop.err.find("endless loop"), std::string::npos) << loop.err;
-}
-
-TEST_F(CommandTest, AProgramThatM99BeginsAgainIsCheckedAndDrawnOnce) {
-  file("p.nc", "G90 G0 X10. (NOT YET: M99)\nM98 P5 L2\n/M99\nG0 X0\nM99\n\nO5\nG91 G0 Y1.\nM99\n");
-  Outcome run = ncsim("check p.nc");
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("no alarm in one pass (M99 begins it again); 9 blocks"), std::string::npos) << run.out;
-  EXPECT_EQ(ncsim("plot p.nc -o once").code, 0);
-  // In a sub program it is a return.
-  file("p.nc", "M98 P5\nM30\nO5\nG0 X1.\nM99\n");
-  run = ncsim("check p.nc");
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(run.out.find("one pass"), std::string::npos) << run.out;
-}
-
-// Trace, time and motion, too; but where the passes differ the program may end itself.
-TEST_F(CommandTest, AProgramThatM99BeginsAgainRunsOnce) {
-  file("p.nc", "G91 G1 X10. F6000\n#500=#500+1\n/M99\nM30\n");
-  file("s.json", R"({"optional_skip": []})");
-  Outcome run = ncsim("trace p.nc");
-  EXPECT_EQ(run.code, 0) << run.err;
-  ASSERT_FALSE(run.events().empty());
-  EXPECT_EQ(run.events().back()["t"], "end");
-  EXPECT_EQ(run.events().back()["work"]["X"], 10);
-  run = ncsim("time p.nc");
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("of one pass (M99 begins it again)"), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("path length  10."), std::string::npos) << run.out;  // and what the cycle has of the next pass
-  file("p.nc", "#500=#500+1\nIF[#500GT4]GOTO9\nG91 G1 X10. F6000\nM99\nN9 M30\n");
-  run = ncsim("trace p.nc");
-  EXPECT_EQ(run.events().back()["work"]["X"], 40);
-  run = ncsim("time p.nc");
-  EXPECT_EQ(run.out.find("one pass"), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("path length  40.000 mm"), std::string::npos) << run.out;
-}
-
-// An event at a line that calls comes before the first block of the program called, in every subcommand.
-TEST_F(CommandTest, EventsOfLinesAreTheSameInEverySubcommand) {
-  file("p.nc", "G90 G0 X0 Y0\nM98 P1\nG0 X3.\n#101=#1000\nG1 X[4.+#101] F1000\nM98 P1\nM30\n"
-               "O1\nIF[#1000EQ1]GOTO20\nG1 Y-1. F1000\nM99\nN20 G1 Y1. F1000\nM99\n");
-  for (const int line : {2, 3, 4, 5, 6, 7}) {
-    file("s.json", R"({"events": [{"when": {"line": )" + std::to_string(line) + R"(}, "inputs": {"1000": 1}}]})");
-    std::string expected;
-    for (const Json& event : ncsim("trace --setup s.json p.nc").events())
-      if (event["t"] == "move") expected += event["work"]["X"].dump() + "," + event["work"]["Y"].dump() + " ";
-    const std::string first = line == 2 ? "0,1 3,1 5,1 " : line == 3 || line == 4 ? "0,-1 3,-1 5,-1 5,1 " : line < 7 ? "0,-1 3,-1 4,-1 4,1 " : "0,-1 3,-1 4,-1 ";
-    EXPECT_EQ(expected, first) << line;
-    ASSERT_EQ(ncsim("motion --setup s.json p.nc -o m.csv").code, 0);
-    // Where the axes were highest on the way, and where they end.
-    std::ifstream rows(folder_ + "/m.csv");
-    double top = 0, x = 0, y = 0;
-    std::string row;
-    for (std::getline(rows, row); std::getline(rows, row);) {
-      ASSERT_EQ(std::sscanf(row.c_str(), "%*[^,],%lf,%lf", &x, &y), 2) << row;
-      top = std::max(top, y);
-    }
-    EXPECT_NEAR(top, line < 7 ? 1 : 0, 1e-6) << line;
-    EXPECT_NEAR(x, line < 5 ? 5 : 4, 1e-6) << line;
-    EXPECT_NEAR(y, line < 7 ? 1 : -1, 1e-6) << line;
-  }
 }
 
 TEST_F(CommandTest, EncodingsOfPrograms) {
@@ -421,7 +286,11 @@ TEST_F(CommandTest, CheckNotesNumbersThatWereHardlyMeant) {
   std::string note = notes("G90 G1 X1.5 F100\nG1 X10 Y20\nZ0\nM30\n");
   EXPECT_NE(note.find("note: p.nc:2: X10 and 1 more numbers without a decimal point"), std::string::npos) << note;
   EXPECT_EQ(notes("G90 G1 X1.5 F100\nG1 X10 Y20\nM30\n", R"({"params": {"1078": 1}})"), "");
-  EXPECT_EQ(notes("G90 G1 X10000 F100\nG1 X10 Y20\nM30\n"), "") << "thousandths throughout";
+  note = notes("G90 G1 X10000 F100\nG1 X10 Y-25000\nM30\n");
+  EXPECT_NE(note.find("note: p.nc: all numbers are without a decimal point, 3 from line 1 on"), std::string::npos) << note;
+  EXPECT_NE(note.find("the largest is Y-25000"), std::string::npos) << note;
+  EXPECT_EQ(note.find("#1078"), std::string::npos) << "thousandths throughout are told, not blamed: " << note;
+  EXPECT_EQ(notes("G90 G1 X10000 F100\nM30\n", R"({"params": {"1078": 1}})"), "");
   EXPECT_NE(notes("G90 G1 X10 F100\nG1 X50 Y20\nM30\n"), "") << "a part of 0.05 mm";
   EXPECT_EQ(notes("G90 G1 X1. F100 (X10)\nX0 Y-0\nG65 P9 X10\nM30\nO9\nM99\n"), "") << "an argument";
   note = notes("G4 P1.00000\nG04 P2.5\nG04 P500\nG04 X1.\nM30\n");
@@ -829,7 +698,7 @@ TEST_F(CommandTest, CheckNotesWhatLimitsTheMachineAndWhatHasNoEffect) {
 TEST_F(CommandTest, TimeIsWhatTheRuntimeNeeds) {
   file("end.nc", "M30\n");
   file("p.nc", "G17 G21 G90 G94 G64\nG53 G0 X-250. Y-150. Z-20.\nG91\nG1 X20. F3000.\nG61\nY20.\nG64\nG2 X10. Y10. I10. J0.\n"
-               "G4 X0.3\nG0 Z-30.\nG1 X-30. Y-30. F800.\nM30\n");
+       "G4 X0.3\nG0 Z-30.\nG1 X-30. Y-30. F800.\nM30\n");
   const std::string machine = NC_SOURCE_DIR "/etc/machine.toml";
   const auto runtime = [&](const std::string& program) {
     const std::string command = "cd " + folder_ + " && " NC_BINARY_DIR "/bin/ncrtd --config " + machine +

@@ -24,6 +24,7 @@ class FakeItems final : public ItemSource {
   std::string text_value;
   nc_alarm alarm_value = {};
   bool has_alarm = false, was_reset = false;
+  uint32_t calling_line = 0;  // that sub programs belong to
 
   nc_item& add(nc_item_kind kind, uint32_t line, uint8_t depth = 0) {
     nc_item item = {};
@@ -75,6 +76,7 @@ class FakeItems final : public ItemSource {
     was_reset = true;
     return NC_OK;
   }
+  uint32_t main_line(const nc_source& source) override { return source.depth == 0 ? source.line : calling_line; }
   bool alarm(nc_alarm* alarm) override {
     if (!has_alarm) return false;
     *alarm = alarm_value;

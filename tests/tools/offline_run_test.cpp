@@ -46,12 +46,13 @@ struct Scene {
   FakeItems items;
   Notes notes;
   RunResult result;
-  void go(const std::string& setup_text = "{}", const std::string& program = "") {
+  void go(const std::string& setup_text = "{}", uint32_t calling_line = 0) {
+    items.calling_line = calling_line;
     tools::Setup setup;
     std::string error;
     ASSERT_TRUE(parse_setup(setup_text, "s.json", &setup, &error)) << error;
     VirtualWorld world(setup, xyz());
-    result = run_offline(&items, &world, &notes, BlockLines(program), 0);
+    result = run_offline(&items, &world, &notes, false, 0);
   }
   nc_action& action(uint32_t line, nc_action_kind kind, double value) {
     nc_item& item = items.add(NC_ITEM_ACTION, line);
@@ -154,7 +155,7 @@ TEST(OfflineRun, EventOfACallLineComesBeforeItsSubProgramReads) {
   run.items.mark(1, {}, 1);
   run.items.mark(4, {});
   run.items.end(5, {});
-  run.go(R"({"events": [{"when": {"line": 4}, "inputs": {"1000": 1}}]})", "G0\n(comment)\n\nM98 P1\nM30\n");
+  run.go(R"({"events": [{"when": {"line": 4}, "inputs": {"1000": 1}}]})", 4);
   ASSERT_EQ(run.items.answers.size(), 1u);
   EXPECT_EQ(run.items.answers[0].input[0], 1u);
 }
@@ -199,8 +200,8 @@ TEST(OfflineRun, AnEndlessLoopIsAnError) {
   tools::Setup setup;
   VirtualWorld world(setup, xyz());
   RunSink sink;
-  const RunResult result = run_offline(&items, &world, &sink, {}, 100'000);
-  EXPECT_EQ(result.how, RunResult::How::kFailed);
+  const RunResult result = run_offline(&items, &world, &sink, false, 100'000);
+  EXPECT_EQ(result.how, RunResult::How::kEndless);
   EXPECT_NE(result.error.find("endless loop"), std::string::npos);
 }
 
@@ -241,19 +242,31 @@ TEST(OfflineRun, CalculationWithoutEndIsAnErrorButWaitingForTheClockIsNot) {
   RunSink sink;
   VirtualWorld one(setup, xyz()), two(setup, xyz());
   Calculating loop(0, 1 << 30), wait(10, 50'000);
-  const RunResult endless = run_offline(&loop, &one, &sink, {}, 10'000);
-  EXPECT_EQ(endless.how, RunResult::How::kFailed);
+  const RunResult endless = run_offline(&loop, &one, &sink, false, 10'000);
+  EXPECT_EQ(endless.how, RunResult::How::kEndless);
   EXPECT_NE(endless.error.find("line 7: 10000 blocks"), std::string::npos) << endless.error;
-  EXPECT_EQ(run_offline(&wait, &two, &sink, {}, 10'000).how, RunResult::How::kEnded);
+  EXPECT_EQ(run_offline(&wait, &two, &sink, false, 10'000).how, RunResult::How::kEnded);
 }
 
-TEST(BlockLines, LeavesCommentsBlanksAndPercentOut) {
-  const BlockLines lines("%\n(a\n b) \nG1\n\n  \r\nN5;\n; \nM30");
-  EXPECT_EQ(lines.after(0), 3u) << "a comment ends with its line";
-  EXPECT_EQ(lines.after(3), 4u);
-  EXPECT_EQ(lines.after(4), 7u);
-  EXPECT_EQ(lines.after(7), 9u);
-  EXPECT_EQ(lines.after(9), 0u);
+TEST(OfflineRun, ALongRunIsToldWithEachDoubling) {
+  tools::Setup setup;
+  RunSink sink;
+  VirtualWorld world(setup, xyz());
+  Calculating blocks(0, 5'000);
+  std::string told;
+  RunProgress progress;
+  EXPECT_EQ(progress.first, 10'000'000u);
+  progress.first = 1'000;
+  progress.tell = [&](const nc_source& source, uint64_t count) { told += std::to_string(source.line) + "@" + std::to_string(count) + " "; };
+  EXPECT_EQ(run_offline(&blocks, &world, &sink, false, 0, false, progress).how, RunResult::How::kEnded);
+  EXPECT_EQ(told, "7@1000 7@2000 7@4000 ");
+}
+
+TEST(HasDecision, OutsideOfCommentsAndInAnyCase) {
+  EXPECT_TRUE(has_decision("G1\nif[#1EQ2]GOTO 3\nM30"));
+  EXPECT_TRUE(has_decision("(a\nWHILE[1]DO1"));  // a comment ends with its line
+  EXPECT_FALSE(has_decision("G1 (IF)\n(WHILE\nM30"));
+  EXPECT_FALSE(has_decision(""));
 }
 
 }  // namespace

@@ -165,8 +165,8 @@ TEST_F(ProgramsTest, SubProgramsAreThoseOfTheSelection) {
   unsigned file = selected(&files, bench, "main.nc");
   std::string x;
   EXPECT_EQ(run(bench, &x, [&](unsigned item) {
-    if (item == 3) write("O5", "G0 X8.\nG0 X9.\nM99\n");
-  }), "");
+              if (item == 3) write("O5", "G0 X8.\nG0 X9.\nM99\n");
+            }), "");
   EXPECT_EQ(x, "1 2 1 2 ");
   ASSERT_EQ(nc_program_select(bench.control(), 0, file), NC_OK);  // its rewinding by M30 is no selection
   x.clear();

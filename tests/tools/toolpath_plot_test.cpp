@@ -15,6 +15,7 @@
 #include <map>
 
 #include "fake_items.hpp"
+#include "tools/lib/plot_pieces.hpp"
 
 namespace nc::tools {
 namespace {
@@ -241,6 +242,63 @@ TEST_F(PlotTest, AMissingFolderIsAnErrorWithItsName) {
   EXPECT_NE(error.find("none/a.png"), std::string::npos);
 }
 
+TEST_F(PlotTest, ADenseSurfaceIsLitFromTheLeft) {
+  // A ridge along Y, milled in passes of 0.1 mm: with light from the left, its left slope is lighter than its right one.
+  ToolpathPlot plot;
+  plot.set_view(PlotView::kXY);
+  plot.add_point(true, 0, 0, 30);
+  for (double y = 0; y <= 60; y += 0.2) {
+    for (const double x : {0.0, 50.0, 100.0}) plot.add_point(false, x, y, x == 50.0 ? 25 : 0);
+    for (const double x : {100.0, 50.0, 0.0}) plot.add_point(false, x, y + 0.1, x == 50.0 ? 25 : 0);
+  }
+  std::string error;
+  ASSERT_TRUE(plot.write_png(path("a.png"), &error)) << error;
+  const auto light = [](int r, int g, int b) { return b > 215 && r > 140 && r < b - 40 && g < b; };
+  const auto dark = [](int r, int g, int b) { return b > 150 && b < 200 && r < 110 && b > r + 60 && b > g + 30; };
+  std::map<int, int> light_in, dark_in;
+  const Pixels lit = pixels(path("a.png"), light, &light_in), shaded = pixels(path("a.png"), dark, &dark_in);
+  const int middle = (lit.left + shaded.right) / 2;
+  const auto before = [middle](const std::map<int, int>& columns) {
+    int count = 0;
+    for (const auto& [x, pixels_there] : columns) count += x < middle ? pixels_there : 0;
+    return count;
+  };
+  EXPECT_GT(before(light_in), 200'000);
+  EXPECT_LT(lit.count - before(light_in), 10'000);
+  EXPECT_GT(shaded.count - before(dark_in), 200'000);
+  EXPECT_LT(before(dark_in), 10'000);
+}
+
+TEST_F(PlotTest, ASurfaceHasTheColourOfWhatIsAskedFor) {
+  ToolpathPlot plot;
+  plot.set_view(PlotView::kXY);
+  plot.set_color(PlotColor::kTool);
+  plot.add_point(true, 0, 0, 30);
+  for (double y = 0; y <= 60; y += 0.2) {
+    plot.set_tool(y < 30 ? 1 : 2);
+    plot.add_point(false, 0, y, 0);
+    plot.add_point(false, 100, y, 0);
+  }
+  std::string error;
+  ASSERT_TRUE(plot.write_png(path("a.png"), &error)) << error;
+  const auto blue = [](int r, int g, int b) { return b > r + 60 && b > g + 40; };
+  const auto green = [](int r, int g, int b) { return g > r + 60 && g > b + 40; };
+  const Pixels one = pixels(path("a.png"), blue), two = pixels(path("a.png"), green);
+  EXPECT_GT(one.count, 200'000);
+  EXPECT_GT(two.count, 200'000);
+}
+
+TEST_F(PlotTest, AFarRapidDoesNotShrinkThePart) {
+  ToolpathPlot plot = square();
+  plot.set_view(PlotView::kXZ);
+  plot.add_point(true, 0, 0, 2000);
+  std::string error;
+  ASSERT_TRUE(plot.write_png(path("a.png"), &error)) << error;
+  const Pixels feed = pixels(path("a.png"), is_feed);
+  EXPECT_GT(feed.right - feed.left, 900);
+  ASSERT_TRUE(plot.write_svg(path("a.svg"), &error)) << error;
+}
+
 TEST_F(PlotTest, VerticesStayBounded) {
   ToolpathPlot plot;
   for (int i = 0; i < 5'000'000; ++i) plot.add_point(i % 100'000 == 0, 0.001 * i, 0, 0);
@@ -249,6 +307,44 @@ TEST_F(PlotTest, VerticesStayBounded) {
   ToolpathPlot rapids;
   for (int i = 0; i < 4'500'000; ++i) rapids.add_point(true, 0.001 * i, i % 2, 0);
   EXPECT_LE(rapids.size(), 2'000'001u);
+}
+
+// A program that has alarmed before it moved: start and alarm in the middle of a frame of 10 mm.
+TEST_F(PlotTest, APathWithoutAMoveHasAFrameAndItsMarks) {
+  ToolpathPlot plot;
+  plot.set_view(PlotView::kXY);
+  plot.add_point(true, 20, -3, 100);
+  plot.set_alarm("P62");
+  plot.set_sentence("p.nc:2: P62 No F command");
+  const PlotBox box = plot_box(plot);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(box.high[i] - box.low[i], 10, 1e-5) << i;
+  EXPECT_NEAR(box.low[0], 15, 1e-5);
+  EXPECT_NEAR(box.high[2], 105, 1e-5);
+  std::string error;
+  ASSERT_TRUE(plot.write_png(path("p.png"), &error)) << error;
+  const Pixels start = pixels(path("p.png"), [](int r, int g, int b) { return r < 60 && g > 110 && b < 90; });
+  const Pixels alarm = pixels(path("p.png"), [](int r, int g, int b) { return r > 170 && g < 60 && b > 100; });
+  EXPECT_GT(start.count, 10);
+  EXPECT_GT(alarm.count, 20);
+  EXPECT_NEAR((alarm.left + alarm.right) / 2, 715, 6);  // of the room that is left for the drawing
+  EXPECT_NEAR((start.left + start.right) / 2, 715, 6);
+}
+
+// Two starts that are cut off at the same place of the frame differ below the head in nothing but the words at their mark.
+TEST_F(PlotTest, AStartNotFarFromThePartIsInTheFrameAndAFarOneIsNamed) {
+  std::map<double, int> dark;
+  for (const double z : {80.0, 500.0, 50000.0}) {
+    ToolpathPlot plot;
+    plot.set_view(PlotView::kXZ);
+    plot.add_point(true, 0, 0, z);
+    plot.add_point(true, 0, 0, 1);
+    for (int i = 0; i <= 10; ++i) plot.add_point(false, 10 * i, i % 2, 0);
+    EXPECT_EQ(plot_box(plot).high[2] >= z, z == 80.0);
+    std::string error;
+    ASSERT_TRUE(plot.write_png(path("p.png"), &error)) << error;
+    dark[z] = pixels(path("p.png"), [](int r, int g, int b) { return r < 90 && g < 90 && b < 90; }).count;
+  }
+  EXPECT_GT(dark[50000.0], dark[500.0] + 10);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace nc::tools {
 namespace {
 
-constexpr nc_source kSource = {12, 1000, 1, 2, 0};
+constexpr nc_source kSource = {12, 1000, 0, 2, 0};
 
 template <typename Write>
 std::string lines(Write write) {
@@ -39,14 +39,14 @@ TEST(TraceWriter, Moves) {
             "\"work\":{\"X\":1,\"Y\":-2.5,\"Z\":10},\"machine\":{\"X\":101,\"Y\":0,\"Z\":3},\"feed\":600}\n");
   EXPECT_EQ(
       lines([](TraceWriter& w) {
-        w.move({1, 0, 1, 0, 0}, straight(NC_MOVE_RAPID));
+        w.move({1, 0, 0, 0, 0}, straight(NC_MOVE_RAPID));
       }),
       "{\"t\":\"move\",\"sys\":1,\"line\":1,\"prog\":0,\"depth\":0,\"kind\":\"rapid\","
       "\"work\":{\"X\":1,\"Y\":-2.5,\"Z\":10},\"machine\":{\"X\":101,\"Y\":0,\"Z\":3},\"feed\":null}\n");
   EXPECT_EQ(lines([](TraceWriter& w) {
               nc_move m = straight(NC_MOVE_TAP);
               m.feed_mm_rev = 1.25;
-              w.move({1, 0, 1, 0, 0}, m);
+              w.move({1, 0, 0, 0, 0}, m);
             }),
             "{\"t\":\"move\",\"sys\":1,\"line\":1,\"prog\":0,\"depth\":0,\"kind\":\"tap\","
             "\"work\":{\"X\":1,\"Y\":-2.5,\"Z\":10},\"machine\":{\"X\":101,\"Y\":0,\"Z\":3},\"feed\":null,"
@@ -110,7 +110,7 @@ TEST(TraceWriter, EndHasVariablesAndModalCodes) {
   items.common = {{100, 1.5}, {101, -0.0}, {999, 1e-12}};
   items.codes = {"G01", "G54.1"};
   EXPECT_EQ(lines([&](TraceWriter& w) {
-              w.end({9, 0, 1, 0, 0}, true, {{1, 2, 3}}, {{4, 5, 6}}, 0, &items);
+              w.end({9, 0, 0, 0, 0}, true, {{1, 2, 3}}, {{4, 5, 6}}, 0, &items);
             }),
             "{\"t\":\"end\",\"sys\":1,\"line\":9,\"prog\":0,\"depth\":0,\"ok\":true,\"work\":{\"X\":1,\"Y\":"
             "2,\"Z\":3},"

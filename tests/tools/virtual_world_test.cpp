@@ -155,11 +155,11 @@ TEST(Events, FireOnceWhenTheirLineOrTimeComes) {
   EXPECT_FALSE(world.on_item(items.items[0], 0));
   EXPECT_FALSE(world.on_item(items.items[1], 0));
   EXPECT_EQ(world.answer(NC_SYNC_INPUT).input[0], 2u);
-  EXPECT_TRUE(world.waits_for_line());
+  EXPECT_TRUE(world.waits_for_block());
   world.on_item(items.items[2], 0);
   EXPECT_EQ(world.answer(NC_SYNC_INPUT).input[0], 1u);
   EXPECT_EQ(world.answer(NC_SYNC_INPUT).input[3], 0x80000000u);
-  EXPECT_FALSE(world.waits_for_line());
+  EXPECT_FALSE(world.waits_for_block());
   world.dwell(false, 2);
   world.on_item(items.items[2], 0);
   EXPECT_EQ(world.answer(NC_SYNC_INPUT).input[0], 0u);
@@ -171,9 +171,9 @@ TEST(Events, ALineThatCallsBeginsWithItsSubProgram) {
   FakeItems items;
   items.mark(2, {});
   items.mark(1, {}, 1);
-  world.on_item(items.items[0], 4);
+  world.on_item(items.items[0], 2);
   EXPECT_EQ(world.input(0), 0u);
-  world.on_item(items.items[1], 4);  // the block behind line 2 stands on line 4
+  world.on_item(items.items[1], 4);  // it is line 4 that has called
   EXPECT_EQ(world.input(0), 1u);
 }
 
@@ -289,7 +289,8 @@ TEST(Events, OfMCodesAndLinesOfSubPrograms) {
   EXPECT_NE(unused[1].find("events[3]: has not fired: line 2 of O1001"), std::string::npos) << unused[1];
   EXPECT_NE(unused[2].find("events[4]: has not fired: line 77 of the main program"), std::string::npos) << unused[2];
   EXPECT_NE(unused[3].find("events[5]: has not fired: the program ended"), std::string::npos) << unused[3];
-  world.on_m(7);
+  m.u.action.value = 7;
+  world.on_item(m, 0);
   EXPECT_EQ(world.input(0), 7u);
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tools/lib/command_text.hpp"
+#include "tools/lib/dialect_names.hpp"
 #include "tools/lib/item_source.hpp"
 #include "tools/lib/machine_choice.hpp"
 #include "tools/lib/number_hints.hpp"
@@ -34,6 +35,8 @@ int exit_code(RunResult::How how) {
       return kExitEnded;
     case RunResult::How::kAlarmed:
       return kExitAlarm;
+    case RunResult::How::kEndless:
+      return kExitEndless;
     default:
       return kExitError;
   }
@@ -137,6 +140,15 @@ class PlotSink final : public RunSink {
     changer_ = changer_ || changes;
     if (changes || (code == 'T' && !changer_)) plot_.set_tool(selected_);
   }
+  // Of a program without a move: where it stands.
+  void end(const nc_source&, bool, const nc_axes& work, const nc_axes& machine, uint32_t) override {
+    if (plot_.size() != 0) return;
+    const nc_axes& at = plot_.coordinates() == PlotCoordinates::kWork ? work : machine;
+    double place[3] = {};
+    for (unsigned i = 0; i < system_.axis_count; ++i)
+      if (const char name = system_.axis[i].name; name >= 'X' && name <= 'Z') place[name - 'X'] = at.v[i];
+    plot_.add_point(true, place[0], place[1], place[2]);
+  }
 
  private:
   double selected_ = 0.0;
@@ -146,26 +158,32 @@ class PlotSink final : public RunSink {
   ItemSource& items_;
 };
 
-RunResult run_session(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks,
+RunResult run_session(Session* session, RunSink* sink, ItemSource* items, const RunLimits& limits,
                       bool one_pass, std::FILE* err) {
   VirtualWorld world(session->setup(), session->config().system[0]);
-  const RunResult result = run_offline(items, &world, sink, session->block_lines(), max_silent_blocks, one_pass);
+  RunProgress progress;
+  progress.tell = [err](const nc_source& source, uint64_t blocks) {
+    const std::string program = source.program != 0 ? " of O" + std::to_string(source.program) : "";
+    std::fprintf(err, "note: line %u%s after %llu million blocks; a loop that moves never ends\n", source.line, program.c_str(),
+                 static_cast<unsigned long long>(blocks / 1'000'000));
+  };
+  const RunResult result = run_offline(items, &world, sink, session->decides(), limits.silent_blocks, one_pass, progress, session->loop_limits(limits.loops));
   if (result.how != RunResult::How::kFailed) note_unused(world.unused(), err);
   return result;
 }
 
 /** The run with what it prints in `path` ("" = nowhere). @return false when the file cannot be written:
  * *error says why. */
-bool run_printing(Session* session, RunSink* sink, ItemSource* items, uint64_t max_silent_blocks,
+bool run_printing(Session* session, RunSink* sink, ItemSource* items, const RunLimits& limits,
                   bool one_pass, const std::string& path, RunResult* result, std::string* error, std::FILE* err) {
   PrintFile file;
   if (path.empty()) {
-    *result = run_session(session, sink, items, max_silent_blocks, one_pass, err);
+    *result = run_session(session, sink, items, limits, one_pass, err);
     return true;
   }
   if (!file.open(path, error)) return false;
   PrintSink printing(sink, &file);
-  *result = run_session(session, &printing, items, max_silent_blocks, one_pass, err);
+  *result = run_session(session, &printing, items, limits, one_pass, err);
   if (!file.good()) *error = path + ": cannot be written";
   return file.good();
 }
@@ -203,7 +221,7 @@ class Table {
 
 }  // namespace
 
-int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int out, std::FILE* err) {
+int trace_command(const SessionOptions& options, const RunLimits& limits, int out, std::FILE* err) {
   Session session;
   std::string error;
   if (!open_session(&session, options, &error)) return complain(err, error);
@@ -211,8 +229,9 @@ int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int
   ControlSource items(session.control());
   TraceSink sink(&file, session.config().system[0], &items);
   RunResult result;
-  if (!run_printing(&session, &sink, &items, max_silent_blocks, false, options.print, &result, &error, err))
+  if (!run_printing(&session, &sink, &items, limits, false, options.print, &result, &error, err))
     return complain(err, error);
+  if (result.how == RunResult::How::kEndless) complain(err, options.program + ": " + result.error);
   if (!file.flush()) return complain(err, "the trace cannot be written: " + file.error_text());
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   return exit_code(result.how);
@@ -234,32 +253,35 @@ void note_parameters(const Session& session, nc_dialect dialect, std::FILE* err)
 
 }  // namespace
 
-int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std::FILE* out, std::FILE* err) {
+int check_command(const SessionOptions& options, const RunLimits& limits, std::FILE* out, std::FILE* err) {
   Session session;
   std::string error;
   if (!open_session(&session, options, &error)) return complain(err, error);
   ControlSource items(session.control());
   RunSink nothing;
   RunResult result;
-  if (!run_printing(&session, &nothing, &items, max_silent_blocks, true, options.print, &result, &error, err))
+  if (!run_printing(&session, &nothing, &items, limits, true, options.print, &result, &error, err))
     return complain(err, error);
   char note[200];
-  for (unsigned i = 0; nc_parameter_note(session.control(), kPartSystem, i, note, sizeof note) == NC_OK; ++i)
+  for (unsigned i = 0; nc_parameter_note_row(session.control(), kPartSystem, i, note, sizeof note) == NC_OK; ++i)
     std::fprintf(err, "note: %s\n", note);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  if (result.how == RunResult::How::kEndless) complain(err, options.program + ": " + result.error);
   note_parameters(session, static_cast<nc_dialect>(session.config().dialect), err);
   if (options.tape.empty()) note_numbers(session, err);
   if (result.how == RunResult::How::kAlarmed)
     std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   else
     std::fprintf(out, "%s: no alarm%s; %llu blocks, %llu moves, %s mm\n", options.program.c_str(),
-                 result.one_pass ? " in one pass (M99 begins it again)" : "",
+                 result.how == RunResult::How::kEndless ? " until it was given up"
+                 : result.one_pass                      ? " in one pass (M99 begins it again)"
+                                                        : "",
                  static_cast<unsigned long long>(result.blocks),
                  static_cast<unsigned long long>(result.moves), decimals(result.length, 3).c_str());
   return close_output(out, err, exit_code(result.how));
 }
 
-int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, const PlotOptions& how,
+int plot_command(const SessionOptions& options, const RunLimits& limits, const PlotOptions& how,
                  const std::string& base, std::FILE* out, std::FILE* err) {
   Session session;
   std::string error;
@@ -275,9 +297,16 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, cons
                                         : rt::valid_utf8(options.program.substr(slash == std::string::npos ? 0 : slash + 1)));
   ControlSource items(session.control());
   PlotSink sink(&plot, session.config().system[0], &items);
-  const RunResult result = run_session(&session, &sink, &items, max_silent_blocks, true, err);
+  const RunResult result = run_session(&session, &sink, &items, limits, true, err);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
-  if (result.how == RunResult::How::kAlarmed) plot.set_alarm(result.alarm.code);
+  if (result.how == RunResult::How::kEndless) {
+    complain(err, options.program + ": " + result.error);
+    plot.set_sentence("given up: " + result.error);
+  }
+  if (result.how == RunResult::How::kAlarmed) {
+    plot.set_alarm(result.alarm.code);
+    plot.set_sentence(alarm_line(session, result.alarm));
+  }
   if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error))
     return complain(err, error);
   if (result.how == RunResult::How::kAlarmed)
@@ -290,11 +319,11 @@ int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, cons
 
 int functions_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err) {
   const auto id = dialect_from_name(dialect);
-  if (!id) return complain(err, "--dialect " + dialect + ": this version knows m700 and dgshape");
+  if (!id) return complain(err, no_dialect(dialect));
   Table table(out, markdown);
   table.head({"code", "function", "group", "section", "supported", "alarm, or what is not built"});
   nc_function row;
-  for (unsigned i = 0; nc_function_get(*id, i, &row) == NC_OK; ++i)
+  for (unsigned i = 0; nc_function_row(*id, i, &row) == NC_OK; ++i)
     table.row({row.code, row.name ? row.name : "", std::to_string(row.group), row.section ? row.section : "",
                !row.supported        ? "no"
                : row.part != nullptr ? "in part"
@@ -305,11 +334,13 @@ int functions_command(const std::string& dialect, bool markdown, std::FILE* out,
   return close_output(out, err, kExitEnded);
 }
 
-int variables_command(bool markdown, std::FILE* out, std::FILE* err) {
+int variables_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err) {
+  const auto id = dialect_from_name(dialect);
+  if (!id) return complain(err, no_dialect(dialect));
   Table table(out, markdown);
   table.head({"variables", "what", "unit", "read", "written", "section"});
   nc_system_variable row;
-  for (unsigned i = 0; nc_system_variable_get(i, &row) == NC_OK; ++i) {
+  for (unsigned i = 0; nc_system_variable_row(*id, i, &row) == NC_OK; ++i) {
     std::string numbers = "#" + std::to_string(row.first);
     if (row.last != row.first) numbers += "-#" + std::to_string(row.last);
     table.row({numbers, row.name, row.unit,
@@ -323,7 +354,7 @@ int variables_command(bool markdown, std::FILE* out, std::FILE* err) {
 
 int parameters_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err) {
   const auto id = dialect_from_name(dialect);
-  if (!id) return complain(err, "--dialect " + dialect + ": this version knows m700 and dgshape");
+  if (!id) return complain(err, no_dialect(dialect));
   Table table(out, markdown);
   table.head({"parameter", "what", "unit or values", "by axis", "section"});
   nc_parameter row;
@@ -340,7 +371,7 @@ int parameters_command(const std::string& dialect, bool markdown, std::FILE* out
 
 int alarms_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err) {
   const auto id = dialect_from_name(dialect);
-  if (!id) return complain(err, "--dialect " + dialect + ": this version knows m700 and dgshape");
+  if (!id) return complain(err, no_dialect(dialect));
   Table table(out, markdown);
   table.head({"code", "message"});
   char code[16];

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands of ncsim. Each returns the exit code: 0 the program ended, 2 it stopped on an alarm, 1
-// anything else, with one line on `err` that says what and where.
+// The subcommands of ncsim. Each returns the exit code: 0 the program ended, 2 it stopped on an alarm, 3 it was given up because it does not
+// come to an end, 1 anything else, with one line on `err` that says what and where.
 #pragma once
 
 #include <cstdio>
 #include <string>
 
+#include "tools/lib/loop_watch.hpp"
 #include "tools/lib/machine_choice.hpp"
 #include "tools/lib/motion_writer.hpp"
 #include "tools/lib/session.hpp"
@@ -13,28 +14,32 @@
 
 namespace nc::tools {
 
-inline constexpr int kExitEnded = 0, kExitError = 1, kExitAlarm = 2;
+inline constexpr int kExitEnded = 0, kExitError = 1, kExitAlarm = 2, kExitEndless = 3;
 
-/** Limit of run_offline() unless the user gives another. */
-inline constexpr uint64_t kDefaultSilentBlocks = 1'000'000;
+/** When a run that does not come to an end is given up. What it has done until then is written. */
+struct RunLimits {
+  uint64_t silent_blocks = 1'000'000;  // trace, check, plot; 0 = no limit
+  double seconds = 30 * 86400.0;       // time, motion, --profile: of the machine
+  LoopLimits loops;
+};
 
 /** `ncsim trace`: JSON Lines to the descriptor `out`. */
-int trace_command(const SessionOptions& options, uint64_t max_silent_blocks, int out, std::FILE* err);
+int trace_command(const SessionOptions& options, const RunLimits& limits, int out, std::FILE* err);
 
 /** `ncsim check`: the alarm as FILE:LINE: CODE MESSAGE - DETAIL, or one line with what the program does, to
  * `out`. */
-int check_command(const SessionOptions& options, uint64_t max_silent_blocks, std::FILE* out, std::FILE* err);
+int check_command(const SessionOptions& options, const RunLimits& limits, std::FILE* out, std::FILE* err);
 
 /** `ncsim time`: cycle time, path length and blocks of the program on this machine. */
-int time_command(const SessionOptions& options, const MachineOptions& machine, double limit_s, std::FILE* out, std::FILE* err);
+int time_command(const SessionOptions& options, const MachineOptions& machine, const RunLimits& limits, std::FILE* out, std::FILE* err);
 
 /** `ncsim motion`: the position of every axis in every cycle, to `path` ("" = the descriptor `out`). The rows until an alarm are written
  * too; the alarm is said on `err`. */
 int motion_command(const SessionOptions& options, const MachineOptions& machine, MotionFormat format, const std::string& path,
-                   double limit_s, int out, std::FILE* err);
+                   const RunLimits& limits, int out, std::FILE* err);
 
 /** `ncsim plot --profile`: BASE.svg and BASE.png with path speed, acceleration and jerk over time. */
-int profile_command(const SessionOptions& options, const MachineOptions& machine, double limit_s, const std::string& base,
+int profile_command(const SessionOptions& options, const MachineOptions& machine, const RunLimits& limits, const std::string& base,
                     std::FILE* out, std::FILE* err);
 
 /** How `ncsim plot` draws. */
@@ -45,14 +50,14 @@ struct PlotOptions {
 };
 
 /** `ncsim plot`: BASE.svg and BASE.png. What was reached before an alarm is drawn too. */
-int plot_command(const SessionOptions& options, uint64_t max_silent_blocks, const PlotOptions& how,
+int plot_command(const SessionOptions& options, const RunLimits& limits, const PlotOptions& how,
                  const std::string& base, std::FILE* out, std::FILE* err);
 
 /** `ncsim functions`: the dialect's table, tab-separated or as Markdown. */
 int functions_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err);
 
 /** `ncsim variables`: the table of system variables. */
-int variables_command(bool markdown, std::FILE* out, std::FILE* err);
+int variables_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err);
 
 /** `ncsim parameters`: those of the dialect that the control asks for. */
 int parameters_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err);

@@ -2,8 +2,12 @@
 // Where an offline sink gets its items and the texts that belong to them: a control, or a list in a test.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "nc/nc.h"
 #include "runtime/programs/encoding.hpp"
+#include "tools/lib/loop_watch.hpp"
 
 namespace nc::tools {
 
@@ -18,6 +22,8 @@ class ItemSource {
   virtual nc_status pull(uint32_t budget, nc_item* item) = 0;
   virtual nc_status answer(const nc_world& world) = 0;
   virtual nc_status reset() = 0;
+  /** Gives up what was read beyond this mark; 0 = all of the program. */
+  virtual nc_status rewind(uint64_t /*serial*/) { return NC_OK; }
   /** Level of the macro interrupt signal. @return true when the item pulled last must not be executed. */
   virtual bool interrupt(bool /*on*/) { return false; }
   /** A point of the move pulled last; false when the source knows none. */
@@ -26,6 +32,10 @@ class ItemSource {
   virtual bool move_zero(nc_axes* /*zero*/) { return false; }
   /** Positions as the counters show them (nc_position_shown). */
   virtual void shown(nc_axes* /*machine*/, nc_axes* /*work*/) {}
+  /** Line of the main program to which a block belongs, of the item pulled last (nc_main_line); 0 = not known. */
+  virtual uint32_t main_line(const nc_source& source) { return source.depth == 0 ? source.line : 0; }
+  /** What a loop could decide by, for one that stands at `work` (loop_watch.hpp). */
+  virtual std::vector<std::pair<uint32_t, double>> loop_state(const nc_axes& /*work*/) { return {}; }
   virtual bool alarm(nc_alarm* alarm) = 0;
   virtual bool text(uint32_t id, nc_text* text) = 0;
   /** Codes of a modal snapshot. @return their number. */
@@ -53,6 +63,13 @@ class ControlSource final : public ItemSource {
   void shown(nc_axes* machine, nc_axes* work) override {
     nc_position_shown(control_, kPartSystem, machine, work);
   }
+  uint32_t main_line(const nc_source& source) override {
+    uint32_t line = 0;
+    nc_main_line(control_, kPartSystem, &source, &line);
+    return line;
+  }
+  std::vector<std::pair<uint32_t, double>> loop_state(const nc_axes& work) override { return tools::loop_state(control_, kPartSystem, work); }
+  nc_status rewind(uint64_t serial) override { return nc_rewind(control_, kPartSystem, serial); }
   nc_status reset() override { return nc_reset(control_, kPartSystem); }
   bool alarm(nc_alarm* alarm) override {
     if (nc_alarm_get(control_, kPartSystem, alarm) != NC_OK) return false;
@@ -70,7 +87,7 @@ class ControlSource final : public ItemSource {
     return nc_modal_codes(control_, &modal, codes, capacity);
   }
   bool next_common(uint32_t from, uint32_t* number, double* value) override {
-    return nc_common_next(control_, kPartSystem, from, number, value) == NC_OK;
+    return nc_variable_next(control_, kPartSystem, from, number, value) == NC_OK;
   }
 
  private:

@@ -23,22 +23,40 @@ bool open_session(Session* session, const SessionOptions& options, const Machine
   std::unique_ptr<rt::Config> config;
   if (!machine.machine.empty() && !(config = load_machine(machine.machine, error))) return false;
   if (!session->configure(options, error, std::move(config))) return false;
-  if (!session->setup().hits.empty()) {
-    const SetupPlace& place = session->setup().hits.front().place;
-    *error = session->setup().name + ":" + std::to_string(place.line) + ": " + place.path +
-             ": hits are for trace, check and plot; on the virtual machine a probe needs a solid (skip)";
-    return false;
-  }
   return set_machine_limits(machine, session->machine(), &session->config(), error) &&
          session->start(options, error);
 }
 
-MachineResult run(Session* session, double limit_s, const CycleObserver& observe = {}) {
-  const BlockLines lines = session->block_lines();
+int exit_code(MachineResult::How how) {
+  return how == MachineResult::How::kAlarmed ? kExitAlarm : how == MachineResult::How::kEndless ? kExitEndless : kExitEnded;
+}
+
+// Says how far the machine is after an hour of its time, after two, four and so on: who waits sees where, and that it may not end at all.
+class LongRun {
+ public:
+  LongRun(double cycle_s, std::FILE* err) : cycle_s_(cycle_s), err_(err) {}
+  void cycle(const nc_outputs& out) {
+    if (static_cast<double>(++cycles_) * cycle_s_ < 3600.0 * hours_) return;
+    std::fprintf(err_, "note: line %u after %.0f h of machine time; --max-seconds gives the run up earlier\n", out.source.line, hours_);
+    hours_ *= 2.0;
+  }
+
+ private:
+  double cycle_s_, hours_ = 1.0;
+  uint64_t cycles_ = 0;
+  std::FILE* err_;
+};
+
+MachineResult run(Session* session, const RunLimits& limits, std::FILE* err, const CycleObserver& each = {}) {
+  LongRun long_run(session->config().cycle_s, err);
+  const CycleObserver observe = [&](const nc_outputs& out) {
+    long_run.cycle(out);
+    return !each || each(out);
+  };
   if (session->machine() == nullptr)
-    return run_machine(session->control(), session->config(), session->setup(), lines, limit_s, observe);
+    return run_machine(session->control(), session->config(), session->setup(), session->decides(), limits.seconds, session->loop_limits(limits.loops), observe);
   const ServoModel servo = servo_of(*session->machine(), session->config().cycle_s);
-  return run_machine(session->control(), session->config(), session->setup(), lines, limit_s, observe, &servo);
+  return run_machine(session->control(), session->config(), session->setup(), session->decides(), limits.seconds, session->loop_limits(limits.loops), observe, &servo);
 }
 
 // Milliseconds, and as many digits more as the cycle needs.
@@ -78,13 +96,14 @@ class Descriptor {
 
 }  // namespace
 
-int time_command(const SessionOptions& options, const MachineOptions& machine, double limit_s, std::FILE* out,
+int time_command(const SessionOptions& options, const MachineOptions& machine, const RunLimits& limits, std::FILE* out,
                  std::FILE* err) {
   Session session;
   std::string error;
   if (!open_session(&session, options, machine, &error)) return complain(err, error);
-  const MachineResult result = run(&session, limit_s);
+  const MachineResult result = run(&session, limits, err);
   if (result.how == MachineResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  if (result.how == MachineResult::How::kEndless) complain(err, options.program + ": " + result.error);
   note_unused(result.unused, err);
   if (result.how == MachineResult::How::kAlarmed)
     std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
@@ -93,14 +112,16 @@ int time_command(const SessionOptions& options, const MachineOptions& machine, d
                decimals(result.seconds, time_decimals(session.config().cycle_s)).c_str(),
                static_cast<unsigned long long>(whole / 3600),
                static_cast<unsigned long long>(whole / 60 % 60), static_cast<unsigned long long>(whole % 60),
-               result.one_pass ? " of one pass (M99 begins it again)" : "");
+               result.how == MachineResult::How::kEndless ? " until it was given up"
+               : result.one_pass                          ? " of one pass (M99 begins it again)"
+                                                          : "");
   std::fprintf(out, "path length  %s mm\n", decimals(result.path_length, 3).c_str());
   std::fprintf(out, "blocks       %llu\n", static_cast<unsigned long long>(result.blocks));
-  return close_output(out, err, result.how == MachineResult::How::kAlarmed ? kExitAlarm : kExitEnded);
+  return close_output(out, err, exit_code(result.how));
 }
 
 int motion_command(const SessionOptions& options, const MachineOptions& machine, MotionFormat format,
-                   const std::string& path, double limit_s, int out, std::FILE* err) {
+                   const std::string& path, const RunLimits& limits, int out, std::FILE* err) {
   Session session;
   std::string error;
   if (!path.empty() && !can_be_written(path, &error)) return complain(err, error);
@@ -110,7 +131,7 @@ int motion_command(const SessionOptions& options, const MachineOptions& machine,
   OutputFile file(target.value());
   MotionWriter writer(&file, session.config(), format);
   writer.begin(session.setup().start);
-  const MachineResult result = run(&session, limit_s, [&](const nc_outputs& cycle) {
+  const MachineResult result = run(&session, limits, err, [&](const nc_outputs& cycle) {
     writer.cycle(cycle);
     return !file.failed();
   });
@@ -118,13 +139,14 @@ int motion_command(const SessionOptions& options, const MachineOptions& machine,
     return complain(
         err, (path.empty() ? "the motion" : path) + std::string(" cannot be written: ") + file.error_text());
   if (result.how == MachineResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  if (result.how == MachineResult::How::kEndless) complain(err, options.program + ": " + result.error);
   note_unused(result.unused, err);
-  if (result.how != MachineResult::How::kAlarmed) return kExitEnded;
+  if (result.how != MachineResult::How::kAlarmed) return exit_code(result.how);
   std::fprintf(err, "%s\n", alarm_line(session, result.alarm).c_str());
   return kExitAlarm;
 }
 
-int profile_command(const SessionOptions& options, const MachineOptions& machine, double limit_s,
+int profile_command(const SessionOptions& options, const MachineOptions& machine, const RunLimits& limits,
                     const std::string& base, std::FILE* out, std::FILE* err) {
   Session session;
   std::string error;
@@ -134,11 +156,12 @@ int profile_command(const SessionOptions& options, const MachineOptions& machine
   ProfilePlot plot(session.config());
   plot.set_title(short_name(options.program));
   plot.begin(session.setup().start);
-  const MachineResult result = run(&session, limit_s, [&](const nc_outputs& cycle) {
+  const MachineResult result = run(&session, limits, err, [&](const nc_outputs& cycle) {
     plot.cycle(cycle);
     return true;
   });
   if (result.how == MachineResult::How::kFailed) return complain(err, options.program + ": " + result.error);
+  if (result.how == MachineResult::How::kEndless) complain(err, options.program + ": " + result.error);
   note_unused(result.unused, err);
   plot.end();
   if (!plot.write_svg(base + ".svg", &error) || !plot.write_png(base + ".png", &error))
@@ -147,7 +170,7 @@ int profile_command(const SessionOptions& options, const MachineOptions& machine
   if (alarmed) std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   std::fprintf(out, "%s.svg %s.png: %s s\n", base.c_str(), base.c_str(),
                decimals(result.seconds, time_decimals(session.config().cycle_s)).c_str());
-  return close_output(out, err, alarmed ? kExitAlarm : kExitEnded);
+  return close_output(out, err, exit_code(result.how));
 }
 
 }  // namespace nc::tools

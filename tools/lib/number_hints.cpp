@@ -52,10 +52,12 @@ bool has(const std::vector<PlainWord>& words, char letter, std::initializer_list
   });
 }
 
-double parameter(const Session& session, const char* key) {
+/// The key of a parameter of this dialect that is 0 or not set; "" = it is set, or the dialect has none.
+std::string switched_off(const Session& session, nc_parameter_role role) {
+  char key[24];
   double value = 0;
-  (void)nc_parameter_get(session.control(), kPartSystem, key, 0, &value);
-  return value;
+  if (nc_parameter_key(session.control(), role, key) != NC_OK) return "";
+  return nc_parameter_get(session.control(), kPartSystem, key, 0, &value) == NC_OK && value == 0 ? key : "";
 }
 
 }  // namespace
@@ -86,7 +88,10 @@ NumberHints number_hints(const std::string& text, const std::string& letters) {
         hints.first_without = line;
         hints.first_word = word.letter + word.number;
       }
-      hints.largest_without = std::max(hints.largest_without, std::fabs(word.value()));
+      if (std::fabs(word.value()) > hints.largest_without) {
+        hints.largest_without = std::fabs(word.value());
+        hints.largest_word = word.letter + word.number;
+      }
     }
   }
   return hints;
@@ -98,20 +103,23 @@ void note_numbers(const Session& session, std::FILE* err) {
   std::string letters;
   for (unsigned i = 0; i < config.system[kPartSystem].axis_count; ++i) letters += config.system[kPartSystem].axis[i].name;
   const NumberHints hints = number_hints(text, letters);
-  const bool m700 = config.dialect == NC_DIALECT_M700;
   nc_source source = {};
   source.file = session.main_file();
   const std::string file = rt::valid_utf8(session.file_name(source));
+  constexpr const char* kUnit = "read in the least command unit (0.001 mm, 0.0001 inch or 0.001 deg unless parameters say otherwise)";
   // M700 5.3: in type II a number without a point is in mm.
-  if (m700 && parameter(session, "1078") == 0 && hints.doubtful())
-    std::fprintf(err,
-                 "note: %s:%u: %s and %llu more numbers without a decimal point are read in the least command unit (0.001 mm, 0.0001 inch or "
-                 "0.001 deg unless parameters say otherwise); with #1078 = 1 they are mm\n",
-                 file.c_str(), hints.first_without, hints.first_word.c_str(), static_cast<unsigned long long>(hints.without_point - 1));
-  // M700 8.1: P is in ms, with a point or without, unless #8112 makes the point count.
-  if (m700 && parameter(session, "8112") == 0 && hints.dwells != 0)
-    std::fprintf(err, "note: %s:%u: G04 %s: P counts milliseconds, and the point does not count (#8112); %llu more of these\n", file.c_str(),
-                 hints.first_dwell, hints.dwell_word.c_str(), static_cast<unsigned long long>(hints.dwells - 1));
+  const std::string type_2 = switched_off(session, NC_PARAMETER_DECIMAL_TYPE_2);
+  const auto without = static_cast<unsigned long long>(hints.without_point);
+  if (!type_2.empty() && hints.doubtful())
+    std::fprintf(err, "note: %s:%u: %s and %llu more numbers without a decimal point are %s; with #%s = 1 they are mm\n", file.c_str(), hints.first_without,
+                 hints.first_word.c_str(), without - 1, kUnit, type_2.c_str());
+  else if (!type_2.empty() && without != 0)
+    std::fprintf(err, "note: %s: all numbers are without a decimal point, %llu from line %u on, and %s; the largest is %s\n", file.c_str(), without,
+                 hints.first_without, kUnit, hints.largest_word.c_str());
+  // M700 8.1: P is in ms, with a point or without, unless a parameter makes the point count.
+  if (const std::string key = switched_off(session, NC_PARAMETER_DWELL_POINT); !key.empty() && hints.dwells != 0)
+    std::fprintf(err, "note: %s:%u: G04 %s: P counts milliseconds, and the point does not count (#%s); %llu more of these\n", file.c_str(),
+                 hints.first_dwell, hints.dwell_word.c_str(), key.c_str(), static_cast<unsigned long long>(hints.dwells - 1));
 }
 
 }  // namespace nc::tools

@@ -16,13 +16,14 @@ struct NumberHints {
   uint32_t first_without = 0;                  // line
   std::string first_word;                      // "X10"
   double largest_without = 0;
+  std::string largest_word;
   uint64_t dwells = 0;  // G04 P with a point
   uint32_t first_dwell = 0;
   std::string dwell_word;  // "P1.00000"
 
   /**
    * What stands without a point was hardly meant in thousandths: others have a point, or all of it together is less than a millimetre. A
-   * program that is written in thousandths throughout is what it says.
+   * program that is written in thousandths throughout is what it says: of that the numbers are only told.
    */
   bool doubtful() const { return without_point != 0 && (with_point != 0 || largest_without < 1000); }
 };

@@ -13,8 +13,8 @@ constexpr uint32_t kMacroInterrupt = 96;  // index of the action that M96, M97 a
 
 class OfflineRun {
  public:
-  OfflineRun(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines, bool one_pass)
-      : items_(*items), world_(*world), sink_(*sink), lines_(lines), one_pass_(one_pass), passes_(lines.decides()) {}
+  OfflineRun(ItemSource* items, VirtualWorld* world, RunSink* sink, bool decides, bool one_pass, const RunProgress& progress, const LoopLimits& loops)
+      : items_(*items), world_(*world), sink_(*sink), one_pass_(one_pass), progress_(progress), next_told_(progress.first), passes_(decides), loops_(loops) {}
 
   RunResult run(uint64_t max_silent_blocks) {
     nc_item item;
@@ -32,8 +32,7 @@ class OfflineRun {
       if (status != NC_OK) return fail("the control stopped with status " + std::to_string(status));
       last_ = item.source;
       count_silence(item);
-      const uint32_t next = world_.waits_for_line() ? lines_.after(ended_line_) : 0;
-      if (world_.on_item(item, next)) return reset();
+      if (world_.on_item(item, world_.waits_for_block() ? items_.main_line(item.source) : 0)) return reset();
       if (world_.macro_interrupt() != interrupt_) {
         interrupt_ = !interrupt_;
         if (items_.interrupt(interrupt_)) continue;  // the interrupt program comes before this item
@@ -56,6 +55,7 @@ class OfflineRun {
   void count_silence(const nc_item& item) {
     if (item.kind == NC_ITEM_MARK) {
       ++silent_;
+      tell_progress(item.source);
       if (item.source.depth == 0 && item.source.line > furthest_line_) {
         furthest_line_ = item.source.line;
         silent_ = 0;
@@ -68,14 +68,28 @@ class OfflineRun {
     }
   }
 
+  void tell_progress(const nc_source& source) {
+    if (++passed_ < next_told_) return;
+    next_told_ *= 2;
+    if (progress_.tell) progress_.tell(source, passed_);
+  }
+
   RunResult endless() {
     const std::string place = last_.line == 0
                                   ? ""
                                   : "line " + std::to_string(last_.line) +
                                         (last_.program ? " of O" + std::to_string(last_.program) : "") + ": ";
-    return fail(place + std::to_string(silent_) +
-                " blocks without anything that the machine would do: an endless loop, or too few allowed "
-                "(--max-silent-blocks)");
+    return give_up(place + std::to_string(silent_) +
+                   " blocks without anything that the machine would do: an endless loop, or too few allowed "
+                   "(--max-silent-blocks)");
+  }
+
+  // What has been done so far stands: the sink closes as at an end.
+  RunResult give_up(std::string why) {
+    result_.how = RunResult::How::kEndless;
+    result_.error = std::move(why);
+    sink_.end(last_, false, work_, world_.machine(), modal_);
+    return finish();
   }
 
   bool handle(nc_item& item) {
@@ -90,6 +104,7 @@ class OfflineRun {
         gate(item);
         break;
       case NC_ITEM_SYNC:
+        if (item.u.sync.what & NC_SYNC_CLOCK) loops_.asked();
         sink_.sync(item.source, item.u.sync.what);
         if (items_.answer(world_.answer(item.u.sync.what)) < NC_OK) {
           fail("the control refused the answer to a sync");
@@ -98,6 +113,10 @@ class OfflineRun {
         break;
       case NC_ITEM_MARK:
         mark(item);
+        if (item.u.mark.report && !result_.one_pass && endless_loop(item)) {
+          give_up(loops_.verdict());
+          return false;
+        }
         break;
       case NC_ITEM_ALARM:
         result_.alarm.source = item.source;
@@ -167,10 +186,15 @@ class OfflineRun {
     work_ = item.u.mark.work;
     modal_ = item.u.mark.modal;
     if (!item.u.mark.report) return;
-    if (item.source.depth == 0) ended_line_ = item.source.line;
+    last_mark_ = item.serial;
     if (item.u.mark.again) result_.one_pass = one_pass_ || !passes_differ();
     ++result_.blocks;
     sink_.block(item.source, item.u.mark.work, world_.machine());
+  }
+
+  bool endless_loop(const nc_item& mark) {
+    if (world_.changes()) loops_.asked();
+    return loops_.block(mark.source, [&] { return items_.loop_state(mark.u.mark.work); });
   }
 
   bool passes_differ() {
@@ -183,8 +207,9 @@ class OfflineRun {
     sink_.end(item.source, item.u.end.ok, item.u.end.work, world_.machine(), item.u.end.modal);
   }
 
-  // `ok` says that no alarm stopped the program, which is so here.
+  // `ok` says that no alarm stopped the program, which is so here. The block that has just begun has been read, and is not executed.
   RunResult reset() {
+    if (items_.rewind(last_mark_) != NC_OK) return fail("the control cannot go back to the end of the block before the reset");
     items_.reset();
     result_.how = RunResult::How::kReset;
     sink_.end(last_, true, work_, world_.machine(), modal_);
@@ -205,54 +230,43 @@ class OfflineRun {
   ItemSource& items_;
   VirtualWorld& world_;
   RunSink& sink_;
-  const BlockLines& lines_;
   const bool one_pass_;
+  const RunProgress& progress_;
+  uint64_t passed_ = 0, next_told_;  // blocks
   Passes passes_;
+  LoopWatch loops_;
   RunResult result_;
   nc_source last_ = {};
   nc_axes work_ = {};
   uint64_t silent_ = 0;         // blocks since something happened
   uint64_t empty_lines_ = 0;    // since the last item
   uint32_t furthest_line_ = 0;  // of the main program that a block was executed on
-  uint32_t modal_ = 0, ended_line_ = 0;
+  uint64_t last_mark_ = 0;      // serial
+  uint32_t modal_ = 0;
   bool ended_ = false, interrupt_ = false;
 };
 
 }  // namespace
 
-BlockLines::BlockLines(const std::string& text) {
-  uint32_t line = 1;
-  bool comment = false, code = false;
-  for (size_t i = 0; i <= text.size(); ++i) {
-    const char c = i < text.size() ? text[i] : '\n';
-    if (c == '\n') {
-      if (code) lines_.push_back(line);
-      ++line;
-      comment = code = false;
-    } else if (c == '(') {
-      comment = true;
-    } else if (c == ')') {
-      comment = false;
-    } else if (!comment && c != ' ' && c != '\t' && c != '\r' && c != '%' && c != ';' && c != '\0' && c != '\x7f') {
-      code = true;
-      const auto is = [&](const char* word, size_t length) {  // the lexer takes small letters, too
-        for (size_t k = 0; k < length; ++k)
-          if (i + k >= text.size() || (text[i + k] & ~0x20) != word[k]) return false;
-        return true;
-      };
-      decides_ = decides_ || is("IF", 2) || is("WHILE", 5);
-    }
+bool has_decision(const std::string& text) {
+  bool comment = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '(') comment = true;
+    if (c == ')' || c == '\n') comment = false;
+    const auto is = [&](const char* word, size_t length) {  // the lexer takes small letters, too
+      for (size_t k = 0; k < length; ++k)
+        if (i + k >= text.size() || (text[i + k] & ~0x20) != word[k]) return false;
+      return true;
+    };
+    if (!comment && (is("IF", 2) || is("WHILE", 5))) return true;
   }
+  return false;
 }
 
-uint32_t BlockLines::after(uint32_t line) const {
-  const auto next = std::upper_bound(lines_.begin(), lines_.end(), line);
-  return next == lines_.end() ? 0 : *next;
-}
-
-RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines,
-                      uint64_t max_silent_blocks, bool one_pass) {
-  return OfflineRun(items, world, sink, lines, one_pass).run(max_silent_blocks);
+RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, bool decides,
+                      uint64_t max_silent_blocks, bool one_pass, const RunProgress& progress, const LoopLimits& loops) {
+  return OfflineRun(items, world, sink, decides, one_pass, progress, loops).run(max_silent_blocks);
 }
 
 }  // namespace nc::tools

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,31 +36,18 @@ class RunSink {
 
 /** How a run ended. */
 struct RunResult {
-  enum class How { kEnded, kAlarmed, kReset, kStopped, kFailed };
+  enum class How { kEnded, kAlarmed, kReset, kStopped, kEndless, kFailed };
   How how = How::kFailed;
   nc_alarm alarm = {};  // kAlarmed
-  std::string error;    // kFailed
+  std::string error;    // kFailed; kEndless: the loop that was given up
   uint64_t blocks = 0, moves = 0;
   bool one_pass = false;  // kEnded, because M99 would begin the main program again
   double length = 0.0;    // mm
   double seconds = 0.0;   // of the trace's clock
 };
 
-/** Lines of a main program that hold a block: comments, blanks and `%` left out. For events that wait for a
- * line. */
-class BlockLines {
- public:
-  BlockLines() = default;
-  explicit BlockLines(const std::string& text);
-  /** The text has an IF or a WHILE outside of comments. */
-  bool decides() const { return decides_; }
-  /** First block line behind `line`; 0 when there is none. */
-  uint32_t after(uint32_t line) const;
-
- private:
-  std::vector<uint32_t> lines_;
-  bool decides_ = false;
-};
+/** The text of a main program has an IF or a WHILE outside of comments. */
+bool has_decision(const std::string& text);
 
 /**
  * Whether a main program that M99 begins again may come to an end by itself: it decides something, and the
@@ -68,7 +56,7 @@ class BlockLines {
 class Passes {
  public:
   explicit Passes(bool decides) : decides_(decides) {}
-  /** To be asked at the head of the first pass, and of each to come. `next` as nc_common_next(). */
+  /** To be asked at the head of the first pass, and of each to come. `next` as nc_variable_next(). */
   template <typename Next>
   bool differ(const Next& next) {
     std::vector<std::pair<uint32_t, double>> now;
@@ -86,11 +74,22 @@ class Passes {
 };
 
 /**
- * Run to the end. A stretch of `max_silent_blocks` blocks that only calculate and jump (GOTO in a circle) is
- * an error; 0 = no limit. Reading the clock is no silence: time passes, so a waiting loop ends. Where M99
- * would begin the main program again the run ends, with `one_pass` always, else unless the passes differ.
+ * Who waits for a long run hears where it is: `tell` with the block that has ended, after the first so many blocks, then after twice as many,
+ * and so on. A loop that moves never ends, and no count of blocks tells it from a program that is long.
  */
-RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, const BlockLines& lines,
-                      uint64_t max_silent_blocks, bool one_pass = false);
+struct RunProgress {
+  uint64_t first = 10'000'000;
+  std::function<void(const nc_source&, uint64_t blocks)> tell = {};
+};
+
+/**
+ * Run to the end. A stretch of `max_silent_blocks` blocks that only calculate and jump (GOTO in a circle) is
+ * given up, and so are passes beyond `loops`; 0 = no limit. Reading the clock is no silence: time passes, so a waiting loop ends. Where M99
+ * would begin the main program again the run ends, with `one_pass` always, else unless the passes differ.
+ * @param decides has_decision() of the main program
+ */
+RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, bool decides,
+                      uint64_t max_silent_blocks, bool one_pass = false, const RunProgress& progress = {},
+                      const LoopLimits& loops = LoopLimits::all(0));
 
 }  // namespace nc::tools

@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "tools/lib/drawing.hpp"
+#include "tools/lib/plot_pieces.hpp"
+#include "tools/lib/relief_painter.hpp"
 #include "tools/lib/toolpath_plot.hpp"
 
 namespace nc::tools {
@@ -29,11 +31,24 @@ constexpr double kIsoShortening = 0.81649658092772603;  // sqrt(2/3)
 
 constexpr Color kRapid{0.85, 0.20, 0.10}, kFeed{0.05, 0.30, 0.75}, kStart{0.10, 0.55, 0.20}, kEnd{0.15, 0.15, 0.15},
     kAlarm{0.80, 0.00, 0.55};
+constexpr Color kSurface{0.42, 0.58, 0.86};  // of the kind feed, light enough that shades are seen
+// Towards the light, by PlotView: from the left of who looks, in XY from above on the page.
+constexpr double kLight[][3] = {{-0.75, 0.0, 0.65}, {-0.55, 0.45, 0.70}, {-0.55, -0.45, 0.70}, {0.45, -0.55, 0.70}};
 constexpr unsigned kShades = 16;
 // From low to high; neither end is as light as the page nor red as the rapids.
 constexpr Color kRamp[] = {{0.27, 0.00, 0.33}, {0.23, 0.32, 0.55}, {0.13, 0.57, 0.55}, {0.37, 0.79, 0.38}, {0.90, 0.80, 0.10}};
 constexpr Color kTools[] = {{0.05, 0.30, 0.75}, {0.00, 0.55, 0.30}, {0.90, 0.55, 0.00}, {0.50, 0.20, 0.65},
                             {0.00, 0.60, 0.70}, {0.45, 0.30, 0.15}, {0.85, 0.35, 0.60}, {0.40, 0.40, 0.40}};
+// As much of a sentence as fits beside the legend.
+std::string first_line(const std::string& text) {
+  constexpr size_t kMost = 150;
+  std::string line = text.substr(0, text.find('\n'));
+  if (line.size() <= kMost) return line;
+  size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0) == 0x80) --end;  // a character of UTF-8 stays whole
+  return line.substr(0, end) + "...";
+}
+
 constexpr double kMark = 4.5;            // px: half of a mark's width
 constexpr double kArrow = 7.0;           // px
 constexpr double kArrowDistance = 120;   // px of path from one arrow to the next ...
@@ -48,7 +63,8 @@ struct Page {
 /** One drawing on one cairo context. */
 class PlotPainter {
  public:
-  PlotPainter(const ToolpathPlot& plot, cairo_t* context) : plot_(plot), c_(context) {}
+  PlotPainter(const ToolpathPlot& plot, cairo_t* context)
+      : plot_(plot), c_(context), box_(plot_box(plot)), relief_(plot_relief(plot, box_)), ink_(ink_of(plot, box_, relief_)) {}
 
   void paint() {
     fit();
@@ -57,8 +73,9 @@ class PlotPainter {
       box();
     else
       frame();
-    path(true);
-    path(false);
+    surface();
+    path(Ink::kRapid);
+    path(Ink::kFeed);
     directions();
     marks();
     head();
@@ -86,8 +103,8 @@ class PlotPainter {
   // One scale for both directions, the path in the middle.
   void fit() {
     for (int i = 0; i < 3; ++i) {
-      lo_[i] = plot_.low_[i];
-      hi_[i] = plot_.high_[i];
+      lo_[i] = box_.low[i];
+      hi_[i] = box_.high[i];
     }
     low_ = high_ = project(lo_[0], lo_[1], lo_[2]);
     for (int corner = 1; corner < 8; ++corner) {
@@ -191,12 +208,12 @@ class PlotPainter {
   }
 
   // Values of a range share kShades colours: pieces of one colour are one line of the drawing.
-  unsigned shade(const ToolpathPlot::Vertex& v) const {
-    if (plot_.color_ == PlotColor::kKind || v.rapid) return 0;
+  unsigned shade(float value) const {
+    if (plot_.color_ == PlotColor::kKind) return 0;
     if (plot_.color_ == PlotColor::kTool)
-      return static_cast<unsigned>(std::distance(tools_.begin(), tools_.find(v.value))) % std::size(kTools);
+      return static_cast<unsigned>(std::distance(tools_.begin(), tools_.find(value))) % std::size(kTools);
     if (!(high_value_ > low_value_)) return 0;
-    const float share = (v.value - low_value_) / (high_value_ - low_value_);
+    const float share = (value - low_value_) / (high_value_ - low_value_);
     return std::min(kShades - 1, static_cast<unsigned>(share * kShades));
   }
 
@@ -229,7 +246,7 @@ class PlotPainter {
       }
       return;
     }
-    put_text(c_, x, y, plot_.color_ == PlotColor::kFeed ? "feed [mm/min]" : "Z [mm]", 14);
+    put_text(c_, x, y, plot_.color_ == PlotColor::kZ ? "Z [mm]" : plot_.executed_ ? "speed [mm/min]" : "feed [mm/min]", 14);
     constexpr double kBar = 8;  // px, height of a shade
     for (unsigned k = 0; k < kShades; ++k) {
       use(c_, feed_color(kShades - 1 - k));
@@ -241,8 +258,39 @@ class PlotPainter {
     put_text(c_, x + 50, y + 10 + kShades * kBar, tick_text(std::round(double{low_value_} * 1e3) / 1e3), 14);
   }
 
+  // What dense passes leave, lit from the left. (From below on the page a hollow would be seen as a hill.)
+  void surface() {
+    if (!relief_.any()) return;
+    ReliefView view;
+    view.project = [this](const Relief::Place& p) {
+      const Page page = project(p.x, p.y, p.z);
+      return ReliefView::Point{px(page), py(page), depth(p)};
+    };
+    view.color = [this](float value) { return plot_.color_ == PlotColor::kKind ? kSurface : feed_color(shade(value)); };
+    for (int i = 0; i < 3; ++i) view.light[i] = kLight[static_cast<int>(plot_.view_)][i];
+    view.width = kWidth;
+    view.height = kHeight;
+    paint_relief(c_, relief_, view);
+  }
+
+  // How far towards who looks.
+  double depth(const Relief::Place& p) const {
+    switch (plot_.view_) {
+      case PlotView::kXY:
+        return p.z;
+      case PlotView::kXZ:
+        return -p.y;
+      case PlotView::kYZ:
+        return p.x;
+      case PlotView::kIsometric:
+        break;
+    }
+    return p.x - p.y + p.z;
+  }
+
   // All pieces of one kind; rapids first and dashed, feed over them.
-  void path(bool rapid) {
+  void path(Ink ink) {
+    const bool rapid = ink == Ink::kRapid;
     const double dash[] = {6.0, 4.0};
     if (rapid) cairo_set_dash(c_, dash, 2, 0);
     use(c_, rapid ? kRapid : kFeed);
@@ -252,35 +300,32 @@ class PlotPainter {
     int pieces = 0;
     double last_x = 0, last_y = 0;
     unsigned shade_now = 0;
-    const auto& all = plot_.vertices_;
-    for (size_t i = 1; i < all.size(); ++i) {
-      if (all[i].rapid != rapid) {
+    const auto shade_of = [&](size_t i) { return rapid ? 0 : shade(ink_[i].value); };
+    for (size_t i = 1; i < ink_.size(); ++i) {
+      if (ink_[i].ink != ink) {
         if (open) cairo_stroke(c_);
         open = false;
         continue;
       }
-      const Page to = project(all[i].x, all[i].y, all[i].z);
-      const double x = px(to), y = py(to);
-      if (open && shade(all[i]) != shade_now) {
+      const Page to = on_page(i);
+      if (open && shade_of(i) != shade_now) {
         cairo_stroke(c_);
         open = false;
       }
       if (!open) {
-        shade_now = shade(all[i]);
+        shade_now = shade_of(i);
         if (!rapid) use(c_, feed_color(shade_now));
-        const Page from = project(all[i - 1].x, all[i - 1].y, all[i - 1].z);
-        cairo_move_to(c_, last_x = px(from), last_y = py(from));
+        const Page from = on_page(i - 1);
+        cairo_move_to(c_, last_x = from.u, last_y = from.v);
         open = true;
         pieces = 0;
       }
-      const bool run_ends = i + 1 == all.size() || all[i + 1].rapid != rapid || shade(all[i + 1]) != shade_now;
-      if (!run_ends && std::hypot(x - last_x, y - last_y) < kMinPixels) continue;
-      cairo_line_to(c_, x, y);
-      last_x = x;
-      last_y = y;
+      const bool run_ends = i + 1 == ink_.size() || ink_[i + 1].ink != ink || shade_of(i + 1) != shade_now;
+      if (!run_ends && std::hypot(to.u - last_x, to.v - last_y) < kMinPixels) continue;
+      cairo_line_to(c_, last_x = to.u, last_y = to.v);
       if (++pieces >= kStrokeChunk) {
         cairo_stroke(c_);
-        cairo_move_to(c_, x, y);
+        cairo_move_to(c_, to.u, to.v);
         pieces = 0;
       }
     }
@@ -289,22 +334,26 @@ class PlotPainter {
     cairo_set_dash(c_, nullptr, 0, 0);
   }
 
+  // A vertex of what is drawn, px.
+  Page on_page(size_t i) const {
+    const Page p = project(ink_[i].x, ink_[i].y, ink_[i].z);
+    return {px(p), py(p)};
+  }
+
   // Arrows along the path at like distances, the first in the middle of the first one.
   void directions() {
-    const auto& all = plot_.vertices_;
-    const auto at = [&](size_t i) {
-      const Page p = project(all[i].x, all[i].y, all[i].z);
-      return Page{px(p), py(p)};
-    };
     double total = 0;
-    for (size_t i = 1; i < all.size(); ++i) total += std::hypot(at(i).u - at(i - 1).u, at(i).v - at(i - 1).v);
+    for (size_t i = 1; i < ink_.size(); ++i)
+      if (ink_[i].ink != Ink::kNone) total += std::hypot(on_page(i).u - on_page(i - 1).u, on_page(i).v - on_page(i - 1).v);
     const double distance = std::max(kArrowDistance, total / kMostArrows);
     double due = std::min(distance, total) / 2;
-    for (size_t i = 1; i < all.size(); ++i) {
-      const Page from = at(i - 1), to = at(i);
+    for (size_t i = 1; i < ink_.size(); ++i) {
+      if (ink_[i].ink == Ink::kNone) continue;
+      const Page from = on_page(i - 1), to = on_page(i);
       const double length = std::hypot(to.u - from.u, to.v - from.v);
       for (; due < length; due += distance)
-        arrow(all[i].rapid ? kRapid : feed_color(shade(all[i])), {from.u + (to.u - from.u) * due / length, from.v + (to.v - from.v) * due / length},
+        arrow(ink_[i].ink == Ink::kRapid ? kRapid : feed_color(shade(ink_[i].value)),
+              {from.u + (to.u - from.u) * due / length, from.v + (to.v - from.v) * due / length},
               {(to.u - from.u) / length, (to.v - from.v) / length});
       due -= length;
     }
@@ -321,21 +370,48 @@ class PlotPainter {
     cairo_fill(c_);
   }
 
-  // Where the path begins, and where it ends: at the end of the program, or in an alarm.
+  // Where the path begins, and where it ends: at the end of the program, or in an alarm. What lies outside of the frame is marked at it, with
+  // its place.
   void marks() {
     if (plot_.vertices_.empty()) return;
-    const auto at = [&](const ToolpathPlot::Vertex& v) {
-      const Page p = project(v.x, v.y, v.z);
-      return Page{px(p), py(p)};
-    };
-    const Page last = at(plot_.vertices_.back());
-    if (plot_.alarm_.empty()) end_mark(last);
-    start_mark(at(plot_.vertices_.front()));
-    if (plot_.alarm_.empty()) return;
-    alarm_mark(last);
+    const PlotVertex &first_vertex = plot_.vertices_.front(), &last_vertex = plot_.vertices_.back();
+    const std::string start_place = place_outside(first_vertex), end_place = place_outside(last_vertex);
+    const Page first = mark_place(first_vertex, start_place.empty(), true), last = mark_place(last_vertex, end_place.empty(), false);
+    const bool alarmed = !plot_.alarm_.empty();
+    if (alarmed) alarm_mark(last);
+    else end_mark(last);
+    start_mark(first);
+    if (!start_place.empty()) mark_text(first, 4 * kMark, "start at" + start_place);
+    if (alarmed || !end_place.empty())
+      mark_text(last, -2 * kMark, (alarmed ? "alarm " + plot_.alarm_ : std::string("end")) + (end_place.empty() ? "" : " at" + end_place));
+  }
+
+  // Where the path comes into the frame, or leaves it, for a mark outside.
+  Page mark_place(const PlotVertex& vertex, bool inside, bool first) const {
+    for (size_t k = 1; !inside && k < ink_.size(); ++k) {
+      const size_t i = first ? k : ink_.size() - k;
+      if (ink_[i].ink != Ink::kNone) return on_page(first ? i - 1 : i);
+    }
+    const PlotVertex v = into_box(vertex, box_);
+    const Page p = project(v.x, v.y, v.z);
+    return {px(p), py(p)};
+  }
+
+  // " X0 Y0 Z400, outside"; empty for a place in the frame.
+  std::string place_outside(const PlotVertex& v) const {
+    const PlotVertex in = into_box(v, box_);
+    if (in.x == v.x && in.y == v.y && in.z == v.z) return "";
+    const double place[3] = {v.x, v.y, v.z};
+    std::string text;
+    for (int i = 0; i < 3; ++i) text += std::string(" ") + "XYZ"[i] + tick_text(std::round(place[i] * 1e3) / 1e3);
+    return text + ", outside";
+  }
+
+  // Beside a mark, on the side where there is room; `down` px below it.
+  void mark_text(const Page& at, double down, const std::string& text) {
     use(c_, kInk);
-    const bool left = last.u > kWidth - 3 * kRight;  // there is no room to the right of it
-    put_text(c_, last.u + (left ? -3 : 3) * kMark, last.v - 2 * kMark, "alarm " + plot_.alarm_, 14, left ? 1.0 : 0.0);
+    const bool left = at.u > kWidth / 2;
+    put_text(c_, at.u + (left ? -3 : 3) * kMark, at.v + down, text, 14, left ? 1.0 : 0.0);
   }
 
   void start_mark(const Page& at) {
@@ -358,6 +434,17 @@ class PlotPainter {
     line(kAlarm, at.u - 2 * kMark, at.v + 2 * kMark, at.u + 2 * kMark, at.v - 2 * kMark);
   }
 
+  // Empty where all of the path is in the drawing.
+  std::string outside() const {
+    if (!goes_outside(plot_, box_)) return "";
+    std::string text = "; rapids are cut off at the frame: the path goes from";
+    for (const double* end : {plot_.low_, plot_.high_}) {
+      if (end == plot_.high_) text += " to";
+      for (int i = 0; i < 3; ++i) text += std::string(" ") + "XYZ"[i] + tick_text(std::round(end[i] * 1e3) / 1e3);
+    }
+    return text;
+  }
+
   void head() {
     use(c_, kInk);
     put_text(c_, kLeft, 40, plot_.title_, 22);
@@ -365,8 +452,13 @@ class PlotPainter {
     put_text(c_, kLeft, 62,
              std::string("view ") + kViews[static_cast<int>(plot_.view_)] +
                  (plot_.coordinates_ == PlotCoordinates::kWork ? ", workpiece coordinates of the tool's tip, mm"
-                                                               : ", machine coordinates, mm"),
+                                                               : ", machine coordinates, mm") +
+                 (relief_.any() ? "; dense passes shaded" : "") + outside(),
              13);
+    if (!plot_.sentence_.empty()) {
+      use(c_, kAlarm);
+      put_text(c_, kLeft, 80, first_line(plot_.sentence_), 13);
+    }
     const double x = kWidth - kRight - 130;
     const double dash[] = {6.0, 4.0};
     cairo_set_line_width(c_, 2);
@@ -401,6 +493,9 @@ class PlotPainter {
 
   const ToolpathPlot& plot_;
   cairo_t* c_;
+  PlotBox box_;
+  Relief relief_;
+  std::vector<InkVertex> ink_;
   double lo_[3] = {0, 0, 0}, hi_[3] = {0, 0, 0};
   Page low_{0, 0}, high_{0, 0};
   float low_value_ = 0, high_value_ = 0;

@@ -51,10 +51,13 @@ class Service {
 
   // Starts; a jog button says why on a monitor.
   void tell_refusals(const Snapshot& now) {
-    const nc::rt::Refusal& refusal = now.system[0].refusal;
-    if (refusal.count != refusals_ && refusal.asked == nc::rt::Asked::kCycleStart)
-      say(std::string("cycle start by the ladder refused: ") + runtime_.explain(refusal.why));
-    refusals_ = refusal.count;
+    std::string said;  // what holds for all part systems is one line
+    for (unsigned s = 0; s < now.system_count; ++s) {
+      const nc::rt::Refusal& refusal = now.system[s].refusal;
+      const std::string why = "cycle start by the ladder refused: " + runtime_.explain(refusal.why);
+      if (refusal.count != refusals_[s] && refusal.asked == nc::rt::Asked::kCycleStart && why != said) say(said = why);
+      refusals_[s] = refusal.count;
+    }
   }
 
   // The watchdog is fed at a third of its interval, and only when the scan has gone on since.
@@ -136,7 +139,7 @@ class Service {
   std::int64_t fed_ns_ = 0;
   std::uint64_t fed_scan_ = 0;
   unsigned state_[NC_MAX_SYSTEMS] = {};
-  std::uint32_t refusals_ = 0;
+  std::uint32_t refusals_[NC_MAX_SYSTEMS] = {};
   std::vector<nc::rt::ActiveAlarm> seen_, told_;
 };
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <iterator>
 #include <system_error>
 #include <utility>
@@ -87,24 +88,7 @@ bool same_axes(const Setup& a, const Setup& b) {
                     [](const SetupAxis& x, const SetupAxis& y) { return x.name == y.name && x.rotary == y.rotary; });
 }
 
-std::string why_not(nc_status status) {
-  switch (status) {
-    case NC_E_MEMORY:
-      return "not enough memory";
-    case NC_E_ARGUMENT:
-      return "the configuration is not valid";
-    default:
-      return "status " + std::to_string(status);
-  }
-}
-
 }  // namespace
-
-std::optional<nc_dialect> dialect_from_name(const std::string& name) {
-  if (name == "m700") return NC_DIALECT_M700;
-  if (name == "dgshape") return NC_DIALECT_DGSHAPE;
-  return std::nullopt;
-}
 
 Session::Session() {
   nc_config_init(&config_);
@@ -118,13 +102,13 @@ void Session::Release::operator()(void* memory) const {
 bool Session::configure(const SessionOptions& options, std::string* error, std::unique_ptr<rt::Config> machine) {
   const auto dialect = dialect_from_name(options.dialect);
   if (!dialect) {
-    *error = "--dialect " + options.dialect + ": this version knows m700 and dgshape";
+    *error = no_dialect(options.dialect);
     return false;
   }
   dialect_ = *dialect;
   machine_ = std::move(machine);
   if (machine_ && !options.dialect_given) dialect_ = static_cast<nc_dialect>(machine_->nc.dialect);
-  if (machine_ && dialect_ != machine_->nc.dialect) {
+  if (machine_ && machine_->nc.dialect != static_cast<uint8_t>(dialect_)) {
     *error = "--dialect " + options.dialect + ": " + machine_->file + " is a machine of another dialect";
     return false;
   }
@@ -143,19 +127,20 @@ bool Session::configure(const SessionOptions& options, std::string* error, std::
 }
 
 bool Session::start(const SessionOptions& options, std::string* error) {
-  const size_t size = nc_memory_required(&config_);
-  if (size == 0) {
-    *error = setup_.name + ": the control cannot be built with these axes and options";
+  nc_config_fault fault;
+  if (nc_config_check(&config_, &fault) != NC_OK) {
+    *error = setup_.name + ": the control refuses " + fault.field + ": " + fault.reason;
     return false;
   }
+  const size_t size = nc_memory_required(&config_);
   memory_.reset(std::aligned_alloc(kAlignment, (size + kAlignment - 1) / kAlignment * kAlignment));
   nc_status status = NC_E_MEMORY;
   if (memory_) control_ = nc_create(&config_, memory_.get(), size, &status);
   if (!control_) {
-    *error = "the control cannot be created: " + why_not(status);
+    *error = std::string("the control cannot be created: ") + nc_status_text(status);
     return false;
   }
-  if (!apply_machine(error) || !apply_setup(setup_, dialect_, control_, error)) return false;
+  if (!apply_machine(error) || !apply_setup(setup_, control_, error)) return false;
   if (options.semicolon_comments && nc_parameter_set(control_, kPartSystem, "semicolon_comments", 0, "1") != NC_OK) {
     *error = "--semicolon-comments: ';' is no character of this dialect";
     return false;
@@ -171,7 +156,7 @@ bool Session::start(const SessionOptions& options, std::string* error) {
   files_->attach(control_);
   status = nc_program_select(control_, kPartSystem, main_file_);
   if (status != NC_OK) {
-    *error = main_name_ + ": cannot be selected: " + why_not(status);
+    *error = main_name_ + ": cannot be selected: " + nc_status_text(status);
     return false;
   }
   return true;
@@ -204,7 +189,7 @@ bool Session::declare_tape(const SessionOptions& options, std::string* error) {
   constexpr unsigned kUnit = 1;  // the first input device: its parameters are #91nn
   const nc_tape code = options.tape == "iso" ? NC_TAPE_ISO : options.tape == "eia" ? NC_TAPE_EIA : NC_TAPE_TEXT;
   const nc_status status = nc_program_tape(control_, main_file_, static_cast<uint8_t>(code), kUnit);
-  if (status != NC_OK) *error = main_name_ + ": cannot be read as a tape: " + why_not(status);
+  if (status != NC_OK) *error = main_name_ + ": cannot be read as a tape: " + nc_status_text(status);
   return status == NC_OK;
 }
 
@@ -227,11 +212,18 @@ std::string Session::main_text() const {
   return text == nullptr || !text->copied() ? "" : whole_text(text.get());
 }
 
-BlockLines Session::block_lines() const {
-  const bool wanted = std::any_of(setup_.events.begin(), setup_.events.end(), [](const SetupEvent& event) { return event.line.has_value(); });
-  const ProgramFiles::Text text = files_->text_of(main_file_);
-  if (text == nullptr || (!wanted && !text->copied())) return {};
-  return BlockLines(whole_text(text.get()));
+bool Session::decides() const {
+  return has_decision(main_text());
+}
+
+LoopLimits Session::loop_limits(const LoopLimits& wanted) const {
+  LoopLimits limits = wanted;
+  const std::string text = main_text();
+  nc_system_variable row;
+  for (unsigned i = 0; nc_system_variable_row(dialect_, i, &row) == NC_OK; ++i)
+    for (uint32_t number = row.first; std::strcmp(row.unit, "count") == 0 && number <= row.last; ++number)
+      if (text.find("#" + std::to_string(number)) != std::string::npos) limits.same = 0;
+  return limits;
 }
 
 std::string Session::file_name(const nc_source& source) const {

@@ -8,6 +8,8 @@
 
 #include "nc/nc.h"
 #include "runtime/config.hpp"
+#include "tools/lib/dialect_names.hpp"
+#include "tools/lib/loop_watch.hpp"
 #include "tools/lib/offline_run.hpp"
 #include "tools/lib/program_files.hpp"
 #include "tools/lib/setup.hpp"
@@ -18,7 +20,7 @@ namespace nc::tools {
 struct SessionOptions {
   std::string program;  // "-" = standard input
   std::string setup;    // "" = all defaults
-  std::string dialect = "m700";
+  std::string dialect = default_dialect();
   bool semicolon_comments = false;  // what stands behind ';' is a comment
   bool dialect_given = false;  // on the command line; else a machine's own goes before
   std::string print;        // file for what programs print (DPRNT); "" = none
@@ -29,9 +31,6 @@ struct SessionOptions {
   std::string machine;      // configuration of the machine that the program is for (TOML); "" = none
   std::optional<std::string> programs;  // folder of sub programs; default: the program's own
 };
-
-/** m700, dgshape; nothing for another name. */
-std::optional<nc_dialect> dialect_from_name(const std::string& name);
 
 /** Owns the memory of the control and everything it refers to. */
 class Session {
@@ -58,8 +57,10 @@ class Session {
   /** Text of the main program; "" for one that is not copied. */
   std::string main_text() const;
   unsigned main_file() const { return main_file_; }
-  /** Block lines of the main program; empty for one that is not copied, unless an event of the setup waits for a line. */
-  BlockLines block_lines() const;
+  /** The main program has an IF or a WHILE; false for one that is not copied. */
+  bool decides() const;
+  /** These limits for its main program: one that names a counter of workpieces, which no one can look at from outside, may come to its end by it. */
+  LoopLimits loop_limits(const LoopLimits& wanted) const;
   /** "FILE" of a source, as a person would name it. */
   std::string file_name(const nc_source& source) const;
 
@@ -76,7 +77,7 @@ class Session {
   std::unique_ptr<rt::Config> machine_;
   Setup setup_;
   nc_config config_;
-  nc_dialect dialect_ = NC_DIALECT_M700;
+  nc_dialect dialect_{};
   std::unique_ptr<void, Release> memory_;
   std::unique_ptr<ProgramFiles> files_;
   nc_control* control_ = nullptr;

@@ -154,6 +154,6 @@ std::optional<int64_t> parse_clock(const std::string& text);
 void apply_setup(const Setup& setup, nc_config* config);
 
 /** Parameters, tables, variables, switches, position and sub programs; the setup must outlive the control. */
-bool apply_setup(const Setup& setup, nc_dialect dialect, nc_control* control, std::string* error);
+bool apply_setup(const Setup& setup, nc_control* control, std::string* error);
 
 }  // namespace nc::tools

@@ -37,18 +37,18 @@ bool apply_option(const Setup& setup, nc_control* control, bool on, const SetupP
 }
 
 // Memory type II has columns of its own for length and radius, type I one value for both. // M700 12.1
-bool apply_tool_offsets(const Setup& setup, nc_dialect dialect, nc_control* control, std::string* error) {
+bool apply_tool_offsets(const Setup& setup, nc_control* control, std::string* error) {
   bool columns = false;
   for (const SetupToolOffset& entry : setup.tool_offsets) columns = columns || !entry.plain;
   std::string memory_type;
+  char key[24] = "";
+  const bool has_types = nc_parameter_key(control, NC_PARAMETER_TOOL_MEMORY, key) == NC_OK;
   for (const SetupParameter& p : setup.parameters)
-    if (p.key == "1037") memory_type = p.text;
-  if (columns && memory_type.empty() && dialect == NC_DIALECT_M700 &&
-      nc_parameter_set(control, kPartSystem, "1037", 0, "2") == NC_OK)
-    memory_type = "2";
+    if (p.key == key) memory_type = p.text;
+  if (columns && memory_type.empty() && has_types && nc_parameter_set(control, kPartSystem, key, 0, "2") == NC_OK) memory_type = "2";
   for (const SetupToolOffset& entry : setup.tool_offsets) {
     if (!entry.plain && memory_type == "1")
-      return refuse(setup, entry.place, "memory type I (params.1037 is 1) has one number per offset", error);
+      return refuse(setup, entry.place, "memory type I (params." + std::string(key) + " is 1) has one number per offset", error);
     double column[4];
     for (int c = 0; c < 4; ++c) column[c] = entry.column[c];
     int count = entry.plain ? 1 : 4;
@@ -103,12 +103,12 @@ void apply_setup(const Setup& setup, nc_config* config) {
   config->work_offsets = setup.option_work_offsets;
 }
 
-bool apply_setup(const Setup& setup, nc_dialect dialect, nc_control* control, std::string* error) {
+bool apply_setup(const Setup& setup, nc_control* control, std::string* error) {
   if (!apply_parameters(setup, control, error) ||
       !apply_option(setup, control, setup.option_macro_extensions, setup.macro_extensions_place,
                     "macro_extensions", error) ||
       !apply_option(setup, control, setup.option_negative_count, setup.negative_count_place, "negative_count", error) ||
-      !apply_tool_offsets(setup, dialect, control, error) || !apply_tables(setup, control, error) ||
+      !apply_tool_offsets(setup, control, error) || !apply_tables(setup, control, error) ||
       !apply_subprograms(setup, control, error))
     return false;
   nc_switches_set(control, kPartSystem, setup.optional_skip, setup.mirror_axes);

@@ -38,7 +38,7 @@ void ToolpathPlot::add_point(bool rapid, double x, double y, double z) {
   // No drawing shows places farther than 1000 km from zero; this also keeps what is not a number out.
   if (!(std::fabs(x) < kFarthest && std::fabs(y) < kFarthest && std::fabs(z) < kFarthest)) return;
   if (!vertices_.empty()) {
-    Vertex& last = vertices_.back();
+    PlotVertex& last = vertices_.back();
     const double step = std::hypot(x - last.x, y - last.y, z - last.z);
     // The last vertex is replaced only inside a run of feed pieces, so that corners to rapids stay where they
     // are.
@@ -66,8 +66,8 @@ void ToolpathPlot::thin() {
   while (vertices_.size() > kMaxVertices / 2) {
     size_t kept = 1;
     for (size_t i = 1; i < vertices_.size(); ++i) {
-      const Vertex& v = vertices_[i];
-      const Vertex& last = vertices_[kept - 1];
+      const PlotVertex& v = vertices_[i];
+      const PlotVertex& last = vertices_[kept - 1];
       const bool edge = v.rapid || i + 1 == vertices_.size() || vertices_[i + 1].rapid;
       if (edge || std::hypot(v.x - last.x, v.y - last.y, v.z - last.z) >= min_step_) vertices_[kept++] = v;
     }

@@ -27,6 +27,13 @@ enum class PlotCoordinates { kWork, kMachine };
 /** What the colour of a feed piece says. */
 enum class PlotColor { kKind, kTool, kFeed, kZ };
 
+/** A vertex of the path, mm. */
+struct PlotVertex {
+  float x, y, z;
+  float value;  // of the piece that ends here: what its colour says
+  bool rapid;   // of the same piece
+};
+
 /** Collects a tool path and draws it. */
 class ToolpathPlot {
  public:
@@ -40,8 +47,16 @@ class ToolpathPlot {
   /** The tool that cuts from here on. */
   void set_tool(double number) { tool_ = number; }
 
+  /** The feed of the pieces from here on, for those that add_point() adds. */
+  void set_feed(double mm_min) { feed_mm_min_ = mm_min; }
+
+  /** The path is one that was driven: feeds are speeds. */
+  void set_executed(bool executed) { executed_ = executed; }
+
   /** The path ends in an alarm of this code. */
   void set_alarm(std::string code) { alarm_ = std::move(code); }
+  /** Why the path ends where it does, for the head: the alarm in words, for one. */
+  void set_sentence(std::string text) { sentence_ = std::move(text); }
 
   /** A move of the item stream, drawn from `zero`: all zeros give machine coordinates (see nc_move_zero). */
   void add_move(const nc_move& move, const nc_system_config& system, const nc_axes& zero = {});
@@ -55,28 +70,26 @@ class ToolpathPlot {
   /** A vertex that is kept, mm. */
   std::array<double, 3> point(size_t i) const { return {vertices_[i].x, vertices_[i].y, vertices_[i].z}; }
 
+  const std::vector<PlotVertex>& vertices() const { return vertices_; }
+
   /** Write the drawing. @return false with *error when the file cannot be written. */
   bool write_svg(const std::string& path, std::string* error) const;
   bool write_png(const std::string& path, std::string* error) const;
 
  private:
   friend class PlotPainter;
-  struct Vertex {
-    float x, y, z;
-    float value;  // of the piece that ends here: what its colour says
-    bool rapid;   // of the same piece
-  };
   void push(bool rapid, double x, double y, double z);
   void thin();
 
-  std::vector<Vertex> vertices_;
+  std::vector<PlotVertex> vertices_;
   double min_step_ = 0.0;  // mm; shorter feed pieces are merged
   double low_[3] = {0, 0, 0}, high_[3] = {0, 0, 0};
-  std::string title_ = "Tool path", alarm_;
+  std::string title_ = "Tool path", alarm_, sentence_;
   PlotView view_ = PlotView::kIsometric;
   PlotColor color_ = PlotColor::kKind;
   double tool_ = 0.0, feed_mm_min_ = 0.0;
   PlotCoordinates coordinates_ = PlotCoordinates::kWork;
+  bool executed_ = false;
 };
 
 }  // namespace nc::tools

@@ -27,7 +27,8 @@ struct SyncName {
 };
 constexpr SyncName kSyncNames[] = {{NC_SYNC_POSITION, "position"}, {NC_SYNC_INPUT, "input"},
                                    {NC_SYNC_CLOCK, "clock"},       {NC_SYNC_SKIP, "skip"},
-                                   {NC_SYNC_MODAL, "modal"},       {NC_SYNC_STOPPED, "stopped"}};
+                                   {NC_SYNC_MODAL, "modal"},       {NC_SYNC_STOPPED, "stopped"},
+                                   {NC_SYNC_SHARED, "shared"}};
 
 bool circular(const nc_move& move) {
   return move.center_axes != 0;
@@ -87,7 +88,7 @@ void TraceWriter::begin(std::string_view type, const nc_source& source) {
   put("{\"t\":\"");
   put(type);
   put("\",\"sys\":");
-  put_integer(source.system);
+  put_integer(source.system + 1u);
   put(",\"line\":");
   put_integer(source.line);
   put(",\"prog\":");

@@ -199,11 +199,11 @@ class Collector {
   std::map<std::string, size_t> places_;
 };
 
-/** What a number means, as the tables of the control have it. */
-std::string meaning(const VariableUse& use) {
-  if (use.number == 0) return letter(use.text.size() > 1 ? use.text[1] : 0) ? "by its name" : "computed";
+/** What a number means, as the tables of the dialect have it. */
+std::string meaning(const VariableUse& use, nc_dialect dialect) {
+  if (use.number == 0) return letter(use.text.size() > 1 ? use.text[1] : '\0') ? "by its name" : "computed";
   nc_system_variable row;
-  for (unsigned i = 0; nc_system_variable_get(i, &row) == NC_OK; ++i)
+  for (unsigned i = 0; nc_system_variable_row(dialect, i, &row) == NC_OK; ++i)
     if (use.number >= row.first && use.number <= row.last) return row.name;
   const bool common = (use.number >= 100 && use.number <= 199) || (use.number >= 400 && use.number <= 999) || use.number >= 900000;
   return common ? "common variable" : "";
@@ -218,6 +218,8 @@ std::string place_text(const TextPlace& place) {
 TextUses uses_of(const std::string& text, const std::string& file) { return TextReader(file).read(text); }
 
 int variable_use_command(const SessionOptions& options, std::FILE* out, std::FILE* err) {
+  const std::optional<nc_dialect> dialect = dialect_from_name(options.dialect);
+  if (!dialect) return complain(err, no_dialect(options.dialect));
   Collector collector(options, err);
   std::string error;
   if (!collector.add(options.program, &error)) return complain(err, error);
@@ -227,7 +229,7 @@ int variable_use_command(const SessionOptions& options, std::FILE* out, std::FIL
   });
   std::fprintf(out, "variable\twhat\tread first\twritten first\n");
   for (const VariableUse& use : uses)
-    std::fprintf(out, "%s\t%s\t%s\t%s\n", use.text.c_str(), meaning(use).c_str(), place_text(use.read).c_str(), place_text(use.written).c_str());
+    std::fprintf(out, "%s\t%s\t%s\t%s\n", use.text.c_str(), meaning(use, *dialect).c_str(), place_text(use.read).c_str(), place_text(use.written).c_str());
   return close_output(out, err, kExitEnded);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tools/lib/foresight.hpp"
 #include "tools/lib/item_source.hpp"
 
 namespace nc::tools {
@@ -16,10 +17,22 @@ constexpr double kPatience = 10.0;  // s; a program that neither runs nor stops 
 
 class VirtualMachine {
  public:
-  VirtualMachine(nc_control* control, const nc_config& config, const Setup& setup, const BlockLines& lines, const ServoModel* servo)
-      : control_(control), config_(config), setup_(setup), lines_(lines), servo_(servo), passes_(lines.decides()), world_(setup, config.system[0]), actual_(setup.start) {
+  VirtualMachine(nc_control* control, const nc_config& config, const Setup& setup, bool decides, const LoopLimits& loops, const ServoModel* servo)
+      : control_(control),
+        config_(config),
+        setup_(setup),
+        servo_(servo),
+        passes_(decides),
+        world_(setup, config.system[0]),
+        foresight_(&world_, config.system[0].axis_count),
+        loops_(loops),
+        actual_(setup.start) {
     out_[kPartSystem].command = setup.start;
+    nc_commit_watch_set(control_, kPartSystem, committed, this);
   }
+  ~VirtualMachine() { nc_commit_watch_set(control_, kPartSystem, nullptr, nullptr); }
+  VirtualMachine(const VirtualMachine&) = delete;
+  VirtualMachine& operator=(const VirtualMachine&) = delete;
 
   MachineResult run(double limit_s, const CycleObserver& observe) {
     nc_outputs& out = out_[kPartSystem];
@@ -27,7 +40,7 @@ class VirtualMachine {
     passes_differ();
     const uint64_t limit = static_cast<uint64_t>(limit_s / config_.cycle_s);
     for (uint64_t cycle = 0; cycle < limit; ++cycle) {
-      if (!feed()) return fail("nothing happens any more: an endless loop in the program");
+      if (!feed()) return give_up("the program is read on and on, and nothing comes of it: an endless loop of calculation");
       inputs(cycle);
       nc_cycle(control_, in_, out_);
       result_.cycles = cycle + 1;
@@ -37,6 +50,7 @@ class VirtualMachine {
       if (out.state == NC_STATE_ALARM) return alarmed();
       take_events();
       if (result_.one_pass) return take(MachineResult::How::kEnded);
+      if (given_up_ && executed_ == committed_) return give_up(loops_.verdict());
       if (started_ && out.state == NC_STATE_IDLE) return take(MachineResult::How::kEnded);
       // A stopped spindle, a feed of 0 and a thread that is too fast stay as they are.
       const bool stuck = out.cause == NC_CAUSE_SPINDLE_STOPPED || out.cause == NC_CAUSE_FEED_ZERO || out.cause == NC_CAUSE_SPINDLE_FAST;
@@ -45,11 +59,11 @@ class VirtualMachine {
       blocks_before_ = out.blocks;
       waiting = goes_on ? 0.0 : waiting + config_.cycle_s;
       if (!progresses(out))
-        return fail("line " + std::to_string(out.source.line) + ": an endless loop of calculation");
+        return give_up("line " + std::to_string(out.source.line) + ": " + std::to_string(kMaxSilentBlocks) +
+                       " blocks in a row without motion, dwell or an M, S or T function: an endless loop of calculation");
       if (waiting > kPatience) return fail("line " + std::to_string(out.source.line) + ": " + reason(out.cause));
     }
-    return fail("not at its end after " + std::to_string(static_cast<uint64_t>(limit_s)) +
-                " s of machine time");
+    return give_up("not at its end after " + std::to_string(static_cast<uint64_t>(limit_s)) + " s of machine time (--max-seconds)");
   }
 
  private:
@@ -110,37 +124,42 @@ class VirtualMachine {
     in.unclamped = clamps(last.unclamp);
     in.optional_stop = setup_.optional_stop;
     in.single_block = setup_.single_block;
-    in.skip = world_.signals_at(last.command, last.work);
     in.feed_override = 1.0;
     in.rapid_override = 1.0;
     in.spindle[0].rev_per_s = last.s / 60.0;
     in.spindle[0].turns_valid = true;
     in.spindle[0].turns += in.spindle[0].rev_per_s * config_.cycle_s;
-    // Events of the setup: by the block in execution and by the machine's own time.
-    nc_item now = {};
-    now.source = last.source;
+    // Events of the setup: by the blocks, and by the machine's own time.
     world_.set_seconds(static_cast<double>(cycle) * config_.cycle_s);
-    if ((last.strobe & 1) != 0 && !m_strobe_) world_.on_m(last.m);
-    m_strobe_ = (last.strobe & 1) != 0;
-    foresee();
-    in.reset = (started_ && world_.on_item(now, line_to_come())) || reset_;
-    reset_ = false;
-    for (int w = 0; w < NC_WORDS; ++w) in.input[w] = world_.input(static_cast<unsigned>(w));
+    in.reset = started_ && foresight_.fire(last.serial);
+    in.macro_interrupt = world_.macro_interrupt();
+    const OutsideSignals outside = foresight_.signals(last.command, last.work);
+    in.skip = outside.skip;
+    for (int w = 0; w < NC_WORDS; ++w) in.input[w] = outside.input[w];
     in.clock_ms = setup_.clock_ms +
                   static_cast<int64_t>(std::floor(static_cast<double>(cycle) * config_.cycle_s * 1000.0));
   }
 
-  uint32_t line_to_come() const { return world_.waits_for_line() ? lines_.after(ended_line_) : 0; }
+  static bool committed(void* user, const nc_item* item) { return static_cast<VirtualMachine*>(user)->commits(*item); }
+  bool commits(const nc_item& item) {
+    if (given_up_) return false;
+    uint32_t main_line = 0;
+    nc_main_line(control_, kPartSystem, &item.source, &main_line);
+    if (!foresight_.commit(item, main_line)) return false;
+    committed_ = item.serial;
+    if (world_.changes() || (item.kind == NC_ITEM_SYNC && (item.u.sync.what & NC_SYNC_CLOCK) != 0)) loops_.asked();
+    if (item.kind != NC_ITEM_MARK || !item.u.mark.report) return true;
+    given_up_ = loops_.block(item.source, [&] { return loop_state(control_, kPartSystem, item.u.mark.work); });
+    return true;  // the end of the pass is executed, nothing behind it
+  }
 
   // What the cycle has done, block by block: several may have ended in it.
   void take_events() {
     nc_event event = {};
     while (nc_event_poll(control_, kPartSystem, &event, nullptr) == NC_OK) {
       if (event.again && !passes_differ()) result_.one_pass = true;
-      nc_item done = {};
-      done.source = event.source;
-      if (world_.waits_for_line() && world_.on_item(done, line_to_come())) reset_ = true;
-      if (event.kind == NC_ITEM_MARK && event.source.depth == 0) ended_line_ = event.source.line;
+      foresight_.executed(event.serial);
+      executed_ = event.serial;
     }
   }
 
@@ -152,18 +171,11 @@ class VirtualMachine {
     const auto at_executed = [](void* user, const nc_control* control) {
       Look& l = *static_cast<Look*>(user);
       l.differ = l.passes->differ([control](uint32_t from, uint32_t* number, double* value) {
-        return nc_common_next(control, kPartSystem, from, number, value) == NC_OK;
+        return nc_variable_next(control, kPartSystem, from, number, value) == NC_OK;
       });
     };
     nc_look_executed(control_, at_executed, &look);  // what was read ahead belongs to passes to come
     return look.differ;
-  }
-
-  // An input is read in the cycle in which the program gets there: it has its value before.
-  void foresee() {
-    nc_source source = {};
-    uint32_t line = 0;
-    if (world_.waits_for_line() && nc_sync_get(control_, kPartSystem, &source, &line) == NC_OK) world_.foresee(line);
   }
 
   MachineResult take(MachineResult::How how) {
@@ -179,6 +191,10 @@ class VirtualMachine {
     if (nc_alarm_get(control_, kPartSystem, &result_.alarm) != NC_OK) return fail("an alarm without a text");
     return take(MachineResult::How::kAlarmed);
   }
+  MachineResult give_up(std::string why) {
+    result_.error = std::move(why);
+    return take(MachineResult::How::kEndless);
+  }
   MachineResult fail(std::string why) {
     result_.error = std::move(why);
     return take(MachineResult::How::kFailed);
@@ -187,10 +203,11 @@ class VirtualMachine {
   nc_control* control_;
   const nc_config& config_;
   const Setup& setup_;
-  const BlockLines& lines_;
   const ServoModel* servo_;
   Passes passes_;
   VirtualWorld world_;
+  Foresight foresight_;
+  LoopWatch loops_;
   nc_axes actual_;
   hal::SimClampState clamp_[NC_MAX_AXES];
   nc_inputs in_[NC_MAX_SYSTEMS] = {};
@@ -198,15 +215,15 @@ class VirtualMachine {
   MachineResult result_;
   double progress_length_ = 0.0;
   uint64_t progress_blocks_ = 0, blocks_before_ = 0;
-  uint32_t ended_line_ = 0;  // of the main program
-  bool started_ = false, reset_ = false, m_strobe_ = false;
+  uint64_t committed_ = 0, executed_ = 0;  // serials
+  bool started_ = false, given_up_ = false;
 };
 
 }  // namespace
 
-MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, const BlockLines& lines, double limit_s,
-                          const CycleObserver& observe, const ServoModel* servo) {
-  return VirtualMachine(control, config, setup, lines, servo).run(limit_s, observe);
+MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, bool decides, double limit_s,
+                          const LoopLimits& loops, const CycleObserver& observe, const ServoModel* servo) {
+  return VirtualMachine(control, config, setup, decides, loops, servo).run(limit_s, observe);
 }
 
 }  // namespace nc::tools

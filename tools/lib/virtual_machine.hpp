@@ -17,10 +17,10 @@ namespace nc::tools {
 
 /** What a run took. */
 struct MachineResult {
-  enum class How { kEnded, kAlarmed, kStopped, kFailed };
+  enum class How { kEnded, kAlarmed, kStopped, kEndless, kFailed };
   How how = How::kFailed;
   nc_alarm alarm = {};
-  std::string error;         // kFailed
+  std::string error;         // kFailed; kEndless: what was given up
   double seconds = 0.0;      // running, from cycle start to the end
   double path_length = 0.0;  // mm
   uint64_t blocks = 0, cycles = 0;
@@ -41,11 +41,12 @@ struct ServoModel {
 /**
  * Run the selected program of a control made with `config`, as run_offline(): a main
  * program that M99 would begin again ends there unless its passes differ.
- * @param lines for events that wait for a line; see VirtualWorld::on_item().
- * @param limit_s virtual seconds after which the run is given up with an error.
+ * @param decides has_decision() of the main program
+ * @param limit_s virtual seconds after which the run is given up.
+ * @param loops passes after which a loop is given up.
  * @param servo null: the axes are always where they are commanded to be.
  */
-MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, const BlockLines& lines, double limit_s,
+MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, bool decides, double limit_s, const LoopLimits& loops,
                           const CycleObserver& observe = {}, const ServoModel* servo = nullptr);
 
 }  // namespace nc::tools

@@ -28,75 +28,41 @@ uint32_t skip_bit(const std::string& name) {
 
 }  // namespace
 
+void OutsideSignals::change(const SetupEvent& event) {
+  for (int w = 0; w < NC_WORDS; ++w) input[w] = (input[w] & ~event.inputs.mask[w]) | (event.inputs.bits[w] & event.inputs.mask[w]);
+  for (const auto& [name, on] : event.signals)
+    if (const uint32_t bit = skip_bit(name)) skip = on ? skip | bit : skip & ~bit;
+}
+
 VirtualWorld::VirtualWorld(const Setup& setup, const nc_system_config& system)
-    : setup_(setup), axis_count_(system.axis_count), machine_(setup.start), skip_machine_(setup.start) {
-  for (int w = 0; w < NC_WORDS; ++w) input_[w] = setup.inputs.bits[w];
+    : setup_(setup), axis_count_(system.axis_count), machine_(setup.start), skip_machine_(setup.start), schedule_(setup) {
+  for (int w = 0; w < NC_WORDS; ++w) signals_.input[w] = setup.inputs.bits[w];
   for (const SetupEvent& event : setup.events)
-    (event.program || event.m ? other_events_ : event.line ? line_events_ : time_events_).push_back(&event);
+    if (event.seconds) time_events_.push_back(&event);
   for (const SkipHit& hit : setup.hits) hits_.push_back({&hit});
 }
 
-void VirtualWorld::set_inputs(const SetupEvent& event) {
-  for (int w = 0; w < NC_WORDS; ++w)
-    input_[w] = (input_[w] & ~event.inputs.mask[w]) | (event.inputs.bits[w] & event.inputs.mask[w]);
-}
-
-void VirtualWorld::foresee(uint32_t line) {
-  for (const SetupEvent* event : line_events_) {
-    if (*event->line != line || std::find(foreseen_.begin(), foreseen_.end(), event) != foreseen_.end()) continue;
-    set_inputs(*event);
-    foreseen_.push_back(event);
-  }
-}
-
 void VirtualWorld::fire(const SetupEvent& event) {
-  if (std::erase(foreseen_, &event) == 0) set_inputs(event);
+  signals_.change(event);
   // feed_hold delays and is continued at once; macro_interrupt without M96 does nothing. // M700 13.12
   const auto interrupt = event.signals.find("macro_interrupt");
   if (interrupt != event.signals.end()) interrupt_ = interrupt->second != 0;
   const auto reset = event.signals.find("reset");
   if (reset != event.signals.end() && reset->second) reset_ = true;
-  for (const auto& [name, on] : event.signals)
-    if (const uint32_t bit = skip_bit(name)) skip_level_ = on ? skip_level_ | bit : skip_level_ & ~bit;
 }
 
-void VirtualWorld::on_m(double code) {
-  std::erase_if(other_events_, [&](const SetupEvent* event) {
-    if (!event->m || *event->m != code) return false;
+void VirtualWorld::fire_by_time() {
+  if (time_events_.empty()) return;
+  std::erase_if(time_events_, [&](const SetupEvent* event) {
+    if (*event->seconds > seconds_) return false;
     fire(*event);
     return true;
   });
 }
 
-bool VirtualWorld::fire_due(const nc_item& item, uint32_t next_line) {
-  uint32_t began = 0;
-  if (item.source.depth == 0) {
-    began = item.source.line;
-    called_ = false;
-  } else if (!called_) {
-    began = next_line;
-    called_ = true;
-  }
-  if (began && !line_events_.empty())
-    std::erase_if(line_events_, [&](const SetupEvent* event) {
-      if (*event->line != began) return false;
-      fire(*event);
-      return true;
-    });
-  if (!time_events_.empty())
-    std::erase_if(time_events_, [&](const SetupEvent* event) {
-      if (*event->seconds > seconds_) return false;
-      fire(*event);
-      return true;
-    });
-  if (!other_events_.empty()) {
-    if (item.kind == NC_ITEM_ACTION && item.u.action.kind == NC_ACTION_M) on_m(item.u.action.value);
-    std::erase_if(other_events_, [&](const SetupEvent* event) {
-      if (!event->program || *event->program != item.source.program || *event->line != item.source.line) return false;
-      fire(*event);
-      return true;
-    });
-  }
+bool VirtualWorld::fire_due(const nc_item& item, uint32_t main_line) {
+  fire_by_time();
+  for (const SetupEvent* event : schedule_.take(item, item.source.depth == 0 ? item.source.line : main_line)) fire(*event);
   return reset_;
 }
 
@@ -106,8 +72,8 @@ uint32_t VirtualWorld::signals_at(const nc_axes& machine) const {
   return signals_at(machine, work);
 }
 
-uint32_t VirtualWorld::signals_at(const nc_axes& machine, const nc_axes& work) const {
-  uint32_t on = skip_level_;
+uint32_t VirtualWorld::solids_at(const nc_axes& machine, const nc_axes& work) const {
+  uint32_t on = 0;
   for (const SkipSolid& solid : setup_.skip) {
     bool inside = true;
     if (solid.probe)
@@ -147,24 +113,24 @@ double VirtualWorld::first_probe(const nc_move& move, const SkipSolid& solid) co
   return solid.probe->first_entry({setup_.linear(from), setup_.linear(to), move.machine_start.v, move.machine.v});
 }
 
-// The place of the hit that belongs to this move, as a part of its way; infinity when there is none.
-double VirtualWorld::take_hit(const nc_move& move) {
+VirtualWorld::Touch VirtualWorld::take_hit(const nc_source& source, const nc_move& move) {
   HitState* mine = nullptr;
   for (HitState& state : hits_) {
     if (state.taken) continue;
     const SkipHit& hit = *state.hit;
-    const bool here = hit.line && *hit.line == now_.line && (hit.program ? *hit.program == now_.program : now_.depth == 0);
+    const bool here = hit.line && *hit.line == source.line && (hit.program ? *hit.program == source.program : source.depth == 0);
     if (here) {
       mine = &state;
       break;
     }
     if (!hit.line && mine == nullptr) mine = &state;  // the next in order, unless one is for this line
   }
-  if (mine == nullptr) return kNever;
+  if (mine == nullptr) return {};
   mine->taken = true;
-  mine->line = now_.line;
+  mine->line = source.line;
   const SkipHit& hit = *mine->hit;
-  if (hit.none) return kNever;
+  Touch touch{static_cast<size_t>(mine - hits_.data()), kNever, hit.signal};
+  if (hit.none) return touch;
   double along = 0.0, square = 0.0;
   for (unsigned a = 0; a < axis_count_; ++a) {
     if (!hit.named[a]) continue;
@@ -175,7 +141,12 @@ double VirtualWorld::take_hit(const nc_move& move) {
   }
   const double part = square > 0.0 ? along / square : kNever, slack = square > 0.0 ? kTouch / std::sqrt(square) : 0.0;
   mine->missed = !(part >= -slack && part <= 1.0 + slack) || !(move.skip_mask & (1u << (hit.signal - 1)));
-  return mine->missed ? kNever : std::clamp(part, 0.0, 1.0);
+  if (!mine->missed) touch.part = std::clamp(part, 0.0, 1.0);
+  return touch;
+}
+
+void VirtualWorld::put_back(const Touch& touch) {
+  if (touch.hit < hits_.size()) hits_[touch.hit].taken = hits_[touch.hit].missed = false;
 }
 
 // The first event within the next `seconds` that switches a signal of the mask on.
@@ -191,7 +162,7 @@ const SetupEvent* VirtualWorld::signal_within(double seconds, uint32_t mask) con
 
 // Smallest path parameter at which a signal of the move's mask is on; infinity when there is none.
 double VirtualWorld::first_entry(const nc_move& move) const {
-  if (skip_level_ & move.skip_mask) return 0.0;
+  if (signals_.skip & move.skip_mask) return 0.0;
   double entry = kNever;
   double length = 0.0;
   for (unsigned a = 0; a < axis_count_; ++a)
@@ -214,7 +185,7 @@ bool VirtualWorld::execute(nc_move* move) {
   double part = 1.0;
   const SetupEvent* switched_on = nullptr;
   if (move->kind == NC_MOVE_SKIP) {
-    double entry = std::min(first_entry(*move), take_hit(*move));
+    double entry = std::min(first_entry(*move), take_hit(now_, *move).part);
     const double all = duration(*move);
     switched_on = signal_within(all * std::min(entry, 1.0), move->skip_mask);
     if (switched_on) entry = std::clamp((*switched_on->seconds - seconds_) / all, 0.0, 1.0);
@@ -244,19 +215,26 @@ void VirtualWorld::dwell(bool turns, double value, uint32_t skip_mask) {
   seconds_ = switched_on ? std::max(seconds_, *switched_on->seconds) : seconds_ + seconds;
 }
 
+bool VirtualWorld::changes() const {
+  return schedule_.any() || !time_events_.empty() || std::any_of(hits_.begin(), hits_.end(), [](const HitState& hit) { return !hit.taken; });
+}
+
 std::vector<std::string> VirtualWorld::unused() const {
   std::vector<std::string> all;
   const auto add = [&](const SetupPlace& place, const std::string& why) {
     all.push_back(setup_.name + ":" + std::to_string(place.line) + ": " + place.path + ": " + why);
   };
   for (const SetupEvent& event : setup_.events) {
-    for (const auto* waiting : {&line_events_, &time_events_, &other_events_}) {
-      if (std::find(waiting->begin(), waiting->end(), &event) == waiting->end()) continue;
-      if (event.m) add(event.place, "has not fired: M" + std::to_string(*event.m) + " was not given out");
-      else if (event.seconds) add(event.place, "has not fired: the program ended before that time");
-      else
-        add(event.place, "has not fired: line " + std::to_string(*event.line) + " of " +
-                             (event.program ? "O" + std::to_string(*event.program) : "the main program") + " was not executed, or holds no block");
+    if (event.seconds) {
+      if (std::find(time_events_.begin(), time_events_.end(), &event) != time_events_.end())
+        add(event.place, "has not fired: the program ended before that time");
+    } else if (!schedule_.waits(event)) {
+      continue;
+    } else if (event.m) {
+      add(event.place, "has not fired: M" + std::to_string(*event.m) + " was not given out");
+    } else {
+      add(event.place, "has not fired: line " + std::to_string(*event.line) + " of " +
+                           (event.program ? "O" + std::to_string(*event.program) : "the main program") + " was not executed, or holds no block");
     }
   }
   for (const HitState& state : hits_) {
@@ -272,7 +250,7 @@ nc_world VirtualWorld::answer(uint32_t what) {
   world.machine = machine_;
   world.skip_machine = skip_machine_;
   world.skipped = skipped_;
-  for (int w = 0; w < NC_WORDS; ++w) world.input[w] = input_[w];
+  for (int w = 0; w < NC_WORDS; ++w) world.input[w] = signals_.input[w];
   const double ms =
       std::floor(seconds_ * 1000.0 + 1e-6);  // a whole number of ms must not fall short by rounding
   world.clock_ms = setup_.clock_ms + static_cast<int64_t>(ms);

@@ -3,14 +3,25 @@
 // was done, its inputs and solids are those of the setup. Nothing depends on wall-clock time.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "nc/nc.h"
+#include "tools/lib/event_schedule.hpp"
 #include "tools/lib/setup.hpp"
 
 namespace nc::tools {
+
+/** What comes from outside beside positions: inputs of the macro interface, and skip signals that events have switched on (bit n = signal n+1). */
+struct OutsideSignals {
+  uint32_t input[NC_WORDS] = {};
+  uint32_t skip = 0;
+  /** As the event leaves them. */
+  void change(const SetupEvent& event);
+};
 
 /** Follows the items of one part system and answers its syncs. */
 class VirtualWorld {
@@ -19,28 +30,29 @@ class VirtualWorld {
   VirtualWorld(const Setup& setup, const nc_system_config& system);
 
   /**
-   * To be called with every item before anything else is done with it: fires the events that are due.
-   * An event "when line N" fires with the first item of line N of the main program. A line that calls a sub
-   * program shows itself only after the return; then the event fires when the sub program begins, found as
-   * the line behind the last one that has ended (`next_line`, 0 = not known). An event on a line of a program with a number fires with the
-   * first item of that line, one on an M code with the code itself.
-   * @return true when an event commands reset: the run ends here.
+   * To be called with every item before anything else is done with it: fires the events that are due, those of the clock first. For whoever
+   * executes items one by one; an executor that reads ahead has a Foresight.
+   * @param main_line line of the main program to which the item belongs, 0 = not known; of an item of the main program it is not looked at
+   * @return true when an event commands reset: the run ends here, and the item is not executed.
    */
-  bool on_item(const nc_item& item, uint32_t next_line) {
+  bool on_item(const nc_item& item, uint32_t main_line) {
     now_ = item.source;
-    return line_events_.empty() && time_events_.empty() && other_events_.empty() ? reset_ : fire_due(item, next_line);
+    return schedule_.any() || !time_events_.empty() ? fire_due(item, main_line) : reset_;
   }
-  /** The same for an M code where another executor gives it out. */
-  void on_m(double code);
 
-  /**
-   * This line of the main program will read inputs when it is executed: the events that wait for it set theirs now, and give their
-   * signals when the line begins. For an executor that reads an input in the cycle in which it gets there.
-   */
-  void foresee(uint32_t line);
+  /** True while an event waits for a block or an M code, so that the caller need not look for `main_line` otherwise. */
+  bool waits_for_block() const { return schedule_.any(); }
 
-  /** True while an event waits for a line, so that the caller need not look for `next_line` otherwise. */
-  bool waits_for_line() const { return !line_events_.empty(); }
+  /** Events or hits are left: what is to come may differ from what was. */
+  bool changes() const;
+
+  /** The schedule of the events, for an executor that fires them itself. */
+  EventSchedule& schedule() { return schedule_; }
+  void fire(const SetupEvent& event);
+  /** Fires the events whose time has come. */
+  void fire_by_time();
+  /** An event has commanded reset. */
+  bool reset() const { return reset_; }
 
   /**
    * Execute a move: position and clock. A skip move is cut where it first enters a solid whose signal ends
@@ -69,12 +81,27 @@ class VirtualWorld {
   double seconds() const { return seconds_; }
   /** Set the clock where another executor measures the time. */
   void set_seconds(double seconds) { seconds_ = seconds; }
-  uint32_t input(unsigned word) const { return input_[word]; }
+  uint32_t input(unsigned word) const { return signals_.input[word]; }
+  /** As the events that have fired have left them. */
+  const OutsideSignals& signals() const { return signals_; }
   bool optional_stop() const { return setup_.optional_stop; }
 
   /** Skip signals that are on at a place in machine coordinates, which is `work` in those of the workpiece: bit n = signal n+1. */
-  uint32_t signals_at(const nc_axes& machine, const nc_axes& work) const;
+  uint32_t signals_at(const nc_axes& machine, const nc_axes& work) const { return signals_.skip | solids_at(machine, work); }
   uint32_t signals_at(const nc_axes& machine) const;  // work coordinates as in the last move
+  /** Those that a solid gives there, without those of events. */
+  uint32_t solids_at(const nc_axes& machine, const nc_axes& work) const;
+
+  /** The hit of the setup that a skip move takes. */
+  struct Touch {
+    size_t hit = SIZE_MAX;  // SIZE_MAX: the setup has none for it
+    double part = INFINITY; // of the way, 0 to 1; infinity: nothing is met
+    unsigned signal = 1;
+  };
+  /** Takes the hit that belongs to this skip move. */
+  Touch take_hit(const nc_source& source, const nc_move& move);
+  /** The move was not executed and will be given again. */
+  void put_back(const Touch& touch);
 
  private:
   struct HitState {
@@ -85,11 +112,8 @@ class VirtualWorld {
   double duration(const nc_move& move) const;
   double first_box(const nc_move& move, const SkipSolid& solid, double length) const;
   double first_probe(const nc_move& move, const SkipSolid& solid) const;
-  double take_hit(const nc_move& move);
   const SetupEvent* signal_within(double seconds, uint32_t mask) const;
-  bool fire_due(const nc_item& item, uint32_t next_line);
-  void fire(const SetupEvent& event);
-  void set_inputs(const SetupEvent& event);
+  bool fire_due(const nc_item& item, uint32_t main_line);
   double first_entry(const nc_move& move) const;
 
   const Setup& setup_;
@@ -97,19 +121,16 @@ class VirtualWorld {
   nc_axes machine_;
   nc_axes skip_machine_;
   bool skipped_ = false;
-  uint32_t input_[NC_WORDS];
+  OutsideSignals signals_;
   nc_axes work_offset_ = {};  // workpiece minus machine coordinates, of the last move
   nc_source now_ = {};
-  uint32_t skip_level_ = 0;   // signals that events have switched on
   std::vector<HitState> hits_;
   double seconds_ = 0.0;
   double spindle_rev_min_ = 0.0;
   bool reset_ = false;
   bool interrupt_ = false;
-  bool called_ = false;  // a sub program has begun since the last item of the main program
-  // Not yet fired; the other ones are those of a program with a number, and of M codes.
-  std::vector<const SetupEvent*> line_events_, time_events_, other_events_;
-  std::vector<const SetupEvent*> foreseen_;  // their inputs are set
+  EventSchedule schedule_;
+  std::vector<const SetupEvent*> time_events_;  // not yet fired
 };
 
 }  // namespace nc::tools

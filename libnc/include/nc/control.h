@@ -11,6 +11,7 @@
 #define NC_CONTROL_H
 
 #include "nc/item.h"
+#include "nc/vendor.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -30,6 +31,7 @@ typedef struct nc_axis_config {
   double soft_min, soft_max; /**< stored stroke limits, machine coordinates */
   double reference[4];     /**< 1st to 4th reference position, machine coordinates */
   uint8_t spindle;         /**< number of the spindle that is this axis while its servo is on (M700 10.5: C axis; rotary), 0 = none */
+  double reserved[8];      /**< for members of later versions, must be 0 */
 } nc_axis_config;
 
 /** One part system. */
@@ -37,6 +39,7 @@ typedef struct nc_system_config {
   uint8_t axis_count;
   nc_axis_config axis[NC_MAX_AXES];
   uint8_t spindle_count;   /**< 1..NC_MAX_SPINDLES; 0 = one */
+  double reserved[8];      /**< for members of later versions, must be 0 */
 } nc_system_config;
 
 /** How the machine moves along the path. */
@@ -52,14 +55,14 @@ typedef struct nc_variable_range {
 
 /** What a control is. Fill with nc_config_init(), then change what differs. */
 typedef struct nc_config {
-  uint32_t struct_size;    /**< sizeof(nc_config), set by nc_config_init() */
+  NC_STRUCT_SIZE(nc_config); /**< see NC_STRUCT_SIZE; set by nc_config_init() */
   uint8_t dialect;         /**< nc_dialect */
   uint8_t system_count;    /**< 1..NC_MAX_SYSTEMS */
   nc_system_config system[NC_MAX_SYSTEMS];
   double cycle_s;          /**< servo cycle, s, 1e-6..0.1; default 0.001 */
-  uint32_t look_ahead;     /**< records in the ring between feeder and scan, power of two 64..65536; default 1024 (13 MB).
+  uint32_t look_ahead;     /**< records in the ring between feeder and scan, power of two 64..65536; default 1024 (15 MB).
                                 Time-optimal: short lines run at full speed where those in the ring, two records each, are longer than a stop:
-                                16384 (75 MB) for lines of 1 um */
+                                16384 (89 MB) for lines of 1 um */
   uint32_t programs;       /**< entries of the program store; default 256 */
   uint32_t tool_offsets;   /**< sets; default 200 */
   uint32_t work_offsets;   /**< G54.1 P1..Pn; default 96 */
@@ -72,85 +75,243 @@ typedef struct nc_config {
                                 0: not at all, with a rest at each corner; default 0.01 */
   nc_variable_range variable_ranges[NC_VARIABLE_RANGES]; /**< shared by all part systems; apart from one another, from those of the options
                                 and from local and system variables */
+  const nc_vendor_code* vendor_codes; /**< the vendor's own codes, `vendor_code_count` rows; copied by nc_create(). NULL = none */
+  uint32_t vendor_code_count;         /**< 0 to NC_MAX_VENDOR_CODES */
+  nc_alarm_text alarm_text;           /**< texts of the host's in the place of the library's; NULL = none */
+  void* alarm_text_user;              /**< handed to `alarm_text` */
+  const nc_kinematics* kinematics[NC_MAX_SYSTEMS]; /**< joints behind the axes of each part system; copied by nc_create(). NULL = the axes are what moves */
 } nc_config;
 
-/** Set every field to its default: M700, one part system with X Y Z without limits. */
-NC_API void nc_config_init(nc_config* config);
+/**
+ * Set every member to its default: M700, one part system with X Y Z without limits. Any thread. Who cannot use the inline function
+ * nc_config_init() (another language) calls this one.
+ * @param config receives the defaults; NULL does nothing
+ * @param struct_size bytes that `config` has, sizeof(nc_config)
+ */
+NC_API void nc_config_init_sized(nc_config* config, size_t struct_size);
 
 /**
- * Whether nc_config::variable_ranges[index] can be had.
+ * Set every member to its default, as nc_config_init_sized() does. Any thread.
+ * @param config receives the defaults; NULL does nothing
+ */
+static inline void nc_config_init(nc_config* config) { nc_config_init_sized(config, sizeof(nc_config)); }
+
+/** Which member of a configuration is refused, and why. */
+typedef struct nc_config_fault {
+  NC_STRUCT_SIZE(nc_config_fault); /**< see NC_STRUCT_SIZE */
+  char field[64];          /**< as C writes it: "system[0].axis[2].max_velocity" */
+  char reason[160];        /**< what it has to be: "must be 0 to 1e12 mm/s or deg/s; 0 = no limit" */
+} nc_config_fault;
+
+/**
+ * Whether nc_create() takes a configuration. Any thread; needs no control.
+ * @param config the configuration
+ * @param fault receives the first member that is refused; untouched when there is none. May be NULL.
+ * @return NC_OK; NC_E_ARGUMENT when a member is refused, or `config` is NULL (then *fault is untouched)
+ */
+NC_API nc_status nc_config_check(const nc_config* config, nc_config_fault* fault);
+
+/**
+ * Whether nc_config::variable_ranges[index] can be had. Any thread; needs no control.
+ * @param config the configuration with its options and other ranges
+ * @param index of the range, 0 to NC_VARIABLE_RANGES - 1
  * @param taken receives the first number of it that is another variable's already; 0 when the range itself is wrong. May be NULL.
- * @return NC_OK, also for no range; NC_E_ARGUMENT
+ * @return NC_OK, also for no range; NC_E_ARGUMENT when it cannot be had, or `index` is out of range
  */
 NC_API nc_status nc_variable_range_check(const nc_config* config, unsigned index, uint32_t* taken);
 
-/** Bytes that nc_create() needs for this configuration; 0 when the configuration is not valid. */
+/**
+ * Bytes that nc_create() needs for a configuration. Any thread.
+ * @param config the configuration
+ * @return bytes; 0 when it is refused: nc_config_check() says why
+ */
 NC_API size_t nc_memory_required(const nc_config* config);
 
 /**
- * Build a control in caller-owned memory (aligned to 64 bytes; nothing else is ever allocated).
- * @return the control, or NULL with *status saying why. There is nothing to destroy: when it is no longer used, reuse the memory.
+ * Build a control in memory of the caller; nothing else is ever allocated. Any thread.
+ * @param config the configuration; copied
+ * @param memory aligned to 64 bytes, kept by the caller for as long as the control is used; its contents do not matter
+ * @param size bytes of it, at least nc_memory_required()
+ * @param status receives NC_OK; NC_E_ARGUMENT: the configuration is refused (nc_config_check() says why), or `memory` is NULL or not
+ *               aligned; NC_E_MEMORY: `size` is too small. May be NULL.
+ * @return the control, or NULL. There is nothing to destroy: when it is no longer used, reuse the memory.
  */
 NC_API nc_control* nc_create(const nc_config* config, void* memory, size_t size, nc_status* status);
 
 /* ---- parameters, tables, variables ------------------------------------------------------------------------------ */
 
 /**
- * Set a control parameter by the manual's number or name.
- * @param key  "1078", "1267/bit0", "UNIT*10", DGSHAPE "interpretation", ...; a number that the dialect has but that changes nothing
- *             here is accepted and kept; any other key is NC_E_NOT_FOUND.
- * @param axis axis name for a per-axis parameter, or 0 for all axes.
- * @param text value as text: a number, or a word of the manual ("B" for #1003).
+ * Set a control parameter by the manual's number or name. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0; of a parameter that is common to all (M700 #1121, #1129, #1303, #1304, #8105) any of them, and it is set for all
+ * @param key  "1078", "1267/bit0", "UNIT*10", DGSHAPE "interpretation", ...; a number that the dialect has but that changes nothing here
+ *             is accepted and kept
+ * @param axis name of the axis of a parameter that is each axis's own, 0 = all axes
+ * @param text value as text, in the manual's units: a number, or a word of the manual ("B" for #1003)
+ * @return NC_OK; NC_E_NOT_FOUND: no such key; NC_E_ARGUMENT: no such part system or axis, or the value is out of the parameter's range;
+ *         NC_E_MEMORY: too many parameters are set
  */
-NC_API nc_status nc_parameter_set(nc_control*, unsigned system, const char* key, char axis, const char* text);
+NC_API nc_status nc_parameter_set(nc_control* control, unsigned system, const char* key, char axis, const char* text);
 
-/** Value of a numeric parameter (0 when never set). */
-NC_API nc_status nc_parameter_get(const nc_control*, unsigned system, const char* key, char axis, double* value);
+/**
+ * Value of a parameter that is a number. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param key  as for nc_parameter_set()
+ * @param axis name of the axis, 0 = the value for all axes
+ * @param value receives it, in the manual's units; 0 when it was never set
+ * @return NC_OK; NC_E_ARGUMENT: no such part system, or a pointer is NULL
+ */
+NC_API nc_status nc_parameter_get(const nc_control* control, unsigned system, const char* key, char axis, double* value);
 
-/** Work offset tables. `index` 0 = external, 1..6 = G54..G59, 100+n = G54.1 Pn. mm/deg. */
-NC_API nc_status nc_work_offset_set(nc_control*, unsigned system, unsigned index, unsigned axis, double value);
-NC_API nc_status nc_work_offset_get(const nc_control*, unsigned system, unsigned index, unsigned axis, double* value);
+/** Parameters that a host asks for by what they do. */
+typedef enum nc_parameter_role {
+  NC_PARAMETER_DECIMAL_TYPE_2 = 0,   /**< a number without a point is in mm (M700 5.3) */
+  NC_PARAMETER_DWELL_POINT = 1,      /**< the point of P of a dwell counts (M700 8.1) */
+  NC_PARAMETER_TOOL_MEMORY = 2,      /**< memory type of tool offsets, 1 or 2 (M700 12.1) */
+  NC_PARAMETER_POWER_OFF_CLEARS = 3  /**< power off clears the common variables from #100 on (M700 13.4) */
+} nc_parameter_role;
+
+/**
+ * Key of a parameter that a host asks for by what it does. Any thread.
+ * @param control the control
+ * @param role what the parameter does
+ * @param key receives its key in the control's dialect, as nc_parameter_set() takes it
+ * @return NC_OK; NC_E_NOT_FOUND: the dialect has no such parameter; NC_E_ARGUMENT: an argument is none
+ */
+NC_API nc_status nc_parameter_key(const nc_control* control, nc_parameter_role role, char key[24]);
+
+/**
+ * Set one entry of the work offset tables. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param index 0 = external, 1..6 = G54..G59, 100+n = G54.1 Pn
+ * @param axis of the configuration, from 0
+ * @param value mm or deg, between -1e9 and 1e9
+ * @return NC_OK; NC_E_ARGUMENT: no such part system, index or axis, or the value is out of range
+ */
+NC_API nc_status nc_work_offset_set(nc_control* control, unsigned system, unsigned index, unsigned axis, double value);
+
+/**
+ * Read one entry of the work offset tables, as the blocks have left it that were read so far. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param index as for nc_work_offset_set()
+ * @param axis of the configuration, from 0
+ * @param value receives it, mm or deg
+ * @return NC_OK; NC_E_ARGUMENT: no such part system, index or axis, or `value` is NULL
+ */
+NC_API nc_status nc_work_offset_get(const nc_control* control, unsigned system, unsigned index, unsigned axis, double* value);
 
 /** Tool offset columns (M700 12.1). In memory type I all columns but NC_TOOL_LENGTH are unused. */
 typedef enum nc_tool_column { NC_TOOL_LENGTH = 0, NC_TOOL_LENGTH_WEAR = 1, NC_TOOL_RADIUS = 2, NC_TOOL_RADIUS_WEAR = 3 } nc_tool_column;
-NC_API nc_status nc_tool_offset_set(nc_control*, unsigned number, nc_tool_column column, double value);
-NC_API nc_status nc_tool_offset_get(const nc_control*, unsigned number, nc_tool_column column, double* value);
-
-/** Local and common variables by number, as part system `system` has them (system variables: NC_E_NOT_FOUND). Vacant: *vacant = true. */
-NC_API nc_status nc_variable_set(nc_control*, unsigned system, uint32_t number, double value, bool vacant);
-NC_API nc_status nc_variable_get(const nc_control*, unsigned system, uint32_t number, double* value, bool* vacant);
 
 /**
- * Parameter `index` of those that have been set, in the order in which they first were; NC_E_NOT_FOUND behind the last. One bit that was set
- * ("1267/bit0") shows as its whole parameter.
- * @param axis axis name, 0 = all axes
- * @param set  false: it was set and that was taken back; *value and text mean nothing
- * @param text of a parameter that is one of two characters or more, at most 63; else "" and *value holds
+ * Set one entry of the tool offset table, which all part systems have in common. Feeder thread.
+ * @param control the control
+ * @param number of the set, 1 to nc_config::tool_offsets
+ * @param column nc_tool_column
+ * @param value mm, between -1e9 and 1e9
+ * @return NC_OK; NC_E_ARGUMENT: no such set or column, or the value is out of range
  */
-NC_API nc_status nc_parameter_next(const nc_control*, unsigned system, unsigned index, char key[24], char* axis, bool* set, double* value,
-                                   char text[64]);
+NC_API nc_status nc_tool_offset_set(nc_control* control, unsigned number, nc_tool_column column, double value);
+
+/**
+ * Read one entry of the tool offset table, as the blocks have left it that were read so far. Feeder thread.
+ * @param control the control
+ * @param number of the set, 1 to nc_config::tool_offsets
+ * @param column nc_tool_column
+ * @param value receives it, mm
+ * @return NC_OK; NC_E_ARGUMENT: no such set or column, or `value` is NULL
+ */
+NC_API nc_status nc_tool_offset_get(const nc_control* control, unsigned number, nc_tool_column column, double* value);
+
+/**
+ * Set a local or common variable. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0; of a variable that they share any of them, and it is set for all
+ * @param number of the variable; local ones are those of the program that is being read
+ * @param value its value, finite
+ * @param vacant true: it becomes vacant (#0), and `value` does not count
+ * @return NC_OK; NC_E_ARGUMENT: no such part system, or `value` is no finite number; NC_E_NOT_FOUND: no such variable, or a system variable
+ */
+NC_API nc_status nc_variable_set(nc_control* control, unsigned system, uint32_t number, double value, bool vacant);
+
+/**
+ * Read a local or common variable, as the blocks have left it that were read so far. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param number of the variable; local ones are those of the program that is being read
+ * @param value receives its value
+ * @param vacant receives whether it is vacant (#0)
+ * @return NC_OK; NC_E_ARGUMENT: no such part system, or a pointer is NULL; NC_E_NOT_FOUND: no such variable, or a system variable
+ */
+NC_API nc_status nc_variable_get(const nc_control* control, unsigned system, uint32_t number, double* value, bool* vacant);
+
+/**
+ * First parameter from place `from` on that is set; the places are in the order in which parameters first were. One bit that was set
+ * ("1267/bit0") shows as its whole parameter; one that was set and taken back is left out. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param from place at which the search begins, from 0
+ * @param place receives its place: go on with one more
+ * @param key receives its key
+ * @param axis receives the name of its axis, 0 = all axes
+ * @param value receives its value when it is a number or one character, in the manual's units
+ * @param text receives it when it is of two characters or more, at most 63; else ""
+ * @return NC_OK; NC_E_NOT_FOUND: there is none; NC_E_ARGUMENT: no such part system, or a pointer is NULL
+ */
+NC_API nc_status nc_parameter_next(const nc_control* control, unsigned system, unsigned from, unsigned* place, char key[24], char* axis,
+                                   double* value, char text[64]);
 
 /**
  * What parameters that are set do not do on this machine, and where a time constant and not the feed is what limits it (docs/motion.md,
- * "Behind interpolation"): sentence `index`, in the order of their numbers, then of the axes; NC_E_NOT_FOUND behind the last.
- * @param text receives the sentence, cut to `size` bytes with its NUL; 200 are enough
+ * "Behind interpolation"), one sentence after the other: in the order of the parameters' numbers, then of the axes. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param index of the sentence, from 0
+ * @param text receives it, cut to `size` bytes with its NUL; 200 are enough
+ * @param size bytes of `text`
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last one; NC_E_ARGUMENT: no such part system, or no room
  */
-NC_API nc_status nc_parameter_note(const nc_control*, unsigned system, unsigned index, char* text, size_t size);
+NC_API nc_status nc_parameter_note_row(const nc_control* control, unsigned system, unsigned index, char* text, size_t size);
 
 /**
- * Calls `look` while variables, their names, offsets and parameters are as the blocks have left them that the machine has executed: what is to
- * be kept while the power is off. What was read ahead and is not done shows again behind the call. `look` only reads.
+ * Called by nc_look_executed() while variables, their names, offsets and parameters are as those blocks have left them that the machine has
+ * executed: this is what is to be kept while the power is off. Behind the call they are again as the blocks have left them that
+ * were read ahead. It only reads. Feeder thread.
+ * @param user what nc_look_executed() was given
+ * @param control the control
  */
-typedef void (*nc_look)(void* user, const nc_control*);
-NC_API void nc_look_executed(nc_control*, nc_look look, void* user);
+typedef void (*nc_look)(void* user, const nc_control* control);
 
-/** First common variable with number >= `from` that is not vacant. NC_E_NOT_FOUND when there is none. */
-NC_API nc_status nc_common_next(const nc_control*, unsigned system, uint32_t from, uint32_t* number, double* value);
+/**
+ * Call `look` while the tables are as the executed blocks have left them (see nc_look). Feeder thread.
+ * @param control the control
+ * @param look called once, before this function returns
+ * @param user handed to it
+ */
+NC_API void nc_look_executed(nc_control* control, nc_look look, void* user);
+
+/**
+ * First common variable with a number from `from` on that is not vacant. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param from number at which the search begins
+ * @param number receives its number: go on with one more
+ * @param value receives its value
+ * @return NC_OK; NC_E_NOT_FOUND: there is none; NC_E_ARGUMENT: no such part system, or a pointer is NULL
+ */
+NC_API nc_status nc_variable_next(const nc_control* control, unsigned system, uint32_t from, uint32_t* number, double* value);
 
 /* ---- programs --------------------------------------------------------------------------------------------------- */
 
 /**
- * Reads up to `size` bytes of a text at byte `offset` into `buffer`.
+ * Reads a piece of a text. Feeder thread.
+ * @param user what nc_program_add() was given
+ * @param offset of the first byte that is wanted, from 0
+ * @param buffer receives the bytes
+ * @param size how many are wanted
  * @return bytes read; 0 at the end; negative on failure: NC_READ_FAILED, or NC_READ_CHANGED. Either becomes an alarm on the block that
  *         needed it; nothing of what is in `buffer` then acts.
  */
@@ -166,19 +327,34 @@ typedef long (*nc_read_at)(void* user, uint64_t offset, char* buffer, size_t siz
  * must stay unchanged from here until its entry is replaced or removed. What comes from a file, which anybody may overwrite meanwhile, is
  * therefore copied by the host, or watched: this library's own hosts (ncrtd, ncsim) keep a copy of a file of up to 16 MiB, and of a
  * larger one compare size, time, place and a hash of each part with what they were; their `read` then gives NC_READ_CHANGED.
+ * Feeder thread.
+ * @param control the control
  * @param name file name without folder, at most NC_MAX_NAME - 1 bytes; "O1000", "1000", "1000.nc" make it program 1000 even when the text
- *             has no O line. Copied.
- * @param file receives its index (nc_source::file). An entry of the same name is replaced, unless it runs (online)
- *             or is protected (M700 #8105: O8000 to O9999, #1121: O9000 to O9999): NC_E_STATE.
- * @return NC_E_MEMORY when all places (nc_config::programs) are taken: nc_program_remove() frees one. MDI needs none of them.
+ *             has no O line. Copied. An entry of the same name is replaced.
+ * @param read gives pieces of the text, in the feeder thread
+ * @param user handed to `read`
+ * @param size bytes of the text
+ * @param file receives its index (nc_source::file), from 0. May be NULL.
+ * @return NC_OK; NC_E_ARGUMENT: no name, or too long, or `read` is NULL; NC_E_STATE: the entry of this name runs (online) or is protected
+ *         (M700 #8105: O8000 to O9999, #1121: O9000 to O9999); NC_E_MEMORY: all places (nc_config::programs) are taken,
+ *         nc_program_remove() frees one. MDI needs none of them.
  */
-NC_API nc_status nc_program_add(nc_control*, const char* name, nc_read_at read, void* user, uint64_t size, unsigned* file);
+NC_API nc_status nc_program_add(nc_control* control, const char* name, nc_read_at read, void* user, uint64_t size, unsigned* file);
 
-/** The same for a text in memory, which the caller keeps. */
-NC_API nc_status nc_program_add_text(nc_control*, const char* name, const char* text, size_t length, unsigned* file);
+/**
+ * Enter a text that lies in memory into the program store. Feeder thread.
+ * @param control the control
+ * @param name as for nc_program_add()
+ * @param text the text, kept and not changed by the caller for as long as its entry is there
+ * @param length bytes of it
+ * @param file receives its index, from 0. May be NULL.
+ * @return as nc_program_add()
+ */
+NC_API nc_status nc_program_add_text(nc_control* control, const char* name, const char* text, size_t length, unsigned* file);
 
 /** What a place of the program store holds. */
 typedef struct nc_program_info {
+  NC_STRUCT_SIZE(nc_program_info); /**< see NC_STRUCT_SIZE */
   char name[NC_MAX_NAME];
   uint32_t number;      /**< O number of the name, 0 = none */
   uint64_t size;        /**< bytes of the text */
@@ -186,29 +362,60 @@ typedef struct nc_program_info {
   bool in_use;          /**< something refers to it: see nc_program_remove() */
   bool is_protected;    /**< M700 #8105, #1121 */
 } nc_program_info;
-/** Of the entry with this index. NC_E_NOT_FOUND when the place is free. */
-NC_API nc_status nc_program_get(const nc_control*, unsigned file, nc_program_info* info);
-
 /**
- * Take a text out of the program store: nothing of it is read any more, and its index may come back for another one.
- * @return NC_E_STATE while something refers to it: it is selected in a part system, in a call stack (also one that comes back when blocks
- *         that were read ahead are taken back), the program of a modal call or of the macro interrupt; or it is protected
+ * Clear it and set its size. Any thread.
+ * @param info what is to be cleared; not NULL
  */
-NC_API nc_status nc_program_remove(nc_control*, unsigned file);
+static inline void nc_program_info_init(nc_program_info* info) {
+  const nc_program_info cleared = NC_INIT(nc_program_info);
+  *info = cleared;
+}
 
 /**
- * Asked when a sub program is not in the store: the host may add it with nc_program_add() from inside this call.
+ * What a place of the program store holds. Feeder thread.
+ * @param control the control
+ * @param file index of the place, from 0 to nc_config::programs - 1
+ * @param info receives it
+ * @return NC_OK; NC_E_NOT_FOUND: the place is free; NC_E_ARGUMENT: a pointer is NULL, or its struct_size is none
+ */
+NC_API nc_status nc_program_get(const nc_control* control, unsigned file, nc_program_info* info);
+
+/**
+ * Take a text out of the program store: nothing of it is read any more, and its index may come back for another one. Feeder thread.
+ * @param control the control
+ * @param file its index
+ * @return NC_OK; NC_E_NOT_FOUND: the place is free; NC_E_STATE while something refers to it: it is selected in a part system, in a call
+ *         stack (also one that comes back when blocks that were read ahead are taken back), the program of a modal call or of the macro
+ *         interrupt; or it is protected; NC_E_ARGUMENT: `control` is NULL
+ */
+NC_API nc_status nc_program_remove(nc_control* control, unsigned file);
+
+/**
+ * Asked when a sub program is not in the store: the host may add it with nc_program_add() from inside this call. Feeder thread.
+ * @param user what nc_program_on_missing() was given
+ * @param control the control
  * @param name "O1000" or the name between < >; for M198 with "198:" before it, for M98 ,D1 to ,D4 with "D1:" to "D4:". To be added under this name.
  * @return true when it has been added.
  */
-typedef bool (*nc_program_missing)(void* user, nc_control*, const char* name);
-NC_API void nc_program_on_missing(nc_control*, nc_program_missing callback, void* user);
+typedef bool (*nc_program_missing)(void* user, nc_control* control, const char* name);
 
 /**
- * The text of a program is being edited, or no longer: a program that begins meanwhile raises the alarm for it (M700 P235). One that runs
- * cannot be edited: NC_E_STATE.
+ * Say whom to ask for sub programs that are not in the store. Feeder thread.
+ * @param control the control
+ * @param callback called in the feeder thread, from inside nc_pull() or nc_feed(); NULL = nobody
+ * @param user handed to it
  */
-NC_API nc_status nc_program_edit(nc_control*, unsigned file, bool editing);
+NC_API void nc_program_on_missing(nc_control* control, nc_program_missing callback, void* user);
+
+/**
+ * The text of a program is being edited, or no longer: a program that begins meanwhile raises the alarm for it (M700 P235).
+ * Feeder thread.
+ * @param control the control
+ * @param file its index
+ * @param editing true: editing begins; false: it has ended
+ * @return NC_OK; NC_E_STATE: it runs, or is protected; NC_E_ARGUMENT: the place is free
+ */
+NC_API nc_status nc_program_edit(nc_control* control, unsigned file, bool editing);
 
 /** What the bytes of a program are. */
 typedef enum nc_tape {
@@ -221,70 +428,235 @@ typedef enum nc_tape {
 /**
  * The program is an image of a tape, one byte for each row, hole 1 its lowest bit. Every row is checked as its block is read, and the
  * number of characters of a block where the parity V parameter of the input device says so (M700 3.6: #9115 to #9515). A program that
- * runs from a tape cannot jump.
+ * runs from a tape cannot jump. Feeder thread.
+ * @param control the control
+ * @param file its index
  * @param tape nc_tape
  * @param unit input device that has read it, 1 to 5
- * @return NC_E_STATE while the program runs, NC_E_READ when its text cannot be read
+ * @return NC_OK; NC_E_STATE: the program runs, or is protected; NC_E_READ: its text cannot be read; NC_E_ARGUMENT: the place is free, or a
+ *         number is out of range
  */
-NC_API nc_status nc_program_tape(nc_control*, unsigned file, uint8_t tape, unsigned unit);
+NC_API nc_status nc_program_tape(nc_control* control, unsigned file, uint8_t tape, unsigned unit);
 
-/** Select the main program of a part system and go to its first block. */
-NC_API nc_status nc_program_select(nc_control*, unsigned system, unsigned file);
+/**
+ * Select the main program of a part system and go to its first block. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param file index of the program
+ * @return NC_OK; NC_E_NOT_FOUND: the place is free; NC_E_STATE: a program runs; NC_E_ARGUMENT: no such part system
+ */
+NC_API nc_status nc_program_select(nc_control* control, unsigned system, unsigned file);
 
-/** Give the blocks of an MDI program (copied; at most 1024 bytes) and select it. */
-NC_API nc_status nc_mdi_load(nc_control*, unsigned system, const char* text, size_t length);
+/**
+ * Give the blocks of an MDI program and select it. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param text the blocks; copied
+ * @param length bytes of it, at most 1024
+ * @return NC_OK; NC_E_STATE: a program runs; NC_E_ARGUMENT: no such part system, or too long
+ */
+NC_API nc_status nc_mdi_load(nc_control* control, unsigned system, const char* text, size_t length);
 
 /* ---- state ------------------------------------------------------------------------------------------------------ */
 
-/** Put the machine at this place (machine coordinates) while nothing runs; all axes count as referenced. */
-NC_API nc_status nc_position_set(nc_control*, unsigned system, const nc_axes* machine);
-
 /**
- * Positions as the counters show them: machine coordinates of rotary axes of #8213 = 0, 1 and 2, and workpiece coordinates of #8213 = 0
- * and 1, as 0 <= angle < 360 (M700 14.13). In items, events and set-points such an axis counts on over its turns. Either may be NULL.
+ * Put the machine at a place while nothing runs; all axes count as referenced. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param machine machine coordinates, mm or deg, between -1e9 and 1e9; copied
+ * @return NC_OK; NC_E_STATE: a program runs; NC_E_ARGUMENT: no such part system, or a place is out of range
  */
-NC_API void nc_position_shown(const nc_control*, unsigned system, nc_axes* machine, nc_axes* work);
-
-/** Name of a common variable (SETVN; M700 13.5.5), "" = none. `name` takes 8 bytes. */
-NC_API nc_status nc_variable_name_get(const nc_control*, uint32_t number, char name[8]);
-/** Give #500..#519 a name that was kept while the power was off; "" takes it away. */
-NC_API nc_status nc_variable_name_set(nc_control*, uint32_t number, const char* name);
+NC_API nc_status nc_position_set(nc_control* control, unsigned system, const nc_axes* machine);
 
 /**
- * What #100110 reads (M700 13.5.5): device `code` of the manual's table, its number; a bit device gives 0 or 1, a word device 16 bits.
- * Feeder thread. Without a callback the devices do not exist (P39).
+ * Turn positions into what the counters show: machine coordinates of rotary axes of #8213 = 0, 1 and 2, and workpiece coordinates of
+ * #8213 = 0 and 1, as 0 <= angle < 360 (M700 14.13). In items, events and set-points such an axis counts on over its turns. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param machine machine coordinates, mm or deg; what it holds is turned into what is shown. May be NULL.
+ * @param work workpiece coordinates in the same way. May be NULL.
+ */
+NC_API void nc_position_shown(const nc_control* control, unsigned system, nc_axes* machine, nc_axes* work);
+
+/**
+ * Name of a common variable (SETVN; M700 13.5.5). Feeder thread.
+ * @param control the control
+ * @param number of the variable
+ * @param name receives it with its NUL; "" = none
+ * @return NC_OK; NC_E_ARGUMENT: a pointer is NULL
+ */
+NC_API nc_status nc_variable_name_get(const nc_control* control, uint32_t number, char name[8]);
+
+/**
+ * Give a common variable a name that was kept while the power was off. Feeder thread.
+ * @param control the control
+ * @param number of the variable, 500 to 519
+ * @param name at most 7 capital letters and digits, a letter first; "" takes it away. Copied.
+ * @return NC_OK; NC_E_ARGUMENT: the variable can have no name, or the name is none
+ */
+NC_API nc_status nc_variable_name_set(nc_control* control, uint32_t number, const char* name);
+
+/**
+ * Reads a device of the PLC for #100110 (M700 13.5.5). Feeder thread.
+ * @param user what nc_device_on_read() was given
+ * @param code kind of device, of the manual's table
+ * @param number of the device
+ * @param value receives 0 or 1 of a bit device, 16 bits of a word device
  */
 typedef void (*nc_device_read)(void* user, unsigned code, uint32_t number, uint32_t* value);
-NC_API void nc_device_on_read(nc_control*, nc_device_read callback, void* user);
-
-/** Macro interface outputs as the interpreter holds them (#1132..#1135), for sinks; the machine's own image is in nc_outputs. */
-NC_API uint32_t nc_interface_output(const nc_control*, unsigned system, unsigned word);
 
 /**
- * Switches that decide before a block is read. `optional_skip` bit n = switch n (1..9), bit 1 is the plain '/'. `mirror_axes` bit i: the next
- * program, from its head on, is mirrored in axis i about where the axis stands then.
+ * Say whom to ask for devices of the PLC. Without a callback the devices do not exist (P39). Feeder thread.
+ * @param control the control
+ * @param callback called in the feeder thread; NULL = nobody
+ * @param user handed to it
  */
-NC_API void nc_switches_set(nc_control*, unsigned system, uint32_t optional_skip, uint32_t mirror_axes);
+NC_API void nc_device_on_read(nc_control* control, nc_device_read callback, void* user);
 
-/** The alarm that stopped a part system. NC_E_NOT_FOUND when there is none. Copies. */
-NC_API nc_status nc_alarm_get(const nc_control*, unsigned system, nc_alarm* alarm);
+/**
+ * What macro interface outputs (#1132 to #1135) read until a block writes them: the outputs as the machine has them. Nothing is given out by
+ * it. Feeder thread, in front of nc_program_select() or nc_mdi_load(): what has been read ahead is not read again.
+ * @param control the control
+ * @param system part system, from 0
+ * @param word 0..3: #1132 to #1135
+ * @param mask the bits that are set
+ * @param bits their values
+ * @return NC_OK; NC_E_ARGUMENT: no such part system or word
+ */
+NC_API nc_status nc_interface_output_set(nc_control* control, unsigned system, unsigned word, uint32_t mask, uint32_t bits);
+
+/**
+ * Macro interface outputs as the interpreter holds them (#1132 to #1135), for sinks; the machine's own image is in nc_outputs.
+ * Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param word 0 to NC_WORDS - 1
+ * @param bits receives 32 outputs, bit 0 the first
+ * @return NC_OK; NC_E_ARGUMENT: no such part system or word, or `bits` is NULL
+ */
+NC_API nc_status nc_interface_output_get(const nc_control* control, unsigned system, unsigned word, uint32_t* bits);
+
+/**
+ * Set the switches that decide before a block is read. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param optional_skip bit n = switch n (1 to 9), bit 1 is the plain '/'
+ * @param mirror_axes bit i: the next program, from its head on, is mirrored in axis i about where the axis stands then
+ */
+NC_API void nc_switches_set(nc_control* control, unsigned system, uint32_t optional_skip, uint32_t mirror_axes);
+
+/**
+ * The alarm that stopped a part system, of its program or of the control itself (NC-INTERNAL). Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param alarm receives a copy
+ * @return NC_OK; NC_E_NOT_FOUND: there is none, as where nc_inputs::alarm stops it; NC_E_ARGUMENT: no such part system, a pointer is NULL, or its struct_size is none
+ */
+NC_API nc_status nc_alarm_get(const nc_control* control, unsigned system, nc_alarm* alarm);
+
+/**
+ * Short text of an alarm: the host's (nc_config::alarm_text), else that of the dialect's manual. Feeder thread.
+ * @param control the control
+ * @param code as nc_alarm::code has it
+ * @param text receives it, cut to `size` bytes with its NUL; NC_MAX_TEXT are enough
+ * @param size bytes of `text`
+ * @return NC_OK; NC_E_NOT_FOUND: neither has a text for it; NC_E_ARGUMENT: a pointer is NULL, or there is no room
+ */
+NC_API nc_status nc_alarm_text_get(const nc_control* control, const char* code, char* text, size_t size);
+
+/**
+ * What a status means: the host's text (nc_config::alarm_text by the name of the status, "NC_E_STATE"), else nc_status_text(). Feeder thread.
+ * @param control the control
+ * @param status what a call has returned; any other number has a sentence, too
+ * @param text receives it, cut to `size` bytes with its NUL; NC_MAX_TEXT are enough
+ * @param size bytes of `text`
+ * @return NC_OK; NC_E_ARGUMENT: a pointer is NULL, or there is no room
+ */
+NC_API nc_status nc_status_text_get(const nc_control* control, nc_status status, char* text, size_t size);
 
 /**
  * The blocks that led to that alarm, outermost first: each of them called the program of the next one, the last is the block of the alarm
- * (nc_alarm::source). An interrupt program counts as called by the block that it interrupted.
- * @param calls receives the first `capacity` of them; NC_MAX_CALLS are all
- * @return their number; 0 when there is no alarm, or its place is not known
+ * (nc_alarm::source). An interrupt program counts as called by the block that it interrupted. Where nc_inputs::alarm has stopped a program,
+ * which the host has words for, they lead to the block in which it was in execution; until reset. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param calls receives the first `capacity` of them
+ * @param capacity elements of `calls`; NC_MAX_CALLS are all
+ * @return their number; 0 when there is no alarm, none of a program, or its place is not known
  */
-NC_API unsigned nc_alarm_calls(const nc_control*, unsigned system, nc_source* calls, unsigned capacity);
+NC_API unsigned nc_alarm_calls(const nc_control* control, unsigned system, nc_source* calls, unsigned capacity);
 
-/** Modal snapshot of a mark. Snapshots stay readable for at least `look_ahead` marks. */
-NC_API nc_status nc_modal_get(const nc_control*, unsigned system, uint32_t id, nc_modal* modal);
+/**
+ * Modal snapshot of a mark. Snapshots stay readable for at least `look_ahead` marks. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param id nc_mark::modal, or nc_outputs::modal
+ * @param modal receives a copy
+ * @return NC_OK; NC_E_NOT_FOUND: no such snapshot, or no longer; NC_E_ARGUMENT: no such part system, a pointer is NULL, or its struct_size
+ *         is none
+ */
+NC_API nc_status nc_modal_get(const nc_control* control, unsigned system, uint32_t id, nc_modal* modal);
 
-/** Active G codes of a snapshot as text, "G01 G17 G54.1": for sinks that print. @return number of codes. */
-NC_API unsigned nc_modal_codes(const nc_control*, const nc_modal* modal, char (*codes)[8], unsigned capacity);
+/**
+ * Active G codes of a snapshot as text, "G01" "G17" "G54.1": for sinks that print. Any thread.
+ * @param control the control
+ * @param modal the snapshot
+ * @param codes receives them in the order of their groups, each with its NUL
+ * @param capacity elements of `codes`; NC_GROUPS are enough
+ * @return their number; 0 also when a pointer is NULL
+ */
+NC_API unsigned nc_modal_codes(const nc_control* control, const nc_modal* modal, char (*codes)[8], unsigned capacity);
 
-/** Text of a message action. */
-NC_API nc_status nc_text_get(const nc_control*, unsigned system, uint32_t id, nc_text* text);
+/**
+ * Text of a message. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param id nc_action::text, or nc_outputs::message_text
+ * @param text receives a copy
+ * @return NC_OK; NC_E_NOT_FOUND: no such text, or no longer; NC_E_ARGUMENT: no such part system, or a pointer is NULL
+ */
+NC_API nc_status nc_text_get(const nc_control* control, unsigned system, uint32_t id, nc_text* text);
+
+/**
+ * Name of a dialect, as configurations and command lines have it. Any thread; needs no control.
+ * @param dialect the controller family
+ * @return "m700", "dgshape", ...: small letters, constant; NULL: there is no such dialect
+ */
+NC_API const char* nc_dialect_name(nc_dialect dialect);
+
+/**
+ * Dialect of a name, the reverse of nc_dialect_name(). Any thread; needs no control.
+ * @param name as nc_dialect_name() gives it; small letters
+ * @param dialect receives the controller family
+ * @return NC_OK; NC_E_NOT_FOUND: no dialect has this name; NC_E_ARGUMENT: a pointer is NULL
+ */
+NC_API nc_status nc_dialect_get(const char* name, nc_dialect* dialect);
+
+/** What a G or M code is for, as far as a host has to tell codes apart. */
+typedef enum nc_code_role {
+  NC_CODE_OTHER = 0,           /**< none of those below, or no code of the dialect */
+  NC_CODE_PROGRAM_STOP = 1,
+  NC_CODE_OPTIONAL_STOP = 2,
+  NC_CODE_PROGRAM_END = 3,
+  NC_CODE_CALL = 4,            /**< of a sub program by its number: M98, M198 */
+  NC_CODE_RETURN = 5,          /**< from a sub program */
+  NC_CODE_SPINDLE_FORWARD = 6, /**< goes out to the machine, as the three that follow */
+  NC_CODE_SPINDLE_REVERSE = 7,
+  NC_CODE_SPINDLE_STOP = 8,
+  NC_CODE_TOOL_CHANGE = 9,
+  NC_CODE_DWELL = 10,
+  NC_CODE_DATA_INPUT = 11,     /**< its words are data for tables or parameters: G10 */
+  NC_CODE_MACRO_CALL = 12      /**< the words of its block are arguments: G65, G66, G66.1 */
+} nc_code_role;
+
+/**
+ * What a code is for. Any thread; needs no control.
+ * @param dialect the controller family
+ * @param letter its address, 'G' or 'M'
+ * @param number M: the code; G: times 10, as in nc_modal::code (G54.1 = 541)
+ * @return its role; NC_CODE_OTHER also when an argument is none
+ */
+NC_API nc_code_role nc_code_role_get(nc_dialect dialect, char letter, uint32_t number) NC_RT;
 
 /** One row of a dialect's function table, for documentation and HMIs. */
 typedef struct nc_function {
@@ -296,20 +668,45 @@ typedef struct nc_function {
   const char* name;     /**< short English name */
   const char* section;  /**< of the manual */
 } nc_function;
-/** Row `index` of the table of a dialect; NC_E_NOT_FOUND behind the last. Needs no control. */
-NC_API nc_status nc_function_get(nc_dialect dialect, unsigned index, nc_function* row);
+
+/**
+ * One row of a dialect's function table. Any thread; needs no control.
+ * @param dialect the controller family
+ * @param index of the row, from 0
+ * @param row receives it; its texts are constant
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is none
+ */
+NC_API nc_status nc_function_row(nc_dialect dialect, unsigned index, nc_function* row);
+
+/** System variables that a host asks for by what they do. */
+typedef enum nc_variable_role {
+  NC_VARIABLE_OTHER = 0,       /**< none of those below */
+  NC_VARIABLE_INPUT_BIT = 1,   /**< macro interface inputs, one bit each; 32 numbers a word */
+  NC_VARIABLE_INPUT_WORD = 2,  /**< macro interface inputs, one word each */
+  NC_VARIABLE_OUTPUT_BIT = 3,  /**< macro interface outputs, in the same way */
+  NC_VARIABLE_OUTPUT_WORD = 4
+} nc_variable_role;
 
 /** One range of system variables (M700 13.5.5), for documentation and HMIs. */
 typedef struct nc_system_variable {
   uint32_t first, last;
+  uint8_t role;         /**< nc_variable_role */
+  uint8_t word;         /**< macro interface: the word, 0 to NC_WORDS - 1, that the first number belongs to */
   bool readable, writable;
   uint32_t sync;        /**< nc_sync_what: reading waits until everything before has happened; 0 = it is read ahead */
   const char* unit;
   const char* name;     /**< short English name */
   const char* section;  /**< of the manual */
 } nc_system_variable;
-/** Row `index` of the table; NC_E_NOT_FOUND behind the last. Needs no control. */
-NC_API nc_status nc_system_variable_get(unsigned index, nc_system_variable* row);
+
+/**
+ * One row of a dialect's table of system variables. Any thread; needs no control.
+ * @param dialect whose table
+ * @param index of the row, from 0
+ * @param row receives it; its texts are constant
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is none
+ */
+NC_API nc_status nc_system_variable_row(nc_dialect dialect, unsigned index, nc_system_variable* row);
 
 /** Parameters that something in the control asks for, for documentation and HMIs. */
 typedef struct nc_parameter {
@@ -321,16 +718,39 @@ typedef struct nc_parameter {
   const char* name;           /**< short English name */
   const char* section;        /**< of the manual */
 } nc_parameter;
-/** Row `index` of the table of a dialect; NC_E_NOT_FOUND behind the last. Needs no control. */
+
+/**
+ * One row of the parameter table of a dialect. Any thread; needs no control.
+ * @param dialect the controller family
+ * @param index of the row, from 0
+ * @param row receives it; its texts are constant
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is none
+ */
 NC_API nc_status nc_parameter_row(nc_dialect dialect, unsigned index, nc_parameter* row);
-/** Something in the control asks for the parameter `key` ("1084", "1229/bit2", "UNIT*10"). One that it does not ask for is kept for
- *  programs that read it, and does nothing. Needs no control. */
+
+/**
+ * Whether something in the control asks for a parameter. One that it does not ask for is kept for programs that read it, and does
+ * nothing. Any thread; needs no control.
+ * @param dialect the controller family
+ * @param key "1084", "1229/bit2", "UNIT*10"
+ * @return true when it does
+ */
 NC_API bool nc_parameter_used(nc_dialect dialect, const char* key);
 
-/** One row of a dialect's alarm table. */
+/**
+ * One row of a dialect's alarm table. Any thread; needs no control.
+ * @param dialect the controller family
+ * @param index of the row, from 0
+ * @param code receives it as nc_alarm::code has it
+ * @param message receives the manual's short text, which is constant
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is none
+ */
 NC_API nc_status nc_alarm_row(nc_dialect dialect, unsigned index, char code[16], const char** message);
 
-/** Version of the library, "0.1.0". */
+/**
+ * Version of the library. Any thread; needs no control.
+ * @return "0.1.0", constant
+ */
 NC_API const char* nc_version(void);
 
 #ifdef __cplusplus

@@ -53,16 +53,18 @@ typedef enum nc_action_kind {
   NC_ACTION_B = 3,       /**< second auxiliary function; `letter` its address */
   NC_ACTION_OUTPUT = 4,  /**< macro interface output: word `index` (0..3), bits `mask` become `bits` (M700 13.5.5) */
   NC_ACTION_MESSAGE = 5, /**< #3006, DPRNT: `text`, `index` = port (0 operator message) */
-  NC_ACTION_CONTROL = 6, /**< #3003/#3004: `index` the variable, `value`; `index` 96: macro interrupt, `value` nc_interrupt_bits;
-                              `index` nc_control_index: what these take */
+  NC_ACTION_CONTROL = 6, /**< `index` nc_control_index: what `value` then means is said there */
   NC_ACTION_CURRENT_LIMIT = 7 /**< current limit of axis `index`: `value` percent of the rated current (M700 15.6) */
 } nc_action_kind;
 
 /** Further indexes of NC_ACTION_CONTROL. */
 typedef enum nc_control_index {
+  NC_CONTROL_SUPPRESS = 3003,    /**< `value`: bit 0 no stop of single block, bit 1 FIN is not awaited (M700 13.5.9, #3003) */
+  NC_CONTROL_DISABLE = 3004,     /**< `value`: bit 0 no feed hold, bit 1 no override, bit 2 no exact stop (M700 13.5.10, #3004) */
   NC_CONTROL_TAPPING = 63,       /**< tapping mode G63 begins (`value` 1) or ends (M700 7.11) */
-  NC_CONTROL_SURFACE_SPEED = 17, /**< constant surface speed G96: `value` m/min, `bits` the axis from 1, 0 = G97 */
-  NC_CONTROL_SPINDLE_CLAMP = 92  /**< G92 S Q of the selected spindles: `bits` S, `mask` Q as programmed, r/min; `value` nc_clamp_bits */
+  NC_CONTROL_SURFACE_SPEED = 17, /**< constant surface speed G96: `value` m/min, `bits` bit n = by axis n, 0 = G97 */
+  NC_CONTROL_SPINDLE_CLAMP = 92, /**< G92 S Q of the selected spindles: `bits` S, `mask` Q as programmed, r/min; `value` nc_clamp_bits */
+  NC_CONTROL_INTERRUPT = 96      /**< macro interrupt: `value` nc_interrupt_bits */
 } nc_control_index;
 
 /** How speeds are clamped (M700 10.4): bits. */
@@ -70,7 +72,7 @@ typedef enum nc_clamp_bits {
   NC_CLAMP_ALWAYS = 1,    /**< in G97, too */
   NC_CLAMP_OVER_RESET = 2, /**< a reset keeps it */
   NC_CLAMP_S = 4,         /**< S has been commanded, else the spindle keeps its own */
-  NC_CLAMP_Q = 8          /**< Q has */
+  NC_CLAMP_Q = 8          /**< Q has been commanded, else the spindle keeps its own */
 } nc_clamp_bits;
 
 /** State of the macro interrupt (M700 13.12): bits. */
@@ -98,7 +100,8 @@ typedef enum nc_sync_what {
   NC_SYNC_CLOCK = 4,    /**< date, time, integrated time */
   NC_SYNC_SKIP = 8,     /**< a G31 move has ended: where? */
   NC_SYNC_MODAL = 16,   /**< modal state in execution (#4200s) */
-  NC_SYNC_STOPPED = 32  /**< nothing but that everything before has happened */
+  NC_SYNC_STOPPED = 32, /**< nothing but that everything before has happened */
+  NC_SYNC_SHARED = 64   /**< what several part systems share: a common variable, tool data; nothing in the answer, as the control has it itself */
 } nc_sync_what;
 
 /** A text that goes with an item; NUL-terminated, cut at NC_MAX_TEXT - 1 bytes. */
@@ -152,10 +155,19 @@ typedef struct nc_gate {
 
 /** The modal state that a block leaves behind. */
 typedef struct nc_modal {
+  NC_STRUCT_SIZE(nc_modal); /**< see NC_STRUCT_SIZE */
   int16_t code[NC_GROUPS]; /**< active G code of each group, times 10 (G54.1 = 541, G00 = 0); -1 = group not used */
   double feed, spindle;
   uint32_t tool, d, h, m, n, o, b;
 } nc_modal;
+/**
+ * Clear it and set its size. Any thread.
+ * @param modal what is to be cleared; not NULL
+ */
+static inline void nc_modal_init(nc_modal* modal) {
+  const nc_modal cleared = NC_INIT(nc_modal);
+  *modal = cleared;
+}
 
 /** Payload of a mark: the end of a block. */
 typedef struct nc_mark {
@@ -168,15 +180,25 @@ typedef struct nc_mark {
 
 /** Payload of an alarm. */
 typedef struct nc_alarm {
+  NC_STRUCT_SIZE(nc_alarm); /**< see NC_STRUCT_SIZE */
   char code[16];    /**< as the manual prints it, without blanks: "P33", "F_82112" */
   char message[64]; /**< the manual's short text */
   nc_text detail;   /**< what in this block caused it, for the person at the machine */
   int8_t axis;      /**< axis index, -1 = none */
   nc_source source;
 } nc_alarm;
+/**
+ * Clear it and set its size. Any thread.
+ * @param alarm what is to be cleared; not NULL
+ */
+static inline void nc_alarm_init(nc_alarm* alarm) {
+  const nc_alarm cleared = NC_INIT(nc_alarm);
+  *alarm = cleared;
+}
 
 /** One item of the stream, as sinks get it. */
 typedef struct nc_item {
+  NC_STRUCT_SIZE(nc_item); /**< see NC_STRUCT_SIZE */
   uint64_t serial;  /**< strictly increasing, without gaps within a run */
   nc_source source;
   uint8_t kind;     /**< nc_item_kind */
@@ -195,9 +217,18 @@ typedef struct nc_item {
     } end;
   } u;
 } nc_item;
+/**
+ * Clear it and set its size. Any thread.
+ * @param item what is to be cleared; not NULL
+ */
+static inline void nc_item_init(nc_item* item) {
+  const nc_item cleared = NC_INIT(nc_item);
+  *item = cleared;
+}
 
 /** Answer to a sync: the world at the moment when everything before it had happened. */
 typedef struct nc_world {
+  NC_STRUCT_SIZE(nc_world); /**< see NC_STRUCT_SIZE */
   nc_axes machine;          /**< where the axes really are */
   nc_axes skip_machine;     /**< where the skip signal came (meaningful when `skipped`) */
   uint32_t input[NC_WORDS]; /**< macro interface inputs, words of #1032..#1035 */
@@ -206,6 +237,14 @@ typedef struct nc_world {
   double power_on_ms;       /**< #3001 */
   double run_ms;            /**< #3002 */
 } nc_world;
+/**
+ * Clear it and set its size. Any thread.
+ * @param world what is to be cleared; not NULL
+ */
+static inline void nc_world_init(nc_world* world) {
+  const nc_world cleared = NC_INIT(nc_world);
+  *world = cleared;
+}
 
 #ifdef __cplusplus
 }

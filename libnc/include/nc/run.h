@@ -20,74 +20,169 @@ extern "C" {
 /* ---- offline ------------------------------------------------------------------------------------------------------ */
 
 /**
- * Next item of a part system.
- * @param budget blocks that may be read before the call gives up with NC_BUDGET (an endless GOTO makes no items).
- * @return NC_OK with *item; NC_WAITING while a sync is not answered; NC_BUDGET; NC_ENDED after the end item; NC_ALARMED after the alarm and end items.
+ * Offline: next item of a part system. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param budget blocks that may be read before the call gives up with NC_BUDGET (an endless GOTO makes no items)
+ * @param item receives it
+ * @return NC_OK with *item; NC_WAITING while a sync is not answered; NC_BUDGET; NC_ENDED after the end item; NC_ALARMED after the alarm and
+ *         end items; NC_E_STATE: the program runs online; NC_E_ARGUMENT: no such part system, a pointer is NULL, or its struct_size is none
  */
-NC_API nc_status nc_pull(nc_control*, unsigned system, uint32_t budget, nc_item* item);
-
-/** Offline: a point of the move that nc_pull() gave last, where `share` (0 to 1) of its length is done. Machine coordinates. */
-NC_API nc_status nc_move_point(const nc_control*, unsigned system, double share, nc_axes* machine);
+NC_API nc_status nc_pull(nc_control* control, unsigned system, uint32_t budget, nc_item* item);
 
 /**
- * Offline: zero of the workpiece coordinates of the move that nc_pull() gave last, with the tool length that the move applies in it, in machine
- * coordinates. A point of the move less this is where the tip of the tool is on the workpiece; radius compensation stays in the path.
+ * Offline: a point of the move that nc_pull() gave last. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param share of its length that is done there, 0 to 1
+ * @param machine receives the point, machine coordinates, mm or deg
+ * @return NC_OK; NC_E_STATE: there is no such move, or the program runs online; NC_E_ARGUMENT: no such part system, `share` is out of range, or a
+ *         pointer is NULL
  */
-NC_API nc_status nc_move_zero(const nc_control*, unsigned system, nc_axes* zero);
-
-/** Answer the open sync of a part system. After NC_SYNC_SKIP the interpreter continues from world->machine. */
-NC_API nc_status nc_answer(nc_control*, unsigned system, const nc_world* world);
+NC_API nc_status nc_move_point(const nc_control* control, unsigned system, double share, nc_axes* machine);
 
 /**
- * Give up what was read beyond `serial` (which must be a mark not older than the look-ahead) and read it again from there:
- * switches, offsets and variables changed since then act from the next block. `serial` 0 = from the start of the program.
+ * Offline: zero of the workpiece coordinates of the move that nc_pull() gave last, with the tool length that the move applies in it. A
+ * point of the move less this is where the tip of the tool is on the workpiece; radius compensation stays in the path. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param zero receives it, machine coordinates, mm or deg
+ * @return as nc_move_point()
  */
-NC_API nc_status nc_rewind(nc_control*, unsigned system, uint64_t serial);
+NC_API nc_status nc_move_zero(const nc_control* control, unsigned system, nc_axes* zero);
+
+/**
+ * Offline: answer the open sync of a part system. After NC_SYNC_SKIP the interpreter goes on from world->machine. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param world the machine when everything before the sync had happened; copied
+ * @return NC_OK; NC_E_STATE: no sync is open, or the program runs online, where the scan answers; NC_E_ARGUMENT: no such part system, a
+ *         number that is none, or a struct_size that is none
+ */
+NC_API nc_status nc_answer(nc_control* control, unsigned system, const nc_world* world);
+
+/**
+ * Offline: give up what was read beyond `serial` and read it again from there: switches, offsets and variables that were changed since
+ * then act from the next block on. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param serial of a mark that is not older than the look-ahead; 0 = from the start of the program
+ * @return NC_OK; NC_E_NOT_FOUND: no such mark, or no longer; NC_E_STATE: the program runs online; NC_E_ARGUMENT: no such part system
+ */
+NC_API nc_status nc_rewind(nc_control* control, unsigned system, uint64_t serial);
 
 /**
  * Online, at rest in a block stop or a hold: give up what was read beyond the block in execution and read it again (M700 4.2
- * "recalculation request"). @return NC_WAITING until the scan has agreed (call again), NC_OK when it is done.
+ * "recalculation request"). Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @return NC_OK when it is done, or no program runs; NC_WAITING until the scan has agreed, which it does at rest only (call again);
+ *         NC_E_ARGUMENT: no such part system
  */
-NC_API nc_status nc_recalculate(nc_control*, unsigned system);
+NC_API nc_status nc_recalculate(nc_control* control, unsigned system);
 
 /**
- * Offline: the level of the macro interrupt signal UIT (M700 13.12), to be told when it changes. The item pulled last counts as not
- * executed yet: when *take_back comes back true (type 1 of the interrupt) it must not be executed any more.
+ * Offline: the level of the macro interrupt signal UIT (M700 13.12), to be told when it changes. The item that was pulled last counts as
+ * not executed yet. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param on the level
+ * @param take_back receives whether that item must not be executed any more (type 1 of the interrupt)
+ * @return NC_OK; NC_E_STATE: the program runs online, where the signal comes with nc_inputs; NC_E_ARGUMENT: no such part system, or a
+ *         pointer is NULL
  */
-NC_API nc_status nc_interrupt_signal(nc_control*, unsigned system, bool on, bool* take_back);
+NC_API nc_status nc_interrupt_signal(nc_control* control, unsigned system, bool on, bool* take_back);
 
-/** Stop the program: modal state as after reset (M700 3.7 "reset 2"), program at its head. Not while online motion runs. */
-NC_API nc_status nc_reset(nc_control*, unsigned system);
+/**
+ * Stop the program: modal state as after reset (M700 3.7 "reset 2"), program at its head. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @return NC_OK; NC_E_STATE: online motion runs, which nc_inputs::reset stops; NC_E_ARGUMENT: no such part system
+ */
+NC_API nc_status nc_reset(nc_control* control, unsigned system);
 
 /* ---- online: feeder ----------------------------------------------------------------------------------------------- */
 
 /**
- * Read, compensate, plan and commit ahead of the machine.
- * @param budget blocks that may be read in this call.
- * @return NC_OK when something was committed, NC_WAITING when nothing can be done until the scan goes on, NC_BUDGET, NC_ENDED
- *         when the program is committed to its end, NC_ALARMED.
+ * Online: read, compensate, plan and commit ahead of the machine, for every part system. Feeder thread.
+ * @param control the control
+ * @param budget blocks that may be read in this call for each part system
+ * @return NC_OK when something was committed; NC_WAITING when nothing can be done until the scan goes on; NC_BUDGET; NC_ENDED when every
+ *         program is committed to its end; NC_ALARMED; NC_E_ARGUMENT: `control` is NULL
  */
-NC_API nc_status nc_feed(nc_control*, uint32_t budget);
+NC_API nc_status nc_feed(nc_control* control, uint32_t budget);
 
 /** What the scan has reached, in order. */
 typedef struct nc_event {
+  NC_STRUCT_SIZE(nc_event); /**< see NC_STRUCT_SIZE */
   uint64_t serial;
   nc_source source;
   uint8_t kind;    /**< nc_item_kind of the item that has been executed to its end */
   bool again;      /**< a mark: its block's M99 begins the main program again (M700 13.3.1) */
   nc_axes machine; /**< commanded position at that moment */
 } nc_event;
+/**
+ * Clear it and set its size. Any thread.
+ * @param event what is to be cleared; not NULL
+ */
+static inline void nc_event_init(nc_event* event) {
+  const nc_event cleared = NC_INIT(nc_event);
+  *event = cleared;
+}
 
-/** Next executed item. Events are kept for at least `look_ahead` items; when they are not fetched the oldest are dropped and counted. */
-NC_API nc_status nc_event_poll(nc_control*, unsigned system, nc_event* event, uint64_t* dropped);
+/**
+ * Next executed item. Events are kept for at least `look_ahead` items; when they are not fetched the oldest are dropped and counted.
+ * Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param event receives it
+ * @param dropped receives how many were dropped since the last call. May be NULL.
+ * @return NC_OK; NC_E_NOT_FOUND: nothing further has been executed; NC_E_ARGUMENT: no such part system, `event` is NULL, or its
+ *         struct_size is none
+ */
+NC_API nc_status nc_event_poll(nc_control* control, unsigned system, nc_event* event, uint64_t* dropped);
 
 /**
  * The block at which reading stands because it asks for what exists only when everything before it has been executed (a position, an
- * input). A simulated machine learns from it what it has to give before the scan gets there.
- * @param main_line line of the main program: of the block, or of the one that has called the program in which it stands
- * @return NC_E_NOT_FOUND when reading does not stand at such a block
+ * input). A simulated machine learns from it what it has to give before the scan gets there. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param source receives the block
+ * @param main_line receives the line of the main program: of the block, or of the one that has called the program in which it stands
+ * @return NC_OK; NC_E_NOT_FOUND: reading does not stand at such a block; NC_E_ARGUMENT: no such part system, or a pointer is NULL
  */
-NC_API nc_status nc_sync_get(const nc_control*, unsigned system, nc_source* source, uint32_t* main_line);
+NC_API nc_status nc_sync_get(const nc_control* control, unsigned system, nc_source* source, uint32_t* main_line);
+
+/**
+ * The line of the main program to which a block belongs: of the block itself, or of the one that has called the program in which it stands.
+ * Of the item that nc_pull() has given last, or of the one that an nc_commit_watch is given. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param source nc_item::source of that item
+ * @param main_line receives the line, from 1; 0: none is known
+ * @return NC_OK; NC_E_ARGUMENT: no such part system, or a pointer is NULL
+ */
+NC_API nc_status nc_main_line(const nc_control* control, unsigned system, const nc_source* source, uint32_t* main_line);
+
+/**
+ * Called by nc_feed() with each item before it is committed, in the order of the stream: what a simulated machine has to do when it gets there
+ * can be prepared. Serials go back when what was read ahead is read again (recalculation, macro interrupt, reset): the items given from the
+ * repeated serial on are void. Functions that change the program or its tables must not be called in it. Feeder thread.
+ * @param user what nc_commit_watch_set() was given
+ * @param item as nc_pull() would give it; of nc_feed(), not to be kept
+ * @return true: it is committed; false: neither it nor anything behind it yet, and the next nc_feed() asks again
+ */
+typedef bool (*nc_commit_watch)(void* user, const nc_item* item);
+
+/**
+ * Watch what is committed online. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param watch called from now on, until another one is set; NULL: none, as in the beginning
+ * @param user handed to it
+ * @return NC_OK; NC_E_ARGUMENT: no such part system
+ */
+NC_API nc_status nc_commit_watch_set(nc_control* control, unsigned system, nc_commit_watch watch, void* user);
 
 /* ---- online: scan ------------------------------------------------------------------------------------------------- */
 
@@ -102,7 +197,7 @@ typedef enum nc_manual_kind {
 
 typedef struct nc_manual {
   uint8_t kind;    /**< nc_manual_kind */
-  double velocity; /**< mm/s or deg/s, signed, -1e6..1e6 */
+  double velocity; /**< mm/s or deg/s, signed, -1e6..1e6, 0 or further from it than 0.000001; of a step 0 = as fast as the axis can */
   double distance; /**< mm or deg, signed, -1e6..1e6 */
 } nc_manual;
 
@@ -132,9 +227,10 @@ typedef enum nc_input_bits {
  * any value of their type.
  */
 typedef struct nc_inputs {
+  NC_STRUCT_SIZE(nc_inputs); /**< see NC_STRUCT_SIZE */
   bool cycle_start;      /**< rising edge starts or continues */
   bool feed_hold;        /**< level: decelerate on the path and stay */
-  bool reset;            /**< rising edge: stop on the path, give the program up */
+  bool reset;            /**< rising edge: stop on the path, give the program up; while it is on, nothing is started */
   bool single_block;     /**< level: stop at the end of each block */
   bool optional_stop;    /**< level: M01 stops */
   /* Completion of the M, S, T or B in wait. One that is on when the strobe rises does not count until it has been off. */
@@ -163,6 +259,16 @@ typedef struct nc_inputs {
                                  Off, manual absolute is on: the systems stay, and an absolute command goes to its programmed place (M700 12.4.4, 14.12) */
   int64_t clock_ms;      /**< wall clock (see nc_world) */
 } nc_inputs;
+/**
+ * Clear it, set its size and both overrides to 100 %: a machine that nobody touches. Any thread.
+ * @param inputs what is to be set; not NULL
+ */
+static inline void nc_inputs_init(nc_inputs* inputs) {
+  const nc_inputs cleared = NC_INIT(nc_inputs);
+  *inputs = cleared;
+  inputs->feed_override = 1;
+  inputs->rapid_override = 1;
+}
 
 /** Run state of a part system. */
 typedef enum nc_run_state {
@@ -193,7 +299,9 @@ typedef enum nc_stop_cause {
   NC_CAUSE_SPINDLE_FAST = 14,    /**< a thread would need more than the largest cutting feed: it does not begin (M700 6.7.1) */
   NC_CAUSE_SERVO_OFF = 15,       /**< a C axis that is a spindle now is commanded (M700 10.5) */
   NC_CAUSE_TAP_SPINDLE = 16,     /**< in the tapping mode its spindle is to be a C axis (M700 10.6: operation error M01 1026) */
-  NC_CAUSE_SPINDLE_UNMEASURED = 17 /**< as SPINDLE_STOPPED, because its speed is not measured */
+  NC_CAUSE_SPINDLE_UNMEASURED = 17, /**< as SPINDLE_STOPPED, because its speed is not measured */
+  NC_CAUSE_NO_LAW = 18            /**< time-optimal mode: no motion within the limits of the axes was found for what follows; it is looked
+                                       for again, and reset gives the program up */
 } nc_stop_cause;
 
 /** Bits of nc_outputs::fin_wait beside those of the groups. */
@@ -209,9 +317,11 @@ typedef enum nc_override_source {
 
 /** What one part system gives out in one cycle. */
 typedef struct nc_outputs {
+  NC_STRUCT_SIZE(nc_outputs); /**< see NC_STRUCT_SIZE */
   nc_axes command;          /**< commanded machine position for this cycle */
   nc_axes velocity;         /**< mm/s or deg/s, average over the cycle */
-  uint32_t output[NC_WORDS]; /**< macro interface outputs, words of #1132..#1135 */
+  uint32_t output[NC_WORDS]; /**< macro interface outputs, words of #1132..#1135, as programs of this part system have written them */
+  uint32_t output_written[NC_WORDS]; /**< bits of them that a block has written in this cycle, to another value or to the same */
   uint8_t state;            /**< nc_run_state */
   uint8_t cause;            /**< nc_stop_cause */
   /* M, S, T, B: the codes stay until the next one; `strobe` bit 0 M, 1 S, 2 T, 3 B is on until FIN. */
@@ -226,8 +336,8 @@ typedef struct nc_outputs {
   uint8_t spindle_selected; /**< bit n: spindle n+1 follows the S command */
   uint8_t spindle_encoder;  /**< number of the spindle whose encoder counts, 0 = none */
   uint8_t servo_on;         /**< bit i: axis i, which is a spindle too, is to hold its position */
-  uint8_t servo_ready;      /**< bit i: and does: `command` is what it follows */
-  uint8_t referenced;       /**< bit i: and its reference position return is complete */
+  uint8_t servo_ready;      /**< bit i: axis i holds its position, and its drive is to follow `command` */
+  uint8_t referenced;       /**< bit i: the reference position return of axis i, which is a spindle too, is complete */
   bool rapid;               /**< a rapid move is in execution, or its axes are still on their way */
   bool tapping;             /**< tapping mode G63 (M700 7.11) */
   bool feed_digit_on;       /**< the move in execution has a feed of one digit, `feed_digit` (M700 7.3) */
@@ -256,10 +366,28 @@ typedef struct nc_outputs {
   double path_length;       /**< mm travelled since cycle start */
   double run_s;             /**< seconds in state RUNNING since cycle start */
   uint64_t blocks;          /**< blocks finished since cycle start */
+  nc_axes joint;            /**< commanded joints, in their units; 0 without nc_config::kinematics */
+  nc_axes joint_velocity;   /**< their change in this cycle, unit/s */
+  uint8_t joint_faults;     /**< nc_joint_fault_bits of this cycle */
 } nc_outputs;
+/**
+ * Clear it and set its size. Any thread.
+ * @param outputs what is to be cleared; not NULL
+ */
+static inline void nc_outputs_init(nc_outputs* outputs) {
+  const nc_outputs cleared = NC_INIT(nc_outputs);
+  *outputs = cleared;
+}
 
-/** One servo cycle of every part system. `in` and `out` have `system_count` entries. Scan thread. */
-NC_API void nc_cycle(nc_control*, const nc_inputs* in, nc_outputs* out) NC_RT;
+/**
+ * One servo cycle of every part system. Scan thread.
+ * @param control the control
+ * @param in  `system_count` entries, the first for part system 0, all of one struct_size
+ * @param out as many, all of one struct_size: what the machine is to do in this cycle
+ * @return NC_OK; NC_E_ARGUMENT when a pointer is NULL or a struct_size is none, or asks for what this library does not know: then no
+ *         part system has moved on and `out` is as it was
+ */
+NC_API nc_status nc_cycle(nc_control* control, const nc_inputs* in, nc_outputs* out) NC_RT;
 
 #ifdef __cplusplus
 }

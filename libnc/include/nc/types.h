@@ -37,6 +37,27 @@ extern "C" {
 #define NC_MAX_NAME 260     /**< bytes of the name of a program in the store: of a file, the place before it ("198:"), its NUL */
 #define NC_MAX_TEXT 128     /**< bytes of a text carried by an item, with its terminating NUL */
 
+/**
+ * Structs that may grow in a later version begin with their size in bytes as their user was compiled with it, so that program and library
+ * may be of different versions: nc_config, nc_config_fault, nc_inputs, nc_outputs, nc_world, nc_item, nc_event, nc_alarm, nc_modal,
+ * nc_program_info, nc_vendor_code, nc_vendor_block, nc_kinematics. Every other struct stays as it is, for as long as the SONAME of the library
+ * does.
+ *
+ * What a user gives: members that an older user does not have are their defaults. Bytes that a newer user has and this library does not
+ * know must be 0, otherwise the call is refused with NC_E_ARGUMENT: nobody asks in vain. What a user receives: as many bytes as both know
+ * are written; those behind stay as they were.
+ *
+ * In C++ the size is set by itself. In C it is set by the function nc_..._init() of the struct or by NC_INIT(); in a struct that was only
+ * cleared it is 0, which stands for the struct of version 0.1.
+ */
+#ifdef __cplusplus
+#define NC_STRUCT_SIZE(type) uint32_t struct_size = sizeof(type)
+#define NC_INIT(type) {}
+#else
+#define NC_STRUCT_SIZE(type) uint32_t struct_size
+#define NC_INIT(type) {.struct_size = sizeof(type)}
+#endif
+
 /** A control: opaque, lives wholly in the memory the caller gave to nc_create(). */
 typedef struct nc_control nc_control;
 
@@ -59,6 +80,13 @@ typedef enum nc_status {
   NC_E_READ = -5       /**< a read-at callback failed */
 } nc_status;
 
+/**
+ * One sentence, in English, that says what a status means. Any thread; needs no control.
+ * @param status what a call has returned; any other number has a sentence, too
+ * @return a constant text, never NULL
+ */
+NC_API const char* nc_status_text(nc_status status);
+
 /** The controller family whose manual decides. */
 typedef enum nc_dialect {
   NC_DIALECT_M700 = 0,    /**< Mitsubishi CNC 700 series, machining centre */
@@ -70,7 +98,7 @@ typedef enum nc_dialect {
 typedef struct nc_source {
   uint32_t line;    /**< 1-based line of the file on which the block stands; 0 = none (manual motion, start) */
   uint32_t program; /**< O number of the program it stands in; 0 for a main program without one */
-  uint8_t system;   /**< part system, 1... */
+  uint8_t system;   /**< part system, from 0; people are shown one more */
   uint8_t depth;    /**< 0 main program, +1 for each call */
   uint16_t file;    /**< index of the text in the program store (several O numbers may stand in one text) */
 } nc_source;

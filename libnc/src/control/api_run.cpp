@@ -1,17 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 // The public functions of nc/run.h.
 #include <cmath>
+#include <type_traits>
 
 #include "control/control.hpp"
+#include "control/struct_size.hpp"
 
 namespace {
 bool known(const nc_control* c, unsigned system) { return c != nullptr && system < c->config.system_count; }
+
+/// Element `index` of an array whose elements have another size than here.
+template <class T>
+T* element(T* first, uint32_t bytes, unsigned index) {
+  using Byte = std::conditional_t<std::is_const_v<T>, const unsigned char, unsigned char>;
+  return reinterpret_cast<T*>(reinterpret_cast<Byte*>(first) + size_t{bytes} * index);
+}
+
+/// One cycle of a part system, and of the joints behind its axes.
+void cycle(nc_control* c, unsigned system, const nc_inputs& in, nc_outputs& out) NC_RT {
+  nc::Joints& joints = c->joints[system];
+  if (!joints.any()) return c->system[system].executor.cycle(in, out);
+  nc_inputs of_axes = in;
+  joints.before(&of_axes);
+  c->system[system].executor.cycle(of_axes, out);
+  joints.after(&out);
+}
+
+/// nc_cycle() for a caller that was compiled with another version of the headers. All is looked at before anything moves.
+nc_status cycle_of_another_version(nc_control* c, const nc_inputs* in, nc_outputs* out) NC_RT {
+  const uint32_t in_bytes = nc::caller_bytes(in), out_bytes = nc::caller_bytes(out);
+  if (in_bytes == 0 || out_bytes == 0) return NC_E_ARGUMENT;
+  nc_inputs known_in[NC_MAX_SYSTEMS];
+  for (unsigned i = 0; i < c->config.system_count; ++i) {
+    const nc_inputs* given = element(in, in_bytes, i);
+    nc_inputs_init(&known_in[i]);
+    if (nc::caller_bytes(given) != in_bytes || nc::caller_bytes(element(out, out_bytes, i)) != out_bytes) return NC_E_ARGUMENT;
+    if (!nc::take_struct(given, &known_in[i])) return NC_E_ARGUMENT;
+  }
+  for (unsigned i = 0; i < c->config.system_count; ++i) {
+    nc_outputs known_out;
+    cycle(c, i, known_in[i], known_out);
+    nc::give_struct(known_out, element(out, out_bytes, i));
+  }
+  return NC_OK;
+}
 }  // namespace
 
 nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item) {
   if (!known(c, system) || item == nullptr) return NC_E_ARGUMENT;
   if (c->system[system].busy()) return NC_E_STATE;  // the machine would miss what is taken here
-  return c->system[system].pull(budget, item);
+  c->system[system].publish_all();
+  const uint32_t bytes = nc::caller_bytes(item);
+  if (bytes == sizeof(nc_item)) return c->system[system].pull(budget, item);
+  if (bytes == 0) return NC_E_ARGUMENT;
+  nc_item known;
+  const nc_status status = c->system[system].pull(budget, &known);
+  if (status == NC_OK) nc::give_struct(known, item);
+  return status;
 }
 
 nc_status nc_move_point(const nc_control* c, unsigned system, double share, nc_axes* machine) {
@@ -24,23 +69,27 @@ nc_status nc_move_zero(const nc_control* c, unsigned system, nc_axes* zero) {
   return c->system[system].move_zero(zero);
 }
 
-nc_status nc_answer(nc_control* c, unsigned system, const nc_world* world) {
-  if (!known(c, system) || world == nullptr) return NC_E_ARGUMENT;
+nc_status nc_answer(nc_control* c, unsigned system, const nc_world* given) {
+  if (!known(c, system) || given == nullptr) return NC_E_ARGUMENT;
+  nc_world world{};
+  if (!nc::take_struct(given, &world)) return NC_E_ARGUMENT;
   for (unsigned i = 0; i < c->config.system[system].axis_count; ++i)
-    if (!std::isfinite(world->machine.v[i]) || (world->skipped && !std::isfinite(world->skip_machine.v[i]))) return NC_E_ARGUMENT;
-  if (!std::isfinite(world->power_on_ms) || !std::isfinite(world->run_ms)) return NC_E_ARGUMENT;
+    if (!std::isfinite(world.machine.v[i]) || (world.skipped && !std::isfinite(world.skip_machine.v[i]))) return NC_E_ARGUMENT;
+  if (!std::isfinite(world.power_on_ms) || !std::isfinite(world.run_ms)) return NC_E_ARGUMENT;
   if (c->system[system].busy()) return NC_E_STATE;  // the scan answers
-  return c->system[system].answer(*world);
+  return c->system[system].answer(world);
 }
 
 nc_status nc_rewind(nc_control* c, unsigned system, uint64_t serial) {
   if (!known(c, system)) return NC_E_ARGUMENT;
   if (c->system[system].busy()) return NC_E_STATE;
+  c->system[system].interpreter.forget_vendor_call();
   return c->system[system].rewind(serial);
 }
 
 nc_status nc_recalculate(nc_control* c, unsigned system) {
   if (!known(c, system)) return NC_E_ARGUMENT;
+  if (c->system[system].interpreter.in_vendor_function) return NC_E_STATE;
   return c->system[system].recalculate();
 }
 
@@ -57,8 +106,11 @@ nc_status nc_reset(nc_control* c, unsigned system) {
 
 nc_status nc_feed(nc_control* c, uint32_t budget) {
   if (c == nullptr) return NC_E_ARGUMENT;
+  for (unsigned i = 0; i < c->config.system_count; ++i)
+    if (c->system[i].interpreter.in_vendor_function) return NC_E_STATE;
   // The most that any part system still has to say: something committed, then budget, waiting, the ends.
   nc_status result = NC_ENDED;
+  c->system[0].publish_all();
   for (unsigned i = 0; i < c->config.system_count; ++i) {
     const nc_status status = c->system[i].feed(budget);
     if (status == NC_OK || result == NC_OK) {
@@ -73,9 +125,11 @@ nc_status nc_feed(nc_control* c, uint32_t budget) {
 }
 
 nc_status nc_event_poll(nc_control* c, unsigned system, nc_event* event, uint64_t* dropped) {
-  if (!known(c, system) || event == nullptr) return NC_E_ARGUMENT;
+  if (!known(c, system) || event == nullptr || nc::caller_bytes(event) == 0) return NC_E_ARGUMENT;
   uint64_t lost = 0;
-  const bool any = c->system[system].executor.poll_event(event, &lost);
+  nc_event known;
+  const bool any = c->system[system].executor.poll_event(&known, &lost);
+  if (any) nc::give_struct(known, event);
   if (dropped != nullptr) *dropped = lost;
   return any ? NC_OK : NC_E_NOT_FOUND;
 }
@@ -85,7 +139,28 @@ nc_status nc_sync_get(const nc_control* c, unsigned system, nc_source* source, u
   return c->system[system].sync_place(source, main_line) ? NC_OK : NC_E_NOT_FOUND;
 }
 
-void nc_cycle(nc_control* c, const nc_inputs* in, nc_outputs* out) {
-  if (c == nullptr || in == nullptr || out == nullptr) return;
-  for (unsigned i = 0; i < c->config.system_count; ++i) c->system[i].executor.cycle(in[i], out[i]);
+nc_status nc_main_line(const nc_control* c, unsigned system, const nc_source* source, uint32_t* main_line) {
+  if (!known(c, system) || source == nullptr || main_line == nullptr) return NC_E_ARGUMENT;
+  *main_line = c->system[system].main_line(*source);
+  return NC_OK;
+}
+
+nc_status nc_commit_watch_set(nc_control* c, unsigned system, nc_commit_watch watch, void* user) {
+  if (!known(c, system)) return NC_E_ARGUMENT;
+  c->system[system].watch_commits(watch, user);
+  return NC_OK;
+}
+
+nc_status nc_cycle(nc_control* c, const nc_inputs* in, nc_outputs* out) {
+  if (c == nullptr || in == nullptr || out == nullptr) return NC_E_ARGUMENT;
+  const unsigned count = c->config.system_count;
+  if (in->struct_size != sizeof(nc_inputs) || out->struct_size != sizeof(nc_outputs)) [[unlikely]] return cycle_of_another_version(c, in, out);
+  for (unsigned i = 1; i < count; ++i)
+    if (in[i].struct_size != in->struct_size || out[i].struct_size != out->struct_size) return NC_E_ARGUMENT;
+  if (c->any_joints) [[unlikely]] {
+    for (unsigned i = 0; i < count; ++i) cycle(c, i, in[i], out[i]);
+    return NC_OK;
+  }
+  for (unsigned i = 0; i < count; ++i) c->system[i].executor.cycle(in[i], out[i]);
+  return NC_OK;
 }

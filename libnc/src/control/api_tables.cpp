@@ -3,8 +3,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "control/alarm_texts.hpp"
 #include "control/control.hpp"
+#include "control/struct_size.hpp"
 #include "dialect/function_table.hpp"
+#include "dialect/text.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace {
@@ -60,12 +63,12 @@ bool parse_name(const char* name, Name* out) {
 /// One of the protected numbers (#8105: 8000 to 9999, #1121: 9000 to 9999).
 bool is_protected(const nc_control* c, unsigned file) {
   const uint32_t number = c->store.entry(file)->number;
-  const auto locked = [c](const char* key) {
+  const auto locked = [c](nc::Parameter parameter) {
     double value = 0;
-    return c->system[0].interpreter.parameters.get(key, -1, &value) && value != 0;
+    return c->system[0].interpreter.parameters.get(*c->dialect, parameter, -1, &value) && value != 0;
   };
-  if (number >= 9000 && number <= 9999 && locked("1121")) return true;
-  return number >= 8000 && number <= 9999 && locked("8105");
+  if (number >= 9000 && number <= 9999 && locked(nc::Parameter::protects_9000)) return true;
+  return number >= 8000 && number <= 9999 && locked(nc::Parameter::protects_8000);
 }
 
 bool is_referred_to(const nc_control* c, unsigned file, bool only_busy) {
@@ -101,9 +104,12 @@ nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char
     if (axis < 'A' || axis > 'Z' || in.axis_of[axis - 'A'] < 0) return NC_E_ARGUMENT;
     index = in.axis_of[axis - 'A'];
   }
-  const nc_status status = in.parameters.set(*c->dialect, key, index, text);
+  unsigned changed = 0;
+  double before = 0;
+  const nc_status status = in.parameters.set(*c->dialect, key, index, text, &changed, &before);
   if (status != NC_OK) return status;
   in.refresh_settings();
+  if (in.shared != nullptr) in.shared->parameter_changed(in, changed);
   c->system[system].tell_axis_parameters();
   return NC_OK;
 }
@@ -117,16 +123,36 @@ nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key
   return NC_OK;
 }
 
-nc_status nc_parameter_next(const nc_control* c, unsigned system, unsigned index, char key[24], char* axis, bool* set, double* value,
+nc_status nc_parameter_key(const nc_control* c, nc_parameter_role role, char key[24]) {
+  using nc::Parameter;
+  constexpr Parameter kRoles[] = {Parameter::decimal_type_2, Parameter::dwell_p_decimal, Parameter::tool_memory_type, Parameter::power_off_clears_common};
+  const auto index = static_cast<unsigned>(role);
+  if (c == nullptr || key == nullptr || index >= sizeof kRoles / sizeof kRoles[0]) return NC_E_ARGUMENT;
+  char whole[nc::kParameterKeySize];
+  int bit = -1;
+  if (!nc::parameter_place(*c->dialect, kRoles[index], whole, &bit)) return NC_E_NOT_FOUND;
+  nc::TextWriter text(key, nc::kParameterKeySize);
+  text.put(whole);
+  if (bit >= 0) text.put("/bit").put_integer(static_cast<unsigned>(bit));
+  return NC_OK;
+}
+
+nc_status nc_parameter_next(const nc_control* c, unsigned system, unsigned from, unsigned* place, char key[24], char* axis, double* value,
                             char text[64]) {
-  if (!known(c, system) || key == nullptr || axis == nullptr || set == nullptr || value == nullptr || text == nullptr) return NC_E_ARGUMENT;
+  if (!known(c, system) || place == nullptr || key == nullptr || axis == nullptr || value == nullptr || text == nullptr) return NC_E_ARGUMENT;
   const nc::Interpreter& in = c->system[system].interpreter;
   const char *name = nullptr, *words = nullptr;
-  int place = -1;
-  if (!in.parameters.at(index, &name, &place, value, &words)) return NC_E_NOT_FOUND;
+  int of_axis = -1;
+  double number = 0;
+  unsigned at = from;
+  do {
+    if (!in.parameters.at(at, &name, &of_axis, &number, &words)) return NC_E_NOT_FOUND;
+    ++at;
+  } while (std::isnan(number));  // it was set, and that was taken back
+  *place = at - 1;
   std::strcpy(key, name);
-  *axis = place >= 0 ? c->config.system[system].axis[place].name : '\0';
-  *set = !std::isnan(*value);
+  *axis = of_axis >= 0 ? c->config.system[system].axis[of_axis].name : '\0';
+  *value = number;
   text[0] = 0;
   if (words != nullptr) std::strcpy(text, words);
   return NC_OK;
@@ -134,16 +160,16 @@ nc_status nc_parameter_next(const nc_control* c, unsigned system, unsigned index
 
 void nc_look_executed(nc_control* c, nc_look look, void* user) {
   if (c == nullptr || look == nullptr) return;
-  // Part systems share variables: what the last one has taken back it is the first to put back.
   nc::BlockSeq executed[NC_MAX_SYSTEMS];
   bool ahead[NC_MAX_SYSTEMS];
   const unsigned count = c->config.system_count;
+  c->system[0].publish_all();
   for (unsigned i = 0; i < count; ++i) {
     ahead[i] = c->system[i].executed_block(&executed[i]);
     if (ahead[i]) c->system[i].interpreter.look_back(executed[i], true);
   }
   look(user, c);
-  for (unsigned i = count; i-- > 0;)
+  for (unsigned i = 0; i < count; ++i)
     if (ahead[i]) c->system[i].interpreter.look_back(executed[i], false);
 }
 
@@ -178,9 +204,12 @@ nc_status nc_work_offset_get(const nc_control* c, unsigned system, unsigned inde
 
 nc_status nc_tool_offset_set(nc_control* c, unsigned number, nc_tool_column column, double value) {
   if (!sane(value) || !tool_number(c, number, column)) return NC_E_ARGUMENT;
-  for (unsigned i = 0; i < c->config.system_count; ++i) {  // each part system keeps the common table, journalled by itself
-    nc::Interpreter& in = c->system[i].interpreter;
-    in.set_table_from_outside(in.frames.tool_key(number, column), value);
+  nc::Interpreter& in = c->system[0].interpreter;
+  const unsigned key = in.frames.tool_key(number, column);
+  if (in.shared != nullptr) {
+    in.shared->set_tool(key, value);
+  } else {
+    in.set_table_from_outside(key, value);
   }
   return NC_OK;
 }
@@ -197,7 +226,12 @@ nc_status nc_tool_offset_get(const nc_control* c, unsigned number, nc_tool_colum
 nc_status nc_variable_set(nc_control* c, unsigned system, uint32_t number, double value, bool vacant) {
   if (!known(c, system) || (!vacant && !std::isfinite(value))) return NC_E_ARGUMENT;
   nc::Interpreter& in = c->system[system].interpreter;
-  return in.variables.set_from_outside(number, in.macro_level(), nc::Value{value, vacant}) ? NC_OK : NC_E_NOT_FOUND;
+  const nc::Value given{value, vacant};
+  if (in.shared != nullptr && in.variables.shares(number)) {
+    in.shared->set_variable(number, given);
+    return NC_OK;
+  }
+  return in.variables.set_from_outside(number, in.macro_level(), given) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 nc_status nc_variable_get(const nc_control* c, unsigned system, uint32_t number, double* value, bool* vacant) {
@@ -219,8 +253,10 @@ nc_status nc_variable_name_get(const nc_control* c, uint32_t number, char name[8
 
 nc_status nc_variable_name_set(nc_control* c, uint32_t number, const char* name) {
   if (c == nullptr || name == nullptr) return NC_E_ARGUMENT;
-  nc::Variables& variables = c->system[0].interpreter.variables;
-  return variables.name_from_outside(number, name) ? NC_OK : NC_E_ARGUMENT;
+  nc::Interpreter& in = c->system[0].interpreter;
+  if (!in.variables.name_from_outside(number, name)) return NC_E_ARGUMENT;
+  if (in.shared != nullptr) in.shared->set_name(number, name);
+  return NC_OK;
 }
 
 void nc_device_on_read(nc_control* c, nc_device_read callback, void* user) {
@@ -228,14 +264,22 @@ void nc_device_on_read(nc_control* c, nc_device_read callback, void* user) {
   for (unsigned i = 0; i < c->config.system_count; ++i) c->system[i].interpreter.devices = {callback, user};
 }
 
-nc_status nc_common_next(const nc_control* c, unsigned system, uint32_t from, uint32_t* number, double* value) {
+nc_status nc_variable_next(const nc_control* c, unsigned system, uint32_t from, uint32_t* number, double* value) {
   if (!known(c, system) || number == nullptr || value == nullptr) return NC_E_ARGUMENT;
   return c->system[system].interpreter.variables.next(from, number, value) ? NC_OK : NC_E_NOT_FOUND;
 }
 
-uint32_t nc_interface_output(const nc_control* c, unsigned system, unsigned word) {
-  if (!known(c, system) || word >= NC_WORDS) return 0;
-  return static_cast<uint32_t>(c->system[system].interpreter.frames.get(Frames::output_key(word)));
+nc_status nc_interface_output_get(const nc_control* c, unsigned system, unsigned word, uint32_t* bits) {
+  if (!known(c, system) || word >= NC_WORDS || bits == nullptr) return NC_E_ARGUMENT;
+  *bits = static_cast<uint32_t>(c->system[system].interpreter.frames.get(Frames::output_key(word)));
+  return NC_OK;
+}
+
+nc_status nc_interface_output_set(nc_control* c, unsigned system, unsigned word, uint32_t mask, uint32_t bits) {
+  uint32_t now = 0;
+  if (const nc_status status = nc_interface_output_get(c, system, word, &now); status != NC_OK) return status;
+  c->system[system].interpreter.set_table_from_outside(Frames::output_key(word), (now & ~mask) | (bits & mask));
+  return NC_OK;
 }
 
 // ---- programs ---------------------------------------------------------------------------------------------------------------
@@ -258,16 +302,17 @@ nc_status nc_program_add_text(nc_control* c, const char* name, const char* text,
 }
 
 nc_status nc_program_get(const nc_control* c, unsigned file, nc_program_info* info) {
-  if (c == nullptr || info == nullptr) return NC_E_ARGUMENT;
+  if (c == nullptr || info == nullptr || nc::caller_bytes(info) == 0) return NC_E_ARGUMENT;
   const nc::TextEntry* entry = c->store.entry(file);
   if (entry == nullptr) return NC_E_NOT_FOUND;
-  *info = nc_program_info{};
-  std::memcpy(info->name, entry->name, sizeof info->name);
-  info->number = entry->number;
-  info->size = entry->size;
-  info->used = entry->used;
-  info->in_use = entry->own || is_referred_to(c, file, false);
-  info->is_protected = is_protected(c, file);
+  nc_program_info known{};
+  std::memcpy(known.name, entry->name, sizeof known.name);
+  known.number = entry->number;
+  known.size = entry->size;
+  known.used = entry->used;
+  known.in_use = entry->own || is_referred_to(c, file, false);
+  known.is_protected = is_protected(c, file);
+  nc::give_struct(known, info);
   return NC_OK;
 }
 
@@ -358,8 +403,12 @@ void nc_switches_set(nc_control* c, unsigned system, uint32_t optional_skip, uin
 }
 
 nc_status nc_alarm_get(const nc_control* c, unsigned system, nc_alarm* alarm) {
-  if (!known(c, system) || alarm == nullptr) return NC_E_ARGUMENT;
-  return c->system[system].alarm(alarm) ? NC_OK : NC_E_NOT_FOUND;
+  if (!known(c, system) || alarm == nullptr || nc::caller_bytes(alarm) == 0) return NC_E_ARGUMENT;
+  nc_alarm known;
+  if (!c->system[system].alarm(&known)) return NC_E_NOT_FOUND;
+  nc::own_text(c->config, known.code, known.message, sizeof known.message);
+  nc::give_struct(known, alarm);
+  return NC_OK;
 }
 
 unsigned nc_alarm_calls(const nc_control* c, unsigned system, nc_source* calls, unsigned capacity) {
@@ -369,10 +418,10 @@ unsigned nc_alarm_calls(const nc_control* c, unsigned system, nc_source* calls, 
 }
 
 nc_status nc_modal_get(const nc_control* c, unsigned system, uint32_t id, nc_modal* modal) {
-  if (!known(c, system) || modal == nullptr) return NC_E_ARGUMENT;
-  const auto& modals = c->system[system].interpreter.modals;
-  if (!modals.holds(id)) return NC_E_NOT_FOUND;
-  *modal = nc::to_public(modals[id]);
+  if (!known(c, system) || modal == nullptr || nc::caller_bytes(modal) == 0) return NC_E_ARGUMENT;
+  const nc::Interpreter& in = c->system[system].interpreter;
+  if (!in.modals.holds(id)) return NC_E_NOT_FOUND;
+  nc::give_struct(nc::to_public(*in.dialect, in.modals[id]), modal);
   return NC_OK;
 }
 
@@ -384,12 +433,14 @@ nc_status nc_text_get(const nc_control* c, unsigned system, uint32_t id, nc_text
   return NC_OK;
 }
 
-unsigned nc_modal_codes(const nc_control* c, const nc_modal* modal, char (*codes)[8], unsigned capacity) {
-  if (c == nullptr || modal == nullptr || codes == nullptr) return 0;
+unsigned nc_modal_codes(const nc_control* c, const nc_modal* given, char (*codes)[8], unsigned capacity) {
+  nc_modal modal{};
+  for (int16_t& code : modal.code) code = -1;
+  if (c == nullptr || given == nullptr || codes == nullptr || !nc::take_struct(given, &modal)) return 0;
   unsigned count = 0;
   for (unsigned group = 1; group < NC_GROUPS && count < capacity; ++group) {
-    if (modal->code[group] < 0) continue;
-    nc::g_code_text(modal->code[group], codes[count++], sizeof(codes[0]));
+    if (modal.code[group] < 0) continue;
+    nc::g_code_text(c->dialect->addresses.letter(nc::Role::code), modal.code[group], codes[count++], sizeof(codes[0]));
   }
   return count;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/commit.hpp"
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -13,14 +14,21 @@ namespace {
 constexpr double kNoLength = 1e-9;   // mm or deg: below every command unit
 constexpr double kPi = std::numbers::pi;
 
-/// A circle through the diagonal map behind compensation: mirrored axes turn it round.
-Circle map_circle(const Circle& c, const Transform& t, unsigned h, unsigned v) {
+/// A circle of a plane that the map behind compensation keeps. That map may turn and reflect, never stretch: it would stretch the radius of
+/// the tool with the path.
+Circle map_circle(const Circle& c, const Affine& map, unsigned h, unsigned v) {
   Circle m = c;
-  m.center[0] = t.sign[h] * c.center[0] + t.offset[h];
-  m.center[1] = t.sign[v] * c.center[1] + t.offset[v];
-  if (t.sign[h] < 0) m.angle_start = kPi - m.angle_start;
-  if (t.sign[v] < 0) m.angle_start = -m.angle_start;
-  m.sweep = c.sweep * t.sign[h] * t.sign[v];
+  AxisVec center;
+  center[h] = c.center[0];
+  center[v] = c.center[1];
+  center = map.apply(center);
+  m.center[0] = center[h];
+  m.center[1] = center[v];
+  if (map.only_translates()) return m;
+  const double turned = std::atan2(map.coefficient(v, h), map.coefficient(h, h));
+  const bool reflected = map.reflects(h, v);
+  m.angle_start = turned + (reflected ? -c.angle_start : c.angle_start);
+  if (reflected) m.sweep = -c.sweep;
   return m;
 }
 
@@ -42,27 +50,18 @@ AxisVec shares_of(const Curve& curve, unsigned axis_count) {
   return share;
 }
 
-/// M700 13.15: what the mode asks of this segment.
-AccuracyLimits accuracy_limits(const AccuracyParameters& p, const Move& move, const Curve& curve, const Circle& circle, unsigned axis_count) {
-  AccuracyLimits limits;
-  const AxisVec share = shares_of(curve, axis_count);
-  const bool rapid = move.kind == NC_MOVE_RAPID;
-  double clamp = path_clamp(rapid ? p.rapid_mm_min : p.clamp_mm_min, share.v, axis_count);
-  if (move.circular) clamp = std::fmin(clamp, arc_speed_clamp(p, std::fmin(circle.radius_start, circle.radius_end)));
-  if (move.speed_clamp > 0.0f) clamp = std::fmin(clamp, 60 * static_cast<double>(move.speed_clamp));
-  if (clamp < HUGE_VAL) limits.speed_clamp = static_cast<float>(clamp / 60);
-  if (rapid) return limits;
-  limits.acceleration = static_cast<float>(tolerable_acceleration(p));
-  const double step = tolerable_step(p) * (100 - p.corner_coefficient()) / 100;
-  if (step > 0) {
-    limits.corner_step = static_cast<float>(step / 60);
-    limits.smooth_cos = static_cast<float>(std::cos(p.corner_angle_deg * kPi / 180));
-    limits.corner_least = static_cast<float>(corner_speed_at_least(0, share.v, p.corner_least_mm_min, axis_count) / 60);
-    limits.judged_turn = move.judged_turn;
-  }
-  limits.arc_joint = static_cast<float>(p.arc_joint_mm_min / 60);
-  if ((move.high_accuracy & kFineSegmentsOn) != 0 && p.acceleration_clamp) limits.bend_acceleration = static_cast<float>(tolerable_acceleration(p));
-  return limits;
+/// This segment as high-accuracy control looks at it.
+AccuracyMove accuracy_move(const Move& move, const Curve& curve, const Circle& circle, unsigned axis_count) {
+  AccuracyMove m;
+  m.axis_count = axis_count;
+  m.share = shares_of(curve, axis_count);
+  m.rapid = move.kind == NC_MOVE_RAPID;
+  m.circular = move.circular;
+  if (move.circular) m.radius_mm = std::fmin(circle.radius_start, circle.radius_end);
+  m.speed_clamp_mm_s = static_cast<double>(move.speed_clamp);
+  m.judged_turn = move.judged_turn;
+  m.fine_segments = (move.high_accuracy & kFineSegmentsOn) != 0;
+  return m;
 }
 
 nc_axes to_axes(const AxisVec& a) {
@@ -84,6 +83,7 @@ void Commit::create(const CommitConfig& config, Arena& arena) {
   }
   if (!config.rotary_makes_length) line_rotary_ = rotary_;
   marks_ = arena.make<MarkPoint>(config.marks);
+  resumes_ = arena.make<Stages::Resume>(config.marks);
   constexpr uint32_t kMostShapes = 256;
   shape_mask_ = (config.records < kMostShapes ? config.records : kMostShapes) - 1;
   shapes_ = arena.make<CurveShape>(shape_mask_ + 1);
@@ -98,8 +98,9 @@ void Commit::add_held_axes(const Curve& curve, AxisVec* from, AxisVec* low, Axis
   Curve commanded = curve;
   AxisVec commanded_low, commanded_high;
   shape.what.map.frozen = 0;
+  const AxisVec from_here = shape.to_machine.apply(shape.base.start);
   for (unsigned i = 0; i < axis_count_; ++i)
-    if (((held >> i) & 1) != 0) commanded.start[i] = shape.sign[i] * shape.base.start[i] + shape.offset[i];
+    if (((held >> i) & 1) != 0) commanded.start[i] = from_here[i];
   commanded.end = curve_position(commanded, commanded.length, axis_count_);
   curve_bounds(commanded, axis_count_, &commanded_low, &commanded_high);
   shape.what.map.frozen = held;
@@ -117,8 +118,8 @@ bool Commit::inside_limits(const Curve& curve) {
   AxisVec low, high, start = curve.start;
   curve_bounds(curve, axis_count_, &low, &high);
   if (curve.shape != nullptr && curve.shape->what.map.frozen != 0) add_held_axes(curve, &start, &low, &high);
-  for (unsigned i = 0; i < axis_count_ && *config_.machine_turn != 0; ++i) {
-    if (((*config_.machine_turn >> i) & 1) == 0 || !config_.system->axis[i].soft_limited) continue;
+  for (unsigned i = 0; i < axis_count_ && settings_->machine_turn != 0; ++i) {
+    if (((settings_->machine_turn >> i) & 1) == 0 || !config_.system->axis[i].soft_limited) continue;
     const nc_axis_config& axis = config_.system->axis[i];
     const double away = 360 * turns_outside(start[i], axis.soft_min, axis.soft_max);
     start[i] -= away;
@@ -151,16 +152,16 @@ void Commit::note_record(uint32_t record) {
 }
 
 /// A curve of any other shape than a line or a circle of the axes.
-void Commit::commit_shape(const Move& move, const Transform& transform, const MoveShape& shape) {
+void Commit::commit_shape(const Move& move, const Affine& to_machine, const MoveShape& shape) {
   circle_ = Circle{};
-  if (move.circular) circle_ = map_circle(move.circle, transform, move.plane_axis[0], move.plane_axis[1]);
+  if (move.circular) circle_ = map_circle(move.circle, to_machine, move.plane_axis[0], move.plane_axis[1]);
   const AxisMap& map = shape.map;
   for (unsigned i = 0; i < 2 && map.kind == AxisMap::Kind::cylinder && move.circular; ++i) {
     const unsigned axis = map.rotary;
-    if (move.plane_axis[i] == axis) circle_.center[i] = transform.sign[axis] * move.circle.center[i] / map.scale + transform.offset[axis];
+    if (move.plane_axis[i] == axis) circle_.center[i] = to_machine.on_axis(axis, move.circle.center[i] / map.scale);
   }
   const PlainMove plain{&move.start, &move.end, move.circular ? &move.circle : nullptr, move.plane_axis[0], move.plane_axis[1]};
-  make_shaped(shape, plain, transform.sign, transform.offset, machine_, axis_count_, rotary_, &shapes_[shape_count_ & shape_mask_], &curve_);
+  make_shaped(shape, plain, to_machine, machine_, axis_count_, rotary_, &shapes_[shape_count_ & shape_mask_], &curve_);
 }
 
 /// Geometry that does not lead away from where the axes are would make them jump. Lines are made from there; a curve is what its block
@@ -173,18 +174,23 @@ bool Commit::begins_elsewhere(const Move& move) const {  // a shape, or an arc
   return std::fabs(h) > kNoJump || std::fabs(v) > kNoJump;
 }
 
-Committed Commit::commit(const Item& item, const Transform& transform, const MoveShape* shape) {
+Committed Commit::commit(const Item& item, const Named& named) {
   if (item.kind == ItemKind::move) {
     const Move& move = item.move;
+    const Affine& to_machine = *named.to_machine;
+    const MoveShape* shape = named.shape;
+    settings_ = named.settings;
+    const bool tilted = move.circular && shape == nullptr && !to_machine.only_translates() && !to_machine.keeps_plane(move.plane_axis[0], move.plane_axis[1]);
+    if (tilted) shape = &arc_in_space_;
     // The move begins where the one before ended, to the last bit.
-    AxisVec end = transform.to_machine(move.end);
+    AxisVec end = to_machine.apply(move.end);
     if (shape != nullptr) {
-      commit_shape(move, transform, *shape);
+      commit_shape(move, to_machine, *shape);
       if (jumps_at_pole(curve_)) return Committed::at_pole;
       if (begins_elsewhere(move)) return Committed::displaced;
       end = curve_.end;
     } else if (move.circular) {
-      circle_ = map_circle(move.circle, transform, move.plane_axis[0], move.plane_axis[1]);
+      circle_ = map_circle(move.circle, to_machine, move.plane_axis[0], move.plane_axis[1]);
       curve_.shape = nullptr;
       if (begins_elsewhere(move)) return Committed::displaced;
       curve_ = make_arc(machine_, end, move.plane_axis[0], move.plane_axis[1], circle_, axis_count_, rotary_);
@@ -222,29 +228,6 @@ double Commit::helix_slope() const {
   return in_plane > 0 ? curve_.length / in_plane : 1.0;
 }
 
-void Commit::remember(const Item& mark) {
-  if (!mark.mark.resume) return;
-  MarkPoint& point = marks_[mark_count_++ & mark_mask_];
-  point.serial = last_serial_;
-  point.seq = mark.mark.seq;
-  point.machine = machine_;
-  point.held = MarkPoint::Held::nothing;
-}
-
-void Commit::remember(const Item& mark, const OffsetResume& offset) {
-  remember(mark);
-  if (!mark.mark.resume) return;
-  newest_point()->held = MarkPoint::Held::contour;
-  newest_point()->offset = offset;
-}
-
-void Commit::remember(const Item& mark, const FairingResume& fairing) {
-  remember(mark);
-  if (!mark.mark.resume) return;
-  newest_point()->held = MarkPoint::Held::lines;
-  newest_point()->fairing = fairing;
-}
-
 const MarkPoint* Commit::find(Serial serial) const {
   for (uint64_t i = 0; i < mark_count_ && i <= mark_mask_; ++i) {
     const MarkPoint& point = marks_[(mark_count_ - 1 - i) & mark_mask_];
@@ -265,12 +248,30 @@ void Commit::space_arc_to_public(nc_move* out) const {
   const CurveShape& shape = *curve_.shape;
   const SpaceArc& arc = shape.what.arc;
   out->center_axes = 3;
+  AxisVec center;
+  for (unsigned i = 0; i < 3; ++i) center[arc.axis[i]] = arc.center[i];
+  const AxisVec on_machine = shape.to_machine.apply(center);
   for (unsigned i = 0; i < 3; ++i) {
     out->plane_axis[i] = arc.axis[i];
     out->center[i] = arc.center[i];
-    out->machine_center[i] = shape.sign[arc.axis[i]] * arc.center[i] + shape.offset[arc.axis[i]];
+    out->machine_center[i] = on_machine[arc.axis[i]];
   }
   out->radius = arc.radius;
+}
+
+/// The arc of a plane that is tilted on the machine: its centre has three coordinates there, the third of the axis that it is tilted towards.
+void Commit::tilted_arc_to_public(const Move& move, nc_move* out) const {
+  const CurveShape& shape = *curve_.shape;
+  const unsigned h = move.plane_axis[0], v = move.plane_axis[1];
+  AxisVec center = shape.base.start;
+  center[h] = move.circle.center[0];
+  center[v] = move.circle.center[1];
+  const AxisVec on_machine = shape.to_machine.apply(center);
+  const unsigned third = static_cast<unsigned>(std::countr_zero(shape.to_machine.coupled() & ~(1u << h | 1u << v)));
+  out->center_axes = 3;
+  out->plane_axis[2] = static_cast<uint8_t>(third);
+  out->center[2] = center[third];
+  for (unsigned i = 0; i < 3; ++i) out->machine_center[i] = on_machine[out->plane_axis[i]];
 }
 
 namespace {
@@ -286,8 +287,8 @@ void put_mark(const Item& item, nc_item* out) {
 
 }  // namespace
 
-void Commit::mark_to_public(const Item& item, nc_item* out) {
-  out->serial = ++last_serial_;
+void Commit::mark_to_public(const Item& item, nc_item* out) const {
+  out->serial = last_serial_;
   out->source = item.source;
   put_mark(item, out);
 }
@@ -324,6 +325,7 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       m.sweep_deg = circle_.sweep * 180 / kPi;
       m.ccw = circle_.sweep > 0;
       if (curve_.shape != nullptr && curve_.shape->what.kind == ShapeKind::space_arc) space_arc_to_public(&m);
+      if (curve_.shape != nullptr && move.circular && move.shape == 0) tilted_arc_to_public(move, &m);
       break;
     }
     case ItemKind::action: {
@@ -368,7 +370,7 @@ uint8_t Commit::moved_tables(const Curve& curve) const {
   curve_bounds(curve, axis_count_, &low, &high);
   uint32_t axes = 0;
   for (unsigned i = 0; i < axis_count_; ++i)
-    if (((*config_.index_axes >> i) & 1) != 0 && high[i] - low[i] > kNoLength) axes |= 1u << i;
+    if (((settings_->index_axes >> i) & 1) != 0 && high[i] - low[i] > kNoLength) axes |= 1u << i;
   return static_cast<uint8_t>(axes);
 }
 
@@ -415,7 +417,7 @@ void Commit::set_filter(const Move& move, const FilterParameters& filters, Segme
   curve_bounds(curve_, axis_count_, &low, &high);
   for (unsigned i = 0; i < axis_count_; ++i)
     if (high[i] > low[i]) filtered.moving |= 1u << i;
-  s->filter = filter_times(filters, filtered, config_.cycle_s);
+  s->filter = config_.rules->filter_times(filters, filtered, config_.cycle_s);
   // M700 13.15: arcs of two linear axes themselves; roundness is nothing that a rotary axis has a part in.
   if (!curve_.circular || curve_.shape != nullptr || filtered.kind != FilteredMove::Kind::cut) return;
   if (((rotary_ >> curve_.h | rotary_ >> curve_.v) & 1) != 0) return;
@@ -423,7 +425,7 @@ void Commit::set_filter(const Move& move, const FilterParameters& filters, Segme
   s->round_mm[1] = static_cast<float>(filters.round_mm[curve_.v]);
 }
 
-void Commit::to_record(const Item& item, const Transform& transform, const AccuracyParameters& accuracy, const FilterParameters& filters, Record* out) {
+void Commit::to_record(const Item& item, const Named& named, Record* out) {
   out->serial = last_serial_;
   out->source = item.source;
   out->kind = item.kind;
@@ -431,11 +433,9 @@ void Commit::to_record(const Item& item, const Transform& transform, const Accur
     case ItemKind::move: {
       out->segment = Segment{};
       Segment& s = out->segment;
+      const Affine& to_machine = *named.to_machine;
       s.curve = curve_;
-      for (unsigned i = 0; i < axis_count_; ++i) {
-        s.work_sign[i] = transform.sign[i];
-        s.to_work[i] = -transform.sign[i] * transform.offset[i];
-      }
+      s.to_work = to_machine.inverse();
       s.rapid = item.move.kind == NC_MOVE_RAPID;
       s.feed_mm_s = s.rapid ? 0 : item.move.feed_mm_min / 60;
       s.feed_mm_rev = item.move.feed_mm_rev;
@@ -453,8 +453,8 @@ void Commit::to_record(const Item& item, const Transform& transform, const Accur
       s.feed_end_mm_s = static_cast<double>(item.move.feed_end) / 60;
       s.thread_angle = item.move.thread_angle;
       if (item.move.high_accuracy != 0 && !s.thread && item.move.kind != NC_MOVE_TAP)  // those go with the spindle
-        s.accuracy = accuracy_limits(accuracy, item.move, curve_, circle_, axis_count_);
-      set_filter(item.move, filters, &s);
+        s.accuracy = config_.rules->accuracy_limits(named.settings->accuracy, accuracy_move(item.move, curve_, circle_, axis_count_));
+      set_filter(item.move, named.settings->filters, &s);
       s.unclamps = item.move.unclamps;
       set_index_axes(&s);
       break;

@@ -2,13 +2,18 @@
 // What an nc_control is.
 #pragma once
 
+#include "control/joints.hpp"
 #include "control/part_system.hpp"
 
 struct nc_control {
   nc_config config;
   const nc::Dialect* dialect;
   nc::ProgramStore store;
-  nc::CommonVariables common;
+  nc::CommonVariables common[NC_MAX_SYSTEMS];  // as each part system sees them
+  nc::SharedTables shared;
+  nc::VendorCodes vendor;
   nc::PartSystem system[NC_MAX_SYSTEMS];
+  nc::Joints joints[NC_MAX_SYSTEMS];
+  bool any_joints;
   char mdi[NC_MAX_SYSTEMS][1024 + 6];  // and what is put around the blocks
 };

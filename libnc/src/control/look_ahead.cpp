@@ -5,9 +5,9 @@
 //   Nothing to compensate: the items of the block lie in the interpreter's queue, and the moves are tried where they lie. A fixed
 //   cycle makes its moves bit by bit; what it has still to make is rehearsed, without the pecks, which lie within their hole.
 //
-//   With radius compensation: a move has its geometry only when the offset stage gives it out. All of the block is fetched from there
-//   first. What the stage finds itself (interference, no intersection) then stops the block as a whole, too. So it is behind lines that
-//   fairing has held back; elsewhere the ends that fairing moves stay between programmed points, which are tried as they are.
+//   With radius compensation, and with a corner at its end: a move has its geometry only when the stages give it out. All of the block is
+//   fetched from there first. What a stage finds itself (interference, no intersection, a corner that does not fit) then stops the block as
+//   a whole, too. So it is behind lines that fairing has held back; elsewhere the ends that fairing moves stay between programmed points, which are tried as they are.
 #include "control/part_system.hpp"
 #include "interpret/functions/functions.hpp"
 
@@ -34,19 +34,19 @@ nc_status PartSystem::look_ahead(uint32_t& budget) {
   return NC_OK;
 }
 
-/// The block at the front of the interpreter's queue has a move that will be compensated.
+/// The block at the front of the interpreter's queue has a move that will be compensated, or get a corner.
 bool PartSystem::goes_to_stage() const {
   for (unsigned i = 0; i < interpreter.queued(); ++i) {
     const Item& item = interpreter.queued(i);
     if (ends_look_ahead(item)) break;
-    if (item.kind == ItemKind::move && item.move.comp.side != 0) return true;
+    if (item.kind == ItemKind::move && (item.move.comp.side != 0 || item.move.corner != Corner::none)) return true;
   }
   return false;
 }
 
 bool PartSystem::try_item(const Item& item, Committed* committed) {
   if (item.kind != ItemKind::move) return true;
-  *committed = commit_.try_item(item, interpreter.transforms[item.move.transform], shape_of_item(item));
+  *committed = commit_.try_item(item, named(item));
   return *committed == Committed::yes || *committed == Committed::nothing;
 }
 
@@ -106,7 +106,7 @@ nc_status PartSystem::gather_block(uint32_t& budget) {
   bool whole = false;
   while (!whole && staged_count_ < kStaged) {  // no block that can be compensated makes more
     Item& place = staged_[staged_count_];
-    if (!idle_ && pop_held(place)) {
+    if (!stages_.idle() && pop_held(place)) {
       ++staged_count_;
       whole = ends_look_ahead(place);
       continue;
@@ -115,10 +115,10 @@ nc_status PartSystem::gather_block(uint32_t& budget) {
       const nc_status status = interpreter.step(budget);
       if (status != NC_OK) return status;
     }
-    const Item& front = *interpreter.front();
-    const Intake intake = take_in(front);
-    if (intake == Intake::later) continue;
-    if (intake == Intake::straight) {
+    Item& front = *interpreter.front();
+    const Stages::Intake intake = stages_.push(front);
+    if (intake == Stages::Intake::later) continue;
+    if (intake == Stages::Intake::straight) {
       place = front;
       ++staged_count_;
       whole = ends_look_ahead(place);

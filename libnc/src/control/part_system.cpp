@@ -5,6 +5,7 @@
 #include "dialect/text.hpp"
 #include "shape/shape.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -16,30 +17,28 @@ constexpr double kSameCurve = 1e-6;  // mm or deg
 
 }  // namespace
 
-void PartSystem::create(const nc_config& config, unsigned index, const Dialect& dialect, ProgramStore* store, CommonVariables* common,
-                        Arena& arena) {
+void PartSystem::create(const nc_config& config, unsigned index, const Dialect& dialect, const Shared& shared, Arena& arena) {
   const nc_system_config& system = config.system[index];
   InterpreterConfig in;
   in.dialect = &dialect;
   in.system = &system;
-  in.system_number = static_cast<uint8_t>(index + 1);
+  in.system_index = static_cast<uint8_t>(index);
   in.look_ahead = config.look_ahead;
   in.window_bytes = config.window_bytes;
-  in.several = config.system_count > 1;
   in.frames.extended_systems = config.work_offsets;
   in.frames.tool_offsets = config.tool_offsets;
-  interpreter.create(in, store, common, arena);
+  in.vendor = shared.vendor;
+  interpreter.create(in, shared.store, shared.common, arena);
 
   CommitConfig commit;
   commit.system = &system;
   commit.stroke_boxes = &interpreter.stroke_boxes;
-  commit.machine_turn = &interpreter.settings.machine_turn;
-  commit.index_axes = &interpreter.settings.index_axes;
   commit.marks = config.look_ahead;
   commit.records = config.look_ahead;
-  commit.rotary_makes_length = dialect.id == NC_DIALECT_M700;
+  commit.rotary_makes_length = dialect.rules.feed.degree_counts_as_millimetre;
   commit.cycle_s = config.cycle_s;
-  commit.filters = dialect.id == NC_DIALECT_M700 && config.motion_mode != NC_MOTION_OPTIMAL;
+  commit.rules = &dialect.rules.motion;
+  commit.filters = dialect.rules.motion.filter_times != nullptr && config.motion_mode != NC_MOTION_OPTIMAL;
   commit_.create(commit, arena);
 
   ExecutorConfig ex;
@@ -59,14 +58,19 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.cycle_s = config.cycle_s;
   ex.max_feed_override = config.max_feed_override;
   ex.capacity = config.look_ahead;
+  ex.tells_marks = config.system_count > 1;
   ex.filters = commit.filters;
   interpreter.parameters.set_filter_room(Shape::places(kLongestMean, config.cycle_s) * config.cycle_s * 1000, index == 0);
   optimal_ = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.optimal = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.tolerance = config.path_tolerance;
   executor.create(ex, arena);
-  fairing_.create(interpreter.axis_count, interpreter.rotary, arena);
-  if (!arena.measuring() && !arena.overflowed()) clear_stages();
+  stages_.create(&interpreter.motion_settings, arena);
+  const AddressTable& addresses = dialect.addresses;
+  stages_.stage<ContourStage>().create(interpreter.axis_count, interpreter.rotary, addresses.letter(Role::option_chamfer),
+                                       addresses.letter(Role::option_corner_radius), arena);
+  stages_.stage<FairingStage>().create(interpreter.axis_count, interpreter.rotary, arena);
+  if (!arena.measuring() && !arena.overflowed()) stages_.reset();
 }
 
 void PartSystem::count_from(uint32_t first) {
@@ -85,7 +89,7 @@ void PartSystem::count_from(uint32_t first) {
     return NC_OK;
   }
   for (;;) {
-    if (!idle_) {
+    if (!stages_.idle()) {
       staged_head_ = 0;
       if (pop_held(staged_[0])) {
         staged_count_ = 1;
@@ -100,67 +104,15 @@ void PartSystem::count_from(uint32_t first) {
       if (status != NC_OK) return status;
       front = interpreter.front();
     }
-    if (!(idle_ && !may_be_held(*front))) {
-      const bool through = idle_ && front->move.comp.side == 0 && !interpreter.settings.fairing.any();
-      const Intake intake = through ? Intake::straight : take_in(*front);
-      if (intake == Intake::taken) interpreter.pop();
-      if (intake != Intake::straight) continue;
+    if (!stages_.idle() || may_be_held(*front)) {
+      const Stages::Intake intake = stages_.push(*front);
+      if (intake == Stages::Intake::taken) interpreter.pop();
+      if (intake != Stages::Intake::straight) continue;
     }
     from_stage_ = false;  // nothing to hold back: straight through
     *item = front;
     return NC_OK;
   }
-}
-
-/// Next item behind both stages, false when they must see more first.
-[[gnu::noinline]] bool PartSystem::pop_held(Item& out) {
-  for (;;) {
-    if (!offset_idle_) {
-      const bool any = offset_.pop(out);
-      offset_idle_ = offset_.idle();
-      see_idle();
-      if (any) return true;
-    }
-    const bool any = fairing_.pop(out);
-    see_idle();
-    if (!any) return false;
-    if (offset_idle_ && !(out.kind == ItemKind::move && out.move.comp.side != 0)) return true;
-    offset_.push(out);
-    offset_idle_ = offset_.idle();
-  }
-}
-
-/// The stages have been emptied as far as they can be. Fairing holds nothing while a contour is compensated: its figure is what is
-/// compensated there (docs/decisions.md).
-[[gnu::noinline]] PartSystem::Intake PartSystem::take_in(const Item& front) {
-  if (held_settings_ != interpreter.settings_count) {
-    const Settings& now = interpreter.settings;
-    if (!(held_accuracy_ == now.accuracy) || !(held_filters_ == now.filters)) {
-      if (!fairing_.empty()) {
-        fairing_.close();
-        return Intake::later;
-      }
-      held_accuracy_ = now.accuracy;
-      held_filters_ = now.filters;
-    }
-    held_settings_ = interpreter.settings_count;
-  }
-  const FairingRule& rule = interpreter.settings.fairing;
-  Intake intake = Intake::taken;
-  if (!fairing_.idle() || (offset_idle_ && rule.any() && fairing_.takes(front))) {
-    if (!fairing_.push(front, rule)) intake = Intake::later;
-  } else if (offset_idle_ && !(front.kind == ItemKind::move && front.move.comp.side != 0)) {
-    return Intake::straight;
-  } else {
-    offset_.push(front);
-    offset_idle_ = offset_.idle();
-  }
-  see_idle();
-  return intake;
-}
-
-const MoveShape* PartSystem::shape_of_item(const Item& item) const {
-  return item.kind == ItemKind::move && item.move.shape != 0 ? &interpreter.shapes[item.move.shape - 1] : nullptr;
 }
 
 void PartSystem::take() {
@@ -201,7 +153,7 @@ void PartSystem::stop_on(const Fault& fault, const nc_source& source) {
   interpreter.rewind(last != nullptr ? last->seq : 0);
   // Of the block that stops some moves may have gone; compensated ones do not end where the program says.
   if (!from_stage_) interpreter.state.machine = commit_.machine();
-  clear_stages();
+  stages_.reset();
   clear_staged();
   interpreter.abort(fault, source);
 }
@@ -216,22 +168,67 @@ static void put_cause(const AlarmStory& story, nc_text* detail) {
   out.put(story.cause.s);
 }
 
-void PartSystem::describe_alarm() {
-  const Fault& fault = interpreter.alarm_fault;
+void PartSystem::put_fault(const Fault& fault, const nc_source& source, nc_alarm* out) const {
   const AlarmText text = alarm_text(*interpreter.dialect, fault);
-  alarm_ = nc_alarm{};
-  alarm_given_ = true;
-  std::strncpy(alarm_.code, text.code, sizeof(alarm_.code) - 1);
-  std::strncpy(alarm_.message, text.message, sizeof(alarm_.message) - 1);
+  *out = nc_alarm{};
+  std::strncpy(out->code, text.code, sizeof(out->code) - 1);
+  std::strncpy(out->message, text.message, sizeof(out->message) - 1);
   char axis_name[2] = {0, 0};
   if (fault.axis >= 0) axis_name[0] = interpreter.system->axis[fault.axis].name;
-  alarm_detail(fault, axis_name, alarm_.detail.s, sizeof(alarm_.detail.s));
+  alarm_detail(*interpreter.dialect, fault, axis_name, out->detail.s, sizeof(out->detail.s));
+  out->axis = fault.axis;
+  out->source = source;
+}
+
+void PartSystem::describe_alarm() {
+  const Fault& fault = interpreter.alarm_fault;
+  put_fault(fault, interpreter.alarm_source, &alarm_);
+  alarm_given_ = true;
   const nc_text& own_words = interpreter.texts[interpreter.user_alarm_text].text;
   if (fault.condition == Condition::user_alarm && own_words.s[0] != 0)  // M700 13.5.5: the message and its number, as printed
     TextWriter(alarm_.detail.s, sizeof alarm_.detail.s).put(own_words.s).put(' ').put_number(fault.value);
+  if (fault.condition == Condition::vendor_function) {
+    std::memcpy(alarm_.code, interpreter.vendor_alarm.code, sizeof alarm_.code);
+    std::memcpy(alarm_.message, interpreter.vendor_alarm.message, sizeof alarm_.message);
+    alarm_.detail = interpreter.vendor_alarm.detail;
+  }
   put_cause(interpreter.alarm_story, &alarm_.detail);
-  alarm_.axis = fault.axis;
-  alarm_.source = interpreter.alarm_source;
+}
+
+bool PartSystem::alarm(nc_alarm* out) const {
+  nc_source place;
+  if (online_ && executor.faulted(&place)) {  // before one that has been read and not come to
+    Fault fault;
+    fault.condition = Condition::internal;
+    put_fault(fault, place, out);
+    return true;
+  }
+  if (alarm_given_) *out = alarm_;
+  return alarm_given_;
+}
+
+/// The blocks that led to where an alarm has stopped the program that is in no record; 0: none has, or that is not known. Those that have been
+/// read behind it know who has called it, until they are given up.
+unsigned PartSystem::stop_calls(nc_source (&calls)[kMaxFrames]) const {
+  nc_source place;
+  BlockSeq behind = 0;
+  return executor.stopped(&place, &behind) ? interpreter.calls_behind(place, behind, calls) : 0;
+}
+
+unsigned PartSystem::alarm_calls(nc_source* out, unsigned capacity) const {
+  nc_source place;
+  BlockSeq behind = 0;
+  const AlarmStory& story = interpreter.alarm_story;
+  const bool stopped = online_ && executor.stopped(&place, &behind);  // before an alarm that has been read and not come to
+  if (stopped && (run_.active() || run_.word() != executor.run())) {
+    nc_source calls[kMaxFrames];
+    const unsigned count = interpreter.calls_behind(place, behind, calls);
+    std::copy_n(calls, std::min(count, capacity), out);
+    return count;
+  }
+  if (!stopped && !alarm_given_) return 0;
+  std::copy_n(story.calls, std::min<unsigned>(story.count, capacity), out);
+  return story.count;
 }
 
 // ---- offline ---------------------------------------------------------------------------------------------------------------
@@ -250,7 +247,7 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   // M700 13.12, type 1: at once. The item that was given out last is the one that is interrupted, unless it is done already; a contour
   // under compensation and a block that waits for an answer are finished first.
   const bool cuttable = pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate;
-  if (settings.interrupt_type_2 || !cuttable || !idle_ || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
+  if (settings.interrupt_type_2 || !cuttable || !stages_.idle() || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
   commit_.take_back(pulled_ == ItemKind::move);
   if (interpreter.interrupt(commit_.machine(), 1, true)) {
     uit_pending_ = false;
@@ -342,13 +339,57 @@ void PartSystem::drop_repeated() {
   watch();
 }
 
-/// The end of a block, to the host: every second item of a program, and nearly every one of a macro.
-[[gnu::always_inline]] inline void PartSystem::give_mark(const Item& item, nc_item* out) {
-  commit_.mark_to_public(item, out);
-  pulled_ = ItemKind::mark;
-  remember_mark(item);
-  if (item.mark.resume && interpreter.state.repeat.active) drop_repeated();
-  take();
+/// The one way from the interpreter to a sink. Part of both loops that take items, as next() is.
+[[gnu::always_inline]] inline nc_status PartSystem::pump(uint32_t& budget, const Item** given) {
+  *given = nullptr;
+  const Item* item = nullptr;
+  const nc_status status = next(budget, &item);
+  if (status != NC_OK) return status;
+  if (commit_watch_ != nullptr) [[unlikely]] before_watched_ = commit_.place();
+  if (item->kind == ItemKind::mark && !watched_) [[likely]] {  // every second item of a program, and nearly every one of a macro
+    commit_.commit_mark();
+    *given = item;
+    return NC_OK;
+  }
+  if (item->kind == ItemKind::alarm && from_stage_) {
+    stop_on(item->alarm, item->source);
+    return NC_OK;
+  }
+  if (wants_look_ahead(*item)) [[unlikely]] return look_ahead(budget);
+  const Committed committed = commit_.commit(*item, named(*item));
+  if (committed != Committed::yes && committed != Committed::nothing) {
+    stop_on(refused(committed), item->source);
+    return NC_OK;
+  }
+  if (watched_ && drops(*item)) [[unlikely]] {
+    if (committed == Committed::yes) commit_.uncount();
+    take();
+  } else if (committed == Committed::nothing) {
+    take();
+  } else {
+    *given = item;
+  }
+  return NC_OK;
+}
+
+/// What follows from an item for whoever drives the part system.
+[[gnu::always_inline]] inline void PartSystem::note_mark(const Item& mark) {
+  remember_mark(mark);
+  if (mark.mark.resume && interpreter.state.repeat.active) [[unlikely]] drop_repeated();
+}
+
+void PartSystem::note_given(const Item& item) {
+  if (item.kind == ItemKind::sync) sync_what_ = item.sync.what, sync_source_ = item.source, open_sync_ = commit_.serial();
+  if (item.kind == ItemKind::alarm) describe_alarm();
+}
+
+/// M96, M97, and the way into an interrupt program and back. They are no block that can be cut.
+void PartSystem::note_interrupt_mode(const Item& item) {
+  if (item.kind != ItemKind::action || item.action.kind != NC_ACTION_CONTROL || item.action.index != NC_CONTROL_INTERRUPT) return;
+  const auto mode = static_cast<uint32_t>(item.action.value);
+  uit_rest_.change(uit_mode_, mode);
+  uit_mode_ = mode;
+  pulled_ = ItemKind::sync;
 }
 
 nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
@@ -359,52 +400,22 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
       if (wanted && pulled_ == ItemKind::mark && interruptible()) begin_interrupt();
     }
     const Item* item = nullptr;
-    const nc_status status = next(budget, &item);
+    const nc_status status = pump(budget, &item);
     if (status != NC_OK) return status;
-    if (item->kind == ItemKind::alarm && from_stage_) {
-      stop_on(item->alarm, item->source);
-      continue;
-    }
-    if (item->kind == ItemKind::mark && !watched_) [[likely]] {
-      give_mark(*item, out);
-      return NC_OK;
-    }
-    if (wants_look_ahead(*item)) [[unlikely]] {
-      const nc_status looked = look_ahead(budget);
-      if (looked != NC_OK) return looked;
-      continue;
-    }
-    static constexpr Transform kNone{};
-    const Transform& transform = item->kind == ItemKind::move ? interpreter.transforms[item->move.transform] : kNone;
-    const Committed committed = commit_.commit(*item, transform, shape_of_item(*item));
-    if (committed != Committed::yes && committed != Committed::nothing) {
-      stop_on(refused(committed), item->source);
-      continue;
-    }
-    if (watched_ && drops(*item)) [[unlikely]] {
-      if (committed == Committed::yes) commit_.uncount();
-      take();
-      continue;
-    }
-    if (committed == Committed::nothing) {
-      take();
-      continue;
-    }
-    commit_.to_public(*item, out);
+    if (item == nullptr) continue;
     pulled_ = item->kind;
-    if (item->kind == ItemKind::move) move_zero_ = transform.offset;
     if (item->kind == ItemKind::mark) {
-      if (item->mark.report) uit_rest_.block_ended();
-      remember_mark(*item);
-      if (item->mark.resume && interpreter.state.repeat.active) drop_repeated();
-    }
-    if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, sync_source_ = item->source, open_sync_ = commit_.serial();
-    if (item->kind == ItemKind::alarm) describe_alarm();
-    if (item->kind == ItemKind::action && item->action.kind == NC_ACTION_CONTROL && item->action.index == 96) {
-      const auto mode = static_cast<uint32_t>(item->action.value);
-      uit_rest_.change(uit_mode_, mode);
-      uit_mode_ = mode;
-      pulled_ = ItemKind::sync;  // M96 itself, and the way into an interrupt program and back: no block that can be cut
+      commit_.mark_to_public(*item, out);
+      if (watched_ && item->mark.report) [[unlikely]] uit_rest_.block_ended();
+      note_mark(*item);
+    } else {
+      commit_.to_public(*item, out);
+      if (item->kind == ItemKind::move) [[likely]] {
+        move_zero_ = interpreter.transforms[item->move.transform].offset();
+      } else {
+        note_given(*item);
+        note_interrupt_mode(*item);
+      }
     }
     take();
     return NC_OK;
@@ -425,9 +436,51 @@ nc_status PartSystem::move_zero(nc_axes* zero) const {
   return NC_OK;
 }
 
+/// The part system whose next block end was executed first, but not behind the cycle `until`; of one cycle the first one, as nc_cycle() goes.
+/// nullptr: there is no other.
+PartSystem* PartSystem::first_executed(uint32_t until, BlockSeq* seq) {
+  PartSystem* first = nullptr;
+  uint32_t earliest = until;
+  for (unsigned i = 0; i < system_count_; ++i) {
+    PartSystem& system = systems_[i];
+    uint32_t cycle = 0;
+    BlockSeq block = 0;
+    if (!system.busy() || !system.executor.executed_mark(system.run_.epoch(), &cycle, &block)) continue;
+    const auto later = static_cast<int32_t>(cycle - earliest);
+    if (later > 0 || (later == 0 && first != nullptr)) continue;
+    first = &system;
+    earliest = cycle;
+    *seq = block;
+  }
+  return first;
+}
+
+void PartSystem::publish_all() {
+  if (system_count_ == 0) return;
+  uint32_t until = executor.cycle_seen();
+  for (unsigned i = 0; i < system_count_; ++i) {
+    PartSystem& system = systems_[i];
+    const uint32_t seen = system.executor.cycle_seen();
+    if (static_cast<int32_t>(seen - until) < 0) until = seen;
+    if (system.busy()) continue;
+    const MarkPoint* const last = system.commit_.newest();
+    if (last != nullptr) system.interpreter.shared->publish(system.interpreter, last->seq);
+  }
+  BlockSeq block = 0;
+  while (PartSystem* const system = first_executed(until, &block)) {
+    system->executor.take_executed_mark();
+    system->published_ = block;
+    system->interpreter.shared->publish(system->interpreter, block);
+  }
+}
+
 nc_status PartSystem::answer(const nc_world& world) {
   if (open_sync_ == 0) return NC_E_STATE;
   open_sync_ = 0;
+  if (interpreter.shared != nullptr) {  // everything that was read has been executed, calls without a mark of their own as well
+    publish_all();
+    interpreter.shared->publish(interpreter, interpreter.state.seq);
+  }
   interpreter.answer(world);
   if ((sync_what_ & NC_SYNC_SKIP) != 0 && world.skipped) {
     AxisVec machine;
@@ -451,11 +504,11 @@ nc_status PartSystem::rewind(Serial serial) {
   uit_mode_ = 0;
   if (interpreter.state.interrupt_on) uit_mode_ |= NC_INTERRUPT_ENABLED;
   if (interpreter.state.interrupt_depth != 0) uit_mode_ |= NC_INTERRUPT_IN_SERVICE;
-  clear_stages();
-  if (point->held == MarkPoint::Held::contour && point->offset.active) offset_.restore(point->offset);
-  if (point->held == MarkPoint::Held::lines) fairing_.restore(point->fairing);
-  offset_idle_ = offset_.idle();
-  see_idle();
+  if (point->stages != 0) {
+    stages_.restore(commit_.resume(*point), point->stages);
+  } else {
+    stages_.reset();
+  }
   commit_.rewind_to(*point);
   if (interpreter.state.repeat.active) drop_repeated();
   return NC_OK;
@@ -463,12 +516,15 @@ nc_status PartSystem::rewind(Serial serial) {
 
 void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   stop_ = Stop::none;
+  interpreter.feeding = run_.active();
+  publish_all();
+  published_ = 0;
   interpreter.reset(keep_modal);
   interpreter.set_machine(machine);
   forget_interrupt();
   uit_mode_ = 0;
   uit_rest_.forget();
-  clear_stages();
+  stages_.reset();
   clear_staged();
   open_sync_ = 0;
   finished_ = false;
@@ -506,52 +562,39 @@ void PartSystem::set_position(const AxisVec& machine) {
 
 // ---- online ----------------------------------------------------------------------------------------------------------------
 
+/// The item that has just been taken to machine coordinates waits for a later nc_feed(): nothing has happened.
+bool PartSystem::put_off(const Item& item) {
+  nc_item shown;
+  commit_.to_public(item, &shown);
+  if (commit_watch_(commit_watch_user_, &shown)) return false;
+  commit_.put_back(before_watched_);
+  return true;
+}
+
 nc_status PartSystem::commit_online(uint32_t& budget) {
   const Item* item = nullptr;
-  const nc_status status = next(budget, &item);
-  if (status != NC_OK) return status;
-  if (item->kind == ItemKind::alarm && from_stage_) {
-    stop_on(item->alarm, item->source);
+  const nc_status status = pump(budget, &item);
+  if (status != NC_OK || item == nullptr) return status;
+  if (commit_watch_ != nullptr && put_off(*item)) [[unlikely]] return NC_WAITING;
+  Record record;
+  commit_.to_record(*item, named(*item), &record);
+  record.epoch = run_.epoch();
+  record.staged = from_stage_;
+  if (resumes_) [[unlikely]] resume_record(record);
+  if (optimal_ && item->kind == ItemKind::move && !OptimalMode::moves(record.segment)) [[unlikely]] {
+    commit_.take_back(true);
+    stop_on(OptimalMode::refusal(), item->source);
     return NC_OK;
   }
-  if (wants_look_ahead(*item)) [[unlikely]] return look_ahead(budget);
-  static constexpr Transform kNone{};
-  const Transform& transform = item->kind == ItemKind::move ? interpreter.transforms[item->move.transform] : kNone;
-  const Committed committed = commit_.commit(*item, transform, shape_of_item(*item));
-  if (committed != Committed::yes && committed != Committed::nothing) {
-    stop_on(refused(committed), item->source);
-    return NC_OK;
+  if (item->kind == ItemKind::move) commit_.note_record(executor.head());
+  executor.push(record);
+  if (item->kind == ItemKind::mark) {
+    note_mark(*item);
+    if (stop_ == Stop::committed) stop_ = Stop::passed;
   }
-  if (committed == Committed::yes && watched_ && drops(*item)) [[unlikely]] {
-    commit_.uncount();
-    take();
-    return NC_OK;
-  }
-  if (committed == Committed::yes) {
-    Record record;
-    const AccuracyParameters& accuracy = from_stage_ ? held_accuracy_ : interpreter.settings.accuracy;
-    const FilterParameters& filters = from_stage_ ? held_filters_ : interpreter.settings.filters;
-    commit_.to_record(*item, transform, accuracy, filters, &record);
-    record.epoch = run_.epoch();
-    record.staged = from_stage_;
-    if (resumes_) [[unlikely]] resume_record(record);
-    if (optimal_ && item->kind == ItemKind::move && !OptimalMode::moves(record.segment)) [[unlikely]] {
-      commit_.take_back(true);
-      stop_on(OptimalMode::refusal(), item->source);
-      return NC_OK;
-    }
-    if (item->kind == ItemKind::move) commit_.note_record(executor.head());
-    executor.push(record);
-    if (item->kind == ItemKind::mark) {
-      remember_mark(*item);
-      if (stop_ == Stop::committed) stop_ = Stop::passed;
-      if (item->mark.resume && interpreter.state.repeat.active) [[unlikely]] drop_repeated();
-    }
-    if (item->kind == ItemKind::gate && stops(item->gate)) stop_ = Stop::committed;
-    if (item->kind == ItemKind::sync) sync_what_ = item->sync.what, sync_source_ = item->source, open_sync_ = commit_.serial();
-    if (item->kind == ItemKind::alarm) describe_alarm();
-    if (item->kind == ItemKind::end) finished_ = true;
-  }
+  note_given(*item);
+  if (item->kind == ItemKind::gate && stops(item->gate)) stop_ = Stop::committed;
+  if (item->kind == ItemKind::end) finished_ = true;
   take();
   return NC_OK;
 }
@@ -559,7 +602,7 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
 bool PartSystem::sync_place(nc_source* source, uint32_t* main_line) const {
   if (open_sync_ == 0) return false;
   *source = sync_source_;
-  *main_line = sync_source_.depth == 0 ? sync_source_.line : interpreter.state.frame[0].call_line;
+  *main_line = this->main_line(sync_source_);
   return true;
 }
 
@@ -593,14 +636,19 @@ void PartSystem::tell_axis_parameters() {
 void PartSystem::follow_run() {
   const RunWord now(executor.run()), before = run_;
   if (now.word() == before.word()) return;
+  publish_all();
   online_ = true;
   run_ = now;
   if (now.epoch() != before.epoch()) {
+    nc_source calls[kMaxFrames];
+    const unsigned count = stop_calls(calls);
     // What was read beyond the last block that was executed has not happened: offsets, variables and outputs are as before it.
     if (before.active() && !executor.ended()) rewind(executor.last_mark());
     interpreter.clear_by_reset();
     restart(executor.commanded());
     commit_.restart();
+    interpreter.alarm_story.count = static_cast<uint8_t>(count);
+    std::copy_n(calls, count, interpreter.alarm_story.calls);
   }
   if (now.active()) {
     interpreter.mirror_signal = static_cast<uint8_t>(executor.mirror() & ((1u << interpreter.axis_count) - 1));
@@ -638,10 +686,10 @@ nc_status PartSystem::feed(uint32_t budget) {
     const uint32_t referenced = executor.referenced() | interpreter.settings.no_reference;
     interpreter.closed_axes = spindle_axes_ & ~(executor.servo_ready() & referenced);
   }
-  while (status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1 && commit_.shape_room(executor.tail(), executor.head()) &&
+  while (status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1 && executor.may_push() && commit_.shape_room(executor.tail(), executor.head()) &&
          may_read_on()) {
     status = commit_online(budget);
-    ++committed;
+    if (status == NC_OK) ++committed;
   }
   if (open_sync_ != 0) {
     nc_world world{};
@@ -688,22 +736,19 @@ bool PartSystem::read_again(Serial last) {
 /// The axes were moved by hand in a block stop; what follows starts where the machine is. An axis that the next block does not name stays
 /// there, an incremental word counts from there; under radius compensation the vector in force is carried along.
 /// M700 12.4.4, 14.12: with manual absolute on the coordinate systems stay, and an absolute word goes to its programmed place. With it off
-/// (`shift`, bit i: axis i) they go along: the rest of the program is shifted, until G92.1.
-void PartSystem::displace(const AxisVec& machine, uint32_t shift) {
+/// (`shift`, what was moved by hand, and not what a stop on a smoothed line lies beside it) they go along: the rest of the program is shifted,
+/// until G92.1.
+void PartSystem::displace(const AxisVec& machine, const AxisVec& shift) {
   AxisVec programmed = interpreter.state.machine;
   bool any = false;
   for (unsigned i = 0; i < interpreter.axis_count; ++i) {
+    if (shift[i] != 0) interpreter.shift_coordinates(i, shift[i]);
     const double moved = machine[i] - commit_.machine()[i];
     if (moved == 0) continue;
     any = true;
-    if ((shift >> i & 1) != 0) interpreter.shift_coordinates(i, moved);
-    programmed[i] = idle_ ? machine[i] : programmed[i] + moved;
+    programmed[i] = stages_.idle() ? machine[i] : programmed[i] + moved;
   }
-  if (any) {  // what fairing has joined is no more: every line from here to its own end
-    fairing_.reset();
-    see_idle();
-    commit_.forget_fairing();
-  }
+  if (any) commit_.forget_stages(stages_.displaced());
   interpreter.move_to(programmed);
   commit_.displace(machine);
 }

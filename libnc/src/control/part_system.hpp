@@ -1,19 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// One part system: interpreter, offset stage, commit and executor in a row, and the two ways to drive them (pull, feed).
+// One part system: interpreter, stages, commit and executor in a row, and the two ways to drive them (pull, feed).
 #pragma once
 
 #include "control/commit.hpp"
 #include "interpolate/executor.hpp"
 #include "interpolate/run_word.hpp"
 #include "interpret/interpreter.hpp"
-#include "offset/offset.hpp"
+#include "interpret/shared_tables.hpp"
 #include "stream/interrupt_rest.hpp"
 
 namespace nc {
 
 class PartSystem {
  public:
-  void create(const nc_config& config, unsigned index, const Dialect& dialect, ProgramStore* store, CommonVariables* common, Arena& arena);
+  /// What the part systems of a control have in common.
+  struct Shared {
+    ProgramStore* store;
+    CommonVariables* common;
+    const VendorCodes* vendor;
+  };
+  void create(const nc_config& config, unsigned index, const Dialect& dialect, const Shared& shared, Arena& arena);
+  /// Of several part systems: all `count` of them, behind create() of each.
+  void join(PartSystem* systems, unsigned count, SharedTables* shared) {
+    systems_ = systems;
+    system_count_ = count;
+    shared->join(interpreter);
+  }
+  /// What the machine has executed in each part system is known to the others, in the order of execution. Before anything is read.
+  void publish_all();
 
   /// `mdi`: blocks of MDI, which go on with the modal state that MDI blocks before them have left.
   nc_status select(const ProgramRef& program, bool mdi = false);
@@ -34,47 +48,44 @@ class PartSystem {
   void set_position(const AxisVec& machine);
   /// The block that waits for the answer to a sync, and the line of the main program that it belongs to; false: none does.
   bool sync_place(nc_source* source, uint32_t* main_line) const;
+  uint32_t main_line(const nc_source& source) const { return source.depth == 0 ? source.line : interpreter.state.frame[0].call_line; }
+  /// Online: `watch` is shown each item before it is committed, and may put it off.
+  void watch_commits(nc_commit_watch to_call, void* user) {
+    commit_watch_ = to_call;
+    commit_watch_user_ = user;
+  }
   /// A program is in execution or interrupted, as far as the feeder has taken notice.
-  bool busy() const { return online_ && run_.active(); }
+  /// Nor may anything be changed from outside while a function of the vendor's reads a block of it.
+  bool busy() const { return (online_ && run_.active()) || interpreter.in_vendor_function; }
   /// The same as of now: what the scan has done is taken notice of first.
   bool occupied() {
     follow_run();
     return busy();
   }
-  /// The newest block that the machine has executed; false: it has executed all that was read.
+  /// The newest block that the machine has executed, of several part systems as of publish_all(); false: it has executed all that was read.
   bool executed_block(BlockSeq* seq) const {
-    if (busy()) *seq = executor.last_block();
+    if (busy()) *seq = system_count_ != 0 ? published_ : executor.last_block();
     return busy();
   }
-  /// The alarm in words, once its item has been given out; false = none.
-  bool alarm(nc_alarm* out) const {
-    if (alarm_given_) *out = alarm_;
-    return alarm_given_;
-  }
-
-  unsigned alarm_calls(nc_source* out, unsigned capacity) const {
-    if (!alarm_given_) return 0;
-    const AlarmStory& story = interpreter.alarm_story;
-    for (unsigned i = 0; i < story.count && i < capacity; ++i) out[i] = story.calls[i];
-    return story.count;
-  }
+  /// The alarm in words, once its item has been given out, or that of the scan, which has no item; false = none.
+  bool alarm(nc_alarm* out) const;
+  unsigned alarm_calls(nc_source* out, unsigned capacity) const;
 
   Interpreter interpreter;
   Executor executor;
 
  private:
+  PartSystem* first_executed(uint32_t until, BlockSeq* seq);
   /// Next item in stream order behind the stages; NC_OK, or why there is none. take() removes it.
   nc_status next(uint32_t& budget, const Item** item);
+  /// The same, committed, for the sink: for nc_pull() as for the ring. nullptr with NC_OK: there was something to do, but nothing to give.
+  nc_status pump(uint32_t& budget, const Item** item);
   void take();
-  bool pop_held(Item& out);
-  /// What became of the front of the interpreter's queue: it is in a stage, nothing has to hold it back, or what is held goes first.
-  enum class Intake : uint8_t { taken, straight, later };
-  Intake take_in(const Item& front);
-  /// Radius compensation, or fine segments that fairing may be about.
-  static bool may_be_held(const Item& item) {
-    return item.kind == ItemKind::move && (item.move.comp.side != 0 || (item.move.high_accuracy & kFineSegmentsOn) != 0);
-  }
-  void give_mark(const Item& item, nc_item* out);
+  bool pop_held(Item& out) { return stages_.pop(out); }
+  /// The item has been given out.
+  void note_mark(const Item& mark);
+  void note_given(const Item& item);
+  void note_interrupt_mode(const Item& item);
   // look_ahead.cpp
   nc_status look_ahead(uint32_t& budget);
   nc_status gather_block(uint32_t& budget);
@@ -93,23 +104,29 @@ class PartSystem {
     gathering_ = false;
     looked_behind_ = kNowhere;
   }
-  const MoveShape* shape_of_item(const Item& item) const;
+  Named named(const Item& item) const {
+    if (item.kind != ItemKind::move) return {};
+    const Move& move = item.move;
+    return {&interpreter.transforms[move.transform], move.shape != 0 ? &interpreter.shapes[move.shape - 1] : nullptr,
+            &interpreter.motion_settings[move.settings]};
+  }
   void remember_mark(const Item& mark) {
-    if (idle_) return commit_.remember(mark);
-    if (!offset_idle_) return commit_.remember(mark, offset_.resume_point());
-    if (!fairing_.resume_point().active()) return commit_.remember(mark);
-    commit_.remember(mark, fairing_.resume_point());
+    if (mark.mark.place == 0) return commit_.remember(mark);
+    commit_.remember(mark, stages_.behind(mark.mark));
   }
   Fault refused(Committed committed) const;
   void stop_on(const Fault& fault, const nc_source& source);
   void describe_alarm();
+  void put_fault(const Fault& fault, const nc_source& source, nc_alarm* out) const;
+  unsigned stop_calls(nc_source (&calls)[kMaxFrames]) const;
   void restart(const AxisVec& machine, bool keep_modal = false);
   void follow_run();
   nc_status commit_online(uint32_t& budget);
   bool may_read_on();
+  bool put_off(const Item& item);
   static bool stops(const Gate& gate) { return gate.kind == NC_GATE_STOP || gate.kind == NC_GATE_OPTIONAL_STOP; }
   bool read_again(Serial last);
-  void displace(const AxisVec& machine, uint32_t shift);
+  void displace(const AxisVec& machine, const AxisVec& shift);
   void take_spindle_axes(const nc_world& world);
   bool begin_interrupt();
   /// Offline: a signal would be accepted behind what has been given out; what is read ahead of that does not count.
@@ -127,20 +144,10 @@ class PartSystem {
     watch();
   }
 
-  FairingStage fairing_;
-  OffsetStage offset_;
-  bool offset_idle_ = true;  ///< offset_.idle()
-  bool idle_ = true;         ///< that of both stages, which every item asks
-  void see_idle() { idle_ = offset_idle_ && fairing_.idle(); }
-  void clear_stages() {
-    fairing_.reset();
-    offset_.reset();
-    offset_idle_ = idle_ = true;
-  }
-  /// As they were when what the stages hold was read: a program may change parameters behind it.
-  AccuracyParameters held_accuracy_;
-  FilterParameters held_filters_;
-  uint32_t held_settings_ = 0;  ///< Interpreter::settings_count of these
+  PartSystem* systems_ = nullptr;  ///< all of them, where there are several
+  unsigned system_count_ = 0;
+  BlockSeq published_ = 0;         ///< online: newest block of this run of which the others know
+  Stages stages_;
   Commit commit_;
   nc_alarm alarm_{};
   bool alarm_given_ = false;
@@ -155,6 +162,9 @@ class PartSystem {
   bool online_ = false;      ///< driven by feed()
   bool optimal_ = false;     ///< time-optimal motion
   RunWord run_;              ///< that the feeder has acted upon
+  nc_commit_watch commit_watch_ = nullptr;
+  void* commit_watch_user_ = nullptr;
+  Commit::Place before_watched_;  ///< the item that is shown to it
   bool finished_ = false;    ///< the end item has been committed
   void watch() { watched_ = uit_ || uit_pending_ || drop_ != 0; }
   bool watched_ = false;                    ///< one of the three below is on: asked with every item

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // One sentence for the person at the machine: what in this block is wrong and, where it helps, what to do.
-// The same for all families; the code and the short text beside it are the manual's.
+// The same for all families, which put in their own codes; the code and the short text beside it are the manual's.
 //
 // A sentence is a template: {word} is the offending word with its value ("X12.5", "G54.1"), {axis} the axis
-// ("axis X"), {value} the value alone, {function} the function or operator of a formula. A fault that does not carry what the first sentence of its row needs
-// takes the second. A fault whose letter is G or M names the code that is in trouble and its value is that
-// code's number, so it says nothing about {value}.
+// ("axis X"), {value} the value alone, {function} the function or operator of a formula, {comp_off} and its
+// like (kNamedCodes) the code that the family has for that. A fault that does not carry what the first
+// sentence of its row needs takes the second. A fault whose letter is that of G or M codes names the code that is in trouble
+// and its value is that code's number, so it says nothing about {value}.
 #include <cmath>
+#include <initializer_list>
 
 #include "dialect/alarms.hpp"
+#include "dialect/dialect.hpp"
 #include "dialect/function_table.hpp"
 #include "dialect/text.hpp"
 
@@ -21,7 +24,28 @@ struct Sentence {
   Condition condition;
   const char* full;
   const char* plain;           ///< needs no word and no value; nullptr = `full` does not either
-  const char* code = nullptr;  ///< instead of `full` when the letter is G or M
+  const char* code = nullptr;  ///< instead of `full` when the letter is that of G or M codes
+};
+
+/// What a sentence may name a code by: {comp_off} is the code that the family has for it.
+struct NamedCode {
+  const char* name;
+  Function function;
+};
+constexpr NamedCode kNamedCodes[] = {
+    {"rotation_on", Function::rotation_on}, {"rotation_off", Function::rotation_off},
+    {"comp_off", Function::comp_off}, {"rapid", Function::rapid}, {"linear", Function::linear},
+    {"cycle_off", Function::cycle_off}, {"plane_xy", Function::plane_xy},
+    {"incremental", Function::incremental}, {"absolute", Function::absolute},
+    {"comp_left", Function::comp_left}, {"comp_right", Function::comp_right},
+    {"space_arc_first", Function::space_arc_first}, {"space_arc_second", Function::space_arc_second},
+    {"inverse_time_feed", Function::inverse_time_feed}, {"reference_check", Function::reference_check},
+    {"start_return", Function::start_return}, {"measure_length", Function::measure_length},
+    {"length_plus", Function::length_plus}, {"stroke_check_on", Function::stroke_check_on},
+    {"high_accuracy", Function::high_accuracy}, {"high_speed", Function::high_speed},
+    {"data_input", Function::data_input}, {"local_system", Function::local_system},
+    {"extended_system", Function::extended_system}, {"macro_modal_off", Function::macro_modal_off},
+    {"macro_modal", Function::macro_modal}, {"data_input_end", Function::data_input_end},
 };
 
 constexpr Sentence kSentences[] = {
@@ -71,39 +95,48 @@ constexpr Sentence kSentences[] = {
     {C::helix_option, "The arc moves {axis} too, and helical interpolation is not fitted.", nullptr},
     {C::plane_mismatch, "{word} does not fit the plane that is selected.",
      "The words of the arc do not belong to the plane that is selected."},
-    {C::plane_in_rotation, "The plane cannot be selected while coordinates are rotated, nor in the block of G68. Cancel with G69 first.", nullptr},
-    {C::space_conversion, "G68 with I, J and K is the conversion in space, which this control does not have.", nullptr},
+    {C::plane_in_rotation,
+     "The plane cannot be selected while coordinates are rotated, nor in the block of {rotation_on}. "
+     "Cancel with {rotation_off} first.", nullptr},
+    {C::space_conversion, "{rotation_on} with I, J and K is the conversion in space, which this control does not have.", nullptr},
     {C::plane_in_compensation,
-     "The plane cannot be changed while tool radius compensation is on. Cancel it with G40 first.", nullptr},
+     "The plane cannot be changed while tool radius compensation is on. Cancel it with {comp_off} first.", nullptr},
     {C::arc_in_compensation_start,
-     "Tool radius compensation can only start and end on a straight move (G00 or G01).", nullptr},
+     "Tool radius compensation can only start and end on a straight move ({rapid} or {linear}).", nullptr},
     {C::no_offset_number, "There is no offset number {value}.", "No offset number was given (D or H)."},
     {C::cycle_in_compensation,
-     "Fixed cycles and tool radius compensation exclude each other. Cancel with G80 or G40 first.", nullptr},
+     "Fixed cycles and tool radius compensation exclude each other. Cancel with {cycle_off} or {comp_off} first.", nullptr},
     {C::skip_in_compensation,
-     "Skip is not possible while tool radius compensation is on. Cancel it with G40 first.", nullptr},
+     "Skip is not possible while tool radius compensation is on. Cancel it with {comp_off} first.", nullptr},
     {C::skip_feed_zero, "The feed rate of the skip is 0. Program F in this block or set the skip feed rate.",
      nullptr},
     {C::no_reference, "{axis} has not been to its reference position.", nullptr},
     {C::soft_limit, "{axis} would go to {value}, beyond its stroke limit.",
      "{axis} would go beyond its stroke limit."},
     {C::spindle_not_turning, "The cycle needs a turning spindle. Program S and M03 before it.", nullptr},
-    {C::cycle_wrong_plane, "Fixed cycles and tool-diameter offset work in the XY plane only. Program G17.",
+    {C::cycle_wrong_plane, "Fixed cycles and tool-diameter offset work in the XY plane only. Program {plane_xy}.",
      nullptr},
     {C::not_in_compensation,
-     "{word} is not possible while tool radius compensation is on. Cancel it with G40 first.",
-     "This is not possible while tool radius compensation is on. Cancel it with G40 first."},
-    {C::code_in_incremental, "{word} is not possible with G91. Program G90 first.",
-     "This is not possible with G91. Program G90 first."},
+     "{word} is not possible while tool radius compensation is on. Cancel it with {comp_off} first.",
+     "This is not possible while tool radius compensation is on. Cancel it with {comp_off} first."},
+    {C::code_in_incremental, "{word} is not possible with {incremental}. Program {absolute} first.",
+     "This is not possible with {incremental}. Program {absolute} first."},
     {C::tool_pair, "M06 and T must stand together in one block.", nullptr},
     {C::comp_no_intersection,
      "The compensated paths of two blocks do not meet. Use a smaller tool or a larger inner radius.",
      nullptr},
     {C::comp_interference, "The tool would cut into the contour. Use a smaller tool or change the contour.",
      nullptr},
-    {C::corner_option, "Corner chamfering and rounding (,C ,R) are not fitted.", nullptr},
+    {C::corner_option, "Corner chamfering and rounding (,C ,R) are not fitted for this motion.", nullptr},
+    {C::corner_arc, "A corner (,C ,R) lies between two lines; the block before or behind it is an arc.", nullptr},
+    {C::corner_no_move, "The block behind a corner (,C ,R) must be a straight cut.", nullptr},
+    {C::corner_short, "The block is shorter than its corner ,{word}.", "The block is shorter than its corner (,C ,R)."},
+    {C::corner_next_short, "The block is shorter than the corner ,{word} at its start.",
+     "The block is shorter than the corner (,C ,R) at its start."},
+    {C::corner_motion, "A corner (,C ,R) lies between two straight cuts. Program {linear} first.", nullptr},
+    {C::pre_read, "Too many blocks without a movement behind a corner (,C ,R).", nullptr},
     {C::geometric_option, "Lines given by their angle (,A) are not fitted.", nullptr},
-    {C::space_compensation, "Three-dimensional radius compensation (G41/G42 with I, J and K) is not fitted.",
+    {C::space_compensation, "Three-dimensional radius compensation ({comp_left}/{comp_right} with I, J and K) is not fitted.",
      nullptr},
     {C::second_aux, "The word {word} is not the address of the second auxiliary function.",
      "The address of the second auxiliary function is another one."},
@@ -119,8 +152,8 @@ constexpr Sentence kSentences[] = {
      "The path of cylindrical or polar coordinate interpolation cannot be followed here."},
     {C::space_arc_blocks, "An arc in space needs two blocks: the point on the way and the end point.",
      nullptr},
-    {C::space_arc_mode, "{word} and the arc in space (G02.4, G03.4) exclude each other.",
-     "The arc in space (G02.4, G03.4) is not possible in the modes that are in force."},
+    {C::space_arc_mode, "{word} and the arc in space ({space_arc_first}, {space_arc_second}) exclude each other.",
+     "The arc in space ({space_arc_first}, {space_arc_second}) is not possible in the modes that are in force."},
     {C::exponential_mode, "The exponential curve is not possible in the modes that are in force.", nullptr},
     {C::exponential_axes,
      "The parameters name no linear and rotary axis for the exponential curve, or it does not reach the end "
@@ -132,30 +165,34 @@ constexpr Sentence kSentences[] = {
     {C::displaced, "The axes are not where this curve begins: they were moved by hand. Start the program again.", nullptr},
     {C::space_conversion_code, "{word} and the conversion of coordinates in space exclude each other.",
      "This and the conversion of coordinates in space exclude each other."},
-    {C::inverse_time_code, "{word} and inverse time feed (G93) exclude each other.",
-     "This and inverse time feed (G93) exclude each other."},
+    {C::inverse_time_code, "{word} and inverse time feed ({inverse_time_feed}) exclude each other.",
+     "This and inverse time feed ({inverse_time_feed}) exclude each other."},
+    {C::circle_radius, "The radius of the circle, {word}, is not larger than the tool offset. Use a smaller tool or a larger radius.",
+     "The circle has no radius. Program it in this block."},
     {C::arc_feed_zero, "F0 is the rapid traverse rate, and an arc cannot be cut with it.", nullptr},
     {C::reference_compare, "{axis} is not at its reference position.", nullptr},
-    {C::reference_check_m, "An M code cannot stand in a block with the reference position check G27.", nullptr},
-    {C::start_return_m, "An M code cannot stand in a block with the start position return G29.", nullptr},
-    {C::measure_axis, "Tool length measurement (G37) needs exactly one axis.", nullptr},
-    {C::measure_h, "{word} cannot stand in a block with tool length measurement (G37).",
-     "H and T cannot stand in a block with tool length measurement (G37)."},
-    {C::measure_no_length, "Tool length measurement (G37) needs a tool length offset of the axis. Program G43 H before it.", nullptr},
+    {C::reference_check_m, "An M code cannot stand in a block with the reference position check {reference_check}.", nullptr},
+    {C::start_return_m, "An M code cannot stand in a block with the start position return {start_return}.", nullptr},
+    {C::measure_axis, "Tool length measurement ({measure_length}) needs exactly one axis.", nullptr},
+    {C::measure_h, "{word} cannot stand in a block with tool length measurement ({measure_length}).",
+     "H and T cannot stand in a block with tool length measurement ({measure_length})."},
+    {C::measure_no_length,
+     "Tool length measurement ({measure_length}) needs a tool length offset of the axis. Program {length_plus} H before it.", nullptr},
     {C::measure_signal,
      "The signal of the sensor did not come within the measuring range about {value}.",
      "The signal of the sensor did not come within the measuring range."},
-    {C::stroke_check, "The block starts or ends in the area that G22 prohibits.", nullptr},
+    {C::stroke_check, "The block starts or ends in the area that {stroke_check_on} prohibits.", nullptr},
     {C::not_accepted, "{word} is not accepted in the mode that is on.", "This is not accepted in the mode that is on."},
-    {C::in_high_accuracy, "{word} is not possible between G08 P1 and G08 P0. Command G08 P0 first.",
-     "This is not possible between G08 P1 and G08 P0. Command G08 P0 first."},
-    {C::high_speed_3, "High-speed machining mode III (G05 P3) is not fitted. P0 ends the modes, P1 and P2 are I and II.", nullptr},
+    {C::in_high_accuracy, "{word} is not possible between {high_accuracy} P1 and {high_accuracy} P0. Command {high_accuracy} P0 first.",
+     "This is not possible between {high_accuracy} P1 and {high_accuracy} P0. Command {high_accuracy} P0 first."},
+    {C::high_speed_3,
+     "High-speed machining mode III ({high_speed} P3) is not fitted. P0 ends the modes, P1 and P2 are I and II.", nullptr},
     // offsets
-    {C::g10_l, "G10 does not know L{value}.", "G10 does not know this L."},
-    {C::g10_p, "G10: there is no data set P{value}.",
-     "G10: the number P of the data set is missing or wrong."},
+    {C::g10_l, "{data_input} does not know L{value}.", "{data_input} does not know this L."},
+    {C::g10_p, "{data_input}: there is no data set P{value}.",
+     "{data_input}: the number P of the data set is missing or wrong."},
     {C::local_in_extended,
-     "G52 is not possible while an extended workpiece coordinate system (G54.1) is selected.", nullptr},
+     "{local_system} is not possible while an extended workpiece coordinate system ({extended_system}) is selected.", nullptr},
     // programs and macros
     {C::program_missing, "The program O{value} is not in the memory.",
      "The program called is not in the memory."},
@@ -166,9 +203,9 @@ constexpr Sentence kSentences[] = {
     {C::no_macro, "User macros are not fitted.", nullptr},
     {C::macro_and_words, "A macro statement and ordinary words cannot stand in one block.", nullptr},
     {C::macro_argument, "The macro call has more sets of I J K arguments than a macro can take.", nullptr},
-    {C::cancel_without_call, "G67 has no G66 to cancel.", nullptr},
-    {C::user_alarm, "The program has raised alarm {value} itself (#3000).",
-     "The program has raised an alarm itself (#3000)."},
+    {C::cancel_without_call, "{macro_modal_off} has no {macro_modal} to cancel.", nullptr},
+    {C::user_alarm, "The program has raised alarm {value} itself ({alarm_variable}).",
+     "The program has raised an alarm itself ({alarm_variable})."},
     {C::bracket_nesting, "Brackets [ ] are nested too deeply.", nullptr},
     {C::bracket_pair, "The block has not as many [ as ].", nullptr},
     {C::calculation,
@@ -193,8 +230,8 @@ constexpr Sentence kSentences[] = {
     {C::call_in_cycle, "A macro cannot be called by {word} during a fixed cycle.",
      "A macro cannot be called by a code during a fixed cycle."},
     {C::parameter_input,
-     "Parameter input (G10 L70 ... G11): {word} is not possible, or there is no such parameter or value.",
-     "Parameter input: G10 L70 and G11 stand alone, between them only blocks with P and H, D or <text>."},
+     "Parameter input ({data_input} L70 ... {data_input_end}): {word} is not possible, or there is no such parameter or value.",
+     "Parameter input: {data_input} L70 and {data_input_end} stand alone, between them only blocks with P and H, D or <text>."},
     {C::program_edited, "The program that begins here is being edited: start it again when that is done.", nullptr},
     {C::rotation_in_figure, "{word} cannot be used while a program is called with rotation (M98 I J K).",
      "Rotation cannot be used while a program is called with rotation (M98 I J K)."},
@@ -209,14 +246,29 @@ constexpr Sentence kSentences[] = {
      "The data that is to be read does not exist."},
     {C::read_failed, "The program could not be read any further.", nullptr},
     {C::program_changed, "The file of the program has changed since it was selected: reset, and select it again.", nullptr},
+    {C::vendor_function, "The machine's own function {word} could not be carried out.", "A function of the machine's own could not be carried out."},
     {C::internal,
      "The control has met a state that should not exist. Please report the program that led to it.", nullptr},
 };
 
+/// The word in braces at `at` is this one.
+constexpr bool is_key(const char* at, const char* name) {
+  for (++at; *name != 0; ++at, ++name)
+    if (*at != *name) return false;
+  return *at == '}';
+}
+
+constexpr const NamedCode* named_code(const char* at) {
+  for (const NamedCode& row : kNamedCodes)
+    if (is_key(at, row.name)) return &row;
+  return nullptr;
+}
+
+constexpr char kAlarmVariable[] = "alarm_variable";
+
 constexpr bool names_word_or_value(const char* sentence) {
-  for (; *sentence != 0; ++sentence) {
-    if (*sentence == '{' && sentence[1] != 'a') return true;
-  }
+  for (; *sentence != 0; ++sentence)
+    if (*sentence == '{' && (is_key(sentence, "word") || is_key(sentence, "value") || is_key(sentence, "function"))) return true;
   return false;
 }
 
@@ -228,8 +280,24 @@ constexpr bool every_row_has_a_sentence_for_a_bare_fault() {
 }
 static_assert(every_row_has_a_sentence_for_a_bare_fault());
 
-bool about_code(const Fault& fault) {
-  return fault.letter == 'G' || fault.letter == 'M';
+constexpr bool all_keys_known(const char* sentence) {
+  for (; sentence != nullptr && *sentence != 0; ++sentence) {
+    if (*sentence != '{' || named_code(sentence) != nullptr) continue;
+    bool known = is_key(sentence, kAlarmVariable);
+    for (const char* name : {"word", "axis", "value", "function"}) known = known || is_key(sentence, name);
+    if (!known) return false;
+  }
+  return true;
+}
+constexpr bool every_key_is_known() {
+  for (const Sentence& row : kSentences)
+    if (!all_keys_known(row.full) || !all_keys_known(row.plain) || !all_keys_known(row.code)) return false;
+  return true;
+}
+static_assert(every_key_is_known());
+
+bool about_code(const Dialect& dialect, const Fault& fault) {
+  return dialect.addresses.is(fault.letter, Role::code) || dialect.addresses.is(fault.letter, Role::misc_code);
 }
 
 // Bytes outside printable ASCII are not shown: they may be half of a character.
@@ -238,15 +306,16 @@ bool has_letter(const Fault& fault) {
 }
 
 // The offending word: "G54.1", "X12.5", "P" when it has no value; a sign in quotes.
-void put_word(TextWriter& out, const Fault& fault) {
+void put_word(TextWriter& out, const Dialect& dialect, const Fault& fault) {
   char code[12];
-  if (about_code(fault) && fault.has_value && fault.value >= 0 && fault.value < 1e6) {
+  if (about_code(dialect, fault) && fault.has_value && fault.value >= 0 && fault.value < 1e6) {
     // no_function carries the code of a table row, times 10; every other G fault the number as programmed.
-    const bool times_ten = fault.letter == 'M' || fault.condition == C::no_function;
+    const bool misc = dialect.addresses.is(fault.letter, Role::misc_code);
+    const bool times_ten = misc || fault.condition == C::no_function;
     const double number = times_ten ? fault.value : fault.value * 10;
     if (std::fabs(number - std::nearbyint(number)) < 1e-6) {  // G0.15, M3.5 are no codes: they are shown as they were programmed
-      if (fault.letter == 'G') g_code_text(static_cast<int>(std::lround(number)), code, sizeof code);
-      else m_code_text(static_cast<unsigned>(std::lround(number)), code, sizeof code);
+      if (misc) m_code_text(fault.letter, static_cast<unsigned>(std::lround(number)), code, sizeof code);
+      else g_code_text(fault.letter, static_cast<int>(std::lround(number)), code, sizeof code);
       out.put(code);
       return;
     }
@@ -265,51 +334,72 @@ void put_word(TextWriter& out, const Fault& fault) {
 
 // Whether the fault carries all that a sentence names. The axis has a word of its own when it is not known,
 // so it never decides.
-bool complete(const char* sentence, const Fault& fault) {
+bool complete(const Dialect& dialect, const char* sentence, const Fault& fault) {
   for (; *sentence != 0; ++sentence) {
     if (*sentence != '{') continue;
-    if (sentence[1] == 'w' && !has_letter(fault)) return false;
-    if (sentence[1] == 'f' && fault.function == nullptr) return false;
-    if (sentence[1] == 'v' && (!fault.has_value || about_code(fault))) return false;
+    if (is_key(sentence, "word") && !has_letter(fault)) return false;
+    if (is_key(sentence, "function") && fault.function == nullptr) return false;
+    if (is_key(sentence, "value") && (!fault.has_value || about_code(dialect, fault))) return false;
   }
   return true;
 }
 
-const char* choose(const Fault& fault) {
+const char* choose(const Dialect& dialect, const Fault& fault) {
   for (const Sentence& row : kSentences) {
     if (row.condition != fault.condition) continue;
-    const char* sentence = row.code != nullptr && about_code(fault) ? row.code : row.full;
-    return row.plain == nullptr || complete(sentence, fault) ? sentence : row.plain;
+    const char* sentence = row.code != nullptr && about_code(dialect, fault) ? row.code : row.full;
+    return row.plain == nullptr || complete(dialect, sentence, fault) ? sentence : row.plain;
   }
   return "";
 }
 
+// A family without a code for a function does not raise what is said of it; the sentence holds all the same.
+void put_code(TextWriter& out, const Dialect& dialect, Function function) {
+  char code[12];
+  const FunctionRow* const row = find_function(dialect, function);
+  if (row == nullptr) {
+    out.put("its code");
+    return;
+  }
+  g_code_text(dialect.addresses.letter(Role::code), row->code, code, sizeof code);
+  out.put(code);
+}
+
+void put_alarm_variable(TextWriter& out, const Dialect& dialect) {
+  for (const VariableRow& row : dialect.variables->rows) {
+    if (row.what != SystemVariable::alarm) continue;
+    out.put('#').put_integer(row.first);
+    return;
+  }
+  out.put("its variable");
+}
+
+// A sentence may begin with it.
+void put_axis(TextWriter& out, const char* axis_name) {
+  const bool known = axis_name != nullptr && axis_name[0] != 0, first = out.used() == 0;
+  out.put(first ? (known ? "Axis" : "An axis") : (known ? "axis" : "axis of this name"));
+  if (known) out.put(' ').put(axis_name);
+}
+
+void put_key(TextWriter& out, const char* at, const Dialect& dialect, const Fault& fault, const char* axis_name) {
+  if (const NamedCode* const named = named_code(at); named != nullptr) put_code(out, dialect, named->function);
+  else if (is_key(at, kAlarmVariable)) put_alarm_variable(out, dialect);
+  else if (is_key(at, "word")) put_word(out, dialect, fault);
+  else if (is_key(at, "function")) out.put(fault.function);
+  else if (is_key(at, "value")) out.put_number(fault.value);
+  else put_axis(out, axis_name);
+}
+
 }  // namespace
 
-void alarm_detail(const Fault& fault, const char* axis_name, char* text, size_t size) {
+void alarm_detail(const Dialect& dialect, const Fault& fault, const char* axis_name, char* text, size_t size) {
   TextWriter out(text, size);
-  const bool axis_known = axis_name != nullptr && axis_name[0] != 0;
-  for (const char* at = choose(fault); *at != 0; ++at) {
+  for (const char* at = choose(dialect, fault); *at != 0; ++at) {
     if (*at != '{') {
       out.put(*at);
       continue;
     }
-    switch (at[1]) {
-      case 'w':
-        put_word(out, fault);
-        break;
-      case 'f':
-        out.put(fault.function);
-        break;
-      case 'v':
-        out.put_number(fault.value);
-        break;
-      default:  // {axis}; a sentence may begin with it
-        out.put(out.used() == 0 ? (axis_known ? "Axis" : "An axis")
-                                : (axis_known ? "axis" : "axis of this name"));
-        if (axis_known) out.put(' ').put(axis_name);
-        break;
-    }
+    put_key(out, at, dialect, fault, axis_name);
     while (*at != '}') ++at;
   }
 }

@@ -8,6 +8,8 @@
 
 namespace nc {
 
+struct Dialect;
+
 enum class Condition : uint16_t {
   none,
   // words and blocks
@@ -19,9 +21,10 @@ enum class Condition : uint16_t {
   no_feed, arc_deviation, arc_center, helix_option, plane_mismatch, plane_in_compensation, plane_in_rotation, space_conversion, arc_in_compensation_start,
   no_offset_number, cycle_in_compensation, skip_in_compensation, skip_feed_zero, no_reference, soft_limit, spindle_not_turning,
   cycle_wrong_plane, not_in_compensation, code_in_incremental, tool_pair,
-  comp_no_intersection, comp_interference, corner_option, geometric_option, second_aux, space_compensation,
+  comp_no_intersection, comp_interference, corner_option, corner_arc, corner_no_move, corner_short, corner_next_short,
+  corner_motion, pre_read, geometric_option, second_aux, space_compensation,
   thread_lead, mill_code, mill_axis, mill_modal, mill_state, space_arc_blocks, space_arc_mode, exponential_mode, exponential_axes,
-  nurbs_knot, nurbs_start, displaced, space_conversion_code, inverse_time_code, arc_feed_zero,
+  nurbs_knot, nurbs_start, displaced, space_conversion_code, inverse_time_code, arc_feed_zero, circle_radius,
   reference_compare, reference_check_m, start_return_m,
   measure_axis, measure_h, measure_no_length, measure_signal, stroke_check,
   not_accepted, in_high_accuracy, high_speed_3,
@@ -33,7 +36,7 @@ enum class Condition : uint16_t {
   loop_nesting, loop_pair, jump_on_tape, address_missing, variable_number, no_equals, variable_use, variable_name,
   variable_name_twice, call_in_cycle, print_port, parameter_input, no_such_data,
   program_edited, rotation_in_figure, offset_in_figure, machine_in_figure, surface_axis, surface_speed,
-  read_failed, program_changed, internal,
+  read_failed, program_changed, vendor_function, internal,
   count_
 };
 
@@ -45,6 +48,6 @@ struct AlarmRow {
 };
 
 /// Sentence for the operator: what in this block caused it. Writes a NUL-terminated text.
-void alarm_detail(const Fault& fault, const char* axis_name, char* text, size_t size);
+void alarm_detail(const Dialect& dialect, const Fault& fault, const char* axis_name, char* text, size_t size);
 
 }  // namespace nc

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The families there are, and looking things up in their tables.
+// Looking things up in the tables of a family.
 #include "dialect/dialect.hpp"
 
 #include <cmath>
-
-#include "dialect/dgshape/dgshape.hpp"
-#include "dialect/m700/m700.hpp"
 
 namespace nc {
 namespace {
@@ -47,11 +44,11 @@ const char* missing_code(const Dialect& dialect, const Fault& fault) {
   if (fault.condition != Condition::no_function || !fault.has_value || fault.value < 0 || fault.value > 1e9)
     return nullptr;
   const int code = static_cast<int>(std::lround(fault.value));
-  if (fault.letter == 'G') {
+  if (dialect.addresses.is(fault.letter, Role::code)) {
     const FunctionRow* row = find_function(dialect, code);
     return row != nullptr ? row->missing : nullptr;
   }
-  if (fault.letter == 'M') {
+  if (dialect.addresses.is(fault.letter, Role::misc_code)) {
     const MiscRow* row = find_misc(dialect, static_cast<unsigned>(code));
     return row != nullptr ? row->missing : nullptr;
   }
@@ -60,23 +57,33 @@ const char* missing_code(const Dialect& dialect, const Fault& fault) {
 
 }  // namespace
 
-const Dialect& dialect(nc_dialect id) {
-  switch (id) {
-    case NC_DIALECT_DGSHAPE:
-      return dgshape::kDialect;
-    case NC_DIALECT_M700:
-    case NC_DIALECT_COUNT:
-      break;
-  }
-  return m700::kDialect;
-}
-
 const FunctionRow* find_function(const Dialect& dialect, int code) {
   return find(dialect.functions, code);
 }
 
 const MiscRow* find_misc(const Dialect& dialect, unsigned code) {
   return code > 0xffff ? nullptr : find(dialect.misc, static_cast<int>(code));
+}
+
+const FunctionRow* find_function(const Dialect& dialect, Function function) {
+  for (const FunctionRow& row : dialect.functions)
+    if (row.function == function && row.number == 0) return &row;
+  return nullptr;
+}
+
+MiscFunction misc_function(const Dialect& dialect, unsigned code) {
+  if (const MiscRow* row = find_misc(dialect, code); row != nullptr) return row->function;
+  for (const OutputRow& row : dialect.outputs)
+    if (row.code == code) return row.function;
+  return MiscFunction::output;
+}
+
+unsigned misc_code(const Dialect& dialect, MiscFunction function) {
+  for (const MiscRow& row : dialect.misc)
+    if (row.function == function) return row.code;
+  for (const OutputRow& row : dialect.outputs)
+    if (row.function == function) return row.code;
+  return kNoMisc;
 }
 
 AlarmText alarm_text(const Dialect& dialect, const Fault& fault) {

@@ -1,83 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a controller family is: tables. One folder per family (dialect/m700, dialect/dgshape) holds its word formats, its G and M codes,
-// its alarms; this header says what such a table looks like. To add a family, add a folder and one line in dialect.cpp.
+// its alarms; this header says what such a table looks like. To add a family, add a folder and one line in registry.cpp.
 #pragma once
 
 #include "dialect/alarms.hpp"
+#include "dialect/function.hpp"
+#include "dialect/parameter_rows.hpp"
+#include "dialect/role.hpp"
+#include "dialect/rules.hpp"
+#include "dialect/table.hpp"
+#include "dialect/variable_rows.hpp"
 #include "program/block.hpp"
 
 namespace nc {
 
-/// What a G code does: functions shared by all families, implemented in interpret/. A family's table binds its codes to them.
-enum class Function : uint8_t {
-  missing,            ///< in the manual, not built: raises the row's alarm when used
-  rapid, linear, arc_cw, arc_ccw,
-  spiral, exponential, space_arc, nurbs, thread,   ///< G02.1 G02.3 G02.4 G06.2 G33 and their counterparts: group 1 tells which
-  cylinder, polar_on, polar_off,   ///< G07.1 G12.1 G13.1
-  polar_command_on, polar_command_off,   ///< G16 G15
-  hypothetical_axis,  ///< G07
-  unidirectional,     ///< G60
-  high_speed,         ///< G05
-  high_speed_accuracy,///< G05.1
-  high_accuracy,      ///< G08
-  high_accuracy_mode, ///< G61.1
-  dwell, data_input, data_input_end,   ///< G04 G10 G11
-  exact_stop_once,    ///< G09
-  plane_xy, plane_zx, plane_yz,
-  inch, metric,
-  reference_return, skip, machine_move,
-  reference_check, start_return, second_reference, tool_change_return,   ///< G27 G29 G30 G30.1-G30.6
-  multi_skip, measure_length,          ///< G31.1-G31.3 G37
-  stroke_check_on, stroke_check_off,   ///< G22 G23: modal, and G22 takes the axis words of the block
-  comp_off, comp_left, comp_right,
-  length_plus, length_minus, length_off,
-  work_system,        ///< G54..G59; which one is code10 / 10 - 54
-  extended_system,    ///< G54.1 P
-  local_system,       ///< G52
-  coordinate_set,     ///< G92
-  coordinate_preset,  ///< G92.1
-  cycle_off, cycle_drill, cycle_spot, cycle_peck, cycle_step, cycle_bore_feed, cycle_bore_dwell,   ///< G80 G81 G82 G83 G73 G85 G89
-  absolute, incremental,
-  feed_per_minute, feed_per_revolution, inverse_time_feed,   ///< G94 G95 G93
-  return_initial, return_r,
-  exact_stop_mode, corner_override, tapping_mode, cutting_mode,   ///< G61 G62 G63 G64
-  macro_call, macro_modal, macro_every_block,   ///< G65 G66 G66.1: the words behind them are arguments
-  macro_modal_off,    ///< G67
-  surface_on, surface_off,   ///< G96 G97
-  mirror_on, mirror_off,   ///< G51.1 G50.1: modal, and they take the axis words of the block
-  scaling_on, scaling_off, rotation_on, rotation_off,   ///< G51 G50, G68 G69
-  modal_off           ///< the cancel code of a function that is not built: the state it asks for is the only one there is
-};
-
-/// G27 to G30.
-constexpr bool is_reference_move(Function f) {
-  return f == Function::reference_check || f == Function::reference_return || f == Function::start_return || f == Function::second_reference;
-}
-/// One-shot functions whose axis words are positions to go to; those of the others are data.
-constexpr bool goes_to_position(Function f) {
-  return is_reference_move(f) || f == Function::tool_change_return || f == Function::skip || f == Function::multi_skip ||
-         f == Function::measure_length || f == Function::machine_move || f == Function::unidirectional;
-}
-constexpr bool is_macro_call(Function f) { return f == Function::macro_call || f == Function::macro_modal || f == Function::macro_every_block; }
-
 struct FunctionRow {
   int16_t code;          ///< times 10: G54.1 = 541
-  uint8_t group;         ///< modal group as the manual numbers it, 0 = one-shot
+  uint8_t group;         ///< modal group as the manual numbers it, 0 = one-shot; for showing only
   Function function;
-  const char* missing;   ///< alarm code raised when function == missing ("P90"); nullptr otherwise
+  const char* missing;   ///< not built: the code of the alarm that it raises ("P90"); nullptr = built
   const char* name;      ///< short English name, our words
   const char* section;   ///< of the manual
   const char* part = nullptr;  ///< supported in part: what of it is not built
+  uint8_t number = 0;    ///< which one of the rows with this function, from 0: G54 to G59 are 0 to 5, G107 is the second name of G07.1
 };
 
-/// What an M code is to the control itself; every other M is output.
-enum class MiscFunction : uint8_t { output, program_stop, optional_stop, program_end, call_sub, return_sub, call_external, missing };
 struct MiscRow {
   uint16_t code;
   MiscFunction function;
-  const char* missing;
+  const char* missing;   ///< as that of FunctionRow
   const char* name;
   const char* section;
+};
+
+/// What data setting by program sets.
+enum class DataInput : uint8_t {
+  missing,           ///< in the manual, not built
+  work_offset,       ///< of a workpiece coordinate system, or of them all
+  extended_offset,   ///< of an extended workpiece coordinate system
+  tool_length, tool_length_wear, tool_radius, tool_radius_wear,
+  current_limit, parameters
+};
+
+/// The value of L that says what is set.
+struct DataInputRow {
+  static constexpr uint32_t kWithoutL = ~uint32_t{0};
+  uint32_t l;        ///< kWithoutL: the block has none
+  DataInput input;
+};
+
+/// What the codes of high speed select by their value: the modes of the first one, those of the second.
+enum class SpeedMode : uint8_t { off, machining_1, machining_2, machining_3, accuracy_2 };
+enum class SpeedOption : uint8_t { off, accuracy_1, spline };
+struct SpeedModeRow {
+  uint32_t value;
+  SpeedMode mode;
+};
+struct SpeedOptionRow {
+  uint32_t value;
+  SpeedOption option;
+};
+
+/// An M code that goes out like any other and means something to the control besides.
+struct OutputRow {
+  uint16_t code;
+  MiscFunction function;
+};
+
+/// Numbers of codes from the first to the last; none when the last comes before the first.
+struct CodeRange {
+  uint16_t first, last;
+  constexpr bool holds(uint32_t code) const { return code >= first && code <= last; }
 };
 
 /// Every code of the manual's alarm list, with its short text.
@@ -86,51 +79,60 @@ struct AlarmText {
   const char* message;
 };
 
-/// A parameter the manual names: how its key is written. Digits are always accepted (M700); words only when they are here.
-struct ParameterName {
-  const char* key;
-  double value;          ///< default
-  const char* words;     ///< accepted words in the order of their values, "|"-separated ("conventional|calculator"), nullptr = number
-  const char* values;    ///< what holds without it first; nullptr = the words
-  const char* name;
-  const char* section;   ///< of the manual
-};
-
-template <class T>
-struct Table {
-  const T* row = nullptr;
-  unsigned size = 0;
-  const T* begin() const { return row; }
-  const T* end() const { return row + size; }
-};
-
 struct Dialect {
   nc_dialect id;
   const char* name;                  ///< "m700"
   const LexRules* lex;
+  AddressTable addresses;            ///< which address carries which meaning
+  uint32_t axis_addresses;           ///< bit n: address n is for axes; one that no axis has is a fault (or the second auxiliary function)
+  uint32_t length_addresses;         ///< of words other than those of axes: the ones whose values have the range of lengths
+  const uint8_t* argument_of;        ///< local variable that takes the word of each address in a macro call, 0 = none; nullptr without macros
+  const char* calling_letters;       ///< those that may be registered to call a program by parameter
+  char device_letter;                ///< in front of the number of a device where sub programs are looked for, 0 = there are none
   Table<FunctionRow> functions;      ///< sorted by code
-  Table<MiscRow> misc;               ///< sorted by code
+  Table<MiscRow> misc;               ///< M codes that the control keeps for itself, sorted by code
+  Table<OutputRow> outputs;          ///< those that go out and mean something besides, sorted by code
   Table<AlarmRow> conditions;        ///< condition -> code, one row for each condition of Condition
   Table<AlarmText> alarms;           ///< the manual's whole list
-  Table<ParameterName> parameters;   ///< named ones
-  int16_t initial[NC_GROUPS];        ///< active code of each group at power on, times 10; -1 = the group does not exist
-  // rules that differ by family and belong to no single function
+  Table<DataInputRow> data_input;
+  Table<SpeedModeRow> speed_modes;
+  Table<SpeedOptionRow> speed_options;
+  const FamilyParameters* parameters;  ///< their numbers, names and what they mean
+  const FamilyVariables* variables;    ///< system variables: their numbers and what they mean
+  Rules rules;                       ///< in which families differ
+  Table<Function> initial;           ///< what is in force at power on, each by its row that is numbered 0; modes that are not here have no group
+  CodeRange macro_codes;             ///< G codes that exist to call macros where a parameter registers them
+  CodeRange own_codes;               ///< G codes that may be registered, too, where a parameter allows it
+  CodeRange macro_misc;              ///< M codes that may be registered, but for those that the control keeps for itself
+  // rules of program texts
   bool percent_required;             ///< DGSHAPE 2: the first block must be '%'
   bool end_code_required;            ///< M700 P36: text must not end without M02/M30
   bool bare_letters;                 ///< "G" alone is G00, "G28 XYZ" means zeros (M700 3.7, 14.10); else every word has its number
   unsigned call_depth;               ///< levels of sub programs
 };
 
+/// The family of a configuration that names none.
+inline constexpr nc_dialect kDefaultDialect = NC_DIALECT_M700;
+
 /// `id` came from outside and names a family.
 constexpr bool known(unsigned id) { return id < NC_DIALECT_COUNT; }
 
+/// The families there are stand in registry.cpp.
 const Dialect& dialect(nc_dialect id);
 
 /// Row of a G code (times 10), nullptr = the manual does not list it (Condition::illegal_g).
 const FunctionRow* find_function(const Dialect& dialect, int code);
 const MiscRow* find_misc(const Dialect& dialect, unsigned code);
 
-/// Code and message of a fault. Condition::no_function with letter 'G' or 'M' and the code (G: times 10) as value takes the row's own alarm.
+/// The row of this function that is numbered 0, whatever the order of the codes; nullptr = the family has no code for it.
+const FunctionRow* find_function(const Dialect& dialect, Function function);
+/// What an M code means; MiscFunction::output where it means nothing here.
+MiscFunction misc_function(const Dialect& dialect, unsigned code);
+/// First M code that means this, kNoMisc where there is none.
+inline constexpr unsigned kNoMisc = ~0u;
+unsigned misc_code(const Dialect& dialect, MiscFunction function);
+
+/// Code and message of a fault. Condition::no_function with the letter of a G or M code and the code (G: times 10) as value takes the row's own alarm.
 AlarmText alarm_text(const Dialect& dialect, const Fault& fault);
 
 }  // namespace nc

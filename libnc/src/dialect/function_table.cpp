@@ -2,24 +2,51 @@
 // The tables of a family as the public API shows them: for documentation and for HMIs, without a control.
 #include "dialect/function_table.hpp"
 
+#include <cstring>
+
 #include "dialect/dialect.hpp"
 #include "dialect/text.hpp"
 
 namespace nc {
 
-void g_code_text(int code, char* text, size_t size) {
+void g_code_text(char letter, int code, char* text, size_t size) {
   TextWriter out(text, size);
   if (code < 0) return;
   const unsigned value = static_cast<unsigned>(code);
-  out.put('G').put_integer(value / 10, 2);
+  out.put(letter).put_integer(value / 10, 2);
   if (value % 10 != 0) out.put('.').put_integer(value % 10);
 }
 
-void m_code_text(unsigned code, char* text, size_t size) {
-  TextWriter(text, size).put('M').put_integer(code, 2);
+void m_code_text(char letter, unsigned code, char* text, size_t size) {
+  TextWriter(text, size).put(letter).put_integer(code, 2);
 }
 
 namespace {
+
+nc_code_role code_role(Function function) {
+  if (function == Function::dwell) return NC_CODE_DWELL;
+  if (function == Function::data_input) return NC_CODE_DATA_INPUT;
+  return is_macro_call(function) ? NC_CODE_MACRO_CALL : NC_CODE_OTHER;
+}
+
+nc_code_role code_role(MiscFunction function) {
+  switch (function) {
+    case MiscFunction::program_stop: return NC_CODE_PROGRAM_STOP;
+    case MiscFunction::optional_stop: return NC_CODE_OPTIONAL_STOP;
+    case MiscFunction::program_end: return NC_CODE_PROGRAM_END;
+    case MiscFunction::call_sub:
+    case MiscFunction::call_external: return NC_CODE_CALL;
+    case MiscFunction::return_sub: return NC_CODE_RETURN;
+    case MiscFunction::spindle_forward: return NC_CODE_SPINDLE_FORWARD;
+    case MiscFunction::spindle_reverse: return NC_CODE_SPINDLE_REVERSE;
+    case MiscFunction::spindle_stop: return NC_CODE_SPINDLE_STOP;
+    case MiscFunction::tool_change: return NC_CODE_TOOL_CHANGE;
+    case MiscFunction::output:
+    case MiscFunction::interrupt_on:
+    case MiscFunction::interrupt_off: break;
+  }
+  return NC_CODE_OTHER;
+}
 
 void set(nc_function* out, uint8_t group, const char* missing, const char* name, const char* section) {
   out->group = group;
@@ -34,13 +61,13 @@ void set(nc_function* out, uint8_t group, const char* missing, const char* name,
 }  // namespace nc
 
 // G codes first, then the M codes that the control keeps for itself.
-nc_status nc_function_get(nc_dialect dialect, unsigned index, nc_function* row) {
+nc_status nc_function_row(nc_dialect dialect, unsigned index, nc_function* row) {
   if (row == nullptr || !nc::known(dialect)) return NC_E_ARGUMENT;
   const nc::Dialect& family = nc::dialect(dialect);
   if (index < family.functions.size) {
     const nc::FunctionRow& from = family.functions.row[index];
-    nc::g_code_text(from.code, row->code, sizeof row->code);
-    nc::set(row, from.group, from.function == nc::Function::missing ? from.missing : nullptr, from.name,
+    nc::g_code_text(family.addresses.letter(nc::Role::code), from.code, row->code, sizeof row->code);
+    nc::set(row, from.group, from.missing, from.name,
             from.section);
     row->part = from.part;
     return NC_OK;
@@ -48,8 +75,8 @@ nc_status nc_function_get(nc_dialect dialect, unsigned index, nc_function* row) 
   index -= family.functions.size;
   if (index >= family.misc.size) return NC_E_NOT_FOUND;
   const nc::MiscRow& from = family.misc.row[index];
-  nc::m_code_text(from.code, row->code, sizeof row->code);
-  nc::set(row, 0, from.function == nc::MiscFunction::missing ? from.missing : nullptr, from.name,
+  nc::m_code_text(family.addresses.letter(nc::Role::misc_code), from.code, row->code, sizeof row->code);
+  nc::set(row, 0, from.missing, from.name,
           from.section);
   return NC_OK;
 }
@@ -61,6 +88,27 @@ nc_status nc_alarm_row(nc_dialect dialect, unsigned index, char code[16], const 
   nc::TextWriter(code, 16).put(family.alarms.row[index].code);
   *message = family.alarms.row[index].message;
   return NC_OK;
+}
+
+const char* nc_dialect_name(nc_dialect dialect) { return nc::known(dialect) ? nc::dialect(dialect).name : nullptr; }
+
+nc_status nc_dialect_get(const char* name, nc_dialect* dialect) {
+  if (name == nullptr || dialect == nullptr) return NC_E_ARGUMENT;
+  for (unsigned id = 0; id < NC_DIALECT_COUNT; ++id) {
+    if (std::strcmp(nc::dialect(static_cast<nc_dialect>(id)).name, name) != 0) continue;
+    *dialect = static_cast<nc_dialect>(id);
+    return NC_OK;
+  }
+  return NC_E_NOT_FOUND;
+}
+
+nc_code_role nc_code_role_get(nc_dialect dialect, char letter, uint32_t number) {
+  if (!nc::known(dialect)) return NC_CODE_OTHER;
+  const nc::Dialect& family = nc::dialect(dialect);
+  if (letter == family.addresses.letter(nc::Role::misc_code)) return nc::code_role(nc::misc_function(family, number));
+  if (letter != family.addresses.letter(nc::Role::code) || number > 0x7fff) return NC_CODE_OTHER;
+  const nc::FunctionRow* const row = nc::find_function(family, static_cast<int>(number));
+  return row != nullptr ? nc::code_role(row->function) : NC_CODE_OTHER;
 }
 
 const char* nc_version(void) {

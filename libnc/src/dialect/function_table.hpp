@@ -6,10 +6,10 @@
 
 namespace nc {
 
-/// G code (times 10) as a manual prints it: 0 -> "G00", 541 -> "G54.1", 1070 -> "G107".
-void g_code_text(int code, char* text, size_t size);
+/// G code (times 10) as a manual prints it, with the family's letter (Role::code): 0 -> "G00", 541 -> "G54.1", 1070 -> "G107".
+void g_code_text(char letter, int code, char* text, size_t size);
 
-/// M code: 3 -> "M03", 198 -> "M198".
-void m_code_text(unsigned code, char* text, size_t size);
+/// M code (Role::misc_code): 3 -> "M03", 198 -> "M198".
+void m_code_text(char letter, unsigned code, char* text, size_t size);
 
 }  // namespace nc

@@ -23,9 +23,9 @@ bool FairingStage::takes(const Item& item) const {
   return true;
 }
 
-/// The line goes on where the one before it ends, in the same coordinates.
+/// The line goes on where the one before it ends, in the same coordinates and by the same parameters.
 bool FairingStage::follows(const Move& move) const {
-  return move.transform == transform_ && move.stroke_box == stroke_box_ && distance(end_, move.start) <= kNoLength;
+  return move.transform == transform_ && move.stroke_box == stroke_box_ && move.settings == settings_ && distance(end_, move.start) <= kNoLength;
 }
 
 bool FairingStage::push(const Item& item, const FairingRule& rule) {
@@ -43,6 +43,7 @@ bool FairingStage::push(const Item& item, const FairingRule& rule) {
     end_ = item.move.end;
     transform_ = item.move.transform;
     stroke_box_ = item.move.stroke_box;
+    settings_ = item.move.settings;
     ++lines_;
     if (place.length < rule.length_mm) ++short_;
   }

@@ -29,21 +29,25 @@ struct FairingResume {
   bool active() const { return moved || judging; }
 };
 
+inline bool in_force(const FairingResume& resume) { return resume.active(); }
+
 class FairingStage {
  public:
+  static constexpr unsigned kHeld = 32;  ///< items; a power of two, so that their numbers may wrap
+  using Rule = FairingRule;
+  using Resume = FairingResume;
   /// `rotary`: bit i: axis i turns. A line that moves one is not faired.
   void create(unsigned axis_count, uint32_t rotary, Arena& arena) {
     axis_count_ = axis_count;
     rotary_ = rotary;
     held_ = arena.make<Held>(kHeld);
   }
-  /// A line that fairing or the judgement may be about.
-  bool takes(const Item& item) const;
+  /// A line that fairing or the judgement is about. Not while a contour is compensated behind: there its figure is what is compensated
+  /// (docs/decisions.md).
+  bool takes(const Item& item, const FairingRule& rule, bool calm) const { return calm && rule.any() && takes(item); }
   /// An item, where there is room. False: what is held has to go first, as it is (pop() until there is none).
   /// An item that is no line and no mark of one closes the row: nothing behind it is waited for.
   bool push(const Item& item, const FairingRule& rule);
-  /// Nothing that is still to come changes what is held.
-  void close() { closing_ = count_ != 0; }
   /// Next finished item, false when the stage has none or must see more first.
   bool pop(Item& out);
   /// Forget everything.
@@ -54,12 +58,12 @@ class FairingStage {
     reset();
     state_ = resume;
   }
+  /// What has been joined is no more: every line goes to its own end.
+  void displaced() { reset(); }
   /// True when nothing is held: items may bypass the stage.
   bool idle() const { return count_ == 0 && !state_.active(); }
-  bool empty() const { return count_ == 0; }
 
  private:
-  static constexpr unsigned kHeld = 32;  ///< items; a power of two, so that their numbers may wrap
   static constexpr unsigned kMostHeld = 24;  ///< with so many the line in front waits for no more
   struct Held {
     Item item;
@@ -68,6 +72,9 @@ class FairingStage {
   };
   Held& held(unsigned number) { return held_[(first_ + number) % kHeld]; }
   double distance(const AxisVec& a, const AxisVec& b) const { return distance_of(a, b, axis_count_); }
+  bool takes(const Item& item) const;
+  /// Nothing that is still to come changes what is held.
+  void close() { closing_ = count_ != 0; }
   bool follows(const Move& move) const;
   bool short_ahead() const { return short_ > (held_[first_].length < rule_.length_mm ? 1u : 0u); }
   void decide(Move* move);
@@ -84,6 +91,7 @@ class FairingStage {
   AxisVec end_;            ///< of the line pushed last, as programmed
   TransformId transform_ = 0;  ///< and what it stands in
   uint32_t stroke_box_ = 0;
+  SettingsId settings_ = 0;
   FairingRule rule_;
   FairingResume state_;    ///< in front of the item in front
   unsigned axis_count_ = 3;

@@ -6,10 +6,10 @@
 //
 //     word      = as programmed; G91: + the programmed position of before         interpret/block_words.cpp, motion.cpp
 //     turned    = an angle of G90 as a way on an axis that turns                  frame/rotary.hpp
-//     work      = mirror(figure(turned))    program maps, in front of compensation     interpret/program_map.hpp
-//                 turned about a point of the machine where #8627 or G10 K says so     interpret/work_rotation.hpp
+//     work      = M turned                  M affine: figure, scaling, rotation, mirror, and the rotation about a point of the machine
+//                                           where #8627 or G10 K says so; in front of compensation     interpret/program_map.hpp
 //     path      = work + radius vector                                            offset/
-//     machine   = path + zero(k) + T        T tool length compensation *as applied* to each axis   frame/transform.hpp
+//     machine   = path + zero(k) + T        T tool length compensation *as applied* to each axis   frame/affine.hpp
 //     zero(k)   = E + O(k) + S + L(k)       E external offset, O offset of work system k, S common shift made by G92,
 //                                           L local system (G52) held by system k
 //     shown     = machine, and work, within one turn where the axis type says so  interpret/position_shown.cpp
@@ -43,6 +43,9 @@ class Frames {
 
   unsigned extended_systems() const { return config_.extended_systems; }
   unsigned tool_offsets() const { return config_.tool_offsets; }
+
+  /// Coordinate systems that are no extended ones.
+  static constexpr unsigned kStandardSystems = 6;
 
   // Keys of the flat table. System numbers: 0..5 = G54..G59, 6.. = G54.1 P1...
   static constexpr unsigned external_key(unsigned axis) { return axis; }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "motion/optimal/peaks.hpp"
 #include "motion/optimal/piece.hpp"
 
 namespace nc {
@@ -26,29 +27,25 @@ class Brake {
  public:
   /// Finds a way to rest from `pace`. `plan` tells of ever later moments (PlanAhead). @param use  of what the limits leave
   template <class Plan>
-  bool find(Plan&& plan, const optimal::Limits& limits, double use, PlanPace pace = {}) NC_RT {
+  bool find(Plan plan, const optimal::Limits& limits, double use, PlanPace pace = {}) NC_RT {
     count_ = 0;
     from_ = pace;
     State x{0, pace.sigma, pace.slope};
     look_[0].plan = plan.at(0.0);
     step_ = step_for(look_[0].plan, limits, pace.sigma);
     while (count_ < kSteps) {
-      if (!gather(plan, x, step_)) return false;
-      if (rests_) return begin();  // it stands there anyway
-      if (lands(x, look_[0].plan, limits, use)) return land(plan, limits, x);
-      Range r;
+      const Plan here = plan;
+      if (!gather(plan, x, 0, step_)) return false;
+      if (rests_) return keeps(x, 0, limits) <= 1 && begin();  // it stands there anyway
+      if (lands(x, look_[0].plan, limits, use)) return land(here, limits, x);
       double bend = 0;
-      for (unsigned pass = 0; pass < 2; ++pass) {  // the second one knows how sigma goes on
-        r = {};
-        for (unsigned n = 0; n < looks_; ++n) {
-          const State then = x.behind(bend, look_[n].t);
-          jerk_range(look_[n].plan, limits, then, look_[n].t, &r);
-          acceleration_range(look_[n].plan, limits, then, look_[n].t, use, &r);
-        }
-        bend = std::fmin(r.low < 0 ? use * r.low : r.low, r.high);
+      if (!choose(x, limits, use, &bend)) return false;
+      // With it the step ends elsewhere in the plan, maybe in another cell.
+      for (unsigned n = 0; misses(plan, x, bend); ++n) {
+        if (n == kTighter) return false;
+        plan = here;
+        if (!gather(plan, x, bend, step_) || rests_ || !choose(x, limits, use, &bend)) return false;
       }
-      if (x.slope + bend * step_ > 0) bend = -x.slope / step_;
-      if (!(bend >= r.low) || !(bend <= r.high)) return false;
       bend_[count_++] = bend;
       x.step(bend, step_);
       if (!(x.sigma > 0)) return false;
@@ -86,6 +83,9 @@ class Brake {
   static constexpr double kSteady = 0.75;   ///< of the steps, for a stop on a line
   static constexpr double kShare = 1.0005;  ///< of the acceleration, which the plan may use, too
   static constexpr double kJerk = 0.995;    ///< of the jerk: between the places that are looked at a cell of the plan may begin and end
+  static constexpr double kMostAcceleration = 1.0009;  ///< anywhere: what is measured is to be below 1.001
+  static constexpr unsigned kTighter = 4;   ///< times that a step is chosen
+  static constexpr double kFurther = 1.5;   ///< of what was too much
   static constexpr double kLanding = 0.5;   ///< of the jerk limits, where there is nothing else
   static constexpr double kTiny = 1e-9;     ///< of velocity
   static constexpr double kAtOnce = 1e-6;   ///< s
@@ -95,8 +95,9 @@ class Brake {
     double tau = 0, sigma = 1, slope = 0;
     /// Its sigma `t` later, the slope of now.
     State behind(double bend, double t) const { return {tau, sigma + t * (slope + t * bend / 2), slope}; }
+    double tau_behind(double bend, double t) const { return tau + t * (sigma + t * (slope / 2 + t * bend / 6)); }
     void step(double bend, double t) {
-      tau += t * (sigma + t * (slope / 2 + t * bend / 6));
+      tau = tau_behind(bend, t);
       sigma += t * (slope + t * bend / 2);
       slope += t * bend;
     }
@@ -135,49 +136,121 @@ class Brake {
   /// The moments of the plan in the step that begins with the first of them: its middle and end, and both sides of each place where a cell
   /// of the plan ends, because there its jerk changes. False where there are too many.
   template <class Plan>
-  bool gather(Plan&& plan, const State& x, double step) NC_RT {
-    const double ahead = step * (x.sigma + 0.5 * step * x.slope), end = x.tau + ahead;
+  bool gather(Plan& plan, const State& x, double bend, double step) NC_RT {
+    const double middle = x.tau_behind(bend, step / 2), end = x.tau_behind(bend, step);
     rests_ = look_[0].plan.rests;
     looks_ = 1;
     look_[0].t = 0;
-    for (double to = x.tau + 0.5 * ahead; !rests_;) {
+    entered_ = x.tau;
+    for (double to = middle; !rests_;) {
       const double edge = plan.cell_end();
       if (edge < to) {
         if (looks_ + 2 > kLooks) return false;
-        const double t = step * std::fmax(0, (edge - x.tau) / ahead);
+        const double t = std::fmax(look_[looks_ - 1].t, std::fmin(step, time_of(x, bend, step, edge)));
         look_[looks_++] = {plan.at_cell_end(), t};
         look_[looks_++] = {plan.at_next_cell(), t};
         rests_ = look_[looks_ - 1].plan.rests;
+        entered_ = edge;
         continue;
       }
       if (looks_ + 1 > kLooks) return false;
-      look_[looks_++] = {plan.at(to), step * (to - x.tau) / ahead};
+      look_[looks_++] = {plan.at(to), to == end ? step : step / 2};
       rests_ = look_[looks_ - 1].plan.rests;
       if (to == end) break;
       to = end;
     }
     return true;
   }
+  /// With this sigma'' the step does not end in the cell in which the looks have ended.
+  template <class Plan>
+  bool misses(const Plan& plan, const State& x, double bend) const NC_RT {
+    const double end = x.tau_behind(bend, step_);
+    return end >= plan.cell_end() || end < entered_;
+  }
+  /// When in the step the plan's time is tau.
+  static double time_of(const State& x, double bend, double step, double tau) NC_RT {
+    double t = step * (tau - x.tau) / (x.tau_behind(bend, step) - x.tau);
+    for (unsigned n = 0; n < 2; ++n) t += (tau - x.tau_behind(bend, t)) / (x.sigma + t * (x.slope + t * bend / 2));
+    return t;
+  }
+
+  /// sigma'' of the step that is looked at. Where something between two looks is too much, both limits are kept that much lower in it.
+  bool choose(const State& x, const optimal::Limits& limits, double use, double* bend) NC_RT {
+    double share = 1;
+    for (unsigned n = 0; n < kTighter; ++n) {
+      if (!least(x, limits, use, share, bend)) return false;
+      const double most = keeps(x, *bend, limits);
+      if (most <= 1) return true;
+      share /= 1 + kFurther * (most - 1);
+    }
+    return false;
+  }
+  /// The least sigma'' that the looks leave; false where they leave none.
+  bool least(const State& x, const optimal::Limits& limits, double use, double share, double* out) NC_RT {
+    Range r;
+    double bend = 0;
+    for (unsigned pass = 0; pass < 2; ++pass) {  // the second one knows how sigma goes on
+      r = {};
+      for (unsigned n = 0; n < looks_; ++n) {
+        const State then = x.behind(bend, look_[n].t);
+        jerk_range(look_[n].plan, limits, then, look_[n].t, share, &r);
+        acceleration_range(look_[n].plan, limits, then, look_[n].t, use, share, &r);
+      }
+      bend = std::fmin(r.low < 0 ? use * r.low : r.low, r.high);
+    }
+    if (x.slope + bend * step_ > 0) bend = -x.slope / step_;
+    *out = bend;
+    return bend >= r.low && bend <= r.high;
+  }
+
+  using Rates = optimal::Rates;
+  using Peaks = optimal::Peaks;
+  static Rates rates(const PlanMoment& p, const State& x, double bend, unsigned i) NC_RT {
+    const double u1 = p.v * x.sigma, u2 = p.a * x.sigma * x.sigma + p.v * x.slope;
+    const double u3 = p.j * x.sigma * x.sigma * x.sigma + 3 * p.a * x.sigma * x.slope + p.v * bend;
+    return {p.path.d1[i] * u2 + p.path.d2[i] * u1 * u1, p.path.d1[i] * u3 + 3 * p.path.d2[i] * u1 * u2 + p.path.d3[i] * u1 * u1 * u1};
+  }
+  /// The most that the axes have in the step with this sigma'', as a share of what they may. Between two looks nothing jumps, because both
+  /// sides of each place where something does are looked at: there the acceleration is the cubic that has its value and its jerk at both.
+  double keeps(const State& x, double bend, const optimal::Limits& limits) const NC_RT {
+    double most = 0;
+    for (unsigned n = 1; n < looks_; ++n) {
+      const double t = look_[n].t - look_[n - 1].t;
+      if (!(t > kAtOnce) || look_[n].plan.rests) continue;
+      State from = x, to = x;
+      from.step(bend, look_[n - 1].t);
+      to.step(bend, look_[n].t);
+      for (unsigned i = 0; i < limits.axis_count; ++i) {
+        const Peaks peaks = optimal::peaks_between(rates(look_[n - 1].plan, from, bend, i), rates(look_[n].plan, to, bend, i), t);
+        if (limits.acceleration[i] > 0) most = std::fmax(most, peaks.a / (kMostAcceleration * limits.acceleration[i]));
+        if (limits.jerk[i] > 0) most = std::fmax(most, peaks.j / limits.jerk[i]);
+      }
+    }
+    return most;
+  }
 
   /// What jerk allows sigma'' to be, `behind` seconds after sigma' was `slope`.
-  static void jerk_range(const PlanMoment& p, const optimal::Limits& limits, const State& x, double behind, Range* r) NC_RT {
+  static void jerk_range(const PlanMoment& p, const optimal::Limits& limits, const State& x, double behind, double share, Range* r) NC_RT {
     const double sigma = x.sigma, slope = x.slope;
     const double u1 = p.v * sigma, u2 = p.a * sigma * sigma + p.v * slope, u3 = p.j * sigma * sigma * sigma + 3 * p.a * sigma * slope;
     for (unsigned i = 0; i < limits.axis_count; ++i) {
       if (!(limits.jerk[i] > 0)) continue;
       r->keep(p.path.d1[i] * u3 + 3 * p.path.d2[i] * u1 * u2 + p.path.d3[i] * u1 * u1 * u1,
-              p.path.d1[i] * p.v + 3 * behind * sigma * (p.path.d1[i] * p.a + p.path.d2[i] * p.v * p.v), kJerk * limits.jerk[i]);
+              p.path.d1[i] * p.v + 3 * behind * sigma * (p.path.d1[i] * p.a + p.path.d2[i] * p.v * p.v), share * kJerk * limits.jerk[i]);
     }
   }
   /// What acceleration allows it to be, `behind` seconds after sigma' was x.slope.
-  static void acceleration_range(const PlanMoment& p, const optimal::Limits& limits, const State& x, double behind, double use, Range* r) NC_RT {
+  static void acceleration_range(const PlanMoment& p, const optimal::Limits& limits, const State& x, double behind, double use, double share,
+                                 Range* r) NC_RT {
     Range slopes;
+    const bool now = behind < kAtOnce;  // nothing can change any more
+    const double most = now ? kShare : share * kShare;
     const double sigma2 = x.sigma * x.sigma;
     for (unsigned i = 0; i < limits.axis_count; ++i) {
       if (!(limits.acceleration[i] > 0)) continue;
-      slopes.keep(p.path.d1[i] * p.a * sigma2 + p.path.d2[i] * p.v * p.v * sigma2, p.path.d1[i] * p.v, kShare * limits.acceleration[i]);
+      slopes.keep(p.path.d1[i] * p.a * sigma2 + p.path.d2[i] * p.v * p.v * sigma2, p.path.d1[i] * p.v, most * limits.acceleration[i]);
     }
-    if (behind < kAtOnce) {  // nothing can change any more
+    if (now) {
       if (!(x.slope >= slopes.low) || !(x.slope <= slopes.high)) r->low = HUGE_VAL;
       return;
     }
@@ -193,21 +266,22 @@ class Brake {
     return false;
   }
   template <class Plan>
-  bool land(Plan&& plan, const optimal::Limits& limits, State x) NC_RT {
+  bool land(Plan plan, const optimal::Limits& limits, State x) NC_RT {
     const double bend = x.slope * x.slope / (2 * x.sigma);
     double left = -2 * x.sigma / x.slope;
     while (count_ < kSteps) {
       last_ = std::fmin(left, step_);
       bend_[count_++] = bend;
       look_[0].plan = plan.at(x.tau);
-      if (!gather(plan, x, last_)) return false;
+      if (!gather(plan, x, bend, last_)) return false;
+      if (keeps(x, bend, limits) > 1) return false;
       if (rests_) return begin();
       for (unsigned n = 0; n < looks_; ++n) {
         State then = x;
         then.step(bend, look_[n].t);
         Range bends;
-        jerk_range(look_[n].plan, limits, then, 0, &bends);
-        acceleration_range(look_[n].plan, limits, then, 0, 1, &bends);
+        jerk_range(look_[n].plan, limits, then, 0, 1, &bends);
+        acceleration_range(look_[n].plan, limits, then, 0, 1, 1, &bends);
         if (!(bend >= bends.low) || !(bend <= bends.high)) return false;
       }
       x.step(bend, last_);
@@ -226,6 +300,7 @@ class Brake {
 
   Look look_[kLooks];
   unsigned looks_ = 0;
+  double entered_ = 0;      ///< plan's time at which the cell of the last of them begins, or the step
   bool rests_ = false;      ///< the plan does, in the step that is looked at
   double bend_[kSteps] = {};
   unsigned count_ = 0, at_ = 0;

@@ -49,6 +49,7 @@ void limit_thread(Segment& s, const ExecutorConfig& config) {
 void Executor::create(const ExecutorConfig& config, Arena& arena) {
   ExecutorState* const state = arena.make<ExecutorState>();
   Record* const ring = arena.make<Record>(config.capacity);
+  LeftRecord* const left = config.tells_marks ? arena.make<LeftRecord>(config.capacity) : nullptr;
   double* const filters = config.filters ? arena.make<double>(size_t{Shape::places(kLongestMean, config.cycle_s)} * config.axis_count) : nullptr;
   const MotionLimits limits = motion_limits(config);
   // While measuring there is no state: the parts are laid out from throw-away ones of the same size.
@@ -66,9 +67,10 @@ void Executor::create(const ExecutorConfig& config, Arena& arena) {
   if (state == nullptr) return;
   state->config = config;
   state->ring = ring;
+  state->left = left;
   state->mask = config.capacity - 1;
   state->optimal = optimal;
-  state->scan.create(config, ring, &state->planner, optimal, &state->shared, filters);
+  state->scan.create(config, ring, left, &state->planner, optimal, &state->shared, filters);
 }
 
 Planner::Inputs ExecutorState::scan_said() {
@@ -205,8 +207,8 @@ bool Executor::interrupt_asked() const {
   return state_->shared.reread_interrupt.load(std::memory_order_relaxed) != 0;
 }
 
-uint32_t Executor::shift_asked() const {
-  return state_->shared.reread_shift.load(std::memory_order_relaxed);
+AxisVec Executor::shift_asked() const {
+  return state_->shared.reread_shift;
 }
 
 Cut Executor::cut() const {
@@ -232,8 +234,46 @@ Serial Executor::last_mark() const {
   return state_->shared.status.read().last_mark;
 }
 
+bool Executor::executed_mark(uint32_t epoch, uint32_t* cycle, BlockSeq* seq) {
+  ExecutorState& e = *state_;
+  for (const uint32_t end = tail(); e.seen != end; ++e.seen) {
+    const Record& r = e.ring[e.seen & e.mask];
+    const LeftRecord& left = e.left[e.seen & e.mask];
+    if (r.kind != ItemKind::mark || !r.mark.resume || !left.executed || r.epoch != epoch) continue;
+    *cycle = left.cycle;
+    *seq = r.mark.seq;
+    return true;
+  }
+  return false;
+}
+
+void Executor::take_executed_mark() {
+  ++state_->seen;
+}
+
+uint32_t Executor::cycle_seen() const {
+  return state_->shared.cycle.load(std::memory_order_acquire);
+}
+
+bool Executor::may_push() const {
+  return state_->left == nullptr || state_->head - state_->seen < state_->config.capacity;
+}
+
 BlockSeq Executor::last_block() const {
   return state_->shared.status.read().last_block;
+}
+
+bool Executor::faulted(nc_source* where) const {
+  const ScanStatus& status = state_->shared.status.read();
+  *where = status.stopped_at;
+  return status.faulted;
+}
+
+bool Executor::stopped(nc_source* where, BlockSeq* behind) const {
+  const ScanStatus& status = state_->shared.status.read();
+  *where = status.stopped_at;
+  *behind = status.stopped_behind;
+  return status.stopped;
 }
 
 uint8_t Executor::servo_ready() const {
@@ -254,7 +294,7 @@ void Executor::set_position(const AxisVec& machine) {
 
 void Executor::count_from(uint32_t first) {
   ExecutorState& e = *state_;
-  e.head = first;
+  e.head = e.seen = first;
   e.planner.count_from(first);
   if (e.optimal != nullptr) e.optimal->count_from(uint64_t{first});
   e.shared.tail.store(first);

@@ -22,6 +22,7 @@ struct ExecutorConfig {
   double cycle_s = 0.001;
   double max_feed_override = 2.0;
   uint32_t capacity = 1024;  ///< records in the ring, power of two
+  bool tells_marks = false;  ///< executed_mark() is asked
   bool filters = false;      ///< there may be filters behind interpolation, each mean up to kLongestMean
   bool optimal = false;      ///< time-optimal jerk-limited law instead of the trapezoid
   double tolerance = 0.01;   ///< optimal: by which lines may leave the programmed path, mm
@@ -87,14 +88,27 @@ class Executor {
   Cut cut() const;
   /// Gives up every committed record behind the block stop; the mark to go on behind, as truncate().
   Serial give_up_ahead();
-  /// Axes that were moved by hand and take the coordinate systems along.
-  uint32_t shift_asked() const;
+  /// By which axes were moved by hand that take the coordinate systems along.
+  AxisVec shift_asked() const;
   void reread_done();
   /// Next executed record for the host.
   bool poll_event(nc_event* event, uint64_t* dropped);
   /// End of the newest block that has been executed in this run, 0: none. Right behind a new run(): as of when the program was given up.
   Serial last_mark() const;
   BlockSeq last_block() const;
+  // ---- where it matters to others in which order blocks are executed (ExecutorConfig::tells_marks)
+  /// The oldest block end that has been executed in the run `epoch` and not been taken yet: its block, and the cycle of the scan. False: none.
+  bool executed_mark(uint32_t epoch, uint32_t* cycle, BlockSeq* seq);
+  void take_executed_mark();
+  /// All that was executed up to this cycle, and in it, can be seen.
+  uint32_t cycle_seen() const;
+  /// The places of those that are not taken yet are not needed for the next record.
+  bool may_push() const;
+  /// The alarm of the scan is its own: the move at *where cannot be begun or gone on with. Holds until reset.
+  bool faulted(nc_source* where) const;
+  /// An alarm that is in no record, the scan's own or one of the machine, has stopped the program in the block *where, behind *behind. Holds
+  /// until reset.
+  bool stopped(nc_source* where, BlockSeq* behind) const;
   /// Bit i: axis i is a spindle, too (M700 10.5), and holds its position; and its reference position return is complete.
   uint8_t servo_ready() const;
   uint8_t referenced() const;

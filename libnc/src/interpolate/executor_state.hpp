@@ -10,9 +10,11 @@ class ExecutorState {
  public:
   ExecutorConfig config;
   Record* ring = nullptr;
+  LeftRecord* left = nullptr;  ///< by place in the ring; nullptr: nobody asks
   uint32_t mask = 0;
   // feeder's
   alignas(64) uint32_t head = 0;  ///< ring index behind the last record pushed
+  uint32_t seen = 0;              ///< ring index behind the last record that executed_mark() has looked at
   bool truncate_open = false;  ///< a request is waiting for its answer
   alignas(64) Planner planner;
   optimal::OptimalPlanner* optimal = nullptr;  ///< instead of it

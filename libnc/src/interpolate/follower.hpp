@@ -71,7 +71,7 @@ class Follower {
   void brake(PlanPace pace = {}) NC_RT {
     if (braking_ || at_rest()) return;
     const double use = ++tries_ % kOfGentle != 0 ? 1 : kGentle[tries_ / kOfGentle % (sizeof kGentle / sizeof kGentle[0])];
-    braking_ = brake_.find(PlanAhead{*this, cell_, -t_}, *limits_, use, pace);
+    braking_ = brake_.find(PlanAhead{this, cell_, -t_}, *limits_, use, pace);
   }
   bool braking() const { return braking_; }
 
@@ -174,24 +174,24 @@ class Follower {
 
   /// The plan as Brake looks through it, in the direction of time: `begun` is the plan's time at which `cell` is entered, 0 = now.
   struct PlanAhead {
-    const Follower& of;
+    const Follower* of;
     optimal::CellIndex cell;
     double begun;
 
-    double cell_end() const NC_RT { return begun + of.store_->at(cell).seconds; }
+    double cell_end() const NC_RT { return begun + of->store_->at(cell).seconds; }
     PlanMoment at(double tau) NC_RT {
       while (tau >= cell_end())
         if (!enter()) return rest();
-      return of.moment(of.store_->at(cell), std::fmax(0, tau - begun));
+      return of->moment(of->store_->at(cell), std::fmax(0, tau - begun));
     }
-    PlanMoment at_cell_end() const NC_RT { return of.moment(of.store_->at(cell), of.store_->at(cell).seconds); }
-    PlanMoment at_next_cell() NC_RT { return enter() ? of.moment(of.store_->at(cell), 0) : rest(); }
+    PlanMoment at_cell_end() const NC_RT { return of->moment(of->store_->at(cell), of->store_->at(cell).seconds); }
+    PlanMoment at_next_cell() NC_RT { return enter() ? of->moment(of->store_->at(cell), 0) : rest(); }
 
    private:
     bool enter() NC_RT {
-      if (of.store_->at(cell).kind == optimal::PlanCell::Kind::land) return false;
+      if (of->store_->at(cell).kind == optimal::PlanCell::Kind::land) return false;
       begun = cell_end();
-      cell = of.store_->next[cell & of.store_->cell_mask];
+      cell = of->store_->next[cell & of->store_->cell_mask];
       return true;
     }
     static PlanMoment rest() {

@@ -11,6 +11,7 @@ constexpr double kLeastOverride = 1e-4;
 constexpr double kLeastRevPerS = 1e-5, kMostRevPerS = 1e4, kMostTurns = 1e12;
 constexpr double kMostPlace = 1e9;   // mm or deg
 constexpr double kMostByHand = 1e6;  // mm, deg, and each of them per s
+constexpr double kLeastByHand = 1e-6;
 constexpr double kSpindleGoesOn_s = 0.02;
 
 /// False for NaN, too.
@@ -83,11 +84,13 @@ void InputBorder::actual() {
   }
 }
 
+/// A step with next to no speed would be on its way for years, and nothing else could be done at the machine.
 void InputBorder::manual() {
   for (unsigned i = 0; i < axis_count_; ++i) {
     nc_manual& m = now_.manual[i];
     if (m.kind == NC_MANUAL_NONE) continue;
-    if (m.kind <= NC_MANUAL_REFERENCE && within(m.velocity, kMostByHand) && within(m.distance, kMostByHand)) continue;
+    const bool slow = m.velocity != 0 && within(m.velocity, kLeastByHand);
+    if (m.kind <= NC_MANUAL_REFERENCE && within(m.velocity, kMostByHand) && !slow && within(m.distance, kMostByHand)) continue;
     refused_ |= NC_INPUT_MANUAL;
     m = {};
   }

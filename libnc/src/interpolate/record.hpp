@@ -2,6 +2,8 @@
 // What lies in the ring between feeder and scan: items that are committed and never change any more.
 #pragma once
 
+#include "frame/affine.hpp"
+#include "motion/accuracy.hpp"
 #include "path/curve.hpp"
 #include "shape/filter_times.hpp"
 #include "stream/stream.hpp"
@@ -13,23 +15,10 @@ struct AxisLimits {
   double rapid = 0, velocity = 0, acceleration = 0, jerk = 0, in_position = 0;
 };
 
-/// What high-accuracy control asks of one segment (M700 13.15; motion/m700_accuracy.hpp). Zeros ask nothing.
-struct AccuracyLimits {
-  float speed_clamp = 0;   ///< by the radius or the curvature, mm/s
-  float corner_step = 0;   ///< change of velocity that a corner may make, mm/s
-  float smooth_cos = -1;   ///< a corner whose tangents have this cosine or more is none
-  float corner_least = 0;  ///< a corner is not passed slower for `corner_step`, mm/s
-  float arc_joint = 0;     ///< speed where an arc meets another kind of path, mm/s
-  float judged_turn = -1;  ///< |change of direction| that the corner at its start counts as; negative: what it is
-  float bend_acceleration = 0;  ///< that short lines may cause by turning, mm/s^2
-  float acceleration = 0;  ///< along the path, mm/s^2
-};
-
 /// Committed geometry and its own speed limits. The plan over it (motion/plan.hpp) may change, this may not.
 struct Segment {
   Curve curve;
-  AxisVec to_work;  ///< what the display adds to machine coordinates to show workpiece coordinates (per axis)
-  AxisVec work_sign;     ///< +1, or -1 where an axis is mirrored: work = sign * machine + to_work
+  Affine to_work;        ///< from machine coordinates to the workpiece coordinates that the display shows
   double feed_mm_s = 0;  ///< commanded path speed; 0 for rapid
   double feed_mm_rev = 0;
   bool rapid = false;

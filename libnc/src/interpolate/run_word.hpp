@@ -8,7 +8,7 @@
 //     IDLE                                   even     cycle start, once the feeder has taken this word    scan
 //     RUNNING, HOLD, STOPPED                 odd      hold, block stop, cycle start: the word stays       scan
 //                                                     end item: even, the same epoch, IDLE                scan
-//                                                     reset or alarm input, at rest: even, next epoch     scan
+//                                                     reset, alarm or fault, at rest: even, next epoch    scan
 //     ALARM of the program (alarm item)      odd      end item behind the alarm: even, the same epoch     scan
 //     ALARM                                  even     reset: even, next epoch, IDLE                       scan
 //

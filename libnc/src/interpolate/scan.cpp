@@ -25,10 +25,11 @@ nc_axes to_nc(const AxisVec& a) {
 
 }  // namespace
 
-void Scan::create(const ExecutorConfig& config, const Record* ring, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared,
-                  double* filters) {
+void Scan::create(const ExecutorConfig& config, const Record* ring, LeftRecord* left, Planner* planner, optimal::OptimalPlanner* optimal,
+                  ScanShared* shared, double* filters) {
   config_ = config;
   ring_ = ring;
+  left_ = left;
   mask_ = config.capacity - 1;
   planner_ = planner;
   optimal_ = optimal;
@@ -202,16 +203,22 @@ void Scan::ask_for_interrupt() {
   reread_reached_ = false;
   shared_->block_begun.store(0, std::memory_order_relaxed);
   shared_->reread_interrupt.store(reread_interrupt_ ? 1 : 0, std::memory_order_relaxed);
+  shared_->reread_shift = {};
   shared_->reread_request.store(++reread_, std::memory_order_release);
 }
 
 void Scan::states(const nc_inputs& in) {
-  if (in.cycle_start && !last_start_) start_ = true;
+  if (in.cycle_start && !last_start_ && !in.reset) start_ = true;
   last_start_ = in.cycle_start;
   if (in.reset && !last_reset_) reset_ = true;
   last_reset_ = in.reset;
   interlock_ = in.interlock;
-  if (in.alarm) alarmed_ = true;
+  if (in.alarm) {
+    const bool program = state_ == NC_STATE_RUNNING || state_ == NC_STATE_HOLD || state_ == NC_STATE_STOPPED;
+    // Behind the end of a block, and not yet in the next one, it is still that block: what is before it has called it.
+    if (!alarmed_ && program && placed_) stop_in(source_, serial_ == last_mark_ ? last_block_ - 1 : last_block_);
+    alarmed_ = true;
+  }
 
   const bool still = stands() && !manual_.active();
   if (reset_) {
@@ -219,7 +226,7 @@ void Scan::states(const nc_inputs& in) {
     if (frozen_ && shared_->truncation.withdraw()) frozen_ = false;
     if (!still || frozen_ || rereading_) return;
     give_up();
-    reset_ = false;
+    reset_ = faulted_ = stopped_ = false;
     alarmed_ = in.alarm;
     state_ = NC_STATE_IDLE;
   }
@@ -244,7 +251,7 @@ void Scan::states(const nc_inputs& in) {
       rereading_ = true;
       shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
       shared_->reread_interrupt.store(0, std::memory_order_relaxed);
-      shared_->reread_shift.store(in.manual_absolute_off ? by_hand_ : 0, std::memory_order_relaxed);
+      for (unsigned i = 0; i < config_.axis_count; ++i) shared_->reread_shift[i] = in.manual_absolute_off ? wanted_[i] - hand_from_[i] : 0;
       if (in.manual_absolute_off) by_hand_ = 0;
       shared_->reread_request.store(++reread_, std::memory_order_release);
       return;
@@ -264,6 +271,7 @@ void Scan::start(const nc_inputs& in) {
       blocks_ = 0;
       last_mark_ = 0;
       last_block_ = 0;
+      placed_ = false;
       done_ = 0;
       last_staged_ = block_waits_ = false;
       block_syncs_ = 0;
@@ -341,6 +349,7 @@ void Scan::run(const nc_inputs& in) {
     if (shape_.active() && waits_for_filters(r, in)) break;
     serial_ = r.serial;
     source_ = r.source;
+    placed_ = true;
     if (r.kind == ItemKind::mark && r.mark.resume) {
       last_mark_ = r.serial;
       last_block_ = r.mark.seq;
@@ -380,6 +389,7 @@ void Scan::leave(const Record& r, bool executed) {
     }
   }
   if (r.kind == ItemKind::move && r.segment.curve.length > 0) ++ordinal_;
+  if (left_ != nullptr) left_[tail_ & mask_] = {static_cast<uint32_t>(power_cycles_), executed};
   ++tail_;
 }
 
@@ -409,6 +419,7 @@ void Scan::manual(const nc_inputs& in, bool rested) {
   manual_cycle(in);
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     if (state_ != NC_STATE_STOPPED || wanted_[i] == before[i]) continue;
+    if (!displaced_) hand_from_ = before;
     displaced_ = true;
     by_hand_ |= 1u << i;
   }
@@ -437,10 +448,15 @@ void Scan::publish(const nc_inputs& in) {
   status.last_mark = last_mark_;
   status.last_block = last_block_;
   status.cut = cut_;
+  status.faulted = faulted_;
+  status.stopped = stopped_;
+  status.stopped_at = stopped_at_;
+  status.stopped_behind = stopped_behind_;
   shared_->status.write(status);
   shared_->ordinal.store(ordinal_, std::memory_order_relaxed);
   shared_->run.store(run_.word(), std::memory_order_release);
   shared_->tail.store(tail_, std::memory_order_release);
+  shared_->cycle.store(static_cast<uint32_t>(power_cycles_), std::memory_order_release);
   if (optimal_ != nullptr) tell_planner(in, status);
 }
 
@@ -466,28 +482,31 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   out.distance_zero = true;
   if (latest_ != nullptr) {
     to_work_ = latest_->to_work;
-    work_sign_ = latest_->work_sign;
     target_ = latest_->curve.end;
   } else if (state_ == NC_STATE_IDLE && axes.idle) {
-    for (unsigned i = 0; i < config_.axis_count; ++i) {
-      to_work_[i] = -axes.zero[i];
-      work_sign_[i] = 1;
-    }
+    AxisVec back;
+    for (unsigned i = 0; i < config_.axis_count; ++i) back[i] = -axes.zero[i];
+    to_work_ = Affine::translation(back);
   }
+  const AxisVec work = to_work_.apply(command_);
   const bool on_the_way = moving_ || !drained();
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     out.command.v[i] = command_[i];
     out.velocity.v[i] = (command_[i] - last_command_[i]) * per_s;
     if (command_[i] != last_command_[i]) out.distance_zero = false;
-    out.work.v[i] = work_sign_[i] * command_[i] + to_work_[i];
+    out.work.v[i] = work[i];
     out.distance_to_go.v[i] = on_the_way ? target_[i] + turned_[i] - command_[i] : 0;
     double away = command_[i] - config_.reference[i];
     if ((turning >> i & 1) != 0) away -= 360 * std::nearbyint(away / 360);
     if (std::fabs(away) <= kSamePlace) out.at_reference |= 1u << i;
   }
-  for (unsigned i = 0; i < NC_WORDS; ++i) out.output[i] = output_[i];
+  for (unsigned i = 0; i < NC_WORDS; ++i) {
+    out.output[i] = output_[i];
+    out.output_written[i] = output_written_[i];
+    output_written_[i] = 0;
+  }
   for (unsigned i = 0; i < kMaxAxes; ++i) out.current_limit[i] = current_limit_[i];
-  out.state = static_cast<uint8_t>(alarmed_ ? NC_STATE_ALARM : manual_.active() ? NC_STATE_MANUAL : state_);
+  out.state = static_cast<uint8_t>(alarmed_ ? NC_STATE_ALARM : manual_.moving() ? NC_STATE_MANUAL : state_);
   out.cause = static_cast<uint8_t>(alarmed_                                              ? NC_CAUSE_ALARM
                                    : state_ == NC_STATE_HOLD                             ? NC_CAUSE_FEED_HOLD
                                    : interlock_ && moving_ && state_ == NC_STATE_RUNNING ? NC_CAUSE_INTERLOCK
@@ -501,7 +520,7 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
   out.t = t_;
   out.b = b_;
   // Constant surface speed asks for the coordinate of its axis.
-  spindles_.update([this](unsigned axis) { return work_sign_[axis] * command_[axis] + to_work_[axis]; });
+  spindles_.update([&work](unsigned axis) { return work[axis]; });
   out.s = spindles_.commanded();
   for (unsigned i = 0; i < config_.spindle_count; ++i) out.spindle_rev_min[i] = spindles_.now(i);
   for (unsigned i = 0; c_axes_ != 0 && i < config_.axis_count; ++i)

@@ -35,6 +35,16 @@ struct ScanStatus {
   Serial last_mark = 0;  ///< newest block end that has been executed in this run
   BlockSeq last_block = 0;  ///< of that block
   Cut cut;
+  bool stopped = false;     ///< by an alarm that is in no record, the scan's own or one of the machine, while a program was in execution ...
+  bool faulted = false;     ///< ... the scan's own: the move cannot be begun or gone on with ...
+  nc_source stopped_at{};   ///< ... in this block ...
+  BlockSeq stopped_behind = 0;  ///< ... behind this one
+};
+
+/// What has become of a record that the scan has left.
+struct LeftRecord {
+  uint32_t cycle = 0;
+  bool executed = false;  ///< else it has been thrown away
 };
 
 /// The world at the last sync.
@@ -47,6 +57,7 @@ struct ScanWorld {
 struct ScanShared {
   alignas(64) std::atomic<uint32_t> tail{0};  ///< ring index of the record in execution
   std::atomic<uint32_t> ordinal{0};           ///< of the segment in execution or the next one
+  std::atomic<uint32_t> cycle{0};             ///< the newest one of which all else has been said
   std::atomic<uint32_t> run{0};     ///< RunWord
   std::atomic<uint32_t> mirror{0};  ///< nc_inputs::mirror of the newest start
   std::atomic<uint32_t> block_begun{
@@ -55,7 +66,7 @@ struct ScanShared {
   alignas(64) std::atomic<uint32_t> run_taken{0};  ///< feeder: the newest run word that it has acted upon
   std::atomic<uint32_t> reread_request{0};  ///< scan: read again from where the axes are; it waits for
   std::atomic<uint32_t> reread_interrupt{0};  ///< 1: and begin with the interrupt program
-  std::atomic<uint32_t> reread_shift{0};  ///< bit i: and the coordinate systems go along with axis i
+  AxisVec reread_shift;                     ///< by which the coordinate systems go along, published with the request
   std::atomic<uint32_t> reread_done{0};     ///< feeder: the request that is done
   Latest<ScanStatus> status;
   Latest<ScanWorld> world;
@@ -65,7 +76,7 @@ struct ScanShared {
 
 class Scan {
  public:
-  void create(const ExecutorConfig& config, const Record* ring, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared,
+  void create(const ExecutorConfig& config, const Record* ring, LeftRecord* left, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared,
               double* filters = nullptr);
   void set_position(const AxisVec& machine);
   void count_from(uint32_t first);  ///< for tests
@@ -136,7 +147,7 @@ class Scan {
   Done sync(const Record& record, const nc_inputs& in) NC_RT;
   // scan_filter.cpp: what waits for the filters, and what is added behind interpolation
   bool waits_for_filters(const Record& record, const nc_inputs& in) NC_RT;
-  bool filters_ready(const Segment& segment) NC_RT;
+  bool filters_ready(const Record& record) NC_RT;
   void note_skip(const nc_inputs& in) NC_RT;
   void watch_skip(const nc_inputs& in) NC_RT;
   void round_arc(const Segment& segment) NC_RT;
@@ -146,6 +157,8 @@ class Scan {
   void mark(const Mark& mark, const nc_inputs& in) NC_RT;
   bool stops_at(const Mark& mark, const nc_inputs& in) const NC_RT;
   void alarm() NC_RT;
+  void stop_in(const nc_source& block, BlockSeq behind) NC_RT;
+  Done fault(const Record& record) NC_RT;
   void leave(const Record& record, bool executed) NC_RT;
   /// `width` > 0: of the block instead of the axes'.
   bool in_position(const nc_inputs& in, double width = 0) const NC_RT;
@@ -191,6 +204,7 @@ class Scan {
   // ---- set once
   ExecutorConfig config_;
   const Record* ring_ = nullptr;
+  LeftRecord* left_ = nullptr;  ///< by place in the ring, where somebody asks
   uint32_t mask_ = 0;
   Planner* planner_ = nullptr;
   optimal::OptimalPlanner* optimal_ = nullptr;  ///< nullptr: the trapezoid
@@ -205,6 +219,7 @@ class Scan {
   bool frozen_ = false;    ///< the feeder may be truncating
   bool block_begun_ = false;
   bool displaced_ = false;  ///< moved by hand since the block stop
+  AxisVec hand_from_;       ///< where the axes stood in it before that
   uint32_t by_hand_ = 0;    ///< bit i: axis i was, and the program has not moved it since
   bool rereading_ = false;  ///< the feeder reads again from here; nothing is executed, moved or given up
   uint32_t reread_ = 0;     ///< requests so far
@@ -230,7 +245,7 @@ class Scan {
   bool check_ = false;     ///< the block that has ended ends with a deceleration check (M700 7.9)
   AxisVec command_, last_command_;
   const Segment* latest_ = nullptr;                        ///< segment that was executed last in this cycle
-  AxisVec to_work_, work_sign_{{1, 1, 1, 1, 1, 1, 1, 1}};  ///< of the segment executed last
+  Affine to_work_;  ///< of the segment executed last
   AxisVec target_;                                         ///< end of the segment in execution
   Shape shape_;
   Manual manual_;
@@ -242,6 +257,11 @@ class Scan {
   bool hold_ = false, reset_ = false, alarmed_ = false, interlock_ = false;
   bool last_start_ = false, last_reset_ = false;
   bool start_ = false;  ///< cycle start was pressed and not yet acted upon
+  bool faulted_ = false;  ///< alarmed_ by fault(), until reset
+  bool placed_ = false;         ///< source_ is a block of this run
+  bool stopped_ = false;        ///< ScanStatus::stopped and what belongs to it, until reset
+  nc_source stopped_at_{};
+  BlockSeq stopped_behind_ = 0;
 
   // ---- handshake of M S T B
   uint8_t strobe_ = 0;
@@ -310,6 +330,7 @@ class Scan {
 
   // ---- outside
   uint32_t output_[NC_WORDS] = {};
+  uint32_t output_written_[NC_WORDS] = {};  ///< bits that blocks have written in this cycle
   struct Text {
     uint32_t id = 0, port = 0;
   };

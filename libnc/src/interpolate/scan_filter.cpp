@@ -3,8 +3,8 @@
 // radius that is added to the interpolated place (M700 13.15).
 #include <cmath>
 
+#include "interpolate/radius_share.hpp"
 #include "interpolate/scan.hpp"
-#include "motion/m700_accuracy.hpp"
 
 namespace nc {
 
@@ -28,7 +28,8 @@ bool Scan::waits_for_filters(const Record& r, const nc_inputs& in) {
 
 /// A move begins, or goes on from a rest. Filters change while nothing is in them. Acceleration after interpolation goes on from a rest
 /// only when that has ended; a path that is accelerated before interpolation goes on at once, but for a deceleration check.
-bool Scan::filters_ready(const Segment& s) {
+bool Scan::filters_ready(const Record& r) {
+  const Segment& s = r.segment;
   const bool same = shape_.uses(s.filter);
   if (!same) law_.v = 0;  // the plan rests here
   if (!at_rest()) return true;
@@ -38,7 +39,7 @@ bool Scan::filters_ready(const Segment& s) {
   if (same) return true;
   if (!shape_.settled(place())) return false;  // what was gone in this cycle is not for the new ones
   if (!shape_.use(s.filter)) {  // commit lets none through that does not fit
-    alarmed_ = true;
+    (void)fault(r);
     return false;
   }
   return true;

@@ -61,7 +61,6 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
   if (follower_.at_rest()) {
     if (skip_braking_) {
       end_move(r);
-      follower_.give_up();
       return Done::yes;
     }
     if (braking() || (s.skip && !(feed_override(in) > 0))) {  // M700 15.2: a skip move goes at 100 %, but for an override of 0
@@ -70,13 +69,9 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
     // A hold may have come while several records that end here were counted off.
     if (follower_.rests_behind(tail_) && follower_.u() >= nearly(optimal_->store().passed[tail_ & mask_])) return passed(r);
     if (follower_.idle()) {
-      if (no_law_) alarmed_ = true;
-      return wait(standing(s, in));
+      return wait(no_law_ ? NC_CAUSE_NO_LAW : standing(s, in));
     }
-    if (time_ > 0 && would_jump(follower_.start())) {
-      alarmed_ = true;
-      return Done::no;
-    }
+    if (time_ > 0 && would_jump(follower_.start())) return fault(r);
     if (s.thread && time_ > 0 && !begin_thread(s, in)) return Done::no;
   }
   silent_ = path_stops(in) && !follower_.at_rest() && !follower_.stops() ? silent_ + time_ : 0;

@@ -12,6 +12,9 @@ namespace {
 /// A segment that does not start where the machine stands is never begun: the axes would jump.
 constexpr double kSamePlace = 1e-6;  ///< mm or deg
 
+/// An axis that a block does not name goes to where it is, but for what the way there and back through the coordinate systems leaves.
+constexpr double kMoves = 1e-9;  ///< mm or deg
+
 uint32_t code_number(double value) {
   return value >= 0 && value < 4294967296.0 ? static_cast<uint32_t>(value) : 0;
 }
@@ -76,6 +79,20 @@ void Scan::alarm() {
   state_ = NC_STATE_ALARM;
 }
 
+/// The move does not go on from where the axes stand, which should not be: nothing moves, and the feeder has it in words.
+Scan::Done Scan::fault(const Record& r) {
+  alarmed_ = faulted_ = true;
+  stop_in(r.source, last_block_);
+  return Done::no;
+}
+
+/// Where a program is that an alarm stops which the interpreter knows nothing of.
+void Scan::stop_in(const nc_source& block, BlockSeq behind) {
+  stopped_ = true;
+  stopped_at_ = block;
+  stopped_behind_ = behind;
+}
+
 // ---- moves
 // --------------------------------------------------------------------------------------------------------------
 
@@ -91,7 +108,7 @@ bool Scan::begin_move(const Record& r, const nc_inputs&) {
     }
   }
   for (unsigned i = 0; by_hand_ != 0 && i < config_.axis_count; ++i)
-    if (s.curve.delta[i] != 0) by_hand_ &= ~(1u << i);
+    if (std::fabs(s.curve.delta[i]) > kMoves) by_hand_ &= ~(1u << i);
   law_.s = s.begun;
   moving_ = true;
   block_begun_ = true;
@@ -104,6 +121,9 @@ bool Scan::begin_move(const Record& r, const nc_inputs&) {
 }
 
 void Scan::end_move(const Record& r) {
+  // What a signal has left of a move is not gone, though the plan leads over it: what follows is planned anew, from where the
+  // axes are.
+  if (skip_braking_ && follower_.at_rest()) follower_.give_up();
   law_.s = 0;
   moving_ = skip_braking_ = rounding_ = false;
   rapid_behind_ = r.segment.rapid;
@@ -245,24 +265,22 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
     end_move(r);
     return Done::yes;
   }
-  if ((shape_.active() || s.filter.kind != FilterTimes::Kind::none) && !filters_ready(s)) return alarmed_ ? Done::no : wait(NC_CAUSE_IN_POSITION);
+  if ((shape_.active() || s.filter.kind != FilterTimes::Kind::none) && !filters_ready(r)) return alarmed_ ? Done::no : wait(NC_CAUSE_IN_POSITION);
   if (begins && tapping_ && at_rest() && tap_disturbed(in)) return wait(NC_CAUSE_TAP_SPINDLE);
   if ((s.index_axes | s.unclamps) != 0) {
     if (begins && !unclamp_for(s, in)) return Done::no;
     if (law_.s > s.begun) index_.leave(s.index_axes);
   }
   if (begins && s.thread && at_rest() && optimal_ == nullptr && !thread_may_begin(s, in)) return Done::no;
-  if (begins && !begin_move(r, in)) {
-    alarmed_ = true;
-    return Done::no;
-  }
+  if (begins && !begin_move(r, in)) return fault(r);
   latest_ = &s;
   if (s.skip_speeds != nullptr) change_skip_feed(*s.skip_speeds, in.skip);
   if (s.skip && !skipped_ && (in.skip & s.skip_mask)) {
     // The signal was sampled with the position that the axes had when this cycle began.
     skip_braking_ = true;
     note_skip(in);
-    if (begins) {  // M700 15.2: on already at the start, no movement
+    // M700 15.2: on already at the start, no movement. A path that comes at speed brakes first.
+    if (begins && follower_.at_rest()) {
       end_move(r);
       return Done::yes;
     }
@@ -292,16 +310,19 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
 Scan::Done Scan::action(const Action& a) {
   switch (a.kind) {
     case NC_ACTION_OUTPUT:  // M700 13.5.5: the bits of one word, in the image that the outputs carry
-      if (a.index < NC_WORDS) output_[a.index] = (output_[a.index] & ~a.mask) | (a.bits & a.mask);
+      if (a.index < NC_WORDS) {
+        output_[a.index] = (output_[a.index] & ~a.mask) | (a.bits & a.mask);
+        output_written_[a.index] |= a.mask;
+      }
       return Done::yes;
     case NC_ACTION_MESSAGE:
       return messages_.push({a.text, a.index}) ? Done::yes : wait(NC_CAUSE_NONE);
     case NC_ACTION_CONTROL:
-      if (a.index == 3003) suppress_ = code_number(a.value);
-      if (a.index == 3004) disable_ = code_number(a.value);
+      if (a.index == NC_CONTROL_SUPPRESS) suppress_ = code_number(a.value);
+      if (a.index == NC_CONTROL_DISABLE) disable_ = code_number(a.value);
       if (a.index == NC_CONTROL_SURFACE_SPEED) spindles_.surface(a.value, a.bits);
       if (a.index == NC_CONTROL_SPINDLE_CLAMP) spindles_.clamp(a.bits, a.mask, code_number(a.value));
-      if (a.index == 96) {
+      if (a.index == NC_CONTROL_INTERRUPT) {
         const uint32_t mode = code_number(a.value);
         interrupt_rest_.change(interrupt_mode_, mode);
         interrupt_mode_ = mode;

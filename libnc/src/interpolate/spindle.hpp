@@ -28,7 +28,8 @@ class SpindleSpeeds {
 
   void command(double rev_min) { code_ = rev_min; }
   /// m/min around the coordinate of `axis` (from 1); 0 = the speed stays what it is until the next code.
-  void surface(double m_min, unsigned axis) {
+  void surface(double m_min, uint32_t axes) {
+    const unsigned axis = axes == 0 ? 0 : static_cast<unsigned>(std::countr_zero(axes)) + 1u;
     if (axis == 0 && axis_ != 0) code_ = spindle_[lead_].now;
     m_min_ = m_min;
     axis_ = axis;

@@ -38,11 +38,11 @@ class Truncation {
   }
   /// What the scan has agreed to is still to be done.
   bool holds() const { return (answer_.load(std::memory_order_acquire) & 3u) != kOver; }
-  /// Takes the agreement back. False: the feeder is at it.
+  /// Takes the agreement back. False: the feeder is at it, or has been since this cycle began. Then the plan that the scan took in this cycle may
+  /// lead over records that are given up, so the ring stays the feeder's until the next cycle looks at holds().
   bool withdraw() {
     uint32_t agreed = word(seen_, kAgreed);
-    return answer_.compare_exchange_strong(agreed, word(seen_, kOver), std::memory_order_acq_rel, std::memory_order_acquire) ||
-           (agreed & 3u) == kOver;
+    return answer_.compare_exchange_strong(agreed, word(seen_, kOver), std::memory_order_acq_rel, std::memory_order_relaxed);
   }
 
  private:

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Why a block has raised an alarm, as far as the fault does not say so itself: the option that is off, the code of another control, the
 // vacant variable. All of it is found when the block is given up; nothing is noted for it while programs run, but for a vacant F.
-#include <cmath>
 #include <cstring>
 
 #include "dialect/alarms.hpp"
+#include "dialect/foreign_codes.hpp"
 #include "dialect/text.hpp"
 #include "interpret/interpreter.hpp"
 
@@ -26,6 +26,29 @@ unsigned sets_with(uint32_t number) {
   return 0;
 }
 
+/// "#1037", as the family calls the parameter.
+TextWriter& put_parameter(const Interpreter& in, ParameterOf parameter, TextWriter& out) {
+  char key[kParameterKeySize];
+  int bit = -1;
+  return parameter_place(*in.dialect, parameter, key, &bit) ? out.put('#').put(key) : out;
+}
+
+/// What a system variable needs that there could be. False: nothing is missing.
+bool put_system_variable_option(const Interpreter& in, uint32_t number, TextWriter& out) {
+  const VariableRow* const row = find_variable(*in.dialect->variables, number);
+  if (row == nullptr) return false;
+  const VariablePlace place = place_in(*row, number);
+  if (row->what == SystemVariable::tool_offset && place.index >= in.frames.tool_offsets())
+    out.put("The option tool_offsets is ").put_integer(in.frames.tool_offsets()).put('.');
+  else if (row->what == SystemVariable::tool_offset && place.part > 0 && !in.settings.tool_memory_2)  // a wear or a radius
+    put_parameter(in, Parameter::tool_memory_type, out.put("It needs tool offsets of type II (")).put(" = 2).");
+  else if (row->what == SystemVariable::work_offset && place.part > Frames::kStandardSystems + in.frames.extended_systems())
+    out.put("The option work_offsets is ").put_integer(in.frames.extended_systems()).put('.');
+  else
+    return false;
+  return true;
+}
+
 /// P241 of a variable that an option would give. False: no option has it.
 bool put_variable_option(const Interpreter& in, uint32_t number, TextWriter& out) {
   const bool exists = in.common->exists(number);  // it cannot have the name that SETVN gives it, or the like
@@ -36,19 +59,8 @@ bool put_variable_option(const Interpreter& in, uint32_t number, TextWriter& out
     out.put("The option extended_variables is off.");
   } else if (!exists && in_range(number, kLocals + 1, 499)) {
     out.put("The option variable_ranges can give it to the machine.");
-  } else if (in_range(number, 2001, 2800) || in_range(number, 10001, 17999)) {
-    const bool wear_or_radius = number > 10999 || in_range(number, 2201, 2800);
-    const uint32_t index = number < 10000 ? (number - 2001) % 200 + 1 : number % 1000;
-    if (index > in.frames.tool_offsets())
-      out.put("The option tool_offsets is ").put_integer(in.frames.tool_offsets()).put('.');
-    else if (wear_or_radius && !in.settings.tool_memory_2)
-      out.put("It needs tool offsets of type II (#1037 = 2).");
-    else
-      return false;
-  } else if (in_range(number, 7001, 8920) && (number - 7001) / 20 >= in.frames.extended_systems()) {
-    out.put("The option work_offsets is ").put_integer(in.frames.extended_systems()).put('.');
   } else {
-    return false;
+    return put_system_variable_option(in, number, out);
   }
   return true;
 }
@@ -68,20 +80,13 @@ bool put_option(const Interpreter& in, TextWriter& out, bool* instead) {
 
 // ---- codes of other controls ------------------------------------------------------------------------------------------------
 
-struct ForeignCode {
-  double code;
-  const char* hint;
-};
-constexpr ForeignCode kForeignCodes[] = {
-    {90.1, "G90.1 (absolute arc centres) does not exist here: I J K always count from the start of the arc."},
-    {91.1, "G91.1 is not known and not needed here: I J K always count from the start of the arc. Leave it out."},
-};
-
 /// Words behind the number or name of an O-word of LinuxCNC.
 constexpr const char* kOWords[] = {"SUB",   "ENDSUB", "CALL",     "RETURN", "IF",       "ELSEIF",   "ELSE",
                                    "ENDIF", "WHILE",  "ENDWHILE", "DO",     "CONTINUE", "BREAK",    "REPEAT",
                                    "ENDREPEAT"};
 constexpr char kOWordHint[] = "O-words of LinuxCNC do not exist here: M98 P_ and M99 or G65 call, IF [ ] GOTO and WHILE [ ] DO branch.";
+
+constexpr char kNamedParameterHint[] = "Named parameters of LinuxCNC do not exist here: a variable has a number behind #, not a name in < >.";
 
 char capital(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
@@ -92,12 +97,9 @@ void skip_digits(const char** at) {
   while (**at >= '0' && **at <= '9') ++*at;
 }
 
-/// "o100 sub", "N10 O<name> call [1]", "o[#1] if [...]".
+/// At an O: "o100 sub", "O<name> call [1]", "o[#1] if [...]", "o#1 call".
 bool is_o_word(const char* at) {
-  skip_blanks(&at);
-  if (capital(*at) == 'N') skip_digits(&++at);
-  skip_blanks(&at);
-  if (capital(*at++) != 'O') return false;
+  ++at;
   skip_blanks(&at);
   const char close = *at == '<' ? '>' : *at == '[' ? ']' : 0;
   if (close != 0) {
@@ -105,6 +107,7 @@ bool is_o_word(const char* at) {
     if (at == nullptr) return false;
     ++at;
   } else {
+    while (*at == '#') ++at;
     skip_digits(&at);
   }
   skip_blanks(&at);
@@ -115,58 +118,83 @@ bool is_o_word(const char* at) {
   return false;
 }
 
+/// At a #: "#<feed>", "# <_global>".
+bool is_named_parameter(const char* at) {
+  ++at;
+  skip_blanks(&at);
+  return *at == '<';
+}
+
+/// What a line of LinuxCNC holds that there is not here, nullptr = nothing. Anywhere in it, but in a comment: an O-word at its head, behind N,
+/// '/' or another word. Letters before it make it part of a name.
+const char* linuxcnc_hint(const char* line) {
+  const char* hint = nullptr;
+  bool comment = false;
+  for (const char* at = line; *at != 0; ++at) {
+    if (*at == '(') comment = true;
+    if (*at == ')') comment = false;
+    if (comment) continue;
+    const char before = at == line ? ' ' : capital(at[-1]);
+    if (capital(*at) == 'O' && !(before >= 'A' && before <= 'Z') && is_o_word(at)) return kOWordHint;
+    if (*at == '#' && is_named_parameter(at)) hint = kNamedParameterHint;
+  }
+  return hint;
+}
+
 bool put_foreign(const Interpreter& in, TextWriter& out) {
   const Fault& fault = in.fault;
-  if (fault.letter == 'G' && fault.has_value && (fault.condition == Condition::illegal_g || fault.condition == Condition::no_function)) {
-    for (const ForeignCode& row : kForeignCodes) {
-      if (std::fabs(fault.value - row.code) > 1e-6) continue;
-      out.put(row.hint);
-      return true;
-    }
-    return false;
+  if (fault.letter == in.dialect->addresses.letter(Role::code) && fault.has_value && (fault.condition == Condition::illegal_g || fault.condition == Condition::no_function)) {
+    const char* const hint = foreign_code_hint(fault.value);
+    if (hint == nullptr) return false;
+    out.put(hint);
+    return true;
   }
-  // Letters without numbers: an O number in front of a block that makes sense is none of these.
-  const bool unreadable = in.block != nullptr && (in.block->has_fault || fault.condition == Condition::format_error);
+  // Letters without numbers: an O number in front of a block that makes sense is none of these. Behind the first blocks an O begins another
+  // program, so that this one has ended without M30.
+  const bool unreadable = in.block != nullptr && (in.block->has_fault || fault.condition == Condition::format_error ||
+                                                  fault.condition == Condition::program_end || fault.condition == Condition::variable_use);
   if (!unreadable) return false;
-  char text[80] = {};
+  char text[160] = {};
   const TextEntry* const entry = in.store->entry(in.source.file);
   if (entry == nullptr || TextWindow::read(*entry, in.block->begin, text, sizeof text - 1) <= 0) return false;
   for (char& c : text)
     if (c == '\n' || c == '\r') c = 0;
-  if (!is_o_word(text)) return false;
-  out.put(kOWordHint);
+  const char* const hint = linuxcnc_hint(text);
+  if (hint == nullptr) return false;
+  out.put(hint);
   return true;
 }
 
 // ---- vacant variables ---------------------------------------------------------------------------------------------------------
 
 /// Alarms that a vacant variable can be behind, and the words that are looked at for one: a word with nothing but a vacant variable is
-/// ignored, in a formula it counts as 0 (M700 13.5.4). "" = the word that the fault names, "*" = any word.
+/// ignored, in a formula it counts as 0 (M700 13.5.4).
+enum class Suspected : uint8_t { any_word, named_word, feed, lead, speed, offset, number, kind, program };
 struct Suspects {
   Condition condition;
-  const char* letters;
+  Suspected words;
 };
 constexpr Suspects kSuspects[] = {
-    {Condition::no_feed, "F"},
-    {Condition::skip_feed_zero, "F"},
-    {Condition::arc_feed_zero, "F"},
-    {Condition::thread_lead, "FE"},
-    {Condition::surface_speed, "S"},
-    {Condition::no_offset_number, "DH"},
-    {Condition::g10_p, "P"},
-    {Condition::g10_l, "L"},
-    {Condition::arc_center, "*"},
-    {Condition::arc_deviation, "*"},
-    {Condition::words_missing, "*"},
-    {Condition::measure_axis, "*"},
-    {Condition::nesting, "P"},
-    {Condition::address_missing, ""},
-    {Condition::program_missing, ""},
-    {Condition::sequence_missing, ""},
-    {Condition::value_range, ""},
-    {Condition::calculation, "*"},
-    {Condition::division_by_zero, "*"},
-    {Condition::variable_number, "*"},
+    {Condition::no_feed, Suspected::feed},
+    {Condition::skip_feed_zero, Suspected::feed},
+    {Condition::arc_feed_zero, Suspected::feed},
+    {Condition::thread_lead, Suspected::lead},
+    {Condition::surface_speed, Suspected::speed},
+    {Condition::no_offset_number, Suspected::offset},
+    {Condition::g10_p, Suspected::number},
+    {Condition::g10_l, Suspected::kind},
+    {Condition::arc_center, Suspected::any_word},
+    {Condition::arc_deviation, Suspected::any_word},
+    {Condition::words_missing, Suspected::any_word},
+    {Condition::measure_axis, Suspected::any_word},
+    {Condition::nesting, Suspected::program},
+    {Condition::address_missing, Suspected::named_word},
+    {Condition::program_missing, Suspected::named_word},
+    {Condition::sequence_missing, Suspected::named_word},
+    {Condition::value_range, Suspected::named_word},
+    {Condition::calculation, Suspected::any_word},
+    {Condition::division_by_zero, Suspected::any_word},
+    {Condition::variable_number, Suspected::any_word},
 };
 
 /// Reads for the evaluator and remembers the first variable that was vacant.
@@ -203,11 +231,28 @@ bool vacant_in(Interpreter& in, uint16_t code, uint32_t* number) {
   return vacancy.found;
 }
 
-bool put_vacant_word(Interpreter& in, const char* letters, TextWriter& out) {
-  const char own[2] = {in.fault.letter, 0};
-  if (*letters == 0) letters = own;
+uint32_t suspected_addresses(const Interpreter& in, Suspected words) {
+  switch (words) {
+    case Suspected::any_word: return ~uint32_t{0};
+    case Suspected::named_word: {
+      const unsigned address = address_of(in.fault.letter);
+      return address < kAddresses ? 1u << address : 0;
+    }
+    case Suspected::feed: return in.addresses({Role::feed});
+    case Suspected::lead: return in.addresses({Role::thread_lead, Role::fine_thread_lead});
+    case Suspected::speed: return in.addresses({Role::spindle_speed});
+    case Suspected::offset: return in.addresses({Role::offset_number, Role::length_number});
+    case Suspected::number: return in.addresses({Role::input_number});
+    case Suspected::kind: return in.addresses({Role::input_kind});
+    case Suspected::program: return in.addresses({Role::call_program});
+  }
+  return 0;
+}
+
+bool put_vacant_word(Interpreter& in, Suspected words, TextWriter& out) {
+  const uint32_t suspects = suspected_addresses(in, words);
   for (const Word& word : in.block->words) {
-    if ((word.flags & kWordExpression) == 0 || (*letters != '*' && std::strchr(letters, word.letter) == nullptr)) continue;
+    if ((word.flags & kWordExpression) == 0 || ((suspects >> address_of(word)) & 1) == 0) continue;
     uint32_t number = 0, lone = 0;
     if (!vacant_in(in, word.code, &number)) continue;
     if (lone_variable(*in.block, word.code, &lone))
@@ -247,7 +292,7 @@ bool put_vacant(Interpreter& in, TextWriter& out) {
     if (row.condition == in.fault.condition) suspects = &row;
   if (suspects == nullptr || in.block == nullptr || in.block->has_fault) return false;
   if (in.statement < in.block->statements.size()) return put_vacant_statement(in, out);
-  if (put_vacant_word(in, suspects->letters, out)) return true;
+  if (put_vacant_word(in, suspects->words, out)) return true;
   if (in.fault.condition != Condition::no_feed || in.state.vacant_feed == 0) return false;
   out.put("F#").put_integer(in.state.vacant_feed).put(" was vacant in line ").put_integer(in.state.vacant_feed_line);
   out.put(in.state.vacant_feed_file == in.source.file ? "." : " of another program.");

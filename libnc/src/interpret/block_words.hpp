@@ -2,6 +2,9 @@
 // The words of one block with their values: expressions evaluated, units applied where they do not depend on the rest of the block.
 #pragma once
 
+#include <bit>
+#include <initializer_list>
+
 #include "dialect/dialect.hpp"
 
 namespace nc {
@@ -9,26 +12,27 @@ namespace nc {
 struct Interpreter;
 enum class Did : uint8_t;
 
-/// Set of addresses, bit (letter - 'A').
-constexpr uint32_t letters(const char* of) {
-  uint32_t set = 0;
-  for (; *of != 0; ++of) set |= 1u << (*of - 'A');
-  return set;
-}
+/// Addresses are numbers from 0, whatever letters a family writes for them.
+inline constexpr unsigned kAddresses = 26;
+constexpr unsigned address_of(char letter) { return static_cast<unsigned>(letter - 'A'); }
+constexpr unsigned address_of(const Word& word) { return address_of(word.letter); }
+constexpr char letter_of(unsigned address) { return static_cast<char>('A' + address); }
+/// The lowest member of a set that is not empty.
+constexpr unsigned first_of(uint32_t set) { return static_cast<unsigned>(std::countr_zero(set)); }
 
 struct BlockWords {
-  uint32_t present = 0;            ///< bit (letter - 'A'): the address stands in the block, with a value
-  double raw[26];                  ///< as programmed; the last one counts; undefined where not present
-  uint8_t flags[26];               ///< WordFlag of it
+  const AddressTable* addresses = nullptr;  ///< of the family: what the words mean
+  uint32_t present = 0;            ///< bit n: address n stands in the block, with a value
+  double raw[kAddresses + 1];      ///< as programmed; the last one counts; undefined where not present
+  uint8_t flags[kAddresses + 1];   ///< WordFlag of it
   uint32_t axes = 0;               ///< bit i: axis i is commanded
   uint32_t incremental = 0;        ///< bit i: by G91
   AxisVec axis;                    ///< its value in mm or deg
   FixedVector<const FunctionRow*, 16> g; ///< G codes in order
   FixedVector<uint32_t, 16> m;     ///< M codes in order
   const FunctionRow* one_shot = nullptr; ///< the one-shot function that takes the words, or null
-  int16_t one_shot_code = 0;
-  const FunctionRow* motion = nullptr;   ///< group 1 code of this block, or null
-  const FunctionRow* cycle = nullptr;    ///< group 9 code of this block, or null
+  const FunctionRow* motion = nullptr;   ///< the motion that this block names, or null
+  const FunctionRow* cycle = nullptr;    ///< the fixed cycle that this block names, or null
   bool exact_stop = false;         ///< G09
   bool fin_behind_dwell = false;   ///< M S T B beside G04: their completion is awaited when the time is over
   char late_number = 0;            ///< N or O behind other words, 0 = none
@@ -36,18 +40,34 @@ struct BlockWords {
   double counted_feed[8];
   double in_position = 0;          ///< ,I: in-position width of this block, mm (M700 6.1, 6.2, 13.1.1); 0 = none
   double in_position_drill = 0;    ///< ,J: that of the drilling axis in a fixed cycle, mm (M700 13.1.1); 0 = none
+  Corner corner = Corner::none;    ///< ,C ,R (M700 13.7): the later one counts
+  uint8_t corner_flags = 0;        ///< WordFlag of it
+  double corner_raw = 0;           ///< as programmed
   int8_t device = 0;               ///< ,D: where a sub program is looked for (M700 13.3.1), 0 = the memory
   bool comp_command = false;       ///< G40-G42 that means something here
   uint64_t absolute_at = 0, incremental_at = 0;  ///< bit i: word i of the block is G90, G91
 
   bool any(uint32_t of) const { return (present & of) != 0; }
-  bool has(char letter) const { return (present >> (letter - 'A')) & 1; }
-  double get(char letter) const { return raw[letter - 'A']; }
-  bool pointed(char letter) const;
+  bool any(std::initializer_list<Role> of) const { return any(addresses->set(of)); }
+  /// The word with this meaning stands in the block; its value as programmed (only where it does); its WordFlags.
+  bool has(Role word) const { return (present >> addresses->at(word)) & 1; }
+  double get(Role word) const { return raw[addresses->at(word)]; }
+  uint8_t flag(Role word) const { return flags[addresses->at(word)]; }
+  /// Written with a point, or an expression, which counts as with one (M700 5.3).
+  bool pointed(Role word) const { return (flag(word) & (kWordPoint | kWordExpression)) != 0; }
+  /// The same by the name that the configuration or a parameter gives an axis.
+  bool has(char name) const { return (present >> address_of(name)) & 1; }
+  double get(char name) const { return raw[address_of(name)]; }
 };
+
+/// The word of the block that asks for a corner.
+inline Role corner_word(const BlockWords& words) { return words.corner == Corner::chamfer ? Role::option_chamfer : Role::option_corner_radius; }
 
 /// Evaluates every word, finds the G and M codes and what they are. Changes nothing but in.words.
 Did gather_words(Interpreter& in);
+
+/// The letter of the first word of the block whose address is in `of`, which is not empty: alarms name it.
+char first_of_block(const Interpreter& in, uint32_t of);
 
 /// Applies the block's unit and distance modes to the axis words (call when the modal codes of the block are in force).
 Did resolve_axes(Interpreter& in);
@@ -55,7 +75,8 @@ Did resolve_axes(Interpreter& in);
 /// Value of a length word (I J K R Q and the like) in mm; axis = -1 a length, else rotary or linear like the axis.
 /// `tenfold`: "UNIT*10" acts on it (M700 2.2).
 double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotary, bool setting_unit, bool tenfold = true);
-double length_of(const Interpreter& in, char letter, bool setting_unit = true);
+double length_of(const Interpreter& in, Role word, bool setting_unit = true);
+double length_of(const Interpreter& in, char axis_name, bool setting_unit = true);
 /// Value of a position word of an axis, by the command unit of this axis (M700 2.1, #1015).
 double axis_value(const Interpreter& in, unsigned axis, double raw, uint8_t flags, bool rotary);
 /// F of the block -> the number that is kept modal.

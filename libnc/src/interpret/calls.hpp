@@ -17,7 +17,7 @@ Did evaluate_here(Interpreter& in, uint16_t code, Value* value);
 /// The program that P or <name> of the block in hand names; without both the running one where `own_allowed`.
 Did find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program);
 /// A number of a program or a sequence that a call names.
-Did called_number(Interpreter& in, char letter, double value, uint32_t* number);
+Did called_number(Interpreter& in, Role word, double value, uint32_t* number);
 Did find_number(Interpreter& in, uint32_t number, ProgramRef* program);
 /// Where a called program begins: its head, or the sequence number that H names.
 Did find_start(Interpreter& in, const ProgramRef& program, uint64_t* offset, uint32_t* line);

@@ -7,8 +7,12 @@
 namespace nc {
 namespace {
 
+// What is kept of a state, in this order: its values, the call stack up to and with the frames in use, the loops in use.
+constexpr size_t kDepth = sizeof(StateValues) + offsetof(CallStack, depth);
+constexpr size_t kFrames = sizeof(StateValues) + offsetof(CallStack, frame);
+
 /// Bytes of the state up to and with the frames in use; the loops in use come behind.
-uint32_t head_size(const State& state) { return static_cast<uint32_t>(offsetof(State, frame) + (state.depth + 1u) * sizeof(CallFrame)); }
+uint32_t head_size(const State& state) { return static_cast<uint32_t>(kFrames + (state.depth + 1u) * sizeof(CallFrame)); }
 uint32_t loops_size(const State& state) { return static_cast<uint32_t>(state.loop_count * sizeof(Loop)); }
 
 constexpr uint32_t kOrdinary = 736;  // main program and one or two levels
@@ -27,10 +31,10 @@ bool Checkpoints::call(unsigned file) const {
   for (BlockSeq seq = oldest_; seq < next_; ++seq) {
     const char* const kept = bytes_ + entry(seq).begin;
     uint8_t depth = 0;
-    std::memcpy(&depth, kept + offsetof(State, depth), sizeof depth);
+    std::memcpy(&depth, kept + kDepth, sizeof depth);
     for (unsigned level = 0; level <= depth; ++level) {
       uint16_t program = 0;
-      std::memcpy(&program, kept + offsetof(State, frame) + level * sizeof(CallFrame) + offsetof(CallFrame, program) + offsetof(ProgramRef, file),
+      std::memcpy(&program, kept + kFrames + level * sizeof(CallFrame) + offsetof(CallFrame, program) + offsetof(ProgramRef, file),
                   sizeof program);
       if (program == file) return true;
     }
@@ -73,16 +77,16 @@ bool Checkpoints::keeps(BlockSeq seq) const {
 bool Checkpoints::frames(BlockSeq seq, unsigned count, CallFrame* out) const {
   const char* const kept = bytes_ + entry(seq).begin;
   uint8_t depth = 0;
-  std::memcpy(&depth, kept + offsetof(State, depth), sizeof depth);
+  std::memcpy(&depth, kept + kDepth, sizeof depth);
   if (depth + 1u < count) return false;
-  std::memcpy(static_cast<void*>(out), kept + offsetof(State, frame), count * sizeof(CallFrame));
+  std::memcpy(static_cast<void*>(out), kept + kFrames, count * sizeof(CallFrame));
   return true;
 }
 
 void Checkpoints::restore(BlockSeq seq, State* state) {
   const Entry& e = entry(seq);
   // The frames in use are known once the fixed part is there.
-  std::memcpy(static_cast<void*>(state), bytes_ + e.begin, offsetof(State, frame));
+  std::memcpy(static_cast<void*>(state), bytes_ + e.begin, kFrames);
   const uint32_t head = head_size(*state);
   std::memcpy(static_cast<void*>(state), bytes_ + e.begin, head);
   std::memcpy(state->loop, bytes_ + e.begin + head, loops_size(*state));

@@ -25,54 +25,69 @@ Did word_value(Interpreter& in, const Word& word, Value* value) {
 bool plain_number(const Word& word) { return (word.flags & (kWordComma | kWordCount | kWordNoValue)) == 0; }
 
 /// The second auxiliary address calls where it is no axis (M700 9.2).
-bool second_aux(const Interpreter& in, char letter) { return letter == 'B' && in.axis_of['B' - 'A'] < 0; }
+bool second_aux(const Interpreter& in, const Word& word) { return in.is(word, Role::second_function) && in.axis_called(Role::second_function) < 0; }
 
-/// M00 M01 M02 M30 and the calls are what they are, whatever is registered (M700 13.5.3: priority of the letter M).
-bool kept_m(double code) { return code == 0 || code == 1 || code == 2 || code == 30 || (code >= 96 && code <= 99) || code == 198; }
+/// M00 M01 M02 M30, the calls and the macro interrupt are what they are, whatever is registered (M700 13.5.3: priority of the letter M).
+bool kept_by_control(const Interpreter& in, double value) {
+  uint32_t code = 0;
+  return whole_number(value, &code) && code == value && find_misc(*in.dialect, code) != nullptr;
+}
 
 const CodeCall* registered(const Interpreter& in, const Word& word, double value, bool ascii_allowed, bool* ascii) {
   const CodeCalls& calls = in.code_calls;
   *ascii = false;
-  const CodeCall* call = nullptr;
-  switch (word.letter) {
-    case 'G': return calls.find_g(value);
-    case 'M':
-      if (kept_m(value)) return nullptr;
-      call = calls.find_m(value);
-      break;
-    case 'S': call = calls.s.program != 0 ? &calls.s : nullptr; break;
-    case 'T': call = calls.t.program != 0 ? &calls.t : nullptr; break;
-    default: call = second_aux(in, word.letter) && calls.b.program != 0 ? &calls.b : nullptr; break;
+  const CodeCall* call = in.vendor->any() && (in.is(word, Role::code) || in.is(word, Role::misc_code)) ? in.vendor->find(word.letter, value) : nullptr;
+  if (call != nullptr) return call;
+  const CodeCall* of_word = nullptr;
+  if (in.is(word, Role::code)) return calls.find_g(value);
+  if (in.is(word, Role::misc_code)) {
+    if (kept_by_control(in, value)) return nullptr;
+    call = calls.find_m(value);
+  } else if (in.is(word, Role::spindle_speed)) {
+    of_word = &calls.s;
+  } else if (in.is(word, Role::tool)) {
+    of_word = &calls.t;
+  } else if (second_aux(in, word)) {
+    of_word = &calls.b;
   }
+  if (of_word != nullptr && of_word->program != 0) call = of_word;
   if (call != nullptr || !ascii_allowed) return call;
   *ascii = true;
   return calls.find_ascii(word.letter);
 }
 
+/// A G word, its number plain, that means this.
+bool is_code(const Interpreter& in, const Word& word, Function function) {
+  if (!in.is(word, Role::code) || (word.flags & kWordExpression) != 0) return false;
+  const FunctionRow* const row = in.codes.find(word.value);
+  return row != nullptr && row->function == function;
+}
+
 /// The first word that calls. G65, G66 and G66.1 before it make it an argument, G10 makes it an ordinary word.
-Did find_caller(Interpreter& in, Caller* caller) {
+/// `functions_only`: codes that call programs are ordinary ones here.
+Did find_caller(Interpreter& in, bool functions_only, Caller* caller) {
   bool data_input = false;
-  for (const Word& word : in.block->words) data_input = data_input || (word.letter == 'G' && word.value == 10);
+  for (const Word& word : in.block->words) data_input = data_input || is_code(in, word, Function::data_input);
   for (unsigned i = 0; i < in.block->words.size(); ++i) {
     const Word& word = in.block->words[i];
     if (!plain_number(word)) continue;
-    const bool candidate = word.letter == 'G' || word.letter == 'M' || in.code_calls.find_ascii(word.letter) != nullptr ||
-                           (word.letter == 'S' && in.code_calls.s.program != 0) || (word.letter == 'T' && in.code_calls.t.program != 0) ||
-                           (word.letter == 'B' && in.code_calls.b.program != 0);
+    const bool candidate = in.is(word, Role::code) || in.is(word, Role::misc_code) || in.code_calls.find_ascii(word.letter) != nullptr ||
+                           (in.is(word, Role::spindle_speed) && in.code_calls.s.program != 0) || (in.is(word, Role::tool) && in.code_calls.t.program != 0) ||
+                           (in.is(word, Role::second_function) && in.code_calls.b.program != 0);
     if (!candidate) continue;
     Value value;
     const Did did = word_value(in, word, &value);
     if (did != Did::done) return did;
     if (value.vacant) continue;
-    if (word.letter == 'G') {
-      const FunctionRow* row = find_function(*in.dialect, static_cast<int>(std::lround(value.number * 10)));
+    if (in.is(word, Role::code)) {
+      const FunctionRow* row = in.codes.find(value.number);
       if (row != nullptr && is_macro_call(row->function) && in.code_calls.find_g(value.number) == nullptr) return Did::done;
     }
     // M700 13.5.3: in a fixed cycle and with G10 an ASCII code is the ordinary word.
     const bool ascii_allowed = !data_input && in.state.cycle.kind == CycleKind::none;
     bool ascii = false;
     const CodeCall* call = registered(in, word, value.number, ascii_allowed, &ascii);
-    if (call == nullptr) continue;
+    if (call == nullptr || (functions_only && call->vendor == nullptr)) continue;
     *caller = Caller{i, call, ascii, value.number};
     return Did::done;
   }
@@ -81,15 +96,12 @@ Did find_caller(Interpreter& in, Caller* caller) {
 
 /// The code is shown as any other though nothing goes out (M700 13.5.2 (3)).
 void show_code(Interpreter& in, const Caller& caller) {
-  const char letter = in.block->words[caller.at].letter;
+  const Word& word = in.block->words[caller.at];
   const auto whole = static_cast<uint32_t>(caller.value > 0 && caller.value < 4294967295.0 ? caller.value : 0);
-  switch (letter) {
-    case 'M': in.state.modal.m = whole; break;
-    case 'S': in.state.modal.spindle = caller.value; break;
-    case 'T': in.state.modal.tool = whole; break;
-    case 'B': in.state.modal.b = whole; break;
-    default: break;
-  }
+  if (in.is(word, Role::misc_code)) in.state.modal.m = whole;
+  if (in.is(word, Role::spindle_speed)) in.state.modal.spindle = caller.value;
+  if (in.is(word, Role::tool)) in.state.modal.tool = whole;
+  if (in.is(word, Role::second_function)) in.state.modal.b = whole;
 }
 
 /// The G codes before the call act as they do before G65: G91 G100 X10.
@@ -99,7 +111,7 @@ Did apply_codes_before(Interpreter& in, unsigned at) {
   copy = *original;
   copy.words.clear();
   for (unsigned i = 0; i < at; ++i)
-    if (original->words[i].letter == 'G') copy.words.push_back(original->words[i]);
+    if (in.is(original->words[i], Role::code)) copy.words.push_back(original->words[i]);
   in.block = &copy;
   Did did = gather_words(in);
   if (did == Did::done) did = apply_reading_modes(in);
@@ -128,7 +140,7 @@ Did call_with_arguments(Interpreter& in, const Caller& caller) {
   MacroCall call;
   Did did = gather_arguments(in, false, call);
   if (did != Did::done) return did;
-  if (call.has_p) return in.raise(Condition::illegal_address, 'P', call.p);
+  if (call.has_p) return in.raise(Condition::illegal_address, Role::call_program, call.p);
   Entry entry;
   did = repetitions(in, call.has_l, call.l, &entry.passes);
   if (did != Did::done) return did;
@@ -149,7 +161,8 @@ Did call_with_arguments(Interpreter& in, const Caller& caller) {
 /// Whether the words of the block are a movement command, after which G66 calls (M700 13.5.1).
 bool moves(const Interpreter& in) {
   const BlockWords& w = in.words;
-  if (w.axes == 0) return in.state.modal.code[kGroupMotion] >= 20 && w.any(letters("IJKR")) && w.one_shot == nullptr;
+  if (w.one_shot != nullptr && cuts_circle(w.one_shot->function)) return true;
+  if (w.axes == 0) return !is_line(in.state.modal.of(Mode::motion)) && w.any({Role::vector_x, Role::vector_y, Role::vector_z, Role::arc_radius}) && w.one_shot == nullptr;
   return w.one_shot == nullptr || goes_to_position(w.one_shot->function);
 }
 
@@ -163,10 +176,20 @@ bool cancels(const Interpreter& in) {
 
 Did dispatch_block(Interpreter& in, bool* taken) {
   in.after_block = nullptr;
-  if (top(in).origin == CallOrigin::code || modal_call_takes_blocks(in)) return Did::done;
+  if (modal_call_takes_blocks(in)) return Did::done;
+  const bool nested = top(in).origin == CallOrigin::code;  // M700 13.5.2: a code calls nothing in a program that a code has called
+  if (nested && !in.vendor->any()) return Did::done;
   Caller caller;
-  Did did = find_caller(in, &caller);
+  Did did = find_caller(in, nested, &caller);
   if (did != Did::done || caller.call == nullptr) return did;
+  if (caller.call->vendor != nullptr) {
+    *taken = true;
+    if (!in.world_fresh) return in.need(NC_SYNC_STOPPED);
+    did = apply_codes_before(in, caller.at);
+    if (did != Did::done) return did;
+    show_code(in, caller);
+    return call_vendor(in, caller.at, *caller.call->vendor);
+  }
   // M700 App.1 P310: no such call during a fixed cycle.
   if (in.state.cycle.kind != CycleKind::none) return in.raise(Condition::call_in_cycle, in.block->words[caller.at].letter, caller.value);
   if (caller.ascii && std::fabs(caller.value) > 999999.9999) return in.raise(Condition::value_range, in.block->words[caller.at].letter, caller.value);
@@ -188,9 +211,8 @@ bool goes_on_elsewhere(const Interpreter& in) {
   if (modal_call_takes_blocks(in) || !moves(in) || cancels(in)) return false;
   if (in.after_block != nullptr) return true;
   for (const uint32_t m : in.words.m) {
-    const MiscRow* row = find_misc(*in.dialect, m);
-    if (row == nullptr) continue;
-    if (row->function == MiscFunction::call_sub || row->function == MiscFunction::call_external || row->function == MiscFunction::return_sub) return true;
+    const MiscFunction function = misc_function(*in.dialect, m);
+    if (calls_program(function) || function == MiscFunction::return_sub) return true;
   }
   return false;
 }

@@ -4,18 +4,22 @@
 
 #include <cstdint>
 
+#include "nc/vendor.h"
+
 namespace nc {
 
 class Parameters;
+struct Dialect;
 
 /// How a code calls: the values of the manual's <Type>.
-enum class CodeCallType : uint8_t { sub, macro, modal, modal_block };
+enum class CodeCallType : uint8_t { sub = NC_CALL_SUB, macro = NC_CALL_MACRO, modal = NC_CALL_MODAL, modal_block = NC_CALL_EVERY_BLOCK };
 
 struct CodeCall {
   uint32_t code = 0;       ///< G (times 1) or M number; ASCII: the letter
   uint32_t program = 0;    ///< O number; 0 = this row is not in use
   uint32_t variable = 0;   ///< ASCII type 0: the common variable that takes the value
   CodeCallType type = CodeCallType::sub;
+  const nc_vendor_code* vendor = nullptr;  ///< a function of the host is called, and no program
 };
 
 /// Everything that is registered. Parameters: docs/macros.md.
@@ -32,6 +36,6 @@ struct CodeCalls {
   const CodeCall* find_ascii(char letter) const;
 };
 
-CodeCalls read_code_calls(const Parameters& parameters);
+CodeCalls read_code_calls(const Parameters& parameters, const Dialect& dialect);
 
 }  // namespace nc

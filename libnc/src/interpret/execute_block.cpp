@@ -4,7 +4,7 @@
 //   1. modes that say how words are read: G90/G91, G20/G21, planes, feed mode, return level
 //   2. F; coordinate systems; radius and length compensation
 //   3. S, T, second auxiliary function, M codes
-//   4. the one-shot function, or the fixed cycle, or the motion of group 1
+//   4. the one-shot function, or the fixed cycle, or the motion in force
 //   5. M00 M01 M02 M30 M98 M99
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
@@ -15,34 +15,34 @@
 namespace nc {
 namespace {
 
-/// G00 G01 G02 G03.
-bool plain_motion(int16_t code) { return code <= 30 && code % 10 == 0; }
-
-bool has_own_feed(int16_t code) { return code == 330 || code == 23 || code == 33; }
+bool has_own_feed(Function motion) { return motion == Function::thread || is_exponential(motion); }
 
 /// The F of a skip block and of a measurement is its own and never modal (M700 15.2).
 bool keeps_its_feed(Function one_shot) {
   return one_shot == Function::skip || one_shot == Function::multi_skip || one_shot == Function::measure_length;
 }
 
+/// D is no number that radius compensation takes: it is a range (M700 15.1), or the offset of one circle (13.10 (3)).
+bool keeps_its_offset_number(const FunctionRow* one_shot) {
+  return one_shot != nullptr && (one_shot->function == Function::measure_length || cuts_circle(one_shot->function));
+}
+
 /// E is the lead of a thread (M700 6.7) or an argument of a macro. What looks like X1E-05 elsewhere would be X1 and a word that nobody reads;
 /// a lead has no sign, and no programmer writes its letter small behind another number (Z1e1).
 Did check_lead_word(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (!w.has('E')) return Did::done;
-  const bool thread = in.state.modal.code[kGroupMotion] == 330 && w.one_shot == nullptr && w.cycle == nullptr;
-  const bool exponent = (w.flags['E' - 'A'] & (kWordNegative | kWordPlus | kWordExponent)) != 0;
-  return thread && !exponent ? Did::done : in.raise(Condition::exponent, 'E', w.get('E'));
+  if (!w.has(Role::fine_thread_lead)) return Did::done;
+  const bool thread = in.state.modal.is(Function::thread) && w.one_shot == nullptr && w.cycle == nullptr;
+  const bool exponent = (w.flag(Role::fine_thread_lead) & (kWordNegative | kWordPlus | kWordExponent)) != 0;
+  return thread && !exponent ? Did::done : in.raise(Condition::exponent, Role::fine_thread_lead, w.get(Role::fine_thread_lead));
 }
 
-bool is_arc(int16_t code) { return code == 20 || code == 30; }
-
-/// M700 App.2: codes of groups 7 and 8 beside the one-shot function (G49 beside a reference return counts all the same, 12.2).
+/// M700 App.2: codes of radius and length compensation beside the one-shot function (G49 beside a reference return counts all the same, 12.2).
 bool ignores_compensation(const FunctionRow* one_shot, const FunctionRow& modal) {
   if (one_shot == nullptr) return false;
   if (modal.function == Function::length_off && is_reference_move(one_shot->function)) return false;
   const CompanyRow& company = company_of(one_shot->function);
-  return (modal.group == kGroupLength ? company.length : company.radius) == Beside::ignored;
+  return (mode_of(modal.function) == Mode::length ? company.length : company.radius) == Beside::ignored;
 }
 
 bool ignores_cycle(const FunctionRow* one_shot) { return one_shot != nullptr && company_of(one_shot->function).cycle == Beside::ignored; }
@@ -65,20 +65,20 @@ void drop_beside_cancel(Interpreter& in) {
 
 /// 1: modes that other words are read by.
 Did apply_reading_modes(Interpreter& in) {
-  in.block_starts_incremental = in.state.modal.code[kGroupDistance] == 910;
+  in.block_starts_incremental = in.state.modal.is(Function::incremental);
   in.distance_by_word = false;
-  const int16_t feed_mode = in.state.modal.code[kGroupFeed], cutting = in.state.modal.code[kGroupCutting];
+  const Function feed_mode = in.state.modal.of(Mode::feed), cutting = in.state.modal.of(Mode::cutting);
   for (const FunctionRow* row : in.words.g) {
     switch (row->function) {
       case Function::absolute:
       case Function::incremental:
-        in.state.modal.code[kGroupDistance] = row->code;
-        in.distance_by_word = in.dialect->id == NC_DIALECT_M700;
+        in.state.modal.set(*row);
+        in.distance_by_word = in.dialect->rules.block.distance_by_word;
         break;
       case Function::plane_xy:
       case Function::plane_zx:
       case Function::plane_yz: {
-        const Did did = select_plane(in, row->code);
+        const Did did = select_plane(in, *row);
         if (did != Did::done) return did;
         break;
       }
@@ -93,16 +93,19 @@ Did apply_reading_modes(Interpreter& in) {
       case Function::linear:
       case Function::arc_cw:
       case Function::arc_ccw:
-      case Function::spiral:
-      case Function::exponential:
-      case Function::space_arc:
+      case Function::spiral_cw:
+      case Function::spiral_ccw:
+      case Function::exponential_positive:
+      case Function::exponential_negative:
+      case Function::space_arc_first:
+      case Function::space_arc_second:
       case Function::nurbs:
       case Function::thread:
-      case Function::modal_off:
-        if (row->group != kGroupOneShot) in.state.modal.code[row->group] = row->code;
+      case Function::normal_line_off:
+        in.state.modal.set(*row);
         break;
       case Function::stroke_check_off:
-        in.state.modal.code[kGroupStrokeCheck] = row->code;
+        in.state.modal.set(*row);
         in.state.stroke_box = 0;
         break;
       case Function::exact_stop_mode:
@@ -112,7 +115,7 @@ Did apply_reading_modes(Interpreter& in) {
       case Function::high_accuracy_mode: {
         const Did did = check_cutting_code(in, *row);
         if (did != Did::done) return did;
-        in.state.modal.code[kGroupCutting] = row->code;
+        in.state.modal.set(*row);
         in.state.refresh_accuracy();
         break;
       }
@@ -129,8 +132,8 @@ Did apply_reading_modes(Interpreter& in) {
       default: break;
     }
   }
-  if (in.state.modal.code[kGroupCutting] != cutting) change_cutting_mode(in, cutting);
-  return in.state.modal.code[kGroupFeed] != feed_mode ? change_feed_mode(in, feed_mode) : Did::done;
+  if (!in.state.modal.is(cutting)) change_cutting_mode(in, cutting);
+  return !in.state.modal.is(feed_mode) ? change_feed_mode(in, feed_mode) : Did::done;
 }
 
 namespace {
@@ -151,35 +154,36 @@ Did apply_systems(Interpreter& in) {
   in.words.comp_command = false;
   const FunctionRow* length = nullptr;
   for (const FunctionRow* row : in.words.g) {  // the last code of a group counts (M700 3.7, DGSHAPE 1)
-    if (row->group == kGroupCompensation && row->function != Function::modal_off && !ignores_compensation(one_shot, *row)) radius = row;
-    if (row->group == kGroupLength && !ignores_compensation(one_shot, *row)) length = row;
+    const Mode mode = mode_of(row->function);
+    if (mode == Mode::radius && !ignores_compensation(one_shot, *row)) radius = row;
+    if (mode == Mode::length && !ignores_compensation(one_shot, *row)) length = row;
   }
   if (radius != nullptr) {
-    in.state.modal.code[kGroupCompensation] = radius->code;
+    in.state.modal.set(*radius);
     const int8_t side = in.state.comp.side;
     const Did did = set_compensation(in, radius->function);
     in.words.comp_command = side != 0 || in.state.comp.side != 0;
     if (did != Did::done) return did;
-  } else if (in.words.has('D') && !(one_shot != nullptr && one_shot->function == Function::measure_length)) {  // there D is a range (15.1)
+  } else if (in.words.has(Role::offset_number) && !keeps_its_offset_number(one_shot)) {
     const Did did = change_radius(in);
     if (did != Did::done) return did;
   }
   if (length != nullptr) {
-    in.state.modal.code[kGroupLength] = length->code;
+    in.state.modal.set(*length);
     return set_length(in, length->function);
   }
-  const bool own_number = in.words.has('H') && in.dialect->id == NC_DIALECT_M700;
+  const bool own_number = in.words.has(Role::length_number) && in.dialect->rules.length.number_in_any_block;
   return own_number && !(one_shot != nullptr && one_shot->function == Function::measure_length) ? change_length(in) : Did::done;  // P605 (15.1)
 }
 
-/// M700 App.2: the codes of groups 8 and 12 before a macro call become modal and do no more.
+/// M700 App.2: codes of length compensation and work systems before a macro call become modal and do no more.
 Did update_beside_call(Interpreter& in) {
   const CompanyRow& company = company_of(in.words.one_shot->function);
   for (const FunctionRow* row : in.words.g) {
     Did did = Did::done;
     if (row->function == Function::work_system && company.work == Beside::modal) did = select_work_system(in, *row);
-    if (row->group == kGroupLength && company.length == Beside::modal) {
-      in.state.modal.code[kGroupLength] = row->code;
+    if (mode_of(row->function) == Mode::length && company.length == Beside::modal) {
+      in.state.modal.set(*row);
       did = set_length(in, row->function);
     }
     if (did != Did::done) return did;
@@ -194,7 +198,7 @@ Did execute_motion(Interpreter& in) {
     const Did did = check_index_positions(in);
     if (did != Did::done) return did;
   }
-  if (in.state.work_turned && (w.axes != 0 || w.any(letters("IJKR")))) {
+  if (in.state.work_turned && (w.axes != 0 || w.any({Role::vector_x, Role::vector_y, Role::vector_z, Role::arc_radius}))) {
     const Did did = check_work_rotation(in);
     if (did != Did::done) return did;
   }
@@ -227,27 +231,39 @@ Did execute_codes_left(Interpreter& in) {
   return execute_behind_motion(in);
 }
 
-/// Nothing in the block but axis words, F and a code of group 1: most blocks of a long program. What the other words would need looked
+/// G10 of tool data in G91 adds to what stands in the table (M700 12.7): it reads what part systems share. Asked for before anything of the
+/// block has happened, as the block is read again behind the answer.
+bool adds_to_shared(const Interpreter& in) {
+  const BlockWords& w = in.words;
+  if (w.one_shot == nullptr || w.one_shot->function != Function::data_input || !w.has(Role::input_amount) ||
+      !in.dialect->rules.data_input.incremental_adds)
+    return false;
+  for (const FunctionRow* row : w.g)
+    if (row->function == Function::incremental) return true;
+  return in.state.modal.is(Function::incremental);
+}
+
+/// Nothing in the block but axis words, F and a code of a motion: most blocks of a long program. What the other words would need looked
 /// at is left out; the order is that of every block.
 bool only_moves(const Interpreter& in) {
   const BlockWords& w = in.words;
-  // Codes of group 1 with words of their own, and modes that change what words mean, take the long way.
+  // Motions with words of their own, and modes that change what words mean, take the long way.
   // A block that leaves a curve over several blocks (G02.4, G06.2) is one of its own, too; a rotation by parameter has rules (13.21).
-  if (in.state.special != 0 || in.state.work_turned || !plain_motion(in.state.modal.code[kGroupMotion]) || (w.motion != nullptr && !plain_motion(w.motion->code))) return false;
+  if (in.state.special != 0 || in.state.work_turned || !plain_motion(in.state.modal.of(Mode::motion)) || (w.motion != nullptr && !plain_motion(w.motion->function))) return false;
   const bool codes = w.g.empty() || (w.g.size() == 1 && w.motion != nullptr);
-  return codes && w.m.empty() && (w.present & ~(in.axis_letters | letters("F"))) == 0 && in.state.cycle.kind == CycleKind::none &&
+  return codes && w.m.empty() && (w.present & ~(in.axis_letters | in.addresses({Role::feed}))) == 0 && in.state.cycle.kind == CycleKind::none &&
          in.state.modal_call == 0;
 }
 
 Did execute_move(Interpreter& in) {
   BlockWords& w = in.words;
   in.distance_by_word = false;
-  int16_t& code = in.state.modal.code[kGroupMotion];
-  const int16_t now = w.motion != nullptr ? w.motion->code : code;
-  in.modal_kept = now == code && !w.has('F');
-  code = now;
+  ModalState& modal = in.state.modal;
+  const bool same = w.motion == nullptr || modal.holds(*w.motion);
+  in.modal_kept = same && !w.has(Role::feed);
+  if (!same) modal.set(*w.motion);
   Did did = resolve_axes(in);
-  if (did == Did::done && w.has('F')) did = in.settings.feed_by_digit ? take_feed_word(in) : feed_of(in, &in.state.modal.feed);
+  if (did == Did::done && w.has(Role::feed)) did = in.settings.feed_by_digit ? take_feed_word(in) : feed_of(in, &modal.feed);
   if (did == Did::done) did = move_by_words(in);
   if (did != Did::done) return did;
   in.state.comp.has_vector = false;
@@ -259,7 +275,7 @@ Did execute_move(Interpreter& in) {
 
 Did execute_words(Interpreter& in) {
   if (in.state.parameter_input) return parameter_block(in);
-  if (in.code_calls.any) {
+  if (in.codes_call) {
     bool taken = false;
     const Did did = dispatch_block(in, &taken);
     if (taken || did != Did::done) return did;
@@ -274,7 +290,8 @@ Did execute_words(Interpreter& in) {
   }
   if (only_moves(in)) return execute_move(in);
   const bool macro_call = w.one_shot != nullptr && is_macro_call(w.one_shot->function);
-  const int16_t motion_before = in.state.modal.code[kGroupMotion];  // M700 App.2: codes of group 1 beside G37 are ignored
+  const Function motion_before = in.state.modal.of(Mode::motion);  // M700 App.2: codes of motions beside G37 are ignored
+  if (!in.shared_known() && adds_to_shared(in)) return in.need(NC_SYNC_SHARED);
   did = apply_reading_modes(in);
   if (did != Did::done) return did;
   if (macro_call) {
@@ -293,28 +310,28 @@ Did execute_words(Interpreter& in) {
   if (did != Did::done) return did;
   did = resolve_axes(in);
   if (did != Did::done) return did;
-  if (is_space_arc(in.state.modal.code[kGroupMotion]) || in.state.arc_step != ArcStep::none) did = check_space_arc_block(in);
+  if (is_space_arc(in.state.modal.of(Mode::motion)) || in.state.arc_step != ArcStep::none) did = check_space_arc_block(in);
   if (did == Did::done && in.state.nurbs.active()) did = check_nurbs_block(in);
   if (did != Did::done) return did;
-  if (in.state.modal.code[kGroupPolarCommand] == 160) resolve_polar_words(in);
+  if (in.state.modal.is(Function::polar_command_on)) resolve_polar_words(in);
   // Neither is the lead of a thread (6.7.1) or the feed of an exponential curve (6.11).
   const bool own_feed = w.one_shot != nullptr ? keeps_its_feed(w.one_shot->function)
-                                              : has_own_feed(in.state.modal.code[kGroupMotion]);
-  if (in.state.modal.code[kGroupFeed] == 930) did = check_inverse_time_block(in);
-  if (did == Did::done && w.has('F') && !own_feed) did = take_feed_word(in);
+                                              : has_own_feed(in.state.modal.of(Mode::motion));
+  if (in.state.modal.is(Function::inverse_time_feed)) did = check_inverse_time_block(in);
+  if (did == Did::done && w.has(Role::feed) && !own_feed) did = take_feed_word(in);
   if (did != Did::done) return did;
   did = apply_systems(in);
   if (did != Did::done) return did;
-  if (is_arc(in.state.modal.code[kGroupMotion]) && w.axes != 0 && w.one_shot == nullptr && w.cycle == nullptr) {
+  if (is_arc(in.state.modal.of(Mode::motion)) && w.axes != 0 && w.one_shot == nullptr && w.cycle == nullptr) {
     // M700 App.2: an arc and G43/G44 in one block.
     for (const FunctionRow* row : w.g)
       if (row->function == Function::length_plus || row->function == Function::length_minus)
-        return in.raise(Condition::arc_deviation, 'G', row->code / 10.0);
+        return in.raise_code(Condition::arc_deviation, *row);
   }
-  if (!w.g.empty() && in.dialect->id == NC_DIALECT_M700) did = set_surface_speed(in);
+  if (!w.g.empty()) did = set_surface_speed(in);
   if (did == Did::done && !codes_behind_motion(in)) did = auxiliary_before(in);
   if (did != Did::done) return did;
-  if (w.one_shot != nullptr && w.one_shot->function == Function::measure_length) in.state.modal.code[kGroupMotion] = motion_before;
+  if (w.one_shot != nullptr && w.one_shot->function == Function::measure_length) in.state.modal.set(motion_before);
   if (!w.comp_command) return finish(in, execute_motion(in));
   const AxisVec before = in.state.machine;
   did = execute_motion(in);

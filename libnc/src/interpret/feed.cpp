@@ -8,27 +8,26 @@
 namespace nc {
 namespace {
 
-constexpr int16_t kInverseTime = 930, kPerMinute = 940, kPerRevolution = 950;
 constexpr double kNoise = 1e-9;
 
-bool inch(const Interpreter& in) { return in.state.modal.code[kGroupUnit] == 200; }
+bool inch(const Interpreter& in) { return in.state.modal.is(Function::inch); }
 
 /// M700 7.4 (1): without a point F counts in the least unit of the setting; 0.001 to 999.999, one decimal more for each finer unit.
 Did take_feed_per_revolution(Interpreter& in) {
   const double unit = inch(in) ? in.settings.setting_unit_inch : in.settings.setting_unit_mm;
-  const double raw = in.words.get('F');
-  const double value = in.words.pointed('F') || in.settings.decimal_type_2 ? raw : raw / std::nearbyint(1 / unit);
+  const double raw = in.words.get(Role::feed);
+  const double value = in.words.pointed(Role::feed) || in.settings.decimal_type_2 ? raw : raw / std::nearbyint(1 / unit);
   const bool below = value > 0 && value < unit - kNoise * unit;
-  if (!(value >= 0) || below || value > 1000 - unit + kNoise) return in.raise(Condition::value_range, 'F', raw);
+  if (!(value >= 0) || below || value > 1000 - unit + kNoise) return in.raise(Condition::value_range, Role::feed, raw);
   in.state.modal.feed = value;
   return Did::done;
 }
 
 /// M700 7.5 (2), precaution (3): 0.001 to 999999.999 1/min with #1003 = B; F0 is an alarm.
 Did take_inverse_time(Interpreter& in) {
-  const double unit = in.settings.setting_unit_mm, value = in.words.get('F');
-  if (value == 0) return in.raise(Condition::no_feed, 'F', value);
-  if (!(value >= unit - kNoise * unit) || value > 1e6 - unit + kNoise) return in.raise(Condition::value_range, 'F', value);
+  const double unit = in.settings.setting_unit_mm, value = in.words.get(Role::feed);
+  if (value == 0) return in.raise(Condition::no_feed, Role::feed, value);
+  if (!(value >= unit - kNoise * unit) || value > 1e6 - unit + kNoise) return in.raise(Condition::value_range, Role::feed, value);
   in.state.modal.feed = value;
   return Did::done;
 }
@@ -70,15 +69,15 @@ void apply_digit(Interpreter& in, Move& move) {
 }  // namespace
 
 bool is_feed_digit(const Interpreter& in, double raw) {
-  return in.settings.feed_by_digit && !in.words.pointed('F') && raw >= 0 && raw <= 5 && raw == std::floor(raw);
+  return in.settings.feed_by_digit && !in.words.pointed(Role::feed) && raw >= 0 && raw <= 5 && raw == std::floor(raw);
 }
 
 Did take_feed_word(Interpreter& in) {
   ModalState& modal = in.state.modal;
   in.state.vacant_feed = 0;
-  if (modal.code[kGroupFeed] == kPerRevolution) return take_feed_per_revolution(in);
-  if (modal.code[kGroupFeed] == kInverseTime) return take_inverse_time(in);
-  const double raw = in.words.get('F');
+  if (modal.is(Function::feed_per_revolution)) return take_feed_per_revolution(in);
+  if (modal.is(Function::inverse_time_feed)) return take_inverse_time(in);
+  const double raw = in.words.get(Role::feed);
   const uint16_t before = modal.feed_digit;
   if (is_feed_digit(in, raw)) {
     modal.feed = raw;
@@ -92,12 +91,12 @@ Did take_feed_word(Interpreter& in) {
   return Did::done;
 }
 
-Did change_feed_mode(Interpreter& in, int16_t before) {
+Did change_feed_mode(Interpreter& in, Function before) {
   State& state = in.state;
-  const int16_t now = state.modal.code[kGroupFeed];
+  const Function now = state.modal.of(Mode::feed);
   // M700 7.5, precaution (4)
-  if (before == kInverseTime && !in.words.has('F')) return in.raise(Condition::no_feed, 'F');
-  if (now == kInverseTime) state.last_feed = before == kPerMinute ? feed_mm_min(in) : 0;
+  if (before == Function::inverse_time_feed && !in.words.has(Role::feed)) return in.raise(Condition::no_feed, Role::feed);
+  if (now == Function::inverse_time_feed) state.last_feed = before == Function::feed_per_minute ? feed_mm_min(in) : 0;
   state.vacant_feed = 0;
   state.modal.feed = 0;  // an F of one mode means nothing in another one
   state.modal.feed_digit = 0;
@@ -106,71 +105,84 @@ Did change_feed_mode(Interpreter& in, int16_t before) {
 }
 
 /// The scan has to know of G63: no feed hold in there (M700 7.11 (3), (5)).
-void change_cutting_mode(Interpreter& in, int16_t before) {
-  const int16_t now = in.state.modal.code[kGroupCutting];
+void change_cutting_mode(Interpreter& in, Function before) {
+  const bool tapping = in.state.modal.is(Function::tapping_mode);
   in.state.refresh_special();
-  if ((before == 630) == (now == 630)) return;
+  if ((before == Function::tapping_mode) == tapping) return;
   Action& action = in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_CONTROL;
   action.index = NC_CONTROL_TAPPING;
-  action.value = now == 630 ? 1 : 0;
+  action.value = tapping ? 1 : 0;
 }
 
-bool refused_in_inverse_time(int16_t code) {
-  switch (code) {
-    case 23: case 33: case 62: case 120: case 130: case 310: case 311: case 312: case 313: case 330: case 340: case 350: case 360:
-    case 370: case 371: case 960: return true;
-    default: return code >= 730 && code <= 890 && code != 800;
+bool refused_in_inverse_time(Function function) {
+  switch (function) {
+    case Function::exponential_positive:
+    case Function::exponential_negative:
+    case Function::nurbs:
+    case Function::circle_cut_cw:
+    case Function::circle_cut_ccw:
+    case Function::skip:
+    case Function::multi_skip:
+    case Function::thread:
+    case Function::holes_on_circle:
+    case Function::holes_on_line:
+    case Function::holes_on_arc:
+    case Function::holes_on_grid:
+    case Function::measure_length:
+    case Function::surface_on: return true;
+    case Function::cycle_off:
+    case Function::user_cycle: return false;
+    default: return mode_of(function) == Mode::cycle;
   }
 }
 
 bool inverse_time_so_far(const Interpreter& in) {
-  int16_t mode = in.state.modal.code[kGroupFeed];
+  Function mode = in.state.modal.of(Mode::feed);
   for (const FunctionRow* row : in.words.g)
-    if (row->group == kGroupFeed) mode = row->code;
-  return mode == kInverseTime;
+    if (mode_of(row->function) == Mode::feed) mode = row->function;
+  return mode == Function::inverse_time_feed;
 }
 
 Did check_inverse_time_block(Interpreter& in) {
   const BlockWords& w = in.words;
-  const int16_t* const modal = in.state.modal.code;
   for (const FunctionRow* row : w.g)
-    if (refused_in_inverse_time(row->code)) return in.raise(Condition::inverse_time_code, 'G', row->code / 10.0);
+    if (refused_in_inverse_time(row->function)) return in.raise_code(Condition::inverse_time_code, *row);
   // (5) modes that were there before
-  const int16_t motion = modal[kGroupMotion];
-  if (motion != 62 && refused_in_inverse_time(motion)) return in.raise(Condition::inverse_time_code, 'G', motion / 10.0);
-  if (motion == 62 && w.axes != 0) return in.raise(Condition::inverse_time_code, 'G', motion / 10.0);
+  const Function motion = in.state.modal.of(Mode::motion);
+  if (motion != Function::nurbs && refused_in_inverse_time(motion)) return in.raise_mode(Condition::inverse_time_code, Mode::motion);
+  if (motion == Function::nurbs && w.axes != 0) return in.raise_mode(Condition::inverse_time_code, Mode::motion);
   const bool cycle = in.state.cycle.kind != CycleKind::none && w.cycle == nullptr && w.motion == nullptr;
-  if (cycle) return in.raise(Condition::inverse_time_code, 'G', modal[kGroupCycle] / 10.0);
-  if (modal[kGroupSurfaceSpeed] == 960) return in.raise(Condition::inverse_time_code, 'G', 96);
+  if (cycle) return in.raise_mode(Condition::inverse_time_code, Mode::cycle);
+  if (in.state.modal.is(Function::surface_on)) return in.raise_mode(Condition::inverse_time_code, Mode::surface_speed);
   return Did::done;
 }
 
-Did check_special_feed(Interpreter& in, int16_t motion) {
+Did check_special_feed(Interpreter& in, Function motion) {
   const ModalState& modal = in.state.modal;
-  if (modal.code[kGroupFeed] == kInverseTime) {  // M700 7.5, precaution (2)
-    return in.words.has('F') ? Did::done : in.raise(Condition::no_feed, 'F');
+  if (modal.is(Function::inverse_time_feed)) {  // M700 7.5, precaution (2)
+    return in.words.has(Role::feed) ? Did::done : in.raise(Condition::no_feed, Role::feed);
   }
-  if (modal.feed_digit == 1 && motion != 10) return in.raise(Condition::arc_feed_zero, 'F', 0);  // M700 7.3 (2) (c)
+  if (modal.feed_digit == 1 && motion != Function::linear) return in.raise(Condition::arc_feed_zero, Role::feed, 0);  // M700 7.3 (2) (c)
   if (modal.feed_digit != 0) return Did::done;
-  return modal.feed <= 0 ? in.raise(Condition::no_feed, 'F') : Did::done;
+  return modal.feed <= 0 ? in.raise(Condition::no_feed, Role::feed) : Did::done;
 }
 
 void apply_special_feed(Interpreter& in, Move& move) {
   const ModalState& modal = in.state.modal;
-  if (modal.code[kGroupFeed] == kInverseTime) {
+  if (modal.is(Function::inverse_time_feed)) {
     apply_inverse_time(in, move);
-  } else if (modal.code[kGroupFeed] == kPerRevolution) {
+  } else if (modal.is(Function::feed_per_revolution)) {
     move.feed_mm_rev = move.feed_mm_min;
     move.feed_mm_min = 0;
     move.plane_feed = false;  // M700 6.6: only with the feed per minute
   } else if (modal.feed_digit != 0) {
     apply_digit(in, move);
   }
-  if (modal.code[kGroupCutting] == 630) {  // M700 7.11 (1), (2)
+  if (modal.is(Function::tapping_mode)) {  // M700 7.11 (1), (2)
     move.rule.tapping = true;
     move.exact_stop = move.kind == NC_MOVE_RAPID;
-  } else if (modal.code[kGroupCutting] == 620 && move.comp.side != 0 && !move.comp.transparent && move.kind != NC_MOVE_RAPID) {
+  } else if (modal.is(Function::corner_override) && move.comp.side != 0 && !move.comp.transparent && move.kind != NC_MOVE_RAPID) {
     const Settings& s = in.settings;  // M700 7.10, precautions (8), (9)
     if (s.corner_angle <= 0 || s.corner_angle >= 180 || s.corner_override <= 0 || s.corner_override >= 100) return;
     move.rule.corner_override = static_cast<float>(s.corner_override / 100);

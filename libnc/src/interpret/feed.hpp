@@ -13,27 +13,27 @@ bool is_feed_digit(const Interpreter& in, double raw);
 /// The F of the block, by the feed mode in force (7.2 to 7.5).
 Did take_feed_word(Interpreter& in);
 
-/// The block has changed group 5; `before` was in force (7.4, 7.5). Call when all codes of the block are in force.
-Did change_feed_mode(Interpreter& in, int16_t before);
+/// The block has changed the feed mode; `before` was in force (7.4, 7.5). Call when all codes of the block are in force.
+Did change_feed_mode(Interpreter& in, Function before);
 
-/// The block has changed group 13 (7.8 to 7.12).
-void change_cutting_mode(Interpreter& in, int16_t before);
+/// The block has changed the cutting mode (7.8 to 7.12).
+void change_cutting_mode(Interpreter& in, Function before);
 
-/// Codes and modes that exclude inverse time feed (7.5, relation with other functions (4), (5)): P125.
-bool refused_in_inverse_time(int16_t code);
+/// Functions and modes that exclude inverse time feed (7.5, relation with other functions (4), (5)): P125.
+bool refused_in_inverse_time(Function function);
 Did check_inverse_time_block(Interpreter& in);
 /// G93 is in force for the codes behind it in the block in hand.
 bool inverse_time_so_far(const Interpreter& in);
 
-Did check_special_feed(Interpreter& in, int16_t motion);
+Did check_special_feed(Interpreter& in, Function motion);
 void apply_special_feed(Interpreter& in, Move& move);
 
 inline bool special_feed(const Interpreter& in) { return (in.state.special & kSpecialFeed) != 0; }
 
-/// A cutting move of the group 1 code `motion` is about to be made: is there a feed?
-inline Did check_feed(Interpreter& in, int16_t motion) {
+/// A cutting move of the function `motion` is about to be made: is there a feed?
+inline Did check_feed(Interpreter& in, Function motion) {
   if (special_feed(in)) return check_special_feed(in, motion);
-  return in.state.modal.feed <= 0 ? in.raise(Condition::no_feed, 'F') : Did::done;
+  return in.state.modal.feed <= 0 ? in.raise(Condition::no_feed, Role::feed) : Did::done;
 }
 
 /// The modal feed and all that goes with it, on a cutting move whose geometry is known; `mm_min` is F as a feed per minute.
@@ -45,8 +45,8 @@ inline void set_modal_feed(Interpreter& in, Move& move, double mm_min) {
 /// G09 or G61 for the cut in hand (7.7, 7.8); not in the tapping mode (7.11 (2)), which has taken the place of G61, and G09 not where
 /// #3004 bit 2 says so (13.5.10).
 inline bool asks_exact_stop(const Interpreter& in) {
-  const int16_t mode = in.state.modal.code[kGroupCutting];
-  return mode == 610 || (in.words.exact_stop && mode != 630 && (in.state.control_3004 & 4) == 0);
+  const Function mode = in.state.modal.of(Mode::cutting);
+  return mode == Function::exact_stop_mode || (in.words.exact_stop && mode != Function::tapping_mode && (in.state.control_3004 & 4) == 0);
 }
 
 }  // namespace nc

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interpret/calls.hpp"
+#include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
 
 namespace nc {
@@ -10,6 +11,7 @@ namespace {
 
 constexpr uint32_t kMaxLoopNumber = 127;   // M700 13.5.7: DO 1..127
 constexpr unsigned kLoopDepth = 27;
+constexpr char kDataServer[] = "198:";      // the place of its programs in the store (nc_program_missing)
 
 /// M700 13.5.7, 13.12: from the next block to the end of the program, then from its head.
 bool find_from_here(Interpreter& in, const CallFrame& frame, uint32_t n, uint64_t* offset, uint32_t* line) {
@@ -55,7 +57,7 @@ Did jump_to_sequence(Interpreter& in, double number) {
   uint32_t n = 0;
   uint64_t offset = 0;
   uint32_t line = 0;
-  if (!whole_number(number, &n) || !find_from_here(in, top(in), n, &offset, &line)) return in.raise(Condition::sequence_missing, 'N', number);
+  if (!whole_number(number, &n) || !find_from_here(in, top(in), n, &offset, &line)) return in.raise(Condition::sequence_missing, Role::sequence_number, number);
   leave_loops(in, offset);
   if (in.reader.failure() != Condition::none) return in.raise(Condition::read_failed);
   top(in).offset = offset;
@@ -67,7 +69,7 @@ Did jump_to_sequence(Interpreter& in, double number) {
 Did begin_loop(Interpreter& in, const Statement& statement, bool condition) {
   State& s = in.state;
   CallFrame& frame = top(in);
-  if (statement.number < 1 || statement.number > kMaxLoopNumber) return in.raise(Condition::while_statement, 'D', statement.number);
+  if (statement.number < 1 || statement.number > kMaxLoopNumber) return in.raise(Condition::while_statement, Role::loop_number, statement.number);
   const uint64_t here = in.block->begin;
   const bool again = s.loop_count > frame.loop_base && s.loop[s.loop_count - 1].offset == here;
   if (!condition) {
@@ -76,7 +78,7 @@ Did begin_loop(Interpreter& in, const Statement& statement, bool condition) {
     if (end == 0) {
       end = in.block->next;
       line = in.block->next_line;
-      if (!in.reader.find_loop_end(frame.program.file, statement.number, &end, &line)) return in.raise(Condition::loop_pair, 'D', statement.number);
+      if (!in.reader.find_loop_end(frame.program.file, statement.number, &end, &line)) return in.raise(Condition::loop_pair, Role::loop_number, statement.number);
     }
     if (again) --s.loop_count;
     frame.offset = end;
@@ -86,8 +88,8 @@ Did begin_loop(Interpreter& in, const Statement& statement, bool condition) {
   }
   if (again) return Did::done;
   for (unsigned i = frame.loop_base; i < s.loop_count; ++i)  // an active m may not be used again in the nest
-    if (s.loop[i].number == statement.number) return in.raise(Condition::loop_pair, 'D', statement.number);
-  if (unsigned{s.loop_count} - frame.loop_base >= kLoopDepth || s.loop_count >= kMaxLoops) return in.raise(Condition::loop_nesting, 'D', statement.number);
+    if (s.loop[i].number == statement.number) return in.raise(Condition::loop_pair, Role::loop_number, statement.number);
+  if (unsigned{s.loop_count} - frame.loop_base >= kLoopDepth || s.loop_count >= kMaxLoops) return in.raise(Condition::loop_nesting, Role::loop_number, statement.number);
   s.loop[s.loop_count++] = Loop{here, in.block->next, 0, in.block->line, 0, statement.number};
   return Did::done;
 }
@@ -96,7 +98,7 @@ Did end_loop(Interpreter& in, const Statement& statement) {
   State& s = in.state;
   CallFrame& frame = top(in);
   if (s.loop_count == frame.loop_base || s.loop[s.loop_count - 1].number != statement.number)
-    return in.raise(Condition::loop_pair, 'E', statement.number);
+    return in.raise(Condition::loop_pair, Role::loop_end, statement.number);
   Loop& loop = s.loop[s.loop_count - 1];
   loop.end = in.block->next;
   loop.end_line = in.block->next_line;
@@ -134,8 +136,8 @@ Did evaluate_here(Interpreter& in, uint16_t code, Value* value) {
 }
 
 /// M700 App.1 P35: P of a program has up to eight digits and no sign (3.5); neither have the numbers of H and of the P of M99.
-Did called_number(Interpreter& in, char letter, double value, uint32_t* number) {
-  return whole_number(value, number) && *number <= 99999999 ? Did::done : in.raise(Condition::value_range, letter, value);
+Did called_number(Interpreter& in, Role word, double value, uint32_t* number) {
+  return whole_number(value, number) && *number <= 99999999 ? Did::done : in.raise(Condition::value_range, word, value);
 }
 
 Did find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program) {
@@ -145,38 +147,38 @@ Did find_called(Interpreter& in, bool has_p, double p, bool own_allowed, Program
     return program->valid() ? Did::done : in.raise(Condition::program_missing, '<');
   }
   if (!has_p) {
-    if (!own_allowed) return in.raise(Condition::address_missing, 'P');
+    if (!own_allowed) return in.raise(Condition::address_missing, Role::call_program);
     *program = top(in).program;
     return Did::done;
   }
   uint32_t number = 0;
-  const Did did = called_number(in, 'P', p, &number);
+  const Did did = called_number(in, Role::call_program, p, &number);
   return did == Did::done ? find_number(in, number, program) : did;
 }
 
 Did find_number(Interpreter& in, uint32_t number, ProgramRef* program) {
-  if (number == 0) return in.raise(Condition::program_missing, 'P', number);
+  if (number == 0) return in.raise(Condition::program_missing, Role::call_program, number);
   *program = in.reader.find_program(number, top(in).program.file);
-  if (!program->valid()) return in.raise(Condition::program_missing, 'P', number);
+  if (!program->valid()) return in.raise(Condition::program_missing, Role::call_program, number);
   program->number = number;
   return Did::done;
 }
 
 Did repetitions(Interpreter& in, bool has_l, double l, uint32_t* count) {
   *count = 1;
-  if (has_l && (!whole_number(l, count) || *count > 9999)) return in.raise(Condition::value_range, 'L', l);
+  if (has_l && (!whole_number(l, count) || *count > 9999)) return in.raise(Condition::value_range, Role::call_repeats, l);
   return Did::done;
 }
 
 bool only_calls(const Interpreter& in) {
   for (const Word& word : in.block->words)
-    if (word.letter != 'M' && word.letter != 'P' && word.letter != 'L' && word.letter != 'H' && (word.flags & kWordComma) == 0) return false;
+    if (!in.is(word, Role::misc_code) && !in.is(word, Role::call_program) && !in.is(word, Role::call_repeats) && !in.is(word, Role::call_sequence) && (word.flags & kWordComma) == 0) return false;
   return in.words.m.size() == 1;
 }
 
 Did enter(Interpreter& in, const Entry& entry) {
   State& s = in.state;
-  if (s.depth + 1u > in.dialect->call_depth || s.depth + 1u >= kMaxFrames) return in.raise(Condition::nesting, 'P', entry.program.number);
+  if (s.depth + 1u > in.dialect->call_depth || s.depth + 1u >= kMaxFrames) return in.raise(Condition::nesting, Role::call_program, entry.program.number);
   const CallFrame& caller = top(in);
   const uint8_t level = caller.macro_level;
   const uint8_t modal = entry.slot == 0 ? caller.modal_call : static_cast<uint8_t>(in.notes.get(Notes::slot_key(entry.slot, Notes::kBelow)));
@@ -207,8 +209,8 @@ namespace {
 
 /// I J K of M98: the centre of the figure, from where the call finds the axes (M700 13.3.3).
 void figure_center(const Interpreter& in, double center[2]) {
-  const int16_t code = in.state.modal.code[kGroupPlane];
-  const char h = code == 180 ? 'K' : code == 190 ? 'J' : 'I', v = code == 180 ? 'I' : code == 190 ? 'K' : 'J';
+  const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
+  const Role h = vector_along(plane.first), v = vector_along(plane.second);
   if (in.words.has(h)) center[0] = length_of(in, h);
   if (in.words.has(v)) center[1] = length_of(in, v);
 }
@@ -267,13 +269,13 @@ Did find_start(Interpreter& in, const ProgramRef& program, uint64_t* offset, uin
   const BlockWords& w = in.words;
   *offset = program.offset;
   *line = program.line;
-  if (!w.has('H')) return Did::done;
+  if (!w.has(Role::call_sequence)) return Did::done;
   uint32_t n = 0;
   bool again = false;
-  const Did did = called_number(in, 'H', w.get('H'), &n);
+  const Did did = called_number(in, Role::call_sequence, w.get(Role::call_sequence), &n);
   if (did != Did::done) return did;
   if (in.reader.find_sequence(program.file, n, offset, line, 0, kWholeText, &again)) return Did::done;
-  return in.raise(Condition::sequence_missing, 'H', w.get('H'));
+  return in.raise(Condition::sequence_missing, Role::call_sequence, w.get(Role::call_sequence));
 }
 
 namespace {
@@ -281,14 +283,14 @@ namespace {
 /// M700 13.3.1: a sub program of one of the devices 1 to 4.
 Did find_on_device(Interpreter& in, ProgramRef* program) {
   const BlockWords& w = in.words;
-  const char place[] = {'D', static_cast<char>('0' + w.device), ':', 0};
+  const char place[] = {in.dialect->device_letter, static_cast<char>('0' + w.device), ':', 0};
   const unsigned length = in.block->name_length;
   uint32_t number = 0;
-  if (length == 0 && !w.has('P')) return in.raise(Condition::address_missing, 'P');
-  const Did did = length == 0 ? called_number(in, 'P', w.get('P'), &number) : Did::done;
+  if (length == 0 && !w.has(Role::call_program)) return in.raise(Condition::address_missing, Role::call_program);
+  const Did did = length == 0 ? called_number(in, Role::call_program, w.get(Role::call_program), &number) : Did::done;
   if (did != Did::done) return did;
   if (length <= 32) *program = in.reader.find_external(place, in.block->text.begin() + in.block->name, length, number);
-  if (!program->valid()) return length != 0 ? in.raise(Condition::program_missing, '<') : in.raise(Condition::program_missing, 'P', number);
+  if (!program->valid()) return length != 0 ? in.raise(Condition::program_missing, '<') : in.raise(Condition::program_missing, Role::call_program, number);
   if (number != 0) program->number = number;
   return Did::done;
 }
@@ -297,12 +299,12 @@ Did find_on_device(Interpreter& in, ProgramRef* program) {
 
 Did call_sub(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (top(in).figure != 0) return in.raise(Condition::nesting, 'M', 98);  // M700 13.3.3 (6): no branch from a rotating program
+  if (top(in).figure != 0) return in.raise_misc(Condition::nesting, MiscFunction::call_sub);  // M700 13.3.3 (6): no branch from a rotating program
   uint32_t passes = 1;
-  Did did = repetitions(in, w.has('L'), w.has('L') ? w.get('L') : 1, &passes);
+  Did did = repetitions(in, w.has(Role::call_repeats), w.has(Role::call_repeats) ? w.get(Role::call_repeats) : 1, &passes);
   if (did != Did::done || passes == 0) return did;  // M700 13.3.1: not called with L0, so nothing is looked for
   ProgramRef program;
-  did = w.device != 0 ? find_on_device(in, &program) : find_called(in, w.has('P'), w.has('P') ? w.get('P') : 0, true, &program);
+  did = w.device != 0 ? find_on_device(in, &program) : find_called(in, w.has(Role::call_program), w.has(Role::call_program) ? w.get(Role::call_program) : 0, true, &program);
   if (did != Did::done) return did;
   uint64_t offset = 0;
   uint32_t line = 0;
@@ -310,8 +312,8 @@ Did call_sub(Interpreter& in) {
   if (did != Did::done) return did;
   // M700 13.3.1: single block does not stop at a block that only calls; with other words it may, behind what they do.
   const bool stops = !only_calls(in);
-  const bool figure = w.any(letters("IJK"));
-  if (figure && in.state.rotated) return in.raise(Condition::rotation_in_figure, 'M', 98);  // M700 13.3.3 precaution (2)
+  const bool figure = w.any({Role::vector_x, Role::vector_y, Role::vector_z});
+  if (figure && in.state.rotated) return in.raise_misc(Condition::rotation_in_figure, MiscFunction::call_sub);  // M700 13.3.3 precaution (2)
   double center[2] = {0, 0};
   if (figure) figure_center(in, center);
   did = enter(in, Entry{program, CallKind::sub, CallOrigin::word, passes, offset, line, 0});
@@ -325,23 +327,23 @@ Did call_sub(Interpreter& in) {
 /// M700 13.3.2: a program of the data server; what the host has as such (BlockReader::find_external), else the memory.
 Did call_external(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (w.has('H')) return in.raise(Condition::format_error, 'H', w.get('H'));  // no call of a sequence number
+  if (w.has(Role::call_sequence)) return in.raise(Condition::format_error, Role::call_sequence, w.get(Role::call_sequence));  // no call of a sequence number
   for (unsigned level = 1; level <= in.state.depth; ++level)
-    if (in.state.frame[level].origin == CallOrigin::external) return in.raise(Condition::nesting, 'M', 198);  // once per nest
-  if (top(in).figure != 0) return in.raise(Condition::nesting, 'M', 198);
+    if (in.state.frame[level].origin == CallOrigin::external) return in.raise_misc(Condition::nesting, MiscFunction::call_external);  // once per nest
+  if (top(in).figure != 0) return in.raise_misc(Condition::nesting, MiscFunction::call_external);
   Entry entry;
   entry.origin = CallOrigin::external;
-  Did did = repetitions(in, w.has('L'), w.has('L') ? w.get('L') : 1, &entry.passes);
+  Did did = repetitions(in, w.has(Role::call_repeats), w.has(Role::call_repeats) ? w.get(Role::call_repeats) : 1, &entry.passes);
   if (did != Did::done || entry.passes == 0) return did;
   uint32_t number = 0;
   if (in.block->name_length == 0) {
-    did = w.has('P') ? called_number(in, 'P', w.get('P'), &number) : in.raise(Condition::address_missing, 'P');
+    did = w.has(Role::call_program) ? called_number(in, Role::call_program, w.get(Role::call_program), &number) : in.raise(Condition::address_missing, Role::call_program);
     if (did != Did::done) return did;
   }
   const char* name = in.block->text.begin() + in.block->name;
-  if (in.block->name_length <= 32) entry.program = in.reader.find_external("198:", name, in.block->name_length, number);
+  if (in.block->name_length <= 32) entry.program = in.reader.find_external(kDataServer, name, in.block->name_length, number);
   const bool outside = entry.program.valid();
-  if (!outside) did = find_called(in, w.has('P'), number, false, &entry.program);
+  if (!outside) did = find_called(in, w.has(Role::call_program), number, false, &entry.program);
   if (did != Did::done) return did;
   if (number != 0) entry.program.number = number;
   if (outside) {
@@ -368,7 +370,7 @@ Did call_external(Interpreter& in) {
 
 Did check_loops_closed(Interpreter& in) {
   uint32_t number = 0;
-  return loop_without_end(in, &number) ? in.raise(Condition::loop_pair, 'D', number) : Did::done;
+  return loop_without_end(in, &number) ? in.raise(Condition::loop_pair, Role::loop_number, number) : Did::done;
 }
 
 Did return_sub(Interpreter& in) {
@@ -377,7 +379,7 @@ Did return_sub(Interpreter& in) {
   if (check_loops_closed(in) != Did::done) return Did::fault;
   if (s.depth == 0) {  // M700 13.3.1: M99 in the main program goes to its head
     CallFrame& frame = top(in);
-    if (w.has('P') && !in.reader.is_tape(frame.program.file)) return jump_to_sequence(in, w.get('P'));
+    if (w.has(Role::return_sequence) && !in.reader.is_tape(frame.program.file)) return jump_to_sequence(in, w.get(Role::return_sequence));
     s.loop_count = 0;
     frame.offset = frame.program.offset;
     frame.line = frame.program.line;
@@ -388,9 +390,9 @@ Did return_sub(Interpreter& in) {
   CallFrame& frame = top(in);
   const bool interrupted = frame.origin == CallOrigin::interrupt;
   s.loop_count = frame.loop_base;
-  if (w.has('L')) {  // 13.3.1 prints "M99 (P_ L_)" and no more; as FANUC: the passes still to come, this one among them
+  if (w.has(Role::return_passes)) {  // 13.3.1 prints "M99 (P_ L_)" and no more; as FANUC: the passes still to come, this one among them
     uint32_t passes = 0;
-    const Did did = repetitions(in, true, w.get('L'), &passes);
+    const Did did = repetitions(in, true, w.get(Role::return_passes), &passes);
     if (did != Did::done) return did;
     frame.repeats = passes == 0 ? 0 : passes - 1;
   }
@@ -403,15 +405,15 @@ Did return_sub(Interpreter& in) {
     in.finish_block(!only_calls(in), !only_calls(in));
     return Did::later;
   }
-  if (w.has('P') && !in.reader.is_tape(s.frame[s.depth - 1].program.file)) {  // M700 13.3.1: no P from a tape
+  if (w.has(Role::return_sequence) && !in.reader.is_tape(s.frame[s.depth - 1].program.file)) {  // M700 13.3.1: no P from a tape
     uint32_t n = 0;
     uint64_t offset = 0;
     uint32_t line = 0;
     CallFrame& caller = s.frame[s.depth - 1];
     if (s.interrupt_depth == s.depth) in.leave_interrupt(true);
-    const Did did = called_number(in, 'P', w.get('P'), &n);
+    const Did did = called_number(in, Role::return_sequence, w.get(Role::return_sequence), &n);
     if (did != Did::done) return did;
-    if (!find_from_here(in, caller, n, &offset, &line)) return in.raise(Condition::sequence_missing, 'P', n);
+    if (!find_from_here(in, caller, n, &offset, &line)) return in.raise(Condition::sequence_missing, Role::return_sequence, n);
     leave(in);
     s.codes_left &= ~(1u << s.depth);
     leave_loops(in, offset);
@@ -431,7 +433,7 @@ Did return_sub(Interpreter& in) {
 
 Did text_ended(Interpreter& in) {
   // M700 App.1 P36: '%' (or the end of the text, or the next O number) was read without M02, M30 or M99.
-  if (in.state.depth > 0) return in.raise(Condition::program_end, 'M', 99);
+  if (in.state.depth > 0) return in.raise_misc(Condition::program_end, MiscFunction::return_sub);
   // The blocks of MDI end with their text.
   if (in.dialect->end_code_required && !(in.mdi && in.block->end_of_text)) return in.raise(Condition::program_end);
   in.state.end_seen = true;

@@ -7,7 +7,9 @@
 #include <initializer_list>
 #include <new>
 
+#include "interpret/journal_keys.hpp"
 #include "interpret/plane.hpp"
+#include "interpret/shared_tables.hpp"
 #include "interpret/work_rotation.hpp"
 
 namespace nc {
@@ -19,29 +21,28 @@ unsigned power_of_two_above(unsigned n) {
   return p;
 }
 
-// Foreign keys of the journal: the frames' table, and behind it the notes.
-constexpr uint32_t kNoteKey = Variables::kForeignKey + 0x10000000;
-constexpr uint32_t kParameterKey = Variables::kForeignKey + 0x20000000;
-
 }  // namespace
 
 void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_store, CommonVariables* common_variables, Arena& arena) {
   dialect = config.dialect;
   system = config.system;
-  system_number = config.system_number;
+  system_index = config.system_index;
   axis_count = config.system->axis_count;
-  refresh_letters();
+  refresh_axis_names();
   for (unsigned i = 0; i < axis_count; ++i) {
     if (config.system->axis[i].rotary) rotary |= 1u << i;
   }
-  for (int code = 0; code < kDirectCodes; ++code) direct_function[code] = find_function(*dialect, code * 10);
+  codes.create(*dialect);
+  vendor = config.vendor;
+  if (vendor->replaces_g(codes.linear().code)) codes.forget_linear();
+  words.addresses = &dialect->addresses;
+  code_addresses = addresses({Role::code, Role::misc_code, Role::sequence_number, Role::program_number});
   store = program_store;
   common = common_variables;
   const unsigned under_way = power_of_two_above(2 * config.look_ahead + 256);
   parameters.create(512, arena);
   frames.create(config.frames, arena);
   variables.create(common, power_of_two_above(4 * config.look_ahead < 4096 ? 4096 : 4 * config.look_ahead), arena);
-  if (config.several) variables.create_own(common_variables->ranges(), arena);
   reader.create(store, dialect->lex, config.window_bytes, config.look_ahead < 256 ? 16 : 128, arena);
   transforms.create(under_way, arena);
   modals.create(under_way, arena);
@@ -50,6 +51,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   rewritten = arena.make<Block>();
   shapes.create(128, arena);
   stroke_boxes.create(64, arena);
+  motion_settings.create(kMotionSettings, arena);
   points.create(power_of_two_above(config.look_ahead + 128), arena);
   queue_ = arena.make<Item>(kQueue);
   checkpoints_.create(power_of_two_above(config.look_ahead + 64), arena);
@@ -60,24 +62,24 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   }
 }
 
-void Interpreter::refresh_letters() {
+void Interpreter::refresh_axis_names() {
   for (int8_t& a : axis_of) a = -1;
   axis_letters = 0;
   for (unsigned i = 0; i < axis_count; ++i) {
-    axis_of[system->axis[i].name - 'A'] = static_cast<int8_t>(i);
-    axis_letters |= 1u << (system->axis[i].name - 'A');
+    axis_of[address_of(system->axis[i].name)] = static_cast<int8_t>(i);
+    axis_letters |= 1u << address_of(system->axis[i].name);
   }
   const char hypothetical = state.mill.hypothetical_letter;
   if (hypothetical == 0) return;
-  axis_of[hypothetical - 'A'] = static_cast<int8_t>(state.map.rotary);
-  axis_letters |= 1u << (hypothetical - 'A');
+  axis_of[address_of(hypothetical)] = static_cast<int8_t>(state.map.rotary);
+  axis_letters |= 1u << address_of(hypothetical);
 }
 
 AxisVec Interpreter::polar_position() const {
   const AxisVec& z = zero();
-  Transform t;
-  for (unsigned i = 0; i < kMaxAxes; ++i) t.offset[i] = z[i] + state.applied[i];
-  return to_programmed(state.map, t.sign, t.offset, state.machine);
+  AxisVec offset;
+  for (unsigned i = 0; i < kMaxAxes; ++i) offset[i] = z[i] + state.applied[i];
+  return to_programmed(state.map, Affine::translation(offset), state.machine);
 }
 
 void Interpreter::set_table(unsigned key, double value) {
@@ -106,6 +108,12 @@ bool Interpreter::set_parameter(const char* key, int axis, const char* text) {
   variables.note(state.seq + 1, kParameterKey + index, old);
   refresh_settings();
   return true;
+}
+
+bool Interpreter::set_parameter(ParameterOf parameter, const char* text) {
+  char key[kParameterKeySize];
+  int bit = -1;
+  return parameter_place(*dialect, parameter, key, &bit) && bit < 0 && set_parameter(key, -1, text);
 }
 
 void Interpreter::undo(void* self, uint32_t key, double old) {
@@ -138,7 +146,7 @@ double Interpreter::exchange(void* self, uint32_t key, double value) {
 
 void Interpreter::refresh_settings() {
   settings_stale_ = false;
-  ++settings_count;
+  settings_of_moves_stale_ = true;
   settings = parameters.settings(*dialect);
   for (uint32_t* axes : {&settings.turning, &settings.short_cut, &settings.machine_turn, &settings.tool_change_axes})
     *axes &= axes == &settings.tool_change_axes ? (1u << axis_count) - 1 : rotary;
@@ -147,7 +155,8 @@ void Interpreter::refresh_settings() {
   reader.check_block_parity(settings.parity_units);
   reader.semicolon_begins_comment(settings.semicolon_comments);
   variables.share(settings.shared_100, settings.shared_500);
-  code_calls = dialect->lex->macros ? read_code_calls(parameters) : CodeCalls{};
+  code_calls = dialect->lex->macros ? read_code_calls(parameters, *dialect) : CodeCalls{};
+  codes_call = code_calls.any || vendor->any();
 }
 
 Item& Interpreter::next_item(ItemKind kind, bool block_end) {
@@ -179,91 +188,67 @@ Move& Interpreter::emit_move(const AxisVec& start, const AxisVec& end) {
   // Made in one go: clearing three positions only to fill them would be felt in every block.
   Move& move = *new (&item.move) Move(start, end, state.comp);
   move.stroke_box = state.stroke_box;
+  if (settings_of_moves_stale_) [[unlikely]] take_settings_of_moves();
+  move.settings = settings_of_moves_;
   return move;
+}
+
+[[gnu::noinline]] void Interpreter::take_settings_of_moves() {
+  settings_of_moves_stale_ = false;
+  settings_of_moves_ = motion_settings.intern({settings.accuracy, settings.fairing, settings.filters, settings.index_axes, settings.machine_turn});
 }
 
 // ---- program selection, reset, rewind ----------------------------------------------------------------------------------
 
+InitialValues Interpreter::initial_values() const {
+  InitialValues initial;
+  ModalState& modal = initial.modal;
+  modal = initial_modal(*dialect);
+  if (!settings.start_absolute) modal.set(Function::incremental);  // M700 5.1 (4)
+  if (settings.start_inch) modal.set(Function::inch);
+  if (settings.start_synchronous) modal.set(Function::feed_per_revolution);  // M700 7.4 note 6, 7.5 (3)
+  if (settings.start_high_accuracy) modal.set(Function::high_accuracy_mode);  // M700 13.15 (4)
+  modal.set(settings.start_plane);
+  basic_plane_axes(*this, settings.start_plane, initial.plane_axis);
+  initial.motion_outlives_end = dialect->rules.program.motion_outlives_end;
+  initial.keeps_polar_command = settings.keeps_polar_command;
+  initial.keeps_clamp = settings.keeps_clamp;
+  return initial;
+}
+
+void Interpreter::refresh_derived() {
+  state.refresh_accuracy();
+  state.refresh_special();
+  refresh_axis_names();
+  refresh_work_rotation(*this);
+}
+
 /// M700 3.7 "reset 2": modal state to its initial values; positions, offsets and G92 shifts stay (M700 9.1).
 void Interpreter::reset(bool keep_modal) {
-  const State before = state;
-  const ModalState& modal = before.modal;
   double maps[Notes::kMapSize];
   for (unsigned i = 0; i < Notes::kMapSize; ++i) maps[i] = notes.get(Notes::mirror_key(0) + i);
-  if (state.end_seen && dialect->id == NC_DIALECT_M700) {
-    left_by_end_ = {modal.code[kGroupMotion], modal.code[kGroupFeed], modal.feed_digit == 0 ? modal.feed : 0};
-  } else if (state.seq != 0) {
-    left_by_end_ = {};
-  }
-  state = State{};
-  state.machine = before.machine;
-  state.port_open = before.port_open;
-  for (unsigned i = 0; i < 2; ++i) state.clock_base[i] = before.clock_base[i];  // M700 13.5.5: only writing them changes the clocks
-  state.clock_shift_s = before.clock_shift_s;
-  state.spindle.clamped = settings.keeps_clamp && before.spindle.clamped;  // M700 10.4 (3): #1210 bit 19
-  for (unsigned i = 0; i < NC_GROUPS; ++i) state.modal.code[i] = dialect->initial[i];
-  if (settings.keeps_polar_command && modal.code[kGroupPolarCommand] == 160) state.modal.code[kGroupPolarCommand] = 160;  // M700 6.12 (3)
-  if (!settings.start_absolute) state.modal.code[kGroupDistance] = 910;  // M700 5.1 (4)
-  if (settings.start_inch) state.modal.code[kGroupUnit] = 200;
-  if (settings.start_synchronous) state.modal.code[kGroupFeed] = 950;  // M700 7.4 note 6, 7.5 (3)
-  if (settings.start_high_accuracy) state.modal.code[kGroupCutting] = 611;  // M700 13.15 (4)
-  select_basic_plane(*this, dialect->id == NC_DIALECT_M700 ? settings.start_plane : state.modal.code[kGroupPlane]);
-  if (left_by_end_.motion >= 0) {  // M700 9.1: a first movement of coordinate words goes on in the mode of the end; 7.2 note 1
-    state.modal.code[kGroupMotion] = left_by_end_.motion;
-    if (left_by_end_.feed_mode == state.modal.code[kGroupFeed]) state.modal.feed = left_by_end_.feed;
-  }
-  if (keep_modal) {
-    const ModalState initial = state.modal;
-    state.modal = modal;
-    for (const Group group : {kGroupCompensation, kGroupCycle, kGroupMacro}) state.modal.code[group] = initial.code[group];
-    if (state.modal.code[kGroupCutting] == 630) state.modal.code[kGroupCutting] = initial.code[kGroupCutting];  // it ends with its program
-    state.work_system = before.work_system;
-    state.applied = before.applied;
-    state.length_value = before.length_value;
-    state.length_axis = before.length_axis;
-    state.spindle_on = before.spindle_on;
-    state.stroke_box = before.stroke_box;
-    state.spindle = before.spindle;
-    state.high_speed = before.high_speed;
-    state.fine_mode = before.fine_mode;
-    state.accuracy_command = before.accuracy_command;
-    state.spline.on = before.spline.on;
-    state.spline.axes = before.spline.axes;
-    state.thread_lead = before.thread_lead;
-    state.last_feed = before.last_feed;
-    state.polar_angle = before.polar_angle;
-    state.polar_angle_known = before.polar_angle_known;
-    state.map = before.map;
-    state.mill = before.mill;
-    state.held_point = before.held_point;
-    state.mirror = before.mirror;
-    state.scaled = before.scaled;
-    state.rotated = before.rotated;
-    for (unsigned i = 0; i < 2; ++i) state.plane_axis[i] = before.plane_axis[i];
-  }
-  state.refresh_accuracy();
+  begin_program(state, initial_values(), keep_modal);
   state.frame[0].program = main_program;
   state.frame[0].offset = state.frame[0].begin = main_program.offset;
   state.frame[0].line = state.frame[0].begin_line = main_program.line;
-  state.refresh_special();
-  refresh_letters();
   variables.clear_locals(1);
+  if (shared != nullptr) shared->publish(*this, ~BlockSeq{0});  // what is not taken back by now has been executed
   variables.forget();
   notes.clear();
   if (keep_modal) {
     for (unsigned i = 0; i < Notes::kMapSize; ++i) notes.set(Notes::mirror_key(0) + i, maps[i]);
-    program_changed();
   }
+  refresh_derived();
   take_work_rotation(*this, true);  // M700 13.21 (4): parameters hold from the cycle start on
-  store->forget_notes(system_number - 1u);
-  // DGSHAPE G28: a midpoint is remembered within a program. M700 14.7: since power-on.
-  for (unsigned i = 0; i < axis_count && dialect->id == NC_DIALECT_DGSHAPE; ++i) frames.set(Frames::midpoint_set_key(i), 0);
+  store->forget_notes(system_index);
+  for (unsigned i = 0; i < axis_count && dialect->rules.reference.forgets_with_program; ++i) frames.set(Frames::midpoint_set_key(i), 0);
   forget_block();
   ended = !main_program.valid();
   alarm_fault = Fault{};
   answered_ = ~BlockSeq{0};
   checkpoints_.clear();
   checkpoints_.save(state);
+  forget_vendor_call();
 }
 
 /// What was under way when reading begins at another place.
@@ -289,7 +274,7 @@ void Interpreter::moved_by_hand() {
     const double radius = state.machine[linear] - zero()[linear] - state.applied[linear];
     if (radius != 0) state.map.side = radius < 0 ? -1 : 1;
   }
-  state.spline.joined = state.spline.moved = false;
+  state.spline_way = {};
   state.polar_angle_known = false;
 }
 
@@ -305,7 +290,7 @@ bool Interpreter::refers_to(unsigned file) const {
   if (main_program.valid() && main_program.file == file) return true;
   for (unsigned level = 0; level <= state.depth; ++level)
     if (state.frame[level].program.file == file) return true;
-  return (store->entry(file)->noted >> (system_number - 1) & 1) != 0 || checkpoints_.call(file);
+  return (store->entry(file)->noted >> system_index & 1) != 0 || checkpoints_.call(file);
 }
 
 void Interpreter::set_machine(const AxisVec& machine) {
@@ -323,12 +308,33 @@ void Interpreter::set_machine(const AxisVec& machine) {
   checkpoints_.save(state);
 }
 
-bool Interpreter::rewind(BlockSeq seq) {
-  if (!checkpoints_.holds(seq) || !variables.rewind(seq, this, undo)) return false;
+void Interpreter::clear_by_reset() {
+  end_by_operator(state);
+  if (!settings.reset_clears_common) return;
+  for (uint32_t n = 100; n <= 199; ++n) {
+    if (!common->exists(n)) continue;
+    if (shared != nullptr && variables.shares(n)) {
+      shared->set_variable(n, Value{});
+    } else {
+      variables.set_from_outside(n, 0, Value{});
+    }
+  }
+}
+
+/// What blocks behind `seq` have written; false: the journal does not reach back that far.
+bool Interpreter::take_back(BlockSeq seq) {
+  if (!variables.rewind(seq, this, undo)) return false;
   if (settings_stale_) refresh_settings();
+  if (shared != nullptr) shared->publish_taken_back(*this);
+  return true;
+}
+
+bool Interpreter::rewind(BlockSeq seq) {
+  if (!checkpoints_.holds(seq) || !take_back(seq)) return false;
+  if (seq < vendor_call_.seq) forget_vendor_call();
   checkpoints_.restore(seq, &state);
   take_changed_amounts(*this);  // the host may have changed them since
-  refresh_letters();
+  refresh_axis_names();
   forget_block();
   ended = false;
   if (state.end_seen) emit_end();  // it comes behind the mark
@@ -388,7 +394,7 @@ bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
   // A further O number begins another program; a family without sub programs has one in a program, and prints it behind a block, too.
   const bool number_again = block->has_o && frame.started;
   const bool one_number = dialect->call_depth == 0;
-  if (number_again && one_number && frame.program.number != 0) return settled(raise(Condition::format_error, 'O', block->o));  // DGSHAPE 1-1, 2-6
+  if (number_again && one_number && frame.program.number != 0) return settled(raise(Condition::format_error, Role::program_number, block->o));  // DGSHAPE 1-1, 2-6
   if (block->percent || block->end_of_text || (number_again && !one_number)) {
     const bool data_end = dialect->percent_required && state.percent_seen;  // DGSHAPE 2-6, also with nothing between the two
     if (block->percent && !frame.started && !data_end) {  // the start mark
@@ -427,7 +433,7 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   (void)budget;
   if (next_step != Step::none) return settle(continue_block(*this));
   CallFrame& frame = state.frame[state.depth];
-  source.system = system_number;
+  source.system = system_index;
   source.depth = state.depth;
   source.file = frame.program.file;
   source.program = frame.program.number;
@@ -520,11 +526,10 @@ nc_status Interpreter::settle(Did did) {
 /// What the block in hand has put into the stream, and what it has changed.
 void Interpreter::take_block_back() {
   queued_ = 0;
-  if (!checkpoints_.holds(state.seq) || !variables.rewind(state.seq, this, undo)) return;
-  if (settings_stale_) refresh_settings();
+  if (!checkpoints_.holds(state.seq) || !take_back(state.seq)) return;
   checkpoints_.restore(state.seq, &state);
   newest_modal_ = kNoModal;
-  refresh_letters();
+  refresh_axis_names();
 }
 
 void Interpreter::keep_call() {
@@ -538,7 +543,7 @@ void Interpreter::emit_stop_point(bool resume) {
   Item& item = emit(ItemKind::mark);
   item.block_end = false;
   new (&item.mark) Mark{position(), modals.intern(state.modal), resume ? state.seq : 0, 0,
-                        (state.control_3003 & 1) == 0 && state.modal.code[kGroupCutting] != 630, false, resume};
+                        (state.control_3003 & 1) == 0 && !state.modal.is(Function::tapping_mode), false, resume};
 }
 
 void Interpreter::stop(const Fault& what, const nc_source& where) {
@@ -557,32 +562,42 @@ void Interpreter::stop(const Fault& what, const nc_source& where) {
   ended = alarmed = true;
 }
 
-void Interpreter::note_calls(const nc_source& where, const CallFrame* levels) {
-  AlarmStory& story = alarm_story;
-  story = AlarmStory{};
-  for (; story.count < where.depth; ++story.count) {
-    const CallFrame& frame = levels[story.count];
-    nc_source& call = story.calls[story.count];
+unsigned Interpreter::calls_of(const nc_source& where, const CallFrame* levels, nc_source (&calls)[kMaxFrames]) {
+  unsigned count = 0;
+  for (; count < where.depth; ++count) {
+    const CallFrame& frame = levels[count];
+    nc_source& call = calls[count];
     call = where;
     call.line = frame.call_line;
     call.program = frame.program.number;
     call.file = frame.program.file;
-    call.depth = story.count;
+    call.depth = static_cast<uint8_t>(count);
   }
-  story.calls[story.count++] = where;
+  calls[count++] = where;
+  return count;
+}
+
+void Interpreter::note_calls(const nc_source& where, const CallFrame* levels) {
+  alarm_story = AlarmStory{};
+  alarm_story.count = static_cast<uint8_t>(calls_of(where, levels, alarm_story.calls));
+}
+
+unsigned Interpreter::calls_behind(const nc_source& where, BlockSeq seq, nc_source (&calls)[kMaxFrames]) const {
+  if (where.depth == 0) return calls_of(where, nullptr, calls);
+  // Behind a block come calls, which have no mark yet, and then the next one: the first state that is as deep as that has its callers.
+  CallFrame levels[kMaxFrames];
+  for (; checkpoints_.holds(seq); ++seq) {
+    if (!checkpoints_.frames(seq, where.depth + 1u, levels)) continue;
+    const ProgramRef& program = levels[where.depth].program;
+    if (program.file == where.file && program.number == where.program) return calls_of(where, levels, calls);
+  }
+  return 0;
 }
 
 void Interpreter::note_calls(const nc_source& where, BlockSeq seq) {
-  // Behind the last block that has gone out come calls, which have no mark yet, and then the block of the alarm: the first state that is
-  // as deep as that block has its callers.
-  CallFrame levels[kMaxFrames];
-  const unsigned count = where.depth + 1u;
-  for (; checkpoints_.holds(seq); ++seq) {
-    if (!checkpoints_.frames(seq, count, levels)) continue;
-    const ProgramRef& program = levels[where.depth].program;
-    if (program.file == where.file && program.number == where.program) return note_calls(where, levels);
-  }
-  note_calls(where, state.frame);
+  alarm_story = AlarmStory{};
+  alarm_story.count = static_cast<uint8_t>(calls_behind(where, seq, alarm_story.calls));
+  if (alarm_story.count == 0) note_calls(where, state.frame);
 }
 
 void Interpreter::abort(const Fault& what, const nc_source& where) {
@@ -608,7 +623,7 @@ void Interpreter::finish_block(bool stop, bool executable) {
   if (stop && (state.end_seen ||             // the program is over: nothing is left that a start could go on with
                state.nurbs.active() ||       // M700 6.15: single block stops at the last control point only
                (state.control_3003 & 1) ||   // M700 10.5: single block suppressed
-               (state.special != 0 && state.modal.code[kGroupCutting] == 630)))  // M700 7.11 (4)
+               (state.special != 0 && state.modal.is(Function::tapping_mode))))  // M700 7.11 (4)
     stop = false;
   Item& item = next_item(ItemKind::mark, executable);
   new (&item.mark) Mark{position(), modal_now(executable), state.seq, 0, stop, true, true, begins_again};

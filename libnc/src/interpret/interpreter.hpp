@@ -16,15 +16,21 @@
 
 #include <cstring>
 
+#include "base/intern_pool.hpp"
+#include "dialect/code_index.hpp"
+#include "frame/affine.hpp"
 #include "frame/frames.hpp"
 #include "frame/stroke_box.hpp"
-#include "frame/transform.hpp"
 #include "interpret/block_words.hpp"
+#include "interpret/checkpoints.hpp"
 #include "interpret/code_calls.hpp"
+#include "interpret/lifetimes.hpp"
+#include "interpret/motion_settings.hpp"
 #include "interpret/notes.hpp"
 #include "interpret/parameters.hpp"
-#include "interpret/checkpoints.hpp"
+#include "interpret/program_matrices.hpp"
 #include "interpret/state.hpp"
+#include "interpret/vendor_codes.hpp"
 #include "macro/variables.hpp"
 #include "nc/run.h"
 
@@ -68,12 +74,14 @@ struct AlarmStory {
 struct InterpreterConfig {
   const Dialect* dialect = nullptr;
   const nc_system_config* system = nullptr;
-  uint8_t system_number = 1;
+  uint8_t system_index = 0;        ///< part system, from 0
   uint32_t look_ahead = 1024;
   uint32_t window_bytes = 65536;
   FramesConfig frames;
-  bool several = false;        ///< part systems
+  const VendorCodes* vendor = nullptr;
 };
+
+class SharedTables;
 
 struct Interpreter {
   void create(const InterpreterConfig& config, ProgramStore* store, CommonVariables* common, Arena& arena);
@@ -102,13 +110,12 @@ struct Interpreter {
   void reset(bool keep_modal);
   /// What a reset by the operator clears and the end of a program does not: what the end has left in force, and by parameter #100 to
   /// #199 (M700 13.4, #1128 RstVC1).
-  void clear_by_reset() {
-    state.end_seen = false;
-    left_by_end_ = {};
-    if (!settings.reset_clears_common) return;
-    for (uint32_t n = 100; n <= 199; ++n)
-      if (common->exists(n)) variables.set_from_outside(n, 0, Value{});
-  }
+  void clear_by_reset();
+  /// The next block is read again for somebody who wants everything done again: a function of the vendor, too.
+  void forget_vendor_call() { vendor_call_ = {}; }
+  /// Whether the vendor's function of the block in hand has been called, and note that it has.
+  bool vendor_called() const { return vendor_call_.known && vendor_call_.seq == state.seq && vendor_call_.begin == block->begin && vendor_call_.file == source.file; }
+  void note_vendor_call() { vendor_call_ = {true, source.file, block->begin, state.seq}; }
   /// Back to right behind the block `seq`; false when it is too old.
   bool rewind(BlockSeq seq);
   /// Tables, variables and parameters are as block `seq` has left them (back), and again as they were: for a look from outside, without a write.
@@ -148,6 +155,9 @@ struct Interpreter {
     world = interrupted_.world;
     world_fresh = true;
     answered_ = state.seq;
+    if (!interrupted_.vendor_call.known) return;
+    vendor_call_ = interrupted_.vendor_call;
+    vendor_call_.seq = state.seq;
   }
   /// Program and modal state at the interrupt (#4401...).
   const ModalState& interrupted_modal() const { return interrupted_.state.modal; }
@@ -156,6 +166,8 @@ struct Interpreter {
   void abort(const Fault& what, const nc_source& where);
   /// For abort(), before the blocks from `seq` on are given up: which of them called the program of `where`.
   void note_calls(const nc_source& where, BlockSeq seq);
+  /// The blocks that led to `where`, which comes behind block `seq`, outermost first and with it; 0: that is not known any more.
+  unsigned calls_behind(const nc_source& where, BlockSeq seq, nc_source (&calls)[kMaxFrames]) const;
   void refresh_settings();
   /// The host has changed a number of the frames' table: no rewind brings the old one back.
   void set_table_from_outside(unsigned key, double value);
@@ -163,45 +175,50 @@ struct Interpreter {
   // ---- for the functions (interpret/ only) --------------------------------------------------------------------------
   const Dialect* dialect = nullptr;
   const nc_system_config* system = nullptr;
-  uint8_t system_number = 1;
+  uint8_t system_index = 0;        ///< part system, from 0
   unsigned axis_count = 3;
   uint32_t rotary = 0;             ///< bit i: axis i is rotary
   int8_t axis_of[26];              ///< axis index by letter, -1 = none
-  uint32_t axis_letters = 0;       ///< bit (letter - 'A'): the letter is an axis
-  static constexpr int kDirectCodes = 100;
-  const FunctionRow* direct_function[kDirectCodes];  ///< rows of G00..G99, found once
+  uint32_t axis_letters = 0;       ///< bit n: address n is an axis
+  uint32_t code_addresses = 0;     ///< those of codes and of numbers of blocks
+  CodeIndex codes;                 ///< the family's G codes
 
   State state;
   Settings settings;
-  uint32_t settings_count = 0;     ///< how often they have been made: another number, other settings
   Parameters parameters;
   Frames frames;
   Variables variables;
   Notes notes;
+  mutable ProgramMatrices program_matrices;  ///< of the maps in force (interpret/program_map.hpp), made when they are asked for
   CodeCalls code_calls;
+  const VendorCodes* vendor = nullptr;  ///< the machine's own codes
+  bool codes_call = false;         ///< some code calls: a parameter has registered it, or it is the vendor's
   struct {
     nc_device_read read = nullptr;
     void* user = nullptr;
   } devices;                       ///< of the PLC (#100110)
   CommonVariables* common = nullptr;
+  SharedTables* shared = nullptr;  ///< with the other part systems; nullptr: there are none
   ProgramStore* store = nullptr;
   BlockReader reader;
   /// For tests: what is named by a number is counted from here.
   void count_from(uint32_t first) {
-    settings_count = first;
     transforms.count_from(first);
     modals.count_from(first);
     texts.count_from(first);
     shapes.count_from(first);
     points.count_from(first);
     stroke_boxes.count_from(first);
+    motion_settings.count_from(first);
+    settings_of_moves_stale_ = true;
   }
-  InternPool<Transform> transforms;
+  InternPool<Affine> transforms;   ///< from the compensation frame to machine coordinates; Move::transform
   InternPool<ModalState> modals;
   InternPool<Message> texts;
   InternPool<MoveShape> shapes;    ///< of moves under way; Move::shape counts from 1
   InternPool<PathPoint> points;
   InternPool<StrokeBox> stroke_boxes;   ///< of G22; Move::stroke_box counts from 1
+  InternPool<MotionSettings> motion_settings;  ///< Move::settings
   SkipSpeeds skip_speeds;               ///< of the G31 under way
   double measured_position = 0, measured_range = 0;  ///< of the G37 under way
   bool measured_nothing = false;                     ///< it has no range to measure in
@@ -224,6 +241,9 @@ struct Interpreter {
   ModalState finished_modal;       ///< as the last finished block left it: the block in execution, at a sync (#4201...)
   uint32_t last_line = 1;          ///< of the last block read
   uint32_t user_alarm_text = 0;    ///< text of the last #3000
+  nc_alarm vendor_alarm{};         ///< what the last function of the vendor that failed has said
+  bool in_vendor_function = false; ///< one runs: nothing else drives this part system meanwhile
+  bool feeding = false;            ///< read for the machine, else for nc_pull()
 
   // the block in hand
   const Block* block = nullptr;
@@ -244,6 +264,16 @@ struct Interpreter {
   bool block_starts_incremental = false; ///< G91 was modal before this block
   bool distance_by_word = false;         ///< an axis word goes by the G90/G91 before it in the block (M700 5.1)
 
+  /// What a word of the block means. Which of several meanings of its address is asked for, the function in hand decides.
+  bool is(const Word& word, Role role) const { return address_of(word) == dialect->addresses.at(role); }
+  uint32_t addresses(std::initializer_list<Role> roles) const { return dialect->addresses.set(roles); }
+  /// Index of the axis that the configuration or a parameter names so, and of the one that a rule names; -1 = the machine has none.
+  int axis_named(char name) const { return name == 0 ? -1 : axis_of[address_of(name)]; }
+  int axis_called(Role role) const {
+    const unsigned address = dialect->addresses.at(role);
+    return address < kAddresses ? axis_of[address] : -1;
+  }
+
   /// A new item at the end of the queue, its payload as constructed; moves come from emit_move().
   Item& emit(ItemKind kind);
   /// A move with the compensation in force; transform and kind are left to the caller.
@@ -256,6 +286,9 @@ struct Interpreter {
     fault.letter = letter;
     return Did::fault;
   }
+  /// About a word of the block, by what it means.
+  Did raise(Condition condition, Role word) { return raise(condition, dialect->addresses.letter(word)); }
+  Did raise(Condition condition, Role word, double value) { return raise(condition, dialect->addresses.letter(word), value); }
   Did raise(Condition condition, char letter, double value) {
     raise(condition, letter);
     fault.has_value = true;
@@ -273,6 +306,23 @@ struct Interpreter {
     fault.axis = static_cast<int8_t>(axis);
     return Did::fault;
   }
+  /// About a code of the block in hand. What is not fitted names its row (alarm_text), which is the code times ten.
+  Did raise_code(Condition condition, const FunctionRow& row) {
+    return raise(condition, Role::code, condition == Condition::no_function ? row.code : row.code / 10.0);
+  }
+  /// About what a code means, where the code itself is not at hand: by the family's first code with this meaning.
+  Did raise_function(Condition condition, Function function) {
+    const FunctionRow* const row = codes.row(function);
+    return row != nullptr ? raise_code(condition, *row) : raise(condition, Role::code);
+  }
+  /// About the code in force of a mode.
+  Did raise_mode(Condition condition, Mode mode) {
+    const FunctionRow* const row = row_in_force(*dialect, state.modal, mode);
+    return row != nullptr ? raise_code(condition, *row) : raise(condition, Role::code);
+  }
+  Did raise_misc(Condition condition, MiscFunction function) { return raise(condition, Role::misc_code, misc_code(*dialect, function)); }
+  /// What part systems share is as the machine has come to it, or there is one part system. False: it has to be asked for (NC_SYNC_SHARED).
+  bool shared_known() const { return shared == nullptr || world_fresh; }
   Did need(uint32_t what) {
     sync_needed = what;
     return Did::sync;
@@ -311,11 +361,14 @@ struct Interpreter {
     return set == set ? set : system->axis[axis].reference[which];
   }
   /// The letters that command axes: those of the axes, or what a mode of the state makes of them.
-  void refresh_letters();
+  void refresh_axis_names();
+  /// Everything that is made of the state's groups, after they have been assigned.
+  void refresh_derived();
   /// Journalled write to the frames' table.
   void set_table(unsigned key, double value);
   /// Journalled write to a parameter; false when there is no such parameter or value.
   bool set_parameter(const char* key, int axis, const char* text);
+  bool set_parameter(ParameterOf parameter, const char* text);
   /// The same to the notes.
   void set_note(unsigned key, double value);
 
@@ -323,11 +376,19 @@ struct Interpreter {
   static constexpr unsigned kQueue = 64;    ///< items a block may make before the stages take them
   static constexpr unsigned kReserve = 24;  ///< one step of a job never makes more than this
 
+  /// A block whose function of the vendor's has been called.
+  struct VendorCall {
+    bool known = false;
+    uint16_t file = 0;
+    uint64_t begin = 0;
+    BlockSeq seq = 0;            ///< the state before it
+  };
   /// What an interrupt program goes back to.
   struct InterruptReturn {
-    State state;                 ///< at the head of the interrupted block, or behind the block that came before
+    StateValues state;           ///< at the head of the interrupted block, or behind the block that came before
     unsigned items = 0;          ///< of that block that have happened
     bool inside_block = false;
+    VendorCall vendor_call;      ///< of the interrupted block: what it has called is not called again when it goes on
     bool world_known = false;    ///< the interrupted block has read `world`: it reads the same when it goes on
     nc_world world{};
     double map_note[Notes::kMapSize] = {};   ///< where these are centred
@@ -337,7 +398,10 @@ struct Interpreter {
   void note_world() {
     interrupted_.world_known = answered_ == state.seq;
     interrupted_.world = world;
+    note_block_call();
   }
+  InitialValues initial_values() const;
+  void note_block_call() { interrupted_.vendor_call = vendor_call_.known && vendor_call_.seq == state.seq ? vendor_call_ : VendorCall{}; }
   bool begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine);
   void restore_modal();
   void moved_by_hand();
@@ -348,6 +412,7 @@ struct Interpreter {
   nc_status settle(Did did);
   void stop(const Fault& what, const nc_source& where);
   void note_calls(const nc_source& where, const CallFrame* levels);
+  static unsigned calls_of(const nc_source& where, const CallFrame* levels, nc_source (&calls)[kMaxFrames]);
   void take_block_back();
   void emit_end();
   Item& next_item(ItemKind kind, bool block_end);
@@ -362,16 +427,17 @@ struct Interpreter {
   bool waiting_ = false;
   uint32_t waiting_for_ = 0;
   bool settings_stale_ = false;
+  bool settings_of_moves_stale_ = true;   ///< made anew with the next move, so that numbers go to moves only
+  SettingsId settings_of_moves_ = 0;
+  void take_settings_of_moves();
+  bool take_back(BlockSeq seq);
   static void undo(void* self, uint32_t key, double old);
   static double exchange(void* self, uint32_t key, double value);
   unsigned made_ = 0;          ///< items of the block in hand so far
   BlockSeq block_seq_ = 0;     ///< the state before it
   Repeat next_repeat_;         ///< from the next mark on
   InterruptReturn interrupted_;
-  struct {
-    int16_t motion = -1, feed_mode = -1;   ///< codes of groups 1 and 5; -1 = no program has ended since the last reset
-    double feed = 0;
-  } left_by_end_;
+  VendorCall vendor_call_;       ///< the newest block whose function of the vendor's has been called: read again, it has been
   BlockSeq answered_ = ~BlockSeq{0};  ///< the state before the block that the newest answer was for
   Checkpoints checkpoints_;
   static constexpr ModalId kNoModal = ~ModalId{0};
@@ -409,6 +475,8 @@ void cancel_modal_call(Interpreter& in);      ///< G67
 /// interpret/code_call.cpp
 /// A block that may hold a registered code. *taken: the call has been made and takes all the words.
 Did dispatch_block(Interpreter& in, bool* taken);
+/// interpret/vendor_call.cpp: word `at` of the block is a code of the vendor's that calls a function; everything before it has happened.
+Did call_vendor(Interpreter& in, unsigned at, const nc_vendor_code& code);
 /// G66.1 is in force and takes the words of this block (in.words).
 bool block_is_argument(const Interpreter& in);
 /// What a block calls behind its own part: a code of type M98, the modal call after a move.
@@ -450,6 +518,8 @@ struct LinearStyle {
   double feed_mm_rev = 0;     ///< thread: lead along the longest axis
   double thread_angle = 0;
   bool special_feed = false;  ///< the modal feed, and it is not the plain one (interpret/feed.hpp)
+  Corner corner = Corner::none;  ///< at its end ...
+  double corner_mm = 0;       ///< ... of this size
   double in_position = 0;     ///< ,I ,J: what comes behind waits until each axis is as near to its end as this, mm; 0 = by the parameters
 };
 /// A straight move to `target` in the active coordinates; `commanded` = axes named in the block (tool length is applied to them).
@@ -457,28 +527,30 @@ void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, con
 /// A straight rapid to machine coordinates of the `commanded` axes (G53, second leg of G28), without any compensation on those of them
 /// that are `bare`.
 void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded, uint32_t bare = ~uint32_t{0});
+/// An arc in the plane in force by the words of the block.
 Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw);
-/// Programmed coordinates of a move: where it starts and ends, and the transform behind them.
+struct ArcWords;
+struct PlaneAxes;
+/// The same by words that the caller has made.
+Did move_arc_by(Interpreter& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw);
+/// Programmed coordinates of a move: where it starts and ends, and the map behind them.
 struct MoveFrame {
-  Transform transform;
+  Affine to_machine;
   AxisVec start, end;
 };
 /// Tool length goes to the commanded axes; axes that are not stay where they are.
 MoveFrame frame_of_move(Interpreter& in, const AxisVec& target, uint32_t commanded);
-struct PlaneAxes;
 /// A circular move (arc, helix, spiral) at the feed in force.
 void emit_circular(Interpreter& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind);
 /// A move of any other shape; its feed is the caller's.
 Move& emit_shaped(Interpreter& in, const MoveFrame& frame, const MoveShape& shape, nc_move_kind kind);
-inline bool is_space_arc(int16_t motion) { return motion == 24 || motion == 34; }
-inline bool is_exponential(int16_t motion) { return motion == 23 || motion == 33; }
 /// Modal curves that do not bear some other codes.
-inline bool bars_codes(int16_t motion) { return is_space_arc(motion) || is_exponential(motion); }
+inline bool bars_codes(Function motion) { return is_space_arc(motion) || is_exponential(motion); }
 /// A compensation command in a block that does not move: a move without length carries it to the offset stage (offset/offset.hpp).
 void move_nowhere(Interpreter& in);
 /// P20: a rotary axis commanded to a position that is no multiple of #2106 (M700 2.3).
 Did check_index_positions(Interpreter& in);
-/// The motion that the words of the block ask for by the modal group 1.
+/// The motion that the words of the block ask for by the motion in force.
 Did move_by_words(Interpreter& in);
 /// F in force as mm/min, 0 = none.
 double feed_mm_min(const Interpreter& in);

@@ -9,14 +9,14 @@
 // there, with the machine where it stands. On return either the rest of the block is lost (type 1, when the interrupt program moved or
 // gave out M S T B), or the block is read again and the items that have happened already are dropped.
 #include "interpret/calls.hpp"
-#include "interpret/work_rotation.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/lifetimes.hpp"
 
 namespace nc {
 namespace {
 
-/// What sinks and the scan know of the interrupt: NC_ACTION_CONTROL 96.
+/// What sinks and the scan know of the interrupt.
 void announce(Interpreter& in) {
   uint32_t bits = 0;
   if (in.state.interrupt_on) bits |= NC_INTERRUPT_ENABLED;
@@ -25,7 +25,7 @@ void announce(Interpreter& in) {
   if (in.state.interrupt_depth != 0) bits |= NC_INTERRUPT_IN_SERVICE;
   Action& action = in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_CONTROL;
-  action.index = 96;
+  action.index = NC_CONTROL_INTERRUPT;
   action.value = bits;
 }
 
@@ -48,13 +48,13 @@ void pass_over_block(Interpreter& in, CallFrame& frame) {
 
 }  // namespace
 
-bool is_interrupt_on(const Interpreter& in, uint32_t m) { return m == in.settings.interrupt_on_m && in.dialect->id == NC_DIALECT_M700; }
-bool is_interrupt_off(const Interpreter& in, uint32_t m) { return m == in.settings.interrupt_off_m && in.dialect->id == NC_DIALECT_M700; }
+bool is_interrupt_on(const Interpreter& in, uint32_t m) { return m == in.settings.interrupt_on_m && in.dialect->rules.program.macro_interrupt; }
+bool is_interrupt_off(const Interpreter& in, uint32_t m) { return m == in.settings.interrupt_off_m && in.dialect->rules.program.macro_interrupt; }
 
 Did enable_interrupt(Interpreter& in) {
   const BlockWords& w = in.words;
   ProgramRef program;
-  Did did = find_called(in, w.has('P'), w.has('P') ? w.get('P') : 0, false, &program);
+  Did did = find_called(in, w.has(Role::interrupt_program), w.has(Role::interrupt_program) ? w.get(Role::interrupt_program) : 0, false, &program);
   if (did != Did::done) return did;
   uint64_t offset = 0;
   uint32_t line = 0;
@@ -64,7 +64,7 @@ Did enable_interrupt(Interpreter& in) {
                                                 static_cast<double>(program.offset), static_cast<double>(program.line),
                                                 static_cast<double>(offset), static_cast<double>(line)};
   for (unsigned i = 0; i < Notes::kInterruptSize; ++i) in.set_note(Notes::interrupt_key(i), values[i]);
-  in.store->note(program.file, in.system_number - 1u);
+  in.store->note(program.file, in.system_index);
   in.state.interrupt_on = true;
   announce(in);
   return Did::done;
@@ -102,6 +102,7 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
   back.inside_block = inside_block;
   back.items = items;
   back.state = state;
+  note_block_call();
   for (unsigned i = 0; i < Notes::kMapSize; ++i) back.map_note[i] = notes.get(Notes::mirror_key(0) + i);
   const CallFrame& frame = state.frame[state.depth];  // what has been read ahead is given up: the place is that of the next block
   source.depth = state.depth;
@@ -116,10 +117,7 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
   }
   interrupted_.world = world;
   interrupted_.world_known = inside_block && answered == head;
-  state.repeat = {};
-  state.machine = machine;
-  state.interrupt_moved = false;
-  state.parameter_input = false;  // G10 L70 of the program that is interrupted: the blocks to come are no parameters
+  begin_interrupt_program(state, machine);
   announce(*this);
   checkpoints_.save(state);
   return true;
@@ -133,7 +131,7 @@ Did Interpreter::enter_interrupt() {
   entry.offset = static_cast<uint64_t>(notes.get(Notes::interrupt_key(Notes::kInterruptBegin)));
   entry.line = static_cast<uint32_t>(notes.get(Notes::interrupt_key(Notes::kInterruptBeginLine)));
   const unsigned level = macro_level() + 1u;
-  if (entry.kind == CallKind::macro && level > kMacroDepth) return raise(Condition::macro_nesting, 'P', entry.program.number);
+  if (entry.kind == CallKind::macro && level > kMacroDepth) return raise(Condition::macro_nesting, Role::interrupt_program, entry.program.number);
   const Did did = enter(*this, entry);
   if (did != Did::later) return did;
   static constexpr Value kNoArguments[kLocals] = {};
@@ -145,46 +143,14 @@ Did Interpreter::enter_interrupt() {
   return Did::later;
 }
 
-/// M700 13.12: modal information is restored. All of the state is, but for what is no information of the program: what has been given out
-/// or has happened on the machine, and the stack of programs, which the return itself works off.
+/// M700 13.12: modal information is restored, and what the interrupt program has told the machine about it is told again.
 void Interpreter::restore_modal() {
-  const State now = state;
-  state = interrupted_.state;
-  state.seq = now.seq;
-  if (!interrupted_.inside_block) {  // else the block is read again from its head, from where it began
-    for (unsigned i = 0; i < axis_count; ++i)
-      if ((state.map.frozen >> i & 1) == 0) state.machine[i] = now.machine[i];  // G07: beside the axis
-    state.applied = now.applied;
-  }
-  state.modal.m = now.modal.m;
-  state.spindle_on = now.spindle_on;
-  state.spindle.clamped = now.spindle.clamped;  // speeds of G92 are data, as its coordinates are
-  state.port_open = now.port_open;
-  state.percent_seen = now.percent_seen;
-  state.control_3003 = now.control_3003;
-  state.control_3004 = now.control_3004;
-  for (unsigned i = 0; i < 2; ++i) state.clock_base[i] = now.clock_base[i];
-  state.clock_shift_s = now.clock_shift_s;
-  state.interrupt_on = now.interrupt_on;  // M97 in the interrupt program
-  state.interrupt_moved = now.interrupt_moved;
-  state.interrupt_depth = now.interrupt_depth;
-  state.stop_reading = now.stop_reading;
-  state.repeat = now.repeat;
-  state.owes_mark = now.owes_mark;
-  state.codes_left = now.codes_left;
-  state.modal_call = now.modal_call;
-  state.depth = now.depth;
-  state.loop_count = now.loop_count;
-  for (unsigned i = 0; i <= now.depth; ++i) state.frame[i] = now.frame[i];
-  for (unsigned i = 0; i < now.loop_count; ++i) state.loop[i] = now.loop[i];
-  if (now.interrupt_moved) state.spline.joined = state.spline.moved = false;  // the curve begins again where the axes are
-  if (now.moves_since_comp_off != 0) state.moves_since_comp_off = 1;
-  change_cutting_mode(*this, now.modal.code[kGroupCutting]);
-  if (now.spindle.axis != state.spindle.axis || (state.spindle.axis != 0 && now.spindle.surface != state.spindle.surface)) announce_surface(*this);
-  state.refresh_accuracy();
-  state.refresh_special();
-  refresh_letters();
-  refresh_work_rotation(*this);  // a parameter, which is data, too (13.21)
+  const Function cutting = state.modal.of(Mode::cutting);
+  const SpindleControl spindle = state.spindle;
+  return_from_interrupt(state, interrupted_.state, interrupted_.inside_block);
+  change_cutting_mode(*this, cutting);
+  if (spindle.axis != state.spindle.axis || (state.spindle.axis != 0 && spindle.surface != state.spindle.surface)) announce_surface(*this);
+  refresh_derived();  // the rotation by parameter is data (13.21)
   take_changed_amounts(*this);
 }
 
@@ -193,7 +159,7 @@ void Interpreter::leave_interrupt(bool to_sequence) {
   CallFrame& caller = state.frame[state.depth - 1];
   const bool cut = settings.interrupt_type_2 ? false : state.interrupt_moved;
   state.interrupt_depth = 0;
-  state.parameter_input = interrupted_.state.parameter_input;
+  if (to_sequence || cut) go_on_behind_interrupt(state, interrupted_.state);
   if (to_sequence) {
     if (interrupted_.inside_block) pass_over_block(*this, caller);
   } else if (!cut) {

@@ -13,23 +13,25 @@
 namespace nc {
 namespace {
 
-/// Designation I: local variable of a letter (M700 13.5.1). G L N O P are arguments in the mode of G66.1 only. I J K: see below.
-constexpr uint8_t kArgument[26] = {/*A*/ 1,  /*B*/ 2,  /*C*/ 3,  /*D*/ 7,  /*E*/ 8,  /*F*/ 9,  /*G*/ 10, /*H*/ 11, /*I*/ 4,
-                                   /*J*/ 5,  /*K*/ 6,  /*L*/ 12, /*M*/ 13, /*N*/ 14, /*O*/ 15, /*P*/ 16, /*Q*/ 17, /*R*/ 18,
-                                   /*S*/ 19, /*T*/ 20, /*U*/ 21, /*V*/ 22, /*W*/ 23, /*X*/ 24, /*Y*/ 25, /*Z*/ 26};
-
-/// Designation II: I J K up to ten times, #(3k+1) #(3k+2) #(3k+3); a letter that does not come after the one before it in the
-/// alphabet begins the next group. The first group is what designation I says of I J K.
+/// Designation II: I J K up to ten times, #(3k+1) #(3k+2) #(3k+3); a word that does not come after the one before it in this order begins
+/// the next group. The first group is what designation I says of I J K.
 struct GroupCounter {
   unsigned group = 1;
-  char last = 0;
-  /// Variable number, 0 = more than ten groups.
-  unsigned variable(char letter) {
-    if (last != 0 && letter <= last) ++group;
-    last = letter;
-    return group > 10 ? 0 : 3 * group + 1 + static_cast<unsigned>(letter - 'I');
+  int last = -1;
+  /// Variable number of component 0, 1, 2; 0 = more than ten groups.
+  unsigned variable(int component) {
+    if (component <= last) ++group;
+    last = component;
+    return group > 10 ? 0 : 3 * group + 1 + static_cast<unsigned>(component);
   }
 };
+
+/// Which of I J K (0, 1, 2) the word is, -1 = none of them.
+int component_of(const Interpreter& in, const Word& word) {
+  for (unsigned i = 0; i < 3; ++i)
+    if (in.is(word, vector_along(i))) return static_cast<int>(i);
+  return -1;
+}
 
 double slot_value(const Interpreter& in, unsigned slot, unsigned what) { return in.notes.get(Notes::slot_key(slot, what)); }
 
@@ -75,22 +77,22 @@ Did enter_modal(Interpreter& in, unsigned slot, const Value* arguments) {
 Did gather_arguments(Interpreter& in, bool every_word, MacroCall& call) {
   GroupCounter groups;
   for (const Word& word : in.block->words) {
-    if (word.letter == 'G' && !every_word) continue;
+    if (in.is(word, Role::code) && !every_word) continue;
     Value value = Value::of(word.value);
     if ((word.flags & kWordExpression) != 0) {
       const Did did = evaluate_here(in, word.code, &value);
       if (did != Did::done) return did;
     }
     if ((word.flags & (kWordNoValue | kWordComma | kWordCount)) != 0) return in.raise(Condition::format_error, word.letter);
-    if (!every_word && (word.letter == 'P' || word.letter == 'L')) {
-      (word.letter == 'P' ? call.has_p : call.has_l) = !value.vacant;
-      (word.letter == 'P' ? call.p : call.l) = value.or_zero();
+    if (!every_word && (in.is(word, Role::call_program) || in.is(word, Role::call_repeats))) {
+      (in.is(word, Role::call_program) ? call.has_p : call.has_l) = !value.vacant;
+      (in.is(word, Role::call_program) ? call.p : call.l) = value.or_zero();
       continue;
     }
-    if (!every_word && (word.letter == 'N' || word.letter == 'O')) return in.raise(Condition::illegal_address, word.letter);
-    unsigned variable = kArgument[word.letter - 'A'];
-    if (word.letter >= 'I' && word.letter <= 'K') {
-      variable = groups.variable(word.letter);
+    if (!every_word && (in.is(word, Role::sequence_number) || in.is(word, Role::program_number))) return in.raise(Condition::illegal_address, word.letter);
+    unsigned variable = in.dialect->argument_of[address_of(word)];
+    if (const int component = component_of(in, word); component >= 0) {
+      variable = groups.variable(component);
       if (variable == 0) return in.raise(Condition::macro_argument, word.letter);
     }
     call.argument[variable - 1] = value;
@@ -100,9 +102,9 @@ Did gather_arguments(Interpreter& in, bool every_word, MacroCall& call) {
 
 Did enter_macro(Interpreter& in, const Entry& entry, const Value* arguments) {
   if (entry.passes == 0) return Did::done;
-  if (top(in).figure != 0) return in.raise(Condition::nesting, 'P', entry.program.number);  // M700 13.3.3 (6)
+  if (top(in).figure != 0) return in.raise(Condition::nesting, Role::call_program, entry.program.number);  // M700 13.3.3 (6)
   const unsigned level = in.macro_level() + 1u;
-  if (level > kMacroDepth) return in.raise(Condition::macro_nesting, 'P', entry.program.number);
+  if (level > kMacroDepth) return in.raise(Condition::macro_nesting, Role::call_program, entry.program.number);
   const Did did = enter(in, entry);
   if (did != Did::later) return did;
   in.variables.enter(level, arguments, in.state.seq + 1);
@@ -114,10 +116,8 @@ Did enter_macro(Interpreter& in, const Entry& entry, const Value* arguments) {
 
 void show_modal_call(Interpreter& in) {
   in.program_changed();
-  int16_t& code = in.state.modal.code[kGroupMacro];
-  if (code < 0) return;  // the family has no such group
   const unsigned slot = top(in).modal_call;
-  code = slot == 0 ? int16_t{670} : slot_value(in, slot, Notes::kEveryBlock) != 0 ? int16_t{661} : int16_t{660};
+  in.state.modal.set(slot == 0 ? Function::macro_modal_off : slot_value(in, slot, Notes::kEveryBlock) != 0 ? Function::macro_every_block : Function::macro_modal);
 }
 
 bool modal_call_takes_blocks(const Interpreter& in) {
@@ -127,7 +127,7 @@ bool modal_call_takes_blocks(const Interpreter& in) {
 
 Did store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall& call, uint32_t passes, bool every_block, bool by_code) {
   const unsigned slot = free_slot(in);
-  if (slot == 0) return in.raise(Condition::macro_nesting, 'P', program.number);
+  if (slot == 0) return in.raise(Condition::macro_nesting, Role::call_program, program.number);
   const double head[Notes::kArgument] = {static_cast<double>(program.file),
                                          static_cast<double>(program.number),
                                          static_cast<double>(program.offset),
@@ -142,7 +142,7 @@ Did store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall
     const Value& value = call.argument[i];
     in.set_note(Notes::slot_key(slot, Notes::kArgument + i), value.vacant ? std::numeric_limits<double>::quiet_NaN() : value.number);
   }
-  in.store->note(program.file, in.system_number - 1u);
+  in.store->note(program.file, in.system_index);
   top(in).modal_call = static_cast<uint8_t>(slot);
   show_modal_call(in);
   return Did::done;
@@ -163,7 +163,7 @@ Did make_modal_call(Interpreter& in) {
 Did call_with_block(Interpreter& in) {
   MacroCall call;
   for (const FunctionRow* row : in.words.g) {
-    if (row->function == Function::space_arc) return in.raise(Condition::space_arc_mode, 'G', row->code / 10.0);  // 6.14 (b)
+    if (is_space_arc(row->function)) return in.raise_code(Condition::space_arc_mode, *row);  // 6.14 (b)
     if (row->function == Function::work_system && select_work_system(in, *row) != Did::done) return Did::fault;
   }
   const Did did = gather_arguments(in, true, call);

@@ -3,8 +3,8 @@
 #include <bit>
 #include <cmath>
 
-#include "interpret/feed.hpp"
 #include "frame/rotary.hpp"
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
@@ -29,22 +29,39 @@ void apply_length(Interpreter& in, uint32_t commanded) {
   }
 }
 
-Transform transform_in_force(const Interpreter& in) {
-  Transform t;
+/// From the compensation frame to machine coordinates: the zero point and the tool length as applied.
+AxisVec offset_in_force(const Interpreter& in) {
+  AxisVec offset;
   const AxisVec& z = in.zero();
-  for (unsigned i = 0; i < kMaxAxes; ++i) t.offset[i] = z[i] + in.state.applied[i];
-  return t;
+  for (unsigned i = 0; i < kMaxAxes; ++i) offset[i] = z[i] + in.state.applied[i];
+  return offset;
 }
 
+Affine map_in_force(const Interpreter& in) { return Affine::translation(offset_in_force(in)); }
+
 /// What every move has in common.
-Move& begin_move(Interpreter& in, const Transform& transform, const AxisVec& start, const AxisVec& target) {
+Move& begin_any_move(Interpreter& in, TransformId transform, const AxisVec& start, const AxisVec& target, const AxisVec& machine) {
   Move& move = in.emit_move(start, target);
   if (in.state.mapped) map_compensation(in, move.comp);
   move.high_accuracy = in.state.high_accuracy;
-  move.transform = in.transforms.intern(transform);
-  in.state.machine = transform.to_machine(target);
+  move.transform = transform;
+  in.state.machine = machine;
   in.state.moves_since_comp_off = 1;
   return move;
+}
+
+Move& begin_move(Interpreter& in, const Affine& to_machine, const AxisVec& start, const AxisVec& target) {
+  return begin_any_move(in, in.transforms.intern(to_machine), start, target, to_machine.apply(target));
+}
+
+/// The same under a map that only moves, which is not made where the newest one is the same: nearly every block.
+Move& begin_moved(Interpreter& in, const AxisVec& offset, const AxisVec& start, const AxisVec& target) {
+  const Affine* newest = in.transforms.newest();
+  const bool same = newest != nullptr && newest->translates_by(offset);
+  const TransformId transform = same ? in.transforms.newest_id() : in.transforms.intern(Affine::translation(offset));
+  AxisVec machine;
+  for (unsigned i = 0; i < kMaxAxes; ++i) machine[i] = target[i] + offset[i];
+  return begin_any_move(in, transform, start, target, machine);
 }
 
 /// Programmed coordinates are not those of the axes: the move gets its shape, and the axes end where that leads. `before`: where they
@@ -54,7 +71,7 @@ void finish_shaped(Interpreter& in, const MoveShape& what, const MoveFrame& fram
   const PlainMove plain{&move.start, &move.end, move.circular ? &move.circle : nullptr, move.plane_axis[0], move.plane_axis[1]};
   CurveShape shape;
   Curve curve;
-  make_shaped(what, plain, frame.transform.sign, frame.transform.offset, before, in.axis_count, in.rotary, &shape, &curve);
+  make_shaped(what, plain, frame.to_machine, before, in.axis_count, in.rotary, &shape, &curve);
   const AxisMap& map = what.map;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     // The program goes on from where a held axis would be; its real place is kept beside (M700 6.16).
@@ -85,15 +102,15 @@ bool off_increment(const Interpreter& in, unsigned axis, double value) {
 }  // namespace
 
 double feed_mm_min(const Interpreter& in) {
-  const bool inch = in.state.modal.code[kGroupUnit] == 200;
+  const bool inch = in.state.modal.is(Function::inch);
   return in.state.modal.feed * (inch ? 25.4 : 1.0);
 }
 
 /// When only rotary axes move F is deg/min; in inch its unit is 10 deg (M700 3.2 note 6). On a cylinder and in the plane of G12.1 F is
 /// inch/min along the curve that is programmed there, whatever axis goes (6.9 (6), 6.10 (5)).
 double feed_for(const Interpreter& in, const AxisVec& start, const AxisVec& end) {
-  const bool inch = in.state.modal.code[kGroupUnit] == 200;
-  if (!inch || in.rotary == 0 || in.dialect->id != NC_DIALECT_M700) return feed_mm_min(in);
+  const bool inch = in.state.modal.is(Function::inch);
+  if (!inch || in.rotary == 0 || !in.dialect->rules.feed.inch_is_ten_degrees) return feed_mm_min(in);
   const AxisMap& map = in.state.map;
   const uint32_t turning = map.kind == AxisMap::Kind::none ? in.rotary : in.rotary & ~(1u << map.rotary);
   for (unsigned i = 0; i < in.axis_count; ++i)
@@ -138,13 +155,13 @@ AxisVec target_of(const Interpreter& in, const AxisVec& position, uint32_t axes,
 MoveFrame frame_of_move(Interpreter& in, const AxisVec& target, uint32_t commanded) {
   if (program_mapped(in) && commanded != 0) commanded = begin_mapped_move(in, commanded);
   apply_length(in, commanded);
-  MoveFrame frame{transform_in_force(in), {}, target};
+  MoveFrame frame{map_in_force(in), {}, target};
   if ((in.state.special & kSpecialMap) != 0) {
     const AxisMap& map = in.state.map;
-    frame.start = to_programmed(map, frame.transform.sign, frame.transform.offset, in.state.machine);
+    frame.start = to_programmed(map, frame.to_machine, in.state.machine);
     if (map.kind == AxisMap::Kind::cylinder) frame.end[map.rotary] *= map.scale;
   } else {
-    frame.start = frame.transform.from_machine(in.state.machine);
+    frame.start = frame.to_machine.apply_inverse(in.state.machine);
   }
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded >> i) & 1) == 0) frame.end[i] = frame.start[i];  // an axis that is not named stays where it is
@@ -164,6 +181,16 @@ inline void check_deceleration(Interpreter& in, nc_move_kind kind, double width 
   gate.value = width;
 }
 
+/// The block to come settles where this one ends (contour/contour.hpp). A rounding lies in the plane in force.
+[[gnu::noinline]] void set_corner(const Interpreter& in, Move& move, const LinearStyle& style) {
+  const PlaneAxes plane = plane_axes(in);
+  move.corner = style.corner;
+  move.corner_mm = style.corner_mm;
+  move.plane = plane.plane;
+  move.plane_axis[0] = static_cast<uint8_t>(plane.h);
+  move.plane_axis[1] = static_cast<uint8_t>(plane.v);
+}
+
 inline void set_style(Interpreter& in, Move& move, const LinearStyle& style) {
   move.kind = style.kind;
   move.exact_stop = style.exact_stop || style.kind == NC_MOVE_RAPID;
@@ -174,6 +201,7 @@ inline void set_style(Interpreter& in, Move& move, const LinearStyle& style) {
   move.skip_speeds = style.skip_speeds;
   move.comp.transparent = style.transparent;
   if (style.special_feed) apply_special_feed(in, move);
+  if (style.corner != Corner::none) [[unlikely]] set_corner(in, move, style);
   if (style.kind != NC_MOVE_THREAD) return;
   move.feed_mm_rev = style.feed_mm_rev;
   move.thread_angle = static_cast<float>(style.thread_angle);
@@ -183,7 +211,7 @@ void move_linear_mapped(Interpreter& in, const AxisVec& target, uint32_t command
   const MoveFrame frame = frame_of_move(in, target, commanded);
   if (same_place(frame.start, frame.end, in.axis_count)) return;
   const AxisVec before = in.state.machine;
-  Move& move = begin_move(in, frame.transform, frame.start, frame.end);
+  Move& move = begin_move(in, frame.to_machine, frame.start, frame.end);
   set_style(in, move, style);
   finish_mapped(in, frame, before, move);
   check_deceleration(in, style.kind, style.in_position);
@@ -196,13 +224,14 @@ void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, con
   if ((in.state.special & kSpecialMap) != 0) return move_linear_mapped(in, target, commanded, style);
   // One for nearly every block: what frame_of_move() does, without carrying it about.
   apply_length(in, commanded);
-  const Transform transform = transform_in_force(in);
-  const AxisVec start = transform.from_machine(in.state.machine);
+  const AxisVec offset = offset_in_force(in);
+  AxisVec start;
+  for (unsigned i = 0; i < kMaxAxes; ++i) start[i] = in.state.machine[i] - offset[i];
   AxisVec end = target;
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded >> i) & 1) == 0) end[i] = start[i];  // an axis that is not named stays where it is
   if (same_place(start, end, in.axis_count)) return;
-  Move& move = begin_move(in, transform, start, end);
+  Move& move = begin_moved(in, offset, start, end);
   set_style(in, move, style);
   check_deceleration(in, style.kind, style.in_position);
 }
@@ -211,9 +240,9 @@ void move_nowhere(Interpreter& in) {
   const MoveFrame frame = frame_of_move(in, AxisVec{}, 0);
   const AxisVec before = in.state.machine;
   const auto moves = in.state.moves_since_comp_off;
-  Move& move = begin_move(in, frame.transform, frame.start, frame.start);
+  Move& move = begin_move(in, frame.to_machine, frame.start, frame.start);
   in.state.moves_since_comp_off = moves;
-  move.kind = in.state.modal.code[kGroupMotion] == 0 ? NC_MOVE_RAPID : NC_MOVE_LINE;
+  move.kind = in.state.modal.is(Function::rapid) ? NC_MOVE_RAPID : NC_MOVE_LINE;
   move.exact_stop = move.kind == NC_MOVE_RAPID;
   if (move.kind != NC_MOVE_RAPID) set_modal_feed(in, move, feed_mm_min(in));
   finish_mapped(in, frame, before, move);
@@ -222,24 +251,24 @@ void move_nowhere(Interpreter& in) {
 void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded, uint32_t bare) {
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded & bare) >> i & 1) != 0) in.state.applied[i] = 0;
-  const Transform transform = transform_in_force(in);
-  const AxisVec start = transform.from_machine(in.state.machine);
-  AxisVec end = transform.from_machine(machine);
+  const Affine to_machine = map_in_force(in);
+  const AxisVec start = to_machine.apply_inverse(in.state.machine);
+  AxisVec end = to_machine.apply_inverse(machine);
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded >> i) & 1) == 0) end[i] = start[i];
   if (same_place(start, end, in.axis_count)) return;
   const AxisVec before = in.state.machine;
-  Move& move = begin_move(in, transform, start, end);
+  Move& move = begin_move(in, to_machine, start, end);
   move.kind = NC_MOVE_RAPID;
   move.exact_stop = true;
   move.comp.transparent = true;
-  finish_mapped(in, MoveFrame{transform, start, end}, before, move);
+  finish_mapped(in, MoveFrame{to_machine, start, end}, before, move);
   check_deceleration(in, NC_MOVE_RAPID);
 }
 
 void emit_circular(Interpreter& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind) {
   const AxisVec before = in.state.machine;
-  Move& move = begin_move(in, frame.transform, frame.start, frame.end);
+  Move& move = begin_move(in, frame.to_machine, frame.start, frame.end);
   move.kind = kind;
   move.circular = true;
   move.plane = plane.plane;
@@ -258,7 +287,7 @@ void emit_circular(Interpreter& in, const MoveFrame& frame, const PlaneAxes& pla
 
 Move& emit_shaped(Interpreter& in, const MoveFrame& frame, const MoveShape& shape, nc_move_kind kind) {
   const AxisVec before = in.state.machine;
-  Move& move = begin_move(in, frame.transform, frame.start, frame.end);
+  Move& move = begin_move(in, frame.to_machine, frame.start, frame.end);
   move.kind = kind;
   move.exact_stop = asks_exact_stop(in);
   move.rule.check_reversal = in.settings.check_reversal;
@@ -274,7 +303,7 @@ class InchDegrees {
  public:
   InchDegrees(Interpreter& in, unsigned h, unsigned v) : state_(in.state), kept_(in.state.map), special_(in.state.special) {
     const uint32_t plane = 1u << h | 1u << v, turning = in.rotary & plane;
-    on_ = in.dialect->id == NC_DIALECT_M700 && turning != 0 && turning != plane && in.state.modal.code[kGroupUnit] == 200 && !in.state.map.active();
+    on_ = in.dialect->rules.arc.degree_is_tenth_of_inch && turning != 0 && turning != plane && in.state.modal.is(Function::inch) && !in.state.map.active();
     if (!on_) return;
     state_.map.kind = AxisMap::Kind::cylinder;
     state_.map.rotary = static_cast<uint8_t>(std::countr_zero(turning));
@@ -299,31 +328,47 @@ class InchDegrees {
 
 }  // namespace
 
-Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw) {
-  const PlaneAxes plane = plane_axes(in);
-  if (plane.h < 0 || plane.v < 0) return in.raise(Condition::plane_mismatch, 'G', in.state.modal.code[kGroupMotion] / 10.0);
+namespace {
+
+/// The words of the block that say which arc it is, for the plane in force.
+Did read_arc_words(Interpreter& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* of_block) {
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   const BlockWords& w = in.words;
-  if (in.dialect->id == NC_DIALECT_DGSHAPE && (commanded & in.rotary) != 0) return in.raise(Condition::illegal_axis, 'A');  // G02/G03: A cannot take part
-  const InchDegrees scope(in, h, v);
-  // The blocks before and behind are not drawn that way: nothing to offset against, nothing to turn.
-  if (scope.on() && (in.state.comp.side != 0 || program_mapped(in))) return in.raise(Condition::no_function, in.system->axis[in.state.map.rotary].name);
-  ArcWords words;
-  words.has_radius = w.has('R');
+  ArcWords& words = *of_block;
+  words.has_radius = w.has(Role::arc_radius);
   if (words.has_radius) {
-    words.radius = length_of(in, 'R');
-    if (w.has('P') && in.dialect->id == NC_DIALECT_M700) return in.raise(Condition::format_error, 'P');  // M700 6.6: P not with R
+    words.radius = length_of(in, Role::arc_radius);
+    if (w.has(Role::arc_turns) && in.dialect->rules.arc.turns_exclude_radius) return in.raise(Condition::format_error, Role::arc_turns);
   } else {
     for (unsigned i = 0; i < 2; ++i)
       if (w.has(plane.center[i])) words.center[i] = length_of(in, plane.center[i]);
-    if (w.has('P') && (!whole_number(w.get('P'), &words.turns) || words.turns > 9999)) return in.raise(Condition::value_range, 'P', w.get('P'));
+    if (w.has(Role::arc_turns) && (!whole_number(w.get(Role::arc_turns), &words.turns) || words.turns > 9999)) return in.raise(Condition::value_range, Role::arc_turns, w.get(Role::arc_turns));
   }
   // M700 P113: nothing of the block is of the plane in force, but its centre of another one: a plane code has been forgotten.
   const bool of_plane = words.has_radius || w.has(plane.center[0]) || w.has(plane.center[1]) || ((commanded >> h) & 1) != 0 || ((commanded >> v) & 1) != 0;
-  if (!of_plane && w.any(letters("IJK"))) return in.raise(Condition::plane_mismatch, 'G', in.state.modal.code[kGroupMotion] / 10.0);
+  if (!of_plane && w.any({Role::vector_x, Role::vector_y, Role::vector_z})) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
+  return Did::done;
+}
+
+}  // namespace
+
+Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw) {
+  const PlaneAxes plane = plane_axes(in);
+  if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
+  ArcWords words;
+  const Did did = read_arc_words(in, plane, commanded, &words);
+  return did == Did::done ? move_arc_by(in, plane, target, commanded, words, ccw) : did;
+}
+
+Did move_arc_by(Interpreter& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
+  const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
+  if (!in.dialect->rules.arc.takes_rotary_axes && (commanded & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(commanded & in.rotary));
+  const InchDegrees scope(in, h, v);
+  // The blocks before and behind are not drawn that way: nothing to offset against, nothing to turn.
+  if (scope.on() && (in.state.comp.side != 0 || program_mapped(in))) return in.raise(Condition::no_function, in.system->axis[in.state.map.rotary].name);
   if (program_mapped(in)) {
-    if (tilts_plane(in, h, v)) return in.raise(Condition::plane_mismatch, 'G', in.state.modal.code[kGroupMotion] / 10.0);  // 13.21
-    if (scaled_unevenly(in, h, v)) return in.raise(Condition::arc_deviation, 'G', in.state.modal.code[kGroupMotion] / 10.0);  // 13.19 (4)
+    if (tilts_plane(in, h, v)) return in.raise_mode(Condition::plane_mismatch, Mode::motion);  // 13.21
+    if (scaled_unevenly(in, h, v)) return in.raise_mode(Condition::arc_deviation, Mode::motion);  // 13.19 (4)
     words.radius *= scale_of(in, h);
     map_arc(in, h, v, words.center, &ccw);
   }
@@ -332,7 +377,7 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
   Circle circle;
   bool straight = false;
   const Condition bad = make_circle(from, to, words, ccw, in.settings.arc_tolerance, &circle, &straight);
-  if (bad != Condition::none) return in.raise(bad, words.has_radius ? 'R' : plane.center[0], words.has_radius ? words.radius : circle.radius_end);
+  if (bad != Condition::none) return in.raise(bad, words.has_radius ? Role::arc_radius : plane.center[0], words.has_radius ? words.radius : circle.radius_end);
   if (straight) {
     // Nothing goes round: the axes go along a line, those outside of the plane, too.
     LinearStyle style;
@@ -348,18 +393,18 @@ Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool cc
   return Did::done;
 }
 
-/// Motions of group 1 beside G00 to G03.
-Did move_by_function(Interpreter& in, int16_t code, const AxisVec& target, uint32_t commanded) {
-  switch (code) {
-    case 330: return move_thread(in, target, commanded);
-    case 21:
-    case 31: return move_spiral(in, target, commanded, code == 31);
-    case 23:
-    case 33: return move_exponential(in, target, commanded, code == 33);
-    case 24:
-    case 34: return move_space_arc(in, target);
-    case 62: return move_nurbs(in, target);
-    default: return in.raise(Condition::internal, 'G', code / 10.0);
+/// Motions beside those of plain_motion().
+Did move_by_function(Interpreter& in, Function motion, const AxisVec& target, uint32_t commanded) {
+  switch (motion) {
+    case Function::thread: return move_thread(in, target, commanded);
+    case Function::spiral_cw:
+    case Function::spiral_ccw: return move_spiral(in, target, commanded, motion == Function::spiral_ccw);
+    case Function::exponential_positive:
+    case Function::exponential_negative: return move_exponential(in, target, commanded, motion == Function::exponential_negative);
+    case Function::space_arc_first:
+    case Function::space_arc_second: return move_space_arc(in, target);
+    case Function::nurbs: return move_nurbs(in, target);
+    default: return in.raise_mode(Condition::internal, Mode::motion);
   }
 }
 
@@ -390,20 +435,43 @@ Did check_index_positions(Interpreter& in) {
   return Did::done;
 }
 
+/// ,C ,R of the block (M700 13.7).
+static Did take_corner(Interpreter& in, Function motion, LinearStyle* style) {
+  const BlockWords& w = in.words;
+  const Role word = corner_word(w);
+  if (motion == Function::rapid || motion == Function::thread) return in.raise(Condition::corner_motion, word, w.corner_raw);
+  if (motion != Function::linear) return in.raise(Condition::corner_arc, word, w.corner_raw);
+  const PlaneAxes plane = plane_axes(in);
+  if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
+  double amount = length_value(in, w.corner_raw, w.corner_flags, false, true);
+  if (amount < 0) return in.raise(Condition::value_range, word, w.corner_raw);
+  if (program_mapped(in)) amount *= std::fabs(scale_of(in, static_cast<unsigned>(plane.h)));  // 13.7.1: scaled as well
+  if (!(amount > 0)) return Did::done;  // no corner is cut
+  style->corner = w.corner;
+  style->corner_mm = amount;
+  return Did::done;
+}
+
 Did move_by_words(Interpreter& in) {
   const BlockWords& w = in.words;
-  const int16_t code = in.state.modal.code[kGroupMotion];
-  const bool arc = code == 20 || code == 30;
-  const bool arc_words = w.any(letters("RIJK"));
-  const bool plain = code <= 30 && code % 10 == 0;
-  if (w.axes == 0 && !((arc || !plain) && (arc_words || code == 330))) return Did::done;
+  LinearStyle style;
+  const Function motion = in.state.modal.of(Mode::motion);
+  const bool arc = is_arc(motion), ccw = motion == Function::arc_ccw, thread = motion == Function::thread;
+  const bool arc_words = w.any({Role::arc_radius, Role::vector_x, Role::vector_y, Role::vector_z});
+  const bool plain = plain_motion(motion);
+  if (w.corner != Corner::none) [[unlikely]] {
+    const Did did = take_corner(in, motion, &style);
+    if (did != Did::done) return did;
+  }
+  if (w.axes == 0 && style.corner != Corner::none) return in.raise(Condition::corner_short, corner_word(w), w.corner_raw);
+  if (w.axes == 0 && !((arc || !plain) && (arc_words || thread))) return Did::done;
   if ((in.state.special & kSpecialMap) != 0 && in.state.map.kind != AxisMap::Kind::none) {
     const Did did = check_mill_move(in, w.axes);
     if (did != Did::done) return did;
   }
   if (const Did did = check_index_positions(in); did != Did::done) return did;
-  // M700 13.1.1: of fixed cycles, whose words are ignored beside a code of group 1 (precaution (4)).
-  if (w.in_position_drill > 0 && w.cycle == nullptr) return in.raise(Condition::illegal_address, 'J', w.in_position_drill);
+  // M700 13.1.1: of fixed cycles, whose words are ignored beside a code of a motion (precaution (4)).
+  if (w.in_position_drill > 0 && w.cycle == nullptr) return in.raise(Condition::illegal_address, Role::vector_y, w.in_position_drill);
   // Where the block starts is asked only by words that count from there (an axis without a word stays), by the feed of rotary axes,
   // by a turned figure, in which one word moves two axes, and by curves. The end of an arc in space counts from its middle point.
   const bool mapped = program_mapped(in);
@@ -412,31 +480,32 @@ Did move_by_words(Interpreter& in) {
                            : w.incremental != 0 || in.rotary != 0 || mapped || !plain ? in.position()
                                                                                       : AxisVec{};
   const AxisVec target = mapped ? target_of_words(in, position) : plain_target(in, position, w.axes, w.axis);
-  if (code == 0) {
+  if (motion == Function::rapid) {
     move_rapid(in, target, w.axes);
     return Did::done;
   }
-  if (w.in_position > 0 && code != 10) return in.raise(Condition::illegal_address, 'I', w.in_position);
-  if (code == 330 || code == 23 || code == 33) return move_by_function(in, code, target, w.axes);
-  const Did fed = check_feed(in, code);
+  if (w.in_position > 0 && motion != Function::linear) return in.raise(Condition::illegal_address, Role::vector_x, w.in_position);
+  if (thread || is_exponential(motion)) return move_by_function(in, motion, target, w.axes);
+  const Did fed = check_feed(in, motion);
   if (fed != Did::done) return fed;
-  if (!plain) return move_by_function(in, code, target, w.axes);
-  if (arc && in.settings.spiral_type_2 && means_spiral(in)) return move_spiral(in, target, w.axes, code == 30);
+  if (!plain) return move_by_function(in, motion, target, w.axes);
+  if (arc && in.settings.spiral_type_2 && means_spiral(in)) return move_spiral(in, target, w.axes, ccw);
   if (arc) {
-    const Did did = move_arc(in, target, w.axes, code == 30);
+    const Did did = move_arc(in, target, w.axes, ccw);
     // M700 6.13: in type 2 radii that differ by more than the tolerance are a spiral of less than one turn (L1 when omitted).
-    const bool spiral = did == Did::fault && in.fault.condition == Condition::arc_deviation && in.settings.spiral_type_2 && !w.has('R');
-    return spiral && arc_words ? move_spiral(in, target, w.axes, code == 30) : did;
+    const bool spiral = did == Did::fault && in.fault.condition == Condition::arc_deviation && in.settings.spiral_type_2 && !w.has(Role::arc_radius);
+    return spiral && arc_words ? move_spiral(in, target, w.axes, ccw) : did;
   }
-  LinearStyle style;
   style.feed_mm_min = feed_for(in, position, target);
   style.special_feed = special_feed(in);
   style.exact_stop = asks_exact_stop(in);
   style.in_position = style.exact_stop ? w.in_position : 0;  // only where there is a deceleration check
   // The line that takes the axes into another rotation (13.21) is no part of a curve.
   if ((in.state.special & kSpecialSpline) != 0 && !in.state.work_turn_pending) return move_spline(in, target, w.axes, style);
+  const unsigned before = in.queued();
   move_linear(in, target, w.axes, style);
-  return Did::done;
+  const bool nowhere = style.corner != Corner::none && in.queued() == before;  // a line of no length has no corner
+  return nowhere ? in.raise(Condition::corner_short, corner_word(w), w.corner_raw) : Did::done;
 }
 
 }  // namespace nc

@@ -60,13 +60,20 @@ class Notes {
 
   void create(Arena& arena) { table_ = arena.make<double>(kSize); }
   double get(unsigned key) const { return table_[key]; }
-  void set(unsigned key, double value) { table_[key] = value; }
+  void set(unsigned key, double value) {
+    table_[key] = value;
+    ++changes_;
+  }
+  /// How often anything has been written: what is made of notes holds as long as this stays.
+  uint64_t changes() const { return changes_; }
   void clear() {
+    ++changes_;
     for (unsigned i = 0; i < kSize; ++i) table_[i] = 0;
   }
 
  private:
   double* table_ = nullptr;
+  uint64_t changes_ = 0;
 };
 
 }  // namespace nc

@@ -5,12 +5,10 @@
 #include "base/arena.hpp"
 #include "dialect/dialect.hpp"
 #include "fairing/rule.hpp"
-#include "motion/m700_accuracy.hpp"
-#include "motion/m700_filters.hpp"
+#include "motion/accuracy.hpp"
+#include "shape/filter_parameters.hpp"
 
 namespace nc {
-
-struct ParameterKey;
 
 /// Parameters as the interpreter uses them. Names say what they do; the manual's number stands beside each.
 struct Settings {
@@ -67,7 +65,7 @@ struct Settings {
   bool semicolon_comments = false;    ///< ';' begins a comment in program texts
   bool macro_extensions = false;      ///< IF THEN of later models
   bool negative_count = false;        ///< #3901 may be below 0
-  uint32_t interrupt_on_m = 96, interrupt_off_m = 97;  ///< #1109: #1110, #1111 instead
+  uint32_t interrupt_on_m = kNoMisc, interrupt_off_m = kNoMisc;  ///< #1109: #1110, #1111 instead
   bool interrupt_by_level = false;    ///< #1112 S_TRG
   bool interrupt_type_2 = false;      ///< #1113 INT_2
   bool interrupt_as_sub = false;      ///< #1229 bit 0
@@ -86,9 +84,9 @@ struct Settings {
   double index_increment[kMaxAxes] = {};  ///< #2106, deg, 0 = not checked
   bool run_time_hours = false;        ///< #1273 bit 1
   bool preset_allowed = true;         ///< #1267 bit 0: G92.1 in list 1
-  char plane_basic[3] = {'X', 'Y', 'Z'};  ///< #1026-#1028: the axes of I, J, K
+  char plane_basic[3] = {};  ///< #1026-#1028: the axes of I, J, K
   char plane_parallel[3] = {};            ///< #1029-#1031: their parallel axes, 0 = none
-  int16_t start_plane = 170;              ///< #1025
+  Function start_plane = Function::plane_xy;  ///< #1025
   bool helix_plane_feed = false;          ///< #1235 bit 0: F of a helix is the speed in the plane of its arc
   bool precision_lead = false;            ///< #1229 bit 1: E of G33 is a lead, not ridges per inch
   bool spiral_type_2 = false;             ///< #1272 bit 2
@@ -125,6 +123,12 @@ struct Settings {
   // DGSHAPE settings
   bool calculator = false;
   uint8_t calculator_words = 0;       ///< 0 none, 1 all, 2 F, 3 IJKRXYZA
+  bool calculator_reads_positions() const { return calculator && (calculator_words == 1 || calculator_words == 3); }
+  bool calculator_reads_feed() const { return calculator && (calculator_words == 1 || calculator_words == 2); }
+
+  /// Positions, lengths and times of a dwell without a point count in mm, inch, deg and s (M700 5.3 type II, DGSHAPE 3), not in the least
+  /// command unit.
+  bool whole_positions() const { return decimal_type_2 || calculator_reads_positions(); }
 };
 
 class Parameters {
@@ -144,11 +148,18 @@ class Parameters {
     entries_[index].value = value;
     return old;
   }
+  /// Entry `index` is a parameter of which there is one for all part systems.
+  bool is_common(unsigned index) const { return entries_[index].common; }
+  double stored(unsigned index) const { return entries_[index].value; }
+  /// Where entry `index` of another part system stands here, without a value where it has not been set yet; false: nowhere, and there is no room.
+  bool same_entry(const Parameters& other, unsigned index, unsigned* there);
   /// Those that have been set, from 0 on: key, axis (-1 = all), value (NaN = no longer set) and, where it is one, text; false behind the last.
   bool at(unsigned index, const char** key, int* axis, double* value, const char** text) const;
   /// Value of "1229/bit2", "1084", a name; a text by the codes of its characters, one byte each, when these are at most six (#100010:
   /// "ASCII codes as decimal"). False = never set, or a longer text.
   bool get(const char* key, int axis, double* value) const;
+  /// The same by what it means. False as well: the family has no such parameter.
+  bool get(const Dialect& dialect, ParameterOf parameter, int axis, double* value) const;
   /// The text of a parameter that has been set to one of two characters or more; nullptr = it has none.
   const char* text(const char* key, int axis) const;
   /// What the machine leaves to the filters behind interpolation: the longest mean that fits, and whether it is the first part system.
@@ -160,20 +171,20 @@ class Parameters {
   Settings settings(const Dialect& dialect) const;
 
  private:
-  static constexpr unsigned kKeySize = 24;
+  static constexpr unsigned kKeySize = kParameterKeySize;
   static const char* whole_key(const char* key, const ParameterKey& parsed, char (&whole)[kKeySize]);
   struct Entry {
     char key[kKeySize];  ///< zeros behind it
     int8_t axis;   ///< -1 = all axes
+    bool common;   ///< to all part systems
     double value;  ///< NaN = not set
   };
   Entry* find(const char* key, int axis) const;
-  bool machine_takes(uint32_t number, double value) const;
-  void feed_settings(Settings& settings) const;
-  void fairing_settings(Settings& settings) const;
-  void filter_settings(FilterParameters* filters) const;
-  void axis_settings(int axis, Settings* s) const;
+  Entry* add(const char* key, int axis, bool common);
+  bool value_of(const char* key, int bit, int axis, double* value) const;
+  bool machine_takes(Parameter parameter, double value) const;
   double keep_text(const char* text);
+  static constexpr unsigned kCommon = 16;  ///< places that are left for those that are common, beside `capacity_`
   static constexpr unsigned kTexts = 128, kTextSize = 64;  ///< M700 13.11: at most 63 characters; the oldest place is used again
   Entry* entries_ = nullptr;
   char (*texts_)[kTextSize] = nullptr;

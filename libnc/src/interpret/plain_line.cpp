@@ -15,8 +15,8 @@ bool plain_modes(const Interpreter& in) {
   const State& s = in.state;
   const ModalState& m = s.modal;
   return s.special == 0 && s.modal_call == 0 && !s.mapped && !s.parameter_input &&
-         s.fine_mode == FineMode::none && s.cycle.kind == CycleKind::none && m.code[kGroupDistance] == 900 &&
-         m.code[kGroupUnit] == 210 && m.feed > 0 && !in.code_calls.any && !in.settings.check_cutting;
+         s.fine_mode == FineMode::none && s.cycle.kind == CycleKind::none && m.is(Function::absolute) &&
+         m.is(Function::metric) && m.feed > 0 && !in.code_calls.any && !in.settings.check_cutting;
 }
 
 /// X#3: the value of a local variable that has one.
@@ -31,16 +31,16 @@ bool plain_modes(const Interpreter& in) {
 
 bool execute_plain_line(Interpreter& in) {
   State& s = in.state;
-  const int16_t before = s.modal.code[kGroupMotion];
-  int16_t code = before;
+  const Function before = s.modal.of(Mode::motion);
+  bool named = false;
   uint32_t axes = 0;
   AxisVec value;
   for (const Word& word : in.block->words) {
-    const auto at = static_cast<unsigned>(word.letter - 'A');
+    const unsigned at = address_of(word);
     const int axis = in.axis_of[at];
     if (axis < 0) {  // G1 and nothing else
-      if (word.letter != 'G' || word.value != 1 || (word.flags & ~kWordPoint) != 0) return false;
-      code = 10;
+      if (!in.is(word, Role::code) || word.value != in.codes.linear_number() || (word.flags & ~kWordPoint) != 0) return false;
+      named = true;
       continue;
     }
     // With its point a word is in millimetres, whatever the unit of words without one; so is a variable.
@@ -51,14 +51,12 @@ bool execute_plain_line(Interpreter& in) {
     axes |= 1u << axis;
     value[static_cast<unsigned>(axis)] = number;
   }
-  if (code != 10 || before > 30 || before % 10 != 0 || axes == 0 ||
-      (axes & in.rotary) != 0 || !plain_modes(in))
-    return false;
-  in.modal_kept = code == before;
-  s.modal.code[kGroupMotion] = code;
+  if (!(named ? plain_motion(before) : before == Function::linear) || axes == 0 || (axes & in.rotary) != 0 || !plain_modes(in)) return false;
+  in.modal_kept = !named || s.modal.holds(in.codes.linear());
+  if (!in.modal_kept) s.modal.set(in.codes.linear());
   LinearStyle style;
   style.feed_mm_min = s.modal.feed;
-  style.exact_stop = s.modal.code[kGroupCutting] == 610;
+  style.exact_stop = s.modal.is(Function::exact_stop_mode);
   move_linear(in, value, axes, style);
   s.comp.has_vector = s.comp.cancel_vector = false;
   return true;

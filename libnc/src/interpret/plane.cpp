@@ -4,21 +4,15 @@
 namespace nc {
 namespace {
 
-/// The planes as pairs of I, J, K: M700 6.3, G17 = IJ, G18 = KI (K is horizontal), G19 = JK.
-struct Pair {
-  uint8_t first, second;
-  Plane plane;
-};
-
-Pair pair_of(int16_t code) {
-  if (code == 180) return {2, 0, Plane::zx};
-  if (code == 190) return {1, 2, Plane::yz};
-  return {0, 1, Plane::xy};
-}
-
-int8_t index_of(const Interpreter& in, char letter) { return letter == 0 ? int8_t{-1} : in.axis_of[letter - 'A']; }
+int8_t index_of(const Interpreter& in, char name) { return static_cast<int8_t>(in.axis_named(name)); }
 
 }  // namespace
+
+PlanePair pair_of(Function plane) {
+  if (plane == Function::plane_zx) return {2, 0, Plane::zx};
+  if (plane == Function::plane_yz) return {1, 2, Plane::yz};
+  return {0, 1, Plane::xy};
+}
 
 int8_t axis_of_pair(const Interpreter& in, unsigned pair) {
   const char basic = in.settings.plane_basic[pair], parallel = in.settings.plane_parallel[pair];
@@ -27,34 +21,37 @@ int8_t axis_of_pair(const Interpreter& in, unsigned pair) {
 }
 
 PlaneAxes plane_axes(const Interpreter& in) {
-  const Pair pair = pair_of(in.state.modal.code[kGroupPlane]);
-  return {in.state.plane_axis[0], in.state.plane_axis[1], pair.plane, {static_cast<char>('I' + pair.first), static_cast<char>('I' + pair.second)}};
+  const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
+  return {in.state.plane_axis[0], in.state.plane_axis[1], pair.plane, {vector_along(pair.first), vector_along(pair.second)}};
 }
 
-Did select_plane(Interpreter& in, int16_t code) {
+Did select_plane(Interpreter& in, const FunctionRow& row) {
   State& state = in.state;
-  if (state.rotated) return in.raise(Condition::plane_in_rotation, 'G', code / 10.0);  // M700 13.20
-  const Pair pair = pair_of(code);
+  if (state.rotated) return in.raise_code(Condition::plane_in_rotation, row);  // M700 13.20
+  const PlanePair pair = pair_of(row.function);
   const int8_t h = axis_of_pair(in, pair.first), v = axis_of_pair(in, pair.second);
-  const bool changes = state.modal.code[kGroupPlane] != code || state.plane_axis[0] != h || state.plane_axis[1] != v;
-  if (in.dialect->id == NC_DIALECT_DGSHAPE) {
-    // DGSHAPE G40-G42, G80: XY plane only.
-    if (code != 170 && state.comp.side != 0) return in.raise(Condition::plane_in_compensation, 'G', code / 10.0);
-    if (code != 170 && state.cycle.kind != CycleKind::none) return in.raise(Condition::cycle_wrong_plane, 'G', code / 10.0);
-  } else if (changes && (state.comp.side != 0 || state.moves_since_comp_off == 0)) {
-    return in.raise(Condition::plane_in_compensation, 'G', code / 10.0);  // M700 App.1 P112, also right after G40
-  }
-  state.modal.code[kGroupPlane] = code;
+  const bool changes = !state.modal.is(row.function) || state.plane_axis[0] != h || state.plane_axis[1] != v;
+  const Rules& rules = in.dialect->rules;
+  const bool other = row.function != Function::plane_xy;
+  if (other && state.comp.side != 0 && rules.compensation.xy_plane_only) return in.raise_code(Condition::plane_in_compensation, row);
+  if (other && state.cycle.kind != CycleKind::none && rules.cycle.xy_plane_only) return in.raise_code(Condition::cycle_wrong_plane, row);
+  if (changes && (state.comp.side != 0 || state.moves_since_comp_off == 0) && rules.compensation.plane_is_fixed)
+    return in.raise_code(Condition::plane_in_compensation, row);
+  state.modal.set(row);
   state.plane_axis[0] = h;
   state.plane_axis[1] = v;
   return Did::done;
 }
 
-void select_basic_plane(Interpreter& in, int16_t code) {
-  const Pair pair = pair_of(code);
-  in.state.modal.code[kGroupPlane] = code;
-  in.state.plane_axis[0] = index_of(in, in.settings.plane_basic[pair.first]);
-  in.state.plane_axis[1] = index_of(in, in.settings.plane_basic[pair.second]);
+/// By the names of the machine's axes: the letters of a mode that ends here (G12.1, M700 6.10) are none of them.
+void basic_plane_axes(const Interpreter& in, Function plane, int8_t axis[2]) {
+  const PlanePair pair = pair_of(plane);
+  const char name[2] = {in.settings.plane_basic[pair.first], in.settings.plane_basic[pair.second]};
+  for (unsigned i = 0; i < 2; ++i) {
+    axis[i] = -1;
+    for (unsigned k = 0; k < in.axis_count; ++k)
+      if (in.system->axis[k].name == name[i]) axis[i] = static_cast<int8_t>(k);
+  }
 }
 
 }  // namespace nc

@@ -9,7 +9,7 @@ namespace nc {
 struct PlaneAxes {
   int h, v;        ///< first and second axis, right-handed; -1 = the machine has none
   Plane plane;
-  char center[2];  ///< addresses of the centre words
+  Role center[2];  ///< the centre words
 };
 
 /// Which axis of the pair I, J or K (0, 1, 2) the block in hand means: the parallel one of #1029 to #1031 where the block names it and
@@ -19,11 +19,17 @@ int8_t axis_of_pair(const Interpreter& in, unsigned pair);
 /// The plane in force.
 PlaneAxes plane_axes(const Interpreter& in);
 
-/// G17, G18, G19 (times 10) in the block in hand: M700 6.3, the axis of a pair that the block names, the basic one when it names
-/// both or none.
-Did select_plane(Interpreter& in, int16_t code);
+/// G17, G18, G19 in the block in hand: M700 6.3, the axis of a pair that the block names, the basic one when it names both or none.
+Did select_plane(Interpreter& in, const FunctionRow& row);
 
-/// The plane `code` with its basic axes: power on, reset.
-void select_basic_plane(Interpreter& in, int16_t code);
+/// The basic axes of a plane, which it has at power on and reset.
+void basic_plane_axes(const Interpreter& in, Function plane, int8_t axis[2]);
+
+/// The plane as a pair of I, J, K (0, 1, 2), right-handed: M700 6.3, G17 = IJ, G18 = KI (K is horizontal), G19 = JK.
+struct PlanePair {
+  uint8_t first, second;
+  Plane plane;
+};
+PlanePair pair_of(Function plane);
 
 }  // namespace nc

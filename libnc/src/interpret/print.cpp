@@ -44,7 +44,7 @@ Did set_one_name(Interpreter& in, uint32_t variable, const char* from, size_t le
 /// Text for the port on its way to the machine: it goes out when the machine gets there.
 Did emit_line(Interpreter& in, const char* text, size_t length) {
   Message message;
-  if (length >= sizeof message.text.s) return in.raise(Condition::block_too_long, 'D');
+  if (length >= sizeof message.text.s) return in.raise(Condition::block_too_long, Role::port);
   std::memcpy(message.text.s, text, length);
   Action& action = in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_MESSAGE;
@@ -89,6 +89,7 @@ bool printable(char c) { return is_letter(c) || is_digit(c) || c == '+' || c == 
 }  // namespace
 
 Did set_names(Interpreter& in, const Statement& statement) {
+  if (!in.shared_known()) return in.need(NC_SYNC_SHARED);  // a name that another part system has given is not given twice
   const char* p = in.block->text.begin() + statement.text;
   const char* const end = p + statement.text_length;
   uint32_t variable = statement.number;
@@ -131,7 +132,7 @@ Did next_value(Interpreter& in, const char** at, const char* end, double* number
   const Eval eval = evaluate(scratch, code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, &value, &in.fault, &in.sync_needed);
   if (eval != Eval::ok) return eval == Eval::fault ? Did::fault : Did::sync;
   *number = value.or_zero();
-  if (*at == end || **at != '[') return in.raise(Condition::format_error, 'D');
+  if (*at == end || **at != '[') return in.raise(Condition::format_error, Role::port);
   ++*at;
   return Did::done;
 }
@@ -155,8 +156,8 @@ Did print_decimal(Interpreter& in, const Statement& statement) {
     const Did did = next_value(in, &p, end, &value);
     if (did != Did::done) return did;
     unsigned before = 0, behind = 0;
-    if (!digits_wanted(&p, end, &before, &behind)) return in.raise(Condition::format_error, 'D');
-    if (std::fabs(value) >= 1e9) return in.raise(Condition::value_range, 'D', value);
+    if (!digits_wanted(&p, end, &before, &behind)) return in.raise(Condition::format_error, Role::port);
+    if (std::fabs(value) >= 1e9) return in.raise(Condition::value_range, Role::port, value);
     put_value(out, value, before, behind, in.settings.print_blanks);
   }
   return emit_line(in, line, out.used());
@@ -171,7 +172,7 @@ Did print_binary(Interpreter& in, const Statement& statement) {
   const char* p = in.block->text.begin() + statement.text;
   const char* const end = p + statement.text_length;
   while (p != end) {
-    if (text.size + 4 >= sizeof text.s) return in.raise(Condition::block_too_long, 'B');
+    if (text.size + 4 >= sizeof text.s) return in.raise(Condition::block_too_long, Role::binary_port);
     if (*p != '#' && *p != '[') {
       const char c = upper(*p++);
       if (!printable(c)) return in.raise(Condition::format_error, c);
@@ -181,14 +182,14 @@ Did print_binary(Interpreter& in, const Statement& statement) {
     double value = 0;
     const Did did = next_value(in, &p, end, &value);
     if (did != Did::done) return did;
-    if (end - p < 2 || !is_digit(p[0]) || p[1] != ']' || p[0] == '9') return in.raise(Condition::format_error, 'B');
+    if (end - p < 2 || !is_digit(p[0]) || p[1] != ']' || p[0] == '9') return in.raise(Condition::format_error, Role::binary_port);
     for (int places = *p - '0'; places > 0; --places) value *= 10;
     p += 2;
-    if (!(std::fabs(value) < 2147483647.5)) return in.raise(Condition::value_range, 'B', value);
+    if (!(std::fabs(value) < 2147483647.5)) return in.raise(Condition::value_range, Role::binary_port, value);
     const auto bits = static_cast<uint32_t>(static_cast<int64_t>(std::nearbyint(value)));
     for (int shift = 24; shift >= 0; shift -= 8) text.s[text.size++] = static_cast<char>(bits >> shift & 0xff);
   }
-  if (text.size == 0) return in.raise(Condition::format_error, 'B');
+  if (text.size == 0) return in.raise(Condition::format_error, Role::binary_port);
   Action& action = in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_MESSAGE;
   action.index = kPort;

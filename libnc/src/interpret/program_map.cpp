@@ -5,6 +5,8 @@
 //
 // Scaling and mirror image that are in force when the figure is called act on its centre and radius, too: they lie behind the turn
 // (13.19 (5)). What the sub program commands is part of the shape, and all of its blocks are turned: it lies in front (13.19 (6), 13.3.3 (3)).
+//
+// Each map is an affine one and so is what they are together: it is made when the first block asks for it behind a change.
 #include "interpret/program_map.hpp"
 
 #include "interpret/plane.hpp"
@@ -20,41 +22,7 @@ PlaneAxes plane(const Interpreter& in) { return plane_axes(in); }
 
 double figure(const Interpreter& in, unsigned what) { return in.notes.get(Notes::figure_key(what)); }
 
-void rotate(double angle, double* h, double* v) {
-  const double c = std::cos(angle), s = std::sin(angle), x = *h;
-  *h = c * x - s * *v;
-  *v = s * x + c * *v;
-}
-
-/// The plane coordinates of `p` turned about the centre of the figure.
-void turn(const Interpreter& in, double angle, AxisVec& p) {
-  const PlaneAxes axes = plane(in);
-  if (axes.h < 0 || axes.v < 0) return;
-  const auto h = static_cast<unsigned>(axes.h), v = static_cast<unsigned>(axes.v);
-  double dh = p[h] - figure(in, Notes::kCenterH), dv = p[v] - figure(in, Notes::kCenterV);
-  rotate(angle, &dh, &dv);
-  p[h] = figure(in, Notes::kCenterH) + dh;
-  p[v] = figure(in, Notes::kCenterV) + dv;
-}
-
-double rotation_angle(const Interpreter& in) { return in.notes.get(Notes::rotation_key(Notes::kRotationAngle)) * std::numbers::pi / 180; }
-
-/// The plane coordinates of `p` turned about the centre of G68.
-void turn_coordinates(const Interpreter& in, double angle, AxisVec& p) {
-  const PlaneAxes axes = plane(in);
-  if (axes.h < 0 || axes.v < 0) return;
-  const auto h = static_cast<unsigned>(axes.h), v = static_cast<unsigned>(axes.v);
-  const double ch = in.notes.get(Notes::rotation_key(Notes::kRotationH)), cv = in.notes.get(Notes::rotation_key(Notes::kRotationV));
-  double dh = p[h] - ch, dv = p[v] - cv;
-  rotate(angle, &dh, &dv);
-  p[h] = ch + dh;
-  p[v] = cv + dv;
-}
-
-double scaled_by(const Interpreter& in, unsigned axis, double value, double factor) {
-  const double center = in.notes.get(Notes::scaling_key(axis));
-  return center + factor * (value - center);
-}
+bool has(unsigned axes, unsigned axis) { return ((axes >> axis) & 1) != 0; }
 
 /// Axes that are scaled and mirrored by program in front of the turn of a figure, and behind it.
 unsigned scaled_in_figure(const Interpreter& in) { return in_figure(in) ? in.state.scaled & in.state.figure_scaled : 0u; }
@@ -62,103 +30,142 @@ unsigned mirror_in_figure(const Interpreter& in) { return in_figure(in) ? in.sta
 unsigned scaled_behind(const Interpreter& in) { return in.state.scaled ^ scaled_in_figure(in); }
 unsigned mirror_behind(const Interpreter& in) { return in.state.mirror ^ mirror_in_figure(in); }
 
-double scaled(const Interpreter& in, unsigned axis, double value) {
-  return ((in.state.scaled >> axis) & 1) != 0 ? scaled_by(in, axis, value, scale_of(in, axis)) : value;
+// ---- each map by itself
+
+/// `next` behind `map`. G68 and the figure turn the plane in force, 13.21 another one at most: no more axes than a map can hold.
+void add(Affine& map, const Affine& next) {
+  static_assert(Affine::kMostCoupled >= 4);
+  [[maybe_unused]] const bool fits = map.then(next);
 }
 
-double unscaled(const Interpreter& in, unsigned axis, double value) {
-  return ((in.state.scaled >> axis) & 1) != 0 ? scaled_by(in, axis, value, 1 / scale_of(in, axis)) : value;
+Affine scaling_of_axis(const Interpreter& in, unsigned axis) {
+  return Affine::stretch(axis, scale_of(in, axis), in.notes.get(Notes::scaling_key(axis)));
 }
 
-double reflected(const Interpreter& in, unsigned axis, double value) { return 2 * in.notes.get(Notes::mirror_key(axis)) - value; }
-
-double by_program(const Interpreter& in, unsigned axis, double value) {
-  return ((in.state.mirror >> axis) & 1) != 0 ? reflected(in, axis, value) : value;
+Affine scaling(const Interpreter& in, unsigned axes) {
+  Affine map;
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (has(axes, i)) add(map, scaling_of_axis(in, i));
+  return map;
 }
 
-/// About where the axis stood on the machine when the program began.
-double by_switch(const Interpreter& in, unsigned axis, double value) {
-  if (((in.state.switch_mirror >> axis) & 1) == 0) return value;
-  return 2 * (in.notes.get(Notes::switch_mirror_key(axis)) - in.zero()[axis]) - value;
+Affine mirror_by_program(const Interpreter& in, unsigned axes) {
+  Affine map;
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (has(axes, i)) add(map, Affine::stretch(i, -1, in.notes.get(Notes::mirror_key(i))));
+  return map;
 }
 
-/// Axes whose direction is turned round: mirrored by one of the two.
-unsigned turned_axes(const Interpreter& in) { return in.state.mirror ^ in.state.switch_mirror; }
+/// About where each axis stood on the machine when the program began.
+Affine mirror_by_switch(const Interpreter& in) {
+  Affine map;
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (has(in.state.switch_mirror, i)) add(map, Affine::stretch(i, -1, in.notes.get(Notes::switch_mirror_key(i)) - in.zero()[i]));
+  return map;
+}
 
-bool has(unsigned axes, unsigned axis) { return ((axes >> axis) & 1) != 0; }
+Affine in_plane(const Interpreter& in, const Affine::Angle& angle, const double center[2]) {
+  const PlaneAxes axes = plane(in);
+  if (axes.h < 0 || axes.v < 0) return Affine{};
+  return Affine::rotation(static_cast<unsigned>(axes.h), static_cast<unsigned>(axes.v), angle, center[0], center[1]);
+}
 
-/// In front of the turn of a figure, and the way back.
-void map_shape(const Interpreter& in, AxisVec& p) {
-  const unsigned scaled_axes = scaled_in_figure(in), mirrored_axes = mirror_in_figure(in);
-  for (unsigned i = 0; (scaled_axes | mirrored_axes) != 0 && i < in.axis_count; ++i) {
-    if (has(scaled_axes, i)) p[i] = scaled(in, i, p[i]);
-    if (has(mirrored_axes, i)) p[i] = reflected(in, i, p[i]);
+Affine rotation_by_program(const Interpreter& in) {
+  if (!in.state.rotated) return Affine{};
+  const double center[2] = {in.notes.get(Notes::rotation_key(Notes::kRotationH)), in.notes.get(Notes::rotation_key(Notes::kRotationV))};
+  return in_plane(in, Affine::Angle::degrees(in.notes.get(Notes::rotation_key(Notes::kRotationAngle))), center);
+}
+
+Affine turn_of_figure(const Interpreter& in) {
+  if (!in_figure(in)) return Affine{};
+  const double center[2] = {figure(in, Notes::kCenterH), figure(in, Notes::kCenterV)};
+  return in_plane(in, Affine::Angle::radians(figure(in, Notes::kAngle)), center);
+}
+
+// ---- all of them
+
+/// With the rotation by parameter as commanded, or as the axes have reached it; `stretched`: with scaling.
+Affine whole_map(const Interpreter& in, Notes::WorkRotation which, bool stretched) {
+  Affine map = stretched ? scaling(in, scaled_in_figure(in)) : Affine{};
+  add(map, mirror_by_program(in, mirror_in_figure(in)));
+  add(map, turn_of_figure(in));
+  if (stretched) add(map, scaling(in, scaled_behind(in)));
+  add(map, rotation_by_program(in));
+  add(map, mirror_by_program(in, mirror_behind(in)));
+  add(map, mirror_by_switch(in));
+  add(map, work_rotation(in, which));
+  return map;
+}
+
+ProgramMatricesKey key_of(const Interpreter& in) {
+  const State& state = in.state;
+  const PlaneAxes axes = plane(in);
+  ProgramMatricesKey key;
+  key.notes = in.notes.changes();
+  key.zero = in.zero();
+  key.plane[0] = static_cast<int8_t>(axes.h);
+  key.plane[1] = static_cast<int8_t>(axes.v);
+  key.scaled = state.scaled;
+  key.mirror = state.mirror;
+  key.figure_scaled = state.figure_scaled;
+  key.figure_mirror = state.figure_mirror;
+  key.switch_mirror = state.switch_mirror;
+  key.rotated = state.rotated;
+  key.work_turned = state.work_turned;
+  key.in_figure = in_figure(in);
+  return key;
+}
+
+void make_matrices(const Interpreter& in, ProgramMatrices* m) {
+  m->forward = whole_map(in, Notes::kTurnCommanded, true);
+  m->directions = whole_map(in, Notes::kTurnCommanded, false);
+  m->backward = whole_map(in, Notes::kTurnReached, true).inverse();
+  Affine behind_rotation = mirror_by_program(in, mirror_behind(in));
+  add(behind_rotation, mirror_by_switch(in));
+  add(behind_rotation, work_rotation(in, Notes::kTurnReached));
+  m->before_mirror = behind_rotation.inverse();
+  Affine behind_turn = scaling(in, scaled_behind(in));
+  add(behind_turn, rotation_by_program(in));
+  add(behind_turn, behind_rotation);
+  m->to_turned = behind_turn.inverse();
+  Affine shape = scaling(in, scaled_in_figure(in));
+  add(shape, mirror_by_program(in, mirror_in_figure(in)));
+  m->shape_to_program = shape.inverse();
+}
+
+const ProgramMatrices& matrices(const Interpreter& in) {
+  const ProgramMatricesKey key = key_of(in);
+  if (!(in.program_matrices.made_of == key)) {
+    make_matrices(in, &in.program_matrices);
+    in.program_matrices.made_of = key;
   }
-}
-void unmap_shape(const Interpreter& in, AxisVec& p) {
-  const unsigned scaled_axes = scaled_in_figure(in), mirrored_axes = mirror_in_figure(in);
-  for (unsigned i = 0; (scaled_axes | mirrored_axes) != 0 && i < in.axis_count; ++i) {
-    if (has(mirrored_axes, i)) p[i] = reflected(in, i, p[i]);
-    if (has(scaled_axes, i)) p[i] = unscaled(in, i, p[i]);
-  }
+  return in.program_matrices;
 }
 
-/// Everything behind the figure, and its way back.
-void map_figure(const Interpreter& in, AxisVec& p) {
-  const unsigned scaled_axes = scaled_behind(in), mirrored_axes = mirror_behind(in);
-  for (unsigned i = 0; scaled_axes != 0 && i < in.axis_count; ++i)
-    if (has(scaled_axes, i)) p[i] = scaled(in, i, p[i]);
-  if (in.state.rotated) turn_coordinates(in, rotation_angle(in), p);
-  for (unsigned i = 0; i < in.axis_count; ++i) p[i] = by_switch(in, i, has(mirrored_axes, i) ? reflected(in, i, p[i]) : p[i]);
-  if (in.state.work_turned) turn_work(in, p);
+/// A direction on the axes h, v, of a plane that the map keeps.
+void map_direction(const Affine& map, unsigned h, unsigned v, double direction[2]) {
+  const double first = direction[0], second = direction[1];
+  direction[0] = map.coefficient(h, h) * first + map.coefficient(h, v) * second;
+  direction[1] = map.coefficient(v, h) * first + map.coefficient(v, v) * second;
 }
-void unmap_figure(const Interpreter& in, AxisVec& p) {
-  const unsigned scaled_axes = scaled_behind(in), mirrored_axes = mirror_behind(in);
-  if (in.state.work_turned) unturn_work(in, p);
-  for (unsigned i = 0; i < in.axis_count; ++i) {
-    p[i] = by_switch(in, i, p[i]);
-    if (has(mirrored_axes, i)) p[i] = reflected(in, i, p[i]);
-  }
-  if (in.state.rotated) turn_coordinates(in, -rotation_angle(in), p);
-  for (unsigned i = 0; scaled_axes != 0 && i < in.axis_count; ++i)
-    if (has(scaled_axes, i)) p[i] = unscaled(in, i, p[i]);
-}
-
-bool odd(const Interpreter& in, unsigned h, unsigned v) { return (((turned_axes(in) >> h) ^ (turned_axes(in) >> v)) & 1) != 0; }
 
 }  // namespace
 
 AxisVec to_program(const Interpreter& in, const AxisVec& work) {
-  AxisVec p = work;
-  unmap_figure(in, p);
-  if (!in_figure(in)) return p;
-  if (in.state.frame[in.state.depth].figure == kFigureMoved) {
-    turn(in, -figure(in, Notes::kAngle), p);
-  } else {  // nothing of this pass has moved yet: its increments count from where the figure began
-    const PlaneAxes axes = plane(in);
-    if (axes.h >= 0) p[static_cast<unsigned>(axes.h)] = figure(in, Notes::kStartH);
-    if (axes.v >= 0) p[static_cast<unsigned>(axes.v)] = figure(in, Notes::kStartV);
-  }
-  unmap_shape(in, p);
-  return p;
+  const ProgramMatrices& m = matrices(in);
+  if (in.state.frame[in.state.depth].figure != kFigureStarts) return m.backward.apply(work);
+  // Nothing of this pass has moved yet: its increments count from where the figure began.
+  AxisVec p = m.to_turned.apply(work);
+  const PlaneAxes axes = plane(in);
+  if (axes.h >= 0) p[static_cast<unsigned>(axes.h)] = figure(in, Notes::kStartH);
+  if (axes.v >= 0) p[static_cast<unsigned>(axes.v)] = figure(in, Notes::kStartV);
+  return m.shape_to_program.apply(p);
 }
 
-AxisVec from_program(const Interpreter& in, const AxisVec& programmed) {
-  AxisVec p = programmed;
-  if (in_figure(in)) {
-    map_shape(in, p);
-    turn(in, figure(in, Notes::kAngle), p);
-  }
-  map_figure(in, p);
-  return p;
-}
+AxisVec from_program(const Interpreter& in, const AxisVec& programmed) { return matrices(in).forward.apply(programmed); }
 
-double mirrored(const Interpreter& in, unsigned axis, double value) {
-  return by_switch(in, axis, by_program(in, axis, value));
-}
-
-double unmirrored(const Interpreter& in, unsigned axis, double value) {
-  return by_program(in, axis, by_switch(in, axis, value));
+AxisVec in_front_of_mirror(const Interpreter& in, const AxisVec& work) {
+  return program_mapped(in) ? matrices(in).before_mirror.apply(work) : work;
 }
 
 double scale_of(const Interpreter& in, unsigned axis) {
@@ -170,8 +177,12 @@ bool scaled_unevenly(const Interpreter& in, unsigned h, unsigned v) {
   return has(shape, h) != has(shape, v) || has(behind, h) != has(behind, v);
 }
 
-double mapped_on(const Interpreter& in, unsigned axis, double programmed) { return mirrored(in, axis, scaled(in, axis, programmed)); }
-double programmed_on(const Interpreter& in, unsigned axis, double work) { return unscaled(in, axis, unmirrored(in, axis, work)); }
+double mapped_on(const Interpreter& in, unsigned axis, double programmed) {
+  return program_mapped(in) ? matrices(in).forward.on_axis(axis, programmed) : programmed;
+}
+double programmed_on(const Interpreter& in, unsigned axis, double work) {
+  return program_mapped(in) ? matrices(in).backward.on_axis(axis, work) : work;
+}
 
 uint32_t moved_axes(const Interpreter& in, uint32_t axes) {
   const PlaneAxes p = plane(in);
@@ -190,26 +201,15 @@ uint32_t begin_mapped_move(Interpreter& in, uint32_t commanded) {
 }
 
 void map_arc(const Interpreter& in, unsigned h, unsigned v, double center[2], bool* ccw) {
-  const unsigned shape = mirror_in_figure(in), behind = mirror_behind(in) ^ in.state.switch_mirror;
-  center[0] *= scale_of(in, h) * (has(shape, h) ? -1 : 1);  // both by the same factor, so it does not matter where
-  center[1] *= scale_of(in, v) * (has(shape, v) ? -1 : 1);
-  if (in_figure(in)) rotate(figure(in, Notes::kAngle), &center[0], &center[1]);
-  if (in.state.rotated) rotate(rotation_angle(in), &center[0], &center[1]);
-  if (has(behind, h)) center[0] = -center[0];
-  if (has(behind, v)) center[1] = -center[1];
-  if (in.state.work_turned) turn_work_direction(in, h, v, center);
-  if (odd(in, h, v)) *ccw = !*ccw;
+  const Affine& map = matrices(in).forward;
+  map_direction(map, h, v, center);
+  if (map.reflects(h, v)) *ccw = !*ccw;
 }
 
 void map_compensation(const Interpreter& in, Compensation& comp) {
-  const unsigned shape = mirror_in_figure(in), behind = mirror_behind(in) ^ in.state.switch_mirror;
-  for (unsigned i = 0; i < 2; ++i)
-    if (has(shape, comp.axis[i])) comp.vector[i] = -comp.vector[i];
-  if (in_figure(in)) rotate(figure(in, Notes::kAngle), &comp.vector[0], &comp.vector[1]);
-  for (unsigned i = 0; i < 2; ++i)
-    if (has(behind, comp.axis[i])) comp.vector[i] = -comp.vector[i];
-  if (in.state.work_turned) turn_work_direction(in, comp.axis[0], comp.axis[1], comp.vector);
-  if (odd(in, comp.axis[0], comp.axis[1])) comp.side = static_cast<int8_t>(-comp.side);
+  const Affine& map = matrices(in).directions;
+  map_direction(map, comp.axis[0], comp.axis[1], comp.vector);
+  if (map.reflects(comp.axis[0], comp.axis[1])) comp.side = static_cast<int8_t>(-comp.side);
 }
 
 void begin_figure(Interpreter& in, const double center[2]) {
@@ -228,7 +228,7 @@ void begin_figure(Interpreter& in, const double center[2]) {
 }
 
 double shape_scaled(const Interpreter& in, unsigned axis, double value) {
-  return has(scaled_in_figure(in), axis) ? scaled(in, axis, value) : value;
+  return has(scaled_in_figure(in), axis) ? scaling_of_axis(in, axis).on_axis(axis, value) : value;
 }
 
 void turn_figure(Interpreter& in) {
@@ -238,8 +238,7 @@ void turn_figure(Interpreter& in) {
   const double angle = figure(in, Notes::kAngle);
   double step = figure(in, Notes::kStep);
   if (angle == 0 && step == 0) {  // behind pass 1
-    AxisVec end = in.position();
-    unmap_figure(in, end);
+    const AxisVec end = matrices(in).to_turned.apply(in.position());
     const double c[2] = {figure(in, Notes::kCenterH), figure(in, Notes::kCenterV)};
     const double from = std::atan2(figure(in, Notes::kStartV) - c[1], figure(in, Notes::kStartH) - c[0]);
     const double to = std::atan2(end[static_cast<unsigned>(axes.v)] - c[1], end[static_cast<unsigned>(axes.h)] - c[0]);

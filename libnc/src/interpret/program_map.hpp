@@ -2,7 +2,8 @@
 // The map from programmed points to the active workpiece coordinates: figure rotation (M700 13.3.3), scaling (13.19), coordinate rotation
 // (13.20: it turns the centre of scaling, too), then mirror image by program (13.6) and by switch, and the rotation by parameter (13.21,
 // interpret/work_rotation.hpp). Scaling and mirror image that a rotated
-// program commands itself come before its rotation (13.19 (6)). The map lies in front of tool radius compensation: reflecting the path and its side gives the reflected compensated path.
+// program commands itself come before its rotation (13.19 (6)). They are one affine map (frame/affine.hpp), which
+// lies in front of tool radius compensation: reflecting the path and its side gives the reflected compensated path.
 #pragma once
 
 #include "interpret/interpreter.hpp"
@@ -14,10 +15,9 @@ inline bool program_mapped(const Interpreter& in) { return in.state.mapped; }
 
 AxisVec to_program(const Interpreter& in, const AxisVec& work);
 AxisVec from_program(const Interpreter& in, const AxisVec& programmed);
-/// One coordinate reflected where its axis is mirrored by program or by switch: to workpiece coordinates, and back.
-double mirrored(const Interpreter& in, unsigned axis, double value);
-double unmirrored(const Interpreter& in, unsigned axis, double value);
-/// One coordinate of an axis outside the plane, scaled and mirrored; and back.
+/// A point in workpiece coordinates as it is behind coordinate rotation and in front of mirror image: what the centre of G68 stays in.
+AxisVec in_front_of_mirror(const Interpreter& in, const AxisVec& work);
+/// One coordinate of an axis that no rotation turns, scaled and mirrored; and back.
 double mapped_on(const Interpreter& in, unsigned axis, double programmed);
 double programmed_on(const Interpreter& in, unsigned axis, double work);
 /// Factor of scaling of an axis, 1 where there is none; one of two axes of an arc is scaled, or both are.

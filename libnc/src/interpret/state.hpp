@@ -1,9 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole state of the interpreter of one part system, as one copyable value. What is not in here is either a table that is
 // journalled (frame/frames.hpp, macro/variables.hpp) or fixed while a program runs (parameters, programs).
+//
+// The members stand in groups by what they outlive. A group is copied whole or begins anew whole (interpret/lifetimes.cpp), so that a new
+// member is kept and given back as its group is, without a line elsewhere; the few values that go another way than their group are written
+// down there, each with its section.
+//
+//   group              over M98,   interrupt   next text   M02, M30,    reset by the   power off
+//                      G65, M99    and M99     of MDI      next start   operator
+//   BlockLife             yes          -           -           -            -             -
+//   ProgramLife           yes          -           -           -            -             -
+//   MachinePosition       yes        place        yes         yes          yes            -
+//   AppliedLength         yes        place        yes          -            -             -
+//   ModalLife             yes       RETURNS       yes          -            -             -
+//   ModalInProgram        yes       RETURNS        -           -            -             -
+//   UntilReset            yes          -          yes          -            -             -
+//   UntilOperatorReset    yes          -          yes         yes           -             -
+//   UntilPowerOff         yes          -          yes         yes          yes            -
+//   Derived            is made of the other groups whenever one of them has been assigned
+//   CallStack          is what M98 and G65 push and M99 pops; empty where a program or a text of MDI begins
+//
+//   M98, G65, M99   M700 13.3.1, 13.5.1: a program that is called changes the modes of the one that calls it, there and back
+//   interrupt       M700 13.12. RETURNS: has the value from before the interrupt again; - : goes on with what the interrupt program made
+//                   of it; place: RETURNS where the interrupted block is read again from its head, else goes on. Behind M99 P, and where
+//                   a program of type 1 has moved, everything goes on
+//   text of MDI     M700 5.1: blocks of MDI one behind the other; yes: is kept, - : begins anew
+//   M02, M30        M700 9.1: what the end and the start after it leave; the initial values are those of reset 2 (3.7)
+//   reset           M700 3.7, reset 2 and reset & rewind
+//   power off       nothing of the state is retained; nc_create begins with State{} and the initial values of 3.7
+//
+// tests/interpret/lifetimes_test.cpp reads this table and holds the code to it.
 #pragma once
 
 #include "cycle/drilling.hpp"
+#include "dialect/dialect.hpp"
 #include "modal/modal_state.hpp"
 #include "path/shape.hpp"
 #include "program/store.hpp"
@@ -63,7 +93,7 @@ enum class Step : uint8_t { none, cycle, skip_answered, measured, reference_chec
 /// What cylindrical and polar coordinate interpolation give back when they end (M700 6.9, 6.10).
 struct MillReturn {
   double feed = 0;
-  int16_t plane = 170, feed_mode = 940;
+  Function plane = Function::plane_xy, feed_mode = Function::feed_per_minute;
   int8_t plane_axis[2] = {0, 1};
   char hypothetical_letter = 0;  ///< commands the rotary axis in the plane; 0 = its own name does
   bool moved = false;            ///< the mode has seen a movement
@@ -82,11 +112,10 @@ struct NurbsState {
   bool active() const { return knots != 0; }
 };
 
-/// Constant surface speed and the clamp of the spindle (M700 10.3, 10.4): what it is clamped at is known where it is executed.
+/// Constant surface speed (M700 10.3).
 struct SpindleControl {
   double surface = 0;          ///< S of G96, m/min
   uint8_t axis = 0;            ///< of G96, from 1; 0 = G97
-  bool clamped = false;        ///< by G92 S Q
 };
 
 /// A block that a macro interrupt has cut and that goes on: what it has done already is not done again (M700 13.12).
@@ -107,9 +136,20 @@ enum class FineMode : uint8_t {
 struct SplineState {
   bool on = false;
   uint8_t axes = 0;          ///< bit i: axis i was named with G05.1 Q2
+};
+
+/// The block before, on a spline.
+struct SplineWay {
   bool joined = false;       ///< the block before ended smoothly into the one to come
   bool moved = false;        ///< the block before was a movement, by `back`
-  double back[3] = {0, 0, 0};///< way of the block before along the basic axes
+  double back[3] = {0, 0, 0};  ///< way of the block before along the basic axes
+};
+
+/// What the end of a program leaves to a first movement that names no mode (M700 9.1, 7.2 note 1).
+struct LeftByEnd {
+  double feed = 0;
+  Function motion = Function::rapid, feed_mode = Function::feed_per_minute;
+  bool any = false;            ///< a program has ended since the last reset
 };
 
 /// Bits of State::special.
@@ -119,84 +159,145 @@ enum Special : uint8_t {
   kSpecialFeed = 4,        ///< F is more than the speed of every cut, or cutting has a mode of its own (interpret/feed.hpp)
   kSpecialSpline = 8       ///< G01 goes along a spline
 };
-/// Values of State::high_speed, the P of the last G05.
-inline constexpr uint16_t kHighAccuracy2 = 10000;
+// ---- the groups ---------------------------------------------------------------------------------------------------------
 
-struct State {
-  BlockSeq seq = 0;           ///< blocks executed
-  AxisVec machine;            ///< end of the last move, machine coordinates, without radius compensation
-  AxisVec applied;            ///< tool length as applied to each axis
+/// Belongs to one block and to the next: each of them sets it, and nothing gives it back.
+struct BlockLife {
+  BlockSeq seq = 0;             ///< blocks executed
+  Repeat repeat;                ///< holds for the next block only
+  bool owes_mark = false;       ///< the block that called a program has ended with the return and still needs its mark
+  bool stop_reading = false;    ///< an M code that prohibits reading ahead was in the block before
+};
+
+/// Where the axes are.
+struct MachinePosition {
+  AxisVec machine;              ///< end of the last move, machine coordinates, without radius compensation
+};
+
+/// Goes with the position: how much of the length compensation the moves have put into it.
+struct AppliedLength {
+  AxisVec applied;              ///< tool length as applied to each axis
+};
+
+/// The modes, and the words that a mode needs as long as it is in force.
+struct ModalLife {
   ModalState modal;
-  Compensation comp;          ///< tool radius compensation in force
-  double length_value = 0;    ///< tool length compensation in force ...
-  uint8_t length_axis = 2;    ///< ... on this axis
-  uint8_t special = 0;        ///< Special bits: 0 in nearly every program
+  double length_value = 0;      ///< tool length compensation in force ...
+  uint8_t length_axis = 2;      ///< ... on this axis
+  int8_t plane_axis[2] = {0, 1};  ///< axes of the plane in force, -1 = none
   bool polar_angle_known = false;
-  ArcStep arc_step = ArcStep::none;
-  uint8_t nurbs_order = 0;    ///< of the last curve, for one that a knot alone begins
-  uint16_t high_speed = 0;    ///< P of G05
+  uint16_t work_system = 0;     ///< 0..5 G54..G59, 6.. G54.1 P1..
+  SpeedMode high_speed = SpeedMode::off;  ///< by the code of high-speed machining
   FineMode fine_mode = FineMode::none;
   bool accuracy_command = false;  ///< between G08 P1 and G08 P0
-  uint8_t high_accuracy = 0;      ///< high-accuracy control, whatever has turned it on (13.15): bits of HighAccuracy
+  uint8_t scaled = 0;           ///< bit i: axis i is scaled (M700 13.19)
+  uint8_t mirror = 0;           ///< bit i: axis i is mirrored by program (M700 13.6)
+  bool rotated = false;         ///< coordinates are rotated by program (M700 13.20)
   SplineState spline;
-  uint32_t arc_points = 0;    ///< start and middle point of the arc in space
-  NurbsState nurbs;
-  uint32_t held_point = 0;    ///< where the axes of G07 stand (Interpreter::points)
-  uint32_t stroke_box = 0;    ///< prohibited area of G22 (Interpreter::stroke_boxes), counted from 1; 0 = G23
-  double polar_angle = 0;     ///< G16: angle of the block before, deg
-  double thread_lead = 0;     ///< G33: mm along the long axis
-  double last_feed = 0;       ///< G93: of the last cutting block, mm/min: displacements of compensation go on with it
+  uint32_t held_point = 0;      ///< where the axes of G07 stand (Interpreter::points)
+  uint32_t stroke_box = 0;      ///< prohibited area of G22 (Interpreter::stroke_boxes), counted from 1; 0 = G23
+  double polar_angle = 0;       ///< G16: angle of the block before, deg
+  double thread_lead = 0;       ///< G33: mm along the long axis
+  double last_feed = 0;         ///< G93: of the last cutting block, mm/min: displacements of compensation go on with it
   AxisMap map;
   MillReturn mill;
-  int8_t plane_axis[2] = {0, 1};  ///< axes of the plane in force, -1 = none
-  uint16_t work_system = 0;   ///< 0..5 G54..G59, 6.. G54.1 P1..
-  bool spindle_on = false;
-  bool end_seen = false;
-  bool interrupt_on = false;  ///< M96 in force (M700 13.12)
-  bool interrupt_moved = false; ///< the interrupt program has moved or given out M S T B
-  uint8_t modal_call = 0;       ///< of the program that runs (CallFrame::modal_call), asked in every block
-  bool mapped = false;          ///< a map of interpret/program_map.hpp is in force: asked in every move
-  bool work_turned = false;     ///< workpiece coordinates are rotated by parameter (13.21), as commanded or as reached ...
-  bool work_turn_pending = false;  ///< ... and these two differ
-  uint8_t scaled = 0;           ///< bit i: axis i is scaled (M700 13.19)
-  bool rotated = false;         ///< coordinates are rotated by program (M700 13.20)
+  SpindleControl spindle;
+};
+
+/// Modes that end with the program, or with the text of MDI, that has commanded them.
+struct ModalInProgram {
+  Compensation comp;            ///< tool radius compensation in force
+  CycleState cycle;
+  uint32_t moves_since_comp_off = 1;  ///< M700 P112: a plane change right after G40 needs a move in between
+  uint32_t arc_points = 0;      ///< start and middle point of the arc in space
+  NurbsState nurbs;
+  uint8_t nurbs_order = 0;      ///< of the last curve, for one that a knot alone begins
+  ArcStep arc_step = ArcStep::none;
+  bool parameter_input = false; ///< between G10 L70 and G11 (M700 13.11)
   uint8_t switch_mirror = 0;    ///< bit i: axis i is mirrored by the switch since the program began
-  uint8_t mirror = 0;           ///< bit i: axis i is mirrored by program (M700 13.6)
   uint8_t figure_scaled = 0;    ///< of `scaled` and `mirror`: commanded in the program that is being rotated (13.3.3, 13.19 (6));
   uint8_t figure_mirror = 0;    ///< they mean something in that program only
-  uint8_t interrupt_depth = 0;  ///< level of the interrupt program in service, 0 = none
-  Repeat repeat;                ///< holds for the next block only
-  bool stop_reading = false;    ///< an M code that prohibits reading ahead was in the block before
-  SpindleControl spindle;
-  bool parameter_input = false; ///< between G10 L70 and G11 (M700 13.11)
-  bool port_open = false;     ///< POPEN has been executed (M700 13.5.8)
-  bool percent_seen = false;  ///< the start mark of the main program has been read
-  uint32_t moves_since_comp_off = 1; ///< M700 P112: a plane change right after G40 needs a move in between
-  uint8_t control_3003 = 0, control_3004 = 0;
-  double clock_base[2] = {0, 0};  ///< what #3001, #3002 read 0 at, ms
-  int64_t clock_shift_s = 0;      ///< the program's clock (#3011, #3012) against the machine's
-  CycleState cycle;
-  bool owes_mark = false;     ///< the block that called a program has ended with the return and still needs its mark
-  uint32_t vacant_feed = 0;       ///< variable of the last F, which was vacant and so gave no feed (M700 13.5.4); 0 = F has been given since
-  uint32_t vacant_feed_line = 0;
   uint16_t vacant_feed_file = 0;
-  uint32_t codes_left = 0;    ///< bit d: the next block of level d has moved, and a modal call has run behind it; its M98 or M99 is left
+  uint32_t vacant_feed = 0;     ///< variable of the last F, which was vacant and so gave no feed (M700 13.5.4); 0 = F has been given since
+  uint32_t vacant_feed_line = 0;
+  SplineWay spline_way;
+};
+
+/// Belongs to the run of one program, or of one text of MDI, with all that it calls: no mode, so an interrupt program may change it.
+struct ProgramLife {
+  bool end_seen = false;
+  bool percent_seen = false;    ///< the start mark of the main program has been read
+  bool interrupt_on = false;    ///< M96 in force (M700 13.12: "to M97 or NC reset")
+  bool interrupt_moved = false; ///< the interrupt program has moved or given out M S T B
+  uint8_t interrupt_depth = 0;  ///< level of the interrupt program in service, 0 = none
+  uint8_t control_3003 = 0, control_3004 = 0;  ///< M700 13.5.5: cleared by a reset
+};
+
+/// What has been commanded of the machine: it goes on over an interrupt and over blocks of MDI.
+struct UntilReset {
+  bool spindle_on = false;
+  bool spindle_clamped = false; ///< by G92 S Q (M700 10.4): what at is known where it is executed
+};
+
+/// What outlives the end of a program, and no reset by the operator (M700 9.1).
+struct UntilOperatorReset {
+  LeftByEnd left_by_end;
+};
+
+/// What no program and no reset ends.
+struct UntilPowerOff {
+  double clock_base[2] = {0, 0};  ///< what #3001, #3002 read 0 at, ms (M700 13.5.5: only writing them changes the clocks)
+  int64_t clock_shift_s = 0;      ///< the program's clock (#3011, #3012) against the machine's
+  bool port_open = false;         ///< POPEN has been executed (M700 13.5.8)
+};
+
+/// Asked in every block or move, and made of what stands in the other groups, in the notes and in the parameters
+/// (refresh_special, refresh_accuracy, refresh_work_rotation, Interpreter::program_changed).
+struct Derived {
+  uint8_t special = 0;            ///< Special bits: 0 in nearly every program
+  uint8_t high_accuracy = 0;      ///< high-accuracy control, whatever has turned it on (13.15): bits of HighAccuracy
+  uint8_t modal_call = 0;         ///< of the program that runs (CallFrame::modal_call)
+  bool mapped = false;            ///< a map of interpret/program_map.hpp is in force
+  bool work_turned = false;       ///< workpiece coordinates are rotated by parameter (13.21), as commanded or as reached ...
+  bool work_turn_pending = false; ///< ... and these two differ
+};
+
+/// The open programs and loops. Only the first depth + 1 frames and loop_count loops are meaningful, and only these are copied into checkpoints.
+struct CallStack {
+  uint32_t codes_left = 0;      ///< bit d: the next block of level d has moved, and a modal call has run behind it; its M98 or M99 is left
   uint8_t depth = 0;
   uint8_t loop_count = 0;
-  uint8_t any_mirror() const { return mirror | switch_mirror; }
-  void refresh_special() {
-    const bool feed = modal.code[kGroupFeed] == 930 || modal.code[kGroupFeed] == 950 || modal.feed_digit != 0 ||
-                      modal.code[kGroupCutting] == 620 || modal.code[kGroupCutting] == 630;
-    special = static_cast<uint8_t>((map.active() ? kSpecialMap : 0) | (modal.code[kGroupPolarCommand] == 160 ? kSpecialWords : 0) |
-                                   (feed ? kSpecialFeed : 0) | (spline.on ? kSpecialSpline : 0));
-  }
-  void refresh_accuracy() {
-    const bool on = modal.code[kGroupCutting] == 611 || accuracy_command || fine_mode != FineMode::none;
-    high_accuracy = static_cast<uint8_t>((on ? kHighAccuracyOn : 0) | (fine_mode > FineMode::accuracy1 ? kFineSegmentsOn : 0));
-  }
-  // Only the first depth + 1 frames and loop_count loops are meaningful, and only these are copied into checkpoints.
   CallFrame frame[kMaxFrames];
   Loop loop[kMaxLoops];
 };
+
+/// All groups but the call stack: small, of one size, copied at every block.
+struct StateValues : BlockLife,
+                     MachinePosition,
+                     AppliedLength,
+                     ModalLife,
+                     ModalInProgram,
+                     ProgramLife,
+                     UntilReset,
+                     UntilOperatorReset,
+                     UntilPowerOff,
+                     Derived {};
+
+/// Declares no member of its own: each is in exactly one group (tests/interpret/lifetimes_test.cpp).
+struct State : StateValues, CallStack {
+  uint8_t any_mirror() const { return mirror | switch_mirror; }
+  void refresh_special() {
+    const bool feed = modal.is(Function::inverse_time_feed) || modal.is(Function::feed_per_revolution) || modal.feed_digit != 0 ||
+                      modal.is(Function::corner_override) || modal.is(Function::tapping_mode);
+    special = static_cast<uint8_t>((map.active() ? kSpecialMap : 0) | (modal.is(Function::polar_command_on) ? kSpecialWords : 0) |
+                                   (feed ? kSpecialFeed : 0) | (spline.on ? kSpecialSpline : 0));
+  }
+  void refresh_accuracy() {
+    const bool on = modal.is(Function::high_accuracy_mode) || accuracy_command || fine_mode != FineMode::none;
+    high_accuracy = static_cast<uint8_t>((on ? kHighAccuracyOn : 0) | (fine_mode > FineMode::accuracy1 ? kFineSegmentsOn : 0));
+  }
+};
+// The call stack lies behind the values without a gap, so that a checkpoint copies the values and the frames in use in one piece.
+static_assert(sizeof(State) == sizeof(StateValues) + sizeof(CallStack) && alignof(CallStack) == alignof(State));
 
 }  // namespace nc

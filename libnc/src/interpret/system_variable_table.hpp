@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a row of the table of system variables is (M700 13.5.5), for the files that hold its readers and writers.
+// What the readers and writers of system variables get (M700 13.5.5), for the files that hold them.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@ namespace nc {
 /// One access to one variable.
 struct Access {
   Interpreter& in;
-  uint32_t number;
-  uint32_t offset;          ///< number - first of the range
+  uint32_t part, index;     ///< what of its meaning (dialect/variable_rows.hpp)
+  uint32_t number;          ///< for sentences about it only
   Value* value = nullptr;   ///< read
   uint32_t* sync = nullptr; ///< read: what is missing
   double written = 0;       ///< write
@@ -22,15 +22,12 @@ struct Access {
 using VariableGet = Eval (*)(Access& a);
 using VariableSet = Did (*)(Access& a);
 
-/// One range: the only place that says what a system variable is. docs/system-variables.md is made from it.
-struct SystemVariableRow {
-  uint32_t first, last;
+/// How one meaning is read and written.
+struct VariableHandler {
+  SystemVariable what;
   VariableGet read;         ///< nullptr: cannot be read (P243)
   VariableSet write;        ///< nullptr: cannot be written (P243)
   uint32_t sync;            ///< nc_sync_what: its value exists only when everything before has happened; 0 = read ahead
-  const char* unit;
-  const char* name;
-  const char* section;      ///< of the manual
 };
 
 inline Eval give(Access& a, double number) {
@@ -50,6 +47,13 @@ inline bool world_known(Access& a, uint32_t what) {
   return false;
 }
 
+/// Part systems share the value: has the machine come to this block?
+inline bool shared_known(Access& a) {
+  if (a.in.shared_known()) return true;
+  *a.sync = NC_SYNC_SHARED;
+  return false;
+}
+
 /// The whole number of units nearest to `value`, the half away from 0, whatever noise adding up has left on it. `unit` is a power of ten
 /// below 1: dividing by its inverse gives the double next to the decimal number, so that it compares and prints as that.
 inline double whole_units(double value, double unit) {
@@ -60,13 +64,13 @@ inline double whole_units(double value, double unit) {
 }
 
 // machine_data_variables.cpp
-Eval read_rotation(Access& a);         ///< #30060...
-Did select_tool_group(Access& a);      ///< #60000
-Eval read_tool_group(Access& a);       ///< #60001...
-Eval read_tool_life(Access& a);        ///< #60500 + r ... #64500 + r
-Did select_parameter(Access& a);       ///< #100000...#100002
-Eval read_parameter(Access& a);        ///< #100010
-Did select_device(Access& a);          ///< #100100...#100103
-Eval read_device(Access& a);           ///< #100110
+Eval read_rotation(Access& a);
+Did select_tool_group(Access& a);
+Eval read_tool_group(Access& a);
+Eval read_tool_life(Access& a);
+Did select_parameter(Access& a);
+Eval read_parameter(Access& a);
+Did select_device(Access& a);
+Eval read_device(Access& a);
 
 }  // namespace nc

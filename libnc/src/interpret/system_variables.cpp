@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// System variables of the M700 (13.5.5): one table of ranges, laid out as the manual's; each range has a reader and a writer.
+// System variables (M700 13.5.5): each meaning has a reader and a writer. Which numbers have it is the family's table
+// (dialect/variable_rows.hpp).
 #include <cmath>
 #include <cstring>
 
@@ -11,7 +12,7 @@ namespace nc {
 namespace {
 
 bool reads_inch(const Interpreter& in, unsigned axis) {
-  return in.state.modal.code[kGroupUnit] == 200 && ((in.rotary >> axis) & 1) == 0;
+  return in.state.modal.is(Function::inch) && ((in.rotary >> axis) & 1) == 0;
 }
 
 /// A position as a program reads it. It is a whole number of the setting unit #1003, the finest step that an axis can be commanded to or
@@ -31,27 +32,21 @@ double shown_position(const Interpreter& in, unsigned axis, AxisVec position, Sh
 
 // ---- macro interface (M700 13.5.5, tables 21036-22098) ------------------------------------------------------------------
 
-/// Word and bit of #1000-#1031 (word 0), #1200-#1295 (words 1..3); outputs alike at +100.
-void interface_bit(uint32_t number, uint32_t* word, uint32_t* bit) {
-  const uint32_t low = number % 100;
-  if (number < 1200) {
-    *word = 0;
-    *bit = low;
-  } else {
-    *word = 1 + low / 32;
-    *bit = low % 32;
-  }
+/// Word and bit of a bit of the interface: the part is the word that its range begins with.
+void interface_bit(const Access& a, uint32_t* word, uint32_t* bit) {
+  *word = a.part + a.index / 32;
+  *bit = a.index % 32;
 }
 
 Eval read_input_bit(Access& a) {
   if (!world_known(a, NC_SYNC_INPUT)) return Eval::need_sync;
   uint32_t word = 0, bit = 0;
-  interface_bit(a.number, &word, &bit);
+  interface_bit(a, &word, &bit);
   return give(a, (a.in.world.input[word] >> bit) & 1);
 }
 Eval read_input_word(Access& a) {
   if (!world_known(a, NC_SYNC_INPUT)) return Eval::need_sync;
-  return give(a, a.in.world.input[a.offset]);
+  return give(a, a.in.world.input[a.index]);
 }
 
 uint32_t output_word(const Interpreter& in, uint32_t word) { return static_cast<uint32_t>(in.frames.get(Frames::output_key(word))); }
@@ -69,43 +64,36 @@ Did put_outputs(Access& a, uint32_t word, uint32_t mask, uint32_t bits) {
 }
 Eval read_output_bit(Access& a) {
   uint32_t word = 0, bit = 0;
-  interface_bit(a.number, &word, &bit);
+  interface_bit(a, &word, &bit);
   return give(a, (output_word(a.in, word) >> bit) & 1);
 }
 Did write_output_bit(Access& a) {
   uint32_t word = 0, bit = 0;
-  interface_bit(a.number, &word, &bit);
+  interface_bit(a, &word, &bit);
   // vacant = 0, any number other than 0 = 1; below 1e-8 the manual says "indefinite": here 0.
   return put_outputs(a, word, 1u << bit, std::fabs(a.written) < 1e-8 ? 0 : 1u << bit);
 }
-Eval read_output_word(Access& a) { return give(a, output_word(a.in, a.offset)); }
+Eval read_output_word(Access& a) { return give(a, output_word(a.in, a.index)); }
 Did write_output_word(Access& a) {
   const double whole = std::trunc(a.written);
   if (whole < -2147483648.0 || whole > 4294967295.0) return a.in.raise(Condition::value_range, '#', a.number);
-  return put_outputs(a, a.offset, 0xffffffffu, static_cast<uint32_t>(static_cast<int64_t>(whole)));
+  return put_outputs(a, a.index, 0xffffffffu, static_cast<uint32_t>(static_cast<int64_t>(whole)));
 }
 
 // ---- offsets ---------------------------------------------------------------------------------------------------------------
 
 bool tool_key(Access& a, uint32_t* key) {
-  const uint32_t n = a.number;
-  unsigned column = 0;
-  uint32_t index = 0;
-  if (n < 10000) {
-    constexpr unsigned kColumn[4] = {NC_TOOL_LENGTH, NC_TOOL_LENGTH_WEAR, NC_TOOL_RADIUS, NC_TOOL_RADIUS_WEAR};
-    column = kColumn[(n - 2001) / 200];
-    index = (n - 2001) % 200 + 1;
-  } else {
-    column = n < 11000 ? NC_TOOL_LENGTH : n < 12000 ? NC_TOOL_LENGTH_WEAR : n < 17000 ? NC_TOOL_RADIUS : NC_TOOL_RADIUS_WEAR;
-    index = n % 1000;
-  }
-  if (index == 0 || index > a.in.frames.tool_offsets() || (column != NC_TOOL_LENGTH && !a.in.settings.tool_memory_2)) return false;
-  *key = a.in.frames.tool_key(index, column);
+  constexpr unsigned kColumn[4] = {NC_TOOL_LENGTH, NC_TOOL_LENGTH_WEAR, NC_TOOL_RADIUS, NC_TOOL_RADIUS_WEAR};
+  const unsigned column = kColumn[a.part];
+  const uint32_t number = a.index + 1;
+  if (number > a.in.frames.tool_offsets() || (column != NC_TOOL_LENGTH && !a.in.settings.tool_memory_2)) return false;
+  *key = a.in.frames.tool_key(number, column);
   return true;
 }
 Eval read_tool(Access& a) {
   uint32_t key = 0;
-  return tool_key(a, &key) ? give(a, a.in.frames.get(key)) : no_variable(a);
+  if (!tool_key(a, &key)) return no_variable(a);
+  return shared_known(a) ? give(a, a.in.frames.get(key)) : Eval::need_sync;
 }
 Did write_tool(Access& a) {
   uint32_t key = 0;
@@ -115,16 +103,11 @@ Did write_tool(Access& a) {
   return Did::done;
 }
 
-/// #5201 external, #5221 G54 ... #5321 G59 (axis number behind), #7001 + 20 (n - 1): G54.1 Pn.
+/// Part 0 is the external offset, the next six are the standard systems, then come the extended ones.
 bool work_key(Access& a, uint32_t* key) {
-  const uint32_t row = a.offset / 20, axis = a.offset % 20;
-  if (axis >= a.in.axis_count) return false;
-  if (a.number >= 7000) {
-    if (row >= a.in.frames.extended_systems()) return false;
-    *key = Frames::work_key(6 + row, axis);
-  } else {
-    *key = row == 0 ? Frames::external_key(axis) : Frames::work_key(row - 1, axis);
-  }
+  if (a.index >= a.in.axis_count) return false;
+  if (a.part > Frames::kStandardSystems && a.part - Frames::kStandardSystems > a.in.frames.extended_systems()) return false;
+  *key = a.part == 0 ? Frames::external_key(a.index) : Frames::work_key(a.part - 1, a.index);
   return true;
 }
 Eval read_work(Access& a) {
@@ -165,20 +148,23 @@ Did write_message(Access& a) {
   return Did::done;
 }
 
-unsigned counter_of(const Access& a) { return a.number - 3001; }
+/// Clocks of the program: with power on and in automatic operation.
+enum Counter : unsigned { kPowered, kRunning };
 
-double counter_ms(const Interpreter& in, unsigned which) { return which == 0 ? in.world.power_on_ms : in.world.run_ms; }
-double counter_unit(const Interpreter& in, unsigned which) { return which == 1 && in.settings.run_time_hours ? 3600000.0 : 1.0; }
+double counter_ms(const Interpreter& in, Counter which) { return which == kPowered ? in.world.power_on_ms : in.world.run_ms; }
+double counter_unit(const Interpreter& in, Counter which) { return which == kRunning && in.settings.run_time_hours ? 3600000.0 : 1.0; }
 
+template <Counter which>
 Eval read_counter(Access& a) {
   if (!world_known(a, NC_SYNC_CLOCK)) return Eval::need_sync;
-  return give(a, (counter_ms(a.in, counter_of(a)) - a.in.state.clock_base[counter_of(a)]) / counter_unit(a.in, counter_of(a)));
+  return give(a, (counter_ms(a.in, which) - a.in.state.clock_base[which]) / counter_unit(a.in, which));
 }
+template <Counter which>
 Did write_counter(Access& a) {
-  const double unit = counter_unit(a.in, counter_of(a));
+  const double unit = counter_unit(a.in, which);
   if (!(a.written >= 0) || a.written * unit > 244335917226.0) return a.in.raise(Condition::value_range, '#', a.written);  // M700 13.5.5 (24299)
   if (!a.in.world_fresh) return a.in.need(NC_SYNC_CLOCK);
-  a.in.state.clock_base[counter_of(a)] = counter_ms(a.in, counter_of(a)) - a.written * unit;
+  a.in.state.clock_base[which] = counter_ms(a.in, which) - a.written * unit;
   return Did::done;
 }
 
@@ -207,64 +193,91 @@ int64_t days_of(int64_t year, unsigned month, unsigned day) {
 
 int64_t clock_seconds(const Interpreter& in) { return in.world.clock_ms / 1000 + in.state.clock_shift_s; }
 
-/// #3011 YYYYMMDD, #3012 HHMMSS (M700 10.18): the program sets its own clock, kept as a shift against the machine's.
+/// The program sets its own clock, kept as a shift against the machine's.
+Did set_clock(Access& a, int64_t day, int64_t second_of_day) {
+  if (!a.in.world_fresh) return a.in.need(NC_SYNC_CLOCK);
+  a.in.state.clock_shift_s += day * 86400 + second_of_day - clock_seconds(a.in);
+  return Did::done;
+}
+
+/// Six or eight digits, in pairs from the right (M700 10.18).
+struct Digits {
+  unsigned high, middle, low;
+};
+bool digits_of(const Access& a, Digits* digits) {
+  if (!(a.written >= 0) || a.written > 99999999) return false;
+  const auto all = static_cast<uint32_t>(a.written);
+  *digits = {all / 10000, all / 100 % 100, all % 100};
+  return true;
+}
+
+/// YYYYMMDD.
 Did write_date(Access& a) {
-  if (!(a.written >= 0) || a.written > 99999999) return a.in.raise(Condition::value_range, '#', a.written);
-  const auto digits = static_cast<uint32_t>(a.written);
-  const unsigned high = digits / 10000, middle = digits / 100 % 100, low = digits % 100;
+  Digits d{};
+  if (!digits_of(a, &d)) return a.in.raise(Condition::value_range, '#', a.written);
   int64_t year = 0;
   unsigned month = 0, day = 0;
-  if ((a.number - 3011) == 0) {
-    civil(days_of(high, middle == 0 ? 1 : middle, low == 0 ? 1 : low), &year, &month, &day);
-    if (high < 2000 || high > 2099 || month != middle || day != low) return a.in.raise(Condition::value_range, '#', a.written);
-  } else if (high > 23 || middle > 59 || low > 59) {
-    return a.in.raise(Condition::value_range, '#', a.written);
-  }
-  if (!a.in.world_fresh) return a.in.need(NC_SYNC_CLOCK);
-  const int64_t now = clock_seconds(a.in);
-  const int64_t wanted = (a.number - 3011) == 0 ? days_of(high, middle, low) * 86400 + now % 86400 : now - now % 86400 + high * 3600 + middle * 60 + low;
-  a.in.state.clock_shift_s += wanted - now;
-  return Did::done;
+  civil(days_of(d.high, d.middle == 0 ? 1 : d.middle, d.low == 0 ? 1 : d.low), &year, &month, &day);
+  if (d.high < 2000 || d.high > 2099 || month != d.middle || day != d.low) return a.in.raise(Condition::value_range, '#', a.written);
+  return set_clock(a, days_of(d.high, d.middle, d.low), clock_seconds(a.in) % 86400);
 }
-
-/// #3901 machinings, #3902 their maximum (M700 10.13: positive). Macros of the maker write #3901 = -1, which is an option.
-Eval read_count(Access& a) { return give(a, a.in.frames.get(Frames::count_key(a.offset))); }
-Did write_count(Access& a) {
-  constexpr double kMost = 999999;
-  const double least = a.number == 3901 && a.in.settings.negative_count ? -kMost : 0;
-  if (!(a.written >= least) || a.written > kMost) return a.in.raise(Condition::value_range, '#', a.written);
-  a.in.set_table(Frames::count_key(a.offset), std::trunc(a.written));
-  return Did::done;
-}
-
 Eval read_date(Access& a) {
   if (!world_known(a, NC_SYNC_CLOCK)) return Eval::need_sync;
-  const int64_t seconds = clock_seconds(a.in);
-  if ((a.number - 3011) == 1) return give(a, static_cast<double>(seconds / 3600 % 24 * 10000 + seconds / 60 % 60 * 100 + seconds % 60));
   int64_t year = 0;
   unsigned month = 0, day = 0;
-  civil(seconds / 86400, &year, &month, &day);
+  civil(clock_seconds(a.in) / 86400, &year, &month, &day);
   return give(a, static_cast<double>(year * 10000 + month * 100 + day));
 }
 
-/// M700 13.5.5: #3003 has the values 0 to 3, #3004 0 to 7.
+/// HHMMSS.
+Did write_time_of_day(Access& a) {
+  Digits d{};
+  if (!digits_of(a, &d) || d.high > 23 || d.middle > 59 || d.low > 59) return a.in.raise(Condition::value_range, '#', a.written);
+  const int64_t now = clock_seconds(a.in), midnight = now - now % 86400;
+  return set_clock(a, midnight / 86400, int64_t{d.high} * 3600 + d.middle * 60 + d.low);
+}
+Eval read_time_of_day(Access& a) {
+  if (!world_known(a, NC_SYNC_CLOCK)) return Eval::need_sync;
+  const int64_t seconds = clock_seconds(a.in);
+  return give(a, static_cast<double>(seconds / 3600 % 24 * 10000 + seconds / 60 % 60 * 100 + seconds % 60));
+}
+
+/// Workpieces machined, and their maximum (M700 10.13: positive). Macros of the maker write the first as -1, which is an option.
+Eval read_count(Access& a) { return give(a, a.in.frames.get(Frames::count_key(a.index))); }
+Did write_count(Access& a) {
+  constexpr double kMost = 999999;
+  const double least = a.index == 0 && a.in.settings.negative_count ? -kMost : 0;
+  if (!(a.written >= least) || a.written > kMost) return a.in.raise(Condition::value_range, '#', a.written);
+  a.in.set_table(Frames::count_key(a.index), std::trunc(a.written));
+  return Did::done;
+}
+
+/// M700 13.5.5: the first takes 0 to 3, the second 0 to 7.
+struct ControlBits {
+  uint8_t State::*bits;
+  double end;
+  nc_control_index index;
+};
+constexpr ControlBits kControlBits[] = {{&State::control_3003, 4, NC_CONTROL_SUPPRESS}, {&State::control_3004, 8, NC_CONTROL_DISABLE}};
+
 Did write_control(Access& a) {
-  if (!(a.written >= 0) || a.written >= (a.number == 3003 ? 4 : 8)) return a.in.raise(Condition::value_range, '#', a.written);
+  const ControlBits& control = kControlBits[a.index];
+  if (!(a.written >= 0) || a.written >= control.end) return a.in.raise(Condition::value_range, '#', a.written);
   const auto bits = static_cast<uint8_t>(a.written);
-  (a.number == 3003 ? a.in.state.control_3003 : a.in.state.control_3004) = bits;
+  a.in.state.*control.bits = bits;
   Action& action = a.in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_CONTROL;
-  action.index = a.number;
+  action.index = control.index;
   action.value = bits;
   return Did::done;
 }
-Eval read_control(Access& a) { return give(a, a.number == 3003 ? a.in.state.control_3003 : a.in.state.control_3004); }
+Eval read_control(Access& a) { return give(a, a.in.state.*kControlBits[a.index].bits); }
 Eval read_mirror(Access& a) { return give(a, a.in.state.any_mirror()); }
 
 // ---- modal state ---------------------------------------------------------------------------------------------------------------
 
 Eval give_group(Access& a, const ModalState& modal) {
-  const int16_t code = modal.code[a.offset + 1];
+  const int16_t code = code_in_force(*a.in.dialect, modal, a.index + 1);
   if (code < 0) {
     *a.value = Value{};
     return Eval::ok;
@@ -281,38 +294,42 @@ Eval give_program(Access& a, uint32_t number) {
   return Eval::ok;
 }
 
-/// #41nn, #43nn: 2 B, 7 D, 9 F, 11 H, 13 M, 14 N, 15 O, 19 S, 20 T (M700 10.10).
-Eval give_word(Access& a, const ModalState& m) {
-  switch (a.offset + 1) {
-    case 2: return give(a, m.b);
-    case 7: return give(a, m.d);
-    case 9: return give(a, m.feed);
-    case 11: return give(a, m.h);
-    case 13: return give(a, m.m);
-    case 14: return give(a, m.n);
-    case 15: return give_program(a, a.in.source.program);
-    case 19: return give(a, m.spindle);
-    case 20: return give(a, m.tool);
-    default: return no_variable(a);
-  }
+ModalWord word_of(const Access& a) {
+  const Table<ModalWord>& words = a.in.dialect->variables->words;
+  return a.index < words.size ? words.row[a.index] : ModalWord::none;
 }
-/// #4130: P of the G54.1 that is selected, 0 while none is.
+
+Eval give_word(Access& a, const ModalState& m) {
+  switch (word_of(a)) {
+    case ModalWord::second_auxiliary: return give(a, m.b);
+    case ModalWord::radius_number: return give(a, m.d);
+    case ModalWord::feed: return give(a, m.feed);
+    case ModalWord::length_number: return give(a, m.h);
+    case ModalWord::misc: return give(a, m.m);
+    case ModalWord::sequence: return give(a, m.n);
+    case ModalWord::program: return give_program(a, a.in.source.program);
+    case ModalWord::spindle: return give(a, m.spindle);
+    case ModalWord::tool: return give(a, m.tool);
+    case ModalWord::none: break;
+  }
+  return no_variable(a);
+}
+/// Number of the extended system that is selected, 0 while none is.
 Eval read_extended_work(Access& a) {
-  constexpr unsigned kStandard = 6;  // G54 to G59
   const unsigned system = a.in.state.work_system;
-  return give(a, system < kStandard ? 0 : system - kStandard + 1);
+  return give(a, system < Frames::kStandardSystems ? 0 : system - Frames::kStandardSystems + 1);
 }
 Eval read_word_ahead(Access& a) { return give_word(a, a.in.state.modal); }
 Eval read_word_now(Access& a) { return world_known(a, NC_SYNC_MODAL) ? give_word(a, a.in.finished_modal) : Eval::need_sync; }
 
-/// #4401-#4421, #4507-#4520: as the interrupt program was entered, and only in it (M700 13.12).
+/// As the interrupt program was entered, and only in it (M700 13.12).
 Eval read_group_interrupt(Access& a) {
   return a.in.state.interrupt_depth != 0 ? give_group(a, a.in.interrupted_modal()) : no_variable(a);
 }
 Eval read_word_interrupt(Access& a) {
   if (a.in.state.interrupt_depth == 0) return no_variable(a);
   const ModalState& m = a.in.interrupted_modal();
-  if (a.offset + 1 != 15) return give_word(a, m);
+  if (word_of(a) != ModalWord::program) return give_word(a, m);
   return give_program(a, a.in.state.frame[a.in.state.interrupt_depth - 1].program.number);
 }
 
@@ -324,33 +341,33 @@ AxisVec axes_of(const nc_axes& axes) {
   return out;
 }
 
-bool axis_ok(Access& a) { return a.offset < a.in.axis_count; }
+bool axis_ok(Access& a) { return a.index < a.in.axis_count; }
 
 Eval read_end_point(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
-  return give(a, shown_position(a.in, a.offset, a.in.position(), work_shown));
+  return give(a, shown_position(a.in, a.index, a.in.position(), work_shown));
 }
 Eval read_machine(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
-  return give(a, shown_position(a.in, a.offset, axes_of(a.in.world.machine), machine_shown));
+  return give(a, shown_position(a.in, a.index, axes_of(a.in.world.machine), machine_shown));
 }
 Eval read_work_position(Access& a) {  // with tool compensation in it (M700 10.11)
   if (!axis_ok(a)) return no_variable(a);
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
   AxisVec work = axes_of(a.in.world.machine);
-  work[a.offset] -= a.in.zero()[a.offset];
-  return give(a, shown_position(a.in, a.offset, work, work_shown));
+  work[a.index] -= a.in.zero()[a.index];
+  return give(a, shown_position(a.in, a.index, work, work_shown));
 }
 Eval read_skip(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
   AxisVec skip;
-  skip[a.offset] = a.in.frames.get(Frames::skip_key(a.offset));
-  return give(a, shown_position(a.in, a.offset, skip, work_shown));
+  skip[a.index] = a.in.frames.get(Frames::skip_key(a.index));
+  return give(a, shown_position(a.in, a.index, skip, work_shown));
 }
 Eval read_compensation(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
-  return give(a, position_read(a.in, a.offset, a.in.state.applied[a.offset]));
+  return give(a, position_read(a.in, a.index, a.in.state.applied[a.index]));
 }
 /// Behind a sync the machine is in position: the deviation that is left is below the in-position width.
 Eval read_deviation(Access& a) {
@@ -360,66 +377,54 @@ Eval read_deviation(Access& a) {
 
 constexpr uint32_t kPosition = NC_SYNC_POSITION, kInput = NC_SYNC_INPUT, kClock = NC_SYNC_CLOCK, kModal = NC_SYNC_MODAL;
 
-// The table. Sections are those of 13.5.5 but for 13.12 and 14.10.
-constexpr SystemVariableRow kRows[] = {
-    {1000, 1031, read_input_bit, nullptr, kInput, "0/1", "macro interface inputs, bits of #1032", "13.5.5"},
-    {1032, 1035, read_input_word, nullptr, kInput, "32 bits", "macro interface inputs, words", "13.5.5"},
-    {1100, 1131, read_output_bit, write_output_bit, 0, "0/1", "macro interface outputs, bits of #1132", "13.5.5"},
-    {1132, 1135, read_output_word, write_output_word, 0, "32 bits", "macro interface outputs, words", "13.5.5"},
-    {1200, 1295, read_input_bit, nullptr, kInput, "0/1", "macro interface inputs, bits of #1033 to #1035", "13.5.5"},
-    {1300, 1395, read_output_bit, write_output_bit, 0, "0/1", "macro interface outputs, bits of #1133 to #1135", "13.5.5"},
-    {2001, 2800, read_tool, write_tool, 0, "mm", "tool offsets 1 to 200: length, #2201 its wear, #2401 radius, #2601 its wear", "13.5.5"},
-    {3000, 3000, nullptr, write_alarm, 0, "1-9999", "alarm of the program, with its text in ( )", "13.5.5"},
-    {3001, 3001, read_counter, write_counter, kClock, "ms", "time with power on", "13.5.5"},
-    {3002, 3002, read_counter, write_counter, kClock, "ms, h (#1273 bit 1)", "time in automatic start", "13.5.5"},
-    {3003, 3004, read_control, write_control, 0, "bits", "#3003 no single block stop, no FIN; #3004 no feed hold, override, G09", "13.5.5"},
-    {3006, 3006, nullptr, write_message, 0, "-", "stop with the message in ( )", "13.5.5"},
-    {3007, 3007, read_mirror, nullptr, 0, "bits", "mirrored axes, bit 0 = first axis", "13.5.5"},
-    {3011, 3011, read_date, write_date, kClock, "YYYYMMDD", "date", "13.5.5"},
-    {3012, 3012, read_date, write_date, kClock, "HHMMSS", "time of day", "13.5.5"},
-    {3901, 3902, read_count, write_count, 0, "count", "workpieces machined, #3902 their maximum", "13.5.5"},
-    {4001, 4021, read_group_ahead, nullptr, 0, "G code", "active G code of groups 1 to 21, as read", "13.5.5"},
-    {4101, 4120, read_word_ahead, nullptr, 0, "as programmed", "B D F H M N O S T (#4102 07 09 11 13 14 15 19 20), as read", "13.5.5"},
-    {4130, 4130, read_extended_work, nullptr, 0, "as programmed", "P of the G54.1 in force, as read; 0 = G54 to G59", "14.10"},
-    {4201, 4221, read_group_now, nullptr, kModal, "G code", "active G code of groups 1 to 21, block in execution", "13.5.5"},
-    {4301, 4320, read_word_now, nullptr, kModal, "as programmed", "B D F H M N O S T, block in execution", "13.5.5"},
-    {4401, 4421, read_group_interrupt, nullptr, 0, "G code", "active G code of groups 1 to 21 at a macro interrupt", "13.12"},
-    {4501, 4520, read_word_interrupt, nullptr, 0, "as programmed", "D F H M N O S T at a macro interrupt", "13.12"},
-    {5001, 5020, read_end_point, nullptr, 0, "mm, inch, deg", "end point of the block before, by axis", "13.5.5"},
-    {5021, 5040, read_machine, nullptr, kPosition, "mm, inch, deg", "machine position", "13.5.5"},
-    {5041, 5060, read_work_position, nullptr, kPosition, "mm, inch, deg", "workpiece position, tool compensation in it", "13.5.5"},
-    {5061, 5080, read_skip, nullptr, 0, "mm, inch, deg", "position of the last skip", "13.5.5"},
-    {5081, 5100, read_compensation, nullptr, 0, "mm, inch, deg", "tool position compensation", "13.5.5"},
-    {5101, 5120, read_deviation, nullptr, kPosition, "mm, inch, deg", "servo deviation", "13.5.5"},
-    {5201, 5340, read_work, write_work, 0, "mm, deg", "work offsets: external, #5221 G54 to #5321 G59, by axis", "13.5.5"},
-    {7001, 8920, read_work, write_work, 0, "mm, deg", "work offsets G54.1 P1 to P96, 20 numbers each, by axis", "14.10"},
-    {10001, 10999, read_tool, write_tool, 0, "mm", "tool offsets: length (type I: the value)", "13.5.5"},
-    {11001, 11999, read_tool, write_tool, 0, "mm", "tool offsets: length wear (type II)", "13.5.5"},
-    {16001, 16999, read_tool, write_tool, 0, "mm", "tool offsets: radius (type II)", "13.5.5"},
-    {17001, 17999, read_tool, write_tool, 0, "mm", "tool offsets: radius wear (type II)", "13.5.5"},
-    {30060, 30068, read_rotation, nullptr, 0, "axis, mm, deg", "coordinate rotation: axes, centre, angle, SIN, COS, vector", "13.5.5"},
-    {60000, 60000, nullptr, select_tool_group, 0, "group", "tool life: group that is read", "13.5.5"},
-    {60001, 60008, read_tool_group, nullptr, 0, "-", "tool life of the group; -1 = not registered", "13.5.5"},
-    {60501, 60700, read_tool_life, nullptr, 0, "-", "tool life: group number; -1 = no tool registered", "13.5.5"},
-    {61001, 61200, read_tool_life, nullptr, 0, "-", "tool life: tool number", "13.5.5"},
-    {61501, 61700, read_tool_life, nullptr, 0, "-", "tool life: flags", "13.5.5"},
-    {62001, 62200, read_tool_life, nullptr, 0, "-", "tool life: status", "13.5.5"},
-    {62501, 62700, read_tool_life, nullptr, 0, "-", "tool life: life", "13.5.5"},
-    {63001, 63200, read_tool_life, nullptr, 0, "-", "tool life: used", "13.5.5"},
-    {63501, 63700, read_tool_life, nullptr, 0, "-", "tool life: length compensation", "13.5.5"},
-    {64001, 64200, read_tool_life, nullptr, 0, "-", "tool life: radius compensation", "13.5.5"},
-    {64501, 64700, read_tool_life, nullptr, 0, "-", "tool life: auxiliary data", "13.5.5"},
-    {100000, 100002, nullptr, select_parameter, 0, "-", "parameter that is read: number, part system, axis", "13.5.5"},
-    {100010, 100010, read_parameter, nullptr, 0, "the parameter's", "value of that parameter", "13.5.5"},
-    {100100, 100103, nullptr, select_device, 0, "-", "PLC data that is read: device, number, bytes, bit", "13.5.5"},
-    {100110, 100110, read_device, nullptr, kInput, "-", "value of that device", "13.5.5"},
-};
+using V = SystemVariable;
 
-const SystemVariableRow* find_range(uint32_t number) {
-  for (const SystemVariableRow& row : kRows)
-    if (number >= row.first && number <= row.last) return &row;
-  return nullptr;
+constexpr VariableHandler kHandlers[kSystemVariables] = {
+    {V::input_bit, read_input_bit, nullptr, kInput},
+    {V::input_word, read_input_word, nullptr, kInput},
+    {V::output_bit, read_output_bit, write_output_bit, 0},
+    {V::output_word, read_output_word, write_output_word, 0},
+    {V::tool_offset, read_tool, write_tool, 0},
+    {V::work_offset, read_work, write_work, 0},
+    {V::alarm, nullptr, write_alarm, 0},
+    {V::message, nullptr, write_message, 0},
+    {V::time_powered, read_counter<kPowered>, write_counter<kPowered>, kClock},
+    {V::time_running, read_counter<kRunning>, write_counter<kRunning>, kClock},
+    {V::control, read_control, write_control, 0},
+    {V::mirror, read_mirror, nullptr, 0},
+    {V::date, read_date, write_date, kClock},
+    {V::time_of_day, read_time_of_day, write_time_of_day, kClock},
+    {V::count, read_count, write_count, 0},
+    {V::code, read_group_ahead, nullptr, 0},
+    {V::code_now, read_group_now, nullptr, kModal},
+    {V::code_at_interrupt, read_group_interrupt, nullptr, 0},
+    {V::word, read_word_ahead, nullptr, 0},
+    {V::word_now, read_word_now, nullptr, kModal},
+    {V::word_at_interrupt, read_word_interrupt, nullptr, 0},
+    {V::extended_work, read_extended_work, nullptr, 0},
+    {V::end_point, read_end_point, nullptr, 0},
+    {V::machine_position, read_machine, nullptr, kPosition},
+    {V::work_position, read_work_position, nullptr, kPosition},
+    {V::skip_position, read_skip, nullptr, 0},
+    {V::compensation, read_compensation, nullptr, 0},
+    {V::deviation, read_deviation, nullptr, kPosition},
+    {V::rotation, read_rotation, nullptr, 0},
+    {V::tool_group_select, nullptr, select_tool_group, 0},
+    {V::tool_group, read_tool_group, nullptr, 0},
+    {V::tool_life, read_tool_life, nullptr, 0},
+    {V::parameter_select, nullptr, select_parameter, 0},
+    {V::parameter, read_parameter, nullptr, 0},
+    {V::device_select, nullptr, select_device, 0},
+    {V::device, read_device, nullptr, kInput},
+};
+constexpr bool in_order() {
+  for (unsigned i = 0; i < kSystemVariables; ++i)
+    if (static_cast<unsigned>(kHandlers[i].what) != i) return false;
+  return true;
 }
+static_assert(in_order());
+
+const VariableHandler& handler_of(const VariableRow& row) { return kHandlers[static_cast<unsigned>(row.what)]; }
 
 Eval read_any(void* self, uint32_t number, Value* value, Fault* fault, uint32_t* sync) {
   Interpreter& in = *static_cast<Interpreter*>(self);
@@ -427,44 +432,58 @@ Eval read_any(void* self, uint32_t number, Value* value, Fault* fault, uint32_t*
     *value = Value{};
     return Eval::ok;
   }
-  if (in.variables.get(number, in.macro_level(), value)) return Eval::ok;
+  if (in.variables.get(number, in.macro_level(), value)) {
+    if (in.shared_known() || !in.variables.shares(number)) return Eval::ok;
+    *sync = NC_SYNC_SHARED;
+    return Eval::need_sync;
+  }
   return read_system_variable(in, number, value, fault, sync);
 }
 
 }  // namespace
 
-VariableReader variable_reader(Interpreter& in) { return {&in, read_any, find_variable_name, in.variables.locals(in.macro_level()), kLocals}; }
+VariableReader variable_reader(Interpreter& in) {
+  const uint32_t names_need = in.shared_known() ? 0 : uint32_t{NC_SYNC_SHARED};
+  return {&in, read_any, find_variable_name, in.variables.locals(in.macro_level()), kLocals, names_need};
+}
 
 Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault* fault, uint32_t* sync) {
-  const SystemVariableRow* range = find_range(number);
-  if (range == nullptr || range->read == nullptr) {
+  const VariableRow* range = find_variable(*in.dialect->variables, number);
+  const VariableGet read = range != nullptr ? handler_of(*range).read : nullptr;
+  if (read == nullptr) {
     in.raise(range == nullptr ? Condition::variable_number : Condition::variable_use, '#', number);
     *fault = in.fault;
     return Eval::fault;
   }
-  Access access{in, number, number - range->first, value, sync};
-  const Eval eval = range->read(access);
+  const VariablePlace place = place_in(*range, number);
+  Access access{in, place.part, place.index, number, value, sync};
+  const Eval eval = read(access);
   if (eval == Eval::fault) *fault = in.fault;
   return eval;
 }
 
 Did write_system_variable(Interpreter& in, uint32_t number, Value value, const Statement& statement) {
-  const SystemVariableRow* range = find_range(number);
+  const VariableRow* range = find_variable(*in.dialect->variables, number);
   if (range == nullptr) return in.raise(Condition::variable_number, '#', number);
-  if (range->write == nullptr) return in.raise(Condition::variable_use, '#', number);
-  Access access{in, number, number - range->first};
+  const VariableSet write = handler_of(*range).write;
+  if (write == nullptr) return in.raise(Condition::variable_use, '#', number);
+  const VariablePlace place = place_in(*range, number);
+  Access access{in, place.part, place.index, number};
   access.written = value.or_zero();
   access.statement = &statement;
-  return range->write(access);
+  return write(access);
 }
 
 }  // namespace nc
 
-nc_status nc_system_variable_get(unsigned index, nc_system_variable* row) {
-  constexpr unsigned kCount = sizeof nc::kRows / sizeof nc::kRows[0];
-  if (row == nullptr) return NC_E_ARGUMENT;
-  if (index >= kCount) return NC_E_NOT_FOUND;
-  const nc::SystemVariableRow& from = nc::kRows[index];
-  *row = nc_system_variable{from.first, from.last, from.read != nullptr, from.write != nullptr, from.sync, from.unit, from.name, from.section};
+nc_status nc_system_variable_row(nc_dialect dialect, unsigned index, nc_system_variable* row) {
+  if (row == nullptr || !nc::known(dialect)) return NC_E_ARGUMENT;
+  const nc::Table<nc::VariableRow>& rows = nc::dialect(dialect).variables->rows;
+  if (index >= rows.size) return NC_E_NOT_FOUND;
+  const nc::VariableRow& from = rows.row[index];
+  const nc::VariableHandler& handler = nc::handler_of(from);
+  const nc_variable_role role = nc::interface_role(from.what);
+  const auto word = static_cast<uint8_t>(role != NC_VARIABLE_OTHER ? from.part : 0);
+  *row = nc_system_variable{from.first, from.last, static_cast<uint8_t>(role), word, handler.read != nullptr, handler.write != nullptr, handler.sync, from.unit, from.name, from.section};
   return NC_OK;
 }

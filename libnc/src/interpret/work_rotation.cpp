@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 
 #include "interpret/program_map.hpp"
 
@@ -18,44 +17,31 @@ double note(const Interpreter& in, Which which, unsigned what) {
   return in.notes.get(Notes::work_rotation_key(which, what));
 }
 
-struct Turn {
-  int h = -1, v = -1;       ///< axes, -1 = there is none of the name in the parameter
-  double cos = 1, sin = 0;
+/// What turns, and about which point.
+struct PlaneTurn {
+  int h = -1, v = -1;         ///< axes, -1 = there is none of the name in the parameter
+  double deg = 0;
   double center[2] = {0, 0};  ///< machine coordinates
 };
 
 bool turns(const Interpreter& in, Which which) { return note(in, which, Notes::kTurnAngle) != 0; }
 
-Turn turn_of(const Interpreter& in, Which which) {
-  Turn t;
+PlaneTurn turn_of(const Interpreter& in, Which which) {
+  PlaneTurn t;
   t.h = static_cast<int>(note(in, which, Notes::kTurnAxisH));
   t.v = static_cast<int>(note(in, which, Notes::kTurnAxisV));
-  const double angle = note(in, which, Notes::kTurnAngle) * std::numbers::pi / 180;
-  t.cos = std::cos(angle);
-  t.sin = std::sin(angle);
+  t.deg = note(in, which, Notes::kTurnAngle);
   t.center[0] = note(in, which, Notes::kTurnH);
   t.center[1] = note(in, which, Notes::kTurnV);
   return t;
 }
 
-bool known(const Turn& t) { return t.h >= 0 && t.v >= 0 && t.h != t.v; }
-
-/// `sense` +1 turns, -1 turns back.
-void apply(const Interpreter& in, Which which, double sense, AxisVec& p) {
-  if (!turns(in, which)) return;
-  const Turn t = turn_of(in, which);
-  if (!known(t)) return;
-  const auto h = static_cast<unsigned>(t.h), v = static_cast<unsigned>(t.v);
-  const AxisVec& zero = in.zero();
-  const double ch = t.center[0] - zero[h], cv = t.center[1] - zero[v], dh = p[h] - ch, dv = p[v] - cv;
-  p[h] = ch + t.cos * dh - sense * t.sin * dv;
-  p[v] = cv + sense * t.sin * dh + t.cos * dv;
-}
+bool known(const PlaneTurn& t) { return t.h >= 0 && t.v >= 0 && t.h != t.v; }
 
 /// Bits of the axes of a rotation that is one.
 uint32_t plane_bits(const Interpreter& in, Which which) {
   if (!turns(in, which)) return 0;
-  const Turn t = turn_of(in, which);
+  const PlaneTurn t = turn_of(in, which);
   return known(t) ? 1u << t.h | 1u << t.v : 0u;
 }
 
@@ -78,7 +64,7 @@ void refresh_work_rotation(Interpreter& in) {
 void take_work_rotation(Interpreter& in, bool at_head) {
   const Settings& s = in.settings;
   const auto axis = [&in](char name, unsigned standard) {
-    if (name != 0) return static_cast<double>(in.axis_of[name - 'A']);
+    if (name != 0) return static_cast<double>(in.axis_named(name));
     return standard < in.axis_count ? static_cast<double>(standard) : -1.0;
   };
   double values[Notes::kTurnSize];
@@ -98,17 +84,13 @@ void take_work_rotation(Interpreter& in, bool at_head) {
   refresh_work_rotation(in);
 }
 
-void turn_work(const Interpreter& in, AxisVec& p) { apply(in, Notes::kTurnCommanded, 1, p); }
-void unturn_work(const Interpreter& in, AxisVec& p) { apply(in, Notes::kTurnReached, -1, p); }
-
-void turn_work_direction(const Interpreter& in, unsigned h, unsigned v, double direction[2]) {
-  const Turn t = turn_of(in, Notes::kTurnCommanded);
-  const uint32_t bits = plane_bits(in, Notes::kTurnCommanded);
-  if (bits == 0 || bits != (1u << h | 1u << v)) return;
-  const double sin = static_cast<unsigned>(t.h) == h ? t.sin : -t.sin;  // (h, v) may be (V, H) of the parameters
-  const double first = direction[0];
-  direction[0] = t.cos * first - sin * direction[1];
-  direction[1] = sin * first + t.cos * direction[1];
+Affine work_rotation(const Interpreter& in, Notes::WorkRotation which) {
+  if (!in.state.work_turned || !turns(in, which)) return Affine{};
+  const PlaneTurn t = turn_of(in, which);
+  if (!known(t)) return Affine{};
+  const auto h = static_cast<unsigned>(t.h), v = static_cast<unsigned>(t.v);
+  const AxisVec& zero = in.zero();
+  return Affine::rotation(h, v, Affine::Angle::degrees(t.deg), t.center[0] - zero[h], t.center[1] - zero[v]);
 }
 
 uint32_t moved_by_work_rotation(const Interpreter& in, uint32_t axes) {
@@ -133,18 +115,18 @@ bool tilts_plane(const Interpreter& in, unsigned h, unsigned v) {
 
 Did check_work_rotation(Interpreter& in) {
   for (const Which which : {Notes::kTurnCommanded, Notes::kTurnReached}) {
-    const Turn t = turn_of(in, which);
+    const PlaneTurn t = turn_of(in, which);
     if (!turns(in, which) || known(t)) continue;
     return in.raise(Condition::illegal_axis, in.settings.work_turn_axis[t.h < 0 ? 0 : 1]);
   }
-  const int16_t motion = in.state.modal.code[kGroupMotion];
-  const bool straight = motion == 0 || motion == 10 || motion == 330 || in.words.one_shot != nullptr ||
+  const Function motion = in.state.modal.of(Mode::motion);
+  const bool straight = is_line(motion) || motion == Function::thread || in.words.one_shot != nullptr ||
                         in.state.cycle.kind != CycleKind::none;
   if (!in.state.work_turn_pending || straight) return Did::done;
   // The start of the curve would not be turned, its end would.
   const AxisVec start = in.position(), turned = from_program(in, to_program(in, start));
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (std::fabs(start[i] - turned[i]) > kSame) return in.raise(Condition::arc_deviation, 'G');
+    if (std::fabs(start[i] - turned[i]) > kSame) return in.raise(Condition::arc_deviation, Role::code);
   return Did::done;
 }
 

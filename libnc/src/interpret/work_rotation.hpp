@@ -23,11 +23,8 @@ void take_work_rotation(Interpreter& in, bool at_head);
 /// What the state says of it is made again from the notes, which outlive a state that is put back.
 void refresh_work_rotation(Interpreter& in);
 
-/// A point in workpiece coordinates as the rotation commanded makes it, and back out of the one reached.
-void turn_work(const Interpreter& in, AxisVec& p);
-void unturn_work(const Interpreter& in, AxisVec& p);
-/// The same for a direction on the axes h, v.
-void turn_work_direction(const Interpreter& in, unsigned h, unsigned v, double direction[2]);
+/// The rotation as commanded or as reached, in workpiece coordinates.
+Affine work_rotation(const Interpreter& in, Notes::WorkRotation which);
 
 /// Axes that move when `axes` are programmed.
 uint32_t moved_by_work_rotation(const Interpreter& in, uint32_t axes);

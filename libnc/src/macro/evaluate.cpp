@@ -346,6 +346,10 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
         const unsigned begin = static_cast<unsigned>(p[0] | p[1] << 8), length = p[2];
         p += 3;
         uint32_t number = 0;
+        if (reader.names_need != 0) {
+          *sync = reader.names_need;
+          return Eval::need_sync;
+        }
         if (reader.find_name == nullptr ||
             !reader.find_name(reader.self, block.text.begin() + begin, length, &number)) {
           *fault = Fault{};

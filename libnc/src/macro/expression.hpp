@@ -29,6 +29,8 @@ struct VariableReader {
   /// #1..#33 of the level in force as they are stored (NaN = vacant): most reads are of these. Null: ask `read`.
   const double* locals = nullptr;
   uint32_t local_count = 0;
+  /// What has to be known before a name is looked for (`sync`); 0 = nothing.
+  uint32_t names_need = 0;
 };
 
 struct EvalOptions {

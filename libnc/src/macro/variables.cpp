@@ -24,13 +24,6 @@ void fill_vacant(double* slots, size_t count) {
   for (size_t i = 0; i < count; ++i) slots[i] = kVacant;
 }
 
-// Journal keys of local variables: beside the numbers of common variables, below kForeignKey.
-constexpr uint32_t kLocalKey = 0x20000000;
-constexpr uint32_t kNameKey = 0x10000000;
-constexpr uint32_t local_key(unsigned level, unsigned number) {
-  return kLocalKey | level << 8 | number;
-}
-
 constexpr uint32_t kFirstNamed = 500;
 
 unsigned digit_of(char c) {
@@ -113,7 +106,10 @@ void Journal::create(unsigned capacity, Arena& arena) {
 }
 
 void Journal::note(BlockSeq seq, uint32_t key, Value old) {
-  if (head_ - tail_ > mask_) lost_ = ring_[tail_++ & mask_].seq;
+  if (head_ - tail_ > mask_) {
+    if (before_loss_ != nullptr && published_ == tail_) before_loss_(loser_, ring_[tail_ & mask_].seq);
+    lost_ = ring_[tail_++ & mask_].seq;
+  }
   ring_[head_++ & mask_] = Entry{seq, old.number, key, old.vacant};
 }
 
@@ -131,7 +127,28 @@ bool Journal::keeps(BlockSeq seq, unsigned more) const {
 
 void Journal::clear() {
   head_ = tail_ = 0;
+  published_ = published_before_ = 0;
   lost_ = 0;
+}
+
+bool Journal::precede(uint32_t key, Value value) {
+  bool written_later = false;
+  for (uint64_t i = tail_; i != head_ && !written_later; ++i) {
+    Entry& e = ring_[i & mask_];
+    if (e.key != key) continue;
+    e.number = value.number;
+    e.vacant = value.vacant;
+    written_later = i >= published_;
+  }
+  return !written_later;
+}
+
+Value Journal::published(uint32_t key, Value present) const {
+  for (uint64_t i = published_ > tail_ ? published_ : tail_; i != head_; ++i) {
+    const Entry& e = ring_[i & mask_];
+    if (e.key == key) return Value{e.number, e.vacant};
+  }
+  return present;
 }
 
 void Journal::replace(uint32_t key, Value value) {
@@ -159,37 +176,8 @@ bool Variables::get(uint32_t number, unsigned level, Value* value) const {
     return true;
   }
   if (!common_->exists(number)) return false;
-  *value = bank(number)->get(number);
+  *value = common_->get(number);
   return true;
-}
-
-void Variables::create_own(const CommonRanges& ranges, Arena& arena) {
-  own_ = arena.make<CommonVariables>();
-  CommonVariables measured;
-  CommonRanges own = ranges;
-  for (unsigned i = CommonRanges::kExtended; i < CommonRanges::kCount; ++i) own.first[i] = own.last[i] = 0;  // shared by all
-  (own_ != nullptr ? *own_ : measured).create(own, arena);
-}
-
-bool Variables::next(uint32_t from, uint32_t* number, double* value) const {
-  if (own_ == nullptr) return common_->next(from, number, value);
-  for (uint32_t n = from;; n = *number + 1) {
-    uint32_t other = 0;
-    double there = 0;
-    const bool one = common_->next(n, number, value);
-    if (own_->next(n, &other, &there) && (!one || other < *number)) {
-      *number = other;
-      *value = there;
-      if (bank(other) == own_) return true;
-    } else if (!one) {
-      return false;
-    } else if (bank(*number) == common_) {
-      return true;
-    } else if (own_->exists(*number) && !own_->get(*number).vacant) {
-      *value = own_->get(*number).number;
-      return true;
-    }
-  }
 }
 
 bool Variables::set(uint32_t number, unsigned level, Value value, BlockSeq seq) {
@@ -200,9 +188,8 @@ bool Variables::set(uint32_t number, unsigned level, Value value, BlockSeq seq) 
     return true;
   }
   if (!common_->exists(number)) return false;
-  CommonVariables* const at = bank(number);
-  journal_.note(seq, number, at->get(number));
-  at->set(number, value);
+  journal_.note(seq, number, common_->get(number));
+  common_->set(number, value);
   return true;
 }
 
@@ -213,7 +200,7 @@ bool Variables::set_from_outside(uint32_t number, unsigned level, Value value) {
     return true;
   }
   if (!common_->exists(number)) return false;
-  bank(number)->set(number, value);
+  common_->set(number, value);
   journal_.replace(number, value);
   return true;
 }
@@ -283,17 +270,28 @@ void Variables::note(BlockSeq seq, uint32_t key, double old) {
   journal_.note(seq, key, Value::of(old));
 }
 
+Value Variables::value_of(uint32_t key) const {
+  if (key >= kLocalKey) return from_storage(local_[key >> 8 & 0xff][key & 0xff]);
+  return key >= kNameKey ? Value::of(common_->name(key & 0xff)) : common_->get(key);
+}
+
+void Variables::put(uint32_t key, Value value) {
+  if (key >= kLocalKey) {
+    local_[key >> 8 & 0xff][key & 0xff] = to_storage(value);
+  } else if (key >= kNameKey) {
+    common_->set_name(key & 0xff, value.number);
+  } else {
+    common_->set(key, value);
+  }
+}
+
 bool Variables::rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uint32_t key, double old)) {
   if (seq + 1 < journal_.oldest()) return false;
   journal_.rewind(seq, [&](uint32_t key, Value old) {
-    if (key >= kForeignKey) {
-      if (foreign != nullptr) foreign(self, key, old.number);
-    } else if ((key & kNameKey) != 0) {
-      common_->set_name(key & 0xff, old.number);
-    } else if ((key & kLocalKey) != 0) {
-      local_[key >> 8 & 0xff][key & 0xff] = to_storage(old);
-    } else {
-      bank(key)->set(key, old);
+    if (key < kForeignKey) {
+      put(key, old);
+    } else if (foreign != nullptr) {
+      foreign(self, key, old.number);
     }
   });
   return true;
@@ -301,20 +299,9 @@ bool Variables::rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uin
 
 void Variables::swap(BlockSeq seq, bool back, void* self, double (*foreign)(void* self, uint32_t key, double value)) {
   journal_.swap(seq, back, [&](uint32_t key, Value value) {
-    Value old;
-    if (key >= kForeignKey) {
-      old = Value::of(foreign(self, key, value.number));
-    } else if ((key & kNameKey) != 0) {
-      old = Value::of(common_->name(key & 0xff));
-      common_->set_name(key & 0xff, value.number);
-    } else if ((key & kLocalKey) != 0) {
-      double& slot = local_[key >> 8 & 0xff][key & 0xff];
-      old = from_storage(slot);
-      slot = to_storage(value);
-    } else {
-      old = bank(key)->get(key);
-      bank(key)->set(key, value);
-    }
+    if (key >= kForeignKey) return Value::of(foreign(self, key, value.number));
+    const Value old = value_of(key);
+    put(key, value);
     return old;
   });
 }

@@ -22,12 +22,19 @@ struct CommonRanges {
   uint32_t size(unsigned i) const { return first[i] == 0 || last[i] < first[i] ? 0 : last[i] - first[i] + 1; }
 };
 
-/// Common variables of a control, shared by its part systems, with storage for those that are configured.
+/// Common variables as one part system sees them, with storage for those that are configured: its own, and its copy of those that part systems
+/// share (interpret/shared_tables.hpp).
 class CommonVariables {
  public:
   void create(const CommonRanges& ranges, Arena& arena);
   const CommonRanges& ranges() const { return ranges_; }
   bool exists(uint32_t number) const;
+  /// It is one of #100 up or #500 up, which the parameters of 13.4 divide among part systems.
+  bool divided(uint32_t number) const {
+    for (unsigned i = 0; i < CommonRanges::kExtended; ++i)
+      if (number - ranges_.first[i] < size_[i]) return true;
+    return false;
+  }
   Value get(uint32_t number) const;  ///< number must exist
   void set(uint32_t number, Value value);
   /// Names of #500..#519, as numbers: base 37, first letter highest; 0 = none.
@@ -64,6 +71,25 @@ class Journal {
   /// Someone outside the program has changed `key`: whatever is taken back from now on, it keeps this value.
   void replace(uint32_t key, Value value);
 
+  // ---- of several part systems
+  /// Blocks up to `executed` have been executed: give(key, value) is called for each key of theirs that is shared(key), with the value that they
+  /// have left, nullptr where it is the present one. Once for each entry.
+  template <class Shared, class Give>
+  void publish(BlockSeq executed, Shared&& shared, Give&& give);
+  /// Another part system has executed a write to `key` before the blocks of this journal that are not published: no rewind brings an older value
+  /// back. False: one of those blocks writes `key`, and what it has written stays.
+  bool precede(uint32_t key, Value value);
+  /// The value that `key` has behind the published blocks; `present` is the one that it has now.
+  Value published(uint32_t key, Value present) const;
+  /// What the last rewind() has taken back although it was published: take(key).
+  template <class Take>
+  void each_published_taken_back(Take&& take) const;
+  /// Called with the block of an entry that is not published yet and is going to be lost.
+  void before_loss(void* self, void (*call)(void* self, BlockSeq seq)) {
+    loser_ = self;
+    before_loss_ = call;
+  }
+
  private:
   struct Entry {
     BlockSeq seq;
@@ -75,20 +101,38 @@ class Journal {
   uint32_t mask_ = 0;
   uint64_t head_ = 0, tail_ = 0;
   BlockSeq lost_ = 0;
+  uint64_t published_ = 0;        ///< entries below this number are
+  uint64_t published_before_ = 0; ///< the same before the last rewind
+  void* loser_ = nullptr;
+  void (*before_loss_)(void* self, BlockSeq seq) = nullptr;
 };
 
 /// Variables of one part system.
 class Variables {
  public:
   void create(CommonVariables* common, unsigned journal_capacity, Arena& arena);
-  /// Of several part systems: this one has common variables of its own, beside those up to `last_100` and `last_500` (M700 13.4, #1303,
-  /// #1304), which all share, as they do those of later models and of further ranges.
-  void create_own(const CommonRanges& ranges, Arena& arena);
+  /// Of several part systems all share the common variables up to `last_100` and `last_500` (M700 13.4, #1303, #1304), as they do those of later
+  /// models and of further ranges, and the names.
   void share(uint32_t last_100, uint32_t last_500) {
     shared_100_ = last_100;
     shared_500_ = last_500;
   }
-  bool next(uint32_t from, uint32_t* number, double* value) const;
+  uint32_t shared_100() const { return shared_100_; }
+  uint32_t shared_500() const { return shared_500_; }
+  /// The variable is one that part systems share, or the key is that of such a variable or of a name.
+  bool shares(uint32_t key) const {
+    if (key >= kNameKey) return key < kLocalKey;
+    if (!common_->exists(key)) return false;
+    return !common_->divided(key) || key <= (key < 500 ? shared_100_ : shared_500_);
+  }
+  /// What a key stands for now; a foreign one is the caller's.
+  Value value_of(uint32_t key) const;
+  Journal& journal() { return journal_; }
+  /// Journal::precede() for a key that is not foreign, with the value in place where it counts from now on.
+  void take_published(uint32_t key, Value value) {
+    if (journal_.precede(key, value)) put(key, value);
+  }
+  bool next(uint32_t from, uint32_t* number, double* value) const { return common_->next(from, number, value); }
 
   /// Local or common variable; false when the number is neither (system variables are
   /// interpret/system_variables.hpp).
@@ -131,13 +175,13 @@ class Variables {
   void swap(BlockSeq seq, bool back, void* self, double (*foreign)(void* self, uint32_t key, double value));
 
  private:
-  CommonVariables* bank(uint32_t number) const {
-    if (own_ == nullptr || !own_->exists(number)) return common_;
-    return number <= (number < 500 ? shared_100_ : shared_500_) ? common_ : own_;
-  }
+  // Journal keys of names and of local variables: beside the numbers of common variables, below kForeignKey.
+  static constexpr uint32_t kNameKey = 0x10000000;
+  static constexpr uint32_t kLocalKey = 0x20000000;
+  static constexpr uint32_t local_key(unsigned level, unsigned number) { return kLocalKey | level << 8 | number; }
+  void put(uint32_t key, Value value);
 
   CommonVariables* common_ = nullptr;
-  CommonVariables* own_ = nullptr;  ///< nullptr: there is one part system
   uint32_t shared_100_ = 0, shared_500_ = 0;
   Journal journal_;
   double (*local_)[kLocals] = nullptr;
@@ -145,11 +189,31 @@ class Variables {
 
 template <class Undo>
 void Journal::rewind(BlockSeq seq, Undo&& undo) {
+  published_before_ = published_;
   while (head_ != tail_ && ring_[(head_ - 1) & mask_].seq > seq) {
     --head_;
     const Entry& e = ring_[head_ & mask_];
     undo(e.key, Value{e.number, e.vacant});
   }
+  if (published_ > head_) published_ = head_;
+}
+
+template <class Shared, class Give>
+void Journal::publish(BlockSeq executed, Shared&& shared, Give&& give) {
+  while (published_ != head_ && ring_[published_ & mask_].seq <= executed) {
+    const uint32_t key = ring_[published_++ & mask_].key;
+    if (!shared(key)) continue;
+    uint64_t newer = published_;
+    while (newer != head_ && ring_[newer & mask_].key != key) ++newer;
+    const Entry& e = ring_[newer & mask_];
+    const Value then{e.number, e.vacant};
+    give(key, newer != head_ ? &then : nullptr);
+  }
+}
+
+template <class Take>
+void Journal::each_published_taken_back(Take&& take) const {
+  for (uint64_t i = head_; i < published_before_; ++i) take(ring_[i & mask_].key);
 }
 
 template <class Exchange>

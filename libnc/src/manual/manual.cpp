@@ -117,11 +117,12 @@ double Manual::move(unsigned i, bool held, double position) {
 }
 
 void Manual::idle(const nc_manual* wishes) {
+  moved_ = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) axis_[i].kind = wishes[i].kind;
 }
 
 void Manual::cycle(const nc_manual* wishes, const Rules& rules, AxisVec* position) {
-  active_ = 0;
+  active_ = moved_ = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     if ((rules.dropped >> i & 1) != 0) {
       axis_[i] = {.kind = wishes[i].kind};
@@ -134,7 +135,9 @@ void Manual::cycle(const nc_manual* wishes, const Rules& rules, AxisVec* positio
       wish(i, wishes[i], rules, (*position)[i]);
     }
     if (axis_[i].velocity == 0 && !axis_[i].going) continue;
-    (*position)[i] = move(i, (rules.held >> i & 1) != 0, (*position)[i]);
+    const double before = (*position)[i];
+    (*position)[i] = move(i, (rules.held >> i & 1) != 0, before);
+    if ((*position)[i] != before) moved_ |= 1u << i;
     if (axis_[i].velocity != 0 || axis_[i].going) active_ |= 1u << i;
   }
 }

@@ -34,6 +34,8 @@ class Manual {
   void idle(const nc_manual* wish) NC_RT;
   /// Some axis moves or has a target before it.
   bool active() const NC_RT { return active_ != 0; }
+  /// That, or some axis has come to rest in the cycle just done: a detent of a handle begins and ends in one.
+  bool moving() const NC_RT { return (active_ | moved_) != 0; }
   uint32_t active_axes() const NC_RT { return active_; }
 
  private:
@@ -53,6 +55,7 @@ class Manual {
   ManualConfig config_;
   Axis axis_[kMaxAxes];
   uint32_t active_ = 0;
+  uint32_t moved_ = 0;  ///< bit per axis: its position was changed in the cycle just done
 };
 
 }  // namespace nc

@@ -12,10 +12,11 @@ constexpr Beside kBoth = Beside::both, kIgnored = Beside::ignored, kModal = Besi
 // M700 appendix 2, one row for each commanded code in its order. The cells that are alarms have rules of their own where the state decides:
 // arc with G41 G42 P151 and with G43 G44 P70, G31 under compensation P608, cycles under compensation P155, planes P112.
 constexpr CompanyRow kCompany[] = {
-    // function            01      07        08        09        12      14      19
+    // function            motion  radius    length    cycle     work    macro   mirror
     {F::dwell,             kModal, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
     {F::data_input,        kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
     {F::data_input_end,    kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
+    {F::parameter_input_end, kModal, kIgnored, kIgnored, kIgnored, kBoth, kLoses, kIgnored},
     {F::reference_check,   kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
     {F::reference_return,  kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
     {F::start_return,      kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
@@ -35,38 +36,55 @@ constexpr CompanyRow kCompany[] = {
     {F::coordinate_set,    kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
 };
 /// Any other code that takes the axis words of the block: mirror cannot have them, too.
-constexpr CompanyRow kAlone{F::missing, kBoth, kBoth, kBoth, kBoth, kBoth, kBoth, kIgnored};
+constexpr CompanyRow kAlone{F::count_, kBoth, kBoth, kBoth, kBoth, kBoth, kBoth, kIgnored};
 
 constexpr BarredRow kBarred[] = {
-    {kInPolarCommand, 51, 51, Condition::illegal_g, "6.12"},
-    {kInFigure, 450, 450, Condition::offset_in_figure, "App.1 P141"},
-    {kInFigure, 460, 460, Condition::offset_in_figure, "App.1 P141"},
-    {kInFigure, 470, 470, Condition::offset_in_figure, "App.1 P141"},
-    {kInFigure, 480, 480, Condition::offset_in_figure, "App.1 P141"},
-    {kInFigure, 680, 690, Condition::rotation_in_figure, "App.1 P252"},
-    {kInSpaceArc, 50, 51, Condition::illegal_g, "6.14"},
-    {kInSpaceArc, 120, 120, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 130, 130, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 160, 160, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 410, 411, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 420, 421, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 430, 430, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 440, 440, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 510, 511, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 660, 661, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 670, 670, Condition::cancel_without_call, "6.14"},
-    {kInSpaceArc, 680, 680, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 730, 740, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 760, 760, Condition::space_arc_mode, "6.14"},
-    {kInSpaceArc, 810, 890, Condition::space_arc_mode, "6.14"},
-    {kInExponential, 410, 410, Condition::exponential_mode, "6.11"},
-    {kInExponential, 420, 420, Condition::exponential_mode, "6.11"},
-    {kInExponential, 431, 431, Condition::exponential_mode, "6.11"},
-    {kInExponential, 510, 511, Condition::exponential_mode, "6.11"},
-    {kInExponential, 680, 680, Condition::exponential_mode, "6.11"},
+    {kInPolarCommand, F::high_speed_accuracy, Condition::illegal_g, "6.12"},
+    {kInFigure, F::offset_longer, Condition::offset_in_figure, "App.1 P141"},
+    {kInFigure, F::offset_shorter, Condition::offset_in_figure, "App.1 P141"},
+    {kInFigure, F::offset_twice_longer, Condition::offset_in_figure, "App.1 P141"},
+    {kInFigure, F::offset_twice_shorter, Condition::offset_in_figure, "App.1 P141"},
+    {kInFigure, F::rotation_on, Condition::rotation_in_figure, "App.1 P252"},
+    {kInFigure, F::rotation_off, Condition::rotation_in_figure, "App.1 P252"},
+    {kInSpaceArc, F::high_speed, Condition::illegal_g, "6.14"},
+    {kInSpaceArc, F::high_speed_accuracy, Condition::illegal_g, "6.14"},
+    {kInSpaceArc, F::circle_cut_cw, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::circle_cut_ccw, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::polar_command_on, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::comp_left, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::normal_line_left, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::comp_right, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::normal_line_right, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::length_plus, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::length_minus, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::scaling_on, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::mirror_on, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::macro_modal, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::macro_every_block, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::macro_modal_off, Condition::cancel_without_call, "6.14"},
+    {kInSpaceArc, F::rotation_on, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_step, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_reverse_tap, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_fine_bore, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_drill, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_spot, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_peck, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_tap, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_bore_feed, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_bore_stop, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_back_bore, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_bore_stop_dwell, Condition::space_arc_mode, "6.14"},
+    {kInSpaceArc, F::cycle_bore_dwell, Condition::space_arc_mode, "6.14"},
+    {kInExponential, F::comp_left, Condition::exponential_mode, "6.11"},
+    {kInExponential, F::comp_right, Condition::exponential_mode, "6.11"},
+    {kInExponential, F::length_along_tool, Condition::exponential_mode, "6.11"},
+    {kInExponential, F::scaling_on, Condition::exponential_mode, "6.11"},
+    {kInExponential, F::mirror_on, Condition::exponential_mode, "6.11"},
+    {kInExponential, F::rotation_on, Condition::exponential_mode, "6.11"},
     // Fixed cycles and scaling are errors there, and so are the codes that end them. Those that begin them have their own checks.
-    {kInDiameterOffset, 500, 510, Condition::not_in_compensation, "DGSHAPE G41"},
-    {kInDiameterOffset, 800, 800, Condition::cycle_in_compensation, "DGSHAPE G41"},
+    {kInDiameterOffset, F::scaling_off, Condition::not_in_compensation, "DGSHAPE G41"},
+    {kInDiameterOffset, F::scaling_on, Condition::not_in_compensation, "DGSHAPE G41"},
+    {kInDiameterOffset, F::cycle_off, Condition::cycle_in_compensation, "DGSHAPE G41"},
 };
 
 }  // namespace
@@ -77,9 +95,9 @@ const CompanyRow& company_of(Function function) {
   return kAlone;
 }
 
-Condition barred(unsigned modes, int16_t code) {
+Condition barred(unsigned modes, Function function) {
   for (const BarredRow& row : kBarred)
-    if ((row.mode & modes) != 0 && code >= row.first && code <= row.last) return row.condition;
+    if ((row.mode & modes) != 0 && function == row.function) return row.condition;
   return Condition::none;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which G codes may share a block, and what becomes of each (M700 appendix 2); and which codes a mode in force does not bear.
+// Which functions may share a block, and what becomes of each (M700 appendix 2); and which ones a mode in force does not bear.
 // Tables: a rule that is not here is not in the appendix.
 #pragma once
 
@@ -15,17 +15,17 @@ enum class Beside : uint8_t {
   loses      ///< the other one acts, and this code is as if it were not there
 };
 
-/// A row of appendix 2: `function` and the groups beside it. Groups that are not here act beside every code; of one group the last code
+/// A row of appendix 2: `function` and the modes beside it. Modes that are not here act beside every code; of one mode the last code
 /// counts (3.7).
 struct CompanyRow {
   Function function;
-  Beside motion;   ///< 01
-  Beside radius;   ///< 07
-  Beside length;   ///< 08
-  Beside cycle;    ///< 09
-  Beside work;     ///< 12
-  Beside macro;    ///< 14: G66 G66.1 G67
-  Beside mirror;   ///< 19
+  Beside motion;
+  Beside radius;
+  Beside length;
+  Beside cycle;
+  Beside work;
+  Beside macro;    ///< modal calls and their end
+  Beside mirror;
 };
 
 /// The row of a function; one where everything but mirror is `both` when the appendix has none.
@@ -40,12 +40,12 @@ inline constexpr uint8_t kInExponential = 16;  ///< G02.3, G03.3
 
 struct BarredRow {
   uint8_t mode;          ///< of those above
-  int16_t first, last;   ///< codes, times 10
+  Function function;
   Condition condition;
   const char* section;
 };
 
-/// What a code meets in `modes`, Condition::none when it may stand there.
-Condition barred(unsigned modes, int16_t code);
+/// What a function meets in `modes`, Condition::none when it may stand there.
+Condition barred(unsigned modes, Function function);
 
 }  // namespace nc

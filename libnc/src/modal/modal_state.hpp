@@ -1,38 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
-// The modal state: one active G code per group and the words that stay in force.
+// The modal state: what is in force of each mode, and the words that stay in force.
 #pragma once
 
 #include <cstring>
 
+#include "dialect/dialect.hpp"
+#include "modal/modes.hpp"
 #include "nc/item.h"
 
 namespace nc {
 
-/// Modal groups by the M700's numbers (3.7); other families use the same number for the same thing.
-enum Group : uint8_t {
-  kGroupOneShot = 0, kGroupMotion = 1, kGroupPlane = 2, kGroupDistance = 3, kGroupStrokeCheck = 4, kGroupFeed = 5, kGroupUnit = 6,
-  kGroupCompensation = 7, kGroupLength = 8, kGroupCycle = 9, kGroupReturn = 10, kGroupScaling = 11, kGroupWork = 12,
-  kGroupCutting = 13, kGroupMacro = 14, kGroupNormalLine = 15, kGroupRotation = 16, kGroupSurfaceSpeed = 17, kGroupPolarCommand = 18,
-  kGroupMirror = 19, kGroupInterpolationMode = 21
-};
-
-/// Trivially copyable and comparable: snapshots of it are interned.
+/// Trivially copyable and comparable: snapshots of it are interned. No padding: states are compared as bytes, once in every block.
 struct ModalState {
-  int16_t code[NC_GROUPS] = {};   ///< active code of each group, times 10; -1 = the dialect has no such group
-  uint16_t extended = 0;          ///< n of G54.1 Pn while it is active
-  uint16_t feed_digit = 0;        ///< n + 1: F is the one digit n (M700 7.3). No padding: states are compared as bytes, once in every block
-  double feed = 0;                ///< F as programmed (its unit is that of the block that moves: M700 5.2 note 1); 0 = none yet
+  static constexpr unsigned kRoom = 22;   ///< not less than kModes; without padding behind it
+  static_assert(kModes <= kRoom);
+
+  Function in_force[kRoom] = {};   ///< by Mode; the rest of the room is empty
+  uint8_t number[kRoom] = {};      ///< which of the family's codes for it (FunctionRow::number)
+  uint16_t extended = 0;           ///< n of G54.1 Pn while it is active
+  uint16_t feed_digit = 0;         ///< n + 1: F is the one digit n (M700 7.3)
+  double feed = 0;                 ///< F as programmed (its unit is that of the block that moves: M700 5.2 note 1); 0 = none yet
   double spindle = 0;
   uint32_t tool = 0, d = 0, h = 0, m = 0, n = 0, o = 0, b = 0;
-  uint32_t h_given = 0;           ///< 1: an H has been commanded, be it H0
+  uint32_t h_given = 0;            ///< 1: an H has been commanded, be it H0
+
+  Function of(Mode mode) const { return in_force[static_cast<unsigned>(mode)]; }
+  /// A modal function is the one in force.
+  bool is(Function function) const { return of(mode_of(function)) == function; }
+  /// A modal function comes into force.
+  void set(Function function, uint8_t which = 0) {
+    const auto mode = static_cast<unsigned>(mode_of(function));
+    in_force[mode] = function;
+    number[mode] = which;
+  }
+  void set(const FunctionRow& row) { set(row.function, row.number); }
+  /// The code of a modal function is the one in force: set(row) would change nothing.
+  bool holds(const FunctionRow& row) const { return is(row.function) && number[static_cast<unsigned>(mode_of(row.function))] == row.number; }
 
   bool operator==(const ModalState& other) const { return std::memcmp(this, &other, sizeof(*this)) == 0; }
 };
-static_assert(sizeof(ModalState) == NC_GROUPS * sizeof(int16_t) + 2 * sizeof(uint16_t) + 2 * sizeof(double) + 8 * sizeof(uint32_t));
+static_assert(sizeof(ModalState) == 2 * ModalState::kRoom + 2 * sizeof(uint16_t) + 2 * sizeof(double) + 8 * sizeof(uint32_t));
 
-inline nc_modal to_public(const ModalState& s) {
+/// What is in force at power on.
+inline ModalState initial_modal(const Dialect& dialect) {
+  ModalState state;
+  for (unsigned i = 0; i < kModes; ++i) state.set(resting(static_cast<Mode>(i)));
+  for (const Function function : dialect.initial) state.set(function);
+  return state;
+}
+
+/// The row of the code in force of a mode, nullptr = the family has no codes for it.
+inline const FunctionRow* row_in_force(const Dialect& dialect, const ModalState& state, Mode mode) {
+  for (const FunctionRow& row : dialect.functions)
+    if (mode_of(row.function) == mode && state.holds(row)) return &row;
+  return nullptr;
+}
+
+/// The code in force of a group as the family numbers it, times 10; -1 = it has no such group.
+inline int16_t code_in_force(const Dialect& dialect, const ModalState& state, unsigned group) {
+  for (const FunctionRow& row : dialect.functions)
+    if (row.group == group && state.holds(row)) return row.code;
+  return -1;
+}
+
+inline nc_modal to_public(const Dialect& dialect, const ModalState& s) {
   nc_modal m{};
-  for (unsigned i = 0; i < NC_GROUPS; ++i) m.code[i] = s.code[i];
+  for (int16_t& code : m.code) code = -1;
+  for (const FunctionRow& row : dialect.functions)
+    if (row.group != 0 && s.holds(row)) m.code[row.group] = row.code;
   m.feed = s.feed;
   m.spindle = s.spindle;
   m.tool = s.tool;

@@ -3,8 +3,8 @@
 // smoothing".
 #include "motion/limits.hpp"
 
-#include "motion/m700_filters.hpp"
 #include "path/shape.hpp"
+#include "shape/filter_parameters.hpp"
 
 #include <algorithm>
 #include <cmath>

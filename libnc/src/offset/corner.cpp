@@ -40,7 +40,7 @@ ContourJoint two_perpendiculars(const Leg& before, double offset_before, const L
 // is none, both perpendiculars. An intersection that lies far off, or cuts more off a block than there is,
 // counts as none.
 ContourJoint joint_of_side_change(const Leg& before, double offset_before, double length_before, const Leg& behind,
-                           double offset_behind, double length_behind) {
+                                  double offset_behind, double length_behind) {
   Vec2 w;
   const bool meets = offset_exists(before, offset_before) && offset_exists(behind, offset_behind) &&
                      intersection(before, offset_before, behind, offset_behind, &w) &&

@@ -60,8 +60,9 @@ bool OffsetStage::can_push() const {
   return count_ < kHeld;
 }
 
-void OffsetStage::push(const Item& item) {
-  if (failed_ || !can_push()) return;
+bool OffsetStage::push(const Item& item, NoRule) {
+  if (!can_push()) return false;
+  if (failed_) return true;
   Held& held = new_slot(item);
   if (item.kind == ItemKind::move) {
     intake_move(&held);
@@ -70,13 +71,14 @@ void OffsetStage::push(const Item& item) {
     if (!failed_) ++count_;
   }
   if (!failed_ && item.block_end) count_block_end();
-  if (failed_) return;
+  if (failed_) return true;
   held.mode = mode_;
   held.idle_blocks = idle_blocks_;
   settle();
   // No room to wait any longer. Counted without what only waits to be fetched: the caller's pace never
   // changes the geometry.
   if (next_index() - released_ >= kLookAheadItems) close();
+  return true;
 }
 
 OffsetStage::Held& OffsetStage::new_slot(const Item& item) {
@@ -331,7 +333,7 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
 }
 
 ContourJoint OffsetStage::find_joint(const Section& before, const Compensation& comp_before, const Section& behind,
-                              const Compensation& comp_behind, bool* found) const {
+                                     const Compensation& comp_behind, bool* found) const {
   const bool cancels = comp_behind.side == 0;
   const double offset_behind = cancels ? before.offset : offset_on_side(comp_before, comp_behind);
   if (before.start) return joint_at_start(before.end, behind.begin, offset_behind, comp_before.type_b);

@@ -45,11 +45,20 @@ struct OffsetResume {
   double direction[2] = {0, 0};  ///< tangent of the last block at its end, unit
 };
 
+inline bool in_force(const OffsetResume& resume) { return resume.active; }
+
 class OffsetStage {
  public:
+  /// Room for items; a power of two, so that the numbers of items may wrap.
+  static constexpr unsigned kHeld = 32;
+  using Rule = NoRule;
+  using Resume = OffsetResume;
+  /// A move that is compensated.
+  bool takes(const Item& item, NoRule, bool) const { return item.move.comp.side != 0; }
   /// Room for one more push (a push may make several items ready).
   bool can_push() const;
-  void push(const Item& item);
+  /// False: no room, pop() first.
+  bool push(const Item& item, NoRule = {});
   /// Next finished item, false when the stage has none or must see more first.
   bool pop(Item& out);
   /// Forget everything held; compensation off.
@@ -57,12 +66,12 @@ class OffsetStage {
   /// State right behind the mark that pop() gave last.
   OffsetResume resume_point() const;
   void restore(const OffsetResume& resume);
+  /// Vectors, not points, are carried on.
+  void displaced() {}
   /// True when nothing is held and compensation is off: items may bypass the stage.
   bool idle() const { return count_ == 0 && mode_ == Mode::off && !failed_ && vector_ == Vec2{}; }
 
  private:
-  /// Room for items; a power of two, so that the numbers of items may wrap.
-  static constexpr unsigned kHeld = 32;
   static constexpr unsigned kLookAheadItems = 24;  ///< items held back while looking ahead over five blocks
   static constexpr unsigned kChain = 4;  ///< moving blocks that the interference check wants to see at once
   static constexpr unsigned kLookAheadBlocks = 5;
@@ -97,7 +106,7 @@ class OffsetStage {
   void intake_section(Held* held, const Leg& begin, const Leg& end);
   void join(const Section& behind, Held* held_behind);
   ContourJoint find_joint(const Section& before, const Compensation& comp_before, const Section& behind,
-                   const Compensation& comp_behind, bool* found) const;
+                          const Compensation& comp_behind, bool* found) const;
   bool check_joints(unsigned last_call);
   void count_block_end();
   void close();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Evaluation of shapes: programmed coordinates by the length, then the map, then signs and offsets.
+// Evaluation of shapes: programmed coordinates by the length, then the map, then what leads to the machine.
 #include "path/shape.hpp"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ void map_position(const CurveShape& shape, double u, AxisVec* p) {
   if (map.kind == AxisMap::Kind::polar) {
     const double deg = shape.begin_deg + turned(shape, *p, u) * kDegrees;
     (*p)[map.linear] = map.side * std::hypot((*p)[map.linear], (*p)[map.rotary]);
-    (*p)[map.rotary] = (deg - shape.offset[map.rotary]) * shape.sign[map.rotary];
+    (*p)[map.rotary] = (deg - shape.to_machine.offset()[map.rotary]) / shape.to_machine.coefficient(map.rotary, map.rotary);
   } else if (map.kind == AxisMap::Kind::cylinder) {
     (*p)[map.rotary] /= map.scale;
   }
@@ -109,8 +109,8 @@ void map_derivatives(const CurveShape& shape, const AxisVec& at, CurvePoint* q) 
   const AxisMap& map = shape.what.map;
   if (map.kind == AxisMap::Kind::polar) {
     map_polar_derivatives(map, at, q);
-    // The angle is that of the machine: its sign is not applied again.
-    for (AxisVec* d : {&q->d1, &q->d2, &q->d3}) (*d)[map.rotary] *= shape.sign[map.rotary];
+    // The angle is that of the machine: its sense is not applied again.
+    for (AxisVec* d : {&q->d1, &q->d2, &q->d3}) (*d)[map.rotary] /= shape.to_machine.coefficient(map.rotary, map.rotary);
   } else if (map.kind == AxisMap::Kind::cylinder) {
     for (AxisVec* d : {&q->d1, &q->d2, &q->d3}) (*d)[map.rotary] /= map.scale;
   }
@@ -129,10 +129,9 @@ AxisVec programmed_position(const CurveShape& shape, double s, unsigned axis_cou
 /// Machine position for the programmed point p; frozen axes stay where the curve starts.
 AxisVec axes_at(const CurveShape& shape, const Curve& curve, AxisVec p, double u, unsigned axis_count) {
   map_position(shape, u, &p);
-  AxisVec m;
-  for (unsigned i = 0; i < axis_count; ++i) {
-    m[i] = ((shape.what.map.frozen >> i) & 1) != 0 ? curve.start[i] : shape.sign[i] * p[i] + shape.offset[i];
-  }
+  AxisVec m = shape.to_machine.apply(p);
+  for (unsigned i = 0; shape.what.map.frozen != 0 && i < axis_count; ++i)
+    if (((shape.what.map.frozen >> i) & 1) != 0) m[i] = curve.start[i];
   return m;
 }
 
@@ -209,11 +208,10 @@ double polar_turn(const Curve& base, const AxisMap& map) {
   return angle_on_circle(c, inside, c.radius_end, c.angle_start + c.sweep) - angle_on_circle(c, inside, c.radius_start, c.angle_start);
 }
 
-void make_shaped(const MoveShape& what, const PlainMove& move, const AxisVec& sign, const AxisVec& offset, const AxisVec& machine_start,
-                 unsigned axis_count, uint32_t rotary, CurveShape* shape, Curve* curve) {
+void make_shaped(const MoveShape& what, const PlainMove& move, const Affine& to_machine, const AxisVec& machine_start, unsigned axis_count,
+                 uint32_t rotary, CurveShape* shape, Curve* curve) {
   shape->what = what;
-  shape->sign = sign;
-  shape->offset = offset;
+  shape->to_machine = to_machine;
   const AxisMap& map = what.map;
   // On a mapped plane the rotary axis holds millimetres.
   const uint32_t degrees = map.kind != AxisMap::Kind::none ? rotary & ~(1u << map.rotary) : rotary;
@@ -252,9 +250,8 @@ void make_shaped(const MoveShape& what, const PlainMove& move, const AxisVec& si
   for (unsigned i = 0; i < kMaxAxes; ++i) curve->delta[i] = i < axis_count ? curve->end[i] - curve->start[i] : 0;
 }
 
-AxisVec to_programmed(const AxisMap& map, const AxisVec& sign, const AxisVec& offset, const AxisVec& machine) {
-  AxisVec p;
-  for (unsigned i = 0; i < kMaxAxes; ++i) p[i] = sign[i] * (machine[i] - offset[i]);
+AxisVec to_programmed(const AxisMap& map, const Affine& to_machine, const AxisVec& machine) {
+  AxisVec p = to_machine.apply_inverse(machine);
   if (map.kind == AxisMap::Kind::cylinder) p[map.rotary] *= map.scale;
   if (map.kind == AxisMap::Kind::polar) {
     const double radius = p[map.linear], angle = (machine[map.rotary] - map.angle) / kDegrees;
@@ -280,11 +277,10 @@ CurvePoint shape_evaluate(const Curve& curve, double s, unsigned axis_count) {
   CurvePoint q = shape_programmed(shape, at, axis_count);
   const AxisVec p = q.position;
   map_derivatives(shape, p, &q);
-  for (unsigned i = 0; i < axis_count; ++i) {
-    const double sign = ((shape.what.map.frozen >> i) & 1) != 0 ? 0.0 : shape.sign[i];
-    q.d1[i] *= sign;
-    q.d2[i] *= sign;
-    q.d3[i] *= sign;
+  for (AxisVec* d : {&q.d1, &q.d2, &q.d3}) {
+    if (!shape.to_machine.only_translates()) *d = shape.to_machine.direct(*d);
+    for (unsigned i = 0; shape.what.map.frozen != 0 && i < axis_count; ++i)
+      if (((shape.what.map.frozen >> i) & 1) != 0) (*d)[i] = 0;
   }
   q.position = s <= 0 ? curve.start : s >= curve.length ? curve.end : axes_at(shape, curve, p, arc_parameter(shape, at), axis_count);
   return q;

@@ -8,11 +8,12 @@
 // curve and never off it.
 #pragma once
 
+#include "frame/affine.hpp"
 #include "path/curve.hpp"
 
 namespace nc {
 
-/// From the coordinates that are programmed to those of the axes, before signs and offsets.
+/// From the coordinates that are programmed to those of the axes, in front of the affine map that leads to the machine.
 struct AxisMap {
   enum class Kind : uint8_t {
     none,
@@ -92,7 +93,7 @@ struct ParameterTable {
 struct CurveShape {
   MoveShape what;
   Curve base;            ///< in programmed coordinates; of the kinds beside `plain` start, end, delta and length
-  AxisVec sign, offset;  ///< machine = sign * mapped + offset
+  Affine to_machine;     ///< machine = to_machine(mapped); a rotary axis of the map depends on no other one in it
   double begin_deg = 0;  ///< polar: machine position of the rotary axis at the start
   double circle_arg = 0; ///< polar: what the continuous angle of an arc counts from
   bool circles_pole = false;
@@ -111,11 +112,11 @@ struct PlainMove {
 };
 
 /// Fills `shape` and `curve`. The machine stands at `machine_start`; where it ends is curve->end.
-void make_shaped(const MoveShape& what, const PlainMove& move, const AxisVec& sign, const AxisVec& offset,
-                 const AxisVec& machine_start, unsigned axis_count, uint32_t rotary, CurveShape* shape, Curve* curve);
+void make_shaped(const MoveShape& what, const PlainMove& move, const Affine& to_machine, const AxisVec& machine_start, unsigned axis_count,
+                 uint32_t rotary, CurveShape* shape, Curve* curve);
 
 /// Where the axes stand that are at `machine`, in programmed coordinates. Frozen axes are left as they are.
-AxisVec to_programmed(const AxisMap& map, const AxisVec& sign, const AxisVec& offset, const AxisVec& machine);
+AxisVec to_programmed(const AxisMap& map, const Affine& to_machine, const AxisVec& machine);
 
 AxisVec shape_position(const Curve& curve, double s, unsigned axis_count) NC_RT;
 CurvePoint shape_evaluate(const Curve& curve, double s, unsigned axis_count) NC_RT;

@@ -85,11 +85,11 @@ double slope_of(const double (&a)[4], double u) { return (3 * a[3] * u + 2 * a[2
 void rational_at(const CurveShape& shape, double u, unsigned axis_count, ByParameter* q) {
   const RationalSpan& r = shape.what.span;
   for (unsigned i = 0; i < axis_count; ++i) q->p[i] = shape.base.start[i];
-  const double (&w)[4] = shape.power[3];
+  const double(&w)[4] = shape.power[3];
   const double iw = 1 / value_of(w, u), w1 = slope_of(w, u), w2 = 6 * w[3] * u + 2 * w[2], w3 = 6 * w[3];
   for (unsigned i = 0; i < 3; ++i) {
     if (r.axis[i] >= kMaxAxes) continue;
-    const double (&n)[4] = shape.power[i];
+    const double(&n)[4] = shape.power[i];
     // N = w P, differentiated three times.
     const double p = value_of(n, u) * iw;
     const double d1 = (slope_of(n, u) - w1 * p) * iw;

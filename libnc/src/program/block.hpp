@@ -24,7 +24,24 @@ enum class Semicolon : uint8_t {
   ends_block   ///< the end of the block; the next one may follow in the line
 };
 
+struct LexResult {
+  size_t used = 0;       ///< bytes up to the first character of the next block
+  bool ran_out = false;  ///< the text ended before the block did: at the end of a program that is its end, in
+                         ///< a window read more
+  bool newline = false;  ///< ended by a line end
+};
+
+struct Block;
+struct LexRules;
+
+/// Compiles the block at text[0] of a family's language. `columns`, when given, holds the column of text[i] for i < 256 (the text has been
+/// condensed). Sets everything of `block` but file, begin, next, line, next_line and end_of_text. Never reads beyond text[size - 1].
+/// `semicolon` is what ';' is in this text (LexRules has that of a family).
+using ReadBlock = LexResult (*)(const char* text, size_t size, const LexRules& rules, Semicolon semicolon, const uint8_t* columns, Block& block);
+
 struct LexRules {
+  ReadBlock read = nullptr;        ///< reads a block of the language; never null in a family
+  char program_letter = 0, sequence_letter = 0;  ///< of the numbers at the head of a block
   bool macros = false;             ///< '#', '[ ]', statements (IF, WHILE, ...) exist
   Semicolon semicolon = Semicolon::unknown;      ///< in program texts; a machine may have made it a comment
   Semicolon mdi_semicolon = Semicolon::unknown;  ///< in blocks of MDI
@@ -33,7 +50,7 @@ struct LexRules {
   bool comma_words = false;        ///< ",R" ",C" ",A" ",I" ",J" ",S" ",D"
   bool angle_names = false;        ///< <FILE.NC> behind M98 G65
   bool percent_alone = false;      ///< no word may stand behind '%' in its block (DGSHAPE 2-6); else it is text
-  WordFormat word[26];             ///< by letter - 'A'
+  WordFormat word[26];             ///< by address, 0 = A
 };
 
 enum WordFlag : uint8_t {

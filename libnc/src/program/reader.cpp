@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "dialect/alarms.hpp"
-#include "program/lexer.hpp"
 #include "program/scan.hpp"
 #include "program/store.hpp"
 #include "program/tape.hpp"
@@ -71,7 +70,7 @@ class Condenser {
       state_ = State::comment;
       comment_kept_ = assigned_;
       comment_length_ = 0;
-      if (!comment_kept_) return true;
+      if (!comment_kept_) return comment_dropped_ = true;
       if (comment_at_ != kNone) size_ = comment_at_;  // of several comments in a row the last one counts
       comment_at_ = size_;
       return put_spare(c), true;
@@ -81,6 +80,7 @@ class Condenser {
       return put(c), true;
     }
     if (is_blank(c)) return true;
+    if (comment_dropped_) keep_apart(c);
     significant_ = true;
     comment_at_ = kNone;
     if (c == '=') assigned_ = true;
@@ -88,7 +88,19 @@ class Condenser {
     return put(c), true;
   }
 
-  /// Of what stands behind the ';' that ends the line one character is enough to tell that there is something.
+  /// A comment in the middle of a word or a number is a fault: without it X1(..)0 would be X10. An empty one stays, but where a word begins.
+  void keep_apart(char c) {
+    comment_dropped_ = false;
+    const char last = size_ != 0 ? out_[size_ - 1] : ';';
+    const bool word_begins = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    const bool word_ended = (last >= '0' && last <= '9') || last == '.' || last == ']';
+    if (size_ == 0 || (word_begins && word_ended)) return;
+    put('(');
+    put(')');
+  }
+
+  /// Of what stands behind the ';' that ends the line one character is enough to tell that there is something. The block cannot do without
+  /// it: where it has no room the text behind would be as if it were not there.
   bool take_behind(char c, bool* consumed) {
     if (c == '\n') return false;
     if (state_ == State::comment_behind) {
@@ -99,7 +111,7 @@ class Condenser {
     if (is_blank(c) || c == ';') return true;
     if (c == '%') return *consumed = false, false;
     state_ = State::percent;
-    return put_spare(c), true;
+    return put(c), true;
   }
 
   void put(char c) {
@@ -123,6 +135,7 @@ class Condenser {
   size_t comment_at_ = kNone;  ///< where the comment begins that nothing significant has followed yet
   State state_ = State::words;
   unsigned comment_length_ = 0;
+  bool comment_dropped_ = false;  ///< and nothing significant has come behind it
   bool significant_ = false, assigned_ = false, comment_kept_ = false, overflowed_ = false;
   uint8_t source_column_ = 0;
   uint8_t columns_[256] = {};
@@ -277,11 +290,11 @@ bool BlockReader::compile_here(const TextEntry& entry, uint64_t offset, Block& b
     return true;
   }
   const Semicolon semicolon = semicolon_of(entry);
-  LexResult result = lex_block(window_.text(), window_.size(), *rules_, semicolon, nullptr, block);
+  LexResult result = rules_->read(window_.text(), window_.size(), *rules_, semicolon, nullptr, block);
   if (result.ran_out && !window_.last()) {
     if (!window_.at_front()) {
       if (!window_.advance(entry)) return failed();
-      result = lex_block(window_.text(), window_.size(), *rules_, semicolon, nullptr, block);
+      result = rules_->read(window_.text(), window_.size(), *rules_, semicolon, nullptr, block);
     }
     if (result.ran_out && !window_.last()) return compile_long(entry, offset, block, newline);
   }
@@ -311,7 +324,7 @@ bool BlockReader::compile_long(const TextEntry& entry, uint64_t offset, Block& b
       *newline = !open && chunk[i] == '\n';
     }
   }
-  lex_block(buffer, condenser.size(), *rules_, semicolon_of(entry), condenser.columns(), block);
+  rules_->read(buffer, condenser.size(), *rules_, semicolon_of(entry), condenser.columns(), block);
   if (condenser.overflowed()) {  // what else seems wrong may come from the cut
     block.has_fault = true;
     block.fault = Fault{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moving over the characters of one block: what is skipped everywhere, where the block ends, numbers,
-// keywords. Shared by the lexer (program/lexer.cpp) and the expression compiler (macro/compile.cpp).
+// keywords. Shared by the lexer (dialect/iso_lexer.cpp) and the expression compiler (macro/compile.cpp).
 #pragma once
 
 #include <bit>

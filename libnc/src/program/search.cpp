@@ -52,8 +52,8 @@ class HeadScanner {
         c = significant();
       }
     }
-    if (c == 'O') head->o = number(&c);
-    if (c == 'N') head->n = number(&c);
+    if (c == rules_.program_letter) head->o = number(&c);
+    if (c == rules_.sequence_letter) head->n = number(&c);
     head->blank = head->blank && head->o == 0 && head->n == 0 && ends(c);
     head->percent = c == '%' && head->blank;
     pass_over(head->percent);
@@ -268,7 +268,7 @@ ProgramRef BlockReader::find_external(const char* place, const char* name, size_
     unsigned count = 0;
     for (uint32_t n = number; n != 0; n /= 10) digits[count++] = static_cast<char>('0' + n % 10);
     if (count == 0) return {};
-    text[used++] = 'O';
+    text[used++] = rules_->program_letter;
     while (count != 0) text[used++] = digits[--count];
   }
   text[used] = '\0';

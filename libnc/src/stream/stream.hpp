@@ -7,7 +7,7 @@
 // Everything that a program causes is an Item in one ordered stream. There are seven kinds:
 //
 //   move    a curve in the *compensation frame* (active workpiece coordinates, after scaling and rotation, before tool radius
-//           compensation) and the id of the Transform that leads from there to machine coordinates
+//           compensation) and the id of the affine map (frame/affine.hpp) that leads from there to machine coordinates
 //   action  something the world sees at this point and not when the text is read: M S T B, a macro output, a message
 //   gate    wait here: FIN, dwell, in-position, program stop
 //   sync    the interpreter cannot go on without a value that exists only when everything before this has happened
@@ -17,12 +17,14 @@
 //
 // What the stages do with them
 //   interpret  makes items, one block at a time. After a sync it makes nothing until it is answered.
-//   contour    (corners between blocks; a pass-through as yet) may hold moves back.
+//   contour    holds a move back whose end only a later block settles (,C ,R) until that block is there.
 //   fairing    leaves out protruding lines of high-speed high-accuracy control II and moves the ends of their neighbours; judges corners.
 //              Holds a row of lines back with the marks between; any other item closes the row.
 //   offset     replaces the geometry of moves by their compensated geometry and may insert moves. It holds items back while it
 //              looks ahead, never reorders them, and closes its contour perpendicular when it meets an item for which
 //              `inhibits_read_ahead` is true, because nothing beyond such an item can be waited for.
+//              These three stand in a row (control/stage_row.hpp). Each may hold items; a mark that is given out brings with it what each
+//              of them needs to go on right behind it.
 //   commit     gives every item its serial, applies the transform, checks the stroke limits, and hands it to the sink: nc_pull()
 //              offline, the ring of the executor online. From here on an item never changes.
 //
@@ -53,8 +55,9 @@ struct AxisVec {
 
 using Serial = uint64_t;      ///< of an item, given at commit; 0 = none
 using BlockSeq = uint64_t;    ///< counts the blocks that the interpreter has executed; journal and checkpoints go by it
-using TransformId = uint32_t; ///< of a frame/transform.hpp Transform in the pool of the part system
+using TransformId = uint32_t; ///< of a frame/affine.hpp map in the pool of the part system
 using ModalId = uint32_t;     ///< of an interned modal snapshot
+using SettingsId = uint32_t;  ///< of interned MotionSettings (interpret/motion_settings.hpp)
 
 enum class ItemKind : uint8_t { move, action, gate, sync, mark, alarm, end };
 
@@ -75,15 +78,15 @@ struct Fault {
 /// How tool radius compensation acts on a move. side 0 = the move is not compensated.
 struct Compensation {
   int8_t side = 0;         ///< +1 left of the direction of travel (G41), -1 right (G42); 0 off
-  bool transparent = false;///< vectors are taken away for this move and come back (G28, G53, G33): M700 12.4.2
+  bool transparent = false;  ///< vectors are taken away for this move and come back (G28, G53, G33): M700 12.4.2
   bool has_vector = false; ///< G41/G42/G38 with I J K: `vector` is the direction given, no intersection is computed
-  bool hold_vector = false;///< G38: keep the vector of the end before
+  bool hold_vector = false;  ///< G38: keep the vector of the end before
   bool corner_arc = false; ///< G39
   bool type_b = false;     ///< start and cancel type B (M700 #1229 bit 2, DGSHAPE startup)
   bool cancel_vector = false; ///< G40 with I J K: `vector` is the hypothetical direction
   bool check = false;      ///< interference check on (M700 12.4.8: #8103 OFF); false: paths may cross
   bool avoid = false;      ///< with `check`: go round instead of the alarm (M700 #8102 ON)
-  uint8_t axis[2] = {0, 1};///< plane: first (h) and second (v) axis, right-handed
+  uint8_t axis[2] = {0, 1};  ///< plane: first (h) and second (v) axis, right-handed
   double radius = 0;       ///< mm, signed as in the table
   double vector[2] = {0, 0};
 };
@@ -126,6 +129,13 @@ struct SkipSpeeds {
 /// What is on of M700 13.15 and 13.17 while a move is made.
 enum HighAccuracy : uint8_t { kHighAccuracyOn = 1, kFineSegmentsOn = 2 /**< high-speed high-accuracy control II */ };
 
+/// What a block says of its end that only the next movement settles: such a move is pending, and contour/ holds it back.
+enum class Corner : uint8_t {
+  none,
+  chamfer,  ///< ,C (M700 13.7.1)
+  rounding  ///< ,R (M700 13.7.2)
+};
+
 struct Move {
   Move() = default;
   Move(const AxisVec& from, const AxisVec& to, const Compensation& c) : start(from), end(to), work(to), comp(c) {}
@@ -137,17 +147,20 @@ struct Move {
   uint8_t skip_mask = 0;
   const SkipSpeeds* skip_speeds = nullptr; ///< skip: signals that change its feed (M700 15.5); nullptr in nearly every move
   uint32_t stroke_box = 0;       ///< id of the prohibited area in force, counted from 1; 0 = none (M700 15.7)
-  Plane plane = Plane::none;     ///< circular only
-  uint8_t plane_axis[2] = {0, 1};///< circular only
+  Plane plane = Plane::none;     ///< circular, and the line before a rounding
+  uint8_t plane_axis[2] = {0, 1};  ///< the same
   bool plane_feed = false;       ///< helix: the feed is the speed in the plane of its arc (M700 6.6)
   uint8_t unclamps = 0;          ///< bit i: axis i of an index table is unclamped meanwhile, for the move behind (M700 9.3 (3))
   uint8_t high_accuracy = 0;     ///< corners and arcs by the rules of high-accuracy control: bits of HighAccuracy
   float judged_turn = -1;        ///< |change of direction| that the corner at its start counts as (M700 #8036); negative: its own
+  Corner corner = Corner::none;  ///< at its end; the plane of a rounding is `plane`, `plane_axis`
+  double corner_mm = 0;          ///< of the chamfer its legs, of the rounding its radius, > 0
+  SettingsId settings = 0;       ///< parameters as they were when the move was made: stages and commit go by them alone
   TransformId transform = 0;
   uint32_t shape = 0;            ///< of the MoveShape, counted from 1; 0 = the line or circle below is all
   AxisVec start, end;            ///< compensation frame; after the offset stage: of the compensated path
   AxisVec work;                  ///< programmed end point, same frame, never changed by the offset stage
-  double work_center[2] = {0, 0};///< circular: programmed centre, never changed
+  double work_center[2] = {0, 0};  ///< circular: programmed centre, never changed
   Circle circle;                 ///< circular only
   double feed_mm_min = 0;        ///< 0 = rapid
   double feed_mm_rev = 0;
@@ -184,7 +197,11 @@ struct Mark {
   bool stop = true, report = true;
   bool resume = true;            ///< what follows can be read again from here: the end of a block, or a call that has been entered
   bool again = false;            ///< M99 of the main program: the next block is its first
+  uint32_t place = 0;            ///< what the stages keep of it on its way through them (StageRow), counted from 1; 0 = nothing
 };
+
+/// Of a stage that goes by no parameters (StageRow).
+struct NoRule {};
 
 struct End {
   AxisVec work;

@@ -37,6 +37,7 @@ const AlarmText kAlarms[] = {
     {"NC-DATA", "G10 data number is not correct"},
     {"NC-MACRO", "No variables or sub programs"},
     {"NC-READ", "Program cannot be read"},
+    {"NC-VENDOR", "Function of the machine failed"},
     {"NC-INTERNAL", "Internal error of the control"},
 };
 
@@ -85,7 +86,14 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::tool_pair, "NC-TOOL", nullptr},
     {C::comp_no_intersection, "NC-OFFSET-PATH", nullptr},
     {C::comp_interference, "NC-OFFSET-PATH", nullptr},
-    {C::corner_option, "NC-ADDRESS", nullptr},       // ",C" ",R" are no words of the family
+    // ",C" ",R" are no words of the family
+    {C::corner_option, "NC-ADDRESS", nullptr},
+    {C::corner_arc, "NC-ADDRESS", nullptr},
+    {C::corner_no_move, "NC-ADDRESS", nullptr},
+    {C::corner_short, "NC-ADDRESS", nullptr},
+    {C::corner_next_short, "NC-ADDRESS", nullptr},
+    {C::corner_motion, "NC-ADDRESS", nullptr},
+    {C::pre_read, "NC-ADDRESS", nullptr},
     {C::geometric_option, "NC-ADDRESS", nullptr},    // nor is ",A"
     {C::second_aux, "NC-ADDRESS", nullptr},          // nor B and C
     {C::space_compensation, "NC-ADDRESS", nullptr},  // G41/G42 take no I J K
@@ -104,6 +112,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::displaced, "NC-ARC", nullptr},  // does not occur: no curves over several blocks
     {C::space_conversion_code, "NC-NO-SUCH-CODE", nullptr},
     {C::inverse_time_code, "NC-NO-SUCH-CODE", nullptr},
+    {C::circle_radius, "NC-NO-SUCH-CODE", nullptr},
     {C::arc_feed_zero, "NC-NO-SUCH-CODE", nullptr},
     {C::reference_compare, "NC-REFERENCE", nullptr},
     {C::reference_check_m, "NC-NO-SUCH-CODE", nullptr},
@@ -158,6 +167,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::surface_speed, "NC-SPINDLE", nullptr},
     {C::read_failed, "NC-READ", nullptr},
     {C::program_changed, "NC-READ", nullptr},
+    {C::vendor_function, "NC-VENDOR", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

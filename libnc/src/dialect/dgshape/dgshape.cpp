@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dgshape family put together, its state at power on and its machine settings.
+// The dgshape family put together, and its state at power on.
 #include "dialect/dgshape/dgshape.hpp"
 
+#include "dialect/dgshape/addresses.hpp"
+#include "dialect/dgshape/rules.hpp"
 #include "dialect/dgshape/tables.hpp"
 
 namespace nc::dgshape {
 namespace {
 
-// 1-5 and G40-G42: settings made on the machine, here parameters by name.
-const ParameterName kParameters[] = {
-    {"calculator_words", 1, "none|all|F|IJKRXYZA", nullptr, "words that the calculator type applies to", "1-5"},
-    {"interpretation", 0, "conventional|calculator", nullptr, "type of numbers without a point", "1-5"},
-    {"startup", 0, "A|B", nullptr, "how tool-diameter offset starts and ends", "G40-G42"},
+// G10.
+constexpr DataInputRow kDataInput[] = {
+    {DataInputRow::kWithoutL, DataInput::tool_length},  // P R: the tool-diameter offset, in the one column that there is
+    {2, DataInput::work_offset},
+};
+
+// The manual does not say what is active at power on. G00 G17 G90 and mm are the safe ones; of every other group the cancel code.
+const Function kInitial[] = {
+    Function::rapid, Function::plane_xy, Function::absolute, Function::metric, Function::comp_off,
+    Function::length_off, Function::cycle_off, Function::return_initial, Function::scaling_off,
+    Function::work_system,
 };
 
 }  // namespace
@@ -20,15 +28,27 @@ const Dialect kDialect = {
     .id = NC_DIALECT_DGSHAPE,
     .name = "dgshape",
     .lex = &kLex,
+    .addresses = kAddressTable,
+    .axis_addresses = AddressTable::letters("XYZA"),
+    .length_addresses = AddressTable::letters("IJKQR"),
+    .argument_of = nullptr,
+    .calling_letters = "",
+    .device_letter = 0,
     .functions = {kFunctions, kFunctionRows},
     .misc = {kMisc, kMiscRows},
+    .outputs = {kOutputs, kOutputRows},
     .conditions = {kConditions, kConditionRows},
     .alarms = {kAlarms, kAlarmRows},
-    .parameters = {kParameters, sizeof kParameters / sizeof kParameters[0]},
-    // The manual does not say what is active at power on. G00 G17 G90 and mm are the safe ones; of every
-    // other group the cancel code.
-    .initial = {-1,  0,   170, 900, -1, -1, 210, 400, 490, 800, 980,
-                500, 540, -1,  -1,  -1, -1, -1,  -1,  -1,  -1,  -1},
+    .data_input = {kDataInput, sizeof kDataInput / sizeof kDataInput[0]},
+    .speed_modes = {},
+    .speed_options = {},
+    .parameters = &kParameters,
+    .variables = &kVariables,
+    .rules = kRules,
+    .initial = {kInitial, sizeof kInitial / sizeof kInitial[0]},
+    .macro_codes = {1, 0},  // no code calls a macro
+    .own_codes = {1, 0},
+    .macro_misc = {1, 0},
     .percent_required = true,   // 2-6 "%"
     .end_code_required = true,  // 1-1 "M02"
     .bare_letters = false,      // 1-1: a word is an address and a numerical value

@@ -14,7 +14,7 @@ using F = Function;
 using M = MiscFunction;
 
 const FunctionRow kFunctions[] = {
-    // code, group, function, alarm when missing, name, section
+    // code, group, function, alarm when not built, name, section, what of it is not built, number
     {0, 1, F::rapid, nullptr, "positioning", "G00"},
     {10, 1, F::linear, nullptr, "linear interpolation", "G01"},
     {20, 1, F::arc_cw, nullptr, "circular interpolation clockwise", "G02"},
@@ -27,7 +27,7 @@ const FunctionRow kFunctions[] = {
     {200, 6, F::inch, nullptr, "inch input", "G20"},
     {210, 6, F::metric, nullptr, "millimetre input", "G21"},
     {280, 0, F::reference_return, nullptr, "return to the reference point", "G28"},
-    {390, 0, F::missing, "NC-NOT-BUILT", "corner arc of tool-diameter offset", "G39"},
+    {390, 0, F::comp_corner_arc, "NC-NOT-BUILT", "corner arc of tool-diameter offset", "G39"},
     {400, 7, F::comp_off, nullptr, "tool-diameter offset off", "G40"},
     {410, 7, F::comp_left, nullptr, "tool-diameter offset left", "G41"},
     {420, 7, F::comp_right, nullptr, "tool-diameter offset right", "G42"},
@@ -37,17 +37,17 @@ const FunctionRow kFunctions[] = {
     {510, 11, F::scaling_on, nullptr, "scaling", "G51"},
     {530, 0, F::machine_move, nullptr, "move in machine coordinates", "G53"},
     {540, 12, F::work_system, nullptr, "workpiece coordinate system 1", "G54"},
-    {550, 12, F::work_system, nullptr, "workpiece coordinate system 2", "G55"},
-    {560, 12, F::work_system, nullptr, "workpiece coordinate system 3", "G56"},
-    {570, 12, F::work_system, nullptr, "workpiece coordinate system 4", "G57"},
-    {580, 12, F::work_system, nullptr, "workpiece coordinate system 5", "G58"},
-    {590, 12, F::work_system, nullptr, "workpiece coordinate system 6", "G59"},
+    {550, 12, F::work_system, nullptr, "workpiece coordinate system 2", "G55", nullptr, 1},
+    {560, 12, F::work_system, nullptr, "workpiece coordinate system 3", "G56", nullptr, 2},
+    {570, 12, F::work_system, nullptr, "workpiece coordinate system 4", "G57", nullptr, 3},
+    {580, 12, F::work_system, nullptr, "workpiece coordinate system 5", "G58", nullptr, 4},
+    {590, 12, F::work_system, nullptr, "workpiece coordinate system 6", "G59", nullptr, 5},
     {800, 9, F::cycle_off, nullptr, "cycle off", "G80"},
     {810, 9, F::cycle_drill, nullptr, "drilling cycle", "G81"},
     {820, 9, F::cycle_spot, nullptr, "drilling cycle with dwell", "G82"},
     {830, 9, F::cycle_peck, nullptr, "deep hole drilling cycle", "G83"},
     {850, 9, F::cycle_bore_feed, nullptr, "boring cycle, return at feed", "G85"},
-    {860, 9, F::missing, "NC-NOT-BUILT", "boring cycle",
+    {860, 9, F::cycle_bore_stop, "NC-NOT-BUILT", "boring cycle",
      "G86"},  // what happens at its bottom stood in a figure that is lost
     {890, 9, F::cycle_bore_dwell, nullptr, "boring cycle with dwell, return at feed", "G89"},
     {900, 3, F::absolute, nullptr, "absolute values", "G90"},
@@ -64,8 +64,16 @@ const MiscRow kMisc[] = {
     {1, M::optional_stop, nullptr, "optional stop", "M01"},
     {2, M::program_end, nullptr, "program end", "M02"},
     {30, M::program_end, nullptr, "program end", "M30"},
-    {98, M::missing, "NC-NO-SUCH-CODE", "no sub programs in this family", "2-3"},
-    {99, M::missing, "NC-NO-SUCH-CODE", "no sub programs in this family", "2-3"},
+    {98, M::call_sub, "NC-NO-SUCH-CODE", "no sub programs in this family", "2-3"},
+    {99, M::return_sub, "NC-NO-SUCH-CODE", "no sub programs in this family", "2-3"},
+};
+
+// M04 is no code of the list. It goes out like any M that the machine may have, and turns what it turns elsewhere.
+const OutputRow kOutputs[] = {
+    {3, M::spindle_forward},
+    {4, M::spindle_reverse},
+    {5, M::spindle_stop},
+    {6, M::tool_change},
 };
 
 }  // namespace nc::dgshape

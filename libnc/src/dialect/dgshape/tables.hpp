@@ -9,13 +9,17 @@ namespace nc::dgshape {
 
 inline constexpr unsigned kFunctionRows = 39;
 inline constexpr unsigned kMiscRows = 6;
-inline constexpr unsigned kAlarmRows = 29;
+inline constexpr unsigned kOutputRows = 4;
+inline constexpr unsigned kAlarmRows = 30;
 inline constexpr unsigned kConditionRows = static_cast<unsigned>(Condition::count_) - 1;
 
 extern const FunctionRow kFunctions[kFunctionRows];
 extern const MiscRow kMisc[kMiscRows];
+extern const OutputRow kOutputs[kOutputRows];
 extern const AlarmText kAlarms[kAlarmRows];
 extern const AlarmRow kConditions[kConditionRows];
 extern const LexRules kLex;
+extern const FamilyParameters kParameters;
+extern const FamilyVariables kVariables;
 
 }  // namespace nc::dgshape

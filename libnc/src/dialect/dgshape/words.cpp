@@ -5,6 +5,7 @@
 // are exchanged in print: four decimals belong to inch). Eight digits are what every number word may have;
 // the value itself is checked where it is used.
 #include "dialect/dgshape/tables.hpp"
+#include "dialect/iso_lexer.hpp"
 
 namespace nc::dgshape {
 namespace {
@@ -14,7 +15,7 @@ constexpr unsigned at(char letter) {
 }
 
 constexpr LexRules make_rules() {
-  LexRules rules{};
+  LexRules rules = iso_rules();
   rules.percent_alone = true;       // 2-6: "Never specify any word other than % in this block"
   rules.slash_only_at_head = true;  // 2-6: "/" at the start of the block
   // P and K are real numbers somewhere (G51 P 0.5, arc centre K) and integers elsewhere, so they are read as

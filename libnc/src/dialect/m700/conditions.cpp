@@ -55,7 +55,13 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::tool_pair, "P33", nullptr},            // does not occur: M06 is output like any other M
     {C::comp_no_intersection, "P152", nullptr},
     {C::comp_interference, "P153", nullptr},
-    {C::corner_option, "P380", nullptr},       // 13.7
+    {C::corner_option, "P380", nullptr},       // 13.7; in a fixed cycle, and where programmed coordinates are not those of the axes
+    {C::corner_arc, "P381", nullptr},          // 13.7
+    {C::corner_no_move, "P382", nullptr},
+    {C::corner_short, "P383", nullptr},
+    {C::corner_next_short, "P384", nullptr},
+    {C::corner_motion, "P385", nullptr},
+    {C::pre_read, "P990", nullptr},            // appendix 1
     {C::geometric_option, "P390", nullptr},    // 13.8, 13.9
     {C::second_aux, "P130", nullptr},          // 9.2
     {C::space_compensation, "P150", nullptr},  // 12.5: the option that I J K together ask for
@@ -73,6 +79,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::displaced, "P554", nullptr},           // 6.15 note 3; other curves over several blocks have no number of their own
     {C::space_conversion_code, "P921", nullptr},
     {C::inverse_time_code, "P125", nullptr},   // 7.5
+    {C::circle_radius, "P223", nullptr},       // appendix 1; 13.10 prints P233, which the appendix does not have
     {C::arc_feed_zero, "P121", nullptr},       // 7.3
     {C::reference_compare, "P434", nullptr},   // 14.9
     {C::reference_check_m, "P435", nullptr},
@@ -127,6 +134,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::surface_speed, "P132", nullptr},     // 10.3
     {C::read_failed, "P461", nullptr},
     {C::program_changed, "P461", nullptr},
+    {C::vendor_function, "NC-VENDOR", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

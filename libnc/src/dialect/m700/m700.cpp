@@ -1,30 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-// The m700 family put together, its state at power on and its parameters that are not plain numbers.
+// The m700 family put together, and its state at power on.
 #include "dialect/m700/m700.hpp"
 
+#include "dialect/m700/addresses.hpp"
+#include "dialect/m700/rules.hpp"
 #include "dialect/m700/tables.hpp"
 
 namespace nc::m700 {
 namespace {
 
-// Every parameter has a number; these have none in the manual: UNIT*10 is only named (2.2), the blanks of
-// DPRNT are "a parameter" (13.5.8), M codes that prohibit pre-reading and the order of M S T B and motion are the
-// machine's (4.2, 9.1), macro_extensions and negative_count are options (docs/macros.md), and ';' begins comments in other families only.
-const ParameterName kParameters[] = {
-    {"UNIT*10", 1, nullptr, "1, 10", "tenfold: numbers without a point, times this", "2.2"},
-    {"DPRNT_BLANK", 0, nullptr, "0, 1", "DPRNT prints blanks for leading zeros", "13.5.8"},
-    {"macro_extensions", 0, nullptr, "0, 1", "IF ... THEN of later models", "13.5.7"},
-    {"semicolon_comments", 0, nullptr, "0, 1", "what stands behind ';' in a line is a comment, not P33", "3.2"},
-    {"negative_count", 0, nullptr, "0, 1", "#3901 can be set below 0", "13.5.5"},
-    {"MSTB_AFTER_MOTION", 0, nullptr, "0, 1", "M S T B of a block come after its movement", "9.1"},
-    {"PREREAD_STOP_M1", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
-    {"PREREAD_STOP_M2", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
-    {"PREREAD_STOP_M3", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
-    {"PREREAD_STOP_M4", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
-    {"PREREAD_STOP_M5", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
-    {"PREREAD_STOP_M6", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
-    {"PREREAD_STOP_M7", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
-    {"PREREAD_STOP_M8", 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
+// G10: 12.7, 14.10 (6).
+constexpr DataInputRow kDataInput[] = {
+    {DataInputRow::kWithoutL, DataInput::work_offset},  // judged as L2
+    {2, DataInput::work_offset},
+    {3, DataInput::missing},  // tool life
+    {10, DataInput::tool_length},
+    {11, DataInput::tool_length_wear},
+    {12, DataInput::tool_radius},
+    {13, DataInput::tool_radius_wear},
+    {14, DataInput::current_limit},  // 15.6
+    {20, DataInput::extended_offset},
+    {50, DataInput::parameters},  // 13.11
+    {70, DataInput::parameters},
+};
+
+// G05 P: 13.16, 13.17. G05.1 Q: 13.17, 13.18.
+constexpr SpeedModeRow kSpeedModes[] = {
+    {0, SpeedMode::off},          {1, SpeedMode::machining_1},    {2, SpeedMode::machining_2},
+    {3, SpeedMode::machining_3},  {10000, SpeedMode::accuracy_2},
+};
+constexpr SpeedOptionRow kSpeedOptions[] = {{0, SpeedOption::off}, {1, SpeedOption::accuracy_1}, {2, SpeedOption::spline}};
+
+// 3.7: the codes marked as initial, and of those that a parameter chooses G01 G17 G21 G90 G94 G97.
+const Function kInitial[] = {
+    Function::linear, Function::plane_xy, Function::absolute, Function::stroke_check_off,
+    Function::feed_per_minute, Function::metric, Function::comp_off, Function::length_off,
+    Function::cycle_off, Function::return_initial, Function::scaling_off, Function::work_system,
+    Function::cutting_mode, Function::macro_modal_off, Function::normal_line_off, Function::rotation_off,
+    Function::surface_off, Function::polar_command_off, Function::mirror_off, Function::polar_off,
 };
 
 }  // namespace
@@ -33,15 +46,27 @@ const Dialect kDialect = {
     .id = NC_DIALECT_M700,
     .name = "m700",
     .lex = &kLex,
+    .addresses = kAddressTable,
+    .axis_addresses = AddressTable::letters("ABCUVWXYZ"),
+    .length_addresses = AddressTable::letters("IJKQR"),
+    .argument_of = kArgumentOf,
+    .calling_letters = "ABDFHIJKMQRST",  // 13.5.3
+    .device_letter = 'D',               // 13.3.1
     .functions = {kFunctionTable.row, kFunctionRows},
     .misc = {kMisc, kMiscRows},
+    .outputs = {kOutputs, kOutputRows},
     .conditions = {kConditions, kConditionRows},
     .alarms = {kAlarms, kAlarmRows},
-    .parameters = {kParameters, sizeof kParameters / sizeof kParameters[0]},
-    // 3.7: the codes marked as initial, and of those that a parameter chooses G01 G17 G21 G90 G94 G97. Groups
-    // 0 and 20 hold no modal.
-    .initial = {-1,  10,  170, 900, 230, 940, 210, 400, 490, 800, 980,
-                500, 540, 640, 670, 401, 690, 970, 150, 501, -1,  131},
+    .data_input = {kDataInput, sizeof kDataInput / sizeof kDataInput[0]},
+    .speed_modes = {kSpeedModes, sizeof kSpeedModes / sizeof kSpeedModes[0]},
+    .speed_options = {kSpeedOptions, sizeof kSpeedOptions / sizeof kSpeedOptions[0]},
+    .parameters = &kParameters,
+    .variables = &kVariables,
+    .rules = kRules,
+    .initial = {kInitial, sizeof kInitial / sizeof kInitial[0]},
+    .macro_codes = {100, 255},  // 13.5.2
+    .own_codes = {0, 99},       // 13.5.2: by #1081
+    .macro_misc = {0, 95},      // 13.5.2 (2)
     .percent_required = false,
     .end_code_required = true,  // P36
     .bare_letters = true,       // 3.7, 14.10

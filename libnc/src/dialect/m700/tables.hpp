@@ -10,7 +10,8 @@ namespace nc::m700 {
 
 inline constexpr unsigned kFunctionRows = 286;
 inline constexpr unsigned kMiscRows = 9;
-inline constexpr unsigned kAlarmRows = 188;
+inline constexpr unsigned kOutputRows = 4;
+inline constexpr unsigned kAlarmRows = 189;
 inline constexpr unsigned kConditionRows = static_cast<unsigned>(Condition::count_) - 1;
 
 struct FunctionTable {
@@ -18,8 +19,11 @@ struct FunctionTable {
 };
 extern const FunctionTable kFunctionTable;
 extern const MiscRow kMisc[kMiscRows];
+extern const OutputRow kOutputs[kOutputRows];
 extern const AlarmText kAlarms[kAlarmRows];
 extern const AlarmRow kConditions[kConditionRows];
 extern const LexRules kLex;
+extern const FamilyParameters kParameters;
+extern const FamilyVariables kVariables;
 
 }  // namespace nc::m700

@@ -6,6 +6,7 @@
 // mm), "the digit check uses the largest digit count of the address" (3.2, note), and the unit is a parameter
 // that the lexer does not know. So `integer_digits` is the largest total over all units, 11 for a coordinate;
 // a value that is too large for the unit in force is P35 when the word is used.
+#include "dialect/iso_lexer.hpp"
 #include "dialect/m700/tables.hpp"
 
 namespace nc::m700 {
@@ -20,7 +21,7 @@ constexpr WordFormat kNumber8{.known = true, .integer = false, .integer_digits =
 constexpr WordFormat kWhole8{.known = true, .integer = true, .integer_digits = 8, .fraction_digits = 8};
 
 constexpr LexRules make_rules() {
-  LexRules rules{};
+  LexRules rules = iso_rules();
   rules.macros = true;          // 13.4, 13.5
   // 3.2 (2): it is printed for the end of the block. Behind it in a line no block begins: comments of other families stand there.
   rules.semicolon = Semicolon::ends_line;

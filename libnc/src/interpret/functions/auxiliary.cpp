@@ -15,65 +15,57 @@ void emit_action(Interpreter& in, nc_action_kind kind, char letter, double value
   action.value = value;
 }
 
+void emit_action(Interpreter& in, nc_action_kind kind, Role word, double value) { emit_action(in, kind, in.dialect->addresses.letter(word), value); }
+
 void emit_fin(Interpreter& in) { await_fin(in); }
 
-/// DGSHAPE 2: S00..S99 are code numbers of the R20 series, 10^(n/20) with the series' rounded factors; from 100 on r/min.
-double dgshape_speed(uint32_t s) {
-  static constexpr double kFactor[20] = {1, 1.12, 1.25, 1.4, 1.6, 1.8, 2, 2.24, 2.5, 2.8, 3.15, 3.55, 4, 4.5, 5, 5.6, 6.3, 7.1, 8, 9};
-  if (s >= 100) return s;
-  double decade = 1;
-  for (uint32_t i = 0; i < s / 20; ++i) decade *= 10;
-  return kFactor[s % 20] * decade;
-}
-
-/// The second auxiliary address: B, unless an axis has that name; then A, then C (M700 9.2).
+/// The second auxiliary address: B, unless an axis has that name; then A, then C (M700 9.2). 0 = the family has none.
 char second_address(const Interpreter& in) {
-  for (const char letter : {'B', 'A', 'C'})
-    if (in.axis_of[letter - 'A'] < 0) return letter;
+  const AddressTable& addresses = in.dialect->addresses;
+  for (const Role word : {Role::second_function, Role::second_function_2, Role::second_function_3})
+    if (addresses.letter(word) != 0 && in.axis_called(word) < 0) return addresses.letter(word);
   return 0;
 }
 
 Did spindle_word(Interpreter& in) {
   uint32_t s = 0;
-  if (!whole_number(in.words.get('S'), &s) || s > 99999999) return in.raise(Condition::value_range, 'S', in.words.get('S'));
+  if (!whole_number(in.words.get(Role::spindle_speed), &s) || s > 99999999) return in.raise(Condition::value_range, Role::spindle_speed, in.words.get(Role::spindle_speed));
   if (in.state.spindle.axis != 0) {
     const Did did = surface_word(in);
     if (did != Did::done) return did;
   }
-  const double speed = in.dialect->id == NC_DIALECT_DGSHAPE ? dgshape_speed(s) : s;
+  const double speed = in.dialect->rules.spindle.speed_of_word(s);
   in.state.modal.spindle = speed;
-  emit_action(in, NC_ACTION_S, 'S', speed);
+  emit_action(in, NC_ACTION_S, Role::spindle_speed, speed);
   return Did::done;
 }
 
 /// Addresses that are neither an axis nor anything else here.
 Did check_axis_letters(Interpreter& in, char second) {
-  constexpr uint32_t kAxisAddresses = 0x7 | (0x3f << ('U' - 'A'));  // A B C, U V W X Y Z
-  if ((in.words.present & kAxisAddresses & ~in.axis_letters) == 0) return Did::done;
-  for (const char letter : {'A', 'B', 'C', 'U', 'V', 'W', 'X', 'Y', 'Z'}) {
-    if (!in.words.has(letter) || in.axis_of[letter - 'A'] >= 0 || letter == second) continue;
-    const bool dwell = letter == 'X' && in.words.one_shot != nullptr && in.words.one_shot->function == Function::dwell;
-    if (dwell) continue;
-    const bool aux = letter == 'A' || letter == 'B' || letter == 'C';
-    return in.raise(aux && second != 0 && in.dialect->id == NC_DIALECT_M700 ? Condition::second_aux : Condition::illegal_axis, letter,
-                    in.words.get(letter));
-  }
-  return Did::done;
+  const AddressTable& addresses = in.dialect->addresses;
+  const uint32_t auxiliary = addresses.set({Role::second_function, Role::second_function_2, Role::second_function_3});
+  uint32_t known = in.axis_letters;
+  if (second != 0) known |= 1u << address_of(second);
+  if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::dwell) known |= addresses.set({Role::dwell_seconds});
+  const uint32_t unknown = in.words.present & in.dialect->axis_addresses & ~known;
+  if (unknown == 0) return Did::done;
+  const char letter = first_of_block(in, unknown);
+  const bool aux = (auxiliary >> address_of(letter) & 1) != 0 && second != 0;
+  return in.raise(aux ? Condition::second_aux : Condition::illegal_axis, letter, in.words.get(letter));
 }
 
 bool output_code(const Interpreter& in, uint32_t code) {
   if (is_interrupt_on(in, code) || is_interrupt_off(in, code)) return false;  // M700 13.12: processed internally
-  const MiscRow* row = find_misc(*in.dialect, code);
-  return row == nullptr || row->function == MiscFunction::output;
+  return goes_out(misc_function(*in.dialect, code));
 }
 
 /// DGSHAPE M06: M06 and T come as a pair, never more than one of each in a block.
 Did check_tool_pair(Interpreter& in) {
   unsigned changes = 0, tools = 0;
-  for (const uint32_t m : in.words.m) changes += m == 6 ? 1u : 0u;
-  for (const Word& word : in.block->words) tools += word.letter == 'T' ? 1u : 0u;
-  if (changes != 1 || tools != 1) return in.raise(Condition::tool_pair, changes == 0 ? 'T' : 'M', changes == 0 ? in.words.get('T') : 6);
-  return Did::done;
+  for (const uint32_t m : in.words.m) changes += misc_function(*in.dialect, m) == MiscFunction::tool_change ? 1u : 0u;
+  for (const Word& word : in.block->words) tools += in.is(word, Role::tool) ? 1u : 0u;
+  if (changes == 1 && tools == 1) return Did::done;
+  return changes == 0 ? in.raise(Condition::tool_pair, Role::tool, in.words.get(Role::tool)) : in.raise_misc(Condition::tool_pair, MiscFunction::tool_change);
 }
 
 /// DGSHAPE 2: numbers "with no decimal point": codes, speeds, numbers of things; P (but the factor of G51) and K where they are
@@ -81,10 +73,12 @@ Did check_tool_pair(Interpreter& in) {
 Did check_whole_numbers(Interpreter& in) {
   const BlockWords& w = in.words;
   const bool cycle = w.cycle != nullptr || in.state.cycle.kind != CycleKind::none;
-  const bool arc = w.motion != nullptr && w.motion->function != Function::rapid && w.motion->function != Function::linear;
-  const uint32_t whole = letters("MSTDHL") | (w.one_shot != nullptr && w.one_shot->function == Function::scaling_on ? 0 : letters("P")) | (cycle && !arc ? letters("K") : 0);
+  const bool arc = w.motion != nullptr && !is_line(w.motion->function);
+  uint32_t whole = in.addresses({Role::misc_code, Role::spindle_speed, Role::tool, Role::offset_number, Role::length_number, Role::input_kind, Role::dwell_time});
+  if (w.one_shot != nullptr && w.one_shot->function == Function::scaling_on) whole &= ~in.addresses({Role::scaling_factor});
+  if (cycle && !arc) whole |= in.addresses({Role::cycle_count});
   for (const Word& word : in.block->words)
-    if (((whole >> (word.letter - 'A')) & 1) != 0 && (word.flags & kWordPoint) != 0)
+    if (((whole >> address_of(word)) & 1) != 0 && (word.flags & kWordPoint) != 0)
       return in.raise(Condition::format_error, word.letter, word.value);
   return Did::done;
 }
@@ -99,17 +93,21 @@ void await_fin(Interpreter& in) {
 
 Did check_company(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (in.dialect->id != NC_DIALECT_DGSHAPE) return Did::done;
-  const Did did = check_whole_numbers(in);
-  if (did != Did::done) return did;
-  // DGSHAPE 2: M00 M01 M02 M30 alone; G04 alone in its block.
+  const BlockRules& rules = in.dialect->rules.block;
+  if (rules.whole_words_refuse_point) {
+    const Did did = check_whole_numbers(in);
+    if (did != Did::done) return did;
+  }
   const unsigned words = in.block->words.size();
+  if (rules.stops_stand_alone)
+    for (const uint32_t m : w.m)
+      if (!output_code(in, m) && words > 1) return in.raise(Condition::must_stand_alone, Role::misc_code, m);
+  if (rules.dwell_stands_alone && w.one_shot != nullptr && w.one_shot->function == Function::dwell && words > 2)
+    return in.raise_code(Condition::must_stand_alone, *w.one_shot);
+  if (!in.dialect->rules.auxiliary.tool_change_is_pair) return Did::done;
+  const uint32_t tool = w.has(Role::tool) ? 1u : 0u;
   for (const uint32_t m : w.m)
-    if (!output_code(in, m) && words > 1) return in.raise(Condition::must_stand_alone, 'M', m);
-  if (w.one_shot != nullptr && w.one_shot->function == Function::dwell && words > 2) return in.raise(Condition::must_stand_alone, 'G', 4);
-  const uint32_t tool = w.has('T') ? 1u : 0u;
-  for (const uint32_t m : w.m)
-    if (m == 6 || tool != 0) return check_tool_pair(in);
+    if (tool != 0 || misc_function(*in.dialect, m) == MiscFunction::tool_change) return check_tool_pair(in);
   return tool != 0 ? check_tool_pair(in) : Did::done;
 }
 
@@ -118,20 +116,20 @@ bool codes_behind_motion(const Interpreter& in) { return in.settings.codes_after
 Did auxiliary_before(Interpreter& in) {
   BlockWords& w = in.words;
   // Most blocks have none of the addresses that are looked at here.
-  if (w.m.empty() && !w.any(letters("ABCSTUVWXYZ") & ~in.axis_letters)) return Did::done;
-  const bool dgshape = in.dialect->id == NC_DIALECT_DGSHAPE;
-  const char second = dgshape ? char{0} : second_address(in);
+  if (w.m.empty() && !w.any((in.dialect->axis_addresses | in.addresses({Role::spindle_speed, Role::tool})) & ~in.axis_letters)) return Did::done;
+  const Rules& rules = in.dialect->rules;
+  const char second = second_address(in);
   Did did = check_axis_letters(in, second);
   if (did != Did::done) return did;
   bool waiting = false;
-  if (w.has('S') && !is_clamp_command(in)) {
+  if (w.has(Role::spindle_speed) && !is_clamp_command(in)) {
     did = spindle_word(in);
     if (did != Did::done) return did;
     waiting = true;
   }
-  if (w.has('T')) {
-    if (!whole_number(w.get('T'), &in.state.modal.tool) || in.state.modal.tool > 99999999) return in.raise(Condition::value_range, 'T', w.get('T'));
-    emit_action(in, NC_ACTION_T, 'T', in.state.modal.tool);
+  if (w.has(Role::tool)) {
+    if (!whole_number(w.get(Role::tool), &in.state.modal.tool) || in.state.modal.tool > 99999999) return in.raise(Condition::value_range, Role::tool, w.get(Role::tool));
+    emit_action(in, NC_ACTION_T, Role::tool, in.state.modal.tool);
     waiting = true;
   }
   if (second != 0 && w.has(second)) {
@@ -139,19 +137,19 @@ Did auxiliary_before(Interpreter& in) {
     emit_action(in, NC_ACTION_B, second, in.state.modal.b);
     waiting = true;
   }
-  // M700 9.1: with five or more M codes only the last four count.
-  const unsigned first = !dgshape && w.m.size() > 4 ? w.m.size() - 4 : 0;
+  const unsigned most = rules.auxiliary.most_m_codes, first = w.m.size() > most ? w.m.size() - most : 0;
   for (unsigned i = first; i < w.m.size(); ++i) {
     const uint32_t m = w.m[i];
     if (!output_code(in, m)) continue;
-    if (m > 99999999) return in.raise(Condition::value_range, 'M', m);
-    // DGSHAPE 2: M03 while turning and M05 while stopped are ignored.
-    if (dgshape && ((m == 3 && in.state.spindle_on) || (m == 5 && !in.state.spindle_on))) continue;
-    if (m == 3 || m == 4) in.state.spindle_on = true;
-    if (m == 5) in.state.spindle_on = false;
+    if (m > 99999999) return in.raise(Condition::value_range, Role::misc_code, m);
+    const MiscFunction function = misc_function(*in.dialect, m);
+    const bool forward = function == MiscFunction::spindle_forward, stops = function == MiscFunction::spindle_stop;
+    if (rules.spindle.skips_repeated_codes && ((forward && in.state.spindle_on) || (stops && !in.state.spindle_on))) continue;
+    if (forward || function == MiscFunction::spindle_reverse) in.state.spindle_on = true;
+    if (stops) in.state.spindle_on = false;
     if (waiting && i > first) emit_fin(in);  // one M strobe at a time
     in.state.modal.m = m;
-    emit_action(in, NC_ACTION_M, 'M', m);
+    emit_action(in, NC_ACTION_M, Role::misc_code, m);
     waiting = true;
   }
   if (!waiting) return Did::done;
@@ -170,11 +168,10 @@ bool two_ways_on(const Interpreter& in) {
   unsigned ways = 0;
   bool call = false;
   for (const uint32_t m : in.words.m) {
-    const MiscRow* row = find_misc(*in.dialect, m);
-    if (row == nullptr) continue;
-    const bool here = row->function == MiscFunction::call_sub || row->function == MiscFunction::return_sub;
+    const MiscFunction function = misc_function(*in.dialect, m);
+    const bool here = function == MiscFunction::call_sub || function == MiscFunction::return_sub;
     call = call || here;
-    ways += here || row->function == MiscFunction::program_end ? 1u : 0u;
+    ways += here || function == MiscFunction::program_end ? 1u : 0u;
   }
   return call && ways > 1;
 }
@@ -182,7 +179,7 @@ bool two_ways_on(const Interpreter& in) {
 }  // namespace
 
 Did auxiliary_after(Interpreter& in) {
-  if (in.words.m.size() > 1 && two_ways_on(in)) return in.raise(Condition::format_error, 'M', in.words.m.back());
+  if (in.words.m.size() > 1 && two_ways_on(in)) return in.raise(Condition::format_error, Role::misc_code, in.words.m.back());
   for (const uint32_t m : in.words.m) {
     if (in.settings.any_reading_stop)
       for (const uint32_t stops : in.settings.reading_stops) in.state.stop_reading |= stops != 0 && stops == m;  // M700 4.2
@@ -191,12 +188,10 @@ Did auxiliary_after(Interpreter& in) {
       if (did != Did::done) return did;
       continue;
     }
-    const MiscRow* row = find_misc(*in.dialect, m);
-    if (row == nullptr) continue;
-    switch (row->function) {
+    switch (misc_function(*in.dialect, m)) {
       case MiscFunction::program_stop:
         in.state.modal.m = m;
-        emit_action(in, NC_ACTION_M, 'M', m);
+        emit_action(in, NC_ACTION_M, Role::misc_code, m);
         emit_fin(in);  // M700 9.1: the stop comes with the completion
         in.emit(ItemKind::gate).gate.kind = NC_GATE_STOP;
         break;
@@ -208,7 +203,7 @@ Did auxiliary_after(Interpreter& in) {
         if (check_loops_closed(in) != Did::done) return Did::fault;
         if (in.state.comp.side != 0) in.state.comp.side = 0;
         in.state.modal.m = m;
-        emit_action(in, NC_ACTION_M, 'M', m);
+        emit_action(in, NC_ACTION_M, Role::misc_code, m);
         emit_fin(in);
         end_spindle_control(in);
         in.state.end_seen = true;

@@ -6,27 +6,27 @@ namespace nc {
 
 Did select_work_system(Interpreter& in, const FunctionRow& row) {
   State& state = in.state;
-  if (in.dialect->id == NC_DIALECT_DGSHAPE && state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', row.code / 10.0);
+  if (in.dialect->rules.compensation.bars_systems_and_data && state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, row);
   const AxisVec zero_before = in.zero();
   if (row.function == Function::work_system) {
-    state.work_system = static_cast<uint16_t>(row.code / 10 - 54);
+    state.work_system = row.number;
     state.modal.extended = 0;
   } else {
     uint32_t p = 0;
-    if (!in.words.has('P')) return in.raise(Condition::format_error, 'P');
-    if (!whole_number(in.words.get('P'), &p) || p == 0) return in.raise(Condition::value_range, 'P', in.words.get('P'));
+    if (!in.words.has(Role::system_number)) return in.raise(Condition::format_error, Role::system_number);
+    if (!whole_number(in.words.get(Role::system_number), &p) || p == 0) return in.raise(Condition::value_range, Role::system_number, in.words.get(Role::system_number));
     // M700 14.10 (13): a system that the option does not reach.
-    if (p > in.frames.extended_systems()) return in.raise(Condition::no_function, 'P', p);
+    if (p > in.frames.extended_systems()) return in.raise(Condition::no_function, Role::system_number, p);
     state.work_system = static_cast<uint16_t>(5 + p);
     state.modal.extended = static_cast<uint16_t>(p);
   }
-  state.modal.code[kGroupWork] = row.code;
+  state.modal.set(row);
   keep_rotation_center(in, zero_before);
   return Did::done;
 }
 
 Did do_local_system(Interpreter& in) {
-  if (in.state.work_system >= 6) return in.raise(Condition::local_in_extended, 'G', 52);
+  if (in.state.work_system >= 6) return in.raise_code(Condition::local_in_extended, *in.words.one_shot);
   const BlockWords& w = in.words;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
@@ -39,8 +39,8 @@ Did do_local_system(Interpreter& in) {
 
 Did do_coordinate_set(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (in.dialect->id == NC_DIALECT_DGSHAPE && in.state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', 92);
-  if (w.any(letters("SQ")) && in.dialect->id == NC_DIALECT_M700) {
+  if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *w.one_shot);
+  if (w.any({Role::clamp_highest, Role::clamp_lowest}) && in.dialect->rules.spindle.limits_by_coordinate_setting) {
     const Did did = set_spindle_clamp(in);
     if (did != Did::done) return did;
   }
@@ -57,10 +57,9 @@ Did do_coordinate_set(Interpreter& in) {
 
 Did do_coordinate_preset(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (!in.settings.preset_allowed) return in.raise(Condition::illegal_g, 'G', 92.1);  // M700 14.12: list 1 only with #1267 bit 0
+  if (!in.settings.preset_allowed) return in.raise_code(Condition::illegal_g, *w.one_shot);  // M700 14.12: list 1 only with #1267 bit 0
   // 14.12: not during scaling, coordinate rotation, mirror image by program.
-  const int16_t* modal = in.state.modal.code;
-  if (modal[kGroupScaling] == 510 || in.state.rotated || in.state.mirror != 0) return in.raise(Condition::illegal_g, 'G', 92.1);
+  if (in.state.modal.is(Function::scaling_on) || in.state.rotated || in.state.mirror != 0) return in.raise_code(Condition::illegal_g, *w.one_shot);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     if (w.axis[i] != 0) return in.raise(Condition::value_range, in.system->axis[i].name, w.axis[i]);

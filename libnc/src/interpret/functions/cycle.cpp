@@ -24,16 +24,16 @@ CycleKind kind_of(Function function) {
   }
 }
 
-/// The pair of axes, I J or K, that is normal to the plane in force.
+/// The pair of axes, I J or K (0, 1, 2), that is normal to the plane in force.
 unsigned normal_pair(const Interpreter& in) {
-  const int16_t plane = in.state.modal.code[kGroupPlane];
-  return plane == 180 ? 1 : plane == 190 ? 0 : 2;
+  const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
+  return 3u - plane.first - plane.second;
 }
 
 /// Drilling axis: the axis normal to the plane, the parallel one where the block of the cycle names it; Z with #1080 (M700 13.1.1
-/// "Positioning plane and hole drilling axis"; DGSHAPE: Z).
+/// "Positioning plane and hole drilling axis").
 int drilling_axis(const Interpreter& in) {
-  if (in.dialect->id == NC_DIALECT_DGSHAPE || in.settings.drilling_axis_z) return in.axis_of['Z' - 'A'];
+  if (in.settings.drilling_axis_z) return in.axis_called(Role::basic_z);
   return axis_of_pair(in, normal_pair(in));
 }
 
@@ -46,31 +46,30 @@ uint32_t positioning_axes(const Interpreter& in) {
     if (axis >= 0) axes |= 1u << axis;
   for (unsigned pair = 0; pair < 3; ++pair) {
     const char basic = in.settings.plane_basic[pair];
-    if (basic == 0 || basic == drills || in.settings.plane_parallel[pair] == drills || in.axis_of[basic - 'A'] < 0) continue;
-    axes |= 1u << in.axis_of[basic - 'A'];
+    if (basic == 0 || basic == drills || in.settings.plane_parallel[pair] == drills || in.axis_named(basic) < 0) continue;
+    axes |= 1u << in.axis_named(basic);
   }
   return axes;
 }
 
 Did select_cycle(Interpreter& in, const FunctionRow& row) {
   State& state = in.state;
-  const bool dgshape = in.dialect->id == NC_DIALECT_DGSHAPE;
   if (row.function == Function::cycle_off) {
     cancel_cycle(in);
-    state.modal.code[kGroupCycle] = row.code;
+    state.modal.set(row);
     return Did::done;
   }
-  if (state.comp.side != 0) return in.raise(Condition::cycle_in_compensation, 'G', row.code / 10.0);
-  if (dgshape && state.modal.code[kGroupPlane] != 170) return in.raise(Condition::cycle_wrong_plane, 'G', row.code / 10.0);
+  if (state.comp.side != 0) return in.raise_code(Condition::cycle_in_compensation, row);
+  if (!state.modal.is(Function::plane_xy) && in.dialect->rules.cycle.xy_plane_only) return in.raise_code(Condition::cycle_wrong_plane, row);
   const int axis = drilling_axis(in);
-  if (axis < 0) return in.raise(Condition::illegal_axis, 'Z');
+  if (axis < 0) return in.raise(Condition::illegal_axis, Role::basic_z);
   if (state.cycle.kind == CycleKind::none) {  // note 2: in the mode the drilling axis does not change
     state.cycle = CycleState{};
     state.cycle.drill_axis = static_cast<uint8_t>(axis);
     state.cycle.initial_level = state.machine[static_cast<unsigned>(axis)] - state.applied[static_cast<unsigned>(axis)];
   }
   state.cycle.kind = kind_of(row.function);
-  state.modal.code[kGroupCycle] = row.code;
+  state.modal.set(row);
   return Did::done;
 }
 
@@ -78,23 +77,22 @@ Did select_cycle(Interpreter& in, const FunctionRow& row) {
 Did take_hole_data(Interpreter& in) {
   const BlockWords& w = in.words;
   CycleState& c = in.state.cycle;
-  const bool dgshape = in.dialect->id == NC_DIALECT_DGSHAPE;
   const uint32_t drill_bit = 1u << c.drill_axis;
   if ((w.axes & drill_bit) != 0) {
     c.has_z = true;
     c.z = w.axis[c.drill_axis];
     c.z_incremental = (w.incremental & drill_bit) != 0;
   }
-  if (w.has('R')) {
+  if (w.has(Role::cycle_level)) {
     c.has_r = true;
-    c.r = axis_value(in, c.drill_axis, w.get('R'), w.flags['R' - 'A'], false);  // M700 2.1: a position of that axis
-    c.r_incremental = in.state.modal.code[kGroupDistance] == 910;
+    c.r = axis_value(in, c.drill_axis, w.get(Role::cycle_level), w.flag(Role::cycle_level), false);  // M700 2.1: a position of that axis
+    c.r_incremental = in.state.modal.is(Function::incremental);
   }
   if (w.in_position_drill > 0) c.in_position = w.in_position_drill;  // "Programmable in-position width": it stays, ,I does not
-  if (w.has('Q')) c.q = std::fabs(length_of(in, 'Q'));
-  if (w.has('P')) {
-    const double ms = dgshape ? w.get('P') : std::trunc(w.get('P'));  // decimals are ignored
-    if (!(ms >= 0) || ms > (dgshape ? 3600e3 : 99999999)) return in.raise(Condition::value_range, 'P', w.get('P'));
+  if (w.has(Role::cycle_depth_step)) c.q = std::fabs(length_of(in, Role::cycle_depth_step));
+  if (w.has(Role::cycle_dwell)) {
+    const double ms = std::trunc(w.get(Role::cycle_dwell));  // decimals are ignored
+    if (!(ms >= 0) || ms > in.dialect->rules.cycle.longest_dwell_ms) return in.raise(Condition::value_range, Role::cycle_dwell, w.get(Role::cycle_dwell));
     c.dwell_s = ms / 1000;
   }
   return Did::done;
@@ -111,6 +109,7 @@ AxisVec plain_end(const AxisVec& start, const AxisVec& target, uint32_t axes) {
 /// Levels of this hole from the hole data (M700 13.1.1 "Absolute/incremental").
 void resolve_hole(Interpreter& in) {
   const CycleState& c = in.state.cycle;
+  const CycleRules& rules = in.dialect->rules.cycle;
   Hole& h = in.hole;
   h.kind = c.kind;
   // As a coordinate of now: the zero point may have changed since the cycle was commanded. A tool length that comes into
@@ -119,25 +118,23 @@ void resolve_hole(Interpreter& in) {
   if (!c.has_r) {
     h.r = h.initial;  // DGSHAPE: omitted R = initial level
   } else if (c.r_incremental) {
-    // M700: the sign of R is ignored in G91 and taken from Z. DGSHAPE: the distance from the initial level as it stands.
-    const bool m700 = in.dialect->id == NC_DIALECT_M700;
-    h.r = h.initial + (m700 && c.z_incremental && c.has_z ? std::copysign(c.r, c.z) : c.r);
+    h.r = h.initial + (rules.r_takes_sign_of_z && c.z_incremental && c.has_z ? std::copysign(c.r, c.z) : c.r);
   } else {
     h.r = c.r;
   }
   h.bottom = !c.has_z ? h.r : c.z_incremental ? h.r + c.z : c.z;
   for (double* level : {&h.initial, &h.r, &h.bottom}) *level = mapped_on(in, c.drill_axis, *level);  // M700 13.6, 13.19
-  h.return_to = in.state.modal.code[kGroupReturn] == 990 ? h.r : h.initial;
+  h.return_to = in.state.modal.is(Function::return_r) ? h.r : h.initial;
   h.q = c.q;
   h.dwell_s = c.dwell_s;
-  if (in.dialect->id == NC_DIALECT_DGSHAPE) {
-    h.clearance = 1;  // DGSHAPE G83: d = 1 mm, fixed
+  if (rules.fixed_clearance_mm > 0) {
+    h.clearance = rules.fixed_clearance_mm;
   } else {
     h.clearance = c.kind == CycleKind::step ? in.settings.peck_clearance_73 : in.settings.peck_clearance_83;
   }
 }
 
-/// The move to the hole. Axes that neither drill nor are of the plane go first (M700 13.1.1 precaution (6)), by the code of group 1 from
+/// The move to the hole. Axes that neither drill nor are of the plane go first (M700 13.1.1 precaution (6)), by the motion from
 /// before the cycle (13.1.2, example 2, N012): rapid by G00, else a line with the feed, which is what such an axis does beside an arc, too.
 /// Then the plane in rapid traverse, which ,I of the block belongs to.
 void position_over_hole(Interpreter& in) {
@@ -147,7 +144,7 @@ void position_over_hole(Interpreter& in) {
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   LinearStyle other = style;
-  if (in.state.modal.code[kGroupMotion] != 0 && in.dialect->id == NC_DIALECT_M700) {
+  if (!in.state.modal.is(Function::rapid) && in.dialect->rules.cycle.others_keep_motion_mode) {
     other.kind = NC_MOVE_LINE;
     other.feed_mm_min = feed_for(in, start, plain_end(start, target, axes & ~over_hole));
     other.special_feed = special_feed(in);
@@ -181,10 +178,10 @@ Did begin_hole(Interpreter& in) {
 
 /// Number of holes of this block: M700 L (13.1.1; default 1, 0 = data only), or K, which the table of 5.3 has for it; DGSHAPE K.
 Did hole_count(Interpreter& in, uint32_t* count) {
-  const char letter = in.dialect->id != NC_DIALECT_DGSHAPE && in.words.has('L') ? 'L' : 'K';
+  const Role word = in.words.has(Role::cycle_count_2) ? Role::cycle_count_2 : Role::cycle_count;
   *count = 1;
-  if (!in.words.has(letter)) return Did::done;
-  if (!whole_number(in.words.get(letter), count) || *count > 9999) return in.raise(Condition::value_range, letter, in.words.get(letter));
+  if (!in.words.has(word)) return Did::done;
+  if (!whole_number(in.words.get(word), count) || *count > 9999) return in.raise(Condition::value_range, word, in.words.get(word));
   return Did::done;
 }
 
@@ -193,18 +190,17 @@ Did hole_count(Interpreter& in, uint32_t* count) {
 void cancel_cycle(Interpreter& in) {
   if (in.state.cycle.kind == CycleKind::none) return;
   in.state.cycle = CycleState{};
-  in.state.modal.code[kGroupCycle] = 800;
+  in.state.modal.set(Function::cycle_off);
 }
 
 Did do_cycle(Interpreter& in) {
   const BlockWords& w = in.words;
-  const bool dgshape = in.dialect->id == NC_DIALECT_DGSHAPE;
   if (w.cycle != nullptr) {
     const Did did = select_cycle(in, *w.cycle);
     if (did != Did::done) return did;
-    if (in.state.cycle.kind == CycleKind::none) return move_by_words(in);  // G80 with axis words: they go by group 1
+    if (in.state.cycle.kind == CycleKind::none) return move_by_words(in);  // G80 with axis words: they go by the motion in force
   }
-  if (w.axes == 0 && !w.has('R')) return Did::done;  // M700 13.1.1 (2)
+  if (w.axes == 0 && !w.has(Role::cycle_level)) return Did::done;  // M700 13.1.1 (2)
   Did did = take_hole_data(in);
   if (did != Did::done) return did;
   uint32_t count = 1;
@@ -214,17 +210,18 @@ Did do_cycle(Interpreter& in) {
   if (count == 0) return Did::done;  // data only
   in.hole_axes = w.axes;
   in.hole_increment = w.axis;
-  if (dgshape && !c.has_z) {  // DGSHAPE G81: Z omitted = positioning, no drilling
+  const CycleRules& rules = in.dialect->rules.cycle;
+  if (!c.has_z && rules.without_bottom_positions) {
     position_over_hole(in);
     return Did::done;
   }
-  if (dgshape && (w.axes & in.rotary) != 0) return in.raise(Condition::illegal_axis, 'A');
-  if (dgshape && !in.state.spindle_on) return in.raise(Condition::spindle_not_turning, 'G', in.state.modal.code[kGroupCycle] / 10.0);
+  if ((w.axes & in.rotary) != 0 && !rules.takes_rotary_axes) return in.raise_axis(Condition::illegal_axis, first_of(w.axes & in.rotary));
+  if (!in.state.spindle_on && rules.needs_turning_spindle) return in.raise_mode(Condition::spindle_not_turning, Mode::cycle);
   if (turns_axis(in, c.drill_axis)) return in.raise(Condition::plane_mismatch, in.system->axis[c.drill_axis].name);  // 13.21: not an axis alone
-  did = check_feed(in, 10);
+  did = check_feed(in, Function::linear);
   if (did != Did::done) return did;
   // A peck below the finest unit of the control (M700 2.1 E) is none: the hole would never be done.
-  if ((c.kind == CycleKind::peck || c.kind == CycleKind::step) && !(c.q >= 1e-6)) return in.raise(Condition::words_missing, 'Q');
+  if ((c.kind == CycleKind::peck || c.kind == CycleKind::step) && !(c.q >= 1e-6)) return in.raise(Condition::words_missing, Role::cycle_depth_step);
   in.holes_left = count;
   return begin_hole(in);
 }

@@ -9,7 +9,8 @@ namespace {
 
 /// Work offsets of one table row; `key(axis)`.
 template <class Key>
-Did write_axes(Interpreter& in, bool accumulate, Key key) {
+Did write_axes(Interpreter& in, Key key) {
+  const bool accumulate = in.dialect->rules.data_input.incremental_adds;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((in.words.axes >> i) & 1) == 0) continue;
     const bool add = accumulate && ((in.words.incremental >> i) & 1) != 0;
@@ -20,54 +21,64 @@ Did write_axes(Interpreter& in, bool accumulate, Key key) {
   return Did::done;
 }
 
-Did work_offset(Interpreter& in, uint32_t l, bool accumulate) {
+/// `l` is what said so.
+Did work_offset(Interpreter& in, bool extended, uint32_t l) {
   const BlockWords& w = in.words;
+  const DataInputRules& rules = in.dialect->rules.data_input;
+  if (w.axes == 0 && rules.axes_required)
+    return w.has(Role::input_amount) ? in.raise(Condition::format_error, Role::input_amount, w.get(Role::input_amount)) : in.raise_code(Condition::format_error, *w.one_shot);
+  if (extended && in.frames.extended_systems() == 0) return in.raise(Condition::g10_l, Role::input_kind, l);  // M700 14.10 (14)
   const bool extended_active = in.state.work_system >= 6;
   uint32_t p = 0;
-  if (l == 20 && in.frames.extended_systems() == 0) return in.raise(Condition::g10_l, 'L', l);  // M700 14.10 (14)
-  if (w.has('P')) {
-    const uint32_t last = l == 20 ? in.frames.extended_systems() : 6;
-    if (!whole_number(w.get('P'), &p) || p > last || (l == 20 && p == 0)) return in.raise(Condition::value_range, 'P', w.get('P'));
-  } else if ((l == 20) != extended_active) {
-    return in.raise(Condition::format_error, 'P');  // M700 14.10 (6): without P only for the kind that is selected
+  if (w.has(Role::input_number)) {
+    const uint32_t last = extended ? in.frames.extended_systems() : 6;
+    if (!whole_number(w.get(Role::input_number), &p) || p > last || (extended && p == 0)) return in.raise(Condition::value_range, Role::input_number, w.get(Role::input_number));
+  } else if (rules.system_required || extended != extended_active) {
+    return in.raise(Condition::format_error, Role::input_number);  // M700 14.10 (6): without P only for the kind that is selected
   }
   unsigned system = in.state.work_system;
-  if (w.has('P')) system = l == 20 ? 5 + p : p - 1;
-  if (w.has('P') && l == 2 && p == 0) return write_axes(in, accumulate, [](unsigned axis) { return Frames::external_key(axis); });
-  return write_axes(in, accumulate, [system](unsigned axis) { return Frames::work_key(system, axis); });
+  if (w.has(Role::input_number)) system = extended ? 5 + p : p - 1;
+  if (w.has(Role::input_number) && !extended && p == 0) return write_axes(in, [](unsigned axis) { return Frames::external_key(axis); });
+  return write_axes(in, [system](unsigned axis) { return Frames::work_key(system, axis); });
 }
 
-Did tool_offset(Interpreter& in, unsigned column, bool accumulate) {
+Did tool_offset(Interpreter& in, unsigned column) {
   const BlockWords& w = in.words;
   uint32_t number = 0;
-  if (!w.has('P') || !w.has('R')) return in.raise(Condition::format_error, w.has('P') ? 'R' : 'P');
-  if (!whole_number(w.get('P'), &number) || number == 0 || number > in.frames.tool_offsets())
-    return in.raise(Condition::g10_p, 'P', w.get('P'));
+  if (!w.has(Role::input_number) || !w.has(Role::input_amount)) return in.raise(Condition::format_error, w.has(Role::input_number) ? Role::input_amount : Role::input_number);
+  if (!whole_number(w.get(Role::input_number), &number) || number == 0 || number > in.frames.tool_offsets())
+    return in.raise(Condition::g10_p, Role::input_number, w.get(Role::input_number));
   const unsigned key = in.frames.tool_key(number, column);
-  const bool add = accumulate && in.state.modal.code[kGroupDistance] == 910;
+  const bool add = in.dialect->rules.data_input.incremental_adds && in.state.modal.is(Function::incremental);
   // M700 2.2 (4): the tenfold unit is not for the amounts of tool compensation.
-  const double input = length_value(in, w.get('R'), w.flags['R' - 'A'], false, true, false);
+  const double input = length_value(in, w.get(Role::input_amount), w.flag(Role::input_amount), false, true, false);
   const double amount = (add ? in.frames.get(key) : 0.0) + input;
   // M700 12.1: the range of an offset.
-  if (std::fabs(amount) >= kOffsetRange) return in.raise(Condition::value_range, 'R', w.get('R'));
+  if (std::fabs(amount) >= kOffsetRange) return in.raise(Condition::value_range, Role::input_amount, w.get(Role::input_amount));
   in.set_table(key, amount);
   return Did::done;
 }
 
-Did dgshape_data_input(Interpreter& in) {
-  const BlockWords& w = in.words;
-  if (in.state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', 10);
-  uint32_t l = 0;
-  if (!w.has('L')) return tool_offset(in, NC_TOOL_LENGTH, false);  // G10 P R: tool-diameter offset n
-  if (!whole_number(w.get('L'), &l) || l != 2) return in.raise(Condition::g10_l, 'L', w.get('L'));
-  if (!w.has('P')) return in.raise(Condition::format_error, 'P');
-  return work_offset(in, 2, false);  // absolute, G90/G91 make no difference
+/// The row of an L, kWithoutL of none; nullptr = the family has no such.
+const DataInputRow* row_of(const Dialect& dialect, uint32_t l) {
+  for (const DataInputRow& row : dialect.data_input)
+    if (row.l == l) return &row;
+  return nullptr;
+}
+
+unsigned column_of(DataInput input) {
+  switch (input) {
+    case DataInput::tool_length_wear: return NC_TOOL_LENGTH_WEAR;
+    case DataInput::tool_radius: return NC_TOOL_RADIUS;
+    case DataInput::tool_radius_wear: return NC_TOOL_RADIUS_WEAR;
+    default: return NC_TOOL_LENGTH;
+  }
 }
 
 /// M700 12.7 (5): L2 or L20 "should not [be] issued in the same block as" L10. One of them would be lost.
 bool two_kinds(const Interpreter& in) {
   unsigned kinds = 0;
-  for (const Word& word : in.block->words) kinds += word.letter == 'L' ? 1u : 0u;
+  for (const Word& word : in.block->words) kinds += in.is(word, Role::input_kind) ? 1u : 0u;
   return kinds > 1;
 }
 
@@ -76,11 +87,11 @@ bool two_kinds(const Interpreter& in) {
 /// M700 15.6: percent of the rated current, whatever decimals stand behind it.
 Did set_current_limit(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (w.axes == 0) return in.raise(Condition::format_error, 'L', 14);
+  if (w.axes == 0) return in.raise(Condition::format_error, Role::input_kind, w.get(Role::input_kind));
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     const char name = in.system->axis[i].name;
-    if (name == 'C') return in.raise(Condition::illegal_address, name, w.get(name));  // (6): not from a program
+    if (name == in.dialect->addresses.letter(Role::second_function_3)) return in.raise(Condition::illegal_address, name, w.get(name));  // (6): not from a program
     const double percent = std::trunc(w.get(name));
     if (!(percent >= 1 && percent <= 300)) return in.raise(Condition::value_range, name, w.get(name));
     Action& action = in.emit(ItemKind::action).action;
@@ -94,30 +105,29 @@ Did set_current_limit(Interpreter& in) {
 
 Did do_data_input(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (two_kinds(in)) return in.raise(Condition::g10_l, 'L', w.get('L'));
-  if (in.dialect->id == NC_DIALECT_DGSHAPE) return dgshape_data_input(in);
-  if (!w.has('L') && w.any(letters("IJK"))) return do_work_rotation(in);  // 13.21
-  uint32_t l = 2;  // no L is judged as L2
-  if (w.has('L') && !whole_number(w.get('L'), &l)) return in.raise(Condition::g10_l, 'L', w.get('L'));
-  switch (l) {
-    case 2:
-    case 20:
-      // A block for a control with other rules (no L: tool offset P of R) would change nothing without a word.
-      if (w.axes == 0) return in.raise(Condition::format_error, w.has('R') ? 'R' : 'G', w.has('R') ? w.get('R') : 10);
-      return work_offset(in, l, true);
-    case 10: return tool_offset(in, NC_TOOL_LENGTH, true);
-    case 11:
-    case 12:
-    case 13:
+  if (two_kinds(in)) return in.raise(Condition::g10_l, Role::input_kind, w.get(Role::input_kind));
+  const Rules& rules = in.dialect->rules;
+  if (in.state.comp.side != 0 && rules.compensation.bars_systems_and_data) return in.raise_code(Condition::not_in_compensation, *w.one_shot);
+  if (!w.has(Role::input_kind) && w.any({Role::vector_x, Role::vector_y, Role::vector_z}) && rules.data_input.vector_turns_work) return do_work_rotation(in);
+  uint32_t l = DataInputRow::kWithoutL;
+  if (w.has(Role::input_kind) && !whole_number(w.get(Role::input_kind), &l)) return in.raise(Condition::g10_l, Role::input_kind, w.get(Role::input_kind));
+  const DataInputRow* const row = row_of(*in.dialect, l);
+  if (row == nullptr) return in.raise(Condition::g10_l, Role::input_kind, l);
+  switch (row->input) {
+    case DataInput::missing: return in.raise(Condition::no_function, Role::input_kind, l);
+    case DataInput::work_offset: return work_offset(in, false, l);
+    case DataInput::extended_offset: return work_offset(in, true, l);
+    case DataInput::tool_length: return tool_offset(in, NC_TOOL_LENGTH);
+    case DataInput::tool_length_wear:
+    case DataInput::tool_radius:
+    case DataInput::tool_radius_wear:
       // Length wear, radius, radius wear exist in tool memory type II only (M700 12.7).
-      if (!in.settings.tool_memory_2) return in.raise(Condition::g10_l, 'L', l);
-      return tool_offset(in, l - 10, true);
-    case 3: return in.raise(Condition::no_function, 'L', l);  // tool life: not built
-    case 14: return set_current_limit(in);
-    case 50:
-    case 70: return begin_parameter_input(in);
-    default: return in.raise(Condition::g10_l, 'L', l);
+      if (!in.settings.tool_memory_2) return in.raise(Condition::g10_l, Role::input_kind, l);
+      return tool_offset(in, column_of(row->input));
+    case DataInput::current_limit: return set_current_limit(in);
+    case DataInput::parameters: return begin_parameter_input(in);
   }
+  return Did::done;
 }
 
 }  // namespace nc

@@ -9,47 +9,38 @@ namespace {
 
 /// M700 8.1 note 3: an X before G04 is read as a length; what is inch with one decimal more comes out tenfold.
 bool read_as_inch(const Interpreter& in) {
-  if (in.state.modal.code[kGroupUnit] != 200 || !in.words.pointed('X')) return false;
+  if (!in.state.modal.is(Function::inch) || !in.words.pointed(Role::dwell_seconds)) return false;
   for (const Word& word : in.block->words) {
-    if (word.letter == 'X') return true;
-    if (word.letter == 'G' && word.value == 4) return false;
+    if (in.is(word, Role::dwell_seconds)) return true;
+    const FunctionRow* const row = in.is(word, Role::code) ? in.codes.find(word.value) : nullptr;
+    if (row != nullptr && row->function == Function::dwell) return false;
   }
   return false;
 }
 
-/// M700 8.1, table of X and P against #1078 and #8112.
-double m700_seconds(const Interpreter& in, char letter) {
+/// M700 8.1, table of X and P against #1078 and #8112. DGSHAPE G04: P is always ms; X with a point seconds, else ms, or seconds where the
+/// calculator type reads X.
+double seconds_of(const Interpreter& in, Role word) {
   const BlockWords& w = in.words;
-  const double raw = w.get(letter);
-  const bool pointed = w.pointed(letter);
-  if (letter == 'X' && read_as_inch(in)) return raw * 10;
-  if (letter == 'P' && !in.settings.dwell_p_decimal) return std::trunc(raw) / 1000;  // always whole ms
-  if (pointed) return raw;
-  return in.settings.decimal_type_2 ? raw : raw / 1000;
-}
-
-/// DGSHAPE G04: P is always ms; X with a point seconds, else ms, or seconds where the calculator type reads X.
-double dgshape_seconds(const Interpreter& in, char letter) {
-  const double raw = in.words.get(letter);
-  if (letter == 'P') return raw / 1000;
-  const bool whole = in.settings.calculator && (in.settings.calculator_words == 1 || in.settings.calculator_words == 3);
-  return in.words.pointed('X') || whole ? raw : raw / 1000;
+  const double raw = w.get(word);
+  if (word == Role::dwell_seconds && in.dialect->rules.dwell.early_x_is_length && read_as_inch(in)) return raw * 10;
+  if (word == Role::dwell_time && !in.settings.dwell_p_decimal) return std::trunc(raw) / 1000;  // always whole ms
+  return w.pointed(word) || in.settings.whole_positions() ? raw : raw / 1000;
 }
 
 }  // namespace
 
 Did do_dwell(Interpreter& in) {
   const BlockWords& w = in.words;
-  const char letter = w.has('X') ? 'X' : 'P';
-  const bool m700 = in.dialect->id == NC_DIALECT_M700;
-  if (!w.has(letter) && !m700) return in.raise(Condition::words_missing, 'G', 4);
+  const Role word = w.has(Role::dwell_seconds) ? Role::dwell_seconds : Role::dwell_time;
+  const DwellRules& rules = in.dialect->rules.dwell;
+  if (!w.has(word) && !rules.time_optional) return in.raise_code(Condition::words_missing, *w.one_shot);
   // M700 15.2 prints "G04" alone behind G31, "machine stop check": the axes come to rest, and that is all.
-  const double seconds = !w.has(letter) ? 0 : m700 ? m700_seconds(in, letter) : dgshape_seconds(in, letter);
-  const double longest = m700 ? 99999.999 : 3600;  // M700 8.1; DGSHAPE G04
-  if (!(seconds >= 0) || seconds > longest) return in.raise(Condition::value_range, letter, w.get(letter));
+  const double seconds = w.has(word) ? seconds_of(in, word) : 0;
+  if (!(seconds >= 0) || seconds > rules.longest_s) return in.raise(Condition::value_range, word, w.get(word));
   Gate& gate = in.emit(ItemKind::gate).gate;
   gate.kind = NC_GATE_DWELL_SECONDS;
-  gate.announce = w.has(letter);
+  gate.announce = w.has(word);
   gate.value = seconds;
   gate.skip_mask = in.settings.dwell_skip;
   if (in.words.fin_behind_dwell) await_fin(in);

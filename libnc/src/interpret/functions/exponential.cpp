@@ -17,40 +17,39 @@ struct ExponentialWords {
   double taper = 0, torsion = 0, radius = 0, feed = 0, feed_end = 0;
 };
 
-Did angle_word(Interpreter& in, char letter, double* angle) {
-  *angle = length_value(in, in.words.get(letter), in.words.flags[letter - 'A'], true, true);
-  if (*angle == 0 || std::fabs(*angle) > 89) return in.raise(Condition::value_range, letter, in.words.get(letter));
+Did angle_word(Interpreter& in, Role word, double* angle) {
+  *angle = length_value(in, in.words.get(word), in.words.flag(word), true, true);
+  if (*angle == 0 || std::fabs(*angle) > 89) return in.raise(Condition::value_range, word, in.words.get(word));
   return Did::done;
 }
 
 Did take_words(Interpreter& in, ExponentialWords* words) {
   const BlockWords& w = in.words;
-  for (const char letter : {'I', 'J', 'R', 'F'})
-    if (!w.has(letter)) return in.raise(Condition::format_error, letter);
-  Did did = angle_word(in, 'I', &words->taper);
-  if (did == Did::done) did = angle_word(in, 'J', &words->torsion);
+  for (const Role word : {Role::taper_angle, Role::torsion_angle, Role::exponential_radius, Role::feed})
+    if (!w.has(word)) return in.raise(Condition::format_error, word);
+  Did did = angle_word(in, Role::taper_angle, &words->taper);
+  if (did == Did::done) did = angle_word(in, Role::torsion_angle, &words->torsion);
   if (did != Did::done) return did;
-  words->radius = length_of(in, 'R');
-  if (!(words->radius > 0)) return in.raise(Condition::value_range, 'R', w.get('R'));
+  words->radius = length_of(in, Role::exponential_radius);
+  if (!(words->radius > 0)) return in.raise(Condition::value_range, Role::exponential_radius, w.get(Role::exponential_radius));
   did = feed_of(in, &words->feed);
   if (did != Did::done) return did;
-  if (!(words->feed > 0)) return in.raise(Condition::value_range, 'F', w.get('F'));
-  const double unit = in.state.modal.code[kGroupUnit] == 200 ? 25.4 : 1.0;
+  if (!(words->feed > 0)) return in.raise(Condition::value_range, Role::feed, w.get(Role::feed));
+  const double unit = in.state.modal.is(Function::inch) ? 25.4 : 1.0;
   words->feed *= unit;
   words->feed_end = words->feed;
-  if (w.has('Q')) {
-    if (!(w.get('Q') > 0) || w.get('Q') > 1e7) return in.raise(Condition::value_range, 'Q', w.get('Q'));
-    words->feed_end = w.get('Q') * unit;
+  if (w.has(Role::exponential_end_feed)) {
+    if (!(w.get(Role::exponential_end_feed) > 0) || w.get(Role::exponential_end_feed) > 1e7) return in.raise(Condition::value_range, Role::exponential_end_feed, w.get(Role::exponential_end_feed));
+    words->feed_end = w.get(Role::exponential_end_feed) * unit;
   }
   return Did::done;
 }
 
 Did check_modes(Interpreter& in) {
   const State& state = in.state;
-  if (state.high_speed == kHighAccuracy2) return in.raise(Condition::illegal_g, 'G', state.modal.code[kGroupMotion] / 10.0);
-  const int16_t* const modal = state.modal.code;
-  const bool length_starts = state.length_value != 0 && in.words.any(letters("H"));
-  if (modal[kGroupScaling] != 500 || state.any_mirror() != 0 || modal[kGroupRotation] != 690 || state.work_turned || state.comp.side != 0 || length_starts ||
+  if (state.high_speed == SpeedMode::accuracy_2) return in.raise_mode(Condition::illegal_g, Mode::motion);
+  const bool length_starts = state.length_value != 0 && in.words.any({Role::length_number});
+  if (!state.modal.is(Function::scaling_off) || state.any_mirror() != 0 || !state.modal.is(Function::rotation_off) || state.work_turned || state.comp.side != 0 || length_starts ||
       state.frame[state.depth].figure != 0)
     return in.raise(Condition::exponential_mode);
   return Did::done;
@@ -65,7 +64,7 @@ Did move_exponential(Interpreter& in, const AxisVec& target, uint32_t commanded,
   did = take_words(in, &words);
   if (did != Did::done) return did;
   const char linear_name = in.settings.exponential_linear, rotary_name = in.settings.exponential_rotary;
-  const int linear = linear_name == 0 ? -1 : in.axis_of[linear_name - 'A'], rotary = rotary_name == 0 ? -1 : in.axis_of[rotary_name - 'A'];
+  const int linear = in.axis_named(linear_name), rotary = in.axis_named(rotary_name);
   if (linear < 0 || rotary < 0 || ((in.rotary >> linear) & 1) != 0 || ((in.rotary >> rotary) & 1) == 0) return in.raise(Condition::exponential_axes);
   const auto x = static_cast<unsigned>(linear), c = static_cast<unsigned>(rotary);
   MoveFrame frame = frame_of_move(in, target, commanded);

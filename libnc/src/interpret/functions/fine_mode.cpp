@@ -10,81 +10,89 @@ namespace {
 enum : uint8_t { kMode1 = 1, kMode2 = 2, kSmooth = 4, kBoth = kMode1 | kMode2, kAll = kBoth | kSmooth };
 
 struct Allowed {
-  int16_t first, last;  ///< codes times 10
+  Function function;
   uint8_t modes;
 };
 
 // The columns of the first table are lost; where no other sentence tells, a row counts for both modes (docs/decisions.md).
 constexpr Allowed kAllowed[] = {
-    {0, 0, kAll},           // positioning
-    {10, 10, kAll},         // cutting feed
-    {20, 20, kAll},         // arcs and helices
-    {30, 30, kAll},
-    {21, 21, kSmooth},      // spiral interpolation
-    {31, 31, kSmooth},
-    {62, 62, kMode2},       // NURBS: 6.15
-    {170, 190, kAll},       // planes
-    {400, 400, kAll},       // tool radius compensation
-    {410, 410, kAll},
-    {420, 420, kAll},
-    {430, 430, kBoth},      // tool length compensation
-    {440, 440, kBoth},
-    {490, 490, kBoth},
-    {501, 501, kAll},       // mirror image
-    {511, 511, kAll},
-    {900, 910, kAll},       // absolute, incremental
-    {920, 920, kBoth},      // workpiece coordinates
-    {530, 530, kBoth},      // machine coordinates
-    {540, 540, kBoth},
-    {550, 590, kBoth},
-    {100, 111, kBoth},      // G10 L50, L10; G11 (G11.1, 13.11) ends the first
-    {50, 51, kAll},         // cancel, spline: rules of their own
-    {650, 670, kMode1},     // precaution (12): user macros cannot be used in II
+    {Function::rapid, kAll},
+    {Function::linear, kAll},
+    {Function::arc_cw, kAll},             // helices, too
+    {Function::arc_ccw, kAll},
+    {Function::spiral_cw, kSmooth},
+    {Function::spiral_ccw, kSmooth},
+    {Function::nurbs, kMode2},            // 6.15
+    {Function::plane_xy, kAll},
+    {Function::plane_zx, kAll},
+    {Function::plane_yz, kAll},
+    {Function::comp_off, kAll},
+    {Function::comp_left, kAll},
+    {Function::comp_right, kAll},
+    {Function::length_plus, kBoth},
+    {Function::length_minus, kBoth},
+    {Function::length_off, kBoth},
+    {Function::mirror_off, kAll},
+    {Function::mirror_on, kAll},
+    {Function::absolute, kAll},
+    {Function::incremental, kAll},
+    {Function::coordinate_set, kBoth},
+    {Function::machine_move, kBoth},
+    {Function::work_system, kBoth},
+    {Function::data_input, kBoth},        // L50, L10
+    {Function::data_input_end, kBoth},    // ends the first; so does G11.1 (13.11)
+    {Function::parameter_input_end, kBoth},
+    {Function::high_speed, kAll},         // cancel, spline: rules of their own
+    {Function::high_speed_accuracy, kAll},
+    {Function::macro_call, kMode1},       // precaution (12): user macros cannot be used in II
+    {Function::macro_modal, kMode1},
+    {Function::macro_every_block, kMode1},
+    {Function::macro_modal_off, kMode1},
 };
 
 uint8_t bit_of(FineMode mode) { return mode == FineMode::accuracy1 ? kMode1 : mode == FineMode::accuracy2 ? kMode2 : kSmooth; }
 
-bool data_input_allowed(const BlockWords& w) {
-  uint32_t l = 0;
-  if (!w.has('L') || !whole_number(w.get('L'), &l)) return false;
-  return l == 10 || l == 50 || l == 70;  // 13.11 prints L70 for what 13.17 calls L50
+/// L10, and parameters: 13.11 prints L70 for what 13.17 calls L50.
+bool data_input_allowed(const Interpreter& in) {
+  const BlockWords& w = in.words;
+  uint32_t kind = 0;
+  if (!w.has(Role::input_kind) || !whole_number(w.get(Role::input_kind), &kind)) return false;
+  for (const DataInputRow& row : in.dialect->data_input)
+    if (row.l == kind) return row.input == DataInput::tool_length || row.input == DataInput::parameters;
+  return false;
 }
-
-/// G02, G03.
-bool is_arc(int16_t code) { return code == 20 || code == 30; }
 
 /// Addresses that have a meaning in the block.
 uint32_t addresses(const Interpreter& in) {
   const BlockWords& w = in.words;
   // Axis movement, F, M S T B with what stands for B, I J K R of arcs, D of radius compensation; O and a late N have errors of their own.
-  uint32_t known = in.axis_letters | letters("ABCDFIJKNORST");
-  if (allowed_in_fine_mode(in.state.fine_mode, 430)) known |= letters("H");  // of length compensation, in any block (12.1 (2))
-  const int16_t motion = in.state.modal.code[kGroupMotion];
-  const int16_t own = w.motion != nullptr ? w.motion->code : motion;
-  if (is_arc(own) || own == 21 || own == 31 || own == 62) known |= letters("PQL");
+  uint32_t known = in.axis_letters | in.addresses({Role::second_function, Role::second_function_2, Role::second_function_3, Role::offset_number, Role::feed, Role::vector_x,
+                                                      Role::vector_y, Role::vector_z, Role::sequence_number, Role::program_number, Role::arc_radius,
+                                                      Role::spindle_speed, Role::tool});
+  if (allowed_in_fine_mode(in.state.fine_mode, Function::length_plus)) known |= in.addresses({Role::length_number});  // of length compensation, in any block (12.1 (2))
+  const Function motion = w.motion != nullptr ? w.motion->function : in.state.modal.of(Mode::motion);
+  if (is_arc(motion) || is_spiral(motion) || motion == Function::nurbs) known |= in.addresses({Role::arc_turns, Role::curve_order, Role::spiral_step, Role::spiral_pitches});
   for (const FunctionRow* row : w.g) {
     if (row->function == Function::high_speed || row->function == Function::high_speed_accuracy || row->function == Function::data_input)
       known = ~uint32_t{0};
   }
-  for (const uint32_t m : w.m) {
-    const MiscRow* row = find_misc(*in.dialect, m);
-    if (row != nullptr && row->function != MiscFunction::output) known |= letters("PHLQ");
-  }
+  for (const uint32_t m : w.m)
+    if (!goes_out(misc_function(*in.dialect, m))) known |= in.addresses({Role::call_program, Role::call_sequence, Role::call_repeats, Role::call_option});
   return known;
 }
 
 /// 13.18 (1) (c): anything but a block of G01 breaks the spline.
 bool goes_on_with_spline(const Interpreter& in) {
   const BlockWords& w = in.words;
-  const int16_t motion = w.motion != nullptr ? w.motion->code : in.state.modal.code[kGroupMotion];
-  return motion == 10 && w.one_shot == nullptr && w.any(in.axis_letters);
+  const Function motion = w.motion != nullptr ? w.motion->function : in.state.modal.of(Mode::motion);
+  return motion == Function::linear && w.one_shot == nullptr && w.any(in.axis_letters);
 }
 
 }  // namespace
 
-bool allowed_in_fine_mode(FineMode mode, int16_t code) {
+bool allowed_in_fine_mode(FineMode mode, Function function) {
   for (const Allowed& row : kAllowed)
-    if (code >= row.first && code <= row.last) return (row.modes & bit_of(mode)) != 0;
+    if (row.function == function) return (row.modes & bit_of(mode)) != 0;
   return false;
 }
 
@@ -95,20 +103,20 @@ Did check_fine_block(Interpreter& in) {
   if (mode != FineMode::accuracy1 && !in.block->code.empty())  // precaution (12): no variables in II
     for (const Word& word : in.block->words)
       if ((word.flags & kWordExpression) != 0) return in.raise(Condition::format_error, word.letter);
-  if (mode == FineMode::smooth && w.has('F') && is_feed_digit(in, w.get('F'))) return in.raise(Condition::format_error, 'F', w.get('F'));  // 13.17.2 (3)
-  if (state.spline.on && !goes_on_with_spline(in)) state.spline.joined = state.spline.moved = false;
-  if (w.g.empty() && w.m.empty() && !w.any(~(in.axis_letters | letters("F")))) return Did::done;
+  if (mode == FineMode::smooth && w.has(Role::feed) && is_feed_digit(in, w.get(Role::feed))) return in.raise(Condition::format_error, Role::feed, w.get(Role::feed));  // 13.17.2 (3)
+  if (state.spline.on && !goes_on_with_spline(in)) state.spline_way = {};
+  if (w.g.empty() && w.m.empty() && !w.any(~(in.axis_letters | in.addresses({Role::feed})))) return Did::done;
   for (const FunctionRow* row : w.g) {
-    const bool allowed = allowed_in_fine_mode(mode, row->code) && (row->function != Function::data_input || data_input_allowed(w));
-    if (!allowed) return in.raise(Condition::illegal_g, 'G', row->code / 10.0);
+    const bool allowed = allowed_in_fine_mode(mode, row->function) && (row->function != Function::data_input || data_input_allowed(in));
+    if (!allowed) return in.raise_code(Condition::illegal_g, *row);
   }
   if (w.one_shot != nullptr && is_macro_call(w.one_shot->function)) return Did::done;  // arguments
   for (const uint32_t m : w.m)  // note 1
-    if (mode != FineMode::accuracy1 && (is_interrupt_on(in, m) || is_interrupt_off(in, m))) return in.raise(Condition::format_error, 'M', m);
+    if (mode != FineMode::accuracy1 && (is_interrupt_on(in, m) || is_interrupt_off(in, m))) return in.raise(Condition::format_error, Role::misc_code, m);
   const uint32_t unknown = w.present & ~addresses(in);
-  for (char letter = 'A'; unknown != 0 && letter <= 'Z'; ++letter)
-    if (((unknown >> (letter - 'A')) & 1) != 0) return in.raise(Condition::format_error, letter, w.get(letter));
-  return Did::done;
+  if (unknown == 0) return Did::done;
+  const char letter = first_of_block(in, unknown);
+  return in.raise(Condition::format_error, letter, w.get(letter));
 }
 
 }  // namespace nc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the functions do: one handler for each one-shot Function of dialect.hpp. To add a function: a Function, a row in the dialect's
+// What the functions do: one handler for each one-shot Function of dialect/function.hpp. To add a function: a Function, a row in the dialect's
 // table, a handler here and its line in one_shot.cpp.
 #pragma once
 
@@ -49,8 +49,9 @@ Did do_polar_on(Interpreter& in);           // milling.cpp
 Did do_polar_off(Interpreter& in);          // milling.cpp
 Did do_hypothetical_axis(Interpreter& in);  // hypothetical.cpp
 Did do_unidirectional(Interpreter& in);     // unidirectional.cpp
+Did do_circle_cut(Interpreter& in);         // circle_cut.cpp: G12 G13
 
-/// Motions of group 1 with rules of their own.
+/// Motions with rules of their own.
 Did move_thread(Interpreter& in, const AxisVec& target, uint32_t commanded);             // thread.cpp
 Did move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw);   // spiral.cpp
 Did move_exponential(Interpreter& in, const AxisVec& target, uint32_t commanded, bool negative);   // exponential.cpp
@@ -63,13 +64,13 @@ Did check_nurbs_block(Interpreter& in);
 Did do_high_speed(Interpreter& in);         // high_speed.cpp
 Did do_high_speed_accuracy(Interpreter& in);   // high_speed.cpp
 Did do_high_accuracy(Interpreter& in);      // high_accuracy.cpp
-/// A code of group 13 while high-accuracy control is on, and G61.1 (high_accuracy.cpp).
+/// A code of the cutting mode while high-accuracy control is on, and G61.1 (high_accuracy.cpp).
 Did check_cutting_code(Interpreter& in, const FunctionRow& row);
 /// G01 between G05.1 Q2 and G05.1 Q0 (spline.cpp).
 Did move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
 /// What a block may hold in the modes of M700 13.17 (fine_mode.cpp).
 Did check_fine_block(Interpreter& in);
-bool allowed_in_fine_mode(FineMode mode, int16_t code);
+bool allowed_in_fine_mode(FineMode mode, Function function);
 bool means_spiral(const Interpreter& in);                                                // spiral.cpp: a G02/G03 of type 2
 
 /// Rules of a block, and of a move, while cylindrical or polar coordinate interpolation is on (milling.cpp).
@@ -85,6 +86,9 @@ Did select_work_system(Interpreter& in, const FunctionRow& row);   // coordinate
 Did set_compensation(Interpreter& in, Function function);          // compensation.cpp
 Did change_radius(Interpreter& in);                                // compensation.cpp: a D word in the mode
 Did set_length(Interpreter& in, Function function);                // compensation.cpp
+/// The number of an offset that a word gives, no_offset_number where there is none of this number; the amount of a radius by it, 0 for number 0.
+Did offset_number(Interpreter& in, Role word, uint32_t* number);   // compensation.cpp
+double radius_amount(const Interpreter& in, uint32_t number);      // compensation.cpp
 Did change_length(Interpreter& in);                                // compensation.cpp: an H without G43, G44, G49
 
 /// Fixed cycles (cycle.cpp): the block's cycle code and words; the holes go on in continue_cycle.

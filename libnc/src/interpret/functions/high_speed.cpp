@@ -7,46 +7,56 @@
 namespace nc {
 namespace {
 
-constexpr double kHighSpeed = 5, kHighSpeedAccuracy = 5.1;
-
 bool in_mode_2(const State& state) { return state.fine_mode == FineMode::accuracy2 || state.fine_mode == FineMode::smooth; }
 
 bool other_words(const BlockWords& w, uint32_t allowed) { return w.g.size() > 1 || !w.m.empty() || (w.present & ~allowed) != 0; }
 
-/// 6.11, 6.12: what excludes the modes of 13.17 and the spline.
-bool excluded(const State& state) {
-  const int16_t motion = state.modal.code[kGroupMotion];
-  return state.modal.code[kGroupPolarCommand] == 160 || motion == 23 || motion == 33;
+/// The row with the value of a word; nullptr = the family has none with it.
+template <class Row>
+const Row* row_of(const Table<Row>& rows, double raw) {
+  uint32_t value = 0;
+  if (!whole_number(raw, &value)) return nullptr;
+  for (const Row& row : rows)
+    if (row.value == value) return &row;
+  return nullptr;
 }
 
-/// 13.17.1 "relation with other functions" (1), 13.17.2: the modal state that a mode starts from. Mode I takes the modes of group 13 but
+Did refuse(Interpreter& in) { return in.raise_code(Condition::illegal_g, *in.words.one_shot); }
+
+/// 6.11, 6.12: what excludes the modes of 13.17 and the spline.
+bool excluded(const State& state) {
+  return state.modal.is(Function::polar_command_on) || is_exponential(state.modal.of(Mode::motion));
+}
+
+/// 13.17.1 "relation with other functions" (1), 13.17.2: the modal state that a mode starts from. Mode I takes the cutting modes but
 /// G61.1 and the feed per revolution and constant surface speed, without a promise; it alone asks for G49.
 bool wrong_state(const Interpreter& in, FineMode mode) {
   const State& state = in.state;
-  const int16_t* const modal = state.modal.code;
-  if (state.comp.side != 0 || modal[kGroupCompensation] != 400 || state.any_mirror() != 0 || has_modal_call(in) ||
-      modal[kGroupRotation] != 690 || state.cycle.kind != CycleKind::none || modal[kGroupCycle] != 800 || state.interrupt_on)
+  const ModalState& modal = state.modal;
+  if (state.comp.side != 0 || !modal.is(Function::comp_off) || state.any_mirror() != 0 || has_modal_call(in) ||
+      !modal.is(Function::rotation_off) || state.cycle.kind != CycleKind::none || !modal.is(Function::cycle_off) || state.interrupt_on)
     return true;
-  if (mode != FineMode::accuracy1) return modal[kGroupCutting] != 640 || modal[kGroupFeed] != 940 || modal[kGroupSurfaceSpeed] != 970;
-  const int16_t cutting = modal[kGroupCutting];
-  const bool cutting_known = cutting == 610 || cutting == 620 || cutting == 630 || cutting == 640;
-  return modal[kGroupLength] != 490 || !cutting_known || (modal[kGroupFeed] != 940 && modal[kGroupFeed] != 950);
+  const bool per_minute = modal.is(Function::feed_per_minute);
+  if (mode != FineMode::accuracy1) return !modal.is(Function::cutting_mode) || !per_minute || !modal.is(Function::surface_off);
+  const bool cutting_known = modal.is(Function::exact_stop_mode) || modal.is(Function::corner_override) || modal.is(Function::tapping_mode) ||
+                             modal.is(Function::cutting_mode);
+  return !modal.is(Function::length_off) || !cutting_known || !(per_minute || modal.is(Function::feed_per_revolution));
 }
 
-Did start(Interpreter& in, FineMode mode, double code) {
+Did start(Interpreter& in, FineMode mode) {
   State& state = in.state;
-  if (!in.settings.high_speed_codes || excluded(state)) return in.raise(Condition::illegal_g, 'G', code);
-  if (state.modal.code[kGroupNormalLine] != 401) return in.raise(Condition::not_accepted, 'G', code);  // 13.14
-  if (wrong_state(in, mode)) return in.raise(Condition::illegal_g, 'G', code);
+  if (!in.settings.high_speed_codes || excluded(state)) return refuse(in);
+  if (!state.modal.is(Function::normal_line_off)) return in.raise_code(Condition::not_accepted, *in.words.one_shot);  // 13.14
+  if (wrong_state(in, mode)) return refuse(in);
   state.fine_mode = mode;
   state.refresh_accuracy();
   return Did::done;
 }
 
 /// Precaution (5): radius compensation is turned off inside the mode.
-Did leave(Interpreter& in, double code) {
+Did leave(Interpreter& in) {
   State& state = in.state;
-  if (state.comp.side != 0 || state.modal.code[kGroupCompensation] != 400) return in.raise(Condition::illegal_g, 'G', code);
+  if (state.comp.side != 0 || !state.modal.is(Function::comp_off)) return refuse(in);
   state.fine_mode = FineMode::none;
   state.spline = SplineState{};
   state.refresh_special();
@@ -57,16 +67,15 @@ Did leave(Interpreter& in, double code) {
 /// The machine slows down once at these blocks (13.16 restriction (4), 13.17.1 precaution (4)).
 void slow_down(Interpreter& in) { in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION; }
 
-Did high_speed_machining(Interpreter& in, uint32_t p) {
+Did high_speed_machining(Interpreter& in, SpeedMode mode) {
   State& state = in.state;
   // 13.20: mode III is refused in a rotation; it is in no part of the manual but that and the list of P.
-  if (p == 3 && state.modal.code[kGroupRotation] != 690) return in.raise(Condition::illegal_g, 'G', kHighSpeed);
-  if (p == 3) return in.raise(Condition::high_speed_3, 'P', p);  // App.1 P65
-  if (in_mode_2(state)) return in.raise(Condition::illegal_g, 'G', kHighSpeed);  // not in the list of 13.17
-  const int16_t motion = state.modal.code[kGroupMotion];
-  if (motion == 23 || motion == 33) return in.raise(Condition::illegal_g, 'G', kHighSpeed);  // 6.11
-  if (state.high_speed != p) slow_down(in);
-  state.high_speed = static_cast<uint16_t>(p);
+  if (mode == SpeedMode::machining_3 && !state.modal.is(Function::rotation_off)) return refuse(in);
+  if (mode == SpeedMode::machining_3) return in.raise(Condition::high_speed_3, Role::speed_mode, in.words.get(Role::speed_mode));  // App.1 P65
+  if (in_mode_2(state)) return refuse(in);  // not in the list of 13.17
+  if (is_exponential(state.modal.of(Mode::motion))) return refuse(in);  // 6.11
+  if (state.high_speed != mode) slow_down(in);
+  state.high_speed = mode;
   return Did::done;
 }
 
@@ -75,21 +84,22 @@ bool spline_axes(const Interpreter& in, uint8_t* axes) {
   uint32_t named = 0;
   *axes = 0;
   for (const char name : in.settings.plane_basic) {
-    const int axis = name == 0 ? -1 : in.axis_of[name - 'A'];
+    const int axis = in.axis_named(name);
     if (axis < 0 || !in.words.has(name)) continue;
-    named |= 1u << (name - 'A');
+    named |= 1u << address_of(name);
     *axes = static_cast<uint8_t>(*axes | 1u << axis);
   }
-  return !other_words(in.words, named | letters("Q"));
+  return !other_words(in.words, named | in.addresses({Role::speed_option}));
 }
 
 Did spline_on(Interpreter& in) {
   State& state = in.state;
   if (!in_mode_2(state) || !in.settings.spline_allowed || !in.settings.high_speed_codes || excluded(state))
-    return in.raise(Condition::illegal_g, 'G', kHighSpeedAccuracy);  // 13.18 (3), (4), precaution (2)
+    return refuse(in);  // 13.18 (3), (4), precaution (2)
   uint8_t axes = 0;
-  if (!spline_axes(in, &axes)) return in.raise(Condition::must_stand_alone, 'G', kHighSpeedAccuracy);  // precaution (5)
+  if (!spline_axes(in, &axes)) return in.raise_code(Condition::must_stand_alone, *in.words.one_shot);  // precaution (5)
   state.spline = SplineState{};
+  state.spline_way = {};
   state.spline.on = true;
   state.spline.axes = axes;
   state.refresh_special();
@@ -102,38 +112,39 @@ Did spline_on(Interpreter& in) {
 Did do_high_speed(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
-  if (!w.has('P')) return in.raise(Condition::format_error, 'P');
-  uint32_t p = 0;
-  if ((w.flags['P' - 'A'] & kWordPoint) != 0) return in.raise(Condition::format_error, 'P', w.get('P'));
-  if (!whole_number(w.get('P'), &p) || (p > 3 && p != kHighAccuracy2)) return in.raise(Condition::value_range, 'P', w.get('P'));
+  if (!w.has(Role::speed_mode)) return in.raise(Condition::format_error, Role::speed_mode);
+  if ((w.flag(Role::speed_mode) & kWordPoint) != 0) return in.raise(Condition::format_error, Role::speed_mode, w.get(Role::speed_mode));
+  const SpeedModeRow* const row = row_of(in.dialect->speed_modes, w.get(Role::speed_mode));
+  if (row == nullptr) return in.raise(Condition::value_range, Role::speed_mode, w.get(Role::speed_mode));
+  const SpeedMode mode = row->mode;
   // 13.17.1 precaution (5) makes it P33, 13.16 restriction (8) P35.
-  const bool accuracy = p == kHighAccuracy2 || (p == 0 && in_mode_2(state));
-  if (other_words(w, letters("P"))) return in.raise(accuracy ? Condition::must_stand_alone : Condition::value_range, 'G', kHighSpeed);
-  if (state.fine_mode == FineMode::accuracy1) return in.raise(Condition::illegal_g, 'G', kHighSpeed);  // 13.17.1 precaution (11)
-  if (p == kHighAccuracy2 && in_mode_2(state)) return Did::done;
+  const bool accuracy = mode == SpeedMode::accuracy_2 || (mode == SpeedMode::off && in_mode_2(state));
+  if (other_words(w, in.addresses({Role::speed_mode}))) return in.raise_code(accuracy ? Condition::must_stand_alone : Condition::value_range, *w.one_shot);
+  if (state.fine_mode == FineMode::accuracy1) return refuse(in);  // 13.17.1 precaution (11)
+  if (mode == SpeedMode::accuracy_2 && in_mode_2(state)) return Did::done;
   Did did = Did::done;
-  if (p == 0 && in_mode_2(state)) did = leave(in, kHighSpeed);
-  if (p == kHighAccuracy2) did = start(in, in.settings.smooth_control ? FineMode::smooth : FineMode::accuracy2, kHighSpeed);
-  if (p >= 1 && p <= 3) return high_speed_machining(in, p);
+  if (mode == SpeedMode::off && in_mode_2(state)) did = leave(in);
+  if (mode == SpeedMode::accuracy_2) did = start(in, in.settings.smooth_control ? FineMode::smooth : FineMode::accuracy2);
+  if (mode != SpeedMode::off && mode != SpeedMode::accuracy_2) return high_speed_machining(in, mode);
   if (did != Did::done) return did;
-  if (state.high_speed != p) slow_down(in);
-  state.high_speed = static_cast<uint16_t>(p);
+  if (state.high_speed != mode) slow_down(in);
+  state.high_speed = mode;
   return Did::done;
 }
 
 Did do_high_speed_accuracy(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
-  if (!w.has('Q') || (w.flags['Q' - 'A'] & kWordPoint) != 0) return in.raise(Condition::format_error, 'Q');
-  uint32_t q = 0;
-  if (!whole_number(w.get('Q'), &q) || q > 2) return in.raise(Condition::value_range, 'Q', w.get('Q'));
-  if (q == 2) return spline_on(in);
-  if (other_words(w, letters("Q"))) return in.raise(Condition::must_stand_alone, 'G', kHighSpeedAccuracy);
-  if (q == 1) {
-    if (in_mode_2(state)) return in.raise(Condition::illegal_g, 'G', kHighSpeedAccuracy);  // 13.17.1 precaution (10)
+  if (!w.has(Role::speed_option) || (w.flag(Role::speed_option) & kWordPoint) != 0) return in.raise(Condition::format_error, Role::speed_option);
+  const SpeedOptionRow* const row = row_of(in.dialect->speed_options, w.get(Role::speed_option));
+  if (row == nullptr) return in.raise(Condition::value_range, Role::speed_option, w.get(Role::speed_option));
+  if (row->option == SpeedOption::spline) return spline_on(in);
+  if (other_words(w, in.addresses({Role::speed_option}))) return in.raise_code(Condition::must_stand_alone, *in.words.one_shot);
+  if (row->option == SpeedOption::accuracy_1) {
+    if (in_mode_2(state)) return refuse(in);  // 13.17.1 precaution (10)
     if (state.fine_mode == FineMode::accuracy1) return Did::done;
-    state.high_speed = 0;  // 13.16: cancels high-speed machining
-    const Did did = start(in, FineMode::accuracy1, kHighSpeedAccuracy);
+    state.high_speed = SpeedMode::off;  // 13.16: cancels high-speed machining
+    const Did did = start(in, FineMode::accuracy1);
     if (did == Did::done) slow_down(in);
     return did;
   }
@@ -144,7 +155,7 @@ Did do_high_speed_accuracy(Interpreter& in) {
     return Did::done;
   }
   if (state.fine_mode != FineMode::accuracy1) return Did::done;
-  const Did did = leave(in, kHighSpeedAccuracy);
+  const Did did = leave(in);
   if (did == Did::done) slow_down(in);
   return did;
 }

@@ -7,14 +7,14 @@ namespace nc {
 Did do_hypothetical_axis(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
-  if (w.axes == 0) return in.raise(Condition::words_missing, 'G', 7);
+  if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   AxisVec held = state.map.frozen != 0 ? in.points[state.held_point].at : AxisVec{};
   uint8_t frozen = state.map.frozen;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     const uint8_t bit = static_cast<uint8_t>(1u << i);
     // 0 (or the name alone): on; every other number: off.
-    const bool on = w.raw[in.system->axis[i].name - 'A'] == 0;
+    const bool on = w.get(in.system->axis[i].name) == 0;
     if (on && (frozen & bit) == 0) held[i] = state.machine[i];
     if (!on && (frozen & bit) != 0) state.machine[i] = held[i];  // it has never left this place
     frozen = static_cast<uint8_t>(on ? frozen | bit : frozen & ~bit);

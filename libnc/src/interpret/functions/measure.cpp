@@ -11,8 +11,8 @@ namespace nc {
 namespace {
 
 /// A distance of the block, or the one of the parameter.
-double distance(const Interpreter& in, char letter, double parameter) {
-  return in.words.has(letter) ? std::fabs(length_of(in, letter)) : parameter;
+double distance(const Interpreter& in, Role word, double parameter) {
+  return in.words.has(word) ? std::fabs(length_of(in, word)) : parameter;
 }
 
 struct Measurement {
@@ -25,24 +25,24 @@ struct Measurement {
 
 Did read_measurement(Interpreter& in, Measurement* m) {
   const BlockWords& w = in.words;
-  for (const char letter : {'H', 'T'})  // (3); T: appendix 1
-    if (w.has(letter)) return in.raise(Condition::measure_h, letter, w.get(letter));
-  if (w.axes == 0 || (w.axes & (w.axes - 1)) != 0) return in.raise(Condition::measure_axis, 'G', 37);
+  for (const Role word : {Role::length_number, Role::tool})  // (3); T: appendix 1
+    if (w.has(word)) return in.raise(Condition::measure_h, word, w.get(word));
+  if (w.axes == 0 || (w.axes & (w.axes - 1)) != 0) return in.raise_code(Condition::measure_axis, *w.one_shot);
   while (((w.axes >> m->axis) & 1) == 0) ++m->axis;
-  const int16_t length = in.state.modal.code[kGroupLength];
-  const bool offset_given = (length == 430 || length == 440) && in.state.modal.h != 0 && in.state.length_axis == m->axis;
-  if (!offset_given) return in.raise(Condition::measure_no_length, 'G', 37);
-  if (in.state.comp.side != 0) return in.raise(Condition::skip_in_compensation, 'G', 37);
-  const bool inch = in.state.modal.code[kGroupUnit] == 200;
+  const ModalState& modal = in.state.modal;
+  const bool offset_given = (modal.is(Function::length_plus) || modal.is(Function::length_minus)) && modal.h != 0 && in.state.length_axis == m->axis;
+  if (!offset_given) return in.raise_code(Condition::measure_no_length, *w.one_shot);
+  if (in.state.comp.side != 0) return in.raise_code(Condition::skip_in_compensation, *w.one_shot);
+  const bool inch = modal.is(Function::inch);
   m->feed_mm_min = in.settings.measure_feed;
-  if (w.has('F')) {
+  if (w.has(Role::feed)) {
     const Did did = feed_of(in, &m->feed_mm_min);
     if (did != Did::done) return did;
     if (inch) m->feed_mm_min *= 25.4;
   }
   if (!(m->feed_mm_min > 0)) m->feed_mm_min = 1;  // (3)
-  m->deceleration = distance(in, 'R', in.settings.measure_deceleration);
-  m->range = distance(in, 'D', in.settings.measure_range);
+  m->deceleration = distance(in, Role::measure_deceleration, in.settings.measure_deceleration);
+  m->range = distance(in, Role::measure_range, in.settings.measure_range);
   return Did::done;
 }
 
@@ -60,8 +60,8 @@ Did do_measure_length(Interpreter& in) {
   m.position = target[m.axis];
   // (7) |measuring point - start point| > R > D; (8), (9): both may be 0, or D alone.
   const bool none = m.deceleration == 0 && m.range == 0;
-  if (!none && !(m.deceleration > m.range)) return in.raise(Condition::value_range, 'D', m.range);
-  if (!none && !(std::fabs(way) > m.deceleration)) return in.raise(Condition::value_range, 'R', m.deceleration);
+  if (!none && !(m.deceleration > m.range)) return in.raise(Condition::value_range, Role::measure_range, m.range);
+  if (!none && !(std::fabs(way) > m.deceleration)) return in.raise(Condition::value_range, Role::measure_deceleration, m.deceleration);
   const double direction = std::copysign(1.0, way);
   AxisVec before = target;
   before[m.axis] = m.position - direction * m.deceleration;
@@ -94,14 +94,14 @@ Did measured(Interpreter& in) {
   const double difference = at - in.measured_position;
   if (std::fabs(difference) > in.measured_range + finest(in)) return in.raise(Condition::measure_signal, name, in.measured_position);
   // With the offset that is applied the tool would have to be longer by the difference; G44 counts it the other way round.
-  const double longer = state.modal.code[kGroupLength] == 440 ? -difference : difference;
+  const double longer = state.modal.is(Function::length_minus) ? -difference : difference;
   const Frames& f = in.frames;
   const unsigned length = f.tool_key(state.modal.h, NC_TOOL_LENGTH), wear = f.tool_key(state.modal.h, NC_TOOL_LENGTH_WEAR);
   const double amount = f.get(length) + (in.settings.tool_memory_2 ? f.get(wear) : 0);
   // An offset that is not 0 is corrected by its wear, where there is one.
   const unsigned key = in.settings.tool_memory_2 && amount != 0 ? wear : length;
   const double corrected = f.get(key) + longer;
-  if (std::fabs(corrected) >= kOffsetRange) return in.raise(Condition::value_range, 'H', corrected);
+  if (std::fabs(corrected) >= kOffsetRange) return in.raise(Condition::value_range, Role::length_number, corrected);
   in.set_table(key, corrected);  // (4): in force from the next command of the axis on
   return Did::done;
 }

@@ -12,23 +12,30 @@ namespace nc {
 namespace {
 
 /// Codes of the modes in front of which both are refused: P485, P486.
-Did check_modes_before(Interpreter& in, double code) {
+Did check_modes_before(Interpreter& in, const FunctionRow& row) {
   const State& state = in.state;
-  if (state.high_accuracy != 0) return in.raise(Condition::not_accepted, 'G', code);  // 13.15 (3); appendix 1 has P126
-  if (state.comp.side != 0) return in.raise(Condition::mill_modal, 'G', code);
-  if (state.modal.code[kGroupSurfaceSpeed] == 960) return in.raise(Condition::mill_modal, 'G', code);
-  if (state.modal.code[kGroupRotation] != 690 || state.work_turned) return in.raise(Condition::mill_modal, 'G', code);
-  if (is_space_arc(state.modal.code[kGroupMotion])) return in.raise(Condition::mill_modal, 'G', code);  // 6.14 (a)
-  if (state.any_mirror() != 0) return in.raise(Condition::mill_state, 'G', code);
-  if (state.modal.code[kGroupNormalLine] != 401) return in.raise(Condition::mill_state, 'G', code);
+  if (state.high_accuracy != 0) return in.raise_code(Condition::not_accepted, row);  // 13.15 (3); appendix 1 has P126
+  if (state.comp.side != 0) return in.raise_code(Condition::mill_modal, row);
+  if (state.modal.is(Function::surface_on)) return in.raise_code(Condition::mill_modal, row);
+  if (!state.modal.is(Function::rotation_off) || state.work_turned) return in.raise_code(Condition::mill_modal, row);
+  if (is_space_arc(state.modal.of(Mode::motion))) return in.raise_code(Condition::mill_modal, row);  // 6.14 (a)
+  if (state.any_mirror() != 0) return in.raise_code(Condition::mill_state, row);
+  if (!state.modal.is(Function::normal_line_off)) return in.raise_code(Condition::mill_state, row);
   return Did::done;
 }
 
 /// Index of the rotary axis of both modes (#1516), -1 = none is named or it does not turn.
 int rotary_axis(const Interpreter& in) {
   const char name = in.settings.mill_axis;
-  const int axis = name == 0 ? -1 : in.axis_of[name - 'A'];
+  const int axis = in.axis_named(name);
   return axis >= 0 && ((in.rotary >> axis) & 1) != 0 ? axis : -1;
+}
+
+/// The basic axis that is the linear one of polar coordinate interpolation: the first, unless #1533 names another (6.10).
+unsigned polar_linear(const Interpreter& in) {
+  for (unsigned i = 2; i > 0; --i)
+    if (in.settings.polar_linear != 0 && in.settings.polar_linear == in.dialect->addresses.letter(basic_along(i))) return i;
+  return 0;
 }
 
 /// M700 6.9 (1), 6.10 (1): an independent block. An axis word in it would go nowhere; `own` is the axis that the code itself names.
@@ -40,20 +47,20 @@ Did stands_alone(Interpreter& in, uint32_t own) {
 
 /// What both starts have in common: the feed per minute is forced, the state of before is kept, and a tool length that was
 /// commanded without a movement is in force from now on (6.9, 6.10 "tool length compensation").
-void begin_mode(Interpreter& in, int16_t code) {
+void begin_mode(Interpreter& in, const FunctionRow& row) {
   State& state = in.state;
   state.mill.moved = false;
-  state.mill.plane = state.modal.code[kGroupPlane];
+  state.mill.plane = state.modal.of(Mode::plane);
   state.mill.plane_axis[0] = state.plane_axis[0];
   state.mill.plane_axis[1] = state.plane_axis[1];
-  state.mill.feed_mode = state.modal.code[kGroupFeed];
+  state.mill.feed_mode = state.modal.of(Mode::feed);
   state.mill.feed = state.modal.feed;
-  if (state.mill.feed_mode != 940) {
-    state.modal.code[kGroupFeed] = 940;
+  if (state.mill.feed_mode != Function::feed_per_minute) {
+    in.state.modal.set(Function::feed_per_minute);
     state.modal.feed = 0;  // P62 unless the mode gets an F of its own
   }
   for (unsigned i = 0; i < in.axis_count; ++i) state.applied[i] = i == state.length_axis ? state.length_value : 0.0;
-  state.modal.code[kGroupInterpolationMode] = code;
+  state.modal.set(row);
   in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION;
 }
 
@@ -61,28 +68,56 @@ void end_mode(Interpreter& in) {
   State& state = in.state;
   state.map = AxisMap{.frozen = state.map.frozen};
   state.mill.hypothetical_letter = 0;
-  state.modal.code[kGroupPlane] = state.mill.plane;
+  in.state.modal.set(state.mill.plane);
   state.plane_axis[0] = state.mill.plane_axis[0];
   state.plane_axis[1] = state.mill.plane_axis[1];
-  if (state.mill.feed_mode != 940) {
-    state.modal.code[kGroupFeed] = state.mill.feed_mode;
+  if (state.mill.feed_mode != Function::feed_per_minute) {
+    in.state.modal.set(state.mill.feed_mode);
     state.modal.feed = state.mill.feed;
     state.modal.feed_digit = 0;
   }
-  const int16_t cutting = state.modal.code[kGroupCutting];
-  state.modal.code[kGroupCutting] = 640;
-  state.modal.code[kGroupInterpolationMode] = 131;
+  const Function cutting = state.modal.of(Mode::cutting);
+  in.state.modal.set(Function::cutting_mode);
+  in.state.modal.set(Function::polar_off);
   change_cutting_mode(in, cutting);
-  in.refresh_letters();
+  in.refresh_axis_names();
   in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION;
 }
 
-/// M700 6.9, 6.10: the G codes that can be used inside.
-bool allowed_inside(int16_t code) {
-  switch (code) {
-    case 0: case 10: case 20: case 30: case 40: case 90: case 400: case 410: case 420: case 610: case 640: case 650: case 660:
-    case 661: case 670: case 900: case 910: case 940: case 980: case 990: return true;
-    default: return code % 10 == 0 && code >= 800 && code <= 890;
+/// M700 6.9, 6.10: what can be used inside.
+bool allowed_inside(Function function) {
+  switch (function) {
+    case Function::rapid:
+    case Function::linear:
+    case Function::arc_cw:
+    case Function::arc_ccw:
+    case Function::dwell:
+    case Function::exact_stop_once:
+    case Function::comp_off:
+    case Function::comp_left:
+    case Function::comp_right:
+    case Function::exact_stop_mode:
+    case Function::cutting_mode:
+    case Function::macro_call:
+    case Function::macro_modal:
+    case Function::macro_every_block:
+    case Function::macro_modal_off:
+    case Function::cycle_off:  // G80 to G89
+    case Function::cycle_drill:
+    case Function::cycle_spot:
+    case Function::cycle_peck:
+    case Function::cycle_tap:
+    case Function::cycle_bore_feed:
+    case Function::cycle_bore_stop:
+    case Function::cycle_back_bore:
+    case Function::cycle_bore_stop_dwell:
+    case Function::cycle_bore_dwell:
+    case Function::absolute:
+    case Function::incremental:
+    case Function::feed_per_minute:
+    case Function::return_initial:
+    case Function::return_r: return true;
+    default: return false;
   }
 }
 
@@ -91,9 +126,9 @@ bool allowed_inside(int16_t code) {
 Did do_cylinder(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
-  const double code = w.one_shot_code / 10.0;
-  if (w.g.size() > 1) return in.raise(Condition::format_error, 'G', code);
-  if (state.map.kind == AxisMap::Kind::polar) return in.raise(Condition::mill_state, 'G', code);
+  const FunctionRow& code = *w.one_shot;
+  if (w.g.size() > 1) return in.raise_code(Condition::format_error, code);
+  if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::mill_state, code);
   const char name = in.settings.mill_axis;
   const int axis = rotary_axis(in);
   if (axis < 0) return in.raise(Condition::mill_axis, name);
@@ -103,14 +138,14 @@ Did do_cylinder(Interpreter& in) {
   if (radius < 0) return in.raise(Condition::value_range, name, w.get(name));
   if (radius == 0) {
     if (state.map.kind == AxisMap::Kind::none) return Did::done;
-    if (state.comp.side != 0) return in.raise(Condition::mill_modal, 'G', code);
+    if (state.comp.side != 0) return in.raise_code(Condition::mill_modal, code);
     end_mode(in);
     return Did::done;
   }
-  if (state.map.kind != AxisMap::Kind::none) return in.raise(Condition::mill_code, 'G', code);
+  if (state.map.kind != AxisMap::Kind::none) return in.raise_code(Condition::mill_code, code);
   const Did did = check_modes_before(in, code);
   if (did != Did::done) return did;
-  begin_mode(in, w.one_shot_code);
+  begin_mode(in, code);
   state.map.kind = AxisMap::Kind::cylinder;
   state.map.rotary = static_cast<uint8_t>(axis);
   state.map.scale = std::numbers::pi * radius / 180;
@@ -120,49 +155,49 @@ Did do_cylinder(Interpreter& in) {
   const int8_t rotary = static_cast<int8_t>(axis);
   const bool chosen = state.plane_axis[0] == rotary || state.plane_axis[1] == rotary;
   const bool paired = in.settings.plane_parallel[0] == name || in.settings.plane_parallel[1] == name || in.settings.plane_parallel[2] == name;
-  if (!chosen && !paired && state.modal.code[kGroupPlane] == 190) state.plane_axis[0] = rotary;
+  if (!chosen && !paired && state.modal.is(Function::plane_yz)) state.plane_axis[0] = rotary;
   return Did::done;
 }
 
 Did do_polar_on(Interpreter& in) {
   State& state = in.state;
-  const double code = in.words.one_shot_code / 10.0;
-  if (in.words.g.size() > 1) return in.raise(Condition::format_error, 'G', code);
+  const FunctionRow& code = *in.words.one_shot;
+  if (in.words.g.size() > 1) return in.raise_code(Condition::format_error, code);
   if (const Did did = stands_alone(in, 0); did != Did::done) return did;
-  if (state.map.kind == AxisMap::Kind::polar) return in.raise(Condition::mill_state, 'G', code);
-  if (state.map.kind == AxisMap::Kind::cylinder) return in.raise(Condition::mill_code, 'G', code);
+  if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::mill_state, code);
+  if (state.map.kind == AxisMap::Kind::cylinder) return in.raise_code(Condition::mill_code, code);
   const Did did = check_modes_before(in, code);
   if (did != Did::done) return did;
   const int axis = rotary_axis(in);
   if (axis < 0) return in.raise(Condition::mill_axis, in.settings.mill_axis);
-  const char name = in.settings.polar_linear == 'Y' || in.settings.polar_linear == 'Z' ? in.settings.polar_linear : 'X';
-  const int linear = in.axis_of[name - 'A'];
-  if (linear < 0) return in.raise(Condition::mill_axis, name);
-  begin_mode(in, in.words.one_shot_code);
+  const unsigned basic = polar_linear(in);
+  const int linear = in.axis_called(basic_along(basic));
+  if (linear < 0) return in.raise(Condition::mill_axis, basic_along(basic));
+  begin_mode(in, code);
   const auto l = static_cast<unsigned>(linear), r = static_cast<unsigned>(axis);
   state.map.kind = AxisMap::Kind::polar;
   state.map.linear = static_cast<uint8_t>(linear);
   state.map.rotary = static_cast<uint8_t>(axis);
   state.map.side = state.machine[l] - in.zero()[l] - state.applied[l] < 0 ? -1 : 1;
   state.map.angle = state.machine[r];
-  state.modal.code[kGroupPlane] = name == 'Y' ? 190 : name == 'Z' ? 180 : 170;
+  in.state.modal.set(basic == 1 ? Function::plane_yz : basic == 2 ? Function::plane_zx : Function::plane_xy);
   state.plane_axis[0] = static_cast<int8_t>(linear);
   state.plane_axis[1] = static_cast<int8_t>(axis);
   // #1517: the hypothetical axis is commanded by the second letter of the deemed plane, or by the name of the rotary axis.
-  state.mill.hypothetical_letter = in.settings.hypothetical_by_name ? char{0} : name == 'Y' ? 'Z' : name == 'Z' ? 'X' : 'Y';
+  state.mill.hypothetical_letter = in.settings.hypothetical_by_name ? char{0} : in.dialect->addresses.letter(basic_along((basic + 1) % 3));
   state.refresh_special();
-  in.refresh_letters();
+  in.refresh_axis_names();
   return Did::done;
 }
 
 Did do_polar_off(Interpreter& in) {
   State& state = in.state;
-  const double code = in.words.one_shot_code / 10.0;
+  const FunctionRow& code = *in.words.one_shot;
   if (state.map.kind == AxisMap::Kind::none) return Did::done;
-  if (in.words.g.size() > 1) return in.raise(Condition::format_error, 'G', code);
+  if (in.words.g.size() > 1) return in.raise_code(Condition::format_error, code);
   if (const Did did = stands_alone(in, 0); did != Did::done) return did;
-  if (state.map.kind != AxisMap::Kind::polar) return in.raise(Condition::mill_code, 'G', code);
-  if (state.comp.side != 0) return in.raise(Condition::mill_modal, 'G', code);
+  if (state.map.kind != AxisMap::Kind::polar) return in.raise_code(Condition::mill_code, code);
+  if (state.comp.side != 0) return in.raise_code(Condition::mill_modal, code);
   end_mode(in);
   return Did::done;
 }
@@ -178,24 +213,24 @@ Did check_mill_block(Interpreter& in) {
       case Function::plane_xy:
       case Function::plane_zx:
       case Function::plane_yz:
-        if (polar) return in.raise(Condition::mill_modal, 'G', row->code / 10.0);
-        if (in.state.mill.moved) return in.raise(Condition::mill_code, 'G', row->code / 10.0);
+        if (polar) return in.raise_code(Condition::mill_modal, *row);
+        if (in.state.mill.moved) return in.raise_code(Condition::mill_code, *row);
         continue;
       case Function::polar_command_on:  // 6.10 (7) (b): "G16 to G19"
-        return in.raise(polar ? Condition::mill_modal : Condition::mill_code, 'G', row->code / 10.0);
+        return in.raise_code(polar ? Condition::mill_modal : Condition::mill_code, *row);
       default:
-        if (!allowed_inside(row->code)) return in.raise(Condition::mill_code, 'G', row->code / 10.0);
+        if (!allowed_inside(row->function)) return in.raise_code(Condition::mill_code, *row);
     }
   }
-  if (w.has('T')) return in.raise(Condition::mill_modal, 'T', w.get('T'));
+  if (w.has(Role::tool)) return in.raise(Condition::mill_modal, Role::tool, w.get(Role::tool));
   return Did::done;
 }
 
 Did check_mill_move(Interpreter& in, uint32_t commanded) {
   State& state = in.state;
   state.mill.moved = true;
-  const int16_t motion = state.modal.code[kGroupMotion];
-  if (!allowed_inside(motion)) return in.raise(Condition::mill_code, 'G', motion / 10.0);
+  const Function motion = state.modal.of(Mode::motion);
+  if (!allowed_inside(motion)) return in.raise_mode(Condition::mill_code, Mode::motion);
   if (state.map.kind != AxisMap::Kind::cylinder) return Did::done;
   const auto rotary = static_cast<int8_t>(state.map.rotary);
   if (state.plane_axis[0] != rotary && state.plane_axis[1] != rotary) return in.raise(Condition::mill_modal);
@@ -203,13 +238,12 @@ Did check_mill_move(Interpreter& in, uint32_t commanded) {
   uint32_t system = 1u << state.map.rotary;
   for (unsigned i = 0; i < 3; ++i) {
     const char basic = in.settings.plane_basic[i];
-    const int axis = basic == 0 || in.settings.plane_parallel[i] == in.settings.mill_axis ? -1 : in.axis_of[basic - 'A'];
+    const int axis = basic == 0 || in.settings.plane_parallel[i] == in.settings.mill_axis ? -1 : in.axis_named(basic);
     if (axis >= 0) system |= 1u << axis;
   }
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded & ~system) >> i & 1) != 0) return in.raise(Condition::mill_axis, in.system->axis[i].name, in.words.axis[i]);
-  const bool arc = motion == 20 || motion == 30;
-  if (arc && in.words.any(letters("IJK"))) return in.raise(Condition::format_error, in.words.has('I') ? 'I' : in.words.has('J') ? 'J' : 'K');
+  if (is_arc(motion) && in.words.any({Role::vector_x, Role::vector_y, Role::vector_z})) return in.raise(Condition::format_error, in.words.has(Role::vector_x) ? Role::vector_x : in.words.has(Role::vector_y) ? Role::vector_y : Role::vector_z);
   return Did::done;
 }
 

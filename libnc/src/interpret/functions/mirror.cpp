@@ -8,7 +8,7 @@ namespace nc {
 Did do_mirror(Interpreter& in) {
   const BlockWords& w = in.words;
   const bool on = w.one_shot->function == Function::mirror_on;
-  if (on && w.axes == 0) return in.raise(Condition::words_missing, 'G', 51.1);
+  if (on && w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   uint32_t mirror = in.state.mirror;
   if (on) {
     // By G90 or G91 like any position; in a rotated program it is one of the shape that is turned.
@@ -26,7 +26,7 @@ Did do_mirror(Interpreter& in) {
   }
   in.state.mirror = static_cast<uint8_t>(mirror);
   in.program_changed();
-  in.state.modal.code[kGroupMirror] = mirror != 0 ? int16_t{511} : int16_t{501};
+  in.state.modal.set(mirror != 0 ? Function::mirror_on : Function::mirror_off);
   return Did::done;
 }
 

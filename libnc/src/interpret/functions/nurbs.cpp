@@ -16,7 +16,7 @@ constexpr double kSamePlace = 1e-6;  // mm: the first control point is where the
 void basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const char name = in.settings.plane_basic[i];
-    const int index = name == 0 ? -1 : in.axis_of[name - 'A'];
+    const int index = in.axis_named(name);
     axis[i] = index < 0 ? uint8_t{0xff} : static_cast<uint8_t>(index);
   }
 }
@@ -25,18 +25,18 @@ void basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
 bool too_fine(double value) { return std::fabs(value * 1e4 - std::nearbyint(value * 1e4)) > 1e-6; }
 
 Did take_knot(Interpreter& in, double* knot) {
-  if (!in.words.has('K')) return in.raise(Condition::format_error, 'K');
-  *knot = in.words.get('K');  // K1 = 1.0
-  if (too_fine(*knot)) return in.raise(Condition::format_error, 'K', *knot);
+  if (!in.words.has(Role::curve_knot)) return in.raise(Condition::format_error, Role::curve_knot);
+  *knot = in.words.get(Role::curve_knot);  // K1 = 1.0
+  if (too_fine(*knot)) return in.raise(Condition::format_error, Role::curve_knot, *knot);
   return Did::done;
 }
 
 Did take_weight(Interpreter& in, double* weight) {
   *weight = 1;
-  if (!in.words.has('R')) return Did::done;
-  *weight = in.words.get('R');
-  if (too_fine(*weight)) return in.raise(Condition::format_error, 'R', *weight);
-  if (*weight < 0.0001 || *weight > 99.9999) return in.raise(Condition::value_range, 'R', *weight);
+  if (!in.words.has(Role::curve_weight)) return Did::done;
+  *weight = in.words.get(Role::curve_weight);
+  if (too_fine(*weight)) return in.raise(Condition::format_error, Role::curve_weight, *weight);
+  if (*weight < 0.0001 || *weight > 99.9999) return in.raise(Condition::value_range, Role::curve_weight, *weight);
   return Did::done;
 }
 
@@ -45,8 +45,8 @@ Did begin_curve(Interpreter& in, const AxisVec& target) {
   NurbsState& n = in.state.nurbs;
   const BlockWords& w = in.words;
   n = NurbsState{};
-  uint32_t order = n.order = in.state.nurbs_order != 0 && !w.has('P') && w.motion == nullptr ? in.state.nurbs_order : uint8_t{4};
-  if (w.has('P') && (!whole_number(w.get('P'), &order) || order < 2 || order > 4)) return in.raise(Condition::value_range, 'P', w.get('P'));
+  uint32_t order = n.order = in.state.nurbs_order != 0 && !w.has(Role::curve_order) && w.motion == nullptr ? in.state.nurbs_order : uint8_t{4};
+  if (w.has(Role::curve_order) && (!whole_number(w.get(Role::curve_order), &order) || order < 2 || order > 4)) return in.raise(Condition::value_range, Role::curve_order, w.get(Role::curve_order));
   n.order = in.state.nurbs_order = static_cast<uint8_t>(order);
   n.axes = static_cast<uint8_t>(w.axes);
   const AxisVec at = in.position();
@@ -58,7 +58,7 @@ Did begin_curve(Interpreter& in, const AxisVec& target) {
   for (const uint8_t a : axis)
     if (a < kMaxAxes) basic |= 1u << a;
   if (w.axes == 0) n.axes = static_cast<uint8_t>(basic);  // a knot alone behind a curve begins the next one at its end
-  if ((w.axes & ~basic) != 0) return in.raise(Condition::illegal_address, 'X');
+  if ((w.axes & ~basic) != 0) return in.raise(Condition::illegal_address, Role::basic_x);
   return Did::done;
 }
 
@@ -137,10 +137,10 @@ Did check_nurbs_block(Interpreter& in) {
   const NurbsState& n = in.state.nurbs;
   if (!n.active()) return Did::done;
   // No other codes, F, M, S or T until the curve is closed.
-  if (!w.g.empty()) return in.raise(Condition::format_error, 'G', w.g.back()->code / 10.0);
-  if (!w.m.empty()) return in.raise(Condition::format_error, 'M', w.m.back());
-  for (const char letter : {'F', 'S', 'T', 'P'})
-    if (w.has(letter)) return in.raise(Condition::format_error, letter, w.get(letter));
+  if (!w.g.empty()) return in.raise_code(Condition::format_error, *w.g.back());
+  if (!w.m.empty()) return in.raise(Condition::format_error, Role::misc_code, w.m.back());
+  for (const Role word : {Role::feed, Role::spindle_speed, Role::tool, Role::curve_order})
+    if (w.has(word)) return in.raise(Condition::format_error, word, w.get(word));
   return Did::done;
 }
 
@@ -148,8 +148,8 @@ Did move_nurbs(Interpreter& in, const AxisVec& target) {
   State& state = in.state;
   NurbsState& n = state.nurbs;
   const BlockWords& w = in.words;
-  if (state.high_speed != kHighAccuracy2) return in.raise(Condition::illegal_g, 'G', 6.2);
-  if (state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', 6.2);
+  if (state.high_speed != SpeedMode::accuracy_2) return in.raise_mode(Condition::illegal_g, Mode::motion);
+  if (state.comp.side != 0) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
   PathPoint p{target};
   Did did = take_knot(in, &p.knot);
   if (did == Did::done) did = take_weight(in, &p.weight);
@@ -160,13 +160,13 @@ Did move_nurbs(Interpreter& in, const AxisVec& target) {
   }
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((w.axes >> i) & 1) != 0 && ((n.axes >> i) & 1) == 0) return in.raise(Condition::illegal_address, in.system->axis[i].name, w.axis[i]);
-  if (n.knots > 0 && p.knot < point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, 'K', p.knot);
+  if (n.knots > 0 && p.knot < point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, Role::curve_knot, p.knot);
   const bool closes = w.axes == 0 && n.knots > 0;
   // The first knots and the last ones are the same as often as the order says, so that the curve begins and ends on control points.
   const bool must_repeat = closes ? n.knots > n.points : n.knots > 0 && n.knots < n.order;
-  if (must_repeat && p.knot != point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, 'K', p.knot);
-  if (!closes && n.knots > n.points) return in.raise(Condition::format_error, 'K', p.knot);  // a point after the closing has begun
-  if (closes && n.points < n.order) return in.raise(Condition::format_error, 'K', p.knot);   // fewer points than the order
+  if (must_repeat && p.knot != point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, Role::curve_knot, p.knot);
+  if (!closes && n.knots > n.points) return in.raise(Condition::format_error, Role::curve_knot, p.knot);  // a point after the closing has begun
+  if (closes && n.points < n.order) return in.raise(Condition::format_error, Role::curve_knot, p.knot);   // fewer points than the order
   append(in, p);
   if (!closes) n.points = n.knots;
   emit_span(in);

@@ -18,6 +18,7 @@ constexpr Handler kHandlers[] = {
     {Function::dwell, do_dwell},
     {Function::data_input, do_data_input},
     {Function::data_input_end, end_without_input},
+    {Function::parameter_input_end, end_without_input},
     {Function::mirror_on, do_mirror},
     {Function::mirror_off, do_mirror},
     {Function::scaling_on, do_scaling},
@@ -40,6 +41,8 @@ constexpr Handler kHandlers[] = {
     {Function::polar_off, do_polar_off},
     {Function::hypothetical_axis, do_hypothetical_axis},
     {Function::unidirectional, do_unidirectional},
+    {Function::circle_cut_cw, do_circle_cut},
+    {Function::circle_cut_ccw, do_circle_cut},
     {Function::high_speed, do_high_speed},
     {Function::high_speed_accuracy, do_high_speed_accuracy},
     {Function::high_accuracy, do_high_accuracy},
@@ -72,12 +75,12 @@ bool machine_in_figure(const Interpreter& in) {
 
 Did execute_one_shot(Interpreter& in) {
   // M700 6.1, 6.2, 13.1.1: G00, G01 and fixed cycles have an in-position width.
-  if (in.words.in_position > 0) return in.raise(Condition::illegal_address, 'I', in.words.in_position);
-  if (in.words.in_position_drill > 0) return in.raise(Condition::illegal_address, 'J', in.words.in_position_drill);
-  if (machine_in_figure(in)) return in.raise(Condition::machine_in_figure, 'G', in.words.one_shot_code / 10.0);
+  if (in.words.in_position > 0) return in.raise(Condition::illegal_address, Role::vector_x, in.words.in_position);
+  if (in.words.in_position_drill > 0) return in.raise(Condition::illegal_address, Role::vector_y, in.words.in_position_drill);
+  if (machine_in_figure(in)) return in.raise_code(Condition::machine_in_figure, *in.words.one_shot);
   for (const Handler& handler : kHandlers)
     if (handler.function == in.words.one_shot->function) return handler.run(in);
-  return in.raise(Condition::internal, 'G', in.words.one_shot_code / 10.0);
+  return in.raise_code(Condition::internal, *in.words.one_shot);
 }
 
 }  // namespace nc

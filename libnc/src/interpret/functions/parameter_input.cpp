@@ -11,14 +11,9 @@
 namespace nc {
 namespace {
 
-Did refuse(Interpreter& in, char letter) {
-  in.raise(Condition::parameter_input, letter);
-  if (letter >= 'A' && letter <= 'Z' && in.words.has(letter)) in.raise(Condition::parameter_input, letter, in.words.get(letter));
-  return Did::fault;
+Did refuse(Interpreter& in, Role word) {
+  return in.words.has(word) ? in.raise(Condition::parameter_input, word, in.words.get(word)) : in.raise(Condition::parameter_input, word);
 }
-
-/// Parameters of the axes; all others take no notice of A (note 3).
-bool per_axis(uint32_t number) { return (number >= 2000 && number < 2300) || (number >= 8200 && number < 8300) || number == 1013 || number == 1015; }
 
 /// D rounded to the setting unit (note 5), as text for the parameter store.
 void put_data(TextWriter& out, double value, double unit) {
@@ -32,19 +27,27 @@ void put_data(TextWriter& out, double value, double unit) {
   if (digits > 0) out.put('.').put_integer(whole % per_whole, digits);
 }
 
+/// The parameter belongs to the rotation of the workpiece coordinate systems (13.21).
+bool turns_work(const Interpreter& in, uint32_t number) {
+  const ParameterRow* row = find_parameter(*in.dialect, ParameterKey{number, 0, -1});
+  if (row == nullptr) return false;
+  return row->what == Parameter::work_turn_axis || row->what == Parameter::work_turn_center || row->what == Parameter::work_turn_vector ||
+         row->what == Parameter::work_turn_angle;
+}
+
 bool ends_input(const Interpreter& in) {
-  return in.words.g.size() == 1 && in.words.g[0]->function == Function::data_input_end && in.block->words.size() == 1;
+  return in.words.g.size() == 1 && ends_data_input(in.words.g[0]->function) && in.block->words.size() == 1;
 }
 
 /// Note 1: the data stand behind the number, the part system and the axis, in the order of the format; of a word that comes twice the
 /// last one counts.
 bool in_sequence(const Interpreter& in) {
-  unsigned place_of[26] = {};
+  unsigned place_of[kAddresses] = {};
   unsigned place = 0;
-  for (const Word& word : in.block->words) place_of[word.letter - 'A'] = ++place;
+  for (const Word& word : in.block->words) place_of[address_of(word)] = ++place;
   unsigned before = 0;
-  for (const char letter : {'P', 'S', 'A', 'H', 'D'}) {
-    const unsigned at = place_of[letter - 'A'];
+  for (const Role word : {Role::parameter_number, Role::parameter_system, Role::parameter_axis, Role::parameter_bit, Role::parameter_data}) {
+    const unsigned at = place_of[in.dialect->addresses.at(word)];
     if (at == 0) continue;
     if (at < before) return false;
     before = at;
@@ -55,18 +58,18 @@ bool in_sequence(const Interpreter& in) {
 /// The text to store and, for a bit, the end of the key.
 Did read_data(Interpreter& in, TextWriter& key, TextWriter& text) {
   const BlockWords& w = in.words;
-  const unsigned kinds = (w.has('H') ? 1u : 0u) + (w.has('D') ? 1u : 0u) + (in.block->name_length > 0 ? 1u : 0u);
-  if (kinds != 1) return refuse(in, kinds == 0 ? 'D' : 'P');
-  if (w.has('H')) {  // note 4: bit number and its value
+  const unsigned kinds = (w.has(Role::parameter_bit) ? 1u : 0u) + (w.has(Role::parameter_data) ? 1u : 0u) + (in.block->name_length > 0 ? 1u : 0u);
+  if (kinds != 1) return refuse(in, kinds == 0 ? Role::parameter_data : Role::parameter_number);
+  if (w.has(Role::parameter_bit)) {  // note 4: bit number and its value
     uint32_t data = 0;
-    if (!whole_number(w.get('H'), &data) || data / 10 > 7 || data % 10 > 1) return refuse(in, 'H');
+    if (!whole_number(w.get(Role::parameter_bit), &data) || data / 10 > 7 || data % 10 > 1) return refuse(in, Role::parameter_bit);
     key.put("/bit").put_integer(data / 10);
     text.put_integer(data % 10);
-  } else if (w.has('D')) {
-    if (!(std::fabs(w.get('D')) < 1e9)) return refuse(in, 'D');
-    put_data(text, w.get('D'), in.settings.setting_unit_mm);
+  } else if (w.has(Role::parameter_data)) {
+    if (!(std::fabs(w.get(Role::parameter_data)) < 1e9)) return refuse(in, Role::parameter_data);
+    put_data(text, w.get(Role::parameter_data), in.settings.setting_unit_mm);
   } else {
-    if (in.block->name_length > 63) return refuse(in, '<');
+    if (in.block->name_length > 63) return in.raise(Condition::parameter_input, '<');
     for (unsigned i = 0; i < in.block->name_length; ++i) text.put(in.block->text[in.block->name + i]);
   }
   return Did::done;
@@ -77,7 +80,7 @@ Did read_data(Interpreter& in, TextWriter& key, TextWriter& text) {
 Did begin_parameter_input(Interpreter& in) {
   // "in independent blocks"; appendix 1, P421: not in a fixed cycle and not under radius compensation.
   const bool alone = in.block->words.size() == 2;
-  if (!alone || in.state.cycle.kind != CycleKind::none || in.state.comp.side != 0) return refuse(in, 'L');
+  if (!alone || in.state.cycle.kind != CycleKind::none || in.state.comp.side != 0) return refuse(in, Role::input_kind);
   in.state.parameter_input = true;
   return Did::done;
 }
@@ -87,22 +90,24 @@ Did parameter_block(Interpreter& in) {
   if (did != Did::done) return did;
   const BlockWords& w = in.words;
   if (!w.g.empty() || !w.m.empty()) {
-    if (!ends_input(in)) return refuse(in, w.g.empty() ? 'M' : 'G');
+    if (!ends_input(in)) return refuse(in, w.g.empty() ? Role::misc_code : Role::code);
     in.state.parameter_input = false;
     return Did::done;
   }
   uint32_t number = 0, system = 0, axis = 1;
-  if ((w.present & ~letters("PSAHD")) != 0 || !w.has('P') || !whole_number(w.get('P'), &number)) return refuse(in, 'P');
-  if (!in_sequence(in)) return refuse(in, 'P');
-  if (w.has('S') && (!whole_number(w.get('S'), &system) || system != in.system_number)) return refuse(in, 'S');
-  if (w.has('A') && (!whole_number(w.get('A'), &axis) || axis < 1 || axis > in.axis_count)) return refuse(in, 'A');
+  if ((w.present & ~in.addresses({Role::parameter_number, Role::parameter_system, Role::parameter_axis, Role::parameter_bit, Role::parameter_data})) != 0 || !w.has(Role::parameter_number) || !whole_number(w.get(Role::parameter_number), &number)) return refuse(in, Role::parameter_number);
+  if (!in_sequence(in)) return refuse(in, Role::parameter_number);
+  if (w.has(Role::parameter_system) && (!whole_number(w.get(Role::parameter_system), &system) || (system != in.system_index + 1u && !parameter_is_common(*in.dialect, number)))) return refuse(in, Role::parameter_system);
+  if (w.has(Role::parameter_axis) && (!whole_number(w.get(Role::parameter_axis), &axis) || axis < 1 || axis > in.axis_count)) return refuse(in, Role::parameter_axis);
   char key_text[24], data_text[64];
   TextWriter key(key_text, sizeof key_text), data(data_text, sizeof data_text);
   key.put_integer(number);
   did = read_data(in, key, data);
   if (did != Did::done) return did;
-  if (!in.set_parameter(key_text, per_axis(number) ? static_cast<int>(axis) - 1 : -1, data_text)) return refuse(in, 'P');
-  if (number >= 8621 && number <= 8627) take_work_rotation(in, false);  // 13.21 (4): what a program sets holds at once
+  // Note 3: parameters that are not of the axes take no notice of A.
+  const int of = parameter_of_axis(*in.dialect, number) ? static_cast<int>(axis) - 1 : -1;
+  if (!in.set_parameter(key_text, of, data_text)) return refuse(in, Role::parameter_number);
+  if (turns_work(in, number)) take_work_rotation(in, false);  // 13.21 (4): what a program sets holds at once
   return Did::done;
 }
 

@@ -16,8 +16,10 @@ constexpr double kPi = std::numbers::pi;
 bool reads_plain_words(const Interpreter& in) {
   const BlockWords& w = in.words;
   if (w.one_shot != nullptr && w.one_shot->function != Function::unidirectional) return true;
-  for (const FunctionRow* row : w.g)
-    if (row->group == kGroupScaling || row->group == kGroupRotation || row->group == kGroupMirror || row->group == kGroupMacro) return true;
+  for (const FunctionRow* row : w.g) {
+    const Mode mode = mode_of(row->function);
+    if (mode == Mode::scaling || mode == Mode::rotation || mode == Mode::mirror || mode == Mode::macro) return true;
+  }
   return false;
 }
 
@@ -26,10 +28,10 @@ bool reads_plain_words(const Interpreter& in) {
 Did select_polar_command(Interpreter& in, const FunctionRow& row) {
   State& state = in.state;
   if (row.function == Function::polar_command_on) {
-    if (state.high_speed == kHighAccuracy2) return in.raise(Condition::illegal_g, 'G', 16);
-    if (is_space_arc(state.modal.code[kGroupMotion])) return in.raise(Condition::space_arc_mode, 'G', 16);  // 6.14 (a)
+    if (state.high_speed == SpeedMode::accuracy_2) return in.raise_code(Condition::illegal_g, row);
+    if (is_space_arc(state.modal.of(Mode::motion))) return in.raise_code(Condition::space_arc_mode, row);  // 6.14 (a)
   }
-  state.modal.code[kGroupPolarCommand] = row.code;
+  state.modal.set(row);
   state.polar_angle_known = false;
   return Did::done;
 }
@@ -56,7 +58,7 @@ void resolve_polar_words(Interpreter& in) {
   const double seen = std::atan2(position[v], position[h]) * 180 / kPi;
   double angle = seen;
   if (has_angle) {
-    const unsigned at = static_cast<unsigned>(in.system->axis[v].name - 'A');
+    const unsigned at = address_of(in.system->axis[v].name);
     angle = length_value(in, w.raw[at], w.flags[at], true, false);  // degrees, in inch too
     if (((w.incremental >> v) & 1) != 0) angle += state.polar_angle_known ? state.polar_angle : seen;
   }

@@ -11,12 +11,9 @@ namespace {
 /// DGSHAPE G28: an axis that is not named takes part with the midpoint that an earlier G28 of the program gave it.
 void take_remembered_midpoints(Interpreter& in, AxisVec& mid, uint32_t& axes) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((axes >> i) & 1) != 0) {
-      in.set_table(Frames::midpoint_set_key(i), 1);
-    } else if (in.frames.get(Frames::midpoint_set_key(i)) != 0) {
-      mid[i] = in.frames.get(Frames::midpoint_key(i));
-      axes |= 1u << i;
-    }
+    if (((axes >> i) & 1) != 0 || in.frames.get(Frames::midpoint_set_key(i)) == 0) continue;
+    mid[i] = in.frames.get(Frames::midpoint_key(i));
+    axes |= 1u << i;
   }
 }
 
@@ -35,11 +32,11 @@ class WithoutStrokeCheck {
 
 /// G28 and G30: by the intermediate point to reference position `which`, 0 to 3.
 Did go_to_reference(Interpreter& in, unsigned which, AxisVec mid, uint32_t axes) {
-  if (axes == 0) return in.raise(Condition::words_missing, 'G', in.words.one_shot_code / 10.0);
+  if (axes == 0) return in.raise_code(Condition::words_missing, *in.words.one_shot);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((axes >> i) & 1) == 0) continue;
     in.set_table(Frames::midpoint_key(i), mid[i]);
-    if (in.dialect->id == NC_DIALECT_M700) in.set_table(Frames::midpoint_set_key(i), 1);
+    in.set_table(Frames::midpoint_set_key(i), 1);
   }
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
@@ -49,7 +46,7 @@ Did go_to_reference(Interpreter& in, unsigned which, AxisVec mid, uint32_t axes)
   for (unsigned i = 0; i < in.axis_count; ++i) place[i] = in.reference(which, i);
   const WithoutStrokeCheck from_here(in);
   move_to_place(in, place, axes);
-  if (in.dialect->id == NC_DIALECT_M700) cancel_length_of(in, axes);
+  if (in.dialect->rules.reference.cancels_length) cancel_length_of(in, axes);
   if (in.state.scaled != 0) end_scaling(in);  // M700 13.19, relation (2): at the intermediate point
   return Did::done;
 }
@@ -69,7 +66,7 @@ double same_place(const Interpreter& in) { return in.settings.setting_unit_mm / 
 /// Which reference position P names; `fallback` where there is no P.
 bool place_of_p(const Interpreter& in, uint32_t fallback, uint32_t* place) {
   *place = fallback;
-  return !in.words.has('P') || whole_number(in.words.get('P'), place);
+  return !in.words.has(Role::return_place) || whole_number(in.words.get(Role::return_place), place);
 }
 
 }  // namespace
@@ -90,19 +87,18 @@ void move_to_place(Interpreter& in, const AxisVec& place, uint32_t axes) {
 
 /// M700 12.2, 14.7 (9), 14.8 (6): the tool length compensation of an axis is cancelled for good when it reaches such a place.
 void cancel_length_of(Interpreter& in, uint32_t axes) {
-  if (((axes >> in.state.length_axis) & 1) == 0 || in.state.modal.code[kGroupLength] == 490) return;
+  if (((axes >> in.state.length_axis) & 1) == 0 || in.state.modal.is(Function::length_off)) return;
   in.state.length_value = 0;
-  in.state.modal.code[kGroupLength] = 490;
+  in.state.modal.set(Function::length_off);
 }
 
 Did do_reference_return(Interpreter& in) {
   uint32_t axes = in.words.axes;
   AxisVec mid = target_of_words(in);
-  if (in.dialect->id == NC_DIALECT_DGSHAPE) {
-    if (in.state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', 28);
-    if ((axes & in.rotary) != 0) return in.raise(Condition::illegal_axis, 'A');
-    take_remembered_midpoints(in, mid, axes);
-  }
+  const Rules& rules = in.dialect->rules;
+  if (in.state.comp.side != 0 && rules.compensation.bars_reference_return) return in.raise_code(Condition::not_in_compensation, *in.words.one_shot);
+  if ((axes & in.rotary) != 0 && !rules.reference.takes_rotary_axes) return in.raise(Condition::illegal_axis, Role::second_function_2);
+  if (rules.reference.remembered_axes_go) take_remembered_midpoints(in, mid, axes);
   return go_to_reference(in, 0, mid, axes);
 }
 
@@ -115,8 +111,8 @@ Did do_second_reference(Interpreter& in) {
 
 Did do_start_return(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (!w.m.empty()) return in.raise(Condition::start_return_m, 'M', w.m[0]);  // App.1 P436
-  if (w.axes == 0) return in.raise(Condition::words_missing, 'G', 29);
+  if (!w.m.empty()) return in.raise(Condition::start_return_m, Role::misc_code, w.m[0]);  // App.1 P436
+  if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   // M700 14.7 (5), (8): the intermediate points of the newest G28 or G30 of each axis.
   const AxisVec position = in.position();
   AxisVec mid = position;
@@ -129,7 +125,7 @@ Did do_start_return(Interpreter& in) {
     known |= 1u << i;
   }
   if (known == 0) {
-    in.raise(Condition::no_reference, 'G', 29);
+    in.raise_code(Condition::no_reference, *w.one_shot);
     for (unsigned i = 0; i < in.axis_count && in.fault.axis < 0; ++i)
       if (((w.axes >> i) & 1) != 0) in.fault.axis = static_cast<int8_t>(i);
     return Did::fault;
@@ -149,9 +145,9 @@ Did do_start_return(Interpreter& in) {
 Did do_reference_check(Interpreter& in) {
   const BlockWords& w = in.words;
   uint32_t place = 1;
-  if (!w.m.empty()) return in.raise(Condition::reference_check_m, 'M', w.m[0]);  // App.1 P435
-  if (w.axes == 0) return in.raise(Condition::words_missing, 'G', 27);
-  if (!place_of_p(in, 1, &place) || place < 1 || place > 4) return in.raise(Condition::value_range, 'P', w.get('P'));
+  if (!w.m.empty()) return in.raise(Condition::reference_check_m, Role::misc_code, w.m[0]);  // App.1 P435
+  if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
+  if (!place_of_p(in, 1, &place) || place < 1 || place > 4) return in.raise(Condition::value_range, Role::return_place, w.get(Role::return_place));
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   move_linear(in, target_of_words(in), w.axes, style);
@@ -192,9 +188,9 @@ Did clear_shift(Interpreter& in) {
 Did do_machine_move(Interpreter& in) {
   const BlockWords& w = in.words;
   for (const FunctionRow* row : w.g)
-    if (row->function == Function::coordinate_set && in.dialect->id == NC_DIALECT_M700) return clear_shift(in);
-  const bool incremental = w.incremental != 0 || in.state.modal.code[kGroupDistance] == 910;
-  if (in.dialect->id == NC_DIALECT_DGSHAPE && incremental) return in.raise(Condition::code_in_incremental, 'G', 53);
+    if (row->function == Function::coordinate_set && in.dialect->rules.coordinate.machine_code_ends_shift) return clear_shift(in);
+  const bool incremental = w.incremental != 0 || in.state.modal.is(Function::incremental);
+  if (incremental && !in.dialect->rules.coordinate.machine_move_may_be_incremental) return in.raise_code(Condition::code_in_incremental, *w.one_shot);
   AxisVec machine = in.state.machine;
   uint32_t absolute = 0;
   for (unsigned i = 0; i < in.axis_count; ++i) {

@@ -19,14 +19,14 @@ void store_skip_position(Interpreter& in, const AxisVec& machine, uint32_t axes)
 /// M700 15.5: F1= to F8=, the feed behind each signal; 0 ends the move. Signals that are not named do nothing.
 Did take_speeds(Interpreter& in, uint32_t* stops) {
   const BlockWords& w = in.words;
-  if (w.has('P')) return in.raise(Condition::format_error, 'P', w.get('P'));  // which signals count is said already
-  const double unit = in.state.modal.code[kGroupUnit] == 200 ? 25.4 : 1.0;
+  if (w.has(Role::skip_signals)) return in.raise(Condition::format_error, Role::skip_signals, w.get(Role::skip_signals));  // which signals count is said already
+  const double unit = in.state.modal.is(Function::inch) ? 25.4 : 1.0;
   in.skip_speeds = SkipSpeeds{};
   *stops = 0;
   for (unsigned i = 0; i < SkipSpeeds::kSignals; ++i) {
     if (((w.counted_feeds >> i) & 1) == 0) continue;
     const double feed = w.counted_feed[i] * unit;
-    if (!(feed >= 0 && feed <= 1e7)) return in.raise(Condition::value_range, 'F', w.counted_feed[i]);
+    if (!(feed >= 0 && feed <= 1e7)) return in.raise(Condition::value_range, Role::feed, w.counted_feed[i]);
     if (feed == 0) {
       *stops |= 1u << i;
       continue;
@@ -46,19 +46,19 @@ Did do_skip(Interpreter& in) {
     const auto axis = static_cast<unsigned>(std::countr_zero(tables));
     if (in.settings.index_increment[axis] > 0) return in.raise(Condition::no_function, in.system->axis[axis].name);
   }
-  const unsigned step = static_cast<unsigned>(w.one_shot_code - 310);  // 0 G31, 1 to 3 G31.1 to G31.3
-  if (in.state.comp.side != 0) return in.raise(Condition::skip_in_compensation, 'G', w.one_shot_code / 10.0);
+  const unsigned step = w.one_shot->function == Function::skip ? 0u : w.one_shot->number + 1u;  // 0 G31, 1 to 3 G31.1 to G31.3
+  if (in.state.comp.side != 0) return in.raise_code(Condition::skip_in_compensation, *w.one_shot);
   uint32_t mask = step == 0 ? 1u : in.settings.multi_skip_mask[step - 1];  // M700 15.3 (5)
-  if (step == 0 && w.has('P') && (!whole_number(w.get('P'), &mask) || mask < 1 || mask > 255))
-    return in.raise(Condition::value_range, 'P', w.get('P'));
-  const bool inch = in.state.modal.code[kGroupUnit] == 200;
+  if (step == 0 && w.has(Role::skip_signals) && (!whole_number(w.get(Role::skip_signals), &mask) || mask < 1 || mask > 255))
+    return in.raise(Condition::value_range, Role::skip_signals, w.get(Role::skip_signals));
+  const bool inch = in.state.modal.is(Function::inch);
   double feed = step == 0 ? in.settings.skip_feed : in.settings.multi_skip_feed[step - 1];
-  if (w.has('F')) {
+  if (w.has(Role::feed)) {
     const Did did = feed_of(in, &feed);
     if (did != Did::done) return did;
     if (inch) feed *= 25.4;
   }
-  if (!(feed > 0)) return in.raise(Condition::skip_feed_zero, 'F');
+  if (!(feed > 0)) return in.raise(Condition::skip_feed_zero, Role::feed);
   LinearStyle style;
   style.kind = NC_MOVE_SKIP;
   style.feed_mm_min = feed;

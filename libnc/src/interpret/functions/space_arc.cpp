@@ -76,7 +76,7 @@ bool circle_through(const Vec3& a, const Vec3& b, const Vec3& c, ThreePoints* ou
 bool basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const char name = in.settings.plane_basic[i];
-    const int index = name == 0 ? -1 : in.axis_of[name - 'A'];
+    const int index = in.axis_named(name);
     if (index < 0) return false;
     axis[i] = static_cast<uint8_t>(index);
   }
@@ -129,34 +129,33 @@ void emit_first_half(Interpreter& in, const AxisVec& middle, const SpaceArc* arc
   in.source = second;
 }
 
-bool names_centre(const Block& block) {
+bool names_centre(const Interpreter& in, const Block& block) {
   for (const Word& word : block.words)
-    if (word.letter >= 'I' && word.letter <= 'K') return true;
+    if (in.is(word, Role::vector_x) || in.is(word, Role::vector_y) || in.is(word, Role::vector_z)) return true;
   return false;
 }
 
 }  // namespace
 
 Did check_in_space_arc(Interpreter& in, const FunctionRow& row) {
-  Condition bad = barred(kInSpaceArc, row.code);  // 6.14 (a)
-  if (row.code == 680 && names_centre(*in.block)) bad = Condition::space_conversion_code;  // with I J K it converts in space
-  return bad == Condition::none ? Did::done : in.raise(bad, 'G', row.code / 10.0);
+  Condition bad = barred(kInSpaceArc, row.function);  // 6.14 (a)
+  if (row.function == Function::rotation_on && names_centre(in, *in.block)) bad = Condition::space_conversion_code;  // with I J K it converts in space
+  return bad == Condition::none ? Did::done : in.raise_code(bad, row);
 }
 
 Did check_space_arc_block(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
-  const bool goes_on = w.one_shot == nullptr && w.cycle == nullptr && w.axes != 0 && is_space_arc(state.modal.code[kGroupMotion]);
+  const bool goes_on = w.one_shot == nullptr && w.cycle == nullptr && w.axes != 0 && is_space_arc(state.modal.of(Mode::motion));
   if (state.arc_step == ArcStep::middle_given && !goes_on) return in.raise(Condition::space_arc_blocks);
-  if (w.motion == nullptr || !is_space_arc(w.motion->code)) return Did::done;
+  if (w.motion == nullptr || !is_space_arc(w.motion->function)) return Did::done;
   // 6.14 (b)
-  const double code = w.motion->code / 10.0;
-  if (state.high_speed != 0) return in.raise(Condition::illegal_g, 'G', code);
-  const int16_t* const modal = state.modal.code;
-  const bool refused = modal[kGroupPolarCommand] == 160 || state.comp.side != 0 || modal[kGroupCompensation] != 400 ||
-                       modal[kGroupNormalLine] != 401 || modal[kGroupLength] != 490 || modal[kGroupScaling] != 500 ||
-                       state.any_mirror() != 0 || modal[kGroupMacro] != 670 || modal[kGroupRotation] != 690;
-  return refused ? in.raise(Condition::space_arc_mode, 'G', code) : Did::done;
+  if (state.high_speed != SpeedMode::off) return in.raise_code(Condition::illegal_g, *w.motion);
+  const ModalState& modal = state.modal;
+  const bool refused = modal.is(Function::polar_command_on) || state.comp.side != 0 || !modal.is(Function::comp_off) ||
+                       !modal.is(Function::normal_line_off) || !modal.is(Function::length_off) || !modal.is(Function::scaling_off) ||
+                       state.any_mirror() != 0 || !modal.is(Function::macro_modal_off) || !modal.is(Function::rotation_off);
+  return refused ? in.raise_code(Condition::space_arc_mode, *w.motion) : Did::done;
 }
 
 Did move_space_arc(Interpreter& in, const AxisVec& target) {
@@ -173,7 +172,7 @@ Did move_space_arc(Interpreter& in, const AxisVec& target) {
     return Did::later;
   }
   uint8_t axis[3];
-  if (!basic_axes(in, axis)) return in.raise(Condition::illegal_axis, 'X');
+  if (!basic_axes(in, axis)) return in.raise(Condition::illegal_axis, Role::basic_x);
   const AxisVec start = in.points[state.arc_points].at, middle = in.points[state.arc_points + 1].at;
   Vec3 a, b, c;
   for (unsigned i = 0; i < 3; ++i) {

@@ -17,22 +17,22 @@ void emit_control(Interpreter& in, uint32_t index, double value, uint32_t mask, 
   action.bits = bits;
 }
 
-Did speed_word(Interpreter& in, char letter, uint32_t* speed) {
-  const double raw = in.words.get(letter);
+Did speed_word(Interpreter& in, Role word, uint32_t* speed) {
+  const double raw = in.words.get(word);
   if (whole_number(raw, speed) && *speed <= kLargestSpeed) return Did::done;
-  return in.raise(Condition::value_range, letter, raw);
+  return in.raise(Condition::value_range, word, raw);
 }
 
 }  // namespace
 
 void announce_surface(Interpreter& in) {
   const SpindleControl& spindle = in.state.spindle;
-  emit_control(in, NC_CONTROL_SURFACE_SPEED, spindle.axis != 0 ? spindle.surface : 0, 0, spindle.axis);
+  emit_control(in, NC_CONTROL_SURFACE_SPEED, spindle.axis != 0 ? spindle.surface : 0, 0, spindle.axis != 0 ? 1u << (spindle.axis - 1) : 0);
 }
 
 bool is_clamp_command(const Interpreter& in) {
   const BlockWords& w = in.words;
-  if (w.one_shot == nullptr || w.one_shot->function != Function::coordinate_set || in.dialect->id != NC_DIALECT_M700) return false;
+  if (w.one_shot == nullptr || w.one_shot->function != Function::coordinate_set || !in.dialect->rules.spindle.limits_by_coordinate_setting) return false;
   // 10.4 (Note 1): without Sclamp an S of G92 in G97 is a spindle speed.
   return in.settings.clamp_command_always || in.state.spindle.axis != 0;
 }
@@ -40,8 +40,8 @@ bool is_clamp_command(const Interpreter& in) {
 Did set_surface_speed(Interpreter& in) {
   State& state = in.state;
   for (const FunctionRow* row : in.words.g) {
-    if (row->group != kGroupSurfaceSpeed) continue;
-    state.modal.code[kGroupSurfaceSpeed] = row->code;
+    if (mode_of(row->function) != Mode::surface_speed) continue;
+    state.modal.set(*row);
     if (row->function == Function::surface_off) {
       if (state.spindle.axis == 0) continue;
       state.spindle.axis = 0;
@@ -49,41 +49,41 @@ Did set_surface_speed(Interpreter& in) {
       continue;
     }
     uint32_t axis = in.settings.surface_axis == 0 ? 1u : in.settings.surface_axis;
-    if (in.settings.surface_axis != 0 && in.words.has('P')) {  // 10.3 (2)
-      if (!whole_number(in.words.get('P'), &axis) || axis < 1 || axis > 3 || axis > in.axis_count)
-        return in.raise(Condition::surface_axis, 'P', in.words.get('P'));
+    if (in.settings.surface_axis != 0 && in.words.has(Role::surface_axis)) {  // 10.3 (2)
+      if (!whole_number(in.words.get(Role::surface_axis), &axis) || axis < 1 || axis > 3 || axis > in.axis_count)
+        return in.raise(Condition::surface_axis, Role::surface_axis, in.words.get(Role::surface_axis));
     }
-    if (axis > in.axis_count) return in.raise(Condition::surface_axis, 'P', axis);
-    if (in.words.has('S') ? !(in.words.get('S') > 0) : state.spindle.surface == 0) return in.raise(Condition::surface_speed, 'S');  // P132
+    if (axis > in.axis_count) return in.raise(Condition::surface_axis, Role::surface_axis, axis);
+    if (in.words.has(Role::spindle_speed) ? !(in.words.get(Role::spindle_speed) > 0) : state.spindle.surface == 0) return in.raise(Condition::surface_speed, Role::spindle_speed);  // P132
     state.spindle.axis = static_cast<uint8_t>(axis);
-    if (!in.words.has('S')) announce_surface(in);  // else with the word
+    if (!in.words.has(Role::spindle_speed)) announce_surface(in);  // else with the word
   }
   return Did::done;
 }
 
 Did surface_word(Interpreter& in) {
   uint32_t speed = 0;
-  const Did did = speed_word(in, 'S', &speed);
+  const Did did = speed_word(in, Role::spindle_speed, &speed);
   if (did != Did::done) return did;
   // The example says m/min; feet/min in inch as FANUC has it.
-  in.state.spindle.surface = in.state.modal.code[kGroupUnit] == 200 ? speed * 0.3048 : speed;
+  in.state.spindle.surface = in.state.modal.is(Function::inch) ? speed * 0.3048 : speed;
   announce_surface(in);
   return Did::done;
 }
 
 Did set_spindle_clamp(Interpreter& in) {
   const BlockWords& w = in.words;
-  const bool s = w.has('S') && is_clamp_command(in);
-  if (!s && !w.has('Q')) return Did::done;
+  const bool s = w.has(Role::spindle_speed) && is_clamp_command(in);
+  if (!s && !w.has(Role::clamp_lowest)) return Did::done;
   uint32_t largest = 0, smallest = 0;
-  Did did = s ? speed_word(in, 'S', &largest) : Did::done;
-  if (did == Did::done && w.has('Q')) did = speed_word(in, 'Q', &smallest);
+  Did did = s ? speed_word(in, Role::spindle_speed, &largest) : Did::done;
+  if (did == Did::done && w.has(Role::clamp_lowest)) did = speed_word(in, Role::clamp_lowest, &smallest);
   if (did != Did::done) return did;
-  in.state.spindle.clamped = true;
+  in.state.spindle_clamped = true;
   // 10.4, Sclamp and aux11 bit 5: in G97 only with Sclamp = 1 and bit 5 = 0.
   const bool always = in.settings.clamp_command_always && !in.settings.clamp_in_g96_only;
   emit_control(in, NC_CONTROL_SPINDLE_CLAMP,
-               (always ? NC_CLAMP_ALWAYS : 0) + (in.settings.keeps_clamp ? NC_CLAMP_OVER_RESET : 0) + (s ? NC_CLAMP_S : 0) + (w.has('Q') ? NC_CLAMP_Q : 0),
+               (always ? NC_CLAMP_ALWAYS : 0) + (in.settings.keeps_clamp ? NC_CLAMP_OVER_RESET : 0) + (s ? NC_CLAMP_S : 0) + (w.has(Role::clamp_lowest) ? NC_CLAMP_Q : 0),
                smallest, largest);
   return Did::done;
 }
@@ -91,7 +91,7 @@ Did set_spindle_clamp(Interpreter& in) {
 void end_spindle_control(Interpreter& in) {
   const SpindleControl& spindle = in.state.spindle;
   if (spindle.axis != 0) emit_control(in, NC_CONTROL_SURFACE_SPEED, 0, 0, 0);
-  if (spindle.clamped && !in.settings.keeps_clamp) emit_control(in, NC_CONTROL_SPINDLE_CLAMP, 0, 0, 0);
+  if (in.state.spindle_clamped && !in.settings.keeps_clamp) emit_control(in, NC_CONTROL_SPINDLE_CLAMP, 0, 0, 0);
 }
 
 }  // namespace nc

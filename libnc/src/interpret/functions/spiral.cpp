@@ -41,40 +41,40 @@ Spiral spiral_about(const double start[2], const double end[2], const double cen
 
 /// Full turns beyond `delta` from the number of turns that a step gives. M700 6.13, type 2: P70 when the end point that the step
 /// leads to is off the commanded one by more than #8075.
-Did turns_by_step(Interpreter& in, const Spiral& s, double turns, char letter, double* whole) {
+Did turns_by_step(Interpreter& in, const Spiral& s, double turns, Role word, double* whole) {
   const double angle = turns * kTurn;
   *whole = std::fmax(0.0, std::nearbyint((angle - s.delta) / kTurn));
   const double off = 2 * s.circle.radius_end * std::fabs(std::sin((angle - s.delta) / 2));
-  if (off > in.settings.spiral_tolerance + kSame) return in.raise(Condition::arc_deviation, letter, s.circle.radius_end);
-  if (std::fabs(s.delta + *whole * kTurn - angle) > kTurn / 2) return in.raise(Condition::arc_deviation, letter, s.circle.radius_end);
+  if (off > in.settings.spiral_tolerance + kSame) return in.raise(Condition::arc_deviation, word, s.circle.radius_end);
+  if (std::fabs(s.delta + *whole * kTurn - angle) > kTurn / 2) return in.raise(Condition::arc_deviation, word, s.circle.radius_end);
   return Did::done;
 }
 
 /// A word with the number of pitches, 0 to 99.
-Did pitches(Interpreter& in, char letter, uint32_t* number) {
-  if (!whole_number(in.words.get(letter), number) || *number > 99) return in.raise(Condition::value_range, letter, in.words.get(letter));
+Did pitches(Interpreter& in, Role word, uint32_t* number) {
+  if (!whole_number(in.words.get(word), number) || *number > 99) return in.raise(Condition::value_range, word, in.words.get(word));
   return Did::done;
 }
 
-/// Address and axis of the height of a cone (type 2): J and Y in G18, I and X in G19, else K and Z.
-char height_word(const PlaneAxes& plane) { return plane.plane == Plane::zx ? 'J' : plane.plane == Plane::yz ? 'I' : 'K'; }
+/// The basic axis of the height of a cone (type 2): Y in G18, X in G19, else Z; J, I or K is its word.
+unsigned height_axis(const PlaneAxes& plane) { return plane.plane == Plane::zx ? 1 : plane.plane == Plane::yz ? 0 : 2; }
 
 /// Type 2: Q before K before L.
-Did turns_of_type_2(Interpreter& in, const Spiral& s, double height, char height_letter, double* whole) {
+Did turns_of_type_2(Interpreter& in, const Spiral& s, double height, Role height_word, double* whole) {
   const BlockWords& w = in.words;
-  if (w.has('Q')) {
-    const double step = length_of(in, 'Q'), change = s.circle.radius_end - s.circle.radius_start;
-    if (step == 0 || step * change < 0) return in.raise(Condition::format_error, 'Q', w.get('Q'));
-    return turns_by_step(in, s, std::fabs(change / step), 'Q', whole);
+  if (w.has(Role::spiral_step)) {
+    const double step = length_of(in, Role::spiral_step), change = s.circle.radius_end - s.circle.radius_start;
+    if (step == 0 || step * change < 0) return in.raise(Condition::format_error, Role::spiral_step, w.get(Role::spiral_step));
+    return turns_by_step(in, s, std::fabs(change / step), Role::spiral_step, whole);
   }
-  if (w.has(height_letter) && std::fabs(height) > kSame) {
-    const double step = length_of(in, height_letter);
-    if (step == 0 || step * height < 0) return in.raise(Condition::format_error, height_letter, w.get(height_letter));
-    return turns_by_step(in, s, std::fabs(height / step), height_letter, whole);
+  if (w.has(height_word) && std::fabs(height) > kSame) {
+    const double step = length_of(in, height_word);
+    if (step == 0 || step * height < 0) return in.raise(Condition::format_error, height_word, w.get(height_word));
+    return turns_by_step(in, s, std::fabs(height / step), height_word, whole);
   }
   uint32_t number = 1;
-  if (w.has('L')) {
-    const Did did = pitches(in, 'L', &number);
+  if (w.has(Role::spiral_pitches)) {
+    const Did did = pitches(in, Role::spiral_pitches, &number);
     if (did != Did::done) return did;
   }
   *whole = number > 0 ? number - 1 : 0;  // Ln: n - 1 turns or more, less than n
@@ -84,8 +84,8 @@ Did turns_of_type_2(Interpreter& in, const Spiral& s, double height, char height
 /// Type 1: Pn is n turns or more, less than n + 1.
 Did turns_of_type_1(Interpreter& in, double* whole) {
   uint32_t number = 0;
-  if (in.words.has('P')) {
-    const Did did = pitches(in, 'P', &number);
+  if (in.words.has(Role::helix_pitches)) {
+    const Did did = pitches(in, Role::helix_pitches, &number);
     if (did != Did::done) return did;
   }
   *whole = number;
@@ -96,39 +96,38 @@ Did turns_of_type_1(Interpreter& in, double* whole) {
 
 bool means_spiral(const Interpreter& in) {
   const BlockWords& w = in.words;
-  return in.settings.spiral_type_2 && !w.has('R') && w.any(letters("QL") | 1u << (height_word(plane_axes(in)) - 'A'));
+  return in.settings.spiral_type_2 && !w.has(Role::arc_radius) && w.any({Role::spiral_step, Role::spiral_pitches, vector_along(height_axis(plane_axes(in)))});
 }
 
 Did move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw) {
   const PlaneAxes plane = plane_axes(in);
   const BlockWords& w = in.words;
-  const double code = in.state.modal.code[kGroupMotion] / 10.0;
-  if (plane.h < 0 || plane.v < 0) return in.raise(Condition::plane_mismatch, 'G', code);
+  if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   const bool type_2 = in.settings.spiral_type_2;
   if (type_2) {  // G02.1 and G03.1 are codes of type 1; no mirror image, no scaling
     const State& state = in.state;
-    if (state.modal.code[kGroupMotion] % 10 != 0 || state.any_mirror() != 0 || state.modal.code[kGroupScaling] != 500)
-      return in.raise(Condition::illegal_g, 'G', code);
+    if (is_spiral(state.modal.of(Mode::motion)) || state.any_mirror() != 0 || !state.modal.is(Function::scaling_off))
+      return in.raise_mode(Condition::illegal_g, Mode::motion);
   }
-  if (in.state.comp.side != 0) return in.raise(Condition::not_in_compensation, 'G', code);
+  if (in.state.comp.side != 0) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
   if (!w.has(plane.center[0]) && !w.has(plane.center[1])) return in.raise(Condition::format_error, plane.center[0]);
   double center[2] = {0, 0};
   for (unsigned i = 0; i < 2; ++i)
     if (w.has(plane.center[i])) center[i] = length_of(in, plane.center[i]);
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   if (program_mapped(in)) {
-    if (tilts_plane(in, h, v)) return in.raise(Condition::plane_mismatch, 'G', code);  // 13.21
-    if (scaled_unevenly(in, h, v)) return in.raise(Condition::arc_deviation, 'G', code);  // 13.19 (4)
+    if (tilts_plane(in, h, v)) return in.raise_mode(Condition::plane_mismatch, Mode::motion);  // 13.21
+    if (scaled_unevenly(in, h, v)) return in.raise_mode(Condition::arc_deviation, Mode::motion);  // 13.19 (4)
     map_arc(in, h, v, center, &ccw);
   }
   const MoveFrame frame = frame_of_move(in, target, commanded);
   const double from[2] = {frame.start[h], frame.start[v]}, to[2] = {frame.end[h], frame.end[v]};
   Spiral s = spiral_about(from, to, center, ccw);
-  const char height_letter = height_word(plane);
-  const int normal = in.axis_of["ZYX"[plane.plane == Plane::zx ? 1 : plane.plane == Plane::yz ? 2 : 0] - 'A'];
+  const Role height_word = vector_along(height_axis(plane));
+  const int normal = in.axis_called(basic_along(height_axis(plane)));
   const double height = normal >= 0 ? frame.end[static_cast<unsigned>(normal)] - frame.start[static_cast<unsigned>(normal)] : 0;
   double whole = 0;
-  const Did did = type_2 ? turns_of_type_2(in, s, height, height_letter, &whole) : turns_of_type_1(in, &whole);
+  const Did did = type_2 ? turns_of_type_2(in, s, height, height_word, &whole) : turns_of_type_1(in, &whole);
   if (did != Did::done) return did;
   s.circle.sweep = (ccw ? 1 : -1) * (s.delta + whole * kTurn);
   if (s.circle.sweep == 0) {  // it does not turn: straight to the end

@@ -49,7 +49,7 @@ struct Hermite {
 void basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const char name = in.settings.plane_basic[i];
-    const int index = name == 0 ? -1 : in.axis_of[name - 'A'];
+    const int index = in.axis_named(name);
     axis[i] = index < 0 ? uint8_t{0xff} : static_cast<uint8_t>(index);
   }
 }
@@ -79,19 +79,19 @@ bool read_block(const Interpreter& in, const Block& block, uint32_t* axes, uint3
   *axes = *incremental = 0;
   for (const Word& word : block.words) {
     if ((word.flags & (kWordExpression | kWordComma | kWordCount | kWordNoValue)) != 0) return false;
-    if (word.letter == 'F' || word.letter == 'N' || word.letter == 'S' || word.letter == 'T') continue;
-    if (word.letter == 'G') {
-      if (word.value != 1 && word.value != 90 && word.value != 91) return false;
-      if (word.value != 1) *relative = word.value == 91;
+    if (in.is(word, Role::feed) || in.is(word, Role::sequence_number) || in.is(word, Role::spindle_speed) || in.is(word, Role::tool)) continue;
+    if (in.is(word, Role::code)) {
+      const FunctionRow* const row = in.codes.find(word.value);
+      if (row == nullptr || in.vendor->find(word.letter, word.value) != nullptr || (row->function != Function::linear && mode_of(row->function) != Mode::distance)) return false;
+      if (row->function != Function::linear) *relative = row->function == Function::incremental;
       continue;
     }
-    if (word.letter == 'M') {
+    if (in.is(word, Role::misc_code)) {
       uint32_t code = 0;
-      const MiscRow* row = whole_number(word.value, &code) ? find_misc(*in.dialect, code) : nullptr;
-      if (in.code_calls.any || (row != nullptr && row->function != MiscFunction::output)) return false;
+      if (in.codes_call || (whole_number(word.value, &code) && !goes_out(misc_function(*in.dialect, code)))) return false;
       continue;
     }
-    const int axis = in.axis_of[word.letter - 'A'];
+    const int axis = in.axis_of[address_of(word)];
     if (axis < 0 || ((in.state.spline.axes >> axis) & 1) == 0) return false;
     const uint32_t bit = 1u << axis;
     *axes |= bit;
@@ -132,9 +132,9 @@ bool look_ahead(Interpreter& in, const uint8_t (&axis)[3], Place* place, bool* r
 /// (1): the modes in which the spline is formed.
 bool modes_fit(const Interpreter& in, bool exact_stop) {
   const State& state = in.state;
-  const int16_t* const modal = state.modal.code;
-  return !exact_stop && state.comp.side == 0 && modal[kGroupCompensation] == 400 && modal[kGroupCutting] == 640 &&
-         modal[kGroupFeed] == 940 && state.cycle.kind == CycleKind::none && (state.special & kSpecialMap) == 0;
+  const ModalState& modal = state.modal;
+  return !exact_stop && state.comp.side == 0 && modal.is(Function::comp_off) && modal.is(Function::cutting_mode) &&
+         modal.is(Function::feed_per_minute) && state.cycle.kind == CycleKind::none && (state.special & kSpecialMap) == 0;
 }
 
 /// (1) (b), (d): no longer than #8030, nor than eight times a neighbour. A neighbour of no length is none.
@@ -258,26 +258,26 @@ void emit_span(Interpreter& in, const MoveFrame& frame, const uint8_t (&axis)[3]
   Move& move = emit_shaped(in, frame, shape, NC_MOVE_SPLINE);
   set_modal_feed(in, move, feed_mm_min(in));
   const double radius = std::min(radius_of(s.v0, s.w0), radius_of(s.v1, s.w1));  // (3)
-  const double clamp = spline_speed_clamp(in.settings.accuracy, radius);
+  const double clamp = in.dialect->rules.motion.spline_speed_mm_min(in.settings.accuracy, radius);
   if (clamp < HUGE_VAL) move.speed_clamp = static_cast<float>(clamp / 60);
 }
 
 }  // namespace
 
 Did move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
-  SplineState& spline = in.state.spline;
+  SplineWay& past = in.state.spline_way;
   uint8_t axis[3];
   basic_axes(in, axis);
   const MoveFrame frame = frame_of_move(in, target, commanded);
   const Chord now = chord_between(frame.start, frame.end, axis);
   Chord before;
-  for (unsigned i = 0; i < 3 && spline.moved; ++i) before.way[i] = spline.back[i];
+  for (unsigned i = 0; i < 3 && past.moved; ++i) before.way[i] = past.back[i];
   before.length = norm(before.way);
-  const bool joined = spline.joined;
-  spline.joined = false;
-  const bool only_spline_axes = (commanded & ~uint32_t{spline.axes}) == 0 && now.length > kNoMotion;
-  spline.moved = only_spline_axes;
-  for (unsigned i = 0; i < 3; ++i) spline.back[i] = now.way[i];
+  const bool joined = past.joined;
+  past.joined = false;
+  const bool only_spline_axes = (commanded & ~uint32_t{in.state.spline.axes}) == 0 && now.length > kNoMotion;
+  past.moved = only_spline_axes;
+  for (unsigned i = 0; i < 3; ++i) past.back[i] = now.way[i];
   const auto straight = [&] {
     move_linear(in, target, commanded, style);
     return Did::done;
@@ -286,7 +286,7 @@ Did move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, cons
 
   const CallFrame& program = in.state.frame[in.state.depth];
   Place place{program.offset, program.line};
-  bool relative = in.state.modal.code[kGroupDistance] == 910;
+  bool relative = in.state.modal.is(Function::incremental);
   AxisVec at = frame.end;
   Chord next, after;
   const bool has_next = look_ahead(in, axis, &place, &relative, &at, &next);
@@ -309,7 +309,7 @@ Did move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, cons
   Hermite span = span_between(now, start, end);
   const double error = chord_error(span);
   if (!revise(in, &span, error)) return straight();
-  spline.joined = joins;
+  past.joined = joins;
   if (error < kNoMotion) return straight();
   emit_span(in, frame, axis, span);
   return Did::done;

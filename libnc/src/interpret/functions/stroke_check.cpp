@@ -10,22 +10,22 @@ namespace nc {
 Did do_stroke_check(Interpreter& in) {
   const BlockWords& w = in.words;
   StrokeBox box;
-  uint32_t taken = letters("IJK");
+  uint32_t taken = in.addresses({Role::vector_x, Role::vector_y, Role::vector_z});
   bool any = false;
   for (unsigned i = 0; i < StrokeBox::kBasicAxes; ++i) {
     const char name = in.settings.plane_basic[i];
-    const int axis = name == 0 ? -1 : in.axis_of[name - 'A'];
-    const char lower = static_cast<char>('I' + i);
+    const int axis = in.axis_named(name);
+    const Role lower = vector_along(i);
     if (axis < 0) {
       if (w.has(lower)) return in.raise(Condition::illegal_address, lower, w.get(lower));
       continue;
     }
-    taken |= 1u << (name - 'A');
+    taken |= 1u << address_of(name);
     // (2) what is omitted is 0. Machine coordinates, in the unit of the program, whatever G90 and G91 say.
     const auto index = static_cast<unsigned>(axis);
     const bool turns = ((in.rotary >> index) & 1) != 0;
     const double upper_point = w.has(name) ? w.axis[index] : 0;
-    const double lower_point = w.has(lower) ? axis_value(in, index, w.get(lower), w.flags[lower - 'A'], turns) : 0;
+    const double lower_point = w.has(lower) ? axis_value(in, index, w.get(lower), w.flag(lower), turns) : 0;
     if (upper_point == lower_point) continue;  // (3)
     box.axis[i] = static_cast<int8_t>(axis);
     box.turns[i] = ((in.settings.machine_turn >> index) & 1) != 0;
@@ -34,11 +34,13 @@ Did do_stroke_check(Interpreter& in) {
     any = true;
   }
   // (7): an address that the block has no use for.
-  const uint32_t other = w.present & ~taken & ~letters("NOFSMT");
-  for (char letter = 'A'; letter <= 'Z'; ++letter)
-    if (((other >> (letter - 'A')) & 1) != 0) return in.raise(Condition::illegal_address, letter, w.get(letter));
+  const uint32_t other = w.present & ~taken & ~in.addresses({Role::sequence_number, Role::program_number, Role::feed, Role::spindle_speed, Role::misc_code, Role::tool});
+  if (other != 0) {
+    const char letter = first_of_block(in, other);
+    return in.raise(Condition::illegal_address, letter, w.get(letter));
+  }
   in.state.stroke_box = any ? in.stroke_boxes.intern(box) + 1 : 0;
-  in.state.modal.code[kGroupStrokeCheck] = 220;
+  in.state.modal.set(*w.one_shot);
   return Did::done;
 }
 

@@ -15,27 +15,27 @@ bool lead_in_range(double lead, double limit) { return lead > 0 && lead < limit;
 /// The lead along the long axis that the words give; it stays in force for the thread blocks behind.
 Did take_lead(Interpreter& in) {
   const BlockWords& w = in.words;
-  const bool inch = in.state.modal.code[kGroupUnit] == 200;
+  const bool inch = in.state.modal.is(Function::inch);
   const double unit = inch ? kMillimetresPerInch : 1.0;
   double lead = 0, limit = 1000;
-  char letter = 'F';
-  if (w.has('E')) {
-    letter = 'E';
+  Role word = Role::thread_lead;
+  if (w.has(Role::fine_thread_lead)) {
+    word = Role::fine_thread_lead;
     // M700 6.7.1, 6.7.2: #1229 bit 1 says whether E is a precision lead or the number of ridges per inch.
     if (in.settings.precision_lead) {
-      lead = w.get('E') * unit;
+      lead = w.get(Role::fine_thread_lead) * unit;
       if (inch) limit = 39.370079 * kMillimetresPerInch;
-    } else if (w.get('E') > 0 && w.get('E') < (inch ? 10000 : 1000)) {
-      lead = kMillimetresPerInch / w.get('E');
+    } else if (w.get(Role::fine_thread_lead) > 0 && w.get(Role::fine_thread_lead) < (inch ? 10000 : 1000)) {
+      lead = kMillimetresPerInch / w.get(Role::fine_thread_lead);
       if (inch) limit = 100 * kMillimetresPerInch;  // 6.7.2 (3): within the range of the lead that it is
     }
-  } else if (w.has('F')) {
-    lead = w.get('F') * unit;  // M700 6.7.1: F1 = 1.000
+  } else if (w.has(Role::thread_lead)) {
+    lead = w.get(Role::thread_lead) * unit;  // M700 6.7.1: F1 = 1.000
     if (inch) limit = 100 * kMillimetresPerInch;
   } else {
-    return in.state.thread_lead > 0 ? Did::done : in.raise(Condition::no_feed, 'F');
+    return in.state.thread_lead > 0 ? Did::done : in.raise(Condition::no_feed, Role::thread_lead);
   }
-  if (!lead_in_range(lead, limit)) return in.raise(Condition::thread_lead, letter, w.get(letter));
+  if (!lead_in_range(lead, limit)) return in.raise(Condition::thread_lead, word, w.get(word));
   in.state.thread_lead = lead;
   return Did::done;
 }
@@ -44,13 +44,13 @@ Did take_lead(Interpreter& in) {
 
 Did move_thread(Interpreter& in, const AxisVec& target, uint32_t commanded) {
   const BlockWords& w = in.words;
-  if (commanded == 0 && !w.any(letters("EF"))) return Did::done;  // nothing is cut, so no lead is missing
+  if (commanded == 0 && !w.any({Role::fine_thread_lead, Role::thread_lead})) return Did::done;  // nothing is cut, so no lead is missing
   const Did did = take_lead(in);
   if (did != Did::done) return did;
   double angle = 0;  // M700 6.7.1: not modal
-  if (w.has('Q')) {
-    angle = length_value(in, w.get('Q'), w.flags['Q' - 'A'], true, true);
-    if (!(angle >= 0 && angle <= 360)) return in.raise(Condition::value_range, 'Q', w.get('Q'));
+  if (w.has(Role::thread_start)) {
+    angle = length_value(in, w.get(Role::thread_start), w.flag(Role::thread_start), true, true);
+    if (!(angle >= 0 && angle <= 360)) return in.raise(Condition::value_range, Role::thread_start, w.get(Role::thread_start));
   }
   if (commanded == 0) return Did::done;
   LinearStyle style;

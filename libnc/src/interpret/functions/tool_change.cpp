@@ -8,34 +8,38 @@ namespace nc {
 namespace {
 
 /// The table of 13.13: axes of one step stand together.
-constexpr const char* kOrder[6][3] = {
-    {"Z", "XY", ""},   // G30.1
-    {"Z", "X", "Y"},   // G30.2
-    {"Z", "Y", "X"},   // G30.3
-    {"X", "YZ", ""},   // G30.4
-    {"Y", "XZ", ""},   // G30.5
-    {"XYZ", "", ""}    // G30.6
+constexpr uint8_t kX = 1, kY = 2, kZ = 4;  // bit n: basic axis n
+constexpr uint8_t kOrder[6][3] = {
+    {kZ, kX | kY, 0},        // G30.1
+    {kZ, kX, kY},            // G30.2
+    {kZ, kY, kX},            // G30.3
+    {kX, kY | kZ, 0},        // G30.4
+    {kY, kX | kZ, 0},        // G30.5
+    {kX | kY | kZ, 0, 0},    // G30.6
 };
 
-uint32_t axes_named(const Interpreter& in, const char* names) {
+/// Of a set of basic axes, those that the machine has.
+uint32_t axes_of(const Interpreter& in, uint8_t basic) {
   uint32_t axes = 0;
-  for (; *names != 0; ++names)
-    if (in.axis_of[*names - 'A'] >= 0) axes |= 1u << in.axis_of[*names - 'A'];
+  for (unsigned i = 0; i < 3; ++i) {
+    const int axis = in.axis_called(basic_along(i));
+    if ((basic >> i & 1) != 0 && axis >= 0) axes |= 1u << axis;
+  }
   return axes;
 }
 
 }  // namespace
 
 Did do_tool_change_return(Interpreter& in) {
-  if (in.words.axes != 0) return in.raise(Condition::format_error, 'G', in.words.one_shot_code / 10.0);
-  const auto& order = kOrder[in.words.one_shot_code - 301];
+  if (in.words.axes != 0) return in.raise_code(Condition::format_error, *in.words.one_shot);
+  const auto& order = kOrder[in.words.one_shot->number];
   AxisVec place;
   for (unsigned i = 0; i < in.axis_count; ++i) place[i] = in.settings.tool_change[i];
-  const uint32_t standard = axes_named(in, "XYZ"), added = in.settings.tool_change_axes & ~standard;
+  const uint32_t standard = axes_of(in, kX | kY | kZ), added = in.settings.tool_change_axes & ~standard;
   uint32_t all = added;
   bool first = true;
-  for (const char* names : order) {
-    const uint32_t axes = axes_named(in, names);
+  for (const uint8_t basic : order) {
+    const uint32_t axes = axes_of(in, basic);
     if (axes == 0) continue;
     if (!first) in.emit_stop_point();  // in single block each step is a block of its own
     first = false;

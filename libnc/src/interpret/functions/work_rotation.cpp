@@ -13,12 +13,12 @@
 namespace nc {
 namespace {
 
-constexpr const char* kVectorH = "8625";
-constexpr const char* kVectorV = "8626";
-constexpr const char* kAngle = "8627";
+constexpr ParameterOf kVectorH = {Parameter::work_turn_vector, 0};
+constexpr ParameterOf kVectorV = {Parameter::work_turn_vector, 1};
+constexpr ParameterOf kAngle = Parameter::work_turn_angle;
 constexpr double kLargestVector = 999999.999999, kLargestAngle = 360;
 
-bool store(Interpreter& in, const char* key, double value) {
+bool store(Interpreter& in, ParameterOf parameter, double value) {
   constexpr double kDecimals = 1e9;
   const double steps = std::nearbyint(std::fabs(value) * kDecimals);
   char text[40];
@@ -27,7 +27,7 @@ bool store(Interpreter& in, const char* key, double value) {
   const auto whole = static_cast<unsigned long long>(steps);
   constexpr auto kPerWhole = static_cast<unsigned long long>(kDecimals);
   out.put_integer(whole / kPerWhole).put('.').put_integer(whole % kPerWhole, 9);
-  return in.set_parameter(key, -1, text);
+  return in.set_parameter(parameter, text);
 }
 
 }  // namespace
@@ -35,33 +35,33 @@ bool store(Interpreter& in, const char* key, double value) {
 Did do_work_rotation(Interpreter& in) {
   const BlockWords& w = in.words;
   // Axis words, P and R are data of another G10.
-  if (w.axes != 0 || w.any(letters("PR"))) return in.raise(Condition::format_error, 'G', 10);
-  if (in.state.map.kind != AxisMap::Kind::none) return in.raise(Condition::mill_code, 'G', 10);
+  if (w.axes != 0 || w.any({Role::input_number, Role::input_amount})) return in.raise_code(Condition::format_error, *w.one_shot);
+  if (in.state.map.kind != AxisMap::Kind::none) return in.raise_code(Condition::mill_code, *w.one_shot);
   // A component that is not there stays.
-  const double i = w.has('I') ? length_of(in, 'I') : in.settings.work_turn_vector[0];
-  const double j = w.has('J') ? length_of(in, 'J') : in.settings.work_turn_vector[1];
-  for (const char letter : {'I', 'J'}) {
-    const double component = letter == 'I' ? i : j;
-    if (w.has(letter) && !(std::fabs(component) <= kLargestVector))
-      return in.raise(Condition::value_range, letter, w.get(letter));
+  const double i = w.has(Role::vector_x) ? length_of(in, Role::vector_x) : in.settings.work_turn_vector[0];
+  const double j = w.has(Role::vector_y) ? length_of(in, Role::vector_y) : in.settings.work_turn_vector[1];
+  for (const Role word : {Role::vector_x, Role::vector_y}) {
+    const double component = word == Role::vector_x ? i : j;
+    if (w.has(word) && !(std::fabs(component) <= kLargestVector))
+      return in.raise(Condition::value_range, word, w.get(word));
   }
-  const bool vector = w.any(letters("IJ")) && (i != 0 || j != 0);
+  const bool vector = w.any({Role::vector_x, Role::vector_y}) && (i != 0 || j != 0);
   bool kept = true;
-  if (w.has('K')) {
-    const double k = length_value(in, w.get('K'), w.flags['K' - 'A'], true, true);
-    if (!(std::fabs(k) <= kLargestAngle)) return in.raise(Condition::value_range, 'K', w.get('K'));
+  if (w.has(Role::turn_angle)) {
+    const double k = length_value(in, w.get(Role::turn_angle), w.flag(Role::turn_angle), true, true);
+    if (!(std::fabs(k) <= kLargestAngle)) return in.raise(Condition::value_range, Role::turn_angle, w.get(Role::turn_angle));
     // "Set the vector contents to 0 when commanding coordinate rotation angle."
-    if (vector) return in.raise(Condition::format_error, 'K', w.get('K'));
+    if (vector) return in.raise(Condition::format_error, Role::turn_angle, w.get(Role::turn_angle));
     kept = store(in, kVectorH, 0) && store(in, kVectorV, 0) && store(in, kAngle, k);
   } else {
     kept = store(in, kVectorH, i) && store(in, kVectorV, j);
     if (vector) kept = kept && store(in, kAngle, std::atan2(j, i) * 180 / std::numbers::pi);
   }
-  if (!kept) return in.raise(Condition::parameter_input, 'G', 10);
+  if (!kept) return in.raise_code(Condition::parameter_input, *w.one_shot);
   take_work_rotation(in, false);  // (4): at once
   const Compensation& comp = in.state.comp;
   const bool tilted = comp.side != 0 && tilts_plane(in, comp.axis[0], comp.axis[1]);
-  return tilted ? in.raise(Condition::plane_mismatch, 'G', 10) : Did::done;
+  return tilted ? in.raise_code(Condition::plane_mismatch, *w.one_shot) : Did::done;
 }
 
 }  // namespace nc

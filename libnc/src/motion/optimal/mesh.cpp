@@ -18,7 +18,7 @@ constexpr double kShortLaunch = 0.025;   ///< of the window, at most
 constexpr double kGentle = 24;           ///< cells that the guess takes to leave the speed of the start
 constexpr double kFeed =
     0.9995;  ///< of feed and axis velocities where the path bends: |q'| changes inside a cell
-constexpr double kAtStart = 1.004;   ///< a start at speed is given, and rows of other cells have let it pass
+constexpr double kAtStart = 1.0012;   ///< a start at speed is given, and rows of other cells have let it pass
 constexpr double kRounding = 1e-12;  ///< of the length of the window
 constexpr double kBraking = 0.8;      ///< of the length in which a start that brakes would come to rest twice as fast
 constexpr unsigned kShorter = 100;     ///< times that a window is made shorter
@@ -283,12 +283,12 @@ void Mesher::fill_knots() {
       const double axis = velocity_of(p, *limits_, i);
       if (axis > 0 && axes_most * std::fabs(q.d1[i]) > axis) axes_most = axis / std::fabs(q.d1[i]);
     }
-    if (length2 > 1 && v < HUGE_VAL) v /= std::sqrt(length2);
-    if (in.down != nullptr) v = std::max(v, std::sqrt(in.down->at(u)));
-    v = std::min(v, axes_most);
     bool bends = p.curve != nullptr;
     for (unsigned i = 0; i < axes; ++i) bends = bends || q.d2[i] != 0 || q.d3[i] != 0;
     const double use = bends ? kFeed : 1;
+    if (use * use * length2 > 1 && v < HUGE_VAL) v /= use * std::sqrt(length2);
+    if (in.down != nullptr) v = std::max(v, std::sqrt(in.down->at(u)));
+    v = std::min(v, axes_most);
     return use * use * v * v;
   };
   double u = 0;
@@ -319,10 +319,12 @@ void Mesher::fill_knots() {
     for (unsigned i = 0; i < axes; ++i) {
       inside.d1[i] = knot.d1[i] + 0.5 * h * knot.d2[i];
       inside.d3[i] = (q.d2[i] - knot.d2[i]) / h;
-      if ((limits_->linear >> i & 1) != 0) length2 += inside.d1[i] * inside.d1[i];
+      const double middle = 0.25 * (knot.d1[i] + 2 * inside.d1[i] + q.d1[i]);  // of a cubic
+      if ((limits_->linear >> i & 1) != 0) length2 += middle * middle;
     }
     const double feed = feed_of(p, *limits_);
-    if (length2 > 1 && feed < HUGE_VAL && in.down == nullptr) m.cap[k] = std::min(m.cap[k], kFeed * kFeed * feed * feed / length2);
+    if (kFeed * kFeed * length2 > 1 && feed < HUGE_VAL && in.down == nullptr)
+      m.cap[k] = std::min(m.cap[k], feed * feed / length2);
     u += h;
   }
 }

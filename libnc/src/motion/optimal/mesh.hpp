@@ -21,6 +21,18 @@ struct WayDown {
   double at(double place) const;
 };
 
+/// The law that is followed, at the start of the new one (place 0) and at ends of its cells behind that, to its rest: there the new one may
+/// leave it.
+struct Followed {
+  static constexpr unsigned kMost = 96;
+  struct At {
+    double s = 0, seconds = 0, v = 0, a = 0;  ///< way and time from the start
+  };
+  At at[kMost];
+  unsigned count = 0;
+  At end;  ///< where it rests
+};
+
 inline constexpr unsigned kFirstCells = 12;
 
 struct MeshRequest {
@@ -30,6 +42,7 @@ struct MeshRequest {
   const Piece& at(unsigned k) const { return piece[(base + k) & mask]; }
   double reach = HUGE_VAL;  ///< of the parameter behind `from`: the path ends there at the latest
   const WayDown* down = nullptr;
+  const Followed* followed = nullptr;
   PathPlace from;
   double period = 0.005;      ///< s
   double guess = 0.7;         ///< of the estimated speed, to begin with

@@ -294,6 +294,30 @@ MeshRequest OptimalPlanner::request_from(const Start& start, double reach, const
   return request;
 }
 
+/// The chain behind a place that is passed at speed, up to its next rest.
+const Followed* OptimalPlanner::follow(const Start& start) {
+  followed_.count = 0;
+  if (start.fresh || start.from_rest) return nullptr;
+  unsigned cells = 0;
+  for (CellIndex k = start.after; k != chain_.last && store_.at(k).kind != PlanCell::Kind::land; k = chain_next_[k & store_.cell_mask]) ++cells;
+  const unsigned every = cells / Followed::kMost + 1;
+  double seconds = 0;
+  CellIndex k = start.after;
+  for (unsigned n = 0; n < cells; ++n) {
+    if (n > 0) seconds += store_.at(k).seconds;
+    const CellIndex next = chain_next_[k & store_.cell_mask];
+    const PlanCell& c = store_.at(next);
+    if (n % every == 0) {
+      followed_cell_[followed_.count] = k;
+      followed_.at[followed_.count++] = {c.u - start.u, seconds, c.v, c.a};
+    }
+    k = next;
+  }
+  const PlanCell& last = store_.at(k);
+  followed_.end = {last.u + last.h - start.u, seconds + last.seconds, 0, 0};
+  return followed_.count > 0 ? &followed_ : nullptr;
+}
+
 bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* down, bool once, double period) {
   MeshRequest request = request_from(start, reach, down);
   if (request.count == 0) return false;
@@ -305,6 +329,7 @@ bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* do
       request.first_h[request.first_cells++] = store_.at(k).h;
     }
   }
+  if (down == nullptr && reach == HUGE_VAL) request.followed = follow(start);
   Windows::Goal goal;
   goal.once = once;
   goal.period = period;
@@ -320,6 +345,11 @@ bool OptimalPlanner::phase_law(const Start& start, double reach) {
 /// The law found last reaches the end of the pieces, or of what was asked for.
 bool OptimalPlanner::whole() const {
   return found_ == Found::cells ? windows_->whole() : found_ == Found::line ? line_.whole() : windows_->phases().whole();
+}
+
+/// Of the law found last.
+double OptimalPlanner::law_seconds() const {
+  return found_ == Found::cells ? windows_->law().seconds : found_ == Found::line ? line_.seconds() : windows_->phases().seconds();
 }
 
 /// What the axes allow along the path at a place.
@@ -497,6 +527,18 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
   return true;
 }
 
+/// Where there is none from `start`: the chain stays up to the first place behind it from which there is a law in phases. It comes to rest
+/// only where that may begin nowhere on its way there.
+bool OptimalPlanner::extend_later(const Following& f, const Start& start, double most) {
+  MeshRequest request = request_from(start, most, nullptr);
+  request.followed = follow(start);
+  if (request.count == 0 || request.followed == nullptr) return false;
+  const unsigned place = windows_->leaves_at(request, limits_);
+  if (place == Windows::kNone || place == 0) return false;
+  const Start later = behind(followed_cell_[place]);
+  return extend(f, later, most - (later.u - start.u), nullptr);
+}
+
 void OptimalPlanner::offer(const Start& start, bool stops) {
   chain_next_[(write_ - 1) & store_.cell_mask] = kNoCell;
   for (CellIndex k = offer_first_; k != write_; ++k) store_.next[k & store_.cell_mask] = chain_next_[k & store_.cell_mask];
@@ -560,6 +602,11 @@ bool OptimalPlanner::stop_there(const Start& start, bool closed) {
   const bool found = stop_law(start, 0.99 * (chain_.u - start.u), closed);
   limits_ = now;
   if (!found) return false;
+  const Followed* const chain = follow(start);
+  if (chain != nullptr && !(law_seconds() < chain->end.seconds)) {  // it comes to rest no later by itself
+    no_room_ = true;
+    return false;
+  }
   offer_first_ = write_;
   next_chain_ = {};
   Start end;
@@ -621,8 +668,8 @@ void OptimalPlanner::change(const Following& f) {
     stop_at_block(f, start);
   } else if (lower(limits_.scale, chain_.scale)) {
     slow_down(f, start);
-  } else {
-    extend(f, start, block_most(f, start), nullptr);
+  } else if (!extend(f, start, block_most(f, start), nullptr) && urgent_) {
+    extend_later(f, start, block_most(f, start));
   }
   tried_at_ = open_ ? kNoCell : f.cell;
 }
@@ -672,7 +719,7 @@ void OptimalPlanner::slow_down(const Following& f, const Start& start) {
   if (!stops) return;
   WayDown down;
   way_down(&down);
-  if (!extend(f, start, most, &down)) stop_there(start, false);
+  if (!extend(f, start, most, &down) && !extend_later(f, start, most)) stop_there(start, false);
 }
 
 /// A longer chain.
@@ -697,7 +744,7 @@ void OptimalPlanner::go_on(const Following& f, bool idle) {
   if (failed_ % 2 != 0) start = behind(before(f, chain_.keep, kBack * (failed_ / 2 + 1)));
   if (ahead(f, start.after) < lead_ && !find_ahead(f, lead_, &start)) return;
   urgent_ = ahead(f, chain_.keep) < kUrgent;
-  extend(f, start, block_most(f, start), nullptr);
+  if (!extend(f, start, block_most(f, start), nullptr) && urgent_) extend_later(f, start, block_most(f, start));
   tried_at_ = open_ ? kNoCell : f.cell;
   failed_ = open_ ? 0 : failed_ + 1;
 }

@@ -66,11 +66,14 @@ class OptimalPlanner {
   double ahead(const Following& f, CellIndex cell) const;
   bool moving(const Following& f) const { return f.cell != kNoCell && !(f.at_end && f.cell == chain_.last); }
   bool extend(const Following& f, const Start& start, double most, const WayDown* down);
+  bool extend_later(const Following& f, const Start& start, double most);
+  const Followed* follow(const Start& start);
   bool try_limits(const Start& start, double most, const WayDown* down);
   MeshRequest request_from(const Start& start, double reach, const WayDown* down) const;
   bool one_law(const Start& start, double reach, const WayDown* down, bool once, double period);
   bool phase_law(const Start& start, double reach);
   bool whole() const;
+  double law_seconds() const;
   bool stop_law(const Start& start, double most, bool closed);
   double ahead_of_end(const Start& start) const;
   struct Along {
@@ -120,6 +123,8 @@ class OptimalPlanner {
   CellIndex* chain_next_ = nullptr;
   double* chain_end_ = nullptr;  ///< s from the start of the chain to the end of the cell
   double *down_u_ = nullptr, *down_b_ = nullptr;
+  Followed followed_;                               ///< of the chain, from where a law is to begin
+  CellIndex followed_cell_[Followed::kMost] = {};  ///< behind which each of its places lies
 
   Limits limits_;               ///< with the overrides of this call
   Chain chain_, next_chain_;    ///< what the scan follows; what it has been offered

@@ -29,6 +29,8 @@ constexpr unsigned kParts = 32;        ///< pieces of a curve that is no arc, at
 constexpr double kSpread = 1.5;        ///< of the speeds that such a piece allows along it
 constexpr double kMostOverride = 2;    ///< that a feed is expected to have
 constexpr double kLongestReach = 10;   ///< mm, of a transition
+constexpr double kPeriodsApart = 1.5;  ///< periods of the feed from knot to knot, where the tolerance lets them be so far apart
+constexpr double kTurns = 50;          ///< rev/s, for such a spacing: the spindle may have another speed when the path is gone
 constexpr double kNothing = 1e-12;     ///< mm, of a curve between two transitions
 constexpr double kMostSpeed = 1e4;     ///< mm/s, whose knots are the farthest apart
 constexpr double kCollinear = 1e-9;    ///< |t2 - t1| of no corner, where lines are followed exactly
@@ -85,7 +87,7 @@ void PathBuilder::create(const Limits& limits, double tolerance, double period, 
   room_.knot = arena.make<double>(kKnots);
   room_.control = arena.make<AxisVec>(kKnots + 3);
   room_.corner = arena.make<unsigned>(kKnots);
-  room_.split = arena.make<unsigned char>(kKnots);
+  room_.cell = arena.make<SmoothCell>(kKnots);
   room_.knots = kKnots;
   out_ = arena.make<Piece>(kKnots);
   made_ = arena.make<Transition>();
@@ -606,7 +608,7 @@ unsigned PathBuilder::smoothed(bool whole, unsigned count, SmoothRequest* reques
   request->open = !whole;
   request->straight_end = whole && joint_.found;
   request->spacing = period_ * kMostSpeed;
-  request->seconds = period_ * (goes_by_spindle(by_) ? std::max(limits_.scale.turns, 1.0) : 1);
+  request->seconds = kPeriodsApart * period_ * (goes_by_spindle(by_) ? kTurns : 1);
   // What is not settled yet is some knots long: no more than a part of what the ring of records holds (every other one is a mark).
   request->edges = std::max<unsigned>((store_->record_mask + 1) / 2 / kOfRing, 2);
   if (goes_on_) {

@@ -33,7 +33,7 @@ double ramp_seconds(double v0, double v1, double a, double j) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 /// The largest derivatives between two places of a piece.
-bool PhaseLaw::measure(const Piece& p, double from, double to, unsigned samples, Stretch* out) const {
+bool PhaseLaw::measure_stretch(const Piece& p, double from, double to, unsigned samples, Stretch* out) const {
   const unsigned axes = limits_->axis_count;
   for (unsigned i = 0; i < axes; ++i) out->d1[i] = out->d2[i] = out->d3[i] = 0;
   CurvePoint q, last;
@@ -114,7 +114,7 @@ bool PhaseLaw::stretches(const MeshRequest& request) {
         return true;
       }
       Stretch& s = stretch_[stretches_];
-      if (!measure(p, x + length * n / parts, x + length * (n + 1) / parts, samples, &s)) return stretches_ > 0 && !(whole_ = false);
+      if (!measure_stretch(p, x + length * n / parts, x + length * (n + 1) / parts, samples, &s)) return stretches_ > 0 && !(whole_ = false);
       s.from = begun + length * n / parts;
       s.to = n + 1 < parts ? begun + length * (n + 1) / parts : begun + length;
       ++stretches_;
@@ -149,108 +149,62 @@ PhaseLaw::Budget PhaseLaw::budget(unsigned stretch, double speed) const {
   return most;
 }
 
-/// The stretch that goes on from a place.
-unsigned PhaseLaw::behind(double s) const {
-  unsigned low = 0, high = stretches_ - 1;
+/// The stretch that goes on from a place; seen from the end, the one that leads to it.
+unsigned PhaseLaw::next_to(double s, Sense sense) const {
+  unsigned low = 0, high = stretches_;  // of the first stretch that ends behind the place, or does not begin in front of it
   while (low < high) {
     const unsigned middle = (low + high) / 2;
-    if (stretch_[middle].to > s + kNear) {
+    if (sense == Sense::forward ? stretch_[middle].to > s + kNear : !(stretch_[middle].from < s - kNear)) {
       high = middle;
     } else {
       low = middle + 1;
     }
   }
-  return low;
-}
-
-/// The stretch that leads to a place.
-unsigned PhaseLaw::in_front(double s) const {
-  unsigned low = 0, high = stretches_ - 1;
-  while (low < high) {
-    const unsigned middle = (low + high + 1) / 2;
-    if (stretch_[middle].from < s - kNear) {
-      low = middle;
-    } else {
-      high = middle - 1;
-    }
-  }
-  return low;
+  return sense == Sense::forward ? std::min(low, stretches_ - 1) : low - std::min(low, 1u);
 }
 
 // ---- from one speed to another
 // -----------------------------------------------------------------------------------------------------
 
-/// The way from one constant speed to another that begins at a place, with what all the stretches leave that it takes; HUGE_VAL where that
-/// is nothing, or more than there is room.
-double PhaseLaw::up(double from, double v0, double v1, double room, Budget* most) const {
+/// The way between two constant speeds that begins at a place (seen backward: that ends there), with what all the stretches leave that it
+/// takes; HUGE_VAL where that is nothing, or more than there is room. A ramp seen backward is one, so which speed is the first one is the same.
+double PhaseLaw::ramp(double at, Sense sense, double v0, double v1, double room, Budget* most) const {
   *most = {};
-  if (std::fabs(v1 - v0) <= kNearSpeed * v1) return 0;
   const double speed = std::max(v0, v1);
-  double way = 0;
-  for (unsigned k = behind(from); k < stretches_; ++k) {
+  if (std::fabs(v1 - v0) <= kNearSpeed * speed) return 0;
+  for (unsigned k = next_to(at, sense); k < stretches_; k = beyond(k, sense)) {
     const Budget here = budget(k, speed);
     most->acceleration = std::min(most->acceleration, here.acceleration);
     most->jerk = std::min(most->jerk, here.jerk);
     if (!(here.acceleration > 0) || !(here.jerk > 0)) return HUGE_VAL;
     if (most->acceleration < HUGE_VAL && most->jerk < HUGE_VAL) {
-      way = 0.5 * (v0 + v1) * ramp_seconds(v0, v1, most->acceleration, most->jerk);
+      const double way = 0.5 * (v0 + v1) * ramp_seconds(v0, v1, most->acceleration, most->jerk);
       if (way > room) return HUGE_VAL;
-      if (from + way <= stretch_[k].to + kNear) return way;
+      if (way <= far_edge(k, at, sense) + kNear) return way;
     }
   }
   return HUGE_VAL;
 }
 
-/// The same for a way that ends at a place.
-double PhaseLaw::down(double to, double v0, double v1, double room, Budget* most) const {
-  *most = {};
-  if (std::fabs(v1 - v0) <= kNearSpeed * v0) return 0;
-  const double speed = std::max(v0, v1);
+/// Beside an end of the range that is passed at speed the stretches that are soon over and allow little more are gone at that speed, too:
+/// the next ramp would be as gentle as their bends make it. @return how far that goes from the end
+double PhaseLaw::stay(const Range& r, Sense sense) const {
+  const bool back = sense == Sense::backward;
+  const double here = back ? r.to : r.from, there = back ? r.from : r.to, v = back ? r.v1 : r.v0, other = back ? r.v0 : r.v1;
+  if (!(v > 0)) return 0;
+  const unsigned first = next_to(here, sense);
+  const Budget free = budget(first, 0);
+  if (!free.ok()) return 0;
+  const double whole = r.to - r.from, look = v * std::sqrt(v / free.jerk);
   double way = 0;
-  for (unsigned k = in_front(to) + 1; k-- > 0;) {
-    const Budget here = budget(k, speed);
-    most->acceleration = std::min(most->acceleration, here.acceleration);
-    most->jerk = std::min(most->jerk, here.jerk);
-    if (!(here.acceleration > 0) || !(here.jerk > 0)) return HUGE_VAL;
-    if (most->acceleration < HUGE_VAL && most->jerk < HUGE_VAL) {
-      way = 0.5 * (v0 + v1) * ramp_seconds(v0, v1, most->acceleration, most->jerk);
-      if (way > room) return HUGE_VAL;
-      if (to - way >= stretch_[k].from - kNear) return way;
-    }
-  }
-  return HUGE_VAL;
-}
-
-/// Behind a place that is passed at v0 the stretches that are soon over and allow little more are gone at that speed, too: the next ramp
-/// would be as gentle as their bends make it. @return where they end
-double PhaseLaw::stay_from(const Range& r) const {
-  if (!(r.v0 > 0)) return r.from;
-  const unsigned first = behind(r.from);
-  const Budget free = budget(first, 0);
-  if (!free.ok()) return r.from;
-  const double look = r.from + r.v0 * std::sqrt(r.v0 / free.jerk);
-  double end = r.from;
-  for (unsigned k = first; k < stretches_ && stretch_[k].from < look && stretch_[k].to < r.to; ++k)
-    if (stretch_[k].cap < kWorthIt * r.v0) end = stretch_[k].to;
+  for (unsigned k = first; k < stretches_ && near_edge(k, here, sense) < look && far_edge(k, here, sense) < whole; k = beyond(k, sense))
+    if (stretch_[k].cap < kWorthIt * v) way = far_edge(k, here, sense);
+  if (!(way > 0) || v == other) return way;
+  const double left = whole - way;
   Budget most;
-  if (end > r.from && r.v1 > r.v0 && !(up(end, r.v0, r.v1, r.to - end, &most) <= r.to - end)) return r.from;
-  if (end > r.from && r.v1 < r.v0 && !(down(r.to, r.v0, r.v1, r.to - end, &most) <= r.to - end)) return r.from;
-  return end;
-}
-
-double PhaseLaw::stay_to(const Range& r) const {
-  if (!(r.v1 > 0)) return r.to;
-  const unsigned first = in_front(r.to);
-  const Budget free = budget(first, 0);
-  if (!free.ok()) return r.to;
-  const double look = r.to - r.v1 * std::sqrt(r.v1 / free.jerk);
-  double end = r.to;
-  for (unsigned k = first + 1; k-- > 0 && stretch_[k].to > look && stretch_[k].from > r.from;)
-    if (stretch_[k].cap < kWorthIt * r.v1) end = stretch_[k].from;
-  Budget most;
-  if (end < r.to && r.v1 > r.v0 && !(up(r.from, r.v0, r.v1, end - r.from, &most) <= end - r.from)) return r.to;
-  if (end < r.to && r.v1 < r.v0 && !(down(end, r.v0, r.v1, end - r.from, &most) <= end - r.from)) return r.to;
-  return end;
+  const double change = other > v ? ramp(back ? r.to - way : r.from + way, sense, v, other, left, &most)
+                                  : ramp(there, back ? Sense::forward : Sense::backward, v, other, left, &most);
+  return change <= left ? way : 0;
 }
 
 // ---- the law
@@ -268,8 +222,8 @@ bool PhaseLaw::hill(const Range& r, double most) {
   double low = std::max(r.v0, r.v1), high = most;
   Budget rise, fall;
   const auto fits = [&](double w) {
-    const double first = up(r.from, r.v0, w, way, &rise);
-    return first <= way && down(r.to, w, r.v1, way - first, &fall) <= way - first;
+    const double first = ramp_from(r.from, r.v0, w, way, &rise);
+    return first <= way && ramp_to(r.to, w, r.v1, way - first, &fall) <= way - first;
   };
   for (unsigned n = 0; n < kHalvings || (low == 0 && n < 4 * kHalvings); ++n) {
     const double middle = low > 0.5 * high ? 0.5 * (low + high) : low > 0 ? std::sqrt(low * high) : 0.25 * high;
@@ -277,7 +231,7 @@ bool PhaseLaw::hill(const Range& r, double most) {
     if (high - low < 0.005 * high) break;
   }
   if (!(low > 0)) return false;
-  const double first = up(r.from, r.v0, low, way, &rise), last = down(r.to, low, r.v1, way - first, &fall);
+  const double first = ramp_from(r.from, r.v0, low, way, &rise), last = ramp_to(r.to, low, r.v1, way - first, &fall);
   if (!(first + last <= way)) return false;
   return push({r.to - last, r.to, low, r.v1, true, fall}) && push({r.from + first, r.to - last, low, low, true, {}}) &&
          push({r.from, r.from + first, r.v0, low, true, rise});
@@ -290,16 +244,16 @@ bool PhaseLaw::divide(const Range& all) {
   const double fastest = std::max(r.v0, r.v1);
   if (!(r.to - r.from > kNear)) return !(fastest > 0) || push({r.from, r.to, fastest, fastest, true, {}});
   if (!r.stayed) {
-    const double from = stay_from(r), to = stay_to({from, r.to, r.v0, r.v1, false, {}});
+    const double from = r.from + stay(r, Sense::forward), to = r.to - stay({from, r.to, r.v0, r.v1, false, {}}, Sense::backward);
     return push({to, r.to, r.v1, r.v1, true, {}}) && push({from, to, r.v0, r.v1, false, {}, true}) && push({r.from, from, r.v0, r.v0, true, {}});
   }
-  const unsigned first = behind(r.from), last = in_front(r.to);
+  const unsigned first = next_to(r.from, Sense::forward), last = next_to(r.to, Sense::backward);
   unsigned least = first;
   for (unsigned k = first; k <= last; ++k)
     if (stretch_[k].cap < stretch_[least].cap) least = k;
   const double most = std::max({stretch_[least].cap, r.v0, r.v1}), way = r.to - r.from;
   Budget rise, fall;
-  const double one = up(r.from, r.v0, most, way, &rise), other = one <= way ? down(r.to, most, r.v1, way - one, &fall) : HUGE_VAL;
+  const double one = ramp_from(r.from, r.v0, most, way, &rise), other = one <= way ? ramp_to(r.to, most, r.v1, way - one, &fall) : HUGE_VAL;
   if (!(one + other <= way)) return hill(r, most);
   unsigned a = least, b = least;
   while (a > first && stretch_[a - 1].cap <= kSameSpeed * most) --a;
@@ -318,14 +272,14 @@ bool PhaseLaw::divide(const Range& all) {
 bool PhaseLaw::descend(const Range& all) {
   Range r = all;
   for (unsigned n = 0; n < kStretches; ++n) {
-    const unsigned first = behind(r.from), last = in_front(r.to);
+    const unsigned first = next_to(r.from, Sense::forward), last = next_to(r.to, Sense::backward);
     unsigned least = first;
     for (unsigned k = first; k <= last; ++k)
       if (stretch_[k].cap <= stretch_[least].cap) least = k;
     Budget most;
     const double way = r.to - r.from;
     if (r.v0 <= stretch_[least].cap * (1 + kNearSpeed)) {
-      if (r.v0 > r.v1 ? !(down(r.to, r.v0, r.v1, way, &most) <= way) : !(up(r.from, r.v0, r.v1, way, &most) <= way)) return false;
+      if (r.v0 > r.v1 ? !(ramp_to(r.to, r.v0, r.v1, way, &most) <= way) : !(ramp_from(r.from, r.v0, r.v1, way, &most) <= way)) return false;
       return push(r);
     }
     const double edge = std::max(r.from, stretch_[least].from), rest = r.to - edge;
@@ -334,20 +288,20 @@ bool PhaseLaw::descend(const Range& all) {
       for (unsigned k = first; k <= last && stretch_[k].from < r.from + kNear; ++k)
         if (r.v0 > stretch_[k].hold) return false;
       const double speed = std::max(std::min(stretch_[least].cap, r.v0), r.v1);
-      const double ramp = up(r.from, r.v0, speed, way, &most);
+      const double ramp = ramp_from(r.from, r.v0, speed, way, &most);
       if (!(ramp <= way)) return false;
       for (unsigned k = first; k <= last && stretch_[k].from < r.from + ramp; ++k)
         if (r.v0 > stretch_[k].hold) return false;
       Budget end;
-      if (!(down(r.to, speed, r.v1, way - ramp, &end) <= way - ramp)) return false;
+      if (!(ramp_to(r.to, speed, r.v1, way - ramp, &end) <= way - ramp)) return false;
       return push({r.from + ramp, r.to, speed, r.v1, false, {}}) && push({r.from, r.from + ramp, r.v0, speed, true, most});
     }
     double speed = std::max(stretch_[least].cap, r.v1);
-    if (!(down(r.to, speed, r.v1, rest, &most) <= rest)) {
+    if (!(ramp_to(r.to, speed, r.v1, rest, &most) <= rest)) {
       double low = r.v1, high = speed;
       for (unsigned m = 0; m < kHalvings; ++m) {
         const double middle = 0.5 * (low + high);
-        (down(r.to, middle, r.v1, rest, &most) <= rest ? low : high) = middle;
+        (ramp_to(r.to, middle, r.v1, rest, &most) <= rest ? low : high) = middle;
       }
       speed = low;
     }
@@ -383,20 +337,22 @@ bool PhaseLaw::add(double seconds, double jerk) {
   return true;
 }
 
-/// From a state to constant speed, LineLaw::to_speed() with what the stretches leave on the way. @return the way, HUGE_VAL where there is
-/// none
-double PhaseLaw::first_move(double v, double a, double speed) {
+/// From the start to constant speed, LineLaw::to_speed() with what the stretches leave on the way. @return where that ends, HUGE_VAL where
+/// there is none
+double PhaseLaw::first_move(double speed) {
+  const double v = start_.v, a = start_.a;
+  const unsigned first = next_to(start_.s, Sense::forward);
   double top = std::max(v, speed);
   Budget most;
   const double change = speed - v;
-  for (unsigned pass = 0, last = 0; pass < 64; ++pass) {
+  for (unsigned pass = 0, last = first; pass < 64; ++pass) {
     if (a > 0) top = std::max(top, pass == 0 ? v : v + 0.5 * a * a / most.jerk);
-    for (unsigned k = 0; k <= last; ++k) {
+    for (unsigned k = first; k <= last; ++k) {
       const Budget here = budget(k, top);
       most.acceleration = std::min(most.acceleration, here.acceleration);
       most.jerk = std::min(most.jerk, here.jerk);
       if (top > kStart * stretch_[k].hold) return HUGE_VAL;
-      if (k > 0 && top > stretch_[k].cap && v <= stretch_[0].cap) return HUGE_VAL;  // only what begins too fast may be so for a while
+      if (k > first && top > stretch_[k].cap && v <= stretch_[first].cap) return HUGE_VAL;  // only what begins too fast may be so for a while
     }
     if (!most.ok() || std::fabs(a) > kStart * most.acceleration) return HUGE_VAL;
     const double j = most.jerk;
@@ -414,7 +370,7 @@ double PhaseLaw::first_move(double v, double a, double speed) {
     }
     count_ = 0;
     seconds_ = 0;
-    at_ = {0, v, a};
+    at_ = start_;
     add((peak - a0) / j, sign * j);
     add(hold, 0);
     add(peak / j, -sign * j);
@@ -427,22 +383,21 @@ double PhaseLaw::first_move(double v, double a, double speed) {
 }
 
 /// From a state to constant speed, and from there on.
-bool PhaseLaw::begin(const MeshRequest& request) {
-  const double end = stretch_[stretches_ - 1].to, v = request.from_rest ? 0 : std::sqrt(request.b0), a = request.from_rest ? 0 : 0.5 * request.slope0;
-  distance_ = end;
-  start_ = at_ = {0, v, a};
+bool PhaseLaw::begin() {
+  const double v = start_.v, a = start_.a;
   count_ = 0;
   seconds_ = 0;
-  if (a == 0 && (solve({0, end, v, 0, false, {}}) || request.from_rest)) return moves_ > 0;
-  const Budget here = budget(0, v);
+  if (a == 0 && (solve({start_.s, distance_, v, 0, false, {}}) || v == 0)) return moves_ > 0;
+  const unsigned first = next_to(start_.s, Sense::forward);
+  const Budget here = budget(first, v);
   if (!here.ok()) return false;
   const double level = std::max(0.0, v + 0.5 * a * std::fabs(a) / here.jerk);
   for (const double slower : kSlowerStart) {
-    const double speed = slower * std::min(level, std::max(v, stretch_[0].cap));
+    const double speed = slower * std::min(level, std::max(v, stretch_[first].cap));
     if (!(speed > 0)) break;
-    const double way = first_move(v, a, speed);
-    if (!(way < end)) continue;
-    if (solve({way, end, speed, 0, false, {}})) {
+    const double way = first_move(speed);
+    if (!(way < distance_)) continue;
+    if (solve({way, distance_, speed, 0, false, {}})) {
       at_.s = way;
       return true;
     }
@@ -477,12 +432,25 @@ bool PhaseLaw::make_phases() {
   return count_ > 0;
 }
 
-bool PhaseLaw::find(const MeshRequest& request, const Limits& limits, double share) {
+bool PhaseLaw::measure(const MeshRequest& request, const Limits& limits, double share) {
   limits_ = &limits;
   share_ = share;
-  count_ = 0;
   if (!stretches(request)) return false;
-  return begin(request) && make_phases();
+  distance_ = stretch_[stretches_ - 1].to;
+  return true;
+}
+
+bool PhaseLaw::from(double s, double v, double a) {
+  count_ = 0;
+  start_ = at_ = {s, v, a};
+  if (!(s < distance_) || !begin() || !make_phases()) return false;
+  at_phase_ = 0;
+  at_ = start_;
+  return true;
+}
+
+bool PhaseLaw::find(const MeshRequest& request, const Limits& limits, double share) {
+  return measure(request, limits, share) && (request.from_rest ? from(0, 0, 0) : from(0, std::sqrt(request.b0), 0.5 * request.slope0));
 }
 
 double PhaseLaw::way_after(double seconds) const {

@@ -14,6 +14,9 @@ class PhaseLaw {
   /// From the place and the state that the request names to rest at the end of its pieces, or as far as it reaches, with `share` of the
   /// limits. False where there is none; from rest there always is one, and only for want of room it ends earlier (whole()).
   bool find(const MeshRequest& request, const Limits& limits, double share = 1);
+  /// The same in two steps, for several starts on one path: s behind that of the request. In all that follows places count from there.
+  bool measure(const MeshRequest& request, const Limits& limits, double share = 1);
+  bool from(double s, double v, double a);
 
   unsigned count() const { return count_; }
   const Phase& phase(unsigned k) const { return phase_[k]; }
@@ -25,13 +28,9 @@ class PhaseLaw {
   bool whole() const { return whole_; }  ///< it reaches the end of the pieces, or of the reach
   /// The reach was shortened by the caller: the path goes on behind it.
   void ends_early() { whole_ = false; }
-  /// How far it has come after so many seconds, from its start.
+  /// How far it has come after so many seconds.
   double way_after(double seconds) const;
-  /// Squared speed at ever farther places; begin with rewind().
-  void rewind() {
-    at_phase_ = 0;
-    at_ = start_;
-  }
+  /// Squared speed at ever farther places.
   double squared_speed(double s);
 
  private:
@@ -60,21 +59,25 @@ class PhaseLaw {
     double from, to, v0, v1;
     bool is_move;
     Budget most;
-    bool stayed = false;  ///< stay_from() and stay_to() have been asked
+    bool stayed = false;  ///< stay() has been asked
   };
 
-  bool measure(const Piece& p, double from, double to, unsigned samples, Stretch* out) const;
+  bool measure_stretch(const Piece& p, double from, double to, unsigned samples, Stretch* out) const;
   void bound(const Piece& p, Stretch* s) const;
   bool stretches(const MeshRequest& request);
   Budget budget(unsigned stretch, double speed) const;
-  unsigned behind(double s) const;
-  unsigned in_front(double s) const;
-  double up(double from, double v0, double v1, double room, Budget* most) const;
-  double down(double to, double v0, double v1, double room, Budget* most) const;
-  double stay_from(const Range& r) const;
-  double stay_to(const Range& r) const;
-  double first_move(double v, double a, double speed);
-  bool begin(const MeshRequest& request);
+  /// Of the path, as it is gone or as it is seen from its end.
+  enum class Sense : uint8_t { forward, backward };
+  static unsigned beyond(unsigned k, Sense sense) { return sense == Sense::forward ? k + 1 : k - 1; }  // behind the first one: none
+  double near_edge(unsigned k, double at, Sense sense) const { return sense == Sense::forward ? stretch_[k].from - at : at - stretch_[k].to; }
+  double far_edge(unsigned k, double at, Sense sense) const { return sense == Sense::forward ? stretch_[k].to - at : at - stretch_[k].from; }
+  unsigned next_to(double s, Sense sense) const;
+  double ramp(double at, Sense sense, double v0, double v1, double room, Budget* most) const;
+  double ramp_from(double at, double v0, double v1, double room, Budget* most) const { return ramp(at, Sense::forward, v0, v1, room, most); }
+  double ramp_to(double at, double v0, double v1, double room, Budget* most) const { return ramp(at, Sense::backward, v0, v1, room, most); }
+  double stay(const Range& r, Sense sense) const;
+  double first_move(double speed);
+  bool begin();
   bool solve(const Range& whole);
   bool descend(const Range& r);
   bool divide(const Range& r);

@@ -14,21 +14,35 @@ constexpr double kUseMost = 0.98;   ///< of the tolerance, that any of the place
 constexpr double kUseTurn = 0.975;  ///< the same at a sharp corner, which is cut by a known depth
 constexpr double kSharp = 0.5;      ///< |t2 - t1| of a corner that always has its own knots
 constexpr double kAlone = 1.7;      ///< of its room, that a corner may ask for and is still one by itself, with what there is
+/// The same for one that is not sharp: lines that follow a curve within the tolerance have no such corners.
+constexpr double kAloneGentle = 0.95;
+constexpr double kApart = 0.1;      ///< of the reach of a corner, that its knots lie apart from others, at least
+constexpr double kShared = 1e-6;    ///< of it: a knot so near to its place is the last one, too
+constexpr double kHigh = 2;         ///< in tolerances: a sharp corner of shorter edges is what the lines are rough by
 constexpr double kStraight = 1e-9;  ///< |t2 - t1| of no corner
 constexpr double kLongEdge = 8;     ///< in spacings
 constexpr unsigned kLooks = 4;      ///< places in a cell, beside the vertices, where the distance is measured
 constexpr unsigned kFine = 8;       ///< more of them, where they leave it open
 constexpr double kRounding = 1e-11;  ///< of q'
+constexpr double kOtherFeed = 1.5;   ///< times the lowest feed of the cells that a control point bends: it is fitted up to there
 constexpr double kStraightEnd = 0.2; ///< of an edge, up to its first knot
 constexpr double kCornerCell = 0.55;  ///< of a cell of a sharp corner: there the speed changes much, so a law has two cells in it
 constexpr unsigned kRounds = 40;
+constexpr unsigned kHangsOn = 3;    ///< cells on either side, whose knots make what a cell is
+constexpr double kGrown = 2;        ///< times as long as the last cell that is known the next one may be to begin with
+constexpr double kGrowth = 0.5;     ///< and by this much of the way more: where it asked for short cells it does so again
+constexpr unsigned kRemembered = 4;  ///< cells that are known, the longest of which counts
+/// Times that a cell is halved until its control points lie on the line, where halving is known to end.
+constexpr unsigned char kFitted = 6;
+/// Added at a knot at a corner that is kept, whose control points lie on the line, too; and the times alone.
+constexpr unsigned char kCorner = 0x80, kTimes = 0x7f;
 constexpr double kLeastSpacing = 0.005;  ///< mm, that a slow feed asks for
 constexpr double kShortestSpacing = 1e-4;  ///< mm, that short lines do
 constexpr double kUseStart = 0.998; ///< of the tolerance, that the cells behind a border may use: they have to come back to the line
 constexpr unsigned kStartCells = 3;
 constexpr double kUseBorder = 0.9;  ///< of the tolerance, which a border is preferably no farther away from the line than
 constexpr unsigned kLast = 3;       ///< knots that belong to the end
-constexpr unsigned kFinal = 5;      ///< cells at the end that hang on the end
+constexpr unsigned kFinal = 6;      ///< cells at the end that hang on the end
 constexpr unsigned kBorders = 24;   ///< places that are looked at for such a one
 constexpr double kShortRest = 1e-6; ///< mm, of an edge: it is not cut so near to its end
 
@@ -52,11 +66,19 @@ class Smoother {
 
  private:
   void set(double u, double apart);
+  void fresh(unsigned k);
+  void find_feeds(SmoothCell* cell) const;
+  void set_corner(double u, double apart);
+  void sum_up();
+  bool fits(unsigned j) const;
   void set_turn(unsigned vertex, double reach);
   void turn_controls(unsigned first);
   double corner(unsigned k) const;
   bool first_knots();
-  double spacing(unsigned edge) const { return spacing_of(in_, room_, edge); }
+  double spacing(unsigned edge) const {
+    const double grown = kGrown * grown_ + kGrowth * std::max(room_.u[edge] - grown_at_, 0.0);
+    return std::min(spacing_of(in_, room_, edge), grown);
+  }
   void start_controls();
   void controls();
   void pieces();
@@ -74,6 +96,7 @@ class Smoother {
   Piece* out_;
   unsigned capacity_;
   unsigned last_ = 0;  ///< index of the last knot
+  double grown_ = HUGE_VAL, grown_at_ = 0;  ///< the longest of the last cells that are known, and where they end
   bool full_ = false;
   bool one_feed_ = true;
 };
@@ -87,13 +110,27 @@ void Smoother::set(double u, double apart) {
   }
   room_.knot[++last_] = u;
   room_.corner[last_] = 0;
+  fresh(last_);
+}
+
+void Smoother::fresh(unsigned k) {
+  SmoothCell& cell = room_.cell[k];
+  cell.summed = cell.near = cell.split = false;
+  cell.halved = 0;
+}
+
+/// A knot at a corner that is kept.
+void Smoother::set_corner(double u, double apart) {
+  const unsigned before = last_;
+  set(u, apart);
+  if (last_ != before) room_.cell[last_].halved = kCorner;
 }
 
 void Smoother::set_turn(unsigned vertex, double reach) {
   const double u = room_.u[vertex];
   for (unsigned n = 0; n <= 2 * kTurnKnots; ++n) {
     const double at = n < kTurnKnots ? -kTurnAt[kTurnKnots - n] : kTurnAt[n - kTurnKnots];
-    set(u + at * reach, 0);
+    set_corner(u + at * reach, 0);
     room_.corner[last_] = vertex;
   }
 }
@@ -119,12 +156,16 @@ bool Smoother::first_knots() {
   const double end = u[l.count - 1];
   room_.knot[0] = 0;
   room_.corner[0] = 0;
+  fresh(0);
   last_ = 0;
   double keep = 0;  // the knots behind a corner stay clear of what follows up to here
   unsigned first = 1;
   if (in_.from != nullptr) {
     for (unsigned n = 0; n < in_.kept_count && in_.kept[n] < end; ++n) set(in_.kept[n], 0);
     keep = room_.knot[last_];
+    if (last_ > 0) grown_ = 0, grown_at_ = keep;
+    for (unsigned k = last_; k > 0 && k + kRemembered > last_; --k)
+      grown_ = std::max(grown_, room_.knot[k] - room_.knot[k - 1]);
     while (first + 1 < l.count && u[first] <= keep) ++first;
   } else if (in_.straight_start) {  // the first three control points lie on the first edge
     const double step = std::min(kStraightEnd * l.length[0], spacing(0));
@@ -147,12 +188,19 @@ bool Smoother::first_knots() {
       keep = u[k] + turn_reach;
       continue;
     }
-    const bool alone = 2 * reach <= kAlone * std::min(before, behind);
-    if (alone || turn > kSharp) {
-      const double h = std::min({reach, alone ? 0.5 * std::min(before, behind) : reach, end - u[k], u[k]});
+    const double high = turn * before * behind / (before + behind);  // about that of the triangle of its edges
+    const bool sharp = turn > kSharp && high > kHigh * in_.tolerance;
+    const bool alone = 2 * reach <= (sharp ? kAlone : kAloneGentle) * std::min(before, behind);
+    if (alone || sharp) {
+      double h = std::min({reach, alone ? 0.5 * std::min(before, behind) : reach, end - u[k], u[k]});
       const double from = std::max(room_.knot[last_], keep);
-      if (u[k] - from > 1.2 * h) set(u[k] - h, 0.1 * h);
-      set(u[k], 0.1 * h);
+      // The knot in front of it is its own, as far away as that behind it: beside one some percent farther away it would be cut by more than it
+      // was given, and then all its cells would be halved.
+      if (u[k] - from > (1 + kShared) * h) {
+        h = std::min(h, (u[k] - from) / (1 + kApart));
+        set(u[k] - h, 0.9 * kApart * h);
+      }
+      set_corner(u[k], kApart * h);
       keep = u[k] + h;
       if (alone) set(keep, 0);
       continue;
@@ -198,13 +246,21 @@ AxisVec Smoother::on_line(double u, unsigned* edge) const {
   return p;
 }
 
-/// Control point j lies on the polyline at the mean of knots j - 2, j - 1, j (the end knots count three
-/// times).
+/// Control point j goes through the middle of the line where it hangs on no end and on no corner that is kept.
+/// Others, and those of a straight part, lie on the line at the mean of knots j - 2, j - 1, j (the end knots
+/// count three times).
 void Smoother::controls() {
+  sum_up();
   unsigned edge = 0;
   for (unsigned j = 0; j < last_ + 3; ++j) {
-    const int k = static_cast<int>(j);
-    room_.control[j] = on_line((t(k - 2) + t(k - 1) + t(k)) / 3, &edge);
+    if (fits(j)) {
+      const SmoothCell* const first = room_.cell + (j - 3);
+      const CellMoments* const cells[4] = {&first[0].moments, &first[1].moments, &first[2].moments, &first[3].moments};
+      room_.control[j] = fitted_control(cells, in_.axis_count);
+    } else {
+      const int k = static_cast<int>(j);
+      room_.control[j] = on_line((t(k - 2) + t(k - 1) + t(k)) / 3, &edge);
+    }
   }
   for (unsigned k = 1; k + 2 * kTurnKnots <= last_; ++k) {
     if (room_.corner[k] != 0 && room_.corner[k + 2 * kTurnKnots] == room_.corner[k]) turn_controls(k);
@@ -212,6 +268,45 @@ void Smoother::controls() {
   room_.control[0] = in_.line.vertex[0];
   if (in_.from != nullptr) start_controls();
   room_.control[last_ + 2] = in_.line.vertex[in_.line.count - 1];
+}
+
+/// Moments of the cells that are new.
+void Smoother::sum_up() {
+  const Edges line{in_.line.vertex, in_.line.length, room_.u, in_.line.count};
+  unsigned edge = 0;
+  for (unsigned k = 0; k < last_; ++k) {
+    SmoothCell& cell = room_.cell[k];
+    if (!cell.summed) {
+      while (edge + 2 < line.count && room_.u[edge + 1] <= room_.knot[k]) ++edge;
+      cell.first_edge = edge;
+      cell_moments(line, room_.knot[k], room_.knot[k + 1], in_.axis_count, &edge, &cell.moments);
+      cell.last_edge = edge;
+      find_feeds(&cell);
+      cell.summed = true;
+    }
+    edge = cell.last_edge;
+  }
+}
+
+void Smoother::find_feeds(SmoothCell* cell) const {
+  const double* feed = in_.line.feed;
+  cell->least_feed = cell->most_feed = 0;
+  if (feed == nullptr || one_feed_) return;
+  const auto [least, most] = std::minmax_element(feed + cell->first_edge, feed + cell->last_edge + 1);
+  cell->least_feed = *least;
+  cell->most_feed = *most;
+}
+
+/// Where the feed changes much no control point is fitted. Knots beside a short slow line lie close together and those of its fast neighbours
+/// far apart: what the fit takes to be nearest to these may lie beside the line by the tolerance, many times the length of the short one, and
+/// that way would be gone at its feed. Control points on the line make |q'| <= 1 instead: the path with a feed is no longer than its line.
+bool Smoother::fits(unsigned j) const {
+  if (j < 3 || j >= last_) return false;
+  const SmoothCell* const cell = room_.cell + (j - 3);
+  if (cell[0].first_edge == cell[3].last_edge) return false;  // straight: it stays so to the last bit
+  const double least = std::min({cell[0].least_feed, cell[1].least_feed, cell[2].least_feed, cell[3].least_feed});
+  if (std::max({cell[0].most_feed, cell[1].most_feed, cell[2].most_feed, cell[3].most_feed}) > kOtherFeed * least) return false;
+  return std::max({room_.cell[j - 2].halved, room_.cell[j - 1].halved, room_.cell[j].halved}) < kFitted;
 }
 
 /// The control points that make the position q and the derivatives q', q'' at the start, where the knots count three times: values of the
@@ -323,6 +418,7 @@ bool Smoother::far(unsigned k, double most, unsigned* vertex, unsigned* edge) co
     const double u = n == kLooks ? to : from + h * n / kLooks;
     worst = std::max(worst, distance2(k, u, on_line(u, edge)));
   }
+  *vertex = std::max(*vertex, room_.cell[k].first_edge);
   for (; *vertex + 1 < l.count && room_.u[*vertex] <= to; ++*vertex)
     if (room_.u[*vertex] >= from) worst = std::max(worst, distance2(k, room_.u[*vertex], l.vertex[*vertex]));
   if (worst > most) return true;
@@ -344,41 +440,56 @@ bool Smoother::far(unsigned k, double most, unsigned* vertex, unsigned* edge) co
 
 /// Marks the cells to be split where the spline is too far from the polyline.
 bool Smoother::near_enough() {
-  for (unsigned k = 0; k < last_; ++k) room_.split[k] = 0;
   bool good = true;
   unsigned vertex = 1, edge = 0;
   const double kept = in_.from != nullptr && in_.kept_count > 0 ? in_.kept[in_.kept_count - 1] : 0;  // up to here only where it must be
   for (unsigned k = 0; k < last_; ++k) {
     const double use = in_.from != nullptr && k < kStartCells ? kUseStart : kUseMost;
-    if (!far(k, use * in_.tolerance * use * in_.tolerance, &vertex, &edge)) continue;
+    if (room_.cell[k].near) continue;
+    room_.cell[k].near = !far(k, use * in_.tolerance * use * in_.tolerance, &vertex, &edge);
+    if (room_.cell[k].near) continue;
     const double from = room_.knot[k], to = room_.knot[k + 1];
     good = false;
-    room_.split[k] = 1;
-    if (k > 0 && room_.knot[k - 1] >= kept && from - room_.knot[k - 1] > 0.6 * (to - from)) room_.split[k - 1] = 1;
-    if (k + 1 < last_ && to >= kept && room_.knot[k + 2] - to > 0.6 * (to - from)) room_.split[k + 1] = 1;
+    room_.cell[k].split = true;
+    if (k > 0 && room_.knot[k - 1] >= kept && from - room_.knot[k - 1] > 0.6 * (to - from))
+      room_.cell[k - 1].split = true;
+    if (k + 1 < last_ && to >= kept && room_.knot[k + 2] - to > 0.6 * (to - from))
+      room_.cell[k + 1].split = true;
   }
   // They were near enough when they were followed by finer cells.
   bool others = false;
-  for (unsigned k = 0; k < last_; ++k) others = others || (room_.knot[k] >= kept && room_.split[k] != 0);
-  for (unsigned k = 0; others && k < last_ && room_.knot[k] < kept; ++k) room_.split[k] = 0;
+  for (unsigned k = 0; k < last_; ++k) others = others || (room_.knot[k] >= kept && room_.cell[k].split);
+  for (unsigned k = 0; others && k < last_ && room_.knot[k] < kept; ++k) room_.cell[k].split = false;
   return good;
 }
 
 /// Cells are halved, those of a sharp corner are not: they have their shape.
 bool Smoother::split() {
   const auto halved = [&](unsigned k) {
-    return room_.split[k] != 0 && !(room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]);
+    return room_.cell[k].split && !(room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]);
   };
   unsigned more = 0;
   for (unsigned k = 0; k < last_; ++k) more += halved(k) ? 1u : 0u;
   if (more == 0 || last_ + more + 3 >= room_.knots) return false;
+  unsigned apart = kHangsOn;  // cells behind the last one that was halved
   for (unsigned k = last_ + 1, to = last_ + more + 1; k-- > 0;) {  // from the end backward, in place
-    if (k < last_ && halved(k)) {
+    SmoothCell& cell = room_.cell[k];
+    const bool half = k < last_ && halved(k);
+    cell.split = false;
+    if (half) {
       --to;  // knot k + 1 stands right behind
       room_.knot[to] = 0.5 * (room_.knot[k] + room_.knot[to + 1]);
       room_.corner[to] = 0;
+      if ((cell.halved & kTimes) < kTimes) ++cell.halved;
+      cell.summed = false;
+      fresh(to);
+      room_.cell[to].halved = cell.halved & kTimes;
+      for (unsigned n = to + 1; n <= to + kHangsOn && n < last_ + more; ++n) room_.cell[n].near = false;
     }
+    apart = half ? 0 : apart + 1;
     --to;
+    if (to != k) room_.cell[to] = cell;
+    if (apart <= kHangsOn) room_.cell[to].near = false;
     room_.knot[to] = room_.knot[k];
     room_.corner[to] = room_.corner[k];
   }
@@ -413,12 +524,13 @@ bool straight(const Piece& p, unsigned axis_count) {
 /// The end of the line is straight for more than its knots need: it is cut there, wherever its knots lie.
 bool cut_straight(const SmoothRequest& request, const SmoothRoom& room, const Piece* pieces, unsigned cells, unsigned most, Border* border) {
   const Polyline& l = request.line;
-  const double u = room.knot[cells] - (kFinal + 1) * spacing_of(request, room, l.count - 2);
+  double u = room.knot[cells] - (kFinal + 1) * spacing_of(request, room, l.count - 2);
   unsigned k = std::min(cells, most);
   while (k > 0 && room.knot[k] > u) --k;
   if (k == 0 || k >= most || k == cells || !(u > room.knot[k]) || !straight(pieces[k], request.axis_count)) return false;
   unsigned edge = l.count - 2;
   while (edge > 0 && room.u[edge] > u) --edge;
+  if (room.u[edge + 1] - u < kShortRest) u = 0.5 * (room.u[edge] + room.u[edge + 1]);
   if (room.u[edge + 1] - u < kShortRest || u - room.knot[k] < kShortRest) return false;
   border->cells = k + 1;
   border->u = u;
@@ -451,7 +563,7 @@ Border find_border(const SmoothRequest& request, const SmoothRoom& room, const P
     best.cells = k;
     best.u = u;
     best.kept_count = 0;
-    while (best.kept_count < kKept && k + best.kept_count + kLast < cells && room.corner[k + 1 + best.kept_count] == 0) {
+    while (best.kept_count < kKept && k + best.kept_count + kLast < cells && room.cell[k + 1 + best.kept_count].halved < kFitted) {
       best.kept[best.kept_count] = room.knot[k + 1 + best.kept_count] - u;
       ++best.kept_count;
     }

@@ -8,7 +8,7 @@
 // (docs/motion-optimal.md).
 #pragma once
 
-#include "motion/optimal/piece.hpp"
+#include "motion/optimal/fit.hpp"
 
 namespace nc::optimal {
 
@@ -21,6 +21,17 @@ struct Polyline {
   unsigned count = 0;
 };
 
+/// What is known of the cell behind a knot.
+struct SmoothCell {
+  CellMoments moments;
+  unsigned first_edge = 0, last_edge = 0;
+  double least_feed = 0, most_feed = 0;  ///< of these edges
+  bool summed = false;       ///< the moments, edges and feeds are those of the cell
+  bool near = false;         ///< it was near enough to the line, and nothing that it hangs on has changed
+  bool split = false;        ///< it is to be halved
+  unsigned char halved = 0;  ///< how often it was; kCorner: its knot is that of a corner that is kept
+};
+
 /// Room for the work, from the caller: `vertices` of u, `knots` of everything else.
 struct SmoothRoom {
   double* u = nullptr;
@@ -28,7 +39,7 @@ struct SmoothRoom {
   double* knot = nullptr;
   AxisVec* control = nullptr;  ///< knots + 2
   unsigned* corner = nullptr;  ///< per knot: the vertex of the sharp corner that it belongs to, 0 = none
-  unsigned char* split = nullptr;
+  SmoothCell* cell = nullptr;
   unsigned knots = 0;
 };
 

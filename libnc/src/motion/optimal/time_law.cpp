@@ -17,7 +17,10 @@ namespace {
 
 constexpr unsigned kIterations = 60;
 constexpr double kGap = 4e-4;       ///< of the time, that the result may be longer than the optimum
-constexpr double kInside = 0.9998;  ///< of the limits, that the law may use
+constexpr double kGapOfDip = 1e-5;  ///< the same where the speed falls into a hole ...
+constexpr unsigned kDipSteps = 8;   ///< ... for which so many more steps are made, at most
+constexpr double kDip = 1.0 / 9;    ///< of b beside it, in which it is one
+constexpr double kInside = 0.999;   ///< of the limits, that the law may use: what is left makes the start of the next one an inside place
 constexpr double kInsideCurve =
     0.996;  ///< the same of the jerk where the path bends: between the rows it may be a little more
 constexpr double kLeft = 0.2;     ///< of a slack or a multiplier, at least, after a step
@@ -370,6 +373,14 @@ bool TimeLaw::levels_hold(double mu) const {
   return true;
 }
 
+/// Somewhere the law is far slower than just before and just behind: in a corner of some nanometres that is next to nothing of the time, and
+/// the axes stand for some cycles.
+bool TimeLaw::dips() const {
+  for (unsigned k = kPad + 2; k + 2 < n_ + kPad; ++k)
+    if (c_[k] < kDip * std::min(std::max(c_[k - 1], c_[k - 2]), std::max(c_[k + 1], c_[k + 2]))) return true;
+  return false;
+}
+
 void TimeLaw::finish(Law* law) {
   const Mesh& m = *mesh_;
   law->cells = n_;
@@ -404,10 +415,10 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law
   for (unsigned k = 0; k < n_ + 2 * kPad; ++k) dc_[k] = 0;
   find_time();
   Sums sums = rows(true, (again ? kGapAgain : kGapFirst) * time_ / rows_, again ? kSlackAgain : kSmallestSlack);
-  for (unsigned n = 0; n < kIterations; ++n) {
+  for (unsigned n = 0, more = 0; n < kIterations; ++n) {
     law->iterations = n;
     law->worst = sums.worst * kInside;
-    if (sums.gap < kGap * time_ && sums.worst < 1.0005) {
+    if (sums.gap < kGap * time_ && sums.worst < 1.0005 && (sums.gap < kGapOfDip * time_ || more++ == kDipSteps || !dips())) {
       law->ok = levels_hold(sums.gap / rows_);
       if (law->ok) finish(law);
       return;

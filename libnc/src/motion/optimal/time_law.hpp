@@ -110,6 +110,7 @@ class TimeLaw {
   void find_time();
   bool step(double mu);
   bool levels_hold(double mu) const;
+  bool dips() const;
   void finish(Law* law);
   double value(const Form& f, unsigned base) const {
     return f.g[0] * c_[base] + f.g[1] * c_[base + 1] + f.g[2] * c_[base + 2];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/optimal/peaks.hpp"
 #include "motion/optimal/profile.hpp"
 
 namespace nc::optimal {
@@ -24,7 +25,8 @@ constexpr double kOfMost = 0.95;    ///< of the cells that a law may have, which
 constexpr unsigned kTightened = 6;  ///< times that a law is corrected
 constexpr double kExcess = 1.0003;  ///< of a limit, that a law may use inside its cells
 constexpr double kLonger = 1.02;    ///< of the time of the law in phases, that another one may take
-constexpr double kOfPhases = 0.9;   ///< of the squared speed of the law in phases, where another one begins with it
+constexpr double kOfPhases = 0.9;   ///< of the squared speed of that law, where another one begins with it
+constexpr double kGentle = 24;      ///< cells that this takes to leave the speed of the start
 constexpr double kMuchLonger = 4;   ///< the same of the estimate, where there is none
 constexpr double kPhaseShares[] = {1, 0.9, 0.75, 0.5, 0.3, 0.1};  ///< of the limits, for the law in phases
 constexpr double kTurning = 1e-9;    ///< mm/s: rounding
@@ -115,6 +117,9 @@ struct Windows::Moments {
   Moments m;
   if (!moments(k, &m)) return {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   if (p.curve != nullptr || p.quintic) return excess_on_curve(k, m);
+  const bool rests = (k == 0 && mesh_.from_rest) || k + 1 == law_.cells;
+  const double h = mesh_.h[k], x0 = place(k).x, w = law_.half2[k], a0 = 0.5 * law_.slope[k], a1 = a0 + w * h;
+  double bulge = 0;  // largest second derivative by x of an acceleration, as a share of its limit
   Four velocity{}, acceleration{}, jerk{};
   for (unsigned i = 0; i < limits_.axis_count; ++i) {
     const double most = velocity_of(p, limits_, i);
@@ -125,8 +130,40 @@ struct Windows::Moments {
       acceleration = larger(acceleration, size_of(d1 * m.a[n] + d2 * m.v2[n]) * per_a);
       jerk = larger(jerk, size_of(d1 * m.j[n] + d2 * m.va[n] + d3 * m.v3[n]) * per_j);
     }
+    const double start = c2[0] + d3[0] * x0, end = start + d3[0] * h;  // q''
+    bulge = std::max({bulge, std::fabs(4 * start * w + 5 * d3[0] * a0) * per_a[0], std::fabs(4 * end * w + 5 * d3[0] * a1) * per_a[0]});
   }
-  return {largest(acceleration), largest(jerk), largest(velocity)};
+  Excess worst{largest(acceleration), largest(jerk), largest(velocity)};
+  const double step = h / (kLooks - 1);
+  if (rests || worst.acceleration + 0.125 * step * step * bulge > kExcess) worst.acceleration = peak_acceleration(k, m);
+  return worst;
+}
+
+/// The largest share of a limit of acceleration in a cell, between the looks, too. On a cubic piece q' u'' + q'' u'^2 is a cubic of x, which is
+/// no farther from its chords than an eighth of the square of their length times its second derivative 4 q'' w + 5 q''' u'', linear in x
+/// (w = b''/2); where that may be too much its peaks are found. Beside rest it is a polynomial of time. On other curves it is nearly one.
+[[gnu::noinline]] double Windows::peak_acceleration(unsigned k, const Moments& m) const {
+  const Piece& p = piece_of(k);
+  const bool launch = k == 0 && mesh_.from_rest, land = k + 1 == law_.cells;
+  // By time beside rest, else by x, where the jerk is the speed times the derivative of the acceleration.
+  const double v1 = std::sqrt(launch ? law_.b[1] : law_.b[k]), back = land ? -1 : 1;  // landing is looked at from its end
+  const double step = (launch || land ? 3 * mesh_.h[k] / v1 : mesh_.h[k]) / (kLooks - 1);
+  double worst = 0;
+  CurvePoint q;
+  Rates last[kMaxAxes];
+  for (unsigned n = 0; n < kLooks; ++n) {
+    const unsigned f = n / 4, e = n % 4;
+    const double per = launch || land ? back : 1 / m.v[f][e];
+    derivatives(p, std::min(p.length, place(k).x + m.x[f][e]), limits_.axis_count, &q);
+    for (unsigned i = 0; i < limits_.axis_count; ++i) {
+      if (per_acceleration_[i] == 0) continue;
+      const Rates now{q.d1[i] * m.a[f][e] + q.d2[i] * m.v2[f][e], per * (q.d1[i] * m.j[f][e] + q.d2[i] * m.va[f][e] + q.d3[i] * m.v3[f][e])};
+      worst = std::max(worst, std::fabs(now.a) * per_acceleration_[i]);
+      if (n > 0 && (now.j > 0) != (last[i].j > 0)) worst = std::max(worst, peaks_between(last[i], now, step).a * per_acceleration_[i]);
+      last[i] = now;
+    }
+  }
+  return worst;
 }
 
 [[gnu::noinline]] Windows::Excess Windows::excess_on_curve(unsigned k, const Moments& m) const {
@@ -139,10 +176,10 @@ struct Windows::Moments {
     for (unsigned i = 0; i < limits_.axis_count; ++i) {
       const double most = velocity_of(p, limits_, i);
       if (most > 0) worst.velocity = std::max(worst.velocity, std::fabs(q.d1[i] * m.v[f][e]) / most);
-      worst.acceleration = std::max(worst.acceleration, std::fabs(q.d1[i] * m.a[f][e] + q.d2[i] * m.v2[f][e]) * per_acceleration_[i]);
       worst.jerk = std::max(worst.jerk, std::fabs(q.d1[i] * m.j[f][e] + q.d2[i] * m.va[f][e] + q.d3[i] * m.v3[f][e]) * per_jerk_[i]);
     }
   }
+  worst.acceleration = peak_acceleration(k, m);
   return worst;
 }
 
@@ -183,7 +220,7 @@ bool Windows::corrected() {
   return false;
 }
 
-/// The law takes no longer than the one in phases over the same way. That one need not be made where the law is as fast as the estimate that
+/// The law takes no longer than the one that is known over the same way. That one need not be made where the law is as fast as the estimate that
 /// the cells go by, which knows of no way up and down between neighbouring places; where there is none, no more than a few times as long.
 bool Windows::soon_enough() {
   if (law_.seconds <= kLonger * mesher_.least_seconds()) return true;
@@ -191,7 +228,7 @@ bool Windows::soon_enough() {
   double length = 0;
   for (unsigned k = 0; k < law_.cells; ++k) length += mesh_.h[k];
   same.reach = std::min(same.reach, length);
-  if (phases_.find(same, limits_) && phases_.whole()) return law_.seconds <= kLonger * phases_.seconds();
+  if (known_.find(same, limits_, &phases_) && known_.whole()) return law_.seconds <= kLonger * known_.seconds();
   return law_.seconds <= kMuchLonger * mesher_.least_seconds();
 }
 
@@ -201,6 +238,7 @@ bool Windows::phases_keep_limits(const MeshRequest& request) const {
   unsigned piece = request.from.piece;
   double begun = -request.from.x;
   CurvePoint q;
+  Rates last[kMaxAxes];
   for (unsigned k = 0; k < phases_.count(); ++k) {
     const Phase& phase = phases_.phase(k);
     const LineState end = from.behind(phase.jerk, phase.seconds);
@@ -208,9 +246,11 @@ bool Windows::phases_keep_limits(const MeshRequest& request) const {
     double edge = begun;
     for (unsigned n = piece; n + 1 < request.count && (edge += request.at(n).length) < end.s; ++n) ++pieces;
     const unsigned looks = kPhaseLooks * (pieces + static_cast<unsigned>(std::min(phase.seconds / period_, 1000.0)));
+    const double step = phase.seconds / (looks + 2 * kEnds);
     for (unsigned n = 0; n <= looks; ++n) {  // hardly inside of its ends, where pieces may meet
-      const LineState s = from.behind(phase.jerk, phase.seconds * (n + kEnds) / (looks + 2 * kEnds));
-      while (piece + 1 < request.count && s.s > begun + request.at(piece).length) begun += request.at(piece++).length;
+      const LineState s = from.behind(phase.jerk, step * (n + kEnds));
+      bool goes_on = n > 0;  // from the last look in one phase on one piece, so nothing has jumped
+      for (; piece + 1 < request.count && s.s > begun + request.at(piece).length; goes_on = false) begun += request.at(piece++).length;
       const Piece& p = request.at(piece);
       derivatives(p, std::clamp(s.s - begun, 0.0, p.length), limits_.axis_count, &q);
       if (!(s.v >= -kTurning)) return false;
@@ -220,6 +260,9 @@ bool Windows::phases_keep_limits(const MeshRequest& request) const {
         if (most > 0 && !(std::fabs(q.d1[i] * s.v) <= kExcess * most)) return false;
         if (!(std::fabs(a) * per_acceleration_[i] <= kExcess * acceleration_share(p))) return false;
         if (!(std::fabs(j) * per_jerk_[i] <= kExcess * jerk_share(p))) return false;
+        if (goes_on && (j > 0) != (last[i].j > 0) && !(peaks_between(last[i], {a, j}, step).a * per_acceleration_[i] <= kExcess * acceleration_share(p)))
+          return false;
+        last[i] = {a, j};
       }
     }
     from = end;
@@ -239,6 +282,10 @@ bool Windows::phases_to(const MeshRequest& request, const Limits& limits) {
   return false;
 }
 
+unsigned Windows::leaves_at(const MeshRequest& request, const Limits& limits) {
+  return known_.find(request, limits, &phases_) && !known_.rests() ? known_.leaves_at() : kNone;
+}
+
 /// A plan is changed between cells, and there are so many of them at most: those of a law that takes hours would take seconds each, and an
 /// override that is raised meanwhile would wait for the end of one. So it rests earlier, and what is kept of it is what comes before
 /// that stop.
@@ -250,7 +297,7 @@ bool Windows::rest_earlier(const MeshRequest& request, double share) {
   return true;
 }
 
-/// The law of cells that begins with the one in phases: where feeds of several sizes lie side by side, what the estimate gives breaks
+/// The law of cells that begins with the one that is known: where feeds of several sizes lie side by side, what the estimate gives breaks
 /// limits so many times that the solver never comes back from there.
 bool Windows::from_phases() {
   request_.guess = kAttempts[0].guess;
@@ -262,11 +309,11 @@ bool Windows::from_phases() {
   double length = 0;
   for (unsigned k = 0; k < mesh_.cells; ++k) length += mesh_.h[k];
   same.reach = std::min(same.reach, length);
-  if (!phases_.find(same, limits_) || !phases_.whole()) return false;
-  phases_.rewind();
+  if (!known_.find(same, limits_, &phases_) || known_.rests() || !known_.whole()) return false;
   double u = 0;
   for (unsigned k = 0; k < mesh_.cells; ++k) {
-    mesh_.guess[k] = std::max(kOfPhases * phases_.squared_speed(u + 0.5 * mesh_.h[k]), 1e-8);
+    const double away = request_.from_rest ? 1 : std::min(1.0, k / kGentle), share = 1 - (1 - kOfPhases) * away * away * (3 - 2 * away);
+    mesh_.guess[k] = std::max(share * known_.squared_speed(u + 0.5 * mesh_.h[k]), 1e-8);
     u += mesh_.h[k];
   }
   std::fill(mesh_.level, mesh_.level + mesh_.cells, false);

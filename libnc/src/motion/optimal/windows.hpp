@@ -3,7 +3,7 @@
 // which only the part is kept that the artificial stop at its end has not slowed.
 #pragma once
 
-#include "motion/optimal/phase_law.hpp"
+#include "motion/optimal/known_law.hpp"
 
 namespace nc::optimal {
 
@@ -38,6 +38,9 @@ class Windows {
   /// The law in phases from the same place, which is looked at in the same way.
   bool phases_to(const MeshRequest& request, const Limits& limits);
   const PhaseLaw& phases() const { return phases_; }
+  /// The place of what is followed (MeshRequest::followed) from which there is a law in phases, the first one that is found; kNone where there is none.
+  static constexpr unsigned kNone = ~0u;
+  unsigned leaves_at(const MeshRequest& request, const Limits& limits);
   /// The last law reaches the end of the pieces (or the reach that was asked).
   bool whole() const { return !more_; }
 
@@ -71,6 +74,7 @@ class Windows {
   bool moments(unsigned cell, Moments* m) const;
   Excess excess(unsigned cell) const;
   Excess excess_on_curve(unsigned cell, const Moments& m) const;
+  double peak_acceleration(unsigned cell, const Moments& m) const;
 
   MeshRequest request_;
   Limits limits_;
@@ -84,6 +88,7 @@ class Windows {
   Mesh mesh_;
   TimeLaw time_law_;
   PhaseLaw phases_;
+  KnownLaw known_;
   Law law_;
 };
 

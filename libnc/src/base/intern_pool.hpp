@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values that change rarely and are named by many items.
+#pragma once
+
+#include <cstdint>
+
+#include "base/arena.hpp"
+
+namespace nc {
+
+/// Interns values that change rarely and are named by many items. Ids count up; a value stays readable until `capacity` newer ones
+/// have been entered, which is more than items can be under way. By 2^31 they begin again at 0: so id + 1 is never 0, which stands for "none".
+template <class T>
+class InternPool {
+ public:
+  void create(unsigned capacity_power_of_two, Arena& arena) {
+    ring_ = arena.make<T>(capacity_power_of_two);
+    mask_ = capacity_power_of_two - 1;
+  }
+  /// The entry made last, nullptr = none yet, and its id.
+  const T* newest() const { return filled_ == 0 ? nullptr : &ring_[newest_id() & mask_]; }
+  uint32_t newest_id() const { return (next_ - 1) & kIds; }
+  /// Id of `value`: the newest entry again when it is equal.
+  uint32_t intern(const T& value) {
+    if (filled_ > 0 && *newest() == value) return newest_id();
+    const uint32_t id = next_;
+    ring_[id & mask_] = value;
+    next_ = (id + 1) & kIds;
+    if (filled_ <= mask_) ++filled_;
+    return id;
+  }
+  const T& operator[](uint32_t id) const { return ring_[id & mask_]; }
+  bool holds(uint32_t id) const { return id <= kIds && ((next_ - 1 - id) & kIds) < filled_; }
+  /// For tests: ids are counted from here. Before anything is entered.
+  void count_from(uint32_t first) { next_ = first & kIds; }
+
+ private:
+  T* ring_ = nullptr;
+  static constexpr uint32_t kIds = ~0u >> 1;
+  uint32_t mask_ = 0;
+  uint32_t next_ = 0;    ///< id of the next value that is new
+  uint32_t filled_ = 0;  ///< values that are there
+};
+
+}  // namespace nc

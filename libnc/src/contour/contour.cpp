@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contour/contour.hpp"
+
+#include <new>
+
+#include "dialect/alarms.hpp"
+
+namespace nc {
+namespace {
+
+/// M700 13.7: between two straight cuts and nothing else.
+bool is_line(const Move& m) { return m.kind == NC_MOVE_LINE && !m.circular && m.shape == 0 && !m.comp.transparent; }
+
+/// A command of radius compensation without a movement (offset/offset.hpp).
+bool without_length(const Move& m) { return !m.circular && m.shape == 0 && m.start == m.end; }
+
+}  // namespace
+
+void ContourStage::reset() {
+  first_ = count_ = ready_ = 0;
+  pending_ = behind_mark_ = failed_ = false;
+  entry_ = state_ = {};
+}
+
+ContourStage::Held& ContourStage::append(const Item& item) {
+  Held& place = held(count_++);
+  place.item = item;
+  place.vacant = place.cut = false;
+  return place;
+}
+
+bool ContourStage::push(const Item& item, NoRule) {
+  if (failed_) return true;  // nothing is read behind an alarm
+  if (item.kind == ItemKind::move && !without_length(item.move)) {
+    push_move(item);
+    return true;
+  }
+  append(item);
+  if (!pending_) {
+    ready_ = count_;
+    return true;
+  }
+  const bool block_over = item.kind == ItemKind::mark && item.block_end;
+  if (inhibits_read_ahead(item) || (block_over && behind_mark_)) {
+    fail(Condition::corner_no_move, item.source, 0);
+  } else if (count_ == kHeld - 2) {  // a line and its cut must find room
+    fail(Condition::pre_read, held(ready_).item.source, 0);
+  }
+  behind_mark_ = behind_mark_ || block_over;
+  return true;
+}
+
+void ContourStage::push_move(const Item& item) {
+  if (pending_) settle(item);
+  if (failed_) return;
+  Held& place = append(item);
+  Move& move = place.item.move;
+  if (entry_.displaced)
+    for (unsigned i = 0; i < axis_count_; ++i) move.start[i] += entry_.lead[i];
+  entry_ = {};
+  if (move.corner == Corner::none) {
+    ready_ = count_;
+    return;
+  }
+  ready_ = count_ - 1;
+  pending_ = true;
+  behind_mark_ = false;
+  append(item).vacant = true;
+  if (corner_travel(move, move, rotary_, axis_count_) < move.corner_mm - kCornerSlack_mm) fail(Condition::corner_short, item.source, move.corner_mm);
+}
+
+/// The movement that the pending line has waited for.
+void ContourStage::settle(const Item& next) {
+  Held& first = held(ready_);
+  Held& place = held(ready_ + 1);
+  Move& line = first.item.move;
+  const double amount = line.corner_mm;
+  if (!is_line(next.move)) return fail(next.move.circular ? Condition::corner_arc : Condition::corner_no_move, next.source, amount);
+  CornerCut cut;
+  const Condition bad = cut_corner(line, next.move, rotary_, axis_count_, &cut);
+  if (bad != Condition::none) return fail(bad, bad == Condition::corner_short ? first.item.source : next.source, amount);
+  pending_ = false;
+  line.corner = Corner::none;
+  if (!cut.any) return;
+  place.item = first.item;
+  place.vacant = false;
+  place.cut = true;
+  place.lead = cut.lead;
+  entry_ = {true, cut.lead};
+  Move& corner = place.item.move;
+  corner.start = line.end = line.work = cut.before;
+  corner.end = corner.work = cut.behind;
+  corner.connecting = true;
+  // What is commanded of the vectors at the start of the block has been done, and a stop is at the end of the block.
+  corner.comp.has_vector = corner.comp.hold_vector = corner.comp.corner_arc = corner.comp.cancel_vector = false;
+  line.exact_stop = false;
+  line.rule.slow_zone = 0;
+  if (!cut.round) return;
+  corner.kind = NC_MOVE_ARC;
+  for (unsigned i = 0; i < axis_count_; ++i)
+    if (i != corner.plane_axis[0] && i != corner.plane_axis[1] && corner.end[i] != corner.start[i]) corner.kind = NC_MOVE_HELIX;
+  corner.circular = true;
+  corner.circle = cut.circle;
+  for (unsigned i = 0; i < 2; ++i) corner.work_center[i] = cut.circle.center[i];
+}
+
+/// The program stops before the pending move: the alarm takes its place, and what was read behind it is forgotten.
+void ContourStage::fail(Condition condition, const nc_source& source, double value) {
+  Item alarm;
+  alarm.kind = ItemKind::alarm;
+  alarm.source = source;
+  new (&alarm.alarm) Fault();
+  alarm.alarm.condition = condition;
+  if (value > 0) {
+    alarm.alarm.letter = held(ready_).item.move.corner == Corner::chamfer ? chamfer_letter_ : rounding_letter_;
+    alarm.alarm.has_value = true;
+    alarm.alarm.value = value;
+  }
+  count_ = ready_;
+  append(alarm);
+  ready_ = count_;
+  pending_ = false;
+  failed_ = true;
+}
+
+bool ContourStage::pop(Item& out) {
+  while (ready_ != 0) {
+    Held& front = held(0);
+    first_ = (first_ + 1) % kHeld;
+    --count_;
+    --ready_;
+    if (front.vacant) continue;
+    out = front.item;
+    if (out.kind == ItemKind::move && (front.cut || !without_length(out.move))) state_ = {front.cut, front.lead};
+    return true;
+  }
+  return false;
+}
+
+}  // namespace nc

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// The row of stages between the interpreter and commit. Items go in at the front, stage by stage, and come out behind the last one in the
+// order in which they went in. What a stage is:
+//
+//   using Rule                      what it needs of the parameters; rule_of(stage, settings) picks it out of those that travel with a move
+//   bool takes(item, rule, calm)    at rest: the item is one that it begins to hold back with. `calm`: the stages behind are at rest, too
+//   bool push(item, rule)           false: what it holds has to go first, pop() until there is none
+//   bool pop(item&)                 the next finished item; false when it has none or must see more first
+//   bool idle()                     at rest: it holds nothing, and nothing before shows in what comes. Items go round it.
+//   Resume resume_point()           what it needs to go on right behind the mark that pop() gave last; in_force(Resume): it needs anything
+//   void restore(Resume), reset()
+//   kHeld                           items that it has room for
+//   void displaced()                the axes have been moved by hand behind the newest mark that was executed; it holds nothing
+//
+// Any of them may hold items while others do. So where a mark leaves a stage, what this one needs behind it is written down under the
+// mark's place, and it goes out with the mark: a place to rewind to covers every stage, however far those in front have gone on meanwhile.
+#pragma once
+
+#include <bit>
+#include <tuple>
+#include <utility>
+
+#include "base/arena.hpp"
+#include "frame/affine.hpp"
+#include "interpret/motion_settings.hpp"
+#include "stream/stream.hpp"
+
+namespace nc {
+
+/// What the stages of a row need to go on right behind a mark.
+template <class... Stages>
+struct StageResume {
+  uint8_t stages = 0;  ///< bit k: stage k needs anything
+  std::tuple<typename Stages::Resume...> of;
+  /// Nothing is copied of a stage that needs nothing.
+  void take(const StageResume& other) { take(other, std::index_sequence_for<Stages...>{}); }
+
+ private:
+  template <size_t... K>
+  void take(const StageResume& other, std::index_sequence<K...>) {
+    stages = other.stages;
+    ((((stages >> K) & 1) != 0 ? static_cast<void>(std::get<K>(of) = std::get<K>(other.of)) : void()), ...);
+  }
+};
+
+template <class... Stages>
+class StageRow {
+ public:
+  using Resume = StageResume<Stages...>;
+  /// What has become of an item: it is in a stage, none has to hold it back, or what is held goes first.
+  enum class Intake : uint8_t { taken, straight, later };
+
+  void create(const InternPool<MotionSettings>* settings, Arena& arena) {
+    settings_ = settings;
+    places_ = arena.make<Resume>(kPlaces);
+  }
+  template <class Stage>
+  Stage& stage() {
+    return std::get<Stage>(stages_);
+  }
+
+  /// Every stage is at rest: an item that none of them takes goes straight through.
+  bool idle() const { return busy_ == 0; }
+  /// A mark that is taken gets its place.
+  Intake push(Item& item) {
+    if (item.kind == ItemKind::mark && item.mark.resume && item.mark.place == 0 && busy_ != 0) give_place(item);
+    return push_from<0>(item);
+  }
+  /// The next item behind the last stage; false when there is none, or one must see more first.
+  bool pop(Item& out) { return pop_behind<sizeof...(Stages) - 1>(out); }
+  /// Right behind this mark, which pop() has given.
+  const Resume& behind(const Mark& mark) const { return mark.place == 0 ? kNothing : places_[mark.place % kPlaces]; }
+
+  /// `which` of the stages, by their bits.
+  void restore(const Resume& resume, uint8_t which) {
+    reset();
+    restore(resume, which, kAll);
+  }
+  void reset() {
+    std::apply([](auto&... stage) { (stage.reset(), ...); }, stages_);
+    for (auto& door : door_) door.waits = false;
+    busy_ = 0;
+  }
+  /// Of those that go on otherwise by that, the bits: they need nothing any more.
+  uint8_t displaced() {
+    const uint8_t before = busy_;
+    std::apply([](auto&... stage) { (stage.displaced(), ...); }, stages_);
+    look(kAll);
+    return static_cast<uint8_t>(before & ~busy_);
+  }
+
+ private:
+  static constexpr auto kAll = std::index_sequence_for<Stages...>{};
+  /// Marks under way: all that the stages hold, one at each door, and the one on its way to the sink.
+  static constexpr unsigned kPlaces = std::bit_ceil((Stages::kHeld + ... + (unsigned{sizeof...(Stages)} + 1)));
+  static inline constexpr Resume kNothing{};
+
+  /// An item that has left the stage before this one, which cannot take it yet.
+  struct Door {
+    Item item;
+    bool waits = false;
+  };
+
+  template <size_t K>
+  bool busy() const {
+    return (busy_ >> K & 1) != 0;
+  }
+  template <size_t K>
+  void look() {
+    const bool busy = !std::get<K>(stages_).idle() || door_[K].waits;
+    busy_ = static_cast<uint8_t>(busy ? busy_ | 1u << K : busy_ & ~(1u << K));
+  }
+  template <size_t... K>
+  void look(std::index_sequence<K...>) {
+    (look<K>(), ...);
+  }
+  template <size_t... K>
+  void restore(const Resume& resume, unsigned which, std::index_sequence<K...>) {
+    ((((which >> K) & 1) != 0 ? std::get<K>(stages_).restore(std::get<K>(resume.of)) : void()), ...);
+    look(kAll);
+  }
+
+  void give_place(Item& item) {
+    if (++last_place_ == 0) ++last_place_;
+    item.mark.place = last_place_;
+    places_[last_place_ % kPlaces].stages = 0;
+  }
+
+  const MotionSettings& settings_of(const Item& item) const { return (*settings_)[item.kind == ItemKind::move ? item.move.settings : 0]; }
+  template <size_t K>
+  bool enters(const Item& item) const {
+    if (busy<K>()) return true;
+    const auto& stage = std::get<K>(stages_);
+    return item.kind == ItemKind::move && stage.takes(item, rule_of(stage, settings_of(item)), busy_ >> K == 0);
+  }
+  template <size_t K>
+  bool put(const Item& item) {
+    auto& stage = std::get<K>(stages_);
+    const bool in = stage.push(item, rule_of(stage, settings_of(item)));
+    look<K>();
+    return in;
+  }
+
+  template <size_t K>
+  Intake push_from(const Item& item) {
+    if constexpr (K == sizeof...(Stages)) {
+      return Intake::straight;
+    } else {
+      if (!enters<K>(item)) return push_from<K + 1>(item);
+      return put<K>(item) ? Intake::taken : Intake::later;
+    }
+  }
+
+  /// The next item behind stage K.
+  template <size_t K>
+  bool pop_behind(Item& out) {
+    auto& stage = std::get<K>(stages_);
+    for (;;) {
+      if (busy<K>()) {
+        const bool any = stage.pop(out);
+        if (any) note<K>(out);
+        look<K>();
+        if (any) return true;
+      }
+      if constexpr (K == 0) {
+        return false;
+      } else {
+        Door& door = door_[K];
+        if (door.waits) {
+          door.waits = !put<K>(door.item);
+          look<K>();
+          continue;
+        }
+        if (!pop_behind<K - 1>(out)) return false;
+        if (!enters<K>(out)) return true;
+        if (put<K>(out)) continue;
+        door.item = out;
+        door.waits = true;
+        look<K>();
+      }
+    }
+  }
+
+  template <size_t K>
+  void note(const Item& item) {
+    if (item.kind != ItemKind::mark || item.mark.place == 0) return;
+    const auto& resume = std::get<K>(stages_).resume_point();
+    if (!in_force(resume)) return;
+    Resume& place = places_[item.mark.place % kPlaces];
+    std::get<K>(place.of) = resume;
+    place.stages = static_cast<uint8_t>(place.stages | 1u << K);
+  }
+
+  std::tuple<Stages...> stages_;
+  Door door_[sizeof...(Stages)];
+  uint8_t busy_ = 0;  ///< bit k: stage k is not at rest
+  uint32_t last_place_ = 0;
+  Resume* places_ = nullptr;
+  const InternPool<MotionSettings>* settings_ = nullptr;
+};
+
+}  // namespace nc

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stages of a part system, in the order of the stream.
+#pragma once
+
+#include "contour/contour.hpp"
+#include "control/stage_row.hpp"
+#include "fairing/fairing.hpp"
+#include "offset/offset.hpp"
+
+namespace nc {
+
+inline const FairingRule& rule_of(const FairingStage&, const MotionSettings& settings) { return settings.fairing; }
+inline NoRule rule_of(const ContourStage&, const MotionSettings&) { return {}; }
+inline NoRule rule_of(const OffsetStage&, const MotionSettings&) { return {}; }
+
+using Stages = StageRow<ContourStage, FairingStage, OffsetStage>;
+
+/// Most moves are nothing to any of them: with all at rest this one may be.
+inline bool may_be_held(const Item& item) {
+  return item.kind == ItemKind::move &&
+         (item.move.comp.side != 0 || (item.move.high_accuracy & kFineSegmentsOn) != 0 || item.move.corner != Corner::none);
+}
+
+}  // namespace nc

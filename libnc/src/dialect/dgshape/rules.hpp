@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the dgshape family answers each rule of dialect/rules.hpp, where the sections of its manual stand.
+#pragma once
+
+#include "dialect/rules.hpp"
+
+namespace nc::dgshape {
+
+/// 2-1: the unit is 0.001 mm, or 0.0001 inch; no parameter changes it.
+double units_per_micrometre(double parameter);
+
+/// 2, S: S00 to S99 are code numbers of the R20 series; from 100 on r/min.
+double speed_of_word(uint32_t value);
+
+/// G51: 0.001 to 999.999; what is outside is held within the range without a fault.
+bool factor_of_word(double value, bool pointed, double* factor);
+
+inline constexpr Rules kRules = {
+    .number = {.undotted_feed_in_least_unit = true,
+               .undotted_range_is_digits = true,
+               .largest_feed_mm = 99999.999,
+               .largest_feed_inch = 9999.9999,
+               .largest_undotted_feed_mm = 99999999,
+               .largest_undotted_feed_inch = 99999999,
+               .units_per_micrometre = units_per_micrometre},
+    .block = {.distance_by_word = false,
+              .whole_words_refuse_point = true,
+              .stops_stand_alone = true,
+              .dwell_stands_alone = true},
+    .auxiliary = {.most_m_codes = ~0u, .tool_change_is_pair = true},
+    .spindle = {.speed_of_word = speed_of_word,
+                .limits_by_coordinate_setting = false,
+                .skips_repeated_codes = true},
+    .feed = {.inch_is_ten_degrees = false, .degree_counts_as_millimetre = false},
+    .arc = {.takes_rotary_axes = false,
+            .degree_is_tenth_of_inch = false,
+            .turns_exclude_radius = false},
+    .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 3600},
+    .compensation = {.xy_plane_only = true,
+                     .plane_is_fixed = false,
+                     .bars_scaling_and_cycle_end = true,
+                     .bars_systems_and_data = true,
+                     .bars_reference_return = true,
+                     .may_change_side = false,
+                     .vector_by_words = false,
+                     .takes_changed_amounts = false},
+    .length = {.axis_by_words = false,
+               .number_in_any_block = false,
+               .zero_is_number = false,
+               .moves_at_once = true},
+    .cycle = {.xy_plane_only = true,
+              .takes_rotary_axes = false,
+              .needs_turning_spindle = true,
+              .without_bottom_positions = true,
+              .r_takes_sign_of_z = false,
+              .others_keep_motion_mode = false,
+              .fixed_clearance_mm = 1,
+              .longest_dwell_ms = 3600e3},
+    .reference = {.remembered_axes_go = true,
+                  .forgets_with_program = true,
+                  .takes_rotary_axes = false,
+                  .cancels_length = false},
+    .coordinate = {.machine_move_may_be_incremental = false, .machine_code_ends_shift = false},
+    .scaling = {.all_linear_axes = true, .factor_required = true, .factor_of_word = factor_of_word},
+    .data_input = {.incremental_adds = false,
+                   .system_required = true,
+                   .axes_required = false,
+                   .vector_turns_work = false},
+    .program = {.macro_interrupt = false, .motion_outlives_end = false},
+    .motion = {.accuracy_limits = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
+};
+
+}  // namespace nc::dgshape

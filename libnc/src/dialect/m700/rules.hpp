@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the m700 family answers each rule of dialect/rules.hpp, where the sections of its manual stand.
+#pragma once
+
+#include "dialect/m700/accuracy.hpp"
+#include "dialect/m700/filters.hpp"
+#include "dialect/rules.hpp"
+
+namespace nc::m700 {
+
+/// 2.1: B, C, D and E, each ten times finer than the one before.
+double units_per_micrometre(double parameter);
+
+/// 10.1, 10.2: S is r/min.
+double speed_of_word(uint32_t value);
+
+/// 13.19: least unit 0.000001; a number without a point counts in it.
+bool factor_of_word(double value, bool pointed, double* factor);
+
+inline constexpr Rules kRules = {
+    .number = {.undotted_feed_in_least_unit = false,
+               .undotted_range_is_digits = false,
+               .largest_feed_mm = 1e7,
+               .largest_feed_inch = 1e6,
+               .largest_undotted_feed_mm = 1e7,
+               .largest_undotted_feed_inch = 1e6,
+               .units_per_micrometre = units_per_micrometre},
+    .block = {.distance_by_word = true,
+              .whole_words_refuse_point = false,
+              .stops_stand_alone = false,
+              .dwell_stands_alone = false},
+    .auxiliary = {.most_m_codes = 4, .tool_change_is_pair = false},
+    .spindle = {.speed_of_word = speed_of_word,
+                .limits_by_coordinate_setting = true,
+                .skips_repeated_codes = false},
+    .feed = {.inch_is_ten_degrees = true, .degree_counts_as_millimetre = true},
+    .arc = {.takes_rotary_axes = true,
+            .degree_is_tenth_of_inch = true,
+            .turns_exclude_radius = true},
+    .dwell = {.time_optional = true, .early_x_is_length = true, .longest_s = 99999.999},
+    .compensation = {.xy_plane_only = false,
+                     .plane_is_fixed = true,
+                     .bars_scaling_and_cycle_end = false,
+                     .bars_systems_and_data = false,
+                     .bars_reference_return = false,
+                     .may_change_side = true,
+                     .vector_by_words = true,
+                     .takes_changed_amounts = true},
+    .length = {.axis_by_words = true,
+               .number_in_any_block = true,
+               .zero_is_number = true,
+               .moves_at_once = false},
+    .cycle = {.xy_plane_only = false,
+              .takes_rotary_axes = true,
+              .needs_turning_spindle = false,
+              .without_bottom_positions = false,
+              .r_takes_sign_of_z = true,
+              .others_keep_motion_mode = true,
+              .fixed_clearance_mm = 0,
+              .longest_dwell_ms = 99999999},
+    .reference = {.remembered_axes_go = false,
+                  .forgets_with_program = false,
+                  .takes_rotary_axes = true,
+                  .cancels_length = true},
+    .coordinate = {.machine_move_may_be_incremental = true, .machine_code_ends_shift = true},
+    .scaling = {.all_linear_axes = false,
+                .factor_required = false,
+                .factor_of_word = factor_of_word},
+    .data_input = {.incremental_adds = true,
+                   .system_required = false,
+                   .axes_required = true,
+                   .vector_turns_work = true},
+    .program = {.macro_interrupt = true, .motion_outlives_end = true},
+    .motion = {.accuracy_limits = accuracy_limits,
+               .spline_speed_mm_min = spline_speed_clamp,
+               .filter_times = filter_times},
+};
+
+}  // namespace nc::m700

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// What parameters mean to the control. A family's table (dialect/parameter_rows.hpp) binds its numbers and names to them; nothing outside
+// dialect/ knows a number. A parameter of which there are several for one thing after the other ("[n]") is one meaning and an index.
+#pragma once
+
+#include <cstdint>
+
+namespace nc {
+
+enum class Parameter : uint8_t {
+  none,
+  setting_unit,                ///< letter of the unit that positions are set and shown in
+  command_unit,                ///< unit of a word without a point
+  start_plane,
+  plane_axis,                  ///< [3] axes of I, J, K
+  parallel_axis,               ///< [3] axes parallel to those
+  tool_memory_type,
+  start_absolute,
+  start_synchronous,
+  decimal_type_2,
+  feed_by_digit,
+  drilling_axis_z,
+  system_codes_call,
+  arc_tolerance,
+  rapid_by_axis,
+  tool_change_axis,
+  interrupt_own_m,
+  interrupt_on_m,
+  interrupt_off_m,
+  interrupt_by_level,
+  interrupt_type_2,
+  protects_9000,
+  reset_clears_common,
+  power_off_clears_common,
+  clamp_command_always,
+  start_high_accuracy,
+  arc_joint_clamp,
+  start_inch,
+  dwell_skip,
+  skip_feed,
+  multi_skip_signals,          ///< [3]
+  multi_skip_feed,             ///< [3]
+  surface_axis,
+  digit_feed,                  ///< [5]
+  checks_position,
+  words_call,                  ///< [4] M, S, T, second auxiliary function
+  rapid_before,
+  accuracy_speed,
+  accuracy_time,
+  arc_joint_speed,
+  keeps_polar_command,
+  keeps_clamp,
+  checks_cutting,
+  clamp_in_surface_speed,
+  interrupt_as_sub,
+  precision_lead,
+  comp_type_b,
+  helix_plane_feed,
+  code_type,
+  spiral_type_2,
+  asin_0_360,
+  run_time_hours,
+  shared_100,
+  shared_500,
+  one_position_check,
+  checks_reversal,
+  digit_most,
+  digit_divisions,
+  exponential_axis,            ///< [2] linear, rotary
+  mill_axis,
+  hypothetical_by_name,
+  polar_linear_axis,
+  pattern_filter,              ///< [2] cuts, rapid traverse
+  pattern_second,
+  rapid_linear,
+  rapid_exponential,
+  cut_linear,
+  cut_exponential,
+  no_reference,
+  reference_position,          ///< [4]
+  arc_radius_shift,
+  index_axis,
+  corner_least_speed,
+  skip_linear,
+  skip_exponential,
+  index_increment,
+  accuracy_clamp,              ///< [2] rapid traverse, cuts
+  m_call_code,                 ///< [10]
+  m_call_type,                 ///< [10]
+  m_call_program,              ///< [10]
+  second_aux_call,             ///< [2] type, program
+  g_call_code,                 ///< [10]
+  g_call_type,                 ///< [10]
+  g_call_program,              ///< [10]
+  s_call,                      ///< [2] type, program
+  t_call,                      ///< [2] type, program
+  ascii_call_on,               ///< [2]
+  ascii_call_letter,           ///< [2]
+  ascii_call_type,             ///< [2]
+  ascii_call_program,          ///< [2]
+  ascii_call_variable,         ///< [2]
+  measure_feed,
+  measure_deceleration,
+  measure_range,
+  corner_override,
+  corner_override_angle,
+  corner_override_zone,
+  step_clearance,
+  peck_clearance,
+  radius_percent,
+  corner_angle,
+  separate_percents,
+  corner_percent,              ///< [2] corners, curves
+  spline_allowed,
+  spline_cancel_angle,
+  spline_tolerance,            ///< [2] with an inflection, without
+  fairing_length,
+  spline_minute_length,
+  fairing,
+  acceleration_clamp,
+  corner_judgement,
+  judgement_length,
+  scaling_factor,
+  spiral_tolerance,
+  smooth_control,
+  macro_single,
+  interference_avoided,
+  interference_ignored,
+  protects_8000,
+  arc_compensation,
+  arc_compensation_by_axis,
+  dwell_p_decimal,
+  diameter_offsets,
+  tool_change_position,
+  creep,
+  mirrored,
+  rotary_type,
+  work_turn_axis,              ///< [2]
+  work_turn_center,            ///< [2]
+  work_turn_vector,            ///< [2]
+  work_turn_angle,
+  parity_unit,                 ///< [5]
+  // of machines and later models, which the manuals only mention
+  tenfold,
+  print_blanks,
+  macro_extensions,
+  semicolon_comments,
+  negative_count,
+  codes_after_motion,
+  reading_stop,               ///< [8] M codes behind which nothing is read ahead
+  calculator,
+  calculator_words,
+  count_
+};
+
+/// There is one for all part systems: what divides the common variables among them (M700 13.4), and what is said of programs and of variables that
+/// they share (13.3, 13.4).
+constexpr bool is_common(Parameter parameter) {
+  return parameter == Parameter::shared_100 || parameter == Parameter::shared_500 || parameter == Parameter::protects_8000 ||
+         parameter == Parameter::protects_9000 || parameter == Parameter::power_off_clears_common;
+}
+
+inline constexpr unsigned kParameters = static_cast<unsigned>(Parameter::count_);
+
+/// One parameter: what it means and, of several, which one.
+struct ParameterOf {
+  // A meaning alone is its first one.
+  constexpr ParameterOf(Parameter meaning, unsigned which = 0) : what(meaning), index(which) {}  // NOLINT(google-explicit-constructor)
+  Parameter what;
+  unsigned index;
+};
+
+}  // namespace nc

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dialect/parameter_rows.hpp"
+
+#include <cstring>
+
+#include "dialect/dialect.hpp"
+#include "dialect/text.hpp"
+#include "nc/control.h"
+
+namespace nc {
+
+bool parse_parameter_key(const char* text, ParameterKey* key) {
+  const auto digits = [](const char* at, unsigned most, uint32_t* number) {
+    unsigned count = 0;
+    for (*number = 0; at[count] >= '0' && at[count] <= '9' && count < most; ++count)
+      *number = *number * 10 + static_cast<uint32_t>(at[count] - '0');
+    return count;
+  };
+  key->digits = digits(text, 6, &key->number);
+  key->bit = -1;
+  if (key->digits == 0) return false;
+  const char* at = text + key->digits;
+  if (*at == 0) return true;
+  if (std::strncmp(at, "/bit", 4) != 0) return false;
+  at += 4;
+  uint32_t bit = 0;
+  const unsigned length = digits(at, 2, &bit);
+  key->bit = static_cast<int>(bit);
+  return length != 0 && at[length] == 0 && bit < 32;
+}
+
+bool parameter_place(const Dialect& dialect, ParameterOf parameter, char (&key)[kParameterKeySize], int* bit) {
+  const FamilyParameters& table = *dialect.parameters;
+  TextWriter text(key, sizeof key);
+  *bit = -1;
+  if (const unsigned place = table.places != nullptr ? table.places->row[static_cast<unsigned>(parameter.what)] : 0; place != 0) {
+    const ParameterRow& row = table.numbers.row[place - 1];
+    *bit = row.bit;
+    text.put_integer(row.first + row.step * parameter.index);
+    return true;
+  }
+  for (const ParameterName& row : table.names) {
+    if (row.what != parameter.what || row.index != parameter.index) continue;
+    text.put(row.key);
+    return true;
+  }
+  return false;
+}
+
+const ParameterRow* find_parameter(const Dialect& dialect, const ParameterKey& key) {
+  for (const ParameterRow& row : dialect.parameters->numbers) {
+    if (key.number < row.first || key.number > row.last || (key.number - row.first) % row.step != 0) continue;
+    if (row.bit < 0 || key.bit < 0 || row.bit == key.bit) return &row;
+  }
+  return nullptr;
+}
+
+const ParameterName* find_parameter_name(const Dialect& dialect, const char* key) {
+  for (const ParameterName& row : dialect.parameters->names)
+    if (std::strcmp(row.key, key) == 0) return &row;
+  return nullptr;
+}
+
+bool parameter_takes(const Dialect& dialect, const ParameterKey& key, double value) {
+  const ParameterRow* row = find_parameter(dialect, key);
+  return row == nullptr || row->bit >= 0 || row->takes(value);
+}
+
+bool parameter_used(const Dialect& dialect, const char* key) {
+  if (find_parameter_name(dialect, key) != nullptr) return true;
+  ParameterKey parsed;
+  return parse_parameter_key(key, &parsed) && find_parameter(dialect, parsed) != nullptr;
+}
+
+bool parameter_of_axis(const Dialect& dialect, uint32_t number) {
+  for (const NumberRange& range : dialect.parameters->of_axes)
+    if (number >= range.first && number <= range.last) return true;
+  return false;
+}
+
+bool parameter_is_common(const Dialect& dialect, uint32_t number) {
+  ParameterKey key{};
+  key.number = number;
+  key.bit = -1;
+  const ParameterRow* const row = find_parameter(dialect, key);
+  return row != nullptr && is_common(row->what);
+}
+
+}  // namespace nc
+
+nc_status nc_parameter_row(nc_dialect dialect, unsigned index, nc_parameter* row) {
+  if (row == nullptr || !nc::known(dialect)) return NC_E_ARGUMENT;
+  const nc::FamilyParameters& table = *nc::dialect(dialect).parameters;
+  *row = nc_parameter{};
+  row->bit = -1;
+  if (index < table.names.size) {
+    const nc::ParameterName& named = table.names.row[index];
+    row->key = named.key;
+    row->values = named.values != nullptr ? named.values : named.words;
+    row->name = named.name;
+    row->section = named.section;
+    return NC_OK;
+  }
+  index -= table.names.size;
+  if (index >= table.numbers.size) return NC_E_NOT_FOUND;
+  const nc::ParameterRow& from = table.numbers.row[index];
+  *row = nc_parameter{nullptr, from.first, from.last, from.step, from.bit, from.by_axis, from.values, from.name, from.section};
+  return NC_OK;
+}
+
+bool nc_parameter_used(nc_dialect dialect, const char* key) {
+  return key != nullptr && nc::known(dialect) && nc::parameter_used(nc::dialect(dialect), key);
+}

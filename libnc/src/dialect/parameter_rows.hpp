@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parameters of a family: how their numbers and names are bound to what they mean. Others that a manual has are kept for programs that
+// read them (#100000), and do nothing; who sets one should be told.
+#pragma once
+
+#include "dialect/parameter.hpp"
+#include "dialect/table.hpp"
+
+namespace nc {
+
+struct Dialect;
+
+/// One parameter, or several `step` apart with the same meaning for one thing after the other.
+struct ParameterRow {
+  uint32_t first, last, step;  ///< numbers
+  int8_t bit;                  ///< of it, -1 = all
+  bool by_axis;                ///< may differ from axis to axis
+  Parameter what;
+  bool (*takes)(double);       ///< values that it can have; a row of one bit is not asked
+  const char* values;          ///< unit or values; the first one in force when it is not set
+  const char* name;
+  const char* section;         ///< of the manual
+};
+
+/// A parameter that has no number but a name: how its key is written.
+struct ParameterName {
+  const char* key;
+  Parameter what;
+  uint8_t index;
+  double value;          ///< default
+  const char* words;     ///< accepted words in the order of their values, "|"-separated ("conventional|calculator"), nullptr = number
+  const char* values;    ///< what holds without it first; nullptr = the words
+  const char* name;
+  const char* section;   ///< of the manual
+};
+
+/// What a program can read like a parameter, but the configuration of the machine says and no parameter repeats.
+enum class MachineDatum : uint8_t { axis_count, axis_name, rotary };
+struct MachineParameter {
+  uint32_t number;
+  MachineDatum what;
+};
+
+struct NumberRange {
+  uint32_t first, last;
+};
+
+/// Row of each meaning in the table of numbers, counted from 1; 0 = it has no number.
+struct ParameterPlaces {
+  uint8_t row[kParameters] = {};
+};
+template <unsigned count>
+constexpr ParameterPlaces places_of(const ParameterRow (&rows)[count]) {
+  static_assert(count < 255);
+  ParameterPlaces places;
+  for (unsigned i = 0; i < count; ++i) places.row[static_cast<unsigned>(rows[i].what)] = static_cast<uint8_t>(i + 1);
+  return places;
+}
+
+struct FamilyParameters {
+  Table<ParameterRow> numbers = {};            ///< sorted by number
+  const ParameterPlaces* places = nullptr;  ///< in it; nullptr: parameters have no numbers
+  Table<ParameterName> names = {};
+  Table<MachineParameter> machine = {};
+  Table<NumberRange> of_axes = {};             ///< numbers that parameter input by program sets of one axis, those of no row among them
+  double arc_tolerance_mm = 0;            ///< where Parameter::arc_tolerance is not set
+  bool checks_interference = false;       ///< of radius compensation, unless Parameter::interference_ignored
+};
+
+/// "1229/bit2": number 1229, written with 4 digits, bit 2. "1229": bit -1, all of it.
+struct ParameterKey {
+  uint32_t number;
+  unsigned digits;
+  int bit;
+};
+
+/// @return false when `text` is no such key.
+bool parse_parameter_key(const char* text, ParameterKey* key);
+
+/// Longest key of a parameter, its end included.
+inline constexpr unsigned kParameterKeySize = 24;
+
+/// Where a parameter is kept: the key of the whole of it, and its bit there (-1 = all). False: the family has no such parameter.
+bool parameter_place(const Dialect& dialect, ParameterOf parameter, char (&key)[kParameterKeySize], int* bit);
+
+/// The row of a number; of several rows for bits of it the one that has the key's, or the first if the key is all of it.
+const ParameterRow* find_parameter(const Dialect& dialect, const ParameterKey& key);
+const ParameterName* find_parameter_name(const Dialect& dialect, const char* key);
+
+/// The whole parameter can have this value. One that nothing asks for takes any.
+bool parameter_takes(const Dialect& dialect, const ParameterKey& key, double value);
+
+/// A function of the control asks for it: "1084", "1229/bit2", "1229" (some bit of it), "UNIT*10".
+bool parameter_used(const Dialect& dialect, const char* key);
+
+/// Parameter input by program sets this number of one axis.
+bool parameter_of_axis(const Dialect& dialect, uint32_t number);
+/// There is one for all part systems (is_common()).
+bool parameter_is_common(const Dialect& dialect, uint32_t number);
+
+}  // namespace nc

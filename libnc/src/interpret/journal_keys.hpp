@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of an interpreter's journal (macro/variables.hpp) that are no variables: the frames' table, then the notes, then the parameters.
+#pragma once
+
+#include "macro/variables.hpp"
+
+namespace nc {
+
+inline constexpr uint32_t kFrameKey = Variables::kForeignKey;
+inline constexpr uint32_t kNoteKey = Variables::kForeignKey + 0x10000000;
+inline constexpr uint32_t kParameterKey = Variables::kForeignKey + 0x20000000;
+
+}  // namespace nc

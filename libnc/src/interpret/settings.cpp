@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the parameters that have been set to the typed values that the interpreter works with. What a parameter means decides, never its
+// number: that is the family's (dialect/parameter_rows.hpp), and one that a family does not have stands as if nobody had set it.
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <numbers>
+
+#include "interpret/parameters.hpp"
+
+namespace nc {
+namespace {
+
+using P = Parameter;
+
+/// An axis name, 0 = none (blank, 0, or a number that is no letter).
+char axis_letter(double value) {
+  if (!(value >= 'A' && value <= 'z')) return 0;
+  const char letter = static_cast<char>(value);
+  if (letter >= 'A' && letter <= 'Z') return letter;
+  return letter >= 'a' ? static_cast<char>(letter - 'a' + 'A') : char{0};
+}
+
+/// One bit for each of eight signals; what is no whole number of 32 bits has none.
+uint8_t signals(double value) {
+  return value >= 0 && value <= 4294967295.0 ? static_cast<uint8_t>(static_cast<uint32_t>(value) & 0xff) : uint8_t{0};
+}
+
+class SettingsReader {
+ public:
+  SettingsReader(const Parameters& parameters, const Dialect& dialect) : parameters_(parameters), dialect_(dialect) {}
+
+  Settings read() {
+    units();
+    start();
+    words();
+    auxiliary();
+    macros();
+    feeds();
+    cycles();
+    curves();
+    high_accuracy();
+    fairing();
+    filters();
+    axes();
+    work_turn();
+    return s_;
+  }
+
+ private:
+  double value(ParameterOf parameter, double fallback, int axis = -1) const {
+    double found = fallback;
+    parameters_.get(dialect_, parameter, axis, &found);
+    return found;
+  }
+  bool flag(ParameterOf parameter) const { return value(parameter, 0) != 0; }
+  char axis_name(ParameterOf parameter, char fallback = 0) const { return axis_letter(value(parameter, fallback)); }
+  /// Bits of the axes for which it is on.
+  uint32_t axes_with(Parameter parameter) const {
+    uint32_t mask = 0;
+    for (unsigned i = 0; i < kMaxAxes; ++i) mask |= value(parameter, 0, static_cast<int>(i)) != 0 ? 1u << i : 0;
+    return mask;
+  }
+
+  void units();
+  void start();
+  void words();
+  void auxiliary();
+  void macros();
+  void feeds();
+  void cycles();
+  void curves();
+  void high_accuracy();
+  void fairing();
+  void filters();
+  void axes();
+  void one_axis(int axis);
+  void work_turn();
+
+  const Parameters& parameters_;
+  const Dialect& dialect_;
+  Settings s_;
+};
+
+/// M700 2.1, 2.2, 5.3.
+void SettingsReader::units() {
+  const double finer = dialect_.rules.number.units_per_micrometre(value(P::setting_unit, 0));
+  s_.setting_unit_mm = 0.001 / finer;
+  s_.setting_unit_inch = 0.0001 / finer;
+  s_.setting_unit_deg = 0.001 / finer;
+  s_.last_mm = 100000 - s_.setting_unit_mm + Settings::kNoise;
+  s_.last_deg = 100000 - s_.setting_unit_deg + Settings::kNoise;
+  s_.last_inch = (10000 - s_.setting_unit_inch) * 25.4 + Settings::kNoise;
+  const double cunit = value(P::command_unit, 0);
+  s_.command_unit_mm = cunit > 0 ? cunit * 0.0001 : s_.setting_unit_mm;
+  s_.command_unit_inch = cunit > 0 ? cunit * 0.00001 : s_.setting_unit_inch;
+  s_.command_unit_deg = cunit > 0 ? cunit * 0.0001 : s_.setting_unit_deg;
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    const double own = value(P::command_unit, cunit, static_cast<int>(i));
+    if (own != cunit) s_.own_unit_axes |= 1u << i;
+    s_.own_unit[i] = own > 0 ? own * 0.0001 : s_.setting_unit_mm;
+  }
+  s_.decimal_type_2 = flag(P::decimal_type_2);
+  s_.tenfold = value(P::tenfold, 1);
+  if (s_.tenfold == 0) s_.tenfold = 1;
+  s_.calculator = flag(P::calculator);
+  s_.calculator_words = static_cast<uint8_t>(value(P::calculator_words, s_.calculator ? 1 : 0));
+}
+
+/// What is in force at power on, and which codes there are.
+void SettingsReader::start() {
+  s_.start_inch = flag(P::start_inch);
+  s_.start_absolute = value(P::start_absolute, 1) != 0;
+  s_.start_synchronous = flag(P::start_synchronous);
+  s_.start_high_accuracy = flag(P::start_high_accuracy);
+  const double start_plane = value(P::start_plane, 1);  // 1 G17, 2 G18, 3 G19
+  s_.start_plane = start_plane == 2 ? Function::plane_zx : start_plane == 3 ? Function::plane_yz : Function::plane_xy;
+  s_.preset_allowed = value(P::code_type, 1) != 0;
+  s_.high_accuracy_code = value(P::code_type, 0) == 0;
+  s_.high_speed_codes = value(P::code_type, 1) != 0;
+}
+
+/// How texts are read, and what compensation does.
+void SettingsReader::words() {
+  for (unsigned unit = 1; unit <= 5; ++unit) s_.parity_units |= flag({P::parity_unit, unit - 1}) ? 1u << unit : 0;  // 3.6
+  s_.semicolon_comments = flag(P::semicolon_comments);
+  for (unsigned i = 0; i < 8; ++i) {
+    const double m = value({P::reading_stop, i}, 0);
+    s_.reading_stops[i] = m >= 1 && m <= 99999999 ? static_cast<uint32_t>(m) : 0;
+    s_.any_reading_stop |= s_.reading_stops[i] != 0;
+  }
+  s_.tool_memory_2 = value(P::tool_memory_type, 1) == 2;
+  s_.diameter_offsets = flag(P::diameter_offsets);
+  s_.comp_type_b = flag(P::comp_type_b);
+  s_.interference_check = dialect_.parameters->checks_interference && !flag(P::interference_ignored);
+  s_.interference_avoid = flag(P::interference_avoided);
+  for (unsigned i = 0; i < 3; ++i) {
+    s_.plane_basic[i] = axis_name({P::plane_axis, i}, dialect_.addresses.letter(basic_along(i)));
+    s_.plane_parallel[i] = axis_name({P::parallel_axis, i});
+  }
+  s_.scaling_factor = value(P::scaling_factor, 1);
+}
+
+/// M700 9, 10: M codes and the spindle.
+void SettingsReader::auxiliary() {
+  s_.codes_after_motion = flag(P::codes_after_motion);
+  const double surface_axis = value(P::surface_axis, 0);
+  s_.surface_axis = surface_axis >= 1 && surface_axis <= 3 ? static_cast<uint8_t>(surface_axis) : 0;
+  s_.clamp_command_always = flag(P::clamp_command_always);
+  s_.clamp_in_g96_only = flag(P::clamp_in_surface_speed);
+  s_.keeps_clamp = flag(P::keeps_clamp);
+  s_.keeps_polar_command = flag(P::keeps_polar_command);
+}
+
+/// M700 13.4, 13.5, 13.12.
+void SettingsReader::macros() {
+  s_.macro_single = flag(P::macro_single);
+  s_.macro_extensions = flag(P::macro_extensions);
+  s_.negative_count = flag(P::negative_count);
+  s_.print_blanks = flag(P::print_blanks);
+  s_.asin_0_360 = flag(P::asin_0_360);
+  s_.run_time_hours = flag(P::run_time_hours);
+  s_.interrupt_on_m = misc_code(dialect_, MiscFunction::interrupt_on);
+  s_.interrupt_off_m = misc_code(dialect_, MiscFunction::interrupt_off);
+  if (flag(P::interrupt_own_m)) {  // 13.12: M codes 03 to 97 but 30
+    const auto m_code = [this](Parameter parameter, uint32_t fallback) {
+      const double m = value(parameter, fallback);
+      return m >= 0 && m <= 97 && goes_out(misc_function(dialect_, static_cast<unsigned>(m))) ? static_cast<uint32_t>(m) : fallback;
+    };
+    s_.interrupt_on_m = m_code(P::interrupt_on_m, s_.interrupt_on_m);
+    s_.interrupt_off_m = m_code(P::interrupt_off_m, s_.interrupt_off_m);
+  }
+  s_.interrupt_by_level = flag(P::interrupt_by_level);
+  s_.interrupt_type_2 = flag(P::interrupt_type_2);
+  s_.interrupt_as_sub = flag(P::interrupt_as_sub);
+  s_.reset_clears_common = flag(P::reset_clears_common);
+  const auto last_shared = [this](Parameter parameter, uint32_t first, uint32_t last, uint32_t fallback) {
+    const double n = value(parameter, 0);
+    return n >= first && n <= last ? static_cast<uint32_t>(n) : fallback;
+  };
+  s_.shared_100 = last_shared(P::shared_100, 100, 199, 0);
+  s_.shared_500 = last_shared(P::shared_500, 500, 999, s_.shared_500);
+}
+
+/// M700 8.1, 13.1, 15: cycles, dwell, skip and measurement.
+void SettingsReader::cycles() {
+  s_.drilling_axis_z = flag(P::drilling_axis_z);
+  s_.peck_clearance_83 = value(P::peck_clearance, 0);
+  s_.peck_clearance_73 = value(P::step_clearance, 0);
+  s_.dwell_p_decimal = flag(P::dwell_p_decimal);
+  s_.dwell_skip = static_cast<uint8_t>(value(P::dwell_skip, 0));
+  s_.skip_feed = value(P::skip_feed, 0);
+  for (unsigned i = 0; i < 3; ++i) {  // 15.3
+    s_.multi_skip_mask[i] = signals(value({P::multi_skip_signals, i}, s_.multi_skip_mask[i]));
+    s_.multi_skip_feed[i] = value({P::multi_skip_feed, i}, 0);
+  }
+  s_.measure_feed = value(P::measure_feed, 0);
+  s_.measure_deceleration = value(P::measure_deceleration, 0);
+  s_.measure_range = value(P::measure_range, 0);
+}
+
+/// M700 6, 13.18.
+void SettingsReader::curves() {
+  s_.arc_tolerance = value(P::arc_tolerance, dialect_.parameters->arc_tolerance_mm);
+  s_.helix_plane_feed = flag(P::helix_plane_feed);
+  s_.precision_lead = flag(P::precision_lead);
+  s_.spiral_type_2 = flag(P::spiral_type_2);
+  s_.spiral_tolerance = value(P::spiral_tolerance, s_.spiral_tolerance);
+  s_.mill_axis = axis_name(P::mill_axis);
+  s_.polar_linear = axis_name(P::polar_linear_axis);
+  s_.hypothetical_by_name = flag(P::hypothetical_by_name);
+  s_.exponential_linear = axis_name({P::exponential_axis, 0});
+  s_.exponential_rotary = axis_name({P::exponential_axis, 1});
+  s_.spline_allowed = flag(P::spline_allowed);
+  s_.spline_cancel_angle = value(P::spline_cancel_angle, 0);
+  s_.spline_minute_length = value(P::spline_minute_length, 0);
+  if (s_.spline_minute_length == 0) s_.spline_minute_length = 1;  // 13.18 (1) (b)
+  s_.spline_tolerance_inflected = value({P::spline_tolerance, 0}, 0);
+  s_.spline_tolerance_arched = value({P::spline_tolerance, 1}, 0);
+}
+
+/// M700 13.15, 13.17.
+void SettingsReader::high_accuracy() {
+  s_.smooth_control = flag(P::smooth_control);
+  s_.accuracy.target_mm_min = value(P::accuracy_speed, 0);
+  s_.accuracy.time_ms = value(P::accuracy_time, 0);
+  s_.accuracy.radius_percent = value(P::radius_percent, 0);
+  s_.accuracy.corner_angle_deg = value(P::corner_angle, 0);
+  s_.accuracy.separate = flag(P::separate_percents);
+  s_.accuracy.corner_percent = value({P::corner_percent, 0}, 0);
+  s_.accuracy.curve_percent = value({P::corner_percent, 1}, 0);
+  s_.accuracy.acceleration_clamp = flag(P::acceleration_clamp);
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    const int axis = static_cast<int>(i);
+    s_.accuracy.rapid_mm_min[i] = value({P::accuracy_clamp, 0}, 0, axis);
+    s_.accuracy.clamp_mm_min[i] = value({P::accuracy_clamp, 1}, 0, axis);
+    s_.accuracy.corner_least_mm_min[i] = value(P::corner_least_speed, 0, axis);
+  }
+  if (flag(P::arc_joint_clamp)) s_.accuracy.arc_joint_mm_min = value(P::arc_joint_speed, 0);
+}
+
+/// M700 7.7, 13.15, 15.5.
+void SettingsReader::filters() {
+  FilterParameters& f = s_.filters;
+  const auto number = [this](ParameterOf parameter, int axis = -1) { return value(parameter, 0, axis); };
+  const bool rounds = number(P::arc_compensation) != 0 && number(P::arc_compensation_by_axis) != 0;  // #8108 holds only with #8107
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    const int axis = static_cast<int>(i);
+    f.rapid.linear_ms[i] = number(P::rapid_linear, axis);
+    f.rapid.exponential_ms[i] = number(P::rapid_exponential, axis);
+    f.cut.linear_ms[i] = number(P::cut_linear, axis);
+    f.cut.exponential_ms[i] = number(P::cut_exponential, axis);
+    f.skip.linear_ms[i] = number(P::skip_linear, axis);
+    f.skip.exponential_ms[i] = number(P::skip_exponential, axis);
+    f.round_mm[i] = rounds ? number(P::arc_radius_shift, axis) : 0;
+  }
+  f.rapid_before = number(P::rapid_before) != 0;
+  f.pattern_cut_ms = number({P::pattern_filter, 0});
+  f.pattern_rapid_ms = number({P::pattern_filter, 1});
+  f.pattern_second_ms = number(P::pattern_second);
+  f.any = f.pattern_cut_ms > 0 || f.pattern_rapid_ms > 0 || f.pattern_second_ms > 0;
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    for (const TimeConstants* constants : {&f.cut, &f.rapid, &f.skip})
+      f.any = f.any || constants->linear_ms[i] > 0 || constants->exponential_ms[i] > 0;
+    f.any = f.any || f.round_mm[i] != 0;
+  }
+}
+
+/// M700 7.
+void SettingsReader::feeds() {
+  s_.feed_by_digit = flag(P::feed_by_digit);
+  s_.digit_most = value(P::digit_most, 0);
+  const double divisions = value(P::digit_divisions, 0);
+  s_.digit_step = divisions > 0 ? s_.digit_most / divisions : 0;
+  for (unsigned i = 0; i < 5; ++i) {
+    s_.digit_feed[i] = value({P::digit_feed, i}, 0);
+    if (s_.digit_most > 0 && s_.digit_feed[i] > s_.digit_most) s_.digit_feed[i] = s_.digit_most;
+  }
+  // 7.9 (a), (b): with #1306 = 0 rapid traverse and cutting have a parameter each, else one for both.
+  const bool in_position = flag(P::checks_position);
+  s_.check_rapid = in_position;
+  s_.check_cutting = flag(P::one_position_check) ? in_position : flag(P::checks_cutting);
+  s_.check_reversal = flag(P::checks_reversal);
+  s_.corner_override = value(P::corner_override, 0);
+  s_.corner_angle = value(P::corner_override_angle, 0);
+  s_.corner_zone = value(P::corner_override_zone, 0);
+}
+
+/// M700 13.13, 14.7, 14.13: what stands for each axis.
+void SettingsReader::one_axis(int axis) {
+  const auto number = [this, axis](ParameterOf parameter, double fallback) { return value(parameter, fallback, axis); };
+  const uint32_t bit = 1u << axis;
+  for (unsigned which = 0; which < 4; ++which)
+    s_.reference[which][axis] = number({P::reference_position, which}, std::numeric_limits<double>::quiet_NaN());
+  s_.tool_change[axis] = number(P::tool_change_position, 0);
+  if (number(P::tool_change_axis, 0) != 0) s_.tool_change_axes |= bit;
+  const double type = number(P::rotary_type, 3);
+  if (type < 2) s_.turning |= bit;
+  if (type == 1) s_.short_cut |= bit;
+  if (type < 3) s_.machine_turn |= bit;
+  s_.creep[axis] = number(P::creep, 0);
+  s_.index_increment[axis] = number(P::index_increment, 0);
+}
+
+/// 13.17.1, additional functions (1) and (3).
+void SettingsReader::fairing() {
+  const auto number = [this](ParameterOf parameter) { return value(parameter, 0); };
+  constexpr double kStandardAngle = 10;  // deg: #8020 in the standard values of 13.17.2
+  constexpr double kDegree = std::numbers::pi / 180;
+  const double angle = s_.accuracy.corner_angle_deg > 0 ? std::fmin(s_.accuracy.corner_angle_deg, 180) : kStandardAngle;
+  s_.fairing.length_mm = number(P::fairing_length);
+  s_.fairing.fairing = number(P::fairing) != 0 && s_.fairing.length_mm > 0;
+  s_.fairing.corner_cos = std::cos(angle * kDegree);
+  s_.fairing.judge_length_mm = number(P::judgement_length);
+  s_.fairing.judge = number(P::corner_judgement) != 0 && s_.fairing.judge_length_mm > 0;
+}
+
+void SettingsReader::axes() {
+  s_.rapid_by_axis = flag(P::rapid_by_axis);
+  s_.index_axes = axes_with(P::index_axis);
+  s_.no_reference = axes_with(P::no_reference);
+  s_.mirror_axes = axes_with(P::mirrored);
+  for (unsigned i = 0; i < kMaxAxes; ++i) one_axis(static_cast<int>(i));
+}
+
+/// M700 13.21.
+void SettingsReader::work_turn() {
+  for (unsigned i = 0; i < 2; ++i) {
+    s_.work_turn_axis[i] = axis_name({P::work_turn_axis, i});
+    s_.work_turn_center[i] = value({P::work_turn_center, i}, 0);
+    s_.work_turn_vector[i] = value({P::work_turn_vector, i}, 0);
+  }
+  s_.work_turn_deg = value(P::work_turn_angle, 0);
+}
+
+}  // namespace
+
+Settings Parameters::settings(const Dialect& dialect) const { return SettingsReader(*this, dialect).read(); }
+
+}  // namespace nc

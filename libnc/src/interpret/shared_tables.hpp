@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the part systems of a control have in common: the tool table, the common variables that M700 13.4 (#1303, #1304) does not give to each of
+// them, those of later models and of further ranges, the names of #500 up, the parameters that are the control's (is_common()).
+//
+// Each part system reads ahead with a copy of its own, so that what it takes back is what it has written itself. When the machine has executed a
+// block, what that block has written to shared places is published: it goes into the copies of the others, in front of what these have read
+// ahead and not executed. So all copies agree in what has been executed, and each has in front of that what its own program is going to do.
+//
+// A program that reads a shared place waits until the machine has come there (NC_SYNC_SHARED): by then everything that the others have executed
+// is in its copy. Tool data that H and D select are read from the copy as they are, like those of one part system.
+#pragma once
+
+#include "interpret/interpreter.hpp"
+
+namespace nc {
+
+/// All calls are made by the feeder's thread.
+class SharedTables {
+ public:
+  /// All part systems of a control, once, when they have been created.
+  void join(Interpreter& in);
+
+  /// The machine has executed the blocks of `writer` up to `executed`.
+  void publish(Interpreter& writer, BlockSeq executed);
+  /// Blocks of `writer` have been taken back, and some of them had been published: offline, where a host can go back to any mark. What another
+  /// part system has written since stays.
+  void publish_taken_back(Interpreter& writer);
+
+  // What the host writes is so for all of them, and no rewind undoes it.
+  void set_variable(uint32_t number, Value value);
+  void set_name(uint32_t number, const char* name);
+  void set_tool(unsigned key, double value);
+  /// The parameter `index` of `in` has been changed.
+  void parameter_changed(const Interpreter& in, unsigned index);
+
+  /// Journal key of a place that part systems share.
+  static bool shares(const Interpreter& in, uint32_t key);
+
+ private:
+  void publish_to_others(const Interpreter& writer, uint32_t key, const Value* value);
+  void divide_again(uint32_t last_100, uint32_t last_500);
+  void divide_again(uint32_t first, uint32_t end, bool common);
+  Interpreter* system_[NC_MAX_SYSTEMS] = {};
+  unsigned count_ = 0;
+  uint32_t last_100_ = 0, last_500_ = 0;  ///< as the copies are divided now
+};
+
+}  // namespace nc

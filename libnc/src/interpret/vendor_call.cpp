@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// A code of the vendor's that calls a function of the host (nc/vendor.h). The block is one that reads the world: a sync stands in the
+// stream before it, so that everything that the program has commanded so far has been executed when the function is called.
+#include <cstring>
+
+#include "dialect/text.hpp"
+#include "interpret/calls.hpp"
+
+namespace nc {
+namespace {
+
+/// The words that the function is given: all but the code itself, the G codes before it, and those without a value.
+Did gather_vendor_words(Interpreter& in, unsigned at, FixedVector<nc_word, 48>& words) {
+  const auto& all = in.block->words;
+  for (unsigned i = 0; i < all.size(); ++i) {
+    const Word& word = all[i];
+    if (i == at || (i < at && in.is(word, Role::code))) continue;
+    if ((word.flags & (kWordNoValue | kWordComma | kWordCount)) != 0) return in.raise(Condition::format_error, word.letter);
+    Value value = Value::of(word.value);
+    if ((word.flags & kWordExpression) != 0) {
+      const Did did = evaluate_here(in, word.code, &value);
+      if (did != Did::done) return did;
+    }
+    if (!value.vacant) words.push_back(nc_word{word.letter, value.number});  // M700 13.5.4
+  }
+  return Did::done;
+}
+
+/// What the program stops with unless the function says something else.
+void prepare_alarm(Interpreter& in, const Fault& fault) {
+  const AlarmText text = alarm_text(*in.dialect, fault);
+  in.vendor_alarm = nc_alarm{};
+  TextWriter(in.vendor_alarm.code, sizeof in.vendor_alarm.code).put(text.code);
+  TextWriter(in.vendor_alarm.message, sizeof in.vendor_alarm.message).put(text.message);
+  alarm_detail(*in.dialect, fault, "", in.vendor_alarm.detail.s, sizeof in.vendor_alarm.detail.s);
+  in.vendor_alarm.axis = -1;
+  in.vendor_alarm.source = in.source;
+}
+
+/// Whatever it has written into them, texts end and an alarm has a code.
+void take_alarm(nc_alarm* alarm, const nc_alarm& prepared) {
+  end_text(alarm->code, sizeof alarm->code);
+  end_text(alarm->message, sizeof alarm->message);
+  end_text(alarm->detail.s, sizeof alarm->detail.s);
+  if (alarm->code[0] == '\0') std::memcpy(alarm->code, prepared.code, sizeof alarm->code);
+}
+
+}  // namespace
+
+Did call_vendor(Interpreter& in, unsigned at, const nc_vendor_code& code) {
+  FixedVector<nc_word, 48> words;
+  const Did did = gather_vendor_words(in, at, words);
+  if (did != Did::done || in.vendor_called()) return did;
+  in.raise(Condition::vendor_function, in.block->words[at].letter, in.is(in.block->words[at], Role::code) ? code.number / 10.0 : code.number);
+  prepare_alarm(in, in.fault);
+  const Fault failed = in.fault;
+  const nc_alarm prepared = in.vendor_alarm;
+  nc_vendor_block block{};
+  block.struct_size = sizeof block;
+  block.letter = code.letter;
+  block.number = code.number;
+  block.source = in.source;
+  block.online = in.feeding;
+  for (unsigned i = 0; i < in.axis_count; ++i) block.machine.v[i] = in.world.machine.v[i];
+  block.word_count = words.size();
+  block.words = words.begin();
+  in.in_vendor_function = true;
+  const nc_status status = code.function(code.user, in.vendor->control(), &block, &in.vendor_alarm);
+  in.in_vendor_function = false;
+  if (status == NC_OK) {
+    in.note_vendor_call();
+    return Did::done;
+  }
+  take_alarm(&in.vendor_alarm, prepared);
+  in.fault = failed;
+  return Did::fault;
+}
+
+}  // namespace nc

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether the address or the thread sanitizer is built in: they replace the allocator and need more stack. GCC says it by macros of its own,
+// clang by features.
+#pragma once
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define NC_UNDER_SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define NC_UNDER_SANITIZER 1
+#endif
+#endif

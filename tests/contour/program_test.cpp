@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Corner chamfering and rounding as a program meets them (M700 13.7): words, alarms, other functions, going back, the machine.
+#include <gtest/gtest.h>
+
+#include "support/drive.hpp"
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+/// Ends of the moves, without feeds.
+Path ends_of(const Outcome& run) {
+  Path all = run.work();
+  for (std::string& text : all)
+    if (const size_t feed = text.find(" F"); feed != std::string::npos) text.resize(feed);
+  return all;
+}
+
+Path path_of(const std::string& text, const std::function<void(Bench&)>& change = [](Bench&) {}) {
+  Bench bench;
+  change(bench);
+  const Outcome run = bench.run(text);
+  EXPECT_EQ(run.alarm, "") << text << run.alarm_detail;
+  return ends_of(run);
+}
+
+std::string alarm_of(const std::string& text) {
+  const Outcome run = m700(text);
+  return run.alarm + " L" + std::to_string(run.alarm_line);
+}
+
+TEST(Corners, TheManualsExamples) {
+  EXPECT_EQ(path_of("G91 G1 X100. ,C10. F200\nX100. Y100.\nM30"), (Path{"line 90 0 0", "line 107.071068 7.071068 0", "line 200 100 0"}));
+  EXPECT_EQ(path_of("G91 G1 X100. ,R10. F200\nX100. Y100.\nM30"),
+            (Path{"line 95.857864 0 0", "ccw 102.928932 2.928932 0 c95.857864,10", "line 200 100 0"}));
+  EXPECT_EQ(path_of("G90 G1 Y-60. ,R5. ,C8. F150\nX45.\nM30"), (Path{"line 0 -52 0", "line 8 -60 0", "line 45 -60 0"}));  // the later one counts
+  EXPECT_EQ(path_of("G90 G1 Y-60. ,C8. ,R5. F150\nX45.\nM30"), (Path{"line 0 -55 0", "ccw 5 -60 0 c5,-55", "line 45 -60 0"}));
+}
+
+TEST(Corners, TheSizeIsALength) {
+  EXPECT_EQ(path_of("G91 G1 X50. ,C10000 F200\nY50.\nM30"), (Path{"line 40 0 0", "line 50 10 0", "line 50 50 0"}));
+  EXPECT_EQ(path_of("G91 G20 G1 X2. ,C1. F200\nY2.\nM30"), (Path{"line 25.4 0 0", "line 50.8 25.4 0", "line 50.8 50.8 0"}));
+  EXPECT_EQ(path_of("#1=5.\nG91 G1 X50. ,C[#1*2] F200\nY50.\nM30"), (Path{"line 40 0 0", "line 50 10 0", "line 50 50 0"}));
+  EXPECT_EQ(path_of("G91 G1 X50. ,C0 F200\nY50.\nM30"), (Path{"line 50 0 0", "line 50 50 0"}));
+  EXPECT_EQ(path_of("G91 G1 X50. F200 ,C#9\nY50.\nM30"), (Path{"line 50 0 0", "line 50 50 0"}));  // vacant: no word
+}
+
+TEST(Corners, Alarms) {
+  EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nG2 X40. Y-10. J-10.\nM30"), "P381 L2");
+  EXPECT_EQ(alarm_of("G1 X30. F100\nG2 X40. Y-10. J-10. ,R1.\nG1 X50.\nM30"), "P381 L2");
+  EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nG4 X1.\nX20.\nM30"), "P382 L2");
+  EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nM8\nX20.\nM30"), "P382 L2");
+  EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nG0 X20.\nM30"), "P382 L2");
+  EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nM30"), "P382 L2");
+  EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nX#5041\nM30"), "P382 L2");  // a position that is there only behind the corner
+  EXPECT_EQ(alarm_of("G1 X30. ,C31. F100\nY40.\nM30"), "P383 L1");
+  EXPECT_EQ(alarm_of("G1 X30. F100\nX30. ,C1.\nY40.\nM30"), "P383 L2");
+  EXPECT_EQ(alarm_of("G1 X30. F100\n,C1.\nY40.\nM30"), "P383 L2");
+  EXPECT_EQ(alarm_of("G1 X30. ,R6. F100\nY5.5\nM30"), "P384 L2");
+  EXPECT_EQ(alarm_of("G0 X30. ,R6.\nG1 Y5.5 F100\nM30"), "P385 L1");
+  EXPECT_EQ(alarm_of("G33 Z30. F1. ,R6.\nG1 Y5.5 F100\nM30"), "P385 L1");
+  EXPECT_EQ(alarm_of("G1 X30. ,C-4. F100\nY40.\nM30"), "P35 L1");
+  EXPECT_EQ(alarm_of("G81 X30. Z-5. R1. F100 ,C1.\nM30"), "P380 L1");
+  EXPECT_EQ(alarm_of("G4 X1. ,C1.\nM30"), "P380 L1");
+  std::string statements = "G1 X30. ,C4. F100\n";
+  for (unsigned i = 0; i < 40; ++i) statements += "#1=1\n";
+  EXPECT_EQ(alarm_of(statements + "Y40.\nM30"), "P990 L1");
+}
+
+TEST(Corners, NothingOfTheBlockHappensWhenItsCornerDoesNotFit) {  // as with a stroke limit: its M codes wait
+  const Outcome run = m700("G1 X5. F100\nM3 X30. ,C4.\nM5 G4 X1.\nM30");
+  EXPECT_EQ(run.alarm, "P382");
+  EXPECT_EQ(run.aux(), "");
+  EXPECT_EQ(ends_of(run), (Path{"line 5 0 0"}));
+  EXPECT_EQ(run.end_work.v[0], 5);
+}
+
+TEST(Corners, CodesAndStatementsBetweenTheLines) {
+  const Outcome run = m700("G1 X30. ,C4. F100\n#100=1\n(TEXT)\nM8 Y40. ,R5.\nN7\nM9 X0\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(ends_of(run), (Path{"line 26 0 0", "line 30 4 0", "line 30 35 0", "ccw 25 40 0 c25,35", "line 0 40 0"}));
+  EXPECT_EQ(run.aux(), "M8 M9 M30");
+  EXPECT_EQ(run.lines(), (std::vector<unsigned>{1, 2, 4, 5, 6, 7}));
+  // The cut is a part of the first block, at its feed.
+  EXPECT_EQ(run.moves()[1].feed_mm_min, 100);
+  unsigned cuts = 0;
+  for (const nc_item& item : run.of(NC_ITEM_MOVE)) cuts += item.source.line == 1;
+  EXPECT_EQ(cuts, 2u);
+}
+
+TEST(Corners, Maps) {  // 13.7.1: the chamfer is scaled as well; a mirror turns the arc round
+  EXPECT_EQ(path_of("G51 X0 Y0 P2.\nG1 X30. ,C4. F100\nY40.\nG50\nM30"), (Path{"line 52 0 0", "line 60 8 0", "line 60 80 0"}));
+  EXPECT_EQ(path_of("G51 X0 Y0 P2.\nG1 X30. ,R4. F100\nY40.\nG50\nM30"), (Path{"line 52 0 0", "ccw 60 8 0 c52,8", "line 60 80 0"}));
+  EXPECT_EQ(path_of("G51.1 X0\nG1 X30. ,R4. F100\nY40.\nG50.1 X0\nM30"), (Path{"line -26 0 0", "cw -30 4 0 c-26,4", "line -30 40 0"}));
+}
+
+TEST(Corners, RadiusCompensationActsOnTheShapeWithItsCorners) {
+  const auto tool_path = [](const std::string& contour) {
+    Bench bench;
+    bench.tool(1, 3);
+    const Outcome run = bench.run("G0 X-20. Y-20.\nG91 G1 G41 D1 X20. Y20. F100\n" + contour + "G40 X-20. Y-20.\nM30");
+    EXPECT_EQ(run.alarm, "");
+    return run.path();
+  };
+  const Path programmed = tool_path("X35.\nX5. Y5.\nY27.\nG3 X-8. Y8. R8.\nG1 X-32.\n");
+  EXPECT_GT(programmed.size(), 7u);
+  EXPECT_EQ(tool_path("X40. ,C5.\nY40. ,R8.\nX-40.\n"), programmed);
+}
+
+/// Every mark of the run is a place to go on from.
+void goes_on_from_every_mark(const std::string& text, const std::function<void(Bench&)>& change = [](Bench&) {}) {
+  SCOPED_TRACE(text);
+  Bench bench;
+  change(bench);
+  const Outcome run = bench.run(text);
+  ASSERT_EQ(run.alarm, "") << run.alarm_detail;
+  for (const Step& step : run.steps) {
+    if (step.item.kind != NC_ITEM_MARK || !step.item.u.mark.report) continue;
+    ASSERT_EQ(bench.rewind(step.item.serial, step.machine), NC_OK);
+    const Outcome rest = bench.finish();
+    ASSERT_EQ(rest.steps.size(), run.steps.size() - step.item.serial) << "from line " << step.item.source.line;
+    for (size_t i = 0; i < rest.steps.size(); ++i) ASSERT_EQ(exactly(rest.steps[i]), exactly(run.steps[step.item.serial + i])) << "from line " << step.item.source.line;
+  }
+}
+
+TEST(Corners, EveryMarkIsAPlaceToGoOnFrom) {
+  goes_on_from_every_mark("G91 G1 X40. ,C4. F500\nY-30. ,C6.5\n#100=#100+1\nM8 X-50. ,R3.\nY30.\nG4 X1.\nX5.\nM30");
+}
+
+TEST(Corners, AlsoWhereOtherStagesHoldItemsBack) {
+  const auto tool = [](Bench& bench) { bench.tool(1, 1).param("8103", "0"); };
+  goes_on_from_every_mark("G0 X-20. Y-20.\nG91 G1 G41 D1 X20. Y20. F100\nX40. ,C5.\n#100=2\nM7 Y40. ,R8.\nX-20. ,C2.\nY5.\nX-20.\nG40 X-20. Y-20.\nM30", tool);
+  const auto fine = [](Bench& bench) { bench.param("8033", "1").param("8029", "0.1").param("8036", "1").param("8037", "0.5"); };
+  goes_on_from_every_mark("G5 P10000\nG1 X10. F1000\nY.08\nX20. ,R2.\nY20. ,C3.\nX30.\nY20.08\nX40.\nY30.\nG5 P0\nM30", fine);
+}
+
+TEST(Corners, AResetForgetsThePendingMove) {
+  Bench bench;
+  bench.start("G1 X30. ,C4. F100\nY40.\nM30");
+  Step step;
+  while (bench.pull(&step, 1) != NC_BUDGET) {
+  }
+  ASSERT_EQ(nc_reset(bench.control(), 0), NC_OK);
+  const Outcome run = bench.run("G91 G1 X5. F100\nY5.\nM30");
+  EXPECT_EQ(ends_of(run), (Path{"line 5 0 0", "line 5 5 0"}));
+}
+
+TEST(Corners, SingleBlockStopsBehindTheCut) {
+  Bench bench;
+  Drive drive(bench, "G91 G1 X5. ,C2. F6000\nY5. ,R2.\nX-5.\nM30");
+  drive.in.single_block = true;
+  std::vector<nc_axes> stops;
+  for (unsigned n = 0; n < 20000 && !drive.ended && stops.size() < 10; ++n) {
+    drive.in.cycle_start = n % 400 == 2;
+    if (n % 400 == 399) stops.push_back(drive.out.command);
+    drive.step();
+  }
+  ASSERT_TRUE(drive.ended);
+  ASSERT_GE(stops.size(), 3u);
+  EXPECT_NEAR(stops[0].v[0], 5, 1e-9);
+  EXPECT_NEAR(stops[0].v[1], 2, 1e-9);
+  EXPECT_NEAR(stops[1].v[0], 3, 1e-9);
+  EXPECT_NEAR(stops[1].v[1], 5, 1e-9);
+  EXPECT_NEAR(stops[2].v[0], 0, 1e-9);
+  EXPECT_NEAR(stops[2].v[1], 5, 1e-9);
+}
+
+}  // namespace
+}  // namespace nc::test

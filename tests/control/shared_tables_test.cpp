@@ -1,0 +1,550 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables that part systems share: what the machine has executed in one of them is seen by the others, in the order of execution, and what one of
+// them takes back is its own (M700 13.4).
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+void two_systems(nc_config& c) {
+  c.look_ahead = 64;
+  c.cycle_s = 0.004;
+  c.system_count = 2;
+  c.system[1] = c.system[0];
+}
+
+/// Two part systems on one bench.
+class Pair {
+ public:
+  Pair() : bench(NC_DIALECT_M700, two_systems) {}
+
+  void select(unsigned system, const std::string& text) {
+    EXPECT_EQ(nc_program_select(control(), system, bench.add("main" + std::to_string(system), text)), NC_OK);
+  }
+  nc_control* control() { return bench.control(); }
+  /// What a part system has for a variable, NaN = vacant.
+  double var(unsigned system, uint32_t number) {
+    double value = 0;
+    bool vacant = false;
+    EXPECT_EQ(nc_variable_get(control(), system, number, &value, &vacant), NC_OK);
+    return vacant ? NAN : value;
+  }
+  /// The same of what has been executed.
+  double executed(unsigned system, uint32_t number) {
+    struct Look {
+      unsigned system;
+      uint32_t number;
+      double value;
+      bool vacant;
+    } look{system, number, 0, false};
+    nc_look_executed(
+        control(),
+        [](void* user, const nc_control* seen) {
+          Look& to = *static_cast<Look*>(user);
+          nc_variable_get(seen, to.system, to.number, &to.value, &to.vacant);
+        },
+        &look);
+    return look.vacant ? NAN : look.value;
+  }
+  void expect(uint32_t number, double value) {
+    for (unsigned system = 0; system < 2; ++system) {
+      EXPECT_EQ(brief(var(system, number)), brief(value)) << "#" << number << " in part system " << system + 1;
+    }
+  }
+
+  // ---- offline
+  /// The next item, false: there is none. A sync is answered.
+  bool pull(unsigned system, nc_item* item) {
+    nc_status status = NC_BUDGET;
+    while (status == NC_BUDGET) status = nc_pull(control(), system, 100, item);
+    if (status != NC_OK) return false;
+    if (item->kind == NC_ITEM_MOVE) machine_[system] = item->u.move.machine;
+    if (item->kind == NC_ITEM_SYNC) {
+      nc_world world{};
+      world.machine = machine_[system];
+      EXPECT_EQ(nc_answer(control(), system, &world), NC_OK);
+      ++syncs[system];
+    }
+    if (item->kind == NC_ITEM_ALARM) ADD_FAILURE() << "alarm in part system " << system + 1;
+    return true;
+  }
+  void finish(unsigned system) {
+    nc_item item{};
+    while (pull(system, &item)) {
+    }
+  }
+  void run(unsigned system, const std::string& text) {
+    select(system, text);
+    finish(system);
+  }
+  nc_axes machine(unsigned system) const { return machine_[system]; }
+
+  // ---- online
+  nc_inputs in[2] = {};
+  nc_outputs out[2] = {};
+  unsigned syncs[2] = {};
+  struct Mark {
+    unsigned system;
+    uint32_t line;
+  };
+  std::vector<Mark> marks;  ///< of blocks that have been executed, in their order
+  /// One cycle of the machine; `start`: bit n starts part system n.
+  void cycle(unsigned start = 0, bool feed = true) {
+    if (feed) nc_feed(control(), 100);
+    for (unsigned i = 0; i < 2; ++i) {
+      in[i].feed_override = in[i].rapid_override = 1;
+      in[i].cycle_start = (start >> i & 1) != 0;
+      in[i].fin = out[i].strobe != 0;
+    }
+    nc_cycle(control(), in, out);
+    nc_event event;
+    uint64_t dropped = 0;
+    for (unsigned i = 0; i < 2; ++i) {
+      while (nc_event_poll(control(), i, &event, &dropped) == NC_OK)
+        if (event.kind == NC_ITEM_MARK) marks.push_back({i, event.source.line});
+    }
+  }
+  void cycles(unsigned count) {
+    for (unsigned n = 0; n < count; ++n) cycle();
+  }
+  void start(unsigned systems) {
+    cycles(2);
+    cycle(systems);
+    cycle();
+  }
+  bool idle() const { return out[0].state == NC_STATE_IDLE && out[1].state == NC_STATE_IDLE; }
+  void to_the_end() {
+    for (unsigned n = 0; n < 20000 && !idle(); ++n) cycle();
+    EXPECT_TRUE(idle());
+    cycles(2);
+  }
+  void reset(unsigned system) {
+    in[system].reset = true;
+    cycles(3);
+    in[system].reset = false;
+    cycles(2);
+  }
+
+  Bench bench;
+
+ private:
+  nc_axes machine_[2] = {};
+};
+
+TEST(SharedTables, ToolDataOfTheOtherPartSystem) {
+  Pair pair;
+  pair.run(1, "#2001=5\nM30");
+  pair.run(0, "G43 H1\nG0 Z1.\n#101=#2001\nM30");
+  EXPECT_EQ(pair.machine(0).v[2], 6);
+  EXPECT_EQ(pair.var(0, 101), 5);
+  EXPECT_EQ(pair.bench.tool_now(1), 5);
+  pair.bench.param("1037", "2");
+  pair.run(0, "G10 L10 P1 R7.\nG10 L12 P2 R3.\nM30");
+  pair.run(1, "G91 G10 L10 P1 R1.\nG90 G43 H1 G0 Z1.\nM30");
+  EXPECT_EQ(pair.machine(1).v[2], 9) << "7 and the amount of G91";
+  EXPECT_EQ(pair.bench.tool_now(2, NC_TOOL_RADIUS), 3);
+}
+
+TEST(SharedTables, AllThatIsShared) {  // M700 13.4, 13.5.5
+  Bench bench(NC_DIALECT_M700, [](nc_config& c) {
+    two_systems(c);
+    c.variable_ranges[0] = {400, 499};
+    c.extended_variables = true;
+  });
+  bench.run("#100=1 #400=2 #500=3 #900000=4\nSETVN501[DEPTH]\nG10 L70\nP1303 D110\nG11\n#110=5 #111=6\nM30");
+  const auto value = [&](unsigned system, uint32_t number) {
+    double v = 0;
+    bool vacant = true;
+    nc_variable_get(bench.control(), system, number, &v, &vacant);
+    return vacant ? -1 : v;
+  };
+  EXPECT_EQ(value(1, 100), 1) << "#1303 makes what the first part system has common to all";
+  EXPECT_EQ(value(1, 400), 2);
+  EXPECT_EQ(value(1, 500), 3);
+  EXPECT_EQ(value(1, 900000), 4);
+  EXPECT_EQ(value(1, 110), 5);
+  EXPECT_EQ(value(1, 111), -1);
+  double last = 0;
+  EXPECT_EQ(nc_parameter_get(bench.control(), 1, "1303", 0, &last), NC_OK);
+  EXPECT_EQ(last, 110);
+  Pair pair;  // a name that the other part system has given
+  pair.run(0, "SETVN501[DEPTH]\nM30");
+  pair.run(1, "[#DEPTH]=4\nM30");
+  pair.expect(501, 4);
+}
+
+TEST(SharedTables, OnePartSystemDoesNotWait) {
+  Bench bench;
+  const Outcome one = bench.run("#500=1\n#2001=3\n#501=#500+#2001\nM30");
+  for (const Step& step : one.steps) EXPECT_NE(step.item.kind, NC_ITEM_SYNC);
+  Pair pair;
+  pair.run(0, "#500=1\n#2001=3\n#101=2\n#102=#101\nM30");
+  EXPECT_EQ(pair.syncs[0], 0u) << "nothing shared is read";
+  for (const char* read : {"#101=#500", "#101=#2001", "IF[#500 EQ 1]GOTO1\nN1", "G0 X#500", "G65 P1 A#500", "POPEN\nDPRNT[#500[42]]\nPCLOS", "#[#500+100]=1"}) {
+    SCOPED_TRACE(read);
+    Pair reader;
+    reader.bench.add("O1", "M99\n");
+    reader.bench.var(500, 1);
+    reader.run(0, std::string(read) + "\nM30");
+    EXPECT_EQ(reader.syncs[0], 1u);
+  }
+  pair.run(0, "G0 X1.\n#101=#500\nM30");
+  nc_item item{};
+  pair.select(0, "#101=#500\nM30");
+  ASSERT_EQ(nc_pull(pair.control(), 0, 10, &item), NC_OK);
+  EXPECT_EQ(item.kind, NC_ITEM_SYNC);
+  EXPECT_EQ(item.u.sync.what, NC_SYNC_SHARED);
+}
+
+TEST(SharedTables, GoingBackKeepsWhatTheOtherHasWritten) {
+  for (const bool other_first : {false, true}) {
+    SCOPED_TRACE(other_first);
+    Pair pair;
+    pair.bench.var(500, 9);
+    pair.select(0, "#500=1\n#501=1\nM30");
+    if (other_first) pair.run(1, "#500=2\nM30");
+    pair.finish(0);
+    if (!other_first) pair.run(1, "#500=2\nM30");
+    pair.expect(500, other_first ? 1 : 2);
+    pair.expect(501, 1);
+    ASSERT_EQ(nc_rewind(pair.control(), 0, 0), NC_OK);
+    pair.expect(500, 2);
+    pair.expect(501, NAN);
+    pair.finish(0);
+    pair.expect(500, 1);
+    pair.expect(501, 1);
+  }
+  Pair pair;  // MDI and a reset end programs of which all has been executed
+  pair.run(0, "#500=1\n#501=1\nM30");
+  pair.run(1, "#500=2\nM30");
+  ASSERT_EQ(nc_mdi_load(pair.control(), 0, "#502=4", 6), NC_OK);
+  pair.finish(0);
+  ASSERT_EQ(nc_reset(pair.control(), 0), NC_OK);
+  pair.expect(500, 2);
+  pair.expect(501, 1);
+  pair.expect(502, 4);
+}
+
+constexpr const char* kReadsAhead = "G1 X40. F1000\n#500=1\n#2001=1\nG1 X0\nM30";
+
+TEST(SharedTables, WhatIsOnlyReadAheadIsNotSeen) {
+  Pair pair;
+  pair.select(0, kReadsAhead);
+  pair.select(1, "G4 X0.5\nM30");
+  pair.start(3);
+  EXPECT_EQ(pair.var(0, 500), 1) << "read ahead";
+  EXPECT_TRUE(std::isnan(pair.var(1, 500)));
+  for (unsigned system = 0; system < 2; ++system) EXPECT_TRUE(std::isnan(pair.executed(system, 500)));
+  pair.to_the_end();
+  pair.expect(500, 1);
+  EXPECT_EQ(pair.bench.tool_now(1), 1);
+}
+
+/// The first part system has read its write ahead when the second one's is executed.
+TEST(SharedTables, ResetBehindAWriteOfTheOther) {
+  for (const bool reset : {false, true}) {
+    SCOPED_TRACE(reset);
+    Pair pair;
+    pair.bench.var(500, 9).tool(1, 9);
+    pair.select(0, kReadsAhead);
+    pair.select(1, "#500=2\n#2001=2\nM30");
+    pair.start(3);
+    pair.cycles(30);
+    EXPECT_EQ(pair.out[0].state, NC_STATE_RUNNING);
+    EXPECT_EQ(pair.out[1].state, NC_STATE_IDLE);
+    EXPECT_EQ(pair.var(0, 500), 1) << "what it is going to do comes behind";
+    EXPECT_EQ(pair.var(1, 500), 2);
+    for (unsigned system = 0; system < 2; ++system) EXPECT_EQ(pair.executed(system, 500), 2);
+    if (reset) pair.reset(0);
+    pair.to_the_end();
+    pair.expect(500, reset ? 2 : 1);
+    EXPECT_EQ(pair.bench.tool_now(1), reset ? 2 : 1);
+  }
+}
+
+/// The same in single block: the reset comes where its own first write has been executed, too.
+TEST(SharedTables, SingleBlockAndReset) {
+  Pair pair;
+  pair.bench.param("8101", "1");
+  pair.select(0, "#500=1\n#501=1\nG1 X40. F1000\n#500=3\n#501=3\nM30");
+  pair.select(1, "G4 X0.1\n#500=2\nM30");
+  pair.in[0].single_block = true;
+  pair.start(3);
+  pair.cycles(60);
+  for (unsigned system = 0; system < 2; ++system) EXPECT_EQ(pair.executed(system, 500), 2);
+  for (unsigned n = 0; n < 2; ++n) {
+    pair.cycle(1);
+    pair.cycles(5);
+  }
+  EXPECT_EQ(pair.executed(1, 501), 1);
+  EXPECT_EQ(pair.executed(0, 500), 2);
+  pair.reset(0);
+  pair.expect(500, 2);
+  pair.expect(501, 1);
+}
+
+TEST(SharedTables, AnInterruptTakesBackItsOwnOnly) {
+  Pair pair;
+  pair.bench.add("O1000", "#503=#500\nM99\n");
+  pair.select(0, "M96 P1000\nG1 X40. F1000\n#500=1\n#501=1\nM97\nM30");
+  pair.select(1, "G4 X0.1\n#500=2\nM30");
+  pair.start(3);
+  pair.cycles(60);
+  ASSERT_EQ(pair.executed(0, 500), 2);
+  pair.in[0].macro_interrupt = true;
+  pair.cycles(5);
+  pair.in[0].macro_interrupt = false;
+  pair.to_the_end();
+  pair.expect(503, 2);
+  pair.expect(500, 1);
+  pair.expect(501, 1);
+}
+
+TEST(SharedTables, ProgramsThatWaitForOneAnother) {
+  for (const bool online : {false, true}) {
+    SCOPED_TRACE(online);
+    Pair pair;
+    pair.select(0, "WHILE[#500 NE 1]DO1\nG4 X0.01\nEND1\n#2001=7\n#501=1\nM30");
+    pair.select(1, "G4 X0.3\n#500=1\nWHILE[#501 NE 1]DO1\nG4 X0.01\nEND1\n#502=#2001\nG0 X#502\nM30");
+    if (online) {
+      pair.start(3);
+      pair.to_the_end();
+    } else {
+      nc_item item{};
+      bool more = true;
+      for (unsigned n = 0; n < 1000 && more; ++n) {
+        const bool first = pair.pull(0, &item), second = pair.pull(1, &item);
+        more = first || second;
+      }
+      EXPECT_FALSE(more);
+    }
+    const double x = online ? pair.out[1].command.v[0] : pair.machine(1).v[0];
+    EXPECT_EQ(x, 7);
+    pair.expect(502, 7);
+  }
+}
+
+TEST(SharedTables, TheHostWritesForAll) {
+  Pair pair;
+  nc_variable_set(pair.control(), 1, 500, 3, false);
+  pair.expect(500, 3);
+  nc_variable_set(pair.control(), 1, 100, 3, false);
+  EXPECT_TRUE(std::isnan(pair.var(0, 100)));
+  pair.bench.tool(4, 8);
+  EXPECT_EQ(nc_variable_name_set(pair.control(), 502, "WIDTH"), NC_OK);
+  EXPECT_EQ(nc_parameter_set(pair.control(), 1, "1304", 0, "500"), NC_OK);
+  pair.run(1, "G43 H4\nG0 Z0\n[#WIDTH]=6\nM30");
+  EXPECT_EQ(pair.machine(1).v[2], 8);
+  EXPECT_EQ(pair.var(1, 502), 6);
+  EXPECT_TRUE(std::isnan(pair.var(0, 502))) << "it is no longer common";
+  double last = 0;
+  EXPECT_EQ(nc_parameter_get(pair.control(), 0, "1304", 0, &last), NC_OK);
+  EXPECT_EQ(last, 500);
+}
+
+// ---- two random programs ---------------------------------------------------------------------------------------------------
+
+/// A write to a shared place, or a read of one into a variable of its own.
+struct Access {
+  enum Kind { variable, tool, name, read, other } kind = other;
+  uint32_t place = 0;
+  int value = 0;
+};
+
+struct Program {
+  std::string text;
+  std::map<uint32_t, Access> at;  ///< by line
+};
+
+class SharedDice {
+ public:
+  explicit SharedDice(uint32_t seed) : random_(seed) {}
+  int draw(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+  bool chance(int percent) { return draw(1, 100) <= percent; }
+
+ private:
+  std::mt19937 random_;
+};
+
+Program random_program(SharedDice& dice) {
+  Program program;
+  uint32_t line = 0;
+  const auto add = [&](const std::string& block, const Access& access) {
+    program.text += block + "\n";
+    program.at[++line] = access;
+  };
+  for (int blocks = dice.draw(5, 40); blocks > 0; --blocks) {
+    const auto place = static_cast<uint32_t>(dice.draw(0, 3));
+    const int value = dice.draw(1, 999);
+    const std::string number = std::to_string(value);
+    switch (dice.draw(0, 9)) {
+      case 0: add("G1 X" + std::to_string(dice.draw(0, 20)) + ". F6000", {}); break;
+      case 1: add("G4 P" + std::to_string(dice.draw(1, 30)), {}); break;
+      case 2: add("#120=" + number, {}); break;
+      case 3: add("G90 G10 L10 P" + std::to_string(place + 1) + " R" + number + ".", {Access::tool, place + 1, value}); break;
+      case 4: add("#" + std::to_string(2001 + place) + "=" + number, {Access::tool, place + 1, value}); break;
+      case 5: add("#" + std::to_string(100 + place) + "=#" + std::to_string(500 + place), {Access::read, place, 0}); break;
+      default: add("#" + std::to_string(500 + place) + "=" + number, {Access::variable, 500 + place, value}); break;
+    }
+  }
+  program.text += "M30\n";
+  return program;
+}
+
+/// What has been executed, in order.
+class Model {
+ public:
+  void execute(unsigned system, uint64_t serial, const Access& access) {
+    if (access.kind == Access::variable || access.kind == Access::tool) done_.push_back({system, serial, access});
+  }
+  void take_back(unsigned system, uint64_t serial) {
+    std::erase_if(done_, [&](const Done& done) { return done.system == system && done.serial > serial; });
+  }
+  /// A program has ended, or has been given up: no way leads back.
+  void forget(unsigned system) {
+    for (Done& done : done_)
+      if (done.system == system) done.serial = 0;
+  }
+  int value(Access::Kind kind, uint32_t place) const {
+    int value = 0;
+    for (const Done& done : done_)
+      if (done.access.kind == kind && done.access.place == place) value = done.access.value;
+    return value;
+  }
+
+ private:
+  struct Done {
+    unsigned system;
+    uint64_t serial;
+    Access access;
+  };
+  std::vector<Done> done_;
+};
+
+void expect_model(Pair& pair, const Model& model) {
+  for (uint32_t number = 500; number < 504; ++number) {
+    for (unsigned system = 0; system < 2; ++system) {
+      const double value = pair.var(system, number);
+      ASSERT_EQ(std::isnan(value) ? 0 : value, model.value(Access::variable, number)) << "#" << number << " in part system " << system + 1;
+    }
+  }
+  // Both tables: the second one shows in what its program reads.
+  for (unsigned n = 1; n <= 4; ++n) ASSERT_EQ(pair.bench.tool_now(n), model.value(Access::tool, n)) << "tool " << n;
+  pair.run(1, "#110=#2001 #111=#2002 #112=#2003 #113=#2004\nM30");
+  for (unsigned n = 1; n <= 4; ++n) ASSERT_EQ(pair.var(1, 109 + n), model.value(Access::tool, n)) << "tool " << n << " in part system 2";
+}
+
+/// Pulled by turns, with stops, resets, other programs and ways back.
+TEST(SharedTables, RandomProgramsOffline) {
+  unsigned reads = 0, ways_back = 0;
+  for (uint32_t seed = 0; seed < 400; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    SharedDice dice(seed);
+    Pair pair;
+    Model model;
+    Program program[2] = {random_program(dice), random_program(dice)};
+    std::vector<uint64_t> marks;  // of the first part system
+    for (unsigned i = 0; i < 2; ++i) pair.select(i, program[i].text);
+    nc_item item{};
+    for (unsigned n = 0; n < 300; ++n) {
+      const auto i = static_cast<unsigned>(dice.draw(0, 1));
+      for (int items = dice.draw(1, 6); items > 0; --items) {
+        const Model before = model;  // a block is read behind its sync, when the next item is asked for
+        if (!pair.pull(i, &item)) break;
+        const Access access = program[i].at[item.source.line];
+        if (item.kind != NC_ITEM_MARK) continue;
+        model.execute(i, item.serial, access);
+        if (i == 0) marks.push_back(item.serial);
+        if (access.kind != Access::read) continue;
+        const double value = pair.var(i, 100 + access.place);
+        ASSERT_EQ(std::isnan(value) ? 0 : value, before.value(Access::variable, 500 + access.place)) << "line " << item.source.line;
+        ++reads;
+      }
+      if (dice.chance(4)) {
+        ASSERT_EQ(nc_reset(pair.control(), i), NC_OK);
+        model.forget(i);
+        if (i == 0) marks.clear();
+      } else if (dice.chance(4)) {
+        ASSERT_EQ(nc_reset(pair.control(), i), NC_OK);
+        program[i] = random_program(dice);
+        pair.select(i, program[i].text);
+        model.forget(i);
+        if (i == 0) marks.clear();
+      } else if (dice.chance(4) && marks.size() > 1) {
+        marks.resize(static_cast<size_t>(dice.draw(1, static_cast<int>(marks.size()))));
+        if (nc_rewind(pair.control(), 0, marks.back()) == NC_OK) {
+          model.take_back(0, marks.back());
+          ++ways_back;
+        }
+      }
+    }
+    for (unsigned i = 0; i < 2; ++i) {
+      while (pair.pull(i, &item))
+        if (item.kind == NC_ITEM_MARK) model.execute(i, item.serial, program[i].at[item.source.line]);
+    }
+    pair.pull(0, &item);  // there is none: the other's last block counts
+    ASSERT_NO_FATAL_FAILURE(expect_model(pair, model));
+  }
+  EXPECT_GT(reads, 1000u);
+  EXPECT_GT(ways_back, 1000u);
+}
+
+/// On the machine, with holds, single block, resets, and a feeder that comes now and then only.
+TEST(SharedTables, RandomProgramsOnline) {
+  unsigned writes = 0, resets = 0;
+  for (uint32_t seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    SharedDice dice(seed + 7000);
+    Pair pair;
+    Model model;
+    const Program program[2] = {random_program(dice), random_program(dice)};
+    for (unsigned i = 0; i < 2; ++i) pair.select(i, program[i].text);
+    pair.start(3);
+    const int feed_percent = dice.draw(20, 100);
+    unsigned started = 0;
+    for (unsigned n = 0; n < 400 || (!pair.idle() && n < 20000); ++n) {
+      const bool calm = n >= 400;
+      for (unsigned i = 0; i < 2; ++i) {
+        pair.in[i].feed_hold = !calm && (pair.in[i].feed_hold ? !dice.chance(20) : dice.chance(2));
+        pair.in[i].single_block = !calm && (pair.in[i].single_block ? !dice.chance(10) : dice.chance(3));
+        pair.in[i].reset = !calm && dice.chance(1);
+        resets += pair.in[i].reset;
+        if (pair.out[i].state != NC_STATE_RUNNING && (!calm || pair.out[i].state != NC_STATE_IDLE) && dice.chance(30)) started |= 1u << i;
+      }
+      pair.cycle(started, calm || dice.chance(feed_percent));
+      started = 0;
+      for (const Pair::Mark& mark : pair.marks) {
+        const auto found = program[mark.system].at.find(mark.line);
+        if (found == program[mark.system].at.end()) continue;
+        model.execute(mark.system, 0, found->second);
+        writes += found->second.kind == Access::variable || found->second.kind == Access::tool;
+      }
+      pair.marks.clear();
+      for (uint32_t number = 500; number < 504; ++number) {
+        for (unsigned system = 0; system < 2; ++system) {
+          const double value = pair.executed(system, number);
+          ASSERT_EQ(std::isnan(value) ? 0 : value, model.value(Access::variable, number)) << "#" << number << " in part system " << system + 1 << " cycle " << n;
+        }
+      }
+    }
+    pair.cycles(3);
+    ASSERT_TRUE(pair.idle());
+    for (uint32_t number = 500; number < 504; ++number) {
+      for (unsigned system = 0; system < 2; ++system) {
+        const double value = pair.var(system, number);
+        ASSERT_EQ(std::isnan(value) ? 0 : value, model.value(Access::variable, number)) << "#" << number << " in part system " << system + 1;
+      }
+    }
+    for (unsigned n = 1; n <= 4; ++n) ASSERT_EQ(pair.bench.tool_now(n), model.value(Access::tool, n)) << "tool " << n;
+  }
+  EXPECT_GT(writes, 1000u);
+  EXPECT_GT(resets, 100u);
+}
+
+}  // namespace
+}  // namespace nc::test

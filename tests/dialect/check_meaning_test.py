@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What scripts/check-meaning finds: a planted sample of each kind, and nothing in what looks like one."""
+import importlib.machinery
+import importlib.util
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ.get("NC_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
+SCRIPT = SOURCE / "scripts" / "check-meaning"
+sys.dont_write_bytecode = True
+loader = importlib.machinery.SourceFileLoader("check_meaning", str(SCRIPT))
+spec = importlib.util.spec_from_loader("check_meaning", loader)
+checker = importlib.util.module_from_spec(spec)
+loader.exec_module(checker)
+
+PLANTED = {
+    "identity": [
+        "if (in.dialect->id == other) return;",
+        "if (dialect.id != wanted) return;",
+        "const bool wide = NC_DIALECT_M700 == config.dialect;",
+        "bool f(nc_dialect d) { return d == NC_DIALECT_DGSHAPE; }",
+        "if (config.dialect == wanted) return;",
+        "switch (config.dialect) { default: break; }",
+        "switch (in.dialect->id) { default: break; }",
+        "if (same(in.dialect->name, other)) return;",
+        'if (name == "m700") return;',
+        "static_assert(NC_DIALECT_COUNT == 2);",
+    ],
+    "family": [
+        '#include "dialect/m700/tables.hpp"',
+        '#include "motion/m700_accuracy.hpp"',
+        "double m700_seconds(double raw);",
+        "const bool dgshape = rules.one_thing;",
+        "Did scale_dgshape(Interpreter& in);",
+        "if (isM700) return;",
+        "inline constexpr bool kDgshape = true;",
+        "return nc::m700::kDialect;",
+    ],
+    "code": [
+        "if (in.state.modal.code[kPlane] == 170) return;",
+        "if (170 == in.state.modal.code[kPlane]) return;",
+        "if (modal.code[kMotion] != 0) return;",
+        "if (modal[kMotion] == 20) return;",
+        "if (row->code >= 730 && ok) return;",
+        "const bool arc = code == 20;",
+        "if (static_cast<int>(row.code) == 541) return;",
+        "if ((code) == 20) return;",
+        "if (m == 98) return;",
+        "if (word.letter == 'G' && motion == 33) return;",
+        "const int16_t length = modal.code[kLength];\nif (length == 430) return;",
+        "auto now = row->code;\nbool f() { return 10 < now; }",
+        "state.modal.code[kCycle] = 800;",
+        "state.modal.code[kMotion] = 0;",
+        "int16_t start_plane = 170;",
+        "code = rotated ? 680 : 690;",
+        "switch (code) { case 0: return; default: break; }",
+        "switch (f(x)) { case 330: return; }",
+        "for (const int16_t code : {410, 420}) use(code);",
+        "constexpr int16_t kRefused[] = {20, 30, 330};",
+        "constexpr BarredRow kBarred[] = {{kInFigure, 450, 450, Condition::none}};",
+        "constexpr std::array<CodeRow, 1> kRows[] = {{410, true}};",
+        "return in.raise(Condition::words_missing, 'G', 4);",
+        "return in.raise(Condition::nesting, 'M', 98);",
+        "in.raise(Condition::illegal_g, 'G', 92.1);",
+        "in.raise(Condition::arc, 'G', side > 0 ? 41 : 42);",
+        "in.raise(Condition::arc,\n  'G' /* here */, // there\n  41);",
+        "Did select_plane(Interpreter& in, int16_t code);\nvoid f() { select_plane(in, 180); }",
+        "if (code == 2'0) return;",
+    ],
+    "group": [
+        "if (row->group == 7) return;",
+        "if (modal.code[3] == wanted) return;",
+        "use(state.modal.shown[12]);",
+        "enum Group { kGroupMotion };",
+        "switch (row.group) { case 1: return; default: break; }",
+    ],
+    "number": [
+        "if (number == 3003) return;",
+        "if (a.number >= 7000) return;",
+        "if (10000 <= variable) return;",
+        "switch (number) { case 1012: return; default: break; }",
+        "switch (x) { case 3001: return; }",
+        "constexpr Range kRanges[] = {{1000, 1031, true}};",
+        "constexpr ParameterRow kTable[] = {{8621, 8621, 1}};",
+        "return in.raise(Condition::variable_number, '#', 3001);",
+        "double whole(const Store& s, unsigned parameter);\nvoid f() { whole(s, 1081); }",
+        "if (first == 5221) return;",
+    ],
+    "letter": ["if (word.letter == 'P') return;", "return in.raise(Condition::value_range, 'R');", "switch (letter) { case 'G': return; default: break; }"],
+    "key": ['get("1078", -1, &value);', 'get("1267/bit0");', 'return number("8621");'],
+    "text": ['say("no effect while #8107 is 0");', 'const char* why = R"(set #1037)";'],
+}
+INNOCENT = [
+    "// if (code == 20) NC_DIALECT_M700, #1078",
+    "/* raise(x, 'G', 41); */",
+    'say("G41 is M700 12.4.1, code == 20");',
+    "if (in.dialect == nullptr) return;",
+    "const Dialect& d = nc::dialect(config.dialect);",
+    "if (modal.code[kPlane] < 0) return;  // no such group",
+    "if (modal.is(Function::inch)) return;",
+    "in.raise(condition, 'G', row->code / 10.0);",
+    "in.raise(condition, 'G', value);",
+    "in.raise(condition, 'P', 42);",
+    "unsigned code = 0;",
+    "line.put(info.modal[0] ? info.modal : nothing);",
+    "FixedVector<uint32_t, 16> m;",
+    "std::array<char, 20> code;",
+    "if (exit_code == 20) return;",
+    "if (i == 20 || radius > 170 || count < 3003) return;",
+    "if (length > 170) return;",
+    "switch (state) { case 1: return; case 2: return; default: break; }",
+    "switch (letter) { case 'G': return; default: break; }",
+    "constexpr double kFactor[] = {10, 20, 30};",
+    "constexpr uint32_t kSpread[] = {10, 20, 30};",
+    "const uint32_t number = word << 10;",
+    "unsigned kMaxNumber = 127;",
+    "if (number > 4294967295.0) return;",
+    "point.code = code;",
+    'open("1078.txt");',
+    "const double one_shot = raw / 1000;",
+    "#define NUMBER_OF(x) x",
+]
+
+
+def kinds(text, path="libnc/src/interpret/x.hpp"):
+    return [finding.kind for finding in checker.findings_in(SOURCE, {path: text})]
+
+
+class Found(unittest.TestCase):
+    def test_each_planted_sample_is_found(self):
+        for kind, samples in PLANTED.items():
+            for sample in samples:
+                with self.subTest(kind=kind, sample=sample):
+                    self.assertIn(kind, kinds(sample))
+
+    def test_what_only_looks_like_one_is_not(self):
+        for sample in INNOCENT:
+            with self.subTest(sample=sample):
+                self.assertEqual(kinds(sample, "runtime/x.hpp"), [])
+
+    def test_letters_are_for_the_core_alone_to_avoid(self):
+        for sample in ("if (c >= 'A' && c <= 'Z') return;", "const char digit = '0';", "const char separator = ',';"):
+            with self.subTest(sample=sample):
+                self.assertEqual(kinds(sample), [])
+        self.assertEqual(kinds("if (key == 'P') return;", "tools/lib/x.cpp"), [])
+
+    def test_the_public_header_declares_the_ids(self):
+        declared = "typedef enum nc_dialect { NC_DIALECT_M700 = 0, NC_DIALECT_COUNT = 1 } nc_dialect;"
+        self.assertEqual(kinds(declared, "libnc/include/nc/types.h"), [])
+        self.assertIn("identity", kinds(declared, "libnc/include/nc/control.h"))
+
+    def test_a_file_called_after_a_family_is_found(self):
+        self.assertIn("family", kinds("int x;", "libnc/src/motion/m700_filters.hpp"))
+
+    def test_a_private_function_is_no_other_file_s(self):
+        taker = "unsigned whole(unsigned key, unsigned parameter) { return 0; }"
+        sources = {"tools/a.cpp": taker, "tools/b.cpp": "void f() { whole(1, 1081); }"}
+        self.assertEqual(checker.findings_in(SOURCE, sources), [])
+        sources = {"tools/a.hpp": taker, "tools/b.cpp": "void f() { whole(1, 1081); }"}
+        self.assertEqual([finding.kind for finding in checker.findings_in(SOURCE, sources)], ["number"])
+
+    def test_lines_are_those_of_the_source(self):
+        text = '/* a\nb */ auto s = R"x(\n)x";\n\nbool y = code == 20;\n'
+        found = checker.findings_in(SOURCE, {"x.cpp": text})
+        self.assertEqual([(finding.line, finding.kind) for finding in found], [(5, "code")])
+
+
+class Listed(unittest.TestCase):
+    """A tree of its own: counts may fall and must be lowered then, never rise."""
+
+    def run_in(self, source, known, *options):
+        with tempfile.TemporaryDirectory() as folder:
+            top = pathlib.Path(folder)
+            for family in ("m700", "dgshape"):
+                (top / "libnc/src/dialect" / family).mkdir(parents=True)
+                rules = top / "libnc/src/dialect" / family / "rules.cpp"
+                rules.write_text('bool m700 = code == 20 && name == "m700";\n')
+            (top / "libnc/src/x.cpp").write_text(source)
+            (top / "known").write_text(known)
+            command = [sys.executable, SCRIPT, "--top", top, "--known", top / "known", *options]
+            done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
+            return done.returncode, done.stdout + done.stderr, (top / "known").read_text()
+
+    TWO = "bool f(int code) { return code == 20 || code == 30; }\n"
+
+    def test_as_listed(self):
+        self.assertEqual(self.run_in(self.TWO, "libnc/src/x.cpp code 2\n")[0], 0)
+        both = "# why\nlibnc/src/x.cpp code 1\nexempt libnc/src/x.cpp code 1  # not ours\n"
+        self.assertEqual(self.run_in(self.TWO, both)[0], 0)
+
+    def test_more_is_refused_and_shown(self):
+        status, output, _ = self.run_in(self.TWO, "libnc/src/x.cpp code 1\n")
+        self.assertEqual(status, 1)
+        self.assertIn("libnc/src/x.cpp:1: code == 30", output)
+        one = "libnc/src/x.cpp code 1\n"
+        self.assertEqual(self.run_in(self.TWO, one, "--lower")[2], one)
+        self.assertEqual(self.run_in(self.TWO, "")[0], 1)
+
+    def test_less_is_refused_until_lowered(self):
+        two = "libnc/src/x.cpp code 2\n"
+        for known, lowered in (("libnc/src/x.cpp code 5\n", two),
+                               (two + "libnc/src/gone.cpp group 4\n", two),
+                               ("libnc/src/x.cpp code 7\nexempt libnc/src/x.cpp code 1  # why 1\n",
+                                "libnc/src/x.cpp code 1\nexempt libnc/src/x.cpp code 1  # why 1\n")):
+            self.assertEqual(self.run_in(self.TWO, known)[0], 1)
+            status, _, after = self.run_in(self.TWO, known, "--lower")
+            self.assertEqual((status, after), (0, lowered))
+
+    def test_an_exemption_says_why(self):
+        self.assertEqual(self.run_in(self.TWO, "exempt libnc/src/x.cpp code 2\n")[0], 2)
+        self.assertEqual(self.run_in(self.TWO, "libnc/src/x.cpp code\n")[0], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

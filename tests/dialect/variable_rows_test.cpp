@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of system variables: which place of what meaning a number is.
+#include "dialect/variable_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "dialect/dialect.hpp"
+#include "nc/control.h"
+
+namespace nc {
+namespace {
+
+using V = SystemVariable;
+
+const FamilyVariables& m700() { return *dialect(NC_DIALECT_M700).variables; }
+
+void expect_place(uint32_t number, V what, uint32_t part, uint32_t index) {
+  const VariableRow* row = find_variable(m700(), number);
+  ASSERT_NE(row, nullptr) << number;
+  EXPECT_EQ(row->what, what) << number;
+  EXPECT_EQ(place_in(*row, number).part, part) << number;
+  EXPECT_EQ(place_in(*row, number).index, index) << number;
+}
+
+TEST(VariableRows, ARangeIsPartsOfPlaces) {
+  expect_place(1031, V::input_bit, 0, 31);
+  expect_place(1200, V::input_bit, 1, 0);  // bit 0 of #1033
+  expect_place(1395, V::output_bit, 1, 95);
+  expect_place(1135, V::output_word, 0, 3);
+  expect_place(2001, V::tool_offset, 0, 0);
+  expect_place(2200, V::tool_offset, 0, 199);
+  expect_place(2201, V::tool_offset, 1, 0);
+  expect_place(2800, V::tool_offset, 3, 199);
+  expect_place(10999, V::tool_offset, 0, 998);
+  expect_place(11001, V::tool_offset, 1, 0);
+  expect_place(16001, V::tool_offset, 2, 0);
+  expect_place(17005, V::tool_offset, 3, 4);
+  expect_place(5201, V::work_offset, 0, 0);  // external
+  expect_place(5222, V::work_offset, 1, 1);  // G54, second axis
+  expect_place(5321, V::work_offset, 6, 0);  // G59
+  expect_place(7001, V::work_offset, 7, 0);  // G54.1 P1
+  expect_place(8903, V::work_offset, 102, 2);  // G54.1 P96, third axis
+  expect_place(3004, V::control, 0, 1);
+  expect_place(4021, V::code, 0, 20);
+  EXPECT_EQ(find_variable(m700(), 12000), nullptr);
+  EXPECT_EQ(find_variable(m700(), 999), nullptr);
+}
+
+TEST(VariableRows, RangesAreSortedAndApartAndEveryMeaningHasOne) {
+  std::set<V> seen;
+  uint32_t last = 0;
+  for (const VariableRow& row : m700().rows) {
+    EXPECT_GT(row.first, last);
+    EXPECT_LE(row.first, row.last);
+    last = row.last;
+    seen.insert(row.what);
+  }
+  EXPECT_EQ(seen.size(), kSystemVariables);
+}
+
+// The public table is that of the dialect.
+TEST(VariableRows, ThePublicTableIsTheFamilys) {
+  nc_system_variable row{};
+  unsigned count = 0;
+  for (; nc_system_variable_row(NC_DIALECT_M700, count, &row) == NC_OK; ++count) {
+    EXPECT_EQ(row.first, m700().rows.row[count].first);
+    EXPECT_EQ(row.last, m700().rows.row[count].last);
+    EXPECT_STREQ(row.name, m700().rows.row[count].name);
+    EXPECT_TRUE(row.readable || row.writable) << row.first;
+  }
+  EXPECT_EQ(count, m700().rows.size);
+  // What a host asks for by its role: the words of the macro interface, and the word that a range of bits begins with.
+  std::string interface;
+  for (unsigned i = 0; nc_system_variable_row(NC_DIALECT_M700, i, &row) == NC_OK; ++i)
+    if (row.role != NC_VARIABLE_OTHER) interface += std::to_string(row.first) + ":" + std::to_string(row.role) + "." + std::to_string(row.word) + " ";
+  EXPECT_EQ(interface, "1000:1.0 1032:2.0 1100:3.0 1132:4.0 1200:1.1 1300:3.1 ");
+  EXPECT_EQ(nc_system_variable_row(NC_DIALECT_DGSHAPE, 0, &row), NC_E_NOT_FOUND);  // it has no variables
+  EXPECT_EQ(nc_system_variable_row(NC_DIALECT_M700, 0, nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_system_variable_row(static_cast<nc_dialect>(77), 0, &row), NC_E_ARGUMENT);
+}
+
+}  // namespace
+}  // namespace nc

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: Apache-2.0
+// The groups of the interpreter's state (interpret/state.hpp) and what each event makes of them (interpret/lifetimes.hpp): every member is in exactly
+// one group, and goes the way of that group but for the exceptions that are named here. What that means for programs: kept_state_test.cpp.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "interpret/lifetimes.hpp"
+
+namespace nc::test {
+namespace {
+
+// ---- every member is in one group ------------------------------------------------------------------------------------------
+
+struct Anything {
+  template <class T>
+  operator T() const;
+};
+// State and StateValues are aggregates: an initializer behind those of the bases would be that of a member of their own.
+template <class T, class... Base>
+concept HasOnly = requires { T{Base{}...}; }
+&&!requires { T{Base{}..., Anything{}}; };
+static_assert(HasOnly<State, StateValues, CallStack>);
+template <class... Group>
+struct Groups {
+  static constexpr size_t kCount = sizeof...(Group);
+  static_assert(HasOnly<StateValues, Group...>);
+};
+using AllGroups = Groups<BlockLife, MachinePosition, AppliedLength, ModalLife, ModalInProgram, ProgramLife, UntilReset, UntilOperatorReset, UntilPowerOff,
+                         Derived>;
+static_assert(sizeof(State) == sizeof(StateValues) + sizeof(CallStack));
+
+// This is what a member outside of the groups would be.
+struct OneMore : StateValues, CallStack {
+  bool one_more = false;
+};
+static_assert(!HasOnly<OneMore, StateValues, CallStack>);
+
+struct Bytes {
+  std::string name;
+  size_t offset, size;
+};
+using Fields = std::vector<Bytes>;
+
+// Parts of a member that is a struct with padding, all of them: a structured binding names no less. Padding is copied or not, as the compiler likes.
+template <class T>
+constexpr bool kWithoutPadding = std::has_unique_object_representations_v<T> || std::is_floating_point_v<std::remove_all_extents_t<T>> ||
+                                 std::is_same_v<T, AxisVec> || std::is_same_v<T, ModalState>;
+template <class T, class Add>
+void each_part(const T& member, const Add& add) {
+  static_assert(kWithoutPadding<T>, "a struct with padding: give its parts below");
+  add(&member, sizeof member);
+}
+#define NC_PARTS(Struct, ...)                                  \
+  template <class Add>                                         \
+  void each_part(const Struct& member, const Add& add) {       \
+    const auto& [__VA_ARGS__] = member;                        \
+    const auto each = [&](const auto&... part) { (add(&part, sizeof part), ...); }; \
+    each(__VA_ARGS__);                                         \
+  }
+NC_PARTS(Repeat, active, items)
+NC_PARTS(AxisMap, kind, linear, rotary, side, frozen, scale, angle)
+NC_PARTS(MillReturn, feed, plane, feed_mode, plane_axis, letter, moved)
+NC_PARTS(SpindleControl, surface, axis)
+NC_PARTS(Compensation, side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, avoid, axis, radius, vector)
+NC_PARTS(CycleState, kind, drill_axis, has_z, has_r, z, r, z_incremental, r_incremental, q, dwell_s, in_position, initial_level)
+NC_PARTS(NurbsState, first, knots, points, order, axes)
+NC_PARTS(SplineWay, joined, moved, back)
+NC_PARTS(LeftByEnd, feed, motion, feed_mode, any)
+
+template <class... Member>
+Fields fields_at(const StateValues& state, const char* names, const Member&... member) {
+  Fields fields;
+  const char* at = names;
+  const auto add = [&](const auto& one) {
+    at += std::strspn(at, ", ");
+    const size_t length = std::strcspn(at, ", ");
+    each_part(one, [&](const void* place, size_t size) {
+      fields.push_back({std::string(at, length), static_cast<size_t>(static_cast<const char*>(place) - reinterpret_cast<const char*>(&state)), size});
+    });
+    at += length;
+  };
+  (add(member), ...);
+  return fields;
+}
+
+// A structured binding names all members of its struct, so that this list cannot miss one.
+#define NC_FIELDS(Group, ...)                              \
+  {                                                        \
+    const auto& [__VA_ARGS__] = static_cast<const Group&>(state); \
+    groups[#Group] = fields_at(state, #__VA_ARGS__, __VA_ARGS__); \
+  }
+
+std::map<std::string, Fields> groups_of_state() {
+  static const State state;
+  std::map<std::string, Fields> groups;
+  NC_FIELDS(BlockLife, seq, repeat, owes_mark, stop_reading)
+  NC_FIELDS(MachinePosition, machine)
+  NC_FIELDS(AppliedLength, applied)
+  NC_FIELDS(ModalLife, modal, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled,
+            mirror, rotated, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, map, mill, spindle)
+  NC_FIELDS(ModalInProgram, comp, cycle, moves_since_comp_off, arc_points, nurbs, nurbs_order, arc_step, parameter_input, switch_mirror, figure_scaled,
+            figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way)
+  NC_FIELDS(ProgramLife, end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, control_3003, control_3004)
+  NC_FIELDS(UntilReset, spindle_on, spindle_clamped)
+  NC_FIELDS(UntilOperatorReset, left_by_end)
+  NC_FIELDS(UntilPowerOff, clock_base, clock_shift_s, port_open)
+  NC_FIELDS(Derived, special, high_accuracy, modal_call, mapped, work_turned, work_turn_pending)
+  return groups;
+}
+
+TEST(StateGroups, NoTwoHaveAMemberInCommon) {
+  EXPECT_EQ(groups_of_state().size(), AllGroups::kCount);
+  std::map<std::string, std::string> group_of;
+  std::vector<int> owner(sizeof(StateValues), 0);
+  for (const auto& [group, fields] : groups_of_state()) {
+    for (const Bytes& field : fields) {
+      EXPECT_EQ(group_of.emplace(field.name, group).first->second, group) << field.name;
+      ASSERT_LE(field.offset + field.size, sizeof(StateValues)) << group << "::" << field.name;
+      for (size_t i = 0; i < field.size; ++i) EXPECT_EQ(owner[field.offset + i]++, 0) << group << "::" << field.name;
+    }
+  }
+}
+
+// ---- the table of state.hpp ------------------------------------------------------------------------------------------------
+
+enum Column : unsigned { kCall, kInterrupt, kMdi, kEnd, kReset, kPowerOff, kColumns };
+
+/// Rows of the table in the comment of state.hpp, by group: what is written there is what the tests below expect.
+const std::map<std::string, std::vector<std::string>>& table() {
+  static const auto rows = [] {
+    std::map<std::string, std::vector<std::string>> all;
+    const auto groups = groups_of_state();
+    std::ifstream file(NC_SOURCE_DIR "/libnc/src/interpret/state.hpp");
+    for (std::string line; std::getline(file, line);) {
+      std::istringstream words(line);
+      std::string slashes, group;
+      if (!(words >> slashes >> group) || slashes != "//" || groups.count(group) == 0 || group == "Derived") continue;
+      std::vector<std::string> cells;
+      for (std::string cell; words >> cell;) cells.push_back(cell);
+      all[group] = cells;
+    }
+    return all;
+  }();
+  return rows;
+}
+
+std::set<std::string> groups_with(Column column, const std::string& cell) {
+  std::set<std::string> found;
+  for (const auto& [group, cells] : table())
+    if (cells.size() == kColumns && cells[column] == cell) found.insert(group);
+  return found;
+}
+
+TEST(StateGroups, EachHasItsRowInTheTable) {
+  for (const auto& [group, fields] : groups_of_state()) {
+    if (group == "Derived") continue;
+    ASSERT_EQ(table().count(group), 1u) << group;
+    EXPECT_EQ(table().at(group).size(), kColumns) << group;
+  }
+  EXPECT_EQ(groups_with(kCall, "yes").size(), table().size());
+  EXPECT_EQ(groups_with(kPowerOff, "-").size(), table().size());
+}
+
+// ---- what an event makes of a group -------------------------------------------------------------------------------------
+
+// Patterns for every byte: a byte 1 is a value of a bool and of every enumeration, and so is 0.
+constexpr int kPatterns[] = {0, 1};
+
+std::unique_ptr<State> filled(int pattern) {
+  auto state = std::make_unique<State>();
+  std::memset(static_cast<void*>(state.get()), pattern, sizeof(StateValues));
+  state->depth = state->loop_count = 0;
+  return state;
+}
+
+const char* bytes_of(const State& state, const Bytes& field) { return reinterpret_cast<const char*>(&state) + field.offset; }
+
+bool all_are(const State& state, const Bytes& field, int pattern) {
+  const char* at = bytes_of(state, field);
+  for (size_t i = 0; i < field.size; ++i)
+    if (at[i] != pattern) return false;
+  return true;
+}
+
+bool same(const State& a, const State& b, const Bytes& field) { return std::memcmp(bytes_of(a, field), bytes_of(b, field), field.size) == 0; }
+
+/// `event` gets a state all bytes of which are of a pattern. Kept members still are; the others do not depend on it.
+void expect_kept(const std::function<void(State&)>& event, const std::set<std::string>& kept, const std::set<std::string>& exceptions) {
+  std::unique_ptr<State> after[2];
+  for (const int pattern : kPatterns) {
+    after[pattern] = filled(pattern);
+    event(*after[pattern]);
+  }
+  for (const auto& [group, fields] : groups_of_state()) {
+    for (const Bytes& field : fields) {
+      if (exceptions.count(field.name) != 0 || group == "Derived") continue;
+      if (kept.count(group) != 0) {
+        for (const int pattern : kPatterns) EXPECT_TRUE(all_are(*after[pattern], field, pattern)) << group << "::" << field.name;
+      } else {
+        EXPECT_TRUE(same(*after[0], *after[1], field)) << group << "::" << field.name;
+      }
+    }
+  }
+}
+
+/// `event` makes of `now` and `before`, which differ in every byte, a state where these groups are those of `before` and all others those of `now`.
+void expect_returned(const std::function<void(State&, const State&)>& event, const std::set<std::string>& returned, const std::set<std::string>& exceptions) {
+  for (const int pattern : kPatterns) {
+    const std::unique_ptr<State> before = filled(pattern), now = filled(1 - pattern);
+    event(*now, *before);
+    for (const auto& [group, fields] : groups_of_state()) {
+      for (const Bytes& field : fields) {
+        if (exceptions.count(field.name) != 0 || group == "Derived") continue;
+        const int expected = returned.count(group) != 0 ? pattern : 1 - pattern;
+        EXPECT_TRUE(all_are(*now, field, expected)) << group << "::" << field.name << " pattern " << pattern;
+      }
+    }
+  }
+}
+
+InitialValues initial_values() {
+  InitialValues initial;
+  initial.modal.d = 77;  // told apart from every pattern
+  initial.plane_axis[0] = 5;
+  return initial;
+}
+
+void begin(State& state) { begin_program(state, initial_values(), false); }
+void begin_mdi(State& state) { begin_program(state, initial_values(), true); }
+
+TEST(StateGroups, TheNextStartKeepsThePositionAndWhatNoProgramEnds) {  // M700 9.1, 3.7
+  // What an end leaves is noted anew by a program that has read something (below).
+  expect_kept(begin, groups_with(kEnd, "yes"), {"left_by_end"});
+  State state;
+  state.modal.tool = 9;
+  begin(state);
+  EXPECT_EQ(state.modal.d, 77u);
+  EXPECT_EQ(state.modal.tool, 0u);
+  EXPECT_EQ(state.plane_axis[0], 5);
+}
+
+TEST(StateGroups, TheNextTextOfMdiKeepsTheModes) {  // M700 5.1; exceptions: cycles, macro calls, radius compensation within `modal`
+  expect_kept(begin_mdi, groups_with(kMdi, "yes"), {"left_by_end", "modal"});
+  State state;
+  state.modal.set(Function::comp_left);
+  state.modal.set(Function::incremental);
+  state.modal.set(Function::tapping_mode);
+  state.modal.feed = 12;
+  begin_mdi(state);
+  EXPECT_TRUE(state.modal.is(initial_values().modal.of(Mode::radius)));
+  EXPECT_TRUE(state.modal.is(initial_values().modal.of(Mode::cutting)));
+  EXPECT_TRUE(state.modal.is(Function::incremental));
+  EXPECT_EQ(state.modal.feed, 12);
+  EXPECT_EQ(state.modal.d, 0u);
+}
+
+TEST(StateGroups, AnEndLeavesItsMotionToTheStartsBehindItUntilAReset) {  // M700 9.1
+  InitialValues initial = initial_values();
+  initial.modal.set(Function::rapid);
+  initial.modal.set(Function::feed_per_minute);
+  initial.motion_outlives_end = true;
+  State state;
+  state.seq = 3;
+  state.modal.set(Function::linear);
+  state.modal.set(Function::feed_per_minute);
+  state.modal.feed = 250;
+  state.end_seen = true;
+  State ended = state;
+  begin_program(state, initial, false);
+  EXPECT_TRUE(state.modal.is(Function::linear));
+  EXPECT_EQ(state.modal.feed, 250);
+  begin_program(state, initial, false);  // selected once more before anything of it has been read
+  EXPECT_TRUE(state.modal.is(Function::linear));
+  State reset = state;
+  end_by_operator(reset);
+  begin_program(reset, initial, false);
+  EXPECT_TRUE(reset.modal.is(Function::rapid));
+  EXPECT_EQ(reset.modal.feed, 0);
+  end_by_operator(ended);  // the reset comes right behind the end
+  begin_program(ended, initial, false);
+  EXPECT_TRUE(ended.modal.is(Function::rapid));
+  state.seq = 1;  // this one is left before its end
+  begin_program(state, initial, false);
+  EXPECT_TRUE(state.modal.is(Function::rapid));
+}
+
+TEST(StateGroups, ParametersKeepThePolarCommandAndTheClampOverAReset) {  // M700 6.12 (3), 10.4 (3)
+  for (const bool kept : {false, true}) {
+    InitialValues initial;
+    initial.keeps_clamp = initial.keeps_polar_command = kept;
+    State state;
+    state.spindle_clamped = true;
+    state.modal.set(Function::polar_command_on);
+    end_by_operator(state);
+    begin_program(state, initial, false);
+    EXPECT_EQ(state.spindle_clamped, kept);
+    EXPECT_EQ(state.modal.is(Function::polar_command_on), kept);
+  }
+}
+
+TEST(StateGroups, AResetByTheOperatorKeepsThePositionAndWhatNoProgramEnds) {
+  expect_kept(
+      [](State& state) {
+        end_by_operator(state);
+        begin(state);
+      },
+      groups_with(kReset, "yes"), {});
+}
+
+TEST(StateGroups, PowerOnIsAnInitialState) {
+  State state, power_on;
+  begin(state);
+  power_on.modal = initial_values().modal;
+  power_on.plane_axis[0] = 5;
+  for (const auto& [group, fields] : groups_of_state())
+    for (const Bytes& field : fields) EXPECT_TRUE(same(state, power_on, field)) << field.name;
+}
+
+TEST(StateGroups, AnInterruptProgramBeginsWithWhatIsInForce) {  // M700 13.12
+  const AxisVec place;
+  std::set<std::string> all;
+  for (const auto& [group, fields] : groups_of_state()) all.insert(group);
+  all.erase("MachinePosition");
+  expect_kept([&](State& state) { begin_interrupt_program(state, place); }, all, {"repeat", "interrupt_moved", "parameter_input"});
+}
+
+// `modal` holds the M code that has been given out, and `moves_since_comp_off` and `spline_way` take note of a move of the interrupt program: below.
+const std::set<std::string> kReturnExceptions = {"modal", "moves_since_comp_off", "spline_way"};
+
+TEST(StateGroups, AnInterruptGivesTheModesBackAndLeavesTheRest) {  // M700 13.12
+  for (const bool inside_block : {false, true}) {
+    std::set<std::string> returned = groups_with(kInterrupt, "RETURNS");
+    if (inside_block) returned.merge(groups_with(kInterrupt, "place"));
+    std::set<std::string> exceptions = kReturnExceptions;
+    if (!inside_block) exceptions.insert("machine");  // the pattern holds an axis (AxisMap::frozen): below
+    expect_returned([&](State& now, const State& before) { return_from_interrupt(now, before, inside_block); }, returned, exceptions);
+  }
+}
+
+TEST(StateGroups, AnInterruptThatLosesTheBlockGivesNothingBackButParameterInput) {  // M700 13.12: type 1 with a move, M99 P
+  expect_returned([](State& now, const State& before) { go_on_behind_interrupt(now, before); }, {}, {"parameter_input"});
+  State now, before;
+  before.parameter_input = true;
+  begin_interrupt_program(now, AxisVec{});
+  go_on_behind_interrupt(now, before);
+  EXPECT_TRUE(now.parameter_input);
+}
+
+TEST(StateGroups, WhatAnInterruptGivesBackInItsOwnWay) {
+  State before, now;
+  before.modal.m = 8, now.modal.m = 9;
+  before.modal.tool = 1, now.modal.tool = 2;
+  before.moves_since_comp_off = 0, now.moves_since_comp_off = 0;
+  before.spline_way.joined = true;
+  before.map.frozen = 1;
+  for (unsigned i = 0; i < kMaxAxes; ++i) before.machine[i] = 1, now.machine[i] = 2;
+  State behind = now;
+  return_from_interrupt(behind, before, false);
+  EXPECT_EQ(behind.modal.m, 9u);
+  EXPECT_EQ(behind.modal.tool, 1u);
+  EXPECT_EQ(behind.moves_since_comp_off, 0u);
+  EXPECT_TRUE(behind.spline_way.joined);
+  EXPECT_EQ(behind.machine[0], 1);  // the axis of G07 is beside where the program is
+  for (unsigned i = 1; i < kMaxAxes; ++i) EXPECT_EQ(behind.machine[i], 2);
+
+  now.interrupt_moved = true;
+  now.moves_since_comp_off = 1;
+  behind = now;
+  return_from_interrupt(behind, before, false);
+  EXPECT_FALSE(behind.spline_way.joined);
+  EXPECT_EQ(behind.moves_since_comp_off, 1u);
+}
+
+}  // namespace
+}  // namespace nc::test

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// There is a known law from every place of what is followed: the time of any other one is compared with it.
+#include "motion/optimal/known_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "motion/optimal/profile.hpp"
+#include "motion/optimal/smooth.hpp"
+#include "motion/optimal/windows.hpp"
+
+namespace nc::test {
+namespace {
+
+using optimal::Followed;
+using optimal::KnownLaw;
+using optimal::Limits;
+using optimal::MeshRequest;
+using optimal::PhaseLaw;
+using optimal::Piece;
+using optimal::Windows;
+
+Limits limits_of(double acceleration, double jerk) {
+  Limits l;
+  for (unsigned i = 0; i < 3; ++i) {
+    l.velocity[i] = l.rapid[i] = 250;
+    l.acceleration[i] = acceleration;
+    l.jerk[i] = jerk;
+  }
+  return l;
+}
+
+/// A random polyline, rounded within 10 um.
+std::vector<Piece> random_path(std::mt19937_64& rng) {
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); };
+  const auto log_uniform = [&](double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); };
+  const unsigned count = 12 + static_cast<unsigned>(rng() % 30), room = 64 * count + 64;
+  std::vector<AxisVec> vertex(count), control(room + 3);
+  std::vector<double> length(count - 1), feed(count - 1, log_uniform(10, 200)), u(count), knot(room);
+  std::vector<unsigned> corner(room);
+  std::vector<optimal::SmoothCell> cell(room);
+  double heading = 0;
+  const double step = log_uniform(0.02, 5);
+  for (unsigned k = 1; k < count; ++k) {
+    heading += uniform(-1.5, 1.5);
+    length[k - 1] = step * log_uniform(0.3, 3);
+    vertex[k][0] = vertex[k - 1][0] + length[k - 1] * std::cos(heading);
+    vertex[k][1] = vertex[k - 1][1] + length[k - 1] * std::sin(heading);
+  }
+  optimal::SmoothRequest request;
+  request.line = {vertex.data(), length.data(), feed.data(), count};
+  request.tolerance = 0.01;
+  request.spacing = 0.5;
+  const optimal::SmoothRoom rooms{u.data(), count, knot.data(), control.data(), corner.data(), cell.data(), room};
+  std::vector<Piece> pieces(room);
+  pieces.resize(optimal::smooth(request, rooms, pieces.data(), room));
+  return pieces;
+}
+
+/// Laws of the solver to the middle of a path; more of the path comes, and each place of them is a start.
+TEST(KnownLaw, IsThereFromEveryPlaceOfWhatIsFollowed) {
+  const auto windows = std::make_unique<Windows>();
+  const auto phases = std::make_unique<PhaseLaw>();
+  KnownLaw known;
+  Followed followed;
+  unsigned starts = 0, left = 0, rested = 0;
+  for (uint64_t seed = 1; seed <= 25; ++seed) {
+    std::mt19937_64 rng(seed);
+    const std::vector<Piece> pieces = random_path(rng);
+    const Limits limits = limits_of(2000, 50000);
+    double whole = 0;
+    for (const Piece& p : pieces) whole += p.length;
+    MeshRequest request;
+    request.piece = pieces.data();
+    request.count = static_cast<unsigned>(pieces.size());
+    request.reach = 0.5 * whole;
+    if (pieces.empty() || !windows->law_to(request, limits, {})) continue;
+    const auto& law = windows->law();
+    const auto& mesh = windows->mesh();
+    for (unsigned from = 1; from + 1 < law.cells; ++from) {
+      followed.count = 0;
+      double s = 0, seconds = 0;
+      for (unsigned k = from; k < law.cells; ++k) {
+        if (followed.count < Followed::kMost) followed.at[followed.count++] = {s, seconds, std::sqrt(law.b[k]), 0.5 * law.slope[k]};
+        s += mesh.h[k];
+        seconds += optimal::cell_seconds(law, mesh, k);
+      }
+      followed.end = {s, seconds, 0, 0};
+      MeshRequest next = request;
+      next.reach = HUGE_VAL;
+      next.from = windows->place(from);
+      next.from_rest = false;
+      next.b0 = law.b[from];
+      next.slope0 = law.slope[from];
+      next.followed = &followed;
+      ++starts;
+      ASSERT_TRUE(known.find(next, limits, phases.get())) << "seed " << seed << " cell " << from;
+      EXPECT_TRUE(known.whole());
+      EXPECT_GT(known.seconds(), 0);
+      if (known.rests()) {
+        ++rested;
+        EXPECT_EQ(known.leaves_at(), followed.count);
+        EXPECT_NEAR(known.squared_speed(followed.end.s), 0, 1e-3);
+        EXPECT_GT(known.seconds(), followed.end.seconds);
+        next.reach = s;  // and where the path ends there, too, it is what is followed
+        ASSERT_TRUE(known.find(next, limits, phases.get())) << "seed " << seed << " cell " << from;
+        EXPECT_LE(known.seconds(), followed.end.seconds * 1.5);
+      } else {
+        left += known.leaves_at() > 0 ? 1u : 0u;
+      }
+    }
+  }
+  EXPECT_GT(starts, 500u);
+  EXPECT_GT(left, 0u);    // some leave it on the way
+  EXPECT_GT(rested, 0u);  // and some only at its rest
+}
+
+}  // namespace
+}  // namespace nc::test

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the numbers of a family are moved: G codes, modal groups, parameters and system variables, each kind among itself.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dialect/dialect.hpp"
+
+namespace nc::permuted {
+
+/// Whole ranges of numbers laid out anew in another order: what is in a range keeps its place there, so that numbers that a program
+/// computes from its first one stay right.
+class RangeOrder {
+ public:
+  struct Range {
+    uint32_t first, last;
+  };
+  /// The ranges may overlap: those that do move together. What lies between them within [first, last] are ranges, too.
+  RangeOrder(std::vector<Range> ranges, uint32_t first, uint32_t last);
+  uint32_t moved(uint32_t number) const { return find(number, &Piece::from, &Piece::to); }
+  uint32_t back(uint32_t number) const { return find(number, &Piece::to, &Piece::from); }
+
+ private:
+  struct Piece {
+    uint32_t from, to, size;
+  };
+  uint32_t find(uint32_t number, uint32_t Piece::*here, uint32_t Piece::*there) const;
+  std::vector<Piece> pieces_;
+};
+
+class Permutation {
+ public:
+  explicit Permutation(const Dialect& family);
+
+  /// Times 10, as in FunctionRow. G54.1 goes with G54: its decimal stays. G00 to G99 stay among themselves and so do G100 to G255, since
+  /// programs may be bound to the one by the leave of a parameter, to the other always (Dialect::own_codes, macro_codes).
+  int code(int code) const;
+  int code_back(int code) const;
+  unsigned group(unsigned group) const;
+  uint32_t parameter(uint32_t number) const { return parameters_.moved(number); }
+  uint32_t variable(uint32_t number) const;
+  /// Letters of words. Those of axes stay (the machine names them), and so do those of codes, numbers of blocks, F, S and T.
+  static char letter(char letter);
+
+ private:
+  RangeOrder parameters_, variables_;
+  std::vector<RangeOrder::Range> by_group_;  ///< ranges with a place for each group
+};
+
+/// The tables of a family with every number moved; all else is the family's.
+class PermutedDialect {
+ public:
+  PermutedDialect(const Dialect& family, const Permutation& permutation);
+  PermutedDialect(const PermutedDialect&) = delete;
+  PermutedDialect& operator=(const PermutedDialect&) = delete;
+  const Dialect& dialect() const { return dialect_; }
+
+ private:
+  Dialect dialect_;
+  LexRules lex_;
+  uint8_t argument_of_[26] = {};
+  std::string calling_letters_;
+  FamilyParameters parameters_;
+  FamilyVariables variables_;
+  ParameterPlaces places_;
+  std::vector<FunctionRow> functions_;
+  std::vector<ParameterRow> parameter_rows_;
+  std::vector<MachineParameter> machine_;
+  std::vector<NumberRange> of_axes_;
+  std::vector<VariableRow> variable_rows_;
+};
+
+/// What dialect() of this program gives for any family: the library reads these tables. m700's own until something else is chosen.
+void choose(const Dialect& family);
+
+}  // namespace nc::permuted

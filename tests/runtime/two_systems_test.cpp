@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two part systems under one panel: each has its program, its override, its stops and its bad inputs, and none of them acts in the other.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <deque>
+#include <limits>
+
+#include "hal/sim/sim_machine.hpp"
+#include "runtime/refusal.hpp"
+#include "runtime/runtime.hpp"
+#include "test_config.hpp"
+
+namespace {
+
+using nc::rt::Answer;
+using nc::rt::CommandKind;
+using nc::rt::Mode;
+using nc::rt::OverrideSource;
+
+std::string two_systems() {
+  std::string text = nc::test::base_toml();
+  const std::string second = "[[axis]]\nsystem = 2\nname = \"X\"\nmax_velocity = 200.0\nmax_acceleration = 2000.0\nmax_jerk = 50000.0\nsoft_limits = [-500.0, 500.0]\n";
+  text.insert(text.find("[[point]]"), second);
+  return text;
+}
+
+// What the machine measures of the second part system is what the test says.
+class LyingMachine final : public nc::hal::Hal {
+ public:
+  LyingMachine(const nc::hal::SimConfig& config, const nc::hal::PointTable& points) : machine_(config, points) {}
+  bool start(const nc::hal::PointImage& initial, std::string* error) override { return machine_.start(initial, error); }
+  void read(nc::hal::Feedback* feedback, nc::hal::PointImage* image) noexcept override {
+    machine_.read(feedback, image);
+    if (lie != nullptr) lie(&feedback->system[1]);
+  }
+  void write(const nc::hal::Command& command, const nc::hal::PointImage& image) noexcept override { machine_.write(command, image); }
+  void stop() noexcept override { machine_.stop(); }
+  void set_input(unsigned point, std::uint32_t value) { machine_.set_input(point, value); }
+  void (*lie)(nc::hal::SystemFeedback*) = nullptr;
+
+ private:
+  nc::hal::SimMachine machine_;
+};
+
+class TwoSystems : public testing::Test {
+ protected:
+  void build(const std::string& more = "") {
+    config = nc::test::parse_or_fail(two_systems() + more);
+    ASSERT_EQ(config.nc.system_count, 2);
+    machine = std::make_unique<LyingMachine>(config.sim, config.points);
+    std::vector<nc::rt::ConfigError> errors;
+    runtime = nc::rt::Runtime::create(config, {&clock, machine.get(), nullptr, nullptr}, &errors);
+    ASSERT_NE(runtime, nullptr) << (errors.empty() ? "" : errors[0].text());
+    std::string error;
+    ASSERT_TRUE(runtime->start_stepping(&error)) << error;
+  }
+  Answer select(unsigned system, const char* text) {
+    const std::string& kept = texts.emplace_back(text);
+    unsigned file = 0;
+    EXPECT_EQ(nc_program_add_text(runtime->control(), ("p" + std::to_string(texts.size())).c_str(), kept.data(), kept.size(), &file), NC_OK);
+    return give(CommandKind::kSelectProgram, system, 0, file);
+  }
+  Answer give(CommandKind kind, unsigned system, double value = 0, std::uint32_t number = 0) {
+    nc::rt::Command command;
+    command.kind = kind;
+    command.system = static_cast<std::uint8_t>(system);
+    command.value = value;
+    command.number = number;
+    return runtime->execute(command);
+  }
+  Answer start() { return runtime->execute(CommandKind::kCycleStart); }
+  Answer mode(Mode to) { return runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(to)); }
+  void steps(unsigned count) {
+    for (unsigned n = 0; n < count; ++n) runtime->step();
+  }
+  // To the end of what runs.
+  void finish() {
+    for (unsigned n = 0; n < 20000 && (n < 5 || runtime->snapshot().program_active()); ++n) runtime->step();
+    ASSERT_FALSE(runtime->snapshot().program_active());
+    steps(5);
+  }
+  void reset() {
+    ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+    for (unsigned n = 0; n < 3000 && runtime->snapshot().resetting; ++n) runtime->step();
+    ASSERT_FALSE(runtime->snapshot().resetting);
+  }
+  nc::rt::SystemSnapshot now(unsigned system) const { return runtime->snapshot().system[system]; }
+  double x(unsigned system) const { return now(system).nc.command.v[0]; }
+  nc::rt::Config config;
+  nc::rt::VirtualClock clock;
+  std::unique_ptr<LyingMachine> machine;
+  std::unique_ptr<nc::rt::Runtime> runtime;
+  std::deque<std::string> texts;
+};
+
+TEST_F(TwoSystems, APartSystemWithoutAProgramStaysIdle) {
+  build();
+  ASSERT_EQ(select(1, "G1 X5. F6000\nM30\n"), Answer::kDone);
+  ASSERT_EQ(start(), Answer::kDone);
+  steps(3);
+  EXPECT_EQ(now(0).nc.state, NC_STATE_IDLE);
+  EXPECT_EQ(now(1).nc.state, NC_STATE_RUNNING);
+  finish();
+  EXPECT_NEAR(x(1), 5, 1e-9);
+  EXPECT_EQ(x(0), 0);
+}
+
+// The part program of one lies ready while the other has blocks of MDI: a start in MDI is for these alone.
+TEST_F(TwoSystems, AStartInMdiStartsNoPartProgram) {
+  build();
+  ASSERT_EQ(select(0, "G1 X50. F6000\nM30\n"), Answer::kDone);
+  ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
+  ASSERT_EQ(runtime->load_mdi("G1 X3. F6000\n", 1), Answer::kDone);
+  ASSERT_EQ(start(), Answer::kDone);
+  finish();
+  EXPECT_NEAR(x(1), 3, 1e-9);
+  EXPECT_EQ(x(0), 0) << "the part program has started in MDI";
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  steps(5);
+  ASSERT_EQ(start(), Answer::kDone);
+  finish();
+  EXPECT_NEAR(x(0), 50, 1e-9);
+  EXPECT_NEAR(x(1), 3, 1e-9);
+}
+
+// A start goes on with what is interrupted; what has ended meanwhile does not begin again.
+TEST_F(TwoSystems, AProgramThatHasEndedDoesNotBeginAgainBesideAnother) {
+  build();
+  ASSERT_EQ(select(0, "G91 G1 X1. F6000\nM30\n"), Answer::kDone);
+  ASSERT_EQ(select(1, "G91 G1 X1. F6000\nM0\nG1 X1.\nM30\n"), Answer::kDone);
+  ASSERT_EQ(start(), Answer::kDone);
+  for (unsigned n = 0; n < 2000 && (now(1).nc.state != NC_STATE_STOPPED || now(0).nc.state != NC_STATE_IDLE); ++n) steps(1);
+  ASSERT_EQ(now(1).nc.state, NC_STATE_STOPPED);
+  ASSERT_EQ(now(0).nc.state, NC_STATE_IDLE);
+  ASSERT_EQ(start(), Answer::kDone);
+  finish();
+  EXPECT_NEAR(x(1), 2, 1e-9);
+  EXPECT_NEAR(x(0), 1, 1e-9);
+}
+
+TEST_F(TwoSystems, AStartAndAResetBeforeTheFeederHasSeenEither) {
+  build();
+  for (unsigned scans = 0; scans < 12; ++scans) {
+    SCOPED_TRACE(scans);
+    ASSERT_EQ(select(0, "G90 G0 X1.\nG1 X2. F6000\nM30\n"), Answer::kDone);
+    ASSERT_EQ(select(1, "G90 G0 X-1.\nG1 X-2. F6000\nM30\n"), Answer::kDone);
+    ASSERT_EQ(start(), Answer::kDone);
+    steps(scans);
+    reset();
+    ASSERT_EQ(now(0).nc.state, NC_STATE_IDLE);
+    ASSERT_EQ(now(1).nc.state, NC_STATE_IDLE);
+    ASSERT_EQ(start(), Answer::kDone);
+    finish();
+    EXPECT_NEAR(x(0), 2, 1e-9);
+    EXPECT_NEAR(x(1), -2, 1e-9);
+  }
+}
+
+// Manual absolute: the axis that was moved goes to its programmed place all the same, and the other part system knows nothing of it.
+TEST_F(TwoSystems, MotionByHandInABlockStopIsOfOnePartSystem) {
+  build();
+  ASSERT_EQ(select(0, "G1 X10. F6000\nM0\nG91 X5.\nG90 X20.\nM30\n"), Answer::kDone);
+  ASSERT_EQ(select(1, "G1 X10. F6000\nM0\nG91 X5.\nG90 X20.\nM30\n"), Answer::kDone);
+  ASSERT_EQ(start(), Answer::kDone);
+  steps(600);
+  ASSERT_EQ(now(0).nc.state, NC_STATE_STOPPED);
+  ASSERT_EQ(now(1).nc.state, NC_STATE_STOPPED);
+  ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kStep, 1, -3), Answer::kDone);
+  steps(600);
+  EXPECT_NEAR(x(0), 10, 1e-9);
+  EXPECT_NEAR(x(1), 7, 1e-9);
+  EXPECT_EQ(now(0).nc.moved_by_hand, 0u);
+  EXPECT_EQ(now(1).nc.moved_by_hand, 1u);
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  ASSERT_EQ(start(), Answer::kDone);
+  finish();
+  EXPECT_NEAR(x(0), 20, 1e-9);
+  EXPECT_NEAR(x(1), 20, 1e-9);
+}
+
+// R21 names the part system; nothing that is no number reaches a set-point of either.
+TEST_F(TwoSystems, AnInputThatIsNoNumberIsAnAlarmOfItsPartSystem) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  void (*const lies[])(nc::hal::SystemFeedback*) = {[](nc::hal::SystemFeedback* f) { f->actual.v[0] = kNan; },
+                                                    [](nc::hal::SystemFeedback* f) { f->spindle[0].rev_per_s = kNan; },
+                                                    [](nc::hal::SystemFeedback* f) { f->actual.v[0] = std::numeric_limits<double>::infinity(); }};
+  for (const auto lie : lies) {
+    runtime.reset();
+    build();
+    ASSERT_EQ(select(0, "G1 X10. F600\nM30\n"), Answer::kDone);
+    ASSERT_EQ(select(1, "S600 M3\nG95 G1 X10. F1.\nM30\n"), Answer::kDone);
+    ASSERT_EQ(start(), Answer::kDone);
+    steps(300);
+    machine->lie = lie;
+    for (unsigned n = 0; n < 300; ++n) {
+      steps(1);
+      for (unsigned s = 0; s < 2; ++s) ASSERT_TRUE(std::isfinite(x(s)) && std::isfinite(now(s).nc.velocity.v[0])) << s;
+    }
+    const nc::rt::AlarmList alarms = runtime->snapshot().alarms;
+    ASSERT_EQ(alarms.count, 1u);
+    EXPECT_EQ(alarms.alarm[0].id, nc::rt::AlarmId::kBadInput);
+    EXPECT_EQ(alarms.alarm[0].system, 1);
+    EXPECT_EQ(start(), Answer::kAlarmActive);
+    machine->lie = nullptr;
+    reset();
+    EXPECT_EQ(runtime->snapshot().alarms.count, 0u);
+  }
+}
+
+// A switch of the machine for one of them: each shows the override that is in force in it and whose it is, and the operator's acts in the other.
+TEST_F(TwoSystems, EachShowsItsOwnOverride) {
+  build("[signals]\n\"plc2.feed_override\" = \"word_in\"\n");
+  machine->set_input(static_cast<unsigned>(config.points.find("word_in")), 2500);
+  ASSERT_EQ(select(0, "G1 X400. F1200\nM30\n"), Answer::kDone);
+  ASSERT_EQ(select(1, "G1 X400. F1200\nM30\n"), Answer::kDone);
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_EQ(runtime->execute(CommandKind::kFeedOverride, 0.5), Answer::kDone);
+  steps(600);
+  EXPECT_NEAR(now(0).nc.feed_mm_min, 600, 1);
+  EXPECT_DOUBLE_EQ(now(0).feed_override, 0.5);
+  EXPECT_EQ(now(0).feed_override_source, OverrideSource::kOperator);
+  EXPECT_NEAR(now(1).nc.feed_mm_min, 300, 1);
+  EXPECT_DOUBLE_EQ(now(1).feed_override, 0.25);
+  EXPECT_EQ(now(1).feed_override_source, OverrideSource::kMachine);
+  EXPECT_EQ(now(1).rapid_override_source, OverrideSource::kOperator);
+}
+
+}  // namespace

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// ncsim called as a person does, in a folder of its own.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace nc::tools {
+
+using Json = nlohmann::json;
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+  std::vector<Json> events() const {
+    std::vector<Json> list;
+    for (size_t at = 0; at < out.size();) {
+      const size_t end = out.find('\n', at);
+      list.push_back(Json::parse(out.substr(at, end - at)));
+      at = end + 1;
+    }
+    return list;
+  }
+};
+
+class CommandTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    char pattern[] = "/tmp/nc-command-XXXXXX";
+    ASSERT_NE(mkdtemp(pattern), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ + "/" + name, std::ios::binary) << text;
+    return folder_ + "/" + name;
+  }
+  static std::string content(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+  // `line` is everything behind "ncsim ", for the shell; standard output may be redirected in it.
+  Outcome ncsim(const std::string& line) {
+    const std::string command =
+        "cd " + folder_ + " && { " NC_BINARY_DIR "/bin/ncsim " + line + " ; } > out.txt 2> err.txt";
+    const int status =
+        std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe,cert-env33-c): a test's own command
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ + "/out.txt"),
+            content(folder_ + "/err.txt")};
+  }
+
+  std::string folder_;
+};
+
+}  // namespace nc::tools

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of the programs that draw a tool path: how it is looked at and what its colours say.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "tools/lib/option_values.hpp"
+#include "tools/lib/toolpath_plot.hpp"
+
+namespace nc::tools {
+
+inline const std::map<std::string, PlotView>& plot_views() {
+  static const std::map<std::string, PlotView> names = {
+      {"iso", PlotView::kIsometric}, {"xy", PlotView::kXY}, {"xz", PlotView::kXZ}, {"yz", PlotView::kYZ}};
+  return names;
+}
+inline const std::map<std::string, PlotCoordinates>& plot_coordinates() {
+  static const std::map<std::string, PlotCoordinates> names = {{"work", PlotCoordinates::kWork}, {"machine", PlotCoordinates::kMachine}};
+  return names;
+}
+inline const std::map<std::string, PlotColor>& plot_colors() {
+  static const std::map<std::string, PlotColor> names = {
+      {"kind", PlotColor::kKind}, {"tool", PlotColor::kTool}, {"feed", PlotColor::kFeed}, {"z", PlotColor::kZ}};
+  return names;
+}
+
+/** --view, --coordinates and --color; `each` says what they go together with. */
+inline void add_plot_options(CLI::App* command, std::string* view, std::string* coordinates, std::string* color,
+                             const std::function<void(CLI::Option*)>& each) {
+  each(command->add_option("--view", *view, "iso, xy, xz or yz")->capture_default_str()->transform(one_of({"iso", "xy", "xz", "yz"})));
+  each(command->add_option("--coordinates", *coordinates, "work: of the tool's tip on the workpiece; machine: where the axes go")
+           ->capture_default_str()
+           ->transform(one_of({"work", "machine"})));
+  each(command->add_option("--color", *color, "what the colour of a feed says: kind (none but that it is one), tool, feed or z")
+           ->capture_default_str()
+           ->transform(one_of({"kind", "tool", "feed", "z"})));
+}
+
+}  // namespace nc::tools
