@@ -9,12 +9,13 @@
 #include <sstream>
 
 #include "nc/nc.h"
+#include "places/places.hpp"
 
 namespace {
 
 /// The numbers of the enumeration, from the header: one that is added there is asked for here.
 std::vector<int> statuses_of_the_header() {
-  std::ifstream file(NC_SOURCE_DIR "/libnc/include/nc/types.h");
+  std::ifstream file(nc::test::kSourceDir + "/libnc/include/nc/types.h");
   std::stringstream all;
   all << file.rdbuf();
   const std::string text = all.str();

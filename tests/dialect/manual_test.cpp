@@ -13,6 +13,7 @@
 #include "dialect/dialect.hpp"
 #include "dialect/function_table.hpp"
 #include "modal/modal_state.hpp"
+#include "places/places.hpp"
 
 namespace nc {
 namespace {
@@ -220,7 +221,7 @@ TEST(M700Manual, StateAtPowerOn) {
 // The rows "code <tab> message <tab> meaning" of the catalogue. A message "-" marks a code that stands in the
 // text only.
 TEST(M700Manual, AlarmListIsTheManuals) {
-  const std::string path = std::string(NC_SHARED_DIR) + "/spec/m700-program-errors.tsv";
+  const std::string path = nc::test::kSharedDir + "/spec/m700-program-errors.tsv";
   std::ifstream file(path);
   if (!file) GTEST_SKIP() << path << " is not here";
   std::map<std::string, std::string> ours;

@@ -14,6 +14,7 @@
 
 #include "dialect/dialect.hpp"
 #include "nc/control.h"
+#include "places/places.hpp"
 
 namespace {
 
@@ -28,7 +29,7 @@ std::string read(const std::filesystem::path& path) {
 /// Meanings that sources outside dialect/ ask for, by the name in the enumeration.
 std::set<std::string> asked_for() {
   std::set<std::string> meanings;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(NC_SOURCE_DIR) / "libnc/src")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(nc::test::kSourceDir) / "libnc/src")) {
     if (entry.path().extension() != ".cpp" || entry.path().string().find("/dialect/") != std::string::npos) continue;
     const std::string text = std::regex_replace(read(entry.path()), std::regex("//[^\n]*"), "");
     if (text.find("Parameter::") == std::string::npos && text.find("using P = Parameter;") == std::string::npos) continue;
@@ -40,7 +41,7 @@ std::set<std::string> asked_for() {
 
 /// The names of the enumeration, in its order.
 std::vector<std::string> meanings() {
-  const std::string text = std::regex_replace(read(std::filesystem::path(NC_SOURCE_DIR) / "libnc/src/dialect/parameter.hpp"), std::regex("//[^\n]*"), "");
+  const std::string text = std::regex_replace(read(std::filesystem::path(nc::test::kSourceDir) / "libnc/src/dialect/parameter.hpp"), std::regex("//[^\n]*"), "");
   const size_t begin = text.find("enum class Parameter"), end = text.find("};", begin);
   std::vector<std::string> names;
   static const std::regex kName("\\b([a-z_0-9]+),");

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "interpret/lifetimes.hpp"
+#include "places/places.hpp"
 
 namespace nc::test {
 namespace {
@@ -140,7 +141,7 @@ const std::map<std::string, std::vector<std::string>>& table() {
   static const auto rows = [] {
     std::map<std::string, std::vector<std::string>> all;
     const auto groups = groups_of_state();
-    std::ifstream file(NC_SOURCE_DIR "/libnc/src/interpret/state.hpp");
+    std::ifstream file(nc::test::kSourceDir + "/libnc/src/interpret/state.hpp");
     for (std::string line; std::getline(file, line);) {
       std::istringstream words(line);
       std::string slashes, group;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "ladder/ladder.hpp"
+#include "places/places.hpp"
 #include "rig.hpp"
 #include "runtime/ladder_task.hpp"
 
@@ -34,7 +35,7 @@ std::string table() {
 }
 
 std::string document() {
-  std::ifstream file(std::string(NC_SOURCE_DIR) + "/docs/ladder.md");
+  std::ifstream file(nc::test::kSourceDir + "/docs/ladder.md");
   std::stringstream text;
   text << file.rdbuf();
   return text.str();
@@ -74,7 +75,7 @@ TEST(LadderDocument, ItsExamplesCompile) {
 // The first one is for the machine that is shipped: whoever copies it finds its devices.
 TEST(LadderDocument, TheFirstExampleIsOfTheShippedMachine) {
   nc::rt::Config config;
-  for (const nc::rt::ConfigError& error : nc::rt::load_config(std::string(NC_SOURCE_DIR) + "/etc/machine.toml", &config))
+  for (const nc::rt::ConfigError& error : nc::rt::load_config(nc::test::kSourceDir + "/etc/machine.toml", &config))
     FAIL() << error.text();
   std::vector<nc::rt::ConfigError> wrong;
   const DeviceTable table = nc::rt::LadderTask::device_table(config, &wrong);

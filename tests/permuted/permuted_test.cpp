@@ -30,6 +30,7 @@
 
 #include "dialect/function_table.hpp"
 #include "dialect/m700/m700.hpp"
+#include "places/places.hpp"
 #include "rewrite.hpp"
 #include "tools/lib/commands.hpp"
 
@@ -59,10 +60,10 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-bool has_shared() { return fs::is_directory(NC_SHARED_DIR "/conformance") && fs::is_directory(NC_SHARED_DIR "/programs"); }
+bool has_shared() { return fs::is_directory(nc::test::kSharedDir + "/conformance") && fs::is_directory(nc::test::kSharedDir + "/programs"); }
 
 void add_conformance(std::vector<Program>* programs) {
-  for (const fs::path& path : files_in(NC_SHARED_DIR "/conformance")) {
+  for (const fs::path& path : files_in(nc::test::kSharedDir + "/conformance")) {
     if (path.extension() != ".json") continue;
     const Json file = Json::parse(content_of(path));
     for (const Json& one : file["cases"])
@@ -72,12 +73,12 @@ void add_conformance(std::vector<Program>* programs) {
 
 // Words without a point mean whole units in these programs.
 void add_shop_programs(std::vector<Program>* programs) {
-  for (const fs::path& path : files_in(NC_SHARED_DIR "/programs"))
+  for (const fs::path& path : files_in(nc::test::kSharedDir + "/programs"))
     if (path.extension() != ".md") programs->push_back({path.filename(), content_of(path), {{"params", {{"1078", 1}}}}});
 }
 
 void add_parts(std::vector<Program>* programs) {
-  const fs::path folder = NC_SOURCE_DIR "/examples/parts";
+  const fs::path folder = nc::test::kSourceDir + "/examples/parts";
   for (const char* name : {"bolt-circle", "flange", "tool-length"}) {
     Program program{std::string(name) + ".nc", content_of(folder / (std::string(name) + ".nc"))};
     if (fs::path setup = folder / (std::string(name) + ".json"); fs::exists(setup)) program.setup = Json::parse(content_of(setup));
@@ -91,7 +92,7 @@ void add_corpus(std::vector<Program>* programs) {
   const Json params = {{"7001", 50}, {"7003", 8}, {"7201", 120}, {"7202", 3}, {"7203", 7}, {"7401", 1},
                        {"7402", "D"}, {"7403", 0}, {"7404", 7}, {"7405", 130}, {"2106", {{"A", 5}}}};
   const Json axes = {"X", "Y", "Z", {{"name", "A"}, {"rotary", true}}};
-  for (const fs::path& path : files_in(NC_SOURCE_DIR "/tests/fuzz/corpus/program")) {
+  for (const fs::path& path : files_in(nc::test::kSourceDir + "/tests/fuzz/corpus/program")) {
     const std::string bytes = content_of(path);
     if (bytes.size() < 3 || (bytes[0] & 1) != 0 || path.filename().string().rfind("dgshape", 0) == 0) continue;
     programs->push_back({"corpus/" + path.filename().string(), bytes.substr(2), {{"axes", axes}, {"params", params}}});
@@ -222,7 +223,7 @@ class Compare {
 /// Programs that are not compared, with the reason: lines `id  # reason`.
 std::map<std::string, std::string> excluded() {
   std::map<std::string, std::string> list;
-  std::ifstream file(NC_SOURCE_DIR "/tests/permuted/excluded.txt");
+  std::ifstream file(nc::test::kSourceDir + "/tests/permuted/excluded.txt");
   for (std::string line; std::getline(file, line);) {
     const size_t hash = line.find('#');
     std::string id = line.substr(0, hash);
@@ -237,7 +238,7 @@ Program permuted_program(const Program& program, const Permutation& permutation)
 }
 
 TEST(Permuted, ProgramsGiveTheTraceOfTheFamilyWhoseNumbersWereMoved) {
-  if (!has_shared()) GTEST_SKIP() << NC_SHARED_DIR " is not here";
+  if (!has_shared()) GTEST_SKIP() << nc::test::kSharedDir << " is not here";
   const Permutation permutation(m700::kDialect);
   const PermutedDialect permuted(m700::kDialect, permutation);
   const Compare compare(permutation);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "places/places.hpp"
 #include "test_config.hpp"
 
 namespace {
@@ -626,7 +627,7 @@ TEST(Config, HowProgramsAreRead) {
 
 TEST(Config, ShippedFilesAreValid) {
   unsigned files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(NC_SOURCE_DIR) + "/etc")) {
+  for (const auto& entry : std::filesystem::directory_iterator(nc::test::kSourceDir + "/etc")) {
     if (entry.path().extension() != ".toml") continue;
     ++files;
     Config config;

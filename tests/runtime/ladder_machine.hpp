@@ -11,6 +11,7 @@
 #include <string>
 
 #include "hal/sim/sim_machine.hpp"
+#include "places/places.hpp"
 #include "runtime/runtime.hpp"
 #include "test_config.hpp"
 
@@ -19,7 +20,7 @@ namespace nc::test {
 class LadderMachine : public testing::Test {
  protected:
   void SetUp() override {
-    const auto errors = rt::load_config(std::string(NC_SOURCE_DIR) + "/etc/machine.toml", &config);
+    const auto errors = rt::load_config(nc::test::kSourceDir + "/etc/machine.toml", &config);
     ASSERT_TRUE(errors.empty()) << errors[0].text();
   }
   void build() {

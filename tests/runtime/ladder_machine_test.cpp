@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "ladder_machine.hpp"
+#include "places/places.hpp"
 
 namespace {
 
@@ -112,12 +113,12 @@ TEST_F(LadderMachine, HoldDuringTheWaitDoesNotLoseTheCompletion) {
 
 // docs/ladder.md says what it does.
 TEST_F(OwnLadder, TheFirstExampleOfTheDocumentRuns) {
-  std::ifstream file(std::string(NC_SOURCE_DIR) + "/docs/ladder.md");
+  std::ifstream file(nc::test::kSourceDir + "/docs/ladder.md");
   std::ostringstream text;
   text << file.rdbuf();
   const std::size_t at = text.str().find("```il\n") + 6;
   use(text.str().substr(at, text.str().find("```", at) - at));
-  ASSERT_TRUE(nc::rt::load_config(std::string(NC_SOURCE_DIR) + "/etc/machine.toml", &config).empty());
+  ASSERT_TRUE(nc::rt::load_config(nc::test::kSourceDir + "/etc/machine.toml", &config).empty());
   config.ladder.program = path_;
   start("M8\nM50\nM9\nM30\n");
   EXPECT_NEAR(until_line(2), 2000, 60) << "the coolant comes";

@@ -33,6 +33,7 @@ TEST(RtTrap, NeedsTheOrdinaryAllocator) {
 #include <sstream>
 
 #include "hal/sim/sim_machine.hpp"
+#include "places/places.hpp"
 #include "program_generator.hpp"
 #include "runtime/runtime.hpp"
 #include "test_config.hpp"
@@ -144,7 +145,7 @@ TEST(RtTrap, TheTrapsWork) {
 }
 
 std::string flange() {
-  std::ifstream stream(std::string(NC_SOURCE_DIR) + "/examples/parts/flange.nc", std::ios::binary);
+  std::ifstream stream(nc::test::kSourceDir + "/examples/parts/flange.nc", std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();
@@ -182,7 +183,7 @@ void expect_nothing_trapped() {
 
 TEST(RtTrap, AWholePartRunsWithoutAllocationLockOrSystemCall) {
   nc::rt::Config config;
-  ASSERT_TRUE(nc::rt::load_config(std::string(NC_SOURCE_DIR) + "/etc/machine.toml", &config).empty());
+  ASSERT_TRUE(nc::rt::load_config(nc::test::kSourceDir + "/etc/machine.toml", &config).empty());
   clear_counts();
   const bool refusing = refuse_system_calls();
   run_to_end(config, flange());

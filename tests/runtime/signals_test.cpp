@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "places/places.hpp"
 #include "test_config.hpp"
 
 namespace {
@@ -58,7 +59,7 @@ TEST(Signals, SafeValuesAskForNothing) {
 }
 
 TEST(Signals, TheDocumentIsMadeOfTheTable) {
-  std::ifstream file(std::string(NC_SOURCE_DIR) + "/docs/signals.md");
+  std::ifstream file(nc::test::kSourceDir + "/docs/signals.md");
   std::ostringstream text;
   text << file.rdbuf();
   EXPECT_NE(text.str().find(signal_document()), std::string::npos)

@@ -14,6 +14,7 @@
 #include <random>
 #include <sstream>
 
+#include "places/places.hpp"
 #include "program_generator.hpp"
 #include "test_config.hpp"
 #include "walls_machine.hpp"
@@ -185,7 +186,7 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
-  const std::filesystem::path root(NC_SOURCE_DIR);
+  const std::filesystem::path root(nc::test::kSourceDir);
   unsigned parts = 0;
   for (const auto& [part, machine] :
        {std::pair{"flange.nc", "machine.toml"}, {"keytag.nc", "modelling-machine.toml"}}) {
@@ -208,7 +209,7 @@ TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
 // Real programs of other people, where they are there: executed as they trace, to their end or to the alarm
 // that their dialect has for what it does not know.
 TEST(Walls, SharedProgramsExecuteAsTheyTrace) {
-  const std::filesystem::path folder = std::filesystem::path(NC_SHARED_DIR) / "programs";
+  const std::filesystem::path folder = std::filesystem::path(nc::test::kSharedDir) / "programs";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
   const nc::rt::Config config = nc::test::parse_or_fail(R"([machine]
 [[axis]]

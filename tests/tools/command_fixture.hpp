@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "places/places.hpp"
+
 namespace nc::tools {
 
 using Json = nlohmann::json;
@@ -51,7 +53,7 @@ class CommandTest : public testing::Test {
   // `line` is everything behind "ncsim ", for the shell; standard output may be redirected in it.
   Outcome ncsim(const std::string& line) {
     const std::string command =
-        "cd " + folder_ + " && { " NC_BINARY_DIR "/bin/ncsim " + line + " ; } > out.txt 2> err.txt";
+        "cd " + folder_ + " && { " + nc::test::kBinaryDir + "/bin/ncsim " + line + " ; } > out.txt 2> err.txt";
     const int status =
         std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe,cert-env33-c): a test's own command
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ + "/out.txt"),

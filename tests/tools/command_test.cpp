@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "places/places.hpp"
 #include "tools/command_fixture.hpp"
 
 namespace nc::tools {
@@ -55,7 +56,7 @@ TEST_F(CommandTest, StandardInputByPipeAndByFile) {
   file("p.nc", kPart);
   const Outcome by_path = ncsim("trace p.nc"), by_file = ncsim("trace - < p.nc");
   ASSERT_EQ(std::system(
-                ("cd " + folder_ + " && cat p.nc | " NC_BINARY_DIR "/bin/ncsim trace - > pipe.txt").c_str()),
+                ("cd " + folder_ + " && cat p.nc | " + nc::test::kBinaryDir + "/bin/ncsim trace - > pipe.txt").c_str()),
             0);
   EXPECT_FALSE(by_path.out.empty());
   EXPECT_EQ(by_path.out, by_file.out);
@@ -461,7 +462,7 @@ TEST_F(CommandTest, AByteOrderMarkAtTheStartOfAProgramIsNotThere) {
   EXPECT_EQ(ncsim("trace - < p.nc").out, plain);
   EXPECT_EQ(ncsim("trace /dev/stdin < p.nc").code, 0);
   ASSERT_EQ(std::system(
-                ("cd " + folder_ + " && cat p.nc | " NC_BINARY_DIR "/bin/ncsim trace - > pipe.txt").c_str()),
+                ("cd " + folder_ + " && cat p.nc | " + nc::test::kBinaryDir + "/bin/ncsim trace - > pipe.txt").c_str()),
             0);
   EXPECT_EQ(content(folder_ + "/pipe.txt"), plain);
   file("jis.nc", mark + "%\nG00X1.\nM02\n");
@@ -699,9 +700,9 @@ TEST_F(CommandTest, TimeIsWhatTheRuntimeNeeds) {
   file("end.nc", "M30\n");
   file("p.nc", "G17 G21 G90 G94 G64\nG53 G0 X-250. Y-150. Z-20.\nG91\nG1 X20. F3000.\nG61\nY20.\nG64\nG2 X10. Y10. I10. J0.\n"
        "G4 X0.3\nG0 Z-30.\nG1 X-30. Y-30. F800.\nM30\n");
-  const std::string machine = NC_SOURCE_DIR "/etc/machine.toml";
+  const std::string machine = nc::test::kSourceDir + "/etc/machine.toml";
   const auto runtime = [&](const std::string& program) {
-    const std::string command = "cd " + folder_ + " && " NC_BINARY_DIR "/bin/ncrtd --config " + machine +
+    const std::string command = "cd " + folder_ + " && " + nc::test::kBinaryDir + "/bin/ncrtd --config " + machine +
                                 " run --fast --no-progress " + program + " > runtime.txt 2> /dev/null";
     EXPECT_EQ(std::system(command.c_str()), 0);  // NOLINT(concurrency-mt-unsafe,cert-env33-c): a test's own command
     return seconds_of(content(folder_ + "/runtime.txt"));
@@ -723,7 +724,7 @@ TEST_F(CommandTest, TimeCountsTheClampsOfAnIndexTable) {
   file("p.nc", "G0 X5.\nB45.\nB90.\nX10.\nB0 X0\nM30\n");
   const double plain = seconds_of(ncsim("time --machine plain.toml p.nc").out), table = seconds_of(ncsim("time --machine table.toml p.nc").out);
   EXPECT_NEAR(table - plain, 2 * (0.7 + 0.4), 0.15) << "two of three moves follow each other; the axes settle before a clamp";
-  const std::string command = "cd " + folder_ + " && " NC_BINARY_DIR "/bin/ncrtd --config table.toml run --fast --no-progress p.nc > run.txt 2> /dev/null";
+  const std::string command = "cd " + folder_ + " && " + nc::test::kBinaryDir + "/bin/ncrtd --config table.toml run --fast --no-progress p.nc > run.txt 2> /dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0);  // NOLINT(concurrency-mt-unsafe,cert-env33-c): a test's own command
   EXPECT_NEAR(seconds_of(content(folder_ + "/run.txt")), table, 0.02) << "but for what M30 takes";
   EXPECT_EQ(ncsim("trace --machine table.toml p.nc").out, ncsim("trace --machine plain.toml p.nc").out);

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "places/places.hpp"
+
 namespace nc::tools {
 namespace {
 
@@ -37,7 +39,7 @@ class SharedPrograms : public testing::Test {
   }
 
   Trace trace(const std::string& name) {
-    const std::string command = NC_BINARY_DIR "/bin/ncsim trace --setup " + folder_ + "/s.json " + programs_ +
+    const std::string command = nc::test::kBinaryDir + "/bin/ncsim trace --setup " + folder_ + "/s.json " + programs_ +
                                 "/" + name + " > " + folder_ + "/out.jsonl";
     const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe,cert-env33-c)
     Trace result;
@@ -64,7 +66,7 @@ class SharedPrograms : public testing::Test {
     return 0;
   }
 
-  const std::string programs_ = NC_SHARED_DIR "/programs";
+  const std::string programs_ = nc::test::kSharedDir + "/programs";
   std::string folder_;
 };
 
