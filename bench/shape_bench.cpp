@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "filter/position_filter.hpp"
 #include "path/shape.hpp"
-#include "shape/shape.hpp"
 
 namespace {
 
@@ -160,8 +160,8 @@ void filters(benchmark::State& state, FilterTimes::Kind kind, double first_ms, d
   constexpr unsigned kFilteredAxes = 5;
   constexpr uint32_t kPlaces = 4000;
   std::vector<double> rings(size_t{kFilteredAxes} * kPlaces);
-  nc::Shape shape;
-  shape.create(kFilteredAxes, 0.001, rings.data(), kPlaces);
+  nc::PositionFilter filter;
+  filter.create(kFilteredAxes, 0.001, rings.data(), kPlaces);
   FilterTimes times;
   times.kind = kind;
   const bool after = kind == FilterTimes::Kind::after;
@@ -170,11 +170,11 @@ void filters(benchmark::State& state, FilterTimes::Kind kind, double first_ms, d
     times.lag_s[i] = after ? static_cast<float>(second_ms / 1000) : 0;
   }
   if (!after) times.second = static_cast<uint16_t>(filter_cycles(second_ms, 0.001));
-  if (!shape.use(times)) state.SkipWithError("too long");
+  if (!filter.use(times)) state.SkipWithError("too long");
   AxisVec at;
   for (auto _ : state) {
     for (unsigned i = 0; i < kFilteredAxes; ++i) at[i] += 0.01 * (i + 1);
-    benchmark::DoNotOptimize(shape.filter(at, false));
+    benchmark::DoNotOptimize(filter.filter(at, false));
   }
 }
 BENCHMARK_CAPTURE(filters, none, FilterTimes::Kind::none, 0, 0);

@@ -4,8 +4,8 @@
 // make it fail.
 #include <gtest/gtest.h>
 
+#include "interpolate/interpolator.hpp"
 #include "interpolate/random_program.hpp"
-#include "interpolate/scan.hpp"
 #include "interpolate/test_machine.hpp"
 
 namespace nc::test {

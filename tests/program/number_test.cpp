@@ -9,7 +9,7 @@
 #include <string>
 
 #include "lex_helpers.hpp"
-#include "program/scan.hpp"
+#include "program/cursor.hpp"
 
 namespace nc::test {
 namespace {

@@ -6,12 +6,12 @@
 #include "base/intern_pool.hpp"
 #include "control/stages.hpp"
 #include "dialect/rules.hpp"
+#include "filter/filter_parameters.hpp"
 #include "frame/affine.hpp"
 #include "frame/stroke_box.hpp"
 #include "interpolate/record.hpp"
 #include "nc/control.h"
 #include "path/shape.hpp"
-#include "shape/filter_parameters.hpp"
 
 namespace nc {
 

@@ -78,8 +78,8 @@ bool PartSystem::cycle_fits(Committed* committed) {
   const unsigned queued = in.queued();
   in.state.cycle.kind = in.hole.kind = CycleKind::drill;
   bool fits = true;
-  Did did = Did::later;
-  while (fits && did == Did::later) {
+  Execution did = Execution::later;
+  while (fits && did == Execution::later) {
     did = continue_cycle(in);
     if (in.queued() == queued) break;  // codes fill the queue
     for (unsigned i = queued; fits && i < in.queued(); ++i) fits = try_item(in.queued(i), committed);

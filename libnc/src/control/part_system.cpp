@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/part_system.hpp"
+#include "base/same_place.hpp"
 
 #include "control/optimal_mode.hpp"
 #include "dialect/text.hpp"
-#include "shape/shape.hpp"
+#include "filter/position_filter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@ namespace nc {
 namespace {
 
 /// A curve that is made again passes through the point where it was cut.
-constexpr double kSameCurve = 1e-6;  // mm or deg
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.capacity = config.look_ahead;
   ex.tells_marks = config.system_count > 1;
   ex.filters = commit.filters;
-  interpreter.parameters.set_filter_room(Shape::places(kLongestMean, config.cycle_s) * config.cycle_s * 1000, index == 0);
+  interpreter.parameters.set_filter_room(PositionFilter::places(kLongestMean, config.cycle_s) * config.cycle_s * 1000, index == 0);
   optimal_ = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.optimal = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.tolerance = config.path_tolerance;
@@ -322,7 +322,7 @@ void PartSystem::resume_record(Record& record) {
   const AxisVec at = curve_position(s.curve, cut_.length, interpreter.axis_count);
   double off = 0;
   for (unsigned i = 0; i < interpreter.axis_count; ++i) off = std::fmax(off, std::fabs(at[i] - cut_.machine[i]));
-  if (off < kSameCurve) {
+  if (off < kReached) {
     s.begun = cut_.length;
   } else {  // the interrupt program has changed what the block is made of: to its end from where the axes are
     s.curve = make_line(cut_.machine, s.curve.end, interpreter.axis_count, interpreter.rotary);

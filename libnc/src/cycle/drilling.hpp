@@ -41,7 +41,7 @@ struct CycleStep {
   double seconds = 0;
 };
 
-/// Progress through one hole; trivially copyable.
+/// Execution through one hole; trivially copyable.
 struct HoleProgress {
   uint32_t step = 0;
   double depth = 0;     ///< bottom reached so far (coordinate), pecks

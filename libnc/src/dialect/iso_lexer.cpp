@@ -11,7 +11,7 @@
 #include "base/utf8.hpp"
 #include "dialect/alarms.hpp"
 #include "macro/compile.hpp"
-#include "program/scan.hpp"
+#include "program/cursor.hpp"
 
 namespace nc {
 namespace {

@@ -50,7 +50,7 @@ void Executor::create(const ExecutorConfig& config, Arena& arena) {
   ExecutorState* const state = arena.make<ExecutorState>();
   Record* const ring = arena.make<Record>(config.capacity);
   LeftRecord* const left = config.tells_marks ? arena.make<LeftRecord>(config.capacity) : nullptr;
-  double* const filters = config.filters ? arena.make<double>(size_t{Shape::places(kLongestMean, config.cycle_s)} * config.axis_count) : nullptr;
+  double* const filters = config.filters ? arena.make<double>(size_t{PositionFilter::places(kLongestMean, config.cycle_s)} * config.axis_count) : nullptr;
   const MotionLimits limits = motion_limits(config);
   // While measuring there is no state: the parts are laid out from throw-away ones of the same size.
   Planner measured_planner;

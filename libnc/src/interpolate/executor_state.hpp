@@ -2,7 +2,7 @@
 // All members of an executor: the ring, the planner (feeder's), the scan, and what crosses between them.
 #pragma once
 
-#include "interpolate/scan.hpp"
+#include "interpolate/interpolator.hpp"
 
 namespace nc {
 
@@ -19,7 +19,7 @@ class ExecutorState {
   alignas(64) Planner planner;
   optimal::OptimalPlanner* optimal = nullptr;  ///< instead of it
   alignas(64) ScanShared shared;
-  alignas(64) Scan scan;
+  alignas(64) Interpolator scan;
 
   unsigned truncate_age = 0;  ///< plan() calls since the request
 

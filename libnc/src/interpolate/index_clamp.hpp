@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/same_place.hpp"
 #include "interpolate/axis_parameters.hpp"
 
 namespace nc {
@@ -29,10 +30,9 @@ class IndexClamp {
   void arrive() { away_ = 0; }
   /// An axis that has been moved by hand, or was stopped on its way, stands where it can be clamped.
   bool may_clamp(unsigned axis, const AxisParameters& parameters, double position, double reference) const {
-    constexpr double kSamePlace = 1e-6;  // deg or mm
     const double unit = parameters.increment[axis];
-    return (away_ >> axis & 1) == 0 || !(unit > 0) || std::fabs(position - reference) < kSamePlace ||
-           std::fabs(position - unit * std::nearbyint(position / unit)) < kSamePlace;
+    return (away_ >> axis & 1) == 0 || !(unit > 0) || std::fabs(position - reference) < kReached ||
+           std::fabs(position - unit * std::nearbyint(position / unit)) < kReached;
   }
   /// Clamps `axes`. True when none of them is unclamped any more, nor any other on its way.
   bool close(uint32_t axes, uint32_t unclamped) {

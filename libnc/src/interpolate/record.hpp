@@ -2,10 +2,10 @@
 // What lies in the ring between feeder and scan: items that are committed and never change any more.
 #pragma once
 
+#include "filter/filter_times.hpp"
 #include "frame/affine.hpp"
 #include "motion/accuracy.hpp"
 #include "path/curve.hpp"
-#include "shape/filter_times.hpp"
 #include "stream/stream.hpp"
 
 namespace nc {

@@ -8,7 +8,7 @@
 
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
-#include "modal/company.hpp"
+#include "modal/precedence.hpp"
 
 namespace nc {
 namespace {
@@ -25,31 +25,31 @@ Function motion_of_block(const Interpreter& in) {
 }
 
 /// Codes that a mode in force does not bear. A curve that the block itself leaves bears everything.
-Did check_modes(Interpreter& in, const FunctionRow& row, double value) {
+Execution check_modes(Interpreter& in, const FunctionRow& row, double value) {
   const State& state = in.state;
   const Function before = state.modal.of(Mode::motion), motion = bars_codes(before) ? motion_of_block(in) : before;
   if (is_space_arc(before) && is_space_arc(motion)) {
-    const Did did = check_in_space_arc(in, row);
-    if (did != Did::done) return did;
+    const Execution did = check_in_space_arc(in, row);
+    if (did != Execution::done) return did;
   }
   const unsigned modes = (state.modal.is(Function::polar_command_on) ? unsigned{kInPolarCommand} : 0u) |
                          (state.frame[state.depth].figure != 0 ? unsigned{kInFigure} : 0u) |
                          (is_exponential(before) && is_exponential(motion) ? unsigned{kInExponential} : 0u) |
                          (state.comp.side != 0 && in.dialect->rules.compensation.bars_scaling_and_cycle_end ? unsigned{kInDiameterOffset} : 0u);
   const Condition bad = modes != 0 ? barred(modes, row.function) : Condition::none;
-  return bad == Condition::none ? Did::done : in.raise(bad, Role::code, value);
+  return bad == Condition::none ? Execution::done : in.raise(bad, Role::code, value);
 }
 
 /// G51, G68: appendix 2 has no row for them, so whose the words would be beside another such code is not said.
 bool shares_no_words(Function function) { return function == Function::scaling_on || function == Function::rotation_on; }
 
 /// Files a G code under what it is.
-Did take_g(Interpreter& in, double value) {
+Execution take_g(Interpreter& in, double value) {
   const FunctionRow* const row = in.codes.find(value);
   if (row == nullptr) return in.raise(Condition::illegal_g, Role::code, value);
   if (in.state.special != 0 || in.state.mapped || in.state.comp.side != 0 || bars_codes(in.state.modal.of(Mode::motion))) {
-    const Did did = check_modes(in, *row, value);
-    if (did != Did::done) return did;
+    const Execution did = check_modes(in, *row, value);
+    if (did != Execution::done) return did;
   }
   if (row->missing != nullptr) {
     if (in.state.fine_mode != FineMode::none) return in.raise(Condition::illegal_g, Role::code, value);  // M700 13.17: not in its list, fitted or not
@@ -59,24 +59,24 @@ Did take_g(Interpreter& in, double value) {
   BlockWords& w = in.words;
   if (!w.g.push_back(row)) return in.raise(Condition::format_error, Role::code, value);
   switch (row->function) {
-    case Function::exact_stop_once: w.exact_stop = true; return Did::done;
+    case Function::exact_stop_once: w.exact_stop = true; return Execution::done;
     case Function::macro_modal_off:  // M700 13.5.1: G67 without a modal call in force
-      return has_modal_call(in) ? Did::done : in.raise(Condition::cancel_without_call, Role::code, value);
+      return has_modal_call(in) ? Execution::done : in.raise(Condition::cancel_without_call, Role::code, value);
     case Function::macro_modal:
     case Function::macro_every_block:
     case Function::stroke_check_on:
       w.one_shot = row;  // takes the words of the block though it is modal
-      return Did::done;
+      return Execution::done;
     case Function::scaling_on:
     case Function::rotation_on:
       if (w.one_shot != nullptr) return in.raise(Condition::format_error, Role::code, value);
       w.one_shot = row;
-      return Did::done;
+      return Execution::done;
     case Function::mirror_on:
     case Function::mirror_off:  // So does this, unless App. 2 lets another one take them.
-      if (w.one_shot != nullptr && company_of(w.one_shot->function).mirror == Beside::ignored) return Did::done;
+      if (w.one_shot != nullptr && precedence_of(w.one_shot->function).mirror == Precedence::ignored) return Execution::done;
       w.one_shot = row;
-      return Did::done;
+      return Execution::done;
     default: break;
   }
   const Mode mode = mode_of(row->function);
@@ -88,16 +88,16 @@ Did take_g(Interpreter& in, double value) {
   } else if (mode == Mode::cycle) {
     w.cycle = row;
   }
-  return Did::done;
+  return Execution::done;
 }
 
-Did take_m(Interpreter& in, double value) {
+Execution take_m(Interpreter& in, double value) {
   uint32_t code = 0;
   if (!whole_number(value, &code)) return in.raise(Condition::value_range, Role::misc_code, value);
   const MiscRow* row = find_misc(*in.dialect, code);
   if (row != nullptr && row->missing != nullptr) return in.raise(Condition::no_function, Role::misc_code, code);
   if (!in.words.m.push_back(code)) return in.raise(Condition::format_error, Role::misc_code, value);
-  return Did::done;
+  return Execution::done;
 }
 
 /// M700 13.1.1: "0.001 to 999.999 (mm)"; 6.1 and 6.2 print no range for the same word.
@@ -154,7 +154,7 @@ bool whole_number(double raw, uint32_t* number) {
   return true;
 }
 
-Did gather_words(Interpreter& in) {
+Execution gather_words(Interpreter& in) {
   const uint32_t codes = in.code_addresses;
   BlockWords& w = in.words;
   w.present = w.axes = w.incremental = 0;
@@ -187,8 +187,8 @@ Did gather_words(Interpreter& in) {
       Value v;
       const Eval eval = evaluate(*in.block, word.code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, &v, &in.fault,
                                  &in.sync_needed);
-      if (eval == Eval::fault) return Did::fault;
-      if (eval == Eval::need_sync) return Did::sync;
+      if (eval == Eval::fault) return Execution::fault;
+      if (eval == Eval::need_sync) return Execution::sync;
       if (v.vacant) {  // M700 13.5.4: a word with only a vacant variable is ignored
         if (in.is(word, Role::feed)) note_vacant_feed(in, word);
         continue;
@@ -225,8 +225,8 @@ Did gather_words(Interpreter& in) {
     const bool bare = (word.flags & kWordNoValue) != 0;
     if (bare && (in.is(word, Role::misc_code) || !in.dialect->bare_letters)) return in.raise(Condition::format_error, word.letter);
     if (in.is(word, Role::code)) {
-      const Did did = take_g(in, value);
-      if (did != Did::done) return did;
+      const Execution did = take_g(in, value);
+      if (did != Execution::done) return did;
       if (w.g.back()->function == Function::absolute) w.absolute_at |= uint64_t{1} << i;
       if (w.g.back()->function == Function::incremental) w.incremental_at |= uint64_t{1} << i;
       if (in.words.one_shot != nullptr && is_macro_call(in.words.one_shot->function)) {
@@ -237,8 +237,8 @@ Did gather_words(Interpreter& in) {
       continue;
     }
     if (in.is(word, Role::misc_code)) {
-      const Did did = take_m(in, value);
-      if (did != Did::done) return did;
+      const Execution did = take_m(in, value);
+      if (did != Execution::done) return did;
       continue;
     }
     if (in.is(word, Role::sequence_number) || in.is(word, Role::program_number)) w.late_number = word.letter;
@@ -257,7 +257,7 @@ Did gather_words(Interpreter& in) {
   if (bare_axis != 0 && !takes_bare_axes(w)) return in.raise(Condition::format_error, bare_axis);
   // M700 15.5: feeds behind a skip signal belong to G31.
   if (w.counted_feeds != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::skip)) return in.raise(Condition::format_error, Role::feed);
-  return Did::done;
+  return Execution::done;
 }
 
 char first_of_block(const Interpreter& in, uint32_t of) {
@@ -325,13 +325,13 @@ double largest_feed(const Interpreter& in) {
 
 }  // namespace
 
-Did feed_of(Interpreter& in, double* feed) {
+Execution feed_of(Interpreter& in, double* feed) {
   const double raw = in.words.get(Role::feed);
   const bool whole = !in.dialect->rules.number.undotted_feed_in_least_unit || in.words.pointed(Role::feed) || in.settings.calculator_reads_feed();
   const double value = whole ? raw : scaled(raw, inch(in) ? 0.0001 : 0.001);
   if (!(value >= 0) || value > largest_feed(in)) return in.raise(Condition::value_range, Role::feed, raw);
   *feed = value;
-  return Did::done;
+  return Execution::done;
 }
 
 namespace {
@@ -365,7 +365,7 @@ uint32_t incremental_axes(const Interpreter& in) {
 
 }  // namespace
 
-Did resolve_axes(Interpreter& in) {
+Execution resolve_axes(Interpreter& in) {
   BlockWords& w = in.words;
   w.incremental = incremental_axes(in);
   const uint32_t named = w.present & in.axis_letters;
@@ -390,7 +390,7 @@ Did resolve_axes(Interpreter& in) {
     const unsigned at = first_of(lengths);
     if (!in_range(in, length_value(in, w.raw[at], w.flags[at], false, true), w.flags[at], false)) return in.raise(Condition::value_range, letter_of(at), w.raw[at]);
   }
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

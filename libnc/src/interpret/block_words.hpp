@@ -10,7 +10,7 @@
 namespace nc {
 
 struct Interpreter;
-enum class Did : uint8_t;
+enum class Execution : uint8_t;
 
 /// Addresses are numbers from 0, whatever letters a family writes for them.
 inline constexpr unsigned kAddresses = 26;
@@ -64,13 +64,13 @@ struct BlockWords {
 inline Role corner_word(const BlockWords& words) { return words.corner == Corner::chamfer ? Role::option_chamfer : Role::option_corner_radius; }
 
 /// Evaluates every word, finds the G and M codes and what they are. Changes nothing but in.words.
-Did gather_words(Interpreter& in);
+Execution gather_words(Interpreter& in);
 
 /// The letter of the first word of the block whose address is in `of`, which is not empty: alarms name it.
 char first_of_block(const Interpreter& in, uint32_t of);
 
 /// Applies the block's unit and distance modes to the axis words (call when the modal codes of the block are in force).
-Did resolve_axes(Interpreter& in);
+Execution resolve_axes(Interpreter& in);
 
 /// Value of a length word (I J K R Q and the like) in mm; axis = -1 a length, else rotary or linear like the axis.
 /// `tenfold`: "UNIT*10" acts on it (M700 2.2).
@@ -80,7 +80,7 @@ double length_of(const Interpreter& in, char axis_name, bool setting_unit = true
 /// Value of a position word of an axis, by the command unit of this axis (M700 2.1, #1015).
 double axis_value(const Interpreter& in, unsigned axis, double raw, uint8_t flags, bool rotary);
 /// F of the block -> the number that is kept modal.
-Did feed_of(Interpreter& in, double* feed);
+Execution feed_of(Interpreter& in, double* feed);
 /// A word that must be a whole number; fraction is dropped (M700 5.3). False when it is negative or too large.
 bool whole_number(double raw, uint32_t* number);
 

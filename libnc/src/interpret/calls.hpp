@@ -12,17 +12,17 @@ inline constexpr uint64_t kWholeText = ~uint64_t{0};
 
 inline CallFrame& top(Interpreter& in) { return in.state.frame[in.state.depth]; }
 
-Did evaluate_here(Interpreter& in, uint16_t code, Value* value);
+Execution evaluate_here(Interpreter& in, uint16_t code, Value* value);
 
 /// The program that P or <name> of the block in hand names; without both the running one where `own_allowed`.
-Did find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program);
+Execution find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program);
 /// A number of a program or a sequence that a call names.
-Did called_number(Interpreter& in, Role word, double value, uint32_t* number);
-Did find_number(Interpreter& in, uint32_t number, ProgramRef* program);
+Execution called_number(Interpreter& in, Role word, double value, uint32_t* number);
+Execution find_number(Interpreter& in, uint32_t number, ProgramRef* program);
 /// Where a called program begins: its head, or the sequence number that H names.
-Did find_start(Interpreter& in, const ProgramRef& program, uint64_t* offset, uint32_t* line);
+Execution find_start(Interpreter& in, const ProgramRef& program, uint64_t* offset, uint32_t* line);
 /// L of a call: 1 when it is not there.
-Did repetitions(Interpreter& in, bool has_l, double l, uint32_t* count);
+Execution repetitions(Interpreter& in, bool has_l, double l, uint32_t* count);
 
 /// How a program is entered.
 struct Entry {
@@ -35,9 +35,9 @@ struct Entry {
   uint8_t slot = 0;         ///< of the modal call that enters
 };
 /// later, or what is wrong. The block in hand gets its mark when the program returns.
-Did enter(Interpreter& in, const Entry& entry);
+Execution enter(Interpreter& in, const Entry& entry);
 /// The same as a macro: a level of local variables with these values (33).
-Did enter_macro(Interpreter& in, const Entry& entry, const Value* arguments);
+Execution enter_macro(Interpreter& in, const Entry& entry, const Value* arguments);
 
 struct MacroCall {
   bool has_p = false, has_l = false;
@@ -45,21 +45,21 @@ struct MacroCall {
   Value argument[kLocals];
 };
 /// The block in hand as arguments. `every_word`: G L N O P are arguments too (M700 13.5.1, G66.1).
-Did gather_arguments(Interpreter& in, bool every_word, MacroCall& call);
+Execution gather_arguments(Interpreter& in, bool every_word, MacroCall& call);
 
 /// G66, G66.1: the call is stored.
-Did store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall& call, uint32_t passes, bool every_block, bool by_code);
+Execution store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall& call, uint32_t passes, bool every_block, bool by_code);
 /// The modal call in force in this program is made now.
-Did make_modal_call(Interpreter& in);
+Execution make_modal_call(Interpreter& in);
 /// What #4014 reads follows the program that runs.
 void show_modal_call(Interpreter& in);
 
 /// print.cpp: SETVN, POPEN, PCLOS, DPRNT, BPRNT
-Did set_names(Interpreter& in, const Statement& statement);
-Did open_port(Interpreter& in);
-Did close_port(Interpreter& in);
-Did print_decimal(Interpreter& in, const Statement& statement);
-Did print_binary(Interpreter& in, const Statement& statement);
+Execution set_names(Interpreter& in, const Statement& statement);
+Execution open_port(Interpreter& in);
+Execution close_port(Interpreter& in);
+Execution print_decimal(Interpreter& in, const Statement& statement);
+Execution print_binary(Interpreter& in, const Statement& statement);
 
 /// M98 or M99 with nothing but O N P L H (M700 13.3.1).
 bool only_calls(const Interpreter& in);

@@ -17,9 +17,9 @@ struct Caller {
   double value = 0;
 };
 
-Did word_value(Interpreter& in, const Word& word, Value* value) {
+Execution word_value(Interpreter& in, const Word& word, Value* value) {
   *value = Value::of(word.value);
-  return (word.flags & kWordExpression) != 0 ? evaluate_here(in, word.code, value) : Did::done;
+  return (word.flags & kWordExpression) != 0 ? evaluate_here(in, word.code, value) : Execution::done;
 }
 
 bool plain_number(const Word& word) { return (word.flags & (kWordComma | kWordCount | kWordNoValue)) == 0; }
@@ -65,7 +65,7 @@ bool is_code(const Interpreter& in, const Word& word, Function function) {
 
 /// The first word that calls. G65, G66 and G66.1 before it make it an argument, G10 makes it an ordinary word.
 /// `functions_only`: codes that call programs are ordinary ones here.
-Did find_caller(Interpreter& in, bool functions_only, Caller* caller) {
+Execution find_caller(Interpreter& in, bool functions_only, Caller* caller) {
   bool data_input = false;
   for (const Word& word : in.block->words) data_input = data_input || is_code(in, word, Function::data_input);
   for (unsigned i = 0; i < in.block->words.size(); ++i) {
@@ -76,12 +76,12 @@ Did find_caller(Interpreter& in, bool functions_only, Caller* caller) {
                            (in.is(word, Role::second_function) && in.code_calls.b.program != 0);
     if (!candidate) continue;
     Value value;
-    const Did did = word_value(in, word, &value);
-    if (did != Did::done) return did;
+    const Execution did = word_value(in, word, &value);
+    if (did != Execution::done) return did;
     if (value.vacant) continue;
     if (in.is(word, Role::code)) {
       const FunctionRow* row = in.codes.find(value.number);
-      if (row != nullptr && is_macro_call(row->function) && in.code_calls.find_g(value.number) == nullptr) return Did::done;
+      if (row != nullptr && is_macro_call(row->function) && in.code_calls.find_g(value.number) == nullptr) return Execution::done;
     }
     // M700 13.5.3: in a fixed cycle and with G10 an ASCII code is the ordinary word.
     const bool ascii_allowed = !data_input && in.state.cycle.kind == CycleKind::none;
@@ -89,9 +89,9 @@ Did find_caller(Interpreter& in, bool functions_only, Caller* caller) {
     const CodeCall* call = registered(in, word, value.number, ascii_allowed, &ascii);
     if (call == nullptr || (functions_only && call->vendor == nullptr)) continue;
     *caller = Caller{i, call, ascii, value.number};
-    return Did::done;
+    return Execution::done;
   }
-  return Did::done;
+  return Execution::done;
 }
 
 /// The code is shown as any other though nothing goes out (M700 13.5.2 (3)).
@@ -105,7 +105,7 @@ void show_code(Interpreter& in, const Caller& caller) {
 }
 
 /// The G codes before the call act as they do before G65: G91 G100 X10.
-Did apply_codes_before(Interpreter& in, unsigned at) {
+Execution apply_codes_before(Interpreter& in, unsigned at) {
   const Block* original = in.block;
   Block& copy = *in.rewritten;
   copy = *original;
@@ -113,8 +113,8 @@ Did apply_codes_before(Interpreter& in, unsigned at) {
   for (unsigned i = 0; i < at; ++i)
     if (in.is(original->words[i], Role::code)) copy.words.push_back(original->words[i]);
   in.block = &copy;
-  Did did = gather_words(in);
-  if (did == Did::done) did = apply_reading_modes(in);
+  Execution did = gather_words(in);
+  if (did == Execution::done) did = apply_reading_modes(in);
   in.block = original;
   return did;
 }
@@ -130,22 +130,22 @@ void run_rest_first(Interpreter& in, const Caller& caller) {
   in.after_block = caller.call;
 }
 
-Did set_ascii_variable(Interpreter& in, const Caller& caller) {
-  if (in.variables.set(caller.call->variable, in.macro_level(), Value::of(caller.value), in.state.seq + 1)) return Did::done;
+Execution set_ascii_variable(Interpreter& in, const Caller& caller) {
+  if (in.variables.set(caller.call->variable, in.macro_level(), Value::of(caller.value), in.state.seq + 1)) return Execution::done;
   return in.raise(Condition::variable_number, '#', caller.call->variable);
 }
 
 /// Types G65, G66, G66.1: every other word is an argument, and so is the code itself but for G.
-Did call_with_arguments(Interpreter& in, const Caller& caller) {
+Execution call_with_arguments(Interpreter& in, const Caller& caller) {
   MacroCall call;
-  Did did = gather_arguments(in, false, call);
-  if (did != Did::done) return did;
+  Execution did = gather_arguments(in, false, call);
+  if (did != Execution::done) return did;
   if (call.has_p) return in.raise(Condition::illegal_address, Role::call_program, call.p);
   Entry entry;
   did = repetitions(in, call.has_l, call.l, &entry.passes);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   did = find_number(in, caller.call->program, &entry.program);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   if (caller.call->type == CodeCallType::macro) {
     entry.kind = CallKind::macro;
     entry.origin = CallOrigin::code;
@@ -155,7 +155,7 @@ Did call_with_arguments(Interpreter& in, const Caller& caller) {
   }
   const bool every_block = caller.call->type == CodeCallType::modal_block;
   did = store_modal_call(in, entry.program, call, entry.passes, every_block, true);
-  return did == Did::done && every_block ? make_modal_call(in) : did;
+  return did == Execution::done && every_block ? make_modal_call(in) : did;
 }
 
 /// Whether the words of the block are a movement command, after which G66 calls (M700 13.5.1).
@@ -174,19 +174,19 @@ bool cancels(const Interpreter& in) {
 
 }  // namespace
 
-Did dispatch_block(Interpreter& in, bool* taken) {
+Execution dispatch_block(Interpreter& in, bool* taken) {
   in.after_block = nullptr;
-  if (modal_call_takes_blocks(in)) return Did::done;
+  if (modal_call_takes_blocks(in)) return Execution::done;
   const bool nested = top(in).origin == CallOrigin::code;  // M700 13.5.2: a code calls nothing in a program that a code has called
-  if (nested && !in.vendor->any()) return Did::done;
+  if (nested && !in.vendor->any()) return Execution::done;
   Caller caller;
-  Did did = find_caller(in, nested, &caller);
-  if (did != Did::done || caller.call == nullptr) return did;
+  Execution did = find_caller(in, nested, &caller);
+  if (did != Execution::done || caller.call == nullptr) return did;
   if (caller.call->vendor != nullptr) {
     *taken = true;
     if (!in.world_fresh) return in.need(NC_SYNC_STOPPED);
     did = apply_codes_before(in, caller.at);
-    if (did != Did::done) return did;
+    if (did != Execution::done) return did;
     show_code(in, caller);
     return call_vendor(in, caller.at, *caller.call->vendor);
   }
@@ -195,13 +195,13 @@ Did dispatch_block(Interpreter& in, bool* taken) {
   if (caller.ascii && std::fabs(caller.value) > 999999.9999) return in.raise(Condition::value_range, in.block->words[caller.at].letter, caller.value);
   show_code(in, caller);
   if (caller.call->type == CodeCallType::sub) {
-    if (caller.ascii && (did = set_ascii_variable(in, caller)) != Did::done) return did;
+    if (caller.ascii && (did = set_ascii_variable(in, caller)) != Execution::done) return did;
     run_rest_first(in, caller);
-    return Did::done;
+    return Execution::done;
   }
   *taken = true;
   did = apply_codes_before(in, caller.at);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   return call_with_arguments(in, caller);
 }
 
@@ -219,42 +219,42 @@ bool goes_on_elsewhere(const Interpreter& in) {
 
 /// M700 13.5.1, 13.3.1: the macro of G66 comes behind the movement, the sub program (and the return) behind everything else of the block,
 /// which is read again for that when the macro has ended.
-Did make_modal_call_first(Interpreter& in) {
+Execution make_modal_call_first(Interpreter& in) {
   in.emit_stop_point();  // single block may stop behind the move
   CallFrame& frame = top(in);
   const uint32_t bit = 1u << in.state.depth;
   frame.offset = in.block->begin;
   frame.line = in.block->line;
   in.state.codes_left |= bit;
-  Did did = make_modal_call(in);
-  if (did != Did::done) return did;
+  Execution did = make_modal_call(in);
+  if (did != Execution::done) return did;
   in.state.codes_left &= ~bit;  // G66 L0 calls nothing: the block goes on
   frame.offset = in.block->next;
   frame.line = in.block->next_line;
   return execute_behind_motion(in);
 }
 
-Did execute_behind_motion(Interpreter& in) {
-  const Did did = auxiliary_after(in);
-  return did == Did::done && in.after_block != nullptr ? call_behind_block(in) : did;
+Execution execute_behind_motion(Interpreter& in) {
+  const Execution did = auxiliary_after(in);
+  return did == Execution::done && in.after_block != nullptr ? call_behind_block(in) : did;
 }
 
-Did call_behind_block(Interpreter& in) {
-  if (in.state.end_seen) return Did::done;
+Execution call_behind_block(Interpreter& in) {
+  if (in.state.end_seen) return Execution::done;
   if (in.after_block != nullptr) {
     Entry entry;
     entry.origin = CallOrigin::code;
-    Did did = find_number(in, in.after_block->program, &entry.program);
+    Execution did = find_number(in, in.after_block->program, &entry.program);
     in.after_block = nullptr;
-    if (did != Did::done) return did;
+    if (did != Execution::done) return did;
     entry.offset = entry.program.offset;
     entry.line = entry.program.line;
     if (!in.block->words.empty()) in.emit_stop_point();
     did = enter(in, entry);
-    if (did == Did::later) in.keep_call();
+    if (did == Execution::later) in.keep_call();
     return did;
   }
-  if (modal_call_takes_blocks(in) || !moves(in) || cancels(in)) return Did::done;
+  if (modal_call_takes_blocks(in) || !moves(in) || cancels(in)) return Execution::done;
   in.emit_stop_point();  // single block may stop behind the move
   return make_modal_call(in);
 }

@@ -10,7 +10,7 @@
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/work_rotation.hpp"
-#include "modal/company.hpp"
+#include "modal/precedence.hpp"
 
 namespace nc {
 namespace {
@@ -29,31 +29,31 @@ bool keeps_its_offset_number(const FunctionRow* one_shot) {
 
 /// E is the lead of a thread (M700 6.7) or an argument of a macro. What looks like X1E-05 elsewhere would be X1 and a word that nobody reads;
 /// a lead has no sign, and no programmer writes its letter small behind another number (Z1e1).
-Did check_lead_word(Interpreter& in) {
+Execution check_lead_word(Interpreter& in) {
   const BlockWords& w = in.words;
-  if (!w.has(Role::fine_thread_lead)) return Did::done;
+  if (!w.has(Role::fine_thread_lead)) return Execution::done;
   const bool thread = in.state.modal.is(Function::thread) && w.one_shot == nullptr && w.cycle == nullptr;
   const bool exponent = (w.flag(Role::fine_thread_lead) & (kWordNegative | kWordPlus | kWordExponent)) != 0;
-  return thread && !exponent ? Did::done : in.raise(Condition::exponent, Role::fine_thread_lead, w.get(Role::fine_thread_lead));
+  return thread && !exponent ? Execution::done : in.raise(Condition::exponent, Role::fine_thread_lead, w.get(Role::fine_thread_lead));
 }
 
 /// M700 App.2: codes of radius and length compensation beside the one-shot function (G49 beside a reference return counts all the same, 12.2).
 bool ignores_compensation(const FunctionRow* one_shot, const FunctionRow& modal) {
   if (one_shot == nullptr) return false;
   if (modal.function == Function::length_off && is_reference_move(one_shot->function)) return false;
-  const CompanyRow& company = company_of(one_shot->function);
-  return (mode_of(modal.function) == Mode::length ? company.length : company.radius) == Beside::ignored;
+  const PrecedenceRow& beside = precedence_of(one_shot->function);
+  return (mode_of(modal.function) == Mode::length ? beside.length : beside.radius) == Precedence::ignored;
 }
 
-bool ignores_cycle(const FunctionRow* one_shot) { return one_shot != nullptr && company_of(one_shot->function).cycle == Beside::ignored; }
+bool ignores_cycle(const FunctionRow* one_shot) { return one_shot != nullptr && precedence_of(one_shot->function).cycle == Precedence::ignored; }
 
 /// M700 App.2, column G66 G67: a one-shot function, a cycle or a mirror beside G67 is not executed where the table says so.
 void drop_beside_cancel(Interpreter& in) {
   BlockWords& w = in.words;
   for (const FunctionRow* row : w.g) {
     if (row->function != Function::macro_modal_off) continue;
-    const bool one_shot = w.one_shot != nullptr && company_of(w.one_shot->function).macro == Beside::loses;
-    const bool cycle = w.cycle != nullptr && w.cycle->function != Function::cycle_off && company_of(row->function).cycle == Beside::ignored;
+    const bool one_shot = w.one_shot != nullptr && precedence_of(w.one_shot->function).macro == Precedence::loses;
+    const bool cycle = w.cycle != nullptr && w.cycle->function != Function::cycle_off && precedence_of(row->function).cycle == Precedence::ignored;
     if (one_shot) w.one_shot = nullptr;
     if (cycle) w.cycle = nullptr;
     if (one_shot || (cycle && w.one_shot == nullptr)) w.present &= ~in.axis_letters;  // its words, too
@@ -64,7 +64,7 @@ void drop_beside_cancel(Interpreter& in) {
 }  // namespace
 
 /// 1: modes that other words are read by.
-Did apply_reading_modes(Interpreter& in) {
+Execution apply_reading_modes(Interpreter& in) {
   in.block_starts_incremental = in.state.modal.is(Function::incremental);
   in.distance_by_word = false;
   const Function feed_mode = in.state.modal.of(Mode::feed), cutting = in.state.modal.of(Mode::cutting);
@@ -78,8 +78,8 @@ Did apply_reading_modes(Interpreter& in) {
       case Function::plane_xy:
       case Function::plane_zx:
       case Function::plane_yz: {
-        const Did did = select_plane(in, *row);
-        if (did != Did::done) return did;
+        const Execution did = select_plane(in, *row);
+        if (did != Execution::done) return did;
         break;
       }
       case Function::inch:
@@ -113,8 +113,8 @@ Did apply_reading_modes(Interpreter& in) {
       case Function::tapping_mode:
       case Function::cutting_mode:
       case Function::high_accuracy_mode: {
-        const Did did = check_cutting_code(in, *row);
-        if (did != Did::done) return did;
+        const Execution did = check_cutting_code(in, *row);
+        if (did != Execution::done) return did;
         in.state.modal.set(*row);
         in.state.refresh_accuracy();
         break;
@@ -124,8 +124,8 @@ Did apply_reading_modes(Interpreter& in) {
       case Function::rotation_off: end_rotation(in); break;
       case Function::polar_command_on:
       case Function::polar_command_off: {
-        const Did did = select_polar_command(in, *row);
-        if (did != Did::done) return did;
+        const Execution did = select_polar_command(in, *row);
+        if (did != Execution::done) return did;
         in.state.refresh_special();
         break;
       }
@@ -133,21 +133,21 @@ Did apply_reading_modes(Interpreter& in) {
     }
   }
   if (!in.state.modal.is(cutting)) change_cutting_mode(in, cutting);
-  return !in.state.modal.is(feed_mode) ? change_feed_mode(in, feed_mode) : Did::done;
+  return !in.state.modal.is(feed_mode) ? change_feed_mode(in, feed_mode) : Execution::done;
 }
 
 namespace {
 
 /// 2: coordinate systems and compensation.
-Did apply_systems(Interpreter& in) {
+Execution apply_systems(Interpreter& in) {
   for (const FunctionRow* row : in.words.g) {
-    Did did = Did::done;
+    Execution did = Execution::done;
     switch (row->function) {
       case Function::work_system:
       case Function::extended_system: did = select_work_system(in, *row); break;
       default: break;
     }
-    if (did != Did::done) return did;
+    if (did != Execution::done) return did;
   }
   const FunctionRow* one_shot = in.words.one_shot;
   const FunctionRow* radius = nullptr;
@@ -161,46 +161,46 @@ Did apply_systems(Interpreter& in) {
   if (radius != nullptr) {
     in.state.modal.set(*radius);
     const int8_t side = in.state.comp.side;
-    const Did did = set_compensation(in, radius->function);
+    const Execution did = set_compensation(in, radius->function);
     in.words.comp_command = side != 0 || in.state.comp.side != 0;
-    if (did != Did::done) return did;
+    if (did != Execution::done) return did;
   } else if (in.words.has(Role::offset_number) && !keeps_its_offset_number(one_shot)) {
-    const Did did = change_radius(in);
-    if (did != Did::done) return did;
+    const Execution did = change_radius(in);
+    if (did != Execution::done) return did;
   }
   if (length != nullptr) {
     in.state.modal.set(*length);
     return set_length(in, length->function);
   }
   const bool own_number = in.words.has(Role::length_number) && in.dialect->rules.length.number_in_any_block;
-  return own_number && !(one_shot != nullptr && one_shot->function == Function::measure_length) ? change_length(in) : Did::done;  // P605 (15.1)
+  return own_number && !(one_shot != nullptr && one_shot->function == Function::measure_length) ? change_length(in) : Execution::done;  // P605 (15.1)
 }
 
 /// M700 App.2: codes of length compensation and work systems before a macro call become modal and do no more.
-Did update_beside_call(Interpreter& in) {
-  const CompanyRow& company = company_of(in.words.one_shot->function);
+Execution update_beside_call(Interpreter& in) {
+  const PrecedenceRow& beside = precedence_of(in.words.one_shot->function);
   for (const FunctionRow* row : in.words.g) {
-    Did did = Did::done;
-    if (row->function == Function::work_system && company.work == Beside::modal) did = select_work_system(in, *row);
-    if (mode_of(row->function) == Mode::length && company.length == Beside::modal) {
+    Execution did = Execution::done;
+    if (row->function == Function::work_system && beside.work == Precedence::modal) did = select_work_system(in, *row);
+    if (mode_of(row->function) == Mode::length && beside.length == Precedence::modal) {
       in.state.modal.set(*row);
       did = set_length(in, row->function);
     }
-    if (did != Did::done) return did;
+    if (did != Execution::done) return did;
   }
-  return Did::done;
+  return Execution::done;
 }
 
 /// 4: what moves.
-Did execute_motion(Interpreter& in) {
+Execution execute_motion(Interpreter& in) {
   const BlockWords& w = in.words;
   if ((w.axes & in.rotary) != 0 && (w.one_shot == nullptr || goes_to_position(w.one_shot->function))) {
-    const Did did = check_index_positions(in);
-    if (did != Did::done) return did;
+    const Execution did = check_index_positions(in);
+    if (did != Execution::done) return did;
   }
   if (in.state.work_turned && (w.axes != 0 || w.any({Role::vector_x, Role::vector_y, Role::vector_z, Role::arc_radius}))) {
-    const Did did = check_work_rotation(in);
-    if (did != Did::done) return did;
+    const Execution did = check_work_rotation(in);
+    if (did != Execution::done) return did;
   }
   if (w.motion != nullptr) {
     cancel_cycle(in);  // M700 13.1.1 (4): G00-G03 cancel the cycle, and win over a cycle code in the same block
@@ -212,20 +212,20 @@ Did execute_motion(Interpreter& in) {
   return move_by_words(in);
 }
 
-Did finish(Interpreter& in, Did did) {
-  if (did != Did::done) return did;
+Execution finish(Interpreter& in, Execution did) {
+  if (did != Execution::done) return did;
   in.state.comp.has_vector = false;
   in.state.comp.cancel_vector = false;
   if (codes_behind_motion(in)) did = auxiliary_before(in);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   if (in.state.modal_call != 0 && goes_on_elsewhere(in)) return make_modal_call_first(in);
   did = auxiliary_after(in);
-  if (did != Did::done || (in.after_block == nullptr && in.state.modal_call == 0)) return did;
+  if (did != Execution::done || (in.after_block == nullptr && in.state.modal_call == 0)) return did;
   return call_behind_block(in);
 }
 
 /// What is left of a block whose motion is done, and the macro behind it: the program that it calls, or the end of its own.
-Did execute_codes_left(Interpreter& in) {
+Execution execute_codes_left(Interpreter& in) {
   in.state.codes_left &= ~(1u << in.state.depth);
   in.words.axes = 0;
   return execute_behind_motion(in);
@@ -255,73 +255,73 @@ bool only_moves(const Interpreter& in) {
          in.state.modal_call == 0;
 }
 
-Did execute_move(Interpreter& in) {
+Execution execute_move(Interpreter& in) {
   BlockWords& w = in.words;
   in.distance_by_word = false;
   ModalState& modal = in.state.modal;
   const bool same = w.motion == nullptr || modal.holds(*w.motion);
   in.modal_kept = same && !w.has(Role::feed);
   if (!same) modal.set(*w.motion);
-  Did did = resolve_axes(in);
-  if (did == Did::done && w.has(Role::feed)) did = in.settings.feed_by_digit ? take_feed_word(in) : feed_of(in, &modal.feed);
-  if (did == Did::done) did = move_by_words(in);
-  if (did != Did::done) return did;
+  Execution did = resolve_axes(in);
+  if (did == Execution::done && w.has(Role::feed)) did = in.settings.feed_by_digit ? take_feed_word(in) : feed_of(in, &modal.feed);
+  if (did == Execution::done) did = move_by_words(in);
+  if (did != Execution::done) return did;
   in.state.comp.has_vector = false;
   in.state.comp.cancel_vector = false;
-  return in.after_block == nullptr ? Did::done : call_behind_block(in);
+  return in.after_block == nullptr ? Execution::done : call_behind_block(in);
 }
 
 }  // namespace
 
-Did execute_words(Interpreter& in) {
+Execution execute_words(Interpreter& in) {
   if (in.state.parameter_input) return parameter_block(in);
   if (in.codes_call) {
     bool taken = false;
-    const Did did = dispatch_block(in, &taken);
-    if (taken || did != Did::done) return did;
+    const Execution did = dispatch_block(in, &taken);
+    if (taken || did != Execution::done) return did;
   }
-  Did did = gather_words(in);
-  if (did != Did::done) return did;
+  Execution did = gather_words(in);
+  if (did != Execution::done) return did;
   BlockWords& w = in.words;
   if (in.state.codes_left != 0 && (in.state.codes_left >> in.state.depth & 1) != 0) return execute_codes_left(in);
   if (in.state.fine_mode != FineMode::none) {
     did = check_fine_block(in);
-    if (did != Did::done) return did;
+    if (did != Execution::done) return did;
   }
   if (only_moves(in)) return execute_move(in);
   const bool macro_call = w.one_shot != nullptr && is_macro_call(w.one_shot->function);
   const Function motion_before = in.state.modal.of(Mode::motion);  // M700 App.2: codes of motions beside G37 are ignored
   if (!in.shared_known() && adds_to_shared(in)) return in.need(NC_SYNC_SHARED);
   did = apply_reading_modes(in);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   if (macro_call) {
     did = update_beside_call(in);
-    return did == Did::done ? call_macro(in) : did;
+    return did == Execution::done ? call_macro(in) : did;
   }
   if (w.g.size() > 1) drop_beside_cancel(in);
   if (in.state.modal_call != 0 && block_is_argument(in)) return call_with_block(in);
   did = check_lead_word(in);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   // M700 3.2 note 9, DGSHAPE 1-1: N and O begin a block. Behind other words nothing would find them (N of G10 is something else).
   if (w.late_number != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
     return in.raise(Condition::format_error, w.late_number, w.get(w.late_number));
-  did = check_company(in);
-  if (did == Did::done && in.state.map.kind != AxisMap::Kind::none) did = check_mill_block(in);
-  if (did != Did::done) return did;
+  did = check_precedence(in);
+  if (did == Execution::done && in.state.map.kind != AxisMap::Kind::none) did = check_mill_block(in);
+  if (did != Execution::done) return did;
   did = resolve_axes(in);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   if (is_space_arc(in.state.modal.of(Mode::motion)) || in.state.arc_step != ArcStep::none) did = check_space_arc_block(in);
-  if (did == Did::done && in.state.nurbs.active()) did = check_nurbs_block(in);
-  if (did != Did::done) return did;
+  if (did == Execution::done && in.state.nurbs.active()) did = check_nurbs_block(in);
+  if (did != Execution::done) return did;
   if (in.state.modal.is(Function::polar_command_on)) resolve_polar_words(in);
   // Neither is the lead of a thread (6.7.1) or the feed of an exponential curve (6.11).
   const bool own_feed = w.one_shot != nullptr ? keeps_its_feed(w.one_shot->function)
                                               : has_own_feed(in.state.modal.of(Mode::motion));
   if (in.state.modal.is(Function::inverse_time_feed)) did = check_inverse_time_block(in);
-  if (did == Did::done && w.has(Role::feed) && !own_feed) did = take_feed_word(in);
-  if (did != Did::done) return did;
+  if (did == Execution::done && w.has(Role::feed) && !own_feed) did = take_feed_word(in);
+  if (did != Execution::done) return did;
   did = apply_systems(in);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   if (is_arc(in.state.modal.of(Mode::motion)) && w.axes != 0 && w.one_shot == nullptr && w.cycle == nullptr) {
     // M700 App.2: an arc and G43/G44 in one block.
     for (const FunctionRow* row : w.g)
@@ -329,25 +329,25 @@ Did execute_words(Interpreter& in) {
         return in.raise_code(Condition::arc_deviation, *row);
   }
   if (!w.g.empty()) did = set_surface_speed(in);
-  if (did == Did::done && !codes_behind_motion(in)) did = auxiliary_before(in);
-  if (did != Did::done) return did;
+  if (did == Execution::done && !codes_behind_motion(in)) did = auxiliary_before(in);
+  if (did != Execution::done) return did;
   if (w.one_shot != nullptr && w.one_shot->function == Function::measure_length) in.state.modal.set(motion_before);
   if (!w.comp_command) return finish(in, execute_motion(in));
   const AxisVec before = in.state.machine;
   did = execute_motion(in);
-  if (did == Did::done && in.state.machine == before) move_nowhere(in);
+  if (did == Execution::done && in.state.machine == before) move_nowhere(in);
   return finish(in, did);
 }
 
-Did continue_block(Interpreter& in) {
+Execution continue_block(Interpreter& in) {
   const Step step = in.next_step;
-  Did did = Did::done;
+  Execution did = Execution::done;
   if (step == Step::cycle) did = continue_cycle(in);
   if (step == Step::skip_answered) did = skip_answered(in);
   if (step == Step::measured) did = measured(in);
   if (step == Step::reference_check) did = compare_reference(in);
-  if (did == Did::later) return did;
-  if (did == Did::done) in.next_step = Step::none;
+  if (did == Execution::later) return did;
+  if (did == Execution::done) in.next_step = Step::none;
   return finish(in, did);
 }
 

@@ -13,23 +13,23 @@ constexpr double kNoise = 1e-9;
 bool inch(const Interpreter& in) { return in.state.modal.is(Function::inch); }
 
 /// M700 7.4 (1): without a point F counts in the least unit of the setting; 0.001 to 999.999, one decimal more for each finer unit.
-Did take_feed_per_revolution(Interpreter& in) {
+Execution take_feed_per_revolution(Interpreter& in) {
   const double unit = inch(in) ? in.settings.setting_unit_inch : in.settings.setting_unit_mm;
   const double raw = in.words.get(Role::feed);
   const double value = in.words.pointed(Role::feed) || in.settings.decimal_type_2 ? raw : raw / std::nearbyint(1 / unit);
   const bool below = value > 0 && value < unit - kNoise * unit;
   if (!(value >= 0) || below || value > 1000 - unit + kNoise) return in.raise(Condition::value_range, Role::feed, raw);
   in.state.modal.feed = value;
-  return Did::done;
+  return Execution::done;
 }
 
 /// M700 7.5 (2), precaution (3): 0.001 to 999999.999 1/min with #1003 = B; F0 is an alarm.
-Did take_inverse_time(Interpreter& in) {
+Execution take_inverse_time(Interpreter& in) {
   const double unit = in.settings.setting_unit_mm, value = in.words.get(Role::feed);
   if (value == 0) return in.raise(Condition::no_feed, Role::feed, value);
   if (!(value >= unit - kNoise * unit) || value > 1e6 - unit + kNoise) return in.raise(Condition::value_range, Role::feed, value);
   in.state.modal.feed = value;
-  return Did::done;
+  return Execution::done;
 }
 
 double straight_length(const Interpreter& in, const Move& move) {
@@ -72,7 +72,7 @@ bool is_feed_digit(const Interpreter& in, double raw) {
   return in.settings.feed_by_digit && !in.words.pointed(Role::feed) && raw >= 0 && raw <= 5 && raw == std::floor(raw);
 }
 
-Did take_feed_word(Interpreter& in) {
+Execution take_feed_word(Interpreter& in) {
   ModalState& modal = in.state.modal;
   in.state.vacant_feed = 0;
   if (modal.is(Function::feed_per_revolution)) return take_feed_per_revolution(in);
@@ -83,15 +83,15 @@ Did take_feed_word(Interpreter& in) {
     modal.feed = raw;
     modal.feed_digit = static_cast<uint16_t>(raw + 1);
   } else {
-    const Did did = feed_of(in, &modal.feed);
-    if (did != Did::done) return did;
+    const Execution did = feed_of(in, &modal.feed);
+    if (did != Execution::done) return did;
     modal.feed_digit = 0;
   }
   if (before != modal.feed_digit) in.state.refresh_special();
-  return Did::done;
+  return Execution::done;
 }
 
-Did change_feed_mode(Interpreter& in, Function before) {
+Execution change_feed_mode(Interpreter& in, Function before) {
   State& state = in.state;
   const Function now = state.modal.of(Mode::feed);
   // M700 7.5, precaution (4)
@@ -101,7 +101,7 @@ Did change_feed_mode(Interpreter& in, Function before) {
   state.modal.feed = 0;  // an F of one mode means nothing in another one
   state.modal.feed_digit = 0;
   state.refresh_special();
-  return Did::done;
+  return Execution::done;
 }
 
 /// The scan has to know of G63: no feed hold in there (M700 7.11 (3), (5)).
@@ -144,7 +144,7 @@ bool inverse_time_so_far(const Interpreter& in) {
   return mode == Function::inverse_time_feed;
 }
 
-Did check_inverse_time_block(Interpreter& in) {
+Execution check_inverse_time_block(Interpreter& in) {
   const BlockWords& w = in.words;
   for (const FunctionRow* row : w.g)
     if (refused_in_inverse_time(row->function)) return in.raise_code(Condition::inverse_time_code, *row);
@@ -155,17 +155,17 @@ Did check_inverse_time_block(Interpreter& in) {
   const bool cycle = in.state.cycle.kind != CycleKind::none && w.cycle == nullptr && w.motion == nullptr;
   if (cycle) return in.raise_mode(Condition::inverse_time_code, Mode::cycle);
   if (in.state.modal.is(Function::surface_on)) return in.raise_mode(Condition::inverse_time_code, Mode::surface_speed);
-  return Did::done;
+  return Execution::done;
 }
 
-Did check_special_feed(Interpreter& in, Function motion) {
+Execution check_special_feed(Interpreter& in, Function motion) {
   const ModalState& modal = in.state.modal;
   if (modal.is(Function::inverse_time_feed)) {  // M700 7.5, precaution (2)
-    return in.words.has(Role::feed) ? Did::done : in.raise(Condition::no_feed, Role::feed);
+    return in.words.has(Role::feed) ? Execution::done : in.raise(Condition::no_feed, Role::feed);
   }
   if (modal.feed_digit == 1 && motion != Function::linear) return in.raise(Condition::arc_feed_zero, Role::feed, 0);  // M700 7.3 (2) (c)
-  if (modal.feed_digit != 0) return Did::done;
-  return modal.feed <= 0 ? in.raise(Condition::no_feed, Role::feed) : Did::done;
+  if (modal.feed_digit != 0) return Execution::done;
+  return modal.feed <= 0 ? in.raise(Condition::no_feed, Role::feed) : Execution::done;
 }
 
 void apply_special_feed(Interpreter& in, Move& move) {

@@ -11,29 +11,29 @@ namespace nc {
 bool is_feed_digit(const Interpreter& in, double raw);
 
 /// The F of the block, by the feed mode in force (7.2 to 7.5).
-Did take_feed_word(Interpreter& in);
+Execution take_feed_word(Interpreter& in);
 
 /// The block has changed the feed mode; `before` was in force (7.4, 7.5). Call when all codes of the block are in force.
-Did change_feed_mode(Interpreter& in, Function before);
+Execution change_feed_mode(Interpreter& in, Function before);
 
 /// The block has changed the cutting mode (7.8 to 7.12).
 void change_cutting_mode(Interpreter& in, Function before);
 
 /// Functions and modes that exclude inverse time feed (7.5, relation with other functions (4), (5)): P125.
 bool refused_in_inverse_time(Function function);
-Did check_inverse_time_block(Interpreter& in);
+Execution check_inverse_time_block(Interpreter& in);
 /// G93 is in force for the codes behind it in the block in hand.
 bool inverse_time_so_far(const Interpreter& in);
 
-Did check_special_feed(Interpreter& in, Function motion);
+Execution check_special_feed(Interpreter& in, Function motion);
 void apply_special_feed(Interpreter& in, Move& move);
 
 inline bool special_feed(const Interpreter& in) { return (in.state.special & kSpecialFeed) != 0; }
 
 /// A cutting move of the function `motion` is about to be made: is there a feed?
-inline Did check_feed(Interpreter& in, Function motion) {
+inline Execution check_feed(Interpreter& in, Function motion) {
   if (special_feed(in)) return check_special_feed(in, motion);
-  return in.state.modal.feed <= 0 ? in.raise(Condition::no_feed, Role::feed) : Did::done;
+  return in.state.modal.feed <= 0 ? in.raise(Condition::no_feed, Role::feed) : Execution::done;
 }
 
 /// The modal feed and all that goes with it, on a cutting move whose geometry is known; `mm_min` is F as a feed per minute.

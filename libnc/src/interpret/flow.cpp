@@ -53,7 +53,7 @@ bool loop_without_end(Interpreter& in, uint32_t* number) {
   return false;
 }
 
-Did jump_to_sequence(Interpreter& in, double number) {
+Execution jump_to_sequence(Interpreter& in, double number) {
   uint32_t n = 0;
   uint64_t offset = 0;
   uint32_t line = 0;
@@ -63,10 +63,10 @@ Did jump_to_sequence(Interpreter& in, double number) {
   top(in).offset = offset;
   top(in).line = line;
   in.jumped = true;
-  return Did::done;
+  return Execution::done;
 }
 
-Did begin_loop(Interpreter& in, const Statement& statement, bool condition) {
+Execution begin_loop(Interpreter& in, const Statement& statement, bool condition) {
   State& s = in.state;
   CallFrame& frame = top(in);
   if (statement.number < 1 || statement.number > kMaxLoopNumber) return in.raise(Condition::while_statement, Role::loop_number, statement.number);
@@ -84,17 +84,17 @@ Did begin_loop(Interpreter& in, const Statement& statement, bool condition) {
     frame.offset = end;
     frame.line = line;
     in.jumped = true;
-    return Did::done;
+    return Execution::done;
   }
-  if (again) return Did::done;
+  if (again) return Execution::done;
   for (unsigned i = frame.loop_base; i < s.loop_count; ++i)  // an active m may not be used again in the nest
     if (s.loop[i].number == statement.number) return in.raise(Condition::loop_pair, Role::loop_number, statement.number);
   if (unsigned{s.loop_count} - frame.loop_base >= kLoopDepth || s.loop_count >= kMaxLoops) return in.raise(Condition::loop_nesting, Role::loop_number, statement.number);
   s.loop[s.loop_count++] = Loop{here, in.block->next, 0, in.block->line, 0, statement.number};
-  return Did::done;
+  return Execution::done;
 }
 
-Did end_loop(Interpreter& in, const Statement& statement) {
+Execution end_loop(Interpreter& in, const Statement& statement) {
   State& s = in.state;
   CallFrame& frame = top(in);
   if (s.loop_count == frame.loop_base || s.loop[s.loop_count - 1].number != statement.number)
@@ -105,23 +105,23 @@ Did end_loop(Interpreter& in, const Statement& statement) {
   frame.offset = loop.offset;
   frame.line = loop.line;
   in.jumped = true;
-  return Did::done;
+  return Execution::done;
 }
 
-Did assign(Interpreter& in, const Statement& statement) {
+Execution assign(Interpreter& in, const Statement& statement) {
   Value value;
   uint32_t n = 0;
-  Did did = Did::done;
+  Execution did = Execution::done;
   if (!constant_number(*in.block, statement.target, &n)) {
     Value number;
     did = evaluate_here(in, statement.target, &number);
-    if (did != Did::done) return did;
+    if (did != Execution::done) return did;
     if (!variable_number(number, &n)) return in.raise(Condition::variable_number, '#', number.or_zero());
   }
   did = evaluate_here(in, statement.value, &value);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   if (n == 0) return in.raise(Condition::variable_use, '#', 0);  // M700 13.5.4: #0 never on the left
-  if (in.variables.set(n, in.macro_level(), value, in.state.seq + 1)) return Did::done;
+  if (in.variables.set(n, in.macro_level(), value, in.state.seq + 1)) return Execution::done;
   return write_system_variable(in, n, value, statement);
 }
 
@@ -129,45 +129,45 @@ Did assign(Interpreter& in, const Statement& statement) {
 
 // ---- entering programs ------------------------------------------------------------------------------------------------------
 
-Did evaluate_here(Interpreter& in, uint16_t code, Value* value) {
+Execution evaluate_here(Interpreter& in, uint16_t code, Value* value) {
   const Eval eval = evaluate(*in.block, code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, value, &in.fault, &in.sync_needed);
-  if (eval == Eval::fault) return Did::fault;
-  return eval == Eval::need_sync ? Did::sync : Did::done;
+  if (eval == Eval::fault) return Execution::fault;
+  return eval == Eval::need_sync ? Execution::sync : Execution::done;
 }
 
 /// M700 App.1 P35: P of a program has up to eight digits and no sign (3.5); neither have the numbers of H and of the P of M99.
-Did called_number(Interpreter& in, Role word, double value, uint32_t* number) {
-  return whole_number(value, number) && *number <= 99999999 ? Did::done : in.raise(Condition::value_range, word, value);
+Execution called_number(Interpreter& in, Role word, double value, uint32_t* number) {
+  return whole_number(value, number) && *number <= 99999999 ? Execution::done : in.raise(Condition::value_range, word, value);
 }
 
-Did find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program) {
+Execution find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program) {
   if (in.block->name_length > 0) {
     if (in.block->name_length > 32) return in.raise(Condition::program_missing, '<');  // M700 13.3.1: at most 32 characters
     *program = in.reader.find_program(in.block->text.begin() + in.block->name, in.block->name_length);
-    return program->valid() ? Did::done : in.raise(Condition::program_missing, '<');
+    return program->valid() ? Execution::done : in.raise(Condition::program_missing, '<');
   }
   if (!has_p) {
     if (!own_allowed) return in.raise(Condition::address_missing, Role::call_program);
     *program = top(in).program;
-    return Did::done;
+    return Execution::done;
   }
   uint32_t number = 0;
-  const Did did = called_number(in, Role::call_program, p, &number);
-  return did == Did::done ? find_number(in, number, program) : did;
+  const Execution did = called_number(in, Role::call_program, p, &number);
+  return did == Execution::done ? find_number(in, number, program) : did;
 }
 
-Did find_number(Interpreter& in, uint32_t number, ProgramRef* program) {
+Execution find_number(Interpreter& in, uint32_t number, ProgramRef* program) {
   if (number == 0) return in.raise(Condition::program_missing, Role::call_program, number);
   *program = in.reader.find_program(number, top(in).program.file);
   if (!program->valid()) return in.raise(Condition::program_missing, Role::call_program, number);
   program->number = number;
-  return Did::done;
+  return Execution::done;
 }
 
-Did repetitions(Interpreter& in, bool has_l, double l, uint32_t* count) {
+Execution repetitions(Interpreter& in, bool has_l, double l, uint32_t* count) {
   *count = 1;
   if (has_l && (!whole_number(l, count) || *count > 9999)) return in.raise(Condition::value_range, Role::call_repeats, l);
-  return Did::done;
+  return Execution::done;
 }
 
 bool only_calls(const Interpreter& in) {
@@ -176,7 +176,7 @@ bool only_calls(const Interpreter& in) {
   return in.words.m.size() == 1;
 }
 
-Did enter(Interpreter& in, const Entry& entry) {
+Execution enter(Interpreter& in, const Entry& entry) {
   State& s = in.state;
   if (s.depth + 1u > in.dialect->call_depth || s.depth + 1u >= kMaxFrames) return in.raise(Condition::nesting, Role::call_program, entry.program.number);
   const CallFrame& caller = top(in);
@@ -202,7 +202,7 @@ Did enter(Interpreter& in, const Entry& entry) {
   } else {
     in.program_changed();
   }
-  return Did::later;  // the mark of the calling block comes after the return
+  return Execution::later;  // the mark of the calling block comes after the return
 }
 
 namespace {
@@ -227,7 +227,7 @@ void leave(Interpreter& in) {
 
 }  // namespace
 
-Did execute_statement(Interpreter& in, const Statement& statement) {
+Execution execute_statement(Interpreter& in, const Statement& statement) {
   const bool jumps = statement.kind == StatementKind::if_goto || statement.kind == StatementKind::go_to || statement.kind == StatementKind::while_do;
   if (jumps && in.reader.is_tape(top(in).program.file)) return in.raise(Condition::jump_on_tape);  // M700 App.1
   switch (statement.kind) {
@@ -235,25 +235,25 @@ Did execute_statement(Interpreter& in, const Statement& statement) {
     case StatementKind::if_goto:
     case StatementKind::while_do: {
       Value condition;
-      const Did did = evaluate_here(in, statement.value, &condition);
-      if (did != Did::done) return did;
+      const Execution did = evaluate_here(in, statement.value, &condition);
+      if (did != Execution::done) return did;
       const bool holds = condition.or_zero() != 0;
       if (statement.kind == StatementKind::while_do) return begin_loop(in, statement, holds);
-      if (!holds) return Did::done;
+      if (!holds) return Execution::done;
       [[fallthrough]];
     }
     case StatementKind::go_to: {
       Value target;
-      const Did did = evaluate_here(in, statement.target, &target);
-      return did == Did::done ? jump_to_sequence(in, target.or_zero()) : did;
+      const Execution did = evaluate_here(in, statement.target, &target);
+      return did == Execution::done ? jump_to_sequence(in, target.or_zero()) : did;
     }
     case StatementKind::do_loop: return begin_loop(in, statement, true);
     case StatementKind::end_loop: return end_loop(in, statement);
     case StatementKind::if_then: {  // of later models, an option: what follows in the block is done when the condition holds
       if (!in.settings.macro_extensions) return in.raise(Condition::if_statement);
       Value condition;
-      const Did did = evaluate_here(in, statement.value, &condition);
-      if (did == Did::done && condition.or_zero() == 0) in.jumped = true;  // past the rest of the block
+      const Execution did = evaluate_here(in, statement.value, &condition);
+      if (did == Execution::done && condition.or_zero() == 0) in.jumped = true;  // past the rest of the block
       return did;
     }
     case StatementKind::set_name: return set_names(in, statement);
@@ -265,51 +265,51 @@ Did execute_statement(Interpreter& in, const Statement& statement) {
   return in.raise(Condition::internal);
 }
 
-Did find_start(Interpreter& in, const ProgramRef& program, uint64_t* offset, uint32_t* line) {
+Execution find_start(Interpreter& in, const ProgramRef& program, uint64_t* offset, uint32_t* line) {
   const BlockWords& w = in.words;
   *offset = program.offset;
   *line = program.line;
-  if (!w.has(Role::call_sequence)) return Did::done;
+  if (!w.has(Role::call_sequence)) return Execution::done;
   uint32_t n = 0;
   bool again = false;
-  const Did did = called_number(in, Role::call_sequence, w.get(Role::call_sequence), &n);
-  if (did != Did::done) return did;
-  if (in.reader.find_sequence(program.file, n, offset, line, 0, kWholeText, &again)) return Did::done;
+  const Execution did = called_number(in, Role::call_sequence, w.get(Role::call_sequence), &n);
+  if (did != Execution::done) return did;
+  if (in.reader.find_sequence(program.file, n, offset, line, 0, kWholeText, &again)) return Execution::done;
   return in.raise(Condition::sequence_missing, Role::call_sequence, w.get(Role::call_sequence));
 }
 
 namespace {
 
 /// M700 13.3.1: a sub program of one of the devices 1 to 4.
-Did find_on_device(Interpreter& in, ProgramRef* program) {
+Execution find_on_device(Interpreter& in, ProgramRef* program) {
   const BlockWords& w = in.words;
   const char place[] = {in.dialect->device_letter, static_cast<char>('0' + w.device), ':', 0};
   const unsigned length = in.block->name_length;
   uint32_t number = 0;
   if (length == 0 && !w.has(Role::call_program)) return in.raise(Condition::address_missing, Role::call_program);
-  const Did did = length == 0 ? called_number(in, Role::call_program, w.get(Role::call_program), &number) : Did::done;
-  if (did != Did::done) return did;
+  const Execution did = length == 0 ? called_number(in, Role::call_program, w.get(Role::call_program), &number) : Execution::done;
+  if (did != Execution::done) return did;
   if (length <= 32) *program = in.reader.find_external(place, in.block->text.begin() + in.block->name, length, number);
   if (!program->valid()) return length != 0 ? in.raise(Condition::program_missing, '<') : in.raise(Condition::program_missing, Role::call_program, number);
   if (number != 0) program->number = number;
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
 
-Did call_sub(Interpreter& in) {
+Execution call_sub(Interpreter& in) {
   const BlockWords& w = in.words;
   if (top(in).figure != 0) return in.raise_misc(Condition::nesting, MiscFunction::call_sub);  // M700 13.3.3 (6): no branch from a rotating program
   uint32_t passes = 1;
-  Did did = repetitions(in, w.has(Role::call_repeats), w.has(Role::call_repeats) ? w.get(Role::call_repeats) : 1, &passes);
-  if (did != Did::done || passes == 0) return did;  // M700 13.3.1: not called with L0, so nothing is looked for
+  Execution did = repetitions(in, w.has(Role::call_repeats), w.has(Role::call_repeats) ? w.get(Role::call_repeats) : 1, &passes);
+  if (did != Execution::done || passes == 0) return did;  // M700 13.3.1: not called with L0, so nothing is looked for
   ProgramRef program;
   did = w.device != 0 ? find_on_device(in, &program) : find_called(in, w.has(Role::call_program), w.has(Role::call_program) ? w.get(Role::call_program) : 0, true, &program);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   uint64_t offset = 0;
   uint32_t line = 0;
   did = find_start(in, program, &offset, &line);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   // M700 13.3.1: single block does not stop at a block that only calls; with other words it may, behind what they do.
   const bool stops = !only_calls(in);
   const bool figure = w.any({Role::vector_x, Role::vector_y, Role::vector_z});
@@ -317,7 +317,7 @@ Did call_sub(Interpreter& in) {
   double center[2] = {0, 0};
   if (figure) figure_center(in, center);
   did = enter(in, Entry{program, CallKind::sub, CallOrigin::word, passes, offset, line, 0});
-  if (did != Did::later) return did;
+  if (did != Execution::later) return did;
   if (figure) begin_figure(in, center);
   in.keep_call();
   if (stops) in.emit_stop_point(true);  // the call is made: what is read again after a stop is the sub program
@@ -325,7 +325,7 @@ Did call_sub(Interpreter& in) {
 }
 
 /// M700 13.3.2: a program of the data server; what the host has as such (BlockReader::find_external), else the memory.
-Did call_external(Interpreter& in) {
+Execution call_external(Interpreter& in) {
   const BlockWords& w = in.words;
   if (w.has(Role::call_sequence)) return in.raise(Condition::format_error, Role::call_sequence, w.get(Role::call_sequence));  // no call of a sequence number
   for (unsigned level = 1; level <= in.state.depth; ++level)
@@ -333,18 +333,18 @@ Did call_external(Interpreter& in) {
   if (top(in).figure != 0) return in.raise_misc(Condition::nesting, MiscFunction::call_external);
   Entry entry;
   entry.origin = CallOrigin::external;
-  Did did = repetitions(in, w.has(Role::call_repeats), w.has(Role::call_repeats) ? w.get(Role::call_repeats) : 1, &entry.passes);
-  if (did != Did::done || entry.passes == 0) return did;
+  Execution did = repetitions(in, w.has(Role::call_repeats), w.has(Role::call_repeats) ? w.get(Role::call_repeats) : 1, &entry.passes);
+  if (did != Execution::done || entry.passes == 0) return did;
   uint32_t number = 0;
   if (in.block->name_length == 0) {
     did = w.has(Role::call_program) ? called_number(in, Role::call_program, w.get(Role::call_program), &number) : in.raise(Condition::address_missing, Role::call_program);
-    if (did != Did::done) return did;
+    if (did != Execution::done) return did;
   }
   const char* name = in.block->text.begin() + in.block->name;
   if (in.block->name_length <= 32) entry.program = in.reader.find_external(kDataServer, name, in.block->name_length, number);
   const bool outside = entry.program.valid();
   if (!outside) did = find_called(in, w.has(Role::call_program), number, false, &entry.program);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   if (number != 0) entry.program.number = number;
   if (outside) {
     // What stands up to the first line feed is not run, unless the file begins with an O number.
@@ -362,21 +362,21 @@ Did call_external(Interpreter& in) {
   entry.line = entry.program.line;
   const bool stops = !only_calls(in);
   did = enter(in, entry);
-  if (did != Did::later) return did;
+  if (did != Execution::later) return did;
   in.keep_call();
   if (stops) in.emit_stop_point(true);
   return did;
 }
 
-Did check_loops_closed(Interpreter& in) {
+Execution check_loops_closed(Interpreter& in) {
   uint32_t number = 0;
-  return loop_without_end(in, &number) ? in.raise(Condition::loop_pair, Role::loop_number, number) : Did::done;
+  return loop_without_end(in, &number) ? in.raise(Condition::loop_pair, Role::loop_number, number) : Execution::done;
 }
 
-Did return_sub(Interpreter& in) {
+Execution return_sub(Interpreter& in) {
   State& s = in.state;
   const BlockWords& w = in.words;
-  if (check_loops_closed(in) != Did::done) return Did::fault;
+  if (check_loops_closed(in) != Execution::done) return Execution::fault;
   if (s.depth == 0) {  // M700 13.3.1: M99 in the main program goes to its head
     CallFrame& frame = top(in);
     if (w.has(Role::return_sequence) && !in.reader.is_tape(frame.program.file)) return jump_to_sequence(in, w.get(Role::return_sequence));
@@ -385,15 +385,15 @@ Did return_sub(Interpreter& in) {
     frame.line = frame.program.line;
     frame.started = false;
     in.begins_again = true;
-    return Did::done;
+    return Execution::done;
   }
   CallFrame& frame = top(in);
   const bool interrupted = frame.origin == CallOrigin::interrupt;
   s.loop_count = frame.loop_base;
   if (w.has(Role::return_passes)) {  // 13.3.1 prints "M99 (P_ L_)" and no more; as FANUC: the passes still to come, this one among them
     uint32_t passes = 0;
-    const Did did = repetitions(in, true, w.get(Role::return_passes), &passes);
-    if (did != Did::done) return did;
+    const Execution did = repetitions(in, true, w.get(Role::return_passes), &passes);
+    if (did != Execution::done) return did;
     frame.repeats = passes == 0 ? 0 : passes - 1;
   }
   if (frame.repeats > 0) {
@@ -403,7 +403,7 @@ Did return_sub(Interpreter& in) {
     frame.line = frame.begin_line;
     frame.started = frame.begin != frame.program.offset;
     in.finish_block(!only_calls(in), !only_calls(in));
-    return Did::later;
+    return Execution::later;
   }
   if (w.has(Role::return_sequence) && !in.reader.is_tape(s.frame[s.depth - 1].program.file)) {  // M700 13.3.1: no P from a tape
     uint32_t n = 0;
@@ -411,8 +411,8 @@ Did return_sub(Interpreter& in) {
     uint32_t line = 0;
     CallFrame& caller = s.frame[s.depth - 1];
     if (s.interrupt_depth == s.depth) in.leave_interrupt(true);
-    const Did did = called_number(in, Role::return_sequence, w.get(Role::return_sequence), &n);
-    if (did != Did::done) return did;
+    const Execution did = called_number(in, Role::return_sequence, w.get(Role::return_sequence), &n);
+    if (did != Execution::done) return did;
     if (!find_from_here(in, caller, n, &offset, &line)) return in.raise(Condition::sequence_missing, Role::return_sequence, n);
     leave(in);
     s.codes_left &= ~(1u << s.depth);
@@ -428,10 +428,10 @@ Did return_sub(Interpreter& in) {
   s.owes_mark = !interrupted && (s.codes_left >> s.depth & 1) == 0;
   in.finish_block(stops, stops);
   if (interrupted) in.know_world_again();
-  return Did::later;
+  return Execution::later;
 }
 
-Did text_ended(Interpreter& in) {
+Execution text_ended(Interpreter& in) {
   // M700 App.1 P36: '%' (or the end of the text, or the next O number) was read without M02, M30 or M99.
   if (in.state.depth > 0) return in.raise_misc(Condition::program_end, MiscFunction::return_sub);
   // The blocks of MDI end with their text.
@@ -442,7 +442,7 @@ Did text_ended(Interpreter& in) {
   end.end.work = in.position();
   end.end.modal = in.modals.intern(in.state.modal);
   in.ended = true;
-  return Did::later;
+  return Execution::later;
 }
 
 }  // namespace nc

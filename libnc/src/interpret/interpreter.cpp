@@ -375,7 +375,7 @@ bool Interpreter::skipped(const Block& b) const { return b.skip != 0 && ((option
 /// execute, and *status is what the step has come to.
 bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
   *status = NC_OK;
-  const auto settled = [&](Did did) {
+  const auto settled = [&](Execution did) {
     *status = settle(did);
     return false;
   };
@@ -400,15 +400,15 @@ bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
     if (block->percent && !frame.started && !data_end) {  // the start mark
       if (block->has_fault) {
         fault = block->fault;
-        return settled(Did::fault);
+        return settled(Execution::fault);
       }
       state.percent_seen = true;
       frame.offset = block->next;
       frame.line = block->next_line;
       return false;
     }
-    const Did did = text_ended(*this);
-    return did == Did::later ? false : settled(did);
+    const Execution did = text_ended(*this);
+    return did == Execution::later ? false : settled(did);
   }
   const bool blank = block->empty && !block->has_n && !block->has_o && !block->has_fault;  // comments at most
   if (dialect->percent_required && state.depth == 0 && !state.percent_seen && !blank) return settled(raise(Condition::no_start_mark));
@@ -419,7 +419,7 @@ bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
   if (block->has_n) state.modal.n = block->n;
   if (block->has_fault) {
     fault = block->fault;
-    return settled(Did::fault);
+    return settled(Execution::fault);
   }
   if (!block->empty || block->has_n || block->has_o) frame.started = true;
   if (!block->empty) return true;
@@ -465,38 +465,38 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   frame.offset = block->next;
   frame.line = block->next_line;
   const bool no_statements = block->statements.empty();
-  if (no_statements && execute_plain_line(*this)) return settle(Did::done);
-  const Did did = no_statements ? execute_words(*this) : execute_statements();
-  if (did == Did::sync && next_step == Step::none) {  // read this block again when the answer is there
+  if (no_statements && execute_plain_line(*this)) return settle(Execution::done);
+  const Execution did = no_statements ? execute_words(*this) : execute_statements();
+  if (did == Execution::sync && next_step == Step::none) {  // read this block again when the answer is there
     state.frame[depth].offset = begin;
     state.frame[depth].line = line;
   }
   return settle(did);
 }
 
-Did Interpreter::execute_statements() {
+Execution Interpreter::execute_statements() {
   // M700 13.17.1 precaution (12): no variables and macro statements in high-speed high-accuracy control II.
   if (state.fine_mode > FineMode::accuracy1) return raise(Condition::format_error, '#');
   while (statement < block->statements.size()) {
     jumped = false;
-    const Did did = execute_statement(*this, block->statements[statement]);
-    if (did != Did::done) {
-      if (did != Did::sync && did != Did::fault) statement = 0;  // the one that is wrong is looked at once more (note_cause)
+    const Execution did = execute_statement(*this, block->statements[statement]);
+    if (did != Execution::done) {
+      if (did != Execution::sync && did != Execution::fault) statement = 0;  // the one that is wrong is looked at once more (note_cause)
       return did;
     }
     if (jumped) break;
     ++statement;
   }
   statement = 0;
-  return Did::done;
+  return Execution::done;
 }
 
 /// What the result of a block makes of the stream.
-nc_status Interpreter::settle(Did did) {
+nc_status Interpreter::settle(Execution did) {
   const bool kept = modal_kept;
   modal_kept = false;
   switch (did) {
-    case Did::done: {
+    case Execution::done: {
       next_step = Step::none;
       // Macro statements are worked off together with the executable block before them unless #8101 is on (M700 13.5.9).
       const bool macro = block != nullptr && !block->statements.empty();
@@ -504,8 +504,8 @@ nc_status Interpreter::settle(Did did) {
       finish_block(!macro || settings.macro_single, !macro);
       return NC_OK;
     }
-    case Did::later: return NC_OK;
-    case Did::sync: {
+    case Execution::later: return NC_OK;
+    case Execution::sync: {
       if (statement > 0) keep_call();  // the statements before this one are done
       Item& item = emit(ItemKind::sync);
       item.sync.what = sync_needed;
@@ -513,7 +513,7 @@ nc_status Interpreter::settle(Did did) {
       waiting_ = true;
       return NC_OK;
     }
-    case Did::fault: break;
+    case Execution::fault: break;
   }
   note_calls(source, state.frame);
   note_cause(*this);

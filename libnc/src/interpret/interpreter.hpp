@@ -37,7 +37,7 @@
 namespace nc {
 
 /// Result of executing something.
-enum class Did : uint8_t {
+enum class Execution : uint8_t {
   done,
   fault,   ///< Interpreter::fault says what
   sync,    ///< Interpreter::sync_needed says what is missing; do the same again when it is there
@@ -280,52 +280,52 @@ struct Interpreter {
   Move& emit_move(const AxisVec& start, const AxisVec& end);
   bool queue_has_room() const { return queued_ < kQueue - kReserve; }
   /// What is missing because the text could not be read is not missing: then that is the alarm.
-  Did raise(Condition condition, char letter = 0) {
+  Execution raise(Condition condition, char letter = 0) {
     fault = Fault{};
     fault.condition = reader.failure() != Condition::none ? reader.failure() : condition;
     fault.letter = letter;
-    return Did::fault;
+    return Execution::fault;
   }
   /// About a word of the block, by what it means.
-  Did raise(Condition condition, Role word) { return raise(condition, dialect->addresses.letter(word)); }
-  Did raise(Condition condition, Role word, double value) { return raise(condition, dialect->addresses.letter(word), value); }
-  Did raise(Condition condition, char letter, double value) {
+  Execution raise(Condition condition, Role word) { return raise(condition, dialect->addresses.letter(word)); }
+  Execution raise(Condition condition, Role word, double value) { return raise(condition, dialect->addresses.letter(word), value); }
+  Execution raise(Condition condition, char letter, double value) {
     raise(condition, letter);
     fault.has_value = true;
     fault.value = value;
-    return Did::fault;
+    return Execution::fault;
   }
   /// Of an axis, by its index.
-  Did raise_axis(Condition condition, unsigned axis) {
+  Execution raise_axis(Condition condition, unsigned axis) {
     raise(condition, system->axis[axis].name);
     fault.axis = static_cast<int8_t>(axis);
-    return Did::fault;
+    return Execution::fault;
   }
-  Did raise_axis(Condition condition, unsigned axis, double value) {
+  Execution raise_axis(Condition condition, unsigned axis, double value) {
     raise(condition, system->axis[axis].name, value);
     fault.axis = static_cast<int8_t>(axis);
-    return Did::fault;
+    return Execution::fault;
   }
   /// About a code of the block in hand. What is not fitted names its row (alarm_text), which is the code times ten.
-  Did raise_code(Condition condition, const FunctionRow& row) {
+  Execution raise_code(Condition condition, const FunctionRow& row) {
     return raise(condition, Role::code, condition == Condition::no_function ? row.code : row.code / 10.0);
   }
   /// About what a code means, where the code itself is not at hand: by the family's first code with this meaning.
-  Did raise_function(Condition condition, Function function) {
+  Execution raise_function(Condition condition, Function function) {
     const FunctionRow* const row = codes.row(function);
     return row != nullptr ? raise_code(condition, *row) : raise(condition, Role::code);
   }
   /// About the code in force of a mode.
-  Did raise_mode(Condition condition, Mode mode) {
+  Execution raise_mode(Condition condition, Mode mode) {
     const FunctionRow* const row = row_in_force(*dialect, state.modal, mode);
     return row != nullptr ? raise_code(condition, *row) : raise(condition, Role::code);
   }
-  Did raise_misc(Condition condition, MiscFunction function) { return raise(condition, Role::misc_code, misc_code(*dialect, function)); }
+  Execution raise_misc(Condition condition, MiscFunction function) { return raise(condition, Role::misc_code, misc_code(*dialect, function)); }
   /// What part systems share is as the machine has come to it, or there is one part system. False: it has to be asked for (NC_SYNC_SHARED).
   bool shared_known() const { return shared == nullptr || world_fresh; }
-  Did need(uint32_t what) {
+  Execution need(uint32_t what) {
     sync_needed = what;
-    return Did::sync;
+    return Execution::sync;
   }
 
   /// The block of `source` has ended: its mark (and the end, after M02/M30), and the checkpoint to rewind to.
@@ -393,7 +393,7 @@ struct Interpreter {
     nc_world world{};
     double map_note[Notes::kMapSize] = {};   ///< where these are centred
   };
-  Did enter_interrupt();
+  Execution enter_interrupt();
   /// At the head of a block that is going to be cut.
   void note_world() {
     interrupted_.world_known = answered_ == state.seq;
@@ -409,7 +409,7 @@ struct Interpreter {
 
   nc_status run_block(uint32_t& budget);
   bool enter_block(CallFrame& frame, nc_status* status);
-  nc_status settle(Did did);
+  nc_status settle(Execution did);
   void stop(const Fault& what, const nc_source& where);
   void note_calls(const nc_source& where, const CallFrame* levels);
   static unsigned calls_of(const nc_source& where, const CallFrame* levels, nc_source (&calls)[kMaxFrames]);
@@ -419,7 +419,7 @@ struct Interpreter {
   void forget_block();
   /// Id of the modal state for a mark; behind an executable block finished_modal becomes it.
   ModalId modal_now(bool executable);
-  Did execute_statements();
+  Execution execute_statements();
   bool skipped(const Block& b) const;
 
   Item* queue_ = nullptr;
@@ -447,60 +447,60 @@ struct Interpreter {
 };
 
 /// interpret/execute_block.cpp: a block of words.
-Did execute_words(Interpreter& in);
+Execution execute_words(Interpreter& in);
 /// interpret/plain_line.cpp: a straight line in absolute millimetres. False: nothing has been done, the block needs execute_words().
 bool execute_plain_line(Interpreter& in);
 /// The G codes of in.words that say how other words are read.
-Did apply_reading_modes(Interpreter& in);
+Execution apply_reading_modes(Interpreter& in);
 /// interpret/functions/parameter_input.cpp: a block between G10 L70 and G11.
-Did parameter_block(Interpreter& in);
-/// Goes on with a block that said Did::later.
-Did continue_block(Interpreter& in);
+Execution parameter_block(Interpreter& in);
+/// Goes on with a block that said Execution::later.
+Execution continue_block(Interpreter& in);
 
 /// interpret/flow.cpp
-Did execute_statement(Interpreter& in, const Statement& statement);
-Did call_sub(Interpreter& in);          ///< M98
-Did return_sub(Interpreter& in);        ///< M99
-Did call_external(Interpreter& in);     ///< M198
-Did check_loops_closed(Interpreter& in);  ///< at the end of a program: a DO without END is P294
-Did text_ended(Interpreter& in);        ///< the end of the text, or '%'
+Execution execute_statement(Interpreter& in, const Statement& statement);
+Execution call_sub(Interpreter& in);          ///< M98
+Execution return_sub(Interpreter& in);        ///< M99
+Execution call_external(Interpreter& in);     ///< M198
+Execution check_loops_closed(Interpreter& in);  ///< at the end of a program: a DO without END is P294
+Execution text_ended(Interpreter& in);        ///< the end of the text, or '%'
 
 /// interpret/macro_call.cpp
-Did call_macro(Interpreter& in);           ///< G65, G66, G66.1
-Did call_with_block(Interpreter& in);      ///< a block in the mode of G66.1
+Execution call_macro(Interpreter& in);           ///< G65, G66, G66.1
+Execution call_with_block(Interpreter& in);      ///< a block in the mode of G66.1
 bool modal_call_takes_blocks(const Interpreter& in);
 bool has_modal_call(const Interpreter& in);   ///< something that G67 can cancel
 void cancel_modal_call(Interpreter& in);      ///< G67
 
 /// interpret/code_call.cpp
 /// A block that may hold a registered code. *taken: the call has been made and takes all the words.
-Did dispatch_block(Interpreter& in, bool* taken);
+Execution dispatch_block(Interpreter& in, bool* taken);
 /// interpret/vendor_call.cpp: word `at` of the block is a code of the vendor's that calls a function; everything before it has happened.
-Did call_vendor(Interpreter& in, unsigned at, const nc_vendor_code& code);
+Execution call_vendor(Interpreter& in, unsigned at, const nc_vendor_code& code);
 /// G66.1 is in force and takes the words of this block (in.words).
 bool block_is_argument(const Interpreter& in);
 /// What a block calls behind its own part: a code of type M98, the modal call after a move.
-Did call_behind_block(Interpreter& in);
+Execution call_behind_block(Interpreter& in);
 /// M, S, T that come behind the motion, and the call of a code among them; no modal call.
-Did execute_behind_motion(Interpreter& in);
+Execution execute_behind_motion(Interpreter& in);
 /// M700 12.1: an amount that changes while it is in force counts from the next block on: a length with the next command of its axis.
 void take_changed_amounts(Interpreter& in);
 /// The block moves under a modal call (G66), and calls a program or returns from its own.
 bool goes_on_elsewhere(const Interpreter& in);
-Did make_modal_call_first(Interpreter& in);
+Execution make_modal_call_first(Interpreter& in);
 
 /// interpret/interrupt.cpp
 bool is_interrupt_on(const Interpreter& in, uint32_t m);   ///< M96, or what stands for it
 bool is_interrupt_off(const Interpreter& in, uint32_t m);  ///< M97
-Did enable_interrupt(Interpreter& in);
-Did disable_interrupt(Interpreter& in);
+Execution enable_interrupt(Interpreter& in);
+Execution disable_interrupt(Interpreter& in);
 
 /// interpret/alarm_cause.cpp: why the block in hand has raised Interpreter::fault, as far as the fault itself does not say so.
 void note_cause(Interpreter& in);
 
 /// interpret/system_variables.cpp
 Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault* fault, uint32_t* sync);
-Did write_system_variable(Interpreter& in, uint32_t number, Value value, const Statement& statement);
+Execution write_system_variable(Interpreter& in, uint32_t number, Value value, const Statement& statement);
 /// print.cpp: the variable that SETVN has given this name.
 bool find_variable_name(void* self, const char* name, size_t length, uint32_t* number);
 /// Reader over everything, for evaluate().
@@ -528,11 +528,11 @@ void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, con
 /// that are `bare`.
 void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded, uint32_t bare = ~uint32_t{0});
 /// An arc in the plane in force by the words of the block.
-Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw);
+Execution move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw);
 struct ArcWords;
 struct PlaneAxes;
 /// The same by words that the caller has made.
-Did move_arc_by(Interpreter& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw);
+Execution move_arc_by(Interpreter& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw);
 /// Programmed coordinates of a move: where it starts and ends, and the map behind them.
 struct MoveFrame {
   Affine to_machine;
@@ -549,9 +549,9 @@ inline bool bars_codes(Function motion) { return is_space_arc(motion) || is_expo
 /// A compensation command in a block that does not move: a move without length carries it to the offset stage (offset/offset.hpp).
 void move_nowhere(Interpreter& in);
 /// P20: a rotary axis commanded to a position that is no multiple of #2106 (M700 2.3).
-Did check_index_positions(Interpreter& in);
+Execution check_index_positions(Interpreter& in);
 /// The motion that the words of the block ask for by the motion in force.
-Did move_by_words(Interpreter& in);
+Execution move_by_words(Interpreter& in);
 /// F in force as mm/min, 0 = none.
 double feed_mm_min(const Interpreter& in);
 /// The same for a line between these points, of which rotary axes alone may be moved.

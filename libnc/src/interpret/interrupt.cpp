@@ -51,15 +51,15 @@ void pass_over_block(Interpreter& in, CallFrame& frame) {
 bool is_interrupt_on(const Interpreter& in, uint32_t m) { return m == in.settings.interrupt_on_m && in.dialect->rules.program.macro_interrupt; }
 bool is_interrupt_off(const Interpreter& in, uint32_t m) { return m == in.settings.interrupt_off_m && in.dialect->rules.program.macro_interrupt; }
 
-Did enable_interrupt(Interpreter& in) {
+Execution enable_interrupt(Interpreter& in) {
   const BlockWords& w = in.words;
   ProgramRef program;
-  Did did = find_called(in, w.has(Role::interrupt_program), w.has(Role::interrupt_program) ? w.get(Role::interrupt_program) : 0, false, &program);
-  if (did != Did::done) return did;
+  Execution did = find_called(in, w.has(Role::interrupt_program), w.has(Role::interrupt_program) ? w.get(Role::interrupt_program) : 0, false, &program);
+  if (did != Execution::done) return did;
   uint64_t offset = 0;
   uint32_t line = 0;
   did = find_start(in, program, &offset, &line);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   const double values[Notes::kInterruptSize] = {static_cast<double>(program.file), static_cast<double>(program.number),
                                                 static_cast<double>(program.offset), static_cast<double>(program.line),
                                                 static_cast<double>(offset), static_cast<double>(line)};
@@ -67,13 +67,13 @@ Did enable_interrupt(Interpreter& in) {
   in.store->note(program.file, in.system_index);
   in.state.interrupt_on = true;
   announce(in);
-  return Did::done;
+  return Execution::done;
 }
 
-Did disable_interrupt(Interpreter& in) {
+Execution disable_interrupt(Interpreter& in) {
   in.state.interrupt_on = false;
   announce(in);
-  return Did::done;
+  return Execution::done;
 }
 
 bool Interpreter::interruptible() const { return state.interrupt_on && state.interrupt_depth == 0 && !ended && !state.end_seen; }
@@ -109,8 +109,8 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
   source.file = frame.program.file;
   source.program = frame.program.number;
   source.line = frame.line;
-  const Did did = enter_interrupt();
-  if (did == Did::fault) {
+  const Execution did = enter_interrupt();
+  if (did == Execution::fault) {
     note_calls(source, state.frame);
     stop(fault, source);
     return true;
@@ -123,7 +123,7 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
   return true;
 }
 
-Did Interpreter::enter_interrupt() {
+Execution Interpreter::enter_interrupt() {
   Entry entry;
   entry.program = interrupt_program(*this);
   entry.origin = CallOrigin::interrupt;
@@ -132,15 +132,15 @@ Did Interpreter::enter_interrupt() {
   entry.line = static_cast<uint32_t>(notes.get(Notes::interrupt_key(Notes::kInterruptBeginLine)));
   const unsigned level = macro_level() + 1u;
   if (entry.kind == CallKind::macro && level > kMacroDepth) return raise(Condition::macro_nesting, Role::interrupt_program, entry.program.number);
-  const Did did = enter(*this, entry);
-  if (did != Did::later) return did;
+  const Execution did = enter(*this, entry);
+  if (did != Execution::later) return did;
   static constexpr Value kNoArguments[kLocals] = {};
   if (entry.kind == CallKind::macro) variables.enter(level, kNoArguments, state.seq + 1);
   state.interrupt_depth = state.depth;
   CallFrame& frame = state.frame[state.depth];
   frame.modal_call = 0;  // no macro is called behind the moves of an interrupt
   show_modal_call(*this);
-  return Did::later;
+  return Execution::later;
 }
 
 /// M700 13.12: modal information is restored, and what the interrupt program has told the machine about it is told again.

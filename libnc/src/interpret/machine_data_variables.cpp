@@ -20,7 +20,7 @@ const DeviceRow* find_device(const Interpreter& in, double code) {
 
 double selected(const Interpreter& in, unsigned what) { return in.notes.get(Notes::select_key(what)); }
 
-Did no_such(Access& a) { return a.in.raise(Condition::no_such_data, '#', a.written); }
+Execution no_such(Access& a) { return a.in.raise(Condition::no_such_data, '#', a.written); }
 
 bool whole_between(double value, double low, double high) { return value >= low && value <= high && value == std::trunc(value); }
 
@@ -66,10 +66,10 @@ Eval read_rotation(Access& a) {
 
 // ---- tool life (10.15): no group is registered ------------------------------------------------------------------------------
 
-Did select_tool_group(Access& a) {
+Execution select_tool_group(Access& a) {
   if (!whole_between(a.written, 0, 99999999)) return a.in.raise(Condition::value_range, '#', a.written);
   a.in.set_note(Notes::select_key(Notes::kToolGroup), a.written);
-  return Did::done;
+  return Execution::done;
 }
 
 Eval read_tool_group(Access& a) { return give(a, -1); }
@@ -79,13 +79,13 @@ Eval read_tool_life(Access& a) { return give(a, -1); }
 
 // ---- parameters (10.16) ---------------------------------------------------------------------------------------------------------
 
-Did select_parameter(Access& a) {
+Execution select_parameter(Access& a) {
   constexpr double kLast[3] = {99999, 1, NC_MAX_AXES};
   const double low = a.index == 1 ? 0 : 1;
   if (!whole_between(a.written, low, kLast[a.index])) return no_such(a);
   if (a.index == 2 && a.written > a.in.axis_count) return no_such(a);
   a.in.set_note(Notes::select_key(Notes::kParameter + a.index), a.written);
-  return Did::done;
+  return Execution::done;
 }
 
 /// What the configuration of the machine says and no parameter repeats; false: nothing of it.
@@ -121,7 +121,7 @@ Eval read_parameter(Access& a) {
 
 // ---- devices (10.17) ---------------------------------------------------------------------------------------------------------
 
-Did select_device(Access& a) {
+Execution select_device(Access& a) {
   const bool good = a.index == 0   ? a.in.devices.read != nullptr && find_device(a.in, a.written) != nullptr
                     : a.index == 1 ? whole_between(a.written, 0, 99999)
                     : a.index == 2 ? a.written == 0 || a.written == 1 || a.written == 101 || a.written == 2 || a.written == 102 ||
@@ -129,7 +129,7 @@ Did select_device(Access& a) {
                                     : whole_between(a.written, 0, 15);  // (4) (b): a device has 16
   if (!good) return no_such(a);
   a.in.set_note(Notes::select_key(Notes::kDevice + a.index), a.written);
-  return Did::done;
+  return Execution::done;
 }
 
 Eval read_device(Access& a) {

@@ -60,7 +60,7 @@ ProgramRef slot_program(const Interpreter& in, unsigned slot) {
   return program;
 }
 
-Did enter_modal(Interpreter& in, unsigned slot, const Value* arguments) {
+Execution enter_modal(Interpreter& in, unsigned slot, const Value* arguments) {
   Entry entry;
   entry.program = slot_program(in, slot);
   entry.kind = CallKind::macro;
@@ -74,14 +74,14 @@ Did enter_modal(Interpreter& in, unsigned slot, const Value* arguments) {
 
 }  // namespace
 
-Did gather_arguments(Interpreter& in, bool every_word, MacroCall& call) {
+Execution gather_arguments(Interpreter& in, bool every_word, MacroCall& call) {
   GroupCounter groups;
   for (const Word& word : in.block->words) {
     if (in.is(word, Role::code) && !every_word) continue;
     Value value = Value::of(word.value);
     if ((word.flags & kWordExpression) != 0) {
-      const Did did = evaluate_here(in, word.code, &value);
-      if (did != Did::done) return did;
+      const Execution did = evaluate_here(in, word.code, &value);
+      if (did != Execution::done) return did;
     }
     if ((word.flags & (kWordNoValue | kWordComma | kWordCount)) != 0) return in.raise(Condition::format_error, word.letter);
     if (!every_word && (in.is(word, Role::call_program) || in.is(word, Role::call_repeats))) {
@@ -97,16 +97,16 @@ Did gather_arguments(Interpreter& in, bool every_word, MacroCall& call) {
     }
     call.argument[variable - 1] = value;
   }
-  return Did::done;
+  return Execution::done;
 }
 
-Did enter_macro(Interpreter& in, const Entry& entry, const Value* arguments) {
-  if (entry.passes == 0) return Did::done;
+Execution enter_macro(Interpreter& in, const Entry& entry, const Value* arguments) {
+  if (entry.passes == 0) return Execution::done;
   if (top(in).figure != 0) return in.raise(Condition::nesting, Role::call_program, entry.program.number);  // M700 13.3.3 (6)
   const unsigned level = in.macro_level() + 1u;
   if (level > kMacroDepth) return in.raise(Condition::macro_nesting, Role::call_program, entry.program.number);
-  const Did did = enter(in, entry);
-  if (did != Did::later) return did;
+  const Execution did = enter(in, entry);
+  if (did != Execution::later) return did;
   in.variables.enter(level, arguments, in.state.seq + 1);
   in.keep_call();
   return did;
@@ -125,7 +125,7 @@ bool modal_call_takes_blocks(const Interpreter& in) {
   return slot != 0 && slot_value(in, slot, Notes::kEveryBlock) != 0;
 }
 
-Did store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall& call, uint32_t passes, bool every_block, bool by_code) {
+Execution store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall& call, uint32_t passes, bool every_block, bool by_code) {
   const unsigned slot = free_slot(in);
   if (slot == 0) return in.raise(Condition::macro_nesting, Role::call_program, program.number);
   const double head[Notes::kArgument] = {static_cast<double>(program.file),
@@ -145,10 +145,10 @@ Did store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall
   in.store->note(program.file, in.system_index);
   top(in).modal_call = static_cast<uint8_t>(slot);
   show_modal_call(in);
-  return Did::done;
+  return Execution::done;
 }
 
-Did make_modal_call(Interpreter& in) {
+Execution make_modal_call(Interpreter& in) {
   const unsigned slot = top(in).modal_call;
   Value arguments[kLocals];
   for (unsigned i = 0; i < kLocals; ++i) {
@@ -160,14 +160,14 @@ Did make_modal_call(Interpreter& in) {
 
 /// M700 13.5.1, G66.1: the words of a block in the mode go to the macro as if G65 P_ stood before them. O, N and modal G codes update
 /// the modal state all the same.
-Did call_with_block(Interpreter& in) {
+Execution call_with_block(Interpreter& in) {
   MacroCall call;
   for (const FunctionRow* row : in.words.g) {
     if (is_space_arc(row->function)) return in.raise_code(Condition::space_arc_mode, *row);  // 6.14 (b)
-    if (row->function == Function::work_system && select_work_system(in, *row) != Did::done) return Did::fault;
+    if (row->function == Function::work_system && select_work_system(in, *row) != Execution::done) return Execution::fault;
   }
-  const Did did = gather_arguments(in, true, call);
-  return did == Did::done ? enter_modal(in, top(in).modal_call, call.argument) : did;
+  const Execution did = gather_arguments(in, true, call);
+  return did == Execution::done ? enter_modal(in, top(in).modal_call, call.argument) : did;
 }
 
 bool has_modal_call(const Interpreter& in) {
@@ -191,16 +191,16 @@ void cancel_modal_call(Interpreter& in) {
 
 // ---- G65, G66, G66.1 as written -----------------------------------------------------------------------------------------------
 
-Did call_macro(Interpreter& in) {
+Execution call_macro(Interpreter& in) {
   MacroCall call;
-  Did did = gather_arguments(in, false, call);
-  if (did != Did::done) return did;
+  Execution did = gather_arguments(in, false, call);
+  if (did != Execution::done) return did;
   const Function function = in.words.one_shot->function;
   Entry entry;
   did = repetitions(in, call.has_l, call.l, &entry.passes);
-  if (did != Did::done || (entry.passes == 0 && function == Function::macro_call)) return did;  // not called, so nothing is looked for
+  if (did != Execution::done || (entry.passes == 0 && function == Function::macro_call)) return did;  // not called, so nothing is looked for
   did = find_called(in, call.has_p, call.p, false, &entry.program);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   if (function == Function::macro_call) {
     entry.kind = CallKind::macro;
     entry.offset = entry.program.offset;
@@ -210,7 +210,7 @@ Did call_macro(Interpreter& in) {
   const bool every_block = function == Function::macro_every_block;
   did = store_modal_call(in, entry.program, call, entry.passes, every_block, false);
   // M700 13.5.1: the block of G66 only stores the call, that of G66.1 makes it too.
-  return did == Did::done && every_block ? make_modal_call(in) : did;
+  return did == Execution::done && every_block ? make_modal_call(in) : did;
 }
 
 }  // namespace nc

@@ -331,7 +331,7 @@ class InchDegrees {
 namespace {
 
 /// The words of the block that say which arc it is, for the plane in force.
-Did read_arc_words(Interpreter& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* of_block) {
+Execution read_arc_words(Interpreter& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* of_block) {
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   const BlockWords& w = in.words;
   ArcWords& words = *of_block;
@@ -347,20 +347,20 @@ Did read_arc_words(Interpreter& in, const PlaneAxes& plane, uint32_t commanded, 
   // M700 P113: nothing of the block is of the plane in force, but its centre of another one: a plane code has been forgotten.
   const bool of_plane = words.has_radius || w.has(plane.center[0]) || w.has(plane.center[1]) || ((commanded >> h) & 1) != 0 || ((commanded >> v) & 1) != 0;
   if (!of_plane && w.any({Role::vector_x, Role::vector_y, Role::vector_z})) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
 
-Did move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw) {
+Execution move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw) {
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   ArcWords words;
-  const Did did = read_arc_words(in, plane, commanded, &words);
-  return did == Did::done ? move_arc_by(in, plane, target, commanded, words, ccw) : did;
+  const Execution did = read_arc_words(in, plane, commanded, &words);
+  return did == Execution::done ? move_arc_by(in, plane, target, commanded, words, ccw) : did;
 }
 
-Did move_arc_by(Interpreter& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
+Execution move_arc_by(Interpreter& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   if (!in.dialect->rules.arc.takes_rotary_axes && (commanded & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(commanded & in.rotary));
   const InchDegrees scope(in, h, v);
@@ -385,16 +385,16 @@ Did move_arc_by(Interpreter& in, const PlaneAxes& plane, const AxisVec& target, 
     style.special_feed = special_feed(in);
     style.exact_stop = asks_exact_stop(in);
     move_linear(in, target, commanded, style);
-    return Did::done;
+    return Execution::done;
   }
   bool helix = false;
   for (unsigned i = 0; i < in.axis_count; ++i) helix = helix || (i != h && i != v && std::fabs(frame.end[i] - frame.start[i]) > kNoMotion);
   emit_circular(in, frame, plane, circle, helix ? NC_MOVE_HELIX : NC_MOVE_ARC);
-  return Did::done;
+  return Execution::done;
 }
 
 /// Motions beside those of plain_motion().
-Did move_by_function(Interpreter& in, Function motion, const AxisVec& target, uint32_t commanded) {
+Execution move_by_function(Interpreter& in, Function motion, const AxisVec& target, uint32_t commanded) {
   switch (motion) {
     case Function::thread: return move_thread(in, target, commanded);
     case Function::spiral_cw:
@@ -423,7 +423,7 @@ void move_rapid(Interpreter& in, const AxisVec& target, uint32_t axes) {
   move_linear(in, target, axes, style);
 }
 
-Did check_index_positions(Interpreter& in) {
+Execution check_index_positions(Interpreter& in) {
   const BlockWords& w = in.words;
   for (unsigned i = 0; (w.axes & in.rotary) != 0 && i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
@@ -432,11 +432,11 @@ Did check_index_positions(Interpreter& in) {
     if (!between && !off_increment(in, i, w.axis[i])) continue;
     return in.raise_axis(Condition::index_increment, i, w.axis[i]);
   }
-  return Did::done;
+  return Execution::done;
 }
 
 /// ,C ,R of the block (M700 13.7).
-static Did take_corner(Interpreter& in, Function motion, LinearStyle* style) {
+static Execution take_corner(Interpreter& in, Function motion, LinearStyle* style) {
   const BlockWords& w = in.words;
   const Role word = corner_word(w);
   if (motion == Function::rapid || motion == Function::thread) return in.raise(Condition::corner_motion, word, w.corner_raw);
@@ -446,13 +446,13 @@ static Did take_corner(Interpreter& in, Function motion, LinearStyle* style) {
   double amount = length_value(in, w.corner_raw, w.corner_flags, false, true);
   if (amount < 0) return in.raise(Condition::value_range, word, w.corner_raw);
   if (program_mapped(in)) amount *= std::fabs(scale_of(in, static_cast<unsigned>(plane.h)));  // 13.7.1: scaled as well
-  if (!(amount > 0)) return Did::done;  // no corner is cut
+  if (!(amount > 0)) return Execution::done;  // no corner is cut
   style->corner = w.corner;
   style->corner_mm = amount;
-  return Did::done;
+  return Execution::done;
 }
 
-Did move_by_words(Interpreter& in) {
+Execution move_by_words(Interpreter& in) {
   const BlockWords& w = in.words;
   LinearStyle style;
   const Function motion = in.state.modal.of(Mode::motion);
@@ -460,16 +460,16 @@ Did move_by_words(Interpreter& in) {
   const bool arc_words = w.any({Role::arc_radius, Role::vector_x, Role::vector_y, Role::vector_z});
   const bool plain = plain_motion(motion);
   if (w.corner != Corner::none) [[unlikely]] {
-    const Did did = take_corner(in, motion, &style);
-    if (did != Did::done) return did;
+    const Execution did = take_corner(in, motion, &style);
+    if (did != Execution::done) return did;
   }
   if (w.axes == 0 && style.corner != Corner::none) return in.raise(Condition::corner_short, corner_word(w), w.corner_raw);
-  if (w.axes == 0 && !((arc || !plain) && (arc_words || thread))) return Did::done;
+  if (w.axes == 0 && !((arc || !plain) && (arc_words || thread))) return Execution::done;
   if ((in.state.special & kSpecialMap) != 0 && in.state.map.kind != AxisMap::Kind::none) {
-    const Did did = check_mill_move(in, w.axes);
-    if (did != Did::done) return did;
+    const Execution did = check_mill_move(in, w.axes);
+    if (did != Execution::done) return did;
   }
-  if (const Did did = check_index_positions(in); did != Did::done) return did;
+  if (const Execution did = check_index_positions(in); did != Execution::done) return did;
   // M700 13.1.1: of fixed cycles, whose words are ignored beside a code of a motion (precaution (4)).
   if (w.in_position_drill > 0 && w.cycle == nullptr) return in.raise(Condition::illegal_address, Role::vector_y, w.in_position_drill);
   // Where the block starts is asked only by words that count from there (an axis without a word stays), by the feed of rotary axes,
@@ -482,18 +482,18 @@ Did move_by_words(Interpreter& in) {
   const AxisVec target = mapped ? target_of_words(in, position) : plain_target(in, position, w.axes, w.axis);
   if (motion == Function::rapid) {
     move_rapid(in, target, w.axes);
-    return Did::done;
+    return Execution::done;
   }
   if (w.in_position > 0 && motion != Function::linear) return in.raise(Condition::illegal_address, Role::vector_x, w.in_position);
   if (thread || is_exponential(motion)) return move_by_function(in, motion, target, w.axes);
-  const Did fed = check_feed(in, motion);
-  if (fed != Did::done) return fed;
+  const Execution fed = check_feed(in, motion);
+  if (fed != Execution::done) return fed;
   if (!plain) return move_by_function(in, motion, target, w.axes);
   if (arc && in.settings.spiral_type_2 && means_spiral(in)) return move_spiral(in, target, w.axes, ccw);
   if (arc) {
-    const Did did = move_arc(in, target, w.axes, ccw);
+    const Execution did = move_arc(in, target, w.axes, ccw);
     // M700 6.13: in type 2 radii that differ by more than the tolerance are a spiral of less than one turn (L1 when omitted).
-    const bool spiral = did == Did::fault && in.fault.condition == Condition::arc_deviation && in.settings.spiral_type_2 && !w.has(Role::arc_radius);
+    const bool spiral = did == Execution::fault && in.fault.condition == Condition::arc_deviation && in.settings.spiral_type_2 && !w.has(Role::arc_radius);
     return spiral && arc_words ? move_spiral(in, target, w.axes, ccw) : did;
   }
   style.feed_mm_min = feed_for(in, position, target);
@@ -505,7 +505,7 @@ Did move_by_words(Interpreter& in) {
   const unsigned before = in.queued();
   move_linear(in, target, w.axes, style);
   const bool nowhere = style.corner != Corner::none && in.queued() == before;  // a line of no length has no corner
-  return nowhere ? in.raise(Condition::corner_short, corner_word(w), w.corner_raw) : Did::done;
+  return nowhere ? in.raise(Condition::corner_short, corner_word(w), w.corner_raw) : Execution::done;
 }
 
 }  // namespace nc

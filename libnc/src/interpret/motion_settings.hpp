@@ -4,8 +4,8 @@
 #pragma once
 
 #include "fairing/rule.hpp"
+#include "filter/filter_parameters.hpp"
 #include "motion/accuracy.hpp"
-#include "shape/filter_parameters.hpp"
 
 namespace nc {
 

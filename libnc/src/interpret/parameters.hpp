@@ -5,8 +5,8 @@
 #include "base/arena.hpp"
 #include "dialect/dialect.hpp"
 #include "fairing/rule.hpp"
+#include "filter/filter_parameters.hpp"
 #include "motion/accuracy.hpp"
-#include "shape/filter_parameters.hpp"
 
 namespace nc {
 

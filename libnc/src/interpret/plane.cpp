@@ -25,7 +25,7 @@ PlaneAxes plane_axes(const Interpreter& in) {
   return {in.state.plane_axis[0], in.state.plane_axis[1], pair.plane, {vector_along(pair.first), vector_along(pair.second)}};
 }
 
-Did select_plane(Interpreter& in, const FunctionRow& row) {
+Execution select_plane(Interpreter& in, const FunctionRow& row) {
   State& state = in.state;
   if (state.rotated) return in.raise_code(Condition::plane_in_rotation, row);  // M700 13.20
   const PlanePair pair = pair_of(row.function);
@@ -40,7 +40,7 @@ Did select_plane(Interpreter& in, const FunctionRow& row) {
   state.modal.set(row);
   state.plane_axis[0] = h;
   state.plane_axis[1] = v;
-  return Did::done;
+  return Execution::done;
 }
 
 /// By the names of the machine's axes: the letters of a mode that ends here (G12.1, M700 6.10) are none of them.

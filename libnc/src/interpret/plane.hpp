@@ -20,7 +20,7 @@ int8_t axis_of_pair(const Interpreter& in, unsigned pair);
 PlaneAxes plane_axes(const Interpreter& in);
 
 /// G17, G18, G19 in the block in hand: M700 6.3, the axis of a pair that the block names, the basic one when it names both or none.
-Did select_plane(Interpreter& in, const FunctionRow& row);
+Execution select_plane(Interpreter& in, const FunctionRow& row);
 
 /// The basic axes of a plane, which it has at power on and reset.
 void basic_plane_axes(const Interpreter& in, Function plane, int8_t axis[2]);

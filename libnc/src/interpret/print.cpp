@@ -5,7 +5,7 @@
 
 #include "dialect/text.hpp"
 #include "interpret/calls.hpp"
-#include "program/scan.hpp"
+#include "program/cursor.hpp"
 
 namespace nc {
 namespace {
@@ -26,9 +26,9 @@ bool begins_reserved(const char* name, size_t length) {
   return false;
 }
 
-Did set_one_name(Interpreter& in, uint32_t variable, const char* from, size_t length) {
+Execution set_one_name(Interpreter& in, uint32_t variable, const char* from, size_t length) {
   char name[kNameLength];
-  if (length == 0) return Did::done;  // "[A,,C]": the variable between keeps its name
+  if (length == 0) return Execution::done;  // "[A,,C]": the variable between keeps its name
   if (length > kNameLength) return in.raise(Condition::name_statement, '#', variable);
   for (size_t i = 0; i < length; ++i) {
     name[i] = upper(from[i]);
@@ -38,11 +38,11 @@ Did set_one_name(Interpreter& in, uint32_t variable, const char* from, size_t le
   uint32_t other = 0;
   if (in.variables.find_name(name, length, &other) && other != variable) return in.raise(Condition::variable_name_twice, '#', variable);
   if (!in.variables.set_name(variable, name, length, in.state.seq + 1)) return in.raise(Condition::variable_number, '#', variable);
-  return Did::done;
+  return Execution::done;
 }
 
 /// Text for the port on its way to the machine: it goes out when the machine gets there.
-Did emit_line(Interpreter& in, const char* text, size_t length) {
+Execution emit_line(Interpreter& in, const char* text, size_t length) {
   Message message;
   if (length >= sizeof message.text.s) return in.raise(Condition::block_too_long, Role::port);
   std::memcpy(message.text.s, text, length);
@@ -50,7 +50,7 @@ Did emit_line(Interpreter& in, const char* text, size_t length) {
   action.kind = NC_ACTION_MESSAGE;
   action.index = kPort;
   action.text = in.texts.intern(message);
-  return Did::done;
+  return Execution::done;
 }
 
 /// [dc] behind a variable: digits before and behind the point. The cursor is behind '['.
@@ -88,7 +88,7 @@ bool printable(char c) { return is_letter(c) || is_digit(c) || c == '+' || c == 
 
 }  // namespace
 
-Did set_names(Interpreter& in, const Statement& statement) {
+Execution set_names(Interpreter& in, const Statement& statement) {
   if (!in.shared_known()) return in.need(NC_SYNC_SHARED);  // a name that another part system has given is not given twice
   const char* p = in.block->text.begin() + statement.text;
   const char* const end = p + statement.text_length;
@@ -96,8 +96,8 @@ Did set_names(Interpreter& in, const Statement& statement) {
   for (;; ++variable) {
     const char* from = p;
     while (p != end && *p != ',') ++p;
-    const Did did = set_one_name(in, variable, from, static_cast<size_t>(p - from));
-    if (did != Did::done || p == end) return did;
+    const Execution did = set_one_name(in, variable, from, static_cast<size_t>(p - from));
+    if (did != Execution::done || p == end) return did;
     ++p;
   }
 }
@@ -106,13 +106,13 @@ bool find_variable_name(void* self, const char* name, size_t length, uint32_t* n
   return static_cast<Interpreter*>(self)->variables.find_name(name, length, number);
 }
 
-Did open_port(Interpreter& in) {
+Execution open_port(Interpreter& in) {
   in.state.port_open = true;
   const char text[] = {kDc2, '%'};
   return emit_line(in, text, sizeof text);
 }
 
-Did close_port(Interpreter& in) {
+Execution close_port(Interpreter& in) {
   in.state.port_open = false;
   const char text[] = {'%', kDc4};
   return emit_line(in, text, sizeof text);
@@ -121,25 +121,25 @@ Did close_port(Interpreter& in) {
 namespace {
 
 /// The value behind '#' or '[' at *at, which goes behind it.
-Did next_value(Interpreter& in, const char** at, const char* end, double* number) {
+Execution next_value(Interpreter& in, const char** at, const char* end, double* number) {
   Block& scratch = *in.rewritten;
   scratch.clear();
   uint16_t code = 0;
   size_t used = 0;
-  if (!compile_expression(scratch, *at, static_cast<size_t>(end - *at), &used, false, &code, &in.fault)) return Did::fault;
+  if (!compile_expression(scratch, *at, static_cast<size_t>(end - *at), &used, false, &code, &in.fault)) return Execution::fault;
   *at += used;
   Value value;
   const Eval eval = evaluate(scratch, code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, &value, &in.fault, &in.sync_needed);
-  if (eval != Eval::ok) return eval == Eval::fault ? Did::fault : Did::sync;
+  if (eval != Eval::ok) return eval == Eval::fault ? Execution::fault : Execution::sync;
   *number = value.or_zero();
   if (*at == end || **at != '[') return in.raise(Condition::format_error, Role::port);
   ++*at;
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
 
-Did print_decimal(Interpreter& in, const Statement& statement) {
+Execution print_decimal(Interpreter& in, const Statement& statement) {
   if (!in.state.port_open) return in.raise(Condition::print_port);
   char line[160];
   TextWriter out(line, sizeof line);
@@ -153,8 +153,8 @@ Did print_decimal(Interpreter& in, const Statement& statement) {
       continue;
     }
     double value = 0;
-    const Did did = next_value(in, &p, end, &value);
-    if (did != Did::done) return did;
+    const Execution did = next_value(in, &p, end, &value);
+    if (did != Execution::done) return did;
     unsigned before = 0, behind = 0;
     if (!digits_wanted(&p, end, &before, &behind)) return in.raise(Condition::format_error, Role::port);
     if (std::fabs(value) >= 1e9) return in.raise(Condition::value_range, Role::port, value);
@@ -165,7 +165,7 @@ Did print_decimal(Interpreter& in, const Statement& statement) {
 
 /// The manual names BPRNT ("character output and variable value binary output") and has lost its format; this is that of FANUC:
 /// BPRNT[text #v[c] ...], characters as they are, the value times 10^c, rounded, as four bytes, highest first, two's complement.
-Did print_binary(Interpreter& in, const Statement& statement) {
+Execution print_binary(Interpreter& in, const Statement& statement) {
   if (!in.state.port_open) return in.raise(Condition::print_port);
   Message message;
   nc_text& text = message.text;
@@ -180,8 +180,8 @@ Did print_binary(Interpreter& in, const Statement& statement) {
       continue;
     }
     double value = 0;
-    const Did did = next_value(in, &p, end, &value);
-    if (did != Did::done) return did;
+    const Execution did = next_value(in, &p, end, &value);
+    if (did != Execution::done) return did;
     if (end - p < 2 || !is_digit(p[0]) || p[1] != ']' || p[0] == '9') return in.raise(Condition::format_error, Role::binary_port);
     for (int places = *p - '0'; places > 0; --places) value *= 10;
     p += 2;
@@ -194,7 +194,7 @@ Did print_binary(Interpreter& in, const Statement& statement) {
   action.kind = NC_ACTION_MESSAGE;
   action.index = kPort;
   action.text = in.texts.intern(message);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -20,7 +20,7 @@ struct Access {
 };
 
 using VariableGet = Eval (*)(Access& a);
-using VariableSet = Did (*)(Access& a);
+using VariableSet = Execution (*)(Access& a);
 
 /// How one meaning is read and written.
 struct VariableHandler {
@@ -65,12 +65,12 @@ inline double whole_units(double value, double unit) {
 
 // machine_data_variables.cpp
 Eval read_rotation(Access& a);
-Did select_tool_group(Access& a);
+Execution select_tool_group(Access& a);
 Eval read_tool_group(Access& a);
 Eval read_tool_life(Access& a);
-Did select_parameter(Access& a);
+Execution select_parameter(Access& a);
 Eval read_parameter(Access& a);
-Did select_device(Access& a);
+Execution select_device(Access& a);
 Eval read_device(Access& a);
 
 }  // namespace nc

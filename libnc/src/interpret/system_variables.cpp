@@ -52,7 +52,7 @@ Eval read_input_word(Access& a) {
 uint32_t output_word(const Interpreter& in, uint32_t word) { return static_cast<uint32_t>(in.frames.get(Frames::output_key(word))); }
 
 /// Outputs change when the machine gets there: the interpreter keeps what it has read ahead, the action goes into the stream.
-Did put_outputs(Access& a, uint32_t word, uint32_t mask, uint32_t bits) {
+Execution put_outputs(Access& a, uint32_t word, uint32_t mask, uint32_t bits) {
   a.in.set_table(Frames::output_key(word), (output_word(a.in, word) & ~mask) | (bits & mask));
   Action& action = a.in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_OUTPUT;
@@ -60,21 +60,21 @@ Did put_outputs(Access& a, uint32_t word, uint32_t mask, uint32_t bits) {
   action.mask = mask;
   action.bits = bits & mask;
   action.value = a.written;
-  return Did::done;
+  return Execution::done;
 }
 Eval read_output_bit(Access& a) {
   uint32_t word = 0, bit = 0;
   interface_bit(a, &word, &bit);
   return give(a, (output_word(a.in, word) >> bit) & 1);
 }
-Did write_output_bit(Access& a) {
+Execution write_output_bit(Access& a) {
   uint32_t word = 0, bit = 0;
   interface_bit(a, &word, &bit);
   // vacant = 0, any number other than 0 = 1; below 1e-8 the manual says "indefinite": here 0.
   return put_outputs(a, word, 1u << bit, std::fabs(a.written) < 1e-8 ? 0 : 1u << bit);
 }
 Eval read_output_word(Access& a) { return give(a, output_word(a.in, a.index)); }
-Did write_output_word(Access& a) {
+Execution write_output_word(Access& a) {
   const double whole = std::trunc(a.written);
   if (whole < -2147483648.0 || whole > 4294967295.0) return a.in.raise(Condition::value_range, '#', a.number);
   return put_outputs(a, a.index, 0xffffffffu, static_cast<uint32_t>(static_cast<int64_t>(whole)));
@@ -95,12 +95,12 @@ Eval read_tool(Access& a) {
   if (!tool_key(a, &key)) return no_variable(a);
   return shared_known(a) ? give(a, a.in.frames.get(key)) : Eval::need_sync;
 }
-Did write_tool(Access& a) {
+Execution write_tool(Access& a) {
   uint32_t key = 0;
   if (!tool_key(a, &key)) return a.in.raise(Condition::variable_number, '#', a.number);
   if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, '#', a.written);
   a.in.set_table(key, a.written);
-  return Did::done;
+  return Execution::done;
 }
 
 /// Part 0 is the external offset, the next six are the standard systems, then come the extended ones.
@@ -114,12 +114,12 @@ Eval read_work(Access& a) {
   uint32_t key = 0;
   return work_key(a, &key) ? give(a, a.in.frames.get(key)) : no_variable(a);
 }
-Did write_work(Access& a) {
+Execution write_work(Access& a) {
   uint32_t key = 0;
   if (!work_key(a, &key)) return a.in.raise(Condition::variable_number, '#', a.number);
   if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, '#', a.written);
   a.in.set_table(key, a.written);
-  return Did::done;
+  return Execution::done;
 }
 
 // ---- alarm, message, clock, control ------------------------------------------------------------------------------------------
@@ -133,19 +133,19 @@ uint32_t keep_text(Access& a) {
   return a.in.texts.intern(message);
 }
 
-Did write_alarm(Access& a) {
+Execution write_alarm(Access& a) {
   if (!(a.written >= 1) || a.written > 9999) return a.in.raise(Condition::value_range, '#', a.written);  // M700 10.3
   a.in.raise(Condition::user_alarm, '#', a.written);
   a.in.user_alarm_text = keep_text(a);
-  return Did::fault;
+  return Execution::fault;
 }
-Did write_message(Access& a) {
+Execution write_message(Access& a) {
   Action& action = a.in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_MESSAGE;
   action.value = a.written;
   action.text = keep_text(a);
   a.in.emit(ItemKind::gate).gate.kind = NC_GATE_STOP;
-  return Did::done;
+  return Execution::done;
 }
 
 /// Clocks of the program: with power on and in automatic operation.
@@ -160,12 +160,12 @@ Eval read_counter(Access& a) {
   return give(a, (counter_ms(a.in, which) - a.in.state.clock_base[which]) / counter_unit(a.in, which));
 }
 template <Counter which>
-Did write_counter(Access& a) {
+Execution write_counter(Access& a) {
   const double unit = counter_unit(a.in, which);
   if (!(a.written >= 0) || a.written * unit > 244335917226.0) return a.in.raise(Condition::value_range, '#', a.written);  // M700 13.5.5 (24299)
   if (!a.in.world_fresh) return a.in.need(NC_SYNC_CLOCK);
   a.in.state.clock_base[which] = counter_ms(a.in, which) - a.written * unit;
-  return Did::done;
+  return Execution::done;
 }
 
 /// Civil date of days since 1970-01-01 (proleptic Gregorian; era arithmetic over 400 years).
@@ -194,10 +194,10 @@ int64_t days_of(int64_t year, unsigned month, unsigned day) {
 int64_t clock_seconds(const Interpreter& in) { return in.world.clock_ms / 1000 + in.state.clock_shift_s; }
 
 /// The program sets its own clock, kept as a shift against the machine's.
-Did set_clock(Access& a, int64_t day, int64_t second_of_day) {
+Execution set_clock(Access& a, int64_t day, int64_t second_of_day) {
   if (!a.in.world_fresh) return a.in.need(NC_SYNC_CLOCK);
   a.in.state.clock_shift_s += day * 86400 + second_of_day - clock_seconds(a.in);
-  return Did::done;
+  return Execution::done;
 }
 
 /// Six or eight digits, in pairs from the right (M700 10.18).
@@ -212,7 +212,7 @@ bool digits_of(const Access& a, Digits* digits) {
 }
 
 /// YYYYMMDD.
-Did write_date(Access& a) {
+Execution write_date(Access& a) {
   Digits d{};
   if (!digits_of(a, &d)) return a.in.raise(Condition::value_range, '#', a.written);
   int64_t year = 0;
@@ -230,7 +230,7 @@ Eval read_date(Access& a) {
 }
 
 /// HHMMSS.
-Did write_time_of_day(Access& a) {
+Execution write_time_of_day(Access& a) {
   Digits d{};
   if (!digits_of(a, &d) || d.high > 23 || d.middle > 59 || d.low > 59) return a.in.raise(Condition::value_range, '#', a.written);
   const int64_t now = clock_seconds(a.in), midnight = now - now % 86400;
@@ -244,12 +244,12 @@ Eval read_time_of_day(Access& a) {
 
 /// Workpieces machined, and their maximum (M700 10.13: positive). Macros of the maker write the first as -1, which is an option.
 Eval read_count(Access& a) { return give(a, a.in.frames.get(Frames::count_key(a.index))); }
-Did write_count(Access& a) {
+Execution write_count(Access& a) {
   constexpr double kMost = 999999;
   const double least = a.index == 0 && a.in.settings.negative_count ? -kMost : 0;
   if (!(a.written >= least) || a.written > kMost) return a.in.raise(Condition::value_range, '#', a.written);
   a.in.set_table(Frames::count_key(a.index), std::trunc(a.written));
-  return Did::done;
+  return Execution::done;
 }
 
 /// M700 13.5.5: the first takes 0 to 3, the second 0 to 7.
@@ -260,7 +260,7 @@ struct ControlBits {
 };
 constexpr ControlBits kControlBits[] = {{&State::control_3003, 4, NC_CONTROL_SUPPRESS}, {&State::control_3004, 8, NC_CONTROL_DISABLE}};
 
-Did write_control(Access& a) {
+Execution write_control(Access& a) {
   const ControlBits& control = kControlBits[a.index];
   if (!(a.written >= 0) || a.written >= control.end) return a.in.raise(Condition::value_range, '#', a.written);
   const auto bits = static_cast<uint8_t>(a.written);
@@ -269,7 +269,7 @@ Did write_control(Access& a) {
   action.kind = NC_ACTION_CONTROL;
   action.index = control.index;
   action.value = bits;
-  return Did::done;
+  return Execution::done;
 }
 Eval read_control(Access& a) { return give(a, a.in.state.*kControlBits[a.index].bits); }
 Eval read_mirror(Access& a) { return give(a, a.in.state.any_mirror()); }
@@ -462,7 +462,7 @@ Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault*
   return eval;
 }
 
-Did write_system_variable(Interpreter& in, uint32_t number, Value value, const Statement& statement) {
+Execution write_system_variable(Interpreter& in, uint32_t number, Value value, const Statement& statement) {
   const VariableRow* range = find_variable(*in.dialect->variables, number);
   if (range == nullptr) return in.raise(Condition::variable_number, '#', number);
   const VariableSet write = handler_of(*range).write;

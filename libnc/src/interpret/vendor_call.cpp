@@ -10,7 +10,7 @@ namespace nc {
 namespace {
 
 /// The words that the function is given: all but the code itself, the G codes before it, and those without a value.
-Did gather_vendor_words(Interpreter& in, unsigned at, FixedVector<nc_word, 48>& words) {
+Execution gather_vendor_words(Interpreter& in, unsigned at, FixedVector<nc_word, 48>& words) {
   const auto& all = in.block->words;
   for (unsigned i = 0; i < all.size(); ++i) {
     const Word& word = all[i];
@@ -18,12 +18,12 @@ Did gather_vendor_words(Interpreter& in, unsigned at, FixedVector<nc_word, 48>& 
     if ((word.flags & (kWordNoValue | kWordComma | kWordCount)) != 0) return in.raise(Condition::format_error, word.letter);
     Value value = Value::of(word.value);
     if ((word.flags & kWordExpression) != 0) {
-      const Did did = evaluate_here(in, word.code, &value);
-      if (did != Did::done) return did;
+      const Execution did = evaluate_here(in, word.code, &value);
+      if (did != Execution::done) return did;
     }
     if (!value.vacant) words.push_back(nc_word{word.letter, value.number});  // M700 13.5.4
   }
-  return Did::done;
+  return Execution::done;
 }
 
 /// What the program stops with unless the function says something else.
@@ -47,10 +47,10 @@ void take_alarm(nc_alarm* alarm, const nc_alarm& prepared) {
 
 }  // namespace
 
-Did call_vendor(Interpreter& in, unsigned at, const nc_vendor_code& code) {
+Execution call_vendor(Interpreter& in, unsigned at, const nc_vendor_code& code) {
   FixedVector<nc_word, 48> words;
-  const Did did = gather_vendor_words(in, at, words);
-  if (did != Did::done || in.vendor_called()) return did;
+  const Execution did = gather_vendor_words(in, at, words);
+  if (did != Execution::done || in.vendor_called()) return did;
   in.raise(Condition::vendor_function, in.block->words[at].letter, in.is(in.block->words[at], Role::code) ? code.number / 10.0 : code.number);
   prepare_alarm(in, in.fault);
   const Fault failed = in.fault;
@@ -69,11 +69,11 @@ Did call_vendor(Interpreter& in, unsigned at, const nc_vendor_code& code) {
   in.in_vendor_function = false;
   if (status == NC_OK) {
     in.note_vendor_call();
-    return Did::done;
+    return Execution::done;
   }
   take_alarm(&in.vendor_alarm, prepared);
   in.fault = failed;
-  return Did::fault;
+  return Execution::fault;
 }
 
 }  // namespace nc

@@ -113,7 +113,7 @@ bool tilts_plane(const Interpreter& in, unsigned h, unsigned v) {
   return turns_axis(in, h) != turns_axis(in, v);
 }
 
-Did check_work_rotation(Interpreter& in) {
+Execution check_work_rotation(Interpreter& in) {
   for (const Which which : {Notes::kTurnCommanded, Notes::kTurnReached}) {
     const PlaneTurn t = turn_of(in, which);
     if (!turns(in, which) || known(t)) continue;
@@ -122,12 +122,12 @@ Did check_work_rotation(Interpreter& in) {
   const Function motion = in.state.modal.of(Mode::motion);
   const bool straight = is_line(motion) || motion == Function::thread || in.words.one_shot != nullptr ||
                         in.state.cycle.kind != CycleKind::none;
-  if (!in.state.work_turn_pending || straight) return Did::done;
+  if (!in.state.work_turn_pending || straight) return Execution::done;
   // The start of the curve would not be turned, its end would.
   const AxisVec start = in.position(), turned = from_program(in, to_program(in, start));
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (std::fabs(start[i] - turned[i]) > kSame) return in.raise(Condition::arc_deviation, Role::code);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -36,6 +36,6 @@ bool tilts_plane(const Interpreter& in, unsigned h, unsigned v);
 /// The rotation turns this axis towards another one.
 bool turns_axis(const Interpreter& in, unsigned axis);
 /// What a block that moves must observe; curves may not be the first move behind a change (precaution (2)).
-Did check_work_rotation(Interpreter& in);
+Execution check_work_rotation(Interpreter& in);
 
 }  // namespace nc

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "macro/expression.hpp"
-#include "program/scan.hpp"
+#include "program/cursor.hpp"
 
 namespace nc {
 

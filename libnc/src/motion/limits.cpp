@@ -3,8 +3,8 @@
 // smoothing".
 #include "motion/limits.hpp"
 
+#include "filter/filter_parameters.hpp"
 #include "path/shape.hpp"
-#include "shape/filter_parameters.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,14 +2,13 @@
 // The backward pass and what leads to it. See planner.hpp for the rule and docs/motion.md for why it is
 // feasible at every swap.
 #include "motion/planner.hpp"
+#include "base/same_place.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace nc {
 namespace {
-
-constexpr double kSamePlace = 1e-7;  ///< mm or deg: a segment starts where the one before has ended
 
 bool before(uint32_t a, uint32_t b) {
   return static_cast<int32_t>(a - b) < 0;
@@ -40,7 +39,7 @@ bool Planner::must_rest(const Record& from, const Record& to) const {
   if (!a.filter.same(b.filter)) return true;
   if (from.epoch != to.epoch || tip_.between > kRecordsBetween) return true;
   for (unsigned i = 0; i < limits_.axis_count; ++i) {
-    if (std::fabs(a.curve.end[i] - b.curve.start[i]) > kSamePlace) return true;
+    if (std::fabs(a.curve.end[i] - b.curve.start[i]) > kJoined) return true;
   }
   return false;
 }

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "dialect/alarms.hpp"
-#include "program/scan.hpp"
+#include "program/cursor.hpp"
 #include "program/store.hpp"
 #include "program/tape.hpp"
 

@@ -5,7 +5,7 @@
 #include <initializer_list>
 
 #include "dialect/alarms.hpp"
-#include "program/scan.hpp"
+#include "program/cursor.hpp"
 #include "program/store.hpp"
 
 namespace nc {

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "program/scan.hpp"
+#include "program/cursor.hpp"
 #include "program/tape.hpp"
 
 namespace nc {

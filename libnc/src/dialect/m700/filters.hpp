@@ -2,7 +2,7 @@
 // Which filters behind interpolation a move has (7.7, 13.15, 15.5).
 #pragma once
 
-#include "shape/filter_parameters.hpp"
+#include "filter/filter_parameters.hpp"
 
 namespace nc::m700 {
 

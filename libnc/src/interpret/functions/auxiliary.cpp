@@ -27,28 +27,28 @@ char second_address(const Interpreter& in) {
   return 0;
 }
 
-Did spindle_word(Interpreter& in) {
+Execution spindle_word(Interpreter& in) {
   uint32_t s = 0;
   if (!whole_number(in.words.get(Role::spindle_speed), &s) || s > 99999999) return in.raise(Condition::value_range, Role::spindle_speed, in.words.get(Role::spindle_speed));
   if (in.state.spindle.axis != 0) {
-    const Did did = surface_word(in);
-    if (did != Did::done) return did;
+    const Execution did = surface_word(in);
+    if (did != Execution::done) return did;
   }
   const double speed = in.dialect->rules.spindle.speed_of_word(s);
   in.state.modal.spindle = speed;
   emit_action(in, NC_ACTION_S, Role::spindle_speed, speed);
-  return Did::done;
+  return Execution::done;
 }
 
 /// Addresses that are neither an axis nor anything else here.
-Did check_axis_letters(Interpreter& in, char second) {
+Execution check_axis_letters(Interpreter& in, char second) {
   const AddressTable& addresses = in.dialect->addresses;
   const uint32_t auxiliary = addresses.set({Role::second_function, Role::second_function_2, Role::second_function_3});
   uint32_t known = in.axis_letters;
   if (second != 0) known |= 1u << address_of(second);
   if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::dwell) known |= addresses.set({Role::dwell_seconds});
   const uint32_t unknown = in.words.present & in.dialect->axis_addresses & ~known;
-  if (unknown == 0) return Did::done;
+  if (unknown == 0) return Execution::done;
   const char letter = first_of_block(in, unknown);
   const bool aux = (auxiliary >> address_of(letter) & 1) != 0 && second != 0;
   return in.raise(aux ? Condition::second_aux : Condition::illegal_axis, letter, in.words.get(letter));
@@ -60,17 +60,17 @@ bool output_code(const Interpreter& in, uint32_t code) {
 }
 
 /// DGSHAPE M06: M06 and T come as a pair, never more than one of each in a block.
-Did check_tool_pair(Interpreter& in) {
+Execution check_tool_pair(Interpreter& in) {
   unsigned changes = 0, tools = 0;
   for (const uint32_t m : in.words.m) changes += misc_function(*in.dialect, m) == MiscFunction::tool_change ? 1u : 0u;
   for (const Word& word : in.block->words) tools += in.is(word, Role::tool) ? 1u : 0u;
-  if (changes == 1 && tools == 1) return Did::done;
+  if (changes == 1 && tools == 1) return Execution::done;
   return changes == 0 ? in.raise(Condition::tool_pair, Role::tool, in.words.get(Role::tool)) : in.raise_misc(Condition::tool_pair, MiscFunction::tool_change);
 }
 
 /// DGSHAPE 2: numbers "with no decimal point": codes, speeds, numbers of things; P (but the factor of G51) and K where they are
 /// milliseconds, a number, a count.
-Did check_whole_numbers(Interpreter& in) {
+Execution check_whole_numbers(Interpreter& in) {
   const BlockWords& w = in.words;
   const bool cycle = w.cycle != nullptr || in.state.cycle.kind != CycleKind::none;
   const bool arc = w.motion != nullptr && !is_line(w.motion->function);
@@ -80,7 +80,7 @@ Did check_whole_numbers(Interpreter& in) {
   for (const Word& word : in.block->words)
     if (((whole >> address_of(word)) & 1) != 0 && (word.flags & kWordPoint) != 0)
       return in.raise(Condition::format_error, word.letter, word.value);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
@@ -91,12 +91,12 @@ void await_fin(Interpreter& in) {
   in.emit(ItemKind::gate).gate.kind = NC_GATE_FIN;
 }
 
-Did check_company(Interpreter& in) {
+Execution check_precedence(Interpreter& in) {
   const BlockWords& w = in.words;
   const BlockRules& rules = in.dialect->rules.block;
   if (rules.whole_words_refuse_point) {
-    const Did did = check_whole_numbers(in);
-    if (did != Did::done) return did;
+    const Execution did = check_whole_numbers(in);
+    if (did != Execution::done) return did;
   }
   const unsigned words = in.block->words.size();
   if (rules.stops_stand_alone)
@@ -104,27 +104,27 @@ Did check_company(Interpreter& in) {
       if (!output_code(in, m) && words > 1) return in.raise(Condition::must_stand_alone, Role::misc_code, m);
   if (rules.dwell_stands_alone && w.one_shot != nullptr && w.one_shot->function == Function::dwell && words > 2)
     return in.raise_code(Condition::must_stand_alone, *w.one_shot);
-  if (!in.dialect->rules.auxiliary.tool_change_is_pair) return Did::done;
+  if (!in.dialect->rules.auxiliary.tool_change_is_pair) return Execution::done;
   const uint32_t tool = w.has(Role::tool) ? 1u : 0u;
   for (const uint32_t m : w.m)
     if (tool != 0 || misc_function(*in.dialect, m) == MiscFunction::tool_change) return check_tool_pair(in);
-  return tool != 0 ? check_tool_pair(in) : Did::done;
+  return tool != 0 ? check_tool_pair(in) : Execution::done;
 }
 
 bool codes_behind_motion(const Interpreter& in) { return in.settings.codes_after_motion && in.words.axes != 0; }
 
-Did auxiliary_before(Interpreter& in) {
+Execution auxiliary_before(Interpreter& in) {
   BlockWords& w = in.words;
   // Most blocks have none of the addresses that are looked at here.
-  if (w.m.empty() && !w.any((in.dialect->axis_addresses | in.addresses({Role::spindle_speed, Role::tool})) & ~in.axis_letters)) return Did::done;
+  if (w.m.empty() && !w.any((in.dialect->axis_addresses | in.addresses({Role::spindle_speed, Role::tool})) & ~in.axis_letters)) return Execution::done;
   const Rules& rules = in.dialect->rules;
   const char second = second_address(in);
-  Did did = check_axis_letters(in, second);
-  if (did != Did::done) return did;
+  Execution did = check_axis_letters(in, second);
+  if (did != Execution::done) return did;
   bool waiting = false;
   if (w.has(Role::spindle_speed) && !is_clamp_command(in)) {
     did = spindle_word(in);
-    if (did != Did::done) return did;
+    if (did != Execution::done) return did;
     waiting = true;
   }
   if (w.has(Role::tool)) {
@@ -152,13 +152,13 @@ Did auxiliary_before(Interpreter& in) {
     emit_action(in, NC_ACTION_M, Role::misc_code, m);
     waiting = true;
   }
-  if (!waiting) return Did::done;
+  if (!waiting) return Execution::done;
   if (w.one_shot != nullptr && w.one_shot->function == Function::dwell) {
     w.fin_behind_dwell = true;  // M700 8.1 (5): the time begins with the function
   } else {
     emit_fin(in);
   }
-  return Did::done;
+  return Execution::done;
 }
 
 namespace {
@@ -178,14 +178,14 @@ bool two_ways_on(const Interpreter& in) {
 
 }  // namespace
 
-Did auxiliary_after(Interpreter& in) {
+Execution auxiliary_after(Interpreter& in) {
   if (in.words.m.size() > 1 && two_ways_on(in)) return in.raise(Condition::format_error, Role::misc_code, in.words.m.back());
   for (const uint32_t m : in.words.m) {
     if (in.settings.any_reading_stop)
       for (const uint32_t stops : in.settings.reading_stops) in.state.stop_reading |= stops != 0 && stops == m;  // M700 4.2
     if (is_interrupt_on(in, m) || is_interrupt_off(in, m)) {
-      const Did did = is_interrupt_on(in, m) ? enable_interrupt(in) : disable_interrupt(in);
-      if (did != Did::done) return did;
+      const Execution did = is_interrupt_on(in, m) ? enable_interrupt(in) : disable_interrupt(in);
+      if (did != Execution::done) return did;
       continue;
     }
     switch (misc_function(*in.dialect, m)) {
@@ -200,21 +200,21 @@ Did auxiliary_after(Interpreter& in) {
         in.emit(ItemKind::gate).gate.kind = NC_GATE_OPTIONAL_STOP;
         break;
       case MiscFunction::program_end:
-        if (check_loops_closed(in) != Did::done) return Did::fault;
+        if (check_loops_closed(in) != Execution::done) return Execution::fault;
         if (in.state.comp.side != 0) in.state.comp.side = 0;
         in.state.modal.m = m;
         emit_action(in, NC_ACTION_M, Role::misc_code, m);
         emit_fin(in);
         end_spindle_control(in);
         in.state.end_seen = true;
-        return Did::done;
+        return Execution::done;
       case MiscFunction::call_sub: return call_sub(in);
       case MiscFunction::call_external: return call_external(in);
       case MiscFunction::return_sub: return return_sub(in);
       default: break;
     }
   }
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

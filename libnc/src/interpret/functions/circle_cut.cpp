@@ -11,38 +11,38 @@ namespace nc {
 namespace {
 
 /// M700 13.10 (4): anything beside the code, the radius, the offset number and the feed.
-Did check_format(Interpreter& in) {
+Execution check_format(Interpreter& in) {
   const BlockWords& w = in.words;
   const uint32_t others = w.present & ~in.addresses({Role::circle_radius, Role::offset_number, Role::feed, Role::sequence_number, Role::program_number});
   if (others != 0) {
     const char letter = first_of_block(in, others);
     return in.raise(Condition::illegal_address, letter, w.get(letter));
   }
-  return w.m.empty() ? Did::done : in.raise(Condition::illegal_address, Role::misc_code, w.m[0]);
+  return w.m.empty() ? Execution::done : in.raise(Condition::illegal_address, Role::misc_code, w.m[0]);
 }
 
 /// Radius of the path in programmed coordinates: the sign of the radius word counts for nothing, a positive offset makes the circle
 /// smaller (13.10 (1)). Scaling enlarges the circle and not the tool (13.19).
-Did path_radius(Interpreter& in, double scale, double* radius) {
+Execution path_radius(Interpreter& in, double scale, double* radius) {
   const BlockWords& w = in.words;
   uint32_t number = 0;
   if (!w.has(Role::offset_number)) return in.raise(Condition::no_offset_number, Role::offset_number);
-  const Did did = offset_number(in, Role::offset_number, &number);
-  if (did != Did::done) return did;
+  const Execution did = offset_number(in, Role::offset_number, &number);
+  if (did != Execution::done) return did;
   if (!w.has(Role::circle_radius)) return in.raise(Condition::circle_radius, Role::circle_radius);
   *radius = std::fabs(length_of(in, Role::circle_radius)) - radius_amount(in, number) / scale;
   // Half of it is the radius of the way in and out, which has to be one.
-  return *radius / 2 > kNoRadius_mm ? Did::done : in.raise(Condition::circle_radius, Role::circle_radius, w.get(Role::circle_radius));
+  return *radius / 2 > kNoRadius_mm ? Execution::done : in.raise(Condition::circle_radius, Role::circle_radius, w.get(Role::circle_radius));
 }
 
 }  // namespace
 
 /// The figure of 13.10: half a circle from the centre to the circle on the positive side of the plane's first axis, the whole circle, half a
 /// circle back, all with the same sense.
-Did do_circle_cut(Interpreter& in) {
+Execution do_circle_cut(Interpreter& in) {
   const FunctionRow& row = *in.words.one_shot;
-  Did did = check_format(in);
-  if (did != Did::done) return did;
+  Execution did = check_format(in);
+  if (did != Execution::done) return did;
   if (in.words.comp_command) return in.raise_code(Condition::arc_in_compensation_start, row);  // 12.4.1: neither starts nor ends with an arc
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_code(Condition::plane_mismatch, row);
@@ -52,8 +52,8 @@ Did do_circle_cut(Interpreter& in) {
   if ((in.rotary & axes) != 0 && in.state.modal.is(Function::inch)) return in.raise(Condition::no_function, in.system->axis[first_of(in.rotary & axes)].name);
   double radius = 0;
   did = path_radius(in, scale_of(in, h), &radius);
-  if (did == Did::done) did = check_feed(in, row.function);
-  if (did != Did::done) return did;
+  if (did == Execution::done) did = check_feed(in, row.function);
+  if (did != Execution::done) return did;
   const bool mapped = program_mapped(in), ccw = row.function == Function::circle_cut_ccw;
   const AxisVec center = in.position();
   AxisVec entry = mapped ? to_program(in, center) : center;
@@ -67,9 +67,9 @@ Did do_circle_cut(Interpreter& in) {
     ArcWords words;
     words.center[0] = arc.to_center;
     did = move_arc_by(in, plane, *arc.end, axes, words, ccw);
-    if (did != Did::done) return in.raise_code(in.fault.condition, row);
+    if (did != Execution::done) return in.raise_code(in.fault.condition, row);
   }
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -33,9 +33,9 @@ double length_amount(const Interpreter& in) {
 }
 
 /// M700 12.1 (2), (3): an H holds until the next one, whatever block it stands in.
-Did take_length_number(Interpreter& in) {
-  const Did did = offset_number(in, Role::length_number, &in.state.modal.h);
-  if (did == Did::done) in.state.modal.h_given = 1;
+Execution take_length_number(Interpreter& in) {
+  const Execution did = offset_number(in, Role::length_number, &in.state.modal.h);
+  if (did == Execution::done) in.state.modal.h_given = 1;
   return did;
 }
 
@@ -70,10 +70,10 @@ bool take_vector(const Interpreter& in, const Role words[2], double vector[2]) {
 
 }  // namespace
 
-Did offset_number(Interpreter& in, Role word, uint32_t* number) {
+Execution offset_number(Interpreter& in, Role word, uint32_t* number) {
   if (!whole_number(in.words.get(word), number) || *number > in.frames.tool_offsets())
     return in.raise(Condition::no_offset_number, word, in.words.get(word));
-  return Did::done;
+  return Execution::done;
 }
 
 double radius_amount(const Interpreter& in, uint32_t number) { return amount(in, number, true); }
@@ -85,7 +85,7 @@ void take_changed_amounts(Interpreter& in) {
   if (state.comp.side != 0) state.comp.radius = radius_amount(in, state.modal.d);
 }
 
-Did set_compensation(Interpreter& in, Function function) {
+Execution set_compensation(Interpreter& in, Function function) {
   State& state = in.state;
   Compensation& comp = state.comp;
   const CompensationRules& rules = in.dialect->rules.compensation;
@@ -93,13 +93,13 @@ Did set_compensation(Interpreter& in, Function function) {
   const bool arc = is_arc(motion);
   Role words[2];
   if (function == Function::comp_off) {
-    if (comp.side == 0) return Did::done;
+    if (comp.side == 0) return Execution::done;
     if (arc && in.words.axes != 0) return in.raise_function(Condition::arc_in_compensation_start, function);  // M700 12.4.1: cancel must not be circular
     plane_of(in, comp, words);
     comp.cancel_vector = rules.vector_by_words && take_vector(in, words, comp.vector);
     comp.side = 0;
     state.moves_since_comp_off = 0;
-    return Did::done;
+    return Execution::done;
   }
   if (arc) return in.raise_function(Condition::arc_in_compensation_start, function);
   if (state.cycle.kind != CycleKind::none && in.words.motion == nullptr) return in.raise_function(Condition::cycle_in_compensation, function);
@@ -107,8 +107,8 @@ Did set_compensation(Interpreter& in, Function function) {
   if (comp.side == -side && !rules.may_change_side) return in.raise_function(Condition::not_in_compensation, function);
   if (!state.modal.is(Function::plane_xy) && rules.xy_plane_only) return in.raise_function(Condition::plane_mismatch, function);
   if (in.words.has(Role::offset_number)) {
-    const Did did = offset_number(in, Role::offset_number, &state.modal.d);
-    if (did != Did::done) return did;
+    const Execution did = offset_number(in, Role::offset_number, &state.modal.d);
+    if (did != Execution::done) return did;
   } else if (state.modal.d == 0) {
     return in.raise(Condition::no_offset_number, Role::offset_number);
   }
@@ -124,36 +124,36 @@ Did set_compensation(Interpreter& in, Function function) {
   comp.has_vector = rules.vector_by_words && take_vector(in, words, comp.vector);
   // M700 12.4.3: the vector is gone to at once, even when the block names no axis; cutting takes a feed (3.2, P62).
   if (comp.has_vector && comp.side != 0 && motion != Function::rapid) return check_feed(in, motion);
-  return Did::done;
+  return Execution::done;
 }
 
-Did change_radius(Interpreter& in) {
-  const Did did = offset_number(in, Role::offset_number, &in.state.modal.d);
-  if (did != Did::done) return did;
+Execution change_radius(Interpreter& in) {
+  const Execution did = offset_number(in, Role::offset_number, &in.state.modal.d);
+  if (did != Execution::done) return did;
   const bool left = in.state.modal.is(Function::comp_left);
-  if (!left && !in.state.modal.is(Function::comp_right)) return Did::done;
+  if (!left && !in.state.modal.is(Function::comp_right)) return Execution::done;
   // M700 12.4.5: the amount changes with the block; D00 cancels (12.4.1).
   in.state.comp.radius = radius_amount(in, in.state.modal.d);
   in.state.comp.side = in.state.modal.d == 0 ? int8_t{0} : left ? int8_t{1} : int8_t{-1};
-  return Did::done;
+  return Execution::done;
 }
 
-Did change_length(Interpreter& in) {
+Execution change_length(Interpreter& in) {
   for (const uint32_t m : in.words.m) {  // a sequence number (M700 13.3.1, 13.12)
-    if (is_interrupt_on(in, m) || calls_program(misc_function(*in.dialect, m))) return Did::done;
+    if (is_interrupt_on(in, m) || calls_program(misc_function(*in.dialect, m))) return Execution::done;
   }
-  const Did did = take_length_number(in);
+  const Execution did = take_length_number(in);
   // Like a changed amount it acts from the next command of the axis on (12.1).
-  if (did == Did::done && length_in_force(in.state.modal)) in.state.length_value = length_amount(in);
+  if (did == Execution::done && length_in_force(in.state.modal)) in.state.length_value = length_amount(in);
   return did;
 }
 
-Did set_length(Interpreter& in, Function function) {
+Execution set_length(Interpreter& in, Function function) {
   State& state = in.state;
   const LengthRules& rules = in.dialect->rules.length;
   if (in.words.has(Role::length_number) && (rules.number_in_any_block || function != Function::length_off)) {
-    const Did did = take_length_number(in);
-    if (did != Did::done) return did;
+    const Execution did = take_length_number(in);
+    if (did != Execution::done) return did;
   }
   if (function == Function::length_off) {
     state.length_value = 0;
@@ -164,7 +164,7 @@ Did set_length(Interpreter& in, Function function) {
     state.length_axis = static_cast<uint8_t>(axis);
     state.length_value = length_amount(in);
   }
-  if (!rules.moves_at_once) return Did::done;
+  if (!rules.moves_at_once) return Execution::done;
   // Without a word for it the axis goes together with those that the block names.
   const uint32_t axis_bit = 1u << state.length_axis;
   if ((in.words.axes & axis_bit) == 0 && in.words.one_shot == nullptr) {
@@ -172,14 +172,14 @@ Did set_length(Interpreter& in, Function function) {
     if (in.words.axes != 0 && line) {
       in.words.axis[state.length_axis] = in.position()[state.length_axis];
       in.words.axes |= axis_bit;
-      return Did::done;
+      return Execution::done;
     }
     LinearStyle style;
     style.kind = state.modal.is(Function::rapid) || state.modal.feed <= 0 ? NC_MOVE_RAPID : NC_MOVE_LINE;
     style.feed_mm_min = feed_mm_min(in);
     move_linear(in, in.position(), axis_bit, style);
   }
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

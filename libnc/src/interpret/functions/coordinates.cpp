@@ -4,7 +4,7 @@
 
 namespace nc {
 
-Did select_work_system(Interpreter& in, const FunctionRow& row) {
+Execution select_work_system(Interpreter& in, const FunctionRow& row) {
   State& state = in.state;
   if (in.dialect->rules.compensation.bars_systems_and_data && state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, row);
   const AxisVec zero_before = in.zero();
@@ -22,10 +22,10 @@ Did select_work_system(Interpreter& in, const FunctionRow& row) {
   }
   state.modal.set(row);
   keep_rotation_center(in, zero_before);
-  return Did::done;
+  return Execution::done;
 }
 
-Did do_local_system(Interpreter& in) {
+Execution do_local_system(Interpreter& in) {
   if (in.state.work_system >= 6) return in.raise_code(Condition::local_in_extended, *in.words.one_shot);
   const BlockWords& w = in.words;
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -34,15 +34,15 @@ Did do_local_system(Interpreter& in) {
     const unsigned key = Frames::local_key(in.state.work_system, i);
     in.set_table(key, (((w.incremental >> i) & 1) != 0 ? in.frames.get(key) : 0.0) + w.axis[i]);
   }
-  return Did::done;
+  return Execution::done;
 }
 
-Did do_coordinate_set(Interpreter& in) {
+Execution do_coordinate_set(Interpreter& in) {
   const BlockWords& w = in.words;
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *w.one_shot);
   if (w.any({Role::clamp_highest, Role::clamp_lowest}) && in.dialect->rules.spindle.limits_by_coordinate_setting) {
-    const Did did = set_spindle_clamp(in);
-    if (did != Did::done) return did;
+    const Execution did = set_spindle_clamp(in);
+    if (did != Execution::done) return did;
   }
   const AxisVec zero_before = in.zero();
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -52,10 +52,10 @@ Did do_coordinate_set(Interpreter& in) {
     in.set_table(Frames::shift_key(i), shift);
   }
   keep_rotation_center(in, zero_before);
-  return Did::done;
+  return Execution::done;
 }
 
-Did do_coordinate_preset(Interpreter& in) {
+Execution do_coordinate_preset(Interpreter& in) {
   const BlockWords& w = in.words;
   if (!in.settings.preset_allowed) return in.raise_code(Condition::illegal_g, *w.one_shot);  // M700 14.12: list 1 only with #1267 bit 0
   // 14.12: not during scaling, coordinate rotation, mirror image by program.
@@ -70,7 +70,7 @@ Did do_coordinate_preset(Interpreter& in) {
     if (in.state.work_system < 6) in.set_table(Frames::local_key(in.state.work_system, i), 0);
     in.state.applied[i] = 0;  // precaution (1): the reading becomes machine value less offset; the length comes back with the next command
   }
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

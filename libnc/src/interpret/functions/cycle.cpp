@@ -52,12 +52,12 @@ uint32_t positioning_axes(const Interpreter& in) {
   return axes;
 }
 
-Did select_cycle(Interpreter& in, const FunctionRow& row) {
+Execution select_cycle(Interpreter& in, const FunctionRow& row) {
   State& state = in.state;
   if (row.function == Function::cycle_off) {
     cancel_cycle(in);
     state.modal.set(row);
-    return Did::done;
+    return Execution::done;
   }
   if (state.comp.side != 0) return in.raise_code(Condition::cycle_in_compensation, row);
   if (!state.modal.is(Function::plane_xy) && in.dialect->rules.cycle.xy_plane_only) return in.raise_code(Condition::cycle_wrong_plane, row);
@@ -70,11 +70,11 @@ Did select_cycle(Interpreter& in, const FunctionRow& row) {
   }
   state.cycle.kind = kind_of(row.function);
   state.modal.set(row);
-  return Did::done;
+  return Execution::done;
 }
 
 /// Hole data of the block (modal). M700 13.1.1: without an axis word or R they are ignored.
-Did take_hole_data(Interpreter& in) {
+Execution take_hole_data(Interpreter& in) {
   const BlockWords& w = in.words;
   CycleState& c = in.state.cycle;
   const uint32_t drill_bit = 1u << c.drill_axis;
@@ -95,7 +95,7 @@ Did take_hole_data(Interpreter& in) {
     if (!(ms >= 0) || ms > in.dialect->rules.cycle.longest_dwell_ms) return in.raise(Condition::value_range, Role::cycle_dwell, w.get(Role::cycle_dwell));
     c.dwell_s = ms / 1000;
   }
-  return Did::done;
+  return Execution::done;
 }
 
 /// `start`, but where `axes` go.
@@ -167,22 +167,22 @@ void emit_cycle_move(Interpreter& in, const CycleStep& step, bool last) {
   move_linear(in, target, 1u << in.state.cycle.drill_axis, style);
 }
 
-Did begin_hole(Interpreter& in) {
+Execution begin_hole(Interpreter& in) {
   position_over_hole(in);
   in.emit_stop_point();
   resolve_hole(in);
   in.progress = HoleProgress{};
   in.next_step = Step::cycle;
-  return Did::later;
+  return Execution::later;
 }
 
 /// Number of holes of this block: M700 L (13.1.1; default 1, 0 = data only), or K, which the table of 5.3 has for it; DGSHAPE K.
-Did hole_count(Interpreter& in, uint32_t* count) {
+Execution hole_count(Interpreter& in, uint32_t* count) {
   const Role word = in.words.has(Role::cycle_count_2) ? Role::cycle_count_2 : Role::cycle_count;
   *count = 1;
-  if (!in.words.has(word)) return Did::done;
+  if (!in.words.has(word)) return Execution::done;
   if (!whole_number(in.words.get(word), count) || *count > 9999) return in.raise(Condition::value_range, word, in.words.get(word));
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
@@ -193,40 +193,40 @@ void cancel_cycle(Interpreter& in) {
   in.state.modal.set(Function::cycle_off);
 }
 
-Did do_cycle(Interpreter& in) {
+Execution do_cycle(Interpreter& in) {
   const BlockWords& w = in.words;
   if (w.cycle != nullptr) {
-    const Did did = select_cycle(in, *w.cycle);
-    if (did != Did::done) return did;
+    const Execution did = select_cycle(in, *w.cycle);
+    if (did != Execution::done) return did;
     if (in.state.cycle.kind == CycleKind::none) return move_by_words(in);  // G80 with axis words: they go by the motion in force
   }
-  if (w.axes == 0 && !w.has(Role::cycle_level)) return Did::done;  // M700 13.1.1 (2)
-  Did did = take_hole_data(in);
-  if (did != Did::done) return did;
+  if (w.axes == 0 && !w.has(Role::cycle_level)) return Execution::done;  // M700 13.1.1 (2)
+  Execution did = take_hole_data(in);
+  if (did != Execution::done) return did;
   uint32_t count = 1;
   did = hole_count(in, &count);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   const CycleState& c = in.state.cycle;
-  if (count == 0) return Did::done;  // data only
+  if (count == 0) return Execution::done;  // data only
   in.hole_axes = w.axes;
   in.hole_increment = w.axis;
   const CycleRules& rules = in.dialect->rules.cycle;
   if (!c.has_z && rules.without_bottom_positions) {
     position_over_hole(in);
-    return Did::done;
+    return Execution::done;
   }
   if ((w.axes & in.rotary) != 0 && !rules.takes_rotary_axes) return in.raise_axis(Condition::illegal_axis, first_of(w.axes & in.rotary));
   if (!in.state.spindle_on && rules.needs_turning_spindle) return in.raise_mode(Condition::spindle_not_turning, Mode::cycle);
   if (turns_axis(in, c.drill_axis)) return in.raise(Condition::plane_mismatch, in.system->axis[c.drill_axis].name);  // 13.21: not an axis alone
   did = check_feed(in, Function::linear);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   // A peck below the finest unit of the control (M700 2.1 E) is none: the hole would never be done.
   if ((c.kind == CycleKind::peck || c.kind == CycleKind::step) && !(c.q >= 1e-6)) return in.raise(Condition::words_missing, Role::cycle_depth_step);
   in.holes_left = count;
   return begin_hole(in);
 }
 
-Did continue_cycle(Interpreter& in) {
+Execution continue_cycle(Interpreter& in) {
   while (in.queue_has_room()) {
     const CycleStep step = next_step(in.hole, in.progress);
     switch (step.kind) {
@@ -245,12 +245,12 @@ Did continue_cycle(Interpreter& in) {
         break;
       }
       case CycleStep::Kind::done:
-        if (--in.holes_left == 0) return Did::done;
+        if (--in.holes_left == 0) return Execution::done;
         in.emit_stop_point();  // single block also stops at the end of each hole but the last, where the block itself ends
         return begin_hole(in);
     }
   }
-  return Did::later;
+  return Execution::later;
 }
 
 }  // namespace nc

@@ -9,7 +9,7 @@ namespace {
 
 /// Work offsets of one table row; `key(axis)`.
 template <class Key>
-Did write_axes(Interpreter& in, Key key) {
+Execution write_axes(Interpreter& in, Key key) {
   const bool accumulate = in.dialect->rules.data_input.incremental_adds;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((in.words.axes >> i) & 1) == 0) continue;
@@ -18,11 +18,11 @@ Did write_axes(Interpreter& in, Key key) {
     if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.system->axis[i].name, in.words.axis[i]);  // M700 14.10 (6)
     in.set_table(key(i), offset);
   }
-  return Did::done;
+  return Execution::done;
 }
 
 /// `l` is what said so.
-Did work_offset(Interpreter& in, bool extended, uint32_t l) {
+Execution work_offset(Interpreter& in, bool extended, uint32_t l) {
   const BlockWords& w = in.words;
   const DataInputRules& rules = in.dialect->rules.data_input;
   if (w.axes == 0 && rules.axes_required)
@@ -42,7 +42,7 @@ Did work_offset(Interpreter& in, bool extended, uint32_t l) {
   return write_axes(in, [system](unsigned axis) { return Frames::work_key(system, axis); });
 }
 
-Did tool_offset(Interpreter& in, unsigned column) {
+Execution tool_offset(Interpreter& in, unsigned column) {
   const BlockWords& w = in.words;
   uint32_t number = 0;
   if (!w.has(Role::input_number) || !w.has(Role::input_amount)) return in.raise(Condition::format_error, w.has(Role::input_number) ? Role::input_amount : Role::input_number);
@@ -56,7 +56,7 @@ Did tool_offset(Interpreter& in, unsigned column) {
   // M700 12.1: the range of an offset.
   if (std::fabs(amount) >= kOffsetRange) return in.raise(Condition::value_range, Role::input_amount, w.get(Role::input_amount));
   in.set_table(key, amount);
-  return Did::done;
+  return Execution::done;
 }
 
 /// The row of an L, kWithoutL of none; nullptr = the family has no such.
@@ -85,7 +85,7 @@ bool two_kinds(const Interpreter& in) {
 }  // namespace
 
 /// M700 15.6: percent of the rated current, whatever decimals stand behind it.
-Did set_current_limit(Interpreter& in) {
+Execution set_current_limit(Interpreter& in) {
   const BlockWords& w = in.words;
   if (w.axes == 0) return in.raise(Condition::format_error, Role::input_kind, w.get(Role::input_kind));
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -100,10 +100,10 @@ Did set_current_limit(Interpreter& in) {
     action.index = i;
     action.value = percent;
   }
-  return Did::done;
+  return Execution::done;
 }
 
-Did do_data_input(Interpreter& in) {
+Execution do_data_input(Interpreter& in) {
   const BlockWords& w = in.words;
   if (two_kinds(in)) return in.raise(Condition::g10_l, Role::input_kind, w.get(Role::input_kind));
   const Rules& rules = in.dialect->rules;
@@ -127,7 +127,7 @@ Did do_data_input(Interpreter& in) {
     case DataInput::current_limit: return set_current_limit(in);
     case DataInput::parameters: return begin_parameter_input(in);
   }
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

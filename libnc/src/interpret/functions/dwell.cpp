@@ -30,7 +30,7 @@ double seconds_of(const Interpreter& in, Role word) {
 
 }  // namespace
 
-Did do_dwell(Interpreter& in) {
+Execution do_dwell(Interpreter& in) {
   const BlockWords& w = in.words;
   const Role word = w.has(Role::dwell_seconds) ? Role::dwell_seconds : Role::dwell_time;
   const DwellRules& rules = in.dialect->rules.dwell;
@@ -44,7 +44,7 @@ Did do_dwell(Interpreter& in) {
   gate.value = seconds;
   gate.skip_mask = in.settings.dwell_skip;
   if (in.words.fin_behind_dwell) await_fin(in);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

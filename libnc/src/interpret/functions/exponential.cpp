@@ -17,23 +17,23 @@ struct ExponentialWords {
   double taper = 0, torsion = 0, radius = 0, feed = 0, feed_end = 0;
 };
 
-Did angle_word(Interpreter& in, Role word, double* angle) {
+Execution angle_word(Interpreter& in, Role word, double* angle) {
   *angle = length_value(in, in.words.get(word), in.words.flag(word), true, true);
   if (*angle == 0 || std::fabs(*angle) > 89) return in.raise(Condition::value_range, word, in.words.get(word));
-  return Did::done;
+  return Execution::done;
 }
 
-Did take_words(Interpreter& in, ExponentialWords* words) {
+Execution take_words(Interpreter& in, ExponentialWords* words) {
   const BlockWords& w = in.words;
   for (const Role word : {Role::taper_angle, Role::torsion_angle, Role::exponential_radius, Role::feed})
     if (!w.has(word)) return in.raise(Condition::format_error, word);
-  Did did = angle_word(in, Role::taper_angle, &words->taper);
-  if (did == Did::done) did = angle_word(in, Role::torsion_angle, &words->torsion);
-  if (did != Did::done) return did;
+  Execution did = angle_word(in, Role::taper_angle, &words->taper);
+  if (did == Execution::done) did = angle_word(in, Role::torsion_angle, &words->torsion);
+  if (did != Execution::done) return did;
   words->radius = length_of(in, Role::exponential_radius);
   if (!(words->radius > 0)) return in.raise(Condition::value_range, Role::exponential_radius, w.get(Role::exponential_radius));
   did = feed_of(in, &words->feed);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   if (!(words->feed > 0)) return in.raise(Condition::value_range, Role::feed, w.get(Role::feed));
   const double unit = in.state.modal.is(Function::inch) ? 25.4 : 1.0;
   words->feed *= unit;
@@ -42,27 +42,27 @@ Did take_words(Interpreter& in, ExponentialWords* words) {
     if (!(w.get(Role::exponential_end_feed) > 0) || w.get(Role::exponential_end_feed) > 1e7) return in.raise(Condition::value_range, Role::exponential_end_feed, w.get(Role::exponential_end_feed));
     words->feed_end = w.get(Role::exponential_end_feed) * unit;
   }
-  return Did::done;
+  return Execution::done;
 }
 
-Did check_modes(Interpreter& in) {
+Execution check_modes(Interpreter& in) {
   const State& state = in.state;
   if (state.high_speed == SpeedMode::accuracy_2) return in.raise_mode(Condition::illegal_g, Mode::motion);
   const bool length_starts = state.length_value != 0 && in.words.any({Role::length_number});
   if (!state.modal.is(Function::scaling_off) || state.any_mirror() != 0 || !state.modal.is(Function::rotation_off) || state.work_turned || state.comp.side != 0 || length_starts ||
       state.frame[state.depth].figure != 0)
     return in.raise(Condition::exponential_mode);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
 
-Did move_exponential(Interpreter& in, const AxisVec& target, uint32_t commanded, bool negative) {
-  Did did = check_modes(in);
-  if (did != Did::done) return did;
+Execution move_exponential(Interpreter& in, const AxisVec& target, uint32_t commanded, bool negative) {
+  Execution did = check_modes(in);
+  if (did != Execution::done) return did;
   ExponentialWords words;
   did = take_words(in, &words);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   const char linear_name = in.settings.exponential_linear, rotary_name = in.settings.exponential_rotary;
   const int linear = in.axis_named(linear_name), rotary = in.axis_named(rotary_name);
   if (linear < 0 || rotary < 0 || ((in.rotary >> linear) & 1) != 0 || ((in.rotary >> rotary) & 1) == 0) return in.raise(Condition::exponential_axes);
@@ -73,7 +73,7 @@ Did move_exponential(Interpreter& in, const AxisVec& target, uint32_t commanded,
     LinearStyle style;  // a straight line at the F of the block
     style.feed_mm_min = words.feed;
     move_linear(in, target, commanded, style);
-    return Did::done;
+    return Execution::done;
   }
   // x = r (e^(t/D) - 1) / tan i, D = tan j / tan i, so t = D ln(x tan i / r + 1).
   const double tan_i = std::tan(words.taper / kDegrees), tan_j = std::tan(words.torsion / kDegrees);
@@ -90,7 +90,7 @@ Did move_exponential(Interpreter& in, const AxisVec& target, uint32_t commanded,
   Move& move = emit_shaped(in, frame, shape, NC_MOVE_EXPONENTIAL);
   move.feed_mm_min = words.feed;  // per minute in G95 too, and never modal
   move.feed_end = static_cast<float>(words.feed_end);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

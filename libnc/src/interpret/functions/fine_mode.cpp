@@ -96,7 +96,7 @@ bool allowed_in_fine_mode(FineMode mode, Function function) {
   return false;
 }
 
-Did check_fine_block(Interpreter& in) {
+Execution check_fine_block(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   const FineMode mode = state.fine_mode;
@@ -105,16 +105,16 @@ Did check_fine_block(Interpreter& in) {
       if ((word.flags & kWordExpression) != 0) return in.raise(Condition::format_error, word.letter);
   if (mode == FineMode::smooth && w.has(Role::feed) && is_feed_digit(in, w.get(Role::feed))) return in.raise(Condition::format_error, Role::feed, w.get(Role::feed));  // 13.17.2 (3)
   if (state.spline.on && !goes_on_with_spline(in)) state.spline_way = {};
-  if (w.g.empty() && w.m.empty() && !w.any(~(in.axis_letters | in.addresses({Role::feed})))) return Did::done;
+  if (w.g.empty() && w.m.empty() && !w.any(~(in.axis_letters | in.addresses({Role::feed})))) return Execution::done;
   for (const FunctionRow* row : w.g) {
     const bool allowed = allowed_in_fine_mode(mode, row->function) && (row->function != Function::data_input || data_input_allowed(in));
     if (!allowed) return in.raise_code(Condition::illegal_g, *row);
   }
-  if (w.one_shot != nullptr && is_macro_call(w.one_shot->function)) return Did::done;  // arguments
+  if (w.one_shot != nullptr && is_macro_call(w.one_shot->function)) return Execution::done;  // arguments
   for (const uint32_t m : w.m)  // note 1
     if (mode != FineMode::accuracy1 && (is_interrupt_on(in, m) || is_interrupt_off(in, m))) return in.raise(Condition::format_error, Role::misc_code, m);
   const uint32_t unknown = w.present & ~addresses(in);
-  if (unknown == 0) return Did::done;
+  if (unknown == 0) return Execution::done;
   const char letter = first_of_block(in, unknown);
   return in.raise(Condition::format_error, letter, w.get(letter));
 }

@@ -17,24 +17,24 @@ bool refuses_command(const Interpreter& in) {
 }
 
 /// (2), and 13.20: modes in which high-accuracy control cannot be commanded.
-Did check_modes_before(Interpreter& in, const FunctionRow& row) {
+Execution check_modes_before(Interpreter& in, const FunctionRow& row) {
   if (in.state.map.kind != AxisMap::Kind::none) return in.raise_code(Condition::mill_code, row);
   if (!in.state.modal.is(Function::normal_line_off)) return in.raise_code(Condition::not_accepted, row);
   if (!in.state.modal.is(Function::rotation_off)) return in.raise_code(Condition::illegal_g, row);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
 
-Did check_cutting_code(Interpreter& in, const FunctionRow& row) {
+Execution check_cutting_code(Interpreter& in, const FunctionRow& row) {
   // After G08 P1 the cutting mode is that of G64; any other code of it is an error.
   if (in.state.accuracy_command && row.function != Function::cutting_mode) return in.raise_code(Condition::in_high_accuracy, row);
-  if (row.function != Function::high_accuracy_mode) return Did::done;
+  if (row.function != Function::high_accuracy_mode) return Execution::done;
   if (!in.settings.high_accuracy_code) return in.raise_code(Condition::illegal_g, row);  // precaution (3)
   return check_modes_before(in, row);
 }
 
-Did do_high_accuracy(Interpreter& in) {
+Execution do_high_accuracy(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   if (w.g.size() > 1 || !w.m.empty() || (w.present & ~in.addresses({Role::accuracy_switch})) != 0) return in.raise_code(Condition::must_stand_alone, *w.one_shot);
@@ -42,8 +42,8 @@ Did do_high_accuracy(Interpreter& in) {
   uint32_t p = 0;
   if (!whole_number(w.get(Role::accuracy_switch), &p) || p > 1) return in.raise(Condition::value_range, Role::accuracy_switch, w.get(Role::accuracy_switch));
   if (p == 1) {
-    const Did did = check_modes_before(in, *w.one_shot);
-    if (did != Did::done) return did;
+    const Execution did = check_modes_before(in, *w.one_shot);
+    if (did != Execution::done) return did;
     if (refuses_command(in)) return in.raise_code(Condition::illegal_g, *w.one_shot);
     const Function before = state.modal.of(Mode::cutting);
     in.state.modal.set(Function::cutting_mode);  // and G08 P0 does not bring the old one back
@@ -51,7 +51,7 @@ Did do_high_accuracy(Interpreter& in) {
   }
   state.accuracy_command = p == 1;
   state.refresh_accuracy();
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -21,7 +21,7 @@ const Row* row_of(const Table<Row>& rows, double raw) {
   return nullptr;
 }
 
-Did refuse(Interpreter& in) { return in.raise_code(Condition::illegal_g, *in.words.one_shot); }
+Execution refuse(Interpreter& in) { return in.raise_code(Condition::illegal_g, *in.words.one_shot); }
 
 /// 6.11, 6.12: what excludes the modes of 13.17 and the spline.
 bool excluded(const State& state) {
@@ -43,31 +43,31 @@ bool wrong_state(const Interpreter& in, FineMode mode) {
   return !modal.is(Function::length_off) || !cutting_known || !(per_minute || modal.is(Function::feed_per_revolution));
 }
 
-Did start(Interpreter& in, FineMode mode) {
+Execution start(Interpreter& in, FineMode mode) {
   State& state = in.state;
   if (!in.settings.high_speed_codes || excluded(state)) return refuse(in);
   if (!state.modal.is(Function::normal_line_off)) return in.raise_code(Condition::not_accepted, *in.words.one_shot);  // 13.14
   if (wrong_state(in, mode)) return refuse(in);
   state.fine_mode = mode;
   state.refresh_accuracy();
-  return Did::done;
+  return Execution::done;
 }
 
 /// Precaution (5): radius compensation is turned off inside the mode.
-Did leave(Interpreter& in) {
+Execution leave(Interpreter& in) {
   State& state = in.state;
   if (state.comp.side != 0 || !state.modal.is(Function::comp_off)) return refuse(in);
   state.fine_mode = FineMode::none;
   state.spline = SplineState{};
   state.refresh_special();
   state.refresh_accuracy();
-  return Did::done;
+  return Execution::done;
 }
 
 /// The machine slows down once at these blocks (13.16 restriction (4), 13.17.1 precaution (4)).
 void slow_down(Interpreter& in) { in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION; }
 
-Did high_speed_machining(Interpreter& in, SpeedMode mode) {
+Execution high_speed_machining(Interpreter& in, SpeedMode mode) {
   State& state = in.state;
   // 13.20: mode III is refused in a rotation; it is in no part of the manual but that and the list of P.
   if (mode == SpeedMode::machining_3 && !state.modal.is(Function::rotation_off)) return refuse(in);
@@ -76,7 +76,7 @@ Did high_speed_machining(Interpreter& in, SpeedMode mode) {
   if (is_exponential(state.modal.of(Mode::motion))) return refuse(in);  // 6.11
   if (state.high_speed != mode) slow_down(in);
   state.high_speed = mode;
-  return Did::done;
+  return Execution::done;
 }
 
 /// Basic axes named with G05.1 Q2; false when there are other words.
@@ -92,7 +92,7 @@ bool spline_axes(const Interpreter& in, uint8_t* axes) {
   return !other_words(in.words, named | in.addresses({Role::speed_option}));
 }
 
-Did spline_on(Interpreter& in) {
+Execution spline_on(Interpreter& in) {
   State& state = in.state;
   if (!in_mode_2(state) || !in.settings.spline_allowed || !in.settings.high_speed_codes || excluded(state))
     return refuse(in);  // 13.18 (3), (4), precaution (2)
@@ -104,12 +104,12 @@ Did spline_on(Interpreter& in) {
   state.spline.axes = axes;
   state.refresh_special();
   slow_down(in);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
 
-Did do_high_speed(Interpreter& in) {
+Execution do_high_speed(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   if (!w.has(Role::speed_mode)) return in.raise(Condition::format_error, Role::speed_mode);
@@ -121,18 +121,18 @@ Did do_high_speed(Interpreter& in) {
   const bool accuracy = mode == SpeedMode::accuracy_2 || (mode == SpeedMode::off && in_mode_2(state));
   if (other_words(w, in.addresses({Role::speed_mode}))) return in.raise_code(accuracy ? Condition::must_stand_alone : Condition::value_range, *w.one_shot);
   if (state.fine_mode == FineMode::accuracy1) return refuse(in);  // 13.17.1 precaution (11)
-  if (mode == SpeedMode::accuracy_2 && in_mode_2(state)) return Did::done;
-  Did did = Did::done;
+  if (mode == SpeedMode::accuracy_2 && in_mode_2(state)) return Execution::done;
+  Execution did = Execution::done;
   if (mode == SpeedMode::off && in_mode_2(state)) did = leave(in);
   if (mode == SpeedMode::accuracy_2) did = start(in, in.settings.smooth_control ? FineMode::smooth : FineMode::accuracy2);
   if (mode != SpeedMode::off && mode != SpeedMode::accuracy_2) return high_speed_machining(in, mode);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   if (state.high_speed != mode) slow_down(in);
   state.high_speed = mode;
-  return Did::done;
+  return Execution::done;
 }
 
-Did do_high_speed_accuracy(Interpreter& in) {
+Execution do_high_speed_accuracy(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   if (!w.has(Role::speed_option) || (w.flag(Role::speed_option) & kWordPoint) != 0) return in.raise(Condition::format_error, Role::speed_option);
@@ -142,21 +142,21 @@ Did do_high_speed_accuracy(Interpreter& in) {
   if (other_words(w, in.addresses({Role::speed_option}))) return in.raise_code(Condition::must_stand_alone, *in.words.one_shot);
   if (row->option == SpeedOption::accuracy_1) {
     if (in_mode_2(state)) return refuse(in);  // 13.17.1 precaution (10)
-    if (state.fine_mode == FineMode::accuracy1) return Did::done;
+    if (state.fine_mode == FineMode::accuracy1) return Execution::done;
     state.high_speed = SpeedMode::off;  // 13.16: cancels high-speed machining
-    const Did did = start(in, FineMode::accuracy1);
-    if (did == Did::done) slow_down(in);
+    const Execution did = start(in, FineMode::accuracy1);
+    if (did == Execution::done) slow_down(in);
     return did;
   }
   if (state.spline.on) {
     state.spline = SplineState{};
     state.refresh_special();
     slow_down(in);
-    return Did::done;
+    return Execution::done;
   }
-  if (state.fine_mode != FineMode::accuracy1) return Did::done;
-  const Did did = leave(in);
-  if (did == Did::done) slow_down(in);
+  if (state.fine_mode != FineMode::accuracy1) return Execution::done;
+  const Execution did = leave(in);
+  if (did == Execution::done) slow_down(in);
   return did;
 }
 

@@ -4,7 +4,7 @@
 
 namespace nc {
 
-Did do_hypothetical_axis(Interpreter& in) {
+Execution do_hypothetical_axis(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
@@ -22,7 +22,7 @@ Did do_hypothetical_axis(Interpreter& in) {
   state.map.frozen = frozen;
   state.refresh_special();
   if (frozen != 0) state.held_point = in.points.intern(PathPoint{held});
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -23,7 +23,7 @@ struct Measurement {
   double feed_mm_min = 0;
 };
 
-Did read_measurement(Interpreter& in, Measurement* m) {
+Execution read_measurement(Interpreter& in, Measurement* m) {
   const BlockWords& w = in.words;
   for (const Role word : {Role::length_number, Role::tool})  // (3); T: appendix 1
     if (w.has(word)) return in.raise(Condition::measure_h, word, w.get(word));
@@ -36,24 +36,24 @@ Did read_measurement(Interpreter& in, Measurement* m) {
   const bool inch = modal.is(Function::inch);
   m->feed_mm_min = in.settings.measure_feed;
   if (w.has(Role::feed)) {
-    const Did did = feed_of(in, &m->feed_mm_min);
-    if (did != Did::done) return did;
+    const Execution did = feed_of(in, &m->feed_mm_min);
+    if (did != Execution::done) return did;
     if (inch) m->feed_mm_min *= 25.4;
   }
   if (!(m->feed_mm_min > 0)) m->feed_mm_min = 1;  // (3)
   m->deceleration = distance(in, Role::measure_deceleration, in.settings.measure_deceleration);
   m->range = distance(in, Role::measure_range, in.settings.measure_range);
-  return Did::done;
+  return Execution::done;
 }
 
 double finest(const Interpreter& in) { return in.settings.setting_unit_mm / 2; }
 
 }  // namespace
 
-Did do_measure_length(Interpreter& in) {
+Execution do_measure_length(Interpreter& in) {
   Measurement m;
-  const Did did = read_measurement(in, &m);
-  if (did != Did::done) return did;
+  const Execution did = read_measurement(in, &m);
+  if (did != Execution::done) return did;
   const uint32_t axis = 1u << m.axis;
   const AxisVec target = target_of_words(in);
   const double way = target[m.axis] - in.position()[m.axis];
@@ -72,7 +72,7 @@ Did do_measure_length(Interpreter& in) {
   in.measured_position = m.position;
   in.measured_range = m.range;
   in.measured_nothing = none;
-  if (none) return Did::later;  // (9): P607 whatever the sensor says
+  if (none) return Execution::later;  // (9): P607 whatever the sensor says
   AxisVec behind = target;
   behind[m.axis] = m.position + direction * m.range;
   style.kind = NC_MOVE_SKIP;
@@ -83,7 +83,7 @@ Did do_measure_length(Interpreter& in) {
   return in.need(NC_SYNC_SKIP | NC_SYNC_POSITION);
 }
 
-Did measured(Interpreter& in) {
+Execution measured(Interpreter& in) {
   State& state = in.state;
   const unsigned axis = state.length_axis;
   const char name = in.system->axis[axis].name;
@@ -103,7 +103,7 @@ Did measured(Interpreter& in) {
   const double corrected = f.get(key) + longer;
   if (std::fabs(corrected) >= kOffsetRange) return in.raise(Condition::value_range, Role::length_number, corrected);
   in.set_table(key, corrected);  // (4): in force from the next command of the axis on
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -12,7 +12,7 @@ namespace nc {
 namespace {
 
 /// Codes of the modes in front of which both are refused: P485, P486.
-Did check_modes_before(Interpreter& in, const FunctionRow& row) {
+Execution check_modes_before(Interpreter& in, const FunctionRow& row) {
   const State& state = in.state;
   if (state.high_accuracy != 0) return in.raise_code(Condition::not_accepted, row);  // 13.15 (3); appendix 1 has P126
   if (state.comp.side != 0) return in.raise_code(Condition::mill_modal, row);
@@ -21,7 +21,7 @@ Did check_modes_before(Interpreter& in, const FunctionRow& row) {
   if (is_space_arc(state.modal.of(Mode::motion))) return in.raise_code(Condition::mill_modal, row);  // 6.14 (a)
   if (state.any_mirror() != 0) return in.raise_code(Condition::mill_state, row);
   if (!state.modal.is(Function::normal_line_off)) return in.raise_code(Condition::mill_state, row);
-  return Did::done;
+  return Execution::done;
 }
 
 /// Index of the rotary axis of both modes (#1516), -1 = none is named or it does not turn.
@@ -39,10 +39,10 @@ unsigned polar_linear(const Interpreter& in) {
 }
 
 /// M700 6.9 (1), 6.10 (1): an independent block. An axis word in it would go nowhere; `own` is the axis that the code itself names.
-Did stands_alone(Interpreter& in, uint32_t own) {
+Execution stands_alone(Interpreter& in, uint32_t own) {
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((in.words.axes & ~own) >> i & 1) != 0) return in.raise(Condition::format_error, in.system->axis[i].name, in.words.axis[i]);
-  return Did::done;
+  return Execution::done;
 }
 
 /// What both starts have in common: the feed per minute is forced, the state of before is kept, and a tool length that was
@@ -123,7 +123,7 @@ bool allowed_inside(Function function) {
 
 }  // namespace
 
-Did do_cylinder(Interpreter& in) {
+Execution do_cylinder(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   const FunctionRow& code = *w.one_shot;
@@ -133,18 +133,18 @@ Did do_cylinder(Interpreter& in) {
   const int axis = rotary_axis(in);
   if (axis < 0) return in.raise(Condition::mill_axis, name);
   if (!w.has(name)) return in.raise(Condition::format_error, name);
-  if (const Did did = stands_alone(in, 1u << axis); did != Did::done) return did;
+  if (const Execution did = stands_alone(in, 1u << axis); did != Execution::done) return did;
   const double radius = length_of(in, name, false);
   if (radius < 0) return in.raise(Condition::value_range, name, w.get(name));
   if (radius == 0) {
-    if (state.map.kind == AxisMap::Kind::none) return Did::done;
+    if (state.map.kind == AxisMap::Kind::none) return Execution::done;
     if (state.comp.side != 0) return in.raise_code(Condition::mill_modal, code);
     end_mode(in);
-    return Did::done;
+    return Execution::done;
   }
   if (state.map.kind != AxisMap::Kind::none) return in.raise_code(Condition::mill_code, code);
-  const Did did = check_modes_before(in, code);
-  if (did != Did::done) return did;
+  const Execution did = check_modes_before(in, code);
+  if (did != Execution::done) return did;
   begin_mode(in, code);
   state.map.kind = AxisMap::Kind::cylinder;
   state.map.rotary = static_cast<uint8_t>(axis);
@@ -156,18 +156,18 @@ Did do_cylinder(Interpreter& in) {
   const bool chosen = state.plane_axis[0] == rotary || state.plane_axis[1] == rotary;
   const bool paired = in.settings.plane_parallel[0] == name || in.settings.plane_parallel[1] == name || in.settings.plane_parallel[2] == name;
   if (!chosen && !paired && state.modal.is(Function::plane_yz)) state.plane_axis[0] = rotary;
-  return Did::done;
+  return Execution::done;
 }
 
-Did do_polar_on(Interpreter& in) {
+Execution do_polar_on(Interpreter& in) {
   State& state = in.state;
   const FunctionRow& code = *in.words.one_shot;
   if (in.words.g.size() > 1) return in.raise_code(Condition::format_error, code);
-  if (const Did did = stands_alone(in, 0); did != Did::done) return did;
+  if (const Execution did = stands_alone(in, 0); did != Execution::done) return did;
   if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::mill_state, code);
   if (state.map.kind == AxisMap::Kind::cylinder) return in.raise_code(Condition::mill_code, code);
-  const Did did = check_modes_before(in, code);
-  if (did != Did::done) return did;
+  const Execution did = check_modes_before(in, code);
+  if (did != Execution::done) return did;
   const int axis = rotary_axis(in);
   if (axis < 0) return in.raise(Condition::mill_axis, in.settings.mill_axis);
   const unsigned basic = polar_linear(in);
@@ -187,22 +187,22 @@ Did do_polar_on(Interpreter& in) {
   state.mill.hypothetical_letter = in.settings.hypothetical_by_name ? char{0} : in.dialect->addresses.letter(basic_along((basic + 1) % 3));
   state.refresh_special();
   in.refresh_axis_names();
-  return Did::done;
+  return Execution::done;
 }
 
-Did do_polar_off(Interpreter& in) {
+Execution do_polar_off(Interpreter& in) {
   State& state = in.state;
   const FunctionRow& code = *in.words.one_shot;
-  if (state.map.kind == AxisMap::Kind::none) return Did::done;
+  if (state.map.kind == AxisMap::Kind::none) return Execution::done;
   if (in.words.g.size() > 1) return in.raise_code(Condition::format_error, code);
-  if (const Did did = stands_alone(in, 0); did != Did::done) return did;
+  if (const Execution did = stands_alone(in, 0); did != Execution::done) return did;
   if (state.map.kind != AxisMap::Kind::polar) return in.raise_code(Condition::mill_code, code);
   if (state.comp.side != 0) return in.raise_code(Condition::mill_modal, code);
   end_mode(in);
-  return Did::done;
+  return Execution::done;
 }
 
-Did check_mill_block(Interpreter& in) {
+Execution check_mill_block(Interpreter& in) {
   const BlockWords& w = in.words;
   const bool polar = in.state.map.kind == AxisMap::Kind::polar;
   for (const FunctionRow* row : w.g) {
@@ -223,15 +223,15 @@ Did check_mill_block(Interpreter& in) {
     }
   }
   if (w.has(Role::tool)) return in.raise(Condition::mill_modal, Role::tool, w.get(Role::tool));
-  return Did::done;
+  return Execution::done;
 }
 
-Did check_mill_move(Interpreter& in, uint32_t commanded) {
+Execution check_mill_move(Interpreter& in, uint32_t commanded) {
   State& state = in.state;
   state.mill.moved = true;
   const Function motion = state.modal.of(Mode::motion);
   if (!allowed_inside(motion)) return in.raise_mode(Condition::mill_code, Mode::motion);
-  if (state.map.kind != AxisMap::Kind::cylinder) return Did::done;
+  if (state.map.kind != AxisMap::Kind::cylinder) return Execution::done;
   const auto rotary = static_cast<int8_t>(state.map.rotary);
   if (state.plane_axis[0] != rotary && state.plane_axis[1] != rotary) return in.raise(Condition::mill_modal);
   // [App.1 P482] the cylindrical coordinate system is the basic one with the rotary axis in the place of the axis it is parallel to.
@@ -244,7 +244,7 @@ Did check_mill_move(Interpreter& in, uint32_t commanded) {
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded & ~system) >> i & 1) != 0) return in.raise(Condition::mill_axis, in.system->axis[i].name, in.words.axis[i]);
   if (is_arc(motion) && in.words.any({Role::vector_x, Role::vector_y, Role::vector_z})) return in.raise(Condition::format_error, in.words.has(Role::vector_x) ? Role::vector_x : in.words.has(Role::vector_y) ? Role::vector_y : Role::vector_z);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -5,7 +5,7 @@
 
 namespace nc {
 
-Did do_mirror(Interpreter& in) {
+Execution do_mirror(Interpreter& in) {
   const BlockWords& w = in.words;
   const bool on = w.one_shot->function == Function::mirror_on;
   if (on && w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
@@ -27,7 +27,7 @@ Did do_mirror(Interpreter& in) {
   in.state.mirror = static_cast<uint8_t>(mirror);
   in.program_changed();
   in.state.modal.set(mirror != 0 ? Function::mirror_on : Function::mirror_off);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "base/same_place.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
 namespace {
-
-constexpr double kSamePlace = 1e-6;  // mm: the first control point is where the axes are
 
 /// The basic axes that the machine has, 0xff for those it has not.
 void basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
@@ -24,24 +23,24 @@ void basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
 /// M700 6.15: at most four decimals.
 bool too_fine(double value) { return std::fabs(value * 1e4 - std::nearbyint(value * 1e4)) > 1e-6; }
 
-Did take_knot(Interpreter& in, double* knot) {
+Execution take_knot(Interpreter& in, double* knot) {
   if (!in.words.has(Role::curve_knot)) return in.raise(Condition::format_error, Role::curve_knot);
   *knot = in.words.get(Role::curve_knot);  // K1 = 1.0
   if (too_fine(*knot)) return in.raise(Condition::format_error, Role::curve_knot, *knot);
-  return Did::done;
+  return Execution::done;
 }
 
-Did take_weight(Interpreter& in, double* weight) {
+Execution take_weight(Interpreter& in, double* weight) {
   *weight = 1;
-  if (!in.words.has(Role::curve_weight)) return Did::done;
+  if (!in.words.has(Role::curve_weight)) return Execution::done;
   *weight = in.words.get(Role::curve_weight);
   if (too_fine(*weight)) return in.raise(Condition::format_error, Role::curve_weight, *weight);
   if (*weight < 0.0001 || *weight > 99.9999) return in.raise(Condition::value_range, Role::curve_weight, *weight);
-  return Did::done;
+  return Execution::done;
 }
 
 /// The first block of a curve: its order and axes.
-Did begin_curve(Interpreter& in, const AxisVec& target) {
+Execution begin_curve(Interpreter& in, const AxisVec& target) {
   NurbsState& n = in.state.nurbs;
   const BlockWords& w = in.words;
   n = NurbsState{};
@@ -51,7 +50,7 @@ Did begin_curve(Interpreter& in, const AxisVec& target) {
   n.axes = static_cast<uint8_t>(w.axes);
   const AxisVec at = in.position();
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (std::fabs(target[i] - at[i]) > kSamePlace) return in.raise(Condition::nurbs_start, in.system->axis[i].name);
+    if (std::fabs(target[i] - at[i]) > kReached) return in.raise(Condition::nurbs_start, in.system->axis[i].name);
   uint8_t axis[3];
   basic_axes(in, axis);
   uint32_t basic = 0;
@@ -59,7 +58,7 @@ Did begin_curve(Interpreter& in, const AxisVec& target) {
     if (a < kMaxAxes) basic |= 1u << a;
   if (w.axes == 0) n.axes = static_cast<uint8_t>(basic);  // a knot alone behind a curve begins the next one at its end
   if ((w.axes & ~basic) != 0) return in.raise(Condition::illegal_address, Role::basic_x);
-  return Did::done;
+  return Execution::done;
 }
 
 const PathPoint& point(const Interpreter& in, uint32_t index) { return in.points[in.state.nurbs.first + index]; }
@@ -132,31 +131,31 @@ void emit_span(Interpreter& in) {
 
 }  // namespace
 
-Did check_nurbs_block(Interpreter& in) {
+Execution check_nurbs_block(Interpreter& in) {
   const BlockWords& w = in.words;
   const NurbsState& n = in.state.nurbs;
-  if (!n.active()) return Did::done;
+  if (!n.active()) return Execution::done;
   // No other codes, F, M, S or T until the curve is closed.
   if (!w.g.empty()) return in.raise_code(Condition::format_error, *w.g.back());
   if (!w.m.empty()) return in.raise(Condition::format_error, Role::misc_code, w.m.back());
   for (const Role word : {Role::feed, Role::spindle_speed, Role::tool, Role::curve_order})
     if (w.has(word)) return in.raise(Condition::format_error, word, w.get(word));
-  return Did::done;
+  return Execution::done;
 }
 
-Did move_nurbs(Interpreter& in, const AxisVec& target) {
+Execution move_nurbs(Interpreter& in, const AxisVec& target) {
   State& state = in.state;
   NurbsState& n = state.nurbs;
   const BlockWords& w = in.words;
   if (state.high_speed != SpeedMode::accuracy_2) return in.raise_mode(Condition::illegal_g, Mode::motion);
   if (state.comp.side != 0) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
   PathPoint p{target};
-  Did did = take_knot(in, &p.knot);
-  if (did == Did::done) did = take_weight(in, &p.weight);
-  if (did != Did::done) return did;
+  Execution did = take_knot(in, &p.knot);
+  if (did == Execution::done) did = take_weight(in, &p.weight);
+  if (did != Execution::done) return did;
   if (!n.active()) {
     did = begin_curve(in, target);
-    if (did != Did::done) return did;
+    if (did != Execution::done) return did;
   }
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((w.axes >> i) & 1) != 0 && ((n.axes >> i) & 1) == 0) return in.raise(Condition::illegal_address, in.system->axis[i].name, w.axis[i]);
@@ -171,7 +170,7 @@ Did move_nurbs(Interpreter& in, const AxisVec& target) {
   if (!closes) n.points = n.knots;
   emit_span(in);
   if (closes && n.knots == n.points + n.order) n = NurbsState{};
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

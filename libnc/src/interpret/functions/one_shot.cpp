@@ -8,11 +8,11 @@ namespace {
 
 struct Handler {
   Function function;
-  Did (*run)(Interpreter& in);
+  Execution (*run)(Interpreter& in);
 };
 
 /// G11 outside the input of parameters: G10 L2 to L20, which 12.7 (3) lets it end too, act in their own block only.
-Did end_without_input(Interpreter&) { return Did::done; }
+Execution end_without_input(Interpreter&) { return Execution::done; }
 
 constexpr Handler kHandlers[] = {
     {Function::dwell, do_dwell},
@@ -73,7 +73,7 @@ bool machine_in_figure(const Interpreter& in) {
 
 }  // namespace
 
-Did execute_one_shot(Interpreter& in) {
+Execution execute_one_shot(Interpreter& in) {
   // M700 6.1, 6.2, 13.1.1: G00, G01 and fixed cycles have an in-position width.
   if (in.words.in_position > 0) return in.raise(Condition::illegal_address, Role::vector_x, in.words.in_position);
   if (in.words.in_position_drill > 0) return in.raise(Condition::illegal_address, Role::vector_y, in.words.in_position_drill);

@@ -11,7 +11,7 @@
 namespace nc {
 namespace {
 
-Did refuse(Interpreter& in, Role word) {
+Execution refuse(Interpreter& in, Role word) {
   return in.words.has(word) ? in.raise(Condition::parameter_input, word, in.words.get(word)) : in.raise(Condition::parameter_input, word);
 }
 
@@ -56,7 +56,7 @@ bool in_sequence(const Interpreter& in) {
 }
 
 /// The text to store and, for a bit, the end of the key.
-Did read_data(Interpreter& in, TextWriter& key, TextWriter& text) {
+Execution read_data(Interpreter& in, TextWriter& key, TextWriter& text) {
   const BlockWords& w = in.words;
   const unsigned kinds = (w.has(Role::parameter_bit) ? 1u : 0u) + (w.has(Role::parameter_data) ? 1u : 0u) + (in.block->name_length > 0 ? 1u : 0u);
   if (kinds != 1) return refuse(in, kinds == 0 ? Role::parameter_data : Role::parameter_number);
@@ -72,27 +72,27 @@ Did read_data(Interpreter& in, TextWriter& key, TextWriter& text) {
     if (in.block->name_length > 63) return in.raise(Condition::parameter_input, '<');
     for (unsigned i = 0; i < in.block->name_length; ++i) text.put(in.block->text[in.block->name + i]);
   }
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
 
-Did begin_parameter_input(Interpreter& in) {
+Execution begin_parameter_input(Interpreter& in) {
   // "in independent blocks"; appendix 1, P421: not in a fixed cycle and not under radius compensation.
   const bool alone = in.block->words.size() == 2;
   if (!alone || in.state.cycle.kind != CycleKind::none || in.state.comp.side != 0) return refuse(in, Role::input_kind);
   in.state.parameter_input = true;
-  return Did::done;
+  return Execution::done;
 }
 
-Did parameter_block(Interpreter& in) {
-  Did did = gather_words(in);
-  if (did != Did::done) return did;
+Execution parameter_block(Interpreter& in) {
+  Execution did = gather_words(in);
+  if (did != Execution::done) return did;
   const BlockWords& w = in.words;
   if (!w.g.empty() || !w.m.empty()) {
     if (!ends_input(in)) return refuse(in, w.g.empty() ? Role::misc_code : Role::code);
     in.state.parameter_input = false;
-    return Did::done;
+    return Execution::done;
   }
   uint32_t number = 0, system = 0, axis = 1;
   if ((w.present & ~in.addresses({Role::parameter_number, Role::parameter_system, Role::parameter_axis, Role::parameter_bit, Role::parameter_data})) != 0 || !w.has(Role::parameter_number) || !whole_number(w.get(Role::parameter_number), &number)) return refuse(in, Role::parameter_number);
@@ -103,12 +103,12 @@ Did parameter_block(Interpreter& in) {
   TextWriter key(key_text, sizeof key_text), data(data_text, sizeof data_text);
   key.put_integer(number);
   did = read_data(in, key, data);
-  if (did != Did::done) return did;
+  if (did != Execution::done) return did;
   // Note 3: parameters that are not of the axes take no notice of A.
   const int of = parameter_of_axis(*in.dialect, number) ? static_cast<int>(axis) - 1 : -1;
   if (!in.set_parameter(key_text, of, data_text)) return refuse(in, Role::parameter_number);
   if (turns_work(in, number)) take_work_rotation(in, false);  // 13.21 (4): what a program sets holds at once
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -25,7 +25,7 @@ bool reads_plain_words(const Interpreter& in) {
 
 }  // namespace
 
-Did select_polar_command(Interpreter& in, const FunctionRow& row) {
+Execution select_polar_command(Interpreter& in, const FunctionRow& row) {
   State& state = in.state;
   if (row.function == Function::polar_command_on) {
     if (state.high_speed == SpeedMode::accuracy_2) return in.raise_code(Condition::illegal_g, row);
@@ -33,7 +33,7 @@ Did select_polar_command(Interpreter& in, const FunctionRow& row) {
   }
   state.modal.set(row);
   state.polar_angle_known = false;
-  return Did::done;
+  return Execution::done;
 }
 
 void resolve_polar_words(Interpreter& in) {

@@ -31,7 +31,7 @@ class WithoutStrokeCheck {
 };
 
 /// G28 and G30: by the intermediate point to reference position `which`, 0 to 3.
-Did go_to_reference(Interpreter& in, unsigned which, AxisVec mid, uint32_t axes) {
+Execution go_to_reference(Interpreter& in, unsigned which, AxisVec mid, uint32_t axes) {
   if (axes == 0) return in.raise_code(Condition::words_missing, *in.words.one_shot);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((axes >> i) & 1) == 0) continue;
@@ -48,7 +48,7 @@ Did go_to_reference(Interpreter& in, unsigned which, AxisVec mid, uint32_t axes)
   move_to_place(in, place, axes);
   if (in.dialect->rules.reference.cancels_length) cancel_length_of(in, axes);
   if (in.state.scaled != 0) end_scaling(in);  // M700 13.19, relation (2): at the intermediate point
-  return Did::done;
+  return Execution::done;
 }
 
 /// M700 14.13: an angle in machine coordinates as a place on the axis, which counts over its turns.
@@ -92,7 +92,7 @@ void cancel_length_of(Interpreter& in, uint32_t axes) {
   in.state.modal.set(Function::length_off);
 }
 
-Did do_reference_return(Interpreter& in) {
+Execution do_reference_return(Interpreter& in) {
   uint32_t axes = in.words.axes;
   AxisVec mid = target_of_words(in);
   const Rules& rules = in.dialect->rules;
@@ -102,14 +102,14 @@ Did do_reference_return(Interpreter& in) {
   return go_to_reference(in, 0, mid, axes);
 }
 
-Did do_second_reference(Interpreter& in) {
+Execution do_second_reference(Interpreter& in) {
   // M700 14.8 (1): without P, and with any other P than 2 to 4, the 2nd.
   uint32_t place = 2;
   if (!place_of_p(in, 2, &place) || place < 2 || place > 4) place = 2;
   return go_to_reference(in, place - 1, target_of_words(in), in.words.axes);
 }
 
-Did do_start_return(Interpreter& in) {
+Execution do_start_return(Interpreter& in) {
   const BlockWords& w = in.words;
   if (!w.m.empty()) return in.raise(Condition::start_return_m, Role::misc_code, w.m[0]);  // App.1 P436
   if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
@@ -128,7 +128,7 @@ Did do_start_return(Interpreter& in) {
     in.raise_code(Condition::no_reference, *w.one_shot);
     for (unsigned i = 0; i < in.axis_count && in.fault.axis < 0; ++i)
       if (((w.axes >> i) & 1) != 0) in.fault.axis = static_cast<int8_t>(i);
-    return Did::fault;
+    return Execution::fault;
   }
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
@@ -139,10 +139,10 @@ Did do_start_return(Interpreter& in) {
   }
   style.transparent = false;  // 14.8 (5): from there on with radius compensation again
   move_linear(in, target_of_words(in), w.axes, style);  // incremental words count from the intermediate point
-  return Did::done;
+  return Execution::done;
 }
 
-Did do_reference_check(Interpreter& in) {
+Execution do_reference_check(Interpreter& in) {
   const BlockWords& w = in.words;
   uint32_t place = 1;
   if (!w.m.empty()) return in.raise(Condition::reference_check_m, Role::misc_code, w.m[0]);  // App.1 P435
@@ -153,10 +153,10 @@ Did do_reference_check(Interpreter& in) {
   move_linear(in, target_of_words(in), w.axes, style);
   // The comparison comes behind the move. Where radius compensation leads is known only then.
   in.next_step = Step::reference_check;
-  return in.state.comp.side != 0 ? in.need(NC_SYNC_POSITION) : Did::later;
+  return in.state.comp.side != 0 ? in.need(NC_SYNC_POSITION) : Execution::later;
 }
 
-Did compare_reference(Interpreter& in) {
+Execution compare_reference(Interpreter& in) {
   const BlockWords& w = in.words;
   uint32_t place = 1;
   place_of_p(in, 1, &place);
@@ -168,24 +168,24 @@ Did compare_reference(Interpreter& in) {
     if (std::fabs(apart) <= same_place(in)) continue;
     in.raise(Condition::reference_compare);  // P434
     in.fault.axis = static_cast<int8_t>(i);
-    return Did::fault;
+    return Execution::fault;
   }
   if (in.state.scaled != 0) end_scaling(in);  // M700 13.19, relation (1)
-  return Did::done;
+  return Execution::done;
 }
 
 /// M700 14.5 note: `G92 G53 X0 Y0 Z0` takes the G92 shift of the named axes away, without motion.
-Did clear_shift(Interpreter& in) {
+Execution clear_shift(Interpreter& in) {
   const BlockWords& w = in.words;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     if (w.axis[i] != 0) return in.raise(Condition::value_range, in.system->axis[i].name, w.axis[i]);
     in.set_table(Frames::shift_key(i), 0);
   }
-  return Did::done;
+  return Execution::done;
 }
 
-Did do_machine_move(Interpreter& in) {
+Execution do_machine_move(Interpreter& in) {
   const BlockWords& w = in.words;
   for (const FunctionRow* row : w.g)
     if (row->function == Function::coordinate_set && in.dialect->rules.coordinate.machine_code_ends_shift) return clear_shift(in);
@@ -204,7 +204,7 @@ Did do_machine_move(Interpreter& in) {
     machine[i] = machine_target(in, i, w.axis[i]);
   }
   move_machine(in, machine, w.axes, absolute);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -24,7 +24,7 @@ bool factor_of(const Interpreter& in, double* factor) {
 
 }  // namespace
 
-Did do_scaling(Interpreter& in) {
+Execution do_scaling(Interpreter& in) {
   const BlockWords& w = in.words;
   const ScalingRules& rules = in.dialect->rules.scaling;
   if (!w.has(Role::scaling_factor) && rules.factor_required) return in.raise(Condition::words_missing, Role::scaling_factor);
@@ -42,7 +42,7 @@ Did do_scaling(Interpreter& in) {
   if (in_figure(in)) in.state.figure_scaled |= static_cast<uint8_t>(axes);  // (6)
   in.program_changed();
   in.state.modal.set(Function::scaling_on);
-  return Did::done;
+  return Execution::done;
 }
 
 void end_scaling(Interpreter& in) {
@@ -51,7 +51,7 @@ void end_scaling(Interpreter& in) {
   in.state.modal.set(Function::scaling_off);
 }
 
-Did do_rotation(Interpreter& in) {
+Execution do_rotation(Interpreter& in) {
   const BlockWords& w = in.words;
   if (w.has(Role::vector_x) && w.has(Role::vector_y) && w.has(Role::vector_z)) return in.raise_code(Condition::space_conversion, *w.one_shot);  // 13.22
   const PlaneAxes plane = plane_axes(in);
@@ -75,7 +75,7 @@ Did do_rotation(Interpreter& in) {
   in.state.rotated = true;
   in.program_changed();
   in.state.modal.set(Function::rotation_on);
-  return Did::done;
+  return Execution::done;
 }
 
 void end_rotation(Interpreter& in) {

@@ -17,7 +17,7 @@ void store_skip_position(Interpreter& in, const AxisVec& machine, uint32_t axes)
 }
 
 /// M700 15.5: F1= to F8=, the feed behind each signal; 0 ends the move. Signals that are not named do nothing.
-Did take_speeds(Interpreter& in, uint32_t* stops) {
+Execution take_speeds(Interpreter& in, uint32_t* stops) {
   const BlockWords& w = in.words;
   if (w.has(Role::skip_signals)) return in.raise(Condition::format_error, Role::skip_signals, w.get(Role::skip_signals));  // which signals count is said already
   const double unit = in.state.modal.is(Function::inch) ? 25.4 : 1.0;
@@ -34,12 +34,12 @@ Did take_speeds(Interpreter& in, uint32_t* stops) {
     in.skip_speeds.mask = static_cast<uint8_t>(in.skip_speeds.mask | 1u << i);
     in.skip_speeds.feed_mm_min[i] = feed;
   }
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
 
-Did do_skip(Interpreter& in) {
+Execution do_skip(Interpreter& in) {
   const BlockWords& w = in.words;
   // M700 9.3 (8): where the signal comes a table that has places of its own (#2106) cannot be clamped.
   for (uint32_t tables = w.axes & in.settings.index_axes & in.rotary; tables != 0; tables &= tables - 1) {
@@ -54,8 +54,8 @@ Did do_skip(Interpreter& in) {
   const bool inch = in.state.modal.is(Function::inch);
   double feed = step == 0 ? in.settings.skip_feed : in.settings.multi_skip_feed[step - 1];
   if (w.has(Role::feed)) {
-    const Did did = feed_of(in, &feed);
-    if (did != Did::done) return did;
+    const Execution did = feed_of(in, &feed);
+    if (did != Execution::done) return did;
     if (inch) feed *= 25.4;
   }
   if (!(feed > 0)) return in.raise(Condition::skip_feed_zero, Role::feed);
@@ -64,8 +64,8 @@ Did do_skip(Interpreter& in) {
   style.feed_mm_min = feed;
   style.exact_stop = true;
   if (w.counted_feeds != 0) {
-    const Did did = take_speeds(in, &mask);
-    if (did != Did::done) return did;
+    const Execution did = take_speeds(in, &mask);
+    if (did != Execution::done) return did;
     style.skip_speeds = &in.skip_speeds;
   }
   style.skip_mask = static_cast<uint8_t>(mask);
@@ -73,13 +73,13 @@ Did do_skip(Interpreter& in) {
   move_linear(in, target_of_words(in), w.axes, style);
   if (in.state.machine == before) {  // nothing to go: no signal can come
     store_skip_position(in, in.state.machine, w.axes);
-    return Did::done;
+    return Execution::done;
   }
   in.next_step = Step::skip_answered;
   return in.need(NC_SYNC_SKIP | NC_SYNC_POSITION);
 }
 
-Did skip_answered(Interpreter& in) {
+Execution skip_answered(Interpreter& in) {
   AxisVec at = in.state.machine;  // without a signal: the end point of the block
   if (in.world.skipped) {
     for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -89,7 +89,7 @@ Did skip_answered(Interpreter& in) {
     }
   }
   store_skip_position(in, at, in.words.axes);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

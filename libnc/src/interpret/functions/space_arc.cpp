@@ -6,7 +6,7 @@
 
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
-#include "modal/company.hpp"
+#include "modal/precedence.hpp"
 
 namespace nc {
 namespace {
@@ -137,28 +137,28 @@ bool names_centre(const Interpreter& in, const Block& block) {
 
 }  // namespace
 
-Did check_in_space_arc(Interpreter& in, const FunctionRow& row) {
+Execution check_in_space_arc(Interpreter& in, const FunctionRow& row) {
   Condition bad = barred(kInSpaceArc, row.function);  // 6.14 (a)
   if (row.function == Function::rotation_on && names_centre(in, *in.block)) bad = Condition::space_conversion_code;  // with I J K it converts in space
-  return bad == Condition::none ? Did::done : in.raise_code(bad, row);
+  return bad == Condition::none ? Execution::done : in.raise_code(bad, row);
 }
 
-Did check_space_arc_block(Interpreter& in) {
+Execution check_space_arc_block(Interpreter& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   const bool goes_on = w.one_shot == nullptr && w.cycle == nullptr && w.axes != 0 && is_space_arc(state.modal.of(Mode::motion));
   if (state.arc_step == ArcStep::middle_given && !goes_on) return in.raise(Condition::space_arc_blocks);
-  if (w.motion == nullptr || !is_space_arc(w.motion->function)) return Did::done;
+  if (w.motion == nullptr || !is_space_arc(w.motion->function)) return Execution::done;
   // 6.14 (b)
   if (state.high_speed != SpeedMode::off) return in.raise_code(Condition::illegal_g, *w.motion);
   const ModalState& modal = state.modal;
   const bool refused = modal.is(Function::polar_command_on) || state.comp.side != 0 || !modal.is(Function::comp_off) ||
                        !modal.is(Function::normal_line_off) || !modal.is(Function::length_off) || !modal.is(Function::scaling_off) ||
                        state.any_mirror() != 0 || !modal.is(Function::macro_modal_off) || !modal.is(Function::rotation_off);
-  return refused ? in.raise_code(Condition::space_arc_mode, *w.motion) : Did::done;
+  return refused ? in.raise_code(Condition::space_arc_mode, *w.motion) : Execution::done;
 }
 
-Did move_space_arc(Interpreter& in, const AxisVec& target) {
+Execution move_space_arc(Interpreter& in, const AxisVec& target) {
   State& state = in.state;
   if (state.arc_step == ArcStep::none) {  // the first block: the point on the way
     PathPoint start{in.position()}, middle{target};
@@ -169,7 +169,7 @@ Did move_space_arc(Interpreter& in, const AxisVec& target) {
     in.points.intern(middle);
     state.arc_step = ArcStep::middle_given;
     in.keep_call();
-    return Did::later;
+    return Execution::later;
   }
   uint8_t axis[3];
   if (!basic_axes(in, axis)) return in.raise(Condition::illegal_axis, Role::basic_x);
@@ -186,7 +186,7 @@ Did move_space_arc(Interpreter& in, const AxisVec& target) {
   if (state.arc_step == ArcStep::middle_given) emit_first_half(in, middle, bent ? &arcs.first : nullptr);
   emit_half(in, target, bent ? &arcs.second : nullptr);
   state.arc_step = ArcStep::none;
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

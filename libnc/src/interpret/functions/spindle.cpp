@@ -17,9 +17,9 @@ void emit_control(Interpreter& in, uint32_t index, double value, uint32_t mask, 
   action.bits = bits;
 }
 
-Did speed_word(Interpreter& in, Role word, uint32_t* speed) {
+Execution speed_word(Interpreter& in, Role word, uint32_t* speed) {
   const double raw = in.words.get(word);
-  if (whole_number(raw, speed) && *speed <= kLargestSpeed) return Did::done;
+  if (whole_number(raw, speed) && *speed <= kLargestSpeed) return Execution::done;
   return in.raise(Condition::value_range, word, raw);
 }
 
@@ -37,7 +37,7 @@ bool is_clamp_command(const Interpreter& in) {
   return in.settings.clamp_command_always || in.state.spindle.axis != 0;
 }
 
-Did set_surface_speed(Interpreter& in) {
+Execution set_surface_speed(Interpreter& in) {
   State& state = in.state;
   for (const FunctionRow* row : in.words.g) {
     if (mode_of(row->function) != Mode::surface_speed) continue;
@@ -58,34 +58,34 @@ Did set_surface_speed(Interpreter& in) {
     state.spindle.axis = static_cast<uint8_t>(axis);
     if (!in.words.has(Role::spindle_speed)) announce_surface(in);  // else with the word
   }
-  return Did::done;
+  return Execution::done;
 }
 
-Did surface_word(Interpreter& in) {
+Execution surface_word(Interpreter& in) {
   uint32_t speed = 0;
-  const Did did = speed_word(in, Role::spindle_speed, &speed);
-  if (did != Did::done) return did;
+  const Execution did = speed_word(in, Role::spindle_speed, &speed);
+  if (did != Execution::done) return did;
   // The example says m/min; feet/min in inch as FANUC has it.
   in.state.spindle.surface = in.state.modal.is(Function::inch) ? speed * 0.3048 : speed;
   announce_surface(in);
-  return Did::done;
+  return Execution::done;
 }
 
-Did set_spindle_clamp(Interpreter& in) {
+Execution set_spindle_clamp(Interpreter& in) {
   const BlockWords& w = in.words;
   const bool s = w.has(Role::spindle_speed) && is_clamp_command(in);
-  if (!s && !w.has(Role::clamp_lowest)) return Did::done;
+  if (!s && !w.has(Role::clamp_lowest)) return Execution::done;
   uint32_t largest = 0, smallest = 0;
-  Did did = s ? speed_word(in, Role::spindle_speed, &largest) : Did::done;
-  if (did == Did::done && w.has(Role::clamp_lowest)) did = speed_word(in, Role::clamp_lowest, &smallest);
-  if (did != Did::done) return did;
+  Execution did = s ? speed_word(in, Role::spindle_speed, &largest) : Execution::done;
+  if (did == Execution::done && w.has(Role::clamp_lowest)) did = speed_word(in, Role::clamp_lowest, &smallest);
+  if (did != Execution::done) return did;
   in.state.spindle_clamped = true;
   // 10.4, Sclamp and aux11 bit 5: in G97 only with Sclamp = 1 and bit 5 = 0.
   const bool always = in.settings.clamp_command_always && !in.settings.clamp_in_g96_only;
   emit_control(in, NC_CONTROL_SPINDLE_CLAMP,
                (always ? NC_CLAMP_ALWAYS : 0) + (in.settings.keeps_clamp ? NC_CLAMP_OVER_RESET : 0) + (s ? NC_CLAMP_S : 0) + (w.has(Role::clamp_lowest) ? NC_CLAMP_Q : 0),
                smallest, largest);
-  return Did::done;
+  return Execution::done;
 }
 
 void end_spindle_control(Interpreter& in) {

@@ -41,26 +41,26 @@ Spiral spiral_about(const double start[2], const double end[2], const double cen
 
 /// Full turns beyond `delta` from the number of turns that a step gives. M700 6.13, type 2: P70 when the end point that the step
 /// leads to is off the commanded one by more than #8075.
-Did turns_by_step(Interpreter& in, const Spiral& s, double turns, Role word, double* whole) {
+Execution turns_by_step(Interpreter& in, const Spiral& s, double turns, Role word, double* whole) {
   const double angle = turns * kTurn;
   *whole = std::fmax(0.0, std::nearbyint((angle - s.delta) / kTurn));
   const double off = 2 * s.circle.radius_end * std::fabs(std::sin((angle - s.delta) / 2));
   if (off > in.settings.spiral_tolerance + kSame) return in.raise(Condition::arc_deviation, word, s.circle.radius_end);
   if (std::fabs(s.delta + *whole * kTurn - angle) > kTurn / 2) return in.raise(Condition::arc_deviation, word, s.circle.radius_end);
-  return Did::done;
+  return Execution::done;
 }
 
 /// A word with the number of pitches, 0 to 99.
-Did pitches(Interpreter& in, Role word, uint32_t* number) {
+Execution pitches(Interpreter& in, Role word, uint32_t* number) {
   if (!whole_number(in.words.get(word), number) || *number > 99) return in.raise(Condition::value_range, word, in.words.get(word));
-  return Did::done;
+  return Execution::done;
 }
 
 /// The basic axis of the height of a cone (type 2): Y in G18, X in G19, else Z; J, I or K is its word.
 unsigned height_axis(const PlaneAxes& plane) { return plane.plane == Plane::zx ? 1 : plane.plane == Plane::yz ? 0 : 2; }
 
 /// Type 2: Q before K before L.
-Did turns_of_type_2(Interpreter& in, const Spiral& s, double height, Role height_word, double* whole) {
+Execution turns_of_type_2(Interpreter& in, const Spiral& s, double height, Role height_word, double* whole) {
   const BlockWords& w = in.words;
   if (w.has(Role::spiral_step)) {
     const double step = length_of(in, Role::spiral_step), change = s.circle.radius_end - s.circle.radius_start;
@@ -74,22 +74,22 @@ Did turns_of_type_2(Interpreter& in, const Spiral& s, double height, Role height
   }
   uint32_t number = 1;
   if (w.has(Role::spiral_pitches)) {
-    const Did did = pitches(in, Role::spiral_pitches, &number);
-    if (did != Did::done) return did;
+    const Execution did = pitches(in, Role::spiral_pitches, &number);
+    if (did != Execution::done) return did;
   }
   *whole = number > 0 ? number - 1 : 0;  // Ln: n - 1 turns or more, less than n
-  return Did::done;
+  return Execution::done;
 }
 
 /// Type 1: Pn is n turns or more, less than n + 1.
-Did turns_of_type_1(Interpreter& in, double* whole) {
+Execution turns_of_type_1(Interpreter& in, double* whole) {
   uint32_t number = 0;
   if (in.words.has(Role::helix_pitches)) {
-    const Did did = pitches(in, Role::helix_pitches, &number);
-    if (did != Did::done) return did;
+    const Execution did = pitches(in, Role::helix_pitches, &number);
+    if (did != Execution::done) return did;
   }
   *whole = number;
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ bool means_spiral(const Interpreter& in) {
   return in.settings.spiral_type_2 && !w.has(Role::arc_radius) && w.any({Role::spiral_step, Role::spiral_pitches, vector_along(height_axis(plane_axes(in)))});
 }
 
-Did move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw) {
+Execution move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw) {
   const PlaneAxes plane = plane_axes(in);
   const BlockWords& w = in.words;
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
@@ -127,18 +127,18 @@ Did move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool
   const int normal = in.axis_called(basic_along(height_axis(plane)));
   const double height = normal >= 0 ? frame.end[static_cast<unsigned>(normal)] - frame.start[static_cast<unsigned>(normal)] : 0;
   double whole = 0;
-  const Did did = type_2 ? turns_of_type_2(in, s, height, height_word, &whole) : turns_of_type_1(in, &whole);
-  if (did != Did::done) return did;
+  const Execution did = type_2 ? turns_of_type_2(in, s, height, height_word, &whole) : turns_of_type_1(in, &whole);
+  if (did != Execution::done) return did;
   s.circle.sweep = (ccw ? 1 : -1) * (s.delta + whole * kTurn);
   if (s.circle.sweep == 0) {  // it does not turn: straight to the end
     LinearStyle style;
     style.feed_mm_min = feed_mm_min(in);
     style.special_feed = special_feed(in);
     move_linear(in, frame.end, commanded, style);
-    return Did::done;
+    return Execution::done;
   }
   emit_circular(in, frame, plane, s.circle, NC_MOVE_SPIRAL);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -264,7 +264,7 @@ void emit_span(Interpreter& in, const MoveFrame& frame, const uint8_t (&axis)[3]
 
 }  // namespace
 
-Did move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
+Execution move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
   SplineWay& past = in.state.spline_way;
   uint8_t axis[3];
   basic_axes(in, axis);
@@ -280,7 +280,7 @@ Did move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, cons
   for (unsigned i = 0; i < 3; ++i) past.back[i] = now.way[i];
   const auto straight = [&] {
     move_linear(in, target, commanded, style);
-    return Did::done;
+    return Execution::done;
   };
   if (!only_spline_axes || !modes_fit(in, style.exact_stop)) return straight();
 
@@ -312,7 +312,7 @@ Did move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, cons
   past.joined = joins;
   if (error < kNoMotion) return straight();
   emit_span(in, frame, axis, span);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

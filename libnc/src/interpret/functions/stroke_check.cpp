@@ -7,7 +7,7 @@
 
 namespace nc {
 
-Did do_stroke_check(Interpreter& in) {
+Execution do_stroke_check(Interpreter& in) {
   const BlockWords& w = in.words;
   StrokeBox box;
   uint32_t taken = in.addresses({Role::vector_x, Role::vector_y, Role::vector_z});
@@ -41,7 +41,7 @@ Did do_stroke_check(Interpreter& in) {
   }
   in.state.stroke_box = any ? in.stroke_boxes.intern(box) + 1 : 0;
   in.state.modal.set(*w.one_shot);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -13,7 +13,7 @@ constexpr double kMillimetresPerInch = 25.4;
 bool lead_in_range(double lead, double limit) { return lead > 0 && lead < limit; }
 
 /// The lead along the long axis that the words give; it stays in force for the thread blocks behind.
-Did take_lead(Interpreter& in) {
+Execution take_lead(Interpreter& in) {
   const BlockWords& w = in.words;
   const bool inch = in.state.modal.is(Function::inch);
   const double unit = inch ? kMillimetresPerInch : 1.0;
@@ -33,33 +33,33 @@ Did take_lead(Interpreter& in) {
     lead = w.get(Role::thread_lead) * unit;  // M700 6.7.1: F1 = 1.000
     if (inch) limit = 100 * kMillimetresPerInch;
   } else {
-    return in.state.thread_lead > 0 ? Did::done : in.raise(Condition::no_feed, Role::thread_lead);
+    return in.state.thread_lead > 0 ? Execution::done : in.raise(Condition::no_feed, Role::thread_lead);
   }
   if (!lead_in_range(lead, limit)) return in.raise(Condition::thread_lead, word, w.get(word));
   in.state.thread_lead = lead;
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace
 
-Did move_thread(Interpreter& in, const AxisVec& target, uint32_t commanded) {
+Execution move_thread(Interpreter& in, const AxisVec& target, uint32_t commanded) {
   const BlockWords& w = in.words;
-  if (commanded == 0 && !w.any({Role::fine_thread_lead, Role::thread_lead})) return Did::done;  // nothing is cut, so no lead is missing
-  const Did did = take_lead(in);
-  if (did != Did::done) return did;
+  if (commanded == 0 && !w.any({Role::fine_thread_lead, Role::thread_lead})) return Execution::done;  // nothing is cut, so no lead is missing
+  const Execution did = take_lead(in);
+  if (did != Execution::done) return did;
   double angle = 0;  // M700 6.7.1: not modal
   if (w.has(Role::thread_start)) {
     angle = length_value(in, w.get(Role::thread_start), w.flag(Role::thread_start), true, true);
     if (!(angle >= 0 && angle <= 360)) return in.raise(Condition::value_range, Role::thread_start, w.get(Role::thread_start));
   }
-  if (commanded == 0) return Did::done;
+  if (commanded == 0) return Execution::done;
   LinearStyle style;
   style.kind = NC_MOVE_THREAD;
   style.feed_mm_rev = in.state.thread_lead;
   style.thread_angle = angle;
   style.transparent = true;  // M700 6.7.1: radius compensation is away for the thread
   move_linear(in, target, commanded, style);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -30,7 +30,7 @@ uint32_t axes_of(const Interpreter& in, uint8_t basic) {
 
 }  // namespace
 
-Did do_tool_change_return(Interpreter& in) {
+Execution do_tool_change_return(Interpreter& in) {
   if (in.words.axes != 0) return in.raise_code(Condition::format_error, *in.words.one_shot);
   const auto& order = kOrder[in.words.one_shot->number];
   AxisVec place;
@@ -53,7 +53,7 @@ Did do_tool_change_return(Interpreter& in) {
     move_to_place(in, place, 1u << i);
   }
   cancel_length_of(in, all);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

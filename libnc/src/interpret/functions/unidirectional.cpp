@@ -4,7 +4,7 @@
 
 namespace nc {
 
-Did do_unidirectional(Interpreter& in) {
+Execution do_unidirectional(Interpreter& in) {
   const uint32_t axes = in.words.axes;
   const AxisVec target = target_of_words(in);
   AxisVec before = target;
@@ -18,7 +18,7 @@ Did do_unidirectional(Interpreter& in) {
   style.kind = NC_MOVE_RAPID;
   move_linear(in, before, axes, style);
   move_linear(in, target, creeps, style);
-  return Did::done;
+  return Execution::done;
 }
 
 }  // namespace nc

@@ -32,7 +32,7 @@ bool store(Interpreter& in, ParameterOf parameter, double value) {
 
 }  // namespace
 
-Did do_work_rotation(Interpreter& in) {
+Execution do_work_rotation(Interpreter& in) {
   const BlockWords& w = in.words;
   // Axis words, P and R are data of another G10.
   if (w.axes != 0 || w.any({Role::input_number, Role::input_amount})) return in.raise_code(Condition::format_error, *w.one_shot);
@@ -61,7 +61,7 @@ Did do_work_rotation(Interpreter& in) {
   take_work_rotation(in, false);  // (4): at once
   const Compensation& comp = in.state.comp;
   const bool tilted = comp.side != 0 && tilts_plane(in, comp.axis[0], comp.axis[1]);
-  return tilted ? in.raise_code(Condition::plane_mismatch, *w.one_shot) : Did::done;
+  return tilted ? in.raise_code(Condition::plane_mismatch, *w.one_shot) : Execution::done;
 }
 
 }  // namespace nc

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/optimal/path_builder.hpp"
+#include "base/same_place.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,6 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kSamePlace = 1e-7;    ///< mm or deg: a segment starts where the one before has ended
 constexpr double kLeastLength = 1e-6;  ///< mm, of what is left of a record
 constexpr unsigned kOfRing = 32;        ///< knots of the lines that the ring of records holds, at least
 constexpr unsigned kWorthwhile = 16;   ///< vertices that are waited for, at least, before a line is smoothed again
@@ -117,7 +117,7 @@ void PathBuilder::join_piece(const Piece& piece) {
   for (unsigned i = 0; i < limits_.axis_count; ++i) {
     const double bend = std::max(std::fabs(a.d2[i]) + std::fabs(b.d2[i]), kLeastBend);
     const double most = kSameSlope * bend + kRounding * (1 + std::fabs(a.position[i])) / (shorter * shorter);
-    if (std::fabs(a.position[i] - b.position[i]) > kSamePlace || std::fabs(a.d1[i] - b.d1[i]) > kSameSlope || std::fabs(a.d2[i] - b.d2[i]) > most) {
+    if (std::fabs(a.position[i] - b.position[i]) > kJoined || std::fabs(a.d1[i] - b.d1[i]) > kSameSlope || std::fabs(a.d2[i] - b.d2[i]) > most) {
       last.rest_behind = true;
       return;
     }
@@ -150,7 +150,7 @@ bool PathBuilder::joins(const Record& r) const {
   if (by != by_ || !(digit_of(s) == digit_)) return false;
   const AxisVec& end = arc_.curve != nullptr ? arc_.curve->end : vertex_[count_ - 1];
   for (unsigned i = 0; i < limits_.axis_count; ++i)
-    if (std::fabs(s.curve.start[i] - end[i]) > kSamePlace) return false;
+    if (std::fabs(s.curve.start[i] - end[i]) > kJoined) return false;
   return true;
 }
 
@@ -200,7 +200,7 @@ bool PathBuilder::resumes(const Segment& s) const {
   if (!resumed_) return false;
   const AxisVec at = resumed_s_ > 0 ? curve_position(s.curve, resumed_s_, limits_.axis_count) : s.curve.start;
   for (unsigned i = 0; i < limits_.axis_count; ++i)
-    if (std::fabs(at[i] - resumed_at_[i]) > kSamePlace + 2 * tolerance_) return false;
+    if (std::fabs(at[i] - resumed_at_[i]) > kJoined + 2 * tolerance_) return false;
   return true;
 }
 
@@ -208,7 +208,7 @@ bool PathBuilder::resumes(const Segment& s) const {
 void PathBuilder::go_there(const AxisVec& to, const Piece& curve) {
   double length2 = 0;
   for (unsigned i = 0; i < limits_.axis_count; ++i) length2 += (to[i] - resumed_at_[i]) * (to[i] - resumed_at_[i]);
-  if (!(length2 > kSamePlace * kSamePlace)) return;
+  if (!(length2 > kJoined * kJoined)) return;
   Piece p;
   p.feed = curve.feed;
   p.by = curve.by;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dialect/m700/accuracy.hpp"
-#include "shape/shape.hpp"
+#include "filter/position_filter.hpp"
 
 namespace nc {
 namespace {
@@ -17,9 +17,9 @@ constexpr double kCycle = 0.001;
 
 /// Filters of `axes` axes with memory of their own.
 struct Filters {
-  explicit Filters(unsigned axes = 1, uint32_t places = 4000) : rings(size_t{axes} * places) { shape.create(axes, kCycle, rings.data(), places); }
+  explicit Filters(unsigned axes = 1, uint32_t places = 4000) : rings(size_t{axes} * places) { filter.create(axes, kCycle, rings.data(), places); }
   std::vector<double> rings;
-  Shape shape;
+  PositionFilter filter;
 };
 
 FilterTimes after(double linear_ms, double exponential_ms) {
@@ -57,12 +57,12 @@ double over_cycle(const std::function<double(double)>& share, double end) {
 /// A path that begins with its whole speed, and what the axis goes in each cycle.
 void expect_rise(const FilterTimes& times, unsigned cycles, double tolerance, const std::function<double(double)>& share) {
   Filters f;
-  ASSERT_TRUE(f.shape.use(times));
-  f.shape.reset(at(17));
+  ASSERT_TRUE(f.filter.use(times));
+  f.filter.reset(at(17));
   constexpr double kWay = 0.125;
   double last = 17;
   for (unsigned n = 1; n <= cycles; ++n) {
-    const double x = f.shape.filter(at(17 + n * kWay), false)[0];
+    const double x = f.filter.filter(at(17 + n * kWay), false)[0];
     ASSERT_NEAR((x - last) / kWay, over_cycle(share, n), tolerance) << "cycle " << n;
     last = x;
   }
@@ -84,9 +84,9 @@ TEST(Filters, SPattern) {
 
 TEST(Filters, LagAtConstantSpeedIsThatOfTheManual) {
   Filters f;
-  ASSERT_TRUE(f.shape.use(after(80, 25)));
+  ASSERT_TRUE(f.filter.use(after(80, 25)));
   double x = 0;
-  for (unsigned n = 0; n < 2000; ++n) x = f.shape.filter(at((n + 1) * 0.1), false)[0];
+  for (unsigned n = 0; n < 2000; ++n) x = f.filter.filter(at((n + 1) * 0.1), false)[0];
   EXPECT_NEAR(200 - x, m700::smoothing_lag_mm(6000, 80, 25), 1e-6);  // 0.1 mm in a cycle: 6000 mm/min
 }
 
@@ -98,30 +98,30 @@ TEST(Filters, EndsWithTheDecelerationCheckTime) {
   };
   for (const Case& c : {Case{after(60, 0), 60}, Case{after(0, 40), 80}, Case{after(60, 40), 140}, Case{before(30, 20), 50}}) {
     Filters f;
-    ASSERT_TRUE(f.shape.use(c.times));
-    f.shape.reset(at(0));
+    ASSERT_TRUE(f.filter.use(c.times));
+    f.filter.reset(at(0));
     double x = 0;
-    for (unsigned n = 0; n < 1000; ++n) f.shape.filter(at(x += 0.1), false);
+    for (unsigned n = 0; n < 1000; ++n) f.filter.filter(at(x += 0.1), false);
     for (unsigned n = 1; n < c.cycles; ++n) {
-      f.shape.filter(at(x), true);
-      ASSERT_FALSE(f.shape.drained(at(x))) << n << " of " << c.cycles;
+      f.filter.filter(at(x), true);
+      ASSERT_FALSE(f.filter.drained(at(x))) << n << " of " << c.cycles;
     }
-    EXPECT_EQ(f.shape.filter(at(x), true)[0], x);
-    EXPECT_TRUE(f.shape.drained(at(x)));
-    EXPECT_TRUE(f.shape.settled(at(x)));
+    EXPECT_EQ(f.filter.filter(at(x), true)[0], x);
+    EXPECT_TRUE(f.filter.drained(at(x)));
+    EXPECT_TRUE(f.filter.settled(at(x)));
   }
 }
 
 /// The deceleration to a rest is constant: speed / (2 tau).
 TEST(Filters, ExponentialLandsLinearly) {
   Filters f;
-  ASSERT_TRUE(f.shape.use(after(0, 40)));
+  ASSERT_TRUE(f.filter.use(after(0, 40)));
   double x = 0, y = 0, last = 0, v = 0;
-  for (unsigned n = 0; n < 2000; ++n) f.shape.filter(at(x += 0.1), false);
-  y = last = f.shape.filter(at(x), true)[0];
+  for (unsigned n = 0; n < 2000; ++n) f.filter.filter(at(x += 0.1), false);
+  y = last = f.filter.filter(at(x), true)[0];
   for (unsigned n = 1; n < 79; ++n) {
     const double before = v;
-    y = f.shape.filter(at(x), true)[0];
+    y = f.filter.filter(at(x), true)[0];
     v = (y - last) / kCycle;
     last = y;
     if (n > 1) {
@@ -133,45 +133,45 @@ TEST(Filters, ExponentialLandsLinearly) {
 TEST(Filters, NothingIsLostInAMillionCycles) {
   for (const FilterTimes& times : {after(37, 0), after(0, 23), after(37, 23), before(50, 21)}) {
     Filters f;
-    ASSERT_TRUE(f.shape.use(times));
+    ASSERT_TRUE(f.filter.use(times));
     std::mt19937_64 rng(5);
     std::uniform_real_distribution<double> way(-0.05, 0.1);
     AxisVec x;
-    f.shape.reset(x);
+    f.filter.reset(x);
     for (unsigned n = 0; n < 1000000; ++n) {
       x[0] += way(rng);
-      f.shape.filter(x, false);
+      f.filter.filter(x, false);
     }
     // Whatever has gone through: at constant speed the lag is the one of the formula.
     double lag = 0;
     for (unsigned n = 0; n < 1000; ++n) {
       x[0] += 0.05;
-      lag = x[0] - f.shape.filter(x, false)[0];
+      lag = x[0] - f.filter.filter(x, false)[0];
     }
     const double mean = times.mean[0] + times.second;
     EXPECT_NEAR(lag, 0.05 * (mean / 2 + static_cast<double>(times.lag_s[0]) / kCycle), 2e-9);
-    for (unsigned n = 0; n < 200; ++n) f.shape.filter(x, true);
-    EXPECT_EQ(f.shape.filter(x, true)[0], x[0]);
+    for (unsigned n = 0; n < 200; ++n) f.filter.filter(x, true);
+    EXPECT_EQ(f.filter.filter(x, true)[0], x[0]);
   }
 }
 
 TEST(Filters, WithoutConstantsThePlaceGoesThrough) {
   Filters f(2, 0);
-  EXPECT_TRUE(f.shape.use({}));
+  EXPECT_TRUE(f.filter.use({}));
   AxisVec x;
   x[0] = 0.1, x[1] = 1e9 / 3;
-  EXPECT_EQ(f.shape.filter(x, false), x);
-  EXPECT_TRUE(f.shape.drained(x));
-  EXPECT_TRUE(f.shape.settled(x));
+  EXPECT_EQ(f.filter.filter(x, false), x);
+  EXPECT_TRUE(f.filter.drained(x));
+  EXPECT_TRUE(f.filter.settled(x));
   x[1] = 2;
-  EXPECT_FALSE(f.shape.settled(x));  // it has not been told yet
+  EXPECT_FALSE(f.filter.settled(x));  // it has not been told yet
 }
 
 TEST(Filters, TooLongAMeanIsRefused) {
   Filters f(1, 100);
-  EXPECT_TRUE(f.shape.use(after(100, 0)));
-  EXPECT_FALSE(f.shape.use(after(101, 0)));
-  EXPECT_FALSE(f.shape.use(before(60, 41)));
+  EXPECT_TRUE(f.filter.use(after(100, 0)));
+  EXPECT_FALSE(f.filter.use(after(101, 0)));
+  EXPECT_FALSE(f.filter.use(before(60, 41)));
 }
 
 TEST(Filters, AxesAreApart) {
@@ -179,11 +179,11 @@ TEST(Filters, AxesAreApart) {
   FilterTimes times = after(10, 0);
   times.mean[1] = 20;
   times.mean[2] = 0;
-  ASSERT_TRUE(f.shape.use(times));
+  ASSERT_TRUE(f.filter.use(times));
   AxisVec x, y;
   for (unsigned n = 0; n < 100; ++n) {
     for (unsigned i = 0; i < 3; ++i) x[i] += 1;
-    y = f.shape.filter(x, false);
+    y = f.filter.filter(x, false);
   }
   EXPECT_NEAR(x[0] - y[0], 5, 1e-12);
   EXPECT_NEAR(x[1] - y[1], 10, 1e-12);
@@ -193,12 +193,12 @@ TEST(Filters, AxesAreApart) {
 /// A place that counts from elsewhere moves nothing but itself.
 TEST(Filters, RelocationKeepsWhatIsOnItsWay) {
   Filters f;
-  ASSERT_TRUE(f.shape.use(after(20, 0)));
+  ASSERT_TRUE(f.filter.use(after(20, 0)));
   double x = 0;
-  for (unsigned n = 0; n < 30; ++n) f.shape.filter(at(x += 0.5), false);
-  f.shape.relocate(at(x + 360));
-  EXPECT_NEAR(f.shape.position()[0], x + 360 - 5, 1e-12);
-  EXPECT_NEAR(f.shape.filter(at(x + 360), true)[0], x + 360 - 5 + 0.5 * (1 - 0.5 / 20), 1e-12);
+  for (unsigned n = 0; n < 30; ++n) f.filter.filter(at(x += 0.5), false);
+  f.filter.relocate(at(x + 360));
+  EXPECT_NEAR(f.filter.position()[0], x + 360 - 5, 1e-12);
+  EXPECT_NEAR(f.filter.filter(at(x + 360), true)[0], x + 360 - 5 + 0.5 * (1 - 0.5 / 20), 1e-12);
 }
 
 /// Constants in cycles: the nearest whole number, and never none.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interpolate/scan.hpp"
+#include "interpolate/interpolator.hpp"
 
 namespace nc {
 namespace {
@@ -22,7 +22,7 @@ double nearly(double u) { return u - kAtEnd - kRounding * std::fabs(u); }
 
 }  // namespace
 
-void Scan::take_plan() {
+void Interpolator::take_plan() {
   if (optimal_ == nullptr) {
     plan_ = &planner_->newest();
     end_ = plan_->end;
@@ -35,14 +35,14 @@ void Scan::take_plan() {
 }
 
 /// The axes do not stand at `place`.
-bool Scan::would_jump(const AxisVec& place) const {
+bool Interpolator::would_jump(const AxisVec& place) const {
   for (unsigned i = 0; i < config_.axis_count; ++i)
     if (std::fabs(place[i] - wanted_[i]) > kJump) return true;
   return false;
 }
 
 /// Why a move does not go on.
-nc_stop_cause Scan::standing(const Segment& s, const nc_inputs& in) {
+nc_stop_cause Interpolator::standing(const Segment& s, const nc_inputs& in) {
   if (s.rapid) return in.rapid_override > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
   if (s.feed_mm_rev > 0 && encoder(in).rev_per_s == 0) return no_spindle(in);
   if (!(s.feed_mm_rev > 0) && !(programmed_feed(s) > 0)) return NC_CAUSE_FEED_ZERO;  // M700 7.3: operation alarm 104
@@ -50,13 +50,13 @@ nc_stop_cause Scan::standing(const Segment& s, const nc_inputs& in) {
 }
 
 /// The path is to rest as soon as the limits allow.
-bool Scan::path_stops(const nc_inputs& in) const {
+bool Interpolator::path_stops(const nc_inputs& in) const {
   const Segment* s = moving_ ? &current().segment : nullptr;  // M700 15.2: a skip move goes at 100 %, but for an override of 0
   if (s != nullptr && s->thread && !follower_.at_rest()) return false;  // it stops by itself: follow_spindle()
   return braking() || skip_braking_ || (s != nullptr && s->skip && !(feed_override(in) > 0));
 }
 
-Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
+Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& in) {
   const Segment& s = r.segment;
   if (follower_.at_rest()) {
     if (skip_braking_) {
@@ -94,7 +94,7 @@ Scan::Done Scan::follow_plan(const Record& r, const nc_inputs& in) {
 }
 
 /// M700 6.7.1: a thread begins at its angle of the spindle, with a plan that was made for about the speed that the spindle has.
-bool Scan::begin_thread(const Segment& s, const nc_inputs& in) {
+bool Interpolator::begin_thread(const Segment& s, const nc_inputs& in) {
   const double planned = follower_.planned_turns(), turns = std::fabs(encoder(in).rev_per_s);
   if (std::fabs(turns - planned) > kPlannedTurns * planned) {
     wait(turns > 0 ? NC_CAUSE_SPINDLE_ANGLE : no_spindle(in));
@@ -113,7 +113,7 @@ bool Scan::begin_thread(const Segment& s, const nc_inputs& in) {
 }
 
 /// One step along a thread; an interlock, a reset or an alarm stops it along its plan, as fast as the axes can.
-void Scan::follow_spindle(const Segment& s, const nc_inputs& in) {
+void Interpolator::follow_spindle(const Segment& s, const nc_inputs& in) {
   if (thread_braking()) follower_.brake(sync_.pace());
   if (follower_.braking()) {
     time_ = follower_.advance(time_);
@@ -132,7 +132,7 @@ void Scan::follow_spindle(const Segment& s, const nc_inputs& in) {
 }
 
 /// Neither the cycle before nor this one, when the path goes on, gives out a place as near to an exact stop as it is to be hit (M700 7.7).
-bool Scan::misses(const AxisVec& stop) const {
+bool Interpolator::misses(const AxisVec& stop) const {
   double before = 0, behind = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     before = std::max(before, std::fabs(command_[i] - stop[i]));
@@ -142,7 +142,7 @@ bool Scan::misses(const AxisVec& stop) const {
 }
 
 /// The path has come to the end of the record.
-Scan::Done Scan::passed(const Record& r) {
+Interpolator::Done Interpolator::passed(const Record& r) {
   const Segment& s = r.segment;
   if (follower_.at_path_end() && nearly(follower_.u()) <= optimal_->store().passed[tail_ & mask_] && !would_jump(s.curve.end)) {
     wanted_ = s.curve.end;
@@ -154,7 +154,7 @@ Scan::Done Scan::passed(const Record& r) {
 }
 
 /// What the plan depends on.
-void Scan::tell_planner(const nc_inputs& in, const ScanStatus& status) {
+void Interpolator::tell_planner(const nc_inputs& in, const ScanStatus& status) {
   optimal::Following f;
   follower_.say(&f);
   f.brake = path_stops(in);

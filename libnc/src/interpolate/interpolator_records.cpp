@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interpolate/scan.hpp"
+#include "base/same_place.hpp"
+#include "interpolate/interpolator.hpp"
 #include "path/shape.hpp"
 
 namespace nc {
 namespace {
 
 /// A segment that does not start where the machine stands is never begun: the axes would jump.
-constexpr double kSamePlace = 1e-6;  ///< mm or deg
 
 /// An axis that a block does not name goes to where it is, but for what the way there and back through the coordinate systems leaves.
 constexpr double kMoves = 1e-9;  ///< mm or deg
@@ -21,7 +21,7 @@ uint32_t code_number(double value) {
 
 }  // namespace
 
-Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
+Interpolator::Done Interpolator::execute(const Record& r, const nc_inputs& in) {
   Done done = Done::yes;
   // The plan rests in front of these: what is left of the speed is rounding.
   if (r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm ||
@@ -67,27 +67,27 @@ Scan::Done Scan::execute(const Record& r, const nc_inputs& in) {
   return done;
 }
 
-Scan::Done Scan::wait(nc_stop_cause cause) {
+Interpolator::Done Interpolator::wait(nc_stop_cause cause) {
   cause_ = cause;
   time_ = 0;
   return Done::no;
 }
 
 /// The alarm that stops the program: the interpreter has it in words.
-void Scan::alarm() {
+void Interpolator::alarm() {
   alarmed_ = true;
   state_ = NC_STATE_ALARM;
 }
 
 /// The move does not go on from where the axes stand, which should not be: nothing moves, and the feeder has it in words.
-Scan::Done Scan::fault(const Record& r) {
+Interpolator::Done Interpolator::fault(const Record& r) {
   alarmed_ = faulted_ = true;
   stop_in(r.source, last_block_);
   return Done::no;
 }
 
 /// Where a program is that an alarm stops which the interpreter knows nothing of.
-void Scan::stop_in(const nc_source& block, BlockSeq behind) {
+void Interpolator::stop_in(const nc_source& block, BlockSeq behind) {
   stopped_ = true;
   stopped_at_ = block;
   stopped_behind_ = behind;
@@ -97,11 +97,11 @@ void Scan::stop_in(const nc_source& block, BlockSeq behind) {
 // --------------------------------------------------------------------------------------------------------------
 
 /// False when the move cannot be begun: it would jump.
-bool Scan::begin_move(const Record& r, const nc_inputs&) {
+bool Interpolator::begin_move(const Record& r, const nc_inputs&) {
   const Segment& s = r.segment;
   if (at_rest()) {
     // A smoothed line may have been stopped beside it; where its path goes on is looked at when it does.
-    const double most = optimal_ != nullptr ? kSamePlace + 2 * config_.tolerance : kSamePlace;
+    const double most = optimal_ != nullptr ? kReached + 2 * config_.tolerance : kReached;
     const AxisVec from = s.begun > 0 ? curve_position(s.curve, s.begun, config_.axis_count) : s.curve.start;
     for (unsigned i = 0; i < config_.axis_count; ++i) {
       if (std::fabs(from[i] - wanted_[i]) > most) return false;
@@ -120,7 +120,7 @@ bool Scan::begin_move(const Record& r, const nc_inputs&) {
   return true;
 }
 
-void Scan::end_move(const Record& r) {
+void Interpolator::end_move(const Record& r) {
   // What a signal has left of a move is not gone, though the plan leads over it: what follows is planned anew, from where the
   // axes are.
   if (skip_braking_ && follower_.at_rest()) follower_.give_up();
@@ -133,13 +133,13 @@ void Scan::end_move(const Record& r) {
   block_has_thread_ |= r.segment.thread;
   if (r.segment.skip && !skipped_) {
     skip_position_ = wanted_;
-    skip_behind_ = shape_.active() ? r.segment.skip_mask : uint8_t{0};
+    skip_behind_ = filter_.active() ? r.segment.skip_mask : uint8_t{0};
   }
 }
 
 /// Feed of the segment at 100 %. M700 6.11: that of an exponential curve goes from F to Q evenly with its linear axis. 7.3: that of F1 to
 /// F5 is what the handle has made of it.
-double Scan::programmed_feed(const Segment& s) const {
+double Interpolator::programmed_feed(const Segment& s) const {
   if (s.digit_step_mm_s > 0)
     return std::clamp(s.feed_mm_s + digit_pulses_[s.feed_digit - 2] * static_cast<double>(s.digit_step_mm_s), 0.0,
                       static_cast<double>(s.digit_most_mm_s));
@@ -151,7 +151,7 @@ double Scan::programmed_feed(const Segment& s) const {
 }
 
 /// M700 7.3: the first handle acts while a cut with F1 to F5 is in execution. What it has made of the feed stays, within 0 and #1506.
-void Scan::turn_feed_handle(const nc_inputs& in) {
+void Interpolator::turn_feed_handle(const nc_inputs& in) {
   if (in.feed_pulses == 0 || !moving_ || state_ != NC_STATE_RUNNING) return;
   const Segment& s = current().segment;
   if (!(s.digit_step_mm_s > 0)) return;
@@ -161,13 +161,13 @@ void Scan::turn_feed_handle(const nc_inputs& in) {
 }
 
 /// Why what goes by the spindle does not.
-nc_stop_cause Scan::no_spindle(const nc_inputs& in) const {
+nc_stop_cause Interpolator::no_spindle(const nc_inputs& in) const {
   return encoder(in).unmeasured ? NC_CAUSE_SPINDLE_UNMEASURED : NC_CAUSE_SPINDLE_STOPPED;
 }
 
 /// M700 6.7.1: a thread that is cut from rest begins at its angle of the spindle, within the cycle. At the start its feed must not
 /// exceed the largest one.
-bool Scan::thread_may_begin(const Segment& s, const nc_inputs& in) {
+bool Interpolator::thread_may_begin(const Segment& s, const nc_inputs& in) {
   const double speed = encoder(in).rev_per_s;
   if (speed != 0 && s.feed_mm_rev * std::fabs(speed) > s.speed_limit * (1 + 1e-9)) {
     wait(NC_CAUSE_SPINDLE_FAST);
@@ -190,7 +190,7 @@ bool Scan::thread_may_begin(const Segment& s, const nc_inputs& in) {
 
 /// Path speed of a thread: the pace of the spindle, and once that is reached, what keeps the place that the path then has on the
 /// spindle: where its measured speed and its angle differ, the angle counts.
-double Scan::thread_speed(const Segment& s, const nc_inputs& in) {
+double Interpolator::thread_speed(const Segment& s, const nc_inputs& in) {
   constexpr double kReturn = 0.2;  // share of an error that is made good in one cycle
   const double pace = s.feed_mm_rev * std::fabs(encoder(in).rev_per_s);
   if (!encoder(in).turns_valid) return pace;
@@ -207,7 +207,7 @@ double Scan::thread_speed(const Segment& s, const nc_inputs& in) {
 }
 
 /// M700 15.5 (9): at the rising edge of a signal its feed; of several the smaller.
-void Scan::change_skip_feed(const SkipSpeeds& speeds, uint32_t signals) {
+void Interpolator::change_skip_feed(const SkipSpeeds& speeds, uint32_t signals) {
   const uint32_t rises = signals & ~skip_last_ & speeds.mask;
   skip_last_ = signals;
   double feed = HUGE_VAL;
@@ -217,7 +217,7 @@ void Scan::change_skip_feed(const SkipSpeeds& speeds, uint32_t signals) {
 }
 
 /// M700 7.10: what the feed is lowered by before an inner corner, which may lie behind blocks that are shorter than the zone.
-double Scan::corner_factor(const Segment& s) const {
+double Interpolator::corner_factor(const Segment& s) const {
   constexpr unsigned kRecordsAhead = 128;  // looked at in one cycle
   if (s.slow_zone > 0) return law_.s >= s.curve.length - static_cast<double>(s.slow_zone) ? static_cast<double>(s.slow_factor) : 1;
   double way = s.curve.length - law_.s;
@@ -232,7 +232,7 @@ double Scan::corner_factor(const Segment& s) const {
 }
 
 /// Path speed that is wanted now; 0 brakes.
-double Scan::speed_cap(const Segment& s, const nc_inputs& in) {
+double Interpolator::speed_cap(const Segment& s, const nc_inputs& in) {
   if ((s.thread ? thread_braking() : braking()) || skip_braking_) return 0;
   double cap = s.speed_limit;
   nc_stop_cause cause = NC_CAUSE_OVERRIDE_ZERO;
@@ -255,17 +255,17 @@ double Scan::speed_cap(const Segment& s, const nc_inputs& in) {
   return cap;
 }
 
-Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
+Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
   const Segment& s = r.segment;
   if (!(s.curve.length > 0)) return Done::yes;
   const bool begins = !moving_;
   Done lost = Done::yes;
   if (c_axes_ != 0 && lost_move(r, &lost)) return lost;
-  if (shape_.active() && moving_ && skip_braking_ && at_rest()) {  // the signal came while the axes were still on their way
+  if (filter_.active() && moving_ && skip_braking_ && at_rest()) {  // the signal came while the axes were still on their way
     end_move(r);
     return Done::yes;
   }
-  if ((shape_.active() || s.filter.kind != FilterTimes::Kind::none) && !filters_ready(r)) return alarmed_ ? Done::no : wait(NC_CAUSE_IN_POSITION);
+  if ((filter_.active() || s.filter.kind != FilterTimes::Kind::none) && !filters_ready(r)) return alarmed_ ? Done::no : wait(NC_CAUSE_IN_POSITION);
   if (begins && tapping_ && at_rest() && tap_disturbed(in)) return wait(NC_CAUSE_TAP_SPINDLE);
   if ((s.index_axes | s.unclamps) != 0) {
     if (begins && !unclamp_for(s, in)) return Done::no;
@@ -307,7 +307,7 @@ Scan::Done Scan::move(const Record& r, const nc_inputs& in) {
 // ---- actions
 // ------------------------------------------------------------------------------------------------------------
 
-Scan::Done Scan::action(const Action& a) {
+Interpolator::Done Interpolator::action(const Action& a) {
   switch (a.kind) {
     case NC_ACTION_OUTPUT:  // M700 13.5.5: the bits of one word, in the image that the outputs carry
       if (a.index < NC_WORDS) {
@@ -340,7 +340,7 @@ Scan::Done Scan::action(const Action& a) {
 
 /// M, S, T, B: code and strobe. A strobe rises only when FIN is off and the last one of its kind is complete;
 /// on the fly (no gate follows) it cannot wait.
-Scan::Done Scan::strobe(const Action& a) {
+Interpolator::Done Interpolator::strobe(const Action& a) {
   const uint8_t bit = static_cast<uint8_t>(1u << a.kind);
   const bool awaited = !(suppress_ & 2);  // M700 13.5.9: #3003 bit 1
   if (awaited && at_rest() && (fin_ || (strobe_ & bit))) {
@@ -369,8 +369,8 @@ Scan::Done Scan::strobe(const Action& a) {
 // ---- gates
 // --------------------------------------------------------------------------------------------------------------
 
-bool Scan::in_position(const nc_inputs& in, double width_of_block) const {
-  if (!shape_.settled(wanted_)) return false;
+bool Interpolator::in_position(const nc_inputs& in, double width_of_block) const {
+  if (!filter_.settled(wanted_)) return false;
   if (!in.actual_valid) return true;
   if ((border_.lost_axes() & ~spindles_now()) != 0) return false;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
@@ -381,7 +381,7 @@ bool Scan::in_position(const nc_inputs& in, double width_of_block) const {
   return true;
 }
 
-Scan::Done Scan::dwell(double rate, double amount) {
+Interpolator::Done Interpolator::dwell(double rate, double amount) {
   if (!gate_begun_) {
     gate_begun_ = true;
     gate_left_ = amount;
@@ -396,14 +396,14 @@ Scan::Done Scan::dwell(double rate, double amount) {
 }
 
 /// By the revolutions of a spindle that stands it never ends.
-Scan::Done Scan::dwell_turns(double turns, const nc_inputs& in) {
+Interpolator::Done Interpolator::dwell_turns(double turns, const nc_inputs& in) {
   const Done done = dwell(std::fabs(encoder(in).rev_per_s), turns);
   if (done == Done::no && encoder(in).unmeasured) cause_ = NC_CAUSE_SPINDLE_UNMEASURED;
   return done;
 }
 
 /// M700 9.1: M01 is an M code with strobe and completion, and a stop, when its switch is on as it is reached.
-Scan::Done Scan::optional_stop(const nc_inputs& in) {
+Interpolator::Done Interpolator::optional_stop(const nc_inputs& in) {
   if (!gate_begun_) {
     if (!in.optional_stop) return Done::yes;
     Action m01;
@@ -418,7 +418,7 @@ Scan::Done Scan::optional_stop(const nc_inputs& in) {
   return Done::yes;
 }
 
-Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
+Interpolator::Done Interpolator::gate(const Gate& g, const nc_inputs& in) {
   switch (g.kind) {
     case NC_GATE_FIN:
       return fin_wait() != 0 && !(suppress_ & 2) ? wait(NC_CAUSE_FIN) : Done::yes;
@@ -441,7 +441,7 @@ Scan::Done Scan::gate(const Gate& g, const nc_inputs& in) {
   return Done::yes;
 }
 
-Scan::Done Scan::sync(const Record& r, const nc_inputs& in) {
+Interpolator::Done Interpolator::sync(const Record& r, const nc_inputs& in) {
   if (!in_position(in)) return wait(NC_CAUSE_IN_POSITION);
   if (stale_ != 0) settle_axes();  // nothing is committed beyond a sync, and its answer says where the axes are
   recalculate_ = false;
@@ -461,7 +461,7 @@ Scan::Done Scan::sync(const Record& r, const nc_inputs& in) {
 }
 
 /// The end of a block, or a place inside a cycle where single block may stop.
-void Scan::mark(const Mark& m, const nc_inputs& in) {
+void Interpolator::mark(const Mark& m, const nc_inputs& in) {
   modal_ = m.modal;
   if (m.report) {
     ++blocks_;
@@ -496,7 +496,7 @@ void Scan::mark(const Mark& m, const nc_inputs& in) {
 }
 
 /// But behind a thread.
-bool Scan::stops_at(const Mark& m, const nc_inputs& in) const {
+bool Interpolator::stops_at(const Mark& m, const nc_inputs& in) const {
   return m.stop && at_rest() && state_ == NC_STATE_RUNNING && (hold_behind_thread_ || (in.single_block && !(suppress_ & 1)));
 }
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of company.hpp.
-#include "modal/company.hpp"
+// The tables of precedence.hpp.
+#include "modal/precedence.hpp"
 
 namespace nc {
 namespace {
 
 using F = Function;
 
-constexpr Beside kBoth = Beside::both, kIgnored = Beside::ignored, kModal = Beside::modal, kLoses = Beside::loses;
+constexpr Precedence kBoth = Precedence::both, kIgnored = Precedence::ignored, kModal = Precedence::modal, kLoses = Precedence::loses;
 
 // M700 appendix 2, one row for each commanded code in its order. The cells that are alarms have rules of their own where the state decides:
 // arc with G41 G42 P151 and with G43 G44 P70, G31 under compensation P608, cycles under compensation P155, planes P112.
-constexpr CompanyRow kCompany[] = {
+constexpr PrecedenceRow kCompany[] = {
     // function            motion  radius    length    cycle     work    macro   mirror
     {F::dwell,             kModal, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
     {F::data_input,        kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
@@ -36,7 +36,7 @@ constexpr CompanyRow kCompany[] = {
     {F::coordinate_set,    kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
 };
 /// Any other code that takes the axis words of the block: mirror cannot have them, too.
-constexpr CompanyRow kAlone{F::count_, kBoth, kBoth, kBoth, kBoth, kBoth, kBoth, kIgnored};
+constexpr PrecedenceRow kAlone{F::count_, kBoth, kBoth, kBoth, kBoth, kBoth, kBoth, kIgnored};
 
 constexpr BarredRow kBarred[] = {
     {kInPolarCommand, F::high_speed_accuracy, Condition::illegal_g, "6.12"},
@@ -89,8 +89,8 @@ constexpr BarredRow kBarred[] = {
 
 }  // namespace
 
-const CompanyRow& company_of(Function function) {
-  for (const CompanyRow& row : kCompany)
+const PrecedenceRow& precedence_of(Function function) {
+  for (const PrecedenceRow& row : kCompany)
     if (row.function == function) return row;
   return kAlone;
 }

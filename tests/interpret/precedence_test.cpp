@@ -2,7 +2,7 @@
 // M700 appendix 2: which G codes may share a block, and what becomes of each. One test for each column of the table, over its rows.
 #include <gtest/gtest.h>
 
-#include "modal/company.hpp"
+#include "modal/precedence.hpp"
 #include "support/pull.hpp"
 
 namespace nc::test {
@@ -25,7 +25,7 @@ Ran run(const std::string& text) {
   return {prepared(bench).run(text + "\nM30")};
 }
 
-TEST(Company, Group1IsUpdatedBesideOneShots) {
+TEST(Precedence, Group1IsUpdatedBesideOneShots) {
   for (const char* block : {"G1 G4 P100", "G1 G10 L2 P1 X0", "G1 G52 X0", "G1 G28 X0", "G1 G92 X0", "G1 G53 X0"}) {
     const Ran r = run(std::string("G0 X1.\n") + block);
     EXPECT_EQ(r.out.alarm, "") << block;
@@ -33,7 +33,7 @@ TEST(Company, Group1IsUpdatedBesideOneShots) {
   }
 }
 
-TEST(Company, CompensationIsIgnored) {  // columns 07 and 08
+TEST(Precedence, CompensationIsIgnored) {  // columns 07 and 08
   for (const char* block : {"G4 P100", "G10 L2 P1 X0", "G52 X0", "G28 X0", "G53 X0"}) {
     const Ran r = run(std::string("G0 X1.\nG41 D1 G43 H1 ") + block);
     EXPECT_EQ(r.out.alarm, "") << block;
@@ -45,7 +45,7 @@ TEST(Company, CompensationIsIgnored) {  // columns 07 and 08
   EXPECT_EQ(run("G0 X1.\nG43 H1\nG49 G28 Z0").code(8), 490);  // 12.2
 }
 
-TEST(Company, CyclesAreIgnored) {  // column 09
+TEST(Precedence, CyclesAreIgnored) {  // column 09
   for (const char* block : {"G4 P100", "G10 L2 P1 X0", "G52 X0", "G92 X0"}) {
     const Ran r = run(std::string("G0 Z9.\nG81 Z-1. R1. F100 ") + block);
     EXPECT_EQ(r.out.alarm, "") << block;
@@ -54,7 +54,7 @@ TEST(Company, CyclesAreIgnored) {  // column 09
   }
 }
 
-TEST(Company, MirrorIsIgnoredOnEitherSide) {  // column 19
+TEST(Precedence, MirrorIsIgnoredOnEitherSide) {  // column 19
   for (const char* block : {"G51.1 G4 P100", "G4 G51.1 P100", "G51.1 G10 L2 P1 X0", "G10 G51.1 L2 P1 X0", "G51.1 G52 X0", "G52 G51.1 X0", "G28 G51.1 X0",
                             "G53 G51.1 X0", "G51.1 G53 X0"}) {
     const Ran r = run(std::string("G0 X1.\n") + block);
@@ -64,7 +64,7 @@ TEST(Company, MirrorIsIgnoredOnEitherSide) {  // column 19
   EXPECT_EQ(run("G4 G51.1 P700\nG0 X1.").out.dwells(), (std::vector<double>{0.7}));
 }
 
-TEST(Company, MacroCallsUpdateModalState) {  // rows G65, G66
+TEST(Precedence, MacroCallsUpdateModalState) {  // rows G65, G66
   Ran r = run("G0 X1.\nG1 G43 H1 G55 G66 P1");
   EXPECT_EQ(r.out.alarm, "");
   EXPECT_EQ(r.code(1), 10);
@@ -77,7 +77,7 @@ TEST(Company, MacroCallsUpdateModalState) {  // rows G65, G66
   EXPECT_EQ(run("G0 Z9.\nG81 Z-1. R1. F100 G65 P2").code(9), 800);  // the cycle is ignored
 }
 
-TEST(Company, NothingElseIsDoneBesideG67) {  // column 14: G10, G28, cycles, mirror
+TEST(Precedence, NothingElseIsDoneBesideG67) {  // column 14: G10, G28, cycles, mirror
   Ran r = run("G66 P1\nG28 X5. G67");
   EXPECT_EQ(r.out.alarm, "");
   EXPECT_EQ(r.out.moves().size(), 0u);
@@ -91,7 +91,7 @@ TEST(Company, NothingElseIsDoneBesideG67) {  // column 14: G10, G28, cycles, mir
   EXPECT_EQ(run("G66 P1\nG4 P300 G67").out.dwells(), (std::vector<double>{0.3}));
 }
 
-TEST(Company, AlarmCells) {
+TEST(Precedence, AlarmCells) {
   EXPECT_EQ(run("G0 X1.\nG2 G41 D1 X5. R5. F100").out.alarm, "P151");
   EXPECT_EQ(run("G0 X1.\nG2 G43 H1 X5. R5. F100").out.alarm, "P70");
   EXPECT_EQ(run("G0 X1.\nG1 G41 D1 X5. F100\nG18 X9.\nX10.\nX11.\nX12.").out.alarm, "P112");
@@ -101,7 +101,7 @@ TEST(Company, AlarmCells) {
   EXPECT_EQ(run("G66 G65 P1").out.alarm, "P33");
 }
 
-TEST(Company, BarredByModes) {  // 6.12, 6.14 (a), 13.3.3
+TEST(Precedence, BarredByModes) {  // 6.12, 6.14 (a), 13.3.3
   EXPECT_EQ(barred(kInPolarCommand, Function::high_speed_accuracy), Condition::illegal_g);
   EXPECT_EQ(barred(kInPolarCommand, Function::high_speed), Condition::none);
   EXPECT_EQ(barred(kInSpaceArc, Function::high_speed), Condition::illegal_g);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shape/filter_parameters.hpp"
+#include "filter/filter_parameters.hpp"
 
 #include <algorithm>
 #include <cmath>

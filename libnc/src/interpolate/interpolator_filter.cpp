@@ -3,15 +3,15 @@
 // radius that is added to the interpolated place (M700 13.15).
 #include <cmath>
 
+#include "interpolate/interpolator.hpp"
 #include "interpolate/radius_share.hpp"
-#include "interpolate/scan.hpp"
 
 namespace nc {
 
 /// The next record is executed when the filters are empty: behind a deceleration check every one is (7.9, "XX expresses all commands"),
 /// what needs standing axes always, M, S, T and B where the path rests for them, and the end of a block where something stops or is read
 /// again there.
-bool Scan::waits_for_filters(const Record& r, const nc_inputs& in) {
+bool Interpolator::waits_for_filters(const Record& r, const nc_inputs& in) {
   const bool stands_there = r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm || r.kind == ItemKind::end;
   if (stands_there) law_.v = 0;  // the plan rests in front of these: what is left of the speed is rounding
   if (!at_rest()) return false;
@@ -28,17 +28,17 @@ bool Scan::waits_for_filters(const Record& r, const nc_inputs& in) {
 
 /// A move begins, or goes on from a rest. Filters change while nothing is in them. Acceleration after interpolation goes on from a rest
 /// only when that has ended; a path that is accelerated before interpolation goes on at once, but for a deceleration check.
-bool Scan::filters_ready(const Record& r) {
+bool Interpolator::filters_ready(const Record& r) {
   const Segment& s = r.segment;
-  const bool same = shape_.uses(s.filter);
+  const bool same = filter_.uses(s.filter);
   if (!same) law_.v = 0;  // the plan rests here
   if (!at_rest()) return true;
   const bool check = !moving_ && (s.rapid || s.skip || s.rest_before);
-  if (same && !check && shape_.goes_on()) return true;
+  if (same && !check && filter_.goes_on()) return true;
   if (!drained()) return false;
   if (same) return true;
-  if (!shape_.settled(place())) return false;  // what was gone in this cycle is not for the new ones
-  if (!shape_.use(s.filter)) {  // commit lets none through that does not fit
+  if (!filter_.settled(place())) return false;  // what was gone in this cycle is not for the new ones
+  if (!filter_.use(s.filter)) {  // commit lets none through that does not fit
     (void)fault(r);
     return false;
   }
@@ -46,16 +46,16 @@ bool Scan::filters_ready(const Record& r) {
 }
 
 /// The position that the axes had when the cycle began, at which the signal was sampled.
-void Scan::note_skip(const nc_inputs& in) {
+void Interpolator::note_skip(const nc_inputs& in) {
   skipped_ = true;
-  skip_position_ = shape_.active() ? shape_.position() : wanted_;
+  skip_position_ = filter_.active() ? filter_.position() : wanted_;
   if (!in.actual_valid) return;
   for (unsigned i = 0; i < config_.axis_count; ++i)
     if ((spindles_now() >> i & 1) == 0) skip_position_[i] = in.actual.v[i];
 }
 
 /// The path of a skip move rests, or has come to its end, and the axes are still on their way: the signal counts as long as they are.
-void Scan::watch_skip(const nc_inputs& in) {
+void Interpolator::watch_skip(const nc_inputs& in) {
   if (drained()) {
     skip_behind_ = 0;
     return;
@@ -70,7 +70,7 @@ void Scan::watch_skip(const nc_inputs& in) {
 
 /// M700 13.15 "circular error radius compensation control for each axis": outwards from the centre, growing over the first quarter turn and
 /// falling over the last.
-void Scan::round_arc(const Segment& s) {
+void Interpolator::round_arc(const Segment& s) {
   const Curve& c = s.curve;
   const double along = wanted_[c.h] - c.circle.center[0], across = wanted_[c.v] - c.circle.center[1];
   const double radius = std::sqrt(along * along + across * across);
@@ -86,13 +86,13 @@ void Scan::round_arc(const Segment& s) {
 }
 
 /// The arc is not gone on with: the path is where the axes are.
-void Scan::end_rounding() {
+void Interpolator::end_rounding() {
   wanted_ = place();
   rounding_ = false;
 }
 
 /// Composite speed of the linear axes, or of the rotary ones when no linear axis moves (M700 7.6), mm/s.
-double Scan::feed_of_axes() const {
+double Interpolator::feed_of_axes() const {
   double linear = 0, rotary = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     const double way = command_[i] - last_command_[i];

@@ -3,7 +3,7 @@
 // and a move. The choice itself is a rule of the family (MotionRules in dialect/rules.hpp).
 #pragma once
 
-#include "shape/filter_times.hpp"
+#include "filter/filter_times.hpp"
 
 namespace nc {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One servo cycle of one part system: states and the walk along the records. Order of a cycle: plan, edges,
 // handshake, states, records (path motion), manual motion, shape, outputs, publish.
-#include "interpolate/scan.hpp"
+#include "interpolate/interpolator.hpp"
+#include "base/same_place.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,6 @@ constexpr unsigned kRecordsPerCycle = 256;
 /// The same where the path goes on by itself and records are only counted off: lines of 1 um at full speed.
 constexpr unsigned kRecordsPassed = 2048;
 
-constexpr double kSamePlace = 1e-9;  ///< mm or deg: what adding up leaves
-
 nc_axes to_nc(const AxisVec& a) {
   nc_axes out;
   for (unsigned i = 0; i < kMaxAxes; ++i) out.v[i] = a[i];
@@ -25,8 +24,8 @@ nc_axes to_nc(const AxisVec& a) {
 
 }  // namespace
 
-void Scan::create(const ExecutorConfig& config, const Record* ring, LeftRecord* left, Planner* planner, optimal::OptimalPlanner* optimal,
-                  ScanShared* shared, double* filters) {
+void Interpolator::create(const ExecutorConfig& config, const Record* ring, LeftRecord* left, Planner* planner, optimal::OptimalPlanner* optimal,
+                          ScanShared* shared, double* filters) {
   config_ = config;
   ring_ = ring;
   left_ = left;
@@ -36,7 +35,7 @@ void Scan::create(const ExecutorConfig& config, const Record* ring, LeftRecord* 
   if (optimal != nullptr) follower_.create(&optimal->store(), &optimal->axis_limits());
   sync_.create(config.cycle_s);
   shared_ = shared;
-  shape_.create(config.axis_count, config.cycle_s, filters, Shape::places(kLongestMean, config.cycle_s));
+  filter_.create(config.axis_count, config.cycle_s, filters, PositionFilter::places(kLongestMean, config.cycle_s));
   spindles_.create(config.spindle_count);
   for (unsigned i = 0; i < config.axis_count; ++i)
     if (config.axis_spindle[i] != 0) c_axes_ = static_cast<uint8_t>(c_axes_ | 1u << i);
@@ -52,21 +51,21 @@ void Scan::create(const ExecutorConfig& config, const Record* ring, LeftRecord* 
   manual_.create(m);
 }
 
-void Scan::set_position(const AxisVec& machine) {
+void Interpolator::set_position(const AxisVec& machine) {
   wanted_ = command_ = last_command_ = target_ = machine;
-  shape_.reset(machine);
+  filter_.reset(machine);
   ScanStatus status;
   status.command = machine;
   shared_->status.write(status);
 }
 
-void Scan::count_from(uint32_t first) {
+void Interpolator::count_from(uint32_t first) {
   tail_ = ordinal_ = end_ = reread_ = first;
   run_ = RunWord(first & ~1u);
   follower_.count_from(first);
 }
 
-void Scan::cycle(const nc_inputs& given, nc_outputs& out) {
+void Interpolator::cycle(const nc_inputs& given, nc_outputs& out) {
   const nc_inputs& in = border_.check(given);
   ++power_cycles_;
   time_ = config_.cycle_s;
@@ -86,12 +85,12 @@ void Scan::cycle(const nc_inputs& given, nc_outputs& out) {
   states(in);
   interrupt(in);
   turn_feed_handle(in);
-  if (shape_.active()) watch_skip(in);
+  if (filter_.active()) watch_skip(in);
   if (!frozen_ && !rereading_) run(in);  // the ring from here on may be the feeder's
   if (cutting_ && stands() && !frozen_ && !rereading_) cut_block();
   manual(in, wanted_ == began);
   last_command_ = command_;
-  command_ = shape_.filter(place(), at_rest());
+  command_ = filter_.filter(place(), at_rest());
   if (stale_ != 0) [[unlikely]] {
     for (unsigned i = 0; i < config_.axis_count; ++i) command_[i] += turned_[i];
   }
@@ -106,7 +105,7 @@ void Scan::cycle(const nc_inputs& given, nc_outputs& out) {
 
 /// The feeder wants to give up records that are committed: agree only at rest in a stop, and touch none until
 /// it is done.
-void Scan::answer_truncate() {
+void Interpolator::answer_truncate() {
   Truncation& truncation = shared_->truncation;
   if (frozen_ && truncation.holds()) return;
   frozen_ = false;
@@ -120,7 +119,7 @@ void Scan::answer_truncate() {
 
 /// The feeder has read again from where the axes are; before the plan of this cycle is taken, because the one
 /// of the cycle before may lead over records that are given up.
-void Scan::await_reread() {
+void Interpolator::await_reread() {
   if (!rereading_ || shared_->reread_done.load(std::memory_order_acquire) != reread_) return;
   rereading_ = displaced_ = false;
 }
@@ -128,7 +127,7 @@ void Scan::await_reread() {
 /// FIN completes the strobes that are on, whatever the program does meanwhile: FIN2 at once, FIN1 takes them
 /// off and the program goes on when it falls. A FIN that was on before the
 /// strobe does not count until it has been off once.
-void Scan::handshake(const nc_inputs& in) {
+void Interpolator::handshake(const nc_inputs& in) {
   fin_ = in.fin || in.fin2;
   if (!in.fin) fin1_groups_ = 0;
   if (!fin_) fin_low_ = true;
@@ -140,7 +139,7 @@ void Scan::handshake(const nc_inputs& in) {
 }
 
 /// Operator messages and lines for the external output, one at a time, each with a rising edge of its own.
-void Scan::messages() {
+void Interpolator::messages() {
   if (message_) {
     message_ = false;
   } else if (!messages_.empty()) {
@@ -151,13 +150,13 @@ void Scan::messages() {
 }
 
 /// M700 4.2, 10.5 (2): the recalculation request of an M code acts when that is complete.
-void Scan::take_recalculation(const nc_inputs& in) {
+void Interpolator::take_recalculation(const nc_inputs& in) {
   if (in.recalculate && !recalculate_last_ && state_ == NC_STATE_RUNNING) recalculate_ = true;
   recalculate_last_ = in.recalculate;
 }
 
 /// M700 13.12: by level or by rising edge, between M96 and M97, not while an interrupt is in service, and only while a program runs.
-void Scan::interrupt(const nc_inputs& in) {
+void Interpolator::interrupt(const nc_inputs& in) {
   const bool rises = in.macro_interrupt && !interrupt_last_;
   interrupt_last_ = in.macro_interrupt;
   if (!in.macro_interrupt) interrupt_rest_.forget();
@@ -176,7 +175,7 @@ void Scan::interrupt(const nc_inputs& in) {
 
 /// Type 1 stops at once, but not before FIN has come (M700 13.12), and not in a thread, an arc with radius compensation, a contour (where blocks are not apart), a skip move
 /// whose signal has come, behind a skip move, while a table is unclamped, or in a block that changes what is asked here: these are finished first.
-bool Scan::may_cut() const {
+bool Interpolator::may_cut() const {
   if (!block_begun_ || block_waits_ || index_.busy() || last_staged_ || (fin_wait() != 0 && !(suppress_ & 2))) return false;
   if (tail_ == end_) return true;
   const Record& r = current();
@@ -186,7 +185,7 @@ bool Scan::may_cut() const {
 }
 
 /// At rest inside the block: what is left of it is given up, and the feeder goes on with the interrupt program.
-void Scan::cut_block() {
+void Interpolator::cut_block() {
   if (!may_cut()) return;  // the end of the block was nearer
   if (stale_ != 0) settle_axes();
   const bool begun = done_ != last_mark_ || law_.s > 0 || gate_begun_;  // else nothing of it has happened
@@ -198,7 +197,7 @@ void Scan::cut_block() {
 }
 
 /// A cycle after the mark, so that what the feeder reads of the scan's place is as of the mark.
-void Scan::ask_for_interrupt() {
+void Interpolator::ask_for_interrupt() {
   if (!reread_reached_) return;
   reread_reached_ = false;
   shared_->block_begun.store(0, std::memory_order_relaxed);
@@ -207,7 +206,7 @@ void Scan::ask_for_interrupt() {
   shared_->reread_request.store(++reread_, std::memory_order_release);
 }
 
-void Scan::states(const nc_inputs& in) {
+void Interpolator::states(const nc_inputs& in) {
   if (in.cycle_start && !last_start_ && !in.reset) start_ = true;
   last_start_ = in.cycle_start;
   if (in.reset && !last_reset_) reset_ = true;
@@ -262,7 +261,7 @@ void Scan::states(const nc_inputs& in) {
   }
 }
 
-void Scan::start(const nc_inputs& in) {
+void Interpolator::start(const nc_inputs& in) {
   if (in.feed_hold && !(disable_ & 1)) return;
   switch (state_) {
     case NC_STATE_IDLE:
@@ -294,7 +293,7 @@ void Scan::start(const nc_inputs& in) {
 
 /// At rest: everything that is committed, and whatever comes with the same epoch, is void. Macro outputs and
 /// codes stay.
-void Scan::give_up() {
+void Interpolator::give_up() {
   run_.give_up();
   law_ = {};
   end_rounding();
@@ -318,12 +317,12 @@ void Scan::give_up() {
 }
 
 /// Throws records of an older epoch away.
-void Scan::drop_old() {
+void Interpolator::drop_old() {
   for (unsigned n = 0; n < kRecordsPerCycle && tail_ != end_ && !is_current(current()); ++n)
     leave(current(), false);
 }
 
-void Scan::run(const nc_inputs& in) {
+void Interpolator::run(const nc_inputs& in) {
   drop_old();
   if (state_ == NC_STATE_ALARM && tail_ != end_ && is_current(current()) &&
       current().kind == ItemKind::end) {
@@ -346,7 +345,7 @@ void Scan::run(const nc_inputs& in) {
       continue;
     }
     if (index_.busy() && !clamp_before(r, in)) break;  // M700 9.3
-    if (shape_.active() && waits_for_filters(r, in)) break;
+    if (filter_.active() && waits_for_filters(r, in)) break;
     serial_ = r.serial;
     source_ = r.source;
     placed_ = true;
@@ -363,7 +362,7 @@ void Scan::run(const nc_inputs& in) {
 }
 
 /// Every record is passed. The path ends at rest where the last one does, but by rounding it may have been passed before that.
-void Scan::come_to_rest() {
+void Interpolator::come_to_rest() {
   if (optimal_ == nullptr || follower_.at_rest()) return;
   (void)follower_.advance(time_);
   law_.v = follower_.v();
@@ -371,7 +370,7 @@ void Scan::come_to_rest() {
 }
 
 /// Goes on to the next record; the host is told when this one has been executed.
-void Scan::leave(const Record& r, bool executed) {
+void Interpolator::leave(const Record& r, bool executed) {
   if (executed) {
     nc_event event{};
     event.serial = r.serial;
@@ -394,7 +393,7 @@ void Scan::leave(const Record& r, bool executed) {
 }
 
 /// In a block stop: no move of the block in execution is left, so the next one can begin from anywhere.
-bool Scan::between_blocks() const {
+bool Interpolator::between_blocks() const {
   if (!block_begun_) return true;
   for (uint32_t at = tail_; at != end_; ++at) {
     const Record& r = ring_[at & mask_];
@@ -406,7 +405,7 @@ bool Scan::between_blocks() const {
 
 /// Jog, step, handle and reference return, while no program moves. The path may come to its end within a cycle: what is left of that cycle is
 /// rest, because an axis that braked in it and set off by hand as well would use its acceleration twice.
-void Scan::manual(const nc_inputs& in, bool rested) {
+void Interpolator::manual(const nc_inputs& in, bool rested) {
   manual_allowed_ = rested && stands() && !alarmed_ && !reset_ && !frozen_ && !rereading_ &&
                     (state_ == NC_STATE_IDLE || (state_ == NC_STATE_STOPPED && between_blocks()));
   if (!manual_allowed_ && !manual_.active()) {
@@ -415,7 +414,7 @@ void Scan::manual(const nc_inputs& in, bool rested) {
     return;
   }
   const AxisVec before = wanted_;
-  if (manual_allowed_) shape_.use({});  // by hand each axis has an acceleration of its own
+  if (manual_allowed_) filter_.use({});  // by hand each axis has an acceleration of its own
   manual_cycle(in);
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     if (state_ != NC_STATE_STOPPED || wanted_[i] == before[i]) continue;
@@ -427,16 +426,16 @@ void Scan::manual(const nc_inputs& in, bool rested) {
 
 /// Drives off: the axes are where they are, and the command goes there with them, so that nothing jumps when
 /// the drives come on again.
-void Scan::follow(const nc_inputs& in) {
+void Interpolator::follow(const nc_inputs& in) {
   const bool given_up = state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM;
   if (!in.follow_up || !in.actual_valid || !given_up || !stands() || manual_.active() || frozen_) return;
   for (unsigned i = 0; i < config_.axis_count; ++i)
     if ((spindles_now() >> i & 1) == 0) wanted_[i] = in.actual.v[i];
   command_ = last_command_ = target_ = wanted_;
-  shape_.reset(wanted_);
+  filter_.reset(wanted_);
 }
 
-void Scan::publish(const nc_inputs& in) {
+void Interpolator::publish(const nc_inputs& in) {
   ScanStatus status;
   status.command = command_;
   status.feed_override = feed_override(in);
@@ -461,19 +460,19 @@ void Scan::publish(const nc_inputs& in) {
 }
 
 /// Override in force, #3004 bit 1 included.
-double Scan::feed_override(const nc_inputs& in) const {
+double Interpolator::feed_override(const nc_inputs& in) const {
   return (disable_ & 2) != 0 ? 1 : in.feed_override;
 }
 
 /// For displays, of the move in execution: M700 6.7.1, 7.11, 15.2 (where an override of 0 holds all the same).
-double Scan::override_in_force(const nc_inputs& in, nc_override_source* source) const {
+double Interpolator::override_in_force(const nc_inputs& in, nc_override_source* source) const {
   const Segment* s = moving_ ? &current().segment : nullptr;
   const bool fixed = s != nullptr && (s->thread || s->fixed_override || (s->skip && feed_override(in) > 0));
   *source = (disable_ & 2) != 0 || fixed ? NC_OVERRIDE_PROGRAM : NC_OVERRIDE_INPUT;
   return *source == NC_OVERRIDE_PROGRAM ? 1 : in.feed_override;
 }
 
-void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
+void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   const double per_s = 1 / config_.cycle_s;
   const AxisParameters& axes = shared_->axes.read();
   const uint32_t turning = axes.turning;
@@ -498,7 +497,7 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
     out.distance_to_go.v[i] = on_the_way ? target_[i] + turned_[i] - command_[i] : 0;
     double away = command_[i] - config_.reference[i];
     if ((turning >> i & 1) != 0) away -= 360 * std::nearbyint(away / 360);
-    if (std::fabs(away) <= kSamePlace) out.at_reference |= 1u << i;
+    if (std::fabs(away) <= kAddingUp) out.at_reference |= 1u << i;
   }
   for (unsigned i = 0; i < NC_WORDS; ++i) {
     out.output[i] = output_[i];
@@ -544,7 +543,7 @@ void Scan::outputs(const nc_inputs& in, nc_outputs& out) {
     out.feed_digit = s.feed_digit != 0 ? static_cast<uint8_t>(s.feed_digit - 1) : uint8_t{0};
   }
   if (!moving_ && rapid_behind_ && on_the_way) out.rapid = true;
-  out.feed_mm_min = (shape_.active() ? feed_of_axes() : law_.v) * 60;
+  out.feed_mm_min = (filter_.active() ? feed_of_axes() : law_.v) * 60;
   out.serial = serial_;
   out.source = source_;
   out.modal = modal_;

@@ -3,7 +3,7 @@
 // until it is known what follows: another move of the same axes goes on without a clamp (7), before anything else they are clamped.
 #include <cmath>
 
-#include "interpolate/scan.hpp"
+#include "interpolate/interpolator.hpp"
 
 namespace nc {
 namespace {
@@ -18,14 +18,14 @@ uint32_t stay_open(const Record& r) {
 
 }  // namespace
 
-Scan::Done Scan::wait_for_clamp() {
+Interpolator::Done Interpolator::wait_for_clamp() {
   index_waits_ = true;
   return wait(NC_CAUSE_FIN);
 }
 
 /// 9.3 (3), (4): the whole path waits. What moves by itself only asks for it ("the movement of other axes ... is carried out for
 /// non-interpolation commands").
-bool Scan::unclamp_for(const Segment& s, const nc_inputs& in) {
+bool Interpolator::unclamp_for(const Segment& s, const nc_inputs& in) {
   law_.v = 0;
   if (interlock_) {  // nothing may move: the table stays clamped
     wait(NC_CAUSE_INTERLOCK);
@@ -39,7 +39,7 @@ bool Scan::unclamp_for(const Segment& s, const nc_inputs& in) {
 
 /// 9.3 (5), (6): the next record is executed when the tables that it does not move are clamped. The end of a block is passed, unless
 /// single block stops there (7); so is the deceleration check, which comes before the clamp.
-bool Scan::clamp_before(const Record& r, const nc_inputs& in) {
+bool Interpolator::clamp_before(const Record& r, const nc_inputs& in) {
   if (r.kind == ItemKind::move && !(r.segment.curve.length > 0)) return true;
   if (r.kind == ItemKind::mark && !stops_at(r.mark, in)) return true;
   if (r.kind == ItemKind::gate && r.gate.kind == NC_GATE_IN_POSITION) return true;
@@ -57,7 +57,7 @@ bool Scan::clamp_before(const Record& r, const nc_inputs& in) {
 }
 
 /// Axes that stand where they can be clamped.
-uint32_t Scan::may_clamp() {
+uint32_t Interpolator::may_clamp() {
   const AxisParameters& parameters = shared_->axes.read();
   uint32_t axes = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i)
@@ -67,14 +67,14 @@ uint32_t Scan::may_clamp() {
 
 /// 9.3 (5): a table that is not unclamped any more stops, with what moves together with it; the command stays, and the move goes on when
 /// the answer is back.
-void Scan::watch_index(const nc_inputs& in) {
+void Interpolator::watch_index(const nc_inputs& in) {
   index_waits_ = false;
   index_lost_ = index_.busy() && moving_ && (current().segment.index_axes & ~in.unclamped) != 0;
 }
 
 /// No program moves: what manual motion does not need (`wanted`) and what was stopped where it can be clamped. A move that is interrupted
 /// keeps its tables unclamped (6).
-void Scan::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
+void Interpolator::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
   if (state_ == NC_STATE_RUNNING || moving_ || !stands() || frozen_ || rereading_) return;
   uint32_t off = index_.unclamp() & ~wanted;
   if (state_ == NC_STATE_HOLD && tail_ != end_ && is_current(current())) off &= ~stay_open(current());
@@ -89,7 +89,7 @@ void Scan::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
 }
 
 /// Manual motion; a table is unclamped before it and clamped behind it.
-void Scan::manual_cycle(const nc_inputs& in) {
+void Interpolator::manual_cycle(const nc_inputs& in) {
   const AxisParameters& parameters = shared_->axes.read();
   Manual::Rules rules;
   rules.stop = !manual_allowed_ || in.interlock || in.feed_hold;

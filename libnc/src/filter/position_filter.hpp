@@ -5,12 +5,12 @@
 
 #include <cstddef>
 
-#include "shape/axis_filter.hpp"
-#include "shape/filter_times.hpp"
+#include "filter/axis_filter.hpp"
+#include "filter/filter_times.hpp"
 
 namespace nc {
 
-class Shape {
+class PositionFilter {
  public:
   /// Places for each axis' filters.
   static uint32_t places(double longest_ms, double cycle_s) {

@@ -8,7 +8,7 @@
 namespace nc {
 
 /// What a code leaves of another one in its block.
-enum class Beside : uint8_t {
+enum class Precedence : uint8_t {
   both,      ///< both act
   ignored,   ///< the other one is as if it were not there
   modal,     ///< the other one does nothing but becomes modal
@@ -17,19 +17,19 @@ enum class Beside : uint8_t {
 
 /// A row of appendix 2: `function` and the modes beside it. Modes that are not here act beside every code; of one mode the last code
 /// counts (3.7).
-struct CompanyRow {
+struct PrecedenceRow {
   Function function;
-  Beside motion;
-  Beside radius;
-  Beside length;
-  Beside cycle;
-  Beside work;
-  Beside macro;    ///< modal calls and their end
-  Beside mirror;
+  Precedence motion;
+  Precedence radius;
+  Precedence length;
+  Precedence cycle;
+  Precedence work;
+  Precedence macro;    ///< modal calls and their end
+  Precedence mirror;
 };
 
 /// The row of a function; one where everything but mirror is `both` when the appendix has none.
-const CompanyRow& company_of(Function function);
+const PrecedenceRow& precedence_of(Function function);
 
 /// Modes in force that codes cannot be commanded in.
 inline constexpr uint8_t kInPolarCommand = 1;  ///< G16

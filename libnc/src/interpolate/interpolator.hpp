@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "base/fixed.hpp"
+#include "filter/position_filter.hpp"
 #include "interpolate/event_ring.hpp"
 #include "interpolate/exchange.hpp"
 #include "interpolate/executor.hpp"
@@ -20,7 +21,6 @@
 #include "manual/manual.hpp"
 #include "motion/optimal/optimal_planner.hpp"
 #include "motion/planner.hpp"
-#include "shape/shape.hpp"
 #include "stream/interrupt_rest.hpp"
 
 namespace nc {
@@ -74,7 +74,7 @@ struct ScanShared {
   EventRing events;
 };
 
-class Scan {
+class Interpolator {
  public:
   void create(const ExecutorConfig& config, const Record* ring, LeftRecord* left, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared,
               double* filters = nullptr);
@@ -85,7 +85,7 @@ class Scan {
  private:
   enum class Done : uint8_t { yes, no };  ///< of a record: go on with the next one, or stay here
 
-  // scan.cpp: states
+  // interpolator.cpp: states
   void handshake(const nc_inputs& in) NC_RT;
   void messages() NC_RT;
   void take_recalculation(const nc_inputs& in) NC_RT;
@@ -107,7 +107,7 @@ class Scan {
   void outputs(const nc_inputs& in, nc_outputs& out) NC_RT;
   void publish(const nc_inputs& in) NC_RT;
 
-  // scan_spindle.cpp: spindles, and axes that are one
+  // interpolator_spindle.cpp: spindles, and axes that are one
   void follow_spindles(const nc_inputs& in) NC_RT;
   void take_position(unsigned axis, const nc_inputs& in) NC_RT;
   void settle_axes() NC_RT;
@@ -117,7 +117,7 @@ class Scan {
   bool tap_disturbed(const nc_inputs& in) const NC_RT;
   const nc_spindle_inputs& encoder(const nc_inputs& in) const NC_RT;
 
-  // scan_records.cpp: what each kind of record does
+  // interpolator_records.cpp: what each kind of record does
   Done execute(const Record& record, const nc_inputs& in) NC_RT;
   Done move(const Record& record, const nc_inputs& in) NC_RT;
   void take_plan() NC_RT;
@@ -145,7 +145,7 @@ class Scan {
   Done dwell(double rate, double amount) NC_RT;
   Done dwell_turns(double turns, const nc_inputs& in) NC_RT;
   Done sync(const Record& record, const nc_inputs& in) NC_RT;
-  // scan_filter.cpp: what waits for the filters, and what is added behind interpolation
+  // interpolator_filter.cpp: what waits for the filters, and what is added behind interpolation
   bool waits_for_filters(const Record& record, const nc_inputs& in) NC_RT;
   bool filters_ready(const Record& record) NC_RT;
   void note_skip(const nc_inputs& in) NC_RT;
@@ -163,7 +163,7 @@ class Scan {
   /// `width` > 0: of the block instead of the axes'.
   bool in_position(const nc_inputs& in, double width = 0) const NC_RT;
 
-  // scan_index.cpp: index tables
+  // interpolator_index.cpp: index tables
   Done wait_for_clamp() NC_RT;
   bool unclamp_for(const Segment& segment, const nc_inputs& in) NC_RT;
   bool clamp_before(const Record& record, const nc_inputs& in) NC_RT;
@@ -177,7 +177,7 @@ class Scan {
   bool is_current(const Record& r) const { return r.epoch == run_.epoch(); }
   bool at_rest() const { return law_.v == 0; }  ///< the path: the axes may still be on their way through the filters
   /// Nothing is on its way to the axes any more.
-  bool drained() const NC_RT { return !shape_.active() || shape_.drained(place()); }
+  bool drained() const NC_RT { return !filter_.active() || filter_.drained(place()); }
   bool stands() const NC_RT { return at_rest() && drained(); }
   /// The interpolated place with the compensation of the arc.
   AxisVec place() const NC_RT {
@@ -247,7 +247,7 @@ class Scan {
   const Segment* latest_ = nullptr;                        ///< segment that was executed last in this cycle
   Affine to_work_;  ///< of the segment executed last
   AxisVec target_;                                         ///< end of the segment in execution
-  Shape shape_;
+  PositionFilter filter_;
   Manual manual_;
   bool manual_allowed_ = false;
 

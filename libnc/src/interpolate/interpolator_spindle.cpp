@@ -8,24 +8,23 @@
 // interpreter has waited for this moment (a sync: an M code that prohibits reading ahead).
 #include <cmath>
 
-#include "interpolate/scan.hpp"
+#include "base/same_place.hpp"
+#include "interpolate/interpolator.hpp"
 
 namespace nc {
 namespace {
-
-constexpr double kSamePlace = 1e-6;  ///< deg
 
 uint8_t with(uint8_t bits, uint8_t bit, bool on) { return static_cast<uint8_t>(on ? bits | bit : bits & ~bit); }
 
 }  // namespace
 
 /// The measured spindle of feed per revolution, threads and dwells.
-const nc_spindle_inputs& Scan::encoder(const nc_inputs& in) const {
+const nc_spindle_inputs& Interpolator::encoder(const nc_inputs& in) const {
   static constexpr nc_spindle_inputs kNone{};
   return encoder_ != 0 ? in.spindle[encoder_ - 1] : kNone;
 }
 
-void Scan::follow_spindles(const nc_inputs& in) {
+void Interpolator::follow_spindles(const nc_inputs& in) {
   losing_ = false;
   // M700 10.6.1, relation (3) to (5): the selection is not to be changed while the spindle cuts a thread. What is in the work goes on.
   const bool engaged = tapping_ || cutting_thread();
@@ -49,7 +48,7 @@ void Scan::follow_spindles(const nc_inputs& in) {
 }
 
 /// M700 10.5 (1): at servo READY the counter is updated for the way of the spindle.
-void Scan::take_position(unsigned axis, const nc_inputs& in) {
+void Interpolator::take_position(unsigned axis, const nc_inputs& in) {
   const nc_spindle_inputs& spindle = in.spindle[config_.axis_spindle[axis] - 1];
   double place = command_[axis];
   if (in.actual_valid) place = in.actual.v[axis];
@@ -65,7 +64,7 @@ void Scan::take_position(unsigned axis, const nc_inputs& in) {
 }
 
 /// Whoever makes the path goes on from where the axes are.
-void Scan::settle_axes() {
+void Interpolator::settle_axes() {
   dropping_ = false;
   if (stale_ == 0) return;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
@@ -74,10 +73,10 @@ void Scan::settle_axes() {
     turned_[i] = 0;
   }
   stale_ = 0;
-  shape_.relocate(place());
+  filter_.relocate(place());
 }
 
-bool Scan::moves_any(const Segment& s, uint8_t axes) const {
+bool Interpolator::moves_any(const Segment& s, uint8_t axes) const {
   if (axes == 0) return false;
   AxisVec low, high;
   const bool curved = s.curve.circular || s.curve.shape != nullptr;
@@ -89,13 +88,13 @@ bool Scan::moves_any(const Segment& s, uint8_t axes) const {
 
 /// M700 10.5, precaution (3): without its servo the C axis stops, and at the next servo ON the rest of its command is dropped: here all that
 /// the block has left, because the other axes of the move go on with it. True: `done` says what becomes of the move.
-bool Scan::lost_move(const Record& r, Done* done) {
+bool Interpolator::lost_move(const Record& r, Done* done) {
   *done = Done::yes;
   if (dropping_) return true;
   if (stale_ != 0 && !moving_ && at_rest()) {  // it may have been made when the axis stood there already
     bool known = true;
     for (unsigned i = 0; i < config_.axis_count; ++i)
-      known = known && std::fabs(r.segment.curve.start[i] - wanted_[i] - turned_[i]) <= kSamePlace;
+      known = known && std::fabs(r.segment.curve.start[i] - wanted_[i] - turned_[i]) <= kReached;
     if (known) settle_axes();
   }
   const auto closed = static_cast<uint8_t>(spindles_now());
@@ -116,7 +115,7 @@ bool Scan::lost_move(const Record& r, Done* done) {
 
 /// At the end of a block, a C axis being elsewhere. An alarm that has been read stays: that is how the reference check made as the block is
 /// read shows (M700 10.5 (2), note), unless a move that would be dropped comes before it.
-bool Scan::may_read_again() const {
+bool Interpolator::may_read_again() const {
   if (dropping_) return true;
   for (uint32_t at = tail_ + 1; at != end_; ++at) {
     const Record& r = ring_[at & mask_];
@@ -128,7 +127,7 @@ bool Scan::may_read_again() const {
 
 /// M700 10.6.1, relation (4), (5): in the tapping mode another selection is wanted, or its spindle as a C axis. The axes wait until that
 /// is taken back (operation error M01 1026).
-bool Scan::tap_disturbed(const nc_inputs& in) const {
+bool Interpolator::tap_disturbed(const nc_inputs& in) const {
   const unsigned count = spindles_.count();
   if (count > 1 && (in.spindle_select & ((1u << count) - 1)) != spindles_.selected()) return true;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
