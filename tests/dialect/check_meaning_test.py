@@ -36,7 +36,7 @@ PLANTED = {
         '#include "motion/m700_accuracy.hpp"',
         "double m700_seconds(double raw);",
         "const bool dgshape = rules.one_thing;",
-        "Progress scale_dgshape(Interpreter& in);",
+        "Execution scale_dgshape(Interpreter& in);",
         "if (isM700) return;",
         "inline constexpr bool kDgshape = true;",
         "return nc::m700::kDialect;",
@@ -69,7 +69,7 @@ PLANTED = {
         "in.raise(Condition::illegal_g, 'G', 92.1);",
         "in.raise(Condition::arc, 'G', side > 0 ? 41 : 42);",
         "in.raise(Condition::arc,\n  'G' /* here */, // there\n  41);",
-        "Progress select_plane(Interpreter& in, int16_t code);\nvoid f() { select_plane(in, 180); }",
+        "Execution select_plane(Interpreter& in, int16_t code);\nvoid f() { select_plane(in, 180); }",
         "if (code == 2'0) return;",
     ],
     "group": [

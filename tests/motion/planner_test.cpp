@@ -28,7 +28,7 @@ struct Rig {
     ring = arena.make<Record>(scan_config.capacity);
     planner = arena.make<Planner>();
     shared = arena.make<ScanShared>();
-    scan = arena.make<Scan>();
+    scan = arena.make<Interpolator>();
     planner->create(limits_of(plan_config), ring, scan_config.capacity, arena);
     shared->events.create(scan_config.capacity, arena);
     scan->create(scan_config, ring, nullptr, planner, nullptr, shared, nullptr);
@@ -62,7 +62,7 @@ struct Rig {
   Record* ring;
   Planner* planner;
   ScanShared* shared;
-  Scan* scan;
+  Interpolator* scan;
   uint32_t head = 0;
   nc_inputs in{};
   nc_outputs out{};
