@@ -384,7 +384,7 @@ nc_status nc_position_set(nc_control* c, unsigned system, const nc_axes* machine
 void nc_position_shown(const nc_control* c, unsigned system, nc_axes* machine, nc_axes* work) {
   if (!known(c, system)) return;
   const nc::Interpreter& in = c->system[system].interpreter;
-  const auto show = [&in](nc_axes* axes, nc::AxisVec (*shown)(const nc::Interpreter&, const nc::AxisVec&)) {
+  const auto show = [&in](nc_axes* axes, nc::AxisVec (*shown)(const nc::BlockContext&, const nc::AxisVec&)) {
     if (axes == nullptr) return;
     nc::AxisVec position;
     std::memcpy(position.v, axes->v, sizeof position.v);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "interpret/interpreter.hpp"
+#include "interpret/motion.hpp"
 
 namespace nc {
 namespace {

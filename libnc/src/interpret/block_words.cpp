@@ -8,6 +8,7 @@
 
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/interpreter.hpp"
 #include "modal/precedence.hpp"
 
 namespace nc {
@@ -260,7 +261,7 @@ Execution gather_words(Interpreter& in) {
   return Execution::done;
 }
 
-char first_of_block(const Interpreter& in, uint32_t of) {
+char first_of_block(const BlockContext& in, uint32_t of) {
   for (const Word& word : in.block->words)
     if ((of >> address_of(word) & 1) != 0) return word.letter;
   return letter_of(first_of(of));
@@ -276,11 +277,11 @@ double scaled(double raw, double unit) {
   return raw / std::nearbyint(1 / unit);
 }
 
-bool inch(const Interpreter& in) { return in.state.modal.is(Function::inch); }
+bool inch(const BlockContext& in) { return in.state.modal.is(Function::inch); }
 
 }  // namespace
 
-double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotary, bool setting_unit, bool tenfold) {
+double length_value(const BlockContext& in, double raw, uint8_t flags, bool rotary, bool setting_unit, bool tenfold) {
   const bool pointed = (flags & (kWordPoint | kWordExpression)) != 0;
   const bool in_inch = inch(in) && !rotary;
   const Settings& s = in.settings;
@@ -295,7 +296,7 @@ double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotar
   return in_inch ? value * 25.4 : value;
 }
 
-double axis_value(const Interpreter& in, unsigned axis, double raw, uint8_t flags, bool rotary) {
+double axis_value(const BlockContext& in, unsigned axis, double raw, uint8_t flags, bool rotary) {
   const Settings& s = in.settings;
   const bool pointed = (flags & (kWordPoint | kWordExpression)) != 0;
   if (((s.own_unit_axes >> axis) & 1) == 0 || pointed || s.whole_positions()) return length_value(in, raw, flags, rotary, false);
@@ -304,12 +305,12 @@ double axis_value(const Interpreter& in, unsigned axis, double raw, uint8_t flag
   return in_inch ? value * 25.4 : value;
 }
 
-double length_of(const Interpreter& in, char axis_name, bool setting_unit) {
+double length_of(const BlockContext& in, char axis_name, bool setting_unit) {
   const unsigned at = address_of(axis_name);
   return length_value(in, in.words.raw[at], in.words.flags[at], false, setting_unit);
 }
 
-double length_of(const Interpreter& in, Role word, bool setting_unit) {
+double length_of(const BlockContext& in, Role word, bool setting_unit) {
   const unsigned at = in.words.addresses->at(word);
   return length_value(in, in.words.raw[at], in.words.flags[at], false, setting_unit);
 }
@@ -317,7 +318,7 @@ double length_of(const Interpreter& in, Role word, bool setting_unit) {
 namespace {
 
 /// In mm/min or inch/min.
-double largest_feed(const Interpreter& in) {
+double largest_feed(const BlockContext& in) {
   const NumberRules& rules = in.dialect->rules.number;
   if (in.words.pointed(Role::feed)) return inch(in) ? rules.largest_feed_inch : rules.largest_feed_mm;
   return inch(in) ? rules.largest_undotted_feed_inch : rules.largest_undotted_feed_mm;
@@ -325,7 +326,7 @@ double largest_feed(const Interpreter& in) {
 
 }  // namespace
 
-Execution feed_of(Interpreter& in, double* feed) {
+Execution feed_of(BlockContext& in, double* feed) {
   const double raw = in.words.get(Role::feed);
   const bool whole = !in.dialect->rules.number.undotted_feed_in_least_unit || in.words.pointed(Role::feed) || in.settings.calculator_reads_feed();
   const double value = whole ? raw : scaled(raw, inch(in) ? 0.0001 : 0.001);
@@ -337,7 +338,7 @@ Execution feed_of(Interpreter& in, double* feed) {
 namespace {
 
 /// M700 2.1, 5.3. DGSHAPE 2-1 "range 1": the same numbers with a point (the two labels are exchanged in print).
-bool in_range(const Interpreter& in, double value, uint8_t flags, bool rotary) {
+bool in_range(const BlockContext& in, double value, uint8_t flags, bool rotary) {
   const Settings& s = in.settings;
   const double last = rotary ? s.last_deg : inch(in) ? s.last_inch : s.last_mm;
   return std::fabs(value) <= last || (in.dialect->rules.number.undotted_range_is_digits && (flags & kWordPoint) == 0);

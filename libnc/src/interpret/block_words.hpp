@@ -9,6 +9,7 @@
 
 namespace nc {
 
+struct BlockContext;
 struct Interpreter;
 enum class Execution : uint8_t;
 
@@ -67,20 +68,20 @@ inline Role corner_word(const BlockWords& words) { return words.corner == Corner
 Execution gather_words(Interpreter& in);
 
 /// The letter of the first word of the block whose address is in `of`, which is not empty: alarms name it.
-char first_of_block(const Interpreter& in, uint32_t of);
+char first_of_block(const BlockContext& in, uint32_t of);
 
 /// Applies the block's unit and distance modes to the axis words (call when the modal codes of the block are in force).
 Execution resolve_axes(Interpreter& in);
 
 /// Value of a length word (I J K R Q and the like) in mm; axis = -1 a length, else rotary or linear like the axis.
 /// `tenfold`: "UNIT*10" acts on it (M700 2.2).
-double length_value(const Interpreter& in, double raw, uint8_t flags, bool rotary, bool setting_unit, bool tenfold = true);
-double length_of(const Interpreter& in, Role word, bool setting_unit = true);
-double length_of(const Interpreter& in, char axis_name, bool setting_unit = true);
+double length_value(const BlockContext& in, double raw, uint8_t flags, bool rotary, bool setting_unit, bool tenfold = true);
+double length_of(const BlockContext& in, Role word, bool setting_unit = true);
+double length_of(const BlockContext& in, char axis_name, bool setting_unit = true);
 /// Value of a position word of an axis, by the command unit of this axis (M700 2.1, #1015).
-double axis_value(const Interpreter& in, unsigned axis, double raw, uint8_t flags, bool rotary);
+double axis_value(const BlockContext& in, unsigned axis, double raw, uint8_t flags, bool rotary);
 /// F of the block -> the number that is kept modal.
-Execution feed_of(Interpreter& in, double* feed);
+Execution feed_of(BlockContext& in, double* feed);
 /// A word that must be a whole number; fraction is dropped (M700 5.3). False when it is negative or too large.
 bool whole_number(double raw, uint32_t* number);
 

@@ -5,6 +5,7 @@
 
 #include "interpret/calls.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/interpreter.hpp"
 
 namespace nc {
 namespace {

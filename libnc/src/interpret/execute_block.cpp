@@ -8,6 +8,7 @@
 //   5. M00 M01 M02 M30 M98 M99
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/interpreter.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/work_rotation.hpp"
 #include "modal/precedence.hpp"
@@ -274,7 +275,10 @@ Execution execute_move(Interpreter& in) {
 }  // namespace
 
 Execution execute_words(Interpreter& in) {
-  if (in.state.parameter_input) return parameter_block(in);
+  if (in.state.parameter_input) {
+    const Execution read = gather_words(in);
+    return read == Execution::done ? parameter_block(in) : read;
+  }
   if (in.codes_call) {
     bool taken = false;
     const Execution did = dispatch_block(in, &taken);

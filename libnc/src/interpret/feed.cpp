@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kNoise = 1e-9;
 
-bool inch(const Interpreter& in) { return in.state.modal.is(Function::inch); }
+bool inch(const BlockContext& in) { return in.state.modal.is(Function::inch); }
 
 /// M700 7.4 (1): without a point F counts in the least unit of the setting; 0.001 to 999.999, one decimal more for each finer unit.
-Execution take_feed_per_revolution(Interpreter& in) {
+Execution take_feed_per_revolution(BlockContext& in) {
   const double unit = inch(in) ? in.settings.setting_unit_inch : in.settings.setting_unit_mm;
   const double raw = in.words.get(Role::feed);
   const double value = in.words.pointed(Role::feed) || in.settings.decimal_type_2 ? raw : raw / std::nearbyint(1 / unit);
@@ -24,7 +24,7 @@ Execution take_feed_per_revolution(Interpreter& in) {
 }
 
 /// M700 7.5 (2), precaution (3): 0.001 to 999999.999 1/min with #1003 = B; F0 is an alarm.
-Execution take_inverse_time(Interpreter& in) {
+Execution take_inverse_time(BlockContext& in) {
   const double unit = in.settings.setting_unit_mm, value = in.words.get(Role::feed);
   if (value == 0) return in.raise(Condition::no_feed, Role::feed, value);
   if (!(value >= unit - kNoise * unit) || value > 1e6 - unit + kNoise) return in.raise(Condition::value_range, Role::feed, value);
@@ -32,14 +32,14 @@ Execution take_inverse_time(Interpreter& in) {
   return Execution::done;
 }
 
-double straight_length(const Interpreter& in, const Move& move) {
+double straight_length(const BlockContext& in, const Move& move) {
   double squares = 0;
   for (unsigned i = 0; i < in.axis_count; ++i) squares += (move.end[i] - move.start[i]) * (move.end[i] - move.start[i]);
   return std::sqrt(squares);
 }
 
 /// M700 7.5 (2): F is the speed over the length of a line, or over the radius of an arc at its start.
-void apply_inverse_time(Interpreter& in, Move& move) {
+void apply_inverse_time(BlockContext& in, Move& move) {
   double extent = straight_length(in, move);
   if (move.circular) extent = move.circle.radius_start > 0 ? move.circle.radius_start : move.circle.radius_end;
   if (move.shape != 0 && in.shapes[move.shape - 1].kind == ShapeKind::space_arc) extent = in.shapes[move.shape - 1].arc.radius;
@@ -51,7 +51,7 @@ void apply_inverse_time(Interpreter& in, Move& move) {
 }
 
 /// M700 7.3: F0 is the rapid rate in the motion of group 1; F1 to F5 are speeds of parameters, in inch a tenth of them.
-void apply_digit(Interpreter& in, Move& move) {
+void apply_digit(BlockContext& in, Move& move) {
   const unsigned digit = in.state.modal.feed_digit - 1u;
   move.rule.digit = static_cast<uint8_t>(digit + 1);
   if (digit == 0) {
@@ -68,11 +68,11 @@ void apply_digit(Interpreter& in, Move& move) {
 
 }  // namespace
 
-bool is_feed_digit(const Interpreter& in, double raw) {
+bool is_feed_digit(const BlockContext& in, double raw) {
   return in.settings.feed_by_digit && !in.words.pointed(Role::feed) && raw >= 0 && raw <= 5 && raw == std::floor(raw);
 }
 
-Execution take_feed_word(Interpreter& in) {
+Execution take_feed_word(BlockContext& in) {
   ModalState& modal = in.state.modal;
   in.state.vacant_feed = 0;
   if (modal.is(Function::feed_per_revolution)) return take_feed_per_revolution(in);
@@ -91,7 +91,7 @@ Execution take_feed_word(Interpreter& in) {
   return Execution::done;
 }
 
-Execution change_feed_mode(Interpreter& in, Function before) {
+Execution change_feed_mode(BlockContext& in, Function before) {
   State& state = in.state;
   const Function now = state.modal.of(Mode::feed);
   // M700 7.5, precaution (4)
@@ -105,7 +105,7 @@ Execution change_feed_mode(Interpreter& in, Function before) {
 }
 
 /// The scan has to know of G63: no feed hold in there (M700 7.11 (3), (5)).
-void change_cutting_mode(Interpreter& in, Function before) {
+void change_cutting_mode(BlockContext& in, Function before) {
   const bool tapping = in.state.modal.is(Function::tapping_mode);
   in.state.refresh_special();
   if ((before == Function::tapping_mode) == tapping) return;
@@ -137,14 +137,14 @@ bool refused_in_inverse_time(Function function) {
   }
 }
 
-bool inverse_time_so_far(const Interpreter& in) {
+bool inverse_time_so_far(const BlockContext& in) {
   Function mode = in.state.modal.of(Mode::feed);
   for (const FunctionRow* row : in.words.g)
     if (mode_of(row->function) == Mode::feed) mode = row->function;
   return mode == Function::inverse_time_feed;
 }
 
-Execution check_inverse_time_block(Interpreter& in) {
+Execution check_inverse_time_block(BlockContext& in) {
   const BlockWords& w = in.words;
   for (const FunctionRow* row : w.g)
     if (refused_in_inverse_time(row->function)) return in.raise_code(Condition::inverse_time_code, *row);
@@ -158,7 +158,7 @@ Execution check_inverse_time_block(Interpreter& in) {
   return Execution::done;
 }
 
-Execution check_special_feed(Interpreter& in, Function motion) {
+Execution check_special_feed(BlockContext& in, Function motion) {
   const ModalState& modal = in.state.modal;
   if (modal.is(Function::inverse_time_feed)) {  // M700 7.5, precaution (2)
     return in.words.has(Role::feed) ? Execution::done : in.raise(Condition::no_feed, Role::feed);
@@ -168,7 +168,7 @@ Execution check_special_feed(Interpreter& in, Function motion) {
   return modal.feed <= 0 ? in.raise(Condition::no_feed, Role::feed) : Execution::done;
 }
 
-void apply_special_feed(Interpreter& in, Move& move) {
+void apply_special_feed(BlockContext& in, Move& move) {
   const ModalState& modal = in.state.modal;
   if (modal.is(Function::inverse_time_feed)) {
     apply_inverse_time(in, move);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interpret/calls.hpp"
+#include "interpret/interpreter.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
 

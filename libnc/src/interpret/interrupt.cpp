@@ -11,6 +11,7 @@
 #include "interpret/calls.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/interpreter.hpp"
 #include "interpret/lifetimes.hpp"
 
 namespace nc {
@@ -48,8 +49,8 @@ void pass_over_block(Interpreter& in, CallFrame& frame) {
 
 }  // namespace
 
-bool is_interrupt_on(const Interpreter& in, uint32_t m) { return m == in.settings.interrupt_on_m && in.dialect->rules.program.macro_interrupt; }
-bool is_interrupt_off(const Interpreter& in, uint32_t m) { return m == in.settings.interrupt_off_m && in.dialect->rules.program.macro_interrupt; }
+bool is_interrupt_on(const BlockContext& in, uint32_t m) { return m == in.settings.interrupt_on_m && in.dialect->rules.program.macro_interrupt; }
+bool is_interrupt_off(const BlockContext& in, uint32_t m) { return m == in.settings.interrupt_off_m && in.dialect->rules.program.macro_interrupt; }
 
 Execution enable_interrupt(Interpreter& in) {
   const BlockWords& w = in.words;
@@ -177,12 +178,4 @@ void Interpreter::leave_interrupt(bool to_sequence) {
 }
 
 /// A move or M S T B of the interrupt program has gone into the stream (the items of the block in hand).
-void Interpreter::note_interrupt_items() {
-  for (unsigned i = 0; i < queued_; ++i) {
-    const Item& item = queue_[(head_ + i) % kQueue];
-    const bool code = item.kind == ItemKind::action && item.action.kind <= NC_ACTION_B;
-    if (item.kind == ItemKind::move || code) state.interrupt_moved = true;
-  }
-}
-
 }  // namespace nc

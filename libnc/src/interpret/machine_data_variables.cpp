@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dialect/text.hpp"
+#include "interpret/interpreter.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/system_variable_table.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "interpret/calls.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/interpreter.hpp"
 
 namespace nc {
 namespace {
@@ -170,7 +171,7 @@ Execution call_with_block(Interpreter& in) {
   return did == Execution::done ? enter_modal(in, top(in).modal_call, call.argument) : did;
 }
 
-bool has_modal_call(const Interpreter& in) {
+bool has_modal_call(const BlockContext& in) {
   const CallFrame& frame = in.state.frame[in.state.depth];
   return frame.modal_call != 0 || frame.modal_slot != 0;  // a further pass of a macro that has cancelled itself may say so again
 }

@@ -22,7 +22,7 @@ bool same_place(const AxisVec& a, const AxisVec& b, unsigned count) {
 }
 
 /// Tool length goes to an axis when it is commanded (M700 12.2).
-void apply_length(Interpreter& in, uint32_t commanded) {
+void apply_length(BlockContext& in, uint32_t commanded) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((commanded >> i) & 1) == 0) continue;
     in.state.applied[i] = i == in.state.length_axis ? in.state.length_value : 0.0;
@@ -30,17 +30,17 @@ void apply_length(Interpreter& in, uint32_t commanded) {
 }
 
 /// From the compensation frame to machine coordinates: the zero point and the tool length as applied.
-AxisVec offset_in_force(const Interpreter& in) {
+AxisVec offset_in_force(const BlockContext& in) {
   AxisVec offset;
   const AxisVec& z = in.zero();
   for (unsigned i = 0; i < kMaxAxes; ++i) offset[i] = z[i] + in.state.applied[i];
   return offset;
 }
 
-Affine map_in_force(const Interpreter& in) { return Affine::translation(offset_in_force(in)); }
+Affine map_in_force(const BlockContext& in) { return Affine::translation(offset_in_force(in)); }
 
 /// What every move has in common.
-Move& begin_any_move(Interpreter& in, TransformId transform, const AxisVec& start, const AxisVec& target, const AxisVec& machine) {
+Move& begin_any_move(BlockContext& in, TransformId transform, const AxisVec& start, const AxisVec& target, const AxisVec& machine) {
   Move& move = in.emit_move(start, target);
   if (in.state.mapped) map_compensation(in, move.comp);
   move.high_accuracy = in.state.high_accuracy;
@@ -50,12 +50,12 @@ Move& begin_any_move(Interpreter& in, TransformId transform, const AxisVec& star
   return move;
 }
 
-Move& begin_move(Interpreter& in, const Affine& to_machine, const AxisVec& start, const AxisVec& target) {
+Move& begin_move(BlockContext& in, const Affine& to_machine, const AxisVec& start, const AxisVec& target) {
   return begin_any_move(in, in.transforms.intern(to_machine), start, target, to_machine.apply(target));
 }
 
 /// The same under a map that only moves, which is not made where the newest one is the same: nearly every block.
-Move& begin_moved(Interpreter& in, const AxisVec& offset, const AxisVec& start, const AxisVec& target) {
+Move& begin_moved(BlockContext& in, const AxisVec& offset, const AxisVec& start, const AxisVec& target) {
   const Affine* newest = in.transforms.newest();
   const bool same = newest != nullptr && newest->translates_by(offset);
   const TransformId transform = same ? in.transforms.newest_id() : in.transforms.intern(Affine::translation(offset));
@@ -66,7 +66,7 @@ Move& begin_moved(Interpreter& in, const AxisVec& offset, const AxisVec& start, 
 
 /// Programmed coordinates are not those of the axes: the move gets its shape, and the axes end where that leads. `before`: where they
 /// stand.
-void finish_shaped(Interpreter& in, const MoveShape& what, const MoveFrame& frame, const AxisVec& before, Move& move) {
+void finish_shaped(BlockContext& in, const MoveShape& what, const MoveFrame& frame, const AxisVec& before, Move& move) {
   move.shape = in.shapes.intern(what) + 1;
   const PlainMove plain{&move.start, &move.end, move.circular ? &move.circle : nullptr, move.plane_axis[0], move.plane_axis[1]};
   CurveShape shape;
@@ -84,7 +84,7 @@ void finish_shaped(Interpreter& in, const MoveShape& what, const MoveFrame& fram
     if (move.plane_axis[i] == map.rotary) move.work_center[i] /= map.scale;
 }
 
-void finish_mapped(Interpreter& in, const MoveFrame& frame, const AxisVec& before, Move& move) {
+void finish_mapped(BlockContext& in, const MoveFrame& frame, const AxisVec& before, Move& move) {
   if ((in.state.special & kSpecialMap) == 0) return;
   MoveShape shape;
   shape.map = in.state.map;
@@ -92,7 +92,7 @@ void finish_mapped(Interpreter& in, const MoveFrame& frame, const AxisVec& befor
 }
 
 /// M700 2.3: a rotary position must be a multiple of #2106; in the plane of G12.1 the word is a length (6.10).
-bool off_increment(const Interpreter& in, unsigned axis, double value) {
+bool off_increment(const BlockContext& in, unsigned axis, double value) {
   const double unit = in.settings.index_increment[axis];
   if (unit <= 0 || ((in.rotary >> axis) & 1) == 0) return false;
   if (in.state.map.kind == AxisMap::Kind::polar && axis == in.state.map.rotary) return false;
@@ -101,14 +101,14 @@ bool off_increment(const Interpreter& in, unsigned axis, double value) {
 
 }  // namespace
 
-double feed_mm_min(const Interpreter& in) {
+double feed_mm_min(const BlockContext& in) {
   const bool inch = in.state.modal.is(Function::inch);
   return in.state.modal.feed * (inch ? 25.4 : 1.0);
 }
 
 /// When only rotary axes move F is deg/min; in inch its unit is 10 deg (M700 3.2 note 6). On a cylinder and in the plane of G12.1 F is
 /// inch/min along the curve that is programmed there, whatever axis goes (6.9 (6), 6.10 (5)).
-double feed_for(const Interpreter& in, const AxisVec& start, const AxisVec& end) {
+double feed_for(const BlockContext& in, const AxisVec& start, const AxisVec& end) {
   const bool inch = in.state.modal.is(Function::inch);
   if (!inch || in.rotary == 0 || !in.dialect->rules.feed.inch_is_ten_degrees) return feed_mm_min(in);
   const AxisMap& map = in.state.map;
@@ -118,12 +118,12 @@ double feed_for(const Interpreter& in, const AxisVec& start, const AxisVec& end)
   return in.state.modal.feed * 10;
 }
 
-AxisVec target_of_words(const Interpreter& in) { return target_of_words(in, in.position()); }
+AxisVec target_of_words(const BlockContext& in) { return target_of_words(in, in.position()); }
 
 namespace {
 
 /// M700 14.13: absolute commands to rotating axes; the angles in `target` become places on the axes, which count over their turns.
-void turn_within_range(const Interpreter& in, const AxisVec& position, uint32_t axes, AxisVec& target) {
+void turn_within_range(const BlockContext& in, const AxisVec& position, uint32_t axes, AxisVec& target) {
   // In the plane of polar coordinate interpolation the rotary axis holds millimetres (6.10).
   if (in.state.map.kind == AxisMap::Kind::polar) axes &= ~(1u << in.state.map.rotary);
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -132,7 +132,7 @@ void turn_within_range(const Interpreter& in, const AxisVec& position, uint32_t 
   }
 }
 
-inline AxisVec plain_target(const Interpreter& in, const AxisVec& position, uint32_t axes, const AxisVec& value) {
+inline AxisVec plain_target(const BlockContext& in, const AxisVec& position, uint32_t axes, const AxisVec& value) {
   AxisVec target = position;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((axes >> i) & 1) == 0) continue;
@@ -145,14 +145,14 @@ inline AxisVec plain_target(const Interpreter& in, const AxisVec& position, uint
 
 }  // namespace
 
-AxisVec target_of_words(const Interpreter& in, const AxisVec& position) { return target_of(in, position, in.words.axes, in.words.axis); }
+AxisVec target_of_words(const BlockContext& in, const AxisVec& position) { return target_of(in, position, in.words.axes, in.words.axis); }
 
-AxisVec target_of(const Interpreter& in, const AxisVec& position, uint32_t axes, const AxisVec& value) {
+AxisVec target_of(const BlockContext& in, const AxisVec& position, uint32_t axes, const AxisVec& value) {
   if (!program_mapped(in)) return plain_target(in, position, axes, value);
   return from_program(in, plain_target(in, to_program(in, position), axes, value));
 }
 
-MoveFrame frame_of_move(Interpreter& in, const AxisVec& target, uint32_t commanded) {
+MoveFrame frame_of_move(BlockContext& in, const AxisVec& target, uint32_t commanded) {
   if (program_mapped(in) && commanded != 0) commanded = begin_mapped_move(in, commanded);
   apply_length(in, commanded);
   MoveFrame frame{map_in_force(in), {}, target};
@@ -172,7 +172,7 @@ namespace {
 
 /// M700 7.9: behind rapid traverse, and behind cutting with G09 or in G61, the next block waits until the axes are in position where the
 /// parameters ask for more than that the command has come to rest. A width of the block itself (,I ,J: 6.1, 6.2, 13.1.1) goes before.
-inline void check_deceleration(Interpreter& in, nc_move_kind kind, double width = 0) {
+inline void check_deceleration(BlockContext& in, nc_move_kind kind, double width = 0) {
   if (!in.settings.check_rapid && !in.settings.check_cutting && width == 0) [[likely]] return;
   const bool check = kind == NC_MOVE_RAPID ? in.settings.check_rapid : in.settings.check_cutting && asks_exact_stop(in);
   if (!check && width == 0) return;
@@ -182,7 +182,7 @@ inline void check_deceleration(Interpreter& in, nc_move_kind kind, double width 
 }
 
 /// The block to come settles where this one ends (contour/contour.hpp). A rounding lies in the plane in force.
-[[gnu::noinline]] void set_corner(const Interpreter& in, Move& move, const LinearStyle& style) {
+[[gnu::noinline]] void set_corner(const BlockContext& in, Move& move, const LinearStyle& style) {
   const PlaneAxes plane = plane_axes(in);
   move.corner = style.corner;
   move.corner_mm = style.corner_mm;
@@ -191,7 +191,7 @@ inline void check_deceleration(Interpreter& in, nc_move_kind kind, double width 
   move.plane_axis[1] = static_cast<uint8_t>(plane.v);
 }
 
-inline void set_style(Interpreter& in, Move& move, const LinearStyle& style) {
+inline void set_style(BlockContext& in, Move& move, const LinearStyle& style) {
   move.kind = style.kind;
   move.exact_stop = style.exact_stop || style.kind == NC_MOVE_RAPID;
   move.rule.check_reversal = in.settings.check_reversal && style.kind != NC_MOVE_RAPID;
@@ -207,7 +207,7 @@ inline void set_style(Interpreter& in, Move& move, const LinearStyle& style) {
   move.thread_angle = static_cast<float>(style.thread_angle);
 }
 
-void move_linear_mapped(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
+void move_linear_mapped(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
   const MoveFrame frame = frame_of_move(in, target, commanded);
   if (same_place(frame.start, frame.end, in.axis_count)) return;
   const AxisVec before = in.state.machine;
@@ -219,7 +219,7 @@ void move_linear_mapped(Interpreter& in, const AxisVec& target, uint32_t command
 
 }  // namespace
 
-void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
+void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
   if (program_mapped(in) && commanded != 0) commanded = begin_mapped_move(in, commanded);
   if ((in.state.special & kSpecialMap) != 0) return move_linear_mapped(in, target, commanded, style);
   // One for nearly every block: what frame_of_move() does, without carrying it about.
@@ -236,7 +236,7 @@ void move_linear(Interpreter& in, const AxisVec& target, uint32_t commanded, con
   check_deceleration(in, style.kind, style.in_position);
 }
 
-void move_nowhere(Interpreter& in) {
+void move_nowhere(BlockContext& in) {
   const MoveFrame frame = frame_of_move(in, AxisVec{}, 0);
   const AxisVec before = in.state.machine;
   const auto moves = in.state.moves_since_comp_off;
@@ -248,7 +248,7 @@ void move_nowhere(Interpreter& in) {
   finish_mapped(in, frame, before, move);
 }
 
-void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded, uint32_t bare) {
+void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, uint32_t bare) {
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded & bare) >> i & 1) != 0) in.state.applied[i] = 0;
   const Affine to_machine = map_in_force(in);
@@ -266,7 +266,7 @@ void move_machine(Interpreter& in, const AxisVec& machine, uint32_t commanded, u
   check_deceleration(in, NC_MOVE_RAPID);
 }
 
-void emit_circular(Interpreter& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind) {
+void emit_circular(BlockContext& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind) {
   const AxisVec before = in.state.machine;
   Move& move = begin_move(in, frame.to_machine, frame.start, frame.end);
   move.kind = kind;
@@ -285,7 +285,7 @@ void emit_circular(Interpreter& in, const MoveFrame& frame, const PlaneAxes& pla
   check_deceleration(in, kind);
 }
 
-Move& emit_shaped(Interpreter& in, const MoveFrame& frame, const MoveShape& shape, nc_move_kind kind) {
+Move& emit_shaped(BlockContext& in, const MoveFrame& frame, const MoveShape& shape, nc_move_kind kind) {
   const AxisVec before = in.state.machine;
   Move& move = begin_move(in, frame.to_machine, frame.start, frame.end);
   move.kind = kind;
@@ -301,7 +301,7 @@ namespace {
 /// the arc on the cylinder (6.9) where a degree is that long.
 class InchDegrees {
  public:
-  InchDegrees(Interpreter& in, unsigned h, unsigned v) : state_(in.state), kept_(in.state.map), special_(in.state.special) {
+  InchDegrees(BlockContext& in, unsigned h, unsigned v) : state_(in.state), kept_(in.state.map), special_(in.state.special) {
     const uint32_t plane = 1u << h | 1u << v, turning = in.rotary & plane;
     on_ = in.dialect->rules.arc.degree_is_tenth_of_inch && turning != 0 && turning != plane && in.state.modal.is(Function::inch) && !in.state.map.active();
     if (!on_) return;
@@ -331,7 +331,7 @@ class InchDegrees {
 namespace {
 
 /// The words of the block that say which arc it is, for the plane in force.
-Execution read_arc_words(Interpreter& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* of_block) {
+Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* of_block) {
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   const BlockWords& w = in.words;
   ArcWords& words = *of_block;
@@ -352,7 +352,7 @@ Execution read_arc_words(Interpreter& in, const PlaneAxes& plane, uint32_t comma
 
 }  // namespace
 
-Execution move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw) {
+Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw) {
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   ArcWords words;
@@ -360,7 +360,7 @@ Execution move_arc(Interpreter& in, const AxisVec& target, uint32_t commanded, b
   return did == Execution::done ? move_arc_by(in, plane, target, commanded, words, ccw) : did;
 }
 
-Execution move_arc_by(Interpreter& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
+Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   if (!in.dialect->rules.arc.takes_rotary_axes && (commanded & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(commanded & in.rotary));
   const InchDegrees scope(in, h, v);
@@ -394,7 +394,7 @@ Execution move_arc_by(Interpreter& in, const PlaneAxes& plane, const AxisVec& ta
 }
 
 /// Motions beside those of plain_motion().
-Execution move_by_function(Interpreter& in, Function motion, const AxisVec& target, uint32_t commanded) {
+Execution move_by_function(BlockContext& in, Function motion, const AxisVec& target, uint32_t commanded) {
   switch (motion) {
     case Function::thread: return move_thread(in, target, commanded);
     case Function::spiral_cw:
@@ -409,7 +409,7 @@ Execution move_by_function(Interpreter& in, Function motion, const AxisVec& targ
 }
 
 /// M700 9.3 (3): without interpolation (#1086) the other axes of the block do not wait until its tables are unclamped. These go behind them.
-void move_rapid(Interpreter& in, const AxisVec& target, uint32_t axes) {
+void move_rapid(BlockContext& in, const AxisVec& target, uint32_t axes) {
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   const uint32_t tables = axes & in.settings.index_axes;
@@ -423,7 +423,7 @@ void move_rapid(Interpreter& in, const AxisVec& target, uint32_t axes) {
   move_linear(in, target, axes, style);
 }
 
-Execution check_index_positions(Interpreter& in) {
+Execution check_index_positions(BlockContext& in) {
   const BlockWords& w = in.words;
   for (unsigned i = 0; (w.axes & in.rotary) != 0 && i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
@@ -436,7 +436,7 @@ Execution check_index_positions(Interpreter& in) {
 }
 
 /// ,C ,R of the block (M700 13.7).
-static Execution take_corner(Interpreter& in, Function motion, LinearStyle* style) {
+static Execution take_corner(BlockContext& in, Function motion, LinearStyle* style) {
   const BlockWords& w = in.words;
   const Role word = corner_word(w);
   if (motion == Function::rapid || motion == Function::thread) return in.raise(Condition::corner_motion, word, w.corner_raw);
@@ -452,7 +452,7 @@ static Execution take_corner(Interpreter& in, Function motion, LinearStyle* styl
   return Execution::done;
 }
 
-Execution move_by_words(Interpreter& in) {
+Execution move_by_words(BlockContext& in) {
   const BlockWords& w = in.words;
   LinearStyle style;
   const Function motion = in.state.modal.of(Mode::motion);

@@ -11,7 +11,7 @@ namespace nc {
 namespace {
 
 /// Modes in which axis words of a line are its end in work coordinates and nothing else acts in the block.
-bool plain_modes(const Interpreter& in) {
+bool plain_modes(const BlockContext& in) {
   const State& s = in.state;
   const ModalState& m = s.modal;
   return s.special == 0 && s.modal_call == 0 && !s.mapped && !s.parameter_input &&
@@ -20,7 +20,7 @@ bool plain_modes(const Interpreter& in) {
 }
 
 /// X#3: the value of a local variable that has one.
-[[gnu::noinline]] bool local_number(const Interpreter& in, uint16_t code, double* number) {
+[[gnu::noinline]] bool local_number(const BlockContext& in, uint16_t code, double* number) {
   uint32_t variable = 0;
   if (!lone_variable(*in.block, code, &variable) || variable - 1 >= kLocals) return false;
   *number = in.variables.locals(in.macro_level())[variable - 1];
@@ -29,7 +29,7 @@ bool plain_modes(const Interpreter& in) {
 
 }  // namespace
 
-bool execute_plain_line(Interpreter& in) {
+bool execute_plain_line(BlockContext& in) {
   State& s = in.state;
   const Function before = s.modal.of(Mode::motion);
   bool named = false;

@@ -4,7 +4,7 @@
 namespace nc {
 namespace {
 
-int8_t index_of(const Interpreter& in, char name) { return static_cast<int8_t>(in.axis_named(name)); }
+int8_t index_of(const BlockContext& in, char name) { return static_cast<int8_t>(in.axis_named(name)); }
 
 }  // namespace
 
@@ -14,18 +14,18 @@ PlanePair pair_of(Function plane) {
   return {0, 1, Plane::xy};
 }
 
-int8_t axis_of_pair(const Interpreter& in, unsigned pair) {
+int8_t axis_of_pair(const BlockContext& in, unsigned pair) {
   const char basic = in.settings.plane_basic[pair], parallel = in.settings.plane_parallel[pair];
   const bool second = parallel != 0 && in.words.has(parallel) && !(basic != 0 && in.words.has(basic));
   return index_of(in, second ? parallel : basic);
 }
 
-PlaneAxes plane_axes(const Interpreter& in) {
+PlaneAxes plane_axes(const BlockContext& in) {
   const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
   return {in.state.plane_axis[0], in.state.plane_axis[1], pair.plane, {vector_along(pair.first), vector_along(pair.second)}};
 }
 
-Execution select_plane(Interpreter& in, const FunctionRow& row) {
+Execution select_plane(BlockContext& in, const FunctionRow& row) {
   State& state = in.state;
   if (state.rotated) return in.raise_code(Condition::plane_in_rotation, row);  // M700 13.20
   const PlanePair pair = pair_of(row.function);
@@ -44,7 +44,7 @@ Execution select_plane(Interpreter& in, const FunctionRow& row) {
 }
 
 /// By the names of the machine's axes: the letters of a mode that ends here (G12.1, M700 6.10) are none of them.
-void basic_plane_axes(const Interpreter& in, Function plane, int8_t axis[2]) {
+void basic_plane_axes(const BlockContext& in, Function plane, int8_t axis[2]) {
   const PlanePair pair = pair_of(plane);
   const char name[2] = {in.settings.plane_basic[pair.first], in.settings.plane_basic[pair.second]};
   for (unsigned i = 0; i < 2; ++i) {

@@ -2,7 +2,7 @@
 // The plane of G17, G18, G19 and the axes that it has: basic axes and, where a parameter gives them one, their parallel axes.
 #pragma once
 
-#include "interpret/interpreter.hpp"
+#include "interpret/motion.hpp"
 
 namespace nc {
 
@@ -14,16 +14,16 @@ struct PlaneAxes {
 
 /// Which axis of the pair I, J or K (0, 1, 2) the block in hand means: the parallel one of #1029 to #1031 where the block names it and
 /// not the basic one (#1026 to #1028), else that; -1 = the machine has none.
-int8_t axis_of_pair(const Interpreter& in, unsigned pair);
+int8_t axis_of_pair(const BlockContext& in, unsigned pair);
 
 /// The plane in force.
-PlaneAxes plane_axes(const Interpreter& in);
+PlaneAxes plane_axes(const BlockContext& in);
 
 /// G17, G18, G19 in the block in hand: M700 6.3, the axis of a pair that the block names, the basic one when it names both or none.
-Execution select_plane(Interpreter& in, const FunctionRow& row);
+Execution select_plane(BlockContext& in, const FunctionRow& row);
 
 /// The basic axes of a plane, which it has at power on and reset.
-void basic_plane_axes(const Interpreter& in, Function plane, int8_t axis[2]);
+void basic_plane_axes(const BlockContext& in, Function plane, int8_t axis[2]);
 
 /// The plane as a pair of I, J, K (0, 1, 2), right-handed: M700 6.3, G17 = IJ, G18 = KI (K is horizontal), G19 = JK.
 struct PlanePair {

@@ -5,6 +5,7 @@
 
 #include "dialect/text.hpp"
 #include "interpret/calls.hpp"
+#include "interpret/interpreter.hpp"
 #include "program/cursor.hpp"
 
 namespace nc {

@@ -18,17 +18,17 @@
 namespace nc {
 namespace {
 
-PlaneAxes plane(const Interpreter& in) { return plane_axes(in); }
+PlaneAxes plane(const BlockContext& in) { return plane_axes(in); }
 
-double figure(const Interpreter& in, unsigned what) { return in.notes.get(Notes::figure_key(what)); }
+double figure(const BlockContext& in, unsigned what) { return in.notes.get(Notes::figure_key(what)); }
 
 bool has(unsigned axes, unsigned axis) { return ((axes >> axis) & 1) != 0; }
 
 /// Axes that are scaled and mirrored by program in front of the turn of a figure, and behind it.
-unsigned scaled_in_figure(const Interpreter& in) { return in_figure(in) ? in.state.scaled & in.state.figure_scaled : 0u; }
-unsigned mirror_in_figure(const Interpreter& in) { return in_figure(in) ? in.state.mirror & in.state.figure_mirror : 0u; }
-unsigned scaled_behind(const Interpreter& in) { return in.state.scaled ^ scaled_in_figure(in); }
-unsigned mirror_behind(const Interpreter& in) { return in.state.mirror ^ mirror_in_figure(in); }
+unsigned scaled_in_figure(const BlockContext& in) { return in_figure(in) ? in.state.scaled & in.state.figure_scaled : 0u; }
+unsigned mirror_in_figure(const BlockContext& in) { return in_figure(in) ? in.state.mirror & in.state.figure_mirror : 0u; }
+unsigned scaled_behind(const BlockContext& in) { return in.state.scaled ^ scaled_in_figure(in); }
+unsigned mirror_behind(const BlockContext& in) { return in.state.mirror ^ mirror_in_figure(in); }
 
 // ---- each map by itself
 
@@ -38,18 +38,18 @@ void add(Affine& map, const Affine& next) {
   [[maybe_unused]] const bool fits = map.then(next);
 }
 
-Affine scaling_of_axis(const Interpreter& in, unsigned axis) {
+Affine scaling_of_axis(const BlockContext& in, unsigned axis) {
   return Affine::stretch(axis, scale_of(in, axis), in.notes.get(Notes::scaling_key(axis)));
 }
 
-Affine scaling(const Interpreter& in, unsigned axes) {
+Affine scaling(const BlockContext& in, unsigned axes) {
   Affine map;
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (has(axes, i)) add(map, scaling_of_axis(in, i));
   return map;
 }
 
-Affine mirror_by_program(const Interpreter& in, unsigned axes) {
+Affine mirror_by_program(const BlockContext& in, unsigned axes) {
   Affine map;
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (has(axes, i)) add(map, Affine::stretch(i, -1, in.notes.get(Notes::mirror_key(i))));
@@ -57,26 +57,26 @@ Affine mirror_by_program(const Interpreter& in, unsigned axes) {
 }
 
 /// About where each axis stood on the machine when the program began.
-Affine mirror_by_switch(const Interpreter& in) {
+Affine mirror_by_switch(const BlockContext& in) {
   Affine map;
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (has(in.state.switch_mirror, i)) add(map, Affine::stretch(i, -1, in.notes.get(Notes::switch_mirror_key(i)) - in.zero()[i]));
   return map;
 }
 
-Affine in_plane(const Interpreter& in, const Affine::Angle& angle, const double center[2]) {
+Affine in_plane(const BlockContext& in, const Affine::Angle& angle, const double center[2]) {
   const PlaneAxes axes = plane(in);
   if (axes.h < 0 || axes.v < 0) return Affine{};
   return Affine::rotation(static_cast<unsigned>(axes.h), static_cast<unsigned>(axes.v), angle, center[0], center[1]);
 }
 
-Affine rotation_by_program(const Interpreter& in) {
+Affine rotation_by_program(const BlockContext& in) {
   if (!in.state.rotated) return Affine{};
   const double center[2] = {in.notes.get(Notes::rotation_key(Notes::kRotationH)), in.notes.get(Notes::rotation_key(Notes::kRotationV))};
   return in_plane(in, Affine::Angle::degrees(in.notes.get(Notes::rotation_key(Notes::kRotationAngle))), center);
 }
 
-Affine turn_of_figure(const Interpreter& in) {
+Affine turn_of_figure(const BlockContext& in) {
   if (!in_figure(in)) return Affine{};
   const double center[2] = {figure(in, Notes::kCenterH), figure(in, Notes::kCenterV)};
   return in_plane(in, Affine::Angle::radians(figure(in, Notes::kAngle)), center);
@@ -85,7 +85,7 @@ Affine turn_of_figure(const Interpreter& in) {
 // ---- all of them
 
 /// With the rotation by parameter as commanded, or as the axes have reached it; `stretched`: with scaling.
-Affine whole_map(const Interpreter& in, Notes::WorkRotation which, bool stretched) {
+Affine whole_map(const BlockContext& in, Notes::WorkRotation which, bool stretched) {
   Affine map = stretched ? scaling(in, scaled_in_figure(in)) : Affine{};
   add(map, mirror_by_program(in, mirror_in_figure(in)));
   add(map, turn_of_figure(in));
@@ -97,7 +97,7 @@ Affine whole_map(const Interpreter& in, Notes::WorkRotation which, bool stretche
   return map;
 }
 
-ProgramMatricesKey key_of(const Interpreter& in) {
+ProgramMatricesKey key_of(const BlockContext& in) {
   const State& state = in.state;
   const PlaneAxes axes = plane(in);
   ProgramMatricesKey key;
@@ -116,7 +116,7 @@ ProgramMatricesKey key_of(const Interpreter& in) {
   return key;
 }
 
-void make_matrices(const Interpreter& in, ProgramMatrices* m) {
+void make_matrices(const BlockContext& in, ProgramMatrices* m) {
   m->forward = whole_map(in, Notes::kTurnCommanded, true);
   m->directions = whole_map(in, Notes::kTurnCommanded, false);
   m->backward = whole_map(in, Notes::kTurnReached, true).inverse();
@@ -133,7 +133,7 @@ void make_matrices(const Interpreter& in, ProgramMatrices* m) {
   m->shape_to_program = shape.inverse();
 }
 
-const ProgramMatrices& matrices(const Interpreter& in) {
+const ProgramMatrices& matrices(const BlockContext& in) {
   const ProgramMatricesKey key = key_of(in);
   if (!(in.program_matrices.made_of == key)) {
     make_matrices(in, &in.program_matrices);
@@ -151,7 +151,7 @@ void map_direction(const Affine& map, unsigned h, unsigned v, double direction[2
 
 }  // namespace
 
-AxisVec to_program(const Interpreter& in, const AxisVec& work) {
+AxisVec to_program(const BlockContext& in, const AxisVec& work) {
   const ProgramMatrices& m = matrices(in);
   if (in.state.frame[in.state.depth].figure != kFigureStarts) return m.backward.apply(work);
   // Nothing of this pass has moved yet: its increments count from where the figure began.
@@ -162,29 +162,29 @@ AxisVec to_program(const Interpreter& in, const AxisVec& work) {
   return m.shape_to_program.apply(p);
 }
 
-AxisVec from_program(const Interpreter& in, const AxisVec& programmed) { return matrices(in).forward.apply(programmed); }
+AxisVec from_program(const BlockContext& in, const AxisVec& programmed) { return matrices(in).forward.apply(programmed); }
 
-AxisVec in_front_of_mirror(const Interpreter& in, const AxisVec& work) {
+AxisVec in_front_of_mirror(const BlockContext& in, const AxisVec& work) {
   return program_mapped(in) ? matrices(in).before_mirror.apply(work) : work;
 }
 
-double scale_of(const Interpreter& in, unsigned axis) {
+double scale_of(const BlockContext& in, unsigned axis) {
   return ((in.state.scaled >> axis) & 1) != 0 ? in.notes.get(Notes::scaling_key(kMaxAxes)) : 1.0;
 }
 
-bool scaled_unevenly(const Interpreter& in, unsigned h, unsigned v) {
+bool scaled_unevenly(const BlockContext& in, unsigned h, unsigned v) {
   const unsigned shape = scaled_in_figure(in), behind = scaled_behind(in);
   return has(shape, h) != has(shape, v) || has(behind, h) != has(behind, v);
 }
 
-double mapped_on(const Interpreter& in, unsigned axis, double programmed) {
+double mapped_on(const BlockContext& in, unsigned axis, double programmed) {
   return program_mapped(in) ? matrices(in).forward.on_axis(axis, programmed) : programmed;
 }
-double programmed_on(const Interpreter& in, unsigned axis, double work) {
+double programmed_on(const BlockContext& in, unsigned axis, double work) {
   return program_mapped(in) ? matrices(in).backward.on_axis(axis, work) : work;
 }
 
-uint32_t moved_axes(const Interpreter& in, uint32_t axes) {
+uint32_t moved_axes(const BlockContext& in, uint32_t axes) {
   const PlaneAxes p = plane(in);
   if ((in_figure(in) || in.state.rotated) && p.h >= 0 && p.v >= 0) {
     const uint32_t both = (1u << p.h) | (1u << p.v);
@@ -193,26 +193,26 @@ uint32_t moved_axes(const Interpreter& in, uint32_t axes) {
   return in.state.work_turned ? moved_by_work_rotation(in, axes) : axes;
 }
 
-uint32_t begin_mapped_move(Interpreter& in, uint32_t commanded) {
+uint32_t begin_mapped_move(BlockContext& in, uint32_t commanded) {
   commanded = moved_axes(in, commanded);
   figure_has_moved(in);
   if (in.state.work_turn_pending) work_rotation_reached(in, commanded);
   return commanded;
 }
 
-void map_arc(const Interpreter& in, unsigned h, unsigned v, double center[2], bool* ccw) {
+void map_arc(const BlockContext& in, unsigned h, unsigned v, double center[2], bool* ccw) {
   const Affine& map = matrices(in).forward;
   map_direction(map, h, v, center);
   if (map.reflects(h, v)) *ccw = !*ccw;
 }
 
-void map_compensation(const Interpreter& in, Compensation& comp) {
+void map_compensation(const BlockContext& in, Compensation& comp) {
   const Affine& map = matrices(in).directions;
   map_direction(map, comp.axis[0], comp.axis[1], comp.vector);
   if (map.reflects(comp.axis[0], comp.axis[1])) comp.side = static_cast<int8_t>(-comp.side);
 }
 
-void begin_figure(Interpreter& in, const double center[2]) {
+void begin_figure(BlockContext& in, const double center[2]) {
   const PlaneAxes axes = plane(in);
   const AxisVec at = to_program(in, in.position());
   const double start[2] = {axes.h >= 0 ? at[static_cast<unsigned>(axes.h)] : 0, axes.v >= 0 ? at[static_cast<unsigned>(axes.v)] : 0};
@@ -227,11 +227,11 @@ void begin_figure(Interpreter& in, const double center[2]) {
   in.set_note(Notes::figure_key(Notes::kAngle), 0);
 }
 
-double shape_scaled(const Interpreter& in, unsigned axis, double value) {
+double shape_scaled(const BlockContext& in, unsigned axis, double value) {
   return has(scaled_in_figure(in), axis) ? scaling_of_axis(in, axis).on_axis(axis, value) : value;
 }
 
-void turn_figure(Interpreter& in) {
+void turn_figure(BlockContext& in) {
   const PlaneAxes axes = plane(in);
   uint8_t& state = in.state.frame[in.state.depth].figure;
   if (axes.h < 0 || axes.v < 0) return;

@@ -6,39 +6,39 @@
 // lies in front of tool radius compensation: reflecting the path and its side gives the reflected compensated path.
 #pragma once
 
-#include "interpret/interpreter.hpp"
+#include "interpret/motion.hpp"
 
 namespace nc {
 
 /// Something is in force. Asked in every block that moves.
-inline bool program_mapped(const Interpreter& in) { return in.state.mapped; }
+inline bool program_mapped(const BlockContext& in) { return in.state.mapped; }
 
-AxisVec to_program(const Interpreter& in, const AxisVec& work);
-AxisVec from_program(const Interpreter& in, const AxisVec& programmed);
+AxisVec to_program(const BlockContext& in, const AxisVec& work);
+AxisVec from_program(const BlockContext& in, const AxisVec& programmed);
 /// A point in workpiece coordinates as it is behind coordinate rotation and in front of mirror image: what the centre of G68 stays in.
-AxisVec in_front_of_mirror(const Interpreter& in, const AxisVec& work);
+AxisVec in_front_of_mirror(const BlockContext& in, const AxisVec& work);
 /// One coordinate of an axis that no rotation turns, scaled and mirrored; and back.
-double mapped_on(const Interpreter& in, unsigned axis, double programmed);
-double programmed_on(const Interpreter& in, unsigned axis, double work);
+double mapped_on(const BlockContext& in, unsigned axis, double programmed);
+double programmed_on(const BlockContext& in, unsigned axis, double work);
 /// Factor of scaling of an axis, 1 where there is none; one of two axes of an arc is scaled, or both are.
-double scale_of(const Interpreter& in, unsigned axis);
-bool scaled_unevenly(const Interpreter& in, unsigned h, unsigned v);
+double scale_of(const BlockContext& in, unsigned axis);
+bool scaled_unevenly(const BlockContext& in, unsigned h, unsigned v);
 /// Axes that move when `axes` are programmed: a rotated plane moves with both.
-uint32_t moved_axes(const Interpreter& in, uint32_t axes);
+uint32_t moved_axes(const BlockContext& in, uint32_t axes);
 /// A move of these axes begins: all that it moves, and what changes with it.
-uint32_t begin_mapped_move(Interpreter& in, uint32_t commanded);
+uint32_t begin_mapped_move(BlockContext& in, uint32_t commanded);
 /// The increments of an arc's centre on the axes h, v, and its direction.
-void map_arc(const Interpreter& in, unsigned h, unsigned v, double center[2], bool* ccw);
+void map_arc(const BlockContext& in, unsigned h, unsigned v, double center[2], bool* ccw);
 /// A mirrored path is compensated on its other side, and the vectors of G40 to G42 (I J K) turn with their blocks.
-void map_compensation(const Interpreter& in, Compensation& comp);
+void map_compensation(const BlockContext& in, Compensation& comp);
 
 /// Figure rotation: M98 with I J K begins it with the frame just entered, each further pass turns on.
-void begin_figure(Interpreter& in, const double center[2]);
-void turn_figure(Interpreter& in);
+void begin_figure(BlockContext& in, const double center[2]);
+void turn_figure(BlockContext& in);
 /// A coordinate as the scaling makes it that the rotated program has commanded.
-double shape_scaled(const Interpreter& in, unsigned axis, double value);
-inline bool in_figure(const Interpreter& in) { return in.state.frame[in.state.depth].figure != 0; }
-inline void figure_has_moved(Interpreter& in) {
+double shape_scaled(const BlockContext& in, unsigned axis, double value);
+inline bool in_figure(const BlockContext& in) { return in.state.frame[in.state.depth].figure != 0; }
+inline void figure_has_moved(BlockContext& in) {
   uint8_t& figure = in.state.frame[in.state.depth].figure;
   if (figure != 0) figure = kFigureMoved;
 }

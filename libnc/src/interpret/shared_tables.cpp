@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "interpret/shared_tables.hpp"
 
+#include "interpret/interpreter.hpp"
 #include "interpret/journal_keys.hpp"
 
 namespace nc {

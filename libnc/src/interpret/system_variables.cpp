@@ -6,6 +6,7 @@
 
 #include "base/utf8.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/interpreter.hpp"
 #include "interpret/system_variable_table.hpp"
 
 namespace nc {
@@ -24,7 +25,7 @@ double position_read(const Interpreter& in, unsigned axis, double mm) {
 }
 
 /// The same of an axis that may count within one turn: 359.9999 is 0 where the unit is 0.001.
-using Shown = AxisVec (*)(const Interpreter&, const AxisVec&);
+using Shown = AxisVec (*)(const BlockContext&, const AxisVec&);
 double shown_position(const Interpreter& in, unsigned axis, AxisVec position, Shown shown) {
   if (((in.rotary >> axis) & 1) != 0) position[axis] = position_read(in, axis, position[axis]);
   return position_read(in, axis, shown(in, position)[axis]);

@@ -5,6 +5,7 @@
 
 #include "dialect/text.hpp"
 #include "interpret/calls.hpp"
+#include "interpret/interpreter.hpp"
 
 namespace nc {
 namespace {

@@ -13,7 +13,7 @@ constexpr double kSame = 1e-9;  // mm
 
 using Which = Notes::WorkRotation;
 
-double note(const Interpreter& in, Which which, unsigned what) {
+double note(const BlockContext& in, Which which, unsigned what) {
   return in.notes.get(Notes::work_rotation_key(which, what));
 }
 
@@ -24,9 +24,9 @@ struct PlaneTurn {
   double center[2] = {0, 0};  ///< machine coordinates
 };
 
-bool turns(const Interpreter& in, Which which) { return note(in, which, Notes::kTurnAngle) != 0; }
+bool turns(const BlockContext& in, Which which) { return note(in, which, Notes::kTurnAngle) != 0; }
 
-PlaneTurn turn_of(const Interpreter& in, Which which) {
+PlaneTurn turn_of(const BlockContext& in, Which which) {
   PlaneTurn t;
   t.h = static_cast<int>(note(in, which, Notes::kTurnAxisH));
   t.v = static_cast<int>(note(in, which, Notes::kTurnAxisV));
@@ -39,19 +39,19 @@ PlaneTurn turn_of(const Interpreter& in, Which which) {
 bool known(const PlaneTurn& t) { return t.h >= 0 && t.v >= 0 && t.h != t.v; }
 
 /// Bits of the axes of a rotation that is one.
-uint32_t plane_bits(const Interpreter& in, Which which) {
+uint32_t plane_bits(const BlockContext& in, Which which) {
   if (!turns(in, which)) return 0;
   const PlaneTurn t = turn_of(in, which);
   return known(t) ? 1u << t.h | 1u << t.v : 0u;
 }
 
-uint32_t plane_bits(const Interpreter& in) {
+uint32_t plane_bits(const BlockContext& in) {
   return plane_bits(in, Notes::kTurnCommanded) | plane_bits(in, Notes::kTurnReached);
 }
 
 }  // namespace
 
-void refresh_work_rotation(Interpreter& in) {
+void refresh_work_rotation(BlockContext& in) {
   State& state = in.state;
   state.work_turned = turns(in, Notes::kTurnCommanded) || turns(in, Notes::kTurnReached);
   bool same = true;
@@ -61,7 +61,7 @@ void refresh_work_rotation(Interpreter& in) {
   in.program_changed();
 }
 
-void take_work_rotation(Interpreter& in, bool at_head) {
+void take_work_rotation(BlockContext& in, bool at_head) {
   const Settings& s = in.settings;
   const auto axis = [&in](char name, unsigned standard) {
     if (name != 0) return static_cast<double>(in.axis_named(name));
@@ -84,7 +84,7 @@ void take_work_rotation(Interpreter& in, bool at_head) {
   refresh_work_rotation(in);
 }
 
-Affine work_rotation(const Interpreter& in, Notes::WorkRotation which) {
+Affine work_rotation(const BlockContext& in, Notes::WorkRotation which) {
   if (!in.state.work_turned || !turns(in, which)) return Affine{};
   const PlaneTurn t = turn_of(in, which);
   if (!known(t)) return Affine{};
@@ -93,27 +93,27 @@ Affine work_rotation(const Interpreter& in, Notes::WorkRotation which) {
   return Affine::rotation(h, v, Affine::Angle::degrees(t.deg), t.center[0] - zero[h], t.center[1] - zero[v]);
 }
 
-uint32_t moved_by_work_rotation(const Interpreter& in, uint32_t axes) {
+uint32_t moved_by_work_rotation(const BlockContext& in, uint32_t axes) {
   const uint32_t both = plane_bits(in);
   return (axes & both) != 0 ? axes | both : axes;
 }
 
-void work_rotation_reached(Interpreter& in, uint32_t commanded) {
+void work_rotation_reached(BlockContext& in, uint32_t commanded) {
   if (!in.state.work_turn_pending || (commanded & plane_bits(in)) == 0) return;
   for (unsigned what = 0; what < Notes::kTurnSize; ++what)
     in.set_note(Notes::work_rotation_key(Notes::kTurnReached, what), note(in, Notes::kTurnCommanded, what));
   refresh_work_rotation(in);
 }
 
-bool turns_axis(const Interpreter& in, unsigned axis) {
+bool turns_axis(const BlockContext& in, unsigned axis) {
   return in.state.work_turned && ((plane_bits(in) >> axis) & 1) != 0;
 }
 
-bool tilts_plane(const Interpreter& in, unsigned h, unsigned v) {
+bool tilts_plane(const BlockContext& in, unsigned h, unsigned v) {
   return turns_axis(in, h) != turns_axis(in, v);
 }
 
-Execution check_work_rotation(Interpreter& in) {
+Execution check_work_rotation(BlockContext& in) {
   for (const Which which : {Notes::kTurnCommanded, Notes::kTurnReached}) {
     const PlaneTurn t = turn_of(in, which);
     if (!turns(in, which) || known(t)) continue;

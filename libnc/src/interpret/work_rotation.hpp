@@ -12,30 +12,30 @@
 // The rotation as commanded and the one that the axes have reached are kept apart for that.
 #pragma once
 
-#include "interpret/interpreter.hpp"
+#include "interpret/motion.hpp"
 
 namespace nc {
 
 /// Takes the rotation over from the parameters. `at_head` of a program the axes are in it already: increments
 /// count from where they stand.
-void take_work_rotation(Interpreter& in, bool at_head);
+void take_work_rotation(BlockContext& in, bool at_head);
 
 /// What the state says of it is made again from the notes, which outlive a state that is put back.
-void refresh_work_rotation(Interpreter& in);
+void refresh_work_rotation(BlockContext& in);
 
 /// The rotation as commanded or as reached, in workpiece coordinates.
-Affine work_rotation(const Interpreter& in, Notes::WorkRotation which);
+Affine work_rotation(const BlockContext& in, Notes::WorkRotation which);
 
 /// Axes that move when `axes` are programmed.
-uint32_t moved_by_work_rotation(const Interpreter& in, uint32_t axes);
+uint32_t moved_by_work_rotation(const BlockContext& in, uint32_t axes);
 /// These axes are commanded: they go into the rotation.
-void work_rotation_reached(Interpreter& in, uint32_t commanded);
+void work_rotation_reached(BlockContext& in, uint32_t commanded);
 
 /// The rotation tilts the plane (h, v): it turns one of the two axes out of it.
-bool tilts_plane(const Interpreter& in, unsigned h, unsigned v);
+bool tilts_plane(const BlockContext& in, unsigned h, unsigned v);
 /// The rotation turns this axis towards another one.
-bool turns_axis(const Interpreter& in, unsigned axis);
+bool turns_axis(const BlockContext& in, unsigned axis);
 /// What a block that moves must observe; curves may not be the first move behind a change (precaution (2)).
-Execution check_work_rotation(Interpreter& in);
+Execution check_work_rotation(BlockContext& in);
 
 }  // namespace nc

@@ -4,30 +4,31 @@
 #include <initializer_list>
 
 #include "interpret/functions/functions.hpp"
+#include "interpret/interpreter.hpp"
 
 namespace nc {
 namespace {
 
-void emit_action(Interpreter& in, nc_action_kind kind, char letter, double value) {
+void emit_action(BlockContext& in, nc_action_kind kind, char letter, double value) {
   Action& action = in.emit(ItemKind::action).action;
   action.kind = kind;
   action.letter = letter;
   action.value = value;
 }
 
-void emit_action(Interpreter& in, nc_action_kind kind, Role word, double value) { emit_action(in, kind, in.dialect->addresses.letter(word), value); }
+void emit_action(BlockContext& in, nc_action_kind kind, Role word, double value) { emit_action(in, kind, in.dialect->addresses.letter(word), value); }
 
-void emit_fin(Interpreter& in) { await_fin(in); }
+void emit_fin(BlockContext& in) { await_fin(in); }
 
 /// The second auxiliary address: B, unless an axis has that name; then A, then C (M700 9.2). 0 = the family has none.
-char second_address(const Interpreter& in) {
+char second_address(const BlockContext& in) {
   const AddressTable& addresses = in.dialect->addresses;
   for (const Role word : {Role::second_function, Role::second_function_2, Role::second_function_3})
     if (addresses.letter(word) != 0 && in.axis_called(word) < 0) return addresses.letter(word);
   return 0;
 }
 
-Execution spindle_word(Interpreter& in) {
+Execution spindle_word(BlockContext& in) {
   uint32_t s = 0;
   if (!whole_number(in.words.get(Role::spindle_speed), &s) || s > 99999999) return in.raise(Condition::value_range, Role::spindle_speed, in.words.get(Role::spindle_speed));
   if (in.state.spindle.axis != 0) {
@@ -41,7 +42,7 @@ Execution spindle_word(Interpreter& in) {
 }
 
 /// Addresses that are neither an axis nor anything else here.
-Execution check_axis_letters(Interpreter& in, char second) {
+Execution check_axis_letters(BlockContext& in, char second) {
   const AddressTable& addresses = in.dialect->addresses;
   const uint32_t auxiliary = addresses.set({Role::second_function, Role::second_function_2, Role::second_function_3});
   uint32_t known = in.axis_letters;
@@ -54,13 +55,13 @@ Execution check_axis_letters(Interpreter& in, char second) {
   return in.raise(aux ? Condition::second_aux : Condition::illegal_axis, letter, in.words.get(letter));
 }
 
-bool output_code(const Interpreter& in, uint32_t code) {
+bool output_code(const BlockContext& in, uint32_t code) {
   if (is_interrupt_on(in, code) || is_interrupt_off(in, code)) return false;  // M700 13.12: processed internally
   return goes_out(misc_function(*in.dialect, code));
 }
 
 /// DGSHAPE M06: M06 and T come as a pair, never more than one of each in a block.
-Execution check_tool_pair(Interpreter& in) {
+Execution check_tool_pair(BlockContext& in) {
   unsigned changes = 0, tools = 0;
   for (const uint32_t m : in.words.m) changes += misc_function(*in.dialect, m) == MiscFunction::tool_change ? 1u : 0u;
   for (const Word& word : in.block->words) tools += in.is(word, Role::tool) ? 1u : 0u;
@@ -70,7 +71,7 @@ Execution check_tool_pair(Interpreter& in) {
 
 /// DGSHAPE 2: numbers "with no decimal point": codes, speeds, numbers of things; P (but the factor of G51) and K where they are
 /// milliseconds, a number, a count.
-Execution check_whole_numbers(Interpreter& in) {
+Execution check_whole_numbers(BlockContext& in) {
   const BlockWords& w = in.words;
   const bool cycle = w.cycle != nullptr || in.state.cycle.kind != CycleKind::none;
   const bool arc = w.motion != nullptr && !is_line(w.motion->function);
@@ -86,12 +87,12 @@ Execution check_whole_numbers(Interpreter& in) {
 }  // namespace
 
 /// M700 10.5: #3003 bit 1 = FIN is not awaited.
-void await_fin(Interpreter& in) {
+void await_fin(BlockContext& in) {
   if ((in.state.control_3003 & 2) != 0) return;
   in.emit(ItemKind::gate).gate.kind = NC_GATE_FIN;
 }
 
-Execution check_precedence(Interpreter& in) {
+Execution check_precedence(BlockContext& in) {
   const BlockWords& w = in.words;
   const BlockRules& rules = in.dialect->rules.block;
   if (rules.whole_words_refuse_point) {
@@ -111,9 +112,9 @@ Execution check_precedence(Interpreter& in) {
   return tool != 0 ? check_tool_pair(in) : Execution::done;
 }
 
-bool codes_behind_motion(const Interpreter& in) { return in.settings.codes_after_motion && in.words.axes != 0; }
+bool codes_behind_motion(const BlockContext& in) { return in.settings.codes_after_motion && in.words.axes != 0; }
 
-Execution auxiliary_before(Interpreter& in) {
+Execution auxiliary_before(BlockContext& in) {
   BlockWords& w = in.words;
   // Most blocks have none of the addresses that are looked at here.
   if (w.m.empty() && !w.any((in.dialect->axis_addresses | in.addresses({Role::spindle_speed, Role::tool})) & ~in.axis_letters)) return Execution::done;
@@ -164,7 +165,7 @@ Execution auxiliary_before(Interpreter& in) {
 namespace {
 
 /// M98 or M99 beside another of M98 M99 M02 M30: only the first would ever act.
-bool two_ways_on(const Interpreter& in) {
+bool two_ways_on(const BlockContext& in) {
   unsigned ways = 0;
   bool call = false;
   for (const uint32_t m : in.words.m) {

@@ -11,7 +11,7 @@ namespace nc {
 namespace {
 
 /// M700 13.10 (4): anything beside the code, the radius, the offset number and the feed.
-Execution check_format(Interpreter& in) {
+Execution check_format(BlockContext& in) {
   const BlockWords& w = in.words;
   const uint32_t others = w.present & ~in.addresses({Role::circle_radius, Role::offset_number, Role::feed, Role::sequence_number, Role::program_number});
   if (others != 0) {
@@ -23,7 +23,7 @@ Execution check_format(Interpreter& in) {
 
 /// Radius of the path in programmed coordinates: the sign of the radius word counts for nothing, a positive offset makes the circle
 /// smaller (13.10 (1)). Scaling enlarges the circle and not the tool (13.19).
-Execution path_radius(Interpreter& in, double scale, double* radius) {
+Execution path_radius(BlockContext& in, double scale, double* radius) {
   const BlockWords& w = in.words;
   uint32_t number = 0;
   if (!w.has(Role::offset_number)) return in.raise(Condition::no_offset_number, Role::offset_number);
@@ -39,7 +39,7 @@ Execution path_radius(Interpreter& in, double scale, double* radius) {
 
 /// The figure of 13.10: half a circle from the centre to the circle on the positive side of the plane's first axis, the whole circle, half a
 /// circle back, all with the same sense.
-Execution do_circle_cut(Interpreter& in) {
+Execution do_circle_cut(BlockContext& in) {
   const FunctionRow& row = *in.words.one_shot;
   Execution did = check_format(in);
   if (did != Execution::done) return did;

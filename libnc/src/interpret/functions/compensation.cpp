@@ -12,7 +12,7 @@ namespace nc {
 namespace {
 
 /// Amount of compensation number n for length (H) or radius (D). M700 12.1: type I has one amount for both.
-double amount(const Interpreter& in, uint32_t n, bool radius) {
+double amount(const BlockContext& in, uint32_t n, bool radius) {
   if (n == 0) return 0;
   const Frames& f = in.frames;
   if (!in.settings.tool_memory_2) {
@@ -27,13 +27,13 @@ double amount(const Interpreter& in, uint32_t n, bool radius) {
 bool length_in_force(const ModalState& modal) { return modal.is(Function::length_plus) || modal.is(Function::length_minus); }
 
 /// Tool length compensation of the H in force, with the sign of G43 or G44.
-double length_amount(const Interpreter& in) {
+double length_amount(const BlockContext& in) {
   const double value = amount(in, in.state.modal.h, false);
   return in.state.modal.is(Function::length_minus) ? -value : value;
 }
 
 /// M700 12.1 (2), (3): an H holds until the next one, whatever block it stands in.
-Execution take_length_number(Interpreter& in) {
+Execution take_length_number(BlockContext& in) {
   const Execution did = offset_number(in, Role::length_number, &in.state.modal.h);
   if (did == Execution::done) in.state.modal.h_given = 1;
   return did;
@@ -41,7 +41,7 @@ Execution take_length_number(Interpreter& in) {
 
 /// M700 12.2 (3): the axis that G43 or G44 compensates, by the words of its block: Zp before Yp before Xp, each the basic axis or the
 /// parallel axis of #1029 to #1031; Z with #1080 and when none of them is named.
-int length_axis_of_block(const Interpreter& in) {
+int length_axis_of_block(const BlockContext& in) {
   const int z = in.axis_called(Role::basic_z);
   if (!in.dialect->rules.length.axis_by_words || in.settings.drilling_axis_z) return z;
   for (const unsigned pair : {2u, 1u, 0u}) {
@@ -52,14 +52,14 @@ int length_axis_of_block(const Interpreter& in) {
 }
 
 /// The words of the compensation vector on the plane (h, v).
-void plane_of(const Interpreter& in, Compensation& comp, Role words[2]) {
+void plane_of(const BlockContext& in, Compensation& comp, Role words[2]) {
   const PlaneAxes plane = plane_axes(in);
   for (unsigned i = 0; i < 2; ++i) words[i] = plane.center[i];
   comp.axis[0] = static_cast<uint8_t>(plane.h < 0 ? 0 : plane.h);
   comp.axis[1] = static_cast<uint8_t>(plane.v < 0 ? 0 : plane.v);
 }
 
-bool take_vector(const Interpreter& in, const Role words[2], double vector[2]) {
+bool take_vector(const BlockContext& in, const Role words[2], double vector[2]) {
   bool any = false;
   for (unsigned i = 0; i < 2; ++i) {
     vector[i] = in.words.has(words[i]) ? length_of(in, words[i]) : 0;
@@ -70,22 +70,22 @@ bool take_vector(const Interpreter& in, const Role words[2], double vector[2]) {
 
 }  // namespace
 
-Execution offset_number(Interpreter& in, Role word, uint32_t* number) {
+Execution offset_number(BlockContext& in, Role word, uint32_t* number) {
   if (!whole_number(in.words.get(word), number) || *number > in.frames.tool_offsets())
     return in.raise(Condition::no_offset_number, word, in.words.get(word));
   return Execution::done;
 }
 
-double radius_amount(const Interpreter& in, uint32_t number) { return amount(in, number, true); }
+double radius_amount(const BlockContext& in, uint32_t number) { return amount(in, number, true); }
 
-void take_changed_amounts(Interpreter& in) {
+void take_changed_amounts(BlockContext& in) {
   State& state = in.state;
   if (!in.dialect->rules.compensation.takes_changed_amounts) return;
   if (length_in_force(state.modal)) state.length_value = length_amount(in);
   if (state.comp.side != 0) state.comp.radius = radius_amount(in, state.modal.d);
 }
 
-Execution set_compensation(Interpreter& in, Function function) {
+Execution set_compensation(BlockContext& in, Function function) {
   State& state = in.state;
   Compensation& comp = state.comp;
   const CompensationRules& rules = in.dialect->rules.compensation;
@@ -127,7 +127,7 @@ Execution set_compensation(Interpreter& in, Function function) {
   return Execution::done;
 }
 
-Execution change_radius(Interpreter& in) {
+Execution change_radius(BlockContext& in) {
   const Execution did = offset_number(in, Role::offset_number, &in.state.modal.d);
   if (did != Execution::done) return did;
   const bool left = in.state.modal.is(Function::comp_left);
@@ -138,7 +138,7 @@ Execution change_radius(Interpreter& in) {
   return Execution::done;
 }
 
-Execution change_length(Interpreter& in) {
+Execution change_length(BlockContext& in) {
   for (const uint32_t m : in.words.m) {  // a sequence number (M700 13.3.1, 13.12)
     if (is_interrupt_on(in, m) || calls_program(misc_function(*in.dialect, m))) return Execution::done;
   }
@@ -148,7 +148,7 @@ Execution change_length(Interpreter& in) {
   return did;
 }
 
-Execution set_length(Interpreter& in, Function function) {
+Execution set_length(BlockContext& in, Function function) {
   State& state = in.state;
   const LengthRules& rules = in.dialect->rules.length;
   if (in.words.has(Role::length_number) && (rules.number_in_any_block || function != Function::length_off)) {

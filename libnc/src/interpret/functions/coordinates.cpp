@@ -4,7 +4,7 @@
 
 namespace nc {
 
-Execution select_work_system(Interpreter& in, const FunctionRow& row) {
+Execution select_work_system(BlockContext& in, const FunctionRow& row) {
   State& state = in.state;
   if (in.dialect->rules.compensation.bars_systems_and_data && state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, row);
   const AxisVec zero_before = in.zero();
@@ -25,7 +25,7 @@ Execution select_work_system(Interpreter& in, const FunctionRow& row) {
   return Execution::done;
 }
 
-Execution do_local_system(Interpreter& in) {
+Execution do_local_system(BlockContext& in) {
   if (in.state.work_system >= 6) return in.raise_code(Condition::local_in_extended, *in.words.one_shot);
   const BlockWords& w = in.words;
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -37,7 +37,7 @@ Execution do_local_system(Interpreter& in) {
   return Execution::done;
 }
 
-Execution do_coordinate_set(Interpreter& in) {
+Execution do_coordinate_set(BlockContext& in) {
   const BlockWords& w = in.words;
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *w.one_shot);
   if (w.any({Role::clamp_highest, Role::clamp_lowest}) && in.dialect->rules.spindle.limits_by_coordinate_setting) {
@@ -55,7 +55,7 @@ Execution do_coordinate_set(Interpreter& in) {
   return Execution::done;
 }
 
-Execution do_coordinate_preset(Interpreter& in) {
+Execution do_coordinate_preset(BlockContext& in) {
   const BlockWords& w = in.words;
   if (!in.settings.preset_allowed) return in.raise_code(Condition::illegal_g, *w.one_shot);  // M700 14.12: list 1 only with #1267 bit 0
   // 14.12: not during scaling, coordinate rotation, mirror image by program.

@@ -25,21 +25,21 @@ CycleKind kind_of(Function function) {
 }
 
 /// The pair of axes, I J or K (0, 1, 2), that is normal to the plane in force.
-unsigned normal_pair(const Interpreter& in) {
+unsigned normal_pair(const BlockContext& in) {
   const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
   return 3u - plane.first - plane.second;
 }
 
 /// Drilling axis: the axis normal to the plane, the parallel one where the block of the cycle names it; Z with #1080 (M700 13.1.1
 /// "Positioning plane and hole drilling axis").
-int drilling_axis(const Interpreter& in) {
+int drilling_axis(const BlockContext& in) {
   if (in.settings.drilling_axis_z) return in.axis_called(Role::basic_z);
   return axis_of_pair(in, normal_pair(in));
 }
 
 /// Axes that are positioned over the hole: those of the plane that is selected, and the basic axes that are not parallel to the
 /// drilling axis.
-uint32_t positioning_axes(const Interpreter& in) {
+uint32_t positioning_axes(const BlockContext& in) {
   const char drills = in.system->axis[in.state.cycle.drill_axis].name;
   uint32_t axes = 0;
   for (const int axis : in.state.plane_axis)
@@ -52,7 +52,7 @@ uint32_t positioning_axes(const Interpreter& in) {
   return axes;
 }
 
-Execution select_cycle(Interpreter& in, const FunctionRow& row) {
+Execution select_cycle(BlockContext& in, const FunctionRow& row) {
   State& state = in.state;
   if (row.function == Function::cycle_off) {
     cancel_cycle(in);
@@ -74,7 +74,7 @@ Execution select_cycle(Interpreter& in, const FunctionRow& row) {
 }
 
 /// Hole data of the block (modal). M700 13.1.1: without an axis word or R they are ignored.
-Execution take_hole_data(Interpreter& in) {
+Execution take_hole_data(BlockContext& in) {
   const BlockWords& w = in.words;
   CycleState& c = in.state.cycle;
   const uint32_t drill_bit = 1u << c.drill_axis;
@@ -107,7 +107,7 @@ AxisVec plain_end(const AxisVec& start, const AxisVec& target, uint32_t axes) {
 }
 
 /// Levels of this hole from the hole data (M700 13.1.1 "Absolute/incremental").
-void resolve_hole(Interpreter& in) {
+void resolve_hole(BlockContext& in) {
   const CycleState& c = in.state.cycle;
   const CycleRules& rules = in.dialect->rules.cycle;
   Hole& h = in.hole;
@@ -137,7 +137,7 @@ void resolve_hole(Interpreter& in) {
 /// The move to the hole. Axes that neither drill nor are of the plane go first (M700 13.1.1 precaution (6)), by the motion from
 /// before the cycle (13.1.2, example 2, N012): rapid by G00, else a line with the feed, which is what such an axis does beside an arc, too.
 /// Then the plane in rapid traverse, which ,I of the block belongs to.
-void position_over_hole(Interpreter& in) {
+void position_over_hole(BlockContext& in) {
   const uint32_t axes = in.hole_axes & ~(1u << in.state.cycle.drill_axis);
   const uint32_t over_hole = positioning_axes(in);
   const AxisVec start = in.position(), target = target_of(in, start, axes, in.hole_increment);
@@ -155,7 +155,7 @@ void position_over_hole(Interpreter& in) {
   move_linear(in, target, axes & over_hole, style);
 }
 
-void emit_cycle_move(Interpreter& in, const CycleStep& step, bool last) {
+void emit_cycle_move(BlockContext& in, const CycleStep& step, bool last) {
   AxisVec target = in.position();
   target[in.state.cycle.drill_axis] = step.to;
   LinearStyle style;
@@ -167,7 +167,7 @@ void emit_cycle_move(Interpreter& in, const CycleStep& step, bool last) {
   move_linear(in, target, 1u << in.state.cycle.drill_axis, style);
 }
 
-Execution begin_hole(Interpreter& in) {
+Execution begin_hole(BlockContext& in) {
   position_over_hole(in);
   in.emit_stop_point();
   resolve_hole(in);
@@ -177,7 +177,7 @@ Execution begin_hole(Interpreter& in) {
 }
 
 /// Number of holes of this block: M700 L (13.1.1; default 1, 0 = data only), or K, which the table of 5.3 has for it; DGSHAPE K.
-Execution hole_count(Interpreter& in, uint32_t* count) {
+Execution hole_count(BlockContext& in, uint32_t* count) {
   const Role word = in.words.has(Role::cycle_count_2) ? Role::cycle_count_2 : Role::cycle_count;
   *count = 1;
   if (!in.words.has(word)) return Execution::done;
@@ -187,13 +187,13 @@ Execution hole_count(Interpreter& in, uint32_t* count) {
 
 }  // namespace
 
-void cancel_cycle(Interpreter& in) {
+void cancel_cycle(BlockContext& in) {
   if (in.state.cycle.kind == CycleKind::none) return;
   in.state.cycle = CycleState{};
   in.state.modal.set(Function::cycle_off);
 }
 
-Execution do_cycle(Interpreter& in) {
+Execution do_cycle(BlockContext& in) {
   const BlockWords& w = in.words;
   if (w.cycle != nullptr) {
     const Execution did = select_cycle(in, *w.cycle);
@@ -226,7 +226,7 @@ Execution do_cycle(Interpreter& in) {
   return begin_hole(in);
 }
 
-Execution continue_cycle(Interpreter& in) {
+Execution continue_cycle(BlockContext& in) {
   while (in.queue_has_room()) {
     const CycleStep step = next_step(in.hole, in.progress);
     switch (step.kind) {

@@ -9,7 +9,7 @@ namespace {
 
 /// Work offsets of one table row; `key(axis)`.
 template <class Key>
-Execution write_axes(Interpreter& in, Key key) {
+Execution write_axes(BlockContext& in, Key key) {
   const bool accumulate = in.dialect->rules.data_input.incremental_adds;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((in.words.axes >> i) & 1) == 0) continue;
@@ -22,7 +22,7 @@ Execution write_axes(Interpreter& in, Key key) {
 }
 
 /// `l` is what said so.
-Execution work_offset(Interpreter& in, bool extended, uint32_t l) {
+Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
   const BlockWords& w = in.words;
   const DataInputRules& rules = in.dialect->rules.data_input;
   if (w.axes == 0 && rules.axes_required)
@@ -42,7 +42,7 @@ Execution work_offset(Interpreter& in, bool extended, uint32_t l) {
   return write_axes(in, [system](unsigned axis) { return Frames::work_key(system, axis); });
 }
 
-Execution tool_offset(Interpreter& in, unsigned column) {
+Execution tool_offset(BlockContext& in, unsigned column) {
   const BlockWords& w = in.words;
   uint32_t number = 0;
   if (!w.has(Role::input_number) || !w.has(Role::input_amount)) return in.raise(Condition::format_error, w.has(Role::input_number) ? Role::input_amount : Role::input_number);
@@ -76,7 +76,7 @@ unsigned column_of(DataInput input) {
 }
 
 /// M700 12.7 (5): L2 or L20 "should not [be] issued in the same block as" L10. One of them would be lost.
-bool two_kinds(const Interpreter& in) {
+bool two_kinds(const BlockContext& in) {
   unsigned kinds = 0;
   for (const Word& word : in.block->words) kinds += in.is(word, Role::input_kind) ? 1u : 0u;
   return kinds > 1;
@@ -85,7 +85,7 @@ bool two_kinds(const Interpreter& in) {
 }  // namespace
 
 /// M700 15.6: percent of the rated current, whatever decimals stand behind it.
-Execution set_current_limit(Interpreter& in) {
+Execution set_current_limit(BlockContext& in) {
   const BlockWords& w = in.words;
   if (w.axes == 0) return in.raise(Condition::format_error, Role::input_kind, w.get(Role::input_kind));
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -103,7 +103,7 @@ Execution set_current_limit(Interpreter& in) {
   return Execution::done;
 }
 
-Execution do_data_input(Interpreter& in) {
+Execution do_data_input(BlockContext& in) {
   const BlockWords& w = in.words;
   if (two_kinds(in)) return in.raise(Condition::g10_l, Role::input_kind, w.get(Role::input_kind));
   const Rules& rules = in.dialect->rules;

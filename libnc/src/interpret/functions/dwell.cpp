@@ -8,7 +8,7 @@ namespace nc {
 namespace {
 
 /// M700 8.1 note 3: an X before G04 is read as a length; what is inch with one decimal more comes out tenfold.
-bool read_as_inch(const Interpreter& in) {
+bool read_as_inch(const BlockContext& in) {
   if (!in.state.modal.is(Function::inch) || !in.words.pointed(Role::dwell_seconds)) return false;
   for (const Word& word : in.block->words) {
     if (in.is(word, Role::dwell_seconds)) return true;
@@ -20,7 +20,7 @@ bool read_as_inch(const Interpreter& in) {
 
 /// M700 8.1, table of X and P against #1078 and #8112. DGSHAPE G04: P is always ms; X with a point seconds, else ms, or seconds where the
 /// calculator type reads X.
-double seconds_of(const Interpreter& in, Role word) {
+double seconds_of(const BlockContext& in, Role word) {
   const BlockWords& w = in.words;
   const double raw = w.get(word);
   if (word == Role::dwell_seconds && in.dialect->rules.dwell.early_x_is_length && read_as_inch(in)) return raw * 10;
@@ -30,7 +30,7 @@ double seconds_of(const Interpreter& in, Role word) {
 
 }  // namespace
 
-Execution do_dwell(Interpreter& in) {
+Execution do_dwell(BlockContext& in) {
   const BlockWords& w = in.words;
   const Role word = w.has(Role::dwell_seconds) ? Role::dwell_seconds : Role::dwell_time;
   const DwellRules& rules = in.dialect->rules.dwell;

@@ -17,13 +17,13 @@ struct ExponentialWords {
   double taper = 0, torsion = 0, radius = 0, feed = 0, feed_end = 0;
 };
 
-Execution angle_word(Interpreter& in, Role word, double* angle) {
+Execution angle_word(BlockContext& in, Role word, double* angle) {
   *angle = length_value(in, in.words.get(word), in.words.flag(word), true, true);
   if (*angle == 0 || std::fabs(*angle) > 89) return in.raise(Condition::value_range, word, in.words.get(word));
   return Execution::done;
 }
 
-Execution take_words(Interpreter& in, ExponentialWords* words) {
+Execution take_words(BlockContext& in, ExponentialWords* words) {
   const BlockWords& w = in.words;
   for (const Role word : {Role::taper_angle, Role::torsion_angle, Role::exponential_radius, Role::feed})
     if (!w.has(word)) return in.raise(Condition::format_error, word);
@@ -45,7 +45,7 @@ Execution take_words(Interpreter& in, ExponentialWords* words) {
   return Execution::done;
 }
 
-Execution check_modes(Interpreter& in) {
+Execution check_modes(BlockContext& in) {
   const State& state = in.state;
   if (state.high_speed == SpeedMode::accuracy_2) return in.raise_mode(Condition::illegal_g, Mode::motion);
   const bool length_starts = state.length_value != 0 && in.words.any({Role::length_number});
@@ -57,7 +57,7 @@ Execution check_modes(Interpreter& in) {
 
 }  // namespace
 
-Execution move_exponential(Interpreter& in, const AxisVec& target, uint32_t commanded, bool negative) {
+Execution move_exponential(BlockContext& in, const AxisVec& target, uint32_t commanded, bool negative) {
   Execution did = check_modes(in);
   if (did != Execution::done) return did;
   ExponentialWords words;

@@ -53,7 +53,7 @@ constexpr Allowed kAllowed[] = {
 uint8_t bit_of(FineMode mode) { return mode == FineMode::accuracy1 ? kMode1 : mode == FineMode::accuracy2 ? kMode2 : kSmooth; }
 
 /// L10, and parameters: 13.11 prints L70 for what 13.17 calls L50.
-bool data_input_allowed(const Interpreter& in) {
+bool data_input_allowed(const BlockContext& in) {
   const BlockWords& w = in.words;
   uint32_t kind = 0;
   if (!w.has(Role::input_kind) || !whole_number(w.get(Role::input_kind), &kind)) return false;
@@ -63,7 +63,7 @@ bool data_input_allowed(const Interpreter& in) {
 }
 
 /// Addresses that have a meaning in the block.
-uint32_t addresses(const Interpreter& in) {
+uint32_t addresses(const BlockContext& in) {
   const BlockWords& w = in.words;
   // Axis movement, F, M S T B with what stands for B, I J K R of arcs, D of radius compensation; O and a late N have errors of their own.
   uint32_t known = in.axis_letters | in.addresses({Role::second_function, Role::second_function_2, Role::second_function_3, Role::offset_number, Role::feed, Role::vector_x,
@@ -82,7 +82,7 @@ uint32_t addresses(const Interpreter& in) {
 }
 
 /// 13.18 (1) (c): anything but a block of G01 breaks the spline.
-bool goes_on_with_spline(const Interpreter& in) {
+bool goes_on_with_spline(const BlockContext& in) {
   const BlockWords& w = in.words;
   const Function motion = w.motion != nullptr ? w.motion->function : in.state.modal.of(Mode::motion);
   return motion == Function::linear && w.one_shot == nullptr && w.any(in.axis_letters);
@@ -96,7 +96,7 @@ bool allowed_in_fine_mode(FineMode mode, Function function) {
   return false;
 }
 
-Execution check_fine_block(Interpreter& in) {
+Execution check_fine_block(BlockContext& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   const FineMode mode = state.fine_mode;

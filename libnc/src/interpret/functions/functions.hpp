@@ -3,115 +3,118 @@
 // table, a handler here and its line in one_shot.cpp.
 #pragma once
 
-#include "interpret/interpreter.hpp"
+#include "interpret/motion.hpp"
 
 namespace nc {
 
+struct Interpreter;
+
 /// The one-shot function of the block (in.words.one_shot). done, fault, or later.
-Execution execute_one_shot(Interpreter& in);
+Execution execute_one_shot(BlockContext& in);
 
-Execution do_dwell(Interpreter& in);              // dwell.cpp
-Execution do_data_input(Interpreter& in);         // data_input.cpp
-Execution do_mirror(Interpreter& in);             // mirror.cpp
-Execution do_scaling(Interpreter& in);            // scaling.cpp: G51
-Execution do_rotation(Interpreter& in);           // scaling.cpp: G68
-void end_scaling(Interpreter& in);          ///< G50
-void end_rotation(Interpreter& in);         ///< G69
+Execution do_dwell(BlockContext& in);              // dwell.cpp
+Execution do_data_input(BlockContext& in);         // data_input.cpp
+Execution do_mirror(BlockContext& in);             // mirror.cpp
+Execution do_scaling(BlockContext& in);            // scaling.cpp: G51
+Execution do_rotation(BlockContext& in);           // scaling.cpp: G68
+void end_scaling(BlockContext& in);          ///< G50
+void end_rotation(BlockContext& in);         ///< G69
 /// The zero has moved, or another one is in force: the centre of rotation stays on the machine (M700 13.20 (5), (6)).
-void keep_rotation_center(Interpreter& in, const AxisVec& zero_before);
-Execution do_work_rotation(Interpreter& in);      // work_rotation.cpp: G10 I J K
-Execution begin_parameter_input(Interpreter& in); // parameter_input.cpp: G10 L70
-Execution do_reference_return(Interpreter& in);   // reference.cpp
-Execution do_second_reference(Interpreter& in);   // reference.cpp: G30
-Execution do_start_return(Interpreter& in);       // reference.cpp: G29
-Execution do_reference_check(Interpreter& in);    // reference.cpp: G27
-Execution compare_reference(Interpreter& in);     // reference.cpp: behind the move of G27
-Execution do_tool_change_return(Interpreter& in); // tool_change.cpp: G30.1 to G30.6
-Execution do_machine_move(Interpreter& in);       // reference.cpp
+void keep_rotation_center(BlockContext& in, const AxisVec& zero_before);
+Execution do_work_rotation(BlockContext& in);      // work_rotation.cpp: G10 I J K
+Execution begin_parameter_input(BlockContext& in); // parameter_input.cpp: G10 L70
+Execution parameter_block(BlockContext& in);       // parameter_input.cpp: the words of a block between G10 L70 and G11
+Execution do_reference_return(BlockContext& in);   // reference.cpp
+Execution do_second_reference(BlockContext& in);   // reference.cpp: G30
+Execution do_start_return(BlockContext& in);       // reference.cpp: G29
+Execution do_reference_check(BlockContext& in);    // reference.cpp: G27
+Execution compare_reference(BlockContext& in);     // reference.cpp: behind the move of G27
+Execution do_tool_change_return(BlockContext& in); // tool_change.cpp: G30.1 to G30.6
+Execution do_machine_move(BlockContext& in);       // reference.cpp
 /// Rapid to a fixed place in machine coordinates; rotary axes turn by less than 360 deg (M700 14.13). reference.cpp
-void move_to_place(Interpreter& in, const AxisVec& place, uint32_t axes);
-void cancel_length_of(Interpreter& in, uint32_t axes);
+void move_to_place(BlockContext& in, const AxisVec& place, uint32_t axes);
+void cancel_length_of(BlockContext& in, uint32_t axes);
 /// Positions as the counters show them (M700 14.13): interpret/position_shown.cpp.
-AxisVec work_shown(const Interpreter& in, const AxisVec& work);
-AxisVec machine_shown(const Interpreter& in, const AxisVec& machine);
-Execution do_skip(Interpreter& in);               // skip.cpp
-Execution skip_answered(Interpreter& in);         // skip.cpp
-Execution do_measure_length(Interpreter& in);     // measure.cpp: G37
-Execution measured(Interpreter& in);              // measure.cpp: behind its moves
-Execution do_stroke_check(Interpreter& in);       // stroke_check.cpp: G22
-Execution set_current_limit(Interpreter& in);     // data_input.cpp: G10 L14
-Execution do_local_system(Interpreter& in);       // coordinates.cpp
-Execution do_coordinate_set(Interpreter& in);     // coordinates.cpp
-Execution do_coordinate_preset(Interpreter& in);  // coordinates.cpp
+AxisVec work_shown(const BlockContext& in, const AxisVec& work);
+AxisVec machine_shown(const BlockContext& in, const AxisVec& machine);
+Execution do_skip(BlockContext& in);               // skip.cpp
+Execution skip_answered(BlockContext& in);         // skip.cpp
+Execution do_measure_length(BlockContext& in);     // measure.cpp: G37
+Execution measured(BlockContext& in);              // measure.cpp: behind its moves
+Execution do_stroke_check(BlockContext& in);       // stroke_check.cpp: G22
+Execution set_current_limit(BlockContext& in);     // data_input.cpp: G10 L14
+Execution do_local_system(BlockContext& in);       // coordinates.cpp
+Execution do_coordinate_set(BlockContext& in);     // coordinates.cpp
+Execution do_coordinate_preset(BlockContext& in);  // coordinates.cpp
 
-Execution do_cylinder(Interpreter& in);           // milling.cpp
-Execution do_polar_on(Interpreter& in);           // milling.cpp
-Execution do_polar_off(Interpreter& in);          // milling.cpp
-Execution do_hypothetical_axis(Interpreter& in);  // hypothetical.cpp
-Execution do_unidirectional(Interpreter& in);     // unidirectional.cpp
-Execution do_circle_cut(Interpreter& in);         // circle_cut.cpp: G12 G13
+Execution do_cylinder(BlockContext& in);           // milling.cpp
+Execution do_polar_on(BlockContext& in);           // milling.cpp
+Execution do_polar_off(BlockContext& in);          // milling.cpp
+Execution do_hypothetical_axis(BlockContext& in);  // hypothetical.cpp
+Execution do_unidirectional(BlockContext& in);     // unidirectional.cpp
+Execution do_circle_cut(BlockContext& in);         // circle_cut.cpp: G12 G13
 
 /// Motions with rules of their own.
-Execution move_thread(Interpreter& in, const AxisVec& target, uint32_t commanded);             // thread.cpp
-Execution move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw);   // spiral.cpp
-Execution move_exponential(Interpreter& in, const AxisVec& target, uint32_t commanded, bool negative);   // exponential.cpp
-Execution move_space_arc(Interpreter& in, const AxisVec& target);                              // space_arc.cpp
-Execution move_nurbs(Interpreter& in, const AxisVec& target);                                  // nurbs.cpp
+Execution move_thread(BlockContext& in, const AxisVec& target, uint32_t commanded);             // thread.cpp
+Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw);   // spiral.cpp
+Execution move_exponential(BlockContext& in, const AxisVec& target, uint32_t commanded, bool negative);   // exponential.cpp
+Execution move_space_arc(BlockContext& in, const AxisVec& target);                              // space_arc.cpp
+Execution move_nurbs(BlockContext& in, const AxisVec& target);                                  // nurbs.cpp
 /// What may stand beside an arc in space: a code while it is modal; a whole block.
-Execution check_in_space_arc(Interpreter& in, const FunctionRow& row);
-Execution check_space_arc_block(Interpreter& in);
-Execution check_nurbs_block(Interpreter& in);
-Execution do_high_speed(Interpreter& in);         // high_speed.cpp
-Execution do_high_speed_accuracy(Interpreter& in);   // high_speed.cpp
-Execution do_high_accuracy(Interpreter& in);      // high_accuracy.cpp
+Execution check_in_space_arc(BlockContext& in, const FunctionRow& row);
+Execution check_space_arc_block(BlockContext& in);
+Execution check_nurbs_block(BlockContext& in);
+Execution do_high_speed(BlockContext& in);         // high_speed.cpp
+Execution do_high_speed_accuracy(BlockContext& in);   // high_speed.cpp
+Execution do_high_accuracy(BlockContext& in);      // high_accuracy.cpp
 /// A code of the cutting mode while high-accuracy control is on, and G61.1 (high_accuracy.cpp).
-Execution check_cutting_code(Interpreter& in, const FunctionRow& row);
+Execution check_cutting_code(BlockContext& in, const FunctionRow& row);
 /// G01 between G05.1 Q2 and G05.1 Q0 (spline.cpp).
-Execution move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
+Execution move_spline(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
 /// What a block may hold in the modes of M700 13.17 (fine_mode.cpp).
-Execution check_fine_block(Interpreter& in);
+Execution check_fine_block(BlockContext& in);
 bool allowed_in_fine_mode(FineMode mode, Function function);
-bool means_spiral(const Interpreter& in);                                                // spiral.cpp: a G02/G03 of type 2
+bool means_spiral(const BlockContext& in);                                                // spiral.cpp: a G02/G03 of type 2
 
 /// Rules of a block, and of a move, while cylindrical or polar coordinate interpolation is on (milling.cpp).
-Execution check_mill_block(Interpreter& in);
-Execution check_mill_move(Interpreter& in, uint32_t commanded);
+Execution check_mill_block(BlockContext& in);
+Execution check_mill_move(BlockContext& in, uint32_t commanded);
 
 /// G15, G16 (polar_command.cpp): the code; the axis words of a block as radius and angle.
-Execution select_polar_command(Interpreter& in, const FunctionRow& row);
-void resolve_polar_words(Interpreter& in);
+Execution select_polar_command(BlockContext& in, const FunctionRow& row);
+void resolve_polar_words(BlockContext& in);
 
 /// Modal functions with more to them than their code.
-Execution select_work_system(Interpreter& in, const FunctionRow& row);   // coordinates.cpp
-Execution set_compensation(Interpreter& in, Function function);          // compensation.cpp
-Execution change_radius(Interpreter& in);                                // compensation.cpp: a D word in the mode
-Execution set_length(Interpreter& in, Function function);                // compensation.cpp
+Execution select_work_system(BlockContext& in, const FunctionRow& row);   // coordinates.cpp
+Execution set_compensation(BlockContext& in, Function function);          // compensation.cpp
+Execution change_radius(BlockContext& in);                                // compensation.cpp: a D word in the mode
+Execution set_length(BlockContext& in, Function function);                // compensation.cpp
 /// The number of an offset that a word gives, no_offset_number where there is none of this number; the amount of a radius by it, 0 for number 0.
-Execution offset_number(Interpreter& in, Role word, uint32_t* number);   // compensation.cpp
-double radius_amount(const Interpreter& in, uint32_t number);      // compensation.cpp
-Execution change_length(Interpreter& in);                                // compensation.cpp: an H without G43, G44, G49
+Execution offset_number(BlockContext& in, Role word, uint32_t* number);   // compensation.cpp
+double radius_amount(const BlockContext& in, uint32_t number);      // compensation.cpp
+Execution change_length(BlockContext& in);                                // compensation.cpp: an H without G43, G44, G49
 
 /// Fixed cycles (cycle.cpp): the block's cycle code and words; the holes go on in continue_cycle.
-Execution do_cycle(Interpreter& in);
-Execution continue_cycle(Interpreter& in);
-void cancel_cycle(Interpreter& in);
+Execution do_cycle(BlockContext& in);
+Execution continue_cycle(BlockContext& in);
+void cancel_cycle(BlockContext& in);
 
 /// M S T B (auxiliary.cpp). before: everything that goes out before the motion; after: stops, ends, calls.
-Execution auxiliary_before(Interpreter& in);
+Execution auxiliary_before(BlockContext& in);
 Execution auxiliary_after(Interpreter& in);
 /// The program goes on when what has been given out is complete.
-void await_fin(Interpreter& in);
+void await_fin(BlockContext& in);
 /// Constant surface speed and clamp speeds (spindle.cpp).
-void announce_surface(Interpreter& in);                ///< to the scan: what of G96, G97 is in force
-Execution set_surface_speed(Interpreter& in);               ///< G96 G97 of the block
-Execution surface_word(Interpreter& in);                    ///< S while G96 is in force
-bool is_clamp_command(const Interpreter& in);         ///< the S of this block is one of G92
-Execution set_spindle_clamp(Interpreter& in);               ///< G92 S Q
-void end_spindle_control(Interpreter& in);            ///< M02, M30
+void announce_surface(BlockContext& in);                ///< to the scan: what of G96, G97 is in force
+Execution set_surface_speed(BlockContext& in);               ///< G96 G97 of the block
+Execution surface_word(BlockContext& in);                    ///< S while G96 is in force
+bool is_clamp_command(const BlockContext& in);         ///< the S of this block is one of G92
+Execution set_spindle_clamp(BlockContext& in);               ///< G92 S Q
+void end_spindle_control(BlockContext& in);            ///< M02, M30
 /// M S T B of this block go out behind its motion.
-bool codes_behind_motion(const Interpreter& in);
+bool codes_behind_motion(const BlockContext& in);
 
 /// Rules about what may share a block (DGSHAPE 2, M700 App.2).
-Execution check_precedence(Interpreter& in);
+Execution check_precedence(BlockContext& in);
 
 }  // namespace nc

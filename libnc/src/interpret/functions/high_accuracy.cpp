@@ -8,7 +8,7 @@ namespace nc {
 namespace {
 
 /// 13.15 "relation with other functions" (1): what G08 P1 needs. The manual gives it no code; P34 as for the modes of 13.17.
-bool refuses_command(const Interpreter& in) {
+bool refuses_command(const BlockContext& in) {
   const State& state = in.state;
   const ModalState& modal = state.modal;
   return state.high_speed != SpeedMode::off || state.fine_mode != FineMode::none || state.accuracy_command || !modal.is(Function::polar_command_off) ||
@@ -17,7 +17,7 @@ bool refuses_command(const Interpreter& in) {
 }
 
 /// (2), and 13.20: modes in which high-accuracy control cannot be commanded.
-Execution check_modes_before(Interpreter& in, const FunctionRow& row) {
+Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
   if (in.state.map.kind != AxisMap::Kind::none) return in.raise_code(Condition::mill_code, row);
   if (!in.state.modal.is(Function::normal_line_off)) return in.raise_code(Condition::not_accepted, row);
   if (!in.state.modal.is(Function::rotation_off)) return in.raise_code(Condition::illegal_g, row);
@@ -26,7 +26,7 @@ Execution check_modes_before(Interpreter& in, const FunctionRow& row) {
 
 }  // namespace
 
-Execution check_cutting_code(Interpreter& in, const FunctionRow& row) {
+Execution check_cutting_code(BlockContext& in, const FunctionRow& row) {
   // After G08 P1 the cutting mode is that of G64; any other code of it is an error.
   if (in.state.accuracy_command && row.function != Function::cutting_mode) return in.raise_code(Condition::in_high_accuracy, row);
   if (row.function != Function::high_accuracy_mode) return Execution::done;
@@ -34,7 +34,7 @@ Execution check_cutting_code(Interpreter& in, const FunctionRow& row) {
   return check_modes_before(in, row);
 }
 
-Execution do_high_accuracy(Interpreter& in) {
+Execution do_high_accuracy(BlockContext& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   if (w.g.size() > 1 || !w.m.empty() || (w.present & ~in.addresses({Role::accuracy_switch})) != 0) return in.raise_code(Condition::must_stand_alone, *w.one_shot);

@@ -21,7 +21,7 @@ const Row* row_of(const Table<Row>& rows, double raw) {
   return nullptr;
 }
 
-Execution refuse(Interpreter& in) { return in.raise_code(Condition::illegal_g, *in.words.one_shot); }
+Execution refuse(BlockContext& in) { return in.raise_code(Condition::illegal_g, *in.words.one_shot); }
 
 /// 6.11, 6.12: what excludes the modes of 13.17 and the spline.
 bool excluded(const State& state) {
@@ -30,7 +30,7 @@ bool excluded(const State& state) {
 
 /// 13.17.1 "relation with other functions" (1), 13.17.2: the modal state that a mode starts from. Mode I takes the cutting modes but
 /// G61.1 and the feed per revolution and constant surface speed, without a promise; it alone asks for G49.
-bool wrong_state(const Interpreter& in, FineMode mode) {
+bool wrong_state(const BlockContext& in, FineMode mode) {
   const State& state = in.state;
   const ModalState& modal = state.modal;
   if (state.comp.side != 0 || !modal.is(Function::comp_off) || state.any_mirror() != 0 || has_modal_call(in) ||
@@ -43,7 +43,7 @@ bool wrong_state(const Interpreter& in, FineMode mode) {
   return !modal.is(Function::length_off) || !cutting_known || !(per_minute || modal.is(Function::feed_per_revolution));
 }
 
-Execution start(Interpreter& in, FineMode mode) {
+Execution start(BlockContext& in, FineMode mode) {
   State& state = in.state;
   if (!in.settings.high_speed_codes || excluded(state)) return refuse(in);
   if (!state.modal.is(Function::normal_line_off)) return in.raise_code(Condition::not_accepted, *in.words.one_shot);  // 13.14
@@ -54,7 +54,7 @@ Execution start(Interpreter& in, FineMode mode) {
 }
 
 /// Precaution (5): radius compensation is turned off inside the mode.
-Execution leave(Interpreter& in) {
+Execution leave(BlockContext& in) {
   State& state = in.state;
   if (state.comp.side != 0 || !state.modal.is(Function::comp_off)) return refuse(in);
   state.fine_mode = FineMode::none;
@@ -65,9 +65,9 @@ Execution leave(Interpreter& in) {
 }
 
 /// The machine slows down once at these blocks (13.16 restriction (4), 13.17.1 precaution (4)).
-void slow_down(Interpreter& in) { in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION; }
+void slow_down(BlockContext& in) { in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION; }
 
-Execution high_speed_machining(Interpreter& in, SpeedMode mode) {
+Execution high_speed_machining(BlockContext& in, SpeedMode mode) {
   State& state = in.state;
   // 13.20: mode III is refused in a rotation; it is in no part of the manual but that and the list of P.
   if (mode == SpeedMode::machining_3 && !state.modal.is(Function::rotation_off)) return refuse(in);
@@ -80,7 +80,7 @@ Execution high_speed_machining(Interpreter& in, SpeedMode mode) {
 }
 
 /// Basic axes named with G05.1 Q2; false when there are other words.
-bool spline_axes(const Interpreter& in, uint8_t* axes) {
+bool spline_axes(const BlockContext& in, uint8_t* axes) {
   uint32_t named = 0;
   *axes = 0;
   for (const char name : in.settings.plane_basic) {
@@ -92,7 +92,7 @@ bool spline_axes(const Interpreter& in, uint8_t* axes) {
   return !other_words(in.words, named | in.addresses({Role::speed_option}));
 }
 
-Execution spline_on(Interpreter& in) {
+Execution spline_on(BlockContext& in) {
   State& state = in.state;
   if (!in_mode_2(state) || !in.settings.spline_allowed || !in.settings.high_speed_codes || excluded(state))
     return refuse(in);  // 13.18 (3), (4), precaution (2)
@@ -109,7 +109,7 @@ Execution spline_on(Interpreter& in) {
 
 }  // namespace
 
-Execution do_high_speed(Interpreter& in) {
+Execution do_high_speed(BlockContext& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   if (!w.has(Role::speed_mode)) return in.raise(Condition::format_error, Role::speed_mode);
@@ -132,7 +132,7 @@ Execution do_high_speed(Interpreter& in) {
   return Execution::done;
 }
 
-Execution do_high_speed_accuracy(Interpreter& in) {
+Execution do_high_speed_accuracy(BlockContext& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   if (!w.has(Role::speed_option) || (w.flag(Role::speed_option) & kWordPoint) != 0) return in.raise(Condition::format_error, Role::speed_option);

@@ -4,7 +4,7 @@
 
 namespace nc {
 
-Execution do_hypothetical_axis(Interpreter& in) {
+Execution do_hypothetical_axis(BlockContext& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);

@@ -11,7 +11,7 @@ namespace nc {
 namespace {
 
 /// A distance of the block, or the one of the parameter.
-double distance(const Interpreter& in, Role word, double parameter) {
+double distance(const BlockContext& in, Role word, double parameter) {
   return in.words.has(word) ? std::fabs(length_of(in, word)) : parameter;
 }
 
@@ -23,7 +23,7 @@ struct Measurement {
   double feed_mm_min = 0;
 };
 
-Execution read_measurement(Interpreter& in, Measurement* m) {
+Execution read_measurement(BlockContext& in, Measurement* m) {
   const BlockWords& w = in.words;
   for (const Role word : {Role::length_number, Role::tool})  // (3); T: appendix 1
     if (w.has(word)) return in.raise(Condition::measure_h, word, w.get(word));
@@ -46,11 +46,11 @@ Execution read_measurement(Interpreter& in, Measurement* m) {
   return Execution::done;
 }
 
-double finest(const Interpreter& in) { return in.settings.setting_unit_mm / 2; }
+double finest(const BlockContext& in) { return in.settings.setting_unit_mm / 2; }
 
 }  // namespace
 
-Execution do_measure_length(Interpreter& in) {
+Execution do_measure_length(BlockContext& in) {
   Measurement m;
   const Execution did = read_measurement(in, &m);
   if (did != Execution::done) return did;
@@ -83,7 +83,7 @@ Execution do_measure_length(Interpreter& in) {
   return in.need(NC_SYNC_SKIP | NC_SYNC_POSITION);
 }
 
-Execution measured(Interpreter& in) {
+Execution measured(BlockContext& in) {
   State& state = in.state;
   const unsigned axis = state.length_axis;
   const char name = in.system->axis[axis].name;

@@ -12,7 +12,7 @@ namespace nc {
 namespace {
 
 /// Codes of the modes in front of which both are refused: P485, P486.
-Execution check_modes_before(Interpreter& in, const FunctionRow& row) {
+Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
   const State& state = in.state;
   if (state.high_accuracy != 0) return in.raise_code(Condition::not_accepted, row);  // 13.15 (3); appendix 1 has P126
   if (state.comp.side != 0) return in.raise_code(Condition::mill_modal, row);
@@ -25,21 +25,21 @@ Execution check_modes_before(Interpreter& in, const FunctionRow& row) {
 }
 
 /// Index of the rotary axis of both modes (#1516), -1 = none is named or it does not turn.
-int rotary_axis(const Interpreter& in) {
+int rotary_axis(const BlockContext& in) {
   const char name = in.settings.mill_axis;
   const int axis = in.axis_named(name);
   return axis >= 0 && ((in.rotary >> axis) & 1) != 0 ? axis : -1;
 }
 
 /// The basic axis that is the linear one of polar coordinate interpolation: the first, unless #1533 names another (6.10).
-unsigned polar_linear(const Interpreter& in) {
+unsigned polar_linear(const BlockContext& in) {
   for (unsigned i = 2; i > 0; --i)
     if (in.settings.polar_linear != 0 && in.settings.polar_linear == in.dialect->addresses.letter(basic_along(i))) return i;
   return 0;
 }
 
 /// M700 6.9 (1), 6.10 (1): an independent block. An axis word in it would go nowhere; `own` is the axis that the code itself names.
-Execution stands_alone(Interpreter& in, uint32_t own) {
+Execution stands_alone(BlockContext& in, uint32_t own) {
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((in.words.axes & ~own) >> i & 1) != 0) return in.raise(Condition::format_error, in.system->axis[i].name, in.words.axis[i]);
   return Execution::done;
@@ -47,7 +47,7 @@ Execution stands_alone(Interpreter& in, uint32_t own) {
 
 /// What both starts have in common: the feed per minute is forced, the state of before is kept, and a tool length that was
 /// commanded without a movement is in force from now on (6.9, 6.10 "tool length compensation").
-void begin_mode(Interpreter& in, const FunctionRow& row) {
+void begin_mode(BlockContext& in, const FunctionRow& row) {
   State& state = in.state;
   state.mill.moved = false;
   state.mill.plane = state.modal.of(Mode::plane);
@@ -64,7 +64,7 @@ void begin_mode(Interpreter& in, const FunctionRow& row) {
   in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION;
 }
 
-void end_mode(Interpreter& in) {
+void end_mode(BlockContext& in) {
   State& state = in.state;
   state.map = AxisMap{.frozen = state.map.frozen};
   state.mill.hypothetical_letter = 0;
@@ -123,7 +123,7 @@ bool allowed_inside(Function function) {
 
 }  // namespace
 
-Execution do_cylinder(Interpreter& in) {
+Execution do_cylinder(BlockContext& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   const FunctionRow& code = *w.one_shot;
@@ -159,7 +159,7 @@ Execution do_cylinder(Interpreter& in) {
   return Execution::done;
 }
 
-Execution do_polar_on(Interpreter& in) {
+Execution do_polar_on(BlockContext& in) {
   State& state = in.state;
   const FunctionRow& code = *in.words.one_shot;
   if (in.words.g.size() > 1) return in.raise_code(Condition::format_error, code);
@@ -190,7 +190,7 @@ Execution do_polar_on(Interpreter& in) {
   return Execution::done;
 }
 
-Execution do_polar_off(Interpreter& in) {
+Execution do_polar_off(BlockContext& in) {
   State& state = in.state;
   const FunctionRow& code = *in.words.one_shot;
   if (state.map.kind == AxisMap::Kind::none) return Execution::done;
@@ -202,7 +202,7 @@ Execution do_polar_off(Interpreter& in) {
   return Execution::done;
 }
 
-Execution check_mill_block(Interpreter& in) {
+Execution check_mill_block(BlockContext& in) {
   const BlockWords& w = in.words;
   const bool polar = in.state.map.kind == AxisMap::Kind::polar;
   for (const FunctionRow* row : w.g) {
@@ -226,7 +226,7 @@ Execution check_mill_block(Interpreter& in) {
   return Execution::done;
 }
 
-Execution check_mill_move(Interpreter& in, uint32_t commanded) {
+Execution check_mill_move(BlockContext& in, uint32_t commanded) {
   State& state = in.state;
   state.mill.moved = true;
   const Function motion = state.modal.of(Mode::motion);

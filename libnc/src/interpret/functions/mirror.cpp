@@ -5,7 +5,7 @@
 
 namespace nc {
 
-Execution do_mirror(Interpreter& in) {
+Execution do_mirror(BlockContext& in) {
   const BlockWords& w = in.words;
   const bool on = w.one_shot->function == Function::mirror_on;
   if (on && w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);

@@ -12,7 +12,7 @@ namespace nc {
 namespace {
 
 /// The basic axes that the machine has, 0xff for those it has not.
-void basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
+void basic_axes(const BlockContext& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const char name = in.settings.plane_basic[i];
     const int index = in.axis_named(name);
@@ -23,14 +23,14 @@ void basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
 /// M700 6.15: at most four decimals.
 bool too_fine(double value) { return std::fabs(value * 1e4 - std::nearbyint(value * 1e4)) > 1e-6; }
 
-Execution take_knot(Interpreter& in, double* knot) {
+Execution take_knot(BlockContext& in, double* knot) {
   if (!in.words.has(Role::curve_knot)) return in.raise(Condition::format_error, Role::curve_knot);
   *knot = in.words.get(Role::curve_knot);  // K1 = 1.0
   if (too_fine(*knot)) return in.raise(Condition::format_error, Role::curve_knot, *knot);
   return Execution::done;
 }
 
-Execution take_weight(Interpreter& in, double* weight) {
+Execution take_weight(BlockContext& in, double* weight) {
   *weight = 1;
   if (!in.words.has(Role::curve_weight)) return Execution::done;
   *weight = in.words.get(Role::curve_weight);
@@ -40,7 +40,7 @@ Execution take_weight(Interpreter& in, double* weight) {
 }
 
 /// The first block of a curve: its order and axes.
-Execution begin_curve(Interpreter& in, const AxisVec& target) {
+Execution begin_curve(BlockContext& in, const AxisVec& target) {
   NurbsState& n = in.state.nurbs;
   const BlockWords& w = in.words;
   n = NurbsState{};
@@ -61,10 +61,10 @@ Execution begin_curve(Interpreter& in, const AxisVec& target) {
   return Execution::done;
 }
 
-const PathPoint& point(const Interpreter& in, uint32_t index) { return in.points[in.state.nurbs.first + index]; }
+const PathPoint& point(const BlockContext& in, uint32_t index) { return in.points[in.state.nurbs.first + index]; }
 
 /// Bezier points of the span between knots j and j + 1: values of the polar form (de Boor's scheme with one argument for each level).
-RationalSpan span_of(const Interpreter& in, uint32_t j, const uint8_t (&axis)[3]) {
+RationalSpan span_of(const BlockContext& in, uint32_t j, const uint8_t (&axis)[3]) {
   const unsigned degree = in.state.nurbs.order - 1u;
   RationalSpan span{};
   span.degree = static_cast<uint8_t>(degree);
@@ -93,7 +93,7 @@ RationalSpan span_of(const Interpreter& in, uint32_t j, const uint8_t (&axis)[3]
 
 /// The next point of the curve. Points have numbers one behind the other; when the program is read again from the middle of a curve the
 /// next free number is another one, so those that spans to come need go there too.
-void append(Interpreter& in, const PathPoint& p) {
+void append(BlockContext& in, const PathPoint& p) {
   constexpr uint32_t kNeeded = 2 * 3;  // a span reaches back by twice the degree
   NurbsState& n = in.state.nurbs;
   uint32_t id = in.points.intern(p);
@@ -110,7 +110,7 @@ void append(Interpreter& in, const PathPoint& p) {
 }
 
 /// The span whose last knot has just been given.
-void emit_span(Interpreter& in) {
+void emit_span(BlockContext& in) {
   const NurbsState& n = in.state.nurbs;
   const unsigned degree = n.order - 1u;
   const uint32_t newest = n.knots - 1;
@@ -131,7 +131,7 @@ void emit_span(Interpreter& in) {
 
 }  // namespace
 
-Execution check_nurbs_block(Interpreter& in) {
+Execution check_nurbs_block(BlockContext& in) {
   const BlockWords& w = in.words;
   const NurbsState& n = in.state.nurbs;
   if (!n.active()) return Execution::done;
@@ -143,7 +143,7 @@ Execution check_nurbs_block(Interpreter& in) {
   return Execution::done;
 }
 
-Execution move_nurbs(Interpreter& in, const AxisVec& target) {
+Execution move_nurbs(BlockContext& in, const AxisVec& target) {
   State& state = in.state;
   NurbsState& n = state.nurbs;
   const BlockWords& w = in.words;

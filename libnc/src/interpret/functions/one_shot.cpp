@@ -8,11 +8,11 @@ namespace {
 
 struct Handler {
   Function function;
-  Execution (*run)(Interpreter& in);
+  Execution (*run)(BlockContext& in);
 };
 
 /// G11 outside the input of parameters: G10 L2 to L20, which 12.7 (3) lets it end too, act in their own block only.
-Execution end_without_input(Interpreter&) { return Execution::done; }
+Execution end_without_input(BlockContext&) { return Execution::done; }
 
 constexpr Handler kHandlers[] = {
     {Function::dwell, do_dwell},
@@ -53,7 +53,7 @@ constexpr Handler kHandlers[] = {
 namespace {
 
 /// M700 13.3.3 (9): a rotated figure and machine coordinates exclude each other for the axes of the plane.
-bool machine_in_figure(const Interpreter& in) {
+bool machine_in_figure(const BlockContext& in) {
   if (!in.state.mapped || in.state.frame[in.state.depth].figure == 0) return false;
   switch (in.words.one_shot->function) {
     case Function::reference_check:
@@ -73,7 +73,7 @@ bool machine_in_figure(const Interpreter& in) {
 
 }  // namespace
 
-Execution execute_one_shot(Interpreter& in) {
+Execution execute_one_shot(BlockContext& in) {
   // M700 6.1, 6.2, 13.1.1: G00, G01 and fixed cycles have an in-position width.
   if (in.words.in_position > 0) return in.raise(Condition::illegal_address, Role::vector_x, in.words.in_position);
   if (in.words.in_position_drill > 0) return in.raise(Condition::illegal_address, Role::vector_y, in.words.in_position_drill);

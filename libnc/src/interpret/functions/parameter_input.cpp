@@ -11,7 +11,7 @@
 namespace nc {
 namespace {
 
-Execution refuse(Interpreter& in, Role word) {
+Execution refuse(BlockContext& in, Role word) {
   return in.words.has(word) ? in.raise(Condition::parameter_input, word, in.words.get(word)) : in.raise(Condition::parameter_input, word);
 }
 
@@ -28,20 +28,20 @@ void put_data(TextWriter& out, double value, double unit) {
 }
 
 /// The parameter belongs to the rotation of the workpiece coordinate systems (13.21).
-bool turns_work(const Interpreter& in, uint32_t number) {
+bool turns_work(const BlockContext& in, uint32_t number) {
   const ParameterRow* row = find_parameter(*in.dialect, ParameterKey{number, 0, -1});
   if (row == nullptr) return false;
   return row->what == Parameter::work_turn_axis || row->what == Parameter::work_turn_center || row->what == Parameter::work_turn_vector ||
          row->what == Parameter::work_turn_angle;
 }
 
-bool ends_input(const Interpreter& in) {
+bool ends_input(const BlockContext& in) {
   return in.words.g.size() == 1 && ends_data_input(in.words.g[0]->function) && in.block->words.size() == 1;
 }
 
 /// Note 1: the data stand behind the number, the part system and the axis, in the order of the format; of a word that comes twice the
 /// last one counts.
-bool in_sequence(const Interpreter& in) {
+bool in_sequence(const BlockContext& in) {
   unsigned place_of[kAddresses] = {};
   unsigned place = 0;
   for (const Word& word : in.block->words) place_of[address_of(word)] = ++place;
@@ -56,7 +56,7 @@ bool in_sequence(const Interpreter& in) {
 }
 
 /// The text to store and, for a bit, the end of the key.
-Execution read_data(Interpreter& in, TextWriter& key, TextWriter& text) {
+Execution read_data(BlockContext& in, TextWriter& key, TextWriter& text) {
   const BlockWords& w = in.words;
   const unsigned kinds = (w.has(Role::parameter_bit) ? 1u : 0u) + (w.has(Role::parameter_data) ? 1u : 0u) + (in.block->name_length > 0 ? 1u : 0u);
   if (kinds != 1) return refuse(in, kinds == 0 ? Role::parameter_data : Role::parameter_number);
@@ -77,7 +77,7 @@ Execution read_data(Interpreter& in, TextWriter& key, TextWriter& text) {
 
 }  // namespace
 
-Execution begin_parameter_input(Interpreter& in) {
+Execution begin_parameter_input(BlockContext& in) {
   // "in independent blocks"; appendix 1, P421: not in a fixed cycle and not under radius compensation.
   const bool alone = in.block->words.size() == 2;
   if (!alone || in.state.cycle.kind != CycleKind::none || in.state.comp.side != 0) return refuse(in, Role::input_kind);
@@ -85,9 +85,7 @@ Execution begin_parameter_input(Interpreter& in) {
   return Execution::done;
 }
 
-Execution parameter_block(Interpreter& in) {
-  Execution did = gather_words(in);
-  if (did != Execution::done) return did;
+Execution parameter_block(BlockContext& in) {
   const BlockWords& w = in.words;
   if (!w.g.empty() || !w.m.empty()) {
     if (!ends_input(in)) return refuse(in, w.g.empty() ? Role::misc_code : Role::code);
@@ -102,7 +100,7 @@ Execution parameter_block(Interpreter& in) {
   char key_text[24], data_text[64];
   TextWriter key(key_text, sizeof key_text), data(data_text, sizeof data_text);
   key.put_integer(number);
-  did = read_data(in, key, data);
+  const Execution did = read_data(in, key, data);
   if (did != Execution::done) return did;
   // Note 3: parameters that are not of the axes take no notice of A.
   const int of = parameter_of_axis(*in.dialect, number) ? static_cast<int>(axis) - 1 : -1;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 /// M700 6.12: these read their words as they stand: data, machine positions, returns, measurements, and what sets up other modes.
-bool reads_plain_words(const Interpreter& in) {
+bool reads_plain_words(const BlockContext& in) {
   const BlockWords& w = in.words;
   if (w.one_shot != nullptr && w.one_shot->function != Function::unidirectional) return true;
   for (const FunctionRow* row : w.g) {
@@ -25,7 +25,7 @@ bool reads_plain_words(const Interpreter& in) {
 
 }  // namespace
 
-Execution select_polar_command(Interpreter& in, const FunctionRow& row) {
+Execution select_polar_command(BlockContext& in, const FunctionRow& row) {
   State& state = in.state;
   if (row.function == Function::polar_command_on) {
     if (state.high_speed == SpeedMode::accuracy_2) return in.raise_code(Condition::illegal_g, row);
@@ -36,7 +36,7 @@ Execution select_polar_command(Interpreter& in, const FunctionRow& row) {
   return Execution::done;
 }
 
-void resolve_polar_words(Interpreter& in) {
+void resolve_polar_words(BlockContext& in) {
   BlockWords& w = in.words;
   State& state = in.state;
   if (reads_plain_words(in)) {

@@ -9,7 +9,7 @@ namespace nc {
 namespace {
 
 /// DGSHAPE G28: an axis that is not named takes part with the midpoint that an earlier G28 of the program gave it.
-void take_remembered_midpoints(Interpreter& in, AxisVec& mid, uint32_t& axes) {
+void take_remembered_midpoints(BlockContext& in, AxisVec& mid, uint32_t& axes) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((axes >> i) & 1) != 0 || in.frames.get(Frames::midpoint_set_key(i)) == 0) continue;
     mid[i] = in.frames.get(Frames::midpoint_key(i));
@@ -20,18 +20,18 @@ void take_remembered_midpoints(Interpreter& in, AxisVec& mid, uint32_t& axes) {
 /// The area of G22 does not hold for the moves made while this exists (M700 15.7 (6)).
 class WithoutStrokeCheck {
  public:
-  explicit WithoutStrokeCheck(Interpreter& in) : in_(in), box_(in.state.stroke_box) { in_.state.stroke_box = 0; }
+  explicit WithoutStrokeCheck(BlockContext& in) : in_(in), box_(in.state.stroke_box) { in_.state.stroke_box = 0; }
   ~WithoutStrokeCheck() { in_.state.stroke_box = box_; }
   WithoutStrokeCheck(const WithoutStrokeCheck&) = delete;
   WithoutStrokeCheck& operator=(const WithoutStrokeCheck&) = delete;
 
  private:
-  Interpreter& in_;
+  BlockContext& in_;
   uint32_t box_;
 };
 
 /// G28 and G30: by the intermediate point to reference position `which`, 0 to 3.
-Execution go_to_reference(Interpreter& in, unsigned which, AxisVec mid, uint32_t axes) {
+Execution go_to_reference(BlockContext& in, unsigned which, AxisVec mid, uint32_t axes) {
   if (axes == 0) return in.raise_code(Condition::words_missing, *in.words.one_shot);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((axes >> i) & 1) == 0) continue;
@@ -52,7 +52,7 @@ Execution go_to_reference(Interpreter& in, unsigned which, AxisVec mid, uint32_t
 }
 
 /// M700 14.13: an angle in machine coordinates as a place on the axis, which counts over its turns.
-double machine_target(const Interpreter& in, unsigned axis, double angle) {
+double machine_target(const BlockContext& in, unsigned axis, double angle) {
   const double at = in.state.machine[axis];
   if (((in.settings.turning >> axis) & 1) != 0)
     return at + turn_to(angle, within_one_turn(at), ((in.settings.short_cut >> axis) & 1) != 0);
@@ -61,17 +61,17 @@ double machine_target(const Interpreter& in, unsigned axis, double angle) {
 }
 
 /// Half of the finest unit of a command: nearer than this an axis is where it should be.
-double same_place(const Interpreter& in) { return in.settings.setting_unit_mm / 2; }
+double same_place(const BlockContext& in) { return in.settings.setting_unit_mm / 2; }
 
 /// Which reference position P names; `fallback` where there is no P.
-bool place_of_p(const Interpreter& in, uint32_t fallback, uint32_t* place) {
+bool place_of_p(const BlockContext& in, uint32_t fallback, uint32_t* place) {
   *place = fallback;
   return !in.words.has(Role::return_place) || whole_number(in.words.get(Role::return_place), place);
 }
 
 }  // namespace
 
-void move_to_place(Interpreter& in, const AxisVec& place, uint32_t axes) {
+void move_to_place(BlockContext& in, const AxisVec& place, uint32_t axes) {
   AxisVec machine = in.state.machine;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     const uint32_t bit = 1u << i;
@@ -86,13 +86,13 @@ void move_to_place(Interpreter& in, const AxisVec& place, uint32_t axes) {
 }
 
 /// M700 12.2, 14.7 (9), 14.8 (6): the tool length compensation of an axis is cancelled for good when it reaches such a place.
-void cancel_length_of(Interpreter& in, uint32_t axes) {
+void cancel_length_of(BlockContext& in, uint32_t axes) {
   if (((axes >> in.state.length_axis) & 1) == 0 || in.state.modal.is(Function::length_off)) return;
   in.state.length_value = 0;
   in.state.modal.set(Function::length_off);
 }
 
-Execution do_reference_return(Interpreter& in) {
+Execution do_reference_return(BlockContext& in) {
   uint32_t axes = in.words.axes;
   AxisVec mid = target_of_words(in);
   const Rules& rules = in.dialect->rules;
@@ -102,14 +102,14 @@ Execution do_reference_return(Interpreter& in) {
   return go_to_reference(in, 0, mid, axes);
 }
 
-Execution do_second_reference(Interpreter& in) {
+Execution do_second_reference(BlockContext& in) {
   // M700 14.8 (1): without P, and with any other P than 2 to 4, the 2nd.
   uint32_t place = 2;
   if (!place_of_p(in, 2, &place) || place < 2 || place > 4) place = 2;
   return go_to_reference(in, place - 1, target_of_words(in), in.words.axes);
 }
 
-Execution do_start_return(Interpreter& in) {
+Execution do_start_return(BlockContext& in) {
   const BlockWords& w = in.words;
   if (!w.m.empty()) return in.raise(Condition::start_return_m, Role::misc_code, w.m[0]);  // App.1 P436
   if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
@@ -142,7 +142,7 @@ Execution do_start_return(Interpreter& in) {
   return Execution::done;
 }
 
-Execution do_reference_check(Interpreter& in) {
+Execution do_reference_check(BlockContext& in) {
   const BlockWords& w = in.words;
   uint32_t place = 1;
   if (!w.m.empty()) return in.raise(Condition::reference_check_m, Role::misc_code, w.m[0]);  // App.1 P435
@@ -156,7 +156,7 @@ Execution do_reference_check(Interpreter& in) {
   return in.state.comp.side != 0 ? in.need(NC_SYNC_POSITION) : Execution::later;
 }
 
-Execution compare_reference(Interpreter& in) {
+Execution compare_reference(BlockContext& in) {
   const BlockWords& w = in.words;
   uint32_t place = 1;
   place_of_p(in, 1, &place);
@@ -175,7 +175,7 @@ Execution compare_reference(Interpreter& in) {
 }
 
 /// M700 14.5 note: `G92 G53 X0 Y0 Z0` takes the G92 shift of the named axes away, without motion.
-Execution clear_shift(Interpreter& in) {
+Execution clear_shift(BlockContext& in) {
   const BlockWords& w = in.words;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
@@ -185,7 +185,7 @@ Execution clear_shift(Interpreter& in) {
   return Execution::done;
 }
 
-Execution do_machine_move(Interpreter& in) {
+Execution do_machine_move(BlockContext& in) {
   const BlockWords& w = in.words;
   for (const FunctionRow* row : w.g)
     if (row->function == Function::coordinate_set && in.dialect->rules.coordinate.machine_code_ends_shift) return clear_shift(in);

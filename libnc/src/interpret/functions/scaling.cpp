@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeastFactor = 1e-6, kLargestFactor = 99.999999;
 
 /// P of G51, else #8072; a parameter out of range is 1.
-bool factor_of(const Interpreter& in, double* factor) {
+bool factor_of(const BlockContext& in, double* factor) {
   const BlockWords& w = in.words;
   if (w.has(Role::scaling_factor)) return in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), factor);
   *factor = in.settings.scaling_factor;
@@ -24,7 +24,7 @@ bool factor_of(const Interpreter& in, double* factor) {
 
 }  // namespace
 
-Execution do_scaling(Interpreter& in) {
+Execution do_scaling(BlockContext& in) {
   const BlockWords& w = in.words;
   const ScalingRules& rules = in.dialect->rules.scaling;
   if (!w.has(Role::scaling_factor) && rules.factor_required) return in.raise(Condition::words_missing, Role::scaling_factor);
@@ -45,13 +45,13 @@ Execution do_scaling(Interpreter& in) {
   return Execution::done;
 }
 
-void end_scaling(Interpreter& in) {
+void end_scaling(BlockContext& in) {
   in.state.scaled = 0;
   in.program_changed();
   in.state.modal.set(Function::scaling_off);
 }
 
-Execution do_rotation(Interpreter& in) {
+Execution do_rotation(BlockContext& in) {
   const BlockWords& w = in.words;
   if (w.has(Role::vector_x) && w.has(Role::vector_y) && w.has(Role::vector_z)) return in.raise_code(Condition::space_conversion, *w.one_shot);  // 13.22
   const PlaneAxes plane = plane_axes(in);
@@ -78,13 +78,13 @@ Execution do_rotation(Interpreter& in) {
   return Execution::done;
 }
 
-void end_rotation(Interpreter& in) {
+void end_rotation(BlockContext& in) {
   in.state.rotated = false;
   in.program_changed();
   in.state.modal.set(Function::rotation_off);
 }
 
-void keep_rotation_center(Interpreter& in, const AxisVec& zero_before) {
+void keep_rotation_center(BlockContext& in, const AxisVec& zero_before) {
   if (!in.state.rotated) return;
   const PlaneAxes plane = plane_axes(in);
   const int axes[2] = {plane.h, plane.v};

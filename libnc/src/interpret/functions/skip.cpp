@@ -10,14 +10,14 @@ namespace nc {
 namespace {
 
 /// #5061...: skip position in workpiece coordinates, tool compensation included (M700 10.11). Axes not named keep their value.
-void store_skip_position(Interpreter& in, const AxisVec& machine, uint32_t axes) {
+void store_skip_position(BlockContext& in, const AxisVec& machine, uint32_t axes) {
   const AxisVec zero = in.zero();
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((axes >> i) & 1) != 0) in.set_table(Frames::skip_key(i), machine[i] - zero[i]);
 }
 
 /// M700 15.5: F1= to F8=, the feed behind each signal; 0 ends the move. Signals that are not named do nothing.
-Execution take_speeds(Interpreter& in, uint32_t* stops) {
+Execution take_speeds(BlockContext& in, uint32_t* stops) {
   const BlockWords& w = in.words;
   if (w.has(Role::skip_signals)) return in.raise(Condition::format_error, Role::skip_signals, w.get(Role::skip_signals));  // which signals count is said already
   const double unit = in.state.modal.is(Function::inch) ? 25.4 : 1.0;
@@ -39,7 +39,7 @@ Execution take_speeds(Interpreter& in, uint32_t* stops) {
 
 }  // namespace
 
-Execution do_skip(Interpreter& in) {
+Execution do_skip(BlockContext& in) {
   const BlockWords& w = in.words;
   // M700 9.3 (8): where the signal comes a table that has places of its own (#2106) cannot be clamped.
   for (uint32_t tables = w.axes & in.settings.index_axes & in.rotary; tables != 0; tables &= tables - 1) {
@@ -79,7 +79,7 @@ Execution do_skip(Interpreter& in) {
   return in.need(NC_SYNC_SKIP | NC_SYNC_POSITION);
 }
 
-Execution skip_answered(Interpreter& in) {
+Execution skip_answered(BlockContext& in) {
   AxisVec at = in.state.machine;  // without a signal: the end point of the block
   if (in.world.skipped) {
     for (unsigned i = 0; i < in.axis_count; ++i) {

@@ -73,7 +73,7 @@ bool circle_through(const Vec3& a, const Vec3& b, const Vec3& c, ThreePoints* ou
 }
 
 /// The three basic axes, #1026 to #1028.
-bool basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
+bool basic_axes(const BlockContext& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const char name = in.settings.plane_basic[i];
     const int index = in.axis_named(name);
@@ -84,7 +84,7 @@ bool basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
 }
 
 /// One half: along its arc, or straight.
-void emit_half(Interpreter& in, const AxisVec& to, const SpaceArc* arc) {
+void emit_half(BlockContext& in, const AxisVec& to, const SpaceArc* arc) {
   const uint32_t all = (1u << in.axis_count) - 1;
   if (arc == nullptr) {
     LinearStyle style;
@@ -103,7 +103,7 @@ void emit_half(Interpreter& in, const AxisVec& to, const SpaceArc* arc) {
 
 /// The first half and the end of its block, so that the machine can stop and be stopped there; going back there reads the block in
 /// hand again.
-void emit_first_half(Interpreter& in, const AxisVec& middle, const SpaceArc* arc) {
+void emit_first_half(BlockContext& in, const AxisVec& middle, const SpaceArc* arc) {
   State& state = in.state;
   const nc_source second = in.source;
   const PathPoint& first = in.points[state.arc_points];
@@ -129,7 +129,7 @@ void emit_first_half(Interpreter& in, const AxisVec& middle, const SpaceArc* arc
   in.source = second;
 }
 
-bool names_centre(const Interpreter& in, const Block& block) {
+bool names_centre(const BlockContext& in, const Block& block) {
   for (const Word& word : block.words)
     if (in.is(word, Role::vector_x) || in.is(word, Role::vector_y) || in.is(word, Role::vector_z)) return true;
   return false;
@@ -137,13 +137,13 @@ bool names_centre(const Interpreter& in, const Block& block) {
 
 }  // namespace
 
-Execution check_in_space_arc(Interpreter& in, const FunctionRow& row) {
+Execution check_in_space_arc(BlockContext& in, const FunctionRow& row) {
   Condition bad = barred(kInSpaceArc, row.function);  // 6.14 (a)
   if (row.function == Function::rotation_on && names_centre(in, *in.block)) bad = Condition::space_conversion_code;  // with I J K it converts in space
   return bad == Condition::none ? Execution::done : in.raise_code(bad, row);
 }
 
-Execution check_space_arc_block(Interpreter& in) {
+Execution check_space_arc_block(BlockContext& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   const bool goes_on = w.one_shot == nullptr && w.cycle == nullptr && w.axes != 0 && is_space_arc(state.modal.of(Mode::motion));
@@ -158,7 +158,7 @@ Execution check_space_arc_block(Interpreter& in) {
   return refused ? in.raise_code(Condition::space_arc_mode, *w.motion) : Execution::done;
 }
 
-Execution move_space_arc(Interpreter& in, const AxisVec& target) {
+Execution move_space_arc(BlockContext& in, const AxisVec& target) {
   State& state = in.state;
   if (state.arc_step == ArcStep::none) {  // the first block: the point on the way
     PathPoint start{in.position()}, middle{target};

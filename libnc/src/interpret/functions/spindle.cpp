@@ -8,7 +8,7 @@ namespace {
 
 constexpr uint32_t kLargestSpeed = 99999999;  // 10.2: eight digits
 
-void emit_control(Interpreter& in, uint32_t index, double value, uint32_t mask, uint32_t bits) {
+void emit_control(BlockContext& in, uint32_t index, double value, uint32_t mask, uint32_t bits) {
   Action& action = in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_CONTROL;
   action.index = index;
@@ -17,7 +17,7 @@ void emit_control(Interpreter& in, uint32_t index, double value, uint32_t mask, 
   action.bits = bits;
 }
 
-Execution speed_word(Interpreter& in, Role word, uint32_t* speed) {
+Execution speed_word(BlockContext& in, Role word, uint32_t* speed) {
   const double raw = in.words.get(word);
   if (whole_number(raw, speed) && *speed <= kLargestSpeed) return Execution::done;
   return in.raise(Condition::value_range, word, raw);
@@ -25,19 +25,19 @@ Execution speed_word(Interpreter& in, Role word, uint32_t* speed) {
 
 }  // namespace
 
-void announce_surface(Interpreter& in) {
+void announce_surface(BlockContext& in) {
   const SpindleControl& spindle = in.state.spindle;
   emit_control(in, NC_CONTROL_SURFACE_SPEED, spindle.axis != 0 ? spindle.surface : 0, 0, spindle.axis != 0 ? 1u << (spindle.axis - 1) : 0);
 }
 
-bool is_clamp_command(const Interpreter& in) {
+bool is_clamp_command(const BlockContext& in) {
   const BlockWords& w = in.words;
   if (w.one_shot == nullptr || w.one_shot->function != Function::coordinate_set || !in.dialect->rules.spindle.limits_by_coordinate_setting) return false;
   // 10.4 (Note 1): without Sclamp an S of G92 in G97 is a spindle speed.
   return in.settings.clamp_command_always || in.state.spindle.axis != 0;
 }
 
-Execution set_surface_speed(Interpreter& in) {
+Execution set_surface_speed(BlockContext& in) {
   State& state = in.state;
   for (const FunctionRow* row : in.words.g) {
     if (mode_of(row->function) != Mode::surface_speed) continue;
@@ -61,7 +61,7 @@ Execution set_surface_speed(Interpreter& in) {
   return Execution::done;
 }
 
-Execution surface_word(Interpreter& in) {
+Execution surface_word(BlockContext& in) {
   uint32_t speed = 0;
   const Execution did = speed_word(in, Role::spindle_speed, &speed);
   if (did != Execution::done) return did;
@@ -71,7 +71,7 @@ Execution surface_word(Interpreter& in) {
   return Execution::done;
 }
 
-Execution set_spindle_clamp(Interpreter& in) {
+Execution set_spindle_clamp(BlockContext& in) {
   const BlockWords& w = in.words;
   const bool s = w.has(Role::spindle_speed) && is_clamp_command(in);
   if (!s && !w.has(Role::clamp_lowest)) return Execution::done;
@@ -88,7 +88,7 @@ Execution set_spindle_clamp(Interpreter& in) {
   return Execution::done;
 }
 
-void end_spindle_control(Interpreter& in) {
+void end_spindle_control(BlockContext& in) {
   const SpindleControl& spindle = in.state.spindle;
   if (spindle.axis != 0) emit_control(in, NC_CONTROL_SURFACE_SPEED, 0, 0, 0);
   if (in.state.spindle_clamped && !in.settings.keeps_clamp) emit_control(in, NC_CONTROL_SPINDLE_CLAMP, 0, 0, 0);

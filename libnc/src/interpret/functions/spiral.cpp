@@ -41,7 +41,7 @@ Spiral spiral_about(const double start[2], const double end[2], const double cen
 
 /// Full turns beyond `delta` from the number of turns that a step gives. M700 6.13, type 2: P70 when the end point that the step
 /// leads to is off the commanded one by more than #8075.
-Execution turns_by_step(Interpreter& in, const Spiral& s, double turns, Role word, double* whole) {
+Execution turns_by_step(BlockContext& in, const Spiral& s, double turns, Role word, double* whole) {
   const double angle = turns * kTurn;
   *whole = std::fmax(0.0, std::nearbyint((angle - s.delta) / kTurn));
   const double off = 2 * s.circle.radius_end * std::fabs(std::sin((angle - s.delta) / 2));
@@ -51,7 +51,7 @@ Execution turns_by_step(Interpreter& in, const Spiral& s, double turns, Role wor
 }
 
 /// A word with the number of pitches, 0 to 99.
-Execution pitches(Interpreter& in, Role word, uint32_t* number) {
+Execution pitches(BlockContext& in, Role word, uint32_t* number) {
   if (!whole_number(in.words.get(word), number) || *number > 99) return in.raise(Condition::value_range, word, in.words.get(word));
   return Execution::done;
 }
@@ -60,7 +60,7 @@ Execution pitches(Interpreter& in, Role word, uint32_t* number) {
 unsigned height_axis(const PlaneAxes& plane) { return plane.plane == Plane::zx ? 1 : plane.plane == Plane::yz ? 0 : 2; }
 
 /// Type 2: Q before K before L.
-Execution turns_of_type_2(Interpreter& in, const Spiral& s, double height, Role height_word, double* whole) {
+Execution turns_of_type_2(BlockContext& in, const Spiral& s, double height, Role height_word, double* whole) {
   const BlockWords& w = in.words;
   if (w.has(Role::spiral_step)) {
     const double step = length_of(in, Role::spiral_step), change = s.circle.radius_end - s.circle.radius_start;
@@ -82,7 +82,7 @@ Execution turns_of_type_2(Interpreter& in, const Spiral& s, double height, Role 
 }
 
 /// Type 1: Pn is n turns or more, less than n + 1.
-Execution turns_of_type_1(Interpreter& in, double* whole) {
+Execution turns_of_type_1(BlockContext& in, double* whole) {
   uint32_t number = 0;
   if (in.words.has(Role::helix_pitches)) {
     const Execution did = pitches(in, Role::helix_pitches, &number);
@@ -94,12 +94,12 @@ Execution turns_of_type_1(Interpreter& in, double* whole) {
 
 }  // namespace
 
-bool means_spiral(const Interpreter& in) {
+bool means_spiral(const BlockContext& in) {
   const BlockWords& w = in.words;
   return in.settings.spiral_type_2 && !w.has(Role::arc_radius) && w.any({Role::spiral_step, Role::spiral_pitches, vector_along(height_axis(plane_axes(in)))});
 }
 
-Execution move_spiral(Interpreter& in, const AxisVec& target, uint32_t commanded, bool ccw) {
+Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw) {
   const PlaneAxes plane = plane_axes(in);
   const BlockWords& w = in.words;
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);

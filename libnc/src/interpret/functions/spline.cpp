@@ -46,7 +46,7 @@ struct Hermite {
   Vec3 way, v0, v1, w0, w1;
 };
 
-void basic_axes(const Interpreter& in, uint8_t (&axis)[3]) {
+void basic_axes(const BlockContext& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const char name = in.settings.plane_basic[i];
     const int index = in.axis_named(name);
@@ -75,7 +75,7 @@ struct Place {
 };
 
 /// Words of a block that only moves spline axes; false when it is something else.
-bool read_block(const Interpreter& in, const Block& block, uint32_t* axes, uint32_t* incremental, AxisVec* value, bool* relative) {
+bool read_block(const BlockContext& in, const Block& block, uint32_t* axes, uint32_t* incremental, AxisVec* value, bool* relative) {
   *axes = *incremental = 0;
   for (const Word& word : block.words) {
     if ((word.flags & (kWordExpression | kWordComma | kWordCount | kWordNoValue)) != 0) return false;
@@ -103,7 +103,7 @@ bool read_block(const Interpreter& in, const Block& block, uint32_t* axes, uint3
 
 /// The next block of the text that does something, when it moves spline axes and nothing else. `at`: where it begins, then where it
 /// ends.
-bool look_ahead(Interpreter& in, const uint8_t (&axis)[3], Place* place, bool* relative, AxisVec* at, Chord* chord) {
+bool look_ahead(BlockContext& in, const uint8_t (&axis)[3], Place* place, bool* relative, AxisVec* at, Chord* chord) {
   const unsigned file = in.state.frame[in.state.depth].program.file;
   for (unsigned i = 0; i < kEmptyBlocks; ++i) {
     const Block* block = in.reader.peek(file, place->offset, place->line);
@@ -130,7 +130,7 @@ bool look_ahead(Interpreter& in, const uint8_t (&axis)[3], Place* place, bool* r
 // ---- conditions ------------------------------------------------------------------------------------------------------
 
 /// (1): the modes in which the spline is formed.
-bool modes_fit(const Interpreter& in, bool exact_stop) {
+bool modes_fit(const BlockContext& in, bool exact_stop) {
   const State& state = in.state;
   const ModalState& modal = state.modal;
   return !exact_stop && state.comp.side == 0 && modal.is(Function::comp_off) && modal.is(Function::cutting_mode) &&
@@ -138,7 +138,7 @@ bool modes_fit(const Interpreter& in, bool exact_stop) {
 }
 
 /// (1) (b), (d): no longer than #8030, nor than eight times a neighbour. A neighbour of no length is none.
-bool length_fits(const Interpreter& in, double length, double before, double behind) {
+bool length_fits(const BlockContext& in, double length, double before, double behind) {
   const double minute = in.settings.spline_minute_length;
   if (minute < 0) return true;
   if (length > minute) return false;
@@ -229,7 +229,7 @@ bool inflected(const Hermite& s) {
 }
 
 /// (2): revises a block whose chord error is above its tolerance; false when the error cancels the spline.
-bool revise(const Interpreter& in, Hermite* s, double error) {
+bool revise(const BlockContext& in, Hermite* s, double error) {
   constexpr unsigned kHalvings = 50;
   const double tolerance = inflected(*s) ? in.settings.spline_tolerance_inflected : in.settings.spline_tolerance_arched;
   if (!(tolerance > 0) || error <= tolerance) return true;
@@ -249,7 +249,7 @@ double radius_of(const Vec3& v, const Vec3& w) {
   return bend > 0 ? dot(v, v) / bend : HUGE_VAL;
 }
 
-void emit_span(Interpreter& in, const MoveFrame& frame, const uint8_t (&axis)[3], const Hermite& s) {
+void emit_span(BlockContext& in, const MoveFrame& frame, const uint8_t (&axis)[3], const Hermite& s) {
   MoveShape shape;
   shape.kind = ShapeKind::spline;
   shape.map = in.state.map;
@@ -264,7 +264,7 @@ void emit_span(Interpreter& in, const MoveFrame& frame, const uint8_t (&axis)[3]
 
 }  // namespace
 
-Execution move_spline(Interpreter& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
+Execution move_spline(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
   SplineWay& past = in.state.spline_way;
   uint8_t axis[3];
   basic_axes(in, axis);

@@ -7,7 +7,7 @@
 
 namespace nc {
 
-Execution do_stroke_check(Interpreter& in) {
+Execution do_stroke_check(BlockContext& in) {
   const BlockWords& w = in.words;
   StrokeBox box;
   uint32_t taken = in.addresses({Role::vector_x, Role::vector_y, Role::vector_z});

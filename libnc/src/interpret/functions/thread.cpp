@@ -13,7 +13,7 @@ constexpr double kMillimetresPerInch = 25.4;
 bool lead_in_range(double lead, double limit) { return lead > 0 && lead < limit; }
 
 /// The lead along the long axis that the words give; it stays in force for the thread blocks behind.
-Execution take_lead(Interpreter& in) {
+Execution take_lead(BlockContext& in) {
   const BlockWords& w = in.words;
   const bool inch = in.state.modal.is(Function::inch);
   const double unit = inch ? kMillimetresPerInch : 1.0;
@@ -42,7 +42,7 @@ Execution take_lead(Interpreter& in) {
 
 }  // namespace
 
-Execution move_thread(Interpreter& in, const AxisVec& target, uint32_t commanded) {
+Execution move_thread(BlockContext& in, const AxisVec& target, uint32_t commanded) {
   const BlockWords& w = in.words;
   if (commanded == 0 && !w.any({Role::fine_thread_lead, Role::thread_lead})) return Execution::done;  // nothing is cut, so no lead is missing
   const Execution did = take_lead(in);

@@ -19,7 +19,7 @@ constexpr uint8_t kOrder[6][3] = {
 };
 
 /// Of a set of basic axes, those that the machine has.
-uint32_t axes_of(const Interpreter& in, uint8_t basic) {
+uint32_t axes_of(const BlockContext& in, uint8_t basic) {
   uint32_t axes = 0;
   for (unsigned i = 0; i < 3; ++i) {
     const int axis = in.axis_called(basic_along(i));
@@ -30,7 +30,7 @@ uint32_t axes_of(const Interpreter& in, uint8_t basic) {
 
 }  // namespace
 
-Execution do_tool_change_return(Interpreter& in) {
+Execution do_tool_change_return(BlockContext& in) {
   if (in.words.axes != 0) return in.raise_code(Condition::format_error, *in.words.one_shot);
   const auto& order = kOrder[in.words.one_shot->number];
   AxisVec place;

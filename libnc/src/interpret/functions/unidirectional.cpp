@@ -4,7 +4,7 @@
 
 namespace nc {
 
-Execution do_unidirectional(Interpreter& in) {
+Execution do_unidirectional(BlockContext& in) {
   const uint32_t axes = in.words.axes;
   const AxisVec target = target_of_words(in);
   AxisVec before = target;

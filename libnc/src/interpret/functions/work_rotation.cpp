@@ -18,7 +18,7 @@ constexpr ParameterOf kVectorV = {Parameter::work_turn_vector, 1};
 constexpr ParameterOf kAngle = Parameter::work_turn_angle;
 constexpr double kLargestVector = 999999.999999, kLargestAngle = 360;
 
-bool store(Interpreter& in, ParameterOf parameter, double value) {
+bool store(BlockContext& in, ParameterOf parameter, double value) {
   constexpr double kDecimals = 1e9;
   const double steps = std::nearbyint(std::fabs(value) * kDecimals);
   char text[40];
@@ -32,7 +32,7 @@ bool store(Interpreter& in, ParameterOf parameter, double value) {
 
 }  // namespace
 
-Execution do_work_rotation(Interpreter& in) {
+Execution do_work_rotation(BlockContext& in) {
   const BlockWords& w = in.words;
   // Axis words, P and R are data of another G10.
   if (w.axes != 0 || w.any({Role::input_number, Role::input_amount})) return in.raise_code(Condition::format_error, *w.one_shot);

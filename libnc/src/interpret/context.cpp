@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "interpret/context.hpp"
+
+#include <cstring>
+#include <new>
+
+#include "interpret/journal_keys.hpp"
+#include "interpret/shared_tables.hpp"
+
+namespace nc {
+
+void BlockContext::refresh_axis_names() {
+  for (int8_t& a : axis_of) a = -1;
+  axis_letters = 0;
+  for (unsigned i = 0; i < axis_count; ++i) {
+    axis_of[address_of(system->axis[i].name)] = static_cast<int8_t>(i);
+    axis_letters |= 1u << address_of(system->axis[i].name);
+  }
+  const char hypothetical = state.mill.hypothetical_letter;
+  if (hypothetical == 0) return;
+  axis_of[address_of(hypothetical)] = static_cast<int8_t>(state.map.rotary);
+  axis_letters |= 1u << address_of(hypothetical);
+}
+
+AxisVec BlockContext::polar_position() const {
+  const AxisVec& z = zero();
+  AxisVec offset;
+  for (unsigned i = 0; i < kMaxAxes; ++i) offset[i] = z[i] + state.applied[i];
+  return to_programmed(state.map, Affine::translation(offset), state.machine);
+}
+
+void BlockContext::set_table(unsigned key, double value) {
+  variables.note(state.seq + 1, Variables::kForeignKey + key, frames.get(key));
+  frames.set(key, value);
+  if (frames.is_tool_key(key)) take_changed_amounts(*this);
+}
+
+void BlockContext::set_note(unsigned key, double value) {
+  const double old = notes.get(key);
+  if (std::memcmp(&old, &value, sizeof old) == 0) return;  // vacant arguments are NaN
+  variables.note(state.seq + 1, kNoteKey + key, old);
+  notes.set(key, value);
+}
+
+bool BlockContext::set_parameter(const char* key, int axis, const char* text) {
+  unsigned index = 0;
+  double old = 0;
+  if (parameters.set(*dialect, key, axis, text, &index, &old) != NC_OK) return false;
+  variables.note(state.seq + 1, kParameterKey + index, old);
+  refresh_settings();
+  return true;
+}
+
+bool BlockContext::set_parameter(ParameterOf parameter, const char* text) {
+  char key[kParameterKeySize];
+  int bit = -1;
+  return parameter_place(*dialect, parameter, key, &bit) && bit < 0 && set_parameter(key, -1, text);
+}
+
+void BlockContext::refresh_settings() {
+  settings_stale_ = false;
+  settings_of_moves_stale_ = true;
+  settings = parameters.settings(*dialect);
+  for (uint32_t* axes : {&settings.turning, &settings.short_cut, &settings.machine_turn, &settings.tool_change_axes})
+    *axes &= axes == &settings.tool_change_axes ? (1u << axis_count) - 1 : rotary;
+  settings.index_axes &= (1u << axis_count) - 1;
+  settings.mirror_axes &= (1u << axis_count) - 1;
+  reader.check_block_parity(settings.parity_units);
+  reader.semicolon_begins_comment(settings.semicolon_comments);
+  variables.share(settings.shared_100, settings.shared_500);
+  code_calls = dialect->lex->macros ? read_code_calls(parameters, *dialect) : CodeCalls{};
+  codes_call = code_calls.any || vendor->any();
+}
+
+Item& BlockContext::next_item(ItemKind kind, bool block_end) {
+  Item& item = queue_[(head_ + queued_) % kQueue];
+  ++queued_;
+  item.kind = kind;
+  item.block_end = block_end;
+  item.source = source;
+  return item;
+}
+
+Item& BlockContext::emit(ItemKind kind) {
+  Item& item = next_item(kind, kind == ItemKind::mark);
+  if (kind != ItemKind::mark) world_fresh = false;
+  switch (kind) {
+    case ItemKind::move:
+    case ItemKind::mark: break;  // whoever emits one makes it in one go
+    case ItemKind::action: new (&item.action) Action(); break;
+    case ItemKind::gate: new (&item.gate) Gate(); break;
+    case ItemKind::sync: new (&item.sync) Sync(); break;
+    case ItemKind::alarm: new (&item.alarm) Fault(); break;
+    case ItemKind::end: new (&item.end) End(); break;
+  }
+  return item;
+}
+
+Move& BlockContext::emit_move(const AxisVec& start, const AxisVec& end) {
+  Item& item = emit(ItemKind::move);
+  // Made in one go: clearing three positions only to fill them would be felt in every block.
+  Move& move = *new (&item.move) Move(start, end, state.comp);
+  move.stroke_box = state.stroke_box;
+  if (settings_of_moves_stale_) [[unlikely]] take_settings_of_moves();
+  move.settings = settings_of_moves_;
+  return move;
+}
+
+[[gnu::noinline]] void BlockContext::take_settings_of_moves() {
+  settings_of_moves_stale_ = false;
+  settings_of_moves_ = motion_settings.intern({settings.accuracy, settings.fairing, settings.filters, settings.index_axes, settings.machine_turn});
+}
+
+void BlockContext::keep_call() {
+  ++state.seq;
+  state.repeat = {};
+  if (state.interrupt_depth != 0) note_interrupt_items();
+  checkpoints_.save(state);
+}
+
+void BlockContext::emit_stop_point(bool resume) {
+  Item& item = emit(ItemKind::mark);
+  item.block_end = false;
+  new (&item.mark) Mark{position(), modals.intern(state.modal), resume ? state.seq : 0, 0,
+                        (state.control_3003 & 1) == 0 && !state.modal.is(Function::tapping_mode), false, resume};
+}
+
+ModalId BlockContext::modal_now(bool executable) {
+  // Macro statements command nothing, most moves neither: behind them the modal state is that of the mark before.
+  if (!modal_unchanged_) newest_modal_ = modals.intern(state.modal);
+  if (modal_unchanged_ && !finished_behind_) return newest_modal_;
+  // M700 13.5.5: G codes beside G65 are pre-read modals; the block in execution is still the one before the call.
+  finished_behind_ = !executable;
+  if (executable) finished_modal = state.modal;
+  return newest_modal_;
+}
+
+void BlockContext::finish_block(bool stop, bool executable) {
+  ++state.seq;
+  state.repeat = next_repeat_;
+  next_repeat_ = {};
+  if (state.interrupt_depth != 0) note_interrupt_items();
+  if (stop && (state.end_seen ||             // the program is over: nothing is left that a start could go on with
+               state.nurbs.active() ||       // M700 6.15: single block stops at the last control point only
+               (state.control_3003 & 1) ||   // M700 10.5: single block suppressed
+               (state.special != 0 && state.modal.is(Function::tapping_mode))))  // M700 7.11 (4)
+    stop = false;
+  Item& item = next_item(ItemKind::mark, executable);
+  new (&item.mark) Mark{position(), modal_now(executable), state.seq, 0, stop, true, true, begins_again};
+  begins_again = false;
+  modal_unchanged_ = false;
+  world_fresh = false;
+  if (state.end_seen) emit_end();
+  checkpoints_.save(state);
+}
+
+void BlockContext::emit_end() {
+  Item& end = emit(ItemKind::end);
+  end.end.ok = true;
+  end.end.work = position();
+  end.end.modal = modals.intern(state.modal);
+  ended = true;
+}
+
+void BlockContext::note_interrupt_items() {
+  for (unsigned i = 0; i < queued_; ++i) {
+    const Item& item = queue_[(head_ + i) % kQueue];
+    const bool code = item.kind == ItemKind::action && item.action.kind <= NC_ACTION_B;
+    if (item.kind == ItemKind::move || code) state.interrupt_moved = true;
+  }
+}
+
+}  // namespace nc
