@@ -41,6 +41,22 @@ void expect_same(const AxisVec& a, const AxisVec& b, double size, const char* wh
   for (unsigned i = 0; i < kMaxAxes; ++i) EXPECT_NEAR(a[i], b[i], 1e-12 * size) << what << ", axis " << i;
 }
 
+// M98 I J makes its angle of two directions and adds it up: quarters exchange coordinates to the last bit (13.3.3).
+TEST(AffineAngle, SumsOfQuartersInRadiansAreExact) {
+  for (const double step : {std::atan2(1, 0) - std::atan2(0, 1), std::atan2(-7, 0) - std::atan2(0, 3), std::atan2(1, 1) - std::atan2(-1, 1)}) {
+    double angle = 0;
+    for (int n = 1; n <= 20; ++n) {
+      angle += step;
+      const Affine::Angle turn = Affine::Angle::radians(angle);
+      EXPECT_EQ(std::fabs(turn.cos) + std::fabs(turn.sin), 1) << step << " " << n;
+      EXPECT_EQ(turn.cos * turn.sin, 0) << step << " " << n;
+      EXPECT_NEAR(turn.cos, std::cos(angle), 1e-12);
+      EXPECT_NEAR(turn.sin, std::sin(angle), 1e-12);
+    }
+  }
+  EXPECT_NE(Affine::Angle::radians(1e-12).sin, 0);  // what is commanded stays an angle, however small
+}
+
 TEST(Affine, TogetherTheyAreOneBehindTheOther) {
   Random random(1);
   for (int run = 0; run < 2000; ++run) {

@@ -28,7 +28,13 @@ Affine::Angle Affine::Angle::degrees(double angle) {
   return radians(angle * std::numbers::pi / 180);
 }
 
-Affine::Angle Affine::Angle::radians(double angle) { return {std::cos(angle), std::sin(angle)}; }
+Affine::Angle Affine::Angle::radians(double angle) {
+  // An angle between two directions, and a sum of some of them, is off by a few units of its last place: quarters are still meant.
+  constexpr double kQuarter = std::numbers::pi / 2, kLastPlaces = 1e-14;
+  const double turned = std::remainder(angle, 4 * kQuarter), quarters = std::nearbyint(turned / kQuarter);
+  if (std::fabs(turned - quarters * kQuarter) <= kLastPlaces * (1 + std::fabs(angle))) return degrees(quarters * 90);
+  return {std::cos(angle), std::sin(angle)};
+}
 
 Affine Affine::stretch(unsigned axis, double factor, double center) {
   Affine map;
