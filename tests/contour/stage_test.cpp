@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "alarm/condition.hpp"
 #include "contour/contour.hpp"
-#include "dialect/alarms.hpp"
 
 namespace nc::test {
 namespace {

@@ -134,6 +134,39 @@ TEST(M700Accuracy, SplineAndAccelerationClamps) {  // 13.18 (3); 13.17.1 (2)
   EXPECT_TRUE(std::isinf(acceleration_clamp(machine(), 0, 1, 1)));
 }
 
+/// What moves carry of the parameters gives the same speeds where they meet as the parameters do themselves.
+TEST(M700Accuracy, JointOfMoves) {
+  AccuracyParameters p = machine();
+  p.radius_percent = 20;
+  p.arc_joint_mm_min = 80;
+  p.acceleration_clamp = true;
+  AccuracyMove move;
+  move.axis_count = 2;
+  move.fine_segments = true;
+  AccuracyLimits limits = accuracy_limits(p, move);
+  EXPECT_TRUE(limits.ask_of_joint());
+  AccuracyJoint joint;
+  joint.length_before_mm = 1;
+  joint.length_behind_mm = 3;
+  for (const double theta : {5.0, 12.0, 60.0, 90.0, 170.0}) {
+    joint.turn = 2 * std::sin(theta * M_PI / 360);
+    joint.both_lines = joint.arc_ends = false;
+    const double corner = corner_speed(p, theta), clamp = acceleration_clamp(p, theta, 1, 3);
+    const double between = 60 * joint_speed(limits, limits, joint);
+    EXPECT_EQ(std::isinf(between), std::isinf(corner));
+    if (!std::isinf(corner)) {
+      EXPECT_NEAR(between, corner, 1e-5 * corner) << theta;
+    }
+    joint.both_lines = true;
+    EXPECT_NEAR(60 * joint_speed(limits, limits, joint), std::min(corner, clamp), 1e-5 * clamp) << theta;
+    joint.both_lines = false;
+    joint.arc_ends = true;
+    EXPECT_NEAR(60 * joint_speed(limits, limits, joint), arc_joint_speed(p, theta), 1e-5 * 80) << theta;
+  }
+  EXPECT_FALSE(AccuracyLimits{}.ask_of_joint());
+  EXPECT_TRUE(std::isinf(joint_speed({}, {}, joint)));
+}
+
 TEST(M700Accuracy, ArcEntranceAndExit) {  // 13.15 "arc entrance/exit"
   AccuracyParameters p = machine();
   EXPECT_TRUE(std::isinf(arc_joint_speed(p, 0)));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "dialect/dialect.hpp"
 #include "motion/limits.hpp"
 
 namespace nc {
@@ -13,6 +14,7 @@ MotionLimits fast_machine() {
   MotionLimits limits;
   limits.axis_count = 2;
   for (unsigned i = 0; i < 2; ++i) limits.axis[i] = AxisLimits{1000, 1000, 50000, 0, 0};
+  limits.accuracy_joint_speed = dialect(NC_DIALECT_M700).rules.motion.accuracy_joint_speed;
   return limits;
 }
 
@@ -101,6 +103,17 @@ TEST(M700Limits, ArcEntranceAndExit) {  // #1209
   EXPECT_GT(joint_speed(a, b), 100);
   b.accuracy.arc_joint = 30;
   EXPECT_NEAR(joint_speed(a, b), 30, 1e-6);
+}
+
+TEST(M700Limits, AFamilyWithoutTheRuleAsksNothing) {
+  MotionLimits limits = fast_machine();
+  limits.accuracy_joint_speed = dialect(NC_DIALECT_DGSHAPE).rules.motion.accuracy_joint_speed;
+  const Segment a = line(50, 0);
+  Segment b = turned();
+  const double free_speed = joint_speed(a, b);
+  b.accuracy.bend_acceleration = 5;
+  EXPECT_LT(joint_speed(a, b), free_speed);
+  EXPECT_EQ(std::sqrt(joint_between(a, shape_of(a, limits), b, shape_of(b, limits), limits).speed2), free_speed);
 }
 
 TEST(M700Limits, SpeedClampIsTheSegmentsLimit) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "dialect/alarms.hpp"
+#include "alarm/condition.hpp"
 #include "path_builder.hpp"
 
 namespace nc::test {

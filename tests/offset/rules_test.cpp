@@ -2,7 +2,7 @@
 // Rule by rule, with the numbers of the manuals' examples: M700 12.4, DGSHAPE G39-G42 and 1-6.
 #include <gtest/gtest.h>
 
-#include "dialect/alarms.hpp"
+#include "alarm/condition.hpp"
 #include "path_builder.hpp"
 
 namespace nc::test {

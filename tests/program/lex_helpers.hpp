@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "dialect/alarms.hpp"
+#include "alarm/condition.hpp"
 #include "dialect/iso_lexer.hpp"
 #include "program/store.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "dialect/alarms.hpp"
+#include "alarm/condition.hpp"
 
 namespace nc {
 namespace {

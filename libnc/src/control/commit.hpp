@@ -9,9 +9,9 @@
 #include "filter/filter_parameters.hpp"
 #include "frame/affine.hpp"
 #include "frame/stroke_box.hpp"
-#include "interpolate/record.hpp"
 #include "nc/control.h"
 #include "path/shape.hpp"
+#include "ring/record.hpp"
 
 namespace nc {
 

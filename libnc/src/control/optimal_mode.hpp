@@ -2,8 +2,8 @@
 // What the time-optimal mode does not move, and the alarm that says so before the move begins.
 #pragma once
 
-#include "dialect/alarms.hpp"
-#include "interpolate/record.hpp"
+#include "alarm/condition.hpp"
+#include "ring/record.hpp"
 
 namespace nc {
 

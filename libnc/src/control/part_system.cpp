@@ -57,6 +57,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.spindle_count = system.spindle_count == 0 ? 1u : system.spindle_count;
   ex.cycle_s = config.cycle_s;
   ex.max_feed_override = config.max_feed_override;
+  ex.accuracy_joint_speed = dialect.rules.motion.accuracy_joint_speed;
   ex.capacity = config.look_ahead;
   ex.tells_marks = config.system_count > 1;
   ex.filters = commit.filters;

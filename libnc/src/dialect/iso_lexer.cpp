@@ -8,8 +8,8 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "alarm/condition.hpp"
 #include "base/utf8.hpp"
-#include "dialect/alarms.hpp"
 #include "macro/compile.hpp"
 #include "program/cursor.hpp"
 

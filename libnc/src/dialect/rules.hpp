@@ -12,6 +12,7 @@ namespace nc {
 struct AccuracyParameters;
 struct AccuracyMove;
 struct AccuracyLimits;
+struct AccuracyJoint;
 struct FilterParameters;
 struct FilteredMove;
 struct FilterTimes;
@@ -225,6 +226,8 @@ struct MotionRules {
   /// What high-accuracy control asks of a move that is made in it (M700 13.15, 13.17.1). nullptr: no code
   /// of the family begins it (DGSHAPE).
   AccuracyLimits (*accuracy_limits)(const AccuracyParameters& parameters, const AccuracyMove& move);
+  /// Highest speed at the joint of two moves that are made in it, mm/s; infinite = any (M700 13.15, 13.17.1). nullptr as above.
+  double (*accuracy_joint_speed)(const AccuracyLimits& before, const AccuracyLimits& behind, const AccuracyJoint& joint);
   /// Highest speed of a part of a spline, mm/min, by its smallest radius; infinite = any (M700 13.18 (3)).
   /// nullptr: the family has no splines (DGSHAPE).
   double (*spline_speed_mm_min)(const AccuracyParameters& parameters, double radius_mm);

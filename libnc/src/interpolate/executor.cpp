@@ -34,6 +34,7 @@ MotionLimits motion_limits(const ExecutorConfig& config) {
   for (unsigned i = 0; i < kMaxAxes; ++i) limits.axis[i] = config.limits[i];
   limits.cycle_s = config.cycle_s;
   limits.max_feed_override = config.max_feed_override;
+  limits.accuracy_joint_speed = config.accuracy_joint_speed;
   return limits;
 }
 

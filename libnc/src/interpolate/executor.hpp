@@ -5,8 +5,9 @@
 
 #include "base/arena.hpp"
 #include "interpolate/axis_parameters.hpp"
-#include "interpolate/record.hpp"
+#include "motion/axis_limits.hpp"
 #include "nc/run.h"
+#include "ring/record.hpp"
 
 namespace nc {
 
@@ -21,6 +22,7 @@ struct ExecutorConfig {
   uint8_t axis_spindle[kMaxAxes] = {};  ///< number of the spindle that is this axis (M700 10.5), 0 = none
   double cycle_s = 0.001;
   double max_feed_override = 2.0;
+  AccuracyJointSpeed accuracy_joint_speed = nullptr;  ///< MotionLimits::accuracy_joint_speed
   uint32_t capacity = 1024;  ///< records in the ring, power of two
   bool tells_marks = false;  ///< executed_mark() is asked
   bool filters = false;      ///< there may be filters behind interpolation, each mean up to kLongestMean

@@ -4,8 +4,8 @@
 // the planner is asked for in vain it makes itself, by going through the plan ever slower.
 #pragma once
 
+#include "base/triple_buffer.hpp"
 #include "interpolate/brake.hpp"
-#include "interpolate/exchange.hpp"
 #include "motion/optimal/plan_cell.hpp"
 
 namespace nc {

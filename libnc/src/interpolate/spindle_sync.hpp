@@ -12,8 +12,8 @@
 #include <cmath>
 
 #include "interpolate/brake.hpp"
-#include "interpolate/record.hpp"
 #include "motion/optimal/piece.hpp"
+#include "ring/record.hpp"
 
 namespace nc {
 

@@ -3,9 +3,9 @@
 // hold the move back while a later block, or the operator, writes other ones.
 #pragma once
 
+#include "dialect/accuracy.hpp"
 #include "fairing/rule.hpp"
 #include "filter/filter_parameters.hpp"
-#include "motion/accuracy.hpp"
 
 namespace nc {
 

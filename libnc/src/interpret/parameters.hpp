@@ -3,10 +3,10 @@
 #pragma once
 
 #include "base/arena.hpp"
+#include "dialect/accuracy.hpp"
 #include "dialect/dialect.hpp"
 #include "fairing/rule.hpp"
 #include "filter/filter_parameters.hpp"
-#include "motion/accuracy.hpp"
 
 namespace nc {
 

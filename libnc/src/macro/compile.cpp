@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "macro/compile.hpp"
 
-#include "dialect/alarms.hpp"
+#include "alarm/condition.hpp"
 
 namespace nc {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "dialect/alarms.hpp"
+#include "alarm/condition.hpp"
 #include "macro/compile.hpp"
 
 namespace nc {

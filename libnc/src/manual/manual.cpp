@@ -9,7 +9,7 @@
 
 #include "frame/rotary.hpp"
 
-#include "interpolate/law.hpp"
+#include "motion/law.hpp"
 
 namespace nc {
 namespace {

@@ -3,8 +3,9 @@
 // trapezoid of its own that can always stop at its soft limit.
 #pragma once
 
-#include "interpolate/record.hpp"
+#include "motion/axis_limits.hpp"
 #include "nc/run.h"
+#include "stream/stream.hpp"
 
 namespace nc {
 

@@ -289,11 +289,10 @@ Joint joint_by_axes(const Segment& a, const SegmentShape& sa, const Segment& b, 
 
 bool is_arc(const Segment& s) { return s.curve.circular && s.curve.shape == nullptr; }
 
-/// M700 13.15: speed that optimum corner deceleration and the control of arc entrance and exit leave.
+/// Speed that high-accuracy control leaves at the joint.
 double accuracy_speed(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
                       const MotionLimits& limits) {
-  const double step = static_cast<double>(b.accuracy.corner_step), smooth = static_cast<double>(b.accuracy.smooth_cos);
-  const double arc_joint = static_cast<double>(b.accuracy.arc_joint);
+  if (limits.accuracy_joint_speed == nullptr) return HUGE_VAL;
   double aa = 0, bb = 0, turn2 = 0;
   for (unsigned i = 0; i < limits.axis_count; ++i) aa += sa.exit[i] * sa.exit[i], bb += sb.entry[i] * sb.entry[i];
   if (!(aa > 0) || !(bb > 0)) return HUGE_VAL;
@@ -301,29 +300,20 @@ double accuracy_speed(const Segment& a, const SegmentShape& sa, const Segment& b
     const double change = sb.entry[i] / std::sqrt(bb) - sa.exit[i] / std::sqrt(aa);
     turn2 += change * change;
   }
-  // The change of velocity at a speed of 1: 2 sin(theta / 2).
-  const double turn = std::sqrt(turn2);
-  const double judged = b.accuracy.judged_turn < 0.0f ? turn : static_cast<double>(b.accuracy.judged_turn);  // 13.17.1 (3)
-  double v = HUGE_VAL;
-  if (step > 0 && 1 - 0.5 * judged * judged < smooth) {
-    v = step / judged;
-    const float least = std::min(a.accuracy.corner_least, b.accuracy.corner_least);  // #2096, where every moving axis has one
-    v = std::max(v, static_cast<double>(least));
-  }
-  // 13.17.1 (2): the direction turns while the mean of two lines is gone.
-  const double bend = static_cast<double>(b.accuracy.bend_acceleration);
-  if (bend > 0 && turn > 0 && !a.curve.circular && !b.curve.circular)
-    v = std::min(v, std::sqrt(0.5 * bend * (a.curve.length + b.curve.length) / turn));
-  if (arc_joint > 0 && is_arc(a) != is_arc(b)) v = std::min(v, arc_joint);
-  return v;
+  AccuracyJoint joint;
+  joint.turn = std::sqrt(turn2);
+  joint.length_before_mm = a.curve.length;
+  joint.length_behind_mm = b.curve.length;
+  joint.both_lines = !a.curve.circular && !b.curve.circular;
+  joint.arc_ends = is_arc(a) != is_arc(b);
+  return limits.accuracy_joint_speed(a.accuracy, b.accuracy, joint);
 }
 
 }  // namespace
 
 Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
                     const MotionLimits& limits) {
-  const bool accurate = b.accuracy.corner_step > 0 || b.accuracy.arc_joint > 0 || b.accuracy.bend_acceleration > 0;
-  return joint_by_axes(a, sa, b, sb, accurate ? accuracy_speed(a, sa, b, sb, limits) : HUGE_VAL, limits);
+  return joint_by_axes(a, sa, b, sb, b.accuracy.ask_of_joint() ? accuracy_speed(a, sa, b, sb, limits) : HUGE_VAL, limits);
 }
 
 double reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape,

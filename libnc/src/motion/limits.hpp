@@ -3,7 +3,8 @@
 // no axis limit is broken by, whatever the override does. docs/motion.md derives every formula in here.
 #pragma once
 
-#include "interpolate/record.hpp"
+#include "motion/axis_limits.hpp"
+#include "ring/segment.hpp"
 
 namespace nc {
 
@@ -27,6 +28,7 @@ struct MotionLimits {
   AxisLimits axis[kMaxAxes];
   double cycle_s = 0.001;
   double max_feed_override = 2.0;
+  AccuracyJointSpeed accuracy_joint_speed = nullptr;  ///< the family's; nullptr: it has no high-accuracy control
 };
 
 /// What joints and limits need to know of a segment's geometry.

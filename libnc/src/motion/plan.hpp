@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/arena.hpp"
-#include "interpolate/exchange.hpp"
+#include "base/triple_buffer.hpp"
 
 namespace nc {
 

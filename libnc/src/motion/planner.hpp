@@ -15,6 +15,7 @@
 
 #include "motion/limits.hpp"
 #include "motion/plan.hpp"
+#include "ring/record.hpp"
 
 namespace nc {
 

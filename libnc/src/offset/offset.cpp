@@ -6,7 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "dialect/alarms.hpp"
+#include "alarm/condition.hpp"
 
 namespace nc {
 

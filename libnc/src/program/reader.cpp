@@ -6,7 +6,7 @@
 // as it is.
 #include <cstring>
 
-#include "dialect/alarms.hpp"
+#include "alarm/condition.hpp"
 #include "program/cursor.hpp"
 #include "program/store.hpp"
 #include "program/tape.hpp"

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "dialect/alarms.hpp"
+#include "alarm/condition.hpp"
 #include "program/cursor.hpp"
 #include "program/store.hpp"
 

@@ -2,8 +2,8 @@
 // The program store: texts by name and O number, read through a read-at callback in windows, never whole.
 #pragma once
 
+#include "alarm/condition.hpp"
 #include "base/arena.hpp"
-#include "dialect/alarms.hpp"
 #include "nc/control.h"
 #include "program/block.hpp"
 #include "program/window.hpp"

@@ -39,6 +39,7 @@
 
 #include <cstdint>
 
+#include "alarm/fault.hpp"
 #include "nc/item.h"
 
 namespace nc {
@@ -60,20 +61,6 @@ using ModalId = uint32_t;     ///< of an interned modal snapshot
 using SettingsId = uint32_t;  ///< of interned MotionSettings (interpret/motion_settings.hpp)
 
 enum class ItemKind : uint8_t { move, action, gate, sync, mark, alarm, end };
-
-/// What an alarm is about. Each dialect's table gives it the code and the text of its manual (dialect/alarms.hpp).
-/// Names are the condition, not a family's number.
-enum class Condition : uint16_t;
-
-/// An alarm on its way: data, turned into words by the dialect when someone reads it.
-struct Fault {
-  Condition condition{};
-  int8_t axis = -1;    ///< axis index or -1
-  char letter = 0;     ///< address that caused it, 0 = none
-  bool has_value = false;
-  double value = 0;    ///< its value, or the number of a variable, a program, ...
-  const char* function = nullptr;  ///< function or operator that has no result for `value`; a literal
-};
 
 /// How tool radius compensation acts on a move. side 0 = the move is not compensated.
 struct Compensation {

@@ -67,7 +67,7 @@ inline constexpr Rules kRules = {
                    .axes_required = false,
                    .vector_turns_work = false},
     .program = {.macro_interrupt = false, .motion_outlives_end = false},
-    .motion = {.accuracy_limits = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
+    .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
 };
 
 }  // namespace nc::dgshape

@@ -153,6 +153,24 @@ AccuracyLimits accuracy_limits(const AccuracyParameters& p, const AccuracyMove& 
   return limits;
 }
 
+double joint_speed(const AccuracyLimits& before, const AccuracyLimits& behind, const AccuracyJoint& joint) {
+  double v = kInfinite;
+  const double step = static_cast<double>(behind.corner_step), smooth = static_cast<double>(behind.smooth_cos);
+  const double judged = behind.judged_turn < 0.0f ? joint.turn : static_cast<double>(behind.judged_turn);  // 13.17.1 (3)
+  if (step > 0 && 1 - 0.5 * judged * judged < smooth) {
+    v = step / judged;
+    const float least = std::min(before.corner_least, behind.corner_least);  // #2096, where every moving axis has one
+    v = std::max(v, static_cast<double>(least));
+  }
+  // 13.17.1 (2): the direction turns while the mean of two lines is gone.
+  const double bend = static_cast<double>(behind.bend_acceleration);
+  if (bend > 0 && joint.turn > 0 && joint.both_lines)
+    v = std::min(v, std::sqrt(0.5 * bend * (joint.length_before_mm + joint.length_behind_mm) / joint.turn));
+  const double arc_joint = static_cast<double>(behind.arc_joint);
+  if (arc_joint > 0 && joint.arc_ends) v = std::min(v, arc_joint);  // 13.15 "arc entrance/exit"
+  return v;
+}
+
 // M700 13.15 "circular error radius compensation control for each axis"
 
 double radius_compensation(double coefficient, double share, double phi_deg) { return coefficient * share * std::cos(phi_deg * kDegree); }

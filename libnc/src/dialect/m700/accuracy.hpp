@@ -4,7 +4,8 @@
 // ms where the manual has them, so that its numbers can be put in as they stand.
 #pragma once
 
-#include "motion/accuracy.hpp"
+#include "dialect/accuracy.hpp"
+#include "ring/accuracy_limits.hpp"
 
 namespace nc::m700 {
 
@@ -71,6 +72,9 @@ double path_clamp(const double* clamp_mm_min, const double* direction, unsigned 
 
 /// What the mode asks of a move (13.15, 13.17.1).
 AccuracyLimits accuracy_limits(const AccuracyParameters& p, const AccuracyMove& move);
+/// What it leaves of the speed where two moves meet, mm/s: corner_speed(), acceleration_clamp() and arc_joint_speed() by what the moves
+/// carry of the parameters.
+double joint_speed(const AccuracyLimits& before, const AccuracyLimits& behind, const AccuracyJoint& joint);
 
 // ---- circular error radius compensation, #8107, #8108, #2069 ---------------------------------------------------------
 

@@ -72,6 +72,7 @@ inline constexpr Rules kRules = {
                    .vector_turns_work = true},
     .program = {.macro_interrupt = true, .motion_outlives_end = true},
     .motion = {.accuracy_limits = accuracy_limits,
+               .accuracy_joint_speed = joint_speed,
                .spline_speed_mm_min = spline_speed_clamp,
                .filter_times = filter_times},
 };

@@ -4,7 +4,7 @@
 // some cell; the scan takes it when it has not left that cell, and else goes on as before (docs/motion-optimal.md).
 #pragma once
 
-#include "interpolate/exchange.hpp"
+#include "base/triple_buffer.hpp"
 #include "motion/optimal/line_law.hpp"
 #include "motion/optimal/path_builder.hpp"
 #include "motion/optimal/windows.hpp"

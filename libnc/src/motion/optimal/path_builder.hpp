@@ -5,10 +5,10 @@
 #pragma once
 
 #include "base/arena.hpp"
-#include "interpolate/record.hpp"
 #include "motion/optimal/plan_cell.hpp"
 #include "motion/optimal/smooth.hpp"
 #include "motion/optimal/transition.hpp"
+#include "ring/record.hpp"
 
 namespace nc::optimal {
 

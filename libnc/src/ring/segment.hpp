@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies in the ring between feeder and scan: items that are committed and never change any more.
+// A move as it is committed: its curve in axis coordinates, and what planner and interpolator have to know of it.
 #pragma once
 
 #include "filter/filter_times.hpp"
 #include "frame/affine.hpp"
-#include "motion/accuracy.hpp"
 #include "path/curve.hpp"
+#include "ring/accuracy_limits.hpp"
 #include "stream/stream.hpp"
 
 namespace nc {
-
-/// Limits of one part system, per axis, mm/s or deg/s and so on. 0 = no limit.
-struct AxisLimits {
-  double rapid = 0, velocity = 0, acceleration = 0, jerk = 0, in_position = 0;
-};
 
 /// Committed geometry and its own speed limits. The plan over it (motion/plan.hpp) may change, this may not.
 struct Segment {
@@ -48,24 +43,6 @@ struct Segment {
                            ///< acceleration limit
   double acceleration = 0;  ///< path acceleration that no axis limit is broken by
   uint32_t ordinal = 0;     ///< counts segments; names this one in the plan
-};
-
-struct Record {
-  Serial serial = 0;
-  nc_source source{};
-  ItemKind kind = ItemKind::mark;
-  bool staged = false;  ///< it has come out of the offset stage, where blocks are not apart
-  uint32_t epoch = 0;   ///< RunWord::epoch(): records of another one are thrown away by the scan
-  union {
-    Segment segment;
-    Action action;
-    Gate gate;
-    Sync sync;
-    Mark mark;
-    Fault alarm;
-    End end;
-  };
-  Record() : mark() {}
 };
 
 }  // namespace nc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The trapezoid is followed exactly: its course does not depend on how time is cut into cycles.
-#include "interpolate/law.hpp"
+#include "motion/law.hpp"
 
 #include <gtest/gtest.h>
 

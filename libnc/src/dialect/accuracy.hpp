@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// High-accuracy control: its parameters, a move that is made in it, and what it asks of that move. The
-// formulas between them belong to the family (MotionRules in dialect/rules.hpp); the planner keeps to the
-// limits, whoever asked for them.
+// High-accuracy control: its parameters and a move that is made in it, which a family's rule is asked about (MotionRules in
+// dialect/rules.hpp). The answer travels with the segment (ring/accuracy_limits.hpp).
 #pragma once
 
 #include "stream/stream.hpp"
@@ -39,18 +38,6 @@ struct AccuracyMove {
   double speed_clamp_mm_s = 0; ///< that its own function asked for, 0 = none
   float judged_turn = -1;      ///< AccuracyLimits::judged_turn
   bool fine_segments = false;  ///< in high-speed high-accuracy control II
-};
-
-/// What high-accuracy control asks of one segment (M700 13.15). Zeros ask nothing.
-struct AccuracyLimits {
-  float speed_clamp = 0;   ///< by the radius or the curvature, mm/s
-  float corner_step = 0;   ///< change of velocity that a corner may make, mm/s
-  float smooth_cos = -1;   ///< a corner whose tangents have this cosine or more is none
-  float corner_least = 0;  ///< a corner is not passed slower for `corner_step`, mm/s
-  float arc_joint = 0;     ///< speed where an arc meets another kind of path, mm/s
-  float judged_turn = -1;  ///< |change of direction| that the corner at its start counts as; negative: what it is
-  float bend_acceleration = 0;  ///< that short lines may cause by turning, mm/s^2
-  float acceleration = 0;  ///< along the path, mm/s^2
 };
 
 }  // namespace nc

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be wrong with a program, named by condition and not by a family's number. Each dialect's table turns a condition into the
+// code and the short text of its manual (dialect/alarms.hpp).
+#pragma once
+
+#include <cstdint>
+
+namespace nc {
+
+enum class Condition : uint16_t {
+  none,
+  // words and blocks
+  illegal_address, exponent, format_error, behind_semicolon, value_range, illegal_character, block_too_long, number_zero, program_end, no_start_mark,
+  illegal_axis, too_many_axes, index_increment, parity, parity_vertical,
+  // G and M codes
+  illegal_g, no_function, must_stand_alone, words_missing,
+  // motion
+  no_feed, arc_deviation, arc_center, helix_option, plane_mismatch, plane_in_compensation, plane_in_rotation, space_conversion, arc_in_compensation_start,
+  no_offset_number, cycle_in_compensation, skip_in_compensation, skip_feed_zero, no_reference, soft_limit, spindle_not_turning,
+  cycle_wrong_plane, not_in_compensation, code_in_incremental, tool_pair,
+  comp_no_intersection, comp_interference, corner_option, corner_arc, corner_no_move, corner_short, corner_next_short,
+  corner_motion, pre_read, geometric_option, second_aux, space_compensation,
+  thread_lead, mill_code, mill_axis, mill_modal, mill_state, space_arc_blocks, space_arc_mode, exponential_mode, exponential_axes,
+  nurbs_knot, nurbs_start, displaced, space_conversion_code, inverse_time_code, arc_feed_zero, circle_radius,
+  reference_compare, reference_check_m, start_return_m,
+  measure_axis, measure_h, measure_no_length, measure_signal, stroke_check,
+  not_accepted, in_high_accuracy, high_speed_3,
+  // offsets
+  g10_l, g10_p, local_in_extended,
+  // programs and macros
+  program_missing, sequence_missing, nesting, macro_nesting, no_macro, macro_and_words, macro_argument, cancel_without_call,
+  user_alarm, bracket_nesting, bracket_pair, calculation, division_by_zero, if_statement, while_statement, name_statement,
+  loop_nesting, loop_pair, jump_on_tape, address_missing, variable_number, no_equals, variable_use, variable_name,
+  variable_name_twice, call_in_cycle, print_port, parameter_input, no_such_data,
+  program_edited, rotation_in_figure, offset_in_figure, machine_in_figure, surface_axis, surface_speed,
+  read_failed, program_changed, vendor_function, internal,
+  count_
+};
+
+}  // namespace nc

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lies in the ring between feeder and scan: items that are committed and never change any more.
+#pragma once
+
+#include "ring/segment.hpp"
+#include "stream/stream.hpp"
+
+namespace nc {
+
+struct Record {
+  Serial serial = 0;
+  nc_source source{};
+  ItemKind kind = ItemKind::mark;
+  bool staged = false;  ///< it has come out of the offset stage, where blocks are not apart
+  uint32_t epoch = 0;   ///< RunWord::epoch(): records of another one are thrown away by the scan
+  union {
+    Segment segment;
+    Action action;
+    Gate gate;
+    Sync sync;
+    Mark mark;
+    Fault alarm;
+    End end;
+  };
+  Record() : mark() {}
+};
+
+}  // namespace nc
