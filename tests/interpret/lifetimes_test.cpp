@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The groups of the interpreter's state (interpret/state.hpp) and what each event makes of them (interpret/lifetimes.hpp): every member is in exactly
+// The groups of the interpreter's state (interpret/state.hpp) and of its records (interpret/program_records.hpp), and what each event makes of them
+// (interpret/lifetimes.hpp): every member is in exactly
 // one group, and goes the way of that group but for the exceptions that are named here. What that means for programs: kept_state_test.cpp.
 #include <gtest/gtest.h>
 
@@ -380,6 +381,96 @@ TEST(StateGroups, WhatAnInterruptGivesBackInItsOwnWay) {
   return_from_interrupt(behind, before, false);
   EXPECT_FALSE(behind.spline_way.joined);
   EXPECT_EQ(behind.moves_since_comp_off, 1u);
+}
+
+// ---- the records -----------------------------------------------------------------------------------------------------------
+
+static_assert(HasOnly<ProgramRecords, ProgramRecordsLife, MapRecordsLife, MachineRecordsLife>);
+static_assert(sizeof(ProgramRecords) == sizeof(ProgramRecordsLife) + sizeof(MapRecordsLife) + sizeof(MachineRecordsLife));
+
+/// Where each record of a group begins and how long it is. A structured binding names all of them.
+std::map<std::string, Fields> groups_of_records() {
+  static const ProgramRecords records;
+  const auto fields_of = [](const char* names, const auto&... record) {
+    Fields fields;
+    std::istringstream all(names);
+    const auto add = [&](const auto& one) {
+      std::string name;
+      std::getline(all >> std::ws, name, ',');
+      fields.push_back({name, static_cast<size_t>(reinterpret_cast<const char*>(&one) - reinterpret_cast<const char*>(&records)), sizeof one});
+    };
+    (add(record), ...);
+    return fields;
+  };
+  std::map<std::string, Fields> groups;
+#define NC_RECORDS(Group, ...)                                          \
+  {                                                                     \
+    const auto& [__VA_ARGS__] = static_cast<const Group&>(records);     \
+    groups[#Group] = fields_of(#__VA_ARGS__, __VA_ARGS__);              \
+  }
+  NC_RECORDS(ProgramRecordsLife, modal_call, figure, interrupt, switch_mirror, selection, work_turn)
+  NC_RECORDS(MapRecordsLife, maps)
+  NC_RECORDS(MachineRecordsLife, midpoints, skip, output, workpieces)
+#undef NC_RECORDS
+  return groups;
+}
+
+/// The rows of program_records.hpp whose cell of this column is "yes".
+std::set<std::string> record_groups_kept(Column column) {
+  std::set<std::string> kept, found;
+  std::ifstream file(nc::test::kSourceDir + "/libnc/src/interpret/program_records.hpp");
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string slashes, group, cell;
+    if (!(words >> slashes >> group) || slashes != "//" || groups_of_records().count(group) == 0) continue;
+    found.insert(group);
+    std::vector<std::string> cells;
+    while (words >> cell) cells.push_back(cell);
+    EXPECT_EQ(cells.size(), kColumns) << group;
+    if (cells.size() == kColumns && cells[column] == "yes") kept.insert(group);
+  }
+  EXPECT_EQ(found.size(), groups_of_records().size());
+  return kept;
+}
+
+TEST(RecordGroups, AProgramBeginsWithThoseThatItsRowKeeps) {
+  for (const bool mdi : {false, true}) {
+    const std::set<std::string> kept = record_groups_kept(mdi ? kMdi : kEnd);
+    EXPECT_FALSE(kept.empty());
+    for (const int pattern : kPatterns) {
+      ProgramRecords before, now, fresh;
+      std::memset(static_cast<void*>(&before), pattern, sizeof before);
+      std::memcpy(static_cast<void*>(&now), &before, sizeof now);
+      begin_program(now, mdi, false);
+      for (const auto& [group, fields] : groups_of_records()) {
+        const ProgramRecords& expected = kept.count(group) != 0 ? before : fresh;
+        const auto same_bytes = [&](size_t begin, size_t size) {
+          return std::memcmp(reinterpret_cast<const char*>(&now) + begin, reinterpret_cast<const char*>(&expected) + begin, size) == 0;
+        };
+        for (const Bytes& field : fields) EXPECT_TRUE(same_bytes(field.offset, field.size)) << group << "::" << field.name;
+      }
+    }
+  }
+}
+
+TEST(RecordGroups, IntermediatePointsEndWithTheProgramWhereTheFamilySaysSo) {  // DGSHAPE G28
+  ProgramRecords records;
+  records.midpoints.axis[1] = 5;
+  records.skip.work[0] = 6;
+  begin_program(records, false, true);
+  EXPECT_FALSE(records.midpoints.axis[1].has_value());
+  EXPECT_EQ(records.skip.work[0], 6);
+}
+
+TEST(RecordGroups, AnInterruptGivesBackTheMapsAlone) {  // M700 13.12: Interpreter::leave_interrupt; what it means for programs: kept_state_test.cpp
+  std::ifstream file(nc::test::kSourceDir + "/libnc/src/interpret/program_records.hpp");
+  std::set<std::string> returned;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string slashes, group, call, interrupt;
+    if (words >> slashes >> group >> call >> interrupt && interrupt == "RETURNS" && slashes == "//") returned.insert(group);
+  }
+  EXPECT_EQ(returned, std::set<std::string>{"MapRecordsLife"});
 }
 
 }  // namespace

@@ -119,12 +119,11 @@ TEST_F(VariablesTest, Rewind) {
 
 TEST_F(VariablesTest, ForeignKeysGoBackToTheirOwnerNewestFirst) {
   std::vector<std::pair<uint32_t, double>> undone;
-  variables.note(1, Variables::kForeignKey + 7, 1.5);
-  variables.note(2, Variables::kForeignKey + 8, 2.5);
-  variables.note(2, Variables::kForeignKey + 7, 3.5);
-  variables.rewind(1, &undone, [](void* self, uint32_t key, double old) {
-    static_cast<std::vector<std::pair<uint32_t, double>>*>(self)->emplace_back(key - Variables::kForeignKey,
-                                                                               old);
+  variables.note(1, Variables::kForeignKey + 7, JournalValue::of(1.5));
+  variables.note(2, Variables::kForeignKey + 8, JournalValue::of(2.5));
+  variables.note(2, Variables::kForeignKey + 7, JournalValue::of(3.5));
+  variables.rewind(1, &undone, [](void* self, uint32_t key, JournalValue old) {
+    static_cast<std::vector<std::pair<uint32_t, double>>*>(self)->emplace_back(key - Variables::kForeignKey, old.as<double>());
   });
   EXPECT_EQ(undone, (std::vector<std::pair<uint32_t, double>>{{7, 3.5}, {8, 2.5}}));
 }

@@ -18,7 +18,7 @@
 //
 // T is applied to an axis when that axis is next commanded (M700 12.2), so it is part of the position's state, not of the tables.
 //
-// All numbers live in one flat table, so that one journal key undoes any of them.
+// All offsets live in one flat table, so that one journal key undoes any of them.
 #pragma once
 
 #include "base/arena.hpp"
@@ -50,13 +50,8 @@ class Frames {
   // Keys of the flat table. System numbers: 0..5 = G54..G59, 6.. = G54.1 P1...
   static constexpr unsigned external_key(unsigned axis) { return axis; }
   static constexpr unsigned shift_key(unsigned axis) { return kMaxAxes + axis; }
-  static constexpr unsigned midpoint_key(unsigned axis) { return 2 * kMaxAxes + axis; }      ///< of the last G28
-  static constexpr unsigned midpoint_set_key(unsigned axis) { return 3 * kMaxAxes + axis; }  ///< 1 = it has been given (DGSHAPE G28)
-  static constexpr unsigned skip_key(unsigned axis) { return 4 * kMaxAxes + axis; }          ///< #5061...
-  static constexpr unsigned output_key(unsigned word) { return 5 * kMaxAxes + word; }        ///< macro interface outputs as read ahead
-  static constexpr unsigned count_key(unsigned which) { return 5 * kMaxAxes + 4 + which; }   ///< #3901, #3902
-  static constexpr unsigned local_key(unsigned system, unsigned axis) { return 6 * kMaxAxes + system * kMaxAxes + axis; }
-  static constexpr unsigned work_key(unsigned system, unsigned axis) { return 12 * kMaxAxes + system * kMaxAxes + axis; }
+  static constexpr unsigned local_key(unsigned system, unsigned axis) { return 2 * kMaxAxes + system * kMaxAxes + axis; }
+  static constexpr unsigned work_key(unsigned system, unsigned axis) { return local_key(kStandardSystems + system, axis); }
   unsigned tool_key(unsigned number, unsigned column) const {
     return work_key(6 + config_.extended_systems, 0) + (number - 1) * kToolColumns + column;
   }

@@ -48,6 +48,8 @@ struct MacroCall {
 Execution gather_arguments(Interpreter& in, bool every_word, MacroCall& call);
 
 /// G66, G66.1: the call is stored.
+/// The modal call in a slot, from 1.
+inline const ModalCall& modal_call(const Interpreter& in, unsigned slot) { return in.records->modal_call[slot - 1]; }
 Execution store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall& call, uint32_t passes, bool every_block, bool by_code);
 /// The modal call in force in this program is made now.
 Execution make_modal_call(Interpreter& in);

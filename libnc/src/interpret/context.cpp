@@ -30,23 +30,16 @@ AxisVec BlockContext::polar_position() const {
 }
 
 void BlockContext::set_table(unsigned key, double value) {
-  variables.note(state.seq + 1, Variables::kForeignKey + key, frames.get(key));
+  variables.note(state.seq + 1, kFrameKey + key, JournalValue::of(frames.get(key)));
   frames.set(key, value);
   if (frames.is_tool_key(key)) take_changed_amounts(*this);
-}
-
-void BlockContext::set_note(unsigned key, double value) {
-  const double old = notes.get(key);
-  if (std::memcmp(&old, &value, sizeof old) == 0) return;  // vacant arguments are NaN
-  variables.note(state.seq + 1, kNoteKey + key, old);
-  notes.set(key, value);
 }
 
 bool BlockContext::set_parameter(const char* key, int axis, const char* text) {
   unsigned index = 0;
   double old = 0;
   if (parameters.set(*dialect, key, axis, text, &index, &old) != NC_OK) return false;
-  variables.note(state.seq + 1, kParameterKey + index, old);
+  variables.note(state.seq + 1, kParameterKey + index, JournalValue::of(old));
   refresh_settings();
   return true;
 }

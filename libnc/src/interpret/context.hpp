@@ -15,9 +15,9 @@
 #include "interpret/checkpoints.hpp"
 #include "interpret/code_calls.hpp"
 #include "interpret/motion_settings.hpp"
-#include "interpret/notes.hpp"
 #include "interpret/parameters.hpp"
 #include "interpret/program_matrices.hpp"
+#include "interpret/program_records.hpp"
 #include "interpret/state.hpp"
 #include "interpret/vendor_codes.hpp"
 #include "macro/variables.hpp"
@@ -53,6 +53,7 @@ struct PathPoint {
 };
 
 class SharedTables;
+struct Interpreter;
 
 /// Base of the Interpreter, which is the only one to make it. What is protected is for the way items go into the stream.
 struct BlockContext {
@@ -77,7 +78,7 @@ struct BlockContext {
   Parameters parameters;
   Frames frames;
   Variables variables;
-  Notes notes;
+  Journalled<ProgramRecords, Interpreter> records;
   mutable ProgramMatrices program_matrices;  ///< of the maps in force (interpret/program_map.hpp), made when they are asked for
   SharedTables* shared = nullptr;  ///< with the other part systems; nullptr: there are none
   BlockReader reader;
@@ -162,8 +163,11 @@ struct BlockContext {
   /// Journalled write to a parameter; false when there is no such parameter or value.
   bool set_parameter(const char* key, int axis, const char* text);
   bool set_parameter(ParameterOf parameter, const char* text);
-  /// The same to the notes.
-  void set_note(unsigned key, double value);
+  /// The same to the records, or to a field of one: change(&ProgramRecords::figure, &Figure::angle, angle).
+  template <class... Change>
+  void change(const Change&... what) {
+    records.change(state.seq + 1, what...);
+  }
 
   // ---- alarms and questions
   /// What is missing because the text could not be read is not missing: then that is the alarm.

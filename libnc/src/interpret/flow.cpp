@@ -182,7 +182,7 @@ Execution enter(Interpreter& in, const Entry& entry) {
   if (s.depth + 1u > in.dialect->call_depth || s.depth + 1u >= kMaxFrames) return in.raise(Condition::nesting, Role::call_program, entry.program.number);
   const CallFrame& caller = top(in);
   const uint8_t level = caller.macro_level;
-  const uint8_t modal = entry.slot == 0 ? caller.modal_call : static_cast<uint8_t>(in.notes.get(Notes::slot_key(entry.slot, Notes::kBelow)));
+  const uint8_t modal = entry.slot == 0 ? caller.modal_call : modal_call(in, entry.slot).below;
   top(in).call_line = in.source.line;
   ++s.depth;
   CallFrame& frame = top(in);

@@ -47,7 +47,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   transforms.create(under_way, arena);
   modals.create(under_way, arena);
   texts.create(power_of_two_above(config.look_ahead + 64), arena);  // DPRNT: one in every block that is under way
-  notes.create(arena);
+  records.create(&variables.journal(), kRecordKey, arena);
   rewritten = arena.make<Block>();
   shapes.create(128, arena);
   stroke_boxes.create(64, arena);
@@ -64,35 +64,22 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
 
 void Interpreter::set_table_from_outside(unsigned key, double value) {
   frames.set(key, value);
-  variables.changed_from_outside(Variables::kForeignKey + key, value);
+  variables.changed_from_outside(kFrameKey + key, JournalValue::of(value));
   if (frames.is_tool_key(key)) take_changed_amounts(*this);
 }
 
-void Interpreter::undo(void* self, uint32_t key, double old) {
-  Interpreter& in = *static_cast<Interpreter*>(self);
-  if (key < kNoteKey) {
-    in.frames.set(key - Variables::kForeignKey, old);
-  } else if (key < kParameterKey) {
-    in.notes.set(key - kNoteKey, old);
-  } else {
-    in.parameters.restore(key - kParameterKey, old);
-    in.settings_stale_ = true;
-  }
+void Interpreter::undo(void* self, uint32_t key, JournalValue old) {
+  exchange(self, key, old);
+  if (key >= kParameterKey) static_cast<Interpreter*>(self)->settings_stale_ = true;
 }
 
 /// The settings stay: whoever looks at the parameters executes nothing.
-double Interpreter::exchange(void* self, uint32_t key, double value) {
+JournalValue Interpreter::exchange(void* self, uint32_t key, JournalValue value) {
   Interpreter& in = *static_cast<Interpreter*>(self);
-  double old = 0;
-  if (key < kNoteKey) {
-    old = in.frames.get(key - Variables::kForeignKey);
-    in.frames.set(key - Variables::kForeignKey, value);
-  } else if (key < kParameterKey) {
-    old = in.notes.get(key - kNoteKey);
-    in.notes.set(key - kNoteKey, value);
-  } else {
-    old = in.parameters.exchange(key - kParameterKey, value);
-  }
+  if (key >= kParameterKey) return JournalValue::of(in.parameters.exchange(key - kParameterKey, value.as<double>()));
+  if (key >= kRecordKey) return in.records.exchange(key - kRecordKey, value);
+  const JournalValue old = JournalValue::of(in.frames.get(key - kFrameKey));
+  in.frames.set(key - kFrameKey, value.as<double>());
   return old;
 }
 
@@ -123,8 +110,6 @@ void Interpreter::refresh_derived() {
 
 /// M700 3.7 "reset 2": modal state to its initial values; positions, offsets and G92 shifts stay (M700 9.1).
 void Interpreter::reset(bool keep_modal) {
-  double maps[Notes::kMapSize];
-  for (unsigned i = 0; i < Notes::kMapSize; ++i) maps[i] = notes.get(Notes::mirror_key(0) + i);
   begin_program(state, initial_values(), keep_modal);
   state.frame[0].program = main_program;
   state.frame[0].offset = state.frame[0].begin = main_program.offset;
@@ -132,14 +117,12 @@ void Interpreter::reset(bool keep_modal) {
   variables.clear_locals(1);
   if (shared != nullptr) shared->publish(*this, ~BlockSeq{0});  // what is not taken back by now has been executed
   variables.forget();
-  notes.clear();
-  if (keep_modal) {
-    for (unsigned i = 0; i < Notes::kMapSize; ++i) notes.set(Notes::mirror_key(0) + i, maps[i]);
-  }
+  ProgramRecords left = *records;
+  begin_program(left, keep_modal, dialect->rules.reference.forgets_with_program);
+  records.change_from_outside(left);
   refresh_derived();
   take_work_rotation(*this, true);  // M700 13.21 (4): parameters hold from the cycle start on
   store->forget_notes(system_index);
-  for (unsigned i = 0; i < axis_count && dialect->rules.reference.forgets_with_program; ++i) frames.set(Frames::midpoint_set_key(i), 0);
   forget_block();
   ended = !main_program.valid();
   alarm_fault = Fault{};
@@ -198,7 +181,7 @@ void Interpreter::set_machine(const AxisVec& machine) {
   const auto mirrored = static_cast<uint8_t>(mirror_switch | mirror_signal | settings.mirror_axes);
   if (state.seq == 0 && (mirrored | state.switch_mirror) != 0) {  // at the head of a program
     state.switch_mirror = mirrored;
-    for (unsigned i = 0; i < axis_count; ++i) notes.set(Notes::switch_mirror_key(i), machine[i]);
+    records.change_from_outside(&ProgramRecords::switch_mirror, SwitchMirror{machine});
     program_changed();
   }
   if (state.seq == 0) take_work_rotation(*this, true);

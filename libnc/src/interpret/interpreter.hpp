@@ -182,7 +182,7 @@ struct Interpreter : BlockContext {
     VendorCall vendor_call;      ///< of the interrupted block: what it has called is not called again when it goes on
     bool world_known = false;    ///< the interrupted block has read `world`: it reads the same when it goes on
     nc_world world{};
-    double map_note[Notes::kMapSize] = {};   ///< where these are centred
+    ProgramMaps maps;            ///< where those of `state` are centred
   };
   Execution enter_interrupt();
   /// At the head of a block that is going to be cut.
@@ -211,8 +211,8 @@ struct Interpreter : BlockContext {
   bool waiting_ = false;
   uint32_t waiting_for_ = 0;
   bool take_back(BlockSeq seq);
-  static void undo(void* self, uint32_t key, double old);
-  static double exchange(void* self, uint32_t key, double value);
+  static void undo(void* self, uint32_t key, JournalValue old);
+  static JournalValue exchange(void* self, uint32_t key, JournalValue value);
   unsigned made_ = 0;          ///< items of the block in hand so far
   BlockSeq block_seq_ = 0;     ///< the state before it
   InterruptReturn interrupted_;

@@ -30,15 +30,6 @@ void announce(Interpreter& in) {
   action.value = bits;
 }
 
-ProgramRef interrupt_program(const Interpreter& in) {
-  ProgramRef program;
-  program.file = static_cast<uint16_t>(in.notes.get(Notes::interrupt_key(Notes::kInterruptFile)));
-  program.number = static_cast<uint32_t>(in.notes.get(Notes::interrupt_key(Notes::kInterruptNumber)));
-  program.offset = static_cast<uint64_t>(in.notes.get(Notes::interrupt_key(Notes::kInterruptOffset)));
-  program.line = static_cast<uint32_t>(in.notes.get(Notes::interrupt_key(Notes::kInterruptLine)));
-  return program;
-}
-
 /// The block that was interrupted is not finished: the program that runs it goes on behind it.
 void pass_over_block(Interpreter& in, CallFrame& frame) {
   const Block* block = in.reader.read(frame.program.file, frame.offset, frame.line);
@@ -54,18 +45,13 @@ bool is_interrupt_off(const BlockContext& in, uint32_t m) { return m == in.setti
 
 Execution enable_interrupt(Interpreter& in) {
   const BlockWords& w = in.words;
-  ProgramRef program;
-  Execution did = find_called(in, w.has(Role::interrupt_program), w.has(Role::interrupt_program) ? w.get(Role::interrupt_program) : 0, false, &program);
+  InterruptProgram called;
+  Execution did = find_called(in, w.has(Role::interrupt_program), w.has(Role::interrupt_program) ? w.get(Role::interrupt_program) : 0, false, &called.program);
   if (did != Execution::done) return did;
-  uint64_t offset = 0;
-  uint32_t line = 0;
-  did = find_start(in, program, &offset, &line);
+  did = find_start(in, called.program, &called.begin, &called.begin_line);
   if (did != Execution::done) return did;
-  const double values[Notes::kInterruptSize] = {static_cast<double>(program.file), static_cast<double>(program.number),
-                                                static_cast<double>(program.offset), static_cast<double>(program.line),
-                                                static_cast<double>(offset), static_cast<double>(line)};
-  for (unsigned i = 0; i < Notes::kInterruptSize; ++i) in.set_note(Notes::interrupt_key(i), values[i]);
-  in.store->note(program.file, in.system_index);
+  in.change(&ProgramRecords::interrupt, called);
+  in.store->note(called.program.file, in.system_index);
   in.state.interrupt_on = true;
   announce(in);
   return Execution::done;
@@ -104,7 +90,7 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
   back.items = items;
   back.state = state;
   note_block_call();
-  for (unsigned i = 0; i < Notes::kMapSize; ++i) back.map_note[i] = notes.get(Notes::mirror_key(0) + i);
+  back.maps = records->maps;
   const CallFrame& frame = state.frame[state.depth];  // what has been read ahead is given up: the place is that of the next block
   source.depth = state.depth;
   source.file = frame.program.file;
@@ -126,11 +112,11 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
 
 Execution Interpreter::enter_interrupt() {
   Entry entry;
-  entry.program = interrupt_program(*this);
+  entry.program = records->interrupt.program;
   entry.origin = CallOrigin::interrupt;
   entry.kind = settings.interrupt_as_sub ? CallKind::sub : CallKind::macro;  // M700 #1229 bit 0
-  entry.offset = static_cast<uint64_t>(notes.get(Notes::interrupt_key(Notes::kInterruptBegin)));
-  entry.line = static_cast<uint32_t>(notes.get(Notes::interrupt_key(Notes::kInterruptBeginLine)));
+  entry.offset = records->interrupt.begin;
+  entry.line = records->interrupt.begin_line;
   const unsigned level = macro_level() + 1u;
   if (entry.kind == CallKind::macro && level > kMacroDepth) return raise(Condition::macro_nesting, Role::interrupt_program, entry.program.number);
   const Execution did = enter(*this, entry);
@@ -165,8 +151,7 @@ void Interpreter::leave_interrupt(bool to_sequence) {
     if (interrupted_.inside_block) pass_over_block(*this, caller);
   } else if (!cut) {
     restore_modal();
-    for (unsigned i = 0; i < Notes::kMapSize; ++i)
-      if (notes.get(Notes::mirror_key(0) + i) != interrupted_.map_note[i]) set_note(Notes::mirror_key(0) + i, interrupted_.map_note[i]);
+    change(&ProgramRecords::maps, interrupted_.maps);
     if (interrupted_.inside_block) {
       next_repeat_.active = true;
       next_repeat_.items = static_cast<uint16_t>(interrupted_.items);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of an interpreter's journal (macro/variables.hpp) that are no variables: the frames' table, then the notes, then the parameters.
+// Keys of an interpreter's journal (macro/journal.hpp) that are no variables: the frames' table, then the records, then the parameters.
 #pragma once
 
 #include "macro/variables.hpp"
@@ -7,7 +7,7 @@
 namespace nc {
 
 inline constexpr uint32_t kFrameKey = Variables::kForeignKey;
-inline constexpr uint32_t kNoteKey = Variables::kForeignKey + 0x10000000;
+inline constexpr uint32_t kRecordKey = Variables::kForeignKey + 0x10000000;
 inline constexpr uint32_t kParameterKey = Variables::kForeignKey + 0x20000000;
 
 }  // namespace nc

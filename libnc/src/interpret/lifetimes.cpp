@@ -51,6 +51,12 @@ void begin_program(State& state, const InitialValues& initial, bool mdi) {
   }
 }
 
+void begin_program(ProgramRecords& records, bool mdi, bool forgets_midpoints) {
+  static_cast<ProgramRecordsLife&>(records) = ProgramRecordsLife{};
+  if (!mdi) static_cast<MapRecordsLife&>(records) = MapRecordsLife{};
+  if (forgets_midpoints) records.midpoints = ReferenceMidpoints{};
+}
+
 void end_by_operator(State& state) {
   state.end_seen = false;
   static_cast<UntilOperatorReset&>(state) = UntilOperatorReset{};

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of the groups of the state (interpret/state.hpp, where the table is) when a program begins, is interrupted, or goes on.
+// What becomes of the groups of the state and of the records (interpret/state.hpp, interpret/program_records.hpp, where the tables are) when a program begins, is interrupted, or goes on.
 // Each event assigns whole groups; a value that goes another way than its group stands here and nowhere else.
 #pragma once
 
+#include "interpret/program_records.hpp"
 #include "interpret/state.hpp"
 
 namespace nc {
@@ -25,6 +26,8 @@ struct InitialValues {
 /// A program, or a text of MDI, is going to be read from its head: after power on, a selection, an end, a reset. With `mdi` it is a text of MDI
 /// behind another one, whose modes it goes on with (M700 5.1). The call stack is empty, what is derived is still to be made.
 void begin_program(State& state, const InitialValues& initial, bool mdi);
+/// The same of the records. `forgets_midpoints`: the family's programs do not know the points of G28 of the program before.
+void begin_program(ProgramRecords& records, bool mdi, bool forgets_midpoints);
 /// What a reset by the operator ends and the end of a program does not. Before begin_program().
 void end_by_operator(State& state);
 

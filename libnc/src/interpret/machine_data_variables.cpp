@@ -19,8 +19,6 @@ const DeviceRow* find_device(const Interpreter& in, double code) {
   return nullptr;
 }
 
-double selected(const Interpreter& in, unsigned what) { return in.notes.get(Notes::select_key(what)); }
-
 Execution no_such(Access& a) { return a.in.raise(Condition::no_such_data, '#', a.written); }
 
 bool whole_between(double value, double low, double high) { return value >= low && value <= high && value == std::trunc(value); }
@@ -51,14 +49,14 @@ uint64_t device_bits(const Interpreter& in, const DeviceRow& device, uint32_t nu
 Eval read_rotation(Access& a) {
   const PlanePair plane = pair_of(a.in.state.modal.of(Mode::plane));
   const unsigned pair[2] = {plane.first, plane.second};
-  const double degrees = a.in.notes.get(Notes::rotation_key(Notes::kRotationAngle)), angle = degrees * std::numbers::pi / 180;
+  const double degrees = a.in.records->maps.rotation_deg, angle = degrees * std::numbers::pi / 180;
   switch (a.index) {
     case 0:
     case 1: return give(a, a.in.axis_called(basic_along(pair[a.index])) + 1);
     case 6: return give(a, a.in.state.rotated ? std::cos(angle) : 1);
     case 2:
     case 3:  // a position: it was where the program stood, or has moved with an offset
-      return give(a, a.in.state.rotated ? whole_units(a.in.notes.get(Notes::rotation_key(a.index - 2)), a.in.settings.setting_unit_mm) : 0);
+      return give(a, a.in.state.rotated ? whole_units(a.in.records->maps.rotation_center[a.index - 2], a.in.settings.setting_unit_mm) : 0);
     case 4: return give(a, a.in.state.rotated ? degrees : 0);
     case 5: return give(a, a.in.state.rotated ? std::sin(angle) : 0);
     default: return give(a, 0);
@@ -69,7 +67,7 @@ Eval read_rotation(Access& a) {
 
 Execution select_tool_group(Access& a) {
   if (!whole_between(a.written, 0, 99999999)) return a.in.raise(Condition::value_range, '#', a.written);
-  a.in.set_note(Notes::select_key(Notes::kToolGroup), a.written);
+  a.in.change(&ProgramRecords::selection, &Selection::tool_group, static_cast<uint32_t>(a.written));
   return Execution::done;
 }
 
@@ -85,7 +83,9 @@ Execution select_parameter(Access& a) {
   const double low = a.index == 1 ? 0 : 1;
   if (!whole_between(a.written, low, kLast[a.index])) return no_such(a);
   if (a.index == 2 && a.written > a.in.axis_count) return no_such(a);
-  a.in.set_note(Notes::select_key(Notes::kParameter + a.index), a.written);
+  Selection selection = a.in.records->selection;
+  selection.parameter[a.index] = static_cast<uint32_t>(a.written);
+  a.in.change(&ProgramRecords::selection, selection);
   return Execution::done;
 }
 
@@ -105,10 +105,9 @@ bool machine_parameter(const Interpreter& in, uint32_t number, unsigned axis, do
 /// A parameter that nobody has set reads 0. Text of one letter reads as its code.
 Eval read_parameter(Access& a) {
   char key[12];
-  const double selection = selected(a.in, Notes::kParameter);
-  const uint32_t number = selection >= 1 ? static_cast<uint32_t>(selection) : 1u;
+  const auto& [selected, part, axis] = a.in.records->selection.parameter;
+  const uint32_t number = selected >= 1 ? selected : 1u;
   TextWriter(key, sizeof key).put_integer(number);
-  const double axis = selected(a.in, Notes::kAxis);
   double value = 0;
   const int index = axis >= 1 ? static_cast<int>(axis) - 1 : 0;
   if (machine_parameter(a.in, number, static_cast<unsigned>(index), &value)) return give(a, value);
@@ -129,25 +128,25 @@ Execution select_device(Access& a) {
                                          a.written == 4 || a.written == 104
                                     : whole_between(a.written, 0, 15);  // (4) (b): a device has 16
   if (!good) return no_such(a);
-  a.in.set_note(Notes::select_key(Notes::kDevice + a.index), a.written);
+  Selection selection = a.in.records->selection;
+  selection.device[a.index] = static_cast<uint32_t>(a.written);
+  a.in.change(&ProgramRecords::selection, selection);
   return Execution::done;
 }
 
 Eval read_device(Access& a) {
   if (!world_known(a, NC_SYNC_INPUT)) return Eval::need_sync;
-  const DeviceRow* device = find_device(a.in, selected(a.in, Notes::kDevice));
+  const auto& [code, number, bytes, bit] = a.in.records->selection.device;
+  const DeviceRow* device = find_device(a.in, code);
   if (a.in.devices.read == nullptr || device == nullptr) {
     a.in.raise(Condition::no_such_data, '#', a.number);
     return Eval::fault;
   }
-  const auto number = static_cast<uint32_t>(selected(a.in, Notes::kDeviceNumber));
   if (number >= device->count) {  // (2); only what lies behind an existing one reads 0
     a.in.raise(Condition::no_such_data, '#', number);
     return Eval::fault;
   }
-  const auto bytes = static_cast<uint32_t>(selected(a.in, Notes::kBytes));
   if (bytes == 0) {  // one bit: of a word the selected bit of it
-    const auto bit = static_cast<unsigned>(selected(a.in, Notes::kBit));
     return give(a, static_cast<double>(device_bits(a.in, *device, number, device->word ? 32 : 1) >> (device->word ? bit : 0) & 1));
   }
   const unsigned width = bytes % 100 * 8;

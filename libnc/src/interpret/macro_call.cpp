@@ -5,7 +5,6 @@
 // enters has the call below it in force, so that a move in the macro of the last G66 calls the macro of the one before.
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 
 #include "interpret/calls.hpp"
 #include "interpret/functions/functions.hpp"
@@ -34,8 +33,6 @@ int component_of(const Interpreter& in, const Word& word) {
   return -1;
 }
 
-double slot_value(const Interpreter& in, unsigned slot, unsigned what) { return in.notes.get(Notes::slot_key(slot, what)); }
-
 /// A slot that no open program refers to; 0 = none. Rare, so it may look at all of them.
 unsigned free_slot(const Interpreter& in) {
   uint32_t used = 0;
@@ -43,30 +40,22 @@ unsigned free_slot(const Interpreter& in) {
     for (unsigned slot : {in.state.frame[level].modal_call, in.state.frame[level].modal_slot}) {
       while (slot != 0 && ((used >> slot) & 1) == 0) {
         used |= 1u << slot;
-        slot = static_cast<unsigned>(slot_value(in, slot, Notes::kBelow));
+        slot = modal_call(in, slot).below;
       }
     }
   }
-  for (unsigned slot = 1; slot <= Notes::kSlots; ++slot)
+  for (unsigned slot = 1; slot <= kModalCalls; ++slot)
     if (((used >> slot) & 1) == 0) return slot;
   return 0;
 }
 
-ProgramRef slot_program(const Interpreter& in, unsigned slot) {
-  ProgramRef program;
-  program.file = static_cast<uint16_t>(slot_value(in, slot, Notes::kFile));
-  program.number = static_cast<uint32_t>(slot_value(in, slot, Notes::kNumber));
-  program.offset = static_cast<uint64_t>(slot_value(in, slot, Notes::kOffset));
-  program.line = static_cast<uint32_t>(slot_value(in, slot, Notes::kLine));
-  return program;
-}
-
 Execution enter_modal(Interpreter& in, unsigned slot, const Value* arguments) {
+  const ModalCall& call = modal_call(in, slot);
   Entry entry;
-  entry.program = slot_program(in, slot);
+  entry.program = call.program;
   entry.kind = CallKind::macro;
-  entry.origin = slot_value(in, slot, Notes::kByCode) != 0 ? CallOrigin::code : CallOrigin::modal;
-  entry.passes = static_cast<uint32_t>(slot_value(in, slot, Notes::kRepeats));
+  entry.origin = call.by_code ? CallOrigin::code : CallOrigin::modal;
+  entry.passes = call.repeats;
   entry.offset = entry.program.offset;
   entry.line = entry.program.line;
   entry.slot = static_cast<uint8_t>(slot);
@@ -118,31 +107,27 @@ Execution enter_macro(Interpreter& in, const Entry& entry, const Value* argument
 void show_modal_call(Interpreter& in) {
   in.program_changed();
   const unsigned slot = top(in).modal_call;
-  in.state.modal.set(slot == 0 ? Function::macro_modal_off : slot_value(in, slot, Notes::kEveryBlock) != 0 ? Function::macro_every_block : Function::macro_modal);
+  in.state.modal.set(slot == 0 ? Function::macro_modal_off : modal_call(in, slot).every_block ? Function::macro_every_block : Function::macro_modal);
 }
 
 bool modal_call_takes_blocks(const Interpreter& in) {
   const unsigned slot = in.state.frame[in.state.depth].modal_call;
-  return slot != 0 && slot_value(in, slot, Notes::kEveryBlock) != 0;
+  return slot != 0 && modal_call(in, slot).every_block;
 }
 
 Execution store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall& call, uint32_t passes, bool every_block, bool by_code) {
   const unsigned slot = free_slot(in);
   if (slot == 0) return in.raise(Condition::macro_nesting, Role::call_program, program.number);
-  const double head[Notes::kArgument] = {static_cast<double>(program.file),
-                                         static_cast<double>(program.number),
-                                         static_cast<double>(program.offset),
-                                         static_cast<double>(program.line),
-                                         static_cast<double>(passes),
-                                         every_block ? 1.0 : 0.0,
-                                         static_cast<double>(top(in).modal_call),
-                                         static_cast<double>(in.state.depth),
-                                         by_code ? 1.0 : 0.0};
-  for (unsigned i = 0; i < Notes::kArgument; ++i) in.set_note(Notes::slot_key(slot, i), head[i]);
-  for (unsigned i = 0; i < kLocals; ++i) {
-    const Value& value = call.argument[i];
-    in.set_note(Notes::slot_key(slot, Notes::kArgument + i), value.vacant ? std::numeric_limits<double>::quiet_NaN() : value.number);
-  }
+  ModalCall stored;
+  stored.program = program;
+  stored.repeats = passes;
+  stored.every_block = every_block;
+  stored.by_code = by_code;
+  stored.below = top(in).modal_call;
+  stored.depth = in.state.depth;
+  for (unsigned i = 0; i < kLocals; ++i)
+    if (!call.argument[i].vacant) stored.argument[i] = call.argument[i].number;
+  in.change(&ProgramRecords::modal_call, slot - 1, stored);
   in.store->note(program.file, in.system_index);
   top(in).modal_call = static_cast<uint8_t>(slot);
   show_modal_call(in);
@@ -153,8 +138,8 @@ Execution make_modal_call(Interpreter& in) {
   const unsigned slot = top(in).modal_call;
   Value arguments[kLocals];
   for (unsigned i = 0; i < kLocals; ++i) {
-    const double value = slot_value(in, slot, Notes::kArgument + i);
-    if (value == value) arguments[i] = Value::of(value);
+    const OptionalDouble argument = modal_call(in, slot).argument[i];
+    if (argument.has_value()) arguments[i] = Value::of(*argument);
   }
   return enter_modal(in, slot, arguments);
 }
@@ -180,12 +165,12 @@ bool has_modal_call(const BlockContext& in) {
 void cancel_modal_call(Interpreter& in) {
   CallFrame& frame = top(in);
   const unsigned own = frame.modal_call;
-  const bool commanded_here = own != 0 && slot_value(in, own, Notes::kDepth) == in.state.depth;
+  const bool commanded_here = own != 0 && modal_call(in, own).depth == in.state.depth;
   const bool runs_here = frame.modal_slot != 0 && in.state.frame[in.state.depth - 1].modal_call == frame.modal_slot;
   if (runs_here && !commanded_here) {
-    in.state.frame[in.state.depth - 1].modal_call = static_cast<uint8_t>(slot_value(in, frame.modal_slot, Notes::kBelow));
+    in.state.frame[in.state.depth - 1].modal_call = modal_call(in, frame.modal_slot).below;
   } else if (own != 0) {
-    frame.modal_call = static_cast<uint8_t>(slot_value(in, own, Notes::kBelow));
+    frame.modal_call = modal_call(in, own).below;
   }
   show_modal_call(in);
 }

@@ -20,8 +20,6 @@ namespace {
 
 PlaneAxes plane(const BlockContext& in) { return plane_axes(in); }
 
-double figure(const BlockContext& in, unsigned what) { return in.notes.get(Notes::figure_key(what)); }
-
 bool has(unsigned axes, unsigned axis) { return ((axes >> axis) & 1) != 0; }
 
 /// Axes that are scaled and mirrored by program in front of the turn of a figure, and behind it.
@@ -39,7 +37,7 @@ void add(Affine& map, const Affine& next) {
 }
 
 Affine scaling_of_axis(const BlockContext& in, unsigned axis) {
-  return Affine::stretch(axis, scale_of(in, axis), in.notes.get(Notes::scaling_key(axis)));
+  return Affine::stretch(axis, scale_of(in, axis), in.records->maps.scaling_center[axis]);
 }
 
 Affine scaling(const BlockContext& in, unsigned axes) {
@@ -52,7 +50,7 @@ Affine scaling(const BlockContext& in, unsigned axes) {
 Affine mirror_by_program(const BlockContext& in, unsigned axes) {
   Affine map;
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (has(axes, i)) add(map, Affine::stretch(i, -1, in.notes.get(Notes::mirror_key(i))));
+    if (has(axes, i)) add(map, Affine::stretch(i, -1, in.records->maps.mirror_center[i]));
   return map;
 }
 
@@ -60,7 +58,7 @@ Affine mirror_by_program(const BlockContext& in, unsigned axes) {
 Affine mirror_by_switch(const BlockContext& in) {
   Affine map;
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (has(in.state.switch_mirror, i)) add(map, Affine::stretch(i, -1, in.notes.get(Notes::switch_mirror_key(i)) - in.zero()[i]));
+    if (has(in.state.switch_mirror, i)) add(map, Affine::stretch(i, -1, in.records->switch_mirror.center[i] - in.zero()[i]));
   return map;
 }
 
@@ -72,20 +70,20 @@ Affine in_plane(const BlockContext& in, const Affine::Angle& angle, const double
 
 Affine rotation_by_program(const BlockContext& in) {
   if (!in.state.rotated) return Affine{};
-  const double center[2] = {in.notes.get(Notes::rotation_key(Notes::kRotationH)), in.notes.get(Notes::rotation_key(Notes::kRotationV))};
-  return in_plane(in, Affine::Angle::degrees(in.notes.get(Notes::rotation_key(Notes::kRotationAngle))), center);
+  const ProgramMaps& maps = in.records->maps;
+  return in_plane(in, Affine::Angle::degrees(maps.rotation_deg), maps.rotation_center);
 }
 
 Affine turn_of_figure(const BlockContext& in) {
   if (!in_figure(in)) return Affine{};
-  const double center[2] = {figure(in, Notes::kCenterH), figure(in, Notes::kCenterV)};
-  return in_plane(in, Affine::Angle::radians(figure(in, Notes::kAngle)), center);
+  const Figure& figure = in.records->figure;
+  return in_plane(in, Affine::Angle::radians(figure.angle), figure.center);
 }
 
 // ---- all of them
 
 /// With the rotation by parameter as commanded, or as the axes have reached it; `stretched`: with scaling.
-Affine whole_map(const BlockContext& in, Notes::WorkRotation which, bool stretched) {
+Affine whole_map(const BlockContext& in, const WorkTurn& turn, bool stretched) {
   Affine map = stretched ? scaling(in, scaled_in_figure(in)) : Affine{};
   add(map, mirror_by_program(in, mirror_in_figure(in)));
   add(map, turn_of_figure(in));
@@ -93,7 +91,7 @@ Affine whole_map(const BlockContext& in, Notes::WorkRotation which, bool stretch
   add(map, rotation_by_program(in));
   add(map, mirror_by_program(in, mirror_behind(in)));
   add(map, mirror_by_switch(in));
-  add(map, work_rotation(in, which));
+  add(map, work_rotation(in, turn));
   return map;
 }
 
@@ -101,7 +99,7 @@ ProgramMatricesKey key_of(const BlockContext& in) {
   const State& state = in.state;
   const PlaneAxes axes = plane(in);
   ProgramMatricesKey key;
-  key.notes = in.notes.changes();
+  key.records = in.records.changes();
   key.zero = in.zero();
   key.plane[0] = static_cast<int8_t>(axes.h);
   key.plane[1] = static_cast<int8_t>(axes.v);
@@ -117,12 +115,13 @@ ProgramMatricesKey key_of(const BlockContext& in) {
 }
 
 void make_matrices(const BlockContext& in, ProgramMatrices* m) {
-  m->forward = whole_map(in, Notes::kTurnCommanded, true);
-  m->directions = whole_map(in, Notes::kTurnCommanded, false);
-  m->backward = whole_map(in, Notes::kTurnReached, true).inverse();
+  const WorkTurns& turns = in.records->work_turn;
+  m->forward = whole_map(in, turns.commanded, true);
+  m->directions = whole_map(in, turns.commanded, false);
+  m->backward = whole_map(in, turns.reached, true).inverse();
   Affine behind_rotation = mirror_by_program(in, mirror_behind(in));
   add(behind_rotation, mirror_by_switch(in));
-  add(behind_rotation, work_rotation(in, Notes::kTurnReached));
+  add(behind_rotation, work_rotation(in, turns.reached));
   m->before_mirror = behind_rotation.inverse();
   Affine behind_turn = scaling(in, scaled_behind(in));
   add(behind_turn, rotation_by_program(in));
@@ -157,8 +156,8 @@ AxisVec to_program(const BlockContext& in, const AxisVec& work) {
   // Nothing of this pass has moved yet: its increments count from where the figure began.
   AxisVec p = m.to_turned.apply(work);
   const PlaneAxes axes = plane(in);
-  if (axes.h >= 0) p[static_cast<unsigned>(axes.h)] = figure(in, Notes::kStartH);
-  if (axes.v >= 0) p[static_cast<unsigned>(axes.v)] = figure(in, Notes::kStartV);
+  if (axes.h >= 0) p[static_cast<unsigned>(axes.h)] = in.records->figure.start[0];
+  if (axes.v >= 0) p[static_cast<unsigned>(axes.v)] = in.records->figure.start[1];
   return m.shape_to_program.apply(p);
 }
 
@@ -169,7 +168,7 @@ AxisVec in_front_of_mirror(const BlockContext& in, const AxisVec& work) {
 }
 
 double scale_of(const BlockContext& in, unsigned axis) {
-  return ((in.state.scaled >> axis) & 1) != 0 ? in.notes.get(Notes::scaling_key(kMaxAxes)) : 1.0;
+  return ((in.state.scaled >> axis) & 1) != 0 ? in.records->maps.scaling_factor : 1.0;
 }
 
 bool scaled_unevenly(const BlockContext& in, unsigned h, unsigned v) {
@@ -215,16 +214,14 @@ void map_compensation(const BlockContext& in, Compensation& comp) {
 void begin_figure(BlockContext& in, const double center[2]) {
   const PlaneAxes axes = plane(in);
   const AxisVec at = to_program(in, in.position());
-  const double start[2] = {axes.h >= 0 ? at[static_cast<unsigned>(axes.h)] : 0, axes.v >= 0 ? at[static_cast<unsigned>(axes.v)] : 0};
+  Figure figure;
+  figure.start[0] = axes.h >= 0 ? at[static_cast<unsigned>(axes.h)] : 0;
+  figure.start[1] = axes.v >= 0 ? at[static_cast<unsigned>(axes.v)] : 0;
+  for (unsigned i = 0; i < 2; ++i) figure.center[i] = figure.start[i] + center[i];
   in.state.frame[in.state.depth].figure = kFigureStarts;
   in.state.figure_scaled = in.state.figure_mirror = 0;
   in.program_changed();
-  in.set_note(Notes::figure_key(Notes::kStartH), start[0]);
-  in.set_note(Notes::figure_key(Notes::kStartV), start[1]);
-  in.set_note(Notes::figure_key(Notes::kCenterH), start[0] + center[0]);
-  in.set_note(Notes::figure_key(Notes::kCenterV), start[1] + center[1]);
-  in.set_note(Notes::figure_key(Notes::kStep), 0);
-  in.set_note(Notes::figure_key(Notes::kAngle), 0);
+  in.change(&ProgramRecords::figure, figure);
 }
 
 double shape_scaled(const BlockContext& in, unsigned axis, double value) {
@@ -235,17 +232,16 @@ void turn_figure(BlockContext& in) {
   const PlaneAxes axes = plane(in);
   uint8_t& state = in.state.frame[in.state.depth].figure;
   if (axes.h < 0 || axes.v < 0) return;
-  const double angle = figure(in, Notes::kAngle);
-  double step = figure(in, Notes::kStep);
-  if (angle == 0 && step == 0) {  // behind pass 1
+  Figure figure = in.records->figure;
+  if (figure.angle == 0 && figure.step == 0) {  // behind pass 1
     const AxisVec end = matrices(in).to_turned.apply(in.position());
-    const double c[2] = {figure(in, Notes::kCenterH), figure(in, Notes::kCenterV)};
-    const double from = std::atan2(figure(in, Notes::kStartV) - c[1], figure(in, Notes::kStartH) - c[0]);
+    const double* const c = figure.center;
+    const double from = std::atan2(figure.start[1] - c[1], figure.start[0] - c[0]);
     const double to = std::atan2(end[static_cast<unsigned>(axes.v)] - c[1], end[static_cast<unsigned>(axes.h)] - c[0]);
-    step = to - from;
-    in.set_note(Notes::figure_key(Notes::kStep), step);
+    figure.step = to - from;
   }
-  in.set_note(Notes::figure_key(Notes::kAngle), std::fmod(angle + step, 2 * std::numbers::pi));
+  figure.angle = std::fmod(figure.angle + figure.step, 2 * std::numbers::pi);
+  in.change(&ProgramRecords::figure, figure);
   state = kFigureStarts;
 }
 

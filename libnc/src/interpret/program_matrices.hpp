@@ -9,7 +9,7 @@ namespace nc {
 /// Everything that the matrices are made of. It is compared whole, so that whoever changes one of these, a rewind for example, does not
 /// have to know of the matrices.
 struct ProgramMatricesKey {
-  uint64_t notes = ~uint64_t{0};  ///< Notes::changes()
+  uint64_t records = ~uint64_t{0};  ///< Journalled::changes()
   AxisVec zero;                   ///< of the workpiece coordinates: some centres are points of the machine
   int8_t plane[2] = {-1, -1};
   uint8_t scaled = 0, mirror = 0, figure_scaled = 0, figure_mirror = 0, switch_mirror = 0;

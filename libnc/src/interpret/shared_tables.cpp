@@ -7,23 +7,23 @@
 namespace nc {
 namespace {
 
-Value value_of(const Interpreter& in, uint32_t key) {
+JournalValue value_of(const Interpreter& in, uint32_t key) {
   if (key < kFrameKey) return in.variables.value_of(key);
-  if (key < kNoteKey) return Value::of(in.frames.get(key - kFrameKey));
-  return Value::of(in.parameters.stored(key - kParameterKey));
+  if (key < kRecordKey) return JournalValue::of(in.frames.get(key - kFrameKey));
+  return JournalValue::of(in.parameters.stored(key - kParameterKey));
 }
 
 /// `value` is what the machine has come to; what `in` has read ahead comes behind it. Parameters are numbered by each part system as they are
 /// set, so `key` is its own.
-void take(Interpreter& in, uint32_t key, Value value) {
+void take(Interpreter& in, uint32_t key, JournalValue value) {
   if (key < kFrameKey) {
     in.variables.take_published(key, value);
   } else if (in.variables.journal().precede(key, value)) {
-    if (key < kNoteKey) {
-      in.frames.set(key - kFrameKey, value.number);
+    if (key < kRecordKey) {
+      in.frames.set(key - kFrameKey, value.as<double>());
       take_changed_amounts(in);
     } else {
-      in.parameters.restore(key - kParameterKey, value.number);
+      in.parameters.restore(key - kParameterKey, value.as<double>());
       in.refresh_settings();
     }
   }
@@ -44,14 +44,14 @@ void SharedTables::join(Interpreter& in) {
 
 bool SharedTables::shares(const Interpreter& in, uint32_t key) {
   if (key < kFrameKey) return in.variables.shares(key);
-  if (key < kNoteKey) return in.frames.is_tool_key(key - kFrameKey);
+  if (key < kRecordKey) return in.frames.is_tool_key(key - kFrameKey);
   return key >= kParameterKey && in.parameters.is_common(key - kParameterKey);
 }
 
 void SharedTables::publish(Interpreter& writer, BlockSeq executed) {
   writer.variables.journal().publish(
       executed, [&](uint32_t key) { return shares(writer, key); },
-      [&](uint32_t key, const Value* value) { publish_to_others(writer, key, value); });
+      [&](uint32_t key, const JournalValue* value) { publish_to_others(writer, key, value); });
 }
 
 void SharedTables::publish_taken_back(Interpreter& writer) {
@@ -60,8 +60,8 @@ void SharedTables::publish_taken_back(Interpreter& writer) {
   });
 }
 
-void SharedTables::publish_to_others(const Interpreter& writer, uint32_t key, const Value* value) {
-  const Value published = value != nullptr ? *value : value_of(writer, key);
+void SharedTables::publish_to_others(const Interpreter& writer, uint32_t key, const JournalValue* value) {
+  const JournalValue published = value != nullptr ? *value : value_of(writer, key);
   for (unsigned i = 0; i < count_; ++i) {
     if (system_[i] == &writer) continue;
     if (key < kParameterKey) {
@@ -93,7 +93,7 @@ void SharedTables::parameter_changed(const Interpreter& in, unsigned index) {
     unsigned there = 0;
     if (!other.parameters.same_entry(in.parameters, index, &there)) continue;
     other.parameters.restore(there, in.parameters.stored(index));
-    other.variables.changed_from_outside(kParameterKey + there, in.parameters.stored(index));
+    other.variables.changed_from_outside(kParameterKey + there, JournalValue::of(in.parameters.stored(index)));
     other.refresh_settings();
   }
   divide_again(in.settings.shared_100, in.settings.shared_500);
@@ -118,8 +118,8 @@ void SharedTables::divide_again(uint32_t first, uint32_t end, bool common) {
   Interpreter& one = *system_[0];
   for (uint32_t number = first; number < end; ++number) {
     if (!one.common->exists(number) || !one.common->divided(number)) continue;
-    const Value kept = one.variables.journal().published(number, one.common->get(number));
-    for (unsigned i = 1; i < count_; ++i) take(*system_[i], number, common ? kept : Value{});
+    const JournalValue kept = one.variables.journal().published(number, Variables::journalled(one.common->get(number)));
+    for (unsigned i = 1; i < count_; ++i) take(*system_[i], number, common ? kept : Variables::journalled(Value{}));
   }
 }
 

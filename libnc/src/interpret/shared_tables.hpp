@@ -37,7 +37,7 @@ class SharedTables {
   static bool shares(const Interpreter& in, uint32_t key);
 
  private:
-  void publish_to_others(const Interpreter& writer, uint32_t key, const Value* value);
+  void publish_to_others(const Interpreter& writer, uint32_t key, const JournalValue* value);
   void divide_again(uint32_t last_100, uint32_t last_500);
   void divide_again(uint32_t first, uint32_t end, bool common);
   Interpreter* system_[NC_MAX_SYSTEMS] = {};

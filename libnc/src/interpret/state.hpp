@@ -71,7 +71,7 @@ struct CallFrame {
   uint8_t loop_base = 0;      ///< loops of this level start here
   bool started = false;       ///< a block of this program has been executed: a further O line is another program
   CallOrigin origin = CallOrigin::word;
-  uint8_t modal_call = 0;     ///< slot (interpret/notes.hpp) of the modal macro call in force in this program, 0 = none
+  uint8_t modal_call = 0;     ///< slot (interpret/program_records.hpp) of the modal macro call in force in this program, 0 = none
   uint8_t modal_slot = 0;     ///< slot of the modal call that runs this program, 0 = none
   uint8_t figure = 0;         ///< passes are rotated (M700 13.3.3): one of the two below, 0 = no
 };
@@ -251,7 +251,7 @@ struct UntilPowerOff {
   bool port_open = false;         ///< POPEN has been executed (M700 13.5.8)
 };
 
-/// Asked in every block or move, and made of what stands in the other groups, in the notes and in the parameters
+/// Asked in every block or move, and made of what stands in the other groups, in the records and in the parameters
 /// (refresh_special, refresh_accuracy, refresh_work_rotation, Interpreter::program_changed).
 struct Derived {
   uint8_t special = 0;            ///< Special bits: 0 in nearly every program

@@ -50,11 +50,11 @@ Eval read_input_word(Access& a) {
   return give(a, a.in.world.input[a.index]);
 }
 
-uint32_t output_word(const Interpreter& in, uint32_t word) { return static_cast<uint32_t>(in.frames.get(Frames::output_key(word))); }
+uint32_t output_word(const Interpreter& in, uint32_t word) { return in.records->output[word].bits; }
 
 /// Outputs change when the machine gets there: the interpreter keeps what it has read ahead, the action goes into the stream.
 Execution put_outputs(Access& a, uint32_t word, uint32_t mask, uint32_t bits) {
-  a.in.set_table(Frames::output_key(word), (output_word(a.in, word) & ~mask) | (bits & mask));
+  a.in.change(&ProgramRecords::output, word, InterfaceOutput{(output_word(a.in, word) & ~mask) | (bits & mask)});
   Action& action = a.in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_OUTPUT;
   action.index = word;
@@ -244,12 +244,14 @@ Eval read_time_of_day(Access& a) {
 }
 
 /// Workpieces machined, and their maximum (M700 10.13: positive). Macros of the maker write the first as -1, which is an option.
-Eval read_count(Access& a) { return give(a, a.in.frames.get(Frames::count_key(a.index))); }
+Eval read_count(Access& a) { return give(a, a.in.records->workpieces.count[a.index]); }
 Execution write_count(Access& a) {
   constexpr double kMost = 999999;
   const double least = a.index == 0 && a.in.settings.negative_count ? -kMost : 0;
   if (!(a.written >= least) || a.written > kMost) return a.in.raise(Condition::value_range, '#', a.written);
-  a.in.set_table(Frames::count_key(a.index), std::trunc(a.written));
+  WorkpieceCounts workpieces = a.in.records->workpieces;
+  workpieces.count[a.index] = static_cast<int32_t>(a.written);
+  a.in.change(&ProgramRecords::workpieces, workpieces);
   return Execution::done;
 }
 
@@ -363,7 +365,7 @@ Eval read_work_position(Access& a) {  // with tool compensation in it (M700 10.1
 Eval read_skip(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
   AxisVec skip;
-  skip[a.index] = a.in.frames.get(Frames::skip_key(a.index));
+  skip[a.index] = a.in.records->skip.work[a.index];
   return give(a, shown_position(a.in, a.index, skip, work_shown));
 }
 Eval read_compensation(Access& a) {

@@ -20,11 +20,11 @@ namespace nc {
 /// count from where they stand.
 void take_work_rotation(BlockContext& in, bool at_head);
 
-/// What the state says of it is made again from the notes, which outlive a state that is put back.
+/// What the state says of it is made again from the records, which outlive a state that is put back.
 void refresh_work_rotation(BlockContext& in);
 
-/// The rotation as commanded or as reached, in workpiece coordinates.
-Affine work_rotation(const BlockContext& in, Notes::WorkRotation which);
+/// The map of a rotation, in workpiece coordinates.
+Affine work_rotation(const BlockContext& in, const WorkTurn& turn);
 
 /// Axes that move when `axes` are programmed.
 uint32_t moved_by_work_rotation(const BlockContext& in, uint32_t axes);

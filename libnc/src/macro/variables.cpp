@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "macro/variables.hpp"
 
+#include <cstring>
 #include <limits>
 
 namespace nc {
@@ -26,15 +27,10 @@ void fill_vacant(double* slots, size_t count) {
 
 constexpr uint32_t kFirstNamed = 500;
 
-unsigned digit_of(char c) {
-  return c >= '0' && c <= '9' ? static_cast<unsigned>(c - '0') + 1 : static_cast<unsigned>(c - 'A') + 11;
-}
-
-/// A name as a number, so that it is journalled like one: seven digits of base 37 are below 2^53.
-double name_code(const char* name, size_t length) {
-  double code = 0;
-  for (size_t i = 0; i < kNameLength; ++i) code = code * 37 + (i < length ? digit_of(name[i]) : 0);
-  return code;
+VariableName name_of_text(const char* text, size_t length) {
+  VariableName name;
+  std::memcpy(name.text, text, length);
+  return name;
 }
 
 }  // namespace
@@ -96,70 +92,6 @@ bool CommonVariables::next(uint32_t from, uint32_t* number, double* value) const
   return found;
 }
 
-// ---- journal
-// -------------------------------------------------------------------------------------------------------
-
-void Journal::create(unsigned capacity, Arena& arena) {
-  ring_ = arena.make<Entry>(capacity);
-  mask_ = capacity - 1;
-  clear();
-}
-
-void Journal::note(BlockSeq seq, uint32_t key, Value old) {
-  if (head_ - tail_ > mask_) {
-    if (before_loss_ != nullptr && published_ == tail_) before_loss_(loser_, ring_[tail_ & mask_].seq);
-    lost_ = ring_[tail_++ & mask_].seq;
-  }
-  ring_[head_++ & mask_] = Entry{seq, old.number, key, old.vacant};
-}
-
-BlockSeq Journal::oldest() const {
-  return lost_ + 1;
-}
-
-bool Journal::keeps(BlockSeq seq, unsigned more) const {
-  if (lost_ > seq) return false;
-  const uint64_t under_way = head_ - tail_, room = uint64_t{mask_} + 1 - under_way;
-  if (more <= room) return true;
-  const uint64_t overwritten = more - room;  // the oldest ones
-  return overwritten <= under_way && ring_[(tail_ + overwritten - 1) & mask_].seq <= seq;
-}
-
-void Journal::clear() {
-  head_ = tail_ = 0;
-  published_ = published_before_ = 0;
-  lost_ = 0;
-}
-
-bool Journal::precede(uint32_t key, Value value) {
-  bool written_later = false;
-  for (uint64_t i = tail_; i != head_ && !written_later; ++i) {
-    Entry& e = ring_[i & mask_];
-    if (e.key != key) continue;
-    e.number = value.number;
-    e.vacant = value.vacant;
-    written_later = i >= published_;
-  }
-  return !written_later;
-}
-
-Value Journal::published(uint32_t key, Value present) const {
-  for (uint64_t i = published_ > tail_ ? published_ : tail_; i != head_; ++i) {
-    const Entry& e = ring_[i & mask_];
-    if (e.key == key) return Value{e.number, e.vacant};
-  }
-  return present;
-}
-
-void Journal::replace(uint32_t key, Value value) {
-  for (uint64_t i = tail_; i != head_; ++i) {
-    Entry& e = ring_[i & mask_];
-    if (e.key != key) continue;
-    e.number = value.number;
-    e.vacant = value.vacant;
-  }
-}
-
 // ---- variables of a part system
 // ------------------------------------------------------------------------------------
 
@@ -183,12 +115,12 @@ bool Variables::get(uint32_t number, unsigned level, Value* value) const {
 bool Variables::set(uint32_t number, unsigned level, Value value, BlockSeq seq) {
   if (number - 1 < kLocals) {
     double& slot = local_[level][number - 1];
-    journal_.note(seq, local_key(level, number - 1), from_storage(slot));
+    journal_.note(seq, local_key(level, number - 1), journalled(from_storage(slot)));
     slot = to_storage(value);
     return true;
   }
   if (!common_->exists(number)) return false;
-  journal_.note(seq, number, common_->get(number));
+  journal_.note(seq, number, journalled(common_->get(number)));
   common_->set(number, value);
   return true;
 }
@@ -196,12 +128,12 @@ bool Variables::set(uint32_t number, unsigned level, Value value, BlockSeq seq) 
 bool Variables::set_from_outside(uint32_t number, unsigned level, Value value) {
   if (number - 1 < kLocals) {
     local_[level][number - 1] = to_storage(value);
-    journal_.replace(local_key(level, number - 1), value);
+    journal_.replace(local_key(level, number - 1), journalled(value));
     return true;
   }
   if (!common_->exists(number)) return false;
   common_->set(number, value);
-  journal_.replace(number, value);
+  journal_.replace(number, journalled(value));
   return true;
 }
 
@@ -209,7 +141,7 @@ void Variables::enter(unsigned level, const Value* arguments, BlockSeq seq) {
   for (unsigned i = 0; i < kLocals; ++i) {
     double& slot = local_[level][i];
     if (is_vacant(slot) && arguments[i].vacant) continue;
-    journal_.note(seq, local_key(level, i), from_storage(slot));
+    journal_.note(seq, local_key(level, i), journalled(from_storage(slot)));
     slot = to_storage(arguments[i]);
   }
 }
@@ -222,8 +154,8 @@ void Variables::clear_locals(BlockSeq seq) {
 bool Variables::set_name(uint32_t number, const char* name, size_t length, BlockSeq seq) {
   const uint32_t index = number - kFirstNamed;
   if (index >= kNames || !common_->exists(number) || length > kNameLength) return false;
-  journal_.note(seq, kNameKey | index, Value::of(common_->name(index)));
-  common_->set_name(index, name_code(name, length));
+  journal_.note(seq, kNameKey | index, JournalValue::of(common_->name(index)));
+  common_->set_name(index, name_of_text(name, length));
   return true;
 }
 
@@ -236,17 +168,17 @@ bool Variables::name_from_outside(uint32_t number, const char* name) {
     if (!good || length == kNameLength) return false;
   }
   if (index >= kNames || !common_->exists(number)) return false;
-  const double code = length == 0 ? 0 : name_code(name, length);
-  common_->set_name(index, code);
-  journal_.replace(kNameKey | index, Value::of(code));
+  const VariableName given = name_of_text(name, length);
+  common_->set_name(index, given);
+  journal_.replace(kNameKey | index, JournalValue::of(given));
   return true;
 }
 
 bool Variables::find_name(const char* name, size_t length, uint32_t* number) const {
   if (length == 0 || length > kNameLength) return false;
-  const double code = name_code(name, length);
+  const VariableName wanted = name_of_text(name, length);
   for (unsigned i = 0; i < kNames; ++i) {
-    if (common_->name(i) != code) continue;
+    if (!(common_->name(i) == wanted)) continue;
     *number = kFirstNamed + i;
     return true;
   }
@@ -256,51 +188,43 @@ bool Variables::find_name(const char* name, size_t length, uint32_t* number) con
 unsigned Variables::name_of(uint32_t number, char* name) const {
   const uint32_t index = number - kFirstNamed;
   if (index >= kNames) return 0;
-  auto code = static_cast<uint64_t>(common_->name(index));
-  unsigned length = 0;
-  for (unsigned i = kNameLength; i-- > 0; code /= 37) {
-    const unsigned digit = static_cast<unsigned>(code % 37);
-    name[i] = static_cast<char>(digit == 0 ? 0 : digit <= 10 ? '0' + digit - 1 : 'A' + digit - 11);
-    if (digit != 0 && length == 0) length = i + 1;
-  }
+  const VariableName& given = common_->name(index);
+  const auto length = static_cast<unsigned>(std::strlen(given.text));
+  std::memcpy(name, given.text, length);
   return length;
 }
 
-void Variables::note(BlockSeq seq, uint32_t key, double old) {
-  journal_.note(seq, key, Value::of(old));
+JournalValue Variables::value_of(uint32_t key) const {
+  if (key >= kLocalKey) return journalled(from_storage(local_[key >> 8 & 0xff][key & 0xff]));
+  return key >= kNameKey ? JournalValue::of(common_->name(key & 0xff)) : journalled(common_->get(key));
 }
 
-Value Variables::value_of(uint32_t key) const {
-  if (key >= kLocalKey) return from_storage(local_[key >> 8 & 0xff][key & 0xff]);
-  return key >= kNameKey ? Value::of(common_->name(key & 0xff)) : common_->get(key);
-}
-
-void Variables::put(uint32_t key, Value value) {
+void Variables::put(uint32_t key, JournalValue value) {
   if (key >= kLocalKey) {
-    local_[key >> 8 & 0xff][key & 0xff] = to_storage(value);
+    local_[key >> 8 & 0xff][key & 0xff] = to_storage(variable(value));
   } else if (key >= kNameKey) {
-    common_->set_name(key & 0xff, value.number);
+    common_->set_name(key & 0xff, value.as<VariableName>());
   } else {
-    common_->set(key, value);
+    common_->set(key, variable(value));
   }
 }
 
-bool Variables::rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uint32_t key, double old)) {
+bool Variables::rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uint32_t key, JournalValue old)) {
   if (seq + 1 < journal_.oldest()) return false;
-  journal_.rewind(seq, [&](uint32_t key, Value old) {
+  journal_.rewind(seq, [&](uint32_t key, JournalValue old) {
     if (key < kForeignKey) {
       put(key, old);
     } else if (foreign != nullptr) {
-      foreign(self, key, old.number);
+      foreign(self, key, old);
     }
   });
   return true;
 }
 
-void Variables::swap(BlockSeq seq, bool back, void* self, double (*foreign)(void* self, uint32_t key, double value)) {
-  journal_.swap(seq, back, [&](uint32_t key, Value value) {
-    if (key >= kForeignKey) return Value::of(foreign(self, key, value.number));
-    const Value old = value_of(key);
+void Variables::swap(BlockSeq seq, bool back, void* self, JournalValue (*foreign)(void* self, uint32_t key, JournalValue value)) {
+  journal_.swap(seq, back, [&](uint32_t key, JournalValue value) {
+    if (key >= kForeignKey) return foreign(self, key, value);
+    const JournalValue old = value_of(key);
     put(key, value);
     return old;
   });

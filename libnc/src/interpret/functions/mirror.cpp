@@ -14,11 +14,13 @@ Execution do_mirror(BlockContext& in) {
     // By G90 or G91 like any position; in a rotated program it is one of the shape that is turned.
     const bool shape = in_figure(in);
     const AxisVec at = shape ? to_program(in, in.position()) : target_of_words(in);
+    ProgramMaps maps = in.records->maps;
     for (unsigned i = 0; i < in.axis_count; ++i) {
       if (((w.axes >> i) & 1) == 0) continue;
       const double counted = shape ? shape_scaled(in, i, at[i] + w.axis[i]) : at[i];
-      in.set_note(Notes::mirror_key(i), ((w.incremental >> i) & 1) != 0 ? counted : w.axis[i]);
+      maps.mirror_center[i] = ((w.incremental >> i) & 1) != 0 ? counted : w.axis[i];
     }
+    in.change(&ProgramRecords::maps, maps);
     mirror |= w.axes;
     if (shape) in.state.figure_mirror |= static_cast<uint8_t>(w.axes);  // M700 13.3.3 (3): all blocks are turned
   } else {

@@ -11,8 +11,9 @@ namespace {
 /// DGSHAPE G28: an axis that is not named takes part with the midpoint that an earlier G28 of the program gave it.
 void take_remembered_midpoints(BlockContext& in, AxisVec& mid, uint32_t& axes) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((axes >> i) & 1) != 0 || in.frames.get(Frames::midpoint_set_key(i)) == 0) continue;
-    mid[i] = in.frames.get(Frames::midpoint_key(i));
+    const OptionalDouble given = in.records->midpoints.axis[i];
+    if (((axes >> i) & 1) != 0 || !given.has_value()) continue;
+    mid[i] = *given;
     axes |= 1u << i;
   }
 }
@@ -33,11 +34,10 @@ class WithoutStrokeCheck {
 /// G28 and G30: by the intermediate point to reference position `which`, 0 to 3.
 Execution go_to_reference(BlockContext& in, unsigned which, AxisVec mid, uint32_t axes) {
   if (axes == 0) return in.raise_code(Condition::words_missing, *in.words.one_shot);
-  for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((axes >> i) & 1) == 0) continue;
-    in.set_table(Frames::midpoint_key(i), mid[i]);
-    in.set_table(Frames::midpoint_set_key(i), 1);
-  }
+  ReferenceMidpoints midpoints = in.records->midpoints;
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((axes >> i) & 1) != 0) midpoints.axis[i] = mid[i];
+  in.change(&ProgramRecords::midpoints, midpoints);
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   style.transparent = true;  // M700 12.4.2: no vector at the intermediate point
@@ -118,8 +118,9 @@ Execution do_start_return(BlockContext& in) {
   AxisVec mid = position;
   uint32_t known = 0;
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0 || in.frames.get(Frames::midpoint_set_key(i)) == 0) continue;
-    mid[i] = in.frames.get(Frames::midpoint_key(i));
+    const OptionalDouble given = in.records->midpoints.axis[i];
+    if (((w.axes >> i) & 1) == 0 || !given.has_value()) continue;
+    mid[i] = *given;
     if (((in.settings.turning >> i) & 1) != 0)
       mid[i] = position[i] + turn_to(within_one_turn(mid[i]), within_one_turn(position[i]), ((in.settings.short_cut >> i) & 1) != 0);
     known |= 1u << i;

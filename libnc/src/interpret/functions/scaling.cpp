@@ -32,12 +32,14 @@ Execution do_scaling(BlockContext& in) {
   if (!factor_of(in, &factor)) return in.raise(Condition::value_range, Role::scaling_factor, w.get(Role::scaling_factor));
   const AxisVec at = to_program(in, in.position());
   const uint32_t axes = rules.all_linear_axes ? ~in.rotary & ((1u << in.axis_count) - 1) : w.axes;
+  ProgramMaps maps = in.records->maps;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((axes >> i) & 1) == 0) continue;
     const bool given = ((w.axes >> i) & 1) != 0, incremental = ((w.incremental >> i) & 1) != 0;
-    in.set_note(Notes::scaling_key(i), !given ? at[i] : incremental ? at[i] + w.axis[i] : w.axis[i]);
+    maps.scaling_center[i] = !given ? at[i] : incremental ? at[i] + w.axis[i] : w.axis[i];
   }
-  in.set_note(Notes::scaling_key(kMaxAxes), factor);  // (8): the newest counts for all axes
+  maps.scaling_factor = factor;  // (8): the newest counts for all axes
+  in.change(&ProgramRecords::maps, maps);
   in.state.scaled |= static_cast<uint8_t>(axes);
   if (in_figure(in)) in.state.figure_scaled |= static_cast<uint8_t>(axes);  // (6)
   in.program_changed();
@@ -58,20 +60,20 @@ Execution do_rotation(BlockContext& in) {
   if (plane.h < 0 || plane.v < 0) return in.raise_code(Condition::plane_mismatch, *w.one_shot);
   for (const FunctionRow* row : w.g)
     if (is_plane(row->function)) return in.raise_code(Condition::plane_in_rotation, *row);  // (13): not in the same block
+  ProgramMaps maps = in.records->maps;
   if (w.has(Role::rotation_angle)) {                                                                         // (4), (5)
     const double r = length_value(in, w.get(Role::rotation_angle), w.flag(Role::rotation_angle), true, true);
-    const double before = in.state.modal.is(Function::incremental)
-                              ? in.notes.get(Notes::rotation_key(Notes::kRotationAngle))
-                              : 0;
-    in.set_note(Notes::rotation_key(Notes::kRotationAngle), std::fmod(before + r, 360));
+    const double before = in.state.modal.is(Function::incremental) ? maps.rotation_deg : 0;
+    maps.rotation_deg = std::fmod(before + r, 360);
   }
   const AxisVec at = in_front_of_mirror(in, in.position());
   const int axes[2] = {plane.h, plane.v};
   for (unsigned i = 0; i < 2; ++i) {
     const auto axis = static_cast<unsigned>(axes[i]);
     const bool given = ((w.axes >> axis) & 1) != 0;  // absolute also in G91
-    in.set_note(Notes::rotation_key(i), given ? w.axis[axis] : at[axis]);
+    maps.rotation_center[i] = given ? w.axis[axis] : at[axis];
   }
+  in.change(&ProgramRecords::maps, maps);
   in.state.rotated = true;
   in.program_changed();
   in.state.modal.set(Function::rotation_on);
@@ -86,13 +88,14 @@ void end_rotation(BlockContext& in) {
 
 void keep_rotation_center(BlockContext& in, const AxisVec& zero_before) {
   if (!in.state.rotated) return;
+  ProgramMaps maps = in.records->maps;
   const PlaneAxes plane = plane_axes(in);
   const int axes[2] = {plane.h, plane.v};
   for (unsigned i = 0; i < 2; ++i) {
     const auto axis = static_cast<unsigned>(axes[i]);
-    const unsigned key = Notes::rotation_key(i);
-    in.set_note(key, in.notes.get(key) + zero_before[axis] - in.zero()[axis]);
+    maps.rotation_center[i] += zero_before[axis] - in.zero()[axis];
   }
+  in.change(&ProgramRecords::maps, maps);
 }
 
 }  // namespace nc

@@ -12,8 +12,10 @@ namespace {
 /// #5061...: skip position in workpiece coordinates, tool compensation included (M700 10.11). Axes not named keep their value.
 void store_skip_position(BlockContext& in, const AxisVec& machine, uint32_t axes) {
   const AxisVec zero = in.zero();
+  SkipPosition skip = in.records->skip;
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((axes >> i) & 1) != 0) in.set_table(Frames::skip_key(i), machine[i] - zero[i]);
+    if (((axes >> i) & 1) != 0) skip.work[i] = machine[i] - zero[i];
+  in.change(&ProgramRecords::skip, skip);
 }
 
 /// M700 15.5: F1= to F8=, the feed behind each signal; 0 ends the move. Signals that are not named do nothing.

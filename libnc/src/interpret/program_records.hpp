@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a program leaves for later blocks and is too large for the state, which is copied at every block, or is a number that the program counts,
+// puts out or reads back. Each write is journalled under the block that made it (macro/journalled.hpp), so that a rewind takes it back.
+//
+// The records stand in groups by what they outlive, like the state (interpret/state.hpp, where the columns are explained):
+//
+//   group                over M98,   interrupt   next text   M02, M30,    reset by the   power off
+//                        G65, M99    and M99     of MDI      next start   operator
+//   ProgramRecordsLife      yes          -           -           -            -             -
+//   MapRecordsLife          yes       RETURNS       yes          -            -             -
+//   MachineRecordsLife      yes          -          yes         yes          yes            -
+//
+// A figure's and a modal call's frame say whether they are in force (CallFrame), the state whether an interrupt, a map or a mirror is.
+// G28's intermediate points end with the program where the family says so (ReferenceRules::forgets_with_program). What is retained
+// over power off, a host writes down and gives back (nc/control.h).
+#pragma once
+
+#include <type_traits>
+
+#include "base/optional_double.hpp"
+#include "macro/journalled.hpp"
+#include "macro/variables.hpp"
+#include "nc/types.h"
+#include "program/store.hpp"
+
+namespace nc {
+
+inline constexpr unsigned kModalCalls = 8;
+
+/// A modal macro call: G66, G66.1, or a registered code of their kind (M700 13.5.1).
+struct ModalCall {
+  ProgramRef program;
+  uint32_t repeats = 0;             ///< L
+  bool every_block = false;         ///< G66.1, else G66
+  bool by_code = false;             ///< commanded by a registered code
+  uint8_t below = 0;                ///< slot of the call that was in force before, from 1; 0 = none
+  uint8_t depth = 0;                ///< of the program that commanded it
+  OptionalDouble argument[kLocals]; ///< of #1 to #33
+};
+
+/// A figure that is rotated pass by pass, in the plane in force (M700 13.3.3).
+struct Figure {
+  double center[2] = {0, 0};
+  double start[2] = {0, 0};  ///< of pass 1
+  double step = 0;           ///< from pass to pass, rad; 0 = pass 1 has not ended
+  double angle = 0;          ///< of the pass under way, rad
+};
+
+/// The program of M96 (M700 13.12).
+struct InterruptProgram {
+  ProgramRef program;
+  uint64_t begin = 0;  ///< where its first block stands ...
+  uint32_t begin_line = 0;
+};
+
+/// Where the maps of the program are centred, and how much they scale and turn.
+struct ProgramMaps {
+  AxisVec mirror_center;                ///< M700 13.6
+  AxisVec scaling_center;               ///< 13.19
+  double scaling_factor = 0;
+  double rotation_center[2] = {0, 0};   ///< 13.20: workpiece coordinates
+  double rotation_deg = 0;
+};
+
+/// Mirror image by switch: where each axis stood when the program began, machine coordinates.
+struct SwitchMirror {
+  AxisVec center;
+};
+
+/// What the macro has selected to read next; 0 = nothing yet.
+struct Selection {
+  uint32_t parameter[3] = {0, 0, 0};  ///< #100000: number, part, axis (M700 10.16)
+  uint32_t device[4] = {0, 0, 0, 0};  ///< #100100: device, number, bytes, bit (10.17)
+  uint32_t tool_group = 0;            ///< #60000 (10.15)
+};
+
+/// Rotation of the workpiece coordinate systems about a point of the machine (M700 13.21).
+struct WorkTurn {
+  double deg = 0;
+  double center[2] = {0, 0};      ///< machine coordinates
+  int32_t axis[2] = {-1, -1};     ///< -1 = the machine has none of the name in the parameter
+  bool turns() const { return deg != 0; }
+  bool has_plane() const { return axis[0] >= 0 && axis[1] >= 0 && axis[0] != axis[1]; }
+  bool operator==(const WorkTurn&) const = default;
+};
+struct WorkTurns {
+  WorkTurn commanded;  ///< by the parameters
+  WorkTurn reached;    ///< by the axes
+};
+
+/// The intermediate point of the newest G28 or G30 of each axis.
+struct ReferenceMidpoints {
+  OptionalDouble axis[kMaxAxes];
+};
+
+/// Where the newest G31 has ended, workpiece coordinates (#5061).
+struct SkipPosition {
+  AxisVec work;
+};
+
+/// A word of the macro interface's outputs (#1100, #1132) as read ahead.
+struct InterfaceOutput {
+  uint32_t bits = 0;
+};
+
+/// Workpieces (#3901, #3902, M700 10.13).
+struct WorkpieceCounts {
+  int32_t count[2] = {0, 0};  ///< machined, maximum
+};
+
+// ---- the groups ------------------------------------------------------------------------------------------------------------------
+
+struct ProgramRecordsLife {
+  ModalCall modal_call[kModalCalls];  ///< slot n is place n - 1
+  Figure figure;
+  InterruptProgram interrupt;
+  SwitchMirror switch_mirror;
+  Selection selection;
+  WorkTurns work_turn;
+};
+
+struct MapRecordsLife {
+  ProgramMaps maps;
+};
+
+struct MachineRecordsLife {
+  ReferenceMidpoints midpoints;
+  SkipPosition skip;
+  InterfaceOutput output[NC_WORDS];
+  WorkpieceCounts workpieces;
+};
+
+/// All of them, each in exactly one group (tests/interpret/lifetimes_test.cpp).
+struct ProgramRecords : ProgramRecordsLife, MapRecordsLife, MachineRecordsLife {};
+static_assert(std::is_trivially_copyable_v<ProgramRecords>);
+
+}  // namespace nc
