@@ -30,9 +30,8 @@
 #include <string>
 #include <thread>
 
-#include "hal/composite.hpp"
 #include "hal/modbus/link.hpp"
-#include "hal/sim/sim_machine.hpp"
+#include "runtime/hal_factory.hpp"
 #include "runtime/runtime.hpp"
 
 namespace {
@@ -224,12 +223,11 @@ void scan(benchmark::State& state) {
     state.SkipWithError(error.text().c_str());
     return;
   }
-  nc::hal::SimMachine machine(config.sim, config.points);
-  const auto links = nc::hal::modbus::make_links(config.modbus_links(), {});
-  nc::hal::Composite hal(&machine, {links[0].get()}, config.points);
+  const nc::rt::MadeMachine machine = nc::rt::make_machine(config, {});
+  const auto& link = static_cast<const nc::hal::modbus::ModbusLink&>(*machine.buses[0]);  // the only one of the configuration above
   nc::rt::VirtualClock clock;
   std::vector<nc::rt::ConfigError> errors;
-  const auto runtime = nc::rt::Runtime::create(config, {&clock, &hal, nullptr, nullptr}, &errors);
+  const auto runtime = nc::rt::Runtime::create(config, {&clock, machine.hal.get(), nullptr, nullptr}, &errors);
   if (instructions != 0) std::remove(path.c_str());
   for (const nc::rt::ConfigError& e : errors) state.SkipWithError(e.text().c_str());
   unsigned file = 0;
@@ -241,8 +239,8 @@ void scan(benchmark::State& state) {
     state.SkipWithError(("the runtime does not start: " + error).c_str());
     return;
   }
-  for (unsigned n = 0; n < 200 && links[0]->statistics().state == nc::hal::modbus::LinkState::kLost; ++n) usleep(10000);
-  const std::uint64_t requests = links[0]->statistics().requests;
+  for (unsigned n = 0; n < 200 && link.statistics().state == nc::hal::modbus::LinkState::kLost; ++n) usleep(10000);
+  const std::uint64_t requests = link.statistics().requests;
   // The priority of ncrtd's scan; what is not allowed is said, and the figures are those of an ordinary thread.
   std::vector<std::string> warnings;
   nc::rt::promote_scan_thread(config.scheduling, &warnings);
@@ -262,8 +260,8 @@ void scan(benchmark::State& state) {
   }
   const sched_param ordinary{};
   pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
-  if (links[0]->statistics().state != nc::hal::modbus::LinkState::kOk) state.SkipWithError("the link is not ok");
-  state.counters["modbus_requests"] = static_cast<double>(links[0]->statistics().requests - requests);
+  if (link.statistics().state != nc::hal::modbus::LinkState::kOk) state.SkipWithError("the link is not ok");
+  state.counters["modbus_requests"] = static_cast<double>(link.statistics().requests - requests);
   if (runtime->snapshot().alarmed()) state.SkipWithError("the program stopped on an alarm");
   show(state, "scan", runtime->statistics().execution);
   show(state, "loop", loop.times());

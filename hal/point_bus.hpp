@@ -22,6 +22,8 @@ class PointBus {
   virtual void read(PointImage* image) noexcept = 0;
   // Outputs of this bus out of the image. NC_RT.
   virtual void write(const PointImage& image) noexcept = 0;
+  // False while outputs that keep their value from one control to the next have not been read back. Any thread.
+  virtual bool held_outputs_known() const { return true; }
   // After the last scan: outputs to their safe values, threads ended.
   virtual void stop() noexcept = 0;
 };

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "runtime/config_sections.hpp"
+#include "runtime/hal_factory.hpp"
 
 namespace nc::rt {
 
@@ -79,13 +80,13 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   read_parameters(&reader, &read);
   read_work_offsets(&reader, &read);
   read_tool_offsets(&reader, &read);
-  read_modbus(&reader, &read);
+  read_point_buses(&reader, point_bus_kinds(), &read);
   read_points(&reader, &read);
-  check_modbus(&reader, read);
+  check_point_buses(&reader, read);
   read_macro_interface(&reader, &read);
   read_ladder(&reader, &read);
   read_signals(&reader, &read);
-  read_sim(&reader, &read);
+  read_machine_sections(&reader, &read);
   read_spindle_feedback(&reader, &read);
   read_share(&reader, &read);
   reader.finish();

@@ -101,11 +101,24 @@ struct LadderConfig {
   unsigned retain_d_first = 0, retain_d_count = 0;  // D among them
 };
 
-// A Modbus link; the n-th is bus n of the points, counted from 1.
+struct MachineKind;   // runtime/hal_factory.hpp
+struct PointBusKind;
+
+// A bus that carries points, of whatever kind; the n-th is bus n of the points, counted from 1.
+struct PointBusConfig {
+  const PointBusKind* kind = nullptr;
+  std::size_t place = 0;  // among the buses of its kind: Config::modbus
+  std::string name;
+  unsigned ok_point = 0;  // the input point "<name>.ok"
+  bool alarm = false;     // a bus that is lost is alarm R18
+};
+inline constexpr std::size_t kMaxPointBuses = 32;  // threads and sockets of their own; the scan keeps a bit for each
+
+// A Modbus link.
 struct ModbusLinkConfig {
   hal::modbus::LinkConfig link;
+  std::uint8_t bus = 0;   // of its points
   std::uint8_t unit = 1;  // of points that name none
-  bool alarm = false;     // a link that is lost is alarm R18
   bool named = false;     // by a point, be it a wrong one
   ConfigPlace place;
 };
@@ -161,6 +174,8 @@ struct Config {
   std::vector<ToolOffsetSetting> tool_offsets;
   hal::PointTable points;
   MacroMap macro;
+  const MachineKind* machine_kind = nullptr;  // of the axes; never null in a configuration that was read
+  std::vector<PointBusConfig> buses;
   std::vector<ModbusLinkConfig> modbus;
   LadderConfig ladder;
   std::vector<SignalWire> wires;
@@ -174,8 +189,6 @@ struct Config {
   std::string external_folder() const;
   // File that programs print to; empty = none.
   std::string print_file() const;
-  // What the links are made from, in the order of their buses.
-  std::vector<hal::modbus::LinkConfig> modbus_links() const;
   // The ladder program in the same way.
   std::string ladder_file() const;
   // File of the retained devices: as configured, else in the folder that a service manager gives

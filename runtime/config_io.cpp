@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "runtime/config_sections.hpp"
+#include "runtime/hal_factory.hpp"
 #include "runtime/signals/signal_table.hpp"
 
 namespace nc::rt {
@@ -207,8 +208,8 @@ void read_points(TableReader* root, Config* config) {
     reader.integer("initial", &point.initial, bit ? 0 : -0x80000000ll, bit ? 1 : 0xFFFFFFFFll);
     if (reader.string("meaning", &point.meaning) && point.meaning.size() > kMaxMeaning)
       reader.error("meaning", "is longer than " + std::to_string(kMaxMeaning) + " bytes");
-    const PointModbus modbus = read_point_modbus(&reader, point, config);
-    point.bus = modbus.bus;
+    const PlaceOnBus place = read_place_on_bus(&reader, point_bus_kinds(), point, config);
+    point.bus = place.bus;
     if (!named) return;
     if (!valid_point_name(point.name))
       reader.error("name", "must be 1 to 55 letters, digits, '_', '-' or '.'");
@@ -224,8 +225,8 @@ void read_points(TableReader* root, Config* config) {
       reader.error("name", "point \"" + point.name + "\" is already there");
     else if (!config->points.add(point))
       reader.error("name", "there are more than " + std::to_string(hal::kMaxPoints) + " points");
-    else
-      add_point_modbus(modbus, config);
+    else if (place.bus != 0)
+      place.add(config);
   });
 }
 

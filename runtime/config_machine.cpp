@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/config_sections.hpp"
+#include "runtime/hal_factory.hpp"
 
 namespace nc::rt {
 namespace {
@@ -179,7 +180,7 @@ void read_machine(TableReader* root, Config* config) {
     unsigned word = 0;
     reader.string("name", &config->name);
     if (reader.choice("dialect", dialects(), &word)) nc.dialect = static_cast<std::uint8_t>(word);
-    reader.choice("hal", {"sim"}, &word);
+    read_machine_kind(&reader, machine_kinds(), config);
     reader.string("programs", &config->programs);
     config->programs_place = {reader.line("programs"), reader.path("programs")};
     reader.string("external", &config->external);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "hal/modbus/codec.hpp"
+#include "runtime/bus_modbus.hpp"
 #include "runtime/config_sections.hpp"
 
 namespace nc::rt {
@@ -20,7 +21,6 @@ using hal::modbus::PointMap;
 using hal::modbus::Table;
 using hal::modbus::WordOrder;
 
-constexpr std::size_t kMaxLinks = 32;  // a thread and a socket each
 constexpr unsigned kLastAddress = 65535;
 constexpr double kMaxScale = 1e9;
 
@@ -44,6 +44,7 @@ bool read_unit(TableReader* reader, std::uint8_t* unit) {
 
 void read_link(TableReader* reader, Config* config) {
   ModbusLinkConfig entry;
+  PointBusConfig bus;
   LinkConfig& link = entry.link;
   entry.place = {reader->line("name"), reader->path("name")};
   for (const char* key : {"name", "host"}) reader->require(key);
@@ -63,7 +64,7 @@ void read_link(TableReader* reader, Config* config) {
   reader->integer("lost_after", &link.lost_after, 1, 1000);
   reader->integer("refresh_ms", &link.refresh_ms, 10, 3600000);
   reader->integer("merge_gap", &link.merge_gap, 0, 124);
-  reader->boolean("alarm", &entry.alarm);
+  reader->boolean("alarm", &bus.alarm);
   if (!named) return;
   if (!valid_link_name(link.name)) {
     reader->error("name", "must be 1 to 32 letters, digits, '_' or '-'");
@@ -74,16 +75,19 @@ void read_link(TableReader* reader, Config* config) {
     reader->error("name", "link \"" + link.name + "\" is already there");
     return;
   }
-  if (config->modbus.size() == kMaxLinks) {
-    reader->error("name", "there are more than " + std::to_string(kMaxLinks) + " links");
+  if (config->buses.size() == kMaxPointBuses) {
+    reader->error("name", "there are more than " + std::to_string(kMaxPointBuses) + " links");
     return;
   }
   hal::Point ok;
   ok.name = link.name + ".ok";
   ok.meaning = "the Modbus link answers";
-  ok.bus = static_cast<std::uint8_t>(config->modbus.size() + 1);
-  link.ok_point = config->points.size();
+  ok.bus = entry.bus = static_cast<std::uint8_t>(config->buses.size() + 1);
+  link.ok_point = bus.ok_point = config->points.size();
   if (!config->points.add(ok)) reader->error("name", "there is no room for the point \"" + ok.name + "\"");
+  bus.name = link.name;
+  bus.place = config->modbus.size();
+  config->buses.push_back(std::move(bus));
   config->modbus.push_back(std::move(entry));
 }
 
@@ -260,8 +264,8 @@ void read_modbus(TableReader* root, Config* config) {
   root->tables("modbus", [&](TableReader& reader, std::size_t) { read_link(&reader, config); });
 }
 
-PointModbus read_point_modbus(TableReader* point_reader, const hal::Point& point, Config* config) {
-  PointModbus result;
+PlaceOnBus read_point_modbus(TableReader* point_reader, const hal::Point& point, Config* config) {
+  PlaceOnBus result;
   point_reader->table("modbus", [&](TableReader& reader) {
     PointMap map;
     map.output = point.direction == hal::PointDirection::kOutput;
@@ -292,17 +296,13 @@ PointModbus read_point_modbus(TableReader* point_reader, const hal::Point& point
     if (placed && addressed) check_initial(point_reader, map);
     if (!found || !placed || !addressed) return;
     check_collisions(&reader, *config, link->link, map);
-    result.bus = static_cast<std::uint8_t>(link - config->modbus.begin() + 1);
-    result.map = map;
+    result.bus = link->bus;
+    result.add = [map, place = link - config->modbus.begin()](Config* owner) mutable {
+      map.point = owner->points.size() - 1;
+      owner->modbus[static_cast<std::size_t>(place)].link.points.push_back(map);
+    };
   });
   return result;
-}
-
-void add_point_modbus(const PointModbus& place, Config* config) {
-  if (place.bus == 0) return;
-  PointMap map = place.map;
-  map.point = config->points.size() - 1;
-  config->modbus[place.bus - 1u].link.points.push_back(map);
 }
 
 void check_modbus(TableReader* root, const Config& config) {
@@ -310,12 +310,6 @@ void check_modbus(TableReader* root, const Config& config) {
     if (!entry.named)
       root->errors()->add(entry.place.line, entry.place.key,
                           "no point uses the link \"" + entry.link.name + "\"");
-}
-
-std::vector<hal::modbus::LinkConfig> Config::modbus_links() const {
-  std::vector<hal::modbus::LinkConfig> links;
-  for (const ModbusLinkConfig& entry : modbus) links.push_back(entry.link);
-  return links;
 }
 
 }  // namespace nc::rt

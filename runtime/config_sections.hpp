@@ -17,19 +17,7 @@ void read_axes(TableReader* root, Config* config);
 void read_parameters(TableReader* root, Config* config);
 void read_work_offsets(TableReader* root, Config* config);
 void read_tool_offsets(TableReader* root, Config* config);
-// [[modbus]]: before the points, which name their links. Adds the points "<link>.ok".
-void read_modbus(TableReader* root, Config* config);
-void read_points(TableReader* root, Config* config);
-// The `modbus` table of a [[point]]. The point may still be refused, for its name above all: what was read becomes part of the
-// link by add_point_modbus() behind PointTable::add(), so that a link never names a point that does not exist.
-struct PointModbus {
-  std::uint8_t bus = 0;  // 0 = the machine's own: there is no such table, or an error in it
-  hal::modbus::PointMap map;
-};
-PointModbus read_point_modbus(TableReader* point_reader, const hal::Point& point, Config* config);
-void add_point_modbus(const PointModbus& place, Config* config);  // of the point that was added last
-// After the points.
-void check_modbus(TableReader* root, const Config& config);
+void read_points(TableReader* root, Config* config);  // behind the buses that carry them: read_point_buses()
 void read_macro_interface(TableReader* root, Config* config);
 void read_ladder(TableReader* root, Config* config);
 void read_signals(TableReader* root, Config* config);  // after points, macro interface and ladder

@@ -50,7 +50,7 @@ void read_spindle_feedback(TableReader* root, Config* config) {
     for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {
       SpindleFeedback& feedback = config->spindle_feedback[s][n];
       const bool driven = s == 0 && config->sim.plant.spindle[n].driven;
-      if (!feedback.given && !driven && !config->modbus.empty()) feedback.by = SpindleFeedback::By::kNothing;
+      if (!feedback.given && !driven && !config->buses.empty()) feedback.by = SpindleFeedback::By::kNothing;
     }
 }
 

@@ -2,9 +2,7 @@
 // One control for one machine. See machine_lock.hpp.
 #include "runtime/machine_lock.hpp"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netdb.h>
 #include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -19,62 +17,19 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <memory>
-#include <set>
 #include <thread>
+
+#include "runtime/hal_factory.hpp"
 
 namespace nc::rt {
 namespace {
 
 // ---- what is one thing ----
 
-// An address as a number in its one spelling; IPv4 in the clothes of IPv6 is IPv4.
-std::string address_text(const sockaddr* address) {
-  char text[INET6_ADDRSTRLEN] = "";
-  if (address->sa_family == AF_INET) {
-    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(address)->sin_addr, text, sizeof text);
-  } else if (address->sa_family == AF_INET6) {
-    const auto* six = reinterpret_cast<const sockaddr_in6*>(address);
-    if (IN6_IS_ADDR_V4MAPPED(&six->sin6_addr)) {
-      inet_ntop(AF_INET, six->sin6_addr.s6_addr + 12, text, sizeof text);
-    } else {
-      inet_ntop(AF_INET6, &six->sin6_addr, text, sizeof text);
-      return std::string(text) + (six->sin6_scope_id != 0 ? "%" + std::to_string(six->sin6_scope_id) : "");
-    }
-  }
-  return text;
-}
-
-// All addresses of a host; of one that nobody knows now, the name, so that at least the same name is the same host.
-std::set<std::string> addresses_of(const std::string& host) {
-  addrinfo hints{};
-  hints.ai_family = AF_UNSPEC;
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) return {host};
-  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> list(found, freeaddrinfo);
-  std::set<std::string> addresses;
-  for (const addrinfo* entry = found; entry != nullptr; entry = entry->ai_next)
-    addresses.insert(address_text(entry->ai_addr));
-  return addresses;
-}
-
 void add_file(const std::string& path, const std::string& meaning, std::vector<MachineResource>* resources) {
   std::error_code ignored;
   const std::filesystem::path whole = std::filesystem::weakly_canonical(path, ignored);
   if (!whole.empty()) resources->push_back({"path " + whole.string(), meaning + " " + path});
-}
-
-void add_modbus(const ModbusLinkConfig& entry, std::vector<MachineResource>* resources) {
-  std::set<unsigned> units;
-  for (const hal::modbus::PointMap& map : entry.link.points)
-    if (map.output) units.insert(map.unit);
-  if (units.empty()) return;  // who only reads takes nothing away from anybody
-  const std::string port = std::to_string(entry.link.port);
-  for (const std::string& address : addresses_of(entry.link.host))
-    for (const unsigned unit : units)
-      resources->push_back({"modbus " + address + " " + port + " " + std::to_string(unit),
-                            "Modbus unit " + std::to_string(unit) + " of " + entry.link.host + " port " + port});
 }
 
 // ---- names of sockets ----
@@ -169,7 +124,8 @@ std::vector<MachineResource> machine_resources(const Config& config, bool retain
   struct stat status {};
   if (stat(config.file.c_str(), &status) == 0)
     resources.push_back({"file " + std::to_string(status.st_dev) + " " + std::to_string(status.st_ino), meaning + " " + config.file});
-  for (const ModbusLinkConfig& entry : config.modbus) add_modbus(entry, &resources);
+  for (const PointBusConfig& bus : config.buses)
+    if (bus.kind->resources != nullptr) bus.kind->resources(config, bus, &resources);
   if (retained)
     for (const std::string& path : {config.retain_path(), config.variables_path(), config.offsets_path()})
       if (!path.empty()) add_file(path, "the file of retained data", &resources);
@@ -217,6 +173,11 @@ bool MachineLock::take_file(const std::string& path, std::string* error) {
   }
   held_.push_back(fd);
   return true;
+}
+
+bool MachineLock::take_machine(const Config& config, bool virtual_time, std::string* error) {
+  if (virtual_time && config.buses.empty()) return true;
+  return take(machine_resources(config, !virtual_time), error) && take_file(config.file, error);
 }
 
 }  // namespace nc::rt

@@ -39,6 +39,9 @@ class MachineLock {
   bool take(const std::vector<MachineResource>& resources, std::string* error);
   // flock() on the file of the configuration. A file system that knows no locks leaves it at the other ones.
   bool take_file(const std::string& path, std::string* error);
+  // Everything that makes the machine of a configuration. A machine on virtual time without a bus has no outputs: whoever wants may simulate it as
+  // often as he likes, and nothing is taken.
+  bool take_machine(const Config& config, bool virtual_time, std::string* error);
   void release();
 
  private:

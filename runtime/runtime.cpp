@@ -447,7 +447,7 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
     const std::string& own = config_.ladder.alarm[alarm.detail % config_.ladder.alarm.size()];
     text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);
   }
-  if (alarm.id == AlarmId::kLinkLost) text += ": " + config_.modbus[alarm.detail % config_.modbus.size()].link.name;
+  if (alarm.id == AlarmId::kLinkLost) text += ": " + config_.buses[alarm.detail % config_.buses.size()].name;
   if (alarm.id == AlarmId::kBadInput) text += bad_input_text(alarm.detail);
   if (alarm.id == AlarmId::kLadderStopped) text += ": " + ladder_fault(alarm);
   if (alarm.axis >= 0) text += std::string(", axis ") + config_.nc.system[alarm.system].axis[alarm.axis].name;

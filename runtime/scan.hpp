@@ -209,7 +209,7 @@ class Scan {
   bool single_block_ = false, optional_stop_ = false;
   LadderRequests last_requests_;     // of the scan before
   unsigned ladder_start_scans_ = 0;  // the ladder's cycle start has been on for
-  std::uint32_t links_seen_ = 0;  // bit n: Modbus link n has answered
+  std::uint32_t links_seen_ = 0;  // bit n: the n-th point bus has answered
   std::uint64_t fin_scans_[NC_MAX_SYSTEMS] = {};  // a part system has waited for FIN for
   std::uint64_t clamp_scans_[NC_MAX_SYSTEMS] = {};  // for the clamp of an index table
   std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // of the scan before

@@ -119,10 +119,10 @@ void Scan::watch_overruns() noexcept {
 // A link that has not answered yet is given some time, so that the control may be up before its devices.
 void Scan::watch_links() noexcept {
   constexpr std::int64_t kGraceNs = 10'000'000'000;
-  for (unsigned n = 0; n < config_.modbus.size(); ++n) {
-    const ModbusLinkConfig& link = config_.modbus[n];
-    if (!link.alarm) continue;
-    const bool good = points_.value[link.link.ok_point] != 0;
+  for (unsigned n = 0; n < config_.buses.size(); ++n) {
+    const PointBusConfig& bus = config_.buses[n];
+    if (!bus.alarm) continue;
+    const bool good = points_.value[bus.ok_point] != 0;
     links_seen_ |= static_cast<std::uint32_t>(good) << n;
     const bool due = (links_seen_ >> n & 1u) != 0 || static_cast<std::int64_t>(scan_) * period_ns_ > kGraceNs;
     if (!good && due) raise(AlarmId::kLinkLost, 0, -1, n);

@@ -342,11 +342,9 @@ void ModbusLink::report(const std::string& line) const {
   if (report_) report_(config_.name + ": " + line);
 }
 
-std::vector<std::unique_ptr<ModbusLink>> make_links(const std::vector<LinkConfig>& configs,
-                                                    const Report& report) {
-  std::vector<std::unique_ptr<ModbusLink>> links;
-  for (const LinkConfig& config : configs) links.push_back(std::make_unique<ModbusLink>(config, report));
-  return links;
+bool ModbusLink::held_outputs_known() const {
+  const bool holds = std::any_of(config_.points.begin(), config_.points.end(), [](const PointMap& map) { return map.holds(); });
+  return !holds || statistics().state == LinkState::kOk;
 }
 
 }  // namespace nc::hal::modbus

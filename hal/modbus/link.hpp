@@ -67,6 +67,8 @@ class ModbusLink final : public PointBus {
   void stop() noexcept override;
 
   // ---- any thread ----
+  // Every block of a link that is OK has come through, with them those of the outputs that hold.
+  bool held_outputs_known() const override;
   LinkStatistics statistics() const;
   const LinkConfig& config() const { return config_; }
 
@@ -157,9 +159,5 @@ class ModbusLink final : public PointBus {
   double round_trip_sum_us_ = 0;
   std::uint64_t round_trips_ = 0;
 };
-
-// One link for each configuration, in their order: the buses 1, 2, ...
-std::vector<std::unique_ptr<ModbusLink>> make_links(const std::vector<LinkConfig>& configs,
-                                                    const Report& report);
 
 }  // namespace nc::hal::modbus

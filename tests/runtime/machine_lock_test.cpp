@@ -128,4 +128,17 @@ TEST_F(Folder, TheFileItselfIsUnderALock) {
   EXPECT_TRUE(second.take_file(path, &error)) << error;
 }
 
+TEST_F(Folder, AMachineWithoutOutputsIsSimulatedAsOftenAsOneLikes) {
+  std::string error;
+  for (const bool with_bus : {false, true}) {
+    const Config config = load(with_bus ? write("bus.toml", "127.0.0.1") : write("sim.toml"));
+    MachineLock virtual_one, virtual_two, real_one, real_two;
+    ASSERT_TRUE(virtual_one.take_machine(config, true, &error)) << error;
+    EXPECT_EQ(virtual_two.take_machine(config, true, &error), !with_bus) << "its outputs are real on virtual time, too";
+    EXPECT_EQ(real_one.take_machine(config, false, &error), !with_bus);
+    EXPECT_FALSE(real_two.take_machine(config, false, &error));
+    EXPECT_NE(error.find("in use"), std::string::npos) << error;
+  }
+}
+
 }  // namespace

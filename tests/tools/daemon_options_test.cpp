@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the options of ncrtd ask for that does not go together, and another dialect than the configured one.
+#include "tools/lib/daemon_options.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tools/lib/output_check.hpp"
+
+namespace nc::tools {
+namespace {
+
+using Command = DaemonOptions::Command;
+
+TEST(DaemonOptions, CommandsAreForRealTime) {
+  DaemonOptions options;
+  options.command = Command::kRun;
+  options.commands = options.fast = true;
+  options.share = "mill";
+  EXPECT_NE(conflict_of(options, {}).find("not for --fast"), std::string::npos);
+  options.fast = false;
+  EXPECT_EQ(conflict_of(options, {}), "");
+}
+
+TEST(DaemonOptions, CommandsNeedSharedMemory) {
+  rt::Config config;
+  DaemonOptions options;
+  options.command = Command::kRun;
+  options.commands = true;
+  EXPECT_NE(conflict_of(options, config).find("needs shared memory"), std::string::npos);
+  options.command = Command::kServe;  // has it anyway
+  EXPECT_EQ(conflict_of(options, config), "");
+  options.command = Command::kMdi;
+  config.share.enabled = true;
+  EXPECT_EQ(conflict_of(options, config), "");
+}
+
+TEST(DaemonOptions, NothingAskedIsNoConflict) {
+  DaemonOptions options;
+  options.fast = true;
+  EXPECT_EQ(conflict_of(options, {}), "");
+}
+
+TEST(DaemonOptions, AnotherDialectLeavesTheParametersOut) {
+  rt::Config config;
+  config.parameters.push_back({});
+  EXPECT_FALSE(change_dialect("m700", &config)) << "the configured one";
+  EXPECT_EQ(config.parameters.size(), 1u);
+  EXPECT_TRUE(change_dialect("dgshape", &config));
+  EXPECT_TRUE(config.parameters.empty());
+  EXPECT_EQ(config.nc.dialect, config.sim.dialect);
+  EXPECT_STREQ(nc_dialect_name(static_cast<nc_dialect>(config.nc.dialect)), "dgshape");
+  EXPECT_FALSE(change_dialect("m700", &config)) << "there are none to leave out";
+}
+
+TEST(OutputCheck, AStatusStandsWhenEverythingWasWritten) {
+  EXPECT_EQ(status_when_written("test", 0), 0);
+  EXPECT_EQ(status_when_written("test", 130), 130);
+}
+
+}  // namespace
+}  // namespace nc::tools

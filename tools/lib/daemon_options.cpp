@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// See daemon_options.hpp.
+#include "tools/lib/daemon_options.hpp"
+
+#include "tools/lib/dialect_names.hpp"
+
+namespace nc::tools {
+
+std::string conflict_of(const DaemonOptions& options, const rt::Config& config) {
+  if (options.commands && options.fast) return "--commands is for a machine in real time, not for --fast";
+  if (options.commands && options.share.empty() && options.command != DaemonOptions::Command::kServe && !config.share.enabled)
+    return "--commands needs shared memory: --share NAME, or enabled = true in [share]";
+  return "";
+}
+
+bool change_dialect(const std::string& name, rt::Config* config) {
+  const std::uint8_t dialect = static_cast<std::uint8_t>(*dialect_from_name(name));  // the option takes no other word
+  if (config->nc.dialect == dialect) return false;
+  config->nc.dialect = config->sim.dialect = dialect;
+  if (config->parameters.empty()) return false;
+  config->parameters.clear();
+  return true;
+}
+
+}  // namespace nc::tools
