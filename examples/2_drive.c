@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* 2. Drive axes: one set-point per cycle for each axis. In a firmware nc_feed() runs in a background task and nc_cycle() in the servo
+/* 2. Drive axes, a whole control in one file: one set-point per cycle for each axis. In a firmware nc_feed() runs in a background task and nc_cycle() in the servo
  * interrupt; here they take turns. The drives are simulated: each follows its set-point late, and its encoder is given back. */
 #include <math.h>
 #include <stdio.h>
@@ -56,7 +56,10 @@ int main(void) {
     nc_feed(nc, 100);
     status = nc_cycle(nc, &in, &out);
     drives_follow(&in.actual, &out.command);
-    for (int i = 0; i < kAxes; ++i) lag = fmax(lag, fabs(out.command.v[i] - in.actual.v[i]));
+    for (int i = 0; i < kAxes; ++i) {
+      const double behind = fabs(out.command.v[i] - in.actual.v[i]);
+      if (behind > lag) lag = behind;
+    }
     in.fin = out.strobe != 0; /* M, S, T are complete at once */
   } while (status == NC_OK && out.state != NC_STATE_ALARM && !(out.state == NC_STATE_IDLE && out.blocks > 0) && ++cycle < 100000);
 

@@ -65,7 +65,7 @@ field libnc-dev Section libdevel
 field libnc-dev Multi-Arch same
 field libnc-dev Depends "libnc0 \\(= $version-1\\)"
 holds libnc-dev -rw-r--r-- usr/include/nc/nc.h "$lib/libnc.a" "$lib/pkgconfig/libnc.pc" "$lib/cmake/nc/nc-config.cmake" \
-  usr/share/doc/libnc-dev/examples/embed.c
+  usr/share/doc/libnc-dev/examples/2_drive.c
 holds libnc-dev lrwxrwxrwx "$lib/libnc.so"
 
 field nc-tools Multi-Arch foreign

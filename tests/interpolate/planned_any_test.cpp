@@ -6,6 +6,7 @@
 
 #include "interpolate/line_program.hpp"
 #include "interpolate/path_distance.hpp"
+#include "interpolate/rests.hpp"
 
 namespace nc::test {
 namespace {
@@ -129,34 +130,26 @@ Seen run(const Trial& t, const PathDistance& path, Operator who, uint64_t hold =
   m.start();
   const uint64_t most = static_cast<uint64_t>((who == Operator::turns_override ? 20 : 3) * t.law_s / t.config.cycle_s) + 4000;
   const uint64_t feed_every = std::max<uint64_t>(1, static_cast<uint64_t>(0.004 / t.config.cycle_s));
-  uint64_t first = 0, last = 0, still = 0;
-  AxisVec before = m.command();
+  Rests rests(m.command());
   for (uint64_t n = 0; n < most && !seen.ended && !seen.alarm; ++n) {
     if (n % feed_every == 0) m.feed(t.program);
     if (who == Operator::turns_override && pick(rng, 300) == 0) m.in.feed_override = uniform(rng, 0.2, 2);
     if (who == Operator::holds) {
       if (n == hold) m.in.feed_hold = true;
-      if (m.in.feed_hold && still > 20) m.in.feed_hold = false;
+      if (m.in.feed_hold && rests.still() > 20) m.in.feed_hold = false;
       m.in.cycle_start = m.out.state == NC_STATE_HOLD && !m.in.feed_hold && !m.in.cycle_start;
     }
     m.cycle();
     const AxisVec now = m.command();
-    if (now == before) {
-      ++still;
-    } else {
-      if (still > 1 && last > 0) ++seen.rests;
-      still = 0;
-      if (first == 0) first = n + 1;
-      last = n + 1;
-    }
-    before = now;
+    rests.see(now);
     if (n % 3 == 0) seen.off = std::max(seen.off, path.near(m.out.serial, now, seen.off));
     seen.alarm = m.out.state == NC_STATE_ALARM;
     seen.ended = m.out.state == NC_STATE_IDLE && m.next == t.program.records.size() && m.executor.drained();
   }
   seen.at_end = true;
   for (unsigned i = 0; i < t.config.axis_count; ++i) seen.at_end = seen.at_end && std::fabs(m.command()[i] - t.program.at()[i]) <= 1e-6;
-  seen.seconds = static_cast<double>(last - first + 1) * t.config.cycle_s;
+  seen.rests = rests.count();
+  seen.seconds = static_cast<double>(rests.cycles()) * t.config.cycle_s;
   seen.limits = std::max({m.checker.worst_velocity, m.checker.worst_acceleration, m.checker.worst_jerk});
   seen.report = m.checker.report();
   return seen;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "interpolate/rests.hpp"
 #include "interpolate/test_machine.hpp"
 
 namespace nc::test {
@@ -207,24 +208,15 @@ Outcome run(const Trial& t, uint64_t hold, bool hangs = false) {
   m.feed(t.program);
   m.start();
   const uint64_t most = static_cast<uint64_t>(3 * t.law_s / t.config.cycle_s) + 3000;
-  uint64_t still = 0, first = 0, last = 0;
-  AxisVec before = m.command();
+  Rests rests(m.command());
   for (uint64_t n = 0; n < most; ++n) {
     if (!(hangs && m.in.feed_hold)) m.feed(t.program);
     if (n == hold) m.in.feed_hold = true;
-    if (m.in.feed_hold && still > 20) m.in.feed_hold = false;
+    if (m.in.feed_hold && rests.still() > 20) m.in.feed_hold = false;
     m.in.cycle_start = m.out.state == NC_STATE_HOLD && !m.in.feed_hold && !m.in.cycle_start;
     m.cycle();
     const AxisVec now = m.command();
-    if (now == before) {
-      ++still;
-    } else {
-      if (first == 0) first = n + 1;
-      if (still > 1 && last > 0) ++out.rests;
-      still = 0;
-      last = n + 1;
-    }
-    before = now;
+    rests.see(now);
     if (m.out.state == NC_STATE_ALARM) {
       out.alarm = true;
       break;
@@ -235,7 +227,8 @@ Outcome run(const Trial& t, uint64_t hold, bool hangs = false) {
       break;
     }
   }
-  out.seconds = static_cast<double>(last - first + 1) * t.config.cycle_s;
+  out.rests = rests.count();
+  out.seconds = static_cast<double>(rests.cycles()) * t.config.cycle_s;
   out.jerk = m.checker.worst_jerk;
   out.acceleration = m.checker.worst_acceleration;
   out.velocity = m.checker.worst_velocity;

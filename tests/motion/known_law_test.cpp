@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "motion/law_paths.hpp"
 #include "motion/optimal/profile.hpp"
-#include "motion/optimal/smooth.hpp"
 #include "motion/optimal/windows.hpp"
 
 namespace nc::test {
@@ -24,41 +24,20 @@ using optimal::PhaseLaw;
 using optimal::Piece;
 using optimal::Windows;
 
-Limits limits_of(double acceleration, double jerk) {
-  Limits l;
-  for (unsigned i = 0; i < 3; ++i) {
-    l.velocity[i] = l.rapid[i] = 250;
-    l.acceleration[i] = acceleration;
-    l.jerk[i] = jerk;
-  }
-  return l;
-}
-
 /// A random polyline, rounded within 10 um.
 std::vector<Piece> random_path(std::mt19937_64& rng) {
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); };
   const auto log_uniform = [&](double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); };
-  const unsigned count = 12 + static_cast<unsigned>(rng() % 30), room = 64 * count + 64;
-  std::vector<AxisVec> vertex(count), control(room + 3);
-  std::vector<double> length(count - 1), feed(count - 1, log_uniform(10, 200)), u(count), knot(room);
-  std::vector<unsigned> corner(room);
-  std::vector<optimal::SmoothCell> cell(room);
+  const unsigned count = 12 + static_cast<unsigned>(rng() % 30);
+  const double feed = log_uniform(10, 200), step = log_uniform(0.02, 5);
+  std::vector<Vertex> line{{0, 0, 0}};
   double heading = 0;
-  const double step = log_uniform(0.02, 5);
   for (unsigned k = 1; k < count; ++k) {
     heading += uniform(-1.5, 1.5);
-    length[k - 1] = step * log_uniform(0.3, 3);
-    vertex[k][0] = vertex[k - 1][0] + length[k - 1] * std::cos(heading);
-    vertex[k][1] = vertex[k - 1][1] + length[k - 1] * std::sin(heading);
+    const double length = step * log_uniform(0.3, 3);
+    line.push_back({line.back().x + length * std::cos(heading), line.back().y + length * std::sin(heading), feed});
   }
-  optimal::SmoothRequest request;
-  request.line = {vertex.data(), length.data(), feed.data(), count};
-  request.tolerance = 0.01;
-  request.spacing = 0.5;
-  const optimal::SmoothRoom rooms{u.data(), count, knot.data(), control.data(), corner.data(), cell.data(), room};
-  std::vector<Piece> pieces(room);
-  pieces.resize(optimal::smooth(request, rooms, pieces.data(), room));
-  return pieces;
+  return smoothed(line);
 }
 
 /// Laws of the solver to the middle of a path; more of the path comes, and each place of them is a start.

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "motion/optimal/smooth.hpp"
+#include "motion/law_paths.hpp"
 #include "motion/optimal/windows.hpp"
 
 namespace nc::test {
@@ -23,16 +23,6 @@ using optimal::PhaseLaw;
 using optimal::Piece;
 using optimal::Windows;
 
-Limits limits_of(double acceleration, double jerk) {
-  Limits l;
-  for (unsigned i = 0; i < 3; ++i) {
-    l.velocity[i] = l.rapid[i] = 250;
-    l.acceleration[i] = acceleration;
-    l.jerk[i] = jerk;
-  }
-  return l;
-}
-
 double seven_phases(double length, double v, double a, double j) {
   const auto ramp = [&](double speed) { return speed >= a * a / j ? speed / a + a / j : 2 * std::sqrt(speed / j); };
   double low = 0, high = v;
@@ -42,34 +32,6 @@ double seven_phases(double length, double v, double a, double j) {
     (middle * ramp(middle) > length ? high : low) = middle;
   }
   return 2 * ramp(low) + (length - low * ramp(low)) / low;
-}
-
-struct Vertex {
-  double x, y, feed;
-};
-
-/// The polyline, rounded within 10 um.
-std::vector<Piece> smoothed(const std::vector<Vertex>& corner) {
-  const unsigned count = static_cast<unsigned>(corner.size()), room = 64 * count + 64;
-  std::vector<AxisVec> vertex(count), control(room + 3);
-  std::vector<double> length(count - 1), feed(count - 1), u(count), knot(room);
-  std::vector<unsigned> at(room);
-  std::vector<optimal::SmoothCell> cell(room);
-  for (unsigned k = 0; k < count; ++k) {
-    vertex[k][0] = corner[k].x;
-    vertex[k][1] = corner[k].y;
-    if (k == 0) continue;
-    length[k - 1] = std::hypot(corner[k].x - corner[k - 1].x, corner[k].y - corner[k - 1].y);
-    feed[k - 1] = corner[k].feed;
-  }
-  optimal::SmoothRequest request;
-  request.line = {vertex.data(), length.data(), feed.data(), count};
-  request.tolerance = 0.01;
-  request.spacing = 0.5;
-  const optimal::SmoothRoom rooms{u.data(), count, knot.data(), control.data(), at.data(), cell.data(), room};
-  std::vector<Piece> pieces(room);
-  pieces.resize(optimal::smooth(request, rooms, pieces.data(), room));
-  return pieces;
 }
 
 MeshRequest request_for(const std::vector<Piece>& pieces) {

@@ -13,6 +13,7 @@
 #include "hal/sim/sim_machine.hpp"
 #include "places/places.hpp"
 #include "runtime/runtime.hpp"
+#include "stepping.hpp"
 #include "test_config.hpp"
 
 namespace nc::test {
@@ -93,15 +94,8 @@ class OwnLadder : public LadderMachine {
   void in(const char* name, std::uint32_t value) {
     machine->set_input(static_cast<unsigned>(config.points.find(name)), value);
   }
-  void steps(int n) {
-    while (n-- > 0) runtime->step();
-  }
-  double variable(std::uint32_t number) const {
-    double value = 0;
-    bool vacant = true;
-    EXPECT_EQ(nc_variable_get(runtime->control(), 0, number, &value, &vacant), NC_OK);
-    return vacant ? -1e9 : value;
-  }
+  void steps(int n) { steps_of(*runtime, n); }
+  double variable(std::uint32_t number) const { return variable_of(*runtime, number, -1e9); }
   std::int32_t device(const char* name) const {
     const ladder::Device* found = runtime->ladder()->engine().find(name);
     EXPECT_NE(found, nullptr) << name;

@@ -8,6 +8,7 @@
 
 #include "hal/sim/sim_machine.hpp"
 #include "ladder_machine.hpp"
+#include "stepping.hpp"
 
 namespace {
 
@@ -136,15 +137,8 @@ class FoundOutput : public testing::Test {
     std::string error;
     ASSERT_TRUE(runtime->start_stepping(&error)) << error;
   }
-  void steps(int n) {
-    while (n-- > 0) runtime->step();
-  }
-  double variable(std::uint32_t number) const {
-    double value = 0;
-    bool vacant = true;
-    EXPECT_EQ(nc_variable_get(runtime->control(), 0, number, &value, &vacant), NC_OK);
-    return vacant ? -1 : value;
-  }
+  void steps(int n) { nc::test::steps_of(*runtime, n); }
+  double variable(std::uint32_t number) const { return nc::test::variable_of(*runtime, number, -1); }
   void mode(nc::rt::Mode mode) { ASSERT_EQ(runtime->execute(nc::rt::CommandKind::kSetMode, 0, static_cast<std::uint32_t>(mode)), nc::rt::Answer::kDone); }
   void run() {
     const std::uint64_t runs = runtime->info().runs;

@@ -18,6 +18,7 @@
 #include "runtime/retain/tables.hpp"
 #include "runtime/retain/variables.hpp"
 #include "runtime/runtime.hpp"
+#include "stepping.hpp"
 #include "test_config.hpp"
 
 namespace {
@@ -74,12 +75,7 @@ class RetainedControl : public testing::Test {
     ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
     ASSERT_TRUE(until([&] { return runtime->info().runs > runs; }));
   }
-  double variable(std::uint32_t number) const {
-    double value = 0;
-    bool vacant = true;
-    EXPECT_EQ(nc_variable_get(runtime->control(), 0, number, &value, &vacant), NC_OK);
-    return vacant ? std::nan("") : value;
-  }
+  double variable(std::uint32_t number) const { return nc::test::variable_of(*runtime, number, std::nan("")); }
   double work(unsigned index, unsigned axis) const {
     double value = 0;
     EXPECT_EQ(nc_work_offset_get(runtime->control(), 0, index, axis, &value), NC_OK);

@@ -6,13 +6,11 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "own_folder.hpp"
 #include "places/places.hpp"
 
 namespace nc::tools {
@@ -33,23 +31,8 @@ struct Outcome {
   }
 };
 
-class CommandTest : public testing::Test {
+class CommandTest : public OwnFolder {
  protected:
-  void SetUp() override {
-    char pattern[] = "/tmp/nc-command-XXXXXX";
-    ASSERT_NE(mkdtemp(pattern), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string file(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ + "/" + name, std::ios::binary) << text;
-    return folder_ + "/" + name;
-  }
-  static std::string content(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
   // `line` is everything behind "ncsim ", for the shell; standard output may be redirected in it.
   Outcome ncsim(const std::string& line) {
     const std::string command =
@@ -59,8 +42,6 @@ class CommandTest : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ + "/out.txt"),
             content(folder_ + "/err.txt")};
   }
-
-  std::string folder_;
 };
 
 }  // namespace nc::tools

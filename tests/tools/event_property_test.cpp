@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "own_folder.hpp"
 #include "tools/lib/machine_choice.hpp"
 #include "tools/lib/offline_run.hpp"
 #include "tools/lib/session.hpp"
@@ -120,16 +120,13 @@ std::map<uint32_t, double> variables_of(const nc_control* control) {
   return all;
 }
 
-class EventProperty : public testing::Test {
+class EventProperty : public OwnFolder {
  protected:
   void SetUp() override {
-    char pattern[] = "/tmp/nc-events-XXXXXX";
-    ASSERT_NE(mkdtemp(pattern), nullptr);
-    folder_ = pattern;
+    OwnFolder::SetUp();
     options_.program = folder_ + "/p.nc";
     options_.setup = folder_ + "/s.json";
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   void write(const std::string& program, const std::string& setup) const {
     std::ofstream(options_.program) << program;
     std::ofstream(options_.setup) << setup;
@@ -169,7 +166,6 @@ class EventProperty : public testing::Test {
     return effect;
   }
 
-  std::string folder_;
   SessionOptions options_;
 };
 

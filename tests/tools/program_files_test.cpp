@@ -11,26 +11,20 @@
 #include <fstream>
 #include <random>
 
+#include "own_folder.hpp"
 #include "support/pull.hpp"
 
 namespace nc::tools {
 namespace {
 
-class FolderTest : public testing::Test {
+class FolderTest : public OwnFolder {
  protected:
-  void SetUp() override {
-    char pattern[] = "/tmp/nc-folder-XXXXXX";
-    ASSERT_NE(mkdtemp(pattern), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   void touch(const std::string& name) { std::ofstream(folder_ + "/" + name) << "M99\n"; }
   std::string found(const std::string& name) {
     ProgramFiles files(folder_);
     const std::string path = files.find(name);
     return path.empty() ? "" : path.substr(folder_.size() + 1);
   }
-  std::string folder_;
 };
 
 TEST_F(FolderTest, ByNumberWithAnyEndingAndCase) {

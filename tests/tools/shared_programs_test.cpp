@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "own_folder.hpp"
 #include "places/places.hpp"
 
 namespace nc::tools {
@@ -24,18 +25,13 @@ struct Trace {
   Json alarm, end;
 };
 
-class SharedPrograms : public testing::Test {
+class SharedPrograms : public OwnFolder {
  protected:
   void SetUp() override {
     if (!std::filesystem::is_directory(programs_)) GTEST_SKIP() << programs_ << " is not here";
-    char pattern[] = "/tmp/nc-shared-XXXXXX";
-    ASSERT_NE(mkdtemp(pattern), nullptr);
-    folder_ = pattern;
+    OwnFolder::SetUp();
     // Words without a point mean whole units in these programs.
     std::ofstream(folder_ + "/s.json") << R"({"params": {"1078": 1}})";
-  }
-  void TearDown() override {
-    if (!folder_.empty()) std::filesystem::remove_all(folder_);
   }
 
   Trace trace(const std::string& name) {
@@ -67,7 +63,6 @@ class SharedPrograms : public testing::Test {
   }
 
   const std::string programs_ = nc::test::kSharedDir + "/programs";
-  std::string folder_;
 };
 
 TEST_F(SharedPrograms, ProgramsThatTheControlHasAllWordsForRunToTheirEnd) {

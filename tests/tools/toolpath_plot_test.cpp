@@ -8,35 +8,18 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 
 #include "fake_items.hpp"
+#include "own_folder.hpp"
 #include "tools/lib/plot_pieces.hpp"
 
 namespace nc::tools {
 namespace {
 
-class PlotTest : public testing::Test {
- protected:
-  void SetUp() override {
-    char pattern[] = "/tmp/nc-plot-XXXXXX";
-    ASSERT_NE(mkdtemp(pattern), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
-
-  static std::string content(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
-
-  std::string folder_;
-};
+class PlotTest : public OwnFolder {};
 
 struct Pixels {
   int count = 0;

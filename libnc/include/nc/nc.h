@@ -3,7 +3,7 @@
  * @file nc.h
  * libnc: NC program text in, one set of axis positions per servo cycle out. This header is the whole public API.
  *
- * C11, no dependencies, no operating system. See examples/embed.c for a program that runs a part in 20 lines.
+ * C11, no dependencies, no operating system. See examples/2_drive.c for a whole control in one file.
  */
 #ifndef NC_NC_H
 #define NC_NC_H

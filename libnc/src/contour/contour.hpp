@@ -61,7 +61,6 @@ class ContourStage {
   Held& held(unsigned number) { return held_[(first_ + number) % kHeld]; }
   Held& append(const Item& item);
   void push_move(const Item& item);
-  void begin(const Item& line);
   void settle(const Item& next);
   void fail(Condition condition, const nc_source& source, double value);
 

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// A runtime on virtual time, step by step, and what its variables hold.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "runtime/runtime.hpp"
+
+namespace nc::test {
+
+inline void steps_of(rt::Runtime& runtime, int n) {
+  while (n-- > 0) runtime.step();
+}
+
+// Of part system 1; `if_vacant` when the variable has no value.
+inline double variable_of(rt::Runtime& runtime, std::uint32_t number, double if_vacant) {
+  double value = 0;
+  bool vacant = true;
+  EXPECT_EQ(nc_variable_get(runtime.control(), 0, number, &value, &vacant), NC_OK);
+  return vacant ? if_vacant : value;
+}
+
+}  // namespace nc::test
