@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # How the rooms around libnc (hal, runtime, tools, tests, bench) make their targets.
 
-# nc_room_around(TARGET): a room around libnc. With the address sanitizer its compilation takes longer than all that the tests do in it: the
-# standard library is parsed once for the room, and there is no optimizer (but for the fuzzers, which run it a million times). The other builds
-# go without: each file has to include what it uses there, and GCC 12 warns of the library's own strings when it optimizes what it has precompiled.
+# nc_room_around(TARGET): a room around libnc. With the address sanitizer the standard library is parsed once for the room, which is most of its
+# compilation. The other builds go without: each file has to include what it uses there, and GCC 12 warns of the library's own strings when it
+# optimizes what it has precompiled. Where nothing is fuzzed (a build by hand with GCC) there is no optimizer either; the fuzzers run a room a
+# million times.
 function(nc_room_around target)
   if(NOT NC_SANITIZE MATCHES address)
     return()
