@@ -222,6 +222,9 @@ TEST(ModbusFault, AnAnswerNobodyAskedForClosesTheConnection) {
 // Random bytes, and right answers with random damage in front of the value or cut anywhere.
 TEST(ModbusFault, TwoThousandRandomAnswers) {
   constexpr unsigned kAnswers = 2000;
+  // The server's threads use these until it is destroyed, so they outlive it.
+  std::mt19937 random(20260101);
+  std::atomic<unsigned> answers{0};
   LoopbackServer server;
   server.with([](auto& units) {
     units[1].holding = {{0, kRight}};
@@ -237,8 +240,6 @@ TEST(ModbusFault, TwoThousandRandomAnswers) {
   rig.map().on_loss = OnLoss::kValue;
   rig.map().loss_value = kOnLoss;
   const unsigned bit = rig.add(Table::kCoil, 0);
-  std::mt19937 random(20260101);
-  std::atomic<unsigned> answers{0};
   server.set_fault([&](const Bytes&, Answer right) {
     if (answers.fetch_add(1) >= kAnswers) return right;
     const auto pick = [&](unsigned n) { return static_cast<unsigned>(random() % n); };
