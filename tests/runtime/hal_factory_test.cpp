@@ -102,7 +102,9 @@ TEST(HalFactory, APointOnAnUnknownBusIsRefusedWithItsLine) {
 // ---- rows of a build that lacks a library, and of two buses ----
 
 void read_nothing(TableReader* root, Config*) { (void)root->find("second"); }
-PlaceOnBus on_bus_two(TableReader*, const nc::hal::Point&, Config*) { return {2, [](Config*) {}}; }
+PlaceOnBus on_bus_two(TableReader*, const nc::hal::Point&, Config*) {
+  return {2, [](Config*) {}};
+}
 std::unique_ptr<nc::hal::PointBus> make_nothing(const Config&, const PointBusConfig&, const BusReport&) { return nullptr; }
 
 constexpr MachineKind kMachines[] = {
