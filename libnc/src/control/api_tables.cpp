@@ -105,7 +105,7 @@ nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char
     index = in.axis_of[axis - 'A'];
   }
   unsigned changed = 0;
-  double before = 0;
+  nc::ParameterValue before;
   const nc_status status = in.parameters.set(*c->dialect, key, index, text, &changed, &before);
   if (status != NC_OK) return status;
   in.refresh_settings();
@@ -119,7 +119,9 @@ nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key
   const nc::Interpreter& in = c->system[system].interpreter;
   const int index = axis >= 'A' && axis <= 'Z' ? in.axis_of[axis - 'A'] : -1;
   *value = 0;
-  in.parameters.get(key, index, value);
+  nc::ParameterId id;
+  int bit = -1;
+  if (nc::parse_parameter(*c->dialect, key, &id, &bit)) in.parameters.get(id, bit, index, value);
   return NC_OK;
 }
 
@@ -141,20 +143,22 @@ nc_status nc_parameter_next(const nc_control* c, unsigned system, unsigned from,
                             char text[64]) {
   if (!known(c, system) || place == nullptr || key == nullptr || axis == nullptr || value == nullptr || text == nullptr) return NC_E_ARGUMENT;
   const nc::Interpreter& in = c->system[system].interpreter;
-  const char *name = nullptr, *words = nullptr;
+  nc::ParameterId id;
+  nc::ParameterValue found;
   int of_axis = -1;
-  double number = 0;
   unsigned at = from;
   do {
-    if (!in.parameters.at(at, &name, &of_axis, &number, &words)) return NC_E_NOT_FOUND;
+    if (!in.parameters.at(at, &id, &of_axis, &found)) return NC_E_NOT_FOUND;
     ++at;
-  } while (std::isnan(number));  // it was set, and that was taken back
+  } while (!found.is_set());  // it was set, and that was taken back
   *place = at - 1;
+  char name[nc::kParameterKeySize];
+  nc::put_parameter_key(*c->dialect, id, name);
   std::strcpy(key, name);
   *axis = of_axis >= 0 ? c->config.system[system].axis[of_axis].name : '\0';
-  *value = number;
-  text[0] = 0;
-  if (words != nullptr) std::strcpy(text, words);
+  const char* const words = in.parameters.text(found);
+  *value = found.number.value_or(0);
+  std::strcpy(text, words != nullptr ? words : "");
   return NC_OK;
 }
 

@@ -29,22 +29,51 @@ bool parse_parameter_key(const char* text, ParameterKey* key) {
   return length != 0 && at[length] == 0 && bit < 32;
 }
 
-bool parameter_place(const Dialect& dialect, ParameterOf parameter, char (&key)[kParameterKeySize], int* bit) {
-  const FamilyParameters& table = *dialect.parameters;
+bool parse_parameter(const Dialect& dialect, const char* key, ParameterId* id, int* bit) {
+  *bit = -1;
+  if (const ParameterName* const named = find_parameter_name(dialect, key); named != nullptr) {
+    *id = ParameterId::of_name(static_cast<uint32_t>(named - dialect.parameters->names.begin()));
+    return true;
+  }
+  ParameterKey parsed{};
+  if (dialect.parameters->numbers.size == 0 || !parse_parameter_key(key, &parsed)) return false;
+  *id = ParameterId::of_number(parsed.number);
+  *bit = parsed.bit;
+  return true;
+}
+
+void put_parameter_key(const Dialect& dialect, ParameterId id, char (&key)[kParameterKeySize]) {
   TextWriter text(key, sizeof key);
+  if (id.is_name()) {
+    text.put(dialect.parameters->names.row[id.value - ParameterId::kFirstName].key);
+  } else {
+    text.put_integer(id.value);
+  }
+}
+
+bool parameter_place(const Dialect& dialect, ParameterOf parameter, ParameterId* id, int* bit) {
+  const FamilyParameters& table = *dialect.parameters;
   *bit = -1;
   if (const unsigned place = table.places != nullptr ? table.places->row[static_cast<unsigned>(parameter.what)] : 0; place != 0) {
     const ParameterRow& row = table.numbers.row[place - 1];
     *bit = row.bit;
-    text.put_integer(row.first + row.step * parameter.index);
+    *id = ParameterId::of_number(row.first + row.step * parameter.index);
     return true;
   }
   for (const ParameterName& row : table.names) {
     if (row.what != parameter.what || row.index != parameter.index) continue;
-    text.put(row.key);
+    *id = ParameterId::of_name(static_cast<uint32_t>(&row - table.names.begin()));
     return true;
   }
   return false;
+}
+
+bool parameter_place(const Dialect& dialect, ParameterOf parameter, char (&key)[kParameterKeySize], int* bit) {
+  ParameterId id;
+  key[0] = 0;
+  if (!parameter_place(dialect, parameter, &id, bit)) return false;
+  put_parameter_key(dialect, id, key);
+  return true;
 }
 
 const ParameterRow* find_parameter(const Dialect& dialect, const ParameterKey& key) {

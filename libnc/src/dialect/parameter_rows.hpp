@@ -77,10 +77,27 @@ struct ParameterKey {
 /// @return false when `text` is no such key.
 bool parse_parameter_key(const char* text, ParameterKey* key);
 
+/// A whole parameter of a family: one with a number, or the place of one that has none among the family's names.
+struct ParameterId {
+  static constexpr uint32_t kFirstName = 1000000;  ///< numbers have six digits
+  uint32_t value = 0;
+  static constexpr ParameterId of_number(uint32_t number) { return {number}; }
+  static constexpr ParameterId of_name(uint32_t place) { return {kFirstName + place}; }
+  constexpr bool is_name() const { return value >= kFirstName; }
+  bool operator==(const ParameterId&) const = default;
+};
+
+/// What a key of the public interface means: "1229", "1229/bit2" (bit -1 = the whole parameter), "UNIT*10". False: it is none of the family's.
+bool parse_parameter(const Dialect& dialect, const char* key, ParameterId* id, int* bit);
+
 /// Longest key of a parameter, its end included.
 inline constexpr unsigned kParameterKeySize = 24;
+/// The key of a whole parameter.
+void put_parameter_key(const Dialect& dialect, ParameterId id, char (&key)[kParameterKeySize]);
 
-/// Where a parameter is kept: the key of the whole of it, and its bit there (-1 = all). False: the family has no such parameter.
+/// Where a parameter is kept: the whole of it, and its bit there (-1 = all). False: the family has no such parameter.
+bool parameter_place(const Dialect& dialect, ParameterOf parameter, ParameterId* id, int* bit);
+/// The same with its key.
 bool parameter_place(const Dialect& dialect, ParameterOf parameter, char (&key)[kParameterKeySize], int* bit);
 
 /// The row of a number; of several rows for bits of it the one that has the key's, or the first if the key is all of it.

@@ -35,19 +35,15 @@ void BlockContext::set_table(unsigned key, double value) {
   if (frames.is_tool_key(key)) take_changed_amounts(*this);
 }
 
-bool BlockContext::set_parameter(const char* key, int axis, const char* text) {
-  unsigned index = 0;
-  double old = 0;
-  if (parameters.set(*dialect, key, axis, text, &index, &old) != NC_OK) return false;
-  variables.note(state.seq + 1, kParameterKey + index, JournalValue::of(old));
+void BlockContext::note_parameter(unsigned index, ParameterValue old) {
+  variables.note(state.seq + 1, kParameterKey + index, old.journalled());
   refresh_settings();
-  return true;
 }
 
-bool BlockContext::set_parameter(ParameterOf parameter, const char* text) {
-  char key[kParameterKeySize];
+bool BlockContext::set_parameter(ParameterOf parameter, double number) {
+  ParameterId id;
   int bit = -1;
-  return parameter_place(*dialect, parameter, key, &bit) && bit < 0 && set_parameter(key, -1, text);
+  return parameter_place(*dialect, parameter, &id, &bit) && bit < 0 && set_parameter(id, bit, -1, number);
 }
 
 void BlockContext::refresh_settings() {

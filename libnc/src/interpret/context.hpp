@@ -161,8 +161,15 @@ struct BlockContext {
   /// Journalled write to the frames' table.
   void set_table(unsigned key, double value);
   /// Journalled write to a parameter; false when there is no such parameter or value.
-  bool set_parameter(const char* key, int axis, const char* text);
-  bool set_parameter(ParameterOf parameter, const char* text);
+  template <class Given>  // double, const char*
+  bool set_parameter(ParameterId id, int bit, int axis, Given given) {
+    unsigned index = 0;
+    ParameterValue old;
+    if (parameters.set(*dialect, id, bit, axis, given, &index, &old) != NC_OK) return false;
+    note_parameter(index, old);
+    return true;
+  }
+  bool set_parameter(ParameterOf parameter, double number);
   /// The same to the records, or to a field of one: change(&ProgramRecords::figure, &Figure::angle, angle).
   template <class... Change>
   void change(const Change&... what) {
@@ -241,6 +248,7 @@ struct BlockContext {
   static constexpr unsigned kQueue = 64;    ///< items a block may make before the stages take them
   static constexpr unsigned kReserve = 24;  ///< one step of a job never makes more than this
 
+  void note_parameter(unsigned index, ParameterValue old);
   void note_interrupt_items();
   void emit_end();
   Item& next_item(ItemKind kind, bool block_end);

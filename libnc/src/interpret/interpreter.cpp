@@ -76,7 +76,7 @@ void Interpreter::undo(void* self, uint32_t key, JournalValue old) {
 /// The settings stay: whoever looks at the parameters executes nothing.
 JournalValue Interpreter::exchange(void* self, uint32_t key, JournalValue value) {
   Interpreter& in = *static_cast<Interpreter*>(self);
-  if (key >= kParameterKey) return JournalValue::of(in.parameters.exchange(key - kParameterKey, value.as<double>()));
+  if (key >= kParameterKey) return in.parameters.exchange(key - kParameterKey, ParameterValue::of(value)).journalled();
   if (key >= kRecordKey) return in.records.exchange(key - kRecordKey, value);
   const JournalValue old = JournalValue::of(in.frames.get(key - kFrameKey));
   in.frames.set(key - kFrameKey, value.as<double>());

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <numbers>
 
-#include "dialect/text.hpp"
 #include "interpret/interpreter.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/system_variable_table.hpp"
@@ -104,15 +103,14 @@ bool machine_parameter(const Interpreter& in, uint32_t number, unsigned axis, do
 
 /// A parameter that nobody has set reads 0. Text of one letter reads as its code.
 Eval read_parameter(Access& a) {
-  char key[12];
   const auto& [selected, part, axis] = a.in.records->selection.parameter;
   const uint32_t number = selected >= 1 ? selected : 1u;
-  TextWriter(key, sizeof key).put_integer(number);
   double value = 0;
   const int index = axis >= 1 ? static_cast<int>(axis) - 1 : 0;
   if (machine_parameter(a.in, number, static_cast<unsigned>(index), &value)) return give(a, value);
   if (parameter_is_common(*a.in.dialect, number) && !shared_known(a)) return Eval::need_sync;
-  if (!a.in.parameters.get(key, index, &value) && a.in.parameters.text(key, index) != nullptr) {  // a long text is no number
+  const ParameterId id = ParameterId::of_number(number);
+  if (!a.in.parameters.get(id, -1, index, &value) && a.in.parameters.text(id, index) != nullptr) {  // a long text is no number
     a.in.raise(Condition::no_such_data, '#', a.number);
     return Eval::fault;
   }

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 namespace nc {
 namespace {
@@ -50,8 +49,8 @@ int word_index(const char* words, const char* text) {
   }
 }
 
-/// Values from here on are places of texts.
-constexpr double kTextBase = 4503599627370496.0;  // 2^52: no parameter is as large
+/// No parameter is as large: from here on the doubles are no finer than whole numbers.
+constexpr double kTooLarge = 4503599627370496.0;
 
 /// Letters, digits and signs, at most 63, a letter first.
 bool is_text(const char* text) {
@@ -67,129 +66,108 @@ uint32_t bits_of(double value) { return value >= 0 && value <= 4294967295.0 ? st
 
 }  // namespace
 
-/// "1229" out of "1229/bit2".
-const char* Parameters::whole_key(const char* key, const ParameterKey& parsed, char (&whole)[kKeySize]) {
-  std::memcpy(whole, key, parsed.digits);
-  whole[parsed.digits] = 0;
-  return whole;
-}
-
 void Parameters::create(unsigned capacity, Arena& arena) {
   entries_ = arena.make<Entry>(capacity + kCommon);
   texts_ = reinterpret_cast<char(*)[kTextSize]>(arena.make<char>(size_t{kTexts} * kTextSize));
   capacity_ = capacity;
 }
 
-/// Keys are compared as numbers: a hundred of them are looked for whenever a parameter has changed.
-Parameters::Entry* Parameters::find(const char* key, int axis) const {
-  uint64_t wanted[kKeySize / 8] = {}, there[kKeySize / 8];
-  const size_t length = std::strlen(key);
-  if (length >= kKeySize) return nullptr;
-  std::memcpy(wanted, key, length);
-  for (unsigned i = 0; i < count_; ++i) {
-    std::memcpy(there, entries_[i].key, kKeySize);
-    if (there[0] == wanted[0] && there[1] == wanted[1] && there[2] == wanted[2] && entries_[i].axis == axis) return &entries_[i];
-  }
+Parameters::Entry* Parameters::find(ParameterId id, int axis) const {
+  for (unsigned i = 0; i < count_; ++i)
+    if (entries_[i].id == id && entries_[i].axis == axis) return &entries_[i];
   return nullptr;
 }
 
-nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, const char* text, unsigned* index, double* old) {
-  if (key == nullptr || text == nullptr || std::strlen(key) >= kKeySize) return NC_E_NOT_FOUND;
-  double value = 0;
-  ParameterKey parsed{};
-  parsed.bit = -1;
-  bool common = false;
-  const ParameterName* named = find_parameter_name(dialect, key);
+const Parameters::Entry* Parameters::in_force(ParameterId id, int axis) const {
+  const Entry* entry = find(id, axis);
+  if ((entry == nullptr || !entry->value().is_set()) && axis >= 0) entry = find(id, -1);
+  return entry != nullptr && entry->value().is_set() ? entry : nullptr;
+}
+
+nc_status Parameters::set(const Dialect& dialect, const char* key, int axis, const char* text, unsigned* index, ParameterValue* old) {
+  ParameterId id;
+  int bit = -1;
+  if (key == nullptr || text == nullptr || !parse_parameter(dialect, key, &id, &bit)) return NC_E_NOT_FOUND;
+  return set(dialect, id, bit, axis, text, index, old);
+}
+
+nc_status Parameters::set(const Dialect& dialect, ParameterId id, int bit, int axis, const char* text, unsigned* index, ParameterValue* old) {
+  double number = 0;
+  const ParameterName* const named = id.is_name() ? &dialect.parameters->names.row[id.value - ParameterId::kFirstName] : nullptr;
   if (named != nullptr && named->words != nullptr) {
     const int word = word_index(named->words, text);
-    if (word < 0) return NC_E_ARGUMENT;
-    value = word;
-  } else if (named == nullptr && (dialect.parameters->numbers.size == 0 || !parse_parameter_key(key, &parsed))) {
-    return NC_E_NOT_FOUND;
-  } else {
-    const ParameterRow* const row = named == nullptr ? find_parameter(dialect, parsed) : nullptr;
-    common = row != nullptr && nc::is_common(row->what);
-    // #1003 takes the letters of 2.1; any letter is stored by its code.
-    if (!parse_number(text, &value)) {
-      if (parsed.bit >= 0 || named != nullptr || !is_text(text)) return NC_E_ARGUMENT;
-      const bool letter = text[1] == 0;
-      if (!letter && parameter_used(dialect, key)) return NC_E_ARGUMENT;  // none of these is a text of several characters
-      value = letter ? static_cast<unsigned char>(text[0]) : keep_text(text);
-    } else if (!(value < kTextBase)) {
-      return NC_E_ARGUMENT;
-    }
-    if (named != nullptr && value < 0) return NC_E_ARGUMENT;
-    if (named == nullptr && parsed.bit < 0 && value < kTextBase) {
-      if (!parameter_takes(dialect, parsed, value) || (row != nullptr && !machine_takes(row->what, value))) return NC_E_ARGUMENT;
-    }
+    return word < 0 ? NC_E_ARGUMENT : set(dialect, id, bit, axis, word, index, old);
   }
-  char whole[kKeySize];
-  if (parsed.bit >= 0) {  // one bit of a parameter: the others stay
-    if (value != 0 && value != 1) return NC_E_ARGUMENT;
-    whole_key(key, parsed, whole);
+  if (parse_number(text, &number)) return set(dialect, id, bit, axis, number, index, old);
+  // #1003 takes the letters of 2.1; any letter is stored by its code.
+  if (bit >= 0 || named != nullptr || !is_text(text)) return NC_E_ARGUMENT;
+  if (text[1] == 0) return set(dialect, id, bit, axis, static_cast<unsigned char>(text[0]), index, old);
+  // None of those that the control asks for is a text of several characters.
+  if (find_parameter(dialect, ParameterKey{id.value, 0, -1}) != nullptr) return NC_E_ARGUMENT;
+  const uint8_t place = keep_text(text);
+  return place == 0 ? NC_E_MEMORY : put(id, bit, axis, false, ParameterValue{OptionalDouble{}, place}, index, old);
+}
+
+nc_status Parameters::set(const Dialect& dialect, ParameterId id, int bit, int axis, double number, unsigned* index, ParameterValue* old) {
+  if (!(number < kTooLarge)) return NC_E_ARGUMENT;
+  if (id.is_name()) return number < 0 ? NC_E_ARGUMENT : put(id, bit, axis, false, ParameterValue{number}, index, old);
+  const ParameterKey key{id.value, 0, bit};
+  const ParameterRow* const row = find_parameter(dialect, key);
+  if (bit < 0 && (!parameter_takes(dialect, key, number) || (row != nullptr && !machine_takes(row->what, number)))) return NC_E_ARGUMENT;
+  if (bit >= 0 && number != 0 && number != 1) return NC_E_ARGUMENT;
+  return put(id, bit, axis, row != nullptr && nc::is_common(row->what), ParameterValue{number}, index, old);
+}
+
+/// A value that is a right one. Where it is one bit of a parameter the others stay.
+nc_status Parameters::put(ParameterId id, int bit, int axis, bool common, ParameterValue value, unsigned* index, ParameterValue* old) {
+  if (bit >= 0) {
     double before = 0;
-    get(whole, axis, &before);
-    const uint32_t mask = uint32_t{1} << parsed.bit;
-    value = value != 0 ? bits_of(before) | mask : bits_of(before) & ~mask;
-    key = whole;
+    get(id, -1, axis, &before);
+    const uint32_t mask = uint32_t{1} << bit;
+    value.number = *value.number != 0 ? bits_of(before) | mask : bits_of(before) & ~mask;
   }
-  Entry* entry = find(key, axis);
+  Entry* entry = find(id, axis);
   if (entry == nullptr) {
     if (count_ >= capacity_) return NC_E_MEMORY;
-    entry = add(key, axis, common);
+    entry = add(id, axis, common);
   }
   *index = static_cast<unsigned>(entry - entries_);
-  *old = entry->value;
-  entry->value = value;
+  *old = exchange(*index, value);
   return NC_OK;
 }
 
-Parameters::Entry* Parameters::add(const char* key, int axis, bool common) {
+Parameters::Entry* Parameters::add(ParameterId id, int axis, bool common) {
   Entry* const entry = &entries_[count_++];
-  std::memset(entry->key, 0, kKeySize);
-  std::strcpy(entry->key, key);
-  entry->axis = static_cast<int8_t>(axis);
-  entry->common = common;
-  entry->value = std::numeric_limits<double>::quiet_NaN();
+  *entry = Entry{id, static_cast<int8_t>(axis), common, 0, OptionalDouble{}};
   return entry;
 }
 
 bool Parameters::same_entry(const Parameters& other, unsigned index, unsigned* there) {
   const Entry& wanted = other.entries_[index];
-  const Entry* entry = find(wanted.key, wanted.axis);
+  const Entry* entry = find(wanted.id, wanted.axis);
   if (entry == nullptr && count_ >= capacity_ + kCommon) return false;
-  if (entry == nullptr) entry = add(wanted.key, wanted.axis, true);
+  if (entry == nullptr) entry = add(wanted.id, wanted.axis, true);
   *there = static_cast<unsigned>(entry - entries_);
   return true;
 }
 
-bool Parameters::get(const char* key, int axis, double* value) const {
-  ParameterKey parsed;
-  char whole[kKeySize];
-  const int bit = parse_parameter_key(key, &parsed) ? parsed.bit : -1;
-  return value_of(bit >= 0 ? whole_key(key, parsed, whole) : key, bit, axis, value);
-}
-
 bool Parameters::get(const Dialect& dialect, ParameterOf parameter, int axis, double* value) const {
-  char key[kKeySize];
+  ParameterId id;
   int bit = -1;
-  return parameter_place(dialect, parameter, key, &bit) && value_of(key, bit, axis, value);
+  return parameter_place(dialect, parameter, &id, &bit) && get(id, bit, axis, value);
 }
 
-/// Of the whole parameter `key`, or of one bit of it.
-bool Parameters::value_of(const char* key, int bit, int axis, double* value) const {
-  const Entry* entry = find(key, axis);
-  if ((entry == nullptr || std::isnan(entry->value)) && axis >= 0) entry = find(key, -1);
-  if (entry == nullptr || std::isnan(entry->value)) return false;
-  if (entry->value >= kTextBase) {
-    const char* at = texts_[static_cast<unsigned>(entry->value - kTextBase)];
+bool Parameters::get(ParameterId id, int bit, int axis, double* value) const {
+  const Entry* const entry = in_force(id, axis);
+  if (entry == nullptr) return false;
+  if (const char* const at = text(entry->value()); at != nullptr) {
     double codes = 0;
     unsigned length = 0;
     for (; at[length] != 0; ++length) codes = codes * 256 + static_cast<unsigned char>(at[length]);
     *value = codes;
     return bit < 0 && length <= 6;
   }
-  *value = bit >= 0 ? (bits_of(entry->value) >> bit) & 1 : entry->value;
+  *value = bit >= 0 ? (bits_of(*entry->number) >> bit) & 1 : *entry->number;
   return true;
 }
 
@@ -210,26 +188,34 @@ bool Parameters::machine_takes(Parameter parameter, double value) const {
   }
 }
 
-double Parameters::keep_text(const char* text) {
-  const unsigned place = text_count_++ % kTexts;
-  std::strcpy(texts_[place], text);
-  return kTextBase + place;
+bool Parameters::holds_text(uint8_t place) const {
+  for (unsigned i = 0; i < count_; ++i)
+    if (entries_[i].text == place) return true;
+  return false;
 }
 
-const char* Parameters::text(const char* key, int axis) const {
-  const Entry* entry = find(key, axis);
-  if (entry == nullptr && axis >= 0) entry = find(key, -1);
-  if (entry == nullptr || !(entry->value >= kTextBase)) return nullptr;
-  return texts_[static_cast<unsigned>(entry->value - kTextBase)];
+/// The place of the text; 0 = each has one of a parameter.
+uint8_t Parameters::keep_text(const char* text) {
+  for (unsigned tried = 0; tried < kTexts; ++tried) {
+    newest_text_ = newest_text_ % kTexts + 1;
+    const auto place = static_cast<uint8_t>(newest_text_);
+    if (holds_text(place)) continue;
+    std::strcpy(texts_[place - 1], text);
+    return place;
+  }
+  return 0;
 }
 
-bool Parameters::at(unsigned index, const char** key, int* axis, double* value, const char** text) const {
+const char* Parameters::text(ParameterId id, int axis) const {
+  const Entry* const entry = in_force(id, axis);
+  return entry == nullptr ? nullptr : text(entry->value());
+}
+
+bool Parameters::at(unsigned index, ParameterId* id, int* axis, ParameterValue* value) const {
   if (index >= count_) return false;
-  const Entry& entry = entries_[index];
-  *key = entry.key;
-  *axis = entry.axis;
-  *value = entry.value;
-  *text = entry.value >= kTextBase ? texts_[static_cast<unsigned>(entry.value - kTextBase)] : nullptr;
+  *id = entries_[index].id;
+  *axis = entries_[index].axis;
+  *value = entries_[index].value();
   return true;
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Control parameters: a small store by key, and the typed values that the interpreter works with.
+// Control parameters: a small store, and the typed values that the interpreter works with.
 #pragma once
 
 #include "base/arena.hpp"
+#include "base/optional_double.hpp"
 #include "dialect/accuracy.hpp"
 #include "dialect/dialect.hpp"
 #include "fairing/rule.hpp"
 #include "filter/filter_parameters.hpp"
+#include "macro/journal.hpp"
 
 namespace nc {
 
@@ -131,37 +133,51 @@ struct Settings {
   bool whole_positions() const { return decimal_type_2 || calculator_reads_positions(); }
 };
 
+/// What a parameter has been set to: a number, or a text by its place in the part system's store of texts.
+struct ParameterValue {
+  OptionalDouble number;  ///< absent = not set, or a text
+  uint8_t text = 0;       ///< its place, from 1; 0 = none
+  bool is_set() const { return text != 0 || number.has_value(); }
+  JournalValue journalled() const { return JournalValue::of(number, text); }
+  static ParameterValue of(JournalValue value) { return {value.as<OptionalDouble>(), value.kind}; }
+};
+
 class Parameters {
  public:
   void create(unsigned capacity, Arena& arena);
+  /// From the text that the public interface gives: a number, a word of the family's, a text.
   nc_status set(const Dialect& dialect, const char* key, int axis, const char* text) {
     unsigned index = 0;
-    double old = 0;
+    ParameterValue old;
     return set(dialect, key, axis, text, &index, &old);
   }
   /// The same; what was there before can be put back with restore(*index, *old).
-  nc_status set(const Dialect& dialect, const char* key, int axis, const char* text, unsigned* index, double* old);
-  void restore(unsigned index, double old) { entries_[index].value = old; }
+  nc_status set(const Dialect& dialect, const char* key, int axis, const char* text, unsigned* index, ParameterValue* old);
+  /// The same of a parameter, or of one bit of it (-1 = all), from a number or from a text.
+  nc_status set(const Dialect& dialect, ParameterId id, int bit, int axis, double number, unsigned* index, ParameterValue* old);
+  nc_status set(const Dialect& dialect, ParameterId id, int bit, int axis, const char* text, unsigned* index, ParameterValue* old);
+  void restore(unsigned index, ParameterValue old) { exchange(index, old); }
   /// The same; what stood there.
-  double exchange(unsigned index, double value) {
-    const double old = entries_[index].value;
-    entries_[index].value = value;
+  ParameterValue exchange(unsigned index, ParameterValue value) {
+    const ParameterValue old = entries_[index].value();
+    entries_[index].set(value);
     return old;
   }
   /// Entry `index` is a parameter of which there is one for all part systems.
   bool is_common(unsigned index) const { return entries_[index].common; }
-  double stored(unsigned index) const { return entries_[index].value; }
+  ParameterValue stored(unsigned index) const { return entries_[index].value(); }
   /// Where entry `index` of another part system stands here, without a value where it has not been set yet; false: nowhere, and there is no room.
   bool same_entry(const Parameters& other, unsigned index, unsigned* there);
-  /// Those that have been set, from 0 on: key, axis (-1 = all), value (NaN = no longer set) and, where it is one, text; false behind the last.
-  bool at(unsigned index, const char** key, int* axis, double* value, const char** text) const;
-  /// Value of "1229/bit2", "1084", a name; a text by the codes of its characters, one byte each, when these are at most six (#100010:
-  /// "ASCII codes as decimal"). False = never set, or a longer text.
-  bool get(const char* key, int axis, double* value) const;
+  /// Those that have been set, from 0 on: axis -1 = all, a value that is not set = no longer; false behind the last.
+  bool at(unsigned index, ParameterId* id, int* axis, ParameterValue* value) const;
+  /// Value of a parameter or of a bit of it (-1 = all); a text by the codes of its characters, one byte each, when these are at most six
+  /// (#100010: "ASCII codes as decimal"). False = never set, or a longer text.
+  bool get(ParameterId id, int bit, int axis, double* value) const;
   /// The same by what it means. False as well: the family has no such parameter.
   bool get(const Dialect& dialect, ParameterOf parameter, int axis, double* value) const;
   /// The text of a parameter that has been set to one of two characters or more; nullptr = it has none.
-  const char* text(const char* key, int axis) const;
+  const char* text(ParameterId id, int axis) const;
+  const char* text(const ParameterValue& value) const { return value.text == 0 ? nullptr : texts_[value.text - 1]; }
   /// What the machine leaves to the filters behind interpolation: the longest mean that fits, and whether it is the first part system.
   void set_filter_room(double longest_ms, bool first_system) {
     longest_filter_ms_ = longest_ms;
@@ -171,24 +187,32 @@ class Parameters {
   Settings settings(const Dialect& dialect) const;
 
  private:
-  static constexpr unsigned kKeySize = kParameterKeySize;
-  static const char* whole_key(const char* key, const ParameterKey& parsed, char (&whole)[kKeySize]);
   struct Entry {
-    char key[kKeySize];  ///< zeros behind it
-    int8_t axis;   ///< -1 = all axes
-    bool common;   ///< to all part systems
-    double value;  ///< NaN = not set
+    ParameterId id;
+    int8_t axis;           ///< -1 = all axes
+    bool common;           ///< to all part systems
+    uint8_t text;
+    OptionalDouble number;
+    ParameterValue value() const { return {number, text}; }
+    void set(const ParameterValue& value) {
+      number = value.number;
+      text = value.text;
+    }
   };
-  Entry* find(const char* key, int axis) const;
-  Entry* add(const char* key, int axis, bool common);
-  bool value_of(const char* key, int bit, int axis, double* value) const;
+  static_assert(sizeof(Entry) == 16);
+  Entry* find(ParameterId id, int axis) const;
+  /// That of the axis, else that of all axes; nullptr = not set.
+  const Entry* in_force(ParameterId id, int axis) const;
+  Entry* add(ParameterId id, int axis, bool common);
+  nc_status put(ParameterId id, int bit, int axis, bool common, ParameterValue value, unsigned* index, ParameterValue* old);
   bool machine_takes(Parameter parameter, double value) const;
-  double keep_text(const char* text);
+  uint8_t keep_text(const char* text);
+  bool holds_text(uint8_t place) const;
   static constexpr unsigned kCommon = 16;  ///< places that are left for those that are common, beside `capacity_`
-  static constexpr unsigned kTexts = 128, kTextSize = 64;  ///< M700 13.11: at most 63 characters; the oldest place is used again
+  static constexpr unsigned kTexts = 128, kTextSize = 64;  ///< M700 13.11: at most 63 characters; a place that no parameter has is used again, the oldest first
   Entry* entries_ = nullptr;
   char (*texts_)[kTextSize] = nullptr;
-  unsigned capacity_ = 0, count_ = 0, text_count_ = 0;
+  unsigned capacity_ = 0, count_ = 0, newest_text_ = 0;
   double longest_filter_ms_ = kLongestMean;
   bool first_system_ = true;
 };

@@ -36,6 +36,7 @@ struct ModalCall {
   uint8_t below = 0;                ///< slot of the call that was in force before, from 1; 0 = none
   uint8_t depth = 0;                ///< of the program that commanded it
   OptionalDouble argument[kLocals]; ///< of #1 to #33
+  bool operator==(const ModalCall&) const = default;
 };
 
 /// A figure that is rotated pass by pass, in the plane in force (M700 13.3.3).
@@ -44,6 +45,7 @@ struct Figure {
   double start[2] = {0, 0};  ///< of pass 1
   double step = 0;           ///< from pass to pass, rad; 0 = pass 1 has not ended
   double angle = 0;          ///< of the pass under way, rad
+  bool operator==(const Figure&) const = default;
 };
 
 /// The program of M96 (M700 13.12).
@@ -51,6 +53,7 @@ struct InterruptProgram {
   ProgramRef program;
   uint64_t begin = 0;  ///< where its first block stands ...
   uint32_t begin_line = 0;
+  bool operator==(const InterruptProgram&) const = default;
 };
 
 /// Where the maps of the program are centred, and how much they scale and turn.
@@ -60,11 +63,13 @@ struct ProgramMaps {
   double scaling_factor = 0;
   double rotation_center[2] = {0, 0};   ///< 13.20: workpiece coordinates
   double rotation_deg = 0;
+  bool operator==(const ProgramMaps&) const = default;
 };
 
 /// Mirror image by switch: where each axis stood when the program began, machine coordinates.
 struct SwitchMirror {
   AxisVec center;
+  bool operator==(const SwitchMirror&) const = default;
 };
 
 /// What the macro has selected to read next; 0 = nothing yet.
@@ -72,6 +77,7 @@ struct Selection {
   uint32_t parameter[3] = {0, 0, 0};  ///< #100000: number, part, axis (M700 10.16)
   uint32_t device[4] = {0, 0, 0, 0};  ///< #100100: device, number, bytes, bit (10.17)
   uint32_t tool_group = 0;            ///< #60000 (10.15)
+  bool operator==(const Selection&) const = default;
 };
 
 /// Rotation of the workpiece coordinate systems about a point of the machine (M700 13.21).
@@ -86,26 +92,31 @@ struct WorkTurn {
 struct WorkTurns {
   WorkTurn commanded;  ///< by the parameters
   WorkTurn reached;    ///< by the axes
+  bool operator==(const WorkTurns&) const = default;
 };
 
 /// The intermediate point of the newest G28 or G30 of each axis.
 struct ReferenceMidpoints {
   OptionalDouble axis[kMaxAxes];
+  bool operator==(const ReferenceMidpoints&) const = default;
 };
 
 /// Where the newest G31 has ended, workpiece coordinates (#5061).
 struct SkipPosition {
   AxisVec work;
+  bool operator==(const SkipPosition&) const = default;
 };
 
 /// A word of the macro interface's outputs (#1100, #1132) as read ahead.
 struct InterfaceOutput {
   uint32_t bits = 0;
+  bool operator==(const InterfaceOutput&) const = default;
 };
 
 /// Workpieces (#3901, #3902, M700 10.13).
 struct WorkpieceCounts {
   int32_t count[2] = {0, 0};  ///< machined, maximum
+  bool operator==(const WorkpieceCounts&) const = default;
 };
 
 // ---- the groups ------------------------------------------------------------------------------------------------------------------
@@ -117,10 +128,12 @@ struct ProgramRecordsLife {
   SwitchMirror switch_mirror;
   Selection selection;
   WorkTurns work_turn;
+  bool operator==(const ProgramRecordsLife&) const = default;
 };
 
 struct MapRecordsLife {
   ProgramMaps maps;
+  bool operator==(const MapRecordsLife&) const = default;
 };
 
 struct MachineRecordsLife {
@@ -128,6 +141,7 @@ struct MachineRecordsLife {
   SkipPosition skip;
   InterfaceOutput output[NC_WORDS];
   WorkpieceCounts workpieces;
+  bool operator==(const MachineRecordsLife&) const = default;
 };
 
 /// All of them, each in exactly one group (tests/interpret/lifetimes_test.cpp).

@@ -10,7 +10,7 @@ namespace {
 JournalValue value_of(const Interpreter& in, uint32_t key) {
   if (key < kFrameKey) return in.variables.value_of(key);
   if (key < kRecordKey) return JournalValue::of(in.frames.get(key - kFrameKey));
-  return JournalValue::of(in.parameters.stored(key - kParameterKey));
+  return in.parameters.stored(key - kParameterKey).journalled();
 }
 
 /// `value` is what the machine has come to; what `in` has read ahead comes behind it. Parameters are numbered by each part system as they are
@@ -23,7 +23,7 @@ void take(Interpreter& in, uint32_t key, JournalValue value) {
       in.frames.set(key - kFrameKey, value.as<double>());
       take_changed_amounts(in);
     } else {
-      in.parameters.restore(key - kParameterKey, value.as<double>());
+      in.parameters.restore(key - kParameterKey, ParameterValue::of(value));
       in.refresh_settings();
     }
   }
@@ -93,7 +93,7 @@ void SharedTables::parameter_changed(const Interpreter& in, unsigned index) {
     unsigned there = 0;
     if (!other.parameters.same_entry(in.parameters, index, &there)) continue;
     other.parameters.restore(there, in.parameters.stored(index));
-    other.variables.changed_from_outside(kParameterKey + there, JournalValue::of(in.parameters.stored(index)));
+    other.variables.changed_from_outside(kParameterKey + there, in.parameters.stored(index).journalled());
     other.refresh_settings();
   }
   divide_again(in.settings.shared_100, in.settings.shared_500);

@@ -17,6 +17,7 @@ struct ProgramRef {
   uint64_t offset = 0;     ///< its first block (the O line itself, or the start of the text)
   uint32_t line = 1;
   bool valid() const { return file != 0xffff; }
+  bool operator==(const ProgramRef&) const = default;
 };
 
 /// Shared by all part systems of a control.

@@ -15,16 +15,10 @@ Execution refuse(BlockContext& in, Role word) {
   return in.words.has(word) ? in.raise(Condition::parameter_input, word, in.words.get(word)) : in.raise(Condition::parameter_input, word);
 }
 
-/// D rounded to the setting unit (note 5), as text for the parameter store.
-void put_data(TextWriter& out, double value, double unit) {
-  const double steps = std::nearbyint(std::fabs(value) / unit);
-  const auto per_whole = static_cast<unsigned long long>(std::nearbyint(1 / unit));
-  const auto whole = static_cast<unsigned long long>(steps);
-  unsigned digits = 0;
-  for (unsigned long long n = per_whole; n > 1; n /= 10) ++digits;
-  if (value < 0 && whole != 0) out.put('-');
-  out.put_integer(whole / per_whole);
-  if (digits > 0) out.put('.').put_integer(whole % per_whole, digits);
+/// D rounded to the setting unit (note 5).
+double data_of(double value, double unit) {
+  const double steps = std::nearbyint(std::fabs(value) / unit), rounded = steps / std::nearbyint(1 / unit);
+  return value < 0 && steps != 0 ? -rounded : rounded;
 }
 
 /// The parameter belongs to the rotation of the workpiece coordinate systems (13.21).
@@ -55,21 +49,30 @@ bool in_sequence(const BlockContext& in) {
   return true;
 }
 
-/// The text to store and, for a bit, the end of the key.
-Execution read_data(BlockContext& in, TextWriter& key, TextWriter& text) {
+/// What a block gives to a parameter, or to one bit of it.
+struct ParameterData {
+  int bit = -1;
+  double number = 0;
+  bool is_text = false;
+  char text[64] = {};
+};
+
+Execution read_data(BlockContext& in, ParameterData* data) {
   const BlockWords& w = in.words;
   const unsigned kinds = (w.has(Role::parameter_bit) ? 1u : 0u) + (w.has(Role::parameter_data) ? 1u : 0u) + (in.block->name_length > 0 ? 1u : 0u);
   if (kinds != 1) return refuse(in, kinds == 0 ? Role::parameter_data : Role::parameter_number);
   if (w.has(Role::parameter_bit)) {  // note 4: bit number and its value
-    uint32_t data = 0;
-    if (!whole_number(w.get(Role::parameter_bit), &data) || data / 10 > 7 || data % 10 > 1) return refuse(in, Role::parameter_bit);
-    key.put("/bit").put_integer(data / 10);
-    text.put_integer(data % 10);
+    uint32_t bit = 0;
+    if (!whole_number(w.get(Role::parameter_bit), &bit) || bit / 10 > 7 || bit % 10 > 1) return refuse(in, Role::parameter_bit);
+    data->bit = static_cast<int>(bit / 10);
+    data->number = bit % 10;
   } else if (w.has(Role::parameter_data)) {
     if (!(std::fabs(w.get(Role::parameter_data)) < 1e9)) return refuse(in, Role::parameter_data);
-    put_data(text, w.get(Role::parameter_data), in.settings.setting_unit_mm);
+    data->number = data_of(w.get(Role::parameter_data), in.settings.setting_unit_mm);
   } else {
-    if (in.block->name_length > 63) return in.raise(Condition::parameter_input, '<');
+    if (in.block->name_length >= sizeof data->text) return in.raise(Condition::parameter_input, '<');
+    data->is_text = true;
+    TextWriter text(data->text, sizeof data->text);
     for (unsigned i = 0; i < in.block->name_length; ++i) text.put(in.block->text[in.block->name + i]);
   }
   return Execution::done;
@@ -97,14 +100,15 @@ Execution parameter_block(BlockContext& in) {
   if (!in_sequence(in)) return refuse(in, Role::parameter_number);
   if (w.has(Role::parameter_system) && (!whole_number(w.get(Role::parameter_system), &system) || (system != in.system_index + 1u && !parameter_is_common(*in.dialect, number)))) return refuse(in, Role::parameter_system);
   if (w.has(Role::parameter_axis) && (!whole_number(w.get(Role::parameter_axis), &axis) || axis < 1 || axis > in.axis_count)) return refuse(in, Role::parameter_axis);
-  char key_text[24], data_text[64];
-  TextWriter key(key_text, sizeof key_text), data(data_text, sizeof data_text);
-  key.put_integer(number);
-  const Execution did = read_data(in, key, data);
+  ParameterData data;
+  const Execution did = read_data(in, &data);
   if (did != Execution::done) return did;
   // Note 3: parameters that are not of the axes take no notice of A.
   const int of = parameter_of_axis(*in.dialect, number) ? static_cast<int>(axis) - 1 : -1;
-  if (!in.set_parameter(key_text, of, data_text)) return refuse(in, Role::parameter_number);
+  const ParameterId id = ParameterId::of_number(number);
+  const bool kept = number < ParameterId::kFirstName &&
+                    (data.is_text ? in.set_parameter(id, -1, of, static_cast<const char*>(data.text)) : in.set_parameter(id, data.bit, of, data.number));
+  if (!kept) return refuse(in, Role::parameter_number);
   if (turns_work(in, number)) take_work_rotation(in, false);  // 13.21 (4): what a program sets holds at once
   return Execution::done;
 }

@@ -6,7 +6,6 @@
 #include <initializer_list>
 #include <numbers>
 
-#include "dialect/text.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/work_rotation.hpp"
 
@@ -18,16 +17,11 @@ constexpr ParameterOf kVectorV = {Parameter::work_turn_vector, 1};
 constexpr ParameterOf kAngle = Parameter::work_turn_angle;
 constexpr double kLargestVector = 999999.999999, kLargestAngle = 360;
 
+/// Parameters have nine decimals at most.
 bool store(BlockContext& in, ParameterOf parameter, double value) {
   constexpr double kDecimals = 1e9;
-  const double steps = std::nearbyint(std::fabs(value) * kDecimals);
-  char text[40];
-  TextWriter out(text, sizeof text);
-  if (value < 0 && steps != 0) out.put('-');
-  const auto whole = static_cast<unsigned long long>(steps);
-  constexpr auto kPerWhole = static_cast<unsigned long long>(kDecimals);
-  out.put_integer(whole / kPerWhole).put('.').put_integer(whole % kPerWhole, 9);
-  return in.set_parameter(parameter, text);
+  const double rounded = std::nearbyint(std::fabs(value) * kDecimals) / kDecimals;
+  return in.set_parameter(parameter, value < 0 && rounded != 0 ? -rounded : rounded);
 }
 
 }  // namespace
