@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "control/control.hpp"
+#include "dialect/dialect.hpp"
 #include "dialect/text.hpp"
 
 namespace nc {

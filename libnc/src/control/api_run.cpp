@@ -89,7 +89,7 @@ nc_status nc_rewind(nc_control* c, unsigned system, uint64_t serial) {
 
 nc_status nc_recalculate(nc_control* c, unsigned system) {
   if (!known(c, system)) return NC_E_ARGUMENT;
-  if (c->system[system].interpreter.in_vendor_function) return NC_E_STATE;
+  if (c->system[system].interpreter.in_vendor_function()) return NC_E_STATE;
   return c->system[system].recalculate();
 }
 
@@ -107,7 +107,7 @@ nc_status nc_reset(nc_control* c, unsigned system) {
 nc_status nc_feed(nc_control* c, uint32_t budget) {
   if (c == nullptr) return NC_E_ARGUMENT;
   for (unsigned i = 0; i < c->config.system_count; ++i)
-    if (c->system[i].interpreter.in_vendor_function) return NC_E_STATE;
+    if (c->system[i].interpreter.in_vendor_function()) return NC_E_STATE;
   // The most that any part system still has to say: something committed, then budget, waiting, the ends.
   nc_status result = NC_ENDED;
   c->system[0].publish_all();

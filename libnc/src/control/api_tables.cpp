@@ -6,9 +6,9 @@
 #include "control/alarm_texts.hpp"
 #include "control/control.hpp"
 #include "control/struct_size.hpp"
+#include "dialect/dialect.hpp"
 #include "dialect/function_table.hpp"
 #include "dialect/text.hpp"
-#include "interpret/functions/functions.hpp"
 
 namespace {
 
@@ -63,10 +63,7 @@ bool parse_name(const char* name, Name* out) {
 /// One of the protected numbers (#8105: 8000 to 9999, #1121: 9000 to 9999).
 bool is_protected(const nc_control* c, unsigned file) {
   const uint32_t number = c->store.entry(file)->number;
-  const auto locked = [c](nc::Parameter parameter) {
-    double value = 0;
-    return c->system[0].interpreter.parameters.get(*c->dialect, parameter, -1, &value) && value != 0;
-  };
+  const auto locked = [c](nc::Parameter parameter) { return c->system[0].interpreter.parameter(parameter) != 0; };
   if (number >= 9000 && number <= 9999 && locked(nc::Parameter::protects_9000)) return true;
   return number >= 8000 && number <= 9999 && locked(nc::Parameter::protects_8000);
 }
@@ -98,30 +95,18 @@ nc_status add_entry(nc_control* c, const char* name, nc::TextEntry entry, unsign
 
 nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char axis, const char* text) {
   if (!known(c, system)) return NC_E_ARGUMENT;
-  nc::Interpreter& in = c->system[system].interpreter;
-  int index = -1;
-  if (axis != 0) {
-    if (axis < 'A' || axis > 'Z' || in.axis_of[axis - 'A'] < 0) return NC_E_ARGUMENT;
-    index = in.axis_of[axis - 'A'];
-  }
-  unsigned changed = 0;
-  nc::ParameterValue before;
-  const nc_status status = in.parameters.set(*c->dialect, key, index, text, &changed, &before);
-  if (status != NC_OK) return status;
-  in.refresh_settings();
-  if (in.shared != nullptr) in.shared->parameter_changed(in, changed);
-  c->system[system].tell_axis_parameters();
-  return NC_OK;
+  nc::PartInterpreter& in = c->system[system].interpreter;
+  const int index = in.axis_named(axis);
+  if (axis != 0 && index < 0) return NC_E_ARGUMENT;
+  const nc_status status = in.set_parameter(key, index, text);
+  if (status == NC_OK) c->system[system].tell_axis_parameters();
+  return status;
 }
 
 nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key, char axis, double* value) {
   if (!known(c, system) || key == nullptr || value == nullptr) return NC_E_ARGUMENT;
-  const nc::Interpreter& in = c->system[system].interpreter;
-  const int index = axis >= 'A' && axis <= 'Z' ? in.axis_of[axis - 'A'] : -1;
-  *value = 0;
-  nc::ParameterId id;
-  int bit = -1;
-  if (nc::parse_parameter(*c->dialect, key, &id, &bit)) in.parameters.get(id, bit, index, value);
+  const nc::PartInterpreter& in = c->system[system].interpreter;
+  *value = in.parameter(key, in.axis_named(axis));
   return NC_OK;
 }
 
@@ -142,13 +127,12 @@ nc_status nc_parameter_key(const nc_control* c, nc_parameter_role role, char key
 nc_status nc_parameter_next(const nc_control* c, unsigned system, unsigned from, unsigned* place, char key[24], char* axis, double* value,
                             char text[64]) {
   if (!known(c, system) || place == nullptr || key == nullptr || axis == nullptr || value == nullptr || text == nullptr) return NC_E_ARGUMENT;
-  const nc::Interpreter& in = c->system[system].interpreter;
-  nc::ParameterId id;
-  nc::ParameterValue found;
+  const nc::PartInterpreter& in = c->system[system].interpreter;
+  const char *name = nullptr, *words = nullptr;
   int of_axis = -1;
   unsigned at = from;
   do {
-    if (!in.parameters.at(at, &id, &of_axis, &found)) return NC_E_NOT_FOUND;
+    if (!in.parameter_at(at, &name, &of_axis, &number, &words)) return NC_E_NOT_FOUND;
     ++at;
   } while (!found.is_set());  // it was set, and that was taken back
   *place = at - 1;
@@ -195,32 +179,26 @@ nc_status nc_program_tape(nc_control* c, unsigned file, uint8_t tape, unsigned u
 nc_status nc_work_offset_set(nc_control* c, unsigned system, unsigned index, unsigned axis, double value) {
   unsigned key = 0;
   if (!sane(value) || !work_key(c, system, index, axis, &key)) return NC_E_ARGUMENT;
-  c->system[system].interpreter.set_table_from_outside(key, value);
+  c->system[system].interpreter.set_table(key, value);
   return NC_OK;
 }
 
 nc_status nc_work_offset_get(const nc_control* c, unsigned system, unsigned index, unsigned axis, double* value) {
   unsigned key = 0;
   if (value == nullptr || !work_key(c, system, index, axis, &key)) return NC_E_ARGUMENT;
-  *value = c->system[system].interpreter.frames.get(key);
+  *value = c->system[system].interpreter.frames().get(key);
   return NC_OK;
 }
 
 nc_status nc_tool_offset_set(nc_control* c, unsigned number, nc_tool_column column, double value) {
   if (!sane(value) || !tool_number(c, number, column)) return NC_E_ARGUMENT;
-  nc::Interpreter& in = c->system[0].interpreter;
-  const unsigned key = in.frames.tool_key(number, column);
-  if (in.shared != nullptr) {
-    in.shared->set_tool(key, value);
-  } else {
-    in.set_table_from_outside(key, value);
-  }
+  c->system[0].interpreter.set_tool(number, column, value);
   return NC_OK;
 }
 
 nc_status nc_tool_offset_get(const nc_control* c, unsigned number, nc_tool_column column, double* value) {
   if (value == nullptr || !tool_number(c, number, column)) return NC_E_ARGUMENT;
-  const Frames& frames = c->system[0].interpreter.frames;
+  const Frames& frames = c->system[0].interpreter.frames();
   *value = frames.get(frames.tool_key(number, column));
   return NC_OK;
 }
@@ -229,20 +207,13 @@ nc_status nc_tool_offset_get(const nc_control* c, unsigned number, nc_tool_colum
 
 nc_status nc_variable_set(nc_control* c, unsigned system, uint32_t number, double value, bool vacant) {
   if (!known(c, system) || (!vacant && !std::isfinite(value))) return NC_E_ARGUMENT;
-  nc::Interpreter& in = c->system[system].interpreter;
-  const nc::Value given{value, vacant};
-  if (in.shared != nullptr && in.variables.shares(number)) {
-    in.shared->set_variable(number, given);
-    return NC_OK;
-  }
-  return in.variables.set_from_outside(number, in.macro_level(), given) ? NC_OK : NC_E_NOT_FOUND;
+  return c->system[system].interpreter.set_variable(number, {value, vacant}) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 nc_status nc_variable_get(const nc_control* c, unsigned system, uint32_t number, double* value, bool* vacant) {
   if (!known(c, system) || value == nullptr || vacant == nullptr) return NC_E_ARGUMENT;
-  const nc::Interpreter& in = c->system[system].interpreter;
   nc::Value v;
-  if (!in.variables.get(number, in.macro_level(), &v)) return NC_E_NOT_FOUND;
+  if (!c->system[system].interpreter.variable(number, &v)) return NC_E_NOT_FOUND;
   *value = v.number;
   *vacant = v.vacant;
   return NC_OK;
@@ -250,39 +221,36 @@ nc_status nc_variable_get(const nc_control* c, unsigned system, uint32_t number,
 
 nc_status nc_variable_name_get(const nc_control* c, uint32_t number, char name[8]) {
   if (c == nullptr || name == nullptr) return NC_E_ARGUMENT;
-  const unsigned length = c->system[0].interpreter.variables.name_of(number, name);
+  const unsigned length = c->system[0].interpreter.variable_name(number, name);
   name[length] = 0;
   return NC_OK;
 }
 
 nc_status nc_variable_name_set(nc_control* c, uint32_t number, const char* name) {
   if (c == nullptr || name == nullptr) return NC_E_ARGUMENT;
-  nc::Interpreter& in = c->system[0].interpreter;
-  if (!in.variables.name_from_outside(number, name)) return NC_E_ARGUMENT;
-  if (in.shared != nullptr) in.shared->set_name(number, name);
-  return NC_OK;
+  return c->system[0].interpreter.set_variable_name(number, name) ? NC_OK : NC_E_ARGUMENT;
 }
 
 void nc_device_on_read(nc_control* c, nc_device_read callback, void* user) {
   if (c == nullptr) return;
-  for (unsigned i = 0; i < c->config.system_count; ++i) c->system[i].interpreter.devices = {callback, user};
+  for (unsigned i = 0; i < c->config.system_count; ++i) c->system[i].interpreter.set_devices(callback, user);
 }
 
 nc_status nc_variable_next(const nc_control* c, unsigned system, uint32_t from, uint32_t* number, double* value) {
   if (!known(c, system) || number == nullptr || value == nullptr) return NC_E_ARGUMENT;
-  return c->system[system].interpreter.variables.next(from, number, value) ? NC_OK : NC_E_NOT_FOUND;
+  return c->system[system].interpreter.next_variable(from, number, value) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 nc_status nc_interface_output_get(const nc_control* c, unsigned system, unsigned word, uint32_t* bits) {
   if (!known(c, system) || word >= NC_WORDS || bits == nullptr) return NC_E_ARGUMENT;
-  *bits = c->system[system].interpreter.records->output[word].bits;
+  *bits = static_cast<uint32_t>(c->system[system].interpreter.frames().get(Frames::output_key(word)));
   return NC_OK;
 }
 
 nc_status nc_interface_output_set(nc_control* c, unsigned system, unsigned word, uint32_t mask, uint32_t bits) {
   uint32_t now = 0;
   if (const nc_status status = nc_interface_output_get(c, system, word, &now); status != NC_OK) return status;
-  c->system[system].interpreter.records.change_from_outside(&nc::ProgramRecords::output, word, {(now & ~mask) | (bits & mask)});
+  c->system[system].interpreter.set_table(Frames::output_key(word), (now & ~mask) | (bits & mask));
   return NC_OK;
 }
 
@@ -387,23 +355,21 @@ nc_status nc_position_set(nc_control* c, unsigned system, const nc_axes* machine
 
 void nc_position_shown(const nc_control* c, unsigned system, nc_axes* machine, nc_axes* work) {
   if (!known(c, system)) return;
-  const nc::Interpreter& in = c->system[system].interpreter;
-  const auto show = [&in](nc_axes* axes, nc::AxisVec (*shown)(const nc::BlockContext&, const nc::AxisVec&)) {
+  const nc::PartInterpreter& in = c->system[system].interpreter;
+  const auto show = [&in](nc_axes* axes, nc::AxisVec (nc::PartInterpreter::*shown)(const nc::AxisVec&) const) {
     if (axes == nullptr) return;
     nc::AxisVec position;
     std::memcpy(position.v, axes->v, sizeof position.v);
-    position = shown(in, position);
+    position = (in.*shown)(position);
     std::memcpy(axes->v, position.v, sizeof position.v);
   };
-  show(machine, nc::machine_shown);
-  show(work, nc::work_shown);
+  show(machine, &nc::PartInterpreter::machine_shown);
+  show(work, &nc::PartInterpreter::work_shown);
 }
 
 void nc_switches_set(nc_control* c, unsigned system, uint32_t optional_skip, uint32_t mirror_axes) {
   if (!known(c, system)) return;
-  nc::Interpreter& in = c->system[system].interpreter;
-  in.optional_skip = optional_skip;
-  in.mirror_switch = static_cast<uint8_t>(mirror_axes & ((1u << in.axis_count) - 1));
+  c->system[system].interpreter.set_switches(optional_skip, mirror_axes);
 }
 
 nc_status nc_alarm_get(const nc_control* c, unsigned system, nc_alarm* alarm) {
@@ -416,25 +382,21 @@ nc_status nc_alarm_get(const nc_control* c, unsigned system, nc_alarm* alarm) {
 }
 
 unsigned nc_alarm_calls(const nc_control* c, unsigned system, nc_source* calls, unsigned capacity) {
-  static_assert(nc::kMaxFrames <= NC_MAX_CALLS);
   if (!known(c, system) || (calls == nullptr && capacity != 0)) return 0;
   return c->system[system].alarm_calls(calls, capacity);
 }
 
 nc_status nc_modal_get(const nc_control* c, unsigned system, uint32_t id, nc_modal* modal) {
   if (!known(c, system) || modal == nullptr || nc::caller_bytes(modal) == 0) return NC_E_ARGUMENT;
-  const nc::Interpreter& in = c->system[system].interpreter;
-  if (!in.modals.holds(id)) return NC_E_NOT_FOUND;
-  nc::give_struct(nc::to_public(*in.dialect, in.modals[id]), modal);
+  nc_modal known;
+  if (!c->system[system].interpreter.modal(id, &known)) return NC_E_NOT_FOUND;
+  nc::give_struct(known, modal);
   return NC_OK;
 }
 
 nc_status nc_text_get(const nc_control* c, unsigned system, uint32_t id, nc_text* text) {
   if (!known(c, system) || text == nullptr) return NC_E_ARGUMENT;
-  const auto& texts = c->system[system].interpreter.texts;
-  if (!texts.holds(id)) return NC_E_NOT_FOUND;
-  *text = texts[id].text;
-  return NC_OK;
+  return c->system[system].interpreter.text(id, text) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 unsigned nc_modal_codes(const nc_control* c, const nc_modal* given, char (*codes)[8], unsigned capacity) {

@@ -9,7 +9,6 @@
 //   fetched from there first. What a stage finds itself (interference, no intersection, a corner that does not fit) then stops the block as
 //   a whole, too. So it is behind lines that fairing has held back; elsewhere the ends that fairing moves stay between programmed points, which are tried as they are.
 #include "control/part_system.hpp"
-#include "interpret/functions/functions.hpp"
 
 namespace nc {
 namespace {
@@ -61,35 +60,25 @@ bool PartSystem::block_fits() {
     whole = ends_look_ahead(item);
     fits = try_item(item, &committed);
   }
-  if (fits && !whole && interpreter.next_step == Step::cycle) fits = cycle_fits(&committed);
+  if (fits && !whole && interpreter.in_cycle()) fits = cycle_fits(&committed);
   commit_.put_back(place);
   if (!fits) stop_on(refused(committed), source);
   return fits;
 }
 
-/// What the cycle in hand has still to do, hole by hole and straight to the bottom. The interpreter is afterwards as it was.
+/// What the cycle in hand has still to do.
 bool PartSystem::cycle_fits(Committed* committed) {
-  Interpreter& in = interpreter;
-  if (in.state.map.active()) return true;  // its moves have shapes, which are few: each is checked when it comes
-  const State state = in.state;
-  const Hole hole = in.hole;
-  const HoleProgress progress = in.progress;
-  const uint32_t holes_left = in.holes_left;
-  const unsigned queued = in.queued();
-  in.state.cycle.kind = in.hole.kind = CycleKind::drill;
-  bool fits = true;
-  Execution did = Execution::later;
-  while (fits && did == Execution::later) {
-    did = continue_cycle(in);
-    if (in.queued() == queued) break;  // codes fill the queue
-    for (unsigned i = queued; fits && i < in.queued(); ++i) fits = try_item(in.queued(i), committed);
-    in.forget_queued(queued);
-  }
-  in.state = state;
-  in.hole = hole;
-  in.progress = progress;
-  in.holes_left = holes_left;
-  return fits;
+  if (interpreter.maps_motion()) return true;  // its moves have shapes, which are few: each is checked when it comes
+  struct Trial {
+    PartSystem& system;
+    Committed* committed;
+  } trial{*this, committed};
+  return interpreter.rehearse_cycle(
+      [](void* user, const Item& move) {
+        Trial& trying = *static_cast<Trial*>(user);
+        return trying.system.try_item(move, trying.committed);
+      },
+      &trial);
 }
 
 /// Fetches the rest of the block that begins with staged_[0], or with the interpreter's front.
@@ -97,7 +86,7 @@ nc_status PartSystem::gather_block(uint32_t& budget) {
   if (!gathering_) {
     gathering_ = true;
     if (!from_stage_) {
-      staged_[0] = *interpreter.front();
+      staged_[0] = interpreter.queued(0);
       staged_head_ = 0;
       staged_count_ = 1;
       interpreter.pop();
@@ -111,15 +100,13 @@ nc_status PartSystem::gather_block(uint32_t& budget) {
       whole = ends_look_ahead(place);
       continue;
     }
-    if (interpreter.front() == nullptr) {
-      const nc_status status = interpreter.step(budget);
-      if (status != NC_OK) return status;
-    }
-    Item& front = *interpreter.front();
-    const Stages::Intake intake = stages_.push(front);
+    Item* front = nullptr;
+    const nc_status status = interpreter.next(budget, &front);
+    if (status != NC_OK) return status;
+    const Stages::Intake intake = stages_.push(*front);
     if (intake == Stages::Intake::later) continue;
     if (intake == Stages::Intake::straight) {
-      place = front;
+      place = *front;
       ++staged_count_;
       whole = ends_look_ahead(place);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "control/control.hpp"
+#include "dialect/dialect.hpp"
 #include "dialect/text.hpp"
 
 namespace nc {
@@ -15,7 +16,7 @@ using P = Parameter;
 class ParameterNotes {
  public:
   ParameterNotes(const nc_control& control, unsigned system, unsigned wanted, char* text, size_t size)
-      : config_(control.config), system_(control.config.system[system]), in_(control.system[system].interpreter), left_(wanted), text_(text, size) {}
+      : config_(control.config), system_(control.config.system[system]), dialect_(*control.dialect), in_(control.system[system].interpreter), left_(wanted), text_(text, size) {}
 
   bool find() {
     return without_effect() || axes();
@@ -24,9 +25,7 @@ class ParameterNotes {
  private:
   bool is_wanted() { return left_-- == 0; }
   double value(ParameterOf parameter, int axis = -1) const {
-    double found = 0;
-    in_.parameters.get(*in_.dialect, parameter, axis, &found);
-    return found;
+    return in_.parameter(parameter, axis);
   }
   bool on_some_axis(ParameterOf parameter) const {
     for (unsigned i = 0; i < system_.axis_count; ++i)
@@ -37,7 +36,7 @@ class ParameterNotes {
   void put(ParameterOf parameter) {
     char key[kParameterKeySize];
     int bit = -1;
-    if (parameter_place(*in_.dialect, parameter, key, &bit)) text_.put('#').put(key);
+    if (parameter_place(dialect_, parameter, key, &bit)) text_.put('#').put(key);
   }
   /// A sentence about `parameter`, in which {1} and {2} are others.
   bool say(ParameterOf parameter, const char* sentence, ParameterOf first = Parameter::none, ParameterOf second = Parameter::none) {
@@ -97,7 +96,7 @@ class ParameterNotes {
 
   bool axes() {
     if (config_.motion_mode == NC_MOTION_OPTIMAL) return false;
-    const FilterParameters& p = in_.settings.filters;
+    const FilterParameters& p = in_.filters();
     for (unsigned i = 0; i < system_.axis_count; ++i) {
       const nc_axis_config& axis = system_.axis[i];
       const double rapid = axis.rapid > 0 ? axis.rapid : axis.max_velocity;
@@ -118,7 +117,7 @@ class ParameterNotes {
     FilteredMove move;
     move.kind = kind;
     move.moving = move.limited = 1u << i;
-    const FilterTimes times = in_.dialect->rules.motion.filter_times(only, move, config_.cycle_s);
+    const FilterTimes times = dialect_.rules.motion.filter_times(only, move, config_.cycle_s);
     if (times.kind == FilterTimes::Kind::none) {
       if (!is_wanted()) return false;
       about(axis.name, keys, "not set, of other axes they are: ");
@@ -136,7 +135,8 @@ class ParameterNotes {
 
   const nc_config& config_;
   const nc_system_config& system_;
-  const Interpreter& in_;
+  const Dialect& dialect_;
+  const PartInterpreter& in_;
   unsigned left_;
   TextWriter text_;
 };

@@ -3,6 +3,7 @@
 #include "base/same_place.hpp"
 
 #include "control/optimal_mode.hpp"
+#include "dialect/dialect.hpp"
 #include "dialect/text.hpp"
 #include "filter/position_filter.hpp"
 
@@ -19,6 +20,9 @@ namespace {
 
 void PartSystem::create(const nc_config& config, unsigned index, const Dialect& dialect, const Shared& shared, Arena& arena) {
   const nc_system_config& system = config.system[index];
+  dialect_ = &dialect;
+  system_ = &system;
+  axis_count_ = system.axis_count;
   InterpreterConfig in;
   in.dialect = &dialect;
   in.system = &system;
@@ -28,11 +32,12 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   in.frames.extended_systems = config.work_offsets;
   in.frames.tool_offsets = config.tool_offsets;
   in.vendor = shared.vendor;
+  in.longest_filter_ms = PositionFilter::places(kLongestMean, config.cycle_s) * config.cycle_s * 1000;
   interpreter.create(in, shared.store, shared.common, arena);
 
   CommitConfig commit;
   commit.system = &system;
-  commit.stroke_boxes = &interpreter.stroke_boxes;
+  commit.stroke_boxes = interpreter.stroke_boxes();
   commit.marks = config.look_ahead;
   commit.records = config.look_ahead;
   commit.rotary_makes_length = dialect.rules.feed.degree_counts_as_millimetre;
@@ -42,10 +47,10 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   commit_.create(commit, arena);
 
   ExecutorConfig ex;
-  ex.axis_count = system.axis_count;
+  ex.axis_count = axis_count_;
   for (unsigned i = 0; i < system.axis_count; ++i) {
     const nc_axis_config& axis = system.axis[i];
-    if (axis.rotary) ex.rotary |= 1u << i;
+    if (axis.rotary) rotary_ |= 1u << i;
     if (axis.soft_limited) ex.soft_limited |= 1u << i;
     ex.limits[i] = AxisLimits{axis.rapid, axis.max_velocity, axis.max_acceleration, axis.max_jerk, axis.in_position};
     ex.soft_min[i] = axis.soft_min;
@@ -54,6 +59,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
     ex.axis_spindle[i] = axis.spindle;
     if (axis.spindle != 0) spindle_axes_ |= 1u << i;
   }
+  ex.rotary = rotary_;
   ex.spindle_count = system.spindle_count == 0 ? 1u : system.spindle_count;
   ex.cycle_s = config.cycle_s;
   ex.max_feed_override = config.max_feed_override;
@@ -61,16 +67,15 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.capacity = config.look_ahead;
   ex.tells_marks = config.system_count > 1;
   ex.filters = commit.filters;
-  interpreter.parameters.set_filter_room(PositionFilter::places(kLongestMean, config.cycle_s) * config.cycle_s * 1000, index == 0);
   optimal_ = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.optimal = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.tolerance = config.path_tolerance;
   executor.create(ex, arena);
-  stages_.create(&interpreter.motion_settings, arena);
+  stages_.create(interpreter.motion_settings(), arena);
   const AddressTable& addresses = dialect.addresses;
-  stages_.stage<ContourStage>().create(interpreter.axis_count, interpreter.rotary, addresses.letter(Role::option_chamfer),
+  stages_.stage<ContourStage>().create(axis_count_, rotary_, addresses.letter(Role::option_chamfer),
                                        addresses.letter(Role::option_corner_radius), arena);
-  stages_.stage<FairingStage>().create(interpreter.axis_count, interpreter.rotary, arena);
+  stages_.stage<FairingStage>().create(axis_count_, rotary_, arena);
   if (!arena.measuring() && !arena.overflowed()) stages_.reset();
 }
 
@@ -99,12 +104,9 @@ void PartSystem::count_from(uint32_t first) {
         return NC_OK;
       }
     }
-    Item* front = interpreter.front();
-    if (front == nullptr) {
-      const nc_status status = interpreter.step(budget);
-      if (status != NC_OK) return status;
-      front = interpreter.front();
-    }
+    Item* front = nullptr;
+    const nc_status status = interpreter.next(budget, &front);
+    if (status != NC_OK) return status;
     if (!stages_.idle() || may_be_held(*front)) {
       const Stages::Intake intake = stages_.push(*front);
       if (intake == Stages::Intake::taken) interpreter.pop();
@@ -153,47 +155,47 @@ void PartSystem::stop_on(const Fault& fault, const nc_source& source) {
   interpreter.note_calls(source, last != nullptr ? last->seq : 0);
   interpreter.rewind(last != nullptr ? last->seq : 0);
   // Of the block that stops some moves may have gone; compensated ones do not end where the program says.
-  if (!from_stage_) interpreter.state.machine = commit_.machine();
+  if (!from_stage_) interpreter.end_at(commit_.machine());
   stages_.reset();
   clear_staged();
   interpreter.abort(fault, source);
 }
 
 /// Behind the sentence of the fault where there is room for both, else in its place.
-static void put_cause(const AlarmStory& story, nc_text* detail) {
-  const size_t sentence = std::strlen(detail->s), cause = std::strlen(story.cause.s);
+static void put_cause(const RaisedAlarm& alarm, nc_text* detail) {
+  const size_t sentence = std::strlen(detail->s), cause = std::strlen(alarm.cause.s);
   if (cause == 0) return;
-  const bool both = !story.instead && sentence != 0 && sentence + 1 + cause < sizeof detail->s;
+  const bool both = !alarm.cause_instead && sentence != 0 && sentence + 1 + cause < sizeof detail->s;
   TextWriter out(detail->s + (both ? sentence : 0), sizeof detail->s - (both ? sentence : 0));
   if (both) out.put(' ');
-  out.put(story.cause.s);
+  out.put(alarm.cause.s);
 }
 
 void PartSystem::put_fault(const Fault& fault, const nc_source& source, nc_alarm* out) const {
-  const AlarmText text = alarm_text(*interpreter.dialect, fault);
+  const AlarmText text = alarm_text(*dialect_, fault);
   *out = nc_alarm{};
   std::strncpy(out->code, text.code, sizeof(out->code) - 1);
   std::strncpy(out->message, text.message, sizeof(out->message) - 1);
   char axis_name[2] = {0, 0};
-  if (fault.axis >= 0) axis_name[0] = interpreter.system->axis[fault.axis].name;
-  alarm_detail(*interpreter.dialect, fault, axis_name, out->detail.s, sizeof(out->detail.s));
+  if (fault.axis >= 0) axis_name[0] = system_->axis[fault.axis].name;
+  alarm_detail(*dialect_, fault, axis_name, out->detail.s, sizeof(out->detail.s));
   out->axis = fault.axis;
   out->source = source;
 }
 
 void PartSystem::describe_alarm() {
-  const Fault& fault = interpreter.alarm_fault;
-  put_fault(fault, interpreter.alarm_source, &alarm_);
+  const RaisedAlarm raised = interpreter.raised();
+  const Fault& fault = raised.fault;
+  put_fault(fault, raised.source, &alarm_);
   alarm_given_ = true;
-  const nc_text& own_words = interpreter.texts[interpreter.user_alarm_text].text;
-  if (fault.condition == Condition::user_alarm && own_words.s[0] != 0)  // M700 13.5.5: the message and its number, as printed
-    TextWriter(alarm_.detail.s, sizeof alarm_.detail.s).put(own_words.s).put(' ').put_number(fault.value);
+  if (fault.condition == Condition::user_alarm && raised.own_words[0] != 0)  // M700 13.5.5: the message and its number, as printed
+    TextWriter(alarm_.detail.s, sizeof alarm_.detail.s).put(raised.own_words).put(' ').put_number(fault.value);
   if (fault.condition == Condition::vendor_function) {
-    std::memcpy(alarm_.code, interpreter.vendor_alarm.code, sizeof alarm_.code);
-    std::memcpy(alarm_.message, interpreter.vendor_alarm.message, sizeof alarm_.message);
-    alarm_.detail = interpreter.vendor_alarm.detail;
+    std::memcpy(alarm_.code, raised.vendor.code, sizeof alarm_.code);
+    std::memcpy(alarm_.message, raised.vendor.message, sizeof alarm_.message);
+    alarm_.detail = raised.vendor.detail;
   }
-  put_cause(interpreter.alarm_story, &alarm_.detail);
+  put_cause(raised, &alarm_.detail);
 }
 
 bool PartSystem::alarm(nc_alarm* out) const {
@@ -210,7 +212,7 @@ bool PartSystem::alarm(nc_alarm* out) const {
 
 /// The blocks that led to where an alarm has stopped the program that is in no record; 0: none has, or that is not known. Those that have been
 /// read behind it know who has called it, until they are given up.
-unsigned PartSystem::stop_calls(nc_source (&calls)[kMaxFrames]) const {
+unsigned PartSystem::stop_calls(nc_source (&calls)[NC_MAX_CALLS]) const {
   nc_source place;
   BlockSeq behind = 0;
   return executor.stopped(&place, &behind) ? interpreter.calls_behind(place, behind, calls) : 0;
@@ -219,36 +221,33 @@ unsigned PartSystem::stop_calls(nc_source (&calls)[kMaxFrames]) const {
 unsigned PartSystem::alarm_calls(nc_source* out, unsigned capacity) const {
   nc_source place;
   BlockSeq behind = 0;
-  const AlarmStory& story = interpreter.alarm_story;
   const bool stopped = online_ && executor.stopped(&place, &behind);  // before an alarm that has been read and not come to
   if (stopped && (run_.active() || run_.word() != executor.run())) {
-    nc_source calls[kMaxFrames];
+    nc_source calls[NC_MAX_CALLS];
     const unsigned count = interpreter.calls_behind(place, behind, calls);
     std::copy_n(calls, std::min(count, capacity), out);
     return count;
   }
   if (!stopped && !alarm_given_) return 0;
-  std::copy_n(story.calls, std::min<unsigned>(story.count, capacity), out);
-  return story.count;
+  return interpreter.alarm_calls(out, capacity);
 }
 
 // ---- offline ---------------------------------------------------------------------------------------------------------------
 
 nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   *take_back = false;
-  const Settings& settings = interpreter.settings;
   const bool rises = on && !uit_;
   uit_ = on;
   if (!on) uit_rest_.forget();
   watch();
-  const bool stays = on && settings.interrupt_by_level && uit_rest_.over();
+  const bool stays = on && interpreter.interrupt_by_level() && uit_rest_.over();
   if (!(rises || stays) || !interruptible()) return NC_OK;
   uit_pending_ = true;
   watch();
   // M700 13.12, type 1: at once. The item that was given out last is the one that is interrupted, unless it is done already; a contour
   // under compensation and a block that waits for an answer are finished first.
   const bool cuttable = pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate;
-  if (settings.interrupt_type_2 || !cuttable || !stages_.idle() || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
+  if (interpreter.interrupt_type_2() || !cuttable || !stages_.idle() || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
   commit_.take_back(pulled_ == ItemKind::move);
   if (interpreter.interrupt(commit_.machine(), 1, true)) {
     uit_pending_ = false;
@@ -276,8 +275,8 @@ bool PartSystem::begin_interrupt() {
 
 /// Behind the newest mark. A block that had been cut before may be the next one: then the machine is not where that block begins.
 bool PartSystem::interrupt_between() {
-  AxisVec machine = interpreter.state.machine;
-  if (interpreter.state.repeat.active) {
+  AxisVec machine = interpreter.machine();
+  if (interpreter.repeats()) {
     forget_interrupt();
     machine = commit_.newest()->machine;
     commit_.set_machine(machine);
@@ -320,13 +319,13 @@ void PartSystem::resume_record(Record& record) {
     record.gate.value = cut_.left;
   if (record.kind != ItemKind::move || !(cut_.length > 0)) return;
   Segment& s = record.segment;
-  const AxisVec at = curve_position(s.curve, cut_.length, interpreter.axis_count);
+  const AxisVec at = curve_position(s.curve, cut_.length, axis_count_);
   double off = 0;
-  for (unsigned i = 0; i < interpreter.axis_count; ++i) off = std::fmax(off, std::fabs(at[i] - cut_.machine[i]));
+  for (unsigned i = 0; i < axis_count_; ++i) off = std::fmax(off, std::fabs(at[i] - cut_.machine[i]));
   if (off < kReached) {
     s.begun = cut_.length;
   } else {  // the interrupt program has changed what the block is made of: to its end from where the axes are
-    s.curve = make_line(cut_.machine, s.curve.end, interpreter.axis_count, interpreter.rotary);
+    s.curve = make_line(cut_.machine, s.curve.end, axis_count_, rotary_);
     s.round_mm[0] = s.round_mm[1] = 0;
     commit_.set_index_axes(&s);
   }
@@ -334,8 +333,8 @@ void PartSystem::resume_record(Record& record) {
 
 /// A block that was interrupted is read again from its head: what it has done is not done twice.
 void PartSystem::drop_repeated() {
-  drop_ = interpreter.state.repeat.items;
-  commit_.set_machine(interpreter.state.machine);
+  drop_ = interpreter.repeated_items();
+  commit_.set_machine(interpreter.machine());
   resumes_ = online_;
   watch();
 }
@@ -376,7 +375,7 @@ void PartSystem::drop_repeated() {
 /// What follows from an item for whoever drives the part system.
 [[gnu::always_inline]] inline void PartSystem::note_mark(const Item& mark) {
   remember_mark(mark);
-  if (mark.mark.resume && interpreter.state.repeat.active) [[unlikely]] drop_repeated();
+  if (mark.mark.resume && interpreter.repeats()) [[unlikely]] drop_repeated();
 }
 
 void PartSystem::note_given(const Item& item) {
@@ -397,7 +396,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   for (;;) {
     if (watched_) [[unlikely]] {
       if ((uit_mode_ & NC_INTERRUPT_ENABLED) == 0) uit_pending_ = false;
-      const bool wanted = uit_pending_ || (uit_ && interpreter.settings.interrupt_by_level && uit_rest_.over());
+      const bool wanted = uit_pending_ || (uit_ && interpreter.interrupt_by_level() && uit_rest_.over());
       if (wanted && pulled_ == ItemKind::mark && interruptible()) begin_interrupt();
     }
     const Item* item = nullptr;
@@ -412,7 +411,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     } else {
       commit_.to_public(*item, out);
       if (item->kind == ItemKind::move) [[likely]] {
-        move_zero_ = interpreter.transforms[item->move.transform].offset();
+        move_zero_ = (*interpreter.transforms())[item->move.transform].offset();
       } else {
         note_given(*item);
         note_interrupt_mode(*item);
@@ -426,7 +425,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
 nc_status PartSystem::move_point(double share, nc_axes* machine) const {
   const Curve& curve = commit_.curve();
   if (online_ || !(curve.length > 0)) return NC_E_STATE;
-  const AxisVec at = curve_position(curve, share * curve.length, interpreter.axis_count);
+  const AxisVec at = curve_position(curve, share * curve.length, axis_count_);
   std::memcpy(machine->v, at.v, sizeof machine->v);
   return NC_OK;
 }
@@ -465,22 +464,22 @@ void PartSystem::publish_all() {
     if (static_cast<int32_t>(seen - until) < 0) until = seen;
     if (system.busy()) continue;
     const MarkPoint* const last = system.commit_.newest();
-    if (last != nullptr) system.interpreter.shared->publish(system.interpreter, last->seq);
+    if (last != nullptr) system.interpreter.publish(last->seq);
   }
   BlockSeq block = 0;
   while (PartSystem* const system = first_executed(until, &block)) {
     system->executor.take_executed_mark();
     system->published_ = block;
-    system->interpreter.shared->publish(system->interpreter, block);
+    system->interpreter.publish(block);
   }
 }
 
 nc_status PartSystem::answer(const nc_world& world) {
   if (open_sync_ == 0) return NC_E_STATE;
   open_sync_ = 0;
-  if (interpreter.shared != nullptr) {  // everything that was read has been executed, calls without a mark of their own as well
+  if (interpreter.shares()) {  // everything that was read has been executed, calls without a mark of their own as well
     publish_all();
-    interpreter.shared->publish(interpreter, interpreter.state.seq);
+    interpreter.publish(interpreter.newest_block());
   }
   interpreter.answer(world);
   if ((sync_what_ & NC_SYNC_SKIP) != 0 && world.skipped) {
@@ -495,29 +494,27 @@ nc_status PartSystem::rewind(Serial serial) {
   MarkPoint head;  // of the program: nothing has been read yet
   const MarkPoint* point = serial == 0 ? &head : commit_.find(serial);
   if (point == nullptr || !interpreter.rewind(point->seq)) return NC_E_NOT_FOUND;
-  if (serial == 0) head.machine = interpreter.state.machine;
+  if (serial == 0) head.machine = interpreter.machine();
   forget_interrupt();
   if (stop_ == Stop::committed) stop_ = Stop::none;  // its block is read again; one that is passed is still to be executed
   clear_staged();
   open_sync_ = 0;
   finished_ = false;
   alarm_given_ = false;
-  uit_mode_ = 0;
-  if (interpreter.state.interrupt_on) uit_mode_ |= NC_INTERRUPT_ENABLED;
-  if (interpreter.state.interrupt_depth != 0) uit_mode_ |= NC_INTERRUPT_IN_SERVICE;
+  uit_mode_ = interpreter.interrupt_mode();
   if (point->stages != 0) {
     stages_.restore(commit_.resume(*point), point->stages);
   } else {
     stages_.reset();
   }
   commit_.rewind_to(*point);
-  if (interpreter.state.repeat.active) drop_repeated();
+  if (interpreter.repeats()) drop_repeated();
   return NC_OK;
 }
 
 void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   stop_ = Stop::none;
-  interpreter.feeding = run_.active();
+  interpreter.set_feeding(run_.active());
   publish_all();
   published_ = 0;
   interpreter.reset(keep_modal);
@@ -535,7 +532,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
 
 nc_status PartSystem::reset() {
   if (occupied()) return NC_E_STATE;
-  if (!online_ && !interpreter.ended) {  // blocks that the stages hold back have not happened
+  if (!online_ && !interpreter.ended()) {  // blocks that the stages hold back have not happened
     const MarkPoint* last = commit_.newest();
     rewind(last != nullptr ? last->serial : 0);
   }
@@ -547,9 +544,8 @@ nc_status PartSystem::reset() {
 
 nc_status PartSystem::select(const ProgramRef& program, bool mdi) {
   if (occupied()) return NC_E_STATE;
-  const bool keep_modal = mdi && interpreter.mdi;
-  interpreter.mdi = mdi;
-  interpreter.main_program = program;
+  const bool keep_modal = mdi && interpreter.is_mdi();
+  interpreter.select(program, mdi);
   restart(online_ ? executor.commanded() : commit_.machine(), keep_modal);
   commit_.restart();
   return NC_OK;
@@ -617,17 +613,16 @@ bool PartSystem::may_read_on() {
 }
 
 void PartSystem::tell_axis_parameters() {
-  const Settings& settings = interpreter.settings;
+  const AxisSettings settings = interpreter.axis_settings();
   AxisParameters axes;
   axes.index = settings.index_axes;
   axes.turning = settings.machine_turn;
   axes.short_cut = settings.short_cut;
-  for (unsigned i = 0; i < interpreter.axis_count; ++i)  // M700 2.3: of rotary axes only
-    axes.increment[i] = (interpreter.rotary >> i & 1) != 0 ? settings.index_increment[i] : 0;
+  for (unsigned i = 0; i < axis_count_; ++i)  // M700 2.3: of rotary axes only
+    axes.increment[i] = (rotary_ >> i & 1) != 0 ? settings.index_increment[i] : 0;
   // A mirror that is still on turns the counters as the last block has left them.
-  axes.idle = !run_.active() && interpreter.state.any_mirror() == 0;
-  axes.zero = axes.idle ? interpreter.zero() : told_axes_.zero;
-  for (unsigned i = 0; axes.idle && i < interpreter.axis_count; ++i) axes.zero[i] += interpreter.state.applied[i];
+  axes.idle = !run_.active() && !interpreter.mirrors();
+  axes.zero = axes.idle ? interpreter.work_zero() : told_axes_.zero;
   if (axes == told_axes_) return;
   told_axes_ = axes;
   executor.set_axis_parameters(axes);
@@ -641,19 +636,18 @@ void PartSystem::follow_run() {
   online_ = true;
   run_ = now;
   if (now.epoch() != before.epoch()) {
-    nc_source calls[kMaxFrames];
+    nc_source calls[NC_MAX_CALLS];
     const unsigned count = stop_calls(calls);
     // What was read beyond the last block that was executed has not happened: offsets, variables and outputs are as before it.
     if (before.active() && !executor.ended()) rewind(executor.last_mark());
     interpreter.clear_by_reset();
     restart(executor.commanded());
     commit_.restart();
-    interpreter.alarm_story.count = static_cast<uint8_t>(count);
-    std::copy_n(calls, count, interpreter.alarm_story.calls);
+    interpreter.set_alarm_calls(calls, count);
   }
   if (now.active()) {
-    interpreter.mirror_signal = static_cast<uint8_t>(executor.mirror() & ((1u << interpreter.axis_count) - 1));
-    restart(executor.commanded(), interpreter.mdi);
+    interpreter.set_mirror_signal(executor.mirror());
+    restart(executor.commanded(), interpreter.is_mdi());
     commit_.restart();
   }
   executor.run_taken(now.word());
@@ -663,11 +657,11 @@ nc_status PartSystem::feed(uint32_t budget) {
   online_ = true;
   tell_axis_parameters();  // a program may have changed them
   follow_run();
-  if (!run_.active() || !interpreter.main_program.valid()) {
+  if (!run_.active() || !interpreter.is_selected()) {
     if (executor.reread_asked()) executor.reread_done();  // there is nothing left to be read again
     executor.plan();
     if (!finished_) return NC_WAITING;
-    return interpreter.alarmed ? NC_ALARMED : NC_ENDED;
+    return interpreter.alarmed() ? NC_ALARMED : NC_ENDED;
   }
   if (executor.reread_asked()) {
     const bool interrupt = executor.interrupt_asked();
@@ -684,8 +678,8 @@ nc_status PartSystem::feed(uint32_t budget) {
   unsigned committed = 0;
   executed_ = executor.last_block();
   if (spindle_axes_ != 0) {  // M700 10.5: a C command needs its servo, and the reference position return unless #2031 says so
-    const uint32_t referenced = executor.referenced() | interpreter.settings.no_reference;
-    interpreter.closed_axes = spindle_axes_ & ~(executor.servo_ready() & referenced);
+    const uint32_t referenced = executor.referenced() | interpreter.axis_settings().no_reference;
+    interpreter.set_closed_axes(spindle_axes_ & ~(executor.servo_ready() & referenced));
   }
   while (status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1 && executor.may_push() && commit_.shape_room(executor.tail(), executor.head()) &&
          may_read_on()) {
@@ -700,7 +694,7 @@ nc_status PartSystem::feed(uint32_t budget) {
     }
   }
   executor.plan();
-  if (finished_) return interpreter.alarmed ? NC_ALARMED : NC_ENDED;
+  if (finished_) return interpreter.alarmed() ? NC_ALARMED : NC_ENDED;
   if (status == NC_BUDGET) return status;
   return committed > 0 ? NC_OK : NC_WAITING;
 }
@@ -709,10 +703,11 @@ nc_status PartSystem::feed(uint32_t budget) {
 /// servo (precaution (3)) the others are not at its end either.
 void PartSystem::take_spindle_axes(const nc_world& world) {
   const bool skip = (sync_what_ & NC_SYNC_SKIP) != 0 && !world.skipped;
-  const uint32_t axes = (skip ? ~uint32_t{0} : spindle_axes_) & ~uint32_t{interpreter.state.map.frozen};
-  AxisVec here = commit_.machine();
-  for (unsigned i = 0; i < interpreter.axis_count; ++i)
-    if ((axes >> i & 1) != 0) interpreter.state.machine[i] = here[i] = world.machine.v[i];
+  const uint32_t axes = (skip ? ~uint32_t{0} : spindle_axes_) & ~interpreter.frozen_axes();
+  AxisVec here = commit_.machine(), read_to = interpreter.machine();
+  for (unsigned i = 0; i < axis_count_; ++i)
+    if ((axes >> i & 1) != 0) read_to[i] = here[i] = world.machine.v[i];
+  interpreter.end_at(read_to);
   commit_.set_machine(here);
 }
 
@@ -730,7 +725,7 @@ bool PartSystem::read_again(Serial last) {
   // What the machine has not done is given up already, and it cannot be read again: too many writes or calls lie in between.
   Fault fault;
   fault.condition = Condition::internal;
-  stop_on(fault, interpreter.source);
+  stop_on(fault, interpreter.source());
   return false;
 }
 
@@ -740,9 +735,9 @@ bool PartSystem::read_again(Serial last) {
 /// (`shift`, what was moved by hand, and not what a stop on a smoothed line lies beside it) they go along: the rest of the program is shifted,
 /// until G92.1.
 void PartSystem::displace(const AxisVec& machine, const AxisVec& shift) {
-  AxisVec programmed = interpreter.state.machine;
+  AxisVec programmed = interpreter.machine();
   bool any = false;
-  for (unsigned i = 0; i < interpreter.axis_count; ++i) {
+  for (unsigned i = 0; i < axis_count_; ++i) {
     if (shift[i] != 0) interpreter.shift_coordinates(i, shift[i]);
     const double moved = machine[i] - commit_.machine()[i];
     if (moved == 0) continue;

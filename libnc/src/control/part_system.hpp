@@ -5,7 +5,7 @@
 #include "control/commit.hpp"
 #include "interpolate/executor.hpp"
 #include "interpolate/run_word.hpp"
-#include "interpret/interpreter.hpp"
+#include "interpret/part_interpreter.hpp"
 #include "interpret/shared_tables.hpp"
 #include "stream/interrupt_rest.hpp"
 
@@ -24,7 +24,7 @@ class PartSystem {
   void join(PartSystem* systems, unsigned count, SharedTables* shared) {
     systems_ = systems;
     system_count_ = count;
-    shared->join(interpreter);
+    interpreter.join(shared);
   }
   /// What the machine has executed in each part system is known to the others, in the order of execution. Before anything is read.
   void publish_all();
@@ -48,7 +48,7 @@ class PartSystem {
   void set_position(const AxisVec& machine);
   /// The block that waits for the answer to a sync, and the line of the main program that it belongs to; false: none does.
   bool sync_place(nc_source* source, uint32_t* main_line) const;
-  uint32_t main_line(const nc_source& source) const { return source.depth == 0 ? source.line : interpreter.state.frame[0].call_line; }
+  uint32_t main_line(const nc_source& source) const { return source.depth == 0 ? source.line : interpreter.main_line(); }
   /// Online: `watch` is shown each item before it is committed, and may put it off.
   void watch_commits(nc_commit_watch to_call, void* user) {
     commit_watch_ = to_call;
@@ -56,7 +56,7 @@ class PartSystem {
   }
   /// A program is in execution or interrupted, as far as the feeder has taken notice.
   /// Nor may anything be changed from outside while a function of the vendor's reads a block of it.
-  bool busy() const { return (online_ && run_.active()) || interpreter.in_vendor_function; }
+  bool busy() const { return (online_ && run_.active()) || interpreter.in_vendor_function(); }
   /// The same as of now: what the scan has done is taken notice of first.
   bool occupied() {
     follow_run();
@@ -71,7 +71,7 @@ class PartSystem {
   bool alarm(nc_alarm* out) const;
   unsigned alarm_calls(nc_source* out, unsigned capacity) const;
 
-  Interpreter interpreter;
+  PartInterpreter interpreter;
   Executor executor;
 
  private:
@@ -107,8 +107,8 @@ class PartSystem {
   Named named(const Item& item) const {
     if (item.kind != ItemKind::move) return {};
     const Move& move = item.move;
-    return {&interpreter.transforms[move.transform], move.shape != 0 ? &interpreter.shapes[move.shape - 1] : nullptr,
-            &interpreter.motion_settings[move.settings]};
+    return {&(*interpreter.transforms())[move.transform], move.shape != 0 ? &(*interpreter.shapes())[move.shape - 1] : nullptr,
+            &(*interpreter.motion_settings())[move.settings]};
   }
   void remember_mark(const Item& mark) {
     if (mark.mark.place == 0) return commit_.remember(mark);
@@ -118,7 +118,7 @@ class PartSystem {
   void stop_on(const Fault& fault, const nc_source& source);
   void describe_alarm();
   void put_fault(const Fault& fault, const nc_source& source, nc_alarm* out) const;
-  unsigned stop_calls(nc_source (&calls)[kMaxFrames]) const;
+  unsigned stop_calls(nc_source (&calls)[NC_MAX_CALLS]) const;
   void restart(const AxisVec& machine, bool keep_modal = false);
   void follow_run();
   nc_status commit_online(uint32_t& budget);
@@ -144,6 +144,10 @@ class PartSystem {
     watch();
   }
 
+  const Dialect* dialect_ = nullptr;
+  const nc_system_config* system_ = nullptr;
+  unsigned axis_count_ = 0;
+  uint32_t rotary_ = 0;            ///< bit i: axis i is rotary
   PartSystem* systems_ = nullptr;  ///< all of them, where there are several
   unsigned system_count_ = 0;
   BlockSeq published_ = 0;         ///< online: newest block of this run of which the others know

@@ -17,6 +17,7 @@
 
 #include "interpret/context.hpp"
 #include "interpret/lifetimes.hpp"
+#include "interpret/part_interpreter.hpp"
 
 namespace nc {
 
@@ -26,16 +27,6 @@ struct AlarmStory {
   bool instead = false;   ///< it says all that there is to say
   uint8_t count = 0;      ///< of calls
   nc_source calls[kMaxFrames]{};  ///< the blocks that led there, outermost first, the last one that of the alarm
-};
-
-struct InterpreterConfig {
-  const Dialect* dialect = nullptr;
-  const nc_system_config* system = nullptr;
-  uint8_t system_index = 0;        ///< part system, from 0
-  uint32_t look_ahead = 1024;
-  uint32_t window_bytes = 65536;
-  FramesConfig frames;
-  const VendorCodes* vendor = nullptr;
 };
 
 struct Interpreter : BlockContext {

@@ -10,9 +10,14 @@
 // is in its copy. Tool data that H and D select are read from the copy as they are, like those of one part system.
 #pragma once
 
-#include "interpret/interpreter.hpp"
+#include <cstdint>
+
+#include "macro/expression.hpp"
+#include "stream/stream.hpp"
 
 namespace nc {
+
+struct Interpreter;
 
 /// All calls are made by the feeder's thread.
 class SharedTables {

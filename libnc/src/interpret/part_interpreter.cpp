@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// What control asks of an interpreter, handed on to it.
+#include "interpret/part_interpreter.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "interpret/functions/functions.hpp"
+#include "interpret/interpreter.hpp"
+#include "interpret/shared_tables.hpp"
+
+namespace nc {
+
+void PartInterpreter::create(const InterpreterConfig& config, ProgramStore* store, CommonVariables* common, Arena& arena) {
+  in_ = arena.make<Interpreter>();
+  if (in_ == nullptr) {  // measuring: the tables are laid out from a throw-away one of the same size
+    Interpreter measured;
+    measured.create(config, store, common, arena);
+    return;
+  }
+  in_->create(config, store, common, arena);
+  in_->parameters.set_filter_room(config.longest_filter_ms, config.system_index == 0);
+  transforms_ = &in_->transforms;
+  shapes_ = &in_->shapes;
+  motion_settings_ = &in_->motion_settings;
+  stroke_boxes_ = &in_->stroke_boxes;
+  in_vendor_function_ = &in_->in_vendor_function;
+  repeats_ = &in_->state.repeat.active;
+}
+
+// ---- the stream -------------------------------------------------------------------------------------------------------------
+
+/// Apart, so that next() has nothing to keep over a call.
+[[gnu::noinline]] static nc_status make_more(Interpreter& in, uint32_t& budget, Item** front) {
+  const nc_status status = in.step(budget);
+  *front = in.front();
+  return status;
+}
+
+nc_status PartInterpreter::next(uint32_t& budget, Item** front) {
+  *front = in_->front();
+  return *front != nullptr ? NC_OK : make_more(*in_, budget, front);
+}
+void PartInterpreter::pop() { in_->pop(); }
+unsigned PartInterpreter::queued() const { return in_->queued(); }
+const Item& PartInterpreter::queued(unsigned number) const { return in_->queued(number); }
+void PartInterpreter::answer(const nc_world& world) { in_->answer(world); }
+bool PartInterpreter::in_cycle() const { return in_->next_step == Step::cycle; }
+
+/// Without the pecks, which lie within their hole. The interpreter is afterwards as it was.
+bool PartInterpreter::rehearse_cycle(bool (*fits)(void* user, const Item& move), void* user) {
+  Interpreter& in = *in_;
+  const State state = in.state;
+  const Hole hole = in.hole;
+  const HoleProgress progress = in.progress;
+  const uint32_t holes_left = in.holes_left;
+  const unsigned queued = in.queued();
+  in.state.cycle.kind = in.hole.kind = CycleKind::drill;
+  bool fit = true;
+  Execution did = Execution::later;
+  while (fit && did == Execution::later) {
+    did = continue_cycle(in);
+    if (in.queued() == queued) break;  // codes fill the queue
+    for (unsigned i = queued; fit && i < in.queued(); ++i) fit = in.queued(i).kind != ItemKind::move || fits(user, in.queued(i));
+    in.forget_queued(queued);
+  }
+  in.state = state;
+  in.hole = hole;
+  in.progress = progress;
+  in.holes_left = holes_left;
+  return fit;
+}
+
+bool PartInterpreter::modal(uint32_t id, nc_modal* out) const {
+  if (!in_->modals.holds(id)) return false;
+  *out = to_public(*in_->dialect, in_->modals[id]);
+  return true;
+}
+
+bool PartInterpreter::text(uint32_t id, nc_text* out) const {
+  if (!in_->texts.holds(id)) return false;
+  *out = in_->texts[id].text;
+  return true;
+}
+
+void PartInterpreter::count_from(uint32_t first) { in_->count_from(first); }
+
+// ---- programs ---------------------------------------------------------------------------------------------------------------
+
+void PartInterpreter::select(const ProgramRef& program, bool mdi) {
+  in_->main_program = program;
+  in_->mdi = mdi;
+}
+bool PartInterpreter::is_selected() const { return in_->main_program.valid(); }
+bool PartInterpreter::is_mdi() const { return in_->mdi; }
+void PartInterpreter::reset(bool keep_modal) { in_->reset(keep_modal); }
+void PartInterpreter::clear_by_reset() { in_->clear_by_reset(); }
+bool PartInterpreter::refers_to(unsigned file) const { return in_->refers_to(file); }
+bool PartInterpreter::ended() const { return in_->ended; }
+bool PartInterpreter::alarmed() const { return in_->alarmed; }
+void PartInterpreter::set_feeding(bool feeding) { in_->feeding = feeding; }
+void PartInterpreter::set_mirror_signal(uint32_t axes) { in_->mirror_signal = static_cast<uint8_t>(axes & ((1u << in_->axis_count) - 1)); }
+void PartInterpreter::set_switches(uint32_t optional_skip, uint32_t mirror_axes) {
+  in_->optional_skip = optional_skip;
+  in_->mirror_switch = static_cast<uint8_t>(mirror_axes & ((1u << in_->axis_count) - 1));
+}
+void PartInterpreter::set_closed_axes(uint32_t axes) { in_->closed_axes = axes; }
+void PartInterpreter::forget_vendor_call() { in_->forget_vendor_call(); }
+const nc_source& PartInterpreter::source() const { return in_->source; }
+uint32_t PartInterpreter::main_line() const { return in_->state.frame[0].call_line; }
+BlockSeq PartInterpreter::newest_block() const { return in_->state.seq; }
+
+bool PartInterpreter::rewind(BlockSeq seq) { return in_->rewind(seq); }
+bool PartInterpreter::remembers(BlockSeq seq) const { return in_->remembers(seq); }
+void PartInterpreter::look_back(BlockSeq seq, bool back) { in_->look_back(seq, back); }
+
+// ---- positions --------------------------------------------------------------------------------------------------------------
+
+const AxisVec& PartInterpreter::machine() const { return in_->state.machine; }
+void PartInterpreter::end_at(const AxisVec& machine) { in_->state.machine = machine; }
+void PartInterpreter::set_machine(const AxisVec& machine) { in_->set_machine(machine); }
+void PartInterpreter::move_to(const AxisVec& machine) { in_->move_to(machine); }
+void PartInterpreter::shift_coordinates(unsigned axis, double by) { in_->shift_coordinates(axis, by); }
+AxisVec PartInterpreter::work_zero() const {
+  AxisVec zero = in_->zero();
+  for (unsigned i = 0; i < in_->axis_count; ++i) zero[i] += in_->state.applied[i];
+  return zero;
+}
+bool PartInterpreter::mirrors() const { return in_->state.any_mirror() != 0; }
+bool PartInterpreter::maps_motion() const { return in_->state.map.active(); }
+uint32_t PartInterpreter::frozen_axes() const { return in_->state.map.frozen; }
+AxisVec PartInterpreter::work_shown(const AxisVec& work) const { return nc::work_shown(*in_, work); }
+AxisVec PartInterpreter::machine_shown(const AxisVec& machine) const { return nc::machine_shown(*in_, machine); }
+AxisSettings PartInterpreter::axis_settings() const {
+  const Settings& s = in_->settings;
+  return {s.index_axes, s.machine_turn, s.short_cut, s.no_reference, s.index_increment};
+}
+
+// ---- macro interrupt --------------------------------------------------------------------------------------------------------
+
+bool PartInterpreter::interrupt_by_level() const { return in_->settings.interrupt_by_level; }
+bool PartInterpreter::interrupt_type_2() const { return in_->settings.interrupt_type_2; }
+uint32_t PartInterpreter::interrupt_mode() const {
+  uint32_t mode = 0;
+  if (in_->state.interrupt_on) mode |= NC_INTERRUPT_ENABLED;
+  if (in_->state.interrupt_depth != 0) mode |= NC_INTERRUPT_IN_SERVICE;
+  return mode;
+}
+bool PartInterpreter::interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block) { return in_->interrupt(machine, taken_back, cut_block); }
+bool PartInterpreter::interrupt_inside(const AxisVec& machine, unsigned items) { return in_->interrupt_inside(machine, items); }
+void PartInterpreter::go_on_inside(unsigned items) { in_->go_on_inside(items); }
+unsigned PartInterpreter::repeated_items() const { return in_->state.repeat.items; }
+
+// ---- alarms -----------------------------------------------------------------------------------------------------------------
+
+RaisedAlarm PartInterpreter::raised() const {
+  const AlarmStory& story = in_->alarm_story;
+  return {in_->alarm_fault, in_->alarm_source, in_->texts[in_->user_alarm_text].text.s, in_->vendor_alarm, story.cause, story.instead};
+}
+unsigned PartInterpreter::alarm_calls(nc_source* out, unsigned capacity) const {
+  const AlarmStory& story = in_->alarm_story;
+  std::copy_n(story.calls, std::min<unsigned>(story.count, capacity), out);
+  return story.count;
+}
+void PartInterpreter::set_alarm_calls(const nc_source* calls, unsigned count) {
+  AlarmStory& story = in_->alarm_story;
+  story.count = static_cast<uint8_t>(std::min(count, kMaxFrames));
+  std::copy_n(calls, story.count, story.calls);
+}
+void PartInterpreter::abort(const Fault& what, const nc_source& where) { in_->abort(what, where); }
+void PartInterpreter::note_calls(const nc_source& where, BlockSeq seq) { in_->note_calls(where, seq); }
+unsigned PartInterpreter::calls_behind(const nc_source& where, BlockSeq seq, nc_source (&calls)[NC_MAX_CALLS]) const {
+  static_assert(kMaxFrames <= NC_MAX_CALLS);
+  nc_source found[kMaxFrames];
+  const unsigned count = in_->calls_behind(where, seq, found);
+  std::copy_n(found, count, calls);
+  return count;
+}
+
+// ---- tables -----------------------------------------------------------------------------------------------------------------
+
+void PartInterpreter::join(SharedTables* shared) { shared->join(*in_); }
+bool PartInterpreter::shares() const { return in_->shared != nullptr; }
+void PartInterpreter::publish(BlockSeq executed) { in_->shared->publish(*in_, executed); }
+
+nc_status PartInterpreter::set_parameter(const char* key, int axis, const char* text) {
+  unsigned changed = 0;
+  double before = 0;
+  const nc_status status = in_->parameters.set(*in_->dialect, key, axis, text, &changed, &before);
+  if (status != NC_OK) return status;
+  in_->refresh_settings();
+  if (in_->shared != nullptr) in_->shared->parameter_changed(*in_, changed);
+  return NC_OK;
+}
+double PartInterpreter::parameter(const char* key, int axis) const {
+  double value = 0;
+  in_->parameters.get(key, axis, &value);
+  return value;
+}
+double PartInterpreter::parameter(ParameterOf parameter, int axis) const {
+  double value = 0;
+  in_->parameters.get(*in_->dialect, parameter, axis, &value);
+  return value;
+}
+bool PartInterpreter::parameter_at(unsigned place, const char** key, int* axis, double* value, const char** text) const {
+  return in_->parameters.at(place, key, axis, value, text);
+}
+int PartInterpreter::axis_named(char name) const { return name >= 'A' && name <= 'Z' ? in_->axis_of[name - 'A'] : -1; }
+const FilterParameters& PartInterpreter::filters() const { return in_->settings.filters; }
+
+const Frames& PartInterpreter::frames() const { return in_->frames; }
+void PartInterpreter::set_table(unsigned key, double value) { in_->set_table_from_outside(key, value); }
+void PartInterpreter::set_tool(unsigned number, nc_tool_column column, double value) {
+  const unsigned key = in_->frames.tool_key(number, column);
+  if (in_->shared != nullptr) {
+    in_->shared->set_tool(key, value);
+  } else {
+    in_->set_table_from_outside(key, value);
+  }
+}
+
+bool PartInterpreter::variable(uint32_t number, Value* value) const { return in_->variables.get(number, in_->macro_level(), value); }
+bool PartInterpreter::set_variable(uint32_t number, Value value) {
+  if (in_->shared != nullptr && in_->variables.shares(number)) {
+    in_->shared->set_variable(number, value);
+    return true;
+  }
+  return in_->variables.set_from_outside(number, in_->macro_level(), value);
+}
+bool PartInterpreter::next_variable(uint32_t from, uint32_t* number, double* value) const { return in_->variables.next(from, number, value); }
+unsigned PartInterpreter::variable_name(uint32_t number, char* name) const { return in_->variables.name_of(number, name); }
+bool PartInterpreter::set_variable_name(uint32_t number, const char* name) {
+  if (!in_->variables.name_from_outside(number, name)) return false;
+  if (in_->shared != nullptr) in_->shared->set_name(number, name);
+  return true;
+}
+void PartInterpreter::set_devices(nc_device_read read, void* user) { in_->devices = {read, user}; }
+
+}  // namespace nc
