@@ -243,14 +243,14 @@ nc_status nc_variable_next(const nc_control* c, unsigned system, uint32_t from, 
 
 nc_status nc_interface_output_get(const nc_control* c, unsigned system, unsigned word, uint32_t* bits) {
   if (!known(c, system) || word >= NC_WORDS || bits == nullptr) return NC_E_ARGUMENT;
-  *bits = static_cast<uint32_t>(c->system[system].interpreter.frames().get(Frames::output_key(word)));
+  *bits = c->system[system].interpreter.interface_output(word);
   return NC_OK;
 }
 
 nc_status nc_interface_output_set(nc_control* c, unsigned system, unsigned word, uint32_t mask, uint32_t bits) {
   uint32_t now = 0;
   if (const nc_status status = nc_interface_output_get(c, system, word, &now); status != NC_OK) return status;
-  c->system[system].interpreter.set_table(Frames::output_key(word), (now & ~mask) | (bits & mask));
+  c->system[system].interpreter.set_interface_output(word, (now & ~mask) | (bits & mask));
   return NC_OK;
 }
 

@@ -210,6 +210,8 @@ const FilterParameters& PartInterpreter::filters() const { return in_->settings.
 
 const Frames& PartInterpreter::frames() const { return in_->frames; }
 void PartInterpreter::set_table(unsigned key, double value) { in_->set_table_from_outside(key, value); }
+uint32_t PartInterpreter::interface_output(unsigned word) const { return static_cast<uint32_t>(in_->frames.get(Frames::output_key(word))); }
+void PartInterpreter::set_interface_output(unsigned word, uint32_t bits) { in_->set_table_from_outside(Frames::output_key(word), bits); }
 void PartInterpreter::set_tool(unsigned number, nc_tool_column column, double value) {
   const unsigned key = in_->frames.tool_key(number, column);
   if (in_->shared != nullptr) {
