@@ -12,7 +12,7 @@
 
 #include <cstdint>
 
-#include "macro/expression.hpp"
+#include "macro/variables.hpp"
 #include "stream/stream.hpp"
 
 namespace nc {
