@@ -128,21 +128,11 @@ nc_status nc_parameter_next(const nc_control* c, unsigned system, unsigned from,
                             char text[64]) {
   if (!known(c, system) || place == nullptr || key == nullptr || axis == nullptr || value == nullptr || text == nullptr) return NC_E_ARGUMENT;
   const nc::PartInterpreter& in = c->system[system].interpreter;
-  const char *name = nullptr, *words = nullptr;
-  int of_axis = -1;
   unsigned at = from;
-  do {
-    if (!in.parameter_at(at, &name, &of_axis, &number, &words)) return NC_E_NOT_FOUND;
-    ++at;
-  } while (!found.is_set());  // it was set, and that was taken back
-  *place = at - 1;
-  char name[nc::kParameterKeySize];
-  nc::put_parameter_key(*c->dialect, id, name);
-  std::strcpy(key, name);
+  int of_axis = -1;
+  if (!in.next_parameter(&at, key, &of_axis, value, text)) return NC_E_NOT_FOUND;
+  *place = at;
   *axis = of_axis >= 0 ? c->config.system[system].axis[of_axis].name : '\0';
-  const char* const words = in.parameters.text(found);
-  *value = found.number.value_or(0);
-  std::strcpy(text, words != nullptr ? words : "");
   return NC_OK;
 }
 

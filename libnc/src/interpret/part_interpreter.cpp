@@ -185,7 +185,7 @@ void PartInterpreter::publish(BlockSeq executed) { in_->shared->publish(*in_, ex
 
 nc_status PartInterpreter::set_parameter(const char* key, int axis, const char* text) {
   unsigned changed = 0;
-  double before = 0;
+  ParameterValue before;
   const nc_status status = in_->parameters.set(*in_->dialect, key, axis, text, &changed, &before);
   if (status != NC_OK) return status;
   in_->refresh_settings();
@@ -194,7 +194,9 @@ nc_status PartInterpreter::set_parameter(const char* key, int axis, const char* 
 }
 double PartInterpreter::parameter(const char* key, int axis) const {
   double value = 0;
-  in_->parameters.get(key, axis, &value);
+  ParameterId id;
+  int bit = -1;
+  if (parse_parameter(*in_->dialect, key, &id, &bit)) in_->parameters.get(id, bit, axis, &value);
   return value;
 }
 double PartInterpreter::parameter(ParameterOf parameter, int axis) const {
@@ -202,16 +204,29 @@ double PartInterpreter::parameter(ParameterOf parameter, int axis) const {
   in_->parameters.get(*in_->dialect, parameter, axis, &value);
   return value;
 }
-bool PartInterpreter::parameter_at(unsigned place, const char** key, int* axis, double* value, const char** text) const {
-  return in_->parameters.at(place, key, axis, value, text);
+bool PartInterpreter::next_parameter(unsigned* place, char key[24], int* axis, double* number, char text[64]) const {
+  ParameterId id;
+  ParameterValue found;
+  do {
+    if (!in_->parameters.at(*place, &id, axis, &found)) return false;
+    ++*place;
+  } while (!found.is_set());  // it was set, and that was taken back
+  --*place;
+  char name[kParameterKeySize];
+  put_parameter_key(*in_->dialect, id, name);
+  std::strcpy(key, name);
+  const char* const words = in_->parameters.text(found);
+  *number = found.number.value_or(0);
+  std::strcpy(text, words != nullptr ? words : "");
+  return true;
 }
 int PartInterpreter::axis_named(char name) const { return name >= 'A' && name <= 'Z' ? in_->axis_of[name - 'A'] : -1; }
 const FilterParameters& PartInterpreter::filters() const { return in_->settings.filters; }
 
 const Frames& PartInterpreter::frames() const { return in_->frames; }
 void PartInterpreter::set_table(unsigned key, double value) { in_->set_table_from_outside(key, value); }
-uint32_t PartInterpreter::interface_output(unsigned word) const { return static_cast<uint32_t>(in_->frames.get(Frames::output_key(word))); }
-void PartInterpreter::set_interface_output(unsigned word, uint32_t bits) { in_->set_table_from_outside(Frames::output_key(word), bits); }
+uint32_t PartInterpreter::interface_output(unsigned word) const { return in_->records->output[word].bits; }
+void PartInterpreter::set_interface_output(unsigned word, uint32_t bits) { in_->records.change_from_outside(&ProgramRecords::output, word, InterfaceOutput{bits}); }
 void PartInterpreter::set_tool(unsigned number, nc_tool_column column, double value) {
   const unsigned key = in_->frames.tool_key(number, column);
   if (in_->shared != nullptr) {

@@ -177,8 +177,8 @@ class PartInterpreter {
   nc_status set_parameter(const char* key, int axis, const char* text);
   double parameter(const char* key, int axis) const;  ///< 0 where it is not set
   double parameter(ParameterOf parameter, int axis = -1) const;
-  /// Parameters that have been set, one behind the other; false behind the last one. NaN: that was taken back.
-  bool parameter_at(unsigned place, const char** key, int* axis, double* value, const char** text) const;
+  /// The first parameter from *place on that has been set; false: there is none. Key, axis (-1 = of none) and what it is: a number, or a text.
+  bool next_parameter(unsigned* place, char key[24], int* axis, double* number, char text[64]) const;
   int axis_named(char name) const;  ///< its index, -1 = none
   const FilterParameters& filters() const;
   const Frames& frames() const;
