@@ -30,8 +30,10 @@ int main(void) {
   for (int i = 0; i < kAxes; ++i) {
     config.system[0].axis[i].max_velocity = 250;      /* mm/s */
     config.system[0].axis[i].max_acceleration = 2000; /* mm/s2 */
+    config.system[0].axis[i].max_jerk = 50000;        /* mm/s3 */
     config.system[0].axis[i].in_position = 0.01;      /* mm */
   }
+  config.motion_mode = NC_MOTION_OPTIMAL; /* every axis has the three limits that it keeps; 0 is NC_MOTION_TRAPEZOID, which needs less memory */
   const size_t size = nc_memory_required(&config);
   void* memory = aligned_alloc(64, (size + 63) / 64 * 64);
   nc_status status = NC_E_MEMORY;

@@ -142,10 +142,6 @@ struct VariableRangeSetting {
   std::uint32_t first = 0, last = 0;
 };
 
-/// Records between feeder and scan in the time-optimal mode, where nothing else is given: lines of 1 um with their marks as far as a stop from
-/// 100 mm/s at 1,000 mm/s^2 takes.
-inline constexpr std::uint32_t kLookAheadOptimal = 16384;
-
 struct Config {
   std::string file;  // name of the file, for messages
   std::string name = "machine";
@@ -165,6 +161,7 @@ struct Config {
   unsigned cycle_us = 1000;
   nc_config nc;  // everything that libnc is created with
   bool look_ahead_given = false;
+  bool motion_given = false;  // the file names the law of motion
   unsigned spindles_given = 0;  // part systems whose spindles are counted
   ConfigPlace spindles_place;
   SchedulingConfig scheduling;

@@ -7,6 +7,7 @@
 
 #include "runtime/config_sections.hpp"
 #include "runtime/hal_factory.hpp"
+#include "runtime/motion_choice.hpp"
 
 namespace nc::rt {
 namespace {
@@ -256,18 +257,17 @@ void read_motion(TableReader* root, Config* config) {
   root->table("motion", [&](TableReader& reader) {
     nc_config& nc = config->nc;
     unsigned word = NC_MOTION_TRAPEZOID;
-    if (reader.choice("mode", {"trapezoid", "optimal"}, &word)) nc.motion_mode = static_cast<std::uint8_t>(word);
+    config->motion_given = reader.choice("mode", {"trapezoid", "optimal"}, &word);
+    if (config->motion_given) nc.motion_mode = static_cast<std::uint8_t>(word);
     reader.number("tolerance", &nc.path_tolerance, 0, 1);
     if (nc.path_tolerance > 0 && nc.path_tolerance < kLeastTolerance)
       reader.error("tolerance", "is 0 (a rest at each corner) or at least 0.0001 mm");
-    if (nc.motion_mode != NC_MOTION_OPTIMAL) return;
-    if (!config->look_ahead_given) nc.look_ahead = kLookAheadOptimal;
-    for (unsigned s = 0; s < nc.system_count; ++s) {
-      for (unsigned i = 0; i < nc.system[s].axis_count; ++i)
-        if (!(nc.system[s].axis[i].max_jerk > 0))
-          reader.error("mode", std::string("optimal needs max_jerk of every axis, ") + nc.system[s].axis[i].name + " has none");
-    }
+    const std::string lacks = optimal_lacks(nc);
+    if (nc.motion_mode == NC_MOTION_OPTIMAL && !lacks.empty()) reader.error("mode", "optimal needs limits of velocity, acceleration and jerk of every axis, " + lacks);
   });
+  nc_config& nc = config->nc;
+  if (!config->motion_given) nc.motion_mode = static_cast<std::uint8_t>(default_motion(nc));
+  if (nc.motion_mode == NC_MOTION_OPTIMAL && !config->look_ahead_given) nc.look_ahead = kLookAheadOptimal;
 }
 
 bool find_axis(const Config& config, std::string_view name, unsigned* system, unsigned* axis) {

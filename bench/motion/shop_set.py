@@ -61,15 +61,14 @@ def table(rows, options):
 def arguments():
     parser = runner.common_arguments(__doc__)
     parser.add_argument("--worst", type=int, default=0, metavar="N", help="only the N rows that are farthest from the optimum, the worst one first")
-    parser.add_argument("--trapezoid", action="store_true", help="the mode without --tolerance")
+    parser.add_argument("--trapezoid", action="store_true", help="the other mode: the law without a limit of jerk")
     return parser.parse_args()
 
 
 def main():
     options = arguments()
     options.ncsim = peer_path.ncsim(options.ncsim)
-    if not options.trapezoid:
-        options.option += ["--tolerance", f"{options.tolerance:g}"]
+    options.option += ["--motion", "trapezoid" if options.trapezoid else "optimal", "--tolerance", f"{options.tolerance:g}"]
     written = programs.write(os.path.join(runner.ROOT, "build", "motion-bench", "shop"), shop_programs.PROGRAMS)
     named = {os.path.splitext(os.path.basename(p))[0]: p for p in written}
     rows = []

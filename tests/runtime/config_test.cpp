@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "places/places.hpp"
+#include "runtime/motion_choice.hpp"
 #include "test_config.hpp"
 
 namespace {
@@ -642,7 +643,6 @@ TEST(Config, TheOptimalModeNeedsTheJerkOfEveryAxis) {
   const Config config = nc::test::parse_or_fail(nc::test::base_toml() + motion);
   EXPECT_EQ(config.nc.motion_mode, NC_MOTION_OPTIMAL);
   EXPECT_DOUBLE_EQ(config.nc.path_tolerance, 0.005);
-  EXPECT_EQ(nc::test::parse_or_fail(nc::test::base_toml()).nc.motion_mode, NC_MOTION_TRAPEZOID);
   EXPECT_EQ(nc::test::parse_or_fail(nc::test::base_toml() + "[motion]\nmode = \"optimal\"\ntolerance = 0.0\n").nc.path_tolerance, 0);
   Config between;
   EXPECT_FALSE(nc::rt::parse_config(nc::test::base_toml() + "[motion]\nmode = \"optimal\"\ntolerance = 0.00005\n", "test.toml", &between).empty());
@@ -653,6 +653,38 @@ TEST(Config, TheOptimalModeNeedsTheJerkOfEveryAxis) {
   const std::vector<ConfigError> errors = nc::rt::parse_config(text + motion, "test.toml", &wrong);
   ASSERT_FALSE(errors.empty());
   EXPECT_NE(errors.front().text().find("motion.mode"), std::string::npos) << errors.front().text();
+}
+
+// A machine that names no law moves by the time-optimal one where every axis has what that needs, and who checks it hears why.
+TEST(Config, AMachineThatNamesNoLawIsOptimalWhereEveryAxisHasAllLimits) {
+  const auto text_of = [](const Config& config) { return nc::rt::motion_text(config.nc, config.motion_given); };
+  const Config all = nc::test::parse_or_fail(nc::test::base_toml());
+  EXPECT_EQ(all.nc.motion_mode, NC_MOTION_OPTIMAL);
+  EXPECT_EQ(all.nc.look_ahead, nc::rt::kLookAheadOptimal);
+  EXPECT_EQ(text_of(all), "optimal: every axis has limits of velocity, acceleration and jerk");
+  std::string text = nc::test::base_toml();
+  const std::string jerk = "max_jerk = 50000.0\n";
+  text.erase(text.rfind(jerk), jerk.size());
+  const Config without = nc::test::parse_or_fail(text);
+  EXPECT_EQ(without.nc.motion_mode, NC_MOTION_TRAPEZOID);
+  EXPECT_EQ(without.nc.look_ahead, 1024u);
+  EXPECT_EQ(text_of(without), "trapezoid: Z has no max_jerk");
+  const Config tolerant = nc::test::parse_or_fail(text + "[motion]\ntolerance = 0.02\n");
+  EXPECT_EQ(tolerant.nc.motion_mode, NC_MOTION_TRAPEZOID);
+  const Config named = nc::test::parse_or_fail(nc::test::base_toml() + "[motion]\nmode = \"trapezoid\"\n");
+  EXPECT_EQ(named.nc.motion_mode, NC_MOTION_TRAPEZOID);
+  EXPECT_EQ(text_of(named), "trapezoid, as it is configured");
+  std::string given = nc::test::base_toml();
+  given.replace(given.find("name = \"test\""), 13, "name = \"test\"\nlook_ahead = 512");
+  EXPECT_EQ(nc::test::parse_or_fail(given).nc.look_ahead, 512u);
+}
+
+TEST(Config, TheShippedMachinesAreOptimal) {
+  for (const char* file : {"machine.toml", "modelling-machine.toml", "modbus-example.toml"}) {
+    Config config;
+    EXPECT_TRUE(nc::rt::load_config(nc::test::kSourceDir + "/etc/" + file, &config).empty()) << file;
+    EXPECT_EQ(config.nc.motion_mode, NC_MOTION_OPTIMAL) << file;
+  }
 }
 
 }  // namespace

@@ -67,7 +67,8 @@ class InterventionTest : public testing::Test {
     std::string error;
     ASSERT_TRUE(runtime->start_stepping(&error)) << error;
   }
-  void build() { build(nc::test::parse_or_fail(nc::test::base_toml())); }
+  // Stops on the path itself are looked at to 1e-9: the law that rounds no corner.
+  void build() { build(nc::test::parse_or_fail(nc::test::base_toml() + "[motion]\nmode = \"trapezoid\"\n")); }
   void TearDown() override {
     runtime.reset();
     for (const std::string& violation : recording.violations) ADD_FAILURE() << violation;

@@ -39,6 +39,8 @@ nc::rt::Config random_config(const std::vector<std::string>& script, std::uint32
   text += "]\n" + std::string(nc::test::probe_solid_toml());
   text += "[work_offsets]\nG54 = { X = 3.5, Y = -2.25, Z = 1.125 }\n[tool_offsets]\n1 = 2.5\n2 = 12.0\n";
   nc::rt::Config config = nc::test::parse_or_fail(text);
+  config.nc.motion_mode = NC_MOTION_TRAPEZOID;  // the other law has a test of its own
+  config.nc.look_ahead = 1024;
   if (seed % 5 == 4) config.nc.look_ahead = 64;  // the ring is full all the time
   return config;
 }

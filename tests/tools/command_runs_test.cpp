@@ -42,7 +42,7 @@ TEST_F(CommandTest, ASkipMoveThatDoesNotMoveLeavesNothingBehindInAnyMode) {
   file("s.json", R"({"axes":["X","Y","Z"],"events":[{"when":{"line":2},"signals":{"skip":1}}]})");
   for (const char* behind : {"G1 Z4. F1000\n", "G0 Z4.\n", "#100=#5061\nG1 Z4. F1000\n", "M3 S500\nG1 Z4. F1000\n", "G31 Y20. F500\nG1 Z4. F1000\n"}) {
     file("p.nc", std::string("G90 G21\nG0 X5.\nG31 X15. F1600\n") + behind + "M30\n");
-    for (const char* mode : {"", "--tolerance .01 "}) {
+    for (const char* mode : {"--motion trapezoid ", "--motion optimal "}) {
       const Outcome run = ncsim(std::string("motion --setup s.json ") + mode + "p.nc");
       EXPECT_EQ(run.code, 0) << mode << behind << run.err;
       double x = 0, y = 0, z = 0, seconds = 0;

@@ -228,7 +228,7 @@ TEST_F(CommandTest, AProbeMeasuresABore) {
   EXPECT_EQ(run.events().back()["vars"]["105"].get<double>(), 40);
   EXPECT_EQ(run.err, "");
   // On the virtual machine the same solid ends the moves, within a cycle of their feed.
-  const Outcome time = ncsim("time --setup s.json p.nc");
+  const Outcome time = ncsim("time --motion trapezoid --setup s.json p.nc");  // the way beyond a touch is that of its braking
   EXPECT_EQ(time.code, 0) << time.err;
   EXPECT_NEAR(std::stod(time.out.substr(time.out.find("path length") + 12)), 717.11, 0.1);
 }
@@ -326,9 +326,28 @@ TEST_F(CommandTest, TheOptimalModeRefusesALineOfHeldAxes) {  // M700 6.16: it mo
   const Outcome run = ncsim("time --limits 250,2000,50000 --tolerance 0.01 p.nc");
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(run.out.find("P29"), std::string::npos) << run.out;
-  EXPECT_EQ(ncsim("time --limits 250,2000,50000 p.nc").code, 0);
+  EXPECT_EQ(ncsim("time --limits 250,2000,50000 --motion trapezoid p.nc").code, 0);
   file("p.nc", "G7 Y0\nG1 X5. Y10. F600\nG2 J5. F600\nM30\n");
   EXPECT_EQ(ncsim("time --limits 250,2000,50000 --tolerance 0.01 p.nc").code, 0);
+}
+
+TEST_F(CommandTest, TheLawOfMotionIsTheOptimalOneWhereEveryAxisHasAJerk) {
+  file("p.nc", "G1 X10. F6000\nY10.\nX0\nY0\nM30\n");
+  const auto time = [&](const char* options) { return ncsim(std::string("time ") + options + " p.nc").out; };
+  EXPECT_EQ(time(""), time("--motion optimal --tolerance 0.01"));
+  EXPECT_EQ(time(""), time("--tolerance 0.01"));
+  EXPECT_NE(time(""), time("--motion trapezoid"));
+  EXPECT_EQ(time("--limits 250,2000,0"), time("--motion trapezoid"));
+  EXPECT_EQ(ncsim("time --limits 250,2000,0 --motion optimal p.nc").err,
+            "ncsim: --motion optimal: the time-optimal mode needs limits of velocity, acceleration and jerk of every axis, X has no max_jerk\n");
+  std::string machine = "[machine]\nname = \"m\"\n";
+  for (const char* axis : {"X", "Y", "Z"}) machine += std::string("[[axis]]\nname = \"") + axis + "\"\nmax_velocity = 250.0\nmax_acceleration = 2000.0\nmax_jerk = 50000.0\n";
+  file("m.toml", machine);
+  file("t.toml", machine + "[motion]\nmode = \"trapezoid\"\n");
+  EXPECT_EQ(ncsim("check --machine m.toml p.nc").err, "note: motion: optimal: every axis has limits of velocity, acceleration and jerk\n");
+  EXPECT_EQ(ncsim("check --machine t.toml p.nc").err, "note: motion: trapezoid, as it is configured\n");
+  EXPECT_EQ(time("--machine t.toml --motion optimal"), time("--machine m.toml"));
+  EXPECT_EQ(time("--machine m.toml --limits 250,2000,0"), time("--machine t.toml"));  // the limits that came out choose
 }
 
 TEST_F(CommandTest, AProgramThatOnlyRunsOnIsNoEndlessLoop) {
@@ -683,11 +702,12 @@ TEST_F(CommandTest, CheckNotesWhatLimitsTheMachineAndWhatHasNoEffect) {
   for (const char* axis : {"X", "Y", "Z"})
     machine += std::string("[[axis]]\nname = \"") + axis + "\"\nrapid = 100.0\nmax_velocity = 100.0\nmax_acceleration = 1000.0\n" +
                "max_jerk = 50000.0\nin_position = 0.01\n";
-  file("m.toml", machine + "[parameters]\n\"2007\" = { X = 100.0, Y = 200.0, Z = 200.0 }\n\"2069\" = 0.01\n");
+  file("m.toml", machine + "[motion]\nmode = \"trapezoid\"\n[parameters]\n\"2007\" = { X = 100.0, Y = 200.0, Z = 200.0 }\n\"2069\" = 0.01\n");
   file("p.nc", "G1 X10. F1000\nM30\n");
   const Outcome check = ncsim("check --machine m.toml p.nc");
   EXPECT_EQ(check.code, 0);
   EXPECT_EQ(check.err,
+            "note: motion: trapezoid, as it is configured\n"
             "note: #2069: no effect while #8107 and #8108 are not both 1\n"
             "note: X: #2007 #2008 let cuts go at 3000 mm/min, the axis could go at 6000: faster would break its limit of acceleration\n");
   // L / F, the constant, and the end of the program.

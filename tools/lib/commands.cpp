@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "runtime/motion_choice.hpp"
 #include "tools/lib/command_text.hpp"
 #include "tools/lib/dialect_names.hpp"
 #include "tools/lib/item_source.hpp"
@@ -262,6 +263,8 @@ int check_command(const SessionOptions& options, const RunLimits& limits, std::F
   RunResult result;
   if (!run_printing(&session, &nothing, &items, limits, true, options.print, &result, &error, err))
     return complain(err, error);
+  if (session.machine() != nullptr)
+    std::fprintf(err, "note: motion: %s\n", rt::motion_text(session.config(), session.machine()->motion_given).c_str());
   char note[200];
   for (unsigned i = 0; nc_parameter_note_row(session.control(), kPartSystem, i, note, sizeof note) == NC_OK; ++i)
     std::fprintf(err, "note: %s\n", note);

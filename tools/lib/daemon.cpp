@@ -13,6 +13,7 @@
 #include "runtime/end_signal.hpp"
 #include "runtime/hal_factory.hpp"
 #include "runtime/machine_lock.hpp"
+#include "runtime/motion_choice.hpp"
 #include "runtime/runtime.hpp"
 #include "tools/lib/daemon_sharing.hpp"
 #include "tools/lib/output_check.hpp"
@@ -250,6 +251,7 @@ int check(const DaemonOptions& options, const rt::Config& config) {
   if (runtime == nullptr) return config_failed(refused);
   for (const std::string& warning : runtime->warnings()) warn(warning);
   std::printf("%s: %s, %u us, %u points: no errors\n", options.config.c_str(), config.name.c_str(), config.cycle_us, config.points.size());
+  std::printf("motion: %s; look_ahead %u\n", rt::motion_text(config.nc, config.motion_given).c_str(), config.nc.look_ahead);
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "runtime/motion_choice.hpp"
 #include "tools/lib/machine_limits.hpp"
 
 namespace nc::tools {
@@ -22,6 +23,23 @@ bool take_number(const char** at, double* value) {
   if (end == *at || !std::isfinite(*value)) return false;
   *at = end;
   return true;
+}
+
+// The law of motion: what the command line says, else the machine, else what the limits allow.
+bool set_motion(const MachineOptions& options, const rt::Config* machine, nc_config* config, std::string* error) {
+  const bool by_machine = machine != nullptr && machine->motion_given;
+  if (options.tolerance) config->path_tolerance = *options.tolerance;
+  if (options.motion) config->motion_mode = static_cast<std::uint8_t>(*options.motion);
+  else if (options.tolerance) config->motion_mode = NC_MOTION_OPTIMAL;
+  else if (!by_machine) config->motion_mode = static_cast<std::uint8_t>(rt::default_motion(*config));
+  if (config->motion_mode != NC_MOTION_OPTIMAL) return true;
+  if (machine == nullptr) config->look_ahead = kLookAheadDesk;
+  else if (!machine->look_ahead_given) config->look_ahead = rt::kLookAheadOptimal;
+  const std::string lacks = rt::optimal_lacks(*config);
+  if (lacks.empty()) return true;
+  const std::string who = options.motion ? "--motion optimal" : options.tolerance ? "--tolerance" : machine->file + ": [motion] mode";
+  *error = who + ": the time-optimal mode needs limits of velocity, acceleration and jerk of every axis, " + lacks;
+  return false;
 }
 
 }  // namespace
@@ -92,18 +110,8 @@ bool set_machine_limits(const MachineOptions& options, const rt::Config* machine
       system.axis[i].max_jerk = all->jerk;
     }
   }
-  if (options.tolerance) {
-    config->motion_mode = NC_MOTION_OPTIMAL;
-    config->path_tolerance = *options.tolerance;
-    if (machine == nullptr || !machine->look_ahead_given) config->look_ahead = rt::kLookAheadOptimal;
-    for (unsigned i = 0; i < system.axis_count; ++i) {
-      if (system.axis[i].max_jerk > 0) continue;
-      *error = std::string("--tolerance: the time-optimal mode needs a limit of the jerk of every axis, ") + system.axis[i].name + " has none";
-      return false;
-    }
-  }
   if (options.cycle_us) config->cycle_s = *options.cycle_us * kMicro;
-  return true;
+  return set_motion(options, machine, config, error);
 }
 
 }  // namespace nc::tools

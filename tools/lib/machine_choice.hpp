@@ -27,19 +27,23 @@ struct MachineOptions {
   std::string limits_file;  // JSON (machine_limits.hpp); "" = none
   std::string every_axis;   // as parse_every_axis(); "" = as the machine has it
   std::optional<unsigned> cycle_us;
-  std::optional<double> tolerance;  // mm: the time-optimal mode with this path tolerance
+  std::optional<nc_motion_mode> motion;  // else the machine's, and where that names none rt::default_motion()
+  std::optional<double> tolerance;       // mm, of the path: the time-optimal mode unless `motion` says otherwise
 };
 
 /** Reads the TOML file and keeps what concerns its first part system. @return nothing, with every mistake in
  * *error, one a line. */
 std::unique_ptr<rt::Config> load_machine(const std::string& path, std::string* error);
 
+/** Records between feeder and scan where no machine is named: a desk has the memory for lines of 1 um at full speed. */
+inline constexpr std::uint32_t kLookAheadDesk = 16384;
+
 /** The servos of its first part system, as the runtime simulates them. */
 ServoModel servo_of(const rt::Config& machine, double cycle_s);
 
 /**
  * Rates, limits and cycle of `options` into a configuration whose axes are known; those of `machine` (may be
- * null) first, or the defaults of default_machine_limits().
+ * null) first, or the defaults of default_machine_limits(). The law of motion is chosen last, by the limits that came out.
  */
 bool set_machine_limits(const MachineOptions& options, const rt::Config* machine, nc_config* config,
                         std::string* error);

@@ -79,7 +79,12 @@ void add_machine(CLI::App* command, SimCommand* sim) {
     std::string why;
     return parse_every_axis(text, &why) ? std::string() : why;
   };
-  command->add_option("--tolerance", sim->machine.tolerance, "the time-optimal mode, mm that lines may leave the path by; 0: with a rest at each corner")
+  command
+      ->add_option_function<std::string>(
+          "--motion", [sim](const std::string& mode) { sim->machine.motion = mode == "optimal" ? NC_MOTION_OPTIMAL : NC_MOTION_TRAPEZOID; },
+          "law of motion: optimal or trapezoid (default: the machine's, else optimal where every axis has a limit of jerk)")
+      ->transform(one_of({"optimal", "trapezoid"}));
+  command->add_option("--tolerance", sim->machine.tolerance, "mm that lines may leave the path by in the time-optimal mode, which this option asks for; 0: with a rest at each corner")
       ->check(CLI::Range(0.0, 0.0) | CLI::Range(1e-4, 1.0));
   command->add_option("--limits", sim->machine.every_axis, "velocity, acceleration, jerk of every axis, as 250,2000,50000")
       ->check(CLI::Validator(every_axis, "V,A,J"));

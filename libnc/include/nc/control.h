@@ -44,7 +44,7 @@ typedef struct nc_system_config {
 
 /** How the machine moves along the path. */
 typedef enum nc_motion_mode {
-  NC_MOTION_TRAPEZOID = 0, /**< axis velocity and acceleration; jerk is not limited */
+  NC_MOTION_TRAPEZOID = 0, /**< axis velocity and acceleration; jerk is not limited. What a config of zeros chooses: it asks for the fewest limits and the least memory */
   NC_MOTION_OPTIMAL = 1    /**< the least time that keeps velocity, acceleration and jerk of every axis; each axis needs all three */
 } nc_motion_mode;
 
@@ -70,7 +70,7 @@ typedef struct nc_config {
   bool extended_variables; /**< #900000-#907399 of later models; default false */
   uint32_t window_bytes;   /**< text window per part system, 512..16777216; default 65536 */
   double max_feed_override; /**< largest value of nc_inputs::feed_override, default 2.0 */
-  uint8_t motion_mode;     /**< nc_motion_mode; default NC_MOTION_TRAPEZOID */
+  uint8_t motion_mode;     /**< nc_motion_mode; default NC_MOTION_TRAPEZOID (ncrtd and ncsim choose NC_MOTION_OPTIMAL where every axis has all limits) */
   double path_tolerance;   /**< NC_MOTION_OPTIMAL: lines leave the programmed path by this at most, mm, 1e-5..10;
                                 0: not at all, with a rest at each corner; default 0.01 */
   nc_variable_range variable_ranges[NC_VARIABLE_RANGES]; /**< shared by all part systems; apart from one another, from those of the options
