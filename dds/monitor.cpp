@@ -76,6 +76,8 @@ const char* refusal_name(nc_RefusalCause cause) {
     case nc_REFUSED_TOO_MANY: return "too many";
     case nc_REFUSED_NO_LADDER: return "no ladder";
     case nc_REFUSED_NO_ANSWER: return "no answer";
+    case nc_REFUSED_LET_GO: return "let go first";
+    case nc_REFUSED_TOO_FAR: return "too far";
     default: return "other";
   }
 }

@@ -88,6 +88,8 @@ class RefusalCause(IdlEnum, typename="nc.RefusalCause", default="REFUSED_NOT"):
     REFUSED_TOO_MANY = 23
     REFUSED_NO_LADDER = 24
     REFUSED_NO_ANSWER = 25
+    REFUSED_LET_GO = 26
+    REFUSED_TOO_FAR = 27
 
 
 @annotate.appendable

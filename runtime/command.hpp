@@ -18,7 +18,8 @@ enum class CommandKind : std::uint8_t {
   kRapidOverride,  // value: 0..1
   kSingleBlock,    // number: 0 or 1
   kOptionalStop,   // number: 0 or 1
-  kJog,            // axis, value: velocity mm/s signed; has to be repeated within kJogDeadManScans, 0 stops
+  kJog,            // axis, value: velocity mm/s signed; has to be repeated within kJogDeadManScans, 0 stops. One that was refused or stopped
+                   // begins after 0, or after nothing for kJogDeadManScans
   kStep,           // axis, value: distance
   kReference,      // axis: go to the first reference position
   kForce,          // number: of LadderTask::force_number(), value: what the device is held at
@@ -34,6 +35,9 @@ constexpr bool for_feeder(CommandKind kind) {
   return kind >= CommandKind::kSelectProgram;
 }
 
+// Who asks: who has started the runtime, a client of the shared memory (DDS), a point of the machine, its ladder program.
+enum class Asker : std::uint8_t { kConsole, kClient, kPanel, kLadder };
+
 struct Command {
   CommandKind kind = CommandKind::kReset;
   std::uint8_t system = 0;  // index; programs and manual motion are per part system
@@ -41,6 +45,7 @@ struct Command {
   std::uint32_t number = 0;
   double value = 0;
   std::uint64_t ticket = 0;  // set by the runtime
+  Asker by = Asker::kConsole;
 };
 
 enum class Answer : std::uint8_t {
@@ -66,12 +71,13 @@ enum class Answer : std::uint8_t {
   kSoftLimit,         // the axis stands at its soft limit
   kNotRepeated,       // a jog that nobody has asked for again
   kNoJogFeed,         // a jog at no speed
-  kLetGoFirst,        // the button was on in a reset
+  kLetGoFirst,        // the button was on while something refused it
   kFeedHold,          // the machine's
   kInterlock,
   kAxesMove,
   kWarningActive,     // R19, R20: reset first
   kResetHeld,         // a reset is done, and plc.reset is still on
+  kHandleTooFar,      // more than the axis follows
   kNoAnswer           // the runtime does not run
 };
 inline constexpr unsigned kAnswers = static_cast<unsigned>(Answer::kNoAnswer) + 1;
@@ -123,7 +129,7 @@ constexpr const char* answer_text(Answer answer) {
     case Answer::kNoJogFeed:
       return "the jog feed is 0";
     case Answer::kLetGoFirst:
-      return "the button was on in a reset: let it go first";
+      return "the button was on while something refused or stopped it: let it go first";
     case Answer::kFeedHold:
       return "the feed hold of the machine is on";
     case Answer::kInterlock:
@@ -134,6 +140,8 @@ constexpr const char* answer_text(Answer answer) {
       return "a warning (R19, R20) is to be acknowledged: reset first";
     case Answer::kAxesMove:
       return "an axis moves: wait until it stands";
+    case Answer::kHandleTooFar:
+      return "more than the axis follows: it does not end where the wheel says";
     case Answer::kNoAnswer:
       return "the runtime does not answer";
   }

@@ -76,6 +76,7 @@ struct SpindleFeedback {
   bool given = false;       // by the file; else see read_spindle_feedback()
   int point = -1;           // word input: speed, signed
   double rpm_per_count = 1;
+  ConfigPlace place;        // of the point's name
 };
 
 struct SchedulingConfig {
@@ -205,6 +206,9 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
                                       Config* partial = nullptr);
 
 // Read and parse a file.
+// What of the spindles is allowed and hardly meant, with its line.
+std::vector<std::string> spindle_warnings(const Config& config);
+
 std::vector<ConfigError> load_config(const std::string& path, Config* config, Config* partial = nullptr);
 
 // What the file asks of the computer that it is used on: processors, folders.

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configuration section [[spindle]]: what measures the speed of a spindle.
+#include <algorithm>
+
+#include "hal/modbus/codec.hpp"
 #include "runtime/config_sections.hpp"
 
 namespace nc::rt {
@@ -22,11 +25,36 @@ void read_feedback(TableReader* reader, const Config& config, SpindleFeedback* f
     return reader->error("feedback", "point \"" + by + "\" must be an input and a word: the measured speed");
   feedback->by = SpindleFeedback::By::kPoint;
   feedback->point = index;
+  feedback->place = {reader->line("feedback"), reader->path("feedback")};
   reader->number("rpm_per_count", &feedback->rpm_per_count, -kMostRpm, kMostRpm);
   if (feedback->rpm_per_count == 0) reader->error("rpm_per_count", "must not be 0");
 }
 
+// A value below 0 that a register without a sign gives as one above 32767. One of 32 bits comes back to its sign, where nothing scales it.
+bool loses_its_sign(const hal::modbus::PointMap& map) {
+  if (map.format == hal::modbus::Format::kBit || hal::modbus::point_is_signed(map)) return false;
+  return map.format == hal::modbus::Format::kU16 || map.scale != 1 || map.offset != 0;
+}
+
 }  // namespace
+
+std::vector<std::string> spindle_warnings(const Config& config) {
+  std::vector<std::string> warnings;
+  for (unsigned s = 0; s < config.nc.system_count; ++s)
+    for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {
+      const SpindleFeedback& feedback = config.spindle_feedback[s][n];
+      if (feedback.by != SpindleFeedback::By::kPoint) continue;
+      const hal::Point& point = config.points.at(static_cast<unsigned>(feedback.point));
+      if (point.bus == 0) continue;
+      const std::vector<hal::modbus::PointMap>& maps = config.modbus[point.bus - 1u].link.points;
+      const auto map = std::find_if(maps.begin(), maps.end(), [&](const hal::modbus::PointMap& each) { return each.point == static_cast<unsigned>(feedback.point); });
+      if (map == maps.end() || !loses_its_sign(*map)) continue;
+      warnings.push_back(ConfigError{config.file, feedback.place.line, feedback.place.key,
+                                     "point \"" + point.name + "\" has no sign: a spindle that turns backwards is measured as one that turns forwards, "
+                                     "-1000 in 16 bits as 64536; signed = true, unless the device gives no sign"}.text());
+    }
+  return warnings;
+}
 
 // Where the file says nothing a spindle is simulated if the whole machine is, or if [sim.spindle] drives it. On a machine with a bus it turns
 // outside, and nothing measures it until a point does.

@@ -2,7 +2,10 @@
 // The reasons in words and as numbers. See refusal.hpp.
 #include "runtime/refusal.hpp"
 
+#include <algorithm>
+
 #include "runtime/config.hpp"
+#include "runtime/signals/signal_table.hpp"
 
 namespace nc::rt {
 namespace {
@@ -14,6 +17,8 @@ const char* asked_text(Asked asked) {
     case Asked::kMode: return "mode";
     case Asked::kJog: return "jog";
     case Asked::kReference: return "reference return";
+    case Asked::kStep: return "step";
+    case Asked::kHandle: return "handle";
   }
   return "";
 }
@@ -31,8 +36,9 @@ RefusalCause refusal_cause(Answer why) {
     case Answer::kMiddleOfBlock: return RefusalCause::kMiddleOfBlock;
     case Answer::kNoProgram: return RefusalCause::kNoProgram;
     case Answer::kAlarmActive: return RefusalCause::kAlarm;
-    case Answer::kResetting:
-    case Answer::kLetGoFirst: return RefusalCause::kResetting;
+    case Answer::kResetting: return RefusalCause::kResetting;
+    case Answer::kLetGoFirst: return RefusalCause::kLetGo;
+    case Answer::kHandleTooFar: return RefusalCause::kTooFar;
     case Answer::kEnding: return RefusalCause::kEnding;
     case Answer::kSpindleNow: return RefusalCause::kSpindle;
     case Answer::kSoftLimit: return RefusalCause::kSoftLimit;
@@ -60,12 +66,25 @@ RefusalCause refusal_cause(const Refusal& refusal) {
   return refusal.asked == Asked::kNothing ? RefusalCause::kNone : refusal_cause(refusal.why);
 }
 
+std::string asker_text(const Config& config, Asker by) {
+  switch (by) {
+    case Asker::kConsole: return "at the console";
+    case Asker::kClient: return "by a client";
+    case Asker::kLadder: return "by the ladder";
+    case Asker::kPanel: break;
+  }
+  const std::vector<Signal> signals = machine_signals(config.nc);
+  const auto wire = std::find_if(config.wires.begin(), config.wires.end(), [&](const SignalWire& each) { return signals[each.signal].name == "plc.cycle_start"; });
+  return wire == config.wires.end() ? "at the panel" : "at point \"" + config.points.at(wire->point).name + "\"";
+}
+
 std::string refusal_text(const Config& config, unsigned system, const Refusal& refusal) {
   if (refusal.asked == Asked::kNothing) return "";
   std::string text = asked_text(refusal.asked);
   const nc_system_config& axes = config.nc.system[system];
   if (refusal.axis >= 0 && refusal.axis < static_cast<int>(axes.axis_count)) text += std::string(" ") + axes.axis[refusal.axis].name;
-  return text + (refusal.stopped ? " stopped: " : " refused: ") + answer_text(refusal.why);
+  const bool waits = refusal.why == Answer::kNoJogFeed;  // it goes when the feed is turned up
+  return text + (waits ? " waits: " : refusal.stopped ? " stopped: " : " refused: ") + answer_text(refusal.why);
 }
 
 }  // namespace nc::rt

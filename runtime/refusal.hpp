@@ -12,7 +12,7 @@ namespace nc::rt {
 
 struct Config;
 
-enum class Asked : std::uint8_t { kNothing, kCycleStart, kMode, kJog, kReference };
+enum class Asked : std::uint8_t { kNothing, kCycleStart, kMode, kJog, kReference, kStep, kHandle };
 
 // The last one of a part system.
 struct Refusal {
@@ -21,17 +21,22 @@ struct Refusal {
   Answer why = Answer::kDone;
   bool stopped = false;            // it had begun, and was ended
   std::int8_t axis = -1;           // index, -1 = none
+  Asker by = Asker::kConsole;      // of a cycle start and a mode
 };
 
 // What monitors know the reason by; numbers never change, new ones come at the end. The names are those of RefusalCause in dds/nc_dds.idl.
 enum class RefusalCause : std::uint8_t {
   kNone, kMode, kRunning, kMiddleOfBlock, kNoProgram, kAlarm, kResetting, kEnding, kSpindle, kSoftLimit, kNotRepeated, kNoFeed, kOther,
   kFeedHold, kInterlock, kResetHeld, kWarning, kMachineSwitch, kRange, kAxis, kControl, kNotLoaded, kNoDevice, kTooMany, kNoLadder, kNoAnswer,
-  kLast = kNoAnswer
+  kLetGo, kTooFar,
+  kLast = kTooFar
 };
 // kNone for what has been done. Every other answer has one, and none is kOther: that is for what a later control may say.
 RefusalCause refusal_cause(Answer why);
 RefusalCause refusal_cause(const Refusal& refusal);
+
+// "by the ladder", "at point \"start\"": who has asked for a cycle start.
+std::string asker_text(const Config& config, Asker by);
 
 // "jog X refused: an alarm is active: reset first"; "" when there is none.
 std::string refusal_text(const Config& config, unsigned system, const Refusal& refusal);

@@ -93,6 +93,7 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
                                                  "nothing measures spindle " + std::to_string(n + 1) + " of part system " + std::to_string(s + 1) +
                                                      ": feed per revolution (G95), threads and dwells in revolutions will wait; [[spindle]] feedback"}.text());
   }
+  for (const std::string& warning : spindle_warnings(config)) runtime->warnings_.push_back(warning);
   if (runtime->own_ladder_ != nullptr) {
     runtime->parts_.ladder = runtime->own_ladder_.get();
     for (const std::string& warning : runtime->own_ladder_->warnings()) runtime->warnings_.push_back(warning);

@@ -164,7 +164,7 @@ Answer Scan::apply(const Command& command) noexcept {
       if (command.number > static_cast<std::uint32_t>(Mode::kManual)) return Answer::kOutOfRange;
       return set_mode(static_cast<Mode>(command.number));
     case CommandKind::kCycleStart:
-      return start_cycle();
+      return start_cycle(command.by);
     case CommandKind::kFeedHold:
       if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
       hold_request_ = program_active();
@@ -237,7 +237,7 @@ std::uint32_t Scan::ready_systems() const noexcept {
   return ready;
 }
 
-Answer Scan::start_cycle() noexcept {
+Answer Scan::start_cycle(Asker by) noexcept {
   if (ending_) return Answer::kEnding;
   if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
   if (reset_phase_ != ResetPhase::kNone) return in_reset();
@@ -253,37 +253,8 @@ Answer Scan::start_cycle() noexcept {
   start_pulse_ = ready;
   hold_request_ = false;
   for (unsigned s = 0; s < systems_; ++s) {
-    if (machine_holds_[s]) refuse(s, Asked::kCycleStart, Answer::kFeedHold);
+    if (machine_holds_[s]) refuse(s, Asked::kCycleStart, Answer::kFeedHold, -1, false, by);
     else happened(s, Asked::kCycleStart);
-  }
-  return Answer::kDone;
-}
-
-Answer Scan::manual(const Command& command) noexcept {
-  if (ending_) return Answer::kEnding;
-  if (mode_ != Mode::kManual) return Answer::kNotInThisMode;
-  if (reset_phase_ != ResetPhase::kNone) return in_reset();
-  if (command.system >= systems_ || command.axis >= config_.nc.system[command.system].axis_count)
-    return Answer::kAxisUnknown;
-  const nc_axis_config& axis = config_.nc.system[command.system].axis[command.axis];
-  if (is_spindle_now(command.system, command.axis)) return Answer::kSpindleNow;
-  Jog& jog = jog_[command.system][command.axis];
-  if (command.kind == CommandKind::kJog) {
-    if (!(command.value >= -axis.max_velocity && command.value <= axis.max_velocity))
-      return Answer::kOutOfRange;
-    if (alarms_.stops() && command.value != 0) return Answer::kAlarmActive;
-    jog = command.value == 0 ? Jog{} : Jog{NC_MANUAL_JOG, command.value, kJogDeadManScans};
-    return Answer::kDone;
-  }
-  if (alarms_.stops()) return Answer::kAlarmActive;
-  if (!at_rest()) return Answer::kAxesMove;
-  // Else it would begin by itself when they end, with nobody's hand on a button.
-  if (const Answer hindrance = machine_hindrance(command.system); hindrance != Answer::kDone) return hindrance;
-  if (command.kind == CommandKind::kStep) {
-    if (!(command.value >= -1e6 && command.value <= 1e6)) return Answer::kOutOfRange;
-    jog = {NC_MANUAL_STEP, command.value, 2};  // the distance is taken at the rising edge
-  } else {
-    jog = {NC_MANUAL_REFERENCE, 0, ~0u};  // until the axis is there or reset
   }
   return Answer::kDone;
 }
@@ -294,7 +265,6 @@ bool Scan::is_spindle_now(unsigned system, unsigned axis) const noexcept {
 }
 
 void Scan::build_nc_inputs() noexcept {
-  const bool stop = alarms_.stops();
   const std::int64_t local_ms = clock_->local_ms();
   for (unsigned s = 0; s < systems_; ++s) {
     nc_inputs& in = in_[s];
@@ -326,21 +296,7 @@ void Scan::build_nc_inputs() noexcept {
     in.actual = machine.actual;
     in.follow_up = drives_off_ && !feedback_.lost;
     in.clock_ms = local_ms;
-    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
-      Jog& jog = jog_[s][a];
-      jog_asked_[s][a] = static_cast<std::int8_t>(jog.kind != NC_MANUAL_JOG ? 0 : jog.value > 0 ? 1 : -1);
-      if (stop || ending_ || mode_ != Mode::kManual || reset_phase_ != ResetPhase::kNone || is_spindle_now(s, a)) jog = {};
-      in.manual[a].kind = jog.kind;
-      in.manual[a].velocity = jog.kind == NC_MANUAL_JOG ? jog.value : 0;
-      in.manual[a].distance = jog.kind == NC_MANUAL_STEP ? jog.value : 0;
-      if (jog.remaining == ~0u) {
-        if ((out_[s].at_reference >> a & 1u) != 0) jog = {};
-      } else if (jog.remaining > 0 && --jog.remaining == 0) {
-        if (jog.kind == NC_MANUAL_JOG) refuse(s, Asked::kJog, Answer::kNotRepeated, static_cast<int>(a), true);
-        jog_asked_[s][a] = 0;
-        jog = {};
-      }
-    }
+    give_commands_by_hand(s);
   }
   start_pulse_ = 0;
 }
@@ -400,7 +356,7 @@ void Scan::follow_requests() noexcept {
     if (alarm && !alarm_was_given_[s] && reset_phase_ == ResetPhase::kNone) raise(AlarmId::kProgram, s, -1);
   }
   if (!running) hold_request_ = false;
-  watch_jogs();
+  watch_manual();
   if (reset_phase_ == ResetPhase::kStopping) {
     ++reset_scans_;
     if (reset_scans_ >= kResetMinScans && !program_active() && at_rest() && axes_stand()) {

@@ -125,6 +125,7 @@ class Scan {
     std::uint8_t kind = NC_MANUAL_NONE;
     double value = 0;
     unsigned remaining = 0;  // scans that it still acts
+    bool refused = false;    // a jog: something has refused or stopped it, and it waits to be let go
   };
 
   void read_inputs() noexcept;
@@ -132,10 +133,13 @@ class Scan {
   void bind_spindles() noexcept;
   void take_commands() noexcept;
   Answer apply(const Command& command) noexcept;
-  Answer start_cycle() noexcept;
+  Answer start_cycle(Asker by) noexcept;
   std::uint32_t ready_systems() const noexcept;
   Answer set_mode(Mode mode) noexcept;
   Answer manual(const Command& command) noexcept;
+  Answer jog(const Command& command) noexcept;
+  Answer step_or_return(const Command& command) noexcept;
+  void give_commands_by_hand(unsigned system) noexcept;
   void build_nc_inputs() noexcept;
   void run_ladder() noexcept;
   void follow_ladder(const LadderRequests& requests) noexcept;
@@ -169,14 +173,18 @@ class Scan {
   }
   bool program_active() const noexcept;
   bool at_rest() const noexcept;
-  void refuse(unsigned system, Asked asked, Answer why, int axis = -1, bool stopped = false) noexcept;
-  void settle(Asked asked, Answer answer) noexcept;
+  void refuse(unsigned system, Asked asked, Answer why, int axis = -1, bool stopped = false, Asker by = Asker::kConsole) noexcept;
+  void settle(Asked asked, Answer answer, Asker by) noexcept;
+  Asker machine_asker() const noexcept { return config_.ladder.program.empty() ? Asker::kPanel : Asker::kLadder; }
   void happened(unsigned system, Asked asked) noexcept;
   Answer in_reset() const noexcept { return reset_phase_ == ResetPhase::kHeld ? Answer::kResetHeld : Answer::kResetting; }
-  Answer machine_hindrance(unsigned system) const noexcept;
   bool at_soft_limit(unsigned system, unsigned axis, int direction) const noexcept;
+  Answer hand_hindrance(unsigned system, unsigned axis) const noexcept;
   Answer jog_hindrance(unsigned system, unsigned axis, int direction) const noexcept;
-  void watch_jogs() noexcept;
+  void watch_manual() noexcept;
+  void watch_jog(unsigned system, unsigned axis) noexcept;
+  void watch_way(unsigned system, unsigned axis) noexcept;
+  void watch_handle(unsigned system, unsigned axis) noexcept;
   bool is_spindle_now(unsigned system, unsigned axis) const noexcept;
   bool machine_faulty() const noexcept;
   bool axes_stand() const noexcept;
@@ -221,12 +229,14 @@ class Scan {
   struct JogWatch {
     Answer why = Answer::kDone;  // as noted last
     bool went = false;
-    bool held = false;  // a reference return, by the machine's hold or interlock
   };
   JogWatch jog_watch_[NC_MAX_SYSTEMS][NC_MAX_AXES];
   std::int8_t jog_asked_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};  // direction in this scan, whether or not it acts
   std::uint8_t jog_without_feed_[NC_MAX_SYSTEMS] = {};       // bit per axis
-  std::uint32_t jog_over_reset_[NC_MAX_SYSTEMS] = {};        // bit per axis: its button was on in a reset, and is still
+  std::uint32_t button_refused_[NC_MAX_SYSTEMS] = {};        // bit per axis: its jog button was on while something refused it, and is still
+  std::uint32_t pulses_lost_[NC_MAX_SYSTEMS] = {};           // bit per axis: pulses of its handle do not go to the NC in this scan
+  Answer handle_noted_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};    // why pulses are lost, as noted last
+  Asked on_its_way_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};       // a step or a reference return
   // From a fault of the machine to the end of the reset; the commanded position follows the measured one.
   bool drives_off_ = false;
   nc_axes stood_at_[NC_MAX_SYSTEMS] = {};  // measured

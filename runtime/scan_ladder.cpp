@@ -10,8 +10,6 @@ namespace {
 // A start that is shorter is a bounce of the button.
 constexpr unsigned kStartMinScans = 2;
 
-constexpr double kHandleIncrement = 0.001;  // mm or deg
-
 }  // namespace
 
 void Scan::run_ladder() noexcept {
@@ -36,8 +34,8 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
     if (ladder_start_scans_ < kStartMinScans) ++ladder_start_scans_;
   } else {
     if (ladder_start_scans_ == kStartMinScans) {  // the NC sees it in the next scan
-      const Answer answer = start_cycle();
-      if (answer != Answer::kAlreadyRunning) settle(Asked::kCycleStart, answer);  // the button of a program that runs is nothing to tell of
+      const Answer answer = start_cycle(machine_asker());
+      if (answer != Answer::kAlreadyRunning) settle(Asked::kCycleStart, answer, machine_asker());  // the button of a program that runs is nothing to tell of
     }
     ladder_start_scans_ = 0;
   }
@@ -49,7 +47,7 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
     ++modes;
     chosen = m;
   }
-  if (modes == 1 && !last_requests_.mode[chosen]) settle(Asked::kMode, set_mode(static_cast<Mode>(chosen)));
+  if (modes == 1 && !last_requests_.mode[chosen]) settle(Asked::kMode, set_mode(static_cast<Mode>(chosen)), machine_asker());
   for (unsigned n = 0; n < kLadderAlarms; ++n)
     if ((requests.alarm >> n & 1u) != 0) raise(AlarmId::kLadder, 0, -1, n);
   if (requests.stopped) raise(AlarmId::kLadderStopped, 0, -1, requests.stopped_line, requests.stopped_fault);
@@ -85,44 +83,6 @@ Answer Scan::set_override(double value, double most, const bool* machines, doubl
   if (std::all_of(machines, machines + systems_, [](bool machine) { return machine; })) return Answer::kMachineSwitch;
   *operators = value;
   return Answer::kDone;
-}
-
-// Buttons and handles of the machine, in manual mode; they go before the operator's jogs. Both directions at once
-// are none. A reset ends a jog for good: a button that was on in it does nothing until it is let go, else the axis would go on by itself.
-void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
-  const bool acts = !ending_ && mode_ == Mode::kManual && reset_phase_ == ResetPhase::kNone && !alarms_.stops();
-  for (unsigned s = 0; s < systems_; ++s) {
-    const LadderRequests::System &now = requests.system[s], &before = last_requests_.system[s];
-    jog_without_feed_[s] = 0;
-    const std::uint32_t buttons = now.jog_p | now.jog_m;
-    if (reset_phase_ != ResetPhase::kNone) jog_over_reset_[s] |= buttons;
-    jog_over_reset_[s] &= buttons;
-    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
-      const nc_axis_config& axis = config_.nc.system[s].axis[a];
-      const int direction = static_cast<int>(now.jog_p >> a & 1u) - static_cast<int>(now.jog_m >> a & 1u);
-      const bool reference = ((now.reference & ~before.reference) >> a & 1u) != 0;
-      nc_manual& manual = in_[s].manual[a];
-      const double asked = now.rapid ? axis.rapid : std::max(0, now.jog_feed) / 60.0;
-      if (direction != 0) {
-        jog_asked_[s][a] = static_cast<std::int8_t>(direction);
-        jog_without_feed_[s] = static_cast<std::uint8_t>(jog_without_feed_[s] | (asked > 0 ? 0u : 1u << a));
-      }
-      if (!acts) {
-        if (reference) refuse(s, Asked::kReference, jog_hindrance(s, a, 0), static_cast<int>(a));
-        continue;
-      }
-      if (direction != 0 && (jog_over_reset_[s] >> a & 1u) != 0) continue;
-      if (direction != 0) {
-        manual = {NC_MANUAL_JOG, direction * std::min(asked, axis.max_velocity), 0};
-      } else if (now.handle[a] != 0) {
-        manual = {NC_MANUAL_HANDLE, 0, now.handle[a] * kHandleIncrement};
-      } else if (reference) {
-        const Answer answer = this->manual({CommandKind::kReference, static_cast<std::uint8_t>(s), static_cast<std::uint8_t>(a), 0, 0, 0});
-        if (answer != Answer::kDone) refuse(s, Asked::kReference, answer, static_cast<int>(a));
-        else happened(s, Asked::kReference);
-      }
-    }
-  }
 }
 
 void Scan::request_reset() noexcept {

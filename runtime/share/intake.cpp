@@ -269,6 +269,7 @@ Intake::Verdict Intake::execute(const Request& request) {
     command.axis = static_cast<std::uint8_t>(request.axis);
     command.number = request.number;
     command.value = request.value;
+    command.by = Asker::kClient;
     answer = machine_.execute(command);
     takes_time = row->takes_time;
     if (kind == RequestKind::kJog && answer == Answer::kDone)

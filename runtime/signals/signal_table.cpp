@@ -242,7 +242,7 @@ const SignalRow kSignals[] = {
      NC_WRITE { image->nc_in[s].spindle_encoder = static_cast<std::uint8_t>(std::clamp(value, -1, 255)); }},
     {"servo_on", kBit, kTo, kSpindleAxis, 0, 0, "1: the spindle is this axis (C axis), 0: a spindle", "level; a turning spindle stops first", nullptr,
      NC_WRITE { if (value != 0) image->nc_in[s].servo_on = static_cast<std::uint8_t>(image->nc_in[s].servo_on | 1u << i); }},
-    {"jog_p", kBit, kTo, kAxis, 0, 0, "the axis goes in + as long as it is on", "level, in manual mode", nullptr,
+    {"jog_p", kBit, kTo, kAxis, 0, 0, "the axis goes in + as long as it is on", "level, in manual mode; one that was refused or stopped acts when it was let go", nullptr,
      NC_WRITE { if (value != 0) image->requests->system[s].jog_p |= 1u << i; }},
     {"jog_m", kBit, kTo, kAxis, 0, 0, "the axis goes in -; with jog_p it stands", "level, in manual mode", nullptr,
      NC_WRITE { if (value != 0) image->requests->system[s].jog_m |= 1u << i; }},

@@ -175,6 +175,16 @@ TEST(StructSize, BehindTheCallersEndNothingIsReadOrWritten) {
   EXPECT_EQ(nc_cycle(c.control, &in, &out), NC_OK);
   EXPECT_EQ(out.joint_faults, 77);
   EXPECT_EQ(out.joint.v[0], 5);
+  // A program of 0.1: `handle_dropped` came later.
+  static_assert(offsetof(nc_outputs, handle_dropped) == (offsetof(nc_outputs, joint_faults) + alignof(nc_outputs)) / alignof(nc_outputs) * alignof(nc_outputs));
+  out.struct_size = offsetof(nc_outputs, handle_dropped);
+  out.handle_dropped = 88;
+  in.manual[0] = {NC_MANUAL_HANDLE, 0, 1e6};
+  EXPECT_EQ(nc_cycle(c.control, &in, &out), NC_OK);
+  EXPECT_EQ(out.handle_dropped, 88u);
+  out.struct_size = sizeof out;
+  EXPECT_EQ(nc_cycle(c.control, &in, &out), NC_OK);
+  EXPECT_EQ(out.handle_dropped, 1u);
 }
 
 TEST(StructSize, ANewerConfigurationIsTakenWhileItAsksForNothingNew) {

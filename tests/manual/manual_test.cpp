@@ -128,11 +128,155 @@ TEST(Manual, HandleTurnedTooFastIsLimitedAndStopsSoon) {
   Machine m(manual_config());
   m.in.manual[2] = {NC_MANUAL_HANDLE, 0, 5};  // 5 m/s
   run(m, 1000);
+  EXPECT_EQ(m.out.handle_dropped, 1u << 2);
   m.in.manual[2] = {};
-  run(m, 300);
+  run(m, 500 + 100 + 1);  // half a second, and the ramp of 200 mm/s at 2000 mm/s2
   EXPECT_TRUE(m.still());
   EXPECT_LE(m.checker.worst_velocity, 1.001);
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+}
+
+/// What a wheel asks for at once is gone in full as long as the axis is done with it soon; what is dropped is said, in the cycle in which it is.
+TEST(Manual, AHandleLosesNothingWithoutAWord) {
+  for (const double distance : {0.001, 9.375, 50.0, 110.0, 110.1, 4000.0}) {
+    for (const double sign : {1.0, -1.0}) {
+      SCOPED_TRACE(sign * distance);
+      Machine m(manual_config());
+      m.in.manual[2] = {NC_MANUAL_HANDLE, 0, sign * distance};
+      m.cycle();
+      const bool dropped = m.out.handle_dropped != 0;
+      EXPECT_EQ(dropped, distance > 0.5 * 200 + 0.5 * 200 * 200 / 2000) << "nc/run.h";
+      m.in.manual[2] = {};
+      run(m, 500 + 150 + 1);
+      EXPECT_EQ(m.out.handle_dropped, 0u);
+      EXPECT_TRUE(m.still());
+      EXPECT_NEAR(m.out.command.v[2], sign * std::min(distance, 110.0), 1e-9);
+      EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+    }
+  }
+}
+
+TEST(Manual, AHandleSaysWhatASoftLimitAHoldAndAJogTakeFromIt) {
+  Machine m(manual_config());
+  const auto pulse = [&m](double distance) {
+    m.in.manual[0] = {NC_MANUAL_HANDLE, 0, distance};
+    m.cycle();
+    m.in.manual[0] = {};
+    return m.out.handle_dropped != 0;
+  };
+  EXPECT_FALSE(pulse(99));
+  run(m, 1000);
+  EXPECT_TRUE(pulse(2)) << "1 mm of it lies beyond the limit";
+  run(m, 100);
+  EXPECT_EQ(m.out.command.v[0], 100);
+  EXPECT_FALSE(pulse(-30));
+  m.in.feed_hold = true;
+  m.cycle();
+  EXPECT_NE(m.out.handle_dropped, 0u) << "the way that is left";
+  m.cycle();
+  EXPECT_EQ(m.out.handle_dropped, 0u) << "once";
+  EXPECT_TRUE(pulse(1));
+  run(m, 200);
+  m.in.feed_hold = false;
+  const double there = m.out.command.v[0];
+  run(m, 200);
+  EXPECT_EQ(m.out.command.v[0], there);
+  EXPECT_FALSE(pulse(-5));
+  m.in.manual[0] = jog(-10);
+  m.cycle();
+  EXPECT_NE(m.out.handle_dropped, 0u);
+}
+
+/// What keeps manual motion from beginning, and stops it.
+struct Refusal {
+  const char* name;
+  void (*set)(Machine& m, bool on);
+};
+const Refusal kRefusals[] = {
+    {"feed hold", [](Machine& m, bool on) { m.in.feed_hold = on; }},
+    {"interlock", [](Machine& m, bool on) { m.in.interlock = on; }},
+    {"reset", [](Machine& m, bool on) { m.in.reset = on; }},
+    {"alarm and its reset", [](Machine& m, bool on) {
+       m.in.alarm = on;
+       if (on) return;
+       m.in.reset = true;
+       run(m, 3);
+       m.in.reset = false;
+     }}};
+
+/// A button that was pressed in a hold, or whose axis was stopped by one, does nothing when the hold ends: it has to be let go first.
+TEST(Manual, NothingBeginsByItselfWhenWhatRefusedOrStoppedItEnds) {
+  for (const Refusal& refusal : kRefusals) {
+    for (const uint8_t kind : {uint8_t{NC_MANUAL_JOG}, uint8_t{NC_MANUAL_STEP}, uint8_t{NC_MANUAL_HANDLE}, uint8_t{NC_MANUAL_REFERENCE}}) {
+      for (const bool moves : {false, true}) {
+        SCOPED_TRACE(std::string(refusal.name) + ", kind " + std::to_string(kind) + (moves ? ", on its way" : ""));
+        Machine m(manual_config());
+        const nc_manual wish{kind, kind == NC_MANUAL_JOG ? 50.0 : 0.0, 8};
+        const nc_manual level = kind == NC_MANUAL_HANDLE ? nc_manual{} : wish;  // each pulse of a wheel is a new command
+        if (moves) {
+          m.in.manual[1] = wish;
+          m.cycle();
+          m.in.manual[1] = level;
+          run(m, 10);
+          ASSERT_NE(m.out.velocity.v[1], 0);
+        }
+        refusal.set(m, true);
+        m.in.manual[1] = wish;
+        run(m, 3);
+        m.in.manual[1] = level;
+        run(m, 200);
+        ASSERT_TRUE(m.still());
+        const double there = m.out.command.v[1];
+        refusal.set(m, false);
+        run(m, 200);
+        EXPECT_EQ(m.out.command.v[1], there);
+        // Nor behind a detent of the wheel, which is no release of the button.
+        m.in.manual[1] = {NC_MANUAL_HANDLE, 0, 0};
+        m.cycle();
+        m.in.manual[1] = level;
+        run(m, 200);
+        EXPECT_EQ(m.out.command.v[1], there);
+        m.in.manual[1] = {};
+        run(m, 2);
+        m.in.manual[1] = wish;
+        m.cycle();
+        m.in.manual[1] = level;
+        run(m, 100);
+        EXPECT_NE(m.out.command.v[1], there) << "a new press";
+        EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+      }
+    }
+  }
+}
+
+/// A jog that turns round is the same press for who has been refused: the button is still on.
+TEST(Manual, ARefusedJogThatTurnsRoundWaitsAsWell) {
+  Machine m(manual_config());
+  m.in.feed_hold = true;
+  m.in.manual[0] = jog(20);
+  run(m, 5);
+  m.in.feed_hold = false;
+  m.in.manual[0] = jog(-20);
+  run(m, 100);
+  EXPECT_EQ(m.out.command.v[0], 0);
+  m.in.manual[0] = jog(0);
+  m.cycle();
+  m.in.manual[0] = jog(-20);
+  run(m, 100);
+  EXPECT_LT(m.out.command.v[0], -1);
+}
+
+/// The other axes do not care.
+TEST(Manual, ARefusalIsOfItsAxis) {
+  Machine m(manual_config());
+  m.in.interlock = true;
+  m.in.manual[0] = jog(20);
+  run(m, 5);
+  m.in.interlock = false;
+  m.in.manual[1] = jog(20);
+  run(m, 100);
+  EXPECT_EQ(m.out.command.v[0], 0);
+  EXPECT_GT(m.out.command.v[1], 1);
 }
 
 TEST(Manual, ReferenceReturn) {
@@ -186,9 +330,12 @@ TEST(Manual, DoesNothingWhileAProgramRunsAndActsInABlockStop) {
   m.start();
   m.in.manual[1] = jog(50);
   ASSERT_TRUE(m.until(p, [&] { return m.out.cause == NC_CAUSE_PROGRAM_STOP; }));
-  m.cycle();  // manual motion begins in a cycle of its own
-  EXPECT_LE(m.out.command.v[1], 0.001);
+  run(m, 100);
   EXPECT_TRUE(m.out.manual_allowed);
+  EXPECT_EQ(m.out.command.v[1], 0) << "a button that was pressed beside the program does not set it off at the stop";
+  m.in.manual[1] = {};
+  m.cycle();
+  m.in.manual[1] = jog(50);
   run(m, 100);
   EXPECT_EQ(m.out.state, NC_STATE_MANUAL);
   EXPECT_GT(m.out.command.v[1], 3);
@@ -342,9 +489,9 @@ TEST(ManualTurning, TheShorterWayToTheReferencePosition) {
   }
 }
 
-/// A jog that is held while a block stop comes, or a program ends: the path comes to rest somewhere within a cycle, and what is left of that
-/// cycle is rest, too. An axis that braked in it and set off by hand would use its acceleration twice.
-TEST(Manual, AHeldJogBeginsACycleBehindTheStop) {
+/// A jog that is pressed again and again while a block stop comes, or a program ends: the path comes to rest somewhere within a cycle, and what
+/// is left of that cycle is rest, too. An axis that braked in it and set off by hand would use its acceleration twice.
+TEST(Manual, AJogBeginsACycleBehindTheStopAtTheEarliest) {
   for (const bool optimal : {false, true}) {
     for (const bool stops : {false, true}) {
       for (unsigned n = 0; n < 40; ++n) {
@@ -366,14 +513,16 @@ TEST(Manual, AHeldJogBeginsACycleBehindTheStop) {
         }
         p.end();
         m.in.single_block = stops;
-        m.in.manual[0] = jog(n % 2 == 0 ? -200 : 200);
-        m.in.manual[1] = jog(50);
         m.feed(p);
         m.start();
         const double end = 3 + 0.0037 * n;
         unsigned moved = 0, allowed = 0;
         for (unsigned k = 1; k < 300 && m.out.state != NC_STATE_MANUAL; ++k) {
           const double before = m.out.command.v[0];
+          // Pressed in each second cycle, in those of even or of odd number; held once it acts.
+          const bool pressed = m.out.manual_allowed || k % 2 == n / 2 % 2;
+          m.in.manual[0] = pressed ? jog(n % 2 == 0 ? -200 : 200) : nc_manual{};
+          m.in.manual[1] = pressed ? jog(50) : nc_manual{};
           m.feed(p);
           m.cycle();
           if (allowed == 0 && !m.out.manual_allowed && m.out.command.v[0] != before) moved = k;

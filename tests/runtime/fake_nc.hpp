@@ -53,6 +53,7 @@ class FakeNc : public rt::NcPort {
       out.command.v[0] += in->manual[0].velocity * 0.001;
       out.distance_zero = false;
     }
+    out.manual_allowed = out.state == NC_STATE_IDLE || out.state == NC_STATE_STOPPED;
     last_in = *in;
     *result = out;
   }

@@ -214,6 +214,7 @@ TEST_F(LadderSignals, AStartThatIsRefusedSaysWhy) {
   press();
   EXPECT_EQ(refusal().asked, nc::rt::Asked::kCycleStart);
   EXPECT_EQ(refusal().why, nc::rt::Answer::kNoProgram);
+  EXPECT_EQ(nc::rt::asker_text(config, refusal().by), "by the ladder");
   manual();
   press();
   EXPECT_EQ(refusal().why, nc::rt::Answer::kNotInThisMode);
@@ -354,8 +355,15 @@ TEST_F(LadderSignals, AJogInInterlockOrHoldOrBesideAProgramSaysWhy) {
   steps(100);
   EXPECT_EQ(text(), "jog X stopped: the interlock of the machine is on");
   in("word_in", 0);
+  const double there = x();
   steps(100);
-  EXPECT_EQ(text(), "") << "it goes on, as the signal says";
+  EXPECT_EQ(text(), "jog X stopped: the button was on while something refused or stopped it: let it go first");
+  EXPECT_EQ(x(), there) << "the button alone does not begin it again";
+  in("in0", 0);
+  steps(3);
+  in("in0", 1);
+  steps(100);
+  EXPECT_EQ(text(), "");
   in("in1", 1);
   steps(100);
   EXPECT_EQ(text(), "jog X stopped: the feed hold of the machine is on");
@@ -411,6 +419,10 @@ TEST_F(LadderSignals, AReferenceReturnInInterlockIsRefusedAndOneOnItsWaySaysThat
   EXPECT_EQ(text(), "reference return X stopped: the interlock of the machine is on");
   EXPECT_GT(x(), 0);
   in("in1", 0);
+  const double there = x();
+  steps(500);
+  EXPECT_EQ(x(), there) << "it is given up";
+  press();
   ASSERT_GT(until([&] { return x() == 0; }, 20000), 0);
 }
 
@@ -429,7 +441,7 @@ TEST_F(LadderSignals, AJogThatDoesNotBeginOrEndsByItselfSaysWhy) {
   hold(0, 5);
   manual();
   hold(1, 50);
-  EXPECT_EQ(text(), "jog X refused: the jog feed is 0");
+  EXPECT_EQ(text(), "jog X waits: the jog feed is 0");
   EXPECT_EQ(nc::rt::refusal_cause(refusal()), nc::rt::RefusalCause::kNoFeed);
   in("word_in", 6000);
   steps(50);
@@ -457,6 +469,7 @@ TEST_F(LadderSignals, AJogThatDoesNotBeginOrEndsByItselfSaysWhy) {
   steps(2);
   ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
   ASSERT_GE(until([&] { return !runtime->snapshot().resetting; }, 500), 0);
+  steps(nc::rt::kJogDeadManScans);  // the client has let go
   ASSERT_EQ(runtime->execute(jog), Answer::kDone);
   steps(nc::rt::kJogDeadManScans + 100);
   EXPECT_EQ(text(), "jog X stopped: it was not asked for again in time");

@@ -114,4 +114,25 @@ TEST(SpindleFeedbackConfig, Mistakes) {
   EXPECT_EQ(error_of("[[spindle]]\nfeedback = \"word_in\"\n"), "");
 }
 
+// A register of 16 bits without a sign makes 64536 of -1000.
+TEST_F(SpindleFeedback, APointWithoutASignIsAWarningOnItsLine) {
+  const auto warnings = [](const std::string& map) {
+    const nc::rt::Config read = nc::test::parse_or_fail(nc::test::base_toml() + kLink +
+                                                        "[[point]]\nname = \"speed\"\ntype = \"word\"\ndirection = \"input\"\nmodbus = { link = \"vfd\", table = "
+                                                        "\"input\", address = 2" + map + " }\n[[spindle]]\nfeedback = \"speed\"\n");
+    return nc::rt::spindle_warnings(read);
+  };
+  const std::vector<std::string> found = warnings("");
+  ASSERT_EQ(found.size(), 1u);
+  const std::string before = nc::test::base_toml() + kLink;
+  const auto line = std::count(before.begin(), before.end(), '\n') + 7;  // [[point]] has five, [[spindle]] comes, then its feedback
+  EXPECT_NE(found[0].find(":" + std::to_string(line) + ": spindle[1].feedback: point \"speed\" has no sign"), std::string::npos) << found[0];
+  EXPECT_EQ(warnings(", scale = 0.1").size(), 1u);
+  EXPECT_EQ(warnings(", words = \"ABCD\", scale = 0.1").size(), 1u) << "saturated before it could come back to its sign";
+  EXPECT_TRUE(warnings(", signed = true").empty());
+  EXPECT_TRUE(warnings(", float = true").empty());
+  EXPECT_TRUE(warnings(", offset = -32768.0").empty()) << "the device adds half of the range";
+  EXPECT_TRUE(warnings(", words = \"ABCD\"").empty()) << "32 bits are a number with its sign";
+}
+
 }  // namespace

@@ -54,7 +54,7 @@ class Service {
     std::string said;  // what holds for all part systems is one line
     for (unsigned s = 0; s < now.system_count; ++s) {
       const nc::rt::Refusal& refusal = now.system[s].refusal;
-      const std::string why = "cycle start by the ladder refused: " + runtime_.explain(refusal.why);
+      const std::string why = "cycle start " + nc::rt::asker_text(runtime_.config(), refusal.by) + " refused: " + runtime_.explain(refusal.why);
       if (refusal.count != refusals_[s] && refusal.asked == nc::rt::Asked::kCycleStart && why != said) say(said = why);
       refusals_[s] = refusal.count;
     }

@@ -186,12 +186,19 @@ NC_API nc_status nc_commit_watch_set(nc_control* control, unsigned system, nc_co
 
 /* ---- online: scan ------------------------------------------------------------------------------------------------- */
 
-/** Manual motion of one axis. */
+/**
+ * Manual motion of one axis. What is commanded while it cannot act (nc_outputs::manual_allowed is off, feed hold, interlock, the axis is a spindle
+ * now) is refused, and what moves then comes to rest and is given up. It does not begin by itself behind that: a kind that is commanded
+ * through it acts again when another, or none (a jog at velocity 0), has been commanded in between.
+ */
 typedef enum nc_manual_kind {
   NC_MANUAL_NONE = 0,
   NC_MANUAL_JOG = 1,      /**< `velocity` as long as it is commanded */
   NC_MANUAL_STEP = 2,     /**< `distance` once per rising edge */
-  NC_MANUAL_HANDLE = 3,   /**< `distance` is added in this cycle */
+  NC_MANUAL_HANDLE = 3,   /**< `distance` is added in this cycle: the axis ends where all of them together say. Of a handle that is turned faster
+                               than the axis can go, what lies more than 0.5 s at its top speed and its braking distance ahead of the axis is
+                               dropped, so that it is at rest half a second and its ramps behind the wheel; so is what lies beyond a soft
+                               limit, what is given in a refusal and what a stop or a jog gives up: nc_outputs::handle_dropped */
   NC_MANUAL_REFERENCE = 4 /**< go to the first reference position */
 } nc_manual_kind;
 
@@ -369,6 +376,8 @@ typedef struct nc_outputs {
   nc_axes joint;            /**< commanded joints, in their units; 0 without nc_config::kinematics */
   nc_axes joint_velocity;   /**< their change in this cycle, unit/s */
   uint8_t joint_faults;     /**< nc_joint_fault_bits of this cycle */
+  uint64_t handle_dropped;  /**< bit n: in this cycle a part of the way that the handle of axis n asked for was dropped (NC_MANUAL_HANDLE): the axis
+                                 does not end where its wheel says */
 } nc_outputs;
 /**
  * Clear it and set its size. Any thread.

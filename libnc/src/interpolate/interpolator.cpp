@@ -406,7 +406,7 @@ bool Interpolator::between_blocks() const {
 /// Jog, step, handle and reference return, while no program moves. The path may come to its end within a cycle: what is left of that cycle is
 /// rest, because an axis that braked in it and set off by hand as well would use its acceleration twice.
 void Interpolator::manual(const nc_inputs& in, bool rested) {
-  manual_allowed_ = rested && stands() && !alarmed_ && !reset_ && !frozen_ && !rereading_ &&
+  manual_allowed_ = rested && stands() && !alarmed_ && !reset_ && !in.reset && !frozen_ && !rereading_ &&
                     (state_ == NC_STATE_IDLE || (state_ == NC_STATE_STOPPED && between_blocks()));
   if (!manual_allowed_ && !manual_.active()) {
     manual_.idle(in.manual);
@@ -530,6 +530,7 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   out.servo_ready = servo_ready_;
   out.referenced = referenced_;
   out.manual_allowed = manual_allowed_;
+  out.handle_dropped = manual_.handle_dropped();
   out.moved_by_hand = by_hand_;
   out.manual_absolute = !in.manual_absolute_off;
   out.message = message_;

@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kFar = 1e7;        ///< mm or deg: a jog without soft limits
 constexpr double kUnlimited = 1e9;  ///< stands for a limit that is not configured
-constexpr double kHandleLag_s =
-    0.1;  ///< a handle turned faster than the axis can go runs at most this far ahead of it
+/// A handle that is turned faster than its axis can go runs at most so far ahead of it, at the top speed of the axis: what it has asked for is
+/// kept, and the axis is at rest soon after the wheel. As in nc/run.h.
+constexpr double kHandleAhead_s = 0.5;
 
 }  // namespace
 
@@ -48,6 +49,7 @@ void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double pos
   a.kind = w.kind;
   switch (w.kind) {
     case NC_MANUAL_JOG:
+      give_up_handle(i);
       a.going = w.velocity != 0;
       a.cap = std::min(std::fabs(w.velocity), top_speed(i));
       a.target = within(i, turning, position + std::copysign(kFar, w.velocity), position);
@@ -56,22 +58,25 @@ void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double pos
       if (!edge || w.distance == 0) break;
       // A step goes from where the axis would come to rest: from its target when it still has one.
       a.target = within(i, turning, (a.going && !was ? a.target : position) + w.distance, position);
+      a.by_handle = a.by_handle && a.going && !was;
       a.cap = top_speed(i);
       if (w.velocity != 0) a.cap = std::min(a.cap, std::fabs(w.velocity));
       a.going = true;
       break;
     case NC_MANUAL_HANDLE: {
       if (w.distance == 0) break;
-      const double top = top_speed(i), ahead = top * kHandleLag_s + 0.5 * top * top / acceleration(i);
-      double target = (a.going && !was ? a.target : position) + w.distance;
-      target = std::min(position + ahead, std::max(position - ahead, target));
-      a.target = within(i, turning, target, position);
+      const double top = top_speed(i), ahead = top * kHandleAhead_s + 0.5 * top * top / acceleration(i);
+      const double wanted = (a.going && !was ? a.target : position) + w.distance;
+      a.target = within(i, turning, std::min(position + ahead, std::max(position - ahead, wanted)), position);
+      if (a.target != wanted) handle_dropped_ |= 1u << i;
+      a.by_handle = true;
       a.cap = top;
       a.going = true;
       break;
     }
     case NC_MANUAL_REFERENCE:
       if (!edge && a.going) break;
+      give_up_handle(i);
       a.target = config_.reference[i];
       // Within its limits an axis has one way only, whatever is shorter.
       if (turning) a.target = position + turn_to(a.target, within_one_turn(position), ((rules.short_cut & ~config_.soft_limited) >> i & 1) != 0);
@@ -116,24 +121,44 @@ double Manual::move(unsigned i, bool held, double position) {
   return position;
 }
 
+/// What is left of the way to a handle's target is not gone.
+void Manual::give_up_handle(unsigned i) {
+  Axis& a = axis_[i];
+  if (a.going && a.by_handle) handle_dropped_ |= 1u << i;
+  a.by_handle = false;
+}
+
+/// The axis brakes to rest, what it had before it is given up, and what is commanded now does not begin later.
+void Manual::refuse(unsigned i, const nc_manual& w) {
+  Axis& a = axis_[i];
+  const bool pulses = w.kind == NC_MANUAL_HANDLE;
+  if (pulses && w.distance != 0) handle_dropped_ |= 1u << i;
+  give_up_handle(i);
+  a.going = false;
+  a.kind = NC_MANUAL_NONE;
+  if (!pulses) a.refused = w.kind == NC_MANUAL_JOG && w.velocity == 0 ? uint8_t{NC_MANUAL_NONE} : w.kind;
+}
+
+/// True when nothing waits to be let go before this command may act. Each pulse of a handle is a command of its own, and lets go of no button.
+bool Manual::let_go(unsigned i, const nc_manual& w) {
+  uint8_t& refused = axis_[i].refused;
+  if (w.kind == NC_MANUAL_HANDLE) return true;
+  if (w.kind != refused || (w.kind == NC_MANUAL_JOG && w.velocity == 0)) refused = NC_MANUAL_NONE;
+  return refused == NC_MANUAL_NONE;
+}
+
 void Manual::idle(const nc_manual* wishes) {
-  moved_ = 0;
-  for (unsigned i = 0; i < config_.axis_count; ++i) axis_[i].kind = wishes[i].kind;
+  moved_ = handle_dropped_ = 0;
+  for (unsigned i = 0; i < config_.axis_count; ++i) refuse(i, wishes[i]);
 }
 
 void Manual::cycle(const nc_manual* wishes, const Rules& rules, AxisVec* position) {
-  active_ = moved_ = 0;
+  active_ = moved_ = handle_dropped_ = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
-    if ((rules.dropped >> i & 1) != 0) {
-      axis_[i] = {.kind = wishes[i].kind};
-      continue;
-    }
-    if (rules.stop) {
-      axis_[i].going = false;
-      axis_[i].kind = wishes[i].kind;
-    } else {
-      wish(i, wishes[i], rules, (*position)[i]);
-    }
+    const bool dropped = (rules.dropped >> i & 1) != 0;
+    if (dropped || rules.stop) refuse(i, wishes[i]);
+    else if (let_go(i, wishes[i])) wish(i, wishes[i], rules, (*position)[i]);
+    if (dropped) axis_[i].velocity = 0;
     if (axis_[i].velocity == 0 && !axis_[i].going) continue;
     const double before = (*position)[i];
     (*position)[i] = move(i, (rules.held >> i & 1) != 0, before);

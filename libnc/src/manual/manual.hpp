@@ -30,23 +30,29 @@ class Manual {
   };
   /// One cycle: `position` is moved. Call it only while no program moves.
   void cycle(const nc_manual* wish, const Rules& rules, AxisVec* position) NC_RT;
-  /// A cycle in which no manual motion is possible: only remembers what is commanded, so that an edge stays
-  /// an edge.
+  /// A cycle in which no manual motion is possible: what is commanded is refused, and does not begin by itself when it is possible again.
   void idle(const nc_manual* wish) NC_RT;
   /// Some axis moves or has a target before it.
   bool active() const NC_RT { return active_ != 0; }
   /// That, or some axis has come to rest in the cycle just done: a detent of a handle begins and ends in one.
   bool moving() const NC_RT { return (active_ | moved_) != 0; }
   uint32_t active_axes() const NC_RT { return active_; }
+  /// Bit per axis: of the way that its handle asked for a part was given up in the cycle just done.
+  uint32_t handle_dropped() const NC_RT { return handle_dropped_; }
 
  private:
   struct Axis {
     double velocity = 0;            ///< signed, mm/s or deg/s
     double target = 0;              ///< where it goes
     double cap = 0;                 ///< speed of this motion
-    uint8_t kind = NC_MANUAL_NONE;  ///< kind commanded in the last cycle
-    bool going = false;             ///< has a target; otherwise it is braking
+    uint8_t kind = NC_MANUAL_NONE;     ///< kind commanded in the last cycle in which it acted
+    uint8_t refused = NC_MANUAL_NONE;  ///< kind that could not act, or was stopped, and is commanded still: it waits to be let go
+    bool going = false;                ///< has a target; otherwise it is braking
+    bool by_handle = false;            ///< the target is a handle's
   };
+  void give_up_handle(unsigned axis) NC_RT;
+  void refuse(unsigned axis, const nc_manual& wish) NC_RT;
+  bool let_go(unsigned axis, const nc_manual& wish) NC_RT;
   void wish(unsigned axis, const nc_manual& wish, const Rules& rules, double position) NC_RT;
   double move(unsigned axis, bool held, double position) NC_RT;
   double top_speed(unsigned axis) const NC_RT;
@@ -57,6 +63,7 @@ class Manual {
   Axis axis_[kMaxAxes];
   uint32_t active_ = 0;
   uint32_t moved_ = 0;  ///< bit per axis: its position was changed in the cycle just done
+  uint32_t handle_dropped_ = 0;
 };
 
 }  // namespace nc

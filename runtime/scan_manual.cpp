@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// Manual motion in the scan: who asks for it (buttons and handles of the machine, commands), what keeps it from acting, and what is noted of that.
+//
+// Motion by hand begins with a press and with nothing else. A button, or a jog that a client repeats, that was on while something refused or
+// stopped it does nothing any more until it is let go: whoever releases a feed hold must not set off an axis whose button he does not see.
+// A jog feed of 0 refuses nothing: the axis goes when it is turned up.
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/scan.hpp"
+
+namespace nc::rt {
+namespace {
+
+constexpr double kAtLimit = 1e-6;           // mm or deg
+constexpr double kHandleIncrement = 0.001;  // mm or deg
+constexpr double kLongestStep = 1e6;        // mm or deg
+
+int sign(double value) {
+  return (value > 0) - (value < 0);
+}
+
+// Reasons that end. At a soft limit the axis cannot go, and at no speed it does not yet: the button itself is obeyed.
+bool asks_for_a_new_press(Answer why) {
+  return why != Answer::kDone && why != Answer::kSoftLimit && why != Answer::kNoJogFeed;
+}
+
+}  // namespace
+
+// ---- what keeps an axis from moving by hand ----
+
+// Where a soft limit ends every motion in this direction.
+bool Scan::at_soft_limit(unsigned system, unsigned axis, int direction) const noexcept {
+  const nc_axis_config& limits = config_.nc.system[system].axis[axis];
+  if (!limits.soft_limited || direction == 0) return false;
+  double now = out_[system].command.v[axis];
+  if ((out_[system].turning >> axis & 1u) != 0) now -= 360 * std::floor((now - limits.soft_min) / 360);
+  return direction > 0 ? now >= limits.soft_max - kAtLimit : now <= limits.soft_min + kAtLimit;
+}
+
+Answer Scan::hand_hindrance(unsigned system, unsigned axis) const noexcept {
+  if (ending_) return Answer::kEnding;
+  if (alarms_.stops()) return Answer::kAlarmActive;
+  if (reset_phase_ != ResetPhase::kNone) return in_reset();
+  if (mode_ != Mode::kManual) return Answer::kNotInThisMode;
+  if (is_spindle_now(system, axis)) return Answer::kSpindleNow;
+  if (!out_[system].manual_allowed) return Answer::kMiddleOfBlock;
+  if (in_[system].interlock) return Answer::kInterlock;
+  return machine_holds_[system] ? Answer::kFeedHold : Answer::kDone;
+}
+
+Answer Scan::jog_hindrance(unsigned system, unsigned axis, int direction) const noexcept {
+  if (const Answer why = hand_hindrance(system, axis); why != Answer::kDone) return why;
+  const bool by_button = ((last_requests_.system[system].jog_p | last_requests_.system[system].jog_m) >> axis & 1u) != 0;
+  if (by_button ? (button_refused_[system] >> axis & 1u) != 0 : jog_[system][axis].refused) return Answer::kLetGoFirst;
+  if (at_soft_limit(system, axis, direction)) return Answer::kSoftLimit;
+  return (jog_without_feed_[system] >> axis & 1u) != 0 ? Answer::kNoJogFeed : Answer::kDone;
+}
+
+// ---- commands ----
+
+Answer Scan::manual(const Command& command) noexcept {
+  if (command.system >= systems_ || command.axis >= config_.nc.system[command.system].axis_count) return Answer::kAxisUnknown;
+  return command.kind == CommandKind::kJog ? jog(command) : step_or_return(command);
+}
+
+// A client's jog is a button that is on until 0 comes, or nothing for kJogDeadManScans.
+Answer Scan::jog(const Command& command) noexcept {
+  Jog& jog = jog_[command.system][command.axis];
+  if (command.value == 0) {  // also where nothing may move
+    jog = {};
+    return Answer::kDone;
+  }
+  const Answer why = hand_hindrance(command.system, command.axis);
+  const double most = config_.nc.system[command.system].axis[command.axis].max_velocity;
+  if (why == Answer::kDone && !(std::abs(command.value) <= most)) return Answer::kOutOfRange;
+  const bool waits = jog.kind == NC_MANUAL_JOG && jog.refused;
+  jog = {NC_MANUAL_JOG, command.value, kJogDeadManScans, waits || why != Answer::kDone};
+  if (why != Answer::kDone) return why;
+  if (waits) return Answer::kLetGoFirst;
+  return at_soft_limit(command.system, command.axis, sign(command.value)) ? Answer::kSoftLimit : Answer::kDone;
+}
+
+Answer Scan::step_or_return(const Command& command) noexcept {
+  const unsigned s = command.system, a = command.axis;
+  if (const Answer why = hand_hindrance(s, a); why != Answer::kDone) return why;
+  if (!at_rest()) return Answer::kAxesMove;
+  if (command.kind == CommandKind::kStep) {
+    if (!(std::abs(command.value) <= kLongestStep)) return Answer::kOutOfRange;
+    if (at_soft_limit(s, a, sign(command.value))) return Answer::kSoftLimit;
+    jog_[s][a] = {NC_MANUAL_STEP, command.value, 2, false};  // the distance is taken at the rising edge
+    on_its_way_[s][a] = Asked::kStep;
+  } else {
+    jog_[s][a] = {NC_MANUAL_REFERENCE, 0, ~0u, false};  // until the axis is there, or something stops it
+    on_its_way_[s][a] = Asked::kReference;
+  }
+  return Answer::kDone;
+}
+
+void Scan::give_commands_by_hand(unsigned s) noexcept {
+  for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
+    Jog& jog = jog_[s][a];
+    nc_manual& manual = in_[s].manual[a];
+    const bool acts = !ending_ && mode_ == Mode::kManual && reset_phase_ == ResetPhase::kNone && !alarms_.stops() && !is_spindle_now(s, a);
+    if (!acts && jog.kind != NC_MANUAL_JOG) jog = {};
+    if (!acts && jog.kind == NC_MANUAL_JOG) jog.refused = true;
+    jog_asked_[s][a] = static_cast<std::int8_t>(jog.kind == NC_MANUAL_JOG ? sign(jog.value) : 0);
+    manual = {};
+    if (!jog.refused) {
+      manual.kind = jog.kind;
+      manual.velocity = jog.kind == NC_MANUAL_JOG ? jog.value : 0;
+      manual.distance = jog.kind == NC_MANUAL_STEP ? jog.value : 0;
+    }
+    if (jog.remaining == ~0u) {
+      if ((out_[s].at_reference >> a & 1u) != 0) jog = {};
+    } else if (jog.remaining > 0 && --jog.remaining == 0) {
+      if (jog.kind == NC_MANUAL_JOG && !jog.refused) refuse(s, Asked::kJog, Answer::kNotRepeated, static_cast<int>(a), true);
+      jog_asked_[s][a] = 0;
+      jog = {};
+    }
+  }
+}
+
+// ---- buttons and handles of the machine, in manual mode; they go before the operator's jogs ----
+
+// Both directions at once are none.
+void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
+  const bool acts = !ending_ && mode_ == Mode::kManual && reset_phase_ == ResetPhase::kNone && !alarms_.stops();
+  for (unsigned s = 0; s < systems_; ++s) {
+    const LadderRequests::System &now = requests.system[s], &before = last_requests_.system[s];
+    jog_without_feed_[s] = 0;
+    pulses_lost_[s] = 0;
+    button_refused_[s] &= now.jog_p | now.jog_m;
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
+      const nc_axis_config& axis = config_.nc.system[s].axis[a];
+      const int direction = static_cast<int>(now.jog_p >> a & 1u) - static_cast<int>(now.jog_m >> a & 1u);
+      const bool reference = ((now.reference & ~before.reference) >> a & 1u) != 0;
+      const bool jogs = acts && direction != 0 && (button_refused_[s] >> a & 1u) == 0;
+      const double asked = now.rapid ? axis.rapid : std::max(0, now.jog_feed) / 60.0;
+      if (direction != 0) {
+        jog_asked_[s][a] = static_cast<std::int8_t>(direction);
+        jog_without_feed_[s] = static_cast<std::uint8_t>(jog_without_feed_[s] | (asked > 0 ? 0u : 1u << a));
+      }
+      if (now.handle[a] != 0 && (!acts || jogs)) pulses_lost_[s] |= 1u << a;
+      if (jogs) {
+        in_[s].manual[a] = {NC_MANUAL_JOG, direction * std::min(asked, axis.max_velocity), 0};
+      } else if (acts && now.handle[a] != 0) {
+        in_[s].manual[a] = {NC_MANUAL_HANDLE, 0, now.handle[a] * kHandleIncrement};
+      }
+      if (reference) {
+        const Command command{CommandKind::kReference, static_cast<std::uint8_t>(s), static_cast<std::uint8_t>(a), 0, 0, 0, machine_asker()};
+        const Answer answer = jogs || (acts && now.handle[a] != 0) ? Answer::kAxesMove : manual(command);
+        if (answer != Answer::kDone) refuse(s, Asked::kReference, answer, static_cast<int>(a));
+        else happened(s, Asked::kReference);
+      }
+    }
+  }
+}
+
+// ---- what is noted, behind the NC ----
+
+void Scan::watch_manual() noexcept {
+  for (unsigned s = 0; s < systems_; ++s) {
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
+      watch_jog(s, a);
+      watch_way(s, a);
+      watch_handle(s, a);
+    }
+  }
+}
+
+// Once for each reason while a direction is asked for, be it by a button or by a client; what has moved before was stopped.
+void Scan::watch_jog(unsigned s, unsigned a) noexcept {
+  JogWatch& watch = jog_watch_[s][a];
+  const int direction = jog_asked_[s][a];
+  const Answer why = jog_hindrance(s, a, direction);
+  if (asks_for_a_new_press(why)) {
+    button_refused_[s] |= (last_requests_.system[s].jog_p | last_requests_.system[s].jog_m) & 1u << a;
+    if (jog_[s][a].kind == NC_MANUAL_JOG) jog_[s][a].refused = true;
+  }
+  if (direction == 0) {
+    watch = {};
+    return;
+  }
+  const bool moves = out_[s].velocity.v[a] * direction > 0;
+  watch.went |= moves && why == Answer::kDone;  // a program may move it, too
+  if (why == Answer::kDone) {
+    if (moves) happened(s, Asked::kJog);
+  } else if (why != watch.why) {
+    refuse(s, Asked::kJog, why, static_cast<int>(a), watch.went);
+  }
+  watch.why = why;
+}
+
+// A step or a reference return that is stopped is given up: it does not go on by itself.
+void Scan::watch_way(unsigned s, unsigned a) noexcept {
+  Asked& way = on_its_way_[s][a];
+  if (way == Asked::kNothing) return;
+  const nc_outputs& out = out_[s];
+  const Answer why = hand_hindrance(s, a);
+  if (why != Answer::kDone) {
+    refuse(s, way, why, static_cast<int>(a), true);
+    way = Asked::kNothing;
+    if (jog_[s][a].kind != NC_MANUAL_JOG) jog_[s][a] = {};
+    return;
+  }
+  const bool waits = out.state == NC_STATE_MANUAL && out.cause == NC_CAUSE_FIN;  // for the clamp of an index table
+  if (jog_[s][a].kind != NC_MANUAL_NONE || out.velocity.v[a] != 0 || waits) return;
+  happened(s, way);
+  way = Asked::kNothing;
+}
+
+// Of pulses that do not become motion each reason once, until pulses act again.
+void Scan::watch_handle(unsigned s, unsigned a) noexcept {
+  Answer& noted = handle_noted_[s][a];
+  const nc_manual& given = in_[s].manual[a];
+  const bool ignored = (pulses_lost_[s] >> a & 1u) != 0;
+  if (!ignored && (out_[s].handle_dropped >> a & 1u) == 0) {
+    if (given.kind != NC_MANUAL_HANDLE) return;
+    noted = Answer::kDone;
+    happened(s, Asked::kHandle);
+    return;
+  }
+  Answer why = hand_hindrance(s, a);
+  const bool jogs = ignored || given.kind == NC_MANUAL_JOG;
+  if (why == Answer::kDone) why = jogs ? Answer::kAxesMove : at_soft_limit(s, a, sign(given.distance)) ? Answer::kSoftLimit : Answer::kHandleTooFar;
+  if (why != noted) refuse(s, Asked::kHandle, why, static_cast<int>(a), given.kind != NC_MANUAL_HANDLE && !ignored);
+  noted = why;
+}
+
+}  // namespace nc::rt
