@@ -56,6 +56,7 @@ TEST(Corners, Alarms) {
   EXPECT_EQ(alarm_of("G1 X30. ,C31. F100\nY40.\nM30"), "P383 L1");
   EXPECT_EQ(alarm_of("G1 X30. F100\nX30. ,C1.\nY40.\nM30"), "P383 L2");
   EXPECT_EQ(alarm_of("G1 X30. F100\n,C1.\nY40.\nM30"), "P383 L2");
+  EXPECT_EQ(alarm_of("G1 X30. ,R1. F100\nX5.\nM30"), "P383 L1");  // straight back: no arc fits
   EXPECT_EQ(alarm_of("G1 X30. ,R6. F100\nY5.5\nM30"), "P384 L2");
   EXPECT_EQ(alarm_of("G0 X30. ,R6.\nG1 Y5.5 F100\nM30"), "P385 L1");
   EXPECT_EQ(alarm_of("G33 Z30. F1. ,R6.\nG1 Y5.5 F100\nM30"), "P385 L1");

@@ -166,7 +166,7 @@ TEST(Contour, ARoundingTakesWhatTheTurnAsksFor) {
   EXPECT_EQ(passed({line(kA, kK, Corner::rounding, 3), mark(1), line(kK, back)}).substr(0, 8), "2.75736,");
   EXPECT_EQ(passed({line(point(5, 0), kK, Corner::rounding, 3), mark(1), line(kK, back)}), alarm(Condition::corner_short));
   EXPECT_EQ(passed({line(kA, kK, Corner::rounding, 3), mark(1), line(kK, point(6, 4))}), alarm(Condition::corner_next_short));
-  EXPECT_EQ(passed({line(kA, kK, Corner::rounding, 3), mark(1), line(kK, kA)}), alarm(Condition::corner_short));  // a way back
+  EXPECT_EQ(passed({line(kA, kK, Corner::rounding, 3), mark(1), line(kK, kA)}), alarm(Condition::corner_reversal));  // a way back
   EXPECT_EQ(passed({line(kA, kK, Corner::rounding, 3), mark(1), line(kK, point(20, 0))}), "10,0 |1 20,0");        // straight on
 }
 

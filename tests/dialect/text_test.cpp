@@ -104,6 +104,10 @@ TEST(AlarmDetail, WritesCodesAsCodes) {
             "G02.3 is not available on this control.");
   EXPECT_EQ(detail({Condition::no_function, -1, 'M', true, 96}),
             "M96 is not available on this control.");
+  EXPECT_EQ(detail({Condition::program_end}), "The text of the program ends without M02 or M30.");
+  EXPECT_EQ(detail({Condition::spindle_not_turning}), "The cycle needs a turning spindle. Program S and M03 before it.");
+  EXPECT_EQ(detail({Condition::g10_l, -1, 'L', true, 9}), "G10 does not know L9.");
+  EXPECT_EQ(detail({Condition::center_missing}), "The centre is missing: the block needs I, J or K, one of the two of its plane.");
   EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 54.2}), "G54.2 is not a G code of this control.");
   EXPECT_EQ(detail({Condition::words_missing, -1, 'G', true, 4}), "G04 needs a word that is not there.");
   // A number that is no code is shown as it was programmed, not rounded to one that is.
@@ -305,6 +309,22 @@ TEST(PublicTables, VersionIsThreeNumbers) {
   const std::string version = nc_version();
   EXPECT_EQ(version.find_first_not_of("0123456789."), std::string::npos);
   EXPECT_EQ(std::count(version.begin(), version.end(), '.'), 2);
+}
+
+// What a sentence names, be it a code or a word, is the family's.
+TEST(AlarmDetail, NamesTheLettersAndCodesOfTheFamily) {
+  Dialect other = dialect(NC_DIALECT_M700);
+  other.addresses.bind(Role::feed, 'E');
+  other.addresses.bind(Role::misc_code, 'W');
+  other.addresses.bind(Role::program_number, 'Q');
+  const auto says = [&](const Fault& fault) {
+    char text[NC_MAX_TEXT];
+    alarm_detail(other, fault, nullptr, text, sizeof text);
+    return std::string(text);
+  };
+  EXPECT_EQ(says({Condition::no_feed}), "No feed rate is in force. Program E before or in this block.");
+  EXPECT_EQ(says({Condition::program_end}), "The text of the program ends without W02 or W30.");
+  EXPECT_EQ(says({Condition::program_missing, -1, 'P', true, 1000}), "The program Q1000 is not in the memory.");
 }
 
 }  // namespace

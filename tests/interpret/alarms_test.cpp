@@ -84,6 +84,14 @@ const Row kRows[] = {
     {"P140", "G45 X1. D1", 1},
     {"P150", "G38 I1.", 1},
     {"P151", "G2 X9. I1.\nG41 D1 X20. I5.", 2},
+    {"P151", "G1 X1.\nG41 D1\nG2 X9. I4.", 3},           // 12.4.1: wherever compensation is commanded, it starts with a straight movement ...
+    {"P151", "G1 X1.\nG42 D1 X1.\nG3 X9. I4.", 3},
+    {"P151", "G1 X1.\nG41 D1\nM8\nG2 X9. I4.", 4},
+    {"P151", "G41 D0 G1 X1.\nD1\nG2 X9. I4.", 3},
+    {"P151", "G41 D1 G1 X9.\nX20.\nG40\nG2 X29. I4.5", 4},  // ... and ends with one
+    {"P151", "G41 D1 G1 X9.\nX20.\nD0\nG2 X29. I4.5", 4},
+    {"P33", "G2.1 X9. P1", 1},                           // no centre
+    {"P33", "G12 D1", 1},                                // no radius
     {"P155", "G41 D1 X20.\nG81 Z-5. R1.", 2},
     {"P170", "G43 H999 Z1.", 1},
     {"P170", "G41 X1.", 1},

@@ -113,7 +113,7 @@ TEST(CircleCut, ARadiusThatIsNotLargerThanTheOffset) {  // precaution (2), appen
   EXPECT_TRUE(equal.moves().empty());
   EXPECT_NE(equal.alarm_detail.find("I10"), std::string::npos) << equal.alarm_detail;
   EXPECT_EQ(bench.run("G13 I-9. D1 F100\nM30").alarm, "P223");
-  EXPECT_EQ(bench.run("G13 D1 F100\nM30").alarm, "P223");
+  EXPECT_EQ(bench.run("G13 D1 F100\nM30").alarm, "P33");  // a word is missing
 }
 
 TEST(CircleCut, AddressesOutsideTheFormat) {  // precaution (4)

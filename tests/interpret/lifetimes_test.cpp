@@ -110,7 +110,7 @@ std::map<std::string, Fields> groups_of_state() {
   NC_FIELDS(AppliedLength, applied)
   NC_FIELDS(ModalLife, modal, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled,
             mirror, rotated, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, map, mill, spindle)
-  NC_FIELDS(ModalInProgram, comp, cycle, moves_since_comp_off, arc_points, nurbs, nurbs_order, arc_step, parameter_input, switch_mirror, figure_scaled,
+  NC_FIELDS(ModalInProgram, comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, switch_mirror, figure_scaled,
             figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way)
   NC_FIELDS(ProgramLife, end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, control_3003, control_3004)
   NC_FIELDS(UntilReset, spindle_on, spindle_clamped)

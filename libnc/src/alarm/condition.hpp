@@ -13,12 +13,12 @@ enum class Condition : uint16_t {
   illegal_address, exponent, format_error, behind_semicolon, value_range, illegal_character, block_too_long, number_zero, program_end, no_start_mark,
   illegal_axis, too_many_axes, index_increment, parity, parity_vertical,
   // G and M codes
-  illegal_g, no_function, must_stand_alone, words_missing,
+  illegal_g, no_function, must_stand_alone, words_missing, center_missing,
   // motion
   no_feed, arc_deviation, arc_center, helix_option, plane_mismatch, plane_in_compensation, plane_in_rotation, space_conversion, arc_in_compensation_start,
   no_offset_number, cycle_in_compensation, skip_in_compensation, skip_feed_zero, no_reference, soft_limit, spindle_not_turning,
   cycle_wrong_plane, not_in_compensation, code_in_incremental, tool_pair,
-  comp_no_intersection, comp_interference, corner_option, corner_arc, corner_no_move, corner_short, corner_next_short,
+  comp_no_intersection, comp_interference, corner_option, corner_arc, corner_no_move, corner_short, corner_reversal, corner_next_short,
   corner_motion, pre_read, geometric_option, second_aux, space_compensation,
   thread_lead, mill_code, mill_axis, mill_modal, mill_state, space_arc_blocks, space_arc_mode, exponential_mode, exponential_axes,
   nurbs_knot, nurbs_start, displaced, space_conversion_code, inverse_time_code, arc_feed_zero, circle_radius,

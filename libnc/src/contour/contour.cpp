@@ -78,7 +78,7 @@ void ContourStage::settle(const Item& next) {
   if (!is_line(next.move)) return fail(next.move.circular ? Condition::corner_arc : Condition::corner_no_move, next.source, amount);
   CornerCut cut;
   const Condition bad = cut_corner(line, next.move, rotary_, axis_count_, &cut);
-  if (bad != Condition::none) return fail(bad, bad == Condition::corner_short ? first.item.source : next.source, amount);
+  if (bad != Condition::none) return fail(bad, bad == Condition::corner_next_short ? next.source : first.item.source, amount);
   pending_ = false;
   line.corner = Corner::none;
   if (!cut.any) return;

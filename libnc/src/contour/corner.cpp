@@ -35,7 +35,7 @@ Condition cut_corner(const Move& first, const Move& next, uint32_t rotary, unsig
     const double u1[2] = {(first.end[h] - first.start[h]) / length, (first.end[v] - first.start[v]) / length};
     const double u2[2] = {(next.end[h] - next.start[h]) / length_next, (next.end[v] - next.start[v]) / length_next};
     const double sine = u1[0] * u2[1] - u1[1] * u2[0], cosine = u1[0] * u2[0] + u1[1] * u2[1];
-    if (1 + cosine < kWayBack) return Condition::corner_short;
+    if (1 + cosine < kWayBack) return Condition::corner_reversal;
     taken = amount * std::fabs(sine) / (1 + cosine);  // tan(turn / 2) = sin / (1 + cos)
     if (taken < kCornerSlack_mm) return Condition::none;
     // Beyond a right angle it takes more than its radius: where there is not that much, there is no such arc.

@@ -26,7 +26,7 @@ double corner_travel(const Move& line, const Move& first, uint32_t rotary, unsig
 /// Equality is no alarm (M700 13.7.1: "less than"); this is below every command unit.
 inline constexpr double kCornerSlack_mm = 1e-9;
 
-/// Condition::none, corner_short (the first line is too short for its corner; a corner before may have taken a part of it) or
+/// Condition::none, corner_short (the first line is too short for its corner; a corner before may have taken a part of it), corner_reversal (a rounding between a line and its way back) or
 /// corner_next_short.
 Condition cut_corner(const Move& first, const Move& next, uint32_t rotary, unsigned axis_count, CornerCut* cut);
 

@@ -48,6 +48,30 @@ constexpr NamedCode kNamedCodes[] = {
     {"macro_modal", Function::macro_modal}, {"data_input_end", Function::data_input_end},
 };
 
+/// The same of M codes, all that mean it, and of words: {feed} is the letter of its address.
+struct NamedMisc {
+  const char* name;
+  MiscFunction function;
+};
+constexpr NamedMisc kNamedMisc[] = {
+    {"program_end", MiscFunction::program_end}, {"call_sub", MiscFunction::call_sub},
+    {"tool_change", MiscFunction::tool_change}, {"spindle_forward", MiscFunction::spindle_forward},
+};
+struct NamedWord {
+  const char* name;
+  Role role;
+};
+constexpr NamedWord kNamedWords[] = {
+    {"feed", Role::feed}, {"spindle_speed", Role::spindle_speed}, {"tool", Role::tool},
+    {"offset_number", Role::offset_number}, {"length_number", Role::length_number},
+    {"program_number", Role::program_number}, {"sequence_number", Role::sequence_number},
+    {"vector_x", Role::vector_x}, {"vector_y", Role::vector_y}, {"vector_z", Role::vector_z},
+    {"chamfer", Role::option_chamfer}, {"rounding", Role::option_corner_radius}, {"angle", Role::option_angle},
+    {"accuracy_switch", Role::accuracy_switch}, {"speed_mode", Role::speed_mode},
+    {"input_kind", Role::input_kind}, {"input_number", Role::input_number},
+    {"parameter_number", Role::parameter_number}, {"parameter_bit", Role::parameter_bit}, {"parameter_data", Role::parameter_data},
+};
+
 constexpr Sentence kSentences[] = {
     // words and blocks
     {C::illegal_address, "The word {word} is not possible in this block.",
@@ -66,8 +90,8 @@ constexpr Sentence kSentences[] = {
     {C::block_too_long, "The block holds more words or characters than the control can take. Split it.",
      nullptr},
     {C::number_zero, "The number of {word} must be larger than 0.",
-     "An O or N number must be larger than 0."},
-    {C::program_end, "The text of the program ends without M02 or M30.", nullptr,
+     "An {program_number} or {sequence_number} number must be larger than 0."},
+    {C::program_end, "The text of the program ends without {program_end}.", nullptr,
      "The text of the sub program ends without {word}."},
     {C::no_start_mark, "The first block of a program must be '%' alone.", nullptr},
     {C::illegal_axis, "{word}: there is no such axis, or it cannot take part in this block.",
@@ -85,8 +109,9 @@ constexpr Sentence kSentences[] = {
     {C::must_stand_alone, "{word} must stand alone in its block.", "This must stand alone in its block."},
     {C::words_missing, "The block needs the word {word}.", "The block needs a word that is not there.",
      "{word} needs a word that is not there."},
+    {C::center_missing, "The centre is missing: the block needs {vector_x}, {vector_y} or {vector_z}, one of the two of its plane.", nullptr},
     // motion
-    {C::no_feed, "No feed rate is in force. Program F before or in this block.", nullptr},
+    {C::no_feed, "No feed rate is in force. Program {feed} before or in this block.", nullptr},
     {C::arc_deviation,
      "Start and end of the arc are not on one circle: the radius at the end would be {value} mm.",
      "Start and end of the arc are not on one circle about its centre."},
@@ -98,22 +123,22 @@ constexpr Sentence kSentences[] = {
     {C::plane_in_rotation,
      "The plane cannot be selected while coordinates are rotated, nor in the block of {rotation_on}. "
      "Cancel with {rotation_off} first.", nullptr},
-    {C::space_conversion, "{rotation_on} with I, J and K is the conversion in space, which this control does not have.", nullptr},
+    {C::space_conversion, "{rotation_on} with {vector_x}, {vector_y} and {vector_z} is the conversion in space, which this control does not have.", nullptr},
     {C::plane_in_compensation,
      "The plane cannot be changed while tool radius compensation is on. Cancel it with {comp_off} first.", nullptr},
     {C::arc_in_compensation_start,
      "Tool radius compensation can only start and end on a straight move ({rapid} or {linear}).", nullptr},
-    {C::no_offset_number, "There is no offset number {value}.", "No offset number was given (D or H)."},
+    {C::no_offset_number, "There is no offset number {value}.", "No offset number was given ({offset_number} or {length_number})."},
     {C::cycle_in_compensation,
      "Fixed cycles and tool radius compensation exclude each other. Cancel with {cycle_off} or {comp_off} first.", nullptr},
     {C::skip_in_compensation,
      "Skip is not possible while tool radius compensation is on. Cancel it with {comp_off} first.", nullptr},
-    {C::skip_feed_zero, "The feed rate of the skip is 0. Program F in this block or set the skip feed rate.",
+    {C::skip_feed_zero, "The feed rate of the skip is 0. Program {feed} in this block or set the skip feed rate.",
      nullptr},
     {C::no_reference, "{axis} has not been to its reference position.", nullptr},
     {C::soft_limit, "{axis} would go to {value}, beyond its stroke limit.",
      "{axis} would go beyond its stroke limit."},
-    {C::spindle_not_turning, "The cycle needs a turning spindle. Program S and M03 before it.", nullptr},
+    {C::spindle_not_turning, "The cycle needs a turning spindle. Program {spindle_speed} and {spindle_forward} before it.", nullptr},
     {C::cycle_wrong_plane, "Fixed cycles and tool-diameter offset work in the XY plane only. Program {plane_xy}.",
      nullptr},
     {C::not_in_compensation,
@@ -121,22 +146,23 @@ constexpr Sentence kSentences[] = {
      "This is not possible while tool radius compensation is on. Cancel it with {comp_off} first."},
     {C::code_in_incremental, "{word} is not possible with {incremental}. Program {absolute} first.",
      "This is not possible with {incremental}. Program {absolute} first."},
-    {C::tool_pair, "M06 and T must stand together in one block.", nullptr},
+    {C::tool_pair, "{tool_change} and {tool} must stand together in one block.", nullptr},
     {C::comp_no_intersection,
      "The compensated paths of two blocks do not meet. Use a smaller tool or a larger inner radius.",
      nullptr},
     {C::comp_interference, "The tool would cut into the contour. Use a smaller tool or change the contour.",
      nullptr},
-    {C::corner_option, "Corner chamfering and rounding (,C ,R) are not fitted for this motion.", nullptr},
-    {C::corner_arc, "A corner (,C ,R) lies between two lines; the block before or behind it is an arc.", nullptr},
-    {C::corner_no_move, "The block behind a corner (,C ,R) must be a straight cut.", nullptr},
-    {C::corner_short, "The block is shorter than its corner ,{word}.", "The block is shorter than its corner (,C ,R)."},
+    {C::corner_option, "Corner chamfering and rounding (,{chamfer} ,{rounding}) are not fitted for this motion.", nullptr},
+    {C::corner_arc, "A corner (,{chamfer} ,{rounding}) lies between two lines; the block before or behind it is an arc.", nullptr},
+    {C::corner_no_move, "The block behind a corner (,{chamfer} ,{rounding}) must be a straight cut.", nullptr},
+    {C::corner_short, "The block is shorter than its corner ,{word}.", "The block is shorter than its corner (,{chamfer} ,{rounding})."},
+    {C::corner_reversal, "No rounding fits here: the block behind it goes straight back.", nullptr},
     {C::corner_next_short, "The block is shorter than the corner ,{word} at its start.",
-     "The block is shorter than the corner (,C ,R) at its start."},
-    {C::corner_motion, "A corner (,C ,R) lies between two straight cuts. Program {linear} first.", nullptr},
-    {C::pre_read, "Too many blocks without a movement behind a corner (,C ,R).", nullptr},
-    {C::geometric_option, "Lines given by their angle (,A) are not fitted.", nullptr},
-    {C::space_compensation, "Three-dimensional radius compensation ({comp_left}/{comp_right} with I, J and K) is not fitted.",
+     "The block is shorter than the corner (,{chamfer} ,{rounding}) at its start."},
+    {C::corner_motion, "A corner (,{chamfer} ,{rounding}) lies between two straight cuts. Program {linear} first.", nullptr},
+    {C::pre_read, "Too many blocks without a movement behind a corner (,{chamfer} ,{rounding}).", nullptr},
+    {C::geometric_option, "Lines given by their angle (,{angle}) are not fitted.", nullptr},
+    {C::space_compensation, "Three-dimensional radius compensation ({comp_left}/{comp_right} with {vector_x}, {vector_y} and {vector_z}) is not fitted.",
      nullptr},
     {C::second_aux, "The word {word} is not the address of the second auxiliary function.",
      "The address of the second auxiliary function is another one."},
@@ -169,40 +195,40 @@ constexpr Sentence kSentences[] = {
      "This and inverse time feed ({inverse_time_feed}) exclude each other."},
     {C::circle_radius, "The radius of the circle, {word}, is not larger than the tool offset. Use a smaller tool or a larger radius.",
      "The circle has no radius. Program it in this block."},
-    {C::arc_feed_zero, "F0 is the rapid traverse rate, and an arc cannot be cut with it.", nullptr},
+    {C::arc_feed_zero, "{feed}0 is the rapid traverse rate, and an arc cannot be cut with it.", nullptr},
     {C::reference_compare, "{axis} is not at its reference position.", nullptr},
     {C::reference_check_m, "An M code cannot stand in a block with the reference position check {reference_check}.", nullptr},
     {C::start_return_m, "An M code cannot stand in a block with the start position return {start_return}.", nullptr},
     {C::measure_axis, "Tool length measurement ({measure_length}) needs exactly one axis.", nullptr},
     {C::measure_h, "{word} cannot stand in a block with tool length measurement ({measure_length}).",
-     "H and T cannot stand in a block with tool length measurement ({measure_length})."},
+     "{length_number} and {tool} cannot stand in a block with tool length measurement ({measure_length})."},
     {C::measure_no_length,
-     "Tool length measurement ({measure_length}) needs a tool length offset of the axis. Program {length_plus} H before it.", nullptr},
+     "Tool length measurement ({measure_length}) needs a tool length offset of the axis. Program {length_plus} {length_number} before it.", nullptr},
     {C::measure_signal,
      "The signal of the sensor did not come within the measuring range about {value}.",
      "The signal of the sensor did not come within the measuring range."},
     {C::stroke_check, "The block starts or ends in the area that {stroke_check_on} prohibits.", nullptr},
     {C::not_accepted, "{word} is not accepted in the mode that is on.", "This is not accepted in the mode that is on."},
-    {C::in_high_accuracy, "{word} is not possible between {high_accuracy} P1 and {high_accuracy} P0. Command {high_accuracy} P0 first.",
-     "This is not possible between {high_accuracy} P1 and {high_accuracy} P0. Command {high_accuracy} P0 first."},
+    {C::in_high_accuracy, "{word} is not possible between {high_accuracy} {accuracy_switch}1 and {high_accuracy} {accuracy_switch}0. Command {high_accuracy} {accuracy_switch}0 first.",
+     "This is not possible between {high_accuracy} {accuracy_switch}1 and {high_accuracy} {accuracy_switch}0. Command {high_accuracy} {accuracy_switch}0 first."},
     {C::high_speed_3,
-     "High-speed machining mode III ({high_speed} P3) is not fitted. P0 ends the modes, P1 and P2 are I and II.", nullptr},
+     "High-speed machining mode III ({high_speed} {speed_mode}3) is not fitted. {speed_mode}0 ends the modes, {speed_mode}1 and {speed_mode}2 are I and II.", nullptr},
     // offsets
-    {C::g10_l, "{data_input} does not know L{value}.", "{data_input} does not know this L."},
-    {C::g10_p, "{data_input}: there is no data set P{value}.",
-     "{data_input}: the number P of the data set is missing or wrong."},
+    {C::g10_l, "{data_input} does not know {input_kind}{value}.", "{data_input} does not know this {input_kind}."},
+    {C::g10_p, "{data_input}: there is no data set {input_number}{value}.",
+     "{data_input}: the number {input_number} of the data set is missing or wrong."},
     {C::local_in_extended,
      "{local_system} is not possible while an extended workpiece coordinate system ({extended_system}) is selected.", nullptr},
     // programs and macros
-    {C::program_missing, "The program O{value} is not in the memory.",
+    {C::program_missing, "The program {program_number}{value} is not in the memory.",
      "The program called is not in the memory."},
-    {C::sequence_missing, "There is no block N{value} in this program.",
+    {C::sequence_missing, "There is no block {sequence_number}{value} in this program.",
      "The block number to go to is not in this program."},
     {C::nesting, "Sub programs call each other more deeply than the control can follow.", nullptr},
     {C::macro_nesting, "Macros call each other more deeply than the control can follow.", nullptr},
     {C::no_macro, "User macros are not fitted.", nullptr},
     {C::macro_and_words, "A macro statement and ordinary words cannot stand in one block.", nullptr},
-    {C::macro_argument, "The macro call has more sets of I J K arguments than a macro can take.", nullptr},
+    {C::macro_argument, "The macro call has more sets of {vector_x} {vector_y} {vector_z} arguments than a macro can take.", nullptr},
     {C::cancel_without_call, "{macro_modal_off} has no {macro_modal} to cancel.", nullptr},
     {C::user_alarm, "The program has raised alarm {value} itself ({alarm_variable}).",
      "The program has raised an alarm itself ({alarm_variable})."},
@@ -230,18 +256,18 @@ constexpr Sentence kSentences[] = {
     {C::call_in_cycle, "A macro cannot be called by {word} during a fixed cycle.",
      "A macro cannot be called by a code during a fixed cycle."},
     {C::parameter_input,
-     "Parameter input ({data_input} L70 ... {data_input_end}): {word} is not possible, or there is no such parameter or value.",
-     "Parameter input: {data_input} L70 and {data_input_end} stand alone, between them only blocks with P and H, D or <text>."},
+     "Parameter input ({data_input} {input_kind}70 ... {data_input_end}): {word} is not possible, or there is no such parameter or value.",
+     "Parameter input: {data_input} {input_kind}70 and {data_input_end} stand alone, between them only blocks with {parameter_number} and {parameter_bit}, {parameter_data} or <text>."},
     {C::program_edited, "The program that begins here is being edited: start it again when that is done.", nullptr},
-    {C::rotation_in_figure, "{word} cannot be used while a program is called with rotation (M98 I J K).",
-     "Rotation cannot be used while a program is called with rotation (M98 I J K)."},
-    {C::offset_in_figure, "{word} cannot be used while a program is called with rotation (M98 I J K).",
-     "A position offset cannot be used while a program is called with rotation (M98 I J K)."},
-    {C::machine_in_figure, "{word} goes to machine coordinates: axes of the plane cannot do that while a program is rotated (M98 I J K).",
-     "Axes of the plane cannot go to machine coordinates while a program is rotated (M98 I J K)."},
+    {C::rotation_in_figure, "{word} cannot be used while a program is called with rotation ({call_sub} {vector_x} {vector_y} {vector_z}).",
+     "Rotation cannot be used while a program is called with rotation ({call_sub} {vector_x} {vector_y} {vector_z})."},
+    {C::offset_in_figure, "{word} cannot be used while a program is called with rotation ({call_sub} {vector_x} {vector_y} {vector_z}).",
+     "A position offset cannot be used while a program is called with rotation ({call_sub} {vector_x} {vector_y} {vector_z})."},
+    {C::machine_in_figure, "{word} goes to machine coordinates: axes of the plane cannot do that while a program is rotated ({call_sub} {vector_x} {vector_y} {vector_z}).",
+     "Axes of the plane cannot go to machine coordinates while a program is rotated ({call_sub} {vector_x} {vector_y} {vector_z})."},
     {C::surface_axis, "There is no axis {value} for constant surface speed.",
      "There is no such axis for constant surface speed."},
-    {C::surface_speed, "Constant surface speed needs a speed: S with a value greater than 0.", nullptr},
+    {C::surface_speed, "Constant surface speed needs a speed: {spindle_speed} with a value greater than 0.", nullptr},
     {C::no_such_data, "There is no parameter, part system, axis or device {value} to read.",
      "The data that is to be read does not exist."},
     {C::read_failed, "The program could not be read any further.", nullptr},
@@ -258,8 +284,9 @@ constexpr bool is_key(const char* at, const char* name) {
   return *at == '}';
 }
 
-constexpr const NamedCode* named_code(const char* at) {
-  for (const NamedCode& row : kNamedCodes)
+template <class Row, unsigned kRows>
+constexpr const Row* named(const Row (&rows)[kRows], const char* at) {
+  for (const Row& row : rows)
     if (is_key(at, row.name)) return &row;
   return nullptr;
 }
@@ -282,8 +309,9 @@ static_assert(every_row_has_a_sentence_for_a_bare_fault());
 
 constexpr bool all_keys_known(const char* sentence) {
   for (; sentence != nullptr && *sentence != 0; ++sentence) {
-    if (*sentence != '{' || named_code(sentence) != nullptr) continue;
-    bool known = is_key(sentence, kAlarmVariable);
+    if (*sentence != '{') continue;
+    bool known = is_key(sentence, kAlarmVariable) || named(kNamedCodes, sentence) != nullptr || named(kNamedMisc, sentence) != nullptr ||
+                 named(kNamedWords, sentence) != nullptr;
     for (const char* name : {"word", "axis", "value", "function"}) known = known || is_key(sentence, name);
     if (!known) return false;
   }
@@ -365,6 +393,28 @@ void put_code(TextWriter& out, const Dialect& dialect, Function function) {
   out.put(code);
 }
 
+void put_misc(TextWriter& out, const Dialect& dialect, MiscFunction function) {
+  const char letter = dialect.addresses.letter(Role::misc_code);
+  char code[12];
+  bool any = false;
+  const auto put = [&](unsigned number) {
+    m_code_text(letter, number, code, sizeof code);
+    out.put(any ? " or " : "").put(code);
+    any = true;
+  };
+  for (const MiscRow& row : dialect.misc)
+    if (row.function == function) put(row.code);
+  for (const OutputRow& row : dialect.outputs)
+    if (row.function == function) put(row.code);
+  if (!any) out.put("its code");
+}
+
+void put_letter(TextWriter& out, const Dialect& dialect, Role role) {
+  const char letter = dialect.addresses.letter(role);
+  if (letter != 0) out.put(letter);
+  else out.put("its word");
+}
+
 void put_alarm_variable(TextWriter& out, const Dialect& dialect) {
   for (const VariableRow& row : dialect.variables->rows) {
     if (row.what != SystemVariable::alarm) continue;
@@ -382,7 +432,9 @@ void put_axis(TextWriter& out, const char* axis_name) {
 }
 
 void put_key(TextWriter& out, const char* at, const Dialect& dialect, const Fault& fault, const char* axis_name) {
-  if (const NamedCode* const named = named_code(at); named != nullptr) put_code(out, dialect, named->function);
+  if (const NamedCode* const code = named(kNamedCodes, at); code != nullptr) put_code(out, dialect, code->function);
+  else if (const NamedMisc* const misc = named(kNamedMisc, at); misc != nullptr) put_misc(out, dialect, misc->function);
+  else if (const NamedWord* const word = named(kNamedWords, at); word != nullptr) put_letter(out, dialect, word->role);
   else if (is_key(at, kAlarmVariable)) put_alarm_variable(out, dialect);
   else if (is_key(at, "word")) put_word(out, dialect, fault);
   else if (is_key(at, "function")) out.put(fault.function);

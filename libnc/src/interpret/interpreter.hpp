@@ -104,6 +104,8 @@ struct Interpreter : BlockContext {
   }
   /// Program and modal state at the interrupt (#4401...).
   const ModalState& interrupted_modal() const { return interrupted_.state.modal; }
+  /// What the interrupt program goes back to, or what the last one went back to.
+  const StateValues& interrupted_state() const { return interrupted_.state; }
   void leave_interrupt(bool to_sequence);
   /// A stage behind has found a fault: what is queued is void, the alarm and the end take its place.
   void abort(const Fault& what, const nc_source& where);

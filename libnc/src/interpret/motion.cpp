@@ -47,6 +47,7 @@ Move& begin_any_move(BlockContext& in, TransformId transform, const AxisVec& sta
   move.transform = transform;
   in.state.machine = machine;
   in.state.moves_since_comp_off = 1;
+  in.state.moved_side = in.state.comp.side;
   return move;
 }
 
@@ -240,8 +241,10 @@ void move_nowhere(BlockContext& in) {
   const MoveFrame frame = frame_of_move(in, AxisVec{}, 0);
   const AxisVec before = in.state.machine;
   const auto moves = in.state.moves_since_comp_off;
+  const auto side = in.state.moved_side;
   Move& move = begin_move(in, frame.to_machine, frame.start, frame.start);
   in.state.moves_since_comp_off = moves;
+  if (!in.state.comp.has_vector || in.state.comp.side == 0) in.state.moved_side = side;  // 12.4.3: the vector of I, J is gone to at once
   move.kind = in.state.modal.is(Function::rapid) ? NC_MOVE_RAPID : NC_MOVE_LINE;
   move.exact_stop = move.kind == NC_MOVE_RAPID;
   if (move.kind != NC_MOVE_RAPID) set_modal_feed(in, move, feed_mm_min(in));
@@ -352,6 +355,9 @@ Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t comm
 
 }  // namespace
 
+/// M700 12.4.1: compensation, commanded in whatever block before, starts and is cancelled with a straight movement.
+bool starts_or_ends_compensation(const BlockContext& in) { return (in.state.comp.side != 0) != (in.state.moved_side != 0); }
+
 Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw) {
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
@@ -361,6 +367,7 @@ Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, 
 }
 
 Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
+  if (starts_or_ends_compensation(in)) return in.raise_mode(Condition::arc_in_compensation_start, Mode::radius);
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   if (!in.dialect->rules.arc.takes_rotary_axes && (commanded & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(commanded & in.rotary));
   const InchDegrees scope(in, h, v);

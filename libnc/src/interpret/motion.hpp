@@ -26,6 +26,8 @@ void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, co
 /// A straight rapid to machine coordinates of the `commanded` axes (G53, second leg of G28), without any compensation on those of them
 /// that are `bare`.
 void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, uint32_t bare = ~uint32_t{0});
+/// The next movement is the one that radius compensation starts or ends with: it must not be an arc.
+bool starts_or_ends_compensation(const BlockContext& in);
 /// An arc in the plane in force by the words of the block.
 Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw);
 struct ArcWords;

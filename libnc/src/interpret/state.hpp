@@ -209,6 +209,7 @@ struct ModalInProgram {
   Compensation comp;            ///< tool radius compensation in force
   CycleState cycle;
   uint32_t moves_since_comp_off = 1;  ///< M700 P112: a plane change right after G40 needs a move in between
+  int8_t moved_side = 0;        ///< Compensation::side of the last movement: where it differs from that in force, compensation starts or ends next
   uint32_t arc_points = 0;      ///< start and middle point of the arc in space
   NurbsState nurbs;
   uint8_t nurbs_order = 0;      ///< of the last curve, for one that a knot alone begins

@@ -63,6 +63,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::no_function, "NC-NOT-BUILT", nullptr},
     {C::must_stand_alone, "NC-ALONE", nullptr},
     {C::words_missing, "NC-WORDS", nullptr},
+    {C::center_missing, "NC-WORDS", nullptr},
     // motion
     {C::no_feed, "NC-FEED", nullptr},
     {C::arc_deviation, "NC-ARC", nullptr},
@@ -91,6 +92,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::corner_arc, "NC-ADDRESS", nullptr},
     {C::corner_no_move, "NC-ADDRESS", nullptr},
     {C::corner_short, "NC-ADDRESS", nullptr},
+    {C::corner_reversal, "NC-ADDRESS", nullptr},
     {C::corner_next_short, "NC-ADDRESS", nullptr},
     {C::corner_motion, "NC-ADDRESS", nullptr},
     {C::pre_read, "NC-ADDRESS", nullptr},

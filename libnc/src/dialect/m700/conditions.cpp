@@ -30,6 +30,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::no_function, "P39", nullptr},       // a code's own row may say something more telling
     {C::must_stand_alone, "P33", nullptr},  // 13.18: "not independent"
     {C::words_missing, "P33", nullptr},
+    {C::center_missing, "P33", nullptr},
     // motion
     {C::no_feed, "P62", nullptr},
     {C::arc_deviation, "P70", nullptr},  // 6.4
@@ -59,6 +60,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::corner_arc, "P381", nullptr},          // 13.7
     {C::corner_no_move, "P382", nullptr},
     {C::corner_short, "P383", nullptr},
+    {C::corner_reversal, "P383", nullptr},  // 13.7.2 has no other: the arc would take more than any length of the line
     {C::corner_next_short, "P384", nullptr},
     {C::corner_motion, "P385", nullptr},
     {C::pre_read, "P990", nullptr},            // appendix 1

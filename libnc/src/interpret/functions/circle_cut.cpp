@@ -29,7 +29,7 @@ Execution path_radius(BlockContext& in, double scale, double* radius) {
   if (!w.has(Role::offset_number)) return in.raise(Condition::no_offset_number, Role::offset_number);
   const Execution did = offset_number(in, Role::offset_number, &number);
   if (did != Execution::done) return did;
-  if (!w.has(Role::circle_radius)) return in.raise(Condition::circle_radius, Role::circle_radius);
+  if (!w.has(Role::circle_radius)) return in.raise(Condition::words_missing, Role::circle_radius);
   *radius = std::fabs(length_of(in, Role::circle_radius)) - radius_amount(in, number) / scale;
   // Half of it is the radius of the way in and out, which has to be one.
   return *radius / 2 > kNoRadius_mm ? Execution::done : in.raise(Condition::circle_radius, Role::circle_radius, w.get(Role::circle_radius));

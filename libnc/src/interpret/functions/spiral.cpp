@@ -110,7 +110,8 @@ Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commande
       return in.raise_mode(Condition::illegal_g, Mode::motion);
   }
   if (in.state.comp.side != 0) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
-  if (!w.has(plane.center[0]) && !w.has(plane.center[1])) return in.raise(Condition::format_error, plane.center[0]);
+  if (starts_or_ends_compensation(in)) return in.raise_mode(Condition::arc_in_compensation_start, Mode::radius);
+  if (!w.has(plane.center[0]) && !w.has(plane.center[1])) return in.raise_mode(Condition::center_missing, Mode::motion);
   double center[2] = {0, 0};
   for (unsigned i = 0; i < 2; ++i)
     if (w.has(plane.center[i])) center[i] = length_of(in, plane.center[i]);
