@@ -285,7 +285,7 @@ TEST_F(CommandTest, CheckNotesNumbersThatWereHardlyMeant) {
     return run.err;
   };
   std::string note = notes("G90 G1 X1.5 F100\nG1 X10 Y20\nZ0\nM30\n");
-  EXPECT_NE(note.find("note: p.nc:2: X10 and 1 more numbers without a decimal point"), std::string::npos) << note;
+  EXPECT_NE(note.find("note: p.nc:2: X10 and 1 more number without a decimal point are"), std::string::npos) << note;
   EXPECT_EQ(notes("G90 G1 X1.5 F100\nG1 X10 Y20\nM30\n", R"({"params": {"1078": 1}})"), "");
   note = notes("G90 G1 X10000 F100\nG1 X10 Y-25000\nM30\n");
   EXPECT_NE(note.find("note: p.nc: all numbers are without a decimal point, 3 from line 1 on"), std::string::npos) << note;
@@ -294,9 +294,20 @@ TEST_F(CommandTest, CheckNotesNumbersThatWereHardlyMeant) {
   EXPECT_EQ(notes("G90 G1 X10000 F100\nM30\n", R"({"params": {"1078": 1}})"), "");
   EXPECT_NE(notes("G90 G1 X10 F100\nG1 X50 Y20\nM30\n"), "") << "a part of 0.05 mm";
   EXPECT_EQ(notes("G90 G1 X1. F100 (X10)\nX0 Y-0\nG65 P9 X10\nM30\nO9\nM99\n"), "") << "an argument";
+  // One has no plural; what is behind a comma is a length (M700 13.7), and so are the data of G10 that are lengths (12.7, 14.10), not a
+  // parameter or a percentage.
+  const std::string one = " without a decimal point is read";
+  EXPECT_NE(notes("G90 G1 X1. F100\nX20\nM30\n").find(":2: X20" + one), std::string::npos);
+  EXPECT_NE(notes("G90 G1 X9. F100,R2\nY9.\nM30\n").find(":1: ,R2" + one), std::string::npos);
+  EXPECT_NE(notes("G90 G1 X9. ,C1 F100\nY9.\nM30\n").find(":1: ,C1" + one), std::string::npos);
+  EXPECT_NE(notes("G10 L2 P1 X1. Y5\nM30\n").find(":1: Y5" + one), std::string::npos);
+  EXPECT_NE(notes("G10 L20 P1 X1. Y5\nM30\n").find(":1: Y5" + one), std::string::npos);
+  EXPECT_NE(notes("G10 L10 P1 R5\nG0 X1.\nM30\n").find(":1: R5" + one), std::string::npos);
+  EXPECT_EQ(notes("G0 X1.\nG10 L14 X80\nM30\n"), "");
+  EXPECT_EQ(notes("G0 X1.\nG10 L70\nP8004 D10\nG11\nM30\n"), "");
   note = notes("G4 P1.00000\nG04 P2.5\nG04 P500\nG04 X1.\nM30\n");
-  EXPECT_NE(note.find("note: p.nc:1: G04 P1.00000: P counts milliseconds"), std::string::npos) << note;
-  EXPECT_NE(note.find("1 more"), std::string::npos) << note;
+  EXPECT_NE(note.find("note: p.nc:1: P1.00000 of a dwell counts milliseconds"), std::string::npos) << note;
+  EXPECT_NE(note.find("; 1 more dwell\n"), std::string::npos) << note;
   EXPECT_EQ(notes("G4 P1.00000\nM30\n", R"({"params": {"8112": 1}})"), "");
 }
 

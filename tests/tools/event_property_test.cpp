@@ -136,7 +136,7 @@ class EventProperty : public OwnFolder {
     Effect effect;
     Session session;
     if (!session.configure(options_, &effect.error) || !session.start(options_, &effect.error)) return effect;
-    ControlSource items(session.control());
+    ControlSource items(session.control(), session.dialect());
     VirtualWorld world(session.setup(), session.config().system[0]);
     RunSink sink;
     const RunResult result = run_offline(&items, &world, &sink, session.decides(), 0);

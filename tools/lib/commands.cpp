@@ -168,7 +168,7 @@ RunResult run_session(Session* session, RunSink* sink, ItemSource* items, const 
     std::fprintf(err, "note: line %u%s after %llu million blocks; a loop that moves never ends\n", source.line, program.c_str(),
                  static_cast<unsigned long long>(blocks / 1'000'000));
   };
-  const RunResult result = run_offline(items, &world, sink, session->decides(), limits.silent_blocks, one_pass, progress, session->loop_limits(limits.loops));
+  const RunResult result = run_offline(items, &world, sink, session->decides(), limits.silent_blocks, one_pass, progress, limits.loops);
   if (result.how != RunResult::How::kFailed) note_unused(world.unused(), err);
   return result;
 }
@@ -227,7 +227,7 @@ int trace_command(const SessionOptions& options, const RunLimits& limits, int ou
   std::string error;
   if (!open_session(&session, options, &error)) return complain(err, error);
   OutputFile file(out);
-  ControlSource items(session.control());
+  ControlSource items(session.control(), session.dialect());
   TraceSink sink(&file, session.config().system[0], &items);
   RunResult result;
   if (!run_printing(&session, &sink, &items, limits, false, options.print, &result, &error, err))
@@ -258,7 +258,7 @@ int check_command(const SessionOptions& options, const RunLimits& limits, std::F
   Session session;
   std::string error;
   if (!open_session(&session, options, &error)) return complain(err, error);
-  ControlSource items(session.control());
+  ControlSource items(session.control(), session.dialect());
   RunSink nothing;
   RunResult result;
   if (!run_printing(&session, &nothing, &items, limits, true, options.print, &result, &error, err))
@@ -298,7 +298,7 @@ int plot_command(const SessionOptions& options, const RunLimits& limits, const P
   const size_t slash = options.program.find_last_of('/');
   plot.set_title(options.program == "-" ? "standard input"
                                         : rt::valid_utf8(options.program.substr(slash == std::string::npos ? 0 : slash + 1)));
-  ControlSource items(session.control());
+  ControlSource items(session.control(), session.dialect());
   PlotSink sink(&plot, session.config().system[0], &items);
   const RunResult result = run_session(&session, &sink, &items, limits, true, err);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);

@@ -2,12 +2,8 @@
 // Where an offline sink gets its items and the texts that belong to them: a control, or a list in a test.
 #pragma once
 
-#include <utility>
-#include <vector>
-
 #include "nc/nc.h"
 #include "runtime/programs/encoding.hpp"
-#include "tools/lib/loop_watch.hpp"
 
 namespace nc::tools {
 
@@ -34,19 +30,21 @@ class ItemSource {
   virtual void shown(nc_axes* /*machine*/, nc_axes* /*work*/) {}
   /** Line of the main program to which a block belongs, of the item pulled last (nc_main_line); 0 = not known. */
   virtual uint32_t main_line(const nc_source& source) { return source.depth == 0 ? source.line : 0; }
-  /** What a loop could decide by, for one that stands at `work` (loop_watch.hpp). */
-  virtual std::vector<std::pair<uint32_t, double>> loop_state(const nc_axes& /*work*/) { return {}; }
+  /** A number for all that the program can go by (loop_watch.hpp). */
+  virtual uint64_t program_state() { return 0; }
   virtual bool alarm(nc_alarm* alarm) = 0;
   virtual bool text(uint32_t id, nc_text* text) = 0;
   /** Codes of a modal snapshot. @return their number. */
   virtual unsigned modal_codes(uint32_t id, char (*codes)[8], unsigned capacity) = 0;
+  /** The M code of the optional stop. */
+  virtual uint32_t optional_stop_code() { return 1; }
   virtual bool next_common(uint32_t from, uint32_t* number, double* value) = 0;
 };
 
 /** Items of one part system of a control. */
 class ControlSource final : public ItemSource {
  public:
-  explicit ControlSource(nc_control* control) : control_(control) {}
+  ControlSource(nc_control* control, nc_dialect dialect) : control_(control), dialect_(dialect) {}
   nc_status pull(uint32_t budget, nc_item* item) override {
     return nc_pull(control_, kPartSystem, budget, item);
   }
@@ -68,7 +66,11 @@ class ControlSource final : public ItemSource {
     nc_main_line(control_, kPartSystem, &source, &line);
     return line;
   }
-  std::vector<std::pair<uint32_t, double>> loop_state(const nc_axes& work) override { return tools::loop_state(control_, kPartSystem, work); }
+  uint64_t program_state() override {
+    uint64_t hash = 0;
+    nc_program_state_hash(control_, kPartSystem, &hash);
+    return hash;
+  }
   nc_status rewind(uint64_t serial) override { return nc_rewind(control_, kPartSystem, serial); }
   nc_status reset() override { return nc_reset(control_, kPartSystem); }
   bool alarm(nc_alarm* alarm) override {
@@ -86,12 +88,19 @@ class ControlSource final : public ItemSource {
     if (nc_modal_get(control_, kPartSystem, id, &modal) != NC_OK) return 0;
     return nc_modal_codes(control_, &modal, codes, capacity);
   }
+  uint32_t optional_stop_code() override {
+    constexpr uint32_t kMost = 999;
+    uint32_t code = 0;
+    while (code < kMost && nc_code_role_get(dialect_, 'M', code) != NC_CODE_OPTIONAL_STOP) ++code;
+    return code;
+  }
   bool next_common(uint32_t from, uint32_t* number, double* value) override {
     return nc_variable_next(control_, kPartSystem, from, number, value) == NC_OK;
   }
 
  private:
   nc_control* control_;
+  nc_dialect dialect_;
 };
 
 }  // namespace nc::tools

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,18 +15,17 @@ namespace nc::tools {
 
 /** Passes in a row after which a loop is given up; 0 = never. */
 struct LoopLimits {
-  uint64_t same = 100;             // of the main program, when nothing that it could decide by changes any more
-  uint64_t same_called = 10'000;   // the same in a program called: a call may repeat it 9999 times
+  uint64_t same = 100;  // when it comes back to a state that it has had before
   uint64_t any = 10'000'000;
-  static LoopLimits all(uint64_t passes) { return {passes, passes, passes}; }
+  static LoopLimits all(uint64_t passes) { return {passes, passes}; }
 };
 
 class LoopWatch {
  public:
   explicit LoopWatch(const LoopLimits& limits) : limits_(limits) {}
 
-  /** What the program could decide by: variables and positions. Asked twice in `same` passes. */
-  using Look = std::function<std::vector<std::pair<uint32_t, double>>()>;
+  /** A number for all that the program can go by (nc_program_state_hash). It is dear: it is asked for in few passes. */
+  using Look = std::function<uint64_t()>;
 
   /** Something has been read that changes by itself, or may: passes until now and the one in hand are different ones. */
   void asked() { ++questions_; }
@@ -40,8 +38,8 @@ class LoopWatch {
 
  private:
   struct Loop {
-    uint64_t passes = 0, questions = 0;
-    std::vector<std::pair<uint32_t, double>> before;
+    uint64_t passes = 0;
+    uint64_t kept_at = 0, state = 0, questions = 0;  // the pass whose state is kept, 0 = none yet
   };
   struct Level {
     uint32_t program = 0, file = 0, line = 0, furthest = 0;
@@ -54,8 +52,5 @@ class LoopWatch {
   uint64_t questions_ = 0;
   std::string verdict_;
 };
-
-/** Variables, local ones of the level included, offsets, parameters, and where the program stands: a LoopWatch::Look. Their numbers only tell them apart. */
-std::vector<std::pair<uint32_t, double>> loop_state(const nc_control* control, unsigned system, const nc_axes& work);
 
 }  // namespace nc::tools

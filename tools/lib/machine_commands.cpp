@@ -54,9 +54,9 @@ MachineResult run(Session* session, const RunLimits& limits, std::FILE* err, con
     return !each || each(out);
   };
   if (session->machine() == nullptr)
-    return run_machine(session->control(), session->config(), session->setup(), session->decides(), limits.seconds, session->loop_limits(limits.loops), observe);
+    return run_machine(session->control(), session->config(), session->setup(), session->decides(), limits.seconds, limits.loops, observe);
   const ServoModel servo = servo_of(*session->machine(), session->config().cycle_s);
-  return run_machine(session->control(), session->config(), session->setup(), session->decides(), limits.seconds, session->loop_limits(limits.loops), observe, &servo);
+  return run_machine(session->control(), session->config(), session->setup(), session->decides(), limits.seconds, limits.loops, observe, &servo);
 }
 
 // Milliseconds, and as many digits more as the cycle needs.

@@ -12,8 +12,10 @@ namespace {
 
 struct PlainWord {
   char letter;
+  bool comma;
   std::string number;  // sign, digits, point; "" = not a plain number
   bool point() const { return number.find('.') != std::string::npos; }
+  std::string text() const { return (comma ? "," : "") + std::string(1, letter) + number; }
   double value() const { return std::strtod(number.c_str(), nullptr); }
 };
 
@@ -34,8 +36,8 @@ std::vector<PlainWord> words_of(const std::string& line) {
     if (c == ';') break;
     if (c >= 'A' && c <= 'Z') {
       if (!words.empty() && words.back().number.empty()) return {};  // a keyword
-      words.push_back({comma ? ' ' : c, ""});
-    } else if (!words.empty()) {
+      words.push_back({c, comma, ""});
+    } else if (c != ',' && !words.empty()) {
       words.back().number += c;
     }
     comma = c == ',';
@@ -46,11 +48,8 @@ std::vector<PlainWord> words_of(const std::string& line) {
   return words;
 }
 
-bool has(const std::vector<PlainWord>& words, char letter, std::initializer_list<double> numbers) {
-  return std::any_of(words.begin(), words.end(), [&](const PlainWord& word) {
-    return word.letter == letter && std::find(numbers.begin(), numbers.end(), word.value()) != numbers.end();
-  });
-}
+/// "1 more number", "2 more numbers"
+std::string more(uint64_t count, const char* noun) { return std::to_string(count) + " more " + noun + (count == 1 ? "" : "s"); }
 
 /// The key of a parameter of this dialect that is 0 or not set; "" = it is set, or the dialect has none.
 std::string switched_off(const Session& session, nc_parameter_role role) {
@@ -62,36 +61,41 @@ std::string switched_off(const Session& session, nc_parameter_role role) {
 
 }  // namespace
 
-NumberHints number_hints(const std::string& text, const std::string& letters) {
-  const std::string dimensions = letters + "IJKR";
+void NumberHints::count_length(const std::string& word, bool point, double value, uint32_t line) {
+  if (point) {
+    ++with_point;
+    return;
+  }
+  if (without_point++ == 0) {
+    first_without = line;
+    first_word = word;
+  }
+  if (value > largest_without) {
+    largest_without = value;
+    largest_word = word;
+  }
+}
+
+NumberHints number_hints(const std::string& text, nc_dialect dialect, const std::string& axes) {
   NumberHints hints;
   uint32_t line = 0;
+  bool data = false;
   for (size_t begin = 0; begin < text.size();) {
     const size_t end = std::min(text.find('\n', begin), text.size());
     const std::vector<PlainWord> words = words_of(text.substr(begin, end - begin));
     ++line;
     begin = end + 1;
-    const bool dwell = has(words, 'G', {4});
-    // Their words are arguments, data and times, not dimensions.
-    const bool other = dwell || has(words, 'G', {10, 65, 66, 66.1}) || has(words, 'M', {98, 198});
-    for (const PlainWord& word : words) {
-      if (dwell && word.letter == 'P' && word.point() && word.value() != 0 && hints.dwells++ == 0) {
-        hints.first_dwell = line;
-        hints.dwell_word = "P" + word.number;
-      }
-      if (other || dimensions.find(word.letter) == std::string::npos || word.value() == 0) continue;
-      if (word.point()) {
-        ++hints.with_point;
-        continue;
-      }
-      if (hints.without_point++ == 0) {
-        hints.first_without = line;
-        hints.first_word = word.letter + word.number;
-      }
-      if (std::fabs(word.value()) > hints.largest_without) {
-        hints.largest_without = std::fabs(word.value());
-        hints.largest_word = word.letter + word.number;
-      }
+    std::vector<nc_plain_word> plain;
+    for (const PlainWord& word : words) plain.push_back({word.letter, word.comma, word.value()});
+    std::vector<uint8_t> kinds(words.size());
+    if (nc_number_kinds(dialect, axes.c_str(), plain.data(), static_cast<unsigned>(plain.size()), &data, kinds.data()) != NC_OK) return {};
+    for (size_t i = 0; i < words.size(); ++i) {
+      const PlainWord& word = words[i];
+      if (word.value() == 0) continue;  // the same in every unit
+      if (kinds[i] == NC_NUMBER_LENGTH) hints.count_length(word.text(), word.point(), std::fabs(word.value()), line);
+      if (kinds[i] != NC_NUMBER_DWELL || !word.point() || hints.dwells++ != 0) continue;
+      hints.first_dwell = line;
+      hints.dwell_word = word.text();
     }
   }
   return hints;
@@ -102,7 +106,7 @@ void note_numbers(const Session& session, std::FILE* err) {
   const nc_config& config = session.config();
   std::string letters;
   for (unsigned i = 0; i < config.system[kPartSystem].axis_count; ++i) letters += config.system[kPartSystem].axis[i].name;
-  const NumberHints hints = number_hints(text, letters);
+  const NumberHints hints = number_hints(text, session.dialect(), letters);
   nc_source source = {};
   source.file = session.main_file();
   const std::string file = rt::valid_utf8(session.file_name(source));
@@ -111,15 +115,16 @@ void note_numbers(const Session& session, std::FILE* err) {
   const std::string type_2 = switched_off(session, NC_PARAMETER_DECIMAL_TYPE_2);
   const auto without = static_cast<unsigned long long>(hints.without_point);
   if (!type_2.empty() && hints.doubtful())
-    std::fprintf(err, "note: %s:%u: %s and %llu more numbers without a decimal point are %s; with #%s = 1 they are mm\n", file.c_str(), hints.first_without,
-                 hints.first_word.c_str(), without - 1, kUnit, type_2.c_str());
+    std::fprintf(err, "note: %s:%u: %s%s without a decimal point %s %s; with #%s = 1 %s mm\n", file.c_str(), hints.first_without, hints.first_word.c_str(),
+                 without == 1 ? "" : (" and " + more(without - 1, "number")).c_str(), without == 1 ? "is" : "are", kUnit, type_2.c_str(),
+                 without == 1 ? "it is" : "they are");
   else if (!type_2.empty() && without != 0)
     std::fprintf(err, "note: %s: all numbers are without a decimal point, %llu from line %u on, and %s; the largest is %s\n", file.c_str(), without,
                  hints.first_without, kUnit, hints.largest_word.c_str());
   // M700 8.1: P is in ms, with a point or without, unless a parameter makes the point count.
   if (const std::string key = switched_off(session, NC_PARAMETER_DWELL_POINT); !key.empty() && hints.dwells != 0)
-    std::fprintf(err, "note: %s:%u: G04 %s: P counts milliseconds, and the point does not count (#%s); %llu more of these\n", file.c_str(),
-                 hints.first_dwell, hints.dwell_word.c_str(), key.c_str(), static_cast<unsigned long long>(hints.dwells - 1));
+    std::fprintf(err, "note: %s:%u: %s of a dwell counts milliseconds, and the point does not count (#%s)%s\n", file.c_str(), hints.first_dwell,
+                 hints.dwell_word.c_str(), key.c_str(), hints.dwells == 1 ? "" : ("; " + more(hints.dwells - 1, "dwell")).c_str());
 }
 
 }  // namespace nc::tools

@@ -17,9 +17,11 @@ struct NumberHints {
   std::string first_word;                      // "X10"
   double largest_without = 0;
   std::string largest_word;
-  uint64_t dwells = 0;  // G04 P with a point
+  uint64_t dwells = 0;  // times of a dwell with a point
   uint32_t first_dwell = 0;
   std::string dwell_word;  // "P1.00000"
+
+  void count_length(const std::string& word, bool point, double value, uint32_t line);
 
   /**
    * What stands without a point was hardly meant in thousandths: others have a point, or all of it together is less than a millimetre. A
@@ -28,8 +30,8 @@ struct NumberHints {
   bool doubtful() const { return without_point != 0 && (with_point != 0 || largest_without < 1000); }
 };
 
-/** @param letters those of the axes; I, J, K, and R are dimensions as well. */
-NumberHints number_hints(const std::string& text, const std::string& letters);
+/** @param axes letters of the axes */
+NumberHints number_hints(const std::string& text, nc_dialect dialect, const std::string& axes);
 
 /** The hints that hold with the parameters of this control, on `err`. */
 void note_numbers(const Session& session, std::FILE* err);

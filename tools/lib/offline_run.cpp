@@ -175,7 +175,7 @@ class OfflineRun {
     const nc_gate& gate = item.u.gate;
     // Whether M01 exists at all is decided here, by its switch: it comes as a gate without an action. //
     // M700 9.1
-    if (gate.kind == NC_GATE_OPTIONAL_STOP && world_.optional_stop()) sink_.aux(item.source, 'M', 1.0);
+    if (gate.kind == NC_GATE_OPTIONAL_STOP && world_.optional_stop()) sink_.aux(item.source, 'M', items_.optional_stop_code());
     if (gate.kind != NC_GATE_DWELL_SECONDS && gate.kind != NC_GATE_DWELL_TURNS) return;
     const bool turns = gate.kind == NC_GATE_DWELL_TURNS;
     world_.dwell(turns, gate.value, gate.skip_mask);
@@ -194,7 +194,7 @@ class OfflineRun {
 
   bool endless_loop(const nc_item& mark) {
     if (world_.changes()) loops_.asked();
-    return loops_.block(mark.source, [&] { return items_.loop_state(mark.u.mark.work); });
+    return loops_.block(mark.source, [this] { return items_.program_state(); });
   }
 
   bool passes_differ() {

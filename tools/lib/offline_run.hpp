@@ -11,6 +11,7 @@
 
 #include "nc/nc.h"
 #include "tools/lib/item_source.hpp"
+#include "tools/lib/loop_watch.hpp"
 #include "tools/lib/virtual_world.hpp"
 
 namespace nc::tools {

@@ -112,7 +112,8 @@ bool Session::configure(const SessionOptions& options, std::string* error, std::
     *error = "--dialect " + options.dialect + ": " + machine_->file + " is a machine of another dialect";
     return false;
   }
-  const Setup defaults = machine_ ? setup_of(*machine_) : Setup();
+  Setup defaults = machine_ ? setup_of(*machine_) : Setup();
+  defaults.dialect = dialect_;
   setup_ = defaults;
   if (!options.setup.empty() && !load_setup(options.setup, &setup_, error, defaults)) return false;
   if (machine_ && !same_axes(setup_, defaults)) {
@@ -214,16 +215,6 @@ std::string Session::main_text() const {
 
 bool Session::decides() const {
   return has_decision(main_text());
-}
-
-LoopLimits Session::loop_limits(const LoopLimits& wanted) const {
-  LoopLimits limits = wanted;
-  const std::string text = main_text();
-  nc_system_variable row;
-  for (unsigned i = 0; nc_system_variable_row(dialect_, i, &row) == NC_OK; ++i)
-    for (uint32_t number = row.first; std::strcmp(row.unit, "count") == 0 && number <= row.last; ++number)
-      if (text.find("#" + std::to_string(number)) != std::string::npos) limits.same = 0;
-  return limits;
 }
 
 std::string Session::file_name(const nc_source& source) const {

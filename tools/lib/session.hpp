@@ -9,7 +9,6 @@
 #include "nc/nc.h"
 #include "runtime/config.hpp"
 #include "tools/lib/dialect_names.hpp"
-#include "tools/lib/loop_watch.hpp"
 #include "tools/lib/offline_run.hpp"
 #include "tools/lib/program_files.hpp"
 #include "tools/lib/setup.hpp"
@@ -56,11 +55,10 @@ class Session {
   nc_control* control() const { return control_; }
   /** Text of the main program; "" for one that is not copied. */
   std::string main_text() const;
+  nc_dialect dialect() const { return dialect_; }
   unsigned main_file() const { return main_file_; }
   /** The main program has an IF or a WHILE; false for one that is not copied. */
   bool decides() const;
-  /** These limits for its main program: one that names a counter of workpieces, which no one can look at from outside, may come to its end by it. */
-  LoopLimits loop_limits(const LoopLimits& wanted) const;
   /** "FILE" of a source, as a person would name it. */
   std::string file_name(const nc_source& source) const;
 

@@ -249,42 +249,64 @@ class SetupReader {
     }
   }
 
-  // #1000-#1031 are the bits of #1032, #1200-#1231 of #1033, #1232-#1263 of #1034, #1264-#1295 of #1035. //
-  // M700 13.5.5
+  // One number of the macro interface inputs.
+  struct InputNumber {
+    uint32_t word;
+    std::optional<uint32_t> bit;  // none: it is the word
+  };
+  std::optional<InputNumber> input_number(uint32_t number) const {
+    constexpr uint32_t kBits = 32;
+    nc_system_variable row = {};
+    for (unsigned i = 0; nc_system_variable_row(s_.dialect, i, &row) == NC_OK; ++i) {
+      if (number < row.first || number > row.last) continue;
+      const uint32_t offset = number - row.first;
+      if (row.role == NC_VARIABLE_INPUT_WORD) return InputNumber{row.word + offset, std::nullopt};
+      if (row.role == NC_VARIABLE_INPUT_BIT) return InputNumber{row.word + offset / kBits, offset % kBits};
+    }
+    return std::nullopt;
+  }
+  // Those that there are: "1000 to 1035 and 1200 to 1295".
+  std::string input_numbers() const {
+    std::string text;
+    uint32_t last = 0;
+    nc_system_variable row = {};
+    for (unsigned i = 0; nc_system_variable_row(s_.dialect, i, &row) == NC_OK; ++i) {
+      if (row.role != NC_VARIABLE_INPUT_WORD && row.role != NC_VARIABLE_INPUT_BIT) continue;
+      if (last != 0 && row.first == last + 1) text.resize(text.rfind(" to "));
+      else text += (text.empty() ? "" : " and ") + std::to_string(row.first);
+      text += " to " + std::to_string(row.last);
+      last = row.last;
+    }
+    return text.empty() ? "this dialect has no interface inputs" : "interface inputs are " + text;
+  }
+
   InputChange inputs(const JsonNode& node, const std::string& path) {
+    constexpr uint32_t kLargest = 999'999;
     InputChange change;
     for (const auto& [key, value] : object(node, path).members) {
       const std::string key_path = join(path, key);
-      const uint32_t n = digits(key, 9999).value_or(0);
-      if (n >= 1032 && n <= 1035) {
-        const uint32_t bits = whole(value, key_path, 0, std::numeric_limits<uint32_t>::max());
-        const uint32_t word = n - 1032;
-        // Bits named beside the word win, wherever they stand.
-        change.bits[word] |= bits & ~change.mask[word];
-        change.mask[word] = std::numeric_limits<uint32_t>::max();
-        for (const auto& [other, bit] : node.members) {
-          const auto at = input_bit(digits(other, 9999).value_or(0));
-          if (at && at->first == word) set_bit(&change, *at, whole(bit, join(path, other), 0, 1));
-        }
+      const auto at = input_number(digits(key, kLargest).value_or(0));
+      if (!at) fail(value, key_path, "no such key: " + input_numbers());
+      if (at->bit) {
+        set_bit(&change, *at, whole(value, key_path, 0, 1));
         continue;
       }
-      const auto at = input_bit(n);
-      if (!at) fail(value, key_path, "no such key: interface inputs are 1000 to 1035 and 1200 to 1295");
-      set_bit(&change, *at, whole(value, key_path, 0, 1));
+      const uint32_t bits = whole(value, key_path, 0, std::numeric_limits<uint32_t>::max());
+      // Bits named beside the word win, wherever they stand.
+      change.bits[at->word] |= bits & ~change.mask[at->word];
+      change.mask[at->word] = std::numeric_limits<uint32_t>::max();
+      for (const auto& [other, bit] : node.members) {
+        const auto beside = input_number(digits(other, kLargest).value_or(0));
+        if (beside && beside->bit && beside->word == at->word) set_bit(&change, *beside, whole(bit, join(path, other), 0, 1));
+      }
     }
     return change;
   }
 
-  static std::optional<std::pair<uint32_t, uint32_t>> input_bit(uint32_t number) {
-    if (number >= 1000 && number <= 1031) return std::pair{0u, number - 1000};
-    if (number >= 1200 && number <= 1295) return std::pair{1 + (number - 1200) / 32, (number - 1200) % 32};
-    return std::nullopt;
-  }
-
-  static void set_bit(InputChange* change, std::pair<uint32_t, uint32_t> at, uint32_t on) {
-    const uint32_t bit = 1u << at.second;
-    change->mask[at.first] |= bit;
-    change->bits[at.first] = on ? change->bits[at.first] | bit : change->bits[at.first] & ~bit;
+  static void set_bit(InputChange* change, const InputNumber& at, uint32_t on) {
+    const uint32_t bit = 1u << *at.bit;
+    change->mask[at.word] |= bit;
+    change->bits[at.word] = on ? change->bits[at.word] | bit : change->bits[at.word] & ~bit;
   }
 
   void skip(const JsonNode& node) {

@@ -118,6 +118,7 @@ struct Setup {
   std::vector<SetupWorkOffset> work_offsets;
   std::vector<SetupToolOffset> tool_offsets;
   std::vector<SetupVariable> variables;
+  nc_dialect dialect{};  // whose numbers `inputs` has
   InputChange inputs;
   std::vector<SkipSolid> skip;
   std::vector<SkipHit> hits;

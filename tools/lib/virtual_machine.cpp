@@ -94,11 +94,15 @@ class VirtualMachine {
     return unclamped;
   }
 
-  static std::string reason(uint8_t cause) {
+  std::string reason(uint8_t cause) const {
     switch (cause) {
       case NC_CAUSE_SPINDLE_STOPPED: return "a feed per revolution or a thread waits for the spindle: there is no S";
       case NC_CAUSE_SPINDLE_FAST: return "at this S the thread needs more than the largest feed of its axes";
-      case NC_CAUSE_FEED_ZERO: return "the speed of this F1 to F5 (#1185 to #1189) is 0";
+      case NC_CAUSE_FEED_ZERO: {
+        char key[24];
+        const bool named = nc_parameter_key(control_, NC_PARAMETER_DIGIT_FEED, key) == NC_OK;
+        return "the speed of this feed of one digit is 0" + (named ? std::string(" (parameters from #") + key + " on)" : "");
+      }
       default: return "the program does not go on (cause " + std::to_string(cause) + ")";
     }
   }
@@ -147,9 +151,15 @@ class VirtualMachine {
     nc_main_line(control_, kPartSystem, &item.source, &main_line);
     if (!foresight_.commit(item, main_line)) return false;
     committed_ = item.serial;
-    if (world_.changes() || (item.kind == NC_ITEM_SYNC && (item.u.sync.what & NC_SYNC_CLOCK) != 0)) loops_.asked();
+    // A servo comes to its position in its own time.
+    const uint32_t by_itself = servo_ != nullptr ? NC_SYNC_CLOCK | NC_SYNC_POSITION : +NC_SYNC_CLOCK;
+    if (world_.changes() || (item.kind == NC_ITEM_SYNC && (item.u.sync.what & by_itself) != 0)) loops_.asked();
     if (item.kind != NC_ITEM_MARK || !item.u.mark.report) return true;
-    given_up_ = loops_.block(item.source, [&] { return loop_state(control_, kPartSystem, item.u.mark.work); });
+    given_up_ = loops_.block(item.source, [this] {
+      uint64_t hash = 0;
+      nc_program_state_hash(control_, kPartSystem, &hash);
+      return hash;
+    });
     return true;  // the end of the pass is executed, nothing behind it
   }
 

@@ -169,7 +169,8 @@ typedef enum nc_parameter_role {
   NC_PARAMETER_DECIMAL_TYPE_2 = 0,   /**< a number without a point is in mm (M700 5.3) */
   NC_PARAMETER_DWELL_POINT = 1,      /**< the point of P of a dwell counts (M700 8.1) */
   NC_PARAMETER_TOOL_MEMORY = 2,      /**< memory type of tool offsets, 1 or 2 (M700 12.1) */
-  NC_PARAMETER_POWER_OFF_CLEARS = 3  /**< power off clears the common variables from #100 on (M700 13.4) */
+  NC_PARAMETER_POWER_OFF_CLEARS = 3, /**< power off clears the common variables from #100 on (M700 13.4) */
+  NC_PARAMETER_DIGIT_FEED = 4        /**< speed of the feed of one digit 1; those of 2 and up have the keys behind it (M700 7.3) */
 } nc_parameter_role;
 
 /**
@@ -303,6 +304,18 @@ NC_API void nc_look_executed(nc_control* control, nc_look look, void* user);
  * @return NC_OK; NC_E_NOT_FOUND: there is none; NC_E_ARGUMENT: no such part system, or a pointer is NULL
  */
 NC_API nc_status nc_variable_next(const nc_control* control, unsigned system, uint32_t from, uint32_t* number, double* value);
+
+/**
+ * A hash over all that a program can go by, behind the blocks that were read so far: modes and the words in force, the place in the program and
+ * in those that have called it, position, variables, offsets, parameters, outputs. A program that comes to the same place with the same hash, without having been
+ * given anything else from outside meanwhile (clock, inputs, a write of the host's), goes on for ever. It looks at every table: for now and then,
+ * not for every block. The number means nothing to another version of the library. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param hash receives it
+ * @return NC_OK; NC_E_ARGUMENT: no such part system, or `hash` is NULL
+ */
+NC_API nc_status nc_program_state_hash(const nc_control* control, unsigned system, uint64_t* hash);
 
 /* ---- programs --------------------------------------------------------------------------------------------------- */
 
@@ -657,6 +670,33 @@ typedef enum nc_code_role {
  * @return its role; NC_CODE_OTHER also when an argument is none
  */
 NC_API nc_code_role nc_code_role_get(nc_dialect dialect, char letter, uint32_t number) NC_RT;
+
+/** A word of a block as it is written, for hosts that look at the text of a program. */
+typedef struct nc_plain_word {
+  char letter;          /**< its address, a capital */
+  bool comma;           /**< a comma stands before it */
+  double value;
+} nc_plain_word;
+
+/** What the number of a word is, as far as a decimal point makes a difference. */
+typedef enum nc_number_kind {
+  NC_NUMBER_OTHER = 0,
+  NC_NUMBER_LENGTH = 1, /**< a position, a length or an angle of an axis: without a point in units, by the parameters (M700 5.3) */
+  NC_NUMBER_DWELL = 2   /**< the time of a dwell whose point may not count (M700 8.1) */
+} nc_number_kind;
+
+/**
+ * What the numbers of a block are, by the codes that stand in it. Modes of blocks before do not count, but for one: blocks between the
+ * beginning and the end of parameter input are data. Any thread; needs no control.
+ * @param dialect the controller family
+ * @param axes letters of the machine's axes, with a NUL
+ * @param words of the block, in their order
+ * @param count of them
+ * @param data in: the block stands in parameter input; out: so does the one behind it. false in front of a program.
+ * @param kinds receives an nc_number_kind for each word
+ * @return NC_OK; NC_E_ARGUMENT: an argument is none
+ */
+NC_API nc_status nc_number_kinds(nc_dialect dialect, const char* axes, const nc_plain_word* words, unsigned count, bool* data, uint8_t* kinds);
 
 /** One row of a dialect's function table, for documentation and HMIs. */
 typedef struct nc_function {

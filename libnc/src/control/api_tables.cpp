@@ -112,7 +112,7 @@ nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key
 
 nc_status nc_parameter_key(const nc_control* c, nc_parameter_role role, char key[24]) {
   using nc::Parameter;
-  constexpr Parameter kRoles[] = {Parameter::decimal_type_2, Parameter::dwell_p_decimal, Parameter::tool_memory_type, Parameter::power_off_clears_common};
+  constexpr Parameter kRoles[] = {Parameter::decimal_type_2, Parameter::dwell_p_decimal, Parameter::tool_memory_type, Parameter::power_off_clears_common, Parameter::digit_feed};
   const auto index = static_cast<unsigned>(role);
   if (c == nullptr || key == nullptr || index >= sizeof kRoles / sizeof kRoles[0]) return NC_E_ARGUMENT;
   char whole[nc::kParameterKeySize];
@@ -229,6 +229,12 @@ void nc_device_on_read(nc_control* c, nc_device_read callback, void* user) {
 nc_status nc_variable_next(const nc_control* c, unsigned system, uint32_t from, uint32_t* number, double* value) {
   if (!known(c, system) || number == nullptr || value == nullptr) return NC_E_ARGUMENT;
   return c->system[system].interpreter.next_variable(from, number, value) ? NC_OK : NC_E_NOT_FOUND;
+}
+
+nc_status nc_program_state_hash(const nc_control* c, unsigned system, uint64_t* hash) {
+  if (!known(c, system) || hash == nullptr) return NC_E_ARGUMENT;
+  *hash = c->system[system].interpreter.state_hash();
+  return NC_OK;
 }
 
 nc_status nc_interface_output_get(const nc_control* c, unsigned system, unsigned word, uint32_t* bits) {

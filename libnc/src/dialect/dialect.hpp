@@ -104,6 +104,7 @@ struct Dialect {
   CodeRange macro_codes;             ///< G codes that exist to call macros where a parameter registers them
   CodeRange own_codes;               ///< G codes that may be registered, too, where a parameter allows it
   CodeRange macro_misc;              ///< M codes that may be registered, but for those that the control keeps for itself
+  CodeRange interrupt_misc;          ///< M codes that a parameter may give the meaning of those of macro interrupt, as long as they go out otherwise
   // rules of program texts
   bool percent_required;             ///< DGSHAPE 2: the first block must be '%'
   bool end_code_required;            ///< M700 P36: text must not end without M02/M30

@@ -8,6 +8,7 @@
 #include "interpret/functions/functions.hpp"
 #include "interpret/interpreter.hpp"
 #include "interpret/shared_tables.hpp"
+#include "interpret/state_hash.hpp"
 
 namespace nc {
 
@@ -220,6 +221,7 @@ bool PartInterpreter::next_parameter(unsigned* place, char key[24], int* axis, d
   std::strcpy(text, words != nullptr ? words : "");
   return true;
 }
+uint64_t PartInterpreter::state_hash() const { return nc::state_hash(*in_); }
 int PartInterpreter::axis_named(char name) const { return name >= 'A' && name <= 'Z' ? in_->axis_of[name - 'A'] : -1; }
 const FilterParameters& PartInterpreter::filters() const { return in_->settings.filters; }
 

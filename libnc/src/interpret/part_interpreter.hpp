@@ -179,6 +179,7 @@ class PartInterpreter {
   double parameter(ParameterOf parameter, int axis = -1) const;
   /// The first parameter from *place on that has been set; false: there is none. Key, axis (-1 = of none) and what it is: a number, or a text.
   bool next_parameter(unsigned* place, char key[24], int* axis, double* number, char text[64]) const;
+  uint64_t state_hash() const;  ///< interpret/state_hash.hpp
   int axis_named(char name) const;  ///< its index, -1 = none
   const FilterParameters& filters() const;
   const Frames& frames() const;

@@ -165,7 +165,8 @@ void SettingsReader::macros() {
   if (flag(P::interrupt_own_m)) {  // 13.12: M codes 03 to 97 but 30
     const auto m_code = [this](Parameter parameter, uint32_t fallback) {
       const double m = value(parameter, fallback);
-      return m >= 0 && m <= 97 && goes_out(misc_function(dialect_, static_cast<unsigned>(m))) ? static_cast<uint32_t>(m) : fallback;
+      const CodeRange range = dialect_.interrupt_misc;
+      return m >= range.first && m <= range.last && goes_out(misc_function(dialect_, static_cast<unsigned>(m))) ? static_cast<uint32_t>(m) : fallback;
     };
     s_.interrupt_on_m = m_code(P::interrupt_on_m, s_.interrupt_on_m);
     s_.interrupt_off_m = m_code(P::interrupt_off_m, s_.interrupt_off_m);

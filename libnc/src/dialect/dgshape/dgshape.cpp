@@ -49,6 +49,7 @@ const Dialect kDialect = {
     .macro_codes = {1, 0},  // no code calls a macro
     .own_codes = {1, 0},
     .macro_misc = {1, 0},
+    .interrupt_misc = {1, 0},
     .percent_required = true,   // 2-6 "%"
     .end_code_required = true,  // 1-1 "M02"
     .bare_letters = false,      // 1-1: a word is an address and a numerical value

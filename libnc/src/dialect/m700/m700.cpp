@@ -67,6 +67,7 @@ const Dialect kDialect = {
     .macro_codes = {100, 255},  // 13.5.2
     .own_codes = {0, 99},       // 13.5.2: by #1081
     .macro_misc = {0, 95},      // 13.5.2 (2)
+    .interrupt_misc = {3, 97},  // 13.12
     .percent_required = false,
     .end_code_required = true,  // P36
     .bare_letters = true,       // 3.7, 14.10

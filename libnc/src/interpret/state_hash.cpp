@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// See state_hash.hpp. Structs of the state have padding, whose bytes mean nothing, so it is taken member by member. A structured binding names all
+// members of its struct: one that is forgotten here does not compile.
+#include "interpret/state_hash.hpp"
+
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include "interpret/interpreter.hpp"
+
+namespace nc {
+namespace {
+
+class Hash {
+ public:
+  template <class... T>
+  void add(const T&... member) {
+    (add_one(member), ...);
+  }
+  uint64_t value() const { return value_; }
+
+ private:
+  void word(uint64_t bits) {
+    // A step of a linear congruential generator (its multiplier: Knuth, TAOCP 3.3.4), with the upper bits, which have seen most, brought down.
+    value_ = (value_ ^ bits) * 6364136223846793005u + 1442695040888963407u;
+    value_ ^= value_ >> 32;
+  }
+  template <class T>
+  requires(std::is_integral_v<T> || std::is_enum_v<T>) void add_one(T member) {
+    word(static_cast<uint64_t>(member));
+  }
+  void add_one(double member) { word(std::bit_cast<uint64_t>(member)); }
+  template <class T, size_t kCount>
+  void add_one(const T (&members)[kCount]) {
+    for (const T& member : members) add_one(member);
+  }
+  void add_one(const AxisVec& at) { add_one(at.v); }
+  void add_one(const ModalState& modal) {
+    const auto& [in_force, number, extended, feed_digit, feed, spindle, tool, d, h, m, n, o, b, h_given] = modal;
+    add(in_force, number, extended, feed_digit, feed, spindle, tool, d, h, m, n, o, b, h_given);
+  }
+  void add_one(const Repeat& repeat) {
+    const auto& [active, items] = repeat;
+    add(active, items);
+  }
+  void add_one(const SplineState& spline) {
+    const auto& [on, axes] = spline;
+    add(on, axes);
+  }
+  void add_one(const AxisMap& map) {
+    const auto& [kind, linear, rotary, side, frozen, scale, angle] = map;
+    add(kind, linear, rotary, side, frozen, scale, angle);
+  }
+  void add_one(const MillReturn& mill) {
+    const auto& [feed, plane, feed_mode, plane_axis, letter, moved] = mill;
+    add(feed, plane, feed_mode, plane_axis, letter, moved);
+  }
+  void add_one(const SpindleControl& spindle) {
+    const auto& [surface, axis] = spindle;
+    add(surface, axis);
+  }
+  void add_one(const Compensation& compensation) {
+    const auto& [side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, avoid, axis, radius, vector] = compensation;
+    add(side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, avoid, axis, radius, vector);
+  }
+  void add_one(const CycleState& cycle) {
+    const auto& [kind, drill_axis, has_z, has_r, z, r, z_incremental, r_incremental, q, dwell_s, in_position, initial_level] = cycle;
+    add(kind, drill_axis, has_z, has_r, z, r, z_incremental, r_incremental, q, dwell_s, in_position, initial_level);
+  }
+  void add_one(const NurbsState& nurbs) {
+    const auto& [first, knots, points, order, axes] = nurbs;
+    add(first, knots, points, order, axes);
+  }
+  void add_one(const SplineWay& way) {
+    const auto& [joined, moved, back] = way;
+    add(joined, moved, back);
+  }
+  void add_one(const LeftByEnd& left) {
+    const auto& [feed, motion, feed_mode, any] = left;
+    add(feed, motion, feed_mode, any);
+  }
+  void add_one(const ProgramRef& program) {
+    const auto& [file, number, offset, line] = program;
+    add(file, number, offset, line);
+  }
+  void add_one(const CallFrame& frame) {
+    const auto& [program, offset, begin, line, begin_line, call_line, repeats, kind, macro_level, loop_base, started, origin, modal_call, modal_slot,
+                 figure] = frame;
+    add(program, offset, begin, line, begin_line, call_line, repeats, kind, macro_level, loop_base, started, origin, modal_call, modal_slot, figure);
+  }
+  void add_one(const OptionalDouble& number) { add_one(number.value_or(std::numeric_limits<double>::quiet_NaN())); }
+  void add_one(const ModalCall& call) {
+    const auto& [program, repeats, every_block, by_code, below, depth, argument] = call;
+    add(program, repeats, every_block, by_code, below, depth, argument);
+  }
+  void add_one(const Figure& figure) {
+    const auto& [center, start, step, angle] = figure;
+    add(center, start, step, angle);
+  }
+  void add_one(const InterruptProgram& interrupt) {
+    const auto& [program, begin, begin_line] = interrupt;
+    add(program, begin, begin_line);
+  }
+  void add_one(const ProgramMaps& maps) {
+    const auto& [mirror_center, scaling_center, scaling_factor, rotation_center, rotation_deg] = maps;
+    add(mirror_center, scaling_center, scaling_factor, rotation_center, rotation_deg);
+  }
+  void add_one(const Selection& selection) {
+    const auto& [parameter, device, tool_group] = selection;
+    add(parameter, device, tool_group);
+  }
+  void add_one(const WorkTurn& turn) {
+    const auto& [deg, center, axis] = turn;
+    add(deg, center, axis);
+  }
+  void add_one(const Loop& loop) {
+    const auto& [offset, body, end, line, end_line, number] = loop;
+    add(offset, body, end, line, end_line, number);
+  }
+
+  uint64_t value_ = 0;
+};
+
+/// All groups of the state. Not in it is what only counts on: the blocks, and the number of a point or an area that is held, for which its contents stand.
+void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
+  {
+    const auto& [seq, repeat, owes_mark, stop_reading] = static_cast<const BlockLife&>(values);
+    static_cast<void>(seq);
+    hash.add(repeat, owes_mark, stop_reading);
+  }
+  {
+    const auto& [machine] = static_cast<const MachinePosition&>(values);
+    hash.add(machine);
+  }
+  {
+    const auto& [applied] = static_cast<const AppliedLength&>(values);
+    hash.add(applied);
+  }
+  {
+    const auto& [modal, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror,
+                 rotated, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, map, mill, spindle] = static_cast<const ModalLife&>(values);
+    hash.add(modal, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror, rotated,
+             spline, polar_angle, thread_lead, last_feed, map, mill, spindle);
+    if (map.frozen != 0) hash.add(in.points[held_point].at);
+    hash.add(stroke_box != 0);
+    if (stroke_box != 0) {
+      const auto& [axis, turns, low, high] = in.stroke_boxes[stroke_box - 1];
+      hash.add(axis, turns, low, high);
+    }
+  }
+  {
+    const auto& [comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, switch_mirror, figure_scaled, figure_mirror,
+                 vacant_feed_file, vacant_feed, vacant_feed_line, spline_way] = static_cast<const ModalInProgram&>(values);
+    hash.add(comp, cycle, moves_since_comp_off, moved_side, nurbs_order, arc_step, parameter_input, switch_mirror, figure_scaled, figure_mirror, vacant_feed_file,
+             vacant_feed, vacant_feed_line, spline_way);
+    // Inside a curve that is given block by block its points have numbers of their own: two such states count as different.
+    if (arc_step != ArcStep::none) hash.add(arc_points);
+    if (nurbs.active()) hash.add(nurbs);
+  }
+  {
+    const auto& [end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, control_3003, control_3004] = static_cast<const ProgramLife&>(values);
+    hash.add(end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, control_3003, control_3004);
+  }
+  {
+    const auto& [spindle_on, spindle_clamped] = static_cast<const UntilReset&>(values);
+    hash.add(spindle_on, spindle_clamped);
+  }
+  {
+    const auto& [left_by_end] = static_cast<const UntilOperatorReset&>(values);
+    hash.add(left_by_end);
+  }
+  {
+    const auto& [clock_base, clock_shift_s, port_open] = static_cast<const UntilPowerOff&>(values);
+    hash.add(clock_base, clock_shift_s, port_open);
+  }
+  // Derived is made of the other groups, of the records and of the parameters.
+}
+
+void add_calls(Hash& hash, const CallStack& stack) {
+  const auto& [codes_left, depth, loop_count, frame, loop] = stack;
+  hash.add(codes_left, depth, loop_count);
+  for (unsigned level = 0; level <= depth; ++level) hash.add(frame[level]);
+  for (unsigned open = 0; open < loop_count; ++open) hash.add(loop[open]);
+}
+
+void add_variables(Hash& hash, const Interpreter& in) {
+  for (unsigned level = 0; level <= in.macro_level(); ++level)
+    for (unsigned i = 0; i < kLocals; ++i) hash.add(in.variables.locals(level)[i]);
+  double value = 0;
+  uint32_t number = 0;
+  for (uint32_t from = 0; in.common->next(from, &number, &value); from = number + 1) hash.add(number, value);
+  for (unsigned i = 0; i < kNames; ++i) hash.add(in.common->name(i));
+}
+
+void add_parameters(Hash& hash, const Parameters& parameters) {
+  ParameterId id;
+  ParameterValue value;
+  int axis = 0;
+  for (unsigned i = 0; parameters.at(i, &id, &axis, &value); ++i) {
+    hash.add(i, value.number);  // its id and axis stay, as all of them stand in the order in which they first were set
+    if (const char* text = parameters.text(value)) {
+      for (; *text != 0; ++text) hash.add(*text);
+    }
+  }
+}
+
+void add_records(Hash& hash, const ProgramRecords& records) {
+  {
+    const auto& [modal_call, figure, interrupt, switch_mirror, selection, work_turn] = static_cast<const ProgramRecordsLife&>(records);
+    hash.add(modal_call, figure, interrupt, switch_mirror.center, selection, work_turn.commanded, work_turn.reached);
+  }
+  {
+    const auto& [maps] = static_cast<const MapRecordsLife&>(records);
+    hash.add(maps);
+  }
+  {
+    const auto& [midpoints, skip, output, workpieces] = static_cast<const MachineRecordsLife&>(records);
+    hash.add(midpoints.axis, skip.work, workpieces.count);
+    for (const InterfaceOutput& word : output) hash.add(word.bits);
+  }
+}
+
+}  // namespace
+
+uint64_t state_hash(const Interpreter& in) {
+  Hash hash;
+  add_values(hash, in, in.state);
+  add_calls(hash, in.state);
+  add_values(hash, in, in.interrupted_state());
+  hash.add(in.finished_modal);
+  add_variables(hash, in);
+  for (unsigned key = 0; key < in.frames.size(); ++key) hash.add(in.frames.get(key));
+  add_records(hash, *in.records);
+  add_parameters(hash, in.parameters);
+  return hash.value();
+}
+
+}  // namespace nc
