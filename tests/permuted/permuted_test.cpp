@@ -6,7 +6,7 @@
 // Letters of words are moved among themselves but those of axes, codes, block numbers, E (an exponent for the lexer), F, S and T.
 //
 // Not moved are M codes, the L of data input, O numbers, locals and common variables, and parameters that
-// have a name. What the setup format itself names by m700's numbers (inputs, work_offsets) stays as it is.
+// have a name. What the setup format itself names as m700 does (work_offsets) stays as it is.
 //
 // A trace is the same when its lines are, but for the modal codes of its end, which are moved back and whose
 // order is that of the groups, and the codes, variables and parameters that the sentence of an alarm names:

@@ -209,10 +209,17 @@ nlohmann::ordered_json rewritten(const nlohmann::ordered_json& setup, const Dial
           row == nullptr ? value : moved_value(value, row->what, permutation);
     }
   }
-  if (setup.contains("vars")) {
-    out["vars"] = nlohmann::ordered_json::object();
-    for (const auto& [key, value] : setup["vars"].items())
-      out["vars"][std::to_string(permutation.variable(static_cast<uint32_t>(std::stoul(key))))] = value;
+  // Objects whose keys are numbers of variables.
+  const auto move_keys = [&](nlohmann::ordered_json& owner, const char* name) {
+    if (!owner.contains(name)) return;
+    const nlohmann::ordered_json before = owner[name];
+    owner[name] = nlohmann::ordered_json::object();
+    for (const auto& [key, value] : before.items()) owner[name][std::to_string(permutation.variable(static_cast<uint32_t>(std::stoul(key))))] = value;
+  };
+  move_keys(out, "vars");
+  move_keys(out, "inputs");
+  if (setup.contains("events")) {
+    for (nlohmann::ordered_json& event : out["events"]) move_keys(event, "inputs");
   }
   if (setup.contains("subprograms"))
     for (auto& [name, text] : out["subprograms"].items()) text = rewritten(text.get<std::string>(), family, permutation);
