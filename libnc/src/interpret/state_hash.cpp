@@ -191,7 +191,7 @@ void add_variables(Hash& hash, const Interpreter& in) {
   double value = 0;
   uint32_t number = 0;
   for (uint32_t from = 0; in.common->next(from, &number, &value); from = number + 1) hash.add(number, value);
-  for (unsigned i = 0; i < kNames; ++i) hash.add(in.common->name(i));
+  for (unsigned i = 0; i < kNames; ++i) hash.add(in.common->name(i).text);
 }
 
 void add_parameters(Hash& hash, const Parameters& parameters) {
