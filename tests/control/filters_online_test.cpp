@@ -142,7 +142,8 @@ TEST(FiltersOnline, HighAccuracyHasItsSlopeAndItsFilters) {  // 13.15
   bench.param("2007", "100").param("1206", "6000").param("1207", "100");  // dV: 1000 mm/s^2
   const Course slope = run(bench, "G61.1\nG1 X50. F3000\nM02");
   EXPECT_NEAR(slope.acceleration, 1000, 1);
-  EXPECT_NEAR(slope.seconds - 0.003, 1 + 0.05, 0.005);
+  constexpr double kRounding = 0.005;  // the mean that rounds corners within 0.01 mm, where no filter is set
+  EXPECT_NEAR(slope.seconds - 0.003, 1 + 0.05 + kRounding, 0.002);
   bench.param("1568", "40").param("1570", "20").at(0, 0, 0);
   const Course smooth = run(bench, "G61.1\nG1 X50. F3000\nM02");
   EXPECT_NEAR(smooth.seconds - 0.003, 1 + 0.05 + 0.06, 0.005);

@@ -72,7 +72,7 @@ typedef struct nc_config {
   double max_feed_override; /**< largest value of nc_inputs::feed_override, default 2.0 */
   uint8_t motion_mode;     /**< nc_motion_mode; default NC_MOTION_TRAPEZOID (ncrtd and ncsim choose NC_MOTION_OPTIMAL where every axis has all limits) */
   double path_tolerance;   /**< NC_MOTION_OPTIMAL: lines leave the programmed path by this at most, mm, 1e-5..10;
-                                0: not at all, with a rest at each corner; default 0.01 */
+                                0: not at all, with a rest at each corner; default 0.01. NC_MOTION_TRAPEZOID: by which high-accuracy control rounds corners */
   nc_variable_range variable_ranges[NC_VARIABLE_RANGES]; /**< shared by all part systems; apart from one another, from those of the options
                                 and from local and system variables */
   const nc_vendor_code* vendor_codes; /**< the vendor's own codes, `vendor_code_count` rows; copied by nc_create(). NULL = none */

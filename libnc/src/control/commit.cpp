@@ -405,7 +405,7 @@ void Commit::set_rule(const FeedRule& rule, Segment* s) {
 
 /// What acts behind interpolation. A thread and a tap keep their relation to the spindle.
 void Commit::set_filter(const Move& move, const FilterParameters& filters, Segment* s) const {
-  if (!config_.filters || !filters.any || move.kind == NC_MOVE_THREAD || move.kind == NC_MOVE_TAP || move.rule.tapping) return;
+  if (!config_.filters || (!filters.any && move.high_accuracy == 0) || move.kind == NC_MOVE_THREAD || move.kind == NC_MOVE_TAP || move.rule.tapping) return;
   FilteredMove filtered;
   filtered.kind = move.kind == NC_MOVE_RAPID  ? FilteredMove::Kind::rapid
                   : move.kind == NC_MOVE_SKIP ? FilteredMove::Kind::skip
@@ -418,6 +418,7 @@ void Commit::set_filter(const Move& move, const FilterParameters& filters, Segme
   for (unsigned i = 0; i < axis_count_; ++i)
     if (high[i] > low[i]) filtered.moving |= 1u << i;
   s->filter = config_.rules->filter_times(filters, filtered, config_.cycle_s);
+  if (s->filter.kind == FilterTimes::Kind::none && filtered.high_accuracy && filtered.kind == FilteredMove::Kind::cut) s->filter = config_.rounding;
   // M700 13.15: arcs of two linear axes themselves; roundness is nothing that a rotary axis has a part in.
   if (!curve_.circular || curve_.shape != nullptr || filtered.kind != FilteredMove::Kind::cut) return;
   if (((rotary_ >> curve_.h | rotary_ >> curve_.v) & 1) != 0) return;

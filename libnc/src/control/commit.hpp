@@ -23,6 +23,7 @@ struct CommitConfig {
   double cycle_s = 0.001;
   const MotionRules* rules = nullptr;  ///< of the family
   bool filters = false;       ///< there are filters behind interpolation
+  FilterTimes rounding;       ///< of cuts in high-accuracy control whose parameters give no filter
   bool rotary_makes_length = false;  ///< F of a line is composite: a degree counts as a millimetre (M700 7.6)
 };
 

@@ -6,6 +6,7 @@
 #include "dialect/dialect.hpp"
 #include "dialect/text.hpp"
 #include "filter/position_filter.hpp"
+#include "motion/limits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,20 @@ namespace nc {
 namespace {
 
 /// A curve that is made again passes through the point where it was cut.
+
+}  // namespace
+
+namespace {
+
+/// The mean of cuts in high-accuracy control, where the parameters give none.
+FilterTimes rounding_of(const nc_config& config, const nc_system_config& system) {
+  MotionLimits limits;
+  limits.axis_count = system.axis_count;
+  for (unsigned i = 0; i < system.axis_count; ++i) limits.axis[i].acceleration = system.axis[i].max_acceleration;
+  limits.cycle_s = config.cycle_s;
+  limits.tolerance = config.path_tolerance;
+  return rounding_filter(limits);
+}
 
 }  // namespace
 
@@ -44,6 +59,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   commit.cycle_s = config.cycle_s;
   commit.rules = &dialect.rules.motion;
   commit.filters = dialect.rules.motion.filter_times != nullptr && config.motion_mode != NC_MOTION_OPTIMAL;
+  if (commit.filters) commit.rounding = rounding_of(config, system);
   commit_.create(commit, arena);
 
   ExecutorConfig ex;

@@ -35,6 +35,7 @@ MotionLimits motion_limits(const ExecutorConfig& config) {
   limits.cycle_s = config.cycle_s;
   limits.max_feed_override = config.max_feed_override;
   limits.accuracy_joint_speed = config.accuracy_joint_speed;
+  limits.tolerance = config.optimal ? 0 : config.tolerance;
   return limits;
 }
 

@@ -27,7 +27,7 @@ struct ExecutorConfig {
   bool tells_marks = false;  ///< executed_mark() is asked
   bool filters = false;      ///< there may be filters behind interpolation, each mean up to kLongestMean
   bool optimal = false;      ///< time-optimal jerk-limited law instead of the trapezoid
-  double tolerance = 0.01;   ///< optimal: by which lines may leave the programmed path, mm
+  double tolerance = 0.01;   ///< optimal: by which lines may leave the programmed path, mm; else by which the mean of a segment may round its corners
 };
 
 class ExecutorState;  ///< all members; defined in interpolate/executor_state.hpp

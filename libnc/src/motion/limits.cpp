@@ -251,7 +251,7 @@ Joint quickest_joint(const Segment& a, const SegmentShape& sa, const Segment& b,
 
 /// Joint by the axes' limits, no faster than `accuracy`.
 Joint joint_by_axes(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb, double accuracy,
-                    const MotionLimits& limits) {
+                    const MotionLimits& limits, const RecentTurns* turns) {
   constexpr double kNothing = 0.1;  // a share that is not weighed
   constexpr double kShort = 2;      // times the speed of the corner, below which a segment stays from rest to rest: nor is that
   // Largest change of direction, in units of each axis' acceleration: s^2/mm.
@@ -264,21 +264,27 @@ Joint joint_by_axes(const Segment& a, const SegmentShape& sa, const Segment& b, 
   const double reach = std::min({sa.reach, sb.reach, accuracy});
   // The filters round the corner: what they make of any step keeps the limits.
   if (a.filter.kind == FilterTimes::Kind::after) return {reach * reach, 0};
-  const double rounding = sa.round > 0 || sb.round > 0 ? kRoundShare : 0, most = kCornerShare - rounding;
+  const double window = turns != nullptr ? rounding_window(b, limits) : 0;
+  const double rounding = sa.round > 0 || sb.round > 0 ? kRoundShare : 0, most = (window > 0 ? kRoundingShare : kCornerShare) - rounding;
   const double shortest = std::min(a.curve.length, b.curve.length);
   Joint joint;
   joint.share = reach * (reach * dt / shortest + 1) * change / dt;
   joint.speed2 = reach * reach;
-  if (joint.share <= kNothing) {
+  if (window > 0) {
+    const RecentTurns::Corner corner = turns->corner(reach, most, window, limits);
+    joint = {corner.speed * corner.speed, corner.share};
+  }
+  if (joint.share <= kNothing && joint.speed2 >= reach * reach) {
     joint.share += rounding;
     return joint;
   }
   // v (v dt/L + 1) change = share dt, solved for v without cancellation.
   const auto speed = [&](double share) {
+    if (window > 0) return turns->corner(reach, share, window, limits).speed;
     const double p = dt / shortest, q = share * dt / change;
     return std::min(reach, 2 * q / (1 + std::sqrt(1 + 4 * p * q)));
   };
-  const double share = std::min(joint.share, most), v = speed(share);
+  const double share = std::min(joint.share, most), v = window > 0 ? std::sqrt(joint.speed2) : speed(share);
   // A corner that is passed slower than one cycle of braking is not worth passing: rest, so that its point is
   // hit exactly.
   const double brake = std::min(path_acceleration(a, sa, 1, 0, limits), path_acceleration(b, sb, 1, 0, limits));
@@ -312,15 +318,28 @@ double accuracy_speed(const Segment& a, const SegmentShape& sa, const Segment& b
 }  // namespace
 
 Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
-                    const MotionLimits& limits) {
-  return joint_by_axes(a, sa, b, sb, b.accuracy.ask_of_joint() ? accuracy_speed(a, sa, b, sb, limits) : HUGE_VAL, limits);
+                    const MotionLimits& limits, const RecentTurns* turns) {
+  return joint_by_axes(a, sa, b, sb, b.accuracy.ask_of_joint() ? accuracy_speed(a, sa, b, sb, limits) : HUGE_VAL, limits, turns);
 }
 
 double reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape,
                        const MotionLimits& limits) {
   if (joint.speed2 <= 0) return 0;
-  // Behind a short neighbour lie other corners that fall into the same cycle.
+  // Behind a short neighbour lie other corners that fall into the same cycle, or into the same mean.
+  const double window = rounding_window(neighbour, limits);
+  if (window > 0) {
+    // No faster than this on the way through it.
+    const double mean = std::sqrt(joint.speed2) + path_acceleration(neighbour, shape, 1, 0, limits) * window / 2;
+    return neighbour.curve.length < std::min(mean, shape.reach) * window ? kRoundingShare : joint.share;
+  }
   return neighbour.curve.length < shape.reach * limits.cycle_s ? kCornerShare : joint.share;
+}
+
+double even_acceleration(const Segment& s, double entry, double exit, const MotionLimits& limits) {
+  const double window = rounding_window(s, limits);
+  if (!(window > 0) || !(entry > 0) || !(exit > 0)) return s.acceleration;
+  if (s.curve.length >= (std::max(entry, exit) + s.acceleration * window / 2) * window) return s.acceleration;  // it never lies within the mean
+  return std::min(s.acceleration, kUneven * std::min(entry, exit) / window);
 }
 
 void set_segment_limits(Segment& s, const SegmentShape& g, double share, const MotionLimits& limits) {

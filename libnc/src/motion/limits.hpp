@@ -4,6 +4,7 @@
 #pragma once
 
 #include "motion/axis_limits.hpp"
+#include "motion/rounding.hpp"
 #include "ring/segment.hpp"
 
 namespace nc {
@@ -29,6 +30,7 @@ struct MotionLimits {
   double cycle_s = 0.001;
   double max_feed_override = 2.0;
   AccuracyJointSpeed accuracy_joint_speed = nullptr;  ///< the family's; nullptr: it has no high-accuracy control
+  double tolerance = 0;                               ///< by which corners may be rounded behind interpolation, mm
 };
 
 /// What joints and limits need to know of a segment's geometry.
@@ -51,9 +53,13 @@ struct Joint {
   double share = 0;   ///< of every axis' acceleration, what the velocity step takes at that speed
 };
 
-/// The joint from a to b where nothing asks for rest.
+/// The joint from a to b where nothing asks for rest. `turns` is what lies in front of b, its own corner included; where there is none or the mean
+/// behind interpolation does not round it, the corner is a step within one cycle.
 Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
-                    const MotionLimits& limits);
+                    const MotionLimits& limits, const RecentTurns* turns = nullptr);
+
+/// The acceleration of a segment between two corners, passed at these speeds, where several of them may fall into one mean.
+double even_acceleration(const Segment& segment, double entry, double exit, const MotionLimits& limits);
 
 /// Share of the axes' acceleration to reserve on a segment for what happens at (and shortly behind) one of
 /// its ends.

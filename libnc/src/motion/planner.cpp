@@ -14,6 +14,9 @@ bool before(uint32_t a, uint32_t b) {
   return static_cast<int32_t>(a - b) < 0;
 }
 
+/// Of the way that is gone within the mean at full speed: shorter ways are looked at together.
+constexpr double kWaysInWindow = 1.0 / 16;
+
 /// A record at which nothing may move, whatever lies around it.
 bool demands_rest(const Record& r) {
   if (r.kind == ItemKind::action)
@@ -61,8 +64,10 @@ void Planner::update_joint(uint32_t ordinal) {
 
 /// The end of the tip is known: its limits are final.
 void Planner::close(const Joint& exit, double reserve) {
+  if (!(exit.speed2 > 0)) turns_.clear();
   Segment& s = record(tip_.record).segment;
   set_segment_limits(s, tip_.shape, std::max(tip_.reserve, reserve), limits_);
+  s.acceleration = even_acceleration(s, tip_.entry, std::sqrt(exit.speed2), limits_);
   Entry& e = entry(tip_.ordinal);
   e.corner2 = exit.speed2;
   e.joint2 = 0;
@@ -74,6 +79,15 @@ void Planner::close(const Joint& exit, double reserve) {
   e.constant = s.skip || s.fixed_override || e.feed == HUGE_VAL;
   tip_.open = false;
   update_joint(tip_.ordinal - 1);
+}
+
+/// The corner behind the tip, for the mean that rounds it.
+void Planner::add_turn(const Segment& from, const Segment& to, const SegmentShape& shape) {
+  const double window = rounding_window(to, limits_);
+  if (!(window > 0)) return;
+  AxisVec turn;
+  for (unsigned i = 0; i < limits_.axis_count; ++i) turn[i] = shape.entry[i] - tip_.shape.exit[i];
+  turns_.go(from.curve.length, tip_.entry, kWaysInWindow * tip_.shape.reach * window, turn, limits_.axis_count);
 }
 
 void Planner::commit_segment(uint32_t index) {
@@ -88,9 +102,12 @@ void Planner::commit_segment(uint32_t index) {
   if (tip_.open) {
     const Segment& from = record(tip_.record).segment;
     Joint joint;
-    if (!must_rest(record(tip_.record), r))
-      joint = joint_between(from, tip_.shape, r.segment, tip.shape, limits_);
+    if (!must_rest(record(tip_.record), r)) {
+      add_turn(from, r.segment, tip.shape);
+      joint = joint_between(from, tip_.shape, r.segment, tip.shape, limits_, &turns_);
+    }
     tip.reserve = reserve_towards(joint, from, tip_.shape, limits_);
+    tip.entry = std::sqrt(joint.speed2);
     close(joint, reserve_towards(joint, r.segment, tip.shape, limits_));
   }
   tip_ = tip;
@@ -157,6 +174,7 @@ void Planner::truncate(uint32_t end, const Inputs& in) {
     if (r.kind == ItemKind::move && r.segment.curve.length > 0) next_ordinal_ = r.segment.ordinal + 1;
   }
   tip_ = {};
+  turns_.clear();
   head_ = seen_head_ = end;
   if (next_ordinal_ != in.ordinal) {
     Entry& last = entry(next_ordinal_ - 1);

@@ -64,6 +64,7 @@ class Planner {
     uint32_t record = 0, ordinal = 0;
     SegmentShape shape;
     double reserve = 0;    ///< share reserved for its start
+    double entry = 0;      ///< speed of the corner at its start, mm/s
     unsigned between = 0;  ///< other records committed behind it
     bool open = false;     ///< its end is not known: held back, its record is still there
     bool valid = false;
@@ -74,6 +75,7 @@ class Planner {
   Entry& entry(uint32_t ordinal) const { return entry_[ordinal & mask_]; }
   void commit_segment(uint32_t index);
   bool must_rest(const Record& from, const Record& to) const;
+  void add_turn(const Segment& from, const Segment& to, const SegmentShape& shape);
   void close(const Joint& exit, double reserve);
   double cap(const Entry& e) const;
   void update_joint(uint32_t ordinal);
@@ -93,6 +95,7 @@ class Planner {
   double override_ = 1;
   bool single_block_ = false;
   Tip tip_;
+  RecentTurns turns_;  ///< in front of what comes behind the tip
   PlanExchange exchange_;
 };
 
