@@ -105,8 +105,8 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   to.stop_cause = as_enum(from.stop_cause, nc_CAUSE_ALARM, nc_CAUSE_OTHER);
   set(to.state_text, from.state_text);
   to.resetting = block.resetting != 0;
-  to.single_block = block.single_block != 0;
-  to.optional_stop = block.optional_stop != 0;
+  to.single_block = (block.single_block >> system & 1u) != 0;
+  to.optional_stop = (block.optional_stop >> system & 1u) != 0;
   to.program_ready = block.program_ready != 0;
   to.rapid = from.rapid != 0;
   to.alarm = alarms_in(block) != 0;
@@ -364,7 +364,8 @@ share::Request request(const nc_Command& command, const share::MachineBlock& mac
   to.expected_mode = command.expected_mode;
   to.expected_run_state = command.expected_run_state;
   share::set_text(&to.expected_program, command.expected_program);
-  to.system = command.part_system - 1;  // 0 becomes a number that no part system has
+  static_assert(share::kEverySystem == 0u - 1);
+  to.system = command.part_system - 1;  // 0 is all of them
   to.axis = NC_MAX_AXES;
   if (to.system < machine.system_count)
     for (unsigned a = 0; a < machine.axis_count[to.system]; ++a)

@@ -38,9 +38,18 @@ constexpr bool for_feeder(CommandKind kind) {
 // Who asks: who has started the runtime, a client of the shared memory (DDS), a point of the machine, its ladder program.
 enum class Asker : std::uint8_t { kConsole, kClient, kPanel, kLadder };
 
+// Instead of an index: what a button of a panel means that belongs to no part system.
+inline constexpr std::uint8_t kAllSystems = 0xff;
+
+// What can be asked of one part system or of all of them. Mode and reset are always of the whole control, as their signals are
+// (plc.mode_*, plc.reset); programs and manual motion are always of one.
+constexpr bool takes_all_systems(CommandKind kind) {
+  return kind <= CommandKind::kOptionalStop;
+}
+
 struct Command {
   CommandKind kind = CommandKind::kReset;
-  std::uint8_t system = 0;  // index; programs and manual motion are per part system
+  std::uint8_t system = 0;  // index, or kAllSystems
   std::uint8_t axis = 0;
   std::uint32_t number = 0;
   double value = 0;

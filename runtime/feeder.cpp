@@ -291,8 +291,9 @@ void Feeder::rewind_ended() {
       system.ended = system.alarmed = false;
       if (status < 0) system = {};
     }
-    if (s != 0) continue;
     const std::lock_guard lock(mutex_);
+    ++info_.system_runs[s];
+    if (s != 0) continue;
     info_.ended = true;
     info_.ended_ok = ok;
     ++info_.runs;

@@ -36,7 +36,8 @@ struct FeederInfo {
   bool program_ready = false;  // selected, at its head or running
   bool ended = false;          // the last run came to its end (M02, M30)
   bool ended_ok = false;
-  std::uint64_t runs = 0;       // runs that ended
+  std::uint64_t runs = 0;       // runs of the first part system that ended
+  std::uint64_t system_runs[NC_MAX_SYSTEMS] = {};  // the same of each
   std::uint64_t events = 0;     // items executed
   std::uint64_t dropped = 0;    // events that were not fetched in time
   std::uint32_t main_line = 0;  // line of the main program that was finished last

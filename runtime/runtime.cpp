@@ -302,6 +302,7 @@ Answer Runtime::execute_alone(Command command) {
 Answer Runtime::execute(CommandKind kind, double value, std::uint32_t number) {
   Command command;
   command.kind = kind;
+  if (takes_all_systems(kind)) command.system = kAllSystems;
   command.value = value;
   command.number = number;
   return execute(command);

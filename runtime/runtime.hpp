@@ -75,6 +75,7 @@ class Runtime {
   // ---- operator ----
   // Hands the command over and waits for the answer (on virtual time by stepping).
   Answer execute(Command command);
+  // Of all part systems where the command may be, as a button of the panel is; else of the first.
   Answer execute(CommandKind kind, double value = 0, std::uint32_t number = 0);
   Answer select_program(unsigned file) { return execute(CommandKind::kSelectProgram, 0, file); }
   Answer load_mdi(const std::string& text, unsigned system = 0);

@@ -55,7 +55,7 @@ Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder
       macro_(config.macro, points_),
       snapshot_(Snapshot::bytes(config.nc.system_count)) {
   for (unsigned s = 0; s < systems_; ++s) {
-    in_[s].feed_override = in_[s].rapid_override = 1;
+    in_[s].feed_override = in_[s].rapid_override = feed_override_[s] = rapid_override_[s] = 1;
     last_command_[s] = config.start[s];
     out_[s].command = config.start[s];
     out_[s].distance_zero = true;
@@ -158,35 +158,45 @@ void Scan::answer_commands() noexcept {
   answered_count_ = 0;
 }
 
+// Bit per part system; 0 = there is none of this number.
+std::uint32_t Scan::named_systems(const Command& command) const noexcept {
+  if (command.system == kAllSystems) return all_systems();
+  return command.system < systems_ ? 1u << command.system : 0;
+}
+
 Answer Scan::apply(const Command& command) noexcept {
+  const std::uint32_t systems = named_systems(command);
+  if (takes_all_systems(command.kind) && systems == 0) return Answer::kAxisUnknown;
+  const auto set = [systems](bool on, std::uint32_t* switches) {
+    *switches = on ? *switches | systems : *switches & ~systems;
+    return Answer::kDone;
+  };
   switch (command.kind) {
     case CommandKind::kSetMode:
       if (command.number > static_cast<std::uint32_t>(Mode::kManual)) return Answer::kOutOfRange;
       return set_mode(static_cast<Mode>(command.number));
     case CommandKind::kCycleStart:
-      return start_cycle(command.by);
+      return start_cycle(systems, command.system == kAllSystems, command.by);
     case CommandKind::kFeedHold:
       if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
-      hold_request_ = program_active();
+      hold_request_ |= systems & active_systems();
       return Answer::kDone;
     case CommandKind::kEnd:
       ending_ = true;
       if (mode_ == Mode::kManual) request_reset();  // which a feed hold does not stop
-      else hold_request_ = program_active();
+      else hold_request_ = active_systems();
       return Answer::kDone;
     case CommandKind::kReset:
       request_reset();
       return Answer::kDone;
     case CommandKind::kFeedOverride:
-      return set_override(command.value, config_.nc.max_feed_override, machine_feeds_, &feed_override_);
+      return set_override(systems, command.value, config_.nc.max_feed_override, machine_feeds_, feed_override_);
     case CommandKind::kRapidOverride:
-      return set_override(command.value, 1, machine_rapids_, &rapid_override_);
+      return set_override(systems, command.value, 1, machine_rapids_, rapid_override_);
     case CommandKind::kSingleBlock:
-      single_block_ = command.number != 0;
-      return Answer::kDone;
+      return set(command.number != 0, &single_block_);
     case CommandKind::kOptionalStop:
-      optional_stop_ = command.number != 0;
-      return Answer::kDone;
+      return set(command.number != 0, &optional_stop_);
     case CommandKind::kJog:
     case CommandKind::kStep:
     case CommandKind::kReference:
@@ -223,36 +233,37 @@ Answer Scan::set_mode(Mode mode) noexcept {
   return Answer::kDone;
 }
 
-// What a start acts on: the programs that are interrupted go on, and one that has ended meanwhile does not begin again beside them; else
-// what lies ready for this mode begins.
-std::uint32_t Scan::ready_systems() const noexcept {
+// What a start of these part systems acts on: a program that is interrupted goes on, else what lies ready for this mode begins. The one
+// button of them all begins nothing beside a program that runs or is interrupted: what has ended meanwhile must not begin again because its
+// neighbour goes on. Who names a part system wants that one to begin.
+std::uint32_t Scan::ready_systems(std::uint32_t systems, bool all) const noexcept {
   const std::uint32_t loaded = loaded_.load(std::memory_order_acquire), wanted = mode_ == Mode::kMdi ? kMdiLoaded : kPartLoaded;
-  const bool goes_on = program_active();
-  std::uint32_t ready = 0;
-  for (unsigned s = 0; s < systems_; ++s) {
-    const bool interrupted = out_[s].state == NC_STATE_HOLD || out_[s].state == NC_STATE_STOPPED;
-    const bool acts = goes_on ? interrupted : (loaded >> kLoadedBits * s & wanted) != 0;
-    ready |= acts ? 1u << s : 0;
-  }
-  return ready;
+  const std::uint32_t active = active_systems();
+  std::uint32_t begins = 0;
+  for (unsigned s = 0; s < systems_ && (active == 0 || !all); ++s)
+    if ((loaded >> kLoadedBits * s & wanted) != 0) begins |= 1u << s;
+  const std::uint32_t goes_on = in_state(NC_STATE_HOLD) | in_state(NC_STATE_STOPPED);
+  return systems & (goes_on | (begins & ~active));
 }
 
-Answer Scan::start_cycle(Asker by) noexcept {
+Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
   if (ending_) return Answer::kEnding;
   if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
   if (reset_phase_ != ResetPhase::kNone) return in_reset();
   // An alarm that does not stop keeps the next program from starting, not one from going on.
   if (alarms_.stops()) return Answer::kAlarmActive;
-  if (!program_active() && alarms_.waits_for_reset()) return Answer::kWarningActive;
-  for (unsigned s = 0; s < systems_; ++s)
-    if (out_[s].state == NC_STATE_RUNNING) return Answer::kAlreadyRunning;
-  const std::uint32_t ready = ready_systems();
-  if (std::all_of(machine_holds_, machine_holds_ + systems_, [](bool holds) { return holds; })) return Answer::kFeedHold;
+  const std::uint32_t ready = ready_systems(systems, all), active = active_systems();
+  if ((systems & active) == 0 && alarms_.waits_for_reset()) return Answer::kWarningActive;
+  if (ready == 0 && (systems & in_state(NC_STATE_RUNNING)) != 0) return Answer::kAlreadyRunning;
+  std::uint32_t held = 0;
+  for (unsigned s = 0; s < systems_; ++s) held |= machine_holds_[s] ? 1u << s : 0;
+  if (((ready != 0 ? ready : systems) & ~held) == 0) return Answer::kFeedHold;
   if (ready == 0) return Answer::kNoProgram;
-  if (!program_active()) program_mode_ = mode_;
-  start_pulse_ = ready;
-  hold_request_ = false;
+  if (active == 0) program_mode_ = mode_;
+  start_pulse_ |= ready;
+  hold_request_ &= ~ready;
   for (unsigned s = 0; s < systems_; ++s) {
+    if ((systems >> s & 1u) == 0) continue;
     if (machine_holds_[s]) refuse(s, Asked::kCycleStart, Answer::kFeedHold, -1, false, by);
     else happened(s, Asked::kCycleStart);
   }
@@ -270,10 +281,10 @@ void Scan::build_nc_inputs() noexcept {
     nc_inputs& in = in_[s];
     const hal::SystemFeedback& machine = feedback_.system[s];
     in.cycle_start = (start_pulse_ >> s & 1u) != 0;
-    in.feed_hold = hold_request_;  // or the machine's: run_ladder()
+    in.feed_hold = (hold_request_ >> s & 1u) != 0;  // or the machine's: run_ladder()
     in.reset = reset_phase_ == ResetPhase::kStopping;
-    in.single_block = single_block_;
-    in.optional_stop = optional_stop_;
+    in.single_block = (single_block_ >> s & 1u) != 0;
+    in.optional_stop = (optional_stop_ >> s & 1u) != 0;
     in.fin = machine.fin;
     in.fin2 = false;
     in.interlock = false;
@@ -285,8 +296,8 @@ void Scan::build_nc_inputs() noexcept {
     in.skip = machine.skip;
     in.unclamped = machine.unclamped;
     in.mirror = 0;
-    in.feed_override = feed_override_;  // but for decide_overrides()
-    in.rapid_override = rapid_override_;
+    in.feed_override = feed_override_[s];  // but for decide_overrides()
+    in.rapid_override = rapid_override_[s];
     std::copy(std::begin(machine.spindle), std::end(machine.spindle), in.spindle);
     in.spindle_select = selects_spindles_ ? 0 : 1;
     in.spindle_encoder = 0;
@@ -346,16 +357,14 @@ void Scan::record_position(unsigned system) noexcept {
 // What was asked for and has happened now: a hold is released when the path is at rest, a reset goes to the
 // feeder.
 void Scan::follow_requests() noexcept {
-  bool running = false;
   for (unsigned s = 0; s < systems_; ++s) {
-    running |= out_[s].state == NC_STATE_RUNNING;
     // The NC's own alarm, not the one that it was given.
     const bool alarm = out_[s].state == NC_STATE_ALARM;
     alarm_was_given_[s] = alarm && (alarm_was_given_[s] || in_[s].alarm);
     if (out_[s].inputs_refused != 0) raise(AlarmId::kBadInput, s, -1, out_[s].inputs_refused);
     if (alarm && !alarm_was_given_[s] && reset_phase_ == ResetPhase::kNone) raise(AlarmId::kProgram, s, -1);
   }
-  if (!running) hold_request_ = false;
+  hold_request_ &= in_state(NC_STATE_RUNNING);
   watch_manual();
   if (reset_phase_ == ResetPhase::kStopping) {
     ++reset_scans_;

@@ -133,8 +133,10 @@ class Scan {
   void bind_spindles() noexcept;
   void take_commands() noexcept;
   Answer apply(const Command& command) noexcept;
-  Answer start_cycle(Asker by) noexcept;
-  std::uint32_t ready_systems() const noexcept;
+  std::uint32_t named_systems(const Command& command) const noexcept;
+  std::uint32_t all_systems() const noexcept { return (1u << systems_) - 1; }
+  Answer start_cycle(std::uint32_t systems, bool all, Asker by) noexcept;
+  std::uint32_t ready_systems(std::uint32_t systems, bool all) const noexcept;
   Answer set_mode(Mode mode) noexcept;
   Answer manual(const Command& command) noexcept;
   Answer jog(const Command& command) noexcept;
@@ -148,7 +150,7 @@ class Scan {
   void watch_links() noexcept;
   void watch_retained() noexcept;
   void decide_overrides(const LadderRequests& requests) noexcept;
-  Answer set_override(double value, double most, const bool* machines, double* operators) noexcept;
+  Answer set_override(std::uint32_t systems, double value, double most, const bool* machines, double* operators) noexcept;
   void follow_ladder_manual(const LadderRequests& requests) noexcept;
   void request_reset() noexcept;
   void write_outputs() noexcept;
@@ -171,7 +173,9 @@ class Scan {
       if (!gone(alarms_.alarm[i])) alarms_.alarm[kept++] = alarms_.alarm[i];
     alarms_.count = kept;
   }
-  bool program_active() const noexcept;
+  bool program_active() const noexcept { return active_systems() != 0; }
+  std::uint32_t active_systems() const noexcept;
+  std::uint32_t in_state(std::uint8_t state) const noexcept;
   bool at_rest() const noexcept;
   void refuse(unsigned system, Asked asked, Answer why, int axis = -1, bool stopped = false, Asker by = Asker::kConsole) noexcept;
   void settle(Asked asked, Answer answer, Asker by) noexcept;
@@ -211,10 +215,10 @@ class Scan {
 
   Mode mode_ = Mode::kAuto;
   Mode program_mode_ = Mode::kAuto;  // in which the program that is active was started
-  double feed_override_ = 1, rapid_override_ = 1;  // the operator's
+  double feed_override_[NC_MAX_SYSTEMS], rapid_override_[NC_MAX_SYSTEMS];  // the operator's
   bool machine_holds_[NC_MAX_SYSTEMS] = {};  // plc.feed_hold_n is 0
   bool machine_feeds_[NC_MAX_SYSTEMS] = {}, machine_rapids_[NC_MAX_SYSTEMS] = {};  // a switch of the machine gives it
-  bool single_block_ = false, optional_stop_ = false;
+  std::uint32_t single_block_ = 0, optional_stop_ = 0;  // the operator's; bit per part system
   LadderRequests last_requests_;     // of the scan before
   unsigned ladder_start_scans_ = 0;  // the ladder's cycle start has been on for
   std::uint32_t links_seen_ = 0;  // bit n: the n-th point bus has answered
@@ -223,7 +227,7 @@ class Scan {
   std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // of the scan before
   std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that the FIN that is on has completed
   std::uint32_t start_pulse_ = 0;  // bit per part system: its program starts or goes on
-  bool hold_request_ = false;
+  std::uint32_t hold_request_ = 0;  // bit per part system: until it stands
   bool ending_ = false;  // nothing starts any more
   Refusal refusal_[NC_MAX_SYSTEMS];
   struct JogWatch {

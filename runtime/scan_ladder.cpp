@@ -22,7 +22,7 @@ void Scan::run_ladder() noexcept {
   ladder_->scan(&image);
   for (unsigned s = 0; s < systems_; ++s) {
     machine_holds_[s] = in_[s].feed_hold;
-    in_[s].feed_hold |= hold_request_;
+    in_[s].feed_hold |= (hold_request_ >> s & 1u) != 0;
   }
   decide_overrides(requests);
   follow_ladder(requests);
@@ -34,7 +34,7 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
     if (ladder_start_scans_ < kStartMinScans) ++ladder_start_scans_;
   } else {
     if (ladder_start_scans_ == kStartMinScans) {  // the NC sees it in the next scan
-      const Answer answer = start_cycle(machine_asker());
+      const Answer answer = start_cycle(all_systems(), true, machine_asker());
       if (answer != Answer::kAlreadyRunning) settle(Asked::kCycleStart, answer, machine_asker());  // the button of a program that runs is nothing to tell of
     }
     ladder_start_scans_ = 0;
@@ -77,11 +77,14 @@ void Scan::decide_overrides(const LadderRequests& requests) noexcept {
   }
 }
 
-// The operator's; refused where it would act in no part system.
-Answer Scan::set_override(double value, double most, const bool* machines, double* operators) noexcept {
+// The operator's; refused where it would act in none of the part systems that are named.
+Answer Scan::set_override(std::uint32_t systems, double value, double most, const bool* machines, double* operators) noexcept {
   if (!(value >= 0 && value <= most)) return Answer::kOutOfRange;
-  if (std::all_of(machines, machines + systems_, [](bool machine) { return machine; })) return Answer::kMachineSwitch;
-  *operators = value;
+  bool acts = false;
+  for (unsigned s = 0; s < systems_; ++s) acts |= (systems >> s & 1u) != 0 && !machines[s];
+  if (!acts) return Answer::kMachineSwitch;
+  for (unsigned s = 0; s < systems_; ++s)
+    if ((systems >> s & 1u) != 0) operators[s] = value;
   return Answer::kDone;
 }
 

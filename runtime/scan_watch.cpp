@@ -16,12 +16,16 @@ constexpr unsigned kStandstillScans = 5;
 
 }  // namespace
 
-bool Scan::program_active() const noexcept {
-  for (unsigned s = 0; s < systems_; ++s) {
-    const std::uint8_t state = out_[s].state;
-    if (state == NC_STATE_RUNNING || state == NC_STATE_HOLD || state == NC_STATE_STOPPED) return true;
-  }
-  return false;
+// Bit per part system.
+std::uint32_t Scan::in_state(std::uint8_t state) const noexcept {
+  std::uint32_t systems = 0;
+  for (unsigned s = 0; s < systems_; ++s) systems |= out_[s].state == state ? 1u << s : 0;
+  return systems;
+}
+
+// Whose program is in execution or interrupted.
+std::uint32_t Scan::active_systems() const noexcept {
+  return in_state(NC_STATE_RUNNING) | in_state(NC_STATE_HOLD) | in_state(NC_STATE_STOPPED);
 }
 
 bool Scan::at_rest() const noexcept {
@@ -107,7 +111,7 @@ void Scan::watch_overruns() noexcept {
     case OverrunReaction::kCount:
       break;
     case OverrunReaction::kFeedHold:
-      hold_request_ |= program_active();
+      hold_request_ |= active_systems();
       break;
     case OverrunReaction::kAlarm:
       raise(AlarmId::kScanOverrun, 0, -1);

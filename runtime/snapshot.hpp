@@ -45,7 +45,7 @@ struct Snapshot {
   std::int64_t time_ns = 0;  // clock at its start
   Mode mode = Mode::kAuto;
   unsigned system_count = 1;
-  bool single_block = false, optional_stop = false;
+  std::uint32_t single_block = 0, optional_stop = 0;  // of the operator; bit per part system
   bool resetting = false;
   bool reset_held = false;  // the reset is done, and the machine's reset is still on
   AlarmList alarms;

@@ -75,16 +75,45 @@ Ack make_ack(const Request& request, std::int64_t now_ns) {
   return ack;
 }
 
-// Whether the state that an accepted command asks for is there.
-bool reached(const Request& request, const Machine::State& state, std::uint64_t runs_before) {
-  const std::uint8_t run = state.run_state[request.system < NC_MAX_SYSTEMS ? request.system : 0];
+// What must name one part system.
+constexpr bool is_of_one_system(RequestKind kind) {
+  return kind == RequestKind::kJog || kind == RequestKind::kMdi || kind == RequestKind::kSelectProgram;
+}
+
+// What acts on the whole control, whichever part system is named.
+constexpr bool is_of_the_control(RequestKind kind) {
+  return kind == RequestKind::kReset || kind == RequestKind::kSetMode;
+}
+
+bool is_named(const Request& request, unsigned system) {
+  return request.system == kEverySystem || request.system == system;
+}
+
+// Who names one part system reads that all of them follow.
+const char* scope_text(const Request& request, unsigned systems) {
+  const bool more = systems > 1 && request.system != kEverySystem && is_of_the_control(static_cast<RequestKind>(request.kind));
+  return more ? "of all part systems" : "";
+}
+
+template <class Is>
+bool any_system(const Machine::State& state, Is is) {
+  for (unsigned s = 0; s < state.system_count; ++s)
+    if (is(s)) return true;
+  return false;
+}
+
+// Whether the state that an accepted command asks for is there. A start of all of them begins those that have something to begin with.
+bool reached(const Request& request, const Machine::State& state, const std::array<std::uint64_t, NC_MAX_SYSTEMS>& runs_before) {
+  const auto& run = state.run_state;
   switch (static_cast<RequestKind>(request.kind)) {
     case RequestKind::kCycleStart:
-      return run == NC_STATE_RUNNING || run == NC_STATE_STOPPED || state.runs != runs_before;
+      return any_system(state, [&](unsigned s) {
+        return is_named(request, s) && (run[s] == NC_STATE_RUNNING || run[s] == NC_STATE_STOPPED || state.runs[s] != runs_before[s]);
+      });
     case RequestKind::kFeedHold:
-      return run != NC_STATE_RUNNING;
+      return !any_system(state, [&](unsigned s) { return is_named(request, s) && run[s] == NC_STATE_RUNNING; });
     case RequestKind::kReset:
-      return !state.resetting && (run == NC_STATE_IDLE || run == NC_STATE_MANUAL);
+      return !state.resetting && !any_system(state, [&](unsigned s) { return run[s] != NC_STATE_IDLE && run[s] != NC_STATE_MANUAL; });
     case RequestKind::kSetMode:
       return static_cast<std::uint32_t>(state.mode) == request.number;
     default:
@@ -127,7 +156,8 @@ Intake::Verdict Intake::check_form(const Request& r, const Machine::State& state
   if (r.lease_ms != 0 && (r.lease_ms < kMinLeaseMs || r.lease_ms > kMaxLeaseMs))
     return bad("lease must be 100 to 60000 ms");
   if (!std::isfinite(r.value)) return bad("value is not a number");
-  if (r.system >= state.system_count) return bad("no such part system");
+  const bool all = r.system == kEverySystem && !is_of_one_system(static_cast<RequestKind>(r.kind));
+  if (r.system >= state.system_count && !all) return bad("no such part system");
   if (r.expected_mode < kAny || r.expected_mode > static_cast<std::int32_t>(Mode::kManual))
     return bad("expected mode is unknown");
   if (r.expected_run_state < kAny || r.expected_run_state > NC_STATE_MANUAL) return bad("expected run state is unknown");
@@ -235,17 +265,19 @@ Intake::Verdict Intake::take_control(Client* client, const Request& request, std
   return {AckState::kDone, AckReason::kNone, "has control"};
 }
 
+// Of each part system that is named.
 bool Intake::expected(const Request& request, const Machine::State& state, std::string* text) const {
   if (request.expected_mode != kAny && request.expected_mode != static_cast<std::int32_t>(state.mode)) {
     *text = "the mode is another one";
     return false;
   }
-  if (request.expected_run_state != kAny && request.expected_run_state != state.run_state[request.system]) {
+  const auto run_state_differs = [&](unsigned s) { return is_named(request, s) && request.expected_run_state != state.run_state[s]; };
+  if (request.expected_run_state != kAny && any_system(state, run_state_differs)) {
     *text = "the run state is another one";
     return false;
   }
   const std::string_view program = text_of(request.expected_program);
-  if (program.empty() || program == state.program[request.system]) return true;
+  if (program.empty() || !any_system(state, [&](unsigned s) { return is_named(request, s) && program != state.program[s]; })) return true;
   *text = "the program is another one";
   return false;
 }
@@ -265,7 +297,7 @@ Intake::Verdict Intake::execute(const Request& request) {
   } else if (const Row* row = row_of(kind); row != nullptr) {
     Command command;
     command.kind = row->command;
-    command.system = static_cast<std::uint8_t>(request.system);
+    command.system = request.system == kEverySystem ? kAllSystems : static_cast<std::uint8_t>(request.system);
     command.axis = static_cast<std::uint8_t>(request.axis);
     command.number = request.number;
     command.value = request.value;
@@ -302,7 +334,8 @@ Intake::Verdict Intake::decide(Client* client, const Request& request, const Mac
   std::string text;
   if (!expected(request, state, &text)) return {AckState::kRejected, AckReason::kExpectedState, text};
   Verdict verdict = execute(request);
-  if (verdict.state == AckState::kAccepted && !wait_for(request, now.steady_ns, state.runs)) verdict.state = AckState::kDone;
+  if (verdict.state != AckState::kRejected && verdict.text.empty()) verdict.text = scope_text(request, state.system_count);
+  if (verdict.state == AckState::kAccepted && !wait_for(request, now.steady_ns, state)) verdict.state = AckState::kDone;
   return verdict;
 }
 
@@ -365,10 +398,10 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
 // ---- what comes with time ----
 
 // False when the list is full: the command is executed all the same, its answer is `done` at once.
-bool Intake::wait_for(const Request& request, std::int64_t now_ns, std::uint64_t runs) {
+bool Intake::wait_for(const Request& request, std::int64_t now_ns, const Machine::State& before) {
   for (Pending& pending : pending_) {
     if (pending.used) continue;
-    pending = {true, request, now_ns, runs};
+    pending = {true, request, now_ns, before.runs};
     return true;
   }
   return false;
@@ -398,7 +431,7 @@ void Intake::tick(const Now& now, std::vector<Ack>* acks) {
   for (Pending& pending : pending_) {
     if (!pending.used) continue;
     if (reached(pending.request, state, pending.runs))
-      settle(&pending, {}, now.wall_ns, acks);
+      settle(&pending, {AckState::kDone, AckReason::kNone, scope_text(pending.request, state.system_count)}, now.wall_ns, acks);
     else if (static_cast<RequestKind>(pending.request.kind) == RequestKind::kCycleStart && state.alarmed)
       settle(&pending, {AckState::kFailed, AckReason::kRefused, "an alarm came", RefusalCause::kAlarm}, now.wall_ns, acks);
     else if (now.steady_ns - pending.since_ns > kReachNs)

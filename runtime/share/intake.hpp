@@ -9,6 +9,7 @@
 //   5  from the client that has control; a feed hold is taken from anyone                   else no control
 //   6  mode, run state and program are what the client believes                              else expected state
 //   7  the runtime agrees                                                                    else refused
+// A command is of the part system that it names, or of all (kEverySystem); mode and reset always of all, which their answer says.
 // Control is a token: one client has it, from its first kTakeControl until it releases it, is gone, or does
 // not send anything for its lease. Whoever loses control loses its jogs: the axes are stopped.
 //
@@ -39,7 +40,7 @@ class Machine {
     std::array<unsigned, NC_MAX_SYSTEMS> axis_count{};
     std::array<std::uint8_t, NC_MAX_SYSTEMS> run_state{};  // nc_run_state
     std::array<std::string, NC_MAX_SYSTEMS> program;       // file name without folder
-    std::uint64_t runs = 0;                                // programs that came to their end
+    std::array<std::uint64_t, NC_MAX_SYSTEMS> runs{};      // programs that came to their end
     double max_feed_override = 2.0;
   };
   virtual ~Machine() = default;
@@ -95,7 +96,7 @@ class Intake {
     bool used = false;
     Request request{};
     std::int64_t since_ns = 0;
-    std::uint64_t runs = 0;
+    std::array<std::uint64_t, NC_MAX_SYSTEMS> runs{};  // before it
   };
   struct Verdict {
     AckState state = AckState::kDone;
@@ -114,7 +115,7 @@ class Intake {
   void lose_control();
   void gone(const Request& request, bool everyone);
   void settle(Pending* pending, const Verdict& verdict, std::int64_t now_ns, std::vector<Ack>* acks);
-  bool wait_for(const Request& request, std::int64_t now_ns, std::uint64_t runs);
+  bool wait_for(const Request& request, std::int64_t now_ns, const Machine::State& before);
 
   Machine& machine_;
   std::array<Client, kClients> client_;

@@ -102,7 +102,8 @@ struct StatusBlock {
   std::int64_t published_ns;   // time of day
   std::uint32_t mode;          // nc::rt::Mode
   std::uint32_t system_count;
-  std::uint32_t single_block, optional_stop, resetting, program_ready;
+  std::uint32_t single_block, optional_stop;  // bit per part system
+  std::uint32_t resetting, program_ready;
   std::uint64_t runs;          // programs that came to their end
   std::uint32_t main_line;     // line of the main program that was finished last
   std::uint32_t program_lines; // of the main program, 0 = not known
@@ -200,6 +201,7 @@ enum class RequestKind : std::uint32_t {
 };
 
 inline constexpr std::int32_t kAny = -1;
+inline constexpr std::uint32_t kEverySystem = ~0u;  // as index of a part system: all of them
 
 // One command. Everything in it comes from the network: nothing is believed before Intake has looked at it.
 struct Request {
@@ -211,7 +213,7 @@ struct Request {
   std::uint32_t lifespan_ms, lease_ms;
   std::int32_t expected_mode;       // nc::rt::Mode, kAny
   std::int32_t expected_run_state;  // nc_run_state of `system`, kAny
-  std::uint32_t system, axis;       // indices
+  std::uint32_t system, axis;       // indices; system: or kEverySystem
   std::uint32_t number;
   double value;
   Text<128> expected_program;  // file name without folder, "" any

@@ -27,11 +27,11 @@ Machine::State RuntimeMachine::state() {
   state.resetting = snapshot.resetting;
   state.alarmed = snapshot.stopped_by_alarm();
   state.system_count = config.nc.system_count;
-  state.runs = info.runs;
   state.max_feed_override = config.nc.max_feed_override;
   for (unsigned s = 0; s < state.system_count; ++s) {
     state.axis_count[s] = config.nc.system[s].axis_count;
     state.run_state[s] = snapshot.system[s].nc.state;
+    state.runs[s] = info.system_runs[s];
     const FeederInfo::Selected& selected = info.selected[s];
     if (selected.any) state.program[s] = selected.mdi ? "MDI" : file_name(programs_.at(selected.file).path);
   }

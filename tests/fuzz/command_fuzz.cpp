@@ -57,7 +57,7 @@ struct FuzzMachine final : Machine {
   Answer answer = Answer::kDone;
   State state() override { return now; }
   Answer execute(const Command& c) override {
-    must(std::isfinite(c.value) && c.system < now.system_count);
+    must(std::isfinite(c.value) && (c.system < now.system_count || (c.system == kAllSystems && takes_all_systems(c.kind))));
     if (c.kind == CommandKind::kJog) must(c.axis < now.axis_count[c.system] && std::abs(c.value) <= 1e6);
     if (c.kind == CommandKind::kFeedOverride) must(c.value >= 0 && c.value <= now.max_feed_override);
     if (c.kind == CommandKind::kRapidOverride) must(c.value >= 0 && c.value <= 1);

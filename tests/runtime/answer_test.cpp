@@ -85,8 +85,8 @@ TEST_F(AnswerTest, GoesOutBehindTheSnapshotThatShowsWhatWasDone) {
       {"mode", CommandKind::kSetMode, 0, static_cast<std::uint32_t>(Mode::kMdi), [](const Snapshot& s) { return s.mode == Mode::kMdi; }},
       {"feed override", CommandKind::kFeedOverride, 0.5, 0, [](const Snapshot& s) { return s.system[0].feed_override == 0.5; }},
       {"rapid override", CommandKind::kRapidOverride, 0.25, 0, [](const Snapshot& s) { return s.system[0].rapid_override == 0.25; }},
-      {"single block", CommandKind::kSingleBlock, 0, 1, [](const Snapshot& s) { return s.single_block; }},
-      {"optional stop", CommandKind::kOptionalStop, 0, 1, [](const Snapshot& s) { return s.optional_stop; }},
+      {"single block", CommandKind::kSingleBlock, 0, 1, [](const Snapshot& s) { return s.single_block != 0; }},
+      {"optional stop", CommandKind::kOptionalStop, 0, 1, [](const Snapshot& s) { return s.optional_stop != 0; }},
       {"reset", CommandKind::kReset, 0, 0, [](const Snapshot& s) { return s.resetting; }},
   };
   for (const Row& row : rows) {

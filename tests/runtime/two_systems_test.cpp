@@ -6,6 +6,7 @@
 #include <deque>
 #include <limits>
 
+#include "fake_nc.hpp"
 #include "hal/sim/sim_machine.hpp"
 #include "runtime/refusal.hpp"
 #include "runtime/runtime.hpp"
@@ -225,6 +226,155 @@ TEST_F(TwoSystems, EachShowsItsOwnOverride) {
   EXPECT_DOUBLE_EQ(now(1).feed_override, 0.25);
   EXPECT_EQ(now(1).feed_override_source, OverrideSource::kMachine);
   EXPECT_EQ(now(1).rapid_override_source, OverrideSource::kOperator);
+}
+
+// A command acts on the part system that it names, and on no other; its answer is about that one.
+TEST_F(TwoSystems, ACycleStartIsOfThePartSystemThatItNames) {
+  build();
+  ASSERT_EQ(select(0, "G1 X5. F6000\nM30\n"), Answer::kDone);
+  EXPECT_EQ(give(CommandKind::kCycleStart, 1), Answer::kNoProgram) << "the other one has a program";
+  ASSERT_EQ(select(1, "G1 X-5. F6000\nM30\n"), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kCycleStart, 1), Answer::kDone);
+  steps(5);
+  EXPECT_EQ(now(0).nc.state, NC_STATE_IDLE);
+  EXPECT_EQ(now(1).nc.state, NC_STATE_RUNNING);
+  EXPECT_EQ(give(CommandKind::kCycleStart, 1), Answer::kAlreadyRunning);
+  EXPECT_EQ(give(CommandKind::kCycleStart, 0), Answer::kDone) << "begins beside it";
+  steps(5);
+  EXPECT_EQ(now(0).nc.state, NC_STATE_RUNNING);
+  finish();
+  EXPECT_NEAR(x(0), 5, 1e-9);
+  EXPECT_NEAR(x(1), -5, 1e-9);
+  EXPECT_EQ(give(CommandKind::kCycleStart, 2), Answer::kAxisUnknown);
+}
+
+// Two starts in one scan are two starts.
+TEST_F(TwoSystems, StartsOfBothInOneScan) {
+  build();
+  ASSERT_EQ(select(0, "G1 X5. F6000\nM30\n"), Answer::kDone);
+  ASSERT_EQ(select(1, "G1 X-5. F6000\nM30\n"), Answer::kDone);
+  nc::rt::VirtualClock other_clock;
+  struct Seen final : nc::test::FakeNc {
+    bool start[2] = {};
+    void cycle(const nc_inputs* in, nc_outputs* result) noexcept override {
+      for (unsigned s = 0; s < 2; ++s) {
+        start[s] |= in[s].cycle_start;
+        result[s] = out;
+      }
+    }
+  } seen;
+  nc::hal::SimMachine quiet(config.sim, config.points);
+  nc::rt::LadderHook none;
+  nc::rt::Scan scan(config, &other_clock, &quiet, &none, &seen);
+  scan.set_loaded(nc::rt::Scan::kPartLoaded | nc::rt::Scan::kPartLoaded << nc::rt::Scan::kLoadedBits);
+  nc::rt::Command command;
+  command.kind = CommandKind::kCycleStart;
+  ASSERT_TRUE(scan.post(command));
+  command.system = 1;
+  ASSERT_TRUE(scan.post(command));
+  scan.run_once();
+  EXPECT_TRUE(seen.start[0]);
+  EXPECT_TRUE(seen.start[1]);
+}
+
+TEST_F(TwoSystems, AFeedHoldStopsThePartSystemThatItNames) {
+  build();
+  ASSERT_EQ(select(0, "G1 X50. F1200\nM30\n"), Answer::kDone);
+  ASSERT_EQ(select(1, "G1 X-50. F1200\nM30\n"), Answer::kDone);
+  ASSERT_EQ(start(), Answer::kDone);
+  steps(300);
+  ASSERT_EQ(give(CommandKind::kFeedHold, 1), Answer::kDone);
+  steps(300);
+  EXPECT_EQ(now(0).nc.state, NC_STATE_RUNNING);
+  EXPECT_EQ(now(1).nc.state, NC_STATE_HOLD);
+  EXPECT_EQ(give(CommandKind::kCycleStart, 0), Answer::kAlreadyRunning);
+  ASSERT_EQ(give(CommandKind::kCycleStart, 1), Answer::kDone);
+  steps(300);
+  EXPECT_EQ(now(1).nc.state, NC_STATE_RUNNING);
+  ASSERT_EQ(give(CommandKind::kFeedHold, 0), Answer::kDone);
+  steps(300);
+  EXPECT_EQ(now(0).nc.state, NC_STATE_HOLD);
+  ASSERT_EQ(now(1).nc.state, NC_STATE_RUNNING);
+  ASSERT_EQ(start(), Answer::kDone) << "the panel's one button: what is interrupted goes on beside what runs";
+  EXPECT_EQ(start(), Answer::kAlreadyRunning);
+  ASSERT_EQ(runtime->execute(CommandKind::kFeedHold), Answer::kDone) << "and its hold stops both";
+  steps(300);
+  EXPECT_EQ(now(0).nc.state, NC_STATE_HOLD);
+  EXPECT_EQ(now(1).nc.state, NC_STATE_HOLD);
+  ASSERT_EQ(start(), Answer::kDone);
+  finish();
+  EXPECT_NEAR(x(0), 50, 1e-9);
+  EXPECT_NEAR(x(1), -50, 1e-9);
+}
+
+// One goes on, the other stays where its own operator has stopped it.
+TEST_F(TwoSystems, ASingleBlockIsOfThePartSystemThatItNames) {
+  build();
+  const char* const kTwoBlocks = "G1 X1. F6000\nG1 X2.\nM1\nG1 X3.\nM30\n";
+  ASSERT_EQ(select(0, kTwoBlocks), Answer::kDone);
+  ASSERT_EQ(select(1, kTwoBlocks), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kSingleBlock, 1, 0, 1), Answer::kDone);
+  EXPECT_EQ(runtime->snapshot().single_block, 2u);
+  ASSERT_EQ(start(), Answer::kDone);
+  steps(600);
+  EXPECT_EQ(now(0).nc.state, NC_STATE_IDLE);
+  EXPECT_EQ(now(1).nc.state, NC_STATE_STOPPED);
+  EXPECT_NEAR(x(0), 3, 1e-9);
+  EXPECT_NEAR(x(1), 1, 1e-9);
+  ASSERT_EQ(give(CommandKind::kSingleBlock, 1, 0, 0), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kOptionalStop, 1, 0, 1), Answer::kDone);
+  EXPECT_EQ(runtime->snapshot().single_block, 0u);
+  EXPECT_EQ(runtime->snapshot().optional_stop, 2u);
+  ASSERT_EQ(give(CommandKind::kCycleStart, 1), Answer::kDone);
+  steps(600);
+  EXPECT_NEAR(x(1), 2, 1e-9) << "its optional stop";
+  ASSERT_EQ(give(CommandKind::kCycleStart, 0), Answer::kDone);
+  steps(600);
+  EXPECT_EQ(now(0).nc.state, NC_STATE_IDLE) << "which is not the other's";
+}
+
+TEST_F(TwoSystems, AnOverrideIsOfThePartSystemThatItNames) {
+  build("[signals]\n\"plc2.feed_override\" = \"word_in\"\n");
+  machine->set_input(static_cast<unsigned>(config.points.find("word_in")), 2500);
+  steps(3);
+  EXPECT_EQ(give(CommandKind::kFeedOverride, 1, 0.5), Answer::kMachineSwitch);
+  ASSERT_EQ(give(CommandKind::kFeedOverride, 0, 0.75), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kRapidOverride, 1, 0.5), Answer::kDone);
+  steps(3);
+  EXPECT_DOUBLE_EQ(now(0).feed_override, 0.75);
+  EXPECT_DOUBLE_EQ(now(1).feed_override, 0.25);
+  EXPECT_DOUBLE_EQ(now(0).rapid_override, 1);
+  EXPECT_DOUBLE_EQ(now(1).rapid_override, 0.5);
+  ASSERT_EQ(runtime->execute(CommandKind::kRapidOverride, 0.25), Answer::kDone);
+  steps(3);
+  EXPECT_DOUBLE_EQ(now(0).rapid_override, 0.25);
+  EXPECT_DOUBLE_EQ(now(1).rapid_override, 0.25);
+}
+
+// There is one mode and one reset (plc.mode_*, plc.reset): which part system is named makes no difference.
+TEST_F(TwoSystems, ModeAndResetAreOfTheWholeControl) {
+  build();
+  ASSERT_EQ(select(0, "G1 X50. F1200\nM30\n"), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kCycleStart, 0), Answer::kDone);
+  steps(100);
+  EXPECT_EQ(give(CommandKind::kSetMode, 1, 0, static_cast<std::uint32_t>(Mode::kMdi)), Answer::kNotWhileRunning);
+  ASSERT_EQ(give(CommandKind::kReset, 1), Answer::kDone);
+  steps(600);
+  EXPECT_EQ(now(0).nc.state, NC_STATE_IDLE);
+  ASSERT_EQ(give(CommandKind::kSetMode, 1, 0, static_cast<std::uint32_t>(Mode::kMdi)), Answer::kDone);
+  EXPECT_EQ(runtime->snapshot().mode, Mode::kMdi);
+}
+
+// Each has its own count of runs: a block that is done before anybody looks has run all the same.
+TEST_F(TwoSystems, RunsAreCountedForEach) {
+  build();
+  ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
+  ASSERT_EQ(runtime->load_mdi("G1 X0.01 F6000\n", 1), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kCycleStart, 0), Answer::kNoProgram);
+  ASSERT_EQ(give(CommandKind::kCycleStart, 1), Answer::kDone);
+  finish();
+  EXPECT_EQ(runtime->info().system_runs[0], 0u);
+  EXPECT_EQ(runtime->info().system_runs[1], 1u);
 }
 
 }  // namespace

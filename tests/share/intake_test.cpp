@@ -285,7 +285,7 @@ TEST_F(IntakeRules, MalformedIsRejected) {
   rejected(start, [](Request* r) { r->lifespan_ms = ~0u; });
   rejected(start, [](Request* r) { r->lease_ms = 1; });
   rejected(start, [](Request* r) { r->system = 1; });
-  rejected(start, [](Request* r) { r->system = ~0u; });
+  rejected(start, [](Request* r) { r->system = kEverySystem - 1; });
   rejected(start, [](Request* r) { r->expected_mode = 3; });
   rejected(start, [](Request* r) { r->expected_run_state = -2; });
   rejected(start, [](Request* r) { r->value = std::nan(""); });
@@ -333,6 +333,103 @@ TEST_F(IntakeRules, ClientsAreBounded) {
   now_ += Intake::kForgetNs + kMs;
   intake_.tick(now_, &acks_);
   EXPECT_EQ(give(RequestKind::kFeedHold, 1, "one-more").state, state(AckState::kAccepted)) << "the silent are forgotten";
+}
+
+// 0 of the IDL, which buttons of a panel mean: all of them. What goes to one of them only must name it.
+TEST_F(IntakeRules, ACommandNamesAPartSystemOrAllOfThem) {
+  machine_.now.system_count = 2;
+  machine_.now.axis_count = {3, 3};
+  take_control();
+  std::uint64_t sequence = 1;
+  const auto ask = [&](RequestKind kind, std::uint32_t system) {
+    Request r = request(kind, ++sequence);
+    r.system = system;
+    set_text(&r.text, "part.nc");
+    return give(r);
+  };
+  for (const RequestKind kind : {RequestKind::kCycleStart, RequestKind::kFeedHold, RequestKind::kReset, RequestKind::kSetMode, RequestKind::kFeedOverride,
+                                 RequestKind::kRapidOverride, RequestKind::kSingleBlock, RequestKind::kOptionalStop}) {
+    SCOPED_TRACE(static_cast<unsigned>(kind));
+    EXPECT_NE(ask(kind, 1).state, state(AckState::kRejected));
+    EXPECT_EQ(machine_.executed.back().system, 1);
+    EXPECT_NE(ask(kind, kEverySystem).state, state(AckState::kRejected));
+    EXPECT_EQ(machine_.executed.back().system, kAllSystems);
+    expect_rejected(ask(kind, 2), AckReason::kMalformed);
+  }
+  for (const RequestKind kind : {RequestKind::kJog, RequestKind::kMdi, RequestKind::kSelectProgram}) expect_rejected(ask(kind, kEverySystem), AckReason::kMalformed);
+}
+
+// What is of the whole control says so to whoever has named a part of it.
+TEST_F(IntakeRules, ModeAndResetSayThatTheyAreOfAll) {
+  machine_.now.system_count = 2;
+  take_control();
+  for (const RequestKind kind : {RequestKind::kReset, RequestKind::kSetMode}) {
+    Request r = request(kind, kind == RequestKind::kReset ? 2 : 3);
+    r.system = 1;
+    const Ack taken = give(r);
+    EXPECT_EQ(taken.state, state(AckState::kAccepted));
+    EXPECT_EQ(text_of(taken.text), "of all part systems");
+    acks_.clear();
+    intake_.tick(now_, &acks_);
+    ASSERT_EQ(acks_.size(), 1u);
+    EXPECT_EQ(acks_[0].state, state(AckState::kDone));
+    EXPECT_EQ(text_of(acks_[0].text), "of all part systems");
+  }
+  Request all = request(RequestKind::kReset, 4);
+  all.system = kEverySystem;
+  EXPECT_EQ(text_of(give(all).text), "") << "that is what was asked for";
+}
+
+// The answer to a start, a hold or a reset is about those that were named.
+TEST_F(IntakeRules, TheStateIsThatOfThePartSystemsThatAreNamed) {
+  machine_.now.system_count = 2;
+  take_control();
+  std::uint64_t sequence = 1;
+  const auto outcome = [&](RequestKind kind, std::uint32_t system, std::uint8_t first, std::uint8_t second, std::uint64_t second_runs) {
+    machine_.now.run_state = {NC_STATE_IDLE, NC_STATE_IDLE};
+    machine_.now.runs = {};
+    Request r = request(kind, ++sequence);
+    r.system = system;
+    EXPECT_EQ(give(r).state, state(AckState::kAccepted));
+    machine_.now.run_state = {first, second};
+    machine_.now.runs[1] = second_runs;
+    acks_.clear();
+    intake_.tick(now_, &acks_);
+    const bool reached = !acks_.empty() && acks_[0].state == state(AckState::kDone);
+    now_ += Intake::kReachNs + kMs;  // what has not come is given up
+    intake_.tick(now_, &acks_);
+    (void)give(RequestKind::kTakeControl, ++sequence);
+    return reached;
+  };
+  EXPECT_TRUE(outcome(RequestKind::kCycleStart, 1, NC_STATE_IDLE, NC_STATE_RUNNING, 0));
+  EXPECT_TRUE(outcome(RequestKind::kCycleStart, 1, NC_STATE_IDLE, NC_STATE_IDLE, 1)) << "at its end already";
+  EXPECT_FALSE(outcome(RequestKind::kCycleStart, 1, NC_STATE_RUNNING, NC_STATE_IDLE, 0));
+  EXPECT_FALSE(outcome(RequestKind::kCycleStart, 0, NC_STATE_IDLE, NC_STATE_IDLE, 1));
+  EXPECT_TRUE(outcome(RequestKind::kCycleStart, kEverySystem, NC_STATE_IDLE, NC_STATE_RUNNING, 0)) << "the one that has a program";
+  EXPECT_TRUE(outcome(RequestKind::kFeedHold, 1, NC_STATE_RUNNING, NC_STATE_HOLD, 0));
+  EXPECT_FALSE(outcome(RequestKind::kFeedHold, kEverySystem, NC_STATE_RUNNING, NC_STATE_HOLD, 0));
+  EXPECT_TRUE(outcome(RequestKind::kFeedHold, kEverySystem, NC_STATE_HOLD, NC_STATE_HOLD, 0));
+  EXPECT_FALSE(outcome(RequestKind::kReset, 1, NC_STATE_HOLD, NC_STATE_IDLE, 0)) << "a reset is of all";
+  EXPECT_TRUE(outcome(RequestKind::kReset, 1, NC_STATE_IDLE, NC_STATE_IDLE, 0));
+}
+
+// What a client expects of all of them must be so in each.
+TEST_F(IntakeRules, AnExpectationOfAllPartSystems) {
+  machine_.now.system_count = 2;
+  machine_.now.run_state = {NC_STATE_IDLE, NC_STATE_HOLD};
+  machine_.now.program = {"part.nc", "other.nc"};
+  take_control();
+  Request r = request(RequestKind::kSingleBlock, 2);
+  r.system = kEverySystem;
+  r.expected_run_state = NC_STATE_IDLE;
+  expect_rejected(give(r), AckReason::kExpectedState);
+  r.sequence = 3;
+  r.expected_run_state = kAny;
+  set_text(&r.expected_program, "part.nc");
+  expect_rejected(give(r), AckReason::kExpectedState);
+  machine_.now.program[1] = "part.nc";
+  r.sequence = 4;
+  EXPECT_EQ(give(r).state, state(AckState::kDone));
 }
 
 TEST_F(IntakeRules, RefusalOfTheMachineIsPassedOn) {
