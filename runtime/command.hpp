@@ -84,7 +84,7 @@ enum class Answer : std::uint8_t {
   kFeedHold,          // the machine's
   kInterlock,
   kAxesMove,
-  kWarningActive,     // R19, R20: reset first
+  kWarningActive,     // R19, R20, P460: reset first
   kResetHeld,         // a reset is done, and plc.reset is still on
   kHandleTooFar,      // more than the axis follows
   kNoAnswer           // the runtime does not run
@@ -146,7 +146,7 @@ constexpr const char* answer_text(Answer answer) {
     case Answer::kResetHeld:
       return "the reset of the machine is still on: let it go first";
     case Answer::kWarningActive:
-      return "a warning (R19, R20) is to be acknowledged: reset first";
+      return "a warning (R19, R20, P460) is to be acknowledged: reset first";
     case Answer::kAxesMove:
       return "an axis moves: wait until it stands";
     case Answer::kHandleTooFar:

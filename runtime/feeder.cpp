@@ -274,6 +274,7 @@ void Feeder::complete_reset() {
   scan_->reset_finished();
   const std::lock_guard lock(mutex_);
   info_.alarm = false;
+  info_.print_trouble.clear();
   info_.main_line = 0;
 }
 
@@ -337,15 +338,25 @@ void Feeder::take_messages() {
   Scan::Message message{};
   while (scan_->poll_message(&message)) {
     nc_text text;
-    if (nc_->text(message.system, message.text, &text) != NC_OK) continue;
-    if (message.port != 0) {
-      if (printer_) printer_(text);
-      continue;
-    }
+    const bool known = nc_->text(message.system, message.text, &text) == NC_OK;
+    if (message.port != 0) print(message.system, known ? &text : nullptr);
+    if (message.port != 0 || !known) continue;
     const std::lock_guard lock(mutex_);
     info_.last_message = text.s;
     ++info_.messages;
   }
+}
+
+// A line for the external output; null = it came too late to be read.
+void Feeder::print(unsigned system, const nc_text* text) {
+  if (!printer_) return;
+  std::string trouble = text != nullptr ? printer_(*text) : "it was not taken in time";
+  if (trouble.empty()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    if (info_.print_trouble.empty()) info_.print_trouble = std::move(trouble);
+  }
+  scan_->post_print_trouble(system);
 }
 
 // Which axes are shown within one turn: those for which a turn more is none.

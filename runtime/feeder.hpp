@@ -47,6 +47,7 @@ struct FeederInfo {
   nc_alarm program_alarm{};
   std::uint32_t alarm_calls = 0;  // blocks that led there, outermost first
   nc_source alarm_call[NC_MAX_CALLS] = {};
+  std::string print_trouble;   // why a line that was printed is lost (P460), the first reason since the last reset
   std::uint64_t messages = 0;  // so far
   std::string last_message;
   // By part system: what is selected, and the modal state that the last finished block left.
@@ -64,8 +65,9 @@ struct FeederInfo {
 // Enters the program of this name into the store: feeder thread, while nothing runs.
 // With a sentence when it cannot.
 using ProgramLoader = std::function<bool(const std::string& name, unsigned* file, std::string* error)>;
-// Takes what programs print (POPEN, DPRNT, PCLOS) when the machine gets there: feeder thread.
-using Printer = std::function<void(const nc_text& text)>;
+// Takes what programs print (POPEN, DPRNT, PCLOS) when the machine gets there: feeder thread. Returns why a line could not be written,
+// "" when it is.
+using Printer = std::function<std::string(const nc_text& text)>;
 // kSelectProgram with this number selects the program given by name.
 inline constexpr std::uint32_t kProgramByName = ~0u;
 
@@ -120,6 +122,7 @@ class Feeder {
   void feed();
   void take_events();
   void take_messages();
+  void print(unsigned system, const nc_text* text);
   void take_alarm();
   void take_modal();
   void take_turns(unsigned system);

@@ -445,6 +445,8 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   std::string text = std::string(row.code) + " " + row.text;
   if (alarm.id == AlarmId::kFinTimeout) text = std::string(row.code) + " " + fin_fault_text(alarm.detail, alarm.code);
   if (alarm.id == AlarmId::kRetainedLost || alarm.id == AlarmId::kRetainedUnwritable) text += retain_text(alarm);
+  if (alarm.id == AlarmId::kPrinter)
+    if (const std::string why = info().print_trouble; !why.empty()) text += ": " + why;
   if (alarm.id == AlarmId::kLadder) {
     const std::string& own = config_.ladder.alarm[alarm.detail % config_.ladder.alarm.size()];
     text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);

@@ -128,6 +128,7 @@ void Scan::read_inputs() noexcept {
   watch_fin();
   watch_links();
   watch_retained();
+  watch_printer();
   build_nc_inputs();
 }
 
@@ -337,8 +338,8 @@ void Scan::write_outputs() noexcept {
     machine.running = out.state == NC_STATE_RUNNING;
     machine.unclamp = out.unclamp;
     std::copy(std::begin(out.current_limit), std::end(out.current_limit), machine.current_limit);
-    if (out.message && !message_seen_[s])
-      (void)messages_.push({s, out.message_text, out.message_port});  // full: the oldest stay
+    if (out.message && !message_seen_[s] && !messages_.push({s, out.message_text, out.message_port}) && out.message_port != 0)
+      post_print_trouble(s);  // full: the oldest stay
     message_seen_[s] = out.message;
     if (recording_) record_position(s);
   }

@@ -90,6 +90,8 @@ class Scan {
     std::uint32_t port;  // 0 the operator, 1 the external output
   };
   bool poll_message(Message* message) noexcept { return messages_.pop(message); }
+  // Warning P460, with the next scan: something that a program of this part system has printed is lost.
+  void post_print_trouble(unsigned system) noexcept { print_trouble_.fetch_or(1u << system, std::memory_order_release); }
   // Positions are recorded from now on, one per scan in which an axis moves. Before the threads start.
   void record_positions() { recording_ = true; }
   bool poll_position(PositionSample* sample) noexcept { return positions_.pop(sample); }
@@ -149,6 +151,7 @@ class Scan {
   void watch_clamps(std::uint64_t most) noexcept;
   void watch_links() noexcept;
   void watch_retained() noexcept;
+  void watch_printer() noexcept;
   void decide_overrides(const LadderRequests& requests) noexcept;
   Answer set_override(std::uint32_t systems, double value, double most, const bool* machines, double* operators) noexcept;
   void follow_ladder_manual(const LadderRequests& requests) noexcept;
@@ -264,6 +267,7 @@ class Scan {
   SpscQueue<PositionSample, 4096> positions_;
   std::atomic<std::uint32_t> loaded_{kNothingLoaded};
   std::atomic<std::uint32_t> skip_switches_[NC_MAX_SYSTEMS] = {}, recalculations_[NC_MAX_SYSTEMS] = {};
+  std::atomic<std::uint32_t> print_trouble_{0};   // has come since the last scan; bit per part system
   std::atomic<std::uint32_t> retain_trouble_{0};  // has come since the last scan
   std::atomic<std::uint32_t> retain_holds_{0};    // of these, what is still so
   std::atomic<bool> retain_loss_seen_{false};

@@ -147,6 +147,13 @@ void Scan::watch_retained() noexcept {
   }
 }
 
+void Scan::watch_printer() noexcept {
+  std::uint32_t found = 0;
+  if (print_trouble_.load(std::memory_order_relaxed) != 0) found = print_trouble_.exchange(0, std::memory_order_acquire);
+  for (unsigned s = 0; s < systems_; ++s)
+    if ((found >> s & 1u) != 0) raise(AlarmId::kPrinter, s, -1);
+}
+
 // The causes of alarms are looked at in every scan, and raise them again. That of a warning is told once, by a thread of its own.
 bool Scan::holds_still(const ActiveAlarm& alarm) const noexcept {
   return alarm.id == AlarmId::kRetainedUnwritable && (retain_holds_.load(std::memory_order_relaxed) >> alarm.detail & 1u) != 0;
@@ -212,7 +219,8 @@ void Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, st
   alarm.detail = detail;
   alarm.code = code;
   alarm.acknowledged = false;
-  if (id != AlarmId::kRetainedLost && id != AlarmId::kRetainedUnwritable) alarm.source = out_[system].source;
+  // What is found behind its block, or belongs to none, names none.
+  if (id != AlarmId::kRetainedLost && id != AlarmId::kRetainedUnwritable && id != AlarmId::kPrinter) alarm.source = out_[system].source;
 }
 
 void Scan::acknowledge_alarms() noexcept {

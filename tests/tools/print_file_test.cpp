@@ -14,6 +14,20 @@ nc_text text(const char* line) {
   return t;
 }
 
+// Each line has its own outcome: what cannot be written is said as often as it happens.
+TEST(PrintFile, SaysOfEachLineWhetherItIsThere) {
+  PrintFile file;
+  std::string error;
+  ASSERT_TRUE(file.open("/dev/full", &error)) << error;
+  EXPECT_FALSE(file.write(text("A")));
+  EXPECT_FALSE(file.write(text("B")));
+  EXPECT_FALSE(file.good());
+  EXPECT_EQ(file.error(), "No space left on device");
+  PrintFile good;
+  ASSERT_TRUE(good.open("/dev/null", &error)) << error;
+  EXPECT_TRUE(good.write(text("A")));
+}
+
 TEST(PrintLines, GivesEachLineOnce) {
   PrintLines lines;
   lines.write(text("\x12%"));  // POPEN switches the punch on

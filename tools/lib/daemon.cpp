@@ -149,15 +149,15 @@ int Daemon::load_program() {
 int Daemon::open_printer() {
   std::string error;
   if (config_.print.empty()) {
-    if (options_.command != DaemonOptions::Command::kServe) runtime_->set_printer([this](const nc_text& text) { printed_.write(text); });
+    if (options_.command != DaemonOptions::Command::kServe)
+      runtime_->set_printer([this](const nc_text& text) {
+        printed_.write(text);
+        return std::string();
+      });
     return 0;
   }
   if (!print_.open(config_.print_file(), &error)) return failed(error);
-  runtime_->set_printer([this](const nc_text& text) {
-    const bool was_good = print_.good();
-    print_.write(text);
-    if (was_good && !print_.good()) warn("external output: " + print_.error());
-  });
+  runtime_->set_printer([this](const nc_text& text) { return print_.write(text) ? std::string() : config_.print_file() + ": " + print_.error(); });
   return 0;
 }
 

@@ -14,14 +14,15 @@ bool PrintFile::open(const std::string& path, std::string* error) {
   return false;
 }
 
-void PrintFile::write(const nc_text& text) {
-  if (!file_) return;
+bool PrintFile::write(const nc_text& text) {
+  if (!file_) return true;
   std::string line(text.s, text.size);
   for (const char* c = text.s; text.size == 0 && *c != 0; ++c)
     if (static_cast<unsigned char>(*c) >= 0x20) line += *c;
   line += '\n';
-  if (std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() && std::fflush(file_.get()) == 0) return;
+  if (std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() && std::fflush(file_.get()) == 0) return true;
   if (error_.empty()) error_ = std::generic_category().message(errno);
+  return false;
 }
 
 void PrintLines::write(const nc_text& text) {

@@ -19,9 +19,9 @@ class PrintFile {
   bool is_open() const { return file_ != nullptr; }
   /**
    * One output: a line of its own, without the codes that switch a punch on and off; bytes of BPRNT as they are. It is in the file when
-   * this returns.
+   * this returns true.
    */
-  void write(const nc_text& text);
+  bool write(const nc_text& text);
   /** @return false when something could not be written. */
   bool good() const { return error_.empty(); }
   /** The first reason. */
