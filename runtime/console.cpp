@@ -149,6 +149,8 @@ std::string state_alone(const nc_outputs& outputs) {
       return "105 spindle speed not measured";
     case NC_CAUSE_NO_LAW:
       return "no motion within the limits of the axes";
+    case NC_CAUSE_RESET:
+      return "reset";
     default:
       return outputs.state == NC_STATE_STOPPED ? "stopped" : outputs.rapid ? "rapid" : "running";
   }

@@ -295,7 +295,7 @@ typedef enum nc_stop_cause {
   NC_CAUSE_IN_POSITION = 3,
   NC_CAUSE_PROGRAM_STOP = 4,
   NC_CAUSE_SINGLE_BLOCK = 5,
-  NC_CAUSE_FEED_HOLD = 6,
+  NC_CAUSE_FEED_HOLD = 6,   /**< held by it; or it has refused a cycle start and is still on */
   NC_CAUSE_INTERLOCK = 7,
   NC_CAUSE_OVERRIDE_ZERO = 8,
   NC_CAUSE_STARVED = 9,     /**< the feeder has not committed anything further */
@@ -307,8 +307,10 @@ typedef enum nc_stop_cause {
   NC_CAUSE_SERVO_OFF = 15,       /**< a C axis that is a spindle now is commanded (M700 10.5) */
   NC_CAUSE_TAP_SPINDLE = 16,     /**< in the tapping mode its spindle is to be a C axis (M700 10.6: operation error M01 1026) */
   NC_CAUSE_SPINDLE_UNMEASURED = 17, /**< as SPINDLE_STOPPED, because its speed is not measured */
-  NC_CAUSE_NO_LAW = 18            /**< time-optimal mode: no motion within the limits of the axes was found for what follows; it is looked
+  NC_CAUSE_NO_LAW = 18,           /**< time-optimal mode: no motion within the limits of the axes was found for what follows; it is looked
                                        for again, and reset gives the program up */
+  NC_CAUSE_RESET = 19             /**< a reset is on its way: the axes come to rest, or the feeder has still to finish what it does. Cycle start is
+                                       not taken before IDLE */
 } nc_stop_cause;
 
 /** Bits of nc_outputs::fin_wait beside those of the groups. */

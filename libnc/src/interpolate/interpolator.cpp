@@ -206,10 +206,21 @@ void Interpolator::ask_for_interrupt() {
   shared_->reread_request.store(++reread_, std::memory_order_release);
 }
 
-void Interpolator::states(const nc_inputs& in) {
-  if (in.cycle_start && !last_start_ && !in.reset) start_ = true;
+/// A reset that was asked for acts when the axes stand and the feeder is out of the ring, which may be cycles later. Whoever was shown IDLE
+/// meanwhile presses behind the reset: the program begins when that is done. In other states a start would go on with what the reset gives up:
+/// it is refused, and NC_CAUSE_RESET has said so.
+void Interpolator::take_start(const nc_inputs& in) {
+  if (in.cycle_start && !last_start_ && !in.reset && (!reset_ || shown_ == NC_STATE_IDLE)) start_ = true;
   last_start_ = in.cycle_start;
-  if (in.reset && !last_reset_) reset_ = true;
+  if (!in.feed_hold) start_refused_ = false;
+}
+
+void Interpolator::states(const nc_inputs& in) {
+  take_start(in);
+  if (in.reset && !last_reset_) {
+    reset_ = true;
+    start_ = false;  // one of before is taken back
+  }
   last_reset_ = in.reset;
   interlock_ = in.interlock;
   if (in.alarm) {
@@ -217,11 +228,11 @@ void Interpolator::states(const nc_inputs& in) {
     // Behind the end of a block, and not yet in the next one, it is still that block: what is before it has called it.
     if (!alarmed_ && program && placed_) stop_in(source_, serial_ == last_mark_ ? last_block_ - 1 : last_block_);
     alarmed_ = true;
+    start_ = false;
   }
 
   const bool still = stands() && !manual_.active();
   if (reset_) {
-    start_ = false;
     if (frozen_ && shared_->truncation.withdraw()) frozen_ = false;
     if (!still || frozen_ || rereading_) return;
     give_up();
@@ -262,7 +273,10 @@ void Interpolator::states(const nc_inputs& in) {
 }
 
 void Interpolator::start(const nc_inputs& in) {
-  if (in.feed_hold && !(disable_ & 1)) return;
+  if (in.feed_hold && !(disable_ & 1)) {
+    start_refused_ = true;
+    return;
+  }
   switch (state_) {
     case NC_STATE_IDLE:
       path_length_ = 0;
@@ -505,9 +519,11 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
     output_written_[i] = 0;
   }
   for (unsigned i = 0; i < kMaxAxes; ++i) out.current_limit[i] = current_limit_[i];
-  out.state = static_cast<uint8_t>(alarmed_ ? NC_STATE_ALARM : manual_.moving() ? NC_STATE_MANUAL : state_);
+  shown_ = alarmed_ ? NC_STATE_ALARM : manual_.moving() ? NC_STATE_MANUAL : state_;
+  out.state = static_cast<uint8_t>(shown_);
   out.cause = static_cast<uint8_t>(alarmed_                                              ? NC_CAUSE_ALARM
-                                   : state_ == NC_STATE_HOLD                             ? NC_CAUSE_FEED_HOLD
+                                   : reset_ && shown_ != NC_STATE_IDLE                   ? NC_CAUSE_RESET
+                                   : state_ == NC_STATE_HOLD || start_refused_           ? NC_CAUSE_FEED_HOLD
                                    : interlock_ && moving_ && state_ == NC_STATE_RUNNING ? NC_CAUSE_INTERLOCK
                                    : index_waits_ || index_lost_                         ? NC_CAUSE_FIN
                                                                                          : cause_);

@@ -93,6 +93,7 @@ class Interpolator {
   void ask_for_interrupt() NC_RT;
   bool may_cut() const NC_RT;
   void cut_block() NC_RT;
+  void take_start(const nc_inputs& in) NC_RT;
   void states(const nc_inputs& in) NC_RT;
   void start(const nc_inputs& in) NC_RT;
   void drop_old() NC_RT;
@@ -257,6 +258,8 @@ class Interpolator {
   bool hold_ = false, reset_ = false, alarmed_ = false, interlock_ = false;
   bool last_start_ = false, last_reset_ = false;
   bool start_ = false;  ///< cycle start was pressed and not yet acted upon
+  bool start_refused_ = false;  ///< because feed hold was on, as it still is
+  nc_run_state shown_ = NC_STATE_IDLE;  ///< nc_outputs::state of the cycle before
   bool faulted_ = false;  ///< alarmed_ by fault(), until reset
   bool placed_ = false;         ///< source_ is a block of this run
   bool stopped_ = false;        ///< ScanStatus::stopped and what belongs to it, until reset
