@@ -257,6 +257,7 @@ Answer Feeder::load_mdi(const Command& command) {
   if (const nc_status status = nc_->load_mdi(system, text.data(), text.size()); status < 0)
     return refuse(Answer::kRefusedByControl,
                   status == NC_E_ARGUMENT ? "more than 1024 bytes of blocks" : status_text(status));
+  if (refresh_) refresh_();  // behind it: what the program that was selected here has called is free now
   system_[system] = {true, true, 0, false, false, system_[system].part, system_[system].part_file};
   return Answer::kDone;
 }

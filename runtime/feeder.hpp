@@ -65,6 +65,8 @@ struct FeederInfo {
 // Enters the program of this name into the store: feeder thread, while nothing runs.
 // With a sentence when it cannot.
 using ProgramLoader = std::function<bool(const std::string& name, unsigned* file, std::string* error)>;
+// New MDI blocks are in the control: what they call counts as it is in the files now. Feeder thread, while nothing runs.
+using ProgramRefresh = std::function<void()>;
 // Takes what programs print (POPEN, DPRNT, PCLOS) when the machine gets there: feeder thread. Returns why a line could not be written,
 // "" when it is.
 using Printer = std::function<std::string(const nc_text& text)>;
@@ -103,6 +105,7 @@ class Feeder {
   // Before the threads start.
   void set_sink(EventSink* sink) { sink_ = sink; }
   void set_program_loader(ProgramLoader loader) { loader_ = std::move(loader); }
+  void set_program_refresh(ProgramRefresh refresh) { refresh_ = std::move(refresh); }
   void set_printer(Printer printer) { printer_ = std::move(printer); }
   void set_path_sink(PathSink* sink) {
     path_sink_ = sink;
@@ -158,6 +161,7 @@ class Feeder {
   FeederInfo info_;
   std::string mdi_text_, program_name_;
   ProgramLoader loader_;
+  ProgramRefresh refresh_;
   std::uint32_t modal_id_[NC_MAX_SYSTEMS] = {};
   std::string refusal_;  // under mutex_
   std::uint32_t operator_switches_[NC_MAX_SYSTEMS] = {}, switches_[NC_MAX_SYSTEMS] = {};  // given, and in force

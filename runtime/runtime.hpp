@@ -69,6 +69,8 @@ class Runtime {
 
   // How programs are found by name. Before the start.
   void set_program_loader(ProgramLoader loader) { feeder_->set_program_loader(std::move(loader)); }
+  // What is to be done so that new MDI blocks call sub programs as they are now. Before the start.
+  void set_program_refresh(ProgramRefresh refresh) { feeder_->set_program_refresh(std::move(refresh)); }
   // A part program that will be selected again, be MDI selected now: its place in the store must stay. Feeder thread.
   bool remembers(unsigned file) const { return feeder_->remembers(file); }
 

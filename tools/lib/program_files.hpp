@@ -4,7 +4,7 @@
 //
 // A program runs as it was when it was selected, a sub program as it was when it was called first after that
 // (runtime/programs/program_text.hpp): what is written into the files meanwhile does nothing until the next
-// selection, which takes everything anew. What nothing refers to any more is given up then, or when the
+// selection, which takes everything anew; new MDI blocks are one (look_again()). What nothing refers to any more is given up then, or when the
 // program store is full of programs that were called, the one first whose last call is longest ago.
 #pragma once
 
@@ -44,6 +44,9 @@ class ProgramFiles {
    * failure. */
   nc_status add_descriptor(nc_control* control, int descriptor, const std::string& name, unsigned* file,
                            std::string* error, bool tape = false);
+
+  /** Give up what nothing refers to: a sub program that is called next comes from its file as it is then. While nothing runs. */
+  void look_again(nc_control* control) { give_up_unused(control); }
 
   /** Look into the folder whenever `control` misses a sub program. */
   void attach(nc_control* control);
