@@ -478,7 +478,8 @@ TEST(Create, TellsTheKeysOfParametersByTheirRole) {
   EXPECT_EQ(key(m700, NC_PARAMETER_DWELL_POINT), "8112");
   EXPECT_EQ(key(m700, NC_PARAMETER_TOOL_MEMORY), "1037");
   EXPECT_EQ(key(m700, NC_PARAMETER_POWER_OFF_CLEARS), "1129");
-  EXPECT_EQ(key(m700, static_cast<nc_parameter_role>(4)), "refused");
+  EXPECT_EQ(key(m700, NC_PARAMETER_DIGIT_FEED), "1185");
+  EXPECT_EQ(key(m700, static_cast<nc_parameter_role>(5)), "refused");
   EXPECT_EQ(key(dgshape, NC_PARAMETER_TOOL_MEMORY), "none");
   EXPECT_EQ(nc_parameter_key(nullptr, NC_PARAMETER_TOOL_MEMORY, nullptr), NC_E_ARGUMENT);
 }
