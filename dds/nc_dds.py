@@ -7,7 +7,8 @@ them against the IDL, and a difference would keep reader and writer from finding
 import os
 from dataclasses import dataclass, field
 
-# What ncdds uses unless CYCLONEDDS_URI is set: this computer only, no multicast. Before the first import of cyclonedds.
+# What ncdds uses unless CYCLONEDDS_URI is set: this computer only, no multicast. Before the first import of cyclonedds. What is started from
+# here inherits it; ncdds and ncmon know this text, letter by letter that of dds/participant.cpp, and do not take it for the user's.
 LOOPBACK = (
     '<CycloneDDS><Domain id="any"><General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>'
     "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"

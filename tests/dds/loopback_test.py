@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Without CYCLONEDDS_URI ncdds and ncmon are reached from this computer's loopback address and from nowhere else: every socket of
-the network that they have is bound to 127.0.0.1, and another address of this computer answers that nobody is there."""
+the network that they have is bound to 127.0.0.1, and another address of this computer answers that nobody is there. The same where an
+HMI in Python has started them, which leaves the text of nc_dds.py in their environment."""
+import ast
 import os
 import re
 import socket
@@ -87,6 +89,15 @@ def reached(address, port):
     return True
 
 
+def text_of_python():
+    """What nc_dds.py puts into CYCLONEDDS_URI; read, not imported, because the binding need not be there."""
+    with open(os.path.join(os.environ["NC_SOURCE_DIR"], "dds/nc_dds.py"), encoding="utf-8") as source:
+        for node in ast.parse(source.read()).body:
+            if isinstance(node, ast.Assign) and node.targets[0].id == "LOOPBACK":
+                return ast.literal_eval(node.value)
+    raise LookupError("LOOPBACK")
+
+
 def run(command, environment):
     return subprocess.Popen([os.path.join(build, "bin", command[0]), *command[1:]], env=environment,
                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -102,7 +113,7 @@ def main():
         return 77
     bare = {key: value for key, value in os.environ.items() if key != "CYCLONEDDS_URI"}
     own = other_address()
-    for environment in (bare, {**bare, "CYCLONEDDS_URI": ""}):
+    for environment in (bare, {**bare, "CYCLONEDDS_URI": ""}, {**bare, "CYCLONEDDS_URI": text_of_python()}):
         for command in (["ncdds", "--share", f"nobody-{os.getpid()}", "--domain", DOMAIN, "--commands"],
                         ["ncmon", "--json", "--wait", "600", "--domain", DOMAIN]):
             child = run(command, environment)
