@@ -10,6 +10,7 @@ import unittest
 
 SOURCE = pathlib.Path(os.environ.get("NC_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
 INTERPRETER = "libnc/src/interpret/interpreter.hpp"
+CONTEXT = "libnc/src/interpret/context.hpp"
 
 
 def include(*headers):
@@ -18,9 +19,9 @@ def include(*headers):
 
 class Rooms(unittest.TestCase):
     def check(self, files, *options):
-        """Status and output for a tree of these files; the private header is there unless `files` says what it is."""
+        """Status and output for a tree of these files; the private headers are there unless `files` says what they are."""
         with tempfile.TemporaryDirectory() as folder:
-            for path, text in {INTERPRETER: "", **files}.items():
+            for path, text in {INTERPRETER: "", CONTEXT: "", **files}.items():
                 if text is None:
                     continue
                 place = pathlib.Path(folder, path)
