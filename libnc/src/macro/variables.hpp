@@ -88,7 +88,7 @@ class Variables {
   bool next(uint32_t from, uint32_t* number, double* value) const { return common_->next(from, number, value); }
 
   /// Local or common variable; false when the number is neither (system variables are
-  /// interpret/system_variables.hpp).
+  /// interpret/system_variables.cpp).
   bool get(uint32_t number, unsigned level, Value* value) const;
   bool set(uint32_t number, unsigned level, Value value, BlockSeq seq);
 

@@ -32,7 +32,7 @@
 // same number. "The block in execution" is the serial that the interpolator has reached.
 //
 // Reading ahead is a bet that can be lost. The interpreter's state is one copyable value (interpret/state.hpp). Each mark stores
-// a checkpoint of it; writes to variables are journalled under the block that made them (stream/journal.hpp).
+// a checkpoint of it; writes to variables are journalled under the block that made them (macro/journal.hpp).
 // rewind(mark) restores the checkpoint and undoes the journal; resync(positions) goes on from where the machine really is.
 // Nothing beyond a sync has ever been read when it is answered, so checkpoints never reach across one.
 #pragma once
