@@ -7,11 +7,12 @@
 #include <deque>
 
 #include "online_helpers.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
 
-constexpr uint32_t kPrograms = 40;
+const uint32_t kPrograms = sanitized() ? 10 : 40;
 
 /// What one run of the machine was: its items, and what it knew at each sync.
 struct MachineRun {

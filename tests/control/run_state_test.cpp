@@ -5,6 +5,7 @@
 
 #include "online_helpers.hpp"
 #include "support/drive.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -146,7 +147,7 @@ TEST_P(RunState, EverySequence) {
 TEST_P(RunState, LongSequences) {
   Rig rig(GetParam());
   std::mt19937 random(31);
-  for (unsigned n = 0; n < 20000; ++n) {
+  for (unsigned n = 0; n < (sanitized() ? 2000u : 20000u); ++n) {
     std::vector<unsigned> steps(5 + random() % 8);
     for (unsigned& s : steps) s = random() % kSteps;
     ASSERT_NO_FATAL_FAILURE(try_sequence(rig, steps)) << n;
@@ -156,7 +157,7 @@ TEST_P(RunState, LongSequences) {
 /// An alarm anywhere in programs of all kinds, while the operator does what he likes and the feeder is late.
 TEST_P(RunState, AlarmsAnywhere) {
   constexpr unsigned kLongest = 3000;  // cycles of 4 ms: a stop from full speed on every axis, and the rings emptied
-  for (uint32_t seed = 0; seed < 40; ++seed) {
+  for (uint32_t seed = 0; seed < (sanitized() ? 8u : 40u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const RandomProgram program = ProgramMaker(seed + 4000, false).make();
     Bench bench(NC_DIALECT_M700, [](nc_config& c) {

@@ -6,6 +6,7 @@
 
 #include "interpolate/random_program.hpp"
 #include "interpolate/test_machine.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -74,11 +75,9 @@ std::string run_seed(uint64_t seed, const Disturbance& d, LimitChecker* worst = 
 }
 
 void run_many(uint64_t first, const Disturbance& d) {
-  // A longer soak on request: NC_SEEDS=10000. Under a sanitizer a few are enough to see what it looks for.
-  const char *wish = std::getenv("NC_SEEDS"), *sanitizer = std::getenv("NC_SANITIZE");
-  const uint64_t seeds = wish ? std::strtoull(wish, nullptr, 10) : sanitizer && *sanitizer ? 6 : 40;
+  const uint64_t count = seeds(40, 4);
   double velocity = 0, acceleration = 0;
-  for (uint64_t s = first; s < first + seeds; ++s) {
+  for (uint64_t s = first; s < first + count; ++s) {
     LimitChecker worst{standard_config()};
     const std::string wrong = run_seed(s, d, &worst);
     ASSERT_EQ(wrong, "") << "seed " << s;
@@ -86,7 +85,7 @@ void run_many(uint64_t first, const Disturbance& d) {
     acceleration = std::max(acceleration, worst.worst_acceleration);
   }
   std::printf("worst over %llu seeds: velocity %.6f, acceleration %.6f of the limit\n",
-              static_cast<unsigned long long>(seeds), velocity, acceleration);
+              static_cast<unsigned long long>(count), velocity, acceleration);
 }
 
 TEST(Limits, UndisturbedProgramsKeepThem) {

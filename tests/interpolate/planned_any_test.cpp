@@ -7,6 +7,7 @@
 #include "interpolate/line_program.hpp"
 #include "interpolate/path_distance.hpp"
 #include "interpolate/rests.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -175,13 +176,8 @@ std::string about(const Trial& t, uint64_t seed) {
 }
 
 /// NC_SEEDS=10000 runs so many, NC_FIRST=7 from the seventh on.
-uint64_t wish(const char* name, uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 uint64_t seeds_of(uint64_t plain) {
-  const char* sanitizer = std::getenv("NC_SANITIZE");
-  return wish("NC_SEEDS", sanitizer != nullptr && *sanitizer != 0 ? 5 : plain);
+  return seeds(plain, plain / 20 + 1);
 }
 
 void run_many(uint64_t plain, Operator who) {

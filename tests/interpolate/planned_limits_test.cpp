@@ -6,6 +6,7 @@
 #include "interpolate/path_distance.hpp"
 #include "interpolate/random_program.hpp"
 #include "interpolate/test_machine.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -126,12 +127,10 @@ std::string run_seed(uint64_t seed, const Disturbance& d, unsigned blocks, Limit
 }
 
 void run_many(uint64_t first, const Disturbance& d) {
-  // A longer soak on request: NC_SEEDS=10000. Under a sanitizer a few are enough to see what it looks for.
-  const char *wish = std::getenv("NC_SEEDS"), *sanitizer = std::getenv("NC_SANITIZE");
-  const uint64_t seeds = wish ? std::strtoull(wish, nullptr, 10) : sanitizer && *sanitizer ? 1 : 3;
+  const uint64_t count = seeds(3, 1);
   double velocity = 0, acceleration = 0, jerk = 0, farthest = 0;
   uint64_t wrong_seeds = 0;
-  for (uint64_t s = first; s < first + seeds; ++s) {
+  for (uint64_t s = first; s < first + count; ++s) {
     LimitChecker worst{random_config(s)};
     const std::string wrong = run_seed(s, d, 3, &worst, &farthest);
     EXPECT_EQ(wrong, "") << "seed " << s;
@@ -141,7 +140,7 @@ void run_many(uint64_t first, const Disturbance& d) {
     jerk = std::max(jerk, worst.worst_jerk);
   }
   std::printf("worst over %llu seeds: velocity %.6f, acceleration %.6f, jerk %.6f of the limit, %.3f of the tolerance\n",
-              static_cast<unsigned long long>(seeds), velocity, acceleration, jerk, farthest);
+              static_cast<unsigned long long>(count), velocity, acceleration, jerk, farthest);
 }
 
 TEST(PlannedLimits, UndisturbedProgramsKeepThem) {

@@ -5,6 +5,7 @@
 
 #include "interpolate/line_program.hpp"
 #include "interpolate/path_distance.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -86,18 +87,12 @@ Seen run(const LineProgram& lines, const ExecutorConfig& config, uint64_t plan_e
 }
 
 /// NC_SEEDS=10000 runs so many, NC_FIRST=7 from the seventh on.
-uint64_t wish(const char* name, uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
 TEST(PlannedLines, NothingStopsThemAndNothingIsBroken) {
-  const char* sanitizer = std::getenv("NC_SANITIZE");
-  const uint64_t from = wish("NC_FIRST", 0), seeds = wish("NC_SEEDS", sanitizer && *sanitizer ? 9 : 216);
+  const uint64_t from = wish("NC_FIRST", 0), count = seeds(216, 9);
   Seen worst;
   double ratio = 0;
   uint64_t wrong = 0;
-  for (uint64_t seed = from; seed < from + seeds; ++seed) {
+  for (uint64_t seed = from; seed < from + count; ++seed) {
     std::mt19937_64 rng(seed);
     const LineShape shape = static_cast<LineShape>(seed % static_cast<uint64_t>(LineShape::count));
     const LineProgram lines = line_program(shape, rng);
@@ -113,7 +108,7 @@ TEST(PlannedLines, NothingStopsThemAndNothingIsBroken) {
     ratio = std::max(ratio, seen.seconds / (seen.simple + kMoreSeconds));
   }
   std::printf("%llu programs, %llu wrong; worst: velocity %.5f, acceleration %.5f, jerk %.5f of the limit, %.4f of the tolerance, %.3f of the simple time\n",
-              static_cast<unsigned long long>(seeds), static_cast<unsigned long long>(wrong), worst.velocity, worst.acceleration, worst.jerk, worst.off, ratio);
+              static_cast<unsigned long long>(count), static_cast<unsigned long long>(wrong), worst.velocity, worst.acceleration, worst.jerk, worst.off, ratio);
 }
 
 LineProgram hatch_of(unsigned rows, double part, LineProgram lines = {}) {

@@ -6,6 +6,7 @@
 #include "interpolate/path_distance.hpp"
 #include "interpolate/test_machine.hpp"
 #include "path/shape.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -143,9 +144,8 @@ Curves random_curves(uint64_t seed) {
 }
 
 TEST(PlannedShapes, RandomCurvesKeepLimitsAndTolerance) {
-  const char *wish = std::getenv("NC_SEEDS"), *sanitizer = std::getenv("NC_SANITIZE");
-  const uint64_t seeds = wish ? std::strtoull(wish, nullptr, 10) : sanitizer && *sanitizer ? 2 : 20;
-  for (uint64_t seed = 0; seed < seeds; ++seed) {
+  const uint64_t count = seeds(20, 2);
+  for (uint64_t seed = 0; seed < count; ++seed) {
     const Curves c = random_curves(seed);
     std::mt19937_64 rng(seed);
     const PathDistance path(c.program, c.config.axis_count);

@@ -9,6 +9,7 @@
 
 #include "interpolate/rests.hpp"
 #include "interpolate/test_machine.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -246,18 +247,16 @@ std::string about(const Trial& t, const Outcome& o) {
 
 /// NC_SEEDS is the last seed, NC_FIRST_SEED the first one: a longer soak, or one seed.
 uint64_t first_seed() {
-  const char* wish = std::getenv("NC_FIRST_SEED");
-  return wish ? std::strtoull(wish, nullptr, 10) : 1;
+  return wish("NC_FIRST_SEED", 1);
 }
-uint64_t seeds_of(uint64_t plain) {
-  const char *wish = std::getenv("NC_SEEDS"), *sanitizer = std::getenv("NC_SANITIZE");
-  return wish ? std::strtoull(wish, nullptr, 10) : sanitizer && *sanitizer ? 20 : plain;
+uint64_t last_seed(uint64_t plain) {
+  return seeds(plain, plain / 50 + 2);
 }
 
 TEST(PlannedTime, NoProgramTakesLongerThanBlockByBlock) {
   double slowest = 0, jerk = 0;
   unsigned wrong = 0;
-  const uint64_t seeds = seeds_of(1000);
+  const uint64_t seeds = last_seed(1000);
   for (uint64_t seed = first_seed(); seed <= seeds && wrong < 20; ++seed) {
     const Trial t = random_trial(seed);
     const Outcome o = run(t, ~uint64_t{0});
@@ -307,7 +306,7 @@ TEST(PlannedTime, NoProgramOfShortSlowLinesTakesLongerThanLineByLine) {
   double slowest = 0;
   unsigned wrong = 0;
   uint64_t in_phases = 0;
-  const uint64_t seeds = seeds_of(200);
+  const uint64_t seeds = last_seed(200);
   for (uint64_t seed = first_seed(); seed <= seeds && wrong < 20; ++seed) {
     const Trial t = slow_lines(seed);
     const Outcome o = run(t, ~uint64_t{0});
@@ -325,7 +324,7 @@ void hold_anywhere(uint64_t first, bool hangs) {
   unsigned wrong = 0;
   uint64_t holds = 0;
   double jerk = 0;
-  const uint64_t seeds = seeds_of(35);
+  const uint64_t seeds = last_seed(35);
   for (uint64_t seed = first_seed(); seed <= seeds && wrong < 20; ++seed) {
     const Trial t = random_trial(first + seed);
     const uint64_t cycles = static_cast<uint64_t>(run(t, ~uint64_t{0}).seconds / t.config.cycle_s), every = std::max<uint64_t>(1, cycles / 16);

@@ -2,6 +2,7 @@
 // Corners behind the mean of high-accuracy control in the trapezoid mode (M700 13.15): random programs of lines keep velocity and acceleration of every
 // axis in every cycle and stay within the tolerance, whatever overrides and holds do, and short lines are no stops.
 #include "motion/rounding.hpp"
+#include "support/seeds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -73,10 +74,8 @@ Seen run(const LineProgram& lines, const ExecutorConfig& config, const FilterTim
 }
 
 TEST(RoundedCorners, RandomLinesKeepTheLimitsAndTheTolerance) {
-  const char* sanitizer = std::getenv("NC_SANITIZE");
-  const char* wanted = std::getenv("NC_SEEDS");
-  const uint64_t seeds = wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : sanitizer != nullptr && *sanitizer != 0 ? 9 : 90;
-  for (uint64_t seed = 0; seed < seeds; ++seed) {
+  const uint64_t count = seeds(90, 9);
+  for (uint64_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 rng(seed);
     const LineProgram lines = line_program(static_cast<LineShape>(seed % static_cast<uint64_t>(LineShape::count)), rng);

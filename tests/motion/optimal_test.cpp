@@ -14,6 +14,7 @@
 #include "motion/optimal/profile.hpp"
 #include "motion/optimal/smooth.hpp"
 #include "motion/optimal/windows.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -428,10 +429,8 @@ Path random_path(std::mt19937_64& rng) {
   return path;
 }
 
-/// NC_SEEDS=10000 runs so many.
 uint64_t looks_seeds() {
-  const char* text = std::getenv("NC_SEEDS");
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : 80;
+  return seeds(80, 16);
 }
 
 TEST(OptimalProperty, RandomPolylinesKeepToleranceAndLimits) {

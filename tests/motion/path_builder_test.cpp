@@ -11,6 +11,7 @@
 
 #include "interpolate/line_program.hpp"
 #include "motion/optimal/path_builder.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -148,18 +149,12 @@ std::string wrong_in(const LineProgram& lines, double tolerance, uint32_t capaci
 }
 
 /// NC_SEEDS=100000 runs so many, NC_FIRST=7 from the seventh on.
-uint64_t wish(const char* name, uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
 TEST(PathBuilder, PiecesOfRandomLinesGoOnInOneAnother) {
-  const char* sanitizer = std::getenv("NC_SANITIZE");
-  const uint64_t from = wish("NC_FIRST", 0), seeds = wish("NC_SEEDS", sanitizer && *sanitizer ? 18 : 1000);
+  const uint64_t from = wish("NC_FIRST", 0), count = seeds(1000, 18);
   const unsigned shapes = static_cast<unsigned>(LineShape::count);
   uint64_t wrong = 0, pieces = 0;
   double off = 0;
-  for (uint64_t seed = from; seed < from + seeds && wrong < 20; ++seed) {
+  for (uint64_t seed = from; seed < from + count && wrong < 20; ++seed) {
     std::mt19937_64 rng(seed);
     const LineShape shape = static_cast<LineShape>(seed % shapes);
     const LineProgram lines = line_program(shape, rng);
@@ -173,7 +168,7 @@ TEST(PathBuilder, PiecesOfRandomLinesGoOnInOneAnother) {
     pieces += found.pieces;
     off = std::max(off, found.off);
   }
-  std::printf("%llu programs, %llu pieces, %llu wrong, %.4f of the tolerance\n", static_cast<unsigned long long>(seeds), static_cast<unsigned long long>(pieces),
+  std::printf("%llu programs, %llu pieces, %llu wrong, %.4f of the tolerance\n", static_cast<unsigned long long>(count), static_cast<unsigned long long>(pieces),
               static_cast<unsigned long long>(wrong), off);
 }
 
@@ -200,10 +195,9 @@ LineProgram noisy_program(std::mt19937_64& rng) {
 }
 
 TEST(PathBuilder, PiecesOfNoisyLinesGoOnInOneAnother) {
-  const char* sanitizer = std::getenv("NC_SANITIZE");
-  const uint64_t from = wish("NC_FIRST", 0), seeds = wish("NC_SEEDS", sanitizer && *sanitizer ? 18 : 600);
+  const uint64_t from = wish("NC_FIRST", 0), count = seeds(600, 18);
   uint64_t wrong = 0;
-  for (uint64_t seed = from; seed < from + seeds && wrong < 20; ++seed) {
+  for (uint64_t seed = from; seed < from + count && wrong < 20; ++seed) {
     std::mt19937_64 rng(seed);
     const LineProgram lines = noisy_program(rng);
     const double tolerance = kTolerance[seed % 8];

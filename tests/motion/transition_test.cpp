@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "motion/optimal/path_builder.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -234,10 +235,9 @@ Path random_path(std::mt19937_64& rng) {
 }
 
 TEST(Transition, RandomPathsKeepToleranceDirectionAndCurvature) {
-  const char* wish = std::getenv("NC_SEEDS");
-  const uint64_t seeds = wish != nullptr ? std::strtoull(wish, nullptr, 10) : 300;
+  const uint64_t count = seeds(300, 60);
   unsigned arcs_met = 0;
-  for (uint64_t seed = 1; seed <= seeds; ++seed) {
+  for (uint64_t seed = 1; seed <= count; ++seed) {
     std::mt19937_64 rng(seed);
     const Path path = random_path(rng);
     expect_smooth(path, "seed", seed);
@@ -261,7 +261,7 @@ TEST(Transition, RandomPathsKeepToleranceDirectionAndCurvature) {
       EXPECT_LE(path.distance(path.passed[k], evaluate(*ends, ends->length, kAxes).position), 1e-9) << "seed " << seed;
     }
   }
-  EXPECT_GT(arcs_met, seeds);
+  EXPECT_GT(arcs_met, count);
 }
 
 }  // namespace

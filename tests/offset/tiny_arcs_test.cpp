@@ -7,6 +7,7 @@
 #include <random>
 
 #include "support/drive.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -184,7 +185,8 @@ std::string random_contour(std::mt19937_64& random, const char* side, bool left,
 
 TEST(TinyArcs, RandomContoursStayBesideTheProgrammedPath) {
   unsigned whole = 0;
-  for (unsigned seed = 0; seed < 800; ++seed) {
+  const unsigned contours = sanitized() ? 80 : 800;
+  for (unsigned seed = 0; seed < contours; ++seed) {
     std::mt19937_64 random(seed), same(seed);
     const double radius = std::uniform_real_distribution<>(0.1, 5)(random);
     std::uniform_real_distribution<>(0.1, 5)(same);
@@ -210,12 +212,13 @@ TEST(TinyArcs, RandomContoursStayBesideTheProgrammedPath) {
     for (const Point& p : compensated.points) worst = std::max(worst, from_path(p, programmed.points));
     ASSERT_LT(worst, radius * reach + 2 * tolerance) << "seed " << seed << " radius " << radius << "\n" << text;
   }
-  EXPECT_GT(whole, 150u);
+  EXPECT_GT(whole, contours / 6);
 }
 
 TEST(TinyArcs, NoAxisJumpsAtARandomContour) {
   unsigned whole = 0;
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  const unsigned contours = sanitized() ? 20 : 200;
+  for (unsigned seed = 0; seed < contours; ++seed) {
     std::mt19937_64 random(seed);
     const double radius = std::uniform_real_distribution<>(0.1, 5)(random);
     const double tolerance = seed % 4 < 2 ? 0.1 : 1;
@@ -228,7 +231,7 @@ TEST(TinyArcs, NoAxisJumpsAtARandomContour) {
       whole += alarm.empty();
     }
   }
-  EXPECT_GT(whole, 40u);
+  EXPECT_GT(whole, contours / 5);
 }
 
 }  // namespace

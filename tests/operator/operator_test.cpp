@@ -7,14 +7,10 @@
 #include <cstdlib>
 
 #include "operator/session.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
-
-uint64_t wish(const char* name, uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 
 /// In every fourth session counters pass the end of their 31 or 32 bits in front of their first or some later item.
 uint32_t count_from(uint64_t seed) {
@@ -25,8 +21,7 @@ uint32_t count_from(uint64_t seed) {
 using Count = unsigned long long;
 
 TEST(Operator, DoesAnything) {
-  const char* sanitizer = std::getenv("NC_SANITIZE");
-  const uint64_t first = wish("NC_FIRST_SEED", 1), count = wish("NC_SEEDS", sanitizer != nullptr && *sanitizer != 0 ? 20 : 150);
+  const uint64_t first = wish("NC_FIRST_SEED", 1), count = seeds(150, 20);
   Session::Size size;
   size.passages = static_cast<unsigned>(wish("NC_PASSAGES", size.passages));
   size.cycles = static_cast<unsigned>(wish("NC_CYCLES", size.cycles));

@@ -32,6 +32,7 @@
 #include "dialect/m700/m700.hpp"
 #include "places/places.hpp"
 #include "rewrite.hpp"
+#include "support/seeds.hpp"
 #include "tools/lib/commands.hpp"
 
 namespace nc::permuted {
@@ -330,14 +331,15 @@ TEST(Permuted, EveryRowOfTheTablesMeansTheSameUnderItsNewNumber) {
   const Compare compare(permutation);
   Tracer tracer;
   for (const std::vector<Program>& probes : {probes_of_codes(family), probes_of_variables(family), probes_of_parameters(family)}) {
-    unsigned refused = 0;
-    for (const Program& program : probes) {
+    unsigned refused = 0, compared = 0;
+    for (size_t n = 0; n < probes.size(); n += nc::test::sanitized() ? 10 : 1, ++compared) {
+      const Program& program = probes[n];
       const Tracer::Trace want = tracer.trace(family, program);
       refused += want.lines.empty();
       EXPECT_EQ(compare.difference(want, tracer.trace(permuted.dialect(), permuted_program(program, permutation))), "") << program.id;
     }
-    std::printf("%zu probes compared, %u of them with a setup that the control refuses\n", probes.size(), refused);
-    EXPECT_LT(refused * 2, probes.size());
+    std::printf("%u probes compared, %u of them with a setup that the control refuses\n", compared, refused);
+    EXPECT_LT(refused * 2, compared);
   }
 }
 

@@ -16,6 +16,7 @@
 
 #include "places/places.hpp"
 #include "program_generator.hpp"
+#include "support/seeds.hpp"
 #include "test_config.hpp"
 #include "walls_machine.hpp"
 #include "walls_offline.hpp"
@@ -26,10 +27,9 @@ using nc::test::Listing;
 using nc::test::Operator;
 using nc::test::Recording;
 
-// Sanitizers are slow: the same test on fewer programs.
-unsigned seeds(unsigned all) {
-  const char* sanitize = std::getenv("NC_SANITIZE");
-  return sanitize != nullptr && sanitize[0] != 0 ? (all + 19) / 20 : all;
+/// A twentieth of `all` under a sanitizer.
+unsigned programs(unsigned all) {
+  return nc::test::sanitized() ? (all + 19) / 20 : all;
 }
 
 nc::rt::Config random_config(const std::vector<std::string>& script, std::uint32_t seed) {
@@ -80,7 +80,7 @@ void compare(const nc::rt::Config& config, const std::string& text, const Operat
 
 TEST(Walls, RandomProgramsExecuteAsTheyTrace) {
   Totals totals;
-  const unsigned count = seeds(160);
+  const unsigned count = programs(160);
   for (std::uint32_t seed = 1; seed <= count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     nc::test::ProgramGenerator generator(seed);
@@ -140,7 +140,7 @@ void add_time_constants(std::uint32_t seed, nc::rt::Config* config) {
 
 TEST(Walls, RandomProgramsWithTimeConstantsExecuteAsTheyTrace) {
   Totals totals;
-  const unsigned count = seeds(40);
+  const unsigned count = programs(40);
   for (std::uint32_t seed = 1; seed <= count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     nc::test::ProgramGenerator generator(seed + 1000);
@@ -163,7 +163,7 @@ TEST(Walls, RandomProgramsExecuteAsTheyTraceInTheOptimalMode) {
   Totals totals;
   // From 3 on, because its operator holds and changes the override: even the one program under a sanitizer meets both.
   const std::uint32_t first = 3;
-  const unsigned count = seeds(8);
+  const unsigned count = programs(8);
   for (std::uint32_t seed = first; seed < first + count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     nc::test::ProgramGenerator generator(seed);
@@ -200,6 +200,7 @@ TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
     ++parts;
     for (const std::uint32_t seed : {0u, 7u}) {
       SCOPED_TRACE(std::string(part) + " seed " + std::to_string(seed));
+      if (nc::test::sanitized() && seed != 7) continue;
       Totals totals;
       compare(config, text, random_operator(seed), &totals);
       EXPECT_GT(totals.items, 50u);
@@ -237,7 +238,7 @@ tool_change_s = 0.1
   unsigned programs = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string ending = entry.path().extension().string();
-    if ((ending != ".nc" && ending != ".ngc") || (seeds(10) < 10 && entry.file_size() > 15000)) continue;
+    if ((ending != ".nc" && ending != ".ngc") || (nc::test::sanitized() && entry.file_size() > 15000)) continue;
     SCOPED_TRACE(entry.path().filename().string());
     const std::string text = read_file(entry.path());
     Operator op;
