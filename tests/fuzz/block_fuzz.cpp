@@ -35,7 +35,8 @@ long read_at(void* user, uint64_t offset, char* buffer, size_t size) {
 nc::LexRules rules_of(uint8_t choice) {
   nc::LexRules rules = nc::iso_rules();
   const bool macros = (choice & 1) == 0;
-  rules.macros = rules.skip_numbers = rules.comma_words = rules.angle_names = macros;
+  rules.macros = rules.statements = rules.skip_numbers = rules.comma_words = rules.angle_names = macros;
+  if ((choice & 0x80) != 0) rules.formula = nc::Formula::ngc;
   rules.semicolon = macros ? static_cast<nc::Semicolon>(choice >> 1 & 3) : nc::Semicolon::unknown;
   for (unsigned i = 0; i < 26; ++i) {
     rules.word[i].known = macros || i % 5 != 0;

@@ -21,7 +21,7 @@ namespace nc::test {
 
 inline LexRules m700_rules() {
   LexRules rules = iso_rules();
-  rules.macros = rules.skip_numbers = rules.comma_words = rules.angle_names = true;
+  rules.macros = rules.statements = rules.skip_numbers = rules.comma_words = rules.angle_names = true;
   rules.semicolon = rules.mdi_semicolon = Semicolon::ends_block;
   rules.slash_only_at_head = false;
   for (WordFormat& f : rules.word) f.known = true;

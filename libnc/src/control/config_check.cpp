@@ -269,6 +269,11 @@ nc::CommonRanges nc::ranges_of(const nc_config& c) {
   r.last[0] = sets <= 100 ? 149 : 199;
   r.first[1] = 500;
   r.last[1] = sets <= 100 ? 549 : sets <= 200 ? 599 : sets <= 300 ? 699 : 999;
+  const FamilyVariables& family = *dialect(static_cast<nc_dialect>(c.dialect)).variables;
+  for (unsigned i = 0; i < 2 && family.common[i].last != 0; ++i) {
+    r.first[i] = family.common[i].first;
+    r.last[i] = family.common[i].last;
+  }
   if (c.extended_variables) r.last[CommonRanges::kExtended] = 907399;
   for (unsigned i = 0; i < NC_VARIABLE_RANGES; ++i) {
     r.first[CommonRanges::kExtended + 1 + i] = c.variable_ranges[i].first;

@@ -37,6 +37,7 @@ struct MiscRow {
 enum class DataInput : uint8_t {
   missing,           ///< in the manual, not built
   work_offset,       ///< of a workpiece coordinate system, or of them all
+  work_offset_here,  ///< the same, so that the axis reads the value where it stands
   extended_offset,   ///< of an extended workpiece coordinate system
   tool_length, tool_length_wear, tool_radius, tool_radius_wear,
   current_limit, parameters

@@ -61,6 +61,15 @@ enum class Function : uint8_t {
   surface_on, surface_off,              ///< G96 G97
   mirror_on, mirror_off,                ///< G51.1 G50.1: modal, and they take the axis words of the block
   scaling_on, scaling_off, rotation_on, rotation_off,   ///< G51 G50 G68 G69
+  // Numbers of the codes of RS-274/NGC and LinuxCNC stand beside those that follow.
+  probe, probe_away,                    ///< G38.2, as skip() but that no contact is an alarm; G38.4 G38.5
+  centre_incremental, centre_absolute,  ///< G91.1 G90.1: of arcs
+  shift_off, shift_suspend, shift_restore,   ///< G92.1 G92.2 G92.3: what coordinate_set has set
+  reference_set,                        ///< G28.1 G30.1
+  rigid_tap, thread_cycle,              ///< G33.1 G76
+  comp_dynamic, length_dynamic, length_added,   ///< G41.1 G42.1, G43.1, G43.2
+  spline_cubic, spline_quadratic, nurbs_block, nurbs_block_end,   ///< G5 G5.1 G5.2 G5.3
+  diameter_words, radius_words,         ///< G7 G8
   count_
 };
 inline constexpr unsigned kFunctions = static_cast<unsigned>(Function::count_);
@@ -69,9 +78,11 @@ inline constexpr unsigned kFunctions = static_cast<unsigned>(Function::count_);
 constexpr bool is_reference_move(Function f) {
   return f == Function::reference_check || f == Function::reference_return || f == Function::start_return || f == Function::second_reference;
 }
+/// A straight feed that a signal ends.
+constexpr bool is_skip(Function f) { return f == Function::skip || f == Function::multi_skip || f == Function::probe; }
 /// One-shot functions whose axis words are positions to go to; those of the others are data.
 constexpr bool goes_to_position(Function f) {
-  return is_reference_move(f) || f == Function::tool_change_return || f == Function::skip || f == Function::multi_skip ||
+  return is_reference_move(f) || f == Function::tool_change_return || is_skip(f) ||
          f == Function::measure_length || f == Function::machine_move || f == Function::unidirectional;
 }
 constexpr bool is_macro_call(Function f) { return f == Function::macro_call || f == Function::macro_modal || f == Function::macro_every_block; }
@@ -98,7 +109,9 @@ enum class MiscFunction : uint8_t {
   spindle_forward, spindle_reverse, spindle_stop, tool_change,   ///< go out, too
   interrupt_on, interrupt_off,                  ///< as long as no parameter gives another code this meaning; then they are output
   program_stop, optional_stop, program_end,     ///< kept by the control, as the rest
-  call_sub, return_sub, call_external
+  call_sub, return_sub, call_external,
+  override_allowed, override_barred, override_of_one,   ///< of the operator: both of them, or one
+  spindle_orient, tool_number, machine_output, machine_input, modal_state
 };
 /// It goes out to the machine.
 constexpr bool goes_out(MiscFunction f) { return f <= MiscFunction::interrupt_off; }

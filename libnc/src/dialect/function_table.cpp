@@ -43,7 +43,15 @@ nc_code_role code_role(MiscFunction function) {
     case MiscFunction::tool_change: return NC_CODE_TOOL_CHANGE;
     case MiscFunction::output:
     case MiscFunction::interrupt_on:
-    case MiscFunction::interrupt_off: break;
+    case MiscFunction::interrupt_off:
+    case MiscFunction::override_allowed:
+    case MiscFunction::override_barred:
+    case MiscFunction::override_of_one:
+    case MiscFunction::spindle_orient:
+    case MiscFunction::tool_number:
+    case MiscFunction::machine_output:
+    case MiscFunction::machine_input:
+    case MiscFunction::modal_state: break;
   }
   return NC_CODE_OTHER;
 }

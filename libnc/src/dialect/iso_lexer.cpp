@@ -145,7 +145,7 @@ class Lexer {
 
   bool head_number(char letter, bool* has, uint32_t* number) {
     const WordFormat& format = rules_.word[letter - 'A'];
-    if (!format.known) return fault(Condition::illegal_address, letter);
+    if (!format.known) return fault(unknown(format), letter);
     ++at_.p;
     const char c = at_.peek();
     if (c == '#' || c == '[')
@@ -155,7 +155,7 @@ class Lexer {
     if (d.point && format.fraction_digits == 0) return fault(Condition::format_error, letter, d.value);
     if (d.integer > UINT32_MAX || out_of_range(format, d))
       return fault(refusal(format, d.fraction_digits), letter, d.value);
-    if (d.integer == 0) return fault(Condition::number_zero, letter, 0);  // M700 P37
+    if (d.integer == 0 && !rules_.zero_numbers) return fault(Condition::number_zero, letter, 0);  // M700 P37
     *has = true;
     *number = static_cast<uint32_t>(d.integer);
     return true;
@@ -184,7 +184,7 @@ class Lexer {
       }
       const WordFormat& format = rules_.word[letter];
       const char name = static_cast<char>('A' + letter);
-      if (!format.known) return fault(Condition::illegal_address, name);
+      if (!format.known) return fault(unknown(format), name);
       const double value = plain.value(format.integer);
       if (plain.longer_than(format.integer_digits) ||
           (plain.fraction_digits > format.fraction_digits && !keeps_any_fraction(format))) {
@@ -263,6 +263,8 @@ class Lexer {
     word->value = value;
   }
 
+  static Condition unknown(const WordFormat& format) { return format.refusal == Condition::none ? Condition::illegal_address : format.refusal; }
+
   static bool keeps_any_fraction(const WordFormat& format) {
     return format.integer || format.fraction_digits >= 8;
   }
@@ -296,7 +298,7 @@ class Lexer {
   /// A word that is not letter, sign, number; or a macro statement.
   bool slow_word() {
     const char letter = upper(*at_.p);
-    if (rules_.macros) {
+    if (rules_.statements) {
       bool was_statement = false;
       if (!keyword(letter, &was_statement)) return false;
       if (was_statement) return true;
@@ -307,7 +309,7 @@ class Lexer {
   bool word(uint8_t flags) {
     const char letter = upper(*at_.p);
     const WordFormat& format = rules_.word[letter - 'A'];
-    if (!format.known && (flags & kWordComma) == 0) return fault(Condition::illegal_address, letter);
+    if (!format.known && (flags & kWordComma) == 0) return fault(unknown(format), letter);
     // "X1e2", and no address E.
     if (*at_.p == 'e' && at_.p != text_ && (is_digit(at_.p[-1]) || at_.p[-1] == '.')) flags |= kWordExponent;
     Word word{letter, flags, 0, column(at_.p), kNoCode, 0};
@@ -335,7 +337,7 @@ class Lexer {
       at_ = start;
       return expression_value(word);
     }
-    if (rules_.macros && is_letter(c) && starts_function(at_)) {
+    if (rules_.macros && is_letter(c) && starts_function(at_, rules_.formula)) {
       at_ = start;
       return expression_value(word);
     }
@@ -349,7 +351,7 @@ class Lexer {
     const Decimal d = at_.number();
     if (d.digits == 0) return fault(Condition::format_error, word->letter);
     const char next = at_.peek();
-    if (rules_.macros && (next == '+' || next == '-' || next == '*' || next == '/')) {  // M700 5.3: X123+0
+    if (rules_.macros && rules_.formula == Formula::macro && (next == '+' || next == '-' || next == '*' || next == '/')) {  // M700 5.3: X123+0
       at_ = start;
       return expression_value(word);
     }
@@ -376,7 +378,7 @@ class Lexer {
     if (word->letter == rules_.sequence_letter || word->letter == rules_.program_letter)
       return fault(Condition::variable_use, word->letter);  // M700 13.4 (3)
     word->flags = static_cast<uint8_t>((word->flags & ~(kWordNegative | kWordPlus)) | kWordExpression);
-    ExpressionCompiler compiler(block_, &at_);
+    ExpressionCompiler compiler(block_, &at_, rules_.formula);
     if (!compiler.word_value(&word->code)) return fault(compiler.fault(), word->letter);
     if (at_.peek() == '=') return fault(Condition::macro_and_words, word->letter);  // X#1=#3+100
     return true;
@@ -391,6 +393,7 @@ class Lexer {
       case '#':
       case '[':
         if (!rules_.macros) return fault(Condition::illegal_character, c);
+        if (c == '[' && rules_.formula == Formula::ngc) return fault(Condition::format_error, c);  // no names that stand for numbers
         return assignment();
       case ',':
         if (!rules_.comma_words) return fault(Condition::illegal_character, c);
@@ -443,7 +446,7 @@ class Lexer {
     if (!block_.words.empty()) return fault(Condition::macro_and_words, '#');
     Statement s;
     s.kind = StatementKind::assign;
-    ExpressionCompiler target(block_, &at_);
+    ExpressionCompiler target(block_, &at_, rules_.formula);
     if (!target.variable_number(&s.target)) return fault(target.fault());
     if (!at_.accept('=')) return fault(Condition::no_equals, '#');  // M700 P242
     at_.comment = nullptr;
@@ -469,14 +472,14 @@ class Lexer {
     const bool there =
         is_digit(c) || c == '.' || c == '#' || c == '[' || c == '-' || c == '+' || is_letter(c);
     if (!there) return fault(c == ']' ? Condition::bracket_pair : when_missing, c);
-    ExpressionCompiler compiler(block_, &at_);
+    ExpressionCompiler compiler(block_, &at_, rules_.formula);
     if (!compiler.expression(code)) return fault(compiler.fault());
     return true;
   }
 
   bool condition(uint16_t* code, Condition statement_error) {
     if (at_.peek() != '[') return fault(statement_error);
-    ExpressionCompiler compiler(block_, &at_);
+    ExpressionCompiler compiler(block_, &at_, rules_.formula);
     if (!compiler.condition(code)) {
       return fault(compiler.fault().condition == Condition::calculation ? Fault{statement_error}
                                                                         : compiler.fault());

@@ -15,6 +15,7 @@ enum class BlockKind : uint8_t { motion, dwell, arguments, work_data, tool_data,
 BlockKind kind_of(DataInput input) {
   switch (input) {
     case DataInput::work_offset:
+    case DataInput::work_offset_here:
     case DataInput::extended_offset: return BlockKind::work_data;
     case DataInput::tool_length:
     case DataInput::tool_length_wear:

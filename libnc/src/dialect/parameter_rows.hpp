@@ -41,6 +41,12 @@ struct MachineParameter {
   MachineDatum what;
 };
 
+/// What holds for good where a family has no such parameter and others do.
+struct FixedParameter {
+  Parameter what;
+  double value;
+};
+
 struct NumberRange {
   uint32_t first, last;
 };
@@ -61,9 +67,12 @@ struct FamilyParameters {
   Table<ParameterRow> numbers = {};            ///< sorted by number
   const ParameterPlaces* places = nullptr;  ///< in it; nullptr: parameters have no numbers
   Table<ParameterName> names = {};
+  Table<FixedParameter> fixed = {};
   Table<MachineParameter> machine = {};
   Table<NumberRange> of_axes = {};             ///< numbers that parameter input by program sets of one axis, those of no row among them
   double arc_tolerance_mm = 0;            ///< where Parameter::arc_tolerance is not set
+  double arc_tolerance_of_radius = 0;     ///< or this part of the radius, if that is more,
+  double arc_tolerance_most_mm = 0;       ///< and never more than this; 0 = arc_tolerance_mm alone counts
   bool checks_interference = false;       ///< of radius compensation, unless Parameter::interference_ignored
 };
 

@@ -47,6 +47,9 @@ struct BlockRules {
   bool stops_stand_alone;
   /// So does the dwell (DGSHAPE G04). M700 8.1 lets it share its block.
   bool dwell_stands_alone;
+  /// Of several variables that a block sets none has its value before all have been calculated: #1=2 #2=#1 takes the #1 of before
+  /// (RS-274/NGC 3.3.2.2). Else one after the other (M700 13.5.4).
+  bool assigns_at_once;
 };
 
 /// M, T and the second auxiliary function.
@@ -78,6 +81,16 @@ struct FeedRules {
   /// F of a line is that of linear and rotary axes together, a degree as long as a millimetre (M700 7.6).
   /// Else it is the linear axes' (DGSHAPE, "F").
   bool degree_counts_as_millimetre;
+  /// F of inverse time is one over the minutes of the whole block, of an arc, too (RS-274/NGC 3.5.19). Else that of an arc is the speed over
+  /// its radius (M700 7.5).
+  bool inverse_time_is_of_block;
+};
+
+/// The feed that a signal ends.
+struct SkipRules {
+  /// It goes by the F in force, and an F of its block stays in force (LinuxCNC G38). Else F is its own, or that of a parameter (M700
+  /// 15.2).
+  bool feed_is_modal;
 };
 
 struct ArcRules {
@@ -89,6 +102,8 @@ struct ArcRules {
   /// P, the number of full turns, does not stand beside R (M700 6.6). DGSHAPE G02/G03 does not say what
   /// becomes of P: it is no fault.
   bool turns_exclude_radius;
+  /// P counts the turn in which the end lies, so that it is 1 of a plain arc (LinuxCNC G2). Else those before it (M700 6.6).
+  bool turns_count_last;
 };
 
 struct DwellRules {
@@ -125,6 +140,11 @@ struct CompensationRules {
   /// An amount that is changed while it is in force acts from the next command on (M700 12.1). Else what
   /// was in force at the code (DGSHAPE "D": cancel first).
   bool takes_changed_amounts;
+  /// A block of its code without a move does nothing; the next move leads to the contour, or away from it (LinuxCNC G40 to G42). Else the tool goes
+  /// to the point beside it at once (M700 12.4.2; DGSHAPE G41).
+  bool code_alone_waits;
+  /// Its code without D takes the number of the tool (RS-274/NGC 3.5.10). Else that of before (M700 12.4.1; DGSHAPE G41).
+  bool number_is_that_of_tool;
 };
 
 /// Compensation of the tool length.
@@ -140,6 +160,11 @@ struct LengthRules {
   /// Beginning and end move the axis at once, also without a word for it (DGSHAPE G43). Else its next
   /// command does (M700 12.2).
   bool moves_at_once;
+  /// Beginning and end leave the axis where it is, and from there on its coordinate is another one (RS-274/NGC 3.5.11): an incremental word
+  /// counts from that. Else the next command of the axis takes it there as well (M700 12.2).
+  bool shifts_reading;
+  /// The code without H takes the number of the tool (LinuxCNC G43). Else that of before (M700 12.2 (2) (d); DGSHAPE G43 has to have one).
+  bool number_is_that_of_tool;
 };
 
 struct CycleRules {
@@ -162,6 +187,14 @@ struct CycleRules {
   /// Distance from the last peck at which the next begins, mm (DGSHAPE G83: 1 mm, fixed); 0 = the
   /// parameters say (M700 13.1.1).
   double fixed_clearance_mm;
+  /// P is in seconds, with a fraction (RS-274/NGC 3.5.16.2). Else in whole milliseconds (M700 13.1.1; DGSHAPE G82).
+  bool dwell_in_seconds;
+  /// The first block of a cycle has its bottom and its R (RS-274/NGC 3.5.16). Else the level of before stands for them (M700 13.1.1; DGSHAPE
+  /// G81).
+  bool begins_with_both_levels;
+  /// Where the axis stands below R it goes up to it before the others go to the hole (RS-274/NGC 3.5.16). Else they go first (M700
+  /// 13.1.1; DGSHAPE G81).
+  bool rises_before_positioning;
   double longest_dwell_ms;  ///< P (M700 13.1.1: eight digits; DGSHAPE: as of the dwell)
 };
 
@@ -178,6 +211,8 @@ struct ReferenceRules {
   /// An axis that reaches its position has its length compensation cancelled (M700 12.2, 14.7 (9), 14.8
   /// (6)). DGSHAPE G28 says nothing of it.
   bool cancels_length;
+  /// Without axis words all axes go, and by no intermediate point (RS-274/NGC 3.5.8). Else words are missing (M700 14.7; DGSHAPE G28).
+  bool all_axes_without_words;
 };
 
 struct CoordinateRules {
@@ -186,6 +221,9 @@ struct CoordinateRules {
   /// The code for machine coordinates beside coordinate system setting takes its shift away (M700 14.5
   /// note). DGSHAPE G92, G53 have none.
   bool machine_code_ends_shift;
+  /// A move in machine coordinates goes by the motion in force, G0 or G1, and no other may be (RS-274/NGC 3.5.12). Else in rapid traverse (M700
+  /// 14.4; DGSHAPE G53).
+  bool machine_move_by_motion;
 };
 
 struct ScalingRules {
@@ -212,6 +250,11 @@ struct DataInputRules {
   bool axes_required;
   /// I J K without L turn the workpiece (M700 13.21).
   bool vector_turns_work;
+  /// Number 0 is the selected coordinate system (LinuxCNC G10 L2). Else the external offset, which is common to all (M700 14.10 (6); DGSHAPE
+  /// G10).
+  bool zero_is_selected_system;
+  /// R of a coordinate system turns it (LinuxCNC G10 L2), which is not built. Else it means nothing there (M700 14.10 (6); DGSHAPE G10).
+  bool amount_turns_system;
 };
 
 struct ProgramRules {
@@ -242,6 +285,7 @@ struct Rules {
   AuxiliaryRules auxiliary;
   SpindleRules spindle;
   FeedRules feed;
+  SkipRules skip;
   ArcRules arc;
   DwellRules dwell;
   CompensationRules compensation;

@@ -59,8 +59,13 @@ struct DeviceRow {
   uint32_t count;
 };
 
+struct VariableRange {
+  uint32_t first, last;
+};
+
 struct FamilyVariables {
   Table<VariableRow> rows = {};   ///< sorted by number, apart from one another
+  VariableRange common[2] = {};   ///< common variables of a family that has no options of them; none where the configuration says
   Table<ModalWord> words = {};    ///< layout of the ranges of words
   Table<DeviceRow> devices = {};
 };

@@ -153,7 +153,7 @@ bool put_foreign(const Interpreter& in, TextWriter& out) {
   // program, so that this one has ended without M30.
   const bool unreadable = in.block != nullptr && (in.block->has_fault || fault.condition == Condition::format_error ||
                                                   fault.condition == Condition::program_end || fault.condition == Condition::variable_use);
-  if (!unreadable) return false;
+  if (!unreadable || in.dialect->lex->formula == Formula::ngc) return false;  // which has both of them: its own sentences say what is wrong
   char text[160] = {};
   const TextEntry* const entry = in.store->entry(in.source.file);
   if (entry == nullptr || TextWindow::read(*entry, in.block->begin, text, sizeof text - 1) <= 0) return false;

@@ -65,7 +65,7 @@ Condition make_circle(const double start[2], const double end[2], const ArcWords
     sweep = ccw ? 2 * kPi : -2 * kPi;  // M700 6.4: end equal to the start is a full circle
   }
   // M700 6.6: 2 pi P + theta with 0 <= theta < 2 pi, so that P2 back to the start goes round twice, as 6.16 draws it.
-  const unsigned more = closed && words.turns != 0 ? words.turns - 1 : words.turns;
+  const unsigned more = (closed || words.turns_count_last) && words.turns != 0 ? words.turns - 1 : words.turns;
   c.sweep = sweep + (ccw ? 2 : -2) * kPi * more;
   *circle = c;
   return Condition::none;

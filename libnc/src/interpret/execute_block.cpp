@@ -16,11 +16,15 @@
 namespace nc {
 namespace {
 
-bool has_own_feed(Function motion) { return motion == Function::thread || is_exponential(motion); }
+bool has_own_feed(const BlockContext& in, Function motion) {
+  const AddressTable& addresses = in.dialect->addresses;
+  const bool lead = motion == Function::thread && addresses.at(Role::thread_lead) == addresses.at(Role::feed);
+  return lead || is_exponential(motion);
+}
 
 /// The F of a skip block and of a measurement is its own and never modal (M700 15.2).
-bool keeps_its_feed(Function one_shot) {
-  return one_shot == Function::skip || one_shot == Function::multi_skip || one_shot == Function::measure_length;
+bool keeps_its_feed(const BlockContext& in, Function one_shot) {
+  return (is_skip(one_shot) && !in.dialect->rules.skip.feed_is_modal) || one_shot == Function::measure_length;
 }
 
 /// D is no number that radius compensation takes: it is a range (M700 15.1), or the offset of one circle (13.10 (3)).
@@ -103,6 +107,8 @@ Execution apply_reading_modes(Interpreter& in) {
       case Function::nurbs:
       case Function::thread:
       case Function::normal_line_off:
+      case Function::centre_incremental:
+      case Function::centre_absolute:
         in.state.modal.set(*row);
         break;
       case Function::stroke_check_off:
@@ -319,8 +325,8 @@ Execution execute_words(Interpreter& in) {
   if (did != Execution::done) return did;
   if (in.state.modal.is(Function::polar_command_on)) resolve_polar_words(in);
   // Neither is the lead of a thread (6.7.1) or the feed of an exponential curve (6.11).
-  const bool own_feed = w.one_shot != nullptr ? keeps_its_feed(w.one_shot->function)
-                                              : has_own_feed(in.state.modal.of(Mode::motion));
+  const bool own_feed = w.one_shot != nullptr ? keeps_its_feed(in, w.one_shot->function)
+                                              : has_own_feed(in, in.state.modal.of(Mode::motion));
   if (in.state.modal.is(Function::inverse_time_feed)) did = check_inverse_time_block(in);
   if (did == Execution::done && w.has(Role::feed) && !own_feed) did = take_feed_word(in);
   if (did != Execution::done) return did;
@@ -339,7 +345,7 @@ Execution execute_words(Interpreter& in) {
   if (!w.comp_command) return finish(in, execute_motion(in));
   const AxisVec before = in.state.machine;
   did = execute_motion(in);
-  if (did == Execution::done && in.state.machine == before) move_nowhere(in);
+  if (did == Execution::done && in.state.machine == before && !in.dialect->rules.compensation.code_alone_waits) move_nowhere(in);
   return finish(in, did);
 }
 

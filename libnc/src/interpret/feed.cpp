@@ -38,10 +38,23 @@ double straight_length(const BlockContext& in, const Move& move) {
   return std::sqrt(squares);
 }
 
+/// Along the arc, and along the axes that make a helix of it.
+double arc_length(const BlockContext& in, const Move& move) {
+  const double round = (move.circle.radius_start + move.circle.radius_end) / 2 * move.circle.sweep;
+  double squares = round * round;
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (i != move.plane_axis[0] && i != move.plane_axis[1]) squares += (move.end[i] - move.start[i]) * (move.end[i] - move.start[i]);
+  return std::sqrt(squares);
+}
+
 /// M700 7.5 (2): F is the speed over the length of a line, or over the radius of an arc at its start.
 void apply_inverse_time(BlockContext& in, Move& move) {
   double extent = straight_length(in, move);
-  if (move.circular) extent = move.circle.radius_start > 0 ? move.circle.radius_start : move.circle.radius_end;
+  if (move.circular && in.dialect->rules.feed.inverse_time_is_of_block) {
+    extent = arc_length(in, move);
+  } else if (move.circular) {
+    extent = move.circle.radius_start > 0 ? move.circle.radius_start : move.circle.radius_end;
+  }
   if (move.shape != 0 && in.shapes[move.shape - 1].kind == ShapeKind::space_arc) extent = in.shapes[move.shape - 1].arc.radius;
   move.rule.inverse_time = extent > 0;
   if (extent > 0) in.state.last_feed = in.state.modal.feed * extent;
@@ -124,6 +137,7 @@ bool refused_in_inverse_time(Function function) {
     case Function::circle_cut_ccw:
     case Function::skip:
     case Function::multi_skip:
+    case Function::probe:
     case Function::thread:
     case Function::holes_on_circle:
     case Function::holes_on_line:

@@ -109,8 +109,8 @@ Execution end_loop(Interpreter& in, const Statement& statement) {
   return Execution::done;
 }
 
-Execution assign(Interpreter& in, const Statement& statement) {
-  Value value;
+/// Which variable an assignment writes, and what.
+Execution assigned(Interpreter& in, const Statement& statement, uint32_t* variable, Value* value) {
   uint32_t n = 0;
   Execution did = Execution::done;
   if (!constant_number(*in.block, statement.target, &n)) {
@@ -119,11 +119,44 @@ Execution assign(Interpreter& in, const Statement& statement) {
     if (did != Execution::done) return did;
     if (!variable_number(number, &n)) return in.raise(Condition::variable_number, '#', number.or_zero());
   }
-  did = evaluate_here(in, statement.value, &value);
+  did = evaluate_here(in, statement.value, value);
   if (did != Execution::done) return did;
-  if (n == 0) return in.raise(Condition::variable_use, '#', 0);  // M700 13.5.4: #0 never on the left
+  *variable = n;
+  return n == 0 ? in.raise(Condition::variable_use, '#', 0) : Execution::done;  // M700 13.5.4: #0 never on the left
+}
+
+Execution store(Interpreter& in, const Statement& statement, uint32_t n, Value value) {
   if (in.variables.set(n, in.macro_level(), value, in.state.seq + 1)) return Execution::done;
   return write_system_variable(in, n, value, statement);
+}
+
+/// All assignments of the block: what they write is known before the first has been written.
+Execution assign_at_once(Interpreter& in) {
+  const auto& statements = in.block->statements;
+  FixedVector<uint32_t, decltype(Block::statements)::capacity()> variables;
+  FixedVector<Value, decltype(Block::statements)::capacity()> values;
+  for (const Statement& statement : statements) {
+    uint32_t n = 0;
+    Value value;
+    const Execution did = assigned(in, statement, &n, &value);
+    if (did != Execution::done) return did;
+    variables.push_back(n);
+    values.push_back(value);
+  }
+  for (unsigned i = 0; i < statements.size(); ++i) {
+    const Execution did = store(in, statements[i], variables[i], values[i]);
+    if (did != Execution::done) return did;
+  }
+  in.statement = statements.size() - 1;  // the others are done with it
+  return Execution::done;
+}
+
+Execution assign(Interpreter& in, const Statement& statement) {
+  if (in.dialect->rules.block.assigns_at_once && in.block->statements.size() > 1) return assign_at_once(in);
+  uint32_t n = 0;
+  Value value;
+  const Execution did = assigned(in, statement, &n, &value);
+  return did == Execution::done ? store(in, statement, n, value) : did;
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   parameters.create(512, arena);
   frames.create(config.frames, arena);
   variables.create(common, power_of_two_above(4 * config.look_ahead < 4096 ? 4096 : 4 * config.look_ahead), arena);
+  if (dialect->lex->formula == Formula::ngc) variables.create_named(arena);
   reader.create(store, dialect->lex, config.window_bytes, config.look_ahead < 256 ? 16 : 128, arena);
   transforms.create(under_way, arena);
   modals.create(under_way, arena);

@@ -252,7 +252,7 @@ void move_nowhere(BlockContext& in) {
 }
 
 void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, uint32_t bare) {
-  for (unsigned i = 0; i < in.axis_count; ++i)
+  for (unsigned i = 0; i < in.axis_count && !in.dialect->rules.length.shifts_reading; ++i)
     if (((commanded & bare) >> i & 1) != 0) in.state.applied[i] = 0;
   const Affine to_machine = map_in_force(in);
   const AxisVec start = to_machine.apply_inverse(in.state.machine);
@@ -333,19 +333,38 @@ class InchDegrees {
 
 namespace {
 
+/// LinuxCNC G90.1: the words are the place of the centre; both have to be there.
+Execution take_absolute_centre(BlockContext& in, const PlaneAxes& plane, double center[2]) {
+  const AxisVec position = in.position();
+  for (unsigned i = 0; i < 2; ++i) {
+    if (!in.words.has(plane.center[i])) return in.raise(Condition::center_missing, plane.center[i]);
+    center[i] -= position[static_cast<unsigned>(i == 0 ? plane.h : plane.v)];
+  }
+  return Execution::done;
+}
+
 /// The words of the block that say which arc it is, for the plane in force.
 Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* of_block) {
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   const BlockWords& w = in.words;
+  const ArcRules& rules = in.dialect->rules.arc;
   ArcWords& words = *of_block;
   words.has_radius = w.has(Role::arc_radius);
   if (words.has_radius) {
     words.radius = length_of(in, Role::arc_radius);
-    if (w.has(Role::arc_turns) && in.dialect->rules.arc.turns_exclude_radius) return in.raise(Condition::format_error, Role::arc_turns);
+    if (w.has(Role::arc_turns) && rules.turns_exclude_radius) return in.raise(Condition::format_error, Role::arc_turns);
   } else {
     for (unsigned i = 0; i < 2; ++i)
       if (w.has(plane.center[i])) words.center[i] = length_of(in, plane.center[i]);
-    if (w.has(Role::arc_turns) && (!whole_number(w.get(Role::arc_turns), &words.turns) || words.turns > 9999)) return in.raise(Condition::value_range, Role::arc_turns, w.get(Role::arc_turns));
+    if (in.state.modal.is(Function::centre_absolute)) {
+      const Execution did = take_absolute_centre(in, plane, words.center);
+      if (did != Execution::done) return did;
+    }
+  }
+  if (w.has(Role::arc_turns) && (!words.has_radius || rules.turns_count_last)) {
+    const double turns = w.get(Role::arc_turns);
+    words.turns_count_last = rules.turns_count_last;
+    if (!whole_number(turns, &words.turns) || words.turns > 9999 || (words.turns == 0 && rules.turns_count_last)) return in.raise(Condition::value_range, Role::arc_turns, turns);
   }
   // M700 P113: nothing of the block is of the plane in force, but its centre of another one: a plane code has been forgotten.
   const bool of_plane = words.has_radius || w.has(plane.center[0]) || w.has(plane.center[1]) || ((commanded >> h) & 1) != 0 || ((commanded >> v) & 1) != 0;
@@ -354,6 +373,15 @@ Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t comm
 }
 
 }  // namespace
+
+/// By how much the radius at the end may differ. LinuxCNC G2: by a part of it, too.
+static double arc_tolerance(const BlockContext& in, const ArcWords& words) {
+  const FamilyParameters& family = *in.dialect->parameters;
+  const double tolerance = in.settings.arc_tolerance;
+  if (family.arc_tolerance_most_mm == 0) return tolerance;
+  const double radius = words.has_radius ? std::fabs(words.radius) : std::hypot(words.center[0], words.center[1]);
+  return std::fmin(std::fmax(tolerance, family.arc_tolerance_of_radius * radius), family.arc_tolerance_most_mm);
+}
 
 /// M700 12.4.1: compensation, commanded in whatever block before, starts and is cancelled with a straight movement.
 bool starts_or_ends_compensation(const BlockContext& in) { return (in.state.comp.side != 0) != (in.state.moved_side != 0); }
@@ -383,7 +411,7 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   const double from[2] = {frame.start[h], frame.start[v]}, to[2] = {frame.end[h], frame.end[v]};
   Circle circle;
   bool straight = false;
-  const Condition bad = make_circle(from, to, words, ccw, in.settings.arc_tolerance, &circle, &straight);
+  const Condition bad = make_circle(from, to, words, ccw, arc_tolerance(in, words), &circle, &straight);
   if (bad != Condition::none) return in.raise(bad, words.has_radius ? Role::arc_radius : plane.center[0], words.has_radius ? words.radius : circle.radius_end);
   if (straight) {
     // Nothing goes round: the axes go along a line, those outside of the plane, too.

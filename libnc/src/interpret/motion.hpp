@@ -69,6 +69,7 @@ struct ArcWords {
   double radius = 0;
   double center[2] = {0, 0};   ///< increments from the start, plane axes
   uint32_t turns = 0;
+  bool turns_count_last = false;   ///< `turns` counts the one in which the end lies
 };
 /// Circle through start and end on the plane axes; Condition::none when it exists. *straight: nothing goes round, the path is the straight
 /// line to the end, or nothing where that is the start.

@@ -50,7 +50,9 @@ class SettingsReader {
  private:
   double value(ParameterOf parameter, double fallback, int axis = -1) const {
     double found = fallback;
-    parameters_.get(dialect_, parameter, axis, &found);
+    if (parameters_.get(dialect_, parameter, axis, &found)) return found;
+    for (const FixedParameter& row : dialect_.parameters->fixed)
+      if (row.what == parameter.what) return row.value;
     return found;
   }
   bool flag(ParameterOf parameter) const { return value(parameter, 0) != 0; }

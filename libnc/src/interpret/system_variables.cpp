@@ -443,11 +443,15 @@ Eval read_any(void* self, uint32_t number, Value* value, Fault* fault, uint32_t*
   return read_system_variable(in, number, value, fault, sync);
 }
 
+bool find_named(void* self, const char* name, size_t length, bool make, uint32_t* number) {
+  return static_cast<Interpreter*>(self)->variables.find_named(name, length, make, number);
+}
+
 }  // namespace
 
 VariableReader variable_reader(Interpreter& in) {
   const uint32_t names_need = in.shared_known() ? 0 : uint32_t{NC_SYNC_SHARED};
-  return {&in, read_any, find_variable_name, in.variables.locals(in.macro_level()), kLocals, names_need};
+  return {&in, read_any, find_variable_name, in.variables.locals(in.macro_level()), kLocals, names_need, find_named};
 }
 
 Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault* fault, uint32_t* sync) {

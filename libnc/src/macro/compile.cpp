@@ -6,11 +6,6 @@
 namespace nc {
 namespace {
 
-struct Keyword {
-  const char* text;
-  Op op;
-};
-
 // M700 13.5.6. A name that begins with another one stands before it.
 constexpr Keyword kFunctions[] = {
     {"ASIN", Op::asin}, {"ACOS", Op::acos}, {"ATAN", Op::atan}, {"ATN", Op::atan},    {"ABS", Op::abs},
@@ -23,23 +18,10 @@ constexpr Keyword kMultiplicative[] = {{"MOD", Op::modulo}, {"AND", Op::bit_and}
 constexpr Keyword kComparisons[] = {{"EQ", Op::equal}, {"NE", Op::not_equal},     {"GT", Op::greater},
                                     {"LT", Op::less},  {"GE", Op::greater_equal}, {"LE", Op::less_equal}};
 
-template <size_t N>
-bool accept_keyword(Cursor& at, const Keyword (&table)[N], Op* op) {
-  for (const Keyword& k : table) {
-    if (at.accept(k.text)) {
-      *op = k.op;
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Vacant rules and M700's ranges leave any variable number to the reader; the code holds 24 bits.
-constexpr uint32_t kMaxVariable = 0xffffff;
-
 }  // namespace
 
-bool starts_function(Cursor at) {
+bool starts_function(Cursor at, Formula formula) {
+  if (formula == Formula::ngc) return ExpressionCompiler::starts_ngc_function(at);
   Op op{};
   return accept_keyword(at, kFunctions, &op) && at.peek() == '[';
 }
@@ -52,7 +34,7 @@ bool ExpressionCompiler::start(uint16_t* code) {
 bool ExpressionCompiler::word_value(uint16_t* code) {
   start(code);
   word_ = true;
-  return sum(0, false) && emit(Op::end);
+  return (ngc_ ? ngc_value(0) : sum(0, false)) && emit(Op::end);
 }
 
 bool ExpressionCompiler::condition(uint16_t* code) {
@@ -178,6 +160,7 @@ bool ExpressionCompiler::name() {
 
 bool ExpressionCompiler::variable_number(uint16_t* code) {
   start(code);
+  if (ngc_) return ngc_target() && emit(Op::end);
   if (at_.peek() == '#') return variable(0, false) && emit(Op::end);
   if (!at_.accept('[') || at_.peek() != '#') return fail(Condition::format_error);
   Cursor ahead = at_;

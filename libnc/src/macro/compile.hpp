@@ -21,6 +21,11 @@ enum class Op : uint8_t {
   variable,     ///< u24: push the value of this variable
   load,         ///< number -> value of that variable
   name,         ///< u16 u8: push the number of the variable with this name, a range of Block::text
+  named,        ///< u16 u8: push the value of the parameter of this name, a range of Block::text
+  name_for_writing,  ///< u16 u8: push the number of the parameter of this name, which is there from now on
+  exists,       ///< u16 u8: push whether a parameter of this name has a value
+  zero_for_vacant,
+  check_number,  ///< the number of a variable; leave it
   negate,       ///< vacant becomes 0
   negate_word,  ///< vacant stays vacant: X-#1 is ignored like X#1 (M700 13.5.4)
   add,
@@ -30,6 +35,12 @@ enum class Op : uint8_t {
   multiply,
   divide,
   modulo,
+  power,
+  remainder,
+  logic_and,
+  logic_or,
+  logic_xor,
+  atan2,
   bit_and,
   sin,
   cos,
@@ -44,6 +55,8 @@ enum class Op : uint8_t {
   round,
   fix,
   fup,
+  floor,
+  ceil,
   ln,
   exp,
   equal,
@@ -57,17 +70,41 @@ enum class Op : uint8_t {
 /// Numbers of a stack that no expression of five brackets can exceed: two waiting operands per level, the one
 /// at work, and one to spare.
 inline constexpr unsigned kMaxBrackets = 5;  // M700 13.4 (Note 2)
-inline constexpr unsigned kStackDepth = 2 * (kMaxBrackets + 1) + 4;
+/// The same of RS-274/NGC, which names no bound: with five steps of binding, five operands wait per level.
+inline constexpr unsigned kMaxNgcBrackets = 10;
+inline constexpr unsigned kStackDepth = 5 * (kMaxNgcBrackets + 1) + 4;
+static_assert(kStackDepth >= 2 * (kMaxBrackets + 1) + 4);
+
+/// Vacant rules and M700's ranges leave any variable number to the reader; the code holds 24 bits.
+inline constexpr uint32_t kMaxVariable = 0xffffff;
+
+struct Keyword {
+  const char* text;
+  Op op;
+};
+
+template <size_t N>
+bool accept_keyword(Cursor& at, const Keyword (&table)[N], Op* op) {
+  for (const Keyword& k : table) {
+    if (at.accept(k.text)) {
+      *op = k.op;
+      return true;
+    }
+  }
+  return false;
+}
 
 /// True when a function name and '[' stand here: XSIN[30].
-bool starts_function(Cursor at);
+bool starts_function(Cursor at, Formula formula);
 
 class ExpressionCompiler {
  public:
-  ExpressionCompiler(Block& block, Cursor* at) : block_(block), at_(*at) {}
+  ExpressionCompiler(Block& block, Cursor* at, Formula formula = Formula::macro) : block_(block), at_(*at), ngc_(formula == Formula::ngc) {}
+
+  static bool starts_ngc_function(Cursor at);
 
   /// A formula; stops at the first character that cannot go on with it.
-  bool expression(uint16_t* code) { return start(code) && sum(0, false) && emit(Op::end); }
+  bool expression(uint16_t* code) { return start(code) && (ngc_ ? ngc_value(0) : sum(0, false)) && emit(Op::end); }
   /// The same without brackets around it: only the four operators, and a sign that belongs to the word.
   bool word_value(uint16_t* code);
   /// '[' formula comparison formula ']'
@@ -94,6 +131,14 @@ class ExpressionCompiler {
   bool variable_code(uint32_t number);
   bool emit(Op op) { return byte(static_cast<uint8_t>(op)); }
   bool byte(unsigned value);
+  bool ngc_formula(unsigned depth, unsigned step);
+  bool ngc_value(unsigned depth);
+  bool ngc_bracket(unsigned depth);
+  bool ngc_parameter(unsigned depth);
+  bool ngc_number(unsigned depth);
+  bool ngc_index(uint32_t* number);
+  bool ngc_name(Op op);
+  bool ngc_target();
   Condition unclosed(Condition otherwise) const;
   bool fail(Condition condition);
   bool fail(Condition condition, double value);
@@ -101,6 +146,7 @@ class ExpressionCompiler {
   Block& block_;
   Cursor& at_;
   Fault fault_;
+  const bool ngc_;
   bool word_ = false;      ///< unbracketed in a word
   bool compared_ = false;  ///< a comparison has been compiled
 };

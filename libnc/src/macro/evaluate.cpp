@@ -5,6 +5,7 @@
 
 #include "alarm/condition.hpp"
 #include "macro/compile.hpp"
+#include "macro/named_parameters.hpp"
 
 namespace nc {
 namespace {
@@ -165,6 +166,12 @@ Condition function(Op op, double x, const EvalOptions& options, double* result) 
     case Op::fup:
       *result = fup(x);
       return Condition::none;
+    case Op::floor:  // as FIX does, what is whole but for noise is whole
+      *result = std::floor(x + noise(x));
+      return Condition::none;
+    case Op::ceil:
+      *result = std::ceil(x - noise(x)) + 0.0;
+      return Condition::none;
     case Op::ln:
       if (!(x > 0)) return Condition::calculation;
       *result = std::log(x);
@@ -204,6 +211,26 @@ Condition binary(Op op, double a, double b, double* result, double* culprit) {
     case Op::modulo:
       if (b == 0) return Condition::division_by_zero;
       *result = modulo(a, b);
+      return Condition::none;
+    case Op::remainder:
+      if (b == 0) return Condition::division_by_zero;
+      *result = modulo(a, b);
+      if (*result < 0) *result += std::fabs(b);
+      return Condition::none;
+    case Op::power:  // what is no number, or none that is finite, is refused as every result is
+      *result = std::pow(a, b);
+      return Condition::none;
+    case Op::logic_and:
+      *result = a != 0 && b != 0 ? 1 : 0;
+      return Condition::none;
+    case Op::logic_or:
+      *result = a != 0 || b != 0 ? 1 : 0;
+      return Condition::none;
+    case Op::logic_xor:
+      *result = (a != 0) != (b != 0) ? 1 : 0;
+      return Condition::none;
+    case Op::atan2:
+      *result = to_degrees(std::atan2(a, b));
       return Condition::none;
     default:
       break;
@@ -266,8 +293,8 @@ Eval fail(Fault* fault, Condition condition, double value, const char* function 
 
 /// As it is written.
 const char* name_of(Op op) {
-  static constexpr const char* kNames[] = {"+",    "-",    "OR",  "XOR", "*",   "/",     "MOD", "AND", "SIN", "COS", "TAN", "ASIN",
-                                           "ACOS", "ATAN", "SQRT", "ABS", "BIN", "BCD", "ROUND", "FIX", "FUP", "LN",  "EXP"};
+  static constexpr const char* kNames[] = {"+",    "-",    "OR",  "XOR", "*",   "/",     "MOD", "**", "MOD", "AND", "OR", "XOR", "ATAN", "AND", "SIN", "COS", "TAN", "ASIN",
+                                           "ACOS", "ATAN", "SQRT", "ABS", "BIN", "BCD", "ROUND", "FIX", "FUP", "FIX", "FUP", "LN",  "EXP"};
   static_assert(sizeof kNames / sizeof kNames[0] == static_cast<unsigned>(Op::exp) - static_cast<unsigned>(Op::add) + 1);
   return kNames[static_cast<unsigned>(op) - static_cast<unsigned>(Op::add)];
 }
@@ -337,7 +364,7 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
       case Op::load: {
         uint32_t number = 0;
         Value& v = stack[top - 1];
-        if (!variable_number(v, &number)) return fail(fault, Condition::variable_number, v.or_zero());
+        if (!variable_number(v, &number) || number > kMaxVariable) return fail(fault, Condition::variable_number, v.or_zero());
         const Eval got = reader.read(reader.self, number, &v, fault, sync);
         if (got != Eval::ok) return got;
         break;
@@ -357,6 +384,43 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
           return Eval::fault;
         }
         stack[top++] = Value::of(number);
+        break;
+      }
+      case Op::named:
+      case Op::exists:
+      case Op::name_for_writing: {
+        const unsigned begin = static_cast<unsigned>(p[0] | p[1] << 8), length = p[2];
+        p += 3;
+        uint32_t number = 0;
+        const bool writing = op == Op::name_for_writing;
+        Value& v = stack[top++];
+        v = Value{};
+        if (reader.find_named != nullptr && reader.find_named(reader.self, block.text.begin() + begin, length, writing, &number)) {
+          if (writing) {
+            v = Value::of(number);
+            break;
+          }
+          const Eval got = reader.read(reader.self, number, &v, fault, sync);
+          if (got != Eval::ok) return got;
+        } else if (writing) {
+          return fail(fault, Condition::too_many_names, NamedParameters::kMost);
+        }
+        if (op == Op::exists) {
+          v = Value::of(v.vacant ? 0 : 1);
+        } else if (v.vacant) {
+          *fault = Fault{};
+          fault->condition = Condition::name_without_value;
+          return Eval::fault;
+        }
+        break;
+      }
+      case Op::zero_for_vacant:
+        if (stack[top - 1].vacant) stack[top - 1] = Value::of(0);
+        break;
+      case Op::check_number: {
+        uint32_t number = 0;
+        const Value& v = stack[top - 1];
+        if (!variable_number(v, &number) || number > kMaxVariable) return fail(fault, Condition::variable_number, v.or_zero());
         break;
       }
       case Op::negate:

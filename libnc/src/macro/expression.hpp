@@ -31,6 +31,8 @@ struct VariableReader {
   uint32_t local_count = 0;
   /// What has to be known before a name is looked for (`sync`); 0 = nothing.
   uint32_t names_need = 0;
+  /// Number of the parameter that a program has named itself; `make`: it is there from now on. Null: there are none.
+  bool (*find_named)(void* self, const char* name, size_t length, bool make, uint32_t* number) = nullptr;
 };
 
 struct EvalOptions {

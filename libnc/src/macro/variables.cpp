@@ -25,7 +25,7 @@ void fill_vacant(double* slots, size_t count) {
   for (size_t i = 0; i < count; ++i) slots[i] = kVacant;
 }
 
-constexpr uint32_t kFirstNamed = 500;
+constexpr uint32_t kFirstWithName = 500;
 
 VariableName name_of_text(const char* text, size_t length) {
   VariableName name;
@@ -107,6 +107,10 @@ bool Variables::get(uint32_t number, unsigned level, Value* value) const {
     *value = from_storage(local_[level][number - 1]);
     return true;
   }
+  if (named_.exists(number - kFirstNamed)) {
+    *value = named_.get(number - kFirstNamed);
+    return true;
+  }
   if (!common_->exists(number)) return false;
   *value = common_->get(number);
   return true;
@@ -117,6 +121,11 @@ bool Variables::set(uint32_t number, unsigned level, Value value, BlockSeq seq) 
     double& slot = local_[level][number - 1];
     journal_.note(seq, local_key(level, number - 1), journalled(from_storage(slot)));
     slot = to_storage(value);
+    return true;
+  }
+  if (named_.exists(number - kFirstNamed)) {
+    journal_.note(seq, number, journalled(named_.get(number - kFirstNamed)));
+    named_.set(number - kFirstNamed, value);
     return true;
   }
   if (!common_->exists(number)) return false;
@@ -152,7 +161,7 @@ void Variables::clear_locals(BlockSeq seq) {
 }
 
 bool Variables::set_name(uint32_t number, const char* name, size_t length, BlockSeq seq) {
-  const uint32_t index = number - kFirstNamed;
+  const uint32_t index = number - kFirstWithName;
   if (index >= kNames || !common_->exists(number) || length > kNameLength) return false;
   journal_.note(seq, kNameKey | index, JournalValue::of(common_->name(index)));
   common_->set_name(index, name_of_text(name, length));
@@ -160,7 +169,7 @@ bool Variables::set_name(uint32_t number, const char* name, size_t length, Block
 }
 
 bool Variables::name_from_outside(uint32_t number, const char* name) {
-  const uint32_t index = number - kFirstNamed;
+  const uint32_t index = number - kFirstWithName;
   size_t length = 0;
   for (; name[length] != 0; ++length) {
     const char c = name[length];
@@ -179,14 +188,14 @@ bool Variables::find_name(const char* name, size_t length, uint32_t* number) con
   const VariableName wanted = name_of_text(name, length);
   for (unsigned i = 0; i < kNames; ++i) {
     if (!(common_->name(i) == wanted)) continue;
-    *number = kFirstNamed + i;
+    *number = kFirstWithName + i;
     return true;
   }
   return false;
 }
 
 unsigned Variables::name_of(uint32_t number, char* name) const {
-  const uint32_t index = number - kFirstNamed;
+  const uint32_t index = number - kFirstWithName;
   if (index >= kNames) return 0;
   const VariableName& given = common_->name(index);
   const auto length = static_cast<unsigned>(std::strlen(given.text));
@@ -196,6 +205,7 @@ unsigned Variables::name_of(uint32_t number, char* name) const {
 
 JournalValue Variables::value_of(uint32_t key) const {
   if (key >= kLocalKey) return journalled(from_storage(local_[key >> 8 & 0xff][key & 0xff]));
+  if (named_.exists(key - kFirstNamed)) return journalled(named_.get(key - kFirstNamed));
   return key >= kNameKey ? JournalValue::of(common_->name(key & 0xff)) : journalled(common_->get(key));
 }
 
@@ -204,6 +214,8 @@ void Variables::put(uint32_t key, JournalValue value) {
     local_[key >> 8 & 0xff][key & 0xff] = to_storage(variable(value));
   } else if (key >= kNameKey) {
     common_->set_name(key & 0xff, value.as<VariableName>());
+  } else if (named_.exists(key - kFirstNamed)) {
+    named_.set(key - kFirstNamed, variable(value));
   } else {
     common_->set(key, variable(value));
   }

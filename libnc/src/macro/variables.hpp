@@ -5,6 +5,7 @@
 #include "base/arena.hpp"
 #include "macro/expression.hpp"
 #include "macro/journal.hpp"
+#include "macro/named_parameters.hpp"
 #include "nc/types.h"
 
 namespace nc {
@@ -106,6 +107,14 @@ class Variables {
   /// The same by the host, NUL-terminated; "" takes the name away. No rewind undoes it.
   bool name_from_outside(uint32_t number, const char* name);
   bool find_name(const char* name, size_t length, uint32_t* number) const;
+
+  /// Programs of this family name parameters themselves. They have numbers that no program can write.
+  void create_named(Arena& arena) { named_.create(arena); }
+  bool find_named(const char* name, size_t length, bool make, uint32_t* number) {
+    if (make ? !named_.make(name, length, number) : !named_.find(name, length, number)) return false;
+    *number += kFirstNamed;
+    return true;
+  }
   /// The name of a variable, without end; 0 = none. `name` has kNameLength places.
   unsigned name_of(uint32_t number, char* name) const;
 
@@ -117,7 +126,10 @@ class Variables {
   bool set_from_outside(uint32_t number, unsigned level, Value value);
   void changed_from_outside(uint32_t key, JournalValue value) { journal_.replace(key, value); }
   /// A run begins: its blocks count from 0 again, and nothing from before can be taken back.
-  void forget() { journal_.clear(); }
+  void forget() {
+    journal_.clear();
+    named_.forget_program();
+  }
   static constexpr uint32_t kForeignKey = 0x40000000;  ///< keys from here on belong to the caller
 
   /// Undo every write made by blocks after `seq`; false when the journal does not reach back that far.
@@ -129,6 +141,7 @@ class Variables {
 
  private:
   // Journal keys of names and of local variables: beside the numbers of common variables, below kForeignKey.
+  static constexpr uint32_t kFirstNamed = 0x08000000;
   static constexpr uint32_t kNameKey = 0x10000000;
   static constexpr uint32_t kLocalKey = 0x20000000;
   static constexpr uint32_t local_key(unsigned level, unsigned number) { return kLocalKey | level << 8 | number; }
@@ -138,6 +151,7 @@ class Variables {
   CommonVariables* common_ = nullptr;
   uint32_t shared_100_ = 0, shared_500_ = 0;
   Journal journal_;
+  NamedParameters named_;
   double (*local_)[kLocals] = nullptr;
 };
 

@@ -10,6 +10,7 @@ namespace nc {
 enum class Mode : uint8_t {
   motion, plane, distance, stroke_check, feed, unit, radius, length, cycle, return_level, scaling, work,
   cutting, macro, normal_line, rotation, surface_speed, polar_command, mirror, interpolation,
+  arc_centre,
   none   ///< of a function that acts in its own block only
 };
 inline constexpr unsigned kModes = static_cast<unsigned>(Mode::none);
@@ -105,6 +106,8 @@ inline constexpr ModeRow kModeRows[] = {
     {Mode::interpolation, Function::polar_off},
     {Mode::interpolation, Function::polar_on},
     {Mode::interpolation, Function::cylinder},
+    {Mode::arc_centre, Function::centre_incremental},
+    {Mode::arc_centre, Function::centre_absolute},
 };
 
 constexpr ModeTable make_mode_table() {

@@ -8,9 +8,16 @@
 
 namespace nc {
 
+/// How expressions are written and what they mean.
+enum class Formula : uint8_t {
+  macro,  ///< M700 13.5.6
+  ngc     ///< RS-274/NGC 3.3.2.3, 3.3.2.4, and LinuxCNC's comparisons and named parameters
+};
+
 /// What the words of a dialect look like; a table in dialect/<family>/.
 struct WordFormat {
   bool known = false;           ///< the address exists (else Condition::illegal_address)
+  Condition refusal{};          ///< what a word of an address that is not known is, in place of that
   bool integer = false;         ///< decimals are cut off (M700 5.3: D H L M N O S T)
   uint8_t integer_digits = 8;   ///< at most 19; more in a word is Condition::value_range
   uint8_t fraction_digits = 8;  ///< more is accepted and kept when 8
@@ -42,7 +49,10 @@ using ReadBlock = LexResult (*)(const char* text, size_t size, const LexRules& r
 struct LexRules {
   ReadBlock read = nullptr;        ///< reads a block of the language; never null in a family
   char program_letter = 0, sequence_letter = 0;  ///< of the numbers at the head of a block
-  bool macros = false;             ///< '#', '[ ]', statements (IF, WHILE, ...) exist
+  bool macros = false;             ///< '#', '[ ]' exist
+  bool statements = false;         ///< with them: IF, WHILE, GOTO, ...
+  Formula formula = Formula::macro;
+  bool zero_numbers = false;       ///< a number at the head of a block may be 0
   Semicolon semicolon = Semicolon::unknown;      ///< in program texts; a machine may have made it a comment
   Semicolon mdi_semicolon = Semicolon::unknown;  ///< in blocks of MDI
   bool skip_numbers = false;       ///< "/3": switches 1..9; else only "/"

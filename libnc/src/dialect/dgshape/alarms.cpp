@@ -170,6 +170,11 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::read_failed, "NC-READ", nullptr},
     {C::program_changed, "NC-READ", nullptr},
     {C::vendor_function, "NC-VENDOR", nullptr},
+    // do not occur: the family has no such words
+    {C::control_structure, "NC-ADDRESS", nullptr},
+    {C::name_without_value, "NC-MACRO", nullptr},
+    {C::too_many_names, "NC-MACRO", nullptr},
+    {C::probe_no_contact, "NC-NO-SUCH-CODE", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

@@ -137,6 +137,11 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::read_failed, "P461", nullptr},
     {C::program_changed, "P461", nullptr},
     {C::vendor_function, "NC-VENDOR", nullptr},
+    // do not occur: the family has no such words
+    {C::control_structure, "P32", nullptr},
+    {C::name_without_value, "P241", nullptr},
+    {C::too_many_names, "P241", nullptr},
+    {C::probe_no_contact, "P607", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

@@ -22,7 +22,7 @@ constexpr WordFormat kWhole8{.known = true, .integer = true, .integer_digits = 8
 
 constexpr LexRules make_rules() {
   LexRules rules = iso_rules();
-  rules.macros = true;          // 13.4, 13.5
+  rules.macros = rules.statements = true;  // 13.4, 13.5
   // 3.2 (2): it is printed for the end of the block. Behind it in a line no block begins: comments of other families stand there.
   rules.semicolon = Semicolon::ends_line;
   rules.mdi_semicolon = Semicolon::ends_block;  // blocks of MDI are typed one behind the other

@@ -209,6 +209,18 @@ Execution auxiliary_after(Interpreter& in) {
         end_spindle_control(in);
         in.state.end_seen = true;
         return Execution::done;
+      case MiscFunction::override_allowed:
+      case MiscFunction::override_barred: {
+        constexpr uint8_t kNoOverride = 2;  // NC_CONTROL_DISABLE
+        const bool barred = misc_function(*in.dialect, m) == MiscFunction::override_barred;
+        in.state.modal.m = m;
+        in.state.control_3004 = static_cast<uint8_t>(barred ? in.state.control_3004 | kNoOverride : in.state.control_3004 & ~kNoOverride);
+        Action& action = in.emit(ItemKind::action).action;
+        action.kind = NC_ACTION_CONTROL;
+        action.index = NC_CONTROL_DISABLE;
+        action.value = in.state.control_3004;
+        break;
+      }
       case MiscFunction::call_sub: return call_sub(in);
       case MiscFunction::call_external: return call_external(in);
       case MiscFunction::return_sub: return return_sub(in);

@@ -39,6 +39,13 @@ Execution take_length_number(BlockContext& in) {
   return did;
 }
 
+/// The offset that goes with the tool.
+Execution number_of_tool(BlockContext& in, Role word, uint32_t* number) {
+  if (in.state.modal.tool > in.frames.tool_offsets()) return in.raise(Condition::no_offset_number, word, in.state.modal.tool);
+  *number = in.state.modal.tool;
+  return Execution::done;
+}
+
 /// M700 12.2 (3): the axis that G43 or G44 compensates, by the words of its block: Zp before Yp before Xp, each the basic axis or the
 /// parallel axis of #1029 to #1031; Z with #1080 and when none of them is named.
 int length_axis_of_block(const BlockContext& in) {
@@ -109,6 +116,9 @@ Execution set_compensation(BlockContext& in, Function function) {
   if (in.words.has(Role::offset_number)) {
     const Execution did = offset_number(in, Role::offset_number, &state.modal.d);
     if (did != Execution::done) return did;
+  } else if (rules.number_is_that_of_tool) {
+    const Execution did = number_of_tool(in, Role::offset_number, &state.modal.d);
+    if (did != Execution::done) return did;
   } else if (state.modal.d == 0) {
     return in.raise(Condition::no_offset_number, Role::offset_number);
   }
@@ -154,6 +164,10 @@ Execution set_length(BlockContext& in, Function function) {
   if (in.words.has(Role::length_number) && (rules.number_in_any_block || function != Function::length_off)) {
     const Execution did = take_length_number(in);
     if (did != Execution::done) return did;
+  } else if (rules.number_is_that_of_tool && function != Function::length_off) {
+    const Execution did = number_of_tool(in, Role::length_number, &state.modal.h);
+    if (did != Execution::done) return did;
+    state.modal.h_given = 1;
   }
   if (function == Function::length_off) {
     state.length_value = 0;
@@ -164,6 +178,7 @@ Execution set_length(BlockContext& in, Function function) {
     state.length_axis = static_cast<uint8_t>(axis);
     state.length_value = length_amount(in);
   }
+  if (rules.shifts_reading) state.applied[state.length_axis] = state.length_value;
   if (!rules.moves_at_once) return Execution::done;
   // Without a word for it the axis goes together with those that the block names.
   const uint32_t axis_bit = 1u << state.length_axis;

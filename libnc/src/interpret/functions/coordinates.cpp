@@ -9,8 +9,10 @@ Execution select_work_system(BlockContext& in, const FunctionRow& row) {
   if (in.dialect->rules.compensation.bars_systems_and_data && state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, row);
   const AxisVec zero_before = in.zero();
   if (row.function == Function::work_system) {
+    const unsigned standard = Frames::kStandardSystems;
+    if (row.number >= standard + in.frames.extended_systems()) return in.raise_code(Condition::no_function, row);
     state.work_system = row.number;
-    state.modal.extended = 0;
+    state.modal.extended = row.number < standard ? uint16_t{0} : static_cast<uint16_t>(row.number - standard + 1);  // codes of their own for extended ones
   } else {
     uint32_t p = 0;
     if (!in.words.has(Role::system_number)) return in.raise(Condition::format_error, Role::system_number);
@@ -47,10 +49,21 @@ Execution do_coordinate_set(BlockContext& in) {
   const AxisVec zero_before = in.zero();
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
-    // M700 14.5: the reading of the axis, compensation included, becomes the value; the shift is common to all systems.
-    const double shift = in.frames.get(Frames::shift_key(i)) + in.state.machine[i] - in.frames.zero(in.state.work_system, i) - w.axis[i];
+    // M700 14.5: the reading of the axis, compensation included, becomes the value; the shift is common to all systems. RS-274/NGC 3.5.18: a length
+    // that shifts the reading is part of it.
+    const double length = in.dialect->rules.length.shifts_reading ? in.state.applied[i] : 0;
+    const double shift = in.frames.get(Frames::shift_key(i)) + in.state.machine[i] - length - in.frames.zero(in.state.work_system, i) - w.axis[i];
     in.set_table(Frames::shift_key(i), shift);
   }
+  keep_rotation_center(in, zero_before);
+  return Execution::done;
+}
+
+/// RS-274/NGC 3.5.18: the shift of all axes.
+Execution do_shift_off(BlockContext& in) {
+  if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *in.words.one_shot);
+  const AxisVec zero_before = in.zero();
+  for (unsigned i = 0; i < in.axis_count; ++i) in.set_table(Frames::shift_key(i), 0);
   keep_rotation_center(in, zero_before);
   return Execution::done;
 }

@@ -91,7 +91,8 @@ Execution take_hole_data(BlockContext& in) {
   if (w.in_position_drill > 0) c.in_position = w.in_position_drill;  // "Programmable in-position width": it stays, ,I does not
   if (w.has(Role::cycle_depth_step)) c.q = std::fabs(length_of(in, Role::cycle_depth_step));
   if (w.has(Role::cycle_dwell)) {
-    const double ms = std::trunc(w.get(Role::cycle_dwell));  // decimals are ignored
+    const double p = w.get(Role::cycle_dwell);
+    const double ms = in.dialect->rules.cycle.dwell_in_seconds ? p * 1000 : std::trunc(p);  // of milliseconds decimals are ignored
     if (!(ms >= 0) || ms > in.dialect->rules.cycle.longest_dwell_ms) return in.raise(Condition::value_range, Role::cycle_dwell, w.get(Role::cycle_dwell));
     c.dwell_s = ms / 1000;
   }
@@ -123,6 +124,8 @@ void resolve_hole(BlockContext& in) {
     h.r = c.r;
   }
   h.bottom = !c.has_z ? h.r : c.z_incremental ? h.r + c.z : c.z;
+  const bool below = h.bottom < h.r ? h.initial < h.r : h.initial > h.r;
+  if (rules.rises_before_positioning && below) h.initial = h.r;  // it has gone up
   for (double* level : {&h.initial, &h.r, &h.bottom}) *level = mapped_on(in, c.drill_axis, *level);  // M700 13.6, 13.19
   h.return_to = in.state.modal.is(Function::return_r) ? h.r : h.initial;
   h.q = c.q;
@@ -167,7 +170,21 @@ void emit_cycle_move(BlockContext& in, const CycleStep& step, bool last) {
   move_linear(in, target, 1u << in.state.cycle.drill_axis, style);
 }
 
+/// RS-274/NGC 3.5.16: the tool leaves the material before it goes to the next hole, and R is the level from then on.
+void rise_to_level(BlockContext& in) {
+  resolve_hole(in);
+  const unsigned axis = in.state.cycle.drill_axis;
+  AxisVec target = in.position();
+  const double up = in.hole.bottom < in.hole.r ? 1.0 : -1.0;
+  if ((in.hole.r - target[axis]) * up <= 0) return;
+  target[axis] = in.hole.r;
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  move_linear(in, target, 1u << axis, style);
+}
+
 Execution begin_hole(BlockContext& in) {
+  if (in.dialect->rules.cycle.rises_before_positioning) rise_to_level(in);
   position_over_hole(in);
   in.emit_stop_point();
   resolve_hole(in);
@@ -211,6 +228,7 @@ Execution do_cycle(BlockContext& in) {
   in.hole_axes = w.axes;
   in.hole_increment = w.axis;
   const CycleRules& rules = in.dialect->rules.cycle;
+  if (rules.begins_with_both_levels && !(c.has_z && c.has_r)) return in.raise_mode(Condition::words_missing, Mode::cycle);
   if (!c.has_z && rules.without_bottom_positions) {
     position_over_hole(in);
     return Execution::done;

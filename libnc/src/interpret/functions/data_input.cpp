@@ -21,6 +21,32 @@ Execution write_axes(BlockContext& in, Key key) {
   return Execution::done;
 }
 
+/// Coordinate systems that have a code of their own.
+uint32_t work_systems(const Dialect& dialect) {
+  uint32_t count = 0;
+  for (const FunctionRow& row : dialect.functions) count += row.function == Function::work_system ? 1u : 0u;
+  return count;
+}
+
+/// LinuxCNC G10 L20: the offset with which the axis would read the value where it stands.
+Execution work_offset_here(BlockContext& in) {
+  const BlockWords& w = in.words;
+  uint32_t p = 0;
+  const bool given = w.has(Role::input_number);
+  if (!given || !whole_number(w.get(Role::input_number), &p) || p > work_systems(*in.dialect) || p > Frames::kStandardSystems + in.frames.extended_systems())
+    return given ? in.raise(Condition::value_range, Role::input_number, w.get(Role::input_number)) : in.raise(Condition::format_error, Role::input_number);
+  const unsigned system = p == 0 ? in.state.work_system : p - 1;
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (((w.axes >> i) & 1) == 0) continue;
+    const unsigned key = Frames::work_key(system, i);
+    const double reads = in.state.machine[i] - in.state.applied[i] - in.frames.zero(system, i);
+    const double offset = in.frames.get(key) + reads - w.axis[i];
+    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.system->axis[i].name, w.axis[i]);
+    in.set_table(key, offset);
+  }
+  return Execution::done;
+}
+
 /// `l` is what said so.
 Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
   const BlockWords& w = in.words;
@@ -31,14 +57,16 @@ Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
   const bool extended_active = in.state.work_system >= 6;
   uint32_t p = 0;
   if (w.has(Role::input_number)) {
-    const uint32_t last = extended ? in.frames.extended_systems() : 6;
+    const uint32_t extended_systems = in.frames.extended_systems(), named = work_systems(*in.dialect);
+    const uint32_t last = extended || named > Frames::kStandardSystems + extended_systems ? extended_systems : named;
     if (!whole_number(w.get(Role::input_number), &p) || p > last || (extended && p == 0)) return in.raise(Condition::value_range, Role::input_number, w.get(Role::input_number));
   } else if (rules.system_required || extended != extended_active) {
     return in.raise(Condition::format_error, Role::input_number);  // M700 14.10 (6): without P only for the kind that is selected
   }
   unsigned system = in.state.work_system;
-  if (w.has(Role::input_number)) system = extended ? 5 + p : p - 1;
-  if (w.has(Role::input_number) && !extended && p == 0) return write_axes(in, [](unsigned axis) { return Frames::external_key(axis); });
+  const bool selected = p == 0 && rules.zero_is_selected_system;
+  if (w.has(Role::input_number) && !selected) system = extended ? 5 + p : p - 1;
+  if (w.has(Role::input_number) && !extended && p == 0 && !selected) return write_axes(in, [](unsigned axis) { return Frames::external_key(axis); });
   return write_axes(in, [system](unsigned axis) { return Frames::work_key(system, axis); });
 }
 
@@ -113,9 +141,13 @@ Execution do_data_input(BlockContext& in) {
   if (w.has(Role::input_kind) && !whole_number(w.get(Role::input_kind), &l)) return in.raise(Condition::g10_l, Role::input_kind, w.get(Role::input_kind));
   const DataInputRow* const row = row_of(*in.dialect, l);
   if (row == nullptr) return in.raise(Condition::g10_l, Role::input_kind, l);
+  const bool of_system = row->input == DataInput::work_offset || row->input == DataInput::work_offset_here;
+  if (of_system && rules.data_input.amount_turns_system && w.has(Role::input_amount) && w.get(Role::input_amount) != 0)
+    return in.raise(Condition::no_function, Role::input_amount, w.get(Role::input_amount));
   switch (row->input) {
     case DataInput::missing: return in.raise(Condition::no_function, Role::input_kind, l);
     case DataInput::work_offset: return work_offset(in, false, l);
+    case DataInput::work_offset_here: return work_offset_here(in);
     case DataInput::extended_offset: return work_offset(in, true, l);
     case DataInput::tool_length: return tool_offset(in, NC_TOOL_LENGTH);
     case DataInput::tool_length_wear:

@@ -46,6 +46,7 @@ Execution set_current_limit(BlockContext& in);     // data_input.cpp: G10 L14
 Execution do_local_system(BlockContext& in);       // coordinates.cpp
 Execution do_coordinate_set(BlockContext& in);     // coordinates.cpp
 Execution do_coordinate_preset(BlockContext& in);  // coordinates.cpp
+Execution do_shift_off(BlockContext& in);          // coordinates.cpp
 
 Execution do_cylinder(BlockContext& in);           // milling.cpp
 Execution do_polar_on(BlockContext& in);           // milling.cpp

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "frame/rotary.hpp"
+#include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -33,6 +34,10 @@ class WithoutStrokeCheck {
 
 /// G28 and G30: by the intermediate point to reference position `which`, 0 to 3.
 Execution go_to_reference(BlockContext& in, unsigned which, AxisVec mid, uint32_t axes) {
+  if (axes == 0 && in.dialect->rules.reference.all_axes_without_words) {
+    axes = (1u << in.axis_count) - 1;
+    mid = in.position();
+  }
   if (axes == 0) return in.raise_code(Condition::words_missing, *in.words.one_shot);
   ReferenceMidpoints midpoints = in.records->midpoints;
   for (unsigned i = 0; i < in.axis_count; ++i)
@@ -204,7 +209,22 @@ Execution do_machine_move(BlockContext& in) {
     absolute |= bit;
     machine[i] = machine_target(in, i, w.axis[i]);
   }
-  move_machine(in, machine, w.axes, absolute);
+  if (!in.dialect->rules.coordinate.machine_move_by_motion || in.state.modal.is(Function::rapid)) {
+    move_machine(in, machine, w.axes, absolute);
+    return Execution::done;
+  }
+  const Function motion = in.state.modal.of(Mode::motion);
+  if (motion != Function::linear) return in.raise_code(Condition::not_accepted, *w.one_shot);
+  const Execution fed = check_feed(in, motion);
+  if (fed != Execution::done) return fed;
+  AxisVec target = in.position();
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((w.axes >> i) & 1) != 0) target[i] = machine[i] - in.zero()[i] - in.state.applied[i];
+  LinearStyle style;
+  style.feed_mm_min = feed_mm_min(in);
+  style.special_feed = special_feed(in);
+  style.exact_stop = asks_exact_stop(in);
+  move_linear(in, target, w.axes, style);
   return Execution::done;
 }
 

@@ -48,14 +48,16 @@ Execution do_skip(BlockContext& in) {
     const auto axis = static_cast<unsigned>(std::countr_zero(tables));
     if (in.settings.index_increment[axis] > 0) return in.raise(Condition::no_function, in.system->axis[axis].name);
   }
-  const unsigned step = w.one_shot->function == Function::skip ? 0u : w.one_shot->number + 1u;  // 0 G31, 1 to 3 G31.1 to G31.3
+  const unsigned step = w.one_shot->function == Function::multi_skip ? w.one_shot->number + 1u : 0u;  // 0 G31, 1 to 3 G31.1 to G31.3
   if (in.state.comp.side != 0) return in.raise_code(Condition::skip_in_compensation, *w.one_shot);
   uint32_t mask = step == 0 ? 1u : in.settings.multi_skip_mask[step - 1];  // M700 15.3 (5)
   if (step == 0 && w.has(Role::skip_signals) && (!whole_number(w.get(Role::skip_signals), &mask) || mask < 1 || mask > 255))
     return in.raise(Condition::value_range, Role::skip_signals, w.get(Role::skip_signals));
   const bool inch = in.state.modal.is(Function::inch);
   double feed = step == 0 ? in.settings.skip_feed : in.settings.multi_skip_feed[step - 1];
-  if (w.has(Role::feed)) {
+  if (in.dialect->rules.skip.feed_is_modal) {
+    feed = in.state.modal.is(Function::feed_per_minute) ? feed_mm_min(in) : 0;
+  } else if (w.has(Role::feed)) {
     const Execution did = feed_of(in, &feed);
     if (did != Execution::done) return did;
     if (inch) feed *= 25.4;
@@ -74,6 +76,7 @@ Execution do_skip(BlockContext& in) {
   const AxisVec before = in.state.machine;
   move_linear(in, target_of_words(in), w.axes, style);
   if (in.state.machine == before) {  // nothing to go: no signal can come
+    if (w.one_shot->function == Function::probe) return in.raise_code(Condition::probe_no_contact, *w.one_shot);
     store_skip_position(in, in.state.machine, w.axes);
     return Execution::done;
   }
@@ -91,7 +94,8 @@ Execution skip_answered(BlockContext& in) {
     }
   }
   store_skip_position(in, at, in.words.axes);
-  return Execution::done;
+  const bool missed = !in.world.skipped && in.words.one_shot->function == Function::probe;
+  return missed ? in.raise_code(Condition::probe_no_contact, *in.words.one_shot) : Execution::done;
 }
 
 }  // namespace nc
