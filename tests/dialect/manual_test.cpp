@@ -24,6 +24,9 @@ const Dialect& m700() {
 const Dialect& dgshape() {
   return dialect(NC_DIALECT_DGSHAPE);
 }
+const Dialect& iso() {
+  return dialect(NC_DIALECT_ISO);
+}
 
 using Groups = std::map<unsigned, std::vector<int>>;  // group -> codes times 10
 
@@ -67,6 +70,24 @@ const Groups kDgshapeList = {
     {10, {980, 990}},
     {11, {500, 510}},
     {12, {540, 550, 560, 570, 580, 590}},
+};
+
+// RS-274/NGC 3.4, table 4, and the groups and the list of G codes of LinuxCNC; cycles have a group of their own here.
+const Groups kIsoList = {
+    {0, {40, 50, 51, 52, 53, 70, 80, 100, 280, 281, 300, 301, 331, 382, 383, 384, 385, 411, 421, 431, 432, 520, 530, 760, 920, 921, 922, 923}},
+    {1, {0, 10, 20, 30, 330}},
+    {2, {170, 180, 190}},
+    {3, {900, 910}},
+    {4, {901, 911}},
+    {5, {930, 940, 950}},
+    {6, {200, 210}},
+    {7, {400, 410, 420}},
+    {8, {430, 490}},
+    {9, {730, 740, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890}},
+    {10, {980, 990}},
+    {12, {540, 550, 560, 570, 580, 590, 591, 592, 593}},
+    {13, {610, 611, 640}},
+    {14, {960, 970}},
 };
 
 std::map<int, unsigned> flat(const Groups& groups) {
@@ -325,6 +346,28 @@ TEST(DgshapeManual, WordsAreThoseOf27) {
   EXPECT_EQ(dgshape().lex->semicolon, Semicolon::unknown);
   EXPECT_TRUE(dgshape().percent_required);
   EXPECT_TRUE(dgshape().end_code_required);
+}
+
+TEST(IsoManual, GCodesAndGroupsAreThoseOfTheLists) {
+  expect_list(iso(), flat(kIsoList));
+}
+
+TEST(IsoManual, WordsAreThoseOfTable2) {  // RS-274/NGC 3.3.2; U V W are LinuxCNC's, O begins a control structure
+  for (char letter = 'A'; letter <= 'Z'; ++letter) EXPECT_EQ(iso().lex->word[letter - 'A'].known, letter != 'E' && letter != 'O') << letter;
+  EXPECT_EQ(iso().lex->semicolon, Semicolon::comment);
+  EXPECT_FALSE(iso().percent_required);
+}
+
+TEST(IsoManual, MCodesThatNeedMoreThanTheirNumberAreNotBuilt) {  // LinuxCNC "M-Codes"
+  for (unsigned code : {0u, 1u, 2u, 30u, 48u, 49u, 60u}) {
+    ASSERT_NE(find_misc(iso(), code), nullptr) << code;
+    EXPECT_EQ(find_misc(iso(), code)->missing, nullptr) << code;
+  }
+  for (unsigned code : {19u, 50u, 51u, 52u, 53u, 61u, 62u, 63u, 64u, 65u, 66u, 67u, 68u, 70u, 71u, 72u, 73u, 98u, 99u}) {
+    ASSERT_NE(find_misc(iso(), code), nullptr) << code;
+    EXPECT_NE(find_misc(iso(), code)->missing, nullptr) << code;
+  }
+  for (unsigned code : {7u, 8u, 9u, 100u, 199u}) EXPECT_EQ(find_misc(iso(), code), nullptr) << code;
 }
 
 TEST(DgshapeManual, HasNoSubPrograms) {

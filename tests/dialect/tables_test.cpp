@@ -285,7 +285,7 @@ TEST_P(Tables, ParametersHaveUniqueKeysAndADefaultAmongTheirWords) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, Tables, ::testing::Values(NC_DIALECT_M700, NC_DIALECT_DGSHAPE),
+INSTANTIATE_TEST_SUITE_P(Families, Tables, ::testing::Values(NC_DIALECT_M700, NC_DIALECT_DGSHAPE, NC_DIALECT_ISO),
                          [](const auto& name) { return std::string(dialect(name.param).name); });
 
 }  // namespace

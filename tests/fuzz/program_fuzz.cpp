@@ -87,6 +87,8 @@ void set_parameters(nc_control* control, const Chosen& chosen) {
     for (const auto& call : kCalls) require(nc_parameter_set(control, 0, call[0], 0, call[1]) == NC_OK);
     require(nc_parameter_set(control, 0, "2106", 'A', (o & 2) != 0 ? "5" : "0") == NC_OK);
     require(nc_parameter_set(control, 0, "8213", 'A', (o & 16) != 0 ? "0" : (o & 8) != 0 ? "1" : (o & 32) != 0 ? "2" : "3") == NC_OK);
+  } else if (chosen.dialect == NC_DIALECT_ISO) {
+    set("power_on_unit", (o & 2) != 0, "inch", "mm");
   } else {
     set("interpretation", (o & 2) != 0, "calculator", "conventional");
     set("startup", (o & 8) != 0, "B", "A");
@@ -208,7 +210,8 @@ void cycle(nc_control* control, const Chosen& chosen) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2) return 0;
-  const Chosen chosen{(data[0] & 0x80) != 0 ? NC_DIALECT_DGSHAPE : NC_DIALECT_M700, static_cast<uint8_t>(data[0] & 0x7f), data[1]};
+  const nc_dialect other = (data[1] & 0x40) != 0 ? NC_DIALECT_ISO : NC_DIALECT_DGSHAPE;
+  const Chosen chosen{(data[0] & 0x80) != 0 ? other : NC_DIALECT_M700, static_cast<uint8_t>(data[0] & 0x7f), data[1]};
   const std::string text(reinterpret_cast<const char*>(data + 2), size - 2);
   const nc_config config = configuration(chosen);
   const size_t bytes = nc_memory_required(&config);

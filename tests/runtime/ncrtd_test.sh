@@ -78,6 +78,7 @@ cmp -s "$work/run1" "$work/run2" || fail "two runs differ"
 [ "$(sed -n 's/^cycle time *\([0-9]*\).*/\1/p' "$work/run1")" -lt 90 ] || fail "the shipped part takes a minute and a half or more"
 
 expect 0 "$ncrtd" --config "$source/etc/modelling-machine.toml" run --fast --no-progress "$source/examples/parts/keytag.nc"
+expect 0 "$ncrtd" --config "$source/etc/router.toml" run --fast --no-progress "$source/examples/parts/plate.ngc"
 expect 0 "$ncrtd" --config "$machine" mdi --fast --no-progress "G90 G0 X-10."
 expect 2 "$ncrtd" --config "$machine" mdi --fast "G1 X10."
 said err "P62"

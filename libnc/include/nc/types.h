@@ -91,7 +91,8 @@ NC_API const char* nc_status_text(nc_status status);
 typedef enum nc_dialect {
   NC_DIALECT_M700 = 0,    /**< Mitsubishi CNC 700 series, machining centre */
   NC_DIALECT_DGSHAPE = 1, /**< DGSHAPE NC code (JIS), modelling machines */
-  NC_DIALECT_COUNT = 2
+  NC_DIALECT_ISO = 2,     /**< ISO 6983 / RS-274 as CAM systems and LinuxCNC users write it, machining centre */
+  NC_DIALECT_COUNT = 3
 } nc_dialect;
 
 /** Where an item comes from. */

@@ -3,6 +3,7 @@
 // dialect() itself links its own, and libnc.a's stays out (tests/permuted).
 #include "dialect/dgshape/dgshape.hpp"
 #include "dialect/dialect.hpp"
+#include "dialect/iso/iso.hpp"
 #include "dialect/m700/m700.hpp"
 
 namespace nc {
@@ -11,6 +12,8 @@ const Dialect& dialect(nc_dialect id) {
   switch (id) {
     case NC_DIALECT_DGSHAPE:
       return dgshape::kDialect;
+    case NC_DIALECT_ISO:
+      return iso::kDialect;
     case NC_DIALECT_M700:
     case NC_DIALECT_COUNT:
       break;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// The G and M codes of the iso family: RS-274/NGC 3.5 and 3.6, and what LinuxCNC has beside them. Groups are those of RS-274/NGC 3.4, table 4, and of
+// LinuxCNC (4 arc distance mode, 13 path control, 14 spindle speed mode), but for the cycles: they are of group 1 there and go on
+// until G80 or a motion ends them; here they are a mode of their own, with the number that others give it.
+#include "dialect/iso/tables.hpp"
+
+namespace nc::iso {
+
+using F = Function;
+using M = MiscFunction;
+
+const FunctionRow kFunctions[] = {
+    // code, group, function, alarm when not built, name, section, what of it is not built, number
+    {0, 1, F::rapid, nullptr, "rapid positioning", "RS-274/NGC 3.5.1"},
+    {10, 1, F::linear, nullptr, "linear motion at feed", "RS-274/NGC 3.5.2"},
+    {20, 1, F::arc_cw, nullptr, "arc clockwise", "RS-274/NGC 3.5.3"},
+    {30, 1, F::arc_ccw, nullptr, "arc counter-clockwise", "RS-274/NGC 3.5.3"},
+    {40, 0, F::dwell, nullptr, "dwell", "RS-274/NGC 3.5.4"},
+    {50, 0, F::spline_cubic, "NC-NOT-BUILT", "cubic spline", "LinuxCNC G5"},
+    {51, 0, F::spline_quadratic, "NC-NOT-BUILT", "quadratic spline", "LinuxCNC G5.1"},
+    {52, 0, F::nurbs_block, "NC-NOT-BUILT", "NURBS block", "LinuxCNC G5.2"},
+    {53, 0, F::nurbs_block_end, "NC-NOT-BUILT", "end of a NURBS block", "LinuxCNC G5.3"},
+    {70, 0, F::diameter_words, "NC-NOT-BUILT", "X by its diameter (lathe)", "LinuxCNC G7"},
+    {80, 0, F::radius_words, "NC-NOT-BUILT", "X by its radius (lathe)", "LinuxCNC G8"},
+    {100, 0, F::data_input, nullptr, "coordinate systems by program", "RS-274/NGC 3.5.5", "L1 L10 L11 (tool table), R (rotation)"},
+    {170, 2, F::plane_xy, nullptr, "plane XY", "RS-274/NGC 3.5.6"},
+    {180, 2, F::plane_zx, nullptr, "plane XZ", "RS-274/NGC 3.5.6"},
+    {190, 2, F::plane_yz, nullptr, "plane YZ", "RS-274/NGC 3.5.6"},
+    {200, 6, F::inch, nullptr, "inches", "RS-274/NGC 3.5.7"},
+    {210, 6, F::metric, nullptr, "millimetres", "RS-274/NGC 3.5.7"},
+    {280, 0, F::reference_return, nullptr, "return to the first stored position", "RS-274/NGC 3.5.8"},
+    {281, 0, F::reference_set, "NC-NOT-BUILT", "store the first position", "LinuxCNC G28.1"},
+    {300, 0, F::second_reference, nullptr, "return to the second stored position", "RS-274/NGC 3.5.8"},
+    {301, 0, F::reference_set, "NC-NOT-BUILT", "store the second position", "LinuxCNC G30.1", nullptr, 1},
+    {330, 1, F::thread, nullptr, "motion in step with the spindle", "LinuxCNC G33"},
+    {331, 0, F::rigid_tap, "NC-NOT-BUILT", "rigid tapping", "LinuxCNC G33.1"},
+    {382, 0, F::probe, nullptr, "probe towards the workpiece, no contact is an alarm", "LinuxCNC G38"},
+    {383, 0, F::skip, nullptr, "probe towards the workpiece", "LinuxCNC G38"},
+    {384, 0, F::probe_away, "NC-NOT-BUILT", "probe away from the workpiece, contact kept is an alarm", "LinuxCNC G38"},
+    {385, 0, F::probe_away, "NC-NOT-BUILT", "probe away from the workpiece", "LinuxCNC G38", nullptr, 1},
+    {400, 7, F::comp_off, nullptr, "cutter radius compensation off", "RS-274/NGC 3.5.10"},
+    {410, 7, F::comp_left, nullptr, "cutter radius compensation left", "RS-274/NGC 3.5.10"},
+    {411, 0, F::comp_dynamic, "NC-NOT-BUILT", "cutter compensation left with the diameter in the block", "LinuxCNC G41.1"},
+    {420, 7, F::comp_right, nullptr, "cutter radius compensation right", "RS-274/NGC 3.5.10"},
+    {421, 0, F::comp_dynamic, "NC-NOT-BUILT", "cutter compensation right with the diameter in the block", "LinuxCNC G42.1", nullptr, 1},
+    {430, 8, F::length_plus, nullptr, "tool length offset", "RS-274/NGC 3.5.11"},
+    {431, 0, F::length_dynamic, "NC-NOT-BUILT", "tool length offset by the words of the block", "LinuxCNC G43.1"},
+    {432, 0, F::length_added, "NC-NOT-BUILT", "a further tool length offset", "LinuxCNC G43.2"},
+    {490, 8, F::length_off, nullptr, "tool length offset off", "RS-274/NGC 3.5.11"},
+    {520, 0, F::local_system, "NC-NOT-BUILT", "local coordinate system", "LinuxCNC G52"},
+    {530, 0, F::machine_move, nullptr, "move in machine coordinates", "RS-274/NGC 3.5.12"},
+    {540, 12, F::work_system, nullptr, "coordinate system 1", "RS-274/NGC 3.5.13"},
+    {550, 12, F::work_system, nullptr, "coordinate system 2", "RS-274/NGC 3.5.13", nullptr, 1},
+    {560, 12, F::work_system, nullptr, "coordinate system 3", "RS-274/NGC 3.5.13", nullptr, 2},
+    {570, 12, F::work_system, nullptr, "coordinate system 4", "RS-274/NGC 3.5.13", nullptr, 3},
+    {580, 12, F::work_system, nullptr, "coordinate system 5", "RS-274/NGC 3.5.13", nullptr, 4},
+    {590, 12, F::work_system, nullptr, "coordinate system 6", "RS-274/NGC 3.5.13", nullptr, 5},
+    {591, 12, F::work_system, nullptr, "coordinate system 7", "RS-274/NGC 3.5.13", nullptr, 6},
+    {592, 12, F::work_system, nullptr, "coordinate system 8", "RS-274/NGC 3.5.13", nullptr, 7},
+    {593, 12, F::work_system, nullptr, "coordinate system 9", "RS-274/NGC 3.5.13", nullptr, 8},
+    {610, 13, F::exact_stop_mode, nullptr, "exact path mode", "RS-274/NGC 3.5.14"},
+    {611, 13, F::exact_stop_mode, nullptr, "exact stop mode", "RS-274/NGC 3.5.14", nullptr, 1},
+    {640, 13, F::cutting_mode, nullptr, "continuous mode", "RS-274/NGC 3.5.14", "P Q: the tolerance is that of the machine's configuration"},
+    {730, 9, F::cycle_step, nullptr, "drilling cycle with chip breaking", "LinuxCNC G73"},
+    {740, 9, F::cycle_reverse_tap, "NC-NOT-BUILT", "left-hand tapping cycle", "LinuxCNC G74"},
+    {760, 0, F::thread_cycle, "NC-NOT-BUILT", "threading cycle", "LinuxCNC G76"},
+    {800, 9, F::cycle_off, nullptr, "cycle off", "RS-274/NGC 3.5.15"},
+    {810, 9, F::cycle_drill, nullptr, "drilling cycle", "RS-274/NGC 3.5.16.1"},
+    {820, 9, F::cycle_spot, nullptr, "drilling cycle with dwell", "RS-274/NGC 3.5.16.2"},
+    {830, 9, F::cycle_peck, nullptr, "peck drilling cycle", "RS-274/NGC 3.5.16.3"},
+    {840, 9, F::cycle_tap, "NC-NOT-BUILT", "right-hand tapping cycle", "RS-274/NGC 3.5.16.4"},
+    {850, 9, F::cycle_bore_feed, nullptr, "boring cycle, back at feed", "RS-274/NGC 3.5.16.5"},
+    {860, 9, F::cycle_bore_stop, "NC-NOT-BUILT", "boring cycle, back with the spindle stopped", "RS-274/NGC 3.5.16.6"},
+    {870, 9, F::cycle_back_bore, "NC-NOT-BUILT", "back boring cycle", "RS-274/NGC 3.5.16.7"},
+    {880, 9, F::cycle_bore_stop_dwell, "NC-NOT-BUILT", "boring cycle, back by hand", "RS-274/NGC 3.5.16.8"},
+    {890, 9, F::cycle_bore_dwell, nullptr, "boring cycle with dwell, back at feed", "RS-274/NGC 3.5.16.9"},
+    {900, 3, F::absolute, nullptr, "absolute distances", "RS-274/NGC 3.5.17"},
+    {901, 4, F::centre_absolute, nullptr, "absolute arc centres", "LinuxCNC G90.1"},
+    {910, 3, F::incremental, nullptr, "incremental distances", "RS-274/NGC 3.5.17"},
+    {911, 4, F::centre_incremental, nullptr, "incremental arc centres", "LinuxCNC G91.1"},
+    {920, 0, F::coordinate_set, nullptr, "coordinate system offset", "RS-274/NGC 3.5.18"},
+    {921, 0, F::shift_off, nullptr, "coordinate system offset to zero", "RS-274/NGC 3.5.18"},
+    {922, 0, F::shift_suspend, "NC-NOT-BUILT", "coordinate system offset suspended", "RS-274/NGC 3.5.18"},
+    {923, 0, F::shift_restore, "NC-NOT-BUILT", "coordinate system offset restored", "RS-274/NGC 3.5.18"},
+    {930, 5, F::inverse_time_feed, nullptr, "inverse time feed", "RS-274/NGC 3.5.19"},
+    {940, 5, F::feed_per_minute, nullptr, "feed per minute", "RS-274/NGC 3.5.19"},
+    {950, 5, F::feed_per_revolution, nullptr, "feed per revolution", "LinuxCNC G95"},
+    {960, 14, F::surface_on, "NC-NOT-BUILT", "constant surface speed", "LinuxCNC G96"},
+    {970, 14, F::surface_off, nullptr, "spindle speed in r/min", "LinuxCNC G97"},
+    {980, 10, F::return_initial, nullptr, "cycles return to the initial level", "RS-274/NGC 3.5.20"},
+    {990, 10, F::return_r, nullptr, "cycles return to R", "RS-274/NGC 3.5.20"},
+};
+
+// RS-274/NGC 3.6, and those of LinuxCNC that the control would have to know more of than their number. The others go out: M7 M8 M9, M100 to M199.
+const MiscRow kMisc[] = {
+    {0, M::program_stop, nullptr, "program stop", "RS-274/NGC 3.6.1"},
+    {1, M::optional_stop, nullptr, "optional stop", "RS-274/NGC 3.6.1"},
+    {2, M::program_end, nullptr, "program end", "RS-274/NGC 3.6.1"},
+    {19, M::spindle_orient, "NC-NOT-BUILT", "orient the spindle", "LinuxCNC M19"},
+    {30, M::program_end, nullptr, "program end, pallets exchanged", "RS-274/NGC 3.6.1"},
+    {48, M::override_allowed, nullptr, "overrides on", "RS-274/NGC 3.6.5"},
+    {49, M::override_barred, nullptr, "overrides off", "RS-274/NGC 3.6.5"},
+    {50, M::override_of_one, "NC-NOT-BUILT", "feed override on or off", "LinuxCNC M50"},
+    {51, M::override_of_one, "NC-NOT-BUILT", "spindle override on or off", "LinuxCNC M51"},
+    {52, M::override_of_one, "NC-NOT-BUILT", "adaptive feed on or off", "LinuxCNC M52"},
+    {53, M::override_of_one, "NC-NOT-BUILT", "feed stop on or off", "LinuxCNC M53"},
+    {60, M::program_stop, nullptr, "program stop, pallets exchanged", "RS-274/NGC 3.6.1"},
+    {61, M::tool_number, "NC-NOT-BUILT", "number of the tool in the spindle", "LinuxCNC M61"},
+    {62, M::machine_output, "NC-NOT-BUILT", "output on with the motion", "LinuxCNC M62"},
+    {63, M::machine_output, "NC-NOT-BUILT", "output off with the motion", "LinuxCNC M63"},
+    {64, M::machine_output, "NC-NOT-BUILT", "output on", "LinuxCNC M64"},
+    {65, M::machine_output, "NC-NOT-BUILT", "output off", "LinuxCNC M65"},
+    {66, M::machine_input, "NC-NOT-BUILT", "wait for an input", "LinuxCNC M66"},
+    {67, M::machine_output, "NC-NOT-BUILT", "analog output with the motion", "LinuxCNC M67"},
+    {68, M::machine_output, "NC-NOT-BUILT", "analog output", "LinuxCNC M68"},
+    {70, M::modal_state, "NC-NOT-BUILT", "save modal state", "LinuxCNC M70"},
+    {71, M::modal_state, "NC-NOT-BUILT", "forget saved modal state", "LinuxCNC M71"},
+    {72, M::modal_state, "NC-NOT-BUILT", "restore modal state", "LinuxCNC M72"},
+    {73, M::modal_state, "NC-NOT-BUILT", "save modal state until the return", "LinuxCNC M73"},
+    {98, M::call_sub, "NC-NOT-BUILT", "sub program call", "LinuxCNC M98"},
+    {99, M::return_sub, "NC-NOT-BUILT", "return from a sub program", "LinuxCNC M99"},
+};
+
+// RS-274/NGC 3.6.2, 3.6.3.
+const OutputRow kOutputs[] = {
+    {3, M::spindle_forward},
+    {4, M::spindle_reverse},
+    {5, M::spindle_stop},
+    {6, M::tool_change},
+};
+
+// How many there are is checked where the tables are declared.
+static_assert(sizeof kFunctions / sizeof kFunctions[0] == kFunctionRows && sizeof kMisc / sizeof kMisc[0] == kMiscRows);
+
+}  // namespace nc::iso

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The iso family put together, and its state at power on.
+#include "dialect/iso/iso.hpp"
+
+#include "dialect/iso/addresses.hpp"
+#include "dialect/iso/rules.hpp"
+#include "dialect/iso/tables.hpp"
+
+namespace nc::iso {
+namespace {
+
+// LinuxCNC G10.
+constexpr DataInputRow kDataInput[] = {
+    {1, DataInput::missing},  // tool table
+    {2, DataInput::work_offset},
+    {10, DataInput::missing},  // tool table, by where the tool stands
+    {11, DataInput::missing},  // the same in a fixture
+    {20, DataInput::work_offset_here},
+};
+
+// RS-274/NGC 3.6.1 says what M2 leaves; the rest are the cancel codes. A motion is in force from the start on, the one that does not
+// cut: docs/decisions.md.
+const Function kInitial[] = {
+    Function::rapid, Function::plane_xy, Function::absolute, Function::centre_incremental, Function::feed_per_minute,
+    Function::metric, Function::comp_off, Function::length_off, Function::cycle_off, Function::return_initial,
+    Function::work_system, Function::cutting_mode, Function::surface_off,
+};
+
+}  // namespace
+
+const Dialect kDialect = {
+    .id = NC_DIALECT_ISO,
+    .name = "iso",
+    .lex = &kLex,
+    .addresses = kAddressTable,
+    .axis_addresses = AddressTable::letters("ABCUVWXYZ"),
+    .length_addresses = AddressTable::letters("IJKQR"),
+    .argument_of = nullptr,
+    .calling_letters = "",
+    .device_letter = 0,
+    .functions = {kFunctions, kFunctionRows},
+    .misc = {kMisc, kMiscRows},
+    .outputs = {kOutputs, kOutputRows},
+    .conditions = {kConditions, kConditionRows},
+    .alarms = {kAlarms, kAlarmRows},
+    .data_input = {kDataInput, sizeof kDataInput / sizeof kDataInput[0]},
+    .speed_modes = {},
+    .speed_options = {},
+    .parameters = &kParameters,
+    .variables = &kVariables,
+    .rules = kRules,
+    .initial = {kInitial, sizeof kInitial / sizeof kInitial[0]},
+    .macro_codes = {1, 0},  // no code calls a macro
+    .own_codes = {1, 0},
+    .macro_misc = {1, 0},
+    .interrupt_misc = {1, 0},
+    .percent_required = false,   // RS-274/NGC 3.4: the % lines may be left out
+    .end_code_required = false,  // docs/decisions.md: a text that ends is a program that ends
+    .bare_letters = false,       // RS-274/NGC 3.3.2: a word is a letter and a value
+    .call_depth = 0,
+};
+
+}  // namespace nc::iso

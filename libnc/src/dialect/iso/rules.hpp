@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the iso family answers each rule of dialect/rules.hpp, where the sections stand.
+#pragma once
+
+#include "dialect/rules.hpp"
+
+namespace nc::iso {
+
+/// RS-274/NGC 3.3.2.1: numbers are what they say; the unit is asked for where one has to be the finest, a micrometre.
+double units_per_micrometre(double parameter);
+
+/// RS-274/NGC 3.7.2: S is r/min.
+double speed_of_word(uint32_t value);
+
+/// There is no scaling.
+bool factor_of_word(double value, bool pointed, double* factor);
+
+inline constexpr Rules kRules = {
+    .number = {.undotted_feed_in_least_unit = false,
+               .undotted_range_is_digits = false,
+               .largest_feed_mm = 1e7,
+               .largest_feed_inch = 1e6,
+               .largest_undotted_feed_mm = 1e7,
+               .largest_undotted_feed_inch = 1e6,
+               .units_per_micrometre = units_per_micrometre},
+    .block = {.distance_by_word = false,  // RS-274/NGC 3.8: the distance mode is set before anything moves
+              .whole_words_refuse_point = false,
+              .stops_stand_alone = false,
+              .dwell_stands_alone = false,
+              .assigns_at_once = true},
+    .auxiliary = {.most_m_codes = ~0u, .tool_change_is_pair = false},  // RS-274/NGC 3.6.3: T prepares, M6 changes
+    .spindle = {.speed_of_word = speed_of_word,
+                .limits_by_coordinate_setting = false,
+                .skips_repeated_codes = false},
+    .feed = {.inch_is_ten_degrees = false,
+             .degree_counts_as_millimetre = false,  // RS-274/NGC 2.1.2.5: of X Y Z where they move
+             .inverse_time_is_of_block = true},
+    .skip = {.feed_is_modal = true},
+    .arc = {.takes_rotary_axes = true,
+            .degree_is_tenth_of_inch = false,
+            .turns_exclude_radius = false,
+            .turns_count_last = true},
+    .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 1e6},
+    .compensation = {.xy_plane_only = false,  // LinuxCNC G41: G17 and G18
+                     .plane_is_fixed = true,  // RS-274/NGC 3.5.10: no change of the plane
+                     .bars_scaling_and_cycle_end = false,
+                     .bars_systems_and_data = true,  // RS-274/NGC 3.5.13, 3.5.18
+                     .bars_reference_return = true,  // RS-274/NGC 3.5.8
+                     .may_change_side = false,       // RS-274/NGC 3.5.10: an error while it is on
+                     .vector_by_words = false,
+                     .takes_changed_amounts = false,
+                     .code_alone_waits = true,
+                     .number_is_that_of_tool = true},
+    .length = {.axis_by_words = false,  // RS-274/NGC 3.5.11: Z
+               .number_in_any_block = false,
+               .zero_is_number = true,  // RS-274/NGC 3.5.11: H0 is an offset of zero
+               .moves_at_once = false,
+               .shifts_reading = true,
+               .number_is_that_of_tool = true},
+    .cycle = {.xy_plane_only = false,
+              .takes_rotary_axes = false,  // RS-274/NGC 3.5.16: an error
+              .needs_turning_spindle = false,
+              .without_bottom_positions = false,
+              .r_takes_sign_of_z = false,
+              .others_keep_motion_mode = false,
+              .fixed_clearance_mm = 0.254,  // LinuxCNC G83, G73: a hundredth of an inch
+              .dwell_in_seconds = true,
+              .begins_with_both_levels = true,
+              .rises_before_positioning = true,
+              .longest_dwell_ms = 1e9},
+    .reference = {.remembered_axes_go = false,
+                  .forgets_with_program = true,
+                  .takes_rotary_axes = true,
+                  .cancels_length = false,
+                  .all_axes_without_words = true},
+    .coordinate = {.machine_move_may_be_incremental = false,  // LinuxCNC G53: an error in G91
+                   .machine_code_ends_shift = false,
+                   .machine_move_by_motion = true},
+    .scaling = {.all_linear_axes = false, .factor_required = true, .factor_of_word = factor_of_word},
+    .data_input = {.incremental_adds = false,
+                   .system_required = true,
+                   .axes_required = false,
+                   .vector_turns_work = false,
+                   .zero_is_selected_system = true,
+                   .amount_turns_system = true},
+    .program = {.macro_interrupt = false, .motion_outlives_end = false},
+    .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
+};
+
+}  // namespace nc::iso

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of the iso family; iso.cpp puts them together. The sizes stand here so that a row lost or added by accident does not
+// compile.
+#pragma once
+
+#include "dialect/dialect.hpp"
+
+namespace nc::iso {
+
+inline constexpr unsigned kFunctionRows = 78;
+inline constexpr unsigned kMiscRows = 26;
+inline constexpr unsigned kOutputRows = 4;
+inline constexpr unsigned kAlarmRows = 35;
+inline constexpr unsigned kConditionRows = static_cast<unsigned>(Condition::count_) - 1;
+
+extern const FunctionRow kFunctions[kFunctionRows];
+extern const MiscRow kMisc[kMiscRows];
+extern const OutputRow kOutputs[kOutputRows];
+extern const AlarmText kAlarms[kAlarmRows];
+extern const AlarmRow kConditions[kConditionRows];
+extern const LexRules kLex;
+extern const FamilyParameters kParameters;
+extern const FamilyVariables kVariables;
+
+}  // namespace nc::iso

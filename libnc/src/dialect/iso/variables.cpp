@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parameters of RS-274/NGC 3.2.1, table 3, that mean something to the control; the others up to 5399 are the user's.
+#include "dialect/iso/tables.hpp"
+
+namespace nc::iso {
+namespace {
+
+using V = SystemVariable;
+
+constexpr VariableRow kRows[] = {
+    {5061, 5069, V::skip_position, 0, 0, "mm or inch, deg", "place where the probe touched, an axis each", "LinuxCNC G38"},
+    {5221, 5386, V::work_offset, 1, 20, "mm or inch, deg", "coordinate systems G54 to G59.3, an axis each", "RS-274/NGC 3.2.1"},
+    {5400, 5400, V::word, 0, 0, "", "number of the tool that has been called", "LinuxCNC parameters"},
+    {5420, 5428, V::work_position, 0, 0, "mm or inch, deg", "place where the axis is commanded to be", "LinuxCNC parameters"},
+};
+
+constexpr ModalWord kWords[] = {ModalWord::tool};
+
+}  // namespace
+
+constinit const FamilyVariables kVariables = {
+    .rows = {kRows, sizeof kRows / sizeof kRows[0]},
+    .common = {{34, 499}, {500, 5000}},  // RS-274/NGC 3.2.1: the user's; #1 to #33 are local to the program here
+    .words = {kWords, sizeof kWords / sizeof kWords[0]},
+};
+
+}  // namespace nc::iso

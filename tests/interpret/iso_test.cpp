@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+// The iso family: what RS-274/NGC and LinuxCNC mean otherwise than the families with a manual do, one test for each rule.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+Outcome iso(const std::string& text) { return Bench(NC_DIALECT_ISO).run(text); }
+std::string alarm_of(const std::string& text) { return iso(text).alarm; }
+/// What an expression is: by the place that an axis goes to.
+double value_of(const std::string& expression) {
+  const Outcome run = iso("G0 X" + expression);
+  EXPECT_EQ(run.alarm, "") << expression;
+  return run.moves().empty() ? 0 : run.moves().back().machine.v[0];
+}
+
+TEST(Iso, TextsAreWrittenInManyWays) {  // RS-274/NGC 3.3: case, blanks, comments, '%', N, '/'
+  EXPECT_EQ(iso("%\ng0 x 1 0 . 5 y-2 ; to the left of ( it\n(a comment) N0 G1 (another) z3 f100\n%\nG0 X99\n").path(),
+            (Path{"rapid 10.5 -2 0", "line 10.5 -2 3 F100"}));
+  EXPECT_EQ(iso("G0 X1\n/G0 X2\nM2\nG0 X9").path(), (Path{"rapid 1 0 0", "rapid 2 0 0"}));
+  EXPECT_EQ(iso("g0x1y2\nz3").path(), (Path{"rapid 1 2 0", "rapid 1 2 3"}));
+}
+
+TEST(Iso, ANumberWithoutAPointIsWhole) {  // RS-274/NGC 3.3.2.1
+  EXPECT_EQ(iso("G20 G1 X1 F10").path(), (Path{"line 25.4 0 0 F254"}));
+  EXPECT_EQ(iso("G4 P0.5\nG4 P2").dwells(), (std::vector<double>{0.5, 2}));
+}
+
+TEST(Iso, TheToolIsCalledAndChangedInEitherOrder) {  // RS-274/NGC 3.6.3
+  EXPECT_EQ(iso("M6 T1\nT2 M6\nT3\nM6").aux(), "T1 M6 T2 M6 T3 M6");
+}
+
+TEST(Iso, OWordsSayThatTheyAreNotThere) {
+  for (const char* text : {"G0 X1\nO100 sub\nG0 X2\nO100 endsub", "G0 X1\no<hole> if [1]", "G0 X1\nN10 O5 call"}) {
+    const Outcome run = iso(text);
+    EXPECT_EQ(run.alarm, "NC-O-WORD") << text;
+    EXPECT_EQ(run.alarm_line, 2u) << text;
+    EXPECT_NE(run.alarm_detail.find("sub programs"), std::string::npos) << run.alarm_detail;
+    EXPECT_EQ(run.path(), (Path{"rapid 1 0 0"})) << text;
+  }
+  // Statements of other families are no words of this one.
+  for (const char* text : {"IF [1 EQ 1] GOTO 5", "WHILE [1] DO1", "GOTO 5", "POPEN"}) EXPECT_NE(alarm_of(text), "") << text;
+}
+
+// ---- expressions and parameters -------------------------------------------------------------------------------------------------
+
+TEST(IsoExpression, BindsInFiveSteps) {  // LinuxCNC "Binary Operators"
+  EXPECT_EQ(value_of("[2+3*4]"), 14);
+  EXPECT_EQ(value_of("[2*3**2]"), 18);
+  EXPECT_EQ(value_of("[2**3**2]"), 64);  // the left one first
+  EXPECT_EQ(value_of("[-2**2]"), 4);     // the sign is that of the number
+  EXPECT_EQ(value_of("[1+1 EQ 2]"), 1);
+  EXPECT_EQ(value_of("[1 EQ 1 AND 2 GT 3]"), 0);
+  EXPECT_EQ(value_of("[1 LT 2 OR 0]"), 1);
+  EXPECT_EQ(value_of("[5 XOR 7]"), 0);  // both true
+  EXPECT_EQ(value_of("[6 AND 1]"), 1);  // no bits
+  EXPECT_EQ(value_of("[10-4-3]"), 3);
+  EXPECT_EQ(value_of("[12/3/2]"), 2);
+}
+
+TEST(IsoExpression, Functions) {  // RS-274/NGC 3.3.2.4
+  EXPECT_EQ(value_of("ATAN[1]/[-1]"), 135);
+  EXPECT_EQ(value_of("ATAN[-1]/[-1]"), -135);
+  EXPECT_EQ(value_of("FIX[-2.8]"), -3);
+  EXPECT_EQ(value_of("FIX[2.8]"), 2);
+  EXPECT_EQ(value_of("FUP[-2.8]"), -2);
+  EXPECT_EQ(value_of("FUP[2.8]"), 3);
+  EXPECT_EQ(value_of("ROUND[2.5]"), 3);
+  EXPECT_EQ(value_of("[-7 MOD 3]"), 2);
+  EXPECT_EQ(value_of("[7 MOD 3]"), 1);
+  EXPECT_EQ(value_of("SQRT[16]"), 4);
+  EXPECT_EQ(value_of("ABS[-3]"), 3);
+  EXPECT_EQ(value_of("-ABS[-3]"), -3);
+  EXPECT_EQ(value_of("SIN[30]"), 0.5);
+  EXPECT_NEAR(value_of("EXP[LN[5]]"), 5, 1e-9);
+  EXPECT_EQ(value_of("ACOS[0]"), 90);
+  EXPECT_EQ(value_of("[[[[[[[[1]]]]]]]]"), 1);
+}
+
+TEST(IsoExpression, WhatIsNoneIsAnAlarm) {
+  for (const char* text : {"G0 X[1/0]", "G0 X[-2**0.5]", "G0 XSQRT[-1]", "G0 XATAN[1]", "G0 X[1+]", "G0 X[1", "G0 XLN[0]", "G0 X[1 MOD 0]"})
+    EXPECT_EQ(alarm_of(text), "NC-FORMULA") << text;
+  for (const char* text : {"G0 X1+2", "#1=2+3", "G0 X1]"}) EXPECT_NE(alarm_of(text), "") << text;  // formulas stand in [ ]
+}
+
+TEST(IsoParameter, WithoutAValueItIsZero) {  // RS-274/NGC 3.2.1
+  EXPECT_EQ(iso("G0 X5 Y5\nG0 X#100").path(), (Path{"rapid 5 5 0", "rapid 0 5 0"}));
+  EXPECT_EQ(value_of("[#100 EQ 0]"), 1);
+}
+
+TEST(IsoParameter, AllOfABlockAreSetAtOnce) {  // RS-274/NGC 3.3.2.2
+  const Outcome run = iso("#100=1 #101=2\n#100=#101 #101=#100\n#3 = [1+2] #[#3+99]=7\n#4=102\n##4=8");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(100), 2);
+  EXPECT_EQ(run.var(101), 1);
+  EXPECT_EQ(run.var(102), 8);
+  EXPECT_EQ(run.var(99), 7);  // #3 had no value yet
+  EXPECT_EQ(alarm_of("#0=1"), "NC-PARAMETER");
+  EXPECT_EQ(alarm_of("#6000=1"), "NC-PARAMETER");
+  EXPECT_EQ(alarm_of("#[134217728]=1"), "NC-PARAMETER");
+  EXPECT_EQ(alarm_of("G0 X#[134217728]"), "NC-PARAMETER");
+  EXPECT_EQ(alarm_of("#1=5 G0 X1"), "NC-PARAMETER");  // not built, and said
+}
+
+TEST(IsoParameter, Names) {  // LinuxCNC "Named Parameters"
+  EXPECT_EQ(iso("#<feed height> = 2\n#<FeedHeight>=[#<feedheight> + 1]\nG0 Z#< FEED HEIGHT >").path(), (Path{"rapid 0 0 3"}));
+  EXPECT_EQ(value_of("[EXISTS[#<a>]]"), 0);
+  EXPECT_EQ(iso("#<a>=0\nG0 X[EXISTS[#<a>]]").path(), (Path{"rapid 1 0 0"}));
+  EXPECT_EQ(iso("#<a>=3 #<b>=4\nG0 XSQRT[#<a>**2+#<b>**2]").path(), (Path{"rapid 5 0 0"}));
+  const Outcome none = iso("#<a>=1\nG0 X#<b>");
+  EXPECT_EQ(none.alarm, "NC-PARAMETER");
+  EXPECT_EQ(none.alarm_line, 2u);
+  for (const char* text : {"#<>=1", "#<a=1", "G0 X#<a"}) EXPECT_EQ(alarm_of(text), "NC-PARAMETER") << text;
+}
+
+TEST(IsoParameter, NamesOfAProgramEndWithItAndGlobalOnesDoNot) {  // LinuxCNC: '_' begins a global name
+  Bench bench(NC_DIALECT_ISO);
+  EXPECT_EQ(bench.run("#<mine>=1\n#<_all>=2\nM2").alarm, "");
+  EXPECT_EQ(bench.run("G0 X#<_all>\nM2").path(), (Path{"rapid 2 0 0"}));
+  EXPECT_EQ(bench.run("G0 X#<mine>\nM2").alarm, "NC-PARAMETER");
+}
+
+TEST(IsoParameter, ThereIsRoomForSoManyNames) {
+  std::string text;
+  for (unsigned i = 0; i < 128; ++i) text += "#<p" + std::to_string(i) + ">=" + std::to_string(i) + "\n";
+  EXPECT_EQ(iso(text + "G0 X#<p127>").path(), (Path{"rapid 127 0 0"}));
+  const Outcome more = iso(text + "#<one more>=1");
+  EXPECT_EQ(more.alarm, "NC-PARAMETER");
+  EXPECT_EQ(more.alarm_line, 129u);
+}
+
+TEST(IsoParameter, ARewindTakesNamedValuesBack) {
+  Bench bench(NC_DIALECT_ISO);
+  bench.start("#<a>=1\nG0 X#<a>\n#<a>=5\nG0 X#<a>\nM2");
+  uint64_t behind_first = 0;
+  nc_axes at{};
+  Step step;
+  unsigned moves = 0;
+  while (bench.pull(&step) == NC_OK) {
+    if (step.item.kind == NC_ITEM_MOVE) ++moves;
+    if (step.item.kind == NC_ITEM_MARK && moves == 1 && behind_first == 0) behind_first = step.item.serial, at = step.machine;
+  }
+  ASSERT_EQ(moves, 2u);
+  ASSERT_NE(behind_first, 0u);
+  ASSERT_EQ(bench.rewind(behind_first, at), NC_OK);
+  const Outcome again = bench.finish();
+  EXPECT_EQ(again.alarm, "");
+  EXPECT_EQ(again.path(), (Path{"rapid 5 0 0"}));
+}
+
+// ---- motion -----------------------------------------------------------------------------------------------------------------------
+
+TEST(IsoArc, PCountsTheTurnInWhichTheEndLies) {  // LinuxCNC G2
+  EXPECT_NEAR(iso("G2 X10 Y0 I5 P1 F100").moves().at(0).sweep_deg, -180, 1e-9);
+  EXPECT_NEAR(iso("G2 X10 Y0 I5 P2 F100").moves().at(0).sweep_deg, -540, 1e-9);
+  EXPECT_NEAR(iso("G3 X0 Y0 I5 P2 F100").moves().at(0).sweep_deg, 720, 1e-9);
+  EXPECT_NEAR(iso("G2 X10 Y0 R5 P2 F100").moves().at(0).sweep_deg, -540, 1e-9);
+  EXPECT_EQ(alarm_of("G2 X10 Y0 I5 P0 F100"), "NC-RANGE");
+}
+
+TEST(IsoArc, CentresCountFromTheStartOrFromTheZero) {  // LinuxCNC G90.1, G91.1
+  const Path same = {"rapid 10 10 0", "ccw 20 20 0 c10,20 F100"};
+  EXPECT_EQ(iso("G0 X10 Y10\nG3 X20 Y20 I0 J10 F100").path(), same);
+  EXPECT_EQ(iso("G90.1\nG0 X10 Y10\nG3 X20 Y20 I10 J20 F100").path(), same);
+  EXPECT_EQ(iso("G90.1\nG91.1 G0 X10 Y10\nG3 X20 Y20 J10 F100").path(), same);
+  EXPECT_EQ(alarm_of("G90.1\nG0 X10 Y10\nG3 X20 Y20 I10 F100"), "NC-WORDS");  // both have to be there
+}
+
+TEST(IsoArc, ToleranceGrowsWithTheRadius) {  // LinuxCNC G2: 0.005 mm, a thousandth of the radius, never more than 0.5 mm
+  EXPECT_EQ(alarm_of("G2 X2.004 Y0 I1 F100"), "");
+  EXPECT_EQ(alarm_of("G2 X2.006 Y0 I1 F100"), "NC-ARC");
+  EXPECT_EQ(alarm_of("G2 X200.09 Y0 I100 F100"), "");
+  EXPECT_EQ(alarm_of("G2 X200.11 Y0 I100 F100"), "NC-ARC");
+  EXPECT_EQ(alarm_of("G2 X4000.6 Y0 I2000 F100"), "NC-ARC");
+}
+
+TEST(IsoFeed, InverseTimeIsThatOfTheWholeBlock) {  // RS-274/NGC 3.5.19
+  EXPECT_NEAR(iso("G93\nG1 X30 Y40 F2").moves().at(0).feed_mm_min, 100, 1e-9);
+  EXPECT_NEAR(iso("G93\nG2 X20 Y0 I10 F2").moves().at(0).feed_mm_min, 2 * M_PI * 10, 1e-6);
+  EXPECT_EQ(alarm_of("G93\nG1 X30 F2\nX40"), "NC-FEED");
+  EXPECT_EQ(alarm_of("G93\nG81 X1 Z-1 R1 F2"), "NC-FEED-MODE");
+  EXPECT_EQ(alarm_of("G1 X5"), "NC-FEED");
+}
+
+TEST(IsoThread, KIsTheLeadAndFStaysTheFeed) {  // LinuxCNC G33
+  const Outcome run = iso("S100 M3\nG33 Z-10 K1.5 F200\nG1 X10");
+  EXPECT_EQ(run.alarm, "");
+  ASSERT_EQ(run.moves().size(), 2u);
+  EXPECT_EQ(run.moves()[0].kind, NC_MOVE_THREAD);
+  EXPECT_DOUBLE_EQ(run.moves()[0].feed_mm_rev, 1.5);
+  EXPECT_DOUBLE_EQ(run.moves()[1].feed_mm_min, 200);
+}
+
+TEST(IsoMachine, MovesByTheMotionInForce) {  // RS-274/NGC 3.5.12
+  Bench bench(NC_DIALECT_ISO);
+  bench.work_offset(1, {5, 6, 7});
+  EXPECT_EQ(bench.run("G53 G0 X1\nF300 G53 G1 Z2\nG0 Z0").path(), (Path{"rapid 1 0 0", "line 1 0 2 F300", "rapid 1 0 7"}));
+  EXPECT_EQ(alarm_of("G91\nG53 G0 X1"), "NC-INCREMENTAL");
+  EXPECT_EQ(alarm_of("F100\nG2 X2 I1\nG53 X0"), "NC-NO-SUCH-CODE");
+}
+
+TEST(IsoReference, WithoutWordsAllAxesGo) {  // RS-274/NGC 3.5.8
+  EXPECT_EQ(iso("G0 X1 Y2 Z3\nG28").path().back(), "rapid 0 0 0");
+  EXPECT_EQ(iso("G0 X1 Y2 Z3\nG91 G28 Z2").path(), (Path{"rapid 1 2 3", "rapid 1 2 5", "rapid 1 2 0"}));
+}
+
+TEST(IsoLength, ShiftsTheReadingAndMovesNothing) {  // RS-274/NGC 3.5.11
+  Bench bench(NC_DIALECT_ISO);
+  bench.tool(1, 10).tool(2, 20);
+  EXPECT_EQ(bench.run("G43 H1\nG0 X1\nG0 Z5\nG49\nG91 Z1\nG90 Z2").path(),
+            (Path{"rapid 1 0 0", "rapid 1 0 15", "rapid 1 0 16", "rapid 1 0 2"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("G43 H2\nG91 G0 Z1").path(), (Path{"rapid 0 0 1"}));
+  // Without H that of the tool.
+  EXPECT_EQ(bench.at(0, 0, 0).run("T2 M6\nG43\nG0 Z1\nG43 H1\nG0 Z1\nG43 H0\nG0 Z1").path(),
+            (Path{"rapid 0 0 21", "rapid 0 0 11", "rapid 0 0 1"}));
+  // G53 goes without it, and it stays.
+  EXPECT_EQ(bench.at(0, 0, 0).run("G43 H1\nG53 G0 Z3\nG91 G0 Z1\nG90 Z0").path(), (Path{"rapid 0 0 3", "rapid 0 0 4", "rapid 0 0 10"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("G43 H999").alarm, "NC-OFFSET-DATA");
+}
+
+TEST(IsoRadius, WithoutDThatOfTheTool) {  // RS-274/NGC 3.5.10
+  Bench bench(NC_DIALECT_ISO);
+  bench.tool(3, 2, NC_TOOL_RADIUS);
+  const Path offset = {"line 10 2 0 F100", "line 30 2 0 F100"};
+  EXPECT_EQ(bench.run("F100\nT3 M6\nG41\nG1 X10\nX30\nM2").path(), offset);
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D3\nG1 X10\nX30\nM2").path(), offset);
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D3\nG1 X10\nG42 X20").alarm, "NC-OFFSET-CODE");
+  // G40 alone waits for a move, too.
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D3 G1 X10\nX30\nG40\nG1 X40 Y5\nM2").path(), (Path{"line 10 2 0 F100", "line 30 2 0 F100", "line 40 5 0 F100"}));
+}
+
+// ---- coordinate systems -------------------------------------------------------------------------------------------------------------
+
+TEST(IsoSystems, NineOfThem) {  // RS-274/NGC 3.5.13, LinuxCNC G10 L2
+  EXPECT_EQ(iso("G10 L2 P9 X3\nG10 L2 P1 X1\nG59.3 G0 X0\nG54 X0\nG59.1 X0").path(), (Path{"rapid 3 0 0", "rapid 1 0 0", "rapid 0 0 0"}));
+  EXPECT_EQ(iso("G55\nG10 L2 P0 X3\nG0 X0\nG54 X0").path(), (Path{"rapid 3 0 0", "rapid 0 0 0"}));  // P0: the one in force
+  EXPECT_EQ(iso("G0 X10\nG10 L20 P1 X2\nG0 X3\nG10 L20 P2 X0\nG55 X1").path(), (Path{"rapid 10 0 0", "rapid 11 0 0", "rapid 12 0 0"}));
+  EXPECT_EQ(iso("#5222=4\nG0 Y0").path(), (Path{"rapid 0 4 0"}));
+  EXPECT_EQ(alarm_of("G10 L2 P10 X1"), "NC-RANGE");
+  EXPECT_EQ(alarm_of("G10 L2 X1"), "NC-FORMAT");
+  EXPECT_EQ(alarm_of("G10 L2 P1 X1 R10"), "NC-NOT-BUILT");
+  EXPECT_EQ(alarm_of("G10 L1 P1 Z1"), "NC-NOT-BUILT");
+}
+
+TEST(IsoSystems, TheShiftIsOfAllAndGoesWithG921) {  // RS-274/NGC 3.5.18
+  Bench bench(NC_DIALECT_ISO);
+  bench.tool(1, 10);
+  EXPECT_EQ(bench.run("G43 H1\nG92 Z2\nG0 Z5").path(), (Path{"rapid 0 0 3"}));  // the reading is that with the length
+  EXPECT_EQ(iso("G0 X10\nG92 X0\nG0 X1\nG55 X2\nG92.1\nX2").path(), (Path{"rapid 10 0 0", "rapid 11 0 0", "rapid 12 0 0", "rapid 2 0 0"}));
+  EXPECT_EQ(alarm_of("G92.2"), "NC-NOT-BUILT");
+}
+
+// ---- cycles and probing -----------------------------------------------------------------------------------------------------------
+
+TEST(IsoCycle, DwellsInSecondsAndPecksByAHundredthOfAnInch) {  // RS-274/NGC 3.5.16
+  EXPECT_EQ(iso("G0 Z5\nF100\nG82 X1 Y1 Z-1 R1 P0.25\nG80").dwells(), (std::vector<double>{0.25}));
+  EXPECT_EQ(iso("G0 Z5\nF100\nG83 X0 Y0 Z-3 R1 Q2\nG80").path(),
+            (Path{"rapid 0 0 5", "rapid 0 0 1", "line 0 0 -1 F100", "rapid 0 0 1", "rapid 0 0 -0.746", "line 0 0 -3 F100", "rapid 0 0 5"}));
+  EXPECT_EQ(iso("G0 Z5\nF100\nG73 X0 Y0 Z-3 R1 Q2 G99\nG80").path(),
+            (Path{"rapid 0 0 5", "rapid 0 0 1", "line 0 0 -1 F100", "rapid 0 0 -0.746", "line 0 0 -3 F100", "rapid 0 0 1"}));
+}
+
+TEST(IsoCycle, BelowRItGoesUpFirst) {
+  EXPECT_EQ(iso("F100\nG81 X3 Y4 Z-1 R2\nX5\nG80").path(),
+            (Path{"rapid 0 0 2", "rapid 3 4 2", "line 3 4 -1 F100", "rapid 3 4 2", "rapid 5 4 2", "line 5 4 -1 F100", "rapid 5 4 2"}));
+}
+
+TEST(IsoCycle, RepeatsInIncrementalMode) {  // RS-274/NGC 3.5.16.1, the second example: R from where Z is, Z from R
+  EXPECT_EQ(iso("G0 X1 Y2 Z3\nF100\nG91 G81 G98 X4 Y5 Z-0.6 R1.8 L3\nG80").path(),
+            (Path{"rapid 1 2 3", "rapid 1 2 4.8", "rapid 5 7 4.8", "line 5 7 4.2 F100", "rapid 5 7 4.8", "rapid 9 12 4.8", "line 9 12 4.2 F100",
+                  "rapid 9 12 4.8", "rapid 13 17 4.8", "line 13 17 4.2 F100", "rapid 13 17 4.8"}));
+}
+
+TEST(IsoCycle, BeginsWithBottomAndR) {
+  EXPECT_EQ(alarm_of("F100\nG81 X1 R1"), "NC-WORDS");
+  EXPECT_EQ(alarm_of("F100\nG81 X1 Z-1"), "NC-WORDS");
+  EXPECT_EQ(alarm_of("F100\nG83 X1 Z-1 R1"), "NC-WORDS");
+}
+
+TEST(IsoProbe, NoContactIsAnAlarmOrNot) {  // LinuxCNC G38
+  Bench bench(NC_DIALECT_ISO);
+  EXPECT_EQ(bench.run("F100\nG38.3 Z-10\nG0 Z0").path(), (Path{"skip 0 0 -10 F100", "rapid 0 0 0"}));
+  const Outcome missed = bench.at(0, 0, 0).run("F100\nG38.2 Z-10\nG0 Z0");
+  EXPECT_EQ(missed.alarm, "NC-PROBE");
+  EXPECT_EQ(missed.alarm_line, 2u);
+  bench.skip_at = [](const nc_item&) { return 0.5; };
+  const Outcome touched = bench.at(0, 0, 0).run("G38.2 Z-10 F150\nG1 X#5063\nX1");
+  EXPECT_EQ(touched.alarm, "");
+  EXPECT_EQ(touched.path(), (Path{"skip 0 0 -10 F150", "line -5 0 -5 F150", "line 1 0 -5 F150"}));  // F stays in force
+  EXPECT_EQ(bench.at(0, 0, 0).run("G38.2 Z-10").alarm, "NC-FEED");
+}
+
+// ---- M codes and what is not there ----------------------------------------------------------------------------------------------------
+
+TEST(IsoMisc, OverridesAreBarredAndAllowed) {  // RS-274/NGC 3.6.5
+  std::vector<double> bits;
+  for (const nc_item& item : iso("M49\nG0 X1\nM48\nM2").of(NC_ITEM_ACTION))
+    if (item.u.action.kind == NC_ACTION_CONTROL && item.u.action.index == NC_CONTROL_DISABLE) bits.push_back(item.u.action.value);
+  EXPECT_EQ(bits, (std::vector<double>{2, 0}));
+}
+
+TEST(IsoMisc, CoolantAndUserCodesGoOut) { EXPECT_EQ(iso("M7 M8\nM9\nM101\nM60\nM30").aux(), "M7 M8 M9 M101 M60 M30"); }
+
+TEST(Iso, WhatIsNotBuiltSaysSo) {
+  for (const char* text : {"G33.1 Z-1 K1", "G38.4 Z1", "G43.1 Z1", "G41.1 D1", "G52 X1", "G76 P1", "G84 Z-1 R1", "G86 Z-1 R1", "G96 S100", "G5.2", "G7",
+                           "G28.1", "M19", "M50", "M61 Q1", "M62 P1", "M66 P1", "M68 Q1", "M70", "M98 P1", "M99"}) {
+    const Outcome run = iso(std::string("G21\n") + text);
+    EXPECT_EQ(run.alarm, "NC-NOT-BUILT") << text;
+    EXPECT_EQ(run.alarm_line, 2u) << text;
+  }
+  EXPECT_EQ(alarm_of("G12"), "NC-NO-SUCH-CODE");
+  EXPECT_EQ(alarm_of("E5"), "NC-ADDRESS");
+}
+
+}  // namespace
+}  // namespace nc::test
