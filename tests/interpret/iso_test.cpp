@@ -124,6 +124,18 @@ TEST(IsoParameter, NamesOfAProgramEndWithItAndGlobalOnesDoNot) {  // LinuxCNC: '
   EXPECT_EQ(bench.run("G0 X#<mine>\nM2").alarm, "NC-PARAMETER");
 }
 
+TEST(IsoParameter, ValuesOfNamesAreOfTheStateThatAProgramGoesBy) {
+  const auto hash_behind = [](const char* text) {
+    Bench bench(NC_DIALECT_ISO);
+    EXPECT_EQ(bench.run(text).alarm, "");
+    uint64_t hash = 0;
+    EXPECT_EQ(nc_program_state_hash(bench.control(), 0, &hash), NC_OK);
+    return hash;
+  };
+  EXPECT_EQ(hash_behind("#<a>=1\nM2"), hash_behind("#<a>=1\nM2"));
+  EXPECT_NE(hash_behind("#<a>=1\nM2"), hash_behind("#<a>=2\nM2"));
+}
+
 TEST(IsoParameter, ThereIsRoomForSoManyNames) {
   std::string text;
   for (unsigned i = 0; i < 128; ++i) text += "#<p" + std::to_string(i) + ">=" + std::to_string(i) + "\n";

@@ -192,6 +192,8 @@ void add_variables(Hash& hash, const Interpreter& in) {
   uint32_t number = 0;
   for (uint32_t from = 0; in.common->next(from, &number, &value); from = number + 1) hash.add(number, value);
   for (unsigned i = 0; i < kNames; ++i) hash.add(in.common->name(i).text);
+  const NamedParameters& named = in.variables.named();
+  for (uint32_t i = 0; named.exists(i) && i < NamedParameters::kMost; ++i) hash.add(named.get(i).vacant, named.get(i).number);
 }
 
 void add_parameters(Hash& hash, const Parameters& parameters) {

@@ -110,6 +110,7 @@ class Variables {
 
   /// Programs of this family name parameters themselves. They have numbers that no program can write.
   void create_named(Arena& arena) { named_.create(arena); }
+  const NamedParameters& named() const { return named_; }
   bool find_named(const char* name, size_t length, bool make, uint32_t* number) {
     if (make ? !named_.make(name, length, number) : !named_.find(name, length, number)) return false;
     *number += kFirstNamed;
