@@ -436,6 +436,23 @@ class Run:
             out.write(content)
         return path
 
+    def real_programs(self):
+        """Those that lie beside the source tree, as far as rs274 takes them."""
+        folder = os.path.join(os.environ.get("NC_SHARED_DIR", ""), "programs")
+        for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else []:
+            if not name.endswith((".nc", ".ngc")):
+                continue
+            with open(os.path.join(folder, name), encoding="utf-8") as program:
+                content = program.read()
+            maker = Maker(0)
+            maker.unit = 25.4       # in inch or mm: the coarser of what rs274 prints
+            try:
+                self.compare(name, "iso", maker, content, content)
+            except RuntimeError as refused:
+                if not str(refused).startswith("rs274:"):
+                    raise
+                print(f"{name}: rs274 does not take it")
+
     def compare(self, what, dialect, maker, text_of_ours, text_of_theirs):
         variables = os.path.join(self.folder, "rs274ngc.var")
         if os.path.exists(variables):
@@ -478,6 +495,7 @@ def main():
             maker = IsoMaker(seed)
             program = maker.make()
             run.compare(f"iso, program {seed}", "iso", maker, program["rs274"], program["rs274"])
+        run.real_programs()
     print(f"{run.programs} programs, {run.moves} moves, {run.arcs} arcs: {run.failures} differ")
     return 1 if run.failures else 0
 

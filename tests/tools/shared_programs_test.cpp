@@ -34,8 +34,9 @@ class SharedPrograms : public OwnFolder {
     std::ofstream(folder_ + "/s.json") << R"({"params": {"1078": 1}})";
   }
 
-  Trace trace(const std::string& name) {
-    const std::string command = nc::test::kBinaryDir + "/bin/ncsim trace --setup " + folder_ + "/s.json " + programs_ +
+  Trace trace(const std::string& name) { return trace_with(" --setup " + folder_ + "/s.json ", name); }
+  Trace trace_with(const std::string& options, const std::string& name) {
+    const std::string command = nc::test::kBinaryDir + "/bin/ncsim trace" + options + programs_ +
                                 "/" + name + " > " + folder_ + "/out.jsonl";
     const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe,cert-env33-c)
     Trace result;
@@ -64,6 +65,19 @@ class SharedPrograms : public OwnFolder {
 
   const std::string programs_ = nc::test::kSharedDir + "/programs";
 };
+
+TEST_F(SharedPrograms, ProgramsOfRs274RunAsTheyAre) {
+  const struct {
+    const char* name;
+    size_t moves;
+  } programs[] = {{"3D_Chips.ngc", 4'684},  {"arcspiral.ngc", 1'003}, {"botomata_bottom.nc", 6'031},
+                  {"compass.ngc", 2'996}, {"flower_mold.nc", 16'557}, {"tort.ngc", 268}};
+  for (const auto& p : programs) {
+    const Trace run = trace_with(" --dialect iso ", p.name);
+    EXPECT_EQ(run.code, 0) << p.name << ": " << run.alarm;
+    EXPECT_EQ(run.moves, p.moves) << p.name;
+  }
+}
 
 TEST_F(SharedPrograms, ProgramsThatTheControlHasAllWordsForRunToTheirEnd) {
   const struct {
