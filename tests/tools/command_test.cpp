@@ -85,6 +85,21 @@ TEST_F(CommandTest, CheckSaysWhatAGoodProgramDoes) {
   EXPECT_EQ(check.out.rfind("p.nc: no alarm; 5 blocks, 4 moves, ", 0), 0u) << check.out;
 }
 
+TEST_F(CommandTest, CheckSaysWhichOtherDialectReadsTheProgram) {
+  file("ngc.nc", "G21 ; millimetres\n#<depth> = 2\nG0 X1\nG1 Z[-#<depth>] F100\nM2\n");
+  const Outcome ngc = ncsim("check ngc.nc");
+  EXPECT_EQ(ngc.code, 2);
+  EXPECT_NE(ngc.err.find("note: as a program of iso it ends without an alarm: --dialect iso\n"), std::string::npos) << ngc.err;
+  file("m700.nc", "#500=1\nWHILE [#500 LE 3] DO1\nG0 X#500\n#500=#500+1\nEND1\nM30\n");
+  EXPECT_EQ(ncsim("check m700.nc").err, "");
+  EXPECT_NE(ncsim("check --dialect iso m700.nc").err.find("as a program of m700 it ends"), std::string::npos);
+  // What no family reads, and what a setup of one family belongs to, has no such note.
+  file("none.nc", "G0 X1.\nG1 X2.\nM30\n");
+  EXPECT_EQ(ncsim("check none.nc").err.find("as a program of"), std::string::npos);
+  file("s.json", "{}");
+  EXPECT_EQ(ncsim("check --setup s.json ngc.nc").err.find("as a program of"), std::string::npos);
+}
+
 TEST_F(CommandTest, CheckNotesParametersThatDoNothing) {
   file("p.nc", kPart);
   file("s.json", "{\"params\":\n {\"8033\": 1,\n  \"8092\": 1}}");
@@ -422,7 +437,7 @@ TEST_F(CommandTest, OptionsRefuseBadValuesWithASentence) {
       {"trace p.nc --setup ''", "--setup: must not be empty"},
       {"trace p.nc --programs ''", "--programs: must not be empty"},
       {"trace p.nc --dialect ''", "--dialect: must not be empty"},
-      {"trace p.nc --dialect foo", "--dialect foo: this version knows m700 and dgshape"},
+      {"trace p.nc --dialect foo", "--dialect foo: this version knows m700, dgshape and iso"},
       {"time p.nc --limits-file ''", "--limits-file: must not be empty"},
       {"time p.nc --max-seconds ''", "--max-seconds: must be above 0"},
       {"motion p.nc --limits 1,2", "--limits: must be three numbers, velocity,acceleration,jerk, is 1,2"},

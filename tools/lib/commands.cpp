@@ -15,6 +15,7 @@
 #include "tools/lib/number_hints.hpp"
 #include "tools/lib/number_text.hpp"
 #include "tools/lib/offline_run.hpp"
+#include "tools/lib/other_dialects.hpp"
 #include "tools/lib/output_check.hpp"
 #include "tools/lib/output_file.hpp"
 #include "tools/lib/print_file.hpp"
@@ -272,6 +273,10 @@ int check_command(const SessionOptions& options, const RunLimits& limits, std::F
   if (result.how == RunResult::How::kEndless) complain(err, options.program + ": " + result.error);
   note_parameters(session, static_cast<nc_dialect>(session.config().dialect), err);
   if (options.tape.empty()) note_numbers(session, err);
+  if (result.how == RunResult::How::kAlarmed) {
+    const std::string other = dialect_note(dialects_without_alarm(options, limits));
+    if (!other.empty()) std::fprintf(err, "%s\n", other.c_str());
+  }
   if (result.how == RunResult::How::kAlarmed)
     std::fprintf(out, "%s\n", alarm_line(session, result.alarm).c_str());
   else
