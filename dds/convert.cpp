@@ -107,7 +107,7 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   to.resetting = block.resetting != 0;
   to.single_block = (block.single_block >> system & 1u) != 0;
   to.optional_stop = (block.optional_stop >> system & 1u) != 0;
-  to.program_ready = block.program_ready != 0;
+  to.program_ready = from.program_ready != 0;
   to.rapid = from.rapid != 0;
   to.alarm = alarms_in(block) != 0;
   to.warning = alarms_in(block) != block.alarm_count;
@@ -121,9 +121,9 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   to.depth = from.depth;
   set(to.block, from.block);
   set(to.modal, from.modal);
-  to.main_line = block.main_line;
-  to.program_lines = block.program_lines;
-  to.percent = block.percent;
+  to.main_line = from.main_line;
+  to.program_lines = from.program_lines;
+  to.percent = from.percent;
   to.feed = from.feed_mm_min;
   to.feed_command = from.feed_command_mm_min;
   to.spindle = from.spindle_rpm;
@@ -135,8 +135,8 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   to.blocks = from.blocks;
   to.path_length = from.path_length;
   to.run_s = from.run_s;
-  to.runs = block.runs;
-  to.last_run_ok = block.last_run_ok != 0;
+  to.runs = from.runs;
+  to.last_run_ok = from.last_run_ok != 0;
   for (unsigned a = 0; a < from.axis_count; ++a) {
     set(axes[a].name, machine.axis[system][a].name);
     axes[a].rotary = machine.axis[system][a].rotary != 0;
@@ -254,7 +254,7 @@ nc_Status_v1 core_status(const share::MachineBlock& machine, const share::Status
   set(to.program, from.program);
   to.program_number = from.program_number;
   to.line = from.line;
-  to.percent = block.percent;
+  to.percent = from.percent;
   to.feed_override = from.feed_override;
   to.rapid_override = from.rapid_override;
   to.feed = from.feed_mm_min;

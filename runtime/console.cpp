@@ -89,6 +89,16 @@ unsigned percent_done(std::uint32_t main_line, std::uint64_t lines) {
   return static_cast<unsigned>(std::min<std::uint64_t>(100, std::uint64_t{main_line} * 100 / lines));
 }
 
+// From a start until the first block is done the feeder still knows the last line of the run before.
+RunProgress run_progress(const FeederInfo::System& info, const nc_outputs& now, std::uint64_t lines) {
+  const bool idle = now.state == NC_STATE_IDLE;
+  RunProgress progress;
+  if (idle || !info.ended) progress.main_line = info.main_line;
+  if (now.source.depth == 0 && !idle) progress.main_line = std::max(progress.main_line, now.source.line);
+  progress.percent = idle && info.ended ? 100 : percent_done(progress.main_line, lines);
+  return progress;
+}
+
 namespace {
 
 std::string state_alone(const nc_outputs& outputs) {
@@ -166,20 +176,18 @@ std::string state_text(const nc_outputs& outputs) {
 
 std::string progress_line(const Runtime& runtime, std::uint64_t lines) {
   const Snapshot snapshot = runtime.snapshot();
-  const FeederInfo info = runtime.info();
+  const FeederInfo::System info = runtime.info().system[0];
   const SystemSnapshot& system = snapshot.system[0];
   const nc_system_config& axes = runtime.config().nc.system[0];
   const nc_source& source = system.nc.source;
   std::string text;
-  const bool over = info.runs > 0 && system.nc.state == NC_STATE_IDLE;
-  append(&text, "%3u %%  ",
-         over ? 100 : percent_done(std::max(info.main_line, source.depth == 0 ? source.line : 0), lines));
+  append(&text, "%3u %%  ", run_progress(info, system.nc, lines).percent);
   if (source.depth == 0)
     append(&text, "line %-5u", source.line);
   else
     append(&text, "O%u:%-4u", source.program, source.line);
   for (unsigned a = 0; a < axes.axis_count; ++a)
-    append(&text, " %c%9.3f", axes.axis[a].name, axis_shown(system.nc.work.v[a], info.work_turn[0], a));
+    append(&text, " %c%9.3f", axes.axis[a].name, axis_shown(system.nc.work.v[a], info.work_turn, a));
   append(&text, "  F%-6.0f S%-6.0f T%-3u ", system.nc.feed_mm_min, system.shown_spindle().rev_per_s * 60, system.nc.t);
   text += state_text(system.nc);
   if (snapshot.alarmed()) text += "  " + runtime.alarm_text(snapshot.alarms.alarm[0]);

@@ -21,6 +21,13 @@ std::uint64_t estimate_lines(ProgramText* program, nc_dialect dialect);
 // Share of the program that is done, 0..100, by the line of the main program.
 unsigned percent_done(std::uint32_t main_line, std::uint64_t lines);
 
+// How far a part system has come with the program of `lines` that is selected there.
+struct RunProgress {
+  std::uint32_t main_line = 0;  // that was finished last, or is in execution
+  unsigned percent = 0;         // 100 from its end until it begins again, is reset, or another is selected
+};
+RunProgress run_progress(const FeederInfo::System& info, const nc_outputs& now, std::uint64_t lines);
+
 // "  43 % line 27  X -12.345 Y 3.000 Z -5.000  F4800 S8000 T2  running"
 std::string progress_line(const Runtime& runtime, std::uint64_t lines);
 

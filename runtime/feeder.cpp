@@ -85,9 +85,7 @@ void Feeder::tell_what_is_loaded() {
     if (system_[s].selected) loaded |= std::uint32_t{system_[s].mdi ? Scan::kMdiLoaded : Scan::kPartLoaded} << Scan::kLoadedBits * s;
   scan_->set_loaded(loaded);
   const std::lock_guard lock(mutex_);
-  info_.program_ready = loaded != Scan::kNothingLoaded;
-  for (unsigned s = 0; s < systems_; ++s)
-    info_.selected[s] = {system_[s].selected, system_[s].mdi, system_[s].file};
+  for (unsigned s = 0; s < systems_; ++s) info_.system[s].selected = {system_[s].selected, system_[s].mdi, system_[s].file};
 }
 
 // Back in AUTO the part program that was selected before MDI is selected again, at its head; blocks of MDI that nobody started are gone.
@@ -103,7 +101,7 @@ void Feeder::restore_parts() {
     const nc_status status = nc_->select(s, system.part_file);
     if (status == NC_E_STATE) continue;  // not yet: the next step tries again
     if (status < 0) system = {};
-    else system = {true, false, system.part_file, false, false, true, system.part_file};
+    else system.take_part(system.part_file);
   }
 }
 
@@ -137,18 +135,13 @@ void Feeder::follow_outputs() {
     any |= found_[w] |= mask;
   }
   if (any == 0 || seen_.program_active() || scan_->reset_waits()) return;
-  std::string blocks;
-  {
-    const std::lock_guard lock(mutex_);
-    blocks = mdi_text_;
-  }
   for (unsigned s = 0; s < systems_; ++s) {
     System& system = system_[s];
     for (unsigned w = 0; w < NC_WORDS; ++w)
       if (found_[w] != 0) nc_->outputs(s, w, found_[w], found_bits_[w]);
     if (!system.selected || system.ended) continue;
     scan_->set_loaded(Scan::kNothingLoaded);  // until tell_what_is_loaded()
-    const nc_status status = system.mdi ? nc_->load_mdi(s, blocks.data(), blocks.size()) : nc_->select(s, system.file);
+    const nc_status status = system.mdi ? nc_->load_mdi(s, system.blocks.data(), system.blocks.size()) : nc_->select(s, system.file);
     if (status == NC_E_STATE) return;  // not yet: the next step tries again
     if (status < 0) system = {};
   }
@@ -233,11 +226,8 @@ Answer Feeder::select(const Command& command) {
   scan_->set_loaded(Scan::kNothingLoaded);  // until this step has ended: what lies in the control changes now
   if (const nc_status status = nc_->select(system, file); status < 0)
     return refuse(Answer::kRefusedByControl, status_text(status));
-  system_[system] = {true, false, file, false, false, true, file};
-  const std::lock_guard lock(mutex_);
-  info_.main_line = 0;
-  info_.begun_again = 0;
-  info_.ended = false;
+  system_[system].take_part(file);
+  nothing_has_run(system);
   return Answer::kDone;
 }
 
@@ -248,18 +238,25 @@ Answer Feeder::load_mdi(const Command& command) {
   std::string text;
   {
     const std::lock_guard lock(mutex_);
-    text = mdi_text_;
-    info_.main_line = 0;
-    info_.begun_again = 0;
-    info_.ended = false;
+    text = std::move(mdi_text_);
+    mdi_text_.clear();
   }
   scan_->set_loaded(Scan::kNothingLoaded);
   if (const nc_status status = nc_->load_mdi(system, text.data(), text.size()); status < 0)
     return refuse(Answer::kRefusedByControl,
                   status == NC_E_ARGUMENT ? "more than 1024 bytes of blocks" : status_text(status));
   if (refresh_) refresh_();  // behind it: what the program that was selected here has called is free now
-  system_[system] = {true, true, 0, false, false, system_[system].part, system_[system].part_file};
+  system_[system].take_mdi(std::move(text));
+  nothing_has_run(system);
   return Answer::kDone;
+}
+
+void Feeder::nothing_has_run(unsigned system) {
+  const std::lock_guard lock(mutex_);
+  FeederInfo::System& info = info_.system[system];
+  info.main_line = 0;
+  info.begun_again = 0;
+  info.ended = false;
 }
 
 // The scan is at rest after a reset: the interpreter goes back to the program's head. A reset gives MDI
@@ -274,9 +271,12 @@ void Feeder::complete_reset() {
   take_events();  // what was executed before the reset belongs before it
   scan_->reset_finished();
   const std::lock_guard lock(mutex_);
-  info_.alarm = false;
-  info_.print_trouble.clear();
-  info_.main_line = 0;
+  for (unsigned s = 0; s < systems_; ++s) {
+    FeederInfo::System& info = info_.system[s];
+    info.alarm = info.ended = false;
+    info.print_trouble.clear();
+    info.main_line = 0;
+  }
 }
 
 // M02 and M30 rewind: a program that ended is at its head again and may be started. MDI blocks run once.
@@ -294,11 +294,10 @@ void Feeder::rewind_ended() {
       if (status < 0) system = {};
     }
     const std::lock_guard lock(mutex_);
-    ++info_.system_runs[s];
-    if (s != 0) continue;
-    info_.ended = true;
-    info_.ended_ok = ok;
-    ++info_.runs;
+    FeederInfo::System& info = info_.system[s];
+    info.ended = true;
+    info.ended_ok = ok;
+    ++info.runs;
   }
 }
 
@@ -320,19 +319,22 @@ void Feeder::take_events() {
       if (sink_ != nullptr) sink_->executed(s, event);
       if (event.kind == NC_ITEM_ALARM) system_[s].alarmed = true;
       if (event.kind == NC_ITEM_END) system_[s].ended = true;
-      if (s != 0) continue;
-      const std::lock_guard lock(mutex_);
-      if (event.kind != NC_ITEM_MARK) continue;
-      if (event.source.depth == 0) info_.main_line = event.source.line;
-      if (event.again) {  // M700 13.3.1: M99 of a main program
-        ++info_.begun_again;
-        info_.again_line = event.source.line;
-      }
+      if (event.kind == NC_ITEM_MARK) take_mark(s, event);
     }
   }
   const std::lock_guard lock(mutex_);
   info_.events += count;
   info_.dropped = std::max(info_.dropped, dropped);
+}
+
+// A block is done.
+void Feeder::take_mark(unsigned system, const nc_event& event) {
+  const std::lock_guard lock(mutex_);
+  FeederInfo::System& info = info_.system[system];
+  if (event.source.depth == 0) info.main_line = event.source.line;
+  if (!event.again) return;
+  ++info.begun_again;  // M700 13.3.1: M99 of a main program
+  info.again_line = event.source.line;
 }
 
 void Feeder::take_messages() {
@@ -344,6 +346,7 @@ void Feeder::take_messages() {
     if (message.port != 0 || !known) continue;
     const std::lock_guard lock(mutex_);
     info_.last_message = text.s;
+    info_.message_system = message.system;
     ++info_.messages;
   }
 }
@@ -355,7 +358,8 @@ void Feeder::print(unsigned system, const nc_text* text) {
   if (trouble.empty()) return;
   {
     const std::lock_guard lock(mutex_);
-    if (info_.print_trouble.empty()) info_.print_trouble = std::move(trouble);
+    std::string& first = info_.system[system].print_trouble;
+    if (first.empty()) first = std::move(trouble);
   }
   scan_->post_print_trouble(system);
 }
@@ -370,10 +374,11 @@ void Feeder::take_turns(unsigned system) {
     if (machine.v[a] == 0) machine_turn |= 1u << a;
     if (work.v[a] == 0) work_turn |= 1u << a;
   }
-  if (machine_turn == info_.machine_turn[system] && work_turn == info_.work_turn[system]) return;  // only this thread writes them
+  FeederInfo::System& info = info_.system[system];
+  if (machine_turn == info.machine_turn && work_turn == info.work_turn) return;  // only this thread writes them
   const std::lock_guard lock(mutex_);
-  info_.machine_turn[system] = machine_turn;
-  info_.work_turn[system] = work_turn;
+  info.machine_turn = machine_turn;
+  info.work_turn = work_turn;
 }
 
 // The modal state of the last finished block, for displays.
@@ -381,13 +386,13 @@ void Feeder::take_modal() {
   for (unsigned s = 0; s < systems_; ++s) {
     take_turns(s);
     const std::uint32_t id = seen_.system[s].nc.modal;
-    if (id == modal_id_[s] && info_.modal_known[s]) continue;  // only this thread writes them
+    if (id == modal_id_[s] && info_.system[s].modal_known) continue;  // only this thread writes them
     nc_modal modal;
     if (nc_->modal(s, id, &modal) != NC_OK) continue;
     modal_id_[s] = id;
     const std::lock_guard lock(mutex_);
-    info_.modal[s] = modal;
-    info_.modal_known[s] = true;
+    info_.system[s].modal = modal;
+    info_.system[s].modal_known = true;
   }
 }
 
@@ -400,11 +405,11 @@ void Feeder::take_alarm() {
     nc_source calls[NC_MAX_CALLS] = {};
     const unsigned count = std::min(nc_->alarm_calls(s, calls, NC_MAX_CALLS), unsigned{NC_MAX_CALLS});
     const std::lock_guard lock(mutex_);
-    info_.alarm = true;
-    info_.program_alarm = alarm;
-    info_.alarm_calls = count;
-    std::copy(calls, calls + count, info_.alarm_call);
-    return;
+    FeederInfo::System& info = info_.system[s];
+    info.alarm = true;
+    info.program_alarm = alarm;
+    info.alarm_calls = count;
+    std::copy(calls, calls + count, info.alarm_call);
   }
 }
 

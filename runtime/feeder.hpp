@@ -33,33 +33,35 @@ class PathSink {
 
 // What the feeder knows and readers want.
 struct FeederInfo {
-  bool program_ready = false;  // selected, at its head or running
-  bool ended = false;          // the last run came to its end (M02, M30)
-  bool ended_ok = false;
-  std::uint64_t runs = 0;       // runs of the first part system that ended
-  std::uint64_t system_runs[NC_MAX_SYSTEMS] = {};  // the same of each
-  std::uint64_t events = 0;     // items executed
-  std::uint64_t dropped = 0;    // events that were not fetched in time
-  std::uint32_t main_line = 0;  // line of the main program that was finished last
-  std::uint64_t begun_again = 0;  // passes that M99 of the main program has begun, since it was selected or loaded
-  std::uint32_t again_line = 0;   // where that M99 stands
-  bool alarm = false;           // program_alarm holds
-  nc_alarm program_alarm{};
-  std::uint32_t alarm_calls = 0;  // blocks that led there, outermost first
-  nc_source alarm_call[NC_MAX_CALLS] = {};
-  std::string print_trouble;   // why a line that was printed is lost (P460), the first reason since the last reset
-  std::uint64_t messages = 0;  // so far
-  std::string last_message;
-  // By part system: what is selected, and the modal state that the last finished block left.
   struct Selected {
     bool any = false, mdi = false;
     std::uint32_t file = 0;
   };
-  Selected selected[NC_MAX_SYSTEMS];
-  bool modal_known[NC_MAX_SYSTEMS] = {};
-  nc_modal modal[NC_MAX_SYSTEMS] = {};
-  // Bit a: axis a is shown within one turn, in machine and in workpiece coordinates (axis_shown.hpp).
-  std::uint32_t machine_turn[NC_MAX_SYSTEMS] = {}, work_turn[NC_MAX_SYSTEMS] = {};
+  // Of one part system; what another does changes nothing of it.
+  struct System {
+    Selected selected;            // at its head or running
+    bool ended = false;           // the last run came to its end (M02, M30); a reset, and a program that is selected, begin anew
+    bool ended_ok = false;        // ... without an alarm
+    std::uint64_t runs = 0;       // that ended
+    std::uint32_t main_line = 0;  // line of the main program that was finished last
+    std::uint64_t begun_again = 0;  // passes that M99 of the main program has begun, since it was selected or loaded
+    std::uint32_t again_line = 0;   // where that M99 stands
+    bool alarm = false;             // program_alarm holds
+    nc_alarm program_alarm{};
+    std::uint32_t alarm_calls = 0;  // blocks that led there, outermost first
+    nc_source alarm_call[NC_MAX_CALLS] = {};
+    std::string print_trouble;  // why a line that was printed is lost (P460), the first reason since the last reset
+    bool modal_known = false;
+    nc_modal modal{};  // that the last finished block left
+    // Bit a: axis a is shown within one turn, in machine and in workpiece coordinates (axis_shown.hpp).
+    std::uint32_t machine_turn = 0, work_turn = 0;
+  };
+  System system[NC_MAX_SYSTEMS];
+  std::uint64_t events = 0;     // items executed
+  std::uint64_t dropped = 0;    // events that were not fetched in time
+  std::uint64_t messages = 0;   // so far, of all part systems
+  std::string last_message;
+  unsigned message_system = 0;  // whose that is
 };
 
 // Enters the program of this name into the store: feeder thread, while nothing runs.
@@ -85,7 +87,7 @@ class Feeder {
   bool poll_answer(CommandAnswer* answer) { return answers_.pop(answer); }
   // Gives a command up that takes too long: from then on it does nothing. False: it acts already, and its answer comes at once.
   bool take_back(std::uint64_t ticket) { return claim(ticket); }
-  void set_mdi_text(const std::string& text);  // before kLoadMdi
+  void set_mdi_text(const std::string& text);  // before kLoadMdi, which takes it
   void set_program_name(const std::string& name);  // before kSelectProgram with kProgramByName
 
   // ---- feeder thread ----
@@ -129,6 +131,8 @@ class Feeder {
   void take_alarm();
   void take_modal();
   void take_turns(unsigned system);
+  void take_mark(unsigned system, const nc_event& event);
+  void nothing_has_run(unsigned system);
   void rewind_ended();
 
   const unsigned systems_;
@@ -145,8 +149,11 @@ class Feeder {
     bool alarmed = false;  // behind an alarm item
     bool part = false;     // a part program was selected, perhaps before the MDI blocks ...
     std::uint32_t part_file = 0;  // ... and this is it
+    std::string blocks;           // of MDI, as they were loaded
     // Nothing is selected, but for what is remembered.
-    void clear() { *this = {false, false, 0, false, false, part, part_file}; }
+    void clear() { *this = {false, false, 0, false, false, part, part_file, {}}; }
+    void take_part(std::uint32_t number) { *this = {true, false, number, false, false, true, number, {}}; }
+    void take_mdi(std::string text) { *this = {true, true, 0, false, false, part, part_file, std::move(text)}; }
   };
   void restore_parts();
   void tell_what_is_loaded();
@@ -159,7 +166,7 @@ class Feeder {
   std::atomic<std::uint64_t> claimed_{0};  // the newest command that acts, or that was given up; tickets rise from 1
   mutable std::mutex mutex_;  // guards info_ and mdi_text_; never taken by the scan
   FeederInfo info_;
-  std::string mdi_text_, program_name_;
+  std::string mdi_text_, program_name_;  // handed over with a command
   ProgramLoader loader_;
   ProgramRefresh refresh_;
   std::uint32_t modal_id_[NC_MAX_SYSTEMS] = {};

@@ -412,7 +412,7 @@ static std::string line_text(const nc_source& source) {
 static std::string place_text(const nc_source& source) { return source.line == 0 ? "" : " (" + line_text(source) + ")"; }
 
 // The blocks that called the program of the alarm, outermost first: ", called by line 12 > O9001, line 4".
-static std::string callers_text(const FeederInfo& info) {
+static std::string callers_text(const FeederInfo::System& info) {
   std::string text;
   for (std::uint32_t i = 0; i + 1 < info.alarm_calls; ++i) text += (i == 0 ? ", called by " : " > ") + line_text(info.alarm_call[i]);
   return text;
@@ -435,7 +435,7 @@ static std::string bad_input_text(std::uint32_t bits) {
 
 std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kProgram) {
-    const FeederInfo now = info();
+    const FeederInfo::System now = info().system[alarm.system];
     if (!now.alarm) return "program alarm";
     std::string text = std::string(now.program_alarm.code) + " " + now.program_alarm.message;
     if (now.program_alarm.detail.s[0] != 0) text += std::string(": ") + now.program_alarm.detail.s;
@@ -446,7 +446,7 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kFinTimeout) text = std::string(row.code) + " " + fin_fault_text(alarm.detail, alarm.code);
   if (alarm.id == AlarmId::kRetainedLost || alarm.id == AlarmId::kRetainedUnwritable) text += retain_text(alarm);
   if (alarm.id == AlarmId::kPrinter)
-    if (const std::string why = info().print_trouble; !why.empty()) text += ": " + why;
+    if (const std::string why = info().system[alarm.system].print_trouble; !why.empty()) text += ": " + why;
   if (alarm.id == AlarmId::kLadder) {
     const std::string& own = config_.ladder.alarm[alarm.detail % config_.ladder.alarm.size()];
     text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);

@@ -27,9 +27,10 @@ std::uint64_t AlarmLog::append(Entry entry) {
   return entry.sequence;
 }
 
-void AlarmLog::add_message(std::string_view text, std::int64_t now_ns) {
+void AlarmLog::add_message(std::string_view text, unsigned system, std::int64_t now_ns) {
   Entry entry{};
   entry.is_message = 1;
+  entry.system = system;
   entry.raised_ns = entry.cleared_ns = now_ns;
   set_text(&entry.text, text);
   append(entry);

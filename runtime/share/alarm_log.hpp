@@ -22,7 +22,7 @@ class AlarmLog {
 
   // True when something came or went.
   bool update(const AlarmList& alarms, Describer* describer, std::int64_t now_ns);
-  void add_message(std::string_view text, std::int64_t now_ns);
+  void add_message(std::string_view text, unsigned system, std::int64_t now_ns);
 
   const std::vector<Entry>& active() const { return active_entries_; }
   const HistoryBlock& history() const { return history_; }

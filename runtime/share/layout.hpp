@@ -22,7 +22,7 @@
 namespace nc::rt::share {
 
 inline constexpr std::uint64_t kMagic = 0x3165'7261'6873'636e;  // "ncshare1" in memory
-inline constexpr std::uint32_t kLayoutVersion = 5;
+inline constexpr std::uint32_t kLayoutVersion = 6;
 inline constexpr unsigned kHistory = 256;  // alarms and messages kept
 inline constexpr unsigned kAlarms = 16;
 inline constexpr unsigned kMaxSignals = 1024;  // between NC and ladder
@@ -49,7 +49,8 @@ struct SystemStatus {
   std::uint32_t rapid, manual_allowed, strobe;  // strobe: bit 0 M, 1 S, 2 T, 3 B waits for FIN
   std::uint32_t m, t, b;
   double s_commanded, spindle_rpm;  // spindle_rpm: measured, 0 when it is not
-  std::uint32_t spindle_measured, reserved;
+  std::uint32_t spindle_measured;
+  std::uint32_t program_ready;  // selected, at its head or running
   double feed_mm_min, feed_command_mm_min;
   double feed_override, rapid_override;                       // in force
   std::uint32_t feed_override_source, rapid_override_source;  // nc::rt::OverrideSource
@@ -64,6 +65,11 @@ struct SystemStatus {
   double path_length;    // mm since cycle start
   double run_s;          // s in execution since cycle start
   std::uint32_t refusals, refusal_cause;  // nc::rt::RefusalCause
+  std::uint64_t runs;           // programs that came to their end
+  std::uint32_t main_line;      // of the main program: finished last, or in execution
+  std::uint32_t program_lines;  // 0 = not known
+  std::uint32_t percent;        // of the main program
+  std::uint32_t last_run_ok;    // the last run ended without an alarm
   Text<128> refusal_text;  // why what was asked for at the panel did not happen, "" = nothing was refused since
   std::array<AxisStatus, NC_MAX_AXES> axis;
 };
@@ -103,19 +109,13 @@ struct StatusBlock {
   std::uint32_t mode;          // nc::rt::Mode
   std::uint32_t system_count;
   std::uint32_t single_block, optional_stop;  // bit per part system
-  std::uint32_t resetting, program_ready;
-  std::uint64_t runs;          // programs that came to their end
-  std::uint32_t main_line;     // line of the main program that was finished last
-  std::uint32_t program_lines; // of the main program, 0 = not known
-  std::uint32_t percent;       // of the main program
-  std::uint32_t last_run_ok;   // the last run ended without an alarm
   std::uint32_t interface_input[NC_WORDS], interface_output[NC_WORDS];
   ScanFigures figures;
   std::uint64_t message_count;
   Text<128> message;           // last one
   std::uint32_t alarm_count, alarms_left_out;
   std::array<Entry, kAlarms> alarm;
-  std::uint32_t forced_count, reserved;
+  std::uint32_t forced_count, resetting;
   std::array<ForcedText, kForced> forced;
   std::array<SystemStatus, NC_MAX_SYSTEMS> system;  // system_count of them
 };

@@ -37,20 +37,21 @@ class ProgramTable {
     const auto found = programs_.find(file);
     return found == programs_.end() ? Program{} : found->second;
   }
-  void set_mdi(const std::string& blocks) {
+  // The blocks of MDI of a part system, as they were loaded last.
+  void set_mdi(unsigned system, const std::string& blocks) {
     const std::lock_guard lock(mutex_);
-    mdi_ = blocks;
+    mdi_[system] = blocks;
   }
-  std::string mdi() const {
+  std::string mdi(unsigned system) const {
     const std::lock_guard lock(mutex_);
-    return mdi_;
+    return mdi_[system];
   }
 
  private:
   const nc_dialect dialect_;
   mutable std::mutex mutex_;
   std::map<unsigned, Program> programs_;
-  std::string mdi_;
+  std::string mdi_[NC_MAX_SYSTEMS];
 };
 
 std::string file_name(const std::string& path);

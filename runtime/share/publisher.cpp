@@ -101,8 +101,8 @@ void Publisher::publish() {
   status_.published_ns = wall_ns();
   status_.scan_time_ns = status_.published_ns;
   if (!virtual_time_) status_.scan_time_ns -= RealClock().now_ns() - snapshot.time_ns;
-  fill_machine(snapshot, info_);
-  for (unsigned s = 0; s < status_.system_count; ++s) fill_system(s, snapshot, info_);
+  fill_machine(snapshot);
+  for (unsigned s = 0; s < status_.system_count; ++s) fill_system(s, snapshot, info_.system[s]);
   if (pictures_++ % kFiguresEvery == 0) fill_figures();
   status_.figures.scans = snapshot.scan;
   status_.figures.overruns = snapshot.overruns;
@@ -119,23 +119,13 @@ void Publisher::publish() {
   wake(&segment_.wake_reader);
 }
 
-void Publisher::fill_machine(const Snapshot& snapshot, const FeederInfo& info) {
+void Publisher::fill_machine(const Snapshot& snapshot) {
   status_.scan = snapshot.scan;
   status_.mode = static_cast<std::uint32_t>(snapshot.mode);
   status_.system_count = config_.nc.system_count;
   status_.single_block = snapshot.single_block;
   status_.optional_stop = snapshot.optional_stop;
   status_.resetting = snapshot.resetting;
-  status_.program_ready = info.program_ready;
-  status_.runs = info.runs;
-  status_.last_run_ok = info.ended_ok;
-  const FeederInfo::Selected& selected = info.selected[0];
-  const std::uint64_t lines = selected.any && !selected.mdi ? programs_.at(selected.file).lines : 0;
-  const nc_outputs& nc = snapshot.system[0].nc;
-  status_.main_line = std::max(info.main_line, nc.source.depth == 0 ? nc.source.line : 0);
-  status_.program_lines = static_cast<std::uint32_t>(std::min<std::uint64_t>(lines, UINT32_MAX));
-  const bool over = info.runs > 0 && nc.state == NC_STATE_IDLE;
-  status_.percent = over ? 100 : percent_done(status_.main_line, lines);
   if (snapshot.forces.count != 0 || status_.forced_count != 0) {
     status_.forced = {};
     status_.forced_count = std::min(snapshot.forces.count, kForced);
@@ -148,7 +138,7 @@ void Publisher::fill_machine(const Snapshot& snapshot, const FeederInfo& info) {
   std::copy(std::begin(snapshot.interface_output), std::end(snapshot.interface_output), status_.interface_output);
 }
 
-void Publisher::fill_system(unsigned index, const Snapshot& snapshot, const FeederInfo& info) {
+void Publisher::fill_system(unsigned index, const Snapshot& snapshot, const FeederInfo::System& info) {
   const SystemSnapshot& system = snapshot.system[index];
   const nc_outputs& nc = system.nc;
   SystemStatus& out = status_.system[index];
@@ -178,23 +168,35 @@ void Publisher::fill_system(unsigned index, const Snapshot& snapshot, const Feed
   out.refusals = system.refusal.count;
   out.refusal_cause = static_cast<std::uint32_t>(refusal_cause(system.refusal));
   set_text(&out.refusal_text, refusal_text(config_, index, system.refusal));
-  set_text(&out.modal, info.modal_known[index] ? modal_text(info.modal[index]) : std::string());
+  set_text(&out.modal, info.modal_known ? modal_text(info.modal) : std::string());
   for (unsigned a = 0; a < out.axis_count; ++a)
-    out.axis[a] = {axis_shown(nc.command.v[a], info.machine_turn[index], a), axis_shown(system.actual.v[a], info.machine_turn[index], a),
-                   axis_shown(nc.work.v[a], info.work_turn[index], a), nc.distance_to_go.v[a], nc.velocity.v[a]};
-  fill_block(index, nc, info, &out);
+    out.axis[a] = {axis_shown(nc.command.v[a], info.machine_turn, a), axis_shown(system.actual.v[a], info.machine_turn, a),
+                   axis_shown(nc.work.v[a], info.work_turn, a), nc.distance_to_go.v[a], nc.velocity.v[a]};
+  fill_run(nc, info, &out);
+  fill_block(index, nc, info.selected, &out);
+}
+
+// How far its program is, and what has become of those before.
+void Publisher::fill_run(const nc_outputs& nc, const FeederInfo::System& info, SystemStatus* out) {
+  const std::uint64_t lines = info.selected.any && !info.selected.mdi ? programs_.at(info.selected.file).lines : 0;
+  const RunProgress progress = run_progress(info, nc, lines);
+  out->program_ready = info.selected.any;
+  out->main_line = progress.main_line;
+  out->percent = progress.percent;
+  out->program_lines = static_cast<std::uint32_t>(std::min<std::uint64_t>(lines, UINT32_MAX));
+  out->runs = info.runs;
+  out->last_run_ok = info.ended_ok;
 }
 
 // Program, line and text of the block in execution.
-void Publisher::fill_block(unsigned index, const nc_outputs& nc, const FeederInfo& info, SystemStatus* out) {
-  const FeederInfo::Selected& selected = info.selected[index];
+void Publisher::fill_block(unsigned index, const nc_outputs& nc, const FeederInfo::Selected& selected, SystemStatus* out) {
   out->program_number = nc.source.program;
   out->line = nc.source.line;
   out->depth = nc.source.depth;
   std::string program, file, block;
   if (selected.any && selected.mdi) {
     program = file = "MDI";
-    if (nc.source.depth == 0) block = line_of_text(programs_.mdi(), nc.source.line);
+    if (nc.source.depth == 0) block = line_of_text(programs_.mdi(index), nc.source.line);
   } else if (selected.any) {
     program = file_name(programs_.at(selected.file).path);
     if (nc.source.line != 0) {
@@ -225,7 +227,7 @@ void Publisher::fill_alarms(const Snapshot& snapshot, const FeederInfo& info) {
   if (info.messages != messages_) {
     // Messages that came between two pictures share one place; the count says so.
     messages_ = info.messages;
-    log_.add_message(info.last_message, status_.published_ns);
+    log_.add_message(info.last_message, info.message_system, status_.published_ns);
     set_text(&status_.message, info.last_message);
     changed = true;
   }
@@ -252,8 +254,8 @@ bool Publisher::describe(const ActiveAlarm& alarm, Entry* entry) {
     return true;
   }
   set_text(&entry->text, row.text);
-  if (!info_.alarm) return false;
-  const nc_alarm& details = info_.program_alarm;
+  if (!info_.system[alarm.system].alarm) return false;
+  const nc_alarm& details = info_.system[alarm.system].program_alarm;
   set_text(&entry->code, details.code);
   std::string text = details.message;
   if (details.detail.s[0] != 0) text += std::string(": ") + details.detail.s;

@@ -26,9 +26,10 @@ class Publisher final : private AlarmLog::Describer {
 
  private:
   bool describe(const ActiveAlarm& alarm, Entry* entry) override;
-  void fill_machine(const Snapshot& snapshot, const FeederInfo& info);
-  void fill_system(unsigned index, const Snapshot& snapshot, const FeederInfo& info);
-  void fill_block(unsigned index, const nc_outputs& nc, const FeederInfo& info, SystemStatus* out);
+  void fill_machine(const Snapshot& snapshot);
+  void fill_system(unsigned index, const Snapshot& snapshot, const FeederInfo::System& info);
+  void fill_run(const nc_outputs& nc, const FeederInfo::System& info, SystemStatus* out);
+  void fill_block(unsigned index, const nc_outputs& nc, const FeederInfo::Selected& selected, SystemStatus* out);
   void fill_figures();
   void fill_alarms(const Snapshot& snapshot, const FeederInfo& info);
   void fill_points(const Snapshot& snapshot);

@@ -31,8 +31,8 @@ Machine::State RuntimeMachine::state() {
   for (unsigned s = 0; s < state.system_count; ++s) {
     state.axis_count[s] = config.nc.system[s].axis_count;
     state.run_state[s] = snapshot.system[s].nc.state;
-    state.runs[s] = info.system_runs[s];
-    const FeederInfo::Selected& selected = info.selected[s];
+    state.runs[s] = info.system[s].runs;
+    const FeederInfo::Selected& selected = info.system[s].selected;
     if (selected.any) state.program[s] = selected.mdi ? "MDI" : file_name(programs_.at(selected.file).path);
   }
   return state;
@@ -40,7 +40,7 @@ Machine::State RuntimeMachine::state() {
 
 Answer RuntimeMachine::load_mdi(unsigned system, const std::string& blocks) {
   const Answer answer = runtime_.load_mdi(blocks, system);
-  if (answer == Answer::kDone) programs_.set_mdi(blocks);
+  if (answer == Answer::kDone) programs_.set_mdi(system, blocks);
   return answer;
 }
 

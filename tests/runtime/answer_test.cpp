@@ -190,7 +190,7 @@ TEST_F(AnswerTest, ACommandThatWasGivenUpDoesNothing) {
   ASSERT_TRUE(feeder.poll_answer(&answer));
   EXPECT_EQ(answer.answer, Answer::kNoAnswer);
   EXPECT_EQ(nc.selects, 0u);
-  EXPECT_FALSE(feeder.info().selected[0].any);
+  EXPECT_FALSE(feeder.info().system[0].selected.any);
 
   feeder.set_program_loader([&](const std::string&, unsigned* file, std::string*) {
     *file = 3;

@@ -102,14 +102,14 @@ class Drive {
     return 0;
   }
   bool to_end(unsigned limit = 200000) {
-    const std::uint64_t runs = runtime->info().runs;
-    for (unsigned i = 0; i < limit && runtime->info().runs == runs; ++i) {
+    const std::uint64_t runs = runtime->info().system[0].runs;
+    for (unsigned i = 0; i < limit && runtime->info().system[0].runs == runs; ++i) {
       if (runtime->snapshot().alarmed()) return false;
       if (runtime->snapshot().system[0].nc.state == NC_STATE_STOPPED)
         runtime->execute(CommandKind::kCycleStart);
       runtime->step();
     }
-    return runtime->info().runs == runs + 1;
+    return runtime->info().system[0].runs == runs + 1;
   }
   nc_outputs out() { return runtime->snapshot().system[0].nc; }
 
@@ -131,8 +131,8 @@ TEST(BadProgram, SoftLimitAheadStopsBeforeItMoves) {
   const nc::rt::Snapshot now = drive.runtime->snapshot();
   ASSERT_EQ(now.alarms.count, 1u);
   EXPECT_EQ(now.alarms.alarm[0].id, nc::rt::AlarmId::kProgram) << "the program's check comes first";
-  EXPECT_EQ(drive.runtime->info().program_alarm.source.line, 2u);
-  EXPECT_EQ(drive.runtime->info().program_alarm.axis, 0);
+  EXPECT_EQ(drive.runtime->info().system[0].program_alarm.source.line, 2u);
+  EXPECT_EQ(drive.runtime->info().system[0].program_alarm.axis, 0);
   EXPECT_TRUE(now.system[0].nc.distance_zero);
   EXPECT_NEAR(now.system[0].nc.command.v[0], 100, 1e-9);
   EXPECT_NEAR(drive.machine().actual(0).v[0], 100, 1e-6);
@@ -276,7 +276,7 @@ TEST(MacroOutput, IsWrittenWhenTheMachineGetsThere) {
   drive.start(drive.add("a.nc", "G90 G1 X50. F3000.\n#1100=1\nG1 X60.\nM30\n"));
   const int bit = config.points.find("out0");
   bool seen = false;
-  for (unsigned i = 0; i < 5000 && drive.runtime->info().runs == 0; ++i) {
+  for (unsigned i = 0; i < 5000 && drive.runtime->info().system[0].runs == 0; ++i) {
     drive.runtime->step();
     const bool on = drive.machine().outputs().value[bit] != 0;
     const double x = drive.out().command.v[0];

@@ -104,12 +104,12 @@ class InterventionTest : public testing::Test {
     return false;
   }
   bool to_end(unsigned limit = 100000) {
-    const std::uint64_t runs = runtime->info().runs;
-    for (unsigned i = 0; i < limit && runtime->info().runs == runs; ++i) {
+    const std::uint64_t runs = runtime->info().system[0].runs;
+    for (unsigned i = 0; i < limit && runtime->info().system[0].runs == runs; ++i) {
       if (runtime->snapshot().alarmed()) break;
       runtime->step();
     }
-    return runtime->info().runs == runs + 1;
+    return runtime->info().system[0].runs == runs + 1;
   }
   // A jog of one axis until it stands again.
   void jog(unsigned axis, double velocity, unsigned scans) {
@@ -267,7 +267,7 @@ TEST_F(InterventionTest, InsideALoopAndASubProgram) {
       "G90 G0 X10.\n#1=0\nWHILE [#1 LT 3] DO1\n#1=#1+1\nM98 P77\nEND1\nG90 G1 X0. F3000.\nM30\nO77\n"
       "G91 G1 Y2. F3000.\nY3.\nM99\n");
   double moved = 0;
-  for (unsigned stop = 0; stop < 60 && runtime->info().runs == 0; ++stop) {
+  for (unsigned stop = 0; stop < 60 && runtime->info().system[0].runs == 0; ++stop) {
     ASSERT_TRUE(out().state == NC_STATE_IDLE || until_state(NC_STATE_STOPPED)) << alarms();
     if (out().state != NC_STATE_STOPPED) break;
     if (stop % 3 == 1) {
@@ -280,7 +280,7 @@ TEST_F(InterventionTest, InsideALoopAndASubProgram) {
     for (unsigned i = 0; i < 20000 && out().state == NC_STATE_RUNNING; ++i) runtime->step();
   }
   steps(20);
-  EXPECT_EQ(runtime->info().runs, 1u) << alarms();
+  EXPECT_EQ(runtime->info().system[0].runs, 1u) << alarms();
   EXPECT_GT(moved, 1);
   expect_at(0, 15 + moved, 0);
 }
@@ -417,7 +417,7 @@ TEST(Intervention, InThreads) {
   runtime->execute(CommandKind::kSingleBlock, 0, 1);
   ASSERT_EQ(runtime->select_program(file), Answer::kDone);
   unsigned jogs = 0;
-  for (unsigned press = 0; press < 40 && runtime->info().runs == 0; ++press) {
+  for (unsigned press = 0; press < 40 && runtime->info().system[0].runs == 0; ++press) {
     const nc_outputs before = runtime->snapshot().system[0].nc;
     ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
     // The start acts when the feeder has read again behind what was moved by hand; then through RUNNING to the next stop.
@@ -436,7 +436,7 @@ TEST(Intervention, InThreads) {
   }
   clock.sleep_until(clock.now_ns() + 20'000'000);
   EXPECT_EQ(runtime->snapshot().alarms.count, 0u);
-  EXPECT_EQ(runtime->info().runs, 1u);
+  EXPECT_EQ(runtime->info().system[0].runs, 1u);
   EXPECT_GT(jogs, 6u);
   runtime->stop();
   for (const std::string& violation : recording.violations) ADD_FAILURE() << violation;

@@ -57,8 +57,8 @@ class LadderMachine : public testing::Test {
     return -1;
   }
   int until_end() {
-    const std::uint64_t runs = runtime->info().runs;
-    return until([&] { return runtime->info().runs > runs && out().state == NC_STATE_IDLE; });
+    const std::uint64_t runs = runtime->info().system[0].runs;
+    return until([&] { return runtime->info().system[0].runs > runs && out().state == NC_STATE_IDLE; });
   }
   int until_line(std::uint32_t line) {
     return until([&] { return out().source.line == line; });

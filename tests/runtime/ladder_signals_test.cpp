@@ -91,7 +91,7 @@ TEST_F(LadderSignals, RapidOverride) {
   run("LD SM400\nMOV K2500 plc.rapid_override\n");
   start("G91 G0 X100.\nM30\n");
   double top = 0;
-  while (runtime->info().runs == 0) {
+  while (runtime->info().system[0].runs == 0) {
     runtime->step();
     top = std::max(top, out().feed_mm_min);
   }

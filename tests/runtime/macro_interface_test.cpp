@@ -141,10 +141,10 @@ class FoundOutput : public testing::Test {
   double variable(std::uint32_t number) const { return nc::test::variable_of(*runtime, number, -1); }
   void mode(nc::rt::Mode mode) { ASSERT_EQ(runtime->execute(nc::rt::CommandKind::kSetMode, 0, static_cast<std::uint32_t>(mode)), nc::rt::Answer::kDone); }
   void run() {
-    const std::uint64_t runs = runtime->info().runs;
+    const std::uint64_t runs = runtime->info().system[0].runs;
     ASSERT_EQ(runtime->execute(nc::rt::CommandKind::kCycleStart), nc::rt::Answer::kDone);
-    for (int n = 0; n < 10000 && runtime->info().runs == runs; ++n) runtime->step();
-    ASSERT_GT(runtime->info().runs, runs);
+    for (int n = 0; n < 10000 && runtime->info().system[0].runs == runs; ++n) runtime->step();
+    ASSERT_GT(runtime->info().system[0].runs, runs);
   }
   nc::rt::Config config;
   nc::rt::VirtualClock clock;

@@ -30,10 +30,10 @@ class Printing : public testing::Test {
     ASSERT_EQ(runtime->select_program(file), Answer::kDone);
   }
   void run() {
-    const std::uint64_t runs = runtime->info().runs;
+    const std::uint64_t runs = runtime->info().system[0].runs;
     ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
-    for (unsigned n = 0; n < 20000 && runtime->info().runs == runs; ++n) runtime->step();
-    ASSERT_EQ(runtime->info().runs, runs + 1) << "the program comes to its end";
+    for (unsigned n = 0; n < 20000 && runtime->info().system[0].runs == runs; ++n) runtime->step();
+    ASSERT_EQ(runtime->info().system[0].runs, runs + 1) << "the program comes to its end";
     for (unsigned n = 0; n < 5; ++n) runtime->step();
   }
   void reset() {

@@ -69,11 +69,11 @@ class RetainedControl : public testing::Test {
   void run(const std::string& text) {
     unsigned number = 0;
     const std::string& source = texts.emplace_back(text);
-    const std::uint64_t runs = runtime->info().runs;
+    const std::uint64_t runs = runtime->info().system[0].runs;
     ASSERT_EQ(nc_program_add_text(runtime->control(), "p", source.data(), source.size(), &number), NC_OK);
     ASSERT_EQ(runtime->select_program(number), Answer::kDone);
     ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
-    ASSERT_TRUE(until([&] { return runtime->info().runs > runs; }));
+    ASSERT_TRUE(until([&] { return runtime->info().system[0].runs > runs; }));
   }
   double variable(std::uint32_t number) const { return nc::test::variable_of(*runtime, number, std::nan("")); }
   double work(unsigned index, unsigned axis) const {
@@ -273,8 +273,8 @@ TEST_F(RetainedControl, WhatCannotBeWrittenIsAnAlarmThatLetsTheProgramEnd) {
   EXPECT_EQ(alarms().find("R20 Retained data are not kept: common variables cannot be written: " + file("vars")), 0u) << alarms();
   EXPECT_TRUE(runtime->snapshot().alarmed());
   EXPECT_FALSE(runtime->snapshot().stopped_by_alarm());
-  ASSERT_TRUE(until([&] { return runtime->info().runs == 1; })) << "the part is finished";
-  EXPECT_TRUE(runtime->info().ended_ok);
+  ASSERT_TRUE(until([&] { return runtime->info().system[0].runs == 1; })) << "the part is finished";
+  EXPECT_TRUE(runtime->info().system[0].ended_ok);
   EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kWarningActive) << "the next one is not begun";
   ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
   ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting; }));
@@ -283,7 +283,7 @@ TEST_F(RetainedControl, WhatCannotBeWrittenIsAnAlarmThatLetsTheProgramEnd) {
   ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting; }));
   EXPECT_EQ(alarms().find("R20 "), 0u) << "whoever resets how often: " << alarms();
   ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone) << "it has been acknowledged, and the machine can be used";
-  ASSERT_TRUE(until([&] { return runtime->info().runs == 2; }));
+  ASSERT_TRUE(until([&] { return runtime->info().system[0].runs == 2; }));
   EXPECT_EQ(alarms().find("R20 "), 0u) << alarms();
   std::filesystem::remove(file("vars.new"));
   ASSERT_TRUE(until([&] { return alarms().empty(); })) << "it has gone with its cause: " << alarms();

@@ -163,7 +163,7 @@ void run_to_end(const nc::rt::Config& config, const std::string& text) {
   ASSERT_TRUE(runtime->start_stepping(&error));
   ASSERT_EQ(runtime->select_program(file), nc::rt::Answer::kDone);
   ASSERT_EQ(runtime->execute(nc::rt::CommandKind::kCycleStart), nc::rt::Answer::kDone);
-  for (unsigned i = 0; i < 400000 && runtime->info().runs == 0; ++i) {
+  for (unsigned i = 0; i < 400000 && runtime->info().system[0].runs == 0; ++i) {
     if (i % 1000 == 300) runtime->execute(nc::rt::CommandKind::kFeedHold);
     if (i % 1000 == 500) runtime->execute(nc::rt::CommandKind::kFeedOverride, (i / 1000 % 20) * 0.1);
     const auto state = runtime->snapshot().system[0].nc.state;
@@ -171,8 +171,8 @@ void run_to_end(const nc::rt::Config& config, const std::string& text) {
       runtime->execute(nc::rt::CommandKind::kCycleStart);
     runtime->step();
   }
-  EXPECT_EQ(runtime->info().runs, 1u);
-  EXPECT_TRUE(runtime->info().ended_ok);
+  EXPECT_EQ(runtime->info().system[0].runs, 1u);
+  EXPECT_TRUE(runtime->info().system[0].ended_ok);
 }
 
 void expect_nothing_trapped() {

@@ -213,11 +213,11 @@ TEST_F(ScanTest, AnEndedProgramIsRewoundAndMayStartAgain) {
   start_program();
   steps(10);
   EXPECT_EQ(state(), NC_STATE_IDLE);
-  EXPECT_EQ(runtime->info().runs, 1u);
+  EXPECT_EQ(runtime->info().system[0].runs, 1u);
   EXPECT_EQ(nc.selects, 2u) << "selected again by M30";
   EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
   steps(10);
-  EXPECT_EQ(runtime->info().runs, 2u);
+  EXPECT_EQ(runtime->info().system[0].runs, 2u);
 }
 
 TEST_F(ScanTest, MdiBlocksRunOnce) {
@@ -243,8 +243,8 @@ TEST_F(ScanTest, WhatIsLoadedStartsInItsOwnModeOnly) {
   EXPECT_EQ(runtime->load_mdi("G0X9\n"), Answer::kDone);
   EXPECT_EQ(set_mode(Mode::kAuto), Answer::kDone);
   steps(3);
-  EXPECT_TRUE(runtime->info().selected[0].any);
-  EXPECT_FALSE(runtime->info().selected[0].mdi) << "forgotten MDI blocks are gone";
+  EXPECT_TRUE(runtime->info().system[0].selected.any);
+  EXPECT_FALSE(runtime->info().system[0].selected.mdi) << "forgotten MDI blocks are gone";
   EXPECT_EQ(nc.selects, 2u) << "the part program is selected again";
   EXPECT_EQ(set_mode(Mode::kMdi), Answer::kDone);
   steps(3);
@@ -463,8 +463,8 @@ TEST_F(ScanTest, RunsInTwoThreads) {
   EXPECT_GT(runtime->first_scan_ns(), 0);
   EXPECT_EQ(runtime->select_program(0), Answer::kDone);
   EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
-  for (int i = 0; i < 5000 && runtime->info().runs == 0; ++i) real.sleep_until(real.now_ns() + 1'000'000);
-  EXPECT_EQ(runtime->info().runs, 1u);
+  for (int i = 0; i < 5000 && runtime->info().system[0].runs == 0; ++i) real.sleep_until(real.now_ns() + 1'000'000);
+  EXPECT_EQ(runtime->info().system[0].runs, 1u);
   runtime->stop();
   EXPECT_TRUE(hal->sim.stopped());
   EXPECT_GE(runtime->statistics().execution.count(), 20u);

@@ -165,9 +165,9 @@ TEST_F(Board, AStoppedLadderBeginsAgainByReset) {
   const LadderTask& ladder = *runtime->ladder();
   EXPECT_EQ(ladder.devices().word[ladder.engine().find("D0")->index], 7) << "it began with its first scan";
   start("M8\nG91 G1 X1. F1200\nM30\n");
-  const std::uint64_t runs = runtime->info().runs;
-  for (int i = 0; i < 5000 && runtime->info().runs == runs; ++i) runtime->step();
-  EXPECT_GT(runtime->info().runs, runs) << "and does its work";
+  const std::uint64_t runs = runtime->info().system[0].runs;
+  for (int i = 0; i < 5000 && runtime->info().system[0].runs == runs; ++i) runtime->step();
+  EXPECT_GT(runtime->info().system[0].runs, runs) << "and does its work";
 }
 
 TEST_F(Board, ALinkWithAnAlarmStopsTheMachineWhenItIsLost) {

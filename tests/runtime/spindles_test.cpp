@@ -192,9 +192,9 @@ TEST_F(LadderSpindles, TheFirstIsAxisCWhileItsServoIsOn) {
 TEST_F(LadderSpindles, WithoutTheRecalculationTheCommandIsP430) {  // M700 10.5 (2), *2
   prepare("");
   start("M80\nG0 C90.\nM30\n");
-  ASSERT_GE(until([&] { return runtime->info().alarm; }), 0);
-  EXPECT_STREQ(runtime->info().program_alarm.code, "P430");
-  EXPECT_EQ(runtime->info().program_alarm.axis, 3);
+  ASSERT_GE(until([&] { return runtime->info().system[0].alarm; }), 0);
+  EXPECT_STREQ(runtime->info().system[0].program_alarm.code, "P430");
+  EXPECT_EQ(runtime->info().system[0].program_alarm.axis, 3);
 }
 
 TEST_F(LadderSpindles, WithItTheCommandIsReadAgain) {  // M700 10.5 (2), *1

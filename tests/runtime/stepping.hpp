@@ -14,11 +14,11 @@ inline void steps_of(rt::Runtime& runtime, int n) {
   while (n-- > 0) runtime.step();
 }
 
-// Of part system 1; `if_vacant` when the variable has no value.
-inline double variable_of(rt::Runtime& runtime, std::uint32_t number, double if_vacant) {
+// `if_vacant` when the variable has no value; `system` counts from 0.
+inline double variable_of(rt::Runtime& runtime, std::uint32_t number, double if_vacant, unsigned system = 0) {
   double value = 0;
   bool vacant = true;
-  EXPECT_EQ(nc_variable_get(runtime.control(), 0, number, &value, &vacant), NC_OK);
+  EXPECT_EQ(nc_variable_get(runtime.control(), system, number, &value, &vacant), NC_OK);
   return vacant ? if_vacant : value;
 }
 

@@ -10,6 +10,7 @@
 #include "hal/sim/sim_machine.hpp"
 #include "runtime/refusal.hpp"
 #include "runtime/runtime.hpp"
+#include "stepping.hpp"
 #include "test_config.hpp"
 
 namespace {
@@ -34,11 +35,14 @@ class LyingMachine final : public nc::hal::Hal {
   void read(nc::hal::Feedback* feedback, nc::hal::PointImage* image) noexcept override {
     machine_.read(feedback, image);
     if (lie != nullptr) lie(&feedback->system[1]);
+    if (found >= 0) image->value[found] = 1;
+    found = -1;
   }
   void write(const nc::hal::Command& command, const nc::hal::PointImage& image) noexcept override { machine_.write(command, image); }
   void stop() noexcept override { machine_.stop(); }
   void set_input(unsigned point, std::uint32_t value) { machine_.set_input(point, value); }
   void (*lie)(nc::hal::SystemFeedback*) = nullptr;
+  int found = -1;  // this output is found on, once
 
  private:
   nc::hal::SimMachine machine_;
@@ -373,8 +377,89 @@ TEST_F(TwoSystems, RunsAreCountedForEach) {
   ASSERT_EQ(give(CommandKind::kCycleStart, 0), Answer::kNoProgram);
   ASSERT_EQ(give(CommandKind::kCycleStart, 1), Answer::kDone);
   finish();
-  EXPECT_EQ(runtime->info().system_runs[0], 0u);
-  EXPECT_EQ(runtime->info().system_runs[1], 1u);
+  EXPECT_EQ(runtime->info().system[0].runs, 0u);
+  EXPECT_EQ(runtime->info().system[1].runs, 1u);
+}
+
+// Outputs that the machine has by itself make everything that lies ready be read again: each part system reads its own blocks.
+TEST_F(TwoSystems, EachHasItsOwnBlocksOfMdi) {
+  build();
+  ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
+  ASSERT_EQ(runtime->load_mdi("#101=#1100\nG1 X3. F6000\n", 0), Answer::kDone);
+  ASSERT_EQ(runtime->load_mdi("#102=#1100\nG1 X-4. F6000\n", 1), Answer::kDone);
+  EXPECT_EQ(runtime->load_mdi(std::string(2000, ' ') + "\nG1 X70. F6000\n", 0), Answer::kRefusedByControl);
+  machine->found = config.points.find("out0");
+  steps(20);
+  ASSERT_EQ(start(), Answer::kDone);
+  finish();
+  EXPECT_NEAR(x(0), 3, 1e-9);
+  EXPECT_NEAR(x(1), -4, 1e-9);
+  EXPECT_EQ(nc::test::variable_of(*runtime, 101, -1), 1) << "the output that was found";
+  EXPECT_EQ(nc::test::variable_of(*runtime, 102, -1, 1), 1);
+}
+
+// The same with a part program in one of them, which MDI does not touch, and after the other's blocks have been executed.
+TEST_F(TwoSystems, BlocksOfMdiThatHaveRunDoNotComeBack) {
+  build();
+  ASSERT_EQ(select(0, "G1 X9. F6000\nM30\n"), Answer::kDone);
+  ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
+  ASSERT_EQ(runtime->load_mdi("G91 G1 X-4. F6000\n", 1), Answer::kDone);
+  ASSERT_EQ(start(), Answer::kDone);
+  finish();
+  machine->found = config.points.find("out0");
+  steps(20);
+  EXPECT_EQ(start(), Answer::kNoProgram);
+  ASSERT_EQ(runtime->load_mdi("G91 G1 X1. F6000\n", 0), Answer::kDone);
+  machine->found = config.points.find("out0");
+  steps(20);
+  ASSERT_EQ(start(), Answer::kDone);
+  finish();
+  EXPECT_NEAR(x(0), 1, 1e-9);
+  EXPECT_NEAR(x(1), -4, 1e-9);
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  machine->found = config.points.find("out0");
+  steps(20);
+  ASSERT_EQ(start(), Answer::kDone);
+  finish();
+  EXPECT_NEAR(x(0), 9, 1e-9) << "the part program";
+  EXPECT_NEAR(x(1), -4, 1e-9);
+}
+
+// What is told of a run, and of an alarm, is told of the part system in which it is.
+TEST_F(TwoSystems, LinesEndsAndAlarmsAreThoseOfEach) {
+  build();
+  ASSERT_EQ(select(0, "G1 X1. F6000\nG1 X2.\nG1 X3.\nM30\n"), Answer::kDone);
+  ASSERT_EQ(select(1, "G1 X-1. F6000\nM0\nG1 X-2.\nM99\n"), Answer::kDone);
+  ASSERT_EQ(start(), Answer::kDone);
+  for (unsigned n = 0; n < 3000 && (now(1).nc.state != NC_STATE_STOPPED || now(0).nc.state != NC_STATE_IDLE); ++n) steps(1);
+  steps(5);
+  nc::rt::FeederInfo info = runtime->info();
+  EXPECT_TRUE(info.system[0].ended && info.system[0].ended_ok);
+  EXPECT_FALSE(info.system[1].ended);
+  EXPECT_EQ(info.system[0].main_line, 4u);
+  EXPECT_EQ(info.system[1].main_line, 1u);
+  ASSERT_EQ(start(), Answer::kDone);
+  for (unsigned n = 0; n < 3000 && runtime->info().system[1].begun_again == 0; ++n) steps(1);
+  info = runtime->info();
+  EXPECT_EQ(info.system[0].begun_again, 0u);
+  EXPECT_EQ(info.system[1].begun_again, 1u);
+  EXPECT_EQ(info.system[1].again_line, 4u);
+  reset();
+  // Both end in an alarm of their own.
+  ASSERT_EQ(select(0, "G1 X4. F6000\nG2 X9. R0.1\nM30\n"), Answer::kDone);
+  ASSERT_EQ(select(1, "G1 X-3. F6000\n\n\nG1 X[1/0]\nM30\n"), Answer::kDone);
+  ASSERT_EQ(start(), Answer::kDone);
+  for (unsigned n = 0; n < 3000 && (now(1).nc.state != NC_STATE_ALARM || now(0).nc.state != NC_STATE_ALARM); ++n) steps(1);
+  steps(5);
+  info = runtime->info();
+  EXPECT_STREQ(info.system[0].program_alarm.code, "P71");
+  EXPECT_EQ(info.system[0].program_alarm.source.line, 2u);
+  EXPECT_STREQ(info.system[1].program_alarm.code, "P283");
+  EXPECT_EQ(info.system[1].program_alarm.source.line, 4u);
+  const nc::rt::AlarmList alarms = runtime->snapshot().alarms;
+  ASSERT_EQ(alarms.count, 2u);
+  for (unsigned n = 0; n < 2; ++n)
+    EXPECT_EQ(runtime->alarm_text(alarms.alarm[n]).substr(0, 3), alarms.alarm[n].system == 0 ? "P71" : "P28") << runtime->alarm_text(alarms.alarm[n]);
 }
 
 }  // namespace

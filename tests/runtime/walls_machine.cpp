@@ -101,16 +101,16 @@ class Hands {
 void note_end(const rt::Runtime& runtime, Recording* recording) {
   const rt::Snapshot snapshot = runtime.snapshot();
   const rt::FeederInfo info = runtime.info();
-  recording->ended = info.ended;
-  recording->ended_ok = info.ended_ok;
+  recording->ended = info.system[0].ended;
+  recording->ended_ok = info.system[0].ended_ok;
   recording->dropped = info.dropped;
   for (unsigned w = 0; w < NC_WORDS; ++w) recording->interface_output[w] = snapshot.interface_output[w];
   if (snapshot.alarms.count == 0) return;
   const rt::ActiveAlarm& alarm = snapshot.alarms.alarm[0];
   recording->alarm =
-      alarm.id == rt::AlarmId::kProgram ? info.program_alarm.code : rt::alarm_row(alarm.id).code;
+      alarm.id == rt::AlarmId::kProgram ? info.system[0].program_alarm.code : rt::alarm_row(alarm.id).code;
   recording->alarm_line =
-      alarm.id == rt::AlarmId::kProgram ? info.program_alarm.source.line : alarm.source.line;
+      alarm.id == rt::AlarmId::kProgram ? info.system[0].program_alarm.source.line : alarm.source.line;
 }
 
 }  // namespace
@@ -193,7 +193,7 @@ Recording run_online(const rt::Config& config, const std::string& text, const Op
   Hands hands(runtime.get(), op, &recording);
   const bool busy_hands = op.overrides || op.holds || op.single_block || op.threads;
   const unsigned passes = busy_hands ? 1 : 32;  // between two looks: looking costs more than a scan
-  for (rt::Snapshot now; runtime->info().runs == 0 && !now.alarmed() && now.scan < op.max_scans;) {
+  for (rt::Snapshot now; runtime->info().system[0].runs == 0 && !now.alarmed() && now.scan < op.max_scans;) {
     hands.act();
     for (unsigned i = 0; i < passes; ++i) pass();
     now = runtime->snapshot();

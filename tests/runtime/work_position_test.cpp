@@ -36,9 +36,9 @@ class WorkPositionTest : public testing::Test {
     ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
   }
   void to_end() {
-    const std::uint64_t runs = runtime->info().runs;
-    for (unsigned i = 0; i < 100000 && runtime->info().runs == runs; ++i) runtime->step();
-    ASSERT_GT(runtime->info().runs, runs);
+    const std::uint64_t runs = runtime->info().system[0].runs;
+    for (unsigned i = 0; i < 100000 && runtime->info().system[0].runs == runs; ++i) runtime->step();
+    ASSERT_GT(runtime->info().system[0].runs, runs);
     for (unsigned i = 0; i < 5; ++i) runtime->step();
   }
   void reset() {

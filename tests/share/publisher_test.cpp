@@ -46,7 +46,7 @@ direction = "input"
 class SharePublisher : public testing::Test {
  protected:
   void SetUp() override {
-    const auto errors = parse_config(kMachine, "unit.toml", &config_);
+    const auto errors = parse_config(machine_text(), "unit.toml", &config_);
     ASSERT_TRUE(errors.empty()) << errors.front().text();
     sim_ = std::make_unique<hal::SimMachine>(config_.sim, config_.points);
     tap_ = std::make_unique<PointTap>(sim_.get(), config_.points.size());
@@ -61,21 +61,26 @@ class SharePublisher : public testing::Test {
     publisher_->publish();
     ASSERT_TRUE(reader_.open(name_, &error)) << error;
   }
+  virtual std::string machine_text() { return kMachine; }
   void TearDown() override {
-    std::filesystem::remove(path_);
+    for (const std::string& path : path_) std::filesystem::remove(path);
     if (runtime_ != nullptr) runtime_->stop();
   }
-  void select(const std::string& text) {
-    path_ = (std::filesystem::temp_directory_path() / (name_ + ".nc")).string();
-    std::ofstream(path_) << text;
-    text_ = text;
+  void select(const std::string& text, unsigned system = 0) {
+    path_[system] = (std::filesystem::temp_directory_path() / (name_ + (system == 0 ? ".nc" : "-2.nc"))).string();
+    std::ofstream(path_[system]) << text;
+    text_[system] = text;
     unsigned file = 0;
-    ASSERT_EQ(nc_program_add_text(runtime_->control(), "unit.nc", text_.data(), text_.size(), &file), NC_OK);
+    ASSERT_EQ(nc_program_add_text(runtime_->control(), system == 0 ? "unit.nc" : "unit2.nc", text_[system].data(), text_[system].size(), &file), NC_OK);
     std::string error;
-    shown_ = ProgramText::open_file(path_, {}, &error);
-    ASSERT_NE(shown_, nullptr) << error;
-    programs_.add(file, path_, shown_);
-    ASSERT_EQ(runtime_->select_program(file), Answer::kDone);
+    shown_[system] = ProgramText::open_file(path_[system], {}, &error);
+    ASSERT_NE(shown_[system], nullptr) << error;
+    programs_.add(file, path_[system], shown_[system]);
+    Command command;
+    command.kind = CommandKind::kSelectProgram;
+    command.system = static_cast<std::uint8_t>(system);
+    command.number = file;
+    ASSERT_EQ(runtime_->execute(command), Answer::kDone);
   }
   void steps(unsigned count) {
     for (unsigned i = 0; i < count; ++i) runtime_->step();
@@ -100,12 +105,12 @@ class SharePublisher : public testing::Test {
   std::unique_ptr<hal::SimMachine> sim_;
   std::unique_ptr<PointTap> tap_;
   std::unique_ptr<Runtime> runtime_;
-  std::shared_ptr<ProgramText> shown_;
+  std::shared_ptr<ProgramText> shown_[2];
   ProgramTable programs_{NC_DIALECT_M700};
   SegmentOwner owner_;
   SegmentReader reader_;
   std::unique_ptr<Publisher> publisher_;
-  std::string name_, path_, text_;
+  std::string name_, path_[2], text_[2];
 };
 
 TEST_F(SharePublisher, ShowsTheMachine) {
@@ -148,14 +153,38 @@ TEST_F(SharePublisher, ShowsTheBlockInExecution) {
   EXPECT_NEAR(system.feed_mm_min, 1200, 1);
   EXPECT_GT(system.axis[0].commanded, 1.0);
   EXPECT_NEAR(system.axis[0].work + system.axis[0].distance_to_go, 50, 1e-6);
-  EXPECT_EQ(block.program_lines, 4u);
-  EXPECT_EQ(block.percent, 75u);
+  EXPECT_EQ(system.program_lines, 4u);
+  EXPECT_EQ(system.percent, 75u);
   EXPECT_EQ(block.interface_output[0] & 1, 1u);
   EXPECT_EQ(block.scan, runtime_->snapshot().scan);
   steps(5000);
-  EXPECT_EQ(look().runs, 1u);
-  EXPECT_EQ(look().percent, 100u);
-  EXPECT_EQ(look().last_run_ok, 1u);
+  EXPECT_EQ(look().system[0].runs, 1u);
+  EXPECT_EQ(look().system[0].percent, 100u);
+  EXPECT_EQ(look().system[0].last_run_ok, 1u);
+}
+
+// What is done of the program: of the run that there is, not of the one before, nor of another program.
+TEST_F(SharePublisher, ShowsHowFarTheProgramIs) {
+  const char* const kFourLines = "G91 G1 X10. F6000\nG1 X10.\nG1 X10.\nM30\n";
+  select(kFourLines);
+  EXPECT_EQ(look().system[0].percent, 0u);
+  ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(2000);
+  ASSERT_EQ(look().system[0].runs, 1u);
+  EXPECT_EQ(look().system[0].percent, 100u);
+  ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(20);
+  EXPECT_EQ(look().system[0].percent, 25u) << "the first block again";
+  EXPECT_EQ(look().system[0].main_line, 1u);
+  ASSERT_EQ(runtime_->execute(CommandKind::kReset), Answer::kDone);
+  steps(500);
+  EXPECT_EQ(look().system[0].percent, 0u) << "given up: at its head";
+  ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(2000);
+  EXPECT_EQ(look().system[0].percent, 100u);
+  select(kFourLines);
+  EXPECT_EQ(look().system[0].percent, 0u) << "selected, and nothing of it has run";
+  EXPECT_EQ(look().system[0].runs, 2u);
 }
 
 TEST_F(SharePublisher, ShowsThePoints) {
@@ -229,7 +258,7 @@ TEST_F(SharePublisher, MachineAndIntakeSpeakOfTheSameThings) {
   mode.number = static_cast<std::uint32_t>(Mode::kMdi);
   EXPECT_EQ(machine.execute(mode), Answer::kDone);
   EXPECT_EQ(machine.load_mdi(0, "N3 G90\n"), Answer::kDone);
-  EXPECT_EQ(programs_.mdi(), "N3 G90\n");
+  EXPECT_EQ(programs_.mdi(0), "N3 G90\n");
   steps(2);
   EXPECT_EQ(machine.state().program[0], "MDI");
   EXPECT_EQ(machine.select_program(0, "none.nc"), Answer::kNotInThisMode);
@@ -237,6 +266,84 @@ TEST_F(SharePublisher, MachineAndIntakeSpeakOfTheSameThings) {
   machine.execute(mode);
   EXPECT_EQ(machine.select_program(0, "none.nc"), Answer::kNotLoaded);
   EXPECT_EQ(machine.explain(Answer::kNotLoaded), "there is no folder of programs");
+}
+
+class ShareTwoSystems : public SharePublisher {
+ protected:
+  std::string machine_text() override {
+    std::string text = kMachine;
+    text.insert(text.find("[[point]]"), "[[axis]]\nsystem = 2\nname = \"X\"\nmax_velocity = 200.0\nmax_acceleration = 2000.0\n");
+    return text;
+  }
+};
+
+TEST_F(ShareTwoSystems, EachShowsItsOwnProgram) {
+  select("G1 X5. F6000.\nM30\n");
+  steps(3);
+  EXPECT_EQ(look().system[0].program_ready, 1u);
+  EXPECT_EQ(look().system[1].program_ready, 0u);
+  select("G1 X5. F6000.\nG1 X6.\nN7 G1 X50. F600.\nG1 X60.\nM30\n", 1);
+  ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(1000);
+  const StatusBlock block = look();
+  const SystemStatus &first = block.system[0], &second = block.system[1];
+  EXPECT_EQ(first.runs, 1u);
+  EXPECT_EQ(first.last_run_ok, 1u);
+  EXPECT_EQ(first.percent, 100u);
+  EXPECT_EQ(first.program_lines, 2u);
+  EXPECT_EQ(first.main_line, 2u);
+  EXPECT_EQ(second.runs, 0u);
+  EXPECT_EQ(second.last_run_ok, 0u);
+  EXPECT_EQ(second.percent, 60u);
+  EXPECT_EQ(second.program_lines, 5u);
+  EXPECT_EQ(second.main_line, 3u);
+  EXPECT_EQ(second.sequence_number, 7u);
+  EXPECT_EQ(text_of(second.block), "N7 G1 X50. F600.");
+}
+
+TEST_F(ShareTwoSystems, EachShowsItsOwnBlocksOfMdi) {
+  RuntimeMachine machine(runtime_.get(), &programs_);
+  Command mode;
+  mode.kind = CommandKind::kSetMode;
+  mode.number = static_cast<std::uint32_t>(Mode::kMdi);
+  ASSERT_EQ(machine.execute(mode), Answer::kDone);
+  ASSERT_EQ(machine.load_mdi(0, "N3 G1 X5. F600.\n"), Answer::kDone);
+  ASSERT_EQ(machine.load_mdi(1, "N4 G1 X-5. F600.\n"), Answer::kDone);
+  ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(100);
+  EXPECT_EQ(text_of(look().system[0].block), "N3 G1 X5. F600.");
+  EXPECT_EQ(text_of(look().system[1].block), "N4 G1 X-5. F600.");
+}
+
+// Both are in alarm, and each alarm says what is wrong in its part system; so does the history, with the messages.
+TEST_F(ShareTwoSystems, AlarmsAndMessagesAreOfTheirPartSystem) {
+  select("#3006=1(FIRST)\nM30\n");
+  select("#3006=2(SECOND)\nG1 X[1/0] F600.\nM30\n", 1);
+  Command start;
+  start.kind = CommandKind::kCycleStart;
+  start.system = 1;
+  ASSERT_EQ(runtime_->execute(start), Answer::kDone);
+  steps(50);
+  EXPECT_EQ(text_of(look().message), "SECOND");
+  EXPECT_EQ(history().entry[0].system, 1u);
+  start.system = 0;
+  ASSERT_EQ(runtime_->execute(start), Answer::kDone);
+  steps(50);
+  EXPECT_EQ(text_of(look().message), "FIRST");
+  EXPECT_EQ(history().entry[1].system, 0u);
+  ASSERT_EQ(runtime_->execute(CommandKind::kReset), Answer::kDone);
+  steps(100);
+  select("G1 X1. F600.\nM98 P77\nM30\n");
+  select("G1 X1. F600.\n\nG1 X[1/0]\nM30\n", 1);
+  ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(1000);
+  const StatusBlock block = look();
+  ASSERT_EQ(block.alarm_count, 2u);
+  for (unsigned n = 0; n < 2; ++n) {
+    const Entry& alarm = block.alarm[n];
+    EXPECT_EQ(text_of(alarm.code), alarm.system == 0 ? "P232" : "P283") << text_of(alarm.text);
+    EXPECT_EQ(alarm.line, alarm.system == 0 ? 2u : 3u);
+  }
 }
 
 // A service over a runtime on virtual time: the intake thread takes what stands in the ring.

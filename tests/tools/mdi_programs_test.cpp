@@ -41,11 +41,11 @@ class MdiPrograms : public OwnFolder {
     std::filesystem::rename(folder_ + "/next", folder_ + "/" + name);
   }
   double run() {
-    const std::uint64_t runs = runtime_->info().runs;
+    const std::uint64_t runs = runtime_->info().system[0].runs;
     EXPECT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
-    for (unsigned n = 0; n < 20000 && runtime_->info().runs == runs; ++n) runtime_->step();
+    for (unsigned n = 0; n < 20000 && runtime_->info().system[0].runs == runs; ++n) runtime_->step();
     for (unsigned n = 0; n < 5; ++n) runtime_->step();
-    EXPECT_EQ(runtime_->info().runs, runs + 1);
+    EXPECT_EQ(runtime_->info().system[0].runs, runs + 1);
     return runtime_->snapshot().system[0].nc.command.v[0];
   }
   void mode(Mode to) {

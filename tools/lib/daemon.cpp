@@ -107,8 +107,8 @@ int Daemon::prepare() {
     if (const int status = (this->*step)(); status != 0) return status;
   path_.set_modal([this](nc_modal* modal) {
     const rt::FeederInfo info = runtime_->info();
-    *modal = info.modal[0];
-    return info.modal_known[0];
+    *modal = info.system[0].modal;
+    return info.system[0].modal_known;
   });
   if (!options_.plot.empty()) runtime_->set_path_sink(&path_);
   return 0;
@@ -142,7 +142,7 @@ int Daemon::load_program() {
     if (files_.add(runtime_->control(), options_.program, &file_, &error) != NC_OK) return failed(error);
     sharing_->programs().add(file_, options_.program, files_.text_of(file_));
   }
-  sharing_->programs().set_mdi(options_.mdi);
+  sharing_->programs().set_mdi(0, options_.mdi);
   return sharing_->prepare(runtime_.get(), &files_, config_.programs_folder(), &error) ? 0 : failed(error);
 }
 

@@ -62,7 +62,7 @@ bool ProgramRun::ended(int* status) {
   show_again(info);
   if (end_signal() != 0) *status = stop_by_signal();
   else if (now.stopped_by_alarm()) *status = stop_by_alarm();
-  else if (info.runs > 0 && now.system[0].nc.state == NC_STATE_IDLE) *status = stop_at_end(now);
+  else if (info.system[0].runs > 0 && now.system[0].nc.state == NC_STATE_IDLE) *status = stop_at_end(now);
   else if (given_up(now)) *status = stop_by_reset();
   else {
     continue_stop(now);
@@ -89,8 +89,8 @@ void ProgramRun::wait() {
     usleep(static_cast<useconds_t>(std::chrono::microseconds(kPeriod).count()));  // a signal ends it early
     return;
   }
-  const std::uint64_t runs = runtime_.info().runs;
-  for (unsigned i = 0; i < kStepsPerLook && end_signal() == 0 && runtime_.info().runs == runs; ++i) runtime_.step();
+  const std::uint64_t runs = runtime_.info().system[0].runs;
+  for (unsigned i = 0; i < kStepsPerLook && end_signal() == 0 && runtime_.info().system[0].runs == runs; ++i) runtime_.step();
   runtime_.step();
 }
 
@@ -108,9 +108,9 @@ void ProgramRun::show_message(const FeederInfo& info) {
 
 // M700 13.3.1: M99 of a main program, also of MDI, begins it again. That has no end of its own, which is said once.
 void ProgramRun::show_again(const FeederInfo& info) {
-  if (info.begun_again == 0 || said_again_) return;
+  if (info.system[0].begun_again == 0 || said_again_) return;
   said_again_ = true;
-  note("M99 in line " + std::to_string(info.again_line) + ": begins again from the head, until a reset or a signal (Ctrl-C) ends it");
+  note("M99 in line " + std::to_string(info.system[0].again_line) + ": begins again from the head, until a reset or a signal (Ctrl-C) ends it");
 }
 
 // M700 13.5.8: what programs print, where the configuration names no file for it.
