@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "support/drive.hpp"
 #include "support/pull.hpp"
 
 namespace nc::test {
@@ -122,6 +123,25 @@ TEST(MacroInterface, OutputsBeginAsTheMachineHasThem) {
   EXPECT_EQ(run.var(100), 10);
   EXPECT_EQ(run.var(103), 4294967294.0);
   EXPECT_EQ(run.var(102), 0b0100);
+}
+
+// What a block that was read ahead has written is taken back with it, though other bits of the word have been set meanwhile.
+TEST(MacroInterface, OnlyTheBitsOfTheMaskAreTheMachines) {
+  for (const uint32_t before : {0u, 0b1000u, 0b1001u}) {
+    Bench bench;
+    ASSERT_EQ(nc_interface_output_set(bench.control(), 0, 1, ~0u, before), NC_OK);
+    Drive drive(bench, "G1 X100. F100\n#1300=1 #1301=1\n#1133=[#1133+16]\nM30");
+    for (unsigned n = 0; n < 20; ++n) drive.press_start(), drive.step();
+    ASSERT_EQ(output_of(bench, 1), (before | 0b11u) + 16) << "read, not executed";
+    ASSERT_EQ(nc_interface_output_set(bench.control(), 0, 1, 0b0110, 0b0100), NC_OK);
+    ASSERT_EQ(nc_interface_output_set(bench.control(), 0, 0, 1, 1), NC_OK);
+    EXPECT_EQ(output_of(bench, 1), (((before | 0b11u) + 16) & ~0b0110u) | 0b0100u);
+    drive.in.reset = true;
+    for (unsigned n = 0; n < 5; ++n) drive.step();
+    nc_reset(bench.control(), 0);
+    EXPECT_EQ(output_of(bench, 1), before | 0b0100u) << before;
+    EXPECT_EQ(output_of(bench, 0), 1u);
+  }
 }
 
 TEST(MacroInterface, AnOutputOfABlockThatAlarmsIsNotSet) {

@@ -246,7 +246,7 @@ nc_status nc_interface_output_get(const nc_control* c, unsigned system, unsigned
 nc_status nc_interface_output_set(nc_control* c, unsigned system, unsigned word, uint32_t mask, uint32_t bits) {
   uint32_t now = 0;
   if (const nc_status status = nc_interface_output_get(c, system, word, &now); status != NC_OK) return status;
-  c->system[system].interpreter.set_interface_output(word, (now & ~mask) | (bits & mask));
+  c->system[system].interpreter.set_interface_output(word, mask, bits);
   return NC_OK;
 }
 

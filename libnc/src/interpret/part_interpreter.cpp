@@ -228,7 +228,9 @@ const FilterParameters& PartInterpreter::filters() const { return in_->settings.
 const Frames& PartInterpreter::frames() const { return in_->frames; }
 void PartInterpreter::set_table(unsigned key, double value) { in_->set_table_from_outside(key, value); }
 uint32_t PartInterpreter::interface_output(unsigned word) const { return in_->records->output[word].bits; }
-void PartInterpreter::set_interface_output(unsigned word, uint32_t bits) { in_->records.change_from_outside(&ProgramRecords::output, word, InterfaceOutput{bits}); }
+void PartInterpreter::set_interface_output(unsigned word, uint32_t mask, uint32_t bits) {
+  in_->records.change_bits_from_outside(&ProgramRecords::output, word, InterfaceOutput{bits}, InterfaceOutput{mask});
+}
 void PartInterpreter::set_tool(unsigned number, nc_tool_column column, double value) {
   const unsigned key = in_->frames.tool_key(number, column);
   if (in_->shared != nullptr) {

@@ -186,7 +186,7 @@ class PartInterpreter {
   void set_table(unsigned key, double value);
   /// The macro interface's outputs as read ahead.
   uint32_t interface_output(unsigned word) const;
-  void set_interface_output(unsigned word, uint32_t bits);
+  void set_interface_output(unsigned word, uint32_t mask, uint32_t bits);
   void set_tool(unsigned number, nc_tool_column column, double value);
   /// False: there is no such variable.
   bool variable(uint32_t number, Value* value) const;

@@ -62,6 +62,13 @@ class Journalled {
   void change_from_outside(Record (Group::*records)[count], unsigned index, const std::type_identity_t<Record>& value) {
     write((value_->*records)[index], value, Journalling{0, true});
   }
+  /// Bit by bit: those that `mask` has. The others stay what they are, and what a rewind makes of them stays so, too.
+  template <class Record, size_t count, class Group>
+  requires kHolds<Group>
+  void change_bits_from_outside(Record (Group::*records)[count], unsigned index, const std::type_identity_t<Record>& value,
+                                const std::type_identity_t<Record>& mask) {
+    write((value_->*records)[index], value, Journalling{0, true}, &mask);
+  }
   void change_from_outside(const T& value) { write(*value_, value, Journalling{0, true}); }
 
  private:
@@ -79,19 +86,22 @@ class Journalled {
   }
 
   template <class Field>
-  void write(const Field& field, const Field& value, Journalling how) {
+  void write(const Field& field, const Field& value, Journalling how, const Field* bits = nullptr) {
     const auto begin = static_cast<size_t>(reinterpret_cast<const char*>(&field) - reinterpret_cast<const char*>(value_));
-    write(begin, reinterpret_cast<const char*>(&value), sizeof value, how);
+    write(begin, reinterpret_cast<const char*>(&value), sizeof value, how, reinterpret_cast<const char*>(bits));
   }
-  void write(size_t begin, const char* bytes, size_t size, Journalling how) {
+  /// `bits`: those that are written; null = all.
+  void write(size_t begin, const char* bytes, size_t size, Journalling how, const char* bits = nullptr) {
     constexpr size_t kWord = sizeof(uint64_t);
     for (size_t at = begin, end = begin + size; at < end;) {
       const size_t word = at / kWord, inside = at % kWord;
       const size_t count = end - at < kWord - inside ? end - at : kWord - inside;
       uint64_t mask = 0;
-      std::memset(reinterpret_cast<char*>(&mask) + inside, 0xff, count);
-      uint64_t now = load(word), then = now;
+      if (bits == nullptr) std::memset(reinterpret_cast<char*>(&mask) + inside, 0xff, count);
+      else std::memcpy(reinterpret_cast<char*>(&mask) + inside, bits + (at - begin), count);
+      uint64_t now = load(word), then = 0;
       std::memcpy(reinterpret_cast<char*>(&then) + inside, bytes + (at - begin), count);
+      then = (now & ~mask) | (then & mask);
       write_word(static_cast<uint32_t>(word), now, then, mask, how);
       at += count;
     }
