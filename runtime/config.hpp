@@ -72,9 +72,11 @@ struct MacroMap {
 // What measures the speed of a spindle.
 struct SpindleFeedback {
   enum class By : std::uint8_t { kSimulation, kPoint, kNothing };
+  enum class Sign : std::uint8_t { kAsPoint, kYes, kNo };  // kAsPoint: as the register of the point has one
   By by = By::kSimulation;
+  Sign sign = Sign::kAsPoint;
   bool given = false;       // by the file; else see read_spindle_feedback()
-  int point = -1;           // word input: speed, signed
+  int point = -1;           // word input: speed
   double rpm_per_count = 1;
   ConfigPlace place;        // of the point's name
 };

@@ -15,7 +15,8 @@ void read_feedback(TableReader* reader, const Config& config, SpindleFeedback* f
   if (!reader->string("feedback", &by)) return;
   if (by == "simulated" || by == "none") {
     feedback->by = by == "none" ? SpindleFeedback::By::kNothing : SpindleFeedback::By::kSimulation;
-    if (reader->find("rpm_per_count") != nullptr) reader->error("rpm_per_count", "is for a speed that a point gives");
+    for (const char* key : {"rpm_per_count", "signed"})
+      if (reader->find(key) != nullptr) reader->error(key, "is for a speed that a point gives");
     return;
   }
   const int index = config.points.find(by);
@@ -28,12 +29,26 @@ void read_feedback(TableReader* reader, const Config& config, SpindleFeedback* f
   feedback->place = {reader->line("feedback"), reader->path("feedback")};
   reader->number("rpm_per_count", &feedback->rpm_per_count, -kMostRpm, kMostRpm);
   if (feedback->rpm_per_count == 0) reader->error("rpm_per_count", "must not be 0");
+  bool has_sign = true;
+  if (reader->find("signed") == nullptr) return;
+  reader->boolean("signed", &has_sign);
+  feedback->sign = has_sign ? SpindleFeedback::Sign::kYes : SpindleFeedback::Sign::kNo;
 }
 
 // A value below 0 that a register without a sign gives as one above 32767. One of 32 bits comes back to its sign, where nothing scales it.
 bool loses_its_sign(const hal::modbus::PointMap& map) {
   if (map.format == hal::modbus::Format::kBit || hal::modbus::point_is_signed(map)) return false;
   return map.format == hal::modbus::Format::kU16 || map.scale != 1 || map.offset != 0;
+}
+
+// The register of the point cannot say which way round the spindle turns.
+bool point_without_sign(const Config& config, const SpindleFeedback& feedback) {
+  if (feedback.by != SpindleFeedback::By::kPoint) return false;
+  const hal::Point& point = config.points.at(static_cast<unsigned>(feedback.point));
+  if (point.bus == 0) return false;
+  const std::vector<hal::modbus::PointMap>& maps = config.modbus[point.bus - 1u].link.points;
+  const auto map = std::find_if(maps.begin(), maps.end(), [&](const hal::modbus::PointMap& each) { return each.point == static_cast<unsigned>(feedback.point); });
+  return map != maps.end() && loses_its_sign(*map);
 }
 
 }  // namespace
@@ -43,15 +58,11 @@ std::vector<std::string> spindle_warnings(const Config& config) {
   for (unsigned s = 0; s < config.nc.system_count; ++s)
     for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {
       const SpindleFeedback& feedback = config.spindle_feedback[s][n];
-      if (feedback.by != SpindleFeedback::By::kPoint) continue;
+      if (feedback.sign == SpindleFeedback::Sign::kNo || !point_without_sign(config, feedback)) continue;
       const hal::Point& point = config.points.at(static_cast<unsigned>(feedback.point));
-      if (point.bus == 0) continue;
-      const std::vector<hal::modbus::PointMap>& maps = config.modbus[point.bus - 1u].link.points;
-      const auto map = std::find_if(maps.begin(), maps.end(), [&](const hal::modbus::PointMap& each) { return each.point == static_cast<unsigned>(feedback.point); });
-      if (map == maps.end() || !loses_its_sign(*map)) continue;
       warnings.push_back(ConfigError{config.file, feedback.place.line, feedback.place.key,
                                      "point \"" + point.name + "\" has no sign: a spindle that turns backwards is measured as one that turns forwards, "
-                                     "-1000 in 16 bits as 64536; signed = true, unless the device gives no sign"}.text());
+                                     "-1000 in 16 bits as 64536; signed = true in its modbus table, or signed = false here where the device gives no sign"}.text());
     }
   return warnings;
 }
@@ -79,6 +90,8 @@ void read_spindle_feedback(TableReader* root, Config* config) {
       SpindleFeedback& feedback = config->spindle_feedback[s][n];
       const bool driven = s == 0 && config->sim.plant.spindle[n].driven;
       if (!feedback.given && !driven && !config->buses.empty()) feedback.by = SpindleFeedback::By::kNothing;
+      const bool no_sign = feedback.sign == SpindleFeedback::Sign::kNo || (feedback.sign == SpindleFeedback::Sign::kAsPoint && point_without_sign(*config, feedback));
+      if (no_sign) config->nc.system[s].spindle_unsigned |= std::uint64_t{1} << n;
     }
 }
 

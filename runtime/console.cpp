@@ -114,7 +114,7 @@ std::string state_alone(const nc_outputs& outputs) {
     default:
       break;
   }
-  switch (outputs.cause) {
+  switch (static_cast<nc_stop_cause>(outputs.cause)) {  // all of them: the compiler counts
     case NC_CAUSE_FIN: {
       if ((outputs.fin_wait & NC_FIN_WAIT_UNCLAMP) != 0) return "waits for the clamp of an index table";
       std::string text = "waits for FIN of";
@@ -161,9 +161,16 @@ std::string state_alone(const nc_outputs& outputs) {
       return "no motion within the limits of the axes";
     case NC_CAUSE_RESET:
       return "reset";
-    default:
-      return outputs.state == NC_STATE_STOPPED ? "stopped" : outputs.rapid ? "rapid" : "running";
+    case NC_CAUSE_SPINDLE_REVERSED:
+      return "thread waits: spindle turns the other way round";
+    case NC_CAUSE_FEED_HOLD:
+      return "feed hold";
+    case NC_CAUSE_ALARM:
+      return "alarm";
+    case NC_CAUSE_NONE:
+      break;
   }
+  return outputs.state == NC_STATE_STOPPED ? "stopped" : outputs.rapid ? "rapid" : "running";
 }
 
 }  // namespace

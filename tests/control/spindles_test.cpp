@@ -113,6 +113,55 @@ TEST(Spindles, AThreadKeepsItsSpindle) {  // 10.6.1, relation (3)
   EXPECT_EQ(drive.out.spindle_selected, 2) << "the selection acts behind the thread";
 }
 
+// The way round that M03 or M04 has said of the selected spindle counts, in the program's own words.
+TEST(Spindles, AThreadWaitsForASpindleThatTurnsTheOtherWayRound) {
+  for (const char* code : {"M3", "M4", "M4\nM5\nM3", "M3\nM05"}) {
+    Bench bench(NC_DIALECT_M700, with_spindles(2));
+    Drive drive(bench, std::string("S600 ") + code + "\nG33 Z-20. F2.\nM30");
+    const bool stopped = std::string(code) == "M3\nM05", reverse = std::string(code) == "M4";
+    bool waited = false;
+    ASSERT_TRUE(run(drive, [&](nc_inputs& in, const nc_outputs& out) {
+      in.spindle_select = 2;
+      in.spindle[1].rev_per_s = (reverse ? -1 : 1) * (drive.cycle < 500 ? -10 : 10);
+      if (out.cause != NC_CAUSE_SPINDLE_REVERSED) return;
+      waited = true;
+      EXPECT_EQ(out.command.v[2], 0);
+      EXPECT_LE(drive.cycle, 501u);
+    })) << code;
+    EXPECT_EQ(waited, !stopped) << code;
+    EXPECT_NEAR(drive.out.command.v[2], -20, 1e-9);
+  }
+}
+
+// What a reset has ended, and the program before, say nothing of this one.
+TEST(Spindles, TheWayRoundIsForgottenAtTheEndOfAProgram) {
+  Bench bench(NC_DIALECT_M700, machine(256));
+  Drive drive(bench, "IF[#500EQ1]GOTO9\n#500=1\nS600 M4\nM30\nN9 G33 Z-20. F2.\nM30");
+  ASSERT_TRUE(run(drive, [](nc_inputs&, const nc_outputs&) {}));
+  ASSERT_EQ(nc_program_select(bench.control(), 0, 0), NC_OK);
+  drive.ended = false;
+  drive.cycle = 0;
+  ASSERT_TRUE(run(drive, [](nc_inputs& in, const nc_outputs& out) {
+    in.spindle[0].rev_per_s = 10;
+    EXPECT_NE(out.cause, NC_CAUSE_SPINDLE_REVERSED);
+  }));
+  EXPECT_NEAR(drive.out.command.v[2], -20, 1e-9);
+}
+
+TEST(Spindles, AMaskOfSpindlesThatThereAre) {
+  nc_config c;
+  nc_config_init(&c);
+  c.system[0].spindle_count = 2;
+  nc_config_fault fault;
+  for (const uint64_t mask : {0u, 1u, 2u, 3u}) {
+    c.system[0].spindle_unsigned = mask;
+    EXPECT_EQ(nc_config_check(&c, &fault), NC_OK) << mask;
+  }
+  c.system[0].spindle_unsigned = 4;
+  ASSERT_EQ(nc_config_check(&c, &fault), NC_E_ARGUMENT);
+  EXPECT_STREQ(fault.field, "system[0].spindle_unsigned");
+}
+
 // 10.6.1, relation (5): in the tapping mode the selection is not to change. A move does not begin until it is taken back.
 TEST(Spindles, TheTappingModeKeepsItsSpindle) {
   Bench bench(NC_DIALECT_M700, with_spindles(2));

@@ -291,6 +291,75 @@ TEST(Thread, WaitsForItsAngleAndThenCannotBeHeld) {
   EXPECT_LT(m.out.command.v[2], 0);
 }
 
+/// S and M codes in front of a thread; what they say of the spindle is in the record, as the family's table means it.
+Program turned_thread(const ExecutorConfig& c, SpindleTurn turn) {
+  Program p(c);
+  p.action(NC_ACTION_M, 4);
+  p.records.back().action.turn = turn;
+  p.gate(NC_GATE_FIN);
+  Segment& s = p.line(at(0, -20), 0);
+  s.thread = true;
+  s.feed_mm_rev = 2;
+  p.mark();
+  p.end();
+  return p;
+}
+
+TEST(Thread, WaitsForASpindleThatTurnsTheWrongWay) {
+  for (const bool angle : {false, true}) {
+    for (const SpindleTurn way : {SpindleTurn::forward, SpindleTurn::reverse}) {
+      const double right = way == SpindleTurn::forward ? 8 : -8;
+      const ExecutorConfig c = standard_config();
+      const Program p = turned_thread(c, way);
+      Machine m(c);
+      m.answer_fin = true;
+      m.in.spindle[0].turns_valid = angle;
+      m.in.spindle[0].rev_per_s = -right;
+      m.feed(p);
+      m.start();
+      for (int i = 0; i < 500; ++i) turn(m), m.cycle();
+      EXPECT_EQ(m.out.cause, NC_CAUSE_SPINDLE_REVERSED);
+      EXPECT_EQ(m.out.state, NC_STATE_RUNNING);
+      EXPECT_EQ(m.out.command.v[2], 0);
+      m.in.spindle[0].rev_per_s = 0;  // it slows down and turns round
+      turn(m), m.cycle();
+      EXPECT_EQ(m.out.cause, NC_CAUSE_SPINDLE_STOPPED);
+      m.in.spindle[0].rev_per_s = right;
+      for (int i = 0; i < 3000; ++i) turn(m), m.cycle();
+      EXPECT_EQ(m.out.command.v[2], -20);
+      EXPECT_EQ(m.out.state, NC_STATE_IDLE);
+      EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+    }
+  }
+}
+
+// What has not been said may be either way: no M code, one that stops it, one for another spindle, a reset behind it, a speed without a sign.
+TEST(Thread, BeginsEitherWayWhereNobodyHasSaidWhich) {
+  for (const double rev_per_s : {8.0, -8.0}) {
+    for (const SpindleTurn turn : {SpindleTurn::as_it_is, SpindleTurn::stop, SpindleTurn::stop_all}) {
+      const ExecutorConfig c = standard_config();
+      const Program p = turned_thread(c, turn);
+      Machine m(c);
+      m.answer_fin = true;
+      m.in.spindle[0].rev_per_s = rev_per_s;
+      m.feed(p);
+      m.start();
+      for (int i = 0; i < 3000; ++i) m.cycle();
+      EXPECT_EQ(m.out.command.v[2], -20);
+    }
+    ExecutorConfig c = standard_config();
+    c.spindle_unsigned = 1;
+    const Program p = turned_thread(c, SpindleTurn::reverse);
+    Machine m(c);
+    m.answer_fin = true;
+    m.in.spindle[0].rev_per_s = rev_per_s;
+    m.feed(p);
+    m.start();
+    for (int i = 0; i < 3000; ++i) m.cycle();
+    EXPECT_EQ(m.out.command.v[2], -20);
+  }
+}
+
 TEST(Thread, DoesNotBeginBeyondTheLargestFeed) {
   const ExecutorConfig c = standard_config();
   const Program p = thread_program(c, 0);

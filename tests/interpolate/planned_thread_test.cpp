@@ -152,6 +152,31 @@ TEST(PlannedThread, IsNotHeldNorChangedByTheOverride) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
+// A spindle whose speed is measured and whose angle is not: it begins anywhere, and is cut to its end.
+TEST(PlannedThread, FollowsASpeedWithoutAnAngle) {
+  const ExecutorConfig c = thread_config();
+  for (const double speed : {8.0, -8.0, 60.0}) {
+    Program p(c);
+    thread(&p, place(0, -20), 2);
+    p.line(place(5, -20), 50);
+    p.mark();
+    p.end();
+    Machine m(c);
+    m.in.spindle[0].rev_per_s = speed;
+    m.feed(p);
+    m.start();
+    double fastest = 0;
+    for (int i = 0; i < 6000; ++i) {
+      m.in.spindle[0].rev_per_s = speed * (1 + 0.02 * std::sin(0.01 * i));
+      m.feed(p), m.cycle();
+      fastest = std::max(fastest, std::fabs(m.out.velocity.v[2]));
+    }
+    EXPECT_EQ(m.command(), place(5, -20)) << speed;
+    EXPECT_NEAR(fastest, 2 * std::fabs(speed), 0.06 * std::fabs(speed));
+    EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  }
+}
+
 TEST(PlannedThread, DoesNotBeginBeyondTheLargestFeed) {
   const ExecutorConfig c = thread_config();
   Program p(c);
@@ -164,6 +189,30 @@ TEST(PlannedThread, DoesNotBeginBeyondTheLargestFeed) {
   for (int i = 0; i < 200; ++i) turn(m, 110), m.feed(p), m.cycle();
   EXPECT_EQ(m.out.cause, NC_CAUSE_SPINDLE_FAST);
   EXPECT_EQ(m.out.command.v[2], 0);
+}
+
+TEST(PlannedThread, WaitsForASpindleThatTurnsTheWrongWay) {
+  const ExecutorConfig c = thread_config();
+  for (const SpindleTurn way : {SpindleTurn::forward, SpindleTurn::reverse}) {
+    const double right = way == SpindleTurn::forward ? 8 : -8;
+    Program p(c);
+    p.action(NC_ACTION_M, 3);
+    p.records.back().action.turn = way;
+    p.gate(NC_GATE_FIN);
+    thread(&p, place(0, -20), 2);
+    p.end();
+    Machine m(c);
+    m.answer_fin = true;
+    m.feed(p);
+    m.start();
+    for (int i = 0; i < 300; ++i) turn(m, -right), m.feed(p), m.cycle();
+    EXPECT_EQ(m.out.cause, NC_CAUSE_SPINDLE_REVERSED);
+    EXPECT_EQ(m.out.command.v[2], 0);
+    m.in.spindle[0].rev_per_s = right;
+    for (int i = 0; i < 4000; ++i) turn(m, right), m.feed(p), m.cycle();
+    EXPECT_EQ(m.command(), place(0, -20));
+    EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  }
 }
 
 TEST(PlannedThread, AnInterlockStopsItAtOnceAndWithinTheLimits) {

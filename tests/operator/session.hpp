@@ -240,7 +240,7 @@ class Session {
       if ((states >> out_.state & 1) != 0 && n > 3) return Ended::there;
       if (out_.state == NC_STATE_STOPPED || out_.state == NC_STATE_HOLD) in_.cycle_start = n % 2 == 0;
       // The operator would have to choose another speed.
-      if (out_.cause == NC_CAUSE_SPINDLE_FAST || out_.cause == NC_CAUSE_SPINDLE_STOPPED) return Ended::slow;
+      if (out_.cause == NC_CAUSE_SPINDLE_FAST || out_.cause == NC_CAUSE_SPINDLE_STOPPED || out_.cause == NC_CAUSE_SPINDLE_REVERSED) return Ended::slow;
       if (out_.feed_command_mm_min > 0) far = std::min(far, 0.1 * out_.feed_command_mm_min / 60 * 10);
       if (std::fabs(out_.path_length - length) > far || out_.serial != serial || out_.blocks != blocks) {
         length = out_.path_length;

@@ -99,6 +99,32 @@ TEST_F(SpindleFeedback, APointGivesTheSpeed) {
   EXPECT_NEAR(now().shown_spindle().rev_per_s * 60, -1000, 1e-6);
 }
 
+// A thread of the wrong hand is not begun; where the speed says nothing of the way round, or nothing has been said of it, nobody can know.
+TEST_F(SpindleFeedback, AThreadWaitsForASpindleThatTurnsTheWrongWay) {
+  struct Case {
+    const char* code;
+    std::uint32_t counts;
+    const char* more;
+    bool waits;
+  };
+  const auto reversed = static_cast<std::uint32_t>(-6000);
+  for (const Case& c : {Case{"M3", 6000, "", false}, Case{"M3", reversed, "", true}, Case{"M4", 6000, "", true}, Case{"M4", reversed, "", false},
+                        Case{"M4", 6000, "signed = false\n", false}, Case{"M3", reversed, "signed = true\n", true}, Case{"M7", reversed, "", false}}) {
+    SCOPED_TRACE(std::string(c.code) + " " + std::to_string(static_cast<std::int32_t>(c.counts)) + " " + c.more);
+    ASSERT_NO_FATAL_FAILURE(build("[[spindle]]\nfeedback = \"word_in\"\nrpm_per_count = 0.1\n" + std::string(c.more),
+                                  ("S600 " + std::string(c.code) + "\nG33 Z-5. F1.\nM30\n").c_str()));
+    machine->set_input(static_cast<unsigned>(config.points.find("word_in")), c.counts);
+    steps(8000);
+    EXPECT_EQ(now().nc.cause == NC_CAUSE_SPINDLE_REVERSED, c.waits);
+    EXPECT_NEAR(now().nc.command.v[2], c.waits ? 0 : -5, 1e-9) << nc::rt::state_text(now().nc);
+    if (!c.waits) continue;
+    EXPECT_EQ(nc::rt::state_text(now().nc), "thread waits: spindle turns the other way round");
+    machine->set_input(static_cast<unsigned>(config.points.find("word_in")), -c.counts);
+    steps(8000);
+    EXPECT_NEAR(now().nc.command.v[2], -5, 1e-9);
+  }
+}
+
 TEST(SpindleFeedbackConfig, Mistakes) {
   const auto error_of = [](const std::string& more) {
     nc::rt::Config config;
@@ -110,18 +136,27 @@ TEST(SpindleFeedbackConfig, Mistakes) {
   EXPECT_NE(error_of("[[spindle]]\nfeedback = \"in0\"\n").find("must be an input and a word"), std::string::npos);
   EXPECT_NE(error_of("[[spindle]]\nfeedback = \"word_out\"\n").find("must be an input and a word"), std::string::npos);
   EXPECT_NE(error_of("[[spindle]]\nfeedback = \"none\"\nrpm_per_count = 2.0\n").find("is for a speed that a point gives"), std::string::npos);
+  EXPECT_NE(error_of("[[spindle]]\nfeedback = \"none\"\nsigned = true\n").find("is for a speed that a point gives"), std::string::npos);
+  EXPECT_NE(error_of("[[spindle]]\nfeedback = \"word_in\"\nsigned = 1\n").find("signed"), std::string::npos);
   EXPECT_NE(error_of("[[spindle]]\nfeedback = \"none\"\n[[spindle]]\nfeedback = \"none\"\n").find("is there already"), std::string::npos);
   EXPECT_EQ(error_of("[[spindle]]\nfeedback = \"word_in\"\n"), "");
 }
 
 // A register of 16 bits without a sign makes 64536 of -1000.
 TEST_F(SpindleFeedback, APointWithoutASignIsAWarningOnItsLine) {
-  const auto warnings = [](const std::string& map) {
-    const nc::rt::Config read = nc::test::parse_or_fail(nc::test::base_toml() + kLink +
-                                                        "[[point]]\nname = \"speed\"\ntype = \"word\"\ndirection = \"input\"\nmodbus = { link = \"vfd\", table = "
-                                                        "\"input\", address = 2" + map + " }\n[[spindle]]\nfeedback = \"speed\"\n");
-    return nc::rt::spindle_warnings(read);
+  const auto read_with = [](const std::string& map, const std::string& more) {
+    return nc::test::parse_or_fail(nc::test::base_toml() + kLink +
+                                   "[[point]]\nname = \"speed\"\ntype = \"word\"\ndirection = \"input\"\nmodbus = { link = \"vfd\", table = "
+                                   "\"input\", address = 2" + map + " }\n[[spindle]]\nfeedback = \"speed\"\n" + more);
   };
+  const auto warnings = [&](const std::string& map, const std::string& more = "") { return nc::rt::spindle_warnings(read_with(map, more)); };
+  // What threads may ask of it.
+  EXPECT_EQ(read_with("", "").nc.system[0].spindle_unsigned, 1u);
+  EXPECT_EQ(read_with("", "signed = true\n").nc.system[0].spindle_unsigned, 0u);
+  EXPECT_EQ(read_with(", signed = true", "").nc.system[0].spindle_unsigned, 0u);
+  EXPECT_EQ(read_with(", signed = true", "signed = false\n").nc.system[0].spindle_unsigned, 1u);
+  EXPECT_TRUE(warnings("", "signed = false\n").empty()) << "that is said";
+  EXPECT_EQ(warnings("", "signed = true\n").size(), 1u) << "the register contradicts";
   const std::vector<std::string> found = warnings("");
   ASSERT_EQ(found.size(), 1u);
   const std::string before = nc::test::base_toml() + kLink;

@@ -130,7 +130,8 @@ class VirtualMachine {
     in.single_block = setup_.single_block;
     in.feed_override = 1.0;
     in.rapid_override = 1.0;
-    in.spindle[0].rev_per_s = last.s / 60.0;
+    turn_spindle(last);
+    in.spindle[0].rev_per_s = direction_ * last.s / 60.0;
     in.spindle[0].turns_valid = true;
     in.spindle[0].turns += in.spindle[0].rev_per_s * config_.cycle_s;
     // Events of the setup: by the blocks, and by the machine's own time.
@@ -142,6 +143,14 @@ class VirtualMachine {
     for (int w = 0; w < NC_WORDS; ++w) in.input[w] = outside.input[w];
     in.clock_ms = setup_.clock_ms +
                   static_cast<int64_t>(std::floor(static_cast<double>(cycle) * config_.cycle_s * 1000.0));
+  }
+
+  // It turns as it is told, without a word of it forward.
+  void turn_spindle(const nc_outputs& last) {
+    if ((last.strobe & 1u) == 0) return;
+    const nc_code_role role = nc_code_role_get(static_cast<nc_dialect>(config_.dialect), 'M', last.m);
+    if (role == NC_CODE_SPINDLE_FORWARD) direction_ = 1.0;
+    if (role == NC_CODE_SPINDLE_REVERSE) direction_ = -1.0;
   }
 
   static bool committed(void* user, const nc_item* item) { return static_cast<VirtualMachine*>(user)->commits(*item); }
@@ -214,6 +223,7 @@ class VirtualMachine {
   const nc_config& config_;
   const Setup& setup_;
   const ServoModel* servo_;
+  double direction_ = 1.0;  // of the spindle
   Passes passes_;
   VirtualWorld world_;
   Foresight foresight_;

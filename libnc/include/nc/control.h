@@ -39,7 +39,8 @@ typedef struct nc_system_config {
   uint8_t axis_count;
   nc_axis_config axis[NC_MAX_AXES];
   uint8_t spindle_count;   /**< 1..NC_MAX_SPINDLES; 0 = one */
-  double reserved[8];      /**< for members of later versions, must be 0 */
+  uint64_t spindle_unsigned; /**< bit n: nc_inputs::spindle[n] is measured without a sign, so that threads do not ask which way it turns */
+  double reserved[7];      /**< for members of later versions, must be 0 */
 } nc_system_config;
 
 /** How the machine moves along the path. */

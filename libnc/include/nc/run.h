@@ -309,8 +309,9 @@ typedef enum nc_stop_cause {
   NC_CAUSE_SPINDLE_UNMEASURED = 17, /**< as SPINDLE_STOPPED, because its speed is not measured */
   NC_CAUSE_NO_LAW = 18,           /**< time-optimal mode: no motion within the limits of the axes was found for what follows; it is looked
                                        for again, and reset gives the program up */
-  NC_CAUSE_RESET = 19             /**< a reset is on its way: the axes come to rest, or the feeder has still to finish what it does. Cycle start is
+  NC_CAUSE_RESET = 19,            /**< a reset is on its way: the axes come to rest, or the feeder has still to finish what it does. Cycle start is
                                        not taken before IDLE */
+  NC_CAUSE_SPINDLE_REVERSED = 20  /**< the spindle turns the other way round than the program has commanded (M03, M04): a thread does not begin */
 } nc_stop_cause;
 
 /** Bits of nc_outputs::fin_wait beside those of the groups. */

@@ -150,6 +150,8 @@ bool Check::system(unsigned index) {
   const Path path = Path().member("system").element(index);
   if (s.axis_count < 1 || s.axis_count > NC_MAX_AXES) return refuse(Path(path).member("axis_count"), "must be 1 to 8");
   if (s.spindle_count > NC_MAX_SPINDLES) return refuse(Path(path).member("spindle_count"), "must be 0 to 4; 0 = one");
+  if (s.spindle_unsigned >> (s.spindle_count == 0 ? 1 : s.spindle_count) != 0)
+    return refuse(Path(path).member("spindle_unsigned"), "must have bits of spindles that there are: bit 0 to spindle_count - 1");
   for (unsigned i = 0; i < s.axis_count; ++i)
     if (!axis(index, i)) return false;
   return unused(Path(path).member("reserved"), s.reserved);

@@ -77,6 +77,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   }
   ex.rotary = rotary_;
   ex.spindle_count = system.spindle_count == 0 ? 1u : system.spindle_count;
+  ex.spindle_unsigned = static_cast<uint8_t>(system.spindle_unsigned);
   ex.cycle_s = config.cycle_s;
   ex.max_feed_override = config.max_feed_override;
   ex.accuracy_joint_speed = dialect.rules.motion.accuracy_joint_speed;

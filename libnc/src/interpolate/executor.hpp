@@ -19,6 +19,7 @@ struct ExecutorConfig {
   uint32_t soft_limited = 0;   ///< bit i: axis i has soft limits
   AxisVec reference;           ///< first reference position
   unsigned spindle_count = 1;
+  uint8_t spindle_unsigned = 0;         ///< bit n: the measured speed of spindle n+1 does not say which way it turns
   uint8_t axis_spindle[kMaxAxes] = {};  ///< number of the spindle that is this axis (M700 10.5), 0 = none
   double cycle_s = 0.001;
   double max_feed_override = 2.0;

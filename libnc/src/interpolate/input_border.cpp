@@ -59,7 +59,9 @@ void InputBorder::spindle(unsigned n) {
   }
   if (within(in.rev_per_s, kMostRevPerS) && (!in.turns_valid || within(in.turns, kMostTurns))) {
     if (std::fabs(in.rev_per_s) < kLeastRevPerS) in.rev_per_s = 0;  // it stands: noise of its encoder
-    last = {in.rev_per_s, in.turns_valid ? in.turns : 0, 0};
+    // Without an encoder its turns are counted by its speed: from anywhere, and a thread goes by them all the same.
+    last = {in.rev_per_s, in.turns_valid ? in.turns : last.turns + in.rev_per_s * cycle_s_, 0};
+    in.turns = last.turns;
     return;
   }
   refused_ |= NC_INPUT_SPINDLE;

@@ -200,6 +200,7 @@ class Interpolator {
   bool thread_may_begin(const Segment& segment, const nc_inputs& in) NC_RT;
   double thread_speed(const Segment& segment, const nc_inputs& in) NC_RT;
   /// Of the spindle at this moment of the cycle.
+  bool spindle_reversed(const nc_inputs& in) const;
   double spindle_turns(const nc_inputs& in) const { return encoder(in).turns + (config_.cycle_s - time_) * encoder(in).rev_per_s; }
 
   // ---- set once

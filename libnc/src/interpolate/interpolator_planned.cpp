@@ -96,6 +96,10 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
 /// M700 6.7.1: a thread begins at its angle of the spindle, with a plan that was made for about the speed that the spindle has.
 bool Interpolator::begin_thread(const Segment& s, const nc_inputs& in) {
   const double planned = follower_.planned_turns(), turns = std::fabs(encoder(in).rev_per_s);
+  if (spindle_reversed(in)) {
+    wait(NC_CAUSE_SPINDLE_REVERSED);
+    return false;
+  }
   if (std::fabs(turns - planned) > kPlannedTurns * planned) {
     wait(turns > 0 ? NC_CAUSE_SPINDLE_ANGLE : no_spindle(in));
     return false;

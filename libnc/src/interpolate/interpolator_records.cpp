@@ -169,6 +169,10 @@ nc_stop_cause Interpolator::no_spindle(const nc_inputs& in) const {
 /// exceed the largest one.
 bool Interpolator::thread_may_begin(const Segment& s, const nc_inputs& in) {
   const double speed = encoder(in).rev_per_s;
+  if (spindle_reversed(in)) {
+    wait(NC_CAUSE_SPINDLE_REVERSED);
+    return false;
+  }
   if (speed != 0 && s.feed_mm_rev * std::fabs(speed) > s.speed_limit * (1 + 1e-9)) {
     wait(NC_CAUSE_SPINDLE_FAST);
     return false;
@@ -350,6 +354,7 @@ Interpolator::Done Interpolator::strobe(const Action& a) {
   switch (a.kind) {
     case NC_ACTION_M:
       m_ = code_number(a.value);
+      spindles_.turn(a.turn);
       break;
     case NC_ACTION_S:
       spindles_.command(a.value);

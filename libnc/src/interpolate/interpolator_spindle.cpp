@@ -24,6 +24,12 @@ const nc_spindle_inputs& Interpolator::encoder(const nc_inputs& in) const {
   return encoder_ != 0 ? in.spindle[encoder_ - 1] : kNone;
 }
 
+/// Its thread would have the wrong hand.
+bool Interpolator::spindle_reversed(const nc_inputs& in) const {
+  if (encoder_ == 0 || (config_.spindle_unsigned >> (encoder_ - 1) & 1) != 0) return false;
+  return spindles_.turns_wrong(encoder_ - 1u, encoder(in).rev_per_s);
+}
+
 void Interpolator::follow_spindles(const nc_inputs& in) {
   losing_ = false;
   // M700 10.6.1, relation (3) to (5): the selection is not to be changed while the spindle cuts a thread. What is in the work goes on.

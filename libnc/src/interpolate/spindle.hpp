@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The speeds that the spindles of a part system are wanted at: the S code, or so many revolutions that the surface at the tool goes with
-// a constant speed, within the clamp (M700 10.3, 10.4); and which of the spindles that is for (M700 10.6.1).
+// a constant speed, within the clamp (M700 10.3, 10.4); which way round, where the program has said it; and which of the spindles that is for (M700 10.6.1).
 #pragma once
 
 #include <algorithm>
@@ -27,6 +27,14 @@ class SpindleSpeeds {
   unsigned lead() const { return lead_; }
 
   void command(double rev_min) { code_ = rev_min; }
+  void turn(SpindleTurn how) {
+    for (unsigned i = 0; i < count_ && how != SpindleTurn::as_it_is; ++i)
+      if (how == SpindleTurn::stop_all || (selected_ >> i & 1) != 0) direction_[i] = how;
+  }
+  /// The spindle, counted from 0, turns the other way round than the program has said. What it has not said may be either way.
+  bool turns_wrong(unsigned spindle, double rev_per_s) const {
+    return rev_per_s != 0 && direction_[spindle] == (rev_per_s > 0 ? SpindleTurn::reverse : SpindleTurn::forward);
+  }
   /// m/min around the coordinate of `axis` (from 1); 0 = the speed stays what it is until the next code.
   void surface(double m_min, uint32_t axes) {
     const unsigned axis = axes == 0 ? 0 : static_cast<unsigned>(std::countr_zero(axes)) + 1u;
@@ -49,8 +57,9 @@ class SpindleSpeeds {
       spindle.how = how;
     }
   }
-  /// G97 and no clamp; what turns goes on turning.
+  /// G97 and no clamp; what turns goes on turning, and which way nobody has said any more.
   void reset() {
+    std::fill_n(direction_, NC_MAX_SPINDLES, SpindleTurn::as_it_is);
     surface(0, 0);
     for (Spindle& spindle : spindle_)
       if ((spindle.how & NC_CLAMP_OVER_RESET) == 0) spindle = {.now = spindle.now};
@@ -93,6 +102,7 @@ class SpindleSpeeds {
   double code_ = 0, m_min_ = 0;
   unsigned axis_ = 0;
   Spindle spindle_[NC_MAX_SPINDLES];
+  SpindleTurn direction_[NC_MAX_SPINDLES] = {};
 };
 
 }  // namespace nc

@@ -158,9 +158,13 @@ struct Move {
   Compensation comp;
 };
 
+/// What an M code says of the spindles that are selected; the end of a program is for all of them.
+enum class SpindleTurn : uint8_t { as_it_is, forward, reverse, stop, stop_all };
+
 struct Action {
   nc_action_kind kind = NC_ACTION_M;
   char letter = 0;
+  SpindleTurn turn = SpindleTurn::as_it_is;  ///< NC_ACTION_M
   double value = 0;
   uint32_t mask = 0, bits = 0, index = 0, text = 0;
 };

@@ -9,14 +9,30 @@
 namespace nc {
 namespace {
 
-void emit_action(BlockContext& in, nc_action_kind kind, char letter, double value) {
+Action& emit_action(BlockContext& in, nc_action_kind kind, char letter, double value) {
   Action& action = in.emit(ItemKind::action).action;
   action.kind = kind;
   action.letter = letter;
   action.value = value;
+  return action;
 }
 
-void emit_action(BlockContext& in, nc_action_kind kind, Role word, double value) { emit_action(in, kind, in.dialect->addresses.letter(word), value); }
+Action& emit_action(BlockContext& in, nc_action_kind kind, Role word, double value) { return emit_action(in, kind, in.dialect->addresses.letter(word), value); }
+
+SpindleTurn turn_of(MiscFunction function) {
+  switch (function) {
+    case MiscFunction::spindle_forward: return SpindleTurn::forward;
+    case MiscFunction::spindle_reverse: return SpindleTurn::reverse;
+    case MiscFunction::spindle_stop: return SpindleTurn::stop;
+    case MiscFunction::program_end: return SpindleTurn::stop_all;
+    default: return SpindleTurn::as_it_is;
+  }
+}
+
+void emit_misc(BlockContext& in, MiscFunction function, uint32_t m) {
+  Action& action = emit_action(in, NC_ACTION_M, Role::misc_code, m);
+  action.turn = turn_of(function);
+}
 
 void emit_fin(BlockContext& in) { await_fin(in); }
 
@@ -150,7 +166,7 @@ Execution auxiliary_before(BlockContext& in) {
     if (stops) in.state.spindle_on = false;
     if (waiting && i > first) emit_fin(in);  // one M strobe at a time
     in.state.modal.m = m;
-    emit_action(in, NC_ACTION_M, Role::misc_code, m);
+    emit_misc(in, function, m);
     waiting = true;
   }
   if (!waiting) return Execution::done;
@@ -192,7 +208,7 @@ Execution auxiliary_after(Interpreter& in) {
     switch (misc_function(*in.dialect, m)) {
       case MiscFunction::program_stop:
         in.state.modal.m = m;
-        emit_action(in, NC_ACTION_M, Role::misc_code, m);
+        emit_misc(in, MiscFunction::program_stop, m);
         emit_fin(in);  // M700 9.1: the stop comes with the completion
         in.emit(ItemKind::gate).gate.kind = NC_GATE_STOP;
         break;
@@ -204,7 +220,7 @@ Execution auxiliary_after(Interpreter& in) {
         if (check_loops_closed(in) != Execution::done) return Execution::fault;
         if (in.state.comp.side != 0) in.state.comp.side = 0;
         in.state.modal.m = m;
-        emit_action(in, NC_ACTION_M, Role::misc_code, m);
+        emit_misc(in, MiscFunction::program_end, m);
         emit_fin(in);
         end_spindle_control(in);
         in.state.end_seen = true;
