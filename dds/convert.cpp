@@ -41,8 +41,35 @@ std::uint32_t alarms_in(const share::StatusBlock& block) {
                                                   [](const share::Entry& entry) { return entry.is_warning == 0; }));
 }
 
+// A cause more in libnc is one here, or this does not compile; what comes from a later control is some other.
+nc_StopCause cause_of(std::uint32_t cause) {
+  switch (static_cast<nc_stop_cause>(cause)) {
+    case NC_CAUSE_NONE: return nc_CAUSE_NONE;
+    case NC_CAUSE_FIN: return nc_CAUSE_FIN;
+    case NC_CAUSE_DWELL: return nc_CAUSE_DWELL;
+    case NC_CAUSE_IN_POSITION: return nc_CAUSE_IN_POSITION;
+    case NC_CAUSE_PROGRAM_STOP: return nc_CAUSE_PROGRAM_STOP;
+    case NC_CAUSE_SINGLE_BLOCK: return nc_CAUSE_SINGLE_BLOCK;
+    case NC_CAUSE_FEED_HOLD: return nc_CAUSE_FEED_HOLD;
+    case NC_CAUSE_INTERLOCK: return nc_CAUSE_INTERLOCK;
+    case NC_CAUSE_OVERRIDE_ZERO: return nc_CAUSE_OVERRIDE_ZERO;
+    case NC_CAUSE_STARVED: return nc_CAUSE_STARVED;
+    case NC_CAUSE_ALARM: return nc_CAUSE_ALARM;
+    case NC_CAUSE_FEED_ZERO: return nc_CAUSE_FEED_ZERO;
+    case NC_CAUSE_SPINDLE_STOPPED: return nc_CAUSE_SPINDLE_STOPPED;
+    case NC_CAUSE_SPINDLE_ANGLE: return nc_CAUSE_SPINDLE_ANGLE;
+    case NC_CAUSE_SPINDLE_FAST: return nc_CAUSE_SPINDLE_FAST;
+    case NC_CAUSE_SERVO_OFF: return nc_CAUSE_SERVO_OFF;
+    case NC_CAUSE_TAP_SPINDLE: return nc_CAUSE_TAP_SPINDLE;
+    case NC_CAUSE_SPINDLE_UNMEASURED: return nc_CAUSE_SPINDLE_UNMEASURED;
+    case NC_CAUSE_NO_LAW: return nc_CAUSE_NO_LAW;
+    case NC_CAUSE_RESET: return nc_CAUSE_RESET;
+    case NC_CAUSE_SPINDLE_REVERSED: return nc_CAUSE_SPINDLE_REVERSED;
+  }
+  return nc_CAUSE_OTHER;
+}
+
 static_assert(static_cast<int>(nc_RUN_MANUAL) == NC_STATE_MANUAL && static_cast<int>(nc_RUN_ALARM) == NC_STATE_ALARM);
-static_assert(static_cast<int>(nc_CAUSE_ALARM) == NC_CAUSE_ALARM && static_cast<int>(nc_CAUSE_FIN) == NC_CAUSE_FIN);
 static_assert(static_cast<int>(nc_CMD_SELECT_PROGRAM) == static_cast<int>(share::RequestKind::kSelectProgram) &&
               static_cast<int>(nc_CMD_JOG) == static_cast<int>(share::RequestKind::kJog));
 static_assert(static_cast<int>(nc_REFUSED_OTHER) == static_cast<int>(rt::RefusalCause::kOther) &&
@@ -102,7 +129,7 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   to.time_ns = block.scan_time_ns;
   to.mode = as_enum(block.mode, nc_MODE_MANUAL, nc_MODE_AUTO);
   to.run_state = as_enum(from.run_state, nc_RUN_MANUAL, nc_RUN_IDLE);
-  to.stop_cause = as_enum(from.stop_cause, nc_CAUSE_ALARM, nc_CAUSE_OTHER);
+  to.stop_cause = cause_of(from.stop_cause);
   set(to.state_text, from.state_text);
   to.resetting = block.resetting != 0;
   to.single_block = (block.single_block >> system & 1u) != 0;
@@ -169,7 +196,7 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   }
   to.forced = {share::kForced, block.forced_count, forced, false};
   to.refusals = from.refusals;
-  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_NO_ANSWER, nc_REFUSED_OTHER);
+  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_TOO_FAR, nc_REFUSED_OTHER);
   set(to.refusal_text, from.refusal_text);
   to.feed_override_source = source_of(from.feed_override_source);
   to.rapid_override_source = source_of(from.rapid_override_source);
@@ -250,7 +277,7 @@ nc_Status_v1 core_status(const share::MachineBlock& machine, const share::Status
   to.time_ns = block.scan_time_ns;
   to.mode = block.mode;
   to.run_state = from.run_state;
-  to.stop_cause = from.stop_cause;
+  to.stop_cause = static_cast<std::uint32_t>(cause_of(from.stop_cause));
   set(to.program, from.program);
   to.program_number = from.program_number;
   to.line = from.line;
@@ -327,7 +354,7 @@ nc_CommandAck ack(const share::Ack& ack) {
   to.repeated = ack.repeated != 0;
   to.time_ns = ack.time_ns;
   set(to.text, ack.text);
-  to.refusal = as_enum(ack.refusal, nc_REFUSED_NO_ANSWER, nc_REFUSED_OTHER);
+  to.refusal = as_enum(ack.refusal, nc_REFUSED_TOO_FAR, nc_REFUSED_OTHER);
   return to;
 }
 

@@ -45,6 +45,16 @@ const char* cause_name(nc_StopCause cause) {
     case nc_CAUSE_OVERRIDE_ZERO: return "override 0";
     case nc_CAUSE_STARVED: return "starved";
     case nc_CAUSE_ALARM: return "alarm";
+    case nc_CAUSE_FEED_ZERO: return "F1 to F5 is 0";
+    case nc_CAUSE_SPINDLE_STOPPED: return "spindle stopped";
+    case nc_CAUSE_SPINDLE_ANGLE: return "spindle angle";
+    case nc_CAUSE_SPINDLE_FAST: return "thread too fast";
+    case nc_CAUSE_SERVO_OFF: return "servo off";
+    case nc_CAUSE_TAP_SPINDLE: return "spindle of a tap";
+    case nc_CAUSE_SPINDLE_UNMEASURED: return "spindle not measured";
+    case nc_CAUSE_NO_LAW: return "no motion within the limits";
+    case nc_CAUSE_RESET: return "reset";
+    case nc_CAUSE_SPINDLE_REVERSED: return "spindle turns the wrong way";
     default: return "other";
   }
 }

@@ -59,6 +59,16 @@ class StopCause(IdlEnum, typename="nc.StopCause", default="CAUSE_NONE"):
     CAUSE_STARVED = 9
     CAUSE_ALARM = 10
     CAUSE_OTHER = 11
+    CAUSE_FEED_ZERO = 12
+    CAUSE_SPINDLE_STOPPED = 13
+    CAUSE_SPINDLE_ANGLE = 14
+    CAUSE_SPINDLE_FAST = 15
+    CAUSE_SERVO_OFF = 16
+    CAUSE_TAP_SPINDLE = 17
+    CAUSE_SPINDLE_UNMEASURED = 18
+    CAUSE_NO_LAW = 19
+    CAUSE_RESET = 20
+    CAUSE_SPINDLE_REVERSED = 21
 
 
 @annotate.appendable
