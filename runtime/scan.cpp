@@ -180,12 +180,12 @@ Answer Scan::apply(const Command& command) noexcept {
       return start_cycle(systems, command.system == kAllSystems, command.by);
     case CommandKind::kFeedHold:
       if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
-      hold_request_ |= systems & active_systems();
+      hold(systems);
       return Answer::kDone;
     case CommandKind::kEnd:
       ending_ = true;
       if (mode_ == Mode::kManual) request_reset();  // which a feed hold does not stop
-      else hold_request_ = active_systems();
+      else hold(all_systems());
       return Answer::kDone;
     case CommandKind::kReset:
       request_reset();
@@ -212,6 +212,15 @@ Answer Scan::apply(const Command& command) noexcept {
       break;  // the feeder's
   }
   return Answer::kOutOfRange;
+}
+
+// Also of what does not run yet: a start of this scan does not go to the NC, and one that waits there is taken back.
+void Scan::hold(std::uint32_t systems) noexcept {
+  const std::uint32_t taken_back = start_pulse_ & systems;
+  for (unsigned s = 0; s < systems_; ++s)
+    if ((taken_back >> s & 1u) != 0) refuse(s, Asked::kCycleStart, Answer::kFeedHold, -1, false, machine_asker());
+  start_pulse_ &= ~systems;
+  hold_request_ |= systems;
 }
 
 // A program in a block stop may be interrupted by manual motion; it goes on in the mode in which it was

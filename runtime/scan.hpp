@@ -139,6 +139,7 @@ class Scan {
   std::uint32_t all_systems() const noexcept { return (1u << systems_) - 1; }
   Answer start_cycle(std::uint32_t systems, bool all, Asker by) noexcept;
   std::uint32_t ready_systems(std::uint32_t systems, bool all) const noexcept;
+  void hold(std::uint32_t systems) noexcept;
   Answer set_mode(Mode mode) noexcept;
   Answer manual(const Command& command) noexcept;
   Answer jog(const Command& command) noexcept;

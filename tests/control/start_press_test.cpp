@@ -160,6 +160,30 @@ TEST_P(StartPress, IsRefusedByFeedHold) {
   EXPECT_EQ(out_.cause, NC_CAUSE_PROGRAM_STOP);
 }
 
+/// A start that waits for the feeder to take notice of the end or the reset before it: a hold of one cycle takes it back.
+TEST_P(StartPress, ThatWaitsIsTakenBackByFeedHold) {
+  for (unsigned between = 0; between < 4; ++between) {
+    press(&in_.cycle_start);
+    for (unsigned n = 0; n < 10; ++n) turn();
+    ASSERT_TRUE(out_.state == NC_STATE_RUNNING || out_.state == NC_STATE_STOPPED);
+    press(&in_.reset);
+    for (unsigned n = 0; n < 300 && out_.state != NC_STATE_IDLE; ++n) cycle();  // the feeder does not get its turn
+    press(&in_.cycle_start);
+    for (unsigned n = 0; n < between; ++n) cycle();
+    ASSERT_EQ(out_.state, NC_STATE_IDLE);
+    press(&in_.feed_hold);
+    EXPECT_EQ(out_.cause, NC_CAUSE_FEED_HOLD);
+    const double from = out_.command.v[0];
+    for (unsigned n = 0; n < 300; ++n) turn();
+    EXPECT_EQ(out_.state, NC_STATE_IDLE) << between;
+    EXPECT_EQ(out_.command.v[0], from);
+    ASSERT_EQ(nc_program_select(control(), 0, file_), NC_OK);
+    turn();
+  }
+  press(&in_.cycle_start);
+  EXPECT_TRUE(comes_to(NC_STATE_STOPPED)) << "the next press begins";
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, StartPress, ::testing::Values(NC_MOTION_TRAPEZOID, NC_MOTION_OPTIMAL),
                          [](const auto& mode) { return mode.param == NC_MOTION_OPTIMAL ? "Optimal" : "Trapezoid"; });
 

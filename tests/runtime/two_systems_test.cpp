@@ -281,6 +281,45 @@ TEST_F(TwoSystems, StartsOfBothInOneScan) {
   EXPECT_TRUE(seen.start[1]);
 }
 
+// A feed hold that comes with the start is done: nothing of its part system begins, and the other one does.
+TEST_F(TwoSystems, AFeedHoldInTheScanOfAStartWins) {
+  build();
+  struct Seen final : nc::test::FakeNc {
+    unsigned starts[2] = {}, holds[2] = {};
+    void cycle(const nc_inputs* in, nc_outputs* result) noexcept override {
+      for (unsigned s = 0; s < 2; ++s) {
+        starts[s] += in[s].cycle_start;
+        holds[s] += in[s].feed_hold;
+        result[s] = out;
+      }
+    }
+  } seen;
+  nc::hal::SimMachine quiet(config.sim, config.points);
+  nc::rt::LadderHook none;
+  nc::rt::VirtualClock other_clock;
+  nc::rt::Scan scan(config, &other_clock, &quiet, &none, &seen);
+  scan.set_loaded(nc::rt::Scan::kPartLoaded | nc::rt::Scan::kPartLoaded << nc::rt::Scan::kLoadedBits);
+  nc::rt::Command command;
+  command.kind = CommandKind::kCycleStart;
+  command.system = nc::rt::kAllSystems;
+  ASSERT_TRUE(scan.post(command));
+  command.kind = CommandKind::kFeedHold;
+  command.system = 1;
+  ASSERT_TRUE(scan.post(command));
+  for (unsigned n = 0; n < 5; ++n) scan.run_once();
+  EXPECT_EQ(seen.starts[0], 1u);
+  EXPECT_EQ(seen.starts[1], 0u);
+  EXPECT_EQ(seen.holds[0], 0u);
+  EXPECT_EQ(seen.holds[1], 1u) << "a start that waits in the NC is taken back, and the next one is free";
+  EXPECT_EQ(scan.snapshot().system[0].refusal.asked, nc::rt::Asked::kNothing);
+  EXPECT_EQ(scan.snapshot().system[1].refusal.asked, nc::rt::Asked::kCycleStart);
+  EXPECT_EQ(scan.snapshot().system[1].refusal.why, Answer::kFeedHold);
+  command.kind = CommandKind::kCycleStart;
+  ASSERT_TRUE(scan.post(command));
+  for (unsigned n = 0; n < 5; ++n) scan.run_once();
+  EXPECT_EQ(seen.starts[1], 1u);
+}
+
 TEST_F(TwoSystems, AFeedHoldStopsThePartSystemThatItNames) {
   build();
   ASSERT_EQ(select(0, "G1 X50. F1200\nM30\n"), Answer::kDone);

@@ -256,6 +256,10 @@ void Interpolator::states(const nc_inputs& in) {
     hold_ = true;
     state_ = NC_STATE_HOLD;
   }
+  if (start_ && in.feed_hold && !(disable_ & 1)) {  // also one that still waits: whoever presses hold sees nothing begin
+    start_ = false;
+    start_refused_ = true;
+  }
   if (start_ && !frozen_ && !rereading_) {
     if (displaced_ && still && state_ == NC_STATE_STOPPED) {  // acts when that is done
       rereading_ = true;
@@ -273,10 +277,6 @@ void Interpolator::states(const nc_inputs& in) {
 }
 
 void Interpolator::start(const nc_inputs& in) {
-  if (in.feed_hold && !(disable_ & 1)) {
-    start_refused_ = true;
-    return;
-  }
   switch (state_) {
     case NC_STATE_IDLE:
       path_length_ = 0;
