@@ -76,7 +76,7 @@ static_assert(static_cast<int>(nc_REFUSED_OTHER) == static_cast<int>(rt::Refusal
               static_cast<int>(nc_REFUSED_INTERLOCK) == static_cast<int>(rt::RefusalCause::kInterlock) &&
               static_cast<int>(nc_REFUSED_NOT_LOADED) == static_cast<int>(rt::RefusalCause::kNotLoaded) &&
               static_cast<int>(nc_REFUSED_NO_ANSWER) == static_cast<int>(rt::RefusalCause::kNoAnswer) &&
-              static_cast<int>(nc_REFUSED_TOO_FAR) == static_cast<int>(rt::RefusalCause::kLast) &&
+              static_cast<int>(nc_REFUSED_DRIVES) == static_cast<int>(rt::RefusalCause::kLast) &&
               static_cast<int>(nc_REFUSED_SOFT_LIMIT) == static_cast<int>(rt::RefusalCause::kSoftLimit));
 // 0 is what a subscriber reads of a control that does not say it, so that the enumerators begin one behind those of the runtime.
 static_assert(static_cast<int>(nc_OVERRIDE_OPERATOR) == static_cast<int>(rt::OverrideSource::kOperator) + 1 &&

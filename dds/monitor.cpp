@@ -88,6 +88,7 @@ const char* refusal_name(nc_RefusalCause cause) {
     case nc_REFUSED_NO_ANSWER: return "no answer";
     case nc_REFUSED_LET_GO: return "let go first";
     case nc_REFUSED_TOO_FAR: return "too far";
+    case nc_REFUSED_DRIVES: return "drives off";
     default: return "other";
   }
 }

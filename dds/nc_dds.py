@@ -101,6 +101,7 @@ class RefusalCause(IdlEnum, typename="nc.RefusalCause", default="REFUSED_NOT"):
     REFUSED_NO_ANSWER = 25
     REFUSED_LET_GO = 26
     REFUSED_TOO_FAR = 27
+    REFUSED_DRIVES = 28
 
 
 @annotate.appendable

@@ -18,6 +18,9 @@ struct SystemFeedback {
   nc_axes actual{};                   // machine position, mm or deg
   std::uint32_t following_fault = 0;  // bit per axis: following error beyond its limit
   std::uint32_t drive_fault = 0;      // bit per axis: the drive reports a fault
+  std::uint32_t drive_fault_code[NC_MAX_AXES] = {};  // which: drive_fault_text() of hal/drive_fault.hpp
+  std::uint32_t not_following = 0;    // bit per axis: its drive does not follow the command (it is off, not yet on, or moves by itself): the command
+                                      // is to follow it
   std::uint32_t skip = 0;             // skip signals, bit n = signal n+1
   std::uint32_t unclamped = 0;        // bit per axis: the index table is unclamped (nc_inputs::unclamped)
   nc_spindle_inputs spindle[NC_MAX_SPINDLES] = {};
@@ -32,6 +35,7 @@ struct Feedback {
 // What the control tells the machine.
 struct SystemCommand {
   bool enable = false;      // drives on
+  bool reset = false;       // the operator's reset is on: drives get out of their faults
   nc_axes position{};       // commanded machine position of this cycle
   nc_axes velocity{};       // mm/s or deg/s
   std::uint8_t strobe = 0;  // bit 0 M, 1 S, 2 T, 3 B

@@ -96,7 +96,7 @@ struct ActiveAlarm {
   std::uint64_t scan = 0;   // when it came
   nc_source source{};       // block in execution at that moment
   std::uint32_t detail = 0; // R15: FinFault; R16: number; R17: line; R18: link; R19, R20: retain_detail(); R21: nc_input_bits
-  std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M; ~0 = not given out yet; R17: ladder::Fault
+  std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M; ~0 = not given out yet; R12: hal/drive_fault.hpp; R17: ladder::Fault
   bool acknowledged = false;  // a warning whose cause goes on: a reset has been made since, and it keeps nothing from starting
 };
 

@@ -86,6 +86,7 @@ enum class Answer : std::uint8_t {
   kAxesMove,
   kWarningActive,     // R19, R20, P460: reset first
   kResetHeld,         // a reset is done, and plc.reset is still on
+  kDrivesOff,         // a drive does not follow (yet)
   kHandleTooFar,      // more than the axis follows
   kNoAnswer           // the runtime does not run
 };
@@ -149,6 +150,8 @@ constexpr const char* answer_text(Answer answer) {
       return "a warning (R19, R20, P460) is to be acknowledged: reset first";
     case Answer::kAxesMove:
       return "an axis moves: wait until it stands";
+    case Answer::kDrivesOff:
+      return "the drives are off, come on or move by themselves: wait until they follow";
     case Answer::kHandleTooFar:
       return "more than the axis follows: it does not end where the wheel says";
     case Answer::kNoAnswer:

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/canopen/bus_map.hpp"
 #include "hal/modbus/map.hpp"
 #include "hal/points.hpp"
 #include "hal/sim/sim_machine.hpp"
@@ -181,6 +182,7 @@ struct Config {
   std::vector<SignalWire> wires;
   std::array<std::array<SpindleFeedback, NC_MAX_SPINDLES>, NC_MAX_SYSTEMS> spindle_feedback;
   hal::SimConfig sim;
+  hal::canopen::BusMap canopen;
   ShareConfig share;
 
   Config();

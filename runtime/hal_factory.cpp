@@ -9,6 +9,7 @@
 #include "hal/sim/sim_machine.hpp"
 #include "runtime/bus_modbus.hpp"
 #include "runtime/config_sections.hpp"
+#include "runtime/machine_canopen.hpp"
 
 namespace nc::rt {
 namespace {
@@ -18,7 +19,13 @@ std::unique_ptr<hal::Hal> make_sim(const Config& config) {
 }
 
 constexpr MachineKind kMachines[] = {
-    {.name = "sim", .needs = "", .read = read_sim, .make = make_sim},
+    {.name = "sim", .needs = "", .read = read_sim, .make = make_sim, .resources = nullptr, .no_virtual_time = ""},
+    {.name = "canopen",
+     .needs = "",
+     .read = read_canopen,
+     .make = make_canopen,
+     .resources = canopen_resources,
+     .no_virtual_time = "the drives of a bus run in real time"},
 };
 
 constexpr PointBusKind kPointBuses[] = {

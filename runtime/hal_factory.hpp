@@ -40,6 +40,10 @@ struct MachineKind {
   void (*read)(TableReader* root, Config* config);
   // Null = not built in. The machine keeps no reference to the configuration.
   std::unique_ptr<hal::Hal> (*make)(const Config& config);
+  // What the machine has for itself alone (runtime/machine_lock.hpp). May be null: nothing.
+  void (*resources)(const Config& config, std::vector<MachineResource>* resources);
+  // Why it cannot run on virtual time; empty = it can.
+  std::string_view no_virtual_time;
 };
 
 // A bus that carries points: each [[<name>]] is one, and the table `<name>` of a [[point]] puts the point on it.

@@ -124,6 +124,7 @@ std::vector<MachineResource> machine_resources(const Config& config, bool retain
   struct stat status {};
   if (stat(config.file.c_str(), &status) == 0)
     resources.push_back({"file " + std::to_string(status.st_dev) + " " + std::to_string(status.st_ino), meaning + " " + config.file});
+  if (config.machine_kind != nullptr && config.machine_kind->resources != nullptr) config.machine_kind->resources(config, &resources);
   for (const PointBusConfig& bus : config.buses)
     if (bus.kind->resources != nullptr) bus.kind->resources(config, bus, &resources);
   if (retained)

@@ -39,6 +39,7 @@ RefusalCause refusal_cause(Answer why) {
     case Answer::kResetting: return RefusalCause::kResetting;
     case Answer::kLetGoFirst: return RefusalCause::kLetGo;
     case Answer::kHandleTooFar: return RefusalCause::kTooFar;
+    case Answer::kDrivesOff: return RefusalCause::kDrives;
     case Answer::kEnding: return RefusalCause::kEnding;
     case Answer::kSpindleNow: return RefusalCause::kSpindle;
     case Answer::kSoftLimit: return RefusalCause::kSoftLimit;

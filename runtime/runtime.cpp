@@ -12,6 +12,7 @@
 #include <cstring>
 #include <thread>
 
+#include "hal/drive_fault.hpp"
 #include "runtime/nc_system.hpp"
 #include "runtime/retain/ladder_data.hpp"
 #include "runtime/retain/tables.hpp"
@@ -454,6 +455,8 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kLinkLost) text += ": " + config_.buses[alarm.detail % config_.buses.size()].name;
   if (alarm.id == AlarmId::kBadInput) text += bad_input_text(alarm.detail);
   if (alarm.id == AlarmId::kLadderStopped) text += ": " + ladder_fault(alarm);
+  if (alarm.id == AlarmId::kDriveFault)
+    if (const std::string why = hal::drive_fault_text(alarm.code); !why.empty()) text += ": " + why;
   if (alarm.axis >= 0) text += std::string(", axis ") + config_.nc.system[alarm.system].axis[alarm.axis].name;
   return text + place_text(alarm.source);
 }

@@ -269,6 +269,7 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
   for (unsigned s = 0; s < systems_; ++s) held |= machine_holds_[s] ? 1u << s : 0;
   if (((ready != 0 ? ready : systems) & ~held) == 0) return Answer::kFeedHold;
   if (ready == 0) return Answer::kNoProgram;
+  if (drives_not_following()) return Answer::kDrivesOff;
   if (active == 0) program_mode_ = mode_;
   start_pulse_ |= ready;
   hold_request_ &= ~ready;
@@ -315,7 +316,7 @@ void Scan::build_nc_inputs() noexcept {
     in.feed_pulses = 0;
     in.actual_valid = machine.actual_valid;
     in.actual = machine.actual;
-    in.follow_up = drives_off_ && !feedback_.lost;
+    in.follow_up = (drives_off_ || machine.not_following != 0) && !feedback_.lost;
     in.clock_ms = local_ms;
     give_commands_by_hand(s);
   }
@@ -325,13 +326,14 @@ void Scan::build_nc_inputs() noexcept {
 // ---- 4 outputs ----
 
 void Scan::write_outputs() noexcept {
-  if (!drives_off_) watch_soft_limits();  // the axes may have coasted anywhere
+  if (!drives_off_ && !drives_not_following()) watch_soft_limits();  // the axes may have coasted anywhere
   drives_off_ |= machine_faulty();
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
     macro_.distribute(out.output, out.output_written, &points_);
     hal::SystemCommand& machine = machine_.system[s];
     machine.enable = !drives_off_;
+    machine.reset = reset_phase_ == ResetPhase::kStopping || reset_phase_ == ResetPhase::kFeeder;
     machine.position = out.command;
     machine.velocity = out.velocity;
     machine.strobe = out.strobe;

@@ -196,6 +196,7 @@ class Scan {
   bool is_spindle_now(unsigned system, unsigned axis) const noexcept;
   bool machine_faulty() const noexcept;
   bool axes_stand() const noexcept;
+  bool drives_not_following() const noexcept;
   void watch_standstill() noexcept;
 
   const Config& config_;

@@ -44,6 +44,7 @@ Answer Scan::hand_hindrance(unsigned system, unsigned axis) const noexcept {
   if (reset_phase_ != ResetPhase::kNone) return in_reset();
   if (mode_ != Mode::kManual) return Answer::kNotInThisMode;
   if (is_spindle_now(system, axis)) return Answer::kSpindleNow;
+  if ((feedback_.system[system].not_following >> axis & 1u) != 0) return Answer::kDrivesOff;
   if (!out_[system].manual_allowed) return Answer::kMiddleOfBlock;
   if (in_[system].interlock) return Answer::kInterlock;
   return machine_holds_[system] ? Answer::kFeedHold : Answer::kDone;

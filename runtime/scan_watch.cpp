@@ -62,6 +62,13 @@ bool Scan::axes_stand() const noexcept {
   return !drives_off_ || feedback_.lost || stood_scans_ >= kStandstillScans;
 }
 
+// A drive is off, not on yet, or moves its axis by itself.
+bool Scan::drives_not_following() const noexcept {
+  for (unsigned s = 0; s < systems_; ++s)
+    if (feedback_.system[s].not_following != 0) return true;
+  return false;
+}
+
 // Faults at which the drives are switched off.
 bool Scan::machine_faulty() const noexcept {
   for (unsigned i = 0; i < alarms_.count; ++i)
@@ -74,11 +81,12 @@ void Scan::watch_machine() noexcept {
     raise(AlarmId::kHalLost, 0, -1);
     return;
   }
+  if (reset_phase_ == ResetPhase::kStopping && reset_scans_ == 0) return;  // it acknowledges what is so now; what stays comes back
   for (unsigned s = 0; s < systems_; ++s) {
     const hal::SystemFeedback& machine = feedback_.system[s];
     if ((machine.following_fault | machine.drive_fault) == 0) continue;
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
-      if ((machine.drive_fault >> a & 1u) != 0) raise(AlarmId::kDriveFault, s, static_cast<int>(a));
+      if ((machine.drive_fault >> a & 1u) != 0) raise(AlarmId::kDriveFault, s, static_cast<int>(a), 0, machine.drive_fault_code[a]);
       if ((machine.following_fault >> a & 1u) != 0) raise(AlarmId::kFollowingError, s, static_cast<int>(a));
     }
   }

@@ -29,8 +29,8 @@
 #include <vector>
 
 #include "hal/modbus/session.hpp"
-#include "hal/modbus/triple_buffer.hpp"
 #include "hal/point_bus.hpp"
+#include "hal/triple_buffer.hpp"
 
 namespace nc::hal::modbus {
 

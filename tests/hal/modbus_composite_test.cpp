@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "hal/composite.hpp"
-#include "hal/modbus/triple_buffer.hpp"
 #include "hal/sim/sim_machine.hpp"
+#include "hal/triple_buffer.hpp"
 
 namespace {
 
@@ -104,7 +104,7 @@ TEST_F(CompositeTest, ABusThatDoesNotStartIsAnErrorAndEverythingCanBeStopped) {
 }
 
 TEST(ModbusTripleBuffer, NewestWinsAndNothingIsTorn) {
-  nc::hal::modbus::TripleBuffer<std::vector<std::uint64_t>> buffer(std::vector<std::uint64_t>(64, 0));
+  nc::hal::TripleBuffer<std::vector<std::uint64_t>> buffer(std::vector<std::uint64_t>(64, 0));
   EXPECT_FALSE(buffer.take());
   constexpr std::uint64_t kStates = 200000;
   std::thread writer([&] {

@@ -30,6 +30,16 @@ const std::map<std::string_view, std::string> kLeastBus = {
      "[[point]]\nname = \"valve\"\ndirection = \"output\"\nmodbus = { link = \"io\", table = \"coil\", address = 0 }\n"},
 };
 
+// What a machine needs beside its name.
+const std::map<std::string_view, std::string> kLeastMachine = {
+    {"sim", ""},
+    {"canopen",
+     "[canopen]\ninterface = \"can0\"\n"
+     "[[canopen.drive]]\nnode = 1\naxis = [{ name = \"X\", encoder = 10000, pitch = 10.0 }]\n"
+     "[[canopen.drive]]\nnode = 2\naxis = [{ name = \"Y\", encoder = 10000, pitch = 10.0 }]\n"
+     "[[canopen.drive]]\nnode = 3\naxis = [{ name = \"Z\", encoder = 10000, pitch = 10.0 }]\n"},
+};
+
 std::string with_hal(const std::string& name) {
   std::string text = nc::test::base_toml();
   return text.insert(text.find('\n') + 1, "hal = \"" + name + "\"\n");
@@ -38,7 +48,8 @@ std::string with_hal(const std::string& name) {
 TEST(HalFactory, EachMachineIsMadeFromALeastConfiguration) {
   for (const MachineKind& kind : nc::rt::machine_kinds()) {
     if (kind.make == nullptr) continue;
-    const Config config = nc::test::parse_or_fail(with_hal(std::string(kind.name)));
+    ASSERT_TRUE(kLeastMachine.contains(kind.name)) << kind.name;
+    const Config config = nc::test::parse_or_fail(with_hal(std::string(kind.name)) + kLeastMachine.at(kind.name));
     ASSERT_EQ(config.machine_kind, &kind);
     EXPECT_NE(nc::rt::make_axes(config), nullptr) << kind.name;
   }
@@ -82,7 +93,7 @@ std::vector<std::string> errors_of(const std::string& text) {
 TEST(HalFactory, AnUnknownMachineIsRefusedWithItsLine) {
   const auto errors = errors_of(with_hal("ethercat"));
   ASSERT_EQ(errors.size(), 1u);
-  EXPECT_EQ(errors[0], "machine.toml:2: machine.hal: must be \"sim\", not \"ethercat\"; no other machine is built in");
+  EXPECT_EQ(errors[0], "machine.toml:2: machine.hal: must be \"sim\", \"canopen\", not \"ethercat\"; no other machine is built in");
 }
 
 TEST(HalFactory, AnUnknownBusIsRefusedWithItsLineAndThoseThatThereAre) {
@@ -108,8 +119,8 @@ PlaceOnBus on_bus_two(TableReader*, const nc::hal::Point&, Config*) {
 std::unique_ptr<nc::hal::PointBus> make_nothing(const Config&, const PointBusConfig&, const BusReport&) { return nullptr; }
 
 constexpr MachineKind kMachines[] = {
-    {.name = "sim", .needs = "", .read = nullptr, .make = [](const Config&) { return std::unique_ptr<nc::hal::Hal>(); }},
-    {.name = "drives", .needs = "libdrives", .read = nullptr, .make = nullptr},
+    {.name = "sim", .needs = "", .read = nullptr, .make = [](const Config&) { return std::unique_ptr<nc::hal::Hal>(); }, .resources = nullptr, .no_virtual_time = ""},
+    {.name = "drives", .needs = "libdrives", .read = nullptr, .make = nullptr, .resources = nullptr, .no_virtual_time = ""},
 };
 constexpr PointBusKind kBuses[] = {
     {.name = "first", .needs = "", .read = read_nothing, .read_point = on_bus_two, .check = nullptr, .resources = nullptr, .make = make_nothing, .on_virtual_time = ""},

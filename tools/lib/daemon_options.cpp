@@ -2,6 +2,7 @@
 // See daemon_options.hpp.
 #include "tools/lib/daemon_options.hpp"
 
+#include "runtime/hal_factory.hpp"
 #include "tools/lib/dialect_names.hpp"
 
 namespace nc::tools {
@@ -10,6 +11,8 @@ std::string conflict_of(const DaemonOptions& options, const rt::Config& config) 
   if (options.commands && options.fast) return "--commands is for a machine in real time, not for --fast";
   if (options.commands && options.share.empty() && options.command != DaemonOptions::Command::kServe && !config.share.enabled)
     return "--commands needs shared memory: --share NAME, or enabled = true in [share]";
+  if (options.fast && config.machine_kind != nullptr && !config.machine_kind->no_virtual_time.empty())
+    return "--fast cannot be: " + std::string(config.machine_kind->no_virtual_time) + " (hal = \"" + std::string(config.machine_kind->name) + "\")";
   return "";
 }
 

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace nc::hal::modbus {
+namespace nc::hal {
 
 template <class T>
 class TripleBuffer {
@@ -44,4 +44,4 @@ class TripleBuffer {
   alignas(64) std::uint8_t front_ = 2;
 };
 
-}  // namespace nc::hal::modbus
+}  // namespace nc::hal

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// A machine whose axes are drives on a CANopen bus. See can_machine.hpp.
+#include "hal/canopen/can_machine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+
+namespace nc::hal::canopen {
+namespace {
+
+constexpr std::size_t kStackBytes = 256 * 1024;
+constexpr std::int64_t kServiceNs = 2'000'000;
+constexpr std::int64_t kPhaseShare = 64;      // of what the cycle is away from the middle between two scans, that it comes nearer with each
+constexpr std::int64_t kPhaseStepNs = 2'000;  // at most
+
+// Does not enter the kernel.
+std::int64_t monotonic_ns() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return t.tv_sec * 1'000'000'000LL + t.tv_nsec;
+}
+
+void sleep_until(std::int64_t ns) {
+  timespec t{};
+  t.tv_sec = ns / 1'000'000'000;
+  t.tv_nsec = ns % 1'000'000'000;
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
+  }
+}
+
+// Signals are for the operator's thread. With a priority where that is allowed, else without.
+bool make_thread(void* (*body)(void*), void* self, int priority, const char* name, pthread_t* thread, std::string* error) {
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kStackBytes);
+  pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  int problem = EPERM;
+  for (int wanted = priority; problem == EPERM; wanted = 0) {
+    sched_param parameters{};
+    parameters.sched_priority = wanted;
+    pthread_attr_setschedpolicy(&attributes, wanted > 0 ? SCHED_FIFO : SCHED_OTHER);
+    pthread_attr_setschedparam(&attributes, &parameters);
+    problem = pthread_create(thread, &attributes, body, self);
+    if (wanted == 0) break;
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  pthread_attr_destroy(&attributes);
+  if (problem == 0) pthread_setname_np(*thread, name);
+  else *error = std::string("CANopen: no thread: ") + std::strerror(problem);
+  return problem == 0;
+}
+
+}  // namespace
+
+CanMachine::CanMachine(const BusMap& bus, std::unique_ptr<CanPort> port, Report report)
+    : bus_(bus), port_(std::move(port)), cyclic_(bus_, port_.get()), service_(bus_, &cyclic_, std::move(report)) {}
+
+CanMachine::~CanMachine() { stop(); }
+
+// ---- start and stop ----
+
+bool CanMachine::start(const PointImage& initial, std::string* error) {
+  (void)initial;
+  if (!start_stepping(error) || !make_threads(error)) return false;
+  const std::int64_t begin = monotonic_ns(), last = begin + bus_.boot_timeout_ms * 1'000'000LL;
+  while (!cyclic_.ready() && !service_.refused() && monotonic_ns() < last) sleep_until(monotonic_ns() + kServiceNs);
+  if (cyclic_.ready()) return true;
+  const std::string missing = service_.missing();
+  *error = "CANopen on " + bus_.interface + ": " + (missing.empty() ? "a drive is operational and sends no positions" : missing);
+  return false;
+}
+
+bool CanMachine::start_stepping(std::string* error) {
+  std::string why;
+  if (!port_->open(&why)) {
+    *error = "CANopen on " + bus_.interface + ": " + why;
+    return false;
+  }
+  open_ = true;
+  return true;
+}
+
+void CanMachine::step_bus(std::int64_t now_ns) {
+  cyclic_.cycle(now_ns);
+  service_.step(now_ns);
+}
+
+bool CanMachine::make_threads(std::string* error) {
+  ending_.store(false);
+  const auto bus = [](void* self) -> void* {
+    static_cast<CanMachine*>(self)->bus_thread();
+    return nullptr;
+  };
+  const auto service = [](void* self) -> void* {
+    static_cast<CanMachine*>(self)->service_thread();
+    return nullptr;
+  };
+  has_bus_thread_ = make_thread(bus, this, bus_.priority, "can-bus", &bus_pthread_, error);
+  has_service_thread_ = has_bus_thread_ && make_thread(service, this, 0, "can-service", &service_pthread_, error);
+  return has_service_thread_;
+}
+
+// Its own deadlines, drawn towards the middle between two scans: what the scan has given is there then, and what the drives say reaches the next one.
+void CanMachine::bus_thread() {
+  const std::int64_t period = bus_.cycle_us * 1000LL;
+  std::int64_t next = monotonic_ns() + period;
+  while (!ending_.load(std::memory_order_acquire)) {
+    sleep_until(next);
+    const std::int64_t now = monotonic_ns();
+    cyclic_.cycle(now);
+    if (const std::int64_t stamp = cyclic_.scan_stamp_ns(); stamp != 0) {
+      std::int64_t away = (next - stamp) % period;
+      if (away < 0) away += period;
+      next += std::clamp((period / 2 - away) / kPhaseShare, -kPhaseStepNs, kPhaseStepNs);
+    }
+    next += period;
+    if (now > next) next += (now - next + period) / period * period;  // a late cycle is left out, not caught up
+  }
+}
+
+void CanMachine::service_thread() {
+  while (!ending_.load(std::memory_order_acquire)) {
+    service_.step(monotonic_ns());
+    sleep_until(monotonic_ns() + kServiceNs);
+  }
+}
+
+void CanMachine::end_threads() {
+  ending_.store(true, std::memory_order_release);
+  if (has_bus_thread_) pthread_join(bus_pthread_, nullptr);
+  if (has_service_thread_) pthread_join(service_pthread_, nullptr);
+  has_bus_thread_ = has_service_thread_ = false;
+}
+
+// What runs is stopped by the drives' own ramp while SYNC goes on; then the nodes leave "operational", in which no PDO moves anything.
+void CanMachine::stop() noexcept {
+  if (has_bus_thread_) {
+    BusWanted& wanted = cyclic_.wanted();
+    for (AxisWanted& axis : wanted.axis) axis = {};
+    wanted.serial = ++serial_;
+    wanted.stamp_ns = 0;
+    cyclic_.give();
+    const auto moving = [this] {
+      for (unsigned i = 0; i < cyclic_.axis_count(); ++i)
+        if (cyclic_.is_enabled(i)) return true;
+      return false;
+    };
+    const std::int64_t last = monotonic_ns() + bus_.stop_timeout_ms * 1'000'000LL;
+    while (moving() && monotonic_ns() < last) sleep_until(monotonic_ns() + kServiceNs);
+  }
+  end_threads();
+  if (open_) {
+    stop_nodes();
+    port_->close();
+  }
+  open_ = false;
+}
+
+void CanMachine::stop_nodes() {
+  for (const NodeMap& node : bus_.nodes) {
+    CanFrame frame;
+    frame.id = kNmtId;
+    frame.length = 2;
+    frame.data[0] = 0x80;
+    frame.data[1] = static_cast<std::uint8_t>(node.id);
+    (void)port_->send(frame);
+  }
+}
+
+// ---- scan ----
+
+void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
+  const BusShown& shown = cyclic_.shown();
+  feedback->lost = shown.lost;
+  for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) {
+    SystemFeedback& out = feedback->system[s];
+    out.following_fault = out.drive_fault = out.not_following = 0;
+    out.skip = 0;
+    out.fin = bus_.completes_functions && strobe_[s];
+    for (nc_spindle_inputs& spindle : out.spindle) spindle.unmeasured = true;
+  }
+  for (unsigned i = 0; i < cyclic_.axis_count(); ++i) {
+    const AxisMap& map = cyclic_.axis(i);
+    const AxisShown& axis = shown.axis[i];
+    SystemFeedback& out = feedback->system[map.system];
+    const std::uint32_t bit = 1u << map.axis;
+    const auto machine = [&map](std::int64_t increments) { return static_cast<double>(increments) / map.increments_per_unit + map.zero; };
+    if (axis.probe_on) out.skip |= 1u << (map.skip_signal - 1);
+    if (map.homed >= 0) image->value[map.homed] = axis.homed ? 1 : 0;
+    if (axis.known) out.actual.v[map.axis] = machine(axis.position);
+    out.actual_valid = true;
+    if (!axis.follows) out.not_following |= bit;
+    if (shown.serial < reset_serial_) continue;  // what was wrong before the reset
+    if (axis.following_fault) out.following_fault |= bit;
+    if ((axis.fault & kFaulty) != 0) {
+      out.drive_fault |= bit;
+      out.drive_fault_code[map.axis] = axis.fault & ~kFaulty;
+    }
+  }
+}
+
+void CanMachine::write(const Command& command, const PointImage& image) noexcept {
+  BusWanted& wanted = cyclic_.wanted();
+  for (unsigned i = 0; i < cyclic_.axis_count(); ++i) {
+    const AxisMap& map = cyclic_.axis(i);
+    const SystemCommand& system = command.system[map.system];
+    AxisWanted& axis = wanted.axis[i];
+    axis.target = std::llround((system.position.v[map.axis] - map.zero) * map.increments_per_unit);
+    axis.on = system.enable;
+    axis.reset = system.reset;
+    axis.home = map.homing_request >= 0 && image.value[map.homing_request] != 0;
+  }
+  for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) strobe_[s] = command.system[s].strobe != 0;
+  wanted.serial = ++serial_;
+  const bool reset = command.system[0].reset;  // of the whole control
+  if (reset && !resetting_) reset_serial_ = serial_;
+  resetting_ = reset;
+  wanted.stamp_ns = monotonic_ns();
+  cyclic_.give();
+}
+
+}  // namespace nc::hal::canopen

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A machine whose axes are drives on a CANopen bus: what the scan sees of it, and the two threads behind it.
+//
+//   scan             read(), write(): images, no system call
+//   bus's thread     Cyclic::cycle() once per servo cycle, half a period behind the scan, SCHED_FIFO where that is allowed
+//   service thread   Service::step() every two milliseconds
+//
+// Both parts can be driven by the caller instead (stepping): a test has then one thread and its own time.
+#pragma once
+
+#include <pthread.h>
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "hal/canopen/bus_map.hpp"
+#include "hal/canopen/can_port.hpp"
+#include "hal/canopen/cyclic.hpp"
+#include "hal/canopen/service.hpp"
+#include "hal/hal.hpp"
+
+namespace nc::hal::canopen {
+
+class CanMachine final : public Hal {
+ public:
+  CanMachine(const BusMap& bus, std::unique_ptr<CanPort> port, Report report = {});
+  ~CanMachine() override;
+
+  // Opens the port and waits until all drives are operational: a machine whose axes are not there cannot be reached.
+  bool start(const PointImage& initial, std::string* error) override;
+  void read(Feedback* feedback, PointImage* image) noexcept override;
+  void write(const Command& command, const PointImage& image) noexcept override;
+  // Drives by quick stop to rest and without torque, nodes to pre-operational.
+  void stop() noexcept override;
+
+  // ---- without threads ----
+  bool start_stepping(std::string* error);
+  void step_bus(std::int64_t now_ns);  // one servo cycle of the bus and a turn of the service
+
+  // ---- any thread ----
+  Service& service() { return service_; }
+  const Cyclic& cyclic() const { return cyclic_; }
+
+ private:
+  bool make_threads(std::string* error);
+  void bus_thread();
+  void service_thread();
+  void end_threads();
+  void stop_nodes();
+
+  const BusMap bus_;
+  std::unique_ptr<CanPort> port_;
+  Cyclic cyclic_;
+  Service service_;
+
+  // ---- scan ----
+  std::uint64_t serial_ = 0, reset_serial_ = 0;  // the second: with which the last reset began
+  bool resetting_ = false;
+  bool strobe_[NC_MAX_SYSTEMS] = {};
+
+  pthread_t bus_pthread_{}, service_pthread_{};
+  bool has_bus_thread_ = false, has_service_thread_ = false, open_ = false;
+  std::atomic<bool> ending_{false};
+};
+
+}  // namespace nc::hal::canopen

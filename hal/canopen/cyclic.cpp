@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real-time part of a bus of drives: one cycle, and what comes from the bus. What becomes of an axis is in cyclic_axis.cpp. See cyclic.hpp.
+#include "hal/canopen/cyclic.hpp"
+
+#include <algorithm>
+
+#include "hal/canopen/bus_load.hpp"
+
+namespace nc::hal::canopen {
+namespace {
+
+constexpr unsigned kFramesPerCycle = 256;  // more than a bus carries in a cycle of 1 ms
+constexpr double kSilences = 2.5;          // heartbeat times without one
+constexpr std::uint8_t kStateBootUp = 0, kStateOperational = 5;
+
+}  // namespace
+
+Cyclic::Cyclic(const BusMap& bus, CanPort* port)
+    : bus_(bus),
+      port_(port),
+      heartbeat_ns_(bus.heartbeat_ms * 1'000'000LL),
+      heartbeat_limit_ns_(static_cast<std::int64_t>(bus.heartbeat_ms * 1e6 * kSilences)),
+      command_limit_ns_(bus.command_timeout_ms * 1'000'000LL),
+      cycles_per_sync_(std::max(1u, bus.sync_us / bus.cycle_us)),
+      slow_every_(slow_every(bus)) {
+  node_at_.fill(-1);
+  for (unsigned n = 0; n < bus_.nodes.size() && n < kMaxNodes; ++n) {
+    const NodeMap& node = bus_.nodes[n];
+    nodes_.push_back({});
+    nodes_.back().id = node.id;
+    node_at_[node.id & kLastNode] = static_cast<std::int8_t>(n);
+    unsigned sends = 0, takes = 0;
+    for (const AxisMap& map : node.axes) {
+      Axis axis;
+      axis.map = &map;
+      axis.node = n;
+      axis.way = DriveWay(static_cast<unsigned>(syncs_of(bus.stop_timeout_ms)));
+      axis.rpdo_id = static_cast<std::uint16_t>(kRpdoId + kPdoStep * takes++ + node.id);
+      axis.tpdo_id = static_cast<std::uint16_t>(kTpdoId + kPdoStep * sends++ + node.id);
+      if (map.has_probe()) axis.probe_id = static_cast<std::uint16_t>(kTpdoId + kPdoStep * sends++ + node.id);
+      wanted_mode_[axes_.size()].store(kModeCyclicPosition, std::memory_order_relaxed);
+      axes_.push_back(axis);
+    }
+  }
+}
+
+void Cyclic::cycle(std::int64_t now_ns) noexcept {
+  const bool sync = cycles_++ % cycles_per_sync_ == 0;
+  if (sync) {
+    CanFrame frame;
+    frame.id = kSyncId;
+    send(frame);
+    statistics_.syncs.fetch_add(1, std::memory_order_relaxed);
+  }
+  take_frames(now_ns);
+  if (sync) {
+    watch_nodes(now_ns);
+    for (unsigned i = 0; i < axes_.size(); ++i) watch_axis(i);
+    const bool commanded = take_wanted(now_ns);
+    for (unsigned i = 0; i < axes_.size(); ++i) move_axis(i, commanded);
+  }
+  if (now_ns - beat_ns_ >= heartbeat_ns_) {
+    CanFrame beat;
+    beat.id = static_cast<std::uint16_t>(kHeartbeatId + bus_.own_id);
+    beat.length = 1;
+    beat.data[0] = kStateOperational;
+    send(beat);
+    beat_ns_ = now_ns;
+  }
+  if (sync && ++slow_wait_ >= slow_every_) {
+    CanFrame slow;
+    if (out_.pop(&slow)) {
+      send(slow);
+      slow_wait_ = 0;
+    }
+  }
+  publish();
+}
+
+void Cyclic::send(const CanFrame& frame) noexcept {
+  (port_->send(frame) ? statistics_.sent : statistics_.send_failed).fetch_add(1, std::memory_order_relaxed);
+}
+
+// ---- from the bus ----
+
+void Cyclic::take_frames(std::int64_t now_ns) noexcept {
+  CanFrame frame;
+  for (unsigned n = 0; n < kFramesPerCycle && port_->receive(&frame); ++n) dispatch(frame, now_ns);
+}
+
+void Cyclic::dispatch(const CanFrame& frame, std::int64_t now_ns) noexcept {
+  if (frame.event != BusEvent::kNone) return take_event(frame.event);
+  statistics_.received.fetch_add(1, std::memory_order_relaxed);
+  if (bus_off_) take_event(BusEvent::kRestarted);  // what is heard is a bus
+  if (take_tpdo(frame)) return;
+  const unsigned id = frame.id & kLastNode, kind = frame.id & ~kLastNode;
+  const int node = node_at_[id];
+  if (node >= 0 && kind == kHeartbeatId) return take_heartbeat(static_cast<unsigned>(node), frame, now_ns);
+  if (node >= 0 && kind == kEmergencyId && id != 0) return take_emergency(static_cast<unsigned>(node), frame);
+  if (node >= 0 && kind == kSdoAnswerId) return hand_over(frame);
+  statistics_.strange.fetch_add(1, std::memory_order_relaxed);
+}
+
+// With the bus off nothing is known of any node. When it is there again, each is set up again: it may have been without power.
+void Cyclic::take_event(BusEvent event) noexcept {
+  if (event == BusEvent::kBusOff) {
+    if (!bus_off_) statistics_.bus_off.fetch_add(1, std::memory_order_relaxed);
+    bus_off_ = true;
+    for (unsigned n = 0; n < nodes_.size(); ++n) set_phase(n, NodePhase::kAway);
+  } else if (event == BusEvent::kRestarted && bus_off_) {
+    bus_off_ = false;
+  }
+}
+
+bool Cyclic::take_tpdo(const CanFrame& frame) noexcept {
+  for (Axis& axis : axes_) {
+    if (frame.id != axis.tpdo_id && (axis.probe_id == 0 || frame.id != axis.probe_id)) continue;
+    if (frame.length < 6) {  // not what it was told to map
+      statistics_.strange.fetch_add(1, std::memory_order_relaxed);
+    } else if (phase(axis.node) == NodePhase::kOperational) {
+      if (frame.id == axis.tpdo_id) take_position(&axis, frame);
+      else take_probe(&axis, frame);
+    }
+    return true;
+  }
+  return false;
+}
+
+// The position counts on over the turns of its 32 bits.
+void Cyclic::take_position(Axis* axis, const CanFrame& frame) noexcept {
+  const auto raw = static_cast<std::int32_t>(get_le(frame.data + 2, 4));
+  const auto step = static_cast<std::int32_t>(static_cast<std::uint32_t>(raw) - static_cast<std::uint32_t>(axis->raw));
+  axis->position = axis->known ? axis->position + step : raw;
+  axis->raw = raw;
+  axis->status = static_cast<std::uint16_t>(get_le(frame.data, 2));
+  axis->known = true;
+  if (axis->fresh) axis->twice += 2;
+  axis->fresh = true;
+}
+
+void Cyclic::take_probe(Axis* axis, const CanFrame& frame) noexcept {
+  axis->probe_status = static_cast<std::uint16_t>(get_le(frame.data, 2));
+  axis->probe_raw = static_cast<std::int32_t>(get_le(frame.data + 2, 4));
+}
+
+void Cyclic::hand_over(const CanFrame& frame) noexcept {
+  if (!in_.push(frame)) statistics_.strange.fetch_add(1, std::memory_order_relaxed);
+}
+
+// A node that begins anew, or leaves "operational", has lost what it was told.
+void Cyclic::take_heartbeat(unsigned n, const CanFrame& frame, std::int64_t now_ns) noexcept {
+  if (frame.length < 1) return;
+  nodes_[n].heard_ns = now_ns;
+  const std::uint8_t state = frame.data[0] & 0x7F;
+  if (phase(n) == NodePhase::kOperational && state != kStateOperational) {
+    for (Axis& axis : axes_)
+      if (axis.node == n) fault(&axis, DriveTrouble::kRestarted);
+    set_phase(n, NodePhase::kAway);
+  }
+  if (phase(n) != NodePhase::kOperational || state == kStateBootUp) hand_over(frame);
+}
+
+void Cyclic::take_emergency(unsigned n, const CanFrame& frame) noexcept {
+  if (frame.length < 3) return;
+  nodes_[n].emergency = static_cast<std::uint16_t>(get_le(frame.data, 2));
+  nodes_[n].error_register = frame.data[2];
+  hand_over(frame);
+}
+
+void Cyclic::watch_nodes(std::int64_t now_ns) noexcept {
+  for (unsigned n = 0; n < nodes_.size(); ++n) {
+    Node& node = nodes_[n];
+    const bool operational = phase(n) == NodePhase::kOperational;
+    if (operational && !node.operational) node.heard_ns = now_ns;
+    const bool silent = operational && now_ns - node.heard_ns > heartbeat_limit_ns_;
+    for (Axis& axis : axes_) {
+      if (axis.node != n) continue;
+      if (operational && !node.operational) {
+        axis.missed = axis.twice = 0;
+        axis.status = 0;
+        axis.fresh = true;
+      }
+      if (silent) fault(&axis, DriveTrouble::kHeartbeat);
+      if (!operational && node.operational) fault(&axis, DriveTrouble::kHeartbeat);  // unless it is known better
+    }
+    if (silent) set_phase(n, NodePhase::kAway);
+    node.operational = operational && !silent;
+  }
+}
+
+// ---- to the scan ----
+
+void Cyclic::publish() noexcept {
+  BusShown& shown = shown_.back();
+  bool any = false, all = !bus_off_;
+  for (const Node& node : nodes_) {
+    any |= node.operational;
+    all &= node.operational;
+  }
+  shown.lost = bus_off_ || !any;
+  shown.serial = serial_;
+  for (unsigned i = 0; i < axes_.size(); ++i) {
+    const Axis& axis = axes_[i];
+    const Node& node = nodes_[axis.node];
+    AxisShown& out = shown.axis[i];
+    const DriveState state = drive_state(axis.status);
+    enabled_[i].store(node.operational && (state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive), std::memory_order_relaxed);
+    out.position = axis.position;
+    out.known = axis.known;
+    all &= axis.known;
+    out.follows = follows(i);
+    out.homed = axis.homed;
+    out.homing = axis.homing != Homing::kNo;
+    out.following_fault = axis.following_fault;
+    const bool told = axis.trouble == DriveTrouble::kNone && node.emergency != 0;
+    out.fault = !axis.faulty ? 0 : kFaulty | drive_fault_code(told ? DriveTrouble::kEmergency : axis.trouble, told ? node.emergency : 0, told ? node.error_register : 0);
+    out.probe = axis.probe;
+    out.probe_on = axis.probe_on;
+  }
+  shown_.publish();
+  ready_.store(all, std::memory_order_release);
+}
+
+}  // namespace nc::hal::canopen

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real-time part of a bus of drives: SYNC, PDOs, the state machine of each axis, heartbeats, and what is watched. One call of cycle()
+// per servo cycle in the bus's thread: bounded work, no allocation, no lock, no system call but the port's send and receive.
+//
+//   cycle k:  SYNC, heartbeat ─▶ RPDOs with the newest positions of the scan ─▶ what has come in since ─▶ publish
+//
+// A drive takes with SYNC k+1 what came behind SYNC k, and says with SYNC k where it stood then. So a position of the scan acts one to two cycles
+// later, and the following error is taken from the command of two SYNCs before.
+//
+// With the scan it exchanges images (triple buffers), with the slow part (service.hpp) frames (queues) and a phase for each node.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "hal/canopen/bus_map.hpp"
+#include "hal/canopen/can_port.hpp"
+#include "hal/canopen/drive_state.hpp"
+#include "hal/drive_fault.hpp"
+#include "hal/spsc.hpp"
+#include "hal/triple_buffer.hpp"
+
+namespace nc::hal::canopen {
+
+// What the slow part makes of a node.
+enum class NodePhase : std::uint8_t {
+  kAway,         // it has not answered, or not again
+  kSetUp,        // its objects are being written
+  kOperational,  // its PDOs count
+  kRefused       // it cannot be set up; someone has to look
+};
+
+// What is asked of the slow part for one axis: the mode of operation (6060h).
+inline constexpr std::int8_t kModeHoming = 6, kModeCyclicPosition = 8;
+
+// Of one axis, from the scan.
+struct AxisWanted {
+  std::int64_t target = 0;  // increments
+  bool on = false;
+  bool reset = false;       // faults are forgotten, and a drive's is reset
+  bool home = false;        // level; its rise begins
+};
+struct BusWanted {
+  std::uint64_t serial = 0;  // counts the scans
+  std::int64_t stamp_ns = 0;
+  std::array<AxisWanted, kMaxAxes> axis{};
+};
+
+// Of one axis, to the scan.
+struct AxisShown {
+  std::int64_t position = 0;  // increments
+  bool known = false;         // there has been one
+  bool follows = false;       // enabled, in cyclic position, and bit 12 says that it takes the command
+  bool homed = false;
+  bool homing = false;
+  bool following_fault = false;
+  std::uint32_t fault = 0;    // drive_fault_code() | kFaulty
+  std::int64_t probe = 0;     // increments that the drive has latched
+  bool probe_on = false;
+};
+inline constexpr std::uint32_t kFaulty = 0x80000000u;
+struct BusShown {
+  std::array<AxisShown, kMaxAxes> axis{};
+  bool lost = true;  // bus off, or no node is operational
+  std::uint64_t serial = 0;  // of the scan's last image that has been acted on
+};
+
+struct CyclicStatistics {
+  std::atomic<std::uint64_t> syncs{0}, sent{0}, received{0}, send_failed{0}, missed_positions{0}, missed_commands{0}, strange{0}, bus_off{0};
+};
+
+class Cyclic {
+ public:
+  Cyclic(const BusMap& bus, CanPort* port);
+
+  // ---- bus's thread ----
+  void cycle(std::int64_t now_ns) noexcept;
+  // When the scan took its last image: the thread keeps its own cycle half a period behind.
+  std::int64_t scan_stamp_ns() const noexcept { return wanted_.front().stamp_ns; }
+
+  // ---- scan ----
+  BusWanted& wanted() noexcept { return wanted_.back(); }
+  void give() noexcept { wanted_.publish(); }
+  const BusShown& shown() noexcept {
+    shown_.take();
+    return shown_.front();
+  }
+
+  // ---- slow part ----
+  bool from_bus(CanFrame* frame) noexcept { return in_.pop(frame); }
+  bool to_bus(const CanFrame& frame) noexcept { return out_.push(frame); }
+  void set_phase(unsigned node, NodePhase phase) noexcept { phase_[node].store(phase, std::memory_order_release); }
+  NodePhase phase(unsigned node) const noexcept { return phase_[node].load(std::memory_order_acquire); }
+  // The mode that an axis is to be in, and the one that the drive has confirmed.
+  std::int8_t wanted_mode(unsigned axis) const noexcept { return wanted_mode_[axis].load(std::memory_order_acquire); }
+  void set_mode(unsigned axis, std::int8_t mode) noexcept { mode_[axis].store(mode, std::memory_order_release); }
+
+  // ---- any thread ----
+  const CyclicStatistics& statistics() const { return statistics_; }
+  unsigned axis_count() const { return static_cast<unsigned>(axes_.size()); }
+  const AxisMap& axis(unsigned index) const { return *axes_[index].map; }
+  // Every node is operational and every axis has said where it stands.
+  bool ready() const noexcept { return ready_.load(std::memory_order_acquire); }
+  // The drive holds the axis: operation enabled, or on its way to rest.
+  bool is_enabled(unsigned index) const noexcept { return enabled_[index].load(std::memory_order_relaxed); }
+
+ private:
+  enum class Homing : std::uint8_t { kNo, kMode, kRuns, kBack };
+  struct Axis {
+    const AxisMap* map = nullptr;
+    unsigned node = 0;
+    std::uint16_t rpdo_id = 0, tpdo_id = 0, probe_id = 0;
+    DriveWay way;
+    std::uint16_t status = 0, control = 0;
+    std::int32_t raw = 0;
+    std::int64_t position = 0;
+    bool known = false, fresh = false;
+    unsigned missed = 0, twice = 0;
+    std::int64_t target[3] = {};  // of the last SYNC and of the two before, the newest first
+    unsigned on_syncs = 0;       // SYNCs since it was wanted on
+    bool was_on = false;         // it has followed since then
+    DriveTrouble trouble = DriveTrouble::kNone;
+    bool faulty = false, following_fault = false;
+    unsigned reset_left = 0;     // SYNCs in which a fault is still being reset
+    Homing homing = Homing::kNo;
+    unsigned homing_syncs = 0;
+    bool home_before = false, homed = false;
+    // touch probe
+    std::uint16_t probe_status = 0, probe_function = 0;
+    std::int32_t probe_raw = 0;
+    std::int64_t probe = 0;
+    unsigned probe_syncs = 0;
+    bool probe_on = false;
+  };
+  struct Node {
+    unsigned id = 0;
+    std::int64_t heard_ns = 0;
+    bool operational = false;  // as of the last cycle
+    std::uint16_t emergency = 0;
+    std::uint8_t error_register = 0;
+  };
+
+  void take_frames(std::int64_t now_ns) noexcept;
+  void dispatch(const CanFrame& frame, std::int64_t now_ns) noexcept;
+  void take_event(BusEvent event) noexcept;
+  bool take_tpdo(const CanFrame& frame) noexcept;
+  void take_position(Axis* axis, const CanFrame& frame) noexcept;
+  void take_probe(Axis* axis, const CanFrame& frame) noexcept;
+  void take_heartbeat(unsigned node, const CanFrame& frame, std::int64_t now_ns) noexcept;
+  void take_emergency(unsigned node, const CanFrame& frame) noexcept;
+  void hand_over(const CanFrame& frame) noexcept;
+  void watch_nodes(std::int64_t now_ns) noexcept;
+  void watch_axis(unsigned index) noexcept;
+  bool take_wanted(std::int64_t now_ns) noexcept;
+  void move_axis(unsigned index, bool commanded) noexcept;
+  DriveWish wish_of(Axis* axis, const AxisWanted& wanted, bool commanded) noexcept;
+  std::int64_t target_of(Axis* axis, const AxisWanted& wanted) noexcept;
+  void check_following(Axis* axis) noexcept;
+  std::int64_t syncs_of(unsigned ms) const noexcept { return std::int64_t{ms} * 1000 / bus_.sync_us; }
+  bool home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noexcept;
+  void work_probe(Axis* axis) noexcept;
+  void send_rpdo(const Axis& axis) noexcept;
+  void send(const CanFrame& frame) noexcept;
+  void fault(Axis* axis, DriveTrouble trouble) noexcept;
+  void publish() noexcept;
+  bool follows(unsigned index) const noexcept;
+
+  const BusMap bus_;
+  CanPort* port_;
+  const std::int64_t heartbeat_ns_, heartbeat_limit_ns_, command_limit_ns_;
+  const unsigned cycles_per_sync_, slow_every_;
+  std::vector<Axis> axes_;
+  std::vector<Node> nodes_;
+  std::array<std::int8_t, kLastNode + 1> node_at_{};  // by node id, -1 = none of ours
+
+  TripleBuffer<BusWanted> wanted_{BusWanted{}};
+  TripleBuffer<BusShown> shown_{BusShown{}};
+  SpscQueue<CanFrame, 512> in_;
+  SpscQueue<CanFrame, 64> out_;
+  std::array<std::atomic<NodePhase>, kMaxNodes> phase_{};
+  std::array<std::atomic<std::int8_t>, kMaxAxes> wanted_mode_{}, mode_{};
+  std::array<std::atomic<bool>, kMaxAxes> enabled_{};
+  std::atomic<bool> ready_{false};
+  CyclicStatistics statistics_;
+
+  unsigned cycles_ = 0, slow_wait_ = 0;
+  std::int64_t beat_ns_ = 0;
+  std::int64_t command_ns_ = 0;  // when the serial of the scan changed last
+  std::uint64_t serial_ = 0;
+  bool fresh_command_ = false;
+  bool bus_off_ = false;
+};
+
+}  // namespace nc::hal::canopen

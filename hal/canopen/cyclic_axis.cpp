@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real-time part of a bus of drives: what becomes of one axis with each SYNC. See cyclic.hpp.
+#include <algorithm>
+#include <cmath>
+
+#include "hal/canopen/cyclic.hpp"
+
+namespace nc::hal::canopen {
+namespace {
+
+constexpr unsigned kTwiceLimit = 20;      // SYNCs with two positions of one axis, less those with one
+constexpr unsigned kHomingSettle = 10;    // SYNCs behind the start bit in which its status may still be that of the last homing
+constexpr unsigned kProbeHold = 20;       // SYNCs that the skip signal stays on
+constexpr double kJumpFactor = 2;         // of the largest velocity
+constexpr double kJumpSlack = 0.02;       // mm or deg
+constexpr unsigned kResetMs = 500;        // that a drive may take to get out of its fault
+constexpr std::uint16_t kProbeEnable = 0x0001, kProbeRising = 0x0010, kProbeFalling = 0x0020;  // 60B8h
+constexpr std::uint16_t kStoredRising = 0x0002, kStoredFalling = 0x0004;                       // 60B9h
+
+}  // namespace
+
+void Cyclic::fault(Axis* axis, DriveTrouble trouble) noexcept {
+  if (axis->faulty) return;
+  axis->faulty = true;
+  axis->trouble = trouble;
+}
+
+bool Cyclic::follows(unsigned index) const noexcept {
+  const Axis& axis = axes_[index];
+  return nodes_[axis.node].operational && axis.known && !axis.faulty && axis.homing == Homing::kNo && axis.control == kEnableOperation &&
+         drive_state(axis.status) == DriveState::kOperationEnabled && (axis.status & kStatusFollows) != 0 &&
+         mode_[index].load(std::memory_order_acquire) == kModeCyclicPosition;
+}
+
+// Whether its positions come, and what its status says.
+void Cyclic::watch_axis(unsigned index) noexcept {
+  Axis& axis = axes_[index];
+  if (!nodes_[axis.node].operational) return;
+  axis.missed = axis.fresh ? 0 : axis.missed + 1;
+  axis.twice = axis.twice > 0 ? axis.twice - 1 : 0;
+  if (!axis.fresh) statistics_.missed_positions.fetch_add(1, std::memory_order_relaxed);
+  axis.fresh = false;
+  if (axis.missed >= bus_.lost_after) fault(&axis, DriveTrouble::kNoPosition);
+  if (axis.twice >= kTwiceLimit) fault(&axis, DriveTrouble::kTwice);
+  const DriveState state = drive_state(axis.status);
+  if ((state == DriveState::kFault || state == DriveState::kFaultReaction) && axis.reset_left == 0) {
+    axis.following_fault |= axis.was_on && (axis.status & kStatusError) != 0 && axis.homing == Homing::kNo;
+    fault(&axis, DriveTrouble::kNone);
+  }
+}
+
+// True while the scan gives positions. The serial of the scan tells a new one from the one before.
+bool Cyclic::take_wanted(std::int64_t now_ns) noexcept {
+  wanted_.take();
+  fresh_command_ = wanted_.front().serial != serial_;
+  serial_ = wanted_.front().serial;
+  if (fresh_command_) command_ns_ = now_ns;
+  else if (serial_ != 0) statistics_.missed_commands.fetch_add(1, std::memory_order_relaxed);
+  return serial_ != 0 && now_ns - command_ns_ <= command_limit_ns_;
+}
+
+// What an axis in a fault is to do is nobody's but the reset's.
+DriveWish Cyclic::wish_of(Axis* axis, const AxisWanted& wanted, bool commanded) noexcept {
+  const DriveWish wish = wanted.on ? DriveWish::kOn : DriveWish::kOff;
+  if (wanted.reset && commanded) {
+    axis->faulty = axis->following_fault = false;
+    axis->trouble = DriveTrouble::kNone;
+    axis->reset_left = static_cast<unsigned>(syncs_of(kResetMs));
+    axis->twice = axis->on_syncs = 0;
+    nodes_[axis->node].emergency = 0;
+    axis->was_on &= drive_state(axis->status) == DriveState::kOperationEnabled;
+  }
+  if (axis->reset_left > 0) {
+    const bool there = drive_state(axis->status) != DriveState::kFault;
+    axis->reset_left = there ? 0 : axis->reset_left - 1;
+    if (!there) return DriveWish::kReset;
+  }
+  if (!commanded && serial_ != 0 && wanted.on) fault(axis, DriveTrouble::kNoCommand);
+  return axis->faulty || !commanded ? DriveWish::kOff : wish;
+}
+
+void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
+  Axis& axis = axes_[index];
+  const AxisWanted& wanted = wanted_.front().axis[index];
+  if (!nodes_[axis.node].operational || !axis.known) {
+    if (commanded && wanted.reset && nodes_[axis.node].operational) (void)wish_of(&axis, wanted, commanded);
+    axis.homing = Homing::kNo;
+    axis.was_on = false;
+    axis.on_syncs = 0;
+    return;
+  }
+  const bool followed = follows(index);
+  const DriveWish wish = wish_of(&axis, wanted, commanded);
+  const bool in_mode = mode_[index].load(std::memory_order_acquire) == kModeCyclicPosition;
+  const bool homing = home_axis(index, &axis, wanted);
+  if (wish == DriveWish::kOn) {
+    if (axis.was_on && !homing && drive_state(axis.status) != DriveState::kOperationEnabled) fault(&axis, DriveTrouble::kLeftEnabled);
+    axis.was_on |= followed;
+    if (!axis.was_on && !homing && ++axis.on_syncs > syncs_of(bus_.enable_timeout_ms)) fault(&axis, DriveTrouble::kNotEnabled);
+  } else {
+    axis.was_on = false;
+    axis.on_syncs = 0;
+  }
+  axis.target[2] = axis.target[1];
+  axis.target[1] = axis.target[0];
+  axis.target[0] = followed && wish == DriveWish::kOn ? target_of(&axis, wanted) : axis.position;
+  if (!followed) axis.target[1] = axis.target[2] = axis.target[0];
+  else check_following(&axis);
+  const DriveWish now = axis.faulty && wish == DriveWish::kOn ? DriveWish::kOff : wish;
+  axis.control = now == DriveWish::kOn && !in_mode && !homing ? kShutdown : axis.way.next(axis.status, now);
+  if (axis.homing == Homing::kRuns && axis.control == kEnableOperation) axis.control |= kStartHoming;
+  if (axis.map->has_probe()) work_probe(&axis);
+  send_rpdo(axis);
+}
+
+// A scan that is late by one SYNC moves on as it did; by more, the axes stand until its positions come again. What no axis can do is not done.
+std::int64_t Cyclic::target_of(Axis* axis, const AxisWanted& wanted) noexcept {
+  const std::int64_t last = axis->target[1];
+  if (!fresh_command_) return bus_.sync_us > bus_.cycle_us ? wanted.target : last + (last - axis->target[2]);
+  const double most = (axis->map->max_velocity * kJumpFactor * bus_.sync_us * 1e-6 + kJumpSlack) * std::abs(axis->map->increments_per_unit);
+  if (axis->map->max_velocity <= 0 || std::abs(static_cast<double>(wanted.target - last)) <= most) return wanted.target;
+  fault(axis, DriveTrouble::kJump);
+  return last;
+}
+
+// The distance from where the axis may be on its way: the command of this SYNC and of the two before.
+void Cyclic::check_following(Axis* axis) noexcept {
+  const auto [least, most] = std::minmax({axis->target[0], axis->target[1], axis->target[2]});
+  const std::int64_t away = std::max({std::int64_t{0}, least - axis->position, axis->position - most});
+  const double limit = axis->map->following_limit * std::abs(axis->map->increments_per_unit);
+  const bool own = limit > 0 && static_cast<double>(away) > limit;
+  if (own || (axis->status & kStatusError) != 0) axis->following_fault = true;
+}
+
+// Homing by the drive itself. It moves the axis, so the scan follows it meanwhile. True while it is under way.
+bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noexcept {
+  const bool rises = wanted.home && !axis->home_before;
+  axis->home_before = wanted.home;
+  if (rises && follows(index) && axis->map->has_homing()) {
+    axis->homing = Homing::kMode;
+    axis->homing_syncs = 0;
+    axis->homed = false;
+    wanted_mode_[index].store(kModeHoming, std::memory_order_release);
+  }
+  if (axis->homing == Homing::kNo) return false;
+  const std::int8_t mode = mode_[index].load(std::memory_order_acquire);
+  if (axis->homing == Homing::kMode && mode == kModeHoming) {
+    axis->homing = Homing::kRuns;
+    axis->homing_syncs = 0;
+  }
+  ++axis->homing_syncs;
+  const bool late = axis->homing_syncs > syncs_of(static_cast<unsigned>(axis->map->homing_timeout_s * 1000));
+  const bool settled = axis->homing == Homing::kRuns && axis->homing_syncs > kHomingSettle;
+  const bool error = settled && (axis->status & kStatusError) != 0;
+  const bool done = settled && !error && (axis->status & (kStatusFollows | kStatusReached)) == (kStatusFollows | kStatusReached);
+  if (late || error) fault(axis, DriveTrouble::kHoming);
+  if (done) axis->homed = true;
+  if (done || axis->faulty || !wanted.on) {
+    if (axis->homing != Homing::kBack) axis->homing_syncs = 0;
+    axis->homing = Homing::kBack;
+    wanted_mode_[index].store(kModeCyclicPosition, std::memory_order_release);
+  }
+  if (axis->homing == Homing::kBack && mode == kModeCyclicPosition) axis->homing = Homing::kNo;
+  return axis->homing != Homing::kNo;
+}
+
+// The drive latches where its axis stood at the edge. The skip signal is on for some SYNCs, then the probe is made ready for the next edge.
+void Cyclic::work_probe(Axis* axis) noexcept {
+  const bool falling = axis->map->skip_falling;
+  const bool stored = (axis->probe_status & (falling ? kStoredFalling : kStoredRising)) != 0;
+  if (axis->probe_on) {
+    if (axis->probe_syncs > 0 && --axis->probe_syncs > 0) return;
+    axis->probe_on = false;
+    axis->probe_function = 0;
+  } else if (axis->probe_function == 0) {
+    if (!stored) axis->probe_function = static_cast<std::uint16_t>(kProbeEnable | (falling ? kProbeFalling : kProbeRising));
+  } else if (stored) {
+    const auto back = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis->probe_raw) - static_cast<std::uint32_t>(axis->raw));
+    axis->probe = axis->position + back;
+    axis->probe_on = true;
+    axis->probe_syncs = kProbeHold;
+  }
+}
+
+void Cyclic::send_rpdo(const Axis& axis) noexcept {
+  CanFrame frame;
+  frame.id = axis.rpdo_id;
+  frame.length = axis.map->has_probe() ? 8 : 6;
+  put_le(frame.data, 2, axis.control);
+  put_le(frame.data + 2, 4, static_cast<std::uint32_t>(axis.target[0]));
+  if (axis.map->has_probe()) put_le(frame.data + 6, 2, axis.probe_function);
+  send(frame);
+}
+
+}  // namespace nc::hal::canopen

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// A drive's electronic data sheet (CiA 306): which objects it has, how long they are, and whether a PDO can carry them. It is looked at before
+// the drive is, so that a mapping that cannot be is an error of the configuration with its line.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/canopen/bus_map.hpp"
+
+namespace nc::hal::canopen {
+
+struct EdsObject {
+  unsigned line = 0;
+  unsigned type = 0;  // number of the data type: 0007h UNSIGNED32
+  unsigned bits = 0;  // 0 = of no fixed length
+  std::string access;  // "rw", "rww", "ro" ...
+  bool mappable = false;
+};
+
+struct EdsError {
+  unsigned line = 0;  // 0 = the file as a whole
+  std::string text;
+};
+
+struct Eds {
+  std::map<std::uint32_t, EdsObject> objects;  // index << 8 | sub-index
+  std::uint32_t vendor = 0, product = 0;        // [DeviceInfo]; 0 = not said
+
+  const EdsObject* find(unsigned index, unsigned sub) const {
+    const auto entry = objects.find(index << 8 | sub);
+    return entry == objects.end() ? nullptr : &entry->second;
+  }
+};
+
+inline constexpr std::size_t kMostEdsBytes = 4 << 20;
+
+// Errors of the text itself; empty = *eds holds all of it.
+std::vector<EdsError> read_eds(std::string_view text, Eds* eds);
+
+// What this control needs of the drive and the data sheet does not have.
+std::vector<EdsError> check_eds(const Eds& eds, const NodeMap& node);
+
+}  // namespace nc::hal::canopen

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+// The slow part of a bus of drives. See service.hpp.
+#include "hal/canopen/service.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace nc::hal::canopen {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kBootWaitNs = 300 * kMs;   // behind a reset, for the boot-up message of those that send it late
+constexpr std::int64_t kPauseNs = 1000 * kMs;     // of a node that was silent
+constexpr std::int64_t kRefusedNs = 5000 * kMs;   // of one that cannot be set up
+constexpr std::int64_t kStateNs = 2000 * kMs;     // for "operational", and for a mode of operation
+constexpr std::uint8_t kStart = 0x01, kPreOperational = 0x80, kResetCommunication = 0x82;  // CiA 301, NMT
+constexpr std::uint8_t kBootUp = 0x00, kOperational = 0x05;
+constexpr std::uint32_t kNoObject = 0x06020000, kNoSub = 0x06090011, kNoAccess = 0x06010000, kReadOnly = 0x06010002;
+constexpr unsigned kUnaskedLimit = 3;
+
+std::string hex(std::uint32_t value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%Xh", value);
+  return text;
+}
+
+std::vector<std::uint8_t> bytes_of(const ObjectValue& object) {
+  std::vector<std::uint8_t> data(object.bytes);
+  put_le(data.data(), object.bytes, object.value);
+  return data;
+}
+
+}  // namespace
+
+Service::Service(const BusMap& bus, Cyclic* cyclic, Report report) : bus_(bus), cyclic_(cyclic), report_(std::move(report)) {
+  unsigned axis = 0;
+  for (unsigned n = 0; n < bus_.nodes.size(); ++n) {
+    Node node;
+    node.index = n;
+    node.map = &bus_.nodes[n];
+    node.plan = setup_plan(bus_, *node.map);
+    node.sdo = std::make_unique<SdoClient>(node.map->id, bus_.sdo_timeout_ms);
+    nodes_.push_back(std::move(node));
+    first_axis_.push_back(axis);
+    axis += static_cast<unsigned>(bus_.nodes[n].axes.size());
+    wrong_.emplace_back("has not answered yet");
+  }
+}
+
+bool Service::all_operational() const {
+  for (unsigned n = 0; n < nodes_.size(); ++n)
+    if (cyclic_->phase(n) != NodePhase::kOperational) return false;
+  return true;
+}
+
+bool Service::refused() const {
+  for (unsigned n = 0; n < nodes_.size(); ++n)
+    if (cyclic_->phase(n) == NodePhase::kRefused) return true;
+  return false;
+}
+
+std::string Service::missing() const {
+  const std::lock_guard lock(mutex_);
+  std::string text;
+  for (unsigned n = 0; n < bus_.nodes.size(); ++n) {
+    if (cyclic_->phase(n) == NodePhase::kOperational) continue;
+    text += (text.empty() ? "node " : "; node ") + std::to_string(bus_.nodes[n].id) + " (" + bus_.nodes[n].name + "): " + wrong_[n];
+  }
+  return text;
+}
+
+void Service::say(Node* node, const std::string& text) {
+  {
+    const std::lock_guard lock(mutex_);
+    wrong_[node->index] = text;
+  }
+  if (text != node->said && report_) report_("node " + std::to_string(node->map->id) + " (" + node->map->name + "): " + text);
+  node->said = text;
+}
+
+void Service::nmt(const Node& node, std::uint8_t command) {
+  CanFrame frame;
+  frame.id = kNmtId;
+  frame.length = 2;
+  frame.data[0] = command;
+  frame.data[1] = static_cast<std::uint8_t>(node.map->id);
+  (void)cyclic_->to_bus(frame);  // a full queue empties with the next SYNCs, and what was not said is missed by a time-out
+}
+
+void Service::begin(Node* node, Step step, std::int64_t now_ns) {
+  node->step = step;
+  node->since_ns = now_ns;
+}
+
+void Service::fail(Node* node, const std::string& why, NodePhase phase, std::int64_t now_ns) {
+  say(node, why);
+  cyclic_->set_phase(node->index, phase);
+  begin(node, Step::kPause, now_ns);
+}
+
+// ---- what comes ----
+
+void Service::take(const CanFrame& frame) {
+  const unsigned id = frame.id & kLastNode, kind = frame.id & ~kLastNode;
+  for (Node& node : nodes_) {
+    if (node.map->id != id) continue;
+    if (kind == kSdoAnswerId && !node.sdo->answer(frame)) ++node.unasked;
+    if (kind == kHeartbeatId) {
+      node.state = frame.data[0] & 0x7F;
+      // One that begins anew while it is set up has lost what it was told.
+      if (node.state == kBootUp && (node.step == Step::kPlan || node.step == Step::kPause)) node.step = Step::kBoot;
+    }
+    if (kind == kEmergencyId && get_le(frame.data, 2) != 0)
+      say(&node, drive_fault_text(drive_fault_code(DriveTrouble::kEmergency, get_le(frame.data, 2), frame.data[2])));
+  }
+}
+
+void Service::step(std::int64_t now_ns) {
+  CanFrame frame;
+  while (cyclic_->from_bus(&frame)) take(frame);
+  for (Node& node : nodes_) step_node(&node, now_ns);
+}
+
+// ---- one node ----
+
+void Service::step_node(Node* node, std::int64_t now_ns) {
+  if (node->step == Step::kRun && cyclic_->phase(node->index) != NodePhase::kOperational) {
+    say(node, "is away or has begun anew; it is set up again when it answers");
+    begin(node, Step::kReset, now_ns);
+  }
+  switch (node->step) {
+    case Step::kReset:
+      node->state = 0xFF;
+      nmt(*node, kResetCommunication);
+      begin(node, Step::kBoot, now_ns);
+      break;
+    case Step::kBoot:
+      if (node->state != kBootUp && now_ns - node->since_ns < kBootWaitNs) break;
+      nmt(*node, kPreOperational);
+      node->at = 0;
+      node->unasked = 0;
+      node->silent = false;
+      node->state = 0xFF;
+      cyclic_->set_phase(node->index, NodePhase::kSetUp);
+      node->mode.assign(node->map->axes.size(), 0);
+      node->job = Node::Job::kNone;
+      for (unsigned a = 0; a < node->map->axes.size(); ++a) cyclic_->set_mode(first_axis_[node->index] + a, 0);
+      begin(node, Step::kPlan, now_ns);
+      break;
+    case Step::kPlan:
+      work_plan(node, now_ns);
+      break;
+    case Step::kStart:
+      if (node->state == kOperational) {
+        node->axis = 0;
+        begin(node, Step::kMode, now_ns);
+      } else if (now_ns - node->since_ns > kStateNs) {
+        fail(node, "does not become operational, or sends no heartbeat", NodePhase::kRefused, now_ns);
+      }
+      break;
+    case Step::kMode:
+    case Step::kRun:
+      work_mode(node, now_ns);
+      break;
+    case Step::kPause:
+      if (now_ns - node->since_ns > (cyclic_->phase(node->index) == NodePhase::kRefused ? kRefusedNs : kPauseNs)) begin(node, Step::kReset, now_ns);
+      break;
+  }
+}
+
+// One object after the other.
+void Service::work_plan(Node* node, std::int64_t now_ns) {
+  SdoClient& sdo = *node->sdo;
+  if (node->unasked >= kUnaskedLimit && !node->silent)
+    return fail(node, "two nodes answer under this number, or one answers what it was not asked", NodePhase::kRefused, now_ns);
+  if (sdo.state() == SdoClient::State::kBusy) {
+    CanFrame frame;
+    if (sdo.request(now_ns, &frame)) (void)cyclic_->to_bus(frame);
+    return;
+  }
+  if (node->at > 0) {
+    judge_plan_step(node, now_ns);
+    if (node->step != Step::kPlan) return;
+  }
+  if (node->at == node->plan.size()) {
+    nmt(*node, kStart);
+    return begin(node, Step::kStart, now_ns);
+  }
+  const SetupStep& next = node->plan[node->at++];
+  if (next.kind == SetupStep::Kind::kCheck) sdo.read(next.object.index, next.object.sub);
+  else sdo.write(next.object.index, next.object.sub, bytes_of(next.object));
+  CanFrame frame;
+  if (sdo.request(now_ns, &frame)) (void)cyclic_->to_bus(frame);
+}
+
+void Service::judge_plan_step(Node* node, std::int64_t now_ns) {
+  const SetupStep& done = node->plan[node->at - 1];
+  const SdoClient& sdo = *node->sdo;
+  if (sdo.state() == SdoClient::State::kFailed) {
+    const std::uint32_t code = sdo.abort_code();
+    const bool absent = code == kNoObject || code == kNoSub || code == kNoAccess || code == kReadOnly;
+    if (done.kind == SetupStep::Kind::kWriteIfThere && absent) return;
+    const bool silent = was_silent(*node);
+    node->silent |= silent;
+    const std::string value = done.kind == SetupStep::Kind::kCheck ? "" : " (written: " + hex(done.object.value) + ")";
+    return fail(node, sdo.error() + value, silent ? NodePhase::kAway : NodePhase::kRefused, now_ns);
+  }
+  if (done.kind == SetupStep::Kind::kCheck && (sdo.number() & done.mask) != (done.object.value & done.mask))
+    fail(node, object_text(done.object.index, done.object.sub) + " is " + hex(sdo.number() & done.mask) + ", not " + hex(done.object.value & done.mask),
+         NodePhase::kRefused, now_ns);
+}
+
+bool Service::was_silent(const Node& node) const { return node.sdo->abort_code() == 0x05040000; }
+
+// Brings each axis into the mode that it is wanted in: 6060h is written, 6061h says when the drive is there.
+void Service::work_mode(Node* node, std::int64_t now_ns) {
+  SdoClient& sdo = *node->sdo;
+  CanFrame frame;
+  if (node->job != Node::Job::kNone && sdo.state() == SdoClient::State::kBusy) {
+    if (sdo.request(now_ns, &frame)) (void)cyclic_->to_bus(frame);
+    return;
+  }
+  if (node->job != Node::Job::kNone) return judge_mode(node, now_ns);
+  for (node->axis = 0; node->axis < node->map->axes.size(); ++node->axis) {
+    const std::int8_t wanted = cyclic_->wanted_mode(first_axis_[node->index] + node->axis);
+    if (wanted == node->mode[node->axis]) continue;
+    node->wanted = wanted;
+    node->since_ns = now_ns;
+    node->job = Node::Job::kWrite;
+    sdo.write(static_cast<std::uint16_t>(node->map->axes[node->axis].object(0x6060)), 0, {static_cast<std::uint8_t>(wanted)});
+    if (sdo.request(now_ns, &frame)) (void)cyclic_->to_bus(frame);
+    return;
+  }
+  if (node->step != Step::kMode) return;
+  say(node, "operational");
+  cyclic_->set_phase(node->index, NodePhase::kOperational);
+  begin(node, Step::kRun, now_ns);
+}
+
+void Service::judge_mode(Node* node, std::int64_t now_ns) {
+  SdoClient& sdo = *node->sdo;
+  const Node::Job job = node->job;
+  const unsigned object = node->map->axes[node->axis].object(0x6061);
+  node->job = Node::Job::kNone;
+  if (sdo.state() != SdoClient::State::kDone) {
+    if (node->step == Step::kMode) return fail(node, sdo.error(), was_silent(*node) ? NodePhase::kAway : NodePhase::kRefused, now_ns);
+    return say(node, sdo.error());  // it is tried again; a homing that waits for it ends by its time
+  }
+  const auto shown = static_cast<std::int8_t>(sdo.number());
+  if (job == Node::Job::kRead && shown == node->wanted) {
+    node->mode[node->axis] = shown;
+    cyclic_->set_mode(first_axis_[node->index] + static_cast<unsigned>(node->axis), shown);
+  } else if (job == Node::Job::kWrite || now_ns - node->since_ns < kStateNs) {
+    node->job = Node::Job::kRead;
+    sdo.read(static_cast<std::uint16_t>(object), 0);
+    CanFrame frame;
+    if (sdo.request(now_ns, &frame)) (void)cyclic_->to_bus(frame);
+  } else {
+    const std::string why = object_text(object, 0) + " stays " + std::to_string(shown) + ": the mode of operation is to be " + std::to_string(node->wanted);
+    if (node->step == Step::kMode) fail(node, why, NodePhase::kRefused, now_ns);
+    else say(node, why);
+  }
+}
+
+}  // namespace nc::hal::canopen

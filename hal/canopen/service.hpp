@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The slow part of a bus of drives: NMT, the set-up of each node by SDO, changes of the mode of operation, and sentences for the log.
+// step() is called every few milliseconds in an ordinary thread; all nodes are served side by side, with one SDO transfer each.
+//
+// A node that is away is asked again and again, and one that has come back is set up as at the start; its axes stay in their alarm until a reset.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "hal/canopen/cyclic.hpp"
+#include "hal/canopen/sdo_client.hpp"
+#include "hal/canopen/setup_plan.hpp"
+
+namespace nc::hal::canopen {
+
+// Takes one line for the operator's log.
+using Report = std::function<void(const std::string& line)>;
+
+class Service {
+ public:
+  Service(const BusMap& bus, Cyclic* cyclic, Report report);
+
+  // ---- the thread of the slow part ----
+  void step(std::int64_t now_ns);
+
+  // ---- any thread ----
+  bool all_operational() const;
+  // Nodes that lack, and what is wrong with each: "node 3 (y): no answer"; empty = all are operational.
+  std::string missing() const;
+  bool refused() const;  // one of them cannot be set up
+
+ private:
+  enum class Step : std::uint8_t { kReset, kBoot, kPlan, kStart, kMode, kRun, kPause };
+  struct Node {
+    enum class Job : std::uint8_t { kNone, kWrite, kRead };
+    unsigned index = 0;
+    const NodeMap* map = nullptr;
+    std::vector<SetupStep> plan;
+    std::unique_ptr<SdoClient> sdo;
+    Step step = Step::kReset;
+    std::size_t at = 0;
+    std::int64_t since_ns = 0;
+    std::uint8_t state = 0xFF;  // of its last heartbeat
+    unsigned unasked = 0;       // answers that nothing was asked for, in this set-up
+    bool silent = false;        // a request was not answered in this set-up
+    Job job = Job::kNone;       // of the mode of an axis
+    std::size_t axis = 0;
+    std::int8_t wanted = 0;
+    std::vector<std::int8_t> mode;  // of each axis, as the drive has confirmed it
+    std::string said;           // last
+  };
+
+  void take(const CanFrame& frame);
+  void step_node(Node* node, std::int64_t now_ns);
+  void work_plan(Node* node, std::int64_t now_ns);
+  void judge_plan_step(Node* node, std::int64_t now_ns);
+  void start_node(Node* node, std::int64_t now_ns);
+  void work_mode(Node* node, std::int64_t now_ns);
+  void judge_mode(Node* node, std::int64_t now_ns);
+  void begin(Node* node, Step step, std::int64_t now_ns);
+  void fail(Node* node, const std::string& why, NodePhase phase, std::int64_t now_ns);
+  void nmt(const Node& node, std::uint8_t command);
+  void say(Node* node, const std::string& text);
+  bool was_silent(const Node& node) const;
+
+  const BusMap bus_;
+  Cyclic* cyclic_;
+  const Report report_;
+  std::vector<Node> nodes_;
+  std::vector<unsigned> first_axis_;
+  mutable std::mutex mutex_;
+  std::vector<std::string> wrong_;  // of each node, under the mutex
+};
+
+}  // namespace nc::hal::canopen

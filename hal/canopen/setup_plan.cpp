@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// The order of a drive's set-up. See setup_plan.hpp. Objects 1000h to 1FFFh are those of CiA 301, 6000h to 9FFFh those of CiA 402.
+#include "hal/canopen/setup_plan.hpp"
+
+#include <cmath>
+
+#include "hal/canopen/frame.hpp"
+
+namespace nc::hal::canopen {
+namespace {
+
+using Kind = SetupStep::Kind;
+
+constexpr std::uint32_t kPdoOff = 0x80000000, kEverySync = 1, kProfile402 = 0x0192;
+constexpr unsigned kDefaultPdos = 4;  // of each direction: what a drive may have switched on by itself
+constexpr double kPatience = 2.5;     // heartbeat times
+
+class Plan {
+ public:
+  void add(Kind kind, unsigned index, unsigned sub, unsigned bytes, std::uint32_t value, std::uint32_t mask = 0xFFFFFFFF) {
+    steps.push_back({kind, {static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub), static_cast<std::uint8_t>(bytes), value}, mask});
+  }
+  void write(unsigned index, unsigned sub, unsigned bytes, std::uint32_t value) { add(Kind::kWrite, index, sub, bytes, value); }
+  void try_write(unsigned index, unsigned sub, unsigned bytes, std::uint32_t value) { add(Kind::kWriteIfThere, index, sub, bytes, value); }
+
+  // CiA 301: the identifier is switched off, the mapping emptied, filled and counted, then the identifier is switched on. What the drive
+  // has made of it is read back: some keep a mapping of their own without a word.
+  void pdo(unsigned communication, unsigned mapping, unsigned number, std::uint32_t cob_id, const std::vector<std::uint32_t>& objects) {
+    const unsigned c = communication + number - 1, m = mapping + number - 1;
+    write(c, 1, 4, cob_id | kPdoOff);
+    write(m, 0, 1, 0);
+    for (unsigned i = 0; i < objects.size(); ++i) write(m, i + 1, 4, objects[i]);
+    write(m, 0, 1, static_cast<std::uint32_t>(objects.size()));
+    write(c, 2, 1, kEverySync);
+    write(c, 1, 4, cob_id);
+    add(Kind::kCheck, m, 0, 1, static_cast<std::uint32_t>(objects.size()), 0xFF);
+    for (unsigned i = 0; i < objects.size(); ++i) add(Kind::kCheck, m, i + 1, 4, objects[i]);
+    add(Kind::kCheck, c, 1, 4, cob_id, 0x800007FF);
+  }
+
+  std::vector<SetupStep> steps;
+};
+
+std::uint32_t map_entry(const AxisMap& axis, unsigned index, unsigned bits) { return axis.object(index) << 16 | bits; }
+
+// 60C2h: the period as mantissa x 10^exponent seconds, the mantissa in one byte.
+void interpolation_time(Plan* plan, const AxisMap& axis, unsigned us) {
+  int exponent = -6;
+  while (us % 10 == 0 || us > 255) {
+    us /= 10;
+    ++exponent;
+  }
+  plan->write(axis.object(0x60C2), 1, 1, us);
+  plan->write(axis.object(0x60C2), 2, 1, static_cast<std::uint8_t>(exponent));
+}
+
+void homing(Plan* plan, const AxisMap& axis) {
+  const double scale = std::abs(axis.increments_per_unit);
+  const auto increments = [](double value) { return static_cast<std::uint32_t>(std::llround(value)); };
+  plan->write(axis.object(0x6098), 0, 1, static_cast<std::uint8_t>(axis.homing_method));
+  plan->write(axis.object(0x6099), 1, 4, increments(axis.homing_fast * scale));
+  plan->write(axis.object(0x6099), 2, 4, increments(axis.homing_slow * scale));
+  plan->write(axis.object(0x609A), 0, 4, increments(axis.homing_acceleration * scale));
+  plan->write(axis.object(0x607C), 0, 4, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::llround((axis.homing_position - axis.zero) * axis.increments_per_unit))));
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> rpdo_mapping(const AxisMap& axis) {
+  std::vector<std::uint32_t> objects{map_entry(axis, 0x6040, 16), map_entry(axis, 0x607A, 32)};
+  if (axis.has_probe()) objects.push_back(map_entry(axis, 0x60B8, 16));
+  return objects;
+}
+std::vector<std::uint32_t> tpdo_mapping(const AxisMap& axis) { return {map_entry(axis, 0x6041, 16), map_entry(axis, 0x6064, 32)}; }
+std::vector<std::uint32_t> probe_mapping(const AxisMap& axis) {
+  return {map_entry(axis, 0x60B9, 16), map_entry(axis, axis.skip_falling ? 0x60BB : 0x60BA, 32)};
+}
+
+std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node) {
+  Plan plan;
+  plan.add(Kind::kCheck, 0x1000, 0, 4, kProfile402, 0xFFFF);
+  if (node.vendor != 0) plan.add(Kind::kCheck, 0x1018, 1, 4, node.vendor);
+  if (node.product != 0) plan.add(Kind::kCheck, 0x1018, 2, 4, node.product);
+  plan.write(0x1017, 0, 2, bus.heartbeat_ms);
+  plan.write(0x1016, 1, 4, bus.own_id << 16 | static_cast<std::uint32_t>(bus.heartbeat_ms * kPatience));
+  plan.try_write(0x1006, 0, 4, bus.sync_us);
+  for (unsigned n = 0; n < kDefaultPdos; ++n) {
+    plan.try_write(0x1400 + n, 1, 4, kPdoOff | (kRpdoId + kPdoStep * n + node.id));
+    plan.try_write(0x1800 + n, 1, 4, kPdoOff | (kTpdoId + kPdoStep * n + node.id));
+  }
+  unsigned takes = 0, sends = 0;
+  for (const AxisMap& axis : node.axes) {
+    plan.pdo(0x1400, 0x1600, axis.rpdo, kRpdoId + kPdoStep * takes++ + node.id, rpdo_mapping(axis));
+    plan.pdo(0x1800, 0x1A00, axis.tpdo, kTpdoId + kPdoStep * sends++ + node.id, tpdo_mapping(axis));
+    if (axis.has_probe()) plan.pdo(0x1800, 0x1A00, axis.tpdo + 1, kTpdoId + kPdoStep * sends++ + node.id, probe_mapping(axis));
+    plan.try_write(axis.object(0x6007), 0, 2, 3);  // connection lost: quick stop
+    plan.try_write(axis.object(0x605A), 0, 2, 2);  // quick stop: its own ramp, then without torque
+    interpolation_time(&plan, axis, bus.sync_us);
+    if (axis.has_homing()) homing(&plan, axis);
+  }
+  for (const ObjectValue& object : node.objects) plan.write(object.index, object.sub, object.bytes, object.value);
+  return plan.steps;
+}
+
+}  // namespace nc::hal::canopen

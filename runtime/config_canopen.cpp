@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configuration section [canopen]: the bus, its drives and their axes. docs/canopen.md.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "hal/canopen/bus_load.hpp"
+#include "hal/canopen/eds.hpp"
+#include "hal/canopen/frame.hpp"
+#include "runtime/config_sections.hpp"
+#include "runtime/machine_canopen.hpp"
+
+namespace nc::rt {
+namespace {
+
+using hal::canopen::AxisMap;
+using hal::canopen::BusMap;
+using hal::canopen::NodeMap;
+using hal::canopen::ObjectValue;
+
+constexpr double kMaxIncrements = 2147483647.0;  // a position of a drive has 32 bits with sign
+constexpr double kMaxSeconds = 600;
+
+void milliseconds(TableReader* reader, const char* key, unsigned* ms, double least) {
+  double seconds = *ms / 1000.0;
+  if (reader->number(key, &seconds, least, kMaxSeconds)) *ms = static_cast<unsigned>(std::lround(seconds * 1000));
+}
+
+void read_bus(TableReader* reader, Config* config) {
+  BusMap& bus = config->canopen;
+  bus.cycle_us = bus.sync_us = config->cycle_us;
+  reader->require("interface");
+  reader->string("interface", &bus.interface);
+  reader->integer("bit_rate", &bus.bit_s, 10'000, 1'000'000);
+  if (reader->integer("sync_us", &bus.sync_us, 100, 100'000) && bus.sync_us % bus.cycle_us != 0)
+    reader->error("sync_us", "must be a whole number of servo cycles (machine.cycle_us = " + std::to_string(bus.cycle_us) + ")");
+  if (bus.sync_us % 100 != 0 && bus.sync_us > 255)
+    reader->error(reader->find("sync_us") != nullptr ? "sync_us" : "interface",
+                  "the SYNC period must be a whole number of 100 us: drives are told it as one byte times a power of ten");
+  reader->integer("heartbeat_ms", &bus.heartbeat_ms, 10, 10'000);
+  reader->integer("node_id", &bus.own_id, hal::canopen::kFirstNode, hal::canopen::kLastNode);
+  reader->integer("lost_after", &bus.lost_after, 1, 100);
+  reader->integer("command_timeout_ms", &bus.command_timeout_ms, 1, 1000);
+  reader->integer("sdo_timeout_ms", &bus.sdo_timeout_ms, 10, 10'000);
+  milliseconds(reader, "boot_timeout_s", &bus.boot_timeout_ms, 0.1);
+  milliseconds(reader, "enable_timeout_s", &bus.enable_timeout_ms, 0.01);
+  milliseconds(reader, "stop_timeout_s", &bus.stop_timeout_ms, 0.01);
+  reader->integer("priority", &bus.priority, 0, 98);
+  bus.completes_functions = config->ladder.program.empty();
+}
+
+// A point that the drive's homing is asked by, or answers with.
+void read_point(TableReader* reader, const char* key, hal::PointDirection direction, const Config& config, int* place) {
+  std::string name;
+  reader->require(key);
+  if (!reader->string(key, &name)) return;
+  *place = config.points.find(name);
+  if (*place < 0) return reader->error(key, "no point is named \"" + name + "\"");
+  const hal::Point& point = config.points.at(static_cast<unsigned>(*place));
+  const bool output = direction == hal::PointDirection::kOutput;
+  if (point.type != hal::PointType::kBit || point.direction != direction)
+    reader->error(key, "point \"" + name + "\" must be a bit and an " + (output ? "output" : "input"));
+  else if (!output && point.bus != 0)
+    reader->error(key, "point \"" + name + "\" is on another bus");
+}
+
+void read_homing(TableReader* axis, const Config& config, AxisMap* map) {
+  axis->table("homing", [&](TableReader& reader) {
+    for (const char* key : {"method", "fast", "slow", "acceleration"}) reader.require(key);
+    if (reader.integer("method", &map->homing_method, -128, 127) && map->homing_method == 0) reader.error("method", "0 is no homing: leave the table out");
+    reader.number("fast", &map->homing_fast, 1e-6, 1e6);
+    reader.number("slow", &map->homing_slow, 1e-6, 1e6);
+    reader.number("acceleration", &map->homing_acceleration, 1e-6, 1e9);
+    reader.number("position", &map->homing_position, -1e6, 1e6);
+    reader.number("timeout_s", &map->homing_timeout_s, 0.1, 3600);
+    read_point(&reader, "request", hal::PointDirection::kOutput, config, &map->homing_request);
+    read_point(&reader, "done", hal::PointDirection::kInput, config, &map->homed);
+  });
+}
+
+void read_probe(TableReader* axis, AxisMap* map) {
+  axis->table("probe", [&](TableReader& reader) {
+    unsigned edge = 0;
+    reader.require("skip_signal");
+    reader.integer("skip_signal", &map->skip_signal, 1, 8);
+    if (reader.choice("edge", {"rising", "falling"}, &edge)) map->skip_falling = edge == 1;
+  });
+}
+
+// Increments per mm or deg out of encoder, gear and pitch.
+void read_scale(TableReader* reader, AxisMap* map) {
+  double encoder = 0, pitch = 0;
+  bool reverse = false;
+  std::vector<double> gear{1, 1};
+  for (const char* key : {"encoder", "pitch"}) reader->require(key);
+  const bool whole = reader->number("encoder", &encoder, 1, 4294967296.0) & reader->number("pitch", &pitch, 1e-6, 1e6);
+  if (reader->numbers("gear", &gear, 2, 2) && !(gear[0] > 0 && gear[1] > 0 && gear[0] <= 1e6 && gear[1] <= 1e6))
+    return reader->error("gear", "is [turns of the motor, turns of the screw], both above 0");
+  reader->boolean("reverse", &reverse);
+  if (whole) map->increments_per_unit = (reverse ? -1 : 1) * encoder * gear[0] / gear[1] / pitch;
+}
+
+// Every position that the axis may have must have its number in the drive.
+void check_range(TableReader* reader, const Config& config, const AxisMap& map) {
+  const nc_axis_config& axis = config.nc.system[map.system].axis[map.axis];
+  if (!axis.soft_limited) return;
+  for (const double place : {axis.soft_min, axis.soft_max})
+    if (std::abs((place - map.zero) * map.increments_per_unit) > kMaxIncrements)
+      return reader->error("pitch", "with " + number_text(std::abs(map.increments_per_unit)) + " increments per unit the soft limit " + number_text(place) +
+                                        " is beyond the 32 bits of a drive's position");
+}
+
+void read_drive_axis(TableReader* reader, const Config& config, NodeMap* node) {
+  AxisMap map;
+  reader->require("name");
+  const bool named = reader->string("name", &map.name);
+  const bool found = named && find_axis(config, map.name, &map.system, &map.axis);
+  if (named && !found) reader->error("name", "there is no axis \"" + map.name + "\": see [[axis]]");
+  map.slot = static_cast<unsigned>(node->axes.size());
+  reader->integer("slot", &map.slot, 0, 7);
+  map.rpdo = map.tpdo = 64 * map.slot + 1;  // CiA 402-3: the PDOs of a node's axis n begin at 64 n + 1
+  reader->integer("rpdo", &map.rpdo, 1, 512);
+  reader->integer("tpdo", &map.tpdo, 1, 512);
+  read_scale(reader, &map);
+  reader->number("zero", &map.zero, -1e6, 1e6);
+  reader->number("following_error_limit", &map.following_limit, 0, 1e6);
+  read_homing(reader, config, &map);
+  read_probe(reader, &map);
+  for (const AxisMap& other : node->axes)
+    if (other.slot == map.slot) reader->error("slot", "axis " + other.name + " of this drive has it already");
+  if (!found) return;
+  map.max_velocity = config.nc.system[map.system].axis[map.axis].max_velocity;
+  for (const NodeMap& other : config.canopen.nodes)
+    for (const AxisMap& taken : other.axes)
+      if (taken.system == map.system && taken.axis == map.axis) return reader->error("name", "axis " + map.name + " is on drive \"" + other.name + "\" already");
+  for (const AxisMap& taken : node->axes)
+    if (taken.system == map.system && taken.axis == map.axis) return reader->error("name", "axis " + map.name + " is on this drive already");
+  check_range(reader, config, map);
+  node->axes.push_back(map);
+}
+
+void read_object(TableReader* reader, NodeMap* node) {
+  ObjectValue object;
+  std::int64_t value = 0;
+  for (const char* key : {"index", "value"}) reader->require(key);
+  object.bytes = 4;
+  reader->integer("index", &object.index, 0x1000, 0xFFFF);
+  reader->integer("sub", &object.sub, 0, 255);
+  if (reader->integer("bytes", &object.bytes, 1, 4) && object.bytes == 3) reader->error("bytes", "must be 1, 2 or 4");
+  const std::int64_t span = std::int64_t{1} << 8 * object.bytes;
+  if (reader->integer("value", &value, -span / 2, span - 1)) object.value = static_cast<std::uint32_t>(value);
+  node->objects.push_back(object);
+}
+
+void read_eds_file(TableReader* reader, const Config& config, const NodeMap& node) {
+  std::string name;
+  if (!reader->string("eds", &name)) return;
+  const std::filesystem::path own(name);
+  const std::filesystem::path path = own.is_absolute() ? own : std::filesystem::path(config.file).parent_path() / own;
+  std::error_code ignored;
+  std::ifstream stream(path, std::ios::binary);
+  if (!std::filesystem::is_regular_file(path, ignored) || !stream) return reader->error("eds", "\"" + path.string() + "\" cannot be read");
+  std::string text(hal::canopen::kMostEdsBytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  hal::canopen::Eds eds;
+  std::vector<hal::canopen::EdsError> errors = hal::canopen::read_eds(text, &eds);
+  if (errors.empty()) errors = hal::canopen::check_eds(eds, node);
+  for (const hal::canopen::EdsError& error : errors)
+    reader->error("eds", name + (error.line != 0 ? ":" + std::to_string(error.line) : "") + ": " + error.text);
+}
+
+void read_drive(TableReader* reader, Config* config) {
+  NodeMap node;
+  BusMap& bus = config->canopen;
+  for (const char* key : {"node", "axis"}) reader->require(key);
+  const bool numbered = reader->integer("node", &node.id, hal::canopen::kFirstNode, hal::canopen::kLastNode);
+  node.name = "drive " + std::to_string(node.id);
+  reader->string("name", &node.name);
+  reader->integer("vendor", &node.vendor, 0, 0xFFFFFFFFll);
+  reader->integer("product", &node.product, 0, 0xFFFFFFFFll);
+  reader->tables("axis", [&](TableReader& axis, std::size_t) { read_drive_axis(&axis, *config, &node); });
+  reader->tables("objects", [&](TableReader& object, std::size_t) { read_object(&object, &node); });
+  read_eds_file(reader, *config, node);
+  if (numbered && node.id == bus.own_id) reader->error("node", "is the control's own number: canopen.node_id");
+  for (const NodeMap& other : bus.nodes)
+    if (numbered && other.id == node.id) reader->error("node", "drive \"" + other.name + "\" has this number already");
+  unsigned sends = 0;
+  for (const AxisMap& axis : node.axes) sends += axis.has_probe() ? 2 : 1;
+  if (node.axes.size() > hal::canopen::kMaxAxesPerNode || sends > hal::canopen::kMaxAxesPerNode)
+    reader->error("axis", "a node has identifiers for four PDOs of each direction: an axis takes one, its probe another one");
+  if (bus.nodes.size() == hal::canopen::kMaxNodes) return reader->error("node", "there can be " + std::to_string(hal::canopen::kMaxNodes) + " drives");
+  bus.nodes.push_back(node);
+}
+
+void check_axes(TableReader* root, const Config& config) {
+  for (unsigned s = 0; s < config.nc.system_count; ++s)
+    for (unsigned a = 0; a < config.nc.system[s].axis_count; ++a) {
+      const bool carried = std::any_of(config.canopen.nodes.begin(), config.canopen.nodes.end(), [&](const NodeMap& node) {
+        return std::any_of(node.axes.begin(), node.axes.end(), [&](const AxisMap& map) { return map.system == s && map.axis == a; });
+      });
+      if (!carried)
+        root->error("canopen", std::string("axis ") + config.nc.system[s].axis[a].name + (s > 0 ? std::to_string(s + 1) : "") + " is on no drive: [[canopen.drive.axis]]");
+    }
+}
+
+void check_load(TableReader* reader, const BusMap& bus) {
+  const hal::canopen::BusLoad load = hal::canopen::bus_load(bus);
+  if (load.share > hal::canopen::kMostLoad)
+    reader->error(reader->find("sync_us") != nullptr ? "sync_us" : "interface",
+                  "the bus would be fuller than 80 %: " + load.arithmetic + "; a longer sync_us, or fewer axes on this bus");
+}
+
+}  // namespace
+
+// Only a machine of this kind has to have all its axes there.
+void read_canopen(TableReader* root, Config* config) {
+  const bool chosen = config->machine_kind != nullptr && config->machine_kind->name == "canopen";
+  const bool there = root->table("canopen", [&](TableReader& reader) {
+    read_bus(&reader, config);
+    reader.tables("drive", [&](TableReader& drive, std::size_t) { read_drive(&drive, config); });
+    check_load(&reader, config->canopen);
+  });
+  if (!chosen) return;
+  if (!there && root->find("canopen") == nullptr) return root->error("machine", "hal = \"canopen\" needs a section [canopen] that names the bus and its drives");
+  check_axes(root, *config);
+}
+
+}  // namespace nc::rt

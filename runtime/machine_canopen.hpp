@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The row of CANopen in the table of machines (runtime/hal_factory.hpp, which says what each function is for).
+#pragma once
+
+#include "runtime/hal_factory.hpp"
+
+namespace nc::rt {
+
+// ---- the configuration: runtime/config_canopen.cpp ----
+void read_canopen(TableReader* root, Config* config);
+
+// ---- the machine: runtime/machine_canopen.cpp ----
+std::unique_ptr<hal::Hal> make_canopen(const Config& config);
+void canopen_resources(const Config& config, std::vector<MachineResource>* resources);
+
+}  // namespace nc::rt

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A control cuts on three drives over a bus: the plants behind the drives are where the control says, and what goes wrong stops them by name.
+#include "hal/canopen/can_machine.hpp"
+
+#include <gtest/gtest.h>
+
+#include "can_rig.hpp"
+
+namespace {
+
+using nc::rt::Answer;
+using nc::rt::CommandKind;
+using nc::test::can_toml;
+using nc::test::CanRig;
+using nc::test::kIncrementsPerMm;
+
+constexpr double kIncrement = 1 / kIncrementsPerMm;
+
+TEST(CanMachine, DrivesAreSetUpAndFollowFromWhereTheyStand) {
+  CanRig rig;
+  rig.drives[0]->plant().position = 12'000;
+  rig.drives[2]->plant().position = -50'000;
+  rig.bring_up();
+  EXPECT_TRUE(rig.enabled());
+  EXPECT_NEAR(rig.command(0), 6.0, 1e-9);  // not where the configuration starts: where the axis is
+  EXPECT_NEAR(rig.command(2), -25.0, 1e-9);
+  rig.step(200);
+  EXPECT_DOUBLE_EQ(rig.drives[0]->plant().position, 12'000);  // nothing has jumped
+  EXPECT_DOUBLE_EQ(rig.drives[2]->plant().position, -50'000);
+  EXPECT_EQ(rig.alarms(), "");
+}
+
+TEST(CanMachine, AMoveEndsWhereItIsProgrammedAndThePlantStaysBesideTheCommand) {
+  CanRig rig;
+  rig.bring_up();
+  ASSERT_EQ(rig.mdi("G90 G01 X20. Y-10. Z5. F6000"), Answer::kDone);
+  double most = 0;
+  std::vector<double> sent;
+  for (unsigned i = 0; i < 3000 && !(i > 20 && rig.idle()); ++i) {
+    rig.step();
+    sent.push_back(rig.command(0));
+    // The position goes out with the scan, and the drive takes it with the next SYNC.
+    if (sent.size() > 3) most = std::max(most, std::abs(rig.plant_mm(0) - sent[sent.size() - 2]));
+  }
+  rig.step(20);
+  EXPECT_EQ(rig.alarms(), "");
+  EXPECT_NEAR(rig.plant_mm(0), 20.0, kIncrement);
+  EXPECT_NEAR(rig.plant_mm(1), -10.0, kIncrement);
+  EXPECT_NEAR(rig.plant_mm(2), 5.0, kIncrement);
+  EXPECT_LE(most, kIncrement);
+  EXPECT_NEAR(rig.actual(0), 20.0, kIncrement);
+}
+
+}  // namespace

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// A CAN bus in the memory of a test: whatever the control sends, every drive hears, and the other way round.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "hal/canopen/can_port.hpp"
+#include "sim_drive.hpp"
+
+namespace nc::test {
+
+// Lives longer than its port, which the machine owns.
+class LoopbackBus {
+ public:
+  void attach(SimDrive* drive) {
+    drives_.push_back(drive);
+    drive->out = [this](const CanFrame& frame) { from_drive(frame); };
+  }
+  void from_drive(const CanFrame& frame) {
+    if (off) return;
+    to_control_.push_back(frame);
+    ++frames;
+  }
+  void tick(std::int64_t now_ns) {
+    for (SimDrive* drive : drives_) drive->tick(now_ns);
+  }
+  // The controller of the control goes off the bus, and comes back.
+  void go_off() {
+    off = true;
+    CanFrame event;
+    event.event = hal::canopen::BusEvent::kBusOff;
+    to_control_.push_back(event);
+  }
+  void come_back() {
+    off = false;
+    CanFrame event;
+    event.event = hal::canopen::BusEvent::kRestarted;
+    to_control_.push_back(event);
+  }
+
+  bool off = false, refuses_to_open = false;
+  std::size_t frames = 0;
+  std::vector<CanFrame> sent;  // by the control, while `records`
+  bool records = false;
+
+  class Port final : public hal::canopen::CanPort {
+   public:
+    explicit Port(LoopbackBus* bus) : bus_(bus) {}
+    bool open(std::string* error) override {
+      if (bus_->refuses_to_open) *error = "there is no such interface";
+      return !bus_->refuses_to_open;
+    }
+    void close() noexcept override {}
+    bool send(const CanFrame& frame) noexcept override {
+      if (bus_->off) return false;
+      ++bus_->frames;
+      if (bus_->records) bus_->sent.push_back(frame);
+      for (SimDrive* drive : bus_->drives_) drive->on_frame(frame);
+      return true;
+    }
+    bool receive(CanFrame* frame) noexcept override {
+      if (bus_->to_control_.empty()) return false;
+      *frame = bus_->to_control_.front();
+      bus_->to_control_.pop_front();
+      return true;
+    }
+
+   private:
+    LoopbackBus* bus_;
+  };
+
+ private:
+  std::vector<SimDrive*> drives_;
+  std::deque<CanFrame> to_control_;
+};
+
+}  // namespace nc::test
