@@ -67,7 +67,9 @@ void Cyclic::cycle(std::int64_t now_ns) noexcept {
     send(beat);
     beat_ns_ = now_ns;
   }
-  if (sync && ++slow_wait_ >= slow_every_) {
+  bool any = false;  // as long as no drive is moved the bus is the slow part's
+  for (const Node& node : nodes_) any |= node.operational;
+  if (sync && ++slow_wait_ >= (any ? slow_every_ : 1)) {
     CanFrame slow;
     if (out_.pop(&slow)) {
       send(slow);

@@ -142,6 +142,10 @@ void Service::step_node(Node* node, std::int64_t now_ns) {
       node->silent = false;
       node->state = 0xFF;
       cyclic_->set_phase(node->index, NodePhase::kSetUp);
+      if (node->said.empty()) {
+        const std::lock_guard lock(mutex_);
+        wrong_[node->index] = "is being set up";
+      }
       node->mode.assign(node->map->axes.size(), 0);
       node->job = Node::Job::kNone;
       for (unsigned a = 0; a < node->map->axes.size(); ++a) cyclic_->set_mode(first_axis_[node->index] + a, 0);

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section [canopen]: what it makes, and what is refused with its line and key.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "can_rig.hpp"
+#include "places/places.hpp"
+#include "runtime/hal_factory.hpp"
+#include "runtime/machine_lock.hpp"
+#include "tools/lib/daemon_options.hpp"
+
+namespace {
+
+using nc::rt::Config;
+using nc::test::can_axis;
+using nc::test::can_toml;
+
+std::vector<std::string> errors_of(const std::string& text) {
+  Config config;
+  std::vector<std::string> texts;
+  for (const auto& error : nc::rt::parse_config(text, "can.toml", &config)) texts.push_back(error.text());
+  return texts;
+}
+std::string only_error(const std::string& text) {
+  const auto errors = errors_of(text);
+  std::string all;
+  for (const std::string& error : errors) all += error + "\n";
+  EXPECT_EQ(errors.size(), 1u) << all;
+  return errors.empty() ? "" : errors[0];
+}
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+void expect_in(const std::string& text, const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in: " << text; }
+
+TEST(CanConfig, UnitsComeFromEncoderGearAndPitch) {
+  Config config;
+  ASSERT_TRUE(nc::rt::parse_config(replaced(can_toml(), "pitch = 10.0", "pitch = 5.0\nreverse = true\nzero = 7.5"), "can.toml", &config).empty());
+  ASSERT_EQ(config.canopen.nodes.size(), 3u);
+  const nc::hal::canopen::AxisMap& axis = config.canopen.nodes[0].axes[0];
+  EXPECT_DOUBLE_EQ(axis.increments_per_unit, -4000.0);  // 10000 x 2 / 5
+  EXPECT_DOUBLE_EQ(axis.zero, 7.5);
+  EXPECT_DOUBLE_EQ(axis.max_velocity, 200.0);
+  EXPECT_EQ(config.canopen.sync_us, 1000u);
+}
+
+TEST(CanConfig, AnAxisThatCountsBackwardsMovesWhereItIsTold) {
+  nc::test::CanRig rig(replaced(can_toml(), "pitch = 10.0", "pitch = 10.0\nreverse = true\nzero = 3.0"));
+  rig.bring_up();
+  EXPECT_NEAR(rig.command(0), 3.0, 1e-9);
+  ASSERT_EQ(rig.mdi("G90 G01 X10. F6000"), nc::rt::Answer::kDone);
+  rig.step(20);
+  ASSERT_TRUE(rig.until([&] { return rig.idle(); }, 3000));
+  rig.step(20);
+  EXPECT_DOUBLE_EQ(rig.drives[0]->plant().position, -14'000);
+}
+
+TEST(CanConfig, ABusThatIsTooFullIsRefusedWithTheArithmetic) {
+  std::string text = can_toml("sync_us = 1000\n") + "[[canopen.drive]]\nnode = 4\naxis = [{ name = \"A\", encoder = 10000, pitch = 10.0 }]\n";
+  text = replaced(text, "[[point]]", can_axis("A") + "[[point]]");
+  const std::string error = only_error(text);
+  expect_in(error, "can.toml:");
+  expect_in(error, "canopen.sync_us: the bus would be fuller than 80 %: SYNC 55 + 8 PDOs of 6 bytes, 115 each");
+  expect_in(error, "97.8 %");
+  EXPECT_TRUE(errors_of(replaced(text, "sync_us = 1000", "sync_us = 2000")).empty());
+}
+
+TEST(CanConfig, EachAxisIsOnOneDrive) {
+  expect_in(errors_of(replaced(can_toml(), "[[canopen.drive.axis]]\nname = \"Z\"", "[[canopen.drive.axis]]\nname = \"Z\"\nslot = 1\nencoder = 1\npitch = 1.0\n[[canopen.drive.axis]]\nname = \"Z\"")).at(1),
+            "canopen.drive[3].axis[2].name: axis Z is on this drive already");
+  const std::string text = can_toml();
+  expect_in(only_error(text.substr(0, text.rfind("[[canopen.drive]]"))), "canopen: axis Z is on no drive: [[canopen.drive.axis]]");
+  expect_in(errors_of(replaced(can_toml(), "name = \"Y\"\nencoder", "name = \"X\"\nencoder")).at(1), "canopen.drive[2].axis[1].name: axis X is on drive \"X drive\" already");
+  expect_in(errors_of(replaced(can_toml(), "name = \"Y\"\nencoder", "name = \"Q\"\nencoder")).at(1), "there is no axis \"Q\": see [[axis]]");
+}
+
+TEST(CanConfig, EachDriveHasANumberOfItsOwn) {
+  expect_in(only_error(replaced(can_toml(), "node = 2", "node = 1")), "canopen.drive[2].node: drive \"X drive\" has this number already");
+  expect_in(only_error(replaced(can_toml(), "node = 2", "node = 127")), "canopen.drive[2].node: is the control's own number: canopen.node_id");
+  expect_in(only_error(replaced(can_toml(), "node = 2", "node = 128")), "canopen.drive[2].node: ");
+}
+
+TEST(CanConfig, WhatIsMissingOrWrongIsNamed) {
+  expect_in(only_error(replaced(can_toml(), "interface = \"test\"\n", "")), "canopen.interface: is missing");
+  expect_in(only_error(replaced(can_toml(), "encoder = 10000\n", "")), "canopen.drive[1].axis[1].encoder: is missing");
+  expect_in(only_error(can_toml("sync_us = 1500\n")), "canopen.sync_us: must be a whole number of servo cycles (machine.cycle_us = 1000)");
+  expect_in(only_error(can_toml("heartbeet_ms = 100\n")), "canopen.heartbeet_ms: unknown key");
+  expect_in(only_error(replaced(can_toml(), "gear = [2, 1]", "gear = [0, 1]")), "axis[1].gear: is [turns of the motor, turns of the screw], both above 0");
+  expect_in(only_error(can_toml("", "homing = { method = 0, fast = 1.0, slow = 1.0, acceleration = 1.0, request = \"home_x\", done = \"x_homed\" }\n")), "homing.method: 0 is no homing");
+  expect_in(only_error(can_toml("", "homing = { method = 1, fast = 1.0, slow = 1.0, acceleration = 1.0, request = \"x_homed\", done = \"x_homed\" }\n")),
+            "homing.request: point \"x_homed\" must be a bit and an output");
+  expect_in(only_error(can_toml("", "homing = { method = 1, fast = 1.0, slow = 1.0, acceleration = 1.0, request = \"nobody\", done = \"x_homed\" }\n")), "no point is named \"nobody\"");
+  expect_in(only_error(replaced(can_toml(), "encoder = 10000", "encoder = 1000000000")), "is beyond the 32 bits of a drive's position");
+  std::string none = can_toml();
+  none.resize(none.find("[canopen]"));
+  expect_in(only_error(none), "machine: hal = \"canopen\" needs a section [canopen] that names the bus and its drives");
+}
+
+TEST(CanConfig, FourAxesOfOneNodeAreAllThatItHasIdentifiersFor) {
+  std::string text = can_toml("sync_us = 4000\n", "probe = { skip_signal = 1 }\n");
+  for (const char* name : {"A", "B", "C"}) {
+    text = replaced(text, "[[point]]", can_axis(name) + "[[point]]");
+    text = replaced(text, "[[canopen.drive]]\nname = \"Y drive\"", "[[canopen.drive.axis]]\nname = \"" + std::string(name) + "\"\nslot = " + std::to_string(name[0] - 'A' + 1) + "\nencoder = 10000\npitch = 10.0\n[[canopen.drive]]\nname = \"Y drive\"");
+  }
+  expect_in(only_error(text), "canopen.drive[1].axis: a node has identifiers for four PDOs of each direction");
+}
+
+TEST(CanConfig, ADataSheetThatDoesNotFitIsRefusedWithBothLines) {
+  const std::string folder = testing::TempDir();
+  std::ofstream(folder + "/bad.eds") << "[6040]\nDataType=0x0006\nAccessType=rw\nPDOMapping=0\n";
+  const auto errors = errors_of(can_toml("", "", "eds = \"" + folder + "/bad.eds\"\n"));
+  ASSERT_FALSE(errors.empty());
+  expect_in(errors[0], "canopen.drive[1].eds: ");
+  expect_in(errors[0], "bad.eds:1: 6040h:0 cannot be mapped into a PDO (PDOMapping)");
+  expect_in(errors_of(can_toml("", "", "eds = \"nobody.eds\"\n")).at(0), "nobody.eds\" cannot be read");
+}
+
+TEST(CanConfig, TheInterfaceIsTheMachinesOwnAndThereIsNoVirtualTime) {
+  Config config;
+  ASSERT_TRUE(nc::rt::parse_config(can_toml(), "can.toml", &config).empty());
+  bool found = false;
+  for (const auto& resource : nc::rt::machine_resources(config, false)) found |= resource.meaning == "CAN interface test";
+  EXPECT_TRUE(found);
+  nc::tools::DaemonOptions options;
+  options.fast = true;
+  expect_in(nc::tools::conflict_of(options, config), "--fast cannot be: the drives of a bus run in real time (hal = \"canopen\")");
+}
+
+// The example as it is shipped cuts on drives of its numbers.
+TEST(CanConfig, TheExampleRuns) {
+  Config config;
+  for (const auto& error : nc::rt::load_config(nc::test::kSourceDir + "/etc/can_mill.toml", &config)) ADD_FAILURE() << error.text();
+  ASSERT_EQ(config.canopen.nodes.size(), 3u);
+  nc::test::CanRig rig(can_toml(), {});
+  rig.config = config;
+  for (const auto& node : config.canopen.nodes) {
+    rig.drives.push_back(std::make_unique<nc::test::SimDrive>(node.id));
+    rig.bus.attach(rig.drives.back().get());
+  }
+  ASSERT_TRUE(rig.boot()) << rig.said();
+  rig.make_runtime();
+  ASSERT_TRUE(rig.until([&] { return rig.following(); }, 3000)) << rig.alarms();
+  ASSERT_EQ(rig.mdi("G90 G01 X-5. Y-5. Z-5. F3000"), nc::rt::Answer::kDone);
+  rig.step(20);
+  ASSERT_TRUE(rig.until([&] { return rig.idle(); }, 9000)) << rig.alarms();
+  rig.step(20);
+  EXPECT_EQ(rig.alarms(), "");
+  for (unsigned n = 0; n < 3; ++n) {
+    const auto& axis = config.canopen.nodes[n].axes[0];
+    EXPECT_NEAR(rig.drives[n]->plant().position / axis.increments_per_unit + axis.zero, -5.0, 2 / std::abs(axis.increments_per_unit)) << n;
+  }
+}
+
+}  // namespace

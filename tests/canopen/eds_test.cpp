@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Data sheets of drives: what is read of them, and what of a configuration they show to be impossible.
+#include "hal/canopen/eds.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace nc::hal::canopen;
+
+std::string object(const char* name, unsigned type, const char* access, int mappable) {
+  char text[200];
+  std::snprintf(text, sizeof text, "[%s]\nParameterName=x\nObjectType=0x7\nDataType=0x%04X\nAccessType=%s\nPDOMapping=%d\n", name, type, access, mappable);
+  return text;
+}
+
+// All that an axis needs.
+std::string good_eds() {
+  std::string text = "; a drive\n[DeviceInfo]\nVendorNumber=0x1234\nProductNumber=22136\n";
+  text += object("6040", 6, "rww", 1) + object("607A", 4, "rw", 1) + object("6041", 6, "ro", 1) + object("6064", 4, "ro", 1);
+  text += object("6060", 2, "rw", 0) + object("6061", 2, "ro", 0) + object("60B8", 6, "rw", 1) + object("60B9", 6, "ro", 1) + object("60BA", 4, "ro", 1);
+  text += "[60C2]\nObjectType=0x9\nSubNumber=3\n" + object("60C2sub1", 5, "rw", 0) + object("60C2sub2", 2, "rw", 0);
+  text += object("1600sub0", 5, "rw", 0) + object("1A00sub0", 5, "rw", 0) + object("1A01sub0", 5, "rw", 0);
+  return text;
+}
+NodeMap node() {
+  NodeMap made;
+  made.axes.emplace_back();
+  return made;
+}
+std::vector<std::string> wrong(const std::string& text, const NodeMap& map = node()) {
+  Eds eds;
+  std::vector<EdsError> errors = read_eds(text, &eds);
+  if (errors.empty()) errors = check_eds(eds, map);
+  std::vector<std::string> texts;
+  for (const EdsError& error : errors) texts.push_back(std::to_string(error.line) + ": " + error.text);
+  return texts;
+}
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(Eds, ADriveThatFitsHasNothingWrong) {
+  EXPECT_TRUE(wrong(good_eds()).empty());
+  Eds eds;
+  EXPECT_TRUE(read_eds(good_eds(), &eds).empty());
+  EXPECT_EQ(eds.vendor, 0x1234u);
+  EXPECT_EQ(eds.product, 22136u);
+  ASSERT_NE(eds.find(0x607A, 0), nullptr);
+  EXPECT_EQ(eds.find(0x607A, 0)->bits, 32u);
+  EXPECT_EQ(eds.find(0x607A, 0)->line, 11u);
+  EXPECT_EQ(eds.find(0x60C2, 0), nullptr);  // the heading of a record
+  EXPECT_NE(eds.find(0x60C2, 1), nullptr);
+}
+
+TEST(Eds, CarriageReturnsCapitalsAndSpacesMeanNothing) {
+  std::string text = good_eds(), windows;
+  for (const char c : replaced(text, "DataType=0x0004", " datatype = 0x4 ")) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  EXPECT_TRUE(wrong(windows).empty());
+}
+
+TEST(Eds, WhatCannotBeMappedIsNamedWithItsLine) {
+  EXPECT_EQ(wrong(replaced(good_eds(), object("607A", 4, "rw", 1), object("607A", 4, "rw", 0))), std::vector<std::string>{"11: 607Ah:0 cannot be mapped into a PDO (PDOMapping)"});
+  EXPECT_EQ(wrong(replaced(good_eds(), object("6064", 4, "ro", 1), object("6064", 3, "ro", 1))), std::vector<std::string>{"23: 6064h:0 has 16 bits, not 32 (DataType)"});
+  EXPECT_EQ(wrong(replaced(good_eds(), object("607A", 4, "rw", 1), object("607A", 4, "ro", 1))), std::vector<std::string>{"11: 607Ah:0 cannot be written (AccessType=ro)"});
+  EXPECT_EQ(wrong(replaced(good_eds(), object("6041", 6, "ro", 1), "")), std::vector<std::string>{"0: 6041h:0 does not exist in this drive"});
+}
+
+TEST(Eds, WhatAnAxisNeedsBesidesIsLookedFor) {
+  NodeMap map = node();
+  map.axes[0].homing_method = 17;
+  EXPECT_EQ(wrong(good_eds(), map).size(), 3u);
+  map = node();
+  map.axes[0].slot = 1;
+  EXPECT_EQ(wrong(good_eds(), map).front(), "0: 6840h:0 does not exist in this drive");
+  map = node();
+  map.axes[0].skip_signal = 1;
+  EXPECT_TRUE(wrong(good_eds(), map).empty());
+  map.axes[0].skip_falling = true;
+  EXPECT_EQ(wrong(good_eds(), map), std::vector<std::string>{"0: 60BBh:0 does not exist in this drive"});
+  map = node();
+  map.objects.push_back({0x6060, 0, 4, 8});
+  EXPECT_EQ(wrong(good_eds(), map).size(), 1u);
+  map = node();
+  map.vendor = 0x999;
+  EXPECT_EQ(wrong(good_eds(), map), std::vector<std::string>{"0: is of another vendor (VendorNumber) than the drive is to be"});
+}
+
+TEST(Eds, ACompactArrayHasItsSubIndices) {
+  Eds eds;
+  EXPECT_TRUE(read_eds("[2000]\nObjectType=0x8\nDataType=0x0007\nAccessType=rw\nPDOMapping=1\nCompactSubObj=3\n", &eds).empty());
+  ASSERT_NE(eds.find(0x2000, 3), nullptr);
+  EXPECT_EQ(eds.find(0x2000, 3)->bits, 32u);
+  EXPECT_EQ(eds.find(0x2000, 0)->bits, 8u);
+  EXPECT_EQ(eds.find(0x2000, 4), nullptr);
+}
+
+TEST(Eds, ATextThatIsNoneIsRefusedWithItsLines) {
+  EXPECT_EQ(wrong(""), std::vector<std::string>{"0: describes no object"});
+  EXPECT_EQ(wrong("hello\n"), std::vector<std::string>{"1: neither [section] nor key=value: \"hello\""});
+  EXPECT_EQ(wrong("a=1\n[6040]\n"), std::vector<std::string>{"1: a key in front of the first [section]"});
+  EXPECT_EQ(wrong("[6040\n"), std::vector<std::string>{"1: the name of a section ends with ]"});
+  EXPECT_EQ(wrong("[6040]\nDataType=0xQQ\n"), std::vector<std::string>{"2: datatype is no number: \"0xQQ\""});
+  EXPECT_EQ(wrong(object("6040", 6, "rw", 1) + object("6040", 6, "rw", 1)), std::vector<std::string>{"7: 6040h:0 is described twice, before in line 1"});
+  EXPECT_LE(wrong(std::string(5000, '\n') + std::string(1000, 'x') + "\n").size(), 20u);
+  EXPECT_EQ(wrong(std::string(kMostEdsBytes + 1, ';')), std::vector<std::string>{"0: is larger than 4 MiB: no data sheet"});
+}
+
+}  // namespace

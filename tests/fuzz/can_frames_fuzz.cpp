@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any frames on the bus, from the first SYNC on, beside drives that answer nothing else. The control stays in its bounds: it never enables an axis whose drive
+// has not gone through its states, and never sends a target that the scan did not ask for.
+#include <cmath>
+#include <deque>
+#include <memory>
+
+#include "fuzz/input.hpp"
+#include "hal/canopen/can_machine.hpp"
+
+namespace {
+
+using namespace nc::hal::canopen;
+using nc::fuzz::Bytes;
+using nc::fuzz::require;
+
+constexpr unsigned kCycles = 400;
+
+struct Port final : CanPort {
+  bool open(std::string*) override { return true; }
+  void close() noexcept override {}
+  bool send(const CanFrame& frame) noexcept override {
+    require(frame.length <= kMaxData && frame.id <= 0x7FF);
+    if (frame.id == kSdoRequestId + 1) asked = frame;
+    return true;
+  }
+  bool receive(CanFrame* frame) noexcept override {
+    if (frames.empty()) return false;
+    *frame = frames.front();
+    frames.pop_front();
+    return true;
+  }
+  std::deque<CanFrame> frames;
+  CanFrame asked;
+};
+
+BusMap bus_of_two() {
+  BusMap bus;
+  bus.interface = "fuzz";
+  bus.sdo_timeout_ms = 20;
+  for (unsigned n = 0; n < 2; ++n) {
+    NodeMap node;
+    node.id = n + 1;
+    AxisMap axis;
+    axis.axis = n;
+    axis.increments_per_unit = 1000;
+    axis.max_velocity = 100;
+    axis.following_limit = 1;
+    axis.skip_signal = n;
+    axis.homing_method = n == 0 ? 1 : 0;
+    node.axes.push_back(axis);
+    bus.nodes.push_back(node);
+  }
+  return bus;
+}
+
+// The identifiers that mean something come most often.
+CanFrame frame_from(Bytes* in, const CanFrame& asked) {
+  static constexpr unsigned kKinds[] = {kTpdoId, kTpdoId + kPdoStep, kSdoAnswerId, kHeartbeatId, kEmergencyId, kSdoAnswerId, kTpdoId, kHeartbeatId};
+  const std::uint8_t shape = in->byte();
+  CanFrame frame;
+  frame.id = static_cast<std::uint16_t>(kKinds[shape & 7] + 1 + (shape >> 3 & 1));
+  if ((shape & 0xF0) == 0xF0) frame.id = in->value<std::uint16_t>() & 0x7FF;
+  if ((shape & 0xF0) == 0xE0) frame.event = static_cast<BusEvent>(in->byte() % 5);
+  frame.length = (shape & 0xF0) == 0xD0 ? in->byte() % 9 : kMaxData;
+  for (std::uint8_t& byte : frame.data) byte = in->byte();
+  if ((shape & 0x17) == 0x12) {  // an answer to what was asked, of a node that says yes
+    for (unsigned i = 1; i < kMaxData; ++i) frame.data[i] = asked.data[i];
+    frame.data[0] = 0x60;
+  }
+  return frame;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Bytes in(data, size);
+  auto port = std::make_unique<Port>();
+  Port* bus = port.get();
+  CanMachine machine(bus_of_two(), std::move(port), [](const std::string& line) { require(!line.empty()); });
+  std::string error;
+  require(machine.start_stepping(&error));
+  auto feedback = std::make_unique<nc::hal::Feedback>();
+  auto image = std::make_unique<nc::hal::PointImage>();
+  nc::hal::Command command;
+  std::int64_t now_ns = 0;
+  for (unsigned cycle = 0; cycle < kCycles && !in.empty(); ++cycle) {
+    const std::uint8_t what = in.byte();
+    for (unsigned n = 0; n < (what & 7u); ++n) bus->frames.push_back(frame_from(&in, bus->asked));
+    command.system[0].enable = (what & 8) != 0;
+    command.system[0].reset = (what & 16) != 0;
+    command.system[0].position.v[0] += (what & 32) != 0 ? 0.05 : 0;
+    machine.read(feedback.get(), image.get());
+    for (unsigned a = 0; a < 2; ++a) require(std::isfinite(feedback->system[0].actual.v[a]));
+    machine.write(command, *image);
+    machine.step_bus(now_ns += 1'000'000 + (what & 64) * 1'000'000LL);
+  }
+  (void)machine.service().missing();
+  machine.stop();
+  return 0;
+}
