@@ -51,4 +51,27 @@ TEST(CanMachine, AMoveEndsWhereItIsProgrammedAndThePlantStaysBesideTheCommand) {
   EXPECT_NEAR(rig.actual(0), 20.0, kIncrement);
 }
 
+// An operator, or ncrtd mdi, need not wait with loading: only the start is refused.
+TEST(CanMachine, ABlockThatWasReadBeforeTheDrivesCameOnBeginsWhereTheAxesAre) {
+  CanRig rig;
+  rig.drives[0]->plant().position = 12'000;
+  rig.drives[1]->plant().position = -30'000;
+  ASSERT_TRUE(rig.boot()) << rig.said();
+  rig.make_runtime();
+  EXPECT_EQ(rig.mdi("G90 G01 X20. F6000"), Answer::kDrivesOff);
+  ASSERT_TRUE(rig.until([&] { return rig.following(); }, 2000)) << rig.alarms();
+  ASSERT_EQ(rig.run(CommandKind::kCycleStart), Answer::kDone);
+  double last = rig.plant_mm(0), most = 0;
+  for (unsigned i = 0; i < 3000 && !(i > 20 && rig.idle()); ++i) {
+    rig.step();
+    most = std::max(most, std::abs(rig.plant_mm(0) - last));
+    last = rig.plant_mm(0);
+  }
+  rig.step(20);
+  EXPECT_EQ(rig.alarms(), "");
+  EXPECT_LE(most, 0.101);  // of 6000 mm/min in 1 ms: no jump
+  EXPECT_NEAR(rig.plant_mm(0), 20.0, kIncrement);
+  EXPECT_NEAR(rig.plant_mm(1), -15.0, kIncrement);
+}
+
 }  // namespace

@@ -19,6 +19,7 @@ using rt::FeederInfo;
 using rt::Snapshot;
 
 constexpr auto kPeriod = std::chrono::milliseconds(50);  // of the display
+constexpr std::chrono::milliseconds kDrivesPatience{10000};
 constexpr unsigned kStepsPerLook = 500;                  // virtual time: scans between two looks
 
 // An alarm or a warning that the operator has to see first.
@@ -43,7 +44,12 @@ int ProgramRun::to_end(Answer selected) {
 }
 
 int ProgramRun::start_to_end() {
-  const Answer answer = runtime_.execute(CommandKind::kCycleStart);
+  Answer answer = runtime_.execute(CommandKind::kCycleStart);
+  // Drives that are coming on are waited for: nobody presses the button again here.
+  for (auto left = kDrivesPatience; answer == Answer::kDrivesOff && left.count() > 0 && end_signal() == 0; left -= kPeriod) {
+    wait();
+    answer = runtime_.execute(CommandKind::kCycleStart);
+  }
   if (by_alarm(answer)) return stop_by_alarm();
   if (answer != Answer::kDone) return refused("cycle start: ", runtime_.explain(answer));
   int status = 0;

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""ncrtd on drives of another make: python canopen's, through slcan over a pair of pseudo terminals. A block ends where it says; a drive that trips in it
+ends the run with the text of its EMCY."""
+import fcntl
+import os
+import pathlib
+import pty
+import subprocess
+import sys
+import tempfile
+import threading
+import tty
+
+PACKAGES = ["canopen==2.4.1", "python-can==4.6.1", "pyserial==3.5"]
+SKIPPED, PATIENCE = 77, 120  # s; only a failure takes so long
+HERE = pathlib.Path(__file__).resolve().parent
+BUILD = pathlib.Path(os.environ["NC_BINARY_DIR"])
+NCRTD = BUILD / "bin" / "ncrtd"
+MACHINE = """
+[machine]
+name = "peer"
+hal = "canopen"
+programs = "."
+cycle_us = 10000
+[scheduling]
+policy = "other"
+lock_memory = false
+overrun = "count"
+[canopen]
+interface = "slcan:TTY"
+heartbeat_ms = 2000
+lost_after = 100
+command_timeout_ms = 1000
+sdo_timeout_ms = 2000
+boot_timeout_s = 60.0
+enable_timeout_s = 30.0
+priority = 0
+"""
+AXIS = """
+[[axis]]
+name = "NAME"
+max_velocity = 100.0
+max_acceleration = 1000.0
+max_jerk = 20000.0
+"""
+DRIVE = """
+[[canopen.drive]]
+name = "NAME drive"
+node = NODE
+vendor = 0x77
+product = 0x88
+[[canopen.drive.axis]]
+name = "NAME"
+encoder = 10000
+pitch = 10.0
+"""
+
+
+def skip(why):
+    print(why + ": skipped")
+    sys.exit(SKIPPED)
+
+
+def environment():
+    """The interpreter of a virtual environment that holds the pinned packages; made when it is not there."""
+    folder, stamp = BUILD / "canopen-venv", BUILD / "canopen-venv" / "installed"
+    with open(BUILD / "canopen-venv.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if stamp.exists() and stamp.read_text() == " ".join(PACKAGES):
+            return folder / "bin" / "python"
+        made = subprocess.run([sys.executable, "-m", "venv", "--clear", folder], capture_output=True, text=True)
+        if made.returncode != 0:
+            skip("no virtual environment (Debian: python3-venv)")
+        pip = [folder / "bin" / "python", "-m", "pip", "install", "-q", "--disable-pip-version-check", "--timeout", "15", "--retries", "1"]
+        try:
+            installed = subprocess.run(pip + PACKAGES, capture_output=True, text=True, timeout=300)
+        except subprocess.TimeoutExpired:
+            skip("pip did not come to an end")
+        if installed.returncode != 0:
+            skip("pip could not install " + " ".join(PACKAGES))
+        stamp.write_text(" ".join(PACKAGES))
+        return folder / "bin" / "python"
+
+
+class Cable:
+    """Two pseudo terminals; frames of each come out of the other. What is said to an adapter alone ends here."""
+
+    def __init__(self):
+        self.ends = [pty.openpty() for _ in range(2)]
+        for master, slave in self.ends:
+            tty.setraw(slave)
+        for here, there in ((0, 1), (1, 0)):
+            threading.Thread(target=self.pump, args=(self.ends[here][0], self.ends[there][0]), daemon=True).start()
+
+    def name(self, end):
+        return os.ttyname(self.ends[end][1])
+
+    @staticmethod
+    def pump(source, target):
+        rest = b""
+        while True:
+            try:
+                rest += os.read(source, 4096)
+            except OSError:
+                return
+            *lines, rest = rest.split(b"\r")
+            frames = b"".join(line + b"\r" for line in lines if line.startswith(b"t"))
+            while frames:
+                frames = frames[os.write(target, frames):]
+
+
+def run(python, block, fault=()):
+    """(exit status of ncrtd, what it has said, what each drive says)"""
+    cable = Cable()
+    with tempfile.TemporaryDirectory() as folder:
+        machine = os.path.join(folder, "machine.toml")
+        with open(machine, "w") as out:
+            out.write(MACHINE.replace("TTY", cable.name(0)))
+            out.write("".join(AXIS.replace("NAME", name) for name in "XYZ"))
+            out.write("".join(DRIVE.replace("NAME", name).replace("NODE", str(n + 1)) for n, name in enumerate("XYZ")))
+        drives = subprocess.Popen([python, HERE / "peer_drives.py", cable.name(1), *fault], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        try:
+            assert drives.stdout.readline() == "ready\n"
+            done = subprocess.run([NCRTD, "--config", machine, "mdi", block, "--no-progress"], capture_output=True, text=True, timeout=PATIENCE)
+            said, _ = drives.communicate("", timeout=PATIENCE)
+        finally:
+            drives.kill()
+            drives.wait()
+    return done.returncode, done.stdout + done.stderr, said.splitlines()
+
+
+def main():
+    python = environment()
+    status, said, drives = run(python, "G90 G01 X10. Y-5. Z2.5 F3000")
+    print(said, *drives, sep="\n")
+    assert status == 0, status
+    for line, place in zip(drives, (10_000, -5_000, 2_500), strict=True):
+        words = line.split()
+        assert abs(int(words[3]) - place) <= 1, line
+        assert int(words[7]) == 1, line  # 1 x 10^-2 s
+    status, said, drives = run(python, "G90 G01 X200. Y50. F3000", ("fault", "2", "20000"))
+    print(said, *drives, sep="\n")
+    assert status == 2, status
+    assert "R12 Drive fault: EMCY 3210h: DC link over-voltage (error register 05h), axis Y" in said
+    places = [int(line.split()[3]) for line in drives]
+    assert 20_000 < places[1] < 45_000 and places[0] < 180_000, places
+
+
+main()
