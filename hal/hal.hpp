@@ -47,6 +47,7 @@ struct SystemCommand {
   std::uint64_t serial = 0;  // item in execution
   nc_source source{};        // and where it stands
   bool running = false;      // a program is in execution
+  bool idle = false;         // none is, and none is interrupted
   std::uint32_t unclamp = 0;  // bit per axis: the index table is to be unclamped
   std::uint16_t current_limit[NC_MAX_AXES] = {};  // percent of the rated current of each drive, 0 = its own limit
 };

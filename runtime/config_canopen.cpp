@@ -9,6 +9,7 @@
 #include "hal/canopen/bus_load.hpp"
 #include "hal/canopen/eds.hpp"
 #include "hal/canopen/frame.hpp"
+#include "hal/canopen/setup_plan.hpp"
 #include "runtime/config_sections.hpp"
 #include "runtime/machine_canopen.hpp"
 
@@ -36,9 +37,9 @@ void read_bus(TableReader* reader, Config* config) {
   reader->integer("bit_rate", &bus.bit_s, 10'000, 1'000'000);
   if (reader->integer("sync_us", &bus.sync_us, 100, 100'000) && bus.sync_us % bus.cycle_us != 0)
     reader->error("sync_us", "must be a whole number of servo cycles (machine.cycle_us = " + std::to_string(bus.cycle_us) + ")");
-  if (bus.sync_us % 100 != 0 && bus.sync_us > 255)
+  if (hal::canopen::interpolation_time_of(bus.sync_us).mantissa > 255)
     reader->error(reader->find("sync_us") != nullptr ? "sync_us" : "interface",
-                  "the SYNC period must be a whole number of 100 us: drives are told it as one byte times a power of ten");
+                  "a SYNC period of " + std::to_string(bus.sync_us) + " us cannot be told to a drive (60C2h): it must be a number up to 255 times a power of ten");
   reader->integer("heartbeat_ms", &bus.heartbeat_ms, 10, 10'000);
   reader->integer("node_id", &bus.own_id, hal::canopen::kFirstNode, hal::canopen::kLastNode);
   reader->integer("lost_after", &bus.lost_after, 1, 100);
@@ -95,11 +96,11 @@ void read_scale(TableReader* reader, AxisMap* map) {
   bool reverse = false;
   std::vector<double> gear{1, 1};
   for (const char* key : {"encoder", "pitch"}) reader->require(key);
-  const bool whole = reader->number("encoder", &encoder, 1, 4294967296.0) & reader->number("pitch", &pitch, 1e-6, 1e6);
+  const bool turns = reader->number("encoder", &encoder, 1, 4294967296.0), way = reader->number("pitch", &pitch, 1e-6, 1e6);
   if (reader->numbers("gear", &gear, 2, 2) && !(gear[0] > 0 && gear[1] > 0 && gear[0] <= 1e6 && gear[1] <= 1e6))
     return reader->error("gear", "is [turns of the motor, turns of the screw], both above 0");
   reader->boolean("reverse", &reverse);
-  if (whole) map->increments_per_unit = (reverse ? -1 : 1) * encoder * gear[0] / gear[1] / pitch;
+  if (turns && way) map->increments_per_unit = (reverse ? -1 : 1) * encoder * gear[0] / gear[1] / pitch;
 }
 
 // Every position that the axis may have must have its number in the drive.
@@ -120,7 +121,7 @@ void read_drive_axis(TableReader* reader, const Config& config, NodeMap* node) {
   if (named && !found) reader->error("name", "there is no axis \"" + map.name + "\": see [[axis]]");
   map.slot = static_cast<unsigned>(node->axes.size());
   reader->integer("slot", &map.slot, 0, 7);
-  map.rpdo = map.tpdo = 64 * map.slot + 1;  // CiA 402-3: the PDOs of a node's axis n begin at 64 n + 1
+  map.rpdo = map.tpdo = 64 * map.slot + 1;  // as drives with several axes number them
   reader->integer("rpdo", &map.rpdo, 1, 512);
   reader->integer("tpdo", &map.tpdo, 1, 512);
   read_scale(reader, &map);

@@ -347,6 +347,7 @@ void Scan::write_outputs() noexcept {
     machine.serial = out.serial;
     machine.source = out.source;
     machine.running = out.state == NC_STATE_RUNNING;
+    machine.idle = out.state == NC_STATE_IDLE;
     machine.unclamp = out.unclamp;
     std::copy(std::begin(out.current_limit), std::end(out.current_limit), machine.current_limit);
     if (out.message && !message_seen_[s] && !messages_.push({s, out.message_text, out.message_port}) && out.message_port != 0)

@@ -192,6 +192,7 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
     const std::uint32_t bit = 1u << map.axis;
     const auto machine = [&map](std::int64_t increments) { return static_cast<double>(increments) / map.increments_per_unit + map.zero; };
     if (axis.probe_on) out.skip |= 1u << (map.skip_signal - 1);
+    if (axis.homing) homing_[i].begun = true;
     if (map.homed >= 0) image->value[map.homed] = axis.homed ? 1 : 0;
     if (axis.known) out.actual.v[map.axis] = machine(axis.position);
     out.actual_valid = true;
@@ -205,6 +206,16 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
   }
 }
 
+// The point has risen, and the drive has not begun since. In a program it waits for the end.
+bool CanMachine::asks_for_homing(unsigned index, const AxisMap& map, const PointImage& image) noexcept {
+  const bool on = map.homing_request >= 0 && image.value[map.homing_request] != 0;
+  HomingRequest& request = homing_[index];
+  request.waits = on && !request.begun && (request.waits || !request.on);
+  request.on = on;
+  request.begun = false;
+  return request.waits;
+}
+
 void CanMachine::write(const Command& command, const PointImage& image) noexcept {
   BusWanted& wanted = cyclic_.wanted();
   for (unsigned i = 0; i < cyclic_.axis_count(); ++i) {
@@ -214,7 +225,7 @@ void CanMachine::write(const Command& command, const PointImage& image) noexcept
     axis.target = std::llround((system.position.v[map.axis] - map.zero) * map.increments_per_unit);
     axis.on = system.enable;
     axis.reset = system.reset;
-    axis.home = map.homing_request >= 0 && image.value[map.homing_request] != 0;
+    axis.home = asks_for_homing(i, map, image) && system.idle;
   }
   for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) strobe_[s] = command.system[s].strobe != 0;
   wanted.serial = ++serial_;

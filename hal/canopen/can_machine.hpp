@@ -10,6 +10,7 @@
 
 #include <pthread.h>
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <string>
@@ -48,6 +49,7 @@ class CanMachine final : public Hal {
   void service_thread();
   void end_threads();
   void stop_nodes();
+  bool asks_for_homing(unsigned index, const AxisMap& map, const PointImage& image) noexcept;
 
   const BusMap bus_;
   std::unique_ptr<CanPort> port_;
@@ -57,6 +59,10 @@ class CanMachine final : public Hal {
   // ---- scan ----
   std::uint64_t serial_ = 0, reset_serial_ = 0;  // the second: with which the last reset began
   bool resetting_ = false;
+  struct HomingRequest {
+    bool on = false, waits = false, begun = false;
+  };
+  std::array<HomingRequest, kMaxAxes> homing_{};
   bool strobe_[NC_MAX_SYSTEMS] = {};
 
   pthread_t bus_pthread_{}, service_pthread_{};

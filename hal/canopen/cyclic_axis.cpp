@@ -84,6 +84,7 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
   const AxisWanted& wanted = wanted_.front().axis[index];
   if (!nodes_[axis.node].operational || !axis.known) {
     if (commanded && wanted.reset && nodes_[axis.node].operational) (void)wish_of(&axis, wanted, commanded);
+    if (axis.homing != Homing::kNo) wanted_mode_[index].store(kModeCyclicPosition, std::memory_order_release);
     axis.homing = Homing::kNo;
     axis.was_on = false;
     axis.on_syncs = 0;

@@ -43,15 +43,10 @@ class Plan {
 
 std::uint32_t map_entry(const AxisMap& axis, unsigned index, unsigned bits) { return axis.object(index) << 16 | bits; }
 
-// 60C2h: the period as mantissa x 10^exponent seconds, the mantissa in one byte.
 void interpolation_time(Plan* plan, const AxisMap& axis, unsigned us) {
-  int exponent = -6;
-  while (us % 10 == 0 || us > 255) {
-    us /= 10;
-    ++exponent;
-  }
-  plan->write(axis.object(0x60C2), 1, 1, us);
-  plan->write(axis.object(0x60C2), 2, 1, static_cast<std::uint8_t>(exponent));
+  const InterpolationTime time = interpolation_time_of(us);
+  plan->write(axis.object(0x60C2), 1, 1, time.mantissa);
+  plan->write(axis.object(0x60C2), 2, 1, static_cast<std::uint8_t>(time.exponent));
 }
 
 void homing(Plan* plan, const AxisMap& axis) {
@@ -65,6 +60,12 @@ void homing(Plan* plan, const AxisMap& axis) {
 }
 
 }  // namespace
+
+InterpolationTime interpolation_time_of(unsigned us) {
+  int exponent = -6;
+  for (; us != 0 && us % 10 == 0; us /= 10) ++exponent;
+  return {us, exponent};
+}
 
 std::vector<std::uint32_t> rpdo_mapping(const AxisMap& axis) {
   std::vector<std::uint32_t> objects{map_entry(axis, 0x6040, 16), map_entry(axis, 0x607A, 32)};

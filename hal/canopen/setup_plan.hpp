@@ -22,6 +22,13 @@ struct SetupStep {
 
 std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node);
 
+// 60C2h: a period as mantissa x 10^exponent seconds. It can be told when the mantissa fits into one byte.
+struct InterpolationTime {
+  unsigned mantissa = 1;
+  int exponent = -3;
+};
+InterpolationTime interpolation_time_of(unsigned us);
+
 // One PDO as its mapping parameter says: index << 16 | sub-index << 8 | bits.
 std::vector<std::uint32_t> rpdo_mapping(const AxisMap& axis);
 std::vector<std::uint32_t> tpdo_mapping(const AxisMap& axis);

@@ -87,6 +87,8 @@ TEST(CanConfig, WhatIsMissingOrWrongIsNamed) {
   expect_in(only_error(replaced(can_toml(), "interface = \"test\"\n", "")), "canopen.interface: is missing");
   expect_in(only_error(replaced(can_toml(), "encoder = 10000\n", "")), "canopen.drive[1].axis[1].encoder: is missing");
   expect_in(only_error(can_toml("sync_us = 1500\n")), "canopen.sync_us: must be a whole number of servo cycles (machine.cycle_us = 1000)");
+  expect_in(only_error(can_toml("sync_us = 257000\n")), "canopen.sync_us: ");
+  expect_in(only_error(replaced(can_toml("sync_us = 25600\n"), "hal =", "cycle_us = 25600\nhal =")), "canopen.sync_us: a SYNC period of 25600 us cannot be told to a drive (60C2h)");
   expect_in(only_error(can_toml("heartbeet_ms = 100\n")), "canopen.heartbeet_ms: unknown key");
   expect_in(only_error(replaced(can_toml(), "gear = [2, 1]", "gear = [0, 1]")), "axis[1].gear: is [turns of the motor, turns of the screw], both above 0");
   expect_in(only_error(can_toml("", "homing = { method = 0, fast = 1.0, slow = 1.0, acceleration = 1.0, request = \"home_x\", done = \"x_homed\" }\n")), "homing.method: 0 is no homing");

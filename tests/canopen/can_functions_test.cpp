@@ -44,6 +44,34 @@ TEST(CanFunctions, NothingStartsWhileADriveHomes) {
   EXPECT_EQ(rig.mdi("G01 Y5. F600"), Answer::kDrivesOff);
 }
 
+// A drive that loses its power while it homes comes back in cyclic position.
+TEST(CanFunctions, ADriveThatIsLostWhileItHomesComesBack) {
+  CanRig rig(can_toml("", kHoming));
+  rig.bring_up();
+  ASSERT_EQ(rig.mdi("#1100 = 1"), Answer::kDone);
+  ASSERT_TRUE(rig.until([&] { return rig.drives[0]->object(0x6061, 0) == 6; }, 300));
+  ASSERT_EQ(rig.runtime->execute(CommandKind::kReset), Answer::kDone);
+  rig.drives[0]->dead = true;
+  rig.step(2000);
+  rig.drives[0]->power_cycle();
+  ASSERT_TRUE(rig.until([&] { return rig.machine->cyclic().ready(); }, 9000)) << rig.said();
+  EXPECT_EQ(rig.drives[0]->object(0x6061, 0), 8u);
+  ASSERT_EQ(rig.run(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(rig.until([&] { return rig.following(); }, 3000)) << rig.alarms() << rig.said();
+}
+
+// An axis of a program that is interrupted is not taken away from it.
+TEST(CanFunctions, NothingHomesInAProgram) {
+  CanRig rig(can_toml("", kHoming));
+  rig.bring_up();
+  ASSERT_EQ(rig.mdi("#1100 = 1\nG90 G01 X50. F3000\nM00\nX60."), Answer::kDone);
+  ASSERT_TRUE(rig.until([&] { return rig.runtime->snapshot().system[0].nc.state == NC_STATE_STOPPED; }, 5000)) << rig.alarms();
+  rig.step(300);
+  EXPECT_TRUE(rig.following());
+  EXPECT_EQ(rig.drives[0]->object(0x6061, 0), 8u);
+  EXPECT_NEAR(rig.plant_mm(0), 50.0, 0.001);
+}
+
 TEST(CanFunctions, AHomingThatFailsIsAFaultOfItsAxis) {
   CanRig rig(can_toml("", kHoming));
   rig.drives[0]->homing_fails = true;
