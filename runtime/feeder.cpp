@@ -72,6 +72,7 @@ void Feeder::step() {
   while (scan_->poll_position(&sample))
     if (path_sink_ != nullptr) path_sink_->moved(sample);
   take_messages();
+  tell_changes();
   take_alarm();
   take_modal();
   tell_what_is_loaded();
@@ -344,10 +345,27 @@ void Feeder::take_messages() {
     const bool known = nc_->text(message.system, message.text, &text) == NC_OK;
     if (message.port != 0) print(message.system, known ? &text : nullptr);
     if (message.port != 0 || !known) continue;
-    const std::lock_guard lock(mutex_);
-    info_.last_message = text.s;
-    info_.message_system = message.system;
-    ++info_.messages;
+    tell(text.s, message.system);
+  }
+}
+
+void Feeder::tell(std::string message, unsigned system) {
+  const std::lock_guard lock(mutex_);
+  info_.last_message = std::move(message);
+  info_.message_system = system;
+  ++info_.messages;
+}
+
+// A program that begins again without having been selected again is what it was. Who has written into its file wants to know that.
+void Feeder::tell_changes() {
+  for (unsigned s = 0; s < systems_; ++s) {
+    const std::uint8_t state = seen_.system[s].nc.state;
+    const bool active = state == NC_STATE_RUNNING || state == NC_STATE_HOLD || state == NC_STATE_STOPPED;
+    const bool begins = active && !was_active_[s];
+    was_active_[s] = active;
+    if (!begins || !changed_ || !system_[s].selected || system_[s].mdi) continue;
+    const std::string names = changed_();
+    if (!names.empty()) tell("changed since it was selected, runs as it was then: " + names, s);
   }
 }
 

@@ -69,6 +69,9 @@ struct FeederInfo {
 using ProgramLoader = std::function<bool(const std::string& name, unsigned* file, std::string* error)>;
 // New MDI blocks are in the control: what they call counts as it is in the files now. Feeder thread, while nothing runs.
 using ProgramRefresh = std::function<void()>;
+// Files whose programs run as they were when they were selected or called, and are others now: "part.nc, O77"; "" = none. Feeder thread, when a
+// part program begins.
+using ChangedPrograms = std::function<std::string()>;
 // Takes what programs print (POPEN, DPRNT, PCLOS) when the machine gets there: feeder thread. Returns why a line could not be written,
 // "" when it is.
 using Printer = std::function<std::string(const nc_text& text)>;
@@ -108,6 +111,7 @@ class Feeder {
   void set_sink(EventSink* sink) { sink_ = sink; }
   void set_program_loader(ProgramLoader loader) { loader_ = std::move(loader); }
   void set_program_refresh(ProgramRefresh refresh) { refresh_ = std::move(refresh); }
+  void set_changed_programs(ChangedPrograms changed) { changed_ = std::move(changed); }
   void set_printer(Printer printer) { printer_ = std::move(printer); }
   void set_path_sink(PathSink* sink) {
     path_sink_ = sink;
@@ -128,6 +132,8 @@ class Feeder {
   void take_events();
   void take_messages();
   void print(unsigned system, const nc_text* text);
+  void tell_changes();
+  void tell(std::string message, unsigned system);
   void take_alarm();
   void take_modal();
   void take_turns(unsigned system);
@@ -169,6 +175,8 @@ class Feeder {
   std::string mdi_text_, program_name_;  // handed over with a command
   ProgramLoader loader_;
   ProgramRefresh refresh_;
+  ChangedPrograms changed_;
+  bool was_active_[NC_MAX_SYSTEMS] = {};
   std::uint32_t modal_id_[NC_MAX_SYSTEMS] = {};
   std::string refusal_;  // under mutex_
   std::uint32_t operator_switches_[NC_MAX_SYSTEMS] = {}, switches_[NC_MAX_SYSTEMS] = {};  // given, and in force

@@ -71,6 +71,8 @@ class Runtime {
   void set_program_loader(ProgramLoader loader) { feeder_->set_program_loader(std::move(loader)); }
   // What is to be done so that new MDI blocks call sub programs as they are now. Before the start.
   void set_program_refresh(ProgramRefresh refresh) { feeder_->set_program_refresh(std::move(refresh)); }
+  // Says which files have changed meanwhile. Before the start.
+  void set_changed_programs(ChangedPrograms changed) { feeder_->set_changed_programs(std::move(changed)); }
   // A part program that will be selected again, be MDI selected now: its place in the store must stay. Feeder thread.
   bool remembers(unsigned file) const { return feeder_->remembers(file); }
 

@@ -202,6 +202,11 @@ bool ProgramText::divide() {
 
 bool ProgramText::is_file(const struct stat& info) const { return same_content(info_, info); }
 
+bool ProgramText::has_changed() const {
+  struct stat now = {};
+  return !path_.empty() && (stat(path_.c_str(), &now) != 0 || !is_file(now));
+}
+
 bool ProgramText::is_unchanged() const {
   struct stat now = {};
   if (fstat(descriptor_, &now) != 0 || !same_content(info_, now)) return false;

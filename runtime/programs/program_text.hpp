@@ -52,6 +52,8 @@ class ProgramText {
   long read(std::uint64_t offset, char* buffer, std::size_t size);
   // The file at this place is the one that was opened, and unchanged as far as size and time tell.
   bool is_file(const struct stat& info) const;
+  // What stands at its place now is not that, or nothing is there; never of a text without a place.
+  bool has_changed() const;
 
  private:
   struct Part {

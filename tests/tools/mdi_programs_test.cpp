@@ -30,6 +30,7 @@ class MdiPrograms : public OwnFolder {
     files_->set_remembered([this](unsigned file) { return runtime_->remembers(file); });
     files_->attach(runtime_->control());
     runtime_->set_program_refresh([this] { files_->look_again(runtime_->control()); });
+    runtime_->set_changed_programs([this] { return files_->changed(); });
     runtime_->set_program_loader([this](const std::string& name, unsigned* file, std::string* why) {
       return files_->add(runtime_->control(), folder_ + "/" + name, file, why) == NC_OK;
     });
@@ -74,6 +75,35 @@ TEST_F(MdiPrograms, CallWhatStandsInTheFileNow) {
   EXPECT_NEAR(run(), 14, 1e-9) << "nor what the blocks before have called";
   mode(Mode::kAuto);
   EXPECT_NEAR(run(), 14, 1e-9) << "the part program is there again";
+}
+
+// A restart without a selection runs what was selected, and says which file is another one now: a message, no alarm.
+TEST_F(MdiPrograms, ARestartSaysWhichFileHasChanged) {
+  write("m.nc", "G90\nM98 P77\nM30\n");
+  write("O77", "G1 X8. F6000\nM99\n");
+  ASSERT_EQ(runtime_->select_program(0, "m.nc"), Answer::kDone);
+  EXPECT_NEAR(run(), 8, 1e-9);
+  EXPECT_NEAR(run(), 8, 1e-9);
+  EXPECT_EQ(runtime_->info().messages, 0u) << "nothing has changed";
+  write("m.nc", "G90 G1 X1. F6000\nM30\n");
+  EXPECT_NEAR(run(), 8, 1e-9);
+  EXPECT_EQ(runtime_->info().messages, 1u);
+  EXPECT_EQ(runtime_->info().last_message, "changed since it was selected, runs as it was then: m.nc");
+  EXPECT_FALSE(runtime_->snapshot().alarmed());
+  ASSERT_EQ(runtime_->select_program(0, "m.nc"), Answer::kDone);
+  EXPECT_NEAR(run(), 1, 1e-9);
+  EXPECT_EQ(runtime_->info().messages, 1u) << "selected anew";
+  write("m.nc", "G90\nM98 P77\nM30\n");
+  ASSERT_EQ(runtime_->select_program(0, "m.nc"), Answer::kDone);
+  EXPECT_NEAR(run(), 8, 1e-9);
+  write("O77", "G1 X9. F6000\nM99\n");
+  EXPECT_NEAR(run(), 8, 1e-9);
+  EXPECT_EQ(runtime_->info().messages, 2u);
+  EXPECT_EQ(runtime_->info().last_message, "changed since it was selected, runs as it was then: O77") << "a sub program";
+  std::filesystem::remove(folder_ + "/m.nc");
+  std::filesystem::remove(folder_ + "/O77");
+  EXPECT_NEAR(run(), 8, 1e-9);
+  EXPECT_EQ(runtime_->info().messages, 3u) << "gone, too";
 }
 
 }  // namespace

@@ -160,6 +160,13 @@ nc_status ProgramFiles::enter(nc_control* control, int descriptor, const std::st
   return NC_OK;
 }
 
+std::string ProgramFiles::changed() const {
+  std::string names;
+  for (const auto& entry : entries_)
+    if (entry->text->has_changed()) names += (names.empty() ? "" : ", ") + base_name(entry->path);
+  return names;
+}
+
 void ProgramFiles::forget(unsigned file) {
   std::erase_if(entries_, [&](const std::unique_ptr<Entry>& entry) { return entry->index == file; });
 }

@@ -48,6 +48,9 @@ class ProgramFiles {
   /** Give up what nothing refers to: a sub program that is called next comes from its file as it is then. While nothing runs. */
   void look_again(nc_control* control) { give_up_unused(control); }
 
+  /** Names of files that are not what is in the store any more, selected or called: "part.nc, O77"; "" = none. */
+  std::string changed() const;
+
   /** Look into the folder whenever `control` misses a sub program. */
   void attach(nc_control* control);
 
