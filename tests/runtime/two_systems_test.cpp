@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <random>
 
 #include "fake_nc.hpp"
 #include "hal/sim/sim_machine.hpp"
@@ -499,6 +500,60 @@ TEST_F(TwoSystems, LinesEndsAndAlarmsAreThoseOfEach) {
   ASSERT_EQ(alarms.count, 2u);
   for (unsigned n = 0; n < 2; ++n)
     EXPECT_EQ(runtime->alarm_text(alarms.alarm[n]).substr(0, 3), alarms.alarm[n].system == 0 ? "P71" : "P28") << runtime->alarm_text(alarms.alarm[n]);
+}
+
+// Commands for either and for both in any order, at any moment. What is said to one never starts, holds or stops the other; the first has only
+// programs on the side of + and the second on that of -, so that blocks of the other would show; and what comes last is done exactly.
+TEST_F(TwoSystems, CommandsInAnyOrderActWhereTheyAreMeant) {
+  unsigned began = 0;
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 dice(seed);
+    const auto pick = [&](unsigned below) { return static_cast<unsigned>(dice() % below); };
+    runtime.reset();
+    build();
+    const unsigned found = static_cast<unsigned>(config.points.find("out0"));
+    const char* const kPrograms[2] = {"G90 G1 X30. F3000\nX5.\nM0\nX60. F9000\nM1\nG0 X10.\nM30\n", "G90 G1 X-30. F3000\nX-5.\nM0\nX-60. F9000\nM1\nG0 X-10.\nM30\n"};
+    const char* const kBlocks[2] = {"#101=#1100\nG90 G1 X20. F6000\nG1 X40.\n", "#101=#1100\nG90 G1 X-20. F6000\nG1 X-40.\n"};
+    for (unsigned step = 0; step < 60; ++step) {
+      const unsigned one = pick(2), other = 1 - one;
+      const auto before = now(other).nc.state;
+      Answer answer = Answer::kDone;
+      switch (pick(9)) {
+        case 0: answer = select(one, kPrograms[one]); break;
+        case 1: answer = runtime->load_mdi(kBlocks[one], one); break;
+        case 2:
+        case 3: answer = give(CommandKind::kCycleStart, one); break;
+        case 4: answer = give(CommandKind::kFeedHold, one); break;
+        case 5: answer = give(CommandKind::kSingleBlock, one, 0, pick(2)); break;
+        case 6:
+          if (pick(4) == 0) reset();
+          break;
+        case 7: answer = mode(pick(2) != 0 ? Mode::kMdi : Mode::kAuto); break;
+        default: machine->found = static_cast<int>(found); break;
+      }
+      (void)answer;
+      const auto after = now(other).nc.state;
+      if (before == NC_STATE_IDLE && after != NC_STATE_IDLE) ADD_FAILURE() << "the other one began, step " << step;
+      if (before == NC_STATE_RUNNING && after == NC_STATE_HOLD) ADD_FAILURE() << "the other one was held, step " << step;
+      if (before == NC_STATE_HOLD && after == NC_STATE_RUNNING) ADD_FAILURE() << "the other one went on, step " << step;
+      for (unsigned n = 1 + pick(120); n > 0; --n) {
+        steps(1);
+        ASSERT_GE(x(0), -1e-9) << "blocks of the second, step " << step;
+        ASSERT_LE(x(1), 1e-9) << "blocks of the first, step " << step;
+      }
+      began += now(one).nc.state == NC_STATE_RUNNING ? 1 : 0;
+    }
+    reset();
+    for (unsigned s = 0; s < 2; ++s) ASSERT_EQ(give(CommandKind::kSingleBlock, s, 0, 0), Answer::kDone);
+    ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
+    for (unsigned s = 0; s < 2; ++s) ASSERT_EQ(runtime->load_mdi(kBlocks[s], s), Answer::kDone);
+    ASSERT_EQ(start(), Answer::kDone);
+    finish();
+    EXPECT_NEAR(x(0), 40, 1e-9);
+    EXPECT_NEAR(x(1), -40, 1e-9);
+  }
+  EXPECT_GT(began, 30u) << "that there is something to look at";
 }
 
 }  // namespace
