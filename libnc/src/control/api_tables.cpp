@@ -63,7 +63,7 @@ bool parse_name(const char* name, Name* out) {
 /// One of the protected numbers (#8105: 8000 to 9999, #1121: 9000 to 9999).
 bool is_protected(const nc_control* c, unsigned file) {
   const uint32_t number = c->store.entry(file)->number;
-  const auto locked = [c](nc::Parameter parameter) { return c->system[0].interpreter.parameter(parameter) != 0; };
+  const auto locked = [c](nc::Parameter parameter) { return c->system[0].interpreter.tables().parameter(parameter) != 0; };
   if (number >= 9000 && number <= 9999 && locked(nc::Parameter::protects_9000)) return true;
   return number >= 8000 && number <= 9999 && locked(nc::Parameter::protects_8000);
 }
@@ -95,7 +95,7 @@ nc_status add_entry(nc_control* c, const char* name, nc::TextEntry entry, unsign
 
 nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char axis, const char* text) {
   if (!known(c, system)) return NC_E_ARGUMENT;
-  nc::PartInterpreter& in = c->system[system].interpreter;
+  const nc::HostTables in = c->system[system].interpreter.tables();
   const int index = in.axis_named(axis);
   if (axis != 0 && index < 0) return NC_E_ARGUMENT;
   const nc_status status = in.set_parameter(key, index, text);
@@ -105,7 +105,7 @@ nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char
 
 nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key, char axis, double* value) {
   if (!known(c, system) || key == nullptr || value == nullptr) return NC_E_ARGUMENT;
-  const nc::PartInterpreter& in = c->system[system].interpreter;
+  const nc::HostTables in = c->system[system].interpreter.tables();
   *value = in.parameter(key, in.axis_named(axis));
   return NC_OK;
 }
@@ -127,7 +127,7 @@ nc_status nc_parameter_key(const nc_control* c, nc_parameter_role role, char key
 nc_status nc_parameter_next(const nc_control* c, unsigned system, unsigned from, unsigned* place, char key[24], char* axis, double* value,
                             char text[64]) {
   if (!known(c, system) || place == nullptr || key == nullptr || axis == nullptr || value == nullptr || text == nullptr) return NC_E_ARGUMENT;
-  const nc::PartInterpreter& in = c->system[system].interpreter;
+  const nc::HostTables in = c->system[system].interpreter.tables();
   unsigned at = from;
   int of_axis = -1;
   if (!in.next_parameter(&at, key, &of_axis, value, text)) return NC_E_NOT_FOUND;
@@ -169,26 +169,26 @@ nc_status nc_program_tape(nc_control* c, unsigned file, uint8_t tape, unsigned u
 nc_status nc_work_offset_set(nc_control* c, unsigned system, unsigned index, unsigned axis, double value) {
   unsigned key = 0;
   if (!sane(value) || !work_key(c, system, index, axis, &key)) return NC_E_ARGUMENT;
-  c->system[system].interpreter.set_table(key, value);
+  c->system[system].interpreter.tables().set_table(key, value);
   return NC_OK;
 }
 
 nc_status nc_work_offset_get(const nc_control* c, unsigned system, unsigned index, unsigned axis, double* value) {
   unsigned key = 0;
   if (value == nullptr || !work_key(c, system, index, axis, &key)) return NC_E_ARGUMENT;
-  *value = c->system[system].interpreter.frames().get(key);
+  *value = c->system[system].interpreter.tables().frames().get(key);
   return NC_OK;
 }
 
 nc_status nc_tool_offset_set(nc_control* c, unsigned number, nc_tool_column column, double value) {
   if (!sane(value) || !tool_number(c, number, column)) return NC_E_ARGUMENT;
-  c->system[0].interpreter.set_tool(number, column, value);
+  c->system[0].interpreter.tables().set_tool(number, column, value);
   return NC_OK;
 }
 
 nc_status nc_tool_offset_get(const nc_control* c, unsigned number, nc_tool_column column, double* value) {
   if (value == nullptr || !tool_number(c, number, column)) return NC_E_ARGUMENT;
-  const Frames& frames = c->system[0].interpreter.frames();
+  const Frames& frames = c->system[0].interpreter.tables().frames();
   *value = frames.get(frames.tool_key(number, column));
   return NC_OK;
 }
@@ -197,13 +197,13 @@ nc_status nc_tool_offset_get(const nc_control* c, unsigned number, nc_tool_colum
 
 nc_status nc_variable_set(nc_control* c, unsigned system, uint32_t number, double value, bool vacant) {
   if (!known(c, system) || (!vacant && !std::isfinite(value))) return NC_E_ARGUMENT;
-  return c->system[system].interpreter.set_variable(number, {value, vacant}) ? NC_OK : NC_E_NOT_FOUND;
+  return c->system[system].interpreter.tables().set_variable(number, {value, vacant}) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 nc_status nc_variable_get(const nc_control* c, unsigned system, uint32_t number, double* value, bool* vacant) {
   if (!known(c, system) || value == nullptr || vacant == nullptr) return NC_E_ARGUMENT;
   nc::Value v;
-  if (!c->system[system].interpreter.variable(number, &v)) return NC_E_NOT_FOUND;
+  if (!c->system[system].interpreter.tables().variable(number, &v)) return NC_E_NOT_FOUND;
   *value = v.number;
   *vacant = v.vacant;
   return NC_OK;
@@ -211,24 +211,24 @@ nc_status nc_variable_get(const nc_control* c, unsigned system, uint32_t number,
 
 nc_status nc_variable_name_get(const nc_control* c, uint32_t number, char name[8]) {
   if (c == nullptr || name == nullptr) return NC_E_ARGUMENT;
-  const unsigned length = c->system[0].interpreter.variable_name(number, name);
+  const unsigned length = c->system[0].interpreter.tables().variable_name(number, name);
   name[length] = 0;
   return NC_OK;
 }
 
 nc_status nc_variable_name_set(nc_control* c, uint32_t number, const char* name) {
   if (c == nullptr || name == nullptr) return NC_E_ARGUMENT;
-  return c->system[0].interpreter.set_variable_name(number, name) ? NC_OK : NC_E_ARGUMENT;
+  return c->system[0].interpreter.tables().set_variable_name(number, name) ? NC_OK : NC_E_ARGUMENT;
 }
 
 void nc_device_on_read(nc_control* c, nc_device_read callback, void* user) {
   if (c == nullptr) return;
-  for (unsigned i = 0; i < c->config.system_count; ++i) c->system[i].interpreter.set_devices(callback, user);
+  for (unsigned i = 0; i < c->config.system_count; ++i) c->system[i].interpreter.tables().set_devices(callback, user);
 }
 
 nc_status nc_variable_next(const nc_control* c, unsigned system, uint32_t from, uint32_t* number, double* value) {
   if (!known(c, system) || number == nullptr || value == nullptr) return NC_E_ARGUMENT;
-  return c->system[system].interpreter.next_variable(from, number, value) ? NC_OK : NC_E_NOT_FOUND;
+  return c->system[system].interpreter.tables().next_variable(from, number, value) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 nc_status nc_program_state_hash(const nc_control* c, unsigned system, uint64_t* hash) {
@@ -239,14 +239,14 @@ nc_status nc_program_state_hash(const nc_control* c, unsigned system, uint64_t* 
 
 nc_status nc_interface_output_get(const nc_control* c, unsigned system, unsigned word, uint32_t* bits) {
   if (!known(c, system) || word >= NC_WORDS || bits == nullptr) return NC_E_ARGUMENT;
-  *bits = c->system[system].interpreter.interface_output(word);
+  *bits = c->system[system].interpreter.tables().interface_output(word);
   return NC_OK;
 }
 
 nc_status nc_interface_output_set(nc_control* c, unsigned system, unsigned word, uint32_t mask, uint32_t bits) {
   uint32_t now = 0;
   if (const nc_status status = nc_interface_output_get(c, system, word, &now); status != NC_OK) return status;
-  c->system[system].interpreter.set_interface_output(word, mask, bits);
+  c->system[system].interpreter.tables().set_interface_output(word, mask, bits);
   return NC_OK;
 }
 

@@ -35,8 +35,8 @@ nc_status PartSystem::look_ahead(uint32_t& budget) {
 
 /// The block at the front of the interpreter's queue has a move that will be compensated, or get a corner.
 bool PartSystem::goes_to_stage() const {
-  for (unsigned i = 0; i < interpreter.queued(); ++i) {
-    const Item& item = interpreter.queued(i);
+  for (unsigned i = 0; i < interpreter.queue().size(); ++i) {
+    const Item& item = interpreter.queue()[i];
     if (ends_look_ahead(item)) break;
     if (item.kind == ItemKind::move && (item.move.comp.side != 0 || item.move.corner != Corner::none)) return true;
   }
@@ -54,8 +54,8 @@ bool PartSystem::block_fits() {
   nc_source source{};
   Committed committed = Committed::yes;
   bool fits = true, whole = false;
-  for (unsigned i = 0; fits && !whole && i < interpreter.queued(); ++i) {
-    const Item& item = interpreter.queued(i);
+  for (unsigned i = 0; fits && !whole && i < interpreter.queue().size(); ++i) {
+    const Item& item = interpreter.queue()[i];
     source = item.source;
     whole = ends_look_ahead(item);
     fits = try_item(item, &committed);
@@ -68,7 +68,7 @@ bool PartSystem::block_fits() {
 
 /// What the cycle in hand has still to do.
 bool PartSystem::cycle_fits(Committed* committed) {
-  if (interpreter.maps_motion()) return true;  // its moves have shapes, which are few: each is checked when it comes
+  if (interpreter.maps().other_axes) return true;  // its moves have shapes, which are few: each is checked when it comes
   struct Trial {
     PartSystem& system;
     Committed* committed;
@@ -86,10 +86,10 @@ nc_status PartSystem::gather_block(uint32_t& budget) {
   if (!gathering_) {
     gathering_ = true;
     if (!from_stage_) {
-      staged_[0] = interpreter.queued(0);
+      staged_[0] = interpreter.queue()[0];
       staged_head_ = 0;
       staged_count_ = 1;
-      interpreter.pop();
+      interpreter.queue().pop();
     }
   }
   bool whole = false;
@@ -110,7 +110,7 @@ nc_status PartSystem::gather_block(uint32_t& budget) {
       ++staged_count_;
       whole = ends_look_ahead(place);
     }
-    interpreter.pop();
+    interpreter.queue().pop();
   }
   gathering_ = false;
   return NC_OK;

@@ -16,7 +16,7 @@ using P = Parameter;
 class ParameterNotes {
  public:
   ParameterNotes(const nc_control& control, unsigned system, unsigned wanted, char* text, size_t size)
-      : config_(control.config), system_(control.config.system[system]), dialect_(*control.dialect), in_(control.system[system].interpreter), left_(wanted), text_(text, size) {}
+      : config_(control.config), system_(control.config.system[system]), dialect_(*control.dialect), in_(control.system[system].interpreter.tables()), left_(wanted), text_(text, size) {}
 
   bool find() {
     return without_effect() || axes();
@@ -136,7 +136,7 @@ class ParameterNotes {
   const nc_config& config_;
   const nc_system_config& system_;
   const Dialect& dialect_;
-  const PartInterpreter& in_;
+  const HostTables in_;
   unsigned left_;
   TextWriter text_;
 };

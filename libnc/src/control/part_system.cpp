@@ -52,7 +52,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
 
   CommitConfig commit;
   commit.system = &system;
-  commit.stroke_boxes = interpreter.stroke_boxes();
+  commit.stroke_boxes = interpreter.pools().stroke_boxes;
   commit.marks = config.look_ahead;
   commit.records = config.look_ahead;
   commit.rotary_makes_length = dialect.rules.feed.degree_counts_as_millimetre;
@@ -88,7 +88,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.optimal = config.motion_mode == NC_MOTION_OPTIMAL;
   ex.tolerance = config.path_tolerance;
   executor.create(ex, arena);
-  stages_.create(interpreter.motion_settings(), arena);
+  stages_.create(interpreter.pools().motion_settings, arena);
   const AddressTable& addresses = dialect.addresses;
   stages_.stage<ContourStage>().create(axis_count_, rotary_, addresses.letter(Role::option_chamfer),
                                        addresses.letter(Role::option_corner_radius), arena);
@@ -126,7 +126,7 @@ void PartSystem::count_from(uint32_t first) {
     if (status != NC_OK) return status;
     if (!stages_.idle() || may_be_held(*front)) {
       const Stages::Intake intake = stages_.push(*front);
-      if (intake == Stages::Intake::taken) interpreter.pop();
+      if (intake == Stages::Intake::taken) interpreter.queue().pop();
       if (intake != Stages::Intake::straight) continue;
     }
     from_stage_ = false;  // nothing to hold back: straight through
@@ -140,7 +140,7 @@ void PartSystem::take() {
     ++staged_head_;
     --staged_count_;
   } else {
-    interpreter.pop();
+    interpreter.queue().pop();
   }
 }
 
@@ -257,14 +257,14 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   uit_ = on;
   if (!on) uit_rest_.forget();
   watch();
-  const bool stays = on && interpreter.interrupt_by_level() && uit_rest_.over();
+  const bool stays = on && interpreter.interrupts().by_level && uit_rest_.over();
   if (!(rises || stays) || !interruptible()) return NC_OK;
   uit_pending_ = true;
   watch();
   // M700 13.12, type 1: at once. The item that was given out last is the one that is interrupted, unless it is done already; a contour
   // under compensation and a block that waits for an answer are finished first.
   const bool cuttable = pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate;
-  if (interpreter.interrupt_type_2() || !cuttable || !stages_.idle() || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
+  if (interpreter.interrupts().type_2 || !cuttable || !stages_.idle() || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
   commit_.take_back(pulled_ == ItemKind::move);
   if (interpreter.interrupt(commit_.machine(), 1, true)) {
     uit_pending_ = false;
@@ -293,7 +293,7 @@ bool PartSystem::begin_interrupt() {
 /// Behind the newest mark. A block that had been cut before may be the next one: then the machine is not where that block begins.
 bool PartSystem::interrupt_between() {
   AxisVec machine = interpreter.machine();
-  if (interpreter.repeats()) {
+  if (interpreter.repeat().active) {
     forget_interrupt();
     machine = commit_.newest()->machine;
     commit_.set_machine(machine);
@@ -317,7 +317,7 @@ void PartSystem::interrupt_online() {
   } else {  // M97 has come meanwhile: the block goes on
     interpreter.go_on_inside(items);
     commit_.go_on(cut.done, cut.machine);
-    drop_repeated();
+    drop_repeated(interpreter.repeat(), interpreter.machine());
   }
 }
 
@@ -349,9 +349,9 @@ void PartSystem::resume_record(Record& record) {
 }
 
 /// A block that was interrupted is read again from its head: what it has done is not done twice.
-void PartSystem::drop_repeated() {
-  drop_ = interpreter.repeated_items();
-  commit_.set_machine(interpreter.machine());
+void PartSystem::drop_repeated(const Repeat& repeat, const AxisVec& head) {
+  drop_ = repeat.items;
+  commit_.set_machine(head);
   resumes_ = online_;
   watch();
 }
@@ -392,7 +392,8 @@ void PartSystem::drop_repeated() {
 /// What follows from an item for whoever drives the part system.
 [[gnu::always_inline]] inline void PartSystem::note_mark(const Item& mark) {
   remember_mark(mark);
-  if (mark.mark.resume && interpreter.repeats()) [[unlikely]] drop_repeated();
+  // The stages may have held the mark while the interpreter has read on.
+  if (mark.mark.repeat.active) [[unlikely]] drop_repeated(mark.mark.repeat, interpreter.interrupted_at());
 }
 
 void PartSystem::note_given(const Item& item) {
@@ -413,7 +414,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   for (;;) {
     if (watched_) [[unlikely]] {
       if ((uit_mode_ & NC_INTERRUPT_ENABLED) == 0) uit_pending_ = false;
-      const bool wanted = uit_pending_ || (uit_ && interpreter.interrupt_by_level() && uit_rest_.over());
+      const bool wanted = uit_pending_ || (uit_ && interpreter.interrupts().by_level && uit_rest_.over());
       if (wanted && pulled_ == ItemKind::mark && interruptible()) begin_interrupt();
     }
     const Item* item = nullptr;
@@ -428,7 +429,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     } else {
       commit_.to_public(*item, out);
       if (item->kind == ItemKind::move) [[likely]] {
-        move_zero_ = (*interpreter.transforms())[item->move.transform].offset();
+        move_zero_ = (*interpreter.pools().transforms)[item->move.transform].offset();
       } else {
         note_given(*item);
         note_interrupt_mode(*item);
@@ -518,14 +519,14 @@ nc_status PartSystem::rewind(Serial serial) {
   open_sync_ = 0;
   finished_ = false;
   alarm_given_ = false;
-  uit_mode_ = interpreter.interrupt_mode();
+  uit_mode_ = interpreter.interrupts().mode;
   if (point->stages != 0) {
     stages_.restore(commit_.resume(*point), point->stages);
   } else {
     stages_.reset();
   }
   commit_.rewind_to(*point);
-  if (interpreter.repeats()) drop_repeated();
+  if (interpreter.repeat().active) drop_repeated(interpreter.repeat(), interpreter.machine());
   return NC_OK;
 }
 
@@ -638,7 +639,7 @@ void PartSystem::tell_axis_parameters() {
   for (unsigned i = 0; i < axis_count_; ++i)  // M700 2.3: of rotary axes only
     axes.increment[i] = (rotary_ >> i & 1) != 0 ? settings.index_increment[i] : 0;
   // A mirror that is still on turns the counters as the last block has left them.
-  axes.idle = !run_.active() && !interpreter.mirrors();
+  axes.idle = !run_.active() && !interpreter.maps().mirror;
   axes.zero = axes.idle ? interpreter.work_zero() : told_axes_.zero;
   if (axes == told_axes_) return;
   told_axes_ = axes;
@@ -720,7 +721,7 @@ nc_status PartSystem::feed(uint32_t budget) {
 /// servo (precaution (3)) the others are not at its end either.
 void PartSystem::take_spindle_axes(const nc_world& world) {
   const bool skip = (sync_what_ & NC_SYNC_SKIP) != 0 && !world.skipped;
-  const uint32_t axes = (skip ? ~uint32_t{0} : spindle_axes_) & ~interpreter.frozen_axes();
+  const uint32_t axes = (skip ? ~uint32_t{0} : spindle_axes_) & ~interpreter.maps().frozen_axes;
   AxisVec here = commit_.machine(), read_to = interpreter.machine();
   for (unsigned i = 0; i < axis_count_; ++i)
     if ((axes >> i & 1) != 0) read_to[i] = here[i] = world.machine.v[i];

@@ -107,8 +107,8 @@ class PartSystem {
   Named named(const Item& item) const {
     if (item.kind != ItemKind::move) return {};
     const Move& move = item.move;
-    return {&(*interpreter.transforms())[move.transform], move.shape != 0 ? &(*interpreter.shapes())[move.shape - 1] : nullptr,
-            &(*interpreter.motion_settings())[move.settings]};
+    return {&(*interpreter.pools().transforms)[move.transform], move.shape != 0 ? &(*interpreter.pools().shapes)[move.shape - 1] : nullptr,
+            &(*interpreter.pools().motion_settings)[move.settings]};
   }
   void remember_mark(const Item& mark) {
     if (mark.mark.place == 0) return commit_.remember(mark);
@@ -132,7 +132,7 @@ class PartSystem {
   /// Offline: a signal would be accepted behind what has been given out; what is read ahead of that does not count.
   bool interruptible() const { return (uit_mode_ & (NC_INTERRUPT_ENABLED | NC_INTERRUPT_IN_SERVICE)) == NC_INTERRUPT_ENABLED && pulled_ < ItemKind::alarm; }
   bool interrupt_between();
-  void drop_repeated();
+  void drop_repeated(const Repeat& repeat, const AxisVec& head);
   void interrupt_online();
   bool drops(const Item& item);
   void resume_record(Record& record);

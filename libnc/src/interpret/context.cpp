@@ -62,8 +62,7 @@ void BlockContext::refresh_settings() {
 }
 
 Item& BlockContext::next_item(ItemKind kind, bool block_end) {
-  Item& item = queue_[(head_ + queued_) % kQueue];
-  ++queued_;
+  Item& item = queue.add();
   item.kind = kind;
   item.block_end = block_end;
   item.source = source;
@@ -111,7 +110,7 @@ void BlockContext::emit_stop_point(bool resume) {
   Item& item = emit(ItemKind::mark);
   item.block_end = false;
   new (&item.mark) Mark{position(), modals.intern(state.modal), resume ? state.seq : 0, 0,
-                        (state.control_3003 & 1) == 0 && !state.modal.is(Function::tapping_mode), false, resume};
+                        (state.control_3003 & 1) == 0 && !state.modal.is(Function::tapping_mode), false, resume, false, {}};
 }
 
 ModalId BlockContext::modal_now(bool executable) {
@@ -135,7 +134,7 @@ void BlockContext::finish_block(bool stop, bool executable) {
                (state.special != 0 && state.modal.is(Function::tapping_mode))))  // M700 7.11 (4)
     stop = false;
   Item& item = next_item(ItemKind::mark, executable);
-  new (&item.mark) Mark{position(), modal_now(executable), state.seq, 0, stop, true, true, begins_again};
+  new (&item.mark) Mark{position(), modal_now(executable), state.seq, 0, stop, true, true, begins_again, state.repeat};
   begins_again = false;
   modal_unchanged_ = false;
   world_fresh = false;
@@ -152,8 +151,8 @@ void BlockContext::emit_end() {
 }
 
 void BlockContext::note_interrupt_items() {
-  for (unsigned i = 0; i < queued_; ++i) {
-    const Item& item = queue_[(head_ + i) % kQueue];
+  for (unsigned i = 0; i < queue.size(); ++i) {
+    const Item& item = queue[i];
     const bool code = item.kind == ItemKind::action && item.action.kind <= NC_ACTION_B;
     if (item.kind == ItemKind::move || code) state.interrupt_moved = true;
   }

@@ -22,6 +22,7 @@
 #include "interpret/vendor_codes.hpp"
 #include "macro/variables.hpp"
 #include "nc/run.h"
+#include "stream/item_queue.hpp"
 
 namespace nc {
 
@@ -231,10 +232,8 @@ struct BlockContext {
   Item& emit(ItemKind kind);
   /// A move with the compensation in force; transform and kind are left to the caller.
   Move& emit_move(const AxisVec& start, const AxisVec& end);
-  /// The items made and not yet taken; number 0 is the front.
-  unsigned queued() const { return queued_; }
-  const Item& queued(unsigned number) const { return queue_[(head_ + number) % kQueue]; }
-  bool queue_has_room() const { return queued_ < kQueue - kReserve; }
+  ItemQueue queue;   ///< items made and not yet taken: those of the block in hand
+  bool queue_has_room() const { return queue.room() > kReserve; }
   /// The block of `source` has ended: its mark (and the end, after M02/M30), and the checkpoint to rewind to.
   /// `executable`: it counts as a block for radius compensation (M700 12.4.2 lists NC blocks; 13.5.9: macro statements are none).
   void finish_block(bool stop, bool executable);
@@ -245,7 +244,6 @@ struct BlockContext {
   void keep_call();
 
  protected:
-  static constexpr unsigned kQueue = 64;    ///< items a block may make before the stages take them
   static constexpr unsigned kReserve = 24;  ///< one step of a job never makes more than this
 
   void note_parameter(unsigned index, ParameterValue old);
@@ -254,8 +252,6 @@ struct BlockContext {
   Item& next_item(ItemKind kind, bool block_end);
   /// Id of the modal state for a mark; behind an executable block finished_modal becomes it.
   ModalId modal_now(bool executable);
-  Item* queue_ = nullptr;
-  unsigned head_ = 0, queued_ = 0;
   bool settings_stale_ = false;
   bool settings_of_moves_stale_ = true;   ///< made anew with the next move, so that numbers go to moves only
   SettingsId settings_of_moves_ = 0;

@@ -54,9 +54,9 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   stroke_boxes.create(64, arena);
   motion_settings.create(kMotionSettings, arena);
   points.create(power_of_two_above(config.look_ahead + 128), arena);
-  queue_ = arena.make<Item>(kQueue);
+  queue.create(arena);
   checkpoints_.create(power_of_two_above(config.look_ahead + 64), arena);
-  if (queue_ != nullptr && !arena.overflowed()) {
+  if (!arena.measuring() && !arena.overflowed()) {
     refresh_settings();
     reset();
     ended = true;  // nothing is selected yet
@@ -137,7 +137,7 @@ void Interpreter::reset(bool keep_modal) {
 void Interpreter::forget_block() {
   finished_modal = state.modal;
   newest_modal_ = kNoModal;
-  head_ = queued_ = 0;
+  queue.clear();
   waiting_ = false;
   next_step = Step::none;
   after_block = nullptr;
@@ -235,7 +235,7 @@ void Interpreter::answer(const nc_world& answered) {
 // ---- blocks ------------------------------------------------------------------------------------------------------------
 
 nc_status Interpreter::step(uint32_t& budget) {
-  while (queued_ == 0) {
+  while (queue.empty()) {
     if (waiting_) return NC_WAITING;
     if (ended) return alarmed ? NC_ALARMED : NC_ENDED;
     if (budget == 0) return NC_BUDGET;
@@ -245,7 +245,7 @@ nc_status Interpreter::step(uint32_t& budget) {
       block_seq_ = state.seq;
     }
     const nc_status status = run_block(budget);
-    made_ += queued_;
+    made_ += queue.size();
     if (status != NC_OK) return status;
   }
   return NC_OK;
@@ -407,7 +407,7 @@ nc_status Interpreter::settle(Execution did) {
 
 /// What the block in hand has put into the stream, and what it has changed.
 void Interpreter::take_block_back() {
-  queued_ = 0;
+  queue.cut(0);
   if (!checkpoints_.holds(state.seq) || !take_back(state.seq)) return;
   checkpoints_.restore(state.seq, &state);
   newest_modal_ = kNoModal;
@@ -469,7 +469,7 @@ void Interpreter::note_calls(const nc_source& where, BlockSeq seq) {
 }
 
 void Interpreter::abort(const Fault& what, const nc_source& where) {
-  queued_ = 0;
+  queue.cut(0);
   stop(what, where);
 }
 

@@ -33,15 +33,7 @@ struct Interpreter : BlockContext {
   void create(const InterpreterConfig& config, ProgramStore* store, CommonVariables* common, Arena& arena);
 
   // ---- the stream ---------------------------------------------------------------------------------------------------
-  /// Front of the items made and not yet taken, nullptr = none.
-  Item* front() { return queued_ == 0 ? nullptr : &queue_[head_ % kQueue]; }
-  void pop() {
-    ++head_;
-    if (--queued_ == 0) head_ = 0;  // from the front again: a short queue stays in the cache
-  }
-  /// Gives up those from `number` on.
-  void forget_queued(unsigned number) { queued_ = number; }
-  /// Makes more items: NC_OK (look at front()), NC_WAITING (a sync is open), NC_BUDGET, NC_ENDED, NC_ALARMED.
+  /// Makes more items: NC_OK (look at `queue`), NC_WAITING (a sync is open), NC_BUDGET, NC_ENDED, NC_ALARMED.
   nc_status step(uint32_t& budget);
   void answer(const nc_world& world);
 

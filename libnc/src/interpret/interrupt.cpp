@@ -66,10 +66,10 @@ Execution disable_interrupt(Interpreter& in) {
 bool Interpreter::interruptible() const { return state.interrupt_on && state.interrupt_depth == 0 && !ended && !state.end_seen; }
 
 bool Interpreter::interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block) {
-  if (queued_ > 0 || next_step != Step::none || taken_back > 0) {
-    if (!cut_block || (waiting_ && queued_ == 0)) return false;  // a sync that is not given out yet is not waited for
+  if (!queue.empty() || next_step != Step::none || taken_back > 0) {
+    if (!cut_block || (waiting_ && queue.empty())) return false;  // a sync that is not given out yet is not waited for
     // The block in hand may have ended the program or what M96 began: it counts what was in force at its head.
-    const unsigned items = made_ - queued_ - taken_back;
+    const unsigned items = made_ - queue.size() - taken_back;
     return rewind(block_seq_) && begin_interrupt(true, items, machine);
   }
   if (!interruptible()) return false;

@@ -537,9 +537,9 @@ Execution move_by_words(BlockContext& in) {
   style.in_position = style.exact_stop ? w.in_position : 0;  // only where there is a deceleration check
   // The line that takes the axes into another rotation (13.21) is no part of a curve.
   if ((in.state.special & kSpecialSpline) != 0 && !in.state.work_turn_pending) return move_spline(in, target, w.axes, style);
-  const unsigned before = in.queued();
+  const unsigned before = in.queue.size();
   move_linear(in, target, w.axes, style);
-  const bool nowhere = style.corner != Corner::none && in.queued() == before;  // a line of no length has no corner
+  const bool nowhere = style.corner != Corner::none && in.queue.size() == before;  // a line of no length has no corner
   return nowhere ? in.raise(Condition::corner_short, corner_word(w), w.corner_raw) : Execution::done;
 }
 

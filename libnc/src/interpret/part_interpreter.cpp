@@ -21,30 +21,18 @@ void PartInterpreter::create(const InterpreterConfig& config, ProgramStore* stor
   }
   in_->create(config, store, common, arena);
   in_->parameters.set_filter_room(config.longest_filter_ms, config.system_index == 0);
-  transforms_ = &in_->transforms;
-  shapes_ = &in_->shapes;
-  motion_settings_ = &in_->motion_settings;
-  stroke_boxes_ = &in_->stroke_boxes;
+  queue_ = &in_->queue;
+  pools_ = {&in_->transforms, &in_->shapes, &in_->motion_settings, &in_->stroke_boxes};
   in_vendor_function_ = &in_->in_vendor_function;
-  repeats_ = &in_->state.repeat.active;
 }
 
 // ---- the stream -------------------------------------------------------------------------------------------------------------
 
-/// Apart, so that next() has nothing to keep over a call.
-[[gnu::noinline]] static nc_status make_more(Interpreter& in, uint32_t& budget, Item** front) {
-  const nc_status status = in.step(budget);
-  *front = in.front();
+nc_status PartInterpreter::make_more(uint32_t& budget, Item** front) {
+  const nc_status status = in_->step(budget);
+  *front = in_->queue.front();
   return status;
 }
-
-nc_status PartInterpreter::next(uint32_t& budget, Item** front) {
-  *front = in_->front();
-  return *front != nullptr ? NC_OK : make_more(*in_, budget, front);
-}
-void PartInterpreter::pop() { in_->pop(); }
-unsigned PartInterpreter::queued() const { return in_->queued(); }
-const Item& PartInterpreter::queued(unsigned number) const { return in_->queued(number); }
 void PartInterpreter::answer(const nc_world& world) { in_->answer(world); }
 bool PartInterpreter::in_cycle() const { return in_->next_step == Step::cycle; }
 
@@ -55,15 +43,15 @@ bool PartInterpreter::rehearse_cycle(bool (*fits)(void* user, const Item& move),
   const Hole hole = in.hole;
   const HoleProgress progress = in.progress;
   const uint32_t holes_left = in.holes_left;
-  const unsigned queued = in.queued();
+  const unsigned queued = in.queue.size();
   in.state.cycle.kind = in.hole.kind = CycleKind::drill;
   bool fit = true;
   Execution did = Execution::later;
   while (fit && did == Execution::later) {
     did = continue_cycle(in);
-    if (in.queued() == queued) break;  // codes fill the queue
-    for (unsigned i = queued; fit && i < in.queued(); ++i) fit = in.queued(i).kind != ItemKind::move || fits(user, in.queued(i));
-    in.forget_queued(queued);
+    if (in.queue.size() == queued) break;  // codes fill the queue
+    for (unsigned i = queued; fit && i < in.queue.size(); ++i) fit = in.queue[i].kind != ItemKind::move || fits(user, in.queue[i]);
+    in.queue.cut(queued);
   }
   in.state = state;
   in.hole = hole;
@@ -127,9 +115,7 @@ AxisVec PartInterpreter::work_zero() const {
   for (unsigned i = 0; i < in_->axis_count; ++i) zero[i] += in_->state.applied[i];
   return zero;
 }
-bool PartInterpreter::mirrors() const { return in_->state.any_mirror() != 0; }
-bool PartInterpreter::maps_motion() const { return in_->state.map.active(); }
-uint32_t PartInterpreter::frozen_axes() const { return in_->state.map.frozen; }
+MapsInForce PartInterpreter::maps() const { return {in_->state.any_mirror() != 0, in_->state.map.active(), in_->state.map.frozen}; }
 AxisVec PartInterpreter::work_shown(const AxisVec& work) const { return nc::work_shown(*in_, work); }
 AxisVec PartInterpreter::machine_shown(const AxisVec& machine) const { return nc::machine_shown(*in_, machine); }
 AxisSettings PartInterpreter::axis_settings() const {
@@ -139,18 +125,17 @@ AxisSettings PartInterpreter::axis_settings() const {
 
 // ---- macro interrupt --------------------------------------------------------------------------------------------------------
 
-bool PartInterpreter::interrupt_by_level() const { return in_->settings.interrupt_by_level; }
-bool PartInterpreter::interrupt_type_2() const { return in_->settings.interrupt_type_2; }
-uint32_t PartInterpreter::interrupt_mode() const {
+InterruptSettings PartInterpreter::interrupts() const {
   uint32_t mode = 0;
   if (in_->state.interrupt_on) mode |= NC_INTERRUPT_ENABLED;
   if (in_->state.interrupt_depth != 0) mode |= NC_INTERRUPT_IN_SERVICE;
-  return mode;
+  return {in_->settings.interrupt_by_level, in_->settings.interrupt_type_2, mode};
 }
 bool PartInterpreter::interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block) { return in_->interrupt(machine, taken_back, cut_block); }
 bool PartInterpreter::interrupt_inside(const AxisVec& machine, unsigned items) { return in_->interrupt_inside(machine, items); }
 void PartInterpreter::go_on_inside(unsigned items) { in_->go_on_inside(items); }
-unsigned PartInterpreter::repeated_items() const { return in_->state.repeat.items; }
+const Repeat& PartInterpreter::repeat() const { return in_->state.repeat; }
+const AxisVec& PartInterpreter::interrupted_at() const { return in_->interrupted_state().machine; }
 
 // ---- alarms -----------------------------------------------------------------------------------------------------------------
 
@@ -184,77 +169,6 @@ void PartInterpreter::join(SharedTables* shared) { shared->join(*in_); }
 bool PartInterpreter::shares() const { return in_->shared != nullptr; }
 void PartInterpreter::publish(BlockSeq executed) { in_->shared->publish(*in_, executed); }
 
-nc_status PartInterpreter::set_parameter(const char* key, int axis, const char* text) {
-  unsigned changed = 0;
-  ParameterValue before;
-  const nc_status status = in_->parameters.set(*in_->dialect, key, axis, text, &changed, &before);
-  if (status != NC_OK) return status;
-  in_->refresh_settings();
-  if (in_->shared != nullptr) in_->shared->parameter_changed(*in_, changed);
-  return NC_OK;
-}
-double PartInterpreter::parameter(const char* key, int axis) const {
-  double value = 0;
-  ParameterId id;
-  int bit = -1;
-  if (parse_parameter(*in_->dialect, key, &id, &bit)) in_->parameters.get(id, bit, axis, &value);
-  return value;
-}
-double PartInterpreter::parameter(ParameterOf parameter, int axis) const {
-  double value = 0;
-  in_->parameters.get(*in_->dialect, parameter, axis, &value);
-  return value;
-}
-bool PartInterpreter::next_parameter(unsigned* place, char key[24], int* axis, double* number, char text[64]) const {
-  ParameterId id;
-  ParameterValue found;
-  do {
-    if (!in_->parameters.at(*place, &id, axis, &found)) return false;
-    ++*place;
-  } while (!found.is_set());  // it was set, and that was taken back
-  --*place;
-  char name[kParameterKeySize];
-  put_parameter_key(*in_->dialect, id, name);
-  std::strcpy(key, name);
-  const char* const words = in_->parameters.text(found);
-  *number = found.number.value_or(0);
-  std::strcpy(text, words != nullptr ? words : "");
-  return true;
-}
 uint64_t PartInterpreter::state_hash() const { return nc::state_hash(*in_); }
-int PartInterpreter::axis_named(char name) const { return name >= 'A' && name <= 'Z' ? in_->axis_of[name - 'A'] : -1; }
-const FilterParameters& PartInterpreter::filters() const { return in_->settings.filters; }
-
-const Frames& PartInterpreter::frames() const { return in_->frames; }
-void PartInterpreter::set_table(unsigned key, double value) { in_->set_table_from_outside(key, value); }
-uint32_t PartInterpreter::interface_output(unsigned word) const { return in_->records->output[word].bits; }
-void PartInterpreter::set_interface_output(unsigned word, uint32_t mask, uint32_t bits) {
-  in_->records.change_bits_from_outside(&ProgramRecords::output, word, InterfaceOutput{bits}, InterfaceOutput{mask});
-}
-void PartInterpreter::set_tool(unsigned number, nc_tool_column column, double value) {
-  const unsigned key = in_->frames.tool_key(number, column);
-  if (in_->shared != nullptr) {
-    in_->shared->set_tool(key, value);
-  } else {
-    in_->set_table_from_outside(key, value);
-  }
-}
-
-bool PartInterpreter::variable(uint32_t number, Value* value) const { return in_->variables.get(number, in_->macro_level(), value); }
-bool PartInterpreter::set_variable(uint32_t number, Value value) {
-  if (in_->shared != nullptr && in_->variables.shares(number)) {
-    in_->shared->set_variable(number, value);
-    return true;
-  }
-  return in_->variables.set_from_outside(number, in_->macro_level(), value);
-}
-bool PartInterpreter::next_variable(uint32_t from, uint32_t* number, double* value) const { return in_->variables.next(from, number, value); }
-unsigned PartInterpreter::variable_name(uint32_t number, char* name) const { return in_->variables.name_of(number, name); }
-bool PartInterpreter::set_variable_name(uint32_t number, const char* name) {
-  if (!in_->variables.name_from_outside(number, name)) return false;
-  if (in_->shared != nullptr) in_->shared->set_name(number, name);
-  return true;
-}
-void PartInterpreter::set_devices(nc_device_read read, void* user) { in_->devices = {read, user}; }
 
 }  // namespace nc

@@ -6,17 +6,16 @@
 #include "alarm/fault.hpp"
 #include "base/arena.hpp"
 #include "base/intern_pool.hpp"
-#include "dialect/parameter.hpp"
 #include "frame/affine.hpp"
 #include "frame/frames.hpp"
 #include "frame/stroke_box.hpp"
+#include "interpret/host_tables.hpp"
 #include "interpret/motion_settings.hpp"
 #include "interpret/vendor_codes.hpp"
-#include "macro/variables.hpp"
 #include "nc/control.h"
 #include "path/shape.hpp"
 #include "program/store.hpp"
-#include "stream/stream.hpp"
+#include "stream/item_queue.hpp"
 
 namespace nc {
 
@@ -51,20 +50,42 @@ struct AxisSettings {
   const double* index_increment;  ///< by axis
 };
 
+/// What moves name by a number.
+struct MovePools {
+  const InternPool<Affine>* transforms = nullptr;
+  const InternPool<MoveShape>* shapes = nullptr;  ///< Move::shape counts from 1
+  const InternPool<MotionSettings>* motion_settings = nullptr;
+  const InternPool<StrokeBox>* stroke_boxes = nullptr;
+};
+
+/// Maps between what is programmed and the axes, as they are behind the newest block.
+struct MapsInForce {
+  bool mirror;           ///< of any kind
+  bool other_axes;       ///< moves go through a map of axes (cylinder, polar, hypothetical axis)
+  uint32_t frozen_axes;  ///< bit i: axis i does not move itself, a map of axes moves for it
+};
+
+/// Macro interrupt (M700 13.12), as parameters and the newest block say.
+struct InterruptSettings {
+  bool by_level, type_2;
+  uint32_t mode;  ///< nc_interrupt_bits
+};
+
 /// Handle with the interpreter in arena memory.
 class PartInterpreter {
  public:
   /// Lays the interpreter out in `arena`. With a measuring arena only counts.
   void create(const InterpreterConfig& config, ProgramStore* store, CommonVariables* common, Arena& arena);
 
-  // ---- the stream: an interpreter's items that have been made and not been taken stand in a queue
-  /// Its front; where there is none more items are made first. NC_OK, or why there is none: NC_WAITING (a sync is open), NC_BUDGET, NC_ENDED,
-  /// NC_ALARMED.
-  nc_status next(uint32_t& budget, Item** front);
-  void pop();
-  /// Number 0 is the front.
-  unsigned queued() const;
-  const Item& queued(unsigned number) const;
+  // ---- the stream: items that have been made and not been taken
+  ItemQueue& queue() { return *queue_; }
+  const ItemQueue& queue() const { return *queue_; }
+  /// The queue's front; where it is empty more items are made first. NC_OK, or why there is none: NC_WAITING (a sync is open), NC_BUDGET,
+  /// NC_ENDED, NC_ALARMED.
+  nc_status next(uint32_t& budget, Item** front) {
+    *front = queue_->front();
+    return *front != nullptr ? NC_OK : make_more(budget, front);
+  }
   void answer(const nc_world& world);
   /// A fixed cycle is under way: items of its block are still to be made.
   bool in_cycle() const;
@@ -73,11 +94,8 @@ class PartInterpreter {
   bool rehearse_cycle(bool (*fits)(void* user, const Item& move), void* user);
 
   // ---- what items name by a number
-  // (nullptr while a measuring arena counts)
-  const InternPool<Affine>* transforms() const { return transforms_; }
-  const InternPool<MoveShape>* shapes() const { return shapes_; }  ///< Move::shape counts from 1
-  const InternPool<MotionSettings>* motion_settings() const { return motion_settings_; }
-  const InternPool<StrokeBox>* stroke_boxes() const { return stroke_boxes_; }
+  // (none of them while a measuring arena counts)
+  const MovePools& pools() const { return pools_; }
   /// False: what has this number is not known any more.
   bool modal(uint32_t id, nc_modal* out) const;
   bool text(uint32_t id, nc_text* out) const;
@@ -134,18 +152,14 @@ class PartInterpreter {
   void shift_coordinates(unsigned axis, double by);
   /// Zero of the workpiece with the tool length as applied.
   AxisVec work_zero() const;
-  bool mirrors() const;           ///< a mirror of any kind is on
-  bool maps_motion() const;       ///< moves go through a map of axes (cylinder, polar, hypothetical axis)
-  uint32_t frozen_axes() const;   ///< bit i: axis i does not move itself, a map of axes moves for it
+  MapsInForce maps() const;
   /// As the counters show them (M700 14.13).
   AxisVec work_shown(const AxisVec& work) const;
   AxisVec machine_shown(const AxisVec& machine) const;
   AxisSettings axis_settings() const;
 
   // ---- macro interrupt (M700 13.12)
-  bool interrupt_by_level() const;
-  bool interrupt_type_2() const;
-  uint32_t interrupt_mode() const;  ///< nc_interrupt_bits
+  InterruptSettings interrupts() const;
   /// The interrupt program runs next, the machine stands at `machine`. Everything made before has happened but for the newest
   /// `taken_back` items, which are given up. Inside a block only with `cut_block`; false: not now.
   bool interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block);
@@ -153,9 +167,10 @@ class PartInterpreter {
   bool interrupt_inside(const AxisVec& machine, unsigned items);
   /// The next block goes on where it was cut.
   void go_on_inside(unsigned items);
-  /// The next block has been cut: it is read again, and so many of its items have happened.
-  bool repeats() const { return *repeats_; }
-  unsigned repeated_items() const;
+  /// The next block has been cut: it is read again.
+  const Repeat& repeat() const;
+  /// Head of the block that was interrupted last.
+  const AxisVec& interrupted_at() const;
 
   // ---- alarms
   RaisedAlarm raised() const;
@@ -169,41 +184,23 @@ class PartInterpreter {
   /// The blocks that led to `where`, which comes behind block `seq`, outermost first and with it; 0: that is not known any more.
   unsigned calls_behind(const nc_source& where, BlockSeq seq, nc_source (&calls)[NC_MAX_CALLS]) const;
 
-  // ---- tables. What the host writes no rewind brings back, and other part systems that share it have it, too.
+  // ---- tables
+  /// What the host reads and writes of them.
+  HostTables tables() const { return HostTables(*in_); }
   void join(SharedTables* shared);
   bool shares() const;  ///< there are other part systems
   /// The machine has executed the blocks up to `executed`: what they have written to shared places is published.
   void publish(BlockSeq executed);
-  nc_status set_parameter(const char* key, int axis, const char* text);
-  double parameter(const char* key, int axis) const;  ///< 0 where it is not set
-  double parameter(ParameterOf parameter, int axis = -1) const;
-  /// The first parameter from *place on that has been set; false: there is none. Key, axis (-1 = of none) and what it is: a number, or a text.
-  bool next_parameter(unsigned* place, char key[24], int* axis, double* number, char text[64]) const;
   uint64_t state_hash() const;  ///< interpret/state_hash.hpp
-  int axis_named(char name) const;  ///< its index, -1 = none
-  const FilterParameters& filters() const;
-  const Frames& frames() const;
-  void set_table(unsigned key, double value);
-  /// The macro interface's outputs as read ahead.
-  uint32_t interface_output(unsigned word) const;
-  void set_interface_output(unsigned word, uint32_t mask, uint32_t bits);
-  void set_tool(unsigned number, nc_tool_column column, double value);
-  /// False: there is no such variable.
-  bool variable(uint32_t number, Value* value) const;
-  bool set_variable(uint32_t number, Value value);
-  bool next_variable(uint32_t from, uint32_t* number, double* value) const;
-  unsigned variable_name(uint32_t number, char* name) const;  ///< its length
-  bool set_variable_name(uint32_t number, const char* name);
-  void set_devices(nc_device_read read, void* user);
 
  private:
+  nc_status make_more(uint32_t& budget, Item** front);
+
   Interpreter* in_ = nullptr;
   // Of *in_: asked for with every item.
-  const InternPool<Affine>* transforms_ = nullptr;
-  const InternPool<MoveShape>* shapes_ = nullptr;
-  const InternPool<MotionSettings>* motion_settings_ = nullptr;
-  const InternPool<StrokeBox>* stroke_boxes_ = nullptr;
-  const bool *in_vendor_function_ = nullptr, *repeats_ = nullptr;
+  ItemQueue* queue_ = nullptr;
+  MovePools pools_;
+  const bool* in_vendor_function_ = nullptr;
 };
 
 }  // namespace nc

@@ -118,12 +118,6 @@ struct SpindleControl {
   uint8_t axis = 0;            ///< of G96, from 1; 0 = G97
 };
 
-/// A block that a macro interrupt has cut and that goes on: what it has done already is not done again (M700 13.12).
-struct Repeat {
-  bool active = false;
-  uint16_t items = 0;   ///< of the next block that have happened
-};
-
 /// The mode of fine segments in force: which codes may be commanded (M700 13.17; functions/fine_mode.cpp).
 enum class FineMode : uint8_t {
   none,
@@ -164,7 +158,7 @@ enum Special : uint8_t {
 /// Belongs to one block and to the next: each of them sets it, and nothing gives it back.
 struct BlockLife {
   BlockSeq seq = 0;             ///< blocks executed
-  Repeat repeat;                ///< holds for the next block only
+  Repeat repeat;                ///< of the next block; its mark carries it to those who drop what has happened
   bool owes_mark = false;       ///< the block that called a program has ended with the return and still needs its mark
   bool stop_reading = false;    ///< an M code that prohibits reading ahead was in the block before
 };

@@ -180,6 +180,12 @@ struct Sync {
   uint32_t what = 0;  ///< nc_sync_what bits
 };
 
+/// A block that a macro interrupt has cut and that goes on: what it has done already is not done again (M700 13.12).
+struct Repeat {
+  bool active = false;
+  uint16_t items = 0;   ///< of that block that have happened
+};
+
 struct Mark {
   AxisVec work;                  ///< programmed position at the end of the block, active workpiece coordinates
   ModalId modal = 0;
@@ -188,6 +194,7 @@ struct Mark {
   bool stop = true, report = true;
   bool resume = true;            ///< what follows can be read again from here: the end of a block, or a call that has been entered
   bool again = false;            ///< M99 of the main program: the next block is its first
+  Repeat repeat;                 ///< of the block that follows
   uint32_t place = 0;            ///< what the stages keep of it on its way through them (StageRow), counted from 1; 0 = nothing
 };
 
