@@ -87,7 +87,7 @@ std::optional<Place> internal_device(std::string_view name, const Layout& layout
     if (end != last) return std::nullopt;
     const std::string letter(family.name);
     if (error != std::errc() || number >= family.count) {
-      *message = "no such device: " + letter + "0 to " + letter + std::to_string(family.count - 1);
+      message->assign("no such device: ").append(letter).append("0 to ").append(letter).append(std::to_string(family.count - 1));
       return std::nullopt;
     }
     if (family.name == "SM" && !existing_sm(number)) {

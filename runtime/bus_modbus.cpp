@@ -58,9 +58,12 @@ void modbus_resources(const Config& config, const PointBusConfig& bus, std::vect
   if (units.empty()) return;  // who only reads takes nothing away from anybody
   const std::string port = std::to_string(link.port);
   for (const std::string& address : addresses_of(link.host))
-    for (const unsigned unit : units)
-      resources->push_back({"modbus " + address + " " + port + " " + std::to_string(unit),
-                            "Modbus unit " + std::to_string(unit) + " of " + link.host + " port " + port});
+    for (const unsigned unit : units) {
+      std::string key("modbus "), words("Modbus unit ");
+      key.append(address).append(" ").append(port).append(" ").append(std::to_string(unit));
+      words.append(std::to_string(unit)).append(" of ").append(link.host).append(" port ").append(port);
+      resources->push_back({key, words});
+    }
 }
 
 }  // namespace nc::rt

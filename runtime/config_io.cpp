@@ -256,7 +256,7 @@ void read_sim(TableReader* root, Config* config) {
       if (hal::parse_input_change(text, config->points, &change, &error))
         sim.script.push_back(change);
       else
-        reader.errors()->add(line, reader.path("script"), "\"" + text + "\": " + error);
+        reader.errors()->add(line, reader.path("script"), std::string("\"").append(text).append("\": ").append(error));
     }
   });
 }

@@ -209,7 +209,7 @@ std::vector<RetainedRow> LadderTask::rows_of(const ladder::DeviceImage& image) c
   for (const ladder::RetainedRange& range : ranges_) {
     RetainedRow row{range.name, range.number, std::vector<std::int16_t>(range.count)};
     for (std::uint32_t i = 0; i < range.count; ++i)
-      row.values[i] = range.words ? image.word[range.first + i] : image.bit[range.first + i];
+      row.values[i] = static_cast<std::int16_t>(range.words ? image.word[range.first + i] : image.bit[range.first + i]);
     rows.push_back(std::move(row));
   }
   return rows;

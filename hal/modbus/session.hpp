@@ -16,7 +16,7 @@
 #include "hal/modbus/blocks.hpp"
 #include "hal/modbus/frame.hpp"
 
-struct _modbus;
+struct _modbus;  // NOLINT(bugprone-reserved-identifier): libmodbus calls it so
 struct addrinfo;
 
 namespace nc::hal::modbus {

@@ -132,7 +132,7 @@ TableRows executed_tables(nc_control* control, const nc_config& config) {
 
 std::string table_text(const TableRows& rows) {
   std::string text;
-  for (const auto& [key, value] : rows) text += key + "=" + value + "\n";
+  for (const auto& [key, value] : rows) text.append(key).append("=").append(value).append("\n");
   return text;
 }
 
@@ -152,7 +152,7 @@ std::string encode_changes(const TableRows& now, const TableRows& configured) {
   std::string text = std::string(kHead) + "\n";
   for (const auto& [key, ignored] : all) {
     const std::string before = value_of(configured, key), value = value_of(now, key);
-    if (value != before) text += key + "\n" + before + "\n" + value + "\n";
+    if (value != before) text.append(key).append("\n").append(before).append("\n").append(value).append("\n");
   }
   return text + kEnd + "\n";
 }

@@ -45,7 +45,8 @@ struct Plain {
 
   double value(bool integer_only) const {
     // One division rounds once: a good mantissa is below 10^18, but only up to 2^53 is it exact in a double.
-    const double v = integer_only ? static_cast<double>(mantissa / kPowersOfTen[fraction_digits])
+    const uint64_t whole = mantissa / kPowersOfTen[fraction_digits];
+    const double v = integer_only ? static_cast<double>(whole)
                                   : scale_decimal(mantissa, fraction_digits);
     return (flags & kWordNegative) != 0 ? -v : v;
   }

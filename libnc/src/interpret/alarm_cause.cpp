@@ -101,7 +101,7 @@ void skip_digits(const char** at) {
 bool is_o_word(const char* at) {
   ++at;
   skip_blanks(&at);
-  const char close = *at == '<' ? '>' : *at == '[' ? ']' : 0;
+  const char close = *at == '<' ? '>' : *at == '[' ? ']' : '\0';
   if (close != 0) {
     at = std::strchr(at, close);
     if (at == nullptr) return false;
