@@ -34,6 +34,14 @@ TEST(Iso, TheToolIsCalledAndChangedInEitherOrder) {  // RS-274/NGC 3.6.3
   EXPECT_EQ(iso("M6 T1\nT2 M6\nT3\nM6").aux(), "T1 M6 T2 M6 T3 M6");
 }
 
+TEST(Iso, AWordAndACodeOfAGroupStandOnce) {  // RS-274/NGC 3.3.1, 3.4
+  for (const char* text : {"G0 X1 X2", "G1 X1. X2. F100", "G0 X1 Y[1] Y2", "F1 F2", "G0 G1 X1 F100", "G90 G91", "G54 G55", "G17 G18"})
+    EXPECT_EQ(alarm_of(text), "NC-FORMAT") << text;
+  EXPECT_EQ(alarm_of("F100 G1\nX1.\nX2. Y1. X3."), "NC-FORMAT");
+  EXPECT_EQ(alarm_of("G17 G21 G90 G94 G54 G40 G49 G80 G0 X1"), "");
+  EXPECT_EQ(alarm_of("G2 X0 Y0 R5 F100"), "NC-ARC");  // 3.5.3.1: which circle?
+}
+
 TEST(Iso, OWordsSayThatTheyAreNotThere) {
   for (const char* text : {"G0 X1\nO100 sub\nG0 X2\nO100 endsub", "G0 X1\no<hole> if [1]", "G0 X1\nN10 O5 call"}) {
     const Outcome run = iso(text);
@@ -234,6 +242,13 @@ TEST(IsoLength, ShiftsTheReadingAndMovesNothing) {  // RS-274/NGC 3.5.11
   EXPECT_EQ(bench.at(0, 0, 0).run("G43 H999").alarm, "NC-OFFSET-DATA");
 }
 
+TEST(IsoLength, ByTheWordsOfTheBlock) {  // LinuxCNC G43.1
+  EXPECT_EQ(iso("G43.1 Z7\nG0 X1\nZ0\nG91 Z1\nG90 G49\nZ0").path(), (Path{"rapid 1 0 0", "rapid 1 0 7", "rapid 1 0 8", "rapid 1 0 0"}));
+  EXPECT_EQ(alarm_of("G43.1 X7"), "NC-AXIS");
+  EXPECT_EQ(alarm_of("G43.1"), "NC-WORDS");
+  EXPECT_EQ(Bench(NC_DIALECT_ISO).tool(1, 10).run("G0 G43 Z5 H1").path(), (Path{"rapid 0 0 15"}));  // as most posts write it
+}
+
 TEST(IsoRadius, WithoutDThatOfTheTool) {  // RS-274/NGC 3.5.10
   Bench bench(NC_DIALECT_ISO);
   bench.tool(3, 2, NC_TOOL_RADIUS);
@@ -318,7 +333,7 @@ TEST(IsoMisc, OverridesAreBarredAndAllowed) {  // RS-274/NGC 3.6.5
 TEST(IsoMisc, CoolantAndUserCodesGoOut) { EXPECT_EQ(iso("M7 M8\nM9\nM101\nM60\nM30").aux(), "M7 M8 M9 M101 M60 M30"); }
 
 TEST(Iso, WhatIsNotBuiltSaysSo) {
-  for (const char* text : {"G33.1 Z-1 K1", "G38.4 Z1", "G43.1 Z1", "G41.1 D1", "G52 X1", "G76 P1", "G84 Z-1 R1", "G86 Z-1 R1", "G96 S100", "G5.2", "G7",
+  for (const char* text : {"G33.1 Z-1 K1", "G38.4 Z1", "G43.2 H1", "G41.1 D1", "G52 X1", "G76 P1", "G84 Z-1 R1", "G86 Z-1 R1", "G96 S100", "G5.2", "G7",
                            "G28.1", "M19", "M50", "M61 Q1", "M62 P1", "M66 P1", "M68 Q1", "M70", "M98 P1", "M99"}) {
     const Outcome run = iso(std::string("G21\n") + text);
     EXPECT_EQ(run.alarm, "NC-NOT-BUILT") << text;

@@ -67,7 +67,7 @@ enum class Function : uint8_t {
   shift_off, shift_suspend, shift_restore,   ///< G92.1 G92.2 G92.3: what coordinate_set has set
   reference_set,                        ///< G28.1 G30.1
   rigid_tap, thread_cycle,              ///< G33.1 G76
-  comp_dynamic, length_dynamic, length_added,   ///< G41.1 G42.1, G43.1, G43.2
+  comp_dynamic, length_of_block, length_added,   ///< G41.1 G42.1, G43.1, G43.2
   spline_cubic, spline_quadratic, nurbs_block, nurbs_block_end,   ///< G5 G5.1 G5.2 G5.3
   diameter_words, radius_words,         ///< G7 G8
   count_

@@ -47,6 +47,9 @@ struct BlockRules {
   bool stops_stand_alone;
   /// So does the dwell (DGSHAPE G04). M700 8.1 lets it share its block.
   bool dwell_stands_alone;
+  /// Two words of a letter other than those of codes, and two codes of one mode, are faults (RS-274/NGC 3.3.1, 3.4). Else the last one
+  /// counts (M700 3.7; DGSHAPE 1-2).
+  bool words_stand_once;
   /// Of several variables that a block sets none has its value before all have been calculated: #1=2 #2=#1 takes the #1 of before
   /// (RS-274/NGC 3.3.2.2). Else one after the other (M700 13.5.4).
   bool assigns_at_once;
@@ -102,6 +105,8 @@ struct ArcRules {
   /// P, the number of full turns, does not stand beside R (M700 6.6). DGSHAPE G02/G03 does not say what
   /// becomes of P: it is no fault.
   bool turns_exclude_radius;
+  /// An arc by its radius that ends where it starts is a fault (RS-274/NGC 3.5.3.1). Else nothing goes (M700 6.5; DGSHAPE G02/G03).
+  bool closed_by_radius_is_fault;
   /// P counts the turn in which the end lies, so that it is 1 of a plain arc (LinuxCNC G2). Else those before it (M700 6.6).
   bool turns_count_last;
 };

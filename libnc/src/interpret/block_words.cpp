@@ -137,6 +137,16 @@ bool calls_another(const Interpreter& in, unsigned first) {
   return false;
 }
 
+/// `twice`: addresses that the block has more than once.
+Execution check_words_stand_once(Interpreter& in, uint32_t twice) {
+  const BlockWords& w = in.words;
+  if (twice != 0) return in.raise(Condition::format_error, letter_of(first_of(twice)), w.raw[first_of(twice)]);
+  for (unsigned i = 1; i < w.g.size(); ++i)
+    for (unsigned k = 0; k < i; ++k)
+      if (mode_of(w.g[i]->function) != Mode::none && mode_of(w.g[i]->function) == mode_of(w.g[k]->function)) return in.raise_code(Condition::format_error, *w.g[i]);
+  return Execution::done;
+}
+
 /// For the alarm of the move that has no feed because of it (alarm_cause.cpp).
 [[gnu::cold, gnu::noinline]] void note_vacant_feed(Interpreter& in, const Word& word) {
   uint32_t number = 0;
@@ -170,7 +180,7 @@ Execution gather_words(Interpreter& in) {
   w.absolute_at = w.incremental_at = 0;
   const Word* const words = in.block->words.begin();
   const unsigned count = in.block->words.size();
-  uint32_t present = 0;
+  uint32_t present = 0, twice = 0;
   char bare_axis = 0;
   w.late_number = 0;
   for (unsigned i = 0; i < count; ++i) {
@@ -179,6 +189,7 @@ Execution gather_words(Interpreter& in) {
     double value = word.value;
     // Nearly all words: a number behind a letter that is neither a code nor the number of the block.
     if ((word.flags & (kWordExpression | kWordComma | kWordCount | kWordNoValue)) == 0 && ((codes >> at) & 1) == 0) {
+      twice |= present & 1u << at;
       present |= 1u << at;
       w.raw[at] = value;
       w.flags[at] = word.flags;
@@ -248,11 +259,16 @@ Execution gather_words(Interpreter& in) {
       bare_axis = word.letter;
       value = 0;
     }
+    twice |= present & 1u << at;
     present |= 1u << at;
     w.raw[at] = value;
     w.flags[at] = word.flags;
   }
   w.present = present;
+  if ((twice != 0 || w.g.size() > 1) && in.dialect->rules.block.words_stand_once) {
+    const Execution did = check_words_stand_once(in, twice);
+    if (did != Execution::done) return did;
+  }
   if (w.device != 0 && !calls_sub(in)) return in.raise(Condition::no_function, Role::option_device, w.device);
   if (w.corner != Corner::none && !may_have_corner(in)) return in.raise(Condition::corner_option, corner_word(w), w.corner_raw);
   if (bare_axis != 0 && !takes_bare_axes(w)) return in.raise(Condition::format_error, bare_axis);

@@ -413,6 +413,7 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   bool straight = false;
   const Condition bad = make_circle(from, to, words, ccw, arc_tolerance(in, words), &circle, &straight);
   if (bad != Condition::none) return in.raise(bad, words.has_radius ? Role::arc_radius : plane.center[0], words.has_radius ? words.radius : circle.radius_end);
+  if (straight && words.has_radius && in.dialect->rules.arc.closed_by_radius_is_fault) return in.raise(Condition::arc_center, Role::arc_radius, words.radius);
   if (straight) {
     // Nothing goes round: the axes go along a line, those outside of the plane, too.
     LinearStyle style;

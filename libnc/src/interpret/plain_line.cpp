@@ -48,6 +48,7 @@ bool execute_plain_line(BlockContext& in) {
     if ((word.flags & ~(kWordNegative | kWordPlus)) != kWordPoint && (word.flags != kWordExpression || !local_number(in, word.code, &number)))
       return false;
     if (!(std::fabs(number) <= in.settings.last_mm)) return false;
+    if ((axes >> axis & 1) != 0) return false;  // twice
     axes |= 1u << axis;
     value[static_cast<unsigned>(axis)] = number;
   }

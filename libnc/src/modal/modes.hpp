@@ -58,6 +58,7 @@ inline constexpr ModeRow kModeRows[] = {
     {Mode::length, Function::length_plus},
     {Mode::length, Function::length_minus},
     {Mode::length, Function::length_along_tool},
+    {Mode::length, Function::length_of_block},
     {Mode::length, Function::tool_tip_1},
     {Mode::length, Function::tool_tip_2},
     {Mode::cycle, Function::cycle_off},

@@ -44,7 +44,7 @@ const FunctionRow kFunctions[] = {
     {420, 7, F::comp_right, nullptr, "cutter radius compensation right", "RS-274/NGC 3.5.10"},
     {421, 0, F::comp_dynamic, "NC-NOT-BUILT", "cutter compensation right with the diameter in the block", "LinuxCNC G42.1", nullptr, 1},
     {430, 8, F::length_plus, nullptr, "tool length offset", "RS-274/NGC 3.5.11"},
-    {431, 0, F::length_dynamic, "NC-NOT-BUILT", "tool length offset by the words of the block", "LinuxCNC G43.1"},
+    {431, 8, F::length_of_block, nullptr, "tool length offset by the words of the block", "LinuxCNC G43.1", "of Z alone"},
     {432, 0, F::length_added, "NC-NOT-BUILT", "a further tool length offset", "LinuxCNC G43.2"},
     {490, 8, F::length_off, nullptr, "tool length offset off", "RS-274/NGC 3.5.11"},
     {520, 0, F::local_system, "NC-NOT-BUILT", "local coordinate system", "LinuxCNC G52"},

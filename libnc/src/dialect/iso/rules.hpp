@@ -27,6 +27,7 @@ inline constexpr Rules kRules = {
               .whole_words_refuse_point = false,
               .stops_stand_alone = false,
               .dwell_stands_alone = false,
+              .words_stand_once = true,
               .assigns_at_once = true},
     .auxiliary = {.most_m_codes = ~0u, .tool_change_is_pair = false},  // RS-274/NGC 3.6.3: T prepares, M6 changes
     .spindle = {.speed_of_word = speed_of_word,
@@ -39,6 +40,7 @@ inline constexpr Rules kRules = {
     .arc = {.takes_rotary_axes = true,
             .degree_is_tenth_of_inch = false,
             .turns_exclude_radius = false,
+            .closed_by_radius_is_fault = true,
             .turns_count_last = true},
     .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 1e6},
     .compensation = {.xy_plane_only = false,  // LinuxCNC G41: G17 and G18

@@ -158,7 +158,22 @@ Execution change_length(BlockContext& in) {
   return did;
 }
 
+/// LinuxCNC G43.1: the axis words are the amounts and move nothing.
+static Execution set_length_of_block(BlockContext& in) {
+  const int z = in.axis_called(Role::basic_z);
+  if (z < 0) return in.raise(Condition::illegal_axis, Role::basic_z);
+  const uint32_t others = in.words.axes & ~(1u << z);
+  if (others != 0) return in.raise_axis(Condition::illegal_axis, first_of(others));
+  if (in.words.axes == 0) return in.raise_function(Condition::words_missing, Function::length_of_block);
+  in.state.length_axis = static_cast<uint8_t>(z);
+  in.state.length_value = in.words.axis[static_cast<unsigned>(z)];
+  in.state.applied[static_cast<unsigned>(z)] = in.state.length_value;
+  in.words.axes = 0;
+  return Execution::done;
+}
+
 Execution set_length(BlockContext& in, Function function) {
+  if (function == Function::length_of_block) return set_length_of_block(in);
   State& state = in.state;
   const LengthRules& rules = in.dialect->rules.length;
   if (in.words.has(Role::length_number) && (rules.number_in_any_block || function != Function::length_off)) {
