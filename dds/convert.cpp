@@ -196,7 +196,7 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   }
   to.forced = {share::kForced, block.forced_count, forced, false};
   to.refusals = from.refusals;
-  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_TOO_FAR, nc_REFUSED_OTHER);
+  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_DRIVES, nc_REFUSED_OTHER);
   set(to.refusal_text, from.refusal_text);
   to.feed_override_source = source_of(from.feed_override_source);
   to.rapid_override_source = source_of(from.rapid_override_source);
@@ -354,7 +354,7 @@ nc_CommandAck ack(const share::Ack& ack) {
   to.repeated = ack.repeated != 0;
   to.time_ns = ack.time_ns;
   set(to.text, ack.text);
-  to.refusal = as_enum(ack.refusal, nc_REFUSED_TOO_FAR, nc_REFUSED_OTHER);
+  to.refusal = as_enum(ack.refusal, nc_REFUSED_DRIVES, nc_REFUSED_OTHER);
   return to;
 }
 
