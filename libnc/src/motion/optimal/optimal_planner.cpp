@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace nc::optimal {
 namespace {
@@ -22,11 +23,16 @@ constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
 constexpr double kFartherPhases[] = {1.02, 1.2, 1.6, 2.5, 4, 8};  ///< the same for laws in phases
 constexpr double kHardlyLonger = 3;    ///< times as long as a stop on a line
 constexpr unsigned kStopStarts = 24;   ///< cells behind which such a law is looked for, one after the other
+constexpr unsigned kSolvedStops[] = {1, 4};  ///< of these, where the solver looks for one, too
 constexpr double kUrgent = 0.15;       ///< s of chain that are left when a law in phases goes where no other has been found so far
 constexpr double kMostJerk = 8;        ///< of an acceleration by a cycle: more cannot be seen in one position a cycle, and only makes laws hard to find
 constexpr double kSameScale = 1e-9;
 constexpr double kTiny = 1e-9;         ///< mm
-constexpr double kFarther[] = {1.004, 1.02, 1.05, 1.1, 1.2, 1.35, 1.6, 2, 2.7, 4};  ///< of the distance that a stop takes on a line
+constexpr double kFarther[] = {1.004, 1.05, 1.15, 1.35, 1.8, 2.7, 4, 8};  ///< of the distance that a stop takes on a line
+constexpr unsigned kNearer = 4;        ///< halvings between one that is too short and one that is not
+constexpr unsigned kStopSteps = 18;    ///< of the solver, after which there is none so short
+constexpr double kStopPeriod = 0.5;    ///< of the cells of other laws: in a bend that takes all there is, a stop begins between them
+constexpr double kCloseStops = 1.02;   ///< within that distances are not worth one
 
 bool same(double a, double b) {
   return std::fabs(a - b) <= kSameScale * (std::fabs(a) + std::fabs(b));
@@ -318,7 +324,7 @@ const Followed* OptimalPlanner::follow(const Start& start) {
   return followed_.count > 0 ? &followed_ : nullptr;
 }
 
-bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* down, bool once, double period) {
+bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* down, bool once, double period, unsigned steps) {
   MeshRequest request = request_from(start, reach, down);
   if (request.count == 0) return false;
   if (!start.fresh && !start.from_rest && period >= kPeriod) {  // the cells that the chain has there
@@ -333,6 +339,7 @@ bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* do
   Windows::Goal goal;
   goal.once = once;
   goal.period = period;
+  goal.steps = steps;
   return windows_->law_to(request, limits_, goal);
 }
 
@@ -381,6 +388,30 @@ double OptimalPlanner::stopping_distance(const Start& start, double* seconds) co
   return std::max(whole - t * (v - t * t * j / 6), 0.05 * whole);
 }
 
+/// The way to rest of the solver that ends the soonest: ever longer ones until there is one, and then those between the last two.
+bool OptimalPlanner::shortest_stop(const Start& start, double distance, double most, double seconds) {
+  const double period = kStopPeriod * std::min(kPeriod, seconds / 14);
+  const auto law = [&](double reach) { return one_law(start, reach, nullptr, true, period, kStopSteps); };
+  double none = distance, some = 0;
+  for (const double farther : kFarther) {
+    const double reach = std::min(distance * farther, most);
+    if (!(reach > none)) break;
+    if (law(reach)) {
+      some = reach;
+      break;
+    }
+    none = reach;
+  }
+  if (!(some > 0)) return false;
+  bool last = true;
+  for (unsigned n = 0; n < kNearer && some > kCloseStops * none; ++n) {
+    const double reach = std::sqrt(none * some);
+    last = law(reach);
+    (last ? some : none) = reach;
+  }
+  return last || law(some);
+}
+
 /// The shortest way to rest that is found, shorter than `most`.
 bool OptimalPlanner::stop_law(const Start& start, double most, bool closed) {
   double seconds = 0;
@@ -392,15 +423,8 @@ bool OptimalPlanner::stop_law(const Start& start, double most, bool closed) {
     return true;
   }
   found_ = Found::cells;
-  for (const double farther : kFarther) {
-    if (closed) break;
-    const double reach = distance * farther;
-    if (reach > most) {
-      no_room_ = ahead_of_end(start) < kHardlyLonger * seconds + kAtOnce;
-      break;
-    }
-    if (seconds > kAtOnce && one_law(start, reach, nullptr, true, std::min(kPeriod, seconds / 14))) return true;
-  }
+  if (!closed && seconds > kAtOnce && shortest_stop(start, distance, most, seconds)) return true;
+  if (!closed && distance * *std::rbegin(kFarther) > most) no_room_ = ahead_of_end(start) < kHardlyLonger * seconds + kAtOnce;
   found_ = Found::phases;
   for (const double farther : kFartherPhases) {
     const double reach = distance * farther;
@@ -578,8 +602,8 @@ Limits OptimalPlanner::unbound(const Start& start) const {
   return l;
 }
 
-/// Where the plan uses all of the limits no way to rest may begin: one in closed form from one of the next cells. In front of a rest of the
-/// path nothing is to be done.
+/// Where the plan uses all of the limits no way to rest may begin: one from one of the next cells, of the solver behind few of them and in
+/// closed form behind each. In front of a rest of the path nothing is to be done.
 bool OptimalPlanner::stop_later(const Start& from) {
   Start start = from;
   for (unsigned n = 0; n < kStopStarts; ++n) {
@@ -590,7 +614,8 @@ bool OptimalPlanner::stop_later(const Start& from) {
       offer_.rests = start.after;
       return false;
     }
-    if (stop_there(start, true)) return true;
+    const bool closed = std::find(std::begin(kSolvedStops), std::end(kSolvedStops), n) == std::end(kSolvedStops);
+    if (stop_there(start, closed)) return true;
   }
   return false;
 }

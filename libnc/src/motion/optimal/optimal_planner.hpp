@@ -70,10 +70,11 @@ class OptimalPlanner {
   const Followed* follow(const Start& start);
   bool try_limits(const Start& start, double most, const WayDown* down);
   MeshRequest request_from(const Start& start, double reach, const WayDown* down) const;
-  bool one_law(const Start& start, double reach, const WayDown* down, bool once, double period);
+  bool one_law(const Start& start, double reach, const WayDown* down, bool once, double period, unsigned steps = kMaxSteps);
   bool phase_law(const Start& start, double reach);
   bool whole() const;
   double law_seconds() const;
+  bool shortest_stop(const Start& start, double distance, double most, double seconds);
   bool stop_law(const Start& start, double most, bool closed);
   double ahead_of_end(const Start& start) const;
   struct Along {

@@ -15,7 +15,6 @@
 namespace nc::optimal {
 namespace {
 
-constexpr unsigned kIterations = 60;
 constexpr double kGap = 4e-4;       ///< of the time, that the result may be longer than the optimum
 constexpr double kGapOfDip = 1e-5;  ///< the same where the speed falls into a hole ...
 constexpr unsigned kDipSteps = 8;   ///< ... for which so many more steps are made, at most
@@ -396,7 +395,7 @@ void TimeLaw::finish(Law* law) {
   for (unsigned k = 1; k + 1 < n_; ++k) law->seconds += m.level[k] ? weight_[k] / std::sqrt(c_[k + kPad]) : 0;
 }
 
-void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law) {
+void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law, unsigned most) {
   mesh_ = &mesh;
   limits_ = &limits;
   law->ok = false;
@@ -415,7 +414,7 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law
   for (unsigned k = 0; k < n_ + 2 * kPad; ++k) dc_[k] = 0;
   find_time();
   Sums sums = rows(true, (again ? kGapAgain : kGapFirst) * time_ / rows_, again ? kSlackAgain : kSmallestSlack);
-  for (unsigned n = 0, more = 0; n < kIterations; ++n) {
+  for (unsigned n = 0, more = 0; n < most; ++n) {
     law->iterations = n;
     law->worst = sums.worst * kInside;
     if (sums.gap < kGap * time_ && sums.worst < 1.0005 && (sums.gap < kGapOfDip * time_ || more++ == kDipSteps || !dips())) {

@@ -19,6 +19,7 @@
 namespace nc::optimal {
 
 inline constexpr unsigned kMaxCells = 768;
+inline constexpr unsigned kMaxSteps = 60;  ///< of the solver, for one law
 
 /// The path at the joint of two cells; q''' may jump there.
 struct Knot {
@@ -62,7 +63,8 @@ class TimeLaw {
  public:
   /// The law of least time that ends at rest. !law->ok when none was found; nothing may then be done with it.
   /// `again`: the mesh is that of the last law, some limits are a little lower; it begins with that law.
-  void solve(const Mesh& mesh, const Limits& limits, bool again, Law* law);
+  /// `most`: steps until it gives up.
+  void solve(const Mesh& mesh, const Limits& limits, bool again, Law* law, unsigned most = kMaxSteps);
 
  private:
   static constexpr unsigned kPad = 2;

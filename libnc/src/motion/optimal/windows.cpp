@@ -209,7 +209,7 @@ NC_FOR_WIDE_VECTORS double Windows::tighten() {
 /// The law of the mesh, with less of the limits where it uses more than all of them.
 bool Windows::corrected() {
   for (unsigned n = 0; n < kTightened; ++n) {
-    time_law_.solve(mesh_, limits_, n > 0, &law_);
+    time_law_.solve(mesh_, limits_, n > 0, &law_, steps_);
     iterations_ += law_.iterations;
     solved_ += mesh_.cells;
     if (!law_.ok) return false;
@@ -365,6 +365,7 @@ bool Windows::law_to(const MeshRequest& request, const Limits& limits, const Goa
   request_ = request;
   period_ = goal.period;
   most_ = request.most;
+  steps_ = goal.steps;
   set_limits(limits);
   if (!solve(goal.once ? 1 : sizeof kAttempts / sizeof kAttempts[0])) return false;
   settle();

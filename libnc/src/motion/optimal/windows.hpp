@@ -33,6 +33,7 @@ class Windows {
   struct Goal {
     double period = 0.005;
     bool once = false;  ///< without a second try: the caller has other goals
+    unsigned steps = kMaxSteps;  ///< of the solver, for each law
   };
   bool law_to(const MeshRequest& request, const Limits& limits, const Goal& goal);
   /// The law in phases from the same place, which is looked at in the same way.
@@ -81,7 +82,7 @@ class Windows {
   double period_ = 0.005;
   double per_acceleration_[kMaxAxes] = {}, per_jerk_[kMaxAxes] = {};  ///< 1 / limit, 0 without one
   double stop_s_ = 0;  ///< so long before its end the last law may have been slowed by its stop
-  unsigned most_ = kMaxCells;
+  unsigned most_ = kMaxCells, steps_ = kMaxSteps;
   unsigned keep_ = 0, iterations_ = 0, solved_ = 0;
   bool more_ = false, failed_ = false;
   Mesher mesher_;

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// How soon a feed hold brings the axes to rest in the optimal mode, compared with the stop on the straight line along the tangent of the path:
+// by code of its own, from the positions of the last cycles before the hold. bench/motion/holds does the same with whole programs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "interpolate/test_machine.hpp"
+
+namespace nc::test {
+namespace {
+
+constexpr double kFeed = 100, kAcceleration = 2000, kJerk = 50000;
+constexpr uint64_t kBefore = 3000;  ///< cycles of a program in which a hold may begin, and in which it must end
+
+ExecutorConfig config_of() {
+  ExecutorConfig c = standard_config();
+  c.optimal = true;
+  c.capacity = 4096;
+  for (unsigned i = 0; i < c.axis_count; ++i) c.limits[i] = {250, 250, kAcceleration, kJerk, 0.01};
+  return c;
+}
+
+/// The shortest time in which a speed and an acceleration come to 0: the acceleration goes with the full jerk to a peak, stays there where
+/// that is its limit, and goes to 0.
+double to_rest(double v, double a, double most, double jerk) {
+  const double sign = v + a * std::fabs(a) / (2 * jerk) > 0 ? -1 : 1, from = sign * a, gain = -sign * v;
+  double peak = std::sqrt(std::max(0.0, jerk * gain + 0.5 * from * from)), stays = 0;
+  if (peak > most) {
+    peak = std::max(most, from);
+    stays = std::max(0.0, gain / peak - (2 * peak * peak - from * from) / (2 * jerk * peak));
+  }
+  return (2 * peak - from) / jerk + stays;
+}
+
+/// ms of that on the line along the tangent, from the positions of three cycles; < 0 at rest.
+double ideal_ms(const AxisVec& before, const AxisVec& last, const AxisVec& now, double dt) {
+  double v[3], a[3], speed = 0, along = 0, most = HUGE_VAL, jerk = HUGE_VAL;
+  for (unsigned i = 0; i < 3; ++i) {
+    v[i] = (now[i] - last[i]) / dt;
+    a[i] = (now[i] - 2 * last[i] + before[i]) / (dt * dt);
+    speed += v[i] * v[i];
+  }
+  speed = std::sqrt(speed);
+  if (!(speed > 1e-3)) return -1;
+  for (unsigned i = 0; i < 3; ++i) {
+    const double d = std::fabs(v[i]) / speed;
+    along += a[i] * v[i] / speed;
+    if (most * d > kAcceleration) most = kAcceleration / d;
+    if (jerk * d > kJerk) jerk = kJerk / d;
+  }
+  return 1e3 * to_rest(speed, along, most, jerk);
+}
+
+/// By how many ms the axes stand later than that. Not `moved`: the program has ended, or the axes rest there anyway.
+struct Late {
+  bool moved = false, stood = false;
+  double ms = 0;
+};
+/// The same for a hold in cycle `hold`.
+Late late(const Program& program, uint64_t hold) {
+  Machine m(config_of());
+  m.feed(program);
+  m.start();
+  Late out;
+  AxisVec place[3];
+  double ideal = 0;
+  for (uint64_t n = 0; n < hold + kBefore; ++n) {
+    if (n == hold) {
+      ideal = ideal_ms(place[2], place[1], place[0], m.config.cycle_s);
+      if (ideal < 0 || m.out.state != NC_STATE_RUNNING) return out;
+      out.moved = m.in.feed_hold = true;
+    }
+    m.feed(program);
+    m.cycle();
+    place[2] = place[1];
+    place[1] = place[0];
+    place[0] = m.command();
+    if (n >= hold && place[0] == place[1]) {
+      out.stood = true;
+      out.ms = 1e3 * m.config.cycle_s * static_cast<double>(n - hold) - ideal;
+      break;
+    }
+  }
+  EXPECT_LE(std::max({m.checker.worst_velocity, m.checker.worst_acceleration, m.checker.worst_jerk}), 1.001) << "hold in cycle " << hold;
+  return out;
+}
+
+struct Holds {
+  std::vector<double> ms;  ///< the least first
+  double quantile(double share) const { return ms[std::min(ms.size() - 1, static_cast<size_t>(share * static_cast<double>(ms.size())))]; }
+};
+Holds holds_in(const char* name, const Program& program, uint64_t from, uint64_t every) {
+  Holds all;
+  for (uint64_t n = from; n < kBefore; n += every) {
+    const Late one = late(program, n);
+    if (!one.moved) continue;
+    EXPECT_TRUE(one.stood) << name << ", hold in cycle " << n;
+    all.ms.push_back(one.ms);
+  }
+  std::sort(all.ms.begin(), all.ms.end());
+  EXPECT_GT(all.ms.size(), 15u) << name;
+  if (!all.ms.empty()) std::printf("%s: %zu holds, later than on a line by %.1f ms, 95 %% by %.1f, the worst by %.1f\n", name, all.ms.size(), all.quantile(0.5), all.quantile(0.95), all.ms.back());
+  return all;
+}
+
+Program ended(Program p) {
+  p.end();
+  return p;
+}
+void to(Program* p, double x, double y, double z, double feed) {
+  AxisVec end;
+  end[0] = x;
+  end[1] = y;
+  end[2] = z;
+  p->line(end, feed);
+  p->mark();
+}
+
+/// Nothing bends here: the time that the plan needs to be changed is all that there is.
+TEST(PlannedHold, OnAStraightLineItIsTheStopOfTheAxes) {
+  Program p(config_of());
+  for (unsigned n = 1; n <= 100; ++n) to(&p, n, 0.5 * n, 0, kFeed);
+  EXPECT_LE(holds_in("line", ended(p), 20, 37).ms.back(), 25);
+}
+
+/// At every place of these circles the bends take all that the axes may have.
+TEST(PlannedHold, OnCirclesThatUseAllLimitsAStopIsFoundSoon) {
+  Program p(config_of());
+  for (unsigned n = 1; n <= 600; ++n) {
+    const double angle = 2 * std::numbers::pi * n / 60;
+    to(&p, 3 * std::sin(angle) + 0.01 * n, 3 * (1 - std::cos(angle)), 0, kFeed);
+  }
+  const Holds all = holds_in("circles", ended(p), 25, 29);
+  EXPECT_LE(all.quantile(0.5), 110);
+  EXPECT_LE(all.ms.back(), 125);
+}
+
+TEST(PlannedHold, OnANoisySurfaceAStopIsFoundSoon) {
+  std::mt19937_64 rng(5);
+  Program p(config_of());
+  for (unsigned n = 1; n <= 3000; ++n) {
+    const double x = 0.05 * n;
+    to(&p, x, 0, 3 * std::sin(0.6 * x) + std::uniform_real_distribution<double>(-0.001, 0.001)(rng), kFeed);
+  }
+  const Holds all = holds_in("surface", ended(p), 25, 29);
+  EXPECT_LE(all.quantile(0.5), 60);
+  EXPECT_LE(all.ms.back(), 110);
+}
+
+TEST(PlannedHold, InAWildPolylineAStopIsFoundSoon) {
+  std::mt19937_64 rng(7);
+  Program p(config_of());
+  double heading = 0, x = 0, y = 0;
+  for (unsigned n = 1; n <= 400; ++n) {
+    heading += std::uniform_real_distribution<double>(-1.2, 1.2)(rng);
+    const double l = std::uniform_real_distribution<double>(0.05, 1)(rng);
+    to(&p, x += l * std::cos(heading), y += l * std::sin(heading), 0, kFeed);
+  }
+  const Holds all = holds_in("polyline", ended(p), 25, 29);
+  EXPECT_LE(all.quantile(0.95), 25.5);
+  EXPECT_LE(all.ms.back(), 35);
+}
+
+}  // namespace
+}  // namespace nc::test
