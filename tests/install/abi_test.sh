@@ -36,7 +36,7 @@ breaks 'another number of an enumerator that is given as a byte' item.h 's/^  NC
 breaks 'another value of a constant' types.h 's/^#define NC_MAX_TEXT 128/#define NC_MAX_TEXT 129/'
 passes 'an enumerator more' types.h 's/^(  NC_E_READ = -5)/\1,\n  NC_E_LATER = -6/'
 passes 'a function more' types.h 's/^(NC_API const char\* nc_status_text)/NC_API int nc_later(int what);\n\1/'
-passes 'a struct with size that grows at its end' run.h 's/^(  uint8_t joint_faults; .*)$/\1\n  double later;/'
+passes 'a struct with size that grows at its end' run.h 's/^(  uint64_t handle_dropped;.*)$/\1\n  double later;/'
 
 if [ -z "${NC_SANITIZE:-}" ] && command -v readelf >/dev/null; then
   number=$(sed -n 's/^set(NC_ABI \([0-9]*\)).*/\1/p' "$NC_SOURCE_DIR/libnc/cmake/abi.cmake")

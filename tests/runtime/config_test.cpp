@@ -129,7 +129,7 @@ const Case kCases[] = {
     {"range_half", "name = \"test\"", "variable_ranges = [{first = 400}]", "machine.variable_ranges[1].last", "is missing"},
     {"extended", "name = \"test\"", "extended_variables = 1", "machine.extended_variables", "true or false"},
     {"extensions", "name = \"test\"", "macro_extensions = \"on\"", "machine.macro_extensions", "true or false"},
-    {"dialect", "name = \"test\"", "dialect = \"hx\"", "machine.dialect", "\"m700\" or \"dgshape\""},
+    {"dialect", "name = \"test\"", "dialect = \"hx\"", "machine.dialect", "\"m700\", \"dgshape\" or \"iso\""},
     {"hal", "name = \"test\"", "hal = \"ethercat\"", "machine.hal", "must be \"sim\""},
     {"duplicate_axis", "name = \"Y\"", "name = \"X\"", "axis[2].name", "already there"},
     {"axis_name", "name = \"Y\"", "name = \"Q\"", "axis[2].name", "one letter of"},

@@ -138,7 +138,7 @@ expect 1 "$ncrtd"
 expect 1 "$ncrtd" --config "$machine"
 expect 1 "$ncrtd" --config "$machine" run
 expect 1 "$ncrtd" --config "$machine" run --dialect hx x.nc
-said err "--dialect: must be one of m700, dgshape, is hx"
+said err "--dialect: must be one of m700, dgshape, iso, is hx"
 for option in --plot --share --dialect; do
   expect 1 "$ncrtd" --config "$machine" run --fast "$option" "" x.nc
   said err "$option: must"
