@@ -97,15 +97,23 @@ bool ExpressionCompiler::ngc_bracket(unsigned depth) {
   return at_.accept(']') || fail(unclosed(Condition::calculation));
 }
 
-/// Behind '#': the value of the parameter whose number, or name, stands here.
+/// Behind '#': the value of the parameter whose number, or name, stands here; each further '#' takes the value before it as a number. They are
+/// counted and not followed by a call each: a line of nothing else must not need the stack of a firmware.
 bool ExpressionCompiler::ngc_parameter(unsigned depth) {
+  unsigned more = 0;
+  while (at_.accept('#')) ++more;
   const char c = at_.peek();
-  if (c == '<') return ngc_name(Op::named);
-  if (is_digit(c)) {
-    uint32_t number = 0;
-    return ngc_index(&number) && variable_code(number) && emit(Op::zero_for_vacant);
+  uint32_t number = 0;
+  bool good = false;
+  if (c == '<') {
+    good = ngc_name(Op::named);
+  } else if (is_digit(c)) {
+    good = ngc_index(&number) && variable_code(number) && emit(Op::zero_for_vacant);
+  } else {
+    good = ngc_number(depth) && emit(Op::load) && emit(Op::zero_for_vacant);
   }
-  return ngc_number(depth) && emit(Op::load) && emit(Op::zero_for_vacant);
+  for (; good && more > 0; --more) good = emit(Op::load) && emit(Op::zero_for_vacant);
+  return good;
 }
 
 /// A number of a parameter that is a value itself: ##2, #[1+2].
