@@ -201,6 +201,56 @@ TEST(SharedTables, OnePartSystemDoesNotWait) {
   EXPECT_EQ(item.u.sync.what, NC_SYNC_SHARED);
 }
 
+/// What stood there before the first write comes back when both have been taken back, whichever goes first.
+TEST(SharedTables, BothGoBack) {
+  for (const bool writer_first : {false, true}) {
+    SCOPED_TRACE(writer_first);
+    Pair pair;
+    pair.bench.var(500, 9).tool(1, 9).param("1304", "600");
+    const auto last_common = [&](unsigned system) {
+      double last = 0;
+      EXPECT_EQ(nc_parameter_get(pair.control(), system, "1304", 0, &last), NC_OK);
+      return last;
+    };
+    pair.run(0, "#500=1\n#2001=1\nG10 L70\nP1304 D610\nG11\nM30");
+    pair.run(1, "#500=2\n#2001=2\nG10 L70\nP1304 D620\nG11\nM30");
+    ASSERT_EQ(nc_rewind(pair.control(), writer_first ? 0 : 1, 0), NC_OK);
+    pair.expect(500, writer_first ? 2 : 1);
+    EXPECT_EQ(pair.bench.tool_now(1), writer_first ? 2 : 1);
+    for (unsigned system = 0; system < 2; ++system) EXPECT_EQ(last_common(system), writer_first ? 620 : 610);
+    ASSERT_EQ(nc_rewind(pair.control(), writer_first ? 1 : 0, 0), NC_OK);
+    pair.expect(500, 9);
+    EXPECT_EQ(pair.bench.tool_now(1), 9);
+    for (unsigned system = 0; system < 2; ++system) EXPECT_EQ(last_common(system), 600);
+  }
+  Pair pair;  // what the host has written between them is not touched
+  pair.run(0, "#500=1\nM30");
+  ASSERT_EQ(nc_variable_set(pair.control(), 0, 500, 7, false), NC_OK);
+  pair.run(1, "#500=2\nM30");
+  ASSERT_EQ(nc_rewind(pair.control(), 0, 0), NC_OK);
+  pair.expect(500, 2);
+  ASSERT_EQ(nc_rewind(pair.control(), 1, 0), NC_OK);
+  pair.expect(500, 7);
+  ASSERT_EQ(nc_reset(pair.control(), 0), NC_OK);
+  pair.run(0, "#500=3\nM30");
+  ASSERT_EQ(nc_reset(pair.control(), 0), NC_OK);  // for good
+  pair.finish(1);
+  pair.expect(500, 2);
+  ASSERT_EQ(nc_rewind(pair.control(), 1, 0), NC_OK);
+  pair.expect(500, 3);
+}
+
+/// More than is remembered: refused, and nothing is changed.
+TEST(SharedTables, TooFarBack) {
+  Pair pair;
+  pair.run(0, "#500=1\nM30");
+  pair.run(1, "WHILE[#501LT9000]DO1\n#501=#501+1\nG4 P1\nEND1\nM30");
+  EXPECT_EQ(nc_rewind(pair.control(), 1, 0), NC_E_NOT_FOUND);
+  EXPECT_EQ(nc_rewind(pair.control(), 0, 0), NC_E_NOT_FOUND);
+  pair.expect(500, 1);
+  pair.expect(501, 9000);
+}
+
 TEST(SharedTables, GoingBackKeepsWhatTheOtherHasWritten) {
   for (const bool other_first : {false, true}) {
     SCOPED_TRACE(other_first);
@@ -448,7 +498,7 @@ TEST(SharedTables, RandomProgramsOffline) {
     Pair pair;
     Model model;
     Program program[2] = {random_program(dice), random_program(dice)};
-    std::vector<uint64_t> marks;  // of the first part system
+    std::vector<uint64_t> of_system[2];  // the marks
     for (unsigned i = 0; i < 2; ++i) pair.select(i, program[i].text);
     nc_item item{};
     for (unsigned n = 0; n < 300; ++n) {
@@ -459,7 +509,7 @@ TEST(SharedTables, RandomProgramsOffline) {
         const Access access = program[i].at[item.source.line];
         if (item.kind != NC_ITEM_MARK) continue;
         model.execute(i, item.serial, access);
-        if (i == 0) marks.push_back(item.serial);
+        of_system[i].push_back(item.serial);
         if (access.kind != Access::read) continue;
         const double value = pair.var(i, 100 + access.place);
         ASSERT_EQ(std::isnan(value) ? 0 : value, before.value(Access::variable, 500 + access.place)) << "line " << item.source.line;
@@ -468,17 +518,17 @@ TEST(SharedTables, RandomProgramsOffline) {
       if (dice.chance(4)) {
         ASSERT_EQ(nc_reset(pair.control(), i), NC_OK);
         model.forget(i);
-        if (i == 0) marks.clear();
+        of_system[i].clear();
       } else if (dice.chance(4)) {
         ASSERT_EQ(nc_reset(pair.control(), i), NC_OK);
         program[i] = random_program(dice);
         pair.select(i, program[i].text);
         model.forget(i);
-        if (i == 0) marks.clear();
-      } else if (dice.chance(4) && marks.size() > 1) {
+        of_system[i].clear();
+      } else if (std::vector<uint64_t>& marks = of_system[i]; dice.chance(4) && marks.size() > 1) {
         marks.resize(static_cast<size_t>(dice.draw(1, static_cast<int>(marks.size()))));
-        if (nc_rewind(pair.control(), 0, marks.back()) == NC_OK) {
-          model.take_back(0, marks.back());
+        if (nc_rewind(pair.control(), i, marks.back()) == NC_OK) {
+          model.take_back(i, marks.back());
           ++ways_back;
         }
       }

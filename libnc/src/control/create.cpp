@@ -30,6 +30,8 @@ nc_control* lay_out(const nc_config& config, nc::Arena& arena) {
       common.create(ranges, arena);
       system.create(config, i, dialect, {&store, &common, &vendor}, arena);
     }
+    nc::SharedTables shared;
+    if (config.system_count > 1) shared.create(config.system_count, config.look_ahead, arena);
     return nullptr;
   }
   control->config = config;
@@ -45,6 +47,8 @@ nc_control* lay_out(const nc_config& config, nc::Arena& arena) {
     control->any_joints = control->any_joints || control->joints[i].any();
     if (arena.overflowed()) return nullptr;
   }
+  if (config.system_count > 1) control->shared.create(config.system_count, config.look_ahead, arena);
+  if (arena.overflowed()) return nullptr;
   for (unsigned i = 0; i < config.system_count && config.system_count > 1; ++i)
     control->system[i].join(control->system, config.system_count, &control->shared);
   return control;

@@ -42,7 +42,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   const unsigned under_way = power_of_two_above(2 * config.look_ahead + 256);
   parameters.create(512, arena);
   frames.create(config.frames, arena);
-  variables.create(common, power_of_two_above(4 * config.look_ahead < 4096 ? 4096 : 4 * config.look_ahead), arena);
+  variables.create(common, journal_capacity(config.look_ahead), arena);
   if (dialect->lex->formula == Formula::ngc) variables.create_named(arena);
   reader.create(store, dialect->lex, config.window_bytes, config.look_ahead < 256 ? 16 : 128, arena);
   transforms.create(under_way, arena);
@@ -61,6 +61,10 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
     reset();
     ended = true;  // nothing is selected yet
   }
+}
+
+unsigned Interpreter::journal_capacity(unsigned look_ahead) {
+  return power_of_two_above(4 * look_ahead < 4096 ? 4096 : 4 * look_ahead);
 }
 
 void Interpreter::set_table_from_outside(unsigned key, double value) {
@@ -116,7 +120,10 @@ void Interpreter::reset(bool keep_modal) {
   state.frame[0].offset = state.frame[0].begin = main_program.offset;
   state.frame[0].line = state.frame[0].begin_line = main_program.line;
   variables.clear_locals(1);
-  if (shared != nullptr) shared->publish(*this, ~BlockSeq{0});  // what is not taken back by now has been executed
+  if (shared != nullptr) {
+    shared->publish(*this, ~BlockSeq{0});  // what is not taken back by now has been executed
+    shared->keep_for_good(*this);
+  }
   variables.forget();
   ProgramRecords left = *records;
   begin_program(left, keep_modal, dialect->rules.reference.forgets_with_program);
@@ -205,9 +212,10 @@ void Interpreter::clear_by_reset() {
 
 /// What blocks behind `seq` have written; false: the journal does not reach back that far.
 bool Interpreter::take_back(BlockSeq seq) {
+  if (shared != nullptr && !shared->reaches(*this, seq)) return false;
   if (!variables.rewind(seq, this, undo)) return false;
   if (settings_stale_) refresh_settings();
-  if (shared != nullptr) shared->publish_taken_back(*this);
+  if (shared != nullptr) shared->take_back(*this, seq);
   return true;
 }
 

@@ -32,6 +32,9 @@ struct AlarmStory {
 struct Interpreter : BlockContext {
   void create(const InterpreterConfig& config, ProgramStore* store, CommonVariables* common, Arena& arena);
 
+  /// How many old values are kept: a few of each block that is read ahead, and all of a block that writes many.
+  static unsigned journal_capacity(unsigned look_ahead);
+
   // ---- the stream ---------------------------------------------------------------------------------------------------
   /// Makes more items: NC_OK (look at `queue`), NC_WAITING (a sync is open), NC_BUDGET, NC_ENDED, NC_ALARMED.
   nc_status step(uint32_t& budget);
@@ -55,9 +58,9 @@ struct Interpreter : BlockContext {
   bool rewind(BlockSeq seq);
   /// Tables, variables and parameters are as block `seq` has left them (back), and again as they were: for a look from outside, without a write.
   void look_back(BlockSeq seq, bool back) { variables.swap(seq, back, this, exchange); }
-  /// rewind(seq) is possible, and still will be when one more block has been executed.
   /// The program is selected, in the call stack now or after a rewind, in a modal call or the interrupt program.
   bool refers_to(unsigned file) const;
+  /// rewind(seq) is possible, and still will be when one more block has been executed.
   bool remembers(BlockSeq seq) const { return checkpoints_.keeps(seq) && variables.keeps(seq); }
   /// Forget checkpoints; go on from here (position of the machine).
   void set_machine(const AxisVec& machine);

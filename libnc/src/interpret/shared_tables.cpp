@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "interpret/shared_tables.hpp"
 
+#include <bit>
+
 #include "interpret/interpreter.hpp"
 #include "interpret/journal_keys.hpp"
 
@@ -31,6 +33,16 @@ void take(Interpreter& in, uint32_t key, JournalValue value) {
 
 }  // namespace
 
+void SharedTables::create(unsigned systems, unsigned look_ahead, Arena& arena) {
+  history_.create(std::bit_ceil(systems) * Interpreter::journal_capacity(look_ahead), arena);
+}
+
+unsigned SharedTables::number_of(const Interpreter& in) const {
+  unsigned number = 0;
+  while (system_[number] != &in) ++number;
+  return number;
+}
+
 void SharedTables::join(Interpreter& in) {
   system_[count_++] = &in;
   last_100_ = in.settings.shared_100;
@@ -51,43 +63,65 @@ bool SharedTables::shares(const Interpreter& in, uint32_t key) {
 void SharedTables::publish(Interpreter& writer, BlockSeq executed) {
   writer.variables.journal().publish(
       executed, [&](uint32_t key) { return shares(writer, key); },
-      [&](uint32_t key, const JournalValue* value) { publish_to_others(writer, key, value); });
+      [&](BlockSeq seq, uint32_t key, JournalValue before, const JournalValue* value) {
+        uint32_t first = 0;
+        if (same_place(*system_[0], writer, key, &first)) history_.note(number_of(writer), seq, first, before);
+        publish_to_others(writer, key, value != nullptr ? *value : value_of(writer, key));
+      });
 }
 
-void SharedTables::publish_taken_back(Interpreter& writer) {
-  writer.variables.journal().each_published_taken_back([&](uint32_t key) {
-    if (shares(writer, key)) publish_to_others(writer, key, nullptr);
+void SharedTables::take_back(Interpreter& writer, BlockSeq seq) {
+  history_.take_out(number_of(writer), seq, [&](uint32_t key, JournalValue value) {
+    Interpreter& first = *system_[0];
+    if (!shares(first, key)) return;
+    take(first, key, value);
+    publish_to_others(first, key, value);
   });
 }
 
-void SharedTables::publish_to_others(const Interpreter& writer, uint32_t key, const JournalValue* value) {
-  const JournalValue published = value != nullptr ? *value : value_of(writer, key);
+/// The key that a shared place of `from` has in `to`. Parameters are numbered by each part system as they are set; as many fit into each of
+/// them, and common ones are common to the tables.
+bool SharedTables::same_place(Interpreter& to, const Interpreter& from, uint32_t key, uint32_t* there) {
+  *there = key;
+  if (key < kParameterKey || &to == &from) return true;
+  unsigned index = 0;
+  if (!to.parameters.same_entry(from.parameters, key - kParameterKey, &index)) return false;
+  *there = kParameterKey + index;
+  return true;
+}
+
+void SharedTables::publish_to_others(const Interpreter& writer, uint32_t key, JournalValue value) {
   for (unsigned i = 0; i < count_; ++i) {
-    if (system_[i] == &writer) continue;
-    if (key < kParameterKey) {
-      take(*system_[i], key, published);
-      continue;
-    }
-    unsigned index = 0;  // as many parameters fit into each part system, and common ones are common to the tables
-    if (system_[i]->parameters.same_entry(writer.parameters, key - kParameterKey, &index)) take(*system_[i], kParameterKey + index, published);
+    uint32_t there = 0;
+    if (system_[i] != &writer && same_place(*system_[i], writer, key, &there)) take(*system_[i], there, value);
   }
   if (key >= kParameterKey) divide_again(writer.settings.shared_100, writer.settings.shared_500);
 }
 
+/// No rewind brings back what stood in the place of `in` before.
+void SharedTables::changed_by_host(const Interpreter& in, uint32_t key) {
+  uint32_t first = 0;
+  if (same_place(*system_[0], in, key, &first)) history_.replace(first, value_of(in, key));
+}
+
 void SharedTables::set_variable(uint32_t number, Value value) {
   for (unsigned i = 0; i < count_; ++i) system_[i]->variables.set_from_outside(number, 0, value);
+  changed_by_host(*system_[0], number);
 }
 
 void SharedTables::set_name(uint32_t number, const char* name) {
   for (unsigned i = 0; i < count_; ++i) system_[i]->variables.name_from_outside(number, name);
+  changed_by_host(*system_[0], Variables::name_key(number));
 }
 
 void SharedTables::set_tool(unsigned key, double value) {
   for (unsigned i = 0; i < count_; ++i) system_[i]->set_table_from_outside(key, value);
+  changed_by_host(*system_[0], kFrameKey + key);
 }
 
 void SharedTables::parameter_changed(const Interpreter& in, unsigned index) {
   if (!in.parameters.is_common(index)) return;
+  changed_by_host(in, kParameterKey + index);
   for (unsigned i = 0; i < count_; ++i) {
     Interpreter& other = *system_[i];
     unsigned there = 0;
@@ -120,6 +154,7 @@ void SharedTables::divide_again(uint32_t first, uint32_t end, bool common) {
     if (!one.common->exists(number) || !one.common->divided(number)) continue;
     const JournalValue kept = one.variables.journal().published(number, Variables::journalled(one.common->get(number)));
     for (unsigned i = 1; i < count_; ++i) take(*system_[i], number, common ? kept : Variables::journalled(Value{}));
+    history_.replace(number, kept);
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 
+#include "interpret/shared_history.hpp"
 #include "macro/variables.hpp"
 #include "stream/stream.hpp"
 
@@ -22,14 +23,20 @@ struct Interpreter;
 /// All calls are made by the feeder's thread.
 class SharedTables {
  public:
+  /// For `systems` part systems that look `look_ahead` blocks ahead.
+  void create(unsigned systems, unsigned look_ahead, Arena& arena);
   /// All part systems of a control, once, when they have been created.
   void join(Interpreter& in);
 
   /// The machine has executed the blocks of `writer` up to `executed`.
   void publish(Interpreter& writer, BlockSeq executed);
-  /// Blocks of `writer` have been taken back, and some of them had been published: offline, where a host can go back to any mark. What another
-  /// part system has written since stays.
-  void publish_taken_back(Interpreter& writer);
+  /// Offline a host can go back to any mark. False: of what `writer` has published since block `seq` some is no longer known.
+  bool reaches(const Interpreter& writer, BlockSeq seq) const { return history_.reaches(number_of(writer), seq); }
+  /// Blocks of `writer` behind `seq` have been taken back: what of theirs had been published is taken back as well. What another part system has
+  /// written since stays.
+  void take_back(Interpreter& writer, BlockSeq seq);
+  /// All that `writer` has published stays: its program has ended or was given up.
+  void keep_for_good(const Interpreter& writer) { history_.keep_for_good(number_of(writer)); }
 
   // What the host writes is so for all of them, and no rewind undoes it.
   void set_variable(uint32_t number, Value value);
@@ -42,11 +49,15 @@ class SharedTables {
   static bool shares(const Interpreter& in, uint32_t key);
 
  private:
-  void publish_to_others(const Interpreter& writer, uint32_t key, const JournalValue* value);
+  void changed_by_host(const Interpreter& in, uint32_t key);
+  unsigned number_of(const Interpreter& in) const;
+  void publish_to_others(const Interpreter& writer, uint32_t key, JournalValue value);
+  static bool same_place(Interpreter& to, const Interpreter& from, uint32_t key, uint32_t* there);
   void divide_again(uint32_t last_100, uint32_t last_500);
   void divide_again(uint32_t first, uint32_t end, bool common);
   Interpreter* system_[NC_MAX_SYSTEMS] = {};
   unsigned count_ = 0;
+  SharedHistory history_;  ///< by the keys of the first part system
   uint32_t last_100_ = 0, last_500_ = 0;  ///< as the copies are divided now
 };
 

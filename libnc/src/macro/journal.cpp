@@ -31,7 +31,7 @@ bool Journal::keeps(BlockSeq seq, unsigned more) const {
 
 void Journal::clear() {
   head_ = tail_ = 0;
-  published_ = published_before_ = 0;
+  published_ = 0;
   lost_ = 0;
 }
 

@@ -56,8 +56,8 @@ class Journal {
   void replace(uint32_t key, JournalValue value, uint64_t mask = ~uint64_t{0});
 
   // ---- of several part systems
-  /// Blocks up to `executed` have been executed: give(key, value) is called for each key of theirs that is shared(key), with the value that they
-  /// have left, nullptr where it is the present one. Once for each entry.
+  /// Blocks up to `executed` have been executed: give(seq, key, before, value) is called for each key of theirs that is shared(key), with the
+  /// block, what stood there before it and the value that it has left, nullptr where that is the present one. Once for each entry.
   template <class Shared, class Give>
   void publish(BlockSeq executed, Shared&& shared, Give&& give);
   /// Another part system has executed a write to `key` before the blocks of this journal that are not published: no rewind brings an older value
@@ -65,9 +65,6 @@ class Journal {
   bool precede(uint32_t key, JournalValue value);
   /// The value that `key` has behind the published blocks; `present` is the one that it has now.
   JournalValue published(uint32_t key, JournalValue present) const;
-  /// What the last rewind() has taken back although it was published: take(key).
-  template <class Take>
-  void each_published_taken_back(Take&& take) const;
   /// Called with the block of an entry that is not published yet and is going to be lost.
   void before_loss(void* self, void (*call)(void* self, BlockSeq seq)) {
     loser_ = self;
@@ -91,15 +88,13 @@ class Journal {
   uint32_t mask_ = 0;
   uint64_t head_ = 0, tail_ = 0;
   BlockSeq lost_ = 0;
-  uint64_t published_ = 0;        ///< entries below this number are
-  uint64_t published_before_ = 0; ///< the same before the last rewind
+  uint64_t published_ = 0;  ///< entries below this number are
   void* loser_ = nullptr;
   void (*before_loss_)(void* self, BlockSeq seq) = nullptr;
 };
 
 template <class Undo>
 void Journal::rewind(BlockSeq seq, Undo&& undo) {
-  published_before_ = published_;
   while (head_ != tail_ && ring_[(head_ - 1) & mask_].seq > seq) {
     --head_;
     const Entry& e = ring_[head_ & mask_];
@@ -111,18 +106,13 @@ void Journal::rewind(BlockSeq seq, Undo&& undo) {
 template <class Shared, class Give>
 void Journal::publish(BlockSeq executed, Shared&& shared, Give&& give) {
   while (published_ != head_ && ring_[published_ & mask_].seq <= executed) {
-    const uint32_t key = ring_[published_++ & mask_].key;
-    if (!shared(key)) continue;
+    const Entry written = ring_[published_++ & mask_];
+    if (!shared(written.key)) continue;
     uint64_t newer = published_;
-    while (newer != head_ && ring_[newer & mask_].key != key) ++newer;
+    while (newer != head_ && ring_[newer & mask_].key != written.key) ++newer;
     const JournalValue then = ring_[newer & mask_].value();
-    give(key, newer != head_ ? &then : nullptr);
+    give(written.seq, written.key, written.value(), newer != head_ ? &then : nullptr);
   }
-}
-
-template <class Take>
-void Journal::each_published_taken_back(Take&& take) const {
-  for (uint64_t i = head_; i < published_before_; ++i) take(ring_[i & mask_].key);
 }
 
 template <class Exchange>

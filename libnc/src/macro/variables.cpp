@@ -160,10 +160,12 @@ void Variables::clear_locals(BlockSeq seq) {
   for (unsigned level = 0; level < kLocalLevels; ++level) enter(level, kNoArguments, seq);
 }
 
+uint32_t Variables::name_key(uint32_t number) { return kNameKey | (number - kFirstWithName); }
+
 bool Variables::set_name(uint32_t number, const char* name, size_t length, BlockSeq seq) {
   const uint32_t index = number - kFirstWithName;
   if (index >= kNames || !common_->exists(number) || length > kNameLength) return false;
-  journal_.note(seq, kNameKey | index, JournalValue::of(common_->name(index)));
+  journal_.note(seq, name_key(number), JournalValue::of(common_->name(index)));
   common_->set_name(index, name_of_text(name, length));
   return true;
 }
@@ -179,7 +181,7 @@ bool Variables::name_from_outside(uint32_t number, const char* name) {
   if (index >= kNames || !common_->exists(number)) return false;
   const VariableName given = name_of_text(name, length);
   common_->set_name(index, given);
-  journal_.replace(kNameKey | index, JournalValue::of(given));
+  journal_.replace(name_key(number), JournalValue::of(given));
   return true;
 }
 

@@ -79,6 +79,8 @@ class Variables {
   /// How a variable's value stands in the journal, and back.
   static JournalValue journalled(Value value) { return JournalValue::of(value.number, value.vacant ? kVacantKind : kNumberKind); }
   static Value variable(JournalValue value) { return {value.as<double>(), value.kind == kVacantKind}; }
+  /// The key of a variable's name.
+  static uint32_t name_key(uint32_t number);
   /// What a key stands for now; a foreign one is the caller's.
   JournalValue value_of(uint32_t key) const;
   Journal& journal() { return journal_; }
