@@ -380,9 +380,14 @@ void Smoother::pieces() {
         const Piece& b = out_[k - 1];
         p.c[0][i] = b.c[0][i] + b.length * (b.c[1][i] + b.length * (b.c[2][i] + b.length * b.c[3][i]));
       }
-      p.c[1][i] = slope;
       p.c[2][i] = f2 / 2;
       p.c[3][i] = (f3 - f2) / (6 * h);
+      // Beside a corner the knots are so near to one another that the rounding of their control values is 1e-12 of a slope: at the end of a long
+      // cell that would be a place beside the line. So the cell leads to where the spline is at its end, as far as rounding may turn it.
+      const double before = d[k + 1][i] + w2 / 3 * (t(c + 1) - t(c - 1)) * (d[k + 2][i] - d[k + 1][i]),
+                   behind = d[k + 2][i] + w3 / 3 * h * (d[k + 3][i] - d[k + 2][i]);
+      const double missed = before + (behind - before) * h / g1 - (p.c[0][i] + h * (slope + h * (p.c[2][i] + h * p.c[3][i])));
+      p.c[1][i] = slope + std::clamp(missed / h, -kRounding, kRounding);
     }
     if (in_.line.feed == nullptr) continue;
     if (one_feed_) {
