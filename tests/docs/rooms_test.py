@@ -88,12 +88,16 @@ class Rooms(unittest.TestCase):
 
     def test_what_is_one(self):
         for text in ('//   path/*.cpp\n#include "path/b.hpp"\n// */\n', 'const char* t = "/*";\n#  include "path/b.hpp"\n// */\n', "#ifdef X\n #include \"path/b.hpp\"\n#endif\n",
-                     "const char q = '\"';\n#include \"path/b.hpp\"\n"):
+                     "const char q = '\"';\n#include \"path/b.hpp\"\n", "#include <path/b.hpp>\n", '#include "../path/b.hpp"\n', '#include "../base/./../path/b.hpp"\n'):
             self.assertEqual(self.check({**self.CHAIN, "libnc/src/base/a.hpp": text})[0], 1, text)
 
     def test_private_header(self):
         users = {"libnc/src/interpret/functions/f.cpp": include("interpret/interpreter.hpp"), "tests/interpret/t.cpp": include("interpret/interpreter.hpp")}
         self.assertEqual(self.check(users), (0, ""))
+        for header in ('"../interpret/interpreter.hpp"', "<interpret/interpreter.hpp>", '"../../src/interpret/interpreter.hpp"'):
+            status, output = self.check({**users, "libnc/src/control/c.cpp": f"#include {header}\n"})
+            self.assertEqual(status, 1, header)
+            self.assertIn(f"{INTERPRETER} is private", output)
         for user in ("libnc/src/control/c.cpp", "tools/lib/l.cpp"):
             status, output = self.check({**users, user: include("interpret/interpreter.hpp")})
             self.assertEqual(status, 1)
