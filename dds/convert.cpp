@@ -97,7 +97,7 @@ void MachineSample::fill(const share::MachineBlock& machine, const char* partiti
   set(info.name, machine.machine);
   set(info.version, machine.version);
   const char* const dialect = nc_dialect_name(static_cast<nc_dialect>(machine.dialect));
-  set(info.dialect, dialect != nullptr ? dialect : "");  // "": of a later version
+  set(info.dialect, dialect != nullptr ? dialect : "");  // "" = a later version runs there, with a dialect that this one does not know
   info.part_systems = machine.system_count;
   info.cycle_us = machine.cycle_us;
   info.max_feed_override = machine.max_feed_override;

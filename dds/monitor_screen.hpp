@@ -10,7 +10,7 @@
 
 namespace nc::dds {
 
-// A page from this line on; behind its end it begins again, and *line is 0.
+// The page from line *line on. Where the page has fewer lines, *line becomes 0 and the page begins at its head.
 std::string from_line(const std::string& page, std::size_t* line);
 
 // As much of a page as fits, with the codes that put it over what the terminal showed before. The last row stays free.

@@ -53,7 +53,7 @@ struct PointBusKind {
   // [[<name>]], before the points: appends to Config::buses.
   void (*read)(TableReader* root, Config* config);
   PlaceOnBus (*read_point)(TableReader* point, const hal::Point& point_so_far, Config* config);
-  // Behind the points: what only all of them show. May be null.
+  // Looks, after all points have been read, for mistakes that one point alone does not show. May be null.
   void (*check)(TableReader* root, const Config& config);
   // What the bus has for itself alone (runtime/machine_lock.hpp). May be null: nothing.
   void (*resources)(const Config& config, const PointBusConfig& bus, std::vector<MachineResource>* resources);

@@ -47,10 +47,10 @@ class LadderTask final : public LadderHook {
   std::uint32_t read_device(const std::string& name, bool direct);
 
   // ---- retained devices ----
-  // Not while it is scanned.
+  // To be called only while no scan runs.
   void restore(const std::vector<RetainedRow>& rows);
   std::vector<RetainedRow> retained() const;
-  // One other thread, while it is scanned: a copy is asked for, and taken when it is there.
+  // For one other thread while scans run: the first asks for a copy, the second takes it and is false until it is there.
   void want_retained();
   bool take_retained(std::vector<RetainedRow>* rows);
 

@@ -69,7 +69,7 @@ class Runtime {
 
   // How programs are found by name. Before the start.
   void set_program_loader(ProgramLoader loader) { feeder_->set_program_loader(std::move(loader)); }
-  // What is to be done so that new MDI blocks call sub programs as they are now. Before the start.
+  // Called in front of new MDI blocks, to enter the present texts of the sub programs that they may call. To be set before the start.
   void set_program_refresh(ProgramRefresh refresh) { feeder_->set_program_refresh(std::move(refresh)); }
   // Says which files have changed meanwhile. Before the start.
   void set_changed_programs(ChangedPrograms changed) { feeder_->set_changed_programs(std::move(changed)); }

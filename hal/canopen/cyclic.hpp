@@ -39,8 +39,8 @@ inline constexpr std::int8_t kModeHoming = 6, kModeCyclicPosition = 8;
 struct AxisWanted {
   std::int64_t target = 0;  // increments
   bool on = false;
-  bool reset = false;       // faults are forgotten, and a drive's is reset
-  bool home = false;        // level; its rise begins
+  bool reset = false;       // forget faults; where the drive has one, reset it, too
+  bool home = false;        // homing begins when it goes on
 };
 struct BusWanted {
   std::uint64_t serial = 0;  // counts the scans

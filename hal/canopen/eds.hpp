@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drive's electronic data sheet (CiA 306): which objects it has, how long they are, and whether a PDO can carry them. It is looked at before
-// the drive is, so that a mapping that cannot be is an error of the configuration with its line.
+// A drive's electronic data sheet (CiA 306): which objects it has, how long they are, and whether a PDO can carry them. It is read before
+// anything is sent to the drive, so that an impossible mapping is an error of the configuration with its line.
 #pragma once
 
 #include <cstdint>

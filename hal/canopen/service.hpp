@@ -29,7 +29,7 @@ class Service {
 
   // ---- any thread ----
   bool all_operational() const;
-  // Nodes that lack, and what is wrong with each: "node 3 (y): no answer"; empty = all are operational.
+  // Nodes that are not operational, and what is wrong with each: "node 3 (y): no answer"; empty = all are.
   std::string missing() const;
   bool refused() const;  // one of them cannot be set up
 

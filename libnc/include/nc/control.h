@@ -36,7 +36,7 @@ typedef struct nc_axis_config {
 
 /** One part system. */
 typedef struct nc_system_config {
-  uint8_t axis_count;
+  uint8_t axis_count;      /**< 1..NC_MAX_AXES */
   nc_axis_config axis[NC_MAX_AXES];
   uint8_t spindle_count;   /**< 1..NC_MAX_SPINDLES; 0 = one */
   uint64_t spindle_unsigned; /**< bit n: nc_inputs::spindle[n] is measured without a sign, so that threads do not ask which way it turns */
@@ -49,7 +49,7 @@ typedef enum nc_motion_mode {
   NC_MOTION_OPTIMAL = 1    /**< the least time that keeps velocity, acceleration and jerk of every axis; each axis needs all three */
 } nc_motion_mode;
 
-/** Common variables that a machine has beside those of its option: #400 to #499. */
+/** Common variables that a machine has beside those of its option, for example #400 to #499. */
 typedef struct nc_variable_range {
   uint32_t first, last;    /**< 34 to 999999, at most 10000 of them; both 0 = none */
 } nc_variable_range;
@@ -62,15 +62,15 @@ typedef struct nc_config {
   nc_system_config system[NC_MAX_SYSTEMS];
   double cycle_s;          /**< servo cycle, s, 1e-6..0.1; default 0.001 */
   uint32_t look_ahead;     /**< records in the ring between feeder and scan, power of two 64..65536; default 1024 (15 MB).
-                                Time-optimal: short lines run at full speed where those in the ring, two records each, are longer than a stop:
-                                16384 (89 MB) for lines of 1 um */
-  uint32_t programs;       /**< entries of the program store; default 256 */
-  uint32_t tool_offsets;   /**< sets; default 200 */
-  uint32_t work_offsets;   /**< G54.1 P1..Pn; default 96 */
+                                In the time-optimal mode short lines run at full speed only while those that are in the ring, two records each,
+                                are together longer than the way that the machine needs to stop: 16384 (89 MB) for lines of 1 um */
+  uint32_t programs;       /**< entries of the program store, 1..65535; default 256 */
+  uint32_t tool_offsets;   /**< sets of tool data, 1..999; default 200 */
+  uint32_t work_offsets;   /**< n of G54.1 P1..Pn, 0..300; default 96 */
   uint32_t variable_sets;  /**< common variables by option, 100 200 300 600 (M700 13.4); default 600 */
   bool extended_variables; /**< #900000-#907399 of later models; default false */
   uint32_t window_bytes;   /**< text window per part system, 512..16777216; default 65536 */
-  double max_feed_override; /**< largest value of nc_inputs::feed_override, default 2.0 */
+  double max_feed_override; /**< largest value of nc_inputs::feed_override, 1..10; default 2.0 */
   uint8_t motion_mode;     /**< nc_motion_mode; default NC_MOTION_TRAPEZOID (ncrtd and ncsim choose NC_MOTION_OPTIMAL where every axis has all limits) */
   double path_tolerance;   /**< NC_MOTION_OPTIMAL: lines leave the programmed path by this at most, mm, 1e-5..10;
                                 0: not at all, with a rest at each corner; default 0.01. NC_MOTION_TRAPEZOID: by which high-accuracy control rounds corners */
@@ -144,7 +144,8 @@ NC_API nc_control* nc_create(const nc_config* config, void* memory, size_t size,
 /**
  * Set a control parameter by the manual's number or name. Feeder thread.
  * @param control the control
- * @param system part system, from 0; of a parameter that is common to all (M700 #1121, #1129, #1303, #1304, #8105) any of them, and it is set for all
+ * @param system part system, from 0; a parameter that all have in common (M700 #1121, #1129, #1303, #1304, #8105) is set for all of them, whichever
+ *             one is named
  * @param key  "1078", "1267/bit0", "UNIT*10", DGSHAPE "interpretation", ...; a number that the dialect has but that changes nothing here
  *             is accepted and kept
  * @param axis name of the axis of a parameter that is each axis's own, 0 = all axes
@@ -179,7 +180,7 @@ typedef enum nc_parameter_role {
  * @param control the control
  * @param role what the parameter does
  * @param key receives its key in the control's dialect, as nc_parameter_set() takes it
- * @return NC_OK; NC_E_NOT_FOUND: the dialect has no such parameter; NC_E_ARGUMENT: an argument is none
+ * @return NC_OK; NC_E_NOT_FOUND: the dialect has no such parameter; NC_E_ARGUMENT: an argument is not valid
  */
 NC_API nc_status nc_parameter_key(const nc_control* control, nc_parameter_role role, char key[24]);
 
@@ -219,7 +220,7 @@ typedef enum nc_tool_column { NC_TOOL_LENGTH = 0, NC_TOOL_LENGTH_WEAR = 1, NC_TO
 NC_API nc_status nc_tool_offset_set(nc_control* control, unsigned number, nc_tool_column column, double value);
 
 /**
- * Read one entry of the tool offset table, as the blocks have left it that were read so far. Feeder thread.
+ * Read one entry of the tool offset table, as the blocks have left it that part system 0 has read and the others have executed. Feeder thread.
  * @param control the control
  * @param number of the set, 1 to nc_config::tool_offsets
  * @param column nc_tool_column
@@ -231,7 +232,7 @@ NC_API nc_status nc_tool_offset_get(const nc_control* control, unsigned number, 
 /**
  * Set a local or common variable. Feeder thread.
  * @param control the control
- * @param system part system, from 0; of a variable that they share any of them, and it is set for all
+ * @param system part system, from 0; a variable that they share is set for all of them, whichever one is named
  * @param number of the variable; local ones are those of the program that is being read
  * @param value its value, finite
  * @param vacant true: it becomes vacant (#0), and `value` does not count
@@ -240,7 +241,7 @@ NC_API nc_status nc_tool_offset_get(const nc_control* control, unsigned number, 
 NC_API nc_status nc_variable_set(nc_control* control, unsigned system, uint32_t number, double value, bool vacant);
 
 /**
- * Read a local or common variable, as the blocks have left it that were read so far. Feeder thread.
+ * Read a local or common variable, as the blocks of this part system have left it that were read so far; of a shared one also as the executed blocks of the others have. Feeder thread.
  * @param control the control
  * @param system part system, from 0
  * @param number of the variable; local ones are those of the program that is being read
@@ -251,8 +252,8 @@ NC_API nc_status nc_variable_set(nc_control* control, unsigned system, uint32_t 
 NC_API nc_status nc_variable_get(const nc_control* control, unsigned system, uint32_t number, double* value, bool* vacant);
 
 /**
- * First parameter from place `from` on that is set; the places are in the order in which parameters first were. One bit that was set
- * ("1267/bit0") shows as its whole parameter; one that was set and taken back is left out. Feeder thread.
+ * First parameter from place `from` on that is set. The places are numbered in the order in which the parameters were first set. A parameter of
+ * which one bit was set ("1267/bit0") is given whole; one whose setting has been taken back is left out. Feeder thread.
  * @param control the control
  * @param system part system, from 0
  * @param from place at which the search begins, from 0
@@ -267,8 +268,8 @@ NC_API nc_status nc_parameter_next(const nc_control* control, unsigned system, u
                                    double* value, char text[64]);
 
 /**
- * What parameters that are set do not do on this machine, and where a time constant and not the feed is what limits it (docs/motion.md,
- * "Behind interpolation"), one sentence after the other: in the order of the parameters' numbers, then of the axes. Feeder thread.
+ * Notes about the parameters that are set, one sentence each: which of them have no effect on this machine, and where a time constant limits the
+ * speed and not the feed (docs/motion.md, "Behind interpolation"). In the order of the parameters' numbers, then of the axes. Feeder thread.
  * @param control the control
  * @param system part system, from 0
  * @param index of the sentence, from 0
@@ -372,7 +373,7 @@ typedef struct nc_program_info {
   char name[NC_MAX_NAME];
   uint32_t number;      /**< O number of the name, 0 = none */
   uint64_t size;        /**< bytes of the text */
-  uint64_t used;        /**< counts when it was entered, selected or called last: of two entries the larger one was so later */
+  uint64_t used;        /**< grows in the control with each entry, selection and call: the place with the largest number was used last */
   bool in_use;          /**< something refers to it: see nc_program_remove() */
   bool is_protected;    /**< M700 #8105, #1121 */
 } nc_program_info;
@@ -390,7 +391,7 @@ static inline void nc_program_info_init(nc_program_info* info) {
  * @param control the control
  * @param file index of the place, from 0 to nc_config::programs - 1
  * @param info receives it
- * @return NC_OK; NC_E_NOT_FOUND: the place is free; NC_E_ARGUMENT: a pointer is NULL, or its struct_size is none
+ * @return NC_OK; NC_E_NOT_FOUND: the place is free; NC_E_ARGUMENT: a pointer is NULL, or its struct_size is not valid
  */
 NC_API nc_status nc_program_get(const nc_control* control, unsigned file, nc_program_info* info);
 
@@ -422,8 +423,8 @@ typedef bool (*nc_program_missing)(void* user, nc_control* control, const char* 
 NC_API void nc_program_on_missing(nc_control* control, nc_program_missing callback, void* user);
 
 /**
- * The text of a program is being edited, or no longer: a program that begins meanwhile raises the alarm for it (M700 P235).
- * Feeder thread.
+ * Say that the text of a program is being edited, or no longer is. When it is selected, or called, and begins while it is being edited, it stops with
+ * the alarm for that (M700 P235). Feeder thread.
  * @param control the control
  * @param file its index
  * @param editing true: editing begins; false: it has ended
@@ -506,7 +507,7 @@ NC_API nc_status nc_variable_name_get(const nc_control* control, uint32_t number
  * @param control the control
  * @param number of the variable, 500 to 519
  * @param name at most 7 capital letters and digits, a letter first; "" takes it away. Copied.
- * @return NC_OK; NC_E_ARGUMENT: the variable can have no name, or the name is none
+ * @return NC_OK; NC_E_ARGUMENT: the variable can have no name, or the name is not a valid one
  */
 NC_API nc_status nc_variable_name_set(nc_control* control, uint32_t number, const char* name);
 
@@ -528,8 +529,9 @@ typedef void (*nc_device_read)(void* user, unsigned code, uint32_t number, uint3
 NC_API void nc_device_on_read(nc_control* control, nc_device_read callback, void* user);
 
 /**
- * What macro interface outputs (#1132 to #1135) read until a block writes them: the outputs as the machine has them. Nothing is given out by
- * it. Feeder thread, in front of nc_program_select() or nc_mdi_load(): what has been read ahead is not read again.
+ * Say how the macro interface outputs (#1132 to #1135) stand at the machine. A program reads this until a block of it writes them; the outputs
+ * themselves are not changed. To be called before nc_program_select() or nc_mdi_load(), since blocks that were read ahead already are not read
+ * again. Feeder thread.
  * @param control the control
  * @param system part system, from 0
  * @param word 0..3: #1132 to #1135
@@ -564,7 +566,7 @@ NC_API void nc_switches_set(nc_control* control, unsigned system, uint32_t optio
  * @param control the control
  * @param system part system, from 0
  * @param alarm receives a copy
- * @return NC_OK; NC_E_NOT_FOUND: there is none, as where nc_inputs::alarm stops it; NC_E_ARGUMENT: no such part system, a pointer is NULL, or its struct_size is none
+ * @return NC_OK; NC_E_NOT_FOUND: there is none (a stop by nc_inputs::alarm is no alarm of the control); NC_E_ARGUMENT: no such part system, a pointer is NULL, or its struct_size is not valid
  */
 NC_API nc_status nc_alarm_get(const nc_control* control, unsigned system, nc_alarm* alarm);
 
@@ -590,8 +592,8 @@ NC_API nc_status nc_status_text_get(const nc_control* control, nc_status status,
 
 /**
  * The blocks that led to that alarm, outermost first: each of them called the program of the next one, the last is the block of the alarm
- * (nc_alarm::source). An interrupt program counts as called by the block that it interrupted. Where nc_inputs::alarm has stopped a program,
- * which the host has words for, they lead to the block in which it was in execution; until reset. Feeder thread.
+ * (nc_alarm::source). An interrupt program counts as called by the block that it interrupted. Where nc_inputs::alarm has stopped a program
+ * they lead to the block that was in execution then, until reset; the text of that alarm is the host's own. Feeder thread.
  * @param control the control
  * @param system part system, from 0
  * @param calls receives the first `capacity` of them
@@ -607,7 +609,7 @@ NC_API unsigned nc_alarm_calls(const nc_control* control, unsigned system, nc_so
  * @param id nc_mark::modal, or nc_outputs::modal
  * @param modal receives a copy
  * @return NC_OK; NC_E_NOT_FOUND: no such snapshot, or no longer; NC_E_ARGUMENT: no such part system, a pointer is NULL, or its struct_size
- *         is none
+ *         is not valid
  */
 NC_API nc_status nc_modal_get(const nc_control* control, unsigned system, uint32_t id, nc_modal* modal);
 
@@ -668,7 +670,7 @@ typedef enum nc_code_role {
  * @param dialect the controller family
  * @param letter its address, 'G' or 'M'
  * @param number M: the code; G: times 10, as in nc_modal::code (G54.1 = 541)
- * @return its role; NC_CODE_OTHER also when an argument is none
+ * @return its role; NC_CODE_OTHER also when an argument is not valid
  */
 NC_API nc_code_role nc_code_role_get(nc_dialect dialect, char letter, uint32_t number) NC_RT;
 
@@ -695,7 +697,7 @@ typedef enum nc_number_kind {
  * @param count of them
  * @param data in: the block stands in parameter input; out: so does the one behind it. false in front of a program.
  * @param kinds receives an nc_number_kind for each word
- * @return NC_OK; NC_E_ARGUMENT: an argument is none
+ * @return NC_OK; NC_E_ARGUMENT: an argument is not valid
  */
 NC_API nc_status nc_number_kinds(nc_dialect dialect, const char* axes, const nc_plain_word* words, unsigned count, bool* data, uint8_t* kinds);
 
@@ -704,7 +706,7 @@ typedef struct nc_function {
   char code[8];         /**< "G02.1", "M98" */
   uint8_t group;        /**< modal group, 0 = one-shot */
   bool supported;       /**< false: raises `alarm` when used */
-  const char* part;     /**< what of a supported function is not built, nullptr = nothing that is known */
+  const char* part;     /**< what of a supported function is not built, NULL = nothing that is known */
   char alarm[16];
   const char* name;     /**< short English name */
   const char* section;  /**< of the manual */
@@ -715,7 +717,7 @@ typedef struct nc_function {
  * @param dialect the controller family
  * @param index of the row, from 0
  * @param row receives it; its texts are constant
- * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is none
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is not valid
  */
 NC_API nc_status nc_function_row(nc_dialect dialect, unsigned index, nc_function* row);
 
@@ -745,13 +747,13 @@ typedef struct nc_system_variable {
  * @param dialect whose table
  * @param index of the row, from 0
  * @param row receives it; its texts are constant
- * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is none
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is not valid
  */
 NC_API nc_status nc_system_variable_row(nc_dialect dialect, unsigned index, nc_system_variable* row);
 
 /** Parameters that something in the control asks for, for documentation and HMIs. */
 typedef struct nc_parameter {
-  const char* key;            /**< of one with a name of its own ("UNIT*10"), nullptr = numbers */
+  const char* key;            /**< of one with a name of its own ("UNIT*10"), NULL = it has numbers */
   uint32_t first, last, step; /**< numbers: one, or several with the same meaning for one thing after the other */
   int8_t bit;                 /**< of the parameter, -1 = all of it */
   bool by_axis;               /**< may differ from axis to axis */
@@ -765,7 +767,7 @@ typedef struct nc_parameter {
  * @param dialect the controller family
  * @param index of the row, from 0
  * @param row receives it; its texts are constant
- * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is none
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is not valid
  */
 NC_API nc_status nc_parameter_row(nc_dialect dialect, unsigned index, nc_parameter* row);
 
@@ -784,7 +786,7 @@ NC_API bool nc_parameter_used(nc_dialect dialect, const char* key);
  * @param index of the row, from 0
  * @param code receives it as nc_alarm::code has it
  * @param message receives the manual's short text, which is constant
- * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is none
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is not valid
  */
 NC_API nc_status nc_alarm_row(nc_dialect dialect, unsigned index, char code[16], const char** message);
 

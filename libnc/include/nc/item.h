@@ -53,11 +53,11 @@ typedef enum nc_action_kind {
   NC_ACTION_B = 3,       /**< second auxiliary function; `letter` its address */
   NC_ACTION_OUTPUT = 4,  /**< macro interface output: word `index` (0..3), bits `mask` become `bits` (M700 13.5.5) */
   NC_ACTION_MESSAGE = 5, /**< #3006, DPRNT: `text`, `index` = port (0 operator message) */
-  NC_ACTION_CONTROL = 6, /**< `index` nc_control_index: what `value` then means is said there */
+  NC_ACTION_CONTROL = 6, /**< `index` is an nc_control_index, which says what `value` means */
   NC_ACTION_CURRENT_LIMIT = 7 /**< current limit of axis `index`: `value` percent of the rated current (M700 15.6) */
 } nc_action_kind;
 
-/** Further indexes of NC_ACTION_CONTROL. */
+/** What an NC_ACTION_CONTROL is about: its nc_action::index. */
 typedef enum nc_control_index {
   NC_CONTROL_SUPPRESS = 3003,    /**< `value`: bit 0 no stop of single block, bit 1 FIN is not awaited (M700 13.5.9, #3003) */
   NC_CONTROL_DISABLE = 3004,     /**< `value`: bit 0 no feed hold, bit 1 no override, bit 2 no exact stop (M700 13.5.10, #3004) */
@@ -101,7 +101,7 @@ typedef enum nc_sync_what {
   NC_SYNC_SKIP = 8,     /**< a G31 move has ended: where? */
   NC_SYNC_MODAL = 16,   /**< modal state in execution (#4200s) */
   NC_SYNC_STOPPED = 32, /**< nothing but that everything before has happened */
-  NC_SYNC_SHARED = 64   /**< what several part systems share: a common variable, tool data; nothing in the answer, as the control has it itself */
+  NC_SYNC_SHARED = 64   /**< what several part systems share: a common variable, tool data; nothing of the answer is used, since the control has these itself */
 } nc_sync_what;
 
 /** A text that goes with an item; NUL-terminated, cut at NC_MAX_TEXT - 1 bytes. */
@@ -116,7 +116,7 @@ typedef struct nc_move {
   nc_axes work;             /**< programmed end point */
   nc_axes machine_start;    /**< where the axes start */
   nc_axes machine;          /**< where the axes end up */
-  double center[3];         /**< circular: programmed centre on the plane's first and second axis, an arc in space: on all three (the third counts for no other) */
+  double center[3];         /**< circular: programmed centre on the plane's first and second axis, an arc in space: on all three (the third counts for no other kind) */
   double machine_center[3]; /**< circular: centre of the machine path */
   double radius;            /**< circular: of the machine path at its start */
   double sweep_deg;         /**< circular: signed angle of the machine path about the plane normal, ccw positive */

@@ -26,7 +26,7 @@ extern "C" {
  * @param budget blocks that may be read before the call gives up with NC_BUDGET (an endless GOTO makes no items)
  * @param item receives it
  * @return NC_OK with *item; NC_WAITING while a sync is not answered; NC_BUDGET; NC_ENDED after the end item; NC_ALARMED after the alarm and
- *         end items; NC_E_STATE: the program runs online; NC_E_ARGUMENT: no such part system, a pointer is NULL, or its struct_size is none
+ *         end items; NC_E_STATE: the program runs online; NC_E_ARGUMENT: no such part system, a pointer is NULL, or its struct_size is not valid
  */
 NC_API nc_status nc_pull(nc_control* control, unsigned system, uint32_t budget, nc_item* item);
 
@@ -57,7 +57,7 @@ NC_API nc_status nc_move_zero(const nc_control* control, unsigned system, nc_axe
  * @param system part system, from 0
  * @param world the machine when everything before the sync had happened; copied
  * @return NC_OK; NC_E_STATE: no sync is open, or the program runs online, where the scan answers; NC_E_ARGUMENT: no such part system, a
- *         number that is none, or a struct_size that is none
+ *         number that is not finite, or a struct_size that is not valid
  */
 NC_API nc_status nc_answer(nc_control* control, unsigned system, const nc_world* world);
 
@@ -138,7 +138,7 @@ static inline void nc_event_init(nc_event* event) {
  * @param event receives it
  * @param dropped receives how many were dropped since the last call. May be NULL.
  * @return NC_OK; NC_E_NOT_FOUND: nothing further has been executed; NC_E_ARGUMENT: no such part system, `event` is NULL, or its
- *         struct_size is none
+ *         struct_size is not valid
  */
 NC_API nc_status nc_event_poll(nc_control* control, unsigned system, nc_event* event, uint64_t* dropped);
 
@@ -187,9 +187,9 @@ NC_API nc_status nc_commit_watch_set(nc_control* control, unsigned system, nc_co
 /* ---- online: scan ------------------------------------------------------------------------------------------------- */
 
 /**
- * Manual motion of one axis. What is commanded while it cannot act (nc_outputs::manual_allowed is off, feed hold, interlock, the axis is a spindle
- * now) is refused, and what moves then comes to rest and is given up. It does not begin by itself behind that: a kind that is commanded
- * through it acts again when another, or none (a jog at velocity 0), has been commanded in between.
+ * Manual motion of one axis. While it cannot act (nc_outputs::manual_allowed is off, feed hold, interlock, the axis is a spindle now) commands are
+ * refused, and a motion that is under way comes to rest and is given up. It does not begin again by itself: a kind that stays commanded until
+ * it could act again does nothing until another kind, or none (or a jog at velocity 0), has been commanded in between, as when a button is released.
  */
 typedef enum nc_manual_kind {
   NC_MANUAL_NONE = 0,
@@ -204,14 +204,14 @@ typedef enum nc_manual_kind {
 
 typedef struct nc_manual {
   uint8_t kind;    /**< nc_manual_kind */
-  double velocity; /**< mm/s or deg/s, signed, -1e6..1e6, 0 or further from it than 0.000001; of a step 0 = as fast as the axis can */
+  double velocity; /**< mm/s or deg/s, signed, -1e6..1e6; 0, or at least 0.000001 away from it. For a step 0 = as fast as the axis can */
   double distance; /**< mm or deg, signed, -1e6..1e6 */
 } nc_manual;
 
 /** What a spindle measures. */
 typedef struct nc_spindle_inputs {
-  double rev_per_s;  /**< actual speed, signed, -10000..10000, nearer to 0 than 0.00001 it stands: feed per revolution, threads, dwell in
-                          revolutions */
+  double rev_per_s;  /**< actual speed, signed, -10000..10000; below 0.00001 the spindle counts as standing. Used by feed per revolution, threads and
+                          dwell in revolutions */
   double turns;      /**< its encoder, revolutions, -1e12..1e12, counting on with the sign of the speed; whole numbers are its zero mark (Z phase) */
   bool turns_valid;  /**< `turns` is measured; without it threads begin at any angle */
   bool servo_ready;  /**< it holds its position and follows the command of its C axis (M700 10.5: servo READY) */
@@ -229,9 +229,9 @@ typedef enum nc_input_bits {
 } nc_input_bits;
 
 /**
- * What the scan gives to one part system in one cycle. A number that is none (NaN, infinite) or out of the range that stands beside it never
- * acts: what does instead stands at nc_input_bits, and that it was so in nc_outputs::inputs_refused. All fields without a range may have
- * any value of their type.
+ * What the scan gives to one part system in one cycle. A number that is not finite or out of the range that stands beside it never acts:
+ * nc_input_bits says what acts in its place, and nc_outputs::inputs_refused that this was so. All fields without a range may have any value of
+ * their type.
  */
 typedef struct nc_inputs {
   NC_STRUCT_SIZE(nc_inputs); /**< see NC_STRUCT_SIZE */
@@ -262,8 +262,9 @@ typedef struct nc_inputs {
   nc_axes actual;        /**< measured machine position, -1e9..1e9; asked for while `actual_valid` */
   bool follow_up;        /**< level, while drives are off: with no program the commanded position follows `actual` */
   nc_manual manual[NC_MAX_AXES]; /**< acts while nc_outputs::manual_allowed; a program in a block stop goes on from there */
-  bool manual_absolute_off; /**< level, when cycle start goes on from a block stop: axes that were moved by hand in it take the coordinate systems along.
-                                 Off, manual absolute is on: the systems stay, and an absolute command goes to its programmed place (M700 12.4.4, 14.12) */
+  bool manual_absolute_off; /**< level, looked at when cycle start goes on from a block stop in which axes were moved by hand. True: the coordinate systems
+                                 are moved along with these axes. False (manual absolute is on): the systems stay, and an absolute command goes to its
+                                 programmed place (M700 12.4.4, 14.12) */
   int64_t clock_ms;      /**< wall clock (see nc_world) */
 } nc_inputs;
 /**
@@ -319,10 +320,10 @@ typedef enum nc_fin_wait_bits {
   NC_FIN_WAIT_UNCLAMP = 0x800 /**< an axis of an index table has to be unclamped or clamped (M700 9.3: T10 FIN WAIT 0800) */
 } nc_fin_wait_bits;
 
-/** Whose nc_outputs::feed_override is. */
+/** Who has decided nc_outputs::feed_override. */
 typedef enum nc_override_source {
-  NC_OVERRIDE_INPUT = 0,  /**< that of nc_inputs */
-  NC_OVERRIDE_PROGRAM = 1 /**< none acts: #3004 bit 1 (M700 13.5.10), a thread (6.7.1), the tapping mode (7.11), a skip move (15.2) */
+  NC_OVERRIDE_INPUT = 0,  /**< nc_inputs */
+  NC_OVERRIDE_PROGRAM = 1 /**< the program: no override acts, by #3004 bit 1 (M700 13.5.10), a thread (6.7.1), the tapping mode (7.11), a skip move (15.2) */
 } nc_override_source;
 
 /** What one part system gives out in one cycle. */
@@ -357,7 +358,7 @@ typedef struct nc_outputs {
   uint32_t turning;         /**< bit n: the machine position of axis n counts within one turn, and its limits hold in each (#8213) */
   uint32_t moved_by_hand;   /**< bit n: axis n was moved by hand in a block stop and the program has not moved it since: it does not stand where the program
                                  has left it, and stays there until a block names it. Off with a start that takes the coordinate systems along */
-  bool manual_absolute;     /**< in force: not nc_inputs::manual_absolute_off */
+  bool manual_absolute;     /**< manual absolute is in force: the opposite of nc_inputs::manual_absolute_off */
   bool manual_allowed;      /**< nc_inputs::manual acts: no program, or one that is stopped between two blocks */
   bool message;             /**< rising edge: `message_text` has a new operator message */
   uint32_t message_text;    /**< id for nc_text_get() */
@@ -396,7 +397,7 @@ static inline void nc_outputs_init(nc_outputs* outputs) {
  * @param control the control
  * @param in  `system_count` entries, the first for part system 0, all of one struct_size
  * @param out as many, all of one struct_size: what the machine is to do in this cycle
- * @return NC_OK; NC_E_ARGUMENT when a pointer is NULL or a struct_size is none, or asks for what this library does not know: then no
+ * @return NC_OK; NC_E_ARGUMENT when a pointer is NULL or a struct_size is not valid, or asks for what this library does not know: then no
  *         part system has moved on and `out` is as it was
  */
 NC_API nc_status nc_cycle(nc_control* control, const nc_inputs* in, nc_outputs* out) NC_RT;

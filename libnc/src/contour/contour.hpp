@@ -66,7 +66,7 @@ class ContourStage {
 
   Held* held_ = nullptr;
   unsigned first_ = 0, count_ = 0;
-  unsigned ready_ = 0;      ///< of those held: pop() may give them
+  unsigned ready_ = 0;      ///< how many of those held pop() may give
   bool pending_ = false;    ///< item number ready_ is the pending line, and behind it lies the place of its cut
   bool behind_mark_ = false;  ///< the pending line's own block has ended
   bool failed_ = false;

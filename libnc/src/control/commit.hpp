@@ -58,7 +58,7 @@ class Commit {
   /// The machine stands here, before the next move.
   void set_machine(const AxisVec& machine) { machine_ = machine; }
   const AxisVec& machine() const { return machine_; }
-  /// The same at the newest mark, and it holds for whoever goes back there.
+  /// The machine has been moved to this place at the newest mark: a program that goes back to that mark begins here, too.
   void displace(const AxisVec& machine) {
     machine_ = machine;
     if (mark_count_ != 0) marks_[(mark_count_ - 1) & mark_mask_].machine = machine;
@@ -107,7 +107,7 @@ class Commit {
   void remember(const Item& mark) {
     if (mark.mark.resume) add_point(mark).stages = 0;
   }
-  /// The same where stages do.
+  /// The same of a mark behind which stages need `stages` to go on.
   void remember(const Item& mark, const Stages::Resume& stages) {
     if (!mark.mark.resume) return;
     MarkPoint& point = add_point(mark);

@@ -66,7 +66,7 @@ bool PartSystem::block_fits() {
   return fits;
 }
 
-/// What the cycle in hand has still to do.
+/// Whether the moves that the fixed cycle in execution has still to make are within the limits.
 bool PartSystem::cycle_fits(Committed* committed) {
   if (interpreter.maps().other_axes) return true;  // its moves have shapes, which are few: each is checked when it comes
   struct Trial {

@@ -78,7 +78,7 @@ class PartSystem {
   PartSystem* first_executed(uint32_t until, BlockSeq* seq);
   /// Next item in stream order behind the stages; NC_OK, or why there is none. take() removes it.
   nc_status next(uint32_t& budget, const Item** item);
-  /// The same, committed, for the sink: for nc_pull() as for the ring. nullptr with NC_OK: there was something to do, but nothing to give.
+  /// Takes the next item, commits it and gives it to the caller, nc_pull() or nc_feed(). NC_OK with nullptr: work was done, and no item came of it; call again.
   nc_status pump(uint32_t& budget, const Item** item);
   void take();
   bool pop_held(Item& out) { return stages_.pop(out); }

@@ -45,7 +45,7 @@ struct BlockRules {
   /// M codes that stop or end the program stand alone in their block (DGSHAPE 2). M700 9.1 lets them share
   /// it.
   bool stops_stand_alone;
-  /// So does the dwell (DGSHAPE G04). M700 8.1 lets it share its block.
+  /// A dwell stands alone in its block (DGSHAPE G04). M700 8.1 lets it share one.
   bool dwell_stands_alone;
   /// Two words of a letter other than those of codes, and two codes of one mode, are faults (RS-274/NGC 3.3.1, 3.4). Else the last one
   /// counts (M700 3.7; DGSHAPE 1-2).
@@ -123,20 +123,20 @@ struct DwellRules {
 
 /// Compensation of the tool radius.
 struct CompensationRules {
-  /// XY is its only plane (DGSHAPE G40-G42). Else it works in each (M700 12.4.1).
+  /// XY is the only plane of radius compensation (DGSHAPE G40-G42). Else it works in each (M700 12.4.1).
   bool xy_plane_only;
-  /// The plane cannot be changed in it, nor right behind its end (M700 App. 1 P112). Else selecting it anew
-  /// is no fault (DGSHAPE G40-G42).
+  /// The plane cannot be changed while it is on, nor right behind its end (M700 App. 1 P112). Else selecting the plane
+  /// anew is no fault (DGSHAPE G40-G42).
   bool plane_is_fixed;
-  /// The codes of scaling and the cancel code of cycles are faults in it (DGSHAPE G40-G42). M700 13.19
+  /// The codes of scaling and the cancel code of cycles are faults while it is on (DGSHAPE G40-G42). M700 13.19
   /// compensates the scaled shape.
   bool bars_scaling_and_cycle_end;
-  /// So are workpiece coordinate systems, coordinate system setting and data setting (DGSHAPE G40-G42). Not
-  /// so M700 12.4.4.
+  /// Codes of workpiece coordinate systems, coordinate system setting and data setting are faults while it is on
+  /// (DGSHAPE G40-G42). M700 12.4.4 allows them.
   bool bars_systems_and_data;
-  /// So is reference return (DGSHAPE G28). Not so M700 12.4.4: the vector goes at the intermediate point.
+  /// Reference return is a fault while it is on (DGSHAPE G28). M700 12.4.4 allows it: the vector is cancelled at the intermediate point.
   bool bars_reference_return;
-  /// It goes from one side to the other without a cancel in between (M700 12.4.1). DGSHAPE G41/G42: "the
+  /// Compensation may change from one side to the other without a cancel in between (M700 12.4.1). DGSHAPE G41/G42: "the
   /// direction cannot be changed".
   bool may_change_side;
   /// I J K beside its code are the direction of its vector (M700 12.4.3). DGSHAPE G41/G42 has no such

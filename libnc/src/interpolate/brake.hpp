@@ -116,8 +116,8 @@ class Brake {
     }
   };
 
-  /// Seconds of a step: some in the time in which the acceleration of an axis can go to its limit, where there are enough until it is at
-  /// rest.
+  /// Seconds of one step of the search: a share kOfRise of the time in which the acceleration of an axis can rise to its limit, or more where the way to rest
+  /// would take too many such steps.
   static double step_for(const PlanMoment& now, const optimal::Limits& limits, double sigma) NC_RT {
     double rise = HUGE_VAL, stop = 0;
     for (unsigned i = 0; i < limits.axis_count; ++i) {

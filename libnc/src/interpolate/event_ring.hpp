@@ -27,7 +27,7 @@ class EventRing {
 
   void push(const nc_event& event) NC_RT {
     const uint32_t head = head_.load(std::memory_order_relaxed);
-    // Announced before a word is touched, so that a reader of the slot's old event can know.
+    // Announced before a word of the slot is overwritten, so that a reader that is copying the old event from it notices and drops the copy.
     claimed_.store(head + 1, std::memory_order_relaxed);
     uint32_t raw[kWords];
     std::memcpy(raw, &event, sizeof event);

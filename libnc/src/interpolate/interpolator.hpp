@@ -35,10 +35,11 @@ struct ScanStatus {
   Serial last_mark = 0;  ///< newest block end that has been executed in this run
   BlockSeq last_block = 0;  ///< of that block
   Cut cut;
-  bool stopped = false;     ///< by an alarm that is in no record, the scan's own or one of the machine, while a program was in execution ...
-  bool faulted = false;     ///< ... the scan's own: the move cannot be begun or gone on with ...
-  nc_source stopped_at{};   ///< ... in this block ...
-  BlockSeq stopped_behind = 0;  ///< ... behind this one
+  // A program that was in execution has been stopped by an alarm that is no item of it.
+  bool stopped = false;     ///< the machine has given the alarm, or the scan itself has found it
+  bool faulted = false;     ///< the scan has found it: the move in hand cannot begin, or cannot go on
+  nc_source stopped_at{};   ///< block in execution at that moment
+  BlockSeq stopped_behind = 0;  ///< the last block that had been executed to its end
 };
 
 /// What has become of a record that the scan has left.

@@ -86,7 +86,7 @@ Interpolator::Done Interpolator::fault(const Record& r) {
   return Done::no;
 }
 
-/// Where a program is that an alarm stops which the interpreter knows nothing of.
+/// Notes the block at which a program is stopped by an alarm that is no item of it.
 void Interpolator::stop_in(const nc_source& block, BlockSeq behind) {
   stopped_ = true;
   stopped_at_ = block;

@@ -23,7 +23,7 @@ class SpindleSpeeds {
     if (selected != 0) lead_ = static_cast<unsigned>(std::countr_zero(selected));
   }
   uint8_t selected() const { return selected_; }
-  /// The selected spindle, the first of several; while none is, the one that was.
+  /// The first of the selected spindles; while none is selected, the one that was last.
   unsigned lead() const { return lead_; }
 
   void command(double rev_min) { code_ = rev_min; }

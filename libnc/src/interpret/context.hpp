@@ -250,7 +250,7 @@ struct BlockContext {
   void note_interrupt_items();
   void emit_end();
   Item& next_item(ItemKind kind, bool block_end);
-  /// Id of the modal state for a mark; behind an executable block finished_modal becomes it.
+  /// Id of the modal state, for a mark. When the block that the mark ends is executable, the state becomes that of the last finished block, too.
   ModalId modal_now(bool executable);
   bool settings_stale_ = false;
   bool settings_of_moves_stale_ = true;   ///< made anew with the next move, so that numbers go to moves only

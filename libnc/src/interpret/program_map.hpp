@@ -17,7 +17,7 @@ AxisVec to_program(const BlockContext& in, const AxisVec& work);
 AxisVec from_program(const BlockContext& in, const AxisVec& programmed);
 /// A point in workpiece coordinates as it is behind coordinate rotation and in front of mirror image: what the centre of G68 stays in.
 AxisVec in_front_of_mirror(const BlockContext& in, const AxisVec& work);
-/// One coordinate of an axis that no rotation turns, scaled and mirrored; and back.
+/// A programmed coordinate of an axis that no rotation turns, scaled and mirrored; and the way back.
 double mapped_on(const BlockContext& in, unsigned axis, double programmed);
 double programmed_on(const BlockContext& in, unsigned axis, double work);
 /// Factor of scaling of an axis, 1 where there is none; one of two axes of an arc is scaled, or both are.
@@ -35,7 +35,7 @@ void map_compensation(const BlockContext& in, Compensation& comp);
 /// Figure rotation: M98 with I J K begins it with the frame just entered, each further pass turns on.
 void begin_figure(BlockContext& in, const double center[2]);
 void turn_figure(BlockContext& in);
-/// A coordinate as the scaling makes it that the rotated program has commanded.
+/// A coordinate behind the scaling that the rotated program itself has commanded.
 double shape_scaled(const BlockContext& in, unsigned axis, double value);
 inline bool in_figure(const BlockContext& in) { return in.state.frame[in.state.depth].figure != 0; }
 inline void figure_has_moved(BlockContext& in) {

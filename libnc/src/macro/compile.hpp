@@ -105,7 +105,7 @@ class ExpressionCompiler {
 
   /// A formula; stops at the first character that cannot go on with it.
   bool expression(uint16_t* code) { return start(code) && (ngc_ ? ngc_value(0) : sum(0, false)) && emit(Op::end); }
-  /// The same without brackets around it: only the four operators, and a sign that belongs to the word.
+  /// The value of a word, without brackets around it: only the four operators may stand in it, and a sign in front belongs to the word.
   bool word_value(uint16_t* code);
   /// '[' formula comparison formula ']'
   bool condition(uint16_t* code);

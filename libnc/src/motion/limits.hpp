@@ -53,8 +53,8 @@ struct Joint {
   double share = 0;   ///< of every axis' acceleration, what the velocity step takes at that speed
 };
 
-/// The joint from a to b where nothing asks for rest. `turns` is what lies in front of b, its own corner included; where there is none or the mean
-/// behind interpolation does not round it, the corner is a step within one cycle.
+/// The joint from a to b where nothing asks for rest. `turns` holds the corners up to and including that between a and b. Without it, or where no filter
+/// behind interpolation rounds corners, the velocity steps within one cycle.
 Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb,
                     const MotionLimits& limits, const RecentTurns* turns = nullptr);
 

@@ -25,8 +25,8 @@ double rounding_window(const Segment& segment, const MotionLimits& limits);
 class RecentTurns {
  public:
   void clear() { count_ = 0, way_ = 0, began_ = 0, direction_ = {}; }
-  /// A segment has been gone that began with a corner passed at `entry`; `turn` is the step of the tangent behind it. Ways below `grain` are kept
-  /// together.
+  /// A segment of this length has been travelled. It began with a corner that was passed at the speed `entry`, and ends with one in which the tangent
+  /// changes by `turn`. Lengths below `grain` are kept together.
   void go(double length, double entry, double grain, const AxisVec& turn, unsigned axes);
 
   struct Corner {

@@ -57,7 +57,7 @@ class OffsetStage {
   bool takes(const Item& item, NoRule, bool) const { return item.move.comp.side != 0; }
   /// Room for one more push (a push may make several items ready).
   bool can_push() const;
-  /// False: no room, pop() first.
+  /// Takes an item; false: there is no room for it, pop() first.
   bool push(const Item& item, NoRule = {});
   /// Next finished item, false when the stage has none or must see more first.
   bool pop(Item& out);
@@ -136,7 +136,7 @@ class OffsetStage {
   uint32_t blocks_ = 0;
   Mode mode_ = Mode::off;
   uint8_t idle_blocks_ = 0;
-  bool moved_ = false;   ///< the present block has moved in the plane, or is the command itself
+  bool moved_ = false;   ///< the present block has moved in the plane, or commands compensation (G41, G42): neither counts as idle
   bool failed_ = false;  ///< an alarm of this stage ended the stream
   Compensation comp_;    ///< of the last section
   Vec2 tail_;            ///< vector at the end of everything decided

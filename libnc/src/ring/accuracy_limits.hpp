@@ -9,7 +9,7 @@ namespace nc {
 struct AccuracyLimits {
   float speed_clamp = 0;   ///< by the radius or the curvature, mm/s
   float corner_step = 0;   ///< change of velocity that a corner may make, mm/s
-  float smooth_cos = -1;   ///< a corner whose tangents have this cosine or more is none
+  float smooth_cos = -1;   ///< tangents with this cosine or more between them pass smoothly: no corner
   float corner_least = 0;  ///< a corner is not passed slower for `corner_step`, mm/s
   float arc_joint = 0;     ///< speed where an arc meets another kind of path, mm/s
   float judged_turn = -1;  ///< |change of direction| that the corner at its start counts as; negative: what it is

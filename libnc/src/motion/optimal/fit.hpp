@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Control points of a cubic spline that goes through the middle of a polyline: a least-squares fit for each
-// of them, over the four cells that it bends. So it hangs on nothing else, and many short lines are averaged
+// of them, over the four cells that it bends. So it depends on nothing outside of these, and many short lines are averaged
 // (docs/motion-optimal.md, "Geometry").
 #pragma once
 

@@ -180,7 +180,8 @@ double Mesher::estimate(double u) {
   return std::min(speed_at(forward_, u, &hint_f_), speed_at(backward_, u, &hint_b_));
 }
 
-/// The length of a cell of constant jerk beside rest, or less, so that it is no faster at its end than a part of what a bend nearby lets be.
+/// Length of the cell of constant jerk with which the path starts or ends at rest. It is h, shortened until the speed at its far end is at most the
+/// share kLaunchSpeed of the speed that a bend nearby allows there.
 double Mesher::slow_enough(double h, const Bound& bound, bool starts) const {
   for (unsigned n = 0; n < kShorterLaunch; ++n) {
     unsigned hint = 0;
