@@ -276,6 +276,27 @@ TEST(Permuted, ProgramsGiveTheTraceOfTheFamilyWhoseNumbersWereMoved) {
   EXPECT_GT(not_rewritten * 10, same * 9);
 }
 
+// Programs that compute numbers of parameters and system variables, set parameters, read what is in force and call programs by codes.
+TEST(Permuted, ProgramsThatComputeNumbersRunToTheirEnd) {
+  const Permutation permutation(m700::kDialect);
+  const PermutedDialect permuted(m700::kDialect, permutation);
+  const Compare compare(permutation);
+  Tracer tracer;
+  unsigned programs = 0;
+  for (const fs::path& path : files_in(nc::test::kSourceDir + "/tests/permuted/programs")) {
+    if (path.extension() != ".nc") continue;
+    Program program{path.filename(), content_of(path)};
+    if (fs::path setup = path; fs::exists(setup.replace_extension(".json"))) program.setup = Json::parse(content_of(setup));
+    const Tracer::Trace want = tracer.trace(m700::kDialect, program);
+    ASSERT_FALSE(want.lines.empty()) << program.id << want.refused;
+    EXPECT_NE(want.lines.back().find("\"ok\":true"), std::string::npos) << program.id << " " << want.lines.back();
+    EXPECT_EQ(compare.difference(want, tracer.trace(permuted.dialect(), permuted_program(program, permutation))), "") << program.id;
+    EXPECT_NE(compare.difference(want, tracer.trace(permuted.dialect(), program)), "") << program.id << " is the same when not rewritten";
+    ++programs;
+  }
+  EXPECT_GE(programs, 4u);
+}
+
 // Programs use only some of the codes and numbers; here each row of the tables is named once.
 std::vector<Program> probes_of_codes(const Dialect& family) {
   std::vector<Program> probes;
