@@ -134,7 +134,6 @@ TEST(DgshapeManual, GCodesAndGroupsAreThoseOf27) {
 // What the alarm list says about a control without the function (appendix 1 and, where named, the section).
 TEST(M700Manual, MissingFunctionsRaiseTheManualsAlarm) {
   const std::map<std::string, std::vector<int>> by_alarm = {
-      {"P140", {450, 460, 470, 480}},
       {"P150", {380, 390}},
       {"P180", {720, 740, 750, 760, 770, 780, 790, 840, 860, 870, 880}},
       {"P220", {340, 350, 360, 371}},

@@ -81,7 +81,10 @@ const Row kRows[] = {
     {"P126", "G8 P1\nG61", 2},
     {"P130", "A5", 1},
     {"P132", "G96 S0", 1},
-    {"P140", "G45 X1. D1", 1},
+    {"P141", "G68 X0 Y0 R30.\nG45 X1. D1", 2},
+    {"P142", "G45 G2 X9. Y9. I5. D1", 1},
+    {"P170", "G45 X1.", 1},
+    {"P170", "G45 X1. D999", 1},
     {"P150", "G38 I1.", 1},
     {"P151", "G2 X9. I1.\nG41 D1 X20. I5.", 2},
     {"P151", "G1 X1.\nG41 D1\nG2 X9. I4.", 3},           // 12.4.1: wherever compensation is commanded, it starts with a straight movement ...

@@ -32,7 +32,7 @@ enum class Condition : uint16_t {
   user_alarm, bracket_nesting, bracket_pair, calculation, division_by_zero, if_statement, while_statement, name_statement,
   loop_nesting, loop_pair, jump_on_tape, address_missing, variable_number, no_equals, variable_use, variable_name,
   variable_name_twice, call_in_cycle, print_port, parameter_input, no_such_data,
-  program_edited, rotation_in_figure, offset_in_figure, machine_in_figure, surface_axis, surface_speed,
+  program_edited, rotation_in_figure, offset_in_figure, offset_arc, machine_in_figure, surface_axis, surface_speed,
   read_failed, program_changed, vendor_function,
   control_structure, name_without_value, too_many_names, probe_no_contact, internal,
   count_

@@ -34,6 +34,7 @@ struct NamedCode {
 };
 constexpr NamedCode kNamedCodes[] = {
     {"rotation_on", Function::rotation_on}, {"rotation_off", Function::rotation_off},
+    {"offset_longer", Function::offset_longer}, {"offset_shorter", Function::offset_shorter},
     {"comp_off", Function::comp_off}, {"rapid", Function::rapid}, {"linear", Function::linear},
     {"cycle_off", Function::cycle_off}, {"plane_xy", Function::plane_xy},
     {"incremental", Function::incremental}, {"absolute", Function::absolute},
@@ -267,8 +268,10 @@ constexpr Sentence kSentences[] = {
     {C::program_edited, "The program that begins here is being edited: start it again when that is done.", nullptr},
     {C::rotation_in_figure, "{word} cannot be used while a program is called with rotation ({call_sub} {vector_x} {vector_y} {vector_z}).",
      "Rotation cannot be used while a program is called with rotation ({call_sub} {vector_x} {vector_y} {vector_z})."},
-    {C::offset_in_figure, "{word} cannot be used while a program is called with rotation ({call_sub} {vector_x} {vector_y} {vector_z}).",
-     "A position offset cannot be used while a program is called with rotation ({call_sub} {vector_x} {vector_y} {vector_z})."},
+    {C::offset_in_figure, "{word} cannot be used while coordinates are rotated ({rotation_on}) or a program is called with rotation ({call_sub} {vector_x} {vector_y} {vector_z}).",
+     "A position offset cannot be used while coordinates or a program are rotated."},
+    {C::offset_arc, "{word} takes 1/4, 1/2 or 3/4 of a circle from axis to axis: {offset_longer} and {offset_shorter} the quarters, the other two the half.",
+     "A position offset takes 1/4, 1/2 or 3/4 of a circle from axis to axis."},
     {C::machine_in_figure, "{word} goes to machine coordinates: axes of the plane cannot do that while a program is rotated ({call_sub} {vector_x} {vector_y} {vector_z}).",
      "Axes of the plane cannot go to machine coordinates while a program is rotated ({call_sub} {vector_x} {vector_y} {vector_z})."},
     {C::surface_axis, "There is no axis {value} for constant surface speed.",

@@ -80,10 +80,14 @@ constexpr bool is_reference_move(Function f) {
 }
 /// A straight feed that a signal ends.
 constexpr bool is_skip(Function f) { return f == Function::skip || f == Function::multi_skip || f == Function::probe; }
+/// Tool position offset (M700 12.6): a motion of the block that is longer or shorter by an offset.
+constexpr bool offsets_position(Function f) {
+  return f == Function::offset_longer || f == Function::offset_shorter || f == Function::offset_twice_longer || f == Function::offset_twice_shorter;
+}
 /// One-shot functions whose axis words are positions to go to; those of the others are data.
 constexpr bool goes_to_position(Function f) {
   return is_reference_move(f) || f == Function::tool_change_return || is_skip(f) ||
-         f == Function::measure_length || f == Function::machine_move || f == Function::unidirectional;
+         f == Function::measure_length || f == Function::machine_move || f == Function::unidirectional || offsets_position(f);
 }
 constexpr bool is_macro_call(Function f) { return f == Function::macro_call || f == Function::macro_modal || f == Function::macro_every_block; }
 constexpr bool is_plane(Function f) { return f == Function::plane_xy || f == Function::plane_zx || f == Function::plane_yz; }

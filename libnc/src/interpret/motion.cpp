@@ -343,7 +343,8 @@ Execution take_absolute_centre(BlockContext& in, const PlaneAxes& plane, double 
   return Execution::done;
 }
 
-/// The words of the block that say which arc it is, for the plane in force.
+}  // namespace
+
 Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* of_block) {
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   const BlockWords& w = in.words;
@@ -371,8 +372,6 @@ Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t comm
   if (!of_plane && w.any({Role::vector_x, Role::vector_y, Role::vector_z})) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   return Execution::done;
 }
-
-}  // namespace
 
 /// By how much the radius at the end may differ. LinuxCNC G2: by a part of it, too.
 static double arc_tolerance(const BlockContext& in, const ArcWords& words) {

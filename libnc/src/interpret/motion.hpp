@@ -32,6 +32,8 @@ bool starts_or_ends_compensation(const BlockContext& in);
 Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw);
 struct ArcWords;
 struct PlaneAxes;
+/// The words of the block that say which arc it is, for the plane in force.
+Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* words);
 /// The same by words that the caller has made.
 Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw);
 /// Programmed coordinates of a move: where it starts and ends, and the map behind them.
@@ -71,8 +73,8 @@ struct ArcWords {
   uint32_t turns = 0;
   bool turns_count_last = false;   ///< `turns` counts the one in which the end lies
 };
-/// Circle through start and end on the plane axes; Condition::none when it exists. *straight: nothing goes round, the path is the straight
-/// line to the end, or nothing where that is the start.
+/// Circle through start and end on the plane axes; Condition::none when it exists. *straight becomes true when the words make no circle: then the path is
+/// the straight line to the end, which has no length where the end is the start.
 Condition make_circle(const double start[2], const double end[2], const ArcWords& words, bool ccw, double tolerance, Circle* circle,
                       bool* straight);
 

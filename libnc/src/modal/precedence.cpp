@@ -11,7 +11,7 @@ constexpr Precedence kBoth = Precedence::both, kIgnored = Precedence::ignored, k
 
 // M700 appendix 2, one row for each commanded code in its order. The cells that are alarms have rules of their own where the state decides:
 // arc with G41 G42 P151 and with G43 G44 P70, G31 under compensation P608, cycles under compensation P155, planes P112.
-constexpr PrecedenceRow kCompany[] = {
+constexpr PrecedenceRow kInOneBlock[] = {
     // function            motion  radius    length    cycle     work    macro   mirror
     {F::dwell,             kModal, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
     {F::data_input,        kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
@@ -37,7 +37,7 @@ constexpr PrecedenceRow kCompany[] = {
     {F::coordinate_set,    kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
 };
 /// Any other code that takes the axis words of the block: mirror cannot have them, too.
-constexpr PrecedenceRow kAlone{F::count_, kBoth, kBoth, kBoth, kBoth, kBoth, kBoth, kIgnored};
+constexpr PrecedenceRow kAnyOther{F::count_, kBoth, kBoth, kBoth, kBoth, kBoth, kBoth, kIgnored};
 
 constexpr BarredRow kBarred[] = {
     {kInPolarCommand, F::high_speed_accuracy, Condition::illegal_g, "6.12"},
@@ -91,9 +91,9 @@ constexpr BarredRow kBarred[] = {
 }  // namespace
 
 const PrecedenceRow& precedence_of(Function function) {
-  for (const PrecedenceRow& row : kCompany)
+  for (const PrecedenceRow& row : kInOneBlock)
     if (row.function == function) return row;
-  return kAlone;
+  return kAnyOther;
 }
 
 Condition barred(unsigned modes, Function function) {

@@ -164,6 +164,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::program_edited, "NC-READ", nullptr},
     {C::rotation_in_figure, "NC-NOT-BUILT", nullptr},  // these do not occur: there is no such function
     {C::offset_in_figure, "NC-NOT-BUILT", nullptr},
+    {C::offset_arc, "NC-NOT-BUILT", nullptr},
     {C::machine_in_figure, "NC-NOT-BUILT", nullptr},
     {C::surface_axis, "NC-AXIS", nullptr},
     {C::surface_speed, "NC-SPINDLE", nullptr},

@@ -172,6 +172,7 @@ const AlarmRow kConditions[kConditionRows] = {
     // functions of other families
     {C::rotation_in_figure, "NC-NOT-BUILT", nullptr},
     {C::offset_in_figure, "NC-NOT-BUILT", nullptr},
+    {C::offset_arc, "NC-NOT-BUILT", nullptr},
     {C::machine_in_figure, "NC-NOT-BUILT", nullptr},
     {C::surface_axis, "NC-AXIS", nullptr},
     {C::surface_speed, "NC-SPINDLE", nullptr},

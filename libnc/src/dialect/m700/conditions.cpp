@@ -131,6 +131,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::program_edited, "P235", nullptr},
     {C::rotation_in_figure, "P252", nullptr},
     {C::offset_in_figure, "P141", nullptr},
+    {C::offset_arc, "P142", nullptr},
     {C::machine_in_figure, "P34", nullptr},  // 13.3.3 (9): "cannot be used", without a code
     {C::surface_axis, "P133", nullptr},      // 10.3
     {C::surface_speed, "P132", nullptr},     // 10.3

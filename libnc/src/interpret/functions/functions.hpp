@@ -54,6 +54,7 @@ Execution do_polar_off(BlockContext& in);          // milling.cpp
 Execution do_hypothetical_axis(BlockContext& in);  // hypothetical.cpp
 Execution do_unidirectional(BlockContext& in);     // unidirectional.cpp
 Execution do_circle_cut(BlockContext& in);         // circle_cut.cpp: G12 G13
+Execution do_position_offset(BlockContext& in);    // position_offset.cpp: G45 to G48
 
 /// Motions with rules of their own.
 Execution move_thread(BlockContext& in, const AxisVec& target, uint32_t commanded);             // thread.cpp

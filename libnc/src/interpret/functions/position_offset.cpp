@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// G45 to G48: the motion of the block with its way made longer or shorter by an offset (M700 12.6).
+#include <cmath>
+#include <numbers>
+
+#include "interpret/feed.hpp"
+#include "interpret/functions/functions.hpp"
+#include "interpret/plane.hpp"
+#include "interpret/program_map.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// An arc begins or ends on an axis of its circle when it is as near to it as the coarsest least input increment, mm.
+constexpr double kOnAxis_mm = 0.001;
+
+bool is_twice(Function function) { return function == Function::offset_twice_longer || function == Function::offset_twice_shorter; }
+
+/// The amount by which G45 makes a way longer, G46 shorter (12.6): that of D, or of the D before.
+Execution amount_of(BlockContext& in, double* amount) {
+  const ModalState& modal = in.state.modal;
+  if (modal.d == 0 && !in.words.has(Role::offset_number)) return in.raise(Condition::no_offset_number, Role::offset_number);
+  *amount = radius_amount(in, modal.d);
+  const Function function = in.words.one_shot->function;
+  if (function == Function::offset_shorter || function == Function::offset_twice_shorter) *amount = -*amount;
+  return Execution::done;
+}
+
+/// A length with its sign, longer by `by`; one that is shortened below 0 turns round (12.6, precaution (2)).
+double longer(double length, double by) { return length + (std::signbit(length) ? -by : by); }
+
+/// Makes the way of each axis of the block longer and gives it to the block as an increment.
+void lengthen_ways(BlockContext& in, double amount, bool arc) {
+  BlockWords& w = in.words;
+  const bool mapped = program_mapped(in);
+  const AxisVec position = mapped ? to_program(in, in.position()) : in.position();
+  AxisVec target = target_of_words(in);
+  if (mapped) target = to_program(in, target);
+  const double ways = is_twice(w.one_shot->function) ? 2 * amount : amount;
+  for (uint32_t left = w.axes; left != 0; left &= left - 1) {
+    const unsigned i = first_of(left);
+    const bool by_increment = (w.incremental >> i & 1) != 0;
+    const double way = by_increment ? w.axis[i] : target[i] - position[i];
+    // Precaution (3): of a zero that is an increment the sign counts, an absolute one stays; so does the axis that a half circle comes back to.
+    const bool stays = way == 0 && (!by_increment || arc);
+    w.axis[i] = stays ? 0 : longer(way, ways / scale_of(in, i));
+  }
+  w.incremental = w.axes;
+}
+
+/// The circle that the programmed one becomes: of the same centre where the arc begins beside its programmed start by as much.
+Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
+  const FunctionRow& row = *in.words.one_shot;
+  const PlaneAxes plane = plane_axes(in);
+  if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
+  Execution did = check_feed(in, in.state.modal.of(Mode::motion));
+  ArcWords words;
+  if (did == Execution::done) did = read_arc_words(in, plane, in.words.axes, &words);
+  if (did != Execution::done) return did;
+  const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
+  lengthen_ways(in, amount, true);
+  const double by = amount / scale_of(in, h);
+  if (words.has_radius) words.radius = longer(words.radius, by);
+  for (double& center : words.center)
+    if (center != 0) center = longer(center, by);
+  const double start[2] = {0, 0};
+  const double end[2] = {(in.words.axes >> h & 1) != 0 ? in.words.axis[h] : 0, (in.words.axes >> v & 1) != 0 ? in.words.axis[v] : 0};
+  Circle circle;
+  bool straight = false;
+  const Condition bad = make_circle(start, end, words, ccw, kOnAxis_mm, &circle, &straight);
+  const auto on_axis = [&circle](const double at[2]) {
+    return std::fmin(std::fabs(at[0] - circle.center[0]), std::fabs(at[1] - circle.center[1])) < kOnAxis_mm;
+  };
+  const long quarters = std::lround(std::fabs(circle.sweep) / (kPi / 2));
+  const bool fits = is_twice(row.function) ? quarters == 2 : quarters == 1 || quarters == 3;
+  if (bad != Condition::none || straight || !on_axis(start) || !on_axis(end) || !fits) return in.raise_code(Condition::offset_arc, row);
+  return move_arc_by(in, plane, target_of_words(in), in.words.axes, words, ccw);
+}
+
+}  // namespace
+
+Execution do_position_offset(BlockContext& in) {
+  const FunctionRow& row = *in.words.one_shot;
+  if (in.state.cycle.kind != CycleKind::none) return do_cycle(in);  // precaution (1)
+  if (in.state.rotated) return in.raise_code(Condition::offset_in_figure, row);  // App. 1, P141
+  const Function motion = in.state.modal.of(Mode::motion);
+  if (!plain_motion(motion)) return in.raise_mode(Condition::illegal_g, Mode::motion);
+  if (in.words.axes == 0 && !in.words.any({Role::arc_radius, Role::vector_x, Role::vector_y, Role::vector_z})) return Execution::done;
+  double amount = 0;
+  const Execution did = amount_of(in, &amount);
+  if (did != Execution::done) return did;
+  if (is_arc(motion)) return move_offset_arc(in, amount, motion == Function::arc_ccw);
+  lengthen_ways(in, amount, false);
+  return move_by_words(in);
+}
+
+}  // namespace nc
