@@ -5,6 +5,8 @@
 
 namespace nc {
 
+/// A way no longer than this is none, in mm or degrees: it is below every command unit.
+inline constexpr double kNoLength = 1e-9;
 /// What adding up coordinates of some metres in doubles leaves, in mm or degrees.
 inline constexpr double kAddingUp = 1e-9;
 /// Two segments that follow one another: the end and the start went through the same maps in another order, in mm or degrees.

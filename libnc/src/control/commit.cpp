@@ -6,12 +6,12 @@
 #include <cstring>
 #include <numbers>
 
+#include "base/same_place.hpp"
 #include "frame/rotary.hpp"
 
 namespace nc {
 namespace {
 
-constexpr double kNoLength = 1e-9;   // mm or deg: below every command unit
 constexpr double kPi = std::numbers::pi;
 
 /// A circle of a plane that the map behind compensation keeps. That map may turn and reflect, never stretch: it would stretch the radius of

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fairing/fairing.hpp"
 
+#include "base/same_place.hpp"
+
 namespace nc {
 namespace {
 
-constexpr double kNoLength = 1e-9;  // mm: as in commit
 constexpr double kSlack = 1e-9;     // of the bound, for a restart
 
 /// The end of a block, with nothing but lines before and behind it. Where the program begins again it is another one.

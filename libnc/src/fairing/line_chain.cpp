@@ -3,10 +3,11 @@
 
 #include <cmath>
 
+#include "base/same_place.hpp"
+
 namespace nc {
 namespace {
 
-constexpr double kNoLength = 1e-9;  // mm: as in commit
 constexpr double kNoise = 1e-12;    // of cosines
 
 }  // namespace

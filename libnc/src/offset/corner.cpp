@@ -4,12 +4,13 @@
 
 #include <cmath>
 
+#include "base/same_place.hpp"
+
 namespace nc {
 namespace {
 
 constexpr double kSmallTurn = 1e-6;   // rad: below it two tangents count as one direction
 constexpr double kRightAngle = 1e-6;  // 90 degrees belongs to the obtuse corners (M700 12.4.1)
-constexpr double kNoLength_mm = 1e-9;
 
 Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) {
   return {p[axis[0]], p[axis[1]]};
@@ -32,7 +33,7 @@ ContourJoint two_perpendiculars(const Leg& before, double offset_before, const L
   ContourJoint joint;
   joint.v[0] = perpendicular(before, offset_before);
   joint.v[1] = perpendicular(behind, offset_behind);
-  joint.n = norm(joint.v[1] - joint.v[0]) > kNoLength_mm ? 2 : 1;
+  joint.n = norm(joint.v[1] - joint.v[0]) > kNoLength ? 2 : 1;
   return joint;
 }
 
@@ -76,7 +77,7 @@ bool make_legs(const Move& move, Leg* begin, Leg* end) {
     *end = {(turning / r1) * left_of(finish - center), turning / r1};
     return true;
   }
-  if (!(norm(finish - start) > kNoLength_mm)) return false;
+  if (!(norm(finish - start) > kNoLength)) return false;
   *begin = *end = {unit(finish - start), 0};
   return true;
 }

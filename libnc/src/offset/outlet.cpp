@@ -4,12 +4,12 @@
 // programmed.
 #include <cmath>
 
+#include "base/same_place.hpp"
 #include "offset/offset.hpp"
 
 namespace nc {
 namespace {
 
-constexpr double kNoLength_mm = 1e-9;
 constexpr double kSamePoint_mm = 1e-8;
 constexpr double kPi = 3.14159265358979323846;
 
@@ -29,9 +29,9 @@ AxisVec joined(const AxisVec& start, const AxisVec& last_end) {
 }
 
 bool has_length(const Move& move) {
-  if (move.circular && std::abs(move.circle.sweep) * move.circle.radius_start > kNoLength_mm) return true;
+  if (move.circular && std::abs(move.circle.sweep) * move.circle.radius_start > kNoLength) return true;
   for (unsigned i = 0; i < kMaxAxes; ++i) {
-    if (std::abs(move.end[i] - move.start[i]) > kNoLength_mm) return true;
+    if (std::abs(move.end[i] - move.start[i]) > kNoLength) return true;
   }
   return false;
 }
@@ -43,7 +43,7 @@ double turned_by(Vec2 from, Vec2 to) {
 // How far the radius turns at one end of an arc. Where the tool passes through the centre itself (its radius is
 // that of the arc) nothing is left that could point anywhere: what remains is rounding, and the angle stays.
 double radius_turned_by(Vec2 from, Vec2 to) {
-  return norm(to) > kNoLength_mm ? turned_by(from, to) : 0;
+  return norm(to) > kNoLength ? turned_by(from, to) : 0;
 }
 
 // The centre stays; radii and angles follow the vectors at both ends. Vectors that are not along the radius
@@ -126,8 +126,8 @@ void bend(const AxisVec& programmed, Vec2 from, Vec2 to, Plane plane, Item* out)
 }
 
 bool bendable(Vec2 from, Vec2 to) {
-  return norm(from) > kNoLength_mm && std::abs(norm(from) - norm(to)) < 1e-6 &&
-         norm(to - from) > kNoLength_mm;
+  return norm(from) > kNoLength && std::abs(norm(from) - norm(to)) < 1e-6 &&
+         norm(to - from) > kNoLength;
 }
 
 }  // namespace
