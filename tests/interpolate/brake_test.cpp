@@ -132,5 +132,43 @@ TEST(Brake, KeepsTheLimitsBetweenThePlacesItLooksAt) {
   EXPECT_GT(stops, (test::sanitized() ? 2 : 5) * plans);
 }
 
+/// Seconds until a stop that begins now is at rest; infinite where none is found. The limits are measured each `cycle` seconds.
+double stops_after(const BendPlan& plan, const optimal::Limits& limits, double cycle, Worst* worst) {
+  Brake brake;
+  if (!brake.find(Ahead(plan, 0), limits, 1)) return INFINITY;
+  double v = plan.v, a = 0;
+  for (unsigned n = 1; n < 100000; ++n) {
+    const double gone = plan.v * brake.advance(cycle) / cycle, accel = (gone - v) / cycle;
+    worst->acceleration = std::max(worst->acceleration, std::fabs(accel) / limits.acceleration[0]);
+    worst->jerk = std::max(worst->jerk, std::fabs(accel - a) / cycle / limits.jerk[0]);
+    v = gone, a = accel;
+    if (brake.done() && gone == 0) return n * cycle;
+  }
+  return INFINITY;
+}
+
+// A stop may be over within a part of what is a step where the axes are fast.
+TEST(Brake, FindsAWayToRestHoweverSlowlyTheAxesGo) {
+  for (const double cycle : {0.00025, 0.001}) {
+    for (const double acceleration : {500.0, 2000.0, 20000.0}) {
+      for (const double rise : {0.05, 0.01, 0.0003}) {  // s, until the acceleration is reached
+        for (double v = 1e-12; v < 30; v *= 1.7) {
+          BendPlan plan;
+          plan.growth = 0;
+          plan.v = v;
+          optimal::Limits limits;
+          limits.axis_count = 2;
+          for (unsigned i = 0; i < 2; ++i) limits.acceleration[i] = acceleration, limits.jerk[i] = acceleration / rise;
+          Worst worst;
+          const double soonest = v / acceleration + std::min(rise, 2 * std::sqrt(v * rise / acceleration));
+          EXPECT_LT(stops_after(plan, limits, cycle, &worst), 2 * soonest + 2.5 * cycle) << v << " mm/s, " << acceleration << " mm/s2 in " << rise << " s";
+          EXPECT_LE(worst.acceleration, 1.001) << v << " mm/s, " << acceleration << " mm/s2 in " << rise << " s";
+          EXPECT_LE(worst.jerk, 1.001) << v << " mm/s, " << acceleration << " mm/s2 in " << rise << " s";
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nc

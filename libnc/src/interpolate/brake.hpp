@@ -32,23 +32,19 @@ class Brake {
     from_ = pace;
     State x{0, pace.sigma, pace.slope};
     look_[0].plan = plan.at(0.0);
-    step_ = step_for(look_[0].plan, limits, pace.sigma);
+    const double soonest = soonest_for(look_[0].plan, limits, pace);
+    if (soonest < kNothing) return begin_at_rest();
+    step_ = std::fmin(step_for(look_[0].plan, limits, pace.sigma), kOfSoonest * soonest);
+    at_once_ = std::fmin(kAtOnce, kOfStep * step_);
     while (count_ < kSteps) {
       const Plan here = plan;
       if (!gather(plan, x, 0, step_)) return false;
       if (rests_) return keeps(x, 0, limits) <= 1 && begin();  // it stands there anyway
-      if (lands(x, look_[0].plan, limits, use)) return land(here, limits, x);
+      if (jerk_to_land(x, look_[0].plan, limits) > use * kLanding) return land(here, limits, x);
       double bend = 0;
-      if (!choose(x, limits, use, &bend)) return false;
-      // With it the step ends elsewhere in the plan, maybe in another cell.
-      for (unsigned n = 0; misses(plan, x, bend); ++n) {
-        if (n == kTighter) return false;
-        plan = here;
-        if (!gather(plan, x, bend, step_) || rests_ || !choose(x, limits, use, &bend)) return false;
-      }
+      if (!chooses(here, &plan, limits, use, x, &bend)) return lands_sooner(here, limits, x);
       bend_[count_++] = bend;
       x.step(bend, step_);
-      if (!(x.sigma > 0)) return false;
       look_[0].plan = plan.at(x.tau);
     }
     return false;
@@ -80,6 +76,8 @@ class Brake {
   static constexpr unsigned kLooks = 16;    ///< in a step
   static constexpr double kLongest = 0.00125, kShortest = 0.00025;  ///< s, of a step
   static constexpr double kOfRise = 0.25;   ///< of the time in which the acceleration goes to its limit
+  static constexpr double kOfSoonest = 0.25;  ///< of the time in which jerk alone lets the axes stand
+  static constexpr double kNothing = 1e-6;  ///< s: who could stand that soon stands at once, and the shortest cycle does not tell the difference
   static constexpr double kSteady = 0.75;   ///< of the steps, for a stop on a line
   static constexpr double kShare = 1.0005;  ///< of the acceleration, which the plan may use, too
   static constexpr double kJerk = 0.995;    ///< of the jerk: between the places that are looked at a cell of the plan may begin and end
@@ -88,7 +86,7 @@ class Brake {
   static constexpr double kFurther = 1.5;   ///< of what was too much
   static constexpr double kLanding = 0.5;   ///< of the jerk limits, where there is nothing else
   static constexpr double kTiny = 1e-9;     ///< of velocity
-  static constexpr double kAtOnce = 1e-6;   ///< s
+  static constexpr double kAtOnce = 1e-6, kOfStep = 0.01;  ///< s, and of a step: what is as near counts as the same moment
   static constexpr double kRounding = 1e-9; ///< s
 
   struct State {
@@ -128,6 +126,18 @@ class Brake {
     }
     return std::fmin(kLongest, std::fmax(std::fmin(kOfRise * rise, kLongest), std::fmax(kShortest, stop / (kSteady * kSteps))));
   }
+  /// Seconds in which jerk alone lets the axes stand: their acceleration goes, and the velocity in two halves. A step has to be shorter, or
+  /// the least that the limits leave in it goes beyond rest.
+  static double soonest_for(const PlanMoment& now, const optimal::Limits& limits, const PlanPace& pace) NC_RT {
+    const double u1 = now.v * pace.sigma, u2 = now.a * pace.sigma * pace.sigma + now.v * pace.slope;
+    double t = 0;
+    for (unsigned i = 0; i < limits.axis_count; ++i) {
+      if (!(limits.jerk[i] > 0)) continue;
+      const double a = std::fabs(now.path.d1[i] * u2 + now.path.d2[i] * u1 * u1), v = std::fabs(now.path.d1[i] * u1);
+      t = std::fmax(t, a / limits.jerk[i] + 2 * std::sqrt(v / limits.jerk[i]));
+    }
+    return t;
+  }
   struct Look {
     PlanMoment plan;
     double t = 0;  ///< s behind the start of the step
@@ -160,6 +170,20 @@ class Brake {
       to = end;
     }
     return true;
+  }
+  /// sigma'' of the step of which the looks are those of a steady pace; `here` is the plan in front of it, and `plan` becomes that behind it.
+  template <class Plan>
+  bool chooses(const Plan& here, Plan* plan, const optimal::Limits& limits, double use, const State& x, double* bend) NC_RT {
+    if (!choose(x, limits, use, bend)) return false;
+    // With it the step ends elsewhere in the plan, maybe in another cell.
+    for (unsigned n = 0; misses(*plan, x, *bend); ++n) {
+      if (n == kTighter) return false;
+      *plan = here;
+      if (!gather(*plan, x, *bend, step_) || rests_ || !choose(x, limits, use, bend)) return false;
+    }
+    State next = x;
+    next.step(*bend, step_);
+    return next.sigma > 0 && (next.slope >= 0 || jerk_to_land(next, look_[looks_ - 1].plan, limits) <= kJerk);
   }
   /// With this sigma'' the step does not end in the cell in which the looks have ended.
   template <class Plan>
@@ -216,7 +240,7 @@ class Brake {
     double most = 0;
     for (unsigned n = 1; n < looks_; ++n) {
       const double t = look_[n].t - look_[n - 1].t;
-      if (!(t > kAtOnce) || look_[n].plan.rests) continue;
+      if (!(t > at_once_) || look_[n].plan.rests) continue;
       State from = x, to = x;
       from.step(bend, look_[n - 1].t);
       to.step(bend, look_[n].t);
@@ -240,10 +264,9 @@ class Brake {
     }
   }
   /// What acceleration allows it to be, `behind` seconds after sigma' was x.slope.
-  static void acceleration_range(const PlanMoment& p, const optimal::Limits& limits, const State& x, double behind, double use, double share,
-                                 Range* r) NC_RT {
+  void acceleration_range(const PlanMoment& p, const optimal::Limits& limits, const State& x, double behind, double use, double share, Range* r) const NC_RT {
     Range slopes;
-    const bool now = behind < kAtOnce;  // nothing can change any more
+    const bool now = behind < at_once_;  // nothing can change any more
     const double most = now ? kShare : share * kShare;
     const double sigma2 = x.sigma * x.sigma;
     for (unsigned i = 0; i < limits.axis_count; ++i) {
@@ -258,12 +281,18 @@ class Brake {
     r->low = std::fmax(r->low, (low - x.slope) / behind);
     r->high = std::fmin(r->high, (slopes.high - x.slope) / behind);
   }
-  /// sigma'' that ends at rest from here is as much as the axes can have.
-  static bool lands(const State& x, const PlanMoment& p, const optimal::Limits& limits, double use) NC_RT {
+  /// Jerk of the sigma'' that ends at rest from here, as a share of what the axes have.
+  static double jerk_to_land(const State& x, const PlanMoment& p, const optimal::Limits& limits) NC_RT {
     const double bend = x.slope * x.slope / (2 * x.sigma);
+    double share = 0;
     for (unsigned i = 0; i < limits.axis_count; ++i)
-      if (limits.jerk[i] > 0 && bend * std::fabs(p.path.d1[i] * p.v) > use * kLanding * limits.jerk[i]) return true;
-    return false;
+      if (limits.jerk[i] > 0) share = std::fmax(share, bend * std::fabs(p.path.d1[i] * p.v) / limits.jerk[i]);
+    return share;
+  }
+  /// A step that would go beyond rest, or to where only a jump lands: a landing from its beginning asks for less.
+  template <class Plan>
+  bool lands_sooner(const Plan& here, const optimal::Limits& limits, const State& x) NC_RT {
+    return x.slope < 0 && land(here, limits, x);
   }
   template <class Plan>
   bool land(Plan plan, const optimal::Limits& limits, State x) NC_RT {
@@ -297,6 +326,10 @@ class Brake {
     lands_ = false;
     return true;
   }
+  bool begin_at_rest() {
+    from_ = {0, 0};
+    return begin() && (lands_ = true);
+  }
 
   Look look_[kLooks];
   unsigned looks_ = 0;
@@ -304,7 +337,7 @@ class Brake {
   bool rests_ = false;      ///< the plan does, in the step that is looked at
   double bend_[kSteps] = {};
   unsigned count_ = 0, at_ = 0;
-  double step_ = kLongest;
+  double step_ = kLongest, at_once_ = kAtOnce;
   double last_ = kLongest;  ///< s, of the last step
   double in_step_ = 0;
   bool lands_ = false;      ///< it ends at rest, else with the plan
