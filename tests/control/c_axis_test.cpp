@@ -257,6 +257,19 @@ TEST_P(CAxis, OnlyAsAnAxisItIsMovedByHand) {
   EXPECT_GT(c(), 41);
 }
 
+// Its place goes through the coordinate systems and back with every move: what that leaves in the last digits is no command.
+TEST_P(CAxis, OtherAxesMoveWhateverPlaceItWasLeftAt) {
+  for (unsigned n = 0; n < 40; ++n) {
+    nc_axes place{};
+    place.v[kC] = 15.837791058604324 + 1.7 * n;
+    bench.work_offset(1, {0, 0, 0, 0.7021 - 1.1 * n});
+    ASSERT_EQ(nc_position_set(bench.control(), 0, &place), NC_OK);
+    start("G53 G0 X5. Y5.\nG91 G1 X1. F3000\nG2 X2. R2.\nM30");
+    ASSERT_TRUE(until([&] { return drive->ended; }, 2000)) << "C " << place.v[kC] << " cause " << int{drive->out.cause};
+    EXPECT_EQ(drive->alarm(), "");
+  }
+}
+
 /// Precaution (3) by hand: what was wanted of the axis before its servo went off, or while it was off, does not happen when it comes on.
 TEST_P(CAxis, ByHandNothingIsLeftOverTheServo) {
   for (const nc_manual_kind kind : {NC_MANUAL_STEP, NC_MANUAL_HANDLE, NC_MANUAL_REFERENCE}) {

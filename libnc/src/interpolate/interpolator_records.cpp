@@ -10,11 +10,6 @@
 namespace nc {
 namespace {
 
-/// A segment that does not start where the machine stands is never begun: the axes would jump.
-
-/// An axis that a block does not name goes to where it is, but for what the way there and back through the coordinate systems leaves.
-constexpr double kMoves = 1e-9;  ///< mm or deg
-
 uint32_t code_number(double value) {
   return value >= 0 && value < 4294967296.0 ? static_cast<uint32_t>(value) : 0;
 }
@@ -108,7 +103,7 @@ bool Interpolator::begin_move(const Record& r, const nc_inputs&) {
     }
   }
   for (unsigned i = 0; by_hand_ != 0 && i < config_.axis_count; ++i)
-    if (std::fabs(s.curve.delta[i]) > kMoves) by_hand_ &= ~(1u << i);
+    if (std::fabs(s.curve.delta[i]) > kAddingUp) by_hand_ &= ~(1u << i);
   law_.s = s.begun;
   moving_ = true;
   block_begun_ = true;

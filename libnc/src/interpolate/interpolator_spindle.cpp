@@ -82,13 +82,14 @@ void Interpolator::settle_axes() {
   filter_.relocate(place());
 }
 
+/// An axis that a block does not name goes to where it is, but for what the way there and back through the coordinate systems leaves.
 bool Interpolator::moves_any(const Segment& s, uint8_t axes) const {
   if (axes == 0) return false;
   AxisVec low, high;
   const bool curved = s.curve.circular || s.curve.shape != nullptr;
   if (curved) curve_bounds(s.curve, config_.axis_count, &low, &high);
   for (unsigned i = 0; i < config_.axis_count; ++i)
-    if ((axes >> i & 1) != 0 && (curved ? high[i] > low[i] : s.curve.delta[i] != 0)) return true;
+    if ((axes >> i & 1) != 0 && (curved ? high[i] - low[i] : std::fabs(s.curve.delta[i])) > kAddingUp) return true;
   return false;
 }
 
