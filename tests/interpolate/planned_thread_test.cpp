@@ -246,6 +246,36 @@ TEST(PlannedThread, AnInterlockStopsItAtOnceAndWithinTheLimits) {
   }
 }
 
+// The stop takes a part of a cycle where the lead is fine and the axes are fast.
+TEST(PlannedThread, WhateverStopsItStopsAFineOneToo) {
+  ExecutorConfig c = thread_config();
+  for (const double jerk : {2e5, 6e7}) {
+    for (unsigned i = 0; i < 3; ++i) c.limits[i] = {250, 250, jerk == 2e5 ? 2000.0 : 20000.0, jerk, 0.01};
+    for (const double lead : {0.01, 0.02, 0.1, 0.5}) {
+      for (bool nc_inputs::*const stops : {&nc_inputs::interlock, &nc_inputs::reset, &nc_inputs::alarm}) {
+        Program p(c);
+        thread(&p, place(0, -40), lead);
+        p.end();
+        Machine m(c);
+        m.in.spindle[0].rev_per_s = 2;
+        m.feed(p);
+        m.start();
+        double last = 0;
+        for (int i = 0; i < 1100; ++i) {
+          turn(m, 2);
+          m.in.*stops = i >= 1000;
+          m.feed(p);
+          last = m.out.command.v[2];
+          m.cycle();
+        }
+        EXPECT_LT(last, 0);
+        EXPECT_EQ(m.out.command.v[2], last) << "lead " << lead << " jerk " << jerk;
+        EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+      }
+    }
+  }
+}
+
 /// Chains of threads with tapers and other leads, spindles that speed up, slow down and stop, resets in the middle.
 TEST(PlannedThread, RandomThreadsKeepTheLimits) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
