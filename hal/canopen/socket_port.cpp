@@ -8,6 +8,7 @@
 #include <net/if.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -93,8 +94,25 @@ bool SocketPort::receive(CanFrame* frame) noexcept {
   }
 }
 
+namespace {
+
+constexpr const char* kSerial = "slcan:";
+
+}  // namespace
+
+std::string device_of(const std::string& interface) {
+  if (interface.rfind(kSerial, 0) != 0) {
+    const unsigned index = ::if_nametoindex(interface.c_str());
+    return index != 0 ? "interface " + std::to_string(index) : interface;
+  }
+  const std::string path = interface.substr(std::strlen(kSerial));
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return interface;
+  const bool device = S_ISCHR(status.st_mode);
+  return "serial " + std::to_string(device ? status.st_rdev : status.st_dev) + " " + std::to_string(device ? 0 : status.st_ino);
+}
+
 std::unique_ptr<CanPort> make_port(const std::string& interface, unsigned bit_s) {
-  constexpr const char* kSerial = "slcan:";
   if (interface.rfind(kSerial, 0) == 0) return std::make_unique<SlcanPort>(interface.substr(std::strlen(kSerial)), bit_s);
   return std::make_unique<SocketPort>(interface);
 }

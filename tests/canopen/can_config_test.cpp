@@ -2,11 +2,16 @@
 // The section [canopen]: what it makes, and what is refused with its line and key.
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdlib>
 #include <fstream>
 
 #include "can_rig.hpp"
 #include "places/places.hpp"
 #include "runtime/hal_factory.hpp"
+#include "runtime/machine_canopen.hpp"
 #include "runtime/machine_lock.hpp"
 #include "tools/lib/daemon_options.hpp"
 
@@ -129,6 +134,32 @@ TEST(CanConfig, TheInterfaceIsTheMachinesOwnAndThereIsNoVirtualTime) {
   nc::tools::DaemonOptions options;
   options.fast = true;
   expect_in(nc::tools::conflict_of(options, config), "--fast cannot be: the drives of a bus run in real time (hal = \"canopen\")");
+}
+
+// Whoever has the adapter under one of its names keeps everybody else from it under all of them.
+TEST(CanConfig, OneAdapterIsOneMachineUnderEveryName) {
+  char folder[] = "/tmp/nc-can-XXXXXX";
+  ASSERT_NE(mkdtemp(folder), nullptr);
+  const int master = ::posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_TRUE(master >= 0 && ::grantpt(master) == 0 && ::unlockpt(master) == 0);
+  const std::string tty = ptsname(master), link = std::string(folder) + "/by-id";
+  ASSERT_EQ(::symlink(tty.c_str(), link.c_str()), 0);
+  const auto resources = [](const std::string& interface) {
+    Config config;
+    EXPECT_TRUE(nc::rt::parse_config(replaced(can_toml(), "\"test\"", '"' + interface + '"'), "can.toml", &config).empty());
+    std::vector<nc::rt::MachineResource> of_bus;
+    nc::rt::canopen_resources(config, &of_bus);
+    return of_bus;
+  };
+  nc::rt::MachineLock first, second, third;
+  std::string error;
+  ASSERT_TRUE(first.take(resources("slcan:" + tty), &error)) << error;
+  EXPECT_FALSE(second.take(resources("slcan:" + link), &error));
+  expect_in(error, "CAN interface slcan:" + link);
+  EXPECT_TRUE(third.take(resources("slcan:" + tty + "7"), &error)) << error;
+  ::close(master);
+  ::unlink(link.c_str());
+  ::rmdir(folder);
 }
 
 // The example as it is shipped cuts on drives of its numbers.
