@@ -82,6 +82,7 @@ enum class Answer : std::uint8_t {
   kNoJogFeed,         // a jog at no speed
   kLetGoFirst,        // the button was on while something refused it
   kFeedHold,          // the machine's
+  kTakenBack,         // a cycle start by a feed hold that came with it, whoever gave that
   kInterlock,
   kAxesMove,
   kWarningActive,     // R19, R20, P460: reset first
@@ -142,6 +143,8 @@ constexpr const char* answer_text(Answer answer) {
       return "the button was on while something refused or stopped it: let it go first";
     case Answer::kFeedHold:
       return "the feed hold of the machine is on";
+    case Answer::kTakenBack:
+      return "a feed hold has taken it back";
     case Answer::kInterlock:
       return "the interlock of the machine is on";
     case Answer::kResetHeld:

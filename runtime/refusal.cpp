@@ -45,7 +45,8 @@ RefusalCause refusal_cause(Answer why) {
     case Answer::kSoftLimit: return RefusalCause::kSoftLimit;
     case Answer::kNotRepeated: return RefusalCause::kNotRepeated;
     case Answer::kNoJogFeed: return RefusalCause::kNoFeed;
-    case Answer::kFeedHold: return RefusalCause::kFeedHold;
+    case Answer::kFeedHold:
+    case Answer::kTakenBack: return RefusalCause::kFeedHold;
     case Answer::kInterlock: return RefusalCause::kInterlock;
     case Answer::kResetHeld: return RefusalCause::kResetHeld;
     case Answer::kWarningActive: return RefusalCause::kWarning;

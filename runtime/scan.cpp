@@ -148,6 +148,7 @@ void Scan::bind_spindles() noexcept {
 }
 
 void Scan::take_commands() noexcept {
+  held_now_ = 0;
   Command command;
   while (answered_count_ < std::size(answered_) && commands_.pop(&command)) answered_[answered_count_++] = {command.ticket, apply(command)};
 }
@@ -214,13 +215,15 @@ Answer Scan::apply(const Command& command) noexcept {
   return Answer::kOutOfRange;
 }
 
-// Also of what does not run yet: a start of this scan does not go to the NC, and one that waits there is taken back.
+// Also of what does not run yet: a start of this scan does not go to the NC, and one that waits there is taken back. The start of a button
+// comes behind the commands of its scan (follow_ladder()), and is taken back in start_cycle().
 void Scan::hold(std::uint32_t systems) noexcept {
   const std::uint32_t taken_back = start_pulse_ & systems;
   for (unsigned s = 0; s < systems_; ++s)
-    if ((taken_back >> s & 1u) != 0) refuse(s, Asked::kCycleStart, Answer::kFeedHold, -1, false, machine_asker());
+    if ((taken_back >> s & 1u) != 0) refuse(s, Asked::kCycleStart, Answer::kTakenBack, -1, false, start_by_[s]);
   start_pulse_ &= ~systems;
   hold_request_ |= systems;
+  held_now_ |= systems;
 }
 
 // A program in a block stop may be interrupted by manual motion; it goes on in the mode in which it was
@@ -270,12 +273,17 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
   if (((ready != 0 ? ready : systems) & ~held) == 0) return Answer::kFeedHold;
   if (ready == 0) return Answer::kNoProgram;
   if (drives_not_following()) return Answer::kDrivesOff;
+  // Who commands a start behind his hold wants it. Whoever presses a button in that scan does not know of the hold.
+  const std::uint32_t taken_back = by == Asker::kPanel || by == Asker::kLadder ? held_now_ : 0, starts = ready & ~taken_back;
+  if (starts == 0) return Answer::kTakenBack;
   if (active == 0) program_mode_ = mode_;
-  start_pulse_ |= ready;
-  hold_request_ &= ~ready;
+  start_pulse_ |= starts;
+  hold_request_ &= ~starts;
   for (unsigned s = 0; s < systems_; ++s) {
     if ((systems >> s & 1u) == 0) continue;
+    start_by_[s] = by;
     if (machine_holds_[s]) refuse(s, Asked::kCycleStart, Answer::kFeedHold, -1, false, by);
+    else if ((ready & taken_back) >> s & 1u) refuse(s, Asked::kCycleStart, Answer::kTakenBack, -1, false, by);
     else happened(s, Asked::kCycleStart);
   }
   return Answer::kDone;

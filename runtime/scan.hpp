@@ -232,7 +232,9 @@ class Scan {
   std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // of the scan before
   std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that the FIN that is on has completed
   std::uint32_t start_pulse_ = 0;  // bit per part system: its program starts or goes on
+  Asker start_by_[NC_MAX_SYSTEMS] = {};  // who has asked for its last start
   std::uint32_t hold_request_ = 0;  // bit per part system: until it stands
+  std::uint32_t held_now_ = 0;      // bit per part system: a command of this scan has held it
   bool ending_ = false;  // nothing starts any more
   Refusal refusal_[NC_MAX_SYSTEMS];
   struct JogWatch {

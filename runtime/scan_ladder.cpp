@@ -35,7 +35,8 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
   } else {
     if (ladder_start_scans_ == kStartMinScans) {  // the NC sees it in the next scan
       const Answer answer = start_cycle(all_systems(), true, machine_asker());
-      if (answer != Answer::kAlreadyRunning) settle(Asked::kCycleStart, answer, machine_asker());  // the button of a program that runs is nothing to tell of
+      // What is done has been noted for each part system; the button of a program that runs is nothing to tell of.
+      if (answer != Answer::kDone && answer != Answer::kAlreadyRunning) settle(Asked::kCycleStart, answer, machine_asker());
     }
     ladder_start_scans_ = 0;
   }

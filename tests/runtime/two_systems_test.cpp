@@ -303,9 +303,11 @@ TEST_F(TwoSystems, AFeedHoldInTheScanOfAStartWins) {
   nc::rt::Command command;
   command.kind = CommandKind::kCycleStart;
   command.system = nc::rt::kAllSystems;
+  command.by = nc::rt::Asker::kClient;
   ASSERT_TRUE(scan.post(command));
   command.kind = CommandKind::kFeedHold;
   command.system = 1;
+  command.by = nc::rt::Asker::kConsole;
   ASSERT_TRUE(scan.post(command));
   for (unsigned n = 0; n < 5; ++n) scan.run_once();
   EXPECT_EQ(seen.starts[0], 1u);
@@ -314,11 +316,52 @@ TEST_F(TwoSystems, AFeedHoldInTheScanOfAStartWins) {
   EXPECT_EQ(seen.holds[1], 1u) << "a start that waits in the NC is taken back, and the next one is free";
   EXPECT_EQ(scan.snapshot().system[0].refusal.asked, nc::rt::Asked::kNothing);
   EXPECT_EQ(scan.snapshot().system[1].refusal.asked, nc::rt::Asked::kCycleStart);
-  EXPECT_EQ(scan.snapshot().system[1].refusal.why, Answer::kFeedHold);
+  EXPECT_EQ(scan.snapshot().system[1].refusal.why, Answer::kTakenBack) << "no feed hold of the machine is on";
+  EXPECT_EQ(scan.snapshot().system[1].refusal.by, nc::rt::Asker::kClient) << "who has asked for the start, not the panel";
   command.kind = CommandKind::kCycleStart;
   ASSERT_TRUE(scan.post(command));
   for (unsigned n = 0; n < 5; ++n) scan.run_once();
   EXPECT_EQ(seen.starts[1], 1u);
+}
+
+// The button of the panel and an operator's feed hold in one scan: whoever has hold of the machine keeps it.
+TEST_F(TwoSystems, AFeedHoldInTheScanOfThePanelsStartWins) {
+  build("[signals]\n\"plc.cycle_start\" = \"in0\"\n");
+  ASSERT_EQ(select(0, "G1 X50. F1200\nM30\n"), Answer::kDone);
+  ASSERT_EQ(select(1, "G1 X50. F1200\nM30\n"), Answer::kDone);
+  const unsigned button = static_cast<unsigned>(config.points.find("in0"));
+  for (unsigned scans = 0; scans < 4; ++scans) {  // one of them is that in which the button's start is taken
+    machine->set_input(button, 1);
+    steps(5);
+    machine->set_input(button, 0);
+    steps(scans);
+    ASSERT_EQ(give(CommandKind::kFeedHold, 1), Answer::kDone);
+    steps(10);
+    EXPECT_EQ(now(0).nc.state, NC_STATE_RUNNING) << scans;
+    EXPECT_NE(now(1).nc.state, NC_STATE_RUNNING) << scans;
+    if (now(1).nc.state == NC_STATE_IDLE) {
+      EXPECT_EQ(nc::rt::refusal_text(config, 1, now(1).refusal), "cycle start refused: a feed hold has taken it back") << scans;
+      EXPECT_EQ(now(1).refusal.by, nc::rt::Asker::kPanel);
+    }
+    EXPECT_EQ(now(0).refusal.asked, nc::rt::Asked::kNothing) << scans;
+    reset();
+  }
+}
+
+TEST_F(TwoSystems, TheStatusOfTheOneThatIsHeldSaysWhyThePanelsStartDidNothing) {
+  build("[signals]\n\"plc.cycle_start\" = \"in0\"\n\"plc2.feed_hold_n\" = \"in1\"\n");
+  ASSERT_EQ(select(0, "G1 X50. F1200\nM30\n"), Answer::kDone);
+  ASSERT_EQ(select(1, "G1 X50. F1200\nM30\n"), Answer::kDone);
+  const unsigned button = static_cast<unsigned>(config.points.find("in0"));
+  machine->set_input(button, 1);
+  steps(5);
+  machine->set_input(button, 0);
+  steps(10);
+  EXPECT_EQ(now(0).nc.state, NC_STATE_RUNNING);
+  EXPECT_EQ(now(0).refusal.asked, nc::rt::Asked::kNothing);
+  EXPECT_EQ(now(1).nc.state, NC_STATE_IDLE);
+  EXPECT_EQ(nc::rt::refusal_text(config, 1, now(1).refusal), "cycle start refused: the feed hold of the machine is on");
+  EXPECT_EQ(now(1).refusal.by, nc::rt::Asker::kPanel);
 }
 
 TEST_F(TwoSystems, AFeedHoldStopsThePartSystemThatItNames) {
