@@ -188,8 +188,8 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
                 us(figures.jitter_p50_ns),
                 us(figures.jitter_p999_ns),
                 us(figures.jitter_max_ns)};
-  to.message_count = block.message_count;
-  set(to.message, block.message);
+  to.message_count = from.message_count;
+  set(to.message, from.message);
   for (unsigned i = 0; i < block.forced_count; ++i) {
     set(forced[i].device, block.forced[i].device);
     forced[i].value = block.forced[i].value;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <utility>
 
 #include "dds/monitor.hpp"
@@ -109,7 +110,7 @@ int progress(Monitor* monitor) {
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   std::string last_state;
   unsigned last_tenth = ~0u;
-  std::uint64_t messages = 0;
+  std::map<std::uint32_t, std::uint64_t> messages;  // of each part system
   bool live = false, alive = true;
   const auto leave_line = [&] {
     if (live) std::fputc('\n', stdout);
@@ -117,10 +118,11 @@ int progress(Monitor* monitor) {
   };
   while (rt::end_signal() == 0 && !std::ferror(stdout)) {
     const StatusView& status = monitor->view().systems.begin()->second;
-    if (status.message_count > messages) {
-      messages = status.message_count;
+    for (const auto& [number, system] : monitor->view().systems) {
+      if (system.message_count <= messages[number]) continue;
+      messages[number] = system.message_count;
       leave_line();
-      std::printf("message: %s\n", printable(status.message).c_str());
+      std::printf("message: %s\n", printable(system.message).c_str());
     }
     if (monitor->view().alive != alive) {
       alive = monitor->view().alive;

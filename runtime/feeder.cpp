@@ -351,8 +351,8 @@ void Feeder::take_messages() {
 
 void Feeder::tell(std::string message, unsigned system) {
   const std::lock_guard lock(mutex_);
-  info_.last_message = std::move(message);
-  info_.message_system = system;
+  if (info_.said.size() == FeederInfo::kMessagesKept) info_.said.erase(info_.said.begin());
+  info_.said.push_back({system, std::move(message)});
   ++info_.messages;
 }
 

@@ -4,11 +4,13 @@
 // turns); it may allocate.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,9 +61,18 @@ struct FeederInfo {
   System system[NC_MAX_SYSTEMS];
   std::uint64_t events = 0;     // items executed
   std::uint64_t dropped = 0;    // events that were not fetched in time
-  std::uint64_t messages = 0;   // so far, of all part systems
-  std::string last_message;
-  unsigned message_system = 0;  // whose that is
+  // What is said to the operator.
+  struct Message {
+    unsigned system = 0;  // whose it is
+    std::string text;
+  };
+  static constexpr std::size_t kMessagesKept = 64;
+  std::uint64_t messages = 0;      // so far, of all part systems
+  std::vector<Message> said;       // the last of them, oldest first
+  // Those behind the first `seen`, as far as they are kept.
+  std::span<const Message> messages_since(std::uint64_t seen) const {
+    return std::span(said).last(static_cast<std::size_t>(std::min<std::uint64_t>(messages - seen, said.size())));
+  }
 };
 
 // Enters the program of this name into the store: feeder thread, while nothing runs.

@@ -71,6 +71,8 @@ struct SystemStatus {
   std::uint32_t percent;        // of the main program
   std::uint32_t last_run_ok;    // the last run ended without an alarm
   Text<128> refusal_text;  // why what was asked for at the panel did not happen, "" = nothing was refused since
+  std::uint64_t message_count;
+  Text<128> message;  // its last one
   std::array<AxisStatus, NC_MAX_AXES> axis;
 };
 
@@ -111,8 +113,6 @@ struct StatusBlock {
   std::uint32_t single_block, optional_stop;  // bit per part system
   std::uint32_t interface_input[NC_WORDS], interface_output[NC_WORDS];
   ScanFigures figures;
-  std::uint64_t message_count;
-  Text<128> message;           // last one
   std::uint32_t alarm_count, alarms_left_out;
   std::array<Entry, kAlarms> alarm;
   std::uint32_t forced_count, resetting;

@@ -224,14 +224,14 @@ void Publisher::fill_figures() {
 
 void Publisher::fill_alarms(const Snapshot& snapshot, const FeederInfo& info) {
   bool changed = log_.update(snapshot.alarms, this, status_.published_ns);
-  if (info.messages != messages_) {
-    // Messages that came between two pictures share one place; the count says so.
-    messages_ = info.messages;
-    log_.add_message(info.last_message, info.message_system, status_.published_ns);
-    set_text(&status_.message, info.last_message);
+  for (const FeederInfo::Message& message : info.messages_since(messages_)) {  // several may have come between two pictures
+    log_.add_message(message.text, message.system, status_.published_ns);
+    SystemStatus& system = status_.system[message.system];
+    set_text(&system.message, message.text);
+    ++system.message_count;
     changed = true;
   }
-  status_.message_count = info.messages;
+  messages_ = info.messages;
   if (!changed) return;
   const std::vector<Entry>& active = log_.active();
   status_.alarm_count = static_cast<std::uint32_t>(std::min<std::size_t>(active.size(), kAlarms));

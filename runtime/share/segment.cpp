@@ -69,11 +69,12 @@ bool entry_is_sound(const Entry& entry) {
 
 bool system_is_sound(const SystemStatus& system) {
   return system.axis_count <= NC_MAX_AXES && is_ended(system.state_text) && is_ended(system.modal) &&
-         is_ended(system.program) && is_ended(system.file) && is_ended(system.block) && is_ended(system.refusal_text);
+         is_ended(system.program) && is_ended(system.file) && is_ended(system.block) && is_ended(system.refusal_text) &&
+         is_ended(system.message);
 }
 
 bool status_is_sound(const StatusBlock& block, unsigned systems) {
-  if (block.system_count != systems || block.alarm_count > kAlarms || !is_ended(block.message)) return false;
+  if (block.system_count != systems || block.alarm_count > kAlarms) return false;
   for (unsigned i = 0; i < block.alarm_count; ++i)
     if (!entry_is_sound(block.alarm[i])) return false;
   if (block.forced_count > kForced) return false;

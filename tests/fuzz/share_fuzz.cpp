@@ -60,7 +60,7 @@ void require_entry(const Entry& entry) {
 }
 
 void require_status(const StatusBlock& block) {
-  require(block.system_count == kSystems && block.alarm_count <= kAlarms && block.forced_count <= kForced && is_ended(block.message));
+  require(block.system_count == kSystems && block.alarm_count <= kAlarms && block.forced_count <= kForced);
   for (unsigned i = 0; i < block.alarm_count; ++i) require_entry(block.alarm[i]);
   for (unsigned i = 0; i < block.forced_count; ++i) require(is_ended(block.forced[i].device));
   for (unsigned s = 0; s < kSystems; ++s) {

@@ -268,6 +268,23 @@ TEST_F(IntakeRules, ExpectedStateIsHeldAgainstTheMachine) {
   EXPECT_EQ(give(r).state, state(AckState::kAccepted));
 }
 
+// Files may have names of 255 bytes. Status shows as much of one as it has room for, between characters, and that is what a client expects.
+TEST_F(IntakeRules, ALongNameIsExpectedAsStatusShowsIt) {
+  take_control();
+  std::string name;
+  for (unsigned n = 0; n < 84; ++n) name += "ab\u00e4";
+  machine_.now.program[0] = name + ".nc";
+  SystemStatus status{};
+  set_text(&status.program, machine_.now.program[0]);
+  ASSERT_EQ(text_of(status.program).size(), 126u) << "not 127, the middle of a character";
+  Request r = request(RequestKind::kCycleStart, 2);
+  set_text(&r.expected_program, text_of(status.program));
+  EXPECT_EQ(give(r).state, state(AckState::kAccepted));
+  r = request(RequestKind::kCycleStart, 3);
+  set_text(&r.expected_program, text_of(status.program).substr(0, 120));
+  expect_rejected(give(r), AckReason::kExpectedState);
+}
+
 TEST_F(IntakeRules, MalformedIsRejected) {
   take_control();
   std::uint64_t sequence = 2;

@@ -324,12 +324,16 @@ TEST_F(ShareTwoSystems, AlarmsAndMessagesAreOfTheirPartSystem) {
   start.system = 1;
   ASSERT_EQ(runtime_->execute(start), Answer::kDone);
   steps(50);
-  EXPECT_EQ(text_of(look().message), "SECOND");
+  EXPECT_EQ(text_of(look().system[1].message), "SECOND");
+  EXPECT_EQ(look().system[1].message_count, 1u);
+  EXPECT_EQ(text_of(look().system[0].message), "") << "it has said nothing";
   EXPECT_EQ(history().entry[0].system, 1u);
   start.system = 0;
   ASSERT_EQ(runtime_->execute(start), Answer::kDone);
   steps(50);
-  EXPECT_EQ(text_of(look().message), "FIRST");
+  EXPECT_EQ(text_of(look().system[0].message), "FIRST");
+  EXPECT_EQ(text_of(look().system[1].message), "SECOND") << "its own stays";
+  EXPECT_EQ(look().system[0].message_count + look().system[1].message_count, 2u);
   EXPECT_EQ(history().entry[1].system, 0u);
   ASSERT_EQ(runtime_->execute(CommandKind::kReset), Answer::kDone);
   steps(100);
@@ -344,6 +348,24 @@ TEST_F(ShareTwoSystems, AlarmsAndMessagesAreOfTheirPartSystem) {
     EXPECT_EQ(text_of(alarm.code), alarm.system == 0 ? "P232" : "P283") << text_of(alarm.text);
     EXPECT_EQ(alarm.line, alarm.system == 0 ? 2u : 3u);
   }
+}
+
+// A picture is made every 10 ms; none of what was said meanwhile is lost.
+TEST_F(ShareTwoSystems, MessagesBetweenTwoPicturesAreAllInTheHistory) {
+  select("#3006=1(ONE)\n#3006=2(TWO)\nM30\n");
+  select("#3006=1(OTHER)\nM30\n", 1);
+  for (unsigned n = 0; n < 200 && runtime_->info().messages < 3; ++n) {
+    if (n % 5 == 0) (void)runtime_->execute(CommandKind::kCycleStart);
+    runtime_->step();
+  }
+  ASSERT_EQ(runtime_->info().messages, 3u);
+  const StatusBlock block = look();
+  EXPECT_EQ(text_of(block.system[0].message), "TWO");
+  EXPECT_EQ(block.system[0].message_count, 2u);
+  EXPECT_EQ(text_of(block.system[1].message), "OTHER");
+  std::string said;
+  for (unsigned n = 0; n < 3; ++n) said.append(text_of(history().entry[n].text)).append(" ");
+  EXPECT_EQ(said, "ONE OTHER TWO ");
 }
 
 // A service over a runtime on virtual time: the intake thread takes what stands in the ring.

@@ -88,7 +88,7 @@ TEST_F(MdiPrograms, ARestartSaysWhichFileHasChanged) {
   write("m.nc", "G90 G1 X1. F6000\nM30\n");
   EXPECT_NEAR(run(), 8, 1e-9);
   EXPECT_EQ(runtime_->info().messages, 1u);
-  EXPECT_EQ(runtime_->info().last_message, "changed since it was selected, runs as it was then: m.nc");
+  EXPECT_EQ(runtime_->info().said.back().text, "changed since it was selected, runs as it was then: m.nc");
   EXPECT_FALSE(runtime_->snapshot().alarmed());
   ASSERT_EQ(runtime_->select_program(0, "m.nc"), Answer::kDone);
   EXPECT_NEAR(run(), 1, 1e-9);
@@ -99,7 +99,7 @@ TEST_F(MdiPrograms, ARestartSaysWhichFileHasChanged) {
   write("O77", "G1 X9. F6000\nM99\n");
   EXPECT_NEAR(run(), 8, 1e-9);
   EXPECT_EQ(runtime_->info().messages, 2u);
-  EXPECT_EQ(runtime_->info().last_message, "changed since it was selected, runs as it was then: O77") << "a sub program";
+  EXPECT_EQ(runtime_->info().said.back().text, "changed since it was selected, runs as it was then: O77") << "a sub program";
   std::filesystem::remove(folder_ + "/m.nc");
   std::filesystem::remove(folder_ + "/O77");
   EXPECT_NEAR(run(), 8, 1e-9);

@@ -107,9 +107,8 @@ void ProgramRun::rest() {
 // ---- what is shown ----
 
 void ProgramRun::show_message(const FeederInfo& info) {
-  if (info.messages == messages_) return;
+  for (const FeederInfo::Message& message : info.messages_since(messages_)) note("message: " + message.text);
   messages_ = info.messages;
-  note("message: " + info.last_message);
 }
 
 // M700 13.3.1: M99 of a main program, also of MDI, begins it again. That has no end of its own, which is said once.
