@@ -61,12 +61,15 @@ if(TARGET ncmon)
   set(nc_manual_mon "\nncmon watches a running ncrtd from a terminal.")
   nc_package_file(nc_tools share/man/man1 ${nc_packaging}/man/ncmon.1)
 endif()
-foreach(name packaging ladder signals modbus dds macros parameters system-variables functions)
+# A document leads to no other that its package does not have (tests/install/package_test.sh).
+foreach(name packaging ladder signals modbus canopen dds macros parameters system-variables functions motion motion-optimal high-accuracy)
   if(EXISTS ${CMAKE_SOURCE_DIR}/docs/${name}.md)
     nc_package_file(ncrtd share/doc/ncrtd ${CMAKE_SOURCE_DIR}/docs/${name}.md)
   endif()
 endforeach()
-nc_package_file(nc_tools share/doc/nc-tools ${CMAKE_SOURCE_DIR}/docs/trace.md)
+foreach(name trace motion motion-optimal high-accuracy macros parameters system-variables ladder)
+  nc_package_file(nc_tools share/doc/nc-tools ${CMAKE_SOURCE_DIR}/docs/${name}.md)
+endforeach()
 
 # ---- control files ----
 list(JOIN nc_units " " NC_UNITS)

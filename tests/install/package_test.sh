@@ -90,6 +90,21 @@ for script in postinst prerm postrm; do
   grep -q '@' "$work/ncrtd.control/$script" && fail "ncrtd: a placeholder is left in $script"
 done
 
+# A document that a package names is in it: its configurations and documents lead nowhere else.
+for package in libnc-dev nc-tools ncrtd; do dpkg-deb -x "$work/debs/${package}_$version-1_$arch.deb" "$work/$package.tree"; done
+documents=0
+while read -r name; do
+  holds ncrtd -rw-r--r-- "usr/share/doc/ncrtd/$name"
+  documents=$((documents + 1))
+done < <(grep -rhoE 'docs/[a-z-]+\.md' "$work/ncrtd.tree/etc/nc" | sed 's#docs/##' | sort -u)
+for package in libnc-dev nc-tools ncrtd; do
+  while read -r name; do
+    holds "$package" -rw-r--r-- "usr/share/doc/$package/$name"
+    documents=$((documents + 1))
+  done < <(find "$work/$package.tree/usr/share/doc/$package" -name '*.md' -exec grep -hoE '\]\([a-z-]+\.md' {} + | sed 's/..//' | sort -u)
+done
+[ $documents -ge 10 ] || fail "only $documents documents are named"
+
 # Programs and library are hardened: position-independent, relocations read-only and all of them at the start, no executable stack,
 # the stack protected, and the checked functions of the C library used.
 for package in libnc0 nc-tools ncrtd; do dpkg-deb -x "$work/debs/${package}_$version-1_$arch.deb" "$work/all"; done
