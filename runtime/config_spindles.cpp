@@ -19,6 +19,7 @@ void read_feedback(TableReader* reader, const Config& config, SpindleFeedback* f
       if (reader->find(key) != nullptr) reader->error(key, "is for a speed that a point gives");
     return;
   }
+  for (const char* key : {"rpm_per_count", "signed"}) (void)reader->find(key);  // known, whatever is wrong with the point
   const int index = config.points.find(by);
   if (index < 0) return reader->error("feedback", "no point is named \"" + by + "\"; else it is \"simulated\" or \"none\"");
   const hal::Point& point = config.points.at(static_cast<unsigned>(index));

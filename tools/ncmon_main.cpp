@@ -22,10 +22,11 @@ int main(int argc, char** argv) {
   std::string view = "status";
   app.set_version_flag("--version", std::string("ncmon ") + nc_version());
   app.add_option("--control", options.machine, "name of the control (ncdds --share); default: the first that is heard")->check(nc::tools::given());
-  std::string file;  // neither stands in --help
-  app.add_option("--machine,--config", file)->group("")->check([](const std::string&) {
-    return std::string("is the file of a machine, which ncmon does not read: the name of a control is --control NAME");
-  });
+  // Neither stands in --help.
+  for (const std::string option : {"--machine", "--config"})
+    app.add_option_function<std::string>(option, [option](const std::string&) {
+         throw CLI::ValidationError(option, "is the file of a machine, which ncmon does not read: the name of a control is --control NAME");
+       })->group("");
   app.add_option("--domain", options.domain, "DDS domain")->transform(nc::tools::whole(0, 230));
   CLI::Option* once_flag = app.add_flag("--once", options.once, "one status, then end");
   app.add_flag("--json", options.json, "as JSON, one object in a line");

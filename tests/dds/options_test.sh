@@ -27,7 +27,7 @@ for value in 0 -1 1000001 nan; do refuses "--latency: must be a whole number fro
 refuses "--control: must not be empty" "$bin/ncmon" --control ""
 # One word for the file of a machine in all programs; who gives it here is told the word for a name.
 for option in --machine --config; do
-  for value in mill3 etc/machine.toml ""; do refuses "the name of a control is --control NAME" "$bin/ncmon" --once "$option" "$value"; done
+  for value in mill3 etc/machine.toml ""; do refuses "$option: is the file of a machine, which ncmon does not read: the name of a control is --control NAME" "$bin/ncmon" --once "$option" "$value"; done
   "$bin/ncmon" --help | grep -q -e "$option" && { echo "FAILED: ncmon --help names $option"; failures=$((failures + 1)); }
 done
 refuses "--machine: must not be empty" "$bin/ncdds" --config ""

@@ -140,6 +140,11 @@ TEST(SpindleFeedbackConfig, Mistakes) {
   EXPECT_NE(error_of("[[spindle]]\nfeedback = \"word_in\"\nsigned = 1\n").find("signed"), std::string::npos);
   EXPECT_NE(error_of("[[spindle]]\nfeedback = \"none\"\n[[spindle]]\nfeedback = \"none\"\n").find("is there already"), std::string::npos);
   EXPECT_EQ(error_of("[[spindle]]\nfeedback = \"word_in\"\n"), "");
+  // A misspelt point is one mistake: the keys beside it are known.
+  nc::rt::Config config;
+  const char* const beside = "rpm_per_count = 2.0\nsigned = true\n";
+  for (const char* point : {"word_im", "in0"})
+    EXPECT_EQ(nc::rt::parse_config(nc::test::base_toml() + "[[spindle]]\nfeedback = \"" + point + "\"\n" + beside, "t.toml", &config).size(), 1u) << point;
 }
 
 // A register of 16 bits without a sign makes 64536 of -1000.

@@ -132,6 +132,7 @@ TEST_F(CommandTest, UsageFileAndSetupErrorsAreOneLineAndExitOne) {
       {"trace --setup none.json p.nc", "none.json: cannot be opened"},
       {"trace --dialect fanuc p.nc", "--dialect fanuc"},
       {"trace --programs nowhere p.nc", "--programs nowhere: not a folder"},
+      {"time --config mill.toml p.nc", "mill.toml: limits are JSON (docs/trace.md); the configuration of a machine is --machine mill.toml"},
       {"check nothing.nc", "nothing.nc"},
       {"time nothing.nc", "nothing.nc"},
       {"plot -o none/x p.nc", "none/x.svg"},

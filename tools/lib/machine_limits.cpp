@@ -106,6 +106,10 @@ bool parse_machine_limits(const std::string& text, const std::string& name, nc_c
 
 bool load_machine_limits(const std::string& path, nc_config* config, std::string* error) {
   std::string text;
+  if (path.ends_with(".toml")) {  // ncrtd and ncdds take --config for --machine
+    *error = path + ": limits are JSON (docs/trace.md); the configuration of a machine is --machine " + path;
+    return false;
+  }
   if (!json::read_text_file(path, &text, error)) return false;
   return parse_machine_limits(text, path, config, error);
 }
