@@ -7,6 +7,7 @@
 namespace nc::ladder {
 
 bool Compiler::number_after(char letter, std::string_view word, std::uint32_t limit, std::uint32_t* number) {
+  *number = 0;
   if (word.size() > 1 && word[0] == letter) {
     const char* last = word.data() + word.size();
     const auto [end, failed] = std::from_chars(word.data() + 1, last, *number);

@@ -7,13 +7,15 @@
 // It talks on this computer only (interface lo, no multicast) unless CYCLONEDDS_URI says otherwise.
 // Exit status: 0 ended by SIGTERM or SIGINT, 1 usage, configuration, or DDS that does not come up.
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
 #include <string>
 
 #include "dds/gateway_command.hpp"
 #include "nc/control.h"
 #include "tools/lib/option_values.hpp"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app{"ncdds: publishes a control over DDS"};
   nc::dds::GatewayCommand command;
   nc::dds::GatewayOptions& options = command.gateway;
@@ -30,4 +32,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 1;
   }
   return nc::dds::gateway_command(command);
+} catch (const std::exception& error) {  // out of memory, above all
+  std::fprintf(stderr, "ncdds: %s\n", error.what());
+  return 1;
 }

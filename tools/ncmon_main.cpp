@@ -10,13 +10,15 @@
 //
 // Exit status: 0, 1 usage or DDS that does not come up, 2 nobody publishes (within --wait).
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
 #include <string>
 
 #include "dds/monitor_command.hpp"
 #include "nc/control.h"
 #include "tools/lib/option_values.hpp"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app{"ncmon: shows a control that ncdds publishes"};
   nc::dds::MonitorOptions options;
   std::string view = "status";
@@ -45,4 +47,7 @@ int main(int argc, char** argv) {
   }
   options.signals = view == "signals";
   return nc::dds::monitor_command(options);
+} catch (const std::exception& error) {  // out of memory, above all
+  std::fprintf(stderr, "ncmon: %s\n", error.what());
+  return 1;
 }

@@ -12,6 +12,8 @@
 // written, 3 another process runs this machine, 128+n ended by signal n (130 SIGINT, 143 SIGTERM): the machine is brought to rest and the summary
 // printed. `serve` ends with 0 when the axes stood before the outputs went off, else with 2.
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
 #include <string>
 
 #include "runtime/rt_thread.hpp"
@@ -23,7 +25,7 @@
 
 using namespace nc::tools;
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   nc::rt::limit_allocator();
   CLI::App app{"ncrtd: runs NC programs on a machine, or on a simulated one"};
   DaemonOptions options;
@@ -61,4 +63,7 @@ int main(int argc, char** argv) {
   using Command = DaemonOptions::Command;
   options.command = run->parsed() ? Command::kRun : mdi->parsed() ? Command::kMdi : service->parsed() ? Command::kServe : Command::kCheck;
   return status_when_written("ncrtd", daemon_command(options));
+} catch (const std::exception& error) {  // out of memory, above all
+  std::fprintf(stderr, "ncrtd: %s\n", error.what());
+  return 1;
 }

@@ -96,7 +96,7 @@ void Cyclic::dispatch(const CanFrame& frame, std::int64_t now_ns) noexcept {
   if (bus_off_) take_event(BusEvent::kRestarted);  // what is heard is a bus
   if (take_tpdo(frame)) return;
   const unsigned id = frame.id & kLastNode, kind = frame.id & ~kLastNode;
-  const int node = node_at_[id];
+  const std::int8_t node = node_at_[id];
   if (node >= 0 && kind == kHeartbeatId) return take_heartbeat(static_cast<unsigned>(node), frame, now_ns);
   if (node >= 0 && kind == kEmergencyId && id != 0) return take_emergency(static_cast<unsigned>(node), frame);
   if (node >= 0 && kind == kSdoAnswerId) return hand_over(frame);

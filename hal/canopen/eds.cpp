@@ -201,7 +201,7 @@ void check_pdo(const Eds& eds, const std::vector<std::uint32_t>& mapping, bool t
     const std::string& access = object->access;
     const bool readable = access == "ro" || access == "rw" || access == "rwr" || access == "const" || access == "rww";
     const bool writable = access == "wo" || access == "rw" || access == "rww" || access == "rwr";
-    if (taken ? !writable : !readable) errors->push_back({object->line, name + (taken ? " cannot be written" : " cannot be read") + " (AccessType=" + access + ")"});
+    if (taken ? !writable : !readable) errors->push_back({object->line, std::string(name).append(taken ? " cannot be written" : " cannot be read").append(" (AccessType=").append(access).append(")")});
   }
 }
 

@@ -116,30 +116,21 @@ void encode(const PointMap& map, std::uint32_t value, std::uint16_t* cells) noex
 ValueRange value_range(const PointMap& map) noexcept {
   const bool is_signed = point_is_signed(map);
   const double low = is_signed ? -2147483648.0 : 0, high = is_signed ? 2147483647.0 : 4294967295.0;
-  double from = low, to = high;
+  const auto scaled = [&](double from, double to) -> ValueRange {
+    const double a = from * map.scale + map.offset, b = to * map.scale + map.offset;
+    // Rounded as decode() does, so that every value that it can give is in the range.
+    return {static_cast<std::int64_t>(std::clamp(std::round(std::min(a, b)), low, high)),
+            static_cast<std::int64_t>(std::clamp(std::round(std::max(a, b)), low, high))};
+  };
   switch (map.format) {
-    case Format::kBit:
-      return {0, 1};
-    case Format::kU16:
-      from = 0, to = 65535;
-      break;
-    case Format::kS16:
-      from = -32768, to = 32767;
-      break;
-    case Format::kU32:
-      from = 0, to = 4294967295.0;
-      break;
-    case Format::kS32:
-      from = -2147483648.0, to = 2147483647.0;
-      break;
-    case Format::kF32:
-      from = -std::numeric_limits<float>::max(), to = std::numeric_limits<float>::max();
-      break;
+    case Format::kBit: return {0, 1};
+    case Format::kU16: return scaled(0, 65535);
+    case Format::kS16: return scaled(-32768, 32767);
+    case Format::kU32: return scaled(0, 4294967295.0);
+    case Format::kS32: return scaled(-2147483648.0, 2147483647.0);
+    case Format::kF32: return scaled(-std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
   }
-  const double a = from * map.scale + map.offset, b = to * map.scale + map.offset;
-  // Rounded as decode() does, so that every value that it can give is in the range.
-  return {static_cast<std::int64_t>(std::clamp(std::round(std::min(a, b)), low, high)),
-          static_cast<std::int64_t>(std::clamp(std::round(std::max(a, b)), low, high))};
+  return scaled(low, high);
 }
 
 }  // namespace nc::hal::modbus

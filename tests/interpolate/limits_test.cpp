@@ -75,7 +75,7 @@ std::string run_seed(uint64_t seed, const Disturbance& d, LimitChecker* worst = 
 }
 
 void run_many(uint64_t first, const Disturbance& d) {
-  const uint64_t count = seeds(40, 4);
+  const uint64_t count = seeds(20, 2);
   double velocity = 0, acceleration = 0;
   for (uint64_t s = first; s < first + count; ++s) {
     LimitChecker worst{standard_config()};

@@ -199,11 +199,11 @@ void run_many(uint64_t plain, Operator who) {
 }
 
 TEST(PlannedAny, NothingIsSlowStopsOrLeavesThePath) {
-  run_many(150, Operator::none);
+  run_many(100, Operator::none);
 }
 
 TEST(PlannedAny, AnOverrideThatChangesStopsNothing) {
-  run_many(100, Operator::turns_override);
+  run_many(60, Operator::turns_override);
 }
 
 TEST(PlannedAny, AHundredThousandLines) {

@@ -88,7 +88,7 @@ Seen run(const LineProgram& lines, const ExecutorConfig& config, uint64_t plan_e
 
 /// NC_SEEDS=10000 runs so many, NC_FIRST=7 from the seventh on.
 TEST(PlannedLines, NothingStopsThemAndNothingIsBroken) {
-  const uint64_t from = wish("NC_FIRST", 0), count = seeds(216, 9);
+  const uint64_t from = wish("NC_FIRST", 0), count = seeds(120, 6);
   Seen worst;
   double ratio = 0;
   uint64_t wrong = 0;

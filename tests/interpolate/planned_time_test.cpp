@@ -256,7 +256,7 @@ uint64_t last_seed(uint64_t plain) {
 TEST(PlannedTime, NoProgramTakesLongerThanBlockByBlock) {
   double slowest = 0, jerk = 0;
   unsigned wrong = 0;
-  const uint64_t seeds = last_seed(1000);
+  const uint64_t seeds = last_seed(500);
   for (uint64_t seed = first_seed(); seed <= seeds && wrong < 20; ++seed) {
     const Trial t = random_trial(seed);
     const Outcome o = run(t, ~uint64_t{0});
@@ -306,7 +306,7 @@ TEST(PlannedTime, NoProgramOfShortSlowLinesTakesLongerThanLineByLine) {
   double slowest = 0;
   unsigned wrong = 0;
   uint64_t in_phases = 0;
-  const uint64_t seeds = last_seed(200);
+  const uint64_t seeds = last_seed(100);
   for (uint64_t seed = first_seed(); seed <= seeds && wrong < 20; ++seed) {
     const Trial t = slow_lines(seed);
     const Outcome o = run(t, ~uint64_t{0});
@@ -324,7 +324,7 @@ void hold_anywhere(uint64_t first, bool hangs) {
   unsigned wrong = 0;
   uint64_t holds = 0;
   double jerk = 0;
-  const uint64_t seeds = last_seed(35);
+  const uint64_t seeds = last_seed(20);
   for (uint64_t seed = first_seed(); seed <= seeds && wrong < 20; ++seed) {
     const Trial t = random_trial(first + seed);
     const uint64_t cycles = static_cast<uint64_t>(run(t, ~uint64_t{0}).seconds / t.config.cycle_s), every = std::max<uint64_t>(1, cycles / 16);

@@ -215,6 +215,7 @@ TEST(Walls, SharedProgramsExecuteAsTheyTrace) {
   const std::filesystem::path folder = std::filesystem::path(nc::test::kSharedDir) / "programs";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
   const nc::rt::Config config = nc::test::parse_or_fail(R"([machine]
+cycle_us = 4000
 [[axis]]
 name = "X"
 max_velocity = 250.0

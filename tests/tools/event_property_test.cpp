@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "own_folder.hpp"
+#include "support/seeds.hpp"
 #include "tools/lib/machine_choice.hpp"
 #include "tools/lib/offline_run.hpp"
 #include "tools/lib/session.hpp"
@@ -171,7 +172,7 @@ class EventProperty : public OwnFolder {
 
 TEST_F(EventProperty, TraceAndMotionFireTheSameEventsWithTheSameEffects) {
   unsigned fired = 0, probed = 0;
-  for (uint32_t seed = 1; seed <= 100; ++seed) {
+  for (uint32_t seed = 1; seed <= nc::test::seeds(40, 8); ++seed) {
     Maker maker(seed);
     const std::string program = maker.program(), setup = maker.setup();
     write(program, setup);

@@ -125,11 +125,11 @@ class PlotSink final : public RunSink {
     if (!move.curved) return plot_.add_move(move, system_, zero);
     // In short pieces: what no line and no circle is.
     constexpr double kPieceMm = 0.2, kMost = 4000;
-    const double pieces = std::ceil(std::min(kMost, std::max(32.0, move.length / kPieceMm)));
+    const auto pieces = static_cast<unsigned>(std::ceil(std::min(kMost, std::max(32.0, move.length / kPieceMm))));
     nc_move piece = move;
     piece.plane = NC_PLANE_NONE;
-    for (double k = 1; k <= pieces; ++k) {
-      if (!items_.move_point(k / pieces, &piece.machine)) return plot_.add_move(move, system_, zero);
+    for (unsigned k = 1; k <= pieces; ++k) {
+      if (!items_.move_point(static_cast<double>(k) / pieces, &piece.machine)) return plot_.add_move(move, system_, zero);
       plot_.add_move(piece, system_, zero);
       piece.machine_start = piece.machine;
     }
@@ -169,7 +169,7 @@ RunResult run_session(Session* session, RunSink* sink, ItemSource* items, const 
     std::fprintf(err, "note: line %u%s after %llu million blocks; a loop that moves never ends\n", source.line, program.c_str(),
                  static_cast<unsigned long long>(blocks / 1'000'000));
   };
-  const RunResult result = run_offline(items, &world, sink, session->decides(), limits.silent_blocks, one_pass, progress, limits.loops);
+  RunResult result = run_offline(items, &world, sink, session->decides(), limits.silent_blocks, one_pass, progress, limits.loops);
   if (result.how != RunResult::How::kFailed) note_unused(world.unused(), err);
   return result;
 }

@@ -37,7 +37,7 @@ bool set_motion(const MachineOptions& options, const rt::Config* machine, nc_con
   else if (!machine->look_ahead_given) config->look_ahead = rt::kLookAheadOptimal;
   const std::string lacks = rt::optimal_lacks(*config);
   if (lacks.empty()) return true;
-  const std::string who = options.motion ? "--motion optimal" : options.tolerance ? "--tolerance" : machine->file + ": [motion] mode";
+  const std::string who = options.motion ? "--motion optimal" : options.tolerance || machine == nullptr ? "--tolerance" : machine->file + ": [motion] mode";
   *error = who + ": the time-optimal mode needs limits of velocity, acceleration and jerk of every axis, " + lacks;
   return false;
 }

@@ -86,6 +86,7 @@ NumberHints number_hints(const std::string& text, nc_dialect dialect, const std:
     ++line;
     begin = end + 1;
     std::vector<nc_plain_word> plain;
+    plain.reserve(words.size());
     for (const PlainWord& word : words) plain.push_back({word.letter, word.comma, word.value()});
     std::vector<uint8_t> kinds(words.size());
     if (nc_number_kinds(dialect, axes.c_str(), plain.data(), static_cast<unsigned>(plain.size()), &data, kinds.data()) != NC_OK) return {};

@@ -21,7 +21,7 @@ inline CLI::Validator given() {
 inline CLI::Validator whole(std::uint64_t least, std::uint64_t most) {
   return CLI::Validator(
       [least, most](std::string& text) {
-        const std::string wrong =
+        std::string wrong =
             "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) + ", is " + (text.empty() ? "empty" : text);
         if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos) return wrong;
         text.erase(0, std::min(text.find_first_not_of('0'), text.size() - 1));

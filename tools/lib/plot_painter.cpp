@@ -351,10 +351,12 @@ class PlotPainter {
       if (ink_[i].ink == Ink::kNone) continue;
       const Page from = on_page(i - 1), to = on_page(i);
       const double length = std::hypot(to.u - from.u, to.v - from.v);
-      for (; due < length; due += distance)
+      while (due < length) {
         arrow(ink_[i].ink == Ink::kRapid ? kRapid : feed_color(shade(ink_[i].value)),
               {from.u + (to.u - from.u) * due / length, from.v + (to.v - from.v) * due / length},
               {(to.u - from.u) / length, (to.v - from.v) / length});
+        due += distance;
+      }
       due -= length;
     }
   }

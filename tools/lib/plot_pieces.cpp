@@ -47,10 +47,10 @@ class Inker {
     if (!relief_.any()) return put(a, b, 1.0, Ink::kFeed);
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     if (length < relief_.cell_mm() && relief_.is_hole(b.x, b.y, std::min(a.z, b.z))) return put(a, b, 1.0, Ink::kFeed);
-    const double steps = std::max(1.0, std::ceil(length / relief_.cell_mm()));
+    const auto steps = static_cast<unsigned>(std::max(1.0, std::ceil(length / relief_.cell_mm())));  // both ends are inside of the picture
     bool shaded = relief_.covers(a.x, a.y);
-    for (double k = 1; k <= steps; ++k) {
-      const double t = k / steps;
+    for (unsigned k = 1; k <= steps; ++k) {
+      const double t = static_cast<double>(k) / steps;
       const bool next = relief_.covers(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y));
       if (next != shaded && k < steps) put(a, b, t, shaded ? Ink::kNone : Ink::kFeed);
       if (k == steps) put(a, b, 1.0, shaded ? Ink::kNone : Ink::kFeed);

@@ -31,9 +31,9 @@ void Relief::add(const Place& from, const Place& to, float value) {
   ++pieces_;
   // Half a cell at a time leaves none out along the way. What takes more steps is longer than the rectangle is wide.
   constexpr double kMostSteps = 4.0 * kAcross;
-  const double steps = std::min(kMostSteps, std::ceil(2.0 * std::hypot(to.x - from.x, to.y - from.y) / cell_mm_));
-  for (double k = 0; k <= steps; ++k) {
-    const double t = steps > 0 ? k / steps : 1.0;
+  const auto steps = static_cast<unsigned>(std::min(kMostSteps, std::ceil(2.0 * std::hypot(to.x - from.x, to.y - from.y) / cell_mm_)));
+  for (unsigned k = 0; k <= steps; ++k) {
+    const double t = steps > 0 ? static_cast<double>(k) / steps : 1.0;
     const double column = (from.x + t * (to.x - from.x) - low_x_) / cell_mm_, row = (from.y + t * (to.y - from.y) - low_y_) / cell_mm_;
     if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) continue;
     const size_t cell = at(static_cast<unsigned>(column), static_cast<unsigned>(row));

@@ -100,7 +100,8 @@ double VirtualWorld::first_box(const nc_move& move, const SkipSolid& solid, doub
     in = std::max(in, std::min(t0, t1));
     out = std::min(out, std::max(t0, t1));
   }
-  return (out - in) * length > kTouch ? std::min(in, 1.0) : kNever;
+  if ((out - in) * length > kTouch) return std::min(in, 1.0);
+  return kNever;
 }
 
 double VirtualWorld::first_probe(const nc_move& move, const SkipSolid& solid) const {

@@ -40,10 +40,11 @@ bool HostTables::next_parameter(unsigned* place, char key[24], int* axis, double
   --*place;
   char name[kParameterKeySize];
   put_parameter_key(*in_->dialect, id, name);
-  std::strcpy(key, name);
+  std::memcpy(key, name, sizeof name);
   const char* const words = in_->parameters.text(found);
   *number = found.number.value_or(0);
-  std::strcpy(text, words != nullptr ? words : "");
+  text[0] = 0;
+  if (words != nullptr) std::memcpy(text, words, std::strlen(words) + 1);
   return true;
 }
 int HostTables::axis_named(char name) const { return name >= 'A' && name <= 'Z' ? in_->axis_of[name - 'A'] : -1; }

@@ -390,7 +390,7 @@ nc_status Interpreter::settle(Execution did) {
       next_step = Step::none;
       // Macro statements are worked off together with the executable block before them unless #8101 is on (M700 13.5.9).
       const bool macro = block != nullptr && !block->statements.empty();
-      modal_unchanged_ = (macro || kept) && !block->has_n && !block->has_o && newest_modal_ != kNoModal;
+      modal_unchanged_ = block != nullptr && (macro || kept) && !block->has_n && !block->has_o && newest_modal_ != kNoModal;
       finish_block(!macro || settings.macro_single, !macro);
       return NC_OK;
     }

@@ -149,7 +149,7 @@ Eval read_device(Access& a) {
   }
   const unsigned width = bytes % 100 * 8;
   const uint64_t bits = device_bits(a.in, *device, number, width);
-  if (bytes < 100 || (bits >> (width - 1) & 1) == 0) return give(a, static_cast<double>(bits));
+  if (bytes < 100 || width == 0 || (bits >> (width - 1) & 1) == 0) return give(a, static_cast<double>(bits));
   return give(a, static_cast<double>(bits) - std::ldexp(1.0, static_cast<int>(width)));  // two's complement
 }
 

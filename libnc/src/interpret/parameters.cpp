@@ -200,7 +200,7 @@ uint8_t Parameters::keep_text(const char* text) {
     newest_text_ = newest_text_ % kTexts + 1;
     const auto place = static_cast<uint8_t>(newest_text_);
     if (holds_text(place)) continue;
-    std::strcpy(texts_[place - 1], text);
+    std::memcpy(texts_[place - 1], text, std::strlen(text) + 1);
     return place;
   }
   return 0;

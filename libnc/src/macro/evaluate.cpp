@@ -357,7 +357,8 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
           stack[top++] = stored != stored ? Value{} : Value::of(stored);
           break;
         }
-        const Eval got = reader.read(reader.self, number, &stack[top++], fault, sync);
+        Value& v = stack[top++] = Value{};
+        const Eval got = reader.read(reader.self, number, &v, fault, sync);
         if (got != Eval::ok) return got;
         break;
       }
@@ -415,6 +416,7 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
         break;
       }
       case Op::zero_for_vacant:
+        // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Branch): what is on the stack has been pushed, which the analyzer does not see
         if (stack[top - 1].vacant) stack[top - 1] = Value::of(0);
         break;
       case Op::check_number: {
@@ -427,6 +429,7 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
         stack[top - 1] = Value::of(0 - stack[top - 1].or_zero());
         break;
       case Op::negate_word:
+        // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Branch): the same
         if (!stack[top - 1].vacant) stack[top - 1].number = -stack[top - 1].number;
         break;
       case Op::equal:
