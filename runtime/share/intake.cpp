@@ -111,7 +111,7 @@ bool reached(const Request& request, const Machine::State& state, const std::arr
         return is_named(request, s) && (run[s] == NC_STATE_RUNNING || run[s] == NC_STATE_STOPPED || state.runs[s] != runs_before[s]);
       });
     case RequestKind::kFeedHold:
-      return !any_system(state, [&](unsigned s) { return is_named(request, s) && run[s] == NC_STATE_RUNNING; });
+      return !any_system(state, [&](unsigned s) { return is_named(request, s) && (run[s] == NC_STATE_RUNNING || state.moves[s]); });
     case RequestKind::kReset:
       return !state.resetting && !any_system(state, [&](unsigned s) { return run[s] != NC_STATE_IDLE && run[s] != NC_STATE_MANUAL; });
     case RequestKind::kSetMode:

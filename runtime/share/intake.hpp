@@ -39,6 +39,7 @@ class Machine {
     unsigned system_count = 1;
     std::array<unsigned, NC_MAX_SYSTEMS> axis_count{};
     std::array<std::uint8_t, NC_MAX_SYSTEMS> run_state{};  // nc_run_state
+    std::array<bool, NC_MAX_SYSTEMS> moves{};              // an axis is commanded to move, whatever the state is called
     std::array<std::string, NC_MAX_SYSTEMS> program;       // file name without folder
     std::array<std::uint64_t, NC_MAX_SYSTEMS> runs{};      // programs that came to their end
     double max_feed_override = 2.0;

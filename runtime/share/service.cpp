@@ -30,7 +30,9 @@ Machine::State RuntimeMachine::state() {
   state.max_feed_override = config.nc.max_feed_override;
   for (unsigned s = 0; s < state.system_count; ++s) {
     state.axis_count[s] = config.nc.system[s].axis_count;
-    state.run_state[s] = snapshot.system[s].nc.state;
+    const nc_outputs& out = snapshot.system[s].nc;
+    state.run_state[s] = out.state;
+    for (unsigned a = 0; a < state.axis_count[s]; ++a) state.moves[s] = state.moves[s] || out.velocity.v[a] != 0;
     state.runs[s] = info.system[s].runs;
     const FeederInfo::Selected& selected = info.system[s].selected;
     if (selected.any) state.program[s] = selected.mdi ? "MDI" : file_name(programs_.at(selected.file).path);

@@ -430,6 +430,22 @@ TEST_F(IntakeRules, TheStateIsThatOfThePartSystemsThatAreNamed) {
   EXPECT_TRUE(outcome(RequestKind::kReset, 1, NC_STATE_IDLE, NC_STATE_IDLE, 0));
 }
 
+// Whoever opens a door at the answer to his hold finds the axes at rest: RUN_HOLD begins while they are still on their way there.
+TEST_F(IntakeRules, AHoldIsDoneWhenTheAxesOfItsPartSystemStand) {
+  machine_.now.system_count = 2;
+  machine_.now.run_state = {NC_STATE_RUNNING, NC_STATE_RUNNING};
+  machine_.now.moves = {true, true};
+  EXPECT_EQ(give(RequestKind::kFeedHold, 1).state, state(AckState::kAccepted));
+  acks_.clear();
+  machine_.now.run_state[0] = NC_STATE_HOLD;
+  intake_.tick(now_, &acks_);
+  EXPECT_TRUE(acks_.empty()) << "on its way to rest";
+  machine_.now.moves[0] = false;
+  intake_.tick(now_, &acks_);
+  ASSERT_EQ(acks_.size(), 1u) << "the other one may move";
+  EXPECT_EQ(acks_[0].state, state(AckState::kDone));
+}
+
 // What a client expects of all of them must be so in each.
 TEST_F(IntakeRules, AnExpectationOfAllPartSystems) {
   machine_.now.system_count = 2;

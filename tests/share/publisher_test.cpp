@@ -268,6 +268,22 @@ TEST_F(SharePublisher, MachineAndIntakeSpeakOfTheSameThings) {
   EXPECT_EQ(machine.explain(Answer::kNotLoaded), "there is no folder of programs");
 }
 
+TEST_F(SharePublisher, TheMachineSaysWhetherItsAxesMove) {
+  RuntimeMachine machine(runtime_.get(), &programs_);
+  EXPECT_FALSE(machine.state().moves[0]);
+  select("G1 C90. F5400.\nM30\n");
+  ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(300);
+  EXPECT_TRUE(machine.state().moves[0]);
+  ASSERT_EQ(runtime_->execute(CommandKind::kFeedHold), Answer::kDone);
+  steps(3);
+  EXPECT_EQ(machine.state().run_state[0], NC_STATE_HOLD);
+  EXPECT_TRUE(machine.state().moves[0]) << "a tenth of a second to rest";
+  steps(200);
+  EXPECT_FALSE(machine.state().moves[0]);
+  EXPECT_FALSE(machine.state().moves[1]) << "there is no such part system";
+}
+
 class ShareTwoSystems : public SharePublisher {
  protected:
   std::string machine_text() override {
