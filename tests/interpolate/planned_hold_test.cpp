@@ -162,5 +162,65 @@ TEST(PlannedHold, InAWildPolylineAStopIsFoundSoon) {
   EXPECT_LE(all.ms.back(), 35);
 }
 
+/// Two lines one behind the other that meet at `joint`, slow, in long cycles and without a tolerance.
+Program joined_at(const ExecutorConfig& config, double joint) {
+  Program p(config);
+  to(&p, joint, 0, 0, 2);
+  to(&p, 1, 0, 0, 2);
+  return ended(p);
+}
+/// X in the last cycles of a hold in that of this number; the feeder is silent from there on.
+std::vector<double> held_silently(Machine* m, const Program& p, uint64_t hold) {
+  m->feed(p);
+  m->start();
+  while (m->cycles < hold) {
+    m->feed(p);
+    m->cycle();
+  }
+  m->in.feed_hold = true;
+  std::vector<double> x;
+  for (unsigned n = 0; n < 40; ++n) {
+    m->cycle();
+    if (x.empty() || m->command()[0] != x.back()) x.push_back(m->command()[0]);
+  }
+  m->in.feed_hold = false;
+  return x;
+}
+
+// The stop that the scan makes by itself may pass the end of a line in the cycle in which it ends: that line is executed then, the next one has begun,
+// and it is where the program goes on.
+TEST(PlannedHold, EndsInTheMoveInWhichTheAxesStand) {
+  ExecutorConfig c = config_of();
+  c.cycle_s = 0.004;
+  c.tolerance = 0;
+  unsigned passed = 0;
+  for (uint64_t hold = 30; hold < 60; ++hold) {
+    Machine any(c);
+    const std::vector<double> x = held_silently(&any, joined_at(c, 0.9), hold);
+    ASSERT_GT(x.size(), 2u);
+    const double joint = (x.back() + x[x.size() - 2]) / 2;
+    const Program p = joined_at(c, joint);
+    Machine m(c);
+    const double stop = held_silently(&m, p, hold).back();
+    ASSERT_EQ(m.out.state, NC_STATE_HOLD);
+    passed += stop > joint + 2e-6 ? 1 : 0;
+    EXPECT_EQ(m.out.source.line, stop > joint ? 2u : 1u) << "hold in cycle " << hold;
+    ASSERT_FALSE(m.events.empty());
+    EXPECT_EQ(m.events[0].machine.v[0], joint) << "it has been executed to its end";
+    m.in.cycle_start = true;
+    nc_source where;
+    for (unsigned n = 0; n < 500 && m.out.state != NC_STATE_IDLE; ++n) {
+      m.feed(p);
+      m.cycle();
+      ASSERT_FALSE(m.executor.faulted(&where)) << "hold in cycle " << hold << " at X" << stop;
+    }
+    EXPECT_EQ(m.out.state, NC_STATE_IDLE);
+    EXPECT_NEAR(m.command()[0], 1, 1e-9);
+    EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+    for (size_t n = 0; n < m.events.size(); ++n) EXPECT_EQ(m.events[n].serial, n + 1);
+  }
+  EXPECT_GT(passed, 5u);
+}
+
 }  // namespace
 }  // namespace nc::test

@@ -54,6 +54,8 @@ class Follower {
   bool at_path_end() const { return at_end_ && cell_ != optimal::kNoCell && store_->at(cell_).path_ends; }
   /// At rest at the end of what it has followed, and the record at ring index k has its place on that path.
   bool rests_behind(uint32_t k) const { return at_end_ && cell_ != optimal::kNoCell && static_cast<int32_t>(k - taken_to_) < 0; }
+  /// At rest on the path, where no plan ends: a stop that brake() has found is over, and nothing further is planned.
+  bool halted() const { return halted_ && cell_ == optimal::kNoCell; }
   uint32_t generation() const { return generation_; }
   double u() const { return u_; }
   double v() const { return v_; }

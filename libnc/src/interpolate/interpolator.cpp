@@ -314,7 +314,7 @@ void Interpolator::give_up() {
   check_ = false;
   skip_behind_ = 0;
   follower_.give_up();
-  moving_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = displaced_ = false;
+  moving_ = passing_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = displaced_ = false;
   hold_behind_thread_ = block_has_thread_ = tapping_ = false;
   by_hand_ = 0;
   fin1_groups_ = 0;
@@ -346,7 +346,8 @@ void Interpolator::run(const nc_inputs& in) {
   }
   if (state_ != NC_STATE_RUNNING && at_rest()) return;
   const unsigned most = optimal_ != nullptr ? kRecordsPassed : kRecordsPerCycle;
-  for (unsigned n = 0; n < most; ++n) {
+  unsigned n = 0;
+  for (; n < most; ++n) {
     if (held() && at_rest()) break;
     if (tail_ == end_) {
       cause_ = NC_CAUSE_STARVED;
@@ -373,6 +374,7 @@ void Interpolator::run(const nc_inputs& in) {
     leave(r, true);
     if (rereading_ || (state_ != NC_STATE_RUNNING && at_rest())) break;
   }
+  if (n < most) passing_ = false;  // else the rest of them is passed in the next cycle
 }
 
 /// Every record is passed. The path ends at rest where the last one does, but by rounding it may have been passed before that.
@@ -392,7 +394,7 @@ void Interpolator::leave(const Record& r, bool executed) {
     event.kind = static_cast<uint8_t>(r.kind);
     event.again = r.kind == ItemKind::mark && r.mark.again;
     // Passed at speed, within the cycle: where the record ends.
-    event.machine = to_nc(optimal_ != nullptr && !follower_.at_rest() ? passed_at_ : wanted_);
+    event.machine = to_nc(optimal_ != nullptr && (passing_ || !follower_.at_rest()) ? passed_at_ : wanted_);
     shared_->events.push(event);
     done_ = r.serial;
     last_staged_ = r.staged;

@@ -177,7 +177,7 @@ class Interpolator {
   const Record& current() const { return ring_[tail_ & mask_]; }
   /// Of this run; others are thrown away.
   bool is_current(const Record& r) const { return r.epoch == run_.epoch(); }
-  bool at_rest() const { return law_.v == 0; }  ///< the path: the axes may still be on their way through the filters
+  bool at_rest() const { return law_.v == 0 && !passing_; }  ///< the path: the axes may still be on their way through the filters
   /// Nothing is on its way to the axes any more.
   bool drained() const NC_RT { return !filter_.active() || filter_.drained(place()); }
   bool stands() const NC_RT { return at_rest() && drained(); }
@@ -233,6 +233,7 @@ class Interpolator {
   LawState law_;         ///< on the segment in execution; v carries over to the next one
   Follower follower_;    ///< optimal: makes what is in law_
   AxisVec passed_at_;    ///< optimal: end of the newest record that was passed
+  bool passing_ = false; ///< optimal: in the cycle in which a stop ends, as long as the record in which it ends has not begun
   double silent_ = 0;    ///< optimal: s for which a stop has been asked for
   bool no_law_ = false;  ///< optimal: none was found for what follows
   double turns_ = 0;     ///< optimal: speed of the spindle that the planner knows, rev/s

@@ -58,7 +58,7 @@ bool Interpolator::path_stops(const nc_inputs& in) const {
 
 Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& in) {
   const Segment& s = r.segment;
-  if (follower_.at_rest()) {
+  if (follower_.at_rest() && !passing_) {
     if (skip_braking_) {
       end_move(r);
       return Done::yes;
@@ -83,12 +83,14 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
     } else {
       time_ = follower_.advance(time_);
     }
+    passing_ = follower_.halted();
     path_length_ += follower_.u() - from;
     law_.v = follower_.v();
     wanted_ = follower_.position();
   }
   const double end = optimal_->store().passed[tail_ & mask_], u = follower_.u();
   law_.s = std::clamp(s.curve.length - (end - u), 0.0, s.curve.length);
+  passing_ = passing_ && u > end + kPassed;
   if (follower_.at_rest() ? u < nearly(end) : !(u > end + kPassed)) return Done::no;
   return passed(r);
 }

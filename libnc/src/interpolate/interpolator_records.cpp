@@ -118,7 +118,10 @@ bool Interpolator::begin_move(const Record& r, const nc_inputs&) {
 void Interpolator::end_move(const Record& r) {
   // What a signal has left of a move is not gone, though the plan leads over it: what follows is planned anew, from where the
   // axes are.
-  if (skip_braking_ && follower_.at_rest()) follower_.give_up();
+  if (skip_braking_ && follower_.at_rest()) {
+    follower_.give_up();
+    passing_ = false;
+  }
   law_.s = 0;
   moving_ = skip_braking_ = rounding_ = false;
   rapid_behind_ = r.segment.rapid;
