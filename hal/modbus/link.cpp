@@ -3,9 +3,8 @@
 #include "hal/modbus/link.hpp"
 
 #include <algorithm>
-#include <csignal>
-#include <cstring>
 
+#include "hal/bus_thread.hpp"
 #include "hal/modbus/codec.hpp"
 #include "hal/modbus/frame.hpp"
 
@@ -15,7 +14,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr std::size_t kStackBytes = 256 * 1024;
 constexpr unsigned kSliceMs = 100;                            // a waiting thread shows that it lives
 constexpr milliseconds kStopLimit{5000};                      // for the safe values of one link
 constexpr unsigned kFirstPauseMs = 100, kLastPauseMs = 5000;  // of a block that does not come through
@@ -56,31 +54,14 @@ bool ModbusLink::start(const PointImage& initial, std::string* error) {
   return make_thread(error);
 }
 
-// An ordinary thread whoever makes it. Its stack is small, because a runtime that locks its memory pays for
-// all of it; signals are for the operator's thread.
 bool ModbusLink::make_thread(std::string* error) {
-  pthread_attr_t attributes;
-  pthread_attr_init(&attributes);
-  pthread_attr_setstacksize(&attributes, kStackBytes);
-  pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
-  pthread_attr_setschedpolicy(&attributes, SCHED_OTHER);
-  const sched_param ordinary{};  // without it the priority of a real-time caller is tried, and refused
-  pthread_attr_setschedparam(&attributes, &ordinary);
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
   const auto body = [](void* link) -> void* {
     static_cast<ModbusLink*>(link)->run();
     return nullptr;
   };
-  const int problem = pthread_create(&thread_, &attributes, body, this);
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  pthread_attr_destroy(&attributes);
-  has_thread_ = problem == 0;
-  if (has_thread_)
-    pthread_setname_np(thread_, ("mb-" + config_.name).substr(0, 15).c_str());
-  else
-    *error = "Modbus link " + config_.name + ": no thread: " + std::strerror(problem);
+  std::string why;
+  has_thread_ = make_bus_thread(&thread_, body, this, "mb-" + config_.name, &why);
+  if (!has_thread_) *error = "Modbus link " + config_.name + ": no thread: " + why;
   return has_thread_;
 }
 

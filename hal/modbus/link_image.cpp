@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // One Modbus TCP link: the image that its thread and the scan exchange. See link.hpp.
 #include <algorithm>
-#include <ctime>
 
+#include "hal/bus_thread.hpp"
 #include "hal/modbus/codec.hpp"
 #include "hal/modbus/link.hpp"
 
 namespace nc::hal::modbus {
 namespace {
-
-// Does not enter the kernel.
-std::int64_t monotonic_ns() noexcept {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return t.tv_sec * 1'000'000'000LL + t.tv_nsec;
-}
 
 constexpr unsigned kStuckMarginMs = 1000;
 
