@@ -18,7 +18,7 @@ enum class AlarmId : std::uint8_t {
   kFinTimeout,
   kLadder,         // plc.alarm.1...; the texts are the configuration's
   kLadderStopped,
-  kLinkLost,       // of a Modbus link with alarm = true
+  kLinkLost,       // of a bus of points with alarm = true
   kRetainedLost,   // not found again at the start
   kRetainedUnwritable,
   kBadInput,  // detail: nc_input_bits
@@ -45,7 +45,7 @@ inline constexpr AlarmRow kAlarmTable[] = {
     {AlarmId::kFinTimeout, "R15", "FIN does not come"},
     {AlarmId::kLadder, "R16", "Alarm of the ladder"},
     {AlarmId::kLadderStopped, "R17", "The ladder program has stopped"},
-    {AlarmId::kLinkLost, "R18", "Modbus link lost"},
+    {AlarmId::kLinkLost, "R18", "Link lost"},
     {AlarmId::kRetainedLost, "R19", "Retained data lost", false},
     {AlarmId::kRetainedUnwritable, "R20", "Retained data are not kept", false},
     {AlarmId::kBadInput, "R21", "The machine gives a value that is no number or out of its range"},

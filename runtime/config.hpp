@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "hal/canopen/bus_map.hpp"
+#include "hal/gpio/bank_config.hpp"
 #include "hal/modbus/map.hpp"
 #include "hal/points.hpp"
 #include "hal/sim/sim_machine.hpp"
@@ -111,7 +112,7 @@ struct PointBusKind;
 // A bus that carries points, of whatever kind; the n-th is bus n of the points, counted from 1.
 struct PointBusConfig {
   const PointBusKind* kind = nullptr;
-  std::size_t place = 0;  // among the buses of its kind: Config::modbus
+  std::size_t place = 0;  // among the buses of its kind: Config::modbus, Config::gpio
   std::string name;
   unsigned ok_point = 0;  // the input point "<name>.ok"
   bool alarm = false;     // a bus that is lost is alarm R18
@@ -124,6 +125,14 @@ struct ModbusLinkConfig {
   std::uint8_t bus = 0;   // of its points
   std::uint8_t unit = 1;  // of points that name none
   bool named = false;     // by a point, be it a wrong one
+  ConfigPlace place;
+};
+
+// A bank of GPIO lines: a chip.
+struct GpioBankConfig {
+  hal::gpio::BankConfig bank;
+  std::uint8_t bus = 0;  // of its points
+  bool named = false;    // by a point, be it a wrong one, or it has a watchdog
   ConfigPlace place;
 };
 
@@ -178,6 +187,7 @@ struct Config {
   const MachineKind* machine_kind = nullptr;  // of the axes; never null in a configuration that was read
   std::vector<PointBusConfig> buses;
   std::vector<ModbusLinkConfig> modbus;
+  std::vector<GpioBankConfig> gpio;
   LadderConfig ladder;
   std::vector<SignalWire> wires;
   std::array<std::array<SpindleFeedback, NC_MAX_SPINDLES>, NC_MAX_SYSTEMS> spindle_feedback;

@@ -70,8 +70,8 @@ void read_link(TableReader* reader, Config* config) {
     reader->error("name", "must be 1 to 32 letters, digits, '_' or '-'");
     return;
   }
-  const auto same = [&](const ModbusLinkConfig& other) { return other.link.name == link.name; };
-  if (std::any_of(config->modbus.begin(), config->modbus.end(), same)) {
+  const auto same = [&](const PointBusConfig& other) { return other.name == link.name; };
+  if (std::any_of(config->buses.begin(), config->buses.end(), same)) {
     reader->error("name", "link \"" + link.name + "\" is already there");
     return;
   }

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "hal/sim/sim_machine.hpp"
+#include "runtime/bus_gpio.hpp"
 #include "runtime/bus_modbus.hpp"
 #include "runtime/config_sections.hpp"
 #include "runtime/machine_canopen.hpp"
@@ -37,6 +38,14 @@ constexpr PointBusKind kPointBuses[] = {
      .resources = modbus_resources,
      .make = make_modbus,
      .on_virtual_time = "the links run in real time, whatever the speed of the program"},
+    {.name = "gpio",
+     .needs = "libgpiod 1.6",
+     .read = read_gpio,
+     .read_point = read_point_gpio,
+     .check = check_gpio,
+     .resources = gpio_resources,
+     .make = make_gpio,
+     .on_virtual_time = "the lines are polled in real time, whatever the speed of the program"},
 };
 
 // "sim", "ethercat": the names that can be made.

@@ -5,6 +5,7 @@
 // What makes a machine, each under a lock of its own, because any one of them in common is one too many:
 //   - the file of the configuration: by its path, and by device and inode (links, and a file that was replaced meanwhile)
 //   - each Modbus unit that outputs are written to: address, port and unit, however the host is written
+//   - each GPIO line
 //   - each file of retained data
 // The locks die with the process, whatever ends it. A lock is the name of a socket in the abstract namespace of Linux: no folder,
 // no rights and no cleaning up are needed, and it counts between users. The namespace ends at the network namespace of a container;

@@ -77,7 +77,7 @@ field ncrtd Depends 'adduser, .*libc6 \(.*'
 field ncrtd Recommends nc-tools
 holds ncrtd -rwxr-xr-x usr/bin/ncrtd
 holds ncrtd -rw-r--r-- lib/systemd/system/ncrtd.service usr/share/man/man8/ncrtd.8.gz usr/share/man/man5/ncrtd.toml.5.gz usr/share/nc/parts/flange.nc
-for name in packaging ladder signals modbus dds macros parameters system-variables functions; do holds ncrtd -rw-r--r-- "usr/share/doc/ncrtd/$name.md"; done
+for name in packaging ladder signals modbus gpio dds macros parameters system-variables functions; do holds ncrtd -rw-r--r-- "usr/share/doc/ncrtd/$name.md"; done
 if [ -x "$NC_BINARY_DIR/bin/ncdds" ]; then
   holds ncrtd -rwxr-xr-x usr/bin/ncdds
   holds ncrtd -rw-r--r-- lib/systemd/system/ncdds.service usr/share/man/man8/ncdds.8.gz

@@ -28,6 +28,9 @@ const std::map<std::string_view, std::string> kLeastBus = {
     {"modbus",
      "[[modbus]]\nname = \"io\"\nhost = \"127.0.0.1\"\n"
      "[[point]]\nname = \"valve\"\ndirection = \"output\"\nmodbus = { link = \"io\", table = \"coil\", address = 0 }\n"},
+    {"gpio",
+     "[[gpio]]\nname = \"board\"\nchip = \"pinctrl\"\n"
+     "[[point]]\nname = \"valve\"\ndirection = \"output\"\ngpio = { bank = \"board\", line = \"VALVE\" }\n"},
 };
 
 // What a machine needs beside its name.

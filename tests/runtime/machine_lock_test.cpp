@@ -50,6 +50,25 @@ class Folder : public testing::Test {
   fs::path folder_;
 };
 
+#ifdef NC_HAVE_LIBGPIOD
+// Inputs, too: the kernel gives a line to one owner.
+TEST_F(Folder, EachLineOfAChipBelongsToOneControl) {
+  const auto with_line = [&](const std::string& name, const std::string& chip, const std::string& line) {
+    std::ofstream(folder_ / name) << nc::test::base_toml() << "[[gpio]]\nname = \"io\"\nchip = \"" << chip << "\"\nwatchdog = { line = \"WD " << name
+                                  << "\" }\n[[point]]\nname = \"door\"\ndirection = \"input\"\ngpio = { bank = \"io\", " << line << " }\n";
+    return load(folder_ / name);
+  };
+  const Config one = with_line("a.toml", "pinctrl", "line = \"DOOR\"");
+  std::string error;
+  EXPECT_FALSE(can_run_beside(one, with_line("b.toml", "pinctrl", "line = \"DOOR\""), &error));
+  EXPECT_NE(error.find("GPIO line DOOR of chip pinctrl"), std::string::npos) << error;
+  EXPECT_FALSE(can_run_beside(one, with_line("b.toml", "pinctrl", "line = \"WD a.toml\""), &error));
+  EXPECT_TRUE(can_run_beside(one, with_line("b.toml", "pinctrl", "line = \"STOP\""), &error)) << error;
+  EXPECT_TRUE(can_run_beside(one, with_line("b.toml", "expander", "line = \"DOOR\""), &error)) << error;
+  EXPECT_TRUE(can_run_beside(with_line("a.toml", "pinctrl", "offset = 1"), with_line("b.toml", "pinctrl", "offset = 2"), &error)) << error;
+}
+#endif
+
 TEST_F(Folder, OneFileIsOneMachineUnderEveryName) {
   const std::string path = write("a.toml");
   fs::create_symlink(path, folder_ / "link.toml");

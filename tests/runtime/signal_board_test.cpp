@@ -185,7 +185,7 @@ TEST_F(Board, ALinkWithAnAlarmStopsTheMachineWhenItIsLost) {
   EXPECT_EQ(alarm(), "");
   link.ok = 0;
   steps(5);
-  EXPECT_EQ(alarm(), "R18 Modbus link lost: io");
+  EXPECT_EQ(alarm(), "R18 Link lost: io");
   link.ok = 1;
   ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
   steps(100);

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// One bank of GPIO lines as a point bus. See gpio_bus.hpp.
+#include "hal/gpio/gpio_bus.hpp"
+
+#include <algorithm>
+
+#include "hal/bus_thread.hpp"
+
+namespace nc::hal::gpio {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr std::int64_t kStuckNs = 1'000'000'000;
+
+}  // namespace
+
+GpioBus::GpioBus(const BankConfig& config, std::unique_ptr<LineChip> chip, Report report)
+    : config_(config),
+      bank_(config, std::move(chip), std::move(report)),
+      inputs_({LineBank::Values(config.lines.size()), LineBank::Values(config.lines.size()), false}),
+      outputs_(LineBank::Values(config.lines.size())),
+      sent_(config.lines.size()) {}
+
+GpioBus::~GpioBus() {
+  stop();
+}
+
+bool GpioBus::start(const PointImage& initial, std::string* error) {
+  for (std::size_t i = 0; i < config_.lines.size(); ++i) sent_[i] = initial.value[config_.lines[i].point] != 0 ? 1 : 0;
+  outputs_.back() = sent_;
+  outputs_.publish();
+  stopping_ = false;
+  if (!bank_.open(steady_clock::now(), sent_, error)) return false;
+  publish();
+  const auto body = [](void* bus) -> void* {
+    static_cast<GpioBus*>(bus)->run();
+    return nullptr;
+  };
+  std::string why;
+  has_thread_ = make_bus_thread(&thread_, body, this, "gpio-" + config_.name, &why);
+  if (has_thread_) return true;
+  *error = "GPIO " + config_.name + ": no thread: " + why;
+  bank_.close();
+  return false;
+}
+
+void GpioBus::stop() noexcept {
+  if (!has_thread_) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    wake_.notify_all();
+  }
+  pthread_join(thread_, nullptr);
+  has_thread_ = false;
+}
+
+// ---- scan ----
+
+void GpioBus::read(PointImage* image) noexcept {
+  inputs_.take();
+  const Shown& shown = inputs_.front();
+  const bool stuck = monotonic_ns() - alive_ns_.load(std::memory_order_relaxed) > kStuckNs;
+  for (std::size_t i = 0; i < config_.lines.size(); ++i) {
+    const PointLine& line = config_.lines[i];
+    image->good[line.point] = stuck ? 0 : shown.good[i];
+    if (line.line.output) continue;
+    image->value[line.point] = stuck && !line.hold_on_loss ? line.loss_value : shown.value[i];
+  }
+  image->value[config_.ok_point] = shown.ok && !stuck ? 1 : 0;
+  image->good[config_.ok_point] = 1;
+}
+
+void GpioBus::write(const PointImage& image) noexcept {
+  bool changed = false;
+  for (std::size_t i = 0; i < config_.lines.size(); ++i) {
+    if (!config_.lines[i].line.output) continue;
+    const std::uint8_t value = image.value[config_.lines[i].point] != 0 ? 1 : 0;
+    changed |= value != sent_[i];
+    sent_[i] = value;
+  }
+  if (changed) {
+    std::copy(sent_.begin(), sent_.end(), outputs_.back().begin());
+    outputs_.publish();
+  }
+  scans_.fetch_add(1, std::memory_order_release);
+}
+
+// ---- the thread ----
+
+void GpioBus::run() {
+  std::uint32_t scans = scans_.load(std::memory_order_acquire);
+  LineBank::Time next = steady_clock::now();
+  do {
+    const std::uint32_t scans_now = scans_.load(std::memory_order_acquire);
+    outputs_.take();
+    const LineBank::Time now = steady_clock::now();
+    bank_.poll(now, outputs_.front(), scans_now != scans);
+    scans = scans_now;
+    publish();
+    next = std::max(next + milliseconds(config_.poll_ms), now);  // a poll that was late is not made up for
+  } while (wait_until(next));
+  bank_.close();
+}
+
+// False when the bus shall end.
+bool GpioBus::wait_until(LineBank::Time time) {
+  std::unique_lock lock(mutex_);
+  return !wake_.wait_until(lock, time, [this] { return stopping_; });
+}
+
+void GpioBus::publish() {
+  Shown& shown = inputs_.back();
+  for (std::size_t i = 0; i < config_.lines.size(); ++i) {
+    shown.value[i] = bank_.shown(i);
+    shown.good[i] = bank_.good(i) ? 1 : 0;
+  }
+  shown.ok = bank_.up();
+  inputs_.publish();
+  alive_ns_.store(monotonic_ns(), std::memory_order_relaxed);
+}
+
+}  // namespace nc::hal::gpio

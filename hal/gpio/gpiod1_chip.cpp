@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines of a chip through libgpiod 1.6 (Debian 12): the one file that knows its interface. It is built where that version is found.
+//
+// This version requests lines in bulks of at most 64 that share direction and flags, and knows no debounce of the kernel: hal/gpio/line_bank.cpp has one.
+#include <gpiod.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "hal/gpio/line_chip.hpp"
+
+namespace nc::hal::gpio {
+namespace {
+
+// What a failed call means for the lines.
+Opening opening_of(int problem) {
+  if (problem == ENOENT || problem == ENODEV || problem == ENXIO) return Opening::kNoChip;
+  return problem == EBUSY ? Opening::kTaken : Opening::kRefused;
+}
+
+int flags_of(const LineSetup& line) {
+  int flags = line.active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0;
+  if (line.bias == Bias::kNone) flags |= GPIOD_LINE_REQUEST_FLAG_BIAS_DISABLE;
+  if (line.bias == Bias::kPullUp) flags |= GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP;
+  if (line.bias == Bias::kPullDown) flags |= GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN;
+  if (line.drive == Drive::kOpenDrain) flags |= GPIOD_LINE_REQUEST_FLAG_OPEN_DRAIN;
+  if (line.drive == Drive::kOpenSource) flags |= GPIOD_LINE_REQUEST_FLAG_OPEN_SOURCE;
+  return flags;
+}
+
+// The chip with this label, null when there is none or several; their number in *found. A chip that this user may not open hides all labels: errno.
+gpiod_chip* chip_by_label(const std::string& label, unsigned* found) {
+  *found = 0;
+  gpiod_chip_iter* chips = gpiod_chip_iter_new();
+  if (chips == nullptr) return nullptr;
+  gpiod_chip* match = nullptr;
+  while (gpiod_chip* chip = gpiod_chip_iter_next_noclose(chips)) {
+    const bool same = label == gpiod_chip_label(chip);
+    if (same) ++*found;
+    if (same && match == nullptr) match = chip;
+    else gpiod_chip_close(chip);
+  }
+  gpiod_chip_iter_free_noclose(chips);
+  if (*found > 1) {
+    gpiod_chip_close(match);
+    match = nullptr;
+  }
+  errno = ENOENT;
+  return match;
+}
+
+// Lines of one direction and the same flags: one request of the kernel.
+struct Bulk {
+  gpiod_line_bulk lines = GPIOD_LINE_BULK_INITIALIZER;
+  bool output = false;
+  std::vector<std::size_t> places;  // in the request
+};
+using Levels = std::array<int, GPIOD_LINE_BULK_MAX_LINES>;
+
+class GpiodChip final : public LineChip {
+ public:
+  ~GpiodChip() override { release(); }
+
+  Opening request(const std::string& chip, const std::string& consumer, std::span<const LineSetup> lines, std::span<const std::uint8_t> values, std::string* error) override {
+    release();
+    Opening opening = open_chip(chip, error);
+    if (opening == Opening::kOpen) opening = sort_lines(lines, error);
+    if (opening == Opening::kOpen) opening = request_bulks(consumer, lines, values, error);
+    if (opening != Opening::kOpen) release();
+    return opening;
+  }
+
+  bool read(std::vector<std::uint8_t>* values, std::string* error) override {
+    for (Bulk& bulk : bulks_) {
+      if (bulk.output) continue;
+      Levels levels{};
+      if (gpiod_line_get_value_bulk(&bulk.lines, levels.data()) != 0) return failed("cannot be read", error);
+      for (std::size_t i = 0; i < bulk.places.size(); ++i) (*values)[bulk.places[i]] = levels[i] != 0 ? 1 : 0;
+    }
+    return true;
+  }
+
+  bool write(std::span<const std::uint8_t> values, std::string* error) override {
+    for (Bulk& bulk : bulks_) {
+      if (!bulk.output) continue;
+      const Levels levels = levels_of(bulk, values);
+      if (gpiod_line_set_value_bulk(&bulk.lines, levels.data()) != 0) return failed("cannot be written", error);
+    }
+    return true;
+  }
+
+  void release() noexcept override {
+    for (std::size_t i = 0; i < requested_; ++i) gpiod_line_release_bulk(&bulks_[i].lines);
+    requested_ = 0;
+    bulks_.clear();
+    if (chip_ != nullptr) gpiod_chip_close(chip_);
+    chip_ = nullptr;
+  }
+
+ private:
+  Opening open_chip(const std::string& name, std::string* error) {
+    name_ = name;
+    unsigned found = 0;
+    if (name.front() == '/') {
+      chip_ = gpiod_chip_open(name.c_str());
+    } else {
+      chip_ = chip_by_label(name, &found);
+      const int labels = errno;
+      if (chip_ == nullptr && found == 0) chip_ = gpiod_chip_open_by_name(name.c_str());
+      if (chip_ == nullptr && errno == ENOENT) errno = labels;
+    }
+    if (chip_ != nullptr) return Opening::kOpen;
+    if (found > 1) {
+      *error = std::to_string(found) + " chips have the label \"" + name + "\": take the path of one";
+      return Opening::kRefused;
+    }
+    const Opening opening = opening_of(errno);
+    *error = opening == Opening::kNoChip ? "there is no chip \"" + name + "\"" : "chip \"" + name + "\" cannot be opened: " + std::strerror(errno);
+    return opening;
+  }
+
+  // A name that two lines have means neither.
+  Opening offset_of(const LineSetup& line, unsigned* offset, std::string* error) {
+    const unsigned count = gpiod_chip_num_lines(chip_);
+    *offset = line.offset;
+    unsigned found = line.name.empty() && line.offset < count ? 1 : 0;
+    for (unsigned i = 0; i < count && !line.name.empty(); ++i) {
+      gpiod_line* each = gpiod_chip_get_line(chip_, i);
+      const char* name = each != nullptr ? gpiod_line_name(each) : nullptr;
+      if (name == nullptr || line.name != name) continue;
+      if (found++ == 0) *offset = i;
+    }
+    if (found == 1) return Opening::kOpen;
+    *error = found > 1 ? std::to_string(found) + " lines of chip \"" + name_ + "\" have the name \"" + line.name + "\": take the offset of one"
+                       : "chip \"" + name_ + "\" has no line " + line.text() + " (it has " + std::to_string(count) + " lines)";
+    return Opening::kRefused;
+  }
+
+  Opening sort_lines(std::span<const LineSetup> lines, std::string* error) {
+    std::map<unsigned, std::size_t> owner;
+    std::map<std::pair<bool, int>, std::size_t> filling;  // the bulk that such lines go to
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      unsigned offset = 0;
+      if (const Opening opening = offset_of(lines[i], &offset, error); opening != Opening::kOpen) return opening;
+      const auto [other, fresh] = owner.emplace(offset, i);
+      if (!fresh) {
+        *error = "lines " + lines[other->second].text() + " and " + lines[i].text() + " of chip \"" + name_ + "\" are the same";
+        return Opening::kRefused;
+      }
+      gpiod_line* line = gpiod_chip_get_line(chip_, offset);
+      if (line == nullptr) return refused(lines[i], errno, error);
+      if (gpiod_line_is_used(line)) return taken(lines[i], gpiod_line_consumer(line), error);
+      const std::pair<bool, int> kind(lines[i].output, flags_of(lines[i]));
+      const auto place = filling.find(kind);
+      if (place == filling.end() || bulks_[place->second].places.size() == GPIOD_LINE_BULK_MAX_LINES) {
+        filling[kind] = bulks_.size();
+        bulks_.emplace_back().output = lines[i].output;
+      }
+      Bulk& bulk = bulks_[filling[kind]];
+      gpiod_line_bulk_add(&bulk.lines, line);
+      bulk.places.push_back(i);
+    }
+    return Opening::kOpen;
+  }
+
+  Opening request_bulks(const std::string& consumer, std::span<const LineSetup> lines, std::span<const std::uint8_t> values, std::string* error) {
+    for (Bulk& bulk : bulks_) {
+      const LineSetup& first = lines[bulk.places.front()];
+      const Levels levels = levels_of(bulk, values);
+      const int result = bulk.output ? gpiod_line_request_bulk_output_flags(&bulk.lines, consumer.c_str(), flags_of(first), levels.data())
+                                     : gpiod_line_request_bulk_input_flags(&bulk.lines, consumer.c_str(), flags_of(first));
+      if (result != 0) return errno == EBUSY ? taken(first, nullptr, error) : refused(first, errno, error);
+      ++requested_;
+    }
+    return Opening::kOpen;
+  }
+
+  static Levels levels_of(const Bulk& bulk, std::span<const std::uint8_t> values) {
+    Levels levels{};
+    for (std::size_t i = 0; i < bulk.places.size(); ++i) levels[i] = values[bulk.places[i]];
+    return levels;
+  }
+
+  Opening taken(const LineSetup& line, const char* owner, std::string* error) const {
+    *error = "line " + line.text() + " of chip \"" + name_ + "\" is taken" + (owner != nullptr ? std::string(" by \"") + owner + "\"" : " by another");
+    return Opening::kTaken;
+  }
+
+  Opening refused(const LineSetup& line, int problem, std::string* error) const {
+    const Opening opening = opening_of(problem);
+    const bool setting = problem == EINVAL || problem == ENOTSUP || problem == ENOTTY;
+    *error = "line " + line.text() + " of chip \"" + name_ + "\" cannot be had" + (setting ? " with its direction, bias and drive: " : ": ") + std::strerror(problem);
+    return opening;
+  }
+
+  bool failed(const char* what, std::string* error) const {
+    *error = "chip \"" + name_ + "\" " + what + ": " + std::strerror(errno);
+    return false;
+  }
+
+  std::string name_;
+  gpiod_chip* chip_ = nullptr;
+  std::vector<Bulk> bulks_;
+  std::size_t requested_ = 0;  // the first of bulks_
+};
+
+}  // namespace
+
+std::unique_ptr<LineChip> make_gpiod_chip() {
+  return std::make_unique<GpiodChip>();
+}
+
+}  // namespace nc::hal::gpio

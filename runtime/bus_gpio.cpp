@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A bank of GPIO lines out of the configuration, and what it has for itself alone. See bus_gpio.hpp.
+#include "runtime/bus_gpio.hpp"
+
+#include "hal/gpio/gpio_bus.hpp"
+#include "runtime/machine_lock.hpp"
+
+namespace nc::rt {
+
+#ifdef NC_HAVE_LIBGPIOD
+std::unique_ptr<hal::PointBus> make_gpio(const Config& config, const PointBusConfig& bus, const BusReport& report) {
+  return std::make_unique<hal::gpio::GpioBus>(config.gpio[bus.place].bank, hal::gpio::make_gpiod_chip(), report);
+}
+#endif
+
+// Two spellings of one chip or line are two locks here: then it is the kernel that refuses the second owner.
+void gpio_resources(const Config& config, const PointBusConfig& bus, std::vector<MachineResource>* resources) {
+  const hal::gpio::BankConfig& bank = config.gpio[bus.place].bank;
+  const auto add = [&](const hal::gpio::LineSetup& line) {
+    std::string key("gpio "), words("GPIO line ");
+    key.append(bank.chip).append(line.name.empty() ? " offset " : " name ").append(line.text());
+    words.append(line.text()).append(" of chip ").append(bank.chip);
+    resources->push_back({key, words});
+  };
+  for (const hal::gpio::PointLine& line : bank.lines) add(line.line);
+  if (bank.has_watchdog) add(bank.watchdog);
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stand-in for libgpiod 1.6 in test_hal: the functions that hal/gpio/gpiod1_chip.cpp calls, as the header of that version describes them, over chips
+// that the test makes. The test program's own functions come before those of the library. It shows that the calls are those that the library asks for,
+// not what a kernel does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace nc::test {
+
+struct StandInLine {
+  std::string name;   // empty = unnamed
+  std::string owner;  // another consumer; empty = free
+  int level = 0;      // active = 1, as the library counts
+  // As requested:
+  std::string consumer;
+  bool output = false;
+  int flags = 0;
+  unsigned request = 0;  // number of the request, 0 = none
+};
+
+struct StandInChip {
+  std::string name, label;
+  std::vector<StandInLine> lines;
+  bool gone = false;  // pulled out while it is open
+};
+
+struct StandIn {
+  std::vector<StandInChip> chips;
+  int open_error = 0;     // errno of every open
+  int request_error = 0;  // errno of requests
+  unsigned requests_before = 0;  // so many come about before it
+  unsigned requests = 0, reads = 0, writes = 0;
+  int open = 0;           // chips that are open
+};
+
+// The computer of the running test.
+StandIn& stand_in();
+
+}  // namespace nc::test
