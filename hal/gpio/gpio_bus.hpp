@@ -29,7 +29,7 @@ class GpioBus final : public PointBus {
   bool start(const PointImage& initial, std::string* error) override;
   void read(PointImage* image) noexcept override;
   void write(const PointImage& image) noexcept override;
-  // Writes the values for the end and gives the lines back.
+  // Writes the values for the end and gives the lines back. Waits for the call of the kernel in which the thread is, which nothing can break off.
   void stop() noexcept override;
 
  private:

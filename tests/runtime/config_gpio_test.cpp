@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
+#include "places/places.hpp"
 #include "runtime/config.hpp"
 #include "test_config.hpp"
 
@@ -61,6 +63,18 @@ TEST(GpioConfig, EverythingThatCanBeSaidIsRead) {
   EXPECT_EQ(lamp.stop_value, 1) << "initial";
   EXPECT_EQ(pump.line.bias, Bias::kPullDown);
   EXPECT_EQ(pump.stop_value, 0);
+}
+
+// What is indented at the head of the document is a configuration.
+TEST(GpioConfig, TheExampleOfTheDocumentIsOne) {
+  std::ifstream document(nc::test::kSourceDir + "/docs/gpio.md");
+  std::string example;
+  for (std::string line; std::getline(document, line) && line != "## Banks";)
+    if (line.starts_with("    ")) example += line.substr(4) + "\n";
+  const Config config = nc::test::parse_or_fail(nc::test::base_toml() + example);
+  ASSERT_EQ(config.gpio.size(), 1u);
+  EXPECT_EQ(config.gpio[0].bank.lines.size(), 2u);
+  EXPECT_TRUE(config.gpio[0].bank.has_watchdog);
 }
 
 TEST(GpioConfig, ABankOfAWatchdogAloneIsOne) {
