@@ -51,9 +51,7 @@ class LineChip {
   virtual void release() noexcept = 0;
 };
 
-#ifdef NC_HAVE_LIBGPIOD
-// A chip of this computer's kernel, through libgpiod.
+// A chip of this computer's kernel, through libgpiod. It is there where the build has that library.
 std::unique_ptr<LineChip> make_gpiod_chip();
-#endif
 
 }  // namespace nc::hal::gpio

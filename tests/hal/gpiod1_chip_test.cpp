@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is asked of libgpiod 1.6, over a stand-in for that library (gpiod_stand_in.hpp).
+#include <gpiod.h>
 #include <gtest/gtest.h>
 
 #include "gpiod_stand_in.hpp"
 #include "hal/gpio/line_chip.hpp"
-
-#ifdef NC_HAVE_LIBGPIOD
-#include <gpiod.h>
 
 namespace {
 
@@ -192,4 +190,3 @@ TEST_F(Gpiod1Chip, AChipThatIsPulledOutFailsInItsWords) {
 }
 
 }  // namespace
-#endif

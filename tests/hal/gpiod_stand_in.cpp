@@ -2,7 +2,6 @@
 // A stand-in for libgpiod 1.6. See gpiod_stand_in.hpp.
 #include "gpiod_stand_in.hpp"
 
-#ifdef NC_HAVE_LIBGPIOD
 #include <gpiod.h>
 #include <gtest/gtest.h>
 
@@ -135,4 +134,3 @@ void gpiod_line_release_bulk(gpiod_line_bulk* bulk) {
   expect_bulk(bulk);
   for (unsigned i = 0; i < bulk->num_lines; ++i) bulk->lines[i]->line->request = 0;
 }
-#endif

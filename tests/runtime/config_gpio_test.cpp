@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <fstream>
 
+#include "has_bus.hpp"
 #include "places/places.hpp"
 #include "runtime/config.hpp"
 #include "test_config.hpp"
 
-#ifdef NC_HAVE_LIBGPIOD
 namespace {
 
 using nc::hal::gpio::BankConfig;
@@ -27,7 +27,14 @@ std::string point(const std::string& name, const std::string& direction, const s
 std::string input(const std::string& gpio) { return kBank + point("p", "input", "bank = \"board\", " + gpio); }
 std::string output(const std::string& gpio) { return kBank + point("p", "output", "bank = \"board\", " + gpio); }
 
-TEST(GpioConfig, EverythingThatCanBeSaidIsRead) {
+class GpioConfig : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!nc::test::has_bus("gpio")) GTEST_SKIP() << "built without libgpiod";
+  }
+};
+
+TEST_F(GpioConfig, EverythingThatCanBeSaidIsRead) {
   const Config config = nc::test::parse_or_fail(
       nc::test::base_toml() + kBank +
       "consumer = \"mill\"\npoll_ms = 5\nlost_after = 2\nalarm = true\nwatchdog = { offset = 4, drive = \"open-source\", active_low = true }\n" +
@@ -66,7 +73,7 @@ TEST(GpioConfig, EverythingThatCanBeSaidIsRead) {
 }
 
 // What is indented at the head of the document is a configuration.
-TEST(GpioConfig, TheExampleOfTheDocumentIsOne) {
+TEST_F(GpioConfig, TheExampleOfTheDocumentIsOne) {
   std::ifstream document(nc::test::kSourceDir + "/docs/gpio.md");
   std::string example;
   for (std::string line; std::getline(document, line) && line != "## Banks";)
@@ -77,14 +84,14 @@ TEST(GpioConfig, TheExampleOfTheDocumentIsOne) {
   EXPECT_TRUE(config.gpio[0].bank.has_watchdog);
 }
 
-TEST(GpioConfig, ABankOfAWatchdogAloneIsOne) {
+TEST_F(GpioConfig, ABankOfAWatchdogAloneIsOne) {
   const Config config = nc::test::parse_or_fail(nc::test::base_toml() + kBank + "watchdog = { line = \"WD\" }\n");
   EXPECT_TRUE(config.gpio.at(0).bank.has_watchdog);
   EXPECT_EQ(config.gpio[0].bank.consumer, "ncrtd");
   EXPECT_EQ(config.gpio[0].bank.poll_ms, 1u);
 }
 
-TEST(GpioConfig, PointsThatAreRefusedTakeNoLine) {
+TEST_F(GpioConfig, PointsThatAreRefusedTakeNoLine) {
   const std::string line = "bank = \"board\", line = \"DOOR\"";
   Config config, partial;
   const auto errors = nc::rt::parse_config(nc::test::base_toml() + kBank + point("M100", "input", line) + point("door", "input", line), "m.toml", &config, &partial);
@@ -103,7 +110,7 @@ struct Mistake {
 };
 std::ostream& operator<<(std::ostream& out, const Mistake& mistake) { return out << mistake.name; }
 
-class GpioMistakes : public testing::TestWithParam<Mistake> {};
+class GpioMistakes : public GpioConfig, public testing::WithParamInterface<Mistake> {};
 
 TEST_P(GpioMistakes, IsNamedWithItsLineAndKey) {
   const Mistake& mistake = GetParam();
@@ -162,4 +169,3 @@ const Mistake kMistakes[] = {
 INSTANTIATE_TEST_SUITE_P(All, GpioMistakes, testing::ValuesIn(kMistakes), [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace
-#endif
