@@ -6,11 +6,12 @@
 #include <algorithm>
 
 #include "online_helpers.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
 
-constexpr uint32_t kPrograms = 40;
+const auto kPrograms = static_cast<uint32_t>(seeds(40, 12));
 
 struct Executed {
   std::vector<nc_event> events;

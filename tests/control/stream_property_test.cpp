@@ -8,11 +8,12 @@
 
 #include "support/pull.hpp"
 #include "support/random_program.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
 
-constexpr uint32_t kPrograms = 120;
+const auto kPrograms = static_cast<uint32_t>(seeds(120, 30));
 
 void set_up(Bench& bench, const RandomProgram& program) {
   for (unsigned n = 1; n <= 9; ++n) bench.tool(n, 0.2 * n);

@@ -9,6 +9,7 @@
 
 #include "interpolate/spindle_sync.hpp"
 #include "interpolate/test_machine.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -278,7 +279,7 @@ TEST(PlannedThread, WhateverStopsItStopsAFineOneToo) {
 
 /// Chains of threads with tapers and other leads, spindles that speed up, slow down and stop, resets in the middle.
 TEST(PlannedThread, RandomThreadsKeepTheLimits) {
-  for (unsigned seed = 1; seed <= 60; ++seed) {
+  for (unsigned seed = 1; seed <= seeds(60, 12); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937 random(seed);
     const auto number = [&](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };

@@ -3,6 +3,7 @@
 // as one that has just been switched on.
 #include <gtest/gtest.h>
 
+#include "support/seeds.hpp"
 #include "test_machine.hpp"
 
 namespace nc::test {
@@ -102,6 +103,7 @@ TEST_P(Wrap, TheSamePositionsBehindTheEndOfEveryCounter) {
   ASSERT_GT(fresh.positions.size(), 3000u);
   // The counters pass their end at different moments of the run: records and segments, cells (several times as many), events.
   for (const uint32_t before : {1u, 2u, 3u, 60u, 100u, 333u, 700u, 1500u, 5000u}) {
+    if (sanitized() && before != 2 && before != 333) continue;
     for (const uint32_t end : {0u, 0x80000000u, 0x40000000u}) {
       SCOPED_TRACE(std::to_string(before) + " in front of " + std::to_string(end));
       const Said late = drive(c, end - before);
