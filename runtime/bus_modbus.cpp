@@ -8,6 +8,7 @@
 #include <set>
 
 #include "hal/modbus/link.hpp"
+#include "hal/serial_key.hpp"
 #include "runtime/machine_lock.hpp"
 
 namespace nc::rt {
@@ -52,6 +53,10 @@ std::unique_ptr<hal::PointBus> make_modbus(const Config& config, const PointBusC
 
 void modbus_resources(const Config& config, const PointBusConfig& bus, std::vector<MachineResource>* resources) {
   const hal::modbus::LinkConfig& link = config.modbus[bus.place].link;
+  if (const std::string& device = link.serial.device; !device.empty()) {  // a line has one master, also where it only reads
+    resources->push_back({hal::serial_key(device), "serial line " + device});
+    return;
+  }
   std::set<unsigned> units;
   for (const hal::modbus::PointMap& map : link.points)
     if (map.output) units.insert(map.unit);

@@ -13,7 +13,7 @@ void check_modbus(TableReader* root, const Config& config);
 
 // ---- the link: runtime/bus_modbus.cpp ----
 std::unique_ptr<hal::PointBus> make_modbus(const Config& config, const PointBusConfig& bus, const BusReport& report);
-// Each unit that outputs are written to. Looks the host up: this may take the time of the resolver.
+// Each unit of a host that outputs are written to, or the serial line. Looks the host up: this may take the time of the resolver.
 void modbus_resources(const Config& config, const PointBusConfig& bus, std::vector<MachineResource>* resources);
 
 }  // namespace nc::rt

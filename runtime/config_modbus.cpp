@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "hal/modbus/codec.hpp"
+#include "hal/modbus/serial_line.hpp"
+#include "hal/serial_key.hpp"
 #include "runtime/bus_modbus.hpp"
 #include "runtime/config_sections.hpp"
 
@@ -20,9 +22,11 @@ using hal::modbus::OnStop;
 using hal::modbus::PointMap;
 using hal::modbus::Table;
 using hal::modbus::WordOrder;
+using hal::serial_key;
 
 constexpr unsigned kLastAddress = 65535;
 constexpr double kMaxScale = 1e9;
+constexpr unsigned kLineByteTimeoutMs = 1000;  // what is in one frame of a serial line comes in one go
 
 bool valid_link_name(const std::string& name) {
   return !name.empty() && name.size() <= 32 && std::all_of(name.begin(), name.end(), [](char c) {
@@ -30,10 +34,14 @@ bool valid_link_name(const std::string& name) {
   });
 }
 
-// libmodbus sends to 0 to 247 and 255.
-bool read_unit(TableReader* reader, std::uint8_t* unit) {
+// libmodbus sends to 0 to 247 and 255. On a serial line 0 is everybody, who does not answer.
+bool read_unit(TableReader* reader, const LinkConfig* link, std::uint8_t* unit) {
   unsigned read = 0;
   if (!reader->integer("unit", &read, 0, 255)) return false;
+  if (link != nullptr && !link->serial.device.empty() && (read == 0 || read > 247)) {
+    reader->error("unit", "must be from 1 to 247 on a serial line, not " + std::to_string(read));
+    return false;
+  }
   if (read > 247 && read < 255) {
     reader->error("unit", "must be from 0 to 247, or 255, not " + std::to_string(read));
     return false;
@@ -42,25 +50,62 @@ bool read_unit(TableReader* reader, std::uint8_t* unit) {
   return true;
 }
 
+// Keys that have no meaning here are errors, not ignored.
+void refuse(TableReader* reader, std::initializer_list<const char*> keys, const std::string& why) {
+  for (const char* key : keys)
+    if (reader->find(key) != nullptr) reader->error(key, why);
+}
+
+void read_host(TableReader* reader, LinkConfig* link) {
+  refuse(reader, {"baud", "parity", "stop_bits", "rs485", "rts_delay_us"}, "is for a serial line: device = \"/dev/...\" and no host");
+  reader->integer("port", &link->port, 1, 65535);
+  reader->require("host");
+  if (!reader->string("host", &link->host)) return;
+  const bool graphic = std::all_of(link->host.begin(), link->host.end(), [](char c) { return c > ' ' && c <= '~'; });
+  if (link->host.empty() || link->host.size() > 255 || !graphic)
+    reader->error("host", "must be an address or the name of a host");
+  else if (std::count(link->host.begin(), link->host.end(), ':') == 1)  // IPv6 has more of them
+    reader->error("host", "must be an address or the name of a host; the port has a key of its own: port");
+}
+
+void read_line(TableReader* reader, const Config& config, LinkConfig* link) {
+  hal::modbus::SerialConfig& line = link->serial;
+  refuse(reader, {"host", "port"}, "is for TCP: a link has either a host or a device");
+  if (reader->string("device", &line.device)) {
+    if (line.device.empty() || line.device[0] != '/' || line.device.size() > 255) reader->error("device", "must be the path of a serial line, such as \"/dev/ttyS1\"");
+    for (const ModbusLinkConfig& other : config.modbus)
+      if (!line.device.empty() && serial_key(other.link.serial.device) == serial_key(line.device))
+        reader->error("device", "link \"" + other.link.name + "\" has this line; its units are named at the points");
+  }
+  const auto* const rates = std::end(hal::modbus::kRates);
+  if (reader->integer("baud", &line.baud, 1, 10000000) && std::find(std::begin(hal::modbus::kRates), rates, line.baud) == rates) {
+    std::string all;
+    for (const unsigned rate : hal::modbus::kRates) all += (all.empty() ? "" : ", ") + std::to_string(rate);
+    reader->error("baud", "must be one of " + all);
+  }
+  unsigned parity = 1, rs485 = 0;
+  if (reader->choice("parity", {"none", "even", "odd"}, &parity)) line.parity = "NEO"[parity];
+  reader->integer("stop_bits", &line.stop_bits, 1, 2);
+  if (reader->choice("rs485", {"none", "driver", "rts_high", "rts_low"}, &rs485)) line.rs485 = static_cast<hal::modbus::Rs485>(rs485);
+  const bool rts = line.rs485 == hal::modbus::Rs485::kRtsHigh || line.rs485 == hal::modbus::Rs485::kRtsLow;
+  if (!rts) refuse(reader, {"rts_delay_us"}, "is for rs485 = \"rts_high\" or \"rts_low\"");
+  if (rts) reader->integer("rts_delay_us", &line.rts_delay_us, 0, 100000);
+  if (link->byte_timeout_ms > kLineByteTimeoutMs) reader->error("byte_timeout_ms", "must be at most " + std::to_string(kLineByteTimeoutMs) + " on a serial line");
+}
+
 void read_link(TableReader* reader, Config* config) {
   ModbusLinkConfig entry;
   PointBusConfig bus;
   LinkConfig& link = entry.link;
   entry.place = {reader->line("name"), reader->path("name")};
-  for (const char* key : {"name", "host"}) reader->require(key);
+  reader->require("name");
   const bool named = reader->string("name", &link.name);
-  if (reader->string("host", &link.host)) {
-    const bool graphic = std::all_of(link.host.begin(), link.host.end(), [](char c) { return c > ' ' && c <= '~'; });
-    if (link.host.empty() || link.host.size() > 255 || !graphic)
-      reader->error("host", "must be an address or the name of a host");
-    else if (std::count(link.host.begin(), link.host.end(), ':') == 1)  // IPv6 has more of them
-      reader->error("host", "must be an address or the name of a host; the port has a key of its own: port");
-  }
-  reader->integer("port", &link.port, 1, 65535);
-  read_unit(reader, &entry.unit);
+  reader->integer("byte_timeout_ms", &link.byte_timeout_ms, 1, 60000);
+  if (reader->find("device") != nullptr) read_line(reader, *config, &link);
+  else read_host(reader, &link);
+  read_unit(reader, &link, &entry.unit);
   reader->integer("poll_ms", &link.poll_ms, 1, 60000);
   reader->integer("response_timeout_ms", &link.response_timeout_ms, 1, 60000);
-  reader->integer("byte_timeout_ms", &link.byte_timeout_ms, 1, 60000);
   reader->integer("lost_after", &link.lost_after, 1, 1000);
   reader->integer("refresh_ms", &link.refresh_ms, 10, 3600000);
   reader->integer("merge_gap", &link.merge_gap, 0, 124);
@@ -106,12 +151,6 @@ std::optional<WordOrder> word_order(std::string_view text) {
   for (unsigned i = 0; i < 4; ++i)
     if (kOrders[i] == text) return static_cast<WordOrder>(i);
   return {};
-}
-
-// Keys that have no meaning for this point are errors, not ignored.
-void refuse(TableReader* reader, std::initializer_list<const char*> keys, const std::string& why) {
-  for (const char* key : keys)
-    if (reader->find(key) != nullptr) reader->error(key, why);
 }
 
 void read_bit_format(TableReader* reader, PointMap* map) {
@@ -243,7 +282,7 @@ bool share_a_register(const PointMap& a, const PointMap& b) {
 void check_collisions(TableReader* reader, const Config& config, const LinkConfig& link,
                       const PointMap& map) {
   for (const ModbusLinkConfig& other : config.modbus) {
-    if (other.link.host != link.host || other.link.port != link.port) continue;
+    if (other.link.partner() != link.partner()) continue;
     for (const PointMap& taken : other.link.points) {
       if (share_a_register(map, taken) && map.holds() != taken.holds() && !collide(map, taken)) {
         reader->error("on_stop", "\"hold\" is for all bits of a register or for none: \"" + config.points.at(taken.point).name + "\" is one, too");
@@ -279,7 +318,7 @@ PlaceOnBus read_point_modbus(TableReader* point_reader, const hal::Point& point,
     if (linked && !found) reader.error("link", "no link is named \"" + name + "\": see [[modbus]]");
     if (found) map.unit = link->unit;
     if (found) link->named = true;
-    read_unit(&reader, &map.unit);
+    read_unit(&reader, found ? &link->link : nullptr, &map.unit);
     const bool placed = read_table(&reader, &map.table);
     if (placed && map.output && !can_be_written(map.table))
       reader.error("table", std::string("\"") + table_name(map.table) +

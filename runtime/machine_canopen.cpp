@@ -15,7 +15,7 @@ std::unique_ptr<hal::Hal> make_canopen(const Config& config) {
 }
 
 void canopen_resources(const Config& config, std::vector<MachineResource>* resources) {
-  resources->push_back({"canopen " + hal::canopen::device_of(config.canopen.interface), "CAN interface " + config.canopen.interface});
+  resources->push_back({hal::canopen::device_of(config.canopen.interface), "CAN interface " + config.canopen.interface});
 }
 
 }  // namespace nc::rt

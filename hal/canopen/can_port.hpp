@@ -24,7 +24,7 @@ class CanPort {
 
 // "can0": SocketCAN. "slcan:/dev/ttyACM0": an adapter on a serial line, which is switched to `bit_s`.
 std::unique_ptr<CanPort> make_port(const std::string& interface, unsigned bit_s);
-// The same text for every name of one interface: a serial line has links (/dev/serial/by-id/...), an interface of Linux further names.
+// What two controls cannot have at the same time: the same text for every name of one interface: a serial line has links (/dev/serial/by-id/...), an interface of Linux further names.
 std::string device_of(const std::string& interface);
 
 }  // namespace nc::hal::canopen

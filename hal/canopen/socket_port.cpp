@@ -8,7 +8,6 @@
 #include <net/if.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include <cstring>
 
 #include "hal/canopen/slcan_port.hpp"
+#include "hal/serial_key.hpp"
 
 namespace nc::hal::canopen {
 namespace {
@@ -103,13 +103,9 @@ constexpr const char* kSerial = "slcan:";
 std::string device_of(const std::string& interface) {
   if (interface.rfind(kSerial, 0) != 0) {
     const unsigned index = ::if_nametoindex(interface.c_str());
-    return index != 0 ? "interface " + std::to_string(index) : interface;
+    return "canopen " + (index != 0 ? "interface " + std::to_string(index) : interface);
   }
-  const std::string path = interface.substr(std::strlen(kSerial));
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return interface;
-  const bool device = S_ISCHR(status.st_mode);
-  return "serial " + std::to_string(device ? status.st_rdev : status.st_dev) + " " + std::to_string(device ? 0 : status.st_ino);
+  return serial_key(interface.substr(std::strlen(kSerial)));
 }
 
 std::unique_ptr<CanPort> make_port(const std::string& interface, unsigned bit_s) {

@@ -92,6 +92,17 @@ Frame write_request(const Block& block, const std::uint16_t* cells, std::uint16_
   return end(frame);
 }
 
+std::size_t answer_of_line(const Frame& request, const std::uint8_t* unit_and_pdu, std::size_t size, std::uint8_t* answer) {
+  constexpr std::size_t kUnit = kPdu - 1;
+  if (size < 2 || size > kMaxFrame - kUnit) return 0;
+  std::copy_n(request.bytes.begin(), 2, answer);
+  answer[2] = answer[3] = 0;
+  answer[4] = static_cast<std::uint8_t>(size >> 8);
+  answer[5] = static_cast<std::uint8_t>(size & 0xFF);
+  std::copy_n(unit_and_pdu, size, answer + kUnit);
+  return kUnit + size;
+}
+
 Verdict check_answer(const Frame& request, const std::uint8_t* answer, std::size_t size, unsigned* exception,
                      const char** why) {
   const auto foreign = [why](const char* text) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests and answers of Modbus TCP as bytes: MBAP header and PDU. Modbus application protocol V1.1b3, 6;
+// Requests and answers as the bytes of Modbus TCP: MBAP header and PDU. A serial line has the unit and the PDU of them. Modbus application protocol V1.1b3, 6;
 // Modbus messaging on TCP/IP V1.0b, 3.1.3.
 //
 // An answer is believed only when all of it fits: transaction, protocol, length, unit, function, and, by function, the
@@ -29,6 +29,10 @@ struct Frame {
 Frame read_request(const Block& block, std::uint16_t transaction);
 // One cell goes out by functions 5 and 6, which every device has; more by 15 and 16.
 Frame write_request(const Block& block, const std::uint16_t* cells, std::uint16_t transaction);
+
+// The answer of a serial line, unit and PDU without its check sum, as that of TCP to this request would be. `answer` has room for kMaxFrame; the
+// size of what is in it, 0 where it does not fit.
+std::size_t answer_of_line(const Frame& request, const std::uint8_t* unit_and_pdu, std::size_t size, std::uint8_t* answer);
 
 enum class Verdict : std::uint8_t {
   kGood,

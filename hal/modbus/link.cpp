@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One Modbus TCP link: the thread. The scan's side is in link_image.cpp. See link.hpp.
+// One Modbus link: the thread. The scan's side is in link_image.cpp. See link.hpp.
 #include "hal/modbus/link.hpp"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ void ModbusLink::prepare(const PointImage& initial) {
   lost_ = true;
   backoff_ms_ = config_.backoff_min_ms;
   stopping_ = ended_ = false;
-  session_ = std::make_unique<Session>(config_);
+  session_ = make_session(config_);
   alive();
   publish();
 }
@@ -252,8 +252,11 @@ void ModbusLink::answered(Job* job, Result result) {
   job->errors = 0;
   if (lost_) {
     lost_ = false;
-    for (Job& each : jobs_) each.retry_at = {};
-    report("connected to " + config_.host + " port " + std::to_string(config_.port));
+    for (Job& each : jobs_) {
+      each.retry_at = {};
+      if (&each != job) each.written = false;  // the partner may have forgotten it
+    }
+    report("connected to " + config_.partner());
   }
   if (result == Result::kOk) {
     if (!job->trouble.empty()) report("again good: " + place_text(job->block));
@@ -270,6 +273,8 @@ void ModbusLink::answered(Job* job, Result result) {
 
 void ModbusLink::unanswered(Job* job) {
   const std::string why = session_->error();
+  for (Job& each : jobs_)
+    if (each.block.unit == job->block.unit) each.written = false;  // the unit may be without power
   // What is known to be dead says nothing new about the link, as long as something else lives.
   const bool known = job->bad && !lost_;
   const bool others = std::any_of(jobs_.begin(), jobs_.end(), [](const Job& each) { return !each.bad; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One Modbus TCP link: an ordinary thread that talks to one host, and the image that it exchanges with the
+// One Modbus link: an ordinary thread that talks to one host or serial line, and the image that it exchanges with the
 // scan.
 //
 // A link is LOST when it never answered yet or after lost_after errors in a row: every input shows its

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One Modbus TCP link: the image that its thread and the scan exchange. See link.hpp.
+// One Modbus link: the image that its thread and the scan exchange. See link.hpp.
 #include <algorithm>
 
 #include "hal/bus_thread.hpp"

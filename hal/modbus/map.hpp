@@ -57,8 +57,25 @@ struct PointMap {
   unsigned end() const { return address + width(); }
 };
 
+// Who switches an RS-485 transceiver: nobody (a line of its own, or an adapter that does it by itself), the driver of the kernel, or
+// libmodbus by the line RTS, which is high or low while it sends.
+enum class Rs485 : std::uint8_t { kNone, kDriver, kRtsHigh, kRtsLow };
+
+// A serial line with Modbus RTU. The defaults are those of Modbus over serial line V1.02, 2.5.
+struct SerialConfig {
+  std::string device;  // "/dev/ttyS1"; empty: the link is TCP
+  unsigned baud = 19200;
+  char parity = 'E';  // 'N', 'E', 'O'
+  unsigned stop_bits = 1;
+  Rs485 rs485 = Rs485::kNone;
+  unsigned rts_delay_us = 0;  // before and behind what is sent, where RTS switches
+
+  unsigned bits_per_character() const { return 1 + 8 + (parity == 'N' ? 0 : 1) + stop_bits; }
+};
+
 struct LinkConfig {
   std::string name;
+  SerialConfig serial;  // or
   std::string host;
   std::uint16_t port = 502;
   unsigned poll_ms = 20;               // period of the exchange
@@ -70,6 +87,9 @@ struct LinkConfig {
   unsigned backoff_min_ms = 100, backoff_max_ms = 5000;  // pause before the next attempt to connect
   unsigned ok_point = 0;                                 // the input point "<name>.ok"
   std::vector<PointMap> points;
+
+  // "/dev/ttyS1", "localhost port 502"
+  std::string partner() const { return serial.device.empty() ? host + " port " + std::to_string(port) : serial.device; }
 };
 
 }  // namespace nc::hal::modbus

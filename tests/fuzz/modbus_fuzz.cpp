@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as the answer of a Modbus device to each kind of request. An answer that is believed is the answer to this request; its values
 // lie within their points, and come back when they are written.
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -115,7 +116,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Asked asked = asked_from(&in);
   const std::uint8_t choice = in.byte();
   // A block of exactly this size: a read behind it is seen.
-  const std::vector<std::uint8_t> answer = answer_from(&in, asked);
+  std::vector<std::uint8_t> answer = answer_from(&in, asked);
+  if ((choice & 1) != 0) {  // the same as a serial line brings it, whose header is made here
+    std::array<std::uint8_t, kMaxFrame> from_line{};
+    const std::size_t from = std::min<std::size_t>(answer.size(), kHeader - 1);
+    const std::size_t there = answer_of_line(asked.request, answer.data() + from, answer.size() - from, from_line.data());
+    require(there <= kMaxFrame);
+    answer.assign(from_line.begin(), from_line.begin() + static_cast<long>(there));
+  }
   unsigned exception = 0;
   const char* why = nullptr;
   const Verdict verdict = check_answer(asked.request, answer.data(), answer.size(), &exception, &why);

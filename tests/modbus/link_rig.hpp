@@ -54,6 +54,11 @@ class LinkRig {
   }
   PointMap& map() { return config.points.back(); }
 
+  void start_serial(const std::string& device) {
+    config.host.clear();
+    config.serial.device = device;
+    start(0);
+  }
   void start(std::uint16_t port) {
     config.port = port;
     link = std::make_unique<hal::modbus::ModbusLink>(config, [this](const std::string& line) {

@@ -3,6 +3,8 @@
 // messaging on TCP/IP V1.0b.
 #include "modbus/loopback_server.hpp"
 
+#include "modbus/serial_device.hpp"
+
 #include <arpa/inet.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -158,6 +160,17 @@ Bytes LoopbackServer::reply_pdu(const Bytes& request) {
   }
   reply.insert(reply.end(), request.begin() + 8, request.begin() + 12);
   return reply;
+}
+
+Bytes LoopbackServer::serial_answer(const Bytes& request) {
+  Bytes as_tcp(kHeader - 1, 0);
+  as_tcp.insert(as_tcp.end(), request.begin(), request.end() - 2);
+  const std::lock_guard lock(mutex_);
+  functions_.push_back(request[1]);
+  Bytes frame{request[0]};
+  const Bytes pdu = reply_pdu(as_tcp);
+  frame.insert(frame.end(), pdu.begin(), pdu.end());
+  return rtu_frame(frame);
 }
 
 void LoopbackServer::set_fault(Fault fault) {

@@ -49,6 +49,8 @@ class LoopbackServer {
   unsigned connections() const { return connections_; }
   // Function codes of all requests so far.
   std::vector<std::uint8_t> functions();
+  // What the same device answers on a serial line: `request` is a whole frame of it, and so is what comes back.
+  Bytes serial_answer(const Bytes& request);
   void stop();
 
  private:

@@ -14,7 +14,7 @@ import tempfile
 import threading
 import time
 
-PYMODBUS = "pymodbus==3.16.1"
+PYMODBUS = "pymodbus[serial]==3.16.1"
 SKIPPED = 77
 LONG = 60  # seconds: far more than anything here takes
 HERE = pathlib.Path(__file__).resolve().parent

@@ -28,4 +28,5 @@ async def main():
     await ModbusTcpServer(units, address=("127.0.0.1", int(sys.argv[1]))).serve_forever()
 
 
-asyncio.run(main())
+if __name__ == "__main__":
+    asyncio.run(main())

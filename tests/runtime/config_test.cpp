@@ -77,6 +77,7 @@ TEST_P(ConfigErrors, NameFileLineAndKey) {
 
 // A link, and a point "p" on it.
 #define NC_LINK "\n[[modbus]]\nname = \"io\"\nhost = \"10.0.0.1\"\n"
+#define NC_LINE "\n[[modbus]]\nname = \"io\"\ndevice = \"/dev/nc-line\"\n"
 #define NC_POINT(name, type, direction, modbus)                                                        \
   "[[point]]\nname = \"" name "\"\ntype = \"" type "\"\ndirection = \"" direction "\"\nmodbus = { " modbus \
   " }\n"
@@ -196,6 +197,20 @@ const Case kCases[] = {
     // [[modbus]] and the modbus table of a point; the base has 5 points, "<link>.ok" is not one of the file's.
     {"modbus_name_missing", nullptr, "\n[[modbus]]\nhost = \"h\"\n", "modbus[1].name", "is missing"},
     {"modbus_host_missing", nullptr, "\n[[modbus]]\nname = \"io\"\n", "modbus[1].host", "is missing"},
+    {"modbus_host_and_device", nullptr, "\n[[modbus]]\nname = \"io\"\nhost = \"h\"\ndevice = \"/dev/ttyS1\"\n", "modbus[1].host", "either a host or a device"},
+    {"modbus_port_and_device", nullptr, NC_LINE "port = 502\n", "modbus[1].port", "is for TCP"},
+    {"modbus_device", nullptr, "\n[[modbus]]\nname = \"io\"\ndevice = \"ttyS1\"\n", "modbus[1].device", "the path of a serial line"},
+    {"modbus_device_twice", nullptr, NC_LINE "[[modbus]]\nname = \"other\"\ndevice = \"/dev/nc-line\"\n", "modbus[2].device", "link \"io\" has this line"},
+    {"modbus_baud", nullptr, NC_LINE "baud = 9601\n", "modbus[1].baud", "must be one of 1200, 2400, 4800, 9600,"},
+    {"modbus_parity", nullptr, NC_LINE "parity = \"mark\"\n", "modbus[1].parity", "none"},
+    {"modbus_stop_bits", nullptr, NC_LINE "stop_bits = 3\n", "modbus[1].stop_bits", "from 1 to 2"},
+    {"modbus_rs485", nullptr, NC_LINE "rs485 = \"yes\"\n", "modbus[1].rs485", "driver"},
+    {"modbus_rts_delay", nullptr, NC_LINE "rts_delay_us = 100\n", "modbus[1].rts_delay_us", "is for rs485"},
+    {"modbus_rts_delay_range", nullptr, NC_LINE "rs485 = \"rts_high\"\nrts_delay_us = 100001\n", "modbus[1].rts_delay_us", "100000"},
+    {"modbus_byte_timeout_line", nullptr, NC_LINE "byte_timeout_ms = 1001\n", "modbus[1].byte_timeout_ms", "at most 1000 on a serial line"},
+    {"modbus_baud_of_tcp", nullptr, NC_LINK "baud = 9600\n", "modbus[1].baud", "is for a serial line"},
+    {"modbus_unit_everybody", nullptr, NC_LINE "unit = 0\n", "modbus[1].unit", "from 1 to 247 on a serial line"},
+    {"modbus_unit_of_point_line", nullptr, NC_LINE "[[point]]\nname = \"p\"\ndirection = \"input\"\nmodbus = { link = \"io\", table = \"coil\", address = 0, unit = 255 }\n", "point[6].modbus.unit", "from 1 to 247 on a serial line"},
     {"modbus_host", nullptr, "\n[[modbus]]\nname = \"io\"\nhost = \"\"\n", "modbus[1].host", "an address"},
     {"modbus_name", nullptr, "\n[[modbus]]\nname = \"i o\"\nhost = \"h\"\n", "modbus[1].name", "letters"},
     {"modbus_twice", nullptr, NC_LINK NC_LINK, "modbus[2].name", "already there"},
