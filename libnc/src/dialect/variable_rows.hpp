@@ -59,6 +59,13 @@ struct DeviceRow {
   uint32_t count;
 };
 
+/// How much of a device a program reads: the number that it writes for that, and what it stands for. 0 bytes: one bit.
+struct DeviceWidth {
+  uint8_t written;
+  uint8_t bytes;
+  bool is_signed;
+};
+
 struct VariableRange {
   uint32_t first, last;
 };
@@ -68,6 +75,7 @@ struct FamilyVariables {
   VariableRange common[2] = {};   ///< common variables of a family that has no options of them; none where the configuration says
   Table<ModalWord> words = {};    ///< layout of the ranges of words
   Table<DeviceRow> devices = {};
+  Table<DeviceWidth> device_widths = {};
 };
 
 /// What a host knows such variables by.

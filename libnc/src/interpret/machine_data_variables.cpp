@@ -18,6 +18,12 @@ const DeviceRow* find_device(const Interpreter& in, double code) {
   return nullptr;
 }
 
+const DeviceWidth* find_width(const Interpreter& in, double written) {
+  for (const DeviceWidth& width : in.dialect->variables->device_widths)
+    if (width.written == written) return &width;
+  return nullptr;
+}
+
 Execution no_such(Access& a) { return a.in.raise(Condition::no_such_data, '#', a.written); }
 
 bool whole_between(double value, double low, double high) { return value >= low && value <= high && value == std::trunc(value); }
@@ -122,8 +128,7 @@ Eval read_parameter(Access& a) {
 Execution select_device(Access& a) {
   const bool good = a.index == 0   ? a.in.devices.read != nullptr && find_device(a.in, a.written) != nullptr
                     : a.index == 1 ? whole_between(a.written, 0, 99999)
-                    : a.index == 2 ? a.written == 0 || a.written == 1 || a.written == 101 || a.written == 2 || a.written == 102 ||
-                                         a.written == 4 || a.written == 104
+                    : a.index == 2 ? find_width(a.in, a.written) != nullptr
                                     : whole_between(a.written, 0, 15);  // (4) (b): a device has 16
   if (!good) return no_such(a);
   Selection selection = a.in.records->selection;
@@ -134,9 +139,10 @@ Execution select_device(Access& a) {
 
 Eval read_device(Access& a) {
   if (!world_known(a, NC_SYNC_INPUT)) return Eval::need_sync;
-  const auto& [code, number, bytes, bit] = a.in.records->selection.device;
+  const auto& [code, number, written_width, bit] = a.in.records->selection.device;
   const DeviceRow* device = find_device(a.in, code);
-  if (a.in.devices.read == nullptr || device == nullptr) {
+  const DeviceWidth* width = find_width(a.in, written_width);
+  if (a.in.devices.read == nullptr || device == nullptr || width == nullptr) {
     a.in.raise(Condition::no_such_data, '#', a.number);
     return Eval::fault;
   }
@@ -144,13 +150,13 @@ Eval read_device(Access& a) {
     a.in.raise(Condition::no_such_data, '#', number);
     return Eval::fault;
   }
-  if (bytes == 0) {  // one bit: of a word the selected bit of it
+  if (width->bytes == 0) {  // one bit: of a word the selected bit of it
     return give(a, static_cast<double>(device_bits(a.in, *device, number, device->word ? 32 : 1) >> (device->word ? bit : 0) & 1));
   }
-  const unsigned width = bytes % 100 * 8;
-  const uint64_t bits = device_bits(a.in, *device, number, width);
-  if (bytes < 100 || width == 0 || (bits >> (width - 1) & 1) == 0) return give(a, static_cast<double>(bits));
-  return give(a, static_cast<double>(bits) - std::ldexp(1.0, static_cast<int>(width)));  // two's complement
+  const unsigned count = width->bytes * 8u;
+  const uint64_t bits = device_bits(a.in, *device, number, count);
+  if (!width->is_signed || (bits >> (count - 1) & 1) == 0) return give(a, static_cast<double>(bits));
+  return give(a, static_cast<double>(bits) - std::ldexp(1.0, static_cast<int>(count)));  // two's complement
 }
 
 }  // namespace nc

@@ -71,6 +71,11 @@ constexpr ModalWord kWords[] = {W::none,          W::second_auxiliary, W::none, 
                                 W::program,       W::none,             W::none,     W::none,    W::spindle, W::tool};
 
 // 10.17: code, width and number of the devices.
+// M700 13.5.5 (10.17), #100102
+constexpr DeviceWidth kDeviceWidths[] = {
+    {0, 0, false}, {1, 1, false}, {101, 1, true}, {2, 2, false}, {102, 2, true}, {4, 4, false}, {104, 4, true},
+};
+
 constexpr DeviceRow kDevices[] = {
     {0, false, 10240}, {1, true, 2048},    {2, false, 256}, {4, false, 0x2000}, {5, false, 0x2000}, {6, true, 13312},
     {7, false, 704},   {9, false, 128},    {10, false, 1024}, {13, false, 512}, {18, false, 256},   {19, false, 64},
@@ -83,6 +88,7 @@ constinit const FamilyVariables kVariables = {
     .rows = {kRows, sizeof kRows / sizeof kRows[0]},
     .words = {kWords, sizeof kWords / sizeof kWords[0]},
     .devices = {kDevices, sizeof kDevices / sizeof kDevices[0]},
+    .device_widths = {kDeviceWidths, sizeof kDeviceWidths / sizeof kDeviceWidths[0]},
 };
 
 }  // namespace nc::m700
