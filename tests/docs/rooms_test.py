@@ -92,7 +92,7 @@ class Rooms(unittest.TestCase):
             self.assertEqual(self.check({**self.CHAIN, "libnc/src/base/a.hpp": text})[0], 1, text)
 
     def test_private_header(self):
-        users = {"libnc/src/interpret/functions/f.cpp": include("interpret/interpreter.hpp"), "tests/interpret/t.cpp": include("interpret/interpreter.hpp")}
+        users = {"libnc/src/interpret/flow.cpp": include("interpret/interpreter.hpp"), "libnc/src/interpret/functions/f.cpp": include("interpret/context.hpp"), "tests/interpret/t.cpp": include("interpret/interpreter.hpp")}
         self.assertEqual(self.check(users), (0, ""))
         for header in ('"../interpret/interpreter.hpp"', "<interpret/interpreter.hpp>", '"../../src/interpret/interpreter.hpp"'):
             status, output = self.check({**users, "libnc/src/control/c.cpp": f"#include {header}\n"})
@@ -102,6 +102,9 @@ class Rooms(unittest.TestCase):
             status, output = self.check({**users, user: include("interpret/interpreter.hpp")})
             self.assertEqual(status, 1)
             self.assertIn(f"{INTERPRETER} is private to libnc/src/interpret/\n  {user}:1: #include", output)
+        status, output = self.check({**users, "libnc/src/interpret/functions/f.cpp": include("interpret/interpreter.hpp")})  # a folder inside that is barred
+        self.assertEqual(status, 1)
+        self.assertIn(f"{INTERPRETER} is private to libnc/src/interpret/\n  libnc/src/interpret/functions/f.cpp:1: #include", output)
         # Through a header of the room that is no private one, and one more outside of it.
         status, output = self.check({**users, "libnc/src/interpret/tables.hpp": include("base/a.hpp", "interpret/interpreter.hpp"),
                                      "libnc/src/control/part.hpp": include("interpret/tables.hpp"), "libnc/src/control/part.cpp": include("control/part.hpp"),

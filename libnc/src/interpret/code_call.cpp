@@ -236,7 +236,7 @@ Execution make_modal_call_first(Interpreter& in) {
 }
 
 Execution execute_behind_motion(Interpreter& in) {
-  const Execution did = auxiliary_after(in);
+  const Execution did = codes_behind(in);
   return did == Execution::done && in.after_block != nullptr ? call_behind_block(in) : did;
 }
 

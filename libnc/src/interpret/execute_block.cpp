@@ -226,7 +226,7 @@ Execution finish(Interpreter& in, Execution did) {
   if (codes_behind_motion(in)) did = auxiliary_before(in);
   if (did != Execution::done) return did;
   if (in.state.modal_call != 0 && goes_on_elsewhere(in)) return make_modal_call_first(in);
-  did = auxiliary_after(in);
+  did = codes_behind(in);
   if (did != Execution::done || (in.after_block == nullptr && in.state.modal_call == 0)) return did;
   return call_behind_block(in);
 }

@@ -8,6 +8,7 @@
 //   plain_line.cpp        the same for a line in absolute millimetres, in short
 //   functions/*.cpp       what the one-shot and modal functions do, one handler per Function (functions.hpp is the table)
 //   motion.cpp, arc.cpp   moves
+//   program_control.cpp   M codes behind the moves of their block: which call, return, end
 //   flow.cpp              GOTO, WHILE, M98/M99, the ends of programs
 //   macro_call.cpp        G65, G66, G66.1, G67 and their arguments
 //   interrupt.cpp         M96, M97 and the interrupt program
@@ -224,6 +225,9 @@ Execution return_sub(Interpreter& in);        ///< M99
 Execution call_external(Interpreter& in);     ///< M198
 Execution check_loops_closed(Interpreter& in);  ///< at the end of a program: a DO without END is P294
 Execution text_ended(Interpreter& in);        ///< the end of the text, or '%'
+
+/// interpret/program_control.cpp: what the M codes of the block do behind its moves: stops, ends, calls.
+Execution codes_behind(Interpreter& in);
 
 /// interpret/macro_call.cpp
 Execution call_macro(Interpreter& in);           ///< G65, G66, G66.1

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/struct_size.hpp"
 #include "base/utf8.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/interpreter.hpp"
@@ -484,13 +485,14 @@ Execution write_system_variable(Interpreter& in, uint32_t number, Value value, c
 }  // namespace nc
 
 nc_status nc_system_variable_row(nc_dialect dialect, unsigned index, nc_system_variable* row) {
-  if (row == nullptr || !nc::known(dialect)) return NC_E_ARGUMENT;
+  if (row == nullptr || nc::caller_bytes(row) == 0 || !nc::known(dialect)) return NC_E_ARGUMENT;
   const nc::Table<nc::VariableRow>& rows = nc::dialect(dialect).variables->rows;
   if (index >= rows.size) return NC_E_NOT_FOUND;
   const nc::VariableRow& from = rows.row[index];
   const nc::VariableHandler& handler = nc::handler_of(from);
   const nc_variable_role role = nc::interface_role(from.what);
   const auto word = static_cast<uint8_t>(role != NC_VARIABLE_OTHER ? from.part : 0);
-  *row = nc_system_variable{from.first, from.last, static_cast<uint8_t>(role), word, handler.read != nullptr, handler.write != nullptr, handler.sync, from.unit, from.name, from.section};
+  nc::give_struct(nc_system_variable{sizeof(nc_system_variable), from.first, from.last, static_cast<uint8_t>(role), word, handler.read != nullptr, handler.write != nullptr, handler.sync, from.unit,
+                                     from.name, from.section}, row);
   return NC_OK;
 }

@@ -4,7 +4,6 @@
 #include <initializer_list>
 
 #include "interpret/functions/functions.hpp"
-#include "interpret/interpreter.hpp"
 
 namespace nc {
 namespace {
@@ -178,72 +177,40 @@ Execution auxiliary_before(BlockContext& in) {
   return Execution::done;
 }
 
-namespace {
-
-/// M98 or M99 beside another of M98 M99 M02 M30: only the first would ever act.
-bool two_ways_on(const BlockContext& in) {
-  unsigned ways = 0;
-  bool call = false;
-  for (const uint32_t m : in.words.m) {
-    const MiscFunction function = misc_function(*in.dialect, m);
-    const bool here = function == MiscFunction::call_sub || function == MiscFunction::return_sub;
-    call = call || here;
-    ways += here || function == MiscFunction::program_end ? 1u : 0u;
-  }
-  return call && ways > 1;
-}
-
-}  // namespace
-
-Execution auxiliary_after(Interpreter& in) {
-  if (in.words.m.size() > 1 && two_ways_on(in)) return in.raise(Condition::format_error, Role::misc_code, in.words.m.back());
-  for (const uint32_t m : in.words.m) {
-    if (in.settings.any_reading_stop)
-      for (const uint32_t stops : in.settings.reading_stops) in.state.stop_reading |= stops != 0 && stops == m;  // M700 4.2
-    if (is_interrupt_on(in, m) || is_interrupt_off(in, m)) {
-      const Execution did = is_interrupt_on(in, m) ? enable_interrupt(in) : disable_interrupt(in);
-      if (did != Execution::done) return did;
-      continue;
+void auxiliary_behind(BlockContext& in, MiscFunction function, uint32_t m) {
+  switch (function) {
+    case MiscFunction::program_stop:
+      in.state.modal.m = m;
+      emit_misc(in, function, m);
+      emit_fin(in);  // M700 9.1: the stop comes with the completion
+      in.emit(ItemKind::gate).gate.kind = NC_GATE_STOP;
+      break;
+    case MiscFunction::optional_stop:
+      in.state.modal.m = m;
+      in.emit(ItemKind::gate).gate.kind = NC_GATE_OPTIONAL_STOP;
+      break;
+    case MiscFunction::program_end:
+      if (in.state.comp.side != 0) in.state.comp.side = 0;
+      in.state.modal.m = m;
+      emit_misc(in, function, m);
+      emit_fin(in);
+      end_spindle_control(in);
+      in.state.end_seen = true;
+      break;
+    case MiscFunction::override_allowed:
+    case MiscFunction::override_barred: {
+      constexpr uint8_t kNoOverride = 2;  // NC_CONTROL_DISABLE
+      const bool barred = function == MiscFunction::override_barred;
+      in.state.modal.m = m;
+      in.state.control_3004 = static_cast<uint8_t>(barred ? in.state.control_3004 | kNoOverride : in.state.control_3004 & ~kNoOverride);
+      Action& action = in.emit(ItemKind::action).action;
+      action.kind = NC_ACTION_CONTROL;
+      action.index = NC_CONTROL_DISABLE;
+      action.value = in.state.control_3004;
+      break;
     }
-    switch (misc_function(*in.dialect, m)) {
-      case MiscFunction::program_stop:
-        in.state.modal.m = m;
-        emit_misc(in, MiscFunction::program_stop, m);
-        emit_fin(in);  // M700 9.1: the stop comes with the completion
-        in.emit(ItemKind::gate).gate.kind = NC_GATE_STOP;
-        break;
-      case MiscFunction::optional_stop:
-        in.state.modal.m = m;
-        in.emit(ItemKind::gate).gate.kind = NC_GATE_OPTIONAL_STOP;
-        break;
-      case MiscFunction::program_end:
-        if (check_loops_closed(in) != Execution::done) return Execution::fault;
-        if (in.state.comp.side != 0) in.state.comp.side = 0;
-        in.state.modal.m = m;
-        emit_misc(in, MiscFunction::program_end, m);
-        emit_fin(in);
-        end_spindle_control(in);
-        in.state.end_seen = true;
-        return Execution::done;
-      case MiscFunction::override_allowed:
-      case MiscFunction::override_barred: {
-        constexpr uint8_t kNoOverride = 2;  // NC_CONTROL_DISABLE
-        const bool barred = misc_function(*in.dialect, m) == MiscFunction::override_barred;
-        in.state.modal.m = m;
-        in.state.control_3004 = static_cast<uint8_t>(barred ? in.state.control_3004 | kNoOverride : in.state.control_3004 & ~kNoOverride);
-        Action& action = in.emit(ItemKind::action).action;
-        action.kind = NC_ACTION_CONTROL;
-        action.index = NC_CONTROL_DISABLE;
-        action.value = in.state.control_3004;
-        break;
-      }
-      case MiscFunction::call_sub: return call_sub(in);
-      case MiscFunction::call_external: return call_external(in);
-      case MiscFunction::return_sub: return return_sub(in);
-      default: break;
-    }
+    default: break;
   }
-  return Execution::done;
 }
 
 }  // namespace nc

@@ -7,8 +7,6 @@
 
 namespace nc {
 
-struct Interpreter;
-
 /// The one-shot function of the block (in.words.one_shot). done, fault, or later.
 Execution execute_one_shot(BlockContext& in);
 
@@ -101,9 +99,10 @@ Execution do_cycle(BlockContext& in);
 Execution continue_cycle(BlockContext& in);
 void cancel_cycle(BlockContext& in);
 
-/// M S T B (auxiliary.cpp). before: everything that goes out before the motion; after: stops, ends, calls.
+/// M S T B (auxiliary.cpp). before: everything that goes out before the motion.
 Execution auxiliary_before(BlockContext& in);
-Execution auxiliary_after(Interpreter& in);
+/// An M code that acts behind the motion: stops, the end of the program, overrides. Any other does nothing here.
+void auxiliary_behind(BlockContext& in, MiscFunction function, uint32_t m);
 /// The program goes on when what has been given out is complete.
 void await_fin(BlockContext& in);
 /// Constant surface speed and clamp speeds (spindle.cpp).
