@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The Debian packages libnc0, libnc-dev, ncrtd and nc-tools, one CPack component each:
+# The Debian packages libnc1, libnc-dev, ncrtd and nc-tools, one CPack component each:
 #   cd build/release && cpack            (docs/packaging.md; scripts/prove-packages installs and uses them)
 # What only a package has (units, /etc/nc, man pages) is EXCLUDE_FROM_ALL: `cmake --install` writes below its prefix alone.
 include(${CMAKE_SOURCE_DIR}/libnc/cmake/abi.cmake)  # NC_ABI

@@ -46,7 +46,7 @@ static void show(const nc_control* nc, const nc_outputs* out) {
   nc_modal modal = NC_INIT(nc_modal);
   char codes[NC_GROUPS][8];
   unsigned count = 0;
-  if (nc_modal_get(nc, 0, out->modal, &modal) == NC_OK) count = nc_modal_codes(nc, &modal, codes, NC_GROUPS);
+  if (nc_modal_get(nc, 0, out->modal, &modal) == NC_OK) count = nc_modal_codes_get(nc, &modal, codes, NC_GROUPS);
   nc_axes machine = out->command, work = out->work;
   nc_position_shown(nc, 0, &machine, &work);
   const char* const now = line_of(program, out->source.line);

@@ -49,9 +49,9 @@ inline constexpr AlarmRow kAlarmTable[] = {
     {AlarmId::kRetainedLost, "R19", "Retained data lost", false},
     {AlarmId::kRetainedUnwritable, "R20", "Retained data are not kept", false},
     {AlarmId::kBadInput, "R21", "The machine gives a value that is no number or out of its range"},
-    // M700 appendix 1, "an error has arisen in the printer during macro printing". It is found behind the block, when the axes may be in a
-    // thread already, so the program comes to its end; the next one does not begin.
-    {AlarmId::kPrinter, "P460", "Tape I/O error: lines of the external output are lost", false},
+    // Found behind the block, when the axes may be in a thread already, so the program comes to its end; the next one does not begin. Code
+    // and short text are the family's (nc_alarm_role_get).
+    {AlarmId::kPrinter, "", "lines of the external output are lost", false},
     {AlarmId::kProgram, "", "Program alarm"},
 };
 

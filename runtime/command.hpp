@@ -85,7 +85,7 @@ enum class Answer : std::uint8_t {
   kTakenBack,         // a cycle start by a feed hold that came with it, whoever gave that
   kInterlock,
   kAxesMove,
-  kWarningActive,     // R19, R20, P460: reset first
+  kWarningActive,     // R19, R20, printed lines are lost: reset first
   kResetHeld,         // a reset is done, and plc.reset is still on
   kDrivesOff,         // a drive does not follow (yet)
   kHandleTooFar,      // more than the axis follows
@@ -150,7 +150,7 @@ constexpr const char* answer_text(Answer answer) {
     case Answer::kResetHeld:
       return "the reset of the machine is still on: let it go first";
     case Answer::kWarningActive:
-      return "a warning (R19, R20, P460) is to be acknowledged: reset first";
+      return "a warning (R19, R20, printed lines are lost) is to be acknowledged: reset first";
     case Answer::kAxesMove:
       return "an axis moves: wait until it stands";
     case Answer::kDrivesOff:

@@ -52,7 +52,7 @@ struct FeederInfo {
     nc_alarm program_alarm{};
     std::uint32_t alarm_calls = 0;  // blocks that led there, outermost first
     nc_source alarm_call[NC_MAX_CALLS] = {};
-    std::string print_trouble;  // why a line that was printed is lost (P460), the first reason since the last reset
+    std::string print_trouble;  // why a line that was printed is lost, the first reason since the last reset
     bool modal_known = false;
     nc_modal modal{};  // that the last finished block left
     // Bit a: axis a is shown within one turn, in machine and in workpiece coordinates (axis_shown.hpp).

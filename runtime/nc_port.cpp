@@ -25,7 +25,7 @@ void LibNc::switches(unsigned system, std::uint32_t optional_skip) {
   nc_switches_set(control_, api_system(system), optional_skip, 0);
 }
 unsigned LibNc::alarm_calls(unsigned system, nc_source* calls, unsigned capacity) {
-  return nc_alarm_calls(control_, api_system(system), calls, capacity);
+  return nc_alarm_calls_get(control_, api_system(system), calls, capacity);
 }
 
 nc_status LibNc::alarm(unsigned system, nc_alarm* alarm) {

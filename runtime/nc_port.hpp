@@ -23,7 +23,7 @@ class NcPort {
   virtual nc_status reset(unsigned system) = 0;
   virtual void switches(unsigned system, std::uint32_t optional_skip) = 0;
   virtual nc_status alarm(unsigned system, nc_alarm* alarm) = 0;
-  // The blocks that led to it (nc_alarm_calls).
+  // The blocks that led to it (nc_alarm_calls_get).
   virtual unsigned alarm_calls(unsigned /*system*/, nc_source* /*calls*/, unsigned /*capacity*/) { return 0; }
   virtual nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) = 0;
   virtual nc_status text(unsigned system, std::uint32_t id, nc_text* text) = 0;

@@ -434,6 +434,21 @@ static std::string bad_input_text(std::uint32_t bits) {
   return text;
 }
 
+// What the family of the machine calls something that the runtime finds and libnc does not.
+struct FamilyAlarm {
+  char code[16] = "";
+  const char* message = "";
+};
+static FamilyAlarm family_alarm(const Config& config, nc_alarm_role role) {
+  FamilyAlarm alarm;
+  (void)nc_alarm_role_get(static_cast<nc_dialect>(config.nc.dialect), role, alarm.code, &alarm.message);
+  return alarm;
+}
+
+std::string Runtime::alarm_code(AlarmId id) const {
+  return id == AlarmId::kPrinter ? family_alarm(config_, NC_ALARM_PRINTER).code : alarm_row(id).code;
+}
+
 std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kProgram) {
     const FeederInfo::System now = info().system[alarm.system];
@@ -443,11 +458,14 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
     return text + place_text(now.program_alarm.source) + callers_text(now);
   }
   const AlarmRow& row = alarm_row(alarm.id);
-  std::string text = std::string(row.code) + " " + row.text;
-  if (alarm.id == AlarmId::kFinTimeout) text = std::string(row.code) + " " + fin_fault_text(alarm.detail, alarm.code);
+  const std::string code = alarm_code(alarm.id);
+  std::string text = code + " " + row.text;
+  if (alarm.id == AlarmId::kFinTimeout) text = code + " " + fin_fault_text(alarm.detail, alarm.code);
   if (alarm.id == AlarmId::kRetainedLost || alarm.id == AlarmId::kRetainedUnwritable) text += retain_text(alarm);
-  if (alarm.id == AlarmId::kPrinter)
+  if (alarm.id == AlarmId::kPrinter) {
+    text = code + " " + family_alarm(config_, NC_ALARM_PRINTER).message + ": " + row.text;
     if (const std::string why = info().system[alarm.system].print_trouble; !why.empty()) text += ": " + why;
+  }
   if (alarm.id == AlarmId::kLadder) {
     const std::string& own = config_.ladder.alarm[alarm.detail % config_.ladder.alarm.size()];
     text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);

@@ -45,12 +45,15 @@ class Runtime {
   // The control, for programs and tables before the start (afterwards it belongs to the feeder). Null with a
   // foreign NcPort.
   nc_control* control() { return control_; }
+  const nc_control* control() const { return control_; }
   // The configuration's ladder program; null without one.
   const LadderTask* ladder() const { return own_ladder_.get(); }
   // Values of the signals, for one reader.
   SignalBoard* signals() { return board_.get(); }
   // Before the start.
   void set_sink(EventSink* sink) { feeder_->set_sink(sink); }
+  // Code of an alarm: of the table of the runtime, or of the family. Not for kProgram, whose code comes with it.
+  std::string alarm_code(AlarmId id) const;
   void set_printer(Printer printer) { feeder_->set_printer(std::move(printer)); }
   void set_path_sink(PathSink* sink) { feeder_->set_path_sink(sink); }
 

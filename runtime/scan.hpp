@@ -90,7 +90,7 @@ class Scan {
     std::uint32_t port;  // 0 the operator, 1 the external output
   };
   bool poll_message(Message* message) noexcept { return messages_.pop(message); }
-  // Warning P460, with the next scan: something that a program of this part system has printed is lost.
+  // A warning, with the next scan: something that a program of this part system has printed is lost.
   void post_print_trouble(unsigned system) noexcept { print_trouble_.fetch_or(1u << system, std::memory_order_release); }
   // Positions are recorded from now on, one per scan in which an axis moves. Before the threads start.
   void record_positions() { recording_ = true; }

@@ -105,7 +105,7 @@ bool restore_variables(nc_control* control, const std::string& bytes, const std:
   if (!decode(bytes, &variables, &names)) return false;
   double cleared = 0;
   char key[24];
-  if (nc_parameter_key(control, NC_PARAMETER_POWER_OFF_CLEARS, key) == NC_OK)  // a dialect without it clears nothing
+  if (nc_parameter_key_get(control, NC_PARAMETER_POWER_OFF_CLEARS, key) == NC_OK)  // a dialect without it clears nothing
     (void)nc_parameter_get(control, api_system(0), key, 0, &cleared);
   for (const Variable& variable : variables) {
     const unsigned system = variable.number >> kSystemShift;

@@ -14,18 +14,11 @@ namespace {
 
 constexpr unsigned kFiguresEvery = 10;  // pictures; a percentile walks the whole histogram
 
-std::string modal_text(const nc_modal& modal) {
-  char code_text[16];
-  // Needs no control of its own: the codes are in the snapshot.
+std::string modal_text(const nc_control* control, const nc_modal& modal) {
+  char codes[NC_GROUPS][8];
+  const unsigned count = nc_modal_codes_get(control, &modal, codes, NC_GROUPS);
   std::string text;
-  for (unsigned group = 1; group < NC_GROUPS; ++group) {
-    if (modal.code[group] < 0) continue;
-    const int code = modal.code[group];
-    if (code % 10 == 0) std::snprintf(code_text, sizeof code_text, "G%02d", code / 10);
-    else std::snprintf(code_text, sizeof code_text, "G%02d.%d", code / 10, code % 10);
-    if (!text.empty()) text += ' ';
-    text += code_text;
-  }
+  for (unsigned i = 0; i < count; ++i) text += (i == 0 ? "" : " ") + std::string(codes[i]);
   return text;
 }
 
@@ -168,7 +161,7 @@ void Publisher::fill_system(unsigned index, const Snapshot& snapshot, const Feed
   out.refusals = system.refusal.count;
   out.refusal_cause = static_cast<std::uint32_t>(refusal_cause(system.refusal));
   set_text(&out.refusal_text, refusal_text(config_, index, system.refusal));
-  set_text(&out.modal, info.modal_known ? modal_text(info.modal) : std::string());
+  set_text(&out.modal, info.modal_known ? modal_text(runtime_.control(), info.modal) : std::string());
   for (unsigned a = 0; a < out.axis_count; ++a)
     out.axis[a] = {axis_shown(nc.command.v[a], info.machine_turn, a), axis_shown(system.actual.v[a], info.machine_turn, a),
                    axis_shown(nc.work.v[a], info.work_turn, a), nc.distance_to_go.v[a], nc.velocity.v[a]};
@@ -248,9 +241,10 @@ bool Publisher::describe(const ActiveAlarm& alarm, Entry* entry) {
   const AlarmRow& row = alarm_row(alarm.id);
   entry->is_warning = is_warning(alarm.id);
   if (alarm.id != AlarmId::kProgram) {
-    set_text(&entry->code, row.code);
+    const std::string code = runtime_.alarm_code(alarm.id);
+    set_text(&entry->code, code);
     axis_name(alarm.axis);
-    set_text(&entry->text, without_place(runtime_.alarm_text(alarm), row.code, std::string(text_of(entry->axis))));
+    set_text(&entry->text, without_place(runtime_.alarm_text(alarm), code, std::string(text_of(entry->axis))));
     return true;
   }
   set_text(&entry->text, row.text);

@@ -57,7 +57,7 @@ const SignalRow kSignals[] = {
      NC_READ { return image.status->drives_on && !image.status->alarm; }, nullptr},
     {"alarm", kBit, kFrom, kControl, 0, 0, "an alarm is active that stops the machine", "level, until reset with the cause gone",
      NC_READ { return image.status->alarm; }, nullptr},
-    {"warning", kBit, kFrom, kControl, 0, 0, "an alarm is active that lets a program end (R19, R20, P460)", "level, until reset with the cause gone",
+    {"warning", kBit, kFrom, kControl, 0, 0, "an alarm is active that lets a program end (R19, R20, printed lines are lost)", "level, until reset with the cause gone",
      NC_READ { return image.status->warning; }, nullptr},
     {"resetting", kBit, kFrom, kControl, 0, 0, "a reset is going on, or plc.reset is still on", "at least 2 scans",
      NC_READ { return image.status->resetting; }, nullptr},

@@ -34,7 +34,7 @@ std::string joined(const std::vector<std::string>& lines) {
 
 std::string calls(Bench& bench) {
   nc_source all[NC_MAX_CALLS];
-  const unsigned count = nc_alarm_calls(bench.control(), 0, all, NC_MAX_CALLS);
+  const unsigned count = nc_alarm_calls_get(bench.control(), 0, all, NC_MAX_CALLS);
   std::string text;
   for (unsigned i = 0; i < count; ++i) {
     EXPECT_EQ(all[i].depth, i);

@@ -28,7 +28,7 @@ bool watch(void* user, const nc_item* item) {
     return false;
   }
   uint32_t line = 0;
-  EXPECT_EQ(nc_main_line(w.control, 0, &item->source, &line), NC_OK);
+  EXPECT_EQ(nc_main_line_get(w.control, 0, &item->source, &line), NC_OK);
   w.seen.push_back({item->serial, item->kind, item->source.line, line});
   return true;
 }
@@ -100,8 +100,8 @@ TEST(CommitWatch, KnowsTheLineThatCalls) {
   EXPECT_EQ(lines, "4 4 2 ");
   uint32_t line = 0;
   const nc_source source{};
-  EXPECT_EQ(nc_main_line(bench.control(), 7, &source, &line), NC_E_ARGUMENT);
-  EXPECT_EQ(nc_main_line(bench.control(), 0, nullptr, &line), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_main_line_get(bench.control(), 7, &source, &line), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_main_line_get(bench.control(), 0, nullptr, &line), NC_E_ARGUMENT);
   EXPECT_EQ(nc_commit_watch_set(bench.control(), 7, watch, &w), NC_E_ARGUMENT);
 }
 

@@ -235,7 +235,7 @@ TEST(Misuse, NoControl) {
   EXPECT_EQ(nc_interface_output_get(nullptr, 0, 0, &bits), NC_E_ARGUMENT);
   EXPECT_EQ(bits, 7u);
   EXPECT_EQ(nc_interface_output_set(nullptr, 0, 0, 1, 1), NC_E_ARGUMENT);
-  EXPECT_EQ(nc_modal_codes(nullptr, &modal, codes, 4), 0u);
+  EXPECT_EQ(nc_modal_codes_get(nullptr, &modal, codes, 4), 0u);
   nc_switches_set(nullptr, 0, 0, 0);
   nc_program_on_missing(nullptr, nullptr, nullptr);
 }
@@ -471,7 +471,7 @@ TEST(Create, TellsTheKeysOfParametersByTheirRole) {
   Bench m700(NC_DIALECT_M700), dgshape(NC_DIALECT_DGSHAPE);
   const auto key = [](Bench& bench, nc_parameter_role role) {
     char text[24] = "";
-    const nc_status status = nc_parameter_key(bench.control(), role, text);
+    const nc_status status = nc_parameter_key_get(bench.control(), role, text);
     return status == NC_OK ? std::string(text) : status == NC_E_NOT_FOUND ? "none" : "refused";
   };
   EXPECT_EQ(key(m700, NC_PARAMETER_DECIMAL_TYPE_2), "1078");
@@ -481,7 +481,7 @@ TEST(Create, TellsTheKeysOfParametersByTheirRole) {
   EXPECT_EQ(key(m700, NC_PARAMETER_DIGIT_FEED), "1185");
   EXPECT_EQ(key(m700, static_cast<nc_parameter_role>(5)), "refused");
   EXPECT_EQ(key(dgshape, NC_PARAMETER_TOOL_MEMORY), "none");
-  EXPECT_EQ(nc_parameter_key(nullptr, NC_PARAMETER_TOOL_MEMORY, nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_parameter_key_get(nullptr, NC_PARAMETER_TOOL_MEMORY, nullptr), NC_E_ARGUMENT);
 }
 
 }  // namespace

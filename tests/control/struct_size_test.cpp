@@ -38,9 +38,9 @@ struct OldOutputs {
 };
 static_assert(offsetof(OldOutputs, cause) == offsetof(nc_outputs, cause));
 
-/// The whole struct of version 0.1.
+/// The whole struct of the first version with this SONAME.
 struct alignas(nc_outputs) FirstOutputs {
-  unsigned char bytes[offsetof(nc_outputs, handle_dropped)];
+  unsigned char bytes[offsetof(nc_outputs, handle_dropped) + sizeof(nc_outputs::handle_dropped)];
 };
 
 struct OldWorld {
@@ -180,7 +180,7 @@ TEST(StructSize, BehindTheCallersEndNothingIsReadOrWritten) {
   EXPECT_EQ(nc_cycle(c.control, &in, &out), NC_OK);
   EXPECT_EQ(out.joint_faults, 77);
   EXPECT_EQ(out.joint.v[0], 5);
-  // A program of 0.1: `handle_dropped` came later.
+  // The last member, and a caller that has it.
   static_assert(offsetof(nc_outputs, handle_dropped) == (offsetof(nc_outputs, joint_faults) + alignof(nc_outputs)) / alignof(nc_outputs) * alignof(nc_outputs));
   out.struct_size = offsetof(nc_outputs, handle_dropped);
   out.handle_dropped = 88;
@@ -239,7 +239,63 @@ TEST(StructSize, SizesThatAreNone) {
     nc_world world{};
     world.struct_size = size;
     EXPECT_EQ(nc_answer(c.control, 0, &world), NC_E_ARGUMENT);
+    nc_function function;
+    nc_system_variable variable;
+    nc_parameter parameter;
+    function.struct_size = variable.struct_size = parameter.struct_size = size;
+    EXPECT_EQ(nc_function_row(NC_DIALECT_M700, 0, &function), NC_E_ARGUMENT);
+    EXPECT_EQ(nc_system_variable_row(NC_DIALECT_M700, 0, &variable), NC_E_ARGUMENT);
+    EXPECT_EQ(nc_parameter_row(NC_DIALECT_M700, 0, &parameter), NC_E_ARGUMENT);
   }
+}
+
+struct OldFunction {
+  uint32_t struct_size;
+  char code[8];
+  uint8_t group;
+};
+static_assert(offsetof(OldFunction, group) == offsetof(nc_function, group));
+
+struct OldVariable {
+  uint32_t struct_size;
+  uint32_t first, last;
+};
+static_assert(offsetof(OldVariable, last) == offsetof(nc_system_variable, last));
+
+struct OldParameter {
+  uint32_t struct_size;
+  const char* key;
+  uint32_t first;
+};
+static_assert(offsetof(OldParameter, first) == offsetof(nc_parameter, first));
+
+/// The row of a table as this header has it, as an older one has it, and as a newer one that keeps what this library does not know.
+template <class Old, class Row, class Ask, class Same>
+void expect_rows(Ask ask, Same same) {
+  for (unsigned index = 0; index < 5; ++index) {
+    Row now;
+    Guarded<Old> older;
+    Newer<Row> newer;
+    newer.later = 5;
+    ASSERT_EQ(ask(index, &now), NC_OK);
+    ASSERT_EQ(ask(index, as<Row>(&older.old)), NC_OK);
+    ASSERT_EQ(ask(index, &newer.known), NC_OK);
+    EXPECT_EQ(now.struct_size, sizeof now);
+    EXPECT_EQ(older.old.struct_size, sizeof(Old));
+    EXPECT_EQ(older.behind, kGuard);
+    EXPECT_EQ(newer.later, 5);
+    EXPECT_TRUE(same(now, older.old)) << index;
+    EXPECT_TRUE(same(now, newer.known)) << index;
+  }
+}
+
+TEST(StructSize, RowsOfTables) {
+  expect_rows<OldFunction, nc_function>([](unsigned index, nc_function* row) { return nc_function_row(NC_DIALECT_M700, index, row); },
+                                        [](const auto& a, const auto& b) { return std::strcmp(a.code, b.code) == 0 && a.group == b.group; });
+  expect_rows<OldVariable, nc_system_variable>([](unsigned index, nc_system_variable* row) { return nc_system_variable_row(NC_DIALECT_M700, index, row); },
+                                               [](const auto& a, const auto& b) { return a.first == b.first && a.last == b.last; });
+  expect_rows<OldParameter, nc_parameter>([](unsigned index, nc_parameter* row) { return nc_parameter_row(NC_DIALECT_M700, index, row); },
+                                          [](const auto& a, const auto& b) { return a.key == b.key && a.first == b.first; });
 }
 
 constexpr char kProgram[] = "G1 X1. F6000\nG4 X.01\nX2.\nM30\n";
@@ -285,7 +341,7 @@ TEST(StructSize, CyclesOfAnyCallerAreTheSame) {
   std::vector<Newer<nc_inputs>> newer(2);
   for (Newer<nc_inputs>& i : newer) i.known.feed_override = i.known.rapid_override = 1;
   EXPECT_EQ(set_points(newer, std::vector<Newer<nc_outputs>>(2)), now);
-  // Cleared in C: the struct of version 0.1.
+  // Cleared in C: the struct of the first version.
   std::vector<nc_inputs> cleared = in;
   for (nc_inputs& i : cleared) i.struct_size = 0;
   EXPECT_EQ(set_points(cleared, two<FirstOutputs>(0)), now);

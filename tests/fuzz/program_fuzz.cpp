@@ -130,7 +130,7 @@ void pull(nc_control* control, const Chosen& chosen) {
       require((nc_alarm_get(control, 0, &alarm) == NC_OK) == (status == NC_ALARMED));
       if (status == NC_ALARMED) require(alarm.code[0] != 0 && alarm.detail.s[0] != 0 && alarm.source.line > 0);
       nc_source calls[NC_MAX_CALLS];
-      const unsigned count = nc_alarm_calls(control, 0, calls, NC_MAX_CALLS);
+      const unsigned count = nc_alarm_calls_get(control, 0, calls, NC_MAX_CALLS);
       require(count <= NC_MAX_CALLS && (count != 0) == (status == NC_ALARMED));
       for (unsigned i = 0; i < count; ++i) require(calls[i].depth == i && calls[i].line > 0);
       require(count == 0 || (calls[count - 1].line == alarm.source.line && calls[count - 1].file == alarm.source.file));

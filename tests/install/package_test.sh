@@ -21,7 +21,7 @@ fail() { echo "FAILED: $*"; status=1; }
 (cd "$NC_BINARY_DIR" && cpack -G DEB -B "$work/debs") >"$work/log" 2>&1 || { cat "$work/log"; echo "FAILED: cpack"; exit 1; }
 made=$(cd "$work/debs" && ls ./*.deb | sed 's#^\./##' | tr '\n' ' ')
 wanted=
-for name in libnc-dev libnc0 nc-tools ncrtd; do wanted+="${name}_$version-1_$arch.deb "; done
+for name in libnc-dev libnc1 nc-tools ncrtd; do wanted+="${name}_$version-1_$arch.deb "; done
 [ "$made" = "$wanted" ] || { echo "FAILED: made '$made', wanted '$wanted'"; exit 1; }
 
 field() {  # field PACKAGE FIELD REGEX: the whole field
@@ -37,7 +37,7 @@ holds() {  # holds PACKAGE MODE PATH...: files (globs) with this mode
       fail "$package: no $mode $path"
   done
 }
-for name in libnc-dev libnc0 nc-tools ncrtd; do
+for name in libnc-dev libnc1 nc-tools ncrtd; do
   deb=$work/debs/${name}_$version-1_$arch.deb
   dpkg-deb -c "$deb" >"$work/$name.files"
   mkdir "$work/$name.control"
@@ -52,18 +52,18 @@ for name in libnc-dev libnc0 nc-tools ncrtd; do
 done
 
 lib=usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
-field libnc0 Section libs
-field libnc0 Multi-Arch same
-field libnc0 Depends 'libc6 \(.*\)'
-holds libnc0 -rw-r--r-- "$lib/libnc.so.$version"
-holds libnc0 lrwxrwxrwx "$lib/libnc.so.0"
-grep -qx 'activate-noawait ldconfig' "$work/libnc0.control/triggers" || fail "libnc0: no ldconfig trigger"
-grep -qE '^libnc 0 libnc0 \(>= ' "$work/libnc0.control/shlibs" || fail "libnc0: no shlibs"
-[ ! -e "$work/libnc0.control/postinst" ] || fail "libnc0: a maintainer script beside the trigger"
+field libnc1 Section libs
+field libnc1 Multi-Arch same
+field libnc1 Depends 'libc6 \(.*\)'
+holds libnc1 -rw-r--r-- "$lib/libnc.so.$version"
+holds libnc1 lrwxrwxrwx "$lib/libnc.so.1"
+grep -qx 'activate-noawait ldconfig' "$work/libnc1.control/triggers" || fail "libnc1: no ldconfig trigger"
+grep -qE '^libnc 1 libnc1 \(>= ' "$work/libnc1.control/shlibs" || fail "libnc1: no shlibs"
+[ ! -e "$work/libnc1.control/postinst" ] || fail "libnc1: a maintainer script beside the trigger"
 
 field libnc-dev Section libdevel
 field libnc-dev Multi-Arch same
-field libnc-dev Depends "libnc0 \\(= $version-1\\)"
+field libnc-dev Depends "libnc1 \\(= $version-1\\)"
 holds libnc-dev -rw-r--r-- usr/include/nc/nc.h "$lib/libnc.a" "$lib/pkgconfig/libnc.pc" "$lib/cmake/nc/nc-config.cmake" \
   usr/share/doc/libnc-dev/examples/2_drive.c
 holds libnc-dev lrwxrwxrwx "$lib/libnc.so"
@@ -112,7 +112,7 @@ done
 
 # Programs and library are hardened: position-independent, relocations read-only and all of them at the start, no executable stack,
 # the stack protected, and the checked functions of the C library used.
-for package in libnc0 nc-tools ncrtd; do dpkg-deb -x "$work/debs/${package}_$version-1_$arch.deb" "$work/all"; done
+for package in libnc1 nc-tools ncrtd; do dpkg-deb -x "$work/debs/${package}_$version-1_$arch.deb" "$work/all"; done
 binaries=("$work"/all/usr/bin/* "$work/all/$lib/libnc.so.$version")
 [ ${#binaries[@]} -ge 3 ] || fail "only ${#binaries[@]} binaries"
 for binary in "${binaries[@]}"; do

@@ -14,7 +14,7 @@ namespace {
 /// "2 > O9001:3 > O9002:1": the blocks that led to the alarm.
 std::string calls(Bench& bench) {
   nc_source all[NC_MAX_CALLS];
-  const unsigned count = nc_alarm_calls(bench.control(), 0, all, NC_MAX_CALLS);
+  const unsigned count = nc_alarm_calls_get(bench.control(), 0, all, NC_MAX_CALLS);
   std::string text;
   for (unsigned i = 0; i < count; ++i) {
     EXPECT_EQ(all[i].depth, i);
@@ -34,14 +34,14 @@ TEST(AlarmCalls, OutermostFirst) {
   EXPECT_EQ(bench.run("G21\n\nM98 P9001\nM30").alarm, "P34");
   EXPECT_EQ(calls(bench), "3 > O9001:3 > O9002:2 > O9003:3");
   nc_source two[2];
-  EXPECT_EQ(nc_alarm_calls(bench.control(), 0, two, 2), 4u);  // as many as there are, as many as there is room for
+  EXPECT_EQ(nc_alarm_calls_get(bench.control(), 0, two, 2), 4u);  // as many as there are, as many as there is room for
   EXPECT_EQ(two[1].program, 9001u);
-  EXPECT_EQ(nc_alarm_calls(bench.control(), 0, nullptr, 0), 4u);
-  EXPECT_EQ(nc_alarm_calls(bench.control(), 0, nullptr, 2), 0u);
-  EXPECT_EQ(nc_alarm_calls(bench.control(), 1, two, 2), 0u);
-  EXPECT_EQ(nc_alarm_calls(nullptr, 0, two, 2), 0u);
+  EXPECT_EQ(nc_alarm_calls_get(bench.control(), 0, nullptr, 0), 4u);
+  EXPECT_EQ(nc_alarm_calls_get(bench.control(), 0, nullptr, 2), 0u);
+  EXPECT_EQ(nc_alarm_calls_get(bench.control(), 1, two, 2), 0u);
+  EXPECT_EQ(nc_alarm_calls_get(nullptr, 0, two, 2), 0u);
   EXPECT_TRUE(bench.run("M30").ended_ok);
-  EXPECT_EQ(nc_alarm_calls(bench.control(), 0, two, 2), 0u);
+  EXPECT_EQ(nc_alarm_calls_get(bench.control(), 0, two, 2), 0u);
 }
 
 TEST(AlarmCalls, OfTheMainProgram) {

@@ -108,7 +108,7 @@ void note_end(const rt::Runtime& runtime, Recording* recording) {
   if (snapshot.alarms.count == 0) return;
   const rt::ActiveAlarm& alarm = snapshot.alarms.alarm[0];
   recording->alarm =
-      alarm.id == rt::AlarmId::kProgram ? info.system[0].program_alarm.code : rt::alarm_row(alarm.id).code;
+      alarm.id == rt::AlarmId::kProgram ? info.system[0].program_alarm.code : runtime.alarm_code(alarm.id);
   recording->alarm_line =
       alarm.id == rt::AlarmId::kProgram ? info.system[0].program_alarm.source.line : alarm.source.line;
 }

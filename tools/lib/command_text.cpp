@@ -39,7 +39,7 @@ std::string alarm_line(const Session& session, const nc_alarm& alarm) {
   if (alarm.message[0] && std::strcmp(alarm.message, alarm.code) != 0) line += " " + printable(alarm.message);
   if (alarm.detail.s[0]) line += " - " + printable(alarm.detail.s);
   nc_source calls[NC_MAX_CALLS];
-  const unsigned count = std::min(nc_alarm_calls(session.control(), kPartSystem, calls, NC_MAX_CALLS), unsigned{NC_MAX_CALLS});
+  const unsigned count = std::min(nc_alarm_calls_get(session.control(), kPartSystem, calls, NC_MAX_CALLS), unsigned{NC_MAX_CALLS});
   for (unsigned i = 0; i + 1 < count; ++i) {
     const nc_source& called = calls[i + 1];
     line += "\n  " + session.file_name(calls[i]) + ":" + std::to_string(calls[i].line) + ": calls ";

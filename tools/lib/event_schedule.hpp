@@ -25,7 +25,7 @@ class EventSchedule {
    * Takes out the events that begin with this item, in the order of the setup. A line of the main program begins with the first item that
    * belongs to it; that may be one of a program that the line calls. A line of a program with a number begins with the first item of its own,
    * an M code with its action.
-   * @param main_line line of the main program to which the item belongs (nc_main_line)
+   * @param main_line line of the main program to which the item belongs (nc_main_line_get)
    */
   std::vector<const SetupEvent*> take(const nc_item& item, uint32_t main_line);
 

@@ -28,7 +28,7 @@ class ItemSource {
   virtual bool move_zero(nc_axes* /*zero*/) { return false; }
   /** Positions as the counters show them (nc_position_shown). */
   virtual void shown(nc_axes* /*machine*/, nc_axes* /*work*/) {}
-  /** Line of the main program to which a block belongs, of the item pulled last (nc_main_line); 0 = not known. */
+  /** Line of the main program to which a block belongs, of the item pulled last (nc_main_line_get); 0 = not known. */
   virtual uint32_t main_line(const nc_source& source) { return source.depth == 0 ? source.line : 0; }
   /** A number for all that the program can go by (loop_watch.hpp). */
   virtual uint64_t program_state() { return 0; }
@@ -63,7 +63,7 @@ class ControlSource final : public ItemSource {
   }
   uint32_t main_line(const nc_source& source) override {
     uint32_t line = 0;
-    nc_main_line(control_, kPartSystem, &source, &line);
+    nc_main_line_get(control_, kPartSystem, &source, &line);
     return line;
   }
   uint64_t program_state() override {
@@ -86,7 +86,7 @@ class ControlSource final : public ItemSource {
   unsigned modal_codes(uint32_t id, char (*codes)[8], unsigned capacity) override {
     nc_modal modal;
     if (nc_modal_get(control_, kPartSystem, id, &modal) != NC_OK) return 0;
-    return nc_modal_codes(control_, &modal, codes, capacity);
+    return nc_modal_codes_get(control_, &modal, codes, capacity);
   }
   uint32_t optional_stop_code() override {
     constexpr uint32_t kMost = 999;

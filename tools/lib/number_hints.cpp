@@ -55,7 +55,7 @@ std::string more(uint64_t count, const char* noun) { return std::to_string(count
 std::string switched_off(const Session& session, nc_parameter_role role) {
   char key[24];
   double value = 0;
-  if (nc_parameter_key(session.control(), role, key) != NC_OK) return "";
+  if (nc_parameter_key_get(session.control(), role, key) != NC_OK) return "";
   return nc_parameter_get(session.control(), kPartSystem, key, 0, &value) == NC_OK && value == 0 ? key : "";
 }
 

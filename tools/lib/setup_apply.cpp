@@ -42,7 +42,7 @@ bool apply_tool_offsets(const Setup& setup, nc_control* control, std::string* er
   for (const SetupToolOffset& entry : setup.tool_offsets) columns = columns || !entry.plain;
   std::string memory_type;
   char key[24] = "";
-  const bool has_types = nc_parameter_key(control, NC_PARAMETER_TOOL_MEMORY, key) == NC_OK;
+  const bool has_types = nc_parameter_key_get(control, NC_PARAMETER_TOOL_MEMORY, key) == NC_OK;
   for (const SetupParameter& p : setup.parameters)
     if (p.key == key) memory_type = p.text;
   if (columns && memory_type.empty() && has_types && nc_parameter_set(control, kPartSystem, key, 0, "2") == NC_OK) memory_type = "2";

@@ -100,7 +100,7 @@ class VirtualMachine {
       case NC_CAUSE_SPINDLE_FAST: return "at this S the thread needs more than the largest feed of its axes";
       case NC_CAUSE_FEED_ZERO: {
         char key[24];
-        const bool named = nc_parameter_key(control_, NC_PARAMETER_DIGIT_FEED, key) == NC_OK;
+        const bool named = nc_parameter_key_get(control_, NC_PARAMETER_DIGIT_FEED, key) == NC_OK;
         return "the speed of this feed of one digit is 0" + (named ? std::string(" (parameters from #") + key + " on)" : "");
       }
       default: return "the program does not go on (cause " + std::to_string(cause) + ")";
@@ -157,7 +157,7 @@ class VirtualMachine {
   bool commits(const nc_item& item) {
     if (given_up_) return false;
     uint32_t main_line = 0;
-    nc_main_line(control_, kPartSystem, &item.source, &main_line);
+    nc_main_line_get(control_, kPartSystem, &item.source, &main_line);
     if (!foresight_.commit(item, main_line)) return false;
     committed_ = item.serial;
     // A servo comes to its position in its own time.

@@ -182,7 +182,7 @@ typedef enum nc_parameter_role {
  * @param key receives its key in the control's dialect, as nc_parameter_set() takes it
  * @return NC_OK; NC_E_NOT_FOUND: the dialect has no such parameter; NC_E_ARGUMENT: an argument is not valid
  */
-NC_API nc_status nc_parameter_key(const nc_control* control, nc_parameter_role role, char key[24]);
+NC_API nc_status nc_parameter_key_get(const nc_control* control, nc_parameter_role role, char key[24]);
 
 /**
  * Set one entry of the work offset tables. Feeder thread.
@@ -600,7 +600,7 @@ NC_API nc_status nc_status_text_get(const nc_control* control, nc_status status,
  * @param capacity elements of `calls`; NC_MAX_CALLS are all
  * @return their number; 0 when there is no alarm, none of a program, or its place is not known
  */
-NC_API unsigned nc_alarm_calls(const nc_control* control, unsigned system, nc_source* calls, unsigned capacity);
+NC_API unsigned nc_alarm_calls_get(const nc_control* control, unsigned system, nc_source* calls, unsigned capacity);
 
 /**
  * Modal snapshot of a mark. Snapshots stay readable for at least `look_ahead` marks. Feeder thread.
@@ -621,7 +621,7 @@ NC_API nc_status nc_modal_get(const nc_control* control, unsigned system, uint32
  * @param capacity elements of `codes`; NC_GROUPS are enough
  * @return their number; 0 also when a pointer is NULL
  */
-NC_API unsigned nc_modal_codes(const nc_control* control, const nc_modal* modal, char (*codes)[8], unsigned capacity);
+NC_API unsigned nc_modal_codes_get(const nc_control* control, const nc_modal* modal, char (*codes)[8], unsigned capacity);
 
 /**
  * Text of a message. Feeder thread.
@@ -703,6 +703,7 @@ NC_API nc_status nc_number_kinds(nc_dialect dialect, const char* axes, const nc_
 
 /** One row of a dialect's function table, for documentation and HMIs. */
 typedef struct nc_function {
+  NC_STRUCT_SIZE(nc_function);
   char code[8];         /**< "G02.1", "M98" */
   uint8_t group;        /**< modal group, 0 = one-shot */
   bool supported;       /**< false: raises `alarm` when used */
@@ -717,7 +718,7 @@ typedef struct nc_function {
  * @param dialect the controller family
  * @param index of the row, from 0
  * @param row receives it; its texts are constant
- * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is not valid
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is not valid, or the struct_size of `row`
  */
 NC_API nc_status nc_function_row(nc_dialect dialect, unsigned index, nc_function* row);
 
@@ -732,6 +733,7 @@ typedef enum nc_variable_role {
 
 /** One range of system variables (M700 13.5.5), for documentation and HMIs. */
 typedef struct nc_system_variable {
+  NC_STRUCT_SIZE(nc_system_variable);
   uint32_t first, last;
   uint8_t role;         /**< nc_variable_role */
   uint8_t word;         /**< macro interface: the word, 0 to NC_WORDS - 1, that the first number belongs to */
@@ -747,12 +749,13 @@ typedef struct nc_system_variable {
  * @param dialect whose table
  * @param index of the row, from 0
  * @param row receives it; its texts are constant
- * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is not valid
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is not valid, or the struct_size of `row`
  */
 NC_API nc_status nc_system_variable_row(nc_dialect dialect, unsigned index, nc_system_variable* row);
 
 /** Parameters that something in the control asks for, for documentation and HMIs. */
 typedef struct nc_parameter {
+  NC_STRUCT_SIZE(nc_parameter);
   const char* key;            /**< of one with a name of its own ("UNIT*10"), NULL = it has numbers */
   uint32_t first, last, step; /**< numbers: one, or several with the same meaning for one thing after the other */
   int8_t bit;                 /**< of the parameter, -1 = all of it */
@@ -767,7 +770,7 @@ typedef struct nc_parameter {
  * @param dialect the controller family
  * @param index of the row, from 0
  * @param row receives it; its texts are constant
- * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is not valid
+ * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is not valid, or the struct_size of `row`
  */
 NC_API nc_status nc_parameter_row(nc_dialect dialect, unsigned index, nc_parameter* row);
 
@@ -789,6 +792,21 @@ NC_API bool nc_parameter_used(nc_dialect dialect, const char* key);
  * @return NC_OK; NC_E_NOT_FOUND: behind the last row; NC_E_ARGUMENT: an argument is not valid
  */
 NC_API nc_status nc_alarm_row(nc_dialect dialect, unsigned index, char code[16], const char** message);
+
+/** Alarms of a family that a host finds, not the control. */
+typedef enum nc_alarm_role {
+  NC_ALARM_PRINTER = 0 /**< what a program prints (NC_ACTION_PRINT) does not arrive */
+} nc_alarm_role;
+
+/**
+ * The alarm that a dialect has for something that a host finds. Any thread; needs no control.
+ * @param dialect whose alarm
+ * @param role what has been found
+ * @param code receives it as nc_alarm::code has it
+ * @param message receives the manual's short text, which is constant
+ * @return NC_OK; NC_E_ARGUMENT: an argument is not valid
+ */
+NC_API nc_status nc_alarm_role_get(nc_dialect dialect, nc_alarm_role role, char code[16], const char** message);
 
 /**
  * Version of the library. Any thread; needs no control.

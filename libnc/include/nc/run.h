@@ -162,7 +162,7 @@ NC_API nc_status nc_sync_get(const nc_control* control, unsigned system, nc_sour
  * @param main_line receives the line, from 1; 0: none is known
  * @return NC_OK; NC_E_ARGUMENT: no such part system, or a pointer is NULL
  */
-NC_API nc_status nc_main_line(const nc_control* control, unsigned system, const nc_source* source, uint32_t* main_line);
+NC_API nc_status nc_main_line_get(const nc_control* control, unsigned system, const nc_source* source, uint32_t* main_line);
 
 /**
  * Called by nc_feed() with each item before it is committed, in the order of the stream: what a simulated machine has to do when it gets there

@@ -33,22 +33,22 @@ extern "C" {
 #define NC_GROUPS 22        /**< modal groups, numbered as in the manual (index 0 unused) */
 #define NC_WORDS 4          /**< 32-bit words of the macro interface, each direction: #1032-#1035, #1132-#1135 */
 #define NC_VARIABLE_RANGES 4 /**< further ranges of common variables that a machine can have */
-#define NC_MAX_CALLS 16     /**< programs that can be open at once, the main program among them: entries of nc_alarm_calls() */
+#define NC_MAX_CALLS 16     /**< programs that can be open at once, the main program among them: entries of nc_alarm_calls_get() */
 #define NC_MAX_NAME 260     /**< bytes of the name of a program in the store: of a file, the place before it ("198:"), its NUL */
 #define NC_MAX_TEXT 128     /**< bytes of a text carried by an item, with its terminating NUL */
 
 /**
  * Structs that may grow in a later version begin with their size in bytes as their user was compiled with it, so that program and library
  * may be of different versions: nc_config, nc_config_fault, nc_inputs, nc_outputs, nc_world, nc_item, nc_event, nc_alarm, nc_modal,
- * nc_program_info, nc_vendor_code, nc_vendor_block, nc_kinematics. Every other struct stays as it is, for as long as the SONAME of the library
- * does.
+ * nc_program_info, nc_vendor_code, nc_vendor_block, nc_kinematics, nc_function, nc_system_variable, nc_parameter. Every other struct stays as it
+ * is, for as long as the SONAME of the library does.
  *
  * What a user gives: members that an older user does not have are their defaults. Bytes that a newer user has and this library does not
  * know must be 0, otherwise the call is refused with NC_E_ARGUMENT: nobody asks in vain. What a user receives: as many bytes as both know
  * are written; those behind stay as they were.
  *
  * In C++ the size is set by itself. In C it is set by the function nc_..._init() of the struct or by NC_INIT(); in a struct that was only
- * cleared it is 0, which stands for the struct of version 0.1.
+ * cleared it is 0, which stands for the struct of the first version with this SONAME.
  */
 #ifdef __cplusplus
 #define NC_STRUCT_SIZE(type) uint32_t struct_size = sizeof(type)

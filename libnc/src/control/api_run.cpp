@@ -3,8 +3,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "base/struct_size.hpp"
 #include "control/control.hpp"
-#include "control/struct_size.hpp"
 
 namespace {
 bool known(const nc_control* c, unsigned system) { return c != nullptr && system < c->config.system_count; }
@@ -139,7 +139,7 @@ nc_status nc_sync_get(const nc_control* c, unsigned system, nc_source* source, u
   return c->system[system].sync_place(source, main_line) ? NC_OK : NC_E_NOT_FOUND;
 }
 
-nc_status nc_main_line(const nc_control* c, unsigned system, const nc_source* source, uint32_t* main_line) {
+nc_status nc_main_line_get(const nc_control* c, unsigned system, const nc_source* source, uint32_t* main_line) {
   if (!known(c, system) || source == nullptr || main_line == nullptr) return NC_E_ARGUMENT;
   *main_line = c->system[system].main_line(*source);
   return NC_OK;

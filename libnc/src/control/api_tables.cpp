@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/struct_size.hpp"
 #include "control/alarm_texts.hpp"
 #include "control/control.hpp"
-#include "control/struct_size.hpp"
 #include "dialect/dialect.hpp"
 #include "dialect/function_table.hpp"
 #include "dialect/text.hpp"
@@ -110,7 +110,7 @@ nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key
   return NC_OK;
 }
 
-nc_status nc_parameter_key(const nc_control* c, nc_parameter_role role, char key[24]) {
+nc_status nc_parameter_key_get(const nc_control* c, nc_parameter_role role, char key[24]) {
   using nc::Parameter;
   constexpr Parameter kRoles[] = {Parameter::decimal_type_2, Parameter::dwell_p_decimal, Parameter::tool_memory_type, Parameter::power_off_clears_common, Parameter::digit_feed};
   const auto index = static_cast<unsigned>(role);
@@ -377,7 +377,7 @@ nc_status nc_alarm_get(const nc_control* c, unsigned system, nc_alarm* alarm) {
   return NC_OK;
 }
 
-unsigned nc_alarm_calls(const nc_control* c, unsigned system, nc_source* calls, unsigned capacity) {
+unsigned nc_alarm_calls_get(const nc_control* c, unsigned system, nc_source* calls, unsigned capacity) {
   if (!known(c, system) || (calls == nullptr && capacity != 0)) return 0;
   return c->system[system].alarm_calls(calls, capacity);
 }
@@ -395,7 +395,7 @@ nc_status nc_text_get(const nc_control* c, unsigned system, uint32_t id, nc_text
   return c->system[system].interpreter.text(id, text) ? NC_OK : NC_E_NOT_FOUND;
 }
 
-unsigned nc_modal_codes(const nc_control* c, const nc_modal* given, char (*codes)[8], unsigned capacity) {
+unsigned nc_modal_codes_get(const nc_control* c, const nc_modal* given, char (*codes)[8], unsigned capacity) {
   nc_modal modal{};
   for (int16_t& code : modal.code) code = -1;
   if (c == nullptr || given == nullptr || codes == nullptr || !nc::take_struct(given, &modal)) return 0;

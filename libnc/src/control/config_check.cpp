@@ -4,9 +4,9 @@
 #include <cstring>
 #include <iterator>
 
+#include "base/struct_size.hpp"
 #include "control/config.hpp"
 #include "control/control.hpp"
-#include "control/struct_size.hpp"
 #include "control/vendor_check.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "control/struct_size.hpp"
+#include "base/struct_size.hpp"
 
 namespace nc {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "base/struct_size.hpp"
 #include "dialect/dialect.hpp"
 #include "dialect/text.hpp"
 
@@ -70,22 +71,23 @@ void set(nc_function* out, uint8_t group, const char* missing, const char* name,
 
 // G codes first, then the M codes that the control keeps for itself.
 nc_status nc_function_row(nc_dialect dialect, unsigned index, nc_function* row) {
-  if (row == nullptr || !nc::known(dialect)) return NC_E_ARGUMENT;
+  if (row == nullptr || nc::caller_bytes(row) == 0 || !nc::known(dialect)) return NC_E_ARGUMENT;
   const nc::Dialect& family = nc::dialect(dialect);
+  nc_function found{};
   if (index < family.functions.size) {
     const nc::FunctionRow& from = family.functions.row[index];
-    nc::g_code_text(family.addresses.letter(nc::Role::code), from.code, row->code, sizeof row->code);
-    nc::set(row, from.group, from.missing, from.name,
-            from.section);
-    row->part = from.part;
+    nc::g_code_text(family.addresses.letter(nc::Role::code), from.code, found.code, sizeof found.code);
+    nc::set(&found, from.group, from.missing, from.name, from.section);
+    found.part = from.part;
+    nc::give_struct(found, row);
     return NC_OK;
   }
   index -= family.functions.size;
   if (index >= family.misc.size) return NC_E_NOT_FOUND;
   const nc::MiscRow& from = family.misc.row[index];
-  nc::m_code_text(family.addresses.letter(nc::Role::misc_code), from.code, row->code, sizeof row->code);
-  nc::set(row, 0, from.missing, from.name,
-          from.section);
+  nc::m_code_text(family.addresses.letter(nc::Role::misc_code), from.code, found.code, sizeof found.code);
+  nc::set(&found, 0, from.missing, from.name, from.section);
+  nc::give_struct(found, row);
   return NC_OK;
 }
 
@@ -95,6 +97,16 @@ nc_status nc_alarm_row(nc_dialect dialect, unsigned index, char code[16], const 
   if (index >= family.alarms.size) return NC_E_NOT_FOUND;
   nc::TextWriter(code, 16).put(family.alarms.row[index].code);
   *message = family.alarms.row[index].message;
+  return NC_OK;
+}
+
+nc_status nc_alarm_role_get(nc_dialect dialect, nc_alarm_role role, char code[16], const char** message) {
+  if (code == nullptr || message == nullptr || role != NC_ALARM_PRINTER || !nc::known(dialect)) return NC_E_ARGUMENT;
+  nc::Fault fault;
+  fault.condition = nc::Condition::print_port;
+  const nc::AlarmText text = nc::alarm_text(nc::dialect(dialect), fault);
+  nc::TextWriter(code, 16).put(text.code);
+  *message = text.message;
   return NC_OK;
 }
 

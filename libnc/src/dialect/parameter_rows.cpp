@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "base/struct_size.hpp"
 #include "dialect/dialect.hpp"
 #include "dialect/text.hpp"
 #include "nc/control.h"
@@ -118,22 +119,23 @@ bool parameter_is_common(const Dialect& dialect, uint32_t number) {
 }  // namespace nc
 
 nc_status nc_parameter_row(nc_dialect dialect, unsigned index, nc_parameter* row) {
-  if (row == nullptr || !nc::known(dialect)) return NC_E_ARGUMENT;
+  if (row == nullptr || nc::caller_bytes(row) == 0 || !nc::known(dialect)) return NC_E_ARGUMENT;
   const nc::FamilyParameters& table = *nc::dialect(dialect).parameters;
-  *row = nc_parameter{};
-  row->bit = -1;
+  nc_parameter found{};
+  found.bit = -1;
   if (index < table.names.size) {
     const nc::ParameterName& named = table.names.row[index];
-    row->key = named.key;
-    row->values = named.values != nullptr ? named.values : named.words;
-    row->name = named.name;
-    row->section = named.section;
+    found.key = named.key;
+    found.values = named.values != nullptr ? named.values : named.words;
+    found.name = named.name;
+    found.section = named.section;
+    nc::give_struct(found, row);
     return NC_OK;
   }
   index -= table.names.size;
   if (index >= table.numbers.size) return NC_E_NOT_FOUND;
   const nc::ParameterRow& from = table.numbers.row[index];
-  *row = nc_parameter{nullptr, from.first, from.last, from.step, from.bit, from.by_axis, from.values, from.name, from.section};
+  nc::give_struct(nc_parameter{sizeof(nc_parameter), nullptr, from.first, from.last, from.step, from.bit, from.by_axis, from.values, from.name, from.section}, row);
   return NC_OK;
 }
 

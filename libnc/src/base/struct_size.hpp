@@ -17,8 +17,8 @@ constexpr uint32_t padded(size_t end) {
 }
 #define NC_END_OF(type, member) (offsetof(type, member) + sizeof(type::member))
 
-/// Bytes of T in version 0.1, named by its last member then: what a struct_size of 0 stands for. From the release of 0.1 on these rows never
-/// change.
+/// Bytes of T in the first version with this NC_ABI, named by its last member then: what a struct_size of 0 stands for. From the release of
+/// that version on these rows never change.
 template <class T>
 inline constexpr uint32_t kFirstSize = 0;
 template <>
@@ -28,7 +28,7 @@ inline constexpr uint32_t kFirstSize<nc_config_fault> = padded<nc_config_fault>(
 template <>
 inline constexpr uint32_t kFirstSize<nc_inputs> = padded<nc_inputs>(NC_END_OF(nc_inputs, clock_ms));
 template <>
-inline constexpr uint32_t kFirstSize<nc_outputs> = padded<nc_outputs>(NC_END_OF(nc_outputs, joint_faults));
+inline constexpr uint32_t kFirstSize<nc_outputs> = padded<nc_outputs>(NC_END_OF(nc_outputs, handle_dropped));
 template <>
 inline constexpr uint32_t kFirstSize<nc_world> = padded<nc_world>(NC_END_OF(nc_world, run_ms));
 template <>
@@ -46,6 +46,12 @@ template <>
 inline constexpr uint32_t kFirstSize<nc_vendor_code> = padded<nc_vendor_code>(NC_END_OF(nc_vendor_code, user));
 template <>
 inline constexpr uint32_t kFirstSize<nc_kinematics> = padded<nc_kinematics>(NC_END_OF(nc_kinematics, user));
+template <>
+inline constexpr uint32_t kFirstSize<nc_function> = padded<nc_function>(NC_END_OF(nc_function, section));
+template <>
+inline constexpr uint32_t kFirstSize<nc_system_variable> = padded<nc_system_variable>(NC_END_OF(nc_system_variable, section));
+template <>
+inline constexpr uint32_t kFirstSize<nc_parameter> = padded<nc_parameter>(NC_END_OF(nc_parameter, section));
 #undef NC_END_OF
 
 /// More than any version will have: a larger number is one that nobody has set.
