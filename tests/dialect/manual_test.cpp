@@ -28,6 +28,10 @@ const Dialect& iso() {
   return dialect(NC_DIALECT_ISO);
 }
 
+const Dialect& hx() {
+  return dialect(NC_DIALECT_HX);
+}
+
 using Groups = std::map<unsigned, std::vector<int>>;  // group -> codes times 10
 
 // M700 3.7, row by row as the list prints them; G11.1, which it leaves out, is that of 13.11.
@@ -55,6 +59,31 @@ const Groups kM700List = {
     {18, {150, 160}},
     {19, {501, 511}},
     {21, {71, 1070, 121, 1120, 131, 1130}},
+};
+
+// HX 3.1, row by row. G31 to G31.4 stand in the one-shot group 23, G107 in a group of its own, 22; stitch has none (15.6).
+const Groups kHxList = {
+    {0,
+     {40,  90,  100, 270, 280, 290, 300, 310, 311, 312, 313, 314, 370, 371, 372, 373, 374, 390, 450, 460, 470, 480, 520, 530, 600, 631, 632, 650, 920}},
+    {1, {0, 10, 20, 30, 330}},
+    {2, {960, 970}},
+    {3, {900, 910}},
+    {5, {940, 950}},
+    {6, {200, 210}},
+    {7, {400, 410, 420}},
+    {9, {220, 230}},
+    {10, {730, 740, 760, 800, 810, 820, 830, 840, 842, 843, 850, 860, 870, 880, 890}},
+    {11, {500, 510}},
+    {12, {660, 670}},
+    {13, {430, 440, 490}},
+    {14, {540, 550, 560, 570, 580, 590}},
+    {15, {610, 620, 630, 640}},
+    {16, {170, 180, 190}},
+    {17, {150, 160}},
+    {18, {680, 690}},
+    {19, {980, 990}},
+    {20, {1120, 1130, 1070}},
+    {21, {103, 113}},
 };
 
 // DGSHAPE 2-7, with the groups of its sections.
@@ -367,6 +396,27 @@ TEST(IsoManual, MCodesThatNeedMoreThanTheirNumberAreNotBuilt) {  // LinuxCNC "M-
     EXPECT_NE(find_misc(iso(), code)->missing, nullptr) << code;
   }
   for (unsigned code : {7u, 8u, 9u, 100u, 199u}) EXPECT_EQ(find_misc(iso(), code), nullptr) << code;
+}
+
+TEST(HxManual, GCodesAndGroupsAreThoseOfTheList) { expect_list(hx(), flat(kHxList)); }
+
+TEST(HxManual, StateAtPowerOn) {  // 3.2, 5.2.1, 5.3.3
+  const std::set<std::string> expected = {"G00", "G97", "G90", "G94", "G21", "G40", "G23", "G80", "G50", "G67",
+                                          "G49", "G54", "G64", "G17", "G15", "G69", "G98", "G113", "G11.3"};
+  std::set<std::string> active;
+  for (const int16_t code : to_public(hx(), initial_modal(hx())).code)
+    if (code >= 0) active.insert(g_text(code));
+  EXPECT_EQ(active, expected);
+}
+
+TEST(HxManual, ConditionsHaveTheNumbersThatTheSectionsPrint) {
+  const std::map<Condition, const char*> printed = {
+      {Condition::illegal_character, "F_82001"}, {Condition::arc_deviation, "F_82112"},     {Condition::arc_center, "F_82100"},
+      {Condition::block_too_long, "F_82111"},    {Condition::reference_compare, "F_82209"}, {Condition::no_feed, "F_84020"},
+      {Condition::measure_signal, "F_84022"},    {Condition::program_end, "F_82016"},       {Condition::sequence_missing, "F_82019"},
+      {Condition::mill_code, "F_82204"},         {Condition::mill_axis, "F_82208"},         {Condition::illegal_g, "F_82030"},
+  };
+  for (const auto& [condition, code] : printed) EXPECT_EQ(code_of(hx(), condition), code);
 }
 
 TEST(DgshapeManual, HasNoSubPrograms) {

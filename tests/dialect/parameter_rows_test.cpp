@@ -58,10 +58,12 @@ TEST(ParameterTable, HasWhatIsAskedForAndNothingElse) {
   EXPECT_GT(asked.size(), 100u);
   for (unsigned i = 1; i < nc::kParameters; ++i) {
     bool bound = false;
-    for (const nc_dialect family : {NC_DIALECT_M700, NC_DIALECT_DGSHAPE}) {
+    for (const nc_dialect family : {NC_DIALECT_M700, NC_DIALECT_DGSHAPE, NC_DIALECT_HX}) {
       char key[nc::kParameterKeySize];
       int bit = -1;
-      if (!nc::parameter_place(nc::dialect(family), static_cast<nc::Parameter>(i), key, &bit)) continue;
+      nc::ParameterId id;
+      if (!nc::parameter_place(nc::dialect(family), static_cast<nc::Parameter>(i), &id, &bit, 0)) continue;
+      nc::put_parameter_key(nc::dialect(family), id, key);
       bound = true;
       const std::string whole = key + (bit < 0 ? "" : "/bit" + std::to_string(bit));
       EXPECT_TRUE(nc_parameter_used(family, whole.c_str())) << names[i] << ' ' << whole;
@@ -74,14 +76,16 @@ TEST(ParameterTable, HasWhatIsAskedForAndNothingElse) {
 TEST(ParameterTable, HasSoundRows) {
   nc_parameter row;
   unsigned rows = 0;
-  for (; nc_parameter_row(NC_DIALECT_M700, rows, &row) == NC_OK; ++rows) {
-    if (row.key != nullptr) continue;
-    EXPECT_LE(row.first, row.last);
-    EXPECT_EQ((row.last - row.first) % row.step, 0u) << row.first;
-    EXPECT_STRNE(row.name, "");
-    EXPECT_STRNE(row.section, "");
+  for (const nc_dialect family : {NC_DIALECT_M700, NC_DIALECT_HX}) {
+    for (unsigned i = 0; nc_parameter_row(family, i, &row) == NC_OK; ++i, ++rows) {
+      if (row.key != nullptr) continue;
+      EXPECT_LE(row.first, row.last);
+      EXPECT_EQ((row.last - row.first) % row.step, 0u) << row.first;
+      EXPECT_STRNE(row.name, "");
+      EXPECT_STRNE(row.section, "");
+    }
   }
-  EXPECT_GT(rows, 90u);
+  EXPECT_GT(rows, 120u);
 }
 
 // Of several parameters with one meaning each has its own number.
@@ -104,6 +108,26 @@ TEST(ParameterTable, GivesEachOfSeveralItsNumber) {
   EXPECT_EQ(key({P::reading_stop, 7}), "PREREAD_STOP_M8");
   EXPECT_EQ(key(P::precision_lead), "1229/bit1");
   EXPECT_EQ(key(P::calculator), "none");
+}
+
+// Each axis may have a number of its own; the first of several may be that of another one than the first.
+TEST(ParameterTable, GivesEachAxisItsNumber) {
+  const auto key = [](nc::ParameterOf parameter, int axis) {
+    nc::ParameterId id;
+    int bit = -1;
+    return nc::parameter_place(nc::dialect(NC_DIALECT_HX), parameter, &id, &bit, axis) ? id.value : 0u;
+  };
+  using P = nc::Parameter;
+  EXPECT_EQ(key(P::creep, 0), 3061u);
+  EXPECT_EQ(key(P::creep, 8), 3069u);
+  EXPECT_EQ(key(P::creep, 9), 0u);
+  EXPECT_EQ(key(P::creep, -1), 0u);  // none of them is that of all axes
+  EXPECT_EQ(key({P::reference_position, 0}, 0), 0u);
+  EXPECT_EQ(key({P::reference_position, 1}, 0), 22097u);
+  EXPECT_EQ(key({P::reference_position, 2}, 1), 22130u);
+  EXPECT_EQ(key({P::reference_position, 3}, 2), 22163u);
+  EXPECT_EQ(key({P::g_call_code, 9}, -1), 3094u);
+  EXPECT_EQ(key({P::g_call_code, 10}, -1), 0u);
 }
 
 TEST(ParameterTable, KnowsWhatDoesNothing) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "dialect/code_index.hpp"
+#include "dialect/default_alarms.hpp"
 #include "dialect/dialect.hpp"
 #include "dialect/function_table.hpp"
 #include "modal/modal_state.hpp"
@@ -21,7 +22,7 @@ class Tables : public ::testing::TestWithParam<nc_dialect> {
   const Dialect& family() const { return dialect(GetParam()); }
   std::set<std::string> alarm_codes() const {
     std::set<std::string> codes;
-    for (const AlarmText& alarm : family().alarms) codes.insert(alarm.code);
+    for (unsigned i = 0; alarm_at(family(), i) != nullptr; ++i) codes.insert(alarm_at(family(), i)->code);
     return codes;
   }
 };
@@ -102,20 +103,42 @@ TEST_P(Tables, RowsAreFilledIn) {
   }
 }
 
+// What a family has no row for is as the common table says.
 TEST_P(Tables, EveryConditionHasOneRow) {
   for (unsigned i = 1; i < static_cast<unsigned>(Condition::count_); ++i) {
-    unsigned rows = 0;
-    for (const AlarmRow& row : family().conditions) {
-      if (row.condition == static_cast<Condition>(i)) ++rows;
-    }
-    EXPECT_EQ(rows, 1u) << "Condition number " << i << " (in the order of dialect/alarms.hpp) of "
-                        << family().name;
+    unsigned rows = 0, common = 0;
+    for (const AlarmRow& row : family().conditions) rows += row.condition == static_cast<Condition>(i) ? 1u : 0u;
+    for (const AlarmRow& row : kDefaultConditions) common += row.condition == static_cast<Condition>(i) ? 1u : 0u;
+    EXPECT_LE(rows, 1u) << "Condition number " << i << " (in the order of alarm/condition.hpp) of " << family().name;
+    EXPECT_EQ(common, 1u) << "Condition number " << i << " of dialect/default_alarms.cpp";
   }
+}
+
+TEST_P(Tables, AConditionWithoutARowHasTheCodeOfTheCommonTable) {
+  for (const AlarmRow& common : kDefaultConditions) {
+    const AlarmRow* own = nullptr;
+    for (const AlarmRow& row : family().conditions)
+      if (row.condition == common.condition) own = &row;
+    EXPECT_STREQ(alarm_text(family(), Fault{common.condition}).code, own != nullptr ? own->code : common.code);
+  }
+}
+
+// Its codes are listed behind those of the family, and only those that the family can raise.
+TEST_P(Tables, TheListOfAlarmsHoldsWhatCanBeRaisedAndTheManualsList) {
+  std::set<std::string> raised;
+  for (unsigned i = 1; i < static_cast<unsigned>(Condition::count_); ++i) raised.insert(alarm_text(family(), Fault{static_cast<Condition>(i)}).code);
+  for (const FunctionRow& row : family().functions)
+    if (row.missing != nullptr) raised.insert(row.missing);
+  for (const MiscRow& row : family().misc)
+    if (row.missing != nullptr) raised.insert(row.missing);
+  for (const AlarmText& alarm : family().alarms) raised.insert(alarm.code);
+  EXPECT_EQ(alarm_codes(), raised);
 }
 
 TEST_P(Tables, AlarmCodesAreUniqueShortAndHaveATextWithoutMarkup) {
   std::set<std::string> seen;
-  for (const AlarmText& alarm : family().alarms) {
+  for (unsigned i = 0; alarm_at(family(), i) != nullptr; ++i) {
+    const AlarmText& alarm = *alarm_at(family(), i);
     const std::string code = alarm.code, message = alarm.message;
     EXPECT_TRUE(seen.insert(code).second) << code;
     EXPECT_LT(code.size(), sizeof nc_alarm::code) << code;
@@ -253,11 +276,8 @@ TEST_P(Tables, MissingFunctionRaisesTheAlarmOfItsOwnRow) {
 }
 
 TEST_P(Tables, FaultWithoutARowOfItsOwnFallsBackToTheCondition) {
-  const char* general = nullptr;
-  for (const AlarmRow& row : family().conditions) {
-    if (row.condition == Condition::no_function) general = row.code;
-  }
-  ASSERT_NE(general, nullptr);
+  const char* const general = alarm_text(family(), Fault{Condition::no_function}).code;
+  ASSERT_STRNE(general, "NC-INTERNAL");
   for (const double value : {-1.0, 10.0, 39990.0, 1e300}) {
     const Fault fault{Condition::no_function, -1, family().addresses.letter(Role::code), true, value};
     EXPECT_STREQ(alarm_text(family(), fault).code, general) << value;
@@ -285,7 +305,7 @@ TEST_P(Tables, ParametersHaveUniqueKeysAndADefaultAmongTheirWords) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, Tables, ::testing::Values(NC_DIALECT_M700, NC_DIALECT_DGSHAPE, NC_DIALECT_ISO),
+INSTANTIATE_TEST_SUITE_P(Families, Tables, ::testing::Values(NC_DIALECT_M700, NC_DIALECT_DGSHAPE, NC_DIALECT_ISO, NC_DIALECT_HX),
                          [](const auto& name) { return std::string(dialect(name.param).name); });
 
 }  // namespace

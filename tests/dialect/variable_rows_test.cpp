@@ -51,12 +51,14 @@ TEST(VariableRows, ARangeIsPartsOfPlaces) {
 
 TEST(VariableRows, RangesAreSortedAndApartAndEveryMeaningHasOne) {
   std::set<V> seen;
-  uint32_t last = 0;
-  for (const VariableRow& row : m700().rows) {
-    EXPECT_GT(row.first, last);
-    EXPECT_LE(row.first, row.last);
-    last = row.last;
-    seen.insert(row.what);
+  for (const nc_dialect family : {NC_DIALECT_M700, NC_DIALECT_HX}) {
+    uint32_t last = 0;
+    for (const VariableRow& row : dialect(family).variables->rows) {
+      EXPECT_GT(row.first, last);
+      EXPECT_LE(row.first, row.last);
+      last = row.last;
+      seen.insert(row.what);
+    }
   }
   EXPECT_EQ(seen.size(), kSystemVariables);
 }

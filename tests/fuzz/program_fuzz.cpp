@@ -89,6 +89,12 @@ void set_parameters(nc_control* control, const Chosen& chosen) {
     require(nc_parameter_set(control, 0, "8213", 'A', (o & 16) != 0 ? "0" : (o & 8) != 0 ? "1" : (o & 32) != 0 ? "2" : "3") == NC_OK);
   } else if (chosen.dialect == NC_DIALECT_ISO) {
     set("power_on_unit", (o & 2) != 0, "inch", "mm");
+  } else if (chosen.dialect == NC_DIALECT_HX) {
+    for (const char* key : {"3072", "3120", "3128", "3147"}) set(key, (o & 2) != 0);
+    for (const char* key : {"3144", "3146", "3155", "23474"}) set(key, (o & 8) != 0);
+    // G120 and M50 call O9010 and O9020, T calls O9000; factors, an overrun and a reference position of an axis.
+    constexpr const char* kValues[][2] = {{"3085", "120"}, {"3095", "50"}, {"3105", "1"}, {"3108", "1500"}, {"3117", "30"}, {"3061", "-1"}, {"22097", "5"}};
+    for (const auto& value : kValues) require(nc_parameter_set(control, 0, value[0], 0, value[1]) == NC_OK);
   } else {
     set("interpretation", (o & 2) != 0, "calculator", "conventional");
     set("startup", (o & 8) != 0, "B", "A");
@@ -210,7 +216,7 @@ void cycle(nc_control* control, const Chosen& chosen) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2) return 0;
-  const nc_dialect other = (data[1] & 0x40) != 0 ? NC_DIALECT_ISO : NC_DIALECT_DGSHAPE;
+  const nc_dialect other = (data[0] & 1) != 0 ? NC_DIALECT_HX : (data[1] & 0x40) != 0 ? NC_DIALECT_ISO : NC_DIALECT_DGSHAPE;
   const Chosen chosen{(data[0] & 0x80) != 0 ? other : NC_DIALECT_M700, static_cast<uint8_t>(data[0] & 0x7f), data[1]};
   const std::string text(reinterpret_cast<const char*>(data + 2), size - 2);
   const nc_config config = configuration(chosen);

@@ -191,7 +191,7 @@ TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
   const std::filesystem::path root(nc::test::kSourceDir);
   unsigned parts = 0;
   for (const auto& [part, machine] :
-       {std::pair{"flange.nc", "machine.toml"}, {"keytag.nc", "modelling-machine.toml"}, {"plate.ngc", "router.toml"}}) {
+       {std::pair{"flange.nc", "machine.toml"}, {"keytag.nc", "modelling-machine.toml"}, {"plate.ngc", "router.toml"}, {"bracket.nc", "drill-mill.toml"}}) {
     nc::rt::Config config;
     for (const auto& error : nc::rt::load_config((root / "etc" / machine).string(), &config))
       ADD_FAILURE() << error.text();
@@ -206,7 +206,7 @@ TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
       EXPECT_GT(totals.items, 50u);
     }
   }
-  EXPECT_EQ(parts, 3u);
+  EXPECT_EQ(parts, 4u);
 }
 
 // Real programs of other people, where they are there: executed as they trace, to their end or to the alarm

@@ -52,7 +52,7 @@ bool apply_tool_offsets(const Setup& setup, nc_control* control, std::string* er
     double column[4];
     for (int c = 0; c < 4; ++c) column[c] = entry.column[c];
     int count = entry.plain ? 1 : 4;
-    if (entry.plain && memory_type == "2") {  // a length or a radius, whichever the program asks for
+    if (entry.plain && (memory_type == "2" || !has_types)) {  // a length or a radius, whichever the program asks for
       column[NC_TOOL_RADIUS] = column[NC_TOOL_LENGTH];
       count = 4;
     }

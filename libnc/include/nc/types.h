@@ -92,7 +92,8 @@ typedef enum nc_dialect {
   NC_DIALECT_M700 = 0,    /**< Mitsubishi CNC 700 series, machining centre */
   NC_DIALECT_DGSHAPE = 1, /**< DGSHAPE NC code (JIS), modelling machines */
   NC_DIALECT_ISO = 2,     /**< ISO 6983 / RS-274 as CAM systems and LinuxCNC users write it, machining centre */
-  NC_DIALECT_COUNT = 3
+  NC_DIALECT_HX = 3,      /**< TurboTek HX, machining centre */
+  NC_DIALECT_COUNT = 4
 } nc_dialect;
 
 /** Where an item comes from. */

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "dialect/default_alarms.hpp"
+
 namespace nc {
 namespace {
 
@@ -32,11 +34,32 @@ const Row* find(const Table<Row>& table, int code) {
   return first != table.end() && static_cast<int>(first->code) == code ? first : nullptr;
 }
 
+const AlarmText* listed(const Table<AlarmText>& alarms, const char* code) {
+  for (const AlarmText& alarm : alarms)
+    if (same(alarm.code, code)) return &alarm;
+  return nullptr;
+}
+
 const char* message_of(const Dialect& dialect, const char* code) {
-  for (const AlarmText& alarm : dialect.alarms) {
-    if (same(alarm.code, code)) return alarm.message;
-  }
-  return "";
+  const AlarmText* alarm = listed(dialect.alarms, code);
+  if (alarm == nullptr) alarm = listed(kDefaultAlarms, code);
+  return alarm != nullptr ? alarm->message : "";
+}
+
+const AlarmRow* row_of(const Table<AlarmRow>& rows, Condition condition) {
+  for (const AlarmRow& row : rows)
+    if (row.condition == condition && row.code != nullptr) return &row;
+  return nullptr;
+}
+
+/// The family can raise an alarm that has this code from the common table.
+bool uses_default(const Dialect& dialect, const char* code) {
+  if (listed(dialect.alarms, code) != nullptr) return false;  // one of its own list
+  for (const FunctionRow& row : dialect.functions)
+    if (row.missing != nullptr && same(row.missing, code)) return true;
+  for (const AlarmRow& row : kDefaultConditions)
+    if (same(row.code, code) && row_of(dialect.conditions, row.condition) == nullptr) return true;
+  return false;
 }
 
 // Code that the row of a missing G or M code names, nullptr = the fault is about something else.
@@ -86,13 +109,20 @@ unsigned misc_code(const Dialect& dialect, MiscFunction function) {
   return kNoMisc;
 }
 
+const AlarmText* alarm_at(const Dialect& dialect, unsigned index) {
+  if (index < dialect.alarms.size) return &dialect.alarms.row[index];
+  index -= dialect.alarms.size;
+  for (const AlarmText& alarm : kDefaultAlarms)
+    if (uses_default(dialect, alarm.code) && index-- == 0) return &alarm;
+  return nullptr;
+}
+
 AlarmText alarm_text(const Dialect& dialect, const Fault& fault) {
   if (const char* code = missing_code(dialect, fault); code != nullptr)
     return {code, message_of(dialect, code)};
-  for (const AlarmRow& row : dialect.conditions) {
-    if (row.condition != fault.condition || row.code == nullptr) continue;
-    return {row.code, row.message != nullptr ? row.message : message_of(dialect, row.code)};
-  }
+  const AlarmRow* row = row_of(dialect.conditions, fault.condition);
+  if (row == nullptr) row = row_of(kDefaultConditions, fault.condition);
+  if (row != nullptr) return {row->code, row->message != nullptr ? row->message : message_of(dialect, row->code)};
   // A condition without a row is a mistake of ours; tests/dialect finds it.
   return {"NC-INTERNAL", message_of(dialect, "NC-INTERNAL")};
 }

@@ -93,7 +93,7 @@ struct Dialect {
   Table<FunctionRow> functions;      ///< sorted by code
   Table<MiscRow> misc;               ///< M codes that the control keeps for itself, sorted by code
   Table<OutputRow> outputs;          ///< those that go out and mean something besides, sorted by code
-  Table<AlarmRow> conditions;        ///< condition -> code, one row for each condition of Condition
+  Table<AlarmRow> conditions;        ///< condition -> code, at most one row for each; what has none is as dialect/default_alarms.hpp says
   Table<AlarmText> alarms;           ///< the manual's whole list
   Table<DataInputRow> data_input;
   Table<SpeedModeRow> speed_modes;
@@ -133,6 +133,10 @@ MiscFunction misc_function(const Dialect& dialect, unsigned code);
 /// First M code that means this, kNoMisc where there is none.
 inline constexpr unsigned kNoMisc = ~0u;
 unsigned misc_code(const Dialect& dialect, MiscFunction function);
+
+/// Alarms that the family can raise, from 0 on: those of its list, then those of the common table (dialect/default_alarms.hpp) that it has no
+/// code of its own for. nullptr behind the last.
+const AlarmText* alarm_at(const Dialect& dialect, unsigned index);
 
 /// Code and message of a fault. Condition::no_function with the letter of a G or M code and the code (G: times 10) as value takes the row's own alarm.
 AlarmText alarm_text(const Dialect& dialect, const Fault& fault);

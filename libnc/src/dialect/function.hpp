@@ -70,6 +70,10 @@ enum class Function : uint8_t {
   comp_dynamic, length_of_block, length_added,   ///< G41.1 G42.1, G43.1, G43.2
   spline_cubic, spline_quadratic, nurbs_block, nurbs_block_end,   ///< G5 G5.1 G5.2 G5.3
   diameter_words, radius_words,         ///< G7 G8
+  // Numbers of the codes of the HX stand beside those that follow.
+  high_speed_on, high_speed_off,        ///< G10.3 G11.3
+  stitch_on, stitch_off,                ///< G63.1 G63.2
+  cycle_rigid_tap, cycle_rigid_reverse_tap,   ///< G84.2 G84.3
   count_
 };
 inline constexpr unsigned kFunctions = static_cast<unsigned>(Function::count_);

@@ -94,9 +94,10 @@ nc_status nc_function_row(nc_dialect dialect, unsigned index, nc_function* row) 
 nc_status nc_alarm_row(nc_dialect dialect, unsigned index, char code[16], const char** message) {
   if (code == nullptr || message == nullptr || !nc::known(dialect)) return NC_E_ARGUMENT;
   const nc::Dialect& family = nc::dialect(dialect);
-  if (index >= family.alarms.size) return NC_E_NOT_FOUND;
-  nc::TextWriter(code, 16).put(family.alarms.row[index].code);
-  *message = family.alarms.row[index].message;
+  const nc::AlarmText* const alarm = nc::alarm_at(family, index);
+  if (alarm == nullptr) return NC_E_NOT_FOUND;
+  nc::TextWriter(code, 16).put(alarm->code);
+  *message = alarm->message;
   return NC_OK;
 }
 

@@ -16,7 +16,6 @@
 namespace nc {
 namespace {
 
-constexpr uint32_t kMaxLoopNumber = 127;  // M700 13.5.7
 constexpr unsigned kMaxMessage = 127;     // bytes kept of a comment that may be a message
 
 /// What a character behind a number means for its word. `more`: the word goes on, X1 0, X1+2, S1=5.
@@ -534,13 +533,18 @@ class Lexer {
     }
     if (!at_.accept("GOTO")) return fault(Condition::if_statement);
     s.kind = StatementKind::if_goto;
-    return expression(&s.target, Condition::if_statement) && add_statement(s);
+    return jump_target(&s.target, Condition::if_statement) && add_statement(s);
   }
 
   bool goto_statement() {
     Statement s;
     s.kind = StatementKind::go_to;
-    return expression(&s.target, Condition::format_error) && add_statement(s);
+    return jump_target(&s.target, Condition::format_error) && add_statement(s);
+  }
+
+  bool jump_target(uint16_t* code, Condition when_missing) {
+    if (rules_.jump_letter && at_.peek() == rules_.sequence_letter) ++at_.p;
+    return expression(code, when_missing);
   }
 
   bool while_statement() {
@@ -559,7 +563,7 @@ class Lexer {
 
   bool loop_number(Statement* s) {
     const Decimal d = at_.number();
-    if (d.digits == 0 || d.point || d.integer == 0 || d.integer > kMaxLoopNumber)
+    if (d.digits == 0 || d.point || d.integer == 0 || d.integer > rules_.most_loop_number)
       return fault(Condition::while_statement);
     s->number = static_cast<uint32_t>(d.integer);
     return true;

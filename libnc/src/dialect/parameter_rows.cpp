@@ -52,14 +52,20 @@ void put_parameter_key(const Dialect& dialect, ParameterId id, char (&key)[kPara
   }
 }
 
-bool parameter_place(const Dialect& dialect, ParameterOf parameter, ParameterId* id, int* bit) {
+const ParameterRow* parameter_row(const Dialect& dialect, Parameter what) {
+  const FamilyParameters& table = *dialect.parameters;
+  const unsigned place = table.places != nullptr ? table.places->row[static_cast<unsigned>(what)] : 0;
+  return place != 0 ? &table.numbers.row[place - 1] : nullptr;
+}
+
+bool parameter_place(const Dialect& dialect, ParameterOf parameter, ParameterId* id, int* bit, int axis) {
   const FamilyParameters& table = *dialect.parameters;
   *bit = -1;
-  if (const unsigned place = table.places != nullptr ? table.places->row[static_cast<unsigned>(parameter.what)] : 0; place != 0) {
-    const ParameterRow& row = table.numbers.row[place - 1];
-    *bit = row.bit;
-    *id = ParameterId::of_number(row.first + row.step * parameter.index);
-    return true;
+  if (const ParameterRow* const row = parameter_row(dialect, parameter.what); row != nullptr) {
+    if (parameter.index < row->base || (row->axis_step != 0 && axis < 0)) return false;
+    *bit = row->bit;
+    *id = ParameterId::of_number(row->first + row->step * (parameter.index - row->base) + row->axis_step * static_cast<uint32_t>(axis < 0 ? 0 : axis));
+    return id->value <= row->last;
   }
   for (const ParameterName& row : table.names) {
     if (row.what != parameter.what || row.index != parameter.index) continue;
@@ -79,7 +85,8 @@ bool parameter_place(const Dialect& dialect, ParameterOf parameter, char (&key)[
 
 const ParameterRow* find_parameter(const Dialect& dialect, const ParameterKey& key) {
   for (const ParameterRow& row : dialect.parameters->numbers) {
-    if (key.number < row.first || key.number > row.last || (key.number - row.first) % row.step != 0) continue;
+    const uint32_t step = row.axis_step != 0 ? row.axis_step : row.step;
+    if (key.number < row.first || key.number > row.last || (key.number - row.first) % step != 0) continue;
     if (row.bit < 0 || key.bit < 0 || row.bit == key.bit) return &row;
   }
   return nullptr;
@@ -135,7 +142,7 @@ nc_status nc_parameter_row(nc_dialect dialect, unsigned index, nc_parameter* row
   index -= table.names.size;
   if (index >= table.numbers.size) return NC_E_NOT_FOUND;
   const nc::ParameterRow& from = table.numbers.row[index];
-  nc::give_struct(nc_parameter{sizeof(nc_parameter), nullptr, from.first, from.last, from.step, from.bit, from.by_axis, from.values, from.name, from.section}, row);
+  nc::give_struct(nc_parameter{sizeof(nc_parameter), nullptr, from.first, from.last, from.axis_step != 0 ? from.axis_step : from.step, from.bit, from.by_axis, from.values, from.name, from.section}, row);
   return NC_OK;
 }
 

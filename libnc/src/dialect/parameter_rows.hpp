@@ -20,6 +20,9 @@ struct ParameterRow {
   const char* values;          ///< unit or values; the first one in force when it is not set
   const char* name;
   const char* section;         ///< of the manual
+  uint32_t axis_step = 0;      ///< numbers from one axis to the next, where each axis has its own; 0 = by_axis says
+  unsigned base = 0;           ///< which one of several the first number is
+  double (*means)(double) = nullptr;  ///< value of the meaning for a value of the manual; nullptr = the same
 };
 
 /// A parameter that has no number but a name: how its key is written.
@@ -104,8 +107,11 @@ inline constexpr unsigned kParameterKeySize = 24;
 /// The key of a whole parameter.
 void put_parameter_key(const Dialect& dialect, ParameterId id, char (&key)[kParameterKeySize]);
 
-/// Where a parameter is kept: the whole of it, and its bit there (-1 = all). False: the family has no such parameter.
-bool parameter_place(const Dialect& dialect, ParameterOf parameter, ParameterId* id, int* bit);
+/// Where a parameter is kept: the whole of it, and its bit there (-1 = all); that of an axis where each has a number. False: the family has no such
+/// parameter.
+bool parameter_place(const Dialect& dialect, ParameterOf parameter, ParameterId* id, int* bit, int axis = -1);
+/// Its row in the table of numbers, nullptr = it has none.
+const ParameterRow* parameter_row(const Dialect& dialect, Parameter what);
 /// The same with its key.
 bool parameter_place(const Dialect& dialect, ParameterOf parameter, char (&key)[kParameterKeySize], int* bit);
 

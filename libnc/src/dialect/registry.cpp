@@ -3,6 +3,7 @@
 // dialect() itself links its own, and libnc.a's stays out (tests/permuted).
 #include "dialect/dgshape/dgshape.hpp"
 #include "dialect/dialect.hpp"
+#include "dialect/hx/hx.hpp"
 #include "dialect/iso/iso.hpp"
 #include "dialect/m700/m700.hpp"
 
@@ -14,6 +15,8 @@ const Dialect& dialect(nc_dialect id) {
       return dgshape::kDialect;
     case NC_DIALECT_ISO:
       return iso::kDialect;
+    case NC_DIALECT_HX:
+      return hx::kDialect;
     case NC_DIALECT_M700:
     case NC_DIALECT_COUNT:
       break;

@@ -51,6 +51,8 @@ enum class Role : uint8_t {
 
   // ---- modes of accuracy and speed
   speed_mode, speed_option, accuracy_switch,    ///< value of the high-speed modes, of those of its second code, of the high-accuracy mode
+
+  call_end_sequence,                            ///< of a call: the last block that is run
   count_
 };
 inline constexpr unsigned kRoles = static_cast<unsigned>(Role::count_);

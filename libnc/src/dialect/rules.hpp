@@ -31,6 +31,9 @@ struct NumberRules {
   /// How many times finer than a micrometre the setting unit is, by the value of its parameter, 0 = not set
   /// (M700 2.1). DGSHAPE 2-1: it is a micrometre.
   double (*units_per_micrometre)(double parameter);
+  /// A length that a formula gives is rounded to the least unit (HX 14.2.4). Else it is what has been calculated (M700 13.5.4; DGSHAPE has no
+  /// formulas).
+  bool rounds_formulas;
 };
 
 /// What may stand in a block.
@@ -170,6 +173,8 @@ struct LengthRules {
   bool shifts_reading;
   /// The code without H takes the number of the tool (LinuxCNC G43). Else that of before (M700 12.2 (2) (d); DGSHAPE G43 has to have one).
   bool number_is_that_of_tool;
+  /// The axis is the one that stands on the plane in force (HX 13.1.1). Else axis_by_words says (M700 12.2 (3); DGSHAPE G43).
+  bool axis_on_plane;
 };
 
 struct CycleRules {
@@ -229,6 +234,8 @@ struct CoordinateRules {
   /// A move in machine coordinates goes by the motion in force, G0 or G1, and no other may be (RS-274/NGC 3.5.12). Else in rapid traverse (M700
   /// 14.4; DGSHAPE G53).
   bool machine_move_by_motion;
+  /// An incremental move in machine coordinates does nothing (HX 7.1.1). Else it goes, or is a fault (M700 14.4 (4); DGSHAPE G53).
+  bool incremental_machine_move_rests;
 };
 
 struct ScalingRules {
@@ -240,6 +247,36 @@ struct ScalingRules {
   /// Factor of a P; false = out of range (M700 13.19: in millionths without a point; DGSHAPE G51: held
   /// within its range).
   bool (*factor_of_word)(double value, bool pointed, double* factor);
+  /// I J K are factors of the basic axes, a negative one mirrors, and a parameter of each axis stands for one that is missing (HX 15.2.2, 15.3).
+  /// Else one factor is that of all (M700 13.19; DGSHAPE G51).
+  bool factor_by_axis;
+};
+
+/// Rotation of coordinates by program.
+struct RotationRules {
+  /// The code of its plane may stand in its block (HX 15.4.1). Else a fault (M700 13.20 (13); DGSHAPE has no rotation).
+  bool plane_in_block;
+  /// Without an angle it is that of a parameter (HX 15.4.1). Else that of before (M700 13.20 (4)).
+  bool angle_by_parameter;
+};
+
+/// Interpolation on a cylinder and in polar coordinates.
+struct MillRules {
+  /// The word of the cylinder's block names its rotary axis, which stands for an axis of each plane; parameters number the axes of polar coordinates
+  /// (HX 4.6, 4.7). Else parameters name them (M700 6.9, 6.10; DGSHAPE has neither).
+  bool rotary_in_block;
+};
+
+/// Codes that call programs because a parameter says so.
+struct CodeCallRules {
+  /// Programs of the G codes and of the M codes in the order of their parameters (HX 14.1.3, 14.1.4: from 9010, from 9020 on). 0 = parameters name
+  /// them (M700 13.5.2; DGSHAPE has no calls).
+  uint32_t first_of_g, first_of_m;
+  /// The words behind an M code that begins its block are arguments (HX 14.1.4), and behind other words it calls like M98 (14.1.5). Else a parameter
+  /// says how it calls (M700 13.5.2).
+  bool arguments_behind_m;
+  /// Program that a tool number calls by the values of two parameters, 0 = none (HX 10.1.1). nullptr: parameters name it (M700 13.5.2).
+  uint32_t (*tool_program)(double first, double second);
 };
 
 /// Data setting by program. Which value of L sets what is a table (DataInputRow).
@@ -268,6 +305,11 @@ struct ProgramRules {
   /// The first coordinate words behind the end of a program go on in its mode of motion and with its feed
   /// (M700 9.1, 7.2 note 1). Else every program begins with the state at power on (DGSHAPE 1-1).
   bool motion_outlives_end;
+  /// So many loops stand in one another (M700 13.5.7: 27; HX 14.2.5: three; DGSHAPE has none).
+  unsigned loops_in_one_another;
+  /// L beside the return in a main program is how often it goes back, then it goes on (HX 2.4.4). Else it goes back without end (M700 13.3.1; DGSHAPE
+  /// has no sub programs).
+  bool main_program_counts;
 };
 
 struct MotionRules {
@@ -302,6 +344,9 @@ struct Rules {
   DataInputRules data_input;
   ProgramRules program;
   MotionRules motion;
+  RotationRules rotation;
+  MillRules mill;
+  CodeCallRules code_call;
 };
 
 }  // namespace nc

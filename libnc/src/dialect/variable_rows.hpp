@@ -24,7 +24,7 @@ enum class SystemVariable : uint8_t {
   date, time_of_day,
   count,                       ///< two: workpieces machined, their maximum
   code, code_now, code_at_interrupt,   ///< a place for each modal group: as read, in execution, as a macro interrupt came
-  word, word_now, word_at_interrupt,   ///< a place for each ModalWord of the family
+  word, word_now, word_at_interrupt,   ///< a place for each ModalWord of the family, from that of the part on
   extended_work,               ///< number of the extended coordinate system in force
   end_point, machine_position, work_position, skip_position, compensation, deviation,   ///< a place for each axis
   rotation,                    ///< of coordinates: axes h and v, centre h and v, angle, its sine and cosine, vector h and v
@@ -33,6 +33,8 @@ enum class SystemVariable : uint8_t {
   parameter,
   device_select,               ///< four: device, number, bytes, bit
   device,
+  parameter_itself,            ///< the parameter that has the number of the variable
+  reference_position,          ///< parts are the reference positions, from 0; a place for each axis
   count_
 };
 

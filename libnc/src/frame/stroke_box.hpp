@@ -13,11 +13,12 @@ struct StrokeBox {
   int8_t axis[kBasicAxes] = {-1, -1, -1};  ///< its index; -1: not checked, its two coordinates are the same
   bool turns[kBasicAxes] = {};             ///< shown within one turn (14.13): the area is converted like the command
   double low[kBasicAxes] = {}, high[kBasicAxes] = {};
+  bool outside = false;                    ///< it is what lies around the box that is prohibited (HX 15.5.3)
 
   bool operator==(const StrokeBox& other) const {
     for (unsigned i = 0; i < kBasicAxes; ++i)
       if (axis[i] != other.axis[i] || turns[i] != other.turns[i] || low[i] != other.low[i] || high[i] != other.high[i]) return false;
-    return true;
+    return outside == other.outside;
   }
 
   /// The border belongs to the area: (8) prints 45 <= Z <= 315.
@@ -32,6 +33,11 @@ struct StrokeBox {
       if (here < low[i] || here > high[i]) return false;
     }
     return any;
+  }
+  bool prohibits(const AxisVec& machine) const {
+    bool any = false;
+    for (const int8_t of : axis) any = any || of >= 0;
+    return any && holds(machine) != outside;
   }
 };
 

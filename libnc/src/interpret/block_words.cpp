@@ -302,7 +302,10 @@ double length_value(const BlockContext& in, double raw, uint8_t flags, bool rota
   const bool in_inch = inch(in) && !rotary;
   const Settings& s = in.settings;
   double value = raw;
-  if (!pointed) {
+  if ((flags & kWordExpression) != 0 && in.dialect->rules.number.rounds_formulas) {
+    const double unit = rotary ? s.setting_unit_deg : in_inch ? s.setting_unit_inch : s.setting_unit_mm;
+    value = scaled(std::round(raw * std::nearbyint(1 / unit)), unit);
+  } else if (!pointed) {
     if (!s.whole_positions()) {  // M700 5.3, type I: the least command unit; tenfold 2.2
       const double unit = setting_unit ? (rotary ? s.setting_unit_deg : in_inch ? s.setting_unit_inch : s.setting_unit_mm)
                                        : (rotary ? s.command_unit_deg : in_inch ? s.command_unit_inch : s.command_unit_mm);

@@ -33,6 +33,7 @@ struct Entry {
   uint64_t offset = 0;      ///< of its first block (H), and
   uint32_t line = 1;
   uint8_t slot = 0;         ///< of the modal call that enters
+  uint32_t last_sequence = 0;  ///< of the block behind which a pass has ended, 0 = M99 says so
 };
 /// later, or what is wrong. The block in hand gets its mark when the program returns.
 Execution enter(Interpreter& in, const Entry& entry);

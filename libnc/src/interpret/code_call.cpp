@@ -136,6 +136,13 @@ Execution set_ascii_variable(Interpreter& in, const Caller& caller) {
   return in.raise(Condition::variable_number, '#', caller.call->variable);
 }
 
+/// How the word calls: as its parameter says, or an M code by its place (HX 14.1.4, 14.1.5).
+CodeCallType type_of_call(const Interpreter& in, const Caller& caller) {
+  const bool by_place = in.dialect->rules.code_call.arguments_behind_m && in.is(in.block->words[caller.at], Role::misc_code);
+  if (by_place) return caller.at == 0 ? CodeCallType::macro : CodeCallType::sub;
+  return caller.call->type;
+}
+
 /// Types G65, G66, G66.1: every other word is an argument, and so is the code itself but for G.
 Execution call_with_arguments(Interpreter& in, const Caller& caller) {
   MacroCall call;
@@ -147,7 +154,7 @@ Execution call_with_arguments(Interpreter& in, const Caller& caller) {
   if (did != Execution::done) return did;
   did = find_number(in, caller.call->program, &entry.program);
   if (did != Execution::done) return did;
-  if (caller.call->type == CodeCallType::macro) {
+  if (type_of_call(in, caller) == CodeCallType::macro) {
     entry.kind = CallKind::macro;
     entry.origin = CallOrigin::code;
     entry.offset = entry.program.offset;
@@ -195,7 +202,7 @@ Execution dispatch_block(Interpreter& in, bool* taken) {
   if (in.state.cycle.kind != CycleKind::none) return in.raise(Condition::call_in_cycle, in.block->words[caller.at].letter, caller.value);
   if (caller.ascii && std::fabs(caller.value) > 999999.9999) return in.raise(Condition::value_range, in.block->words[caller.at].letter, caller.value);
   show_code(in, caller);
-  if (caller.call->type == CodeCallType::sub) {
+  if (type_of_call(in, caller) == CodeCallType::sub) {
     if (caller.ascii && (did = set_ascii_variable(in, caller)) != Execution::done) return did;
     run_rest_first(in, caller);
     return Execution::done;

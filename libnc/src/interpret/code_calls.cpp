@@ -52,6 +52,18 @@ bool whole_code(double value, uint32_t* code) {
   return value - *code < 1e-6;
 }
 
+/// Programs in the order of the parameters.
+void of_place(uint32_t first, unsigned place, CodeCall* call) {
+  call->program = first + place;
+  call->type = CodeCallType::macro;
+}
+
+/// HX 14.1.3 (2): G65 G66 G67 call nothing else.
+bool of_macros(const Dialect& dialect, uint32_t number) {
+  const FunctionRow* const row = dialect.macro_codes.holds(number) ? find_function(dialect, static_cast<int>(number * 10)) : nullptr;
+  return row != nullptr && (is_macro_call(row->function) || row->function == Function::macro_modal_off);
+}
+
 }  // namespace
 
 const CodeCall* CodeCalls::find_g(double value) const {
@@ -73,17 +85,31 @@ CodeCalls read_code_calls(const Parameters& parameters, const Dialect& dialect) 
   for (unsigned i = 0; i < CodeCalls::kCodes; ++i) {
     CodeCall& m = calls.m[i];
     m.code = whole({P::m_call_code, i}, 9999);
-    read_call(whole, {P::m_call_type, i}, {P::m_call_program, i}, &m);
+    const CodeCallRules& rules = dialect.rules.code_call;
+    if (rules.first_of_m != 0) {
+      of_place(rules.first_of_m, i, &m);
+    } else {
+      read_call(whole, {P::m_call_type, i}, {P::m_call_program, i}, &m);
+    }
     if (!m_allowed(dialect, m.code) || whole({P::words_call, kCallsByM}, 1) == 0) m.program = 0;
     CodeCall& g = calls.g[i];
     g.code = whole({P::g_call_code, i}, 9999);
-    read_call(whole, {P::g_call_type, i}, {P::g_call_program, i}, &g);
+    if (rules.first_of_g != 0) {
+      of_place(rules.first_of_g, i, &g);
+      if (of_macros(dialect, g.code)) g.program = 0;
+    } else {
+      read_call(whole, {P::g_call_type, i}, {P::g_call_program, i}, &g);
+    }
     if (!dialect.macro_codes.holds(g.code) && !(calls.system_codes && dialect.own_codes.holds(g.code))) g.program = 0;
     calls.any = calls.any || m.program != 0 || g.program != 0;
   }
   read_call(whole, {P::second_aux_call, 0}, {P::second_aux_call, 1}, &calls.b);
   read_call(whole, {P::s_call, 0}, {P::s_call, 1}, &calls.s);
-  read_call(whole, {P::t_call, 0}, {P::t_call, 1}, &calls.t);
+  if (const auto tool_program = dialect.rules.code_call.tool_program; tool_program != nullptr) {
+    calls.t.program = tool_program(whole({P::tool_macro, 0}, 0), whole({P::tool_macro, 1}, 0));
+  } else {
+    read_call(whole, {P::t_call, 0}, {P::t_call, 1}, &calls.t);
+  }
   if (whole({P::words_call, kCallsBySecondAux}, 1) == 0) calls.b.program = 0;
   if (whole({P::words_call, kCallsByS}, 1) == 0) calls.s.program = 0;
   if (whole({P::words_call, kCallsByT}, 1) == 0) calls.t.program = 0;

@@ -109,6 +109,8 @@ Execution apply_reading_modes(Interpreter& in) {
       case Function::normal_line_off:
       case Function::centre_incremental:
       case Function::centre_absolute:
+      case Function::high_speed_on:
+      case Function::high_speed_off:
         in.state.modal.set(*row);
         break;
       case Function::stroke_check_off:

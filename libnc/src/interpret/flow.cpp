@@ -10,8 +10,6 @@
 namespace nc {
 namespace {
 
-constexpr uint32_t kMaxLoopNumber = 127;   // M700 13.5.7: DO 1..127
-constexpr unsigned kLoopDepth = 27;
 constexpr char kDataServer[] = "198:";      // the place of its programs in the store (nc_program_missing)
 
 /// M700 13.5.7, 13.12: from the next block to the end of the program, then from its head.
@@ -70,7 +68,7 @@ Execution jump_to_sequence(Interpreter& in, double number) {
 Execution begin_loop(Interpreter& in, const Statement& statement, bool condition) {
   State& s = in.state;
   CallFrame& frame = top(in);
-  if (statement.number < 1 || statement.number > kMaxLoopNumber) return in.raise(Condition::while_statement, Role::loop_number, statement.number);
+  if (statement.number < 1 || statement.number > in.dialect->lex->most_loop_number) return in.raise(Condition::while_statement, Role::loop_number, statement.number);
   const uint64_t here = in.block->begin;
   const bool again = s.loop_count > frame.loop_base && s.loop[s.loop_count - 1].offset == here;
   if (!condition) {
@@ -90,7 +88,7 @@ Execution begin_loop(Interpreter& in, const Statement& statement, bool condition
   if (again) return Execution::done;
   for (unsigned i = frame.loop_base; i < s.loop_count; ++i)  // an active m may not be used again in the nest
     if (s.loop[i].number == statement.number) return in.raise(Condition::loop_pair, Role::loop_number, statement.number);
-  if (unsigned{s.loop_count} - frame.loop_base >= kLoopDepth || s.loop_count >= kMaxLoops) return in.raise(Condition::loop_nesting, Role::loop_number, statement.number);
+  if (unsigned{s.loop_count} - frame.loop_base >= in.dialect->rules.program.loops_in_one_another || s.loop_count >= kMaxLoops) return in.raise(Condition::loop_nesting, Role::loop_number, statement.number);
   s.loop[s.loop_count++] = Loop{here, in.block->next, 0, in.block->line, 0, statement.number};
   return Execution::done;
 }
@@ -231,6 +229,7 @@ Execution enter(Interpreter& in, const Entry& entry) {
   frame.macro_level = static_cast<uint8_t>(entry.kind == CallKind::macro ? level + 1 : level);
   frame.loop_base = s.loop_count;
   frame.started = entry.offset != entry.program.offset;
+  frame.last_sequence = entry.last_sequence;
   if (modal != caller.modal_call) {
     show_modal_call(in);
   } else {
@@ -331,6 +330,17 @@ Execution find_on_device(Interpreter& in, ProgramRef* program) {
 
 }  // namespace
 
+/// HX 2.4.3: R names the block of the sub program that is its last one.
+static Execution find_end(Interpreter& in, const ProgramRef& program, uint64_t offset, uint32_t line, uint32_t* number) {
+  const BlockWords& w = in.words;
+  *number = 0;
+  if (!w.has(Role::call_end_sequence)) return Execution::done;
+  const Execution did = called_number(in, Role::call_end_sequence, w.get(Role::call_end_sequence), number);
+  bool again = false;
+  if (did != Execution::done || in.reader.find_sequence(program.file, *number, &offset, &line, 0, kWholeText, &again)) return did;
+  return in.raise(Condition::sequence_missing, Role::call_end_sequence, w.get(Role::call_end_sequence));
+}
+
 Execution call_sub(Interpreter& in) {
   const BlockWords& w = in.words;
   if (top(in).figure != 0) return in.raise_misc(Condition::nesting, MiscFunction::call_sub);  // M700 13.3.3 (6): no branch from a rotating program
@@ -350,7 +360,10 @@ Execution call_sub(Interpreter& in) {
   if (figure && in.state.rotated) return in.raise_misc(Condition::rotation_in_figure, MiscFunction::call_sub);  // M700 13.3.3 precaution (2)
   double center[2] = {0, 0};
   if (figure) figure_center(in, center);
-  did = enter(in, Entry{program, CallKind::sub, CallOrigin::word, passes, offset, line, 0});
+  uint32_t last = 0;
+  did = find_end(in, program, offset, line, &last);
+  if (did != Execution::done) return did;
+  did = enter(in, Entry{program, CallKind::sub, CallOrigin::word, passes, offset, line, 0, last});
   if (did != Execution::later) return did;
   if (figure) begin_figure(in, center);
   in.keep_call();
@@ -407,12 +420,28 @@ Execution check_loops_closed(Interpreter& in) {
   return loop_without_end(in, &number) ? in.raise(Condition::loop_pair, Role::loop_number, number) : Execution::done;
 }
 
+/// HX 2.4.4: the main program goes back as often as L says. `repeats` of its frame is one more than what is left of that, 0 = nothing is counted.
+static Execution count_return(Interpreter& in, bool* goes_back) {
+  CallFrame& frame = top(in);
+  uint32_t times = 0;
+  const Execution did = repetitions(in, true, in.words.get(Role::return_passes), &times);
+  if (did != Execution::done) return did;
+  if (frame.repeats == 0) frame.repeats = times + 1;
+  *goes_back = --frame.repeats != 0;
+  return Execution::done;
+}
+
 Execution return_sub(Interpreter& in) {
   State& s = in.state;
   const BlockWords& w = in.words;
   if (check_loops_closed(in) != Execution::done) return Execution::fault;
   if (s.depth == 0) {  // M700 13.3.1: M99 in the main program goes to its head
     CallFrame& frame = top(in);
+    if (w.has(Role::return_passes) && in.dialect->rules.program.main_program_counts) {
+      bool goes_back = false;
+      const Execution did = count_return(in, &goes_back);
+      if (did != Execution::done || !goes_back) return did;
+    }
     if (w.has(Role::return_sequence) && !in.reader.is_tape(frame.program.file)) return jump_to_sequence(in, w.get(Role::return_sequence));
     s.loop_count = 0;
     frame.offset = frame.program.offset;
@@ -462,6 +491,26 @@ Execution return_sub(Interpreter& in) {
   s.owes_mark = !interrupted && (s.codes_left >> s.depth & 1) == 0;
   in.finish_block(stops, stops);
   if (interrupted) in.know_world_again();
+  return Execution::later;
+}
+
+/// HX 2.4.3: the last block of a pass has been run, as if M99 stood behind it. It has had its mark.
+Execution return_behind_last(Interpreter& in) {
+  State& s = in.state;
+  if (check_loops_closed(in) != Execution::done) return Execution::fault;
+  CallFrame& frame = top(in);
+  frame.last_begun = false;
+  s.loop_count = frame.loop_base;
+  if (frame.repeats > 0) {
+    --frame.repeats;
+    frame.offset = frame.begin;
+    frame.line = frame.begin_line;
+    frame.started = frame.begin != frame.program.offset;
+  } else {
+    leave(in);
+    s.owes_mark = (s.codes_left >> s.depth & 1) == 0;
+  }
+  in.keep_call();
   return Execution::later;
 }
 

@@ -98,6 +98,8 @@ InitialValues Interpreter::initial_values() const {
   if (settings.start_inch) modal.set(Function::inch);
   if (settings.start_synchronous) modal.set(Function::feed_per_revolution);  // M700 7.4 note 6, 7.5 (3)
   if (settings.start_high_accuracy) modal.set(Function::high_accuracy_mode);  // M700 13.15 (4)
+  if (settings.start_linear) modal.set(Function::linear);  // HX 3.2
+  if (settings.start_stroke_check) modal.set(Function::stroke_check_on);  // HX 3.2: no area yet
   modal.set(settings.start_plane);
   basic_plane_axes(*this, settings.start_plane, initial.plane_axis);
   initial.motion_outlives_end = dialect->rules.program.motion_outlives_end;
@@ -313,6 +315,7 @@ bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
   }
   if (!block->empty || block->has_n || block->has_o) frame.started = true;
   if (!block->empty) return true;
+  if (frame.last_sequence != 0) note_last_block(frame);
   frame.offset = block->next;
   frame.line = block->next_line;
   if (block->has_n || block->has_o) finish_block(false, false);
@@ -338,6 +341,7 @@ nc_status Interpreter::run_block(uint32_t& budget) {
     source.line = frame.line;
     return settle(need(NC_SYNC_STOPPED));
   }
+  if (frame.last_begun) return settle(return_behind_last(*this));
   block = reader.read(frame.program.file, frame.offset, frame.line);
   if (block == nullptr) {
     source.line = frame.line;
@@ -354,15 +358,19 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   const uint8_t depth = state.depth;
   frame.offset = block->next;
   frame.line = block->next_line;
+  if (frame.last_sequence != 0) note_last_block(frame);
   const bool no_statements = block->statements.empty();
   if (no_statements && execute_plain_line(*this)) return settle(Execution::done);
   const Execution did = no_statements ? execute_words(*this) : execute_statements();
   if (did == Execution::sync && next_step == Step::none) {  // read this block again when the answer is there
     state.frame[depth].offset = begin;
     state.frame[depth].line = line;
+    state.frame[depth].last_begun = false;
   }
   return settle(did);
 }
+
+void Interpreter::note_last_block(CallFrame& frame) const { frame.last_begun = block->has_n && block->n == frame.last_sequence; }
 
 Execution Interpreter::execute_statements() {
   // M700 13.17.1 precaution (12): no variables and macro statements in high-speed high-accuracy control II.
@@ -374,7 +382,10 @@ Execution Interpreter::execute_statements() {
       if (did != Execution::sync && did != Execution::fault) statement = 0;  // the one that is wrong is looked at once more (note_cause)
       return did;
     }
-    if (jumped) break;
+    if (jumped) {
+      state.frame[state.depth].last_begun = false;  // it goes on there
+      break;
+    }
     ++statement;
   }
   statement = 0;

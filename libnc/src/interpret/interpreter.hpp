@@ -188,6 +188,7 @@ struct Interpreter : BlockContext {
 
   nc_status run_block(uint32_t& budget);
   bool enter_block(CallFrame& frame, nc_status* status);
+  void note_last_block(CallFrame& frame) const;
   nc_status settle(Execution did);
   void stop(const Fault& what, const nc_source& where);
   void note_calls(const nc_source& where, const CallFrame* levels);
@@ -225,6 +226,7 @@ Execution return_sub(Interpreter& in);        ///< M99
 Execution call_external(Interpreter& in);     ///< M198
 Execution check_loops_closed(Interpreter& in);  ///< at the end of a program: a DO without END is P294
 Execution text_ended(Interpreter& in);        ///< the end of the text, or '%'
+Execution return_behind_last(Interpreter& in);  ///< the last block of a pass has been run: as M99
 
 /// interpret/program_control.cpp: what the M codes of the block do behind its moves: stops, ends, calls.
 Execution codes_behind(Interpreter& in);

@@ -123,6 +123,17 @@ Eval read_parameter(Access& a) {
   return give(a, value);
 }
 
+/// HX 14.2.3: a parameter as a variable of its own number.
+Eval read_parameter_itself(Access& a) {
+  double value = 0;
+  a.in.parameters.get(ParameterId::of_number(a.number), -1, -1, &value);
+  return give(a, value);
+}
+Execution write_parameter_itself(Access& a) {
+  if (a.in.set_parameter(ParameterId::of_number(a.number), -1, -1, a.written)) return Execution::done;
+  return a.in.raise(Condition::value_range, '#', a.written);
+}
+
 // ---- devices (10.17) ---------------------------------------------------------------------------------------------------------
 
 Execution select_device(Access& a) {

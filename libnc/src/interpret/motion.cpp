@@ -403,7 +403,7 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   if (program_mapped(in)) {
     if (tilts_plane(in, h, v)) return in.raise_mode(Condition::plane_mismatch, Mode::motion);  // 13.21
     if (scaled_unevenly(in, h, v)) return in.raise_mode(Condition::arc_deviation, Mode::motion);  // 13.19 (4)
-    words.radius *= scale_of(in, h);
+    words.radius *= std::fabs(scale_of(in, h));
     map_arc(in, h, v, words.center, &ccw);
   }
   const MoveFrame frame = frame_of_move(in, target, commanded);

@@ -154,7 +154,10 @@ bool Parameters::same_entry(const Parameters& other, unsigned index, unsigned* t
 bool Parameters::get(const Dialect& dialect, ParameterOf parameter, int axis, double* value) const {
   ParameterId id;
   int bit = -1;
-  return parameter_place(dialect, parameter, &id, &bit) && get(id, bit, axis, value);
+  if (!parameter_place(dialect, parameter, &id, &bit, axis) || !get(id, bit, axis, value)) return false;
+  const ParameterRow* const row = parameter_row(dialect, parameter.what);
+  if (row != nullptr && row->means != nullptr) *value = row->means(*value);
+  return true;
 }
 
 bool Parameters::get(ParameterId id, int bit, int axis, double* value) const {

@@ -37,8 +37,9 @@ struct Settings {
   bool interference_check = false;    ///< #8103 OFF (M700; DGSHAPE checks nothing)
   bool interference_avoid = false;    ///< #8102 ON
   double skip_feed = 0;               ///< #1174, mm/min
-  double multi_skip_feed[3] = {};     ///< #1176 #1178 #1180: G31.1 G31.2 G31.3, mm/min
-  uint8_t multi_skip_mask[3] = {1, 2, 4};  ///< #1175 #1177 #1179: their skip signals, bit n = signal n+1
+  static constexpr unsigned kMultiSkips = 4;  ///< HX 4.9; M700 15.3: three
+  double multi_skip_feed[kMultiSkips] = {};     ///< #1176 #1178 #1180: G31.1 G31.2 G31.3, mm/min
+  uint8_t multi_skip_mask[kMultiSkips] = {1, 2, 4, 8};  ///< #1175 #1177 #1179: their skip signals, bit n = signal n+1
   double measure_feed = 0;            ///< #8004, mm/min
   double measure_deceleration = 0;    ///< #8005, mm
   double measure_range = 0;           ///< #8006, mm
@@ -122,6 +123,15 @@ struct Settings {
   AccuracyParameters accuracy;            ///< of high-accuracy control, 13.15
   FairingRule fairing;                    ///< #8033, #8029, #8036, #8037 (13.17.1)
   FilterParameters filters;               ///< behind interpolation, 7.7, 13.15
+  bool start_linear = false;              ///< HX PI 144
+  bool start_stroke_check = false;        ///< HX PI 148
+  double axis_factor[kMaxAxes] = {};      ///< HX PI 108 to 116, 0 = not set
+  double rotation_deg = 0;                ///< HX PI 117
+  bool dwell_in_revolutions = false;      ///< HX PI 120
+  double corner_reach = 0;                ///< HX PI 126: way behind the corner, mm
+  uint8_t polar_axis[2] = {};             ///< HX PM 4623, 4624: number of the axis from 1, 0 = not set
+  bool cylinder_second_axis = false;      ///< HX PI 155
+  bool box_outside = false;               ///< HX PM 3474
   // DGSHAPE settings
   bool calculator = false;
   uint8_t calculator_words = 0;       ///< 0 none, 1 all, 2 F, 3 IJKRXYZA

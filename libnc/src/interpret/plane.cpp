@@ -20,6 +20,17 @@ int8_t axis_of_pair(const BlockContext& in, unsigned pair) {
   return index_of(in, second ? parallel : basic);
 }
 
+unsigned cylinder_stands_for(const BlockContext& in) {
+  const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
+  const unsigned first = pair.first == 0 || pair.second == 0 ? 0u : 1u;  // X, or Y in the plane without X
+  return !in.settings.cylinder_second_axis ? first : pair.first == first ? pair.second : pair.first;
+}
+
+void put_cylinder_axis(BlockContext& in) {
+  const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
+  in.state.plane_axis[pair.first == cylinder_stands_for(in) ? 0 : 1] = static_cast<int8_t>(in.state.map.rotary);
+}
+
 PlaneAxes plane_axes(const BlockContext& in) {
   const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
   return {in.state.plane_axis[0], in.state.plane_axis[1], pair.plane, {vector_along(pair.first), vector_along(pair.second)}};
@@ -40,6 +51,7 @@ Execution select_plane(BlockContext& in, const FunctionRow& row) {
   state.modal.set(row);
   state.plane_axis[0] = h;
   state.plane_axis[1] = v;
+  if (state.map.kind == AxisMap::Kind::cylinder && rules.mill.rotary_in_block) put_cylinder_axis(in);
   return Execution::done;
 }
 

@@ -22,6 +22,11 @@ PlaneAxes plane_axes(const BlockContext& in);
 /// G17, G18, G19 in the block in hand: M700 6.3, the axis of a pair that the block names, the basic one when it names both or none.
 Execution select_plane(BlockContext& in, const FunctionRow& row);
 
+/// HX 4.7: the axis (I, J or K: 0, 1, 2) of the plane in force that the rotary axis of a cylinder stands for.
+unsigned cylinder_stands_for(const BlockContext& in);
+/// It takes that axis' place in the plane.
+void put_cylinder_axis(BlockContext& in);
+
 /// The basic axes of a plane, which it has at power on and reset.
 void basic_plane_axes(const BlockContext& in, Function plane, int8_t axis[2]);
 

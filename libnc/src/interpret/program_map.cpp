@@ -47,6 +47,14 @@ Affine scaling(const BlockContext& in, unsigned axes) {
   return map;
 }
 
+/// What of the scaling is a mirror: a factor below 0 turns the axis round.
+Affine mirror_by_scaling(const BlockContext& in, unsigned axes) {
+  Affine map;
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (has(axes, i) && scale_of(in, i) < 0) add(map, Affine::stretch(i, -1, in.records->maps.scaling_center[i]));
+  return map;
+}
+
 Affine mirror_by_program(const BlockContext& in, unsigned axes) {
   Affine map;
   for (unsigned i = 0; i < in.axis_count; ++i)
@@ -84,10 +92,11 @@ Affine turn_of_figure(const BlockContext& in) {
 
 /// With the rotation by parameter as commanded, or as the axes have reached it; `stretched`: with scaling.
 Affine whole_map(const BlockContext& in, const WorkTurn& turn, bool stretched) {
-  Affine map = stretched ? scaling(in, scaled_in_figure(in)) : Affine{};
+  const auto scaled = stretched ? scaling : mirror_by_scaling;
+  Affine map = scaled(in, scaled_in_figure(in));
   add(map, mirror_by_program(in, mirror_in_figure(in)));
   add(map, turn_of_figure(in));
-  if (stretched) add(map, scaling(in, scaled_behind(in)));
+  add(map, scaled(in, scaled_behind(in)));
   add(map, rotation_by_program(in));
   add(map, mirror_by_program(in, mirror_behind(in)));
   add(map, mirror_by_switch(in));
@@ -168,12 +177,13 @@ AxisVec in_front_of_mirror(const BlockContext& in, const AxisVec& work) {
 }
 
 double scale_of(const BlockContext& in, unsigned axis) {
-  return ((in.state.scaled >> axis) & 1) != 0 ? in.records->maps.scaling_factor : 1.0;
+  return ((in.state.scaled >> axis) & 1) != 0 ? in.records->maps.scaling_factor[axis] : 1.0;
 }
 
 bool scaled_unevenly(const BlockContext& in, unsigned h, unsigned v) {
   const unsigned shape = scaled_in_figure(in), behind = scaled_behind(in);
-  return has(shape, h) != has(shape, v) || has(behind, h) != has(behind, v);
+  return has(shape, h) != has(shape, v) || has(behind, h) != has(behind, v) ||
+         (has(in.state.scaled, h) && std::fabs(scale_of(in, h)) != std::fabs(scale_of(in, v)));
 }
 
 double mapped_on(const BlockContext& in, unsigned axis, double programmed) {

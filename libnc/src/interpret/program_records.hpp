@@ -60,7 +60,7 @@ struct InterruptProgram {
 struct ProgramMaps {
   AxisVec mirror_center;                ///< M700 13.6
   AxisVec scaling_center;               ///< 13.19
-  double scaling_factor = 0;
+  AxisVec scaling_factor;
   double rotation_center[2] = {0, 0};   ///< 13.20: workpiece coordinates
   double rotation_deg = 0;
   bool operator==(const ProgramMaps&) const = default;

@@ -113,6 +113,8 @@ void SettingsReader::units() {
 void SettingsReader::start() {
   s_.start_inch = flag(P::start_inch);
   s_.start_absolute = value(P::start_absolute, 1) != 0;
+  s_.start_linear = flag(P::start_linear);
+  s_.start_stroke_check = flag(P::start_stroke_check);
   s_.start_synchronous = flag(P::start_synchronous);
   s_.start_high_accuracy = flag(P::start_high_accuracy);
   const double start_plane = value(P::start_plane, 1);  // 1 G17, 2 G18, 3 G19
@@ -141,6 +143,8 @@ void SettingsReader::words() {
     s_.plane_parallel[i] = axis_name({P::parallel_axis, i});
   }
   s_.scaling_factor = value(P::scaling_factor, 1);
+  for (unsigned i = 0; i < kMaxAxes; ++i) s_.axis_factor[i] = value(P::axis_factor, 0, static_cast<int>(i)) / 1000;
+  s_.rotation_deg = value(P::rotation_angle, 0);
 }
 
 /// M700 9, 10: M codes and the spindle.
@@ -189,11 +193,14 @@ void SettingsReader::macros() {
 void SettingsReader::cycles() {
   s_.drilling_axis_z = flag(P::drilling_axis_z);
   s_.peck_clearance_83 = value(P::peck_clearance, 0);
-  s_.peck_clearance_73 = value(P::step_clearance, 0);
+  // HX 12.3.3, 12.3.4: one parameter is of both.
+  s_.peck_clearance_73 = parameter_row(dialect_, P::step_clearance) != nullptr ? value(P::step_clearance, 0) : s_.peck_clearance_83;
   s_.dwell_p_decimal = flag(P::dwell_p_decimal);
+  s_.dwell_in_revolutions = flag(P::dwell_in_revolutions);
+  s_.box_outside = flag(P::box_outside);
   s_.dwell_skip = static_cast<uint8_t>(value(P::dwell_skip, 0));
   s_.skip_feed = value(P::skip_feed, 0);
-  for (unsigned i = 0; i < 3; ++i) {  // 15.3
+  for (unsigned i = 0; i < Settings::kMultiSkips; ++i) {  // 15.3
     s_.multi_skip_mask[i] = signals(value({P::multi_skip_signals, i}, s_.multi_skip_mask[i]));
     s_.multi_skip_feed[i] = value({P::multi_skip_feed, i}, 0);
   }
@@ -212,6 +219,8 @@ void SettingsReader::curves() {
   s_.mill_axis = axis_name(P::mill_axis);
   s_.polar_linear = axis_name(P::polar_linear_axis);
   s_.hypothetical_by_name = flag(P::hypothetical_by_name);
+  s_.cylinder_second_axis = flag(P::cylinder_second_axis);
+  for (unsigned i = 0; i < 2; ++i) s_.polar_axis[i] = static_cast<uint8_t>(value({P::polar_axis, i}, 0));
   s_.exponential_linear = axis_name({P::exponential_axis, 0});
   s_.exponential_rotary = axis_name({P::exponential_axis, 1});
   s_.spline_allowed = flag(P::spline_allowed);
@@ -287,6 +296,7 @@ void SettingsReader::feeds() {
   s_.corner_override = value(P::corner_override, 0);
   s_.corner_angle = value(P::corner_override_angle, 0);
   s_.corner_zone = value(P::corner_override_zone, 0);
+  s_.corner_reach = parameter_row(dialect_, P::corner_override_behind) != nullptr ? value(P::corner_override_behind, 0) : s_.corner_zone;
 }
 
 /// M700 13.13, 14.7, 14.13: what stands for each axis.

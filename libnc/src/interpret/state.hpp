@@ -74,8 +74,10 @@ struct CallFrame {
   uint8_t modal_call = 0;     ///< slot (interpret/program_records.hpp) of the modal macro call in force in this program, 0 = none
   uint8_t modal_slot = 0;     ///< slot of the modal call that runs this program, 0 = none
   uint8_t figure = 0;         ///< passes are rotated (M700 13.3.3): one of the two below, 0 = no
+  uint32_t last_sequence = 0;  ///< behind the block of this number a pass has ended (HX 2.4.3), 0 = M99 says so
+  bool last_begun = false;    ///< that block has been read
 };
-static_assert(sizeof(CallFrame) == 64);
+static_assert(sizeof(CallFrame) == 72);
 
 /// An open DO.
 struct Loop {

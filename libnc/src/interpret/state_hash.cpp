@@ -87,8 +87,9 @@ class Hash {
   }
   void add_one(const CallFrame& frame) {
     const auto& [program, offset, begin, line, begin_line, call_line, repeats, kind, macro_level, loop_base, started, origin, modal_call, modal_slot,
-                 figure] = frame;
-    add(program, offset, begin, line, begin_line, call_line, repeats, kind, macro_level, loop_base, started, origin, modal_call, modal_slot, figure);
+                 figure, last_sequence, last_begun] = frame;
+    add(program, offset, begin, line, begin_line, call_line, repeats, kind, macro_level, loop_base, started, origin, modal_call, modal_slot, figure, last_sequence,
+        last_begun);
   }
   void add_one(const OptionalDouble& number) { add_one(number.value_or(std::numeric_limits<double>::quiet_NaN())); }
   void add_one(const ModalCall& call) {
@@ -146,8 +147,8 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     if (map.frozen != 0) hash.add(in.points[held_point].at);
     hash.add(stroke_box != 0);
     if (stroke_box != 0) {
-      const auto& [axis, turns, low, high] = in.stroke_boxes[stroke_box - 1];
-      hash.add(axis, turns, low, high);
+      const auto& [axis, turns, low, high, outside] = in.stroke_boxes[stroke_box - 1];
+      hash.add(axis, turns, low, high, outside);
     }
   }
   {

@@ -70,6 +70,8 @@ Eval read_tool_group(Access& a);
 Eval read_tool_life(Access& a);
 Execution select_parameter(Access& a);
 Eval read_parameter(Access& a);
+Eval read_parameter_itself(Access& a);
+Execution write_parameter_itself(Access& a);
 Execution select_device(Access& a);
 Eval read_device(Access& a);
 

@@ -300,7 +300,8 @@ Eval give_program(Access& a, uint32_t number) {
 
 ModalWord word_of(const Access& a) {
   const Table<ModalWord>& words = a.in.dialect->variables->words;
-  return a.index < words.size ? words.row[a.index] : ModalWord::none;
+  const uint32_t place = a.part + a.index;
+  return place < words.size ? words.row[place] : ModalWord::none;
 }
 
 Eval give_word(Access& a, const ModalState& m) {
@@ -379,6 +380,8 @@ Eval read_deviation(Access& a) {
   return world_known(a, NC_SYNC_POSITION) ? give(a, 0) : Eval::need_sync;
 }
 
+Eval read_reference(Access& a) { return axis_ok(a) ? give(a, position_read(a.in, a.index, a.in.reference(a.part, a.index))) : no_variable(a); }
+
 constexpr uint32_t kPosition = NC_SYNC_POSITION, kInput = NC_SYNC_INPUT, kClock = NC_SYNC_CLOCK, kModal = NC_SYNC_MODAL;
 
 using V = SystemVariable;
@@ -420,6 +423,8 @@ constexpr VariableHandler kHandlers[kSystemVariables] = {
     {V::parameter, read_parameter, nullptr, 0},
     {V::device_select, nullptr, select_device, 0},
     {V::device, read_device, nullptr, kInput},
+    {V::parameter_itself, read_parameter_itself, write_parameter_itself, 0},
+    {V::reference_position, read_reference, nullptr, 0},
 };
 constexpr bool in_order() {
   for (unsigned i = 0; i < kSystemVariables; ++i)

@@ -10,7 +10,7 @@ namespace nc {
 enum class Mode : uint8_t {
   motion, plane, distance, stroke_check, feed, unit, radius, length, cycle, return_level, scaling, work,
   cutting, macro, normal_line, rotation, surface_speed, polar_command, mirror, interpolation,
-  arc_centre,
+  arc_centre, high_speed,
   none   ///< of a function that acts in its own block only
 };
 inline constexpr unsigned kModes = static_cast<unsigned>(Mode::none);
@@ -109,6 +109,10 @@ inline constexpr ModeRow kModeRows[] = {
     {Mode::interpolation, Function::cylinder},
     {Mode::arc_centre, Function::centre_incremental},
     {Mode::arc_centre, Function::centre_absolute},
+    {Mode::cycle, Function::cycle_rigid_tap},
+    {Mode::cycle, Function::cycle_rigid_reverse_tap},
+    {Mode::high_speed, Function::high_speed_off},
+    {Mode::high_speed, Function::high_speed_on},
 };
 
 constexpr ModeTable make_mode_table() {

@@ -59,6 +59,8 @@ struct LexRules {
   bool slash_only_at_head = true;  ///< elsewhere '/' is an error (dgshape) or division (with macros)
   bool comma_words = false;        ///< ",R" ",C" ",A" ",I" ",J" ",S" ",D"
   bool angle_names = false;        ///< <FILE.NC> behind M98 G65
+  bool jump_letter = false;        ///< the letter of sequence numbers may stand in front of the number behind GOTO (HX 14.5.1)
+  uint32_t most_loop_number = 127; ///< of DO and END (M700 13.5.7)
   bool percent_alone = false;      ///< no word may stand behind '%' in its block (DGSHAPE 2-6); else it is text
   WordFormat word[26];             ///< by address, 0 = A
 };

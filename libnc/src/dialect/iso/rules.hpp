@@ -22,7 +22,8 @@ inline constexpr Rules kRules = {
                .largest_feed_inch = 1e6,
                .largest_undotted_feed_mm = 1e7,
                .largest_undotted_feed_inch = 1e6,
-               .units_per_micrometre = units_per_micrometre},
+               .units_per_micrometre = units_per_micrometre,
+               .rounds_formulas = false},
     .block = {.distance_by_word = false,  // RS-274/NGC 3.8: the distance mode is set before anything moves
               .whole_words_refuse_point = false,
               .stops_stand_alone = false,
@@ -58,7 +59,8 @@ inline constexpr Rules kRules = {
                .zero_is_number = true,  // RS-274/NGC 3.5.11: H0 is an offset of zero
                .moves_at_once = false,
                .shifts_reading = true,
-               .number_is_that_of_tool = true},
+               .number_is_that_of_tool = true,
+               .axis_on_plane = false},
     .cycle = {.xy_plane_only = false,
               .takes_rotary_axes = false,  // RS-274/NGC 3.5.16: an error
               .needs_turning_spindle = false,
@@ -77,16 +79,23 @@ inline constexpr Rules kRules = {
                   .all_axes_without_words = true},
     .coordinate = {.machine_move_may_be_incremental = false,  // LinuxCNC G53: an error in G91
                    .machine_code_ends_shift = false,
-                   .machine_move_by_motion = true},
-    .scaling = {.all_linear_axes = false, .factor_required = true, .factor_of_word = factor_of_word},
+                   .machine_move_by_motion = true,
+               .incremental_machine_move_rests = false},
+    .scaling = {.all_linear_axes = false, .factor_required = true, .factor_of_word = factor_of_word,
+               .factor_by_axis = false},
     .data_input = {.incremental_adds = false,
                    .system_required = true,
                    .axes_required = false,
                    .vector_turns_work = false,
                    .zero_is_selected_system = true,
                    .amount_turns_system = true},
-    .program = {.macro_interrupt = false, .motion_outlives_end = false},
+    .program = {.macro_interrupt = false, .motion_outlives_end = false,
+               .loops_in_one_another = 0,
+               .main_program_counts = false},
     .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
+    .rotation = {.plane_in_block = false, .angle_by_parameter = false},
+    .mill = {.rotary_in_block = false},
+    .code_call = {.first_of_g = 0, .first_of_m = 0, .arguments_behind_m = false, .tool_program = nullptr},
 };
 
 }  // namespace nc::iso

@@ -51,7 +51,7 @@ Execution do_circle_cut(BlockContext& in) {
   // In inch a degree of such an axis is a tenth of an inch long (3.2 note 5), which 13.10 knows nothing of.
   if ((in.rotary & axes) != 0 && in.state.modal.is(Function::inch)) return in.raise(Condition::no_function, in.system->axis[first_of(in.rotary & axes)].name);
   double radius = 0;
-  did = path_radius(in, scale_of(in, h), &radius);
+  did = path_radius(in, std::fabs(scale_of(in, h)), &radius);
   if (did == Execution::done) did = check_feed(in, row.function);
   if (did != Execution::done) return did;
   const bool mapped = program_mapped(in), ccw = row.function == Function::circle_cut_ccw;

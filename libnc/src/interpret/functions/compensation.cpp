@@ -49,6 +49,10 @@ Execution number_of_tool(BlockContext& in, Role word, uint32_t* number) {
 /// M700 12.2 (3): the axis that G43 or G44 compensates, by the words of its block: Zp before Yp before Xp, each the basic axis or the
 /// parallel axis of #1029 to #1031; Z with #1080 and when none of them is named.
 int length_axis_of_block(const BlockContext& in) {
+  if (in.dialect->rules.length.axis_on_plane) {
+    const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
+    return axis_of_pair(in, 3u - plane.first - plane.second);
+  }
   const int z = in.axis_called(Role::basic_z);
   if (!in.dialect->rules.length.axis_by_words || in.settings.drilling_axis_z) return z;
   for (const unsigned pair : {2u, 1u, 0u}) {

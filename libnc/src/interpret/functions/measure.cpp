@@ -78,7 +78,8 @@ Execution do_measure_length(BlockContext& in) {
   style.kind = NC_MOVE_SKIP;
   style.feed_mm_min = m.feed_mm_min;
   style.exact_stop = true;
-  style.skip_mask = 1;  // (2): the skip signal
+  const unsigned number = in.words.one_shot->number;
+  style.skip_mask = number < 2 ? uint8_t{1} : static_cast<uint8_t>(1u << (number - 1));  // (2): the skip signal; HX 4.10: one for each code
   move_linear(in, behind, axis, style);
   return in.need(NC_SYNC_SKIP | NC_SYNC_POSITION);
 }

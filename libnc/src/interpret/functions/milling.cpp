@@ -24,8 +24,18 @@ Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
   return Execution::done;
 }
 
+/// HX 4.7: the axis that the block of the cylinder names; 4.6: the one of the parameter, or the first that turns.
+int rotary_axis_of_block(const BlockContext& in) {
+  const uint32_t named = in.words.axes & in.rotary;
+  if (named != 0) return static_cast<int>(first_of(named));
+  const unsigned number = in.settings.polar_axis[1];
+  if (number != 0) return number <= in.axis_count && ((in.rotary >> (number - 1)) & 1) != 0 ? static_cast<int>(number - 1) : -1;
+  return in.rotary != 0 ? static_cast<int>(first_of(in.rotary)) : -1;
+}
+
 /// Index of the rotary axis of both modes (#1516), -1 = none is named or it does not turn.
 int rotary_axis(const BlockContext& in) {
+  if (in.dialect->rules.mill.rotary_in_block) return rotary_axis_of_block(in);
   const char name = in.settings.mill_axis;
   const int axis = in.axis_named(name);
   return axis >= 0 && ((in.rotary >> axis) & 1) != 0 ? axis : -1;
@@ -33,6 +43,10 @@ int rotary_axis(const BlockContext& in) {
 
 /// The basic axis that is the linear one of polar coordinate interpolation: the first, unless #1533 names another (6.10).
 unsigned polar_linear(const BlockContext& in) {
+  if (const unsigned number = in.settings.polar_axis[0]; number != 0 && number <= in.axis_count) {
+    for (unsigned i = 1; i < 3; ++i)
+      if (in.system->axis[number - 1].name == in.dialect->addresses.letter(basic_along(i))) return i;
+  }
   for (unsigned i = 2; i > 0; --i)
     if (in.settings.polar_linear != 0 && in.settings.polar_linear == in.dialect->addresses.letter(basic_along(i))) return i;
   return 0;
@@ -129,8 +143,9 @@ Execution do_cylinder(BlockContext& in) {
   const FunctionRow& code = *w.one_shot;
   if (w.g.size() > 1) return in.raise_code(Condition::format_error, code);
   if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::mill_state, code);
-  const char name = in.settings.mill_axis;
-  const int axis = rotary_axis(in);
+  const bool by_word = in.dialect->rules.mill.rotary_in_block;
+  const int axis = by_word && (w.axes & in.rotary) == 0 ? -1 : rotary_axis(in);
+  const char name = by_word && axis >= 0 ? in.system->axis[axis].name : in.settings.mill_axis;
   if (axis < 0) return in.raise(Condition::mill_axis, name);
   if (!w.has(name)) return in.raise(Condition::format_error, name);
   if (const Execution did = stands_alone(in, 1u << axis); did != Execution::done) return did;
@@ -152,6 +167,10 @@ Execution do_cylinder(BlockContext& in) {
   state.refresh_special();
   // (3), (9): the plane with the rotary axis may be selected just before or just behind; some models take the one of Z and the
   // rotary axis by themselves in G19.
+  if (by_word) {
+    put_cylinder_axis(in);
+    return Execution::done;
+  }
   const int8_t rotary = static_cast<int8_t>(axis);
   const bool chosen = state.plane_axis[0] == rotary || state.plane_axis[1] == rotary;
   const bool paired = in.settings.plane_parallel[0] == name || in.settings.plane_parallel[1] == name || in.settings.plane_parallel[2] == name;
@@ -238,7 +257,8 @@ Execution check_mill_move(BlockContext& in, uint32_t commanded) {
   uint32_t system = 1u << state.map.rotary;
   for (unsigned i = 0; i < 3; ++i) {
     const char basic = in.settings.plane_basic[i];
-    const int axis = basic == 0 || in.settings.plane_parallel[i] == in.settings.mill_axis ? -1 : in.axis_named(basic);
+    const bool replaced = in.dialect->rules.mill.rotary_in_block ? i == cylinder_stands_for(in) : in.settings.plane_parallel[i] == in.settings.mill_axis;
+    const int axis = basic == 0 || replaced ? -1 : in.axis_named(basic);
     if (axis >= 0) system |= 1u << axis;
   }
   for (unsigned i = 0; i < in.axis_count; ++i)

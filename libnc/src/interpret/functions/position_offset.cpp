@@ -44,7 +44,7 @@ void lengthen_ways(BlockContext& in, double amount, bool arc) {
     const double way = by_increment ? w.axis[i] : target[i] - position[i];
     // Precaution (3): of a zero that is an increment the sign counts, an absolute one stays; so does the axis that a half circle comes back to.
     const bool stays = way == 0 && (!by_increment || arc);
-    w.axis[i] = stays ? 0 : longer(way, ways / scale_of(in, i));
+    w.axis[i] = stays ? 0 : longer(way, ways / std::fabs(scale_of(in, i)));
   }
   w.incremental = w.axes;
 }
@@ -60,7 +60,7 @@ Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
   if (did != Execution::done) return did;
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   lengthen_ways(in, amount, true);
-  const double by = amount / scale_of(in, h);
+  const double by = amount / std::fabs(scale_of(in, h));
   if (words.has_radius) words.radius = longer(words.radius, by);
   for (double& center : words.center)
     if (center != 0) center = longer(center, by);

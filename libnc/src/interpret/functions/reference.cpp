@@ -196,6 +196,7 @@ Execution do_machine_move(BlockContext& in) {
   for (const FunctionRow* row : w.g)
     if (row->function == Function::coordinate_set && in.dialect->rules.coordinate.machine_code_ends_shift) return clear_shift(in);
   const bool incremental = w.incremental != 0 || in.state.modal.is(Function::incremental);
+  if (incremental && in.dialect->rules.coordinate.incremental_machine_move_rests) return Execution::done;
   if (incremental && !in.dialect->rules.coordinate.machine_move_may_be_incremental) return in.raise_code(Condition::code_in_incremental, *w.one_shot);
   AxisVec machine = in.state.machine;
   uint32_t absolute = 0;

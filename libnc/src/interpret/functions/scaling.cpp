@@ -22,14 +22,33 @@ bool factor_of(const BlockContext& in, double* factor) {
   return true;
 }
 
+/// Factor of each axis: of I J K, else of P, else of its parameter (HX 15.2.2). False: out of range, and `word` says which one.
+bool factors_of_axes(const BlockContext& in, AxisVec& factors, Role* word) {
+  const BlockWords& w = in.words;
+  const auto of_word = in.dialect->rules.scaling.factor_of_word;
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    factors[i] = in.settings.axis_factor[i];
+    if (!(std::fabs(factors[i]) >= kLeastFactor && std::fabs(factors[i]) <= kLargestFactor)) factors[i] = 1;
+    *word = Role::scaling_factor;
+    for (unsigned k = 0; k < 3; ++k)
+      if (in.settings.plane_basic[k] == in.system->axis[i].name && w.has(vector_along(k))) *word = vector_along(k);
+    if (w.has(*word) && !of_word(w.get(*word), w.pointed(*word), &factors[i])) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Execution do_scaling(BlockContext& in) {
   const BlockWords& w = in.words;
   const ScalingRules& rules = in.dialect->rules.scaling;
   if (!w.has(Role::scaling_factor) && rules.factor_required) return in.raise(Condition::words_missing, Role::scaling_factor);
+  AxisVec factors;
+  Role word = Role::scaling_factor;
   double factor = 1;
-  if (!factor_of(in, &factor)) return in.raise(Condition::value_range, Role::scaling_factor, w.get(Role::scaling_factor));
+  const bool good = rules.factor_by_axis ? factors_of_axes(in, factors, &word) : factor_of(in, &factor);
+  if (!good) return in.raise(Condition::value_range, word, w.get(word));
+  for (unsigned i = 0; i < in.axis_count && !rules.factor_by_axis; ++i) factors[i] = factor;  // (8): the newest counts for all axes
   const AxisVec at = to_program(in, in.position());
   const uint32_t axes = rules.all_linear_axes ? ~in.rotary & ((1u << in.axis_count) - 1) : w.axes;
   ProgramMaps maps = in.records->maps;
@@ -38,7 +57,7 @@ Execution do_scaling(BlockContext& in) {
     const bool given = ((w.axes >> i) & 1) != 0, incremental = ((w.incremental >> i) & 1) != 0;
     maps.scaling_center[i] = !given ? at[i] : incremental ? at[i] + w.axis[i] : w.axis[i];
   }
-  maps.scaling_factor = factor;  // (8): the newest counts for all axes
+  maps.scaling_factor = factors;
   in.change(&ProgramRecords::maps, maps);
   in.state.scaled |= static_cast<uint8_t>(axes);
   if (in_figure(in)) in.state.figure_scaled |= static_cast<uint8_t>(axes);  // (6)
@@ -59,10 +78,11 @@ Execution do_rotation(BlockContext& in) {
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_code(Condition::plane_mismatch, *w.one_shot);
   for (const FunctionRow* row : w.g)
-    if (is_plane(row->function)) return in.raise_code(Condition::plane_in_rotation, *row);  // (13): not in the same block
+    if (is_plane(row->function) && !in.dialect->rules.rotation.plane_in_block) return in.raise_code(Condition::plane_in_rotation, *row);  // (13)
   ProgramMaps maps = in.records->maps;
-  if (w.has(Role::rotation_angle)) {                                                                         // (4), (5)
-    const double r = length_value(in, w.get(Role::rotation_angle), w.flag(Role::rotation_angle), true, true);
+  const bool by_parameter = !w.has(Role::rotation_angle) && in.dialect->rules.rotation.angle_by_parameter;
+  if (w.has(Role::rotation_angle) || by_parameter) {                                                         // (4), (5)
+    const double r = by_parameter ? in.settings.rotation_deg : length_value(in, w.get(Role::rotation_angle), w.flag(Role::rotation_angle), true, true);
     const double before = in.state.modal.is(Function::incremental) ? maps.rotation_deg : 0;
     maps.rotation_deg = std::fmod(before + r, 360);
   }

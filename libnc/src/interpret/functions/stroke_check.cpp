@@ -39,6 +39,7 @@ Execution do_stroke_check(BlockContext& in) {
     const char letter = first_of_block(in, other);
     return in.raise(Condition::illegal_address, letter, w.get(letter));
   }
+  box.outside = in.settings.box_outside;
   in.state.stroke_box = any ? in.stroke_boxes.intern(box) + 1 : 0;
   in.state.modal.set(*w.one_shot);
   return Execution::done;

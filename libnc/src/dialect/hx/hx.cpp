@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The HX family put together, and its state at power on.
+#include "dialect/hx/hx.hpp"
+
+#include "dialect/hx/addresses.hpp"
+#include "dialect/hx/rules.hpp"
+#include "dialect/hx/tables.hpp"
+
+namespace nc::hx {
+namespace {
+
+// G10: 13.1.3.
+constexpr DataInputRow kDataInput[] = {{10, DataInput::tool_length}, {12, DataInput::tool_radius}};
+
+// 3.2, by the parameters when they are not set; the cancel codes of the other groups.
+const Function kInitial[] = {
+    Function::rapid, Function::surface_off, Function::absolute, Function::feed_per_minute, Function::metric, Function::comp_off,
+    Function::stroke_check_off, Function::cycle_off, Function::scaling_off, Function::macro_modal_off, Function::length_off,
+    Function::work_system, Function::cutting_mode, Function::plane_xy, Function::polar_command_off, Function::rotation_off,
+    Function::return_initial, Function::polar_off, Function::high_speed_off,
+};
+
+}  // namespace
+
+const Dialect kDialect = {
+    .id = NC_DIALECT_HX,
+    .name = "hx",
+    .lex = &kLex,
+    .addresses = kAddressTable,
+    .axis_addresses = AddressTable::letters("ABCUVWXYZ"),
+    .length_addresses = AddressTable::letters("IJKQR"),
+    .argument_of = kArgumentOf,
+    .calling_letters = "",
+    .device_letter = 0,
+    .functions = {kFunctions, kFunctionRows},
+    .misc = {kMisc, kMiscRows},
+    .outputs = {kOutputs, kOutputRows},
+    .conditions = {kConditions, kConditionRows},
+    .alarms = {kAlarms, kAlarmRows},
+    .data_input = {kDataInput, sizeof kDataInput / sizeof kDataInput[0]},
+    .speed_modes = {},
+    .speed_options = {},
+    .parameters = &kParameters,
+    .variables = &kVariables,
+    .rules = kRules,
+    .initial = {kInitial, sizeof kInitial / sizeof kInitial[0]},
+    .macro_codes = {1, 255},  // 14.1.3 (2)
+    .own_codes = {1, 255},
+    .macro_misc = {1, 97},    // 11.2
+    .interrupt_misc = {1, 0},
+    .percent_required = false,
+    .end_code_required = true,  // F_82016
+    .bare_letters = false,
+    .call_depth = 8,  // 14.1.7 (5): four levels of M98 and four of macros
+};
+
+}  // namespace nc::hx

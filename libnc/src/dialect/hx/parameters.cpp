@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parameters of the HX family that something in the control asks for. Their keys are the numbers of the variables that they are to a program
+// (14.2.3): PI 144 is 3144, PM 2097 is 22097.
+#include <cmath>
+
+#include "dialect/hx/tables.hpp"
+
+namespace nc::hx {
+namespace {
+
+using P = Parameter;
+
+constexpr int8_t kAll = -1;
+constexpr const char* kOffOn = "0, 1";
+
+bool any(double) { return true; }
+bool at_least_0(double value) { return value >= 0; }
+template <int low, int high>
+bool between(double value) {
+  return value >= low && value <= high;
+}
+template <int low, int high>
+bool whole(double value) {
+  return between<low, high>(value) && value == std::floor(value);
+}
+
+/// 0 is the first plane here, 1 is it where the meaning counts.
+double plane_number(double value) { return value + 1; }
+/// 0 means that it is on.
+double unless(double value) { return value == 0 ? 1 : 0; }
+
+// clang-format off
+constexpr ParameterRow kNumbers[] = {
+    {3061, 3069, 1, kAll, false,    P::creep,                   any,               "mm", "G60: overrun of the axes; its sign is the direction", "4.2", 1},
+    {3072, 3072, 1, kAll, false,    P::diameter_offsets,        whole<0, 1>,       kOffOn, "values of D are diameters", "13.2.1"},
+    {3074, 3074, 1, kAll, false,    P::reset_clears_common,     whole<0, 1>,       kOffOn, "reset clears #100 to #199", "14.4"},
+    {3085, 3094, 1, kAll, false,    P::g_call_code,             between<0, 255>,   "0; 1-255", "G codes that call 9010 to 9019", "14.1.3"},
+    {3095, 3104, 1, kAll, false,    P::m_call_code,             between<0, 97>,    "0; 1-97", "M codes that call 9020 to 9029", "14.1.4"},
+    {3105, 3106, 1, kAll, false,    P::tool_macro,              whole<0, 9>,       "0; 0-9", "T calls a macro: with PI 106 program 9000 + PI 105, with PI 105 alone 9000", "10.1.1"},
+    {3108, 3116, 1, kAll, false,    P::axis_factor,             any,               "1000; 1/1000", "G51: factors of the axes", "15.2.1", 1},
+    {3117, 3117, 1, kAll, false,    P::rotation_angle,          between<-360, 360>, "0; deg", "G68: angle without R", "15.4.1"},
+    {3120, 3120, 1, kAll, false,    P::dwell_in_revolutions,    whole<0, 1>,       kOffOn, "G04 counts revolutions in G95", "5.4"},
+    {3124, 3124, 1, kAll, false,    P::corner_override,         between<0, 100>,   "0-100 %", "G62: feed in corners", "5.3.5"},
+    {3125, 3125, 1, kAll, false,    P::corner_override_zone,    at_least_0,        "mm", "G62: way in front of the corner", "5.3.5"},
+    {3126, 3126, 1, kAll, false,    P::corner_override_behind,  at_least_0,        "mm", "G62: way behind the corner", "5.3.5"},
+    {3128, 3128, 1, kAll, false,    P::comp_type_b,             whole<0, 1>,       "0 A, 1 B", "radius compensation starts and ends by type B", "13.2.2"},
+    {3129, 3129, 1, kAll, false,    P::peck_clearance,          at_least_0,        "0; mm", "G73, G83: distance d", "12.3.3"},
+    {3130, 3130, 1, kAll, false,    P::corner_override_angle,   between<2, 178>,   "2-178 deg", "G62: largest inner angle", "5.3.5"},
+    {3141, 3141, 1, kAll, false,    P::measure_deceleration,    at_least_0,        "mm", "G37: distance from which on the measuring feed is in force", "4.10"},
+    {3142, 3142, 1, kAll, false,    P::measure_range,           at_least_0,        "mm", "G37: range around the point where the signal may come", "4.10"},
+    {3143, 3143, 1, kAll, false,    P::measure_feed,            at_least_0,        "mm/min", "G37: measuring feed", "4.10"},
+    {3144, 3144, 1, kAll, false,    P::start_linear,            whole<0, 1>,       "0 G00, 1 G01", "motion at power on", "3.2"},
+    {3145, 3145, 1, kAll, false,    P::start_plane,             whole<0, 2>,       "0, 1, 2", "plane at power on: G17, G18, G19", "3.2", 0, 0, plane_number},
+    {3146, 3146, 1, kAll, false,    P::start_absolute,          whole<0, 1>,       "0 G90, 1 G91", "absolute or incremental at power on", "3.2", 0, 0, unless},
+    {3147, 3147, 1, kAll, false,    P::start_inch,              whole<0, 1>,       "0 G21, 1 G20", "inch at power on", "3.2"},
+    {3148, 3148, 1, kAll, false,    P::start_stroke_check,      whole<0, 1>,       "1 G23; 0 G22", "stored stroke check at power on", "3.2", 0, 0, unless},
+    {3151, 3151, 1, kAll, false,    P::arc_tolerance,           at_least_0,        "0.01 mm", "how far the end of an arc may lie beside its circle", "4.4"},
+    {3155, 3155, 1, kAll, false,    P::cylinder_second_axis,    whole<0, 1>,       "0 X (G17, G18) Y (G19), 1 Y (G17) Z (G18, G19)", "G107: axis of the plane that the rotary axis stands for", "4.7"},
+    {22097, 22192, 32, kAll, false, P::reference_position,      any,               "mm", "reference positions 2 to 4, 32 numbers each, by axis", "6.2", 1, 1},
+    {23474, 23474, 1, kAll, false,  P::box_outside,             whole<0, 1>,       "0 inside, 1 outside", "G22: where no axis may go", "15.5.3"},
+    {24623, 24624, 1, kAll, false,  P::polar_axis,              whole<0, 32>,      "0; number of the axis", "G112: linear axis (0 = the first), rotary axis (0 = the first that turns)", "4.6"},
+};
+// clang-format on
+
+constexpr ParameterPlaces kPlaces = places_of(kNumbers);
+
+// What other families have a parameter for and this one does not.
+constexpr FixedParameter kFixed[] = {
+    {P::tool_memory_type, 2},         // 13.1.2: H and D, a column each
+    {P::system_codes_call, 1},        // 14.1.3 (2): G01 to G255
+    {P::hypothetical_by_name, 1},     // 4.6: the second axis is C
+};
+
+template <class T, unsigned count>
+constexpr Table<T> table(const T (&rows)[count]) {
+  return {rows, count};
+}
+
+}  // namespace
+
+constinit const FamilyParameters kParameters = {
+    .numbers = table(kNumbers),
+    .places = &kPlaces,
+    .fixed = table(kFixed),
+    .arc_tolerance_mm = 0.01,     // docs/decisions.md
+    .checks_interference = true,  // 13.2.2
+};
+
+}  // namespace nc::hx

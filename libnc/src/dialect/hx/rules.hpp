@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the HX family answers each rule of dialect/rules.hpp, where the sections of its manual stand.
+#pragma once
+
+#include "dialect/rules.hpp"
+
+namespace nc::hx {
+
+/// 8.4: a micrometre.
+double units_per_micrometre(double parameter);
+
+/// 9.2: S is r/min.
+double speed_of_word(uint32_t value);
+
+/// 15.2.1: thousandths, with or without a point.
+bool factor_of_word(double value, bool pointed, double* factor);
+
+/// 10.1.1, 14.1.6: with PI 106 a tool number calls program 9000 + PI 105, with PI 105 alone program 9000.
+uint32_t tool_program(double pi_105, double pi_106);
+
+inline constexpr Rules kRules = {
+    .number = {.undotted_feed_in_least_unit = false,
+               .undotted_range_is_digits = false,
+               .largest_feed_mm = 1e7,
+               .largest_feed_inch = 1e6,
+               .largest_undotted_feed_mm = 1e7,
+               .largest_undotted_feed_inch = 1e6,
+               .units_per_micrometre = units_per_micrometre,
+               .rounds_formulas = true},
+    .block = {.distance_by_word = false,  // 8.1, 8.2
+              .whole_words_refuse_point = false,
+              .stops_stand_alone = false,
+              .dwell_stands_alone = false,
+              .words_stand_once = false,  // 14.1.1 (3): the last one counts
+              .assigns_at_once = false},
+    .auxiliary = {.most_m_codes = ~0u, .tool_change_is_pair = false},
+    .spindle = {.speed_of_word = speed_of_word,
+                .limits_by_coordinate_setting = true,  // 9.3
+                .skips_repeated_codes = false},
+    .feed = {.inch_is_ten_degrees = false, .degree_counts_as_millimetre = true, .inverse_time_is_of_block = false},
+    .skip = {.feed_is_modal = true},  // 4.9: like G01
+    .arc = {.takes_rotary_axes = true,
+            .degree_is_tenth_of_inch = false,
+            .turns_exclude_radius = false,
+            .closed_by_radius_is_fault = true,  // 4.4: no 360 degrees by R
+            .turns_count_last = false},
+    .dwell = {.time_optional = true, .early_x_is_length = false, .longest_s = 99999.999},  // 14.2.3 prints "G04;"
+    .compensation = {.xy_plane_only = false,  // 7.4
+                     .plane_is_fixed = true,
+                     .bars_scaling_and_cycle_end = false,
+                     .bars_systems_and_data = false,  // 13.2.2 (3)
+                     .bars_reference_return = false,
+                     .may_change_side = true,  // 13.2.2 (3)
+                     .vector_by_words = true,  // 13.2.2 (4)
+                     .takes_changed_amounts = true,
+                     .code_alone_waits = false,
+                     .number_is_that_of_tool = false},
+    .length = {.axis_by_words = false,
+               .number_in_any_block = false,
+               .zero_is_number = true,  // 13.1.1: H00 cancels
+               .moves_at_once = false,
+               .shifts_reading = false,
+               .number_is_that_of_tool = false,
+               .axis_on_plane = true},
+    .cycle = {.xy_plane_only = false,
+              .takes_rotary_axes = true,
+              .needs_turning_spindle = false,
+              .without_bottom_positions = false,
+              .r_takes_sign_of_z = false,  // 12.1.3
+              .others_keep_motion_mode = false,
+              .fixed_clearance_mm = 0,  // 12.3.3, 12.3.4: PI 129
+              .dwell_in_seconds = false,
+              .begins_with_both_levels = false,
+              .rises_before_positioning = false,
+              .longest_dwell_ms = 99999999},
+    .reference = {.remembered_axes_go = false,  // 6.1
+                  .forgets_with_program = false,
+                  .takes_rotary_axes = true,
+                  .cancels_length = false,
+                  .all_axes_without_words = false},
+    .coordinate = {.machine_move_may_be_incremental = false,
+                   .machine_code_ends_shift = false,
+                   .machine_move_by_motion = false,
+                   .incremental_machine_move_rests = true},
+    .scaling = {.all_linear_axes = true,  // 15.2.1: about the point of G51 where no word names it
+                .factor_required = false,
+                .factor_of_word = factor_of_word,
+                .factor_by_axis = true},
+    .data_input = {.incremental_adds = true,  // 13.1.3
+                   .system_required = true,
+                   .axes_required = true,
+                   .vector_turns_work = false,
+                   .zero_is_selected_system = false,
+                   .amount_turns_system = false},
+    .program = {.macro_interrupt = false, .motion_outlives_end = false, .loops_in_one_another = 3, .main_program_counts = true},
+    .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
+    .rotation = {.plane_in_block = true, .angle_by_parameter = true},
+    .mill = {.rotary_in_block = true},
+    .code_call = {.first_of_g = 9010, .first_of_m = 9020, .arguments_behind_m = true, .tool_program = tool_program},
+};
+
+}  // namespace nc::hx

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of the HX family; hx.cpp puts them together. The sizes stand here so that a row lost or added by accident does not compile.
+#pragma once
+
+#include "dialect/dialect.hpp"
+
+namespace nc::hx {
+
+inline constexpr unsigned kFunctionRows = 93;
+inline constexpr unsigned kMiscRows = 6;
+inline constexpr unsigned kOutputRows = 4;
+inline constexpr unsigned kAlarmRows = 22;
+inline constexpr unsigned kConditionRows = 23;
+
+extern const FunctionRow kFunctions[kFunctionRows];
+extern const MiscRow kMisc[kMiscRows];
+extern const OutputRow kOutputs[kOutputRows];
+extern const AlarmText kAlarms[kAlarmRows];
+extern const AlarmRow kConditions[kConditionRows];
+extern const LexRules kLex;
+extern const FamilyParameters kParameters;
+extern const FamilyVariables kVariables;
+
+}  // namespace nc::hx

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// HX 2.2: a word is an address, one of the letters, and its data of up to 12 digits; a block has up to 300 characters.
+#include "dialect/hx/tables.hpp"
+#include "dialect/iso_lexer.hpp"
+
+namespace nc::hx {
+namespace {
+
+constexpr unsigned at(char letter) {
+  return static_cast<unsigned>(letter - 'A');
+}
+
+constexpr LexRules make_rules() {
+  LexRules rules = iso_rules();
+  rules.macros = rules.statements = true;        // 14
+  rules.semicolon = Semicolon::comment;          // 14.5: programs have a comment behind the end of a block
+  rules.mdi_semicolon = Semicolon::ends_block;
+  rules.skip_numbers = true;                     // 2.3.3
+  rules.slash_only_at_head = true;               // 14.2.4: elsewhere it is a division
+  rules.comma_words = true;                      // 4.3.1, 4.3.2
+  rules.jump_letter = true;                      // 14.5.1 prints GOTO N10
+  rules.most_loop_number = 9999;                 // 14.5.3 prints DO 210
+  for (char letter = 'A'; letter <= 'Z'; ++letter)
+    rules.word[at(letter)] = WordFormat{.known = true, .refusal = {}, .integer = false, .integer_digits = 12, .fraction_digits = 8};
+  for (const char* letter = "LNO"; *letter != 0; ++letter) rules.word[at(*letter)].integer = true;
+  rules.word[at('N')].integer_digits = 8;
+  rules.word[at('O')].integer_digits = 8;
+  rules.word[at('G')].integer_digits = 3;
+  return rules;
+}
+
+}  // namespace
+
+constexpr LexRules kLex = make_rules();
+
+}  // namespace nc::hx

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hx family: what its manual says otherwise than those of the other families do, one test for each rule.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+Outcome hx(const std::string& text) { return Bench(NC_DIALECT_HX).run(text); }
+std::string alarm_of(const std::string& text) { return hx(text).alarm; }
+
+/// X Y Z and a rotary C.
+void with_c(nc_config& config) {
+  config.system[0].axis_count = 4;
+  config.system[0].axis[3] = config.system[0].axis[2];
+  config.system[0].axis[3].name = 'C';
+  config.system[0].axis[3].rotary = true;
+}
+
+// ---- words and numbers ---------------------------------------------------------------------------------------------------------
+
+TEST(Hx, ValuesOfFormulasAreRoundedToTheLeastUnit) {  // 14.2.4, the printed numbers
+  EXPECT_EQ(hx("#1=1.2345\n#2=2.3456\nG91 G01 X#1 F100.\nX#2\nX-[#1+#2]\nM30").path(),
+            (Path{"line 1.235 0 0 F100", "line 3.581 0 0 F100", "line 0.001 0 0 F100"}));
+  EXPECT_EQ(hx("G20\nG00 X[1/3]\nM30").path(), (Path{"rapid 8.46582 0 0"}));  // 0.3333 inch
+  EXPECT_EQ(hx("G00 X0.12345\nM30").path(), (Path{"rapid 0.12345 0 0"}));     // as written it stays
+}
+
+TEST(Hx, ANumberWithoutAPointCountsInTheLeastUnit) {  // 8.4
+  EXPECT_EQ(hx("G21 G00 X1000\nG20 X1000\nM30").path(), (Path{"rapid 1 0 0", "rapid 2.54 0 0"}));
+}
+
+TEST(Hx, ASemicolonBeginsAComment) {  // 14.5 prints them so
+  EXPECT_EQ(hx("#100=15. ; X DRILL NUMBER\nG00 X1. ; (\nM30 ;").path(), (Path{"rapid 1 0 0"}));
+}
+
+TEST(Hx, AJumpMayNameItsBlockWithN) {  // 14.5.1
+  EXPECT_EQ(hx("GOTO N10\nG00 X1.\nN10 G00 Y1.\nIF [1 EQ 1] GOTO N20\nX2.\nN20 M30").path(), (Path{"rapid 0 1 0"}));
+}
+
+TEST(Hx, LoopsHaveAnyNumberAndStandThreeDeep) {  // 14.5.3, 14.2.5
+  EXPECT_EQ(hx("#1=0\nWHILE [#1 LT 2] DO 210\n#1=#1+1\nG91 G00 X1.\nEND 210\nM30").path(), (Path{"rapid 1 0 0", "rapid 2 0 0"}));
+  const auto nest = [](unsigned loops) {
+    std::string text;
+    for (unsigned i = 1; i <= loops; ++i) text += "WHILE [#100 LT 1] DO " + std::to_string(i) + "\n";
+    text += "#100=1\n";
+    for (unsigned i = loops; i > 0; --i) text += "END " + std::to_string(i) + "\n";
+    return "#100=0\n" + text + "M30";
+  };
+  EXPECT_EQ(alarm_of(nest(3)), "");
+  EXPECT_EQ(alarm_of(nest(4)), "NC-LOOP");
+}
+
+TEST(Hx, AProgramEndsWithItsCode) {  // 2.3
+  EXPECT_EQ(alarm_of("G00 X1."), "F_82016");
+  EXPECT_EQ(alarm_of("G00 X1.\nM02"), "");
+}
+
+TEST(Hx, WhatIsNotListedAndWhatIsNotBuiltAreAlarms) {  // 3.1
+  for (const char* code : {"G05", "G12", "G38", "G70", "G93", "G100", "G255"}) EXPECT_EQ(alarm_of(std::string(code) + "\nM30"), "F_82030") << code;
+  for (const char* code : {"G63.1", "G63.2"}) EXPECT_EQ(alarm_of(std::string(code) + "\nM30"), "NC-NOT-BUILT") << code;
+}
+
+// ---- motions -------------------------------------------------------------------------------------------------------------------
+
+TEST(Hx, AnArcHasItsNumbers) {  // 4.4
+  EXPECT_EQ(alarm_of("G02 X50. Y50.5 I50. F100\nM30"), "F_82112");
+  EXPECT_EQ(alarm_of("G02 X50. R5. F100\nM30"), "F_82100");
+  EXPECT_EQ(alarm_of("G02 X0. R5. F100\nM30"), "F_82100");  // no full circle by R
+  EXPECT_EQ(alarm_of("G01 X50.\nM30"), "F_84020");
+  EXPECT_EQ(Bench(NC_DIALECT_HX).param("3151", "1").run("G02 X50. Y50.5 I50. F100\nM30").alarm, "");  // PI 151
+}
+
+TEST(Hx, SingleDirectionPositioningOverrunsByTheParameterOfTheAxis) {  // 4.2, PI 61 to 69
+  EXPECT_EQ(Bench(NC_DIALECT_HX).param("3061", "-1").param("3062", "2").run("G60 X50. Y20.\nM30").path(),
+            (Path{"rapid 51 18 0", "rapid 50 20 0"}));
+}
+
+TEST(Hx, AMoveInMachineCoordinatesIsAbsoluteOnly) {  // 7.1.1: in G91 the code does nothing
+  EXPECT_EQ(Bench(NC_DIALECT_HX).work_offset(1, {10}).run("G90 G53 G00 X5.\nG91 G53 X7.\nG90 X1.\nM30").path(),
+            (Path{"rapid 5 0 0", "rapid 11 0 0"}));
+}
+
+TEST(Hx, ReferencePositionsHaveANumberForEachAxis) {  // 6.2, PM 2097, 2129, 2161
+  EXPECT_EQ(Bench(NC_DIALECT_HX).param("22097", "5").param("22098", "6").param("22129", "7").param("22163", "-8").run("G91 G30 P2 X0 Y0\nG30 P3 X0\nG30 P4 Z0\n#100=#8000\n#101=#8032\n#102=#8066\nM30").path(),
+            (Path{"rapid 5 6 0", "rapid 7 6 0", "rapid 7 6 -8"}));
+  const Outcome read = Bench(NC_DIALECT_HX).param("22098", "6").run("#100=#8001\nM30");
+  EXPECT_EQ(read.var(100), 6);
+}
+
+TEST(Hx, ADwellCountsRevolutionsByParameter) {  // 5.4, with the program printed there
+  const Outcome run = hx("G04 X3\nG04 P1500\nG95 S60 M03\n#100=#3120\n#3120=1\nG04 P1\n#3120=#100\nG04 P500\nM30");
+  EXPECT_EQ(run.dwells(), (std::vector<double>{0.003, 1.5, 0.5}));
+  unsigned turns = 0;
+  for (const nc_item& gate : run.of(NC_ITEM_GATE))
+    if (gate.u.gate.kind == NC_GATE_DWELL_TURNS) {
+      ++turns;
+      EXPECT_EQ(gate.u.gate.value, 1);
+    }
+  EXPECT_EQ(turns, 1u);
+}
+
+TEST(Hx, SkipsGoByTheFeedInForce) {  // 4.9: like G01
+  EXPECT_EQ(hx("G31 X10. F500.\nG31.2 Y10.\nG31.4 X0.\nM30").path(), (Path{"skip 10 0 0 F500", "skip 10 10 0 F500", "skip 0 10 0 F500"}));
+  const std::vector<nc_move> moves = hx("G31 X1. F5.\nG31.1 X2.\nG31.2 X3.\nG31.3 X4.\nG31.4 X5.\nM30").moves();
+  ASSERT_EQ(moves.size(), 5u);
+  const unsigned mask[] = {1, 1, 2, 4, 8};
+  for (unsigned i = 0; i < 5; ++i) EXPECT_EQ(moves[i].skip_mask, mask[i]) << i;
+  EXPECT_EQ(alarm_of("G31 X10.\nM30"), "F_84020");
+}
+
+// ---- cylinder and polar coordinates --------------------------------------------------------------------------------------------
+
+TEST(Hx, TheBlockOfACylinderNamesItsAxis) {  // 4.7
+  const auto cylinder = [](const std::string& text) { return Bench(NC_DIALECT_HX, with_c).run(text); };
+  // The plane may be selected behind it, as the section prints; C stands for X there and in G17.
+  EXPECT_EQ(cylinder("G107 C57.2957795\nG18 G01 Z10. C20. F100.\nG02 Z30. C40. R20.\nG107 C0\nM30").alarm, "");
+  EXPECT_EQ(cylinder("G18\nG107 C57.2957795\nG01 X10. F100.\nG107 C0\nM30").alarm, "F_82208");
+  EXPECT_EQ(cylinder("G17\nG107 C57.2957795\nG01 Y10. C5. F100.\nG02 Y20. C15. R10.\nG107 C0\nM30").alarm, "");
+  EXPECT_EQ(cylinder("G107 X10.\nM30").alarm, "F_82208");
+  EXPECT_EQ(hx("G107 C10.\nM30").alarm, "NC-AXIS");  // no such axis
+}
+
+TEST(Hx, TheOtherAxisOfThePlaneIsReplacedByParameter) {  // 4.7, PI 155
+  Bench bench(NC_DIALECT_HX, with_c);
+  bench.param("3155", "1");
+  EXPECT_EQ(bench.run("G17\nG107 C57.2957795\nG01 X10. C5. F100.\nG03 X20. C15. R10.\nG107 C0\nM30").alarm, "");
+  EXPECT_EQ(Bench(NC_DIALECT_HX, with_c).param("3155", "1").run("G17\nG107 C57.2957795\nG01 Y10. F100.\nM30").alarm, "F_82208");
+}
+
+TEST(Hx, PolarCoordinateInterpolationTakesTheFirstAxisAndTheOneThatTurns) {  // 4.6, the printed program
+  const std::string text =
+      "G54 G90 G00 X60. C0. Z50.\nG112\nG42 D1 G01 X20. F100.\nC10.\nG03 X10. C20. R10.\nG01 X-20.\nC-10.\nG03 X-10. C-20. I10. J0.\n"
+      "G01 X20.\nC0.\nG40 X60.\nG113\nM30";
+  const Outcome run = Bench(NC_DIALECT_HX, with_c).run(text);
+  EXPECT_EQ(run.alarm, "");
+  ASSERT_FALSE(run.moves().empty());
+  EXPECT_NEAR(run.moves().back().machine.v[0], 60, 1e-6);
+  EXPECT_EQ(Bench(NC_DIALECT_HX, with_c).run("G112\nG81 X1. Z-1. R1. F10.\nG28 X0\nM30").alarm, "F_82204");
+  EXPECT_EQ(Bench(NC_DIALECT_HX, with_c).param("24624", "2").run("G112\nM30").alarm, "F_82208");  // Y does not turn
+  EXPECT_EQ(alarm_of("G112\nM30"), "F_82208");
+}
+
+// ---- scaling, mirror, rotation -------------------------------------------------------------------------------------------------
+
+TEST(Hx, ScalingHasAFactorForEachAxis) {  // 15.2
+  EXPECT_EQ(hx("G51 X0 Y0 Z0 P2000\nG01 X10. Y10. F100.\nG50\nX1.\nM30").path(), (Path{"line 20 20 0 F100", "line 1 20 0 F100"}));
+  EXPECT_EQ(hx("G51 X0 Y0 Z0 P2000.\nG01 X10. F100.\nM30").path(), (Path{"line 20 0 0 F100"}));  // with or without a point
+  EXPECT_EQ(hx("G51 X0 Y0 Z0 I500 J3000.\nG01 X10. Y10. Z5. F100.\nM30").path(), (Path{"line 5 30 5 F100"}));
+  EXPECT_EQ(Bench(NC_DIALECT_HX).param("3109", "1500").run("G51 X0 Y0 Z0 I500\nG01 X10. Y10. F100.\nM30").path(), (Path{"line 5 15 0 F100"}));
+  EXPECT_EQ(alarm_of("G51 X0 Y0 I0\nM30"), "F_82002");
+}
+
+TEST(Hx, ANegativeFactorMirrors) {  // 15.3: the arc turns round, and so does the side of the tool
+  EXPECT_EQ(hx("G51 X0 Y0 I-1000 J1000\nG01 X10. F100.\nG03 X0 Y10. R10.\nM30").path(), (Path{"line -10 0 0 F100", "cw 0 10 0 c0,0 F100"}));
+  EXPECT_EQ(hx("G51 X0 Y0 P-2000\nG01 X10. F100.\nG03 X0 Y10. R10.\nM30").path(), (Path{"line -20 0 0 F100", "ccw 0 -20 0 c0,0 F100"}));
+  const auto path = [](const std::string& scaling) {
+    return Bench(NC_DIALECT_HX).tool(1, 2, NC_TOOL_RADIUS).run(scaling + "G00 X-10. Y-10.\nG41 D1 G01 X0 Y0 F100.\nY20.\nX30.\nY0\nX0\nG40 X-10. Y-10.\nM30").path();
+  };
+  const Path plain = path(""), mirrored = path("G51 X0 Y0 I-1000 J1000\n");
+  ASSERT_EQ(plain.size(), mirrored.size());
+  for (size_t i = 0; i < plain.size(); ++i) {
+    double x = 0, y = 0, mx = 0, my = 0;
+    ASSERT_EQ(std::sscanf(plain[i].c_str() + plain[i].find(' '), "%lf %lf", &x, &y), 2) << plain[i];
+    ASSERT_EQ(std::sscanf(mirrored[i].c_str() + mirrored[i].find(' '), "%lf %lf", &mx, &my), 2) << mirrored[i];
+    EXPECT_NEAR(x, -mx, 1e-6) << plain[i] << " and " << mirrored[i];
+    EXPECT_NEAR(y, my, 1e-6) << plain[i] << " and " << mirrored[i];
+  }
+}
+
+TEST(Hx, AnArcScaledByUnevenFactorsIsAnAlarm) {  // 15.2.2: no circle any more (docs/decisions.md)
+  EXPECT_EQ(alarm_of("G51 X0 Y0 I2000 J1000\nG02 X10. Y10. R10. F100.\nM30"), "F_82112");
+}
+
+TEST(Hx, RotationTakesItsPlaneAndItsAngleByParameter) {  // 15.4.1
+  EXPECT_EQ(hx("G17 G68 X0 Y0 R90.\nG01 X10. F100.\nG69\nX1.\nM30").path(), (Path{"line 0 10 0 F100", "line 1 10 0 F100"}));
+  EXPECT_EQ(Bench(NC_DIALECT_HX).param("3117", "90").run("G68 X0 Y0\nG01 X10. F100.\nM30").path(), (Path{"line 0 10 0 F100"}));
+  EXPECT_EQ(hx("G18 G68 Z0 X0 R90.\nG01 Z10. F100.\nM30").path(), (Path{"line 10 0 0 F100"}));
+  // 15.4.2 (3): in G91 the angle adds to the one before.
+  EXPECT_EQ(hx("G68 X0 Y0 R30.\nG69\nG68 X0 Y0 G91 R60.\nG90 G01 X10. F100.\nM30").path(), (Path{"line 0 10 0 F100"}));
+}
+
+// ---- tools ---------------------------------------------------------------------------------------------------------------------
+
+TEST(Hx, LengthCompensationIsAlongTheAxisOnThePlane) {  // 13.1.1
+  Bench bench(NC_DIALECT_HX);
+  bench.tool(1, 5);
+  EXPECT_EQ(bench.run("G18 G43 H1 G00 Y10.\nG49 Y10.\nM30").path(), (Path{"rapid 0 15 0", "rapid 0 10 0"}));
+  EXPECT_EQ(Bench(NC_DIALECT_HX).tool(1, 5).run("G44 H1 G00 Z10.\nG43 H00 Z10.\nM30").path(), (Path{"rapid 0 0 5", "rapid 0 0 10"}));
+}
+
+TEST(Hx, OffsetsAreSetByProgramAndReadAsVariables) {  // 13.1.3, 14.2.3
+  const Outcome run = hx("G10 L10 P3 R100.\nG91 G10 L10 P3 R-0.5\nG90 G10 L12 P128 R4.\n#100=#2242\n#101=#2239\n#2240=7.5\n#102=#2240\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(100), 99.5);
+  EXPECT_EQ(run.var(101), 4);
+  EXPECT_EQ(run.var(102), 7.5);
+}
+
+TEST(Hx, DIsADiameterByParameter) {  // 13.2.1, PI 72
+  const char* const text = "G00 Y-10.\nG42 D1 G01 X10. Y0 F100.\nX50.\nG40 Y-10.\nM30";
+  EXPECT_EQ(Bench(NC_DIALECT_HX).tool(1, 4, NC_TOOL_RADIUS).run(text).path()[1], "line 10 -4 0 F100");
+  EXPECT_EQ(Bench(NC_DIALECT_HX).param("3072", "1").tool(1, 4, NC_TOOL_RADIUS).run(text).path()[1], "line 10 -2 0 F100");
+}
+
+TEST(Hx, MeasuringGoesByItsParametersAndSignal) {  // 4.10
+  Bench bench(NC_DIALECT_HX);
+  bench.param("3141", "5").param("3142", "2").param("3143", "30").tool(1, 10);
+  const std::vector<nc_move> moves = bench.run("G43 H1 G00 Z50.\nG37.3 Z20.\nM30").moves();
+  ASSERT_EQ(moves.size(), 3u);
+  EXPECT_NEAR(moves[1].machine.v[2], 35, 1e-9);
+  EXPECT_EQ(moves[2].skip_mask, 4u);
+  EXPECT_EQ(moves[2].feed_mm_min, 30);
+}
+
+// ---- programs and macros -------------------------------------------------------------------------------------------------------
+
+TEST(Hx, ASubProgramIsRunFromQToR) {  // 2.4.3, the printed program
+  Bench bench(NC_DIALECT_HX);
+  bench.add("O10.nc", "O0010\nN1 G90 G00 Z5.\nG01 Z-10. F20.\nZ-25. F100\nN2 G00 Z50.\nX99.\nM99\n");
+  EXPECT_EQ(bench.run("M98 P10 Q1 R2 L2\nX70. Y20.\nM30").path(),
+            (Path{"rapid 0 0 5", "line 0 0 -10 F20", "line 0 0 -25 F100", "rapid 0 0 50", "rapid 0 0 5", "line 0 0 -10 F20", "line 0 0 -25 F100",
+                  "rapid 0 0 50", "rapid 70 20 50"}));
+  EXPECT_EQ(Bench(NC_DIALECT_HX).run("M98 P11 R2\nM30\nO11\nN1 M99").alarm, "F_82019");
+  EXPECT_EQ(Bench(NC_DIALECT_HX).run("M98 P12\nM30").alarm, "F_82109");
+}
+
+TEST(Hx, TheLastBlockMayBeACallOrAJump) {  // 2.4.3
+  Bench bench(NC_DIALECT_HX);
+  bench.add("O10.nc", "O10\nG91 G00 X1.\nN5 M98 P11\nX100.\nM99\nO11\nY1.\nM99\n");
+  const Outcome run = bench.run("M98 P10 R5 L2\nZ1.\nM30");
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "rapid 1 1 0", "rapid 2 1 0", "rapid 2 2 0", "rapid 2 2 1"}));
+  Bench jumping(NC_DIALECT_HX);
+  jumping.add("O10.nc", "O10\nG91 G00 X1.\nN5 GOTO 7\nX100.\nN7 Y1.\nM99\n");
+  EXPECT_EQ(jumping.run("M98 P10 R5\nZ1.\nM30").path(), (Path{"rapid 1 0 0", "rapid 1 1 0", "rapid 1 1 1"}));
+}
+
+TEST(Hx, TheMainProgramIsRepeatedAsOftenAsLSays) {  // 2.4.4
+  EXPECT_EQ(hx("N1 G91 G00 X1.\nM99 P1 L3\nY1.\nM30").path(), (Path{"rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0", "rapid 4 0 0", "rapid 4 1 0"}));
+}
+
+TEST(Hx, CodesCallMacrosByTheirPlace) {  // 14.1.3 to 14.1.5
+  const auto bench = [](const std::string& text) {
+    Bench b(NC_DIALECT_HX);
+    b.param("3086", "101").param("3085", "6").param("3095", "33");
+    b.add("O9010.nc", "O9010\n#110=#24\nM99\n");
+    b.add("O9011.nc", "O9011\n#100=#1\nM99\n");
+    b.add("O9020.nc", "O9020\n#101=#1\n#102=#13\nM99\n");
+    return b.run(text);
+  };
+  EXPECT_EQ(bench("G101 A5.\nM30").var(100), 5);
+  EXPECT_EQ(bench("G06 X7.\nM30").var(110), 7);
+  const Outcome arguments = bench("M33 A8.\nM30");  // an M code that begins its block takes arguments,
+  EXPECT_EQ(arguments.var(101), 8);
+  EXPECT_EQ(arguments.var(102), 33);
+  EXPECT_EQ(arguments.aux(), "M30");
+  const Outcome behind = bench("#1=3\nG00 X4. M33\nM30");  // behind other words it is a sub program with the variables of the caller
+  EXPECT_EQ(behind.path(), (Path{"rapid 4 0 0"}));
+  EXPECT_EQ(behind.var(101), 3);
+}
+
+TEST(Hx, ToolNumbersCallAMacro) {  // 10.1.1, 14.1.6
+  const auto calls = [](const char* pi_105, const char* pi_106) {
+    Bench b(NC_DIALECT_HX);
+    b.param("3105", pi_105).param("3106", pi_106);
+    b.add("O9000.nc", "O9000\n#100=1\nM99\n");
+    b.add("O9004.nc", "O9004\n#100=4\nM99\n");
+    return b.run("G00 X1. T5\nM30");
+  };
+  EXPECT_EQ(calls("1", "0").var(100), 1);
+  EXPECT_EQ(calls("4", "1").var(100), 4);
+  EXPECT_EQ(calls("0", "0").aux(), "T5 M30");
+}
+
+TEST(Hx, ParametersAreVariablesOfTheirNumber) {  // 14.2.3
+  const Outcome run = hx("#3129=2.5\n#100=#3129\nG99 G83 X1. Z-10. R0 Q5. F100.\n#101=#22097\nG80\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(100), 2.5);
+  EXPECT_EQ(run.var(101), 0);
+  bool near = false;
+  for (const std::string& move : run.path()) near = near || move == "rapid 1 0 -2.5";
+  EXPECT_TRUE(near);
+  EXPECT_EQ(alarm_of("#3151=-1\nM30"), "F_82002");
+}
+
+TEST(Hx, SystemVariablesAreThoseOfTheManual) {  // 14.2.3
+  Bench bench(NC_DIALECT_HX);
+  bench.work_offset(1, {1, 2, 3}).work_offset(6, {10, 20, 30}).work_offset(0, {0.5, 0, 0}).at(5, 6, 7);
+  const Outcome run = bench.run("S800 D7 H9\n#100=#2377\n#101=#2379\n#102=#2423\n#103=#2368\n#104=#6205\n#105=#4083\n#106=#6718\n#107=#6733\n"
+      "#108=#4792\n#109=#4882\n#110=#4883\nN55 #111=#6716\n#112=#6740\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(100), 1);
+  EXPECT_EQ(run.var(101), 3);
+  EXPECT_EQ(run.var(102), 20);
+  EXPECT_EQ(run.var(103), 0.5);
+  EXPECT_EQ(run.var(104), 5);
+  EXPECT_EQ(run.var(105), 3.5);
+  EXPECT_EQ(run.var(106), 0);   // G00
+  EXPECT_EQ(run.var(107), 17);  // group 16
+  EXPECT_EQ(run.var(108), 800);
+  EXPECT_EQ(run.var(109), 7);
+  EXPECT_EQ(run.var(111), 55);
+  for (const char* text : {"#8000=1", "#4083=1", "#6718=1"}) EXPECT_EQ(alarm_of(std::string(text) + "\nM30"), "NC-VARIABLE") << text;
+  for (const char* text : {"#100=#1600", "#100=#2431", "#100=#4018", "#100=#5001"}) EXPECT_EQ(alarm_of(std::string(text) + "\nM30"), "NC-VARIABLE") << text;
+}
+
+TEST(Hx, TheInterfaceHasItsNumbers) {  // 14.2.3 (1), (2)
+  const Outcome run = hx("#7501=1\n#7533=5\n#100=#7501\n#101=#7533\nM30");
+  EXPECT_EQ(run.var(100), 1);
+  EXPECT_EQ(run.var(101), 5);
+}
+
+// ---- modes ---------------------------------------------------------------------------------------------------------------------
+
+TEST(Hx, ParametersChooseTheModesAtPowerOn) {  // 3.2
+  const auto starts_with = [](const char* key, const char* value) {
+    Bench bench(NC_DIALECT_HX);
+    bench.param(key, value);
+    const nc_modal modal = bench.run("M30").last_modal();
+    std::string codes;
+    for (const unsigned group : {1u, 16u, 3u, 6u, 9u}) codes += std::to_string(modal.code[group] / 10) + " ";
+    return codes;
+  };
+  EXPECT_EQ(starts_with("3144", "0"), "0 17 90 21 23 ");
+  EXPECT_EQ(starts_with("3144", "1"), "1 17 90 21 23 ");
+  EXPECT_EQ(starts_with("3145", "1"), "0 18 90 21 23 ");
+  EXPECT_EQ(starts_with("3145", "2"), "0 19 90 21 23 ");
+  EXPECT_EQ(starts_with("3146", "1"), "0 17 91 21 23 ");
+  EXPECT_EQ(starts_with("3147", "1"), "0 17 90 20 23 ");
+  EXPECT_EQ(starts_with("3148", "0"), "0 17 90 21 22 ");
+  EXPECT_EQ(starts_with("3148", "1"), "0 17 90 21 23 ");
+}
+
+TEST(Hx, HighSpeedMachiningIsAMode) {  // 15.1
+  const Outcome run = hx("G10.3\nG01 X1. F100.\nG11.3\nM30");
+  EXPECT_EQ(run.path(), (Path{"line 1 0 0 F100"}));
+  std::vector<int> codes;
+  for (const Step& step : run.steps)
+    if (step.item.kind == NC_ITEM_MARK && step.item.u.mark.report) codes.push_back(step.modal.code[21]);
+  EXPECT_EQ(codes, (std::vector<int>{103, 103, 113, 113}));
+}
+
+TEST(Hx, ACycleGoesOnWithItsDataUntilAMotionEndsIt) {  // 12.2.1
+  EXPECT_EQ(hx("G00 Z20.\nG99 G81 X1. Z-5. R2. F100.\nG82 X2. P500\nG00 X0\nM30").path(),
+            (Path{"rapid 0 0 20", "rapid 1 0 20", "rapid 1 0 2", "line 1 0 -5 F100", "rapid 1 0 2", "rapid 2 0 2", "line 2 0 -5 F100", "rapid 2 0 2",
+                  "rapid 0 0 2"}));
+  // 12.1.3: in G91 R counts from the initial level, Z from R, each with its own sign.
+  EXPECT_EQ(hx("G00 Z20.\nG91 G99 G81 X1. Z-5. R-18. F100. K2\nG80\nM30").path(),
+            (Path{"rapid 0 0 20", "rapid 1 0 20", "rapid 1 0 2", "line 1 0 -3 F100", "rapid 1 0 2", "rapid 2 0 2", "line 2 0 -3 F100", "rapid 2 0 2"}));
+}
+
+}  // namespace
+}  // namespace nc::test
