@@ -93,7 +93,7 @@ TEST(Hx, ReferencePositionsHaveANumberForEachAxis) {  // 6.2, PM 2097, 2129, 216
 
 TEST(Hx, ADwellCountsRevolutionsByParameter) {  // 5.4, with the program printed there
   const Outcome run = hx("G04 X3\nG04 P1500\nG95 S60 M03\n#100=#3120\n#3120=1\nG04 P1\n#3120=#100\nG04 P500\nM30");
-  EXPECT_EQ(run.dwells(), (std::vector<double>{0.003, 1.5, 0.5}));
+  EXPECT_EQ(run.dwells(), (std::vector<double>{3, 1.5, 0.5}));  // X is seconds, with a point or without
   unsigned turns = 0;
   for (const nc_item& gate : run.of(NC_ITEM_GATE))
     if (gate.u.gate.kind == NC_GATE_DWELL_TURNS) {
@@ -171,8 +171,15 @@ TEST(Hx, ANegativeFactorMirrors) {  // 15.3: the arc turns round, and so does th
   }
 }
 
-TEST(Hx, AnArcScaledByUnevenFactorsIsAnAlarm) {  // 15.2.2: no circle any more (docs/decisions.md)
-  EXPECT_EQ(alarm_of("G51 X0 Y0 I2000 J1000\nG02 X10. Y10. R10. F100.\nM30"), "F_82112");
+TEST(Hx, AnArcScaledByDifferentFactorsIsOneByItsScaledWords) {  // 15.2.2, the printed block: R200 to X200 Y0
+  const std::vector<nc_move> moves = hx("G90 G00 X0. Y100.\nG51 X0. Y0. Z0. I2000. J1000.\nG02 X100. Y0. R100. F500.\nM30").moves();
+  ASSERT_EQ(moves.size(), 2u);
+  EXPECT_NEAR(moves[1].machine.v[0], 200, 1e-9);
+  EXPECT_NEAR(moves[1].machine.v[1], 0, 1e-9);
+  EXPECT_NEAR(moves[1].radius, 200, 1e-9);
+  // By I J the scaled centre has to be one of the scaled end.
+  EXPECT_EQ(alarm_of("G51 X0 Y0 I2000 J1000\nG02 X10. Y10. I10. F100.\nM30"), "F_82112");
+  EXPECT_EQ(hx("G51 X0 Y0 I2000 J-2000\nG02 X10. Y10. I10. F100.\nM30").path(), (Path{"ccw 20 -20 0 c20,0 F100"}));
 }
 
 TEST(Hx, RotationTakesItsPlaneAndItsAngleByParameter) {  // 15.4.1
@@ -236,6 +243,15 @@ TEST(Hx, TheLastBlockMayBeACallOrAJump) {  // 2.4.3
   Bench jumping(NC_DIALECT_HX);
   jumping.add("O10.nc", "O10\nG91 G00 X1.\nN5 GOTO 7\nX100.\nN7 Y1.\nM99\n");
   EXPECT_EQ(jumping.run("M98 P10 R5\nZ1.\nM30").path(), (Path{"rapid 1 0 0", "rapid 1 1 0", "rapid 1 1 1"}));
+}
+
+TEST(Hx, BlocksOfMdiCallNoSubProgram) {  // 2.4.3
+  Bench bench(NC_DIALECT_HX);
+  bench.add("O10.nc", "O10\nG00 X1.\nM99\n");
+  const std::string text = "M98 P10";
+  ASSERT_EQ(nc_mdi_load(bench.control(), 0, text.data(), text.size()), NC_OK);
+  const Outcome run = bench.finish();
+  EXPECT_EQ(run.alarm, "F_82113");
 }
 
 TEST(Hx, TheMainProgramIsRepeatedAsOftenAsLSays) {  // 2.4.4
@@ -332,6 +348,17 @@ TEST(Hx, ParametersChooseTheModesAtPowerOn) {  // 3.2
   EXPECT_EQ(starts_with("3147", "1"), "0 17 90 20 23 ");
   EXPECT_EQ(starts_with("3148", "0"), "0 17 90 21 22 ");
   EXPECT_EQ(starts_with("3148", "1"), "0 17 90 21 23 ");
+}
+
+TEST(Hx, TheStrokeCheckKeepsOutOfItsAreaOrInIt) {  // 15.5.3, PM 3474
+  const std::string area = "G22 X20. Y20. Z5. I5. J5. K-5.\n";  // A and B, in either order
+  EXPECT_EQ(hx(area + "G00 X30.\nX0\nM30").alarm, "");
+  EXPECT_EQ(hx(area + "G00 X10. Y10.\nM30").alarm, "NC-LIMIT");
+  EXPECT_EQ(hx(area + "G23\nG00 X10. Y10.\nM30").alarm, "");
+  const auto outside = [&](const std::string& text) { return Bench(NC_DIALECT_HX).param("23474", "1").at(10, 10, 0).run(area + text + "M30").alarm; };
+  EXPECT_EQ(outside("G00 X15. Y7.\n"), "");
+  EXPECT_EQ(outside("G00 X21.\n"), "NC-LIMIT");
+  EXPECT_EQ(outside("G23\nG00 X21.\n"), "");
 }
 
 TEST(Hx, HighSpeedMachiningIsAMode) {  // 15.1

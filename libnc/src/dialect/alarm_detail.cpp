@@ -258,6 +258,7 @@ constexpr Sentence kSentences[] = {
      nullptr},
     {C::name_without_value, "No value has been given to the named parameter before this block.", nullptr},
     {C::too_many_names, "The program has more named parameters than there is room for ({value}).", "The program has more named parameters than there is room for."},
+    {C::call_in_mdi, "Blocks of MDI call no sub program. Put {word} into a program.", "Blocks of MDI call no sub program."},
     {C::probe_no_contact, "The probe has touched nothing up to the end of the move.", nullptr},
     {C::print_port, "Nothing can be printed: POPEN has not been executed.", nullptr},
     {C::call_in_cycle, "A macro cannot be called by {word} during a fixed cycle.",

@@ -178,6 +178,7 @@ constexpr AlarmRow kRows[] = {
     {C::name_without_value, "NC-VARIABLE", nullptr},
     {C::too_many_names, "NC-VARIABLE", nullptr},
     {C::probe_no_contact, "NC-PROBE", nullptr},
+    {C::call_in_mdi, "NC-MODE", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

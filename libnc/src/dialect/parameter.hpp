@@ -155,7 +155,6 @@ enum class Parameter : uint8_t {
   axis_factor,                 ///< scaling factor of an axis without a word for it, in thousandths
   rotation_angle,              ///< of a rotation without a word for it
   dwell_in_revolutions,        ///< where the feed is per revolution
-  corner_override_behind,      ///< way behind the corner
   tool_macro,                  ///< [2] what the rule of the family makes a program of that a tool number calls
   polar_axis,                  ///< [2] linear, rotary: number of the axis
   cylinder_second_axis,        ///< the rotary axis stands for the other axis of the plane

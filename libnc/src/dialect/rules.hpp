@@ -122,6 +122,8 @@ struct DwellRules {
   /// comes out tenfold (M700 8.1 note 3). DGSHAPE G04 knows nothing of it.
   bool early_x_is_length;
   double longest_s;  ///< M700 8.1; DGSHAPE G04: 3600 s
+  /// X is in seconds without a point, too (HX 5.4). Else it goes by the settings of numbers (M700 8.1; DGSHAPE 1-5).
+  bool x_is_seconds;
 };
 
 /// Compensation of the tool radius.
@@ -250,6 +252,9 @@ struct ScalingRules {
   /// I J K are factors of the basic axes, a negative one mirrors, and a parameter of each axis stands for one that is missing (HX 15.2.2, 15.3).
   /// Else one factor is that of all (M700 13.19; DGSHAPE G51).
   bool factor_by_axis;
+  /// An arc whose axes have different factors is one by what has become of its words, R times the larger factor, where these still are of one circle
+  /// (HX 15.2.2). Else a fault (M700 13.19 (4); DGSHAPE G51 has one factor).
+  bool arcs_may_be_uneven;
 };
 
 /// Rotation of coordinates by program.
@@ -310,6 +315,8 @@ struct ProgramRules {
   /// L beside the return in a main program is how often it goes back, then it goes on (HX 2.4.4). Else it goes back without end (M700 13.3.1; DGSHAPE
   /// has no sub programs).
   bool main_program_counts;
+  /// Blocks of MDI call no sub program (HX 2.4.3). Else they may (M700 13.3.1; DGSHAPE has none).
+  bool no_call_in_mdi;
 };
 
 struct MotionRules {

@@ -201,8 +201,7 @@ void apply_special_feed(BlockContext& in, Move& move) {
     if (s.corner_angle <= 0 || s.corner_angle >= 180 || s.corner_override <= 0 || s.corner_override >= 100) return;
     move.rule.corner_override = static_cast<float>(s.corner_override / 100);
     move.rule.corner_angle = static_cast<float>(s.corner_angle * std::numbers::pi / 180);
-    move.rule.slow_zone = static_cast<float>(s.corner_zone);
-    move.rule.corner_reach = static_cast<float>(s.corner_reach);
+    move.rule.slow_zone = move.rule.corner_reach = static_cast<float>(s.corner_zone);
   }
 }
 

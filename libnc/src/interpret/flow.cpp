@@ -343,6 +343,7 @@ static Execution find_end(Interpreter& in, const ProgramRef& program, uint64_t o
 
 Execution call_sub(Interpreter& in) {
   const BlockWords& w = in.words;
+  if (in.mdi && in.state.depth == 0 && in.dialect->rules.program.no_call_in_mdi) return in.raise_misc(Condition::call_in_mdi, MiscFunction::call_sub);
   if (top(in).figure != 0) return in.raise_misc(Condition::nesting, MiscFunction::call_sub);  // M700 13.3.3 (6): no branch from a rotating program
   uint32_t passes = 1;
   Execution did = repetitions(in, w.has(Role::call_repeats), w.has(Role::call_repeats) ? w.get(Role::call_repeats) : 1, &passes);

@@ -402,8 +402,9 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   if (scope.on() && (in.state.comp.side != 0 || program_mapped(in))) return in.raise(Condition::no_function, in.system->axis[in.state.map.rotary].name);
   if (program_mapped(in)) {
     if (tilts_plane(in, h, v)) return in.raise_mode(Condition::plane_mismatch, Mode::motion);  // 13.21
-    if (scaled_unevenly(in, h, v)) return in.raise_mode(Condition::arc_deviation, Mode::motion);  // 13.19 (4)
-    words.radius *= std::fabs(scale_of(in, h));
+    const bool uneven = scaled_unevenly(in, h, v);
+    if (uneven && !in.dialect->rules.scaling.arcs_may_be_uneven) return in.raise_mode(Condition::arc_deviation, Mode::motion);  // 13.19 (4)
+    words.radius *= std::fmax(std::fabs(scale_of(in, h)), uneven ? std::fabs(scale_of(in, v)) : 0);
     map_arc(in, h, v, words.center, &ccw);
   }
   const MoveFrame frame = frame_of_move(in, target, commanded);

@@ -128,7 +128,6 @@ struct Settings {
   double axis_factor[kMaxAxes] = {};      ///< HX PI 108 to 116, 0 = not set
   double rotation_deg = 0;                ///< HX PI 117
   bool dwell_in_revolutions = false;      ///< HX PI 120
-  double corner_reach = 0;                ///< HX PI 126: way behind the corner, mm
   uint8_t polar_axis[2] = {};             ///< HX PM 4623, 4624: number of the axis from 1, 0 = not set
   bool cylinder_second_axis = false;      ///< HX PI 155
   bool box_outside = false;               ///< HX PM 3474

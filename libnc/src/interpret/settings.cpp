@@ -296,7 +296,6 @@ void SettingsReader::feeds() {
   s_.corner_override = value(P::corner_override, 0);
   s_.corner_angle = value(P::corner_override_angle, 0);
   s_.corner_zone = value(P::corner_override_zone, 0);
-  s_.corner_reach = parameter_row(dialect_, P::corner_override_behind) != nullptr ? value(P::corner_override_behind, 0) : s_.corner_zone;
 }
 
 /// M700 13.13, 14.7, 14.13: what stands for each axis.

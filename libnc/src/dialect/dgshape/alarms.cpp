@@ -176,6 +176,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::name_without_value, "NC-MACRO", nullptr},
     {C::too_many_names, "NC-MACRO", nullptr},
     {C::probe_no_contact, "NC-NO-SUCH-CODE", nullptr},
+    {C::call_in_mdi, "NC-MACRO", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

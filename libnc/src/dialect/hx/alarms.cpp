@@ -43,6 +43,7 @@ const AlarmRow kConditions[] = {
     {C::number_zero, "F_82018", nullptr},        // 2.3.2
     {C::sequence_missing, "F_82019", nullptr},
     {C::nesting, "F_82021", nullptr},            // 2.4.3
+    {C::call_in_mdi, "F_82113", nullptr},
     {C::program_missing, "F_82109", nullptr},
     {C::illegal_g, "F_82030", nullptr},          // 3
     {C::arc_center, "F_82100", nullptr},         // 4.4

@@ -44,7 +44,7 @@ inline constexpr Rules kRules = {
             .turns_exclude_radius = false,
             .closed_by_radius_is_fault = true,  // 4.4: no 360 degrees by R
             .turns_count_last = false},
-    .dwell = {.time_optional = true, .early_x_is_length = false, .longest_s = 99999.999},  // 14.2.3 prints "G04;"
+    .dwell = {.time_optional = true, .early_x_is_length = false, .longest_s = 99999.999, .x_is_seconds = true},  // 14.2.3 prints "G04;"
     .compensation = {.xy_plane_only = false,  // 7.4
                      .plane_is_fixed = true,
                      .bars_scaling_and_cycle_end = false,
@@ -85,14 +85,14 @@ inline constexpr Rules kRules = {
     .scaling = {.all_linear_axes = true,  // 15.2.1: about the point of G51 where no word names it
                 .factor_required = false,
                 .factor_of_word = factor_of_word,
-                .factor_by_axis = true},
+                .factor_by_axis = true, .arcs_may_be_uneven = true},
     .data_input = {.incremental_adds = true,  // 13.1.3
                    .system_required = true,
                    .axes_required = true,
                    .vector_turns_work = false,
                    .zero_is_selected_system = false,
                    .amount_turns_system = false},
-    .program = {.macro_interrupt = false, .motion_outlives_end = false, .loops_in_one_another = 3, .main_program_counts = true},
+    .program = {.macro_interrupt = false, .motion_outlives_end = false, .loops_in_one_another = 3, .main_program_counts = true, .no_call_in_mdi = true},
     .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
     .rotation = {.plane_in_block = true, .angle_by_parameter = true},
     .mill = {.rotary_in_block = true},

@@ -184,6 +184,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::name_without_value, "NC-PARAMETER", nullptr},
     {C::too_many_names, "NC-PARAMETER", nullptr},
     {C::probe_no_contact, "NC-PROBE", nullptr},
+    {C::call_in_mdi, "NC-NOT-BUILT", nullptr},  // does not occur
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

@@ -43,7 +43,7 @@ inline constexpr Rules kRules = {
             .turns_exclude_radius = false,
             .closed_by_radius_is_fault = true,
             .turns_count_last = true},
-    .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 1e6},
+    .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 1e6, .x_is_seconds = false},
     .compensation = {.xy_plane_only = false,  // LinuxCNC G41: G17 and G18
                      .plane_is_fixed = true,  // RS-274/NGC 3.5.10: no change of the plane
                      .bars_scaling_and_cycle_end = false,
@@ -82,7 +82,7 @@ inline constexpr Rules kRules = {
                    .machine_move_by_motion = true,
                .incremental_machine_move_rests = false},
     .scaling = {.all_linear_axes = false, .factor_required = true, .factor_of_word = factor_of_word,
-               .factor_by_axis = false},
+               .factor_by_axis = false, .arcs_may_be_uneven = false},
     .data_input = {.incremental_adds = false,
                    .system_required = true,
                    .axes_required = false,
@@ -91,7 +91,7 @@ inline constexpr Rules kRules = {
                    .amount_turns_system = true},
     .program = {.macro_interrupt = false, .motion_outlives_end = false,
                .loops_in_one_another = 0,
-               .main_program_counts = false},
+               .main_program_counts = false, .no_call_in_mdi = false},
     .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
     .rotation = {.plane_in_block = false, .angle_by_parameter = false},
     .mill = {.rotary_in_block = false},

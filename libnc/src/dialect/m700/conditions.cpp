@@ -143,6 +143,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::name_without_value, "P241", nullptr},
     {C::too_many_names, "P241", nullptr},
     {C::probe_no_contact, "P607", nullptr},
+    {C::call_in_mdi, "P29", nullptr},  // does not occur
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

@@ -24,6 +24,7 @@ double seconds_of(const BlockContext& in, Role word) {
   const BlockWords& w = in.words;
   const double raw = w.get(word);
   if (word == Role::dwell_seconds && in.dialect->rules.dwell.early_x_is_length && read_as_inch(in)) return raw * 10;
+  if (word == Role::dwell_seconds && in.dialect->rules.dwell.x_is_seconds) return raw;
   if (word == Role::dwell_time && !in.settings.dwell_p_decimal) return std::trunc(raw) / 1000;  // always whole ms
   return w.pointed(word) || in.settings.whole_positions() ? raw : raw / 1000;
 }
