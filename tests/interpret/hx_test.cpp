@@ -139,7 +139,8 @@ TEST(Hx, PolarCoordinateInterpolationTakesTheFirstAxisAndTheOneThatTurns) {  // 
   EXPECT_EQ(run.alarm, "");
   ASSERT_FALSE(run.moves().empty());
   EXPECT_NEAR(run.moves().back().machine.v[0], 60, 1e-6);
-  EXPECT_EQ(Bench(NC_DIALECT_HX, with_c).run("G112\nG81 X1. Z-1. R1. F10.\nG28 X0\nM30").alarm, "F_82204");
+  for (const char* block : {"G81 X1. Z-1. R1. F10.", "G28 X0", "G00 X1.", "X1.", "G17", "G51 X0", "G92 X0", "G68 X0 Y0 R1."})
+    EXPECT_EQ(Bench(NC_DIALECT_HX, with_c).run(std::string("G00 X10.\nG112\n") + block + "\nM30").alarm, "F_82204") << block;
   EXPECT_EQ(Bench(NC_DIALECT_HX, with_c).param("24624", "2").run("G112\nM30").alarm, "F_82208");  // Y does not turn
   EXPECT_EQ(alarm_of("G112\nM30"), "F_82208");
 }
@@ -233,6 +234,20 @@ TEST(Hx, ASubProgramIsRunFromQToR) {  // 2.4.3, the printed program
                   "rapid 0 0 50", "rapid 70 20 50"}));
   EXPECT_EQ(Bench(NC_DIALECT_HX).run("M98 P11 R2\nM30\nO11\nN1 M99").alarm, "F_82019");
   EXPECT_EQ(Bench(NC_DIALECT_HX).run("M98 P12\nM30").alarm, "F_82109");
+}
+
+TEST(Hx, FourSubProgramsStandInOneAnother) {  // 2.4.1; 14.1.7 (5): eight levels with macros
+  const auto nest = [](unsigned levels, const char* call) {
+    Bench bench(NC_DIALECT_HX);
+    std::string text;
+    for (unsigned i = 1; i <= levels; ++i) text += "O" + std::to_string(100 + i) + "\n" + (i < levels ? call + std::to_string(101 + i) : "#100=#100+1") + "\nM99\n";
+    bench.add("O100.nc", text);
+    return bench.run("#100=0\nM98 P101\nM30");
+  };
+  EXPECT_EQ(nest(4, "M98 P").alarm, "");
+  EXPECT_EQ(nest(5, "M98 P").alarm, "F_82021");
+  EXPECT_EQ(nest(5, "G65 P").alarm, "");
+  EXPECT_EQ(nest(6, "G65 P").alarm, "NC-NESTING");  // four levels of macros
 }
 
 TEST(Hx, TheLastBlockMayBeACallOrAJump) {  // 2.4.3

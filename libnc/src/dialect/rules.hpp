@@ -270,6 +270,8 @@ struct MillRules {
   /// The word of the cylinder's block names its rotary axis, which stands for an axis of each plane; parameters number the axes of polar coordinates
   /// (HX 4.6, 4.7). Else parameters name them (M700 6.9, 6.10; DGSHAPE has neither).
   bool rotary_in_block;
+  /// In polar coordinates nothing but cuts and what belongs to them goes (HX 4.6). Else rapid traverse and cycles as well (M700 6.10).
+  bool polar_cuts_only;
 };
 
 /// Codes that call programs because a parameter says so.
@@ -317,6 +319,8 @@ struct ProgramRules {
   bool main_program_counts;
   /// Blocks of MDI call no sub program (HX 2.4.3). Else they may (M700 13.3.1; DGSHAPE has none).
   bool no_call_in_mdi;
+  /// So many sub programs stand in one another, whatever macros stand between them (HX 2.4.1: four; M700 13.3.1: eight; DGSHAPE has none).
+  unsigned sub_programs_in_one_another;
 };
 
 struct MotionRules {

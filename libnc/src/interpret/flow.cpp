@@ -208,8 +208,16 @@ bool only_calls(const Interpreter& in) {
   return in.words.m.size() == 1;
 }
 
+/// One more sub program would be too many in one another.
+static bool too_many_subs(const Interpreter& in) {
+  unsigned subs = 1;
+  for (unsigned level = 1; level <= in.state.depth; ++level) subs += in.state.frame[level].kind == CallKind::sub ? 1u : 0u;
+  return subs > in.dialect->rules.program.sub_programs_in_one_another;
+}
+
 Execution enter(Interpreter& in, const Entry& entry) {
   State& s = in.state;
+  if (entry.kind == CallKind::sub && too_many_subs(in)) return in.raise(Condition::nesting, Role::call_program, entry.program.number);
   if (s.depth + 1u > in.dialect->call_depth || s.depth + 1u >= kMaxFrames) return in.raise(Condition::nesting, Role::call_program, entry.program.number);
   const CallFrame& caller = top(in);
   const uint8_t level = caller.macro_level;

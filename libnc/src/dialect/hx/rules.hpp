@@ -92,10 +92,10 @@ inline constexpr Rules kRules = {
                    .vector_turns_work = false,
                    .zero_is_selected_system = false,
                    .amount_turns_system = false},
-    .program = {.macro_interrupt = false, .motion_outlives_end = false, .loops_in_one_another = 3, .main_program_counts = true, .no_call_in_mdi = true},
+    .program = {.macro_interrupt = false, .motion_outlives_end = false, .loops_in_one_another = 3, .main_program_counts = true, .no_call_in_mdi = true, .sub_programs_in_one_another = 4},
     .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
     .rotation = {.plane_in_block = true, .angle_by_parameter = true},
-    .mill = {.rotary_in_block = true},
+    .mill = {.rotary_in_block = true, .polar_cuts_only = true},
     .code_call = {.first_of_g = 9010, .first_of_m = 9020, .arguments_behind_m = true, .tool_program = tool_program},
 };
 

@@ -91,13 +91,13 @@ inline constexpr Rules kRules = {
                    .amount_turns_system = false},
     .program = {.macro_interrupt = true, .motion_outlives_end = true,
                .loops_in_one_another = 27,
-               .main_program_counts = false, .no_call_in_mdi = false},
+               .main_program_counts = false, .no_call_in_mdi = false, .sub_programs_in_one_another = 8},
     .motion = {.accuracy_limits = accuracy_limits,
                .accuracy_joint_speed = joint_speed,
                .spline_speed_mm_min = spline_speed_clamp,
                .filter_times = filter_times},
     .rotation = {.plane_in_block = false, .angle_by_parameter = false},
-    .mill = {.rotary_in_block = false},
+    .mill = {.rotary_in_block = false, .polar_cuts_only = false},
     .code_call = {.first_of_g = 0, .first_of_m = 0, .arguments_behind_m = false, .tool_program = nullptr},
 };
 

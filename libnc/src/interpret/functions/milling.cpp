@@ -135,6 +135,13 @@ bool allowed_inside(Function function) {
   }
 }
 
+/// HX 4.6: G112 bears less than the cylinder does.
+bool allowed_in_polar(Function function) { return allowed_inside(function) && function != Function::rapid && mode_of(function) != Mode::cycle && mode_of(function) != Mode::return_level; }
+
+bool allowed_here(const BlockContext& in, Function function) {
+  return in.state.map.kind == AxisMap::Kind::polar && in.dialect->rules.mill.polar_cuts_only ? allowed_in_polar(function) : allowed_inside(function);
+}
+
 }  // namespace
 
 Execution do_cylinder(BlockContext& in) {
@@ -238,7 +245,7 @@ Execution check_mill_block(BlockContext& in) {
       case Function::polar_command_on:  // 6.10 (7) (b): "G16 to G19"
         return in.raise_code(polar ? Condition::mill_modal : Condition::mill_code, *row);
       default:
-        if (!allowed_inside(row->function)) return in.raise_code(Condition::mill_code, *row);
+        if (!allowed_here(in, row->function)) return in.raise_code(Condition::mill_code, *row);
     }
   }
   if (w.has(Role::tool)) return in.raise(Condition::mill_modal, Role::tool, w.get(Role::tool));
@@ -249,7 +256,7 @@ Execution check_mill_move(BlockContext& in, uint32_t commanded) {
   State& state = in.state;
   state.mill.moved = true;
   const Function motion = state.modal.of(Mode::motion);
-  if (!allowed_inside(motion)) return in.raise_mode(Condition::mill_code, Mode::motion);
+  if (!allowed_here(in, motion)) return in.raise_mode(Condition::mill_code, Mode::motion);
   if (state.map.kind != AxisMap::Kind::cylinder) return Execution::done;
   const auto rotary = static_cast<int8_t>(state.map.rotary);
   if (state.plane_axis[0] != rotary && state.plane_axis[1] != rotary) return in.raise(Condition::mill_modal);
