@@ -192,6 +192,33 @@ TEST(StructSize, BehindTheCallersEndNothingIsReadOrWritten) {
   EXPECT_EQ(out.handle_dropped, 1u);
 }
 
+TEST(StructSize, InputsOfAnOlderProgramHaveSoftLimits) {
+  // A program of 0.1: `unlimited` came later, and what lies behind the program's struct is not read.
+  static_assert(offsetof(nc_inputs, unlimited) == offsetof(nc_inputs, clock_ms) + sizeof(int64_t));
+  nc_config config = small();
+  config.system[0].axis[0].soft_limited = true;
+  config.system[0].axis[0].soft_min = -0.5;
+  config.system[0].axis[0].soft_max = 0.5;
+  config.system[0].axis[0].rapid = 100;
+  config.system[0].axis[0].max_acceleration = 1000;
+  for (const bool old : {true, false}) {
+    Control c(config);
+    nc_inputs in;
+    nc_inputs_init(&in);
+    if (old) in.struct_size = offsetof(nc_inputs, unlimited);
+    in.unlimited = 1;
+    in.manual[0] = {NC_MANUAL_JOG, 50, 0};
+    nc_outputs out;
+    nc_outputs_init(&out);
+    for (int n = 0; n < 200; ++n) ASSERT_EQ(nc_cycle(c.control, &in, &out), NC_OK);
+    if (old) {
+      EXPECT_EQ(out.command.v[0], 0.5);
+    } else {
+      EXPECT_GT(out.command.v[0], 5);
+    }
+  }
+}
+
 TEST(StructSize, ANewerConfigurationIsTakenWhileItAsksForNothingNew) {
   Newer<nc_config> newer;
   nc_config_init_sized(&newer.known, sizeof newer);

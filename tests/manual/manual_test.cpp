@@ -40,6 +40,27 @@ TEST(Manual, JogRampsUpGoesAndStopsWhenLetGo) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
+TEST(Manual, AnAxisThatDoesNotKnowWhereItStandsHasNoSoftLimits) {
+  Machine m(manual_config());
+  m.in.unlimited = 1;
+  m.in.manual[0] = jog(100);
+  m.in.manual[1] = jog(100);
+  run(m, 1500);
+  EXPECT_GT(m.out.command.v[0], 140);
+  EXPECT_EQ(m.out.command.v[1], 100) << "the others have theirs";
+  m.in.unlimited = 0;  // outside, it may come in and not go further out
+  m.in.manual[0] = {};
+  run(m, 200);
+  const double stands = m.out.command.v[0];
+  m.in.manual[0] = jog(100);
+  run(m, 200);
+  EXPECT_EQ(m.out.command.v[0], stands);
+  m.in.manual[0] = jog(-100);
+  run(m, 200);
+  EXPECT_LT(m.out.command.v[0], stands - 10);
+  EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+}
+
 TEST(Manual, JogStopsExactlyAtTheSoftLimit) {
   Machine m(manual_config());
   m.in.manual[0] = jog(1000);  // faster than the axis: goes at rapid

@@ -266,6 +266,8 @@ typedef struct nc_inputs {
                                  are moved along with these axes. False (manual absolute is on): the systems stay, and an absolute command goes to its
                                  programmed place (M700 12.4.4, 14.12) */
   int64_t clock_ms;      /**< wall clock (see nc_world) */
+  uint64_t unlimited;    /**< bit n: axis n does not know where it stands yet, and its soft limits do not hold for motion by hand. It counts where a motion begins
+                              and while it goes on: a motion that goes on when the bit goes off ends where it was to end */
 } nc_inputs;
 /**
  * Clear it, set its size and both overrides to 100 %: a machine that nobody touches. Any thread.

@@ -96,6 +96,7 @@ void Interpolator::manual_cycle(const nc_inputs& in) {
   rules.dropped = spindles_now();  // M700 10.5 (1): a spindle is not moved as an axis, nor behind that (precaution (3))
   rules.turning = parameters.turning;
   rules.short_cut = parameters.short_cut;
+  rules.unlimited = static_cast<uint32_t>(in.unlimited);
   if (parameters.index == 0 && !index_.busy()) {
     manual_.cycle(in.manual, rules, &wanted_);
     return;

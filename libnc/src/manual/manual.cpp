@@ -34,8 +34,9 @@ double Manual::acceleration(unsigned i) const {
 }
 
 /// A target inside the soft limits. An axis that stands outside may go inward but not further out.
-double Manual::within(unsigned i, bool turning, double target, double position) const {
-  if (!(config_.soft_limited >> i & 1)) return target;
+double Manual::within(unsigned i, const Rules& rules, double target, double position) const {
+  if (!((config_.soft_limited & ~rules.unlimited) >> i & 1)) return target;
+  const bool turning = (rules.turning >> i & 1) != 0;
   const double turns = turning ? 360 * turns_outside(position, config_.soft_min[i], config_.soft_max[i]) : 0;
   const double low = std::min(config_.soft_min[i] + turns, position), high = std::max(config_.soft_max[i] + turns, position);
   return std::min(high, std::max(low, target));
@@ -52,12 +53,12 @@ void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double pos
       give_up_handle(i);
       a.going = w.velocity != 0;
       a.cap = std::min(std::fabs(w.velocity), top_speed(i));
-      a.target = within(i, turning, position + std::copysign(kFar, w.velocity), position);
+      a.target = within(i, rules, position + std::copysign(kFar, w.velocity), position);
       break;
     case NC_MANUAL_STEP:
       if (!edge || w.distance == 0) break;
       // A step goes from where the axis would come to rest: from its target when it still has one.
-      a.target = within(i, turning, (a.going && !was ? a.target : position) + w.distance, position);
+      a.target = within(i, rules, (a.going && !was ? a.target : position) + w.distance, position);
       a.by_handle = a.by_handle && a.going && !was;
       a.cap = top_speed(i);
       if (w.velocity != 0) a.cap = std::min(a.cap, std::fabs(w.velocity));
@@ -67,7 +68,7 @@ void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double pos
       if (w.distance == 0) break;
       const double top = top_speed(i), ahead = top * kHandleAhead_s + 0.5 * top * top / acceleration(i);
       const double wanted = (a.going && !was ? a.target : position) + w.distance;
-      a.target = within(i, turning, std::min(position + ahead, std::max(position - ahead, wanted)), position);
+      a.target = within(i, rules, std::min(position + ahead, std::max(position - ahead, wanted)), position);
       if (a.target != wanted) handle_dropped_ |= 1u << i;
       a.by_handle = true;
       a.cap = top;
@@ -79,8 +80,8 @@ void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double pos
       give_up_handle(i);
       a.target = config_.reference[i];
       // Within its limits an axis has one way only, whatever is shorter.
-      if (turning) a.target = position + turn_to(a.target, within_one_turn(position), ((rules.short_cut & ~config_.soft_limited) >> i & 1) != 0);
-      a.target = within(i, turning, a.target, position);
+      if (turning) a.target = position + turn_to(a.target, within_one_turn(position), ((rules.short_cut & (~config_.soft_limited | rules.unlimited)) >> i & 1) != 0);
+      a.target = within(i, rules, a.target, position);
       a.cap = top_speed(i);
       a.going = true;
       break;

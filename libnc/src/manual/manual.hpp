@@ -27,6 +27,7 @@ class Manual {
     uint32_t dropped = 0;    ///< these stand at once, and what was wanted of them is given up: they are no axes now
     uint32_t turning = 0;    ///< the positions of these count within one turn (M700 14.13) ...
     uint32_t short_cut = 0;  ///< ... and they go to one by the shorter way
+    uint32_t unlimited = 0;  ///< the soft limits of these do not hold: where they stand is not known
   };
   /// One cycle: `position` is moved. Call it only while no program moves.
   void cycle(const nc_manual* wish, const Rules& rules, AxisVec* position) NC_RT;
@@ -57,7 +58,7 @@ class Manual {
   double move(unsigned axis, bool held, double position) NC_RT;
   double top_speed(unsigned axis) const NC_RT;
   double acceleration(unsigned axis) const NC_RT;
-  double within(unsigned axis, bool turning, double target, double position) const NC_RT;
+  double within(unsigned axis, const Rules& rules, double target, double position) const NC_RT;
 
   ManualConfig config_;
   Axis axis_[kMaxAxes];
