@@ -76,7 +76,8 @@ static_assert(static_cast<int>(nc_REFUSED_OTHER) == static_cast<int>(rt::Refusal
               static_cast<int>(nc_REFUSED_INTERLOCK) == static_cast<int>(rt::RefusalCause::kInterlock) &&
               static_cast<int>(nc_REFUSED_NOT_LOADED) == static_cast<int>(rt::RefusalCause::kNotLoaded) &&
               static_cast<int>(nc_REFUSED_NO_ANSWER) == static_cast<int>(rt::RefusalCause::kNoAnswer) &&
-              static_cast<int>(nc_REFUSED_DRIVES) == static_cast<int>(rt::RefusalCause::kLast) &&
+              static_cast<int>(nc_REFUSED_DRIVES) == static_cast<int>(rt::RefusalCause::kDrives) &&
+              static_cast<int>(nc_REFUSED_LIMIT_SWITCH) == static_cast<int>(rt::RefusalCause::kLast) &&
               static_cast<int>(nc_REFUSED_SOFT_LIMIT) == static_cast<int>(rt::RefusalCause::kSoftLimit));
 // 0 is what a subscriber reads of a control that does not say it, so that the enumerators begin one behind those of the runtime.
 static_assert(static_cast<int>(nc_OVERRIDE_OPERATOR) == static_cast<int>(rt::OverrideSource::kOperator) + 1 &&
@@ -196,7 +197,7 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   }
   to.forced = {share::kForced, block.forced_count, forced, false};
   to.refusals = from.refusals;
-  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_DRIVES, nc_REFUSED_OTHER);
+  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_LIMIT_SWITCH, nc_REFUSED_OTHER);
   set(to.refusal_text, from.refusal_text);
   to.feed_override_source = source_of(from.feed_override_source);
   to.rapid_override_source = source_of(from.rapid_override_source);
@@ -354,7 +355,7 @@ nc_CommandAck ack(const share::Ack& ack) {
   to.repeated = ack.repeated != 0;
   to.time_ns = ack.time_ns;
   set(to.text, ack.text);
-  to.refusal = as_enum(ack.refusal, nc_REFUSED_DRIVES, nc_REFUSED_OTHER);
+  to.refusal = as_enum(ack.refusal, nc_REFUSED_LIMIT_SWITCH, nc_REFUSED_OTHER);
   return to;
 }
 

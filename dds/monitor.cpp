@@ -89,6 +89,9 @@ const char* refusal_name(nc_RefusalCause cause) {
     case nc_REFUSED_LET_GO: return "let go first";
     case nc_REFUSED_TOO_FAR: return "too far";
     case nc_REFUSED_DRIVES: return "drives off";
+    case nc_REFUSED_NOT_HOMED: return "not homed";
+    case nc_REFUSED_HOMING: return "homing";
+    case nc_REFUSED_LIMIT_SWITCH: return "limit switch";
     default: return "other";
   }
 }

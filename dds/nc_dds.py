@@ -102,6 +102,9 @@ class RefusalCause(IdlEnum, typename="nc.RefusalCause", default="REFUSED_NOT"):
     REFUSED_LET_GO = 26
     REFUSED_TOO_FAR = 27
     REFUSED_DRIVES = 28
+    REFUSED_NOT_HOMED = 29
+    REFUSED_HOMING = 30
+    REFUSED_LIMIT_SWITCH = 31
 
 
 @annotate.appendable

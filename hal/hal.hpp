@@ -34,7 +34,8 @@ struct Feedback {
 
 // What the control tells the machine.
 struct SystemCommand {
-  bool enable = false;      // drives on
+  bool enable = false;      // drives on ...
+  std::uint32_t off = 0;    // ... but for these, bit per axis
   bool reset = false;       // the operator's reset is on: drives get out of their faults
   nc_axes position{};       // commanded machine position of this cycle
   nc_axes velocity{};       // mm/s or deg/s

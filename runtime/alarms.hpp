@@ -23,6 +23,8 @@ enum class AlarmId : std::uint8_t {
   kRetainedUnwritable,
   kBadInput,  // detail: nc_input_bits
   kPrinter,   // what a program prints (DPRNT) does not arrive
+  kLimitSwitch,  // detail: LimitDetail
+  kHoming,       // detail: HomingFault
   kProgram,  // an alarm of libnc; code and text come from there
   kCount
 };
@@ -52,6 +54,8 @@ inline constexpr AlarmRow kAlarmTable[] = {
     // Found behind the block, when the axes may be in a thread already, so the program comes to its end; the next one does not begin. Code
     // and short text are the family's (nc_alarm_role_get).
     {AlarmId::kPrinter, "", "lines of the external output are lost", false},
+    {AlarmId::kLimitSwitch, "R22", "Limit switch"},
+    {AlarmId::kHoming, "R23", "Homing has failed"},
     {AlarmId::kProgram, "", "Program alarm"},
 };
 
@@ -88,6 +92,9 @@ enum FinFault : std::uint32_t {
   kNoClampHere = 1 << 10  // the axis stands where it cannot be clamped
 };
 
+// Which limit switch of the axis (R22). Both at once: wiring.
+enum LimitDetail : std::uint32_t { kLimitMinus = 1, kLimitPlus = 2, kBothLimits = 3 };
+
 // One active alarm, as the scan raises it.
 struct ActiveAlarm {
   AlarmId id = AlarmId::kCount;
@@ -95,9 +102,9 @@ struct ActiveAlarm {
   std::uint8_t system = 0;  // index of the part system
   std::uint64_t scan = 0;   // when it came
   nc_source source{};       // block in execution at that moment
-  std::uint32_t detail = 0; // R15: FinFault; R16: number; R17: line; R18: link; R19, R20: retain_detail(); R21: nc_input_bits
+  std::uint32_t detail = 0; // R15: FinFault; R16: number; R17: line; R18: link; R19, R20: retain_detail(); R21: nc_input_bits; R22: LimitDetail; R23: HomingFault
   std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M; ~0 = not given out yet; R12: hal/drive_fault.hpp; R17: ladder::Fault
-  bool acknowledged = false;  // a warning whose cause goes on: a reset has been made since, and it keeps nothing from starting
+  bool acknowledged = false;  // a warning, or a limit switch, whose cause goes on: a reset has been made since, and it stops nothing any more
 };
 
 inline constexpr unsigned kMaxActiveAlarms = 16;
@@ -116,7 +123,7 @@ struct AlarmList {
   // One of them stops the machine.
   bool stops() const {
     for (unsigned i = 0; i < count; ++i)
-      if (alarm_row(alarm[i].id).stops) return true;
+      if (alarm_row(alarm[i].id).stops && !alarm[i].acknowledged) return true;
     return false;
   }
 };

@@ -22,6 +22,7 @@ enum class CommandKind : std::uint8_t {
                    // begins after 0, or after nothing for kJogDeadManScans
   kStep,           // axis, value: distance
   kReference,      // axis: go to the first reference position
+  kHome,           // axis: find its reference mark; kAllSystems: every axis that can be homed, in order
   kForce,          // number: of LadderTask::force_number(), value: what the device is held at
   kRelease,        // number: the same, kAllForces
   kEnd,            // the control is being ended: to rest, and nothing starts any more, whatever the ladder asks for
@@ -89,6 +90,10 @@ enum class Answer : std::uint8_t {
   kResetHeld,         // a reset is done, and plc.reset is still on
   kDrivesOff,         // a drive does not follow (yet)
   kHandleTooFar,      // more than the axis follows
+  kNotHomed,          // an axis does not know yet where it stands
+  kNoHoming,          // there is no homing for it
+  kHoming,            // the axis is being homed
+  kLimitSwitch,       // an axis stands on its limit switch
   kNoAnswer           // the runtime does not run
 };
 inline constexpr unsigned kAnswers = static_cast<unsigned>(Answer::kNoAnswer) + 1;
@@ -157,6 +162,14 @@ constexpr const char* answer_text(Answer answer) {
       return "the drives are off, come on or move by themselves: wait until they follow";
     case Answer::kHandleTooFar:
       return "more than the axis follows: it does not end where the wheel says";
+    case Answer::kNotHomed:
+      return "an axis is not homed: home it first";
+    case Answer::kNoHoming:
+      return "no homing is configured";
+    case Answer::kHoming:
+      return "the axis is being homed";
+    case Answer::kLimitSwitch:
+      return "an axis is on its limit switch, or the switch cannot be read: only the other way is free";
     case Answer::kNoAnswer:
       return "the runtime does not answer";
   }

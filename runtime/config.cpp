@@ -11,6 +11,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "runtime/config_equipment.hpp"
 #include "runtime/config_sections.hpp"
 #include "runtime/hal_factory.hpp"
 
@@ -86,6 +87,7 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   read_macro_interface(&reader, &read);
   read_ladder(&reader, &read);
   read_signals(&reader, &read);
+  resolve_equipment(&reader, &read);
   read_machine_sections(&reader, &read);
   read_spindle_feedback(&reader, &read);
   read_share(&reader, &read);

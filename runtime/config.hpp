@@ -19,6 +19,7 @@
 #include "hal/points.hpp"
 #include "hal/sim/sim_machine.hpp"
 #include "nc/control.h"
+#include "runtime/axes/equipment.hpp"
 #include "runtime/programs/program_text.hpp"
 
 namespace nc::rt {
@@ -69,6 +70,16 @@ struct MacroMap {
   std::array<std::array<int, 32>, NC_WORDS> input_bit, output_bit;
   std::array<int, NC_WORDS> input_word, output_word;
   MacroMap();
+};
+
+// A point that an axis has something on, by its name: it is looked up when the points have been read (config_equipment.hpp).
+struct EquipmentName {
+  enum class Part : std::uint8_t { kDog, kIndex, kRequest, kDone, kMinus, kPlus, kBrake };
+  std::string name;
+  ConfigPlace place;
+  Part part = Part::kDog;
+  hal::PointDirection direction = hal::PointDirection::kInput;
+  std::uint8_t system = 0, axis = 0;
 };
 
 // What measures the speed of a spindle.
@@ -191,6 +202,9 @@ struct Config {
   LadderConfig ladder;
   std::vector<SignalWire> wires;
   std::array<std::array<SpindleFeedback, NC_MAX_SPINDLES>, NC_MAX_SYSTEMS> spindle_feedback;
+  std::array<std::array<AxisEquipment, NC_MAX_AXES>, NC_MAX_SYSTEMS> equipment;
+  std::array<std::array<ConfigPlace, NC_MAX_AXES>, NC_MAX_SYSTEMS> homing_place;
+  std::vector<EquipmentName> equipment_names;
   hal::SimConfig sim;
   hal::canopen::BusMap canopen;
   ShareConfig share;

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <optional>
 
+#include "runtime/config_equipment.hpp"
 #include "runtime/config_sections.hpp"
 #include "runtime/hal_factory.hpp"
 #include "runtime/signals/signal_table.hpp"
@@ -247,6 +248,7 @@ void read_sim(TableReader* root, Config* config) {
     reader.number("tool_select_s", &sim.tool_select_s, 0, kMaxSeconds);
     reader.number("m_time_s", &sim.m_time_s, 0, kMaxSeconds);
     read_sim_plant(&reader, config);
+    read_sim_axes(&reader, config);
     reader.tables("solid", [&](TableReader& solid, std::size_t) { read_solid(&solid, config); });
     std::vector<std::pair<std::string, unsigned>> statements;
     reader.strings("script", &statements);

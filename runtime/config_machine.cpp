@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/config_equipment.hpp"
 #include "runtime/config_sections.hpp"
 #include "runtime/hal_factory.hpp"
 #include "runtime/motion_choice.hpp"
@@ -94,6 +95,7 @@ void read_axis(TableReader* reader, Config* config) {
   reader->number("following_error_limit", &entry.sim.following_error_limit, 0, kMaxLength);
   reader->number("unclamp_s", &entry.sim.clamp.unclamp_s, 0, 3600);
   reader->number("clamp_s", &entry.sim.clamp.clamp_s, 0, 3600);
+  for (const char* key : {"homing", "limit_switches", "brake"}) (void)reader->find(key);  // read_equipment() below
   if (entry.axis.name == 0) return;
 
   const unsigned s = entry.system - 1;
@@ -113,6 +115,7 @@ void read_axis(TableReader* reader, Config* config) {
   system.axis[a] = entry.axis;
   config->start[s].v[a] = entry.start;
   config->sim.axis[s][a] = entry.sim;
+  read_equipment(reader, config, s, a);
   config->nc.system_count =
       static_cast<std::uint8_t>(std::max<unsigned>(config->nc.system_count, entry.system));
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hal/hal.hpp"
+#include "runtime/axes/equipment.hpp"
 #include "runtime/command.hpp"
 #include "runtime/snapshot.hpp"
 
@@ -18,6 +19,8 @@ struct LadderStatus {
   bool drives_on = true;
   std::uint64_t scan = 0;
   const std::uint32_t* macro_output = nullptr;  // NC_WORDS words of #1132..., as the machine has them
+  const AxisFlags* axes = nullptr;              // of each part system
+  bool all_homed = true;
 };
 
 inline constexpr unsigned kLadderAlarms = 8;
@@ -27,6 +30,7 @@ inline constexpr unsigned kLadderAlarms = 8;
 struct LadderRequests {
   bool cycle_start = false;
   bool reset = false;
+  bool home = false;       // every axis that can be homed, in order
   bool mode[3] = {};       // by Mode
   std::uint8_t alarm = 0;  // bit n: the ladder's alarm n+1
   bool stopped = false;    // the program has a fault and does not run
@@ -41,6 +45,8 @@ struct LadderRequests {
     std::int32_t feed_override = -1, rapid_override = -1;  // 0.01 %; -1: none, the operator's holds
     std::int32_t jog_feed = 0;   // mm/min or deg/min
     std::uint32_t jog_p = 0, jog_m = 0, reference = 0;  // bit n: axis n
+    std::uint32_t interlocked[2] = {};  // bit n: axis n may not go in -, in +
+    std::uint32_t servo_off = 0;        // bit n: the drive of axis n is to be off
     std::int16_t handle[NC_MAX_AXES] = {};              // increments in this scan
   };
   System system[NC_MAX_SYSTEMS];

@@ -59,6 +59,10 @@ RefusalCause refusal_cause(Answer why) {
     case Answer::kQueueFull:
     case Answer::kTooManyForces: return RefusalCause::kTooMany;
     case Answer::kNoLadder: return RefusalCause::kNoLadder;
+    case Answer::kNotHomed: return RefusalCause::kNotHomed;
+    case Answer::kNoHoming: return RefusalCause::kAxis;
+    case Answer::kHoming: return RefusalCause::kHoming;
+    case Answer::kLimitSwitch: return RefusalCause::kLimitSwitch;
     case Answer::kNoAnswer: return RefusalCause::kNoAnswer;
   }
   return RefusalCause::kOther;

@@ -28,8 +28,8 @@ struct Refusal {
 enum class RefusalCause : std::uint8_t {
   kNone, kMode, kRunning, kMiddleOfBlock, kNoProgram, kAlarm, kResetting, kEnding, kSpindle, kSoftLimit, kNotRepeated, kNoFeed, kOther,
   kFeedHold, kInterlock, kResetHeld, kWarning, kMachineSwitch, kRange, kAxis, kControl, kNotLoaded, kNoDevice, kTooMany, kNoLadder, kNoAnswer,
-  kLetGo, kTooFar, kDrives,
-  kLast = kDrives
+  kLetGo, kTooFar, kDrives, kNotHomed, kHoming, kLimitSwitch,
+  kLast = kLimitSwitch
 };
 // kNone for what has been done. Every other answer has one, and none is kOther: that is for what a later control may say.
 RefusalCause refusal_cause(Answer why);

@@ -449,6 +449,11 @@ std::string Runtime::alarm_code(AlarmId id) const {
   return id == AlarmId::kPrinter ? family_alarm(config_, NC_ALARM_PRINTER).code : alarm_row(id).code;
 }
 
+// ": +"
+static const char* limit_text(std::uint32_t detail) {
+  return detail == kLimitMinus ? " in -" : detail == kLimitPlus ? " in +" : "es of both ends are on at once: look at their wires";
+}
+
 std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kProgram) {
     const FeederInfo::System now = info().system[alarm.system];
@@ -471,6 +476,8 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
     text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);
   }
   if (alarm.id == AlarmId::kLinkLost) text += ": " + config_.buses[alarm.detail % config_.buses.size()].name;
+  if (alarm.id == AlarmId::kHoming) text += std::string(": ") + homing_fault_text(static_cast<HomingFault>(alarm.detail));
+  if (alarm.id == AlarmId::kLimitSwitch) text += limit_text(alarm.detail);
   if (alarm.id == AlarmId::kBadInput) text += bad_input_text(alarm.detail);
   if (alarm.id == AlarmId::kLadderStopped) text += ": " + ladder_fault(alarm);
   if (alarm.id == AlarmId::kDriveFault)

@@ -39,7 +39,7 @@ std::int64_t processor_ns() noexcept {
 }  // namespace
 
 bool stops_the_nc(const ActiveAlarm& alarm) noexcept {
-  return alarm.id != AlarmId::kProgram && alarm_row(alarm.id).stops;
+  return alarm.id != AlarmId::kProgram && alarm_row(alarm.id).stops && !alarm.acknowledged;
 }
 
 Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder, NcPort* nc)
@@ -61,6 +61,7 @@ Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder
     out_[s].distance_zero = true;
     feedback_.system[s].actual = config.start[s];
   }
+  create_axes();
   std::uint32_t mapped[NC_WORDS];
   macro_.mapped(mapped);
   tell_found_outputs(mapped);  // their points may begin with another value than 0
@@ -102,12 +103,14 @@ void Scan::run_once() noexcept {
   scan_time_ns_ = clock_->now_ns();
   read_inputs();
   run_ladder();
+  run_axes();
   for (unsigned s = 0; s < systems_; ++s) {  // what the ladder left in the points is what the program reads
     macro_.gather(points_, interface_input_);
     for (unsigned w = 0; w < NC_WORDS; ++w) in_[s].input[w] = interface_input_[w] |= last_requests_.macro_input[w];
   }
   for (unsigned s = 0; s < systems_; ++s) last_command_[s] = out_[s].command;
   nc_->cycle(in_, out_);
+  take_positions();
   write_outputs();
   follow_requests();
   publish();
@@ -117,10 +120,11 @@ void Scan::run_once() noexcept {
 // ---- 1 inputs ----
 
 void Scan::read_inputs() noexcept {
-  hal_->read(&feedback_, &points_);
+  read_machine();
   std::uint32_t found[NC_WORDS];
   if (macro_.take_over(points_, found)) tell_found_outputs(found);
   bind_spindles();
+  look_at_axes();
   take_commands();
   watch_machine();
   watch_standstill();
@@ -203,6 +207,8 @@ Answer Scan::apply(const Command& command) noexcept {
     case CommandKind::kStep:
     case CommandKind::kReference:
       return manual(command);
+    case CommandKind::kHome:
+      return home_command(command);
     case CommandKind::kForce:
       return ladder_->force(command.number, static_cast<std::int32_t>(command.value));
     case CommandKind::kRelease:
@@ -272,7 +278,10 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
   for (unsigned s = 0; s < systems_; ++s) held |= machine_holds_[s] ? 1u << s : 0;
   if (((ready != 0 ? ready : systems) & ~held) == 0) return Answer::kFeedHold;
   if (ready == 0) return Answer::kNoProgram;
-  if (drives_not_following()) return Answer::kDrivesOff;
+  if (drives_not_following() || any_powerless()) return Answer::kDrivesOff;
+  if (at_limit_switch(ready)) return Answer::kLimitSwitch;
+  for (unsigned s = 0; s < systems_; ++s)
+    if ((ready >> s & 1u) != 0 && axis_not_homed(s) >= 0) return Answer::kNotHomed;
   // Who commands a start behind his hold wants it. Whoever presses a button in that scan does not know of the hold.
   const std::uint32_t taken_back = by == Asker::kPanel || by == Asker::kLadder ? held_now_ : 0, starts = ready & ~taken_back;
   if (starts == 0) return Answer::kTakenBack;
@@ -340,9 +349,12 @@ void Scan::write_outputs() noexcept {
     const nc_outputs& out = out_[s];
     macro_.distribute(out.output, out.output_written, &points_);
     hal::SystemCommand& machine = machine_.system[s];
-    machine.enable = !drives_off_;
+    const std::uint32_t all = (1u << config_.nc.system[s].axis_count) - 1;
+    machine.off = power_axes(s) & all;
+    machine.enable = !drives_off_ || machine.off != all;  // a drive may have to hold until its brake does
     machine.reset = reset_phase_ == ResetPhase::kStopping || reset_phase_ == ResetPhase::kFeeder;
     machine.position = out.command;
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) machine.position.v[a] -= axes_[s][a].shift;
     machine.velocity = out.velocity;
     machine.strobe = out.strobe;
     machine.m = out.m;
@@ -387,6 +399,7 @@ void Scan::follow_requests() noexcept {
   }
   hold_request_ &= in_state(NC_STATE_RUNNING);
   watch_manual();
+  for (unsigned s = 0; s < systems_; ++s) publish_axes(s);
   if (reset_phase_ == ResetPhase::kStopping) {
     ++reset_scans_;
     if (reset_scans_ >= kResetMinScans && !program_active() && at_rest() && axes_stand()) {
@@ -424,6 +437,7 @@ void Scan::publish() noexcept {
     out.system[s].actual = feedback_.system[s].actual;
     out.system[s].refusal = refusal_[s];
     publish_overrides(s, &out.system[s]);
+    out.system[s].axes = flags_[s];
     std::copy(std::begin(feedback_.system[s].spindle), std::end(feedback_.system[s].spindle), out.system[s].spindle);
   }
   out.single_block = single_block_;

@@ -19,6 +19,8 @@
 
 #include "hal/hal.hpp"
 #include "runtime/alarms.hpp"
+#include "runtime/axes/axis_power.hpp"
+#include "runtime/axes/homing.hpp"
 #include "runtime/clock.hpp"
 #include "runtime/command.hpp"
 #include "runtime/config.hpp"
@@ -130,6 +132,21 @@ class Scan {
     bool refused = false;    // a jog: something has refused or stopped it, and it waits to be let go
   };
 
+  // What the scan keeps of an axis and what stands beside it (scan_axes.cpp, scan_homing.cpp).
+  struct AxisWork {
+    AxisHoming homing;
+    AxisPower power;
+    double drive = 0;      // where the drive says it is; kept, because a machine that does not answer leaves the last place as it was
+    double shift = 0;      // machine position = that + this
+    bool homed = false;
+    bool waits_for_homing = false;  // home all has not come to it yet
+    bool sets = false;     // its position is set in this scan ...
+    double set_by = 0;     // ... by so much
+    bool limit[2] = {};       // it stands on its switch in -, in +
+    bool blind[2] = {};       // which cannot be read
+    bool limit_told[2] = {};  // its alarm has been raised
+  };
+
   void read_inputs() noexcept;
   void tell_found_outputs(const std::uint32_t found[NC_WORDS]) noexcept;
   void bind_spindles() noexcept;
@@ -166,6 +183,42 @@ class Scan {
   void publish() noexcept;
   void publish_overrides(unsigned system, SystemSnapshot* out) const noexcept;
   void answer_commands() noexcept;
+
+  void create_axes();
+  void read_machine() noexcept;
+  bool readable(int point) const noexcept;
+  bool is_on(const Contact& contact) const noexcept;
+  void look_at_axes() noexcept;
+  void look_at_limits(unsigned system, unsigned axis) noexcept;
+  void look_at_homed(unsigned system, unsigned axis) noexcept;
+  bool limit_holds(const ActiveAlarm& alarm) const noexcept;
+  Answer way_hindrance(unsigned system, unsigned axis, int direction) const noexcept;
+  bool is_interlocked(unsigned system, unsigned axis, int direction) const noexcept;
+  bool at_limit_switch(std::uint32_t systems) const noexcept;
+  void run_axes() noexcept;
+  void limit_by_hand(unsigned system, unsigned axis) noexcept;
+  void give_up_way(unsigned system, unsigned axis, Answer why) noexcept;
+  void hold_at_interlock(unsigned system) noexcept;
+  void hold_positions(unsigned system) noexcept;
+  std::uint32_t power_axes(unsigned system) noexcept;
+  bool is_powerless(unsigned system, unsigned axis) const noexcept;
+  bool any_powerless() const noexcept;
+
+  bool limits_known(unsigned system, unsigned axis) const noexcept;
+  int axis_not_homed(unsigned system) const noexcept;
+  bool all_homed() const noexcept;
+  bool is_homing() const noexcept;
+  Answer homing_hindrance(unsigned system, unsigned axis) const noexcept;
+  Answer search_hindrance(unsigned system, unsigned axis) const noexcept;
+  Answer begin_homing(unsigned system, unsigned axis) noexcept;
+  Answer home_command(const Command& command) noexcept;
+  void begin_next_homing() noexcept;
+  void forget_order() noexcept;
+  AxisHoming::Seen homing_sight(unsigned system, unsigned axis) const noexcept;
+  void home(unsigned system, unsigned axis) noexcept;
+  void set_positions(unsigned system) noexcept;
+  void take_positions() noexcept;
+  void publish_axes(unsigned system) noexcept;
 
   void raise(AlarmId id, unsigned system, int axis, std::uint32_t detail = 0, std::uint32_t code = 0) noexcept;
   void acknowledge_alarms() noexcept;
@@ -254,6 +307,10 @@ class Scan {
   unsigned stood_scans_ = 0;
   bool alarm_was_given_[NC_MAX_SYSTEMS] = {};  // the NC's alarm state comes from an alarm of the runtime
   Jog jog_[NC_MAX_SYSTEMS][NC_MAX_AXES];
+  AxisWork axes_[NC_MAX_SYSTEMS][NC_MAX_AXES];
+  Answer hindered_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};  // what has kept motion by hand from its direction in this scan
+  std::uint32_t interlock_waits_[NC_MAX_SYSTEMS] = {}; // a program waits: bit 2 n for axis n in -, bit 2 n + 1 in +
+  AxisFlags flags_[NC_MAX_SYSTEMS];
   bool message_seen_[NC_MAX_SYSTEMS] = {};
   ResetPhase reset_phase_ = ResetPhase::kNone;
   unsigned reset_scans_ = 0;

@@ -32,7 +32,7 @@ bool asks_for_a_new_press(Answer why) {
 // Where a soft limit ends every motion in this direction.
 bool Scan::at_soft_limit(unsigned system, unsigned axis, int direction) const noexcept {
   const nc_axis_config& limits = config_.nc.system[system].axis[axis];
-  if (!limits.soft_limited || direction == 0) return false;
+  if (!limits.soft_limited || direction == 0 || !limits_known(system, axis)) return false;
   double now = out_[system].command.v[axis];
   if ((out_[system].turning >> axis & 1u) != 0) now -= 360 * std::floor((now - limits.soft_min) / 360);
   return direction > 0 ? now >= limits.soft_max - kAtLimit : now <= limits.soft_min + kAtLimit;
@@ -44,7 +44,7 @@ Answer Scan::hand_hindrance(unsigned system, unsigned axis) const noexcept {
   if (reset_phase_ != ResetPhase::kNone) return in_reset();
   if (mode_ != Mode::kManual) return Answer::kNotInThisMode;
   if (is_spindle_now(system, axis)) return Answer::kSpindleNow;
-  if ((feedback_.system[system].not_following >> axis & 1u) != 0) return Answer::kDrivesOff;
+  if ((feedback_.system[system].not_following >> axis & 1u) != 0 || is_powerless(system, axis)) return Answer::kDrivesOff;
   if (!out_[system].manual_allowed) return Answer::kMiddleOfBlock;
   if (in_[system].interlock) return Answer::kInterlock;
   return machine_holds_[system] ? Answer::kFeedHold : Answer::kDone;
@@ -54,6 +54,8 @@ Answer Scan::jog_hindrance(unsigned system, unsigned axis, int direction) const 
   if (const Answer why = hand_hindrance(system, axis); why != Answer::kDone) return why;
   const bool by_button = ((last_requests_.system[system].jog_p | last_requests_.system[system].jog_m) >> axis & 1u) != 0;
   if (by_button ? (button_refused_[system] >> axis & 1u) != 0 : jog_[system][axis].refused) return Answer::kLetGoFirst;
+  if (axes_[system][axis].homing.active()) return Answer::kHoming;
+  if (const Answer why = way_hindrance(system, axis, direction); why != Answer::kDone) return why;
   if (at_soft_limit(system, axis, direction)) return Answer::kSoftLimit;
   return (jog_without_feed_[system] >> axis & 1u) != 0 ? Answer::kNoJogFeed : Answer::kDone;
 }
@@ -72,7 +74,9 @@ Answer Scan::jog(const Command& command) noexcept {
     jog = {};
     return Answer::kDone;
   }
-  const Answer why = hand_hindrance(command.system, command.axis);
+  Answer why = hand_hindrance(command.system, command.axis);
+  if (why == Answer::kDone && axes_[command.system][command.axis].homing.active()) why = Answer::kHoming;
+  if (why == Answer::kDone) why = way_hindrance(command.system, command.axis, sign(command.value));
   const double most = config_.nc.system[command.system].axis[command.axis].max_velocity;
   if (why == Answer::kDone && !(std::abs(command.value) <= most)) return Answer::kOutOfRange;
   const bool waits = jog.kind == NC_MANUAL_JOG && jog.refused;
@@ -85,8 +89,11 @@ Answer Scan::jog(const Command& command) noexcept {
 Answer Scan::step_or_return(const Command& command) noexcept {
   const unsigned s = command.system, a = command.axis;
   if (const Answer why = hand_hindrance(s, a); why != Answer::kDone) return why;
+  if (axes_[s][a].homing.active()) return Answer::kHoming;
+  if (command.kind == CommandKind::kReference && config_.equipment[s][a].homing.present() && !axes_[s][a].homed) return begin_homing(s, a);
   if (!at_rest()) return Answer::kAxesMove;
   if (command.kind == CommandKind::kStep) {
+    if (const Answer why = way_hindrance(s, a, sign(command.value)); why != Answer::kDone) return why;
     if (!(std::abs(command.value) <= kLongestStep)) return Answer::kOutOfRange;
     if (at_soft_limit(s, a, sign(command.value))) return Answer::kSoftLimit;
     jog_[s][a] = {NC_MANUAL_STEP, command.value, 2, false};  // the distance is taken at the rising edge
@@ -126,6 +133,10 @@ void Scan::give_commands_by_hand(unsigned s) noexcept {
 
 // Both directions at once are none.
 void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
+  if (requests.home && !last_requests_.home) {
+    const Command command{CommandKind::kHome, kAllSystems, 0, 0, 0, 0, machine_asker()};
+    settle(Asked::kReference, home_command(command), machine_asker());
+  }
   const bool acts = !ending_ && mode_ == Mode::kManual && reset_phase_ == ResetPhase::kNone && !alarms_.stops();
   for (unsigned s = 0; s < systems_; ++s) {
     const LadderRequests::System &now = requests.system[s], &before = last_requests_.system[s];
@@ -198,17 +209,18 @@ void Scan::watch_way(unsigned s, unsigned a) noexcept {
   Asked& way = on_its_way_[s][a];
   if (way == Asked::kNothing) return;
   const nc_outputs& out = out_[s];
-  const Answer why = hand_hindrance(s, a);
-  if (why != Answer::kDone) {
-    refuse(s, way, why, static_cast<int>(a), true);
-    way = Asked::kNothing;
-    if (jog_[s][a].kind != NC_MANUAL_JOG) jog_[s][a] = {};
-    return;
-  }
+  if (const Answer why = search_hindrance(s, a); why != Answer::kDone) return give_up_way(s, a, why);
+  if (axes_[s][a].homing.active()) return;
   const bool waits = out.state == NC_STATE_MANUAL && out.cause == NC_CAUSE_FIN;  // for the clamp of an index table
   if (jog_[s][a].kind != NC_MANUAL_NONE || out.velocity.v[a] != 0 || waits) return;
   happened(s, way);
   way = Asked::kNothing;
+}
+
+void Scan::give_up_way(unsigned s, unsigned a, Answer why) noexcept {
+  refuse(s, on_its_way_[s][a], why, static_cast<int>(a), true);
+  on_its_way_[s][a] = Asked::kNothing;
+  if (jog_[s][a].kind != NC_MANUAL_JOG) jog_[s][a] = {};
 }
 
 // Of pulses that do not become motion each reason once, until pulses act again.
@@ -223,6 +235,7 @@ void Scan::watch_handle(unsigned s, unsigned a) noexcept {
     return;
   }
   Answer why = hand_hindrance(s, a);
+  if (why == Answer::kDone) why = axes_[s][a].homing.active() ? Answer::kHoming : hindered_[s][a];
   const bool jogs = ignored || given.kind == NC_MANUAL_JOG;
   if (why == Answer::kDone) why = jogs ? Answer::kAxesMove : at_soft_limit(s, a, sign(given.distance)) ? Answer::kSoftLimit : Answer::kHandleTooFar;
   if (why != noted) refuse(s, Asked::kHandle, why, static_cast<int>(a), given.kind != NC_MANUAL_HANDLE && !ignored);

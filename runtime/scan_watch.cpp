@@ -99,7 +99,7 @@ void Scan::watch_soft_limits() noexcept {
     const nc_system_config& system = config_.nc.system[s];
     for (unsigned a = 0; a < system.axis_count; ++a) {
       const nc_axis_config& axis = system.axis[a];
-      if (!axis.soft_limited) continue;
+      if (!axis.soft_limited || !limits_known(s, a)) continue;
       double now = out_[s].command.v[a], before = last_command_[s].v[a];
       if ((out_[s].turning >> a & 1u) != 0) {  // the limits hold within the turn in which the axis stands
         const double turns = 360 * std::floor((before - axis.soft_min) / 360);
@@ -164,6 +164,7 @@ void Scan::watch_printer() noexcept {
 
 // The causes of alarms are looked at in every scan, and raise them again. That of a warning is told once, by a thread of its own.
 bool Scan::holds_still(const ActiveAlarm& alarm) const noexcept {
+  if (alarm.id == AlarmId::kLimitSwitch) return limit_holds(alarm);
   return alarm.id == AlarmId::kRetainedUnwritable && (retain_holds_.load(std::memory_order_relaxed) >> alarm.detail & 1u) != 0;
 }
 

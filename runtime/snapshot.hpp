@@ -6,6 +6,7 @@
 
 #include "nc/run.h"
 #include "runtime/alarms.hpp"
+#include "runtime/axes/equipment.hpp"
 #include "runtime/command.hpp"
 #include "runtime/refusal.hpp"
 
@@ -32,6 +33,7 @@ struct SystemSnapshot {
   nc_outputs nc{};         // commanded side, from libnc
   nc_axes actual{};        // measured
   nc_spindle_inputs spindle[NC_MAX_SPINDLES] = {};  // measured
+  AxisFlags axes;          // homed, on a limit switch, ...
   Refusal refusal;         // of what was asked for at the panel last
   double feed_override = 1, rapid_override = 1;  // in force: a machine may have a switch for each part system ...
   OverrideSource feed_override_source = OverrideSource::kOperator, rapid_override_source = OverrideSource::kOperator;  // ... and whose they are

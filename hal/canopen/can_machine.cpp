@@ -223,7 +223,7 @@ void CanMachine::write(const Command& command, const PointImage& image) noexcept
     const SystemCommand& system = command.system[map.system];
     AxisWanted& axis = wanted.axis[i];
     axis.target = std::llround((system.position.v[map.axis] - map.zero) * map.increments_per_unit);
-    axis.on = system.enable;
+    axis.on = system.enable && (system.off >> map.axis & 1u) == 0;
     axis.reset = system.reset;
     axis.home = asks_for_homing(i, map, image) && system.idle;
   }

@@ -39,6 +39,7 @@ bool SimMachine::start(const PointImage& initial, std::string* error) {
   (void)error;  // a simulated machine is always there
   input_ = initial;
   output_ = initial;
+  for (unsigned s = 0; s < config_.system_count; ++s) work_switches(s, initial);
   script_.restart();
   stopped_ = false;
   return true;
@@ -81,6 +82,7 @@ void SimMachine::read(Feedback* feedback, PointImage* image) noexcept {
     out.actual = system.actual;
     out.following_fault = system.following_fault;
     out.drive_fault = system.drive_fault;
+    out.not_following = system.off;
     out.skip = skip_signals(s);
     for (unsigned n = 0; n < config_.spindle_count[s]; ++n) {
       const SimSpindle& turning = spindle(s, n);
@@ -98,7 +100,7 @@ void SimMachine::write(const Command& command, const PointImage& image) noexcept
   ++scan_;
   if (lost_) {
     for (unsigned s = 0; s < config_.system_count; ++s)
-      for (unsigned a = 0; a < config_.axis_count[s]; ++a) coast(&system_[s], a);
+      for (unsigned a = 0; a < config_.axis_count[s]; ++a) coast(s, a);
     return;
   }
   for (unsigned s = 0; s < config_.system_count; ++s) switch_servos(s, command.system[s]);
@@ -108,6 +110,7 @@ void SimMachine::write(const Command& command, const PointImage& image) noexcept
     turn_spindles(s, command.system[s]);
     move_axes(s, command.system[s]);
     work_clamps(s, command.system[s].unclamp);
+    work_switches(s, image);
   }
   const SystemCommand& first = command.system[0];
   script_.step(scan_, first.source, (first.strobe & kStrobeM) != 0, first.m, &input_);
@@ -116,6 +119,7 @@ void SimMachine::write(const Command& command, const PointImage& image) noexcept
 
 void SimMachine::move_axes(unsigned index, const SystemCommand& command) noexcept {
   System& system = system_[index];
+  system.off = command.enable ? command.off : 0;
   for (unsigned a = 0; a < config_.axis_count[index]; ++a) {
     const std::uint32_t bit = 1u << a;
     system.command.v[a] = command.position.v[a];
@@ -125,8 +129,8 @@ void SimMachine::move_axes(unsigned index, const SystemCommand& command) noexcep
       system.following_fault &= ~bit;
       continue;
     }
-    if (!command.enable) {  // the command of a disabled drive is not followed
-      coast(&system, a);
+    if (!command.enable || (command.off & bit) != 0) {  // the command of a disabled drive is not followed
+      coast(index, a);
       system.following_fault &= ~bit;
       continue;
     }
@@ -152,9 +156,18 @@ void SimMachine::work_clamps(unsigned index, std::uint32_t unclamp) noexcept {
   }
 }
 
-void SimMachine::coast(System* system, unsigned axis) noexcept {
-  system->step[axis] = (system->blocked >> axis & 1u) != 0 ? 0 : system->step[axis] * system->fade[axis];
-  system->actual.v[axis] += system->step[axis];
+void SimMachine::coast(unsigned index, unsigned axis) noexcept {
+  System& system = system_[index];
+  const SimSwitches& switches = config_.axis[index][axis].switches;
+  const bool held = (system.blocked >> axis & 1u) != 0 || (switches.brake >= 0 && !system.switches[axis].open);
+  const double fall = switches.weight * config_.cycle_s * config_.cycle_s;
+  system.step[axis] = held ? 0 : system.step[axis] * (switches.weight > 0 ? 1 : system.fade[axis]) - fall;
+  system.actual.v[axis] += system.step[axis];
+}
+
+void SimMachine::work_switches(unsigned index, const PointImage& outputs) noexcept {
+  for (unsigned a = 0; a < config_.axis_count[index]; ++a)
+    system_[index].switches[a].step(config_.axis[index][a].switches, place(index, a), config_.cycle_s, outputs, &input_);
 }
 
 // Not, or not yet, the axis that the NC positions.

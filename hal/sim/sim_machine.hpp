@@ -11,6 +11,7 @@
 //  * M, S, T, B: FIN comes after the time of the function (tool change, spindle ramp, m_time) and drops with
 //  the strobe. With a plant (sim_plant.hpp) spindle and tools are driven by points, and FIN is the ladder's.
 //  * index tables: the clamp of an axis answers after its times (sim_clamp.hpp); it holds nothing.
+//  * switches of an axis at places of the machine, its brake and its weight (sim_switches.hpp).
 //  * skip: signal n is on while the actual point is inside one of its solids.
 //  * points: inputs are what the script says (else their initial value); outputs are recorded.
 #pragma once
@@ -22,6 +23,7 @@
 #include "hal/sim/input_script.hpp"
 #include "hal/sim/sim_clamp.hpp"
 #include "hal/sim/sim_plant.hpp"
+#include "hal/sim/sim_switches.hpp"
 
 namespace nc::hal {
 
@@ -39,6 +41,7 @@ struct SimAxis {
   double following_error_limit = 0;  // mm or deg; 0 = never faults
   double coast_s = 0.03;             // 0 = stands at once
   SimClamp clamp;                    // of an index table
+  SimSwitches switches;
 };
 
 struct SimConfig {
@@ -77,7 +80,10 @@ class SimMachine final : public Hal {
   void stop() noexcept override;
 
   // For tests and the terminal. Same thread as the scan, or after it has stopped.
-  const nc_axes& actual(unsigned system) const { return system_[system].actual; }
+  const nc_axes& actual(unsigned system) const { return system_[system].actual; }  // as its encoders count
+  double place(unsigned system, unsigned axis) const {  // where the axis really is on the machine
+    return system_[system].actual.v[axis] + config_.axis[system][axis].switches.offset;
+  }
   double spindle_rpm(unsigned system, unsigned number = 0) const { return spindle(system, number).rpm(); }
   unsigned tool(unsigned system) const {
     return system == 0 && plant_.present() ? plant_.tool() : system_[system].tool;
@@ -107,6 +113,8 @@ class SimMachine final : public Hal {
     double step[NC_MAX_AXES] = {};    // way of the last cycle
     std::uint32_t following_fault = 0, drive_fault = 0, blocked = 0;
     std::uint32_t unclamped = 0, clamp_failed = 0;
+    std::uint32_t off = 0;            // drives that are switched off one by one
+    SimSwitchState switches[NC_MAX_AXES];
     SimClampState clamp[NC_MAX_AXES];
     SimSpindle spindle[NC_MAX_SPINDLES];
     double wanted_rpm[NC_MAX_SPINDLES] = {};  // without a sign
@@ -120,7 +128,8 @@ class SimMachine final : public Hal {
 
   void move_axes(unsigned index, const SystemCommand& command) noexcept;
   void work_clamps(unsigned index, std::uint32_t unclamp) noexcept;
-  void coast(System* system, unsigned axis) noexcept;
+  void work_switches(unsigned index, const PointImage& outputs) noexcept;
+  void coast(unsigned index, unsigned axis) noexcept;
   const SimSpindle& spindle(unsigned system, unsigned number) const noexcept {
     return system == 0 && plant_.turns_spindle(number) ? plant_.spindle(number) : system_[system].spindle[number];
   }

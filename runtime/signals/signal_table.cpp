@@ -42,6 +42,12 @@ bool strobe(Image image, unsigned system, std::uint8_t group) {
 bool decoded(Image image, unsigned system, std::uint32_t code) {
   return strobe(image, system, kStrobeM) && out(image, system).m == code;
 }
+AxisFlags axes(Image image, unsigned system) {
+  return image.status->axes != nullptr ? image.status->axes[system] : AxisFlags{};
+}
+bool flag(std::uint32_t bits, unsigned axis) {
+  return (bits >> axis & 1u) != 0;
+}
 bool state(Image image, unsigned system, nc_run_state wanted) {
   return out(image, system).state == wanted;
 }
@@ -194,6 +200,11 @@ const SignalRow kSignals[] = {
      NC_READ { return static_cast<std::int32_t>(image.feedback->system[s].drive_fault >> i & 1u); }, nullptr},
     {"position", kWord32, kFrom, kAxis, 0, 0, "measured machine position, 0.001 mm or 0.001 deg", "every scan",
      NC_READ { return to_int(image.feedback->system[s].actual.v[i] * 1000); }, nullptr},
+    {"homed", kBit, kFrom, kAxis, 0, 0, "the axis knows where it stands: it has been homed, or needs no homing", "level",
+     NC_READ { return flag(axes(image, s).homed, i); }, nullptr},
+    {"all_homed", kBit, kFrom, kControl, 0, 0, "every axis does", "level", NC_READ { return image.status->all_homed; }, nullptr},
+    {"homing", kBit, kFrom, kSystem, 0, 0, "an axis is being homed", "from the request until it stands at its reference position, or has given up",
+     NC_READ { return axes(image, s).homing != 0; }, nullptr},
 
     // ---- to the NC ----
     {"fin1", kBit, kTo, kSystem, 0, 0, "completion, FIN1: strobes go off when it rises, the program goes on when it falls",
@@ -252,7 +263,7 @@ const SignalRow kSignals[] = {
      NC_WRITE { image->requests->system[s].rapid = value != 0; }},
     {"handle", kWord16, kTo, kAxis, 0, 0, "handle: the axis goes so many increments of 0.001 mm or deg further", "in each scan in which it is not 0, in manual mode", nullptr,
      NC_WRITE { image->requests->system[s].handle[i] = static_cast<std::int16_t>(value); }},
-    {"reference", kBit, kTo, kAxis, 0, 0, "the axis goes to its first reference position", "acts when it rises, in manual mode at rest", nullptr,
+    {"reference", kBit, kTo, kAxis, 0, 0, "the axis goes to its first reference position; one that is not homed yet is homed", "acts when it rises, in manual mode at rest", nullptr,
      NC_WRITE { if (value != 0) image->requests->system[s].reference |= 1u << i; }},
     {"skip", kBit, kTo, kNumbered, 8, 0, "skip signal, beside the machine's own", "level, sampled once a scan", nullptr,
      NC_WRITE { image->nc_in[s].skip |= static_cast<std::uint32_t>(value != 0) << i; }},
@@ -272,6 +283,15 @@ const SignalRow kSignals[] = {
     {"alarm", kBit, kTo, kNumberedControl, kLadderAlarms, 0, "alarm of the ladder: motion stops, no start until reset",
      "level; comes back as long as it is on", nullptr,
      NC_WRITE { image->requests->alarm = static_cast<std::uint8_t>(image->requests->alarm | (value != 0 ? 1u << i : 0u)); }},
+    {"home", kBit, kTo, kControl, 0, 0, "every axis that can be homed is, in the order of the configuration", "acts when it rises, in manual mode at rest", nullptr,
+     NC_WRITE { image->requests->home = value != 0; }},
+    {"interlock_p_n", kBit, kTo, kAxis, 0, 1, "0: the axis may not go in + (*+IT): by hand it stops and is given up; in a program the path comes to rest, and goes on by itself at 1",
+     "level", nullptr, NC_WRITE { image->requests->system[s].interlocked[1] |= static_cast<std::uint32_t>(value == 0) << i; }},
+    {"interlock_m_n", kBit, kTo, kAxis, 0, 1, "0: the axis may not go in - (*-IT)", "as interlock_p_n", nullptr,
+     NC_WRITE { image->requests->system[s].interlocked[0] |= static_cast<std::uint32_t>(value == 0) << i; }},
+    {"servo_off", kBit, kTo, kAxis, 0, 0, "the drive of the axis is off, behind its brake if it has one; its position is followed meanwhile (SVF)",
+     "level; acts at rest when no program is in execution or interrupted", nullptr,
+     NC_WRITE { image->requests->system[s].servo_off |= static_cast<std::uint32_t>(value != 0) << i; }},
 };
 
 const unsigned kSignalCount = sizeof(kSignals) / sizeof(kSignals[0]);

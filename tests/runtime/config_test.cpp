@@ -695,7 +695,7 @@ TEST(Config, AMachineThatNamesNoLawIsOptimalWhereEveryAxisHasAllLimits) {
 }
 
 TEST(Config, TheShippedMachinesAreOptimal) {
-  for (const char* file : {"machine.toml", "modelling-machine.toml", "router.toml", "drill-mill.toml", "modbus-example.toml"}) {
+  for (const char* file : {"machine.toml", "modelling-machine.toml", "router.toml", "homed_mill.toml", "drill-mill.toml", "modbus-example.toml"}) {
     Config config;
     EXPECT_TRUE(nc::rt::load_config(nc::test::kSourceDir + "/etc/" + file, &config).empty()) << file;
     EXPECT_EQ(config.nc.motion_mode, NC_MOTION_OPTIMAL) << file;

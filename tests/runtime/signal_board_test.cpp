@@ -206,7 +206,11 @@ TEST(SignalRows, FitIntoTheSegment) {
   nc.system_count = NC_MAX_SYSTEMS;
   for (nc_system_config& system : nc.system) {
     system.axis_count = NC_MAX_AXES;
-    for (unsigned a = 0; a < NC_MAX_AXES; ++a) system.axis[a].name = "XYZABCUVW"[a % 9];
+    system.spindle_count = NC_MAX_SPINDLES;
+    for (unsigned a = 0; a < NC_MAX_AXES; ++a) {
+      system.axis[a].name = "XYZABCUVW"[a % 9];
+      system.axis[a].spindle = static_cast<std::uint8_t>(a < NC_MAX_SPINDLES ? a + 1 : 0);
+    }
   }
   EXPECT_LE(machine_signals(nc).size(), share::kMaxSignals);
   share::SignalText row{};

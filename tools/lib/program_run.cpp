@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "runtime/end_signal.hpp"
+#include "runtime/hal_factory.hpp"
 
 namespace nc::tools {
 namespace {
@@ -44,11 +45,10 @@ int ProgramRun::to_end(Answer selected) {
 }
 
 int ProgramRun::start_to_end() {
-  Answer answer = runtime_.execute(CommandKind::kCycleStart);
-  // Drives that are coming on are waited for: nobody presses the button again here.
-  for (auto left = kDrivesPatience; answer == Answer::kDrivesOff && left.count() > 0 && end_signal() == 0; left -= kPeriod) {
-    wait();
-    answer = runtime_.execute(CommandKind::kCycleStart);
+  Answer answer = start_waiting();
+  if (answer == Answer::kNotHomed && runtime_.config().machine_kind->name == "sim") {
+    answer = home_simulated();
+    if (answer == Answer::kDone) answer = start_waiting();
   }
   if (by_alarm(answer)) return stop_by_alarm();
   if (answer != Answer::kDone) return refused("cycle start: ", runtime_.explain(answer));
@@ -56,6 +56,41 @@ int ProgramRun::start_to_end() {
   do wait();
   while (!ended(&status));
   return status;
+}
+
+// A simulated machine is homed by who runs a program on it; beside a real one an operator stands, who does.
+Answer ProgramRun::home_simulated() {
+  const rt::Mode mode = runtime_.snapshot().mode;
+  note("the machine is homed first");
+  Answer answer = runtime_.execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(rt::Mode::kManual));
+  if (answer != Answer::kDone) return answer;
+  rt::Command home;
+  home.kind = CommandKind::kHome;
+  home.system = rt::kAllSystems;
+  answer = runtime_.execute(home);
+  const auto homing = [this] {
+    const Snapshot now = runtime_.snapshot();
+    bool any = false;
+    for (unsigned s = 0; s < now.system_count; ++s) any |= now.system[s].axes.homing != 0;
+    return any && !now.stopped_by_alarm();
+  };
+  while (answer == Answer::kDone && end_signal() == 0) {
+    wait();
+    if (!homing()) break;
+  }
+  if (runtime_.snapshot().stopped_by_alarm()) return Answer::kAlarmActive;
+  if (answer != Answer::kDone) return answer;
+  return runtime_.execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(mode));
+}
+
+Answer ProgramRun::start_waiting() {
+  Answer answer = runtime_.execute(CommandKind::kCycleStart);
+  // Drives that are coming on are waited for: nobody presses the button again here.
+  for (auto left = kDrivesPatience; answer == Answer::kDrivesOff && left.count() > 0 && end_signal() == 0; left -= kPeriod) {
+    wait();
+    answer = runtime_.execute(CommandKind::kCycleStart);
+  }
+  return answer;
 }
 
 // One look; true with the exit status when the run is over.

@@ -25,6 +25,8 @@ class ProgramRun {
 
  private:
   int start_to_end();
+  rt::Answer start_waiting();
+  rt::Answer home_simulated();
   bool ended(int* status);
   void continue_stop(const rt::Snapshot& now);
   void wait();
