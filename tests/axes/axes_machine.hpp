@@ -217,13 +217,16 @@ class AxesMachine : public testing::Test {
   }
   bool stopped_by_alarm() const { return runtime->snapshot().stopped_by_alarm(); }
   std::string refusal() const { return rt::refusal_text(config, 0, runtime->snapshot().system[0].refusal); }
-  rt::Answer start_program(const std::string& source) {
+  void load(const std::string& source) {
     unsigned file = 0;
     const std::string& text = texts.emplace_back(source);
     EXPECT_EQ(nc_program_add_text(runtime->control(), "p", text.data(), text.size(), &file), NC_OK);
     EXPECT_EQ(runtime->execute(rt::CommandKind::kSetMode, 0, static_cast<std::uint32_t>(rt::Mode::kAuto)), rt::Answer::kDone);
     EXPECT_EQ(runtime->select_program(file), rt::Answer::kDone);
     steps(5);
+  }
+  rt::Answer start_program(const std::string& source) {
+    load(source);
     return runtime->execute(rt::CommandKind::kCycleStart);
   }
   void expect_limits_kept() const {

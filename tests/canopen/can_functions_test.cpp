@@ -36,6 +36,65 @@ TEST(CanFunctions, TheDriveHomesAndTheControlIsWhereItSays) {
   EXPECT_NEAR(rig.plant_mm(0), 0.0, 0.001);
 }
 
+// ---- the control asks for it: homing of the axis itself, docs/homing.md ----
+
+// Y has its servo off while X is homed.
+std::string asked_by_the_control() {
+  std::string text = can_toml("", kHoming);
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    ASSERT_NE(text.find(from), std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("[macro_interface]\n\"#1100\" = \"home_x\"\n\"#1000\" = \"x_homed\"\n", "[signals]\n\"plc.servo_off.Y\" = \"x_homed\"\n");
+  replace("soft_limits = [-500.0, 500.0]\n", "soft_limits = [-500.0, 500.0]\nhoming = { kind = \"drive\", request = \"home_x\", done = \"x_homed\" }\n");
+  return text;
+}
+
+Answer home_all(CanRig* rig) {
+  nc::rt::Command home;
+  home.kind = CommandKind::kHome;
+  home.system = nc::rt::kAllSystems;
+  return rig->runtime->execute(home);
+}
+
+TEST(CanFunctions, TheControlAsksTheDriveAndWatchesWhatIsNotHomed) {
+  CanRig rig(asked_by_the_control());
+  rig.bring_up();
+  EXPECT_EQ(rig.mdi("G90 G01 X0. F6000"), Answer::kNotHomed);
+  ASSERT_EQ(rig.run(CommandKind::kSetMode, static_cast<std::uint32_t>(nc::rt::Mode::kManual)), Answer::kDone);
+  const auto flags = [&] { return rig.runtime->snapshot().system[0].axes; };
+  EXPECT_EQ(flags().homed, 0b110u);
+  for (int times = 0; times < 2; ++times) {  // also again: what the drive has said before does not count
+    ASSERT_EQ(home_all(&rig), Answer::kDone);
+    rig.step(5);
+    EXPECT_EQ(flags().homing, 1u);
+    ASSERT_TRUE(rig.until([&] { return flags().homing == 0; }, 3000)) << rig.alarms();
+    EXPECT_EQ(rig.alarms(), "");
+    EXPECT_EQ(flags().homed, 0b111u);
+    rig.step(30);
+    EXPECT_NEAR(rig.command(0), -30.0, 0.001);
+    EXPECT_NEAR(rig.plant_mm(0), -30.0, 0.001);
+  }
+}
+
+TEST(CanFunctions, OneDriveGoesOffAndItsPositionIsFollowed) {
+  CanRig rig(asked_by_the_control());
+  rig.bring_up();
+  ASSERT_EQ(rig.run(CommandKind::kSetMode, static_cast<std::uint32_t>(nc::rt::Mode::kManual)), Answer::kDone);
+  EXPECT_TRUE(rig.drives[1]->enabled());
+  ASSERT_EQ(home_all(&rig), Answer::kDone);
+  ASSERT_TRUE(rig.until([&] { return rig.runtime->snapshot().system[0].axes.homed == 7; }, 3000)) << rig.alarms();
+  rig.step(300);
+  EXPECT_TRUE(rig.drives[0]->enabled());
+  EXPECT_FALSE(rig.drives[1]->enabled());
+  EXPECT_TRUE(rig.drives[2]->enabled());
+  EXPECT_EQ(rig.alarms(), "") << "it was asked for, and is no fault";
+  rig.drives[1]->plant().position += 3 * nc::test::kIncrementsPerMm;  // someone turns it
+  rig.step(50);
+  EXPECT_NEAR(rig.command(1), 3.0, 0.001);
+  EXPECT_NEAR(rig.command(0), -30.0, 0.001) << "the others stay where they are";
+}
+
 TEST(CanFunctions, NothingStartsWhileADriveHomes) {
   CanRig rig(can_toml("", kHoming));
   rig.bring_up();
