@@ -7,8 +7,8 @@
 namespace nc::rt {
 namespace {
 
-// One period reads at most this many blocks, so that a reset of an endless GOTO is seen between two of them.
-constexpr std::uint32_t kBlocksPerCall = 256;
+// Between two calls a reset of an endless GOTO is seen, and a hold while something is planned: one takes some milliseconds at most.
+constexpr std::uint32_t kBudget = 256;
 constexpr unsigned kCallsPerStep = 8;
 
 const char* status_text(nc_status status) {
@@ -305,8 +305,10 @@ void Feeder::rewind_ended() {
 // Also while a reset waits, and while nothing is selected: here the control notices a reset, and tells the scan the offsets in force, by which
 // it counts the workpiece's coordinates.
 void Feeder::feed() {
-  for (unsigned i = 0; i < kCallsPerStep; ++i)
-    if (nc_->feed(kBlocksPerCall) != NC_OK) return;
+  for (unsigned i = 0; i < kCallsPerStep; ++i) {
+    const nc_status status = nc_->feed(kBudget);
+    if (status != NC_OK && status != NC_BUDGET) return;
+  }
 }
 
 void Feeder::take_events() {

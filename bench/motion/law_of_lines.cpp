@@ -81,7 +81,8 @@ std::vector<Piece> smoothed(const Stretch& stretch, double tolerance) {
   request.axis_count = kAxes;
   const nc::optimal::SmoothRoom room{u.data(),      vertices,     knot.data(), control.data(),
                                      corner.data(), cell.data(), knots};
-  pieces.resize(nc::optimal::smooth(request, room, pieces.data(), knots));
+  const auto work = std::make_unique<nc::optimal::Work>();
+  pieces.resize(work->now(nc::optimal::smooth(*work, request, room, pieces.data(), knots)));
   return pieces;
 }
 
@@ -100,8 +101,9 @@ void write_pieces(const std::vector<Piece>& pieces, std::FILE* out) {
 
 // False when no law was found.
 bool time_of(const std::vector<Piece>& pieces, const Limits& limits, Windows* windows, double* seconds) {
+  const auto work = std::make_unique<nc::optimal::Work>();
   windows->start(pieces.data(), static_cast<unsigned>(pieces.size()), limits);
-  while (windows->next())
+  while (work->now(windows->next(*work)))
     for (unsigned k = 0; k < windows->keep(); ++k)
       *seconds += nc::optimal::cell_seconds(windows->law(), windows->mesh(), k);
   return !windows->failed();

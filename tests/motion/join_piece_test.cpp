@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "at_once.hpp"
 #include "interpolate/test_machine.hpp"
 #include "motion/optimal/path_builder.hpp"
 
@@ -43,9 +44,9 @@ std::vector<Piece> pieces(double radius, double length, std::vector<Curve>* curv
   optimal::PathBuilder builder;
   builder.create(limits, 0.01, 0.005, ring.data(), &store, arena);
   EXPECT_FALSE(arena.overflowed());
-  builder.restart(0, 0, AxisVec{}, 0);
-  for (unsigned n = 0; n < 10; ++n) builder.take(static_cast<uint32_t>(p.records.size()));
-  builder.finish();
+  builder.restart(0, 0, AxisVec{}, 0, 0);
+  for (unsigned n = 0; n < 10; ++n) at_once([&](optimal::Work& work) { return builder.take(work, static_cast<uint32_t>(p.records.size())); });
+  at_once([&](optimal::Work& work) { return builder.finish(work); });
   std::vector<Piece> all;
   for (uint32_t k = 0; k != builder.head(); ++k) all.push_back(store.piece_at(k));
   curves->clear();

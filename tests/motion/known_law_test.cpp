@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // There is a known law from every place of what is followed: the time of any other one is compared with it.
 #include "motion/optimal/known_law.hpp"
+#include "at_once.hpp"
 
 #include <gtest/gtest.h>
 
@@ -58,7 +59,8 @@ TEST(KnownLaw, IsThereFromEveryPlaceOfWhatIsFollowed) {
     request.piece = pieces.data();
     request.count = static_cast<unsigned>(pieces.size());
     request.reach = 0.5 * whole;
-    if (pieces.empty() || !windows->law_to(request, limits, {})) continue;
+    const Windows::Goal goal;
+    if (pieces.empty() || !at_once([&](optimal::Work& work) { return windows->law_to(work, request, limits, goal); })) continue;
     const auto& law = windows->law();
     const auto& mesh = windows->mesh();
     for (unsigned from = 1; from + 1 < law.cells; ++from) {
@@ -78,7 +80,7 @@ TEST(KnownLaw, IsThereFromEveryPlaceOfWhatIsFollowed) {
       next.slope0 = law.slope[from];
       next.followed = &followed;
       ++starts;
-      ASSERT_TRUE(known.find(next, limits, phases.get())) << "seed " << seed << " cell " << from;
+      ASSERT_TRUE(at_once([&](optimal::Work& work) { return known.find(work, next, limits, phases.get()); })) << "seed " << seed << " cell " << from;
       EXPECT_TRUE(known.whole());
       EXPECT_GT(known.seconds(), 0);
       if (known.rests()) {
@@ -87,7 +89,7 @@ TEST(KnownLaw, IsThereFromEveryPlaceOfWhatIsFollowed) {
         EXPECT_NEAR(known.squared_speed(followed.end.s), 0, 1e-3);
         EXPECT_GT(known.seconds(), followed.end.seconds);
         next.reach = s;  // and where the path ends there, too, it is what is followed
-        ASSERT_TRUE(known.find(next, limits, phases.get())) << "seed " << seed << " cell " << from;
+        ASSERT_TRUE(at_once([&](optimal::Work& work) { return known.find(work, next, limits, phases.get()); })) << "seed " << seed << " cell " << from;
         EXPECT_LE(known.seconds(), followed.end.seconds * 1.5);
       } else {
         left += known.leaves_at() > 0 ? 1u : 0u;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "at_once.hpp"
 #include "motion/optimal/smooth.hpp"
 #include "motion/optimal/windows.hpp"
 
@@ -46,7 +47,7 @@ inline std::vector<optimal::Piece> smoothed(const std::vector<Vertex>& corner) {
   request.spacing = 0.5;
   const optimal::SmoothRoom rooms{u.data(), count, knot.data(), control.data(), at.data(), cell.data(), room};
   std::vector<optimal::Piece> pieces(room);
-  pieces.resize(optimal::smooth(request, rooms, pieces.data(), room));
+  pieces.resize(at_once([&](optimal::Work& work) { return optimal::smooth(work, request, rooms, pieces.data(), room); }));
   return pieces;
 }
 

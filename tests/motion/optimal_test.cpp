@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "at_once.hpp"
 #include "motion/optimal/profile.hpp"
 #include "motion/optimal/smooth.hpp"
 #include "motion/optimal/windows.hpp"
@@ -68,7 +69,7 @@ struct Path {
     request.spacing = spacing;
     const optimal::SmoothRoom room{u.data(),      vertices,     knot.data(), control.data(),
                                    corner.data(), cell.data(), knots};
-    pieces.resize(optimal::smooth(request, room, pieces.data(), knots));
+    pieces.resize(at_once([&](optimal::Work& work) { return optimal::smooth(work, request, room, pieces.data(), knots); }));
     return !pieces.empty();
   }
   double distance_to_edge(const AxisVec& p, size_t e) const {
@@ -148,7 +149,7 @@ Motion run(const std::vector<Piece>& pieces, const Limits& limits, double feed) 
                 last = evaluate(pieces.back(), pieces.back().length, 3).position;
   m.position.assign(4, first);
   double due = kCycle;
-  while (windows->next()) {
+  while (at_once([&](optimal::Work& work) { return windows->next(work); })) {
     double clock = 0;
     for (unsigned k = 0; k < windows->keep(); ++k) {
       const double cell = cell_seconds(windows->law(), windows->mesh(), k);
@@ -307,13 +308,13 @@ TEST(OptimalLaw, CellsThatStayAtTheFeedChangeNothing) {
     const auto mesh = std::make_unique<optimal::Mesh>();
     const auto solver = std::make_unique<optimal::TimeLaw>();
     const auto law = std::make_unique<optimal::Law>(), whole = std::make_unique<optimal::Law>();
-    mesher->build(request, limits, mesh.get());
+    at_once([&](optimal::Work& work) { return mesher->build(work, request, limits, mesh.get()); });
     ASSERT_GT(mesh->levels, mesh->cells / 2);
-    solver->solve(*mesh, limits, false, law.get());
+    at_once([&](optimal::Work& work) { return solver->solve(work, *mesh, limits, false, law.get()); });
     ASSERT_TRUE(law->ok);
     std::fill(mesh->level, mesh->level + mesh->cells, false);
     mesh->levels = 0;
-    solver->solve(*mesh, limits, false, whole.get());
+    at_once([&](optimal::Work& work) { return solver->solve(work, *mesh, limits, false, whole.get()); });
     ASSERT_TRUE(whole->ok);
     EXPECT_NEAR(law->seconds, whole->seconds, 6e-4 * whole->seconds) << radius;
     EXPECT_LE(law->seconds, whole->seconds * (1 + 1e-4)) << radius;
@@ -331,11 +332,11 @@ TEST(OptimalLaw, CellsThatCannotStayAtTheFeedAreNoLaw) {
   const auto mesh = std::make_unique<optimal::Mesh>();
   const auto solver = std::make_unique<optimal::TimeLaw>();
   const auto law = std::make_unique<optimal::Law>();
-  mesher->build(request, limits, mesh.get());
+  at_once([&](optimal::Work& work) { return mesher->build(work, request, limits, mesh.get()); });
   unsigned k = 1;
   for (double u = 0; u < 2; ++k) u += mesh->h[k - 1];  // the ramp takes 4.5 mm
   for (; !mesh->level[k]; ++k) mesh->level[k] = true, ++mesh->levels;
-  solver->solve(*mesh, limits, false, law.get());
+  at_once([&](optimal::Work& work) { return solver->solve(work, *mesh, limits, false, law.get()); });
   EXPECT_FALSE(law->ok);
 }
 
@@ -466,7 +467,7 @@ TEST(OptimalProperty, NoPeakBetweenTheLooksIsAboveALimit) {
     Path path = random_path(rng);
     ASSERT_TRUE(path.smooth(0.01, std::max(0.005 * path.feed.front(), 0.02))) << "seed " << seed;
     windows->start(path.pieces.data(), static_cast<unsigned>(path.pieces.size()), limits);
-    while (windows->next()) {
+    while (at_once([&](optimal::Work& work) { return windows->next(work); })) {
       for (unsigned k = 0; k < windows->keep(); ++k) {
         const double whole = cell_seconds(windows->law(), windows->mesh(), k);
         constexpr int kPlaces = 240;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "at_once.hpp"
 #include "interpolate/line_program.hpp"
 #include "motion/optimal/path_builder.hpp"
 #include "support/seeds.hpp"
@@ -54,7 +55,7 @@ class Bench {
     builder_.create(limits_, tolerance, kPeriod, ring_.data(), &store_, arena);
     if (arena.overflowed()) found_.wrong = "memory";
     AxisVec start;
-    builder_.restart(0, 0, start, 0);
+    builder_.restart(0, 0, start, 0, 0);
   }
 
   const std::vector<Piece>& pieces() const { return pieces_; }
@@ -62,7 +63,7 @@ class Bench {
     uint32_t tail = 0, head = 0;
     for (unsigned still = 0; found_.wrong.empty() && still < 3;) {
       while (head != all_.size() && head - tail < ring_.size()) ring_[head % ring_.size()] = all_[head], ++head;
-      const bool more = builder_.take(head);
+      const bool more = at_once([&](optimal::Work& work) { return builder_.take(work, head); });
       look();
       // The axes go through what there is and the records that they pass are free.
       while (tail != builder_.taken() && passed_[tail % passed_.size()] <= gone_) ++tail;

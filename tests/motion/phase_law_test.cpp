@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The law in phases: there always is one from rest, it keeps the limits of every axis, and the law of cells is never slower.
 #include "motion/optimal/phase_law.hpp"
+#include "at_once.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,6 +40,10 @@ MeshRequest request_for(const std::vector<Piece>& pieces) {
   r.piece = pieces.data();
   r.count = static_cast<unsigned>(pieces.size());
   return r;
+}
+
+bool find(PhaseLaw* law, const MeshRequest& request, const Limits& limits) {
+  return at_once([&](optimal::Work& work) { return law->find(work, request, limits); });
 }
 
 /// Largest share of a limit, at many places of each phase.
@@ -86,7 +91,7 @@ TEST(PhaseLaw, OneLineTakesTheSevenPhases) {
     for (const double feed : {0.02, 5.0, 250.0}) {
       const std::vector<Piece> pieces = smoothed({{0, 0, 0}, {length, 0, feed}});
       const Limits limits = limits_of(2000, 50000);
-      ASSERT_TRUE(law->find(request_for(pieces), limits)) << length << " " << feed;
+      ASSERT_TRUE(find(law.get(), request_for(pieces), limits)) << length << " " << feed;
       const double least = seven_phases(length, feed, 2000, 50000);
       EXPECT_LE(law->seconds(), 1.005 * least) << length << " " << feed;
       EXPECT_GE(law->seconds(), 0.9999 * least) << length << " " << feed;
@@ -100,7 +105,7 @@ TEST(PhaseLaw, FromRestThereAlwaysIsOneAndItKeepsTheLimits) {
     const std::vector<Piece> pieces = smoothed(random_polyline(rng));
     if (pieces.empty()) continue;
     const Limits limits = limits_of(std::pow(10, 1.7 + 2.6 * (seed % 7) / 6), std::pow(10, 3 + 6.0 * (seed % 11) / 10));
-    ASSERT_TRUE(law->find(request_for(pieces), limits)) << "seed " << seed;
+    ASSERT_TRUE(find(law.get(), request_for(pieces), limits)) << "seed " << seed;
     EXPECT_TRUE(law->whole());
     EXPECT_LE(worst_share(*law, pieces, limits), 1.0005) << "seed " << seed;
   }
@@ -114,7 +119,7 @@ TEST(PhaseLaw, FromPlacesAtConstantSpeedItKeepsTheLimits) {
     std::mt19937_64 rng(seed);
     const std::vector<Piece> pieces = smoothed(random_polyline(rng));
     const Limits limits = limits_of(2000, 50000);
-    if (pieces.empty() || !law->find(request_for(pieces), limits)) continue;
+    if (pieces.empty() || !find(law.get(), request_for(pieces), limits)) continue;
     LineState at = law->start();
     for (unsigned k = 0; k < law->count(); ++k) {
       if (at.v > 1e-6 && std::fabs(at.a) < 1e-6 && at.s < 0.999 * law->distance()) {
@@ -125,7 +130,7 @@ TEST(PhaseLaw, FromPlacesAtConstantSpeedItKeepsTheLimits) {
         r.from_rest = false;
         r.b0 = at.v * at.v;
         ++asked;
-        if (next->find(r, limits)) {
+        if (find(next.get(), r, limits)) {
           ++found;
           EXPECT_LE(worst_share(*next, pieces, limits, r.from.piece, r.from.x), 1.0005) << "seed " << seed << " phase " << k;
         }
@@ -148,12 +153,12 @@ TEST(PhaseLaw, TheLawOfCellsIsNeverSlower) {
     const Limits limits = limits_of(2000, 50000);
     if (pieces.empty()) continue;
     windows->start(pieces.data(), static_cast<unsigned>(pieces.size()), limits);
-    if (!windows->next()) {
+    if (!at_once([&](optimal::Work& work) { return windows->next(work); })) {
       ++failed;
       continue;
     }
     if (!windows->whole()) continue;
-    ASSERT_TRUE(law->find(request_for(pieces), limits));
+    ASSERT_TRUE(find(law.get(), request_for(pieces), limits));
     EXPECT_LE(windows->law().seconds, 1.021 * law->seconds()) << "seed " << seed;
   }
   EXPECT_LE(failed, 1u);

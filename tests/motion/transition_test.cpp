@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "at_once.hpp"
 #include "motion/optimal/path_builder.hpp"
 #include "support/seeds.hpp"
 
@@ -38,7 +39,7 @@ class Path {
     builder->create(limits, kTolerance, 0.005, records.data(), &store, arena);
     store.passed = passed.data();
     store.record_mask = kRecords - 1;
-    builder->restart(0, 0, at, 0);
+    builder->restart(0, 0, at, 0, 0);
   }
   Segment& add(const Curve& curve, double feed) {
     Record& r = records[count++];
@@ -74,7 +75,7 @@ class Path {
   void gate() { records[count++].kind = ItemKind::gate; }
   void build() {
     gate();
-    builder->take(count);
+    at_once([&](optimal::Work& work) { return builder->take(work, count); });
     for (uint32_t k = 0; k < builder->head(); ++k) pieces.push_back(store.piece_at(k));
   }
   unsigned rests() const {

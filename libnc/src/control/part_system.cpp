@@ -671,13 +671,69 @@ void PartSystem::follow_run() {
   executor.run_taken(now.word());
 }
 
+/// Reads and commits until nothing more may be read, the round has read its blocks, or `left` is spent. Then it goes on in the next call.
+void PartSystem::read_on(int64_t* left) {
+  Feeding& f = feeding_;
+  while (f.status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1 && executor.may_push() && commit_.shape_room(executor.tail(), executor.head()) &&
+         may_read_on()) {
+    if (*left <= 0) return;
+    const auto units = static_cast<uint32_t>(std::min<int64_t>((*left + kUnit - 1) / kUnit, f.blocks));
+    uint32_t budget = units;
+    f.status = commit_online(budget);
+    f.blocks -= units - budget;
+    *left -= kUnit * (units - budget) + (units == budget && executor.slices() ? kItem : 0);
+    if (f.status == NC_OK) f.committed = true;
+    if (f.status == NC_BUDGET && f.blocks > 0) {
+      f.status = NC_OK;
+      *left = 0;
+      return;
+    }
+  }
+  f.reading = false;
+}
+
+/// In the run of a program: one slice of a round in which blocks are read and then planned. What is done in which order does not hang on where
+/// slices end.
+nc_status PartSystem::feed_program(int64_t left) {
+  Feeding& f = feeding_;
+  executed_ = executor.last_block();
+  if (spindle_axes_ != 0) {  // M700 10.5: a C command needs its servo, and the reference position return unless #2031 says so
+    const uint32_t referenced = executor.referenced() | interpreter.axis_settings().no_reference;
+    interpreter.set_closed_axes(spindle_axes_ & ~(executor.servo_ready() & referenced));
+  }
+  if (!f.open) {
+    f = {};
+    f.open = f.reading = true;
+    f.blocks = executor.slices() ? kBlocksOfRound : UINT32_MAX;
+  }
+  if (f.reading) {
+    read_on(&left);
+    if (f.reading && executor.slices()) return NC_BUDGET;
+    if (open_sync_ != 0) {
+      nc_world world{};
+      if (executor.sync_reached(open_sync_, &world)) {
+        answer(world);
+        if (spindle_axes_ != 0) take_spindle_axes(world);
+      }
+    }
+    if (f.reading) f.status = NC_BUDGET;
+  }
+  if (!executor.plan(&left)) return NC_BUDGET;
+  f.open = false;
+  if (finished_) return interpreter.alarmed() ? NC_ALARMED : NC_ENDED;
+  if (f.status == NC_BUDGET) return f.status;
+  return f.committed ? NC_OK : NC_WAITING;
+}
+
 nc_status PartSystem::feed(uint32_t budget) {
   online_ = true;
   tell_axis_parameters();  // a program may have changed them
   follow_run();
+  int64_t left = int64_t{budget} * kUnit;
   if (!run_.active() || !interpreter.is_selected()) {
     if (executor.reread_asked()) executor.reread_done();  // there is nothing left to be read again
-    executor.plan();
+    feeding_.open = false;
+    if (!executor.answer(&left) || !executor.plan(&left)) return NC_BUDGET;
     if (!finished_) return NC_WAITING;
     return interpreter.alarmed() ? NC_ALARMED : NC_ENDED;
   }
@@ -692,29 +748,8 @@ nc_status PartSystem::feed(uint32_t budget) {
     }
     executor.reread_done();
   }
-  nc_status status = NC_OK;
-  unsigned committed = 0;
-  executed_ = executor.last_block();
-  if (spindle_axes_ != 0) {  // M700 10.5: a C command needs its servo, and the reference position return unless #2031 says so
-    const uint32_t referenced = executor.referenced() | interpreter.axis_settings().no_reference;
-    interpreter.set_closed_axes(spindle_axes_ & ~(executor.servo_ready() & referenced));
-  }
-  while (status == NC_OK && !finished_ && open_sync_ == 0 && executor.room() > 1 && executor.may_push() && commit_.shape_room(executor.tail(), executor.head()) &&
-         may_read_on()) {
-    status = commit_online(budget);
-    if (status == NC_OK) ++committed;
-  }
-  if (open_sync_ != 0) {
-    nc_world world{};
-    if (executor.sync_reached(open_sync_, &world)) {
-      answer(world);
-      if (spindle_axes_ != 0) take_spindle_axes(world);
-    }
-  }
-  executor.plan();
-  if (finished_) return interpreter.alarmed() ? NC_ALARMED : NC_ENDED;
-  if (status == NC_BUDGET) return status;
-  return committed > 0 ? NC_OK : NC_WAITING;
+  if (!executor.answer(&left)) return NC_BUDGET;
+  return feed_program(left);
 }
 
 /// Behind a sync: axes that are spindles too have turned without the program (M700 10.5 (1)); where a skip move has been dropped with its

@@ -40,6 +40,8 @@ class PartSystem {
   /// Offline: level of the interrupt signal (M700 13.12). *take_back: the item pulled last must not be executed.
   nc_status interrupt_signal(bool on, bool* take_back);
   nc_status feed(uint32_t budget);
+  /// A unit of the budget, and an item that is committed without a new block, in instructions of a processor (nc_feed()).
+  static constexpr int64_t kUnit = 20000, kItem = 2500;
   /// To the scan, which has to know them before anything is moved by hand; nothing while they are as before.
   void tell_axis_parameters();
   nc_status recalculate();
@@ -121,6 +123,8 @@ class PartSystem {
   unsigned stop_calls(nc_source (&calls)[NC_MAX_CALLS]) const;
   void restart(const AxisVec& machine, bool keep_modal = false);
   void follow_run();
+  void read_on(int64_t* left);
+  nc_status feed_program(int64_t left);
   nc_status commit_online(uint32_t& budget);
   bool may_read_on();
   bool put_off(const Item& item);
@@ -164,6 +168,15 @@ class PartSystem {
   static constexpr Serial kNowhere = ~Serial{0};
   Serial looked_behind_ = kNowhere;  ///< the block behind this mark has been looked at
   bool online_ = false;      ///< driven by feed()
+  /// The round that feed() is in: first blocks are read, so many at most, and then all is planned.
+  struct Feeding {
+    bool open = false, reading = false;
+    bool committed = false;  ///< something
+    nc_status status = NC_OK;
+    uint32_t blocks = 0;     ///< that may still be read
+  };
+  static constexpr uint32_t kBlocksOfRound = 1024;
+  Feeding feeding_;
   bool optimal_ = false;     ///< time-optimal motion
   RunWord run_;              ///< that the feeder has acted upon
   nc_commit_watch commit_watch_ = nullptr;

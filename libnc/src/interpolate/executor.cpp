@@ -3,6 +3,8 @@
 // scan only with the plan that covers them, so the scan never sees geometry that it could not stop on.
 #include "interpolate/executor.hpp"
 
+#include <limits>
+
 #include "interpolate/executor_state.hpp"
 
 namespace nc {
@@ -110,12 +112,25 @@ void Executor::push(const Record& record) {
 }
 
 void Executor::plan() {
-  state_->forget_truncation();
+  int64_t all = std::numeric_limits<int64_t>::max();
+  answer(&all);
+  plan(&all);
+}
+
+bool Executor::slices() const { return state_->optimal != nullptr; }
+
+bool Executor::answer(int64_t* instructions) {
+  return state_->optimal == nullptr || state_->optimal->answer(instructions);
+}
+
+bool Executor::plan(int64_t* instructions) {
   if (state_->optimal != nullptr) {
-    state_->optimal->replan(state_->head);
+    if (!state_->optimal->replan(state_->head, instructions)) return false;
   } else {
     state_->planner.replan(state_->scan_said());
   }
+  state_->forget_truncation();
+  return true;
 }
 
 /// A truncation that was asked for and never fetched must not keep the scan waiting for ever.

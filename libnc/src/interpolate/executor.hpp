@@ -62,6 +62,12 @@ class Executor {
   /// the scan last saw, and swaps it in. Cheap when nothing changed. Call after pushing, and once per feeder
   /// period.
   void plan();
+  /// The same in slices of about so many `instructions`, of which they leave what is left. First what the scan asks for and what can wait for
+  /// nothing, a stop before all; then, when that is done (true), a round for what was pushed before it began. True at its end.
+  bool answer(int64_t* instructions);
+  bool plan(int64_t* instructions);
+  /// The law is made in slices; else plan() does all of it at once, whatever it is given.
+  bool slices() const;
   void set_axis_parameters(const AxisParameters& axes);
   /// The scan has reached the sync `serial`, is at rest and in position: copies the world and returns true.
   bool sync_reached(Serial serial, nc_world* world) const;

@@ -11,49 +11,63 @@ constexpr double kSameEnd = 1e-6;  ///< mm: what is followed rests where the pat
 
 }  // namespace
 
-bool KnownLaw::from(unsigned place) {
+Task<bool> KnownLaw::from(Work& work, unsigned place) {
   const Followed::At& at = followed_->at[place];
-  return phases_->from(at.s, at.v, at.a);
+  const bool found = co_await phases_->from(work, at.s, at.v, at.a);
+  co_return found;
 }
 
 /// From rest there always is one: this is why there is a known law from every start.
-bool KnownLaw::from_its_rest() {
+Task<bool> KnownLaw::from_its_rest(Work& work) {
   const Followed::At& end = followed_->end;
   ends_there_ = std::fabs(end.s - phases_->distance()) <= kSameEnd;
-  if (!ends_there_ && !phases_->from(end.s, 0, 0)) return false;
+  if (!ends_there_) {
+    const bool found = co_await phases_->from(work, end.s, 0, 0);
+    if (!found) co_return false;
+  }
   rests_ = true;
   leaves_at_ = followed_->count;
   before_s_ = end.seconds;
   begins_ = end.s;
-  return true;
+  co_return true;
 }
 
 /// What is followed brakes to its rest, and the slower it is, the less the bends take: farther on there is a law where there is one here, with
 /// few exceptions. So the places are tried ever farther apart, and then those between the last two.
-bool KnownLaw::find(const MeshRequest& request, const Limits& limits, PhaseLaw* phases) {
+Task<bool> KnownLaw::find(Work& work, const MeshRequest& request, const Limits& limits, PhaseLaw* phases) {
   phases_ = phases;
   followed_ = request.followed;
   leaves_at_ = hint_ = 0;
   before_s_ = begins_ = 0;
   rests_ = ends_there_ = false;
-  if (!phases->measure(request, limits)) return false;
-  if (phases->from(0, request.from_rest ? 0 : std::sqrt(request.b0), request.from_rest ? 0 : 0.5 * request.slope0)) return true;
-  if (followed_ == nullptr) return false;
+  const bool measured = co_await phases->measure(work, request, limits);
+  if (!measured) co_return false;
+  const double v = request.from_rest ? 0 : std::sqrt(request.b0), a = request.from_rest ? 0 : 0.5 * request.slope0;
+  bool found = co_await phases->from(work, 0, v, a);
+  if (found) co_return true;
+  if (followed_ == nullptr) co_return false;
   unsigned none = 0, some = 1;
-  while (some < followed_->count && !from(some)) {
+  while (some < followed_->count) {
+    found = co_await from(work, some);
+    if (found) break;
     none = some;
     some = std::min(2 * some + 1, std::max(some + 1, followed_->count - 1));
   }
-  if (some >= followed_->count) return from_its_rest();
+  if (some >= followed_->count) {
+    found = co_await from_its_rest(work);
+    co_return found;
+  }
   while (none + 1 < some) {
     const unsigned middle = (none + some) / 2;
-    (from(middle) ? some : none) = middle;
+    found = co_await from(work, middle);
+    (found ? some : none) = middle;
   }
-  if (!from(some)) return false;
+  found = co_await from(work, some);
+  if (!found) co_return false;
   leaves_at_ = some;
   before_s_ = followed_->at[some].seconds;
   begins_ = followed_->at[some].s;
-  return true;
+  co_return true;
 }
 
 double KnownLaw::squared_speed(double s) {

@@ -11,7 +11,7 @@ class KnownLaw {
  public:
   /// `phases` is the room for its second part and stays with it. False where nothing is followed and there is none from the start, and where
   /// what is followed rests behind the end of the path that is asked for.
-  bool find(const MeshRequest& request, const Limits& limits, PhaseLaw* phases);
+  Task<bool> find(Work& work, const MeshRequest& request, const Limits& limits, PhaseLaw* phases);
   /// The place at which it leaves what is followed: place k of the request's, 0 the start; not where it rests().
   unsigned leaves_at() const { return leaves_at_; }
   /// It follows to the rest there, and goes on from it.
@@ -22,8 +22,8 @@ class KnownLaw {
   double squared_speed(double s);
 
  private:
-  bool from(unsigned place);
-  bool from_its_rest();
+  Task<bool> from(Work& work, unsigned place);
+  Task<bool> from_its_rest(Work& work);
 
   const Followed* followed_ = nullptr;
   PhaseLaw* phases_ = nullptr;

@@ -31,6 +31,9 @@ constexpr double kRampUse = 0.6;       ///< of the limits, with which such a spe
 constexpr double kGentleLevel = 10;    ///< cells that the guess takes to come to it
 constexpr unsigned kFewestLevel = 8;   ///< cells in a row
 constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
+// Instructions: of a piece or a knot for each axis, on a polynomial and on another curve, of a step of the estimate, and of a cell.
+constexpr int64_t kPieceCost = 200, kCurveCost = 1500, kNodeCost = 60, kCellCost = 400, kLevelCost = 60;
+constexpr unsigned kNodesAtOnce = 256, kCellsAtOnce = 32, kKnotsAtOnce = 8;  ///< then others may have their turn
 
 /// What the derivatives of an axis are measured by.
 double measure(const Limits& limits, unsigned i) {
@@ -98,7 +101,7 @@ double Mesher::step_time(double v, double a, const Bound& bound, double period) 
 
 /// Speeds that can be reached from the start, with the acceleration growing by the jerk from 0 wherever the
 /// speed is bounded.
-void Mesher::forward() {
+Task<bool> Mesher::forward(Work& work) {
   const MeshRequest& in = *in_;
   forward_.count = 0;
   const unsigned nodes = std::min(kNodes, kNodesPerCell * in.most + kNodesPerCell);
@@ -106,12 +109,14 @@ void Mesher::forward() {
   double edge = -in.from.x;
   for (unsigned p = in.from.piece; p < in.count; ++p) {
     const Bound bound = bound_[p - in.from.piece] = bound_of(in.at(p), p == in.from.piece ? in.from.x : 0);
+    co_await work.pause(limits_->axis_count * (in.at(p).curve != nullptr ? kCurveCost : kPieceCost));
     edge = std::min(edge + in.at(p).length, in.reach);
     end_piece_ = p;
     if (v > bound.speed) v = bound.speed, a = 0;
     while (u < edge) {
       if (forward_.count == nodes) break;
       forward_.node[forward_.count++] = {u, v};
+      if (forward_.count % kNodesAtOnce == 0) co_await work.pause(kNodesAtOnce * kNodeCost);
       const double t = step_time(v, a, bound, in.period);
       const double du = std::max(t * (v + t * (a / 2 + t * bound.jerk / 6)), kSlowest * t);
       if (u + du >= edge) {
@@ -131,10 +136,11 @@ void Mesher::forward() {
   end_u_ = u;
   whole_ = u == edge && (end_piece_ + 1 == in.count || !(u < in.reach - kSameReach));
   if (forward_.count < kNodes) forward_.node[forward_.count++] = {u, v};
+  co_return true;
 }
 
 /// The same from the end back.
-void Mesher::backward(unsigned end_piece, double end) {
+Task<bool> Mesher::backward(Work& work, unsigned end_piece, double end) {
   const MeshRequest& in = *in_;
   backward_.count = 0;
   double u = end, v = 0, a = 0, edge = -in.from.x;  // of the last piece, which may reach beyond
@@ -146,6 +152,7 @@ void Mesher::backward(unsigned end_piece, double end) {
     if (v > bound.speed) v = bound.speed, a = 0;
     while (u > stop && backward_.count < kNodes) {
       backward_.node[backward_.count++] = {u, v};
+      if (backward_.count % kNodesAtOnce == 0) co_await work.pause(kNodesAtOnce * kNodeCost);
       const double t = step_time(v, a, bound, in.period);
       const double du = std::max(t * (v + t * (a / 2 + t * bound.jerk / 6)), kSlowest * t);
       if (u - du <= stop) {
@@ -164,6 +171,7 @@ void Mesher::backward(unsigned end_piece, double end) {
   }
   if (backward_.count < kNodes) backward_.node[backward_.count++] = {u, v};
   std::reverse(backward_.node, backward_.node + backward_.count);
+  co_return true;
 }
 
 double Mesher::speed_at(const Track& track, double u, unsigned* hint) const {
@@ -192,11 +200,9 @@ double Mesher::slow_enough(double h, const Bound& bound, bool starts) const {
   return h;
 }
 
-/// Walks along and sets a knot at every joint of pieces and about every `period` seconds. `fine`: a straight line by itself may have
-/// shorter cells where its speed changes.
-bool Mesher::cells(double end, bool fine) {
+/// `fine`: a straight line by itself may have shorter cells where its speed changes.
+Mesher::Walk Mesher::begin_cells(double end, bool fine) const {
   const MeshRequest& in = *in_;
-  Mesh& m = *mesh_;
   const double t = in.period;
   const auto rest_cell = [&](const Bound& bound) {
     const double seconds = std::min({kLaunch * t, std::sqrt(kLaunchSpeed * bound.speed / bound.jerk),
@@ -206,16 +212,26 @@ bool Mesher::cells(double end, bool fine) {
   };
   double last_edge = -in.from.x;
   for (unsigned p = in.from.piece; p < end_piece_; ++p) last_edge += in.at(p).length;
-  const double launch = slow_enough(rest_cell(bound(in.from.piece)), bound(in.from.piece), true),
-               landing = slow_enough(std::min(rest_cell(bound(end_piece_)), end - std::max(0.0, last_edge)), bound(end_piece_), false);
-  double u = 0, edge = in.at(in.from.piece).length - in.from.x;
-  PathPlace at = in.from;
-  m.cells = 0;
-  least_s_ = 0;
-  hint_f_ = hint_b_ = 0;
-  const double stop = end - landing;
-  const bool alone = fine && in.count == 1 && in.from_rest && in.down == nullptr && !bound(in.from.piece).curved;
-  while (u < end && m.cells < in.most) {
+  Walk walk;
+  walk.launch = slow_enough(rest_cell(bound(in.from.piece)), bound(in.from.piece), true);
+  walk.landing = slow_enough(std::min(rest_cell(bound(end_piece_)), end - std::max(0.0, last_edge)), bound(end_piece_), false);
+  walk.edge = in.at(in.from.piece).length - in.from.x;
+  walk.at = in.from;
+  walk.end = end;
+  walk.alone = fine && in.count == 1 && in.from_rest && in.down == nullptr && !bound(in.from.piece).curved;
+  return walk;
+}
+
+/// Walks along and sets a knot at every joint of pieces and about every `period` seconds. Goes on for `count` cells.
+void Mesher::cells(Walk* walk, unsigned count) {
+  const MeshRequest& in = *in_;
+  Mesh& m = *mesh_;
+  const double t = in.period, end = walk->end, launch = walk->launch, landing = walk->landing, stop = end - landing;
+  const bool alone = walk->alone;
+  double u = walk->u, edge = walk->edge;
+  PathPlace at = walk->at;
+  const unsigned last = std::min(in.most, m.cells + count);
+  while (u < end && m.cells < last && !walk->ended) {
     const unsigned f = hint_f_, b = hint_b_;
     double h = launch;
     if (m.cells > 0 || !in.from_rest) {
@@ -267,67 +283,99 @@ bool Mesher::cells(double end, bool fine) {
       u += h;
       at.x += h;
     }
-    if (end - u < kRounding * end) break;
+    walk->ended = end - u < kRounding * end;
   }
-  place_[m.cells] = at;
-  return end - u < kRounding * end;
+  walk->u = u;
+  walk->edge = edge;
+  walk->at = at;
+  walk->ended = walk->ended || !(u < end) || m.cells >= in.most;
 }
 
-void Mesher::fill_knots() {
+/// @return whether they come to the end
+Task<bool> Mesher::cells(Work& work, double end, bool fine) {
+  mesh_->cells = 0;
+  least_s_ = 0;
+  hint_f_ = hint_b_ = 0;
+  Walk walk = begin_cells(end, fine);
+  while (!walk.ended) {
+    const unsigned before = mesh_->cells;
+    cells(&walk, kCellsAtOnce);
+    co_await work.pause((mesh_->cells - before) * kCellCost);
+  }
+  place_[mesh_->cells] = walk.at;
+  co_return end - walk.u < kRounding* end;
+}
+
+/// The largest b at a place of a piece.
+double Mesher::cap_of(const Piece& p, const CurvePoint& q, double u) const {
+  const unsigned axes = limits_->axis_count;
+  double length2 = 0, axes_most = HUGE_VAL, v = feed_of(p, *limits_);
+  for (unsigned i = 0; i < axes; ++i) {
+    if ((limits_->linear >> i & 1) != 0) length2 += q.d1[i] * q.d1[i];
+    const double axis = velocity_of(p, *limits_, i);
+    if (axis > 0 && axes_most * std::fabs(q.d1[i]) > axis) axes_most = axis / std::fabs(q.d1[i]);
+  }
+  bool bends = p.curve != nullptr;
+  for (unsigned i = 0; i < axes; ++i) bends = bends || q.d2[i] != 0 || q.d3[i] != 0;
+  const double use = bends ? kFeed : 1;
+  if (use * use * length2 > 1 && v < HUGE_VAL) v /= use * std::sqrt(length2);
+  if (in_->down != nullptr) v = std::max(v, std::sqrt(in_->down->at(u)));
+  v = std::min(v, axes_most);
+  return use * use * v * v;
+}
+
+/// Knot k at u, and the inside of cell k. `q`: the path at the end of the cell before, from inside, and then at that of this one.
+void Mesher::fill_knot(unsigned k, double u, CurvePoint* q) {
   const MeshRequest& in = *in_;
   Mesh& m = *mesh_;
   const unsigned axes = limits_->axis_count;
-  const auto cap_of = [&](const Piece& p, const CurvePoint& q, double u) {
-    double length2 = 0, axes_most = HUGE_VAL, v = feed_of(p, *limits_);
-    for (unsigned i = 0; i < axes; ++i) {
-      if ((limits_->linear >> i & 1) != 0) length2 += q.d1[i] * q.d1[i];
-      const double axis = velocity_of(p, *limits_, i);
-      if (axis > 0 && axes_most * std::fabs(q.d1[i]) > axis) axes_most = axis / std::fabs(q.d1[i]);
-    }
-    bool bends = p.curve != nullptr;
-    for (unsigned i = 0; i < axes; ++i) bends = bends || q.d2[i] != 0 || q.d3[i] != 0;
-    const double use = bends ? kFeed : 1;
-    if (use * use * length2 > 1 && v < HUGE_VAL) v /= use * std::sqrt(length2);
-    if (in.down != nullptr) v = std::max(v, std::sqrt(in.down->at(u)));
-    v = std::min(v, axes_most);
-    return use * use * v * v;
-  };
-  double u = 0;
-  CurvePoint q;  // at the end of the last cell, from inside
-  for (unsigned k = 0; k <= m.cells; ++k) {
-    Knot& knot = m.knot[k];
-    knot.cap = HUGE_VAL;
-    if (k > 0) {
-      knot.left3 = knot.right3 = q.d3;
-      knot.cap = cap_of(in.at(place_[k - 1].piece), q, u);
-      m.cap[k - 1] = std::min(m.cap[k - 1], knot.cap);
-    }
-    const bool cell = k < m.cells;
-    if (cell && (k == 0 || place_[k].piece != place_[k - 1].piece)) derivatives(in.at(place_[k].piece), place_[k].x, axes, &q);
-    knot.d1 = q.d1;
-    knot.d2 = q.d2;
-    if (!cell) break;
-    const Piece& p = in.at(place_[k].piece);
-    knot.right3 = q.d3;
-    m.cap[k] = cap_of(p, q, u);
-    knot.cap = std::min(knot.cap, m.cap[k]);
-    const double h = m.h[k];
-    derivatives(p, std::min(p.length, place_[k].x + h), axes, &q);
-    Inside& inside = m.inside[k];
-    double length2 = 0;
-    inside.d2_start = knot.d2;
-    inside.d2_end = q.d2;
-    for (unsigned i = 0; i < axes; ++i) {
-      inside.d1[i] = knot.d1[i] + 0.5 * h * knot.d2[i];
-      inside.d3[i] = (q.d2[i] - knot.d2[i]) / h;
-      const double middle = 0.25 * (knot.d1[i] + 2 * inside.d1[i] + q.d1[i]);  // of a cubic
-      if ((limits_->linear >> i & 1) != 0) length2 += middle * middle;
-    }
-    const double feed = feed_of(p, *limits_);
-    if (kFeed * kFeed * length2 > 1 && feed < HUGE_VAL && in.down == nullptr)
-      m.cap[k] = std::min(m.cap[k], feed * feed / length2);
-    u += h;
+  Knot& knot = m.knot[k];
+  knot.cap = HUGE_VAL;
+  if (k > 0) {
+    knot.left3 = knot.right3 = q->d3;
+    knot.cap = cap_of(in.at(place_[k - 1].piece), *q, u);
+    m.cap[k - 1] = std::min(m.cap[k - 1], knot.cap);
   }
+  const bool cell = k < m.cells;
+  if (cell && (k == 0 || place_[k].piece != place_[k - 1].piece)) derivatives(in.at(place_[k].piece), place_[k].x, axes, q);
+  knot.d1 = q->d1;
+  knot.d2 = q->d2;
+  if (!cell) return;
+  const Piece& p = in.at(place_[k].piece);
+  knot.right3 = q->d3;
+  m.cap[k] = cap_of(p, *q, u);
+  knot.cap = std::min(knot.cap, m.cap[k]);
+  const double h = m.h[k];
+  derivatives(p, std::min(p.length, place_[k].x + h), axes, q);
+  Inside& inside = m.inside[k];
+  double length2 = 0;
+  inside.d2_start = knot.d2;
+  inside.d2_end = q->d2;
+  for (unsigned i = 0; i < axes; ++i) {
+    inside.d1[i] = knot.d1[i] + 0.5 * h * knot.d2[i];
+    inside.d3[i] = (q->d2[i] - knot.d2[i]) / h;
+    const double middle = 0.25 * (knot.d1[i] + 2 * inside.d1[i] + q->d1[i]);  // of a cubic
+    if ((limits_->linear >> i & 1) != 0) length2 += middle * middle;
+  }
+  const double feed = feed_of(p, *limits_);
+  if (kFeed * kFeed * length2 > 1 && feed < HUGE_VAL && in.down == nullptr)
+    m.cap[k] = std::min(m.cap[k], feed * feed / length2);
+}
+
+Task<bool> Mesher::fill_knots(Work& work) {
+  const Mesh& m = *mesh_;
+  double u = 0;
+  CurvePoint q;
+  for (unsigned k = 0; k <= m.cells;) {
+    int64_t cost = 0;
+    for (const unsigned to = std::min(m.cells + 1, k + kKnotsAtOnce); k < to; ++k) {
+      fill_knot(k, u, &q);
+      if (k < m.cells) u += m.h[k];
+      cost += in_->at(place_[k].piece).curve != nullptr ? kCurveCost : kPieceCost;
+    }
+    co_await work.pause(limits_->axis_count * cost);
+  }
+  co_return true;
 }
 
 /// The speed can be the cap all along the cell, with something left to reach it.
@@ -376,20 +424,22 @@ void Mesher::level_between(unsigned from, unsigned to) {
   for (unsigned n = 1; n < kGentleLevel && to + n <= m.cells; ++n) near(to + n - 1, n);
 }
 
-void Mesher::find_levels() {
+Task<bool> Mesher::find_levels(Work& work) {
   Mesh& m = *mesh_;
   m.levels = 0;
   std::fill(m.level, m.level + m.cells, false);
-  if (in_->down != nullptr) return;
+  if (in_->down != nullptr) co_return true;
   unsigned from = 0;
   for (unsigned k = 0; k <= m.cells; ++k) {
+    if (k % kCellsAtOnce == 0) co_await work.pause(kCellsAtOnce * kLevelCost * limits_->axis_count);
     if (k < m.cells && can_be_level(k) && (k == from || std::fabs(m.cap[k] - m.cap[from]) <= kSameCap * m.cap[k])) continue;
     if (k > from + kFewestLevel) level_between(from, k);
     from = k + 1;
   }
+  co_return true;
 }
 
-PathPlace Mesher::build(const MeshRequest& request, const Limits& limits, Mesh* mesh) {
+Task<PathPlace> Mesher::build(Work& work, const MeshRequest& request, const Limits& limits, Mesh* mesh) {
   in_ = &request;
   limits_ = &limits;
   mesh_ = mesh;
@@ -397,13 +447,14 @@ PathPlace Mesher::build(const MeshRequest& request, const Limits& limits, Mesh* 
   mesh->b0 = request.b0;
   mesh->slope0 = request.slope0;
   mesh->levels = 0;
-  forward();
+  co_await forward(work);
   for (unsigned n = 0;; ++n) {
-    backward(end_piece_, end_u_);
-    if (cells(end_u_, n == 0)) break;
+    co_await backward(work, end_piece_, end_u_);
+    const bool all = co_await cells(work, end_u_, n == 0);
+    if (all) break;
     if (n == kShorter || mesh->cells < 4) {  // no law has so few cells
       mesh->cells = 0;
-      return request.from;
+      co_return request.from;
     }
     // Too long for one window: it ends, at rest, some way before the place where the cells have run out.
     const unsigned k = mesh->cells - mesh->cells / kShare - 1;
@@ -414,9 +465,9 @@ PathPlace Mesher::build(const MeshRequest& request, const Limits& limits, Mesh* 
     if (at.x <= 0) --end_piece_;
     whole_ = false;
   }
-  fill_knots();
-  find_levels();
-  return place_[mesh->cells];
+  co_await fill_knots(work);
+  co_await find_levels(work);
+  co_return place_[mesh->cells];
 }
 
 }  // namespace nc::optimal

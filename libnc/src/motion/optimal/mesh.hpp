@@ -58,7 +58,7 @@ class Mesher {
  public:
   /// Fills mesh from `from` to the end of the pieces, or as far as it reaches. @return the place where it
   /// ends (at rest).
-  PathPlace build(const MeshRequest& request, const Limits& limits, Mesh* mesh);
+  Task<PathPlace> build(Work& work, const MeshRequest& request, const Limits& limits, Mesh* mesh);
   /// Of cell k of the mesh built last.
   const PathPlace& place(unsigned k) const { return place_[k]; }
   bool whole() const { return whole_; }  ///< it reaches the end of the pieces
@@ -81,16 +81,28 @@ class Mesher {
 
   Bound bound_of(const Piece& p, double from) const;
   const Bound& bound(unsigned piece) const { return bound_[piece - in_->from.piece]; }
-  void forward();
-  void backward(unsigned end_piece, double end);
+  Task<bool> forward(Work& work);
+  Task<bool> backward(Work& work, unsigned end_piece, double end);
   double speed_at(const Track& track, double u, unsigned* hint) const;
   double estimate(double u);
   double slow_enough(double h, const Bound& bound, bool starts) const;
-  bool cells(double end, bool fine);
+  /// On the way along the path while cells are laid.
+  struct Walk {
+    double u = 0, edge = 0;  ///< edge: where the piece ends
+    PathPlace at;
+    double end = 0, launch = 0, landing = 0;
+    bool alone = false;  ///< a straight line by itself
+    bool ended = false;
+  };
+  Walk begin_cells(double end, bool fine) const;
+  void cells(Walk* walk, unsigned count);
+  Task<bool> cells(Work& work, double end, bool fine);
   static double step_time(double v, double a, const Bound& bound, double period);
-  void fill_knots();
+  double cap_of(const Piece& p, const CurvePoint& q, double u) const;
+  void fill_knot(unsigned k, double u, CurvePoint* q);
+  Task<bool> fill_knots(Work& work);
   bool can_be_level(unsigned cell) const;
-  void find_levels();
+  Task<bool> find_levels(Work& work);
   void level_between(unsigned from, unsigned to);
 
   const MeshRequest* in_ = nullptr;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace nc::optimal {
 namespace {
@@ -19,20 +18,12 @@ constexpr unsigned kLawsAtOnce = 8;
 constexpr unsigned kCellsAtOnce = 480; ///< of a law, so that it is there soon
 constexpr unsigned kBack = 7;          ///< cells farther back, from which a law is tried that was not found
 constexpr uint32_t kRetry = 4;         ///< cells that the scan goes until a law is tried again
-constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
-constexpr double kFartherPhases[] = {1.02, 1.2, 1.6, 2.5, 4, 8};  ///< the same for laws in phases
-constexpr double kHardlyLonger = 3;    ///< times as long as a stop on a line
-constexpr unsigned kStopStarts = 24;   ///< cells behind which such a law is looked for, one after the other
-constexpr unsigned kSolvedStops[] = {1, 4};  ///< of these, where the solver looks for one, too
 constexpr double kUrgent = 0.15;       ///< s of chain that are left when a law in phases goes where no other has been found so far
 constexpr double kMostJerk = 8;        ///< of an acceleration by a cycle: more cannot be seen in one position a cycle, and only makes laws hard to find
 constexpr double kSameScale = 1e-9;
 constexpr double kTiny = 1e-9;         ///< mm
-constexpr double kFarther[] = {1.004, 1.05, 1.15, 1.35, 1.8, 2.7, 4, 8};  ///< of the distance that a stop takes on a line
-constexpr unsigned kNearer = 4;        ///< halvings between one that is too short and one that is not
-constexpr unsigned kStopSteps = 18;    ///< of the solver, after which there is none so short
-constexpr double kStopPeriod = 0.5;    ///< of the cells of other laws: in a bend that takes all there is, a stop begins between them
-constexpr double kCloseStops = 1.02;   ///< within that distances are not worth one
+// Instructions: of a law in closed form, of a cell that is copied, and of one of the chain that is looked at.
+constexpr int64_t kLineCost = 15000, kCopyCost = 300, kChainCost = 20;
 
 bool same(double a, double b) {
   return std::fabs(a - b) <= kSameScale * (std::fabs(a) + std::fabs(b));
@@ -113,7 +104,7 @@ void OptimalPlanner::begin_again(const Following& f) {
 /// It has given everything up: the path begins anew with its records.
 void OptimalPlanner::rebuild(const Following& f) {
   begin_again(f);
-  builder_.restart(f.tail, f.s, f.machine, 0);
+  builder_.restart(f.tail, f.s, f.machine, 0, f.epoch);
   fresh_piece_ = builder_.head();
   fresh_x_ = 0;
 }
@@ -135,42 +126,136 @@ bool OptimalPlanner::answered(const Following& f) {
   return true;
 }
 
-void OptimalPlanner::replan(uint32_t head) {
-  const Following& f = following_.read();
-  const bool idle = head == head_;
-  head_ = head;
-  if (f.generation != generation_) {
-    if (f.halted) {  // it rests on the path, which stays as it is
-      begin_again(f);
-      fresh_piece_ = f.piece;
-      fresh_x_ = f.x;
-      if (f.x >= store_.piece_at(f.piece).length - kTiny) ++fresh_piece_, fresh_x_ = 0;
-    } else {
-      rebuild(f);
-    }
-  }
-  if (!answered(f)) {
-    publish();
+// ---- rounds
+// ------------------------------------------------------------------------------------------------------------------------
+
+/// What asks for another plan is as it was when the newest round began.
+bool OptimalPlanner::heard(const Following& f) const {
+  return f.brake == heard_.brake && (turn_over_ || (f.block_rests == heard_.block_rests && same(f.scale, heard_.scale)));
+}
+
+/// The scan asks for what the chain does not do, and no round has been begun for that.
+bool OptimalPlanner::called(const Following& f) const {
+  return f.generation != generation_ || !heard(f) || (unanswered_ && f.answered == offer_.number);
+}
+
+/// What is under way for a law. Where it has come to an offer that stays, and with it the cells that have been written.
+void OptimalPlanner::give_up_law() {
+  if (!law_work_.open()) return;
+  law_work_.give_up();
+  if (!open_) write_ = law_first_;
+}
+
+void OptimalPlanner::give_up_rounds() {
+  give_up_law();
+  path_work_.give_up();
+  round_ = Round::none;
+  answering_ = unanswered_ = false;
+}
+
+/// The scan follows another path, or none.
+void OptimalPlanner::follow_generation(const Following& f) {
+  give_up_rounds();
+  if (!f.halted) {
+    rebuild(f);
     return;
   }
-  if (f.cell != kNoCell && !fresh_) builder_.free_pieces(store_.at(f.cell).piece);
-  free_from_ = f.cell != kNoCell ? f.cell : write_;
-  limits_ = with(f);
-  builder_.take(head);
-  change(f);
-  if (!open_ && !f.brake) go_on(f, idle);
+  begin_again(f);  // it rests on the path, which stays as it is
+  fresh_piece_ = f.piece;
+  fresh_x_ = f.x;
+  if (f.x >= store_.piece_at(f.piece).length - kTiny) ++fresh_piece_, fresh_x_ = 0;
+}
+
+void OptimalPlanner::begin_law(bool answer) {
+  law_first_ = write_;
+  law_for_ = now_;
+  free_from_ = now_.cell != kNoCell ? now_.cell : write_;
+  limits_ = with(now_);
+  law_work_.begin(law(law_work_, answer));
+}
+
+/// All that is to be done for what the scan has said. `answer`: no more than that.
+Task<bool> OptimalPlanner::law(Work& work, bool answer) {
+  const Following& f = law_for_;
+  co_await change(work, f);
+  if (!answer && !open_ && !f.brake) co_await go_on(work, f, idle_);
+  co_return true;
+}
+
+bool OptimalPlanner::answer(int64_t* instructions) {
+  now_ = following_.read();
+  if (now_.generation != generation_) {
+    heard_ = now_;
+    follow_generation(now_);
+    return true;
+  }
+  if (called(now_) && !(answering_ && now_.brake == heard_.brake)) {
+    // Only a hold or its end breaks off an answer: an override that never stands still gets one, and then the path is gone on with.
+    turn_over_ = turn_over_ || now_.brake == heard_.brake;
+    heard_ = now_;
+    if (law_work_.open()) {
+      give_up_law();
+      if (round_ == Round::law) round_ = Round::law_due;
+    }
+    answering_ = answered(now_);
+    unanswered_ = !answering_;
+    if (answering_) begin_law(true);
+  }
+  if (!answering_) {
+    if (published_ != offer_.number) publish();  // of a law that was broken off behind its offer
+    return true;
+  }
+  *instructions = law_work_.go_on(*instructions);
+  if (law_work_.open()) return false;
+  answering_ = false;
   publish();
+  return true;
+}
+
+bool OptimalPlanner::replan(uint32_t head, int64_t* instructions) {
+  if (round_ == Round::none) {
+    idle_ = head == head_ && !truncated_;
+    truncated_ = false;
+    head_ = head;
+    heard_ = now_;
+    if (!answered(now_)) {
+      publish();
+      return true;
+    }
+    unanswered_ = false;
+    if (now_.cell != kNoCell && !fresh_) builder_.free_pieces(store_.at(now_.cell).piece);
+    path_work_.begin(builder_.take(path_work_, head));
+    round_ = Round::path;
+  }
+  if (round_ == Round::path) {
+    *instructions = path_work_.go_on(*instructions);
+    if (path_work_.open()) return false;
+    round_ = Round::law_due;
+  }
+  if (round_ == Round::law_due && answered(now_)) {
+    heard_ = now_;
+    begin_law(false);
+    round_ = Round::law;
+  }
+  if (round_ == Round::law) {
+    *instructions = law_work_.go_on(*instructions);
+    if (law_work_.open()) return false;
+  }
+  round_ = Round::none;
+  turn_over_ = false;
+  publish();
+  return true;
 }
 
 void OptimalPlanner::truncate(uint32_t end) {
-  const Following& f = following_.read();
+  now_ = following_.read();
   head_ = end;
-  rebuild(f);
+  truncated_ = true;
+  heard_ = now_;
+  give_up_rounds();
+  rebuild(now_);
   ++offer_.number;  // void: what the scan has of the chain is given up
   offer_.fresh = true;
-  limits_ = with(f);
-  builder_.take(end);
-  if (!f.brake) go_on(f, false);
   publish();
 }
 
@@ -324,9 +409,9 @@ const Followed* OptimalPlanner::follow(const Start& start) {
   return followed_.count > 0 ? &followed_ : nullptr;
 }
 
-bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* down, bool once, double period, unsigned steps) {
+Task<bool> OptimalPlanner::one_law(Work& work, const Start& start, double reach, const WayDown* down, bool once, double period, unsigned steps) {
   MeshRequest request = request_from(start, reach, down);
-  if (request.count == 0) return false;
+  if (request.count == 0) co_return false;
   if (!start.fresh && !start.from_rest && period >= kPeriod) {  // the cells that the chain has there
     CellIndex k = start.after;
     while (request.first_cells < kFirstCells) {
@@ -340,13 +425,16 @@ bool OptimalPlanner::one_law(const Start& start, double reach, const WayDown* do
   goal.once = once;
   goal.period = period;
   goal.steps = steps;
-  return windows_->law_to(request, limits_, goal);
+  const bool found = co_await windows_->law_to(work, request, limits_, goal);
+  co_return found;
 }
 
 /// The law in phases, which always is one from rest.
-bool OptimalPlanner::phase_law(const Start& start, double reach) {
+Task<bool> OptimalPlanner::phase_law(Work& work, const Start& start, double reach) {
   const MeshRequest request = request_from(start, reach, nullptr);
-  return request.count > 0 && windows_->phases_to(request, limits_);
+  if (request.count == 0) co_return false;
+  const bool found = co_await windows_->phases_to(work, request, limits_);
+  co_return found;
 }
 
 /// The law found last reaches the end of the pieces, or of what was asked for.
@@ -357,86 +445,6 @@ bool OptimalPlanner::whole() const {
 /// Of the law found last.
 double OptimalPlanner::law_seconds() const {
   return found_ == Found::cells ? windows_->law().seconds : found_ == Found::line ? line_.seconds() : windows_->phases().seconds();
-}
-
-/// What the axes allow along the path at a place.
-OptimalPlanner::Along OptimalPlanner::along(const Start& start) const {
-  const Piece& p = store_.piece_at(start.piece);
-  const CurvePoint q = evaluate(p, std::min(start.x, p.length), limits_.axis_count);
-  Along most{HUGE_VAL, HUGE_VAL};
-  for (unsigned i = 0; i < limits_.axis_count; ++i) {
-    const double d = std::fabs(q.d1[i]);
-    if (most.acceleration * d > limits_.acceleration[i]) most.acceleration = limits_.acceleration[i] / d;
-    if (most.jerk * d > limits_.jerk[i]) most.jerk = limits_.jerk[i] / d;
-  }
-  return most;
-}
-
-/// Length and time of a stop on the straight line ahead.
-double OptimalPlanner::stopping_distance(const Start& start, double* seconds) const {
-  const auto [a, j] = along(start);
-  if (!(a < HUGE_VAL) || !(j < HUGE_VAL)) return 0;
-  // As if the acceleration had been 0 for once: |start.a| / j ago, or as long ahead.
-  const double t = std::fabs(start.a) / j, v = start.v + 0.5 * start.a * start.a / j;
-  const double time = v >= a * a / j ? v / a + a / j : 2 * std::sqrt(v / j);
-  const double whole = 0.5 * v * time;
-  if (start.a > 0) {
-    *seconds = time + t;
-    return whole + t * (start.v + t * (start.a / 2 - t * j / 6));
-  }
-  *seconds = std::max(time - t, 0.2 * time);
-  return std::max(whole - t * (v - t * t * j / 6), 0.05 * whole);
-}
-
-/// The way to rest of the solver that ends the soonest: ever longer ones until there is one, and then those between the last two.
-bool OptimalPlanner::shortest_stop(const Start& start, double distance, double most, double seconds) {
-  const double period = kStopPeriod * std::min(kPeriod, seconds / 14);
-  const auto law = [&](double reach) { return one_law(start, reach, nullptr, true, period, kStopSteps); };
-  double none = distance, some = 0;
-  for (const double farther : kFarther) {
-    const double reach = std::min(distance * farther, most);
-    if (!(reach > none)) break;
-    if (law(reach)) {
-      some = reach;
-      break;
-    }
-    none = reach;
-  }
-  if (!(some > 0)) return false;
-  bool last = true;
-  for (unsigned n = 0; n < kNearer && some > kCloseStops * none; ++n) {
-    const double reach = std::sqrt(none * some);
-    last = law(reach);
-    (last ? some : none) = reach;
-  }
-  return last || law(some);
-}
-
-/// The shortest way to rest that is found, shorter than `most`.
-bool OptimalPlanner::stop_law(const Start& start, double most, bool closed) {
-  double seconds = 0;
-  const double distance = stopping_distance(start, &seconds);
-  no_room_ = false;
-  if (!(distance > 0)) return false;
-  if (find_line_stop(start, most)) {
-    found_ = Found::line;
-    return true;
-  }
-  found_ = Found::cells;
-  if (!closed && seconds > kAtOnce && shortest_stop(start, distance, most, seconds)) return true;
-  if (!closed && distance * *std::rbegin(kFarther) > most) no_room_ = ahead_of_end(start) < kHardlyLonger * seconds + kAtOnce;
-  found_ = Found::phases;
-  for (const double farther : kFartherPhases) {
-    const double reach = distance * farther;
-    if (reach > most) break;
-    if (phase_law(start, reach)) return true;
-  }
-  return false;
-}
-
-/// Seconds of the chain behind a place of it.
-double OptimalPlanner::ahead_of_end(const Start& start) const {
-  return start.fresh ? 0 : chain_end_[chain_.last & store_.cell_mask] - chain_end_[start.after & store_.cell_mask];
 }
 
 /// The law that was found last ends where the path rests.
@@ -463,41 +471,61 @@ OptimalPlanner::Start OptimalPlanner::behind_law(uint32_t piece, double x, doubl
 }
 
 /// Writes the cells of the law. False when they have no room.
-bool OptimalPlanner::copy_law(const Start& start, Start* end) {
-  if (found_ == Found::line) return copy_phases(line_, start, end);
-  if (found_ == Found::phases) return copy_phases(windows_->phases(), start, end);
+Task<bool> OptimalPlanner::copy_law(Work& work, const Start& start, Start* end) {
+  bool copied = false;
+  if (found_ == Found::line) {
+    copied = co_await copy_phases(work, line_, start, end);
+    co_return copied;
+  }
+  if (found_ == Found::phases) {
+    copied = co_await copy_phases(work, windows_->phases(), start, end);
+    co_return copied;
+  }
   const Law& law = windows_->law();
-  const Mesh& mesh = windows_->mesh();
-  if (write_ + law.cells - free_from_ >= kCells) return false;
+  if (write_ + law.cells - free_from_ >= kCells) co_return false;
   const bool ends = path_ends();
   double time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
   for (unsigned k = 0; k < law.cells; ++k) {
-    PlanCell& c = store_.cell[write_ & store_.cell_mask];
-    c = plan_cell(law, mesh, k);
-    c.x = windows_->place(k).x;
-    c.piece = start.piece + windows_->place(k).piece;
-    c.u = builder_.start_of(c.piece) + c.x;  // not by the cells' lengths, whose rounding adds up
-    c.path_ends = ends && k + 1 == law.cells;
-    c.turns = static_cast<float>(limits_.scale.turns);
-    chain_next_[write_ & store_.cell_mask] = write_ + 1;
-    chain_end_[write_ & store_.cell_mask] = time += c.seconds;
-    ++write_;
+    copy_cell(start, k, ends && k + 1 == law.cells, &time);
+    co_await work.pause(kCopyCost);
   }
   const PathPlace& place = windows_->place(law.cells);
   *end = behind_law(start.piece + place.piece, place.x, builder_.start_of(start.piece + place.piece) + place.x);
-  return true;
+  co_return true;
+}
+
+void OptimalPlanner::copy_cell(const Start& start, unsigned k, bool path_ends, double* time) {
+  PlanCell& c = store_.cell[write_ & store_.cell_mask];
+  c = plan_cell(windows_->law(), windows_->mesh(), k);
+  c.x = windows_->place(k).x;
+  c.piece = start.piece + windows_->place(k).piece;
+  c.u = builder_.start_of(c.piece) + c.x;  // not by the cells' lengths, whose rounding adds up
+  c.path_ends = path_ends;
+  c.turns = static_cast<float>(limits_.scale.turns);
+  chain_next_[write_ & store_.cell_mask] = write_ + 1;
+  chain_end_[write_ & store_.cell_mask] = *time += c.seconds;
+  ++write_;
 }
 
 /// A law from `start`, as fast as it is found: in phases where nothing else is.
-bool OptimalPlanner::try_limits(const Start& start, double most, const WayDown* down) {
+Task<bool> OptimalPlanner::try_limits(Work& work, const Start& start, double most, const WayDown* down) {
   found_ = Found::line;
-  if (find_line_law(start, most)) return true;
+  bool found = find_line_law(start, most);
+  if (found) {
+    co_await work.pause(kLineCost);
+    co_return true;
+  }
   found_ = Found::cells;
-  if (one_law(start, most, down, !start.from_rest && !urgent_, kPeriod)) return true;
+  found = co_await one_law(work, start, most, down, !start.from_rest && !urgent_, kPeriod, kMaxSteps);
+  if (found) co_return true;
   found_ = Found::phases;
-  if ((start.from_rest || urgent_) && phase_law(start, most)) return true;
+  if (start.from_rest || urgent_) {
+    found = co_await phase_law(work, start, most);
+    if (found) co_return true;
+  }
   found_ = Found::line;
-  return find_creep(start, most);
+  found = co_await find_creep(work, start, most);
+  co_return found;
 }
 
 double OptimalPlanner::block_most(const Following& f, const Start& at) const {
@@ -505,7 +533,7 @@ double OptimalPlanner::block_most(const Following& f, const Start& at) const {
 }
 
 /// Laws from `start` on, one behind the other, written and offered. False when there is none.
-bool OptimalPlanner::extend(const Following& f, const Start& start, double most, const WayDown* down) {
+Task<bool> OptimalPlanner::extend(Work& work, const Following& f, const Start& start, double most, const WayDown* down) {
   Start at = start;
   offer_first_ = write_;
   next_chain_ = {};
@@ -513,29 +541,19 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
   bool any = false;
   for (unsigned n = 0; n < kLawsAtOnce && time < kEnough; ++n) {
     if (pieces_from(at.piece, 1) == 0) break;
-    if (!try_limits(at, most, down)) {
+    const bool found = co_await try_limits(work, at, most, down);
+    if (!found) {
       if (!any && at.from_rest) offer_.failed = true;
       break;
     }
     const CellIndex first = write_;
     Start end;
-    if (!copy_law(at, &end)) break;
+    const bool copied = co_await copy_law(work, at, &end);
+    if (!copied) break;
     any = true;
-    const bool rests = store_.at(end.after).path_ends || (most < HUGE_VAL && whole());
-    CellIndex keep = end.after;
-    if (!rests && found_ != Found::cells) {
-      keep = line_keep_;
-    } else if (!rests) {
-      for (double back = 0; keep != first && back < windows_->stop_seconds(); --keep) back += store_.at(keep).seconds;
-      // Behind cell keep: at the start of the cell that follows.
-      keep = first - 1 + better_start(static_cast<unsigned>(keep + 1 - first), [&](unsigned k) { return store_.at(first + k).a; });
-    }
+    const bool rests = keep_law(first, end, most);
     for (CellIndex k = first; k != write_; ++k) time += store_.at(k).seconds;
-    next_chain_.keep = keep;
-    next_chain_.last = end.after;
-    next_chain_.piece = end.piece;
-    next_chain_.x = end.x;
-    next_chain_.u = end.u;
+    work.spend(kChainCost * static_cast<int64_t>(write_ - first));
     at = end;
     down = nullptr;
     most = HUGE_VAL;
@@ -543,24 +561,46 @@ bool OptimalPlanner::extend(const Following& f, const Start& start, double most,
   }
   if (!any) {
     write_ = offer_first_;
-    return false;
+    co_return false;
   }
   next_chain_.block_rests = f.block_rests;
   next_chain_.enough_s = whole() ? kHungry : kPartLeft * (chain_end_[next_chain_.keep & store_.cell_mask] - (start.fresh ? 0 : chain_end_[start.after & store_.cell_mask]));
   offer(start, false);
-  return true;
+  work.spend(kChainCost * static_cast<int64_t>(write_ - offer_first_));
+  co_return true;
+}
+
+/// The chain goes on up to the end of the law that was copied from cell `first` on, and will have to be another one from some cell of it on.
+/// @return it rests there in any case
+bool OptimalPlanner::keep_law(CellIndex first, const Start& end, double most) {
+  const bool rests = store_.at(end.after).path_ends || (most < HUGE_VAL && whole());
+  CellIndex keep = end.after;
+  if (!rests && found_ != Found::cells) {
+    keep = line_keep_;
+  } else if (!rests) {
+    for (double back = 0; keep != first && back < windows_->stop_seconds(); --keep) back += store_.at(keep).seconds;
+    // Behind cell keep: at the start of the cell that follows.
+    keep = first - 1 + better_start(static_cast<unsigned>(keep + 1 - first), [&](unsigned k) { return store_.at(first + k).a; });
+  }
+  next_chain_.keep = keep;
+  next_chain_.last = end.after;
+  next_chain_.piece = end.piece;
+  next_chain_.x = end.x;
+  next_chain_.u = end.u;
+  return rests;
 }
 
 /// Where there is none from `start`: the chain stays up to the first place behind it from which there is a law in phases. It comes to rest
 /// only where that may begin nowhere on its way there.
-bool OptimalPlanner::extend_later(const Following& f, const Start& start, double most) {
+Task<bool> OptimalPlanner::extend_later(Work& work, const Following& f, const Start& start, double most) {
   MeshRequest request = request_from(start, most, nullptr);
   request.followed = follow(start);
-  if (request.count == 0 || request.followed == nullptr) return false;
-  const unsigned place = windows_->leaves_at(request, limits_);
-  if (place == Windows::kNone || place == 0) return false;
+  if (request.count == 0 || request.followed == nullptr) co_return false;
+  const unsigned place = co_await windows_->leaves_at(work, request, limits_);
+  if (place == Windows::kNone || place == 0) co_return false;
   const Start later = behind(followed_cell_[place]);
-  return extend(f, later, most - (later.u - start.u), nullptr);
+  const bool extended = co_await extend(work, f, later, most - (later.u - start.u), nullptr);
+  co_return extended;
 }
 
 void OptimalPlanner::offer(const Start& start, bool stops) {
@@ -579,124 +619,73 @@ void OptimalPlanner::offer(const Start& start, bool stops) {
   open_ = true;
 }
 
-/// Limits under which the feed does not matter on a way down from `start`: what is faster than it, is so already.
-Limits OptimalPlanner::unbound(const Start& start) const {
-  Limits l = limits_;
-  const Piece& p = store_.piece_at(start.piece);
-  const double most = 1.02 * (start.v + (start.a > 0 ? 0.5 * start.a * start.a / along(start).jerk : 0));
-  Scales& by = l.scale;
-  by.rapid = 1;
-  by.feed = std::max(by.feed, chain_.scale.feed);
-  switch (p.by) {
-    case FeedBy::constant: return l;
-    case FeedBy::signals: by.skip_feed = std::max(feed_of(p, l), most); return l;
-    case FeedBy::spindle: by.turns = std::max({by.turns, chain_.scale.turns, most / p.feed}); return l;
-    case FeedBy::turns: by.turns = std::max({by.turns, chain_.scale.turns, by.turns > 0 ? 0.0 : 1.0}); break;
-    case FeedBy::digit: by.pulses[p.digit.digit] = HUGE_VAL; break;
-    case FeedBy::override: break;
-  }
-  if (p.feed < HUGE_VAL && feed_of(p, l) < most) {
-    by.feed = 1;
-    by.feed = most / feed_of(p, l);
-  }
-  return l;
-}
-
-/// Where the plan uses all of the limits no way to rest may begin: one from one of the next cells, of the solver behind few of them and in
-/// closed form behind each. In front of a rest of the path nothing is to be done.
-bool OptimalPlanner::stop_later(const Start& from) {
-  Start start = from;
-  for (unsigned n = 0; n < kStopStarts; ++n) {
-    const CellIndex next = chain_next_[start.after & store_.cell_mask];
-    if (next == chain_.last || next == kNoCell) return false;
-    start = behind(next);
-    if (start.from_rest) {
-      offer_.rests = start.after;
-      return false;
-    }
-    const bool closed = std::find(std::begin(kSolvedStops), std::end(kSolvedStops), n) == std::end(kSolvedStops);
-    if (stop_there(start, closed)) return true;
-  }
-  return false;
-}
-
-/// Offers the shortest way to rest, if there is one shorter than the chain. `closed`: of those in closed form.
-bool OptimalPlanner::stop_there(const Start& start, bool closed) {
-  const Limits now = limits_;
-  limits_ = unbound(start);
-  const bool found = stop_law(start, 0.99 * (chain_.u - start.u), closed);
-  limits_ = now;
-  if (!found) return false;
-  const Followed* const chain = follow(start);
-  if (chain != nullptr && !(law_seconds() < chain->end.seconds)) {  // it comes to rest no later by itself
-    no_room_ = true;
-    return false;
-  }
-  offer_first_ = write_;
-  next_chain_ = {};
-  Start end;
-  if (!copy_law(start, &end)) return false;
-  next_chain_.last = next_chain_.keep = end.after;
-  next_chain_.piece = end.piece;
-  next_chain_.x = end.x;
-  next_chain_.u = end.u;
-  offer(start, true);
-  return true;
-}
-
 // ---- what is to be done
 // ----------------------------------------------------------------------------------------------------------------
 
-/// Another override, a stop, or the end of one, while the scan moves.
-void OptimalPlanner::change(const Following& f) {
+/// What is asked for of the scan that moves is not what the chain does, and it has not been tried in vain just before.
+bool OptimalPlanner::must_change(const Following& f) {
   if (fresh_ || !moving(f)) {
     chain_.stops = false;
-    return;
+    return false;
   }
-  const bool scales = !same(limits_.scale, chain_.scale);
-  const bool blocks = f.block_rests && !chain_.block_rests;
+  const bool scales = !same(limits_.scale, chain_.scale), blocks = f.block_rests && !chain_.block_rests;
   if (!f.brake) offer_.rests = kNoCell;
-  if (!(f.brake ? !chain_.stops && offer_.rests == kNoCell : scales || blocks || chain_.stops)) return;
-  if (f.waits) {  // none of the chain has been gone: it is made anew as a whole
-    if (f.brake) return;
-    Start first;
-    first.fresh = true;
-    first.piece = store_.at(f.cell).piece;
-    first.x = store_.at(f.cell).x;
-    first.u = store_.at(f.cell).u;
-    extend(f, first, block_most(f, first), nullptr);
-    return;
-  }
+  if (!(f.brake ? !chain_.stops && offer_.rests == kNoCell : scales || blocks || chain_.stops)) return false;
+  if (f.waits) return !f.brake;
   // At rest no cell goes by, and what was tried in vain from a moving start may be found from here: a thread waits for it.
-  if (!f.at_end && tried_at_ != kNoCell && f.cell - tried_at_ < (f.brake ? 1 : kRetry)) return;
+  if (!f.at_end && tried_at_ != kNoCell && f.cell - tried_at_ < (f.brake ? 1 : kRetry)) return false;
   urgent_ = f.brake || blocks || chain_.stops || lower(limits_.scale, chain_.scale);
+  return true;
+}
+
+/// Another override, a stop, or the end of one, while the scan moves.
+Task<bool> OptimalPlanner::change(Work& work, const Following& f) {
+  if (!must_change(f)) co_return false;
   Start start;
+  if (f.waits) {  // none of the chain has been gone: it is made anew as a whole
+    start.fresh = true;
+    start.piece = store_.at(f.cell).piece;
+    start.x = store_.at(f.cell).x;
+    start.u = store_.at(f.cell).u;
+    co_await extend(work, f, start, block_most(f, start), nullptr);
+    co_return true;
+  }
   if (!find_ahead(f, lead_, &start)) {  // it comes to rest before anything could be changed
     if (f.brake) offer_.rests = chain_.last;
-    return;
+    co_return true;
   }
   if (start.from_rest) {
     if (f.brake) offer_.rests = start.after;
     reuse_cells(f);
-    if (!f.brake) extend(f, start, block_most(f, start), nullptr);
-    return;  // the scan stops there by itself
+    if (!f.brake) co_await extend(work, f, start, block_most(f, start), nullptr);
+    co_return true;  // the scan stops there by itself
   }
-  if (f.brake || stands(store_.piece_at(start.piece), limits_)) {
-    if (!chain_.stops && !stop_there(start, false)) {
-      if (f.brake && no_room_) {
-        offer_.rests = chain_.last;
-      } else {
-        stop_later(start);
-      }
-    }
-  } else if (blocks) {
-    stop_at_block(f, start);
-  } else if (lower(limits_.scale, chain_.scale)) {
-    slow_down(f, start);
-  } else if (!extend(f, start, block_most(f, start), nullptr) && urgent_) {
-    extend_later(f, start, block_most(f, start));
-  }
+  co_await change_from(work, f, start);
   tried_at_ = open_ ? kNoCell : f.cell;
+  co_return true;
+}
+
+Task<bool> OptimalPlanner::change_from(Work& work, const Following& f, const Start& start) {
+  bool done = false;
+  if (f.brake || stands(store_.piece_at(start.piece), limits_)) {
+    if (chain_.stops) co_return false;
+    done = co_await stop_there(work, start, false);
+    if (done) co_return true;
+    if (f.brake && no_room_) {
+      offer_.rests = chain_.last;
+    } else {
+      co_await stop_later(work, start);
+    }
+  } else if (f.block_rests && !chain_.block_rests) {
+    co_await stop_at_block(work, f, start);
+  } else if (lower(limits_.scale, chain_.scale)) {
+    co_await slow_down(work, f, start);
+  } else {
+    const double most = block_most(f, start);
+    done = co_await extend(work, f, start, most, nullptr);
+    if (!done && urgent_) co_await extend_later(work, f, start, most);
+  }
+  co_return true;
 }
 
 /// The scan rests behind a cell and may do so for long while what follows is planned again and again: cells between that one and those
@@ -705,20 +694,6 @@ void OptimalPlanner::reuse_cells(const Following& f) {
   if (!f.at_end) return;
   const CellIndex next = chain_next_[f.cell & store_.cell_mask];
   if (next != kNoCell && next - f.cell > kLawsAtOnce * kCellsAtOnce) write_ = f.cell + 1;
-}
-
-/// Single block has been switched on: to the first end of a block that can be reached at rest.
-void OptimalPlanner::stop_at_block(const Following& f, const Start& start) {
-  double seconds = 0;
-  const double distance = stopping_distance(start, &seconds);
-  for (const double farther : kFarther) {
-    const double end = next_block_end(start.u + distance * farther, f.tail);
-    if (!(end < chain_.u)) {
-      chain_.block_rests = true;  // the chain itself ends before; what comes behind it rests
-      return;
-    }
-    if (extend(f, start, end - start.u, nullptr)) return;
-  }
 }
 
 /// Somewhat faster than the stop that was found last.
@@ -734,44 +709,55 @@ void OptimalPlanner::way_down(WayDown* down) {
 }
 
 /// A lower feed: down to it no faster than a stop would be.
-void OptimalPlanner::slow_down(const Following& f, const Start& start) {
+Task<bool> OptimalPlanner::slow_down(Work& work, const Following& f, const Start& start) {
   const double most = block_most(f, start);
-  if (find_line_law(start, most) && extend(f, start, most, nullptr)) return;
+  bool done = false;
+  if (find_line_law(start, most)) {
+    done = co_await extend(work, f, start, most, nullptr);
+    if (done) co_return true;
+  }
   const Limits now = limits_;
   limits_ = unbound(start);
-  const bool stops = stop_law(start, HUGE_VAL, false);
+  const bool stops = co_await stop_law(work, start, HUGE_VAL, false);
   limits_ = now;
-  if (!stops) return;
+  if (!stops) co_return false;
   WayDown down;
   way_down(&down);
-  if (!extend(f, start, most, &down) && !extend_later(f, start, most)) stop_there(start, false);
+  done = co_await extend(work, f, start, most, &down);
+  if (!done) done = co_await extend_later(work, f, start, most);
+  if (!done) done = co_await stop_there(work, start, false);
+  co_return done;
 }
 
 /// A longer chain.
-void OptimalPlanner::go_on(const Following& f, bool idle) {
+Task<bool> OptimalPlanner::go_on(Work& work, const Following& f, bool idle) {
   const bool rests = fresh_ || !moving(f);
   const Start end = at_end();
+  bool done = false;
   if (pieces_from(end.piece, 1) == 0) {
-    if (rests && idle && end.piece == builder_.head()) builder_.finish();
-    return;
+    if (rests && idle && end.piece == builder_.head()) done = co_await builder_.finish(work);
+    co_return done;
   }
   if (rests || chain_.keep == chain_.last) {
-    if (rests || ahead(f, chain_.last) < kHungry) extend(f, end, block_most(f, end), nullptr);
-    return;
+    if (rests || ahead(f, chain_.last) < kHungry) done = co_await extend(work, f, end, block_most(f, end), nullptr);
+    co_return done;
   }
-  if (ahead(f, chain_.keep) >= std::min(kHungry, chain_.enough_s)) return;
+  if (ahead(f, chain_.keep) >= std::min(kHungry, chain_.enough_s)) co_return false;
   const double more = builder_.end_u() - chain_.u;
   const bool whole = store_.piece_at(builder_.head() - 1).rest_behind;
-  if (!(more > kNew * (chain_.u - store_.at(f.cell).u)) && !(whole && more > kTiny)) return;
-  if (tried_at_ != kNoCell && f.cell - tried_at_ < kRetry) return;
+  if (!(more > kNew * (chain_.u - store_.at(f.cell).u)) && !(whole && more > kTiny)) co_return false;
+  if (tried_at_ != kNoCell && f.cell - tried_at_ < kRetry) co_return false;
   Start start = behind(chain_.keep);
   // Farther back and, each other time, from the end again, which has become another one where there is more path.
   if (failed_ % 2 != 0) start = behind(before(f, chain_.keep, kBack * (failed_ / 2 + 1)));
-  if (ahead(f, start.after) < lead_ && !find_ahead(f, lead_, &start)) return;
+  if (ahead(f, start.after) < lead_ && !find_ahead(f, lead_, &start)) co_return false;
   urgent_ = ahead(f, chain_.keep) < kUrgent;
-  if (!extend(f, start, block_most(f, start), nullptr) && urgent_) extend_later(f, start, block_most(f, start));
+  const double most = block_most(f, start);
+  done = co_await extend(work, f, start, most, nullptr);
+  if (!done && urgent_) co_await extend_later(work, f, start, most);
   tried_at_ = open_ ? kNoCell : f.cell;
   failed_ = open_ ? 0 : failed_ + 1;
+  co_return open_;
 }
 
 }  // namespace nc::optimal

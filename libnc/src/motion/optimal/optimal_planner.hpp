@@ -20,8 +20,15 @@ class OptimalPlanner {
   };
   void create(const Setup& setup, const Record* records, Arena& arena);
 
-  /// Brings the plan up to date with the records before `head` and with what the scan has said.
-  void replan(uint32_t head);
+  // The planner works in slices: each call of the next two goes on for about so many `instructions` and leaves in them what is left. What the
+  // scan has of the plan stays what it is, which ends at rest, until a call has something better to offer.
+
+  /// Hears the scan. Where that asks for what the plan does not do (a stop, another override, single block), this is done before anything
+  /// else; what is under way for a plan that is not wanted any more is given up. @return whether nothing is left to be done of that
+  bool answer(int64_t* instructions);
+  /// A round: brings the plan up to date with the records before `head` and with what the scan has said when answer() was called, which is
+  /// called before each call of this. `head` counts where a round begins. @return whether it has come to its end
+  bool replan(uint32_t head, int64_t* instructions);
   /// Forgets the records from ring index `end` on. The scan is at rest and waits.
   void truncate(uint32_t end);
 
@@ -54,28 +61,38 @@ class OptimalPlanner {
     bool block_rests = false, stops = false;
   };
 
+  bool heard(const Following& f) const;
+  bool called(const Following& f) const;
+  void give_up_law();
+  void give_up_rounds();
+  void follow_generation(const Following& f);
+  void begin_law(bool answer);
+  Task<bool> law(Work& work, bool answer);
   void rebuild(const Following& f);
   void begin_again(const Following& f);
   bool answered(const Following& f);
-  void go_on(const Following& f, bool idle);
-  void change(const Following& f);
+  Task<bool> go_on(Work& work, const Following& f, bool idle);
+  bool must_change(const Following& f);
+  Task<bool> change(Work& work, const Following& f);
+  Task<bool> change_from(Work& work, const Following& f, const Start& start);
   CellIndex before(const Following& f, CellIndex cell, unsigned count) const;
   bool find_ahead(const Following& f, double lead, Start* start) const;
   Start at_end() const;
   Start behind(CellIndex cell) const;
   double ahead(const Following& f, CellIndex cell) const;
   bool moving(const Following& f) const { return f.cell != kNoCell && !(f.at_end && f.cell == chain_.last); }
-  bool extend(const Following& f, const Start& start, double most, const WayDown* down);
-  bool extend_later(const Following& f, const Start& start, double most);
+  Task<bool> extend(Work& work, const Following& f, const Start& start, double most, const WayDown* down);
+  bool keep_law(CellIndex first, const Start& end, double most);
+  Task<bool> extend_later(Work& work, const Following& f, const Start& start, double most);
   const Followed* follow(const Start& start);
-  bool try_limits(const Start& start, double most, const WayDown* down);
+  Task<bool> try_limits(Work& work, const Start& start, double most, const WayDown* down);
   MeshRequest request_from(const Start& start, double reach, const WayDown* down) const;
-  bool one_law(const Start& start, double reach, const WayDown* down, bool once, double period, unsigned steps = kMaxSteps);
-  bool phase_law(const Start& start, double reach);
+  Task<bool> one_law(Work& work, const Start& start, double reach, const WayDown* down, bool once, double period, unsigned steps);
+  Task<bool> phase_law(Work& work, const Start& start, double reach);
   bool whole() const;
   double law_seconds() const;
-  bool shortest_stop(const Start& start, double distance, double most, double seconds);
-  bool stop_law(const Start& start, double most, bool closed);
+  Task<bool> shortest_stop(Work& work, const Start& start, double distance, double most, double seconds);
+  Task<bool> stop_law(Work& work, const Start& start, double most, bool closed);
   double ahead_of_end(const Start& start) const;
   struct Along {
     double acceleration, jerk;
@@ -85,27 +102,28 @@ class OptimalPlanner {
   double next_block_end(double u, uint32_t tail) const;
   unsigned pieces_from(uint32_t piece, unsigned most) const;
   bool path_ends() const;
-  bool copy_law(const Start& start, Start* end);
+  Task<bool> copy_law(Work& work, const Start& start, Start* end);
+  void copy_cell(const Start& start, unsigned cell, bool path_ends, double* time);
   Start behind_law(uint32_t piece, double x, double u) const;
   void way_down(WayDown* down);
   // planner_lines.cpp
   bool line_limits(const Piece& p, LineLimits* most) const;
   bool straight(const Start& start, double reach, bool feed, LineLimits* most, double* length) const;
   bool find_line_law(const Start& start, double reach);
-  bool find_creep(const Start& start, double reach);
+  Task<bool> find_creep(Work& work, const Start& start, double reach);
   void bound_creep(const Piece& p, double x, LineLimits* most) const;
   bool keeps_limits(const Piece& p, double x) const;
   bool find_line_stop(const Start& start, double most);
   template <class PhasesOf>
   void phase_way_down(const PhasesOf& law, double share, WayDown* down);
   template <class PhasesOf>
-  bool copy_phases(const PhasesOf& law, const Start& start, Start* end);
+  Task<bool> copy_phases(Work& work, const PhasesOf& law, const Start& start, Start* end);
   void offer(const Start& start, bool stops);
-  bool stop_there(const Start& start, bool closed);
-  bool stop_later(const Start& from);
+  Task<bool> stop_there(Work& work, const Start& start, bool closed);
+  Task<bool> stop_later(Work& work, const Start& from);
   void reuse_cells(const Following& f);
-  void stop_at_block(const Following& f, const Start& start);
-  void slow_down(const Following& f, const Start& start);
+  Task<bool> stop_at_block(Work& work, const Following& f, const Start& start);
+  Task<bool> slow_down(Work& work, const Following& f, const Start& start);
   Limits unbound(const Start& start) const;
   double block_most(const Following& f, const Start& at) const;
   double least_lead() const { return 4 * setup_.cycle_s; }
@@ -147,6 +165,19 @@ class OptimalPlanner {
   uint32_t head_ = 0;
   unsigned failed_ = 0;          ///< laws from the chain on that were not found
   CellIndex tried_at_ = kNoCell; ///< cell of the scan when no law was found
+
+  /// What is under way: records become path, and then there is a law for what the path and the scan ask for.
+  enum class Round : uint8_t { none, path, law_due, law };
+  Round round_ = Round::none;
+  bool answering_ = false;    ///< a law is under way for what the scan has asked for, before the round goes on
+  bool unanswered_ = false;   ///< it has asked while an offer was open
+  bool turn_over_ = false;    ///< another override has had its turn: the round comes first
+  bool idle_ = false;         ///< nothing has come since the round before
+  bool truncated_ = false;    ///< records have been given up since then
+  Following now_, heard_, law_for_;  ///< as it is; of the newest answer or round; of the law that is under way
+  CellIndex law_first_ = 0;   ///< the cells of that law are written from here on
+  Work path_work_, law_work_;
+
   Latest<Proposal> offers_;
   Latest<Following> following_;
 };

@@ -37,6 +37,9 @@ constexpr double kCollinear = 1e-9;    ///< |t2 - t1| of no corner, where lines 
 constexpr double kSameSlope = 1e-6;    ///< of q' and of q'', by which pieces may differ where they meet
 constexpr double kRounding = 1e-14;    ///< of a place, which q'' has by the squared length of a piece
 constexpr double kLeastBend = 1;       ///< 1/mm, which the difference of q'' is measured by at least
+constexpr unsigned kRecords = 64;      ///< then others may have their turn
+// Instructions: of so many records, of a line that is gathered, of a curve and its transition, and of a piece that is given out.
+constexpr int64_t kRecordsCost = 2000, kLineCost = 150, kCurveCost = 40000, kPieceCost = 400;
 
 bool demands_rest(const Record& r) {
   if (r.kind == ItemKind::action) return r.action.kind == NC_ACTION_MESSAGE;
@@ -93,7 +96,8 @@ void PathBuilder::create(const Limits& limits, double tolerance, double period, 
   made_ = arena.make<Transition>();
 }
 
-void PathBuilder::restart(uint32_t from, double s, const AxisVec& machine, double u) {
+void PathBuilder::restart(uint32_t from, double s, const AxisVec& machine, double u, uint32_t epoch) {
+  oldest_ = epoch;
   read_ = from;
   tail_ = head_;
   head_u_ = line_u_ = u;
@@ -489,21 +493,21 @@ void PathBuilder::add_curve(const Record& r) {
 }
 
 /// Copies the first pieces of the smoothed line into the ring.
-void PathBuilder::give_out(unsigned count, bool rest) {
+Task<bool> PathBuilder::give_out(Work& work, unsigned count, bool rest) {
   for (unsigned k = 0; k < count; ++k) {
     out_[k].by = by_;
     out_[k].digit = digit_;
     out_[k].rest_behind = rest && k + 1 == count;
     push_piece(out_[k]);
+    co_await work.pause(kPieceCost);
   }
+  co_return true;
 }
 
 void PathBuilder::drop(unsigned vertices) {
-  for (unsigned k = vertices; k < count_; ++k) {
-    vertex_[k - vertices] = vertex_[k];
-    length_[k - vertices] = length_[k];
-    feed_[k - vertices] = feed_[k];
-  }
+  std::copy(vertex_ + vertices, vertex_ + count_, vertex_);
+  std::copy(length_ + vertices, length_ + count_, length_);
+  std::copy(feed_ + vertices, feed_ + count_, feed_);
   count_ -= vertices;
 }
 
@@ -518,7 +522,7 @@ bool PathBuilder::turns_at(unsigned k) const {
 }
 
 /// Without a tolerance a line is what it is, with a rest at each of its corners. An edge is final when it is known what follows.
-bool PathBuilder::exact_line(bool whole) {
+Task<bool> PathBuilder::exact_line(Work& work, bool whole) {
   unsigned k = 0;
   for (; k + (whole ? 1 : 2) < count_ && room(1); ++k) {
     Piece p;
@@ -532,15 +536,16 @@ bool PathBuilder::exact_line(bool whole) {
       p.c[1][i] = (vertex_[k + 1][i] - vertex_[k][i]) / length_[k];
     }
     push_piece(p);
+    co_await work.pause(kPieceCost);
   }
   drop(k);
   line_start_u_ = head_u_;
-  if (!whole) return k > 0;
-  if (count_ > 1) return false;
+  if (!whole) co_return k > 0;
+  if (count_ > 1) co_return false;
   begins_ = 0;
   joint_ = {};
   forget_line();
-  return true;
+  co_return true;
 }
 
 /// Where the rest of a line is not smoothed after all: straight to its next vertex, from rest to rest.
@@ -600,7 +605,7 @@ unsigned PathBuilder::straight() {
 }
 
 /// The first `count` vertices of the line smoothed in out_, 0 = none. `whole`: to its end, where it is straight when a transition follows.
-unsigned PathBuilder::smoothed(bool whole, unsigned count, SmoothRequest* request) {
+Task<unsigned> PathBuilder::smoothed(Work& work, bool whole, unsigned count, SmoothRequest* request) {
   request->line = {vertex_, length_, feed_, count};
   request->tolerance = tolerance_;
   request->axis_count = limits_.axis_count;
@@ -617,28 +622,28 @@ unsigned PathBuilder::smoothed(bool whole, unsigned count, SmoothRequest* reques
     std::copy(border_.kept, border_.kept + kKept, request->kept);
     request->kept_count = border_.kept_count;
   }
-  return optimal::smooth(*request, room_, out_, kKnots);
+  const unsigned cells = co_await optimal::smooth(work, *request, room_, out_, kKnots);
+  co_return cells;
 }
 
-/// Gives out the last pieces of a line, and the transition into the arc behind it. False when there is no room yet.
-bool PathBuilder::close_line(unsigned cells) {
-  if (!room(cells + kOfArc)) return false;
-  if (joint_.reach > 0) {
-    const Piece& end = out_[cells > 0 ? cells - 1 : 0];
-    const unsigned axes = limits_.axis_count;
-    make_transition(joint_, cells > 0 ? evaluate(end, end.length, axes) : joint_line_.at(-joint_.reach, axes), joint_arc_, axes, made_);
-    if (transition_distance(*made_, joint_line_, joint_arc_, joint_.reach, axes) > tolerance_) {
-      part_at_joint();
-      return smooth_line(true);
-    }
-  }
-  give_out(cells, !joint_.found);
+/// The transition from the smoothed line into the arc behind it leaves the path by more than the tolerance.
+bool PathBuilder::meets_arc_badly(unsigned cells) {
+  if (!(joint_.reach > 0)) return false;
+  const Piece& end = out_[cells > 0 ? cells - 1 : 0];
+  const unsigned axes = limits_.axis_count;
+  make_transition(joint_, cells > 0 ? evaluate(end, end.length, axes) : joint_line_.at(-joint_.reach, axes), joint_arc_, axes, made_);
+  return transition_distance(*made_, joint_line_, joint_arc_, joint_.reach, axes) > tolerance_;
+}
+
+/// Gives out the last pieces of a line, and the transition into the arc behind it.
+Task<bool> PathBuilder::close_line(Work& work, unsigned cells) {
+  co_await give_out(work, cells, !joint_.found);
   head_u_ = line_u_ - joint_.reach;
   if (joint_.reach > 0) push_transition(joint_feed_);
   begins_ = joint_.reach;
   joint_ = {};
   forget_line();
-  return true;
+  co_return true;
 }
 
 void PathBuilder::forget_line() {
@@ -647,58 +652,90 @@ void PathBuilder::forget_line() {
   goes_on_ = joined_start_ = false;
 }
 
-bool PathBuilder::smooth_line(bool whole) {
-  if (count_ < 2) return false;
-  if (tolerance_ == 0) return exact_line(whole);
-  if (!room(whole ? 1 : kMostAtOnce)) return false;
+/// `whole`: to its end. False when there is no room yet, and without that when nothing of it is settled.
+Task<bool> PathBuilder::smooth_line(Work& work, bool whole) {
+  if (count_ < 2) co_return false;
+  bool done = false;
+  if (tolerance_ == 0) {
+    done = co_await exact_line(work, whole);
+    co_return done;
+  }
+  if (!room(whole ? 1 : kMostAtOnce)) co_return false;
   tried_ = count_;
-  if (!whole) return give_settled();
+  if (whole) {
+    done = co_await close_smooth_line(work);
+  } else {
+    done = co_await give_settled(work);
+  }
+  co_return done;
+}
+
+Task<bool> PathBuilder::close_smooth_line(Work& work) {
   for (;;) {
     const bool lone = count_ == 2 && !goes_on_;
     SmoothRequest request;
-    const unsigned cells = lone ? straight() : smoothed(true, count_, &request);
-    if (lone || cells != 0) return close_line(cells);
-    if (!room(kMostAtOnce)) return false;
-    if (give_settled()) continue;
+    unsigned cells = 0;
+    if (lone) {
+      cells = straight();
+    } else {
+      cells = co_await smoothed(work, true, count_, &request);
+    }
+    if (lone || cells != 0) {
+      if (!room(cells + kOfArc)) co_return false;
+      const bool badly = meets_arc_badly(cells);
+      co_await work.pause(joint_.reach > 0 ? kCurveCost : kPieceCost);
+      if (!badly) {
+        co_await close_line(work, cells);
+        co_return true;
+      }
+      part_at_joint();
+      if (!room(1)) co_return false;
+      tried_ = count_;
+      continue;
+    }
+    if (!room(kMostAtOnce)) co_return false;
+    const bool given = co_await give_settled(work);
+    if (given) continue;
     if (joint_.found) {
       part_at_joint();
     } else if (!one_edge()) {
-      return false;
+      co_return false;
     } else if (count_ == 0) {
-      return true;
+      co_return true;
     }
   }
 }
 
 /// What is settled of the gathered line. Where it would take more knots than there is room for, only the first part of it is looked at.
-bool PathBuilder::give_settled() {
+Task<bool> PathBuilder::give_settled(Work& work) {
   const unsigned count = count_;
   for (unsigned n = count; n >= kFewest; n /= 2) {
     SmoothRequest request;
-    const unsigned cells = smoothed(false, n, &request);
+    const unsigned cells = co_await smoothed(work, false, n, &request);
     if (cells == 0) continue;
     const unsigned most = kPieces - kOfArc - (head_ - tail_);
     const Border border = find_border(request, room_, out_, cells, most);
-    if (border.cells == 0) return false;
+    if (border.cells == 0) co_return false;
     Piece& last = out_[border.cells - 1];
     last.length = border.u - room_.knot[border.cells - 1];
-    give_out(border.cells, false);
+    co_await give_out(work, border.cells, false);
     go_on(border);
     tried_ = n < count || cells > most ? 0 : count_;  // where there was more to be had, nothing need come before it is tried again
-    return true;
+    co_return true;
   }
-  return false;
+  co_return false;
 }
 
-bool PathBuilder::finish() {
+Task<bool> PathBuilder::finish(Work& work) {
   if (arc_.curve != nullptr) {
-    if (!room(kOfArc)) return false;
+    if (!room(kOfArc)) co_return false;
     end_arc();
-    return true;
+    co_return true;
   }
-  if (!smooth_line(true)) return false;
+  const bool done = co_await smooth_line(work, true);
+  if (!done) co_return false;
   closing_ = false;
-  return true;
+  co_return true;
 }
 
 /// Closes what the record in front does not go on at speed, as far as there is room.
@@ -714,11 +751,12 @@ bool PathBuilder::part(const Record& r, bool moves) {
   return true;
 }
 
-/// One move behind what is open. False when there is no room for it. @param more  there are more pieces than before
-bool PathBuilder::add(const Record& r, bool* more) {
+/// One move behind what is open. @param more  there are more pieces than before
+PathBuilder::Next PathBuilder::add(Work& work, const Record& r, bool* more) {
   const Segment& s = r.segment;
+  Next next = Next::go_on;
   if (!passes(s) || !straight_line(s)) {
-    if (!room(2 * kOfArc)) return false;
+    if (!room(2 * kOfArc)) return Next::no_room;
     if (!passes(s)) {
       add_curve(r);
       line_u_ = head_u_;
@@ -727,45 +765,72 @@ bool PathBuilder::add(const Record& r, bool* more) {
       joint_ = {};
       add_arc(r);
     }
+    work.spend(straight_line(s) ? kPieceCost : kCurveCost);
     *more = true;
   } else {
-    if (count_ + 2 >= kVertices && smooth_line(false)) *more = true;
-    if (count_ + 2 >= kVertices || !room(count_ < kAhead ? kOfArc : kMostAtOnce)) return false;
+    if (count_ + 2 >= kVertices) return Next::line_full;
+    if (!room(count_ < kAhead ? kOfArc : kMostAtOnce)) return Next::no_room;
     if (arc_.curve != nullptr) {
       const JointSide line = line_through(s.curve.start, s.curve.start, s.curve.end, s.curve.length, limits_.axis_count);
       joined_start_ = leave_arc(line, 0.5 * s.curve.length, least_feed(s));
       cut_ = joint_.reach;
       joint_ = {};
       *more = true;
+      work.spend(kCurveCost);
     }
     add_line(r);
+    work.spend(kLineCost);
     closing_ = s.exact_stop;
-    if (!closing_ && worthwhile(kGathered) && smooth_line(false)) *more = true;
+    if (!closing_ && worthwhile(kGathered)) next = Next::settle;
   }
   store_->passed[read_ & store_->record_mask] = line_u_;
-  return true;
+  return next;
 }
 
-bool PathBuilder::take(uint32_t head) {
-  bool more = false;
-  for (;;) {
-    if (closing_) {
-      if (!smooth_line(true)) return more;
-      closing_ = false;
-      more = true;
-    }
-    if (read_ == head) break;
+/// Takes records until something else is to be done, or others may have their turn.
+PathBuilder::Next PathBuilder::gather(Work& work, uint32_t head, bool* more) {
+  for (unsigned n = 0; n < kRecords; ++n) {
+    if (closing_) return Next::close;
+    if (read_ == head) return Next::nothing;
     const Record& r = records_[read_ & store_->record_mask];
+    if (is_void(r)) {
+      ++read_;
+      continue;
+    }
     const bool moves = r.kind == ItemKind::move && r.segment.curve.length > 0;
     if (moves || demands_rest(r)) {
-      if (!part(r, moves)) return more;
+      if (!part(r, moves)) return Next::no_room;
       if (closing_) continue;
     }
-    if (moves && !add(r, &more)) return more;
+    const Next next = moves ? add(work, r, more) : Next::go_on;
+    if (next == Next::no_room || next == Next::line_full) return next;
     ++read_;
+    if (next == Next::settle || work.spent()) return next;
   }
-  if (count_ > 1 && worthwhile(kWorthwhile) && smooth_line(false)) more = true;
-  return more;
+  return Next::go_on;
+}
+
+Task<bool> PathBuilder::take(Work& work, uint32_t head) {
+  bool more = false, done = false;
+  for (;;) {
+    const Next next = gather(work, head, &more);
+    if (next == Next::nothing) break;
+    if (next == Next::no_room) co_return more;
+    co_await work.pause(kRecordsCost);
+    if (next == Next::go_on) continue;
+    done = co_await smooth_line(work, next == Next::close);
+    more = more || done;
+    if (next == Next::close) {
+      if (!done) co_return more;
+      closing_ = false;
+    }
+    if (next == Next::line_full && count_ + 2 >= kVertices) co_return more;
+  }
+  if (count_ > 1 && worthwhile(kWorthwhile)) {
+    done = co_await smooth_line(work, false);
+    more = more || done;
+  }
+  co_return more;
 }
 
 }  // namespace nc::optimal

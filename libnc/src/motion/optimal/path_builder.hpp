@@ -20,17 +20,21 @@ class PathBuilder {
   void create(const Limits& limits, double tolerance, double period, const Record* records, PlanStore* store, Arena& arena);
 
   /// Takes records from the ring up to `head`, as far as there is room. @return true when there is more path than before.
-  bool take(uint32_t head);
+  Task<bool> take(Work& work, uint32_t head);
   /// Nothing more comes for the time being: what waits ends here, at rest.
-  bool finish();
+  Task<bool> finish(Work& work);
   /// From here on anew: nothing is left of the path but the room that records [from, …) take. The first of them is a move that has been gone
-  /// to `s`, and the axes stand at `machine`.
-  void restart(uint32_t from, double s, const AxisVec& machine, double u);
+  /// to `s`, and the axes stand at `machine`. Records of an epoch before `epoch` are void and no path: the scan, which has not seen all of them
+  /// yet, will throw them away.
+  void restart(uint32_t from, double s, const AxisVec& machine, double u, uint32_t epoch);
 
   uint32_t taken() const { return read_; }
   uint32_t head() const { return head_; }  ///< behind the last piece
   /// For tests: records and pieces are counted from here.
-  void count_from(uint32_t first) { read_ = head_ = tail_ = first; }
+  void count_from(uint32_t first) {
+    read_ = head_ = tail_ = first;
+    oldest_ = first >> 1;
+  }
   void free_pieces(uint32_t tail) { tail_ = tail; }
   double start_of(uint32_t piece) const { return start_u_[piece & store_->piece_mask]; }
   double end_u() const { return head_u_; }  ///< of all pieces
@@ -38,8 +42,13 @@ class PathBuilder {
 
  private:
   bool joins(const Record& r) const;
+  /// Epochs have 31 bits (interpolate/run_word.hpp).
+  bool is_void(const Record& r) const { return static_cast<int32_t>((r.epoch - oldest_) << 1) < 0; }
   bool part(const Record& r, bool moves);
-  bool add(const Record& r, bool* more);
+  /// What is to be done before more records can be gathered.
+  enum class Next : uint8_t { go_on, line_full, settle, close, no_room, nothing };
+  Next gather(Work& work, uint32_t head, bool* more);
+  Next add(Work& work, const Record& r, bool* more);
   void add_line(const Record& r);
   void add_curve(const Record& r);
   void add_arc(const Record& r);
@@ -57,17 +66,19 @@ class PathBuilder {
   bool resumes(const Segment& s) const;
   void go_there(const AxisVec& to, const Piece& curve);
   unsigned straight();
-  unsigned smoothed(bool whole, unsigned count, SmoothRequest* request);
-  bool give_settled();
-  bool close_line(unsigned cells);
+  Task<unsigned> smoothed(Work& work, bool whole, unsigned count, SmoothRequest* request);
+  Task<bool> give_settled(Work& work);
+  bool meets_arc_badly(unsigned cells);
+  Task<bool> close_line(Work& work, unsigned cells);
   void forget_line();
-  bool smooth_line(bool whole);
-  bool exact_line(bool whole);
+  Task<bool> smooth_line(Work& work, bool whole);
+  Task<bool> close_smooth_line(Work& work);
+  Task<bool> exact_line(Work& work, bool whole);
   bool one_edge();
   bool turns_at(unsigned vertex) const;
   void drop(unsigned vertices);
   bool worthwhile(unsigned least) const;
-  void give_out(unsigned count, bool rest);
+  Task<bool> give_out(Work& work, unsigned count, bool rest);
   void go_on(const Border& border);
   void begin_line(const AxisVec& at, double u);
   void push_piece(const Piece& piece);
@@ -96,6 +107,7 @@ class PathBuilder {
   FeedBy by_ = FeedBy::override;
   DigitFeed digit_;
   uint32_t epoch_ = 0;
+  uint32_t oldest_ = 0;      ///< epoch of records that are not void
   bool uses_turns_ = false;
   bool closing_ = false;     ///< it ends at its last vertex, whatever comes
   double line_start_u_ = 0;  ///< of vertex 0

@@ -22,6 +22,10 @@ constexpr double kSlowerStart[] = {1, 0.8, 0.6, 0.4, 0.2, 0.1, 0.05};  ///< of t
 constexpr double kTurnsBack = 1.001;  ///< of the speed that is lost while the acceleration goes to 0
 constexpr double kWorthIt = 1.5;      ///< a speed that is higher by less is not gone to for a moment
 
+// Instructions: of a look at the derivatives of an axis of a polynomial and of another curve, to bound a stretch, to look for the slowest of
+// some, and of a range that is divided.
+constexpr int64_t kAxisCost = 40, kCurveCost = 500, kBoundCost = 150, kSlowestCost = 5, kDivideCost = 400, kMoveCost = 150;
+
 double ramp_seconds(double v0, double v1, double a, double j) {
   const double change = std::fabs(v1 - v0);
   return change * j >= a * a ? change / a + a / j : 2 * std::sqrt(change / j);
@@ -81,47 +85,57 @@ void PhaseLaw::bound(const Piece& p, Stretch* s) const {
   s->cap = std::min({axes, bends, feed_of(p, *limits_) / std::sqrt(std::max(1.0, length2))});
 }
 
-bool PhaseLaw::stretches(const MeshRequest& request) {
+/// Into how many stretches a part of a piece is cut.
+unsigned PhaseLaw::parts_of(const Piece& p, double x, double length) const {
+  const unsigned axes = limits_->axis_count;
+  double most1 = 0, most2 = 0;
+  CurvePoint q;
+  for (unsigned n = 0; n <= 2 * kLooks; ++n) {
+    derivatives(p, x + length * n / (2 * kLooks), axes, &q);
+    double here1 = 0, here2 = 0;
+    for (unsigned i = 0; i < axes; ++i) {
+      here1 += q.d1[i] * q.d1[i];
+      here2 += q.d2[i] * q.d2[i];
+    }
+    most1 = std::max(most1, here1);
+    most2 = std::max(most2, here2);
+  }
+  const double turn = most1 > 0 ? length * std::sqrt(most2 / most1) : 0;
+  return static_cast<unsigned>(std::clamp(std::ceil(turn / kTurn), 1.0, static_cast<double>(kMostParts)));
+}
+
+Task<bool> PhaseLaw::stretches(Work& work, const MeshRequest& request) {
   const unsigned axes = limits_->axis_count;
   stretches_ = 0;
   whole_ = true;
   double begun = 0, x = request.from.x;
-  CurvePoint q;
   for (unsigned k = request.from.piece; k < request.count && begun < request.reach - kNear; ++k, x = 0) {
     const Piece& p = request.at(k);
     const double length = std::min(p.length - x, request.reach - begun);
     if (!(length > 0)) continue;
-    unsigned parts = 1, samples = 1;
-    if (p.curve != nullptr || p.quintic) {
-      samples = kLooks;
-      double most1 = 0, most2 = 0;
-      for (unsigned n = 0; n <= 2 * kLooks; ++n) {
-        derivatives(p, x + length * n / (2 * kLooks), axes, &q);
-        double here1 = 0, here2 = 0;
-        for (unsigned i = 0; i < axes; ++i) {
-          here1 += q.d1[i] * q.d1[i];
-          here2 += q.d2[i] * q.d2[i];
-        }
-        most1 = std::max(most1, here1);
-        most2 = std::max(most2, here2);
-      }
-      const double turn = most1 > 0 ? length * std::sqrt(most2 / most1) : 0;
-      parts = static_cast<unsigned>(std::clamp(std::ceil(turn / kTurn), 1.0, static_cast<double>(kMostParts)));
-    }
+    const bool curve = p.curve != nullptr || p.quintic;
+    const unsigned samples = curve ? kLooks : 1, parts = curve ? parts_of(p, x, length) : 1;
+    const int64_t look = axes * (p.curve != nullptr ? kCurveCost : kAxisCost);
+    if (curve) co_await work.pause(2 * kLooks * look);
     for (unsigned n = 0; n < parts; ++n) {
       if (stretches_ == kStretches) {
         whole_ = false;
-        return true;
+        co_return true;
       }
       Stretch& s = stretch_[stretches_];
-      if (!measure_stretch(p, x + length * n / parts, x + length * (n + 1) / parts, samples, &s)) return stretches_ > 0 && !(whole_ = false);
+      const bool measured = measure_stretch(p, x + length * n / parts, x + length * (n + 1) / parts, samples, &s);
+      co_await work.pause(kBoundCost * axes + (samples + 1) * look);
+      if (!measured) {
+        if (stretches_ > 0) whole_ = false;
+        co_return stretches_ > 0;
+      }
       s.from = begun + length * n / parts;
       s.to = n + 1 < parts ? begun + length * (n + 1) / parts : begun + length;
       ++stretches_;
     }
     begun += length;
   }
-  return stretches_ > 0;
+  co_return stretches_ > 0;
 }
 
 /// With no more than `speed` on the stretch, for each axis
@@ -173,6 +187,7 @@ double PhaseLaw::ramp(double at, Sense sense, double v0, double v1, double room,
   const double speed = std::max(v0, v1);
   if (std::fabs(v1 - v0) <= kNearSpeed * speed) return 0;
   for (unsigned k = next_to(at, sense); k < stretches_; k = beyond(k, sense)) {
+    ++looks_;
     const Budget here = budget(k, speed);
     most->acceleration = std::min(most->acceleration, here.acceleration);
     most->jerk = std::min(most->jerk, here.jerk);
@@ -216,116 +231,150 @@ bool PhaseLaw::push(const Range& r) {
   return true;
 }
 
+/// The range has room to go to a speed and to come down from it.
+bool PhaseLaw::fits(const Range& r, double speed, Budget* rise, Budget* fall) const {
+  const double way = r.to - r.from, first = ramp_from(r.from, r.v0, speed, way, rise);
+  return first <= way && ramp_to(r.to, speed, r.v1, way - first, fall) <= way - first;
+}
+
 /// To one speed between, no more than `most`, as high as the way leaves room for, and to the speed at the end.
-bool PhaseLaw::hill(const Range& r, double most) {
+Task<bool> PhaseLaw::hill(Work& work, const Range& r, double most) {
   const double way = r.to - r.from;
   double low = std::max(r.v0, r.v1), high = most;
   Budget rise, fall;
-  const auto fits = [&](double w) {
-    const double first = ramp_from(r.from, r.v0, w, way, &rise);
-    return first <= way && ramp_to(r.to, w, r.v1, way - first, &fall) <= way - first;
-  };
   for (unsigned n = 0; n < kHalvings || (low == 0 && n < 4 * kHalvings); ++n) {
     const double middle = low > 0.5 * high ? 0.5 * (low + high) : low > 0 ? std::sqrt(low * high) : 0.25 * high;
-    (fits(middle) ? low : high) = middle;
+    (fits(r, middle, &rise, &fall) ? low : high) = middle;
+    co_await work.pause(looked());
     if (high - low < 0.005 * high) break;
   }
-  if (!(low > 0)) return false;
+  if (!(low > 0)) co_return false;
   const double first = ramp_from(r.from, r.v0, low, way, &rise), last = ramp_to(r.to, low, r.v1, way - first, &fall);
-  if (!(first + last <= way)) return false;
-  return push({r.to - last, r.to, low, r.v1, true, fall}) && push({r.from + first, r.to - last, low, low, true, {}}) &&
-         push({r.from, r.from + first, r.v0, low, true, rise});
+  if (!(first + last <= way)) co_return false;
+  co_return push({r.to - last, r.to, low, r.v1, true, fall}) && push({r.from + first, r.to - last, low, low, true, {}}) &&
+      push({r.from, r.from + first, r.v0, low, true, rise});
 }
 
 /// A range whose speeds at the ends are no higher than what all its stretches allow: at its slowest stretch that is the speed, if there is
-/// way enough to come to it and to leave it; on either side there is a smaller range.
-bool PhaseLaw::divide(const Range& all) {
-  const Range& r = all;
+/// way enough to come to it and to leave it; on either side there is a smaller range. Else it is a hill up to `*hill`.
+PhaseLaw::Divided PhaseLaw::divide(const Range& r, double* hill) {
+  const auto done = [](bool pushed) { return pushed ? Divided::yes : Divided::no; };
   const double fastest = std::max(r.v0, r.v1);
-  if (!(r.to - r.from > kNear)) return !(fastest > 0) || push({r.from, r.to, fastest, fastest, true, {}});
+  if (!(r.to - r.from > kNear)) return done(!(fastest > 0) || push({r.from, r.to, fastest, fastest, true, {}}));
   if (!r.stayed) {
     const double from = r.from + stay(r, Sense::forward), to = r.to - stay({from, r.to, r.v0, r.v1, false, {}}, Sense::backward);
-    return push({to, r.to, r.v1, r.v1, true, {}}) && push({from, to, r.v0, r.v1, false, {}, true}) && push({r.from, from, r.v0, r.v0, true, {}});
+    return done(push({to, r.to, r.v1, r.v1, true, {}}) && push({from, to, r.v0, r.v1, false, {}, true}) && push({r.from, from, r.v0, r.v0, true, {}}));
   }
   const unsigned first = next_to(r.from, Sense::forward), last = next_to(r.to, Sense::backward);
   unsigned least = first;
   for (unsigned k = first; k <= last; ++k)
     if (stretch_[k].cap < stretch_[least].cap) least = k;
+  looks_ += kSlowestCost * (last - first) / kLookCost;
   const double most = std::max({stretch_[least].cap, r.v0, r.v1}), way = r.to - r.from;
+  *hill = most;
   Budget rise, fall;
   const double one = ramp_from(r.from, r.v0, most, way, &rise), other = one <= way ? ramp_to(r.to, most, r.v1, way - one, &fall) : HUGE_VAL;
-  if (!(one + other <= way)) return hill(r, most);
+  if (!(one + other <= way)) return Divided::as_a_hill;
   unsigned a = least, b = least;
   while (a > first && stretch_[a - 1].cap <= kSameSpeed * most) --a;
   while (b < last && stretch_[b + 1].cap <= kSameSpeed * most) ++b;
   const double edge0 = std::max(r.from, stretch_[a].from), edge1 = std::min(r.to, stretch_[b].to);
   // Rounding, but never a whole move: a stop from 1e-5 mm/s takes less way than that.
-  if (r.from + one > edge0 + std::min(kNear, 0.5 * one))  // it comes to that speed behind the place only
-    return one > 0 ? push({r.from + one, r.to, most, r.v1, false, {}}) && push({r.from, r.from + one, r.v0, most, true, rise}) : hill(r, most);
-  if (r.to - other < edge1 - std::min(kNear, 0.5 * other))
-    return other > 0 ? push({r.to - other, r.to, most, r.v1, true, fall}) && push({r.from, r.to - other, r.v0, most, false, {}}) : hill(r, most);
-  return push({edge1, r.to, most, r.v1, false, {}}) && push({edge0, edge1, most, most, true, {}}) && push({r.from, edge0, r.v0, most, false, {}});
+  if (r.from + one > edge0 + std::min(kNear, 0.5 * one)) {  // it comes to that speed behind the place only
+    if (!(one > 0)) return Divided::as_a_hill;
+    return done(push({r.from + one, r.to, most, r.v1, false, {}}) && push({r.from, r.from + one, r.v0, most, true, rise}));
+  }
+  if (r.to - other < edge1 - std::min(kNear, 0.5 * other)) {
+    if (!(other > 0)) return Divided::as_a_hill;
+    return done(push({r.to - other, r.to, most, r.v1, true, fall}) && push({r.from, r.to - other, r.v0, most, false, {}}));
+  }
+  return done(push({edge1, r.to, most, r.v1, false, {}}) && push({edge0, edge1, most, most, true, {}}) && push({r.from, edge0, r.v0, most, false, {}}));
 }
 
 /// A range that begins faster than what some stretch allows: that one is passed at its own speed, or slower where the way behind it asks
 /// for that; then its left part is such a range, and its right part is not.
-bool PhaseLaw::descend(const Range& all) {
+Task<bool> PhaseLaw::descend(Work& work, const Range& all) {
   Range r = all;
   for (unsigned n = 0; n < kStretches; ++n) {
     const unsigned first = next_to(r.from, Sense::forward), last = next_to(r.to, Sense::backward);
     unsigned least = first;
     for (unsigned k = first; k <= last; ++k)
       if (stretch_[k].cap <= stretch_[least].cap) least = k;
+    co_await work.pause(kDivideCost + kSlowestCost * (last - first));
     Budget most;
     const double way = r.to - r.from;
     if (r.v0 <= stretch_[least].cap * (1 + kNearSpeed)) {
-      if (r.v0 > r.v1 ? !(ramp_to(r.to, r.v0, r.v1, way, &most) <= way) : !(ramp_from(r.from, r.v0, r.v1, way, &most) <= way)) return false;
-      return push(r);
+      const bool room = r.v0 > r.v1 ? ramp_to(r.to, r.v0, r.v1, way, &most) <= way : ramp_from(r.from, r.v0, r.v1, way, &most) <= way;
+      work.spend(looked());
+      co_return room&& push(r);
     }
-    const double edge = std::max(r.from, stretch_[least].from), rest = r.to - edge;
+    const double edge = std::max(r.from, stretch_[least].from);
     if (!(edge > r.from + kNear)) {
-      // Faster than the feed or than what bends should take here: down at once, if they let it.
-      for (unsigned k = first; k <= last && stretch_[k].from < r.from + kNear; ++k)
-        if (r.v0 > stretch_[k].hold) return false;
-      const double speed = std::max(std::min(stretch_[least].cap, r.v0), r.v1);
-      const double ramp = ramp_from(r.from, r.v0, speed, way, &most);
-      if (!(ramp <= way)) return false;
-      for (unsigned k = first; k <= last && stretch_[k].from < r.from + ramp; ++k)
-        if (r.v0 > stretch_[k].hold) return false;
-      Budget end;
-      if (!(ramp_to(r.to, speed, r.v1, way - ramp, &end) <= way - ramp)) return false;
-      return push({r.from + ramp, r.to, speed, r.v1, false, {}}) && push({r.from, r.from + ramp, r.v0, speed, true, most});
+      const bool left = leave_fast(r, first, last, least);
+      work.spend(looked());
+      co_return left;
     }
-    double speed = std::max(stretch_[least].cap, r.v1);
-    if (!(ramp_to(r.to, speed, r.v1, rest, &most) <= rest)) {
-      double low = r.v1, high = speed;
-      for (unsigned m = 0; m < kHalvings; ++m) {
-        const double middle = 0.5 * (low + high);
-        (ramp_to(r.to, middle, r.v1, rest, &most) <= rest ? low : high) = middle;
-      }
-      speed = low;
-    }
-    if (!(speed > 0) || !push({edge, r.to, speed, r.v1, false, {}})) return false;
+    const Range rest{edge, r.to, 0, r.v1, false, {}};
+    const double speed = co_await slow_enough(work, rest, std::max(stretch_[least].cap, r.v1));
+    if (!(speed > 0) || !push({edge, r.to, speed, r.v1, false, {}})) co_return false;
     r = {r.from, edge, r.v0, speed, false, {}};
     if (!(r.v1 <= r.v0)) r.v1 = r.v0;
   }
-  return false;
+  co_return false;
 }
 
-bool PhaseLaw::solve(const Range& whole) {
+/// Faster than the feed or than what bends should take where it begins: down at once, if they let it.
+bool PhaseLaw::leave_fast(const Range& r, unsigned first, unsigned last, unsigned least) {
+  Budget most, end;
+  for (unsigned k = first; k <= last && stretch_[k].from < r.from + kNear; ++k)
+    if (r.v0 > stretch_[k].hold) return false;
+  const double way = r.to - r.from, speed = std::max(std::min(stretch_[least].cap, r.v0), r.v1);
+  const double ramp = ramp_from(r.from, r.v0, speed, way, &most);
+  if (!(ramp <= way)) return false;
+  for (unsigned k = first; k <= last && stretch_[k].from < r.from + ramp; ++k)
+    if (r.v0 > stretch_[k].hold) return false;
+  if (!(ramp_to(r.to, speed, r.v1, way - ramp, &end) <= way - ramp)) return false;
+  return push({r.from + ramp, r.to, speed, r.v1, false, {}}) && push({r.from, r.from + ramp, r.v0, speed, true, most});
+}
+
+/// The speed at the start of a range, `high` or as much lower as it must be to come down to that at its end.
+Task<double> PhaseLaw::slow_enough(Work& work, const Range& rest, double high) {
+  const double way = rest.to - rest.from;
+  Budget most;
+  const bool room = ramp_to(rest.to, high, rest.v1, way, &most) <= way;
+  co_await work.pause(looked());
+  if (room) co_return high;
+  double low = rest.v1;
+  for (unsigned m = 0; m < kHalvings; ++m) {
+    const double middle = 0.5 * (low + high);
+    (ramp_to(rest.to, middle, rest.v1, way, &most) <= way ? low : high) = middle;
+    co_await work.pause(looked());
+  }
+  co_return low;
+}
+
+Task<bool> PhaseLaw::solve(Work& work, const Range& whole) {
   depth_ = moves_ = 0;
-  if (!descend(whole)) return false;
+  const bool comes_down = co_await descend(work, whole);
+  if (!comes_down) co_return false;
   while (depth_ > 0) {
     const Range r = stack_[--depth_];
     if (!r.is_move) {
-      if (!divide(r)) return false;
+      double most = 0;
+      Divided divided = divide(r, &most);
+      co_await work.pause(kDivideCost + looked());
+      if (divided == Divided::as_a_hill) {
+        const bool found = co_await hill(work, r, most);
+        divided = found ? Divided::yes : Divided::no;
+      }
+      if (divided == Divided::no) co_return false;
       continue;
     }
     if (!(r.to > r.from)) continue;
-    if (moves_ == kMoves) return false;
+    if (moves_ == kMoves) co_return false;
     move_[moves_++] = {r.v0, r.v1, r.to - r.from, r.most};
   }
-  return true;
+  co_return true;
 }
 
 bool PhaseLaw::add(double seconds, double jerk) {
@@ -347,7 +396,7 @@ double PhaseLaw::first_move(double speed) {
   const double change = speed - v;
   for (unsigned pass = 0, last = first; pass < 64; ++pass) {
     if (a > 0) top = std::max(top, pass == 0 ? v : v + 0.5 * a * a / most.jerk);
-    for (unsigned k = first; k <= last; ++k) {
+    for (unsigned k = first; k <= last; ++k, ++looks_) {
       const Budget here = budget(k, top);
       most.acceleration = std::min(most.acceleration, here.acceleration);
       most.jerk = std::min(most.jerk, here.jerk);
@@ -383,26 +432,33 @@ double PhaseLaw::first_move(double speed) {
 }
 
 /// From a state to constant speed, and from there on.
-bool PhaseLaw::begin() {
+Task<bool> PhaseLaw::begin(Work& work) {
   const double v = start_.v, a = start_.a;
   count_ = 0;
   seconds_ = 0;
-  if (a == 0 && (solve({start_.s, distance_, v, 0, false, {}}) || v == 0)) return moves_ > 0;
+  if (a == 0) {
+    const Range whole{start_.s, distance_, v, 0, false, {}};
+    const bool solved = co_await solve(work, whole);
+    if (solved || v == 0) co_return moves_ > 0;
+  }
   const unsigned first = next_to(start_.s, Sense::forward);
   const Budget here = budget(first, v);
-  if (!here.ok()) return false;
+  if (!here.ok()) co_return false;
   const double level = std::max(0.0, v + 0.5 * a * std::fabs(a) / here.jerk);
   for (const double slower : kSlowerStart) {
     const double speed = slower * std::min(level, std::max(v, stretch_[first].cap));
     if (!(speed > 0)) break;
     const double way = first_move(speed);
+    co_await work.pause(kMoveCost + looked());
     if (!(way < distance_)) continue;
-    if (solve({way, distance_, speed, 0, false, {}})) {
+    const Range rest{way, distance_, speed, 0, false, {}};
+    const bool solved = co_await solve(work, rest);
+    if (solved) {
       at_.s = way;
-      return true;
+      co_return true;
     }
   }
-  return false;
+  co_return false;
 }
 
 /// The moves as phases of constant jerk.
@@ -432,25 +488,33 @@ bool PhaseLaw::make_phases() {
   return count_ > 0;
 }
 
-bool PhaseLaw::measure(const MeshRequest& request, const Limits& limits, double share) {
+Task<bool> PhaseLaw::measure(Work& work, const MeshRequest& request, const Limits& limits, double share) {
   limits_ = &limits;
   share_ = share;
-  if (!stretches(request)) return false;
+  const bool some = co_await stretches(work, request);
+  if (!some) co_return false;
   distance_ = stretch_[stretches_ - 1].to;
-  return true;
+  co_return true;
 }
 
-bool PhaseLaw::from(double s, double v, double a) {
+Task<bool> PhaseLaw::from(Work& work, double s, double v, double a) {
   count_ = 0;
   start_ = at_ = {s, v, a};
-  if (!(s < distance_) || !begin() || !make_phases()) return false;
+  if (!(s < distance_)) co_return false;
+  const bool begun = co_await begin(work);
+  if (!begun || !make_phases()) co_return false;
+  co_await work.pause(kMoveCost * moves_);
   at_phase_ = 0;
   at_ = start_;
-  return true;
+  co_return true;
 }
 
-bool PhaseLaw::find(const MeshRequest& request, const Limits& limits, double share) {
-  return measure(request, limits, share) && (request.from_rest ? from(0, 0, 0) : from(0, std::sqrt(request.b0), 0.5 * request.slope0));
+Task<bool> PhaseLaw::find(Work& work, const MeshRequest& request, const Limits& limits, double share) {
+  const bool measured = co_await measure(work, request, limits, share);
+  if (!measured) co_return false;
+  const double v = request.from_rest ? 0 : std::sqrt(request.b0), a = request.from_rest ? 0 : 0.5 * request.slope0;
+  const bool found = co_await from(work, 0, v, a);
+  co_return found;
 }
 
 double PhaseLaw::way_after(double seconds) const {

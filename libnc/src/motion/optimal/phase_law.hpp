@@ -13,10 +13,10 @@ class PhaseLaw {
  public:
   /// From the place and the state that the request names to rest at the end of its pieces, or as far as it reaches, with `share` of the
   /// limits. False where there is none; from rest there always is one, and only for want of room it ends earlier (whole()).
-  bool find(const MeshRequest& request, const Limits& limits, double share = 1);
+  Task<bool> find(Work& work, const MeshRequest& request, const Limits& limits, double share = 1);
   /// The same in two steps, for several starts on one path: s behind that of the request. In all that follows places count from there.
-  bool measure(const MeshRequest& request, const Limits& limits, double share = 1);
-  bool from(double s, double v, double a);
+  Task<bool> measure(Work& work, const MeshRequest& request, const Limits& limits, double share = 1);
+  Task<bool> from(Work& work, double s, double v, double a);
 
   unsigned count() const { return count_; }
   const Phase& phase(unsigned k) const { return phase_[k]; }
@@ -34,6 +34,7 @@ class PhaseLaw {
   double squared_speed(double s);
 
  private:
+  static constexpr int64_t kLookCost = 120;  ///< instructions, of a stretch in a ramp
   static constexpr unsigned kStretches = 1024, kMoves = 2 * kStretches, kPhases = 3 * kMoves;
 
   /// A piece or a part of it: the largest size of each derivative of each axis.
@@ -62,9 +63,10 @@ class PhaseLaw {
     bool stayed = false;  ///< stay() has been asked
   };
 
+  unsigned parts_of(const Piece& p, double x, double length) const;
   bool measure_stretch(const Piece& p, double from, double to, unsigned samples, Stretch* out) const;
   void bound(const Piece& p, Stretch* s) const;
-  bool stretches(const MeshRequest& request);
+  Task<bool> stretches(Work& work, const MeshRequest& request);
   Budget budget(unsigned stretch, double speed) const;
   /// Of the path, as it is gone or as it is seen from its end.
   enum class Sense : uint8_t { forward, backward };
@@ -77,11 +79,21 @@ class PhaseLaw {
   double ramp_to(double at, double v0, double v1, double room, Budget* most) const { return ramp(at, Sense::backward, v0, v1, room, most); }
   double stay(const Range& r, Sense sense) const;
   double first_move(double speed);
-  bool begin();
-  bool solve(const Range& whole);
-  bool descend(const Range& r);
-  bool divide(const Range& r);
-  bool hill(const Range& r, double most);
+  Task<bool> begin(Work& work);
+  Task<bool> solve(Work& work, const Range& whole);
+  Task<bool> descend(Work& work, const Range& r);
+  bool leave_fast(const Range& r, unsigned first, unsigned last, unsigned least);
+  Task<double> slow_enough(Work& work, const Range& rest, double high);
+  enum class Divided : uint8_t { no, yes, as_a_hill };
+  Divided divide(const Range& r, double* most);
+  Task<bool> hill(Work& work, const Range& r, double most);
+  bool fits(const Range& r, double speed, Budget* rise, Budget* fall) const;
+  /// What ramps have looked at since the last pause.
+  int64_t looked() const {
+    const int64_t cost = kLookCost * looks_;
+    looks_ = 0;
+    return cost;
+  }
   bool push(const Range& r);
   bool make_phases();
   bool add(double seconds, double jerk);
@@ -100,6 +112,7 @@ class PhaseLaw {
   unsigned at_phase_ = 0;
   double distance_ = 0, seconds_ = 0;
   bool whole_ = true;
+  mutable int64_t looks_ = 0;
 };
 
 }  // namespace nc::optimal

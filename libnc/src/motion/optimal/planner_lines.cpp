@@ -20,6 +20,8 @@ constexpr unsigned kSamples = kMaxCells / LineLaw::kPhases;  ///< of each phase
 constexpr unsigned kBends = 32;         ///< places of a piece where its bends are looked at
 constexpr unsigned kCreepLooks = 16;    ///< and of each phase of a law along it
 constexpr unsigned kSlowerStill = 24;   ///< times that such a law is made twice as slow
+// Instructions: of a look at such a law for each axis, and of a cell that is written.
+constexpr int64_t kCreepCost = 30000, kCopyCost = 200, kEdgeCost = 1500;
 
 /// When the motion has come to s, in [from, to] after the state.
 double when(const LineState& state, double jerk, double s, double from, double to) {
@@ -87,20 +89,22 @@ bool OptimalPlanner::find_line_stop(const Start& start, double most) {
 
 /// Where no other law is found: from rest to rest over one piece of any kind, with one limit for all of it, twice as slow until every place that
 /// is looked at keeps the limits of the axes. Time stretched by 2 leaves 1/4 of each acceleration and 1/8 of each jerk, so this ends.
-bool OptimalPlanner::find_creep(const Start& start, double reach) {
+Task<bool> OptimalPlanner::find_creep(Work& work, const Start& start, double reach) {
   const Piece& p = store_.piece_at(start.piece);
   const double length = std::min(p.length - start.x, reach);
-  if (!start.from_rest || !(length > kEdge) || stands(p, limits_)) return false;
+  if (!start.from_rest || !(length > kEdge) || stands(p, limits_)) co_return false;
   LineLimits most{feed_of(p, limits_), HUGE_VAL, HUGE_VAL};
+  co_await work.pause(kCreepCost * limits_.axis_count);
   for (unsigned n = 0; n < kBends; ++n) bound_creep(p, start.x + length * (n + 0.5) / kBends, &most);
-  if (!(most.speed > 0) || !(most.acceleration < HUGE_VAL) || !(most.jerk < HUGE_VAL)) return false;
+  if (!(most.speed > 0) || !(most.acceleration < HUGE_VAL) || !(most.jerk < HUGE_VAL)) co_return false;
   for (unsigned n = 0; n < kSlowerStill; ++n) {
-    if (line_.reach(length, 0, 0, most, kMostSeconds) && keeps_limits(p, start.x)) return true;
+    if (line_.reach(length, 0, 0, most, kMostSeconds) && keeps_limits(p, start.x)) co_return true;
+    co_await work.pause(kCreepCost * limits_.axis_count);
     most.speed *= 0.5;
     most.acceleration *= 0.25;
     most.jerk *= 0.125;
   }
-  return false;
+  co_return false;
 }
 
 /// Half of what the axes allow at a place, for the bends and for the way along it.
@@ -164,7 +168,7 @@ void OptimalPlanner::phase_way_down(const PhasesOf& law, double share, WayDown* 
 
 /// Writes the law as cells of about a period each, none of which lies on two pieces. False when they have no room.
 template <class PhasesOf>
-bool OptimalPlanner::copy_phases(const PhasesOf& law, const Start& start, Start* end) {
+Task<bool> OptimalPlanner::copy_phases(Work& work, const PhasesOf& law, const Start& start, Start* end) {
   const CellIndex first = write_;
   const double period = std::max(kPeriod, law.seconds() / kMostCells);
   double time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
@@ -197,7 +201,7 @@ bool OptimalPlanner::copy_phases(const PhasesOf& law, const Start& start, Start*
       }
       if (write_ + 1 - free_from_ >= kCells) {
         write_ = first;
-        return false;
+        co_return false;
       }
       PlanCell& c = store_.cell[write_ & store_.cell_mask];
       c = {};
@@ -228,6 +232,7 @@ bool OptimalPlanner::copy_phases(const PhasesOf& law, const Start& start, Start*
       }
       at = then;
       t = to;
+      co_await work.pause(kCopyCost + (crosses ? kEdgeCost : 0));
     }
     from = state(phase.seconds);
   }
@@ -235,11 +240,11 @@ bool OptimalPlanner::copy_phases(const PhasesOf& law, const Start& start, Start*
   const double x = law.distance() - begun;
   store_.cell[(write_ - 1) & store_.cell_mask].path_ends = p.rest_behind && x >= p.length - kEdge;
   *end = behind_law(piece, x, start.u + law.distance());
-  return true;
+  co_return true;
 }
 
 template void OptimalPlanner::phase_way_down(const LineLaw& law, double share, WayDown* down);
-template bool OptimalPlanner::copy_phases(const LineLaw& law, const Start& start, Start* end);
-template bool OptimalPlanner::copy_phases(const PhaseLaw& law, const Start& start, Start* end);
+template Task<bool> OptimalPlanner::copy_phases(Work& work, const LineLaw& law, const Start& start, Start* end);
+template Task<bool> OptimalPlanner::copy_phases(Work& work, const PhaseLaw& law, const Start& start, Start* end);
 
 }  // namespace nc::optimal

@@ -45,6 +45,12 @@ constexpr unsigned kLast = 3;       ///< knots that belong to the end
 constexpr unsigned kFinal = 6;      ///< cells at the end that hang on the end
 constexpr unsigned kBorders = 24;   ///< places that are looked at for such a one
 constexpr double kShortRest = 1e-6; ///< mm, of an edge: it is not cut so near to its end
+constexpr unsigned kAtOnce = 32;    ///< vertices or cells, then others may have their turn
+constexpr int64_t kPlaces = 256;    ///< and of places where the distance is measured
+constexpr unsigned kMeasured = 512; ///< the same of vertices where the line is measured
+// Instructions: to measure along a vertex, to look whether it wants a knot, of an edge in a sum; of a cell for each axis: its control point, its
+// polynomial, the distance of a place; and to move a cell.
+constexpr int64_t kAlongCost = 12, kVertexCost = 150, kEdgeCost = 100, kControlCost = 150, kPieceCost = 120, kPlaceCost = 15, kMoveCost = 80;
 
 /// Of the knots about an edge: it goes by the lines there and by nothing that lies farther away.
 double spacing_of(const SmoothRequest& in, const SmoothRoom& room, unsigned edge) {
@@ -62,29 +68,45 @@ class Smoother {
  public:
   Smoother(const SmoothRequest& request, const SmoothRoom& room, Piece* out, unsigned capacity)
       : in_(request), room_(room), out_(out), capacity_(capacity) {}
-  unsigned run();
+  Task<unsigned> run(Work& work);
 
  private:
   void set(double u, double apart);
   void fresh(unsigned k);
   void find_feeds(SmoothCell* cell) const;
   void set_corner(double u, double apart);
-  void sum_up();
+  void sum_up(unsigned k, unsigned* edge);
+  void controls(unsigned from, unsigned to, unsigned* edge);
   bool fits(unsigned j) const;
   void set_turn(unsigned vertex, double reach);
   void turn_controls(unsigned first);
   double corner(unsigned k) const;
-  bool first_knots();
+  Task<bool> first_knots(Work& work);
+  void begin_knots();
+  void measure(unsigned from, unsigned to);
+  void knots(unsigned from, unsigned to);
+  void end_knots();
   double spacing(unsigned edge) const {
     const double grown = kGrown * grown_ + kGrowth * std::max(room_.u[edge] - grown_at_, 0.0);
     return std::min(spacing_of(in_, room_, edge), grown);
   }
   void start_controls();
-  void controls();
-  void pieces();
+  Task<bool> controls(Work& work);
+  void pieces(unsigned from, unsigned to, unsigned* edge);
+  Task<bool> pieces(Work& work);
   bool far(unsigned cell, double most, unsigned* vertex, unsigned* edge) const;
-  bool near_enough();
-  bool split();
+  /// A look at the distances of all cells.
+  struct Look {
+    double kept = 0;  ///< up to here cells are halved only where they must be
+    unsigned cell = 0, vertex = 1, edge = 0;
+    bool good = true;
+  };
+  int64_t look_on(Look* look);
+  Task<bool> near_enough(Work& work);
+  bool halved(unsigned k) const {  // those of a sharp corner are not: they have their shape
+    return room_.cell[k].split && !(room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]);
+  }
+  Task<bool> split(Work& work);
   AxisVec on_line(double u, unsigned* edge) const;
   double distance2(unsigned cell, double u, const AxisVec& p) const;
   double t(int k) const {
@@ -99,6 +121,11 @@ class Smoother {
   double grown_ = HUGE_VAL, grown_at_ = 0;  ///< the longest of the last cells that are known, and where they end
   bool full_ = false;
   bool one_feed_ = true;
+  // while the first knots are set
+  double keep_ = 0;     ///< the knots behind a corner stay clear of what follows up to here
+  double apart_ = 0;
+  unsigned first_ = 1;  ///< vertex that may want one
+  unsigned valid_ = 0;  ///< up to this vertex the spacing is as good as the same
 };
 
 /// A knot at u, unless it lies less than `apart` behind the last one.
@@ -147,35 +174,37 @@ double Smoother::corner(unsigned k) const {
   return std::sqrt(sum);
 }
 
-bool Smoother::first_knots() {
+void Smoother::begin_knots() {
   const Polyline& l = in_.line;
-  double* u = room_.u;
-  u[0] = 0;
-  for (unsigned k = 1; k < l.count; ++k) u[k] = u[k - 1] + l.length[k - 1];
-  for (unsigned k = 1; k + 1 < l.count && l.feed != nullptr; ++k) one_feed_ = one_feed_ && l.feed[k] == l.feed[0];
+  const double* u = room_.u;
   const double end = u[l.count - 1];
   room_.knot[0] = 0;
   room_.corner[0] = 0;
   fresh(0);
   last_ = 0;
-  double keep = 0;  // the knots behind a corner stay clear of what follows up to here
-  unsigned first = 1;
   if (in_.from != nullptr) {
     for (unsigned n = 0; n < in_.kept_count && in_.kept[n] < end; ++n) set(in_.kept[n], 0);
-    keep = room_.knot[last_];
-    if (last_ > 0) grown_ = 0, grown_at_ = keep;
+    keep_ = room_.knot[last_];
+    if (last_ > 0) grown_ = 0, grown_at_ = keep_;
     for (unsigned k = last_; k > 0 && k + kRemembered > last_; --k)
       grown_ = std::max(grown_, room_.knot[k] - room_.knot[k - 1]);
-    while (first + 1 < l.count && u[first] <= keep) ++first;
+    while (first_ + 1 < l.count && u[first_] <= keep_) ++first_;
   } else if (in_.straight_start) {  // the first three control points lie on the first edge
     const double step = std::min(kStraightEnd * l.length[0], spacing(0));
     set(step, 0);
     set(2 * step, 0);
-    keep = 2 * step;
+    keep_ = 2 * step;
   }
-  double apart = 0;
-  unsigned valid = 0;  // up to this vertex the spacing is as good as the same
-  for (unsigned k = first; k + 1 < l.count; ++k) {
+}
+
+/// The knots that some vertices want.
+void Smoother::knots(unsigned first, unsigned to) {
+  const Polyline& l = in_.line;
+  const double* u = room_.u;
+  const double end = u[l.count - 1];
+  double keep = keep_, apart = apart_;
+  unsigned valid = valid_;
+  for (unsigned k = first; k < to; ++k) {
     const double turn = corner(k);
     const bool feed = l.feed != nullptr && l.feed[k] != l.feed[k - 1];
     if (turn < kStraight && !feed) continue;
@@ -214,24 +243,58 @@ bool Smoother::first_knots() {
     }
     set(u[k], feed ? 1e-6 : 0.7 * apart);
   }
+  keep_ = keep;
+  apart_ = apart;
+  valid_ = valid;
+}
+
+void Smoother::end_knots() {
+  const Polyline& l = in_.line;
+  const double end = room_.u[l.count - 1];
   // The end: three knots of their own on the last edge, so that it is straight there.
-  apart = spacing(l.count - 2);
+  apart_ = spacing(l.count - 2);
   while (last_ > 0 && end - room_.knot[last_] < 1e-9 * end) --last_;
   if (in_.straight_end) {
-    const double step = std::min(kStraightEnd * l.length[l.count - 2], apart);
+    const double step = std::min(kStraightEnd * l.length[l.count - 2], apart_);
     set(end - 2 * step, 0.1 * step);
     set(end - step, 0.1 * step);
   }
   const double gap = end - room_.knot[last_];
-  if (last_ == 0 || gap > 2 * apart) {
-    const double step = std::min(apart, gap / 4);
+  if (last_ == 0 || gap > 2 * apart_) {
+    const double step = std::min(apart_, gap / 4);
     const double bent = room_.knot[last_];
     set(bent + step, 0);
-    if (in_.open && gap > kLongEdge * apart) set(bent + 2 * step, 0);  // straight from there on, so that it can be cut
+    if (in_.open && gap > kLongEdge * apart_) set(bent + 2 * step, 0);  // straight from there on, so that it can be cut
     set(end - step, 0);
   }
   set(end, 0);
-  return !full_;
+}
+
+/// u of some vertices.
+void Smoother::measure(unsigned from, unsigned to) {
+  const Polyline& l = in_.line;
+  double* u = room_.u;
+  for (unsigned k = from; k < to; ++k) u[k] = u[k - 1] + l.length[k - 1];
+  bool one = one_feed_;
+  for (unsigned k = from; k < to && k + 1 < l.count && l.feed != nullptr; ++k) one = one && l.feed[k] == l.feed[0];
+  one_feed_ = one;
+}
+
+Task<bool> Smoother::first_knots(Work& work) {
+  const unsigned count = in_.line.count;
+  room_.u[0] = 0;
+  for (unsigned k = 1; k < count; k += kMeasured) {
+    measure(k, std::min(count, k + kMeasured));
+    co_await work.pause(kMeasured * kAlongCost);
+  }
+  begin_knots();
+  for (unsigned k = first_; k + 1 < count; k += kAtOnce) {
+    const unsigned to = std::min(count - 1, k + kAtOnce);
+    knots(k, to);
+    co_await work.pause((to - k) * kVertexCost);
+  }
+  end_knots();
+  co_return !full_;
 }
 
 AxisVec Smoother::on_line(double u, unsigned* edge) const {
@@ -249,43 +312,55 @@ AxisVec Smoother::on_line(double u, unsigned* edge) const {
 /// Control point j goes through the middle of the line where it hangs on no end and on no corner that is kept.
 /// Others, and those of a straight part, lie on the line at the mean of knots j - 2, j - 1, j (the end knots
 /// count three times).
-void Smoother::controls() {
-  sum_up();
-  unsigned edge = 0;
-  for (unsigned j = 0; j < last_ + 3; ++j) {
+void Smoother::controls(unsigned from, unsigned to, unsigned* edge) {
+  for (unsigned j = from; j < to; ++j) {
     if (fits(j)) {
       const SmoothCell* const first = room_.cell + (j - 3);
       const CellMoments* const cells[4] = {&first[0].moments, &first[1].moments, &first[2].moments, &first[3].moments};
       room_.control[j] = fitted_control(cells, in_.axis_count);
     } else {
       const int k = static_cast<int>(j);
-      room_.control[j] = on_line((t(k - 2) + t(k - 1) + t(k)) / 3, &edge);
+      room_.control[j] = on_line((t(k - 2) + t(k - 1) + t(k)) / 3, edge);
     }
   }
+}
+
+Task<bool> Smoother::controls(Work& work) {
+  unsigned edge = 0;
+  for (unsigned k = 0; k < last_; ++k) {
+    const bool summed = room_.cell[k].summed;
+    sum_up(k, &edge);
+    if (!summed) co_await work.pause(in_.axis_count * kEdgeCost * (1 + room_.cell[k].last_edge - room_.cell[k].first_edge));
+  }
+  edge = 0;
+  for (unsigned j = 0; j < last_ + 3; j += kAtOnce) {
+    controls(j, std::min(last_ + 3, j + kAtOnce), &edge);
+    co_await work.pause(kAtOnce * in_.axis_count * kControlCost);
+  }
   for (unsigned k = 1; k + 2 * kTurnKnots <= last_; ++k) {
-    if (room_.corner[k] != 0 && room_.corner[k + 2 * kTurnKnots] == room_.corner[k]) turn_controls(k);
+    if (room_.corner[k] == 0 || room_.corner[k + 2 * kTurnKnots] != room_.corner[k]) continue;
+    turn_controls(k);
+    co_await work.pause(2 * kTurnKnots * in_.axis_count * kPieceCost);
   }
   room_.control[0] = in_.line.vertex[0];
   if (in_.from != nullptr) start_controls();
   room_.control[last_ + 2] = in_.line.vertex[in_.line.count - 1];
+  co_return true;
 }
 
-/// Moments of the cells that are new.
-void Smoother::sum_up() {
+/// Moments of a cell, if it is new. `edge`: one at or in front of the cell, and then that at its end.
+void Smoother::sum_up(unsigned k, unsigned* edge) {
   const Edges line{in_.line.vertex, in_.line.length, room_.u, in_.line.count};
-  unsigned edge = 0;
-  for (unsigned k = 0; k < last_; ++k) {
-    SmoothCell& cell = room_.cell[k];
-    if (!cell.summed) {
-      while (edge + 2 < line.count && room_.u[edge + 1] <= room_.knot[k]) ++edge;
-      cell.first_edge = edge;
-      cell_moments(line, room_.knot[k], room_.knot[k + 1], in_.axis_count, &edge, &cell.moments);
-      cell.last_edge = edge;
-      find_feeds(&cell);
-      cell.summed = true;
-    }
-    edge = cell.last_edge;
+  SmoothCell& cell = room_.cell[k];
+  if (!cell.summed) {
+    while (*edge + 2 < line.count && room_.u[*edge + 1] <= room_.knot[k]) ++*edge;
+    cell.first_edge = *edge;
+    cell_moments(line, room_.knot[k], room_.knot[k + 1], in_.axis_count, edge, &cell.moments);
+    cell.last_edge = *edge;
+    find_feeds(&cell);
+    cell.summed = true;
   }
+  *edge = cell.last_edge;
 }
 
 void Smoother::find_feeds(SmoothCell* cell) const {
@@ -350,11 +425,11 @@ void Smoother::turn_controls(unsigned first) {
   }
 }
 
-/// Polynomials of the cells, from the derivatives of the spline at the knots.
-void Smoother::pieces() {
+/// Polynomials of some cells, from the derivatives of the spline at the knots.
+void Smoother::pieces(unsigned from, unsigned to, unsigned* first_edge) {
   const AxisVec* d = room_.control;
-  unsigned edge = 0;
-  for (unsigned k = 0; k < last_; ++k) {
+  unsigned edge = *first_edge;
+  for (unsigned k = from; k < to; ++k) {
     const int c = static_cast<int>(k);
     const double h = t(c + 1) - t(c);
     Piece& p = out_[k];
@@ -399,6 +474,16 @@ void Smoother::pieces() {
     for (unsigned e = edge; e + 1 < in_.line.count && room_.u[e] < t(c + 1) - 1e-9; ++e)
       p.feed = std::min(p.feed, in_.line.feed[e]);
   }
+  *first_edge = edge;
+}
+
+Task<bool> Smoother::pieces(Work& work) {
+  unsigned edge = 0;
+  for (unsigned k = 0; k < last_; k += kAtOnce) {
+    pieces(k, std::min(last_, k + kAtOnce), &edge);
+    co_await work.pause(kAtOnce * in_.axis_count * kPieceCost);
+  }
+  co_return true;
 }
 
 /// Squared.
@@ -443,39 +528,47 @@ bool Smoother::far(unsigned k, double most, unsigned* vertex, unsigned* edge) co
   return false;
 }
 
-/// Marks the cells to be split where the spline is too far from the polyline.
-bool Smoother::near_enough() {
-  bool good = true;
-  unsigned vertex = 1, edge = 0;
-  const double kept = in_.from != nullptr && in_.kept_count > 0 ? in_.kept[in_.kept_count - 1] : 0;  // up to here only where it must be
-  for (unsigned k = 0; k < last_; ++k) {
+/// Marks cells to be split where the spline is too far from the polyline. Goes on for some of them. @return what it has cost
+int64_t Smoother::look_on(Look* look) {
+  const double kept = look->kept;
+  unsigned vertex = look->vertex, edge = look->edge, k = look->cell;
+  int64_t places = 0;
+  for (; k < last_ && places < kPlaces; ++k) {
     const double use = in_.from != nullptr && k < kStartCells ? kUseStart : kUseMost;
     if (room_.cell[k].near) continue;
     room_.cell[k].near = !far(k, use * in_.tolerance * use * in_.tolerance, &vertex, &edge);
+    places += kLooks * (kFine / 2) + 2 + room_.cell[k].last_edge - room_.cell[k].first_edge;
     if (room_.cell[k].near) continue;
     const double from = room_.knot[k], to = room_.knot[k + 1];
-    good = false;
+    look->good = false;
     room_.cell[k].split = true;
     if (k > 0 && room_.knot[k - 1] >= kept && from - room_.knot[k - 1] > 0.6 * (to - from))
       room_.cell[k - 1].split = true;
     if (k + 1 < last_ && to >= kept && room_.knot[k + 2] - to > 0.6 * (to - from))
       room_.cell[k + 1].split = true;
   }
-  // They were near enough when they were followed by finer cells.
-  bool others = false;
-  for (unsigned k = 0; k < last_; ++k) others = others || (room_.knot[k] >= kept && room_.cell[k].split);
-  for (unsigned k = 0; others && k < last_ && room_.knot[k] < kept; ++k) room_.cell[k].split = false;
-  return good;
+  look->cell = k;
+  look->vertex = vertex;
+  look->edge = edge;
+  return places * in_.axis_count * kPlaceCost;
 }
 
-/// Cells are halved, those of a sharp corner are not: they have their shape.
-bool Smoother::split() {
-  const auto halved = [&](unsigned k) {
-    return room_.cell[k].split && !(room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]);
-  };
+Task<bool> Smoother::near_enough(Work& work) {
+  Look look;
+  look.kept = in_.from != nullptr && in_.kept_count > 0 ? in_.kept[in_.kept_count - 1] : 0;
+  while (look.cell < last_) co_await work.pause(look_on(&look));
+  // They were near enough when they were followed by finer cells.
+  bool others = false;
+  for (unsigned k = 0; k < last_; ++k) others = others || (room_.knot[k] >= look.kept && room_.cell[k].split);
+  for (unsigned k = 0; others && k < last_ && room_.knot[k] < look.kept; ++k) room_.cell[k].split = false;
+  co_return look.good;
+}
+
+/// Cells are halved.
+Task<bool> Smoother::split(Work& work) {
   unsigned more = 0;
   for (unsigned k = 0; k < last_; ++k) more += halved(k) ? 1u : 0u;
-  if (more == 0 || last_ + more + 3 >= room_.knots) return false;
+  if (more == 0 || last_ + more + 3 >= room_.knots) co_return false;
   unsigned apart = kHangsOn;  // cells behind the last one that was halved
   for (unsigned k = last_ + 1, to = last_ + more + 1; k-- > 0;) {  // from the end backward, in place
     SmoothCell& cell = room_.cell[k];
@@ -497,22 +590,26 @@ bool Smoother::split() {
     if (apart <= kHangsOn) room_.cell[to].near = false;
     room_.knot[to] = room_.knot[k];
     room_.corner[to] = room_.corner[k];
+    if (k % kAtOnce == 0) co_await work.pause(kAtOnce * kMoveCost);
   }
   last_ += more;
-  return true;
+  co_return true;
 }
 
-unsigned Smoother::run() {
-  if (in_.line.count < 2 || in_.line.count > room_.vertices || room_.knots < 8) return 0;
-  if (!first_knots()) return 0;
+Task<unsigned> Smoother::run(Work& work) {
+  if (in_.line.count < 2 || in_.line.count > room_.vertices || room_.knots < 8) co_return 0;
+  bool done = co_await first_knots(work);
+  if (!done) co_return 0;
   for (unsigned n = 0; n < kRounds; ++n) {
-    if (last_ > capacity_) return 0;
-    controls();
-    pieces();
-    if (near_enough()) return last_;
-    if (!split()) return 0;
+    if (last_ > capacity_) co_return 0;
+    co_await controls(work);
+    co_await pieces(work);
+    done = co_await near_enough(work);
+    if (done) co_return last_;
+    done = co_await split(work);
+    if (!done) co_return 0;
   }
-  return 0;
+  co_return 0;
 }
 
 }  // namespace
@@ -577,8 +674,10 @@ Border find_border(const SmoothRequest& request, const SmoothRoom& room, const P
   return best;
 }
 
-unsigned smooth(const SmoothRequest& request, const SmoothRoom& room, Piece* out, unsigned capacity) {
-  return Smoother(request, room, out, capacity).run();
+Task<unsigned> smooth(Work& work, const SmoothRequest& request, const SmoothRoom& room, Piece* out, unsigned capacity) {
+  Smoother smoother(request, room, out, capacity);
+  const unsigned count = co_await smoother.run(work);
+  co_return count;
 }
 
 }  // namespace nc::optimal

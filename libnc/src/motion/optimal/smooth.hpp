@@ -9,6 +9,7 @@
 #pragma once
 
 #include "motion/optimal/fit.hpp"
+#include "motion/optimal/work.hpp"
 
 namespace nc::optimal {
 
@@ -76,6 +77,6 @@ Border find_border(const SmoothRequest& request, const SmoothRoom& room, const P
 
 /// @return pieces written to `out` (exact at both ends, tangent to the first and the last edge, without
 /// curvature there when those are not very short); 0 = no room.
-unsigned smooth(const SmoothRequest& request, const SmoothRoom& room, Piece* out, unsigned capacity);
+Task<unsigned> smooth(Work& work, const SmoothRequest& request, const SmoothRoom& room, Piece* out, unsigned capacity);
 
 }  // namespace nc::optimal

@@ -32,6 +32,9 @@ constexpr double kGapAgain = 0.003;
 constexpr double kAlong = 2.5;         ///< times the acceleration and jerk that an axis would allow, at most, along the path
 constexpr double kLittle = 0.5;        ///< of a limit
 constexpr double kStartUse = 1.004;    ///< of the acceleration at a given start: nothing there can become less
+constexpr unsigned kAtOnce = 32;       ///< cells, then others may have their turn
+// Instructions: of a cell in a pass without axes and for each of them, to fill its rows, to begin with it and to end a step in it.
+constexpr int64_t kCellCost = 400, kAxisCost = 250, kFillCost = 200, kBeginCost = 150, kStepCost = 60;
 
 }  // namespace
 
@@ -122,74 +125,72 @@ bool TimeLaw::matters(unsigned k, unsigned i, const Share& most) const {
 
 /// The rows without their roots. Jerk inside a cell: without its root it is a quadratic of u where the path is a cubic, so it stays below
 /// the largest of its ends, which have rows of their own, and its middle Bezier coefficient; the root is largest where b is.
-void TimeLaw::fill_rows() {
+TimeLaw::Rows* TimeLaw::fill_rows(const Run& run, unsigned k, Rows* row) {
   const Mesh& m = *mesh_;
   static constexpr Form kNone{};
+  const bool launch = k == 0 && m.from_rest, land = k + 1 == n_;
+  const Form &b0 = at_[k], &b1 = at_[k + 1], &half = half2_[k];
+  const Form s0 = slope_[k], s1{{0, slope_[k + 1].g[0], slope_[k + 1].g[1]}};
+  for (unsigned e = 0; e < 3; ++e) {  // beside rest the jerk is the same all over the cell, and so is its root
+    const double start = b0.g[e], end = e > 0 ? b1.g[e - 1] : 0;
+    root_[k].at[e] = Four{launch ? end : start, land ? start : end, e == 1 ? 1.0 : 0.0, 0};
+  }
+  const Knot &left = m.knot[k], &right = m.knot[k + 1];
+  const Inside& in = m.inside[k];
+  const double use_a = k == 0 ? kStartUse : std::min(m.use_a[k - 1], m.use_a[k]);
+  const Share most = share_of(k);
+  Rows* const first = row;
+  for (unsigned n = 0; n < axes_; ++n) {
+    const unsigned i = axis_[n];
+    if (!matters(k, i, most)) continue;
+    const double per_j = limits_->jerk[i] > 0 ? 1 / (m.use[k] * limits_->jerk[i]) : 0;
+    const auto jerk = [&](bool bends) { return per_j * (bends ? 1 / kInsideCurve : 1 / kInside); };
+    const double j0 = jerk(left.d2[i] != 0 || left.left3[i] != 0 || left.right3[i] != 0),
+                 j1 = jerk(right.d2[i] != 0 || right.left3[i] != 0 || right.right3[i] != 0),
+                 jm = launch || land ? 0 : jerk(in.d2_start[i] != 0 || in.d2_end[i] != 0 || in.d3[i] != 0),
+                 a = launch || !(limits_->acceleration[i] > 0) ? 0 : 1 / (kInside * use_a * limits_->acceleration[i]);
+    Rows& x = *row++;
+    for (unsigned e = 0; e < 3; ++e) {
+      const double at1 = (e > 0 ? b1 : kNone).g[e > 0 ? e - 1 : 0];
+      x.g[e] = Four{j0 * (left.d1[i] * half.g[e] + 1.5 * left.d2[i] * s0.g[e] + left.right3[i] * b0.g[e]),
+                    j1 * (right.d1[i] * half.g[e] + 1.5 * right.d2[i] * s1.g[e] + right.left3[i] * at1),
+                    jm * (in.d1[i] * half.g[e] + 0.75 * (in.d2_end[i] * s0.g[e] + in.d2_start[i] * s1.g[e]) + (e == 1 ? in.d3[i] : 0)),
+                    a * (0.5 * left.d1[i] * s0.g[e] + left.d2[i] * b0.g[e])};
+    }
+  }
+  in_cell_[k] = static_cast<unsigned char>(row - first);
+  rows_ += 8 * in_cell_[k] + 2u;
+  const bool free = k >= run.from && k < run.to;
+  const double knot = k >= run.from ? 1 / m.knot[k].cap : 0, cell = free ? 1 / m.cap[k] : 0;
+  cap_[k].g0 = Four{knot * b0.g[0], 0, 0, 0};
+  cap_[k].g1 = Four{knot * b0.g[1], cell, 0, 0};
+  return row;
+}
+
+Task<bool> TimeLaw::fill_rows(Work& work) {
   Rows* row = row_;
   rows_ = 0;
   for (const Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run)
     for (unsigned k = run->from - 1; k <= run->to; ++k) {
-      const bool launch = k == 0 && m.from_rest, land = k + 1 == n_;
-      const Form &b0 = at_[k], &b1 = at_[k + 1], &half = half2_[k];
-      const Form s0 = slope_[k], s1{{0, slope_[k + 1].g[0], slope_[k + 1].g[1]}};
-      for (unsigned e = 0; e < 3; ++e) {  // beside rest the jerk is the same all over the cell, and so is its root
-        const double start = b0.g[e], end = e > 0 ? b1.g[e - 1] : 0;
-        root_[k].at[e] = Four{launch ? end : start, land ? start : end, e == 1 ? 1.0 : 0.0, 0};
-      }
-      const Knot &left = m.knot[k], &right = m.knot[k + 1];
-      const Inside& in = m.inside[k];
-      const double use_a = k == 0 ? kStartUse : std::min(m.use_a[k - 1], m.use_a[k]);
-      const Share most = share_of(k);
-      Rows* const first = row;
-      for (unsigned n = 0; n < axes_; ++n) {
-        const unsigned i = axis_[n];
-        if (!matters(k, i, most)) continue;
-        const double per_j = limits_->jerk[i] > 0 ? 1 / (m.use[k] * limits_->jerk[i]) : 0;
-        const auto jerk = [&](bool bends) { return per_j * (bends ? 1 / kInsideCurve : 1 / kInside); };
-        const double j0 = jerk(left.d2[i] != 0 || left.left3[i] != 0 || left.right3[i] != 0),
-                     j1 = jerk(right.d2[i] != 0 || right.left3[i] != 0 || right.right3[i] != 0),
-                     jm = launch || land ? 0 : jerk(in.d2_start[i] != 0 || in.d2_end[i] != 0 || in.d3[i] != 0),
-                     a = launch || !(limits_->acceleration[i] > 0) ? 0 : 1 / (kInside * use_a * limits_->acceleration[i]);
-        Rows& x = *row++;
-        for (unsigned e = 0; e < 3; ++e) {
-          const double at1 = (e > 0 ? b1 : kNone).g[e > 0 ? e - 1 : 0];
-          x.g[e] = Four{j0 * (left.d1[i] * half.g[e] + 1.5 * left.d2[i] * s0.g[e] + left.right3[i] * b0.g[e]),
-                        j1 * (right.d1[i] * half.g[e] + 1.5 * right.d2[i] * s1.g[e] + right.left3[i] * at1),
-                        jm * (in.d1[i] * half.g[e] + 0.75 * (in.d2_end[i] * s0.g[e] + in.d2_start[i] * s1.g[e]) + (e == 1 ? in.d3[i] : 0)),
-                        a * (0.5 * left.d1[i] * s0.g[e] + left.d2[i] * b0.g[e])};
-        }
-      }
-      in_cell_[k] = static_cast<unsigned char>(row - first);
-      rows_ += 8 * in_cell_[k] + 2u;
-      const bool free = k >= run->from && k < run->to;
-      const double knot = k >= run->from ? 1 / m.knot[k].cap : 0, cell = free ? 1 / m.cap[k] : 0;
-      cap_[k].g0 = Four{knot * b0.g[0], 0, 0, 0};
-      cap_[k].g1 = Four{knot * b0.g[1], cell, 0, 0};
+      row = fill_rows(*run, k, row);
+      co_await work.pause(kFillCost + kAxisCost * in_cell_[k]);
     }
+  co_return true;
 }
 
-/// L D L' of the band, each row as soon as it is known, for two right sides: what the second is multiplied by is known later.
-struct TimeLaw::Elimination {
-  struct Row {
-    double lower1 = 0, lower2 = 0, off1 = 0, off2 = 0, side = 0, side_mu = 0;
-  };
-  Row last, before;
-  bool possible = true;
-
-  [[gnu::always_inline]] inline double add(double diag, Row r) {  // @return 1 / D
-    diag -= last.lower1 * last.off1 + before.lower2 * before.off2;
-    r.off1 -= last.lower1 * last.off2;
-    r.side -= last.lower1 * last.side + before.lower2 * before.side;
-    r.side_mu -= last.lower1 * last.side_mu + before.lower2 * before.side_mu;
-    const double per = 1 / diag;
-    possible = possible && diag > 0;
-    r.lower1 = r.off1 * per;
-    r.lower2 = r.off2 * per;
-    before = last;
-    last = r;
-    return per;
-  }
-};
+[[gnu::always_inline]] inline double TimeLaw::Elimination::add(double diag, Row r) {  // @return 1 / D
+  diag -= last.lower1 * last.off1 + before.lower2 * before.off2;
+  r.off1 -= last.lower1 * last.off2;
+  r.side -= last.lower1 * last.side + before.lower2 * before.side;
+  r.side_mu -= last.lower1 * last.side_mu + before.lower2 * before.side_mu;
+  const double per = 1 / diag;
+  possible = possible && diag > 0;
+  r.lower1 = r.off1 * per;
+  r.lower2 = r.off2 * per;
+  before = last;
+  last = r;
+  return per;
+}
 
 /// The roots of cell k: b at its ends and the largest b inside. @return 1 / root(c_k)
 [[gnu::always_inline]] inline double TimeLaw::roots(unsigned k) {
@@ -212,18 +213,61 @@ struct TimeLaw::Elimination {
 /// All rows at c, and what they give to the matrix and the right side, which is eliminated forward. A slack that is smaller than its row
 /// leaves is made as large.
 /// `first`: slacks of at least `least` begin, with multipliers of mu / s; else the step dc towards mu, which c has gone, is theirs, too.
-NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, double smallest) {
-  const Four one = all(1), mu = all(target), least = all(smallest), left = all(kLeft);
-  const Four kIsCap = {1, 1, 0, 0};
-  Four gap{}, residual{}, worst{};
-  Rows* row = row_;
+void TimeLaw::begin_pass(bool first, double target, double least) {
+  pass_ = {};
+  pass_.first = first;
+  pass_.target = target;
+  pass_.smallest = least;
+  pass_.row = row_;
+  pass_.run = run_;
   time_ = 0;
-  for (Run *run = run_, *runs_end = run_ + runs_; run != runs_end; ++run) {
+}
+
+TimeLaw::Sums TimeLaw::sums() const {
+  return {sum(pass_.gap), largest(pass_.residual), largest(pass_.worst)};
+}
+
+/// Of a pass through so many cells.
+int64_t TimeLaw::cost_of(unsigned cells) const {
+  return cells * (kCellCost + kAxisCost * axes_);
+}
+
+/// Goes on with the pass for `most` cells. @return those that it has gone through
+NC_FOR_WIDE_VECTORS unsigned TimeLaw::rows(unsigned most) {
+  Pass& pass = pass_;
+  const bool first = pass.first;
+  const Four one = all(1), mu = all(pass.target), least = all(pass.smallest), left = all(kLeft);
+  const Four kIsCap = {1, 1, 0, 0};
+  Four gap = pass.gap, residual = pass.residual, worst = pass.worst;
+  Rows* row = pass.row;
+  unsigned cells = 0;
+  for (Run *run = pass.run, *runs_end = run_ + runs_; run != runs_end; ++run) {
     // What belongs to c_(k-1), c_k and c_(k+1) in matrix and right side: the first is done with behind cell k, the others go on.
     Four m00{}, m01{}, m11{}, a0{}, a1{}, d0{}, d1{};
     double diag = 0, side = 0, side_mu = 0;  // of c_(k-1): what the time and the rows of cell k - 1 give it
     Elimination band;
-    for (unsigned k = run->from - 1; k <= run->to; ++k) {
+    unsigned k = run->from - 1;
+    if (pass.inside) {
+      k = pass.cell;
+      m00 = pass.m00, m01 = pass.m01, m11 = pass.m11;
+      a0 = pass.a0, a1 = pass.a1, d0 = pass.d0, d1 = pass.d1;
+      diag = pass.diag, side = pass.side, side_mu = pass.side_mu;
+      band = pass.band;
+      pass.inside = false;
+    }
+    for (; k <= run->to; ++k) {
+      if (cells++ == most) {
+        pass.inside = true;
+        pass.run = run;
+        pass.cell = k;
+        pass.row = row;
+        pass.gap = gap, pass.residual = residual, pass.worst = worst;
+        pass.m00 = m00, pass.m01 = m01, pass.m11 = m11;
+        pass.a0 = a0, pass.a1 = a1, pass.d0 = d0, pass.d1 = d1;
+        pass.diag = diag, pass.side = side, pass.side_mu = side_mu;
+        pass.band = band;
+        return most;
+      }
       const unsigned base = k + kPad - 1;
       Roots& q = root_[k];
       const Four c0 = all(c_[base]), c1 = all(c_[base + 1]), c2 = all(c_[base + 2]);
@@ -333,7 +377,17 @@ NC_FOR_WIDE_VECTORS TimeLaw::Sums TimeLaw::rows(bool first, double target, doubl
     run->side_mu[1] = side_mu - sum(d0);
     run->possible = band.possible;
   }
-  return {sum(gap), largest(residual), largest(worst)};
+  pass.gap = gap, pass.residual = residual, pass.worst = worst;
+  pass.ended = true;
+  return cells;
+}
+
+Task<bool> TimeLaw::all_rows(Work& work) {
+  while (!pass_.ended) {
+    const unsigned cells = rows(kAtOnce);
+    co_await work.pause(cost_of(cells));
+  }
+  co_return true;
 }
 
 void TimeLaw::find_time() {
@@ -395,17 +449,8 @@ void TimeLaw::finish(Law* law) {
   for (unsigned k = 1; k + 1 < n_; ++k) law->seconds += m.level[k] ? weight_[k] / std::sqrt(c_[k + kPad]) : 0;
 }
 
-void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law, unsigned most) {
-  mesh_ = &mesh;
-  limits_ = &limits;
-  law->ok = false;
-  law->cells = 0;
-  law->iterations = 0;
-  if (mesh.cells < 4 || mesh.cells > kMaxCells) return;
-  forms();
-  find_runs();
-  moving_axes();
-  fill_rows();
+/// All that is known of the rows and does not hang on c, and where c begins.
+void TimeLaw::begin(const Mesh& mesh, bool again) {
   for (unsigned k = 0; k < kPad; ++k) c_[k] = c_[n_ + kPad + k] = 0;
   for (unsigned k = 0; k < n_ && !again; ++k) c_[k + kPad] = mesh.level[k] ? mesh.cap[k] : mesh.guess[k];
   c_[kPad] = mesh.from_rest ? 0 : mesh.b0 + 0.5 * mesh.slope0 * mesh.h[0];
@@ -413,14 +458,33 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law
   c_[n_ - 1 + kPad] = 0;
   for (unsigned k = 0; k < n_ + 2 * kPad; ++k) dc_[k] = 0;
   find_time();
-  Sums sums = rows(true, (again ? kGapAgain : kGapFirst) * time_ / rows_, again ? kSlackAgain : kSmallestSlack);
+}
+
+Task<bool> TimeLaw::solve(Work& work, const Mesh& mesh, const Limits& limits, bool again, Law* law, unsigned most) {
+  mesh_ = &mesh;
+  limits_ = &limits;
+  law->ok = false;
+  law->cells = 0;
+  law->iterations = 0;
+  if (mesh.cells < 4 || mesh.cells > kMaxCells) co_return false;
+  forms();
+  find_runs();
+  moving_axes();
+  co_await work.pause(kBeginCost * n_);
+  co_await fill_rows(work);
+  begin(mesh, again);
+  co_await work.pause(kStepCost * n_);
+  begin_pass(true, (again ? kGapAgain : kGapFirst) * time_ / rows_, again ? kSlackAgain : kSmallestSlack);
+  co_await all_rows(work);
+  Sums sums = this->sums();
   for (unsigned n = 0, more = 0; n < most; ++n) {
     law->iterations = n;
     law->worst = sums.worst * kInside;
     if (sums.gap < kGap * time_ && sums.worst < 1.0005 && (sums.gap < kGapOfDip * time_ || more++ == kDipSteps || !dips())) {
       law->ok = levels_hold(sums.gap / rows_);
       if (law->ok) finish(law);
-      return;
+      work.spend(kStepCost * n_);
+      co_return law->ok;
     }
     const double average = sums.gap / rows_;
     // Not nearer to the walls than the rows are to being kept: else the steps become short.
@@ -429,9 +493,13 @@ void TimeLaw::solve(const Mesh& mesh, const Limits& limits, bool again, Law* law
                                                            : 0.1) *
                                        average,
                                    kResidual * sums.residual * time_ / rows_);
-    if (!step(target)) return;
-    sums = rows(false, target, 0);
+    if (!step(target)) co_return false;
+    co_await work.pause(kStepCost * n_);
+    begin_pass(false, target, 0);
+    co_await all_rows(work);
+    sums = this->sums();
   }
+  co_return false;
 }
 
 }  // namespace nc::optimal

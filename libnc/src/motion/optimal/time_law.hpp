@@ -15,6 +15,7 @@
 
 #include "motion/optimal/four.hpp"
 #include "motion/optimal/piece.hpp"
+#include "motion/optimal/work.hpp"
 
 namespace nc::optimal {
 
@@ -63,8 +64,8 @@ class TimeLaw {
  public:
   /// The law of least time that ends at rest. !law->ok when none was found; nothing may then be done with it.
   /// `again`: the mesh is that of the last law, some limits are a little lower; it begins with that law.
-  /// `most`: steps until it gives up.
-  void solve(const Mesh& mesh, const Limits& limits, bool again, Law* law, unsigned most = kMaxSteps);
+  /// `most`: steps until it gives up. @return law->ok
+  Task<bool> solve(Work& work, const Mesh& mesh, const Limits& limits, bool again, Law* law, unsigned most = kMaxSteps);
 
  private:
   static constexpr unsigned kPad = 2;
@@ -86,7 +87,15 @@ class TimeLaw {
   struct Caps {
     Four g0, g1, s, l, per;
   };
-  struct Elimination;
+  /// L D L' of the band, each row as soon as it is known, for two right sides: what the second is multiplied by is known later.
+  struct Elimination {
+    struct Row {
+      double lower1 = 0, lower2 = 0, off1 = 0, off2 = 0, side = 0, side_mu = 0;
+    };
+    Row last, before;
+    bool possible = true;
+    double add(double diag, Row r);
+  };
   struct Sums {
     double gap = 0, residual = 0, worst = 0;
   };
@@ -106,8 +115,29 @@ class TimeLaw {
   };
   Share share_of(unsigned cell) const;
   bool matters(unsigned cell, unsigned axis, const Share& most) const;
-  void fill_rows();
-  Sums rows(bool first, double mu, double least);
+  /// One pass through the rows, and what it is amid of when it is interrupted in front of a cell.
+  struct Pass {
+    bool first = false;
+    double target = 0, smallest = 0;
+    Four gap{}, residual{}, worst{};
+    Rows* row = nullptr;
+    Run* run = nullptr;
+    unsigned cell = 0;
+    bool ended = false;   ///< the pass
+    bool inside = false;  ///< of the run: what follows is that of its cells up to this one
+    Four m00{}, m01{}, m11{}, a0{}, a1{}, d0{}, d1{};
+    double diag = 0, side = 0, side_mu = 0;
+    Elimination band;
+  };
+
+  Rows* fill_rows(const Run& run, unsigned cell, Rows* row);
+  Task<bool> fill_rows(Work& work);
+  void begin_pass(bool first, double mu, double least);
+  unsigned rows(unsigned most);
+  Task<bool> all_rows(Work& work);
+  Sums sums() const;
+  int64_t cost_of(unsigned cells) const;
+  void begin(const Mesh& mesh, bool again);
   double roots(unsigned k);
   void find_time();
   bool step(double mu);
@@ -137,6 +167,7 @@ class TimeLaw {
   Caps cap_[kMaxCells];
   unsigned char in_cell_[kMaxCells];  ///< axes that have rows there
   Rows row_[kMaxAxes * kMaxCells];    ///< of these, cell by cell
+  Pass pass_;
 };
 
 }  // namespace nc::optimal

@@ -4,20 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/optimal/peaks.hpp"
 #include "motion/optimal/profile.hpp"
 
 namespace nc::optimal {
 namespace {
 
-/// Where a law is not found at once: slower to begin with, with other cells, and shorter.
-struct Attempt {
-  double guess;
-  unsigned cells;
-  double period;  ///< of the one asked for
-};
-constexpr Attempt kAttempts[] = {
-    {0.85, kMaxCells, 1}, {0.4, kMaxCells, 0.7}, {0.7, kMaxCells / 2, 0.5}, {0.3, kMaxCells / 2, 1.2}};
 constexpr double kSpare = 1.3;
 constexpr double kFiner = 4;        ///< a short path from rest to rest has cells of this part, which it gains some percent by
 constexpr double kFinerAgain = 2;   ///< the same where a law was not found
@@ -34,6 +25,9 @@ constexpr double kAtEnd = 1e-10;     ///< mm: the same
 constexpr double kEnds = 1e-4;       ///< of the distance of two looks
 constexpr double kLongestPhases = 2;  ///< s, of a law in phases
 constexpr unsigned kPhaseLooks = 8;  ///< at a phase, for every 5 ms and piece
+constexpr unsigned kAtOnce = 8;      ///< cells, then others may have their turn
+// Instructions: of the look at a cell for each axis, on a cubic and on another curve, of a look at a phase for each axis, and of a speed.
+constexpr int64_t kCubicCost = 700, kCurveCost = 20000, kPhaseCost = 60, kPhaseCurveCost = 500, kSpeedCost = 500;
 
 }  // namespace
 
@@ -192,9 +186,9 @@ void Windows::lower_caps(unsigned k, double times) {
 }
 
 /// Where a cell uses more than a limit between the rows, it may use less of it. @return the largest share.
-NC_FOR_WIDE_VECTORS double Windows::tighten() {
+NC_FOR_WIDE_VECTORS double Windows::tighten(unsigned from, unsigned to) {
   double worst = 0;
-  for (unsigned k = 0; k < law_.cells; ++k) {
+  for (unsigned k = from; k < to; ++k) {
     if (k > 0 && mesh_.level[k - 1] && mesh_.level[k] && mesh_.level[k + 1]) continue;  // the mesh has looked at it
     const Excess share = excess(k);
     worst = std::max({worst, share.acceleration, share.jerk, share.velocity});
@@ -206,148 +200,206 @@ NC_FOR_WIDE_VECTORS double Windows::tighten() {
   return worst;
 }
 
+int64_t Windows::look_cost(unsigned k) const {
+  return limits_.axis_count * (piece_of(k).curve != nullptr ? kCurveCost : kCubicCost);
+}
+
+Task<double> Windows::tighten(Work& work) {
+  double worst = 0;
+  for (unsigned k = 0; k < law_.cells;) {
+    const unsigned from = k;
+    int64_t cost = 0;
+    for (; k < law_.cells && k < from + kAtOnce && cost < kCurveCost; ++k) cost += look_cost(k);
+    worst = std::max(worst, tighten(from, k));
+    co_await work.pause(cost);
+  }
+  co_return worst;
+}
+
 /// The law of the mesh, with less of the limits where it uses more than all of them.
-bool Windows::corrected() {
+Task<bool> Windows::corrected(Work& work) {
   for (unsigned n = 0; n < kTightened; ++n) {
-    time_law_.solve(mesh_, limits_, n > 0, &law_, steps_);
+    const bool solved = co_await time_law_.solve(work, mesh_, limits_, n > 0, &law_, steps_);
     iterations_ += law_.iterations;
     solved_ += mesh_.cells;
-    if (!law_.ok) return false;
-    const double share = tighten();
-    if (!(share < HUGE_VAL)) return false;  // a cell that is not gone through
-    if (!(share > kExcess)) return true;
+    if (!solved) co_return false;
+    const double share = co_await tighten(work);
+    if (!(share < HUGE_VAL)) co_return false;  // a cell that is not gone through
+    if (!(share > kExcess)) co_return true;
   }
-  return false;
+  co_return false;
+}
+
+/// What was asked for, no farther than the mesh goes.
+MeshRequest Windows::same_way() const {
+  MeshRequest same = request_;
+  double length = 0;
+  for (unsigned k = 0; k < mesh_.cells; ++k) length += mesh_.h[k];
+  same.reach = std::min(same.reach, length);
+  return same;
 }
 
 /// The law takes no longer than the one that is known over the same way. That one need not be made where the law is as fast as the estimate that
 /// the cells go by, which knows of no way up and down between neighbouring places; where there is none, no more than a few times as long.
-bool Windows::soon_enough() {
-  if (law_.seconds <= kLonger * mesher_.least_seconds()) return true;
-  MeshRequest same = request_;
-  double length = 0;
-  for (unsigned k = 0; k < law_.cells; ++k) length += mesh_.h[k];
-  same.reach = std::min(same.reach, length);
-  if (known_.find(same, limits_, &phases_) && known_.whole()) return law_.seconds <= kLonger * known_.seconds();
-  return law_.seconds <= kMuchLonger * mesher_.least_seconds();
+Task<bool> Windows::soon_enough(Work& work) {
+  if (law_.seconds <= kLonger * mesher_.least_seconds()) co_return true;
+  const MeshRequest same = same_way();
+  const bool found = co_await known_.find(work, same, limits_, &phases_);
+  if (found && known_.whole()) co_return law_.seconds <= kLonger* known_.seconds();
+  co_return law_.seconds <= kMuchLonger* mesher_.least_seconds();
+}
+
+/// A state of a law in phases, `step` seconds behind the last one that was looked at.
+bool Windows::phase_keeps_limits(const MeshRequest& request, const LineState& s, double jerk, double step, PhaseLook* look) const {
+  for (; look->piece + 1 < request.count && s.s > look->begun + request.at(look->piece).length; look->goes_on = false)
+    look->begun += request.at(look->piece++).length;
+  const Piece& p = request.at(look->piece);
+  CurvePoint q;
+  derivatives(p, std::clamp(s.s - look->begun, 0.0, p.length), limits_.axis_count, &q);
+  if (!(s.v >= -kTurning)) return false;
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    Rates& last = look->last[i];
+    const double most = velocity_of(p, limits_, i), a = q.d1[i] * s.a + q.d2[i] * s.v * s.v,
+                 j = q.d1[i] * jerk + 3 * q.d2[i] * s.v * s.a + q.d3[i] * s.v * s.v * s.v;
+    if (most > 0 && !(std::fabs(q.d1[i] * s.v) <= kExcess * most)) return false;
+    if (!(std::fabs(a) * per_acceleration_[i] <= kExcess * acceleration_share(p))) return false;
+    if (!(std::fabs(j) * per_jerk_[i] <= kExcess * jerk_share(p))) return false;
+    if (look->goes_on && (j > 0) != (last.j > 0) && !(peaks_between(last, {a, j}, step).a * per_acceleration_[i] <= kExcess * acceleration_share(p)))
+      return false;
+    last = {a, j};
+  }
+  return true;
 }
 
 /// The law in phases, at some places of every 5 ms and of each piece that it lies on.
-bool Windows::phases_keep_limits(const MeshRequest& request) const {
+Task<bool> Windows::phases_keep_limits(Work& work, const MeshRequest& request) {
   LineState from = phases_.start();
-  unsigned piece = request.from.piece;
-  double begun = -request.from.x;
-  CurvePoint q;
-  Rates last[kMaxAxes];
+  PhaseLook look;
+  look.piece = request.from.piece;
+  look.begun = -request.from.x;
   for (unsigned k = 0; k < phases_.count(); ++k) {
     const Phase& phase = phases_.phase(k);
     const LineState end = from.behind(phase.jerk, phase.seconds);
     unsigned pieces = 1;
-    double edge = begun;
-    for (unsigned n = piece; n + 1 < request.count && (edge += request.at(n).length) < end.s; ++n) ++pieces;
+    double edge = look.begun;
+    for (unsigned n = look.piece; n + 1 < request.count && (edge += request.at(n).length) < end.s; ++n) ++pieces;
     const unsigned looks = kPhaseLooks * (pieces + static_cast<unsigned>(std::min(phase.seconds / period_, 1000.0)));
     const double step = phase.seconds / (looks + 2 * kEnds);
     for (unsigned n = 0; n <= looks; ++n) {  // hardly inside of its ends, where pieces may meet
-      const LineState s = from.behind(phase.jerk, step * (n + kEnds));
-      bool goes_on = n > 0;  // from the last look in one phase on one piece, so nothing has jumped
-      for (; piece + 1 < request.count && s.s > begun + request.at(piece).length; goes_on = false) begun += request.at(piece++).length;
-      const Piece& p = request.at(piece);
-      derivatives(p, std::clamp(s.s - begun, 0.0, p.length), limits_.axis_count, &q);
-      if (!(s.v >= -kTurning)) return false;
-      for (unsigned i = 0; i < limits_.axis_count; ++i) {
-        const double most = velocity_of(p, limits_, i), a = q.d1[i] * s.a + q.d2[i] * s.v * s.v,
-                     j = q.d1[i] * phase.jerk + 3 * q.d2[i] * s.v * s.a + q.d3[i] * s.v * s.v * s.v;
-        if (most > 0 && !(std::fabs(q.d1[i] * s.v) <= kExcess * most)) return false;
-        if (!(std::fabs(a) * per_acceleration_[i] <= kExcess * acceleration_share(p))) return false;
-        if (!(std::fabs(j) * per_jerk_[i] <= kExcess * jerk_share(p))) return false;
-        if (goes_on && (j > 0) != (last[i].j > 0) && !(peaks_between(last[i], {a, j}, step).a * per_acceleration_[i] <= kExcess * acceleration_share(p)))
-          return false;
-        last[i] = {a, j};
-      }
+      look.goes_on = n > 0;
+      if (!phase_keeps_limits(request, from.behind(phase.jerk, step * (n + kEnds)), phase.jerk, step, &look)) co_return false;
+      co_await work.pause(limits_.axis_count * (request.at(look.piece).curve != nullptr ? kPhaseCurveCost : kPhaseCost));
     }
     from = end;
   }
-  return std::fabs(from.s - phases_.distance()) <= kAtEnd && std::fabs(from.v) <= kTurning;
+  co_return std::fabs(from.s - phases_.distance()) <= kAtEnd&& std::fabs(from.v) <= kTurning;
 }
 
-bool Windows::phases_to(const MeshRequest& request, const Limits& limits) {
+Task<bool> Windows::phases_to(Work& work, const MeshRequest& request, const Limits& limits) {
   set_limits(limits);
   for (const double share : kPhaseShares) {
-    if (!phases_.find(request, limits_, share)) {
+    const bool found = co_await phases_.find(work, request, limits_, share);
+    if (!found) {
       if (request.from_rest) continue;
-      return false;  // with less of the limits there is none, too
+      co_return false;  // with less of the limits there is none, too
     }
-    if (phases_keep_limits(request)) return phases_.seconds() <= kLongestPhases || rest_earlier(request, share);
+    const bool kept = co_await phases_keep_limits(work, request);
+    if (!kept) continue;
+    if (phases_.seconds() <= kLongestPhases) co_return true;
+    const bool rests = co_await rest_earlier(work, request, share);
+    co_return rests;
   }
-  return false;
+  co_return false;
 }
 
-unsigned Windows::leaves_at(const MeshRequest& request, const Limits& limits) {
-  return known_.find(request, limits, &phases_) && !known_.rests() ? known_.leaves_at() : kNone;
+Task<unsigned> Windows::leaves_at(Work& work, const MeshRequest& request, const Limits& limits) {
+  const bool found = co_await known_.find(work, request, limits, &phases_);
+  co_return found && !known_.rests() ? known_.leaves_at() : kNone;
 }
 
 /// A plan is changed between cells, and there are so many of them at most: those of a law that takes hours would take seconds each, and an
 /// override that is raised meanwhile would wait for the end of one. So it rests earlier, and what is kept of it is what comes before
 /// that stop.
-bool Windows::rest_earlier(const MeshRequest& request, double share) {
+Task<bool> Windows::rest_earlier(Work& work, const MeshRequest& request, double share) {
   MeshRequest nearer = request;
   nearer.reach = phases_.way_after(kLongestPhases);
-  if (!phases_.find(nearer, limits_, share) || !phases_keep_limits(nearer)) return phases_.find(request, limits_, share);
+  bool found = co_await phases_.find(work, nearer, limits_, share);
+  if (found) found = co_await phases_keep_limits(work, nearer);
+  if (!found) {
+    found = co_await phases_.find(work, request, limits_, share);
+    co_return found;
+  }
   phases_.ends_early();
-  return true;
+  co_return true;
 }
 
 /// The law of cells that begins with the one that is known: where feeds of several sizes lie side by side, what the estimate gives breaks
 /// limits so many times that the solver never comes back from there.
-bool Windows::from_phases() {
+Task<bool> Windows::from_phases(Work& work) {
   request_.guess = kAttempts[0].guess;
   request_.most = most_;
   request_.period = period_;
-  mesher_.build(request_, limits_, &mesh_);
-  if (mesh_.cells == 0) return false;
-  MeshRequest same = request_;
-  double length = 0;
-  for (unsigned k = 0; k < mesh_.cells; ++k) length += mesh_.h[k];
-  same.reach = std::min(same.reach, length);
-  if (!known_.find(same, limits_, &phases_) || known_.rests() || !known_.whole()) return false;
+  co_await mesher_.build(work, request_, limits_, &mesh_);
+  if (mesh_.cells == 0) co_return false;
+  const MeshRequest same = same_way();
+  const bool found = co_await known_.find(work, same, limits_, &phases_);
+  if (!found || known_.rests() || !known_.whole()) co_return false;
   double u = 0;
   for (unsigned k = 0; k < mesh_.cells; ++k) {
     const double away = request_.from_rest ? 1 : std::min(1.0, k / kGentle), share = 1 - (1 - kOfPhases) * away * away * (3 - 2 * away);
     mesh_.guess[k] = std::max(share * known_.squared_speed(u + 0.5 * mesh_.h[k]), 1e-8);
     u += mesh_.h[k];
+    co_await work.pause(kSpeedCost);
   }
   std::fill(mesh_.level, mesh_.level + mesh_.cells, false);
   mesh_.levels = 0;
-  return corrected() && soon_enough();
+  const bool taken = co_await take(work);
+  co_return taken;
+}
+
+/// The cells of an attempt; those of a short path from rest to rest are finer.
+Task<bool> Windows::lay_cells(Work& work, const Attempt& attempt, bool first) {
+  request_.guess = attempt.guess;
+  request_.most = std::min(attempt.cells, most_);
+  request_.period = period_ * attempt.period;
+  co_await mesher_.build(work, request_, limits_, &mesh_);
+  const double finer = std::min(first ? kFiner : kFinerAgain, kOfMost * request_.most / (mesh_.cells + 1));
+  if (!(request_.from_rest && request_.count > 1 && mesher_.whole() && finer > 1)) co_return true;
+  const double plain = request_.period;
+  request_.period /= finer;
+  co_await mesher_.build(work, request_, limits_, &mesh_);
+  if (mesh_.cells == 0 || !mesher_.whole()) {  // too many of them
+    request_.period = plain;
+    co_await mesher_.build(work, request_, limits_, &mesh_);
+  }
+  co_return true;
+}
+
+/// The law of the mesh, if it keeps the limits and does not crawl.
+Task<bool> Windows::take(Work& work) {
+  const bool found = co_await corrected(work);
+  if (!found) co_return false;
+  const bool soon = co_await soon_enough(work);
+  co_return soon;
 }
 
 /// A law that keeps the limits everywhere; false when none was found.
-bool Windows::solve(unsigned tries) {
+Task<bool> Windows::solve(Work& work, unsigned tries) {
   for (unsigned t = 0; t < tries; ++t) {
-    const Attempt& attempt = kAttempts[t];
-    request_.guess = attempt.guess;
-    request_.most = std::min(attempt.cells, most_);
-    request_.period = period_ * attempt.period;
-    mesher_.build(request_, limits_, &mesh_);
-    const double finer = std::min(t == 0 ? kFiner : kFinerAgain, kOfMost * request_.most / (mesh_.cells + 1));
-    if (request_.from_rest && request_.count > 1 && mesher_.whole() && finer > 1) {
-      const double plain = request_.period;
-      request_.period /= finer;
-      mesher_.build(request_, limits_, &mesh_);
-      if (mesh_.cells == 0 || !mesher_.whole()) {  // too many of them
-        request_.period = plain;
-        mesher_.build(request_, limits_, &mesh_);
-      }
-    }
-    if (corrected() && soon_enough()) return true;
+    co_await lay_cells(work, kAttempts[t], t == 0);
+    bool taken = co_await take(work);
+    if (taken) co_return true;
     if (mesh_.levels > 0) {
       std::fill(mesh_.level, mesh_.level + mesh_.cells, false);
       mesh_.levels = 0;
-      if (corrected() && soon_enough()) return true;
+      taken = co_await take(work);
+      if (taken) co_return true;
     }
-    if (t == 0 && from_phases()) return true;
+    if (t > 0) continue;
+    taken = co_await from_phases(work);
+    if (taken) co_return true;
   }
-  return false;
+  co_return false;
 }
 
 /// What of the law is kept: where its stop at the end has slowed it, the next one will be faster.
@@ -361,33 +413,36 @@ void Windows::settle() {
   keep_ = better_start(keep_, [this](unsigned k) { return law_.slope[k]; });
 }
 
-bool Windows::law_to(const MeshRequest& request, const Limits& limits, const Goal& goal) {
+Task<bool> Windows::law_to(Work& work, const MeshRequest& request, const Limits& limits, const Goal& goal) {
   request_ = request;
   period_ = goal.period;
   most_ = request.most;
   steps_ = goal.steps;
   set_limits(limits);
-  if (!solve(goal.once ? 1 : sizeof kAttempts / sizeof kAttempts[0])) return false;
+  const bool solved = co_await solve(work, goal.once ? 1 : sizeof kAttempts / sizeof kAttempts[0]);
+  if (!solved) co_return false;
   settle();
-  return true;
+  work.spend(kSpeedCost * (law_.cells - keep_) + kPhaseCost * law_.cells);
+  co_return true;
 }
 
-bool Windows::next() {
-  if (!more_) return false;
-  if (!solve(sizeof kAttempts / sizeof kAttempts[0])) {
+Task<bool> Windows::next(Work& work) {
+  if (!more_) co_return false;
+  const bool solved = co_await solve(work, sizeof kAttempts / sizeof kAttempts[0]);
+  if (!solved) {
     failed_ = true;
     more_ = false;
-    return false;
+    co_return false;
   }
   settle();
-  if (!more_) return true;
+  if (!more_) co_return true;
   request_.from = mesher_.place(keep_);
   request_.from_rest = false;
   request_.first_cells = 0;
   for (unsigned k = keep_; k + 1 < law_.cells && request_.first_cells < kFirstCells; ++k) request_.first_h[request_.first_cells++] = mesh_.h[k];
   request_.b0 = law_.b[keep_];
   request_.slope0 = law_.slope[keep_];
-  return true;
+  co_return true;
 }
 
 }  // namespace nc::optimal

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "motion/optimal/known_law.hpp"
+#include "motion/optimal/peaks.hpp"
 
 namespace nc::optimal {
 
@@ -26,7 +27,7 @@ class Windows {
   /// Pieces from rest to rest. They stay where they are as long as this is used.
   void start(const Piece* piece, unsigned count, const Limits& limits, double period = 0.005);
   /// The next law. False at the end, and when none was found (failed()).
-  bool next();
+  Task<bool> next(Work& work);
   bool failed() const { return failed_; }
 
   /// One law, from the place and the state that the request names to the end of its pieces or as far as its cells reach.
@@ -35,13 +36,13 @@ class Windows {
     bool once = false;  ///< without a second try: the caller has other goals
     unsigned steps = kMaxSteps;  ///< of the solver, for each law
   };
-  bool law_to(const MeshRequest& request, const Limits& limits, const Goal& goal);
+  Task<bool> law_to(Work& work, const MeshRequest& request, const Limits& limits, const Goal& goal);
   /// The law in phases from the same place, which is looked at in the same way.
-  bool phases_to(const MeshRequest& request, const Limits& limits);
+  Task<bool> phases_to(Work& work, const MeshRequest& request, const Limits& limits);
   const PhaseLaw& phases() const { return phases_; }
   /// The place of what is followed (MeshRequest::followed) from which there is a law in phases, the first one that is found; kNone where there is none.
   static constexpr unsigned kNone = ~0u;
-  unsigned leaves_at(const MeshRequest& request, const Limits& limits);
+  Task<unsigned> leaves_at(Work& work, const MeshRequest& request, const Limits& limits);
   /// The last law reaches the end of the pieces (or the reach that was asked).
   bool whole() const { return !more_; }
 
@@ -56,16 +57,36 @@ class Windows {
   unsigned solved() const { return solved_; }          ///< cells of all laws so far
 
  private:
+  /// Where a law is not found at once: slower to begin with, with other cells, and shorter.
+  struct Attempt {
+    double guess;
+    unsigned cells;
+    double period;  ///< of the one asked for
+  };
+  static constexpr Attempt kAttempts[] = {
+      {0.85, kMaxCells, 1}, {0.4, kMaxCells, 0.7}, {0.7, kMaxCells / 2, 0.5}, {0.3, kMaxCells / 2, 1.2}};
   void set_limits(const Limits& limits);
-  bool solve(unsigned tries);
-  bool soon_enough();
-  bool from_phases();
-  bool phases_keep_limits(const MeshRequest& request) const;
-  bool rest_earlier(const MeshRequest& request, double share);
-  bool corrected();
+  Task<bool> solve(Work& work, unsigned tries);
+  Task<bool> lay_cells(Work& work, const Attempt& attempt, bool first);
+  Task<bool> take(Work& work);
+  Task<bool> soon_enough(Work& work);
+  MeshRequest same_way() const;
+  Task<bool> from_phases(Work& work);
+  /// The place on the path of a look at a law in phases, and what was seen at the last one.
+  struct PhaseLook {
+    unsigned piece = 0;
+    double begun = 0;
+    bool goes_on = false;  ///< from the last look in one phase on one piece, so nothing has jumped
+    Rates last[kMaxAxes];
+  };
+  bool phase_keeps_limits(const MeshRequest& request, const LineState& s, double jerk, double step, PhaseLook* look) const;
+  Task<bool> phases_keep_limits(Work& work, const MeshRequest& request);
+  Task<bool> rest_earlier(Work& work, const MeshRequest& request, double share);
+  Task<bool> corrected(Work& work);
   void settle();
   double stopping_time() const;
-  double tighten();
+  Task<double> tighten(Work& work);
+  double tighten(unsigned from, unsigned to);
   void lower_caps(unsigned cell, double times);
   struct Excess {
     double acceleration = 0, jerk = 0, velocity = 0;
@@ -76,6 +97,7 @@ class Windows {
   Excess excess(unsigned cell) const;
   Excess excess_on_curve(unsigned cell, const Moments& m) const;
   double peak_acceleration(unsigned cell, const Moments& m) const;
+  int64_t look_cost(unsigned cell) const;
 
   MeshRequest request_;
   Limits limits_;

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ways to rest of the plan: the shortest one that is found, from the first place from which there is one.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "motion/optimal/optimal_planner.hpp"
+
+namespace nc::optimal {
+namespace {
+
+constexpr double kPeriod = 0.005;      ///< s, of a cell
+constexpr double kFarther[] = {1.004, 1.05, 1.15, 1.35, 1.8, 2.7, 4, 8};  ///< of the distance that a stop takes on a line
+constexpr double kFartherPhases[] = {1.02, 1.2, 1.6, 2.5, 4, 8};  ///< the same for laws in phases
+constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
+constexpr double kHardlyLonger = 3;    ///< times as long as a stop on a line
+constexpr unsigned kStopStarts = 24;   ///< cells behind which such a law is looked for, one after the other
+constexpr unsigned kSolvedStops[] = {1, 4};  ///< of these, where the solver looks for one, too
+constexpr unsigned kNearer = 4;        ///< halvings between one that is too short and one that is not
+constexpr unsigned kStopSteps = 18;    ///< of the solver, after which there is none so short
+constexpr double kStopPeriod = 0.5;    ///< of the cells of other laws: in a bend that takes all there is, a stop begins between them
+constexpr double kCloseStops = 1.02;   ///< within that distances are not worth one
+// Instructions: of a stop on a straight line, and of a record that is looked at.
+constexpr int64_t kLineCost = 15000, kRecordCost = 20;
+
+}  // namespace
+
+/// What the axes allow along the path at a place.
+OptimalPlanner::Along OptimalPlanner::along(const Start& start) const {
+  const Piece& p = store_.piece_at(start.piece);
+  const CurvePoint q = evaluate(p, std::min(start.x, p.length), limits_.axis_count);
+  Along most{HUGE_VAL, HUGE_VAL};
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    const double d = std::fabs(q.d1[i]);
+    if (most.acceleration * d > limits_.acceleration[i]) most.acceleration = limits_.acceleration[i] / d;
+    if (most.jerk * d > limits_.jerk[i]) most.jerk = limits_.jerk[i] / d;
+  }
+  return most;
+}
+
+/// Length and time of a stop on the straight line ahead.
+double OptimalPlanner::stopping_distance(const Start& start, double* seconds) const {
+  const auto [a, j] = along(start);
+  if (!(a < HUGE_VAL) || !(j < HUGE_VAL)) return 0;
+  // As if the acceleration had been 0 for once: |start.a| / j ago, or as long ahead.
+  const double t = std::fabs(start.a) / j, v = start.v + 0.5 * start.a * start.a / j;
+  const double time = v >= a * a / j ? v / a + a / j : 2 * std::sqrt(v / j);
+  const double whole = 0.5 * v * time;
+  if (start.a > 0) {
+    *seconds = time + t;
+    return whole + t * (start.v + t * (start.a / 2 - t * j / 6));
+  }
+  *seconds = std::max(time - t, 0.2 * time);
+  return std::max(whole - t * (v - t * t * j / 6), 0.05 * whole);
+}
+
+/// The way to rest of the solver that ends the soonest: ever longer ones until there is one, and then those between the last two.
+Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double distance, double most, double seconds) {
+  const double period = kStopPeriod * std::min(kPeriod, seconds / 14);
+  double none = distance, some = 0;
+  for (const double farther : kFarther) {
+    const double reach = std::min(distance * farther, most);
+    if (!(reach > none)) break;
+    const bool found = co_await one_law(work, start, reach, nullptr, true, period, kStopSteps);
+    if (found) {
+      some = reach;
+      break;
+    }
+    none = reach;
+  }
+  if (!(some > 0)) co_return false;
+  bool last = true;
+  for (unsigned n = 0; n < kNearer && some > kCloseStops * none; ++n) {
+    const double reach = std::sqrt(none * some);
+    last = co_await one_law(work, start, reach, nullptr, true, period, kStopSteps);
+    (last ? some : none) = reach;
+  }
+  if (!last) last = co_await one_law(work, start, some, nullptr, true, period, kStopSteps);
+  co_return last;
+}
+
+/// The shortest way to rest that is found, shorter than `most`.
+Task<bool> OptimalPlanner::stop_law(Work& work, const Start& start, double most, bool closed) {
+  double seconds = 0;
+  const double distance = stopping_distance(start, &seconds);
+  no_room_ = false;
+  if (!(distance > 0)) co_return false;
+  const bool on_a_line = find_line_stop(start, most);
+  co_await work.pause(kLineCost);
+  if (on_a_line) {
+    found_ = Found::line;
+    co_return true;
+  }
+  found_ = Found::cells;
+  if (!closed && seconds > kAtOnce) {
+    const bool found = co_await shortest_stop(work, start, distance, most, seconds);
+    if (found) co_return true;
+  }
+  if (!closed && distance * *std::rbegin(kFarther) > most) no_room_ = ahead_of_end(start) < kHardlyLonger * seconds + kAtOnce;
+  found_ = Found::phases;
+  for (const double farther : kFartherPhases) {
+    const double reach = distance * farther;
+    if (reach > most) break;
+    const bool found = co_await phase_law(work, start, reach);
+    if (found) co_return true;
+  }
+  co_return false;
+}
+
+/// Seconds of the chain behind a place of it.
+double OptimalPlanner::ahead_of_end(const Start& start) const {
+  return start.fresh ? 0 : chain_end_[chain_.last & store_.cell_mask] - chain_end_[start.after & store_.cell_mask];
+}
+
+/// Limits under which the feed does not matter on a way down from `start`: what is faster than it, is so already.
+Limits OptimalPlanner::unbound(const Start& start) const {
+  Limits l = limits_;
+  const Piece& p = store_.piece_at(start.piece);
+  const double most = 1.02 * (start.v + (start.a > 0 ? 0.5 * start.a * start.a / along(start).jerk : 0));
+  Scales& by = l.scale;
+  by.rapid = 1;
+  by.feed = std::max(by.feed, chain_.scale.feed);
+  switch (p.by) {
+    case FeedBy::constant: return l;
+    case FeedBy::signals: by.skip_feed = std::max(feed_of(p, l), most); return l;
+    case FeedBy::spindle: by.turns = std::max({by.turns, chain_.scale.turns, most / p.feed}); return l;
+    case FeedBy::turns: by.turns = std::max({by.turns, chain_.scale.turns, by.turns > 0 ? 0.0 : 1.0}); break;
+    case FeedBy::digit: by.pulses[p.digit.digit] = HUGE_VAL; break;
+    case FeedBy::override: break;
+  }
+  if (p.feed < HUGE_VAL && feed_of(p, l) < most) {
+    by.feed = 1;
+    by.feed = most / feed_of(p, l);
+  }
+  return l;
+}
+
+/// Where the plan uses all of the limits no way to rest may begin: one from one of the next cells, of the solver behind few of them and in
+/// closed form behind each. In front of a rest of the path nothing is to be done.
+Task<bool> OptimalPlanner::stop_later(Work& work, const Start& from) {
+  Start start = from;
+  for (unsigned n = 0; n < kStopStarts; ++n) {
+    const CellIndex next = chain_next_[start.after & store_.cell_mask];
+    if (next == chain_.last || next == kNoCell) co_return false;
+    start = behind(next);
+    if (start.from_rest) {
+      offer_.rests = start.after;
+      co_return false;
+    }
+    const bool closed = std::find(std::begin(kSolvedStops), std::end(kSolvedStops), n) == std::end(kSolvedStops);
+    const bool stopped = co_await stop_there(work, start, closed);
+    if (stopped) co_return true;
+  }
+  co_return false;
+}
+
+/// Offers the shortest way to rest, if there is one shorter than the chain. `closed`: of those in closed form.
+Task<bool> OptimalPlanner::stop_there(Work& work, const Start& start, bool closed) {
+  const Limits now = limits_;
+  limits_ = unbound(start);
+  const bool found = co_await stop_law(work, start, 0.99 * (chain_.u - start.u), closed);
+  limits_ = now;
+  if (!found) co_return false;
+  const Followed* const chain = follow(start);
+  if (chain != nullptr && !(law_seconds() < chain->end.seconds)) {  // it comes to rest no later by itself
+    no_room_ = true;
+    co_return false;
+  }
+  offer_first_ = write_;
+  next_chain_ = {};
+  Start end;
+  const bool copied = co_await copy_law(work, start, &end);
+  if (!copied) co_return false;
+  next_chain_.last = next_chain_.keep = end.after;
+  next_chain_.piece = end.piece;
+  next_chain_.x = end.x;
+  next_chain_.u = end.u;
+  offer(start, true);
+  co_return true;
+}
+
+/// Single block has been switched on: to the first end of a block that can be reached at rest.
+Task<bool> OptimalPlanner::stop_at_block(Work& work, const Following& f, const Start& start) {
+  double seconds = 0;
+  const double distance = stopping_distance(start, &seconds);
+  for (const double farther : kFarther) {
+    const double end = next_block_end(start.u + distance * farther, f.tail);
+    co_await work.pause(kRecordCost * (builder_.taken() - f.tail));
+    if (!(end < chain_.u)) {
+      chain_.block_rests = true;  // the chain itself ends before; what comes behind it rests
+      co_return false;
+    }
+    const bool done = co_await extend(work, f, start, end - start.u, nullptr);
+    if (done) co_return true;
+  }
+  co_return false;
+}
+
+}  // namespace nc::optimal
