@@ -238,11 +238,9 @@ TEST(Hx, ASubProgramIsRunFromQToR) {  // 2.4.3, the printed program
 
 TEST(Hx, FourSubProgramsStandInOneAnother) {  // 2.4.1; 14.1.7 (5): eight levels with macros
   const auto nest = [](unsigned levels, const char* call) {
-    Bench bench(NC_DIALECT_HX);
-    std::string text;
+    std::string text = "#100=0\nM98 P101\nM30\n";
     for (unsigned i = 1; i <= levels; ++i) text += "O" + std::to_string(100 + i) + "\n" + (i < levels ? call + std::to_string(101 + i) : "#100=#100+1") + "\nM99\n";
-    bench.add("O100.nc", text);
-    return bench.run("#100=0\nM98 P101\nM30");
+    return hx(text);
   };
   EXPECT_EQ(nest(4, "M98 P").alarm, "");
   EXPECT_EQ(nest(5, "M98 P").alarm, "F_82021");

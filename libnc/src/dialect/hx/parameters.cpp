@@ -63,6 +63,11 @@ constexpr ParameterRow kNumbers[] = {
 
 constexpr ParameterPlaces kPlaces = places_of(kNumbers);
 
+// 14.2.3: the manual has it so without a parameter, and no host is told so of a family.
+constexpr ParameterName kNames[] = {
+    {"power_off_clears_common", P::power_off_clears_common, 0, 0, nullptr, "0, 1", "power off clears #100 to #199 (in ncrtd)", "14.2.3"},
+};
+
 // What other families have a parameter for and this one does not.
 constexpr FixedParameter kFixed[] = {
     {P::tool_memory_type, 2},         // 13.1.2: H and D, a column each
@@ -80,6 +85,7 @@ constexpr Table<T> table(const T (&rows)[count]) {
 constinit const FamilyParameters kParameters = {
     .numbers = table(kNumbers),
     .places = &kPlaces,
+    .names = table(kNames),
     .fixed = table(kFixed),
     .arc_tolerance_mm = 0.01,     // docs/decisions.md
     .checks_interference = true,  // 13.2.2
