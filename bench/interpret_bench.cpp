@@ -32,6 +32,18 @@ std::string calls(unsigned turns) {
   return "G21 G90 G94\n#100=0\nWHILE [#100 LT " + std::to_string(turns) + "] DO1\nG65 P9000 A1. B2.\n#100=#100+1\nEND1\nM30\nO9000\nM99\n";
 }
 
+/// Peck cycles: `holes` holes with ten cuts each. A cut is three strokes (down, out, down to where it left off).
+constexpr unsigned kCuts = 10, kStrokesOfHole = 2 + 3 * kCuts - 1;
+std::string pecks(unsigned holes) {
+  std::string text = "G21 G90 G94 F600\nG0 X0 Y0 Z5.\nG99 G83 Z-10. R1. Q1.1 L0\n";
+  char line[64];
+  for (unsigned i = 0; i < holes; ++i) {
+    std::snprintf(line, sizeof line, "X%.3f Y%.3f\n", 1.27 * (i % 250), 1.27 * (i / 250));
+    text += line;
+  }
+  return text + "G80\nM30\n";
+}
+
 class Control {
  public:
   Control() {
@@ -69,10 +81,19 @@ void measure(benchmark::State& state, const std::string& text) {
 }
 
 void lines(benchmark::State& state) { measure(state, surface(100000)); }
+/// Strokes of fixed cycles per second.
+void strokes(benchmark::State& state) {
+  constexpr unsigned kHoles = 4000;
+  const std::string text = pecks(kHoles);
+  Control control;
+  for (auto _ : state) control.run(text);
+  state.SetItemsProcessed(static_cast<int64_t>(state.iterations()) * kHoles * kStrokesOfHole);
+}
 void macro_blocks(benchmark::State& state) { measure(state, macro_loop(20000)); }
 void macro_calls(benchmark::State& state) { measure(state, calls(20000)); }
 
 BENCHMARK(lines)->Unit(benchmark::kMillisecond);
+BENCHMARK(strokes)->Unit(benchmark::kMillisecond);
 BENCHMARK(macro_blocks)->Unit(benchmark::kMillisecond);
 BENCHMARK(macro_calls)->Unit(benchmark::kMillisecond);
 

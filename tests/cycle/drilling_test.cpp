@@ -174,6 +174,11 @@ TEST(Cycle, AParallelAxisDrillsWhereTheBlockNamesIt) {  // M700 13.1.1, example 
   EXPECT_EQ(path("Z10.\nG81 X5. Z-8. R2. F100").back(), "rapid 5 0 10 0 0 0");
   EXPECT_EQ(path("Z10.\nG81 X5. R2. F100\nZ-8."), path("Z10.\nG81 X5. R2. Z10. F100 L0\nX5. Z2.\nZ-8."));  // neither Z nor W: Z drills
   EXPECT_EQ(path("W10.\nG81 X5. W-8. R2. F100 L0\nG82 X6."), path("W10.\nG82 X6. W-8. R2. F100"));  // note 2: it stays in the mode
+  // Note 2: another axis is for the cancelled state. Z without a code is an axis like any other (13.1.2, N012).
+  EXPECT_EQ(bench.at(0, 0, 0).run("G0 W10.\nG81 X5. W-8. R2. F100\nG82 X6. Z-8.\nG80\nM30").alarm, "P33");
+  EXPECT_EQ(bench.at(0, 0, 0).run("G0 W10.\nG81 X5. W-8. R2. F100\nG18 G82 X6.\nG80\nM30").alarm, "P33");
+  EXPECT_EQ(path("W10.\nG81 X5. W-8. R2. F100\nX6. Z-8.").at(5), "rapid 5 0 -8 10 0 0");
+  EXPECT_EQ(path("W10.\nG81 X5. W-8. R2. F100\nG80\nG82 X6. Z-8.").back(), "rapid 6 0 0 10 0 0");
   EXPECT_EQ(path("Z10. W9.\nG81 X5. Z-8. W7. R2. F100").back(), "rapid 5 0 10 7 0 0");                    // both of the pair: the basic one
   EXPECT_EQ(path("G18 V10.\nG81 X5. V-8. R2. F100").back(), "rapid 5 0 0 0 10 0");
   EXPECT_EQ(path("G18 V10.\nG81 X5. V-8. R2. F100").size(), 5U);
@@ -231,7 +236,9 @@ TEST(Cycle, InPositionWidths) {  // M700 13.1.1, "programmable in-position width
   EXPECT_EQ(widths(m700("G0\nG83 Z-8. R-2. Q4. F100 ,J0.3\nG80\nM30")),
             (Path{"rapid 0 0 -2", "line 0 0 -6 F100", "rapid 0 0 -2", "rapid 0 0 -6", "line 0 0 -8 F100", "rapid 0 0 0 ,0.3"}));
   EXPECT_EQ(widths(m700("G0\nG99 G85 Z-8. R-2. F100 ,J0.3\nG80\nM30")),
-            (Path{"rapid 0 0 -2", "line 0 0 -8 F100", "line 0 0 -2 F100 ,0.3"}));
+            (Path{"rapid 0 0 -2", "line 0 0 -8 F100", "line 0 0 -2 F100"}));  // (e): (4) invalid, (5) no movement
+  EXPECT_EQ(widths(m700("G0\nG76 X1. Z-8. R-2. I1. F100 ,I0.2 ,J0.3\nG80\nM30")),  // "valid only in G81 ..."
+            (Path{"rapid 1 0 0", "rapid 1 0 -2", "line 1 0 -8 F100", "line 2 0 -8 F100", "rapid 2 0 0", "rapid 1 0 0"}));
 }
 
 TEST(Cycle, RangeOfTheInPositionWidths) {  // M700 13.1.1: 0.001 to 999.999 mm, P35
@@ -282,8 +289,17 @@ TEST(Cycle, Alarms) {
   EXPECT_EQ(at_ten("G81 Z-8. R2. F1 L10000\nM30").alarm, "P35");
   EXPECT_EQ(at_ten("G41 D1 G1 X1. F9\nG81 Z-8. R2.\nM30").alarm, "P155");
   EXPECT_EQ(at_ten("G81 Z-8. R2. F1 L0\nG41 D1 X5.\nM30").alarm, "P155");
-  for (const char* code : {"G84", "G86", "G87", "G88", "G74", "G75", "G76"})
-    EXPECT_NE(at_ten(std::string(code) + " Z-8. R2. F1\nM30").alarm, "") << code;
+  for (const char* code : {"G81", "G82", "G85", "G86", "G87", "G88", "G89", "G76"})
+    EXPECT_EQ(at_ten(std::string(code) + " Z-8. R2.\nM30").alarm, "P62") << code;
+  for (const char* code : {"G83", "G73", "G75"}) {
+    EXPECT_EQ(at_ten(std::string(code) + " Z-8. R2. F100\nM30").alarm, "P33") << code;
+    EXPECT_EQ(at_ten(std::string(code) + " Z-8. R2. Q2. P1\nM30").alarm, "P62") << code;
+  }
+  // G75: the number of the offset, and a circle that is larger than the tool.
+  EXPECT_EQ(at_ten("G75 Z-8. R2. Q2. F100\nM30").alarm, "P170");
+  EXPECT_EQ(at_ten("G75 Z-8. R2. Q2. P999 F100\nM30").alarm, "P170");
+  EXPECT_EQ(Bench().tool(1, 2).at(0, 0, 10).run("G75 Z-8. R2. Q2. P1 F100\nM30").alarm, "P223");
+  EXPECT_EQ(at_ten("G82 Z-8. R2. P-1 F100\nM30").alarm, "P35");
 }
 
 TEST(Cycle, TooManyDigitsOfLAreRefused) { EXPECT_EQ(at_ten("G81 Z-8. R2. F1 L99999\nM30").alarm, "P35"); }

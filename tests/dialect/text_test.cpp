@@ -131,8 +131,8 @@ TEST(AlarmDetail, CodesHaveTheLettersOfTheirFamily) {
     alarm_detail(family, fault, nullptr, text, sizeof text);
     return std::string(text);
   };
-  EXPECT_EQ(sentence({Condition::no_function, -1, 'P', true, 340}), "P34 is not available on this control.");
-  EXPECT_STREQ(alarm_text(family, {Condition::no_function, -1, 'P', true, 340}).code, "P220");
+  EXPECT_EQ(sentence({Condition::no_function, -1, 'P', true, 720}), "P72 is not available on this control.");
+  EXPECT_STREQ(alarm_text(family, {Condition::no_function, -1, 'P', true, 720}).code, "P180");
   EXPECT_EQ(sentence({Condition::words_missing, -1, 'A', true, 3}), "A03 needs a word that is not there.");
   EXPECT_EQ(sentence({Condition::cycle_in_compensation}),
             "Fixed cycles and tool radius compensation exclude each other. Cancel with P80 or P40 first.");
@@ -239,15 +239,15 @@ TEST(PublicTables, ShowEveryRowOnce) {
 TEST(PublicTables, SayWhatAMissingFunctionRaises) {
   nc_function row;
   for (unsigned i = 0; nc_function_row(NC_DIALECT_M700, i, &row) == NC_OK; ++i) {
-    if (std::string(row.code) == "G74") {
+    if (std::string(row.code) == "G77") {
       EXPECT_FALSE(row.supported);
       EXPECT_STREQ(row.alarm, "P180");
       EXPECT_EQ(row.group, 9);
-      EXPECT_STREQ(row.section, "13.1.1");
+      EXPECT_STREQ(row.section, "3.7");
       return;
     }
   }
-  FAIL() << "no G74";
+  FAIL() << "no G77";
 }
 
 TEST(PublicTables, RefuseWhatIsNoDialect) {

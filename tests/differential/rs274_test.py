@@ -9,8 +9,8 @@ rs274 prints four decimals, so the generated numbers have at most four, and end 
 centres of radius arcs, which are no such numbers, are compared to the last digit printed.
 
 With --dialect iso both read the same text: that of before, and programs with what else the family has of RS-274 (IsoMaker): letters of
-either case, blanks in words, expressions, parameters by number and by name, G59.1-G59.3, G10 L2 P0 and L20, G92.1, G43 and G49, G53 with G0 and G1, G73 G83, G90.1 G91.1,
-G93.
+either case, blanks in words, expressions, parameters by number and by name, G59.1-G59.3, G10 L2 P0 and L20, G92.1, G43 and G49, G53 with G0 and G1, G73 G74 G83 G84 G86 G87, G90.1 G91.1,
+G93. What a cycle does to the spindle, and its dwells, stand between the moves and must agree, too.
 
 Exit status 77 (skipped) where rs274 is absent.
 """
@@ -316,16 +316,31 @@ class IsoMaker(Maker):
         self.put("G17")
         self.plane = "G17"
         level = self.random.choice(["G98", "G99"])
-        code = self.random.choice(["G73", "G83"])
+        code = self.random.choice(["G73", "G74", "G83", "G84", "G86", "G87"])
         top = self.at[2]
         r = round(top - self.number(3), 4)       # above and below the tool
         z = round(r - self.random.uniform(1, 6), 4)
         x, y = self.number(20), self.number(20)
         self.absolute = True
-        self.put(f"G90 {level} {code} X{text(x)} Y{text(y)} Z{text(z)} R{text(r)} Q{text(self.random.uniform(0.5, 3))} F200")
+        words = f"X{text(x)} Y{text(y)} Z{text(z)} R{text(r)} F200"
+        if code in ("G73", "G83"):
+            words += f" Q{text(self.random.uniform(0.5, 3))}"
+        else:
+            self.put("M5")
+            self.put("S500 M4" if code == "G74" or (code == "G86" and self.random.random() < 0.5) else "S500 M3")
+            words += f" P{text(self.random.uniform(0, 2))}" if code != "G87" else f" I{text(self.number(2))} J{text(self.number(2))} K{text((r + z) / 2)}"
+        self.put(f"G90 {level} {code} {words}")
         self.put("G80")
         self.at = [x, y, max(top, r) if level == "G98" else r]
         return None
+
+
+SPINDLE = {"START_SPINDLE_CLOCKWISE": "M3", "START_SPINDLE_COUNTERCLOCKWISE": "M4", "STOP_SPINDLE_TURNING": "M5"}
+
+
+def without_stops(moves):
+    """A stop right before the spindle turns again counts for nothing."""
+    return [m for m, after in zip(moves, moves[1:] + [None]) if not (m[0] == "M5" and after is not None and after[0] in ("M3", "M4"))]
 
 
 # ---- the two interpreters: lists of (kind, end, centre or None, turns signed by direction, feed), machine coordinates in mm ----
@@ -338,6 +353,10 @@ def ncsim_moves(ncsim, dialect, setup, path):
     moves = []
     for line in done.stdout.splitlines():
         event = json.loads(line)
+        if event["t"] == "dwell" and "seconds" in event:
+            moves.append(("dwell", [event["seconds"], 0, 0], None, None, None, event["line"]))
+        if event["t"] == "aux" and event["code"] == "M" and event["value"] in (3, 4, 5):
+            moves.append((f"M{event['value']:.0f}", [0.0] * 3, None, None, None, event["line"]))
         if event["t"] != "move":
             continue
         end = [event["machine"][a] for a in AXES]
@@ -368,6 +387,16 @@ def rs274_moves(rs274, path, folder):
             unit = 25.4 if "INCH" in words[0] else 1.0
         elif name == "SELECT_PLANE":
             plane = words[0][-2:]
+        elif name in SPINDLE:
+            if moves and moves[-1][0] == "M5" and SPINDLE[name] != "M5":
+                moves.pop()     # it stops the spindle before it turns it the other way
+            moves.append((SPINDLE[name], [0.0] * 3, None, None, None, 0))
+        elif name == "CHANGE_TOOL" and moves and moves[-1][0] == "M5":
+            moves.pop()         # of M6
+        elif name == "DWELL":
+            moves.append(("dwell", [float(words[0]), 0, 0], None, None, None, 0))
+        elif name == "PROGRAM_END":
+            break
         elif name == "SET_FEED_RATE":
             feed = float(words[0]) * unit
         elif name == "SET_G5X_OFFSET":
@@ -398,6 +427,9 @@ def rs274_moves(rs274, path, folder):
 
 def compare(ours, theirs, tolerance, radius_lines):
     """The first difference as a sentence, or None."""
+    while theirs and theirs[-1][0] == "M5" and (not ours or ours[-1][0] != "M5"):
+        theirs.pop()     # M2 of rs274
+    ours = without_stops(ours)
     for i, (a, b) in enumerate(zip(ours, theirs)):
         where = f"move {i + 1} (line {a[5]})"
         if a[0] != b[0]:

@@ -332,8 +332,49 @@ TEST(IsoMisc, OverridesAreBarredAndAllowed) {  // RS-274/NGC 3.6.5
 
 TEST(IsoMisc, CoolantAndUserCodesGoOut) { EXPECT_EQ(iso("M7 M8\nM9\nM101\nM60\nM30").aux(), "M7 M8 M9 M101 M60 M30"); }
 
+/// Moves, M codes and dwells of a cycle, in order.
+Path strokes(const std::string& text) {
+  Path all;
+  size_t next_move = 0;
+  const Outcome run = iso("G21 G90 F200 S500\nG0 Z10\n" + text + "\nG80\nM2");
+  if (!run.alarm.empty()) return {run.alarm};
+  const Path moves = run.path();
+  for (const Step& step : run.steps) {
+    const nc_item& item = step.item;
+    if (item.kind == NC_ITEM_MOVE) all.push_back(moves[next_move++]);
+    if (item.kind == NC_ITEM_GATE && item.u.gate.kind == NC_GATE_DWELL_SECONDS) all.push_back("dwell " + std::to_string(item.u.gate.value).substr(0, 3));
+    if (item.kind == NC_ITEM_GATE && item.u.gate.kind == NC_GATE_STOP) all.push_back("stop");
+    if (item.kind == NC_ITEM_ACTION && item.u.action.kind == NC_ACTION_M) all.push_back("M" + std::to_string(static_cast<int>(item.u.action.value)));
+  }
+  all.erase(all.begin());  // to Z10
+  all.pop_back();          // M2
+  return all;
+}
+
+TEST(IsoCycles, TapsAndBoresKeepTheDirectionOfTheSpindle) {  // RS-274/NGC 3.5.16.4 to 3.5.16.8, LinuxCNC G74
+  EXPECT_EQ(strokes("M3\nG98 G84 X1 Z-5 R2 P0.5"),
+            (Path{"M3", "rapid 1 0 10", "rapid 1 0 2", "line 1 0 -5 F200", "M4", "dwell 0.5", "line 1 0 10 F200", "M3"}));
+  EXPECT_EQ(strokes("M4\nG99 G74 Z-5 R2"), (Path{"M4", "rapid 0 0 2", "line 0 0 -5 F200", "M3", "line 0 0 2 F200", "M4"}));
+  EXPECT_EQ(strokes("M4\nG98 G86 Z-5 R2 P0.5"),
+            (Path{"M4", "rapid 0 0 2", "line 0 0 -5 F200", "dwell 0.5", "M5", "rapid 0 0 10", "M4"}));
+  EXPECT_EQ(strokes("M3\nG99 G87 Z-5 R2 I1 J2 K-3"),
+            (Path{"M3", "rapid 0 0 2", "rapid 1 2 2", "M5", "M19", "rapid 1 2 -5", "rapid 0 0 -5", "M3", "line 0 0 -3 F200", "line 0 0 -5 F200", "M5", "M19",
+                  "rapid 1 2 -5", "rapid 1 2 2", "rapid 0 0 2", "M3"}));
+  EXPECT_EQ(strokes("M3\nG99 G88 Z-5 R2 P0.5\nX4"),
+            (Path{"M3", "rapid 0 0 2", "line 0 0 -5 F200", "dwell 0.5", "M5", "stop", "M3", "rapid 0 0 2", "rapid 4 0 2", "line 4 0 -5 F200", "dwell 0.5", "M5",
+                  "stop", "M3"}));
+  for (const char* text : {"M4\nG84 Z-5 R2", "M3\nG74 Z-5 R2", "G84 Z-5 R2", "G86 Z-5 R2", "M3\nM5\nG88 Z-5 R2", "G87 Z-5 R2 I1 J1 K1"})
+    EXPECT_EQ(strokes(text), Path{"NC-SPINDLE"}) << text;
+  EXPECT_EQ(strokes("M3\nG87 Z-5 R2 I1 J1"), Path{"NC-WORDS"});
+}
+
+TEST(IsoCycles, TheAxisFollowsThePlane) {  // RS-274/NGC 3.5.16
+  EXPECT_EQ(strokes("G99 G81 X7 Z-5 R2\nG18 X9"),
+            (Path{"rapid 7 0 10", "rapid 7 0 2", "line 7 0 -5 F200", "rapid 7 0 2", "rapid 7 2 2", "rapid 9 2 2", "line 9 -5 2 F200", "rapid 9 2 2"}));
+}
+
 TEST(Iso, WhatIsNotBuiltSaysSo) {
-  for (const char* text : {"G33.1 Z-1 K1", "G38.4 Z1", "G43.2 H1", "G41.1 D1", "G52 X1", "G76 P1", "G84 Z-1 R1", "G86 Z-1 R1", "G96 S100", "G5.2", "G7",
+  for (const char* text : {"G33.1 Z-1 K1", "G38.4 Z1", "G43.2 H1", "G41.1 D1", "G52 X1", "G76 P1", "G96 S100", "G5.2", "G7",
                            "G28.1", "M19", "M50", "M61 Q1", "M62 P1", "M66 P1", "M68 Q1", "M70", "M98 P1", "M99"}) {
     const Outcome run = iso(std::string("G21\n") + text);
     EXPECT_EQ(run.alarm, "NC-NOT-BUILT") << text;

@@ -74,7 +74,8 @@ NC_PARTS(AxisMap, kind, linear, rotary, side, frozen, scale, angle)
 NC_PARTS(MillReturn, feed, plane, feed_mode, plane_axis, letter, moved)
 NC_PARTS(SpindleControl, surface, axis)
 NC_PARTS(Compensation, side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, avoid, axis, radius, vector)
-NC_PARTS(CycleState, kind, drill_axis, has_z, has_r, z, r, z_incremental, r_incremental, q, dwell_s, in_position, initial_level)
+NC_PARTS(CycleState, kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
+         initial_level, tap, synchronous, pitch, return_speed)
 NC_PARTS(NurbsState, first, knots, points, order, axes)
 NC_PARTS(SplineWay, joined, moved, back)
 NC_PARTS(LeftByEnd, feed, motion, feed_mode, any)
@@ -110,10 +111,10 @@ std::map<std::string, Fields> groups_of_state() {
   NC_FIELDS(AppliedLength, applied)
   NC_FIELDS(ModalLife, modal, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled,
             mirror, rotated, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, map, mill, spindle)
-  NC_FIELDS(ModalInProgram, comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, switch_mirror, figure_scaled,
+  NC_FIELDS(ModalInProgram, comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled,
             figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way)
   NC_FIELDS(ProgramLife, end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, control_3003, control_3004)
-  NC_FIELDS(UntilReset, spindle_on, spindle_clamped)
+  NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamped)
   NC_FIELDS(UntilOperatorReset, left_by_end)
   NC_FIELDS(UntilPowerOff, clock_base, clock_shift_s, port_open)
   NC_FIELDS(Derived, special, high_accuracy, modal_call, mapped, work_turned, work_turn_pending)

@@ -61,11 +61,18 @@ typedef enum nc_action_kind {
 typedef enum nc_control_index {
   NC_CONTROL_SUPPRESS = 3003,    /**< `value`: bit 0 no stop of single block, bit 1 FIN is not awaited (M700 13.5.9, #3003) */
   NC_CONTROL_DISABLE = 3004,     /**< `value`: bit 0 no feed hold, bit 1 no override, bit 2 no exact stop (M700 13.5.10, #3004) */
-  NC_CONTROL_TAPPING = 63,       /**< tapping mode G63 begins (`value` 1) or ends (M700 7.11) */
+  NC_CONTROL_TAPPING = 63,       /**< tapping: `value` nc_tapping_bits, 0 = none (M700 7.11, 13.1.1) */
   NC_CONTROL_SURFACE_SPEED = 17, /**< constant surface speed G96: `value` m/min, `bits` bit n = by axis n, 0 = G97 */
   NC_CONTROL_SPINDLE_CLAMP = 92, /**< G92 S Q of the selected spindles: `bits` S, `mask` Q as programmed, r/min; `value` nc_clamp_bits */
   NC_CONTROL_INTERRUPT = 96      /**< macro interrupt: `value` nc_interrupt_bits */
 } nc_control_index;
+
+/** What of tapping is in force, in `value` of NC_CONTROL_TAPPING. */
+typedef enum nc_tapping_bits {
+  NC_TAPPING_MODE = 1,   /**< the mode of M700 7.11: no feed hold, no stop of single block */
+  NC_TAPPING_CYCLE = 2,  /**< a tapping cycle is modal (13.1.1) */
+  NC_TAPPING_STROKES = 4 /**< between R and R again: a feed hold acts behind that */
+} nc_tapping_bits;
 
 /** How speeds are clamped (M700 10.4): bits. */
 typedef enum nc_clamp_bits {

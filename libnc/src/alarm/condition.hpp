@@ -34,7 +34,9 @@ enum class Condition : uint16_t {
   variable_name_twice, call_in_cycle, print_port, parameter_input, no_such_data,
   program_edited, rotation_in_figure, offset_in_figure, offset_arc, machine_in_figure, surface_axis, surface_speed,
   read_failed, program_changed, vendor_function,
-  control_structure, name_without_value, too_many_names, probe_no_contact, call_in_mdi, internal,
+  control_structure, name_without_value, too_many_names, probe_no_contact, call_in_mdi,
+  tap_no_speed, tap_no_pitch, tap_pitch, tap_speed_word, no_holes, hole_angle_zero, drilling_axis_changed,
+  internal,
   count_
 };
 

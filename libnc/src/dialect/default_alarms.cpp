@@ -178,6 +178,13 @@ constexpr AlarmRow kRows[] = {
     {C::name_without_value, "NC-VARIABLE", nullptr},
     {C::too_many_names, "NC-VARIABLE", nullptr},
     {C::probe_no_contact, "NC-PROBE", nullptr},
+    {C::tap_no_speed, "NC-SPINDLE", nullptr},
+    {C::tap_no_pitch, "NC-FEED", nullptr},
+    {C::tap_pitch, "NC-RANGE", nullptr},
+    {C::tap_speed_word, "NC-SPINDLE", nullptr},
+    {C::no_holes, "NC-RANGE", nullptr},
+    {C::hole_angle_zero, "NC-RANGE", nullptr},
+    {C::drilling_axis_changed, "NC-PLANE", nullptr},
     {C::call_in_mdi, "NC-MODE", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };

@@ -114,7 +114,7 @@ constexpr bool ends_data_input(Function f) { return f == Function::data_input_en
 /// What an M code is to the control itself.
 enum class MiscFunction : uint8_t {
   output,                                       ///< goes out and means nothing here
-  spindle_forward, spindle_reverse, spindle_stop, tool_change,   ///< go out, too
+  spindle_forward, spindle_reverse, spindle_stop, tool_change, spindle_oriented,   ///< go out, too
   interrupt_on, interrupt_off,                  ///< as long as no parameter gives another code this meaning; then they are output
   program_stop, optional_stop, program_end,     ///< kept by the control, as the rest
   call_sub, return_sub, call_external,

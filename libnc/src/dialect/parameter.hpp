@@ -140,6 +140,19 @@ enum class Parameter : uint8_t {
   work_turn_vector,            ///< [2]
   work_turn_angle,
   parity_unit,                 ///< [5]
+  tap_check_approach,
+  tap_checks,
+  tap_check_bottom,
+  tap_check_r,
+  tap_synchronous,
+  tap_by_code,
+  tap_to_r,
+  tap_dwell,
+  tap_code,
+  spindle_forward_code,
+  tap_clearance,
+  shift_ignored,
+  shift_minus,
   // of machines and later models, which the manuals only mention
   tenfold,
   print_blanks,

@@ -53,6 +53,9 @@ enum class Role : uint8_t {
   speed_mode, speed_option, accuracy_switch,    ///< value of the high-speed modes, of those of its second code, of the high-accuracy mode
 
   call_end_sequence,                            ///< of a call: the last block that is run
+  // ---- taps and patterns of holes
+  option_tap_control, option_return_speed, tap_ridges,   ///< behind a comma the first two; threads per inch
+  hole_interval, hole_angle, hole_angle_step, hole_columns, hole_interval_2, hole_count,   ///< the interval of a circle is its radius
   count_
 };
 inline constexpr unsigned kRoles = static_cast<unsigned>(Role::count_);

@@ -208,6 +208,12 @@ struct CycleRules {
   /// 13.1.1; DGSHAPE G81).
   bool rises_before_positioning;
   double longest_dwell_ms;  ///< P (M700 13.1.1: eight digits; DGSHAPE: as of the dwell)
+  /// Taps turn the spindle back in front of the dwell, bores let it turn again as before, and both want it turning (RS-274/NGC 3.5.16). Else
+  /// the strokes are those of M700 13.1.1, and it turns forward behind a bore.
+  bool keeps_spindle_direction = false;
+  /// Each block drills along the axis of the plane in force (RS-274/NGC 3.5.16). Else the axis stays as long as the mode does (M700 13.1.1 note
+  /// 2; DGSHAPE has one plane).
+  bool axis_follows_plane = false;
 };
 
 /// Reference positions.

@@ -249,8 +249,10 @@ void Interpolator::states(const nc_inputs& in) {
     }
     return;
   }
-  const bool holds = in.feed_hold && !(disable_ & 1) && !tapping_;  // M700 13.5.10: #3004 bit 0; 7.11 (3)
-  if (holds && state_ == NC_STATE_RUNNING && cutting_thread()) {
+  const bool holds = in.feed_hold && !(disable_ & 1) && (tapping_ & NC_TAPPING_MODE) == 0;  // M700 13.5.10: #3004 bit 0; 7.11 (3)
+  if (holds && state_ == NC_STATE_RUNNING && (tapping_ & NC_TAPPING_STROKES) != 0) {
+    hold_behind_tap_ = true;
+  } else if (holds && state_ == NC_STATE_RUNNING && cutting_thread()) {
     hold_behind_thread_ = true;
   } else if (holds && state_ == NC_STATE_RUNNING && (!hold_behind_thread_ || at_rest())) {
     hold_ = true;
@@ -315,7 +317,8 @@ void Interpolator::give_up() {
   skip_behind_ = 0;
   follower_.give_up();
   moving_ = passing_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = displaced_ = false;
-  hold_behind_thread_ = block_has_thread_ = tapping_ = false;
+  hold_behind_thread_ = hold_behind_tap_ = block_has_thread_ = false;
+  tapping_ = 0;
   by_hand_ = 0;
   fin1_groups_ = 0;
   strobe_ = 0;               // a FIN that comes now is late and completes nothing
@@ -529,7 +532,7 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
                                    : interlock_ && moving_ && state_ == NC_STATE_RUNNING ? NC_CAUSE_INTERLOCK
                                    : index_waits_ || index_lost_                         ? NC_CAUSE_FIN
                                                                                          : cause_);
-  out.tapping = tapping_;
+  out.tapping = tapping_ != 0;
   out.strobe = strobe_;
   out.fin_wait = static_cast<uint16_t>(fin_wait() | held_ | (index_waits_ || index_lost_ ? NC_FIN_WAIT_UNCLAMP : 0));
   out.unclamp = index_.unclamp();

@@ -157,6 +157,7 @@ class Interpolator {
   double feed_of_axes() const NC_RT;
   Done wait(nc_stop_cause cause) NC_RT;
   void mark(const Mark& mark, const nc_inputs& in) NC_RT;
+  void take_tapping(uint8_t bits) NC_RT;
   bool stops_at(const Mark& mark, const nc_inputs& in) const NC_RT;
   void alarm() NC_RT;
   void stop_in(const nc_source& block, BlockSeq behind) NC_RT;
@@ -312,7 +313,8 @@ class Interpolator {
   double thread_origin_ = 0;         ///< turns of the spindle where the segment in execution would have begun at speed
 
   // ---- feed (M700 7)
-  bool tapping_ = false;             ///< between G63 and what ends it
+  uint8_t tapping_ = 0;              ///< nc_tapping_bits in force
+  bool hold_behind_tap_ = false;     ///< feed hold was pressed between R and R again of a tap
   double digit_pulses_[5] = {};      ///< what the handle has made of F1 to F5
 
   // ---- spindles (M700 10.6), and axes that are one (M700 10.5)

@@ -49,7 +49,8 @@ Interpolator::Done Interpolator::execute(const Record& r, const nc_inputs& in) {
       recalculate_ = false;
       interrupt_mode_ = 0;
       interrupt_rest_.forget();
-      interrupt_wanted_ = tapping_ = false;
+      interrupt_wanted_ = hold_behind_tap_ = false;
+      tapping_ = 0;
       suppress_ = disable_ = 0;  // M700 9.1: the end of the program resets
       block_begun_ = false;
       run_.end();
@@ -268,7 +269,7 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
     return Done::yes;
   }
   if ((filter_.active() || s.filter.kind != FilterTimes::Kind::none) && !filters_ready(r)) return alarmed_ ? Done::no : wait(NC_CAUSE_IN_POSITION);
-  if (begins && tapping_ && at_rest() && tap_disturbed(in)) return wait(NC_CAUSE_TAP_SPINDLE);
+  if (begins && tapping_ != 0 && at_rest() && tap_disturbed(in)) return wait(NC_CAUSE_TAP_SPINDLE);
   if ((s.index_axes | s.unclamps) != 0) {
     if (begins && !unclamp_for(s, in)) return Done::no;
     if (law_.s > s.begun) index_.leave(s.index_axes);
@@ -330,7 +331,7 @@ Interpolator::Done Interpolator::action(const Action& a) {
         interrupt_mode_ = mode;
         block_waits_ = true;  // a block that changes this is finished first
       }
-      if (a.index == NC_CONTROL_TAPPING) tapping_ = a.value != 0;
+      if (a.index == NC_CONTROL_TAPPING) take_tapping(static_cast<uint8_t>(code_number(a.value)));
       return Done::yes;
     case NC_ACTION_CURRENT_LIMIT:  // M700 15.6
       if (a.index < kMaxAxes) current_limit_[a.index] = static_cast<uint16_t>(code_number(a.value));
@@ -496,6 +497,16 @@ void Interpolator::mark(const Mark& m, const nc_inputs& in) {
     state_ = NC_STATE_STOPPED;
     cause_ = NC_CAUSE_SINGLE_BLOCK;
   }
+}
+
+/// M700 13.1.1, G84: a hold that came between R and R again acts now.
+void Interpolator::take_tapping(uint8_t bits) {
+  tapping_ = bits;
+  if (!hold_behind_tap_ || (bits & NC_TAPPING_STROKES) != 0) return;
+  hold_behind_tap_ = false;
+  if (state_ != NC_STATE_RUNNING) return;
+  hold_ = true;
+  state_ = NC_STATE_HOLD;
 }
 
 /// But behind a thread.

@@ -33,7 +33,7 @@ bool Interpolator::spindle_reversed(const nc_inputs& in) const {
 void Interpolator::follow_spindles(const nc_inputs& in) {
   losing_ = false;
   // M700 10.6.1, relation (3) to (5): the selection is not to be changed while the spindle cuts a thread. What is in the work goes on.
-  const bool engaged = tapping_ || cutting_thread();
+  const bool engaged = tapping_ != 0 || cutting_thread();
   if (!engaged) {
     const unsigned count = spindles_.count();
     if (count > 1) spindles_.select(static_cast<uint8_t>(in.spindle_select & ((1u << count) - 1)));

@@ -63,9 +63,12 @@ Execution take_g(Interpreter& in, double value) {
     case Function::exact_stop_once: w.exact_stop = true; return Execution::done;
     case Function::macro_modal_off:  // M700 13.5.1: G67 without a modal call in force
       return has_modal_call(in) ? Execution::done : in.raise(Condition::cancel_without_call, Role::code, value);
+    case Function::stroke_check_on:
+      if (w.one_shot != nullptr && w.one_shot->function == Function::holes_on_grid) return Execution::done;  // M700 13.2, G37.1 note 5
+      w.one_shot = row;
+      return Execution::done;
     case Function::macro_modal:
     case Function::macro_every_block:
-    case Function::stroke_check_on:
       w.one_shot = row;  // takes the words of the block though it is modal
       return Execution::done;
     case Function::scaling_on:
@@ -110,6 +113,19 @@ bool may_have_corner(const Interpreter& in) {
   const BlockWords& w = in.words;
   const bool cycle = w.cycle != nullptr || (in.state.cycle.kind != CycleKind::none && w.motion == nullptr);
   return w.one_shot == nullptr && !cycle && (in.state.special & (kSpecialMap | kSpecialSpline)) == 0;
+}
+
+/// M700 13.1.1: ,R of a tap is no corner, and ,S is of a tap alone.
+Execution take_tap_options(Interpreter& in) {
+  BlockWords& w = in.words;
+  const bool control = w.corner == Corner::rounding && in.dialect->addresses.at(Role::option_tap_control) == in.dialect->addresses.at(Role::option_corner_radius);
+  if (!control && !w.has_return_speed) return Execution::done;
+  if (!taps(in)) return w.has_return_speed ? in.raise(Condition::illegal_address, Role::option_return_speed, w.return_speed) : Execution::done;
+  if (!control) return Execution::done;
+  w.has_tap_control = true;
+  w.tap_control = w.corner_raw;
+  w.corner = Corner::none;
+  return Execution::done;
 }
 
 bool calls_sub(const Interpreter& in) {
@@ -177,6 +193,7 @@ Execution gather_words(Interpreter& in) {
   w.counted_feeds = 0;
   w.device = 0;
   w.corner = Corner::none;
+  w.has_tap_control = w.has_return_speed = false;
   w.absolute_at = w.incremental_at = 0;
   const Word* const words = in.block->words.begin();
   const unsigned count = in.block->words.size();
@@ -219,7 +236,12 @@ Execution gather_words(Interpreter& in) {
       w.device = static_cast<int8_t>(device);
       continue;
     }
-    if ((word.flags & kWordComma) != 0) {  // M700 13.7 ,C ,R; 13.8 ,A; 13.1.1 ,S of a tap
+    if ((word.flags & kWordComma) != 0 && in.is(word, Role::option_return_speed)) {
+      w.has_return_speed = true;
+      w.return_speed = value;
+      continue;
+    }
+    if ((word.flags & kWordComma) != 0) {  // M700 13.7 ,C ,R; 13.8 ,A
       const bool chamfer = in.is(word, Role::option_chamfer);
       if (!chamfer && !in.is(word, Role::option_corner_radius))
         return in.raise(in.is(word, Role::option_angle) ? Condition::geometric_option : Condition::no_function, word.letter, value);
@@ -270,6 +292,8 @@ Execution gather_words(Interpreter& in) {
     if (did != Execution::done) return did;
   }
   if (w.device != 0 && !calls_sub(in)) return in.raise(Condition::no_function, Role::option_device, w.device);
+  const Execution options = take_tap_options(in);
+  if (options != Execution::done) return options;
   if (w.corner != Corner::none && !may_have_corner(in)) return in.raise(Condition::corner_option, corner_word(w), w.corner_raw);
   if (bare_axis != 0 && !takes_bare_axes(w)) return in.raise(Condition::format_error, bare_axis);
   // M700 15.5: feeds behind a skip signal belong to G31.

@@ -44,6 +44,8 @@ struct BlockWords {
   Corner corner = Corner::none;    ///< ,C ,R (M700 13.7): the later one counts
   uint8_t corner_flags = 0;        ///< WordFlag of it
   double corner_raw = 0;           ///< as programmed
+  bool has_tap_control = false, has_return_speed = false;  ///< ,R ,S of a tap (M700 13.1.1) ...
+  double tap_control = 0, return_speed = 0;                ///< ... as programmed
   int8_t device = 0;               ///< ,D: where a sub program is looked for (M700 13.3.1), 0 = the memory
   bool comp_command = false;       ///< G40-G42 that means something here
   uint64_t absolute_at = 0, incremental_at = 0;  ///< bit i: word i of the block is G90, G91

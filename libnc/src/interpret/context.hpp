@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/intern_pool.hpp"
+#include "cycle/pattern.hpp"
 #include "dialect/code_index.hpp"
 #include "frame/affine.hpp"
 #include "frame/frames.hpp"
@@ -53,6 +54,20 @@ struct PathPoint {
   bool operator==(const PathPoint&) const { return false; }  // each is one of its own
 };
 
+/// The holes that the block in hand makes (functions/cycle.cpp).
+struct HolesOfBlock {
+  Hole hole;                  ///< the one under way ...
+  HoleProgress progress;
+  uint32_t left = 0;          ///< with it
+  uint32_t axes = 0;          ///< that the block positions, ...
+  AxisVec increment;          ///< ... by these values of its words
+  HolePattern pattern;        ///< where they lie, of a pattern
+  AxisVec pattern_at;         ///< its reference point as programmed
+  AxisVec over, beside;       ///< the hole, and the place that a shift goes to
+  bool whole = false;         ///< no pecks: what is tried before the block begins
+  bool tapping = false;       ///< between R and R again
+};
+
 class SharedTables;
 struct Interpreter;
 
@@ -96,11 +111,7 @@ struct BlockContext {
   nc_source source{};
   BlockWords words;
   Step next_step = Step::none;
-  Hole hole;
-  HoleProgress progress;
-  uint32_t holes_left = 0;
-  AxisVec hole_increment;
-  uint32_t hole_axes = 0;
+  HolesOfBlock holes;
   bool motion_done = false;
   bool modal_kept = false;         ///< the block in hand has changed nothing of the modal state
   bool block_starts_incremental = false; ///< G91 was modal before this block

@@ -39,7 +39,8 @@ Execution check_lead_word(Interpreter& in) {
   if (!w.has(Role::fine_thread_lead)) return Execution::done;
   const bool thread = in.state.modal.is(Function::thread) && w.one_shot == nullptr && w.cycle == nullptr;
   const bool exponent = (w.flag(Role::fine_thread_lead) & (kWordNegative | kWordPlus | kWordExponent)) != 0;
-  return thread && !exponent ? Execution::done : in.raise(Condition::exponent, Role::fine_thread_lead, w.get(Role::fine_thread_lead));
+  const bool ridges = in.dialect->addresses.at(Role::tap_ridges) == in.dialect->addresses.at(Role::fine_thread_lead) && taps_with_spindle(in);
+  return (thread || ridges) && !exponent ? Execution::done : in.raise(Condition::exponent, Role::fine_thread_lead, w.get(Role::fine_thread_lead));
 }
 
 /// M700 App.2: codes of radius and length compensation beside the one-shot function (G49 beside a reference return counts all the same, 12.2).
@@ -114,6 +115,7 @@ Execution apply_reading_modes(Interpreter& in) {
         in.state.modal.set(*row);
         break;
       case Function::stroke_check_off:
+        if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::holes_on_grid) break;  // M700 13.2, G37.1 note 5
         in.state.modal.set(*row);
         in.state.stroke_box = 0;
         break;
@@ -327,8 +329,9 @@ Execution execute_words(Interpreter& in) {
   if (did != Execution::done) return did;
   if (in.state.modal.is(Function::polar_command_on)) resolve_polar_words(in);
   // Neither is the lead of a thread (6.7.1) or the feed of an exponential curve (6.11).
+  // The F of a synchronous tap is its lead.
   const bool own_feed = w.one_shot != nullptr ? keeps_its_feed(in, w.one_shot->function)
-                                              : has_own_feed(in, in.state.modal.of(Mode::motion));
+                                              : has_own_feed(in, in.state.modal.of(Mode::motion)) || taps_with_spindle(in);
   if (in.state.modal.is(Function::inverse_time_feed)) did = check_inverse_time_block(in);
   if (did == Execution::done && w.has(Role::feed) && !own_feed) did = take_feed_word(in);
   if (did != Execution::done) return did;

@@ -121,11 +121,15 @@ Execution change_feed_mode(BlockContext& in, Function before) {
 void change_cutting_mode(BlockContext& in, Function before) {
   const bool tapping = in.state.modal.is(Function::tapping_mode);
   in.state.refresh_special();
-  if ((before == Function::tapping_mode) == tapping) return;
+  if ((before == Function::tapping_mode) != tapping) announce_tapping(in, false);
+}
+
+void announce_tapping(BlockContext& in, bool strokes) {
   Action& action = in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_CONTROL;
   action.index = NC_CONTROL_TAPPING;
-  action.value = tapping ? 1 : 0;
+  action.value = (in.state.modal.is(Function::tapping_mode) ? NC_TAPPING_MODE : 0) + (is_tap(in.state.cycle.kind) ? NC_TAPPING_CYCLE : 0) +
+                 (strokes ? NC_TAPPING_STROKES : 0);
 }
 
 bool refused_in_inverse_time(Function function) {

@@ -18,6 +18,8 @@ Execution change_feed_mode(BlockContext& in, Function before);
 
 /// The block has changed the cutting mode (7.8 to 7.12).
 void change_cutting_mode(BlockContext& in, Function before);
+/// Tells the scan what of tapping is in force (nc_tapping_bits); `strokes`: what follows is between R and R again (13.1.1).
+void announce_tapping(BlockContext& in, bool strokes);
 
 /// Functions and modes that exclude inverse time feed (7.5, relation with other functions (4), (5)): P125.
 bool refused_in_inverse_time(Function function);

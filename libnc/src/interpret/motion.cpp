@@ -203,6 +203,11 @@ inline void set_style(BlockContext& in, Move& move, const LinearStyle& style) {
   move.comp.transparent = style.transparent;
   if (style.special_feed) apply_special_feed(in, move);
   if (style.corner != Corner::none) [[unlikely]] set_corner(in, move, style);
+  if (style.tapping) move.rule.tapping = true;
+  if (style.kind == NC_MOVE_TAP) {
+    move.feed_mm_rev = style.feed_mm_rev;
+    move.tap_rev_min = static_cast<float>(style.tap_speed);
+  }
   if (style.kind != NC_MOVE_THREAD) return;
   move.feed_mm_rev = style.feed_mm_rev;
   move.thread_angle = static_cast<float>(style.thread_angle);

@@ -16,6 +16,8 @@ struct LinearStyle {
   uint8_t unclamps = 0;       ///< index tables that are unclamped meanwhile (M700 9.3)
   double feed_mm_rev = 0;     ///< thread: lead along the longest axis
   double thread_angle = 0;
+  bool tapping = false;       ///< a stroke of a tap: the override is 100 %
+  double tap_speed = 0;       ///< of a tap that goes with the spindle: what the spindle is to turn with, r/min, forward positive
   bool special_feed = false;  ///< the modal feed, and it is not the plain one (interpret/feed.hpp)
   Corner corner = Corner::none;  ///< at its end ...
   double corner_mm = 0;       ///< ... of this size

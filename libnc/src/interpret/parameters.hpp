@@ -52,6 +52,14 @@ struct Settings {
   uint32_t machine_turn = 0;          ///< types 0 to 2: machine coordinates within one turn
   double peck_clearance_83 = 0;       ///< #8013, mm
   double peck_clearance_73 = 0;       ///< #8012, mm
+  uint32_t spindle_forward_m = 0, spindle_reverse_m = 0;  ///< #3028 sprcmn, and the one behind it; 0 = the family's
+  bool tap_synchronous = false;       ///< #1229 bit 4
+  uint32_t tap_m = kNoMisc;           ///< #1513 stapM, with #1272 bit 1
+  bool tap_to_r = false;              ///< #1272 bit 4
+  double tap_clearance = 0;           ///< #8018, mm
+  bool tap_checks = false, tap_check_approach = false, tap_check_bottom = false, tap_check_r = false;  ///< #1223 bits 3, 2, 4, 5
+  double tap_dwell_s = 0;             ///< #1313 TapDwl
+  uint32_t shift_ignored = 0, shift_minus = 0;  ///< #8207, #8208, bit = axis
   uint32_t reading_stops[8] = {};     ///< PREREAD_STOP_M1 to _M8: M codes behind which nothing is read ahead, 0 = none
   bool any_reading_stop = false;
   bool codes_after_motion = false;    ///< MSTB_AFTER_MOTION: M S T B of a block that moves go out behind its motion

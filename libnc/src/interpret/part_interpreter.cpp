@@ -40,11 +40,10 @@ bool PartInterpreter::in_cycle() const { return in_->next_step == Step::cycle; }
 bool PartInterpreter::rehearse_cycle(bool (*fits)(void* user, const Item& move), void* user) {
   Interpreter& in = *in_;
   const State state = in.state;
-  const Hole hole = in.hole;
-  const HoleProgress progress = in.progress;
-  const uint32_t holes_left = in.holes_left;
+  const HolesOfBlock holes = in.holes;
   const unsigned queued = in.queue.size();
-  in.state.cycle.kind = in.hole.kind = CycleKind::drill;
+  in.holes.whole = true;
+  in.holes.hole.q = 0;
   bool fit = true;
   Execution did = Execution::later;
   while (fit && did == Execution::later) {
@@ -54,9 +53,7 @@ bool PartInterpreter::rehearse_cycle(bool (*fits)(void* user, const Item& move),
     in.queue.cut(queued);
   }
   in.state = state;
-  in.hole = hole;
-  in.progress = progress;
-  in.holes_left = holes_left;
+  in.holes = holes;
   return fit;
 }
 

@@ -195,6 +195,19 @@ void SettingsReader::cycles() {
   s_.peck_clearance_83 = value(P::peck_clearance, 0);
   // HX 12.3.3, 12.3.4: one parameter is of both.
   s_.peck_clearance_73 = parameter_row(dialect_, P::step_clearance) != nullptr ? value(P::step_clearance, 0) : s_.peck_clearance_83;
+  s_.spindle_forward_m = static_cast<uint32_t>(value(P::spindle_forward_code, 0));
+  s_.spindle_reverse_m = s_.spindle_forward_m + 1;
+  s_.tap_synchronous = flag(P::tap_synchronous);
+  if (flag(P::tap_by_code) && value(P::tap_code, 0) > 0) s_.tap_m = static_cast<uint32_t>(value(P::tap_code, 0));
+  s_.tap_to_r = flag(P::tap_to_r);
+  s_.tap_clearance = value(P::tap_clearance, 0);
+  s_.tap_checks = flag(P::tap_checks);
+  s_.tap_check_approach = flag(P::tap_check_approach);
+  s_.tap_check_bottom = flag(P::tap_check_bottom);
+  s_.tap_check_r = flag(P::tap_check_r);
+  s_.tap_dwell_s = value(P::tap_dwell, 0) / 1000;
+  s_.shift_ignored = axes_with(P::shift_ignored);
+  s_.shift_minus = axes_with(P::shift_minus);
   s_.dwell_p_decimal = flag(P::dwell_p_decimal);
   s_.dwell_in_revolutions = flag(P::dwell_in_revolutions);
   s_.box_outside = flag(P::box_outside);

@@ -32,7 +32,7 @@
 // tests/interpret/lifetimes_test.cpp reads this table and holds the code to it.
 #pragma once
 
-#include "cycle/drilling.hpp"
+#include "cycle/hole.hpp"
 #include "dialect/dialect.hpp"
 #include "modal/modal_state.hpp"
 #include "path/shape.hpp"
@@ -211,6 +211,7 @@ struct ModalInProgram {
   uint8_t nurbs_order = 0;      ///< of the last curve, for one that a knot alone begins
   ArcStep arc_step = ArcStep::none;
   bool parameter_input = false; ///< between G10 L70 and G11 (M700 13.11)
+  bool tap_code = false;        ///< the M code that makes taps synchronous has been given out
   uint8_t switch_mirror = 0;    ///< bit i: axis i is mirrored by the switch since the program began
   uint8_t figure_scaled = 0;    ///< of `scaled` and `mirror`: commanded in the program that is being rotated (13.3.3, 13.19 (6));
   uint8_t figure_mirror = 0;    ///< they mean something in that program only
@@ -233,6 +234,7 @@ struct ProgramLife {
 /// What has been commanded of the machine: it goes on over an interrupt and over blocks of MDI.
 struct UntilReset {
   bool spindle_on = false;
+  bool spindle_reverse = false; ///< as it was last turned
   bool spindle_clamped = false; ///< by G92 S Q (M700 10.4): what at is known where it is executed
 };
 

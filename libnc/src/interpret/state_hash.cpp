@@ -66,8 +66,10 @@ class Hash {
     add(side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, avoid, axis, radius, vector);
   }
   void add_one(const CycleState& cycle) {
-    const auto& [kind, drill_axis, has_z, has_r, z, r, z_incremental, r_incremental, q, dwell_s, in_position, initial_level] = cycle;
-    add(kind, drill_axis, has_z, has_r, z, r, z_incremental, r_incremental, q, dwell_s, in_position, initial_level);
+    const auto& [kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
+                 initial_level, tap, synchronous, pitch, return_speed] = cycle;
+    add(kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
+        initial_level, tap, synchronous, pitch, return_speed);
   }
   void add_one(const NurbsState& nurbs) {
     const auto& [first, knots, points, order, axes] = nurbs;
@@ -152,9 +154,9 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     }
   }
   {
-    const auto& [comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, switch_mirror, figure_scaled, figure_mirror,
+    const auto& [comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled, figure_mirror,
                  vacant_feed_file, vacant_feed, vacant_feed_line, spline_way] = static_cast<const ModalInProgram&>(values);
-    hash.add(comp, cycle, moves_since_comp_off, moved_side, nurbs_order, arc_step, parameter_input, switch_mirror, figure_scaled, figure_mirror, vacant_feed_file,
+    hash.add(comp, cycle, moves_since_comp_off, moved_side, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled, figure_mirror, vacant_feed_file,
              vacant_feed, vacant_feed_line, spline_way);
     // Inside a curve that is given block by block its points have numbers of their own: two such states count as different.
     if (arc_step != ArcStep::none) hash.add(arc_points);
@@ -165,8 +167,8 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     hash.add(end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, control_3003, control_3004);
   }
   {
-    const auto& [spindle_on, spindle_clamped] = static_cast<const UntilReset&>(values);
-    hash.add(spindle_on, spindle_clamped);
+    const auto& [spindle_on, spindle_reverse, spindle_clamped] = static_cast<const UntilReset&>(values);
+    hash.add(spindle_on, spindle_reverse, spindle_clamped);
   }
   {
     const auto& [left_by_end] = static_cast<const UntilOperatorReset&>(values);

@@ -30,6 +30,10 @@ constexpr PrecedenceRow kInOneBlock[] = {
     {F::mirror_off,        kBoth,  kBoth,    kBoth,    kIgnored, kBoth,  kLoses, kBoth},
     {F::local_system,      kModal, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
     {F::machine_move,      kModal, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::holes_on_circle,   kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},  // 13.2, notes 4 and 5
+    {F::holes_on_line,     kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::holes_on_arc,      kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::holes_on_grid,     kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
     {F::macro_call,        kModal, kBoth,    kModal,   kIgnored, kBoth,  kBoth,  kIgnored},
     {F::macro_modal,       kModal, kBoth,    kModal,   kIgnored, kModal, kBoth,  kIgnored},
     {F::macro_every_block, kModal, kBoth,    kModal,   kIgnored, kModal, kBoth,  kIgnored},

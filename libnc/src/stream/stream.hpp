@@ -96,7 +96,7 @@ enum class Plane : uint8_t { xy = NC_PLANE_XY, zx = NC_PLANE_ZX, yz = NC_PLANE_Y
 struct FeedRule {
   uint8_t digit = 0;           ///< n + 1: commanded as Fn of one digit (M700 7.3)
   bool inverse_time = false;   ///< G93: the time of the block stays as it is compensated (M700 7.5)
-  bool tapping = false;        ///< G63: the override is 100 % (M700 7.11)
+  bool tapping = false;        ///< G63 and the cuts of a tap: the override is 100 % (M700 7.11, 13.1.1)
   bool check_reversal = false; ///< no axis turns round at its start at speed (M700 7.9.2)
   double scale = 0;            ///< of the compensated path, so that the time or the cut keeps its speed; 0 = 1
   float digit_most = 0, digit_step = 0;  ///< F1 to F5: limit of the handle, change by one pulse of it, mm/min
@@ -153,6 +153,7 @@ struct Move {
   double feed_mm_rev = 0;
   float feed_end = 0;            ///< exponential: feed at its end, mm/min; 0 = constant
   float thread_angle = 0;        ///< thread: start angle of the spindle, deg
+  float tap_rev_min = 0;         ///< synchronous tap: speed of the spindle for it, forward positive
   FeedRule rule;
   float speed_clamp = 0;         ///< highest speed, whatever the feed and the override, mm/s; 0 = none
   Compensation comp;

@@ -177,6 +177,13 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::too_many_names, "NC-MACRO", nullptr},
     {C::probe_no_contact, "NC-NO-SUCH-CODE", nullptr},
     {C::call_in_mdi, "NC-MACRO", nullptr},
+    {C::tap_no_speed, "NC-SPINDLE", nullptr},
+    {C::tap_no_pitch, "NC-FEED", nullptr},
+    {C::tap_pitch, "NC-RANGE", nullptr},
+    {C::tap_speed_word, "NC-SPINDLE", nullptr},
+    {C::no_holes, "NC-RANGE", nullptr},
+    {C::hole_angle_zero, "NC-RANGE", nullptr},
+    {C::drilling_axis_changed, "NC-PLANE", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

@@ -87,6 +87,15 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::speed_mode, 'P'},         // 13.14, 13.17
     {Role::speed_option, 'Q'},
     {Role::accuracy_switch, 'P'},    // 13.15
+    {Role::option_tap_control, 'R'}, // 13.1.1
+    {Role::option_return_speed, 'S'},
+    {Role::tap_ridges, 'E'},         // appendix 1, P183
+    {Role::hole_interval, 'I'},      // 13.2
+    {Role::hole_angle, 'J'},
+    {Role::hole_angle_step, 'P'},
+    {Role::hole_columns, 'P'},
+    {Role::hole_interval_2, 'J'},
+    {Role::hole_count, 'K'},
 };
 inline constexpr AddressTable kAddressTable(kRoleRows);
 

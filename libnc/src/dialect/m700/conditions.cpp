@@ -144,6 +144,13 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::too_many_names, "P241", nullptr},
     {C::probe_no_contact, "P607", nullptr},
     {C::call_in_mdi, "P29", nullptr},  // does not occur
+    {C::tap_no_speed, "P181", nullptr},    // 13.1.1, appendix 1
+    {C::tap_no_pitch, "P183", nullptr},
+    {C::tap_pitch, "P184", nullptr},
+    {C::tap_speed_word, "P186", nullptr},
+    {C::no_holes, "P221", nullptr},        // 13.2
+    {C::hole_angle_zero, "P222", nullptr}, // appendix 1
+    {C::drilling_axis_changed, "P33", nullptr},  // 13.1.1 note 2 has no code: a block that may not be written so
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

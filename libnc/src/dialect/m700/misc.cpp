@@ -18,12 +18,14 @@ const MiscRow kMisc[] = {
     {198, M::call_external, nullptr, "sub program call in the data server", "13.3.2"},
 };
 
-// 9.1, 10: what the machine does with them is its own affair; here they say whether the spindle turns, and which one hosts show as the tool change.
+// 9.1, 10: what the machine does with them is its own affair; here they say whether the spindle turns, and which one hosts show as the tool change, which one
+// orients it for a fixed cycle.
 const OutputRow kOutputs[] = {
     {3, M::spindle_forward},
     {4, M::spindle_reverse},
     {5, M::spindle_stop},
     {6, M::tool_change},
+    {19, M::spindle_oriented},  // 13.1.1, 6.7
 };
 
 }  // namespace nc::m700

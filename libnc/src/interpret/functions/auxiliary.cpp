@@ -35,6 +35,15 @@ void emit_misc(BlockContext& in, MiscFunction function, uint32_t m) {
 
 void emit_fin(BlockContext& in) { await_fin(in); }
 
+void note_spindle(BlockContext& in, MiscFunction function) {
+  const bool reverse = function == MiscFunction::spindle_reverse;
+  if (reverse || function == MiscFunction::spindle_forward) {
+    in.state.spindle_on = true;
+    in.state.spindle_reverse = reverse;
+  }
+  if (function == MiscFunction::spindle_stop) in.state.spindle_on = false;
+}
+
 /// The second auxiliary address: B, unless an axis has that name; then A, then C (M700 9.2). 0 = the family has none.
 char second_address(const BlockContext& in) {
   const AddressTable& addresses = in.dialect->addresses;
@@ -45,6 +54,11 @@ char second_address(const BlockContext& in) {
 
 Execution spindle_word(BlockContext& in) {
   uint32_t s = 0;
+  const bool tap = taps_with_spindle(in);
+  if (tap) {
+    const Execution did = check_tap_speed(in);
+    if (did != Execution::done) return did;
+  }
   if (!whole_number(in.words.get(Role::spindle_speed), &s) || s > 99999999) return in.raise(Condition::value_range, Role::spindle_speed, in.words.get(Role::spindle_speed));
   if (in.state.spindle.axis != 0) {
     const Execution did = surface_word(in);
@@ -52,7 +66,7 @@ Execution spindle_word(BlockContext& in) {
   }
   const double speed = in.dialect->rules.spindle.speed_of_word(s);
   in.state.modal.spindle = speed;
-  emit_action(in, NC_ACTION_S, Role::spindle_speed, speed);
+  if (!tap) emit_action(in, NC_ACTION_S, Role::spindle_speed, speed);
   return Execution::done;
 }
 
@@ -105,6 +119,12 @@ Execution check_whole_numbers(BlockContext& in) {
 void await_fin(BlockContext& in) {
   if ((in.state.control_3003 & 2) != 0) return;
   in.emit(ItemKind::gate).gate.kind = NC_GATE_FIN;
+}
+
+void give_out_spindle(BlockContext& in, MiscFunction function, uint32_t code) {
+  note_spindle(in, function);
+  emit_misc(in, function, code);
+  emit_fin(in);
 }
 
 Execution check_precedence(BlockContext& in) {
@@ -161,8 +181,8 @@ Execution auxiliary_before(BlockContext& in) {
     const MiscFunction function = misc_function(*in.dialect, m);
     const bool forward = function == MiscFunction::spindle_forward, stops = function == MiscFunction::spindle_stop;
     if (rules.spindle.skips_repeated_codes && ((forward && in.state.spindle_on) || (stops && !in.state.spindle_on))) continue;
-    if (forward || function == MiscFunction::spindle_reverse) in.state.spindle_on = true;
-    if (stops) in.state.spindle_on = false;
+    note_spindle(in, function);
+    if (m == in.settings.tap_m) in.state.tap_code = true;
     if (waiting && i > first) emit_fin(in);  // one M strobe at a time
     in.state.modal.m = m;
     emit_misc(in, function, m);

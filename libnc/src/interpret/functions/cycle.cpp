@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed cycles: the words of a block -> hole data -> holes (M700 13.1.1, DGSHAPE G80-G89). The moves of one hole are cycle/drilling.cpp.
+// Fixed cycles: the words of a block -> hole data -> holes (M700 13.1.1, DGSHAPE G80-G89, RS-274/NGC 3.5.16). The strokes of one hole are
+// cycle/strokes.cpp, what becomes of them functions/cycle_strokes.cpp.
+#include "interpret/functions/cycle.hpp"
+
 #include <cmath>
 #include <initializer_list>
 
 #include "interpret/feed.hpp"
-#include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
 #include "interpret/work_rotation.hpp"
@@ -12,17 +14,26 @@
 namespace nc {
 namespace {
 
-CycleKind kind_of(Function function) {
-  switch (function) {
-    case Function::cycle_drill: return CycleKind::drill;
-    case Function::cycle_spot: return CycleKind::spot;
-    case Function::cycle_peck: return CycleKind::peck;
-    case Function::cycle_step: return CycleKind::step;
-    case Function::cycle_bore_feed: return CycleKind::bore_feed;
-    case Function::cycle_bore_dwell: return CycleKind::bore_dwell;
-    default: return CycleKind::none;
-  }
-}
+/// Which cycle a function is: by the strokes of M700 13.1.1, and by those of RS-274/NGC 3.5.16.
+struct CycleOfFunction {
+  Function function;
+  CycleKind plain, by_direction;
+};
+constexpr CycleOfFunction kCycles[] = {
+    {Function::cycle_step, CycleKind::step, CycleKind::step},
+    {Function::cycle_reverse_tap, CycleKind::reverse_tap, CycleKind::reverse_tap_by_direction},
+    {Function::cycle_circle, CycleKind::circle, CycleKind::circle},
+    {Function::cycle_fine_bore, CycleKind::fine_bore, CycleKind::fine_bore},
+    {Function::cycle_drill, CycleKind::drill, CycleKind::drill},
+    {Function::cycle_spot, CycleKind::spot, CycleKind::spot},
+    {Function::cycle_peck, CycleKind::peck, CycleKind::peck},
+    {Function::cycle_tap, CycleKind::tap, CycleKind::tap_by_direction},
+    {Function::cycle_bore_feed, CycleKind::bore_feed, CycleKind::bore_feed},
+    {Function::cycle_bore_stop, CycleKind::bore_stop, CycleKind::bore_stop_as_before},
+    {Function::cycle_back_bore, CycleKind::back_bore, CycleKind::back_bore_to_level},
+    {Function::cycle_bore_stop_dwell, CycleKind::bore_by_hand, CycleKind::bore_left_by_hand},
+    {Function::cycle_bore_dwell, CycleKind::bore_dwell, CycleKind::bore_dwell},
+};
 
 /// The pair of axes, I J or K (0, 1, 2), that is normal to the plane in force.
 unsigned normal_pair(const BlockContext& in) {
@@ -37,39 +48,92 @@ int drilling_axis(const BlockContext& in) {
   return axis_of_pair(in, normal_pair(in));
 }
 
-/// Axes that are positioned over the hole: those of the plane that is selected, and the basic axes that are not parallel to the
-/// drilling axis.
-uint32_t positioning_axes(const BlockContext& in) {
+/// M700 13.1.1 note 2: the axis is changed in the cancelled state. A code in the mode may name the axis in force or none of its pair.
+Execution check_axis_stays(BlockContext& in) {
   const char drills = in.system->axis[in.state.cycle.drill_axis].name;
-  uint32_t axes = 0;
-  for (const int axis : in.state.plane_axis)
-    if (axis >= 0) axes |= 1u << axis;
-  for (unsigned pair = 0; pair < 3; ++pair) {
-    const char basic = in.settings.plane_basic[pair];
-    if (basic == 0 || basic == drills || in.settings.plane_parallel[pair] == drills || in.axis_named(basic) < 0) continue;
-    axes |= 1u << in.axis_named(basic);
-  }
-  return axes;
+  if (in.settings.drilling_axis_z || in.words.has(drills)) return Execution::done;
+  const unsigned pair = normal_pair(in);
+  const char basic = in.settings.plane_basic[pair], parallel = in.settings.plane_parallel[pair];
+  const bool of_pair = drills == basic || drills == parallel;
+  for (const char name : {basic, parallel})
+    if (of_pair && name != 0 && in.words.has(name)) return in.raise(Condition::drilling_axis_changed, name, in.words.get(name));
+  return of_pair ? Execution::done : in.raise_mode(Condition::drilling_axis_changed, Mode::plane);
+}
+
+void begin_mode(BlockContext& in, unsigned axis) {
+  State& state = in.state;
+  state.cycle.drill_axis = static_cast<uint8_t>(axis);
+  state.cycle.initial_level = state.machine[axis] - state.applied[axis];
 }
 
 Execution select_cycle(BlockContext& in, const FunctionRow& row) {
   State& state = in.state;
+  const CycleRules& rules = in.dialect->rules.cycle;
   if (row.function == Function::cycle_off) {
     cancel_cycle(in);
     state.modal.set(row);
     return Execution::done;
   }
   if (state.comp.side != 0) return in.raise_code(Condition::cycle_in_compensation, row);
-  if (!state.modal.is(Function::plane_xy) && in.dialect->rules.cycle.xy_plane_only) return in.raise_code(Condition::cycle_wrong_plane, row);
+  if (!state.modal.is(Function::plane_xy) && rules.xy_plane_only) return in.raise_code(Condition::cycle_wrong_plane, row);
+  const bool begins = state.cycle.kind == CycleKind::none;
+  if (begins) {
+    const int axis = drilling_axis(in);
+    if (axis < 0) return in.raise(Condition::illegal_axis, Role::basic_z);
+    state.cycle = CycleState{};
+    begin_mode(in, static_cast<unsigned>(axis));
+  } else if (!rules.axis_follows_plane) {
+    const Execution did = check_axis_stays(in);
+    if (did != Execution::done) return did;
+  }
+  const CycleKind kind = cycle_kind(*in.dialect, row.function);
+  const bool tapping = is_tap(kind), tapped = is_tap(state.cycle.kind);
+  state.cycle.kind = kind;
+  state.cycle.synchronous = state.cycle.synchronous && tapping;
+  state.modal.set(row);
+  if (tapping != tapped) announce_tapping(in, false);
+  return Execution::done;
+}
+
+/// RS-274/NGC 3.5.16: the axis that is normal to the plane drills, also where the plane has changed in the mode.
+Execution follow_plane(BlockContext& in) {
   const int axis = drilling_axis(in);
   if (axis < 0) return in.raise(Condition::illegal_axis, Role::basic_z);
-  if (state.cycle.kind == CycleKind::none) {  // note 2: in the mode the drilling axis does not change
-    state.cycle = CycleState{};
-    state.cycle.drill_axis = static_cast<uint8_t>(axis);
-    state.cycle.initial_level = state.machine[static_cast<unsigned>(axis)] - state.applied[static_cast<unsigned>(axis)];
-  }
-  state.cycle.kind = kind_of(row.function);
-  state.modal.set(row);
+  if (axis != in.state.cycle.drill_axis) begin_mode(in, static_cast<unsigned>(axis));
+  return Execution::done;
+}
+
+/// The word of a shift along a basic axis is a count as well in some families: which it is, the cycle and its plane say.
+bool is_shift_word(const BlockContext& in, Role word) {
+  if (!strokes_of(in.state.cycle.kind).shifts) return false;
+  const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
+  const AddressTable& addresses = in.dialect->addresses;
+  const unsigned at = addresses.at(word);
+  return at == addresses.at(vector_along(plane.first)) || at == addresses.at(vector_along(plane.second)) ||
+         (in.state.cycle.kind == CycleKind::back_bore_to_level && at == addresses.at(Role::vector_z));
+}
+
+/// I J K: the way to the place beside the hole, and of RS-274/NGC 3.5.16.7 the third level.
+void take_shift_words(BlockContext& in) {
+  CycleState& c = in.state.cycle;
+  for (unsigned i = 0; i < 3; ++i)
+    if (in.words.has(vector_along(i)) && is_shift_word(in, vector_along(i))) c.shift[i] = length_of(in, vector_along(i));
+  if (c.kind != CycleKind::back_bore_to_level || !in.words.has(Role::vector_z)) return;
+  c.third = length_of(in, Role::vector_z);
+  c.has_third = true;
+  c.third_incremental = in.state.modal.is(Function::incremental);
+}
+
+/// P: milliseconds, or the number of an offset.
+Execution take_p(BlockContext& in) {
+  CycleState& c = in.state.cycle;
+  const CycleRules& rules = in.dialect->rules.cycle;
+  if (!in.words.has(Role::cycle_dwell)) return Execution::done;
+  const double p = in.words.get(Role::cycle_dwell);
+  const double ms = rules.dwell_in_seconds ? p * 1000 : std::trunc(p);  // of milliseconds decimals are ignored
+  if (!(ms >= 0) || ms > rules.longest_dwell_ms) return in.raise(Condition::value_range, Role::cycle_dwell, p);
+  c.p = ms;
+  c.has_p = true;
   return Execution::done;
 }
 
@@ -89,186 +153,126 @@ Execution take_hole_data(BlockContext& in) {
     c.r_incremental = in.state.modal.is(Function::incremental);
   }
   if (w.in_position_drill > 0) c.in_position = w.in_position_drill;  // "Programmable in-position width": it stays, ,I does not
-  if (w.has(Role::cycle_depth_step)) c.q = std::fabs(length_of(in, Role::cycle_depth_step));
-  if (w.has(Role::cycle_dwell)) {
-    const double p = w.get(Role::cycle_dwell);
-    const double ms = in.dialect->rules.cycle.dwell_in_seconds ? p * 1000 : std::trunc(p);  // of milliseconds decimals are ignored
-    if (!(ms >= 0) || ms > in.dialect->rules.cycle.longest_dwell_ms) return in.raise(Condition::value_range, Role::cycle_dwell, w.get(Role::cycle_dwell));
-    c.dwell_s = ms / 1000;
+  if (w.has(Role::cycle_depth_step)) {
+    const double q = length_of(in, Role::cycle_depth_step);
+    (is_tap(c.kind) ? c.tap_q : c.q) = is_tap(c.kind) ? std::fabs(q) : q;
   }
-  return Execution::done;
-}
-
-/// `start`, but where `axes` go.
-AxisVec plain_end(const AxisVec& start, const AxisVec& target, uint32_t axes) {
-  AxisVec end = start;
-  for (unsigned i = 0; i < kMaxAxes; ++i)
-    if (((axes >> i) & 1) != 0) end[i] = target[i];
-  return end;
-}
-
-/// Levels of this hole from the hole data (M700 13.1.1 "Absolute/incremental").
-void resolve_hole(BlockContext& in) {
-  const CycleState& c = in.state.cycle;
-  const CycleRules& rules = in.dialect->rules.cycle;
-  Hole& h = in.hole;
-  h.kind = c.kind;
-  // As a coordinate of now: the zero point may have changed since the cycle was commanded. A tool length that comes into
-  // force in between (also one that is pending, M700 12.2) displaces this level like every other end point.
-  h.initial = programmed_on(in, c.drill_axis, c.initial_level - in.zero()[c.drill_axis]);  // levels as programmed; the maps come last
-  if (!c.has_r) {
-    h.r = h.initial;  // DGSHAPE: omitted R = initial level
-  } else if (c.r_incremental) {
-    h.r = h.initial + (rules.r_takes_sign_of_z && c.z_incremental && c.has_z ? std::copysign(c.r, c.z) : c.r);
-  } else {
-    h.r = c.r;
-  }
-  h.bottom = !c.has_z ? h.r : c.z_incremental ? h.r + c.z : c.z;
-  const bool below = h.bottom < h.r ? h.initial < h.r : h.initial > h.r;
-  if (rules.rises_before_positioning && below) h.initial = h.r;  // it has gone up
-  for (double* level : {&h.initial, &h.r, &h.bottom}) *level = mapped_on(in, c.drill_axis, *level);  // M700 13.6, 13.19
-  h.return_to = in.state.modal.is(Function::return_r) ? h.r : h.initial;
-  h.q = c.q;
-  h.dwell_s = c.dwell_s;
-  if (rules.fixed_clearance_mm > 0) {
-    h.clearance = rules.fixed_clearance_mm;
-  } else {
-    h.clearance = c.kind == CycleKind::step ? in.settings.peck_clearance_73 : in.settings.peck_clearance_83;
-  }
-}
-
-/// The move to the hole. Axes that neither drill nor are of the plane go first (M700 13.1.1 precaution (6)), by the motion from
-/// before the cycle (13.1.2, example 2, N012): rapid by G00, else a line with the feed, which is what such an axis does beside an arc, too.
-/// Then the plane in rapid traverse, which ,I of the block belongs to.
-void position_over_hole(BlockContext& in) {
-  const uint32_t axes = in.hole_axes & ~(1u << in.state.cycle.drill_axis);
-  const uint32_t over_hole = positioning_axes(in);
-  const AxisVec start = in.position(), target = target_of(in, start, axes, in.hole_increment);
-  LinearStyle style;
-  style.kind = NC_MOVE_RAPID;
-  LinearStyle other = style;
-  if (!in.state.modal.is(Function::rapid) && in.dialect->rules.cycle.others_keep_motion_mode) {
-    other.kind = NC_MOVE_LINE;
-    other.feed_mm_min = feed_for(in, start, plain_end(start, target, axes & ~over_hole));
-    other.special_feed = special_feed(in);
-    other.exact_stop = true;  // the cycle begins behind it
-  }
-  move_linear(in, target, axes & ~over_hole, other);
-  style.in_position = in.words.in_position;
-  move_linear(in, target, axes & over_hole, style);
-}
-
-void emit_cycle_move(BlockContext& in, const CycleStep& step, bool last) {
-  AxisVec target = in.position();
-  target[in.state.cycle.drill_axis] = step.to;
-  LinearStyle style;
-  style.kind = step.kind == CycleStep::Kind::rapid ? NC_MOVE_RAPID : NC_MOVE_LINE;
-  style.feed_mm_min = feed_mm_min(in);
-  style.special_feed = style.kind != NC_MOVE_RAPID && special_feed(in);
-  style.exact_stop = true;  // every level of a hole is reached
-  if (last) style.in_position = in.state.cycle.in_position;
-  move_linear(in, target, 1u << in.state.cycle.drill_axis, style);
-}
-
-/// RS-274/NGC 3.5.16: the tool leaves the material before it goes to the next hole, and R is the level from then on.
-void rise_to_level(BlockContext& in) {
-  resolve_hole(in);
-  const unsigned axis = in.state.cycle.drill_axis;
-  AxisVec target = in.position();
-  const double up = in.hole.bottom < in.hole.r ? 1.0 : -1.0;
-  if ((in.hole.r - target[axis]) * up <= 0) return;
-  target[axis] = in.hole.r;
-  LinearStyle style;
-  style.kind = NC_MOVE_RAPID;
-  move_linear(in, target, 1u << axis, style);
-}
-
-Execution begin_hole(BlockContext& in) {
-  if (in.dialect->rules.cycle.rises_before_positioning) rise_to_level(in);
-  position_over_hole(in);
-  in.emit_stop_point();
-  resolve_hole(in);
-  in.progress = HoleProgress{};
-  in.next_step = Step::cycle;
-  return Execution::later;
+  take_shift_words(in);
+  const Execution did = take_p(in);
+  return did == Execution::done && is_tap(c.kind) ? take_tap_words(in) : did;
 }
 
 /// Number of holes of this block: M700 L (13.1.1; default 1, 0 = data only), or K, which the table of 5.3 has for it; DGSHAPE K.
 Execution hole_count(BlockContext& in, uint32_t* count) {
-  const Role word = in.words.has(Role::cycle_count_2) ? Role::cycle_count_2 : Role::cycle_count;
+  const Role second = Role::cycle_count_2, first = Role::cycle_count;
+  const Role word = in.words.has(second) ? second : first;
   *count = 1;
-  if (!in.words.has(word)) return Execution::done;
+  if (!in.words.has(word) || is_shift_word(in, word)) return Execution::done;
   if (!whole_number(in.words.get(word), count) || *count > 9999) return in.raise(Condition::value_range, word, in.words.get(word));
   return Execution::done;
 }
 
+/// RS-274/NGC 3.5.16: it is an error if the spindle is not turning, a tap wants it the right way round.
+Execution check_spindle(BlockContext& in) {
+  const CycleKind kind = in.state.cycle.kind;
+  const CycleRules& rules = in.dialect->rules.cycle;
+  bool by_codes = false;
+  const CycleTable& table = strokes_of(kind);
+  for (unsigned i = 0; i < table.count; ++i) by_codes = by_codes || table.stroke[i].kind == StrokeKind::spindle;
+  const bool wanted = rules.needs_turning_spindle || (rules.keeps_spindle_direction && by_codes);
+  const bool wrong = rules.keeps_spindle_direction && is_tap(kind) && in.state.spindle_reverse != taps_left_hand(kind);
+  return wanted && (!in.state.spindle_on || wrong) ? in.raise_mode(Condition::spindle_not_turning, Mode::cycle) : Execution::done;
+}
+
+/// What a circle around the hole needs.
+Execution check_circle(BlockContext& in) {
+  const CycleState& c = in.state.cycle;
+  uint32_t number = 0;
+  if (c.q == 0) return in.raise(Condition::words_missing, Role::cycle_depth_step);
+  if (!c.has_p || !whole_number(c.p, &number) || number > in.frames.tool_offsets()) return in.raise(Condition::no_offset_number, Role::cycle_dwell, c.p);
+  const PlaneAxes plane = plane_axes(in);
+  if (plane.h < 0 || plane.v < 0 || plane.h == c.drill_axis || plane.v == c.drill_axis) return in.raise_mode(Condition::plane_mismatch, Mode::cycle);
+  const bool fits = (std::fabs(c.q) - radius_amount(in, number)) / 2 > kNoRadius_mm;
+  return fits ? Execution::done : in.raise(Condition::circle_radius, Role::cycle_depth_step, c.q);
+}
+
 }  // namespace
+
+CycleKind cycle_kind(const Dialect& dialect, Function function) {
+  for (const CycleOfFunction& row : kCycles)
+    if (row.function == function) return dialect.rules.cycle.keeps_spindle_direction ? row.by_direction : row.plain;
+  return CycleKind::none;
+}
+
+uint32_t positioning_axes(const BlockContext& in) {
+  const char drills = in.system->axis[in.state.cycle.drill_axis].name;
+  uint32_t axes = 0;
+  for (const int axis : in.state.plane_axis)
+    if (axis >= 0) axes |= 1u << axis;
+  for (unsigned pair = 0; pair < 3; ++pair) {
+    const char basic = in.settings.plane_basic[pair];
+    if (basic == 0 || basic == drills || in.settings.plane_parallel[pair] == drills || in.axis_named(basic) < 0) continue;
+    axes |= 1u << in.axis_named(basic);
+  }
+  return axes;
+}
+
+Execution check_hole(BlockContext& in) {
+  const BlockWords& w = in.words;
+  const CycleState& c = in.state.cycle;
+  const CycleRules& rules = in.dialect->rules.cycle;
+  if ((w.axes & in.rotary) != 0 && !rules.takes_rotary_axes) return in.raise_axis(Condition::illegal_axis, first_of(w.axes & in.rotary));
+  Execution did = check_spindle(in);
+  if (did != Execution::done) return did;
+  if (turns_axis(in, c.drill_axis)) return in.raise(Condition::plane_mismatch, in.system->axis[c.drill_axis].name);  // 13.21: not an axis alone
+  if (is_tap(c.kind)) did = check_tap(in);
+  if (did == Execution::done && !c.synchronous) did = check_feed(in, Function::linear);
+  if (did != Execution::done) return did;
+  // A peck below the finest unit of the control (M700 2.1 E) is none: the hole would never be done.
+  if (strokes_of(c.kind).pecks && !(std::fabs(c.q) >= 1e-6)) return in.raise(Condition::words_missing, Role::cycle_depth_step);
+  if (c.kind == CycleKind::back_bore_to_level && !c.has_third) return in.raise(Condition::words_missing, Role::vector_z);
+  return c.kind == CycleKind::circle ? check_circle(in) : Execution::done;
+}
 
 void cancel_cycle(BlockContext& in) {
   if (in.state.cycle.kind == CycleKind::none) return;
+  const bool tapped = is_tap(in.state.cycle.kind);
   in.state.cycle = CycleState{};
   in.state.modal.set(Function::cycle_off);
+  if (!tapped) return;
+  in.state.tap_code = false;
+  announce_tapping(in, false);
 }
 
 Execution do_cycle(BlockContext& in) {
   const BlockWords& w = in.words;
+  const CycleRules& rules = in.dialect->rules.cycle;
+  Execution did = Execution::done;
   if (w.cycle != nullptr) {
-    const Execution did = select_cycle(in, *w.cycle);
+    did = select_cycle(in, *w.cycle);
     if (did != Execution::done) return did;
     if (in.state.cycle.kind == CycleKind::none) return move_by_words(in);  // G80 with axis words: they go by the motion in force
   }
   if (w.axes == 0 && !w.has(Role::cycle_level)) return Execution::done;  // M700 13.1.1 (2)
-  Execution did = take_hole_data(in);
-  if (did != Execution::done) return did;
+  if (rules.axis_follows_plane) did = follow_plane(in);
+  if (did == Execution::done) did = take_hole_data(in);
   uint32_t count = 1;
-  did = hole_count(in, &count);
+  if (did == Execution::done) did = hole_count(in, &count);
   if (did != Execution::done) return did;
   const CycleState& c = in.state.cycle;
   if (count == 0) return Execution::done;  // data only
-  in.hole_axes = w.axes;
-  in.hole_increment = w.axis;
-  const CycleRules& rules = in.dialect->rules.cycle;
+  in.holes = HolesOfBlock{};
+  in.holes.axes = w.axes;
+  in.holes.increment = w.axis;
   if (rules.begins_with_both_levels && !(c.has_z && c.has_r)) return in.raise_mode(Condition::words_missing, Mode::cycle);
   if (!c.has_z && rules.without_bottom_positions) {
     position_over_hole(in);
     return Execution::done;
   }
-  if ((w.axes & in.rotary) != 0 && !rules.takes_rotary_axes) return in.raise_axis(Condition::illegal_axis, first_of(w.axes & in.rotary));
-  if (!in.state.spindle_on && rules.needs_turning_spindle) return in.raise_mode(Condition::spindle_not_turning, Mode::cycle);
-  if (turns_axis(in, c.drill_axis)) return in.raise(Condition::plane_mismatch, in.system->axis[c.drill_axis].name);  // 13.21: not an axis alone
-  did = check_feed(in, Function::linear);
+  did = check_hole(in);
   if (did != Execution::done) return did;
-  // A peck below the finest unit of the control (M700 2.1 E) is none: the hole would never be done.
-  if ((c.kind == CycleKind::peck || c.kind == CycleKind::step) && !(c.q >= 1e-6)) return in.raise(Condition::words_missing, Role::cycle_depth_step);
-  in.holes_left = count;
+  in.holes.left = count;
   return begin_hole(in);
-}
-
-Execution continue_cycle(BlockContext& in) {
-  while (in.queue_has_room()) {
-    const CycleStep step = next_step(in.hole, in.progress);
-    switch (step.kind) {
-      case CycleStep::Kind::rapid:
-      case CycleStep::Kind::feed: {
-        HoleProgress ahead = in.progress;
-        emit_cycle_move(in, step, next_step(in.hole, ahead).kind == CycleStep::Kind::done);
-        break;
-      }
-      case CycleStep::Kind::stop_point: in.emit_stop_point(); break;
-      case CycleStep::Kind::dwell: {
-        Gate& gate = in.emit(ItemKind::gate).gate;
-        gate.kind = NC_GATE_DWELL_SECONDS;
-        gate.announce = true;
-        gate.value = step.seconds;
-        break;
-      }
-      case CycleStep::Kind::done:
-        if (--in.holes_left == 0) return Execution::done;
-        in.emit_stop_point();  // single block also stops at the end of each hole but the last, where the block itself ends
-        return begin_hole(in);
-    }
-  }
-  return Execution::later;
 }
 
 }  // namespace nc

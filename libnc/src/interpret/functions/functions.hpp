@@ -53,6 +53,7 @@ Execution do_hypothetical_axis(BlockContext& in);  // hypothetical.cpp
 Execution do_unidirectional(BlockContext& in);     // unidirectional.cpp
 Execution do_circle_cut(BlockContext& in);         // circle_cut.cpp: G12 G13
 Execution do_position_offset(BlockContext& in);    // position_offset.cpp: G45 to G48
+Execution do_hole_pattern(BlockContext& in);       // hole_pattern.cpp: G34 G35 G36 G37.1
 
 /// Motions with rules of their own.
 Execution move_thread(BlockContext& in, const AxisVec& target, uint32_t commanded);             // thread.cpp
@@ -98,6 +99,10 @@ Execution change_length(BlockContext& in);                                // com
 Execution do_cycle(BlockContext& in);
 Execution continue_cycle(BlockContext& in);
 void cancel_cycle(BlockContext& in);
+/// tap.cpp: the block in hand belongs to a tapping cycle; it goes with the angle of the spindle, whose speed and lead the cycle then has.
+bool taps(const BlockContext& in);
+bool taps_with_spindle(const BlockContext& in);
+Execution check_tap_speed(BlockContext& in);  ///< the S of such a block
 
 /// M S T B (auxiliary.cpp). before: everything that goes out before the motion.
 Execution auxiliary_before(BlockContext& in);
@@ -105,6 +110,8 @@ Execution auxiliary_before(BlockContext& in);
 void auxiliary_behind(BlockContext& in, MiscFunction function, uint32_t m);
 /// The program goes on when what has been given out is complete.
 void await_fin(BlockContext& in);
+/// An M code of the spindle that a cycle makes; the program goes on when it is complete. The modal M of the program stays.
+void give_out_spindle(BlockContext& in, MiscFunction function, uint32_t code);
 /// Constant surface speed and clamp speeds (spindle.cpp).
 void announce_surface(BlockContext& in);                ///< to the scan: what of G96, G97 is in force
 Execution set_surface_speed(BlockContext& in);               ///< G96 G97 of the block

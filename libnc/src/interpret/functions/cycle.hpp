@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the files of the fixed cycles have of each other: cycle.cpp (the words), cycle_strokes.cpp (the moves of a hole), tap.cpp (the words of
+// tapping), hole_pattern.cpp (M700 13.2).
+#pragma once
+
+#include "interpret/functions/functions.hpp"
+
+namespace nc {
+
+/// The cycle that a function is in this family, CycleKind::none where it is none.
+CycleKind cycle_kind(const Dialect& dialect, Function function);
+
+/// Everything that a hole needs is there: feed, spindle, cuts.
+Execution check_hole(BlockContext& in);
+
+/// cycle_strokes.cpp: to the next hole of the block; its strokes follow in continue_cycle().
+Execution begin_hole(BlockContext& in);
+/// The move over the hole alone.
+void position_over_hole(BlockContext& in);
+/// Axes that are positioned over the hole: those of the plane that is selected, and the basic axes that are not parallel to the drilling axis.
+uint32_t positioning_axes(const BlockContext& in);
+
+/// tap.cpp: what the block says of tapping, kept in State::cycle; and whether a tap can be made.
+Execution take_tap_words(BlockContext& in);
+Execution check_tap(BlockContext& in);
+/// The tap of the cycle in force, made in cuts where it has a depth for them.
+CycleKind tap_in_cuts(const BlockContext& in, CycleKind kind);
+
+}  // namespace nc

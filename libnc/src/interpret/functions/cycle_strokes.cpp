@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+// The strokes of a fixed cycle (cycle/strokes.cpp) -> moves, dwells, M codes and places where single block stops.
+#include <cmath>
+
+#include "interpret/feed.hpp"
+#include "interpret/functions/cycle.hpp"
+#include "interpret/plane.hpp"
+#include "interpret/program_map.hpp"
+
+namespace nc {
+namespace {
+
+/// `start`, but where `axes` go.
+AxisVec plain_end(const AxisVec& start, const AxisVec& target, uint32_t axes) {
+  AxisVec end = start;
+  for (unsigned i = 0; i < kMaxAxes; ++i)
+    if (((axes >> i) & 1) != 0) end[i] = target[i];
+  return end;
+}
+
+AxisVec as_programmed(const BlockContext& in, const AxisVec& place) { return program_mapped(in) ? to_program(in, place) : place; }
+AxisVec as_moved(const BlockContext& in, const AxisVec& place) { return program_mapped(in) ? from_program(in, place) : place; }
+
+uint32_t plane_bits(const BlockContext& in) {
+  uint32_t axes = 0;
+  for (const int axis : in.state.plane_axis)
+    if (axis >= 0) axes |= 1u << axis;
+  return axes & ~(1u << in.state.cycle.drill_axis);
+}
+
+/// M700 13.1.1, "absolute/incremental": where R is incremental it has the sign of Z, of back boring the other one.
+double incremental_r(const BlockContext& in) {
+  const CycleState& c = in.state.cycle;
+  if (!in.dialect->rules.cycle.r_takes_sign_of_z || !c.z_incremental || !c.has_z) return c.r;
+  return std::copysign(c.r, c.kind == CycleKind::back_bore ? -c.z : c.z);
+}
+
+double clearance(const BlockContext& in, CycleKind kind) {
+  const double fixed = in.dialect->rules.cycle.fixed_clearance_mm;
+  if (fixed > 0) return fixed;
+  if (is_tap(kind)) return in.settings.tap_clearance;
+  return kind == CycleKind::step ? in.settings.peck_clearance_73 : in.settings.peck_clearance_83;
+}
+
+/// The time at the bottom. M700 13.1.1, "synchronous tap in-position check": #1313 is the least of it where the checks are chosen by bits.
+double dwell_s(const BlockContext& in) {
+  const CycleState& c = in.state.cycle;
+  const double p = c.has_p && c.kind != CycleKind::circle ? c.p / 1000 : 0;
+  return c.synchronous && in.settings.tap_checks ? std::fmax(p, in.settings.tap_dwell_s) : p;
+}
+
+/// Levels of this hole from the hole data (M700 13.1.1 "Absolute/incremental").
+void resolve_levels(BlockContext& in) {
+  const CycleState& c = in.state.cycle;
+  const CycleRules& rules = in.dialect->rules.cycle;
+  Hole& h = in.holes.hole;
+  h.kind = tap_in_cuts(in, c.kind);
+  h.synchronous = c.synchronous;
+  // As a coordinate of now: the zero point may have changed since the cycle was commanded. A tool length that comes into
+  // force in between (also one that is pending, M700 12.2) displaces this level like every other end point.
+  h.initial = programmed_on(in, c.drill_axis, c.initial_level - in.zero()[c.drill_axis]);  // levels as programmed; the maps come last
+  if (!c.has_r) {
+    h.r = h.initial;  // DGSHAPE: omitted R = initial level
+  } else {
+    h.r = c.r_incremental ? h.initial + incremental_r(in) : c.r;
+  }
+  h.bottom = !c.has_z ? h.r : c.z_incremental ? h.r + c.z : c.z;
+  h.third = c.third_incremental ? h.bottom + c.third : c.third;
+  const bool below = h.bottom < h.r ? h.initial < h.r : h.initial > h.r;
+  if (rules.rises_before_positioning && below) h.initial = h.r;  // it has gone up
+  for (double* level : {&h.initial, &h.r, &h.bottom, &h.third}) *level = mapped_on(in, c.drill_axis, *level);  // M700 13.6, 13.19
+  h.return_to = in.state.modal.is(Function::return_r) ? h.r : h.initial;
+}
+
+/// Beside the hole: I J K of the block, or Q along the axes of the plane with #1080, #8207 and #8208 (M700 13.1.1, G76 and G87).
+AxisVec place_beside(BlockContext& in) {
+  const CycleState& c = in.state.cycle;
+  const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
+  double shift[2] = {c.shift[pair.first], c.shift[pair.second]};
+  const bool by_words = shift[0] != 0 || shift[1] != 0;
+  AxisVec place = as_programmed(in, in.holes.over);
+  for (unsigned i = 0; i < 2; ++i) {
+    const int axis = in.state.plane_axis[i];
+    if (axis < 0) continue;
+    if (!by_words && in.settings.drilling_axis_z && (in.settings.shift_ignored >> axis & 1) == 0)
+      shift[i] = (in.settings.shift_minus >> axis & 1) != 0 ? -std::fabs(c.q) : std::fabs(c.q);
+    place[static_cast<unsigned>(axis)] += shift[i];
+  }
+  return as_moved(in, place);
+}
+
+void resolve_hole(BlockContext& in) {
+  const CycleState& c = in.state.cycle;
+  Hole& h = in.holes.hole;
+  resolve_levels(in);
+  h.q = in.holes.whole ? 0 : is_tap(c.kind) ? c.tap_q : std::fabs(c.q);
+  h.dwell_s = dwell_s(in);
+  h.clearance = clearance(in, c.kind);
+  in.holes.over = in.position();
+  if (strokes_of(c.kind).shifts) in.holes.beside = place_beside(in);
+}
+
+/// RS-274/NGC 3.5.16: the tool leaves the material before it goes to the next hole, and R is the level from then on.
+void rise_to_level(BlockContext& in) {
+  resolve_levels(in);
+  const unsigned axis = in.state.cycle.drill_axis;
+  const Hole& h = in.holes.hole;
+  AxisVec target = in.position();
+  const double up = h.bottom < h.r ? 1.0 : -1.0;
+  if ((h.r - target[axis]) * up <= 0) return;
+  target[axis] = h.r;
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  move_linear(in, target, 1u << axis, style);
+}
+
+/// A line as the words of a block would make it, in the motion in force.
+LinearStyle by_motion_in_force(BlockContext& in, const AxisVec& start, const AxisVec& end) {
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  if (in.state.modal.is(Function::rapid)) return style;
+  style.kind = NC_MOVE_LINE;
+  style.feed_mm_min = feed_for(in, start, end);
+  style.special_feed = special_feed(in);
+  style.exact_stop = true;  // the cycle begins behind it
+  return style;
+}
+
+/// Hole of a pattern (M700 13.2): in rapid where a cycle is in force, else by the motion in force.
+void position_in_pattern(BlockContext& in) {
+  const HolePattern& pattern = in.holes.pattern;
+  double place[2];
+  place_of_hole(pattern, pattern.count() - in.holes.left, place);
+  AxisVec target = in.holes.pattern_at;
+  for (unsigned i = 0; i < 2; ++i) target[static_cast<unsigned>(in.state.plane_axis[i])] += place[i];
+  target = as_moved(in, target);
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  if (in.state.cycle.kind == CycleKind::none) style = by_motion_in_force(in, in.position(), target);
+  move_linear(in, target, 1u << in.state.plane_axis[0] | 1u << in.state.plane_axis[1], style);
+}
+
+/// Half circles and the circle of M700 13.1.1, G75: about the hole, its entry on the minus side of the plane's first axis.
+void move_on_circle(BlockContext& in, StrokeKind kind) {
+  const CycleState& c = in.state.cycle;
+  uint32_t number = 0;
+  whole_number(c.p, &number);
+  const PlaneAxes plane = plane_axes(in);
+  const auto h = static_cast<unsigned>(plane.h);
+  const double radius = std::fabs(c.q) - radius_amount(in, number) / scale_of(in, h);
+  const bool in_centre = kind == StrokeKind::circle_out;
+  AxisVec end = as_programmed(in, in.holes.over);
+  if (!in_centre) end[h] -= radius;
+  AxisVec target = in.position();
+  const AxisVec mapped = as_moved(in, end);
+  for (const int axis : in.state.plane_axis) target[static_cast<unsigned>(axis)] = mapped[static_cast<unsigned>(axis)];
+  ArcWords words;
+  words.center[0] = kind == StrokeKind::circle_in ? -radius / 2 : kind == StrokeKind::circle ? radius : radius / 2;
+  move_arc_by(in, plane, target, plane_bits(in), words, c.q < 0);
+}
+
+void move_in_plane(BlockContext& in, const CycleStep& step) {
+  const AxisVec& place = step.level == Level::beside ? in.holes.beside : in.holes.over;
+  LinearStyle style;
+  style.kind = step.kind == StrokeKind::shift_rapid ? NC_MOVE_RAPID : NC_MOVE_LINE;
+  if (style.kind == NC_MOVE_LINE) {
+    style.feed_mm_min = feed_mm_min(in);
+    style.special_feed = special_feed(in);
+  }
+  style.exact_stop = true;
+  move_linear(in, plain_end(in.position(), place, plane_bits(in)), plane_bits(in), style);
+}
+
+/// A stroke of a tap that goes with the spindle: the lead, and the speed that the spindle is to have (M700 13.1.1 (6) (c): on the way back not
+/// below that of the way in).
+void set_tap(const BlockContext& in, const CycleStep& step, LinearStyle* style) {
+  const CycleState& c = in.state.cycle;
+  const bool back = step.level != Level::bottom && step.level != Level::peck;
+  const double speed = back ? std::fmax(c.return_speed, in.state.modal.spindle) : in.state.modal.spindle;
+  const double hand = taps_left_hand(c.kind) != back ? -1.0 : 1.0;
+  style->kind = NC_MOVE_TAP;
+  style->special_feed = false;
+  style->feed_mm_rev = c.pitch;
+  style->feed_mm_min = c.pitch * speed;
+  style->tap_speed = hand * speed;
+}
+
+void move_along(BlockContext& in, const CycleStep& step) {
+  const CycleState& c = in.state.cycle;
+  AxisVec target = in.position();
+  target[c.drill_axis] = step.to;
+  LinearStyle style;
+  style.kind = step.kind == StrokeKind::rapid ? NC_MOVE_RAPID : NC_MOVE_LINE;
+  style.feed_mm_min = feed_mm_min(in);
+  style.special_feed = style.kind != NC_MOVE_RAPID && special_feed(in);
+  style.exact_stop = true;  // every level of a hole is reached
+  style.tapping = (step.flags & kStrokeTaps) != 0;
+  if (style.tapping && c.synchronous) set_tap(in, step, &style);
+  if ((step.flags & kStrokeReturns) != 0 && strokes_of(c.kind).takes_widths) style.in_position = c.in_position;
+  move_linear(in, target, 1u << c.drill_axis, style);
+}
+
+/// M700 13.1.1 (7): #3028 names the M of the spindle forward in taps; reverse is the one behind it.
+void turn_spindle(BlockContext& in, CycleSpindle turn) {
+  const bool reverse = turn == CycleSpindle::reverse || (turn == CycleSpindle::as_before && in.state.spindle_reverse);
+  MiscFunction function = reverse ? MiscFunction::spindle_reverse : MiscFunction::spindle_forward;
+  if (turn == CycleSpindle::stop) function = MiscFunction::spindle_stop;
+  if (turn == CycleSpindle::orient) function = MiscFunction::spindle_oriented;
+  const bool turns = turn != CycleSpindle::stop && turn != CycleSpindle::orient;
+  if (turns && is_tap(in.state.cycle.kind) && in.settings.spindle_forward_m != 0)
+    return give_out_spindle(in, function, reverse ? in.settings.spindle_reverse_m : in.settings.spindle_forward_m);
+  uint32_t out = misc_code(*in.dialect, function);
+  if (out == kNoMisc) out = misc_code(*in.dialect, MiscFunction::spindle_orient);  // RS-274: in a program it has words that are not built
+  give_out_spindle(in, function, out);
+}
+
+/// M700 13.1.1, "in-position check during synchronous tapping": with P and bit 3 each of three places has a bit of its own.
+void check_tap_position(BlockContext& in, const CycleStep& step) {
+  const Settings& s = in.settings;
+  if (!in.state.cycle.synchronous || !s.tap_checks || !in.state.cycle.has_p) return;
+  const bool approach = step.kind == StrokeKind::rapid && step.level == Level::r && s.tap_check_approach;
+  const bool bottom = step.kind == StrokeKind::feed && step.level == Level::bottom && s.tap_check_bottom;
+  const bool back = step.kind == StrokeKind::feed && step.level == Level::r && s.tap_check_r;
+  if (approach || bottom || back) in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION;
+}
+
+void emit_dwell(BlockContext& in) {
+  if (!(in.holes.hole.dwell_s > 0)) return;
+  Gate& gate = in.emit(ItemKind::gate).gate;
+  gate.kind = NC_GATE_DWELL_SECONDS;
+  gate.announce = true;
+  gate.value = in.holes.hole.dwell_s;
+}
+
+void make_stroke(BlockContext& in, const CycleStep& step) {
+  switch (step.kind) {
+    case StrokeKind::rapid:
+    case StrokeKind::feed: move_along(in, step); break;
+    case StrokeKind::shift_rapid:
+    case StrokeKind::shift_feed: move_in_plane(in, step); break;
+    case StrokeKind::circle_in:
+    case StrokeKind::circle:
+    case StrokeKind::circle_out: move_on_circle(in, step.kind); break;
+    case StrokeKind::dwell: emit_dwell(in); break;
+    case StrokeKind::spindle: turn_spindle(in, step.spindle); break;
+    case StrokeKind::program_stop: in.emit(ItemKind::gate).gate.kind = NC_GATE_STOP; break;
+    case StrokeKind::again: break;
+  }
+  check_tap_position(in, step);
+}
+
+/// M700 13.1.1, G84: a hold that comes between R and R again acts behind the way back.
+void note_tapping(BlockContext& in, bool strokes) {
+  if (in.holes.tapping == strokes) return;
+  in.holes.tapping = strokes;
+  announce_tapping(in, strokes);
+}
+bool ends_tapping(const CycleStep& step) { return (step.flags & (kStrokeTaps | kWhilePecking)) == kStrokeTaps && (step.level == Level::r || step.level == Level::exit); }
+
+}  // namespace
+
+/// The move to the hole. Axes that neither drill nor are of the plane go first (M700 13.1.1 precaution (6)), by the motion from
+/// before the cycle (13.1.2, example 2, N012): rapid by G00, else a line with the feed, which is what such an axis does beside an arc, too.
+/// Then the plane in rapid traverse, which ,I of the block belongs to.
+void position_over_hole(BlockContext& in) {
+  if (in.holes.pattern.kind != PatternKind::none) return position_in_pattern(in);
+  const uint32_t axes = in.holes.axes & ~(1u << in.state.cycle.drill_axis);
+  const uint32_t over_hole = positioning_axes(in);
+  const AxisVec start = in.position(), target = target_of(in, start, axes, in.holes.increment);
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  LinearStyle other = style;
+  if (in.dialect->rules.cycle.others_keep_motion_mode) other = by_motion_in_force(in, start, plain_end(start, target, axes & ~over_hole));
+  move_linear(in, target, axes & ~over_hole, other);
+  if (strokes_of(in.state.cycle.kind).takes_widths) style.in_position = in.words.in_position;
+  move_linear(in, target, axes & over_hole, style);
+}
+
+Execution begin_hole(BlockContext& in) {
+  if (in.dialect->rules.cycle.rises_before_positioning) rise_to_level(in);
+  position_over_hole(in);
+  if (in.state.cycle.kind != CycleKind::none) in.emit_stop_point();  // positions of a pattern alone have one stop each
+  resolve_hole(in);
+  in.holes.progress = begin_strokes(in.holes.hole);
+  in.next_step = Step::cycle;
+  return Execution::later;
+}
+
+Execution continue_cycle(BlockContext& in) {
+  HolesOfBlock& holes = in.holes;
+  while (in.queue_has_room()) {
+    CycleStep step;
+    if (next_stroke(holes.hole, holes.progress, &step)) {
+      if ((step.flags & kStrokeTaps) != 0) note_tapping(in, true);
+      make_stroke(in, step);
+      if (ends_tapping(step)) note_tapping(in, false);
+      if ((step.flags & kStrokeStops) != 0) in.emit_stop_point();
+      continue;
+    }
+    if (--holes.left == 0) return Execution::done;
+    in.emit_stop_point();  // single block also stops at the end of each hole but the last, where the block itself ends
+    return begin_hole(in);
+  }
+  return Execution::later;
+}
+
+}  // namespace nc

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// Special fixed cycles: holes on a circle, a line, an arc, a grid (M700 13.2). The cycle in force makes each of them; without one the axes of the
+// plane go to each of them.
+#include <cmath>
+
+#include "interpret/feed.hpp"
+#include "interpret/functions/cycle.hpp"
+#include "interpret/plane.hpp"
+#include "interpret/program_map.hpp"
+
+namespace nc {
+namespace {
+
+PatternKind kind_of(Function function) {
+  switch (function) {
+    case Function::holes_on_circle: return PatternKind::circle;
+    case Function::holes_on_line: return PatternKind::line;
+    case Function::holes_on_arc: return PatternKind::arc;
+    default: return PatternKind::grid;
+  }
+}
+
+/// Note 1: axes of the plane, G N I J K H O P F M S and the second auxiliary function; any other address is an alarm.
+Execution check_addresses(BlockContext& in, const PlaneAxes& plane) {
+  const BlockWords& w = in.words;
+  uint32_t allowed = in.code_addresses | in.addresses({Role::vector_x, Role::vector_y, Role::vector_z, Role::length_number, Role::hole_angle_step, Role::feed,
+                                                       Role::spindle_speed, Role::second_function, Role::second_function_2, Role::second_function_3,
+                                                       Role::sequence_number, Role::program_number});
+  allowed &= ~in.axis_letters;
+  const uint32_t others = w.present & ~allowed & ~in.axis_letters;
+  if (others != 0) {
+    const char letter = first_of_block(in, others);
+    return in.raise(Condition::illegal_address, letter, w.get(letter));
+  }
+  const uint32_t axes = w.axes & ~(1u << plane.h | 1u << plane.v);
+  return axes == 0 ? Execution::done : in.raise_axis(Condition::illegal_address, first_of(axes), w.get(in.system->axis[first_of(axes)].name));
+}
+
+double angle_of(const BlockContext& in, Role word) { return length_value(in, in.words.get(word), in.words.flag(word), true, true); }
+
+/// Number of holes: whole, 1 to 9999 (P221). `last_four`: of more digits the last four count (G35, G37.1, note 2).
+Execution take_count(BlockContext& in, Role word, bool last_four, uint32_t* count) {
+  const BlockWords& w = in.words;
+  if (!w.has(word)) return in.raise(Condition::no_holes, word);
+  const double raw = w.get(word);
+  if (!whole_number(raw, count) || (!last_four && *count > 9999)) return in.raise(Condition::value_range, word, raw);
+  *count %= 10000;
+  return *count != 0 ? Execution::done : in.raise(Condition::no_holes, word, raw);
+}
+
+/// G34: the sign of K is the way round.
+Execution read_circle(BlockContext& in, HolePattern* p) {
+  BlockWords& w = in.words;
+  p->step = 1;
+  if (w.has(Role::hole_count) && w.get(Role::hole_count) < 0) {
+    p->step = -1;
+    const double raw = -w.get(Role::hole_count);
+    uint32_t count = 0;
+    if (!whole_number(raw, &count) || count > 9999) return in.raise(Condition::value_range, Role::hole_count, -raw);
+    p->columns = count;
+    return count != 0 ? Execution::done : in.raise(Condition::no_holes, Role::hole_count, -raw);
+  }
+  return take_count(in, Role::hole_count, false, &p->columns);
+}
+
+Execution read_arc(BlockContext& in, HolePattern* p) {
+  p->step = in.words.has(Role::hole_angle_step) ? angle_of(in, Role::hole_angle_step) : 0;
+  if (p->step == 0) return in.raise(Condition::hole_angle_zero, Role::hole_angle_step);
+  return take_count(in, Role::hole_count, false, &p->columns);
+}
+
+Execution read_grid(BlockContext& in, HolePattern* p) {
+  Execution did = take_count(in, Role::hole_columns, true, &p->columns);
+  if (did == Execution::done) did = take_count(in, Role::hole_count, true, &p->rows);
+  if (did != Execution::done) return did;
+  const BlockWords& w = in.words;
+  for (const Role word : {Role::hole_interval, Role::hole_interval_2})
+    if (!w.has(word) && (word == Role::hole_interval ? p->columns : p->rows) > 1) return in.raise(Condition::words_missing, word);
+  p->interval_2 = w.has(Role::hole_interval_2) ? length_of(in, Role::hole_interval_2) : 0;
+  return Execution::done;
+}
+
+Execution read_pattern(BlockContext& in, HolePattern* p) {
+  const BlockWords& w = in.words;
+  if (p->kind != PatternKind::grid && !w.has(Role::hole_interval)) return in.raise(Condition::words_missing, Role::hole_interval);
+  p->interval = w.has(Role::hole_interval) ? length_of(in, Role::hole_interval) : 0;
+  // The radius "is given with a positive number".
+  if ((p->kind == PatternKind::circle || p->kind == PatternKind::arc) && !(p->interval > 0))
+    return in.raise(Condition::value_range, Role::hole_interval, w.get(Role::hole_interval));
+  if (p->kind != PatternKind::grid && w.has(Role::hole_angle)) p->angle = angle_of(in, Role::hole_angle);
+  switch (p->kind) {
+    case PatternKind::circle: return read_circle(in, p);
+    case PatternKind::arc: return read_arc(in, p);
+    case PatternKind::line: return take_count(in, Role::hole_count, true, &p->columns);
+    default: return read_grid(in, p);
+  }
+}
+
+/// The reference point as programmed: the words of the plane's axes, else where the program stands.
+AxisVec reference_point(const BlockContext& in) {
+  const BlockWords& w = in.words;
+  AxisVec at = program_mapped(in) ? to_program(in, in.position()) : in.position();
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if ((w.axes >> i & 1) != 0) at[i] = (w.incremental >> i & 1) != 0 ? at[i] + w.axis[i] : w.axis[i];
+  return at;
+}
+
+}  // namespace
+
+Execution do_hole_pattern(BlockContext& in) {
+  const FunctionRow& row = *in.words.one_shot;
+  const PlaneAxes plane = plane_axes(in);
+  if (plane.h < 0 || plane.v < 0) return in.raise_code(Condition::plane_mismatch, row);
+  Execution did = check_addresses(in, plane);
+  HolePattern pattern;
+  pattern.kind = kind_of(row.function);
+  if (did == Execution::done) did = read_pattern(in, &pattern);
+  if (did != Execution::done) return did;
+  const CycleState& c = in.state.cycle;
+  if (c.kind != CycleKind::none) {
+    if (c.drill_axis == plane.h || c.drill_axis == plane.v) return in.raise_code(Condition::plane_mismatch, row);
+    did = check_hole(in);
+  } else if (!in.state.modal.is(Function::rapid)) {
+    did = check_feed(in, Function::linear);
+  }
+  if (did != Execution::done) return did;
+  in.holes = HolesOfBlock{};
+  in.holes.axes = in.words.axes;
+  in.holes.pattern = pattern;
+  in.holes.pattern_at = reference_point(in);
+  in.holes.left = pattern.count();
+  return begin_hole(in);
+}
+
+}  // namespace nc

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words of the tapping cycles (M700 13.1.1 (6), G84 and G74): whether a tap goes with the angle of the spindle, and what it then needs.
+#include <cmath>
+
+#include "interpret/functions/cycle.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kMillimetresPerInch = 25.4;
+
+/// Precaution (20): ,R decides; without it the parameter, or an M code.
+bool synchronous(const BlockContext& in) {
+  const BlockWords& w = in.words;
+  const TapControl modal = w.cycle != nullptr && in.state.cycle.kind == CycleKind::none ? TapControl::by_parameter : in.state.cycle.tap;
+  if (w.has_tap_control) return w.tap_control == 1;
+  if (modal != TapControl::by_parameter) return modal == TapControl::synchronous;
+  bool by_code = in.state.tap_code || in.settings.tap_synchronous;
+  for (const uint32_t m : w.m) by_code = by_code || m == in.settings.tap_m;
+  return by_code;
+}
+
+/// The lead, mm/rev: F, or E as ridges per inch (appendix 1, P183 and P184). Ranges as of threads (6.7.1).
+Execution take_pitch(BlockContext& in) {
+  const BlockWords& w = in.words;
+  const bool inch = in.state.modal.is(Function::inch), ridges = w.has(Role::tap_ridges);
+  if (!ridges && !w.has(Role::feed)) return Execution::done;
+  const Role word = ridges ? Role::tap_ridges : Role::feed;
+  const double value = w.get(word), unit = inch ? kMillimetresPerInch : 1.0;
+  const double pitch = !ridges ? value * unit : value > 0 ? kMillimetresPerInch / value : 0;
+  if (!(pitch > 0 && pitch < (inch ? 100 * kMillimetresPerInch : 1000))) return in.raise(Condition::tap_pitch, word, value);
+  in.state.cycle.pitch = pitch;
+  return Execution::done;
+}
+
+}  // namespace
+
+bool taps(const BlockContext& in) {
+  const BlockWords& w = in.words;
+  if (w.motion != nullptr || w.one_shot != nullptr) return false;
+  return is_tap(w.cycle != nullptr ? cycle_kind(*in.dialect, w.cycle->function) : in.state.cycle.kind);
+}
+
+bool taps_with_spindle(const BlockContext& in) { return taps(in) && synchronous(in); }
+
+/// P186: in the mode of synchronous tapping the spindle is the tap's. The block that selects it brings its S.
+Execution check_tap_speed(BlockContext& in) {
+  const double s = in.words.get(Role::spindle_speed);
+  return in.words.cycle != nullptr ? Execution::done : in.raise(Condition::tap_speed_word, Role::spindle_speed, s);
+}
+
+Execution take_tap_words(BlockContext& in) {
+  const BlockWords& w = in.words;
+  CycleState& c = in.state.cycle;
+  if (w.has_tap_control) {
+    if (w.tap_control != 0 && w.tap_control != 1) return in.raise(Condition::value_range, Role::option_tap_control, w.tap_control);
+    c.tap = w.tap_control == 1 ? TapControl::synchronous : TapControl::floating;
+  }
+  if (w.has_return_speed) {
+    uint32_t speed = 0;
+    if (!whole_number(w.return_speed, &speed) || speed > 99999) return in.raise(Condition::value_range, Role::option_return_speed, w.return_speed);
+    c.return_speed = speed;
+  }
+  c.synchronous = synchronous(in);
+  return c.synchronous ? take_pitch(in) : Execution::done;
+}
+
+Execution check_tap(BlockContext& in) {
+  const CycleState& c = in.state.cycle;
+  // P181: a speed has been commanded; that of a synchronous tap stands in the block of its code.
+  const bool missing = c.synchronous && in.words.cycle != nullptr ? !in.words.has(Role::spindle_speed) : false;
+  if (missing || !(in.state.modal.spindle > 0)) {
+    if (!in.dialect->rules.cycle.keeps_spindle_direction) return in.raise(Condition::tap_no_speed, Role::spindle_speed);
+  }
+  if (c.synchronous && !(c.pitch > 0)) return in.raise(Condition::tap_no_pitch, Role::feed);
+  return Execution::done;
+}
+
+CycleKind tap_in_cuts(const BlockContext& in, CycleKind kind) {
+  if (!(in.state.cycle.tap_q >= 1e-6)) return kind;
+  const bool to_r = in.settings.tap_to_r;
+  if (kind == CycleKind::tap) return to_r ? CycleKind::deep_tap : CycleKind::peck_tap;
+  if (kind == CycleKind::reverse_tap) return to_r ? CycleKind::deep_reverse_tap : CycleKind::peck_reverse_tap;
+  return kind;
+}
+
+}  // namespace nc
