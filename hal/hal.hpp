@@ -43,6 +43,8 @@ struct SystemCommand {
   std::uint32_t m = 0, t = 0, b = 0;
   double spindle_rev_min[NC_MAX_SPINDLES] = {};  // speed that each is wanted at
   std::uint8_t spindle_selected = 0;             // bit n: spindle n+1 is the one of the S command
+  std::uint8_t spindle_synchronous = 0;          // bit n: spindle n+1 stands, then follows `spindle_turns` (synchronous tap)
+  double spindle_turns = 0;                      // revolutions since it was taken over, signed
   std::uint8_t servo_on = 0;                     // bit i: axis i, which is a spindle too, is to hold its position (C axis)
   std::uint8_t servo_ready = 0;                  // bit i: and `position` is what it follows
   std::uint64_t serial = 0;  // item in execution

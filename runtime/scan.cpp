@@ -362,6 +362,8 @@ void Scan::write_outputs() noexcept {
     machine.b = out.b;
     std::copy(std::begin(out.spindle_rev_min), std::end(out.spindle_rev_min), machine.spindle_rev_min);
     machine.spindle_selected = out.spindle_selected;
+    machine.spindle_synchronous = out.spindle_synchronous;
+    machine.spindle_turns = out.spindle_turns;
     machine.servo_on = out.servo_on;
     machine.servo_ready = out.servo_ready;
     machine.serial = out.serial;

@@ -196,6 +196,12 @@ void SimMachine::turn_spindles(unsigned index, const SystemCommand& command) noe
   System& system = system_[index];
   for (unsigned n = 0; n < config_.spindle_count[index]; ++n) {
     if (index == 0 && plant_.turns_spindle(n)) continue;
+    if ((command.spindle_synchronous >> n & 1) != 0) {
+      system.direction[n] = 0;  // it turns again with the next code that starts it
+      system.spindle[n].follow(command.spindle_turns, config_.cycle_s, config_.spindle_ramp_rpm_per_s);
+      continue;
+    }
+    system.spindle[n].let_go();
     if (system.direction[n] != 0) system.wanted_rpm[n] = std::abs(command.spindle_rev_min[n]);  // constant surface speed
     system.spindle[n].step(config_.cycle_s, target_rpm(system, n), config_.spindle_ramp_rpm_per_s);
   }

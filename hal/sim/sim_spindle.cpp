@@ -36,6 +36,17 @@ void SimSpindle::step(double cycle_s, double wanted_rpm, double ramp_rpm_per_s) 
   mark_ = std::floor(turns_) + 1;
 }
 
+void SimSpindle::follow(double turns, double cycle_s, double ramp_rpm_per_s) noexcept {
+  if (!following_) {
+    step(cycle_s, 0, ramp_rpm_per_s);
+    following_ = rpm_ == 0;
+    taken_at_ = turns_ - turns;
+    return;
+  }
+  rpm_ = (taken_at_ + turns - turns_) / cycle_s * 60;
+  turns_ = taken_at_ + turns;
+}
+
 void SimSpindle::turn_axis(double degrees, double cycle_s) noexcept {
   turns_ += degrees / 360;
   rpm_ = degrees / 360 / cycle_s * 60;

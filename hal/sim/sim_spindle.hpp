@@ -10,6 +10,9 @@ class SimSpindle {
   void set_servo(bool on) noexcept;
   // One cycle towards `wanted_rpm` (signed), or what the servo asks for.
   void step(double cycle_s, double wanted_rpm, double ramp_rpm_per_s) noexcept;
+  // Of a synchronous tap: it comes to rest, and then its angle follows so many revolutions from there on.
+  void follow(double turns, double cycle_s, double ramp_rpm_per_s) noexcept;
+  void let_go() noexcept { following_ = false; }
   // The axis that it is has turned it by so many degrees.
   void turn_axis(double degrees, double cycle_s) noexcept;
 
@@ -23,6 +26,8 @@ class SimSpindle {
   Phase phase_ = Phase::kTurning;
   double rpm_ = 0, turns_ = 0;
   double mark_ = 0;  // turns at which it is oriented
+  bool following_ = false;
+  double taken_at_ = 0;  // turns at which it was taken over, less those of the command
 };
 
 }  // namespace nc::hal

@@ -187,6 +187,12 @@ TEST(StructSize, BehindTheCallersEndNothingIsReadOrWritten) {
   in.manual[0] = {NC_MANUAL_HANDLE, 0, 1e6};
   EXPECT_EQ(nc_cycle(c.control, &in, &out), NC_OK);
   EXPECT_EQ(out.handle_dropped, 88u);
+  out.struct_size = offsetof(nc_outputs, spindle_turns);
+  out.spindle_turns = 99;
+  out.spindle_synchronous = 7;
+  EXPECT_EQ(nc_cycle(c.control, &in, &out), NC_OK);
+  EXPECT_EQ(out.spindle_turns, 99);
+  EXPECT_EQ(out.spindle_synchronous, 7);
   out.struct_size = sizeof out;
   EXPECT_EQ(nc_cycle(c.control, &in, &out), NC_OK);
   EXPECT_EQ(out.handle_dropped, 1u);

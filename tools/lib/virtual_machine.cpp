@@ -131,7 +131,8 @@ class VirtualMachine {
     in.feed_override = 1.0;
     in.rapid_override = 1.0;
     turn_spindle(last);
-    in.spindle[0].rev_per_s = direction_ * last.s / 60.0;
+    const bool tap = last.spindle_synchronous != 0;  // it stands at once, and turns with the path
+    in.spindle[0].rev_per_s = (tap ? last.spindle_rev_min[0] : direction_ * last.s) / 60.0;
     in.spindle[0].turns_valid = true;
     in.spindle[0].turns += in.spindle[0].rev_per_s * config_.cycle_s;
     // Events of the setup: by the blocks, and by the machine's own time.

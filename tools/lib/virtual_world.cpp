@@ -178,7 +178,7 @@ double VirtualWorld::first_entry(const nc_move& move) const {
 double VirtualWorld::duration(const nc_move& move) const {
   double feed = move.feed_mm_min;
   if (move.kind == NC_MOVE_RAPID) feed = kRapidMmMin;
-  if (move.feed_mm_rev > 0.0) feed = move.feed_mm_rev * spindle_rev_min_;
+  if (move.feed_mm_rev > 0.0 && move.kind != NC_MOVE_TAP) feed = move.feed_mm_rev * spindle_rev_min_;
   return feed > 0.0 ? move.length / feed * 60.0 : 0.0;
 }
 

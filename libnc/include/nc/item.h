@@ -71,7 +71,8 @@ typedef enum nc_control_index {
 typedef enum nc_tapping_bits {
   NC_TAPPING_MODE = 1,   /**< the mode of M700 7.11: no feed hold, no stop of single block */
   NC_TAPPING_CYCLE = 2,  /**< a tapping cycle is modal (13.1.1) */
-  NC_TAPPING_STROKES = 4 /**< between R and R again: a feed hold acts behind that */
+  NC_TAPPING_STROKES = 4, /**< between R and R again: a feed hold acts behind that */
+  NC_TAPPING_SYNCHRONOUS = 8 /**< and the path turns the spindle: nc_outputs::spindle_synchronous */
 } nc_tapping_bits;
 
 /** How speeds are clamped (M700 10.4): bits. */

@@ -305,7 +305,7 @@ typedef enum nc_stop_cause {
   NC_CAUSE_ALARM = 10,
   NC_CAUSE_FEED_ZERO = 11,       /**< F1 to F5 is 0 (M700 operation alarm 104) */
   NC_CAUSE_SPINDLE_STOPPED = 12, /**< synchronous feed without a turning spindle (M700 operation alarm 105) */
-  NC_CAUSE_SPINDLE_ANGLE = 13,   /**< a thread waits for its start angle */
+  NC_CAUSE_SPINDLE_ANGLE = 13,   /**< a thread waits for its start angle, a synchronous tap for a spindle that stands */
   NC_CAUSE_SPINDLE_FAST = 14,    /**< a thread would need more than the largest cutting feed: it does not begin (M700 6.7.1) */
   NC_CAUSE_SERVO_OFF = 15,       /**< a C axis that is a spindle now is commanded (M700 10.5) */
   NC_CAUSE_TAP_SPINDLE = 16,     /**< in the tapping mode its spindle is to be a C axis (M700 10.6: operation error M01 1026) */
@@ -352,7 +352,7 @@ typedef struct nc_outputs {
   uint8_t servo_ready;      /**< bit i: axis i holds its position, and its drive is to follow `command` */
   uint8_t referenced;       /**< bit i: the reference position return of axis i, which is a spindle too, is complete */
   bool rapid;               /**< a rapid move is in execution, or its axes are still on their way */
-  bool tapping;             /**< tapping mode G63 (M700 7.11) */
+  bool tapping;             /**< tapping mode G63 (M700 7.11), or a tapping cycle is modal (13.1.1) */
   bool feed_digit_on;       /**< the move in execution has a feed of one digit, `feed_digit` (M700 7.3) */
   uint8_t feed_digit;       /**< 0 to 5 */
   bool distance_zero;       /**< no axis is commanded to move */
@@ -384,6 +384,10 @@ typedef struct nc_outputs {
   uint8_t joint_faults;     /**< nc_joint_fault_bits of this cycle */
   uint64_t handle_dropped;  /**< bit n: in this cycle a part of the way that the handle of axis n asked for was dropped (NC_MANUAL_HANDLE): the axis
                                  does not end where its wheel says */
+  double spindle_turns;     /**< revolutions, forward positive, that the spindle of a synchronous tap (M700 13.1.1) is to have turned since it was taken over;
+                                 `spindle_rev_min` of it is then their change, signed */
+  uint8_t spindle_synchronous; /**< bit n: spindle n+1 follows `spindle_turns`, standing first. Until R is reached again; behind a reset in the hole
+                                    it goes with the axis by hand until the next M or S that turns it */
 } nc_outputs;
 /**
  * Clear it and set its size. Any thread.

@@ -388,6 +388,13 @@ bool Commit::turns_round(bool checked) {
   return back;
 }
 
+/// M700 13.1.1: the path goes at its feed and turns the spindle with it.
+void Commit::set_tap(const Move& move, Segment* s) const {
+  s->feed_mm_rev = 0;
+  s->tap_rev_per_mm = std::copysign(1 / move.feed_mm_rev, static_cast<double>(move.tap_rev_min));
+  s->tap_acceleration = static_cast<double>(move.tap_slope) * move.feed_mm_rev;
+}
+
 /// What the feed of a segment goes by beside its number.
 void Commit::set_rule(const FeedRule& rule, Segment* s) {
   s->feed_digit = rule.digit;
@@ -450,6 +457,7 @@ void Commit::to_record(const Item& item, const Named& named, Record* out) {
       s.thread = item.move.kind == NC_MOVE_THREAD;
       set_rule(item.move.rule, &s);
       if (s.thread) s.feed_mm_rev *= along_longest();
+      if (item.move.kind == NC_MOVE_TAP) set_tap(item.move, &s);
       if (item.move.plane_feed && !s.rapid) s.feed_mm_s *= helix_slope();
       s.feed_end_mm_s = static_cast<double>(item.move.feed_end) / 60;
       s.thread_angle = item.move.thread_angle;

@@ -169,6 +169,7 @@ class Commit {
   void add_held_axes(const Curve& curve, AxisVec* from, AxisVec* low, AxisVec* high);
   void commit_shape(const Move& move, const Affine& to_machine, const MoveShape& shape);
   double along_longest() const;
+  void set_tap(const Move& move, Segment* s) const;
   void set_rule(const FeedRule& rule, Segment* segment);
   void set_filter(const Move& move, const FilterParameters& filters, Segment* segment) const;
   bool turns_round(bool checked);

@@ -311,6 +311,7 @@ void Interpolator::start(const nc_inputs& in) {
 /// codes stay.
 void Interpolator::give_up() {
   run_.give_up();
+  hold_tap();
   law_ = {};
   end_rounding();
   check_ = false;
@@ -545,6 +546,7 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   for (unsigned i = 0; i < config_.spindle_count; ++i) out.spindle_rev_min[i] = spindles_.now(i);
   for (unsigned i = 0; c_axes_ != 0 && i < config_.axis_count; ++i)
     if ((servo_on_ >> i & 1) != 0) out.spindle_rev_min[config_.axis_spindle[i] - 1] = 0;  // M700 10.5 (1): spindle control is not possible
+  turn_tap_spindle(out);
   out.spindle_selected = spindles_.selected();
   out.spindle_encoder = static_cast<uint8_t>(encoder_);
   out.servo_on = servo_on_;

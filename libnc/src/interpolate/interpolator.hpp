@@ -158,6 +158,10 @@ class Interpolator {
   Done wait(nc_stop_cause cause) NC_RT;
   void mark(const Mark& mark, const nc_inputs& in) NC_RT;
   void take_tapping(uint8_t bits) NC_RT;
+  bool tap_spindle_ready(const nc_inputs& in) NC_RT;
+  void note_tap(const Segment& s) NC_RT;
+  void hold_tap() NC_RT;
+  void turn_tap_spindle(nc_outputs& out) const NC_RT;
   bool stops_at(const Mark& mark, const nc_inputs& in) const NC_RT;
   void alarm() NC_RT;
   void stop_in(const nc_source& block, BlockSeq behind) NC_RT;
@@ -314,6 +318,11 @@ class Interpolator {
 
   // ---- feed (M700 7)
   uint8_t tapping_ = 0;              ///< nc_tapping_bits in force
+  double tap_turns_ = 0;             ///< of the spindle of a synchronous tap, up to the move in execution
+  bool tap_held_ = false;            ///< a reset has left it in the hole: the spindle turns with its axis by hand, and not else
+  unsigned tap_axis_ = 0;            ///< that the tap moves ...
+  double tap_per_mm_ = 0;            ///< ... and turns of the spindle by it, forward positive
+  double tap_place_ = 0;             ///< where the reset has left the axis
   bool hold_behind_tap_ = false;     ///< feed hold was pressed between R and R again of a tap
   double digit_pulses_[5] = {};      ///< what the handle has made of F1 to F5
 

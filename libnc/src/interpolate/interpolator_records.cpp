@@ -124,6 +124,7 @@ void Interpolator::end_move(const Record& r) {
     passing_ = false;
   }
   law_.s = 0;
+  tap_turns_ += r.segment.curve.length * r.segment.tap_rev_per_mm;
   moving_ = skip_braking_ = rounding_ = false;
   rapid_behind_ = r.segment.rapid;
   check_ = r.segment.rapid || r.segment.exact_stop || r.segment.skip;
@@ -274,6 +275,10 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
     if (begins && !unclamp_for(s, in)) return Done::no;
     if (law_.s > s.begun) index_.leave(s.index_axes);
   }
+  if (begins && s.tap_rev_per_mm != 0) {
+    if (at_rest() && !tap_spindle_ready(in)) return Done::no;
+    note_tap(s);
+  }
   if (begins && s.thread && at_rest() && optimal_ == nullptr && !thread_may_begin(s, in)) return Done::no;
   if (begins && !begin_move(r, in)) return fault(r);
   latest_ = &s;
@@ -354,8 +359,10 @@ Interpolator::Done Interpolator::strobe(const Action& a) {
     case NC_ACTION_M:
       m_ = code_number(a.value);
       spindles_.turn(a.turn);
+      if (a.turn != SpindleTurn::as_it_is) tap_held_ = false;
       break;
     case NC_ACTION_S:
+      tap_held_ = false;
       spindles_.command(a.value);
       break;
     case NC_ACTION_T:
@@ -501,6 +508,10 @@ void Interpolator::mark(const Mark& m, const nc_inputs& in) {
 
 /// M700 13.1.1, G84: a hold that came between R and R again acts now.
 void Interpolator::take_tapping(uint8_t bits) {
+  if ((bits & ~tapping_ & NC_TAPPING_SYNCHRONOUS) != 0) {
+    tap_turns_ = 0;
+    tap_held_ = false;
+  }
   tapping_ = bits;
   if (!hold_behind_tap_ || (bits & NC_TAPPING_STROKES) != 0) return;
   hold_behind_tap_ = false;

@@ -132,6 +132,50 @@ bool Interpolator::may_read_again() const {
   return true;
 }
 
+/// M700 13.1.1: a synchronous tap takes its spindle over where it stands.
+bool Interpolator::tap_spindle_ready(const nc_inputs& in) {
+  constexpr double kStands_rev_s = 1e-3;
+  const nc_spindle_inputs& spindle = encoder(in);
+  if (encoder_ == 0 || spindle.unmeasured) {  // appendix 1, P182: there is no connection to the spindle
+    wait(NC_CAUSE_SPINDLE_UNMEASURED);
+    return false;
+  }
+  if (std::fabs(spindle.rev_per_s) <= kStands_rev_s || tap_turns_ != 0) return true;
+  wait(NC_CAUSE_SPINDLE_ANGLE);
+  return false;
+}
+
+void Interpolator::note_tap(const Segment& s) {
+  for (unsigned i = 0; i < config_.axis_count; ++i) {
+    if (std::fabs(s.curve.delta[i]) <= kAddingUp) continue;
+    tap_axis_ = i;
+    tap_per_mm_ = s.tap_rev_per_mm * s.curve.length / s.curve.delta[i];
+  }
+}
+
+/// What is committed is given up between R and R again: from here on the spindle goes with the axis by hand, so that the tap can be drawn out.
+void Interpolator::hold_tap() {
+  if ((tapping_ & NC_TAPPING_SYNCHRONOUS) == 0) return;
+  if (moving_) tap_turns_ += law_.s * current().segment.tap_rev_per_mm;
+  tap_held_ = true;
+  tap_place_ = command_[tap_axis_];
+}
+
+/// The angle that belongs to the place on the path, or of the axis that is moved by hand.
+void Interpolator::turn_tap_spindle(nc_outputs& out) const {
+  if ((tapping_ & NC_TAPPING_SYNCHRONOUS) == 0 && !tap_held_) return;
+  const unsigned spindle = spindles_.lead();
+  out.spindle_synchronous = static_cast<uint8_t>(1u << spindle);
+  if (tap_held_) {
+    out.spindle_turns = tap_turns_ + (command_[tap_axis_] - tap_place_) * tap_per_mm_;
+    out.spindle_rev_min[spindle] = 60 * out.velocity.v[tap_axis_] * tap_per_mm_;
+    return;
+  }
+  const double per_mm = moving_ ? current().segment.tap_rev_per_mm : 0;
+  out.spindle_turns = tap_turns_ + (moving_ ? law_.s * per_mm : 0);
+  out.spindle_rev_min[spindle] = 60 * law_.v * per_mm;
+}
+
 /// M700 10.6.1, relation (4), (5): in the tapping mode another selection is wanted, or its spindle as a C axis. The axes wait until that
 /// is taken back (operation error M01 1026).
 bool Interpolator::tap_disturbed(const nc_inputs& in) const {

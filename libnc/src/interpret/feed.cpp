@@ -129,7 +129,7 @@ void announce_tapping(BlockContext& in, bool strokes) {
   action.kind = NC_ACTION_CONTROL;
   action.index = NC_CONTROL_TAPPING;
   action.value = (in.state.modal.is(Function::tapping_mode) ? NC_TAPPING_MODE : 0) + (is_tap(in.state.cycle.kind) ? NC_TAPPING_CYCLE : 0) +
-                 (strokes ? NC_TAPPING_STROKES : 0);
+                 (strokes ? NC_TAPPING_STROKES : 0) + (strokes && in.state.cycle.synchronous ? NC_TAPPING_SYNCHRONOUS : 0);
 }
 
 bool refused_in_inverse_time(Function function) {

@@ -207,6 +207,7 @@ inline void set_style(BlockContext& in, Move& move, const LinearStyle& style) {
   if (style.kind == NC_MOVE_TAP) {
     move.feed_mm_rev = style.feed_mm_rev;
     move.tap_rev_min = static_cast<float>(style.tap_speed);
+    move.tap_slope = static_cast<float>(style.tap_slope);
   }
   if (style.kind != NC_MOVE_THREAD) return;
   move.feed_mm_rev = style.feed_mm_rev;

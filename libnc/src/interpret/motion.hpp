@@ -17,6 +17,7 @@ struct LinearStyle {
   double feed_mm_rev = 0;     ///< thread: lead along the longest axis
   double thread_angle = 0;
   bool tapping = false;       ///< a stroke of a tap: the override is 100 %
+  double tap_slope = 0;       ///< highest acceleration of the spindle for it, rev/s^2; 0 = any
   double tap_speed = 0;       ///< of a tap that goes with the spindle: what the spindle is to turn with, r/min, forward positive
   bool special_feed = false;  ///< the modal feed, and it is not the plain one (interpret/feed.hpp)
   Corner corner = Corner::none;  ///< at its end ...

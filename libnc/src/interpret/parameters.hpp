@@ -12,6 +12,11 @@
 
 namespace nc {
 
+/// A stage of the acceleration of a synchronous tap (M700 13.1.1): up to this speed, in this time from the stage before.
+struct TapStage {
+  double rev_min = 0, seconds = 0;
+};
+
 /// Parameters as the interpreter uses them. Names say what they do; the manual's number stands beside each.
 struct Settings {
   double command_unit_mm = 0.001;     ///< #1015 cunit (0: #1003 iunit): an undotted position word, metric
@@ -59,6 +64,8 @@ struct Settings {
   double tap_clearance = 0;           ///< #8018, mm
   bool tap_checks = false, tap_check_approach = false, tap_check_bottom = false, tap_check_r = false;  ///< #1223 bits 3, 2, 4, 5
   double tap_dwell_s = 0;             ///< #1313 TapDwl
+  TapStage tap_stage[3];              ///< #3013 #3017, #3037 #3041, and #3045 up to the highest speed
+  double tap_most_rev_min = 0;        ///< #3005, 0 = none
   uint32_t shift_ignored = 0, shift_minus = 0;  ///< #8207, #8208, bit = axis
   uint32_t reading_stops[8] = {};     ///< PREREAD_STOP_M1 to _M8: M codes behind which nothing is read ahead, 0 = none
   bool any_reading_stop = false;

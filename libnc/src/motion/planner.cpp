@@ -68,6 +68,7 @@ void Planner::close(const Joint& exit, double reserve) {
   Segment& s = record(tip_.record).segment;
   set_segment_limits(s, tip_.shape, std::max(tip_.reserve, reserve), limits_);
   s.acceleration = even_acceleration(s, tip_.entry, std::sqrt(exit.speed2), limits_);
+  if (s.tap_acceleration > 0) s.acceleration = std::min(s.acceleration, s.tap_acceleration);
   Entry& e = entry(tip_.ordinal);
   e.corner2 = exit.speed2;
   e.joint2 = 0;

@@ -33,6 +33,8 @@ struct Segment {
   float corner_reach = 0;                          ///< so far behind the corner may lie that the feed is for, mm
   uint8_t index_axes = 0;    ///< bit i: axis i of an index table is moved and has to be unclamped (M700 9.3)
   uint8_t unclamps = 0;      ///< and these are unclamped meanwhile, for the move behind
+  double tap_rev_per_mm = 0;    ///< synchronous tap: the spindle turns so much with the path, forward positive; 0 = none
+  double tap_acceleration = 0;  ///< highest along it, mm/s^2; 0 = that of the axes
   double begun = 0;          ///< so much of its length has been gone before an interrupt (M700 13.12), mm
   AccuracyLimits accuracy;   ///< of high-accuracy control
   FilterTimes filter;        ///< behind interpolation

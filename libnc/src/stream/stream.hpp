@@ -153,7 +153,8 @@ struct Move {
   double feed_mm_rev = 0;
   float feed_end = 0;            ///< exponential: feed at its end, mm/min; 0 = constant
   float thread_angle = 0;        ///< thread: start angle of the spindle, deg
-  float tap_rev_min = 0;         ///< synchronous tap: speed of the spindle for it, forward positive
+  float tap_rev_min = 0;         ///< synchronous tap: speed of the spindle for it, forward positive; the feed per revolution is its lead
+  float tap_slope = 0;           ///< highest acceleration of the spindle for it, rev/s^2; 0 = what the axes bear
   FeedRule rule;
   float speed_clamp = 0;         ///< highest speed, whatever the feed and the override, mm/s; 0 = none
   Compensation comp;

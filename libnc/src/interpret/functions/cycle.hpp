@@ -23,6 +23,8 @@ uint32_t positioning_axes(const BlockContext& in);
 /// tap.cpp: what the block says of tapping, kept in State::cycle; and whether a tap can be made.
 Execution take_tap_words(BlockContext& in);
 Execution check_tap(BlockContext& in);
+/// Highest acceleration of the spindle for a stroke of a synchronous tap with this speed, rev/s^2; 0 = the parameters say nothing.
+double tap_slope(const BlockContext& in, double rev_min);
 /// The tap of the cycle in force, made in cuts where it has a depth for them.
 CycleKind tap_in_cuts(const BlockContext& in, CycleKind kind);
 

@@ -183,6 +183,7 @@ void set_tap(const BlockContext& in, const CycleStep& step, LinearStyle* style) 
   style->feed_mm_rev = c.pitch;
   style->feed_mm_min = c.pitch * speed;
   style->tap_speed = hand * speed;
+  style->tap_slope = tap_slope(in, speed);
 }
 
 void move_along(BlockContext& in, const CycleStep& step) {

@@ -76,6 +76,23 @@ Execution check_tap(BlockContext& in) {
   return Execution::done;
 }
 
+/// M700 13.1.1, "acceleration/deceleration pattern": up to three stages, none of them steeper than the one before (precaution (13)), no speed
+/// above the highest (14). The whole stroke has the slope of the last stage that its speed reaches: that keeps each of them.
+double tap_slope(const BlockContext& in, double rev_min) {
+  const TapStage* const stage = in.settings.tap_stage;
+  const double most = in.settings.tap_most_rev_min > 0 ? in.settings.tap_most_rev_min : HUGE_VAL;
+  double from = 0, slope = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    const double to = i == 2 ? most : std::fmin(stage[i].rev_min, most);
+    if (!(to > from) || !(stage[i].seconds > 0) || to == HUGE_VAL) break;
+    const double own = (to - from) / 60 / stage[i].seconds;
+    slope = slope > 0 ? std::fmin(slope, own) : own;
+    if (rev_min <= to) break;
+    from = to;
+  }
+  return slope;
+}
+
 CycleKind tap_in_cuts(const BlockContext& in, CycleKind kind) {
   if (!(in.state.cycle.tap_q >= 1e-6)) return kind;
   const bool to_r = in.settings.tap_to_r;

@@ -452,6 +452,16 @@ void PathBuilder::part_at_joint() {
   joint_ = {};
 }
 
+/// A synchronous tap accelerates no faster than its spindle can: on the axes that it moves, that is a part of what they could.
+double PathBuilder::tap_share(const Segment& s) const {
+  double share = 1;
+  for (unsigned i = 0; s.tap_acceleration > 0 && i < limits_.axis_count; ++i) {
+    const double along = std::fabs(s.curve.delta[i]) / s.curve.length;
+    if (along > 0 && limits_.acceleration[i] > 0) share = std::min(share, s.tap_acceleration * along / limits_.acceleration[i]);
+  }
+  return share;
+}
+
 /// What is not passed at speed: from rest to rest (two pieces with a slow zone).
 void PathBuilder::add_curve(const Record& r) {
   const Segment& s = r.segment;
@@ -461,6 +471,7 @@ void PathBuilder::add_curve(const Record& r) {
   Piece p;
   p.feed = s.rapid ? HUGE_VAL : feed_of_segment(s, &p.by);
   p.digit = digit_of(s);
+  p.share = tap_share(s);
   p.rapid = s.rapid;
   uses_turns_ |= goes_by_spindle(p.by);
   const double rest = std::max(s.curve.length - from, kLeastLength);

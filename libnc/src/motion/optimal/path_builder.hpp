@@ -50,6 +50,7 @@ class PathBuilder {
   Next gather(Work& work, uint32_t head, bool* more);
   Next add(Work& work, const Record& r, bool* more);
   void add_line(const Record& r);
+  double tap_share(const Segment& s) const;
   void add_curve(const Record& r);
   void add_arc(const Record& r);
   void end_arc();
@@ -85,7 +86,7 @@ class PathBuilder {
   void join_piece(const Piece& piece);
   void push_transition(double feed);
   bool room(unsigned pieces) const { return head_ - tail_ + pieces < kPieces; }
-  static bool passes(const Segment& s) { return !s.rapid && !s.skip && !(s.begun > 0); }
+  static bool passes(const Segment& s) { return !s.rapid && !s.skip && !(s.begun > 0) && s.tap_rev_per_mm == 0; }
   static bool straight_line(const Segment& s) { return !s.curve.circular && s.curve.shape == nullptr; }
 
   Limits limits_;

@@ -60,6 +60,7 @@ struct Piece {
   double cell = 0;               ///< no cell on it is longer; 0 = any
   const Curve* curve = nullptr;  ///< then q(x) = curve(curve_from + x)
   double curve_from = 0;
+  double share = 1;              ///< of the axes' acceleration and jerk that it may use (a synchronous tap: what its spindle can)
   AxisVec c[6];  ///< else q(x) = c[0] + c[1] x + ...
 };
 
@@ -85,10 +86,10 @@ inline double velocity_of(const Piece& p, const Limits& limits, unsigned i) {
 }
 /// What a plan may use of the limits of acceleration and of jerk.
 inline double acceleration_share(const Piece& p) {
-  return p.by == FeedBy::spindle ? ThreadShare::kAcceleration : 1;
+  return p.by == FeedBy::spindle ? ThreadShare::kAcceleration : p.share;
 }
 inline double jerk_share(const Piece& p) {
-  return p.by == FeedBy::spindle ? ThreadShare::kJerk : 1;
+  return p.by == FeedBy::spindle ? ThreadShare::kJerk : p.share;
 }
 /// Nothing moves on the piece under the present overrides.
 inline bool stands(const Piece& p, const Limits& limits) {
