@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/drive.hpp"
+#include "support/going_back.hpp"
 #include "support/pull.hpp"
 
 namespace nc::test {
@@ -108,22 +109,6 @@ TEST(Corners, RadiusCompensationActsOnTheShapeWithItsCorners) {
   EXPECT_EQ(tool_path("X40. ,C5.\nY40. ,R8.\nX-40.\n"), programmed);
 }
 
-/// Every mark of the run is a place to go on from.
-void goes_on_from_every_mark(const std::string& text, const std::function<void(Bench&)>& change = [](Bench&) {}) {
-  SCOPED_TRACE(text);
-  Bench bench;
-  change(bench);
-  const Outcome run = bench.run(text);
-  ASSERT_EQ(run.alarm, "") << run.alarm_detail;
-  for (const Step& step : run.steps) {
-    if (step.item.kind != NC_ITEM_MARK || !step.item.u.mark.report) continue;
-    ASSERT_EQ(bench.rewind(step.item.serial, step.machine), NC_OK);
-    const Outcome rest = bench.finish();
-    ASSERT_EQ(rest.steps.size(), run.steps.size() - step.item.serial) << "from line " << step.item.source.line;
-    for (size_t i = 0; i < rest.steps.size(); ++i) ASSERT_EQ(exactly(rest.steps[i]), exactly(run.steps[step.item.serial + i])) << "from line " << step.item.source.line;
-  }
-}
-
 TEST(Corners, EveryMarkIsAPlaceToGoOnFrom) {
   goes_on_from_every_mark("G91 G1 X40. ,C4. F500\nY-30. ,C6.5\n#100=#100+1\nM8 X-50. ,R3.\nY30.\nG4 X1.\nX5.\nM30");
 }
@@ -133,6 +118,29 @@ TEST(Corners, AlsoWhereOtherStagesHoldItemsBack) {
   goes_on_from_every_mark("G0 X-20. Y-20.\nG91 G1 G41 D1 X20. Y20. F100\nX40. ,C5.\n#100=2\nM7 Y40. ,R8.\nX-20. ,C2.\nY5.\nX-20.\nG40 X-20. Y-20.\nM30", tool);
   const auto fine = [](Bench& bench) { bench.param("8033", "1").param("8029", "0.1").param("8036", "1").param("8037", "0.5"); };
   goes_on_from_every_mark("G5 P10000\nG1 X10. F1000\nY.08\nX20. ,R2.\nY20. ,C3.\nX30.\nY20.08\nX40.\nY30.\nG5 P0\nM30", fine);
+}
+
+TEST(BlocksThatMeet, EveryMarkIsAPlaceToGoOnFrom) {
+  goes_on_from_every_mark("G1 F500\nA45.\n#100=#100+1\nX60. Y0 A135.\nA0 M8\nG3 X90. Y10. R10.\nG1 X-10. Y0\nG2 I10.\nG3 X25. Y15. R-15.\nG2 I10.\nM9\nG1 X0\nM30");
+  const auto tool = [](Bench& bench) { bench.tool(1, 1).param("8103", "0"); };
+  goes_on_from_every_mark("G1 G42 X-20. Y0 D1 F100\nA0\nG3 X10. Y10. R10.\nG1 Y40. ,R3.\nX50.\nA90.\nX30. Y70. A30.\nG40 X0\nM30", tool);
+}
+
+TEST(BlocksThatMeet, TheFirstOnesCodesWaitForTheSecond) {  // as with a stroke limit: what does not fit has not begun
+  const Outcome run = m700("G1 X5. F100\nM3 A10.\nX50. Y9. A10.5\nM30");
+  EXPECT_EQ(run.alarm, "P392");
+  EXPECT_EQ(run.aux(), "");
+  EXPECT_EQ(run.end_work.v[0], 5);
+}
+
+TEST(BlocksThatMeet, AResetForgetsThePendingBlock) {
+  Bench bench;
+  bench.start("G1 A45. F100\nX60. Y0 A135.\nM30");
+  Step step;
+  while (bench.pull(&step, 1) != NC_BUDGET) {
+  }
+  ASSERT_EQ(nc_reset(bench.control(), 0), NC_OK);
+  EXPECT_EQ(ends_of(bench.run("G91 G1 X5. F100\nM30")), (Path{"line 5 0 0"}));
 }
 
 TEST(Corners, AResetForgetsThePendingMove) {

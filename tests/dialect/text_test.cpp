@@ -178,7 +178,7 @@ TEST(AlarmDetail, NamesTheCodesThatTheFamilyHas) {
     return std::string(text);
   };
   EXPECT_EQ(sentence(Condition::skip_in_compensation), "Skip is not possible while tool radius compensation is on. Cancel it with G07 first.");
-  EXPECT_EQ(sentence(Condition::space_compensation), "Three-dimensional radius compensation (G99.5/its code with I, J and K) is not fitted.");
+  EXPECT_EQ(sentence(Condition::outside_compensation), "This acts in radius compensation. Program G99.5 or its code first.");
   EXPECT_EQ(sentence(Condition::user_alarm), "The program has raised an alarm itself (#1717).");
 }
 

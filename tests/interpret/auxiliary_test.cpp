@@ -45,7 +45,7 @@ TEST(Auxiliary, SecondAddress) {  // M700 9.2: not the name of an axis
   EXPECT_EQ(m700("B90\nM30").aux(), "B90 M30");
   EXPECT_EQ(Bench(NC_DIALECT_M700, axes("XYZb")).run("A5\nG0 B90.\nM30").aux(), "A5 M30");
   EXPECT_EQ(Bench(NC_DIALECT_M700, axes("XYZab")).run("C5\nM30").aux(), "C5 M30");
-  EXPECT_EQ(m700("A5\nM30").alarm, "P130");
+  EXPECT_EQ(m700("G0 A5\nM30").alarm, "P130");  // in G01 it is an angle (13.8)
 }
 
 TEST(Auxiliary, Stops) {  // M700 9.1

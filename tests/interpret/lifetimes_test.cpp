@@ -78,6 +78,8 @@ NC_PARTS(CycleState, kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental,
          initial_level, tap, synchronous, pitch, return_speed)
 NC_PARTS(NurbsState, first, knots, points, order, axes)
 NC_PARTS(SplineWay, joined, moved, back)
+NC_PARTS(MeetingFirst, kind, ccw, by_radius, choice, angle_deg, center, radius, start)
+NC_PARTS(SpaceVector, on, axis, v)
 NC_PARTS(LeftByEnd, feed, motion, feed_mode, any)
 
 template <class... Member>
@@ -109,10 +111,10 @@ std::map<std::string, Fields> groups_of_state() {
   NC_FIELDS(BlockLife, seq, repeat, owes_mark, stop_reading)
   NC_FIELDS(MachinePosition, machine)
   NC_FIELDS(AppliedLength, applied)
-  NC_FIELDS(ModalLife, modal, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled,
+  NC_FIELDS(ModalLife, modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled,
             mirror, rotated, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, map, mill, spindle)
   NC_FIELDS(ModalInProgram, comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled,
-            figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way)
+            figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, moved_space)
   NC_FIELDS(ProgramLife, end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, control_3003, control_3004)
   NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamped)
   NC_FIELDS(UntilOperatorReset, left_by_end)

@@ -33,6 +33,8 @@ enum class Condition : uint16_t {
   loop_nesting, loop_pair, jump_on_tape, address_missing, variable_number, no_equals, variable_use, variable_name,
   variable_name_twice, call_in_cycle, print_port, parameter_input, no_such_data,
   program_edited, rotation_in_figure, offset_in_figure, offset_arc, machine_in_figure, surface_axis, surface_speed,
+  geometric_arc_option, geometric_circle_option, geometric_parallel, geometric_incremental, geometric_no_line, geometric_address, geometric_plane,
+  geometric_contact, tool_axis_pair, tool_axis_code, space_conversion_block, outside_compensation,
   read_failed, program_changed, vendor_function,
   control_structure, name_without_value, too_many_names, probe_no_contact, call_in_mdi,
   tap_no_speed, tap_no_pitch, tap_pitch, tap_speed_word, no_holes, hole_angle_zero, drilling_axis_changed,

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "alarm/condition.hpp"
+#include "contour/meeting.hpp"
 
 namespace nc {
 namespace {
@@ -11,8 +12,10 @@ namespace {
 /// M700 13.7: between two straight cuts and nothing else.
 bool is_line(const Move& m) { return m.kind == NC_MOVE_LINE && !m.circular && m.shape == 0 && !m.comp.transparent; }
 
+bool meets_later(const Move& m) { return m.corner == Corner::meet || m.corner == Corner::meet_by_radius; }
+
 /// A command of radius compensation without a movement (offset/offset.hpp).
-bool without_length(const Move& m) { return !m.circular && m.shape == 0 && m.start == m.end; }
+bool without_length(const Move& m) { return !m.circular && m.shape == 0 && m.corner == Corner::none && m.start == m.end; }
 
 }  // namespace
 
@@ -25,7 +28,7 @@ void ContourStage::reset() {
 ContourStage::Held& ContourStage::append(const Item& item) {
   Held& place = held(count_++);
   place.item = item;
-  place.vacant = place.cut = false;
+  place.vacant = place.cut = place.meets = false;
   return place;
 }
 
@@ -35,12 +38,18 @@ bool ContourStage::push(const Item& item, NoRule) {
     push_move(item);
     return true;
   }
-  append(item);
+  Item& taken = append(item).item;
   if (!pending_) {
+    if (entry_.meets) show_meeting(taken, entry_.lead);
     ready_ = count_;
     return true;
   }
   const bool block_over = item.kind == ItemKind::mark && item.block_end;
+  if (meets_later(held(ready_).item.move)) {
+    push_behind_meeting(item);
+    behind_mark_ = behind_mark_ || block_over;
+    return true;
+  }
   if (inhibits_read_ahead(item) || (block_over && behind_mark_)) {
     fail(Condition::corner_no_move, item.source, 0);
   } else if (count_ == kHeld - 2) {  // a line and its cut must find room
@@ -55,7 +64,7 @@ void ContourStage::push_move(const Item& item) {
   if (failed_) return;
   Held& place = append(item);
   Move& move = place.item.move;
-  if (entry_.displaced)
+  if (entry_.displaced && !move.meets)
     for (unsigned i = 0; i < axis_count_; ++i) move.start[i] += entry_.lead[i];
   entry_ = {};
   if (move.corner == Corner::none) {
@@ -66,12 +75,14 @@ void ContourStage::push_move(const Item& item) {
   pending_ = true;
   behind_mark_ = false;
   append(item).vacant = true;
+  if (meets_later(move)) return;
   if (corner_travel(move, move, rotary_, axis_count_) < move.corner_mm - kCornerSlack_mm) fail(Condition::corner_short, item.source, move.corner_mm);
 }
 
 /// The movement that the pending line has waited for.
 void ContourStage::settle(const Item& next) {
   Held& first = held(ready_);
+  if (meets_later(first.item.move)) return settle_meeting(next.move);
   Held& place = held(ready_ + 1);
   Move& line = first.item.move;
   const double amount = line.corner_mm;
@@ -86,7 +97,7 @@ void ContourStage::settle(const Item& next) {
   place.vacant = false;
   place.cut = true;
   place.lead = cut.lead;
-  entry_ = {true, cut.lead};
+  entry_ = {true, false, cut.lead};
   Move& corner = place.item.move;
   corner.start = line.end = line.work = cut.before;
   corner.end = corner.work = cut.behind;
@@ -102,6 +113,64 @@ void ContourStage::settle(const Item& next) {
   corner.circular = true;
   corner.circle = cut.circle;
   for (unsigned i = 0; i < 2; ++i) corner.work_center[i] = cut.circle.center[i];
+}
+
+/// The end of the pending move, if the movement behind it meets it.
+void ContourStage::settle_meeting(const Move& next) {
+  if (!next.meets) return stand_alone();
+  Held& first = held(ready_);
+  Move& move = first.item.move;
+  const AxisVec placeholder = move.start;
+  for (unsigned i = 0; i < axis_count_; ++i) first.lead[i] = next.start[i] - placeholder[i];
+  first.cut = first.meets = true;
+  for (unsigned i = ready_ + 2; i < count_; ++i) show_meeting(held(i).item, first.lead);
+  move.end = move.work = next.start;
+  if (move.circular) {
+    const unsigned h = move.plane_axis[0], v = move.plane_axis[1];
+    const PlanePoint start{move.start[h], move.start[v]}, end{move.end[h], move.end[v]};
+    const bool ccw = move.circle.sweep > 0;
+    const PlanePoint center = move.corner == Corner::meet ? PlanePoint{move.circle.center[0], move.circle.center[1]}
+                                                          : center_of_radius(start, end, move.circle.radius_start, ccw);
+    move.circle = part_of_circle(start, end, center, ccw);
+    for (unsigned i = 0; i < 2; ++i) move.work_center[i] = move.circle.center[i];
+  }
+  first.vacant = corner_travel(move, move, 0, axis_count_) < kCornerSlack_mm;
+  move.corner = Corner::none;
+  pending_ = false;
+}
+
+/// The interpreter did not know yet where the block ends.
+void ContourStage::show_meeting(Item& item, const AxisVec& lead) const {
+  for (unsigned i = 0; item.kind == ItemKind::mark && i < axis_count_; ++i) item.mark.work[i] += lead[i];
+}
+
+/// Nothing meets the pending move.
+void ContourStage::stand_alone() {
+  Held& first = held(ready_);
+  first.vacant = first.item.move.corner == Corner::meet_by_radius || first.item.move.corner_mm > 0;
+  first.item.move.corner = Corner::none;
+  pending_ = false;
+}
+
+/// An item that does not move, behind a pending move without an end. A line has no meaning without the block that meets it, which the
+/// interpreter has said by an alarm; the program cannot stop in between.
+void ContourStage::push_behind_meeting(const Item& item) {
+  const bool needed = held(ready_).item.move.corner_mm > 0;
+  const bool second_block = item.kind == ItemKind::mark && item.block_end && behind_mark_;
+  const bool full = count_ >= kHeld - 2;
+  if (!inhibits_read_ahead(item) && !second_block && !full) return;
+  if (needed && item.kind == ItemKind::alarm) {  // nothing of a block has happened that an alarm of the next one leaves without an end
+    const Item alarm = item;
+    count_ = ready_;
+    append(alarm);
+    ready_ = count_;
+    pending_ = false;
+    failed_ = true;
+    return;
+  }
+  if (needed) return fail(full ? Condition::pre_read : Condition::geometric_no_line, full ? held(ready_).item.source : item.source, 0);
+  stand_alone();
+  ready_ = count_;
 }
 
 /// The program stops before the pending move: the alarm takes its place, and what was read behind it is forgotten.
@@ -131,7 +200,7 @@ bool ContourStage::pop(Item& out) {
     --ready_;
     if (front.vacant) continue;
     out = front.item;
-    if (out.kind == ItemKind::move && (front.cut || !without_length(out.move))) state_ = {front.cut, front.lead};
+    if (out.kind == ItemKind::move && (front.cut || !without_length(out.move))) state_ = {front.cut, front.meets, front.lead};
     return true;
   }
   return false;

@@ -8,6 +8,10 @@
 // it the cut reaches goes across the mark, and the next line is read again after a rewind: ContourResume is where the machine stands beside
 // the programmed corner.
 //
+// A block without an end (M700 13.9, Corner::meet) ends where the movement behind it begins, which is the interpreter's to know: it has both
+// blocks when it makes that movement, and says so (Move::meets). An arc that may stand alone (a whole circle) goes as it is where no movement
+// meets it, and one by its radius alone is nothing then.
+//
 // What cannot be waited for is an alarm in the place of the pending move: a block without a movement (M700 P382), an arc (P381), a stop, a
 // sync and the end of the program, and more items than the stage holds.
 #pragma once
@@ -20,6 +24,7 @@ namespace nc {
 /// What is needed to go on from a mark.
 struct ContourResume {
   bool displaced = false;  ///< the machine stands by `lead` beside the programmed end of the block
+  bool meets = false;      ///< which had no end when it was read: positions up to the next movement are by that other ones, too
   AxisVec lead;            ///< compensation frame
 };
 inline bool in_force(const ContourResume& resume) { return resume.displaced; }
@@ -56,12 +61,17 @@ class ContourStage {
     Item item;
     bool vacant = false;  ///< place of a cut that there is not
     bool cut = false;     ///< behind it the machine stands by `lead` beside the programmed corner
+    bool meets = false;   ///< ... beside the start of a block that had no end
     AxisVec lead;
   };
   Held& held(unsigned number) { return held_[(first_ + number) % kHeld]; }
   Held& append(const Item& item);
   void push_move(const Item& item);
   void settle(const Item& next);
+  void settle_meeting(const Move& next);
+  void stand_alone();
+  void push_behind_meeting(const Item& item);
+  void show_meeting(Item& item, const AxisVec& lead) const;
   void fail(Condition condition, const nc_source& source, double value);
 
   Held* held_ = nullptr;

@@ -38,7 +38,7 @@ bool PartSystem::goes_to_stage() const {
   for (unsigned i = 0; i < interpreter.queue().size(); ++i) {
     const Item& item = interpreter.queue()[i];
     if (ends_look_ahead(item)) break;
-    if (item.kind == ItemKind::move && (item.move.comp.side != 0 || item.move.corner != Corner::none)) return true;
+    if (item.kind == ItemKind::move && (item.move.comp.side != 0 || item.move.corner != Corner::none || item.move.space.on)) return true;
   }
   return false;
 }

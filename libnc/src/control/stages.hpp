@@ -6,19 +6,21 @@
 #include "control/stage_row.hpp"
 #include "fairing/fairing.hpp"
 #include "offset/offset.hpp"
+#include "offset/space.hpp"
 
 namespace nc {
 
 inline const FairingRule& rule_of(const FairingStage&, const MotionSettings& settings) { return settings.fairing; }
 inline NoRule rule_of(const ContourStage&, const MotionSettings&) { return {}; }
 inline NoRule rule_of(const OffsetStage&, const MotionSettings&) { return {}; }
+inline NoRule rule_of(const SpaceStage&, const MotionSettings&) { return {}; }
 
-using Stages = StageRow<ContourStage, FairingStage, OffsetStage>;
+using Stages = StageRow<ContourStage, FairingStage, OffsetStage, SpaceStage>;
 
 /// Most moves are nothing to any of them: with all at rest this one may be.
 inline bool may_be_held(const Item& item) {
   return item.kind == ItemKind::move &&
-         (item.move.comp.side != 0 || (item.move.high_accuracy & kFineSegmentsOn) != 0 || item.move.corner != Corner::none);
+         (item.move.comp.side != 0 || (item.move.high_accuracy & kFineSegmentsOn) != 0 || item.move.corner != Corner::none || item.move.space.on);
 }
 
 }  // namespace nc

@@ -35,6 +35,7 @@ enum class Function : uint8_t {
   stroke_check_on, stroke_check_off,    ///< G22 G23: modal, and the first takes the axis words of the block
   comp_off, comp_left, comp_right,      ///< G40 G41 G42
   comp_vector, comp_corner_arc,         ///< G38 G39
+  comp_corner_turn,                     ///< G39 that stands alone in its block: its words lead on from the corner (DGSHAPE)
   normal_line_off, normal_line_left, normal_line_right,          ///< G40.1 G41.1 G42.1
   length_plus, length_minus, length_off,                         ///< G43 G44 G49
   length_along_tool, tool_tip_1, tool_tip_2,                     ///< G43.1 G43.4 G43.5

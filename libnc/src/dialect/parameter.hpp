@@ -124,6 +124,7 @@ enum class Parameter : uint8_t {
   spiral_tolerance,
   smooth_control,
   macro_single,
+  space_divisor,
   interference_avoided,
   interference_ignored,
   protects_8000,

@@ -25,6 +25,8 @@ enum class Role : uint8_t {
   taper_angle, torsion_angle, exponential_radius, exponential_end_feed,   ///< of an exponential curve
   curve_order, curve_knot, curve_weight,        ///< of a NURBS
   circle_radius,                                ///< of a circle that is cut from its centre
+  line_angle, meeting_choice,                   ///< slope of a line; which of two points it meets a circle in
+  turn_x, turn_y, turn_z,                       ///< names of the axes that turn about the basic ones
 
   // ---- dwell, cycles
   dwell_seconds, dwell_time,                    ///< a dwell has one of the two; the second is in ms where it has no point

@@ -18,7 +18,7 @@ bool FairingStage::takes(const Item& item) const {
   if (item.kind != ItemKind::move) return false;
   const Move& m = item.move;
   const bool line = m.kind == NC_MOVE_LINE && !m.circular && m.shape == 0 && m.skip_mask == 0 && !m.exact_stop && !m.connecting;
-  if (!line || (m.high_accuracy & kFineSegmentsOn) == 0 || m.comp.side != 0) return false;
+  if (!line || (m.high_accuracy & kFineSegmentsOn) == 0 || m.comp.side != 0 || m.space.on) return false;
   for (unsigned i = 0; rotary_ >> i != 0 && i < axis_count_; ++i)
     if ((rotary_ >> i & 1) != 0 && m.end[i] != m.start[i]) return false;  // a degree is no millimetre
   return true;

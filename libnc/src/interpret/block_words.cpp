@@ -192,6 +192,7 @@ Execution gather_words(Interpreter& in) {
   w.in_position = w.in_position_drill = 0;
   w.counted_feeds = 0;
   w.device = 0;
+  w.has_angle = false;
   w.corner = Corner::none;
   w.has_tap_control = w.has_return_speed = false;
   w.absolute_at = w.incremental_at = 0;
@@ -242,9 +243,14 @@ Execution gather_words(Interpreter& in) {
       continue;
     }
     if ((word.flags & kWordComma) != 0) {  // M700 13.7 ,C ,R; 13.8 ,A
+      if (in.is(word, Role::option_angle)) {
+        w.has_angle = true;
+        w.angle_flags = word.flags;
+        w.angle_raw = value;
+        continue;
+      }
       const bool chamfer = in.is(word, Role::option_chamfer);
-      if (!chamfer && !in.is(word, Role::option_corner_radius))
-        return in.raise(in.is(word, Role::option_angle) ? Condition::geometric_option : Condition::no_function, word.letter, value);
+      if (!chamfer && !in.is(word, Role::option_corner_radius)) return in.raise(Condition::no_function, word.letter, value);
       w.corner = chamfer ? Corner::chamfer : Corner::rounding;
       w.corner_flags = word.flags;
       w.corner_raw = value;

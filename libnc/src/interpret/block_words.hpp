@@ -46,6 +46,10 @@ struct BlockWords {
   double corner_raw = 0;           ///< as programmed
   bool has_tap_control = false, has_return_speed = false;  ///< ,R ,S of a tap (M700 13.1.1) ...
   double tap_control = 0, return_speed = 0;                ///< ... as programmed
+  bool has_angle = false;          ///< ,A (M700 13.8)
+  uint8_t angle_flags = 0;         ///< WordFlag of it
+  double angle_raw = 0;            ///< as programmed
+  bool meeting = false;            ///< the block has no end, or meets the one before, which has none (M700 13.9)
   int8_t device = 0;               ///< ,D: where a sub program is looked for (M700 13.3.1), 0 = the memory
   bool comp_command = false;       ///< G40-G42 that means something here
   uint64_t absolute_at = 0, incremental_at = 0;  ///< bit i: word i of the block is G90, G91

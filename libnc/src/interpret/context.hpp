@@ -80,6 +80,7 @@ struct BlockContext {
   unsigned axis_count = 3;
   uint32_t rotary = 0;             ///< bit i: axis i is rotary
   int8_t axis_of[26];              ///< axis index by letter, -1 = none
+  uint32_t closed_axes = 0;        ///< bit i: axis i is a spindle, or a C axis without its reference (M700 10.5); no command now
   uint32_t axis_letters = 0;       ///< bit n: address n is an axis
   uint32_t code_addresses = 0;     ///< those of codes and of numbers of blocks
   CodeIndex codes;                 ///< the family's G codes

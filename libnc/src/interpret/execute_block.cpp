@@ -171,9 +171,12 @@ Execution apply_systems(Interpreter& in) {
   }
   if (radius != nullptr) {
     in.state.modal.set(*radius);
-    const int8_t side = in.state.comp.side;
+    const bool before = in.state.compensated();
     const Execution did = set_compensation(in, radius->function);
-    in.words.comp_command = side != 0 || in.state.comp.side != 0;
+    in.words.comp_command = before || in.state.compensated();
+    if (did != Execution::done) return did;
+  } else if (in.state.space.on && gives_space_vector(in)) {
+    const Execution did = change_space_vector(in);
     if (did != Execution::done) return did;
   } else if (in.words.has(Role::offset_number) && !keeps_its_offset_number(one_shot)) {
     const Execution did = change_radius(in);
@@ -184,7 +187,7 @@ Execution apply_systems(Interpreter& in) {
     return set_length(in, length->function);
   }
   const bool own_number = in.words.has(Role::length_number) && in.dialect->rules.length.number_in_any_block;
-  return own_number && !(one_shot != nullptr && one_shot->function == Function::measure_length) ? change_length(in) : Execution::done;  // P605 (15.1)
+  return own_number && !in.words.meeting && !(one_shot != nullptr && one_shot->function == Function::measure_length) ? change_length(in) : Execution::done;  // P605 (15.1)
 }
 
 /// M700 App.2: codes of length compensation and work systems before a macro call become modal and do no more.
@@ -213,6 +216,13 @@ Execution execute_motion(Interpreter& in) {
     const Execution did = check_work_rotation(in);
     if (did != Execution::done) return did;
   }
+  return w.meeting ? move_to_meet(in) : execute_motion_of_words(in);
+}
+
+}  // namespace
+
+Execution execute_motion_of_words(BlockContext& in) {
+  const BlockWords& w = in.words;
   if (w.motion != nullptr) {
     cancel_cycle(in);  // M700 13.1.1 (4): G00-G03 cancel the cycle, and win over a cycle code in the same block
   } else if (w.cycle != nullptr && !ignores_cycle(w.one_shot)) {
@@ -220,8 +230,14 @@ Execution execute_motion(Interpreter& in) {
   }
   if (w.one_shot != nullptr) return execute_one_shot(in);
   if (in.state.cycle.kind != CycleKind::none) return do_cycle(in);
+  if (w.has_angle || w.has(Role::line_angle)) {
+    const Execution did = take_line_angle(in);
+    if (did != Execution::done) return did;
+  }
   return move_by_words(in);
 }
+
+namespace {
 
 Execution finish(Interpreter& in, Execution did) {
   if (did != Execution::done) return did;
@@ -260,7 +276,7 @@ bool only_moves(const Interpreter& in) {
   const BlockWords& w = in.words;
   // Motions with words of their own, and modes that change what words mean, take the long way.
   // A block that leaves a curve over several blocks (G02.4, G06.2) is one of its own, too; a rotation by parameter has rules (13.21).
-  if (in.state.special != 0 || in.state.work_turned || !plain_motion(in.state.modal.of(Mode::motion)) || (w.motion != nullptr && !plain_motion(w.motion->function))) return false;
+  if (in.state.special != 0 || in.state.work_turned || in.state.meeting.kind != MeetingFirst::Kind::none || w.has_angle || !plain_motion(in.state.modal.of(Mode::motion)) || (w.motion != nullptr && !plain_motion(w.motion->function))) return false;
   const bool codes = w.g.empty() || (w.g.size() == 1 && w.motion != nullptr);
   return codes && w.m.empty() && (w.present & ~(in.axis_letters | in.addresses({Role::feed}))) == 0 && in.state.cycle.kind == CycleKind::none &&
          in.state.modal_call == 0;
@@ -327,7 +343,8 @@ Execution execute_words(Interpreter& in) {
   if (is_space_arc(in.state.modal.of(Mode::motion)) || in.state.arc_step != ArcStep::none) did = check_space_arc_block(in);
   if (did == Execution::done && in.state.nurbs.active()) did = check_nurbs_block(in);
   if (did != Execution::done) return did;
-  if (in.state.modal.is(Function::polar_command_on)) resolve_polar_words(in);
+  w.meeting = begins_or_ends_meeting(in);
+  if (in.state.modal.is(Function::polar_command_on) && !has_line_angle(in)) resolve_polar_words(in);
   // Neither is the lead of a thread (6.7.1) or the feed of an exponential curve (6.11).
   // The F of a synchronous tap is its lead.
   const bool own_feed = w.one_shot != nullptr ? keeps_its_feed(in, w.one_shot->function)

@@ -133,7 +133,6 @@ struct Interpreter : BlockContext {
   }
   ProgramRef main_program;
   bool mdi = false;                ///< the main program is blocks of MDI: their end is no alarm
-  uint32_t closed_axes = 0;        ///< bit i: axis i is a spindle, or a C axis without its reference (M700 10.5); no command now
   uint8_t mirror_switch = 0;       ///< axes that the next program is mirrored in
   uint8_t mirror_signal = 0;       ///< the same by the signals of the machine when it was started
 

@@ -48,6 +48,7 @@ Move& begin_any_move(BlockContext& in, TransformId transform, const AxisVec& sta
   in.state.machine = machine;
   in.state.moves_since_comp_off = 1;
   in.state.moved_side = in.state.comp.side;
+  if (leads_beside(in.state)) [[unlikely]] in.state.moved_space = move.space = space_vector(in, machine);
   return move;
 }
 
@@ -201,6 +202,7 @@ inline void set_style(BlockContext& in, Move& move, const LinearStyle& style) {
   move.unclamps = style.unclamps;
   move.skip_speeds = style.skip_speeds;
   move.comp.transparent = style.transparent;
+  if (style.transparent) in.state.moved_space = {};
   if (style.special_feed) apply_special_feed(in, move);
   if (style.corner != Corner::none) [[unlikely]] set_corner(in, move, style);
   if (style.tapping) move.rule.tapping = true;
@@ -271,6 +273,7 @@ void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, 
   move.kind = NC_MOVE_RAPID;
   move.exact_stop = true;
   move.comp.transparent = true;
+  in.state.moved_space = {};
   finish_mapped(in, MoveFrame{to_machine, start, end}, before, move);
   check_deceleration(in, NC_MOVE_RAPID);
 }
@@ -399,6 +402,21 @@ Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, 
   return did == Execution::done ? move_arc_by(in, plane, target, commanded, words, ccw) : did;
 }
 
+/// M700 12.5: the ends of an arc are displaced, its centre is not; their distances from it have to agree all the same.
+static bool meets_displaced(const BlockContext& in, const MoveFrame& frame, unsigned h, unsigned v, const Circle& circle, double tolerance) {
+  const SpaceVector end = space_vector(in, frame.to_machine.apply(frame.end));
+  const auto radius = [&circle, h, v](const AxisVec& at, const SpaceVector& vector) {
+    double d[2] = {at[h] - circle.center[0], at[v] - circle.center[1]};
+    for (unsigned i = 0; vector.on && i < 3; ++i) {
+      if (vector.axis[i] == h) d[0] += vector.v[i];
+      if (vector.axis[i] == v) d[1] += vector.v[i];
+    }
+    return std::hypot(d[0], d[1]);
+  };
+  const double from = radius(frame.start, in.state.moved_space), to = radius(frame.end, end);
+  return from >= kNoRadius_mm && to >= kNoRadius_mm && std::fabs(from - to) <= tolerance + 1e-9;
+}
+
 Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
   if (starts_or_ends_compensation(in)) return in.raise_mode(Condition::arc_in_compensation_start, Mode::radius);
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
@@ -429,6 +447,8 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
     move_linear(in, target, commanded, style);
     return Execution::done;
   }
+  if (leads_beside(in.state) && !meets_displaced(in, frame, h, v, circle, arc_tolerance(in, words)))
+    return in.raise(Condition::arc_deviation, words.has_radius ? Role::arc_radius : plane.center[0], words.has_radius ? words.radius : circle.radius_end);
   bool helix = false;
   for (unsigned i = 0; i < in.axis_count; ++i) helix = helix || (i != h && i != v && std::fabs(frame.end[i] - frame.start[i]) > kNoMotion);
   emit_circular(in, frame, plane, circle, helix ? NC_MOVE_HELIX : NC_MOVE_ARC);
@@ -437,6 +457,8 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
 
 /// Motions beside those of plain_motion().
 Execution move_by_function(BlockContext& in, Function motion, const AxisVec& target, uint32_t commanded) {
+  // A vector in space displaces lines and circles (offset/space.hpp).
+  if (leads_beside(in.state) && motion != Function::thread) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
   switch (motion) {
     case Function::thread: return move_thread(in, target, commanded);
     case Function::spiral_cw:

@@ -29,6 +29,10 @@ void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, co
 /// A straight rapid to machine coordinates of the `commanded` axes (G53, second leg of G28), without any compensation on those of them
 /// that are `bare`.
 void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, uint32_t bare = ~uint32_t{0});
+/// Moves end beside their programmed ends, by a vector in space (M700 12.3, 12.5).
+inline bool leads_beside(const State& state) { return state.space.on || state.moved_space.on || state.tool_length != 0; }
+/// The vector of a move that ends at these machine coordinates (functions/tool_axis.cpp).
+SpaceVector space_vector(const BlockContext& in, const AxisVec& machine);
 /// The next movement is the one that radius compensation starts or ends with: it must not be an arc.
 bool starts_or_ends_compensation(const BlockContext& in);
 /// An arc in the plane in force by the words of the block.

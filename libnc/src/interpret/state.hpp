@@ -114,6 +114,18 @@ struct NurbsState {
   bool active() const { return knots != 0; }
 };
 
+/// The first block of a pair of M700 13.9: it has no end, and the block behind says where it is.
+struct MeetingFirst {
+  enum class Kind : uint8_t { none, line, arc } kind = Kind::none;
+  bool ccw = false;
+  bool by_radius = false;   ///< an arc: of `radius`, else about `center`
+  int8_t choice = -1;       ///< H: 0 the meeting point with the shorter line, 1 the longer; -1 = not said
+  double angle_deg = 0;     ///< of a line
+  double center[2] = {0, 0};  ///< in the plane, programmed coordinates
+  double radius = 0;
+  double start[2] = {0, 0};   ///< the same
+};
+
 /// Constant surface speed (M700 10.3).
 struct SpindleControl {
   double surface = 0;          ///< S of G96, m/min
@@ -178,6 +190,7 @@ struct AppliedLength {
 /// The modes, and the words that a mode needs as long as it is in force.
 struct ModalLife {
   ModalState modal;
+  double tool_length = 0;       ///< length compensation along the axis of the tool (M700 12.3)
   double length_value = 0;      ///< tool length compensation in force ...
   uint8_t length_axis = 2;      ///< ... on this axis
   int8_t plane_axis[2] = {0, 1};  ///< axes of the plane in force, -1 = none
@@ -219,6 +232,9 @@ struct ModalInProgram {
   uint32_t vacant_feed = 0;     ///< variable of the last F, which was vacant and so gave no feed (M700 13.5.4); 0 = F has been given since
   uint32_t vacant_feed_line = 0;
   SplineWay spline_way;
+  MeetingFirst meeting;         ///< of the block before
+  SpaceVector space;            ///< three-dimensional radius compensation in force (M700 12.5)
+  SpaceVector moved_space;      ///< Move::space of the last movement, without a vector where it had taken it away
 };
 
 /// Belongs to the run of one program, or of one text of MDI, with all that it calls: no mode, so an interrupt program may change it.
@@ -284,6 +300,8 @@ struct StateValues : BlockLife,
 
 /// Declares no member of its own: each is in exactly one group (tests/interpret/lifetimes_test.cpp).
 struct State : StateValues, CallStack {
+  /// Radius compensation is in force, in the plane or in space.
+  bool compensated() const { return comp.side != 0 || space.on; }
   uint8_t any_mirror() const { return mirror | switch_mirror; }
   void refresh_special() {
     const bool feed = modal.is(Function::inverse_time_feed) || modal.is(Function::feed_per_revolution) || modal.feed_digit != 0 ||

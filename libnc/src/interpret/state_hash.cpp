@@ -79,6 +79,14 @@ class Hash {
     const auto& [joined, moved, back] = way;
     add(joined, moved, back);
   }
+  void add_one(const MeetingFirst& meeting) {
+    const auto& [kind, ccw, by_radius, choice, angle_deg, center, radius, start] = meeting;
+    add(kind, ccw, by_radius, choice, angle_deg, center, radius, start);
+  }
+  void add_one(const SpaceVector& space) {
+    const auto& [on, axis, v] = space;
+    add(on, axis, v);
+  }
   void add_one(const LeftByEnd& left) {
     const auto& [feed, motion, feed_mode, any] = left;
     add(feed, motion, feed_mode, any);
@@ -142,9 +150,9 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     hash.add(applied);
   }
   {
-    const auto& [modal, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror,
+    const auto& [modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror,
                  rotated, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, map, mill, spindle] = static_cast<const ModalLife&>(values);
-    hash.add(modal, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror, rotated,
+    hash.add(modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror, rotated,
              spline, polar_angle, thread_lead, last_feed, map, mill, spindle);
     if (map.frozen != 0) hash.add(in.points[held_point].at);
     hash.add(stroke_box != 0);
@@ -155,9 +163,9 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
   }
   {
     const auto& [comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled, figure_mirror,
-                 vacant_feed_file, vacant_feed, vacant_feed_line, spline_way] = static_cast<const ModalInProgram&>(values);
+                 vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, moved_space] = static_cast<const ModalInProgram&>(values);
     hash.add(comp, cycle, moves_since_comp_off, moved_side, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled, figure_mirror, vacant_feed_file,
-             vacant_feed, vacant_feed_line, spline_way);
+             vacant_feed, vacant_feed_line, spline_way, meeting, space, moved_space);
     // Inside a curve that is given block by block its points have numbers of their own: two such states count as different.
     if (arc_step != ArcStep::none) hash.add(arc_points);
     if (nurbs.active()) hash.add(nurbs);

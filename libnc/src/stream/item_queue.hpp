@@ -21,6 +21,7 @@ class ItemQueue {
   Item* front() { return count_ == 0 ? nullptr : &item_[head_ % kCapacity]; }
   /// Number 0 is the front; `number` is below size().
   const Item& operator[](unsigned number) const { return item_[(head_ + number) % kCapacity]; }
+  Item& operator[](unsigned number) { return item_[(head_ + number) % kCapacity]; }
   /// A place at the end, with what has stood there before: whoever asks for it fills it. There has to be room.
   Item& add() {
     Item& item = item_[(head_ + count_) % kCapacity];

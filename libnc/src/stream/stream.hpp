@@ -2,7 +2,7 @@
 //
 // THE STREAM: the contract between the stages of libnc. Read this header first; everything else fills it.
 //
-//   text -> block -> [interpret] -> ITEMS -> [contour] -> [fairing] -> [offset] -> [commit] -> ring -> [motion plan] -> [interpolate] -> set-points
+//   text -> block -> [interpret] -> ITEMS -> [contour] -> [fairing] -> [offset] -> [space] -> [commit] -> ring -> [motion plan] -> [interpolate] -> set-points
 //
 // Everything that a program causes is an Item in one ordered stream. There are seven kinds:
 //
@@ -17,13 +17,14 @@
 //
 // What the stages do with them
 //   interpret  makes items, one block at a time. After a sync it makes nothing until it is answered.
-//   contour    holds a move back whose end only a later block settles (,C ,R) until that block is there.
+//   contour    holds a move back whose end only a later block settles (,C ,R, blocks that meet) until that block is there.
 //   fairing    leaves out protruding lines of high-speed high-accuracy control II and moves the ends of their neighbours; judges corners.
 //              Holds a row of lines back with the marks between; any other item closes the row.
 //   offset     replaces the geometry of moves by their compensated geometry and may insert moves. It holds items back while it
 //              looks ahead, never reorders them, and closes its contour perpendicular when it meets an item for which
 //              `inhibits_read_ahead` is true, because nothing beyond such an item can be waited for.
-//              These three stand in a row (control/stage_row.hpp). Each may hold items; a mark that is given out brings with it what each
+//   space      ends a move beside its programmed end by the vector that it carries (M700 12.3, 12.5).
+//              These four stand in a row (control/stage_row.hpp). Each may hold items; a mark that is given out brings with it what each
 //              of them needs to go on right behind it.
 //   commit     gives every item its serial, applies the transform, checks the stroke limits, and hands it to the sink: nc_pull()
 //              offline, the ring of the executor online. From here on an item never changes.
@@ -78,6 +79,15 @@ struct Compensation {
   double vector[2] = {0, 0};
 };
 
+/// How far beside its programmed end a move ends in space: the vector of three-dimensional radius compensation (M700 12.5), or of a length along
+/// the axis of the tool (12.3). offset/space.hpp adds it.
+struct SpaceVector {
+  bool on = false;             ///< such a mode is in force; else the move leads back from the vector before it
+  uint8_t axis[3] = {0, 1, 2};
+  double v[3] = {0, 0, 0};     ///< mm, along these axes of the compensation frame
+  bool operator==(const SpaceVector&) const = default;
+};
+
 /// An arc with less than this from its centre begins or ends in it: a tenth of the smallest command unit there is, far above what
 /// rounding leaves of two equal positions.
 inline constexpr double kNoRadius_mm = 1e-7;
@@ -120,7 +130,9 @@ enum HighAccuracy : uint8_t { kHighAccuracyOn = 1, kFineSegmentsOn = 2 /**< high
 enum class Corner : uint8_t {
   none,
   chamfer,  ///< ,C (M700 13.7.1)
-  rounding  ///< ,R (M700 13.7.2)
+  rounding, ///< ,R (M700 13.7.2)
+  meet,     ///< ends where the movement behind begins, if that one meets it (Move::meets, M700 13.9); otherwise it goes as it stands
+  meet_by_radius  ///< the same of an arc of a radius, without a centre: radius_start (negative: the longer way round), the sense of its sweep
 };
 
 struct Move {
@@ -141,7 +153,8 @@ struct Move {
   uint8_t high_accuracy = 0;     ///< corners and arcs by the rules of high-accuracy control: bits of HighAccuracy
   float judged_turn = -1;        ///< |change of direction| that the corner at its start counts as (M700 #8036); negative: its own
   Corner corner = Corner::none;  ///< at its end; the plane of a rounding is `plane`, `plane_axis`
-  double corner_mm = 0;          ///< of the chamfer its legs, of the rounding its radius, > 0
+  double corner_mm = 0;          ///< of the chamfer its legs, of the rounding its radius, > 0; meet: > 0 where nothing is left of it if nothing meets it
+  bool meets = false;            ///< the move before, which is pending, ends where this one begins
   SettingsId settings = 0;       ///< parameters as they were when the move was made: stages and commit go by them alone
   TransformId transform = 0;
   uint32_t shape = 0;            ///< of the MoveShape, counted from 1; 0 = the line or circle below is all
@@ -158,6 +171,7 @@ struct Move {
   FeedRule rule;
   float speed_clamp = 0;         ///< highest speed, whatever the feed and the override, mm/s; 0 = none
   Compensation comp;
+  SpaceVector space;
 };
 
 /// What an M code says of the spindles that are selected; the end of a program is for all of them.

@@ -27,7 +27,7 @@ const FunctionRow kFunctions[] = {
     {200, 6, F::inch, nullptr, "inch input", "G20"},
     {210, 6, F::metric, nullptr, "millimetre input", "G21"},
     {280, 0, F::reference_return, nullptr, "return to the reference point", "G28"},
-    {390, 0, F::comp_corner_arc, "NC-NOT-BUILT", "corner arc of tool-diameter offset", "G39"},
+    {390, 0, F::comp_corner_turn, nullptr, "corner arc of tool-diameter offset", "G39"},
     {400, 7, F::comp_off, nullptr, "tool-diameter offset off", "G40"},
     {410, 7, F::comp_left, nullptr, "tool-diameter offset left", "G41"},
     {420, 7, F::comp_right, nullptr, "tool-diameter offset right", "G42"},

@@ -41,6 +41,11 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::curve_knot, 'K'},
     {Role::curve_weight, 'R'},
     {Role::circle_radius, 'I'},      // 13.10
+    {Role::line_angle, 'A'},         // 13.8
+    {Role::meeting_choice, 'H'},     // 13.9
+    {Role::turn_x, 'A'},             // 12.3
+    {Role::turn_y, 'B'},
+    {Role::turn_z, 'C'},
     {Role::dwell_seconds, 'X'},      // 8.1
     {Role::dwell_time, 'P'},
     {Role::cycle_level, 'R'},        // 13.1.1

@@ -135,6 +135,18 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::machine_in_figure, "P34", nullptr},  // 13.3.3 (9): "cannot be used", without a code
     {C::surface_axis, "P133", nullptr},      // 10.3
     {C::surface_speed, "P132", nullptr},     // 10.3
+    {C::geometric_arc_option, "P391", nullptr},     // 13.9: "no spec", where programmed coordinates are not those of the axes
+    {C::geometric_circle_option, "P398", nullptr},  // the same of circles that meet or touch
+    {C::geometric_parallel, "P392", nullptr},       // 13.9
+    {C::geometric_incremental, "P393", nullptr},
+    {C::geometric_no_line, "P394", nullptr},
+    {C::geometric_address, "P395", nullptr},
+    {C::geometric_plane, "P396", nullptr},
+    {C::geometric_contact, "P397", nullptr},
+    {C::tool_axis_pair, "P930", nullptr},           // 12.3: a machine without the rotary axes does not have the function
+    {C::tool_axis_code, "P931", nullptr},
+    {C::space_conversion_block, "P923", nullptr},   // 12.3
+    {C::outside_compensation, "P150", nullptr},     // 12.4: G38, G39; no other number speaks of radius compensation that is not there
     {C::read_failed, "P461", nullptr},
     {C::program_changed, "P461", nullptr},
     {C::vendor_function, "NC-VENDOR", nullptr},

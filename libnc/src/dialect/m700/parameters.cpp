@@ -155,6 +155,7 @@ constexpr ParameterRow kNumbers[] = {
     {8034, 8034, 1, kAll, false,      P::acceleration_clamp,         whole<0, 1>,           kOffOn, "acceleration clamp of fine segments", "13.17"},
     {8036, 8036, 1, kAll, false,      P::corner_judgement,           whole<0, 1>,           kOffOn, "corners are judged without short lines (#8037)", "13.17"},
     {8037, 8037, 1, kAll, false,      P::judgement_length,           below_100000,          "0; mm", "lines that are shorter do not count there", "13.17"},
+    {8071, 8071, 1, kAll, false,      P::space_divisor,              between<0, 100000>,    "0; mm", "what divides I J K of three-dimensional radius compensation instead of their length; 0 = that", "12.5"},
     {8072, 8072, 1, kAll, false,      P::scaling_factor,             any,                   "1", "scaling factor of G51 without P", "13.19"},
     {8075, 8075, 1, kAll, false,      P::spiral_tolerance,           any,                   "0.1 mm", "how far the end of a spiral may lie from its curve", "6.13"},
     {8090, 8090, 1, kAll, false,      P::smooth_control,             whole<0, 1>,           kOffOn, "SSS control with G05 P10000", "13.17"},

@@ -44,6 +44,8 @@ void note_spindle(BlockContext& in, MiscFunction function) {
   if (function == MiscFunction::spindle_stop) in.state.spindle_on = false;
 }
 
+}  // namespace
+
 /// The second auxiliary address: B, unless an axis has that name; then A, then C (M700 9.2). 0 = the family has none.
 char second_address(const BlockContext& in) {
   const AddressTable& addresses = in.dialect->addresses;
@@ -51,6 +53,8 @@ char second_address(const BlockContext& in) {
     if (addresses.letter(word) != 0 && in.axis_called(word) < 0) return addresses.letter(word);
   return 0;
 }
+
+namespace {
 
 Execution spindle_word(BlockContext& in) {
   uint32_t s = 0;
@@ -77,6 +81,7 @@ Execution check_axis_letters(BlockContext& in, char second) {
   uint32_t known = in.axis_letters;
   if (second != 0) known |= 1u << address_of(second);
   if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::dwell) known |= addresses.set({Role::dwell_seconds});
+  if (has_line_angle(in)) known |= addresses.set({Role::line_angle});
   const uint32_t unknown = in.words.present & in.dialect->axis_addresses & ~known;
   if (unknown == 0) return Execution::done;
   const char letter = first_of_block(in, unknown);

@@ -93,6 +93,7 @@ void take_changed_amounts(BlockContext& in) {
   State& state = in.state;
   if (!in.dialect->rules.compensation.takes_changed_amounts) return;
   if (length_in_force(state.modal)) state.length_value = length_amount(in);
+  if (state.modal.is(Function::length_along_tool)) state.tool_length = amount(in, state.modal.h, false);
   if (state.comp.side != 0) state.comp.radius = radius_amount(in, state.modal.d);
 }
 
@@ -103,6 +104,10 @@ Execution set_compensation(BlockContext& in, Function function) {
   const Function motion = state.modal.of(Mode::motion);
   const bool arc = is_arc(motion);
   Role words[2];
+  if (function == Function::comp_off && state.space.on) {
+    state.space = {};
+    return Execution::done;
+  }
   if (function == Function::comp_off) {
     if (comp.side == 0) return Execution::done;
     if (arc && in.words.axes != 0) return in.raise_function(Condition::arc_in_compensation_start, function);  // M700 12.4.1: cancel must not be circular
@@ -112,6 +117,7 @@ Execution set_compensation(BlockContext& in, Function function) {
     state.moves_since_comp_off = 0;
     return Execution::done;
   }
+  if (means_space(in)) return set_space_compensation(in, function);
   if (arc) return in.raise_function(Condition::arc_in_compensation_start, function);
   if (state.cycle.kind != CycleKind::none && in.words.motion == nullptr) return in.raise_function(Condition::cycle_in_compensation, function);
   const int8_t side = function == Function::comp_left ? int8_t{1} : int8_t{-1};
@@ -126,8 +132,8 @@ Execution set_compensation(BlockContext& in, Function function) {
   } else if (state.modal.d == 0) {
     return in.raise(Condition::no_offset_number, Role::offset_number);
   }
-  // M700 12.5: I, J and K together start the three-dimensional compensation.
-  if (in.words.has(Role::vector_x) && in.words.has(Role::vector_y) && in.words.has(Role::vector_z)) return in.raise(Condition::space_compensation, Role::vector_z);
+  if (!rules.vector_by_words && in.words.has(Role::vector_x) && in.words.has(Role::vector_y) && in.words.has(Role::vector_z))
+    return in.raise(Condition::space_compensation, Role::vector_z);
   plane_of(in, comp, words);
   if (tilts_plane(in, comp.axis[0], comp.axis[1])) return in.raise_function(Condition::plane_mismatch, function);  // 13.21
   comp.type_b = in.settings.comp_type_b;
@@ -142,6 +148,7 @@ Execution set_compensation(BlockContext& in, Function function) {
 }
 
 Execution change_radius(BlockContext& in) {
+  if (in.state.space.on) return change_space_number(in);
   const Execution did = offset_number(in, Role::offset_number, &in.state.modal.d);
   if (did != Execution::done) return did;
   const bool left = in.state.modal.is(Function::comp_left);
@@ -159,6 +166,7 @@ Execution change_length(BlockContext& in) {
   const Execution did = take_length_number(in);
   // Like a changed amount it acts from the next command of the axis on (12.1).
   if (did == Execution::done && length_in_force(in.state.modal)) in.state.length_value = length_amount(in);
+  if (did == Execution::done && in.state.modal.is(Function::length_along_tool)) in.state.tool_length = amount(in, in.state.modal.h, false);
   return did;
 }
 
@@ -188,10 +196,13 @@ Execution set_length(BlockContext& in, Function function) {
     if (did != Execution::done) return did;
     state.modal.h_given = 1;
   }
+  in.words.comp_command = in.words.comp_command || (state.tool_length != 0 && function != Function::length_along_tool);  // that vector goes at once
+  state.tool_length = 0;
   if (function == Function::length_off) {
     state.length_value = 0;
   } else {
     if (rules.zero_is_number ? state.modal.h_given == 0 : state.modal.h == 0 && !in.words.has(Role::length_number)) return in.raise(Condition::no_offset_number, Role::length_number);
+    if (function == Function::length_along_tool) return set_length_along_tool(in, amount(in, state.modal.h, false));
     const int axis = length_axis_of_block(in);
     if (axis < 0) return in.raise(Condition::illegal_axis, Role::basic_z);
     state.length_axis = static_cast<uint8_t>(axis);

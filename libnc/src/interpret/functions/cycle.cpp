@@ -74,7 +74,7 @@ Execution select_cycle(BlockContext& in, const FunctionRow& row) {
     state.modal.set(row);
     return Execution::done;
   }
-  if (state.comp.side != 0) return in.raise_code(Condition::cycle_in_compensation, row);
+  if (state.compensated()) return in.raise_code(Condition::cycle_in_compensation, row);
   if (!state.modal.is(Function::plane_xy) && rules.xy_plane_only) return in.raise_code(Condition::cycle_wrong_plane, row);
   const bool begins = state.cycle.kind == CycleKind::none;
   if (begins) {

@@ -105,6 +105,7 @@ Execution check_fine_block(BlockContext& in) {
       if ((word.flags & kWordExpression) != 0) return in.raise(Condition::format_error, word.letter);
   if (mode == FineMode::smooth && w.has(Role::feed) && is_feed_digit(in, w.get(Role::feed))) return in.raise(Condition::format_error, Role::feed, w.get(Role::feed));  // 13.17.2 (3)
   if (state.spline.on && !goes_on_with_spline(in)) state.spline_way = {};
+  if (w.has_angle) return in.raise(Condition::format_error, Role::option_angle, w.angle_raw);  // 13.8
   if (w.g.empty() && w.m.empty() && !w.any(~(in.axis_letters | in.addresses({Role::feed})))) return Execution::done;
   for (const FunctionRow* row : w.g) {
     const bool allowed = allowed_in_fine_mode(mode, row->function) && (row->function != Function::data_input || data_input_allowed(in));

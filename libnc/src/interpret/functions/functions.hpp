@@ -55,6 +55,29 @@ Execution do_circle_cut(BlockContext& in);         // circle_cut.cpp: G12 G13
 Execution do_position_offset(BlockContext& in);    // position_offset.cpp: G45 to G48
 Execution do_hole_pattern(BlockContext& in);       // hole_pattern.cpp: G34 G35 G36 G37.1
 
+Execution do_comp_vector(BlockContext& in);        // offset_vector.cpp: G38
+Execution do_corner_arc(BlockContext& in);         // offset_vector.cpp: G39 beside a movement
+Execution do_corner_turn(BlockContext& in);        // offset_vector.cpp: G39 that stands alone
+
+/// Three-dimensional radius compensation (M700 12.5): space_compensation.cpp.
+bool means_space(const BlockContext& in);          ///< a code of radius compensation in the block in hand is one of it
+Execution set_space_compensation(BlockContext& in, Function function);
+Execution change_space_number(BlockContext& in);   ///< D without such a code
+bool gives_space_vector(const BlockContext& in);   ///< a block of the mode names another vector
+Execution change_space_vector(BlockContext& in);
+
+/// Length along the axis of the tool (M700 12.3): tool_axis.cpp.
+Execution set_length_along_tool(BlockContext& in, double length);
+
+char second_address(const BlockContext& in);       ///< auxiliary.cpp: the second auxiliary address, 0 = the family has none
+
+/// Lines by their angle and blocks without an end (M700 13.8, 13.9): meeting.cpp.
+bool has_line_angle(const BlockContext& in);       ///< the block is a line, and A or ,A in it is its angle
+bool begins_or_ends_meeting(const BlockContext& in);
+Execution execute_motion_of_words(BlockContext& in);  ///< execute_block.cpp: the one-shot function, the cycle or the motion of the block
+Execution move_to_meet(BlockContext& in);          ///< such a block
+Execution take_line_angle(BlockContext& in);       ///< of a line with one end coordinate: the other one
+
 /// Motions with rules of their own.
 Execution move_thread(BlockContext& in, const AxisVec& target, uint32_t commanded);             // thread.cpp
 Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw);   // spiral.cpp

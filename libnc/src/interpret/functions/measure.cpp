@@ -32,7 +32,7 @@ Execution read_measurement(BlockContext& in, Measurement* m) {
   const ModalState& modal = in.state.modal;
   const bool offset_given = (modal.is(Function::length_plus) || modal.is(Function::length_minus)) && modal.h != 0 && in.state.length_axis == m->axis;
   if (!offset_given) return in.raise_code(Condition::measure_no_length, *w.one_shot);
-  if (in.state.comp.side != 0) return in.raise_code(Condition::skip_in_compensation, *w.one_shot);
+  if (in.state.compensated()) return in.raise_code(Condition::skip_in_compensation, *w.one_shot);
   const bool inch = modal.is(Function::inch);
   m->feed_mm_min = in.settings.measure_feed;
   if (w.has(Role::feed)) {

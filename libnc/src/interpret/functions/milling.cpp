@@ -15,7 +15,7 @@ namespace {
 Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
   const State& state = in.state;
   if (state.high_accuracy != 0) return in.raise_code(Condition::not_accepted, row);  // 13.15 (3); appendix 1 has P126
-  if (state.comp.side != 0) return in.raise_code(Condition::mill_modal, row);
+  if (state.compensated()) return in.raise_code(Condition::mill_modal, row);
   if (state.modal.is(Function::surface_on)) return in.raise_code(Condition::mill_modal, row);
   if (!state.modal.is(Function::rotation_off) || state.work_turned) return in.raise_code(Condition::mill_modal, row);
   if (is_space_arc(state.modal.of(Mode::motion))) return in.raise_code(Condition::mill_modal, row);  // 6.14 (a)
@@ -160,7 +160,7 @@ Execution do_cylinder(BlockContext& in) {
   if (radius < 0) return in.raise(Condition::value_range, name, w.get(name));
   if (radius == 0) {
     if (state.map.kind == AxisMap::Kind::none) return Execution::done;
-    if (state.comp.side != 0) return in.raise_code(Condition::mill_modal, code);
+    if (state.compensated()) return in.raise_code(Condition::mill_modal, code);
     end_mode(in);
     return Execution::done;
   }
@@ -223,7 +223,7 @@ Execution do_polar_off(BlockContext& in) {
   if (in.words.g.size() > 1) return in.raise_code(Condition::format_error, code);
   if (const Execution did = stands_alone(in, 0); did != Execution::done) return did;
   if (state.map.kind != AxisMap::Kind::polar) return in.raise_code(Condition::mill_code, code);
-  if (state.comp.side != 0) return in.raise_code(Condition::mill_modal, code);
+  if (state.compensated()) return in.raise_code(Condition::mill_modal, code);
   end_mode(in);
   return Execution::done;
 }

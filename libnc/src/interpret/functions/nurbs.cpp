@@ -148,7 +148,7 @@ Execution move_nurbs(BlockContext& in, const AxisVec& target) {
   NurbsState& n = state.nurbs;
   const BlockWords& w = in.words;
   if (state.high_speed != SpeedMode::accuracy_2) return in.raise_mode(Condition::illegal_g, Mode::motion);
-  if (state.comp.side != 0) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
+  if (state.compensated()) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
   PathPoint p{target};
   Execution did = take_knot(in, &p.knot);
   if (did == Execution::done) did = take_weight(in, &p.weight);

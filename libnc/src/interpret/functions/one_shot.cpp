@@ -53,6 +53,9 @@ constexpr Handler kHandlers[] = {
     {Function::holes_on_line, do_hole_pattern},
     {Function::holes_on_arc, do_hole_pattern},
     {Function::holes_on_grid, do_hole_pattern},
+    {Function::comp_vector, do_comp_vector},
+    {Function::comp_corner_arc, do_corner_arc},
+    {Function::comp_corner_turn, do_corner_turn},
     {Function::high_speed, do_high_speed},
     {Function::high_speed_accuracy, do_high_speed_accuracy},
     {Function::high_accuracy, do_high_accuracy},
@@ -87,6 +90,8 @@ Execution execute_one_shot(BlockContext& in) {
   // M700 6.1, 6.2, 13.1.1: G00, G01 and fixed cycles have an in-position width.
   if (in.words.in_position > 0) return in.raise(Condition::illegal_address, Role::vector_x, in.words.in_position);
   if (in.words.in_position_drill > 0) return in.raise(Condition::illegal_address, Role::vector_y, in.words.in_position_drill);
+  if (in.state.modal.is(Function::length_along_tool) && (is_reference_move(in.words.one_shot->function) || in.words.one_shot->function == Function::tool_change_return))
+    return in.raise_code(Condition::tool_axis_code, *in.words.one_shot);  // M700 12.3
   if (machine_in_figure(in)) return in.raise_code(Condition::machine_in_figure, *in.words.one_shot);
   for (const Handler& handler : kHandlers)
     if (handler.function == in.words.one_shot->function) return handler.run(in);

@@ -83,7 +83,7 @@ Execution read_data(BlockContext& in, ParameterData* data) {
 Execution begin_parameter_input(BlockContext& in) {
   // "in independent blocks"; appendix 1, P421: not in a fixed cycle and not under radius compensation.
   const bool alone = in.block->words.size() == 2;
-  if (!alone || in.state.cycle.kind != CycleKind::none || in.state.comp.side != 0) return refuse(in, Role::input_kind);
+  if (!alone || in.state.cycle.kind != CycleKind::none || in.state.compensated()) return refuse(in, Role::input_kind);
   in.state.parameter_input = true;
   return Execution::done;
 }

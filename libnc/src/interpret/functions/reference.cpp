@@ -159,7 +159,7 @@ Execution do_reference_check(BlockContext& in) {
   move_linear(in, target_of_words(in), w.axes, style);
   // The comparison comes behind the move. Where radius compensation leads is known only then.
   in.next_step = Step::reference_check;
-  return in.state.comp.side != 0 ? in.need(NC_SYNC_POSITION) : Execution::later;
+  return in.state.compensated() ? in.need(NC_SYNC_POSITION) : Execution::later;
 }
 
 Execution compare_reference(BlockContext& in) {
@@ -168,7 +168,7 @@ Execution compare_reference(BlockContext& in) {
   place_of_p(in, 1, &place);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
-    const double at = in.state.comp.side != 0 ? in.world.machine.v[i] : in.state.machine[i];
+    const double at = in.state.compensated() ? in.world.machine.v[i] : in.state.machine[i];
     double apart = at - in.reference(place - 1, i);
     if (((in.settings.machine_turn >> i) & 1) != 0) apart -= 360 * std::nearbyint(apart / 360);
     if (std::fabs(apart) <= same_place(in)) continue;

@@ -74,7 +74,12 @@ void end_scaling(BlockContext& in) {
 
 Execution do_rotation(BlockContext& in) {
   const BlockWords& w = in.words;
-  if (w.has(Role::vector_x) && w.has(Role::vector_y) && w.has(Role::vector_z)) return in.raise_code(Condition::space_conversion, *w.one_shot);  // 13.22
+  if (w.has(Role::vector_x) && w.has(Role::vector_y) && w.has(Role::vector_z)) {
+    for (const FunctionRow* row : w.g)  // 12.3, interference with other functions (1)
+      if (row->function == Function::length_along_tool) return in.raise_code(Condition::space_conversion_block, *row);
+    const bool along = in.state.modal.is(Function::length_along_tool);
+    return in.raise_code(along ? Condition::tool_axis_code : Condition::space_conversion, *w.one_shot);  // 13.22
+  }
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_code(Condition::plane_mismatch, *w.one_shot);
   for (const FunctionRow* row : w.g)

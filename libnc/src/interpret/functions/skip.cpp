@@ -49,7 +49,7 @@ Execution do_skip(BlockContext& in) {
     if (in.settings.index_increment[axis] > 0) return in.raise(Condition::no_function, in.system->axis[axis].name);
   }
   const unsigned step = w.one_shot->function == Function::multi_skip ? w.one_shot->number + 1u : 0u;  // 0 G31, 1 to 4 G31.1 to G31.4
-  if (in.state.comp.side != 0) return in.raise_code(Condition::skip_in_compensation, *w.one_shot);
+  if (in.state.compensated()) return in.raise_code(Condition::skip_in_compensation, *w.one_shot);
   uint32_t mask = step == 0 ? 1u : in.settings.multi_skip_mask[step - 1];  // M700 15.3 (5)
   if (step == 0 && w.has(Role::skip_signals) && (!whole_number(w.get(Role::skip_signals), &mask) || mask < 1 || mask > 255))
     return in.raise(Condition::value_range, Role::skip_signals, w.get(Role::skip_signals));

@@ -109,7 +109,7 @@ Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commande
     if (is_spiral(state.modal.of(Mode::motion)) || state.any_mirror() != 0 || !state.modal.is(Function::scaling_off))
       return in.raise_mode(Condition::illegal_g, Mode::motion);
   }
-  if (in.state.comp.side != 0) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
+  if (in.state.compensated()) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
   if (starts_or_ends_compensation(in)) return in.raise_mode(Condition::arc_in_compensation_start, Mode::radius);
   if (!w.has(plane.center[0]) && !w.has(plane.center[1])) return in.raise_mode(Condition::center_missing, Mode::motion);
   double center[2] = {0, 0};

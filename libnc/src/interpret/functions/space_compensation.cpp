@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three-dimensional radius compensation: G41 and G42 with I, J and K together (M700 12.5). The geometry is offset/space.hpp.
+#include <cmath>
+
+#include "interpret/functions/functions.hpp"
+#include "interpret/plane.hpp"
+#include "interpret/work_rotation.hpp"
+
+namespace nc {
+namespace {
+
+constexpr Role kVector[3] = {Role::vector_x, Role::vector_y, Role::vector_z};
+
+bool all_three(const BlockContext& in) { return in.words.has(kVector[0]) && in.words.has(kVector[1]) && in.words.has(kVector[2]); }
+
+/// 12.5, "compensation space": of an axis and its parallel the one that the start block names; where it names both or none, the one of the
+/// plane in force, else the basic one.
+Execution choose_space(BlockContext& in, SpaceVector* space) {
+  const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
+  const PlaneAxes in_plane = plane_axes(in);
+  for (unsigned pair = 0; pair < 3; ++pair) {
+    const int basic = in.axis_called(basic_along(pair));
+    int axis = axis_of_pair(in, pair);
+    const bool names_parallel = axis >= 0 && axis != basic && (in.words.axes >> axis & 1) != 0;
+    const bool names_basic = basic >= 0 && (in.words.axes >> basic & 1) != 0;
+    if (!names_parallel) {
+      const int of_plane = pair == plane.first ? in_plane.h : pair == plane.second ? in_plane.v : basic;
+      const bool of_plane_named = of_plane >= 0 && (in.words.axes >> of_plane & 1) != 0;
+      axis = names_basic && !of_plane_named ? basic : of_plane;
+    }
+    if (axis < 0 || (in.rotary >> axis & 1) != 0) return in.raise(Condition::illegal_axis, basic_along(pair));
+    space->axis[pair] = static_cast<uint8_t>(axis);
+  }
+  return Execution::done;
+}
+
+/// 12.5, "vector": along I J K, as long as the amount; against it with G42, and with a negative amount. Words that the block does not have
+/// are 0. Mirror image lies behind the compensation and mirrors the vector, too; scaling and rotation by program do not touch it.
+Execution make_vector(BlockContext& in, Function side) {
+  State& state = in.state;
+  double squares = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    state.space.v[i] = in.words.has(kVector[i]) ? length_of(in, kVector[i]) : 0;
+    squares += state.space.v[i] * state.space.v[i];
+  }
+  if (!(squares > 0) || !std::isfinite(squares)) return in.raise(Condition::value_range, kVector[0], in.words.has(kVector[0]) ? in.words.get(kVector[0]) : 0);
+  const double radius = radius_amount(in, state.modal.d);
+  const double divisor = in.settings.space_divisor != 0 ? in.settings.space_divisor : std::sqrt(squares);
+  const double factor = (side == Function::comp_right ? -radius : radius) / divisor;
+  for (unsigned i = 0; i < 3; ++i) {
+    const unsigned axis = state.space.axis[i];
+    if (state.work_turned && turns_axis(in, axis)) return in.raise_function(Condition::plane_mismatch, side);  // 13.21
+    state.space.v[i] *= (state.any_mirror() >> axis & 1) != 0 ? -factor : factor;
+  }
+  in.words.comp_command = true;
+  return Execution::done;
+}
+
+bool straight(const BlockContext& in) { return is_line(in.state.modal.of(Mode::motion)); }
+
+}  // namespace
+
+bool means_space(const BlockContext& in) {
+  if (!in.dialect->rules.compensation.vector_by_words) return false;
+  return in.state.space.on || (in.state.comp.side == 0 && all_three(in));  // in the mode of the plane they mean nothing more
+}
+
+Execution set_space_compensation(BlockContext& in, Function function) {
+  State& state = in.state;
+  if (in.words.has(Role::offset_number)) {
+    const Execution did = offset_number(in, Role::offset_number, &state.modal.d);
+    if (did != Execution::done) return did;
+  } else if (state.modal.d == 0) {
+    return in.raise(Condition::no_offset_number, Role::offset_number);
+  }
+  if (state.modal.d == 0) {  // D00 cancels, and starts nothing
+    state.space = {};
+    return Execution::done;
+  }
+  if (state.space.on) return gives_space_vector(in) ? make_vector(in, function) : Execution::done;  // (5): from the next I J K on
+  if (!straight(in) || state.map.active() || state.spline.on) return in.raise(Condition::space_compensation, Role::vector_z);
+  if (state.cycle.kind != CycleKind::none && in.words.motion == nullptr) return in.raise_function(Condition::cycle_in_compensation, function);
+  SpaceVector space;
+  const Execution did = choose_space(in, &space);
+  if (did != Execution::done) return did;
+  for (unsigned i = 0; state.tool_length != 0 && i < 3; ++i)
+    if (space.axis[i] != in.axis_called(basic_along(i))) return in.raise_axis(Condition::illegal_axis, space.axis[i]);
+  space.on = true;
+  state.space = space;
+  return make_vector(in, function);
+}
+
+Execution change_space_number(BlockContext& in) {
+  uint32_t number = 0;
+  const Execution did = offset_number(in, Role::offset_number, &number);
+  if (did != Execution::done || number != 0) return did;  // (7): it counts beside a code of the mode
+  in.state.space = {};
+  in.words.comp_command = true;
+  return Execution::done;
+}
+
+bool gives_space_vector(const BlockContext& in) { return straight(in) && in.words.one_shot == nullptr && in.words.any({kVector[0], kVector[1], kVector[2]}); }
+
+Execution change_space_vector(BlockContext& in) { return make_vector(in, in.state.modal.of(Mode::radius)); }
+
+}  // namespace nc

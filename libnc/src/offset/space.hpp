@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stage of vectors in space: a move that carries one (Move::space) ends by it beside its programmed end. Three-dimensional radius
+// compensation (M700 12.5) and a length along the axis of the tool (12.3) are such vectors; how they come about is the interpreter's.
+//
+// How it works. A vector belongs to the end of a block: a move leads from its start with the vector of the move before to its end with its
+// own. So a line becomes another line, and the two radii of an arc are those of its displaced ends about the programmed centre, which stays
+// (12.5: "the centre does not shift"); the interpreter has compared them. A move without a vector leads back, and so does one that takes the
+// vectors away for a while (Compensation::transparent); the one behind it leads out again. A command without a movement is a move without
+// length, which leads from one vector to the next.
+//
+// No move waits for the one behind it.
+#pragma once
+
+#include "stream/stream.hpp"
+
+namespace nc {
+
+/// What is needed to go on from a mark: the vector that the machine stands beside the programmed point by.
+using SpaceResume = SpaceVector;
+inline bool in_force(const SpaceResume& resume) { return resume.on; }
+
+class SpaceStage {
+ public:
+  static constexpr unsigned kHeld = 1;
+  using Rule = NoRule;
+  using Resume = SpaceResume;
+  bool takes(const Item& item, NoRule, bool) const { return item.move.space.on; }
+  /// False: the item before has to be fetched first.
+  bool push(const Item& item, NoRule = {});
+  bool pop(Item& out);
+  void reset();
+  SpaceResume resume_point() const { return vector_; }
+  void restore(const SpaceResume& resume) {
+    reset();
+    vector_ = resume;
+  }
+  /// Vectors, not points, are carried on.
+  void displaced() {}
+  bool idle() const { return !full_ && !vector_.on; }
+
+ private:
+  void displace(Move& move);
+
+  Item item_;
+  bool full_ = false;
+  SpaceVector vector_;  ///< behind the move that was pushed last; `on`: it is not nothing
+};
+
+}  // namespace nc

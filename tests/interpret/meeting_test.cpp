@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines by their angle (M700 13.8) and pairs of blocks of which the first has no end (13.9) as a program meets them: each form, what stays as it
+// is elsewhere, other functions, going back, alarms.
+#include <gtest/gtest.h>
+
+#include "support/drive.hpp"
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+Outcome run_of(const std::string& text, const char* names = "XYZ") {
+  Bench bench(NC_DIALECT_M700, axes(names));
+  bench.tool(1, 2);
+  return bench.run(text);
+}
+
+Path path_of(const std::string& text, const char* names = "XYZ") {
+  const Outcome run = run_of(text, names);
+  EXPECT_EQ(run.alarm, "") << text << run.alarm_detail;
+  Path all = run.path();
+  for (std::string& move : all)
+    if (const size_t feed = move.find(" F"); feed != std::string::npos) move.resize(feed);
+  return all;
+}
+
+std::string alarm_of(const std::string& text, const char* names = "XYZ") {
+  const Outcome run = run_of(text, names);
+  return run.alarm + " L" + std::to_string(run.alarm_line);
+}
+
+// ---- 13.8 ----
+
+TEST(LineAngle, GivesTheCoordinateThatIsMissing) {
+  EXPECT_EQ(path_of("G1 X30. A45. F100\nM30"), (Path{"line 30 30 0"}));
+  EXPECT_EQ(path_of("G1 Y30. A135. F100\nM30"), (Path{"line -30 30 0"}));
+  EXPECT_EQ(path_of("G91 G1 X30. ,A45. F100\nY-10. ,A45.\nM30"), (Path{"line 30 30 0", "line 20 20 0"}));
+  EXPECT_EQ(path_of("G1 X10. Y5. F100\nX-30. A225.\nM30"), (Path{"line 10 5 0", "line -30 -35 0"}));  // only the slope counts
+  EXPECT_EQ(path_of("G1 X30. A180. F100\nY20. A-270.\nM30"), (Path{"line 30 0 0", "line 30 20 0"}));  // exact along the axes
+}
+
+TEST(LineAngle, InEveryPlane) {
+  EXPECT_EQ(path_of("G18 G1 Z30. A45. F100\nM30"), (Path{"line 30 0 30"}));
+  EXPECT_EQ(path_of("G18 G1 X-30. A135. F100\nM30"), (Path{"line -30 0 30"}));
+  EXPECT_EQ(path_of("G19 G1 Y30. A45. F100\nM30"), (Path{"line 0 30 30"}));
+}
+
+TEST(LineAngle, OutsideOfAWholeTurnTheRemainderCounts) {  // (7)
+  EXPECT_EQ(path_of("G1 X30. A405. F100\nM30"), (Path{"line 30 30 0"}));
+  EXPECT_EQ(path_of("G1 X30. A-315. F100\nM30"), (Path{"line 30 30 0"}));
+}
+
+TEST(LineAngle, WithBothCoordinatesItIsIgnored) {  // (3)
+  EXPECT_EQ(path_of("G1 X30. Y7. A45. F100\nM30"), (Path{"line 30 7 0"}));
+}
+
+TEST(LineAngle, OtherAxesGoAlong) { EXPECT_EQ(path_of("G1 X30. Z-4. A45. F100\nM30"), (Path{"line 30 30 -4"})); }
+
+TEST(LineAngle, WhereTheLetterMeansSomethingElseTheCommaTells) {  // (8), (9)
+  EXPECT_EQ(path_of("G1 X30. ,A45. F100\nM30", "XYZa"), (Path{"line 30 30 0 0"}));
+  EXPECT_EQ(path_of("G1 X30. A12. ,A45. F100\nM30", "XYZa"), (Path{"line 30 30 0 12"}));
+  EXPECT_EQ(path_of("G1 X30. A12. F100\nM30", "XYZa"), (Path{"line 30 0 0 12"}));
+  const Outcome second = run_of("G1 X30. A12 F100\nX60. A7 ,A45.\nM30", "XYZb");  // B is an axis: A is the second auxiliary function (9.2)
+  EXPECT_EQ(second.alarm, "") << second.alarm_detail;
+  EXPECT_EQ(second.aux(), "A12 A7 M30");
+  EXPECT_NEAR(second.end_work.v[1], 30, 1e-9);
+}
+
+TEST(LineAngle, IsRotatedScaledAndMirroredWithItsLine) {
+  EXPECT_EQ(path_of("G51.1 X0\nG1 X30. A45. F100\nM30"), (Path{"line -30 30 0"}));
+  EXPECT_EQ(path_of("G68 X0 Y0 R90.\nG1 X30. A45. F100\nM30"), (Path{"line -30 30 0"}));
+  EXPECT_EQ(path_of("G51 X0 Y0 P2.\nG1 X30. A45. F100\nM30"), (Path{"line 60 60 0"}));
+}
+
+TEST(LineAngle, Alarms) {
+  EXPECT_EQ(alarm_of("G1 F100\nX30. A90.\nM30"), "P395 L2");  // never gets there
+  EXPECT_EQ(alarm_of("G1 F100\nY30. A180.\nM30"), "P395 L2");
+  EXPECT_EQ(alarm_of("G0 X30. ,A45.\nM30"), "P390 L1");       // (6)
+  EXPECT_EQ(alarm_of("G0 X30. A45.\nM30"), "P130 L1");
+  EXPECT_EQ(alarm_of("G1 F100\n,A45.\nX5. Y5. ,A3.\nM30", "XYZa"), "P390 L2");  // a geometric command: not with an axis A
+  EXPECT_EQ(alarm_of("G1 F100\nG5 P2\nX30. A45.\nM30"), "P33 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nG5.1 Q1\nX30. ,A45.\nM30"), "P33 L3");
+  EXPECT_EQ(alarm_of("X30. A45.\nM30"), "P62 L1");
+}
+
+// ---- 13.9 ----
+
+TEST(Meeting, LineAndLine) {  // (a)
+  EXPECT_EQ(path_of("G1 A45. F100\nX60. Y0 A135.\nM30"), (Path{"line 30 30 0", "line 60 0 0"}));
+  EXPECT_EQ(path_of("G1 A225. F100\nX60. Y0 A-45.\nM30"), (Path{"line 30 30 0", "line 60 0 0"}));  // slopes
+  EXPECT_EQ(path_of("G1 X5. Y5. F100\n,A90.\nX60. Y25. ,A0\nX0\nM30"), (Path{"line 5 5 0", "line 5 25 0", "line 60 25 0", "line 0 25 0"}));
+  EXPECT_EQ(path_of("G18 G1 A45. F100\nZ60. X0 A135.\nM30"), (Path{"line 30 0 30", "line 0 0 60"}));
+}
+
+TEST(Meeting, ArcAndArcByTheirCentres) {  // (b) 1: centre from the start, and from the end
+  EXPECT_EQ(path_of("G1 X-10. F100\nG2 I10. J0\nG3 X25. Y15. I0 J-15.\nM30"), (Path{"line -10 0 0", "cw 10 0 0 c0,0", "ccw 25 15 0 c25,0"}));
+}
+
+TEST(Meeting, ArcAndArcOneByItsRadius) {  // (b) 2 and 3
+  EXPECT_EQ(path_of("G1 X-10. F100\nG2 I10. J0\nG3 X25. Y15. R-15.\nM30"), (Path{"line -10 0 0", "cw 10 0 0 c0,0", "ccw 25 15 0 c25,0"}));
+  EXPECT_EQ(path_of("G1 X-10. F100\nG2 R10.\nG3 X25. Y15. I0 J-15.\nM30"), (Path{"line -10 0 0", "cw 10 0 0 c0,0", "ccw 25 15 0 c25,0"}));
+}
+
+TEST(Meeting, LineAndArcThatCross) {  // (c)
+  EXPECT_EQ(path_of("G1 X-20. F100\nA0\nG2 X0 Y-10. I0 J10. H0\nM30"), (Path{"line -20 0 0", "line -10 0 0", "cw 0 -10 0 c0,0"}));
+  EXPECT_EQ(path_of("G1 X-20. F100\nA0\nG2 X0 Y-10. I0 J10. H1\nM30"), (Path{"line -20 0 0", "line 10 0 0", "cw 0 -10 0 c0,0"}));
+  EXPECT_EQ(path_of("G1 X-20. F100\nA0\nG3 X0 Y10. J-10.\nM30"), (Path{"line -20 0 0", "line -10 0 0", "ccw 0 10 0 c0,0"}));  // without H the nearer
+}
+
+TEST(Meeting, ArcAndLineThatCross) {  // (d)
+  EXPECT_EQ(path_of("G1 X0 Y-10. F100\nG3 I0 J10. H0\nG1 X30. Y0 A0\nM30"), (Path{"line 0 -10 0", "ccw 10 0 0 c0,0", "line 30 0 0"}));
+  EXPECT_EQ(path_of("G1 X0 Y-10. F100\nG3 I0 J10. H1\nG1 X30. Y0 A180.\nM30"), (Path{"line 0 -10 0", "ccw -10 0 0 c0,0", "line 30 0 0"}));
+  EXPECT_EQ(path_of("G1 X0 Y-10. F100\nG3 J10.\nG1 X30. Y0 A0\nM30"), (Path{"line 0 -10 0", "ccw 10 0 0 c0,0", "line 30 0 0"}));
+}
+
+TEST(Meeting, LineAndArcThatTouch) {  // (e)
+  EXPECT_EQ(path_of("G1 A0 F100\nG3 X30. Y10. R10.\nM30"), (Path{"line 20 0 0", "ccw 30 10 0 c20,10"}));
+  EXPECT_EQ(path_of("G1 A0 F100\nG2 X30. Y-10. R10.\nM30"), (Path{"line 20 0 0", "cw 30 -10 0 c20,-10"}));
+}
+
+TEST(Meeting, ArcAndLineThatTouch) {  // (f)
+  EXPECT_EQ(path_of("G1 X30. Y10. F100\nG2 R10.\nG1 X0 Y0 A0\nM30"), (Path{"line 30 10 0", "cw 20 0 0 c20,10", "line 0 0 0"}));
+}
+
+TEST(Meeting, AWholeCircleIsOneWhereNothingMeetsIt) {  // 6.4
+  EXPECT_EQ(path_of("G1 X-10. F100\nG2 I10.\nG1 X5.\nM30"), (Path{"line -10 0 0", "cw -10 0 0 c0,0", "line 5 0 0"}));
+  EXPECT_EQ(path_of("G1 X-10. F100\nG2 I10.\nM30"), (Path{"line -10 0 0", "cw -10 0 0 c0,0"}));
+  EXPECT_EQ(path_of("G1 X-10. F100\nG2 I10.\nM0\nG1 X5.\nM30"), (Path{"line -10 0 0", "cw -10 0 0 c0,0", "line 5 0 0"}));
+  EXPECT_EQ(path_of("G1 X-10. F100\nG2 I10.\nI10.\nI10.\nM30"), (Path{"line -10 0 0", "cw -10 0 0 c0,0", "cw -10 0 0 c0,0", "cw -10 0 0 c0,0"}));
+  // An arc that is one by itself, and one that leaves the circle along its tangent.
+  EXPECT_EQ(path_of("G1 X-10. F100\nG2 I10.\nG3 X-20. Y-10. I0 J-10.\nM30"), (Path{"line -10 0 0", "cw -10 0 0 c0,0", "ccw -20 -10 0 c-10,-10"}));
+  EXPECT_EQ(path_of("G1 X-10. F100\nG2 I10.\nG3 X-15. Y5. R5.\nM30"), (Path{"line -10 0 0", "cw -10 0 0 c0,0", "ccw -15 5 0 c-15,0"}));
+}
+
+TEST(Meeting, AnArcOfARadiusWithoutAnEndIsNothingWhereNothingMeetsIt) {  // 6.5
+  EXPECT_EQ(path_of("G1 X-10. F100\nG2 R10.\nG1 X5.\nM30"), (Path{"line -10 0 0", "line 5 0 0"}));
+  EXPECT_EQ(path_of("G1 X-10. F100\nG2 R10.\nX0 R10.\nM30"), (Path{"line -10 0 0", "cw 0 0 0 c-5,-8.660254"}));
+}
+
+TEST(Meeting, BlocksWithoutWordsAndStatementsMayStandBetween) {
+  const Outcome run = run_of("G1 A45. F100\n#1=60.\n(TEXT)\nN7\nX#1 Y0 A135.\nM30");
+  EXPECT_EQ(run.alarm, "") << run.alarm_detail;
+  EXPECT_EQ(run.moves().size(), 2u);
+  EXPECT_EQ(run.end_work.v[0], 60);
+}
+
+TEST(Meeting, TheBlockBeforeEndsInTheMeetingPoint) {  // for single block, and for positions that are shown
+  const Outcome run = run_of("G1 A45. F100\nX60. Y0 A135.\nM30");
+  const std::vector<nc_item> marks = run.of(NC_ITEM_MARK);
+  ASSERT_GE(marks.size(), 2u);
+  EXPECT_NEAR(marks[0].u.mark.work.v[0], 30, 1e-9);
+  EXPECT_NEAR(marks[0].u.mark.work.v[1], 30, 1e-9);
+  EXPECT_EQ(run.lines()[0], 1u);
+}
+
+TEST(Meeting, IsRotatedScaledAndMirrored) {
+  EXPECT_EQ(path_of("G51.1 X0\nG1 A45. F100\nX60. Y0 A135.\nM30"), (Path{"line -30 30 0", "line -60 0 0"}));
+  EXPECT_EQ(path_of("G68 X0 Y0 R90.\nG1 A0 F100\nG3 X30. Y10. R10.\nM30"), (Path{"line 0 20 0", "ccw -10 30 0 c-10,20"}));
+  EXPECT_EQ(path_of("G51.1 Y0\nG1 X30. Y10. F100\nG2 R10.\nG1 X0 Y0 A0\nM30"), (Path{"line 30 -10 0", "ccw 20 0 0 c20,-10", "line 0 0 0"}));
+}
+
+TEST(Meeting, InRadiusCompensation) {
+  EXPECT_EQ(path_of("G1 G42 X-20. Y0 D1 F100\nA0\nG3 X10. Y10. R10.\nG1 Y40.\nG40 X0\nM30"),
+            (Path{"line -20 -2 0", "line 0 -2 0", "ccw 12 10 0 c0,10", "line 12 40 0", "line 0 40 0"}));
+}
+
+TEST(Meeting, Alarms) {
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nX60. Y0 A11.\nM30"), "P392 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG91 X60. Y0 A80.\nM30"), "P393 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nM8\nM30"), "P394 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG0 X60. Y0\nM30"), "P394 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nM30"), "P394 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10. M0\nX60. Y0 A80.\nM30"), "P394 L2");
+  EXPECT_EQ(alarm_of("G1 F100\nG3 J10. H1\nM8\nM30"), "P394 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nX60. A80.\nM30"), "P395 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nX60. Y0\nM30"), "P395 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG55 X60. Y0 A80.\nM30"), "P395 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10. Z5.\nX60. Y0 A80.\nM30"), "P395 L2");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG2 X60. Y0 I5. H2\nM30"), "P395 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG18 X60. Y0 A80.\nM30"), "P396 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG2 X60. Y50. I5.\nM30"), "P397 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA0\nG3 X60. Y50. R3.\nM30"), "P397 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nG2 I10.\nG3 X90. Y0 I-10.\nM30"), "P397 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nG3 J10. H0\nG1 X60. Y45. A0\nM30"), "P397 L3");
+}
+
+TEST(Meeting, AlarmsOfModesThatBarIt) {  // "no spec": P390, P391, P398
+  const auto on_cylinder = [](const std::string& text) {
+    Bench bench(NC_DIALECT_M700, axes("XYZc"));
+    bench.param("1516", "C").param("1030", "C");
+    const Outcome run = bench.run("G0 X30. Z0\nG19 Z0 C0\nG7.1 C30.\nG1 F100\n" + text + "\nM30");
+    return run.alarm + " L" + std::to_string(run.alarm_line);
+  };
+  EXPECT_EQ(on_cylinder("A10.\nZ60. C0 A80."), "P390 L5");
+  EXPECT_EQ(on_cylinder("Z60. A80."), "P390 L5");
+  EXPECT_EQ(on_cylinder("G3 R10. H1\nG1 Z60. C0 A80."), "P391 L5");
+  EXPECT_EQ(on_cylinder("G3 K10. H1\nG1 Z60. C0 A80."), "P398 L5");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG5.1 Q2 X0 Y0\nM30"), "P395 L3");
+}
+
+TEST(Meeting, ACircleThatNamesItsMeetingPointIsNotDrivenWithoutOne) {
+  const Outcome run = run_of("G1 X7. F100\nG3 J10. H1\nM8\nM30");
+  EXPECT_EQ(run.alarm, "P394");
+  EXPECT_EQ(run.moves().size(), 1u);
+}
+
+TEST(Meeting, AfterAnAlarmOfTheSecondBlockTheFirstHasNotMoved) {
+  const Outcome run = run_of("G1 X7. F100\nA10.\nX60. Y0 A11.\nM30");
+  EXPECT_EQ(run.alarm, "P392");
+  EXPECT_EQ(run.moves().size(), 1u);
+  EXPECT_EQ(run.end_work.v[0], 7);
+}
+
+}  // namespace
+}  // namespace nc::test

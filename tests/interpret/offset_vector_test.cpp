@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// G38 and G39 in radius compensation (M700 12.4.2, DGSHAPE G39): words, blocks without movement, mirror image, alarms.
+#include <gtest/gtest.h>
+
+#include "support/going_back.hpp"
+
+namespace nc::test {
+namespace {
+
+Path path_of(const std::string& text, nc_dialect dialect = NC_DIALECT_M700) {
+  Bench bench(dialect);
+  bench.tool(1, 5).tool(2, 3);
+  const Outcome run = bench.run(dialect == NC_DIALECT_DGSHAPE ? "%\n" + text : text);
+  EXPECT_EQ(run.alarm, "") << text << run.alarm_detail;
+  Path all = run.path();
+  for (std::string& move : all)
+    if (const size_t feed = move.find(" F"); feed != std::string::npos) move.resize(feed);
+  return all;
+}
+
+std::string alarm_of(const std::string& text) {
+  Bench bench;
+  bench.tool(1, 5).tool(2, 3);
+  const Outcome run = bench.run(text);
+  return run.alarm + " L" + std::to_string(run.alarm_line);
+}
+
+TEST(CornerArc, GoesRoundTheEndOfItsBlockAndOfNoOther) {
+  EXPECT_EQ(path_of("G91 G1 G42 X20. Y20. D1 F100\nG39 X40.\nY40.\nX-40.\nG40 X-20.\nM30"),
+            (Path{"line 20 15 0", "line 60 15 0", "ccw 65 20 0 c60,20", "line 65 65 0", "line 20 65 0", "line 0 60 0"}));
+}
+
+TEST(CornerArc, AloneItBelongsToTheEndOfTheBlockBefore) {
+  EXPECT_EQ(path_of("G91 G1 G42 X20. Y20. D1 F100\nX40.\nG39\nY40.\nG40 X-20.\nM30"),
+            (Path{"line 20 15 0", "line 60 15 0", "ccw 65 20 0 c60,20", "line 65 60 0", "line 40 60 0"}));
+}
+
+TEST(CornerArc, InsideItRunsTheSameWay) {  // 12.4.2: "for outer and inner corners"
+  EXPECT_EQ(path_of("G91 G1 G41 X20. Y20. D1 F100\nG39 X40.\nY40.\nG40 X-20.\nM30"),
+            (Path{"line 20 25 0", "line 60 25 0", "ccw 55 20 0 c60,20", "line 55 60 0", "line 40 60 0"}));
+}
+
+TEST(CornerArc, AnArcBeforeItKeepsItsCentre) {
+  EXPECT_EQ(path_of("G91 G1 G42 X20. Y20. D1 F100\nX20.\nG39 G3 X10. Y10. J10.\nG1 X-30.\nG40 Y-20.\nM30"),
+            (Path{"line 20 15 0", "line 40 15 0", "ccw 55 30 0 c40,30", "ccw 50 35 0 c50,30", "line 20 35 0", "line 20 10 0"}));
+}
+
+TEST(HeldVector, StaysThatOfTheEndBefore) {
+  EXPECT_EQ(path_of("G1 G41 X10. D1 F100\nX50.\nG38 X50. Y30.\nG40 Y60.\nM30"),
+            (Path{"line 10 5 0", "line 45 5 0", "line 45 35 0", "line 50 60 0"}));
+}
+
+TEST(HeldVector, LiesAlongTheWordsWithTheAmountOfItsBlock) {
+  EXPECT_EQ(path_of("G1 G41 X10. D1 F100\nX50.\nG38 X90. I3. J4. D2\nG40 Y60.\nM30"),
+            (Path{"line 10 5 0", "line 50 5 0", "line 91.8 2.4 0", "line 90 60 0"}));
+}
+
+TEST(HeldVector, WithoutMovementItIsGoneTo) {
+  EXPECT_EQ(path_of("G1 G41 X10. D1 F100\nX50.\nG38 I-5. J0\nY30.\nG40 Y60.\nM30"),
+            (Path{"line 10 5 0", "line 45 0 0", "line 45 30 0", "line 50 60 0"}));
+}
+
+TEST(HeldVector, IsMirroredWithItsPath) {
+  EXPECT_EQ(path_of("G51.1 X0\nG1 G41 X10. D1 F100\nX50.\nG38 X90. I3. J4. D2\nG40 Y60.\nM30"),
+            (Path{"line -10 5 0", "line -50 5 0", "line -91.8 2.4 0", "line -90 60 0"}));
+}
+
+TEST(HeldVector, TheWordsOfAnArcAreTheVectors) {  // 12.4.2: "and an error will occur"
+  EXPECT_EQ(alarm_of("G1 G41 X10. D1 F100\nX50.\nG38 G2 X70. I10. J0\nM30"), "P33 L3");
+  EXPECT_EQ(path_of("G1 G41 X10. D1 F100\nX50.\nG38 G3 X70. Y20. R20. I-3. J4.\nG1 G40 X0\nM30"),
+            (Path{"line 10 5 0", "line 50 5 0", "ccw 67 24 0 c50,20", "line 0 20 0"}));
+}
+
+TEST(HeldVector, OnlyInTheMode) {
+  EXPECT_EQ(alarm_of("G1 F100\nG38 X10. I1.\nM30"), "P150 L2");
+  EXPECT_EQ(alarm_of("G1 F100\nG39 X10.\nM30"), "P150 L2");
+  EXPECT_EQ(alarm_of("G1 G41 D1 X10. F100\nG38 X20. I0 J0\nM30"), "P35 L2");
+}
+
+TEST(CancelVector, LeadsToTheMeetingWithAHypotheticalPath) {  // 12.4.2, G40 with I J K
+  EXPECT_EQ(path_of("G91 G1 G41 X10. D1 F100\nX40.\nG40 X20. Y-20. I10. J10.\nM30"), (Path{"line 10 5 0", "line 47.928932 5 0", "line 70 -20 0"}));
+  // Nearly straight back: the vector would be extremely large.
+  EXPECT_EQ(path_of("G91 G1 G41 X10. D1 F100\nX40.\nG40 X20. Y-20. I-10. J-0.1\nM30"), (Path{"line 10 5 0", "line 50 5 0", "line 70 -20 0"}));
+}
+
+TEST(VectorsTakenAway, ByReferenceReturnMachineMoveAndThread) {  // 12.4.2
+  EXPECT_EQ(path_of("G1 G41 X10. D1 F100\nX50.\nG53 X50. Y50.\nG1 X90. Y50.\nX99.\nG40 Y0\nM30"),
+            (Path{"line 10 5 0", "line 45 5 0", "rapid 50 50 0", "line 90 55 0", "line 99 55 0", "line 99 0 0"}));
+  EXPECT_EQ(path_of("G1 G41 X10. D1 F100\nX50.\nG92 X0 Y0\nX40.\nX60.\nG40 Y9.\nM30"),
+            (Path{"line 10 5 0", "line 50 5 0", "line 90 5 0", "line 110 5 0", "line 110 9 0"}));
+}
+
+TEST(HeldVector, EveryMarkIsAPlaceToGoOnFrom) {
+  goes_on_from_every_mark("G1 G41 X10. D1 F100\nX50.\nG39\nY30.\nM8\nG38 X70. Y50.\nG38 I3. J4.\nX90.\nG39 Y90.\nX20.\nG40 Y120. I1. J1.\nM30",
+                          [](Bench& bench) { bench.tool(1, 5).param("8103", "1"); });
+}
+
+TEST(CornerTurn, DgshapeNamesTheDirectionAndGoesNowhere) {
+  const Path expected = {"line 20 15 0", "line 60 15 0", "ccw 65 20 0 c60,20", "line 65 60 0", "line 40 60 0"};
+  EXPECT_EQ(path_of("G91 G17 G1 G42 D1 X20.0 Y20.0 F100\nX40.0\nG39 Y40.0\nY40.0\nG40 X-20.0\nM02", NC_DIALECT_DGSHAPE), expected);
+  EXPECT_EQ(path_of("G90 G17 G1 G42 D1 X20.0 Y20.0 F100\nX60.0\nG39 X60.0 Y60.0\nX60.0 Y60.0\nG40 X40.0\nM02", NC_DIALECT_DGSHAPE), expected);
+}
+
+TEST(CornerTurn, DgshapeAlarms) {
+  for (const char* text : {"G1 F100\nG39 X1.0\nM02", "G1 G42 D1 X20.0 F100\nG39\nM02", "G1 G42 D1 X20.0 F100\nG39 Z1.0\nM02"}) {
+    Bench bench(NC_DIALECT_DGSHAPE);
+    bench.tool(1, 5);
+    const Outcome run = bench.run("%\n" + std::string(text));
+    EXPECT_NE(run.alarm, "") << text;
+    EXPECT_EQ(run.alarm_line, 3u) << text;
+  }
+}
+
+}  // namespace
+}  // namespace nc::test

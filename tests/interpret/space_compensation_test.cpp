@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three-dimensional radius compensation (M700 12.5): vectors, blocks without them, arcs, cancel, the interaction table, going back.
+#include <gtest/gtest.h>
+
+#include "support/going_back.hpp"
+
+namespace nc::test {
+namespace {
+
+Outcome run_of(const std::string& text, const std::function<void(Bench&)>& change = [](Bench&) {}, const char* names = "XYZ") {
+  Bench bench(NC_DIALECT_M700, axes(names));
+  bench.tool(1, 5).tool(2, 10).tool(3, -5);
+  change(bench);
+  return bench.run(text);
+}
+
+Path path_of(const std::string& text, const std::function<void(Bench&)>& change = [](Bench&) {}, const char* names = "XYZ") {
+  const Outcome run = run_of(text, change, names);
+  EXPECT_EQ(run.alarm, "") << text << run.alarm_detail;
+  Path all = run.path();
+  for (std::string& move : all)
+    if (const size_t feed = move.find(" F"); feed != std::string::npos) move.resize(feed);
+  return all;
+}
+
+std::string alarm_of(const std::string& text) {
+  const Outcome run = run_of(text);
+  return run.alarm + " L" + std::to_string(run.alarm_line);
+}
+
+TEST(SpaceCompensation, SignsOfCodeAndAmount) {  // the sign table
+  const std::string words = " X10. Y10. Z10. I0 J3. K4. D";
+  EXPECT_EQ(path_of("G0 G41" + words + "1\nM30"), (Path{"rapid 10 13 14"}));
+  EXPECT_EQ(path_of("G0 G42" + words + "1\nM30"), (Path{"rapid 10 7 6"}));
+  EXPECT_EQ(path_of("G0 G41" + words + "3\nM30"), (Path{"rapid 10 7 6"}));
+  EXPECT_EQ(path_of("G0 G42" + words + "3\nM30"), (Path{"rapid 10 13 14"}));
+}
+
+TEST(SpaceCompensation, OneOrTwoOfThreeWordsAreThePlanes) {
+  EXPECT_EQ(path_of("G0 G41 X10. Y10. Z10. I1. J0 D1\nM30"), (Path{"rapid 10 15 10"}));  // 12.4.3: at right angles to I J
+}
+
+TEST(SpaceCompensation, ABlockWithoutVectorCarriesTheOldOne) {
+  EXPECT_EQ(path_of("G0 G41 X10. I0 J3. K4. D1\nX20.\nX30. I3. K4.\nX40.\nG40\nX50.\nM30"),
+            (Path{"rapid 10 3 4", "rapid 20 3 4", "rapid 33 0 4", "rapid 43 0 4", "rapid 40 0 0", "rapid 50 0 0"}));
+}
+
+TEST(SpaceCompensation, AmountAndDirectionChangeWithTheNextVector) {  // (4), (5)
+  EXPECT_EQ(path_of("G0 G41 X10. I0 J3. K4. D1\nG41 X20. D2\nX30. I0 J3. K4.\nG42 X40.\nX50. I0 J3. K4.\nM30"),
+            (Path{"rapid 10 3 4", "rapid 20 3 4", "rapid 30 6 8", "rapid 40 6 8", "rapid 50 -6 -8"}));
+}
+
+TEST(SpaceCompensation, AVectorAloneMoves) {
+  EXPECT_EQ(path_of("G1 G41 I0 J3. K4. D1 F100\nI3. J0 K4.\nX10.\nD0\nM30"), (Path{"line 0 3 4", "line 3 0 4", "line 13 0 4", "line 10 0 0"}));
+}
+
+TEST(SpaceCompensation, AnArcKeepsItsCentreAndIsLifted) {  // (3)
+  EXPECT_EQ(path_of("G1 G41 X20. I0 J0 K1. D1 F100\nG3 X0 Y20. I-20.\nX-20. Y0 R20.\nG1 G40 X0\nM30"),
+            (Path{"line 20 0 5", "ccw 0 20 5 c0,0", "ccw -20 0 5 c0,0", "line 0 0 0"}));
+  // A vector in the plane: both ends are as far from the centre, which stays, only where it happens to lie so.
+  EXPECT_EQ(path_of("G1 G41 X0 Y20. I1. J0 K0 D1 F100\nG2 X0 Y-20. J-20.\nM30"), (Path{"line 5 20 0", "cw 5 -20 0 c0,0"}));
+  EXPECT_EQ(alarm_of("G1 G41 X20. I1. J0 K0 D1 F100\nG3 X0 Y20. I-20.\nM30"), "P70 L2");
+}
+
+TEST(SpaceCompensation, OnTheParallelAxesThatTheStartNames) {
+  const auto parallel = [](Bench& bench) { bench.param("1029", "U").param("1030", "V").param("1031", "W"); };
+  EXPECT_EQ(path_of("G17\nG0 G41 Y1. I2. J2. K1. D1\nM30", parallel, "XYZUVW"), (Path{"rapid 3.333333 4.333333 1.666667 0 0 0"}));
+  EXPECT_EQ(path_of("G0 G17 V0\nG41 X1. V1. Z1. I2. J2. K1. D1\nM30", parallel, "XYZUVW"), (Path{"rapid 4.333333 0 2.666667 0 4.333333 0"}));
+  EXPECT_EQ(path_of("G17\nG0 G41 W1. I2. J2. K1. D1\nM30", parallel, "XYZUVW"), (Path{"rapid 3.333333 3.333333 0 0 0 2.666667"}));
+  EXPECT_EQ(path_of("G0 G17 U0\nG41 I2. J2. K1. D1\nM30", parallel, "XYZUVW"), (Path{"rapid 0 3.333333 1.666667 3.333333 0 0"}));
+}
+
+TEST(SpaceCompensation, ParameterDividesTheWords) {  // #8071
+  EXPECT_EQ(path_of("G0 G41 X10. I0 J3. K4. D1\nM30", [](Bench& bench) { bench.param("8071", "10"); }), (Path{"rapid 10 1.5 2"}));
+}
+
+TEST(SpaceCompensation, IsTakenAwayByMachineMoveAndReferenceReturn) {
+  EXPECT_EQ(path_of("G0 G41 X10. I0 J3. K4. D1\nG53 X50.\nX60.\nM30"), (Path{"rapid 10 3 4", "rapid 50 0 0", "rapid 60 3 4"}));
+  EXPECT_EQ(path_of("G0 G41 X10. I0 J3. K4. D1\nG28 X50.\nX60.\nM30"), (Path{"rapid 10 3 4", "rapid 50 0 0", "rapid 0 0 0", "rapid 60 3 4"}));
+}
+
+TEST(SpaceCompensation, Alarms) {
+  EXPECT_EQ(alarm_of("G2 X10. I5.\nM30").substr(0, 3), "P62");
+  EXPECT_EQ(alarm_of("G1 F100 X1.\nG2 X10. I4.5\nG41 I1. J1. K1. D1\nM30"), "P150 L3");  // (8): in arc mode
+  EXPECT_EQ(alarm_of("G0 G41 I0 J0 K0 D1\nM30"), "P35 L1");
+  EXPECT_EQ(alarm_of("G0 G41 X1. I1. J1. K1.\nM30"), "P170 L1");
+  EXPECT_EQ(alarm_of("G0 G41 X1. I1. J1. K1. D1\nG81 X9. Z-5. R1. F100\nM30"), "P155 L2");
+  EXPECT_EQ(alarm_of("G0 G41 X1. I1. J1. K1. D1\nG31 X9. F100\nM30"), "P608 L2");
+  EXPECT_EQ(alarm_of("G0 G41 X1. I1. J1. K1. D1\nG27 X0\nM30"), "P434 L2");
+  EXPECT_EQ(alarm_of("G0 G41 X1. I1. J1. K1. D1\nG7.1 X10.\nM30").substr(0, 1), "P");
+  EXPECT_EQ(path_of("G0 G41 X1. I1. J1. K1. D0\nX2.\nM30"), (Path{"rapid 1 0 0", "rapid 2 0 0"}));  // D00 starts nothing
+}
+
+TEST(SpaceCompensation, EveryMarkIsAPlaceToGoOnFrom) {
+  goes_on_from_every_mark("G1 F100 G41 X10. I0 J3. K4. D1\nX20.\nG42 D2\nM8\nX30. I3. K4.\nG53 X7.\nM9\nG1 X40. I0 J0 K4.\nG3 X50. Y10. J10.\nG1 G40 X50.\nM30",
+                          [](Bench& bench) { bench.tool(1, 5).tool(2, 3); });
+}
+
+}  // namespace
+}  // namespace nc::test

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Length compensation along the axis of the tool, G43.1 (M700 12.3): the vector, its beginning and end, arcs, what it excludes.
+#include <gtest/gtest.h>
+
+#include "support/going_back.hpp"
+
+namespace nc::test {
+namespace {
+
+Outcome run_of(const std::string& text, const char* names = "XYZbc") {
+  Bench bench(NC_DIALECT_M700, axes(names));
+  bench.tool(1, 50).tool(2, 20);
+  return bench.run(text);
+}
+
+Path path_of(const std::string& text, const char* names = "XYZbc") {
+  const Outcome run = run_of(text, names);
+  EXPECT_EQ(run.alarm, "") << text << run.alarm_detail;
+  return run.path();
+}
+
+std::string alarm_of(const std::string& text, const char* names = "XYZbc") {
+  const Outcome run = run_of(text, names);
+  return run.alarm + " L" + std::to_string(run.alarm_line);
+}
+
+TEST(LengthAlongTool, FollowsBAndC) {
+  EXPECT_EQ(path_of("G0 B90. C0\nG43.1 X10. H1\nC90.\nB0\nM30"),
+            (Path{"rapid 0 0 0 90 0", "rapid 60 0 0 90 0", "rapid 10 50 0 90 90", "rapid 10 0 50 0 90"}));
+  EXPECT_EQ(path_of("G0 B30. C60.\nG43.1 X0 H2\nM30"), (Path{"rapid 0 0 0 30 60", "rapid 5 8.660254 17.320508 30 60"}));
+}
+
+TEST(LengthAlongTool, FollowsAAndC) {
+  EXPECT_EQ(path_of("G0 A90. C0\nG43.1 X10. H1\nC90.\nA0\nM30", "XYZac"),
+            (Path{"rapid 0 0 0 90 0", "rapid 10 -50 0 90 0", "rapid 60 0 0 90 90", "rapid 10 0 50 0 90"}));
+}
+
+TEST(LengthAlongTool, AloneItMovesAtOnceAndSoDoesItsEnd) {
+  EXPECT_EQ(path_of("G0 B90.\nG43.1 H1\nX1.\nG49\nX2.\nM30"),
+            (Path{"rapid 0 0 0 90 0", "rapid 50 0 0 90 0", "rapid 51 0 0 90 0", "rapid 1 0 0 90 0", "rapid 2 0 0 90 0"}));
+}
+
+TEST(LengthAlongTool, ReplacesALengthAndIsReplacedByOne) {
+  EXPECT_EQ(path_of("G0 B90.\nG43 Z0 H2\nG43.1 X0 H1\nG43 Z5. H2\nM30"),
+            (Path{"rapid 0 0 0 90 0", "rapid 0 0 20 90 0", "rapid 50 0 0 90 0", "rapid 0 0 25 90 0"}));
+}
+
+TEST(LengthAlongTool, AnotherNumberCountsFromTheNextMoveAndZeroIsNone) {
+  EXPECT_EQ(path_of("G0 B90.\nG43.1 X0 H1\nH2\nX1.\nH0 X2.\nM30"), (Path{"rapid 0 0 0 90 0", "rapid 50 0 0 90 0", "rapid 21 0 0 90 0", "rapid 2 0 0 90 0"}));
+}
+
+TEST(LengthAlongTool, IsTakenAwayByAMachineMove) {
+  EXPECT_EQ(path_of("G0 B90.\nG43.1 X0 H1\nG53 X7.\nX1.\nM30"), (Path{"rapid 0 0 0 90 0", "rapid 50 0 0 90 0", "rapid 7 0 0 90 0", "rapid 51 0 0 90 0"}));
+}
+
+TEST(LengthAlongTool, EveryMarkIsAPlaceToGoOnFrom) {
+  goes_on_from_every_mark("G0 B30. C10.\nG43.1 H1\nX5.\nM8\nB90.\nH2\nC20. X9.\nG53 X1.\nY3.\nG49\nX2.\nM30", [](Bench& bench) { bench.tool(1, 50).tool(2, 20); },
+      axes("XYZbc"));
+}
+
+TEST(LengthAlongTool, Alarms) {
+  EXPECT_EQ(alarm_of("G0 X1.\nG43.1 X10. H1\nM30", "XYZ"), "P930 L2");
+  EXPECT_EQ(alarm_of("G0 X1.\nG43.1 X10. H1\nM30", "XYZb"), "P930 L2");
+  EXPECT_EQ(alarm_of("G43.1 X10. H999\nM30"), "P170 L1");
+  EXPECT_EQ(alarm_of("G43.1 X10.\nM30"), "P170 L1");
+  EXPECT_EQ(alarm_of("G0 G43.1 X10. H1\nG68 X0 Y0 Z0 I1 J0 K0 R30.\nM30"), "P931 L2");
+  EXPECT_EQ(alarm_of("G43.1 H1 G68 X0 Y0 Z0 I1 J0 K0 R30.\nM30"), "P923 L1");
+  for (const char* code : {"G27", "G28", "G29", "G30", "G30.1"}) EXPECT_EQ(alarm_of("G0 G43.1 X10. H1\n" + std::string(code) + " X0\nM30"), "P931 L2") << code;
+  // The ends of an arc are displaced, its centre is not.
+  EXPECT_EQ(alarm_of("G0 B90.\nG43.1 X20. H1\nG3 X0 Y20. I-20. F100\nM30"), "P70 L3");
+}
+
+}  // namespace
+}  // namespace nc::test
