@@ -164,6 +164,7 @@ enum class Parameter : uint8_t {
   semicolon_comments,
   negative_count,
   codes_after_motion,
+  contour_checked,             ///< radius compensation: the path stays off the blocks around it, or it is an alarm
   reading_stop,               ///< [8] M codes behind which nothing is read ahead
   calculator,
   calculator_words,

@@ -92,6 +92,19 @@ bool runs_backwards(const Section& section, Vec2 from, Vec2 to) {
   return dot(section.delta + to - from, section.begin.u) < -kBackwards_mm;
 }
 
+// The same of an arc: its sweep has changed its sign.
+bool arc_runs_backwards(const Section& section, Vec2 from, Vec2 to) {
+  if (section.begin.curvature == 0 || section.sweep == 0) return false;
+  const double sense = section.sweep > 0 ? 1 : -1;
+  const Vec2 radius_start = (-sense / std::abs(section.begin.curvature)) * left_of(section.begin.u);
+  const Vec2 radius_end = (-sense / std::abs(section.end.curvature)) * left_of(section.end.u);
+  const Vec2 now_start = radius_start + from, now_end = radius_end + to;
+  if (!(norm(now_start) > kBackwards_mm) || !(norm(now_end) > kBackwards_mm)) return false;  // the tool turns in one place
+  const auto turned = [](Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); };
+  const double sweep = section.sweep + turned(radius_end, now_end) - turned(radius_start, now_start);
+  return sweep * sense * norm(now_start) < -kBackwards_mm;
+}
+
 // Joins section `i` directly to section `j`; the ones between are left out. False: no avoidance vector can be
 // made.
 bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
@@ -198,6 +211,22 @@ Finding leave_out_vanished(Chain* chain, unsigned last_call, Vec2 first_vector, 
   return Finding::none;
 }
 
+// M700 12.4.8 alarm (2)(c): a block that runs against its programmed direction between its vectors. The vectors of short blocks need not cross
+// for that.
+Finding check_direction(Chain* chain, unsigned i, bool may_wait, Vec2 first_vector, unsigned* at) {
+  Section& section = (*chain)[i];
+  const bool along_contour = !section.start && !section.cancel && !section.dead && !section.vanished && section.jointed && section.joint.n > 0;
+  if (!along_contour || !section.check || section.commanded) return Finding::none;
+  if (i > 0 && !may_be_erased((*chain)[i - 1])) return Finding::none;  // a vector that is commanded may lie anywhere
+  const Vec2 from = start_vector(*chain, i, first_vector), to = section.joint.v[0];
+  if (!runs_backwards(section, from, to) && !arc_runs_backwards(section, from, to)) return Finding::none;
+  *at = i;
+  if (!section.avoid || i == 0) return Finding::alarm;
+  for (unsigned target = i + 1; target <= i + kMaxSpan && target < chain->size(); ++target)
+    if (go_round(chain, i - 1, target, first_vector)) return Finding::none;
+  return may_wait && chain->size() <= i + kMaxSpan ? Finding::none : Finding::alarm;
+}
+
 }  // namespace
 
 Finding check_interference(Chain* chain, unsigned last_call, Vec2 first_vector, unsigned* at) {
@@ -215,6 +244,8 @@ Finding check_interference(Chain* chain, unsigned last_call, Vec2 first_vector, 
       if ((*chain)[j].dead) break;
     }
   }
+  for (unsigned i = 0; i < chain->size(); ++i)
+    if (check_direction(chain, i, i >= last_call, first_vector, at) == Finding::alarm) return Finding::alarm;
   return Finding::none;
 }
 

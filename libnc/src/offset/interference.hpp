@@ -17,6 +17,7 @@ struct Section {
   Leg begin, end;
   Vec2 delta;                ///< programmed end - programmed start
   double offset = 0;         ///< signed, mm
+  double sweep = 0;          ///< of an arc, rad, counter-clockwise positive
   ContourJoint joint;               ///< at its end
   bool jointed = false;      ///< `joint` is known
   bool commanded = false;    ///< by I J K, hold, cancel, ...: never erased (M700 12.4.3 precaution (2))
@@ -26,7 +27,7 @@ struct Section {
   bool dead = false;         ///< left out by the avoidance: start and end of its compensated path coincide
   bool merge_first = false;  ///< lengthened corner: this line runs straight into joint.v[1]
   bool merge_last = false;   ///< the line behind comes straight out of joint.v[2]
-  bool check = false, avoid = false;
+  bool check = false, walls = false, avoid = false;
 };
 
 /// The blocks under consideration, in order. Only the last one may not be jointed yet.

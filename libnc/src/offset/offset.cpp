@@ -99,6 +99,8 @@ void OffsetStage::reset() {
   moved_ = failed_ = lead_done_ = false;
   comp_ = out_comp_ = Compensation{};
   tail_ = chain_start_ = vector_ = direction_ = Vec2{};
+  start_commanded_ = true;
+  for (Wall& wall : wall_) wall = Wall{};
   feed_scale_ = 0;
   axis_[0] = 0;
   axis_[1] = 1;
@@ -269,9 +271,11 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   section.end = end;
   section.delta = plane_delta(move);
   section.offset = signed_offset(comp);
+  section.sweep = begin.curvature != 0 ? move.circle.sweep : 0;
   section.start = mode_ == Mode::pending && !comp.transparent;
   section.cancel = comp.side == 0 || comp.transparent;
   section.check = comp.check;
+  section.walls = comp.check && comp.walls;
   section.avoid = comp.avoid;
   section.vanished = !section.cancel && !section.start && vanishes(begin, end, section.offset);
   if (section.start) mode_ = Mode::on;
@@ -359,9 +363,84 @@ bool OffsetStage::check_joints(unsigned last_call) {
     fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
     return false;
   }
+  for (unsigned i = 0; i < last_call && i < chain_.size(); ++i) {
+    if (!chain_[i].walls || keeps_clear(i)) continue;
+    fail(chain_[i].index, Condition::comp_interference, held_at(chain_[i].index).item.source);
+    return false;
+  }
   const ContourJoint& joint = chain_[chain_.size() - (open() ? 2 : 1)].joint;
   tail_ = joint.v[joint.n - 1];
   return true;
+}
+
+// The path along section `number` and round its end stays off the blocks around it: those that the check sees, two before and two behind.
+bool OffsetStage::keeps_clear(unsigned number) const {
+  const Section& section = chain_[number];
+  const bool along_contour = section.walls && section.jointed && !section.start && !section.cancel && !section.dead && !section.vanished;
+  const bool commanded = section.commanded || (number == 0 ? start_commanded_ : chain_[number - 1].commanded);
+  if (!along_contour || commanded || section.offset == 0 || section.joint.n == 0) return true;
+  const Vec2 from = number == 0 ? chain_start_ : chain_[number - 1].joint.v[chain_[number - 1].joint.n - 1];
+  Piece pieces[ContourJoint::kMax];
+  if (!path_of(section, {}, from, section.joint.v[0], &pieces[0])) return true;
+  unsigned count = 1;
+  for (unsigned k = 1; k < section.joint.n; ++k, ++count) {
+    pieces[count].from = section.delta + section.joint.v[k - 1];
+    pieces[count].to = section.delta + section.joint.v[k];
+  }
+  return clear_of(section, pieces, section.joint.corner_arc ? 1 : count, number);
+}
+
+bool OffsetStage::clear_of(const Section& section, const Piece* pieces, unsigned count, unsigned number) const {
+  const double least = std::abs(section.offset) - kEnters_mm;
+  const auto clear = [&](const Piece& wall) {
+    for (unsigned i = 0; i < count; ++i)
+      if (distance(pieces[i], wall) < least) return false;
+    return true;
+  };
+  Vec2 start;  // seen from the start of `section`
+  for (unsigned k = 1; k <= 2 && k <= number; ++k) {
+    const Section& before = chain_[number - k];
+    start = start - before.delta;
+    Piece wall;
+    const bool straight_on = k == 1 && before.begin.curvature == 0 && section.begin.curvature == 0;  // their joint sees to it
+    if (straight_on || before.start || before.cancel || before.offset != section.offset || !wall_of(before, start, &wall)) continue;
+    if (!clear(wall)) return false;
+  }
+  for (unsigned k = number + 1; k <= 2; ++k) {
+    const Wall& before = wall_[k - number - 1];
+    if (before.offset != section.offset) continue;
+    Piece wall = before.piece;
+    wall.from = wall.from + start;
+    wall.to = wall.to + start;
+    wall.center = wall.center + start;
+    if (!clear(wall)) return false;
+  }
+  start = section.delta;
+  for (unsigned k = 1; k <= 2 && number + k < chain_.size(); ++k) {
+    const Section& behind = chain_[number + k];
+    Piece wall;
+    const bool straight_on = k == 1 && behind.begin.curvature == 0 && section.begin.curvature == 0 && count == 1;
+    const bool counts = !straight_on && !behind.start && !behind.cancel && behind.offset == section.offset && wall_of(behind, start, &wall);
+    if (counts && !clear(wall)) return false;
+    start = start + behind.delta;
+  }
+  return true;
+}
+
+// What is released is a wall for the blocks behind it.
+void OffsetStage::note_wall(const Section& section) {
+  wall_[1] = wall_[0];
+  wall_[0].offset = 0;
+  if (section.cancel) wall_[1].offset = 0;  // the contour ends here
+  for (Wall& wall : wall_) {
+    wall.piece.from = wall.piece.from - section.delta;
+    wall.piece.to = wall.piece.to - section.delta;
+    wall.piece.center = wall.piece.center - section.delta;
+  }
+  Piece piece;
+  if (section.start || section.cancel || !wall_of(section, -section.delta, &piece)) return;
+  wall_[0].piece = piece;
+  wall_[0].offset = section.offset;
 }
 
 // ---- letting go ----
@@ -397,6 +476,8 @@ void OffsetStage::release(unsigned sections) {
     held_at(section.index).joint = joint;
     held_at(section.index).dead = section.dead;
     chain_start_ = joint.v[joint.n - 1];
+    start_commanded_ = section.commanded;
+    if (section.walls || wall_[0].offset != 0 || wall_[1].offset != 0) note_wall(section);
   }
   for (unsigned i = sections; i < chain_.size(); ++i) chain_[i - sections] = chain_[i];
   chain_.resize(chain_.size() - sections);

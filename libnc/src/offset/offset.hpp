@@ -29,6 +29,7 @@
 #include "base/fixed.hpp"
 #include "offset/corner.hpp"
 #include "offset/interference.hpp"
+#include "offset/walls.hpp"
 #include "stream/stream.hpp"
 
 namespace nc {
@@ -108,6 +109,9 @@ class OffsetStage {
   ContourJoint find_joint(const Section& before, const Compensation& comp_before, const Section& behind,
                           const Compensation& comp_behind, bool* found) const;
   bool check_joints(unsigned last_call);
+  bool keeps_clear(unsigned number) const;
+  bool clear_of(const Section& section, const Piece* pieces, unsigned count, unsigned number) const;
+  void note_wall(const Section& section);
   void count_block_end();
   void close();
   void settle();
@@ -141,6 +145,8 @@ class OffsetStage {
   Compensation comp_;    ///< of the last section
   Vec2 tail_;            ///< vector at the end of everything decided
   Vec2 chain_start_;     ///< vector at the start of chain_[0]
+  bool start_commanded_ = true;  ///< it may lie anywhere
+  Wall wall_[2];         ///< of the blocks released last, the newest first
 
   bool lead_done_ = false;    ///< of the front item
   uint8_t connecting_ = 0;    ///< connecting moves of the front item given, 0 = the move itself not yet

@@ -73,6 +73,7 @@ struct Compensation {
   bool type_b = false;     ///< start and cancel type B (M700 #1229 bit 2, DGSHAPE startup)
   bool cancel_vector = false; ///< G40 with I J K: `vector` is the hypothetical direction
   bool check = false;      ///< interference check on (M700 12.4.8: #8103 OFF); false: paths may cross
+  bool walls = false;      ///< with `check`: the path keeps off the blocks around it as well (offset/walls.hpp)
   bool avoid = false;      ///< with `check`: go round instead of the alarm (M700 #8102 ON)
   uint8_t axis[2] = {0, 1};  ///< plane: first (h) and second (v) axis, right-handed
   double radius = 0;       ///< mm, signed as in the table

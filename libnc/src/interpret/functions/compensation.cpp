@@ -138,6 +138,7 @@ Execution set_compensation(BlockContext& in, Function function) {
   if (tilts_plane(in, comp.axis[0], comp.axis[1])) return in.raise_function(Condition::plane_mismatch, function);  // 13.21
   comp.type_b = in.settings.comp_type_b;
   comp.check = in.settings.interference_check;
+  comp.walls = in.settings.contour_check;
   comp.avoid = in.settings.interference_avoid;
   comp.radius = radius_amount(in, state.modal.d);
   comp.side = state.modal.d == 0 ? int8_t{0} : side;
